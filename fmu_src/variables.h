@@ -1,0 +1,405 @@
+// Written by fmus/generate.py from fmus/variables.toml: do not edit.
+// All variables of the model: what users set (Parameters, Inputs), what they read (Outputs), the state vector, and tables of them.  SI units.
+#pragma once
+
+#include <stddef.h>
+
+#define MODEL_IDENTIFIER "RivetedBearing"
+#define MODEL_GUID "{0da77772-ccbf-65fd-fc90-2d866bef1fd9}"  // digest of the table
+
+enum { Z = 9 };  // number of balls
+
+enum {  // TiltMode
+    TILT_MODE_PRESCRIBED = 1,  // tilt follows shaft.tilt through a critically damped filter
+    TILT_MODE_SUPPORTED = 2,  // elastic support: k_tilt (shaft.tilt - ring.tilt) + c_tilt (rates) + shaft.M
+    TILT_MODE_FREE = 3,  // external moments shaft.M only
+};
+enum {  // CageModel
+    CAGE_MODEL_TWO_HALF = 1,  // two halves held by the rivets
+    CAGE_MODEL_RIGID = 2,  // one rigid cage: faster, rivet loads by the rigid-body share
+};
+enum {  // Traction
+    TRACTION_POINT = 1,  // one slip for the whole contact
+    TRACTION_SLICED = 2,  // slip, spin and curvature in seven slices over the contact ellipse
+};
+enum {  // Lubrication
+    LUBRICATION_FILM = 1,  // full film in races and pockets
+    LUBRICATION_MIXED = 2,  // asperity share by the film ratio Lambda
+};
+enum {  // Stress
+    STRESS_OFF = 1,  // no rivet stress
+    STRESS_SAMPLED = 2,  // at communication points
+    STRESS_PEAK = 3,  // and largest value over every accepted step
+    STRESS_FATIGUE = 4,  // and rainflow counting with Miner's sum
+};
+enum {  // Switch
+    SWITCH_OFF = 1,  // off
+    SWITCH_ON = 2,  // on
+};
+enum {  // FitModel
+    FIT_MODEL_ELASTIC = 1,  // interference stays elastic
+    FIT_MODEL_J2 = 2,  // interference yields the flange: fit_eff of the rivet table
+};
+enum {  // MeanStress
+    MEAN_STRESS_NONE = 1,  // no mean-stress correction
+    MEAN_STRESS_GOODMAN = 2,  // Goodman
+    MEAN_STRESS_SWT = 3,  // Smith-Watson-Topper
+    MEAN_STRESS_MORROW = 4,  // Morrow
+};
+enum {  // Method
+    METHOD_AUTO = 1,  // from the scene's measured rates
+    METHOD_EXPLICIT = 2,  // Bogacki-Shampine 3(2)
+    METHOD_IMEX = 3,  // ARK324L2SA with diagonal implicit rates
+};
+
+typedef struct {
+    struct {
+        double D;  // [m] Ball diameter
+        double d_m;  // [m] Pitch diameter: mean of the groove-bottom diameters
+        double f_i;  // [1] Inner groove radius / ball diameter
+        double f_e;  // [1] Outer groove radius / ball diameter
+        double P_d;  // [m] Diametral (radial internal) clearance, negative = preload
+        double E;  // [Pa] Young's modulus of balls and rings
+        double nu;  // [1] Poisson's ratio of balls and rings
+        double rho;  // [kg/m3] Density of the balls
+        double lambda;  // [s/m] Hunt-Crossley damping of the race contacts: Q = K delta^1.5 (1 + lambda delta_dot)
+    } bearing;
+    struct {
+        double dD[Z];  // [m] Excess of the ball's diameter over bearing.D
+    } ball;
+    struct {
+        double pocket_clearance;  // [m] Pocket diameter - ball diameter
+        double guide_clearance;  // [m] Outer ring land diameter - cage outer diameter
+        double D_o;  // [m] Cage outer diameter (guided by the outer ring)
+        double D_i;  // [m] Cage bore diameter
+        double m;  // [kg] Mass of one cage half
+        double J_p;  // [kg.m2] Polar moment of inertia of one cage half
+        double J_t;  // [kg.m2] Transverse moment of inertia of one cage half about its own centre of mass
+        double x_c;  // [m] Axial distance of a half's centre of mass from the split plane
+        double land_width;  // [m] Width of the guiding land of one half
+        double land_x;  // [m] Axial distance of the land's middle from the split plane
+        double E;  // [Pa] Young's modulus of the cage
+        double nu;  // [1] Poisson's ratio of the cage
+        double mu;  // [1] Friction coefficient between ball and pocket with a full film
+        double v_c;  // [m/s] Sliding speed at which pocket and land friction are 71 % of Coulomb's
+        double lambda;  // [s/m] Hunt-Crossley damping of the pocket contacts
+        double share_width;  // [1] Width of the share between the halves: w = (1 +- n_x/sqrt(n_x^2 + width^2))/2
+        double mu_land;  // [1] Dry friction coefficient between land and outer ring
+        double K_land;  // [N/m1.5] Dry contact stiffness of the land: F = K_land (e - C)^1.5
+        double g_0;  // [1] Floor of 1 - epsilon^2 in the land film
+        double unbalance;  // [kg.m] Static unbalance of the whole cage, in the direction of pocket 1
+    } cage;
+    struct {
+        double preload;  // [N] Preload of each rivet at 293.15 K
+        double fit;  // [m] Rivet diameter - hole diameter, negative = clearance
+        double swell;  // [m] Growth of the rivet's diameter by riveting, added to the fit
+        double mu;  // [1] Friction coefficient of plates and rivet heads
+        double zeta;  // [1] Damping ratio of the closed joints in the axial direction
+        double F_floor;  // [N] Friction capacity that remains in an open joint
+    } joint;
+    struct {
+        double temperature;  // [K] Temperature of cage and rivets: changes preload and fit by their expansion
+        int fit_model;  // FitModel: Interference: elastic, or with yield of the flange
+    } rivet;
+    struct {
+        double eta;  // [Pa.s] Dynamic viscosity of the oil
+        double alpha;  // [1/Pa] Pressure-viscosity coefficient
+        double A;  // [1] Traction law mu(s) = (A + B s) exp(-C s) - A
+        double B;  // [1] Traction law: linear term
+        double C;  // [1] Traction law: decay
+        double v_0;  // [m/s] Slip speed below which traction is linear in any case
+        double U_0;  // [m/s] Floor of the rolling speed in slide-roll ratio and film
+        double rolling;  // [1] Factor on the inlet rolling friction F_R and the horizontal film force F_H
+        double rho_mix;  // [kg/m3] Density of the oil-air mixture between the rings
+        double C_d;  // [1] Drag coefficient of a ball in the mixture
+        double mu_b;  // [1] Boundary friction coefficient of asperities (mixed lubrication)
+        double s_0;  // [1] Slide-roll ratio at which asperity friction is 71 % of mu_b
+        double sigma_race;  // [m] Composite RMS roughness of ball and race
+        double sigma_pocket;  // [m] Composite RMS roughness of ball and pocket
+        double sigma_land;  // [m] Composite RMS roughness of cage and outer ring lands
+    } oil;
+    struct {
+        double m;  // [kg] Mass of the inner ring with its share of the shaft
+        double J_p;  // [kg.m2] Polar moment of inertia of the inner ring
+        double J_t;  // [kg.m2] Transverse moment of inertia of the inner ring
+        double c;  // [N.s/m] Damping of the inner ring's translation against the housing
+        int tilt_mode;  // TiltMode: How the inner ring tilts
+        double tilt_time;  // [s] Time constant of the critically damped filter of the prescribed tilt
+        double k_tilt;  // [N.m/rad] Angular stiffness of the ring's support (supported tilt)
+        double c_tilt;  // [N.m.s/rad] Angular damping of the ring's support (supported tilt)
+    } ring;
+    struct {
+        double y;  // [m/s2] Gravity along Y
+        double z;  // [m/s2] Gravity along Z
+    } gravity;
+    struct {
+        double F_r;  // [N] Amplitude of the built-in half-sine impacts along the radial load
+        double F_a;  // [N] Amplitude of the built-in half-sine impacts along +X
+        double t_start;  // [s] Start of the first impact
+        double duration;  // [s] Duration of one impact
+        double interval;  // [s] Time from one impact's start to the next one's (not shorter than the duration)
+        int count;  // Number of impacts
+    } pulse;
+    struct {
+        double sigma_D;  // [Pa] Stress amplitude at the knee of the S-N curve (R = -1)
+        double N_D;  // [1] Cycles at the knee
+        double k_1;  // [1] Slope above the knee: N = N_D (sigma_a/sigma_D)^-k_1
+        double k_2;  // [1] Slope below the knee
+        double sigma_m;  // [Pa] Tensile strength (Goodman)
+        double sigma_f;  // [Pa] Fatigue strength coefficient (Morrow)
+        int mean_stress;  // MeanStress: Mean-stress correction
+    } fatigue;
+    struct {
+        int cage;  // CageModel: Cage of two halves or rigid
+        int traction;  // Traction: Traction at a point or over slices of the contact ellipse
+        int lubrication;  // Lubrication: Full film or mixed lubrication
+        int stress;  // Stress: When the rivet stress is computed
+        int statistics;  // Switch: Running mean, RMS and histogram behind stat.*
+    } scene;
+    struct {
+        double tol;  // [1] Tolerance: local error / scale of each state class; a tolerance of fmi2SetupExperiment takes its place
+        int method;  // Method: Integration path
+        int max_steps;  // Largest number of internal steps in one communication step
+    } solver;
+    struct {
+        int seed;  // Seed of the balls' initial spacing (splitmix64)
+        double spacing;  // [1] Initial spacing error: uniform within +- this part of the pocket clearance
+        double settle;  // [s] Time before which stat.* and damage do not count
+    } start;
+} Parameters;
+
+typedef struct {
+    struct {
+        double F_x;  // [N] Axial load on the inner ring
+        double F_y;  // [N] Radial load on the inner ring along Y
+        double F_z;  // [N] Radial load on the inner ring along Z
+        double M_y;  // [N.m] Moment about Y on the inner ring (supported or free tilt)
+        double M_z;  // [N.m] Moment about Z on the inner ring (supported or free tilt)
+        double omega;  // [rad/s] Speed of the inner ring about X
+        double tilt_y;  // [rad] Tilt of the shaft about Y (+X turns toward -Z)
+        double tilt_z;  // [rad] Tilt of the shaft about Z (+X turns toward +Y)
+    } shaft;
+    struct {
+        double F_r;  // [N] Impact load added along the present radial load (+Y if there is none)
+        double F_a;  // [N] Impact load added along +X
+    } impact;
+} Inputs;
+
+typedef struct {
+    struct {
+        double Z;  // [1] Number of balls (build-time constant)
+        double friction_torque;  // [N.m] Torque that the shaft must supply about X
+        double power_loss;  // [W] Power dissipated in contacts, films, drag, joints and dampers
+        double energy_residual;  // [J] Energy now - energy at start - net work since: 0 but for the integration error
+        double contacts;  // [1] Number of closed contacts (races and pockets)
+        double penetration;  // [m] Largest elastic approach of all contacts
+    } bearing;
+    struct {
+        double x;  // [m] Displacement of the inner ring along X
+        double y;  // [m] Displacement of the inner ring along Y
+        double z;  // [m] Displacement of the inner ring along Z
+        double v_x;  // [m/s] Velocity of the inner ring along X
+        double v_y;  // [m/s] Velocity of the inner ring along Y
+        double v_z;  // [m/s] Velocity of the inner ring along Z
+        double a_x;  // [m/s2] Acceleration of the inner ring along X
+        double a_y;  // [m/s2] Acceleration of the inner ring along Y
+        double a_z;  // [m/s2] Acceleration of the inner ring along Z
+        double tilt_y;  // [rad] Tilt of the inner ring about Y
+        double tilt_z;  // [rad] Tilt of the inner ring about Z
+    } ring;
+    struct {
+        double F_x;  // [N] Force on the housing along X (by balls and cage through the outer ring)
+        double F_y;  // [N] Force on the housing along Y
+        double F_z;  // [N] Force on the housing along Z
+        double M_y;  // [N.m] Moment on the housing about Y
+        double M_z;  // [N.m] Moment on the housing about Z
+    } housing;
+    struct {
+        double Q_i[Z];  // [N] Contact load on the inner race
+        double Q_e[Z];  // [N] Contact load on the outer race
+        double alpha_i[Z];  // [rad] Contact angle at the inner race (0 without contact)
+        double alpha_e[Z];  // [rad] Contact angle at the outer race (0 without contact)
+        double Q_c[Z];  // [N] Contact load on the cage pocket, both halves together
+        double omega_m[Z];  // [rad/s] Orbital speed
+        double p_i[Z];  // [Pa] Largest contact pressure on the inner race
+        double p_e[Z];  // [Pa] Largest contact pressure on the outer race
+        double Lambda_i[Z];  // [1] Film thickness / roughness at the inner race (0 without contact)
+        double Lambda_e[Z];  // [1] Film thickness / roughness at the outer race (0 without contact)
+        double spin_roll[Z];  // [1] Spin-to-roll ratio at the inner race
+    } ball;
+    struct {
+        double dislocation;  // [m] Largest slip of one cage half against the other over the joints, in the plane
+        double omega;  // [rad/s] Speed of the cage (mean of the halves)
+        double slip_ratio;  // [1] 1 - cage speed / epicyclic speed (0 at standstill)
+        double y;  // [m] Displacement of the cage's centre along Y (mean of the halves)
+        double z;  // [m] Displacement of the cage's centre along Z (mean of the halves)
+        double eccentricity;  // [1] Displacement of the cage's centre / radial guide clearance
+        double F_pocket_max;  // [N] Largest pocket contact load of all balls
+        double F_pocket_peak;  // [N] Largest pocket contact load since the last communication point
+    } cage;
+    struct {
+        double sigma_head[Z];  // [Pa] Largest principal stress in the head fillet
+        double sigma_mid[Z];  // [Pa] von Mises stress of the shank at the split (|z| <= 0.1 mm)
+        double sigma_head_vm[Z];  // [Pa] von Mises stress in the head fillet
+        double sigma_mid_p1[Z];  // [Pa] Largest principal stress of the shank at the split
+        double sigma_head_peak[Z];  // [Pa] Largest sigma_head since the last communication point
+        double sigma_mid_peak[Z];  // [Pa] Largest sigma_mid since the last communication point
+        double sigma_head_max;  // [Pa] Largest sigma_head_peak of all rivets
+        double sigma_mid_max;  // [Pa] Largest sigma_mid_peak of all rivets
+        double damage_head[Z];  // [1] Miner's sum of sigma_head since start.settle
+        double damage_mid[Z];  // [1] Miner's sum of sigma_mid since start.settle
+        double N[Z];  // [N] External tension of the joint, before preload shielding
+        double V[Z];  // [N] Transverse load of the joint
+        double T[Z];  // [N] Tension of the rivet
+        double M[Z];  // [N.m] Prying moment of the joint
+        double P[Z];  // [N] Preload at the present temperature
+        double slip[Z];  // [m] Slip of one half against the other at the joint, in the plane
+        double flag[Z];  // [1] Sum of 1 rivet yields, 2 flange yields, 4 compressed joint (N counted as 0), 8 load outside the stress table
+    } rivet;
+    struct {
+        double time;  // [s] Time that the statistics cover
+        double Q_c_mean;  // [N] Pocket force of all balls pooled: mean, zeros included
+        double Q_c_rms;  // [N] Pocket force of all balls pooled: RMS
+        double Q_c_p999;  // [N] Pocket force of all balls pooled: 99.9 % quantile
+        double Q_c_max;  // [N] Pocket force of all balls pooled: largest
+        double contact_duty;  // [1] Part of the time that a ball touches its pocket
+        double cage_omega;  // [rad/s] Mean cage speed
+        double eccentricity;  // [1] Mean eccentricity of the cage
+        double dislocation_max;  // [m] Largest dislocation of the cage halves
+        double sigma_head_mean;  // [Pa] Head stress of the worst rivet at each instant: mean
+        double sigma_head_rms;  // [Pa] Head stress of the worst rivet at each instant: RMS
+        double sigma_head_p999;  // [Pa] Head stress of the worst rivet at each instant: 99.9 % quantile
+        double sigma_head_max;  // [Pa] Head stress of the worst rivet at each instant: largest
+        double sigma_mid_mean;  // [Pa] Middle stress of the worst rivet at each instant: mean
+        double sigma_mid_rms;  // [Pa] Middle stress of the worst rivet at each instant: RMS
+        double sigma_mid_p999;  // [Pa] Middle stress of the worst rivet at each instant: 99.9 % quantile
+        double sigma_mid_max;  // [Pa] Middle stress of the worst rivet at each instant: largest
+        double rivet_head_mean[Z];  // [Pa] Head stress of each rivet: mean
+        double rivet_head_rms[Z];  // [Pa] Head stress of each rivet: RMS
+        double rivet_head_p999[Z];  // [Pa] Head stress of each rivet: 99.9 % quantile
+        double rivet_head_max[Z];  // [Pa] Head stress of each rivet: largest
+        double rivet_mid_mean[Z];  // [Pa] Middle stress of each rivet: mean
+        double rivet_mid_rms[Z];  // [Pa] Middle stress of each rivet: RMS
+        double rivet_mid_p999[Z];  // [Pa] Middle stress of each rivet: 99.9 % quantile
+        double rivet_mid_max[Z];  // [Pa] Middle stress of each rivet: largest
+    } stat;
+    struct {
+        double steps;  // [1] Accepted internal steps
+        double rhs_evals;  // [1] Evaluations of the right-hand side
+        double step_size;  // [s] Internal step size that the next step starts with
+        double error_tests_failed;  // [1] Internal steps rejected by the error test
+        double cpu_time;  // [s] Processor time of this instance inside fmi2DoStep (not part of the saved state)
+        double tolerance;  // [1] Tolerance in force
+        double path;  // [1] Integration path in use: 1 explicit, 2 IMEX
+    } solver;
+} Outputs;
+
+// What is evaluated together on first read after a step.
+typedef enum {
+    GROUP_CONSTANT,  // fixed when the FMU is built
+    GROUP_STATE,  // states themselves
+    GROUP_RING,  // forces and motion of the inner ring, housing reaction
+    GROUP_BALL,  // contacts of the balls
+    GROUP_CAGE,  // motion of the cage
+    GROUP_RIVET,  // loads and slips of the joints
+    GROUP_STRESS,  // rivet stress now
+    GROUP_PEAK,  // largest values since the last communication point
+    GROUP_FATIGUE,  // damage sums
+    GROUP_ENERGY,  // power and energy balance
+    GROUP_STAT,  // statistics since start.settle
+    GROUP_SOLVER,  // solver health
+    GROUP_COUNT
+} OutputGroup;
+
+// The state vector y: offsets of its blocks.
+enum {
+    Y_BALL_X = 0,  // [Z] [m] Axial position of the ball
+    Y_BALL_R = 9,  // [Z] [m] Radial position
+    Y_BALL_THETA = 18,  // [Z] [rad] Azimuth from Y toward Z, unbounded
+    Y_BALL_V_X = 27,  // [Z] [m/s] Axial velocity
+    Y_BALL_V_R = 36,  // [Z] [m/s] Radial velocity
+    Y_BALL_OMEGA_M = 45,  // [Z] [rad/s] Orbital speed
+    Y_BALL_OMEGA_X = 54,  // [Z] [rad/s] Angular velocity about X
+    Y_BALL_OMEGA_R = 63,  // [Z] [rad/s] Angular velocity about the radial direction of the ball
+    Y_BALL_OMEGA_T = 72,  // [Z] [rad/s] Angular velocity about the tangential direction of the ball
+    Y_JOINT_PLATE_Y = 81,  // [Z] [m] Friction state of the plates, y of the cage frame
+    Y_JOINT_PLATE_Z = 90,  // [Z] [m] Friction state of the plates, z of the cage frame
+    Y_JOINT_HEAD_Y = 99,  // [Z] [m] Friction state of the rivet heads, y of the cage frame
+    Y_JOINT_HEAD_Z = 108,  // [Z] [m] Friction state of the rivet heads, z of the cage frame
+    Y_CAGE_X = 117,  // [2] [m] Position of a half's centre of mass along X
+    Y_CAGE_Y = 119,  // [2] [m] along Y
+    Y_CAGE_Z = 121,  // [2] [m] along Z
+    Y_CAGE_BETA = 123,  // [2] [1] Axis of the half a = (a_x, gamma, -beta): direction cosine
+    Y_CAGE_GAMMA = 125,  // [2] [1] Axis of the half: direction cosine
+    Y_CAGE_PSI = 127,  // [2] [rad] Rotation of the half about its axis, unbounded
+    Y_CAGE_V_X = 129,  // [2] [m/s] Velocity of the half's centre of mass along X
+    Y_CAGE_V_Y = 131,  // [2] [m/s] along Y
+    Y_CAGE_V_Z = 133,  // [2] [m/s] along Z
+    Y_CAGE_BETA_DOT = 135,  // [2] [1/s] Rate of beta
+    Y_CAGE_GAMMA_DOT = 137,  // [2] [1/s] Rate of gamma
+    Y_CAGE_S = 139,  // [2] [rad/s] Spin: angular velocity along the half's axis
+    Y_RING_X = 141,  // [1] [m] Inner ring: position along X
+    Y_RING_Y = 142,  // [1] [m] along Y
+    Y_RING_Z = 143,  // [1] [m] along Z
+    Y_RING_BETA = 144,  // [1] [1] Axis of the ring a = (a_x, gamma, -beta): direction cosine
+    Y_RING_GAMMA = 145,  // [1] [1] Axis of the ring: direction cosine
+    Y_RING_V_X = 146,  // [1] [m/s] Inner ring: velocity along X
+    Y_RING_V_Y = 147,  // [1] [m/s] along Y
+    Y_RING_V_Z = 148,  // [1] [m/s] along Z
+    Y_RING_BETA_DOT = 149,  // [1] [1/s] Rate of beta
+    Y_RING_GAMMA_DOT = 150,  // [1] [1/s] Rate of gamma
+    Y_WORK = 151,  // [1] [J] Net work done on balls and cage since the start: supplied - dissipated
+    N_STATES = 152,
+    N_STATE_BLOCKS = 36
+};
+
+typedef enum {
+    SCALE_LENGTH,
+    SCALE_ANGLE,
+    SCALE_VELOCITY,
+    SCALE_RATE,
+    SCALE_SPIN,
+    SCALE_PLATE,
+    SCALE_HEAD,
+    SCALE_TILT,
+    SCALE_ENERGY,
+    SCALE_COUNT
+} StateScale;
+
+typedef struct {
+    int offset, count;
+    StateScale scale;  // class of its error scale
+    const char *name;
+} StateBlock;
+
+extern const StateBlock STATE_BLOCKS[N_STATE_BLOCKS];
+
+typedef enum { TYPE_REAL, TYPE_INTEGER, TYPE_ENUMERATION } VariableType;  // double; int; int
+typedef enum { CAUSALITY_INDEPENDENT, CAUSALITY_INPUT, CAUSALITY_PARAMETER, CAUSALITY_OUTPUT } Causality;
+
+typedef struct {
+    const char *name, *unit;
+    unsigned value_reference;  // of the first element
+    int count;                 // of elements
+    VariableType type;
+    Causality causality;
+    OutputGroup group;  // of an output
+    size_t offset;      // of the first element in Inputs, Parameters or Outputs
+    double start, min, max;
+} Variable;
+
+enum { N_VARIABLES = 188 };  // time is the first
+
+extern const Variable VARIABLES[N_VARIABLES];  // by rising value reference
+
+// The variable of a value reference and the index of its element; NULL if there is none.
+const Variable *variable_find(unsigned value_reference, int *element);
+
+// Whether the variable may have this value; if not, a message with its name, value, unit and allowed range.
+int variable_allows(const Variable *variable, int element, double value, char *message, size_t size);
+
+// The name of one element, numbered from 1 as FMI does: "ball[3].Q_i".
+void variable_element_name(const Variable *variable, int element, char *name, size_t size);
+
+// All start values.
+void variables_set_start(Parameters *parameters, Inputs *inputs);
