@@ -1,0 +1,156 @@
+"""One picture of a run: loads, pocket force and rivet stress over time, the cage's orbit, and the rivets side by side."""
+
+import matplotlib
+
+matplotlib.use("Agg")
+
+import matplotlib.pyplot as plt  # noqa: E402
+import numpy as np  # noqa: E402
+from matplotlib.patches import Circle  # noqa: E402
+
+from .results import write_atomically  # noqa: E402
+from .summary import RPM, rivet_rows, settled  # noqa: E402
+
+HEAD, MIDDLE, FORCE, RING, MUTED = "#c8442b", "#2a6f97", "#40495a", "#7a9e3b", "#9aa2ad"
+STYLE = {
+    "font.size": 9,
+    "axes.spines.top": False,
+    "axes.spines.right": False,
+    "axes.grid": True,
+    "grid.color": "#e4e7eb",
+    "axes.axisbelow": True,
+    "axes.titlesize": 10,
+    "axes.titleweight": "bold",
+    "axes.titlelocation": "left",
+    "legend.frameon": False,
+    "legend.fontsize": 8,
+}
+
+
+def plot_result(result, path):
+    """Write the picture of a result as PNG, whole or not at all; panels whose channels were not recorded stay out."""
+    panels = [(draw, data) for draw, data in ((draw, wanted(result, names)) for draw, names in OVER_TIME) if data]
+    with plt.rc_context(STYLE):
+        figure = plt.figure(figsize=(13, 2.0 + 1.75 * max(len(panels), 4)), layout="constrained")
+        left, right = figure.subfigures(1, 2, width_ratios=[2.1, 1])
+        figure.suptitle(title(result), x=0.01, ha="left", fontsize=11)
+        if panels:
+            axes = left.subplots(len(panels), 1, sharex=True, squeeze=False)[:, 0]
+            for ax, (draw, data) in zip(axes, panels, strict=True):
+                draw(ax, 1e3 * result.data["time"], data)
+                mark_settling(ax, result)
+            axes[-1].set_xlabel("time [ms]")
+        orbit_ax, bars_ax = right.subplots(2, 1)
+        cage_orbit(orbit_ax, result)
+        rivet_bars(bars_ax, result)
+        write_atomically(path, lambda temporary: figure.savefig(temporary, dpi=130))
+        plt.close(figure)
+    return path
+
+
+def title(result):
+    """What was run, in two lines."""
+    about, speed = result.about, result.data.get("shaft.omega")
+    facts = [f"preload {result.parameters['joint.preload']:g} N", f"fit {1e6 * result.parameters['joint.fit']:+g} µm", f"seed {result.parameters['start.seed']}"]
+    if speed is not None:
+        facts.insert(0, f"{RPM * speed[-1]:,.0f} rev/min")
+    return f"{about.get('scene', '')}: {about.get('description', '')}\n{' · '.join(facts)}" + (f"\nSTOPPED: {result.stopped}" if result.stopped else "")
+
+
+def wanted(result, names):
+    """The recorded ones of the named channels."""
+    return {name: result.data[name] for name in names if name in result.data}
+
+
+def mark_settling(ax, result):
+    """Shade the time that the statistics leave out."""
+    end = 1e3 * min(result.parameters.get("start.settle", 0.0), result.data["time"][-1])
+    ax.axvspan(0.0, end, color="#f3f4f6", zorder=0)
+    ax.margins(x=0.0)
+
+
+def loads(ax, t, data):
+    """Loads on the inner ring and, on the right, its speed if that varies."""
+    colours = {"shaft.F_y": FORCE, "shaft.F_x": MIDDLE, "shaft.F_z": MUTED, "impact.F_r": HEAD, "impact.F_a": "#e09f3e"}
+    for name, values in data.items():
+        if name in colours and (name in ("shaft.F_x", "shaft.F_y") or np.any(values)):
+            ax.plot(t, 1e-3 * values, color=colours[name], label=name.replace("shaft.", "").replace("impact.", "impact "))
+    ax.set(title="Loads on the inner ring", ylabel="kN")
+    speed = RPM * data.get("shaft.omega", np.zeros(1))
+    if np.ptp(speed):
+        twin = ax.twinx()
+        twin.plot(t, speed, color=RING, label="speed")
+        twin.set_ylabel("rev/min", color=RING)
+        twin.grid(False)
+    ax.legend(ncols=5, loc="best")
+
+
+def pocket_force(ax, t, data):
+    """Largest force between a ball and its pocket in each communication step."""
+    ax.plot(t, next(iter(data.values())), color=FORCE, lw=0.5)
+    ax.set(title="Ball–pocket force, largest in each step", ylabel="N", ylim=(0, None))
+
+
+def stress(ax, t, data):
+    """Largest stress of all rivets in each communication step."""
+    for name, colour, label in (("rivet.sigma_head_max", HEAD, "head fillet"), ("rivet.sigma_mid_max", MIDDLE, "middle of the shank")):
+        if name in data:
+            ax.plot(t, 1e-6 * data[name], color=colour, lw=0.5, label=label)
+    ax.set(title="Rivet stress, worst rivet, largest in each step", ylabel="MPa", ylim=(0, None))
+    for line in ax.legend(ncols=2, loc="lower right").get_lines():
+        line.set_linewidth(2)
+
+
+def ring(ax, t, data):
+    """Displacement of the inner ring."""
+    for (name, values), colour in zip(data.items(), (MIDDLE, FORCE, MUTED), strict=False):
+        ax.plot(t, 1e6 * values, color=colour, lw=0.7, label=name.removeprefix("ring."))
+    ax.set(title="Displacement of the inner ring", ylabel="µm")
+    ax.legend(ncols=3, loc="best")
+
+
+def slip(ax, t, data):
+    """How much slower than rolling without slip the cage turns."""
+    ax.plot(t, 100 * data["cage.slip_ratio"], color=RING, lw=0.7)
+    ax.set(title="Cage slip against the epicyclic speed", ylabel="%")
+
+
+OVER_TIME = (
+    (loads, ("shaft.F_x", "shaft.F_y", "shaft.F_z", "impact.F_r", "impact.F_a", "shaft.omega")),
+    (pocket_force, ("cage.F_pocket_peak",)),
+    (stress, ("rivet.sigma_head_max", "rivet.sigma_mid_max")),
+    (ring, ("ring.x", "ring.y", "ring.z")),
+    (slip, ("cage.slip_ratio",)),
+)
+
+
+def cage_orbit(ax, result):
+    """Path of the cage's centre within its guide clearance."""
+    ax.set(title="Orbit of the cage's centre", xlabel="z [µm]", ylabel="y [µm]", aspect="equal")
+    if not wanted(result, ["cage.y", "cage.z"]):
+        ax.text(0.5, 0.5, "cage.y and cage.z were not recorded", ha="center", transform=ax.transAxes)
+        return
+    late = settled(result)
+    y, z = 1e6 * result.data["cage.y"][late], 1e6 * result.data["cage.z"][late]
+    clearance = 1e6 * result.parameters["cage.guide_clearance"] / 2
+    ax.add_patch(Circle((0, 0), clearance, fill=False, color=MUTED, ls="--", lw=1))
+    ax.annotate("guide clearance", (0, -clearance), ha="center", va="bottom", fontsize=7, color=MUTED)
+    ax.plot(z, y, color=FORCE, lw=0.35, alpha=0.7)
+    limit = 1.08 * max(clearance, np.abs(y).max(), np.abs(z).max())
+    ax.set(xlim=(-limit, limit), ylim=(-limit, limit))
+
+
+def rivet_bars(ax, result):
+    """Mean and 99.9 % quantile of each rivet's stress."""
+    ax.set(title="Stress of each rivet: bar p99.9, line mean", xlabel="rivet", ylabel="MPa")
+    rivets = rivet_rows(result)
+    if not rivets:
+        ax.text(0.5, 0.5, "no statistics of rivet stress", ha="center", transform=ax.transAxes)
+        return
+    for place, colour, label in ((1, HEAD, "head fillet"), (2, MIDDLE, "middle of the shank")):
+        x = np.array([row[0] for row in rivets]) + (place - 1.5) * 0.4
+        ax.bar(x, [row[place].p999 for row in rivets], width=0.36, color=colour, alpha=0.85, label=label)
+        ax.hlines([row[place].mean for row in rivets], x - 0.18, x + 0.18, color="black", lw=1.2)
+    ax.set_xticks([row[0] for row in rivets])
+    ax.grid(axis="x", visible=False)
+    ax.legend(ncols=2, loc="lower center")

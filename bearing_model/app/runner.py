@@ -1,0 +1,142 @@
+"""Run a scene through the FMU, step by step, and keep what it did."""
+
+import platform
+import time
+from datetime import UTC, datetime
+from importlib.metadata import PackageNotFoundError, version
+
+import numpy as np
+from fmpy import __version__ as fmpy_version
+from fmpy.fmi1 import FMICallException
+from fmpy.fmi2 import fmi2Discard
+
+from .fmu import Instance, Model
+from .results import Result
+from .scene import load_scene
+
+PROGRESS_INTERVAL = 0.05  # s of wall time between calls of progress
+
+
+def run(scene="demo", *, parameters=None, inputs=None, fmu=None, seed=None, t_end=None, step=None, outputs=None, tolerance=None, progress=None):
+    """Simulate a scene and return its Result.
+
+    scene: name of a shipped scene or path of a TOML file; parameters, inputs: changes by full variable name, values as in the file
+    (SI numbers, "30 N", item names; inputs also {"t": [...], "value": [...]}); fmu: path of the FMU, None for the default one;
+    seed: start.seed; t_end, step: s; outputs: names or patterns; progress: called now and then with the simulated time [s].
+    Raises UserError (a ValueError) naming what cannot be used.  A run that the FMU ends early returns what there is, with `stopped` telling why.
+
+        >>> from bearing_model.app import run
+        >>> result = run("demo", parameters={"joint.preload": "30 N"}, t_end=0.01)
+        >>> result.data["rivet.sigma_head_max"].max() / 1e6     # MPa
+    """
+    model = Model(fmu)
+    simulation = {"t_end": t_end, "step": step, "outputs": outputs, "tolerance": tolerance}
+    changes = {
+        "simulation": {key: value for key, value in simulation.items() if value is not None},
+        "parameters": (parameters or {}) | ({} if seed is None else {"start.seed": seed}),
+        "inputs": inputs or {},
+    }
+    return simulate(model, load_scene(scene, model, ("run()", changes)), progress)
+
+
+def simulate(model, scene, progress=None):
+    """Run a Scene that was checked against the Model; see run()."""
+    with Instance(model) as instance:
+        instance.initialize(scene)
+        parameters = instance.parameters()
+        wall, cpu = time.perf_counter(), time.thread_time()
+        times, rows, stopped = march(instance, scene, progress or (lambda t: None))
+        wall, cpu = time.perf_counter() - wall, time.thread_time() - cpu
+        summary = closing_values(instance, model)
+    simulated = float(times[-1])
+    summary |= {"simulated_time": simulated, "cpu_time": cpu, "wall_time": wall, "real_time_factor": cpu / simulated if simulated else float("nan")}
+    names = ["time", *scene.outputs]
+    variables = model.inputs | model.outputs
+    return Result(
+        data=dict(zip(names, [times, *rows.T], strict=True)),
+        units={"time": "s"} | {name: variables[name].unit or "1" for name in scene.outputs},
+        parameters=parameters,
+        summary=summary,
+        about=provenance(model, scene) | {"stopped": stopped, "messages": [text for level, text in instance.log if level != "ok"][-20:]},
+    )
+
+
+def march(instance, scene, progress):
+    """All communication steps of a scene.
+
+    Returns the times [s] and rows of outputs up to the end or to the point where the FMU gave up, and the reason for that ("" at the end).
+    """
+    times = scene.communication_points()
+    references = [instance.model.inputs[name].valueReference for name in scene.inputs]
+    inputs = np.column_stack([history(times) for history in scene.inputs.values()] or [np.zeros((len(times), 0))])
+    peaks = [i for i, name in enumerate(scene.outputs) if is_peak(name)] if scene.stride > 1 else []
+    rows = np.empty((-(-(len(times) - 1) // scene.stride) + 2, len(scene.outputs)))
+    row_times = np.zeros(len(rows))
+    read = instance.reader(scene.outputs)
+    read(rows[0])
+    row, due, stopped = 0, 0.0, ""
+    for i in range(len(times) - 1):
+        try:
+            if i > 0 and not np.array_equal(inputs[i], inputs[i - 1]):
+                instance.fmu.setReal(references, inputs[i].tolist())
+            instance.fmu.doStep(times[i], times[i + 1] - times[i])
+        except FMICallException as failure:
+            stopped = f"the FMU gave up after t = {times[i]:.9g} s: {instance.complaints()}"
+            reached = instance.last_successful_time(times[i]) if failure.status == fmi2Discard else times[i]
+            if reached > row_times[row]:
+                row += 1
+                read(rows[row])
+                row_times[row] = reached
+            break
+        except KeyboardInterrupt:
+            stopped = f"interrupted after t = {times[i]:.9g} s"
+            break
+        row = i // scene.stride + 1
+        held = rows[row, peaks] if i % scene.stride else -np.inf
+        read(rows[row])
+        rows[row, peaks] = np.maximum(rows[row, peaks], held)
+        row_times[row] = times[i + 1]
+        if (now := time.perf_counter()) >= due:
+            progress(times[i + 1])
+            due = now + PROGRESS_INTERVAL
+    progress(row_times[row])
+    return row_times[: row + 1], rows[: row + 1], stopped
+
+
+def is_peak(name):
+    """Whether a channel is the largest value since the last communication point."""
+    return name.endswith("_peak") or name in ("rivet.sigma_head_max", "rivet.sigma_mid_max")
+
+
+def closing_values(instance, model):
+    """Statistics and solver counters at the end; nothing if the FMU no longer answers."""
+    try:
+        return instance.read([name for name in model.outputs if name.startswith(("stat.", "solver."))])
+    except FMICallException:
+        return {}
+
+
+def provenance(model, scene):
+    """Where a result comes from."""
+    return {
+        "scene": scene.name,
+        "description": scene.description,
+        "t_end": scene.t_end,
+        "step": scene.step,
+        "inputs": {name: {"t": history.t.tolist(), "value": history.value.tolist(), "hold": history.hold} for name, history in scene.inputs.items() if len(history.t) <= 1000},
+        "fmu": str(model.path),
+        "guid": model.description.instantiationToken,
+        "model": model.description.description or model.description.modelName,
+        "generated": f"{model.description.generationTool or ''} {model.description.generationDateAndTime or ''}".strip(),
+        "versions": {"riveted-bearing": own_version(), "fmpy": fmpy_version, "python": platform.python_version()},
+        "machine": f"{platform.system()} {platform.machine()}",
+        "date": datetime.now(UTC).isoformat(timespec="seconds"),
+    }
+
+
+def own_version():
+    """Version of the installed package."""
+    try:
+        return version("riveted-bearing")
+    except PackageNotFoundError:
+        return "checkout"
