@@ -5,7 +5,7 @@
 #include <stddef.h>
 
 #define MODEL_IDENTIFIER "RivetedBearing"
-#define MODEL_GUID "{0da77772-ccbf-65fd-fc90-2d866bef1fd9}"  // digest of the table
+#define MODEL_GUID "{2b8e5b95-098d-40b6-625d-2641008f0623}"  // digest of the table
 
 enum { Z = 9 };  // number of balls
 
@@ -88,6 +88,7 @@ typedef struct {
         double K_land;  // [N/m1.5] Dry contact stiffness of the land: F = K_land (e - C)^1.5
         double g_0;  // [1] Floor of 1 - epsilon^2 in the land film
         double unbalance;  // [kg.m] Static unbalance of the whole cage, in the direction of pocket 1
+        double width;  // [m] Axial width of the whole cage
     } cage;
     struct {
         double preload;  // [N] Preload of each rivet at 293.15 K
@@ -117,6 +118,7 @@ typedef struct {
         double sigma_race;  // [m] Composite RMS roughness of ball and race
         double sigma_pocket;  // [m] Composite RMS roughness of ball and pocket
         double sigma_land;  // [m] Composite RMS roughness of cage and outer ring lands
+        double rho;  // [kg/m3] Density of the oil
     } oil;
     struct {
         double m;  // [kg] Mass of the inner ring with its share of the shaft
@@ -388,7 +390,7 @@ typedef struct {
     double start, min, max;
 } Variable;
 
-enum { N_VARIABLES = 188 };  // time is the first
+enum { N_VARIABLES = 190 };  // time is the first
 
 extern const Variable VARIABLES[N_VARIABLES];  // by rising value reference
 

@@ -1,0 +1,404 @@
+"""Every variable of the FMU, the enumerations and the state vector's layout.  Written by fmus/generate.py from fmus/variables.toml: do not edit."""
+
+# fmt: off
+# ruff: noqa: E501
+
+from dataclasses import dataclass
+from enum import IntEnum
+
+MODEL_IDENTIFIER = "RivetedBearing"
+MODEL_GUID = "{2b8e5b95-098d-40b6-625d-2641008f0623}"
+Z = 9
+
+
+@dataclass(frozen=True)
+class Variable:
+    """One variable, SI units; an array (count > 1) holds the elements name[1] ... name[count] with value references vr, vr + 1, ..."""
+
+    name: str
+    vr: int
+    type: str
+    unit: str
+    display: str | None
+    start: float | int | None
+    min: float | int | None
+    max: float | int | None
+    count: int
+    group: str | None
+    description: str
+    source: str | None
+
+
+class TiltMode(IntEnum):
+    PRESCRIBED = 1
+    SUPPORTED = 2
+    FREE = 3
+
+
+class CageModel(IntEnum):
+    TWO_HALF = 1
+    RIGID = 2
+
+
+class Traction(IntEnum):
+    POINT = 1
+    SLICED = 2
+
+
+class Lubrication(IntEnum):
+    FILM = 1
+    MIXED = 2
+
+
+class Stress(IntEnum):
+    OFF = 1
+    SAMPLED = 2
+    PEAK = 3
+    FATIGUE = 4
+
+
+class Switch(IntEnum):
+    OFF = 1
+    ON = 2
+
+
+class FitModel(IntEnum):
+    ELASTIC = 1
+    J2 = 2
+
+
+class MeanStress(IntEnum):
+    NONE = 1
+    GOODMAN = 2
+    SWT = 3
+    MORROW = 4
+
+
+class Method(IntEnum):
+    AUTO = 1
+    EXPLICIT = 2
+    IMEX = 3
+
+
+# name, vr, type, unit, display, start, min, max, count, group, description, source
+PARAMETERS = {
+    v.name: v
+    for v in (
+        Variable("bearing.D", 1001, "Real", "m", "mm", 0.0111125, 0.001, 0.1, 1, None, "Ball diameter", "paper Table 1"),
+        Variable("bearing.d_m", 1002, "Real", "m", "mm", 0.0535, 0.005, 1.0, 1, None, "Pitch diameter: mean of the groove-bottom diameters", "catalogue 6207: (35 + 72)/2 mm"),
+        Variable("bearing.f_i", 1003, "Real", "1", None, 0.515, 0.5005, 0.6, 1, None, "Inner groove radius / ball diameter", "assumed (usual 0.515)"),
+        Variable("bearing.f_e", 1004, "Real", "1", None, 0.52, 0.5005, 0.6, 1, None, "Outer groove radius / ball diameter", "assumed (usual 0.52)"),
+        Variable("bearing.P_d", 1005, "Real", "m", "um", 1.5e-05, -5e-05, 0.001, 1, None, "Diametral (radial internal) clearance, negative = preload", "assumed (clearance class CN: 6...20 um)"),
+        Variable("bearing.E", 1006, "Real", "Pa", "GPa", 207000000000.0, 1000000000.0, 1000000000000.0, 1, None, "Young's modulus of balls and rings", "bearing steel, Harris"),
+        Variable("bearing.nu", 1007, "Real", "1", None, 0.3, 0.0, 0.49, 1, None, "Poisson's ratio of balls and rings", "bearing steel, Harris"),
+        Variable("bearing.rho", 1008, "Real", "kg/m3", None, 7800.0, 1000.0, 20000.0, 1, None, "Density of the balls", "bearing steel, Harris"),
+        Variable("bearing.lambda", 1009, "Real", "s/m", None, 0.05, 0.0, 10.0, 1, None, "Hunt-Crossley damping of the race contacts: Q = K delta^1.5 (1 + lambda delta_dot)", "assumed: 0.01...0.2 do not change force statistics, 0 rings"),
+        Variable("ball[j].dD", 1020, "Real", "m", "um", 0.0, -0.001, 5e-05, Z, None, "Excess of the ball's diameter over bearing.D", "perfect set of balls"),
+        Variable("cage.pocket_clearance", 1101, "Real", "m", "mm", 0.0002, 0.0, 0.005, 1, None, "Pocket diameter - ball diameter", "assumed (0.1...0.4 mm usual)"),
+        Variable("cage.guide_clearance", 1102, "Real", "m", "mm", 0.0002, 2e-06, 0.005, 1, None, "Outer ring land diameter - cage outer diameter", "assumed (0.1...0.4 mm usual)"),
+        Variable("cage.D_o", 1103, "Real", "m", "mm", 0.0595, 0.005, 2.0, 1, None, "Cage outer diameter (guided by the outer ring)", "paper Table 1"),
+        Variable("cage.D_i", 1104, "Real", "m", "mm", 0.0497, 0.005, 2.0, 1, None, "Cage bore diameter", "paper Table 1"),
+        Variable("cage.m", 1105, "Real", "kg", "g", 0.0276, 1e-05, 10.0, 1, None, "Mass of one cage half", "assumed: bronze half from the paper's diameters"),
+        Variable("cage.J_p", 1106, "Real", "kg.m2", None, 2.07e-05, 1e-10, 1.0, 1, None, "Polar moment of inertia of one cage half", "assumed: bronze half from the paper's diameters"),
+        Variable("cage.J_t", 1107, "Real", "kg.m2", None, 1.06e-05, 1e-10, 1.0, 1, None, "Transverse moment of inertia of one cage half about its own centre of mass", "assumed: bronze half from the paper's diameters"),
+        Variable("cage.x_c", 1108, "Real", "m", "mm", 0.0034, 0.0, 0.1, 1, None, "Axial distance of a half's centre of mass from the split plane", "assumed: half width of a half"),
+        Variable("cage.land_width", 1109, "Real", "m", "mm", 0.0025, 1e-05, 0.2, 1, None, "Width of the guiding land of one half", "assumed"),
+        Variable("cage.land_x", 1110, "Real", "m", "mm", 0.0055, 0.0, 0.2, 1, None, "Axial distance of the land's middle from the split plane", "assumed"),
+        Variable("cage.E", 1111, "Real", "Pa", "GPa", 110000000000.0, 100000000.0, 1000000000000.0, 1, None, "Young's modulus of the cage", "bronze"),
+        Variable("cage.nu", 1112, "Real", "1", None, 0.33, 0.0, 0.49, 1, None, "Poisson's ratio of the cage", "bronze"),
+        Variable("cage.mu", 1113, "Real", "1", None, 0.05, 0.0, 1.0, 1, None, "Friction coefficient between ball and pocket with a full film", "assumed (lubricated bronze on steel)"),
+        Variable("cage.v_c", 1114, "Real", "m/s", None, 0.2, 0.0001, 10.0, 1, None, "Sliding speed at which pocket and land friction are 71 % of Coulomb's", "regularization of Coulomb's law"),
+        Variable("cage.lambda", 1115, "Real", "s/m", None, 1.0, 0.0, 20.0, 1, None, "Hunt-Crossley damping of the pocket contacts", "assumed: moves RMS pocket force by -24 % from 0 to 10"),
+        Variable("cage.share_width", 1116, "Real", "1", None, 0.05, 0.001, 1.0, 1, None, "Width of the share between the halves: w = (1 +- n_x/sqrt(n_x^2 + width^2))/2", "regularization: sine of the angle over which a contact passes from half to half"),
+        Variable("cage.mu_land", 1117, "Real", "1", None, 0.08, 0.0, 1.0, 1, None, "Dry friction coefficient between land and outer ring", "assumed (boundary lubrication)"),
+        Variable("cage.K_land", 1118, "Real", "N/m1.5", None, 2000000000.0, 1000000.0, 1000000000000.0, 1, None, "Dry contact stiffness of the land: F = K_land (e - C)^1.5", "assumed"),
+        Variable("cage.g_0", 1119, "Real", "1", None, 0.02, 0.0001, 0.2, 1, None, "Floor of 1 - epsilon^2 in the land film", "regularization: 0.005...0.05 change RMS force by less than 2 % at 0.5 deg tilt"),
+        Variable("cage.unbalance", 1120, "Real", "kg.m", "g.mm", 0.0, 0.0, 0.01, 1, None, "Static unbalance of the whole cage, in the direction of pocket 1", "balanced cage"),
+        Variable("cage.width", 1121, "Real", "m", "mm", 0.0135, 0.001, 0.5, 1, None, "Axial width of the whole cage", "assumed: ball diameter and two walls of 1.2 mm"),
+        Variable("joint.preload", 1201, "Real", "N", None, 20.0, 0.0, 1000.0, 1, None, "Preload of each rivet at 293.15 K", "paper section 4.1 (3)"),
+        Variable("joint.fit", 1202, "Real", "m", "um", -1e-05, -0.0005, 0.0001, 1, None, "Rivet diameter - hole diameter, negative = clearance", "paper section 4.1 (3)"),
+        Variable("joint.swell", 1203, "Real", "m", "um", 4e-06, 0.0, 5e-05, 1, None, "Growth of the rivet's diameter by riveting, added to the fit", "calibrated to the paper's crossover of head and middle stress in -0.02...0 mm"),
+        Variable("joint.mu", 1204, "Real", "1", None, 0.15, 0.0, 1.0, 1, None, "Friction coefficient of plates and rivet heads", "assumed (steel and bronze, little oil)"),
+        Variable("joint.zeta", 1205, "Real", "1", None, 0.02, 0.0, 1.0, 1, None, "Damping ratio of the closed joints in the axial direction", "assumed (structural damping)"),
+        Variable("joint.F_floor", 1206, "Real", "N", None, 0.5, 0.001, 10.0, 1, None, "Friction capacity that remains in an open joint", "regularization of the friction state as the clamp force vanishes"),
+        Variable("rivet.temperature", 1207, "Real", "K", "degC", 293.15, 150.0, 700.0, 1, None, "Temperature of cage and rivets: changes preload and fit by their expansion", "assembly temperature"),
+        Variable("rivet.fit_model", 1208, "FitModel", "1", None, 2, None, None, 1, None, "Interference: elastic, or with yield of the flange", "flange yields between +2 and +5 um of interference"),
+        Variable("oil.eta", 1301, "Real", "Pa.s", "mPa.s", 0.006, 1e-05, 10.0, 1, None, "Dynamic viscosity of the oil", "assumed (aviation oil, hot)"),
+        Variable("oil.alpha", 1302, "Real", "1/Pa", "1/GPa", 1.3e-08, 1e-10, 1e-07, 1, None, "Pressure-viscosity coefficient", "assumed (synthetic aviation oil, hot)"),
+        Variable("oil.A", 1303, "Real", "1", None, -0.04, -1.0, 0.0, 1, None, "Traction law mu(s) = (A + B s) exp(-C s) - A", "assumed in the range of fits for 4109 aviation oil; D = -A"),
+        Variable("oil.B", 1304, "Real", "1", None, 2.2, 0.0, 100.0, 1, None, "Traction law: linear term", "assumed in the range of fits for 4109 aviation oil"),
+        Variable("oil.C", 1305, "Real", "1", None, 45.0, 0.0, 1000.0, 1, None, "Traction law: decay", "assumed in the range of fits for 4109 aviation oil"),
+        Variable("oil.v_0", 1306, "Real", "m/s", None, 0.0001, 1e-08, 0.1, 1, None, "Slip speed below which traction is linear in any case", "regularization of the slip speed's modulus"),
+        Variable("oil.U_0", 1307, "Real", "m/s", None, 0.01, 1e-06, 1.0, 1, None, "Floor of the rolling speed in slide-roll ratio and film", "regularization toward standstill"),
+        Variable("oil.rolling", 1308, "Real", "1", None, 1.0, 0.0, 10.0, 1, None, "Factor on the inlet rolling friction F_R and the horizontal film force F_H", "1: Houpert's formula as it stands"),
+        Variable("oil.rho_mix", 1309, "Real", "kg/m3", None, 35.0, 0.0, 1500.0, 1, None, "Density of the oil-air mixture between the rings", "assumed: 4 % oil in air"),
+        Variable("oil.C_d", 1310, "Real", "1", None, 0.45, 0.0, 10.0, 1, None, "Drag coefficient of a ball in the mixture", "sphere, Schlichting"),
+        Variable("oil.mu_b", 1311, "Real", "1", None, 0.12, 0.0, 1.0, 1, None, "Boundary friction coefficient of asperities (mixed lubrication)", "assumed (mild set L)"),
+        Variable("oil.s_0", 1312, "Real", "1", None, 0.006, 0.0001, 1.0, 1, None, "Slide-roll ratio at which asperity friction is 71 % of mu_b", "tangential creep of a Hertz contact saturates near 3 mu Q/(G a b C) = 0.5...0.7 %"),
+        Variable("oil.sigma_race", 1313, "Real", "m", "um", 2e-07, 1e-09, 1e-05, 1, None, "Composite RMS roughness of ball and race", "assumed (mild set L)"),
+        Variable("oil.sigma_pocket", 1314, "Real", "m", "um", 6e-07, 1e-09, 1e-05, 1, None, "Composite RMS roughness of ball and pocket", "assumed (mild set L)"),
+        Variable("oil.sigma_land", 1315, "Real", "m", "um", 8e-07, 1e-09, 1e-05, 1, None, "Composite RMS roughness of cage and outer ring lands", "assumed (turned and ground lands)"),
+        Variable("oil.rho", 1316, "Real", "kg/m3", None, 900.0, 100.0, 2000.0, 1, None, "Density of the oil", "aviation oil, hot"),
+        Variable("ring.m", 1401, "Real", "kg", None, 0.6, 0.001, 1000.0, 1, None, "Mass of the inner ring with its share of the shaft", "assumed: inner ring and its share of the shaft"),
+        Variable("ring.J_p", 1402, "Real", "kg.m2", None, 0.00018, 1e-09, 100.0, 1, None, "Polar moment of inertia of the inner ring", "assumed: inner ring and its share of the shaft"),
+        Variable("ring.J_t", 1403, "Real", "kg.m2", None, 0.00012, 1e-09, 100.0, 1, None, "Transverse moment of inertia of the inner ring", "assumed: inner ring and its share of the shaft"),
+        Variable("ring.c", 1404, "Real", "N.s/m", None, 1500.0, 0.0, 1000000.0, 1, None, "Damping of the inner ring's translation against the housing", "assumed: damping by shaft and housing"),
+        Variable("ring.tilt_mode", 1405, "TiltMode", "1", None, 1, None, None, 1, None, "How the inner ring tilts", "paper section 4.1 (4): tilt given"),
+        Variable("ring.tilt_time", 1406, "Real", "s", None, 0.0001, 1e-06, 1.0, 1, None, "Time constant of the critically damped filter of the prescribed tilt", "assumed: shorter than any pocket period"),
+        Variable("ring.k_tilt", 1407, "Real", "N.m/rad", None, 20000.0, 0.0, 100000000.0, 1, None, "Angular stiffness of the ring's support (supported tilt)", "assumed: a second bearing nearby"),
+        Variable("ring.c_tilt", 1408, "Real", "N.m.s/rad", None, 1.0, 0.0, 10000.0, 1, None, "Angular damping of the ring's support (supported tilt)", "assumed: damping ratio 0.3 with the default stiffness and inertia"),
+        Variable("gravity.y", 1501, "Real", "m/s2", None, 0.0, -1000.0, 1000.0, 1, None, "Gravity along Y", "off"),
+        Variable("gravity.z", 1502, "Real", "m/s2", None, 0.0, -1000.0, 1000.0, 1, None, "Gravity along Z", "off"),
+        Variable("pulse.F_r", 1601, "Real", "N", None, 0.0, -100000.0, 100000.0, 1, None, "Amplitude of the built-in half-sine impacts along the radial load", "no impact (paper section 4.1 (3): 1401 N)"),
+        Variable("pulse.F_a", 1602, "Real", "N", None, 0.0, -100000.0, 100000.0, 1, None, "Amplitude of the built-in half-sine impacts along +X", "no impact (paper section 4.1 (3): 241 N)"),
+        Variable("pulse.t_start", 1603, "Real", "s", None, 0.1, 0.0, 1000000.0, 1, None, "Start of the first impact", "after settling"),
+        Variable("pulse.duration", 1604, "Real", "s", "ms", 0.001, 1e-06, 1000.0, 1, None, "Duration of one impact", "assumed"),
+        Variable("pulse.interval", 1605, "Real", "s", "ms", 0.00333333333333333, 1e-06, 1000000.0, 1, None, "Time from one impact's start to the next one's (not shorter than the duration)", "paper section 4.1 (3): three in 0.01 s"),
+        Variable("pulse.count", 1606, "Integer", "1", None, 3, 0, 1000000, 1, None, "Number of impacts", "paper section 4.1 (3): three in 0.01 s"),
+        Variable("fatigue.sigma_D", 1701, "Real", "Pa", "MPa", 250000000.0, 100000.0, 10000000000.0, 1, None, "Stress amplitude at the knee of the S-N curve (R = -1)", "assumed: 0.32 of the strength of quenched and tempered 15CrMn"),
+        Variable("fatigue.N_D", 1702, "Real", "1", None, 2000000.0, 100.0, 10000000000.0, 1, None, "Cycles at the knee", "assumed (usual for steel)"),
+        Variable("fatigue.k_1", 1703, "Real", "1", None, 8.0, 1.0, 40.0, 1, None, "Slope above the knee: N = N_D (sigma_a/sigma_D)^-k_1", "assumed (mild notch)"),
+        Variable("fatigue.k_2", 1704, "Real", "1", None, 15.0, 1.0, 100.0, 1, None, "Slope below the knee", "Haibach: 2 k_1 - 1"),
+        Variable("fatigue.sigma_m", 1705, "Real", "Pa", "MPa", 785000000.0, 1000000.0, 10000000000.0, 1, None, "Tensile strength (Goodman)", "assumed (15CrMn, quenched and tempered)"),
+        Variable("fatigue.sigma_f", 1706, "Real", "Pa", "MPa", 1180000000.0, 1000000.0, 10000000000.0, 1, None, "Fatigue strength coefficient (Morrow)", "1.5 times the tensile strength (uniform material law)"),
+        Variable("fatigue.mean_stress", 1707, "MeanStress", "1", None, 2, None, None, 1, None, "Mean-stress correction", "practice"),
+        Variable("scene.cage", 1801, "CageModel", "1", None, 1, None, None, 1, None, "Cage of two halves or rigid", "default"),
+        Variable("scene.traction", 1802, "Traction", "1", None, 1, None, None, 1, None, "Traction at a point or over slices of the contact ellipse", "default"),
+        Variable("scene.lubrication", 1803, "Lubrication", "1", None, 1, None, None, 1, None, "Full film or mixed lubrication", "default"),
+        Variable("scene.stress", 1804, "Stress", "1", None, 3, None, None, 1, None, "When the rivet stress is computed", "default"),
+        Variable("scene.statistics", 1805, "Switch", "1", None, 1, None, None, 1, None, "Running mean, RMS and histogram behind stat.*", "default"),
+        Variable("solver.tol", 1901, "Real", "1", None, 0.0001, 1e-10, 0.1, 1, None, "Tolerance: local error / scale of each state class; a tolerance of fmi2SetupExperiment takes its place", "joint stress converges at 1e-4, forces at 1e-3"),
+        Variable("solver.method", 1902, "Method", "1", None, 1, None, None, 1, None, "Integration path", "default"),
+        Variable("solver.max_steps", 1903, "Integer", "1", None, 10000000, 10, 2000000000, 1, None, "Largest number of internal steps in one communication step", "work limit instead of a hung host"),
+        Variable("start.seed", 1951, "Integer", "1", None, 1, 0, 2147483647, 1, None, "Seed of the balls' initial spacing (splitmix64)", "default"),
+        Variable("start.spacing", 1952, "Real", "1", None, 0.1, 0.0, 1.0, 1, None, "Initial spacing error: uniform within +- this part of the pocket clearance", "assumed"),
+        Variable("start.settle", 1953, "Real", "s", None, 0.05, 0.0, 1000000.0, 1, None, "Time before which stat.* and damage do not count", "15 revolutions at the working point"),
+    )
+}
+
+INPUTS = {
+    v.name: v
+    for v in (
+        Variable("shaft.F_x", 1, "Real", "N", None, 515.0, -100000.0, 100000.0, 1, None, "Axial load on the inner ring", "paper Table 2"),
+        Variable("shaft.F_y", 2, "Real", "N", None, 2994.0, -100000.0, 100000.0, 1, None, "Radial load on the inner ring along Y", "paper Table 2"),
+        Variable("shaft.F_z", 3, "Real", "N", None, 0.0, -100000.0, 100000.0, 1, None, "Radial load on the inner ring along Z", "paper Table 2"),
+        Variable("shaft.M_y", 4, "Real", "N.m", None, 0.0, -10000.0, 10000.0, 1, None, "Moment about Y on the inner ring (supported or free tilt)", "paper Table 2"),
+        Variable("shaft.M_z", 5, "Real", "N.m", None, 0.0, -10000.0, 10000.0, 1, None, "Moment about Z on the inner ring (supported or free tilt)", "paper Table 2"),
+        Variable("shaft.omega", 6, "Real", "rad/s", "rev/min", 1909.8788938113205, -5000.0, 5000.0, 1, None, "Speed of the inner ring about X", "paper Table 2 (18238 r/min)"),
+        Variable("shaft.tilt_y", 7, "Real", "rad", "deg", 0.0, -0.035, 0.035, 1, None, "Tilt of the shaft about Y (+X turns toward -Z)", "paper section 4.1 (4), base case"),
+        Variable("shaft.tilt_z", 8, "Real", "rad", "deg", 0.0, -0.035, 0.035, 1, None, "Tilt of the shaft about Z (+X turns toward +Y)", "paper section 4.1 (4), base case"),
+        Variable("impact.F_r", 9, "Real", "N", None, 0.0, -100000.0, 100000.0, 1, None, "Impact load added along the present radial load (+Y if there is none)", "no impact"),
+        Variable("impact.F_a", 10, "Real", "N", None, 0.0, -100000.0, 100000.0, 1, None, "Impact load added along +X", "no impact"),
+    )
+}
+
+OUTPUTS = {
+    v.name: v
+    for v in (
+        Variable("bearing.Z", 2001, "Real", "1", None, 9, None, None, 1, "constant", "Number of balls (build-time constant)", None),
+        Variable("ring.x", 2101, "Real", "m", "um", None, None, None, 1, "state", "Displacement of the inner ring along X", None),
+        Variable("ring.y", 2102, "Real", "m", "um", None, None, None, 1, "state", "Displacement of the inner ring along Y", None),
+        Variable("ring.z", 2103, "Real", "m", "um", None, None, None, 1, "state", "Displacement of the inner ring along Z", None),
+        Variable("ring.v_x", 2104, "Real", "m/s", None, None, None, None, 1, "state", "Velocity of the inner ring along X", None),
+        Variable("ring.v_y", 2105, "Real", "m/s", None, None, None, None, 1, "state", "Velocity of the inner ring along Y", None),
+        Variable("ring.v_z", 2106, "Real", "m/s", None, None, None, None, 1, "state", "Velocity of the inner ring along Z", None),
+        Variable("ring.a_x", 2107, "Real", "m/s2", None, None, None, None, 1, "ring", "Acceleration of the inner ring along X", None),
+        Variable("ring.a_y", 2108, "Real", "m/s2", None, None, None, None, 1, "ring", "Acceleration of the inner ring along Y", None),
+        Variable("ring.a_z", 2109, "Real", "m/s2", None, None, None, None, 1, "ring", "Acceleration of the inner ring along Z", None),
+        Variable("ring.tilt_y", 2110, "Real", "rad", "deg", None, None, None, 1, "ring", "Tilt of the inner ring about Y", None),
+        Variable("ring.tilt_z", 2111, "Real", "rad", "deg", None, None, None, 1, "ring", "Tilt of the inner ring about Z", None),
+        Variable("housing.F_x", 2151, "Real", "N", None, None, None, None, 1, "ring", "Force on the housing along X (by balls and cage through the outer ring)", None),
+        Variable("housing.F_y", 2152, "Real", "N", None, None, None, None, 1, "ring", "Force on the housing along Y", None),
+        Variable("housing.F_z", 2153, "Real", "N", None, None, None, None, 1, "ring", "Force on the housing along Z", None),
+        Variable("housing.M_y", 2154, "Real", "N.m", None, None, None, None, 1, "ring", "Moment on the housing about Y", None),
+        Variable("housing.M_z", 2155, "Real", "N.m", None, None, None, None, 1, "ring", "Moment on the housing about Z", None),
+        Variable("ball[j].Q_i", 2200, "Real", "N", None, None, None, None, Z, "ball", "Contact load on the inner race", None),
+        Variable("ball[j].Q_e", 2240, "Real", "N", None, None, None, None, Z, "ball", "Contact load on the outer race", None),
+        Variable("ball[j].alpha_i", 2280, "Real", "rad", "deg", None, None, None, Z, "ball", "Contact angle at the inner race (0 without contact)", None),
+        Variable("ball[j].alpha_e", 2320, "Real", "rad", "deg", None, None, None, Z, "ball", "Contact angle at the outer race (0 without contact)", None),
+        Variable("ball[j].Q_c", 2360, "Real", "N", None, None, None, None, Z, "ball", "Contact load on the cage pocket, both halves together", None),
+        Variable("ball[j].omega_m", 2400, "Real", "rad/s", "rev/min", None, None, None, Z, "ball", "Orbital speed", None),
+        Variable("ball[j].p_i", 2440, "Real", "Pa", "MPa", None, None, None, Z, "ball", "Largest contact pressure on the inner race", None),
+        Variable("ball[j].p_e", 2480, "Real", "Pa", "MPa", None, None, None, Z, "ball", "Largest contact pressure on the outer race", None),
+        Variable("ball[j].Lambda_i", 2520, "Real", "1", None, None, None, None, Z, "ball", "Film thickness / roughness at the inner race (0 without contact)", None),
+        Variable("ball[j].Lambda_e", 2560, "Real", "1", None, None, None, None, Z, "ball", "Film thickness / roughness at the outer race (0 without contact)", None),
+        Variable("ball[j].spin_roll", 2600, "Real", "1", None, None, None, None, Z, "ball", "Spin-to-roll ratio at the inner race", None),
+        Variable("cage.dislocation", 2701, "Real", "m", "um", None, None, None, 1, "rivet", "Largest slip of one cage half against the other over the joints, in the plane", None),
+        Variable("cage.omega", 2702, "Real", "rad/s", "rev/min", None, None, None, 1, "cage", "Speed of the cage (mean of the halves)", None),
+        Variable("cage.slip_ratio", 2703, "Real", "1", None, None, None, None, 1, "cage", "1 - cage speed / epicyclic speed (0 at standstill)", None),
+        Variable("cage.y", 2704, "Real", "m", "um", None, None, None, 1, "cage", "Displacement of the cage's centre along Y (mean of the halves)", None),
+        Variable("cage.z", 2705, "Real", "m", "um", None, None, None, 1, "cage", "Displacement of the cage's centre along Z (mean of the halves)", None),
+        Variable("cage.eccentricity", 2706, "Real", "1", None, None, None, None, 1, "cage", "Displacement of the cage's centre / radial guide clearance", None),
+        Variable("cage.F_pocket_max", 2707, "Real", "N", None, None, None, None, 1, "ball", "Largest pocket contact load of all balls", None),
+        Variable("cage.F_pocket_peak", 2708, "Real", "N", None, None, None, None, 1, "peak", "Largest pocket contact load since the last communication point", None),
+        Variable("rivet[k].sigma_head", 3000, "Real", "Pa", "MPa", None, None, None, Z, "stress", "Largest principal stress in the head fillet", None),
+        Variable("rivet[k].sigma_mid", 3040, "Real", "Pa", "MPa", None, None, None, Z, "stress", "von Mises stress of the shank at the split (|z| <= 0.1 mm)", None),
+        Variable("rivet[k].sigma_head_vm", 3080, "Real", "Pa", "MPa", None, None, None, Z, "stress", "von Mises stress in the head fillet", None),
+        Variable("rivet[k].sigma_mid_p1", 3120, "Real", "Pa", "MPa", None, None, None, Z, "stress", "Largest principal stress of the shank at the split", None),
+        Variable("rivet[k].sigma_head_peak", 3160, "Real", "Pa", "MPa", None, None, None, Z, "peak", "Largest sigma_head since the last communication point", None),
+        Variable("rivet[k].sigma_mid_peak", 3200, "Real", "Pa", "MPa", None, None, None, Z, "peak", "Largest sigma_mid since the last communication point", None),
+        Variable("rivet.sigma_head_max", 3240, "Real", "Pa", "MPa", None, None, None, 1, "peak", "Largest sigma_head_peak of all rivets", None),
+        Variable("rivet.sigma_mid_max", 3241, "Real", "Pa", "MPa", None, None, None, 1, "peak", "Largest sigma_mid_peak of all rivets", None),
+        Variable("rivet[k].damage_head", 3250, "Real", "1", None, None, None, None, Z, "fatigue", "Miner's sum of sigma_head since start.settle", None),
+        Variable("rivet[k].damage_mid", 3290, "Real", "1", None, None, None, None, Z, "fatigue", "Miner's sum of sigma_mid since start.settle", None),
+        Variable("rivet[k].N", 3330, "Real", "N", None, None, None, None, Z, "rivet", "External tension of the joint, before preload shielding", None),
+        Variable("rivet[k].V", 3370, "Real", "N", None, None, None, None, Z, "rivet", "Transverse load of the joint", None),
+        Variable("rivet[k].T", 3410, "Real", "N", None, None, None, None, Z, "rivet", "Tension of the rivet", None),
+        Variable("rivet[k].M", 3450, "Real", "N.m", None, None, None, None, Z, "rivet", "Prying moment of the joint", None),
+        Variable("rivet[k].P", 3490, "Real", "N", None, None, None, None, Z, "rivet", "Preload at the present temperature", None),
+        Variable("rivet[k].slip", 3530, "Real", "m", "um", None, None, None, Z, "rivet", "Slip of one half against the other at the joint, in the plane", None),
+        Variable("rivet[k].flag", 3570, "Real", "1", None, None, None, None, Z, "stress", "Sum of 1 rivet yields, 2 flange yields, 4 compressed joint (N counted as 0), 8 load outside the stress table", None),
+        Variable("bearing.friction_torque", 4001, "Real", "N.m", None, None, None, None, 1, "ring", "Torque that the shaft must supply about X", None),
+        Variable("bearing.power_loss", 4002, "Real", "W", None, None, None, None, 1, "energy", "Power dissipated in contacts, films, drag, joints and dampers", None),
+        Variable("bearing.energy_residual", 4003, "Real", "J", None, None, None, None, 1, "energy", "Energy now - energy at start - net work since: 0 but for the integration error", None),
+        Variable("bearing.contacts", 4004, "Real", "1", None, None, None, None, 1, "ball", "Number of closed contacts (races and pockets)", None),
+        Variable("bearing.penetration", 4005, "Real", "m", "um", None, None, None, 1, "ball", "Largest elastic approach of all contacts", None),
+        Variable("stat.time", 5001, "Real", "s", None, None, None, None, 1, "stat", "Time that the statistics cover", None),
+        Variable("stat.Q_c_mean", 5002, "Real", "N", None, None, None, None, 1, "stat", "Pocket force of all balls pooled: mean, zeros included", None),
+        Variable("stat.Q_c_rms", 5003, "Real", "N", None, None, None, None, 1, "stat", "Pocket force of all balls pooled: RMS", None),
+        Variable("stat.Q_c_p999", 5004, "Real", "N", None, None, None, None, 1, "stat", "Pocket force of all balls pooled: 99.9 % quantile", None),
+        Variable("stat.Q_c_max", 5005, "Real", "N", None, None, None, None, 1, "stat", "Pocket force of all balls pooled: largest", None),
+        Variable("stat.contact_duty", 5006, "Real", "1", None, None, None, None, 1, "stat", "Part of the time that a ball touches its pocket", None),
+        Variable("stat.cage_omega", 5007, "Real", "rad/s", "rev/min", None, None, None, 1, "stat", "Mean cage speed", None),
+        Variable("stat.eccentricity", 5008, "Real", "1", None, None, None, None, 1, "stat", "Mean eccentricity of the cage", None),
+        Variable("stat.dislocation_max", 5009, "Real", "m", "um", None, None, None, 1, "stat", "Largest dislocation of the cage halves", None),
+        Variable("stat.sigma_head_mean", 5011, "Real", "Pa", "MPa", None, None, None, 1, "stat", "Head stress of the worst rivet at each instant: mean", None),
+        Variable("stat.sigma_head_rms", 5012, "Real", "Pa", "MPa", None, None, None, 1, "stat", "Head stress of the worst rivet at each instant: RMS", None),
+        Variable("stat.sigma_head_p999", 5013, "Real", "Pa", "MPa", None, None, None, 1, "stat", "Head stress of the worst rivet at each instant: 99.9 % quantile", None),
+        Variable("stat.sigma_head_max", 5014, "Real", "Pa", "MPa", None, None, None, 1, "stat", "Head stress of the worst rivet at each instant: largest", None),
+        Variable("stat.sigma_mid_mean", 5021, "Real", "Pa", "MPa", None, None, None, 1, "stat", "Middle stress of the worst rivet at each instant: mean", None),
+        Variable("stat.sigma_mid_rms", 5022, "Real", "Pa", "MPa", None, None, None, 1, "stat", "Middle stress of the worst rivet at each instant: RMS", None),
+        Variable("stat.sigma_mid_p999", 5023, "Real", "Pa", "MPa", None, None, None, 1, "stat", "Middle stress of the worst rivet at each instant: 99.9 % quantile", None),
+        Variable("stat.sigma_mid_max", 5024, "Real", "Pa", "MPa", None, None, None, 1, "stat", "Middle stress of the worst rivet at each instant: largest", None),
+        Variable("stat.rivet_head_mean[k]", 5100, "Real", "Pa", "MPa", None, None, None, Z, "stat", "Head stress of each rivet: mean", None),
+        Variable("stat.rivet_head_rms[k]", 5140, "Real", "Pa", "MPa", None, None, None, Z, "stat", "Head stress of each rivet: RMS", None),
+        Variable("stat.rivet_head_p999[k]", 5180, "Real", "Pa", "MPa", None, None, None, Z, "stat", "Head stress of each rivet: 99.9 % quantile", None),
+        Variable("stat.rivet_head_max[k]", 5220, "Real", "Pa", "MPa", None, None, None, Z, "stat", "Head stress of each rivet: largest", None),
+        Variable("stat.rivet_mid_mean[k]", 5300, "Real", "Pa", "MPa", None, None, None, Z, "stat", "Middle stress of each rivet: mean", None),
+        Variable("stat.rivet_mid_rms[k]", 5340, "Real", "Pa", "MPa", None, None, None, Z, "stat", "Middle stress of each rivet: RMS", None),
+        Variable("stat.rivet_mid_p999[k]", 5380, "Real", "Pa", "MPa", None, None, None, Z, "stat", "Middle stress of each rivet: 99.9 % quantile", None),
+        Variable("stat.rivet_mid_max[k]", 5420, "Real", "Pa", "MPa", None, None, None, Z, "stat", "Middle stress of each rivet: largest", None),
+        Variable("solver.steps", 6001, "Real", "1", None, None, None, None, 1, "solver", "Accepted internal steps", None),
+        Variable("solver.rhs_evals", 6002, "Real", "1", None, None, None, None, 1, "solver", "Evaluations of the right-hand side", None),
+        Variable("solver.step_size", 6003, "Real", "s", None, None, None, None, 1, "solver", "Internal step size that the next step starts with", None),
+        Variable("solver.error_tests_failed", 6004, "Real", "1", None, None, None, None, 1, "solver", "Internal steps rejected by the error test", None),
+        Variable("solver.cpu_time", 6005, "Real", "s", None, None, None, None, 1, "solver", "Processor time of this instance inside fmi2DoStep (not part of the saved state)", None),
+        Variable("solver.tolerance", 6006, "Real", "1", None, None, None, None, 1, "solver", "Tolerance in force", None),
+        Variable("solver.path", 6007, "Real", "1", None, None, None, None, 1, "solver", "Integration path in use: 1 explicit, 2 IMEX", None),
+    )
+}
+
+# The state vector y: slices of its blocks and the class of their error scale.
+BALL_X = slice(0, 9)  # m  Axial position of the ball
+BALL_R = slice(9, 18)  # m  Radial position
+BALL_THETA = slice(18, 27)  # rad  Azimuth from Y toward Z, unbounded
+BALL_V_X = slice(27, 36)  # m/s  Axial velocity
+BALL_V_R = slice(36, 45)  # m/s  Radial velocity
+BALL_OMEGA_M = slice(45, 54)  # rad/s  Orbital speed
+BALL_OMEGA_X = slice(54, 63)  # rad/s  Angular velocity about X
+BALL_OMEGA_R = slice(63, 72)  # rad/s  Angular velocity about the radial direction of the ball
+BALL_OMEGA_T = slice(72, 81)  # rad/s  Angular velocity about the tangential direction of the ball
+JOINT_PLATE_Y = slice(81, 90)  # m  Friction state of the plates, y of the cage frame
+JOINT_PLATE_Z = slice(90, 99)  # m  Friction state of the plates, z of the cage frame
+JOINT_HEAD_Y = slice(99, 108)  # m  Friction state of the rivet heads, y of the cage frame
+JOINT_HEAD_Z = slice(108, 117)  # m  Friction state of the rivet heads, z of the cage frame
+CAGE_X = slice(117, 119)  # m  Position of a half's centre of mass along X
+CAGE_Y = slice(119, 121)  # m  along Y
+CAGE_Z = slice(121, 123)  # m  along Z
+CAGE_BETA = slice(123, 125)  # 1  Axis of the half a = (a_x, gamma, -beta): direction cosine
+CAGE_GAMMA = slice(125, 127)  # 1  Axis of the half: direction cosine
+CAGE_PSI = slice(127, 129)  # rad  Rotation of the half about its axis, unbounded
+CAGE_V_X = slice(129, 131)  # m/s  Velocity of the half's centre of mass along X
+CAGE_V_Y = slice(131, 133)  # m/s  along Y
+CAGE_V_Z = slice(133, 135)  # m/s  along Z
+CAGE_BETA_DOT = slice(135, 137)  # 1/s  Rate of beta
+CAGE_GAMMA_DOT = slice(137, 139)  # 1/s  Rate of gamma
+CAGE_S = slice(139, 141)  # rad/s  Spin: angular velocity along the half's axis
+RING_X = slice(141, 142)  # m  Inner ring: position along X
+RING_Y = slice(142, 143)  # m  along Y
+RING_Z = slice(143, 144)  # m  along Z
+RING_BETA = slice(144, 145)  # 1  Axis of the ring a = (a_x, gamma, -beta): direction cosine
+RING_GAMMA = slice(145, 146)  # 1  Axis of the ring: direction cosine
+RING_V_X = slice(146, 147)  # m/s  Inner ring: velocity along X
+RING_V_Y = slice(147, 148)  # m/s  along Y
+RING_V_Z = slice(148, 149)  # m/s  along Z
+RING_BETA_DOT = slice(149, 150)  # 1/s  Rate of beta
+RING_GAMMA_DOT = slice(150, 151)  # 1/s  Rate of gamma
+WORK = slice(151, 152)  # J  Net work done on balls and cage since the start: supplied - dissipated
+N_STATES = 152
+STATE_SLICES = {
+    "ball_x": BALL_X,
+    "ball_r": BALL_R,
+    "ball_theta": BALL_THETA,
+    "ball_v_x": BALL_V_X,
+    "ball_v_r": BALL_V_R,
+    "ball_omega_m": BALL_OMEGA_M,
+    "ball_omega_x": BALL_OMEGA_X,
+    "ball_omega_r": BALL_OMEGA_R,
+    "ball_omega_t": BALL_OMEGA_T,
+    "joint_plate_y": JOINT_PLATE_Y,
+    "joint_plate_z": JOINT_PLATE_Z,
+    "joint_head_y": JOINT_HEAD_Y,
+    "joint_head_z": JOINT_HEAD_Z,
+    "cage_x": CAGE_X,
+    "cage_y": CAGE_Y,
+    "cage_z": CAGE_Z,
+    "cage_beta": CAGE_BETA,
+    "cage_gamma": CAGE_GAMMA,
+    "cage_psi": CAGE_PSI,
+    "cage_v_x": CAGE_V_X,
+    "cage_v_y": CAGE_V_Y,
+    "cage_v_z": CAGE_V_Z,
+    "cage_beta_dot": CAGE_BETA_DOT,
+    "cage_gamma_dot": CAGE_GAMMA_DOT,
+    "cage_s": CAGE_S,
+    "ring_x": RING_X,
+    "ring_y": RING_Y,
+    "ring_z": RING_Z,
+    "ring_beta": RING_BETA,
+    "ring_gamma": RING_GAMMA,
+    "ring_v_x": RING_V_X,
+    "ring_v_y": RING_V_Y,
+    "ring_v_z": RING_V_Z,
+    "ring_beta_dot": RING_BETA_DOT,
+    "ring_gamma_dot": RING_GAMMA_DOT,
+    "work": WORK,
+}
+STATE_SCALES = {
+    "ball_x": "length",
+    "ball_r": "length",
+    "ball_theta": "angle",
+    "ball_v_x": "velocity",
+    "ball_v_r": "velocity",
+    "ball_omega_m": "rate",
+    "ball_omega_x": "spin",
+    "ball_omega_r": "spin",
+    "ball_omega_t": "spin",
+    "joint_plate_y": "plate",
+    "joint_plate_z": "plate",
+    "joint_head_y": "head",
+    "joint_head_z": "head",
+    "cage_x": "length",
+    "cage_y": "length",
+    "cage_z": "length",
+    "cage_beta": "tilt",
+    "cage_gamma": "tilt",
+    "cage_psi": "angle",
+    "cage_v_x": "velocity",
+    "cage_v_y": "velocity",
+    "cage_v_z": "velocity",
+    "cage_beta_dot": "rate",
+    "cage_gamma_dot": "rate",
+    "cage_s": "rate",
+    "ring_x": "length",
+    "ring_y": "length",
+    "ring_z": "length",
+    "ring_beta": "tilt",
+    "ring_gamma": "tilt",
+    "ring_v_x": "velocity",
+    "ring_v_y": "velocity",
+    "ring_v_z": "velocity",
+    "ring_beta_dot": "rate",
+    "ring_gamma_dot": "rate",
+    "work": "energy",
+}

@@ -1,0 +1,412 @@
+"""Writes every file that is derived from fmus/variables.toml, the one table of all variables.
+
+python fmus/generate.py                                  write the tracked files
+python fmus/generate.py --check                          compare them byte for byte, exit 1 on a difference
+python fmus/generate.py --bearing FILE --out DIR         another bearing (number of balls, start values), all files into one folder
+"""
+
+import argparse
+import hashlib
+import json
+import math
+import re
+import sys
+import tomllib
+from dataclasses import asdict, dataclass, replace
+from pathlib import Path
+
+import jinja2
+from lxml import etree
+
+ROOT = Path(__file__).resolve().parent.parent
+TABLE = ROOT / "fmus" / "variables.toml"
+OUTPUTS = ("fmu_src/variables.h", "fmu_src/variables.c", "fmus/modelDescription.xml", "bearing_model/variables.py", "docs/parameters.md")
+TEMPLATES = ROOT / "fmus" / "templates"
+Z_MIN, Z_MAX = 5, 32
+CAUSALITIES = {"inputs": "input", "parameters": "parameter", "outputs": "output"}
+BASE_UNITS = ("kg", "m", "s", "A", "K", "mol", "cd", "rad")
+LABELS = {"m": "m", "um": "µm", "m/s2": "m/s²", "rad/s2": "rad/s²", "N/m1.5": "N/m^1.5", "kg.m2": "kg.m²", "kg/m3": "kg/m³", "degC": "°C"}
+LOG_CATEGORIES = {  # in the order of LogCategory in bearing.h
+    "logStatusError": "Refused calls and values, failed steps: always sent",
+    "logStatusWarning": "Done, but worth a look: always sent",
+    "logEvents": "Course of the simulation",
+    "logSolver": "Messages of the integrator",
+    "logAll": "All of these",
+}
+
+
+@dataclass(frozen=True)
+class Variable:
+    """One entry of the table: a scalar, or the array of its elements."""
+
+    name: str
+    vr: int
+    causality: str
+    description: str
+    type: str = "Real"
+    unit: str = "1"
+    display: str | None = None
+    start: float | None = None
+    min: float | None = None
+    max: float | None = None
+    nominal: float | None = None
+    count: int = 1
+    group: str | None = None
+    source: str | None = None
+    state: str | None = None
+    derivative_of: str | None = None
+    choices: tuple = ()  # names of an enumeration's items
+
+    @property
+    def kind(self):
+        """Real, Integer or Enumeration, as FMI calls the types."""
+        return "Enumeration" if self.choices else self.type
+
+    @property
+    def limits(self):
+        """Smallest and largest allowed value, infinite where none is given."""
+        if self.choices:
+            return 1, len(self.choices)
+        return -math.inf if self.min is None else self.min, math.inf if self.max is None else self.max
+
+    @property
+    def is_array(self):
+        return "[" in self.name
+
+    @property
+    def path(self):
+        """Place in the C structs: ball[j].Q_i is ball.Q_i, an array."""
+        return re.sub(r"\[\w\]", "", self.name)
+
+    @property
+    def elements(self):
+        """Names and value references as FMI sees them, numbered from 1."""
+        if not self.is_array:
+            return [(self.name, self.vr)]
+        return [(re.sub(r"\[\w\]", f"[{j + 1}]", self.name), self.vr + j) for j in range(self.count)]
+
+
+@dataclass(frozen=True)
+class StateBlock:
+    name: str
+    count: int
+    scale: str
+    unit: str
+    description: str
+    offset: int
+    of_balls: bool
+
+
+@dataclass(frozen=True)
+class Table:
+    Z: int
+    model_name: str
+    description: str
+    units: dict
+    enumerations: dict
+    groups: dict
+    variables: tuple
+    states: tuple
+
+    def of(self, causality):
+        return [v for v in self.variables if v.causality == causality]
+
+    @property
+    def guid(self):
+        """Digest of all that description and binary must agree on."""
+        digest = hashlib.sha256(json.dumps(asdict(self), sort_keys=True).encode()).hexdigest()
+        return "{" + "-".join((digest[:8], digest[8:12], digest[12:16], digest[16:20], digest[20:32])) + "}"
+
+
+def load_table(bearing=None):
+    """The table, with Z and start values of a bearing file; ValueError names file, key, value and what is allowed."""
+    raw = tomllib.loads(TABLE.read_text())
+    changes = tomllib.loads(Path(bearing).read_text()) if bearing else {}
+    Z = changes.get("Z", raw["Z"])
+    if type(Z) is not int or not Z_MIN <= Z <= Z_MAX:
+        raise ValueError(f"{bearing or TABLE}: Z = {Z!r}: allowed is an integer from {Z_MIN} to {Z_MAX}")
+    variables = []
+    for section, causality in CAUSALITIES.items():
+        for entry in raw[section]["list"]:
+            v = Variable(causality=causality, **entry | {"count": number_of(entry.get("count", 1), Z)})
+            v = replace(v, choices=tuple(raw["enumerations"].get(v.type, ())))
+            variables.append(replace(v, start=Z) if v.group == "constant" else v)
+    for section in ("parameters", "inputs"):
+        for name, value in flatten(changes.get(section, {})):
+            set_start(variables, CAUSALITIES[section], name, value, bearing)
+    states, offset = [], 0
+    for entry in raw["states"]["list"]:
+        count = number_of(entry["count"], Z)
+        states.append(StateBlock(**entry | {"count": count}, offset=offset, of_balls=entry["count"] == "Z"))
+        offset += count
+    table = Table(Z, raw["model_name"], raw["description"], raw["units"], raw["enumerations"], raw["groups"], tuple(variables), tuple(states))
+    check_table(table)
+    return table
+
+
+def number_of(count, Z):
+    return Z if count == "Z" else count
+
+
+def flatten(nested, prefix=""):
+    """Nested TOML tables as pairs of dotted name and value."""
+    for key, value in nested.items():
+        if isinstance(value, dict):
+            yield from flatten(value, f"{prefix}{key}.")
+        else:
+            yield prefix + key, value
+
+
+def set_start(variables, causality, name, value, source):
+    """Another start value for one variable of the list; an enumeration's may be given by the name of its item."""
+    places = {v.name: index for index, v in enumerate(variables) if v.causality == causality}
+    if name not in places:
+        raise ValueError(f"{source}: {name} = {value!r}: unknown {causality}, allowed are {', '.join(places)}")
+    v = variables[places[name]]
+    start = v.choices.index(value) + 1 if value in v.choices else value
+    right_type = type(start) in ((int, float) if v.kind == "Real" else (int,))
+    if not right_type or not v.limits[0] <= start <= v.limits[1]:
+        what = "one of " + ", ".join(v.choices) if v.choices else f"{v.limits[0]!r} ... {v.limits[1]!r} {v.unit} ({v.type})"
+        raise ValueError(f"{source}: {name} = {value!r}: allowed is {what}")
+    variables[places[name]] = replace(v, start=float(start) if v.kind == "Real" else start)
+
+
+def check_table(table):
+    """Every variable complete and consistent, every name and value reference given once; else ValueError."""
+    names, references = {"time"}, {0: "time"}
+    for v in table.variables:
+        last = v.vr + (Z_MAX if v.is_array else 1)
+        shared = {references[r] for r in range(v.vr, last) if r in references}
+        references |= dict.fromkeys(range(v.vr, last), v.name)
+        problems = {
+            "given twice": v.name in names,
+            f"shares value references with {', '.join(shared)}": shared,
+            f"type {v.type!r} is not Real, Integer or an enumeration": v.type not in ("Real", "Integer", *table.enumerations),
+            f"unknown unit {v.unit!r}": v.unit not in table.units,
+            f"unknown display unit {v.display!r}": v.display and v.display not in table.units.get(v.unit, {}).get("display", {}),
+            f"unknown group {v.group!r}": v.causality == "output" and v.group not in table.groups,
+            "no source": v.causality != "output" and not v.source,
+            f"start {v.start!r} outside {v.limits}": v.causality != "output" and (v.start is None or not v.limits[0] <= v.start <= v.limits[1]),
+        }
+        names.add(v.name)
+        for problem, found in problems.items():
+            if found:
+                raise ValueError(f"{TABLE}: {v.name}: {problem}")
+    for s in table.states:
+        if s.unit not in table.units:
+            raise ValueError(f"{TABLE}: {s.name}: unknown unit {s.unit!r}")
+
+
+# ---------------------------------------------------------------------------------------------------------------- text files
+
+
+def screaming(name):
+    """TiltMode, ball_x -> TILT_MODE, BALL_X."""
+    return re.sub(r"(?<=[a-z])(?=[A-Z])", "_", name).upper()
+
+
+def struct_members(variables):
+    """The variables by their place: [(struct, [(member, variable), ...]), ...]."""
+    structs = {}
+    for v in variables:
+        struct, member = v.path.split(".")
+        structs.setdefault(struct, []).append((member, v))
+    return list(structs.items())
+
+
+def c_number(value):
+    return {math.inf: "INFINITY", -math.inf: "-INFINITY"}.get(value, repr(float(value)))
+
+
+def quoted(value):
+    """A string literal of C and Python; None stays None."""
+    return None if value is None else json.dumps(value, ensure_ascii=False)
+
+
+def label(unit):
+    return LABELS.get(unit, unit)
+
+
+def display_unit(table, unit, display):
+    """Factor and offset: value in the display unit = factor * value + offset."""
+    factor = table.units[unit]["display"][display] if display else 1.0
+    return factor if isinstance(factor, list) else (factor, 0.0)
+
+
+def shown(value, v, table):
+    """A value in its display unit, for readers."""
+    if v.choices:
+        return v.choices[value - 1]
+    factor, offset = display_unit(table, v.unit, v.display)
+    digits = f"{value}" if v.type == "Integer" else f"{value * factor + offset:.6g}"
+    return digits.replace("-", "−") + ("" if v.unit == "1" else f" {label(v.display or v.unit)}")
+
+
+def allowed(v, table):
+    """Allowed values, for readers."""
+    return ", ".join(v.choices) if v.choices else " … ".join(shown(value, v, table) for value in v.limits)
+
+
+def render(template, table):
+    """A template of fmus/templates filled in."""
+    environment = jinja2.Environment(trim_blocks=True, lstrip_blocks=True, keep_trailing_newline=True, undefined=jinja2.StrictUndefined)
+    environment.filters |= {f.__name__: f for f in (screaming, struct_members, c_number, quoted, label)}
+    scales = list(dict.fromkeys(s.scale for s in table.states))
+    return environment.from_string((TEMPLATES / template).read_text()).render(table=table, scales=scales, shown=shown, allowed=allowed)
+
+
+# ------------------------------------------------------------------------------------------------------- modelDescription.xml
+
+
+def write_description(table):
+    """modelDescription.xml of FMI 2.0 for co-simulation."""
+    root = etree.Element(
+        "fmiModelDescription",
+        fmiVersion="2.0",
+        modelName=table.model_name,
+        guid=table.guid,
+        description=table.description,
+        license="BSD-2-Clause",
+        generationTool="fmus/generate.py",
+        variableNamingConvention="structured",
+        numberOfEventIndicators="0",
+    )
+    etree.SubElement(
+        root,
+        "CoSimulation",
+        modelIdentifier=table.model_name,
+        canHandleVariableCommunicationStepSize="true",
+        canNotUseMemoryManagementFunctions="true",
+        canGetAndSetFMUstate="true",
+        canSerializeFMUstate="true",
+    )
+    add_units(root, table)
+    add_types(root, table)
+    add_log_categories(root)
+    etree.SubElement(root, "DefaultExperiment", startTime="0", stopTime="0.4", tolerance="1e-4", stepSize="1e-4")
+    indices = add_variables(root, table)
+    add_structure(root, table, indices)
+    return etree.tostring(root, encoding="UTF-8", xml_declaration=True, pretty_print=True).decode()
+
+
+def add_units(root, table):
+    definitions = etree.SubElement(root, "UnitDefinitions")
+    for name, entry in table.units.items():
+        unit = etree.SubElement(definitions, "Unit", name=name)
+        if entry.get("dimension") != "open":
+            etree.SubElement(unit, "BaseUnit", {base: str(entry[base]) for base in BASE_UNITS if base in entry})
+        for display in entry.get("display", {}):
+            factor, offset = display_unit(table, name, display)
+            etree.SubElement(unit, "DisplayUnit", name=display, factor=repr(factor), **({"offset": repr(offset)} if offset else {}))
+
+
+def add_types(root, table):
+    definitions = etree.SubElement(root, "TypeDefinitions")
+    for name, items in table.enumerations.items():
+        enumeration = etree.SubElement(etree.SubElement(definitions, "SimpleType", name=name), "Enumeration")
+        for value, (item, description) in enumerate(items.items(), start=1):
+            etree.SubElement(enumeration, "Item", name=item, value=str(value), description=description)
+
+
+def add_log_categories(root):
+    categories = etree.SubElement(root, "LogCategories")
+    for name, description in LOG_CATEGORIES.items():
+        etree.SubElement(categories, "Category", name=name, description=description)
+
+
+def add_variables(root, table):
+    """ModelVariables; returns the index of each scalar variable, from 1."""
+    variables = etree.SubElement(root, "ModelVariables")
+    time = etree.SubElement(
+        variables, "ScalarVariable", name="time", valueReference="0", description="Simulation time", causality="independent", variability="continuous"
+    )
+    etree.SubElement(time, "Real", unit="s")
+    indices = {"time": 1}
+    for v in table.variables:
+        indices |= {name: len(indices) + i for i, (name, _) in enumerate(v.elements, start=1)}
+    for v in table.variables:
+        for name, vr in v.elements:
+            scalar = etree.SubElement(
+                variables, "ScalarVariable", name=name, valueReference=str(vr), description=v.description, causality=v.causality, **variability(v)
+            )
+            etree.SubElement(scalar, v.kind, value_attributes(v, indices))
+    return indices
+
+
+def variability(v):
+    if v.causality == "parameter":
+        return {"variability": "fixed", "initial": "exact"}
+    if v.group == "constant":
+        return {"variability": "constant", "initial": "exact"}
+    return {"variability": "continuous"} | ({"initial": "calculated"} if v.causality == "output" else {})
+
+
+def value_attributes(v, indices):
+    """Attributes of Real, Integer or Enumeration."""
+    attributes = {"declaredType": v.type} if v.choices else {}
+    if v.type == "Real":
+        attributes |= {"unit": v.unit, "displayUnit": v.display, "derivative": v.derivative_of and indices[v.derivative_of]}
+        attributes |= {"min": v.min, "max": v.max, "nominal": v.nominal}
+    elif v.type == "Integer":
+        attributes |= {"min": v.min, "max": v.max}
+    attributes["start"] = v.start
+    return {key: str(value) for key, value in attributes.items() if value is not None}
+
+
+def add_structure(root, table, indices):
+    """Outputs with what they depend on, derivatives of the exposed states, and what initialization computes (FMI 2.0.4, section 2.2.8)."""
+    structure = etree.SubElement(root, "ModelStructure")
+    outputs = etree.SubElement(structure, "Outputs")
+    for v in table.of("output"):
+        for name, _ in v.elements:
+            depends = {}
+            if v.state:
+                depends = {"dependencies": str(indices[name])}
+            elif not table.groups[v.group]["feedthrough"]:
+                depends = {"dependencies": ""}
+            etree.SubElement(outputs, "Unknown", index=str(indices[name]), **depends)
+    derivatives = etree.SubElement(structure, "Derivatives")
+    for v in table.of("output"):
+        if v.derivative_of:
+            depends = {"dependencies": str(indices[v.name])} if v.state else {}
+            etree.SubElement(derivatives, "Unknown", index=str(indices[v.name]), **depends)
+    unknowns = etree.SubElement(structure, "InitialUnknowns")
+    for v in table.of("output"):
+        if v.group != "constant":
+            for name, _ in v.elements:
+                etree.SubElement(unknowns, "Unknown", index=str(indices[name]))
+
+
+# ------------------------------------------------------------------------------------------------------------------- command
+
+
+def generate(bearing=None):
+    """Contents of all files by their place in the project; ValueError if the table or the bearing file is wrong."""
+    table = load_table(bearing)
+    return {place: write_description(table) if place.endswith(".xml") else render(Path(place).name, table) for place in OUTPUTS}
+
+
+def main(arguments=None):
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--bearing", type=Path, help="bearing file (bearing_model/data/bearings) with Z and start values")
+    parser.add_argument("--out", type=Path, help="one folder for all files, instead of their places in the project")
+    parser.add_argument("--check", action="store_true", help="write nothing, compare")
+    options = parser.parse_args(arguments)
+    if options.bearing and not options.out and not options.check:
+        parser.error("--bearing needs --out: the tracked files are those of the table itself")
+    try:
+        files = generate(options.bearing)
+    except (OSError, ValueError) as error:
+        sys.exit(f"generate: {error}")
+    places = {(options.out / Path(name).name if options.out else ROOT / name): content for name, content in files.items()}
+    if options.check:
+        stale = [str(path) for path, content in places.items() if not path.is_file() or path.read_bytes() != content.encode()]
+        sys.exit(f"generate: not what {TABLE.name} says: {', '.join(stale)}" if stale else 0)
+    for path, content in places.items():
+        path.parent.mkdir(parents=True, exist_ok=True)
+        if not path.is_file() or path.read_bytes() != content.encode():  # unchanged files keep their time: nothing is recompiled
+            path.write_bytes(content.encode())
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,68 @@
+// Written by fmus/generate.py from fmus/variables.toml: do not edit.
+#include "variables.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+const StateBlock STATE_BLOCKS[N_STATE_BLOCKS] = {
+{% for s in table.states %}
+    {Y_{{ s.name | screaming }}, {{ "Z" if s.of_balls else s.count }}, SCALE_{{ s.scale | screaming }}, "{{ s.name }}"},
+{% endfor %}
+};
+
+// name, unit, value reference, count, type, causality, group, offset, start, min, max
+const Variable VARIABLES[N_VARIABLES] = {
+    {"time", "s", 0, 1, TYPE_REAL, CAUSALITY_INDEPENDENT, GROUP_COUNT, 0, 0.0, -INFINITY, INFINITY},
+{% for v in table.variables | sort(attribute="vr") %}
+    {"{{ v.name }}", "{{ v.unit }}", {{ v.vr }}, {{ "Z" if v.is_array else 1 }}, TYPE_{{ v.kind | upper -}}
+     , CAUSALITY_{{ v.causality | upper }}, GROUP_{{ v.group | screaming if v.group else "COUNT" -}}
+     , offsetof({{ v.causality | capitalize }}s, {{ v.path }}), {{ (v.start or 0) | c_number -}}
+     , {{ v.limits[0] | c_number }}, {{ v.limits[1] | c_number }}},
+{% endfor %}
+};
+
+const Variable *variable_find(unsigned value_reference, int *element)
+{
+    int low = 0, high = N_VARIABLES;  // VARIABLES[low] starts at or below the reference, VARIABLES[high] above
+    while (high - low > 1) {
+        const int middle = (low + high) / 2;
+        if (VARIABLES[middle].value_reference <= value_reference) low = middle;
+        else high = middle;
+    }
+    const unsigned index = value_reference - VARIABLES[low].value_reference;
+    if (index >= (unsigned)VARIABLES[low].count) return NULL;
+    *element = (int)index;
+    return &VARIABLES[low];
+}
+
+void variable_element_name(const Variable *variable, int element, char *name, size_t size)
+{
+    const char *bracket = strchr(variable->name, '[');  // of "ball[j].Q_i"
+    if (!bracket) {
+        snprintf(name, size, "%s", variable->name);
+        return;
+    }
+    snprintf(name, size, "%.*s[%d]%s", (int)(bracket - variable->name), variable->name, element + 1, bracket + 3);
+}
+
+int variable_allows(const Variable *variable, int element, double value, char *message, size_t size)
+{
+    if (isfinite(value) && value >= variable->min && value <= variable->max) return 1;
+    char name[64];
+    variable_element_name(variable, element, name, sizeof name);
+    snprintf(message, size, "%s = %.10g %s is not allowed: it must lie in [%.10g, %.10g]", name, value, variable->unit, variable->min, variable->max);
+    return 0;
+}
+
+void variables_set_start(Parameters *parameters, Inputs *inputs)
+{
+    for (const Variable *v = VARIABLES; v < VARIABLES + N_VARIABLES; v++) {
+        if (v->causality != CAUSALITY_PARAMETER && v->causality != CAUSALITY_INPUT) continue;
+        char *place = (v->causality == CAUSALITY_PARAMETER ? (char *)parameters : (char *)inputs) + v->offset;
+        for (int element = 0; element < v->count; element++) {
+            if (v->type == TYPE_REAL) ((double *)place)[element] = v->start;
+            else ((int *)place)[element] = (int)v->start;
+        }
+    }
+}

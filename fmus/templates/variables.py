@@ -1,0 +1,67 @@
+"""Every variable of the FMU, the enumerations and the state vector's layout.  Written by fmus/generate.py from fmus/variables.toml: do not edit."""
+
+# fmt: off
+# ruff: noqa: E501
+
+from dataclasses import dataclass
+from enum import IntEnum
+
+MODEL_IDENTIFIER = {{ table.model_name | quoted }}
+MODEL_GUID = {{ table.guid | quoted }}
+Z = {{ table.Z }}
+
+
+@dataclass(frozen=True)
+class Variable:
+    """One variable, SI units; an array (count > 1) holds the elements name[1] ... name[count] with value references vr, vr + 1, ..."""
+
+    name: str
+    vr: int
+    type: str
+    unit: str
+    display: str | None
+    start: float | int | None
+    min: float | int | None
+    max: float | int | None
+    count: int
+    group: str | None
+    description: str
+    source: str | None
+
+{% for name, items in table.enumerations.items() %}
+
+class {{ name }}(IntEnum):
+{% for item in items %}
+    {{ item | upper }} = {{ loop.index }}
+{% endfor %}
+
+{% endfor %}
+
+# name, vr, type, unit, display, start, min, max, count, group, description, source
+{% for causality, title in (("parameter", "PARAMETERS"), ("input", "INPUTS"), ("output", "OUTPUTS")) %}
+{{ title }} = {
+    v.name: v
+    for v in (
+{% for v in table.of(causality) %}
+        Variable({{ v.name | quoted }}, {{ v.vr }}, {{ v.type | quoted }}, {{ v.unit | quoted }}, {{ v.display | quoted }}, {{ v.start }}, {{ v.min }}, {{ v.max -}}
+                 , {{ "Z" if v.is_array else 1 }}, {{ v.group | quoted }}, {{ v.description | quoted }}, {{ v.source | quoted }}),
+{% endfor %}
+    )
+}
+
+{% endfor %}
+# The state vector y: slices of its blocks and the class of their error scale.
+{% for s in table.states %}
+{{ s.name | upper }} = {{ "slice(%d, %d)" % (s.offset, s.offset + s.count) }}  # {{ s.unit }}  {{ s.description }}
+{% endfor %}
+N_STATES = {{ table.states[-1].offset + table.states[-1].count }}
+STATE_SLICES = {
+{% for s in table.states %}
+    {{ s.name | quoted }}: {{ s.name | upper }},
+{% endfor %}
+}
+STATE_SCALES = {
+{% for s in table.states %}
+    {{ s.name | quoted }}: {{ s.scale | quoted }},
+{% endfor %}
+}
