@@ -1,0 +1,47 @@
+// A ball in its cylindrical frame (x, r, t), azimuth theta, orbital speed omega_m = theta_dot, angular velocity omega:
+//
+//   m x''                       = F_x            J omega_x' = M_x
+//   m (r'' - r omega_m^2)       = F_r            J omega_r' = M_r + J omega_m omega_t
+//   m (r omega_m' + 2 r' omega_m) = F_t          J omega_t' = M_t - J omega_m omega_r
+//
+// Gupta (1979), J. Lubr. Technol. 101, 293.  The last terms are the gyroscopic moments: the frame turns, the sphere has no axis of its own.
+#include "ball.h"
+
+#include "vec.h"
+
+void ball_kinematics(const double *y, Work *w)
+{
+    double *rows[] = {w->x, w->r, w->theta, w->v_x, w->v_r, w->omega_m, w->omega_x, w->omega_r, w->omega_t};
+    for (int i = 0; i < 9; i++) memcpy(rows[i], &y[Y_BALL_X + i * Z], Z * sizeof *y);
+    for (int b = 0; b < BUNDLES; b++) {
+        const int j = b * LANE_WIDTH;
+        real cosine, sine;
+        real_sincos(real_load(&w->theta[j]), &sine, &cosine);
+        real_store(&w->cos_theta[j], cosine);
+        real_store(&w->sin_theta[j], sine);
+        real_store(&w->v_t[j], real_load(&w->r[j]) * real_load(&w->omega_m[j]));
+    }
+}
+
+void ball_acceleration(const Model *model, const Work *w, double *y_dot)
+{
+    const double per_mass = 1.0 / model->d->m, per_inertia = 1.0 / model->d->J;
+    const real g_y = real_set(model->p->gravity.y), g_z = real_set(model->p->gravity.z);
+    lanes rows[6];
+    for (int b = 0; b < BUNDLES; b++) {
+        const int j = b * LANE_WIDTH;
+        const real r = real_load(&w->r[j]), v_r = real_load(&w->v_r[j]), omega_m = real_load(&w->omega_m[j]);
+        const real cosine = real_load(&w->cos_theta[j]), sine = real_load(&w->sin_theta[j]);
+        const real omega_r = real_load(&w->omega_r[j]), omega_t = real_load(&w->omega_t[j]);
+        real_store(&rows[0][j], real_load(&w->F_x[j]) * per_mass);
+        real_store(&rows[1][j], real_load(&w->F_r[j]) * per_mass + g_y * cosine + g_z * sine + r * omega_m * omega_m);
+        real_store(&rows[2][j], (real_load(&w->F_t[j]) * per_mass + g_z * cosine - g_y * sine - 2.0 * v_r * omega_m) / r);
+        real_store(&rows[3][j], real_load(&w->M_x[j]) * per_inertia);
+        real_store(&rows[4][j], real_load(&w->M_r[j]) * per_inertia + omega_m * omega_t);
+        real_store(&rows[5][j], real_load(&w->M_t[j]) * per_inertia - omega_m * omega_r);
+    }
+    memcpy(&y_dot[Y_BALL_X], w->v_x, Z * sizeof *y_dot);
+    memcpy(&y_dot[Y_BALL_R], w->v_r, Z * sizeof *y_dot);
+    memcpy(&y_dot[Y_BALL_THETA], w->omega_m, Z * sizeof *y_dot);
+    for (int i = 0; i < 6; i++) memcpy(&y_dot[Y_BALL_V_X + i * Z], rows[i], Z * sizeof *y_dot);
+}

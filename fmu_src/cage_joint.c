@@ -1,0 +1,126 @@
+// Riveted joint k: plates pressed together by the rivet, friction of plates and heads, the rivet's shank in its holes.
+//
+//      |  T  |          u    hole of half 1 - hole of half 0 at rivet k, in the body frame of half 0 (turns with the cage), v its rate
+//   ---+-   -+---       rivet tension   T = max(0, P + k_rivet u_x)
+//   half 1     | u_x    plate force     N_plate = max(0, P - k_plate u_x), damped by c v_x N_plate/(N_plate + F_floor)
+//   ===+=====+===       plate friction  S = -k_t z,  z' = v - |v| k_t z/(mu N_plate + F_floor)        Dahl (1968): a friction state, no creep
+//   half 0     |        head friction   H = -k_h z_h, likewise with mu T + F_floor
+//   ---+-   -+---       hole contact    B = -k_hole max(0, |u| - gap) u/|u|,  gap = max(0, -fit_a): the diametral play
+//      |     |
+// After the plates (mu P) the heads drag the rivet (mu P more), then the halves slip freely by the gap, then the shank bears.
+// Force and reaction act at the same point, so momentum and energy are exact.  External tension of the joint: N = T - N_plate.
+// Smoothness: C0 at opening and bearing (a spring of finite stiffness begins), C0 at v = 0.
+#include "cage_joint.h"
+
+#include "rotor.h"
+#include "vec.h"
+
+void cage_joint_kinematics(const Model *model, Work *w)
+{
+    const Rotor *h0 = &w->half[0], *h1 = &w->half[1];
+    const double *axes_0[3] = {h0->a, h0->b_y, h0->b_z}, *axes_1[2] = {h1->b_y, h1->b_z};
+    double g[3], v[3], omega[3], drift[3];
+    for (int i = 0; i < 3; i++) {
+        g[i] = h1->x[i] - h0->x[i];
+        v[i] = h1->v[i] - h0->v[i];
+        omega[i] = h1->Omega[i] - h0->Omega[i];
+    }
+    cross3(h0->Omega, g, drift);
+    for (int i = 0; i < 3; i++) v[i] -= drift[i];
+    double spin[2][3];
+    for (int c = 0; c < 2; c++) cross3(omega, axes_1[c], spin[c]);
+
+    // u = offset + (A - 1) s with A = axes of half 1 in half 0, s = (0, rivet_y, rivet_z); v likewise with the rates
+    double *u_out[3] = {w->u_x, w->u_y, w->u_z}, *v_out[3] = {w->v_jx, w->v_jy, w->v_jz};
+    for (int i = 0; i < 3; i++) {
+        const double u_0 = dot3(axes_0[i], g), v_0 = dot3(axes_0[i], v);
+        const double A_y = dot3(axes_0[i], axes_1[0]) - (i == 1), A_z = dot3(axes_0[i], axes_1[1]) - (i == 2);
+        const double B_y = dot3(axes_0[i], spin[0]), B_z = dot3(axes_0[i], spin[1]);
+        for (int b = 0; b < BUNDLES; b++) {
+            const int k = b * LANE_WIDTH;
+            const real s_y = real_load(&model->d->rivet_y[k]), s_z = real_load(&model->d->rivet_z[k]);
+            real_store(&u_out[i][k], u_0 + A_y * s_y + A_z * s_z);
+            real_store(&v_out[i][k], v_0 + B_y * s_y + B_z * s_z);
+        }
+    }
+}
+
+// Dahl's friction: force -k z, rate of z, stiff rate of z; returns the dissipated power.
+INLINE real cage_joint_friction(real k, real capacity, real z_y, real z_z, real v_y, real v_z, real speed, double *dot_y, double *dot_z, double *D)
+{
+    const real rate = speed * k / capacity;
+    real_store(dot_y, v_y - rate * z_y);
+    real_store(dot_z, v_z - rate * z_z);
+    real_store(D, rate);
+    return k * rate * (z_y * z_y + z_z * z_z);
+}
+
+void cage_joint_force(const Model *model, const double *y, Work *w)
+{
+    const Parameters *p = model->p;
+    const Derived *d = model->d;
+    lanes z_y, z_z, h_y, h_z;  // friction states with ghosts
+    lanes F_x, F_y, F_z, M_x, M_y, M_z;
+    for (int k = 0; k < LANES; k++) z_y[k] = z_z[k] = h_y[k] = h_z[k] = 0.0;
+    memcpy(z_y, &y[Y_JOINT_PLATE_Y], Z * sizeof *y);
+    memcpy(z_z, &y[Y_JOINT_PLATE_Z], Z * sizeof *y);
+    memcpy(h_y, &y[Y_JOINT_HEAD_Y], Z * sizeof *y);
+    memcpy(h_z, &y[Y_JOINT_HEAD_Z], Z * sizeof *y);
+
+    const real zero = real_set(0.0), P = real_set(d->P), floor = real_set(p->joint.F_floor), mu = real_set(p->joint.mu);
+    const real k_t = real_set(d->k_plate_t), k_h = real_set(d->k_head);
+    for (int b = 0; b < BUNDLES; b++) {
+        const int k = b * LANE_WIDTH;
+        const real u_x = real_load(&w->u_x[k]), u_y = real_load(&w->u_y[k]), u_z = real_load(&w->u_z[k]);
+        const real v_x = real_load(&w->v_jx[k]), v_y = real_load(&w->v_jy[k]), v_z = real_load(&w->v_jz[k]);
+
+        const real T = real_max(P + d->k_rivet * u_x, zero), N_plate = real_max(P - d->k_plate * u_x, zero);
+        const real damping = d->c_joint * N_plate / (N_plate + floor);
+        const real speed = real_sqrt(v_y * v_y + v_z * v_z);
+        const real zp_y = real_load(&z_y[k]), zp_z = real_load(&z_z[k]), zh_y = real_load(&h_y[k]), zh_z = real_load(&h_z[k]);
+        real lost = cage_joint_friction(k_t, mu * N_plate + floor, zp_y, zp_z, v_y, v_z, speed, &w->plate_y_dot[k], &w->plate_z_dot[k], &w->D_plate[k]);
+        lost += cage_joint_friction(k_h, mu * T + floor, zh_y, zh_z, v_y, v_z, speed, &w->head_y_dot[k], &w->head_z_dot[k], &w->D_head[k]);
+
+        const real slip = real_sqrt(u_y * u_y + u_z * u_z + 1e-30);
+        const real bearing = d->k_hole * real_max(slip - d->hole_gap, zero) / slip;
+
+        real_store(&w->T[k], T);
+        real_store(&w->N_plate[k], N_plate);
+        real_store(&w->S_y[k], -k_t * zp_y);
+        real_store(&w->S_z[k], -k_t * zp_z);
+        real_store(&w->H_y[k], -k_h * zh_y);
+        real_store(&w->H_z[k], -k_h * zh_z);
+        real_store(&w->B_y[k], -bearing * u_y);
+        real_store(&w->B_z[k], -bearing * u_z);
+        real_store(&w->joint_dissipated[k], lost + damping * v_x * v_x);
+
+        // on half 1 at its hole: s + u from the centre of half 0, in the frame of half 0
+        const real f_x = N_plate - T - damping * v_x, f_y = -k_t * zp_y - k_h * zh_y - bearing * u_y, f_z = -k_t * zp_z - k_h * zh_z - bearing * u_z;
+        const real r_y = real_load(&d->rivet_y[k]) + u_y, r_z = real_load(&d->rivet_z[k]) + u_z;
+        real_store(&F_x[k], f_x);
+        real_store(&F_y[k], f_y);
+        real_store(&F_z[k], f_z);
+        real_store(&M_x[k], r_y * f_z - r_z * f_y);
+        real_store(&M_y[k], r_z * f_x - u_x * f_z);
+        real_store(&M_z[k], u_x * f_y - r_y * f_x);
+    }
+
+    // wrench in the global frame: -F, -M on half 0; on half 1 the same about its own centre
+    Rotor *h0 = &w->half[0], *h1 = &w->half[1];
+    const double F[3] = {lanes_sum(F_x), lanes_sum(F_y), lanes_sum(F_z)}, M[3] = {lanes_sum(M_x), lanes_sum(M_y), lanes_sum(M_z)};
+    double force[3], moment[3], shift[3], arm[3];
+    for (int i = 0; i < 3; i++) {
+        force[i] = h0->a[i] * F[0] + h0->b_y[i] * F[1] + h0->b_z[i] * F[2];
+        moment[i] = h0->a[i] * M[0] + h0->b_y[i] * M[1] + h0->b_z[i] * M[2];
+        arm[i] = h1->x[i] - h0->x[i];
+    }
+    cross3(arm, force, shift);
+    for (int i = 0; i < 3; i++) {
+        h0->F[i] -= force[i];
+        h0->M[i] -= moment[i];
+        h1->F[i] += force[i];
+        h1->M[i] += moment[i] - shift[i];
+        w->half_F_joint[i] = force[i];
+        w->half_M_joint[i] = moment[i] - shift[i];
+    }
+}

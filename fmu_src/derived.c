@@ -1,0 +1,126 @@
+// Constants derived once from the parameters, element by element; equations stand in the elements' files.
+#include "hertz.h"
+#include "traction.h"
+
+static const double PI = 3.14159265358979323846;
+
+// ln of 2.69 G^0.53 (1 - 0.61 exp(-0.73 k)) R_x (eta/(E' R_x))^0.67 (1/(E' R_x^2))^-0.067 / sigma: ln Lambda at U = 1 m/s, Q = 1 N.
+static double ln_film(double E_prime, double R_x, double k, const Parameters *p, double sigma)
+{
+    const double G = p->oil.alpha * E_prime;
+    return log(2.69 * (1.0 - 0.61 * exp(-0.73 * k)) * R_x / sigma) + 0.53 * log(G) + 0.67 * log(p->oil.eta / (E_prime * R_x)) +
+           0.067 * log(E_prime * R_x * R_x);
+}
+
+// 2.86 E' R_x^2 (R_y/R_x)^0.348 G^0.022 (eta/(E' R_x))^0.66 (1/(E' R_x^2))^0.47: F_R at U = 1 m/s, Q = 1 N.
+static double inlet(double E_prime, double R_x, double R_y, const Parameters *p)
+{
+    return p->oil.rolling * 2.86 * E_prime * R_x * R_x * pow(R_y / R_x, 0.348) * pow(p->oil.alpha * E_prime, 0.022) *
+           pow(p->oil.eta / (E_prime * R_x), 0.66) * pow(E_prime * R_x * R_x, -0.47);
+}
+
+// inner: side = -1, outer: side = +1.
+static void derive_race(const Parameters *p, double f, double side, Race *race)
+{
+    const double D = p->bearing.D, R = 0.5 * D, gamma = D / p->bearing.d_m;
+    const double E_star = 0.5 * p->bearing.E / (1.0 - p->bearing.nu * p->bearing.nu);
+    const double rho_x = 1.0 / (R * (1.0 + side * gamma)), rho_y = 1.0 / R - 1.0 / (f * D);
+    race->R_g = 0.5 * p->bearing.d_m - side * ((f - 0.5) * D - 0.25 * p->bearing.P_d);
+    race->r_g = f * D;
+    race->R_m = 2.0 * f * D * R / (f * D + R);
+    race->hertz = hertz_contact(rho_x, rho_y, E_star);
+    race->rolling = inlet(2.0 * E_star, 1.0 / rho_x, 1.0 / rho_y, p);
+    race->horizontal = 2.0 / (rho_x * R);
+    race->ln_Lambda = ln_film(2.0 * E_star, 1.0 / rho_x, race->hertz.k, p, p->oil.sigma_race);
+}
+
+static void derive_balls(const Parameters *p, Derived *d)
+{
+    const double D = p->bearing.D, area = 0.25 * PI * D * D;
+    for (int j = 0; j < LANES; j++) d->R[j] = 0.5 * (D + (j < Z ? p->ball.dD[j] : 0.0));
+    d->m = p->bearing.rho * PI / 6.0 * D * D * D;
+    d->J = 0.1 * d->m * D * D;
+    d->drag = 0.5 * p->oil.C_d * p->oil.rho_mix * area;
+    derive_race(p, p->bearing.f_i, -1.0, &d->inner);
+    derive_race(p, p->bearing.f_e, 1.0, &d->outer);
+}
+
+static void derive_pockets(const Parameters *p, Derived *d)
+{
+    const double R = 0.5 * p->bearing.D;
+    d->pocket_radius = R + 0.5 * p->cage.pocket_clearance;
+    const double E_star = 1.0 / ((1.0 - p->bearing.nu * p->bearing.nu) / p->bearing.E + (1.0 - p->cage.nu * p->cage.nu) / p->cage.E);
+    const double rho_y = fmax(1.0 / R - 1.0 / d->pocket_radius, 1e-3 / R);  // conformity has a limit: R_y <= 1000 R
+    d->pocket = hertz_contact(1.0 / R, rho_y, E_star);
+    d->pocket_rolling = inlet(2.0 * E_star, R, 1.0 / rho_y, p);
+    d->ln_pocket_piezo = ln_film(2.0 * E_star, R, d->pocket.k, p, p->oil.sigma_pocket);
+    // isoviscous-rigid: h/R = 128 alpha_r lambda_b^2 (0.131 atan(alpha_r/2) + 1.683)^2 (U/W)^2, alpha_r = R_y/R.  Hamrock & Dowson (1979), Brewe
+    const double alpha_r = 1.0 / (rho_y * R), lambda_b = 1.0 / (1.0 + 0.698 / alpha_r);
+    const double shape = 128.0 * alpha_r * lambda_b * lambda_b * pow(0.131 * atan(0.5 * alpha_r) + 1.683, 2.0);
+    d->ln_pocket_rigid = log(shape * R / p->oil.sigma_pocket) + 2.0 * log(p->oil.eta * R);
+    for (int j = 0; j < LANES; j++) {
+        const double phi = 2.0 * PI * (j % Z) / Z, phi_r = 2.0 * PI * (j % Z + 0.5) / Z;
+        d->pocket_cos[j] = cos(phi);
+        d->pocket_sin[j] = sin(phi);
+        d->rivet_y[j] = 0.5 * p->bearing.d_m * cos(phi_r);
+        d->rivet_z[j] = 0.5 * p->bearing.d_m * sin(phi_r);
+    }
+}
+
+static void derive_cage(const Parameters *p, Derived *d)
+{
+    const double R = 0.5 * p->cage.D_o, L = p->cage.land_width, nu = p->oil.eta / p->oil.rho, r_i = 0.5 * p->cage.D_i;
+    d->com_x[0] = -p->cage.x_c;
+    d->com_x[1] = p->cage.x_c;
+    d->com_e = p->cage.unbalance / (2.0 * p->cage.m);
+    d->C_land = 0.5 * p->cage.guide_clearance;
+    d->kappa = p->oil.eta * R * L * L * L / (d->C_land * d->C_land * d->C_land);
+    d->couette = 2.0 * PI * p->oil.eta * R * R * R * L / d->C_land;
+    d->ln_land = log(d->C_land / p->oil.sigma_land);
+    // end face: (1/2) rho omega^2 (r_o^5 - r_i^5) C_n/2, given per omega (drag_cage multiplies by omega)
+    const double face = 0.25 * p->oil.rho_mix * (pow(R, 5.0) - pow(r_i, 5.0)), Re = R * R / nu;
+    d->disk_laminar = face * 3.87 / sqrt(Re);
+    d->disk_turbulent = face * 0.146 * pow(Re, -0.2);
+    // cylinder outside the land, at the same gap
+    const double width = fmax(0.5 * p->cage.width - L, 0.0), Ta = R * d->C_land / nu * sqrt(d->C_land / R);
+    d->cylinder_laminar = p->oil.rho_mix * nu * R / d->C_land * (2.0 * PI * R * width) * R;
+    d->cylinder_vortex = d->cylinder_laminar * 1.3 * pow(Ta / 41.0, 0.539);
+}
+
+static void derive_joint(const Parameters *p, Derived *d)
+{
+    const JointData *joint = &rivet_table.joint;
+    d->P = joint_preload(joint, p->joint.preload, p->rivet.temperature);
+    d->fit_a = joint_fit(joint, p->joint.fit + p->joint.swell, p->rivet.temperature);
+    d->fit_eff = rivet_rom_fit_eff(&rivet_table, d->fit_a, p->rivet.fit_model == FIT_MODEL_J2);
+    d->k_rivet = joint->k_rivet;
+    d->k_plate = joint->k_plate;
+    d->k_plate_t = joint->k_t_plate;
+    d->k_head = joint->k_t_head;
+    d->k_hole = joint_hole_stiffness(joint, d->fit_a);
+    d->hole_gap = fmax(0.0, -d->fit_a);
+    d->c_joint = 2.0 * p->joint.zeta * sqrt((d->k_rivet + d->k_plate) * 0.5 * p->cage.m / Z);
+}
+
+static void derive_scales(const Parameters *p, Derived *d)
+{
+    const double length = 1e-5, velocity = 0.1, r = 0.5 * p->bearing.d_m;
+    d->scale[SCALE_LENGTH] = length;
+    d->scale[SCALE_VELOCITY] = velocity;
+    d->scale[SCALE_ANGLE] = d->scale[SCALE_TILT] = length / r;
+    d->scale[SCALE_RATE] = velocity / r;
+    d->scale[SCALE_SPIN] = velocity / (0.5 * p->bearing.D);
+    d->scale[SCALE_PLATE] = (p->joint.mu * d->P + p->joint.F_floor) / d->k_plate_t;
+    d->scale[SCALE_HEAD] = (p->joint.mu * d->P + p->joint.F_floor) / d->k_head;
+    d->scale[SCALE_ENERGY] = 1e30;
+}
+
+void model_derive(const Parameters *p, Derived *d)
+{
+    memset(d, 0, sizeof *d);
+    derive_balls(p, d);
+    derive_pockets(p, d);
+    derive_cage(p, d);
+    derive_joint(p, d);
+    derive_scales(p, d);
+}

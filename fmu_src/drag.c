@@ -1,0 +1,34 @@
+// Drag in the mixture between the rings.
+//
+//   ball       F = -(1/2) C_d rho_mix (pi D^2/4) v_t |v_t|                                        Schlichting, Boundary-Layer Theory
+//   end face   T_CDS = (1/2) rho_mix omega^2 (r_o^5 - r_i^5) C_n/2,  C_n = 3.87/sqrt(Re) laminar, 0.146/Re^0.2 turbulent, Re = omega r_o^2/nu
+//   cylinder   T_CDO = tau A R,  tau = rho_mix nu omega R/c (Couette), with Taylor vortices 1.3 (Ta/41)^0.539 times more, Ta = omega R c/nu sqrt(c/R)
+//
+// Gupta, Advanced Dynamics of Rolling Elements (1984), churning of rotating cylinders and disks.  The mixture has the oil's kinematic
+// viscosity nu.  Laminar or not: the larger one, continuous.  The lands' own film is in land_film.c.
+#include "drag.h"
+
+void drag_force(const Model *model, Work *w)
+{
+    const real k = real_set(model->d->drag);
+    for (int b = 0; b < BUNDLES; b++) {
+        const int j = b * LANE_WIDTH;
+        const real v_t = real_load(&w->v_t[j]), F = -k * v_t * real_abs(v_t);
+        real_store(&w->F_t[j], real_load(&w->F_t[j]) + F);
+        real_store(&w->dissipated[j], real_load(&w->dissipated[j]) - F * v_t);
+    }
+}
+
+void drag_cage(const Model *model, Work *w)
+{
+    const Derived *d = model->d;
+    const real omega = real_pair(w->half[0].Omega[0], w->half[1].Omega[0]);
+    const real speed = real_abs(omega) + 1e-30, ln_speed = real_log(speed);
+    const real disk = real_max(d->disk_laminar * real_sqrt(speed), d->disk_turbulent * real_exp(0.8 * ln_speed));
+    const real cylinder = real_max(real_set(d->cylinder_laminar), d->cylinder_vortex * real_exp(0.539 * ln_speed));
+    for (int h = 0; h < 2; h++) {
+        const double M = -(disk[h] + cylinder[h]) * omega[h];
+        w->half[h].M[0] += M;
+        w->land_dissipated -= M * omega[h];
+    }
+}

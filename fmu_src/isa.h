@@ -1,0 +1,15 @@
+// The functions of the kernel files that other files call: each instruction set has its own copy under its own name.
+#pragma once
+
+#include "lanes.h"
+
+#define ball_kinematics FOR_ISA(ball_kinematics)
+#define ball_acceleration FOR_ISA(ball_acceleration)
+#define race_contact_force FOR_ISA(race_contact_force)
+#define drag_force FOR_ISA(drag_force)
+#define drag_cage FOR_ISA(drag_cage)
+#define pocket_force FOR_ISA(pocket_force)
+#define land_film_force FOR_ISA(land_film_force)
+#define cage_joint_kinematics FOR_ISA(cage_joint_kinematics)
+#define cage_joint_force FOR_ISA(cage_joint_force)
+#define rhs FOR_ISA(rhs)

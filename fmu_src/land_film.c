@@ -1,0 +1,92 @@
+// Land and outer ring: short journal bearing whose film carries where the gap closes, dry contact behind it.
+//
+//          outer ring          e    land's centre from the ring's axis, eps = e/C, gap h = C - e.n(phi)
+//       .-----------.          V    pure squeeze velocity e_dot - (omega/2) e_x x e: the land turns, the ring stands
+//      /   .-----.   \         film pressure over the width L: p = 6 eta (V.n)/h^3 (L^2/4 - z^2) where V.n > 0, else cavitated
+//     |   (   o e |   |        F = -eta R L^3 int n (V.n)/h^3 dphi = -kappa (I_c V + I_s V_perp),  kappa = eta R L^3/C^3
+//      \   '-----'   /
+//       '-----------'          with a = eps.V/|V|, b = eps.V_perp/|V|, V_perp = e_x x V, q^2 = 1 - eps^2, S = pi/2 + atan(a/q):
+//   I_c = int cos^2 phi/(1 - a cos phi - b sin phi)^3 dphi = 3 a/q^4 + S (q^2 + 3 a^2)/q^5                    phi = -pi/2 ... pi/2
+//   I_s = int sin phi cos phi/(...)^3 dphi               = 2 b/q^4 + a^2 b/(q^4 (1 - b^2)) + 3 a b S/q^5
+//   I_t = int sin^2 phi/(...)^3 dphi                     = a/(q^2 (1 - b^2)) + 3 a b^2/(q^4 (1 - b^2)) + 2 a b^2/(q^2 (1 - b^2)^2) + S (q^2 + 3 b^2)/q^5
+//
+// Steady rotation gives Ocvirk's force (a = 0), pure squeeze the pi-film's.  F derives from int (V.n)^2/h^3 over the closing half, so
+// -dF/dV = kappa (I_c, I_s; I_s, I_t) exactly: these are the stiff rates.  Regular at e = 0; C0 in V (cavitation), C1 elsewhere.
+// q^2 has the floor g_0 and eps the cap 1.2; the dry contact F = K_land (e - C)^1.5 takes over there.
+#include "land_film.h"
+
+#include "hertz.h"
+#include "traction.h"
+
+static const double EPS_CAP = 1.2;
+
+void land_film_force(const Model *model, Work *w)
+{
+    const Parameters *p = model->p;
+    const Derived *d = model->d;
+    Rotor *h0 = &w->half[0], *h1 = &w->half[1];
+    const real x_land = real_pair(-p->cage.land_x, p->cage.land_x);
+
+    // place and velocity of the lands' middles: x + a x_land, v + Omega x a x_land = v + a_dot x_land
+    const real e_y = real_pair(h0->x[1], h1->x[1]) + x_land * real_pair(h0->a[1], h1->a[1]);
+    const real e_z = real_pair(h0->x[2], h1->x[2]) + x_land * real_pair(h0->a[2], h1->a[2]);
+    const real v_y = real_pair(h0->v[1], h1->v[1]) + x_land * real_pair(h0->a_dot[1], h1->a_dot[1]);
+    const real v_z = real_pair(h0->v[2], h1->v[2]) + x_land * real_pair(h0->a_dot[2], h1->a_dot[2]);
+    const real omega = real_pair(h0->Omega[0], h1->Omega[0]);
+
+    // film
+    const real V_y = v_y + 0.5 * omega * e_z, V_z = v_z - 0.5 * omega * e_y;
+    const real V = real_sqrt(V_y * V_y + V_z * V_z + 1e-30);
+    const real n_y = V_y / V, n_z = V_z / V;
+    const real e = real_sqrt(e_y * e_y + e_z * e_z + 1e-30), eps = e / d->C_land;
+    const real cap = real_min(real_set(1.0), EPS_CAP / eps) / d->C_land;
+    const real a = (e_y * n_y + e_z * n_z) * cap, b = (e_z * n_y - e_y * n_z) * cap;
+    const real q2_free = 1.0 - eps * eps, q2 = 0.5 * (q2_free + real_sqrt(q2_free * q2_free + 4.0 * p->cage.g_0 * p->cage.g_0));
+    const real q = real_sqrt(q2), q4 = q2 * q2, q5 = q4 * q, c2 = q2 + a * a;  // c2 = 1 - b^2
+    const real S = 1.5707963267948966 + real_atan(a / q);
+    const real I_c = 3.0 * a / q4 + S * (q2 + 3.0 * a * a) / q5;
+    const real I_s = 2.0 * b / q4 + a * a * b / (q4 * c2) + 3.0 * a * b * S / q5;
+    const real I_t = a / (q2 * c2) + 3.0 * a * b * b / (q4 * c2) + 2.0 * a * b * b / (q2 * c2 * c2) + S * (q2 + 3.0 * b * b) / q5;
+    real F_y = -d->kappa * (I_c * V_y - I_s * V_z), F_z = -d->kappa * (I_c * V_z + I_s * V_y);
+    const real couette = d->couette / q;
+
+    // dry contact and friction at the place of the smallest gap; with mixed lubrication asperities carry their share of the film force too
+    const real u_y = e_y / e, u_z = e_z / e;
+    const real pen = e - d->C_land, pen_dot = v_y * u_y + v_z * u_z;
+    const real N_0 = hertz_load(real_set(p->cage.K_land), pen), N = hertz_damped(N_0, real_set(p->cage.lambda), pen_dot);
+    real N_mu = N;
+    if (p->scene.lubrication == LUBRICATION_MIXED) {
+        const real ln_Lambda = d->ln_land + real_log(q2 / (1.0 + eps));
+        N_mu += traction_asperity_share(ln_Lambda) * real_sqrt(F_y * F_y + F_z * F_z);
+    }
+    const real R = real_set(0.5 * p->cage.D_o), slip = v_z * u_y - v_y * u_z + omega * R;  // along t = e_x x u
+    const real g = p->cage.mu_land * N_mu / real_sqrt(slip * slip + p->cage.v_c * p->cage.v_c);
+    const real F_t = -g * slip;
+    F_y += -N * u_y - F_t * u_z;
+    F_z += -N * u_z + F_t * u_y;
+    const real M_x = R * F_t - couette * omega;
+
+    const real power = F_y * v_y + F_z * v_z + M_x * omega;
+    const real elastic = 0.4 * N_0 * real_max(pen, real_set(0.0)), elastic_rate = N_0 * pen_dot;
+    w->land_elastic = elastic[0] + elastic[1];
+    w->land_dissipated = -(power[0] + elastic_rate[0]) - (power[1] + elastic_rate[1]);
+
+    // rates of the velocities of both halves
+    const real rate_y = d->kappa * (I_c * n_y * n_y - 2.0 * I_s * n_y * n_z + I_t * n_z * n_z);
+    const real rate_z = d->kappa * (I_c * n_z * n_z + 2.0 * I_s * n_y * n_z + I_t * n_y * n_y);
+    for (int h = 0; h < 2; h++) {
+        Rotor *half = &w->half[h];
+        const double F[3] = {0.0, F_y[h], F_z[h]}, arm[3] = {half->a[0] * x_land[h], half->a[1] * x_land[h], half->a[2] * x_land[h]};
+        half->F[1] += F[1];
+        half->F[2] += F[2];
+        half->M[0] += M_x[h] + arm[1] * F[2] - arm[2] * F[1];
+        half->M[1] += -arm[0] * F[2];
+        half->M[2] += arm[0] * F[1];
+        const double lever = x_land[h] - d->com_x[h], tilt = lever * lever / p->cage.J_t;
+        w->D_cage_y[h] = rate_y[h] / p->cage.m;
+        w->D_cage_z[h] = rate_z[h] / p->cage.m;
+        w->D_gamma[h] = rate_y[h] * tilt;
+        w->D_beta[h] = rate_z[h] * tilt;
+        w->D_spin[h] = (couette[h] + g[h] * R[h] * R[h]) / p->cage.J_p;
+    }
+}

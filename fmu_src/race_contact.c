@@ -1,0 +1,175 @@
+// Ball and race: Hertz' contact under a groove that may be displaced and tilted, with traction.
+//
+//            groove-curvature circle, radius R_g about the ring's axis a           p   ball centre - ring centre
+//                  o ________                                                       e   unit vector from the axis to the ball: radial part of p
+//                 /  L       \                                                      L = (p.a) a + (|p - (p.a) a| - R_g) e
+//                /            \         n = L/|L|: out of the groove's centre       delta = |L| - (r_g - R)
+//        race   (    ball      )        through the ball's centre to the contact    delta_dot = n.(v_ball - v_ring - Omega x p)
+//                \            /                                                     Q = K delta^1.5 max(0, 1 + lambda delta_dot)
+//                 \__________/                                                      force on the ball -Q n
+//
+// Nothing is small here: any offset and tilt is exact, so that the normal forces derive from a potential.
+// Slip and mean speed at the contact point p + R n, seen from the frame that orbits with the ball:
+//   u_ball = (omega_ball - omega_m e_x) x R n,   u_race = v_ring + Omega x (p + R n) - v_ball - omega_m e_x x R n
+//   Delta u = u_ball - u_race,   U = (u_ball + u_race)/2     (their parts in the tangent plane)
+// The ring gets the opposite forces at the same points: force -F, moment -(p x F) - M about its centre.
+// Friction angle, spin: `sliced` integrates the traction over the long axis of the ellipse, where slip varies by spin and curvature:
+//   Delta u(xi) = Delta u + Delta omega x (xi t_2 - xi^2/(2 R_m) n),  pressure (3/4)(1 - xi^2/a^2) per length
+// Smoothness: C1 at touch-down.  Hertz' ellipse is not cut at the shoulder.
+#include "race_contact.h"
+
+#include "hertz.h"
+#include "traction.h"
+
+// Gauss-Jacobi points and weights for the weight (3/4)(1 - s^2) on [-1, 1]: exact to degree 13.
+enum { SLICES = 7 };
+static const double SLICE[SLICES] = {-0.8997579954114603, -0.6771862795107377, -0.36311746382617816, 0.0, 0.36311746382617816, 0.6771862795107377, 0.8997579954114603};
+static const double SHARE[SLICES] = {0.02363715011287406, 0.11148030343755763, 0.22556281855841187, 0.27863945578231275, 0.22556281855841187, 0.11148030343755763, 0.02363715011287406};
+
+// What traction needs to know of one contact.
+typedef struct {
+    vec n, t_1, t_2;      // normal, rolling direction, long axis of the ellipse
+    vec slip, roll;       // Delta u, U
+    vec spin;             // omega_ball - Omega of the race
+    vec approach;         // velocity of the ball's centre against the race there
+    real Q, sqrt_delta, R;
+} Contact;
+
+// Traction at a point or over the slices, and the inlet's rolling friction.
+INLINE Tangential race_traction(const Model *model, const Race *race, const Contact *c, bool mixed, bool sliced)
+{
+    const Parameters *p = model->p;
+    const real U = real_sqrt(vec_dot(c->roll, c->roll) + p->oil.U_0 * p->oil.U_0);
+    const real ln_U = real_log(U), ln_Q = real_log(c->Q + Q_FLOOR);
+    const real f_a = mixed ? traction_asperity_share(traction_ln_film(real_set(race->ln_Lambda), ln_U, ln_Q)) : real_set(0.0);
+    const real F_R = traction_inlet(real_set(race->rolling), ln_U, c->Q, ln_Q);
+    const vec arm = vec_scale(c->R, c->n);
+
+    Tangential out;
+    if (!sliced) {
+        const real slip = real_sqrt(vec_dot(c->slip, c->slip) + p->oil.v_0 * p->oil.v_0);
+        out.g = traction_mu(p, slip / U, f_a, mixed) * c->Q / slip;
+        out.F_s = vec_scale(-out.g, c->slip);
+        out.M = vec_cross(arm, out.F_s);
+        out.dissipated = -vec_dot(out.F_s, c->slip);
+    } else {
+        const real a = race->hertz.a_delta * c->sqrt_delta;
+        const real spin_n = vec_dot(c->spin, c->n);
+        const vec bend = vec_cross(c->spin, c->n);                              // its part along t_1 and t_2 only
+        out = (Tangential){0};
+        for (int i = 0; i < SLICES; i++) {
+            const real xi = a * SLICE[i], sagitta = xi * xi * (0.5 / race->R_m);
+            const vec slip_i = vec_axpy(-sagitta, bend, vec_axpy(-xi * spin_n, c->t_1, c->slip));
+            const real slip = real_sqrt(vec_dot(slip_i, slip_i) + p->oil.v_0 * p->oil.v_0);
+            const real g = SHARE[i] * traction_mu(p, slip / U, f_a, mixed) * c->Q / slip;
+            const vec F = vec_scale(-g, slip_i);
+            out.g += g;
+            out.F_s = vec_add(out.F_s, F);
+            out.M = vec_add(out.M, vec_cross(vec_axpy(xi, c->t_2, vec_scale(c->R - sagitta, c->n)), F));
+            out.dissipated -= vec_dot(F, slip_i);
+        }
+    }
+    // Inlet: -F_R U/|U| at the surface, the film's horizontal pressure force +F_H U/|U| through the ball's centre.
+    const vec rolling = vec_scale(F_R / U, c->roll);
+    out.F_s = vec_sub(out.F_s, rolling);
+    out.M = vec_sub(out.M, vec_cross(arm, rolling));
+    out.F_c = vec_scale(real_set(race->horizontal), rolling);
+    out.dissipated += vec_dot(rolling, c->slip) - vec_dot(out.F_c, c->approach);
+    return out;
+}
+
+INLINE void race_contact_bundle(const Model *model, Work *w, int j, bool mixed, bool sliced)
+{
+    const Parameters *p = model->p;
+    const Derived *d = model->d;
+    const real cos_theta = real_load(&w->cos_theta[j]), sin_theta = real_load(&w->sin_theta[j]);
+    const real omega_m = real_load(&w->omega_m[j]), R = real_load(&d->R[j]), lambda = real_set(p->bearing.lambda);
+    const vec v_b = vec_load(&w->v_x[j], &w->v_r[j], &w->v_t[j]);
+    const vec omega_b = vec_load(&w->omega_x[j], &w->omega_r[j], &w->omega_t[j]);
+    const vec position = {real_load(&w->x[j]), real_load(&w->r[j]), real_set(0.0)};
+    const real tiny = real_set(1e-30);  // ghosts and balls at a groove's centre: no division by 0
+
+    // ---- inner race: the ring's centre x_i, axis a, in the ball's frame
+    const vec a = vec_local(w->ring.a, cos_theta, sin_theta), Omega = vec_local(w->ring.Omega, cos_theta, sin_theta);
+    const vec v_i = vec_local(w->ring.v, cos_theta, sin_theta);
+    const vec p_i = vec_sub(position, vec_local(w->ring.x, cos_theta, sin_theta));
+    const real along = vec_dot(p_i, a);
+    const vec radial = vec_axpy(-along, a, p_i);
+    const real r_i = real_sqrt(vec_dot(radial, radial) + tiny);
+    const vec e = vec_scale(1.0 / r_i, radial);
+    const real across = r_i - d->inner.R_g;
+    const real L_i = real_sqrt(along * along + across * across + tiny);
+    Contact inner = {.R = R, .n = vec_axpy(across / L_i, e, vec_scale(along / L_i, a)), .t_1 = vec_cross(a, e)};
+    inner.approach = vec_sub(vec_sub(v_b, v_i), vec_cross(Omega, p_i));
+    const real delta_i = L_i - (d->inner.r_g - R), delta_i_dot = vec_dot(inner.n, inner.approach);
+    const real Q_i0 = hertz_load(real_set(d->inner.hertz.K), delta_i);
+    inner.Q = hertz_damped(Q_i0, lambda, delta_i_dot);
+    inner.sqrt_delta = real_sqrt(real_max(delta_i, real_set(0.0)));
+    inner.t_2 = vec_cross(inner.n, inner.t_1);
+    inner.spin = vec_sub(omega_b, Omega);
+    {
+        const vec arm = vec_scale(R, inner.n);
+        const vec ball = vec_cross(omega_b, arm), orbit = vec_cross((vec){omega_m, real_set(0.0), real_set(0.0)}, arm);
+        const vec race = vec_sub(vec_cross(Omega, arm), inner.approach);  // v_i + Omega x (p + arm) - v_b
+        inner.slip = vec_across(vec_sub(ball, race), inner.n);
+        inner.roll = vec_across(vec_axpy(real_set(-1.0), orbit, vec_scale(real_set(0.5), vec_add(ball, race))), inner.n);
+    }
+    const Tangential T_i = race_traction(model, &d->inner, &inner, mixed, sliced);
+    const vec F_i = vec_axpy(-inner.Q, inner.n, vec_add(T_i.F_s, T_i.F_c));
+
+    // ---- outer race: fixed, its axis is X
+    const real L_er = position.r - d->outer.R_g, L_e = real_sqrt(position.x * position.x + L_er * L_er + tiny);
+    Contact outer = {.R = R, .n = {position.x / L_e, L_er / L_e, real_set(0.0)}, .t_1 = {real_set(0.0), real_set(0.0), real_set(1.0)}};
+    outer.approach = v_b;
+    const real delta_e = L_e - (d->outer.r_g - R), delta_e_dot = outer.n.x * v_b.x + outer.n.r * v_b.r;
+    const real Q_e0 = hertz_load(real_set(d->outer.hertz.K), delta_e);
+    outer.Q = hertz_damped(Q_e0, lambda, delta_e_dot);
+    outer.sqrt_delta = real_sqrt(real_max(delta_e, real_set(0.0)));
+    outer.t_2 = (vec){outer.n.r, -outer.n.x, real_set(0.0)};
+    outer.spin = omega_b;
+    {
+        const vec ball = {-omega_b.t * R * outer.n.r, omega_b.t * R * outer.n.x, R * (omega_b.x * outer.n.r - omega_b.r * outer.n.x)};
+        const real orbit = omega_m * R * outer.n.r;  // along t
+        outer.slip = vec_across(vec_add(ball, v_b), outer.n);
+        outer.roll = vec_across((vec){0.5 * (ball.x - v_b.x), 0.5 * (ball.r - v_b.r), 0.5 * (ball.t - v_b.t) - orbit}, outer.n);
+    }
+    const Tangential T_e = race_traction(model, &d->outer, &outer, mixed, sliced);
+    const vec F_e = vec_axpy(-outer.Q, outer.n, vec_add(T_e.F_s, T_e.F_c));
+
+    // ---- sums on the ball, its stiff rates, the wrench on the ring
+    vec_store(vec_add(F_i, F_e), &w->F_x[j], &w->F_r[j], &w->F_t[j]);
+    vec_store(vec_add(T_i.M, T_e.M), &w->M_x[j], &w->M_r[j], &w->M_t[j]);
+    const real g = T_i.g + T_e.g, spin_rate = R * R / d->J, mass_rate = real_set(1.0 / d->m);
+    const real g_x = g - T_i.g * inner.n.x * inner.n.x - T_e.g * outer.n.x * outer.n.x;
+    const real g_r = g - T_i.g * inner.n.r * inner.n.r - T_e.g * outer.n.r * outer.n.r;
+    const real g_t = g - T_i.g * inner.n.t * inner.n.t;
+    vec_store((vec){mass_rate * g_x, mass_rate * g_r, mass_rate * g_t}, &w->D_x[j], &w->D_r[j], &w->D_t[j]);
+    vec_store((vec){spin_rate * g_x, spin_rate * g_r, spin_rate * g_t}, &w->D_omega_x[j], &w->D_omega_r[j], &w->D_omega_t[j]);
+    real_store(&w->dissipated[j], T_i.dissipated + T_e.dissipated + (inner.Q - Q_i0) * delta_i_dot + (outer.Q - Q_e0) * delta_e_dot);
+
+    const vec M_ring = vec_sub(vec_scale(real_set(-1.0), vec_cross(p_i, F_i)), T_i.M);
+    vec_to_global(vec_scale(real_set(-1.0), F_i), cos_theta, sin_theta, &w->ring_F_x[j], &w->ring_F_y[j], &w->ring_F_z[j]);
+    vec_to_global(M_ring, cos_theta, sin_theta, &w->ring_M_x[j], &w->ring_M_y[j], &w->ring_M_z[j]);
+
+    real_store(&w->delta_i[j], delta_i);
+    real_store(&w->delta_e[j], delta_e);
+    real_store(&w->Q_i[j], inner.Q);
+    real_store(&w->Q_e[j], outer.Q);
+    vec_store(inner.n, &w->n_ix[j], &w->n_ir[j], &w->n_it[j]);
+    real_store(&w->n_ex[j], outer.n.x);
+    real_store(&w->n_er[j], outer.n.r);
+    real_store(&w->U_i[j], real_sqrt(vec_dot(inner.roll, inner.roll)));
+    real_store(&w->U_e[j], real_sqrt(vec_dot(outer.roll, outer.roll)));
+}
+
+void race_contact_force(const Model *model, Work *w)
+{
+    const bool mixed = model->p->scene.lubrication == LUBRICATION_MIXED, sliced = model->p->scene.traction == TRACTION_SLICED;
+    for (int b = 0; b < BUNDLES; b++) {
+        const int j = b * LANE_WIDTH;
+        if (sliced)
+            mixed ? race_contact_bundle(model, w, j, true, true) : race_contact_bundle(model, w, j, false, true);
+        else
+            mixed ? race_contact_bundle(model, w, j, true, false) : race_contact_bundle(model, w, j, false, false);
+    }
+}

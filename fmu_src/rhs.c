@@ -1,0 +1,188 @@
+// The table of contents of the physics: one evaluation of dy/dt in named steps.
+#include "rhs.h"
+
+#include "ball.h"
+#include "cage_joint.h"
+#include "drag.h"
+#include "land_film.h"
+#include "pocket.h"
+#include "race_contact.h"
+#include "ring.h"
+
+// Pose and velocity of inner ring and cage halves from y.  A half's states are those of its centre of mass.
+static void rotor_kinematics(const Model *model, const double *y, Work *w)
+{
+    Rotor *ring = &w->ring;
+    for (int i = 0; i < 3; i++) {
+        ring->x[i] = y[Y_RING_X + i];
+        ring->v[i] = y[Y_RING_V_X + i];
+    }
+    rotor_axis(ring, y[Y_RING_BETA], y[Y_RING_GAMMA], y[Y_RING_BETA_DOT], y[Y_RING_GAMMA_DOT], model->drive->omega);
+
+    real sine, cosine;
+    real_sincos(real_pair(y[Y_CAGE_PSI], y[Y_CAGE_PSI + 1]), &sine, &cosine);
+    for (int h = 0; h < 2; h++) {
+        Rotor *half = &w->half[h];
+        rotor_axis(half, y[Y_CAGE_BETA + h], y[Y_CAGE_GAMMA + h], y[Y_CAGE_BETA_DOT + h], y[Y_CAGE_GAMMA_DOT + h], y[Y_CAGE_S + h]);
+        rotor_body_axes(half, cosine[h], sine[h]);
+        double drift[3];
+        for (int i = 0; i < 3; i++) half->c[i] = model->d->com_x[h] * half->a[i] + model->d->com_e * half->b_y[i];
+        cross3(half->Omega, half->c, drift);
+        for (int i = 0; i < 3; i++) {
+            half->x[i] = y[Y_CAGE_X + 2 * i + h] - half->c[i];
+            half->v[i] = y[Y_CAGE_V_X + 2 * i + h] - drift[i];
+        }
+    }
+    if (model->p->scene.cage == CAGE_MODEL_RIGID) {  // half 1 goes with half 0
+        Rotor *h0 = &w->half[0], *h1 = &w->half[1];
+        double drift[3];
+        *h1 = *h0;
+        for (int i = 0; i < 3; i++) h1->c[i] = model->d->com_x[1] * h0->a[i] + model->d->com_e * h0->b_y[i];
+        cross3(h1->Omega, h1->c, drift);
+    }
+}
+
+// Sums of the balls' contacts on ring and halves.
+static void rotor_sums(bool rigid, Work *w)
+{
+    const double *ring[] = {w->ring_F_x, w->ring_F_y, w->ring_F_z, w->ring_M_x, w->ring_M_y, w->ring_M_z};
+    for (int i = 0; i < 3; i++) {
+        w->ring.F[i] = lanes_sum(ring[i]);
+        w->ring.M[i] = lanes_sum(ring[3 + i]);
+    }
+    for (int h = 0; h < 2; h++) {
+        const double *half[] = {w->half_F_x[h], w->half_F_y[h], w->half_F_z[h], w->half_M_x[h], w->half_M_y[h], w->half_M_z[h]};
+        const bool carries = h == 0 || !rigid;
+        for (int i = 0; i < 3; i++) {
+            w->half[h].F[i] = carries ? lanes_sum(half[i]) : 0.0;
+            w->half[h].M[i] = carries ? lanes_sum(half[3 + i]) : 0.0;
+        }
+    }
+}
+
+// y_dot of half h whose centre of mass accelerates by acc, whose axis by a_ddot.
+static void half_rates(const double *y, const Rotor *half, int h, const double acc[3], const double a_ddot[3], double s_dot, double *y_dot)
+{
+    for (int i = 0; i < 3; i++) {
+        y_dot[Y_CAGE_X + 2 * i + h] = y[Y_CAGE_V_X + 2 * i + h];
+        y_dot[Y_CAGE_V_X + 2 * i + h] = acc[i];
+    }
+    y_dot[Y_CAGE_BETA + h] = y[Y_CAGE_BETA_DOT + h];
+    y_dot[Y_CAGE_GAMMA + h] = y[Y_CAGE_GAMMA_DOT + h];
+    y_dot[Y_CAGE_PSI + h] = half->s - rotor_roll(half);
+    y_dot[Y_CAGE_BETA_DOT + h] = -a_ddot[2];
+    y_dot[Y_CAGE_GAMMA_DOT + h] = a_ddot[1];
+    y_dot[Y_CAGE_S + h] = s_dot;
+}
+
+// Both halves under their forces, or as one rigid body about their common centre of mass.
+static void cage_acceleration(const Model *model, const double *y, const Work *w, double *y_dot)
+{
+    const Parameters *p = model->p;
+    const double gravity[3] = {0.0, p->gravity.y, p->gravity.z};
+    double M[3], lever[3], a_ddot[3], acc[3], s_dot;
+    if (p->scene.cage == CAGE_MODEL_TWO_HALF) {
+        for (int h = 0; h < 2; h++) {
+            const Rotor *half = &w->half[h];
+            cross3(half->c, half->F, lever);
+            for (int i = 0; i < 3; i++) {
+                M[i] = half->M[i] - lever[i];
+                acc[i] = half->F[i] / p->cage.m + gravity[i];
+            }
+            rotor_acceleration(half, p->cage.J_p, p->cage.J_t, M, a_ddot, &s_dot);
+            half_rates(y, half, h, acc, a_ddot, s_dot, y_dot);
+        }
+        return;
+    }
+    const Rotor *cage = &w->half[0];
+    const double J_t = 2.0 * (p->cage.J_t + p->cage.m * model->d->com_x[1] * model->d->com_x[1]);
+    double F[3], c[3], spin_up[3], carried[3], around[3], inward[3];
+    for (int i = 0; i < 3; i++) {
+        F[i] = w->half[0].F[i] + w->half[1].F[i];
+        c[i] = model->d->com_e * cage->b_y[i];
+    }
+    cross3(c, F, lever);
+    for (int i = 0; i < 3; i++) M[i] = w->half[0].M[i] + w->half[1].M[i] - lever[i];
+    rotor_acceleration(cage, 2.0 * p->cage.J_p, J_t, M, a_ddot, &s_dot);
+    cross3(cage->a, a_ddot, spin_up);
+    for (int i = 0; i < 3; i++) spin_up[i] += s_dot * cage->a[i] + cage->s * cage->a_dot[i];  // rate of Omega
+    for (int h = 0; h < 2; h++) {
+        for (int i = 0; i < 3; i++) c[i] = model->d->com_x[h] * cage->a[i];
+        cross3(spin_up, c, carried);
+        cross3(cage->Omega, c, around);
+        cross3(cage->Omega, around, inward);
+        for (int i = 0; i < 3; i++) acc[i] = F[i] / (2.0 * p->cage.m) + gravity[i] + carried[i] + inward[i];
+        half_rates(y, cage, h, acc, a_ddot, s_dot, y_dot);
+    }
+    for (int i = 0; i < 4 * Z; i++) y_dot[Y_JOINT_PLATE_Y + i] = 0.0;
+}
+
+// Net power into balls and cage: by the ring's motion and gravity, less what is dissipated.
+static double net_power(const Model *model, const Work *w)
+{
+    double power = -dot3(w->ring.F, w->ring.v) - dot3(w->ring.M, w->ring.Omega) - lanes_sum(w->dissipated) - w->land_dissipated;
+    if (model->p->scene.cage == CAGE_MODEL_TWO_HALF) power -= lanes_sum(w->joint_dissipated);
+    const double g_y = model->p->gravity.y, g_z = model->p->gravity.z;
+    if (g_y != 0.0 || g_z != 0.0) {
+        for (int j = 0; j < Z; j++) {
+            const double v_y = w->v_r[j] * w->cos_theta[j] - w->v_t[j] * w->sin_theta[j];
+            const double v_z = w->v_r[j] * w->sin_theta[j] + w->v_t[j] * w->cos_theta[j];
+            power += model->d->m * (g_y * v_y + g_z * v_z);
+        }
+        for (int h = 0; h < 2; h++) {
+            double drift[3];
+            cross3(w->half[h].Omega, w->half[h].c, drift);
+            power += model->p->cage.m * (g_y * (w->half[h].v[1] + drift[1]) + g_z * (w->half[h].v[2] + drift[2]));
+        }
+    }
+    return power;
+}
+
+// The stiff rates in the order of y.
+static void stiff_rates(const Model *model, const Work *w, double *D)
+{
+    memset(D, 0, N_STATES * sizeof *D);
+    const double *ball[] = {w->D_x, w->D_r, w->D_t, w->D_omega_x, w->D_omega_r, w->D_omega_t};
+    for (int i = 0; i < 6; i++) memcpy(&D[Y_BALL_V_X + i * Z], ball[i], Z * sizeof *D);
+    if (model->p->scene.cage == CAGE_MODEL_TWO_HALF) {
+        memcpy(&D[Y_JOINT_PLATE_Y], w->D_plate, Z * sizeof *D);
+        memcpy(&D[Y_JOINT_PLATE_Z], w->D_plate, Z * sizeof *D);
+        memcpy(&D[Y_JOINT_HEAD_Y], w->D_head, Z * sizeof *D);
+        memcpy(&D[Y_JOINT_HEAD_Z], w->D_head, Z * sizeof *D);
+    }
+    for (int h = 0; h < 2; h++) {
+        D[Y_CAGE_V_Y + h] = w->D_cage_y[h];
+        D[Y_CAGE_V_Z + h] = w->D_cage_z[h];
+        D[Y_CAGE_BETA_DOT + h] = w->D_beta[h];
+        D[Y_CAGE_GAMMA_DOT + h] = w->D_gamma[h];
+        D[Y_CAGE_S + h] = w->D_spin[h];
+    }
+}
+
+void rhs(const Model *model, double t, const double *y, double *y_dot, double *D, Work *w)
+{
+    const bool rigid = model->p->scene.cage == CAGE_MODEL_RIGID;
+    ball_kinematics(y, w);
+    rotor_kinematics(model, y, w);
+    race_contact_force(model, w);
+    pocket_force(model, w);
+    drag_force(model, w);
+    rotor_sums(rigid, w);
+    land_film_force(model, w);
+    drag_cage(model, w);
+    if (!rigid) {
+        cage_joint_kinematics(model, w);
+        cage_joint_force(model, y, w);
+    }
+    ball_acceleration(model, w, y_dot);
+    cage_acceleration(model, y, w, y_dot);
+    ring_acceleration(model, t, w, y_dot);
+    if (!rigid) {
+        memcpy(&y_dot[Y_JOINT_PLATE_Y], w->plate_y_dot, Z * sizeof *y_dot);
+        memcpy(&y_dot[Y_JOINT_PLATE_Z], w->plate_z_dot, Z * sizeof *y_dot);
+        memcpy(&y_dot[Y_JOINT_HEAD_Y], w->head_y_dot, Z * sizeof *y_dot);
+        memcpy(&y_dot[Y_JOINT_HEAD_Z], w->head_z_dot, Z * sizeof *y_dot);
+    }
+    y_dot[Y_WORK] = net_power(model, w);
+    if (D != NULL) stiff_rates(model, w, D);
+}

@@ -1,0 +1,164 @@
+// Rivet stress from the reduced model: see rivet_rom.h for the equations.
+#include "rivet_rom.h"
+
+#include <math.h>
+#include <string.h>
+
+// Three active splines of one axis: index of the first coefficient and their weights.
+typedef struct {
+    int first;
+    double w[3];
+} Splines;
+
+// Cell of u: number of inner knots not above it.
+static int axis_cell(const RivetAxis *axis, double u)
+{
+    int cell = 0;
+    for (int i = 1; i < axis->cells; i++) cell += u >= axis->knot[i];
+    return cell;
+}
+
+// Quadratic B-splines (de Boor), u inside the axis.  Their sum is 1; C1 at the knots.
+static Splines axis_splines(const RivetAxis *axis, double u)
+{
+    int i = axis_cell(axis, u);
+    double up = u - axis->knot[i], down = axis->knot[i + 1] - u;
+    Splines s = {.first = i};
+    s.w[0] = down * down * axis->fall[i];
+    s.w[2] = up * up * axis->rise[i];
+    s.w[1] = 1.0 - s.w[0] - s.w[2];
+    return s;
+}
+
+// s times the splines of xi = fit/s, without dividing where s may vanish.
+static Splines axis_splines_xi(const RivetAxis *axis, double s, double fit)
+{
+    int last = axis->cells - 1;
+    if (fit <= s * axis->knot[0]) return (Splines){.first = 0, .w = {s, 0.0, 0.0}};
+    double beyond = fit - s * axis->knot[axis->cells];
+    if (beyond >= 0.0) {  // end value and end slope, which is 2 h rise of the last spline
+        double w = 2.0 * (axis->knot[last + 1] - axis->knot[last]) * axis->rise[last] * beyond;
+        return (Splines){.first = last, .w = {0.0, -w, s + w}};
+    }
+    Splines splines = axis_splines(axis, fit / s);
+    for (int i = 0; i < 3; i++) splines.w[i] *= s;
+    return splines;
+}
+
+// s T: the place of a load in the table.
+static void load_splines(const RivetTable *t, const RivetLoad *load, double fit_eff, Splines at[RIVET_AXES])
+{
+    double P = fmax(load->P, 0.0), N = fmax(load->N, 0.0);
+    double V = sqrt(load->V_y * load->V_y + load->V_z * load->V_z), M = sqrt(load->M_y * load->M_y + load->M_z * load->M_z);
+    double axial = P + N, force = axial + V, moment = M / t->moment_length, s = force + moment, VM = V * M;
+    double chi = VM > 0.0 ? (load->V_y * load->M_z - load->V_z * load->M_y) / VM : 0.0;
+    at[RIVET_A] = axis_splines(&t->axis[RIVET_A], force > 0.0 ? V / force : 0.0);
+    at[RIVET_B] = axis_splines(&t->axis[RIVET_B], axial > 0.0 ? N / axial : 0.0);
+    at[RIVET_C] = axis_splines(&t->axis[RIVET_C], s > 0.0 ? moment / s : 0.0);
+    at[RIVET_CHI] = axis_splines(&t->axis[RIVET_CHI], fmin(fmax(chi, -1.0), 1.0));
+    at[RIVET_XI] = axis_splines_xi(&t->axis[RIVET_XI], s, fit_eff);
+}
+
+// Two channels side by side.
+typedef double pair __attribute__((vector_size(16)));
+
+static inline pair pair_load(const double *from)
+{
+    pair value;
+    memcpy(&value, from, sizeof value);
+    return value;
+}
+
+// Tensor product over 3^5 coefficients of a pair of channels.  Order of sums: chi with xi, c, b, a.
+static void contract(const RivetTable *t, const double *coefficients, const Splines at[RIVET_AXES], double sigma[2])
+{
+    const Splines *A = &at[RIVET_A], *B = &at[RIVET_B], *C = &at[RIVET_C], *X = &at[RIVET_CHI], *xi = &at[RIVET_XI];
+    int n_b = t->axis[RIVET_B].cells + 2, n_c = t->axis[RIVET_C].cells + 2;
+    int n_chi = t->axis[RIVET_CHI].cells + 2, n_xi = t->axis[RIVET_XI].cells + 2;
+    pair w[9];
+    for (int i = 0; i < 3; i++)
+        for (int k = 0; k < 3; k++) w[3 * i + k] = xi->w[i] * X->w[k] - (pair){0};
+    pair sum = {0};
+    for (int a = 0; a < 3; a++) {
+        pair sum_a = {0};
+        for (int b = 0; b < 3; b++) {
+            pair sum_b = {0};
+            for (int c = 0; c < 3; c++) {
+                int row = ((A->first + a) * n_b + B->first + b) * n_c + C->first + c;
+                const double *T = coefficients + 2 * ((row * n_xi + xi->first) * n_chi + X->first);
+                pair part[3];
+                for (int i = 0; i < 3; i++, T += 2 * n_chi)
+                    part[i] = w[3 * i] * pair_load(T) + w[3 * i + 1] * pair_load(T + 2) + w[3 * i + 2] * pair_load(T + 4);
+                sum_b += C->w[c] * (part[0] + part[1] + part[2]);
+            }
+            sum_a += B->w[b] * sum_b;
+        }
+        sum += A->w[a] * sum_a;
+    }
+    memcpy(sigma, &sum, sizeof sum);
+}
+
+void rivet_rom_primary(const RivetTable *t, const RivetLoad *load, double fit_eff, double *head_p1, double *mid_vm)
+{
+    Splines at[RIVET_AXES];
+    double pair[2];
+    load_splines(t, load, fit_eff, at);
+    contract(t, t->primary, at, pair);
+    *head_p1 = pair[0] + t->head_friction * load->F_head;
+    *mid_vm = pair[1];
+}
+
+unsigned rivet_rom_stress(const RivetTable *t, const RivetLoad *load, double fit_eff, double sigma[RIVET_CHANNELS])
+{
+    Splines at[RIVET_AXES];
+    double primary[2], secondary[2];
+    load_splines(t, load, fit_eff, at);
+    contract(t, t->primary, at, primary);
+    contract(t, t->secondary, at, secondary);
+    sigma[HEAD_P1] = primary[0] + t->head_friction * load->F_head;
+    sigma[MID_VM] = primary[1];
+    sigma[HEAD_VM] = secondary[0] + t->head_friction_vm * load->F_head;
+    sigma[MID_P1] = secondary[1];
+
+    unsigned flags = 0;
+    if (fmax(sigma[HEAD_VM], sigma[MID_VM]) > t->yield_rivet) flags |= RIVET_YIELDS;
+    if (fit_eff > t->fit_flange_yield) flags |= FLANGE_YIELDS;
+    if (load->N < 0.0) flags |= JOINT_COMPRESSED;
+    if (fit_eff > t->j2.fit_a[t->j2.count - 1] || !isfinite(sigma[HEAD_P1])) flags |= RIVET_OUTSIDE;
+    return flags;
+}
+
+double rivet_rom_fit_eff(const RivetTable *t, double fit_a, bool j2)
+{
+    const FitMap *map = &t->j2;
+    int last = map->count - 1;
+    if (!j2 || fit_a <= map->fit_a[0]) return fit_a;
+    if (fit_a >= map->fit_a[last]) return map->fit_eff[last] + map->slope[last] * (fit_a - map->fit_a[last]);
+    int i = 0;
+    while (fit_a >= map->fit_a[i + 1]) i++;
+    double h = map->fit_a[i + 1] - map->fit_a[i], u = (fit_a - map->fit_a[i]) / h, v = 1.0 - u;
+    return map->fit_eff[i] * v * v * (1.0 + 2.0 * u) + map->fit_eff[i + 1] * u * u * (1.0 + 2.0 * v)
+           + h * u * v * (map->slope[i] * v - map->slope[i + 1] * u);
+}
+
+// The flanges outgrow the rivet: k_stack (alpha_flange - alpha_rivet) grip per kelvin.
+double joint_preload(const JointData *j, double preload, double T)
+{
+    return fmax(0.0, preload + j->k_stack * (j->alpha_flange - j->alpha_rivet) * j->grip * (T - j->T_0));
+}
+
+double joint_fit(const JointData *j, double fit, double T)
+{
+    return fit - (j->alpha_flange - j->alpha_rivet) * j->d * (T - j->T_0);
+}
+
+double joint_hole_stiffness(const JointData *j, double fit_a)
+{
+    int last = j->hole_count - 1;
+    if (fit_a <= j->hole_fit[0]) return j->k_hole[0];
+    if (fit_a >= j->hole_fit[last]) return j->k_hole[last];
+    int i = 0;
+    while (fit_a >= j->hole_fit[i + 1]) i++;
+    double u = (fit_a - j->hole_fit[i]) / (j->hole_fit[i + 1] - j->hole_fit[i]);
+    return j->k_hole[i] + u * (j->k_hole[i + 1] - j->k_hole[i]);
+}

@@ -1,0 +1,106 @@
+// Rivet stress and joint data from the reduced rivet model: one table, read here and in bearing_model/rivet_rom.py.
+//
+//      N ^  | M        +x half: force V, moment M, pull N from outside,
+//     ___|__|_____     -x half: the opposite
+//    |   |     ___|--> V
+//    |   |rivet   |
+//    |-- | -------|    split plane, x = 0, where V and M are taken
+//    |___|________|
+//
+// The frictionless joint (elastic bodies, unilateral contacts, gaps proportional to the fit) answers homogeneously of degree 1 in
+// (P, N, V, M, fit), so one argument divides out:
+//
+//     sigma = s T(a, b, c, chi, xi),          s = P + N + V + |M|/L        L = moment_length of the table
+//     a = V/(P + N + V),  b = N/(P + N),  c = |M|/(L s),  chi = cos of the angle between V and the axial pull of M's opening side
+//         = (V_y M_z - V_z M_y)/(V |M|),  xi = fit_eff/s
+//
+// a, b, c lie in [0, 1] for every load, so no load lies outside the table.  xi: constant below its axis (contact in the hole is
+// saturated: the size of the gap no longer matters), linear above (every contact of the hole closed).  T is a tensor product of
+// quadratic B-splines, C1 in each argument; sigma is C0 where V, N + P or M passes through 0.  Head friction adds head_friction F_head to
+// the head channels and nothing in the middle.
+#pragma once
+
+#include <stdbool.h>
+
+// Loads of one rivet [N, N.m]; y, z: two perpendicular directions in the plane of the joint, x, y, z right-handed.
+typedef struct {
+    double P;         // preload
+    double N;         // external tension of the joint, before preload shielding; negative (compression) counts as 0
+    double V_y, V_z;  // transverse load that the rivet carries, on the +x half
+    double M_y, M_z;  // prying moment about the rivet's place in the split plane, on the +x half
+    double F_head;    // modulus of the friction force at the heads
+} RivetLoad;
+
+enum { HEAD_P1, HEAD_VM, MID_VM, MID_P1, RIVET_CHANNELS };  // largest principal (P1) and von Mises (VM) stress in head fillet and middle
+
+enum {
+    RIVET_YIELDS = 1,      // a von Mises channel exceeds the rivet's yield stress
+    FLANGE_YIELDS = 2,     // the fit exceeds the one at which the flange begins to yield
+    JOINT_COMPRESSED = 4,  // N < 0 counted as 0
+    RIVET_OUTSIDE = 8      // the fit exceeds the largest one of fit_eff's map, or a load is not finite
+};
+
+enum { RIVET_A, RIVET_B, RIVET_C, RIVET_CHI, RIVET_XI, RIVET_AXES };
+
+// Clamped knots of one axis: `cells` + 1 knots, `cells` + 2 coefficients, and for each cell i the constants of its three splines
+//   rise[i] = 1/((t[i+2] - t[i]) (t[i+1] - t[i])),  fall[i] = 1/((t[i+1] - t[i-1]) (t[i+1] - t[i])).
+typedef struct {
+    int cells;
+    const double *knot, *rise, *fall;
+} RivetAxis;
+
+// Monotone map fit_a -> fit_eff: piecewise cubic Hermite with given slopes, continued linearly.
+typedef struct {
+    int count;
+    const double *fit_a, *fit_eff, *slope;  // [m, m, 1]
+} FitMap;
+
+// One rivet joint for the dynamics, in SI.
+typedef struct {
+    double A;                   // shank section [m2]
+    double d_m;                 // diameter of the circle of rivets [m]
+    double grip;                // clamped length [m]
+    double k_rivet;             // axial stiffness of the open joint: rivet, heads and flanges in series [N/m]
+    double k_plate;             // what the closed split plane adds to it [N/m]
+    double k_t_plate;           // tangential stiffness of the split plane before it slips [N/m]
+    double k_t_head;            // of the two heads in series, through the rivet [N/m]
+    double k_stack;             // preload per change of length of the rivet against the flanges [N/m]
+    double alpha_rivet;         // thermal expansion [1/K]
+    double alpha_flange;        // [1/K]
+    double d;                   // shank diameter [m]
+    double T_0;                 // temperature at which preload and fit are given [K]
+    int hole_count;             // hole contact: tangent stiffness k_hole [N/m] of both holes in series over fit_a [m]
+    const double *hole_fit, *k_hole;
+} JointData;
+
+typedef struct {
+    const char *kind;           // "closed_form" or "fe"
+    const char *geometry_hash;  // of the rivet, flanges and cage that it was computed for
+    int Z;
+    double moment_length;       // L [m]
+    RivetAxis axis[RIVET_AXES];
+    const double *primary;       // spline coefficients [a][b][c][xi][chi][HEAD_P1, MID_VM], in 1/m2
+    const double *secondary;     // the same of [HEAD_VM, MID_P1]
+    double head_friction;       // [1/m2]
+    double head_friction_vm;    // [1/m2]
+    double yield_rivet;         // [Pa]
+    double fit_flange_yield;    // effective fit at which the flange begins to yield [m]
+    FitMap j2;                  // interference with plasticity
+    JointData joint;
+    const double *load_path;    // [Z][5][3], see load_path.h
+} RivetTable;
+
+extern const RivetTable rivet_table;  // rivet_table.c, written by rivet_model/embed.py
+
+// Effective fit [m]: fit_a itself, or with j2 the elastic fit that leaves the pressure of the yielded flange.
+double rivet_rom_fit_eff(const RivetTable *t, double fit_a, bool j2);
+
+// All channels sigma [Pa]; returns the flags.  Never NaN for finite loads.
+unsigned rivet_rom_stress(const RivetTable *t, const RivetLoad *load, double fit_eff, double sigma[RIVET_CHANNELS]);
+
+// The two channels of peaks and fatigue only, at half the cost: HEAD_P1 and MID_VM [Pa].
+void rivet_rom_primary(const RivetTable *t, const RivetLoad *load, double fit_eff, double *head_p1, double *mid_vm);
+
+double joint_preload(const JointData *j, double preload, double T);  // preload at temperature T [N], not below 0
+double joint_fit(const JointData *j, double fit, double T);          // fit at temperature T [m]
+double joint_hole_stiffness(const JointData *j, double fit_a);       // [N/m], constant outside its table

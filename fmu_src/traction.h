@@ -1,0 +1,56 @@
+// Tangential forces of a lubricated contact: traction of the film, friction of the asperities, rolling friction of the inlet.
+//
+//   film        mu(s) = (A + B s) exp(-C s) - A,  s = |Delta u| / U            four-parameter law of aviation oils; mu(0) = 0
+//   asperities  mu_b s / sqrt(s^2 + s_0^2)        on their share of the load
+//   share       f_a = exp(-1.8 Lambda^1.2)                                     Aihara (1987), J. Tribol. 109, 471, eq. 13
+//   Lambda      film / roughness, h/R_x = 2.69 U^0.67 G^0.53 W^-0.067 (1 - 0.61 exp(-0.73 k))    Hamrock & Dowson (1977), central film
+//   inlet       F_R = 2.86 E' R_x^2 (R_y/R_x)^0.348 G^0.022 U^0.66 W^0.47      Houpert (1987), as in Balan et al., Lubricants 3 (2015), 222
+//
+// with U = eta u/(E' R_x), W = Q/(E' R_x^2), G = alpha E', E' = 2 E_star, u the mean surface speed.  Powers are taken as exp(p ln): ln U and
+// ln Q are shared.  Load and speed have floors, so that all of it is C1 in approach and speed.
+#pragma once
+
+#include "vec.h"
+
+// Load [N] below which inlet friction is linear in the load and the film no longer depends on it.
+static const double Q_FLOOR = 1.0;
+
+typedef struct {
+    vec F_s, F_c;      // on the ball: at the contact point, through the ball's centre [N]
+    vec M;             // moment of F_s about the ball's centre (with spin) [N.m]
+    real g;            // |traction| / |slip|: the stiff rate of the contact [N.s/m]
+    real dissipated;   // [W]
+} Tangential;
+
+// ln Lambda at mean speed U and load Q; ln_Lambda_1 at U = 1 m/s, Q = 1 N.
+INLINE real traction_ln_film(real ln_Lambda_1, real ln_U, real ln_Q)
+{
+    return ln_Lambda_1 + 0.67 * ln_U - 0.067 * ln_Q;
+}
+
+// Part of the load that asperities carry.
+INLINE real traction_asperity_share(real ln_Lambda)
+{
+    return real_exp(-1.8 * real_exp(1.2 * ln_Lambda));
+}
+
+// Traction coefficient of the film.
+INLINE real traction_film(const Parameters *p, real s)
+{
+    return (p->oil.A + p->oil.B * s) * real_exp(-p->oil.C * s) - p->oil.A;
+}
+
+// Traction coefficient with the asperity share f_a (zero where there is only film).
+INLINE real traction_mu(const Parameters *p, real s, real f_a, bool mixed)
+{
+    const real film = traction_film(p, s);
+    if (!mixed) return film;
+    const real boundary = p->oil.mu_b * s / real_sqrt(s * s + p->oil.s_0 * p->oil.s_0);
+    return film + f_a * (boundary - film);
+}
+
+// F_R; rolling at U = 1 m/s, Q = 1 N.  W^0.47 is taken as W (W + W_floor)^-0.53.
+INLINE real traction_inlet(real rolling, real ln_U, real Q, real ln_Q)
+{
+    return rolling * Q * real_exp(0.66 * ln_U - 0.53 * ln_Q);
+}

@@ -1,0 +1,56 @@
+// Vectors of the balls' frames: three bundles.
+#pragma once
+
+#include "model.h"
+
+INLINE real vec_dot(vec u, vec v)
+{
+    return u.x * v.x + u.r * v.r + u.t * v.t;
+}
+INLINE vec vec_cross(vec u, vec v)
+{
+    return (vec){u.r * v.t - u.t * v.r, u.t * v.x - u.x * v.t, u.x * v.r - u.r * v.x};
+}
+INLINE vec vec_add(vec u, vec v)
+{
+    return (vec){u.x + v.x, u.r + v.r, u.t + v.t};
+}
+INLINE vec vec_sub(vec u, vec v)
+{
+    return (vec){u.x - v.x, u.r - v.r, u.t - v.t};
+}
+INLINE vec vec_scale(real k, vec v)
+{
+    return (vec){k * v.x, k * v.r, k * v.t};
+}
+// u + k v
+INLINE vec vec_axpy(real k, vec v, vec u)
+{
+    return (vec){u.x + k * v.x, u.r + k * v.r, u.t + k * v.t};
+}
+// The part of v across the unit vector n.
+INLINE vec vec_across(vec v, vec n)
+{
+    return vec_axpy(-vec_dot(v, n), n, v);
+}
+// A vector of the global frame, seen from balls at azimuth theta.
+INLINE vec vec_local(const double global[3], real cos_theta, real sin_theta)
+{
+    return (vec){real_set(global[0]), global[1] * cos_theta + global[2] * sin_theta, global[2] * cos_theta - global[1] * sin_theta};
+}
+INLINE void vec_to_global(vec v, real cos_theta, real sin_theta, double *x, double *y, double *z)
+{
+    real_store(x, v.x);
+    real_store(y, v.r * cos_theta - v.t * sin_theta);
+    real_store(z, v.r * sin_theta + v.t * cos_theta);
+}
+INLINE vec vec_load(const double *x, const double *r, const double *t)
+{
+    return (vec){real_load(x), real_load(r), real_load(t)};
+}
+INLINE void vec_store(vec v, double *x, double *r, double *t)
+{
+    real_store(x, v.x);
+    real_store(r, v.r);
+    real_store(t, v.t);
+}
