@@ -24,6 +24,7 @@ STYLE = {
     "axes.titlelocation": "left",
     "legend.frameon": False,
     "legend.fontsize": 8,
+    "legend.borderpad": 0.0,
 }
 
 
@@ -31,7 +32,7 @@ def plot_result(result, path):
     """Write the picture of a result as PNG, whole or not at all; panels whose channels were not recorded stay out."""
     panels = [(draw, data) for draw, data in ((draw, wanted(result, names)) for draw, names in OVER_TIME) if data]
     with plt.rc_context(STYLE):
-        figure = plt.figure(figsize=(13, 2.0 + 1.75 * max(len(panels), 4)), layout="constrained")
+        figure = plt.figure(figsize=(13, 1.2 + 1.65 * max(len(panels), 4)), layout="constrained")
         left, right = figure.subfigures(1, 2, width_ratios=[2.1, 1])
         figure.suptitle(title(result), x=0.01, ha="left", fontsize=11)
         if panels:
@@ -69,6 +70,12 @@ def mark_settling(ax, result):
     ax.margins(x=0.0)
 
 
+def legend(ax):
+    """The legend above the right end of a panel, its lines thick enough to tell colours."""
+    for line in ax.legend(ncols=5, loc="lower right", bbox_to_anchor=(1.0, 1.0)).get_lines():
+        line.set_linewidth(2)
+
+
 def loads(ax, t, data):
     """Loads on the inner ring and, on the right, its speed if that varies."""
     colours = {"shaft.F_y": FORCE, "shaft.F_x": MIDDLE, "shaft.F_z": MUTED, "impact.F_r": HEAD, "impact.F_a": "#e09f3e"}
@@ -82,7 +89,7 @@ def loads(ax, t, data):
         twin.plot(t, speed, color=RING, label="speed")
         twin.set_ylabel("rev/min", color=RING)
         twin.grid(False)
-    ax.legend(ncols=5, loc="best")
+    legend(ax)
 
 
 def pocket_force(ax, t, data):
@@ -97,8 +104,7 @@ def stress(ax, t, data):
         if name in data:
             ax.plot(t, 1e-6 * data[name], color=colour, lw=0.5, label=label)
     ax.set(title="Rivet stress, worst rivet, largest in each step", ylabel="MPa", ylim=(0, None))
-    for line in ax.legend(ncols=2, loc="lower right").get_lines():
-        line.set_linewidth(2)
+    legend(ax)
 
 
 def ring(ax, t, data):
@@ -106,7 +112,7 @@ def ring(ax, t, data):
     for (name, values), colour in zip(data.items(), (MIDDLE, FORCE, MUTED), strict=False):
         ax.plot(t, 1e6 * values, color=colour, lw=0.7, label=name.removeprefix("ring."))
     ax.set(title="Displacement of the inner ring", ylabel="µm")
-    ax.legend(ncols=3, loc="best")
+    legend(ax)
 
 
 def slip(ax, t, data):
@@ -142,7 +148,7 @@ def cage_orbit(ax, result):
 
 def rivet_bars(ax, result):
     """Mean and 99.9 % quantile of each rivet's stress."""
-    ax.set(title="Stress of each rivet: bar p99.9, line mean", xlabel="rivet", ylabel="MPa")
+    ax.set(title="Each rivet: p99.9, line mean", xlabel="rivet", ylabel="MPa")
     rivets = rivet_rows(result)
     if not rivets:
         ax.text(0.5, 0.5, "no statistics of rivet stress", ha="center", transform=ax.transAxes)
@@ -153,4 +159,4 @@ def rivet_bars(ax, result):
         ax.hlines([row[place].mean for row in rivets], x - 0.18, x + 0.18, color="black", lw=1.2)
     ax.set_xticks([row[0] for row in rivets])
     ax.grid(axis="x", visible=False)
-    ax.legend(ncols=2, loc="lower center")
+    legend(ax)

@@ -122,22 +122,27 @@ def read_csv(path):
 
 
 def to_toml(document, table=""):
-    """Lines of TOML for nested dicts of numbers, texts and lists; every key is quoted."""
-    quoted = lambda key: json.dumps(key, ensure_ascii=False)  # noqa: E731
+    """Lines of TOML for nested dicts of numbers, truth values, texts and lists of these."""
     for key, value in document.items():
         if not isinstance(value, dict):
-            text = quoted(value) if isinstance(value, str) else repr(value).lower() if isinstance(value, bool) else json_list(value)
-            yield f"{quoted(key)} = {text}"
+            yield f"{toml_key(key)} = {toml_value(value)}"
     for key, value in document.items():
         if isinstance(value, dict):
-            name = f"{table}.{quoted(key)}" if table else quoted(key)
+            name = f"{table}.{toml_key(key)}" if table else toml_key(key)
             yield f"[{name}]"
             yield from to_toml(value, name)
 
 
-def json_list(value):
-    """A number or a list as TOML writes it (as JSON does, but nan and inf)."""
-    return json.dumps(value, ensure_ascii=False).replace("NaN", "nan").replace("Infinity", "inf")
+def toml_key(key):
+    """A key, quoted unless it is a bare word."""
+    return key if re.fullmatch(r"[\w-]+", key, re.ASCII) else json.dumps(key, ensure_ascii=False)
+
+
+def toml_value(value):
+    """A value as TOML writes it: like JSON but for nan and inf."""
+    if isinstance(value, list):
+        return f"[{', '.join(map(toml_value, value))}]"
+    return repr(value) if isinstance(value, float) else json.dumps(value, ensure_ascii=False)
 
 
 def write_mat(result, path):

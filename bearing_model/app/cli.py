@@ -1,0 +1,183 @@
+"""riveted-bearing: build the FMU, run scenes through it, look at bearings."""
+
+import functools
+from pathlib import Path
+from typing import Annotated
+
+import typer
+from rich.console import Console
+from rich.markup import escape
+from rich.progress import BarColumn, Progress, ProgressColumn, TextColumn
+from rich.table import Column, Table
+from rich.text import Text
+
+from .errors import UserError, unknown
+from .results import FORMATS, write_result
+from .scene import load_scene, shipped_scenes
+
+BAD_INPUT, STOPPED = 2, 3  # exit codes
+app = typer.Typer(no_args_is_help=True, add_completion=False, pretty_exceptions_enable=False, help=__doc__)
+console = Console(highlight=False)
+messages = Console(stderr=True, highlight=False)
+
+
+@app.callback()
+def main():
+    """riveted-bearing: dynamics of a ball bearing with a two-piece riveted cage, as an FMU."""
+
+
+def command(function):
+    """A command of the program: what the user can put right is one line on stderr and exit code 2."""
+
+    @functools.wraps(function)
+    def guarded(*arguments, **options):
+        try:
+            return function(*arguments, **options)
+        except UserError as problem:
+            messages.print(f"[bold red]error:[/] {escape(str(problem))}", soft_wrap=True)
+            raise typer.Exit(BAD_INPUT) from None
+
+    return app.command()(guarded)
+
+
+@command
+def run(
+    scene: Annotated[str, typer.Argument(help=f"scene file (TOML) or one of the shipped scenes: {', '.join(shipped_scenes())}")],
+    fmu: Annotated[Path | None, typer.Option(help="the FMU; default: RivetedBearing.fmu here, in the checkout or as installed")] = None,
+    out: Annotated[Path, typer.Option(help="folder, or file whose suffix is the format")] = Path("results"),
+    format: Annotated[str | None, typer.Option(help=f"{', '.join(FORMATS)} (default: the suffix of --out, else {FORMATS[0]})")] = None,
+    set: Annotated[list[str] | None, typer.Option(help='parameter or constant input, e.g. --set joint.preload="30 N"; repeatable', metavar="NAME=VALUE")] = None,
+    seed: Annotated[int | None, typer.Option(help="start.seed: initial spacing of the balls")] = None,
+    t_end: Annotated[str | None, typer.Option(help='simulated time, e.g. 0.4 or "400 ms"')] = None,
+    step: Annotated[str | None, typer.Option(help='communication step, e.g. 1e-4 or "0.1 ms"')] = None,
+    plot: Annotated[bool, typer.Option(help="write a picture beside the results")] = True,
+):
+    """Simulate a scene: progress, a summary, results with all parameters inside, and a picture."""
+    from .fmu import Model
+    from .runner import simulate
+
+    target = result_path(scene, out, format)
+    model = Model(fmu)
+    plan = load_scene(scene, model, ("the command line", changes(model, set or [], seed, t_end, step)))
+    with simulation_progress(plan) as progress:
+        result = simulate(model, plan, progress)
+    print_summary(result)
+    paths = [write_result(result, target)]
+    if plot:
+        from .plot import plot_result
+
+        paths.append(plot_result(result, target.with_suffix(".png")))
+    for path in paths:
+        console.print(str(path), style="cyan", soft_wrap=True)
+    if result.stopped:
+        messages.print(f"[bold red]stopped:[/] {escape(result.stopped)}", soft_wrap=True)
+        raise typer.Exit(STOPPED)
+
+
+def result_path(scene, out, kind):
+    """File of the results: --out itself if it has the suffix of a format, else named after the scene in the folder --out."""
+    suffix = out.suffix.removeprefix(".")
+    if kind is not None and kind not in FORMATS:
+        raise unknown("--format", "format", kind, FORMATS)
+    if suffix not in FORMATS:
+        return out / f"{Path(scene).stem}.{kind or FORMATS[0]}"
+    if kind not in (None, suffix):
+        raise UserError(f"--out {out}: does not go with --format {kind}")
+    return out
+
+
+def changes(model, settings, seed, t_end, step):
+    """The command line's options as a document like a scene file's."""
+    document = {"parameters": {}, "inputs": {}, "simulation": {}}
+    for setting in settings:
+        name, equals, value = setting.partition("=")
+        if not equals:
+            raise UserError(f'--set {setting}: not of the form NAME=VALUE, e.g. joint.preload="30 N"')
+        section = "inputs" if name.strip() in model.inputs else "parameters"
+        document[section][name.strip()] = number_or_text(value.strip())
+        if section == "parameters" and name.strip() not in model.parameters:
+            raise unknown("--set", "parameter or input", name.strip(), [*model.parameters, *model.inputs])
+    if seed is not None:
+        document["parameters"]["start.seed"] = seed
+    document["simulation"] |= {key: number_or_text(value) for key, value in (("t_end", t_end), ("step", step)) if value is not None}
+    return document
+
+
+def number_or_text(value):
+    """An int or float if the text is one."""
+    for kind in (int, float):
+        try:
+            return kind(value)
+        except ValueError:
+            pass
+    return value
+
+
+class RealTimeFactor(ProgressColumn):
+    """Wall time per simulated time so far."""
+
+    def render(self, task):
+        elapsed = task.elapsed or 0.0
+        return Text(f"{elapsed / task.completed:.2f} x real time" if task.completed else "")
+
+
+class Remaining(ProgressColumn):
+    """Wall time still needed at the speed so far."""
+
+    def render(self, task):
+        if not task.completed:
+            return Text("")
+        return Text(f"{(task.elapsed or 0.0) * (task.total / task.completed - 1.0):.0f} s left")
+
+
+class simulation_progress:  # noqa: N801 - used like a function
+    """A progress bar for a scene on a terminal, nothing in a pipe; as a context manager it gives the function to call with the simulated time [s]."""
+
+    def __init__(self, scene):
+        self.bar = Progress(
+            TextColumn("{task.description}"),
+            BarColumn(bar_width=30),
+            TextColumn("{task.completed:.3f} of {task.total:g} s"),
+            RealTimeFactor(),
+            Remaining(),
+            console=messages,
+            disable=not messages.is_terminal,
+            transient=True,
+        )
+        self.task = self.bar.add_task(scene.name, total=scene.t_end)
+
+    def __enter__(self):
+        self.bar.start()
+        return lambda t: self.bar.update(self.task, completed=t)
+
+    def __exit__(self, *_):
+        self.bar.stop()
+
+
+def print_summary(result):
+    """The figures of a run on the terminal."""
+    from .summary import rivet_rows, summary_rows
+
+    about, summary = result.about, result.summary
+    console.print(f"[bold]{escape(about['scene'])}[/]  {escape(about['description'])}", soft_wrap=True)
+    table = Table("", "unit", *(Column(text, justify="right") for text in ("mean", "RMS", "p99.9", "max")), box=None, pad_edge=False)
+    for row in summary_rows(result):
+        mark = "" if row.every_step else " *"
+        table.add_row(row.channel + mark, row.unit, *(f"{value:.4g}" for value in (row.mean, row.rms, row.p999, row.largest)))
+    console.print(table)
+    rivets = rivet_rows(result)
+    if rivets:
+        worst = max(rivets, key=lambda row: row[1].p999)
+        console.print(f"worst rivet: {worst[0]} (head p99.9 {worst[1].p999:.4g} MPa, middle p99.9 {worst[2].p999:.4g} MPa)")
+    settle = result.parameters.get("start.settle", 0.0)
+    console.print(f"[dim]after the first {settle:g} s; every internal step, * at communication points only[/]")
+    counters = {name: f"{summary[f'solver.{name}']:,.0f}" for name in ("steps", "rhs_evals", "error_tests_failed") if f"solver.{name}" in summary}
+    if counters:
+        console.print(f"{counters['steps']} steps, {counters['rhs_evals']} evaluations of the equations, {counters['error_tests_failed']} steps rejected")
+    console.print(
+        f"simulated {summary['simulated_time']:g} s in {summary['wall_time']:.2f} s, CPU time {summary['cpu_time']:.2f} s, "
+        f"[bold]real-time factor {summary['real_time_factor']:.2f}[/] (CPU time / simulated time)"
+    )
+    for text in dict.fromkeys(about.get("messages", [])):
+        if not result.stopped or text not in result.stopped:
+            messages.print(f"[yellow]note:[/] {escape(text)}", soft_wrap=True)

@@ -1,0 +1,191 @@
+"""Scenes: units, time histories, and one clear message for everything that cannot be used."""
+
+import math
+
+import numpy as np
+import pytest
+
+from bearing_model.app.errors import UserError
+from bearing_model.app.fmu import Model
+from bearing_model.app.scene import History, load_scene, shipped_scenes
+from bearing_model.app.units import to_si
+
+SPEED = {"rad/s": (1.0, 0.0), "rev/min": (30.0 / math.pi, 0.0)}
+TEMPERATURE = {"K": (1.0, 0.0), "degC": (1.0, -273.15)}
+
+
+@pytest.fixture(scope="module")
+def model():
+    return Model()
+
+
+@pytest.fixture
+def scene_file(tmp_path):
+    """Writes a scene with the given text and returns its path."""
+
+    def write(text):
+        path = tmp_path / "mine.toml"
+        path.write_text(text)
+        return path
+
+    return write
+
+
+@pytest.mark.parametrize(
+    ("value", "scales", "si"),
+    [
+        (18238, SPEED, 18238.0),  # a bare number is SI
+        ("18238 rev/min", SPEED, 18238 * math.pi / 30),  # paper Table 2
+        ("18238rpm", SPEED, 18238 * math.pi / 30),
+        ("60 r/min", SPEED, 2 * math.pi),
+        ("1e3 rad/s", SPEED, 1000.0),
+        ("20 degC", TEMPERATURE, 293.15),
+        ("-10 um", {"m": (1.0, 0.0), "um": (1e6, 0.0)}, -10e-6),
+        ("-10 µm", {"m": (1.0, 0.0), "um": (1e6, 0.0)}, -10e-6),
+        ("0.5", {"1": (1.0, 0.0)}, 0.5),
+    ],
+)
+def test_values_become_si(value, scales, si):
+    assert to_si(value, scales) == pytest.approx(si, rel=1e-15)  # one multiplication: observed 0
+
+
+@pytest.mark.parametrize("value", ["3600", "3600 N", "50 Hz", "fast", "", float("nan"), float("inf"), True, None, [1]])
+def test_what_is_no_speed_is_refused(value):
+    with pytest.raises(UserError):
+        to_si(value, SPEED)
+
+
+def test_every_display_unit_of_the_fmu_is_understood(model):
+    for unit, scales in model.units.items():
+        for symbol, (factor, offset) in scales.items():
+            assert to_si(f"{factor * 3.0 + offset!r} {symbol}", scales) == pytest.approx(3.0, rel=1e-12), unit
+
+
+@pytest.mark.parametrize("name", shipped_scenes())
+def test_shipped_scenes_load(model, name):
+    scene = load_scene(name, model)
+    assert scene.t_end == 0.4 and scene.step == 1e-4
+    assert scene.inputs["shaft.F_y"](0.0) == 2994.0
+
+
+def test_scenes_mean_what_the_design_says(model):
+    scenes = {name: load_scene(name, model) for name in shipped_scenes()}
+    assert scenes["demo"].parameters == {}
+    assert scenes["demo"].inputs["shaft.omega"](0.0) == pytest.approx(1909.8788938, rel=1e-9)  # paper Table 2
+    assert scenes["R"].parameters["ring.k_tilt"] == 2e4 and scenes["F"].parameters["ring.k_tilt"] == 1000.0
+    assert scenes["R"].inputs["shaft.tilt_z"](0.0) == pytest.approx(math.radians(0.15), rel=1e-12)
+    assert scenes["jam"].parameters["start.settle"] == 0.2 and scenes["jam"].parameters["ring.k_tilt"] == 500.0
+    for name in ("R", "F", "jam"):
+        assert scenes[name].parameters["ring.tilt_mode"] == "supported" and scenes[name].parameters["scene.lubrication"] == "mixed"
+        assert scenes[name].parameters["cage.pocket_clearance"] == pytest.approx(1e-4, rel=1e-15)
+
+
+def test_dotted_nested_and_quoted_names_are_the_same(model, scene_file):
+    texts = (
+        "[parameters]\njoint.preload = 30\njoint.fit = '-20 um'",
+        "[parameters.joint]\npreload = 30.0\nfit = -2e-5",
+        "[parameters]\n'joint.preload' = '30 N'\n'joint.fit' = '-0.02 mm'",
+    )
+    scenes = [load_scene(scene_file(text), model) for text in texts]
+    for scene in scenes:
+        assert scene.parameters == pytest.approx({"joint.preload": 30.0, "joint.fit": -2e-5}, rel=1e-15)
+
+
+def test_outputs_by_pattern_in_the_order_of_the_fmu(model, scene_file):
+    scene = load_scene(scene_file("[simulation]\noutputs = ['rivet[*].sigma_head_peak', 'ring.y', 'rivet[1].N', 'shaft.omega']"), model)
+    assert scene.outputs[:2] == ("shaft.omega", "ring.y")
+    assert [name for name in scene.outputs if name.endswith("_peak")] == [f"rivet[{k}].sigma_head_peak" for k in range(1, 10)]
+    assert "rivet[1].N" in scene.outputs and len(scene.outputs) == 12
+
+
+def test_all_outputs_but_statistics_by_default(model):
+    outputs = load_scene("demo", model).outputs
+    assert set(outputs) == {*model.inputs, *model.outputs} - {name for name in model.outputs if name.startswith("stat.")}
+
+
+def test_changes_win_over_the_file(model):
+    scene = load_scene("R", model, ("--set", {"parameters": {"ring.k_tilt": 5.0}, "simulation": {"t_end": "10 ms"}}))
+    assert scene.parameters["ring.k_tilt"] == 5.0 and scene.t_end == pytest.approx(0.01, rel=1e-15)
+    assert scene.parameters["ring.tilt_mode"] == "supported"
+
+
+def test_history_by_hand():
+    t = np.array([-1.0, 0.0, 0.5, 1.0, 2.5, 3.0, 9.0])
+    points = np.array([0.0, 1.0, 3.0]), np.array([1.0, 2.0, -2.0])
+    assert History(*points)(t) == pytest.approx([1, 1, 1.5, 2, -1, -2, -2], rel=1e-15)
+    assert History(*points, hold=True)(t).tolist() == [1, 1, 1, 2, 2, -2, -2]
+
+
+def test_points_and_columns_give_the_same_history(model, scene_file, tmp_path):
+    (tmp_path / "loads.csv").write_text("# measured\nt,Fr,other\n0,1,7\n0.1,3,8\n0.2,2.5,9\n")
+    points = load_scene(scene_file("[inputs]\nshaft.F_y = { t = [0, '100 ms', 0.2], value = [1, '3 kN', 2.5], unit = 'kN' }"), model)
+    column = load_scene(scene_file("[inputs]\nshaft.F_y = { file = 'loads.csv', column = 'Fr', time = 't', unit = 'kN' }"), model)
+    t = np.linspace(0.0, 0.3, 31)
+    assert points.inputs["shaft.F_y"](t) == pytest.approx(np.interp(t, [0, 0.1, 0.2], [1000, 3000, 2500]), rel=1e-14)
+    assert column.inputs["shaft.F_y"](t) == pytest.approx(points.inputs["shaft.F_y"](t), rel=1e-14)
+
+
+def test_communication_points_end_exactly(model):
+    for t_end, step in ((0.4, 1e-4), (1e-3, 3e-4), (0.3, 0.1), (1e-4, 1e-4)):
+        scene = load_scene("demo", model, ("test", {"simulation": {"t_end": t_end, "step": step}}))
+        points = scene.communication_points()
+        assert points[0] == 0.0 and points[-1] == t_end and len(points) == math.ceil(t_end / step - 1e-9) + 1
+        assert np.all(np.diff(points) > 0.0)
+
+
+# scene text, fragments of the message: file, key, value, what is allowed
+BAD_SCENES = [
+    ("x = [", ["mine.toml", "not valid TOML"]),
+    ("simulate = 1", ["mine.toml", '"simulate"', '"simulation"']),
+    ("parameters = 3", ["parameters = 3", "not a table"]),
+    ("[simulation]\nt_ende = 1", ["mine.toml", "simulation.t_ende", "simulation.t_end"]),
+    ("[simulation]\nt_end = -1", ["simulation.t_end = -1", "greater than 0"]),
+    ("[simulation]\nt_end = '1 m'", ["simulation.t_end = '1 m'", '"m"', "s, ms, us"]),
+    ("[simulation]\nt_end = nan", ["simulation.t_end = nan", "finite"]),
+    ("[simulation]\nstep = 1", ["simulation.step = 1", "t_end = 0.4"]),
+    ("[simulation]\noutput_interval = 2.5e-4", ["simulation.output_interval = 0.00025", "multiples of step = 0.0001"]),
+    ("[simulation]\nt_end = 1e4\nstep = 1e-5", ["GiB", "outputs"]),
+    ("[simulation]\noutputs = ['ring.w']", ["simulation.outputs", '"ring.w"', "ring."]),
+    ("[simulation]\noutputs = 'ring.y'", ["simulation.outputs", "list of names"]),
+    ("[parameters]\njoint.preloat = 1", ["mine.toml", '"joint.preloat"', '"joint.preload"']),
+    ("[parameters]\nfoo.bar = 1", ["unknown parameter", '"foo']),
+    ("[parameters]\nshaft.F_y = 1", ["unknown parameter", '"shaft']),
+    ("[parameters]\njoint.preload = '20 mm'", ["parameters.joint.preload = '20 mm'", '"mm" does not fit', "allowed: N"]),
+    ("[parameters]\njoint.preload = '20'", ["parameters.joint.preload = '20'", "needs a unit", "N"]),
+    ("[parameters]\njoint.preload = -1", ["parameters.joint.preload = -1", "0 ... 1000 N"]),
+    ("[parameters]\njoint.fit = '1 mm'", ["parameters.joint.fit = '1 mm'", "-500 ... 100 um"]),
+    ("[parameters]\nring.tilt_mode = 'suported'", ["parameters.ring.tilt_mode = 'suported'", "prescribed, supported, free"]),
+    ("[parameters]\nring.tilt_mode = 2", ["parameters.ring.tilt_mode = 2", "prescribed, supported, free"]),
+    ("[parameters]\nstart.seed = 1.5", ["parameters.start.seed = 1.5", "integer"]),
+    ("[parameters]\nstart.seed = -1", ["parameters.start.seed = -1", "0 ... 2.14748e+09"]),
+    ("[inputs]\nshaft.speed = 1", ['unknown input "shaft.speed"', "shaft."]),
+    ("[inputs]\nshaft.omega = '3600 Hz'", ["inputs.shaft.omega = '3600 Hz'", "rad/s, rev/min"]),
+    ("[inputs]\nshaft.tilt_z = '5 deg'", ["inputs.shaft.tilt_z = '5 deg'", "2.00535 deg"]),
+    ("[inputs]\nshaft.F_y = { t = [0, 1], value = [1] }", ["inputs.shaft.F_y", "2 and 1"]),
+    ("[inputs]\nshaft.F_y = { t = [0, 0], value = [1, 2] }", ["inputs.shaft.F_y", "increase"]),
+    ("[inputs]\nshaft.F_y = { t = [0, 1], value = [1, 2e6] }", ["inputs.shaft.F_y", "100000 N"]),
+    ("[inputs]\nshaft.F_y = { t = [0, 1] }", ["inputs.shaft.F_y", '"value" is missing']),
+    ("[inputs]\nshaft.F_y = { t = [0, 1], value = [1, 2], interpolation = 'cubic' }", ["cubic", "linear, hold"]),
+    ("[inputs]\nshaft.F_y = { t = [0, 1], values = [1, 2] }", ['"values"', "t, value, unit, interpolation"]),
+    ("[inputs]\nshaft.F_y = { file = 'none.csv', column = 'F' }", ["inputs.shaft.F_y", "none.csv", "no such file"]),
+    ("[inputs]\nshaft.F_y = { file = 'loads.csv', column = 'Fq' }", ["loads.csv", '"Fq"', "time, Fr, word"]),
+    ("[inputs]\nshaft.F_y = { file = 'loads.csv', column = 'word' }", ["loads.csv", '"word"', "no numbers"]),
+    ("[inputs]\nshaft.F_y = { file = 'loads.csv', column = 'Fr', unit = 'MN' }", ['"MN"', "N, kN"]),
+]
+
+
+@pytest.mark.parametrize(("text", "fragments"), BAD_SCENES, ids=[text.replace("\n", " ") for text, _ in BAD_SCENES])
+def test_bad_scenes_name_file_key_value_and_what_is_allowed(model, scene_file, tmp_path, text, fragments):
+    (tmp_path / "loads.csv").write_text("time,Fr,word\n0,1,a\n1,2,b\n")
+    with pytest.raises(UserError) as error:
+        load_scene(scene_file(text), model)
+    for fragment in ["mine.toml", *fragments]:
+        assert fragment in str(error.value)
+    assert "\n" not in str(error.value).split("not valid TOML")[0]
+
+
+def test_a_scene_that_is_not_there(model, tmp_path):
+    with pytest.raises(UserError, match='scene: unknown name "dmeo"; did you mean "demo"'):
+        load_scene("dmeo", model)
+    with pytest.raises(UserError, match="none.toml: no such scene file"):
+        load_scene(tmp_path / "none.toml", model)
