@@ -1,0 +1,122 @@
+"""Rivet stress from the reduced model: twin of fmu_src/rivet_rom.c, where the equations stand.
+
+sigma = s T(a, b, c, chi, xi), homogeneous of degree 1 in the loads and the fit; T a tensor product of quadratic B-splines.
+Loads are arrays of one shape; `table` is a rivet_model.table.RivetTable (read one with rivet_model.table.read).
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from rivet_model import splines
+
+HEAD_P1, HEAD_VM, MID_VM, MID_P1 = range(4)
+RIVET_YIELDS, FLANGE_YIELDS, JOINT_COMPRESSED, RIVET_OUTSIDE = 1, 2, 4, 8
+
+
+@dataclass
+class RivetLoad:
+    """Loads of rivets [N, N.m]: preload, external tension, transverse load, prying moment, head friction.  On the +x half."""
+
+    P: float = 0.0
+    N: float = 0.0
+    V_y: float = 0.0
+    V_z: float = 0.0
+    M_y: float = 0.0
+    M_z: float = 0.0
+    F_head: float = 0.0
+
+
+def axis_splines_xi(knots, s, fit):
+    """s times the splines of xi = fit/s, without dividing where s may vanish: first coefficient and weights."""
+    rise, _ = splines.constants(knots)
+    inside = np.clip(np.divide(fit, s, out=np.zeros_like(s), where=s > 0.0), knots[0], knots[-1])
+    first, w = splines.cell_weights(knots, inside)
+    w = w * s[..., None]
+    below, beyond = fit <= s * knots[0], fit - s * knots[-1]
+    last = len(knots) - 2
+    slope = 2.0 * (knots[-1] - knots[-2]) * rise[-1] * beyond
+    zero = np.zeros_like(s)
+    first = np.where(below, 0, np.where(beyond >= 0.0, last, first))
+    w = np.where(below[..., None], np.stack([s, zero, zero], -1), np.where((beyond >= 0.0)[..., None], np.stack([zero, -slope, s + slope], -1), w))
+    return first, w
+
+
+def load_splines(table, load, fit_eff):
+    """Place of the loads in the table: for each axis the first coefficient and three weights; those of xi carry the factor s."""
+    P, N = np.maximum(load.P, 0.0), np.maximum(load.N, 0.0)
+    V, M = np.sqrt(load.V_y**2 + load.V_z**2), np.sqrt(load.M_y**2 + load.M_z**2)
+    axial = P + N
+    force, moment = axial + V, M / table.moment_length
+    s, VM = force + moment, V * M
+
+    def ratio(top, bottom):
+        return np.divide(top, bottom, out=np.zeros_like(bottom), where=bottom > 0.0)
+
+    chi = np.clip(ratio(load.V_y * load.M_z - load.V_z * load.M_y, VM), -1.0, 1.0)
+    values = {"a": ratio(V, force), "b": ratio(N, axial), "c": ratio(moment, s), "chi": chi}
+    at = {name: splines.cell_weights(table.knots[name], value) for name, value in values.items()}
+    at["xi"] = axis_splines_xi(table.knots["xi"], s, fit_eff)
+    return at
+
+
+def rivet_rom_stress(table, load, fit_eff):
+    """Stress of all channels [..., 4] in Pa and the flags.
+
+    Channels: HEAD_P1 largest principal stress in the head fillet, HEAD_VM von Mises there, MID_VM and MID_P1 in the middle of the shank.
+    Flags: sum of RIVET_YIELDS, FLANGE_YIELDS, JOINT_COMPRESSED (N < 0 counted as 0), RIVET_OUTSIDE.
+    """
+    arrays = np.broadcast_arrays(*(np.asarray(v, dtype=float) for v in (*vars(load).values(), fit_eff)))
+    shape = arrays[0].shape
+    flat = [np.atleast_1d(a).ravel() for a in arrays]
+    load, fit_eff = RivetLoad(*flat[:-1]), flat[-1]
+    at = load_splines(table, load, fit_eff)
+    sigma = np.zeros((len(fit_eff), 4))
+    (A, wa), (B, wb), (C, wc), (X, wx), (xi, wxi) = (at[name] for name in ("a", "b", "c", "chi", "xi"))
+    for a in range(3):
+        for b in range(3):
+            for c in range(3):
+                w = wa[:, a] * wb[:, b] * wc[:, c]
+                for k in range(3):
+                    T = [table.coefficients[A + a, B + b, C + c, X + k, xi + i] for i in range(3)]
+                    sigma += (w * wx[:, k])[:, None] * (wxi[:, :1] * T[0] + wxi[:, 1:2] * T[1] + wxi[:, 2:] * T[2])
+    sigma[:, HEAD_P1] += table.head_friction * load.F_head
+    sigma[:, HEAD_VM] += table.head_friction_vm * load.F_head
+    flags = (
+        RIVET_YIELDS * (np.maximum(sigma[:, HEAD_VM], sigma[:, MID_VM]) > table.yield_rivet)
+        + FLANGE_YIELDS * (fit_eff > table.fit_flange_yield)
+        + JOINT_COMPRESSED * (load.N < 0.0)
+        + RIVET_OUTSIDE * ((fit_eff > table.fit_a[-1]) | ~np.isfinite(sigma[:, HEAD_P1]))
+    )
+    return sigma.reshape(*shape, 4), flags.reshape(shape)
+
+
+def rivet_rom_fit_eff(table, fit_a, j2):
+    """Effective fit [m]: fit_a itself, or with j2 the elastic fit that leaves the pressure of the yielded flange."""
+    fit_a = np.asarray(fit_a, dtype=float)
+    if not j2:
+        return fit_a
+    x, y, slope = table.fit_a, table.fit_eff, table.fit_slope
+    i = np.clip(np.searchsorted(x, fit_a, side="right") - 1, 0, len(x) - 2)
+    h = x[i + 1] - x[i]
+    u = (fit_a - x[i]) / h
+    v = 1.0 - u
+    inside = y[i] * v * v * (1.0 + 2.0 * u) + y[i + 1] * u * u * (1.0 + 2.0 * v) + h * u * v * (slope[i] * v - slope[i + 1] * u)
+    return np.where(fit_a <= x[0], fit_a, np.where(fit_a >= x[-1], y[-1] + slope[-1] * (fit_a - x[-1]), inside))
+
+
+def joint_preload(table, preload, T):
+    """Preload at temperature T [N]: the flanges outgrow the rivet, k_stack (alpha_flange - alpha_rivet) grip per kelvin; not below 0."""
+    j = table.joint
+    return np.maximum(0.0, preload + j["k_stack"] * (j["alpha_flange"] - j["alpha_rivet"]) * j["grip"] * (T - j["T_0"]))
+
+
+def joint_fit(table, fit, T):
+    """Fit at temperature T [m]."""
+    j = table.joint
+    return fit - (j["alpha_flange"] - j["alpha_rivet"]) * j["d"] * (T - j["T_0"])
+
+
+def joint_hole_stiffness(table, fit_a):
+    """Tangent stiffness of the hole contact of both halves in series [N/m], constant outside its table."""
+    return np.interp(fit_a, table.joint["hole_fit"], table.joint["k_hole"])

@@ -1,0 +1,28 @@
+// Load path of the cage: see load_path.h for the equations.
+#include "load_path.h"
+
+void load_path_rigid(double d_m, const double wrench[6], const double c[Z], const double s[Z], double N[Z], double V_y[Z], double V_z[Z])
+{
+    double R = 0.5 * d_m, shear = wrench[3] / (Z * R);
+    for (int k = 0; k < Z; k++) {
+        N[k] = wrench[0] / Z + 2.0 * (wrench[4] * s[k] - wrench[5] * c[k]) / (Z * R);
+        V_y[k] = wrench[1] / Z - shear * s[k];
+        V_z[k] = wrench[2] / Z + shear * c[k];
+    }
+}
+
+void load_path_flexible(const double *matrix, int side, const double F_x[Z], const double F_r[Z], const double F_t[Z], PathLoads *loads)
+{
+    for (int j = 0; j < Z; j++) {
+        double outward = side * F_x[j];  // mirrored to the +x half
+        for (int i = 0; i < Z; i++) {
+            const double *m = matrix + 3 * PATH_LOADS * i;
+            int k = i + j < Z ? i + j : i + j - Z;
+            loads->N[k] += m[0] * outward + m[1] * F_r[j] + m[2] * F_t[j];
+            loads->V_r[k] += side * (m[3] * outward + m[4] * F_r[j] + m[5] * F_t[j]);
+            loads->V_t[k] += side * (m[6] * outward + m[7] * F_r[j] + m[8] * F_t[j]);
+            loads->M_r[k] += m[9] * outward + m[10] * F_r[j] + m[11] * F_t[j];
+            loads->M_t[k] += m[12] * outward + m[13] * F_r[j] + m[14] * F_t[j];
+        }
+    }
+}

@@ -1,0 +1,74 @@
+"""Write a rivet table as C constants: python -m rivet_model.embed TABLE OUT.c [--Z 9].  Needs numpy only; the same table gives the same bytes."""
+
+import argparse
+import sys
+from pathlib import Path
+
+import numpy as np
+
+from . import splines, table
+
+
+def _array(name, values):
+    text = [repr(float(value)) for value in np.ravel(values)]
+    lines = [", ".join(text[i : i + 8]) for i in range(0, len(text), 8)]
+    return f"static const double {name}[{len(text)}] = {{\n    " + ",\n    ".join(lines) + "};\n"
+
+
+def c_source(t):
+    """The C text of rivet_table.c."""
+    parts = [
+        f"// The rivet table, kind {t.kind}, geometry {t.geometry_hash}: written by rivet_model/embed.py, not to be edited.\n",
+        '#include "rivet_rom.h"\n\n#include "variables.h"\n\n',
+        f'_Static_assert(Z == {t.Z}, "the rivet table was made for Z = {t.Z}");\n\n// clang-format off\n',
+    ]
+    axes = []
+    for name in table.AXES:
+        rise, fall = splines.constants(t.knots[name])
+        parts += [_array(f"{name}_knot", t.knots[name]), _array(f"{name}_rise", rise), _array(f"{name}_fall", fall)]
+        axes.append(f"{{{len(t.knots[name]) - 1}, {name}_knot, {name}_rise, {name}_fall}}")
+    channel = table.CHANNELS.index
+    parts += [
+        _array("primary", t.coefficients.swapaxes(3, 4)[..., [channel("head_p1"), channel("mid_vm")]]),
+        _array("secondary", t.coefficients.swapaxes(3, 4)[..., [channel("head_vm"), channel("mid_p1")]]),
+        _array("j2_fit_a", t.fit_a),
+        _array("j2_fit_eff", t.fit_eff),
+        _array("j2_slope", t.fit_slope),
+        _array("hole_fit", t.joint["hole_fit"]),
+        _array("k_hole", t.joint["k_hole"]),
+        _array("load_path", t.load_path),
+    ]
+    joint = ", ".join(f".{key} = {float(t.joint[key])!r}" for key in table.JOINT_KEYS)
+    parts.append(f"""
+const RivetTable rivet_table = {{
+    .kind = "{t.kind}", .geometry_hash = "{t.geometry_hash}", .Z = {t.Z}, .moment_length = {float(t.moment_length)!r},
+    .axis = {{{", ".join(axes)}}},
+    .primary = primary, .secondary = secondary, .head_friction = {float(t.head_friction)!r}, .head_friction_vm = {float(t.head_friction_vm)!r},
+    .yield_rivet = {float(t.yield_rivet)!r}, .fit_flange_yield = {float(t.fit_flange_yield)!r},
+    .j2 = {{{len(t.fit_a)}, j2_fit_a, j2_fit_eff, j2_slope}},
+    .joint = {{{joint},
+              .hole_count = {len(t.joint["hole_fit"])}, .hole_fit = hole_fit, .k_hole = k_hole}},
+    .load_path = load_path}};
+// clang-format on
+""")
+    return "".join(parts)
+
+
+def main(arguments=None):
+    """Command line; returns 0, or 2 with a message if the table cannot be used (then nothing is written)."""
+    parser = argparse.ArgumentParser(prog="python -m rivet_model.embed", description=__doc__)
+    parser.add_argument("table")
+    parser.add_argument("out")
+    parser.add_argument("--Z", type=int, help="number of rivets that the build needs")
+    options = parser.parse_args(arguments)
+    try:
+        text = c_source(table.read(options.table, options.Z))
+    except (OSError, ValueError) as error:
+        print(f"rivet table: {error}", file=sys.stderr)
+        return 2
+    Path(options.out).write_text(text, encoding="utf-8")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
