@@ -1,0 +1,71 @@
+# The core: physics, integrator, variable tables.  Its objects go into the FMU and, the same ones, into the tests' library.
+
+# Files that work on bundles of lanes: compiled once for each instruction set, chosen at run time.
+set(kernel_files rhs.c ball.c race_contact.c drag.c pocket.c cage_joint.c land_film.c ring.c)
+
+set(warnings -Wall -Wextra -Wpedantic -Werror)
+set(arithmetic -ffp-contract=off -fno-math-errno -fno-trapping-math)  # IEEE results, the same ones on every instruction set
+# Default visibility lets the tests call each element; without interposition calls are as direct as among hidden symbols, and the FMU exports fmi2* only.
+set(core_flags ${warnings} ${arithmetic} -fno-semantic-interposition)
+if(NOT SANITIZE)
+    list(APPEND core_flags -O3)
+endif()
+
+set(fmu_src ${PROJECT_SOURCE_DIR}/fmu_src)
+if(GENERATED_DIR)
+    # #include "variables.h" looks beside the including file first: give the sources new neighbours.
+    file(GLOB files CONFIGURE_DEPENDS ${fmu_src}/*.c ${fmu_src}/*.h)
+    set(fmu_src ${PROJECT_BINARY_DIR}/fmu_src)
+    file(MAKE_DIRECTORY ${fmu_src})
+    foreach(file IN LISTS files ITEMS ${GENERATED_DIR}/variables.h ${GENERATED_DIR}/variables.c)
+        get_filename_component(name ${file} NAME)
+        file(CREATE_LINK ${file} ${fmu_src}/${name} SYMBOLIC)
+    endforeach()
+endif()
+
+set(rivet_table ${PROJECT_BINARY_DIR}/rivet_table.c)
+if(GENERATED_DIR AND EXISTS ${GENERATED_DIR}/rivet_table.c)
+    set(rivet_table ${GENERATED_DIR}/rivet_table.c)
+else()
+    file(GLOB embed_sources CONFIGURE_DEPENDS ${rivet_model_dir}/*.py)
+    add_custom_command(OUTPUT ${rivet_table}
+        COMMAND ${Python_EXECUTABLE} -m rivet_model.embed ${RIVET_TABLE} ${rivet_table}
+        DEPENDS ${RIVET_TABLE} ${embed_sources} WORKING_DIRECTORY ${PROJECT_SOURCE_DIR} VERBATIM)
+endif()
+
+list(TRANSFORM kernel_files PREPEND ${fmu_src}/)
+file(GLOB core_files CONFIGURE_DEPENDS ${fmu_src}/*.c)
+list(REMOVE_ITEM core_files ${kernel_files} ${fmu_src}/fmi2_wrapper.c)
+
+add_library(core OBJECT ${core_files} ${rivet_table})
+target_include_directories(core PUBLIC ${fmu_src})
+target_compile_options(core PRIVATE ${core_flags})
+target_link_libraries(core PUBLIC SUNDIALS::arkode SUNDIALS::cvode SUNDIALS::kinsol SUNDIALS::nvecserial m)
+
+# Adds the core's kernel files, compiled for one instruction set.
+function(add_kernel isa lane_width)
+    add_library(kernel_${isa} OBJECT ${kernel_files})
+    target_include_directories(kernel_${isa} PRIVATE ${fmu_src})
+    target_compile_definitions(kernel_${isa} PRIVATE ISA=${isa} LANE_WIDTH=${lane_width})
+    target_compile_options(kernel_${isa} PRIVATE ${core_flags} ${ARGN})
+    set(core_objects ${core_objects} $<TARGET_OBJECTS:kernel_${isa}> PARENT_SCOPE)
+endfunction()
+
+set(core_objects $<TARGET_OBJECTS:core>)
+if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
+    add_kernel(sse2 2)
+    add_kernel(avx2 4 -march=x86-64-v3)
+    add_kernel(avx512 8 -march=x86-64-v4 -mprefer-vector-width=512)
+elseif(CMAKE_SYSTEM_PROCESSOR MATCHES "aarch64|arm64")
+    add_kernel(neon 2)
+else()
+    add_kernel(generic 2)
+endif()
+
+# For the tests only: each element's functions, callable from Python.
+file(GLOB test_files CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/tests/test_library.c)
+if(test_files)
+    add_library(bearing_test SHARED ${core_objects} ${test_files})
+    target_compile_options(bearing_test PRIVATE ${core_flags})
+    target_link_libraries(bearing_test PRIVATE core)
+endif()

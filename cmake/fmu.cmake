@@ -1,0 +1,16 @@
+# The FMU: its binary, which exports fmi2* only and needs libc and libm only, and the archive around it.
+
+add_library(RivetedBearing MODULE ${core_objects} ${fmu_src}/fmi2_wrapper.c)
+set_target_properties(RivetedBearing PROPERTIES PREFIX "")
+target_include_directories(RivetedBearing SYSTEM PRIVATE ${fmpy_dir}/c-code)
+target_compile_options(RivetedBearing PRIVATE ${core_flags})
+target_link_libraries(RivetedBearing PRIVATE core)
+if(APPLE)
+    target_link_options(RivetedBearing PRIVATE -Wl,-exported_symbol,_fmi2*)
+else()
+    target_link_options(RivetedBearing PRIVATE -Wl,--version-script=${PROJECT_SOURCE_DIR}/cmake/exports.map -Wl,--gc-sections -static-libgcc)
+    set_target_properties(RivetedBearing PROPERTIES LINK_DEPENDS ${PROJECT_SOURCE_DIR}/cmake/exports.map)
+    if(NOT SANITIZE)
+        target_link_options(RivetedBearing PRIVATE -Wl,--no-undefined -Wl,-s)
+    endif()
+endif()
