@@ -1,4 +1,5 @@
 // Written by fmus/generate.py from fmus/variables.toml: do not edit.
+// clang-format off
 #include "variables.h"
 
 #include <math.h>

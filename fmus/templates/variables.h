@@ -1,4 +1,5 @@
 // Written by fmus/generate.py from fmus/variables.toml: do not edit.
+// clang-format off
 // All variables of the model: what users set (Parameters, Inputs), what they read (Outputs), the state vector, and tables of them.  SI units.
 #pragma once
 
