@@ -16,6 +16,7 @@ from .results import FORMATS, write_result
 from .scene import load_scene, shipped_scenes
 
 BAD_INPUT, STOPPED = 2, 3  # exit codes
+DEFAULT_BEARING = "6207"
 app = typer.Typer(no_args_is_help=True, add_completion=False, pretty_exceptions_enable=False, help=__doc__)
 console = Console(highlight=False)
 messages = Console(stderr=True, highlight=False)
@@ -181,3 +182,22 @@ def print_summary(result):
     for text in dict.fromkeys(about.get("messages", [])):
         if not result.stopped or text not in result.stopped:
             messages.print(f"[yellow]note:[/] {escape(text)}", soft_wrap=True)
+
+
+@command
+def info(
+    target: Annotated[str, typer.Argument(metavar="[BEARING|SCENE]", help="bearing file or designation, or scene file or name")] = DEFAULT_BEARING,
+    fmu: Annotated[Path | None, typer.Option(help="the FMU whose parameters a scene starts from")] = None,
+):
+    """Geometry, masses, kinematic and fault frequencies, quasi-static loads and life."""
+    from .bearings import bearing_case, is_bearing, scene_case, shipped_bearings
+    from .fmu import Model
+    from .info import info_tables
+
+    if target not in (names := [*shipped_bearings(), *shipped_scenes()]) and not Path(target).is_file():
+        raise unknown("info", "bearing, scene or file", target, names)
+    case = bearing_case(target) if is_bearing(target) else scene_case(target, Model(fmu))
+    console.print(f"[bold]{escape(case.designation)}[/]  {escape(case.description)}", soft_wrap=True)
+    for title, table in info_tables(case):
+        console.print(f"\n[bold]{title}[/]", soft_wrap=True)
+        console.print(table)

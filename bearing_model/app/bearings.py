@@ -1,0 +1,120 @@
+"""Bearing files: what a bearing is, its catalogue data and what follows from them without a simulation.
+
+    designation = "6310"
+    Z = 8
+    [catalogue]           # optional: bore, outside_diameter, width [m], C, C_0 [N]
+    [parameters]          # start values of the FMU made from this file, SI
+    bearing.D = 0.01905
+    [inputs]              # likewise
+    shaft.F_y = 6000.0
+"""
+
+import math
+from dataclasses import dataclass, field, fields
+from importlib.resources import files
+from pathlib import Path
+
+from bearing_model.quasi_static import Bearing, Load, quasi_static
+
+from .errors import UserError, unknown
+from .scene import load_scene, read_toml, refusal, shipped_scenes
+
+SHIPPED = files("bearing_model") / "data" / "bearings"
+DEFAULT = "6207"
+KEYS = ("designation", "description", "Z", "catalogue", "parameters", "inputs")
+CATALOGUE = ("bore", "outside_diameter", "width", "C", "C_0")
+
+
+@dataclass(frozen=True)
+class Case:
+    """A bearing at work: catalogue data and SI values or item names by the FMU's full variable names."""
+
+    designation: str
+    description: str
+    Z: int
+    values: dict
+    catalogue: dict = field(default_factory=dict)
+
+    @property
+    def bearing(self):
+        """Geometry and material for the quasi-static model."""
+        given = {f.name: self.values[f"bearing.{f.name}"] for f in fields(Bearing) if f"bearing.{f.name}" in self.values}
+        return Bearing(**given, Z=self.Z, C=self.catalogue.get("C"), C_0=self.catalogue.get("C_0"))
+
+    @property
+    def load(self):
+        """Loads, speed and support of the inner ring for the quasi-static model."""
+        given = {f.name: self.values[f"shaft.{f.name}"] for f in fields(Load) if f"shaft.{f.name}" in self.values}
+        mode = self.values.get("ring.tilt_mode", "prescribed")
+        if mode == "prescribed":
+            return Load(**given | {"M_y": 0.0, "M_z": 0.0})
+        return Load(**given, k_tilt=self.values["ring.k_tilt"] if mode == "supported" else 0.0)
+
+    def equilibrium(self):
+        """The QuasiStatic of ring and balls; UserError if there is none."""
+        try:
+            return quasi_static(self.bearing, self.load)
+        except (ValueError, ArithmeticError) as problem:
+            raise UserError(f"{self.designation}: {problem}") from None
+
+
+def shipped_bearings():
+    """Designations of the bearings that come with the program."""
+    return sorted(path.name.removesuffix(".toml") for path in SHIPPED.iterdir() if path.name.endswith(".toml"))
+
+
+def find_bearing(source):
+    """The file of a bearing given by path or by designation."""
+    if str(source) in shipped_bearings():
+        return SHIPPED / f"{source}.toml"
+    if Path(source).is_file():
+        return Path(source)
+    raise unknown("bearing", "name or file", source, shipped_bearings())
+
+
+def is_bearing(source):
+    """Whether a name or file means a bearing, not a scene."""
+    if str(source) in shipped_bearings() or str(source) in shipped_scenes():
+        return str(source) in shipped_bearings()
+    return Path(source).is_file() and "Z" in read_toml(Path(source))
+
+
+def bearing_case(source):
+    """The Case of a bearing file: its values over those of the 6207; UserError naming file, key, value and what is allowed."""
+    path = find_bearing(source)
+    document, default = read_toml(path), read_toml(SHIPPED / f"{DEFAULT}.toml")
+    for key in document:
+        if key not in KEYS:
+            raise unknown(path, "key", key, KEYS)
+    Z, catalogue = document.get("Z", default["Z"]), document.get("catalogue", {})
+    if isinstance(Z, bool) or not isinstance(Z, int) or not 5 <= Z <= 32:
+        raise refusal(path, "Z", Z, "allowed: an integer from 5 to 32")
+    for key, value in catalogue.items():
+        if key not in CATALOGUE:
+            raise unknown(path, "catalogue key", key, CATALOGUE)
+        if isinstance(value, bool) or not isinstance(value, (int, float)) or not 0.0 < value < math.inf:
+            raise refusal(path, f"catalogue.{key}", value, "not a positive number in SI units")
+    values = {}
+    for section in ("parameters", "inputs"):
+        values |= dict(flat(default[section])) | dict(flat(document.get(section, {})))
+    return Case(str(document.get("designation", Path(path.name).stem)), str(document.get("description", "")), Z, values, catalogue)
+
+
+def scene_case(source, model):
+    """The Case of a scene at its start, with the FMU's values for all that the scene leaves open."""
+    scene = load_scene(source, model)
+    values = {name: model.default(variable) for name, variable in (model.parameters | model.inputs).items()}
+    values |= scene.parameters | {name: float(history(0.0)) for name, history in scene.inputs.items()}
+    Z = sum(name.startswith("ball[") and name.endswith("].Q_i") for name in model.outputs)
+    known = [case for case in map(bearing_case, shipped_bearings()) if case.Z == Z and all(case.values[f"bearing.{s}"] == values[f"bearing.{s}"] for s in ("D", "d_m"))]
+    designation, catalogue = (known[0].designation, known[0].catalogue) if known else ("bearing", {})
+    return Case(f"{designation}, scene {scene.name}", scene.description, Z, values, catalogue)
+
+
+def flat(tree, prefix=""):
+    """Full names and values of nested tables."""
+    for key, value in tree.items():
+        if isinstance(value, dict):
+            yield from flat(value, f"{prefix}{key}.")
+        else:
+            yield f"{prefix}{key}", value
