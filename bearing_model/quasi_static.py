@@ -1,0 +1,539 @@
+"""Quasi-static equilibrium of a single-row groove ball bearing: inner ring and balls at rest in the frame of the cage (Jones-Harris).
+
+    outer groove centres: the circle |r| = R_e, x = 0                    R_e = d_m/2 + D/2 + P_d/4 - f_e D
+    inner groove centres: circle of radius R_i about C, axis a           R_i = d_m/2 - D/2 - P_d/4 + f_i D,   a = (a_x, tilt_z, -tilt_y)
+    ball j at (x_j, r_j) in the half-plane of the azimuth psi_j (from Y toward Z), held there by the cage
+
+    delta = |c - ball| - (f - 1/2) D,  c the nearest point of the circle          Q = K delta^1.5
+    V = sum 2/5 K delta^2.5 - sum 1/2 m omega_m^2 r_j^2 - F.C - M.tilt + 1/2 k_tilt (tilt - shaft tilt)^2
+
+For given inertia loads the equilibrium is the minimum of the potential energy V over the ring's five coordinates and the 2 Z of the balls: one smooth
+problem, nearly convex, with no case for loose balls, clearance or preload.  It is the exact rest state of the frictionless bearing whose balls orbit
+at omega_m.  Gyroscopic moments (race control "outer" or "inner") need friction forces at the races, which are held as loads and iterated upon.
+
+Sources: Jones, ASME J. Basic Eng. 82 (1960) 309-320; Harris & Kotzalas, Advanced Concepts of Bearing Technology (2006), ch. 1 and 3;
+de Mul, Vree & Maas, ASME J. Tribol. 111 (1989) 142-148.  Life: ISO/TS 16281:2008.
+Energy and derivatives are those of the exact geometry at any tilt.
+"""
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from bearing_model.hertz_exact import ball_race_contact
+from bearing_model.kinematics import CONTROLS, FaultFrequencies, ball_motion
+
+RING = 5  # ring coordinates: x, y, z, tilt_y, tilt_z
+
+
+@dataclass(frozen=True)
+class Bearing:
+    """A groove ball bearing; names, units and defaults as the parameters bearing.* of the FMU (fmus/variables.toml).  Default: 6207.
+
+    D ball diameter [m], d_m pitch diameter [m] (mean of the groove-bottom diameters), Z balls, f_i, f_e groove radius / D, P_d diametral clearance [m]
+    (negative: preload), E [Pa], nu, rho [kg/m3] of balls and rings.  alpha_0 [rad]: free contact angle of an angular contact bearing; it takes the
+    place of P_d, and x = 0 is then where balls and races just touch.  C, C_0: dynamic and static load rating [N] for the life and the static safety.
+    Raises ValueError for a value that is not admissible.
+    """
+
+    D: float = 0.0111125
+    d_m: float = 0.0535
+    Z: int = 9
+    f_i: float = 0.515
+    f_e: float = 0.52
+    P_d: float | None = None  # 15 um unless alpha_0 is given
+    E: float = 207e9
+    nu: float = 0.3
+    rho: float = 7800.0
+    alpha_0: float | None = None
+    C: float | None = None
+    C_0: float | None = None
+
+    def __post_init__(self):
+        if self.alpha_0 is not None and self.P_d is not None:
+            raise ValueError(f"bearing.alpha_0 = {self.alpha_0} and bearing.P_d = {self.P_d}: only one of them can be given")
+        for name in ("D", "d_m", "E", "rho"):
+            admit("bearing", self, name, lambda v: v > 0.0, "must be positive")
+        for name in ("f_i", "f_e"):
+            admit("bearing", self, name, lambda v: 0.5 < v <= 1.0, "must be more than 0.5 and at most 1")
+        for name in ("C", "C_0"):
+            if getattr(self, name) is not None:
+                admit("bearing", self, name, lambda v: v > 0.0, "must be positive")
+        admit("bearing", self, "nu", lambda v: 0.0 <= v < 0.5, "must be at least 0 and less than 0.5")
+        admit("bearing", self, "Z", lambda v: v >= 3 and v == int(v), "must be a whole number of at least 3")
+        admit("bearing", self, "d_m", lambda v: v * math.sin(math.pi / self.Z) >= self.D, f"{self.Z} balls of D = {self.D} m do not fit")
+        if self.alpha_0 is not None:
+            admit("bearing", self, "alpha_0", lambda v: 0.0 <= v < 0.5 * math.pi, "must be at least 0 and less than pi/2")
+        if self.P_d is not None:
+            admit("bearing", self, "P_d", lambda v: abs(v) < 2.0 * self.A, f"must be within +-2 (f_i + f_e - 1) D = {2.0 * self.A:.4g} m")
+
+    @property
+    def A(self):
+        """Distance of the groove centres of both races with the ball just touching both, (f_i + f_e - 1) D [m]."""
+        return (self.f_i + self.f_e - 1.0) * self.D
+
+    @property
+    def clearance(self):
+        """Diametral clearance P_d [m]: as given, that of alpha_0, or 15 um.  Harris & Kotzalas (2006), eq. 2.9: P_d = 2 A (1 - cos alpha_0)."""
+        if self.alpha_0 is not None:
+            return 2.0 * self.A * (1.0 - math.cos(self.alpha_0))
+        return 15e-6 if self.P_d is None else self.P_d
+
+    @property
+    def free_contact_angle(self):
+        """Contact angle under a vanishing axial load, cos(alpha) = 1 - P_d/(2 A) [rad]; 0 with preload.  Harris & Kotzalas (2006), eq. 2.9."""
+        return math.acos(min(1.0, 1.0 - self.clearance / (2.0 * self.A)))
+
+    @property
+    def nominal_angle(self):
+        """Contact angle for which Hertz constants and load rating are taken: alpha_0, 0 for a deep groove bearing [rad]."""
+        return self.alpha_0 or 0.0
+
+    @property
+    def ball_mass(self):
+        """Mass of a ball [kg]."""
+        return self.rho * math.pi * self.D**3 / 6.0
+
+
+@dataclass(frozen=True)
+class Load:
+    """Loads on the inner ring and its speed; names and units as the inputs shaft.* of the FMU.
+
+    F_x, F_y, F_z [N], M_y, M_z [N.m], omega [rad/s].  k_tilt [N.m/rad] ties the ring's tilt to the shaft's tilt_y, tilt_z [rad]: inf (default) prescribes
+    it, 0 leaves the ring to the moments alone, else M = k_tilt (shaft tilt - ring tilt) + (M_y, M_z).  A tilt is a direction cosine of the axis
+    (its angle to 2e-4 at 2 deg), and M_y, M_z do work on it.  Raises ValueError for a value that is not admissible.
+    """
+
+    F_x: float = 0.0
+    F_y: float = 0.0
+    F_z: float = 0.0
+    M_y: float = 0.0
+    M_z: float = 0.0
+    omega: float = 0.0
+    tilt_y: float = 0.0
+    tilt_z: float = 0.0
+    k_tilt: float = math.inf
+
+    def __post_init__(self):
+        for name in ("F_x", "F_y", "F_z", "M_y", "M_z", "omega"):
+            admit("load", self, name, math.isfinite, "must be finite")
+        for name in ("tilt_y", "tilt_z"):
+            admit("load", self, name, lambda v: abs(v) <= 0.5, "must be within +-0.5 rad")
+        if not self.k_tilt >= 0.0:
+            raise ValueError(f"load.k_tilt = {self.k_tilt}: must be at least 0 (0: free, inf: tilt prescribed)")
+        if math.isinf(self.k_tilt) and (self.M_y or self.M_z):
+            raise ValueError(f"load.k_tilt = {self.k_tilt} prescribes the tilt: load.M_y, load.M_z must be 0, not {self.M_y}, {self.M_z}")
+
+
+@dataclass(frozen=True)
+class QuasiStatic:
+    """Equilibrium of ring and balls.  Arrays hold one value per ball; a ball without contact at a race has Q = 0 and contact angle 0 there."""
+
+    bearing: Bearing
+    load: Load
+    x: float  # displacement of the inner ring [m] ...
+    y: float
+    z: float
+    tilt_y: float  # ... and its tilt [rad]
+    tilt_z: float
+    psi: np.ndarray  # azimuth of the balls from Y toward Z [rad]
+    x_b: np.ndarray  # position of the ball centres [m]
+    r_b: np.ndarray
+    Q_i: np.ndarray  # contact loads [N]
+    Q_e: np.ndarray
+    alpha_i: np.ndarray  # contact angles [rad], positive under F_x > 0
+    alpha_e: np.ndarray
+    delta_i: np.ndarray  # elastic approach, negative: gap [m]
+    delta_e: np.ndarray
+    a_i: np.ndarray  # semi-axes of the contact ellipses, a across the rolling direction [m]
+    b_i: np.ndarray
+    a_e: np.ndarray
+    b_e: np.ndarray
+    p_i: np.ndarray  # largest contact pressures [Pa]
+    p_e: np.ndarray
+    F: np.ndarray  # load carried by the balls: force on the inner ring, sign reversed (x, y, z) [N] ...
+    M: np.ndarray  # ... and its moment about the ring's centre (x, y, z) [N.m]
+    K: np.ndarray  # stiffness d(F, M)/d(x, y, z, tilt_y, tilt_z), balls following, inertia loads constant [N, m, rad]
+    omega_m: float  # orbital speed of the balls, that is cage speed [rad/s]
+    omega_R: np.ndarray  # spin of the balls seen from the cage [rad/s]
+    beta: np.ndarray  # pitch angle of the spin axis [rad]
+    spin_i: np.ndarray  # spin against the races about the contact normal [rad/s]
+    spin_e: np.ndarray
+    F_c: np.ndarray  # centrifugal force [N]
+    M_g: np.ndarray  # gyroscopic moment carried by friction [N.m]
+
+    @property
+    def frequencies(self):
+        """Cage, ball pass and ball spin frequencies at the speeds found (kinematics.FaultFrequencies) [Hz]."""
+        turn = 2.0 * np.pi
+        loaded = self.Q_i > 0.0
+        omega_R = float(np.mean(self.omega_R[loaded] if loaded.any() else self.omega_R))
+        Z = self.bearing.Z
+        return FaultFrequencies(abs(self.omega_m) / turn, Z * abs(self.omega_m) / turn, Z * abs(self.load.omega - self.omega_m) / turn, abs(omega_R) / turn)
+
+    @property
+    def L_10r(self):
+        """Basic reference rating life [10^6 revolutions], inf without load; the load stands still.  ISO/TS 16281:2008, eqs. 18-24 for Z balls in a row.
+
+        Q_ci, Q_ce: ball loads that give the rings the rating C.  Raises ValueError without bearing.C.
+        """
+        b = self.bearing
+        if b.C is None:
+            raise ValueError("bearing.C = None: the life needs the dynamic load rating [N]")
+        gamma = b.D * math.cos(b.nominal_angle) / b.d_m
+        ratio = 1.044 * ((1.0 - gamma) / (1.0 + gamma)) ** 1.72 * (b.f_i / b.f_e * (2.0 * b.f_e - 1.0) / (2.0 * b.f_i - 1.0)) ** 0.41
+        Q_ci = b.C / (0.407 * b.Z * math.cos(b.nominal_angle)) * (1.0 + ratio ** (10 / 3)) ** 0.3
+        Q_ce = b.C / (0.389 * b.Z * math.cos(b.nominal_angle)) * (1.0 + ratio ** (-10 / 3)) ** 0.3
+        Q_ei = np.mean(self.Q_i**3) ** (1 / 3)  # the inner ring turns through the load ...
+        Q_ee = np.mean(self.Q_e ** (10 / 3)) ** 0.3  # ... the outer ring stands in it
+        failed = (Q_ei / Q_ci) ** (10 / 3) + (Q_ee / Q_ce) ** (10 / 3)
+        return float(failed**-0.9) if failed > 0.0 else math.inf
+
+    @property
+    def P_ref(self):
+        """Dynamic equivalent reference load C / L_10r^(1/3) [N].  ISO/TS 16281:2008, eq. 25."""
+        return self.bearing.C / self.L_10r ** (1 / 3)
+
+    @property
+    def S_0(self):
+        """Static safety C_0/P_0 = (4200 MPa / p_max)^3, inf without load: 4200 MPa at the ball most loaded define C_0.  ISO 76:2006, 5.1."""
+        p_max = max(self.p_i.max(), self.p_e.max())
+        return float((4.2e9 / p_max) ** 3) if p_max > 0.0 else math.inf
+
+    @property
+    def P_0(self):
+        """Static equivalent load C_0/S_0 [N].  Raises ValueError without bearing.C_0."""
+        if self.bearing.C_0 is None:
+            raise ValueError("bearing.C_0 = None: the static equivalent load needs the static load rating [N]")
+        return self.bearing.C_0 / self.S_0
+
+
+def admit(owner, obj, name, test, allowed):
+    """Raise ValueError that names owner.name, its value and what is allowed, unless it is a finite number that passes the test."""
+    value = getattr(obj, name)
+    try:
+        good = math.isfinite(value) and test(value)
+    except TypeError:
+        good = False
+    if not good:
+        raise ValueError(f"{owner}.{name} = {value}: {allowed}")
+
+
+# ---------------------------------------------------------------------------------------------------------------------------------------------------
+# Potential energy
+
+
+@dataclass
+class InertiaLoads:
+    """What the balls' motion adds, held during the search: centrifugal stiffness m omega_m^2 and friction forces that carry gyroscopic moments."""
+
+    m_omega2: float  # [N/m]
+    ball: np.ndarray  # friction on the balls (x, r), Z x 2 [N]
+    ring: np.ndarray  # friction on the ring: force [N] and moment [N.m]
+
+    def distance(self, other, r):
+        """Largest change of a force on a ball at the radius r [N]."""
+        return max(abs(self.m_omega2 - other.m_omega2) * r, np.abs(self.ball - other.ball).max())
+
+    def halfway(self, other):
+        """Mean of two sets of loads."""
+        return InertiaLoads(0.5 * (self.m_omega2 + other.m_omega2), 0.5 * (self.ball + other.ball), 0.5 * (self.ring + other.ring))
+
+
+class Potential:
+    """Potential energy of ring and balls, its gradient and its Hessian.  Coordinates v: five of the ring, then (x_j, r_j) of each ball."""
+
+    def __init__(self, bearing, load, psi):
+        self.bearing, self.load, self.psi = bearing, load, psi
+        D, d_m, f_i, f_e, P_d = bearing.D, bearing.d_m, bearing.f_i, bearing.f_e, bearing.clearance
+        self.R_i = 0.5 * (d_m - D) - 0.25 * P_d + f_i * D
+        self.R_e = 0.5 * (d_m + D) + 0.25 * P_d - f_e * D
+        self.l_i, self.l_e = (f_i - 0.5) * D, (f_e - 0.5) * D
+        self.x_touch = 0.0 if bearing.alpha_0 is None else bearing.A * math.sin(bearing.alpha_0)
+        self.inner = ball_race_contact(D, d_m, f_i, bearing.nominal_angle, bearing.E, bearing.nu, "inner")
+        self.outer = ball_race_contact(D, d_m, f_e, bearing.nominal_angle, bearing.E, bearing.nu, "outer")
+        self.e_r = np.column_stack([np.zeros_like(psi), np.cos(psi), np.sin(psi)])
+        self.inertia = InertiaLoads(0.0, np.zeros((len(psi), 2)), np.zeros(RING))
+
+    def split(self, v):
+        """Ring coordinates and ball positions x_b, r_b."""
+        return v[:RING], v[RING::2], v[RING + 1 :: 2]
+
+    def axis(self, q):
+        """Axis a = (a_x, tilt_z, -tilt_y) of the ring, nan beyond 90 deg."""
+        a_x2 = 1.0 - q[3] ** 2 - q[4] ** 2
+        return np.array([math.sqrt(a_x2) if a_x2 > 0.0 else math.nan, q[4], -q[3]])
+
+    def inner_centres(self, v):
+        """Ball centres, and the points of the inner groove-centre circle nearest to them (Z x 3 each) [m]."""
+        q, x_b, r_b = self.split(v)
+        ball = x_b[:, None] * [1.0, 0.0, 0.0] + r_b[:, None] * self.e_r
+        a, C = self.axis(q), q[:3] + [self.x_touch, 0.0, 0.0]
+        p = ball - C
+        in_plane = p - (p @ a)[:, None] * a
+        return ball, C + self.R_i * in_plane / np.linalg.norm(in_plane, axis=1)[:, None]
+
+    def approaches(self, v):
+        """Elastic approach delta_i, delta_e of each ball at both races [m]; negative: gap."""
+        _, x_b, r_b = self.split(v)
+        ball, c = self.inner_centres(v)
+        return np.linalg.norm(c - ball, axis=1) - self.l_i, np.hypot(x_b, r_b - self.R_e) - self.l_e
+
+    def value(self, v):
+        """Potential energy [J]."""
+        q, x_b, r_b = self.split(v)
+        if not np.isfinite(self.axis(q)).all():
+            return math.inf
+        delta_i, delta_e = self.approaches(v)
+        contact = 0.4 * (self.inner.K * np.maximum(delta_i, 0.0) ** 2.5 + self.outer.K * np.maximum(delta_e, 0.0) ** 2.5)
+        V = contact.sum() - 0.5 * self.inertia.m_omega2 * (r_b @ r_b) - self.applied() @ q
+        V -= self.inertia.ball[:, 0] @ x_b + self.inertia.ball[:, 1] @ r_b
+        return V + 0.5 * self.support() * ((q[3] - self.load.tilt_y) ** 2 + (q[4] - self.load.tilt_z) ** 2)
+
+    def applied(self):
+        """Loads on the ring's coordinates: shaft and friction [N, N.m]."""
+        load = self.load
+        return np.array([load.F_x, load.F_y, load.F_z, load.M_y, load.M_z]) + self.inertia.ring
+
+    def support(self):
+        """Stiffness of the shaft against tilt [N.m/rad]; a prescribed tilt needs none."""
+        return 0.0 if math.isinf(self.load.k_tilt) else self.load.k_tilt
+
+    def contact_derivatives(self, v):
+        """Gradient (Z x 7) and Hessian (Z x 7 x 7) of each ball's contact energy in (ring, x_j, r_j)."""
+        q, x_b, r_b = self.split(v)
+        gradient, hessian = np.zeros((len(r_b), 7)), np.zeros((len(r_b), 7, 7))
+
+        # inner race: the distance d of ball and circle through h = p.a along the axis and s = sqrt(p.p - h^2) across it, d^2 = h^2 + (R_i - s)^2
+        a = self.axis(q)
+        a_q = np.zeros((3, 7))  # da/dq, and d2a/dq2 (x component only)
+        a_q[0, 3:5], a_q[2, 3], a_q[1, 4] = -q[3:5] / a[0], -1.0, 1.0
+        a_qq = np.zeros((7, 7))
+        a_qq[3:5, 3:5] = -np.eye(2) / a[0] - np.outer(q[3:5], q[3:5]) / a[0] ** 3
+        ball, c = self.inner_centres(v)
+        p = ball - (q[:3] + [self.x_touch, 0.0, 0.0])
+        p_q = np.zeros((len(r_b), 3, 7))
+        p_q[:, :, :3] = -np.eye(3)
+        p_q[:, 0, 5] = 1.0
+        p_q[:, :, 6] = self.e_r
+
+        h = p @ a
+        h_q = np.einsum("jkm,k->jm", p_q, a) + p @ a_q
+        cross = np.einsum("jkm,kn->jmn", p_q, a_q)
+        h_qq = cross + cross.transpose(0, 2, 1) + p[:, :1, None] * a_qq
+        s = np.linalg.norm(p - h[:, None] * a, axis=1)[:, None]
+        s_q = (np.einsum("jkm,jk->jm", p_q, p) - h[:, None] * h_q) / s
+        s_qq = (np.einsum("jkm,jkn->jmn", p_q, p_q) - outer(h_q) - h[:, None, None] * h_qq - outer(s_q)) / s[:, :, None]
+        d = np.linalg.norm(c - ball, axis=1)[:, None]
+        w = self.R_i - s
+        d_q = (h[:, None] * h_q - w * s_q) / d
+        d_qq = (outer(h_q) + h[:, None, None] * h_qq + outer(s_q) - w[:, :, None] * s_qq - outer(d_q)) / d[:, :, None]
+        add_contact(gradient, hessian, self.inner.K, d[:, 0] - self.l_i, d_q, d_qq)
+
+        # outer race: plane distance
+        d = np.hypot(x_b, r_b - self.R_e)[:, None]
+        d_q, d_qq = np.zeros_like(gradient), np.zeros_like(hessian)
+        d_q[:, 5], d_q[:, 6] = x_b / d[:, 0], (r_b - self.R_e) / d[:, 0]
+        d_qq[:, 5:, 5:] = (np.eye(2) - outer(d_q[:, 5:])) / d[:, :, None]
+        add_contact(gradient, hessian, self.outer.K, d[:, 0] - self.l_e, d_q, d_qq)
+        return gradient, hessian
+
+    def derivatives(self, v):
+        """Gradient [N, N.m] and Hessian of the potential energy."""
+        contact, contact_qq = self.contact_derivatives(v)
+        q, _, r_b = self.split(v)
+        g, H = np.zeros(len(v)), np.zeros((len(v), len(v)))
+        for j, (g_j, H_j) in enumerate(zip(contact, contact_qq, strict=True)):
+            index = np.r_[0:RING, RING + 2 * j, RING + 2 * j + 1]
+            g[index] += g_j
+            H[np.ix_(index, index)] += H_j
+        g[:RING] -= self.applied()
+        g[3:RING] += self.support() * (q[3:] - [self.load.tilt_y, self.load.tilt_z])
+        H[[3, 4], [3, 4]] += self.support()
+        g[RING + 1 :: 2] -= self.inertia.m_omega2 * r_b
+        H[np.arange(RING + 1, len(v), 2), np.arange(RING + 1, len(v), 2)] -= self.inertia.m_omega2
+        g[RING:] -= self.inertia.ball.ravel()
+        return g, H
+
+    def stiffness(self, v):
+        """Stiffness of the bearing against the ring's coordinates, balls in equilibrium: K = K_qq - sum K_qb K_bb^-1 K_bq; loose balls add nothing."""
+        _, H = self.contact_derivatives(v)
+        H[:, 6, 6] -= self.inertia.m_omega2
+        return sum(H_j[:5, :5] - H_j[:5, 5:] @ np.linalg.pinv(H_j[5:, 5:]) @ H_j[5:, :5] for H_j in H if H_j[:5, :5].any()) + np.zeros((RING, RING))
+
+
+def outer(u):
+    """Outer products of the rows of u with themselves."""
+    return u[:, :, None] * u[:, None, :]
+
+
+def add_contact(gradient, hessian, K, delta, d_q, d_qq):
+    """Add gradient and Hessian of the energy 2/5 K delta^2.5, none in separation."""
+    delta = np.maximum(delta, 0.0)[:, None]
+    gradient += K * delta**1.5 * d_q
+    hessian += (K * delta**1.5)[:, :, None] * d_qq + 1.5 * K * np.sqrt(delta)[:, :, None] * outer(d_q)
+
+
+# ---------------------------------------------------------------------------------------------------------------------------------------------------
+# Equilibrium
+
+
+def minimum(potential, v):
+    """Coordinates of the stable equilibrium, searched from v.
+
+    Newton's method in the eigenvectors of the Hessian: downhill where it is not convex, each step limited to a radius that the fall of the energy sets.
+    Directions without force (loose balls, loose ring) stay where they are.  An equilibrium on a ridge (the ring balanced on one ball) is left downhill.
+    Raises ArithmeticError if there is none: the load is not carried.
+    """
+    # units in which a contact of 10 um counts as one
+    length = 1e-5
+    scale = np.full(len(v), length)
+    scale[3:RING] /= 0.5 * potential.bearing.d_m
+    free = np.ones(len(v), dtype=bool)
+    free[3:RING] = not math.isinf(potential.load.k_tilt)
+    unit = potential.inner.K * length**2.5
+    loads = np.append(scale[:RING] * potential.applied() * free[:RING], length * potential.inertia.m_omega2 * potential.R_e) / unit
+    enough = 1e-11 * np.abs(loads).max() + 1e-11  # of 1 kN: the rounding of a contact load
+
+    def local(v):
+        g, H = potential.derivatives(v)
+        return potential.value(v) / unit, scale[free] * g[free] / unit, np.outer(scale[free], scale[free]) * H[np.ix_(free, free)] / unit
+
+    def moved(v, step):
+        trial = v.copy()
+        trial[free] += scale[free] * step
+        return trial
+
+    radius = 1.0
+    V, g, H = local(v)
+    for _ in range(1000):
+        curvature, mode = np.linalg.eigh(H)
+        force = -mode.T @ g
+        force[np.abs(force) < 0.01 * enough] = 0.0
+        if np.abs(g).max() <= enough or radius < 1e-12:
+            if curvature[0] >= -1e-9 * curvature[-1]:
+                break
+            step, radius = 0.1 * mode[:, 0] * np.sign(mode[np.abs(mode[:, 0]).argmax(), 0]), 1.0  # off the ridge, the same way every time
+        else:
+            step = mode @ (force / np.maximum(np.abs(curvature), np.abs(force) / radius + 1e-300))
+        trial = moved(v, step)
+        V_trial = potential.value(trial)
+        if not np.isfinite(V_trial):
+            radius *= 0.25
+            continue
+        V_trial, g_trial, H_trial = local(trial)
+        fall = V - V_trial
+        if fall > 0.0 or (fall > -1e-12 * (1.0 + abs(V)) and np.abs(g_trial).max() < np.abs(g).max()):
+            radius = min(100.0, 2.0 * radius) if fall > -0.25 * (g @ step) else radius
+            v, V, g, H = trial, V_trial, g_trial, H_trial
+        else:
+            radius = 0.25 * min(radius, np.abs(step).max())
+    residual = np.abs(g).max()
+    if residual > 1e3 * enough:
+        raise ArithmeticError(f"no equilibrium found: the bearing does not carry this load (residual {residual * unit / length:.3g} N)")
+    return v
+
+
+def contact_state(potential, v):
+    """Loads and contact angles Q_i, Q_e, alpha_i, alpha_e and the inner contact normals n_i (race on ball, Z x 3)."""
+    _, x_b, r_b = potential.split(v)
+    delta_i, delta_e = potential.approaches(v)
+    ball, c = potential.inner_centres(v)
+    Q_i, Q_e = potential.inner.load(delta_i), potential.outer.load(delta_e)
+    n_i = (c - ball) / np.linalg.norm(c - ball, axis=1)[:, None]
+    alpha_i = np.where(Q_i > 0.0, np.arctan2(n_i[:, 0], np.einsum("jk,jk->j", n_i, potential.e_r)), 0.0)
+    alpha_e = np.where(Q_e > 0.0, np.arctan2(x_b, r_b - potential.R_e), 0.0)
+    return Q_i, Q_e, alpha_i, alpha_e, n_i
+
+
+def orbit(bearing, load, Q_i, alpha_i, alpha_e, control):
+    """Motion of each ball, and the one orbital speed omega_m [rad/s] that the cage gives them: the mean of theirs, weighted by the load that drives them.
+
+    A ball loose from the inner race rolls on the outer one.  Each ball also counts as loose with 1 N: the mean is continuous where contacts open.
+    """
+    loose = ball_motion(load.omega, bearing.D, bearing.d_m, alpha_e, alpha_e, control)
+    motion = ball_motion(load.omega, bearing.D, bearing.d_m, np.where(Q_i > 0.0, alpha_i, alpha_e), alpha_e, control)
+    omega_m = (Q_i @ motion.omega_m + loose.omega_m.sum()) / (Q_i.sum() + bearing.Z)
+    return motion, float(omega_m)
+
+
+def inertia_loads(potential, v, control):
+    """Centrifugal and gyroscopic loads for the contact angles at v, with the motion they come from.
+
+    Gyroscopic moment M_g = J omega_m omega_R sin(beta) about the tangent, carried by friction lambda M_g/D at the races, lambda_i + lambda_e = 2:
+    outer control (0, 2), inner control (1, 1).  Harris & Kotzalas (2006), eqs. 3.34-3.39; loose balls carry none, nor do they without race control.
+    """
+    bearing, load = potential.bearing, potential.load
+    Q_i, Q_e, alpha_i, alpha_e, n_i = contact_state(potential, v)
+    motion, omega_m = orbit(bearing, load, Q_i, alpha_i, alpha_e, control)
+    J = 0.1 * bearing.ball_mass * bearing.D**2
+    turning = (Q_i > 0.0) & (Q_e > 0.0) & (control != "none")
+    M_g = np.where(turning, J * omega_m * motion.omega_R * np.sin(motion.beta), 0.0)
+    lambda_i, lambda_e = (1.0, 1.0) if control == "inner" else (0.0, 2.0)
+    # a force T along e_t x n at the contact -D/2 n has the moment -D/2 T about e_t; n_i = (sin, cos) alpha_i, n_e = -(sin, cos) alpha_e in (x, r)
+    T_i, T_e = -lambda_i * M_g / bearing.D, -lambda_e * M_g / bearing.D
+    friction_i = T_i[:, None] * np.column_stack([-np.cos(alpha_i), np.sin(alpha_i)])
+    friction_e = T_e[:, None] * np.column_stack([np.cos(alpha_e), -np.sin(alpha_e)])
+    on_ring = -friction_i[:, :1] * [1.0, 0.0, 0.0] - friction_i[:, 1:] * potential.e_r
+    ball, _ = potential.inner_centres(v)
+    arm = ball - 0.5 * bearing.D * n_i - v[:3] - [potential.x_touch, 0.0, 0.0]
+    ring = np.concatenate([on_ring.sum(axis=0), np.cross(arm, on_ring).sum(axis=0)[1:]])
+    return InertiaLoads(bearing.ball_mass * omega_m**2, friction_i + friction_e, ring), motion, omega_m, M_g
+
+
+def azimuths(psi, Z):
+    """Azimuths of Z balls: evenly spaced from the first one at psi, or the array given [rad]."""
+    psi = np.asarray(psi, dtype=float)
+    if psi.shape not in ((), (Z,)) or not np.isfinite(psi).all():
+        raise ValueError(f"psi = {psi}: must be the finite azimuth of ball 1 or those of all {Z} balls [rad]")
+    return psi + 2.0 * np.pi / Z * np.arange(Z) if psi.ndim == 0 else psi
+
+
+def quasi_static(bearing, load, psi=0.0, control="none"):
+    """Equilibrium of the inner ring and the balls of a bearing under a load: a QuasiStatic.
+
+    psi: azimuth of ball 1 (balls evenly spaced) or of each ball, from Y toward Z [rad].
+    control: "none" - no friction, no gyroscopic moments: the rest state of the frictionless dynamics; "outer", "inner" - race control (Jones) with them.
+    Raises ValueError for inadmissible values, ArithmeticError if the bearing cannot carry the load.
+
+    >>> result = quasi_static(Bearing(C=25.7e3), Load(F_x=515.0, F_y=2994.0, omega=1909.88))
+    >>> print(f"{1e6 * result.y:.1f} um, largest ball load {result.Q_i.max():.0f} N, L_10r = {result.L_10r:.0f} million revolutions")
+    30.2 um, largest ball load 1543 N, L_10r = 555 million revolutions
+    """
+    if control not in CONTROLS:
+        raise ValueError(f"control = {control!r}: must be one of {', '.join(CONTROLS)}")
+    potential = Potential(bearing, load, azimuths(psi, bearing.Z))
+    v = np.zeros(RING + 2 * bearing.Z)
+    v[3:RING] = load.tilt_y, load.tilt_z
+    alpha = bearing.nominal_angle  # balls touch the outer race
+    v[RING::2], v[RING + 1 :: 2] = potential.l_e * math.sin(alpha), potential.R_e + potential.l_e * math.cos(alpha)
+
+    # the contact angles set speeds and inertia loads, these the contact angles: a weak coupling, a fixed point in a few turns
+    potential.inertia, *_ = inertia_loads(potential, v, control)
+    for turn in range(80):
+        v = minimum(potential, v)
+        loads, motion, omega_m, M_g = inertia_loads(potential, v, control)
+        change = potential.inertia.distance(loads, potential.R_e)
+        if change <= 1e-9 * (1.0 + loads.m_omega2 * potential.R_e):
+            return report(potential, v, motion, omega_m, M_g)
+        potential.inertia = loads if turn < 10 else potential.inertia.halfway(loads)
+    raise ArithmeticError(f"inertia loads do not settle (last change {change:.3g} N): race control {control!r} does not hold for balls that hardly touch")
+
+
+def report(potential, v, motion, omega_m, M_g):
+    """The equilibrium at v as a QuasiStatic."""
+    q, x_b, r_b = potential.split(v)
+    Q_i, Q_e, alpha_i, alpha_e, n_i = contact_state(potential, v)
+    delta_i, delta_e = potential.approaches(v)
+    _, c = potential.inner_centres(v)
+    carried = Q_i[:, None] * n_i  # on the balls
+    a_i, b_i = potential.inner.semi_axes(Q_i)
+    a_e, b_e = potential.outer.semi_axes(Q_e)
+    F = carried.sum(axis=0) - potential.inertia.ring[:3]
+    M = np.cross(c - q[:3] - [potential.x_touch, 0.0, 0.0], carried).sum(axis=0) - [0.0, *potential.inertia.ring[3:]]
+    return QuasiStatic(
+        potential.bearing, potential.load, *map(float, q), potential.psi, x_b, r_b, Q_i, Q_e, alpha_i, alpha_e, delta_i, delta_e,
+        a_i, b_i, a_e, b_e, potential.inner.p_max(Q_i), potential.outer.p_max(Q_e), F, M, potential.stiffness(v),
+        omega_m, motion.omega_R, motion.beta, motion.spin_i, motion.spin_e, potential.inertia.m_omega2 * r_b, M_g,
+    )  # fmt: skip
