@@ -101,11 +101,11 @@ static void contract(const RivetTable *t, const double *coefficients, const Spli
 void rivet_rom_primary(const RivetTable *t, const RivetLoad *load, double fit_eff, double *head_p1, double *mid_vm)
 {
     Splines at[RIVET_AXES];
-    double pair[2];
+    double sigma[2];
     load_splines(t, load, fit_eff, at);
-    contract(t, t->primary, at, pair);
-    *head_p1 = pair[0] + t->head_friction * load->F_head;
-    *mid_vm = pair[1];
+    contract(t, t->primary, at, sigma);
+    *head_p1 = sigma[0] + t->head_friction * load->F_head;
+    *mid_vm = sigma[1];
 }
 
 unsigned rivet_rom_stress(const RivetTable *t, const RivetLoad *load, double fit_eff, double sigma[RIVET_CHANNELS])
@@ -137,8 +137,7 @@ double rivet_rom_fit_eff(const RivetTable *t, double fit_a, bool j2)
     int i = 0;
     while (fit_a >= map->fit_a[i + 1]) i++;
     double h = map->fit_a[i + 1] - map->fit_a[i], u = (fit_a - map->fit_a[i]) / h, v = 1.0 - u;
-    return map->fit_eff[i] * v * v * (1.0 + 2.0 * u) + map->fit_eff[i + 1] * u * u * (1.0 + 2.0 * v)
-           + h * u * v * (map->slope[i] * v - map->slope[i + 1] * u);
+    return map->fit_eff[i] * v * v * (1.0 + 2.0 * u) + map->fit_eff[i + 1] * u * u * (1.0 + 2.0 * v) + h * u * v * (map->slope[i] * v - map->slope[i + 1] * u);
 }
 
 // The flanges outgrow the rivet: k_stack (alpha_flange - alpha_rivet) grip per kelvin.

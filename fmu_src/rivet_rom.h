@@ -57,19 +57,19 @@ typedef struct {
 
 // One rivet joint for the dynamics, in SI.
 typedef struct {
-    double A;                   // shank section [m2]
-    double d_m;                 // diameter of the circle of rivets [m]
-    double grip;                // clamped length [m]
-    double k_rivet;             // axial stiffness of the open joint: rivet, heads and flanges in series [N/m]
-    double k_plate;             // what the closed split plane adds to it [N/m]
-    double k_t_plate;           // tangential stiffness of the split plane before it slips [N/m]
-    double k_t_head;            // of the two heads in series, through the rivet [N/m]
-    double k_stack;             // preload per change of length of the rivet against the flanges [N/m]
-    double alpha_rivet;         // thermal expansion [1/K]
-    double alpha_flange;        // [1/K]
-    double d;                   // shank diameter [m]
-    double T_0;                 // temperature at which preload and fit are given [K]
-    int hole_count;             // hole contact: tangent stiffness k_hole [N/m] of both holes in series over fit_a [m]
+    double A;             // shank section [m2]
+    double d_m;           // diameter of the circle of rivets [m]
+    double grip;          // clamped length [m]
+    double k_rivet;       // axial stiffness of the open joint: rivet, heads and flanges in series [N/m]
+    double k_plate;       // what the closed split plane adds to it [N/m]
+    double k_t_plate;     // tangential stiffness of the split plane before it slips [N/m]
+    double k_t_head;      // of the two heads in series, through the rivet [N/m]
+    double k_stack;       // preload per change of length of the rivet against the flanges [N/m]
+    double alpha_rivet;   // thermal expansion [1/K]
+    double alpha_flange;  // [1/K]
+    double d;             // shank diameter [m]
+    double T_0;           // temperature at which preload and fit are given [K]
+    int hole_count;       // hole contact: tangent stiffness k_hole [N/m] of both holes in series over fit_a [m]
     const double *hole_fit, *k_hole;
 } JointData;
 
@@ -77,17 +77,17 @@ typedef struct {
     const char *kind;           // "closed_form" or "fe"
     const char *geometry_hash;  // of the rivet, flanges and cage that it was computed for
     int Z;
-    double moment_length;       // L [m]
+    double moment_length;  // L [m]
     RivetAxis axis[RIVET_AXES];
-    const double *primary;       // spline coefficients [a][b][c][xi][chi][HEAD_P1, MID_VM], in 1/m2
-    const double *secondary;     // the same of [HEAD_VM, MID_P1]
-    double head_friction;       // [1/m2]
-    double head_friction_vm;    // [1/m2]
-    double yield_rivet;         // [Pa]
-    double fit_flange_yield;    // effective fit at which the flange begins to yield [m]
-    FitMap j2;                  // interference with plasticity
+    const double *primary;    // spline coefficients [a][b][c][xi][chi][HEAD_P1, MID_VM], in 1/m2
+    const double *secondary;  // the same of [HEAD_VM, MID_P1]
+    double head_friction;     // [1/m2]
+    double head_friction_vm;  // [1/m2]
+    double yield_rivet;       // [Pa]
+    double fit_flange_yield;  // effective fit at which the flange begins to yield [m]
+    FitMap j2;                // interference with plasticity
     JointData joint;
-    const double *load_path;    // [Z][5][3], see load_path.h
+    const double *load_path;  // [Z][5][3], see load_path.h
 } RivetTable;
 
 extern const RivetTable rivet_table;  // rivet_table.c, written by rivet_model/embed.py

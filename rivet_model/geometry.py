@@ -1,14 +1,14 @@
 """One rivet joint of a two-piece cage: dimensions and materials, from a TOML file or the defaults, with a hash.
 
-          head_diameter
-        ________________                     All lengths in m, in one meridian plane; the lower half mirrors the upper one.
-       |                | head_height
-       |__            __|  <- fillet_radius between head and shank
-          |          |        relief: the hole is wider by relief_radius (radial) under the head, relief_depth deep
-        __|          |__
-    flange  shank_diameter   flange_thickness, out to patch_radius: the rim moves as a rigid ring with its cage half
-          |          |        edge_break: 45 degree chamfer of the hole at the split plane
-    - - - - split plane - - -
+      head_diameter
+    ________________                     All lengths in m, in one meridian plane; the lower half mirrors the upper one.
+   |                | head_height
+   |__            __|  <- fillet_radius between head and shank
+      |          |        relief: the hole is wider by relief_radius (radial) under the head, relief_depth deep
+    __|          |__
+flange  shank_diameter   flange_thickness, out to patch_radius: the rim moves as a rigid ring with its cage half
+      |          |        edge_break: 45 degree chamfer of the hole at the split plane
+- - - - split plane - - -
 """
 
 import hashlib

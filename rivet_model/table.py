@@ -131,7 +131,7 @@ def read(path, Z=None):
     knots = {name: np.array(stress["knots"][name]) for name in AXES}
     for name, values in knots.items():
         _need(len(values) >= 2 and np.all(np.diff(values) > 0), path, f"knots of axis {name} do not increase")
-    shape = tuple(len(knots[name]) + 1 for name in AXES) + (len(CHANNELS),)
+    shape = (*(len(knots[name]) + 1 for name in AXES), len(CHANNELS))
     _need(len(stress["coefficients"]) == np.prod(shape), path, f"{len(stress['coefficients'])} coefficients; {np.prod(shape)} are needed")
     load_path = np.array(load_path)
     _need(load_path.shape == (header["Z"], 5, 3), path, f"load_path has shape {load_path.shape}; {(header['Z'], 5, 3)} is needed")
@@ -178,6 +178,7 @@ def make(geometry: Geometry, kind, knots, samples_mpa, fit_map, joint, load_path
     """
     coefficients = MPA_PER_N * rounded(splines.interpolate([knots[name] for name in AXES], samples_mpa))
     fit_a, fit_eff = map(np.asarray, fit_map)
+    fit_slope = np.where(fit_eff == fit_a, 1.0, monotone_slopes(fit_a, fit_eff))  # elastic until yield
     return RivetTable(
         kind=kind,
         geometry=asdict(geometry),
@@ -187,7 +188,7 @@ def make(geometry: Geometry, kind, knots, samples_mpa, fit_map, joint, load_path
         coefficients=coefficients,
         fit_a=fit_a,
         fit_eff=fit_eff,
-        fit_slope=monotone_slopes(fit_a, fit_eff),
+        fit_slope=fit_slope,
         joint=joint,
         load_path=load_path,
         yield_rivet=geometry.yield_rivet,
