@@ -1,0 +1,52 @@
+# Everything from one place: `make demo` on a fresh machine, `make test` for the fast tests, `make help` for the rest.
+
+VENV    = .venv
+BIN     = $(VENV)/bin
+PYTHON  = $(BIN)/python
+FMU     = fmus/RivetedBearing.fmu
+PYTEST  = $(PYTHON) -m pytest
+C_FILES = $(wildcard fmu_src/*.[ch] tests/*.[ch])
+
+export PATH := $(CURDIR)/$(BIN):$(PATH)  # cmake finds ninja
+export MPLBACKEND = Agg
+
+.PHONY: demo test test-slow bench build lint format sanitize clean help
+
+demo: build  ## build, then run the paper's working point: stress, cage and run-time figures
+	$(BIN)/riveted-bearing run demo
+
+test: build lint  ## the fast tests
+	$(PYTEST) -n 2
+
+test-slow: build  ## the tests that take minutes
+	$(PYTEST) -n 2 -m slow
+
+bench: build  ## measure what the README claims
+	$(PYTHON) benchmarks/scenes.py
+
+build: build/CMakeCache.txt  ## the FMU and the tests' library; seconds after an edit
+	$(BIN)/cmake --build build
+
+lint: $(VENV)/installed  ## formatters and linters, changing nothing
+	$(BIN)/ruff check .
+	$(BIN)/ruff format --check .
+	$(BIN)/clang-format --dry-run --Werror $(C_FILES)
+
+format: $(VENV)/installed  ## format and fix what can be fixed
+	$(BIN)/ruff check --fix .
+	$(BIN)/ruff format .
+	$(BIN)/clang-format -i $(C_FILES)
+
+clean:  ## remove what was built; the Python environment and the cached SUNDIALS archive stay
+	rm -rf build $(FMU)
+
+help:  ## this list
+	@sed -n 's/^\([a-z-]*\):[^#]*## /  make \1\t/p' $(firstword $(MAKEFILE_LIST)) | expand -t 20
+
+$(VENV)/installed: pyproject.toml .ci/environment
+	.ci/environment $(VENV)
+	touch $@
+
+build/CMakeCache.txt: $(VENV)/installed
+	$(BIN)/cmake -S . -B build -G Ninja -DPython_EXECUTABLE=$(CURDIR)/$(PYTHON)
+	touch $@
