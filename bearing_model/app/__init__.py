@@ -1,7 +1,7 @@
 """The command line and what it is made of: scenes, runs through the FMU, results, plots.
 
-    from bearing_model.app import run, read_result
-    result = run("demo", parameters={"joint.preload": "30 N"})
+from bearing_model.app import run, read_result
+result = run("demo", parameters={"joint.preload": "30 N"})
 """
 
 from .errors import UserError

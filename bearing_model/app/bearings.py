@@ -1,12 +1,12 @@
 """Bearing files: what a bearing is, its catalogue data and what follows from them without a simulation.
 
-    designation = "6310"
-    Z = 8
-    [catalogue]           # optional: bore, outside_diameter, width [m], C, C_0 [N]
-    [parameters]          # start values of the FMU made from this file, SI
-    bearing.D = 0.01905
-    [inputs]              # likewise
-    shaft.F_y = 6000.0
+designation = "6310"
+Z = 8
+[catalogue]           # optional: bore, outside_diameter, width [m], C, C_0 [N]
+[parameters]          # start values of the FMU made from this file, SI
+bearing.D = 0.01905
+[inputs]              # likewise
+shaft.F_y = 6000.0
 """
 
 import math
@@ -106,7 +106,11 @@ def scene_case(source, model):
     values = {name: model.default(variable) for name, variable in (model.parameters | model.inputs).items()}
     values |= scene.parameters | {name: float(history(0.0)) for name, history in scene.inputs.items()}
     Z = sum(name.startswith("ball[") and name.endswith("].Q_i") for name in model.outputs)
-    known = [case for case in map(bearing_case, shipped_bearings()) if case.Z == Z and all(case.values[f"bearing.{s}"] == values[f"bearing.{s}"] for s in ("D", "d_m"))]
+    known = [
+        case
+        for case in map(bearing_case, shipped_bearings())
+        if case.Z == Z and all(case.values[f"bearing.{s}"] == values[f"bearing.{s}"] for s in ("D", "d_m"))
+    ]
     designation, catalogue = (known[0].designation, known[0].catalogue) if known else ("bearing", {})
     return Case(f"{designation}, scene {scene.name}", scene.description, Z, values, catalogue)
 

@@ -7,7 +7,7 @@ from typing import Annotated
 import typer
 from rich.console import Console
 from rich.markup import escape
-from rich.progress import BarColumn, Progress, ProgressColumn, TextColumn
+from rich.progress import BarColumn, Progress, ProgressColumn, SpinnerColumn, TextColumn
 from rich.table import Column, Table
 from rich.text import Text
 
@@ -42,12 +42,29 @@ def command(function):
 
 
 @command
+def build(
+    bearing: Annotated[str | None, typer.Option(help="bearing file (TOML) or designation; default: the 6207")] = None,
+    rivet: Annotated[Path | None, typer.Option(help="rivet table; default: the one shipped if it fits the bearing, else closed forms")] = None,
+    out: Annotated[Path | None, typer.Option(help="the FMU to write; default: fmus/ of a checkout, else here")] = None,
+):
+    """Make an FMU for a bearing: needs a C compiler, takes about half a minute."""
+    from .build import build as build_fmu
+
+    with Progress(SpinnerColumn(), TextColumn("{task.description}"), BarColumn(bar_width=30), console=messages, disable=not messages.is_terminal) as bar:
+        task = bar.add_task("starting", total=None)
+        path = build_fmu(bearing, rivet, out, lambda text, share=None: bar.update(task, description=text, total=1.0 if share else None, completed=share or 0.0))
+    console.print(str(path), style="cyan", soft_wrap=True)
+
+
+@command
 def run(
     scene: Annotated[str, typer.Argument(help=f"scene file (TOML) or one of the shipped scenes: {', '.join(shipped_scenes())}")],
     fmu: Annotated[Path | None, typer.Option(help="the FMU; default: RivetedBearing.fmu here, in the checkout or as installed")] = None,
     out: Annotated[Path, typer.Option(help="folder, or file whose suffix is the format")] = Path("results"),
     format: Annotated[str | None, typer.Option(help=f"{', '.join(FORMATS)} (default: the suffix of --out, else {FORMATS[0]})")] = None,
-    set: Annotated[list[str] | None, typer.Option(help='parameter or constant input, e.g. --set joint.preload="30 N"; repeatable', metavar="NAME=VALUE")] = None,
+    set: Annotated[
+        list[str] | None, typer.Option(help='parameter or constant input, e.g. --set joint.preload="30 N"; repeatable', metavar="NAME=VALUE")
+    ] = None,
     seed: Annotated[int | None, typer.Option(help="start.seed: initial spacing of the balls")] = None,
     t_end: Annotated[str | None, typer.Option(help='simulated time, e.g. 0.4 or "400 ms"')] = None,
     step: Annotated[str | None, typer.Option(help='communication step, e.g. 1e-4 or "0.1 ms"')] = None,
@@ -131,7 +148,7 @@ class Remaining(ProgressColumn):
         return Text(f"{(task.elapsed or 0.0) * (task.total / task.completed - 1.0):.0f} s left")
 
 
-class simulation_progress:  # noqa: N801 - used like a function
+class simulation_progress:
     """A progress bar for a scene on a terminal, nothing in a pipe; as a context manager it gives the function to call with the simulated time [s]."""
 
     def __init__(self, scene):

@@ -82,11 +82,17 @@ def balls(state):
     table.add_row("", "deg", "N", "N", "deg", "deg", "MPa", "MPa", "", style="dim")
     rows = zip(state.psi, state.Q_i, state.Q_e, state.alpha_i, state.alpha_e, state.p_i, state.p_e, state.spin_i, state.omega_R, strict=True)
     for j, (psi, Q_i, Q_e, alpha_i, alpha_e, p_i, p_e, spin, roll) in enumerate(rows, 1):
-        contact_i, contact_e = Q_i > 0.0, Q_e > 0.0
         table.add_row(
-            str(j), f"{DEG * psi:.0f}", f"{Q_i:.0f}", f"{Q_e:.0f}", fixed(DEG * alpha_i, 2) if contact_i else "-", fixed(DEG * alpha_e, 2) if contact_e else "-",
-            f"{1e-6 * p_i:.0f}", f"{1e-6 * p_e:.0f}", f"{abs(spin / roll):.3f}" if contact_i and roll else "-",
-        )  # fmt: skip
+            str(j),
+            f"{DEG * psi:.0f}",
+            f"{Q_i:.0f}",
+            f"{Q_e:.0f}",
+            fixed(DEG * alpha_i, 2) if Q_i > 0.0 else "-",
+            fixed(DEG * alpha_e, 2) if Q_e > 0.0 else "-",
+            f"{1e-6 * p_i:.0f}",
+            f"{1e-6 * p_e:.0f}",
+            f"{abs(spin / roll):.3f}" if Q_i > 0.0 and roll else "-",
+        )
     return table
 
 

@@ -4,12 +4,12 @@ import matplotlib
 
 matplotlib.use("Agg")
 
-import matplotlib.pyplot as plt  # noqa: E402
-import numpy as np  # noqa: E402
-from matplotlib.patches import Circle  # noqa: E402
+import matplotlib.pyplot as plt
+import numpy as np
+from matplotlib.patches import Circle
 
-from .results import write_atomically  # noqa: E402
-from .summary import RPM, rivet_rows, settled  # noqa: E402
+from .results import write_atomically
+from .summary import RPM, rivet_rows, settled
 
 HEAD, MIDDLE, FORCE, RING, MUTED = "#c8442b", "#2a6f97", "#40495a", "#7a9e3b", "#9aa2ad"
 STYLE = {
@@ -52,7 +52,11 @@ def plot_result(result, path):
 def title(result):
     """What was run, in two lines."""
     about, speed = result.about, result.data.get("shaft.omega")
-    facts = [f"preload {result.parameters['joint.preload']:g} N", f"fit {1e6 * result.parameters['joint.fit']:+g} µm", f"seed {result.parameters['start.seed']}"]
+    facts = [
+        f"preload {result.parameters['joint.preload']:g} N",
+        f"fit {1e6 * result.parameters['joint.fit']:+g} µm",
+        f"seed {result.parameters['start.seed']}",
+    ]
     if speed is not None:
         facts.insert(0, f"{RPM * speed[-1]:,.0f} rev/min")
     return f"{about.get('scene', '')}: {about.get('description', '')}\n{' · '.join(facts)}" + (f"\nSTOPPED: {result.stopped}" if result.stopped else "")

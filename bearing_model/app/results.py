@@ -117,7 +117,8 @@ def read_csv(path):
                 break
             header.append(line[2:])
         names = line.rstrip("\n").split(",")
-        columns = np.loadtxt(file, delimiter=",", ndmin=2)
+        numbers = file.readlines()
+    columns = np.loadtxt(numbers, delimiter=",", ndmin=2) if numbers else np.empty((0, 0))
     return dict(zip(names, columns.T, strict=True)), tomllib.loads("".join(header))
 
 

@@ -123,7 +123,11 @@ def provenance(model, scene):
         "description": scene.description,
         "t_end": scene.t_end,
         "step": scene.step,
-        "inputs": {name: {"t": history.t.tolist(), "value": history.value.tolist(), "hold": history.hold} for name, history in scene.inputs.items() if len(history.t) <= 1000},
+        "inputs": {
+            name: {"t": history.t.tolist(), "value": history.value.tolist(), "hold": history.hold}
+            for name, history in scene.inputs.items()
+            if len(history.t) <= 1000
+        },
         "fmu": str(model.path),
         "guid": model.description.instantiationToken,
         "model": model.description.description or model.description.modelName,

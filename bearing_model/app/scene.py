@@ -286,7 +286,12 @@ def check_times(scene, where):
         raise refusal(where, "simulation.output_interval", scene.output_interval, f"multiples of step = {scene.step:g} s are allowed")
     size = 8 * len(scene.outputs or range(400)) * scene.t_end / (scene.step * scene.stride)
     if size > LARGEST_RESULT:
-        raise refusal(where, "simulation.output_interval", scene.output_interval or scene.step, f"the result would need {size / 2**30:.0f} GiB: choose outputs, or a longer interval")
+        raise refusal(
+            where,
+            "simulation.output_interval",
+            scene.output_interval or scene.step,
+            f"the result would need {size / 2**30:.0f} GiB: choose outputs, or a longer interval",
+        )
 
 
 def refusal(where, key, value, reason):

@@ -1,0 +1,156 @@
+"""Make an FMU for a bearing: variable files, rivet table, compilation, archive, and a first start to see that it works.
+
+python fmus/generate.py --bearing FILE --out BUILD/generated
+cmake -S SOURCES -B BUILD -DGENERATED_DIR=BUILD/generated -DRIVET_TABLE=TABLE      cmake --build BUILD
+"""
+
+import os
+import re
+import shutil
+import subprocess
+import sys
+import sysconfig
+from pathlib import Path
+
+from rivet_model import closed_form, table
+from rivet_model.geometry import Geometry
+
+from .bearings import bearing_case, find_bearing
+from .errors import UserError
+from .fmu import FMU_NAME, PACKAGE, Instance, Model
+from .package import package
+from .results import write_atomically
+from .scene import Scene
+
+SOURCES = (PACKAGE.parent, PACKAGE / "sources")  # a checkout, an installed package
+TRACKED_TABLE = Path(table.__file__).parent / "tables" / "6207.json"
+STEP = re.compile(r"\[\s*(?:(\d+)/(\d+)|(\d+)%)\s*\]")  # Ninja's [3/40], make's [ 7%]
+
+
+def build(bearing=None, rivet=None, out=None, say=lambda text, share=None: None):
+    """Build an FMU and return its path.
+
+    bearing: bearing file or designation, None for the default one; rivet: rivet table, None for the tracked one if it fits the bearing, else closed
+    forms; out: the FMU to write, None for fmus/RivetedBearing.fmu of the checkout or RivetedBearing.fmu here; say: called with what is being done and
+    the share done.  Raises UserError with the reason; `out` is then left as it was.
+    """
+    sources = source_folder()
+    out = Path(out) if out else default_out(sources)
+    if rivet and not Path(rivet).is_file():
+        raise UserError(f"--rivet {rivet}: no such rivet table")
+    case, folder = bearing_case(bearing or "6207"), build_folder(sources, bearing)
+    cmake = find_tools()
+    options = [f"-DRIVET_TABLE={Path(rivet).resolve() if rivet else rivet_table(case, folder)}", f"-DPython_EXECUTABLE={sys.executable}"]
+    description = sources / "fmus" / "modelDescription.xml"
+    if bearing:
+        say("variables")
+        generated = folder / "generated"
+        execute([sys.executable, sources / "fmus" / "generate.py", "--bearing", str(find_bearing(bearing)), "--out", generated], folder, say)
+        options.append(f"-DGENERATED_DIR={generated}")
+        description = generated / "modelDescription.xml"
+    say("configuring (the first time fetches SUNDIALS)")
+    execute([cmake, "-S", sources, "-B", folder, *generator(folder), *options], folder, say)
+    say("compiling")
+    execute([cmake, "--build", folder, "--target", "RivetedBearing", "--parallel", str(min(os.cpu_count() or 1, 8))], folder, say)
+    say("packing")
+    finished = folder / FMU_NAME
+    package(next(path for path in folder.glob("RivetedBearing.*") if path.suffix != finished.suffix), description, finished)
+    say("starting it once")
+    try_start(finished)
+    write_atomically(out, lambda temporary: shutil.copyfile(finished, temporary))
+    return out
+
+
+def source_folder():
+    """Folder with CMakeLists.txt, fmu_src and fmus."""
+    for folder in SOURCES:
+        if (folder / "CMakeLists.txt").is_file():
+            return folder
+    raise UserError(f"the C sources are not there (looked in {', '.join(map(str, SOURCES))}): install the package again, or build in a checkout")
+
+
+def default_out(sources):
+    """Where the FMU goes unless told: fmus/ of a checkout, else the working directory."""
+    return (sources / "fmus" if sources == PACKAGE.parent else Path.cwd()) / FMU_NAME
+
+
+def build_folder(sources, bearing):
+    """Folder for intermediate files, one per bearing: in the checkout's build/, else in the user's cache."""
+    cache = Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache") / "riveted-bearing"
+    folder = (sources / "build" if sources == PACKAGE.parent else cache) / "bearings" / (Path(str(bearing)).stem if bearing else "default")
+    folder.mkdir(parents=True, exist_ok=True)
+    return folder
+
+
+def find_tools():
+    """Path of cmake, after checking that there is a C compiler."""
+    compilers = [os.environ.get("CC", ""), "cc", "gcc", "clang"]
+    if not any(name and shutil.which(name.split()[0]) for name in compilers):
+        raise UserError("no C compiler (cc, gcc, clang) found: install one, e.g. `apt-get install gcc`, or set CC")
+    return tool("cmake") or no_tool("cmake")
+
+
+def tool(name):
+    """A program beside this Python or on the path; None if there is none."""
+    return shutil.which(name, path=sysconfig.get_path("scripts")) or shutil.which(name)
+
+
+def no_tool(name):
+    """The error for a missing program."""
+    raise UserError(f"{name} not found: `pip install {name}`, or install it with the system's packages")
+
+
+def generator(folder):
+    """Ninja if it is there, except in a folder that was configured without."""
+    ninja = tool("ninja")
+    return ["-G", "Ninja", f"-DCMAKE_MAKE_PROGRAM={ninja}"] if ninja and not (folder / "Makefile").is_file() else []
+
+
+def rivet_table(case, folder):
+    """The tracked rivet table if it was made for this bearing's cage, else a new one from closed forms; UserError if the cage has no room for rivets."""
+    v = case.values
+    try:
+        geometry = Geometry(
+            Z=case.Z,
+            d_m=v["bearing.d_m"],
+            ball_diameter=v["bearing.D"],
+            pocket_clearance=v["cage.pocket_clearance"],
+            cage_outer_diameter=v["cage.D_o"],
+            cage_inner_diameter=v["cage.D_i"],
+            cage_half_width=2.0 * v["cage.x_c"],
+            patch_radius=(v["cage.D_o"] - v["cage.D_i"]) / 4.0,
+        )
+    except ValueError as problem:
+        raise UserError(f"{case.designation}: {problem}") from None
+    if geometry.digest == Geometry().digest:
+        return TRACKED_TABLE
+    path = folder / "rivet_table.json"
+    table.write(closed_form.make_table(geometry), path)
+    return path
+
+
+def execute(command, folder, say):
+    """Run one program of the build, its output in BUILD/build.log; UserError with the first error lines if it fails."""
+    lines = []
+    with subprocess.Popen([str(part) for part in command], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, errors="replace") as process:
+        for line in process.stdout:
+            lines.append(line)
+            if match := STEP.match(line):
+                done, of, percent = match.groups()
+                say("compiling", int(percent) / 100 if percent else int(done) / int(of))
+    (folder / "build.log").write_text("".join(lines))
+    if process.returncode:
+        raise UserError(f"{Path(str(command[0])).name} failed: {essence(lines)} (all of it in {folder / 'build.log'})")
+
+
+def essence(lines):
+    """The lines that tell what went wrong: those with an error and what follows, else the last ones."""
+    lines = [line.strip() for line in lines if line.strip() and not STEP.match(line)]
+    first = next((i for i, line in enumerate(lines) if re.search(r"\berror\b|^generate:|^rivet table:", line, re.IGNORECASE)), max(len(lines) - 3, 0))
+    return " ".join(lines[first : first + 3])
+
+
+def try_start(fmu):
+    """Initialize the FMU at its start values; UserError with its reason if it refuses."""
+    with Instance(Model(fmu)) as instance:
+        instance.initialize(Scene(name="start values of the bearing"))

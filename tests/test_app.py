@@ -1,0 +1,289 @@
+"""The command line and the Python interface: runs, results in all formats, exit codes, and that the physics does not depend on them."""
+
+import json
+import re
+import subprocess
+import sys
+import tomllib
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from bearing_model.app import Result, UserError, read_result, run, write_result
+from bearing_model.app.bearings import bearing_case, find_bearing, shipped_bearings
+from bearing_model.app.fmu import Instance, Model
+from bearing_model.app.results import FORMATS, write_atomically
+from bearing_model.app.summary import rivet_rows, summary_rows
+
+ROOT = Path(__file__).resolve().parents[1]
+
+
+def command(*arguments, folder):
+    """The program as a user starts it, its output in pipes."""
+    return subprocess.run(
+        [sys.executable, "-m", "bearing_model.app", *map(str, arguments)], cwd=folder, capture_output=True, text=True, timeout=300, check=False
+    )
+
+
+@pytest.fixture(scope="module", autouse=True)
+def importable(monkeymodule):
+    """Subprocesses started elsewhere find this checkout."""
+    monkeymodule.setenv("PYTHONPATH", str(ROOT))
+    monkeymodule.delenv("FORCE_COLOR", raising=False)
+
+
+@pytest.fixture(scope="module")
+def monkeymodule():
+    with pytest.MonkeyPatch.context() as patch:
+        yield patch
+
+
+@pytest.fixture(scope="module")
+def short():
+    """A short run of the working point."""
+    return run("demo", t_end=2e-3, parameters={"start.settle": 5e-4})
+
+
+@pytest.fixture
+def result():
+    """A small made-up result with everything that is hard to store."""
+    data = {"time": np.array([0.0, 1e-4, 2e-4]), "ball[1].Q_i": np.array([1 / 3, np.pi, 1e-300]), "ball[2].Q_i": np.array([0.0, -0.0, np.nan])}
+    data |= {"rivet.sigma_head_max": np.array([1e8, 2e8, 3e8]), "stat.rivet_head_max[3]": np.array([1.0, 2.0, 3.0])}
+    return Result(
+        data=data,
+        units=dict.fromkeys(data, "N") | {"time": "s"},
+        parameters={"bearing.D": 0.0111125, "ball[1].dD": 1e-6, "ring.tilt_mode": "free", "start.seed": 7},
+        summary={"stat.time": 0.35, "solver.steps": 1e5, "nothing": float("inf")},
+        about={
+            "scene": 'a "quoted" name',
+            "description": "µ, °, \\ and\nlines",
+            "inputs": {"shaft.F_y": {"t": [0.0, 0.1], "value": [1.0, 2e3], "hold": True}},
+            "stopped": "",
+        },
+    )
+
+
+@pytest.mark.parametrize("kind", FORMATS)
+def test_every_format_gives_back_every_bit(result, tmp_path, kind):
+    back = read_result(write_result(result, tmp_path / f"x.{kind}"))
+    assert list(back.data) == list(result.data)
+    for name, values in result.data.items():
+        assert back.data[name].tobytes() == values.tobytes(), name
+    assert back.metadata() == result.metadata()
+
+
+@pytest.mark.parametrize("kind", FORMATS)
+def test_a_damaged_file_is_refused(result, tmp_path, kind):
+    path = write_result(result, tmp_path / f"x.{kind}")
+    path.write_bytes(path.read_bytes()[: path.stat().st_size // 2])
+    with pytest.raises(UserError, match=re.escape(str(path))):
+        read_result(path)
+    path.write_bytes(b"something else\n")
+    with pytest.raises(UserError, match="not a result"):
+        read_result(path)
+    with pytest.raises(UserError, match="no such file"):
+        read_result(tmp_path / f"none.{kind}")
+    with pytest.raises(UserError, match='unknown format "xls"; allowed: parquet, csv, mat'):
+        write_result(result, tmp_path / "x.xls")
+
+
+def test_a_file_is_written_whole_or_not_at_all(tmp_path):
+    path = tmp_path / "new folder" / "x.csv"
+    write_atomically(path, lambda temporary: temporary.write_text("old"))
+
+    def fail(temporary):
+        temporary.write_text("half")
+        raise OSError("disk full")
+
+    with pytest.raises(OSError, match="disk full"):
+        write_atomically(path, fail)
+    assert path.read_text() == "old" and list(path.parent.iterdir()) == [path]
+
+
+def test_mat_is_nested_as_the_names_are(result, tmp_path):
+    from scipy.io import loadmat
+
+    tree = loadmat(write_result(result, tmp_path / "x.mat"), simplify_cells=True)["result"]
+    assert tree["ball"]["Q_i"].shape == (3, 2) and tree["ball"]["Q_i"][1, 0] == np.pi
+    assert json.loads(tree["metadata"])["parameters"]["bearing.D"] == 0.0111125
+
+
+def test_other_programs_can_read_parquet_and_csv(short, tmp_path):
+    from pyarrow import parquet
+
+    schema = parquet.read_schema(write_result(short, tmp_path / "x.parquet"))
+    assert schema.field("ring.y").metadata[b"unit"] == b"m"
+    assert json.loads(schema.metadata[b"riveted_bearing"])["parameters"] == short.parameters
+    lines = write_result(short, tmp_path / "x.csv").read_text().splitlines()
+    body = [line for line in lines if not line.startswith("#")]
+    assert body[0].startswith("time,") and len(body) == 1 + len(short.data["time"])
+    assert tomllib.loads("\n".join(line[2:] for line in lines if line.startswith("#")))["parameters"] == short.parameters
+
+
+def test_a_run_returns_what_was_asked_for(short):
+    assert short.stopped == "" and short.data["time"][0] == 0.0 and short.data["time"][-1] == 2e-3 and len(short.data["time"]) == 21
+    assert set(short.data) == set(short.units) and all(np.isfinite(values).all() for values in short.data.values())
+    assert short.parameters["joint.preload"] == 20.0 and short.parameters["ring.tilt_mode"] == "prescribed"
+    assert short.summary["stat.time"] == pytest.approx(1.5e-3, rel=0.02)  # from the first internal step (about 1e-5 s) after settling
+    assert short.summary["solver.rhs_evals"] > short.summary["solver.steps"] > 20
+    assert short.about["guid"].startswith("{") and short.about["inputs"]["shaft.F_y"]["value"] == [2994.0]
+    assert summary_rows(short)[0].channel == "pocket force, all balls" and len(rivet_rows(short)) == 9
+
+
+def test_changes_reach_the_fmu():
+    result = run("demo", t_end=2e-4, seed=5, parameters={"joint.preload": "30 N", "scene.traction": "sliced", "ball[3].dD": "1 um"}, outputs=["rivet[*].P"])
+    assert result.parameters["joint.preload"] == 30.0 and result.parameters["scene.traction"] == "sliced" and result.parameters["start.seed"] == 5
+    assert result.parameters["ball[3].dD"] == pytest.approx(1e-6, rel=1e-15)
+    assert list(result.data) == ["time", *(f"rivet[{k}].P" for k in range(1, 10))]
+    assert result.data["rivet[1].P"] == pytest.approx(30.0, rel=1e-12)  # at assembly temperature
+
+
+def test_time_histories_reach_the_fmu(tmp_path):
+    (tmp_path / "thrust.csv").write_text("time,kilo\n0,0.5\n0.0005,0.6\n0.001,0.4\n")
+    scene = tmp_path / "mine.toml"
+    scene.write_text("""
+        simulation = { t_end = 1e-3, step = 1e-4, outputs = ["shaft.*"] }
+        [inputs]
+        shaft.omega = { t = [0, 1e-3], value = [1000, 1100] }
+        shaft.F_y = { t = ["0 ms", "0.35 ms"], value = [2000, "1 kN"], interpolation = "hold" }
+        shaft.F_x = { file = "thrust.csv", column = "kilo", unit = "kN" }
+    """)
+    data = run(scene).data
+    t = data["time"][:-1]  # what holds during a step is what the history says at its start
+    assert data["shaft.omega"][1:] == pytest.approx(1000 + 1e5 * t, rel=1e-12)
+    assert data["shaft.F_y"][1:].tolist() == [2000.0] * 4 + [1000.0] * 6
+    assert data["shaft.F_x"][1:] == pytest.approx(np.interp(t, [0, 5e-4, 1e-3], [500, 600, 400]), rel=1e-12)
+
+
+def test_longer_output_intervals_keep_peaks(tmp_path):
+    scene = tmp_path / "mine.toml"
+    scene.write_text('[simulation]\nt_end = 2e-3\nstep = 1e-4\noutputs = ["rivet.sigma_head_max", "cage.F_pocket_peak", "ring.y"]')
+    fine = run(scene).data
+    scene.write_text(scene.read_text() + "\noutput_interval = 7e-4")
+    coarse = run(scene).data
+    assert coarse["time"] == pytest.approx([0, 7e-4, 1.4e-3, 2e-3], rel=1e-12)
+    for name in ("rivet.sigma_head_max", "cage.F_pocket_peak"):  # the same steps: the same bits
+        assert coarse[name][1:].tolist() == [fine[name][i:j].max() for i, j in ((1, 8), (8, 15), (15, 21))]
+    assert coarse["ring.y"].tolist() == fine["ring.y"][[0, 7, 14, 20]].tolist()
+
+
+def test_a_run_that_the_fmu_ends_keeps_what_there_is(tmp_path):
+    """The work limit ends the run when a communication step needs more than 10 internal steps, here the first long one."""
+    done = command("run", "demo", "--set", "solver.max_steps=10", "--step", "1e-2", "--no-plot", "--out", tmp_path, folder=tmp_path)
+    assert done.returncode == 3 and "Traceback" not in done.stderr
+    assert "gave up" in done.stderr and "max_steps" in done.stderr
+    result = read_result(tmp_path / "demo.parquet")
+    assert "max_steps" in result.stopped and 0.0 < result.data["time"][-1] < 1e-2
+    assert np.isfinite(result.data["ring.y"]).all()
+
+
+def test_what_the_fmu_refuses_is_said(tmp_path):
+    """Eight balls' worth of room for nine: each value is in its range, the set of them is no bearing."""
+    done = command("run", "demo", "--set", "bearing.D=0.019", "--out", tmp_path, folder=tmp_path)
+    assert done.returncode == 2 and "refuses to start" in done.stderr and "Traceback" not in done.stderr
+    assert not list(tmp_path.iterdir())
+
+
+def test_run_in_a_pipe(tmp_path):
+    done = command("run", "demo", "--t-end", "2 ms", "--set", "start.settle=0.5 ms", "--format", "csv", "--out", tmp_path / "out", folder=tmp_path)
+    assert done.returncode == 0, done.stderr
+    assert "\x1b" not in done.stdout + done.stderr and "real time" not in done.stderr  # neither colours nor a progress bar
+    for text in ("pocket force", "head stress", "cage speed", "friction torque", "real-time factor", "demo.csv", "demo.png"):
+        assert text in done.stdout
+    assert (tmp_path / "out" / "demo.png").read_bytes()[:4] == b"\x89PNG"
+    assert read_result(tmp_path / "out" / "demo.csv").data["time"][-1] == 2e-3
+
+
+@pytest.mark.parametrize(
+    ("arguments", "fragments"),
+    [
+        (["run", "dmeo"], ['"dmeo"', 'did you mean "demo"']),
+        (["run", "none.toml"], ["none.toml", "no such scene file"]),
+        (["run", "demo", "--fmu", "none.fmu"], ["none.fmu", "no such FMU"]),
+        (["run", "demo", "--fmu", "broken.fmu"], ["broken.fmu", "not a readable FMU"]),
+        (["run", "demo", "--set", "joint.preload"], ["--set joint.preload", "NAME=VALUE"]),
+        (["run", "demo", "--set", "joint.preloat=3"], ['"joint.preloat"', '"joint.preload"']),
+        (["run", "demo", "--set", "joint.preload=3 mm"], ["joint.preload = '3 mm'", "allowed: N"]),
+        (["run", "demo", "--set", "shaft.F_y=1e9"], ["shaft.F_y", "-100000 ... 100000 N"]),
+        (["run", "demo", "--seed", "-1"], ["start.seed = -1", "0 ..."]),
+        (["run", "demo", "--format", "xls"], ['"xls"', "parquet, csv, mat"]),
+        (["run", "demo", "--format", "csv", "--out", "a.mat"], ["a.mat", "csv"]),
+        (["run", "demo", "--t-end", "1 m"], ["t_end = '1 m'", "s, ms, us"]),
+        (["info", "6208"], ['"6208"', '"6207"']),
+        (["info", "bad.toml"], ["bad.toml", "Z = 3", "5 to 32"]),
+        (["build", "--bearing", "bad.toml"], ["bad.toml", "Z = 3", "5 to 32"]),
+        (["build", "--bearing", "6309"], ['"6309"', '"6310"']),
+        (["build", "--rivet", "none.json"], ["none.json"]),
+    ],
+    ids=" ".join,
+)
+def test_errors_are_one_message(tmp_path, arguments, fragments):
+    (tmp_path / "broken.fmu").write_bytes(b"PK no zip")
+    (tmp_path / "bad.toml").write_text("Z = 3")
+    done = command(*arguments, folder=tmp_path)
+    assert done.returncode == 2 and done.stdout == "" and done.stderr.count("\n") == 1 and done.stderr.startswith("error: ")
+    for fragment in fragments:
+        assert fragment in done.stderr
+
+
+def test_help_names_the_commands(tmp_path):
+    done = command("--help", folder=tmp_path)
+    assert done.returncode == 0 and all(name in done.stdout for name in ("build", "run", "info"))
+
+
+def test_info_gives_the_known_frequencies(tmp_path):
+    done = command("info", "6207", folder=tmp_path)
+    for figure in ("120.4", "1083.7", "1652.0", "700.1"):  # Hz at 18,238 r/min: cage, BPFO, BPFI, ball, by hand from D, d_m, Z
+        assert figure in done.stdout
+    assert "4000 r/min" in command("info", "jam", folder=tmp_path).stdout.replace(",", "")
+
+
+def test_the_default_bearing_is_the_variable_table():
+    table = tomllib.loads((ROOT / "fmus" / "variables.toml").read_text())
+    starts = {entry["name"]: entry["start"] for section in ("parameters", "inputs") for entry in table[section]["list"]}
+    case = bearing_case("6207")
+    assert case.Z == table["Z"] and case.values
+    for name, value in case.values.items():
+        assert value == starts[name], name
+
+
+@pytest.mark.parametrize("designation", shipped_bearings())
+def test_shipped_bearings_are_consistent(designation):
+    """Against ISO 76, ISO 281 and the geometry of a ring of the cage's diameters."""
+    case = bearing_case(designation)
+    v, c = case.values, case.catalogue
+    f_0 = {"6207": 13.8, "6310": 13.1}[designation]  # ISO 76, table 1
+    assert c["C_0"] == pytest.approx(f_0 * 1e6 * case.Z * v["bearing.D"] ** 2, rel=0.01)  # rounded in catalogues: observed 0.4 %
+    assert v["bearing.d_m"] == pytest.approx((c["bore"] + c["outside_diameter"]) / 2, rel=1e-12)
+    f_c = {"6207": 59.5, "6310": 58.8}[designation]  # ISO 281, table 2, with b_m = 1.3
+    C = 1.3 * f_c * case.Z ** (2 / 3) * (1e3 * v["bearing.D"]) ** 1.8
+    assert c["C"] == pytest.approx(C, rel=0.06)  # the 6207's is a maker's figure, 5 % above the standard's
+    assert v["cage.J_p"] == pytest.approx(v["cage.m"] * (v["cage.D_o"] ** 2 + v["cage.D_i"] ** 2) / 8, rel=0.02)
+    width = 2 * v["cage.x_c"]
+    assert v["cage.J_t"] == pytest.approx(v["cage.m"] * ((v["cage.D_o"] ** 2 + v["cage.D_i"] ** 2) / 16 + width**2 / 12), rel=0.02)
+    ring_volume = np.pi / 4 * (v["cage.D_o"] ** 2 - v["cage.D_i"] ** 2) * width
+    assert v["cage.m"] == pytest.approx(0.55 * 8800 * ring_volume, rel=0.01)  # bronze, 45 % taken by the pockets
+    assert v["cage.land_x"] + v["cage.land_width"] / 2 <= width
+    assert case.equilibrium().F[1] == pytest.approx(v["shaft.F_y"], rel=1e-6)
+    assert find_bearing(designation).name == f"{designation}.toml"
+
+
+def test_two_instances_keep_their_messages_apart():
+    model = Model()
+    with Instance(model) as first, Instance(model) as second:
+        with pytest.raises(Exception, match="fmi2SetReal"):
+            first.fmu.setReal([model.parameters["joint.preload"].valueReference], [-1.0])
+        assert first.log and not second.log
+
+
+def test_physics_does_not_need_the_application():
+    modules = [f"{package}.{path.stem}" for package in ("bearing_model", "rivet_model") for path in (ROOT / package).glob("*.py")]
+    code = f"""
+import importlib, sys
+for name in {modules}:
+    importlib.import_module(name)
+print([name for name in sys.modules if name.startswith(("fmpy", "bearing_model.app", "typer", "matplotlib"))])
+"""
+    done = subprocess.run([sys.executable, "-c", code], cwd=ROOT, capture_output=True, text=True, check=True)
+    assert len(modules) > 5 and done.stdout.strip() == "[]"
