@@ -1,7 +1,9 @@
 """The command line and what it is made of: scenes, runs through the FMU, results, plots.
 
-from bearing_model.app import run, read_result
-result = run("demo", parameters={"joint.preload": "30 N"})
+    from bearing_model.app import run
+    result = run("demo", parameters={"joint.preload": "30 N"})
+
+gives result.data (arrays by channel), .units, .parameters, .summary and .about; read_result(path) gives the same from a file.
 """
 
 from .errors import UserError

@@ -1,12 +1,14 @@
 """Bearing files: what a bearing is, its catalogue data and what follows from them without a simulation.
 
-designation = "6310"
-Z = 8
-[catalogue]           # optional: bore, outside_diameter, width [m], C, C_0 [N]
-[parameters]          # start values of the FMU made from this file, SI
-bearing.D = 0.01905
-[inputs]              # likewise
-shaft.F_y = 6000.0
+    designation = "6310"
+    Z = 8
+    [catalogue]           # optional: bore, outside_diameter, width [m], C, C_0 [N]
+    [parameters]          # start values of the FMU made from this file
+    bearing.D = 0.01905
+    [inputs]              # likewise
+    shaft.F_y = 6000.0
+
+All values are SI; what is left out is that of the 6207.
 """
 
 import math

@@ -1,7 +1,10 @@
-"""Make an FMU for a bearing: variable files, rivet table, compilation, archive, and a first start to see that it works.
+"""Make an FMU for a bearing: variable files, rivet table, compilation and archive, and a first start to see that it works.
 
-python fmus/generate.py --bearing FILE --out BUILD/generated
-cmake -S SOURCES -B BUILD -DGENERATED_DIR=BUILD/generated -DRIVET_TABLE=TABLE      cmake --build BUILD
+    python fmus/generate.py --bearing FILE --out BUILD/generated
+    cmake -S SOURCES -B BUILD -DGENERATED_DIR=BUILD/generated -DRIVET_TABLE=TABLE
+    cmake --build BUILD --target fmu
+
+Intermediate files stay in BUILD, so that the next build of the same bearing compiles only what changed.
 """
 
 import os
@@ -18,11 +21,10 @@ from rivet_model.geometry import Geometry
 from .bearings import bearing_case, find_bearing
 from .errors import UserError
 from .fmu import FMU_NAME, PACKAGE, Instance, Model
-from .package import package
 from .results import write_atomically
 from .scene import Scene
 
-SOURCES = (PACKAGE.parent, PACKAGE / "sources")  # a checkout, an installed package
+SOURCES = (PACKAGE.parent, PACKAGE / "_source")  # a checkout, an installed package
 TRACKED_TABLE = Path(table.__file__).parent / "tables" / "6207.json"
 STEP = re.compile(r"\[\s*(?:(\d+)/(\d+)|(\d+)%)\s*\]")  # Ninja's [3/40], make's [ 7%]
 
@@ -41,20 +43,16 @@ def build(bearing=None, rivet=None, out=None, say=lambda text, share=None: None)
     case, folder = bearing_case(bearing or "6207"), build_folder(sources, bearing)
     cmake = find_tools()
     options = [f"-DRIVET_TABLE={Path(rivet).resolve() if rivet else rivet_table(case, folder)}", f"-DPython_EXECUTABLE={sys.executable}"]
-    description = sources / "fmus" / "modelDescription.xml"
     if bearing:
         say("variables")
         generated = folder / "generated"
         execute([sys.executable, sources / "fmus" / "generate.py", "--bearing", str(find_bearing(bearing)), "--out", generated], folder, say)
         options.append(f"-DGENERATED_DIR={generated}")
-        description = generated / "modelDescription.xml"
     say("configuring (the first time fetches SUNDIALS)")
     execute([cmake, "-S", sources, "-B", folder, *generator(folder), *options], folder, say)
     say("compiling")
-    execute([cmake, "--build", folder, "--target", "RivetedBearing", "--parallel", str(min(os.cpu_count() or 1, 8))], folder, say)
-    say("packing")
+    execute([cmake, "--build", folder, "--target", "fmu", "--parallel", str(min(os.cpu_count() or 1, 8))], folder, say)
     finished = folder / FMU_NAME
-    package(next(path for path in folder.glob("RivetedBearing.*") if path.suffix != finished.suffix), description, finished)
     say("starting it once")
     try_start(finished)
     write_atomically(out, lambda temporary: shutil.copyfile(finished, temporary))
