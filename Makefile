@@ -10,7 +10,7 @@ C_FILES = $(wildcard fmu_src/*.[ch] tests/*.[ch])
 export PATH := $(CURDIR)/$(BIN):$(PATH)  # cmake finds ninja
 export MPLBACKEND = Agg
 
-.PHONY: demo test test-slow bench build lint format sanitize clean help
+.PHONY: demo test test-slow bench build generate lint format sanitize clean help
 
 demo: build  ## build, then run the paper's working point: stress, cage and run-time figures
 	$(BIN)/riveted-bearing run demo
@@ -32,6 +32,9 @@ lint: $(VENV)/installed  ## formatters and linters, changing nothing
 	$(BIN)/ruff format --check .
 	$(BIN)/clang-format --dry-run --Werror $(C_FILES)
 
+generate: $(VENV)/installed  ## the files that follow from fmus/variables.toml
+	$(PYTHON) fmus/generate.py
+
 format: $(VENV)/installed  ## format and fix what can be fixed
 	$(BIN)/ruff check --fix .
 	$(BIN)/ruff format .
@@ -48,5 +51,5 @@ $(VENV)/installed: pyproject.toml .ci/environment
 	touch $@
 
 build/CMakeCache.txt: $(VENV)/installed
-	$(BIN)/cmake -S . -B build -G Ninja -DPython_EXECUTABLE=$(CURDIR)/$(PYTHON)
+	$(BIN)/cmake -S . -B build -G Ninja -DPython_EXECUTABLE=$(CURDIR)/$(PYTHON) -DFMU=$(CURDIR)/$(FMU)
 	touch $@

@@ -14,3 +14,21 @@ else()
         target_link_options(RivetedBearing PRIVATE -Wl,--no-undefined -Wl,-s)
     endif()
 endif()
+
+set(FMU ${PROJECT_BINARY_DIR}/RivetedBearing.fmu CACHE FILEPATH "The FMU to write")
+set(description ${PROJECT_SOURCE_DIR}/fmus/modelDescription.xml)
+if(GENERATED_DIR)
+    set(description ${GENERATED_DIR}/modelDescription.xml)
+endif()
+set(package ${PROJECT_SOURCE_DIR}/bearing_model/app/package.py)
+add_custom_command(OUTPUT ${FMU}
+    COMMAND ${Python_EXECUTABLE} ${package} --binary $<TARGET_FILE:RivetedBearing> --description ${description} --out ${FMU}
+    DEPENDS RivetedBearing ${description} ${package} ${PROJECT_SOURCE_DIR}/LICENSE ${PROJECT_SOURCE_DIR}/THIRD_PARTY_NOTICES.md VERBATIM)
+add_custom_target(fmu ALL DEPENDS ${FMU})
+
+# In the wheel: the FMU, and what `riveted-bearing build` compiles, laid out as in the checkout.
+install(FILES ${FMU} DESTINATION bearing_model COMPONENT python)
+set(source_dir bearing_model/sources)
+install(FILES CMakeLists.txt LICENSE THIRD_PARTY_NOTICES.md DESTINATION ${source_dir} COMPONENT python)
+install(DIRECTORY cmake fmu_src fmus DESTINATION ${source_dir} COMPONENT python PATTERN __pycache__ EXCLUDE PATTERN *.fmu EXCLUDE)
+install(FILES ${package} DESTINATION ${source_dir}/bearing_model/app COMPONENT python)
