@@ -24,7 +24,7 @@ test-slow: build  ## the tests that take minutes
 bench: build  ## measure what the README claims
 	$(PYTHON) benchmarks/scenes.py
 
-build: build/CMakeCache.txt  ## the FMU and the tests' library; seconds after an edit
+build: build/build.ninja  ## the FMU and the tests' library; seconds after an edit
 	$(BIN)/cmake --build build
 
 lint: $(VENV)/installed  ## formatters and linters, changing nothing
@@ -50,6 +50,6 @@ $(VENV)/installed: pyproject.toml .ci/environment
 	.ci/environment $(VENV)
 	touch $@
 
-build/CMakeCache.txt: $(VENV)/installed
+build/build.ninja: $(VENV)/installed
 	$(BIN)/cmake -S . -B build -G Ninja -DPython_EXECUTABLE=$(CURDIR)/$(PYTHON) -DFMU=$(CURDIR)/$(FMU)
 	touch $@
