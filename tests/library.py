@@ -1,0 +1,216 @@
+"""The C core in Python, element by element: the tests' library opened with cffi, its declarations taken from the headers themselves.
+
+core = Core.load()
+model = core.model(parameters={"bearing.P_d": 0.0}, inputs={"shaft.omega": 100.0})
+y_dot, D = model.rhs(0.0, y)
+model.work.Q_i[0]
+"""
+
+import os
+import re
+import subprocess
+import tempfile
+from pathlib import Path
+
+import cffi
+import numpy as np
+from pycparser import c_ast, c_generator, c_parser
+
+from bearing_model import variables
+
+ROOT = Path(__file__).resolve().parents[1]
+SOURCES = ROOT / "fmu_src"
+LIBRARY = ROOT / "build" / "libbearing_test.so"
+INSTRUCTION_SETS = ("generic", "neon", "sse2", "avx2", "avx512")
+LANE_TYPES = {"real", "bits", "words", "vec"}  # depend on the lane width: no place outside the kernels
+SYSTEM_TYPES = "typedef _Bool bool; typedef unsigned long size_t; typedef long int64_t; typedef unsigned long uint64_t; typedef unsigned uint32_t;"
+
+
+class Core:
+    """ffi, lib and models of one library."""
+
+    def __init__(self, ffi, lib):
+        self.ffi, self.lib = ffi, lib
+
+    @classmethod
+    def load(cls, path=LIBRARY, sources=SOURCES):
+        """Open the library; OSError if it has not been built."""
+        ffi = cffi.FFI()
+        ffi.cdef(declarations(Path(sources)))
+        return cls(ffi, ffi.dlopen(str(path)))
+
+    def new(self, type_name):
+        """A zeroed struct, aligned as the kernels want it."""
+        ffi = self.ffi
+        return ffi.gc(ffi.cast(f"{type_name} *", self.lib.test_allocate(ffi.sizeof(type_name))), self.lib.free)
+
+    def array(self, x):
+        """A float array as a C pointer; writes go into the array, which must outlive the pointer."""
+        return self.ffi.cast("double *", self.ffi.from_buffer(x))
+
+    def map(self, function, x, *before, outputs=1):
+        """function(n, *before, x, y...) of the library over an array; a tuple if there are several outputs."""
+        x = np.ascontiguousarray(x, dtype=float)
+        y = [np.empty_like(x) for _ in range(outputs)]
+        function(len(x), *before, self.array(x), *map(self.array, y))
+        return y[0] if outputs == 1 else tuple(y)
+
+    def model(self, parameters=None, inputs=None, isa=None):
+        return Model(self, parameters or {}, inputs or {}, isa)
+
+    def set_values(self, struct, table, values):
+        """Set members by the names of the variable table; KeyError for an unknown one."""
+        for name, value in values.items():
+            group, member = table[name].name.replace("[j]", "").split(".")
+            setattr(getattr(struct, group), member, value)
+
+
+class Model:
+    """Parameters, inputs, derived constants and the results of the last evaluation."""
+
+    def __init__(self, core, parameters, inputs, isa):
+        self.core = core
+        self.p, self.u, self.d, self.drive, self.work = map(core.new, ("Parameters", "Inputs", "Derived", "Drive", "Work"))
+        core.lib.variables_set_start(self.p, self.u)
+        core.set_values(self.p, variables.PARAMETERS, parameters)
+        core.set_values(self.u, variables.INPUTS, inputs)
+        core.lib.model_derive(self.p, self.d)
+        core.lib.work_init(self.d, self.work)
+        self.pointer = core.new("Model")
+        self.pointer.p, self.pointer.d, self.pointer.drive = self.p, self.d, self.drive
+        self.isa = isa or core.ffi.string(core.lib.kernels_select().name).decode()
+
+    def kernel(self, name):
+        """A function of the kernel files in this model's instruction set."""
+        return getattr(self.core.lib, f"{name}_{self.isa}")
+
+    def start(self):
+        """The state vector of the quasi-static start at t = 0."""
+        y = np.zeros(variables.N_STATES)
+        self.core.lib.drive_update(self.p, self.u, 0.0, self.drive)
+        kernels = self.core.ffi.new("Kernels *", self.core.lib.kernels_select())
+        self.core.lib.start_state(kernels, self.pointer, self.work, self.core.array(y))
+        return y
+
+    def rhs(self, t, y):
+        """dy/dt at time t [s]; the work struct keeps all results."""
+        y = np.ascontiguousarray(y, dtype=float)
+        if y.shape != (variables.N_STATES,):
+            raise ValueError(f"y has shape {y.shape}: allowed is ({variables.N_STATES},)")
+        y_dot = np.empty_like(y)
+        self.core.lib.drive_update(self.p, self.u, t, self.drive)
+        self.kernel("rhs")(self.pointer, t, self.core.array(y), self.core.array(y_dot), self.work)
+        return y_dot
+
+    def rates(self):
+        """Stiff rates D [1/s] at the state of the last evaluation."""
+        D = np.empty(variables.N_STATES)
+        self.core.lib.jacobian_diagonal(self.pointer, self.work, self.core.array(D))
+        return D
+
+    def energy(self, y):
+        """Kinetic and elastic energy [J] at the state of the last evaluation."""
+        y = np.ascontiguousarray(y, dtype=float)
+        return self.core.lib.energy_total(self.pointer, self.core.array(y), self.work)
+
+
+# -------------------------------------------------------------------------------------------------- declarations from the headers
+
+
+def declarations(sources):
+    """All types and functions of the headers, as cffi reads them."""
+    tree = parse(sources, INSTRUCTION_SETS[0])
+    layout = struct_layout(sources, tree)
+    generator = c_generator.CGenerator()
+    lines = ["void free(void *);"]
+    for node in tree:
+        if isinstance(node, c_ast.Typedef) and node.name in layout:
+            pad(node, *layout[node.name])
+        lines.append(generator.visit(node) + ";")
+    for isa in INSTRUCTION_SETS[1:]:
+        lines += [generator.visit(node) + ";" for node in parse(sources, isa) if (node.name or "").endswith(f"_{isa}")]
+    return "\n".join(lines)
+
+
+def parse(sources, isa):
+    """Declarations of all headers and of test_library.c, without function bodies and without types that depend on the lane width."""
+    files = [*sorted(sources.glob("*.h")), Path(__file__).with_name("test_library.c")]
+    with tempfile.TemporaryDirectory() as folder:
+        system = Path(folder)
+        for name in re.findall(r"#include <(.*)>", "".join(path.read_text() for path in files)):
+            (system / name).parent.mkdir(parents=True, exist_ok=True)
+            (system / name).write_text("")
+        text = SYSTEM_TYPES + "".join(f'\n#include "{path}"' for path in files)
+        options = ["-E", "-P", "-nostdinc", "-undef", "-D__attribute__(x)=", "-D_Alignas(x)=", f"-DISA={isa}", f"-I{sources}", f"-I{system}"]
+        text = subprocess.run([compiler(), *options, "-x", "c", "-"], input=text, stdout=subprocess.PIPE, text=True, check=True).stdout
+    nodes = c_parser.CParser().parse(text).ext
+    own = SYSTEM_TYPES.count(";")
+    return [node for node in nodes[own:] if not isinstance(node, (c_ast.FuncDef, c_ast.StaticAssert)) and declares(node)]
+
+
+def declares(node):
+    """Whether this is a declaration for Python: not static data, not of a type that depends on the lane width."""
+    if "static" in getattr(node, "storage", []) or getattr(node, "name", None) in LANE_TYPES:
+        return False
+    return not uses_lanes(node)
+
+
+def uses_lanes(node):
+    if isinstance(node, c_ast.IdentifierType) and LANE_TYPES & set(node.names):
+        return True
+    return any(uses_lanes(child) for _, child in node.children())
+
+
+def members_of(node):
+    """Names of the members if this is typedef struct {...} Name."""
+    struct = getattr(getattr(node, "type", None), "type", None)
+    if isinstance(node, c_ast.Typedef) and isinstance(struct, c_ast.Struct) and struct.decls:
+        return [member.name for member in struct.decls]
+    return []
+
+
+def struct_layout(sources, tree):
+    """Name -> (offset and size of each member, size): the compiler's, since cffi does not know over-aligned members."""
+    structs = {node.name: members_of(node) for node in tree if members_of(node)}
+    prints = "".join(
+        f'printf("{name}'
+        + " %zu %zu" * len(members)
+        + ' %zu\\n"'
+        + "".join(f", offsetof({name}, {member}), sizeof((({name} *)0)->{member})" for member in members)
+        + f", sizeof({name}));\n"
+        for name, members in structs.items()
+    )
+    includes = "".join(f'#include "{path.name}"\n' for path in sorted(sources.glob("*.h")))
+    with tempfile.TemporaryDirectory() as folder:
+        program = Path(folder) / "layout"
+        text = f"#include <stdio.h>\n{includes}int main(void) {{\n{prints}return 0; }}\n"
+        subprocess.run([compiler(), "-std=c17", f"-I{sources}", "-x", "c", "-", "-o", str(program), "-lm"], input=text, text=True, check=True)
+        output = subprocess.run([str(program)], capture_output=True, text=True, check=True).stdout
+    layout = {}
+    for line in output.splitlines():
+        name, *numbers = line.split()
+        *places, size = map(int, numbers)
+        layout[name] = list(zip(places[::2], places[1::2], strict=True)), size
+    return layout
+
+
+def pad(node, places, size):
+    """Fill the gaps between the members of a struct, so that cffi's natural layout is the compiler's."""
+    struct, members, end = node.type.type, [], 0
+    for member, (offset, length) in zip(struct.decls, places, strict=True):
+        members += padding(end, offset) + [member]
+        end = offset + length
+    struct.decls = members + padding(end, size)
+
+
+def padding(start, end):
+    if start == end:
+        return []
+    name = f"pad_{start}"
+    bytes_ = c_ast.TypeDecl(name, [], None, c_ast.IdentifierType(["char"]))
+    array = c_ast.ArrayDecl(bytes_, c_ast.Constant("int", str(end - start)), [])
+    return [c_ast.Decl(name, [], [], [], [], array, None, None)]
+
+
+def compiler():
+    return os.environ.get("CC", "cc")

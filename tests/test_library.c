@@ -1,0 +1,70 @@
+// What the tests' library adds to the core's objects: the inline functions, callable over arrays, and memory as the kernels want it.
+#include "bearing.h"
+#include "hertz.h"
+#include "lanes.h"
+#include "model.h"
+#include "traction.h"
+
+#include <stdlib.h>
+
+void *test_allocate(size_t size);
+void test_exp(int n, const double *x, double *y);
+void test_log(int n, const double *x, double *y);
+void test_sincos(int n, const double *x, double *sine, double *cosine);
+void test_atan(int n, const double *x, double *y);
+void test_hertz_load(int n, double K, const double *delta, double *Q);
+void test_hertz_damped(int n, double Q, double lambda, const double *delta_dot, double *damped);
+void test_traction_mu(int n, const Parameters *p, const double *s, double f_a, bool mixed, double *mu);
+void test_traction_asperity_share(int n, const double *ln_Lambda, double *f_a);
+
+// Zeroed, aligned for any lane width; free() releases it.
+void *test_allocate(size_t size)
+{
+    size = (size + 63) / 64 * 64;
+    void *memory = aligned_alloc(64, size);
+    return memory ? memset(memory, 0, size) : NULL;
+}
+
+void test_exp(int n, const double *x, double *y)
+{
+    for (int i = 0; i < n; i++) y[i] = real_exp(real_set(x[i]))[0];
+}
+
+void test_log(int n, const double *x, double *y)
+{
+    for (int i = 0; i < n; i++) y[i] = real_log(real_set(x[i]))[0];
+}
+
+void test_sincos(int n, const double *x, double *sine, double *cosine)
+{
+    for (int i = 0; i < n; i++) {
+        real s, c;
+        real_sincos(real_set(x[i]), &s, &c);
+        sine[i] = s[0], cosine[i] = c[0];
+    }
+}
+
+void test_atan(int n, const double *x, double *y)
+{
+    for (int i = 0; i < n; i++) y[i] = real_atan(real_set(x[i]))[0];
+}
+
+void test_hertz_load(int n, double K, const double *delta, double *Q)
+{
+    for (int i = 0; i < n; i++) Q[i] = hertz_load(real_set(K), real_set(delta[i]))[0];
+}
+
+void test_hertz_damped(int n, double Q, double lambda, const double *delta_dot, double *damped)
+{
+    for (int i = 0; i < n; i++) damped[i] = hertz_damped(real_set(Q), real_set(lambda), real_set(delta_dot[i]))[0];
+}
+
+void test_traction_mu(int n, const Parameters *p, const double *s, double f_a, bool mixed, double *mu)
+{
+    for (int i = 0; i < n; i++) mu[i] = traction_mu(p, real_set(s[i]), real_set(f_a), mixed)[0];
+}
+
+void test_traction_asperity_share(int n, const double *ln_Lambda, double *f_a)
+{
+    for (int i = 0; i < n; i++) f_a[i] = traction_asperity_share(real_set(ln_Lambda[i]))[0];
+}
