@@ -69,15 +69,17 @@ def march(instance, scene, progress):
     times = scene.communication_points()
     references = [instance.model.inputs[name].valueReference for name in scene.inputs]
     inputs = np.column_stack([history(times) for history in scene.inputs.values()] or [np.zeros((len(times), 0))])
-    peaks = [i for i, name in enumerate(scene.outputs) if is_peak(name)] if scene.stride > 1 else []
-    rows = np.empty((-(-(len(times) - 1) // scene.stride) + 2, len(scene.outputs)))
+    changed = [False, *np.any(np.diff(inputs, axis=0), axis=1)]
+    stride = scene.stride
+    peaks = [i for i, name in enumerate(scene.outputs) if is_peak(name)] if stride > 1 else []
+    rows = np.empty((-(-(len(times) - 1) // stride) + 2, len(scene.outputs)))
     row_times = np.zeros(len(rows))
     read = instance.reader(scene.outputs)
     read(rows[0])
     row, due, stopped = 0, 0.0, ""
     for i in range(len(times) - 1):
         try:
-            if i > 0 and not np.array_equal(inputs[i], inputs[i - 1]):
+            if changed[i]:
                 instance.fmu.setReal(references, inputs[i].tolist())
             instance.fmu.doStep(times[i], times[i + 1] - times[i])
         except FMICallException as failure:
@@ -91,10 +93,11 @@ def march(instance, scene, progress):
         except KeyboardInterrupt:
             stopped = f"interrupted after t = {times[i]:.9g} s"
             break
-        row = i // scene.stride + 1
-        held = rows[row, peaks] if i % scene.stride else -np.inf
+        row = i // stride + 1
+        held = rows[row, peaks] if i % stride else -np.inf  # a copy
         read(rows[row])
-        rows[row, peaks] = np.maximum(rows[row, peaks], held)
+        if peaks:
+            rows[row, peaks] = np.maximum(rows[row, peaks], held)
         row_times[row] = times[i + 1]
         if (now := time.perf_counter()) >= due:
             progress(times[i + 1])
