@@ -7,7 +7,7 @@
     c = 3 Q/(2 sum_rho E*):  a = a* c^(1/3),  b = b* c^(1/3),  delta = delta* c^(2/3) sum_rho/2,  p_max = 3 Q/(2 pi a b),  Q = K delta^1.5
 
 F(m), E(m) complete elliptic integrals of first and second kind, 1/E* = sum (1 - nu^2)/E.   Harris & Kotzalas, Essential Concepts of Bearing
-Technology (2006), ch. 6, eqs. 6.24-6.43; Johnson, Contact Mechanics (1985), section 4.2.  Limit: kappa = 1 gives two spheres.
+Technology (2006), ch. 6; Johnson, Contact Mechanics (1985), section 4.2.  Limit: kappa = 1 gives two spheres.
 """
 
 from dataclasses import dataclass
@@ -30,7 +30,7 @@ class Ellipse(NamedTuple):
 def hertz_ellipse(F_rho):
     """Dimensionless contact for the curvature difference F(rho) [-], 0 (sphere) <= F_rho < 1 (line contact, excluded).
 
-    Raises ValueError outside.  Harris & Kotzalas (2006), eqs. 6.24-6.29.
+    Raises ValueError outside.  Harris & Kotzalas (2006), ch. 6.
 
     >>> round(hertz_ellipse(0.95).delta_star, 3)
     0.577
@@ -84,7 +84,7 @@ def ball_race_contact(D, d_m, f, alpha, E, nu, race):
 
     D ball diameter, d_m pitch diameter [m], f groove radius / D [-], alpha contact angle [rad], E [Pa], nu [-], race "inner" or "outer".
     Curvatures 2/D, 2/D of the ball, -1/(f D) across the groove, and along it gamma = D cos(alpha)/d_m:  (2/D) gamma/(1 - gamma) inner,
-    -(2/D) gamma/(1 + gamma) outer.  Harris & Kotzalas (2006), eqs. 2.28-2.31.
+    -(2/D) gamma/(1 + gamma) outer.  Harris & Kotzalas (2006), ch. 2.
 
     >>> contact = ball_race_contact(0.0111125, 0.0535, 0.515, 0.0, 207e9, 0.3, "inner")
     >>> print(f"{contact.K:.3e} N/m^1.5, {contact.p_max(1000.0) / 1e6:.0f} MPa")

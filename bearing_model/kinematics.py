@@ -7,7 +7,7 @@ centre at the pitch angle beta against the axis, backwards:  omega_R (-cos beta,
     inner:  omega_R cos(beta - alpha_i) = (omega_i - omega_m) (g - cos alpha_i)
 
 and the race control hypothesis gives beta: no spin at the outer or at the inner race (Jones), or the axis halfway between both contact normals.
-Harris & Kotzalas, Advanced Concepts of Bearing Technology (2006), ch. 2; Jones, ASME J. Basic Eng. 81 (1959) 1-12.
+Harris & Kotzalas, Essential and Advanced Concepts of Bearing Technology (2006), ch. 10 and 2; Jones, ASME J. Basic Eng. 81 (1959) 1-12.
 """
 
 from dataclasses import dataclass
@@ -49,7 +49,7 @@ def check_geometry(D, d_m):
 def pitch_angle(D, d_m, alpha_i, alpha_e, control):
     """Pitch angle beta [rad] of the ball's spin axis under the race control hypothesis "outer", "inner" or "none" (halfway).
 
-    Harris & Kotzalas (2006), eqs. 2.62 (outer) and 2.63 (inner).
+    Harris & Kotzalas (2006), ch. 2.
     """
     if control == "outer":
         return np.arctan2(np.sin(alpha_e), np.cos(alpha_e) + D / d_m)
@@ -80,7 +80,7 @@ def ball_motion(omega_i, D, d_m, alpha_i, alpha_e, control="none", omega_e=0.0):
 def cage_speed(omega_i, D, d_m, alpha=0.0, omega_e=0.0):
     """Epicyclic speed of the cage [rad/s]: (omega_i (1 - gamma) + omega_e (1 + gamma))/2, gamma = D cos(alpha)/d_m.
 
-    Harris & Kotzalas (2006), eq. 10.12.  Raises ValueError for D and d_m.
+    Harris & Kotzalas (2006), ch. 10.  Raises ValueError for D and d_m.
 
     >>> print(f"{cage_speed(1909.8788938, 0.0111125, 0.0535) / (2 * np.pi):.1f} Hz")
     120.4 Hz
@@ -91,7 +91,7 @@ def cage_speed(omega_i, D, d_m, alpha=0.0, omega_e=0.0):
 
 
 def ball_spin(omega_i, D, d_m, alpha=0.0, omega_e=0.0):
-    """Spin of the ball seen from the cage [rad/s]: d_m/(2 D) (1 - gamma^2) (omega_i - omega_e).  Harris & Kotzalas (2006), eq. 10.14."""
+    """Spin of the ball seen from the cage [rad/s]: d_m/(2 D) (1 - gamma^2) (omega_i - omega_e).  Harris & Kotzalas (2006), ch. 10."""
     check_geometry(D, d_m)
     gamma = D * np.cos(alpha) / d_m
     return 0.5 * d_m / D * (1.0 - gamma**2) * (omega_i - omega_e)

@@ -75,14 +75,14 @@ class Bearing:
 
     @property
     def clearance(self):
-        """Diametral clearance P_d [m]: as given, that of alpha_0, or 15 um.  Harris & Kotzalas (2006), eq. 2.9: P_d = 2 A (1 - cos alpha_0)."""
+        """Diametral clearance P_d [m]: as given, that of alpha_0, or 15 um.  Harris & Kotzalas (2006), ch. 2: P_d = 2 A (1 - cos alpha_0)."""
         if self.alpha_0 is not None:
             return 2.0 * self.A * (1.0 - math.cos(self.alpha_0))
         return 15e-6 if self.P_d is None else self.P_d
 
     @property
     def free_contact_angle(self):
-        """Contact angle under a vanishing axial load, cos(alpha) = 1 - P_d/(2 A) [rad]; 0 with preload.  Harris & Kotzalas (2006), eq. 2.9."""
+        """Contact angle under a vanishing axial load, cos(alpha) = 1 - P_d/(2 A) [rad]; 0 with preload.  Harris & Kotzalas (2006), ch. 2."""
         return math.acos(min(1.0, 1.0 - self.clearance / (2.0 * self.A)))
 
     @property
@@ -174,7 +174,7 @@ class QuasiStatic:
 
     @property
     def L_10r(self):
-        """Basic reference rating life [10^6 revolutions], inf without load; the load stands still.  ISO/TS 16281:2008, eqs. 18-24 for Z balls in a row.
+        """Basic reference rating life [10^6 revolutions], inf without load; the load stands still.  ISO/TS 16281:2008, point contact, one row.
 
         Q_ci, Q_ce: ball loads that give the rings the rating C.  Raises ValueError without bearing.C.
         """
@@ -192,12 +192,12 @@ class QuasiStatic:
 
     @property
     def P_ref(self):
-        """Dynamic equivalent reference load C / L_10r^(1/3) [N].  ISO/TS 16281:2008, eq. 25."""
+        """Dynamic equivalent reference load C / L_10r^(1/3) [N].  ISO/TS 16281:2008."""
         return self.bearing.C / self.L_10r ** (1 / 3)
 
     @property
     def S_0(self):
-        """Static safety C_0/P_0 = (4200 MPa / p_max)^3, inf without load: 4200 MPa at the ball most loaded define C_0.  ISO 76:2006, 5.1."""
+        """Static safety C_0/P_0 = (4200 MPa / p_max)^3, inf without load: 4200 MPa at the ball most loaded define C_0.  ISO 76:2006."""
         p_max = max(self.p_i.max(), self.p_e.max())
         return float((4.2e9 / p_max) ** 3) if p_max > 0.0 else math.inf
 
@@ -462,7 +462,7 @@ def inertia_loads(potential, v, control):
     """Centrifugal and gyroscopic loads for the contact angles at v, with the motion they come from.
 
     Gyroscopic moment M_g = J omega_m omega_R sin(beta) about the tangent, carried by friction lambda M_g/D at the races, lambda_i + lambda_e = 2:
-    outer control (0, 2), inner control (1, 1).  Harris & Kotzalas (2006), eqs. 3.34-3.39; loose balls carry none, nor do they without race control.
+    outer control (0, 2), inner control (1, 1).  Harris & Kotzalas (2006), ch. 3; loose balls carry none, nor do they without race control.
     """
     bearing, load = potential.bearing, potential.load
     Q_i, Q_e, alpha_i, alpha_e, n_i = contact_state(potential, v)

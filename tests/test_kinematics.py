@@ -54,7 +54,7 @@ def test_race_control_means_no_spin_there():
 
 
 def test_orbital_speed_of_race_control():
-    """Harris & Kotzalas (2006), eqs. 2.64-2.65 for a resting outer race; observed 1e-15."""
+    """Harris & Kotzalas (2006), ch. 2, for a resting outer race; observed 1e-15."""
     alpha_i, alpha_e, g = 0.45, 0.30, D / d_m
     outer = (1.0 - g * np.cos(alpha_i)) / (1.0 + np.cos(alpha_i - alpha_e))
     inner = (np.cos(alpha_i - alpha_e) - g * np.cos(alpha_e)) / (1.0 + np.cos(alpha_i - alpha_e))

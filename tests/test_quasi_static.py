@@ -13,8 +13,8 @@ from bearing_model.kinematics import cage_speed
 from bearing_model.quasi_static import RING, Bearing, Load, Potential, quasi_static
 
 WORKING_POINT = Load(F_x=515.0, F_y=2994.0, omega=18238.0 * np.pi / 30.0)  # Cui et al. (2023), Table 2
-HARRIS_209 = Bearing(D=12.7e-3, d_m=65e-3, Z=9, f_i=0.52, f_e=0.52, P_d=15e-6)  # Harris, Rolling Bearing Analysis (2001), example 7.1
-HARRIS_218 = Bearing(D=22.225e-3, d_m=125.26e-3, Z=16, f_i=0.5232, f_e=0.5232, alpha_0=np.radians(40.0))  # example 7.5
+HARRIS_209 = Bearing(D=12.7e-3, d_m=65e-3, Z=9, f_i=0.52, f_e=0.52, P_d=15e-6)  # Harris, Rolling Bearing Analysis (2001), ch. 7
+HARRIS_218 = Bearing(D=22.225e-3, d_m=125.26e-3, Z=16, f_i=0.5232, f_e=0.5232, alpha_0=np.radians(40.0))  # ch. 7
 
 CASES = {
     "working point": (Bearing(), WORKING_POINT),
@@ -87,7 +87,7 @@ def test_hertz_pressure_makes_the_load_and_the_approach(race, f):
 
 
 def test_harris_209_under_radial_load():
-    """Harris (2001), example 7.1: 8900 N; 4536, 2846, 61.2 N on the balls at 0, 40, 80 deg, 60.41 um.
+    """Harris (2001), ch. 7, example of the 209: 8900 N; 4536, 2846, 61.2 N on the balls at 0, 40, 80 deg, 60.41 um.
 
     He iterates with rounded load integrals (his ball loads sum to 8917 N): 0.5 % and, for the small load, 3 %; observed 0.1, 0.2, 2.2 and 0.3 %.
     """
@@ -99,7 +99,7 @@ def test_harris_209_under_radial_load():
 
 
 def test_harris_218_under_thrust():
-    """Harris (2001), example 7.5: 17,800 N, contact angle 41.6 deg, ball load 1676 N, displacement 38.6 um.
+    """Harris (2001), ch. 7, example of the 218: 17,800 N, contact angle 41.6 deg, ball load 1676 N, displacement 38.6 um.
 
     He reads the contact constant from Jones's chart (896.7 N/mm^2; exact Hertz gives 989, softening the displacement by 7 %).
     Angle to 0.15 deg (observed 0.10), load to 0.3 % (0.2), displacement to 8 % (6.8); Jones's relation itself, with the exact constant, to 1e-9.
@@ -116,7 +116,7 @@ def test_harris_218_under_thrust():
 
 
 def assert_jones_relation(r):
-    """F_a = Z K_n A^1.5 sin(alpha) (cos alpha_0/cos alpha - 1)^1.5, delta_a = A cos(alpha_0) (tan alpha - tan alpha_0): Harris (2001), eqs. 7.33-7.36."""
+    """F_a = Z K_n A^1.5 sin(alpha) (cos alpha_0/cos alpha - 1)^1.5, delta_a = A cos(alpha_0) (tan alpha - tan alpha_0): Harris (2001), ch. 7."""
     b, alpha = r.bearing, r.alpha_i[0]
     alpha_0 = b.free_contact_angle
     contacts = [ball_race_contact(b.D, b.d_m, f, b.nominal_angle, b.E, b.nu, race).K for f, race in ((b.f_i, "inner"), (b.f_e, "outer"))]
@@ -132,7 +132,7 @@ def test_thrust_follows_jones(bearing):
 
 
 def test_load_integral_of_many_balls():
-    """Zero clearance: Q = Q_max cos(psi)^1.5, Q_max = 4.37 F_r/(Z cos alpha) (Stribeck, Sjovall; Harris (2001), eq. 7.23).  Observed 1e-5."""
+    """Zero clearance: Q = Q_max cos(psi)^1.5, Q_max = 4.37 F_r/(Z cos alpha) (Stribeck, Sjovall; Harris (2001), ch. 7).  Observed 1e-5."""
     J_r = quad(lambda psi: np.cos(psi) ** 2.5, -0.5 * np.pi, 0.5 * np.pi)[0] / (2.0 * np.pi)
     assert 1.0 / J_r == pytest.approx(4.37, abs=0.005)
     r = quasi_static(Bearing(Z=200, d_m=1.0, P_d=0.0), Load(F_y=2000.0))
@@ -261,7 +261,7 @@ def test_a_ring_does_not_balance_on_one_ball():
 
 
 def test_centrifugal_force_parts_the_contact_angles():
-    """Under thrust at speed the outer angle falls, the inner rises (Harris (2001), fig. 9.2), and the ring moves back."""
+    """Under thrust at speed the outer angle falls, the inner rises (Harris (2001), ch. 9), and the ring moves back."""
     still, fast = (quasi_static(HARRIS_218, Load(F_x=17800.0, omega=omega)) for omega in (0.0, 1047.2))
     assert (fast.alpha_e < still.alpha_e).all()
     assert (fast.alpha_i > still.alpha_i).all()
@@ -390,7 +390,7 @@ def test_axial_stiffness_in_closed_form():
 
 @pytest.mark.parametrize("control, lambda_i, lambda_e", [("outer", 0.0, 2.0), ("inner", 1.0, 1.0)])
 def test_race_control_satisfies_the_balls_equations_of_harris(control, lambda_i, lambda_e):
-    """Harris (2001), eqs. 9.15-9.16 with M_g = J omega_R omega_m sin(beta), (9.11), in his signs.
+    """Harris (2001), ch. 9: balance of a ball with M_g = J omega_R omega_m sin(beta), in his signs.
 
     Of loads of 2 kN 1e-7 is left, the square of the inner normal's turn out of the ball's plane; observed 1e-8.
     """
