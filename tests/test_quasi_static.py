@@ -40,7 +40,7 @@ def solved(request):
 # --- Hertz -------------------------------------------------------------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("F_rho, kappa, delta_star", [(0.95, 10.40, 0.577), (0.7332, 3.4204, 0.8394)])
+@pytest.mark.parametrize(("F_rho", "kappa", "delta_star"), [(0.95, 10.40, 0.577), (0.7332, 3.4204, 0.8394)])
 def test_hertz_against_harris_table(F_rho, kappa, delta_star):
     """Harris (2001), Table 6.1; required to 1e-3, observed 4e-4 (rounding of the table) and 1e-5."""
     ellipse = hertz_ellipse(F_rho)
@@ -48,7 +48,9 @@ def test_hertz_against_harris_table(F_rho, kappa, delta_star):
     assert ellipse.a_star / ellipse.b_star == pytest.approx(ellipse.kappa, rel=1e-14)
 
 
-@pytest.mark.parametrize("F_rho, a_star, b_star, delta_star", [(0.0, 1.0, 1.0, 1.0), (0.1075, 1.0760, 0.9318, 0.9974), (0.3204, 1.2623, 0.8114, 0.9761)])
+@pytest.mark.parametrize(
+    ("F_rho", "a_star", "b_star", "delta_star"), [(0.0, 1.0, 1.0, 1.0), (0.1075, 1.0760, 0.9318, 0.9974), (0.3204, 1.2623, 0.8114, 0.9761)]
+)
 def test_hertz_of_nearly_round_contacts(F_rho, a_star, b_star, delta_star):
     """Harris (2001), Table 6.1, given to 4 decimals; observed 5e-5."""
     ellipse = hertz_ellipse(F_rho)
@@ -72,7 +74,7 @@ def test_hertz_6207_inner_contact():
     assert contact.p_max(1000.0) == pytest.approx(1942e6, rel=3e-4)
 
 
-@pytest.mark.parametrize("race, f", [("inner", 0.515), ("outer", 0.52)])
+@pytest.mark.parametrize(("race", "f"), [("inner", 0.515), ("outer", 0.52)])
 def test_hertz_pressure_makes_the_load_and_the_approach(race, f):
     """The half ellipsoid of pressure integrates to Q; its deflection in the middle is p_max b K(m)/E* (Johnson (1985), eq. 4.26c).  Observed 1e-14."""
     contact = ball_race_contact(0.0111125, 0.0535, f, 0.2, 207e9, 0.3, race)
@@ -388,7 +390,7 @@ def test_axial_stiffness_in_closed_form():
 # --- gyroscopic moments ------------------------------------------------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("control, lambda_i, lambda_e", [("outer", 0.0, 2.0), ("inner", 1.0, 1.0)])
+@pytest.mark.parametrize(("control", "lambda_i", "lambda_e"), [("outer", 0.0, 2.0), ("inner", 1.0, 1.0)])
 def test_race_control_satisfies_the_balls_equations_of_harris(control, lambda_i, lambda_e):
     """Harris (2001), ch. 9: balance of a ball with M_g = J omega_R omega_m sin(beta), in his signs.
 
@@ -409,7 +411,7 @@ def test_race_control_satisfies_the_balls_equations_of_harris(control, lambda_i,
     assert spin == pytest.approx(0.0, abs=0.05 * load.omega)  # one orbital speed for all balls
 
 
-@pytest.mark.parametrize("control, lambda_e", [("none", 0.0), ("outer", 2.0), ("inner", 1.0)])
+@pytest.mark.parametrize(("control", "lambda_e"), [("none", 0.0), ("outer", 2.0), ("inner", 1.0)])
 def test_moment_from_the_outer_race(control, lambda_e):
     """Moment on the ring from the other end: outer race loads and friction on the balls = their change of momentum and spin - the ring's load.
 
@@ -438,7 +440,7 @@ def test_gyroscopic_moment_is_small_where_it_should_be():
 # --- life --------------------------------------------------------------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("Z, d_m, error", [(9, 0.0535, 6e-3), (30, 0.2, 1e-3)])
+@pytest.mark.parametrize(("Z", "d_m", "error"), [(9, 0.0535, 6e-3), (30, 0.2, 1e-3)])
 def test_reference_life_of_the_standard_case(Z, d_m, error):
     """Radial load, no clearance, half of the balls loaded: P_ref = F_r, L = (C/P)^3.
 
@@ -461,7 +463,7 @@ def test_life_falls_with_clearance_tilt_and_load():
     assert life(Load(F_y=2994.0, F_x=1500.0)) < base
 
 
-@pytest.mark.parametrize("D, d_m, f_0", [(11.1125, 53.5, 13.8), (19.05, 80.0, 13.1), (6.0, 60.0, 16.4)])
+@pytest.mark.parametrize(("D", "d_m", "f_0"), [(11.1125, 53.5, 13.8), (19.05, 80.0, 13.1), (6.0, 60.0, 16.4)])
 def test_static_rating_of_iso_76(D, d_m, f_0):
     """C_0 = f_0 Z D^2 [N, mm] puts 4200 MPa under the load 5 C_0/Z at f_i = 0.52: ISO 76:2006, table 1 at D/d_m 0.21, 0.24, 0.10.
 
@@ -490,7 +492,7 @@ def test_frequencies_of_the_result():
 
 
 @pytest.mark.parametrize(
-    "make, message",
+    ("make", "message"),
     [
         (lambda: Bearing(D=-1.0), r"bearing\.D = -1\.0: must be positive"),
         (lambda: Bearing(f_i=0.5), r"bearing\.f_i = 0\.5: must be more than 0\.5"),
