@@ -1,28 +1,41 @@
-// Choice of the right-hand side for this processor, at run time.
+// Choice of the kernels for this processor, at run time.
 #include "rhs.h"
 
 #undef rhs
-Rhs rhs_sse2, rhs_avx2, rhs_avx512, rhs_generic;
+#undef vector_ops
+#undef race_contact_force
+#define DECLARE(isa) \
+    Rhs rhs_##isa;   \
+    ContactKernel race_contact_force_##isa; \
+    extern const VectorOps vector_ops_##isa
+#define KERNELS(isa) ((Kernels){#isa, rhs_##isa, race_contact_force_##isa, &vector_ops_##isa})
 
-Rhs *rhs_select(const char **name)
-{
 #if defined(__x86_64__) || defined(_M_X64)
+DECLARE(sse2);
+DECLARE(avx2);
+DECLARE(avx512);
+
+Kernels kernels_select(void)
+{
     __builtin_cpu_init();
-    if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl")) {
-        *name = "avx512";
-        return rhs_avx512;
-    }
-    if (__builtin_cpu_supports("avx2")) {
-        *name = "avx2";
-        return rhs_avx2;
-    }
-    *name = "sse2";
-    return rhs_sse2;
-#else
-    *name = "generic";
-    return rhs_generic;
-#endif
+    if (Z >= 8 && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl")) return KERNELS(avx512);
+    return __builtin_cpu_supports("avx2") ? KERNELS(avx2) : KERNELS(sse2);
 }
+#elif defined(__aarch64__)
+DECLARE(neon);
+
+Kernels kernels_select(void)
+{
+    return KERNELS(neon);
+}
+#else
+DECLARE(generic);
+
+Kernels kernels_select(void)
+{
+    return KERNELS(generic);
+}
+#endif
 
 void work_init(const Derived *d, Work *w)
 {

@@ -138,28 +138,7 @@ static double net_power(const Model *model, const Work *w)
     return power;
 }
 
-// The stiff rates in the order of y.
-static void stiff_rates(const Model *model, const Work *w, double *D)
-{
-    memset(D, 0, N_STATES * sizeof *D);
-    const double *ball[] = {w->D_x, w->D_r, w->D_t, w->D_omega_x, w->D_omega_r, w->D_omega_t};
-    for (int i = 0; i < 6; i++) memcpy(&D[Y_BALL_V_X + i * Z], ball[i], Z * sizeof *D);
-    if (model->p->scene.cage == CAGE_MODEL_TWO_HALF) {
-        memcpy(&D[Y_JOINT_PLATE_Y], w->D_plate, Z * sizeof *D);
-        memcpy(&D[Y_JOINT_PLATE_Z], w->D_plate, Z * sizeof *D);
-        memcpy(&D[Y_JOINT_HEAD_Y], w->D_head, Z * sizeof *D);
-        memcpy(&D[Y_JOINT_HEAD_Z], w->D_head, Z * sizeof *D);
-    }
-    for (int h = 0; h < 2; h++) {
-        D[Y_CAGE_V_Y + h] = w->D_cage_y[h];
-        D[Y_CAGE_V_Z + h] = w->D_cage_z[h];
-        D[Y_CAGE_BETA_DOT + h] = w->D_beta[h];
-        D[Y_CAGE_GAMMA_DOT + h] = w->D_gamma[h];
-        D[Y_CAGE_S + h] = w->D_spin[h];
-    }
-}
-
-void rhs(const Model *model, double t, const double *y, double *y_dot, double *D, Work *w)
+void rhs(const Model *model, double t, const double *y, double *y_dot, Work *w)
 {
     const bool rigid = model->p->scene.cage == CAGE_MODEL_RIGID;
     ball_kinematics(y, w);
@@ -184,5 +163,4 @@ void rhs(const Model *model, double t, const double *y, double *y_dot, double *D
         memcpy(&y_dot[Y_JOINT_HEAD_Z], w->head_z_dot, Z * sizeof *y_dot);
     }
     y_dot[Y_WORK] = net_power(model, w);
-    if (D != NULL) stiff_rates(model, w, D);
 }

@@ -1,16 +1,25 @@
 // The right-hand side: y -> dy/dt.
 #pragma once
 
-#include "isa.h"
 #include "model.h"
+#include "vector_ops.h"
 
-typedef void Rhs(const Model *model, double t, const double *y, double *y_dot, double *D, Work *w);
+typedef void Rhs(const Model *model, double t, const double *y, double *y_dot, Work *w);
+typedef void ContactKernel(const Model *model, Work *w);
 
-// y_dot = f(t, y), and the diagonal of stiff rates D [1/s] (0 where a state has none); D may be NULL.  w keeps all results.
+// y_dot = f(t, y); w keeps all results.
 Rhs rhs;
 
-// The right-hand side of the best instruction set of this processor, and its name.
-Rhs *rhs_select(const char **name);
+// The kernels of one instruction set.
+typedef struct {
+    const char *name;
+    Rhs *rhs;
+    ContactKernel *race_contact_force;
+    const VectorOps *ops;
+} Kernels;
+
+// Those of the best instruction set of this processor.
+Kernels kernels_select(void);
 
 // A Work whose ghost lanes are harmless.
 void work_init(const Derived *d, Work *w);

@@ -1,0 +1,265 @@
+// One instance: life cycle, stepping, peaks and statistics over accepted steps, saved state.
+#include "energy.h"
+#include "instance.h"
+#include "ring.h"
+#include "rivets.h"
+#include "start.h"
+
+#include <stdlib.h>
+
+// ---- accepted steps ---------------------------------------------------------------------------------------------------------------------------
+static void add_force(Saved *s, const Work *w, bool counts, double h)
+{
+    const bool rigid = s->p.scene.cage == CAGE_MODEL_RIGID;
+    for (int j = 0; j < Z; j++) {
+        const double Q_c = w->Q_c[0][j] + (rigid ? 0.0 : w->Q_c[1][j]);
+        s->force_peak = fmax(s->force_peak, Q_c);
+        if (!counts) continue;
+        statistics_add(&s->force, FORCE_FLOOR, h, Q_c);
+        if (Q_c > 0.0) s->duty_time += h;
+    }
+}
+
+static void add_stress(Bearing *b, bool counts, double h)
+{
+    Saved *s = &b->s;
+    FatigueLaw law;
+    RivetLoad load[Z];
+    double V[Z], head_most = 0.0, mid_most = 0.0;
+    const bool fatigue = s->p.scene.stress == STRESS_FATIGUE && s->integrator.t >= s->p.start.settle;
+    memcpy(&law, &s->p.fatigue, sizeof law);
+    rivets_load(&b->model, &b->w, load, V);
+    for (int k = 0; k < Z; k++) {
+        double head, mid;
+        rivet_rom_primary(&rivet_table, &load[k], b->d.fit_eff, &head, &mid);
+        s->head_peak[k] = fmax(s->head_peak[k], head);
+        s->mid_peak[k] = fmax(s->mid_peak[k], mid);
+        head_most = fmax(head_most, head);
+        mid_most = fmax(mid_most, mid);
+        if (counts) {
+            statistics_add(&s->head[k], STRESS_FLOOR, h, head);
+            statistics_add(&s->mid[k], STRESS_FLOOR, h, mid);
+        }
+        if (fatigue) {
+            fatigue_push(&s->fatigue_head[k], &law, head);
+            fatigue_push(&s->fatigue_mid[k], &law, mid);
+        }
+    }
+    if (counts) {
+        statistics_add(&s->head[WORST_RIVET], STRESS_FLOOR, h, head_most);
+        statistics_add(&s->mid[WORST_RIVET], STRESS_FLOOR, h, mid_most);
+    }
+}
+
+static void add_cage(Bearing *b, double h)
+{
+    Saved *s = &b->s;
+    const Rotor *h0 = &b->w.half[0], *h1 = &b->w.half[1];
+    const double y = 0.5 * (h0->x[1] + h1->x[1]), z = 0.5 * (h0->x[2] + h1->x[2]);
+    double slip[Z];
+    rivets_slip(&b->model, &b->w, slip);
+    for (int k = 0; k < Z; k++) s->dislocation_most = fmax(s->dislocation_most, slip[k]);
+    s->omega_time += h * 0.5 * (h0->s + h1->s);
+    s->eccentricity_time += h * sqrt(y * y + z * z) / b->d.C_land;
+}
+
+// Peaks, statistics and fatigue from the state just reached.
+static void accepted_step(void *context, double h, const Work *w)
+{
+    Bearing *b = context;
+    Saved *s = &b->s;
+    const bool counts = s->p.scene.statistics == SWITCH_ON && s->integrator.t >= s->p.start.settle;
+    add_force(s, w, counts, h);
+    if (s->p.scene.stress >= STRESS_PEAK) add_stress(b, counts, h);
+    if (counts) add_cage(b, h);
+}
+
+static void solver_message(void *context, const char *message)
+{
+    bearing_log(context, LOG_SOLVER, "%s", message);
+}
+
+// ---- life cycle ---------------------------------------------------------------------------------------------------------------------------------
+Bearing *bearing_create(const BearingHost *host)
+{
+    Bearing *b = aligned_alloc(64, (sizeof *b + 63) / 64 * 64);
+    if (b == NULL) return NULL;
+    memset(b, 0, sizeof *b);
+    b->host = *host;
+    b->kernels = kernels_select();
+    b->model = (Model){&b->s.p, &b->d, &b->drive};
+    b->integrator = integrator_create(&b->kernels, &b->model, &b->w, &b->s.integrator, accepted_step, solver_message, b);
+    if (b->integrator == NULL) {
+        free(b);
+        return NULL;
+    }
+    bearing_reset(b);
+    return b;
+}
+
+void bearing_destroy(Bearing *b)
+{
+    if (b == NULL) return;
+    integrator_destroy(b->integrator);
+    free(b);
+}
+
+void bearing_reset(Bearing *b)
+{
+    memset(&b->s, 0, sizeof b->s);
+    memset(&b->out, 0, sizeof b->out);
+    variables_set_start(&b->s.p, &b->s.u);
+    b->current = 0;
+    b->evaluated = false;
+    b->cpu_time = 0.0;
+}
+
+Parameters *bearing_parameters(Bearing *b)
+{
+    return &b->s.p;
+}
+Inputs *bearing_inputs(Bearing *b)
+{
+    return &b->s.u;
+}
+const Outputs *bearing_outputs(const Bearing *b)
+{
+    return &b->out;
+}
+double *bearing_state(Bearing *b)
+{
+    return b->s.integrator.y;
+}
+double bearing_time(const Bearing *b)
+{
+    return b->s.integrator.t;
+}
+
+// What follows from parameters and inputs; nothing of it is saved.
+static void derive(Bearing *b)
+{
+    model_derive(&b->s.p, &b->d);
+    drive_update(&b->s.p, &b->s.u, b->s.integrator.t, &b->drive);
+    work_init(&b->d, &b->w);
+    integrator_tolerance(b->integrator, b->s.tolerance);
+    b->current = 0;
+    b->evaluated = false;
+}
+
+// Makes w and y_dot belong to the present state and inputs.
+static void evaluate(Bearing *b)
+{
+    if (b->evaluated) return;
+    const IntegratorState *i = &b->s.integrator;
+    b->kernels.rhs(&b->model, i->t, i->y, b->y_dot, &b->w);
+    b->evaluated = true;
+}
+
+BearingStatus bearing_initialize(Bearing *b, double t_start, double tolerance)
+{
+    Saved *s = &b->s;
+    if (!check_all(b)) return BEARING_ERROR;
+    s->t_start = t_start;
+    s->tolerance = tolerance > 0.0 ? tolerance : s->p.solver.tol;
+    s->integrator.t = t_start;
+    s->integrator.h = 1e-6;
+    s->integrator.path = s->p.solver.method == METHOD_IMEX ? PATH_IMEX : PATH_EXPLICIT;
+    derive(b);
+    const double residual = start_state(&b->kernels, &b->model, &b->w, s->integrator.y);
+    const double load = fabs(b->drive.F[0]) + fabs(b->drive.F[1]) + fabs(b->drive.F[2]);
+    BearingStatus status = BEARING_OK;
+    if (!(residual < 1e-6 * (load + 1.0))) {
+        bearing_log(b, LOG_WARNING, "t = %g s: the start is not in equilibrium, residual %g N of a load of %g N", t_start, residual, load);
+        status = BEARING_WARNING;
+    }
+    integrator_evaluate(b->integrator);
+    s->energy_start = energy_total(&b->model, s->integrator.y, &b->w);
+    accepted_step(b, 0.0, &b->w);
+    b->evaluated = true;
+    s->initialized = 1;
+    return status;
+}
+
+// ---- stepping -----------------------------------------------------------------------------------------------------------------------------------
+// Explicit or IMEX from the largest stiff rate: an explicit step is bounded by 2.5/rate (real axis), accuracy bounds it at about 8 um-s
+// times (tolerance/1e-3)^(1/3), an IMEX evaluation costs 1.5 explicit ones.  Back to explicit only where nothing is lost.
+static void choose_path(Bearing *b, double elapsed)
+{
+    Saved *s = &b->s;
+    double rate = 0.0;
+    integrator_evaluate(b->integrator);
+    for (int i = 0; i < N_STATES; i++) rate = fmax(rate, s->integrator.D[i]);
+    s->stiffness += (rate - s->stiffness) * (elapsed < 1e-3 ? elapsed / 1e-3 : 1.0);
+    if (s->p.solver.method != METHOD_AUTO) {
+        s->integrator.path = s->p.solver.method == METHOD_IMEX ? PATH_IMEX : PATH_EXPLICIT;
+        return;
+    }
+    const double h_accurate = 8e-6 * cbrt(fmin(s->tolerance / 1e-3, 1.0)), h_stable = 2.5 / fmax(s->stiffness, 1.0);
+    if (h_stable < h_accurate / 1.5)
+        s->integrator.path = PATH_IMEX;
+    else if (h_stable > h_accurate)
+        s->integrator.path = PATH_EXPLICIT;
+}
+
+// A change of inputs makes the known derivative obsolete.
+static void renew_drive(Bearing *b)
+{
+    Drive drive;
+    memset(&drive, 0, sizeof drive);
+    drive_update(&b->s.p, &b->s.u, b->s.integrator.t, &drive);
+    if (memcmp(&drive, &b->drive, sizeof drive) == 0) return;
+    b->drive = drive;
+    b->s.integrator.known = 0;
+}
+
+BearingStatus bearing_step(Bearing *b, double t_end)
+{
+    Saved *s = &b->s;
+    if (!check_inputs(b)) return BEARING_ERROR;
+    const clock_t before = clock();
+    const double t_begin = s->integrator.t, steps_before = s->integrator.steps;
+    s->force_peak = 0.0;
+    for (int k = 0; k < Z; k++) s->head_peak[k] = s->mid_peak[k] = 0.0;
+    b->current = 0;
+    b->evaluated = false;
+
+    int status = 0;
+    renew_drive(b);
+    choose_path(b, t_end - t_begin);
+    while (status == 0 && s->integrator.t < t_end) {
+        renew_drive(b);  // at the edges of pulses
+        const double edge = drive_next_edge(&s->p, s->integrator.t);
+        const long left = s->p.solver.max_steps - (long)(s->integrator.steps - steps_before);
+        status = integrator_advance(b->integrator, fmin(edge, t_end), left);
+    }
+    b->cpu_time += (double)(clock() - before) / CLOCKS_PER_SEC;
+    if (status == 0) return BEARING_OK;
+    bearing_log(b, LOG_ERROR, "t = %.9g s: the solver cannot go on (code %d, step size %g s, %g steps since %.9g s)", s->integrator.t, status, s->integrator.h,
+                s->integrator.steps - steps_before, t_begin);
+    return BEARING_DISCARD;
+}
+
+void bearing_update(Bearing *b, OutputGroup group)
+{
+    if (b->current >> group & 1u) return;
+    evaluate(b);
+    outputs_fill(b, group);
+    b->current |= 1u << group;
+}
+
+// ---- saved state --------------------------------------------------------------------------------------------------------------------------------
+size_t bearing_saved_size(void)
+{
+    return sizeof(Saved);
+}
+
+void bearing_save(const Bearing *b, void *saved)
+{
+    memcpy(saved, &b->s, sizeof b->s);
+}
+
+void bearing_restore(Bearing *b, const void *saved)
+{
+    memcpy(&b->s, saved, sizeof b->s);
+    derive(b);
+}

@@ -1,0 +1,57 @@
+// One instance of the model: what is saved, and what can be computed from it.  Inside the core only.
+#pragma once
+
+#include "fatigue.h"
+#include "integrator.h"
+#include "statistics.h"
+
+#include <time.h>
+
+// Floors of the statistics' bins: the smallest value told apart.
+static const double FORCE_FLOOR = 1e-3;   // [N]
+static const double STRESS_FLOOR = 1e3;   // [Pa]
+
+enum { WORST_RIVET = Z, STRESS_CHANNELS = Z + 1 };  // channels of stress statistics: each rivet, the worst one at each instant
+
+// Everything that the future depends on: plain bytes.
+typedef struct {
+    Parameters p;
+    Inputs u;
+    IntegratorState integrator;
+    double t_start, tolerance;
+    double energy_start;
+    double stiffness;                   // largest stiff rate, smoothed over about 1 ms [1/s]
+    double force_peak;                  // since the last communication point
+    double head_peak[Z], mid_peak[Z];
+    double dislocation_most, duty_time, omega_time, eccentricity_time;  // integrals over time since settle
+    StatisticsChannel force, head[STRESS_CHANNELS], mid[STRESS_CHANNELS];
+    FatigueChannel fatigue_head[Z], fatigue_mid[Z];
+    int initialized;
+} Saved;
+
+struct Bearing {
+    BearingHost host;
+    Saved s;
+    Derived d;
+    Drive drive;
+    Model model;
+    Work w;
+    Outputs out;
+    Kernels kernels;
+    Integrator *integrator;
+    unsigned current;                   // bit per output group: up to date
+    double y_dot[N_STATES];             // dy/dt at the present state
+    bool evaluated;                     // w and y_dot belong to it
+    double cpu_time;
+};
+
+// Fills one group of outputs from w and the saved state.
+void outputs_fill(struct Bearing *b, OutputGroup group);
+
+// Whether parameters and inputs make a bearing; messages go to the log.
+bool check_all(struct Bearing *b);
+
+// Whether inputs are within their limits (they may change at every step).
+bool check_inputs(struct Bearing *b);
+
+void bearing_log(struct Bearing *b, LogCategory category, const char *format, ...) __attribute__((format(printf, 3, 4)));

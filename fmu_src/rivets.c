@@ -1,0 +1,93 @@
+// Loads of the rivets.
+//
+//   two halves   N = T - N_plate; the shank carries the hole force B, the heads the friction H; plate friction S bypasses the rivet;
+//                the flexible cage half adds what a pocket force pries at the joints beside it (load_path.h)
+//   rigid cage   the wrench between the halves, (half 1 - half 0)/2 as both have the same inertia, on the circle of rivets; its transverse
+//                part loads plates (up to mu P), then heads (mu P), then the shank
+//
+// Everything is in the body frame of half 0: rivets at angles 2 pi (k + 1/2)/Z.
+#include "rivets.h"
+
+#include "load_path.h"
+#include "rotor.h"
+
+void rivets_slip(const Model *model, const Work *w, double slip[Z])
+{
+    const bool rigid = model->p->scene.cage == CAGE_MODEL_RIGID;
+    for (int k = 0; k < Z; k++) slip[k] = rigid ? 0.0 : sqrt(w->u_y[k] * w->u_y[k] + w->u_z[k] * w->u_z[k]);
+}
+
+static void two_half_load(const Model *model, const Work *w, RivetLoad load[Z], double V[Z])
+{
+    for (int k = 0; k < Z; k++) {
+        const double V_y = w->S_y[k] + w->H_y[k] + w->B_y[k], V_z = w->S_z[k] + w->H_z[k] + w->B_z[k];
+        load[k] = (RivetLoad){.P = model->d->P, .N = w->T[k] - w->N_plate[k], .V_y = -w->B_y[k], .V_z = -w->B_z[k],
+                              .F_head = sqrt(w->H_y[k] * w->H_y[k] + w->H_z[k] * w->H_z[k])};
+        V[k] = sqrt(V_y * V_y + V_z * V_z);
+    }
+}
+
+// Wrench of pockets and land on half 1 less that on half 0, halved, about the cage's centre in its body frame.
+static void rigid_wrench(const Model *model, const Work *w, double wrench[6])
+{
+    const Rotor *cage = &w->half[0];
+    const double *pocket[6] = {w->half_F_x[0], w->half_F_y[0], w->half_F_z[0], w->half_M_x[0], w->half_M_y[0], w->half_M_z[0]};
+    const double width = model->p->cage.share_width;
+    double global[6];
+    for (int i = 0; i < 3; i++) {
+        global[i] = w->half[1].F[i] - w->half[0].F[i];
+        global[3 + i] = w->half[1].M[i] - w->half[0].M[i];
+    }
+    for (int i = 0; i < 6; i++) {
+        global[i] = 0.5 * (global[i] + lanes_sum(pocket[i]));  // half 0 holds all pocket forces: leave the lands'
+        for (int j = 0; j < Z; j++) {
+            const double F_x = w->pocket_x[0][j], F_t = w->pocket_t[0][j], F = sqrt(F_x * F_x + F_t * F_t);
+            if (F > 0.0) global[i] += 0.5 * pocket[i][j] * F_x / sqrt(F_x * F_x + width * width * F * F);  // share of half 1 less that of half 0
+        }
+    }
+    const double *axes[3] = {cage->a, cage->b_y, cage->b_z};
+    for (int i = 0; i < 3; i++) {
+        wrench[i] = dot3(axes[i], global);
+        wrench[3 + i] = dot3(axes[i], global + 3);
+    }
+}
+
+static void rigid_load(const Model *model, const Work *w, RivetLoad load[Z], double V[Z])
+{
+    const double R = 0.5 * model->p->bearing.d_m, friction = model->p->joint.mu * model->d->P;
+    double wrench[6], c[Z], s[Z], N[Z], V_y[Z], V_z[Z];
+    rigid_wrench(model, w, wrench);
+    for (int k = 0; k < Z; k++) {
+        c[k] = model->d->rivet_y[k] / R;
+        s[k] = model->d->rivet_z[k] / R;
+    }
+    load_path_rigid(2.0 * R, wrench, c, s, N, V_y, V_z);
+    for (int k = 0; k < Z; k++) {
+        V[k] = sqrt(V_y[k] * V_y[k] + V_z[k] * V_z[k]);
+        const double shank = V[k] > 2.0 * friction ? (V[k] - 2.0 * friction) / V[k] : 0.0;
+        load[k] = (RivetLoad){.P = model->d->P, .N = N[k], .V_y = shank * V_y[k], .V_z = shank * V_z[k],
+                              .F_head = fmin(fmax(V[k] - friction, 0.0), friction)};
+    }
+}
+
+void rivets_load(const Model *model, const Work *w, RivetLoad load[Z], double V[Z])
+{
+    const bool rigid = model->p->scene.cage == CAGE_MODEL_RIGID;
+    if (rigid)
+        rigid_load(model, w, load, V);
+    else
+        two_half_load(model, w, load, V);
+
+    PathLoads path = {0};
+    for (int h = 0; h < (rigid ? 1 : 2); h++)
+        load_path_flexible(rivet_table.load_path, h == 0 ? -1 : 1, w->pocket_x[h], w->pocket_r[h], w->pocket_t[h], &path);
+    const double R = 0.5 * model->p->bearing.d_m;
+    for (int k = 0; k < Z; k++) {
+        const double c = model->d->rivet_y[k] / R, s = model->d->rivet_z[k] / R;
+        load[k].N += path.N[k];
+        load[k].V_y += path.V_r[k] * c - path.V_t[k] * s;
+        load[k].V_z += path.V_r[k] * s + path.V_t[k] * c;
+        load[k].M_y += path.M_r[k] * c - path.M_t[k] * s;
+        load[k].M_z += path.M_r[k] * s + path.M_t[k] * c;
+    }
+}

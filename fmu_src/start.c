@@ -1,0 +1,265 @@
+// Quasi-static equilibrium, as the minimum of a potential in two nested Newton iterations:
+//
+//   ball j, ring given:   phi_j(x, r) = (2/5)(K_i delta_i^2.5 + K_e delta_e^2.5) - F_c r + k_0 x^2/2 -> min,  F_c = m r_0 omega_m^2 + F_0
+//   ring q = (x, y, z, beta, gamma):   Pi = sum phi_j - F.q - M.(beta, gamma) + support + k_0 q^2/2 -> min
+//
+// Forces and contact results come from race_contact_force at rest, stiffnesses from k = Q' n n^T + (Q/L)(1 - n n^T).  F_0 presses unloaded
+// balls outward where nothing else does (standstill), k_0 holds what no load holds (no axial load, no load): 0.01 N over 10 um.
+// Then all parts run at kinematic speeds without slip, the cage is centred and turns with the balls.
+#include "start.h"
+
+#include "ring.h"
+
+enum { DOF = 5, TILT = 3 };  // x, y, z | beta, gamma
+static const double PI = 3.14159265358979323846;
+static const double K_0 = 1e3;      // [N/m]
+static const double F_0 = 1e-3;     // [N]
+static const double STEP = 2e-5;    // longest Newton step [m]
+
+typedef struct {
+    const Kernels *kernels;
+    const Model *model;
+    Work *w;
+    double F_c;                     // centrifugal force [N]
+    bool tilts;                     // beta, gamma are unknowns
+    double F[3];                    // load
+} Equilibrium;
+
+// Symmetric 2 x 2 matrices (xx, xr, rr).
+typedef struct {
+    double xx, xr, rr;
+} Stiffness;
+
+static Stiffness contact_stiffness(double K, double delta, double L, double n_x, double n_r)
+{
+    if (delta <= 0.0) return (Stiffness){0.0, 0.0, 0.0};
+    const double root = sqrt(delta), along = 1.5 * K * root, across = K * delta * root / L;
+    return (Stiffness){across + (along - across) * n_x * n_x, (along - across) * n_x * n_r, across + (along - across) * n_r * n_r};
+}
+
+static double elastic(double K, double delta)
+{
+    return delta > 0.0 ? 0.4 * K * delta * delta * sqrt(delta) : 0.0;
+}
+
+static double ball_potential(const Equilibrium *eq, int j)
+{
+    const Derived *d = eq->model->d;
+    const Work *w = eq->w;
+    return elastic(d->inner.hertz.K, w->delta_i[j]) + elastic(d->outer.hertz.K, w->delta_e[j]) - eq->F_c * w->r[j] + 0.5 * K_0 * w->x[j] * w->x[j];
+}
+
+// Minimises the potential of every ball for the ring's present pose; returns the sum.
+static double balls_settle(const Equilibrium *eq)
+{
+    const Derived *d = eq->model->d;
+    Work *w = eq->w;
+    double x[Z], r[Z], dx[Z], dr[Z], phi[Z], part[Z];
+    eq->kernels->race_contact_force(eq->model, w);
+    for (int j = 0; j < Z; j++) phi[j] = ball_potential(eq, j);
+    for (int iteration = 0; iteration < 60; iteration++) {
+        double moved = 0.0;
+        for (int j = 0; j < Z; j++) {
+            const double L_i = w->delta_i[j] + d->inner.r_g - d->R[j], L_e = w->delta_e[j] + d->outer.r_g - d->R[j];
+            const Stiffness k_i = contact_stiffness(d->inner.hertz.K, w->delta_i[j], L_i, w->n_ix[j], w->n_ir[j]);
+            const Stiffness k_e = contact_stiffness(d->outer.hertz.K, w->delta_e[j], L_e, w->n_ex[j], w->n_er[j]);
+            const double xx = k_i.xx + k_e.xx + K_0, xr = k_i.xr + k_e.xr, rr = k_i.rr + k_e.rr + K_0, det = xx * rr - xr * xr;
+            const double F_x = w->F_x[j] - K_0 * w->x[j], F_r = w->F_r[j] + eq->F_c;
+            x[j] = w->x[j], r[j] = w->r[j], part[j] = 1.0;
+            dx[j] = (rr * F_x - xr * F_r) / det, dr[j] = (xx * F_r - xr * F_x) / det;
+            const double length = sqrt(dx[j] * dx[j] + dr[j] * dr[j]);
+            if (length > STEP) dx[j] *= STEP / length, dr[j] *= STEP / length;
+            moved = fmax(moved, length);
+        }
+        if (moved < 1e-16) break;
+        for (int trial = 0; trial < 30; trial++) {  // every ball halves its own step until its potential falls
+            bool again = false;
+            for (int j = 0; j < Z; j++) {
+                w->x[j] = x[j] + part[j] * dx[j];
+                w->r[j] = r[j] + part[j] * dr[j];
+            }
+            eq->kernels->race_contact_force(eq->model, w);
+            for (int j = 0; j < Z; j++) {
+                if (ball_potential(eq, j) > phi[j] + 1e-14 * fabs(phi[j]) && part[j] > 1e-6) {
+                    part[j] *= 0.5;
+                    again = true;
+                }
+            }
+            if (!again) break;
+        }
+        for (int j = 0; j < Z; j++) phi[j] = ball_potential(eq, j);
+    }
+    double sum = 0.0;
+    for (int j = 0; j < Z; j++) sum += phi[j];
+    return sum;
+}
+
+static void ring_place(const Equilibrium *eq, const double q[DOF])
+{
+    for (int i = 0; i < 3; i++) eq->w->ring.x[i] = q[i];
+    rotor_axis(&eq->w->ring, q[3], q[4], 0.0, 0.0, 0.0);
+}
+
+// Pi without the balls, and its negative gradient without their forces.
+static double ring_potential(const Equilibrium *eq, const double q[DOF], double force[DOF])
+{
+    const Parameters *p = eq->model->p;
+    const Drive *drive = eq->model->drive;
+    const double target[2] = {drive->beta, drive->gamma}, k = p->ring.tilt_mode == TILT_MODE_SUPPORTED ? p->ring.k_tilt : 0.0;
+    const double r2 = 0.25 * p->bearing.d_m * p->bearing.d_m;  // k_0 acts at the pitch radius
+    double Pi = 0.0;
+    for (int i = 0; i < 3; i++) {
+        Pi += 0.5 * K_0 * q[i] * q[i] - eq->F[i] * q[i];
+        force[i] = eq->F[i] - K_0 * q[i];
+    }
+    for (int i = 0; i < 2; i++) {
+        const double angle = q[TILT + i] - target[i];
+        force[TILT + i] = eq->tilts ? drive->M[i] - k * angle - K_0 * r2 * q[TILT + i] : 0.0;
+        if (eq->tilts) Pi += 0.5 * k * angle * angle + 0.5 * K_0 * r2 * q[TILT + i] * q[TILT + i] - drive->M[i] * q[TILT + i];
+    }
+    return Pi;
+}
+
+// Adds the balls' forces on the ring and their condensed stiffness k_i - k_i (k_i + k_e)^-1 k_i.
+static void ring_balls(const Equilibrium *eq, double force[DOF], double H[DOF][DOF])
+{
+    const Derived *d = eq->model->d;
+    const Work *w = eq->w;
+    const double F[DOF] = {lanes_sum(w->ring_F_x), lanes_sum(w->ring_F_y), lanes_sum(w->ring_F_z), lanes_sum(w->ring_M_y), lanes_sum(w->ring_M_z)};
+    for (int i = 0; i < DOF; i++)
+        if (i < TILT || eq->tilts) force[i] += F[i];
+    for (int j = 0; j < Z; j++) {
+        const double L_i = w->delta_i[j] + d->inner.r_g - d->R[j], L_e = w->delta_e[j] + d->outer.r_g - d->R[j];
+        const Stiffness a = contact_stiffness(d->inner.hertz.K, w->delta_i[j], L_i, w->n_ix[j], w->n_ir[j]);
+        const Stiffness b = contact_stiffness(d->outer.hertz.K, w->delta_e[j], L_e, w->n_ex[j], w->n_er[j]);
+        const double xx = a.xx + b.xx + K_0, xr = a.xr + b.xr, rr = a.rr + b.rr + K_0, det = xx * rr - xr * xr;
+        // k = a - a (a + b)^-1 a
+        const double i_xx = rr / det, i_xr = -xr / det, i_rr = xx / det;
+        const double m_xx = a.xx * i_xx + a.xr * i_xr, m_xr = a.xx * i_xr + a.xr * i_rr, m_rx = a.xr * i_xx + a.rr * i_xr, m_rr = a.xr * i_xr + a.rr * i_rr;
+        const double k_xx = a.xx - m_xx * a.xx - m_xr * a.xr, k_xr = a.xr - m_xx * a.xr - m_xr * a.rr, k_rr = a.rr - m_rx * a.xr - m_rr * a.rr;
+        const double c = w->cos_theta[j], s = w->sin_theta[j], R = d->inner.R_g;
+        const double G_x[DOF] = {1.0, 0.0, 0.0, R * s, -R * c}, G_r[DOF] = {0.0, c, s, 0.0, 0.0};
+        for (int m = 0; m < DOF; m++)
+            for (int n = 0; n < DOF; n++)
+                H[m][n] += k_xx * G_x[m] * G_x[n] + k_xr * (G_x[m] * G_r[n] + G_r[m] * G_x[n]) + k_rr * G_r[m] * G_r[n];
+    }
+}
+
+// Solves H dq = force, H symmetric and positive definite; rows of fixed tilts are the identity.
+static void solve(double H[DOF][DOF], double force[DOF])
+{
+    for (int i = 0; i < DOF; i++) {
+        for (int m = i + 1; m < DOF; m++) {
+            const double factor = H[m][i] / H[i][i];
+            for (int n = i; n < DOF; n++) H[m][n] -= factor * H[i][n];
+            force[m] -= factor * force[i];
+        }
+    }
+    for (int i = DOF - 1; i >= 0; i--) {
+        for (int n = i + 1; n < DOF; n++) force[i] -= H[i][n] * force[n];
+        force[i] /= H[i][i];
+    }
+}
+
+// Finds ring pose q and ball positions (in w); returns the largest residual force.
+static double equilibrium(const Equilibrium *eq, double q[DOF])
+{
+    const Parameters *p = eq->model->p;
+    const double r = 0.5 * p->bearing.d_m, r2 = r * r;
+    double residual = 0.0, force[DOF];
+    ring_place(eq, q);
+    double Pi = balls_settle(eq) + ring_potential(eq, q, force);
+    for (int iteration = 0; iteration < 100; iteration++) {
+        double H[DOF][DOF] = {{0}};
+        ring_balls(eq, force, H);
+        residual = 0.0;
+        for (int i = 0; i < DOF; i++) {
+            residual = fmax(residual, fabs(force[i]) / (i < TILT ? 1.0 : r));
+            H[i][i] += i < TILT ? K_0 : K_0 * r2 + (p->ring.tilt_mode == TILT_MODE_SUPPORTED ? p->ring.k_tilt : 0.0);
+            if (i >= TILT && !eq->tilts)
+                for (int n = 0; n < DOF; n++) H[i][n] = H[n][i] = n == i ? 1.0 : 0.0;
+        }
+        if (residual < 1e-9) break;
+        solve(H, force);
+        double length = 0.0, step[DOF], trial[DOF];
+        for (int i = 0; i < DOF; i++) length = fmax(length, fabs(force[i]) * (i < TILT ? 1.0 : r));
+        for (int i = 0; i < DOF; i++) step[i] = force[i] * fmin(1.0, STEP / fmax(length, 1e-300));
+        if (length < 1e-16) break;
+        double Pi_new = Pi, part = 1.0;
+        for (int halving = 0; halving < 30; halving++, part *= 0.5) {
+            for (int i = 0; i < DOF; i++) trial[i] = q[i] + part * step[i];
+            ring_place(eq, trial);
+            Pi_new = balls_settle(eq) + ring_potential(eq, trial, force);
+            if (Pi_new <= Pi + 1e-13 * fabs(Pi)) break;
+        }
+        Pi = Pi_new;
+        memcpy(q, trial, sizeof trial);
+    }
+    return residual;
+}
+
+// splitmix64: the same numbers in both twins.  Steele, Lea & Flood (2014).
+static double uniform(uint64_t *state)
+{
+    uint64_t z = (*state += 0x9e3779b97f4a7c15u);
+    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
+    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
+    return (double)((z ^ (z >> 31)) >> 11) * 0x1p-53;
+}
+
+// Orbital speed without slip at both races: tangential speed of the balls' centres is half that of the inner contact points.
+static double orbital_speed(const Model *model, const Work *w)
+{
+    double weight = 0.0, sum = 0.0;
+    for (int j = 0; j < Z; j++) {
+        const double cosine = w->Q_i[j] > 0.0 ? fabs(w->n_ir[j]) : 1.0, load = w->Q_i[j] + 1e-9;
+        sum += load * 0.5 * (1.0 - 2.0 * model->d->R[j] * cosine / model->p->bearing.d_m);
+        weight += load;
+    }
+    return model->drive->omega * sum / weight;
+}
+
+double start_state(const Kernels *kernels, const Model *model, Work *w, double *y)
+{
+    const Parameters *p = model->p;
+    const Derived *d = model->d;
+    Equilibrium eq = {.kernels = kernels, .model = model, .w = w, .tilts = p->ring.tilt_mode != TILT_MODE_PRESCRIBED};
+    work_init(d, w);
+    memcpy(eq.F, model->drive->F, sizeof eq.F);  // a pulse begins at zero
+    const double omega_0 = 0.5 * model->drive->omega * (1.0 - p->bearing.D / p->bearing.d_m);
+    eq.F_c = d->m * 0.5 * p->bearing.d_m * omega_0 * omega_0 + F_0;
+
+    uint64_t random = (uint64_t)p->start.seed;
+    const double spread = p->start.spacing * p->cage.pocket_clearance / (0.5 * p->bearing.d_m);
+    for (int j = 0; j < Z; j++) {
+        w->theta[j] = 2.0 * PI * j / Z + spread * (2.0 * uniform(&random) - 1.0);
+        w->cos_theta[j] = cos(w->theta[j]);
+        w->sin_theta[j] = sin(w->theta[j]);
+        w->r[j] = 0.5 * p->bearing.d_m + 0.25 * p->bearing.P_d;
+    }
+    double q[DOF] = {0.0, 0.0, 0.0, model->drive->beta, model->drive->gamma};
+    const double residual = equilibrium(&eq, q);
+
+    memset(y, 0, N_STATES * sizeof *y);
+    const double omega_m = orbital_speed(model, w);
+    for (int j = 0; j < Z; j++) {
+        y[Y_BALL_X + j] = w->x[j];
+        y[Y_BALL_R + j] = w->r[j];
+        y[Y_BALL_THETA + j] = w->theta[j];
+        y[Y_BALL_OMEGA_M + j] = omega_m;
+        // rolls on the outer race about the axis across its contact normal: v_t + R (omega_x n_r - omega_r n_x) = 0
+        const double rolling = -w->r[j] * omega_m / d->R[j];
+        y[Y_BALL_OMEGA_X + j] = rolling * w->n_er[j];
+        y[Y_BALL_OMEGA_R + j] = -rolling * w->n_ex[j];
+    }
+    for (int h = 0; h < 2; h++) {
+        y[Y_CAGE_X + h] = d->com_x[h];
+        y[Y_CAGE_Y + h] = d->com_e;
+        y[Y_CAGE_V_Z + h] = omega_m * d->com_e;
+        y[Y_CAGE_S + h] = omega_m;
+    }
+    for (int i = 0; i < 3; i++) y[Y_RING_X + i] = q[i];
+    y[Y_RING_BETA] = q[3];
+    y[Y_RING_GAMMA] = q[4];
+    return residual;
+}

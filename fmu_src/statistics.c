@@ -1,0 +1,58 @@
+// Running statistics.  The bin is read off the number's exponent and the first five bits of its mantissa: no logarithm.
+#include "statistics.h"
+
+#include <math.h>
+#include <stdint.h>
+#include <string.h>
+
+// value/floor in [1, 2^24) -> bin
+static int bin_of(double ratio)
+{
+    uint64_t word;
+    memcpy(&word, &ratio, sizeof word);
+    const int64_t bin = (int64_t)(word >> 47) - ((int64_t)1023 << 5);
+    return bin < STATISTICS_BINS ? (int)bin : STATISTICS_BINS - 1;
+}
+
+// Lower edge of a bin as a multiple of the floor.
+static double edge_of(int bin)
+{
+    return ldexp(1.0 + (bin % STATISTICS_PER_OCTAVE) / (double)STATISTICS_PER_OCTAVE, bin / STATISTICS_PER_OCTAVE);
+}
+
+void statistics_add(StatisticsChannel *channel, double floor, double weight, double value)
+{
+    channel->time += weight;
+    channel->first += weight * value;
+    channel->second += weight * value * value;
+    if (value > channel->most) channel->most = value;
+    if (value < floor)
+        channel->below += weight;
+    else
+        channel->weight[bin_of(value / floor)] += weight;
+}
+
+double statistics_mean(const StatisticsChannel *channel)
+{
+    return channel->time > 0.0 ? channel->first / channel->time : 0.0;
+}
+
+double statistics_rms(const StatisticsChannel *channel)
+{
+    return channel->time > 0.0 ? sqrt(channel->second / channel->time) : 0.0;
+}
+
+double statistics_quantile(const StatisticsChannel *channel, double floor, double p)
+{
+    double above = (1.0 - p) * channel->time;  // weight that lies above the quantile: summed from the top
+    if (channel->time <= 0.0) return 0.0;
+    for (int bin = STATISTICS_BINS - 1; bin >= 0; bin--) {
+        const double weight = channel->weight[bin];
+        if (weight > 0.0 && weight >= above) {
+            const double low = edge_of(bin), high = edge_of(bin + 1);
+            return fmin(floor * (high - (high - low) * above / weight), channel->most);
+        }
+        above -= weight;
+    }
+    return 0.0;
+}

@@ -1,0 +1,63 @@
+// Operations on the state vector.  Elementwise, or summed in eight partial sums: the same bits for every instruction set.
+#include "vector_ops.h"
+
+#define ALL(i) for (int i = 0; i < N_STATES; i++)
+
+static void linear_sum(double a, const double *x, double b, const double *y, double *z)
+{
+    ALL(i) z[i] = a * x[i] + b * y[i];
+}
+
+static void linear_combination(int n, const double *c, double *const *x, double *z)
+{
+    double sum[N_STATES];
+    ALL(i) sum[i] = c[0] * x[0][i];
+    int k = 1;
+    for (; k + 1 < n; k += 2) {
+        const double *u = x[k], *v = x[k + 1], a = c[k], b = c[k + 1];
+        ALL(i) sum[i] = sum[i] + a * u[i] + b * v[i];
+    }
+    if (k < n) {
+        const double *u = x[k], a = c[k];
+        ALL(i) sum[i] += a * u[i];
+    }
+    memcpy(z, sum, sizeof sum);
+}
+
+static double wrms_norm(const double *x, const double *w)
+{
+    double part[8] = {0};
+    enum { WHOLE = N_STATES / 8 * 8 };
+    for (int i = 0; i < WHOLE; i += 8)
+        for (int k = 0; k < 8; k++) part[k] += (x[i + k] * w[i + k]) * (x[i + k] * w[i + k]);
+    for (int i = WHOLE; i < N_STATES; i++) part[i - WHOLE] += (x[i] * w[i]) * (x[i] * w[i]);
+    const double sum = ((part[0] + part[1]) + (part[2] + part[3])) + ((part[4] + part[5]) + (part[6] + part[7]));
+    return sqrt(sum / N_STATES);
+}
+
+static void imex_explicit(const double *f, const double *D, const double *y, double *fe)
+{
+    ALL(i) fe[i] = f[i] + D[i] * y[i];
+}
+
+static void imex_implicit(const double *D, const double *y, double *fi)
+{
+    ALL(i) fi[i] = -(D[i] * y[i]);
+}
+
+static void imex_solve(double gamma, const double *D, const double *s, const double *y, double *z)
+{
+    ALL(i) z[i] = (s[i] - gamma * D[i] * y[i]) / (1.0 + gamma * D[i]);
+}
+
+static bool finite(const double *x)
+{
+    double part[8] = {0};  // x - x is 0, or NaN where x is not finite
+    enum { WHOLE = N_STATES / 8 * 8 };
+    for (int i = 0; i < WHOLE; i += 8)
+        for (int k = 0; k < 8; k++) part[k] += x[i + k] - x[i + k];
+    for (int i = WHOLE; i < N_STATES; i++) part[0] += x[i] - x[i];
+    return ((part[0] + part[1]) + (part[2] + part[3])) + ((part[4] + part[5]) + (part[6] + part[7])) == 0.0;
+}
+
+const VectorOps vector_ops = {linear_sum, linear_combination, wrms_norm, imex_explicit, imex_implicit, imex_solve, finite};
