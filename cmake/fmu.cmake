@@ -28,7 +28,7 @@ add_custom_target(fmu ALL DEPENDS ${FMU})
 
 # In the wheel: the FMU, and what `riveted-bearing build` compiles, laid out as in the checkout.
 install(FILES ${FMU} DESTINATION bearing_model COMPONENT python)
-set(source_dir bearing_model/sources)
+set(source_dir bearing_model/_source)
 install(FILES CMakeLists.txt LICENSE THIRD_PARTY_NOTICES.md DESTINATION ${source_dir} COMPONENT python)
 install(DIRECTORY cmake fmu_src fmus DESTINATION ${source_dir} COMPONENT python PATTERN __pycache__ EXCLUDE PATTERN *.fmu EXCLUDE)
 install(FILES ${package} DESTINATION ${source_dir}/bearing_model/app COMPONENT python)
