@@ -1,0 +1,381 @@
+"""The rivet joint condensed to its contacts: loads in, pressures, stresses and displacements out; no mesh is touched any more.
+
+Pressure in each contact is a sum of hats along the edge (rings) times hats over the angle; gaps are means with the same hats, so the compliance
+is symmetric and positive definite whatever the grid.  Fit and preload enter as gaps only.  Contacts: UH, LH under the upper and lower head,
+UB, LB in the bores, PP in the split plane.  Upper = the +x half; loads on its rigid rim, the lower rim is held:
+
+    rigid motions q = (x, y, z, rotation x, rotation y) of the rivet, then of the upper rim;  V along x, M about x and y, N along z
+
+here with z along the rivet.  Two symmetries halve the work: the plane of V if M bends in it ("plane": M about y), and half a turn about y if M
+bends across it ("across": M about x).
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.interpolate import PchipInterpolator
+
+from . import section_mesh
+from .elasticity import Body
+from .lcp import Contact
+from .section_mesh import Fineness, edge_nodes
+
+GROUPS = ("UH", "UB", "LB", "LH", "PP")
+SPRINGS = np.array([0.1, 0.1, 1e-3, 1e-7, 1e-7])  # N/m, N.m/rad: 1e-8 of the joint's own stiffness
+NO_PRELOAD = 1e-9  # part of s that stands for P = 0: the heads just touch
+
+
+def graded_angles(step, dense=16.0, coarse=15.0):
+    """Angles of the bore's hats [rad]: `step` degrees within `dense` degrees of 0 and 180, growing to `coarse`; symmetric about 0, 90 and 180.
+
+    >>> len(graded_angles(3.75))
+    48
+    """
+    angles, size = [0.0], step
+    while angles[-1] + size < 90.0 - 0.5 * size:
+        angles.append(angles[-1] + size)
+        if angles[-1] >= dense - 1e-9:
+            size = min(1.5 * size, coarse)
+    quarter = np.array(angles)
+    half = np.concatenate([quarter, [90.0], 180.0 - quarter[::-1]])
+    return np.deg2rad(np.concatenate([half, 360.0 - half[-2:0:-1]]))
+
+
+def hat_harmonics(angles, n_max):
+    """Integrals of the periodic hats at `angles` with cos n theta and sin n theta: [2, angles, n_max + 1]."""
+    left, right = np.roll(angles, 1), np.roll(angles, -1)
+    left[0] -= 2 * np.pi
+    right[-1] += 2 * np.pi
+    n = np.arange(1, n_max + 1)
+
+    def e(t):
+        return np.exp(1j * np.outer(t, n))
+
+    z = ((e(angles) - e(left)) / (angles - left)[:, None] - (e(right) - e(angles)) / (right - angles)[:, None]) / n**2
+    z = np.concatenate([0.5 * (right - left)[:, None], z], axis=1)
+    return np.stack([z.real, z.imag])
+
+
+@dataclass(frozen=True)
+class Grid:
+    """Discretization: mesh, bore angles, uniform angles under heads and in the split plane, harmonics."""
+
+    fine: Fineness = Fineness()
+    step: float = 3.75  # degrees, near the contact of the bore
+    uniform: int = 24
+    n_max: int = 48
+
+    def solved_harmonics(self):
+        """Harmonics that are solved; between them n times the compliance is smooth and interpolated."""
+        n = [k for k in (*range(9), 10, 12, 14, 16, 20, 24, 32, 40, 48, 64, 80, 96, 128) if k < self.n_max]
+        return np.array([*n, self.n_max])
+
+
+COARSE = Grid(Fineness(0.6), 10.0, 12, 12)
+SHIPPED = Grid()
+TRUTH = Grid(Fineness(1.0), 1.875, 36, 96)
+
+
+def surface_stress(tt, hoop, shear):
+    """Largest principal and von Mises stress at a free surface from its three components."""
+    mean, half = 0.5 * (tt + hoop), 0.5 * (tt - hoop)
+    return mean + np.sqrt(half**2 + shear**2), np.sqrt(tt**2 - tt * hoop + hoop**2 + 3 * shear**2)
+
+
+class Joint:
+    """Condensed model of one geometry on one grid."""
+
+    def __init__(self, geometry, grid=SHIPPED, progress=None):
+        self.geometry, self.grid = geometry, grid
+        g = geometry
+        self.rings = {"UH": section_mesh.head_radii(g, grid.fine), "UB": section_mesh.bore_levels(g, grid.fine)}
+        self.rings |= {"LH": self.rings["UH"], "LB": -self.rings["UB"], "PP": section_mesh.plate_radii(g, grid.fine)}
+        bore, uniform = graded_angles(grid.step), 2 * np.pi * np.arange(grid.uniform) / grid.uniform
+        self.angles = {name: bore if name.endswith("B") else uniform for name in GROUPS}
+        self.hats = {name: hat_harmonics(angles, grid.n_max) for name, angles in self.angles.items()}
+        self.kappa = np.where(np.arange(grid.n_max + 1) == 0, 2 * np.pi, np.pi)
+        self._condense(progress or (lambda done, total: None))
+        self._assemble()
+
+    # Finite elements, once per geometry ------------------------------------------------------------------------------------------------
+
+    def _condense(self, progress):
+        g, fine = self.geometry, self.grid.fine
+        R, t = g.shank_diameter / 2, g.flange_thickness
+        self.rivet = Body(section_mesh.rivet_mesh(g, fine), g.E_rivet, g.nu_rivet)
+        self.flange = Body(section_mesh.flange_mesh(g, fine), g.E_flange, g.nu_flange, lambda x: x[0] > g.patch_radius - 1e-9)
+        bore, heads = (g.edge_break, t - g.relief_depth), (R + g.relief_radius, g.head_diameter / 2)
+
+        def pair(body, normal_side):
+            """Loads of UH and UB on the rivet (normal_side +1) or the flange (-1), and of LB, LH on the rivet."""
+            sign = normal_side
+            on_head = edge_nodes(body.mesh, z=t, between=heads)
+            on_bore = edge_nodes(body.mesh, r=R, between=bore)
+            upper = [body.ring_loads(on_head, self.rings["UH"], (0.0, -sign), 0), body.ring_loads(on_bore, self.rings["UB"], (sign, 0.0), 1)]
+            self.moments = {
+                "UH": body.ring_moments(on_head, self.rings["UH"], 0),
+                "UB": body.ring_moments(on_bore, self.rings["UB"], 1),
+            }
+            return upper
+
+        upper = pair(self.rivet, 1.0)
+        low_bore = edge_nodes(self.rivet.mesh, r=R, between=(-bore[1], -bore[0]))
+        low_head = edge_nodes(self.rivet.mesh, z=-t, between=heads)
+        lower_bore = self.rivet.ring_loads(low_bore, self.rings["LB"][::-1], (1.0, 0.0), 1)[:, ::-1]
+        rivet_loads = np.hstack([*upper, lower_bore, self.rivet.ring_loads(low_head, self.rings["LH"], (0.0, 1.0), 0)])
+        flange_upper = pair(self.flange, -1.0)
+        on_plate = edge_nodes(self.flange.mesh, z=0.0)
+        flange_loads = np.hstack([*flange_upper, self.flange.ring_loads(on_plate, self.rings["PP"], (0.0, -1.0), 0)])
+        m = self.moments
+        m["PP"] = self.flange.ring_moments(on_plate, self.rings["PP"], 0)
+        m["LH"], m["LB"] = m["UH"], m["UB"] * np.array([[1.0], [-1.0]])
+        self.fillet, self.middle = self._stress_places()
+
+        size = {name: len(self.rings[name]) for name in GROUPS}
+        half = size["UH"] + size["UB"]
+        mirror = np.concatenate([half + size["LB"] + np.arange(size["LH"]), half + np.arange(size["LB"]), size["UH"] + np.arange(size["UB"]), np.arange(size["UH"])])
+        # mirror[i]: ring of the rivet at the mirrored place; rings in the order UH, UB, LB, LH
+        solved = self.grid.solved_harmonics()
+        rivet, flange, stress = [], [], []
+        for i, n in enumerate(solved):
+            u = self.rivet.solve(n, rivet_loads[:, :half])
+            S = rivet_loads.T @ u  # [all rings, upper rings]
+            S = np.hstack([S, S[mirror][:, mirror[half:]]])
+            rivet.append(0.5 * (S + S.T))
+            stress.append(self._stress_response(n, -u, mirror, half))
+            v = self.flange.solve(n, flange_loads)
+            flange.append(flange_loads.T @ v)
+            progress(i + 1, len(solved))
+        all_n = np.arange(self.grid.n_max + 1)
+
+        def spread(values):
+            values = np.array(values)
+            scale = np.maximum(solved, 1).reshape(-1, *[1] * (values.ndim - 1))
+            return PchipInterpolator(solved, scale * values, axis=0)(all_n) / np.maximum(all_n, 1).reshape(-1, *[1] * (values.ndim - 1))
+
+        self.S_rivet, self.S_flange, self.S_stress = spread(rivet), spread(flange), spread(stress)
+        self.ring_slices, start = {}, 0
+        for name in ("UH", "UB", "LB", "LH"):
+            self.ring_slices[name] = slice(start, start + size[name])
+            start += size[name]
+
+    def _stress_places(self):
+        """Stress rows of the upper fillet and of the middle: (S_0, S_1, x, tangent [2, points])."""
+        g, mesh = self.geometry, self.rivet.mesh
+        facets = mesh.boundary_facets()
+        ends = mesh.p[:, mesh.facets[:, facets]]
+        centre = np.array([g.shank_diameter / 2 + g.fillet_radius, g.flange_thickness - g.fillet_radius])
+        distance = np.hypot(*(ends - centre[:, None, None]))
+        quarter = np.all((np.abs(distance - g.fillet_radius) < 1e-9) & (ends[0] < centre[0] + 1e-9) & (ends[1] > centre[1] - 1e-9), axis=0)
+        zone = np.all((np.abs(ends[0] - g.shank_diameter / 2) < 1e-9) & (np.abs(ends[1]) < g.middle_zone + 1e-9), axis=0)
+        places = []
+        for chosen in (quarter, zone):
+            S_0, S_1, x = self.rivet.stress_rows(facets[chosen])
+            along = np.diff(mesh.p[:, mesh.facets[:, facets[chosen]]], axis=1)[:, 0]
+            tangent = np.repeat(along / np.hypot(*along), 2, axis=1)  # two points per facet
+            places.append((S_0, S_1, x, tangent))
+        return places
+
+    def _stress_response(self, n, u, mirror, half):
+        """Surface stress (tt, hoop, shear) at fillet, then middle, per unit pressure amplitude of all rings [3, points, rings]."""
+        responses = []
+        for S_0, S_1, x, tangent in (self.fillet, self.middle):
+            s = ((S_0 + n * S_1) @ u).reshape(6, x.shape[1], -1)
+            tr, tz = tangent[0][:, None], tangent[1][:, None]
+            responses.append(np.stack([tr**2 * s[0] + 2 * tr * tz * s[3] + tz**2 * s[2], s[1], tr * s[4] + tz * s[5]]))
+        fillet, middle = responses
+        # Lower rings: what the mirrored ring does at the mirrored place.  The lower fillet is asked for apart, the middle mirrors onto itself.
+        low = self._lower_fillet_response(n, u)
+        order = np.argsort(self.middle[2][1])
+        flip = np.empty_like(order)
+        flip[order] = order[::-1]
+        middle_low = middle[:, flip] * np.array([1.0, 1.0, -1.0])[:, None, None]
+        back = mirror[half:]
+        return np.concatenate([np.concatenate([fillet, low[:, :, back]], axis=2), np.concatenate([middle, middle_low[:, :, back]], axis=2)], axis=1)
+
+    def _lower_fillet_response(self, n, u):
+        g, mesh = self.geometry, self.rivet.mesh
+        if not hasattr(self, "_lower"):
+            facets = mesh.boundary_facets()
+            ends = mesh.p[:, mesh.facets[:, facets]]
+            centre = np.array([g.shank_diameter / 2 + g.fillet_radius, -g.flange_thickness + g.fillet_radius])
+            distance = np.hypot(*(ends - centre[:, None, None]))
+            quarter = np.all((np.abs(distance - g.fillet_radius) < 1e-9) & (ends[0] < centre[0] + 1e-9) & (ends[1] < centre[1] + 1e-9), axis=0)
+            S_0, S_1, x = self.rivet.stress_rows(facets[quarter])
+            along = np.diff(mesh.p[:, mesh.facets[:, facets[quarter]]], axis=1)[:, 0]
+            tangent = np.repeat(along / np.hypot(*along), 2, axis=1)
+            key = np.round(self.fillet[2] * 1e9).astype(np.int64)
+            there = np.round(x * np.array([[1.0], [-1.0]]) * 1e9).astype(np.int64)
+            match = np.array([np.argmin(np.abs(there - k[:, None]).sum(axis=0)) for k in key.T])
+            upper_tangent = self.fillet[3]
+            sign = np.sign(tangent[0][match] * upper_tangent[0] - tangent[1][match] * upper_tangent[1])  # mirrored upper tangent
+            self._lower = S_0, S_1, x, tangent, match, sign
+        S_0, S_1, x, tangent, match, sign = self._lower
+        s = ((S_0 + n * S_1) @ u).reshape(6, x.shape[1], -1)
+        tr, tz = tangent[0][:, None], tangent[1][:, None]
+        response = np.stack([tr**2 * s[0] + 2 * tr * tz * s[3] + tz**2 * s[2], s[1], tr * s[4] + tz * s[5]])[:, match]
+        response[2] *= sign[:, None]
+        return response
+
+    # The contact problem ---------------------------------------------------------------------------------------------------------------
+
+    def _assemble(self):
+        """Compliance C [m/N], approach by rigid motions D, and the two symmetric reductions of the whole circle."""
+        self.slices, start = {}, 0
+        for name in GROUPS:
+            count = len(self.rings[name]) * len(self.angles[name])
+            self.slices[name] = slice(start, start + count)
+            start += count
+        self.size = start
+        self.weight = np.concatenate([np.outer(self.moments[name][0], self.hats[name][0][:, 0]).ravel() for name in GROUPS])
+        C = np.zeros((start, start))
+        flange_rings = {"UH": slice(0, len(self.rings["UH"]))}
+        flange_rings["UB"] = slice(flange_rings["UH"].stop, flange_rings["UH"].stop + len(self.rings["UB"]))
+        flange_rings["PP"] = slice(flange_rings["UB"].stop, self.S_flange.shape[1])
+        lower = {"LH": flange_rings["UH"], "LB": flange_rings["UB"], "PP": flange_rings["PP"]}
+        for S, rings in ((self.S_rivet, self.ring_slices), (self.S_flange, flange_rings), (self.S_flange, lower)):
+            for first in rings:
+                for second in rings:
+                    C[self.slices[first], self.slices[second]] += self._spread(S[:, rings[first], rings[second]], first, second)
+        C /= np.outer(self.weight, self.weight)
+        self.C = 0.5 * (C + C.T)
+        self.D = self._approach() / self.weight[:, None]
+
+        position = {name: self._index(name) for name in GROUPS}
+        plane, across = np.arange(self.size), np.arange(self.size)
+        swap = {"UH": "LH", "UB": "LB", "LB": "UB", "LH": "UH", "PP": "PP"}
+        for name in GROUPS:
+            angles = self.angles[name]
+            plane[position[name]] = position[name][:, self._turned(angles, -angles)]
+            across[position[name]] = position[swap[name]][:, self._turned(angles, np.pi - angles)]
+        self.problems = {"plane": self._reduced(plane), "across": self._reduced(across), "full": self._reduced(np.arange(self.size))}
+
+    def _index(self, name):
+        s = self.slices[name]
+        return np.arange(s.start, s.stop).reshape(len(self.rings[name]), len(self.angles[name]))
+
+    @staticmethod
+    def _turned(angles, wanted):
+        return np.argmin(np.abs(np.angle(np.exp(1j * (angles[None, :] - wanted[:, None])))), axis=1)
+
+    def _spread(self, S, first, second):
+        a, b = self.hats[first], self.hats[second]
+        total = np.zeros((S.shape[1], a.shape[1], S.shape[2], b.shape[1]))
+        for part in range(2):
+            left = np.einsum("nij,n->ijn", S, 1.0 / self.kappa)
+            total += np.einsum("ijkn,ln->ikjl", left[:, :, None, :] * a[part][None, None], b[part], optimize=True)
+        return total.reshape(S.shape[1] * a.shape[1], -1)
+
+    def _approach(self):
+        """Integrals of hat x normal displacement by the rigid motions of rivet and upper rim [contacts, 10]."""
+        D = np.zeros((self.size, 10))
+        for name in GROUPS:
+            area, first = self.moments[name]
+            one, c, s = self.hats[name][0][:, 0], self.hats[name][0][:, 1], self.hats[name][1][:, 1]
+            zero = np.zeros((len(area), len(one)))
+            if name.endswith("B"):  # u . r = (x + z ry) cos + (y - z rx) sin
+                motion = [np.outer(area, c), np.outer(area, s), zero, -np.outer(first, s), np.outer(first, c)]
+                rivet, rim = 1.0, -1.0
+            else:  # u_z = z + r (rx sin - ry cos); outward normal of the rivet -z under the upper head, +z under the lower one
+                motion = [zero, zero, np.outer(area, one), np.outer(first, s), -np.outer(first, c)]
+                rivet, rim = {"UH": (-1.0, 1.0), "LH": (1.0, 0.0), "PP": (0.0, -1.0)}[name]
+            if name in ("LB", "LH"):
+                rim = 0.0
+            motion = np.stack([m.ravel() for m in motion], axis=1)
+            D[self.slices[name], :5], D[self.slices[name], 5:] = rivet * motion, rim * motion
+        return D
+
+    def _reduced(self, image):
+        """Problem on the orbits of the symmetry that maps each contact to its image."""
+        representative = np.minimum(np.arange(self.size), image)
+        unique, member = np.unique(representative, return_inverse=True)
+        E = np.zeros((self.size, len(unique)))
+        E[np.arange(self.size), member] = 1.0
+        C = self._fold(self._fold(self.C, member, len(unique)).T, member, len(unique)).T
+        return Contact(C, self._fold(self.D, member, len(unique)), np.tile(SPRINGS, 2)), member
+
+    @staticmethod
+    def _fold(matrix, member, count):
+        folded = np.zeros((count, matrix.shape[1]))
+        np.add.at(folded, member, matrix)
+        return folded
+
+    def overclosure(self, P, fit):
+        """Shortening of the rivet between its heads [m] that clamps the plates with P at the fit: the preload after riveting."""
+        if not hasattr(self, "_axial"):
+            area = {name: 2 * np.pi * self.moments[name][0] for name in GROUPS}
+            uniform = {name: np.repeat(np.eye(len(self.rings[name])), len(self.angles[name]), axis=0) for name in GROUPS}
+            E = np.zeros((self.size, sum(len(self.rings[name]) for name in GROUPS)))
+            start = 0
+            for name in GROUPS:
+                share = (self.weight[self.slices[name]].reshape(len(self.rings[name]), -1) / area[name][:, None]).ravel()
+                E[self.slices[name], start : start + len(self.rings[name])] = uniform[name] * share[:, None]
+                start += len(self.rings[name])
+            C, D = E.T @ self.C @ E, (E.T @ self.D)[:, [2, 7]]
+            heads = np.concatenate([np.full(len(self.rings[name]), 0.5 if name.endswith("H") else 0.0) for name in GROUPS])
+            bores = np.concatenate([np.full(len(self.rings[name]), 1.0 if name.endswith("B") else 0.0) for name in GROUPS])
+            self._axial = Contact(C, np.column_stack([D, heads]), np.full(3, SPRINGS[2])), bores
+        contact, bores = self._axial
+        return contact.solve(-0.5 * fit * bores, np.array([0.0, 0.0, P])).q[2]
+
+    def gaps(self, P, fit):
+        """Gaps of all contacts before loading [m]."""
+        g = np.zeros(self.size)
+        delta = self.overclosure(P, fit)
+        for name in GROUPS:
+            g[self.slices[name]] = {"B": -0.5 * fit, "H": -0.5 * delta, "P": 0.0}[name[-1]]
+        return g
+
+    def solve(self, P, N, V, M_plane, M_across, fit, active=None):
+        """Contact forces and rigid motions for one load [N, N.m, m]; symmetry is used where the load has it.
+
+        Returns (forces [contacts], q [10], Solution, symmetry).  `active`: active set of a similar case of the same symmetry.
+        """
+        symmetry = "plane" if M_across == 0.0 else "across" if M_plane == 0.0 else "full"
+        contact, member = self.problems[symmetry]
+        scale = P + N + V + (abs(M_plane) + abs(M_across)) / 2e-3
+        g = self.gaps(max(P, NO_PRELOAD * scale), fit)
+        folded = np.bincount(member, weights=g, minlength=contact.C.shape[0])
+        f = np.zeros(10)
+        f[5:] = V, 0.0, N, M_across, M_plane
+        solution = contact.solve(folded, f, active)
+        return solution.p[member], solution.q, solution, symmetry
+
+    # Stress ----------------------------------------------------------------------------------------------------------------------------
+
+    def fields(self, forces, count=72):
+        """Surface stress (tt, hoop, shear) of both fillets and the middle at `count` angles: [3, points, angles, cases] each.
+
+        forces: contact forces [contacts, cases].  The lower fillet's points mirror the upper one's.
+        """
+        phi = 2 * np.pi * np.arange(count) / count
+        n = np.arange(self.grid.n_max + 1)
+        pressure = forces / self.weight[:, None]
+        amplitude = np.zeros((2, len(n), self.S_stress.shape[3], forces.shape[1]))  # cos, sin
+        for name, rings in self.ring_slices.items():
+            p = pressure[self.slices[name]].reshape(len(self.rings[name]), len(self.angles[name]), -1)
+            amplitude[:, :, rings] = np.einsum("tkn,jkc->tnjc", self.hats[name], p, optimize=True) / self.kappa[:, None, None]
+        upper, lower, middle = [], [], []
+        points = self.fillet[2].shape[1]
+        order = np.concatenate([np.arange(s.start, s.stop) for s in (self.ring_slices[k] for k in ("LH", "LB", "UB", "UH"))])
+        c, s = np.cos(np.outer(n, phi)), np.sin(np.outer(n, phi))
+        for result, rows, amp in (
+            (upper, self.S_stress[:, :, :points], amplitude),
+            (lower, self.S_stress[:, :, :points], amplitude[:, :, order]),
+            (middle, self.S_stress[:, :, points:], amplitude),
+        ):
+            A, B = (np.einsum("nspj,njc->spcn", rows, a, optimize=True) for a in amp)
+            even = A[:2] @ c + B[:2] @ s
+            odd = A[2:] @ s - B[2:] @ c
+            result.append(np.concatenate([even, odd]).swapaxes(2, 3))
+        return upper[0], lower[0], middle[0]
+
+    def channels(self, forces, count=72):
+        """The table's channels [cases, 4] in Pa: largest over both fillets, over the middle."""
+        upper, lower, middle = self.fields(forces, count)
+        (p_u, v_u), (p_l, v_l), (p_m, v_m) = (surface_stress(*field) for field in (upper, lower, middle))
+
+        def top(*arrays):
+            return np.max([a.max(axis=(0, 1)) for a in arrays], axis=0)
+
+        return np.stack([top(p_u, p_l), top(v_u, v_l), top(v_m), top(p_m)], axis=-1)
