@@ -85,8 +85,9 @@ def run(
         from .plot import plot_result
 
         paths.append(plot_result(result, target.with_suffix(".png")))
-    for path in paths:
-        console.print(str(path), style="cyan", soft_wrap=True)
+    for label, path in zip(("results", "picture"), paths, strict=False):
+        console.print(f"{label}  [cyan]{escape(str(path))}[/]", soft_wrap=True)
+    console.print(f"FMU      [cyan]{escape(str(model.path))}[/]", soft_wrap=True)
     if result.stopped:
         messages.print(f"[bold red]stopped:[/] {escape(result.stopped)}", soft_wrap=True)
         raise typer.Exit(STOPPED)
@@ -194,7 +195,8 @@ def print_summary(result):
         console.print(f"{counters['steps']} steps, {counters['rhs_evals']} evaluations of the equations, {counters['error_tests_failed']} steps rejected")
     console.print(
         f"simulated {summary['simulated_time']:g} s in {summary['wall_time']:.2f} s, CPU time {summary['cpu_time']:.2f} s, "
-        f"[bold]real-time factor {summary['real_time_factor']:.2f}[/] (CPU time / simulated time)"
+        f"[bold]real-time factor {summary['real_time_factor']:.2f}[/] (CPU time / simulated time)",
+        soft_wrap=True,
     )
     for text in dict.fromkeys(about.get("messages", [])):
         if not result.stopped or text not in result.stopped:

@@ -9,7 +9,7 @@ import numpy as np
 from matplotlib.patches import Circle
 
 from .results import write_atomically
-from .summary import RPM, rivet_rows, settled
+from .summary import RPM, rivet_rows, settled, summary_rows
 
 HEAD, MIDDLE, FORCE, RING, MUTED = "#c8442b", "#2a6f97", "#40495a", "#7a9e3b", "#9aa2ad"
 STYLE = {
@@ -36,10 +36,12 @@ def plot_result(result, path):
         left, right = figure.subfigures(1, 2, width_ratios=[2.1, 1])
         figure.suptitle(title(result), x=0.01, ha="left", fontsize=11)
         if panels:
-            axes = left.subplots(len(panels), 1, sharex=True, squeeze=False)[:, 0]
+            heights = [HEIGHTS.get(draw, 1.0) for draw, _ in panels]
+            axes = left.subplots(len(panels), 1, sharex=True, squeeze=False, height_ratios=heights)[:, 0]
             for ax, (draw, data) in zip(axes, panels, strict=True):
                 draw(ax, 1e3 * result.data["time"], data)
                 mark_settling(ax, result)
+                show_settled(ax, result)
             axes[-1].set_xlabel("time [ms]")
         orbit_ax, bars_ax = right.subplots(2, 1)
         cage_orbit(orbit_ax, result)
@@ -50,7 +52,7 @@ def plot_result(result, path):
 
 
 def title(result):
-    """What was run, in two lines."""
+    """What was run and what came out, in a few lines."""
     about, speed = result.about, result.data.get("shaft.omega")
     facts = [
         f"preload {result.parameters['joint.preload']:g} N",
@@ -59,7 +61,9 @@ def title(result):
     ]
     if speed is not None:
         facts.insert(0, f"{RPM * speed[-1]:,.0f} rev/min")
-    return f"{about.get('scene', '')}: {about.get('description', '')}\n{' · '.join(facts)}" + (f"\nSTOPPED: {result.stopped}" if result.stopped else "")
+    lines = [f"{about.get('scene', '')}: {about.get('description', '')}", " · ".join(facts)]
+    figures = [f"{row.channel}: mean {row.mean:.3g}, p99.9 {row.p999:.3g} {row.unit}" for row in summary_rows(result) if row.every_step]
+    return "\n".join([*lines, *([" · ".join(figures)] if figures else []), *([f"STOPPED: {result.stopped}"] if result.stopped else [])])
 
 
 def wanted(result, names):
@@ -72,6 +76,16 @@ def mark_settling(ax, result):
     end = 1e3 * min(result.parameters.get("start.settle", 0.0), result.data["time"][-1])
     ax.axvspan(0.0, end, color="#f3f4f6", zorder=0)
     ax.margins(x=0.0)
+
+
+def show_settled(ax, result):
+    """Scale a panel by what comes after settling: the first shock may leave it."""
+    late = settled(result)
+    values = np.concatenate([line.get_ydata()[late] for line in ax.get_lines()])
+    low, high = values.min(), values.max()
+    if high > low:
+        margin = 0.08 * (high - low)
+        ax.set_ylim(low - margin if low < 0.0 or low > 0.5 * high else 0.0, high + margin)
 
 
 def legend(ax):
@@ -99,7 +113,7 @@ def loads(ax, t, data):
 def pocket_force(ax, t, data):
     """Largest force between a ball and its pocket in each communication step."""
     ax.plot(t, next(iter(data.values())), color=FORCE, lw=0.5)
-    ax.set(title="Ball–pocket force, largest in each step", ylabel="N", ylim=(0, None))
+    ax.set(title="Ball–pocket force, largest in each step", ylabel="N")
 
 
 def stress(ax, t, data):
@@ -107,7 +121,7 @@ def stress(ax, t, data):
     for name, colour, label in (("rivet.sigma_head_max", HEAD, "head fillet"), ("rivet.sigma_mid_max", MIDDLE, "middle of the shank")):
         if name in data:
             ax.plot(t, 1e-6 * data[name], color=colour, lw=0.5, label=label)
-    ax.set(title="Rivet stress, worst rivet, largest in each step", ylabel="MPa", ylim=(0, None))
+    ax.set(title="Rivet stress, worst rivet, largest in each step", ylabel="MPa")
     legend(ax)
 
 
@@ -132,6 +146,7 @@ OVER_TIME = (
     (ring, ("ring.x", "ring.y", "ring.z")),
     (slip, ("cage.slip_ratio",)),
 )
+HEIGHTS = {loads: 0.6, stress: 1.4}
 
 
 def cage_orbit(ax, result):
@@ -143,16 +158,29 @@ def cage_orbit(ax, result):
     late = settled(result)
     y, z = 1e6 * result.data["cage.y"][late], 1e6 * result.data["cage.z"][late]
     clearance = 1e6 * result.parameters["cage.guide_clearance"] / 2
-    ax.add_patch(Circle((0, 0), clearance, fill=False, color=MUTED, ls="--", lw=1))
-    ax.annotate("guide clearance", (0, -clearance), ha="center", va="bottom", fontsize=7, color=MUTED)
+    ax.add_patch(Circle((0, 0), clearance, fill=False, color=MUTED, ls="--", lw=1, label="guide clearance"))
     ax.plot(z, y, color=FORCE, lw=0.35, alpha=0.7)
     limit = 1.08 * max(clearance, np.abs(y).max(), np.abs(z).max())
     ax.set(xlim=(-limit, limit), ylim=(-limit, limit))
+    ax.legend(loc="lower right", bbox_to_anchor=(1.0, 1.0))
+    size = max(np.ptp(y), np.ptp(z))
+    if 0.0 < size < 0.5 * clearance:
+        magnified(ax, y, z, 0.6 * size)
+
+
+def magnified(ax, y, z, half):
+    """The orbit once more in the middle of the empty circle, magnified: a square of the half width given [um]."""
+    centre = (y.max() + y.min()) / 2, (z.max() + z.min()) / 2
+    inset = ax.inset_axes([0.3, 0.3, 0.4, 0.4])
+    inset.plot(z, y, color=FORCE, lw=0.35, alpha=0.8)
+    inset.set(xlim=(centre[1] - half, centre[1] + half), ylim=(centre[0] - half, centre[0] + half), aspect="equal")
+    inset.tick_params(labelsize=7)
+    ax.indicate_inset_zoom(inset, edgecolor=MUTED)
 
 
 def rivet_bars(ax, result):
     """Mean and 99.9 % quantile of each rivet's stress."""
-    ax.set(title="Each rivet: p99.9, line mean", xlabel="rivet", ylabel="MPa")
+    ax.set(title="Stress of each rivet: bar p99.9, line mean", xlabel="rivet", ylabel="MPa")
     rivets = rivet_rows(result)
     if not rivets:
         ax.text(0.5, 0.5, "no statistics of rivet stress", ha="center", transform=ax.transAxes)
@@ -163,4 +191,5 @@ def rivet_bars(ax, result):
         ax.hlines([row[place].mean for row in rivets], x - 0.18, x + 0.18, color="black", lw=1.2)
     ax.set_xticks([row[0] for row in rivets])
     ax.grid(axis="x", visible=False)
-    legend(ax)
+    ax.margins(y=0.12)
+    ax.legend(ncols=2, loc="upper right")

@@ -90,10 +90,11 @@ def load_scene(source, model, *changes):
 
     source: path of a TOML file or name of a shipped scene; model: the Model to run it;
     changes: pairs (origin for messages, document like the file's), later ones win.
+    scene.statistics is on unless set: communication points alone miss the impacts.
     Returns a Scene; raises UserError naming file, key, value and what is allowed.
     """
     path = find_scene(source)
-    scene = Scene(name=Path(path.name).stem)
+    scene = Scene(name=Path(path.name).stem, parameters={"scene.statistics": "on"})
     for where, document in [(str(path), read_toml(path)), *changes]:
         scene = apply(scene, where, document, model, Path(str(path)).parent)
     check_times(scene, str(path))
