@@ -1,6 +1,6 @@
 """Rivet stress from the reduced model: twin of fmu_src/rivet_rom.c, where the equations stand.
 
-sigma = s T(a, b, c, chi, xi), homogeneous of degree 1 in the loads and the fit; T a tensor product of quadratic B-splines.
+sigma = s (chi T_plane + (1 - chi) T_across)(a, b, c, xi), homogeneous of degree 1 in the loads and the fit; T a tensor product of quadratic B-splines.
 Loads are arrays of one shape; `table` is a rivet_model.table.RivetTable (read one with rivet_model.table.read).
 """
 
@@ -43,7 +43,7 @@ def axis_splines_xi(knots, s, fit):
 
 
 def load_splines(table, load, fit_eff):
-    """Place of the loads in the table: for each axis the first coefficient and three weights; those of xi carry the factor s."""
+    """Place of the loads in the table: chi, and for each axis the first coefficient and three weights; those of xi carry the factor s."""
     P, N = np.maximum(load.P, 0.0), np.maximum(load.N, 0.0)
     V, M = np.sqrt(load.V_y**2 + load.V_z**2), np.sqrt(load.M_y**2 + load.M_z**2)
     axial = P + N
@@ -53,11 +53,11 @@ def load_splines(table, load, fit_eff):
     def ratio(top, bottom):
         return np.divide(top, bottom, out=np.zeros_like(bottom), where=bottom > 0.0)
 
-    chi = np.clip(ratio(load.V_y * load.M_z - load.V_z * load.M_y, VM), -1.0, 1.0)
-    values = {"a": ratio(V, force), "b": ratio(N, axial), "c": ratio(moment, s), "chi": chi}
+    chi = np.minimum(ratio(np.abs(load.V_y * load.M_z - load.V_z * load.M_y), VM), 1.0)
+    values = {"a": ratio(V, force), "b": ratio(N, axial), "c": ratio(moment, s)}
     at = {name: splines.cell_weights(table.knots[name], value) for name, value in values.items()}
     at["xi"] = axis_splines_xi(table.knots["xi"], s, fit_eff)
-    return at
+    return chi, at
 
 
 def rivet_rom_stress(table, load, fit_eff):
@@ -70,16 +70,17 @@ def rivet_rom_stress(table, load, fit_eff):
     shape = arrays[0].shape
     flat = [np.atleast_1d(a).ravel() for a in arrays]
     load, fit_eff = RivetLoad(*flat[:-1]), flat[-1]
-    at = load_splines(table, load, fit_eff)
+    chi, at = load_splines(table, load, fit_eff)
+    chi = chi[:, None]
     sigma = np.zeros((len(fit_eff), 4))
-    (A, wa), (B, wb), (C, wc), (X, wx), (xi, wxi) = (at[name] for name in ("a", "b", "c", "chi", "xi"))
+    (A, wa), (B, wb), (C, wc), (xi, wxi) = (at[name] for name in ("a", "b", "c", "xi"))
     for a in range(3):
         for b in range(3):
             for c in range(3):
-                w = wa[:, a] * wb[:, b] * wc[:, c]
-                for k in range(3):
-                    T = [table.coefficients[A + a, B + b, C + c, X + k, xi + i] for i in range(3)]
-                    sigma += (w * wx[:, k])[:, None] * (wxi[:, :1] * T[0] + wxi[:, 1:2] * T[1] + wxi[:, 2:] * T[2])
+                w = (wa[:, a] * wb[:, b] * wc[:, c])[:, None]
+                for i in range(3):
+                    T = table.coefficients[A + a, B + b, C + c, xi + i]
+                    sigma += w * wxi[:, i : i + 1] * (chi * T[:, 0] + (1.0 - chi) * T[:, 1])
     sigma[:, HEAD_P1] += table.head_friction * load.F_head
     sigma[:, HEAD_VM] += table.head_friction_vm * load.F_head
     flags = (

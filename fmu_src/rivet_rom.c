@@ -45,18 +45,24 @@ static Splines axis_splines_xi(const RivetAxis *axis, double s, double fit)
     return splines;
 }
 
-// s T: the place of a load in the table.
-static void load_splines(const RivetTable *t, const RivetLoad *load, double fit_eff, Splines at[RIVET_AXES])
+// A load's place in the table; the splines of xi carry the factor s.
+typedef struct {
+    Splines at[RIVET_AXES];
+    double chi;
+} Place;
+
+static Place load_place(const RivetTable *t, const RivetLoad *load, double fit_eff)
 {
     double P = fmax(load->P, 0.0), N = fmax(load->N, 0.0);
     double V = sqrt(load->V_y * load->V_y + load->V_z * load->V_z), M = sqrt(load->M_y * load->M_y + load->M_z * load->M_z);
     double axial = P + N, force = axial + V, moment = M / t->moment_length, s = force + moment, VM = V * M;
-    double chi = VM > 0.0 ? (load->V_y * load->M_z - load->V_z * load->M_y) / VM : 0.0;
-    at[RIVET_A] = axis_splines(&t->axis[RIVET_A], force > 0.0 ? V / force : 0.0);
-    at[RIVET_B] = axis_splines(&t->axis[RIVET_B], axial > 0.0 ? N / axial : 0.0);
-    at[RIVET_C] = axis_splines(&t->axis[RIVET_C], s > 0.0 ? moment / s : 0.0);
-    at[RIVET_CHI] = axis_splines(&t->axis[RIVET_CHI], fmin(fmax(chi, -1.0), 1.0));
-    at[RIVET_XI] = axis_splines_xi(&t->axis[RIVET_XI], s, fit_eff);
+    Place place;
+    place.chi = VM > 0.0 ? fmin(fabs(load->V_y * load->M_z - load->V_z * load->M_y) / VM, 1.0) : 0.0;
+    place.at[RIVET_A] = axis_splines(&t->axis[RIVET_A], force > 0.0 ? V / force : 0.0);
+    place.at[RIVET_B] = axis_splines(&t->axis[RIVET_B], axial > 0.0 ? N / axial : 0.0);
+    place.at[RIVET_C] = axis_splines(&t->axis[RIVET_C], s > 0.0 ? moment / s : 0.0);
+    place.at[RIVET_XI] = axis_splines_xi(&t->axis[RIVET_XI], s, fit_eff);
+    return place;
 }
 
 // Two channels side by side.
@@ -69,29 +75,28 @@ static inline pair pair_load(const double *from)
     return value;
 }
 
-// Tensor product over 3^5 coefficients of a pair of channels.  Order of sums: chi with xi, c, b, a.
-static void contract(const RivetTable *t, const double *coefficients, const Splines at[RIVET_AXES], double sigma[2])
+// Tensor product over 3^4 coefficients of both sheets for a pair of channels.  Order of sums: xi with chi, c, b, a.
+static void contract(const RivetTable *t, const double *coefficients, const Place *place, double sigma[2])
 {
-    const Splines *A = &at[RIVET_A], *B = &at[RIVET_B], *C = &at[RIVET_C], *X = &at[RIVET_CHI], *xi = &at[RIVET_XI];
-    int n_b = t->axis[RIVET_B].cells + 2, n_c = t->axis[RIVET_C].cells + 2;
-    int n_chi = t->axis[RIVET_CHI].cells + 2, n_xi = t->axis[RIVET_XI].cells + 2;
-    pair w[9];
-    for (int i = 0; i < 3; i++)
-        for (int k = 0; k < 3; k++) w[3 * i + k] = xi->w[i] * X->w[k] - (pair){0};
+    const Splines *A = &place->at[RIVET_A], *B = &place->at[RIVET_B], *C = &place->at[RIVET_C], *X = &place->at[RIVET_XI];
+    int n_b = t->axis[RIVET_B].cells + 2, n_c = t->axis[RIVET_C].cells + 2, n_xi = t->axis[RIVET_XI].cells + 2;
+    pair plane[3], across[3];
+    for (int i = 0; i < 3; i++) {
+        plane[i] = X->w[i] * place->chi - (pair){0};
+        across[i] = X->w[i] * (1.0 - place->chi) - (pair){0};
+    }
     pair sum = {0};
     for (int a = 0; a < 3; a++) {
         pair sum_a = {0};
         for (int b = 0; b < 3; b++) {
-            pair sum_b = {0};
-            for (int c = 0; c < 3; c++) {
-                int row = ((A->first + a) * n_b + B->first + b) * n_c + C->first + c;
-                const double *T = coefficients + 2 * ((row * n_xi + xi->first) * n_chi + X->first);
-                pair part[3];
-                for (int i = 0; i < 3; i++, T += 2 * n_chi)
-                    part[i] = w[3 * i] * pair_load(T) + w[3 * i + 1] * pair_load(T + 2) + w[3 * i + 2] * pair_load(T + 4);
-                sum_b += C->w[c] * (part[0] + part[1] + part[2]);
+            const double *T = coefficients + 4 * (((((A->first + a) * n_b + B->first + b) * n_c) + C->first) * n_xi + X->first);
+            pair part[3];
+            for (int c = 0; c < 3; c++, T += 4 * n_xi) {
+                pair in_plane = plane[0] * pair_load(T) + plane[1] * pair_load(T + 4) + plane[2] * pair_load(T + 8);
+                pair beside = across[0] * pair_load(T + 2) + across[1] * pair_load(T + 6) + across[2] * pair_load(T + 10);
+                part[c] = C->w[c] * (in_plane + beside);
             }
-            sum_a += B->w[b] * sum_b;
+            sum_a += B->w[b] * (part[0] + part[1] + part[2]);
         }
         sum += A->w[a] * sum_a;
     }
@@ -100,21 +105,19 @@ static void contract(const RivetTable *t, const double *coefficients, const Spli
 
 void rivet_rom_primary(const RivetTable *t, const RivetLoad *load, double fit_eff, double *head_p1, double *mid_vm)
 {
-    Splines at[RIVET_AXES];
+    Place place = load_place(t, load, fit_eff);
     double sigma[2];
-    load_splines(t, load, fit_eff, at);
-    contract(t, t->primary, at, sigma);
+    contract(t, t->primary, &place, sigma);
     *head_p1 = sigma[0] + t->head_friction * load->F_head;
     *mid_vm = sigma[1];
 }
 
 unsigned rivet_rom_stress(const RivetTable *t, const RivetLoad *load, double fit_eff, double sigma[RIVET_CHANNELS])
 {
-    Splines at[RIVET_AXES];
+    Place place = load_place(t, load, fit_eff);
     double primary[2], secondary[2];
-    load_splines(t, load, fit_eff, at);
-    contract(t, t->primary, at, primary);
-    contract(t, t->secondary, at, secondary);
+    contract(t, t->primary, &place, primary);
+    contract(t, t->secondary, &place, secondary);
     sigma[HEAD_P1] = primary[0] + t->head_friction * load->F_head;
     sigma[MID_VM] = primary[1];
     sigma[HEAD_VM] = secondary[0] + t->head_friction_vm * load->F_head;

@@ -10,13 +10,15 @@
 // The frictionless joint (elastic bodies, unilateral contacts, gaps proportional to the fit) answers homogeneously of degree 1 in
 // (P, N, V, M, fit), so one argument divides out:
 //
-//     sigma = s T(a, b, c, chi, xi),          s = P + N + V + |M|/L        L = moment_length of the table
-//     a = V/(P + N + V),  b = N/(P + N),  c = |M|/(L s),  chi = cos of the angle between V and the axial pull of M's opening side
-//         = (V_y M_z - V_z M_y)/(V |M|),  xi = fit_eff/s
+//     sigma = s (chi T_plane(a, b, c, xi) + (1 - chi) T_across(a, b, c, xi)),      s = P + N + V + |M|/L,   L = moment_length of the table
+//     a = V/(P + N + V),  b = N/(P + N),  c = |M|/(L s),  xi = fit_eff/s
+//     chi = |V_y M_z - V_z M_y|/(V |M|): 1 if M bends in the plane of V, 0 if across it
 //
+// The channels are the largest stress over both heads and all angles.  A half turn and the mirror of the halves change the sign of M against
+// V, so the sign only says which head carries more, and the channel does not depend on it.
 // a, b, c lie in [0, 1] for every load, so no load lies outside the table.  xi: constant below its axis (contact in the hole is
 // saturated: the size of the gap no longer matters), linear above (every contact of the hole closed).  T is a tensor product of
-// quadratic B-splines, C1 in each argument; sigma is C0 where V, N + P or M passes through 0.  Head friction adds head_friction F_head to
+// quadratic B-splines, C1 in each argument; sigma is C0 where V, N + P, M or chi passes through 0.  Head friction adds head_friction F_head to
 // the head channels and nothing in the middle.
 #pragma once
 
@@ -40,7 +42,7 @@ enum {
     RIVET_OUTSIDE = 8      // the fit exceeds the largest one of fit_eff's map, or a load is not finite
 };
 
-enum { RIVET_A, RIVET_B, RIVET_C, RIVET_CHI, RIVET_XI, RIVET_AXES };
+enum { RIVET_A, RIVET_B, RIVET_C, RIVET_XI, RIVET_AXES };
 
 // Clamped knots of one axis: `cells` + 1 knots, `cells` + 2 coefficients, and for each cell i the constants of its three splines
 //   rise[i] = 1/((t[i+2] - t[i]) (t[i+1] - t[i])),  fall[i] = 1/((t[i+1] - t[i-1]) (t[i+1] - t[i])).
@@ -79,7 +81,7 @@ typedef struct {
     int Z;
     double moment_length;  // L [m]
     RivetAxis axis[RIVET_AXES];
-    const double *primary;    // spline coefficients [a][b][c][xi][chi][HEAD_P1, MID_VM], in 1/m2
+    const double *primary;    // spline coefficients [a][b][c][xi][plane, across][HEAD_P1, MID_VM], in 1/m2
     const double *secondary;  // the same of [HEAD_VM, MID_P1]
     double head_friction;     // [1/m2]
     double head_friction_vm;  // [1/m2]

@@ -22,7 +22,6 @@ KNOTS = {
     "a": np.linspace(0.0, 1.0, 9),
     "b": np.array([0.0, 0.2, 0.35, 0.45, 0.5, 0.55, 0.6, 0.7, 0.85, 1.0]),
     "c": np.array([0.0, 0.15, 0.3, 0.4, 0.5, 0.65, 0.8, 1.0]),
-    "chi": np.array([-1.0, 0.0, 1.0]),
     "xi": np.array([-5e-9, 0.0, 5e-9, 2e-8, 6e-8, 1.5e-7, 4e-7]),
 }
 
@@ -55,9 +54,9 @@ def stress(geometry, P, N, V, M, chi, fit):
     g = geometry
     prying = load_share(geometry) * M
     T = rivet_tension(geometry, P, N + M / MOMENT_LENGTH)
-    # Cantilever: the hole bears at the end of the relief; M bends in the plane of V (chi = 1) or across it.
+    # Cantilever: the hole bears at the end of the relief; M bends in the plane of V (|chi| = 1) or across it.
     lever = V * g.relief_depth
-    bending = np.sqrt((lever + prying * chi) ** 2 + (prying**2) * (1 - chi**2)) / (np.pi * g.shank_diameter**3 / 32)
+    bending = np.sqrt((lever + prying * np.abs(chi)) ** 2 + (prying**2) * (1 - chi**2)) / (np.pi * g.shank_diameter**3 / 32)
     p = lame_pressure(geometry, fit)
     head = K_T * T / g.shank_area + K_B * bending + K_PRESSURE * p
     head_vm = np.sqrt(1 - g.nu_rivet + g.nu_rivet**2) * head  # plane strain at the notch: second principal = nu first
@@ -98,9 +97,8 @@ def joint_data(geometry):
 def make_table(geometry=None):
     """Table of kind closed_form for the geometry (default: the study's)."""
     geometry = geometry or Geometry()
-    grid = np.meshgrid(*(splines.sites(KNOTS[name]) for name in table.AXES), indexing="ij")
-    a, b, c, chi, xi = grid
-    samples = stress(geometry, *loads_of(a, b, c, MOMENT_LENGTH), chi, xi) / table.MPA_PER_N
+    a, b, c, xi = np.meshgrid(*(splines.sites(KNOTS[name]) for name in table.AXES), indexing="ij")
+    sheets = [stress(geometry, *loads_of(a, b, c, MOMENT_LENGTH), chi, xi) / table.MPA_PER_N for chi in (1.0, 0.0)]
     yield_pressure = geometry.yield_flange / np.sqrt(3)  # first yield at the bore: 2 tau = p + hoop tension, taken as pure shear 2 p
     fit_yield = yield_pressure / lame_pressure(geometry, 1.0)
     full = 2 / np.sqrt(3) * geometry.yield_flange * np.log(2 * geometry.patch_radius / geometry.shank_diameter)  # fully plastic ring
@@ -111,7 +109,7 @@ def make_table(geometry=None):
         geometry,
         "closed_form",
         KNOTS,
-        samples,
+        np.stack(sheets, axis=-2),
         (fit_a, fit_eff),
         joint_data(geometry),
         np.zeros((geometry.Z, 5, 3)),

@@ -29,8 +29,8 @@ def c_source(t):
         axes.append(f"{{{len(t.knots[name]) - 1}, {name}_knot, {name}_rise, {name}_fall}}")
     channel = table.CHANNELS.index
     parts += [
-        _array("primary", t.coefficients.swapaxes(3, 4)[..., [channel("head_p1"), channel("mid_vm")]]),
-        _array("secondary", t.coefficients.swapaxes(3, 4)[..., [channel("head_vm"), channel("mid_p1")]]),
+        _array("primary", t.coefficients[..., [channel("head_p1"), channel("mid_vm")]]),
+        _array("secondary", t.coefficients[..., [channel("head_vm"), channel("mid_p1")]]),
         _array("j2_fit_a", t.fit_a),
         _array("j2_fit_eff", t.fit_eff),
         _array("j2_slope", t.fit_slope),

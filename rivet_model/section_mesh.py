@@ -71,7 +71,7 @@ class _Blocks:
 
 def bore_levels(g, fine):
     """Heights of the contact between shank and bore, fine at both ends, where the pressure peaks."""
-    return graded_both(g.edge_break, g.flange_thickness - g.relief_depth, fine(10), 3.0)
+    return graded_both(g.edge_break, g.flange_thickness - g.relief_depth, fine(12), 5.0)
 
 
 def head_radii(g, fine):

@@ -17,7 +17,8 @@ from .geometry import Geometry
 
 FORMAT = "rivet-table-1"
 CHANNELS = ("head_p1", "head_vm", "mid_vm", "mid_p1")
-AXES = ("a", "b", "c", "chi", "xi")
+AXES = ("a", "b", "c", "xi")
+SHEETS = ("plane", "across")
 MPA_PER_N = 1e6  # 1/mm2 in 1/m2
 UNITS = {"T": "MPa/N", "xi": "m/N", "fit": "m", "stiffness": "N/m", "length": "m", "stress": "Pa", "expansion": "1/K", "load_path": "1 and m"}
 JOINT_KEYS = (
@@ -46,7 +47,7 @@ class RivetTable:
     Z: int
     moment_length: float  # L [m]
     knots: dict  # axis name -> knots
-    coefficients: np.ndarray  # [a, b, c, chi, xi, channel] [1/m2]
+    coefficients: np.ndarray  # [a, b, c, xi, sheet, channel] [1/m2]
     head_friction: float  # [1/m2]
     head_friction_vm: float  # [1/m2]
     yield_rivet: float  # [Pa]
@@ -75,6 +76,8 @@ def write(table, path):
         "stress": {
             "moment_length": table.moment_length,
             "knots": {name: [float(v) for v in table.knots[name]] for name in AXES},
+            "order": [*AXES, "sheet", "channel"],
+            "sheets": list(SHEETS),
             "channels": list(CHANNELS),
             "head_friction": table.head_friction / MPA_PER_N,
             "head_friction_vm": table.head_friction_vm / MPA_PER_N,
@@ -131,7 +134,7 @@ def read(path, Z=None):
     knots = {name: np.array(stress["knots"][name]) for name in AXES}
     for name, values in knots.items():
         _need(len(values) >= 2 and np.all(np.diff(values) > 0), path, f"knots of axis {name} do not increase")
-    shape = (*(len(knots[name]) + 1 for name in AXES), len(CHANNELS))
+    shape = (*(len(knots[name]) + 1 for name in AXES), len(SHEETS), len(CHANNELS))
     _need(len(stress["coefficients"]) == np.prod(shape), path, f"{len(stress['coefficients'])} coefficients; {np.prod(shape)} are needed")
     load_path = np.array(load_path)
     _need(load_path.shape == (header["Z"], 5, 3), path, f"load_path has shape {load_path.shape}; {(header['Z'], 5, 3)} is needed")
@@ -172,7 +175,7 @@ def monotone_slopes(x, y):
 
 
 def make(geometry: Geometry, kind, knots, samples_mpa, fit_map, joint, load_path, **scalars):
-    """A table from samples of T [1/mm2] at the sites of the axes (splines.sites), in the order AXES, channels last.
+    """A table from samples of T [1/mm2] at the sites of the axes (splines.sites), in the order AXES, then sheets, channels last.
 
     fit_map: (fit_a, fit_eff) of the plastic map.  scalars: the remaining members of RivetTable.
     """

@@ -86,11 +86,11 @@ def test_turning_the_joint_changes_nothing(stress):
         np.testing.assert_allclose(stress(mirrored, fit)[0], sigma, rtol=1e-12, atol=1e-6)
 
 
-def test_sign_of_the_moment_matters(stress):
-    """A moment that adds to the bending by V, one that relieves it, one across: three different heads."""
-    heads = [stress(RivetLoad(P=20.0, V_y=10.0, M_y=m_y, M_z=m_z), FIT)[0][0] for m_y, m_z in ((0, 0.02), (0.02, 0), (0, -0.02))]
-    assert np.ptp(heads) > 0.02 * max(heads)
-    assert min(heads) < heads[1] < max(heads)
+def test_direction_of_the_moment(stress):
+    """In the plane of V a moment adds to one head's bending, whatever its sign; across it adds less."""
+    heads = [stress(RivetLoad(P=20.0, V_y=10.0, M_y=m_y, M_z=m_z), FIT)[0][0] for m_y, m_z in ((0, 0.04), (0.04, 0), (0, -0.04), (0, 0))]
+    assert heads[0] == heads[2]
+    assert heads[3] < heads[1] < heads[0]
 
 
 def test_twins_agree(c_library, rivets):
