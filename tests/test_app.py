@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 from bearing_model.app import Result, UserError, read_result, run, write_result
-from bearing_model.app.bearings import bearing_case, find_bearing, shipped_bearings
+from bearing_model.app.bearings import bearing_case, find_bearing, flat, shipped_bearings
 from bearing_model.app.fmu import Instance, Model
 from bearing_model.app.results import FORMATS, write_atomically
 from bearing_model.app.summary import rivet_rows, summary_rows
@@ -172,9 +172,9 @@ def test_a_run_that_the_fmu_ends_keeps_what_there_is(tmp_path):
     """The work limit ends the run when a communication step needs more than 10 internal steps, here the first long one."""
     done = command("run", "demo", "--set", "solver.max_steps=10", "--step", "1e-2", "--no-plot", "--out", tmp_path, folder=tmp_path)
     assert done.returncode == 3 and "Traceback" not in done.stderr
-    assert "gave up" in done.stderr and "max_steps" in done.stderr
+    assert "gave up" in done.stderr and "10 steps" in done.stderr
     result = read_result(tmp_path / "demo.parquet")
-    assert "max_steps" in result.stopped and 0.0 < result.data["time"][-1] < 1e-2
+    assert "10 steps" in result.stopped and 0.0 < result.data["time"][-1] < 1e-2
     assert np.isfinite(result.data["ring.y"]).all()
 
 
@@ -214,13 +214,18 @@ def test_run_in_a_pipe(tmp_path):
         (["info", "bad.toml"], ["bad.toml", "Z = 3", "5 to 32"]),
         (["build", "--bearing", "bad.toml"], ["bad.toml", "Z = 3", "5 to 32"]),
         (["build", "--bearing", "6309"], ['"6309"', '"6310"']),
-        (["build", "--rivet", "none.json"], ["none.json"]),
+        (["build", "--rivet", "none.json"], ["none.json", "No such file"]),
+        (["build", "--rivet", "bad.toml"], ["bad.toml", "not a rivet table"]),
+        (["build", "--bearing", "typo.toml"], ["typo.toml", '"bearing.Dm"', 'did you mean "bearing.D']),
+        (["info", "far.toml"], ["far.toml", "bearing.f_i = 0.4", "0.5005 ... 0.6"]),
     ],
     ids=" ".join,
 )
 def test_errors_are_one_message(tmp_path, arguments, fragments):
     (tmp_path / "broken.fmu").write_bytes(b"PK no zip")
     (tmp_path / "bad.toml").write_text("Z = 3")
+    (tmp_path / "typo.toml").write_text("Z = 8\n[parameters]\nbearing.Dm = 0.05")
+    (tmp_path / "far.toml").write_text("Z = 8\n[parameters]\nbearing.f_i = 0.4")
     done = command(*arguments, folder=tmp_path)
     assert done.returncode == 2 and done.stdout == "" and done.stderr.count("\n") == 1 and done.stderr.startswith("error: ")
     for fragment in fragments:
@@ -242,9 +247,9 @@ def test_info_gives_the_known_frequencies(tmp_path):
 def test_the_default_bearing_is_the_variable_table():
     table = tomllib.loads((ROOT / "fmus" / "variables.toml").read_text())
     starts = {entry["name"]: entry["start"] for section in ("parameters", "inputs") for entry in table[section]["list"]}
-    case = bearing_case("6207")
-    assert case.Z == table["Z"] and case.values
-    for name, value in case.values.items():
+    own = tomllib.loads(find_bearing("6207").read_text())
+    assert own["Z"] == table["Z"] and len(dict(flat(own["parameters"]))) > 15
+    for name, value in [*flat(own["parameters"]), *flat(own["inputs"])]:
         assert value == starts[name], name
 
 
@@ -267,6 +272,34 @@ def test_shipped_bearings_are_consistent(designation):
     assert v["cage.land_x"] + v["cage.land_width"] / 2 <= width
     assert case.equilibrium().F[1] == pytest.approx(v["shaft.F_y"], rel=1e-6)
     assert find_bearing(designation).name == f"{designation}.toml"
+
+
+def test_an_fmu_of_the_second_bearing(tmp_path):
+    """Built from its file, started at its own working point: ring and ball loads near the quasi-static equilibrium."""
+    out = tmp_path / "6310.fmu"
+    done = command("build", "--bearing", "6310", "--out", out, folder=tmp_path)
+    assert done.returncode == 0, done.stderr
+    scene = tmp_path / "own.toml"
+    scene.write_text("[simulation]\nt_end = 0.02\nstep = 1e-4\n[parameters]\nstart.settle = 0.01")
+    result, state = run(scene, fmu=out), bearing_case("6310").equilibrium()
+    assert result.stopped == "" and "ball[8].Q_i" in result.data and "ball[9].Q_i" not in result.data
+    assert result.parameters["bearing.D"] == 0.01905 and result.data["shaft.F_y"][-1] == 6000.0
+    late = result.data["time"] > 0.01
+    loads = np.column_stack([result.data[f"ball[{j}].Q_i"] for j in range(1, 9)])[late]
+    assert result.data["ring.y"][late].mean() == pytest.approx(state.y, rel=0.03)  # other ball positions, friction: observed 1.3 %
+    assert result.data["ring.x"][late].mean() == pytest.approx(state.x, rel=0.03)  # observed 1.3 %
+    assert loads.max() == pytest.approx(state.Q_i.max(), rel=0.03)  # observed 0.7 %
+
+
+def test_a_bearing_that_cannot_be_built_leaves_the_old_fmu(tmp_path):
+    out = tmp_path / "mine.fmu"
+    out.write_bytes(b"the old one")
+    (tmp_path / "crowded.toml").write_text("Z = 20")
+    (tmp_path / "tight.toml").write_text("[parameters]\ncage.D_o = 0.05")  # no room for a rivet's head
+    for name, fragments in (("crowded", ["ball_diameter", "pi d_m"]), ("tight", ["patch_radius"])):
+        done = command("build", "--bearing", f"{name}.toml", "--out", out, folder=tmp_path)
+        assert done.returncode == 2 and "Traceback" not in done.stderr and all(fragment in done.stderr for fragment in [name, *fragments])
+    assert out.read_bytes() == b"the old one" and len(list(tmp_path.iterdir())) == 3
 
 
 def test_two_instances_keep_their_messages_apart():

@@ -8,7 +8,7 @@
     [inputs]              # likewise
     shaft.F_y = 6000.0
 
-All values are SI; what is left out is that of the 6207.
+All values are SI; what is left out keeps its start value of the variable table, that of the 6207.
 """
 
 import math
@@ -16,13 +16,13 @@ from dataclasses import dataclass, field, fields
 from importlib.resources import files
 from pathlib import Path
 
+from bearing_model import variables
 from bearing_model.quasi_static import Bearing, Load, quasi_static
 
 from .errors import UserError, unknown
 from .scene import load_scene, read_toml, refusal, shipped_scenes
 
 SHIPPED = files("bearing_model") / "data" / "bearings"
-DEFAULT = "6207"
 KEYS = ("designation", "description", "Z", "catalogue", "parameters", "inputs")
 CATALOGUE = ("bore", "outside_diameter", "width", "C", "C_0")
 
@@ -82,24 +82,50 @@ def is_bearing(source):
 
 
 def bearing_case(source):
-    """The Case of a bearing file: its values over those of the 6207; UserError naming file, key, value and what is allowed."""
+    """The Case of a bearing file: its values over the variable table's; UserError naming file, key, value and what is allowed."""
     path = find_bearing(source)
-    document, default = read_toml(path), read_toml(SHIPPED / f"{DEFAULT}.toml")
+    document = read_toml(path)
     for key in document:
         if key not in KEYS:
             raise unknown(path, "key", key, KEYS)
-    Z, catalogue = document.get("Z", default["Z"]), document.get("catalogue", {})
+    Z, catalogue = document.get("Z", variables.Z), document.get("catalogue", {})
     if isinstance(Z, bool) or not isinstance(Z, int) or not 5 <= Z <= 32:
         raise refusal(path, "Z", Z, "allowed: an integer from 5 to 32")
     for key, value in catalogue.items():
         if key not in CATALOGUE:
             raise unknown(path, "catalogue key", key, CATALOGUE)
-        if isinstance(value, bool) or not isinstance(value, (int, float)) or not 0.0 < value < math.inf:
+        if not is_number(value) or value <= 0.0:
             raise refusal(path, f"catalogue.{key}", value, "not a positive number in SI units")
     values = {}
-    for section in ("parameters", "inputs"):
-        values |= dict(flat(default[section])) | dict(flat(document.get(section, {})))
+    for section, known in (("parameters", variables.PARAMETERS), ("inputs", variables.INPUTS)):
+        values |= {name: named(variable, variable.start) for name, variable in known.items()}
+        values |= dict(start_values(path, section, document.get(section, {}), known))
     return Case(str(document.get("designation", Path(path.name).stem)), str(document.get("description", "")), Z, values, catalogue)
+
+
+def start_values(path, section, tree, known):
+    """Full names and values of one section of a bearing file, each checked."""
+    for name, value in flat(tree):
+        if name not in known:
+            raise unknown(path, section.removesuffix("s"), name, known)
+        variable = known[name]
+        items = [] if variable.type in ("Real", "Integer") else [item.name.lower() for item in getattr(variables, variable.type)]
+        if items and value not in items:
+            raise refusal(path, f"{section}.{name}", value, f"allowed: {', '.join(items)}")
+        low, high = (-math.inf if variable.min is None else variable.min), (math.inf if variable.max is None else variable.max)
+        if not items and not (is_number(value) and low <= value <= high):
+            raise refusal(path, f"{section}.{name}", value, f"not a number (SI) in {low:g} ... {high:g} {variable.unit}")
+        yield name, value
+
+
+def named(variable, value):
+    """A value, by item name if it belongs to an enumeration."""
+    return value if variable.type in ("Real", "Integer") else getattr(variables, variable.type)(value).name.lower()
+
+
+def is_number(value):
+    """Whether a TOML value is a finite number."""
+    return isinstance(value, (int, float)) and not isinstance(value, bool) and math.isfinite(value)
 
 
 def scene_case(source, model):

@@ -38,11 +38,10 @@ def build(bearing=None, rivet=None, out=None, say=lambda text, share=None: None)
     """
     sources = source_folder()
     out = Path(out) if out else default_out(sources)
-    if rivet and not Path(rivet).is_file():
-        raise UserError(f"--rivet {rivet}: no such rivet table")
     case, folder = bearing_case(bearing or "6207"), build_folder(sources, bearing)
+    rivet = check_table(rivet, case.Z) if rivet else rivet_table(case, folder)
     cmake = find_tools()
-    options = [f"-DRIVET_TABLE={Path(rivet).resolve() if rivet else rivet_table(case, folder)}", f"-DPython_EXECUTABLE={sys.executable}"]
+    options = [f"-DRIVET_TABLE={rivet}", f"-DPython_EXECUTABLE={sys.executable}"]
     if bearing:
         say("variables")
         generated = folder / "generated"
@@ -82,9 +81,9 @@ def build_folder(sources, bearing):
 
 def find_tools():
     """Path of cmake, after checking that there is a C compiler."""
-    compilers = [os.environ.get("CC", ""), "cc", "gcc", "clang"]
-    if not any(name and shutil.which(name.split()[0]) for name in compilers):
-        raise UserError("no C compiler (cc, gcc, clang) found: install one, e.g. `apt-get install gcc`, or set CC")
+    compilers = [os.environ["CC"].split()[0]] if os.environ.get("CC") else ["cc", "gcc", "clang"]
+    if not any(map(shutil.which, compilers)):
+        raise UserError(f"no C compiler ({', '.join(compilers)}) found: install one, e.g. `apt-get install gcc`, or set CC")
     return tool("cmake") or no_tool("cmake")
 
 
@@ -102,6 +101,17 @@ def generator(folder):
     """Ninja if it is there, except in a folder that was configured without."""
     ninja = tool("ninja")
     return ["-G", "Ninja", f"-DCMAKE_MAKE_PROGRAM={ninja}"] if ninja and not (folder / "Makefile").is_file() else []
+
+
+def check_table(path, Z):
+    """Absolute path of a rivet table; UserError if it is missing, damaged or made for another number of rivets."""
+    try:
+        table.read(path, Z)
+    except OSError as problem:
+        raise UserError(f"--rivet {path}: {problem.strerror}") from None
+    except ValueError as problem:
+        raise UserError(f"--rivet {problem}") from None
+    return Path(path).resolve()
 
 
 def rivet_table(case, folder):

@@ -83,7 +83,7 @@ def march(instance, scene, progress):
                 instance.fmu.setReal(references, inputs[i].tolist())
             instance.fmu.doStep(times[i], times[i + 1] - times[i])
         except FMICallException as failure:
-            stopped = f"the FMU gave up after t = {times[i]:.9g} s: {instance.complaints()}"
+            stopped = f"the FMU gave up in the step from t = {times[i]:.9g} s: {instance.complaints()}"
             reached = instance.last_successful_time(times[i]) if failure.status == fmi2Discard else times[i]
             if reached > row_times[row]:
                 row += 1
