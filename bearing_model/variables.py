@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from enum import IntEnum
 
 MODEL_IDENTIFIER = "RivetedBearing"
-MODEL_GUID = "{2b8e5b95-098d-40b6-625d-2641008f0623}"
+MODEL_GUID = "{3b1206fd-01b3-2646-a257-28e4bc220145}"
 Z = 9
 
 

@@ -10,9 +10,8 @@
 // ---- accepted steps ---------------------------------------------------------------------------------------------------------------------------
 static void add_force(Saved *s, const Work *w, bool counts, double h)
 {
-    const bool rigid = s->p.scene.cage == CAGE_MODEL_RIGID;
     for (int j = 0; j < Z; j++) {
-        const double Q_c = w->Q_c[0][j] + (rigid ? 0.0 : w->Q_c[1][j]);
+        const double Q_c = w->pocket[0][j].Q + w->pocket[1][j].Q;
         s->force_peak = fmax(s->force_peak, Q_c);
         if (!counts) continue;
         statistics_add(&s->force, FORCE_FLOOR, h, Q_c);

@@ -85,6 +85,9 @@ static void derive_cage(const Parameters *p, Derived *d)
     const double width = fmax(0.5 * p->cage.width - L, 0.0), Ta = R * d->C_land / nu * sqrt(d->C_land / R);
     d->cylinder_laminar = p->oil.rho_mix * nu * R / d->C_land * (2.0 * PI * R * width) * R;
     d->cylinder_vortex = d->cylinder_laminar * 1.3 * pow(Ta / 41.0, 0.539);
+    // the turbulent laws overtake at k_t omega^0.8 = k_l omega^0.5 and 1.3 (Ta/41)^0.539 = 1; just below, so that max() decides
+    d->disk_laminar_omega = 0.999 * pow(d->disk_laminar / d->disk_turbulent, 1.0 / 0.3);
+    d->cylinder_laminar_omega = 0.999 * pow(d->cylinder_laminar / d->cylinder_vortex, 1.0 / 0.539);
 }
 
 static void derive_joint(const Parameters *p, Derived *d)

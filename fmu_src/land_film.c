@@ -36,22 +36,24 @@ void land_film_force(const Model *model, Work *w)
 
     // film
     const real V_y = v_y + 0.5 * omega * e_z, V_z = v_z - 0.5 * omega * e_y;
-    const real V = real_sqrt(V_y * V_y + V_z * V_z + 1e-30);
-    const real n_y = V_y / V, n_z = V_z / V;
-    const real e = real_sqrt(e_y * e_y + e_z * e_z + 1e-30), eps = e / d->C_land;
-    const real cap = real_min(real_set(1.0), EPS_CAP / eps) / d->C_land;
+    const real per_V = 1.0 / real_sqrt(V_y * V_y + V_z * V_z + 1e-30);
+    const real n_y = V_y * per_V, n_z = V_z * per_V;
+    const real e_2 = e_y * e_y + e_z * e_z + 1e-30, per_e = 1.0 / real_sqrt(e_2), e = e_2 * per_e;
+    const double per_C = 1.0 / d->C_land;
+    const real eps = e * per_C, cap = real_min(real_set(per_C), EPS_CAP * per_e);
     const real a = (e_y * n_y + e_z * n_z) * cap, b = (e_z * n_y - e_y * n_z) * cap;
     const real q2_free = 1.0 - eps * eps, q2 = 0.5 * (q2_free + real_sqrt(q2_free * q2_free + 4.0 * p->cage.g_0 * p->cage.g_0));
-    const real q = real_sqrt(q2), q4 = q2 * q2, q5 = q4 * q, c2 = q2 + a * a;  // c2 = 1 - b^2
-    const real S = 1.5707963267948966 + real_atan(a / q);
-    const real I_c = 3.0 * a / q4 + S * (q2 + 3.0 * a * a) / q5;
-    const real I_s = 2.0 * b / q4 + a * a * b / (q4 * c2) + 3.0 * a * b * S / q5;
-    const real I_t = a / (q2 * c2) + 3.0 * a * b * b / (q4 * c2) + 2.0 * a * b * b / (q2 * c2 * c2) + S * (q2 + 3.0 * b * b) / q5;
-    real F_y = -d->kappa * (I_c * V_y - I_s * V_z), F_z = -d->kappa * (I_c * V_z + I_s * V_y);
-    const real couette = d->couette / q;
+    const real per_q = 1.0 / real_sqrt(q2), per_q2 = per_q * per_q, per_c2 = 1.0 / (q2 + a * a);  // c^2 = 1 - b^2
+    const real S = per_q * (1.5707963267948966 + real_atan(a * per_q));                           // S/q, and all integrals times q^4
+    const real I_c = 3.0 * a + S * (q2 + 3.0 * a * a);
+    const real I_s = 2.0 * b + a * a * b * per_c2 + 3.0 * a * b * S;
+    const real I_t = a * per_c2 * (q2 + b * b * (3.0 + 2.0 * q2 * per_c2)) + S * (q2 + 3.0 * b * b);
+    const real kappa = d->kappa * per_q2 * per_q2;
+    real F_y = -kappa * (I_c * V_y - I_s * V_z), F_z = -kappa * (I_c * V_z + I_s * V_y);
+    const real couette = d->couette * per_q;
 
     // dry contact and friction at the place of the smallest gap; with mixed lubrication asperities carry their share of the film force too
-    const real u_y = e_y / e, u_z = e_z / e;
+    const real u_y = e_y * per_e, u_z = e_z * per_e;
     const real pen = e - d->C_land, pen_dot = v_y * u_y + v_z * u_z;
     const real N_0 = hertz_load(real_set(p->cage.K_land), pen), N = hertz_damped(N_0, real_set(p->cage.lambda), pen_dot);
     real N_mu = N;
@@ -72,8 +74,8 @@ void land_film_force(const Model *model, Work *w)
     w->land_dissipated = -(power[0] + elastic_rate[0]) - (power[1] + elastic_rate[1]);
 
     // rates of the velocities of both halves
-    const real rate_y = d->kappa * (I_c * n_y * n_y - 2.0 * I_s * n_y * n_z + I_t * n_z * n_z);
-    const real rate_z = d->kappa * (I_c * n_z * n_z + 2.0 * I_s * n_y * n_z + I_t * n_y * n_y);
+    const real rate_y = kappa * (I_c * n_y * n_y - 2.0 * I_s * n_y * n_z + I_t * n_z * n_z);
+    const real rate_z = kappa * (I_c * n_z * n_z + 2.0 * I_s * n_y * n_z + I_t * n_y * n_y);
     for (int h = 0; h < 2; h++) {
         Rotor *half = &w->half[h];
         const double F[3] = {0.0, F_y[h], F_z[h]}, arm[3] = {half->a[0] * x_land[h], half->a[1] * x_land[h], half->a[2] * x_land[h]};

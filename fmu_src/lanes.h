@@ -152,14 +152,18 @@ INLINE real real_exp(real x)
     return real_select(underflow, real_set(0.0), (real)((words)p + ((words)n << 52)));
 }
 
-// ln x of a normal x > 0, relative error < 3e-15.
-INLINE real real_log(real x)
+// x = 2^k m with sqrt(1/2) <= m < sqrt(2).
+INLINE real real_split(real x, real *m)
 {
     const uint64_t one = 0x3ff0000000000000, sqrt_half = 0x3fe6a09e667f3bcd, two_52 = 0x4330000000000000;  // the bits of these numbers
-    const words exponent = ((words)x + (one - sqrt_half)) >> 52;      // biased by 1023: x = 2^(exponent - 1023) m, sqrt(1/2) <= m < sqrt(2)
-    const real m = (real)((words)x - (exponent << 52) + one);
-    const real k = (real)(exponent | two_52) - (4503599627370496.0 + 1023.0);
-    const real t = (m - 1.0) / (m + 1.0), z = t * t;                  // ln m = 2 atanh t
+    const words exponent = ((words)x + (one - sqrt_half)) >> 52;                                           // k + 1023
+    *m = (real)((words)x - (exponent << 52) + one);
+    return (real)(exponent | two_52) - (4503599627370496.0 + 1023.0);
+}
+// k ln 2 + 2 atanh t
+INLINE real real_log_of(real k, real t)
+{
+    const real z = t * t;
     real p = real_set(0.166219470901774);
     p = p * z + 0.18140185202493248;
     p = p * z + 0.22222862476849542;
@@ -167,6 +171,21 @@ INLINE real real_log(real x)
     p = p * z + 0.400000000112122;
     p = p * z + 0.6666666666666208;
     return k * 0.6931471805582987 + (k * 1.6465949582897082e-12 + (2.0 * t + t * z * p));
+}
+// ln x of a normal x > 0, relative error < 3e-15.
+INLINE real real_log(real x)
+{
+    real m;
+    const real k = real_split(x, &m);
+    return real_log_of(k, (m - 1.0) / (m + 1.0));
+}
+// Two logarithms for one division.
+INLINE void real_log2(real x, real y, real *ln_x, real *ln_y)
+{
+    real m, n;
+    const real k = real_split(x, &m), l = real_split(y, &n), both = 1.0 / ((m + 1.0) * (n + 1.0));
+    *ln_x = real_log_of(k, (m - 1.0) * (n + 1.0) * both);
+    *ln_y = real_log_of(l, (n - 1.0) * (m + 1.0) * both);
 }
 
 // sin x and cos x, absolute error < 3e-16 for |x| < 1e7.

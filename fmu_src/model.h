@@ -47,6 +47,7 @@ typedef struct {
     double C_land, kappa, couette;             // radial guide clearance [m], eta R L^3 / C^3 [N.s/m], Couette torque / speed [N.m.s]
     double ln_land;                            // ln Lambda of a land film of thickness C
     double disk_laminar, disk_turbulent;       // end-face drag moment / |omega|^1.5, |omega|^1.8 of one half
+    double disk_laminar_omega, cylinder_laminar_omega;  // cage speeds below which both are laminar [rad/s]
     double cylinder_laminar, cylinder_vortex;  // cylinder drag moment / |omega|, |omega|^1.539 of one half
     double P, fit_a, fit_eff, k_hole, hole_gap;  // joint at the present temperature
     double k_rivet, k_plate, k_plate_t, k_head;  // its stiffnesses [N/m]
@@ -73,6 +74,13 @@ typedef struct {
     double F[3], M[3];           // force and moment about the geometric centre, by all contacts
 } Rotor;
 
+// ---- force of one ball on one half; written by pocket_force, zero where they do not touch -------------------------------------------------
+typedef struct {
+    double Q;                    // contact load [N]
+    double F_x, F_r, F_t;        // force on the half in the pocket's frame [N]
+    double F[3], M[3];           // force and moment on the half about its geometric centre, global frame
+} Pocket;
+
 // ---- one evaluation of the right-hand side, in the order it is written --------------------------------------------------------------------------
 typedef struct {
     // position and velocity of the balls: copies of y (ball_kinematics)
@@ -84,13 +92,12 @@ typedef struct {
     // stiff rates of the ball's velocities, 1/s: -d(acceleration)/d(velocity) (the same)
     lanes D_x, D_r, D_t, D_omega_x, D_omega_r, D_omega_t;
     lanes dissipated;                       // by contacts and drag [W]
-    // wrench of all contacts on inner ring and halves about their geometric centres, global frame
+    // wrench of the race contacts on the inner ring about its centre, global frame
     lanes ring_F_x, ring_F_y, ring_F_z, ring_M_x, ring_M_y, ring_M_z;
-    lanes half_F_x[2], half_F_y[2], half_F_z[2], half_M_x[2], half_M_y[2], half_M_z[2];
     // contact results
     lanes delta_i, delta_e, Q_i, Q_e, n_ix, n_ir, n_it, n_ex, n_er, U_i, U_e;
-    lanes delta_c[2], Q_c[2];                // elastic approach, contact load of ball and half
-    lanes pocket_x[2], pocket_r[2], pocket_t[2];  // force of the ball on the half in the pocket's frame
+    lanes delta_c[2];                       // elastic approach of ball and half
+    Pocket pocket[2][Z];
     // joints, in the frame of half 0 (cage_joint_force)
     lanes u_x, u_y, u_z, v_jx, v_jy, v_jz;  // half 1 against half 0: offset, velocity
     lanes T, N_plate, S_y, S_z, H_y, H_z, B_y, B_z;  // rivet tension, plate force, forces on half 1 by plates S, heads H, hole B

@@ -73,9 +73,9 @@ static double pressure(const Hertz *hertz, double Q)
     return Q > 0.0 ? 1.5 * root / (PI * hertz->a * hertz->b) : 0.0;
 }
 
-static double film_ratio(const Parameters *p, const Race *race, double U, double Q)
+static double film_ratio(const Race *race, double U, double Q)
 {
-    return Q > 0.0 ? exp(race->ln_Lambda + 0.67 * log(fmax(U, p->oil.U_0)) - 0.067 * log(Q + Q_FLOOR)) : 0.0;
+    return Q > 0.0 ? exp(race->ln_Lambda + 0.67 * log(U) - 0.067 * log(Q + Q_FLOOR)) : 0.0;
 }
 
 // Spin of the ball against the inner ring about the contact normal / rolling speed across it.
@@ -95,7 +95,7 @@ static void fill_ball(Bearing *b)
     const bool rigid = p->scene.cage == CAGE_MODEL_RIGID;
     double contacts = 0.0, penetration = 0.0, force_most = 0.0;
     for (int j = 0; j < Z; j++) {
-        const double Q_i = w->Q_i[j], Q_e = w->Q_e[j], Q_c = w->Q_c[0][j] + (rigid ? 0.0 : w->Q_c[1][j]);
+        const double Q_i = w->Q_i[j], Q_e = w->Q_e[j], Q_c = w->pocket[0][j].Q + w->pocket[1][j].Q;
         const double delta_c = rigid ? w->delta_c[0][j] : fmax(w->delta_c[0][j], w->delta_c[1][j]);
         b->out.ball.Q_i[j] = Q_i;
         b->out.ball.Q_e[j] = Q_e;
@@ -105,8 +105,8 @@ static void fill_ball(Bearing *b)
         b->out.ball.alpha_e[j] = Q_e > 0.0 ? atan2(w->n_ex[j], w->n_er[j]) : 0.0;
         b->out.ball.p_i[j] = pressure(&d->inner.hertz, Q_i);
         b->out.ball.p_e[j] = pressure(&d->outer.hertz, Q_e);
-        b->out.ball.Lambda_i[j] = film_ratio(p, &d->inner, w->U_i[j], Q_i);
-        b->out.ball.Lambda_e[j] = film_ratio(p, &d->outer, w->U_e[j], Q_e);
+        b->out.ball.Lambda_i[j] = film_ratio(&d->inner, w->U_i[j], Q_i);
+        b->out.ball.Lambda_e[j] = film_ratio(&d->outer, w->U_e[j], Q_e);
         b->out.ball.spin_roll[j] = spin_roll(w, j);
         contacts += (w->delta_i[j] > 0.0) + (w->delta_e[j] > 0.0) + (delta_c > 0.0);
         penetration = fmax(penetration, fmax(fmax(w->delta_i[j], w->delta_e[j]), delta_c));

@@ -39,16 +39,17 @@ typedef struct {
 INLINE Tangential race_traction(const Model *model, const Race *race, const Contact *c, bool mixed, bool sliced)
 {
     const Parameters *p = model->p;
-    const real U = real_sqrt(vec_dot(c->roll, c->roll) + p->oil.U_0 * p->oil.U_0);
-    const real ln_U = real_log(U), ln_Q = real_log(c->Q + Q_FLOOR);
+    const real U_2 = vec_dot(c->roll, c->roll) + p->oil.U_0 * p->oil.U_0, per_U = 1.0 / real_sqrt(U_2);
+    real ln_U, ln_Q;
+    real_log2(U_2 * per_U, c->Q + Q_FLOOR, &ln_U, &ln_Q);
     const real f_a = mixed ? traction_asperity_share(traction_ln_film(real_set(race->ln_Lambda), ln_U, ln_Q)) : real_set(0.0);
     const real F_R = traction_inlet(real_set(race->rolling), ln_U, c->Q, ln_Q);
     const vec arm = vec_scale(c->R, c->n);
 
     Tangential out;
     if (!sliced) {
-        const real slip = real_sqrt(vec_dot(c->slip, c->slip) + p->oil.v_0 * p->oil.v_0);
-        out.g = traction_mu(p, slip / U, f_a, mixed) * c->Q / slip;
+        const real slip_2 = vec_dot(c->slip, c->slip) + p->oil.v_0 * p->oil.v_0, per_slip = 1.0 / real_sqrt(slip_2);
+        out.g = traction_mu(p, slip_2 * per_slip * per_U, f_a, mixed) * c->Q * per_slip;
         out.F_s = vec_scale(-out.g, c->slip);
         out.M = vec_cross(arm, out.F_s);
         out.dissipated = -vec_dot(out.F_s, c->slip);
@@ -60,8 +61,8 @@ INLINE Tangential race_traction(const Model *model, const Race *race, const Cont
         for (int i = 0; i < SLICES; i++) {
             const real xi = a * SLICE[i], sagitta = xi * xi * (0.5 / race->R_m);
             const vec slip_i = vec_axpy(-sagitta, bend, vec_axpy(-xi * spin_n, c->t_1, c->slip));
-            const real slip = real_sqrt(vec_dot(slip_i, slip_i) + p->oil.v_0 * p->oil.v_0);
-            const real g = SHARE[i] * traction_mu(p, slip / U, f_a, mixed) * c->Q / slip;
+            const real slip_2 = vec_dot(slip_i, slip_i) + p->oil.v_0 * p->oil.v_0, per_slip = 1.0 / real_sqrt(slip_2);
+            const real g = SHARE[i] * traction_mu(p, slip_2 * per_slip * per_U, f_a, mixed) * c->Q * per_slip;
             const vec F = vec_scale(-g, slip_i);
             out.g += g;
             out.F_s = vec_add(out.F_s, F);
@@ -70,10 +71,11 @@ INLINE Tangential race_traction(const Model *model, const Race *race, const Cont
         }
     }
     // Inlet: -F_R U/|U| at the surface, the film's horizontal pressure force +F_H U/|U| through the ball's centre.
-    const vec rolling = vec_scale(F_R / U, c->roll);
+    const vec rolling = vec_scale(F_R * per_U, c->roll);
     out.F_s = vec_sub(out.F_s, rolling);
     out.M = vec_sub(out.M, vec_cross(arm, rolling));
     out.F_c = vec_scale(real_set(race->horizontal), rolling);
+    out.U = U_2 * per_U;
     out.dissipated += vec_dot(rolling, c->slip) - vec_dot(out.F_c, c->approach);
     return out;
 }
@@ -98,8 +100,8 @@ INLINE void race_contact_bundle(const Model *model, Work *w, int j, bool mixed, 
     const real r_i = real_sqrt(vec_dot(radial, radial) + tiny);
     const vec e = vec_scale(1.0 / r_i, radial);
     const real across = r_i - d->inner.R_g;
-    const real L_i = real_sqrt(along * along + across * across + tiny);
-    Contact inner = {.R = R, .n = vec_axpy(across / L_i, e, vec_scale(along / L_i, a)), .t_1 = vec_cross(a, e)};
+    const real L_i = real_sqrt(along * along + across * across + tiny), per_L_i = 1.0 / L_i;
+    Contact inner = {.R = R, .n = vec_axpy(across * per_L_i, e, vec_scale(along * per_L_i, a)), .t_1 = vec_cross(a, e)};
     inner.approach = vec_sub(vec_sub(v_b, v_i), vec_cross(Omega, p_i));
     const real delta_i = L_i - (d->inner.r_g - R), delta_i_dot = vec_dot(inner.n, inner.approach);
     const real Q_i0 = hertz_load(real_set(d->inner.hertz.K), delta_i);
@@ -118,8 +120,8 @@ INLINE void race_contact_bundle(const Model *model, Work *w, int j, bool mixed, 
     const vec F_i = vec_axpy(-inner.Q, inner.n, vec_add(T_i.F_s, T_i.F_c));
 
     // ---- outer race: fixed, its axis is X
-    const real L_er = position.r - d->outer.R_g, L_e = real_sqrt(position.x * position.x + L_er * L_er + tiny);
-    Contact outer = {.R = R, .n = {position.x / L_e, L_er / L_e, real_set(0.0)}, .t_1 = {real_set(0.0), real_set(0.0), real_set(1.0)}};
+    const real L_er = position.r - d->outer.R_g, L_e = real_sqrt(position.x * position.x + L_er * L_er + tiny), per_L_e = 1.0 / L_e;
+    Contact outer = {.R = R, .n = {position.x * per_L_e, L_er * per_L_e, real_set(0.0)}, .t_1 = {real_set(0.0), real_set(0.0), real_set(1.0)}};
     outer.approach = v_b;
     const real delta_e = L_e - (d->outer.r_g - R), delta_e_dot = outer.n.x * v_b.x + outer.n.r * v_b.r;
     const real Q_e0 = hertz_load(real_set(d->outer.hertz.K), delta_e);
@@ -158,8 +160,8 @@ INLINE void race_contact_bundle(const Model *model, Work *w, int j, bool mixed, 
     vec_store(inner.n, &w->n_ix[j], &w->n_ir[j], &w->n_it[j]);
     real_store(&w->n_ex[j], outer.n.x);
     real_store(&w->n_er[j], outer.n.r);
-    real_store(&w->U_i[j], real_sqrt(vec_dot(inner.roll, inner.roll)));
-    real_store(&w->U_e[j], real_sqrt(vec_dot(outer.roll, outer.roll)));
+    real_store(&w->U_i[j], T_i.U);
+    real_store(&w->U_e[j], T_e.U);
 }
 
 void race_contact_force(const Model *model, Work *w)

@@ -31,6 +31,7 @@ static void rotor_kinematics(const Model *model, const double *y, Work *w)
         for (int i = 0; i < 3; i++) {
             half->x[i] = y[Y_CAGE_X + 2 * i + h] - half->c[i];
             half->v[i] = y[Y_CAGE_V_X + 2 * i + h] - drift[i];
+            half->F[i] = half->M[i] = 0.0;  // pocket_force, land_film_force, drag_cage and cage_joint_force add
         }
     }
     if (model->p->scene.cage == CAGE_MODEL_RIGID) {  // half 1 goes with half 0
@@ -42,21 +43,13 @@ static void rotor_kinematics(const Model *model, const double *y, Work *w)
     }
 }
 
-// Sums of the balls' contacts on ring and halves.
-static void rotor_sums(bool rigid, Work *w)
+// Sum of the race contacts on the ring.
+static void ring_sum(Work *w)
 {
     const double *ring[] = {w->ring_F_x, w->ring_F_y, w->ring_F_z, w->ring_M_x, w->ring_M_y, w->ring_M_z};
     for (int i = 0; i < 3; i++) {
         w->ring.F[i] = lanes_sum(ring[i]);
         w->ring.M[i] = lanes_sum(ring[3 + i]);
-    }
-    for (int h = 0; h < 2; h++) {
-        const double *half[] = {w->half_F_x[h], w->half_F_y[h], w->half_F_z[h], w->half_M_x[h], w->half_M_y[h], w->half_M_z[h]};
-        const bool carries = h == 0 || !rigid;
-        for (int i = 0; i < 3; i++) {
-            w->half[h].F[i] = carries ? lanes_sum(half[i]) : 0.0;
-            w->half[h].M[i] = carries ? lanes_sum(half[3 + i]) : 0.0;
-        }
     }
 }
 
@@ -146,7 +139,7 @@ void rhs(const Model *model, double t, const double *y, double *y_dot, Work *w)
     race_contact_force(model, w);
     pocket_force(model, w);
     drag_force(model, w);
-    rotor_sums(rigid, w);
+    ring_sum(w);
     land_film_force(model, w);
     drag_cage(model, w);
     if (!rigid) {

@@ -31,18 +31,19 @@ static void two_half_load(const Model *model, const Work *w, RivetLoad load[Z], 
 static void rigid_wrench(const Model *model, const Work *w, double wrench[6])
 {
     const Rotor *cage = &w->half[0];
-    const double *pocket[6] = {w->half_F_x[0], w->half_F_y[0], w->half_F_z[0], w->half_M_x[0], w->half_M_y[0], w->half_M_z[0]};
     const double width = model->p->cage.share_width;
     double global[6];
     for (int i = 0; i < 3; i++) {
-        global[i] = w->half[1].F[i] - w->half[0].F[i];
-        global[3 + i] = w->half[1].M[i] - w->half[0].M[i];
+        global[i] = 0.5 * (w->half[1].F[i] - w->half[0].F[i]);
+        global[3 + i] = 0.5 * (w->half[1].M[i] - w->half[0].M[i]);
     }
-    for (int i = 0; i < 6; i++) {
-        global[i] = 0.5 * (global[i] + lanes_sum(pocket[i]));  // half 0 holds all pocket forces: leave the lands'
-        for (int j = 0; j < Z; j++) {
-            const double F_x = w->pocket_x[0][j], F_t = w->pocket_t[0][j], F = sqrt(F_x * F_x + F_t * F_t);
-            if (F > 0.0) global[i] += 0.5 * pocket[i][j] * F_x / sqrt(F_x * F_x + width * width * F * F);  // share of half 1 less that of half 0
+    for (int j = 0; j < Z; j++) {  // half 0 holds the pocket forces: their share of half 1 less that of half 0 instead
+        const Pocket *pocket = &w->pocket[0][j];
+        const double F_2 = pocket->F_x * pocket->F_x + pocket->F_t * pocket->F_t;
+        const double share = F_2 > 0.0 ? pocket->F_x / sqrt(pocket->F_x * pocket->F_x + width * width * F_2) : 0.0;
+        for (int i = 0; i < 3; i++) {
+            global[i] += 0.5 * (1.0 + share) * pocket->F[i];
+            global[3 + i] += 0.5 * (1.0 + share) * pocket->M[i];
         }
     }
     const double *axes[3] = {cage->a, cage->b_y, cage->b_z};
@@ -70,6 +71,14 @@ static void rigid_load(const Model *model, const Work *w, RivetLoad load[Z], dou
     }
 }
 
+// What the forces on the pockets of one half pry at the rivets.
+static void pocket_path(const Pocket pocket[Z], int side, PathLoads *path)
+{
+    double F_x[Z], F_r[Z], F_t[Z];
+    for (int j = 0; j < Z; j++) F_x[j] = pocket[j].F_x, F_r[j] = pocket[j].F_r, F_t[j] = pocket[j].F_t;
+    load_path_flexible(rivet_table.load_path, side, F_x, F_r, F_t, path);
+}
+
 void rivets_load(const Model *model, const Work *w, RivetLoad load[Z], double V[Z])
 {
     const bool rigid = model->p->scene.cage == CAGE_MODEL_RIGID;
@@ -80,7 +89,7 @@ void rivets_load(const Model *model, const Work *w, RivetLoad load[Z], double V[
 
     PathLoads path = {0};
     for (int h = 0; h < (rigid ? 1 : 2); h++)
-        load_path_flexible(rivet_table.load_path, h == 0 ? -1 : 1, w->pocket_x[h], w->pocket_r[h], w->pocket_t[h], &path);
+        pocket_path(w->pocket[h], h == 0 ? -1 : 1, &path);
     const double R = 0.5 * model->p->bearing.d_m;
     for (int k = 0; k < Z; k++) {
         const double c = model->d->rivet_y[k] / R, s = model->d->rivet_z[k] / R;
