@@ -16,6 +16,8 @@ void test_hertz_load(int n, double K, const double *delta, double *Q);
 void test_hertz_damped(int n, double Q, double lambda, const double *delta_dot, double *damped);
 void test_traction_mu(int n, const Parameters *p, const double *s, double f_a, bool mixed, double *mu);
 void test_traction_asperity_share(int n, const double *ln_Lambda, double *f_a);
+void test_traction_ln_film(int n, double ln_Lambda_1, double Q, const double *U, double *ln_Lambda);
+void test_traction_inlet(int n, double rolling, double Q, const double *U, double *F_R);
 
 // Zeroed, aligned for any lane width; free() releases it.
 void *test_allocate(size_t size)
@@ -67,4 +69,15 @@ void test_traction_mu(int n, const Parameters *p, const double *s, double f_a, b
 void test_traction_asperity_share(int n, const double *ln_Lambda, double *f_a)
 {
     for (int i = 0; i < n; i++) f_a[i] = traction_asperity_share(real_set(ln_Lambda[i]))[0];
+}
+
+void test_traction_ln_film(int n, double ln_Lambda_1, double Q, const double *U, double *ln_Lambda)
+{
+    for (int i = 0; i < n; i++) ln_Lambda[i] = traction_ln_film(real_set(ln_Lambda_1), real_log(real_set(U[i])), real_log(real_set(Q)))[0];
+}
+
+void test_traction_inlet(int n, double rolling, double Q, const double *U, double *F_R)
+{
+    const real ln_Q = real_log(real_set(Q + Q_FLOOR));
+    for (int i = 0; i < n; i++) F_R[i] = traction_inlet(real_set(rolling), real_log(real_set(U[i])), real_set(Q), ln_Q)[0];
 }

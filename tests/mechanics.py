@@ -1,0 +1,141 @@
+"""What the tests of the dynamics share: views of C structs, poses of bodies, states away from rest."""
+
+import numpy as np
+
+from bearing_model import variables
+
+Z = variables.Z
+SLICE = variables.STATE_SLICES
+
+
+def view(core, member):
+    """A member array of a C struct as numpy sees it: (n,) or (m, n); writes go into the struct."""
+    array = np.frombuffer(core.ffi.buffer(member), dtype=float)
+    kind = core.ffi.typeof(member)
+    return array.reshape(kind.length, -1) if kind.item.kind == "array" else array
+
+
+class View:
+    """Members of a C struct by name: arrays as numpy views, numbers as they are."""
+
+    def __init__(self, core, struct):
+        object.__setattr__(self, "core", core)
+        object.__setattr__(self, "struct", struct)
+
+    def __getattr__(self, name):
+        member = getattr(self.struct, name)
+        return view(self.core, member) if isinstance(member, self.core.ffi.CData) and self.core.ffi.typeof(member).kind == "array" else member
+
+    def __setattr__(self, name, value):
+        if isinstance(getattr(self.struct, name), (float, int)):
+            setattr(self.struct, name, value)
+        else:
+            getattr(self, name)[...] = value
+
+
+def axis(beta, gamma):
+    """Axis a = (a_x, gamma, -beta) of a tilted body."""
+    return np.array([np.sqrt(1.0 - beta**2 - gamma**2), gamma, -beta])
+
+
+def pose(core, rotor, x=(0, 0, 0), v=(0, 0, 0), frame=None, Omega=(0, 0, 0)):
+    """Places a Rotor: centre, velocity, body axes (columns a, b_y, b_z) and angular velocity."""
+    frame = np.eye(3) if frame is None else frame
+    r = View(core, rotor)
+    r.x, r.v, r.Omega = x, v, Omega
+    r.a, r.b_y, r.b_z = frame.T
+    r.a_dot = np.cross(Omega, frame[:, 0])
+    r.s = float(np.dot(Omega, frame[:, 0]))
+    r.F = r.M = 0.0
+
+
+def frames(theta):
+    """The balls' frames: (Z, 3, 3), rows e_x, e_r, e_t in the global frame."""
+    c, s, o = np.cos(theta), np.sin(theta), np.zeros_like(theta)
+    return np.stack([np.stack([o + 1, o, o], -1), np.stack([o, c, s], -1), np.stack([o, -s, c], -1)], 1)
+
+
+def place_balls(model, x, r, theta, v=None, omega=None, omega_m=None):
+    """Writes the kinematics of all balls into Work; v in the balls' frames, its t part is r omega_m."""
+    w = View(model.core, model.work)
+    n = slice(0, Z)
+    w.x[n], w.r[n], w.theta[n] = x, r, theta
+    w.cos_theta[n], w.sin_theta[n] = np.cos(theta), np.sin(theta)
+    v = np.zeros((Z, 3)) if v is None else v
+    w.v_x[n], w.v_r[n], w.v_t[n] = v.T
+    w.omega_m[n] = v[:, 2] / r if omega_m is None else omega_m
+    w.omega_x[n], w.omega_r[n], w.omega_t[n] = (np.zeros((Z, 3)) if omega is None else omega).T
+    return w
+
+
+def clear_balls(w):
+    """Nothing acts on the balls yet: what pocket_force and drag_force add to."""
+    for name in ("F_x", "F_r", "F_t", "M_x", "M_r", "M_t", "D_x", "D_r", "D_t", "D_omega_x", "D_omega_r", "D_omega_t", "dissipated"):
+        getattr(w, name)[:] = 0.0
+
+
+def on_ball(w):
+    """Force and moment on each ball in its frame, (Z, 3) each."""
+    n = slice(0, Z)
+    return np.stack([w.F_x[n], w.F_r[n], w.F_t[n]], -1), np.stack([w.M_x[n], w.M_r[n], w.M_t[n]], -1)
+
+
+def wrench(w, body, index=None):
+    """Force and moment on "ring" or "half" by each ball, global frame, (Z, 3) each."""
+    rows = [getattr(w, f"{body}_{kind}_{i}") for kind in "FM" for i in "xyz"]
+    rows = np.array([row[:Z] if index is None else row[index, :Z] for row in rows])
+    return rows[:3].T, rows[3:].T
+
+
+def running_state(model, rng, *, pockets=True, slip=1.0):
+    """A state near the quasi-static start with every element at work: pockets closed, cage off centre and tilted, joints offset and slipping.
+
+    `slip` scales all velocities' deviations from pure rolling; without `pockets` no ball touches the cage.
+    """
+    y = model.start()
+    p, d = model.p, model.d
+    r_0 = 0.5 * p.bearing.d_m
+
+    def add(name, scale):
+        y[SLICE[name]] += scale * rng.uniform(-1.0, 1.0, SLICE[name].stop - SLICE[name].start)
+
+    add("ball_x", 5e-6), add("ball_r", 4e-6)
+    add("ball_v_x", 0.05 * slip), add("ball_v_r", 0.05 * slip), add("ball_omega_m", 2.0 * slip)
+    add("ball_omega_x", 30.0 * slip), add("ball_omega_r", 30.0 * slip), add("ball_omega_t", 30.0 * slip)
+    add("joint_plate_y", 1e-7), add("joint_plate_z", 1e-7), add("joint_head_y", 2e-7), add("joint_head_z", 2e-7)
+    shift = rng.uniform(-0.5, 0.5, 2) * d.C_land
+    for h in range(2):  # the halves move together but for some micrometres
+        y[SLICE["cage_y"]][h] += shift[0]
+        y[SLICE["cage_z"]][h] += shift[1]
+    phi = 2.0 * np.pi * np.arange(Z) / Z
+    play = 0.5 * p.cage.pocket_clearance + rng.uniform(-2e-6, 3e-6, Z) if pockets else np.zeros(Z)
+    y[SLICE["ball_theta"]] = phi + (rng.choice([-1.0, 1.0], Z) * play + shift[1] * np.cos(phi) - shift[0] * np.sin(phi)) / r_0
+    if p.scene.cage == variables.CageModel.TWO_HALF:
+        add("cage_x", 3e-7), add("cage_y", 3e-6), add("cage_z", 3e-6), add("cage_psi", 5e-5)
+        tilt = rng.uniform(-2e-4, 2e-4, 2)
+        for h in range(2):
+            y[SLICE["cage_beta"]][h] += tilt[0]
+            y[SLICE["cage_gamma"]][h] += tilt[1]
+        add("cage_beta", 5e-6), add("cage_gamma", 5e-6), add("cage_v_x", 1e-3 * slip), add("cage_v_y", 0.1 * slip), add("cage_v_z", 0.1 * slip)
+        add("cage_beta_dot", 1.0 * slip), add("cage_gamma_dot", 1.0 * slip), add("cage_s", 1.0 * slip)
+    else:
+        rigid_halves(model, y, beta=rng.uniform(-2e-4, 2e-4), gamma=rng.uniform(-2e-4, 2e-4), psi=rng.uniform(-5e-5, 5e-5), slip=slip, rng=rng)
+    add("ring_v_x", 0.01 * slip), add("ring_v_y", 0.01 * slip), add("ring_v_z", 0.01 * slip)
+    add("ring_beta", 1e-4), add("ring_gamma", 1e-4), add("ring_beta_dot", 1.0 * slip), add("ring_gamma_dot", 1.0 * slip)
+    return y
+
+
+def rigid_halves(model, y, beta, gamma, psi, slip, rng):
+    """Both halves as one rigid body about the cage's centre (cage without unbalance)."""
+    a, a_dot = axis(beta, gamma), np.zeros(3)
+    beta_dot, gamma_dot, s = slip * rng.uniform(-1, 1), slip * rng.uniform(-1, 1), y[SLICE["cage_s"]][0] + slip * rng.uniform(-1, 1)
+    a_dot[1], a_dot[2] = gamma_dot, -beta_dot
+    a_dot[0] = -(a[1] * a_dot[1] + a[2] * a_dot[2]) / a[0]
+    centre = np.array([0.0, y[SLICE["cage_y"]][0], y[SLICE["cage_z"]][0]])
+    velocity = slip * rng.uniform(-0.1, 0.1, 3)
+    for h in range(2):
+        place, rate = centre + model.d.com_x[h] * a, velocity + model.d.com_x[h] * a_dot
+        for i, name in enumerate("xyz"):
+            y[SLICE[f"cage_{name}"]][h], y[SLICE[f"cage_v_{name}"]][h] = place[i], rate[i]
+        for name, value in (("beta", beta), ("gamma", gamma), ("psi", psi), ("beta_dot", beta_dot), ("gamma_dot", gamma_dot), ("s", s)):
+            y[SLICE[f"cage_{name}"]][h] = value
