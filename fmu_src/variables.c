@@ -141,7 +141,7 @@ const Variable VARIABLES[N_VARIABLES] = {
     {"scene.lubrication", "1", 1803, 1, TYPE_ENUMERATION, CAUSALITY_PARAMETER, GROUP_COUNT, offsetof(Parameters, scene.lubrication), 1.0, 1.0, 2.0},
     {"scene.stress", "1", 1804, 1, TYPE_ENUMERATION, CAUSALITY_PARAMETER, GROUP_COUNT, offsetof(Parameters, scene.stress), 3.0, 1.0, 4.0},
     {"scene.statistics", "1", 1805, 1, TYPE_ENUMERATION, CAUSALITY_PARAMETER, GROUP_COUNT, offsetof(Parameters, scene.statistics), 1.0, 1.0, 2.0},
-    {"solver.tol", "1", 1901, 1, TYPE_REAL, CAUSALITY_PARAMETER, GROUP_COUNT, offsetof(Parameters, solver.tol), 0.0001, 1e-10, 0.1},
+    {"solver.tol", "1", 1901, 1, TYPE_REAL, CAUSALITY_PARAMETER, GROUP_COUNT, offsetof(Parameters, solver.tol), 0.0003, 1e-10, 0.1},
     {"solver.method", "1", 1902, 1, TYPE_ENUMERATION, CAUSALITY_PARAMETER, GROUP_COUNT, offsetof(Parameters, solver.method), 1.0, 1.0, 3.0},
     {"solver.max_steps", "1", 1903, 1, TYPE_INTEGER, CAUSALITY_PARAMETER, GROUP_COUNT, offsetof(Parameters, solver.max_steps), 10000000.0, 10.0, 2000000000.0},
     {"start.seed", "1", 1951, 1, TYPE_INTEGER, CAUSALITY_PARAMETER, GROUP_COUNT, offsetof(Parameters, start.seed), 1.0, 0.0, 2147483647.0},
@@ -251,6 +251,14 @@ const Variable *variable_find(unsigned value_reference, int *element)
     if (index >= (unsigned)VARIABLES[low].count) return NULL;
     *element = (int)index;
     return &VARIABLES[low];
+}
+
+const Variable *variable_named(const char *name)
+{
+    for (int i = 0; i < N_VARIABLES; i++) {
+        if (strcmp(VARIABLES[i].name, name) == 0) return &VARIABLES[i];
+    }
+    return NULL;
 }
 
 void variable_element_name(const Variable *variable, int element, char *name, size_t size)

@@ -6,7 +6,7 @@
 #include <stddef.h>
 
 #define MODEL_IDENTIFIER "RivetedBearing"
-#define MODEL_GUID "{3b1206fd-01b3-2646-a257-28e4bc220145}"  // digest of the table
+#define MODEL_GUID "{6e5e75fd-3290-f339-a807-ca5e47bdf457}"  // digest of the table
 
 enum { Z = 9 };  // number of balls
 
@@ -397,6 +397,9 @@ extern const Variable VARIABLES[N_VARIABLES];  // by rising value reference
 
 // The variable of a value reference and the index of its element; NULL if there is none.
 const Variable *variable_find(unsigned value_reference, int *element);
+
+// The variable of a name of the table; NULL if there is none.
+const Variable *variable_named(const char *name);
 
 // Whether the variable may have this value; if not, a message with its name, value, unit and allowed range.
 int variable_allows(const Variable *variable, int element, double value, char *message, size_t size);
