@@ -1,0 +1,45 @@
+"""A ball in its cylindrical frame (x, r, t), azimuth theta, orbital speed omega_m = theta_dot, angular velocity omega:
+
+    m x''                         = F_x            J omega_x' = M_x
+    m (r'' - r omega_m^2)         = F_r            J omega_r' = M_r + J omega_m omega_t
+    m (r omega_m' + 2 r' omega_m) = F_t            J omega_t' = M_t - J omega_m omega_r
+
+Gupta (1979), J. Lubr. Technol. 101, 293.  The last terms are the gyroscopic moments: the frame turns, the sphere has no axis of its own.
+"""
+
+import numpy as np
+
+from bearing_model.variables import (
+    BALL_OMEGA_M,
+    BALL_OMEGA_R,
+    BALL_OMEGA_T,
+    BALL_OMEGA_X,
+    BALL_R,
+    BALL_THETA,
+    BALL_V_R,
+    BALL_V_X,
+    BALL_X,
+)
+
+
+def ball_kinematics(y, w):
+    """Places and velocities of the balls from the state."""
+    w.x, w.r, w.theta = y[..., BALL_X], y[..., BALL_R], y[..., BALL_THETA]
+    w.v_x, w.v_r, w.omega_m = y[..., BALL_V_X], y[..., BALL_V_R], y[..., BALL_OMEGA_M]
+    w.omega_x, w.omega_r, w.omega_t = y[..., BALL_OMEGA_X], y[..., BALL_OMEGA_R], y[..., BALL_OMEGA_T]
+    w.cos_theta, w.sin_theta = np.cos(w.theta), np.sin(w.theta)
+    w.v_t = w.r * w.omega_m
+
+
+def ball_acceleration(model, w, y_dot):
+    """Equations of motion under the total forces and moments."""
+    m, J, g_y, g_z = model.d.m, model.d.J, model.p.gravity.y, model.p.gravity.z
+    y_dot[..., BALL_X] = w.v_x
+    y_dot[..., BALL_R] = w.v_r
+    y_dot[..., BALL_THETA] = w.omega_m
+    y_dot[..., BALL_V_X] = w.F[0] / m
+    y_dot[..., BALL_V_R] = w.F[1] / m + g_y * w.cos_theta + g_z * w.sin_theta + w.r * w.omega_m**2
+    y_dot[..., BALL_OMEGA_M] = (w.F[2] / m + g_z * w.cos_theta - g_y * w.sin_theta - 2.0 * w.v_r * w.omega_m) / w.r
+    y_dot[..., BALL_OMEGA_X] = w.M[0] / J
+    y_dot[..., BALL_OMEGA_R] = w.M[1] / J + w.omega_m * w.omega_t
+    y_dot[..., BALL_OMEGA_T] = w.M[2] / J - w.omega_m * w.omega_r

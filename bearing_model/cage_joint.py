@@ -1,0 +1,80 @@
+"""Riveted joint k: plates pressed together by the rivet, friction of plates and heads, the rivet's shank in its holes.
+
+       |  T  |          u    hole of half 1 - hole of half 0 at rivet k, in the body frame of half 0 (turns with the cage), v its rate
+    ---+-   -+---       rivet tension   T = max(0, P + k_rivet u_x)
+    half 1     | u_x    plate force     N_plate = max(0, P - k_plate u_x), damped by c v_x N_plate/(N_plate + F_floor)
+    ===+=====+===       plate friction  S = -k_t z,  z' = v - |v| k_t z/(mu N_plate + F_floor)        Dahl (1968): a friction state, no creep
+    half 0     |        head friction   H = -k_h z_h, likewise with mu T + F_floor
+    ---+-   -+---       hole contact    B = -k_hole max(0, |u| - gap) u/|u|,  gap = max(0, -fit_a): the diametral play
+       |     |
+After the plates (mu P) the heads drag the rivet (mu P more), then the halves slip freely by the gap, then the shank bears.
+Force and reaction act at the same point, so momentum and energy are exact.  External tension of the joint: N = T - N_plate.
+Smoothness: C0 at opening and bearing (a spring of finite stiffness begins), C0 at v = 0.
+"""
+
+import numpy as np
+
+from bearing_model.lanes import lanes_sum, maximum
+from bearing_model.variables import JOINT_HEAD_Y, JOINT_HEAD_Z, JOINT_PLATE_Y, JOINT_PLATE_Z
+from bearing_model.vec import vec, vec_cross, vec_dot
+
+
+def cage_joint_kinematics(model, w):
+    """Offset u and velocity v of half 1 against half 0 at the rivets, in the frame of half 0."""
+    h0, h1 = w.half
+    s_y, s_z = model.d.rivet_y, model.d.rivet_z
+    g, omega = h1.x - h0.x, h1.Omega - h0.Omega
+    v = h1.v - h0.v - vec_cross(h0.Omega, g)
+    spin_y, spin_z = vec_cross(omega, h1.b_y), vec_cross(omega, h1.b_z)
+
+    # u = offset + (A - 1) s with A = axes of half 1 in half 0, s = (0, rivet_y, rivet_z); v likewise with the rates
+    axes = (h0.a, h0.b_y, h0.b_z)
+    w.u = np.array([vec_dot(e, g) + (vec_dot(e, h1.b_y) - (i == 1)) * s_y + (vec_dot(e, h1.b_z) - (i == 2)) * s_z for i, e in enumerate(axes)])
+    w.v_j = np.array([vec_dot(e, v) + vec_dot(e, spin_y) * s_y + vec_dot(e, spin_z) * s_z for e in axes])
+
+
+def cage_joint_friction(k, capacity, z_y, z_z, v_y, v_z):
+    """Dahl's friction with force -k z: rates of z and the dissipated power."""
+    # |v| has no derivative at rest, where its complex step shall be 0
+    speed_2 = v_y * v_y + v_z * v_z
+    speed = np.sqrt(np.where(np.real(speed_2) > 0.0, speed_2, 0.0))
+    rate = speed * k / capacity
+    return v_y - rate * z_y, v_z - rate * z_z, k * rate * (z_y * z_y + z_z * z_z)
+
+
+def cage_joint_force(model, y, w):
+    """Adds the joints' wrench to both halves; sets the rates of the friction states and the loads of the joints."""
+    p, d = model.p, model.d
+    u_x, u_y, u_z = w.u
+    v_x, v_y, v_z = w.v_j
+    zp_y, zp_z, zh_y, zh_z = (y[..., block] for block in (JOINT_PLATE_Y, JOINT_PLATE_Z, JOINT_HEAD_Y, JOINT_HEAD_Z))
+
+    w.T, w.N_plate = maximum(d.P + d.k_rivet * u_x, 0.0), maximum(d.P - d.k_plate * u_x, 0.0)
+    damping = d.c_joint * w.N_plate / (w.N_plate + p.joint.F_floor)
+    w.plate_y_dot, w.plate_z_dot, lost_plate = cage_joint_friction(d.k_plate_t, p.joint.mu * w.N_plate + p.joint.F_floor, zp_y, zp_z, v_y, v_z)
+    w.head_y_dot, w.head_z_dot, lost_head = cage_joint_friction(d.k_head, p.joint.mu * w.T + p.joint.F_floor, zh_y, zh_z, v_y, v_z)
+    w.joint_dissipated = lost_plate + lost_head + damping * v_x * v_x
+
+    slip = np.sqrt(u_y * u_y + u_z * u_z + 1e-30)
+    bearing = d.k_hole * maximum(slip - d.hole_gap, 0.0) / slip
+    w.S, w.H, w.B = np.array([-d.k_plate_t * zp_y, -d.k_plate_t * zp_z]), np.array([-d.k_head * zh_y, -d.k_head * zh_z]), -bearing * w.u[1:]
+    w.joint_energy = 0.5 * (
+        w.T**2 / d.k_rivet
+        + w.N_plate**2 / d.k_plate
+        + d.k_plate_t * (zp_y**2 + zp_z**2)
+        + d.k_head * (zh_y**2 + zh_z**2)
+        + d.k_hole * maximum(slip - d.hole_gap, 0.0) ** 2
+    )
+
+    # on half 1 at its hole: s + u from the centre of half 0, in the frame of half 0
+    f = vec(w.N_plate - w.T - damping * v_x, *(w.S + w.H + w.B))
+    r = vec(u_x, d.rivet_y + u_y, d.rivet_z + u_z)
+    F, M = lanes_sum(f), lanes_sum(vec_cross(r, f))
+
+    # wrench in the global frame: -F, -M on half 0; on half 1 the same about its own centre
+    h0, h1 = w.half
+    force, moment = (h0.a * v[0] + h0.b_y * v[1] + h0.b_z * v[2] for v in (F, M))
+    h0.F = h0.F - force
+    h0.M = h0.M - moment
+    h1.F = h1.F + force
+    h1.M = h1.M + moment - vec_cross(h1.x - h0.x, force)

@@ -1,0 +1,87 @@
+"""Land and outer ring: short journal bearing whose film carries where the gap closes, dry contact behind it.
+
+           outer ring          e    land's centre from the ring's axis, eps = e/C, gap h = C - e.n(phi)
+        .-----------.          V    pure squeeze velocity e_dot - (omega/2) e_x x e: the land turns, the ring stands
+       /   .-----.   \\         film pressure over the width L: p = 6 eta (V.n)/h^3 (L^2/4 - z^2) where V.n > 0, else cavitated
+      |   (   o e |   |        F = -eta R L^3 int n (V.n)/h^3 dphi = -kappa (I_c V + I_s V_perp),  kappa = eta R L^3/C^3
+       \\   '-----'   /
+        '-----------'          with a = eps.V/|V|, b = eps.V_perp/|V|, V_perp = e_x x V, q^2 = 1 - eps^2, S = pi/2 + atan(a/q):
+    I_c = int cos^2 phi/(1 - a cos phi - b sin phi)^3 dphi = 3 a/q^4 + S (q^2 + 3 a^2)/q^5                    phi = -pi/2 ... pi/2
+    I_s = int sin phi cos phi/(...)^3 dphi               = 2 b/q^4 + a^2 b/(q^4 (1 - b^2)) + 3 a b S/q^5
+
+Steady rotation gives Ocvirk's force (a = 0), pure squeeze the pi-film's.  Regular at e = 0; C0 in V (cavitation), C1 elsewhere.
+q^2 has the floor g_0 and eps the cap 1.2; the dry contact F = K_land (e - C)^1.5 takes over there.
+"""
+
+import numpy as np
+
+from bearing_model.hertz import hertz_damped, hertz_energy, hertz_load
+from bearing_model.lanes import lanes_sum, minimum, real_pair
+from bearing_model.traction import traction_asperity_share
+from bearing_model.variables import Lubrication
+from bearing_model.vec import vec, vec_cross
+
+EPS_CAP = 1.2
+
+
+def land_film_integrals(a, b, q2):
+    """I_c and I_s of the head of this file."""
+    q = np.sqrt(q2)
+    q4, q5, c2 = q2 * q2, q2 * q2 * q, q2 + a * a  # c2 = 1 - b^2
+    S = 0.5 * np.pi + np.arctan(a / q)
+    I_c = 3.0 * a / q4 + S * (q2 + 3.0 * a * a) / q5
+    I_s = 2.0 * b / q4 + a * a * b / (q4 * c2) + 3.0 * a * b * S / q5
+    return I_c, I_s
+
+
+def land_film_force(model, w):
+    """Adds film, friction and dry contact of both lands to the halves; sets their elastic energy and dissipated power."""
+    p, d = model.p, model.d
+    h0, h1 = w.half
+    x_land = np.array([-p.cage.land_x, p.cage.land_x])
+
+    # place and velocity of the lands' middles: x + a x_land, v + Omega x a x_land = v + a_dot x_land
+    axis, axis_dot = real_pair(h0.a, h1.a), real_pair(h0.a_dot, h1.a_dot)
+    _, e_y, e_z = real_pair(h0.x, h1.x) + x_land * axis
+    _, v_y, v_z = real_pair(h0.v, h1.v) + x_land * axis_dot
+    omega = real_pair(h0.Omega[0], h1.Omega[0])
+
+    # film
+    V_y, V_z = v_y + 0.5 * omega * e_z, v_z - 0.5 * omega * e_y
+    V = np.sqrt(V_y * V_y + V_z * V_z + 1e-30)
+    n_y, n_z = V_y / V, V_z / V
+    e = np.sqrt(e_y * e_y + e_z * e_z + 1e-30)
+    eps = e / d.C_land
+    cap = minimum(1.0, EPS_CAP / eps) / d.C_land
+    a, b = (e_y * n_y + e_z * n_z) * cap, (e_z * n_y - e_y * n_z) * cap
+    q2_free = 1.0 - eps * eps
+    q2 = 0.5 * (q2_free + np.sqrt(q2_free**2 + 4.0 * p.cage.g_0**2))
+    I_c, I_s = land_film_integrals(a, b, q2)
+    F_y, F_z = -d.kappa * (I_c * V_y - I_s * V_z), -d.kappa * (I_c * V_z + I_s * V_y)
+    couette = d.couette / np.sqrt(q2)
+
+    # dry contact and friction at the place of the smallest gap; with mixed lubrication asperities carry their share of the film force too
+    u_y, u_z = e_y / e, e_z / e
+    pen, pen_dot = e - d.C_land, v_y * u_y + v_z * u_z
+    N_0 = hertz_load(p.cage.K_land, pen)
+    N = hertz_damped(N_0, p.cage.lambda_, pen_dot)
+    N_mu = N
+    if p.scene.lubrication == Lubrication.MIXED:
+        ln_Lambda = d.ln_land + np.log(q2 / (1.0 + eps))
+        N_mu = N + traction_asperity_share(ln_Lambda) * np.sqrt(F_y * F_y + F_z * F_z)
+    R = 0.5 * p.cage.D_o
+    slip = v_z * u_y - v_y * u_z + omega * R  # along t = e_x x u
+    F_t = -p.cage.mu_land * N_mu * slip / np.sqrt(slip * slip + p.cage.v_c**2)
+    F_y = F_y - N * u_y - F_t * u_z
+    F_z = F_z - N * u_z + F_t * u_y
+    M_x = R * F_t - couette * omega
+
+    power = F_y * v_y + F_z * v_z + M_x * omega
+    w.land_elastic = lanes_sum(hertz_energy(p.cage.K_land, pen))
+    w.land_dissipated = -lanes_sum(power + N_0 * pen_dot)
+
+    F = vec(0.0, F_y, F_z)
+    M = vec(M_x, 0.0, 0.0) + vec_cross(x_land * axis, F)
+    for h, half in enumerate(w.half):
+        half.F = half.F + F[..., h : h + 1]
+        half.M = half.M + M[..., h : h + 1]

@@ -1,0 +1,31 @@
+"""Arithmetic of the elements: the last axis runs over balls, joints or halves (length 1: a body's own numbers), leading axes over states.
+
+Everything is analytic in its arguments' real parts, so that y + ih dy carries derivatives (complex step): comparisons look at real parts only.
+"""
+
+import numpy as np
+
+
+def maximum(x, y):
+    """The one with the larger real part."""
+    return np.where(np.real(x) > np.real(y), x, y)
+
+
+def minimum(x, y):
+    """The one with the smaller real part."""
+    return np.where(np.real(x) < np.real(y), x, y)
+
+
+def absolute(x):
+    """x or -x: the one whose real part is not negative."""
+    return np.where(np.real(x) < 0.0, -x, x)
+
+
+def lanes_sum(v):
+    """Sum over the balls, kept as an axis of length 1."""
+    return np.sum(v, axis=-1, keepdims=True)
+
+
+def real_pair(half_0, half_1):
+    """Both halves side by side on the last axis."""
+    return np.concatenate([half_0, half_1], axis=-1)

@@ -1,0 +1,44 @@
+"""The inside of the model: constants derived once, what is held over a step, and what one evaluation of the right-hand side leaves behind.
+
+Frame: X axial, Y and Z radial.  Ball j has its own cylindrical frame (x, r, t): x along X, r from the axis through the ball, t = x cross r.
+Letters: i inner, e outer race, c cage, half h = 0 on the side of -X, h = 1 on +X; alpha contact angle; n unit normal from race or pocket
+surface into it, seen from the ball (the ball is pushed along -n).
+"""
+
+from dataclasses import dataclass
+from types import SimpleNamespace
+
+from bearing_model import variables
+from bearing_model.derived import Derived, model_derive
+from bearing_model.parameters import Inputs, Parameters
+from bearing_model.ring import Drive, drive_update
+
+
+class Work(SimpleNamespace):
+    """Results of one evaluation, named as in fmu_src/model.h; vectors have their components on axis 0, pocket results both halves in a list."""
+
+
+@dataclass
+class Model:
+    """What the right-hand side needs beside time and state: parameters, constants derived from them, loads and speed held over a step."""
+
+    p: Parameters
+    d: Derived
+    drive: Drive
+
+    @classmethod
+    def of(cls, parameters=None, inputs=None, t=0.0, table=None):
+        """The model of some parameters and inputs {name: value} (SI, others at their start values), inputs held from time t [s].
+
+        table: a rivet_model.table.RivetTable; default that of the 6207.  ValueError names a value that is not allowed.
+
+        >>> model = Model.of({"bearing.P_d": 20e-6}, {"shaft.omega": 500.0})
+        >>> round(model.d.inner.hertz.K / 1e10, 3)
+        3.331
+        """
+        p, u = Parameters(parameters), Inputs(inputs)
+        d = model_derive(p, table)
+        return cls(p, d, drive_update(p, u, t))
+
+    def __repr__(self):
+        return f"Model(Z={variables.Z})"

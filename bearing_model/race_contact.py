@@ -1,0 +1,125 @@
+"""Ball and race: Hertz' contact under a groove that may be displaced and tilted, with traction.
+
+             groove-curvature circle, radius R_g about the ring's axis a           p   ball centre - ring centre
+                   o ________                                                       e   unit vector from the axis to the ball: radial part of p
+                  /  L       \\                                                      L = (p.a) a + (|p - (p.a) a| - R_g) e
+                 /            \\         n = L/|L|: out of the groove's centre       delta = |L| - (r_g - R)
+         race   (    ball      )        through the ball's centre to the contact    delta_dot = n.(v_ball - v_ring - Omega x p)
+                 \\            /                                                     Q = K delta^1.5 max(0, 1 + lambda delta_dot)
+                  \\__________/                                                      force on the ball -Q n
+
+Nothing is small here: any offset and tilt is exact, so that the normal forces derive from a potential.
+Slip and mean speed at the contact point p + R n, seen from the frame that orbits with the ball:
+    u_ball = (omega_ball - omega_m e_x) x R n,   u_race = v_ring + Omega x (p + R n) - v_ball - omega_m e_x x R n
+    Delta u = u_ball - u_race,   U = (u_ball + u_race)/2     (their parts in the tangent plane)
+The ring gets the opposite forces at the same points: force -F, moment -(p x F) - M about its centre.
+Friction angle, spin: `sliced` integrates the traction over the long axis of the ellipse, where slip varies by spin and curvature:
+    Delta u(xi) = Delta u + Delta omega x (xi t_2 - xi^2/(2 R_m) n),  pressure (3/4)(1 - xi^2/a^2) per length
+Smoothness: C1 at touch-down.  Hertz' ellipse is not cut at the shoulder.
+"""
+
+from types import SimpleNamespace
+
+import numpy as np
+from scipy.special import roots_jacobi
+
+from bearing_model.hertz import hertz_damped, hertz_load
+from bearing_model.lanes import lanes_sum, maximum
+from bearing_model.traction import Q_FLOOR, traction_asperity_share, traction_inlet, traction_ln_film, traction_mu
+from bearing_model.variables import Lubrication, Traction
+from bearing_model.vec import vec, vec_across, vec_cross, vec_dot, vec_local, vec_to_global
+
+# Gauss-Jacobi points and shares for the weight (3/4)(1 - s^2) on [-1, 1]: exact to degree 13.
+SLICE, SHARE = roots_jacobi(7, 1.0, 1.0)
+SHARE = SHARE / SHARE.sum()
+
+
+def race_traction(model, race, c, mixed, sliced):
+    """Forces on the ball by traction at a point or over the slices and by the inlet's rolling friction.
+
+    c: the contact, normal n, rolling direction t_1, long axis t_2, slip Delta u, mean speed roll = U, spin = omega_ball - Omega of the race,
+    approach = velocity of the ball's centre against the race there, load Q, sqrt_delta, ball radius R.
+    Returns F_s at the contact point, F_c through the ball's centre [N], M of F_s about the ball's centre with spin [N.m], dissipated power [W].
+    """
+    p = model.p
+    U = np.sqrt(vec_dot(c.roll, c.roll) + p.oil.U_0**2)
+    ln_U, ln_Q = np.log(U), np.log(c.Q + Q_FLOOR)
+    f_a = traction_asperity_share(traction_ln_film(race.ln_Lambda, ln_U, ln_Q)) if mixed else 0.0
+    F_R = traction_inlet(race.rolling, ln_U, c.Q, ln_Q)
+
+    out = SimpleNamespace(F_s=0.0, M=0.0, dissipated=0.0)
+    a = race.hertz.a_delta * c.sqrt_delta
+    for s, share in zip(SLICE, SHARE, strict=True) if sliced else [(0.0, 1.0)]:
+        xi = a * s
+        sagitta = xi * xi * (0.5 / race.R_m)
+        place = (c.R - sagitta) * c.n + xi * c.t_2
+        slip_i = vec_across(c.slip + vec_cross(c.spin, place - c.R * c.n), c.n)
+        slip = np.sqrt(vec_dot(slip_i, slip_i) + p.oil.v_0**2)
+        F = -share * traction_mu(p, slip / U, f_a, mixed) * c.Q * slip_i / slip
+        out.F_s = out.F_s + F
+        out.M = out.M + vec_cross(place, F)
+        out.dissipated = out.dissipated - vec_dot(F, slip_i)
+    # Inlet: -F_R U/|U| at the surface, the film's horizontal pressure force +F_H U/|U| through the ball's centre.
+    rolling = F_R / U * c.roll
+    out.F_s = out.F_s - rolling
+    out.M = out.M - vec_cross(c.R * c.n, rolling)
+    out.F_c = race.horizontal * rolling
+    out.dissipated = out.dissipated + vec_dot(rolling, c.slip) - vec_dot(out.F_c, c.approach)
+    return out
+
+
+def race_contact(race, R, lambda_, p, a, Omega, approach, omega_b, omega_m):
+    """Normal contact and kinematics of the balls with one race.
+
+    p: ball centres - ring centre, a: axis, Omega: angular velocity of the ring, approach: v_ball - v_ring - Omega x p, all in the balls' frames.
+    """
+    along = vec_dot(p, a)
+    radial = p - along * a
+    r = np.sqrt(vec_dot(radial, radial))
+    e = radial / r
+    L = along * a + (r - race.R_g) * e
+    L_abs = np.sqrt(vec_dot(L, L))
+    c = SimpleNamespace(R=R, n=L / L_abs, t_1=vec_cross(a, e), approach=approach, spin=omega_b - Omega)
+    c.t_2 = vec_cross(c.n, c.t_1)
+    c.delta, c.delta_dot = L_abs - (race.r_g - R), vec_dot(c.n, approach)
+    c.Q_0 = hertz_load(race.hertz.K, c.delta)
+    c.Q = hertz_damped(c.Q_0, lambda_, c.delta_dot)
+    c.sqrt_delta = np.sqrt(maximum(c.delta, 0.0))
+
+    arm = R * c.n
+    orbit = vec_cross(vec(omega_m, 0.0, 0.0), arm)
+    u_ball, u_race = vec_cross(omega_b, arm) - orbit, vec_cross(Omega, arm) - approach - orbit
+    c.slip = vec_across(u_ball - u_race, c.n)
+    c.roll = vec_across(0.5 * (u_ball + u_race), c.n)
+    return c
+
+
+def race_contact_force(model, w):
+    """Sets force and moment on the balls, their dissipated power and contact results, and the wrench on the inner ring."""
+    p, d = model.p, model.d
+    mixed, sliced = p.scene.lubrication == Lubrication.MIXED, p.scene.traction == Traction.SLICED
+    v_b, omega_b = vec(w.v_x, w.v_r, w.v_t), vec(w.omega_x, w.omega_r, w.omega_t)
+    position = vec(w.x, w.r, 0.0)
+
+    # inner race: the ring's centre, axis, velocity in the balls' frames
+    a, Omega, v_i, x_i = (vec_local(v, w.cos_theta, w.sin_theta) for v in (w.ring.a, w.ring.Omega, w.ring.v, w.ring.x))
+    p_i = position - x_i
+    inner = race_contact(d.inner, d.R, p.bearing.lambda_, p_i, a, Omega, v_b - v_i - vec_cross(Omega, p_i), omega_b, w.omega_m)
+    T_i = race_traction(model, d.inner, inner, mixed, sliced)
+    F_i = -inner.Q * inner.n + T_i.F_s + T_i.F_c
+
+    # outer race: fixed, its axis is X
+    e_x, rest = vec(1.0, 0.0 * w.x, 0.0), 0.0 * position
+    outer = race_contact(d.outer, d.R, p.bearing.lambda_, position, e_x, rest, v_b, omega_b, w.omega_m)
+    T_e = race_traction(model, d.outer, outer, mixed, sliced)
+    F_e = -outer.Q * outer.n + T_e.F_s + T_e.F_c
+
+    # sums on the balls, the wrench on the ring
+    w.F = F_i + F_e
+    w.M = T_i.M + T_e.M
+    w.dissipated = T_i.dissipated + T_e.dissipated + (inner.Q - inner.Q_0) * inner.delta_dot + (outer.Q - outer.Q_0) * outer.delta_dot
+    w.ring.F = lanes_sum(vec_to_global(-F_i, w.cos_theta, w.sin_theta))
+    w.ring.M = lanes_sum(vec_to_global(-vec_cross(p_i, F_i) - T_i.M, w.cos_theta, w.sin_theta))
+
+    w.delta_i, w.delta_e, w.Q_i, w.Q_e, w.n_i, w.n_e = inner.delta, outer.delta, inner.Q, outer.Q, inner.n, outer.n
+    w.U_i, w.U_e = np.sqrt(vec_dot(inner.roll, inner.roll)), np.sqrt(vec_dot(outer.roll, outer.roll))

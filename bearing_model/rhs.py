@@ -1,0 +1,164 @@
+"""The table of contents of the physics: one evaluation of dy/dt in named steps."""
+
+import numpy as np
+
+from bearing_model.ball import ball_acceleration, ball_kinematics
+from bearing_model.cage_joint import cage_joint_force, cage_joint_kinematics
+from bearing_model.drag import drag_cage, drag_force
+from bearing_model.land_film import land_film_force
+from bearing_model.lanes import lanes_sum
+from bearing_model.model import Work
+from bearing_model.pocket import pocket_force
+from bearing_model.race_contact import race_contact_force
+from bearing_model.ring import ring_acceleration
+from bearing_model.rotor import Rotor, rotor_acceleration, rotor_axis, rotor_body_axes, rotor_roll
+from bearing_model.variables import (
+    CAGE_BETA,
+    CAGE_BETA_DOT,
+    CAGE_GAMMA,
+    CAGE_GAMMA_DOT,
+    CAGE_PSI,
+    CAGE_S,
+    CAGE_V_X,
+    CAGE_V_Y,
+    CAGE_V_Z,
+    CAGE_X,
+    CAGE_Y,
+    CAGE_Z,
+    JOINT_HEAD_Y,
+    JOINT_HEAD_Z,
+    JOINT_PLATE_Y,
+    JOINT_PLATE_Z,
+    N_STATES,
+    RING_BETA,
+    RING_BETA_DOT,
+    RING_GAMMA,
+    RING_GAMMA_DOT,
+    RING_V_X,
+    RING_V_Y,
+    RING_V_Z,
+    RING_X,
+    RING_Y,
+    RING_Z,
+    WORK,
+    CageModel,
+)
+from bearing_model.vec import vec_cross, vec_dot
+
+CAGE_PLACE = ((CAGE_X, CAGE_V_X), (CAGE_Y, CAGE_V_Y), (CAGE_Z, CAGE_V_Z))
+
+
+def of_half(y, block, h):
+    """One half's part of a block of the state, its axis kept."""
+    return y[..., block][..., h : h + 1]
+
+
+def rotor_kinematics(model, y, w):
+    """Pose and velocity of inner ring and cage halves from y.  A half's states are those of its centre of mass."""
+    w.ring, w.half = Rotor(), [Rotor(), Rotor()]
+    w.ring.x = np.array([y[..., RING_X], y[..., RING_Y], y[..., RING_Z]])
+    w.ring.v = np.array([y[..., RING_V_X], y[..., RING_V_Y], y[..., RING_V_Z]])
+    rotor_axis(w.ring, y[..., RING_BETA], y[..., RING_GAMMA], y[..., RING_BETA_DOT], y[..., RING_GAMMA_DOT], model.drive.omega)
+    for h, half in enumerate(w.half):
+        rotor_axis(half, *(of_half(y, block, h) for block in (CAGE_BETA, CAGE_GAMMA, CAGE_BETA_DOT, CAGE_GAMMA_DOT, CAGE_S)))
+        psi = of_half(y, CAGE_PSI, h)
+        rotor_body_axes(half, np.cos(psi), np.sin(psi))
+        half.c = model.d.com_x[h] * half.a + model.d.com_e * half.b_y
+        half.x = np.array([of_half(y, X, h) for X, _ in CAGE_PLACE]) - half.c
+        half.v = np.array([of_half(y, V, h) for _, V in CAGE_PLACE]) - vec_cross(half.Omega, half.c)
+    if model.p.scene.cage == CageModel.RIGID:  # half 1 goes with half 0
+        h0 = w.half[0]
+        w.half[1] = Rotor(**vars(h0))
+        w.half[1].c = model.d.com_x[1] * h0.a + model.d.com_e * h0.b_y
+
+
+def half_rates(y, half, h, acc, a_ddot, s_dot, y_dot):
+    """y_dot of half h whose centre of mass accelerates by acc, whose axis by a_ddot."""
+    for i, (X, V) in enumerate(CAGE_PLACE):
+        of_half(y_dot, X, h)[...] = of_half(y, V, h)
+        of_half(y_dot, V, h)[...] = acc[i]
+    of_half(y_dot, CAGE_BETA, h)[...] = of_half(y, CAGE_BETA_DOT, h)
+    of_half(y_dot, CAGE_GAMMA, h)[...] = of_half(y, CAGE_GAMMA_DOT, h)
+    of_half(y_dot, CAGE_PSI, h)[...] = half.s - rotor_roll(half)
+    of_half(y_dot, CAGE_BETA_DOT, h)[...] = -a_ddot[2]
+    of_half(y_dot, CAGE_GAMMA_DOT, h)[...] = a_ddot[1]
+    of_half(y_dot, CAGE_S, h)[...] = s_dot
+
+
+def cage_acceleration(model, y, w, y_dot):
+    """Both halves under their forces, or as one rigid body about their common centre of mass."""
+    p, d = model.p, model.d
+    gravity = np.reshape([0.0, p.gravity.y, p.gravity.z], (3, *[1] * y.ndim))
+    if p.scene.cage == CageModel.TWO_HALF:
+        for h, half in enumerate(w.half):
+            M = half.M - vec_cross(half.c, half.F)
+            a_ddot, s_dot = rotor_acceleration(half, p.cage.J_p, p.cage.J_t, M)
+            half_rates(y, half, h, half.F / p.cage.m + gravity, a_ddot, s_dot, y_dot)
+        return
+    cage = w.half[0]
+    J_t = 2.0 * (p.cage.J_t + p.cage.m * d.com_x[1] ** 2)
+    F = w.half[0].F + w.half[1].F
+    M = w.half[0].M + w.half[1].M - vec_cross(d.com_e * cage.b_y, F)
+    a_ddot, s_dot = rotor_acceleration(cage, 2.0 * p.cage.J_p, J_t, M)
+    spin_up = vec_cross(cage.a, a_ddot) + s_dot * cage.a + cage.s * cage.a_dot  # rate of Omega
+    for h in range(2):
+        c = d.com_x[h] * cage.a
+        acc = F / (2.0 * p.cage.m) + gravity + vec_cross(spin_up, c) + vec_cross(cage.Omega, vec_cross(cage.Omega, c))
+        half_rates(y, cage, h, acc, a_ddot, s_dot, y_dot)
+
+
+def power_loss(model, w):
+    """Power dissipated in contacts, films, drag and joints [W]."""
+    power = lanes_sum(w.dissipated) + w.land_dissipated
+    return power + lanes_sum(w.joint_dissipated) if model.p.scene.cage == CageModel.TWO_HALF else power
+
+
+def net_power(model, w):
+    """Net power into balls and cage [W]: by the ring's motion and gravity, less what is dissipated."""
+    p, d = model.p, model.d
+    power = -vec_dot(w.ring.F, w.ring.v) - vec_dot(w.ring.M, w.ring.Omega) - power_loss(model, w)
+    v_y, v_z = w.v_r * w.cos_theta - w.v_t * w.sin_theta, w.v_r * w.sin_theta + w.v_t * w.cos_theta
+    power = power + d.m * lanes_sum(p.gravity.y * v_y + p.gravity.z * v_z)
+    for half in w.half:
+        v = half.v + vec_cross(half.Omega, half.c)
+        power = power + p.cage.m * (p.gravity.y * v[1] + p.gravity.z * v[2])
+    return power
+
+
+def rhs(model, t, y, w=None):
+    """dy/dt at time t [s].
+
+    y: state [..., N_STATES], offsets in variables.py; leading axes are independent states, complex values carry derivatives.
+    w: a Work that keeps all results, if given.
+    """
+    if y.shape[-1] != N_STATES:
+        raise ValueError(f"y has {y.shape[-1]} states; {N_STATES} are needed")
+    w = Work() if w is None else w
+    rigid = model.p.scene.cage == CageModel.RIGID
+    ball_kinematics(y, w)
+    rotor_kinematics(model, y, w)
+    race_contact_force(model, w)
+    pocket_force(model, w)
+    drag_force(model, w)
+    land_film_force(model, w)
+    drag_cage(model, w)
+    if not rigid:
+        cage_joint_kinematics(model, w)
+        cage_joint_force(model, y, w)
+    y_dot = np.zeros_like(y)
+    ball_acceleration(model, w, y_dot)
+    cage_acceleration(model, y, w, y_dot)
+    ring_acceleration(model, t, w, y_dot)
+    if not rigid:
+        y_dot[..., JOINT_PLATE_Y] = w.plate_y_dot
+        y_dot[..., JOINT_PLATE_Z] = w.plate_z_dot
+        y_dot[..., JOINT_HEAD_Y] = w.head_y_dot
+        y_dot[..., JOINT_HEAD_Z] = w.head_z_dot
+    y_dot[..., WORK] = net_power(model, w)
+    return y_dot
+
+
+def jacobian(model, t, y):
+    """d(dy/dt)/dy [N_STATES, N_STATES], exact to rounding: complex steps in all directions at once."""
+    step = 1e-30
+    return np.imag(rhs(model, t, y + 1j * step * np.eye(N_STATES))).T / step

@@ -1,0 +1,31 @@
+"""Vectors: axis 0 holds the components, (x, r, t) in the balls' own frames, (x, y, z) in the global one."""
+
+import numpy as np
+
+
+def vec(x, r, t):
+    """A vector from its components."""
+    return np.array(np.broadcast_arrays(x, r, t))
+
+
+def vec_dot(u, v):
+    return u[0] * v[0] + u[1] * v[1] + u[2] * v[2]
+
+
+def vec_cross(u, v):
+    return np.array([u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]])
+
+
+def vec_across(v, n):
+    """The part of v across the unit vector n."""
+    return v - vec_dot(v, n) * n
+
+
+def vec_local(v, cos_theta, sin_theta):
+    """A vector of the global frame, seen from balls at azimuth theta."""
+    return np.array([v[0] + 0.0 * cos_theta, v[1] * cos_theta + v[2] * sin_theta, v[2] * cos_theta - v[1] * sin_theta])
+
+
+def vec_to_global(v, cos_theta, sin_theta):
+    """A vector of the balls' frames, in the global one."""
+    return np.array([v[0], v[1] * cos_theta - v[2] * sin_theta, v[1] * sin_theta + v[2] * cos_theta])
