@@ -128,6 +128,11 @@ class Body:
         hats = np.stack([np.interp(self.mesh.p[axis, nodes], positions, row) for row in np.eye(len(positions))], axis=1)
         return G @ hats
 
+    def shear_load(self, nodes):
+        """Load [dofs, 1] of harmonic 1 by a uniform traction of 1 Pa along x on the edge: t_r = cos theta, t_theta = -sin theta."""
+        basis = FacetBasis(self.mesh, self.element, facets=self._facets(nodes), intorder=5)
+        return LinearForm(lambda v, w: (v[0] - v[1]) * w.x[0]).assemble(basis)[:, None]
+
     def _facets(self, nodes):
         on = np.zeros(self.mesh.nvertices, dtype=bool)
         on[nodes] = True

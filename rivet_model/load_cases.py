@@ -65,13 +65,17 @@ class Grid:
     uniform: int = 24
     n_max: int = 48
 
+    def __post_init__(self):
+        if self.n_max < max(180.0 / self.step, self.uniform / 2):
+            raise ValueError(f"grid: n_max = {self.n_max}: hats of {self.step:g} degrees need {np.ceil(max(180.0 / self.step, self.uniform / 2)):g} harmonics")
+
     def solved_harmonics(self):
         """Harmonics that are solved; between them n times the compliance is smooth and interpolated."""
         n = [k for k in (*range(9), 10, 12, 14, 16, 20, 24, 32, 40, 48, 64, 80, 96, 128) if k < self.n_max]
         return np.array([*n, self.n_max])
 
 
-COARSE = Grid(Fineness(0.6), 10.0, 12, 12)
+COARSE = Grid(Fineness(0.6), 11.25, 12, 16)
 SHIPPED = Grid()
 TRUTH = Grid(Fineness(1.0), 1.875, 36, 96)
 
@@ -126,6 +130,7 @@ class Joint:
         flange_upper = pair(self.flange, -1.0)
         on_plate = edge_nodes(self.flange.mesh, z=0.0)
         flange_loads = np.hstack([*flange_upper, self.flange.ring_loads(on_plate, self.rings["PP"], (0.0, -1.0), 0)])
+        self.rivet_loads, self.flange_loads = rivet_loads, flange_loads
         m = self.moments
         m["PP"] = self.flange.ring_moments(on_plate, self.rings["PP"], 0)
         m["LH"], m["LB"] = m["UH"], m["UB"] * np.array([[1.0], [-1.0]])
@@ -229,11 +234,10 @@ class Joint:
         self.size = start
         self.weight = np.concatenate([np.outer(self.moments[name][0], self.hats[name][0][:, 0]).ravel() for name in GROUPS])
         C = np.zeros((start, start))
-        flange_rings = {"UH": slice(0, len(self.rings["UH"]))}
-        flange_rings["UB"] = slice(flange_rings["UH"].stop, flange_rings["UH"].stop + len(self.rings["UB"]))
-        flange_rings["PP"] = slice(flange_rings["UB"].stop, self.S_flange.shape[1])
-        lower = {"LH": flange_rings["UH"], "LB": flange_rings["UB"], "PP": flange_rings["PP"]}
-        for S, rings in ((self.S_rivet, self.ring_slices), (self.S_flange, flange_rings), (self.S_flange, lower)):
+        heads, bores = len(self.rings["UH"]), len(self.rings["UB"])
+        self.upper = {"UH": slice(0, heads), "UB": slice(heads, heads + bores), "PP": slice(heads + bores, self.S_flange.shape[1])}
+        self.lower = {"LH": self.upper["UH"], "LB": self.upper["UB"], "PP": self.upper["PP"]}
+        for S, rings in ((self.S_rivet, self.ring_slices), (self.S_flange, self.upper), (self.S_flange, self.lower)):
             for first in rings:
                 for second in rings:
                     C[self.slices[first], self.slices[second]] += self._spread(S[:, rings[first], rings[second]], first, second)
@@ -343,6 +347,15 @@ class Joint:
 
     # Stress ----------------------------------------------------------------------------------------------------------------------------
 
+    def amplitudes(self, forces, rings):
+        """Cosine and sine amplitudes of the pressure of a body's rings [2, harmonics, rings, cases] in Pa.  rings: name -> places on that body."""
+        pressure = forces / self.weight[:, None]
+        amplitude = np.zeros((2, self.grid.n_max + 1, max(s.stop for s in rings.values()), forces.shape[1]))
+        for name, place in rings.items():
+            p = pressure[self.slices[name]].reshape(len(self.rings[name]), len(self.angles[name]), -1)
+            amplitude[:, :, place] = np.einsum("tkn,jkc->tnjc", self.hats[name], p, optimize=True) / self.kappa[:, None, None]
+        return amplitude
+
     def fields(self, forces, count=72):
         """Surface stress (tt, hoop, shear) of both fillets and the middle at `count` angles: [3, points, angles, cases] each.
 
@@ -350,11 +363,7 @@ class Joint:
         """
         phi = 2 * np.pi * np.arange(count) / count
         n = np.arange(self.grid.n_max + 1)
-        pressure = forces / self.weight[:, None]
-        amplitude = np.zeros((2, len(n), self.S_stress.shape[3], forces.shape[1]))  # cos, sin
-        for name, rings in self.ring_slices.items():
-            p = pressure[self.slices[name]].reshape(len(self.rings[name]), len(self.angles[name]), -1)
-            amplitude[:, :, rings] = np.einsum("tkn,jkc->tnjc", self.hats[name], p, optimize=True) / self.kappa[:, None, None]
+        amplitude = self.amplitudes(forces, self.ring_slices)
         upper, lower, middle = [], [], []
         points = self.fillet[2].shape[1]
         order = np.concatenate([np.arange(s.start, s.stop) for s in (self.ring_slices[k] for k in ("LH", "LB", "UB", "UH"))])
