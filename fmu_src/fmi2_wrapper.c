@@ -208,11 +208,17 @@ static fenv_t floating_point_default(void)
     return host;
 }
 
-// The quasi-static start for the present parameters and inputs.  The bearing cannot be discarded here: there is no last good state.
+// The quasi-static start for the present parameters and inputs, from a new bearing: an earlier start, made to read outputs, leaves no trace.
+// A step cannot be discarded here: there is no last good state.
 static fmi2Status instance_initialize(Instance *m)
 {
     if (m->session.initialized) return fmi2OK;
     const fenv_t host = floating_point_default();
+    const Parameters parameters = *bearing_parameters(m->bearing);
+    const Inputs inputs = *bearing_inputs(m->bearing);
+    bearing_reset(m->bearing);
+    *bearing_parameters(m->bearing) = parameters;
+    *bearing_inputs(m->bearing) = inputs;
     BearingStatus status = bearing_initialize(m->bearing, m->session.start_time, m->session.tolerance);
     fesetenv(&host);
     if (status == BEARING_DISCARD) status = BEARING_ERROR;
@@ -305,8 +311,9 @@ fmi2Status fmi2SetupExperiment(fmi2Component component, fmi2Boolean tolerance_de
 {
     Instance *m = enter(component, CALL_SetupExperiment);
     if (!m) return fmi2Error;
-    if (tolerance_defined && !(isfinite(tolerance) && tolerance > 0.0)) {
-        return refuse(m, CALL_SetupExperiment, "tolerance = %g is not allowed: it must be positive and finite", tolerance);
+    char message[256];
+    if (tolerance_defined && !variable_allows(variable_named("solver.tol"), 0, tolerance, message, sizeof message)) {
+        return refuse(m, CALL_SetupExperiment, "%s (given as tolerance)", message);
     }
     if (!isfinite(start_time)) return refuse(m, CALL_SetupExperiment, "startTime = %g s is not allowed: it must be finite", start_time);
     if (stop_time_defined && !(stop_time >= start_time)) {
@@ -649,11 +656,8 @@ static double clock_slack(double time, double step)
     return 1e-12 * fabs(time) + 1e-6 * step;
 }
 
-fmi2Status fmi2DoStep(fmi2Component component, fmi2Real point, fmi2Real step, fmi2Boolean no_earlier_state)
+static fmi2Status do_step(Instance *m, double point, double step)
 {
-    (void)no_earlier_state;  // nothing is kept for it
-    Instance *m = enter(component, CALL_DoStep);
-    if (!m) return fmi2Error;
     const double time = bearing_time(m->bearing), end = point + step;
     if (!(isfinite(step) && step > 0.0)) {
         return refuse(m, CALL_DoStep, "communicationStepSize = %g s is not allowed: it must be positive and finite", step);
@@ -664,15 +668,19 @@ fmi2Status fmi2DoStep(fmi2Component component, fmi2Real point, fmi2Real step, fm
     if (end > m->session.stop_time + clock_slack(m->session.stop_time, step)) {
         return refuse(m, CALL_DoStep, "communicationStepSize = %g s is not allowed: the step goes beyond stopTime = %.17g s", step, m->session.stop_time);
     }
-    BearingStatus status = BEARING_OK;
-    if (end > time) {
-        const fenv_t host = floating_point_default();
-        status = bearing_step(m->bearing, end);
-        fesetenv(&host);
-    }
-    const fmi2Status result = conclude(m, status);
-    m->session.step_status = result;
-    return result;
+    return conclude(m, end > time ? bearing_step(m->bearing, end) : BEARING_OK);
+}
+
+fmi2Status fmi2DoStep(fmi2Component component, fmi2Real point, fmi2Real step, fmi2Boolean no_earlier_state)
+{
+    (void)no_earlier_state;  // nothing is kept for it
+    Instance *m = enter(component, CALL_DoStep);
+    if (!m) return fmi2Error;
+    const fenv_t host = floating_point_default();
+    const fmi2Status status = do_step(m, point, step);
+    fesetenv(&host);
+    m->session.step_status = status;
+    return status;
 }
 
 fmi2Status fmi2CancelStep(fmi2Component component)

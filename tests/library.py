@@ -135,17 +135,21 @@ def declarations(sources):
 def parse(sources, isa):
     """Declarations of all headers and of test_library.c, without function bodies and without types that depend on the lane width."""
     files = [*sorted(sources.glob("*.h")), Path(__file__).with_name("test_library.c")]
-    with tempfile.TemporaryDirectory() as folder:
-        system = Path(folder)
-        for name in re.findall(r"#include <(.*)>", "".join(path.read_text() for path in files)):
-            (system / name).parent.mkdir(parents=True, exist_ok=True)
-            (system / name).write_text("")
-        text = SYSTEM_TYPES + "".join(f'\n#include "{path}"' for path in files)
-        options = ["-E", "-P", "-nostdinc", "-undef", "-D__attribute__(x)=", "-D_Alignas(x)=", f"-DISA={isa}", f"-I{sources}", f"-I{system}"]
-        text = subprocess.run([compiler(), *options, "-x", "c", "-"], input=text, stdout=subprocess.PIPE, text=True, check=True).stdout
+    text = preprocess(files, f"-DISA={isa}", f"-I{sources}", before=SYSTEM_TYPES)
     nodes = c_parser.CParser().parse(text).ext
     own = SYSTEM_TYPES.count(";")
     return [node for node in nodes[own:] if not isinstance(node, (c_ast.FuncDef, c_ast.StaticAssert)) and declares(node)]
+
+
+def preprocess(files, *options, before=""):
+    """The files' own text: macros and #include "..." done, system headers empty, attributes gone."""
+    with tempfile.TemporaryDirectory() as folder:
+        for name in re.findall(r"#\s*include\s*<(.*)>", "".join(path.read_text() for path in files)):
+            (Path(folder) / name).parent.mkdir(parents=True, exist_ok=True)
+            (Path(folder) / name).write_text("")
+        command = [compiler(), "-E", "-P", "-nostdinc", "-undef", "-D__attribute__(x)=", "-D_Alignas(x)=", *options, f"-I{folder}", "-x", "c", "-"]
+        text = before + "".join(f'\n#include "{path}"' for path in files)
+        return subprocess.run(command, input=text, stdout=subprocess.PIPE, text=True, check=True).stdout
 
 
 def declares(node):

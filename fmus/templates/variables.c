@@ -37,6 +37,14 @@ const Variable *variable_find(unsigned value_reference, int *element)
     return &VARIABLES[low];
 }
 
+const Variable *variable_named(const char *name)
+{
+    for (int i = 0; i < N_VARIABLES; i++) {
+        if (strcmp(VARIABLES[i].name, name) == 0) return &VARIABLES[i];
+    }
+    return NULL;
+}
+
 void variable_element_name(const Variable *variable, int element, char *name, size_t size)
 {
     const char *bracket = strchr(variable->name, '[');  // of "ball[j].Q_i"

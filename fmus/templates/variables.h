@@ -86,6 +86,9 @@ extern const Variable VARIABLES[N_VARIABLES];  // by rising value reference
 // The variable of a value reference and the index of its element; NULL if there is none.
 const Variable *variable_find(unsigned value_reference, int *element);
 
+// The variable of a name of the table; NULL if there is none.
+const Variable *variable_named(const char *name);
+
 // Whether the variable may have this value; if not, a message with its name, value, unit and allowed range.
 int variable_allows(const Variable *variable, int element, double value, char *message, size_t size);
 

@@ -1,0 +1,642 @@
+"""The FMU as its users meet it: description, life cycle, refusals, saved states, host habits, binary."""
+
+import ctypes
+import ctypes.util
+import math
+import struct
+import subprocess
+import sys
+import threading
+from pathlib import Path
+
+import fmpy
+import numpy as np
+import pytest
+from fmpy.validation import validate_fmu
+from slave import (
+    DISCARD,
+    DO_STEP_STATUS,
+    ERROR,
+    LAST_SUCCESSFUL_TIME,
+    OK,
+    PENDING_STATUS,
+    TERMINATED,
+    WARNING,
+    Slave,
+    describe,
+    fmi,
+)
+
+from bearing_model.variables import PARAMETERS
+
+H = 1e-4  # communication step [s]
+
+
+@pytest.fixture(scope="module")
+def folder(fmu, tmp_path_factory):
+    return Path(fmpy.extract(str(fmu), str(tmp_path_factory.mktemp("fmu"))))
+
+
+@pytest.fixture
+def slave(folder):
+    return Slave(folder)
+
+
+@pytest.fixture
+def running(slave):
+    return slave.initialize()
+
+
+def binary_of(folder):
+    (path,) = (folder / "binaries" / fmpy.platform).iterdir()
+    return path
+
+
+def same_bits(a, b):
+    return a.tobytes() == b.tobytes()
+
+
+# ------------------------------------------------------------------------------------------------------- archive and binary
+
+
+def test_validation_reports_nothing(fmu):
+    assert validate_fmu(str(fmu)) == []
+
+
+def test_archive_is_complete(folder):
+    page = (folder / "documentation" / "index.html").read_text()
+    assert "joint.preload" in page
+    assert "BSD" in (folder / "documentation" / "licenses" / "LICENSE").read_text()
+    assert "SUNDIALS" in (folder / "documentation" / "licenses" / "THIRD_PARTY_NOTICES.md").read_text()
+
+
+def test_packing_again_gives_the_same_bytes(folder, fmu, tmp_path):
+    from bearing_model.app.package import package
+
+    package(binary_of(folder), folder / "modelDescription.xml", tmp_path / "again.fmu")
+    assert (tmp_path / "again.fmu").read_bytes() == fmu.read_bytes()
+
+
+@pytest.mark.skipif(not sys.platform.startswith("linux"), reason="reads an ELF file")
+def test_binary_exports_fmi_only_and_needs_libc_and_libm_only(folder):
+    symbols = subprocess.run(["nm", "-D", "--defined-only", str(binary_of(folder))], capture_output=True, text=True, check=True).stdout
+    exported = {line.split()[-1] for line in symbols.splitlines()}
+    assert all(name.startswith("fmi2") for name in exported)
+    assert len(exported) == 44 - 1 + 1  # 44 functions of FMI 2.0 for model exchange and co-simulation
+    dynamic = subprocess.run(["readelf", "-d", str(binary_of(folder))], capture_output=True, text=True, check=True).stdout
+    needed = {line.split("[")[1].rstrip("]") for line in dynamic.splitlines() if "(NEEDED)" in line}
+    assert needed <= {"libc.so.6", "libm.so.6", "ld-linux-x86-64.so.2", "ld-linux-aarch64.so.1"}
+
+
+def test_runs_through_fmpy(fmu):
+    """The whole way of an importer; the sum of forces stays of the order of the loads."""
+    result = fmpy.simulate_fmu(str(fmu), stop_time=2e-3, step_size=H, output=["housing.F_y", "ring.y", "bearing.Z"])
+    assert len(result) == 21
+    assert all(np.isfinite(result[name]).all() for name in result.dtype.names)
+    assert result["bearing.Z"][-1] == 9
+    assert 1e-6 < result["ring.y"][-1] < 1e-4
+
+
+# ------------------------------------------------------------------------------------------------------------------ life cycle
+
+
+@pytest.mark.parametrize(
+    ("changes", "reason"),
+    [({"guid": b"{wrong}"}, "GUID"), ({"type": 0}, "co-simulation"), ({"name": b""}, "name is empty")],
+)
+def test_instantiation_refused(folder, changes, reason):
+    slave = Slave(folder, **changes)
+    assert slave.component == slave.ffi.NULL
+    ((status, category, message),) = slave.messages
+    assert (status, category) == (ERROR, "logStatusError")
+    assert reason in message
+
+
+def test_runs_without_callbacks(folder):
+    """Neither logger nor memory functions; refusals then are silent."""
+    slave = Slave(folder, functions={"logger": fmi().NULL}).initialize().step(H)
+    assert slave.try_set("shaft.F_x", math.nan) == ERROR
+
+
+def instantiated(slave):
+    return slave
+
+
+def initializing(slave):
+    slave.check("EnterInitializationMode")
+    return slave
+
+
+def stepping(slave):
+    slave.initialize()
+    return slave
+
+
+def terminated(slave):
+    slave.initialize()
+    slave.check("Terminate")
+    return slave
+
+
+def erroneous(slave):
+    slave.initialize()
+    assert slave.try_set("shaft.F_x", math.nan) == ERROR
+    return slave
+
+
+CALLS = {
+    "SetupExperiment": (0, 0.0, 0.0, 0, 0.0),
+    "EnterInitializationMode": (),
+    "ExitInitializationMode": (),
+    "Terminate": (),
+    "DoStep": (0.0, H, 1),
+    "GetReal": ([1], 1, [0.0]),
+    "SetReal": ([1], 1, [0.0]),
+    "SetInteger": ([1405], 1, [1]),
+    "CancelStep": (),
+    "EnterEventMode": (),
+    "SetRealInputDerivatives": ([1], 1, [1], [0.0]),
+}
+ALLOWED = {  # FMI 2.0.4, section 4.2.4
+    instantiated: {"SetupExperiment", "EnterInitializationMode", "SetReal", "SetInteger"},
+    initializing: {"ExitInitializationMode", "GetReal", "SetReal", "SetInteger"},
+    stepping: {"Terminate", "DoStep", "GetReal", "SetReal"},
+    terminated: {"GetReal"},
+    erroneous: {"GetReal"},
+}
+
+
+@pytest.mark.parametrize("function", CALLS)
+@pytest.mark.parametrize("state", ALLOWED, ids=lambda state: state.__name__)
+def test_call_order(slave, state, function):
+    state(slave)
+    slave.messages.clear()
+    status = slave.call(function, *CALLS[function])
+    if function in ALLOWED[state]:
+        assert status == OK, slave.messages
+        assert slave.messages == []
+    else:
+        assert status == ERROR
+        ((status, category, message),) = slave.messages
+        assert (status, category) == (ERROR, "logStatusError")
+        assert f"fmi2{function}" in message
+        assert slave.call("Reset") == OK
+        slave.initialize().step(H)  # usable again
+
+
+def test_null_component(slave):
+    null = slave.ffi.NULL
+    assert slave.lib.fmi2DoStep(null, 0.0, H, 1) == ERROR
+    assert slave.lib.fmi2Reset(null) == ERROR
+    slave.lib.fmi2FreeInstance(null)
+
+
+def test_versions(slave):
+    assert slave.ffi.string(slave.lib.fmi2GetVersion()) == b"2.0"
+    assert slave.ffi.string(slave.lib.fmi2GetTypesPlatform()) == b"default"
+
+
+# ------------------------------------------------------------------------------------------------------------------- variables
+
+
+@pytest.mark.parametrize(
+    ("name", "value", "allowed"),
+    [
+        ("shaft.F_x", math.nan, "[-100000, 100000]"),
+        ("shaft.omega", math.inf, "[-5000, 5000]"),
+        ("shaft.tilt_z", 0.1, "[-0.035, 0.035]"),
+        ("bearing.D", 0.0, "[0.001, 0.1]"),
+        ("ball[3].dD", 1.0, "[-0.001, 5e-05]"),
+        ("ring.tilt_mode", 4, "[1, 3]"),
+        ("pulse.count", -1, "[0, 1000000]"),
+    ],
+)
+def test_value_out_of_range_is_refused_by_name(slave, name, value, allowed):
+    """One message with name, value and range; nothing changed."""
+    kind = "Integer" if isinstance(value, int) else "Real"
+    initializing(slave)
+    before = [slave.ffi.new("int[1]" if kind == "Integer" else "double[1]") for _ in range(2)]
+    slave.check(f"Get{kind}", [slave.vr[name]], 1, before[0])
+    assert slave.try_set(name, value) == ERROR
+    ((_, _, message),) = slave.messages
+    assert f"{name} = {value:.10g} " in message
+    assert allowed in message
+    slave.check(f"Get{kind}", [slave.vr[name]], 1, before[1])
+    assert before[0][0] == before[1][0]
+
+
+def test_nothing_is_set_if_one_value_is_wrong(slave):
+    assert slave.call("SetReal", [1, 2], 2, [7.0, math.nan]) == ERROR
+    slave.check("Reset")
+    slave.check("SetReal", [1, 2], 2, [7.0, 8.0])
+    initializing(slave)
+    assert list(slave.get("shaft.F_x", "shaft.F_y")) == [7.0, 8.0]
+    assert slave.call("SetReal", [1, 2], 2, [9.0, math.inf]) == ERROR
+    assert slave.get("shaft.F_x")[0] == 7.0
+
+
+@pytest.mark.parametrize(
+    ("function", "reference", "reason"),
+    [
+        ("SetReal", 999, "999 belongs to no Real"),
+        ("SetReal", 1405, "1405 belongs to no Real"),
+        ("SetInteger", 1, "1 belongs to no Integer"),
+        ("SetReal", 2101, "ring.x = 1 is not allowed: only inputs and parameters"),
+        ("SetReal", 0, "time = 1 is not allowed"),
+        ("SetReal", 1001, "parameters are fixed"),
+        ("SetBoolean", 1, "no Boolean"),
+    ],
+)
+def test_wrong_reference_is_refused(running, function, reference, reason):
+    value = [1] if function != "SetReal" else [1.0]
+    if function == "SetInteger":
+        running.check("Reset")
+    assert running.call(function, [reference], 1, value) == ERROR
+    assert reason in running.messages[-1][2]
+
+
+def test_null_pointers_are_refused(slave):
+    null = slave.ffi.NULL
+    for function, arguments in (("SetReal", ([1], 1, null)), ("SetReal", (null, 1, [1.0])), ("GetFMUstate", (null,)), ("SetFMUstate", (null,))):
+        assert slave.call(function, *arguments) == ERROR
+        slave.check("Reset")
+    slave.check("SetReal", null, 0, null)
+
+
+def test_outputs_after_an_error_do_not_look_plausible(running):
+    running.step(H)
+    assert running.try_set("shaft.F_x", math.nan) == ERROR
+    assert np.isnan(running.outputs()).all()
+    assert running.get("shaft.F_x")[0] == 515.0
+    assert running.call("DoStep", running.time, H, 1) == ERROR
+
+
+def test_start_values_are_the_tables(slave):
+    initializing(slave)
+    for v in slave.description.modelVariables:
+        if v.causality in ("input", "parameter") and v.type == "Real":
+            assert slave.get(v.name)[0] == float(v.start), v.name
+
+
+def test_outputs_in_initialization_mode_follow_the_inputs(slave):
+    """The start is found anew whenever a value has changed."""
+    initializing(slave)
+    y = [slave.get("ring.y")[0]]
+    slave.set("shaft.F_y", 1000.0)
+    y.append(slave.get("ring.y")[0])
+    slave.check("ExitInitializationMode")
+    assert y[1] != y[0]
+    assert slave.get("ring.y")[0] == y[1]
+
+
+def test_what_is_read_in_initialization_mode_changes_no_bit(folder):
+    curious, silent = Slave(folder), Slave(folder)
+    for slave in (curious, silent):
+        slave.check("EnterInitializationMode")
+    curious.set("shaft.F_y", 1000.0)
+    curious.outputs()
+    curious.set("shaft.F_y", 2994.0)
+    for slave in (curious, silent):
+        slave.check("ExitInitializationMode")
+        slave.time = 0.0
+        slave.step(H, 3)
+    assert curious.bytes(curious.save()) == silent.bytes(silent.save())
+
+
+def test_inconsistent_parameters_are_refused_at_initialization(slave):
+    slave.set("cage.D_i", 0.061)  # larger than the outer diameter
+    slave.check("EnterInitializationMode")
+    assert slave.call("ExitInitializationMode") == ERROR
+    assert "cage.D_i" in slave.messages[-1][2]
+    slave.check("Reset")
+    slave.initialize().step(H)
+
+
+# ------------------------------------------------------------------------------------------------------------------------ time
+
+
+@pytest.mark.parametrize("h", [0.0, -H, math.nan, math.inf, -math.inf])
+def test_wrong_step_size_is_refused(running, h):
+    """FMI 2.0: the communication step size must be greater than zero."""
+    assert running.call("DoStep", 0.0, h, 1) == ERROR
+    assert "communicationStepSize" in running.messages[-1][2]
+
+
+@pytest.mark.parametrize("point", [H, -H, math.nan, math.inf])
+def test_wrong_communication_point_is_refused(running, point):
+    assert running.call("DoStep", point, H, 1) == ERROR
+    assert "currentCommunicationPoint" in running.messages[-1][2]
+
+
+def test_stop_time_is_respected(slave):
+    slave.initialize(stop=3 * H).step(H, 3)  # 3 H > H + H + H: rounding is allowed
+    assert slave.call("DoStep", slave.time, H, 1) == ERROR
+    assert "stopTime" in slave.messages[-1][2]
+
+
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        (1, 0.0, 0.0, 0, 0.0),
+        (1, 1e-11, 0.0, 0, 0.0),
+        (1, 0.5, 0.0, 0, 0.0),
+        (1, math.nan, 0.0, 0, 0.0),
+        (0, 0.0, math.inf, 0, 0.0),
+        (0, 0.0, 1.0, 1, 0.5),
+        (0, 0.0, 0.0, 1, math.nan),
+    ],
+)
+def test_wrong_experiment_is_refused(slave, arguments):
+    assert slave.call("SetupExperiment", *arguments) == ERROR
+    assert "is not allowed" in slave.messages[-1][2]
+
+
+def test_tolerance_of_the_host_is_in_force(folder):
+    assert Slave(folder).initialize(tolerance=2e-3).get("solver.tolerance")[0] == 2e-3
+    assert Slave(folder).initialize().get("solver.tolerance")[0] == PARAMETERS["solver.tol"].start
+    assert Slave(folder).initialize(solver__tol=5e-4).get("solver.tolerance")[0] == 5e-4
+
+
+def test_start_time(slave):
+    slave.initialize(start=12.5).step(H, 3)
+    assert slave.get("time")[0] == slave.time == 12.5 + H + H + H
+
+
+def test_hosts_clocks(folder):
+    """t += h, k h, and whole nanoseconds in seconds are all accepted, also where they differ in the last bits."""
+    h = 1e-6 / 3
+    added, multiplied = Slave(folder).initialize(), Slave(folder).initialize()
+    added.step(h, 1000)
+    for k in range(1000):
+        multiplied.check("DoStep", k * h, h, 1)
+    nanoseconds = Slave(folder).initialize()
+    for k in range(1000):
+        nanoseconds.check("DoStep", (k * 333) / 1e9, 333 / 1e9, 1)
+    assert added.get("time")[0] == added.time
+    assert multiplied.get("time")[0] == 999 * h + h
+
+
+# ----------------------------------------------------------------------------------------------------- reproducibility, states
+
+
+def test_reset_is_as_new_bit_for_bit(folder):
+    fresh, used = Slave(folder).initialize(), Slave(folder)
+    used.initialize(tolerance=1e-3, joint__preload=50.0, start__seed=7, shaft__F_x=100.0).step(H, 5)
+    used.check("Reset")
+    used.initialize()
+    assert same_bits(fresh.step(H, 10).outputs(), used.step(H, 10).outputs())
+
+
+def test_two_interleaved_instances_equal_two_separate_ones(folder):
+    separate = [Slave(folder).initialize(joint__preload=p).step(H, 10).outputs() for p in (20.0, 40.0)]
+    together = [Slave(folder).initialize(joint__preload=p) for p in (20.0, 40.0)]
+    for _ in range(10):
+        for slave in together:
+            slave.step(H)
+    for expected, slave in zip(separate, together, strict=True):
+        assert same_bits(expected, slave.outputs())
+    assert not same_bits(*separate)
+
+
+def test_any_thread(folder):
+    """Four instances stepped in four threads, created in this one, equal one stepped here."""
+    slaves = [Slave(folder).initialize() for _ in range(4)]
+    threads = [threading.Thread(target=slave.step, args=(H, 10)) for slave in slaves]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    expected = Slave(folder).initialize().step(H, 10).outputs()
+    assert all(same_bits(expected, slave.outputs()) for slave in slaves)
+
+
+@pytest.mark.skipif(not sys.platform.startswith("linux"), reason="rounding modes by number")
+@pytest.mark.parametrize("rounding", [0x400, 0x800, 0xC00])
+def test_any_rounding_mode_of_the_host(folder, rounding):
+    """x86-64: downward, upward, toward zero; the host's mode is as before after each call."""
+    libm = ctypes.CDLL(ctypes.util.find_library("m"))
+    points = [k * H for k in range(5)]
+    slaves = [Slave(folder), Slave(folder)]
+    for slave, mode in zip(slaves, (0, rounding), strict=True):
+        slave.check("EnterInitializationMode")
+        libm.fesetround(mode)
+        try:
+            statuses = [slave.call("ExitInitializationMode")] + [slave.call("DoStep", point, H, 1) for point in points]
+            kept = libm.fegetround()
+        finally:
+            libm.fesetround(0)
+        assert statuses == [OK] * 6
+        assert kept == mode
+    assert same_bits(*(slave.outputs() for slave in slaves))
+
+
+def test_what_is_read_changes_no_bit(folder):
+    curious, silent = Slave(folder).initialize(), Slave(folder).initialize()
+    for _ in range(20):
+        curious.step(H).outputs()
+        silent.step(H)
+    assert same_bits(curious.outputs(), silent.outputs())
+
+
+def test_saved_state_continues_bit_for_bit(folder):
+    """In the same instance, in a new one, in one that has never been initialized, and after serialization."""
+    slave = Slave(folder).initialize(joint__preload=33.0).step(H, 7)
+    state, time = slave.save(), slave.time
+    data = slave.bytes(state)
+    expected = slave.step(H, 7).outputs()
+    assert same_bits(slave.restore(state, time).step(H, 7).outputs(), expected)
+    other = Slave(folder).initialize(shaft__omega=500.0).step(H, 2)
+    for new in (other, Slave(folder)):
+        status, loaded = new.try_load(data)
+        assert status == OK
+        assert same_bits(new.restore(loaded, time).step(H, 7).outputs(), expected)
+
+
+def test_saving_changes_no_bit(folder):
+    saved, silent = Slave(folder).initialize(), Slave(folder).initialize()
+    for _ in range(5):
+        saved.step(H).save()
+        silent.step(H)
+    assert same_bits(saved.outputs(), silent.outputs())
+
+
+def test_saved_state_continues_in_another_process(folder, tmp_path):
+    slave = Slave(folder).initialize().step(H, 3)
+    path, time = tmp_path / "state", slave.time
+    path.write_bytes(slave.bytes(slave.save()))
+    program = (
+        "import sys; from pathlib import Path; from slave import Slave\n"
+        f"s = Slave(Path({str(folder)!r})); status, state = s.try_load(Path({str(path)!r}).read_bytes())\n"
+        f"sys.stdout.write(s.restore(state, {time!r}).step({H!r}, 3).outputs().tobytes().hex())"
+    )
+    result = subprocess.run([sys.executable, "-c", program], cwd=Path(__file__).parent, capture_output=True, text=True, check=True)
+    assert result.stdout == slave.step(H, 3).outputs().tobytes().hex()
+
+
+def test_state_is_reused_and_freed(running):
+    state = running.save()
+    address = state[0]
+    running.step(H).check("GetFMUstate", state)
+    assert state[0] == address
+    running.check("FreeFMUstate", state)
+    assert state[0] == running.ffi.NULL
+    running.check("FreeFMUstate", state)
+
+
+def test_state_holds_parameters_inputs_and_phase(slave):
+    """Saved before initialization, restored after an error."""
+    slave.set("joint.preload", 55.0)
+    state = slave.save()
+    slave.initialize()
+    assert slave.call("DoStep", 0.0, -1.0, 1) == ERROR
+    slave.restore(state, 0.0)
+    slave.initialize()
+    assert slave.get("joint.preload")[0] == 55.0
+
+
+def corrupted(data):
+    """What must be refused, and why."""
+    header = 72  # magic 8, version 8, GUID 40, size 8, checksum 8
+    for position in (header, header + 100, len(data) // 2, len(data) - 1):
+        yield data[:position] + bytes([data[position] ^ 1]) + data[position + 1 :], "corrupted"
+    for length in (0, 10, header, len(data) - 1):
+        yield data[:length], "truncated"
+    yield data + b"\0", "too long"
+    yield bytes(len(data)), "not a saved state"
+    yield data[:8] + struct.pack("<Q", 99) + data[16:], "another version"
+    yield data[:17] + b"0123" + data[21:], "another model"
+    yield data[:56] + struct.pack("<Q", len(data) - 8) + data[64:-8], "another build"
+
+
+def test_corrupted_and_foreign_states_are_refused_with_the_reason(running):
+    data = running.bytes(running.save())
+    for wrong, reason in corrupted(data):
+        status, state = running.try_load(wrong)
+        assert status == ERROR, reason
+        assert reason in running.messages[-1][2]
+        assert state[0] == running.ffi.NULL
+        running.check("Reset")
+    assert running.try_load(data)[0] == OK
+
+
+def test_serialization_needs_the_whole_room(running):
+    state = running.save()
+    buffer = running.ffi.new("char[]", 100)
+    assert running.call("SerializeFMUstate", state[0], buffer, 100) == ERROR
+    assert "bytes" in running.messages[-1][2]
+
+
+# ------------------------------------------------------------------------------------------------------- failures, statuses, log
+
+
+def failed(slave):
+    """An instance whose work limit ends a step before its end."""
+    slave.initialize(solver__max_steps=20)
+    slave.step(1e-5)
+    assert slave.call("DoStep", slave.time, 0.01, 1) == DISCARD
+    return slave
+
+
+def real_status(slave):
+    value = slave.ffi.new("double *")
+    assert slave.call("GetRealStatus", LAST_SUCCESSFUL_TIME, value) == OK
+    return value[0]
+
+
+def terminated_status(slave):
+    value = slave.ffi.new("int *")
+    assert slave.call("GetBooleanStatus", TERMINATED, value) == OK
+    return bool(value[0])
+
+
+def test_discard_comes_with_terminated_and_the_time_reached(slave):
+    failed(slave)
+    assert terminated_status(slave)
+    reached = real_status(slave)
+    assert 1e-5 < reached < 0.01
+    assert slave.get("time")[0] == reached
+    assert np.isfinite(slave.outputs()).all()
+    (status, category, reason) = slave.messages[-1]
+    assert (status, category) == (ERROR, "logStatusError")
+    text = slave.ffi.new("fmi2String *")
+    assert slave.call("GetStringStatus", PENDING_STATUS, text) == OK
+    assert slave.ffi.string(text[0]).decode() == reason.replace("%%", "%").replace("##", "#")
+
+
+def test_no_step_after_a_discard(slave):
+    failed(slave)
+    assert slave.call("DoStep", real_status(slave), H, 1) == ERROR
+    assert np.isnan(slave.outputs()).all()
+
+
+def test_terminate_after_a_discard(slave):
+    failed(slave)
+    slave.check("Terminate")
+    assert np.isfinite(slave.outputs()).all()
+
+
+def test_rollback_after_a_discard(slave):
+    slave.initialize(solver__max_steps=20)
+    state = slave.save()
+    assert slave.call("DoStep", 0.0, 0.01, 1) == DISCARD
+    slave.restore(state, 0.0).step(1e-6)
+    assert not terminated_status(slave)
+
+
+def test_statuses(running):
+    status = running.ffi.new("fmi2Status *")
+    running.step(H)
+    assert running.call("GetStatus", DO_STEP_STATUS, status) == OK
+    assert status[0] == OK
+    assert not terminated_status(running)
+    assert real_status(running) == running.time
+    integer = running.ffi.new("int *")
+    assert running.call("GetIntegerStatus", DO_STEP_STATUS, integer) == DISCARD
+    assert running.call("GetRealStatus", PENDING_STATUS, running.ffi.new("double *")) == DISCARD
+
+
+def test_logger_categories(folder):
+    slave = Slave(folder, logging=True)
+    one = [slave.ffi.new("char[]", b"logSolver")]
+    assert slave.call("SetDebugLogging", 1, 1, one) == OK
+    assert slave.call("SetDebugLogging", 1, 0, slave.ffi.NULL) == OK
+    assert slave.call("SetDebugLogging", 0, 0, slave.ffi.NULL) == OK
+    assert slave.messages == []
+    unknown = [slave.ffi.new("char[]", b"logEverything")]
+    assert slave.call("SetDebugLogging", 1, 1, unknown) == WARNING
+    ((status, category, message),) = slave.messages
+    assert (status, category) == (WARNING, "logStatusWarning")
+    assert "logEverything" in message
+    declared = {c.name for c in slave.description.logCategories} if hasattr(slave.description, "logCategories") else {category}
+    assert category in declared
+
+
+# ---------------------------------------------------------------------------------------------------------- memory, run time
+
+
+@pytest.fixture(scope="session")
+def allocations(tmp_path_factory):
+    """The program that counts allocations (see allocations.c)."""
+    program = tmp_path_factory.mktemp("allocations") / "allocations"
+    headers = Path(fmpy.__file__).parent / "c-code"
+    source = Path(__file__).with_name("allocations.c")
+    subprocess.run(["cc", "-O1", "-fno-builtin", f"-I{headers}", str(source), "-o", str(program), "-rdynamic", "-ldl"], check=True)
+    return program
+
+
+def count_allocations(program, folder, steps, h):
+    references = [v.valueReference for v in describe(folder).modelVariables if v.causality == "output"]
+    guid = describe(folder).guid
+    command = [str(program), str(binary_of(folder)), guid, str(steps), repr(h), *map(str, references)]
+    result = subprocess.run(command, capture_output=True, text=True, check=True)
+    return map(int, result.stdout.split())
+
+
+@pytest.mark.skipif(not sys.platform.startswith("linux"), reason="replaces glibc's malloc")
+@pytest.mark.parametrize(("steps", "h"), [(200, H), (20000, 1e-8), pytest.param(1_000_000, 1e-8, marks=pytest.mark.slow)])
+def test_memory(allocations, folder, steps, h):
+    """No allocation in fmi2DoStep and fmi2GetReal of all outputs from the first step on; no page more after many steps or 200 instances' lives."""
+    allocated, grown_by_steps, grown_by_lives = count_allocations(allocations, folder, steps, h)
+    assert allocated == 0
+    assert grown_by_steps == 0
+    assert grown_by_lives == 0
