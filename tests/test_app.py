@@ -276,9 +276,9 @@ def test_shipped_bearings_are_consistent(designation):
 
 def test_an_fmu_of_the_second_bearing(tmp_path):
     """Built from its file, started at its own working point: ring and ball loads near the quasi-static equilibrium."""
-    out = tmp_path / "6310.fmu"
-    done = command("build", "--bearing", "6310", "--out", out, folder=tmp_path)
+    done = command("build", "--bearing", "6310", folder=tmp_path)
     assert done.returncode == 0, done.stderr
+    out = tmp_path / "6310.fmu"
     scene = tmp_path / "own.toml"
     scene.write_text("[simulation]\nt_end = 0.02\nstep = 1e-4\n[parameters]\nstart.settle = 0.01")
     result, state = run(scene, fmu=out), bearing_case("6310").equilibrium()

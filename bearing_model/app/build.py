@@ -33,11 +33,11 @@ def build(bearing=None, rivet=None, out=None, say=lambda text, share=None: None)
     """Build an FMU and return its path.
 
     bearing: bearing file or designation, None for the default one; rivet: rivet table, None for the tracked one if it fits the bearing, else closed
-    forms; out: the FMU to write, None for fmus/RivetedBearing.fmu of the checkout or RivetedBearing.fmu here; say: called with what is being done and
-    the share done.  Raises UserError with the reason; `out` is then left as it was.
+    forms; out: the FMU to write, None for my.fmu here from my.toml, RivetedBearing.fmu from the default (in a checkout: in fmus/); say: called with what
+    is being done and the share done.  Raises UserError with the reason; `out` is then left as it was.
     """
     sources = source_folder()
-    out = Path(out) if out else default_out(sources)
+    out = Path(out) if out else default_out(sources, bearing)
     case, folder = bearing_case(bearing or "6207"), build_folder(sources, bearing)
     rivet = check_table(rivet, case.Z) if rivet else rivet_table(case, folder)
     cmake = find_tools()
@@ -66,8 +66,10 @@ def source_folder():
     raise UserError(f"the C sources are not there (looked in {', '.join(map(str, SOURCES))}): install the package again, or build in a checkout")
 
 
-def default_out(sources):
-    """Where the FMU goes unless told: fmus/ of a checkout, else the working directory."""
+def default_out(sources, bearing):
+    """Where the FMU goes unless told: my.fmu here for my.toml; the default one in fmus/ of a checkout, else here."""
+    if bearing:
+        return Path.cwd() / f"{Path(bearing).stem}.fmu"
     return (sources / "fmus" if sources == PACKAGE.parent else Path.cwd()) / FMU_NAME
 
 

@@ -45,7 +45,9 @@ def command(function):
 def build(
     bearing: Annotated[str | None, typer.Option(help="bearing file (TOML) or designation; default: the 6207")] = None,
     rivet: Annotated[Path | None, typer.Option(help="rivet table; default: the one shipped if it fits the bearing, else closed forms")] = None,
-    out: Annotated[Path | None, typer.Option(help="the FMU to write; default: fmus/ of a checkout, else here")] = None,
+    out: Annotated[
+        Path | None, typer.Option(help="the FMU to write; default: my.fmu here for my.toml; RivetedBearing.fmu, in a checkout in fmus/, for the default")
+    ] = None,
 ):
     """Make an FMU for a bearing: needs a C compiler, takes about half a minute."""
     from .build import build as build_fmu
