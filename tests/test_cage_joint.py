@@ -1,5 +1,7 @@
 """Riveted joint: pull curve, hysteresis, opening, natural frequency, rigid motions, momentum."""
 
+import itertools
+
 import numpy as np
 import pytest
 from mechanics import SLICE, Z, pose, running_state
@@ -49,7 +51,7 @@ class Joints:
     def pull(self, path, speed=1e-3):
         """Moves half 1 along y through the places of `path`; friction force per joint after each, and the dissipated work."""
         force, work = [], 0.0
-        for here, there in zip(path, path[1:], strict=False):
+        for here, there in itertools.pairwise(path):
             step, middle = there - here, 0.5 * (here + there)
             dt = abs(step) / speed
             before, v = self.y, (0.0, np.sign(step) * speed, 0.0)

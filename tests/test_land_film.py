@@ -1,5 +1,7 @@
 """Land film: Ocvirk's bearing, squeeze, Reynolds' equation by quadrature, rates, dry contact, mixed friction."""
 
+import itertools
+
 import numpy as np
 import pytest
 from mechanics import pose
@@ -80,7 +82,7 @@ def reynolds(e, v, omega):
     worst = np.arctan2(e[1], e[0])
     inside = [worst + k * 2 * np.pi for k in (-1, 0, 1) if abs(worst + k * 2 * np.pi - edge) < np.pi / 2]
     places = [edge - np.pi / 2, *inside, edge + np.pi / 2]
-    pairs = list(zip(places, places[1:], strict=False))
+    pairs = list(itertools.pairwise(places))
     return np.array([-sum(quad(lambda phi, d=d: d(phi) * line(phi) * R, *pair, **span)[0] for pair in pairs) for d in (np.cos, np.sin)])
 
 

@@ -145,7 +145,7 @@ def test_forces_are_the_gradient_of_the_energy(core, cage):
 @pytest.mark.parametrize("cage", CageModel)
 def test_momentum(core, cage, lubrication):
     """Forces and moments about the bearing's centre cancel over ball and halves; observed 1e-16 of force times arm."""
-    m, w, ball, bodies = random_scene(core, np.random.default_rng(2), **{"scene.cage": cage, "scene.lubrication": lubrication})
+    _m, w, ball, bodies = random_scene(core, np.random.default_rng(2), **{"scene.cage": cage, "scene.lubrication": lubrication})
     F, M = on_ball(w)
     axes = frames(ball["theta"])
     for j in range(Z):
@@ -204,8 +204,8 @@ def test_friction(core, speed):
 
 def test_inlet_friction(core):
     """With mu = 0: -F_R on the surface (its moment F_R R), +2 F_R through the centre (R_x = R), F_R by Houpert at the mean speed v/2."""
-    speed, Q = 10.0, None
-    m, w = one_ball(core, 0.0, GAP + 2e-6, omega=(speed / R, 0.0, 0.0), **{"cage.mu": 0.0, "cage.lambda": 0.0})
+    speed = 10.0
+    _m, w = one_ball(core, 0.0, GAP + 2e-6, omega=(speed / R, 0.0, 0.0), **{"cage.mu": 0.0, "cage.lambda": 0.0})
     E_prime = 2.0 / ((1 - 0.3**2) / 207e9 + (1 - 0.33**2) / 110e9)
     R_y = R * (R + GAP) / GAP
     F_R = 0.0
