@@ -15,7 +15,7 @@ from bearing_model.ring import Drive, drive_update
 
 
 class Work(SimpleNamespace):
-    """Results of one evaluation, named as in fmu_src/model.h; vectors have their components on axis 0, pocket results both halves in a list."""
+    """Results of one evaluation, named as in fmu_src/model.h; vectors have their components on axis 0, pocket results are kept by half."""
 
 
 @dataclass

@@ -81,20 +81,25 @@ def pocket_half(model, w, h, mixed, whole):
     w.F = w.F + F
     w.M = w.M + M
     w.dissipated = w.dissipated + (Q - Q_0) * delta_dot - vec_dot(F_s, slip) - vec_dot(F_c, v)
-    half.F = lanes_sum(vec_to_global(-F, w.cos_theta, w.sin_theta))
-    half.M = lanes_sum(vec_to_global(-vec_cross(arm_p, F) - M, w.cos_theta, w.sin_theta))
+    w.pocket_F[h] = vec_to_global(-F, w.cos_theta, w.sin_theta)
+    w.pocket_M[h] = vec_to_global(-vec_cross(arm_p, F) - M, w.cos_theta, w.sin_theta)
     w.pocket[h] = np.array([-vec_dot(F, a), -vec_dot(F, b), -vec_dot(F, e_t)])
+    half.F, half.M = lanes_sum(w.pocket_F[h]), lanes_sum(w.pocket_M[h])
     w.delta_c[h], w.Q_c[h] = delta, Q
     w.pocket_energy = w.pocket_energy + share * hertz_energy(d.pocket.K, delta)
 
 
 def pocket_force(model, w):
-    """Adds the pocket contacts to the balls; sets the wrench of the pockets on the halves."""
+    """Adds the pocket contacts to the balls; sets their results and wrench on the halves.
+
+    pocket: force on the half in the pocket's frame (x, r, t); pocket_F, pocket_M: force and moment about the half's centre, global.
+    """
     mixed, rigid = model.p.scene.lubrication == Lubrication.MIXED, model.p.scene.cage == CageModel.RIGID
-    w.delta_c, w.Q_c, w.pocket, w.pocket_energy = [None, None], [None, None], [None, None], 0.0
+    w.delta_c, w.Q_c, w.pocket, w.pocket_F, w.pocket_M, w.pocket_energy = {}, {}, {}, {}, {}, 0.0  # by half
     if rigid:
         pocket_half(model, w, 0, mixed, True)
         w.half[1].F, w.half[1].M = 0.0 * w.half[0].F, 0.0 * w.half[0].M
     else:
         for h in range(2):
             pocket_half(model, w, h, mixed, False)
+    w.Q_pocket = sum(w.Q_c.values())  # of both halves together

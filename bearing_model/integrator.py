@@ -1,0 +1,230 @@
+"""The bearing over time: scipy's integrators on rhs, with the start, error scales, outputs and statistics of the FMU.
+
+    results = simulate({"cage.pocket_clearance": 0.1e-3}, {"shaft.tilt_z": 2e-3}, t_end=0.01)
+    results["ball[1].Q_c"], results["cage.omega"]
+
+Communication points and edges of pulses are hit exactly: each is the end of an integration.  Error of a step: RMS over the states of
+error/(tolerance scale), scale as in derived.py, nothing relative.
+"""
+
+import functools
+from dataclasses import dataclass, field
+
+import numpy as np
+from scipy.integrate import BDF, DOP853, LSODA, RK23, RK45, Radau
+
+from bearing_model.derived import DEFAULT_TABLE, model_derive
+from bearing_model.energy import energy_total
+from bearing_model.fatigue import FatigueChannel, FatigueLaw
+from bearing_model.model import Model, Work
+from bearing_model.outputs import outputs
+from bearing_model.parameters import Inputs, Parameters
+from bearing_model.rhs import jacobian, rhs
+from bearing_model.ring import drive_next_edge, drive_update
+from bearing_model.rivet_rom import HEAD_P1, MID_VM, rivet_rom_stress
+from bearing_model.rivets import rivets_load, rivets_slip
+from bearing_model.start import start_state
+from bearing_model.statistics import StatisticsChannel
+from bearing_model.variables import OUTPUTS, WORK, Stress, Switch, Z
+from rivet_model import table as rivet_table
+
+METHODS = {"DOP853": DOP853, "RK45": RK45, "RK23": RK23, "Radau": Radau, "BDF": BDF, "LSODA": LSODA}
+IMPLICIT = ("Radau", "BDF", "LSODA")
+FORCE_FLOOR, STRESS_FLOOR = 1e-3, 1e3  # smallest values that the statistics tell apart [N], [Pa]
+FIRST_STEP = 1e-6  # [s]
+
+
+@dataclass
+class Results:
+    """What a simulation returns.
+
+    t: communication points [s]; y: states there [points, N_STATES]; outputs: name of the variable table -> [points] or [points, Z];
+    statistics: stat.* and the damage of the rivets at the end; steps, rhs_evals: work done.
+    results[name] takes any output's name, "ball[3].Q_i" or "ball[j].Q_i".
+    """
+
+    t: np.ndarray
+    y: np.ndarray
+    outputs: dict
+    statistics: dict
+    steps: int
+    rhs_evals: int
+
+    def __getitem__(self, name):
+        values = self.outputs | self.statistics
+        if name in values:
+            return values[name]
+        for letter in "jk":
+            head, bracket, tail = name.partition("[")
+            number, _, rest = tail.partition("]")
+            array = f"{head}[{letter}]{rest}"
+            if bracket and number.isdigit() and array in values and 1 <= int(number) <= Z:
+                return values[array][..., int(number) - 1]
+        raise KeyError(name)
+
+
+@dataclass
+class Record:
+    """Peaks, statistics and fatigue over accepted steps, as the FMU keeps them."""
+
+    p: Parameters
+    force: StatisticsChannel = field(default_factory=lambda: StatisticsChannel(FORCE_FLOOR))
+    head: list = field(default_factory=lambda: [StatisticsChannel(STRESS_FLOOR) for _ in range(Z + 1)])  # each rivet, the worst one
+    mid: list = field(default_factory=lambda: [StatisticsChannel(STRESS_FLOOR) for _ in range(Z + 1)])
+    fatigue_head: list = field(default_factory=lambda: [FatigueChannel() for _ in range(Z)])
+    fatigue_mid: list = field(default_factory=lambda: [FatigueChannel() for _ in range(Z)])
+    duty_time: float = 0.0
+    omega_time: float = 0.0
+    eccentricity_time: float = 0.0
+    dislocation_most: float = 0.0
+
+    @property
+    def law(self):
+        return FatigueLaw(**vars(self.p.fatigue))
+
+    def add(self, model, t, h, w):
+        """Accepted steps of lengths h [s] that end at t, with the evaluation w of their ends; returns their peaks by output name."""
+        p, counts = self.p, (t >= self.p.start.settle) & (self.p.scene.statistics == Switch.ON)
+        weight = np.repeat(h[:, None], Z, axis=1)
+        self.force.add(weight[counts].ravel(), w.Q_pocket[counts].ravel())
+        self.duty_time += np.sum((weight * (w.Q_pocket > 0.0))[counts])
+        peaks = {"cage.F_pocket_peak": np.max(w.Q_pocket)}
+        peaks |= self.add_stress(model, t, h, counts, w) if p.scene.stress >= Stress.PEAK else no_stress()
+        h0, h1 = w.half
+        centre = 0.5 * (h0.x + h1.x)[..., 0]
+        self.omega_time += np.sum((h * 0.5 * (h0.s + h1.s)[..., 0])[counts])
+        self.eccentricity_time += np.sum((h * np.hypot(centre[1], centre[2]) / model.d.C_land)[counts])
+        self.dislocation_most = max(self.dislocation_most, np.max(rivets_slip(model, w)[counts], initial=0.0))
+        return peaks
+
+    def add_stress(self, model, t, h, counts, w):
+        sigma, _ = rivet_rom_stress(model.d.table, rivets_load(model, w)[0], model.d.fit_eff)
+        peaks = {}
+        channels = (("head", HEAD_P1, self.head, self.fatigue_head), ("mid", MID_VM, self.mid, self.fatigue_mid))
+        for name, channel, statistics, fatigue in channels:
+            stress = sigma[..., channel]
+            for k in range(Z):
+                statistics[k].add(h[counts], stress[counts, k])
+            statistics[Z].add(h[counts], np.max(stress, axis=1)[counts])
+            if self.p.scene.stress == Stress.FATIGUE:
+                for values in stress[t >= self.p.start.settle]:
+                    for k in range(Z):
+                        fatigue[k].push(self.law, values[k])
+            most = np.max(stress, axis=0)
+            peaks |= {f"rivet[k].sigma_{name}_peak": most, f"rivet.sigma_{name}_max": np.max(most)}
+        return peaks
+
+    def statistics(self):
+        """stat.* and damage by the names of the variable table."""
+        time, p = self.force.time / Z, 0.999  # every ball adds its own time
+        share = 1.0 / time if time > 0.0 else 0.0
+        values = {"stat.time": time, "stat.contact_duty": self.duty_time * share / Z, "stat.cage_omega": self.omega_time * share}
+        values |= {"stat.eccentricity": self.eccentricity_time * share, "stat.dislocation_max": self.dislocation_most}
+
+        def four(channel):
+            return {"mean": channel.mean, "rms": channel.rms, "p999": channel.quantile(p), "max": channel.most}
+
+        values |= {f"stat.Q_c_{name}": value for name, value in four(self.force).items()}
+        for part, channels, fatigue in (("head", self.head, self.fatigue_head), ("mid", self.mid, self.fatigue_mid)):
+            values |= {f"stat.sigma_{part}_{name}": value for name, value in four(channels[Z]).items()}
+            values |= {f"stat.rivet_{part}_{name}[k]": np.array([four(c)[name] for c in channels[:Z]]) for name in ("mean", "rms", "p999", "max")}
+            values[f"rivet[k].damage_{part}"] = np.array([channel.damage(self.law) for channel in fatigue])
+        return values
+
+
+def no_stress():
+    """Peaks where no stress is recorded."""
+    names = [name for name, variable in OUTPUTS.items() if variable.group == "peak" and "sigma" in name]
+    return {name: np.zeros(Z) if "[k]" in name else 0.0 for name in names}
+
+
+@functools.lru_cache
+def default_table():
+    return rivet_table.read(DEFAULT_TABLE)
+
+
+class Integration:
+    """One run in progress: state, step size and what has been recorded."""
+
+    def __init__(self, p, d, t, y, tolerance, method):
+        self.p, self.d, self.t, self.y, self.method = p, d, t, y, method
+        self.atol = tolerance * d.scale
+        self.step_size, self.steps, self.rhs_evals = FIRST_STEP, 0, 0
+
+    def segment(self, model, t_end):
+        """Accepted steps from here to t_end under one drive: their times and states, without the start."""
+        options = {"rtol": 100.0 * np.finfo(float).eps, "atol": self.atol}  # the smallest rtol that scipy takes: absolute only
+        if self.method in IMPLICIT:
+            options["jac"] = lambda t, y: jacobian(model, t, y)
+        first = min(self.step_size, t_end - self.t)
+        solver = METHODS[self.method](functools.partial(rhs, model), self.t, self.y, t_end, first_step=first, **options)
+        times, states = [], []
+        while solver.status == "running":
+            message = solver.step()
+            if solver.status == "failed":
+                raise RuntimeError(f"t = {solver.t:.9g} s: the solver cannot go on: {message}")
+            times.append(solver.t)
+            states.append(solver.y.copy())
+            self.steps += 1
+            if self.steps > self.p.solver.max_steps:
+                raise RuntimeError(f"t = {solver.t:.9g} s: more than solver.max_steps = {self.p.solver.max_steps} steps")
+        self.step_size = max(getattr(solver, "h_abs", solver.step_size), 0.9 * self.step_size)
+        self.rhs_evals += solver.nfev
+        self.t, self.y = t_end, solver.y
+        return np.array(times), np.array(states)
+
+
+def simulate(parameters=None, inputs=None, t_end=1e-3, *, step=1e-4, t_start=0.0, tolerance=None, method="DOP853", y=None, table=None):
+    """Integrate from the quasi-static start (or the state y) at t_start to t_end [s]; returns Results at communication points `step` [s] apart.
+
+    parameters: {name: value} of the variable table in SI, others at their start values.  inputs: the same, or a function t -> {name: value} called
+    at each communication point and held until the next one, as an FMU's inputs are.  tolerance: of a step, relative to the error scales; default
+    solver.tol.  method: DOP853, RK45, RK23, or with the exact Jacobian Radau, BDF, LSODA.  table: RivetTable, default that of the 6207.
+    ValueError names a value that is not allowed; RuntimeError if the solver cannot go on.
+
+    >>> results = simulate({"scene.cage": "rigid"}, {"shaft.F_y": 1000.0}, t_end=1e-4)
+    >>> results["ball[1].Q_i"].shape
+    (2,)
+    """
+    if method not in METHODS:
+        raise ValueError(f"method = {method!r}: allowed are {', '.join(METHODS)}")
+    if not (t_end > t_start and step > 0.0):
+        raise ValueError(f"t_end = {t_end} s, step = {step} s: t_end must be after t_start = {t_start} s and step positive")
+    p, held = Parameters(parameters), inputs if callable(inputs) else lambda t: inputs
+    d = model_derive(p, table or default_table())
+    model = Model(p, d, drive_update(p, Inputs(held(t_start)), t_start))
+    y = start_state(model)[0] if y is None else np.array(y, dtype=float)
+    run = Integration(p, d, t_start, y, p.solver.tol if tolerance is None else tolerance, method)
+    record, w = Record(p), Work()
+    rhs(model, t_start, y, w)
+    energy_start = energy_total(model, w) - y[WORK][0]
+
+    count = int(np.ceil((t_end - t_start) / step * (1.0 - 1e-12)))
+    points = np.minimum(t_start + step * np.arange(count + 1), t_end)
+    states, rows = [y], [observe(model, t_start, y, energy_start) | accepted(model, record, np.array([t_start]), np.zeros(1), y[None])]
+    for point in points[1:]:
+        u, peaks = Inputs(held(run.t)), []
+        while run.t < point:
+            model = Model(p, d, drive_update(p, u, run.t))
+            begin = run.t
+            times, ys = run.segment(model, min(drive_next_edge(p, run.t), point))
+            peaks.append(accepted(model, record, times, np.diff(times, prepend=begin), ys))
+        model = Model(p, d, drive_update(p, u, run.t))
+        states.append(run.y)
+        rows.append(observe(model, run.t, run.y, energy_start) | {name: np.max([peak[name] for peak in peaks], axis=0) for name in peaks[0]})
+    table_of = {name: np.array([row[name] for row in rows]) for name in rows[0]}
+    return Results(points, np.array(states), table_of, record.statistics(), run.steps, run.rhs_evals)
+
+
+def observe(model, t, y, energy_start):
+    """Outputs at one state by name."""
+    w = Work()
+    y_dot = rhs(model, t, y, w)
+    return outputs(model, w, y_dot, y[WORK][0], energy_start)
+
+
+def accepted(model, record, t, h, y):
+    """Records accepted steps that end at times t in states y [steps, N_STATES]; returns their peaks."""
+    w = Work()
+    rhs(model, t[-1], y, w)
+    return record.add(model, t, h, w)

@@ -1,0 +1,130 @@
+"""Outputs by the names of the variable table, from the results of one evaluation of the right-hand side (of many states at once, too).
+
+Each function returns {name: array}: [...] for one value, [..., Z] for the elements of name[j] or name[k].
+"""
+
+import numpy as np
+
+from bearing_model.energy import energy_total
+from bearing_model.rhs import power_loss
+from bearing_model.ring import ring_tilts
+from bearing_model.rivet_rom import HEAD_P1, HEAD_VM, MID_P1, MID_VM, rivet_rom_stress
+from bearing_model.rivets import rivets_load, rivets_slip
+from bearing_model.traction import Q_FLOOR
+from bearing_model.variables import RING_V_X, RING_V_Y, RING_V_Z, CageModel, Stress, Z
+from bearing_model.vec import vec, vec_cross, vec_dot, vec_local, vec_to_global
+
+
+def housing_reaction(w):
+    """Force and moment about the bearing's centre that balls and cage put on the housing (outer ring, oil)."""
+    F, M = 0.0, 0.0
+    for body in (w.ring, *w.half):
+        F = F - body.F
+        M = M - body.M - vec_cross(body.x, body.F)
+    place, force, moment = (vec_to_global(v, w.cos_theta, w.sin_theta) for v in (vec(w.x, w.r, 0.0), w.F, w.M))
+    return F - np.sum(force, axis=-1, keepdims=True), M - np.sum(moment + vec_cross(place, force), axis=-1, keepdims=True)
+
+
+def ring_outputs(model, w, y_dot):
+    F, M = housing_reaction(w)
+    tilt_y, tilt_z = ring_tilts(-w.ring.a[2], w.ring.a[1])
+    values = {f"ring.{name}": w.ring.x[i] for i, name in enumerate("xyz")}
+    values |= {f"ring.v_{name}": w.ring.v[i] for i, name in enumerate("xyz")}
+    values |= {f"ring.a_{name}": y_dot[..., block] for name, block in zip("xyz", (RING_V_X, RING_V_Y, RING_V_Z), strict=True)}
+    values |= {"ring.tilt_y": tilt_y, "ring.tilt_z": tilt_z}
+    values |= {f"housing.F_{name}": F[i] for i, name in enumerate("xyz")} | {"housing.M_y": M[1], "housing.M_z": M[2]}
+    values["bearing.friction_torque"] = -vec_dot(w.ring.M, w.ring.a)
+    return {name: value[..., 0] for name, value in values.items()}
+
+
+def pressure(hertz, Q):
+    """p_max = 3 Q/(2 pi a b) [Pa]."""
+    return 1.5 * np.cbrt(Q) / (np.pi * hertz.a * hertz.b)
+
+
+def film_ratio(race, U, Q):
+    """Lambda at the present speed and load, 0 without contact."""
+    return np.where(Q > 0.0, np.exp(race.ln_Lambda + 0.67 * np.log(U) - 0.067 * np.log(Q + Q_FLOOR)), 0.0)
+
+
+def spin_roll(w):
+    """Spin of the ball against the inner ring about the contact normal / rolling speed across it."""
+    rel = vec(w.omega_x, w.omega_r, w.omega_t) - vec_local(w.ring.Omega, w.cos_theta, w.sin_theta)
+    spin, all_ = vec_dot(rel, w.n_i), vec_dot(rel, rel)
+    counts = (w.Q_i > 0.0) & (all_ > spin * spin)
+    return np.where(counts, spin / np.sqrt(np.where(counts, all_ - spin * spin, 1.0)), 0.0)
+
+
+def ball_outputs(model, w):
+    d, delta_c = model.d, np.max([*w.delta_c.values()], axis=0)
+    deltas = np.array([w.delta_i, w.delta_e, delta_c])
+    return {
+        "ball[j].Q_i": w.Q_i,
+        "ball[j].Q_e": w.Q_e,
+        "ball[j].Q_c": w.Q_pocket,
+        "ball[j].omega_m": w.omega_m,
+        "ball[j].alpha_i": np.where(w.Q_i > 0.0, np.arctan2(-w.n_i[0], -w.n_i[1]), 0.0),
+        "ball[j].alpha_e": np.where(w.Q_e > 0.0, np.arctan2(w.n_e[0], w.n_e[1]), 0.0),
+        "ball[j].p_i": pressure(d.inner.hertz, w.Q_i),
+        "ball[j].p_e": pressure(d.outer.hertz, w.Q_e),
+        "ball[j].Lambda_i": film_ratio(d.inner, w.U_i, w.Q_i),
+        "ball[j].Lambda_e": film_ratio(d.outer, w.U_e, w.Q_e),
+        "ball[j].spin_roll": spin_roll(w),
+        "bearing.contacts": np.sum(deltas > 0.0, axis=(0, -1)),
+        "bearing.penetration": np.maximum(np.max(deltas, axis=(0, -1)), 0.0),
+        "cage.F_pocket_max": np.max(w.Q_pocket, axis=-1),
+    }
+
+
+def cage_outputs(model, w):
+    h0, h1 = w.half
+    epicyclic = 0.5 * model.drive.omega * (1.0 - model.p.bearing.D / model.p.bearing.d_m)
+    omega, centre = 0.5 * (h0.s + h1.s)[..., 0], 0.5 * (h0.x + h1.x)[..., 0]
+    return {
+        "cage.omega": omega,
+        "cage.slip_ratio": 1.0 - omega / epicyclic if epicyclic != 0.0 else 0.0 * omega,
+        "cage.y": centre[1],
+        "cage.z": centre[2],
+        "cage.eccentricity": np.hypot(centre[1], centre[2]) / model.d.C_land,
+    }
+
+
+def rivet_outputs(model, w):
+    rigid = model.p.scene.cage == CageModel.RIGID
+    load, V = rivets_load(model, w)
+    slip, P = rivets_slip(model, w), np.full(V.shape, model.d.P)
+    return {
+        "rivet[k].N": load.N,
+        "rivet[k].V": V,
+        "rivet[k].T": P if rigid else w.T,
+        "rivet[k].M": np.hypot(load.M_y, load.M_z),
+        "rivet[k].P": P,
+        "rivet[k].slip": slip,
+        "cage.dislocation": np.max(slip, axis=-1),
+    }
+
+
+def stress_outputs(model, w):
+    shape = w.x.shape
+    sigma, flags = np.zeros((*shape, 4)), np.zeros(shape)
+    if model.p.scene.stress != Stress.OFF:
+        sigma, flags = rivet_rom_stress(model.d.table, rivets_load(model, w)[0], model.d.fit_eff)
+    return {
+        "rivet[k].sigma_head": sigma[..., HEAD_P1],
+        "rivet[k].sigma_head_vm": sigma[..., HEAD_VM],
+        "rivet[k].sigma_mid": sigma[..., MID_VM],
+        "rivet[k].sigma_mid_p1": sigma[..., MID_P1],
+        "rivet[k].flag": flags,
+    }
+
+
+def energy_outputs(model, w, work, energy_start):
+    residual = energy_total(model, w) - energy_start - work
+    return {"bearing.power_loss": power_loss(model, w)[..., 0], "bearing.energy_residual": residual}
+
+
+def outputs(model, w, y_dot, work, energy_start):
+    """All outputs but peaks, statistics, fatigue and the solver's.  work: the state of that name [J]; energy_start: energy_total at the start."""
+    values = {"bearing.Z": np.full(np.shape(work), float(Z))}
+    values |= ring_outputs(model, w, y_dot) | ball_outputs(model, w) | cage_outputs(model, w)
+    return values | rivet_outputs(model, w) | stress_outputs(model, w) | energy_outputs(model, w, work, energy_start)

@@ -1,0 +1,163 @@
+"""Quasi-static start: the equilibrium of ring and balls at rest in the frame of the cage.
+
+    ball j      F_x - k_0 x = 0,   F_r + F_c = 0,   F_c = m r_0 omega_m^2 + F_0
+    ring        F_contacts + F - k_0 x = 0,   M_contacts + M + support - k_0 r^2 (beta, gamma) = 0
+    these are minus the gradient of
+    Pi = sum_j (2/5)(K_i delta_i^2.5 + K_e delta_e^2.5) - F_c r_j + k_0 x_j^2/2  - F.x - M.(beta, gamma) + support energy + k_0 (x^2 + ...)/2
+
+Forces come from race_contact_force at rest.  F_0 presses unloaded balls outward where nothing else does (standstill), k_0 holds what no load holds
+(no axial load, no load): 0.01 N over 10 um.  Then all parts run at kinematic speeds without slip, the cage is centred and turns with the balls.
+"""
+
+import numpy as np
+from scipy.optimize import minimize
+
+from bearing_model.hertz import hertz_energy
+from bearing_model.model import Work
+from bearing_model.race_contact import race_contact_force
+from bearing_model.rotor import Rotor, rotor_axis
+from bearing_model.variables import (
+    BALL_OMEGA_M,
+    BALL_OMEGA_R,
+    BALL_OMEGA_X,
+    BALL_R,
+    BALL_THETA,
+    BALL_X,
+    CAGE_S,
+    CAGE_V_Z,
+    CAGE_X,
+    CAGE_Y,
+    N_STATES,
+    RING_BETA,
+    RING_GAMMA,
+    RING_X,
+    RING_Y,
+    RING_Z,
+    TiltMode,
+    Z,
+)
+
+K_0 = 1e3  # [N/m]
+F_0 = 1e-3  # [N]
+STEP = 2e-5  # first trust radius of the minimisation [m]
+
+
+class Equilibrium:
+    """Forces and potential over the unknowns z = (x, y, z, r beta, r gamma of the ring, x of the balls, r of the balls) [m], r = d_m/2."""
+
+    def __init__(self, model, theta):
+        p, drive = model.p, model.drive
+        self.model, self.r = model, 0.5 * p.bearing.d_m
+        self.cos_theta, self.sin_theta = np.cos(theta), np.sin(theta)
+        omega_0 = 0.5 * drive.omega * (1.0 - p.bearing.D / p.bearing.d_m)
+        self.F_c = model.d.m * self.r * omega_0**2 + F_0
+        self.k = p.ring.k_tilt if p.ring.tilt_mode == TiltMode.SUPPORTED else 0.0
+        self.start = np.concatenate([[0.0, 0.0, 0.0, drive.beta * self.r, drive.gamma * self.r], np.zeros(Z), np.full(Z, self.r + 0.25 * p.bearing.P_d)])
+        self.free = np.arange(len(self.start))
+        if p.ring.tilt_mode == TiltMode.PRESCRIBED:
+            self.free = np.delete(self.free, [3, 4])
+
+    def contacts(self, z):
+        """Results of race_contact_force with everything at rest."""
+        rest = 0.0 * z[..., 5 : 5 + Z]
+        w = Work(x=z[..., 5 : 5 + Z], r=z[..., 5 + Z :], cos_theta=self.cos_theta, sin_theta=self.sin_theta, ring=Rotor())
+        w.v_x = w.v_r = w.v_t = w.omega_m = w.omega_x = w.omega_r = w.omega_t = rest
+        w.ring.x = np.array([z[..., i : i + 1] for i in range(3)])
+        w.ring.v = 0.0 * w.ring.x
+        rotor_axis(w.ring, z[..., 3:4] / self.r, z[..., 4:5] / self.r, 0.0, 0.0, 0.0)
+        race_contact_force(self.model, w)
+        return w
+
+    def place(self, free):
+        """All unknowns from the free ones: prescribed tilts stay."""
+        z = np.zeros((*free.shape[:-1], len(self.start)), dtype=free.dtype) + self.start
+        z[..., self.free] = free
+        return z
+
+    def force(self, free):
+        """Forces on the free unknowns [N]; zero in equilibrium."""
+        z, drive, r = self.place(free), self.model.drive, self.r
+        w, target = self.contacts(z), np.array([drive.beta, drive.gamma]) * r
+        ring = np.moveaxis(w.ring.F[..., 0], 0, -1) + drive.F - K_0 * z[..., :3]  # a pulse begins at zero
+        moment = np.moveaxis(w.ring.M[1:, ..., 0], 0, -1) + drive.M
+        tilt = (moment - self.k * (z[..., 3:5] - target) / r) / r - K_0 * z[..., 3:5]
+        return np.concatenate([ring, tilt, w.F[0] - K_0 * w.x, w.F[1] + self.F_c], axis=-1)[..., self.free]
+
+    def stiffness(self, free):
+        """-d force/d free [N/m] by complex steps."""
+        step = 1e-30
+        return -np.imag(self.force(free + 1j * step * np.eye(len(free)))).T / step
+
+    def potential(self, free):
+        """Pi [J]."""
+        z, d, drive = self.place(free), self.model.d, self.model.drive
+        w, tilt = self.contacts(z), z[3:5] / self.r
+        balls = hertz_energy(d.inner.hertz.K, w.delta_i) + hertz_energy(d.outer.hertz.K, w.delta_e) - self.F_c * w.r + 0.5 * K_0 * w.x**2
+        support = 0.5 * self.k * np.sum((tilt - [drive.beta, drive.gamma]) ** 2)
+        return np.sum(balls) + support + 0.5 * K_0 * z[:5] @ z[:5] - np.dot(drive.F, z[:3]) - np.dot(drive.M, tilt)
+
+
+def equilibrium(eq):
+    """All unknowns in equilibrium and the largest force that is left [N]."""
+    options = {"gtol": 0.1 * F_0, "initial_trust_radius": STEP, "max_trust_radius": 20.0 * STEP, "maxiter": 300}
+    z = minimize(eq.potential, eq.start[eq.free], method="trust-exact", jac=lambda z: -eq.force(z), hess=eq.stiffness, options=options).x
+    residual = np.max(np.abs(eq.force(z)))
+    for _ in range(50):  # Newton, as long as it helps
+        trial = z + np.linalg.solve(eq.stiffness(z) + np.eye(len(z)), eq.force(z))  # 1 N/m: a ball between the races has no stiffness
+        left = np.max(np.abs(eq.force(trial)))
+        if not left < residual:
+            break
+        z, residual = trial, left
+    return eq.place(z), residual
+
+
+def uniform(state):
+    """Next number in [0, 1) and state of splitmix64: the same numbers in both twins.  Steele, Lea & Flood (2014)."""
+    mask = (1 << 64) - 1
+    state = (state + 0x9E3779B97F4A7C15) & mask
+    z = state
+    z = ((z ^ (z >> 30)) * 0xBF58476D1CE4E5B9) & mask
+    z = ((z ^ (z >> 27)) * 0x94D049BB133111EB) & mask
+    return ((z ^ (z >> 31)) >> 11) * 2.0**-53, state
+
+
+def spacing(p):
+    """Azimuths of the balls [rad]: equal but for the part start.spacing of the pocket clearance."""
+    random, theta = p.start.seed, np.empty(Z)
+    spread = p.start.spacing * p.cage.pocket_clearance / (0.5 * p.bearing.d_m)
+    for j in range(Z):
+        number, random = uniform(random)
+        theta[j] = 2.0 * np.pi * j / Z + spread * (2.0 * number - 1.0)
+    return theta
+
+
+def orbital_speed(model, w):
+    """Orbital speed without slip at both races [rad/s]: the balls' centres move half as fast as the inner contact points; mean by load."""
+    cosine, load = np.where(w.Q_i > 0.0, np.abs(w.n_i[1]), 1.0), w.Q_i + 1e-9
+    return model.drive.omega * np.average(0.5 * (1.0 - 2.0 * model.d.R * cosine / model.p.bearing.d_m), weights=load)
+
+
+def start_state(model):
+    """The start state [N_STATES] and the largest force that is left in the equilibrium [N]."""
+    d, theta = model.d, spacing(model.p)
+    eq = Equilibrium(model, theta)
+    z, residual = equilibrium(eq)
+    w = eq.contacts(z)
+
+    y = np.zeros(N_STATES)
+    omega_m = orbital_speed(model, w)
+    y[BALL_X] = w.x
+    y[BALL_R] = w.r
+    y[BALL_THETA] = theta
+    y[BALL_OMEGA_M] = omega_m
+    # rolls on the outer race about the axis across its contact normal: v_t + R (omega_x n_r - omega_r n_x) = 0
+    rolling = -w.r * omega_m / d.R
+    y[BALL_OMEGA_X] = rolling * w.n_e[1]
+    y[BALL_OMEGA_R] = -rolling * w.n_e[0]
+    y[CAGE_X] = d.com_x
+    y[CAGE_Y] = d.com_e
+    y[CAGE_V_Z] = omega_m * d.com_e
+    y[CAGE_S] = omega_m
+    y[RING_X], y[RING_Y], y[RING_Z] = z[:3]
+    y[RING_BETA], y[RING_GAMMA] = z[3:5] / eq.r
+    return y, residual

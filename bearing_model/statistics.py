@@ -1,0 +1,65 @@
+"""Running statistics over time, weighted by the length of the steps: mean, RMS, largest value and quantiles of positive quantities.
+
+32 bins in each octave, 106 a decade: a bin is 1.6...3.1 % wide; 24 octaves above the channel's floor.  Smaller values count as below.
+"""
+
+import numpy as np
+
+STATISTICS_OCTAVES, STATISTICS_PER_OCTAVE = 24, 32
+STATISTICS_BINS = STATISTICS_OCTAVES * STATISTICS_PER_OCTAVE
+
+
+def bin_of(ratio):
+    """Bin of value/floor >= 1."""
+    mantissa, exponent = np.frexp(ratio)
+    octave = (np.array(exponent) - 1) * STATISTICS_PER_OCTAVE
+    return np.minimum(octave + ((2.0 * mantissa - 1.0) * STATISTICS_PER_OCTAVE).astype(int), STATISTICS_BINS - 1)
+
+
+def edge_of(bin_):
+    """Lower edge of a bin as a multiple of the floor."""
+    return (1.0 + (bin_ % STATISTICS_PER_OCTAVE) / STATISTICS_PER_OCTAVE) * 2.0 ** (bin_ // STATISTICS_PER_OCTAVE)
+
+
+class StatisticsChannel:
+    """Statistics of one quantity; floor: the smallest value told apart.
+
+    >>> channel = StatisticsChannel(1e-3)
+    >>> channel.add(np.array([1.0, 3.0]), np.array([4.0, 0.0]))
+    >>> channel.mean, channel.rms
+    (np.float64(1.0), np.float64(2.0))
+    """
+
+    def __init__(self, floor):
+        self.floor = floor
+        self.time, self.first, self.second, self.most = 0.0, 0.0, 0.0, 0.0
+        self.weight = np.zeros(STATISTICS_BINS)
+
+    def add(self, weight, value):
+        """Values with their weights [s], arrays of one shape."""
+        self.time += np.sum(weight)
+        self.first += np.sum(weight * value)
+        self.second += np.sum(weight * value * value)
+        self.most = max(self.most, np.max(value, initial=0.0))
+        counts = value >= self.floor
+        self.weight += np.bincount(bin_of(value[counts] / self.floor), weights=weight[counts], minlength=STATISTICS_BINS)
+
+    @property
+    def mean(self):
+        return self.first / self.time if self.time > 0.0 else 0.0
+
+    @property
+    def rms(self):
+        return np.sqrt(self.second / self.time) if self.time > 0.0 else 0.0
+
+    def quantile(self, p):
+        """Value that the part p of the time is not above; linear inside a bin, 0 below the floor."""
+        above = (1.0 - p) * self.time  # weight that lies above the quantile
+        beyond = np.cumsum(self.weight[::-1])[::-1]  # weight in this bin and higher ones
+        reached = np.flatnonzero((self.weight > 0.0) & (beyond >= above))
+        if self.time <= 0.0 or len(reached) == 0:
+            return 0.0
+        bin_ = reached[-1]
+        low, high = edge_of(bin_), edge_of(bin_ + 1)
+        rest = above - (beyond[bin_] - self.weight[bin_])
+        return min(self.floor * (high - (high - low) * rest / self.weight[bin_]), self.most)
