@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from enum import IntEnum
 
 MODEL_IDENTIFIER = "RivetedBearing"
-MODEL_GUID = "{6e5e75fd-3290-f339-a807-ca5e47bdf457}"
+MODEL_GUID = "{72fba27e-7e8a-7c70-1bb1-fa5bbb324150}"
 Z = 9
 
 
@@ -184,7 +184,7 @@ INPUTS = {
         Variable("shaft.F_z", 3, "Real", "N", None, 0.0, -100000.0, 100000.0, 1, None, "Radial load on the inner ring along Z", "paper Table 2"),
         Variable("shaft.M_y", 4, "Real", "N.m", None, 0.0, -10000.0, 10000.0, 1, None, "Moment about Y on the inner ring (supported or free tilt)", "paper Table 2"),
         Variable("shaft.M_z", 5, "Real", "N.m", None, 0.0, -10000.0, 10000.0, 1, None, "Moment about Z on the inner ring (supported or free tilt)", "paper Table 2"),
-        Variable("shaft.omega", 6, "Real", "rad/s", "rev/min", 1909.8788938113205, -5000.0, 5000.0, 1, None, "Speed of the inner ring about X", "paper Table 2 (18238 r/min)"),
+        Variable("shaft.omega", 6, "Real", "rad/s", "rev/min", 1909.8788938723549, -5000.0, 5000.0, 1, None, "Speed of the inner ring about X", "paper Table 2 (18238 r/min)"),
         Variable("shaft.tilt_y", 7, "Real", "rad", "deg", 0.0, -0.035, 0.035, 1, None, "Tilt of the shaft about Y (+X turns toward -Z)", "paper section 4.1 (4), base case"),
         Variable("shaft.tilt_z", 8, "Real", "rad", "deg", 0.0, -0.035, 0.035, 1, None, "Tilt of the shaft about Z (+X turns toward +Y)", "paper section 4.1 (4), base case"),
         Variable("impact.F_r", 9, "Real", "N", None, 0.0, -100000.0, 100000.0, 1, None, "Impact load added along the present radial load (+Y if there is none)", "no impact"),

@@ -233,8 +233,13 @@ BearingStatus bearing_step(Bearing *b, double t_end)
     }
     b->cpu_time += (double)(clock() - before) / CLOCKS_PER_SEC;
     if (status == 0) return BEARING_OK;
-    bearing_log(b, LOG_ERROR, "t = %.9g s: the solver cannot go on (code %d, step size %g s, %g steps since %.9g s)", s->integrator.t, status, s->integrator.h,
-                s->integrator.steps - steps_before, t_begin);
+    const double steps = s->integrator.steps - steps_before;
+    if (steps >= s->p.solver.max_steps)
+        bearing_log(b, LOG_ERROR, "t = %.9g s: the work limit is reached, solver.max_steps = %d steps since %.9g s; step size %g s", s->integrator.t,
+                    s->p.solver.max_steps, t_begin, s->integrator.h);
+    else
+        bearing_log(b, LOG_ERROR, "t = %.9g s: the solver cannot go on (code %d) after %g steps since %.9g s; step size %g s", s->integrator.t, status, steps,
+                    t_begin, s->integrator.h);
     return BEARING_DISCARD;
 }
 

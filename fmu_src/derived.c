@@ -113,8 +113,9 @@ static void derive_scales(const Parameters *p, Derived *d)
     d->scale[SCALE_ANGLE] = d->scale[SCALE_TILT] = length / r;
     d->scale[SCALE_RATE] = velocity / r;
     d->scale[SCALE_SPIN] = velocity / (0.5 * p->bearing.D);
-    d->scale[SCALE_PLATE] = (p->joint.mu * d->P + p->joint.F_floor) / d->k_plate_t;
-    d->scale[SCALE_HEAD] = (p->joint.mu * d->P + p->joint.F_floor) / d->k_head;
+    const double friction = fmax(p->joint.mu * d->P, 3.0);  // a loose joint is not held to a finer force than the default one
+    d->scale[SCALE_PLATE] = friction / d->k_plate_t;
+    d->scale[SCALE_HEAD] = friction / d->k_head;
     d->scale[SCALE_ENERGY] = 1e30;
 }
 

@@ -18,7 +18,7 @@ DECLARE(avx512);
 Kernels kernels_select(void)
 {
     __builtin_cpu_init();
-    if (Z >= 8 && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl")) return KERNELS(avx512);
+    if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl")) return KERNELS(avx512);
     return __builtin_cpu_supports("avx2") ? KERNELS(avx2) : KERNELS(sse2);
 }
 #elif defined(__aarch64__)

@@ -5,7 +5,8 @@
 //
 // Forces and contact results come from race_contact_force at rest, stiffnesses from k = Q' n n^T + (Q/L)(1 - n n^T).  F_0 presses unloaded
 // balls outward where nothing else does (standstill), k_0 holds what no load holds (no axial load, no load): 0.01 N over 10 um.
-// Then all parts run at kinematic speeds without slip, the cage is centred and turns with the balls.
+// Then all parts run at kinematic speeds without slip; the cage is centred on the balls - their mean and the first harmonic of their axial
+// places, else a tilted ring's balls would start inside the cage - and turns with them.
 #include "start.h"
 
 #include "ring.h"
@@ -219,6 +220,32 @@ static double orbital_speed(const Model *model, const Work *w)
     return model->drive->omega * sum / weight;
 }
 
+// Both halves at x_0 + (beta sin theta - gamma cos theta) r, the balls' axial places but for higher harmonics, turning steadily about that axis.
+static void cage_place(const Model *model, const Work *w, double omega_m, double *y)
+{
+    const Derived *d = model->d;
+    double x_0 = 0.0, beta = 0.0, gamma = 0.0, drift[3];
+    for (int j = 0; j < Z; j++) {
+        x_0 += w->x[j] / Z;
+        beta += 2.0 * w->x[j] * w->sin_theta[j] / (Z * w->r[j]);
+        gamma -= 2.0 * w->x[j] * w->cos_theta[j] / (Z * w->r[j]);
+    }
+    for (int h = 0; h < 2; h++) {
+        Rotor half;
+        rotor_axis(&half, beta, gamma, 0.0, 0.0, omega_m);
+        rotor_body_axes(&half, 1.0, 0.0);
+        for (int i = 0; i < 3; i++) half.c[i] = d->com_x[h] * half.a[i] + d->com_e * half.b_y[i];
+        cross3(half.Omega, half.c, drift);
+        for (int i = 0; i < 3; i++) {
+            y[Y_CAGE_X + 2 * i + h] = (i == 0 ? x_0 : 0.0) + half.c[i];
+            y[Y_CAGE_V_X + 2 * i + h] = drift[i];
+        }
+        y[Y_CAGE_BETA + h] = beta;
+        y[Y_CAGE_GAMMA + h] = gamma;
+        y[Y_CAGE_S + h] = omega_m;
+    }
+}
+
 double start_state(const Kernels *kernels, const Model *model, Work *w, double *y)
 {
     const Parameters *p = model->p;
@@ -252,12 +279,7 @@ double start_state(const Kernels *kernels, const Model *model, Work *w, double *
         y[Y_BALL_OMEGA_X + j] = rolling * w->n_er[j];
         y[Y_BALL_OMEGA_R + j] = -rolling * w->n_ex[j];
     }
-    for (int h = 0; h < 2; h++) {
-        y[Y_CAGE_X + h] = d->com_x[h];
-        y[Y_CAGE_Y + h] = d->com_e;
-        y[Y_CAGE_V_Z + h] = omega_m * d->com_e;
-        y[Y_CAGE_S + h] = omega_m;
-    }
+    cage_place(model, w, omega_m, y);
     for (int i = 0; i < 3; i++) y[Y_RING_X + i] = q[i];
     y[Y_RING_BETA] = q[3];
     y[Y_RING_GAMMA] = q[4];

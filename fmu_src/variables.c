@@ -53,7 +53,7 @@ const Variable VARIABLES[N_VARIABLES] = {
     {"shaft.F_z", "N", 3, 1, TYPE_REAL, CAUSALITY_INPUT, GROUP_COUNT, offsetof(Inputs, shaft.F_z), 0.0, -100000.0, 100000.0},
     {"shaft.M_y", "N.m", 4, 1, TYPE_REAL, CAUSALITY_INPUT, GROUP_COUNT, offsetof(Inputs, shaft.M_y), 0.0, -10000.0, 10000.0},
     {"shaft.M_z", "N.m", 5, 1, TYPE_REAL, CAUSALITY_INPUT, GROUP_COUNT, offsetof(Inputs, shaft.M_z), 0.0, -10000.0, 10000.0},
-    {"shaft.omega", "rad/s", 6, 1, TYPE_REAL, CAUSALITY_INPUT, GROUP_COUNT, offsetof(Inputs, shaft.omega), 1909.8788938113205, -5000.0, 5000.0},
+    {"shaft.omega", "rad/s", 6, 1, TYPE_REAL, CAUSALITY_INPUT, GROUP_COUNT, offsetof(Inputs, shaft.omega), 1909.8788938723549, -5000.0, 5000.0},
     {"shaft.tilt_y", "rad", 7, 1, TYPE_REAL, CAUSALITY_INPUT, GROUP_COUNT, offsetof(Inputs, shaft.tilt_y), 0.0, -0.035, 0.035},
     {"shaft.tilt_z", "rad", 8, 1, TYPE_REAL, CAUSALITY_INPUT, GROUP_COUNT, offsetof(Inputs, shaft.tilt_z), 0.0, -0.035, 0.035},
     {"impact.F_r", "N", 9, 1, TYPE_REAL, CAUSALITY_INPUT, GROUP_COUNT, offsetof(Inputs, impact.F_r), 0.0, -100000.0, 100000.0},

@@ -6,7 +6,7 @@
 #include <stddef.h>
 
 #define MODEL_IDENTIFIER "RivetedBearing"
-#define MODEL_GUID "{6e5e75fd-3290-f339-a807-ca5e47bdf457}"  // digest of the table
+#define MODEL_GUID "{72fba27e-7e8a-7c70-1bb1-fa5bbb324150}"  // digest of the table
 
 enum { Z = 9 };  // number of balls
 
