@@ -1,0 +1,191 @@
+"""Inner ring: filter of the prescribed tilt, support, gyroscopic motion, loads and pulses."""
+
+import numpy as np
+import pytest
+from mechanics import SLICE, Instance
+from scipy.integrate import quad, solve_ivp
+
+from bearing_model.variables import TiltMode
+
+LOOSE = {"bearing.P_d": 7e-4}  # a ring that rests free of the balls
+
+
+def ring_model(core, parameters=None, inputs=None):
+    """A ring that no ball touches and its states' derivative alone: ten numbers (x, y, z, beta, gamma and rates)."""
+    model = core.model(parameters=parameters or {}, inputs={"shaft.F_x": 0.0, "shaft.F_y": 0.0} | (inputs or {}))
+    y = model.start()
+    model.d.inner.hertz.K = 0.0
+    names = [f"ring_{name}" for name in ("x", "y", "z", "beta", "gamma", "v_x", "v_y", "v_z", "beta_dot", "gamma_dot")]
+    index = [SLICE[name].start for name in names]
+
+    def rates(t, ring):
+        y[index] = ring
+        rate = model.rhs(t, y)[index]
+        assert max(model.work.Q_i) == 0.0
+        return rate
+
+    return model, rates
+
+
+def run(rates, start, t):
+    """The ring's motion from `start` at times t; relative error 1e-10."""
+    solution = solve_ivp(rates, (0.0, t[-1]), start, t_eval=t, rtol=1e-10, atol=1e-14, method="DOP853")
+    assert solution.success
+    return solution.y
+
+
+# -------------------------------------------------------------------------------------------------------------------------- tilt
+
+
+def test_prescribed_tilt_is_critically_damped(core):
+    """Step of the shaft's tilt: theta (1 - (1 + t/tau) exp(-t/tau)), tau = ring.tilt_time."""
+    tau, tilt = 1e-4, 5e-3
+    _, rates = ring_model(core, inputs={"shaft.tilt_z": tilt, "shaft.tilt_y": -0.5 * tilt})
+    t = np.linspace(0.0, 8e-4, 41)
+    motion = run(rates, np.zeros(10), t)
+    size = np.hypot(tilt, 0.5 * tilt)
+    sinc = np.sin(size) / size  # direction cosines of the tilt vector (0, tilt_y, tilt_z)
+    response = 1.0 - (1.0 + t / tau) * np.exp(-t / tau)
+    assert motion[4] == pytest.approx(tilt * sinc * response, abs=1e-8 * tilt)
+    assert motion[3] == pytest.approx(-0.5 * tilt * sinc * response, abs=1e-8 * tilt)
+
+
+def test_tilt_is_a_rotation_vector(core):
+    """Outputs give the shaft's tilts back; both ways for a large tilt against scipy's rotation of the axis."""
+    from scipy.spatial.transform import Rotation
+
+    tilt_y, tilt_z = 0.021, -0.033
+    beta, gamma = (core.ffi.new("double *") for _ in range(2))
+    core.lib.ring_cosines(tilt_y, tilt_z, beta, gamma)
+    a = Rotation.from_rotvec([0.0, tilt_y, tilt_z]).apply([1.0, 0.0, 0.0])
+    assert (gamma[0], -beta[0]) == pytest.approx((a[1], a[2]), rel=1e-13)
+    back = [core.ffi.new("double *") for _ in range(2)]
+    core.lib.ring_tilts(beta[0], gamma[0], *back)
+    assert (back[0][0], back[1][0]) == pytest.approx((tilt_y, tilt_z), rel=1e-13)
+    assert a[1] < 0.0  # + tilt_z turns +X toward +Y, here it is negative
+
+
+def test_prescribed_tilt_reaches_the_outputs(core):
+    bearing = Instance(core, LOOSE, {"shaft.F_x": 0.0, "shaft.F_y": 0.0, "shaft.omega": 0.0})
+    bearing.set(**{"shaft.tilt_y": 2e-3, "shaft.tilt_z": -1e-3})
+    bearing.step(2e-3)
+    assert bearing.output("ring.tilt_y") == pytest.approx(2e-3, rel=1e-4)  # after 20 time constants: the integrator's error
+    assert bearing.output("ring.tilt_z") == pytest.approx(-1e-3, rel=1e-4)
+
+
+def test_supported_tilt(core):
+    """At standstill a damped oscillator in each plane: J_t tilt'' = k (shaft - tilt) - c tilt' + M."""
+    k, c, J = 2e4, 1.0, 1.2e-4
+    parameters = {"ring.tilt_mode": TiltMode.SUPPORTED, "ring.k_tilt": k, "ring.c_tilt": c}
+    _, rates = ring_model(core, parameters, {"shaft.omega": 0.0, "shaft.M_y": 1e-3, "shaft.M_z": -2e-3, "shaft.tilt_z": 1e-6})
+    t = np.linspace(0.0, 1e-3, 51)
+    motion = run(rates, np.zeros(10), t)
+    decay, omega = c / (2 * J), np.sqrt(k / J - (c / (2 * J)) ** 2)
+    response = 1.0 - np.exp(-decay * t) * (np.cos(omega * t) + decay / omega * np.sin(omega * t))
+    assert motion[3] == pytest.approx(1e-3 / k * response, abs=1e-13)  # 2e-6 of the deflection
+    assert motion[4] == pytest.approx((1e-6 - 2e-3 / k) * response, abs=2e-13)
+
+
+def test_gyroscopic_precession(core):
+    """A free spinning ring's axis moves on a cone about the angular momentum at |L|/J_t, in the sense of the spin."""
+    J_p, J_t, omega = 1.8e-4, 1.2e-4, 1900.0
+    _, rates = ring_model(core, {"ring.tilt_mode": TiltMode.FREE}, {"shaft.omega": omega})
+    rate = 2.0  # of gamma at the start [1/s]
+    nutation = np.hypot(J_p * omega, J_t * rate) / J_t
+    t = np.linspace(0.0, 2.0 * np.pi / nutation, 33)
+    start = np.zeros(10)
+    start[9] = rate
+    motion = run(rates, start, t)
+    a = np.array([np.sqrt(1.0 - motion[3] ** 2 - motion[4] ** 2), motion[4], -motion[3]])
+    L = np.array([J_p * omega, 0.0, 0.0]) + J_t * np.cross([1.0, 0.0, 0.0], [0.0, rate, 0.0])
+    n = L / np.linalg.norm(L)
+    across, along = np.array([1.0, 0, 0]) - n * n[0], n * n[0]
+    cone = along[:, None] + across[:, None] * np.cos(nutation * t) + np.cross(n, across)[:, None] * np.sin(nutation * t)
+    assert np.abs(a - cone).max() < 1e-9 * np.linalg.norm(across) + 1e-12
+    assert np.linalg.norm(across) > 1e-4
+
+
+def test_moment_precesses_a_spinning_ring(core):
+    """A constant moment about Z on a ring spinning fast about X: mean drift of the axis M/(J_p omega) toward +Z (axis follows the moment)."""
+    J_p, J_t, omega, M = 1.8e-4, 1.2e-4, 1900.0, 0.01
+    _, rates = ring_model(core, {"ring.tilt_mode": TiltMode.FREE}, {"shaft.omega": omega, "shaft.M_z": M})
+    period = 2.0 * np.pi * J_t / (J_p * omega)
+    motion = run(rates, np.zeros(10), np.array([0.0, 3.0 * period]))
+    assert -motion[3, -1] == pytest.approx(M / (J_p * omega) * 3.0 * period, rel=1e-4)  # cosines of 4e-4: second order 1e-7
+    assert abs(motion[4, -1]) < 1e-3 * abs(motion[3, -1])
+
+
+def test_translation(core):
+    """m x'' = F - c x' + m g: exponential approach of F/c."""
+    m, c = 0.6, 1500.0
+    _, rates = ring_model(core, {"gravity.y": -9.81}, {"shaft.F_x": 12.0, "shaft.F_z": -20.0})
+    t = np.linspace(0.0, 2e-3, 21)
+    motion = run(rates, np.zeros(10), t)
+    response = (1.0 - np.exp(-c / m * t)) / c
+    assert motion[5] == pytest.approx(12.0 * response, rel=1e-8, abs=1e-13)
+    assert motion[6] == pytest.approx(-9.81 * m * response, rel=1e-8, abs=1e-13)
+    assert motion[7] == pytest.approx(-20.0 * response, rel=1e-8, abs=1e-13)
+
+
+# ------------------------------------------------------------------------------------------------------------------------- pulses
+
+
+PULSES = {"pulse.F_r": 1401.0, "pulse.F_a": 241.0, "pulse.t_start": 0.1, "pulse.duration": 1e-3, "pulse.interval": 10e-3 / 3, "pulse.count": 3}
+
+
+def load(core, parameters, inputs, t):
+    """Load on the ring at time t, as a step to t sets it."""
+    model = core.model(parameters=parameters, inputs=inputs)
+    core.lib.drive_update(model.p, model.u, t, model.drive)
+    F = core.ffi.new("double[3]")
+    core.lib.drive_load(model.drive, t, F)
+    return np.array(list(F))
+
+
+@pytest.mark.parametrize(("F_y", "F_z"), [(2994.0, 0.0), (-300.0, 400.0), (0.0, 0.0)])
+def test_pulses(core, F_y, F_z):
+    """Half-sines along the radial load (+Y without one) and +X; each gives the impulse 2 F duration/pi; nothing between them."""
+    inputs = {"shaft.F_x": 515.0, "shaft.F_y": F_y, "shaft.F_z": F_z}
+    direction = np.array([F_y, F_z]) / np.hypot(F_y, F_z) if F_y or F_z else np.array([1.0, 0.0])
+    static = np.array([515.0, F_y, F_z])
+    for n in range(3):
+        start = 0.1 + n * 10e-3 / 3
+        middle = load(core, PULSES, inputs, start + 0.5e-3) - static
+        assert middle == pytest.approx([241.0, *1401.0 * direction], rel=1e-12)
+        eighth = load(core, PULSES, inputs, start + 0.25e-3) - static
+        assert eighth == pytest.approx(middle * np.sin(np.pi / 4), rel=1e-9)
+        impulse = [quad(lambda t, i=i: load(core, PULSES, inputs, t)[i] - static[i], start, start + 1e-3)[0] for i in range(3)]
+        assert impulse == pytest.approx(2.0 * 1e-3 / np.pi * middle, rel=1e-8)
+    for t in (0.0, 0.0999, 0.1 + 1.0001e-3, 0.1 + 9.9e-3, 0.2):
+        assert load(core, PULSES, inputs, t) == pytest.approx(static, abs=0.0)
+
+
+def test_edges(core):
+    """Starts are t_start + n interval and ends start + duration, to the bit; none after the last; each later than the time asked from."""
+    p = core.model(parameters=PULSES).p
+    starts = [0.1 + n * (10e-3 / 3) for n in range(3)]
+    expected = [edge for start in starts for edge in (start, start + 1e-3)]
+    t, edges = 0.0, []
+    while np.isfinite(t := core.lib.drive_next_edge(p, t)):
+        edges.append(t)
+    assert edges == expected
+    assert core.lib.drive_next_edge(core.model().p, 0.0) == np.inf
+
+
+def test_impulse_through_the_integrator(core):
+    """Three pulses push a loose undamped ring of 0.6 kg to 3 * 2 F duration/(pi m), whatever the communication step."""
+    parameters = LOOSE | {"ring.c": 0.0, "pulse.F_r": 30.0, "pulse.F_a": -20.0, "pulse.t_start": 3.7e-5, "pulse.duration": 1.3e-4}
+    parameters |= {"pulse.interval": 2.1e-4, "pulse.count": 3}
+    bearing = Instance(core, parameters, {"shaft.F_x": 0.0, "shaft.F_y": 0.0, "shaft.omega": 0.0}, tolerance=1e-8)
+    start = bearing.y[SLICE["ring_v_x"].start :][:3]
+    for n in range(1, 8):
+        bearing.step(n * 1e-4)
+    velocity = bearing.y[SLICE["ring_v_x"].start :][:3] - start
+    expected = 3.0 * 2.0 * 1.3e-4 / (np.pi * 0.6) * np.array([-20.0, 30.0, 0.0])
+    assert velocity == pytest.approx(expected, abs=3e-7)  # 1e-8 of 0.1 m/s in the mean over 152 states: 1.2e-8 a step
+
+
+def test_impact_inputs(core):
+    """impact.F_r adds along the present radial load, impact.F_a along +X."""
+    inputs = {"shaft.F_x": 10.0, "shaft.F_y": -30.0, "shaft.F_z": 40.0, "impact.F_r": 5.0, "impact.F_a": -2.0}
+    assert load(core, {}, inputs, 0.0) == pytest.approx([8.0, -33.0, 44.0], rel=1e-14)
