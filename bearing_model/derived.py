@@ -122,7 +122,7 @@ def derive_joint(p, d, table):
 
 def derive_scales(p, d):
     length, velocity, r = 1e-5, 0.1, 0.5 * p.bearing.d_m
-    capacity = p.joint.mu * d.P + p.joint.F_floor
+    friction = max(p.joint.mu * d.P, 3.0)  # a loose joint is not held to a finer force than the default one
     by_class = {
         "length": length,
         "velocity": velocity,
@@ -130,8 +130,8 @@ def derive_scales(p, d):
         "tilt": length / r,
         "rate": velocity / r,
         "spin": velocity / (0.5 * p.bearing.D),
-        "plate": capacity / d.k_plate_t,
-        "head": capacity / d.k_head,
+        "plate": friction / d.k_plate_t,
+        "head": friction / d.k_head,
         "energy": 1e30,
     }
     d.scale = np.empty(N_STATES)

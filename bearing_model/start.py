@@ -6,7 +6,8 @@
     Pi = sum_j (2/5)(K_i delta_i^2.5 + K_e delta_e^2.5) - F_c r_j + k_0 x_j^2/2  - F.x - M.(beta, gamma) + support energy + k_0 (x^2 + ...)/2
 
 Forces come from race_contact_force at rest.  F_0 presses unloaded balls outward where nothing else does (standstill), k_0 holds what no load holds
-(no axial load, no load): 0.01 N over 10 um.  Then all parts run at kinematic speeds without slip, the cage is centred and turns with the balls.
+(no axial load, no load): 0.01 N over 10 um.  Then all parts run at kinematic speeds without slip; the cage is centred on the balls - their mean and
+the first harmonic of their axial places, else a tilted ring's balls would start inside the cage - and turns with them.
 """
 
 import numpy as np
@@ -15,7 +16,7 @@ from scipy.optimize import minimize
 from bearing_model.hertz import hertz_energy
 from bearing_model.model import Work
 from bearing_model.race_contact import race_contact_force
-from bearing_model.rotor import Rotor, rotor_axis
+from bearing_model.rotor import Rotor, rotor_axis, rotor_body_axes
 from bearing_model.variables import (
     BALL_OMEGA_M,
     BALL_OMEGA_R,
@@ -23,10 +24,15 @@ from bearing_model.variables import (
     BALL_R,
     BALL_THETA,
     BALL_X,
+    CAGE_BETA,
+    CAGE_GAMMA,
     CAGE_S,
+    CAGE_V_X,
+    CAGE_V_Y,
     CAGE_V_Z,
     CAGE_X,
     CAGE_Y,
+    CAGE_Z,
     N_STATES,
     RING_BETA,
     RING_GAMMA,
@@ -36,6 +42,7 @@ from bearing_model.variables import (
     TiltMode,
     Z,
 )
+from bearing_model.vec import vec_cross
 
 K_0 = 1e3  # [N/m]
 F_0 = 1e-3  # [N]
@@ -137,6 +144,22 @@ def orbital_speed(model, w):
     return model.drive.omega * np.average(0.5 * (1.0 - 2.0 * model.d.R * cosine / model.p.bearing.d_m), weights=load)
 
 
+def cage_place(model, w, omega_m, y):
+    """Both halves at x_0 + (beta sin theta - gamma cos theta) r, the balls' axial places but for higher harmonics, turning steadily about that axis."""
+    x_0 = np.mean(w.x)
+    beta, gamma = 2.0 * np.mean(w.x / w.r * w.sin_theta), -2.0 * np.mean(w.x / w.r * w.cos_theta)
+    half = Rotor()
+    rotor_axis(half, beta, gamma, 0.0, 0.0, omega_m)
+    rotor_body_axes(half, 1.0, 0.0)
+    c = np.multiply.outer(half.a, model.d.com_x) + model.d.com_e * half.b_y[:, None]
+    y[CAGE_X], y[CAGE_Y], y[CAGE_Z] = c
+    y[CAGE_X] += x_0
+    y[CAGE_V_X], y[CAGE_V_Y], y[CAGE_V_Z] = vec_cross(half.Omega, c)
+    y[CAGE_BETA] = beta
+    y[CAGE_GAMMA] = gamma
+    y[CAGE_S] = omega_m
+
+
 def start_state(model):
     """The start state [N_STATES] and the largest force that is left in the equilibrium [N]."""
     d, theta = model.d, spacing(model.p)
@@ -154,10 +177,7 @@ def start_state(model):
     rolling = -w.r * omega_m / d.R
     y[BALL_OMEGA_X] = rolling * w.n_e[1]
     y[BALL_OMEGA_R] = -rolling * w.n_e[0]
-    y[CAGE_X] = d.com_x
-    y[CAGE_Y] = d.com_e
-    y[CAGE_V_Z] = omega_m * d.com_e
-    y[CAGE_S] = omega_m
+    cage_place(model, w, omega_m, y)
     y[RING_X], y[RING_Y], y[RING_Z] = z[:3]
     y[RING_BETA], y[RING_GAMMA] = z[3:5] / eq.r
     return y, residual
