@@ -4,6 +4,7 @@ VENV    = .venv
 BIN     = $(VENV)/bin
 PYTHON  = $(BIN)/python
 FMU     = fmus/RivetedBearing.fmu
+COPY    = $(CURDIR)/build/sanitize
 PYTEST  = $(PYTHON) -m pytest
 C_FILES = $(wildcard fmu_src/*.[ch] tests/*.[ch])
 
@@ -39,6 +40,12 @@ format: $(VENV)/installed  ## format and fix what can be fixed
 	$(BIN)/ruff check --fix .
 	$(BIN)/ruff format .
 	$(BIN)/clang-format -i $(C_FILES)
+
+sanitize: $(VENV)/installed  ## the fast tests on a copy compiled with the address and undefined-behaviour sanitizers
+	mkdir -p $(COPY) && git ls-files -co --exclude-standard | tar -c -T - | tar -x -C $(COPY)
+	$(BIN)/cmake -S $(COPY) -B $(COPY)/build -G Ninja -DSANITIZE=address,undefined -DFMU=$(COPY)/$(FMU) -DPython_EXECUTABLE=$(CURDIR)/$(PYTHON)
+	$(BIN)/cmake --build $(COPY)/build
+	cd $(COPY) && PYTHONPATH=$(COPY) PYTHONMALLOC=malloc ASAN_OPTIONS=detect_leaks=0 LD_PRELOAD="$$(cc -print-file-name=libasan.so) libstdc++.so.6" $(CURDIR)/$(PYTEST) -n 2
 
 clean:  ## remove what was built; the Python environment and the cached SUNDIALS archive stay
 	rm -rf build $(FMU)
