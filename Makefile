@@ -23,7 +23,7 @@ test-slow: build  ## the tests that take minutes
 	$(PYTEST) -n 2 -m slow
 
 bench: build  ## measure what the README claims
-	$(PYTHON) benchmarks/scenes.py
+	for file in benchmarks/*.py; do $(PYTHON) $$file || exit 1; done
 
 build: build/build.ninja  ## the FMU and the tests' library; seconds after an edit
 	$(BIN)/cmake --build build
