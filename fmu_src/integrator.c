@@ -31,9 +31,9 @@ struct Integrator {
     void *stepper[2];          // by Path - 1
     SUNNonlinearSolver diagonal;
     double weight[N_STATES];
-    double t_stop;
     const double *latest;      // where ARKODE keeps the latest evaluation
     bool starting;             // the next evaluation is the one at (s->t, s->y)
+    unsigned spoiled;          // trial states without a derivative in this advance
 };
 
 // ---- vectors of fixed length with the operations of this processor ---------------------------------------------------------------------------
@@ -162,31 +162,35 @@ static N_Vector vector_new(SUNContext sun, const VectorOps *vector_operations)
 }
 
 // ---- what ARKODE calls ---------------------------------------------------------------------------------------------------------------------
-// dy/dt; at a step's start the known one.  A state that is not finite: retry with a smaller step.
-static int evaluate(Integrator *in, double t, const double *y, double *f)
+// dy/dt; at a step's start the known one.  ERKStep has no retry for a trial state without a derivative, so such a state gets an enormous one,
+// of alternating sign: the error test fails and the step is tried again with a smaller size.
+static void evaluate(Integrator *in, double t, const double *y, double *f)
 {
     if (in->starting) {
         in->starting = false;
         memcpy(f, in->s->f, sizeof in->s->f);
-        return 0;
+        return;
     }
     in->kernels->rhs(in->model, t, y, f, in->w);
     in->s->rhs_evals += 1.0;
     in->latest = f;
-    return in->kernels->ops->finite(f) ? 0 : 1;
+    if (in->kernels->ops->finite(f)) return;
+    const double enormous = in->spoiled++ % 2 == 0 ? 1e15 : -1e15;  // [1/s] in units of the tolerance
+    for (int i = 0; i < N_STATES; i++) f[i] = enormous / in->weight[i];
 }
 
 static int explicit_rhs(sunrealtype t, N_Vector y, N_Vector f, void *user)
 {
-    return evaluate(user, t, data(y), data(f));
+    evaluate(user, t, data(y), data(f));
+    return 0;
 }
 
 static int imex_explicit(sunrealtype t, N_Vector y, N_Vector f, void *user)
 {
     Integrator *in = user;
-    const int status = evaluate(in, t, data(y), data(f));
+    evaluate(in, t, data(y), data(f));
     in->kernels->ops->imex_explicit(data(f), in->s->D, data(y), data(f));
-    return status;
+    return 0;
 }
 
 static int imex_implicit(sunrealtype t, N_Vector y, N_Vector f, void *user)
@@ -347,6 +351,8 @@ int integrator_advance(Integrator *in, double t_stop, long max_steps)
     IntegratorState *s = in->s;
     void *stepper = in->stepper[s->path - 1];
     integrator_evaluate(in);
+    if (!in->kernels->ops->finite(s->f)) return -1;
+    in->spoiled = 0;
     memcpy(data(in->y), s->y, sizeof s->y);
     if (ARKodeReset(stepper, s->t, in->y) != ARK_SUCCESS) return -1;
     if (ARKodeSetInitStep(stepper, fmin(s->h, t_stop - s->t)) != ARK_SUCCESS) return -1;

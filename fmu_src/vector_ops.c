@@ -8,20 +8,34 @@ static void linear_sum(double a, const double *x, double b, const double *y, dou
     ALL(i) z[i] = a * x[i] + b * y[i];
 }
 
+// One pass for a number n of vectors that the compiler knows; z may be one of them.
+INLINE void combine(int n, const double *c, double *const *x, double *z)
+{
+    ALL(i)
+    {
+        double sum = c[0] * x[0][i];
+        for (int k = 1; k < n; k++) sum += c[k] * x[k][i];
+        z[i] = sum;
+    }
+}
+
 static void linear_combination(int n, const double *c, double *const *x, double *z)
 {
-    double sum[N_STATES];
-    ALL(i) sum[i] = c[0] * x[0][i];
-    int k = 1;
-    for (; k + 1 < n; k += 2) {
-        const double *u = x[k], *v = x[k + 1], a = c[k], b = c[k + 1];
-        ALL(i) sum[i] = sum[i] + a * u[i] + b * v[i];
+    switch (n) {
+#define CASE(n) \
+    case n: combine(n, c, x, z); return
+        CASE(1);
+        CASE(2);
+        CASE(3);
+        CASE(4);
+        CASE(5);
+        CASE(6);
+        CASE(7);
+        CASE(8);
+        CASE(9);
+    default: combine(n, c, x, z);
     }
-    if (k < n) {
-        const double *u = x[k], a = c[k];
-        ALL(i) sum[i] += a * u[i];
-    }
-    memcpy(z, sum, sizeof sum);
+#undef CASE
 }
 
 static double wrms_norm(const double *x, const double *w)
