@@ -3,6 +3,7 @@
 import ctypes
 import ctypes.util
 import math
+import os
 import struct
 import subprocess
 import sys
@@ -30,6 +31,8 @@ from slave import (
 from bearing_model.variables import PARAMETERS
 
 H = 1e-4  # communication step [s]
+LINUX = sys.platform.startswith("linux")
+SANITIZED = "asan" in os.environ.get("LD_PRELOAD", "")  # make sanitize
 
 
 @pytest.fixture(scope="module")
@@ -77,12 +80,12 @@ def test_packing_again_gives_the_same_bytes(folder, fmu, tmp_path):
     assert (tmp_path / "again.fmu").read_bytes() == fmu.read_bytes()
 
 
-@pytest.mark.skipif(not sys.platform.startswith("linux"), reason="reads an ELF file")
+@pytest.mark.skipif(not LINUX or SANITIZED, reason="reads an ELF file, without sanitizers")
 def test_binary_exports_fmi_only_and_needs_libc_and_libm_only(folder):
     symbols = subprocess.run(["nm", "-D", "--defined-only", str(binary_of(folder))], capture_output=True, text=True, check=True).stdout
     exported = {line.split()[-1] for line in symbols.splitlines()}
     assert all(name.startswith("fmi2") for name in exported)
-    assert len(exported) == 44 - 1 + 1  # 44 functions of FMI 2.0 for model exchange and co-simulation
+    assert len(exported) == 44  # all functions of FMI 2.0, for model exchange and co-simulation
     dynamic = subprocess.run(["readelf", "-d", str(binary_of(folder))], capture_output=True, text=True, check=True).stdout
     needed = {line.split("[")[1].rstrip("]") for line in dynamic.splitlines() if "(NEEDED)" in line}
     assert needed <= {"libc.so.6", "libm.so.6", "ld-linux-x86-64.so.2", "ld-linux-aarch64.so.1"}
@@ -410,7 +413,7 @@ def test_any_thread(folder):
     assert all(same_bits(expected, slave.outputs()) for slave in slaves)
 
 
-@pytest.mark.skipif(not sys.platform.startswith("linux"), reason="rounding modes by number")
+@pytest.mark.skipif(not LINUX, reason="rounding modes by number")
 @pytest.mark.parametrize("rounding", [0x400, 0x800, 0xC00])
 def test_any_rounding_mode_of_the_host(folder, rounding):
     """x86-64: downward, upward, toward zero; the host's mode is as before after each call."""
@@ -447,7 +450,7 @@ def test_inputs_set_after_a_step_do_not_change_its_outputs(folder):
 
 
 def test_communication_steps_agree_to_the_tolerance(folder):
-    """Motion of the ring after 1 ms at tolerance 1e-6: within 10 times the error that the tolerance allows; observed 0.9 times."""
+    """Motion of the ring after 1 ms at tolerance 1e-6: within 10 times the error that the tolerance allows; observed 1.6 times."""
     tolerance = 1e-6
     allowed = tolerance * np.array([1e-5] * 3 + [0.1] * 3)  # scales of length [m] and velocity [m/s]
     names = ("ring.x", "ring.y", "ring.z", "ring.v_x", "ring.v_y", "ring.v_z")
@@ -680,7 +683,7 @@ def count_allocations(program, folder, steps, h):
     return map(int, result.stdout.split())
 
 
-@pytest.mark.skipif(not sys.platform.startswith("linux"), reason="replaces glibc's malloc")
+@pytest.mark.skipif(not LINUX or SANITIZED, reason="replaces glibc's malloc")
 @pytest.mark.parametrize(("steps", "h"), [(200, H), (20000, 1e-8), pytest.param(1_000_000, 1e-8, marks=pytest.mark.slow)])
 def test_memory(allocations, folder, steps, h):
     """No allocation in fmi2DoStep and fmi2GetReal of all outputs from the first step on; no page more after many steps or 200 instances' lives."""
