@@ -33,6 +33,7 @@ struct Integrator {
     double weight[N_STATES];
     const double *latest;      // where ARKODE keeps the latest evaluation
     bool starting;             // the next evaluation is the one at (s->t, s->y)
+    bool rehearsing;           // dy/dt = 0
     unsigned spoiled;          // trial states without a derivative in this advance
 };
 
@@ -166,6 +167,10 @@ static N_Vector vector_new(SUNContext sun, const VectorOps *vector_operations)
 // of alternating sign: the error test fails and the step is tried again with a smaller size.
 static void evaluate(Integrator *in, double t, const double *y, double *f)
 {
+    if (in->rehearsing) {
+        memset(f, 0, sizeof in->s->f);
+        return;
+    }
     if (in->starting) {
         in->starting = false;
         memcpy(f, in->s->f, sizeof in->s->f);
@@ -289,6 +294,17 @@ static int explicit_table(void *stepper)
     return status;
 }
 
+// One step of dy/dt = 0: ARKODE allocates in its first step, which is to happen here and not in fmi2DoStep.
+static bool rehearse(Integrator *in, void *stepper)
+{
+    double t;
+    in->rehearsing = true;
+    const bool fine = ARKodeSetInitStep(stepper, 1.0) == ARK_SUCCESS && ARKodeSetStopTime(stepper, 1.0) == ARK_SUCCESS &&
+                      ARKodeEvolve(stepper, 1.0, in->y, &t, ARK_ONE_STEP) >= 0;
+    in->rehearsing = false;
+    return fine;
+}
+
 Integrator *integrator_create(const Kernels *kernels, const Model *model, Work *w, IntegratorState *state, StepHook *hook, IntegratorLog *log, void *context)
 {
     Integrator *in = calloc(1, sizeof *in);
@@ -309,6 +325,8 @@ Integrator *integrator_create(const Kernels *kernels, const Model *model, Work *
                ARKStepSetTableNum(imex, ARKODE_ARK324L2SA_DIRK_4_2_3, ARKODE_ARK324L2SA_ERK_4_2_3) == ARK_SUCCESS &&
                ARKodeSetNonlinearSolver(imex, in->diagonal) == ARK_SUCCESS && ARKodeSetLinear(imex, 0) == ARK_SUCCESS &&
                ARKodeSetDeduceImplicitRhs(imex, SUNTRUE) == ARK_SUCCESS;
+        for (int i = 0; i < N_STATES; i++) in->weight[i] = 1.0;
+        fine = fine && rehearse(in, explicit_) && rehearse(in, imex);
     }
     if (!fine) {
         integrator_destroy(in);
