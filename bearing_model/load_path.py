@@ -21,9 +21,12 @@ def load_path_rigid(d_m, wrench, c, s):
 
 def load_path_flexible(matrix, side, F_x, F_r, F_t):
     """Flexible share [Z, 5] (N, V_r, V_t, M_r, M_t) of the pocket forces [N] on the half at `side` (+1 or -1); matrix [Z, 5, 3], circulant."""
-    Z = len(matrix)
-    forces = np.stack([side * np.asarray(F_x, dtype=float), F_r, F_t])
+    Z, matrix = len(matrix), np.asarray(matrix)
+    F_t = np.asarray(F_t, dtype=float)
     relative = (np.arange(Z)[:, None] - np.arange(Z)) % Z  # rivet k, pocket j
-    loads = np.einsum("kjlf,fj->kl", np.asarray(matrix)[relative], forces)
+    mirrored = matrix[::-1] * np.array([1.0, 1.0, -1.0, -1.0, 1.0])[:, None]  # the opposite wall
+    loads = np.einsum("kjlf,fj->kl", matrix[relative][..., :2], np.stack([side * np.asarray(F_x, dtype=float), F_r]))
+    loads += np.einsum("kjl,j->kl", matrix[relative][..., 2], np.maximum(F_t, 0.0))
+    loads += np.einsum("kjl,j->kl", mirrored[relative][..., 2], np.maximum(-F_t, 0.0))
     loads[:, PATH_V_R : PATH_V_T + 1] *= side
     return loads

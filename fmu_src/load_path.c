@@ -14,16 +14,16 @@ void load_path_rigid(double d_m, const double wrench[6], const double c[Z], cons
 void load_path_flexible(const double *matrix, int side, const double F_x[Z], const double F_r[Z], const double F_t[Z], PathLoads *loads)
 {
     for (int j = 0; j < Z; j++) {
-        if (F_x[j] == 0.0 && F_r[j] == 0.0 && F_t[j] == 0.0) continue;  // most pockets are not touched
         double outward = side * F_x[j];  // mirrored to the +x half
+        double push = F_t[j] < 0.0 ? -F_t[j] : F_t[j], turn = F_t[j] < 0.0 ? -1.0 : 1.0;
         for (int i = 0; i < Z; i++) {
-            const double *m = matrix + 3 * PATH_LOADS * i;
+            const double *m = matrix + 3 * PATH_LOADS * i, *t = F_t[j] < 0.0 ? matrix + 3 * PATH_LOADS * (Z - 1 - i) : m;
             int k = i + j < Z ? i + j : i + j - Z;
-            loads->N[k] += m[0] * outward + m[1] * F_r[j] + m[2] * F_t[j];
-            loads->V_r[k] += side * (m[3] * outward + m[4] * F_r[j] + m[5] * F_t[j]);
-            loads->V_t[k] += side * (m[6] * outward + m[7] * F_r[j] + m[8] * F_t[j]);
-            loads->M_r[k] += m[9] * outward + m[10] * F_r[j] + m[11] * F_t[j];
-            loads->M_t[k] += m[12] * outward + m[13] * F_r[j] + m[14] * F_t[j];
+            loads->N[k] += m[0] * outward + m[1] * F_r[j] + t[2] * push;
+            loads->V_r[k] += side * (m[3] * outward + m[4] * F_r[j] + t[5] * push);
+            loads->V_t[k] += side * (m[6] * outward + m[7] * F_r[j] + turn * t[8] * push);
+            loads->M_r[k] += m[9] * outward + m[10] * F_r[j] + turn * t[11] * push;
+            loads->M_t[k] += m[12] * outward + m[13] * F_r[j] + t[14] * push;
         }
     }
 }

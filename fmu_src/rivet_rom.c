@@ -48,7 +48,7 @@ static Splines axis_splines_xi(const RivetAxis *axis, double s, double fit)
 // A load's place in the table; the splines of xi carry the factor s.
 typedef struct {
     Splines at[RIVET_AXES];
-    double chi;
+    double plane[2];  // weight of the sheet "plane" in head and middle
 } Place;
 
 static Place load_place(const RivetTable *t, const RivetLoad *load, double fit_eff)
@@ -57,7 +57,8 @@ static Place load_place(const RivetTable *t, const RivetLoad *load, double fit_e
     double V = sqrt(load->V_y * load->V_y + load->V_z * load->V_z), M = sqrt(load->M_y * load->M_y + load->M_z * load->M_z);
     double axial = P + N, force = axial + V, moment = M / t->moment_length, s = force + moment, VM = V * M;
     Place place;
-    place.chi = VM > 0.0 ? fmin(fabs(load->V_y * load->M_z - load->V_z * load->M_y) / VM, 1.0) : 0.0;
+    place.plane[0] = VM > 0.0 ? fmin(fabs(load->V_y * load->M_z - load->V_z * load->M_y) / VM, 1.0) : 0.0;
+    place.plane[1] = place.plane[0] * sqrt(place.plane[0]);
     place.at[RIVET_A] = axis_splines(&t->axis[RIVET_A], force > 0.0 ? V / force : 0.0);
     place.at[RIVET_B] = axis_splines(&t->axis[RIVET_B], axial > 0.0 ? N / axial : 0.0);
     place.at[RIVET_C] = axis_splines(&t->axis[RIVET_C], s > 0.0 ? moment / s : 0.0);
@@ -75,25 +76,35 @@ static inline pair pair_load(const double *from)
     return value;
 }
 
+// Pair of coefficients from an array of double or of single precision.
+static inline pair fetch(const void *coefficients, int index, bool single)
+{
+    if (!single) return pair_load((const double *)coefficients + index);
+    const float *from = (const float *)coefficients + index;
+    return (pair){from[0], from[1]};
+}
+
 // Tensor product over 3^4 coefficients of both sheets for a pair of channels.  Order of sums: xi with chi, c, b, a.
-static void contract(const RivetTable *t, const double *coefficients, const Place *place, double sigma[2])
+static inline void contract(const RivetTable *t, const void *coefficients, bool single, const Place *place, double sigma[2])
 {
     const Splines *A = &place->at[RIVET_A], *B = &place->at[RIVET_B], *C = &place->at[RIVET_C], *X = &place->at[RIVET_XI];
     int n_b = t->axis[RIVET_B].cells + 2, n_c = t->axis[RIVET_C].cells + 2, n_xi = t->axis[RIVET_XI].cells + 2;
     pair plane[3], across[3];
     for (int i = 0; i < 3; i++) {
-        plane[i] = X->w[i] * place->chi - (pair){0};
-        across[i] = X->w[i] * (1.0 - place->chi) - (pair){0};
+        plane[i] = X->w[i] * pair_load(place->plane);
+        across[i] = X->w[i] * (1.0 - pair_load(place->plane));
     }
     pair sum = {0};
     for (int a = 0; a < 3; a++) {
         pair sum_a = {0};
         for (int b = 0; b < 3; b++) {
-            const double *T = coefficients + 4 * (((((A->first + a) * n_b + B->first + b) * n_c) + C->first) * n_xi + X->first);
+            int T = 4 * (((((A->first + a) * n_b + B->first + b) * n_c) + C->first) * n_xi + X->first);
             pair part[3];
             for (int c = 0; c < 3; c++, T += 4 * n_xi) {
-                pair in_plane = plane[0] * pair_load(T) + plane[1] * pair_load(T + 4) + plane[2] * pair_load(T + 8);
-                pair beside = across[0] * pair_load(T + 2) + across[1] * pair_load(T + 6) + across[2] * pair_load(T + 10);
+                pair in_plane =
+                    plane[0] * fetch(coefficients, T, single) + plane[1] * fetch(coefficients, T + 4, single) + plane[2] * fetch(coefficients, T + 8, single);
+                pair beside = across[0] * fetch(coefficients, T + 2, single) + across[1] * fetch(coefficients, T + 6, single) +
+                              across[2] * fetch(coefficients, T + 10, single);
                 part[c] = C->w[c] * (in_plane + beside);
             }
             sum_a += B->w[b] * (part[0] + part[1] + part[2]);
@@ -107,7 +118,7 @@ void rivet_rom_primary(const RivetTable *t, const RivetLoad *load, double fit_ef
 {
     Place place = load_place(t, load, fit_eff);
     double sigma[2];
-    contract(t, t->primary, &place, sigma);
+    contract(t, t->primary, false, &place, sigma);
     *head_p1 = sigma[0] + t->head_friction * load->F_head;
     *mid_vm = sigma[1];
 }
@@ -116,8 +127,8 @@ unsigned rivet_rom_stress(const RivetTable *t, const RivetLoad *load, double fit
 {
     Place place = load_place(t, load, fit_eff);
     double primary[2], secondary[2];
-    contract(t, t->primary, &place, primary);
-    contract(t, t->secondary, &place, secondary);
+    contract(t, t->primary, false, &place, primary);
+    contract(t, t->secondary, true, &place, secondary);
     sigma[HEAD_P1] = primary[0] + t->head_friction * load->F_head;
     sigma[MID_VM] = primary[1];
     sigma[HEAD_VM] = secondary[0] + t->head_friction_vm * load->F_head;

@@ -10,9 +10,10 @@
 // The frictionless joint (elastic bodies, unilateral contacts, gaps proportional to the fit) answers homogeneously of degree 1 in
 // (P, N, V, M, fit), so one argument divides out:
 //
-//     sigma = s (chi T_plane(a, b, c, xi) + (1 - chi) T_across(a, b, c, xi)),      s = P + N + V + |M|/L,   L = moment_length of the table
+//     sigma = s (w T_plane(a, b, c, xi) + (1 - w) T_across(a, b, c, xi)),      s = P + N + V + |M|/L,   L = moment_length of the table
 //     a = V/(P + N + V),  b = N/(P + N),  c = |M|/(L s),  xi = fit_eff/s
 //     chi = |V_y M_z - V_z M_y|/(V |M|): 1 if M bends in the plane of V, 0 if across it
+//     w = chi in the head, chi^1.5 in the middle: the measured rule between the two, within 0.6 % and 2 % of the largest clearance stress
 //
 // The channels are the largest stress over both heads and all angles.  A half turn and the mirror of the halves change the sign of M against
 // V, so the sign only says which head carries more, and the channel does not depend on it.
@@ -82,7 +83,7 @@ typedef struct {
     double moment_length;  // L [m]
     RivetAxis axis[RIVET_AXES];
     const double *primary;    // spline coefficients [a][b][c][xi][plane, across][HEAD_P1, MID_VM], in 1/m2
-    const double *secondary;  // the same of [HEAD_VM, MID_P1]
+    const float *secondary;   // the same of [HEAD_VM, MID_P1], which only outputs ask for
     double head_friction;     // [1/m2]
     double head_friction_vm;  // [1/m2]
     double yield_rivet;       // [Pa]

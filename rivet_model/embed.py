@@ -9,10 +9,10 @@ import numpy as np
 from . import splines, table
 
 
-def _array(name, values):
-    text = [repr(float(value)) for value in np.ravel(values)]
+def _array(name, values, kind="double"):
+    text = [repr(float(value)) + "f" * (kind == "float") for value in np.ravel(values)]
     lines = [", ".join(text[i : i + 8]) for i in range(0, len(text), 8)]
-    return f"static const double {name}[{len(text)}] = {{\n    " + ",\n    ".join(lines) + "};\n"
+    return f"static const {kind} {name}[{len(text)}] = {{\n    " + ",\n    ".join(lines) + "};\n"
 
 
 def c_source(t):
@@ -30,7 +30,7 @@ def c_source(t):
     channel = table.CHANNELS.index
     parts += [
         _array("primary", t.coefficients[..., [channel("head_p1"), channel("mid_vm")]]),
-        _array("secondary", t.coefficients[..., [channel("head_vm"), channel("mid_p1")]]),
+        _array("secondary", t.coefficients[..., [channel("head_vm"), channel("mid_p1")]], "float"),
         _array("j2_fit_a", t.fit_a),
         _array("j2_fit_eff", t.fit_eff),
         _array("j2_slope", t.fit_slope),

@@ -77,7 +77,7 @@ class Grid:
 
 COARSE = Grid(Fineness(0.6), 11.25, 12, 16)
 SHIPPED = Grid()
-TRUTH = Grid(Fineness(1.0), 1.875, 36, 96)
+TRUTH = Grid(Fineness(1.0), 1.875, 24, 96)
 
 
 def surface_stress(tt, hoop, shear):

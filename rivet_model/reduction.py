@@ -15,12 +15,12 @@ from .load_cases import Joint
 
 MOMENT_LENGTH = 2e-3  # L: prying opens the default joint near M = P L
 
-# Knots close where contacts open: b = 1/2 (N = P), c = 1/2 (M = P L), xi = 0 (the bore closes).
+# Knots close where contacts open: b = 1/2 (N = P), c = 1/2 (M = P L), xi = 0...12 nm/N (the bore closes all around).
 FULL = {
     "a": np.array([0.0, 0.1, 0.2, 0.35, 0.5, 0.65, 0.8, 0.9, 1.0]),
-    "b": np.array([0.0, 0.2, 0.35, 0.44, 0.5, 0.56, 0.65, 0.8, 1.0]),
+    "b": np.array([0.0, 0.2, 0.35, 0.44, 0.5, 0.56, 0.65, 0.77, 0.9, 1.0]),
     "c": np.array([0.0, 0.15, 0.3, 0.42, 0.54, 0.7, 1.0]),
-    "xi": 1e-9 * np.array([-2500, -1600, -1000, -600, -350, -200, -120, -70, -40, -20, -8, 0, 8, 18, 35, 70, 150, 400]),
+    "xi": 1e-9 * np.array([-2500, -1600, -1000, -600, -350, -200, -110, -50, -20, -5, 0.5, 1.5, 3, 5, 8, 12, 18, 30, 60, 150, 400]),
 }
 COARSE = {"a": np.array([0.0, 0.5, 1.0]), "b": np.array([0.0, 0.5, 1.0]), "c": np.array([0.0, 0.5, 1.0]), "xi": 1e-9 * np.array([-1000, -100, 0, 30, 400])}
 

@@ -66,6 +66,14 @@ def rounded(numbers):
     return np.array([float(f"{value:.6g}") for value in np.ravel(numbers)]).reshape(np.shape(numbers))
 
 
+def _as_embedded(coefficients):
+    """The coefficients that both readers use: those of the secondary channels in single precision."""
+    coefficients = MPA_PER_N * coefficients
+    secondary = [CHANNELS.index("head_vm"), CHANNELS.index("mid_p1")]
+    coefficients[..., secondary] = coefficients[..., secondary].astype(np.float32)
+    return coefficients
+
+
 def _digest(sections):
     return hashlib.sha256(json.dumps(sections, sort_keys=True, separators=(",", ":")).encode()).hexdigest()
 
@@ -147,7 +155,7 @@ def read(path, Z=None):
         Z=header["Z"],
         moment_length=stress["moment_length"],
         knots=knots,
-        coefficients=MPA_PER_N * np.array(stress["coefficients"]).reshape(shape),
+        coefficients=_as_embedded(np.array(stress["coefficients"]).reshape(shape)),
         head_friction=stress["head_friction"] * MPA_PER_N,
         head_friction_vm=stress["head_friction_vm"] * MPA_PER_N,
         yield_rivet=stress["yield_rivet"],
@@ -179,7 +187,7 @@ def make(geometry: Geometry, kind, knots, samples_mpa, fit_map, joint, load_path
 
     fit_map: (fit_a, fit_eff) of the plastic map.  scalars: the remaining members of RivetTable.
     """
-    coefficients = MPA_PER_N * rounded(splines.interpolate([knots[name] for name in AXES], samples_mpa))
+    coefficients = _as_embedded(rounded(splines.interpolate([knots[name] for name in AXES], samples_mpa)))
     fit_a, fit_eff = map(np.asarray, fit_map)
     fit_slope = np.where(fit_eff == fit_a, 1.0, monotone_slopes(fit_a, fit_eff))  # elastic until yield
     return RivetTable(

@@ -85,6 +85,14 @@ def test_flexible_share_reads_the_matrix(flexible):
         np.testing.assert_array_equal(flexible(matrix, 1, *forces), np.roll(matrix[:, :, f], 2, axis=0))
 
 
+def test_opposite_walls_are_mirror_images(flexible):
+    """F_t and -F_t on pocket 0: rivet i answers like rivet -1 - i, V_t and M_r (pseudovector) with the other sign; continuous through 0."""
+    matrix, forces = np.random.default_rng(5).normal(size=(Z, 5, 3)), np.zeros((3, Z))
+    forces[2, 0] = 2.0
+    plus, minus = flexible(matrix, 1, *forces), flexible(matrix, 1, *-forces)
+    np.testing.assert_array_equal(minus, plus[::-1] * [1, 1, -1, -1, 1])
+
+
 def test_mirrored_halves(flexible):
     """Mirrored forces on the other half: the same N and M, opposite V, so equal forces on both leave no V."""
     rng = np.random.default_rng(3)
