@@ -1,0 +1,129 @@
+"""Energy: its rate is the net power at any state, and without losses it stays."""
+
+import itertools
+
+import numpy as np
+import pytest
+from mechanics import SLICE, Instance, View, running_state
+
+from bearing_model.variables import CageModel, Lubrication, Method, Traction
+
+SCENES = list(itertools.product(CageModel, Traction, Lubrication))
+LOSSLESS = {
+    "oil.A": 0.0,
+    "oil.B": 0.0,
+    "oil.rolling": 0.0,
+    "oil.rho_mix": 0.0,
+    "oil.eta": 1e-5,  # the thinnest oil in the widest land gap: Couette's loss is 1 mW
+    "cage.guide_clearance": 5e-3,
+    "cage.mu": 0.0,
+    "cage.mu_land": 0.0,
+    "cage.lambda": 0.0,
+    "bearing.lambda": 0.0,
+    "scene.cage": CageModel.RIGID,
+}
+
+
+def power_and_rate(model, y):
+    """Net power into balls and cage from the right-hand side, and the rate of their energy along the motion.
+
+    Difference quotient of fourth order over 1e-8 s: (1e-8 * 1e6 rad/s)^4/30 of the power, rounding 1e-16 * 30 J/1e-8 s = 3e-7 W.
+    """
+    rate = model.rhs(0.0, y)
+    power, h = rate[SLICE["work"]][0], 1e-8
+    E = {}
+    for n in (-2, -1, 1, 2):
+        moved = y + n * h * rate
+        model.rhs(0.0, moved)
+        E[n] = model.energy(moved)
+    return power, (8.0 * (E[1] - E[-1]) - (E[2] - E[-2])) / (12.0 * h)
+
+
+@pytest.mark.parametrize(("cage", "traction", "lubrication"), SCENES)
+def test_power_balance(core, cage, traction, lubrication):
+    """dE/dt = supplied - dissipated to 1e-9 of the power that goes around (largest kinetic power of one contact); observed 1.4e-10."""
+    parameters = {"scene.cage": cage, "scene.traction": traction, "scene.lubrication": lubrication, "gravity.y": -9.81, "gravity.z": 4.0}
+    if cage == CageModel.TWO_HALF:
+        parameters["cage.unbalance"] = 2e-6
+    rng = np.random.default_rng(11)
+    model = core.model(parameters=parameters)
+    for _ in range(10):
+        y = running_state(model, rng)
+        power, rate = power_and_rate(model, y)
+        w = View(core, model.work)
+        moving = np.abs(w.Q_i[:9] + w.Q_e[:9]).max() * 0.1 + w.Q_c[:, :9].max() * 20.0  # [W] loads times speeds across and along
+        assert moving > 10.0
+        assert rate == pytest.approx(power, abs=1e-9 * moving + 2e-6)
+
+
+@pytest.mark.parametrize("cage", CageModel)
+def test_power_balance_at_the_wall(core, cage):
+    """Cage pressed against the outer ring: dry land contact, its damping and friction."""
+    rng = np.random.default_rng(12)
+    model = core.model(parameters={"scene.cage": cage})
+    for _ in range(5):
+        y = running_state(model, rng, pockets=False)
+        for name in ("cage_y", "cage_z"):
+            y[SLICE[name]] += 1e-4
+        power, rate = power_and_rate(model, y)
+        assert model.work.land_elastic > 0.0
+        assert rate == pytest.approx(power, abs=1e-7 * abs(power) + 1e-5)
+
+
+def test_dissipation_is_positive(core):
+    """Every element loses energy at every state."""
+    rng = np.random.default_rng(13)
+    for cage, traction, lubrication in SCENES:
+        model = core.model(parameters={"scene.cage": cage, "scene.traction": traction, "scene.lubrication": lubrication, "oil.rolling": 0.0})
+        for _ in range(5):
+            model.rhs(0.0, running_state(model, rng))
+            w = View(core, model.work)
+            assert w.dissipated[:9].min() >= 0.0
+            assert w.land_dissipated > 0.0
+            if cage == CageModel.TWO_HALF:
+                assert w.joint_dissipated[:9].min() >= 0.0
+
+
+def residual(core, tolerance, parameters, t):
+    """|energy now - at the start - net work| after t [J], and the power loss at the end [W]."""
+    bearing = Instance(core, parameters, tolerance=tolerance)
+    bearing.step(t)
+    return abs(bearing.output("bearing.energy_residual")), bearing.output("bearing.power_loss"), bearing
+
+
+def order(core, tolerances, parameters, t):
+    """Slope of the residual against the tolerance, and the last residual."""
+    residuals = [residual(core, tolerance, parameters, t)[0] for tolerance in tolerances]
+    return np.polyfit(np.log(tolerances), np.log(residuals), 1)[0], residuals[-1]
+
+
+def test_lossless_energy_stays(core):
+    """Friction, damping, drag and films off, a heavy ring: balls rattle in their pockets with 60 N (4e-5 J a pulse) and 26.5 J stay.
+
+    Bogacki-Shampine's global error of third order is proportional to the tolerance: slope 1, observed 0.96 from 1e-5 to 1e-7; 7.6e-9 J at 1e-7.
+    """
+    parameters = LOSSLESS | {"ring.m": 1000.0, "cage.pocket_clearance": 7e-5}
+    slope, last = order(core, [1e-5, 1e-6, 1e-7], parameters, 2e-3)
+    assert slope == pytest.approx(1.0, abs=0.2)
+    assert last < 2e-8
+    _, loss, bearing = residual(core, 1e-5, parameters, 2e-3)
+    assert loss < 5e-3  # [W] Couette's torque of the thinnest film
+    model = core.model(parameters=parameters)
+    y = model.start()
+    model.rhs(0.0, y)
+    start = model.energy(y)
+    model.rhs(2e-3, bearing.y)
+    assert start == pytest.approx(26.5, rel=0.02)
+    assert model.energy(bearing.y) == pytest.approx(start, abs=1e-4)  # the springs of the start give 2e-5 J of work to the ring
+
+
+@pytest.mark.parametrize("path", [Method.EXPLICIT, Method.IMEX])
+@pytest.mark.parametrize("cage", CageModel)
+def test_energy_balance_of_a_run(core, cage, path):
+    """The working point for 10 ms dissipates 2.6 J; the balance closes to 1e-5 of it at the default tolerance (observed 1...4e-6) and with slope 1."""
+    parameters = {"scene.cage": cage, "solver.method": path}
+    error, loss, _ = residual(core, 1e-4, parameters, 1e-2)
+    assert 150.0 < loss < 500.0
+    assert error < 1e-5 * 2.6
+    slope, _ = order(core, [1e-4, 1e-5, 1e-6], parameters, 1e-2)
+    assert slope == pytest.approx(1.0, abs=0.35)  # chaos after 3 ms: observed 0.83...0.97
