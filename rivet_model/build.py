@@ -28,7 +28,8 @@ def _quiet(stage, done, total):
 def make_table(geometry, coarse=False, workers=2, progress=_quiet, hold_out=320):
     """Table of kind fe.
 
-    progress(stage, done, total) is called as the work goes on; hold_out: number of fresh loads for the error in the header (0 leaves it out).
+    progress(stage, done, total) is called as the work goes on; hold_out: number of fresh loads for the error in the header (0 leaves it out;
+    an eighth of it for a coarse table).
     Raises ValueError for a geometry that cannot be meshed, ArithmeticError if a contact or plasticity solution is not found.
     """
     grid, knots = (COARSE, reduction.COARSE) if coarse else (SHIPPED, reduction.FULL)
@@ -44,7 +45,9 @@ def make_table(geometry, coarse=False, workers=2, progress=_quiet, hold_out=320)
     progress("load path", 1, 1)
     result = assemble(joint, knots, samples, fit, path)
     if hold_out:
-        result.errors = measured_errors(result, joint if coarse else reduction.condense(geometry, TRUTH), hold_out, workers, stage("hold-out"))
+        result.errors = measured_errors(
+            result, joint if coarse else reduction.condense(geometry, TRUTH), hold_out // 8 if coarse else hold_out, workers, stage("hold-out")
+        )
     return result
 
 

@@ -43,9 +43,7 @@ def sector_mesh(g, size=None, sectors=1):
     size = size or HalfMesh()
     R, w, pitch = g.d_m / 2, g.cage_half_width, np.pi * g.d_m / g.Z
     pocket = 0.5 * (g.ball_diameter + g.pocket_clearance)
-    pad, edge, end = min(g.patch_radius, 0.7 * (0.5 * pitch - pocket)), 0.5 * pitch - pocket, 0.5 * pitch
-    if w <= 1.05 * pocket or edge <= 0.0:
-        raise ValueError(f"geometry: cage_half_width = {w:g} and pitch {pitch:g} leave no material around pockets of radius {pocket:g}")
+    pad, end = min(g.patch_radius, 0.7 * (0.5 * pitch - pocket)), 0.5 * pitch
 
     def block(corner_curves):
         """Transfinite block from bottom(u), top(u): points [nu, nv, 2] on straight lines from bottom to top."""

@@ -43,10 +43,10 @@ class Body:
 
     mesh: skfem MeshQuad in (r, z) [m].  E [Pa], nu.  clamped: function of the points x [2, n] that is True where all displacements vanish;
     without it the body is free, and loads are balanced by body forces proportional to the rigid motions (self-equilibrated loads are not
-    affected, and the displacement is orthogonal to the rigid motions).
+    affected, and the displacement is orthogonal to the rigid motions).  plane_strain: no displacement along z anywhere.
     """
 
-    def __init__(self, mesh, E, nu, clamped=None):
+    def __init__(self, mesh, E, nu, clamped=None, plane_strain=False):
         self.mesh, self.C, self.free = mesh, stiffness(E, nu), clamped is None
         self.element = ElementVector(ElementQuad2(), 3)
         self.basis = Basis(mesh, self.element, intorder=4)
@@ -63,6 +63,7 @@ class Body:
         self.component = self._component_of_dofs()
         self.clamped_dofs = np.flatnonzero(clamped(x)) if clamped else np.zeros(0, dtype=int)
         self.axis_dofs = np.flatnonzero(np.abs(x[0]) < 1e-12)
+        self.flat_dofs = np.flatnonzero(self.component == 2) if plane_strain else np.zeros(0, dtype=int)
 
     def _component_of_dofs(self):
         component = np.zeros(self.basis.N, dtype=int)
@@ -78,7 +79,7 @@ class Body:
             fixed = [np.flatnonzero(self.component == 1), on_axis[part == 0]]
         else:
             fixed = [on_axis[part == 2]] if n == 1 else [on_axis]
-        return np.unique(np.concatenate([self.clamped_dofs, *fixed]))
+        return np.unique(np.concatenate([self.clamped_dofs, self.flat_dofs, *fixed]))
 
     def rigid_motions(self, n):
         """Rigid motions of harmonic n [dofs, count]: z (n = 0); x and rotation about y (n = 1)."""

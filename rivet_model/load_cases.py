@@ -21,7 +21,7 @@ from .lcp import Contact
 from .section_mesh import Fineness, edge_nodes
 
 GROUPS = ("UH", "UB", "LB", "LH", "PP")
-SPRINGS = np.array([0.1, 0.1, 1e-3, 1e-7, 1e-7])  # N/m, N.m/rad: 1e-8 of the joint's own stiffness
+SPRINGS = np.array([1e-5, 1e-5, 1e-5, 1e-11, 1e-11])  # N/m, N.m/rad: 1e-12 of the joint's own stiffness
 NO_PRELOAD = 1e-9  # part of s that stands for P = 0: the heads just touch
 
 
@@ -134,12 +134,12 @@ class Joint:
         m = self.moments
         m["PP"] = self.flange.ring_moments(on_plate, self.rings["PP"], 0)
         m["LH"], m["LB"] = m["UH"], m["UB"] * np.array([[1.0], [-1.0]])
-        self.fillet, self.middle = self._stress_places()
+        self.fillet, self.lower_fillet, self.middle = self._stress_places()
 
         size = {name: len(self.rings[name]) for name in GROUPS}
         half = size["UH"] + size["UB"]
-        mirror = np.concatenate([half + size["LB"] + np.arange(size["LH"]), half + np.arange(size["LB"]), size["UH"] + np.arange(size["UB"]), np.arange(size["UH"])])
-        # mirror[i]: ring of the rivet at the mirrored place; rings in the order UH, UB, LB, LH
+        heads, bores = np.arange(size["UH"]), np.arange(size["UB"])  # mirror[i]: ring at the mirrored place, in the order UH, UB, LB, LH
+        mirror = np.concatenate([half + size["LB"] + heads, half + bores, size["UH"] + bores, heads])
         solved = self.grid.solved_harmonics()
         rivet, flange, stress = [], [], []
         for i, n in enumerate(solved):
@@ -165,62 +165,48 @@ class Joint:
             start += size[name]
 
     def _stress_places(self):
-        """Stress rows of the upper fillet and of the middle: (S_0, S_1, x, tangent [2, points])."""
+        """Stress rows (S_0, S_1, x, tangent) of the upper fillet, the lower one with its points in mirrored order, and the middle."""
         g, mesh = self.geometry, self.rivet.mesh
         facets = mesh.boundary_facets()
         ends = mesh.p[:, mesh.facets[:, facets]]
-        centre = np.array([g.shank_diameter / 2 + g.fillet_radius, g.flange_thickness - g.fillet_radius])
-        distance = np.hypot(*(ends - centre[:, None, None]))
-        quarter = np.all((np.abs(distance - g.fillet_radius) < 1e-9) & (ends[0] < centre[0] + 1e-9) & (ends[1] > centre[1] - 1e-9), axis=0)
-        zone = np.all((np.abs(ends[0] - g.shank_diameter / 2) < 1e-9) & (np.abs(ends[1]) < g.middle_zone + 1e-9), axis=0)
+        R, rf = g.shank_diameter / 2, g.fillet_radius
         places = []
-        for chosen in (quarter, zone):
-            S_0, S_1, x = self.rivet.stress_rows(facets[chosen])
-            along = np.diff(mesh.p[:, mesh.facets[:, facets[chosen]]], axis=1)[:, 0]
-            tangent = np.repeat(along / np.hypot(*along), 2, axis=1)  # two points per facet
-            places.append((S_0, S_1, x, tangent))
-        return places
+        for side in (1.0, -1.0):
+            off = ends - np.array([R + rf, side * (g.flange_thickness - rf)])[:, None, None]
+            on_arc = (np.abs(np.hypot(*off) - rf) < 1e-9) & (off[0] < 1e-9) & (side * off[1] > -1e-9)
+            places.append(self._stress_rows(facets[np.all(on_arc, axis=0)], side))
+        zone = (np.abs(ends[0] - R) < 1e-9) & (np.abs(ends[1]) < g.middle_zone + 1e-9)
+        return *places, self._stress_rows(facets[np.all(zone, axis=0)], 1.0)
+
+    def _stress_rows(self, facets, side):
+        """Rows sorted along the edge from the split plane outward; tangents of the lower side are the mirrored ones of the upper side."""
+        mesh = self.rivet.mesh
+        S_0, S_1, x = self.rivet.stress_rows(facets)
+        along = np.diff(mesh.p[:, mesh.facets[:, facets]], axis=1)[:, 0]
+        tangent = np.repeat(along / np.hypot(*along), 2, axis=1)  # two points per facet
+        tangent *= np.where(side * tangent[1] < 0.0, -1.0, 1.0)
+        order = np.argsort(side * x[1])
+        rows = (x.shape[1] * np.arange(6)[:, None] + order).ravel()
+        return S_0[rows], S_1[rows], x[:, order], tangent[:, order]
+
+    def surface_response(self, place, n, u):
+        """Surface stress (tt, hoop, shear) of harmonic n at a place for rivet displacements u [dofs, cases]: [3, points, cases]."""
+        S_0, S_1, x, (tr, tz) = place
+        s = ((S_0 + n * S_1) @ u).reshape(6, x.shape[1], -1)
+        tr, tz = tr[:, None], tz[:, None]
+        return np.stack([tr**2 * s[0] + 2 * tr * tz * s[3] + tz**2 * s[2], s[1], tr * s[4] + tz * s[5]])
 
     def _stress_response(self, n, u, mirror, half):
-        """Surface stress (tt, hoop, shear) at fillet, then middle, per unit pressure amplitude of all rings [3, points, rings]."""
-        responses = []
-        for S_0, S_1, x, tangent in (self.fillet, self.middle):
-            s = ((S_0 + n * S_1) @ u).reshape(6, x.shape[1], -1)
-            tr, tz = tangent[0][:, None], tangent[1][:, None]
-            responses.append(np.stack([tr**2 * s[0] + 2 * tr * tz * s[3] + tz**2 * s[2], s[1], tr * s[4] + tz * s[5]]))
-        fillet, middle = responses
-        # Lower rings: what the mirrored ring does at the mirrored place.  The lower fillet is asked for apart, the middle mirrors onto itself.
-        low = self._lower_fillet_response(n, u)
-        order = np.argsort(self.middle[2][1])
-        flip = np.empty_like(order)
-        flip[order] = order[::-1]
-        middle_low = middle[:, flip] * np.array([1.0, 1.0, -1.0])[:, None, None]
-        back = mirror[half:]
-        return np.concatenate([np.concatenate([fillet, low[:, :, back]], axis=2), np.concatenate([middle, middle_low[:, :, back]], axis=2)], axis=1)
+        """Surface stress at upper fillet, then middle, per unit pressure amplitude of all rings, from displacements u by the upper rings.
 
-    def _lower_fillet_response(self, n, u):
-        g, mesh = self.geometry, self.rivet.mesh
-        if not hasattr(self, "_lower"):
-            facets = mesh.boundary_facets()
-            ends = mesh.p[:, mesh.facets[:, facets]]
-            centre = np.array([g.shank_diameter / 2 + g.fillet_radius, -g.flange_thickness + g.fillet_radius])
-            distance = np.hypot(*(ends - centre[:, None, None]))
-            quarter = np.all((np.abs(distance - g.fillet_radius) < 1e-9) & (ends[0] < centre[0] + 1e-9) & (ends[1] < centre[1] + 1e-9), axis=0)
-            S_0, S_1, x = self.rivet.stress_rows(facets[quarter])
-            along = np.diff(mesh.p[:, mesh.facets[:, facets[quarter]]], axis=1)[:, 0]
-            tangent = np.repeat(along / np.hypot(*along), 2, axis=1)
-            key = np.round(self.fillet[2] * 1e9).astype(np.int64)
-            there = np.round(x * np.array([[1.0], [-1.0]]) * 1e9).astype(np.int64)
-            match = np.array([np.argmin(np.abs(there - k[:, None]).sum(axis=0)) for k in key.T])
-            upper_tangent = self.fillet[3]
-            sign = np.sign(tangent[0][match] * upper_tangent[0] - tangent[1][match] * upper_tangent[1])  # mirrored upper tangent
-            self._lower = S_0, S_1, x, tangent, match, sign
-        S_0, S_1, x, tangent, match, sign = self._lower
-        s = ((S_0 + n * S_1) @ u).reshape(6, x.shape[1], -1)
-        tr, tz = tangent[0][:, None], tangent[1][:, None]
-        response = np.stack([tr**2 * s[0] + 2 * tr * tz * s[3] + tz**2 * s[2], s[1], tr * s[4] + tz * s[5]])[:, match]
-        response[2] *= sign[:, None]
-        return response
+        What a lower ring does at a place, its mirrored ring does at the mirrored place.
+        """
+        back = mirror[half:]
+        upper, lower = (self.surface_response(place, n, u) for place in (self.fillet, self.lower_fillet))
+        middle = self.surface_response(self.middle, n, u)
+        mirrored = middle[:, ::-1] * np.array([1.0, 1.0, -1.0])[:, None, None]  # the middle's tangents all point up
+        fillets = np.concatenate([upper, lower[:, :, back]], axis=2)
+        return np.concatenate([fillets, np.concatenate([middle, mirrored[:, :, back]], axis=2)], axis=1)
 
     # The contact problem ---------------------------------------------------------------------------------------------------------------
 

@@ -101,7 +101,8 @@ class _Joint:
         huge = 1e30 if elastic else 1.0
         self.R = g.shank_diameter / 2
         bore = section_mesh.bore_levels(g, fine)
-        levels = np.unique(np.concatenate([np.linspace(0.0, g.edge_break, fine(3) + 1), bore, np.linspace(bore[-1], g.flange_thickness, fine(4) + 1)]).round(12))
+        below, above = np.linspace(0.0, bore[0], fine(3) + 1), np.linspace(bore[-1], g.flange_thickness, fine(4) + 1)
+        levels = np.concatenate([below[:-1], bore, above[1:]])
         shank_mesh = section_mesh.MeshQuad.init_tensor(self.R - section_mesh.graded(0.0, self.R, fine(8), 4.0)[::-1], levels)
         self.shank = _Solid(shank_mesh, g.E_rivet, g.nu_rivet, huge * g.yield_rivet, g.hardening_rivet, 1.0)
         self.flange = _Solid(section_mesh.flange_mesh(g, fine), g.E_flange, g.nu_flange, huge * g.yield_flange, g.hardening_flange, 0.0)

@@ -36,11 +36,11 @@ def _row(task):
     """All xi of one (a, b, c, sheet), from high to low so that contacts open one after the other: T in 1/m2 [xi, channel]."""
     a, b, c, sheet, xi = task
     P, N, V, M = loads_of(a, b, c, MOMENT_LENGTH)
-    forces, active, symmetry = [], None, None
+    forces, active = [], None
     for value in xi[::-1]:
         moments = (M, 0.0) if sheet == "plane" else (0.0, M)
-        force, _, solution, found = _joint.solve(P, N, V, *moments, value, active if symmetry is None else active)
-        active, symmetry = solution.active, found
+        force, _, solution, _ = _joint.solve(P, N, V, *moments, value, active)
+        active = solution.active
         forces.append(force)
     return _joint.channels(np.stack(forces[::-1], axis=1))
 
@@ -57,7 +57,7 @@ def representative(a, b, c, sheet):
 
 
 def _map(joint, function, tasks, workers, progress):
-    global _joint  # noqa: PLW0603  the condensed model is too large to send with every task
+    global _joint
     _joint = joint
     results = []
     if workers == 1:

@@ -89,7 +89,7 @@ def plate_radii(g, fine):
 def rivet_mesh(g, fine=None):
     """Mesh of the whole rivet: shank, two heads, four graded layers around each fillet."""
     fine = fine or Fineness()
-    R, rf, t, head = g.shank_diameter / 2, g.fillet_radius, g.flange_thickness, g.head_diameter / 2
+    R, rf, t = g.shank_diameter / 2, g.fillet_radius, g.flange_thickness
     top = t + g.head_height
     w = min(1.6 * rf, 0.45 * R, 0.45 * g.head_height)  # depth of the refined layers
     layers = w * graded(0.0, 1.0, fine(5), 6.0)  # distance from the surface

@@ -73,9 +73,7 @@ def head_friction(joint, P=REFERENCE, F=2.0):
         elastic = force * ((drag.T @ u)[0, 0] + 2 * (top.T @ v)[0, 0]) - on_rivet[:, 0] @ first["rivet"]
         elastic += on_flange[:, 0] @ (first["upper"] - first["lower"])
         slip = 2 * t * solution.q[4] - t * solution.q[9] + np.pi * elastic
-        S_0, S_1, x, (tr, tz) = joint.fillet
-        s = ((S_0 + S_1) @ u).reshape(6, x.shape[1]) * force
-        shear = np.stack([tr**2 * s[0] + 2 * tr * tz * s[3] + tz**2 * s[2], s[1], tr * s[4] + tz * s[5]])
+        shear = force * joint.surface_response(joint.fillet, 1, u)[..., 0]
         field = joint.fields(forces[:, None])[0][..., 0]
         phi = 2 * np.pi * np.arange(field.shape[2]) / field.shape[2]
         total = field + shear[:, :, None] * np.stack([np.cos(phi), np.cos(phi), np.sin(phi)])[:, None, :]
