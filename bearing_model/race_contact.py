@@ -39,7 +39,8 @@ def race_traction(model, race, c, mixed, sliced):
 
     c: the contact, normal n, rolling direction t_1, long axis t_2, slip Delta u, mean speed roll = U, spin = omega_ball - Omega of the race,
     approach = velocity of the ball's centre against the race there, load Q, sqrt_delta, ball radius R.
-    Returns F_s at the contact point, F_c through the ball's centre [N], M of F_s about the ball's centre with spin [N.m], dissipated power [W].
+    Returns U with its floor [m/s], F_s at the contact point, F_c through the ball's centre [N], M of F_s about the ball's centre with spin [N.m],
+    dissipated power [W].
     """
     p = model.p
     U = np.sqrt(vec_dot(c.roll, c.roll) + p.oil.U_0**2)
@@ -47,7 +48,7 @@ def race_traction(model, race, c, mixed, sliced):
     f_a = traction_asperity_share(traction_ln_film(race.ln_Lambda, ln_U, ln_Q)) if mixed else 0.0
     F_R = traction_inlet(race.rolling, ln_U, c.Q, ln_Q)
 
-    out = SimpleNamespace(F_s=0.0, M=0.0, dissipated=0.0)
+    out = SimpleNamespace(U=U, F_s=0.0, M=0.0, dissipated=0.0)
     a = race.hertz.a_delta * c.sqrt_delta
     for s, share in zip(SLICE, SHARE, strict=True) if sliced else [(0.0, 1.0)]:
         xi = a * s
@@ -122,4 +123,4 @@ def race_contact_force(model, w):
     w.ring.M = lanes_sum(vec_to_global(-vec_cross(p_i, F_i) - T_i.M, w.cos_theta, w.sin_theta))
 
     w.delta_i, w.delta_e, w.Q_i, w.Q_e, w.n_i, w.n_e = inner.delta, outer.delta, inner.Q, outer.Q, inner.n, outer.n
-    w.U_i, w.U_e = np.sqrt(vec_dot(inner.roll, inner.roll)), np.sqrt(vec_dot(outer.roll, outer.roll))
+    w.U_i, w.U_e = T_i.U, T_e.U

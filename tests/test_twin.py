@@ -1,0 +1,438 @@
+"""The C core and the Python reference, written apart from the same equations: equal derivatives, starts, outputs, trajectories and statistics."""
+
+import functools
+
+import numpy as np
+import pytest
+from mechanics import SLICE, Instance, Z
+
+from bearing_model import variables
+from bearing_model.energy import energy_total
+from bearing_model.integrator import default_table, observe, simulate
+from bearing_model.model import Model, Work
+from bearing_model.rhs import jacobian, power_loss, rhs
+from bearing_model.start import start_state
+from bearing_model.statistics import StatisticsChannel
+
+# A hybrid bearing: smaller ceramic-like balls of unequal size, other conformities, clearances, cage, oil and joints (d_m and Z are the rivet table's).
+OTHER = {
+    "bearing.D": 0.0095,
+    "bearing.f_i": 0.52,
+    "bearing.f_e": 0.53,
+    "bearing.P_d": 30e-6,
+    "bearing.E": 280e9,
+    "bearing.nu": 0.27,
+    "bearing.rho": 3200.0,
+    "bearing.lambda": 0.1,
+    "ball[j].dD": [1e-6 * j for j in range(-4, 5)],
+    "cage.pocket_clearance": 0.3e-3,
+    "cage.guide_clearance": 0.15e-3,
+    "cage.m": 0.02,
+    "cage.x_c": 4e-3,
+    "cage.E": 80e9,
+    "cage.lambda": 3.0,
+    "cage.mu": 0.1,
+    "joint.preload": 60.0,
+    "joint.fit": -3e-5,
+    "joint.mu": 0.2,
+    "oil.eta": 0.02,
+    "oil.alpha": 2e-8,
+    "oil.sigma_race": 3e-7,
+    "ring.m": 1.0,
+    "ring.J_p": 3e-4,
+}
+SUPPORTED, FREE = {"ring.tilt_mode": 2}, {"ring.tilt_mode": 3}
+MIXED, SLICED, RIGID = {"scene.lubrication": 2}, {"scene.traction": 2}, {"scene.cage": 2}
+UNBALANCE = {"cage.unbalance": 2e-6, "gravity.y": -9.81, "gravity.z": 3.0}
+PULSE = {"pulse.F_r": 1401.0, "pulse.F_a": 241.0, "pulse.t_start": 0.0}
+LOADS = {"shaft.F_x": 800.0, "shaft.F_y": 2000.0, "shaft.F_z": -1500.0, "shaft.M_y": 3.0, "shaft.M_z": -2.0, "shaft.tilt_y": 1e-3, "shaft.tilt_z": 2.6e-3}
+SLOW, BACKWARD = {"shaft.omega": 418.9}, {"shaft.omega": -1500.0}
+SCENES = {
+    "demo": ({}, {}),
+    "mixed_supported": (MIXED | SUPPORTED | {"cage.pocket_clearance": 1e-4}, LOADS),
+    "jam": (MIXED | SUPPORTED | {"cage.pocket_clearance": 1e-4, "ring.k_tilt": 500.0}, SLOW),
+    "free_sliced": (SLICED | FREE | UNBALANCE, LOADS),
+    "sliced_mixed": (SLICED | MIXED | PULSE, BACKWARD),
+    "rigid": (RIGID | UNBALANCE, {}),
+    "rigid_mixed_sliced": (RIGID | MIXED | SLICED | SUPPORTED | UNBALANCE, LOADS),
+    "other": (OTHER, {}),
+    "other_mixed_sliced": (OTHER | MIXED | SLICED | SUPPORTED | UNBALANCE, LOADS),
+    "other_rigid": (OTHER | RIGID | FREE | MIXED, SLOW),
+}
+PER_SCENE = 120  # 1200 states in all
+
+
+def slow(*values):
+    return pytest.param(*values, marks=pytest.mark.slow)
+
+
+@functools.cache
+def start_of(scene):
+    model = twin(scene)
+    return model, *start_state(model)
+
+
+def twin(scene):
+    return Model.of(*SCENES[scene], table=default_table())
+
+
+def random_states(model, y, rng, count):
+    """States around the start in which every element is at work somewhere: races, pockets, lands and joints open, closed and slipping, axes tilted."""
+    p, d = model.p, model.d
+    ys = np.repeat(y[None], count, axis=0)
+    size = {name: (count, place.stop - place.start) for name, place in SLICE.items()}
+
+    def add(amount, *names, common=False):
+        for name in names:
+            ys[:, SLICE[name]] += amount * rng.uniform(-1.0, 1.0, (count, 1) if common else size[name])
+
+    add(15e-6, "ball_x", "ball_r", "ring_x", "ring_y", "ring_z")
+    add(0.5, "ball_v_x", "ball_v_r", "ring_v_x", "ring_v_y", "ring_v_z")
+    add(20.0, "ball_omega_m"), add(300.0, "ball_omega_x", "ball_omega_r", "ball_omega_t")
+    turn = rng.uniform(-300.0, 300.0, (count, 1))
+    phi = 2.0 * np.pi * np.arange(Z) / Z
+    ys[:, SLICE["ball_theta"]] = turn + phi + 1.1 * p.cage.pocket_clearance / p.bearing.d_m * rng.uniform(-1.0, 1.0, (count, Z))
+    ys[:, SLICE["cage_psi"]] = turn
+    ys[:, SLICE["cage_y"]], ys[:, SLICE["cage_z"]] = d.com_e * np.cos(turn), d.com_e * np.sin(turn)
+    add(1e-4, "cage_x", common=True)
+    # the worse land is up to 1.05 of its clearance away from the middle: by tilt, the rest by the place of the cage
+    part, reach = rng.uniform(size=(count, 1)), 1.05 * d.C_land / np.sqrt(2.0)
+    add((1.0 - part) * reach, "cage_y", "cage_z", common=True), add(part * reach / p.cage.land_x, "cage_beta", "cage_gamma", common=True)
+    add(np.where(part > 0.7, 0.03, 2e-4), "ring_beta", "ring_gamma")
+    add(5e-7, "cage_x"), add(1e-5, "cage_y", "cage_z"), add(3e-5, "cage_beta", "cage_gamma"), add(3e-4, "cage_psi")
+    add(0.3, "cage_v_x", "cage_v_y", "cage_v_z"), add(10.0, "cage_beta_dot", "cage_gamma_dot", "cage_s", "ring_beta_dot", "ring_gamma_dot")
+    add(3e-7, "joint_plate_y", "joint_plate_z", "joint_head_y", "joint_head_z")
+    return ys
+
+
+def situations(model, w):
+    """Which situations each state is in, [states] each."""
+    rolling = w.v_t + model.d.R * (w.omega_x * w.n_e[1] - w.omega_r * w.n_e[0])
+    closed_pocket = np.max([*w.delta_c.values()], axis=0) > 0.0
+    found = {
+        "race closed": np.any(w.delta_i > 0.0, axis=1),
+        "race open": np.any(w.delta_i < 0.0, axis=1),
+        "ball free": np.any((w.delta_i < 0.0) & (w.delta_e < 0.0) & ~closed_pocket, axis=1),
+        "ball slipping": np.any((w.Q_e > 0.0) & (np.abs(rolling) > 0.05 * np.abs(w.v_t)), axis=1),
+        "pocket closed": np.any(closed_pocket, axis=1),
+        "pocket open": np.any(~closed_pocket, axis=1),
+        "dry land": w.land_elastic[:, 0] > 0.0,
+        "land film": w.land_elastic[:, 0] == 0.0,
+        "cage tilted": np.abs(w.half[0].a[1, :, 0]) > np.radians(0.2),
+        "ring tilted": np.abs(w.ring.a[1, :, 0]) > np.radians(0.5),
+    }
+    if "T" in vars(w):
+        friction = model.d.k_plate_t * np.hypot(*w.S) / model.d.k_plate_t
+        found |= {
+            "joint open": np.any(w.N_plate == 0.0, axis=1),
+            "joint closed": np.any(w.N_plate > 0.0, axis=1),
+            "joint slipping": np.any(friction > 0.9 * model.p.joint.mu * w.N_plate, axis=1),
+            "rivet loose": np.any(w.T == 0.0, axis=1),
+            "shank bears": np.any(np.hypot(*w.B) > 0.0, axis=1),
+        }
+    return found
+
+
+CLASSES = {  # blocks whose entries are parts of the same sums
+    "ball velocity": ("ball_v_x", "ball_v_r"),
+    "ball orbit": ("ball_omega_m",),
+    "ball spin": ("ball_omega_x", "ball_omega_r", "ball_omega_t"),
+    "cage velocity": ("cage_v_x", "cage_v_y", "cage_v_z"),
+    "cage tilt": ("cage_beta_dot", "cage_gamma_dot"),
+    "cage spin": ("cage_s",),
+    "ring velocity": ("ring_v_x", "ring_v_y", "ring_v_z"),
+    "ring tilt": ("ring_beta_dot", "ring_gamma_dot"),
+    "friction states": ("joint_plate_y", "joint_plate_z", "joint_head_y", "joint_head_z"),
+    "positions": ("ball_x", "ball_r", "cage_x", "cage_y", "cage_z", "ring_x", "ring_y", "ring_z"),
+    "angles": ("ball_theta", "cage_psi", "cage_beta", "cage_gamma", "ring_beta", "ring_gamma"),
+    "work": ("work",),
+}
+
+
+def film_terms(model, w):
+    """Largest term 3 kappa |V|/q^4 of the lands' film forces [N]: where the gap opens, the force is a small difference of such terms."""
+    p, d, most = model.p, model.d, 0.0
+    for h, half in enumerate(w.half):
+        x_land = (2 * h - 1) * p.cage.land_x
+        _, e_y, e_z = (half.x + x_land * half.a)[..., 0]
+        _, v_y, v_z = (half.v + x_land * half.a_dot)[..., 0]
+        omega, free = half.Omega[0, :, 0], 1.0 - (e_y**2 + e_z**2) / d.C_land**2
+        q2 = 0.5 * (free + np.sqrt(free**2 + 4.0 * p.cage.g_0**2))
+        most = np.maximum(most, 3.0 * d.kappa * np.hypot(v_y + 0.5 * omega * e_z, v_z - 0.5 * omega * e_y) / q2**2)
+    return most
+
+
+def differences(model, w, f, g):
+    """Largest |f - g| of each class, relative to the largest entry of that class or the largest term in its sums: [states] by class."""
+    p, film = model.p, film_terms(model, w)
+    F = np.max(np.abs([*w.pocket_F.values()]), axis=(0, 1, 3))
+    terms = {"cage velocity": np.maximum(F, film) / p.cage.m, "cage tilt": film * p.cage.land_x / p.cage.J_t}
+    torque = 0.5 * np.maximum(F * p.bearing.d_m, p.cage.mu_land * film * p.cage.D_o)
+    terms |= {"cage spin": torque / p.cage.J_p, "work": power_loss(model, w)[:, 0]}
+    found = {}
+    for name, blocks in CLASSES.items():
+        at = np.concatenate([np.arange(variables.N_STATES)[SLICE[block]] for block in blocks])
+        largest = np.max(np.abs(g[:, at]), axis=1)
+        found[name] = np.max(np.abs(f - g)[:, at], axis=1) / np.maximum(largest, terms.get(name, 1e-300))
+    return found
+
+
+# ------------------------------------------------------------------------------------------------------------------- derivatives
+
+
+def test_derivatives(core, record_property):
+    """dy/dt of both twins at 1200 random states.
+
+    Tolerance: a deflection of 0.3 ... 3 um is a difference of lengths of 27 mm, whose rounding (3.5e-18 m) is 1e-12 ... 1e-11 of it.
+    """
+    rng, worst, seen = np.random.default_rng(1), {}, {}
+    for scene, (parameters, inputs) in SCENES.items():
+        model, y, _ = start_of(scene)
+        c = core.model(parameters, inputs)
+        t, w = 2e-4, Work()
+        ys = random_states(model, y, rng, PER_SCENE)
+        g = rhs(model, t, ys, w)
+        f = np.array([c.rhs(t, y) for y in ys])
+        for name, difference in differences(model, w, f, g).items():
+            worst[name] = max(worst.get(name, 0.0), difference.max())
+        for name, states in situations(model, w).items():
+            seen[name] = seen.get(name, 0) + int(np.sum(states))
+    record_property("worst", worst)
+    print(f"relative differences of dy/dt { ({k: f'{v:.1e}' for k, v in worst.items()}) }; states by situation {seen}")
+    assert min(seen.values()) >= 50
+    assert max(worst.values()) < 1e-11  # observed 8.5e-12 (cage spin), 2e-12 elsewhere
+
+
+def test_derivatives_see_a_small_error(core):
+    """The comparison is not blind: a millionth of a coefficient shows."""
+    for name, factor in (("bearing.E", 1.0 + 1e-6), ("oil.B", 1.0 + 1e-6), ("cage.lambda", 1.0 + 1e-6), ("joint.mu", 1.0 + 1e-6), ("oil.C_d", 1.0 + 1e-6)):
+        model, y, _ = start_of("demo")
+        c = core.model({name: factor * variables.PARAMETERS[name].start})
+        w, ys = Work(), random_states(model, y, np.random.default_rng(2), 20)
+        f, g = np.array([c.rhs(0.0, y) for y in ys]), rhs(model, 0.0, ys, w)
+        assert max(np.max(d) for d in differences(model, w, f, g).values()) > 1e-9, name
+
+
+def test_jacobian(record_property):
+    """Complex steps against central differences, in the scene with every element at work.
+
+    A difference over h = 1e-4 of the error scales (1 nm) has rounding errors of 1e-16 dy/dt / h and curvature errors of h^2: entries are compared to
+    the largest in their row and column (scaled), states on either side of a kink left out by the median over 12 states.
+    """
+    worst = []
+    for scene in ("mixed_supported", "sliced_mixed", "rigid"):
+        model, y, _ = start_of(scene)
+        ys = random_states(model, y, np.random.default_rng(3), 12)
+        h = 1e-4 * np.minimum(model.d.scale, 1.0)
+        for y in ys:
+            J = jacobian(model, 0.0, y)
+            steps = np.diag(h)
+            central = ((rhs(model, 0.0, y + steps) - rhs(model, 0.0, y - steps)) / (2.0 * h[:, None])).T
+            scaled, difference = J * h, (J - central) * h
+            assert np.count_nonzero(J) > 1000
+            worst.append(np.max(np.abs(difference)) / np.max(np.abs(scaled)))
+    record_property("worst", worst)
+    print("Jacobian against differences", np.median(worst), np.max(worst))
+    assert np.median(worst) < 1e-6
+
+
+# ------------------------------------------------------------------------------------------------------------------------- start
+
+
+@pytest.mark.parametrize("scene", SCENES)
+def test_start(core, scene, record_property):
+    """Minimum of one potential by a trust region against two nested Newton iterations: the same equilibrium, seed and speeds.
+
+    Both stop at residual forces of 1e-9 N; the weakest stiffness of loaded parts is 1e6 N/m: 1e-15 m, 1e-10 of the error scale 10 um.
+    """
+    model, y, residual = start_of(scene)
+    f = core.model(*SCENES[scene]).start()
+    difference = np.max(np.abs(f - y) / model.d.scale)
+    record_property("difference", difference)
+    print(f"start differs by {difference:.1e} of the error scales; residual {residual:.1e} N")
+    assert residual < 1e-8
+    assert difference < 1e-8  # observed 2e-10
+
+
+@pytest.mark.parametrize("changes", [{"start.seed": 7}, {"start.seed": 2**31 - 1, "start.spacing": 1.0}, {"start.spacing": 0.0}])
+def test_start_spacing(core, changes):
+    """The balls' azimuths are the same numbers: splitmix64."""
+    model = Model.of(changes, table=default_table())
+    y, _ = start_state(model)
+    np.testing.assert_allclose(y[variables.BALL_THETA], core.model(changes).start()[variables.BALL_THETA], rtol=0, atol=1e-15)
+
+
+# ----------------------------------------------------------------------------------------------------------------------- outputs
+
+
+@pytest.mark.parametrize("scene", SCENES)
+def test_outputs(core, scene, record_property):
+    """Every output of the FMU but the solver's, at the start and from a state in motion."""
+    parameters, inputs = SCENES[scene]
+    instance = Instance(core, parameters, inputs).step(3e-4)
+    model, _, _ = start_of(scene)
+    energy_start = Instance(core, parameters, inputs)
+    w = Work()
+    rhs(model, 0.0, energy_start.y, w)
+    values, worst = observe(model, 3e-4, instance.y, energy_total(model, w)), {}
+    for name, value in values.items():
+        c = instance.output(name.replace("[j]", "").replace("[k]", ""))
+        worst[name] = np.max(np.abs(value - c)) / max(np.max(np.abs(c)), floor_of(name))
+    record_property("worst", worst)
+    name = max(worst, key=worst.get)
+    print(f"outputs differ by {worst[name]:.1e} ({name})")
+    assert worst[name] < 1e-9
+
+
+def floor_of(name):
+    """Size of an output below which differences are rounding: its unit's typical size in this bearing times 1e-3."""
+    unit = variables.OUTPUTS[name].unit
+    return 1e-3 * {"N": 1e3, "N.m": 1.0, "Pa": 1e8, "m": 1e-5, "m/s": 0.1, "m/s2": 1e3, "rad": 1e-3, "rad/s": 1e3, "W": 100.0, "J": 1e3}.get(unit, 1.0)
+
+
+# ------------------------------------------------------------------------------------------------------------------ trajectories
+
+
+@functools.cache
+def reference(scene, t_end):
+    """The reference's state at t_end, integrated at order 8 to 1e-11: its own error is below 1e-8 of the error scales (against 1e-12)."""
+    parameters, inputs = SCENES[scene]
+    _, y, _ = start_of(scene)
+    return simulate(parameters, inputs, t_end, step=t_end, tolerance=1e-11, y=y, table=default_table()).y[-1]
+
+
+def errors(core, scene, t_end, method, tolerances):
+    """Steps and RMS error (of the error scales) of the core at each tolerance."""
+    parameters, inputs = SCENES[scene]
+    y, scale, steps, error = reference(scene, t_end), start_of(scene)[0].d.scale, [], []
+    for tolerance in tolerances:
+        instance = Instance(core, parameters | {"solver.method": method}, inputs, tolerance).step(t_end)
+        steps.append(instance.output("solver.steps"))
+        error.append(np.sqrt(np.mean(((instance.y - y) / scale) ** 2)))
+    return np.array(steps), np.array(error)
+
+
+def slope(steps, error):
+    """Order: how the error falls with the number of steps, least squares."""
+    return -np.polyfit(np.log(steps), np.log(error), 1)[0]
+
+
+@pytest.mark.parametrize(("scene", "t_end"), [("demo", 1e-3), ("sliced_mixed", 2.5e-4), slow("mixed_supported", 2.5e-4), slow("other", 1e-3)])
+def test_trajectory(core, scene, t_end, record_property):
+    """The core's trajectory converges to the reference's: order 4 (explicit) and 3 (IMEX), and stays near the tolerance.
+
+    Two languages, two integrators, two start solvers.  Kinks of the contacts (C1) and of |v| in the joints scatter the slope.
+    Observed: slopes 3.8, 3.9, 3.2, 3.7 and 3.0, 3.0, 2.9, 3.0; error/tolerance at most 190 (explicit) and 12.
+    """
+    for method, order, largest in ((variables.Method.EXPLICIT, 4, 400.0), (variables.Method.IMEX, 3, 40.0)):
+        tolerances = np.array([1e-5, 1e-6, 1e-7, 1e-8])
+        steps, error = errors(core, scene, t_end, method, tolerances)
+        record_property(method.name, list(error))
+        print(f"{scene} {method.name}: steps {steps}, errors {error}, slope {slope(steps, error):.2f}, error/tolerance {error / tolerances}")
+        assert abs(slope(steps, error) - order) < (0.25 if scene in ("demo", "sliced_mixed") else 1.0)
+        assert np.all(error < largest * tolerances)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("scene", SCENES)
+def test_trajectories(core, scene, record_property):
+    """All scenes over 1 ms at the tolerance in everyday use and at a tight one.
+
+    The trajectory is chaotic (e-folding 1.4 ... 2.7 ms) and passes kinks, so the error is a multiple of the tolerance: it grows with the stiffest joints.
+    """
+    for method, tolerance, largest in ((variables.Method.EXPLICIT, 1e-3, 0.1), (variables.Method.IMEX, 1e-3, 0.2), (variables.Method.IMEX, 1e-8, 5e-6)):
+        _, error = errors(core, scene, 1e-3, method, [tolerance])
+        record_property(f"{method.name} {tolerance}", error[0])
+        print(f"{scene} {method.name}: error {error[0]:.1e} at tolerance {tolerance:.0e}")
+        assert error[0] < largest
+
+
+def test_pulses(core):
+    """A train of half-sines inside a communication step: both hit its edges; the ring's speed after it agrees to 1e-6 of the error scale (observed)."""
+    pulses = {"pulse.F_r": 1401.0, "pulse.F_a": 241.0, "pulse.t_start": 3e-5, "pulse.duration": 4e-5, "pulse.interval": 5e-5, "pulse.count": 3}
+    y = simulate(pulses, t_end=2e-4, step=2e-4, tolerance=1e-9, table=default_table()).y[-1]
+    c = Instance(core, pulses, tolerance=1e-8).step(2e-4).y
+    without = Instance(core, tolerance=1e-8).step(2e-4).y
+    scale = start_of("demo")[0].d.scale
+    assert np.sqrt(np.mean(((c - y) / scale) ** 2)) < 1e-6
+    assert np.max(np.abs((c - without) / scale)) > 0.1
+
+
+@pytest.mark.parametrize("method", ["RK45", "Radau", "LSODA"])
+def test_methods(method):
+    """scipy's other integrators, the implicit ones with the exact Jacobian, reach the same state: errors of some tolerances (observed 2 ... 20)."""
+    y = simulate(t_end=5e-5, step=5e-5, tolerance=1e-5, method=method, table=default_table()).y[-1]
+    tight = simulate(t_end=5e-5, step=5e-5, tolerance=1e-10, table=default_table()).y[-1]
+    assert np.sqrt(np.mean(((y - tight) / start_of("demo")[0].d.scale) ** 2)) < 1e-3
+
+
+# ------------------------------------------------------------------------------------------------------------------------ energy
+
+
+@pytest.mark.parametrize("scene", ["demo", "rigid", slow("sliced_mixed"), slow("other_mixed_sliced")])
+def test_energy(scene, record_property):
+    """Energy minus net work drifts by the integration error only: it vanishes with the tolerance.  Scale: the kinetic energy, about 50 J."""
+    parameters, inputs = SCENES[scene]
+    _, y, _ = start_of(scene)
+    drift = []
+    for tolerance in (1e-4, 1e-7, 1e-10):
+        results = simulate(parameters, inputs, 2e-4, step=2e-4, tolerance=tolerance, y=y, table=default_table())
+        drift.append(np.abs(results["bearing.energy_residual"][-1]))
+    record_property("drift", drift)
+    print(f"{scene}: energy residual {drift} J")
+    assert drift[0] < 1e-6  # observed 1e-8
+    assert drift[2] < 1e-10  # observed 1e-12
+
+
+def test_power_is_rate_of_energy(record_property):
+    """dE/dt by the chain rule - a complex step of the energy along dy/dt - equals the net power at random states: each element keeps its account.
+
+    Tolerance: rounding of sums of some hundred terms.
+    """
+    worst = 0.0
+    for scene in SCENES:
+        model, y, _ = start_of(scene)
+        ys = random_states(model, y, np.random.default_rng(5), 40)
+        w, moved = Work(), Work()
+        y_dot = rhs(model, 0.0, ys, w)
+        rhs(model, 0.0, ys + 1e-30j * y_dot, moved)
+        rate, power = np.imag(energy_total(model, moved)) / 1e-30, y_dot[:, variables.WORK][:, 0]
+        worst = max(worst, np.max(np.abs(rate - power) / np.maximum(np.abs(power), power_loss(model, w)[:, 0])))
+    record_property("worst", worst)
+    print(f"dE/dt against net power: {worst:.1e}")
+    assert worst < 1e-12  # observed 7e-15
+
+
+# -------------------------------------------------------------------------------------------------------------------- statistics
+
+
+STATISTICS = ("stat.Q_c_mean", "stat.Q_c_rms", "stat.contact_duty", "stat.cage_omega", "stat.sigma_head_mean", "stat.sigma_head_rms", "stat.sigma_mid_rms")
+
+
+@pytest.mark.slow
+def test_statistics(core, record_property):
+    """Over 0.1 s trajectories have parted; the reference's statistics lie within the scatter of the core's over 16 seeds (4 standard deviations)."""
+    changes, t_end = {"start.settle": 0.02}, 0.1
+    results = simulate(changes, t_end=t_end, step=1e-3, tolerance=1e-3, table=default_table())
+    runs = [Instance(core, changes | {"start.seed": seed}).step(t_end) for seed in range(1, 17)]
+    for name in STATISTICS:
+        sample = np.array([run.output(name) for run in runs])
+        deviation = (results[name] - sample.mean()) / sample.std(ddof=1)
+        record_property(name, deviation)
+        print(f"{name}: reference {results[name]:.5g}, core {sample.mean():.5g} +- {sample.std(ddof=1):.2g}")
+        assert abs(deviation) < 4.0, name
+
+
+def test_running_statistics(core):
+    """The same numbers, weights and floor give the same mean, RMS, quantile and maximum."""
+    rng = np.random.default_rng(6)
+    value, weight = np.where(rng.uniform(size=2000) < 0.3, 0.0, rng.lognormal(1.0, 3.0, 2000)), rng.uniform(1e-6, 1e-5, 2000)
+    channel, c = StatisticsChannel(1e-3), core.new("StatisticsChannel")
+    channel.add(weight, value)
+    for w, v in zip(weight, value, strict=True):
+        core.lib.statistics_add(c, 1e-3, w, v)
+    assert channel.mean == pytest.approx(core.lib.statistics_mean(c), rel=1e-12)
+    assert channel.rms == pytest.approx(core.lib.statistics_rms(c), rel=1e-12)
+    assert channel.most == c.most
+    for p in (0.0, 0.1, 0.5, 0.9, 0.999, 1.0):
+        assert channel.quantile(p) == pytest.approx(core.lib.statistics_quantile(c, 1e-3, p), rel=1e-9)
