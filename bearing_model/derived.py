@@ -1,5 +1,6 @@
 """Constants derived once from the parameters, element by element; equations stand in the elements' files."""
 
+import functools
 from pathlib import Path
 from types import SimpleNamespace
 from typing import NamedTuple
@@ -139,12 +140,18 @@ def derive_scales(p, d):
         d.scale[place] = by_class[STATE_SCALES[name]]
 
 
+@functools.lru_cache
+def default_table():
+    """The rivet table of the 6207."""
+    return rivet_table.read(DEFAULT_TABLE)
+
+
 def model_derive(p, table=None):
     """Derived constants of all elements.
 
     p: Parameters.  table: rivet_model.table.RivetTable, default that of the 6207.  ValueError if it belongs to another bearing.
     """
-    table = table or rivet_table.read(DEFAULT_TABLE)
+    table = table or default_table()
     if table.Z != Z:
         raise ValueError(f"the rivet table is for Z = {table.Z}; the model has Z = {Z}")
     if abs(p.bearing.d_m - table.joint["d_m"]) > 1e-3 * table.joint["d_m"]:

@@ -46,8 +46,8 @@ def hertz_contact(rho_x, rho_y, E_star):
 
     1/E_star = sum (1 - nu^2)/E [1/Pa].  The ellipse's long axis a lies along y.
 
-    >>> hertz_contact(200.0, 200.0, 1e11).K == 4 / 3 * 1e11 * np.sqrt(1 / 200.0)  # sphere on plane
-    True
+    >>> print(f"{hertz_contact(100.0, 100.0, 1e11).K:.6e}")  # sphere on plane: (4/3) E_star sqrt(R)
+    1.333333e+10
     """
     sum_ = rho_x + rho_y
     F_rho = min((rho_x - rho_y) / sum_, 1.0 - 1e-9)  # a line contact is out of range: kappa <= 1e5

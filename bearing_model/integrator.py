@@ -13,7 +13,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from scipy.integrate import BDF, DOP853, LSODA, RK23, RK45, Radau
 
-from bearing_model.derived import DEFAULT_TABLE, model_derive
+from bearing_model.derived import model_derive
 from bearing_model.energy import energy_total
 from bearing_model.fatigue import FatigueChannel, FatigueLaw
 from bearing_model.model import Model, Work
@@ -26,7 +26,6 @@ from bearing_model.rivets import rivets_load, rivets_slip
 from bearing_model.start import start_state
 from bearing_model.statistics import StatisticsChannel
 from bearing_model.variables import OUTPUTS, WORK, Stress, Switch, Z
-from rivet_model import table as rivet_table
 
 METHODS = {"DOP853": DOP853, "RK45": RK45, "RK23": RK23, "Radau": Radau, "BDF": BDF, "LSODA": LSODA}
 IMPLICIT = ("Radau", "BDF", "LSODA")
@@ -138,11 +137,6 @@ def no_stress():
     return {name: np.zeros(Z) if "[k]" in name else 0.0 for name in names}
 
 
-@functools.lru_cache
-def default_table():
-    return rivet_table.read(DEFAULT_TABLE)
-
-
 class Integration:
     """One run in progress: state, step size and what has been recorded."""
 
@@ -191,7 +185,7 @@ def simulate(parameters=None, inputs=None, t_end=1e-3, *, step=1e-4, t_start=0.0
     if not (t_end > t_start and step > 0.0):
         raise ValueError(f"t_end = {t_end} s, step = {step} s: t_end must be after t_start = {t_start} s and step positive")
     p, held = Parameters(parameters), inputs if callable(inputs) else lambda t: inputs
-    d = model_derive(p, table or default_table())
+    d = model_derive(p, table)
     model = Model(p, d, drive_update(p, Inputs(held(t_start)), t_start))
     y = start_state(model)[0] if y is None else np.array(y, dtype=float)
     run = Integration(p, d, t_start, y, p.solver.tol if tolerance is None else tolerance, method)

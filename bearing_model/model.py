@@ -8,7 +8,6 @@ surface into it, seen from the ball (the ball is pushed along -n).
 from dataclasses import dataclass
 from types import SimpleNamespace
 
-from bearing_model import variables
 from bearing_model.derived import Derived, model_derive
 from bearing_model.parameters import Inputs, Parameters
 from bearing_model.ring import Drive, drive_update
@@ -33,12 +32,9 @@ class Model:
         table: a rivet_model.table.RivetTable; default that of the 6207.  ValueError names a value that is not allowed.
 
         >>> model = Model.of({"bearing.P_d": 20e-6}, {"shaft.omega": 500.0})
-        >>> round(model.d.inner.hertz.K / 1e10, 3)
-        3.331
+        >>> print(f"{model.d.inner.hertz.K:.4g} N/m^1.5")
+        3.331e+10 N/m^1.5
         """
         p, u = Parameters(parameters), Inputs(inputs)
         d = model_derive(p, table)
         return cls(p, d, drive_update(p, u, t))
-
-    def __repr__(self):
-        return f"Model(Z={variables.Z})"

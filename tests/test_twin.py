@@ -8,7 +8,7 @@ from mechanics import SLICE, Instance, Z
 
 from bearing_model import variables
 from bearing_model.energy import energy_total
-from bearing_model.integrator import default_table, observe, simulate
+from bearing_model.integrator import observe, simulate
 from bearing_model.model import Model, Work
 from bearing_model.rhs import jacobian, power_loss, rhs
 from bearing_model.start import start_state
@@ -73,7 +73,7 @@ def start_of(scene):
 
 
 def twin(scene):
-    return Model.of(*SCENES[scene], table=default_table())
+    return Model.of(*SCENES[scene])
 
 
 def random_states(model, y, rng, count):
@@ -257,7 +257,7 @@ def test_start(core, scene, record_property):
 @pytest.mark.parametrize("changes", [{"start.seed": 7}, {"start.seed": 2**31 - 1, "start.spacing": 1.0}, {"start.spacing": 0.0}])
 def test_start_spacing(core, changes):
     """The balls' azimuths are the same numbers: splitmix64."""
-    model = Model.of(changes, table=default_table())
+    model = Model.of(changes)
     y, _ = start_state(model)
     np.testing.assert_allclose(y[variables.BALL_THETA], core.model(changes).start()[variables.BALL_THETA], rtol=0, atol=1e-15)
 
@@ -298,7 +298,7 @@ def reference(scene, t_end):
     """The reference's state at t_end, integrated at order 8 to 1e-11: its own error is below 1e-8 of the error scales (against 1e-12)."""
     parameters, inputs = SCENES[scene]
     _, y, _ = start_of(scene)
-    return simulate(parameters, inputs, t_end, step=t_end, tolerance=1e-11, y=y, table=default_table()).y[-1]
+    return simulate(parameters, inputs, t_end, step=t_end, tolerance=1e-11, y=y).y[-1]
 
 
 def errors(core, scene, t_end, method, tolerances):
@@ -350,7 +350,7 @@ def test_trajectories(core, scene, record_property):
 def test_pulses(core):
     """A train of half-sines inside a communication step: both hit its edges; the ring's speed after it agrees to 1e-6 of the error scale (observed)."""
     pulses = {"pulse.F_r": 1401.0, "pulse.F_a": 241.0, "pulse.t_start": 3e-5, "pulse.duration": 4e-5, "pulse.interval": 5e-5, "pulse.count": 3}
-    y = simulate(pulses, t_end=2e-4, step=2e-4, tolerance=1e-9, table=default_table()).y[-1]
+    y = simulate(pulses, t_end=2e-4, step=2e-4, tolerance=1e-9).y[-1]
     c = Instance(core, pulses, tolerance=1e-8).step(2e-4).y
     without = Instance(core, tolerance=1e-8).step(2e-4).y
     scale = start_of("demo")[0].d.scale
@@ -361,8 +361,8 @@ def test_pulses(core):
 @pytest.mark.parametrize("method", ["RK45", "Radau", "LSODA"])
 def test_methods(method):
     """scipy's other integrators, the implicit ones with the exact Jacobian, reach the same state: errors of some tolerances (observed 2 ... 20)."""
-    y = simulate(t_end=5e-5, step=5e-5, tolerance=1e-5, method=method, table=default_table()).y[-1]
-    tight = simulate(t_end=5e-5, step=5e-5, tolerance=1e-10, table=default_table()).y[-1]
+    y = simulate(t_end=5e-5, step=5e-5, tolerance=1e-5, method=method).y[-1]
+    tight = simulate(t_end=5e-5, step=5e-5, tolerance=1e-10).y[-1]
     assert np.sqrt(np.mean(((y - tight) / start_of("demo")[0].d.scale) ** 2)) < 1e-3
 
 
@@ -376,7 +376,7 @@ def test_energy(scene, record_property):
     _, y, _ = start_of(scene)
     drift = []
     for tolerance in (1e-4, 1e-7, 1e-10):
-        results = simulate(parameters, inputs, 2e-4, step=2e-4, tolerance=tolerance, y=y, table=default_table())
+        results = simulate(parameters, inputs, 2e-4, step=2e-4, tolerance=tolerance, y=y)
         drift.append(np.abs(results["bearing.energy_residual"][-1]))
     record_property("drift", drift)
     print(f"{scene}: energy residual {drift} J")
@@ -413,7 +413,7 @@ STATISTICS = ("stat.Q_c_mean", "stat.Q_c_rms", "stat.contact_duty", "stat.cage_o
 def test_statistics(core, record_property):
     """Over 0.1 s trajectories have parted; the reference's statistics lie within the scatter of the core's over 16 seeds (4 standard deviations)."""
     changes, t_end = {"start.settle": 0.02}, 0.1
-    results = simulate(changes, t_end=t_end, step=1e-3, tolerance=1e-3, table=default_table())
+    results = simulate(changes, t_end=t_end, step=1e-3, tolerance=1e-3)
     runs = [Instance(core, changes | {"start.seed": seed}).step(t_end) for seed in range(1, 17)]
     for name in STATISTICS:
         sample = np.array([run.output(name) for run in runs])
