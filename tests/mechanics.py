@@ -81,11 +81,21 @@ def on_ball(w):
     return np.stack([w.F_x[n], w.F_r[n], w.F_t[n]], -1), np.stack([w.M_x[n], w.M_r[n], w.M_t[n]], -1)
 
 
-def wrench(w, body, index=None):
-    """Force and moment on "ring" or "half" by each ball, global frame, (Z, 3) each."""
-    rows = [getattr(w, f"{body}_{kind}_{i}") for kind in "FM" for i in "xyz"]
-    rows = np.array([row[:Z] if index is None else row[index, :Z] for row in rows])
+def ring_wrench(w):
+    """Force and moment on the inner ring by each ball, about the ring's centre, global frame, (Z, 3) each."""
+    rows = np.array([getattr(w, f"ring_{kind}_{i}")[:Z] for kind in "FM" for i in "xyz"])
     return rows[:3].T, rows[3:].T
+
+
+def pocket_wrench(model, h):
+    """Force and moment on half h by each ball, about the half's centre, global frame, (Z, 3) each."""
+    row = model.work.pocket[h]
+    return tuple(np.array([list(getattr(row[j], kind)) for j in range(Z)]) for kind in "FM")
+
+
+def pocket_loads(model):
+    """Contact load of each ball with each half, (2, Z) [N]."""
+    return np.array([[model.work.pocket[h][j].Q for j in range(Z)] for h in range(2)])
 
 
 def running_state(model, rng, *, pockets=True, slip=1.0):

@@ -66,11 +66,11 @@ def test_tilt_is_a_rotation_vector(core):
 
 
 def test_prescribed_tilt_reaches_the_outputs(core):
-    bearing = Instance(core, LOOSE, {"shaft.F_x": 0.0, "shaft.F_y": 0.0, "shaft.omega": 0.0})
+    bearing = Instance(core, LOOSE, {"shaft.F_x": 0.0, "shaft.F_y": 0.0, "shaft.omega": 0.0}, tolerance=1e-7)
     bearing.set(**{"shaft.tilt_y": 2e-3, "shaft.tilt_z": -1e-3})
     bearing.step(2e-3)
-    assert bearing.output("ring.tilt_y") == pytest.approx(2e-3, rel=1e-4)  # after 20 time constants: the integrator's error
-    assert bearing.output("ring.tilt_z") == pytest.approx(-1e-3, rel=1e-4)
+    assert bearing.output("ring.tilt_y") == pytest.approx(2e-3, abs=1e-9)  # after 20 time constants, within 1e-7 of 0.4 mrad a step
+    assert bearing.output("ring.tilt_z") == pytest.approx(-1e-3, abs=1e-9)
 
 
 def test_supported_tilt(core):

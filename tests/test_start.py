@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 import pytest
-from mechanics import SLICE, Instance, View, Z
+from mechanics import SLICE, Instance, View, Z, pocket_loads
 
 from bearing_model.kinematics import cage_speed
 from bearing_model.quasi_static import Bearing, Load, quasi_static
@@ -81,7 +81,7 @@ def test_forces_balance_at_the_start(core):
 
 
 def test_kinematic_speeds(core):
-    """Balls orbit at the epicyclic speed of their contact angle and roll on the outer race without slip; the cage goes with them, centred."""
+    """Balls orbit at the epicyclic speed of their contact angle and roll on the outer race without slip; the cage goes with them."""
     model, y, _ = start(core, {}, CASES["working point"][1])
     omega = 18238 * RPM
     w = View(core, model.work)
@@ -96,7 +96,25 @@ def test_kinematic_speeds(core):
     spin = y[SLICE["ball_omega_x"]] * n_x + y[SLICE["ball_omega_r"]] * n_r
     assert np.abs(spin).max() < 1e-9 * omega
     assert y[SLICE["cage_s"]] == pytest.approx([speed[0]] * 2, rel=1e-14)
-    assert [*y[SLICE["cage_y"]], *y[SLICE["cage_z"]]] == [0.0] * 4
+
+
+def test_cage_stands_where_the_balls_are(core):
+    """Centred on X, in the plane that fits the balls' axial places best (least squares of three numbers), turning about its own axis without wobble.
+
+    The start takes means over the azimuth in place of the fit: radii differ by 1e-4.
+    """
+    model, y, _ = start(core, {}, Load(F_x=1000.0, F_y=2000.0, omega=1500.0, tilt_z=4e-3, tilt_y=2e-3))
+    psi, x, r = y[SLICE["ball_theta"]], y[SLICE["ball_x"]], y[SLICE["ball_r"]]
+    plane = np.stack([np.ones(Z), -r * np.cos(psi), r * np.sin(psi)], -1)  # points of a plane tilted by (beta, gamma) about its centre
+    x_0, gamma, beta = np.linalg.lstsq(plane, x, rcond=None)[0]
+    assert abs(gamma) > 1e-4
+    assert y[SLICE["cage_gamma"]] == pytest.approx([gamma] * 2, rel=1e-3)
+    assert y[SLICE["cage_beta"]] == pytest.approx([beta] * 2, rel=1e-3)
+    model.rhs(0.0, y)
+    for half in model.work.half:
+        assert list(half.x) == pytest.approx([x_0, 0.0, 0.0], abs=5e-8)
+        assert list(half.v) == pytest.approx([0.0] * 3, abs=1e-12)
+        assert list(half.a_dot) == [0.0] * 3
 
 
 def test_nothing_loaded_nothing_moves(core):
@@ -110,7 +128,6 @@ def test_nothing_loaded_nothing_moves(core):
     assert bearing.output("ball.Q_e").max() < 0.01
 
 
-@pytest.mark.xfail(reason="the start puts the cage upright at x = 0: balls at x up to 0.15 mm start inside their pockets", strict=True)
 @pytest.mark.parametrize(
     ("parameters", "inputs"),
     [
@@ -122,21 +139,21 @@ def test_nothing_loaded_nothing_moves(core):
     ids=["tilt +0.5 deg", "tilt -0.5 deg", "scene R", "scene F"],
 )
 def test_no_shock_at_the_start(core, parameters, inputs):
-    """No ball starts pressed into its pocket: the cage stands where the balls are."""
+    """No ball starts pressed into its pocket: the cage stands where the balls are, 0.15 mm off the bearing's plane at 0.5 deg."""
     model = core.model(parameters=parameters, inputs=inputs)
     y = model.start()
     model.rhs(0.0, y)
-    assert View(core, model.work).Q_c[:, :Z].max() < 1.0
+    assert pocket_loads(model).max() < 1.0
 
 
 def test_unbalance_turns_about_the_centre(core):
-    """The centre of mass of each half stands at unbalance/mass from the axis toward pocket 1 and moves with the cage."""
-    model, y, _ = start(core, {"cage.unbalance": 2e-6}, CASES["working point"][1])
+    """The centre of mass of the cage stands at unbalance/mass from the axis toward pocket 1 and moves with the cage."""
+    model, y, _ = start(core, {"cage.unbalance": 2e-6}, CASES["pure axial"][1])
     e = 2e-6 / (2 * 0.0276)
-    assert y[SLICE["cage_y"]] == pytest.approx([e, e], rel=1e-12)
-    assert y[SLICE["cage_v_z"]] == pytest.approx(e * y[SLICE["cage_s"]], rel=1e-12)
+    assert y[SLICE["cage_y"]] == pytest.approx([e, e], rel=1e-9)
+    assert y[SLICE["cage_v_z"]] == pytest.approx(e * y[SLICE["cage_s"]], rel=1e-9)
     model.rhs(0.0, y)
-    assert np.abs(list(model.work.half[0].x)).max() < 1e-15
+    assert np.abs(list(model.work.half[0].x)[1:]).max() < 1e-15
     assert np.abs(list(model.work.half[0].v)).max() < 1e-12
 
 

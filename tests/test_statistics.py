@@ -93,8 +93,8 @@ def test_statistics_of_a_run(core):
 
 def test_peak_is_the_largest_since_the_last_point(core):
     """cage.F_pocket_peak over a communication step of 1e-4 s against the largest of all its internal steps."""
-    tight = {"cage.pocket_clearance": 7e-5}  # contacts from the start
-    fine, coarse = Instance(core, tight), Instance(core, tight)
+    tight = {"cage.pocket_clearance": 4e-5}  # contacts from the start
+    fine, coarse = (Instance(core, tight, tolerance=1e-6) for _ in range(2))
     t, largest = 0.0, 0.0
     for _ in range(20):
         coarse.step(t + 1e-4)
@@ -104,6 +104,6 @@ def test_peak_is_the_largest_since_the_last_point(core):
             peak = max(peak, fine.output("cage.F_pocket_max"))
         t += 1e-4
         largest = max(largest, peak)
-        assert coarse.output("cage.F_pocket_peak") == pytest.approx(peak, rel=0.05, abs=0.02)  # other steps, the same 2 ms: before chaos parts them
+        assert coarse.output("cage.F_pocket_peak") == pytest.approx(peak, rel=0.02, abs=0.05)  # other steps, the same 2 ms: before chaos parts them
         assert coarse.output("cage.F_pocket_peak") >= coarse.output("cage.F_pocket_max")
     assert largest > 10.0
