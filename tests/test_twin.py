@@ -164,8 +164,10 @@ def film_terms(model, w):
 
 def differences(model, w, f, g):
     """Largest |f - g| of each class, relative to the largest entry of that class or the largest term in its sums: [states] by class."""
-    p, film = model.p, film_terms(model, w)
+    p, d, film = model.p, model.d, film_terms(model, w)
     F = np.max(np.abs([*w.pocket_F.values()]), axis=(0, 1, 3))
+    if "u" in vars(w):  # a bearing shank: k (|u| - gap)
+        F = np.maximum(F, np.max(d.k_hole * np.hypot(w.u[1], w.u[2]) * (np.hypot(*w.B) > 0.0), axis=1))
     terms = {"cage velocity": np.maximum(F, film) / p.cage.m, "cage tilt": film * p.cage.land_x / p.cage.J_t}
     torque = 0.5 * np.maximum(F * p.bearing.d_m, p.cage.mu_land * film * p.cage.D_o)
     terms |= {"cage spin": torque / p.cage.J_p, "work": power_loss(model, w)[:, 0]}
@@ -198,42 +200,44 @@ def test_derivatives(core, record_property):
         for name, states in situations(model, w).items():
             seen[name] = seen.get(name, 0) + int(np.sum(states))
     record_property("worst", worst)
-    print(f"relative differences of dy/dt { ({k: f'{v:.1e}' for k, v in worst.items()}) }; states by situation {seen}")
+    print(f"relative differences of dy/dt {[f'{k} {v:.1e}' for k, v in worst.items()]}; states by situation {seen}")
     assert min(seen.values()) >= 50
-    assert max(worst.values()) < 1e-11  # observed 8.5e-12 (cage spin), 2e-12 elsewhere
+    assert max(worst.values()) < 1e-11  # observed 1.7e-12
 
 
 def test_derivatives_see_a_small_error(core):
     """The comparison is not blind: a millionth of a coefficient shows."""
-    for name, factor in (("bearing.E", 1.0 + 1e-6), ("oil.B", 1.0 + 1e-6), ("cage.lambda", 1.0 + 1e-6), ("joint.mu", 1.0 + 1e-6), ("oil.C_d", 1.0 + 1e-6)):
+    for name in ("bearing.E", "oil.B", "cage.lambda", "cage.land_width", "joint.mu", "oil.C_d"):
         model, y, _ = start_of("demo")
-        c = core.model({name: factor * variables.PARAMETERS[name].start})
+        c = core.model({name: (1.0 + 1e-6) * variables.PARAMETERS[name].start})
         w, ys = Work(), random_states(model, y, np.random.default_rng(2), 20)
         f, g = np.array([c.rhs(0.0, y) for y in ys]), rhs(model, 0.0, ys, w)
         assert max(np.max(d) for d in differences(model, w, f, g).values()) > 1e-9, name
 
 
 def test_jacobian(record_property):
-    """Complex steps against central differences, in the scene with every element at work.
+    """Complex steps against central differences, at states with every element at work.
 
-    A difference over h = 1e-4 of the error scales (1 nm) has rounding errors of 1e-16 dy/dt / h and curvature errors of h^2: entries are compared to
-    the largest in their row and column (scaled), states on either side of a kink left out by the median over 12 states.
+    Differences over h = 1e-4 of the error scales (1 nm) lose digits by rounding (an approach of 1 um known to 3.5e-18 m moves by 1 nm: 1e-8) and by
+    curvature (h^2 and the contacts' delta^1.5: 1e-6 of 1 um approach); rows whose kink lies within h differ altogether: few.
     """
-    worst = []
+    errors = []
     for scene in ("mixed_supported", "sliced_mixed", "rigid"):
         model, y, _ = start_of(scene)
         ys = random_states(model, y, np.random.default_rng(3), 12)
         h = 1e-4 * np.minimum(model.d.scale, 1.0)
         for y in ys:
             J = jacobian(model, 0.0, y)
-            steps = np.diag(h)
-            central = ((rhs(model, 0.0, y + steps) - rhs(model, 0.0, y - steps)) / (2.0 * h[:, None])).T
-            scaled, difference = J * h, (J - central) * h
+            central = ((rhs(model, 0.0, y + np.diag(h)) - rhs(model, 0.0, y - np.diag(h))) / (2.0 * h[:, None])).T
+            largest = np.max(np.abs(J * h), axis=1)
             assert np.count_nonzero(J) > 1000
-            worst.append(np.max(np.abs(difference)) / np.max(np.abs(scaled)))
-    record_property("worst", worst)
-    print("Jacobian against differences", np.median(worst), np.max(worst))
-    assert np.median(worst) < 1e-6
+            errors.append(np.max(np.abs(J - central) * h, axis=1) / np.where(largest > 0.0, largest, 1.0))
+    errors = np.array(errors)
+    record_property("quantiles", list(np.quantile(errors, [0.5, 0.9, 0.99])))
+    print("rows of the Jacobian against differences, quantiles 50, 90, 99 %:", np.quantile(errors, [0.5, 0.9, 0.99]))
+    assert np.quantile(errors, 0.5) < 1e-7  # observed 2e-9
+    assert np.quantile(errors, 0.9) < 1e-5  # observed 4e-7
+    assert np.quantile(errors, 0.99) < 1e-2  # observed 7e-5
 
 
 # ------------------------------------------------------------------------------------------------------------------------- start
