@@ -271,21 +271,22 @@ def test_start_spacing(core, changes):
 
 @pytest.mark.parametrize("scene", SCENES)
 def test_outputs(core, scene, record_property):
-    """Every output of the FMU but the solver's, at the start and from a state in motion."""
+    """Every output of the FMU at one instant, at random states with loaded joints: put in the place of the state that a step reached."""
     parameters, inputs = SCENES[scene]
-    instance = Instance(core, parameters, inputs).step(3e-4)
-    model, _, _ = start_of(scene)
-    energy_start = Instance(core, parameters, inputs)
-    w = Work()
-    rhs(model, 0.0, energy_start.y, w)
-    values, worst = observe(model, 3e-4, instance.y, energy_total(model, w)), {}
-    for name, value in values.items():
-        c = instance.output(name.replace("[j]", "").replace("[k]", ""))
-        worst[name] = np.max(np.abs(value - c)) / max(np.max(np.abs(c)), floor_of(name))
+    model, y, _ = start_of(scene)
+    first, w, worst = Instance(core, parameters, inputs), Work(), {}
+    rhs(model, 0.0, first.y, w)
+    energy_start, t = energy_total(model, w), 3e-4
+    for y in random_states(model, y, np.random.default_rng(4), 5):
+        instance = Instance(core, parameters, inputs).step(t)
+        np.frombuffer(core.ffi.buffer(core.lib.bearing_state(instance.bearing), y.nbytes))[:] = y
+        for name, value in observe(model, t, y, energy_start).items():
+            c = instance.output(name.replace("[j]", "").replace("[k]", ""))
+            worst[name] = max(worst.get(name, 0.0), np.max(np.abs(value - c)) / max(np.max(np.abs(c)), floor_of(name)))
     record_property("worst", worst)
     name = max(worst, key=worst.get)
     print(f"outputs differ by {worst[name]:.1e} ({name})")
-    assert worst[name] < 1e-9
+    assert worst[name] < 1e-9  # observed 1.3e-11: friction states of 1e-7 m against the clearance
 
 
 def floor_of(name):
