@@ -62,6 +62,11 @@ SCENES = {
 PER_SCENE = 120  # 1200 states in all
 
 
+def plain(numbers):
+    """Python's own numbers: what record_property can pass between processes."""
+    return {name: float(value) for name, value in numbers.items()} if isinstance(numbers, dict) else np.asarray(numbers).tolist()
+
+
 def slow(*values):
     return pytest.param(*values, marks=pytest.mark.slow)
 
@@ -199,7 +204,7 @@ def test_derivatives(core, record_property):
             worst[name] = max(worst.get(name, 0.0), difference.max())
         for name, states in situations(model, w).items():
             seen[name] = seen.get(name, 0) + int(np.sum(states))
-    record_property("worst", worst)
+    record_property("worst", plain(worst))
     print(f"relative differences of dy/dt {[f'{k} {v:.1e}' for k, v in worst.items()]}; states by situation {seen}")
     assert min(seen.values()) >= 50
     assert max(worst.values()) < 1e-11  # observed 1.7e-12
@@ -223,17 +228,16 @@ def test_jacobian(record_property):
     """
     errors = []
     for scene in ("mixed_supported", "sliced_mixed", "rigid"):
-        model, y, _ = start_of(scene)
-        ys = random_states(model, y, np.random.default_rng(3), 12)
+        model, y_start, _ = start_of(scene)
         h = 1e-4 * np.minimum(model.d.scale, 1.0)
-        for y in ys:
+        for y in random_states(model, y_start, np.random.default_rng(3), 12):
             J = jacobian(model, 0.0, y)
             central = ((rhs(model, 0.0, y + np.diag(h)) - rhs(model, 0.0, y - np.diag(h))) / (2.0 * h[:, None])).T
             largest = np.max(np.abs(J * h), axis=1)
             assert np.count_nonzero(J) > 1000
             errors.append(np.max(np.abs(J - central) * h, axis=1) / np.where(largest > 0.0, largest, 1.0))
     errors = np.array(errors)
-    record_property("quantiles", list(np.quantile(errors, [0.5, 0.9, 0.99])))
+    record_property("quantiles", plain(np.quantile(errors, [0.5, 0.9, 0.99])))
     print("rows of the Jacobian against differences, quantiles 50, 90, 99 %:", np.quantile(errors, [0.5, 0.9, 0.99]))
     assert np.quantile(errors, 0.5) < 1e-7  # observed 2e-9
     assert np.quantile(errors, 0.9) < 1e-5  # observed 4e-7
@@ -252,7 +256,7 @@ def test_start(core, scene, record_property):
     model, y, residual = start_of(scene)
     f = core.model(*SCENES[scene]).start()
     difference = np.max(np.abs(f - y) / model.d.scale)
-    record_property("difference", difference)
+    record_property("difference", plain(difference))
     print(f"start differs by {difference:.1e} of the error scales; residual {residual:.1e} N")
     assert residual < 1e-8
     assert difference < 1e-8  # observed 2e-10
@@ -273,17 +277,17 @@ def test_start_spacing(core, changes):
 def test_outputs(core, scene, record_property):
     """Every output of the FMU at one instant, at random states with loaded joints: put in the place of the state that a step reached."""
     parameters, inputs = SCENES[scene]
-    model, y, _ = start_of(scene)
+    model, y_start, _ = start_of(scene)
     first, w, worst = Instance(core, parameters, inputs), Work(), {}
     rhs(model, 0.0, first.y, w)
     energy_start, t = energy_total(model, w), 3e-4
-    for y in random_states(model, y, np.random.default_rng(4), 5):
+    for y in random_states(model, y_start, np.random.default_rng(4), 5):
         instance = Instance(core, parameters, inputs).step(t)
         np.frombuffer(core.ffi.buffer(core.lib.bearing_state(instance.bearing), y.nbytes))[:] = y
         for name, value in observe(model, t, y, energy_start).items():
             c = instance.output(name.replace("[j]", "").replace("[k]", ""))
             worst[name] = max(worst.get(name, 0.0), np.max(np.abs(value - c)) / max(np.max(np.abs(c)), floor_of(name)))
-    record_property("worst", worst)
+    record_property("worst", plain(worst))
     name = max(worst, key=worst.get)
     print(f"outputs differ by {worst[name]:.1e} ({name})")
     assert worst[name] < 1e-9  # observed 1.3e-11: friction states of 1e-7 m against the clearance
@@ -300,10 +304,10 @@ def floor_of(name):
 
 @functools.cache
 def reference(scene, t_end):
-    """The reference's state at t_end, integrated at order 8 to 1e-11: its own error is below 1e-8 of the error scales (against 1e-12)."""
+    """The reference's state at t_end, by order 8 to 1e-10: its own error, against 1e-12, is 1e-8 of the error scales (mixed_supported over 1 ms: 3e-7)."""
     parameters, inputs = SCENES[scene]
     _, y, _ = start_of(scene)
-    return simulate(parameters, inputs, t_end, step=t_end, tolerance=1e-11, y=y).y[-1]
+    return simulate(parameters, inputs, t_end, step=t_end, tolerance=1e-10, y=y).y[-1]
 
 
 def errors(core, scene, t_end, method, tolerances):
@@ -332,7 +336,7 @@ def test_trajectory(core, scene, t_end, record_property):
     for method, order, largest in ((variables.Method.EXPLICIT, 4, 400.0), (variables.Method.IMEX, 3, 40.0)):
         tolerances = np.array([1e-5, 1e-6, 1e-7, 1e-8])
         steps, error = errors(core, scene, t_end, method, tolerances)
-        record_property(method.name, list(error))
+        record_property(method.name, plain(error))
         print(f"{scene} {method.name}: steps {steps}, errors {error}, slope {slope(steps, error):.2f}, error/tolerance {error / tolerances}")
         assert abs(slope(steps, error) - order) < (0.25 if scene in ("demo", "sliced_mixed") else 1.0)
         assert np.all(error < largest * tolerances)
@@ -341,13 +345,13 @@ def test_trajectory(core, scene, t_end, record_property):
 @pytest.mark.slow
 @pytest.mark.parametrize("scene", SCENES)
 def test_trajectories(core, scene, record_property):
-    """All scenes over 1 ms at the tolerance in everyday use and at a tight one.
+    """All scenes over 1 ms.  Where balls hit the cage early the error grows fast (a chaotic motion): a multiple of the tolerance, by scene.
 
-    The trajectory is chaotic (e-folding 1.4 ... 2.7 ms) and passes kinks, so the error is a multiple of the tolerance: it grows with the stiffest joints.
+    Observed at 1e-4: 1e-5 ... 2e-2 explicit, 1e-3 ... 6e-3 IMEX; at 1e-8: 2e-8 ... 5e-7.
     """
-    for method, tolerance, largest in ((variables.Method.EXPLICIT, 1e-3, 0.1), (variables.Method.IMEX, 1e-3, 0.2), (variables.Method.IMEX, 1e-8, 5e-6)):
+    for method, tolerance, largest in ((variables.Method.EXPLICIT, 1e-4, 0.1), (variables.Method.IMEX, 1e-4, 0.05), (variables.Method.IMEX, 1e-8, 5e-6)):
         _, error = errors(core, scene, 1e-3, method, [tolerance])
-        record_property(f"{method.name} {tolerance}", error[0])
+        record_property(f"{method.name} {tolerance}", plain(error[0]))
         print(f"{scene} {method.name}: error {error[0]:.1e} at tolerance {tolerance:.0e}")
         assert error[0] < largest
 
@@ -381,9 +385,9 @@ def test_energy(scene, record_property):
     _, y, _ = start_of(scene)
     drift = []
     for tolerance in (1e-4, 1e-7, 1e-10):
-        results = simulate(parameters, inputs, 2e-4, step=2e-4, tolerance=tolerance, y=y)
+        results = simulate(parameters, inputs, 1e-4, step=1e-4, tolerance=tolerance, y=y)
         drift.append(np.abs(results["bearing.energy_residual"][-1]))
-    record_property("drift", drift)
+    record_property("drift", plain(drift))
     print(f"{scene}: energy residual {drift} J")
     assert drift[0] < 1e-6  # observed 1e-8
     assert drift[2] < 1e-10  # observed 1e-12
@@ -403,7 +407,7 @@ def test_power_is_rate_of_energy(record_property):
         rhs(model, 0.0, ys + 1e-30j * y_dot, moved)
         rate, power = np.imag(energy_total(model, moved)) / 1e-30, y_dot[:, variables.WORK][:, 0]
         worst = max(worst, np.max(np.abs(rate - power) / np.maximum(np.abs(power), power_loss(model, w)[:, 0])))
-    record_property("worst", worst)
+    record_property("worst", plain(worst))
     print(f"dE/dt against net power: {worst:.1e}")
     assert worst < 1e-12  # observed 7e-15
 
@@ -423,7 +427,7 @@ def test_statistics(core, record_property):
     for name in STATISTICS:
         sample = np.array([run.output(name) for run in runs])
         deviation = (results[name] - sample.mean()) / sample.std(ddof=1)
-        record_property(name, deviation)
+        record_property(name, plain(deviation))
         print(f"{name}: reference {results[name]:.5g}, core {sample.mean():.5g} +- {sample.std(ddof=1):.2g}")
         assert abs(deviation) < 4.0, name
 
