@@ -4,7 +4,7 @@ sigma = s (w T_plane + (1 - w) T_across)(a, b, c, xi), homogeneous of degree 1 i
 Loads are arrays of one shape; `table` is a rivet_model.table.RivetTable (read one with rivet_model.table.read).
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -116,6 +116,18 @@ def joint_fit(table, fit, T):
     """Fit at temperature T [m]."""
     j = table.joint
     return fit - (j["alpha_flange"] - j["alpha_rivet"]) * j["d"] * (T - j["T_0"])
+
+
+def joint_prying(table, load):
+    """The load with its prying moment limited: M up to M_0 = prying_lever (P - N), beyond it only prying_share of what exceeds M_0.
+
+    Where the moment opens the joint, the joint turns, and the cage half carries the rest to its neighbours.
+    """
+    M = np.hypot(load.M_y, load.M_z)
+    M_0 = table.joint["prying_lever"] * np.maximum(load.P - np.maximum(load.N, 0.0), 0.0)
+    limited = np.minimum(M, M_0 + table.joint["prying_share"] * (M - M_0))
+    part = np.divide(limited, M, out=np.ones_like(M), where=M > M_0)
+    return replace(load, M_y=part * load.M_y, M_z=part * load.M_z)
 
 
 def joint_hole_stiffness(table, fit_a):

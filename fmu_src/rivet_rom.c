@@ -175,3 +175,13 @@ double joint_hole_stiffness(const JointData *j, double fit_a)
     double u = (fit_a - j->hole_fit[i]) / (j->hole_fit[i + 1] - j->hole_fit[i]);
     return j->k_hole[i] + u * (j->k_hole[i + 1] - j->k_hole[i]);
 }
+
+void joint_prying(const JointData *j, RivetLoad *load)
+{
+    double M = sqrt(load->M_y * load->M_y + load->M_z * load->M_z);
+    double M_0 = j->prying_lever * fmax(load->P - fmax(load->N, 0.0), 0.0);
+    if (M <= M_0) return;
+    double part = (M_0 + j->prying_share * (M - M_0)) / M;
+    load->M_y *= part;
+    load->M_z *= part;
+}

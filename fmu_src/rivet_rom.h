@@ -72,6 +72,8 @@ typedef struct {
     double alpha_flange;  // [1/K]
     double d;             // shank diameter [m]
     double T_0;           // temperature at which preload and fit are given [K]
+    double prying_lever;  // moment at which the joint opens per clamp force P - N [m]
+    double prying_share;  // part of a further moment that the open joint still takes, 0...1
     int hole_count;       // hole contact: tangent stiffness k_hole [N/m] of both holes in series over fit_a [m]
     const double *hole_fit, *k_hole;
 } JointData;
@@ -107,3 +109,7 @@ void rivet_rom_primary(const RivetTable *t, const RivetLoad *load, double fit_ef
 double joint_preload(const JointData *j, double preload, double T);  // preload at temperature T [N], not below 0
 double joint_fit(const JointData *j, double fit, double T);          // fit at temperature T [m]
 double joint_hole_stiffness(const JointData *j, double fit_a);       // [N/m], constant outside its table
+
+// Limits the prying moment of a load: where it opens the joint, the joint turns, and the cage half carries the rest to its neighbours.
+// M stays up to M_0 = prying_lever (P - N), beyond it grows by prying_share only.  C0; the direction is kept.
+void joint_prying(const JointData *j, RivetLoad *load);

@@ -41,9 +41,9 @@ def make_table(geometry, coarse=False, workers=2, progress=_quiet, hold_out=320)
     samples = reduction.sample(joint, knots, workers, stage("contacts"))
     fine = Fineness(0.5) if coarse else Fineness()
     fit = plastic_fit.plastic_fit(geometry, fine=fine, progress=stage("interference"))
-    path = cage_half.load_path(geometry, cage_half.HalfMesh(2, 2, 1) if coarse else cage_half.HalfMesh())
+    path, k_half = cage_half.load_path(geometry, cage_half.HalfMesh(2, 2, 1) if coarse else cage_half.HalfMesh())
     progress("load path", 1, 1)
-    result = assemble(joint, knots, samples, fit, path)
+    result = assemble(joint, knots, samples, fit, path, k_half)
     if hold_out:
         result.errors = measured_errors(
             result, joint if coarse else reduction.condense(geometry, TRUTH), hold_out // 8 if coarse else hold_out, workers, stage("hold-out")
@@ -51,7 +51,7 @@ def make_table(geometry, coarse=False, workers=2, progress=_quiet, hold_out=320)
     return result
 
 
-def assemble(joint, knots, samples, fit, path):
+def assemble(joint, knots, samples, fit, path, k_half):
     """The table from its parts."""
     geometry = joint.geometry
     _, head, head_vm = stiffness.head_friction(joint)
@@ -61,7 +61,7 @@ def assemble(joint, knots, samples, fit, path):
         knots,
         samples / table.MPA_PER_N,
         (fit.fit_a, fit.fit_eff),
-        stiffness.joint_data(joint),
+        stiffness.joint_data(joint, k_half),
         path,
         moment_length=reduction.MOMENT_LENGTH,
         head_friction=float(head),

@@ -240,6 +240,25 @@ class CageHalf:
                         result[k, rows, f] += 0.5 * np.real(at_0[list(rows)] * np.exp(2j * np.pi * m * k / Z)) / Z
         return result
 
+    def pad_stiffness(self):
+        """Moment about the radial axis per rotation of one pad, all others held, the halves mirrored [N.m/rad]."""
+        Z, total = self.g.Z, 0.0
+        pad = self.pad_dofs(0)
+        fixed = pad[self.component[pad] == 0]
+        angle = np.pi / Z
+        s = -np.sin(angle) * self.x[1][fixed] + np.cos(angle) * self.x[2][fixed]  # along t
+        A = self.K + self.shift * self.M
+        for m in range(Z):
+            T = self._wave_basis(m)
+            columns = np.array([T[row].indices[0] for row in fixed])
+            free = np.setdiff1d(np.arange(T.shape[1]), columns)
+            reduced = (T.conj().T @ A @ T).tocsc()
+            u = np.zeros(T.shape[1], dtype=complex)
+            u[columns] = -s  # a unit rotation about r: u_x = -s
+            u[free] = -splu(reduced[free][:, free]).solve(reduced[free][:, columns] @ u[columns])
+            total += np.real((reduced @ u)[columns] @ -s) / Z
+        return float(total)
+
     def _whole(self, loads):
         Z, result = self.g.Z, np.zeros((self.g.Z, 5, 3))
         A = (self.K + self.shift * self.M).tocsc()
@@ -274,6 +293,6 @@ class CageHalf:
 
 
 def load_path(g, size=None):
-    """Matrix [Z, 5, 3] of fmu_src/load_path.h: elastic minus rigid, for F_t > 0; index = (rivet - pocket) mod Z."""
+    """Matrix [Z, 5, 3] of fmu_src/load_path.h: elastic minus rigid, for F_t > 0, index = (rivet - pocket) mod Z; and the half's pad_stiffness."""
     half = CageHalf(g, size)
-    return half.reactions() - half.rigid_share()
+    return half.reactions() - half.rigid_share(), half.pad_stiffness()

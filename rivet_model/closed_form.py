@@ -74,7 +74,7 @@ def loads_of(a, b, c, moment_length):
 
 
 def joint_data(geometry):
-    """Joint for the dynamics.  Stiffnesses are those of the dynamics study (axial, friction) and of the rivet study (hole, stack)."""
+    """Joint for the dynamics.  Stiffnesses are those of the dynamics study (axial, friction) and of the rivet study (hole, stack, prying)."""
     g = geometry
     return {
         "A": g.shank_area,
@@ -89,6 +89,8 @@ def joint_data(geometry):
         "alpha_rivet": g.alpha_rivet,
         "alpha_flange": g.alpha_flange,
         "T_0": g.T_0,
+        "prying_lever": MOMENT_LENGTH,
+        "prying_share": 0.1,
         "hole_fit": [-20e-6, -10e-6, 0.0, 5e-6],
         "k_hole": [1.5e7, 2.0e7, 2.8e7, 4.65e7],
     }

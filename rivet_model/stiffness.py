@@ -85,11 +85,23 @@ def head_friction(joint, P=REFERENCE, F=2.0):
     return F / (slip - rest), *growth
 
 
-def joint_data(joint):
-    """The joint section of the table."""
+def prying(joint, P=REFERENCE):
+    """Moment at which the joint opens per clamp force [m], and rotational stiffness of the joint held open [N.m/rad].
+
+    The branch far past opening is a straight line; it is continued back to zero rotation.
+    """
+    M = np.array([4.0, 5.0]) * P * 2e-3
+    rotation = [joint.solve(P, 0.0, 0.0, m, 0.0, -90e-6)[1][9] for m in M]
+    k_open = (M[1] - M[0]) / (rotation[1] - rotation[0])
+    return (M[1] - k_open * rotation[1]) / P, k_open
+
+
+def joint_data(joint, k_half):
+    """The joint section of the table.  k_half: rotational stiffness of a cage half at one rivet [N.m/rad] (cage_half.py)."""
     g = joint.geometry
     k_rivet, k_plate = axial_stiffness(joint)
     k_head, *_ = head_friction(joint)
+    lever, k_open = prying(joint)
     return {
         "A": g.shank_area,
         "d_m": g.d_m,
@@ -103,6 +115,8 @@ def joint_data(joint):
         "alpha_rivet": g.alpha_rivet,
         "alpha_flange": g.alpha_flange,
         "T_0": g.T_0,
+        "prying_lever": float(lever),
+        "prying_share": float(k_open / (k_open + 0.5 * k_half)),  # both halves turn, by half the joint's rotation each
         "hole_fit": HOLE_FITS,
         "k_hole": [float(hole_stiffness(joint, fit)) for fit in HOLE_FITS],
     }

@@ -34,6 +34,8 @@ JOINT_KEYS = (
     "alpha_flange",
     "d",
     "T_0",
+    "prying_lever",
+    "prying_share",
 )
 
 

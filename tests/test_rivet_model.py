@@ -180,7 +180,7 @@ def test_monotone_in_preload(joint):
 
 def test_joint_stiffness(joint):
     """Against the study's independent prototype: rivet 41 kN/mm, stack 50.5, heads 6.5, bores 14-15 (-90 um) and 46-47 (+5 um), head 11.7 MPa/N."""
-    data = stiffness.joint_data(joint)
+    data = stiffness.joint_data(joint, 2000.0)
     assert data["k_rivet"] == pytest.approx(41e6, rel=0.06)
     assert data["k_stack"] == pytest.approx(50.5e6, rel=0.08)
     assert data["k_t_head"] == pytest.approx(6.5e6, rel=0.05)
@@ -189,6 +189,13 @@ def test_joint_stiffness(joint):
     assert stiffness.head_friction(joint)[1] == pytest.approx(11.7e6, rel=0.06)
     assert stiffness.clamp_force(joint, 20.0, 0.0) == pytest.approx(20.0, rel=1e-6)
     assert stiffness.clamp_force(joint, 20.0, 30.0) < 1e-6
+
+
+def test_prying(joint):
+    """Opening begins near P x 2 mm (study) and ends in a hinge of the rivet's stiffness: k_rivet x (1.5...2.5 mm)^2."""
+    lever, k_open = stiffness.prying(joint)
+    assert 1.3e-3 < lever < 2.2e-3
+    assert 40e6 * 1.5e-3**2 < k_open < 40e6 * 2.5e-3**2
 
 
 # Interference with plasticity ---------------------------------------------------------------------------------------------------------

@@ -211,6 +211,21 @@ double seconds(int count, const RivetLoad load[9], double fit)  // for 9 rivets;
 """
 
 
+def test_prying_is_limited(c_library, rivets):
+    """Unchanged while the joint is closed, then only its share of the rest; direction kept, homogeneous; twins alike."""
+    ffi, lib = c_library
+    lever, share = rivets.joint["prying_lever"], rivets.joint["prying_share"]
+    assert 0.0 < share < 1.0
+    for load in random_loads(100, seed=9)[0]:
+        c = ffi.new("RivetLoad *", vars(load))
+        lib.joint_prying(ffi.addressof(lib.rivet_table.joint), c)
+        python = rivet_rom.joint_prying(rivets, load)
+        np.testing.assert_allclose([c.M_y, c.M_z], [python.M_y, python.M_z], rtol=1e-13)
+        M, M_0 = np.hypot(load.M_y, load.M_z), lever * max(load.P - max(load.N, 0.0), 0.0)
+        assert np.hypot(c.M_y, c.M_z) == pytest.approx(M if M <= M_0 else M_0 + share * (M - M_0), rel=1e-12)
+        assert c.M_y * load.M_z == pytest.approx(c.M_z * load.M_y)
+
+
 def test_speed(tmp_path, capsys):
     """2 Z channels in at most 0.5 us on a quiet core (observed 0.6...0.9 on a shared one); asserted at 3 us: tests share their machine."""
     ffi, lib = rivet_library.build(tmp_path, extra=TIMER, declare="double seconds(int count, const RivetLoad load[9], double fit);")
