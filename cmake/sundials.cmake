@@ -7,7 +7,7 @@ set(sundials_sha256 ea7d6edfb52448ddfdc1ec48f89a721fe6c0a259c10f8ef56f60fcded87a
 set(debian_suite trixie)
 set(debian_archive sundials_7.1.1+dfsg1.orig.tar.xz)  # upstream's archive without some figures of its manual
 set(debian_sha256 8ed409272af77e958d0ac02fd72199d8643063faf2aa61811e5c615d7db5cf8e)
-set(SUNDIALS_DEBIAN_MIRROR http://deb.debian.org/debian CACHE STRING "Debian mirror for SUNDIALS' source package")  # checksum pinned: plain http will do
+set(SUNDIALS_DEBIAN_MIRROR "" CACHE STRING "Debian mirror for SUNDIALS' source package; empty: the one that this system's apt uses")
 set(FETCHCONTENT_SOURCE_DIR_SUNDIALS "" CACHE PATH "Unpacked SUNDIALS source to use instead of a download")
 
 # Sets `result` to the user's cache folder, or to one in the build tree where there is no writable home.
@@ -52,17 +52,32 @@ function(download_upstream file)
     endif()
 endfunction()
 
+# Sets `result` to the Debian mirror that apt is configured for, or to nothing.
+function(find_mirror result)
+    execute_process(COMMAND ${APT_GET} --print-uris update OUTPUT_VARIABLE uris ERROR_QUIET)
+    string(REGEX MATCH "'(https?://[^']*/debian)/dists/" found "${uris}")
+    set(${result} "${CMAKE_MATCH_1}" PARENT_SCOPE)
+endfunction()
+
 # Downloads the archive of Debian's source package to `file` by apt-get with lists and state of its own: needs no root, leaves the system's state alone.
 function(download_debian file)
     find_program(APT_GET apt-get)
     if(NOT APT_GET)
         return()
     endif()
+    set(mirror ${SUNDIALS_DEBIAN_MIRROR})
+    if(NOT mirror)
+        find_mirror(mirror)
+    endif()
+    if(NOT mirror)
+        message(STATUS "SUNDIALS: apt knows no Debian mirror; -DSUNDIALS_DEBIAN_MIRROR=URL names one")
+        return()
+    endif()
     message(STATUS "SUNDIALS: trying Debian ${debian_suite}'s source package")
     set(apt ${PROJECT_BINARY_DIR}/_deps/apt)
     file(MAKE_DIRECTORY ${apt}/lists/partial ${apt}/cache/archives/partial)
     file(WRITE ${apt}/status "")
-    file(WRITE ${apt}/sources.list "deb-src [trusted=yes] ${SUNDIALS_DEBIAN_MIRROR} ${debian_suite} main\n")
+    file(WRITE ${apt}/sources.list "deb-src [trusted=yes] ${mirror} ${debian_suite} main\n")  # the archive's checksum is pinned
     set(command ${APT_GET} -qq -o Dir::Etc::sourcelist=${apt}/sources.list -o Dir::Etc::sourceparts=/dev/null -o Dir::Etc::preferencesparts=/dev/null
         -o Dir::State=${apt} -o Dir::State::status=${apt}/status -o Dir::Cache=${apt}/cache -o APT::Sandbox::User=
         -o Acquire::Languages=none -o Acquire::http::Timeout=20 -o Acquire::Retries=1)
