@@ -86,8 +86,12 @@ def sector_mesh(g, size=None, sectors=1):
     p, t = np.stack([x, r * np.cos(theta), r * np.sin(theta)]), np.concatenate(cells, axis=1)
     _, first, inverse = np.unique(np.round(p * 1e9).astype(np.int64), axis=1, return_index=True, return_inverse=True)
     p, t = p[:, first], inverse.ravel()[t]
-    # skfem's order of a hexahedron's corners: 0 origin, 1-3 along z, y, x, 4-6 the face diagonals, 7 opposite
-    a, b, c, d, e, f, h, i = t
+    return hexahedra(p, t)
+
+
+def hexahedra(p, corners):
+    """MeshHex from points [3, n] and corners [8, cells]: a quadrilateral in order, then the opposite one."""
+    a, b, c, d, e, f, h, i = corners  # skfem: 0 a corner, 1-3 its neighbours, 4-6 across its faces, 7 opposite
     t = np.stack([a, e, d, b, i, f, c, h])
     volume = np.linalg.det(np.stack([p[:, t[k]] - p[:, t[0]] for k in (1, 2, 3)], axis=-1).transpose(1, 0, 2))
     flip = volume < 0.0

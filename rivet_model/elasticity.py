@@ -153,7 +153,13 @@ class Body:
 
         Amplitudes of harmonic n: (S_0 + n S_1) u [6 points, cases], component by component in the order COMPONENTS.
         """
-        basis = FacetBasis(self.mesh, self.element, facets=facets, intorder=2)
+        return self._rows(FacetBasis(self.mesh, self.element, facets=facets, intorder=2))
+
+    def centre_stress(self):
+        """Stress at the middle of each element: matrices (S_0, S_1)."""
+        return self._rows(Basis(self.mesh, self.element, quadrature=(np.array([[0.5], [0.5]]), np.array([1.0]))))[:2]
+
+    def _rows(self, basis):
         place = SimpleNamespace(x=np.asarray(basis.global_coordinates()))
         count = place.x[0].size
         rows = np.arange(6 * count).reshape(6, *place.x[0].shape)
