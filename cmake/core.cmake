@@ -1,7 +1,7 @@
 # The core: physics, integrator, variable tables.  Its objects go into the FMU and, the same ones, into the tests' library.
 
 # Files that work on bundles of lanes: compiled once for each instruction set, chosen at run time.
-set(kernel_files rhs.c ball.c race_contact.c drag.c pocket.c cage_joint.c land_film.c vector_ops.c)
+set(kernel_files rhs.c ball.c race_contact.c drag.c pocket.c cage_joint.c land_film.c vector_ops.c implicit.c)
 
 set(warnings -Wall -Wextra -Wpedantic -Werror)
 set(arithmetic -ffp-contract=off -fno-math-errno -fno-trapping-math)  # IEEE results, the same ones on every instruction set

@@ -141,6 +141,7 @@ static void derive(Bearing *b)
     drive_update(&b->s.p, &b->s.u, b->s.integrator.t, &b->drive);
     work_init(&b->d, &b->w);
     integrator_tolerance(b->integrator, b->s.tolerance);
+    integrator_restored(b->integrator);
     b->current = 0;
     b->evaluated = false;
 }
@@ -185,10 +186,8 @@ BearingStatus bearing_initialize(Bearing *b, double t_start, double tolerance)
 static void choose_path(Bearing *b, double elapsed)
 {
     Saved *s = &b->s;
-    double rate = 0.0;
     integrator_evaluate(b->integrator);
-    for (int i = 0; i < N_STATES; i++) rate = fmax(rate, s->integrator.D[i]);
-    s->stiffness += (rate - s->stiffness) * (elapsed < 1e-3 ? elapsed / 1e-3 : 1.0);
+    s->stiffness += (s->integrator.stiffness - s->stiffness) * (elapsed < 1e-3 ? elapsed / 1e-3 : 1.0);
     if (s->p.solver.method != METHOD_AUTO) {
         s->integrator.path = s->p.solver.method == METHOD_IMEX ? PATH_IMEX : PATH_EXPLICIT;
         return;
@@ -209,6 +208,7 @@ static void renew_drive(Bearing *b)
     if (memcmp(&drive, &b->drive, sizeof drive) == 0) return;
     b->drive = drive;
     b->s.integrator.known = 0;
+    integrator_restored(b->integrator);
 }
 
 BearingStatus bearing_step(Bearing *b, double t_end)

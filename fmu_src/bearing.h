@@ -33,7 +33,7 @@ void bearing_reset(Bearing *bearing);              // as newly created
 Parameters *bearing_parameters(Bearing *bearing);  // may be changed before bearing_initialize
 Inputs *bearing_inputs(Bearing *bearing);          // may be changed before each step
 const Outputs *bearing_outputs(const Bearing *bearing);
-double *bearing_state(Bearing *bearing);           // y, offsets in variables.h
+double *bearing_state(Bearing *bearing);  // y, offsets in variables.h
 double bearing_time(const Bearing *bearing);
 
 // Checks all parameters and inputs, derives constants, finds the quasi-static start.  tolerance 0: solver.tol.

@@ -52,7 +52,8 @@ static bool check_geometry(Bearing *b)
     bool fine = true;
     fine &= require(b, D < chord, "bearing.D = %g m: the balls overlap; less than bearing.d_m sin(pi/Z) = %g m is allowed", D, chord);
     fine &= require(b, pocket < chord, "cage.pocket_clearance: pockets of %g m overlap; less than bearing.d_m sin(pi/Z) = %g m is allowed", pocket, chord);
-    fine &= require(b, p->bearing.P_d < play, "bearing.P_d = %g m: the rings fall apart; less than 2 (f_i + f_e - 1) D = %g m is allowed", p->bearing.P_d, play);
+    fine &=
+        require(b, p->bearing.P_d < play, "bearing.P_d = %g m: the rings fall apart; less than 2 (f_i + f_e - 1) D = %g m is allowed", p->bearing.P_d, play);
     fine &= require(b, -p->bearing.P_d < 0.01 * D, "bearing.P_d = %g m: the interference exceeds 1 %% of bearing.D; at least %g m is allowed", p->bearing.P_d,
                     -0.01 * D);
     fine &= require(b, p->cage.D_i < p->cage.D_o, "cage.D_i = %g m: less than cage.D_o = %g m is allowed", p->cage.D_i, p->cage.D_o);
@@ -73,10 +74,10 @@ static bool check_geometry(Bearing *b)
 static bool check_table(Bearing *b)
 {
     const double d_m = b->s.p.bearing.d_m, table = rivet_table.joint.d_m;
-    bool fine = require(b, rivet_table.Z == Z, "the embedded rivet table is for Z = %g; this FMU has Z = %g: build it with a table for this bearing",
-                        rivet_table.Z, Z);
-    fine &= require(b, fabs(d_m - table) <= 1e-3 * table, "bearing.d_m = %g m: the embedded load path is for %g m +- 0.1 %%; build an FMU for this bearing", d_m,
-                    table);
+    bool fine =
+        require(b, rivet_table.Z == Z, "the embedded rivet table is for Z = %g; this FMU has Z = %g: build it with a table for this bearing", rivet_table.Z, Z);
+    fine &= require(b, fabs(d_m - table) <= 1e-3 * table, "bearing.d_m = %g m: the embedded load path is for %g m +- 0.1 %%; build an FMU for this bearing",
+                    d_m, table);
     return fine;
 }
 

@@ -15,8 +15,8 @@ static double ln_film(double E_prime, double R_x, double k, const Parameters *p,
 // 2.86 E' R_x^2 (R_y/R_x)^0.348 G^0.022 (eta/(E' R_x))^0.66 (1/(E' R_x^2))^0.47: F_R at U = 1 m/s, Q = 1 N.
 static double inlet(double E_prime, double R_x, double R_y, const Parameters *p)
 {
-    return p->oil.rolling * 2.86 * E_prime * R_x * R_x * pow(R_y / R_x, 0.348) * pow(p->oil.alpha * E_prime, 0.022) *
-           pow(p->oil.eta / (E_prime * R_x), 0.66) * pow(E_prime * R_x * R_x, -0.47);
+    return p->oil.rolling * 2.86 * E_prime * R_x * R_x * pow(R_y / R_x, 0.348) * pow(p->oil.alpha * E_prime, 0.022) * pow(p->oil.eta / (E_prime * R_x), 0.66) *
+           pow(E_prime * R_x * R_x, -0.47);
 }
 
 // inner: side = -1, outer: side = +1.

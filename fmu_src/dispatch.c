@@ -3,12 +3,14 @@
 
 #undef rhs
 #undef vector_ops
+#undef implicit_ops
 #undef race_contact_force
-#define DECLARE(isa) \
-    Rhs rhs_##isa;   \
-    ContactKernel race_contact_force_##isa; \
-    extern const VectorOps vector_ops_##isa
-#define KERNELS(isa) ((Kernels){#isa, rhs_##isa, race_contact_force_##isa, &vector_ops_##isa})
+#define DECLARE(isa)                         \
+    Rhs rhs_##isa;                           \
+    ContactKernel race_contact_force_##isa;  \
+    extern const VectorOps vector_ops_##isa; \
+    extern const ImplicitOps implicit_ops_##isa
+#define KERNELS(isa) ((Kernels){#isa, rhs_##isa, race_contact_force_##isa, &vector_ops_##isa, &implicit_ops_##isa})
 
 #if defined(__x86_64__) || defined(_M_X64)
 DECLARE(sse2);

@@ -8,8 +8,8 @@
 #include <time.h>
 
 // Floors of the statistics' bins: the smallest value told apart.
-static const double FORCE_FLOOR = 1e-3;   // [N]
-static const double STRESS_FLOOR = 1e3;   // [Pa]
+static const double FORCE_FLOOR = 1e-3;  // [N]
+static const double STRESS_FLOOR = 1e3;  // [Pa]
 
 enum { WORST_RIVET = Z, STRESS_CHANNELS = Z + 1 };  // channels of stress statistics: each rivet, the worst one at each instant
 
@@ -20,8 +20,8 @@ typedef struct {
     IntegratorState integrator;
     double t_start, tolerance;
     double energy_start;
-    double stiffness;                   // largest stiff rate, smoothed over about 1 ms [1/s]
-    double force_peak;                  // since the last communication point
+    double stiffness;   // largest stiff rate, smoothed over about 1 ms [1/s]
+    double force_peak;  // since the last communication point
     double head_peak[Z], mid_peak[Z];
     double dislocation_most, duty_time, omega_time, eccentricity_time;  // integrals over time since settle
     StatisticsChannel force, head[STRESS_CHANNELS], mid[STRESS_CHANNELS];
@@ -39,9 +39,9 @@ struct Bearing {
     Outputs out;
     Kernels kernels;
     Integrator *integrator;
-    unsigned current;                   // bit per output group: up to date
-    double y_dot[N_STATES];             // dy/dt at the present state
-    bool evaluated;                     // w and y_dot belong to it
+    unsigned current;        // bit per output group: up to date
+    double y_dot[N_STATES];  // dy/dt at the present state
+    bool evaluated;          // w and y_dot belong to it
     double cpu_time;
 };
 

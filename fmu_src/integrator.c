@@ -2,14 +2,12 @@
 //
 //   explicit   classical Runge-Kutta 4(3); its last stage is the next step's first.  Per evaluation its stability reaches furthest along the
 //              imaginary axis (2.83/4; Bogacki-Shampine 1.73/3, Dormand-Prince 1.0/6): undamped contact modes of 2.5e5 rad/s bound the step
-//   IMEX       ARK324L2SA: f = (f + D y) + (-D y) with the stiff rates D frozen at the start of each step; the implicit part is diagonal,
-//              so a stage's equation  z - z_pred = s - gamma D z  is solved in one pass, without iteration
+//   IMEX       ARK324L2SA: f = (f + A (y - y_n)) + (-A (y - y_n)) with the stiff blocks A (implicit.h) frozen at the start of each step: a stage's
+//              equation  z - y_n = s - gamma A (z - y_n)  is solved block by block, without iteration
 //
 // Each advance resets ARKODE with the remembered step size and a stop time, so that it is a pure function of IntegratorState: rollback and a
 // fresh instance continue bit for bit.  Error weights are absolute, 1/(tolerance scale): angles are unbounded.
 #include "integrator.h"
-
-#include "jacobian.h"
 
 #include <arkode/arkode_arkstep.h>
 #include <arkode/arkode_erkstep.h>
@@ -27,14 +25,16 @@ struct Integrator {
     IntegratorLog *log;
     void *context;
     SUNContext sun;
-    N_Vector y;                // the step's result
-    void *stepper[2];          // by Path - 1
-    SUNNonlinearSolver diagonal;
+    N_Vector y;        // the step's result
+    void *stepper[2];  // by Path - 1
+    SUNNonlinearSolver stage;
     double weight[N_STATES];
-    const double *latest;      // where ARKODE keeps the latest evaluation
-    bool starting;             // the next evaluation is the one at (s->t, s->y)
-    bool rehearsing;           // dy/dt = 0
-    unsigned spoiled;          // trial states without a derivative in this advance
+    Implicit A;            // frozen over a step of the IMEX path
+    bool frozen;           // A belongs to the present state
+    const double *latest;  // where ARKODE keeps the latest evaluation
+    bool starting;         // the next evaluation is the one at (s->t, s->y)
+    bool rehearsing;       // dy/dt = 0
+    unsigned spoiled;      // trial states without a derivative in this advance
 };
 
 // ---- vectors of fixed length with the operations of this processor ---------------------------------------------------------------------------
@@ -194,15 +194,17 @@ static int imex_explicit(sunrealtype t, N_Vector y, N_Vector f, void *user)
 {
     Integrator *in = user;
     evaluate(in, t, data(y), data(f));
-    in->kernels->ops->imex_explicit(data(f), in->s->D, data(y), data(f));
+    in->kernels->implicit->add(&in->A, data(y), in->s->y, data(f));
     return 0;
 }
 
+// -A (y - y_n): 0 at the step's start.  In the stages ARKODE takes it from the solved equation instead.
 static int imex_implicit(sunrealtype t, N_Vector y, N_Vector f, void *user)
 {
     (void)t;
     const Integrator *in = user;
-    in->kernels->ops->imex_implicit(in->s->D, data(y), data(f));
+    memset(data(f), 0, sizeof(double) * N_STATES);
+    in->kernels->implicit->add(&in->A, in->s->y, data(y), data(f));
     return 0;
 }
 
@@ -213,47 +215,48 @@ static int weights(N_Vector y, N_Vector ewt, void *user)
     return 0;
 }
 
-// ---- the diagonal implicit stage as ARKODE's nonlinear solver --------------------------------------------------------------------------------
-static SUNNonlinearSolver_Type diagonal_type(SUNNonlinearSolver solver)
+// ---- the linear implicit stage as ARKODE's nonlinear solver --------------------------------------------------------------------------------
+static SUNNonlinearSolver_Type stage_type(SUNNonlinearSolver solver)
 {
     (void)solver;
     return SUNNONLINEARSOLVER_ROOTFIND;
 }
 
-static int diagonal_set_system(SUNNonlinearSolver solver, SUNNonlinSolSysFn system)
+static int stage_set_system(SUNNonlinearSolver solver, SUNNonlinSolSysFn system)
 {
     (void)solver, (void)system;
     return SUN_SUCCESS;
 }
 
-static int diagonal_solve(SUNNonlinearSolver solver, N_Vector start, N_Vector correction, N_Vector weight, sunrealtype tolerance, sunbooleantype setup,
-                          void *arkode)
+static int stage_solve(SUNNonlinearSolver solver, N_Vector start, N_Vector correction, N_Vector weight, sunrealtype tolerance, sunbooleantype setup,
+                       void *arkode)
 {
     (void)start, (void)weight, (void)tolerance, (void)setup;
-    const Integrator *in = solver->content;
+    Integrator *in = solver->content;
     double t, gamma;
     N_Vector predicted, z, implicit, known;
     void *user;
     if (ARKodeGetNonlinearSystemData(arkode, &t, &predicted, &z, &implicit, &gamma, &known, &user) != ARK_SUCCESS) return SUN_ERR_GENERIC;
-    in->kernels->ops->imex_solve(gamma, in->s->D, data(known), data(predicted), data(correction));
+    memcpy(data(correction), data(known), sizeof(double) * N_STATES);  // the predictor is y_n, where the implicit part is 0
+    in->kernels->implicit->solve(&in->A, gamma, data(correction));
     return SUN_SUCCESS;
 }
 
-static int diagonal_free(SUNNonlinearSolver solver)
+static int stage_free(SUNNonlinearSolver solver)
 {
     SUNNonlinSolFreeEmpty(solver);
     return SUN_SUCCESS;
 }
 
-static SUNNonlinearSolver diagonal_new(Integrator *in)
+static SUNNonlinearSolver stage_new(Integrator *in)
 {
     SUNNonlinearSolver solver = SUNNonlinSolNewEmpty(in->sun);
     if (solver == NULL) return NULL;
     solver->content = in;
-    solver->ops->gettype = diagonal_type;
-    solver->ops->setsysfn = diagonal_set_system;
-    solver->ops->solve = diagonal_solve;
-    solver->ops->free = diagonal_free;
+    solver->ops->gettype = stage_type;
+    solver->ops->setsysfn = stage_set_system;
+    solver->ops->solve = stage_solve;
+    solver->ops->free = stage_free;
     return solver;
 }
 
@@ -283,10 +286,10 @@ static int explicit_table(void *stepper)
     const double theta = 0.05;
     double c[STAGES] = {0.0, 0.5, 0.5, 1.0, 1.0}, b[STAGES] = {1.0 / 6.0, 1.0 / 3.0, 1.0 / 3.0, 1.0 / 6.0, 0.0};
     double d[STAGES] = {1.0 / 6.0, 1.0 / 3.0, 1.0 / 3.0, 1.0 / 6.0 - theta, theta};
-    double A[STAGES * STAGES] = {0.0, 0.0, 0.0, 0.0, 0.0,  //
-                                 0.5, 0.0, 0.0, 0.0, 0.0,  //
-                                 0.0, 0.5, 0.0, 0.0, 0.0,  //
-                                 0.0, 0.0, 1.0, 0.0, 0.0,  //
+    double A[STAGES * STAGES] = {0.0,       0.0,       0.0,       0.0,       0.0,  //
+                                 0.5,       0.0,       0.0,       0.0,       0.0,  //
+                                 0.0,       0.5,       0.0,       0.0,       0.0,  //
+                                 0.0,       0.0,       1.0,       0.0,       0.0,  //
                                  1.0 / 6.0, 1.0 / 3.0, 1.0 / 3.0, 1.0 / 6.0, 0.0};
     ARKodeButcherTable table = ARKodeButcherTable_Create(STAGES, 4, 3, c, A, b, d);
     const int status = table != NULL ? ERKStepSetTable(stepper, table) : ARK_MEM_FAIL;
@@ -307,7 +310,7 @@ static bool rehearse(Integrator *in, void *stepper)
 
 Integrator *integrator_create(const Kernels *kernels, const Model *model, Work *w, IntegratorState *state, StepHook *hook, IntegratorLog *log, void *context)
 {
-    Integrator *in = calloc(1, sizeof *in);
+    Integrator *in = aligned_alloc(64, (sizeof *in + 63) / 64 * 64);
     if (in == NULL) return NULL;
     *in = (Integrator){.kernels = kernels, .model = model, .w = w, .s = state, .hook = hook, .log = log, .context = context};
     bool fine = SUNContext_Create(SUN_COMM_NULL, &in->sun) == SUN_SUCCESS;
@@ -318,12 +321,11 @@ Integrator *integrator_create(const Kernels *kernels, const Model *model, Work *
     if (fine) {
         in->stepper[PATH_EXPLICIT - 1] = ERKStepCreate(explicit_rhs, 0.0, in->y, in->sun);
         in->stepper[PATH_IMEX - 1] = ARKStepCreate(imex_explicit, imex_implicit, 0.0, in->y, in->sun);
-        in->diagonal = diagonal_new(in);
+        in->stage = stage_new(in);
         void *explicit_ = in->stepper[0], *imex = in->stepper[1];
-        fine = explicit_ != NULL && imex != NULL && in->diagonal != NULL && set_up(in, explicit_) == 0 && set_up(in, imex) == 0 &&
-               explicit_table(explicit_) == ARK_SUCCESS &&
-               ARKStepSetTableNum(imex, ARKODE_ARK324L2SA_DIRK_4_2_3, ARKODE_ARK324L2SA_ERK_4_2_3) == ARK_SUCCESS &&
-               ARKodeSetNonlinearSolver(imex, in->diagonal) == ARK_SUCCESS && ARKodeSetLinear(imex, 0) == ARK_SUCCESS &&
+        fine = explicit_ != NULL && imex != NULL && in->stage != NULL && set_up(in, explicit_) == 0 && set_up(in, imex) == 0 &&
+               explicit_table(explicit_) == ARK_SUCCESS && ARKStepSetTableNum(imex, ARKODE_ARK324L2SA_DIRK_4_2_3, ARKODE_ARK324L2SA_ERK_4_2_3) == ARK_SUCCESS &&
+               ARKodeSetNonlinearSolver(imex, in->stage) == ARK_SUCCESS && ARKodeSetLinear(imex, 0) == ARK_SUCCESS &&
                ARKodeSetDeduceImplicitRhs(imex, SUNTRUE) == ARK_SUCCESS;
         for (int i = 0; i < N_STATES; i++) in->weight[i] = 1.0;
         fine = fine && rehearse(in, explicit_) && rehearse(in, imex);
@@ -340,7 +342,7 @@ void integrator_destroy(Integrator *in)
     if (in == NULL) return;
     for (int i = 0; i < 2; i++)
         if (in->stepper[i] != NULL) ARKodeFree(&in->stepper[i]);
-    if (in->diagonal != NULL) SUNNonlinSolFree(in->diagonal);
+    if (in->stage != NULL) SUNNonlinSolFree(in->stage);
     if (in->y != NULL) N_VDestroy(in->y);
     if (in->sun != NULL) SUNContext_Free(&in->sun);
     free(in);
@@ -349,8 +351,7 @@ void integrator_destroy(Integrator *in)
 void integrator_tolerance(Integrator *in, double tolerance)
 {
     for (int b = 0; b < N_STATE_BLOCKS; b++)
-        for (int i = 0; i < STATE_BLOCKS[b].count; i++)
-            in->weight[STATE_BLOCKS[b].offset + i] = 1.0 / (tolerance * in->model->d->scale[STATE_BLOCKS[b].scale]);
+        for (int i = 0; i < STATE_BLOCKS[b].count; i++) in->weight[STATE_BLOCKS[b].offset + i] = 1.0 / (tolerance * in->model->d->scale[STATE_BLOCKS[b].scale]);
 }
 
 // ---- stepping -----------------------------------------------------------------------------------------------------------------------------------
@@ -359,9 +360,26 @@ void integrator_evaluate(Integrator *in)
     IntegratorState *s = in->s;
     if (s->known) return;
     in->kernels->rhs(in->model, s->t, s->y, s->f, in->w);
-    jacobian_diagonal(in->model, in->w, s->D);
     s->rhs_evals += 1.0;
     s->known = 1;
+    in->kernels->implicit->set(in->model, in->w, &in->A);
+    in->frozen = true;
+    s->stiffness = in->A.largest;
+}
+
+// A at the present state, the same bits whether the state was reached or restored.
+static void freeze(Integrator *in)
+{
+    double f[N_STATES];
+    if (in->frozen) return;
+    in->kernels->rhs(in->model, in->s->t, in->s->y, f, in->w);
+    in->kernels->implicit->set(in->model, in->w, &in->A);
+    in->frozen = true;
+}
+
+void integrator_restored(Integrator *in)
+{
+    in->frozen = false;
 }
 
 int integrator_advance(Integrator *in, double t_stop, long max_steps)
@@ -370,6 +388,7 @@ int integrator_advance(Integrator *in, double t_stop, long max_steps)
     void *stepper = in->stepper[s->path - 1];
     integrator_evaluate(in);
     if (!in->kernels->ops->finite(s->f)) return -1;
+    if (s->path == PATH_IMEX) freeze(in);
     in->spoiled = 0;
     memcpy(data(in->y), s->y, sizeof s->y);
     if (ARKodeReset(stepper, s->t, in->y) != ARK_SUCCESS) return -1;
@@ -394,7 +413,8 @@ int integrator_advance(Integrator *in, double t_stop, long max_steps)
         s->steps += 1.0;
         ARKodeGetCurrentStep(stepper, &h_next);
         s->known = 0;
-        if (s->path == PATH_IMEX) integrator_evaluate(in);  // the next step's start: f and the rates to freeze
+        in->frozen = false;
+        if (s->path == PATH_IMEX) integrator_evaluate(in);  // the next step's start: f and A
         in->hook(in->context, h, in->w);
     }
     in->starting = false;
@@ -408,7 +428,8 @@ int integrator_advance(Integrator *in, double t_stop, long max_steps)
     s->t = t_stop;
     if (s->path == PATH_EXPLICIT) {  // the last stage was at the new state
         memcpy(s->f, in->latest, sizeof s->f);
-        jacobian_diagonal(in->model, in->w, s->D);
+        in->kernels->implicit->set(in->model, in->w, &in->A);
+        s->stiffness = in->A.largest;
         s->known = 1;
     }
     return 0;

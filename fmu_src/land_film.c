@@ -73,9 +73,10 @@ void land_film_force(const Model *model, Work *w)
     w->land_elastic = elastic[0] + elastic[1];
     w->land_dissipated = -(power[0] + elastic_rate[0]) - (power[1] + elastic_rate[1]);
 
-    // rates of the velocities of both halves
-    const real rate_y = kappa * (I_c * n_y * n_y - 2.0 * I_s * n_y * n_z + I_t * n_z * n_z);
-    const real rate_z = kappa * (I_c * n_z * n_z + 2.0 * I_s * n_y * n_z + I_t * n_y * n_y);
+    // -dF/dv in the global frame
+    const real K_yy = kappa * (I_c * n_y * n_y - 2.0 * I_s * n_y * n_z + I_t * n_z * n_z);
+    const real K_zz = kappa * (I_c * n_z * n_z + 2.0 * I_s * n_y * n_z + I_t * n_y * n_y);
+    const real K_yz = kappa * ((I_c - I_t) * n_y * n_z + I_s * (n_y * n_y - n_z * n_z));
     for (int h = 0; h < 2; h++) {
         Rotor *half = &w->half[h];
         const double F[3] = {0.0, F_y[h], F_z[h]}, arm[3] = {half->a[0] * x_land[h], half->a[1] * x_land[h], half->a[2] * x_land[h]};
@@ -84,11 +85,7 @@ void land_film_force(const Model *model, Work *w)
         half->M[0] += M_x[h] + arm[1] * F[2] - arm[2] * F[1];
         half->M[1] += -arm[0] * F[2];
         half->M[2] += arm[0] * F[1];
-        const double lever = x_land[h] - d->com_x[h], tilt = lever * lever / p->cage.J_t;
-        w->D_cage_y[h] = rate_y[h] / p->cage.m;
-        w->D_cage_z[h] = rate_z[h] / p->cage.m;
-        w->D_gamma[h] = rate_y[h] * tilt;
-        w->D_beta[h] = rate_z[h] * tilt;
-        w->D_spin[h] = (couette[h] + g[h] * R[h] * R[h]) / p->cage.J_p;
+        w->film_yy[h] = K_yy[h], w->film_yz[h] = K_yz[h], w->film_zz[h] = K_zz[h];
+        w->film_spin[h] = couette[h] + g[h] * R[h] * R[h];
     }
 }

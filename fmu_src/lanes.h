@@ -35,7 +35,7 @@ enum { LANES = (Z + 7) / 8 * 8, BUNDLES = (Z + LANE_WIDTH - 1) / LANE_WIDTH };
 typedef double real __attribute__((vector_size(8 * LANE_WIDTH)));
 typedef int64_t bits __attribute__((vector_size(8 * LANE_WIDTH)));  // a comparison's result: all ones where true
 typedef uint64_t words __attribute__((vector_size(8 * LANE_WIDTH)));
-typedef double lanes[LANES] __attribute__((aligned(64)));           // one number per ball
+typedef double lanes[LANES] __attribute__((aligned(64)));  // one number per ball
 
 #define INLINE static inline __attribute__((always_inline))
 

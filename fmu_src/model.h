@@ -15,70 +15,70 @@ typedef struct {
 
 // ---- constants, written once by model_derive ---------------------------------------------------------------------------------------------
 typedef struct {
-    double K;       // Q = K delta^1.5 [N/m^1.5]
-    double a, b;    // semi-axes of the contact ellipse / Q^(1/3), a >= b [m/N^(1/3)]
-    double a_delta; // a / delta^(1/2) [m^0.5]
-    double k;       // a/b
-    double R_x;     // reduced radius in the rolling direction [m]
+    double K;        // Q = K delta^1.5 [N/m^1.5]
+    double a, b;     // semi-axes of the contact ellipse / Q^(1/3), a >= b [m/N^(1/3)]
+    double a_delta;  // a / delta^(1/2) [m^0.5]
+    double k;        // a/b
+    double R_x;      // reduced radius in the rolling direction [m]
 } Hertz;
 
 typedef struct {
-    double R_g;        // radius of the circle of groove-curvature centres [m]
-    double r_g;        // groove radius f D [m]
-    double R_m;        // radius of the deformed contact surface across rolling [m]
-    double rolling;    // F_R = rolling U^0.66 Q^0.47 [N]
-    double horizontal; // F_H / F_R = 2 R_x / R of the ball
-    double ln_Lambda;  // ln of Lambda at U = 1 m/s, Q = 1 N
+    double R_g;         // radius of the circle of groove-curvature centres [m]
+    double r_g;         // groove radius f D [m]
+    double R_m;         // radius of the deformed contact surface across rolling [m]
+    double rolling;     // F_R = rolling U^0.66 Q^0.47 [N]
+    double horizontal;  // F_H / F_R = 2 R_x / R of the ball
+    double ln_Lambda;   // ln of Lambda at U = 1 m/s, Q = 1 N
     Hertz hertz;
 } Race;
 
 typedef struct {
-    lanes R;                                   // ball radius [m]
-    double m, J;                               // ball mass [kg], moment of inertia [kg.m2]
+    lanes R;      // ball radius [m]
+    double m, J;  // ball mass [kg], moment of inertia [kg.m2]
     Race inner, outer;
-    double ln_pocket_piezo, ln_pocket_rigid;   // ln Lambda of the pocket film at U = 1 m/s, Q = 1 N: piezoviscous, isoviscous-rigid
-    double pocket_rolling;                     // F_R = pocket_rolling U^0.66 Q^0.47
+    double ln_pocket_piezo, ln_pocket_rigid;  // ln Lambda of the pocket film at U = 1 m/s, Q = 1 N: piezoviscous, isoviscous-rigid
+    double pocket_rolling;                    // F_R = pocket_rolling U^0.66 Q^0.47
     Hertz pocket;
-    double pocket_radius;                      // of the pocket [m]
-    lanes pocket_cos, pocket_sin;              // body angle of pocket j: 2 pi j / Z
-    lanes rivet_y, rivet_z;                    // place of rivet k in a half: angle 2 pi (k + 1/2) / Z on the pitch circle [m]
-    double drag;                               // ball drag / v^2 [N.s2/m2]
-    double com_x[2], com_e;                    // centre of mass of a half from its geometric centre: axial, toward pocket 1 [m]
-    double C_land, kappa, couette;             // radial guide clearance [m], eta R L^3 / C^3 [N.s/m], Couette torque / speed [N.m.s]
-    double ln_land;                            // ln Lambda of a land film of thickness C
-    double disk_laminar, disk_turbulent;       // end-face drag moment / |omega|^1.5, |omega|^1.8 of one half
+    double pocket_radius;                               // of the pocket [m]
+    lanes pocket_cos, pocket_sin;                       // body angle of pocket j: 2 pi j / Z
+    lanes rivet_y, rivet_z;                             // place of rivet k in a half: angle 2 pi (k + 1/2) / Z on the pitch circle [m]
+    double drag;                                        // ball drag / v^2 [N.s2/m2]
+    double com_x[2], com_e;                             // centre of mass of a half from its geometric centre: axial, toward pocket 1 [m]
+    double C_land, kappa, couette;                      // radial guide clearance [m], eta R L^3 / C^3 [N.s/m], Couette torque / speed [N.m.s]
+    double ln_land;                                     // ln Lambda of a land film of thickness C
+    double disk_laminar, disk_turbulent;                // end-face drag moment / |omega|^1.5, |omega|^1.8 of one half
     double disk_laminar_omega, cylinder_laminar_omega;  // cage speeds below which both are laminar [rad/s]
-    double cylinder_laminar, cylinder_vortex;  // cylinder drag moment / |omega|, |omega|^1.539 of one half
-    double P, fit_a, fit_eff, k_hole, hole_gap;  // joint at the present temperature
-    double k_rivet, k_plate, k_plate_t, k_head;  // its stiffnesses [N/m]
-    double c_joint;                            // axial damping of one closed joint [N.s/m]
-    double scale[SCALE_COUNT];                 // error that tolerance 1 allows, by class of state
+    double cylinder_laminar, cylinder_vortex;           // cylinder drag moment / |omega|, |omega|^1.539 of one half
+    double P, fit_a, fit_eff, k_hole, hole_gap;         // joint at the present temperature
+    double k_rivet, k_plate, k_plate_t, k_head;         // its stiffnesses [N/m]
+    double c_joint;                                     // axial damping of one closed joint [N.s/m]
+    double scale[SCALE_COUNT];                          // error that tolerance 1 allows, by class of state
 } Derived;
 
 // ---- what the ring sees from outside, constant or a half-sine over a step; written by drive_update -------------------------------------------
 typedef struct {
-    double F[3], M[2];           // load [N], moment about Y, Z [N.m]
-    double omega;                // speed [rad/s]
-    double beta, gamma;          // direction cosines of the shaft's tilt
-    double pulse[3];             // amplitude of the half-sine in progress [N]
+    double F[3], M[2];               // load [N], moment about Y, Z [N.m]
+    double omega;                    // speed [rad/s]
+    double beta, gamma;              // direction cosines of the shaft's tilt
+    double pulse[3];                 // amplitude of the half-sine in progress [N]
     double pulse_start, pulse_rate;  // its start [s] and pi / duration [1/s]
 } Drive;
 
 // ---- a rigid body with an axis: inner ring or cage half; written by rotor_set ---------------------------------------------------------------
 typedef struct {
-    double x[3], v[3];           // geometric centre
-    double a[3], a_dot[3];       // axis: unit vector (a_x, gamma, -beta) and its rate
-    double Omega[3], s;          // angular velocity a x a_dot + s a, spin s
-    double b_y[3], b_z[3];       // body axes across (cage halves)
-    double c[3];                 // centre of mass - geometric centre (cage halves)
-    double F[3], M[3];           // force and moment about the geometric centre, by all contacts
+    double x[3], v[3];      // geometric centre
+    double a[3], a_dot[3];  // axis: unit vector (a_x, gamma, -beta) and its rate
+    double Omega[3], s;     // angular velocity a x a_dot + s a, spin s
+    double b_y[3], b_z[3];  // body axes across (cage halves)
+    double c[3];            // centre of mass - geometric centre (cage halves)
+    double F[3], M[3];      // force and moment about the geometric centre, by all contacts
 } Rotor;
 
 // ---- force of one ball on one half; written by pocket_force, zero where they do not touch -------------------------------------------------
 typedef struct {
-    double Q;                    // contact load [N]
-    double F_x, F_r, F_t;        // force on the half in the pocket's frame [N]
-    double F[3], M[3];           // force and moment on the half about its geometric centre, global frame
+    double Q;              // contact load [N]
+    double F_x, F_r, F_t;  // force on the half in the pocket's frame [N]
+    double F[3], M[3];     // force and moment on the half about its geometric centre, global frame
 } Pocket;
 
 // ---- one evaluation of the right-hand side, in the order it is written --------------------------------------------------------------------------
@@ -89,24 +89,25 @@ typedef struct {
     Rotor ring, half[2];
     // contacts: total force and moment on the ball about its centre (race_contact_force sets, pocket_force and drag_force add)
     lanes F_x, F_r, F_t, M_x, M_r, M_t;
-    // stiff rates of the ball's velocities, 1/s: -d(acceleration)/d(velocity) (the same)
+    lanes g_i, g_e;  // race contacts: |traction|/|slip| [N.s/m] (race_contact_force)
+    // stiff rates of the ball's velocities by the pockets, 1/s: -d(acceleration)/d(velocity) (race_contact_force clears, pocket_force adds)
     lanes D_x, D_r, D_t, D_omega_x, D_omega_r, D_omega_t;
-    lanes dissipated;                       // by contacts and drag [W]
+    lanes dissipated;  // by contacts and drag [W]
     // wrench of the race contacts on the inner ring about its centre, global frame
     lanes ring_F_x, ring_F_y, ring_F_z, ring_M_x, ring_M_y, ring_M_z;
     // contact results
     lanes delta_i, delta_e, Q_i, Q_e, n_ix, n_ir, n_it, n_ex, n_er, U_i, U_e;
-    lanes delta_c[2];                       // elastic approach of ball and half
+    lanes delta_c[2];  // elastic approach of ball and half
     Pocket pocket[2][Z];
     // joints, in the frame of half 0 (cage_joint_force)
-    lanes u_x, u_y, u_z, v_jx, v_jy, v_jz;  // half 1 against half 0: offset, velocity
+    lanes u_x, u_y, u_z, v_jx, v_jy, v_jz;           // half 1 against half 0: offset, velocity
     lanes T, N_plate, S_y, S_z, H_y, H_z, B_y, B_z;  // rivet tension, plate force, forces on half 1 by plates S, heads H, hole B
     lanes plate_y_dot, plate_z_dot, head_y_dot, head_z_dot, D_plate, D_head;
     lanes joint_dissipated;
     // scalars
-    double land_dissipated, land_elastic, D_cage_y[2], D_cage_z[2], D_beta[2], D_gamma[2], D_spin[2];
-    double ring_acceleration[5];            // x, y, z, beta, gamma
-    double half_F_joint[3], half_M_joint[3];  // by the joints on half 1, about its geometric centre
+    double land_dissipated, land_elastic, film_yy[2], film_yz[2], film_zz[2], film_spin[2];  // of each land: -dF/dv, -dM/domega
+    double ring_acceleration[5];                                                             // x, y, z, beta, gamma
+    double half_F_joint[3], half_M_joint[3];                                                 // by the joints on half 1, about its geometric centre
 } Work;
 
 typedef struct {

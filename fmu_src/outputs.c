@@ -246,9 +246,9 @@ static void fill_constant(Bearing *b)
 
 void outputs_fill(Bearing *b, OutputGroup group)
 {
-    static void (*const fill[GROUP_COUNT])(Bearing *) = {
-        [GROUP_CONSTANT] = fill_constant, [GROUP_STATE] = fill_state, [GROUP_RING] = fill_ring,     [GROUP_BALL] = fill_ball,
-        [GROUP_CAGE] = fill_cage,         [GROUP_RIVET] = fill_rivet, [GROUP_STRESS] = fill_stress, [GROUP_PEAK] = fill_peak,
-        [GROUP_FATIGUE] = fill_fatigue,   [GROUP_ENERGY] = fill_energy, [GROUP_STAT] = fill_stat,   [GROUP_SOLVER] = fill_solver};
+    static void (*const fill[GROUP_COUNT])(Bearing *) = {[GROUP_CONSTANT] = fill_constant, [GROUP_STATE] = fill_state, [GROUP_RING] = fill_ring,
+                                                         [GROUP_BALL] = fill_ball,         [GROUP_CAGE] = fill_cage,   [GROUP_RIVET] = fill_rivet,
+                                                         [GROUP_STRESS] = fill_stress,     [GROUP_PEAK] = fill_peak,   [GROUP_FATIGUE] = fill_fatigue,
+                                                         [GROUP_ENERGY] = fill_energy,     [GROUP_STAT] = fill_stat,   [GROUP_SOLVER] = fill_solver};
     fill[group](b);
 }

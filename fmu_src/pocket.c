@@ -34,8 +34,8 @@ typedef struct {
 
 typedef struct {
     int j[LANE_WIDTH], h[LANE_WIDTH], count;
-    VecLanes place, velocity, spin;                              // of the ball, in its frame
-    VecLanes a, b_y, b_z, half_x, half_v, Omega;                 // of the half, global
+    VecLanes place, velocity, spin;               // of the ball, in its frame
+    VecLanes a, b_y, b_z, half_x, half_v, Omega;  // of the half, global
     double cos_theta[LANE_WIDTH], sin_theta[LANE_WIDTH], R[LANE_WIDTH], cos_phi[LANE_WIDTH], sin_phi[LANE_WIDTH], side[LANE_WIDTH];
 } Touched;
 
@@ -134,7 +134,8 @@ INLINE void pocket_contacts(const Model *model, Work *w, const Touched *list, bo
         w->dissipated[j] += dissipated[i];
         half->F[0] += F_half.x[i], half->F[1] += F_y[i], half->F[2] += F_z[i];
         half->M[0] += M_half.x[i], half->M[1] += M_y[i], half->M[2] += M_z[i];
-        w->pocket[list->h[i]][j] = (Pocket){.Q = Q[i], .F_x = F_x[i], .F_r = F_r[i], .F_t = F_t[i], .F = {F_half.x[i], F_y[i], F_z[i]}, .M = {M_half.x[i], M_y[i], M_z[i]}};
+        w->pocket[list->h[i]][j] =
+            (Pocket){.Q = Q[i], .F_x = F_x[i], .F_r = F_r[i], .F_t = F_t[i], .F = {F_half.x[i], F_y[i], F_z[i]}, .M = {M_half.x[i], M_y[i], M_z[i]}};
     }
 }
 

@@ -23,15 +23,17 @@
 
 // Gauss-Jacobi points and weights for the weight (3/4)(1 - s^2) on [-1, 1]: exact to degree 13.
 enum { SLICES = 7 };
-static const double SLICE[SLICES] = {-0.8997579954114603, -0.6771862795107377, -0.36311746382617816, 0.0, 0.36311746382617816, 0.6771862795107377, 0.8997579954114603};
-static const double SHARE[SLICES] = {0.02363715011287406, 0.11148030343755763, 0.22556281855841187, 0.27863945578231275, 0.22556281855841187, 0.11148030343755763, 0.02363715011287406};
+static const double SLICE[SLICES] = {-0.8997579954114603, -0.6771862795107377, -0.36311746382617816, 0.0,
+                                     0.36311746382617816, 0.6771862795107377,  0.8997579954114603};
+static const double SHARE[SLICES] = {0.02363715011287406, 0.11148030343755763, 0.22556281855841187, 0.27863945578231275,
+                                     0.22556281855841187, 0.11148030343755763, 0.02363715011287406};
 
 // What traction needs to know of one contact.
 typedef struct {
-    vec n, t_1, t_2;      // normal, rolling direction, long axis of the ellipse
-    vec slip, roll;       // Delta u, U
-    vec spin;             // omega_ball - Omega of the race
-    vec approach;         // velocity of the ball's centre against the race there
+    vec n, t_1, t_2;  // normal, rolling direction, long axis of the ellipse
+    vec slip, roll;   // Delta u, U
+    vec spin;         // omega_ball - Omega of the race
+    vec approach;     // velocity of the ball's centre against the race there
     real Q, sqrt_delta, R;
 } Contact;
 
@@ -56,7 +58,7 @@ INLINE Tangential race_traction(const Model *model, const Race *race, const Cont
     } else {
         const real a = race->hertz.a_delta * c->sqrt_delta;
         const real spin_n = vec_dot(c->spin, c->n);
-        const vec bend = vec_cross(c->spin, c->n);                              // its part along t_1 and t_2 only
+        const vec bend = vec_cross(c->spin, c->n);  // its part along t_1 and t_2 only
         out = (Tangential){0};
         for (int i = 0; i < SLICES; i++) {
             const real xi = a * SLICE[i], sagitta = xi * xi * (0.5 / race->R_m);
@@ -138,15 +140,14 @@ INLINE void race_contact_bundle(const Model *model, Work *w, int j, bool mixed, 
     const Tangential T_e = race_traction(model, &d->outer, &outer, mixed, sliced);
     const vec F_e = vec_axpy(-outer.Q, outer.n, vec_add(T_e.F_s, T_e.F_c));
 
-    // ---- sums on the ball, its stiff rates, the wrench on the ring
+    // ---- sums on the ball, the wrench on the ring
     vec_store(vec_add(F_i, F_e), &w->F_x[j], &w->F_r[j], &w->F_t[j]);
     vec_store(vec_add(T_i.M, T_e.M), &w->M_x[j], &w->M_r[j], &w->M_t[j]);
-    const real g = T_i.g + T_e.g, spin_rate = R * R / d->J, mass_rate = real_set(1.0 / d->m);
-    const real g_x = g - T_i.g * inner.n.x * inner.n.x - T_e.g * outer.n.x * outer.n.x;
-    const real g_r = g - T_i.g * inner.n.r * inner.n.r - T_e.g * outer.n.r * outer.n.r;
-    const real g_t = g - T_i.g * inner.n.t * inner.n.t;
-    vec_store((vec){mass_rate * g_x, mass_rate * g_r, mass_rate * g_t}, &w->D_x[j], &w->D_r[j], &w->D_t[j]);
-    vec_store((vec){spin_rate * g_x, spin_rate * g_r, spin_rate * g_t}, &w->D_omega_x[j], &w->D_omega_r[j], &w->D_omega_t[j]);
+    const vec none = {0};
+    real_store(&w->g_i[j], T_i.g);
+    real_store(&w->g_e[j], T_e.g);
+    vec_store(none, &w->D_x[j], &w->D_r[j], &w->D_t[j]);
+    vec_store(none, &w->D_omega_x[j], &w->D_omega_r[j], &w->D_omega_t[j]);
     real_store(&w->dissipated[j], T_i.dissipated + T_e.dissipated + (inner.Q - Q_i0) * delta_i_dot + (outer.Q - Q_e0) * delta_e_dot);
 
     const vec M_ring = vec_sub(vec_scale(real_set(-1.0), vec_cross(p_i, F_i)), T_i.M);

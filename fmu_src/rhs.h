@@ -1,6 +1,7 @@
 // The right-hand side: y -> dy/dt.
 #pragma once
 
+#include "implicit.h"
 #include "model.h"
 #include "vector_ops.h"
 
@@ -16,6 +17,7 @@ typedef struct {
     Rhs *rhs;
     ContactKernel *race_contact_force;
     const VectorOps *ops;
+    const ImplicitOps *implicit;
 } Kernels;
 
 // Those of the best instruction set of this processor.

@@ -21,7 +21,10 @@ static void two_half_load(const Model *model, const Work *w, RivetLoad load[Z], 
 {
     for (int k = 0; k < Z; k++) {
         const double V_y = w->S_y[k] + w->H_y[k] + w->B_y[k], V_z = w->S_z[k] + w->H_z[k] + w->B_z[k];
-        load[k] = (RivetLoad){.P = model->d->P, .N = w->T[k] - w->N_plate[k], .V_y = -w->B_y[k], .V_z = -w->B_z[k],
+        load[k] = (RivetLoad){.P = model->d->P,
+                              .N = w->T[k] - w->N_plate[k],
+                              .V_y = -w->B_y[k],
+                              .V_z = -w->B_z[k],
                               .F_head = sqrt(w->H_y[k] * w->H_y[k] + w->H_z[k] * w->H_z[k])};
         V[k] = sqrt(V_y * V_y + V_z * V_z);
     }
@@ -66,8 +69,7 @@ static void rigid_load(const Model *model, const Work *w, RivetLoad load[Z], dou
     for (int k = 0; k < Z; k++) {
         V[k] = sqrt(V_y[k] * V_y[k] + V_z[k] * V_z[k]);
         const double shank = V[k] > 2.0 * friction ? (V[k] - 2.0 * friction) / V[k] : 0.0;
-        load[k] = (RivetLoad){.P = model->d->P, .N = N[k], .V_y = shank * V_y[k], .V_z = shank * V_z[k],
-                              .F_head = fmin(fmax(V[k] - friction, 0.0), friction)};
+        load[k] = (RivetLoad){.P = model->d->P, .N = N[k], .V_y = shank * V_y[k], .V_z = shank * V_z[k], .F_head = fmin(fmax(V[k] - friction, 0.0), friction)};
     }
 }
 
@@ -88,8 +90,7 @@ void rivets_load(const Model *model, const Work *w, RivetLoad load[Z], double V[
         two_half_load(model, w, load, V);
 
     PathLoads path = {0};
-    for (int h = 0; h < (rigid ? 1 : 2); h++)
-        pocket_path(w->pocket[h], h == 0 ? -1 : 1, &path);
+    for (int h = 0; h < (rigid ? 1 : 2); h++) pocket_path(w->pocket[h], h == 0 ? -1 : 1, &path);
     const double R = 0.5 * model->p->bearing.d_m;
     for (int k = 0; k < Z; k++) {
         const double c = model->d->rivet_y[k] / R, s = model->d->rivet_z[k] / R;

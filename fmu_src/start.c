@@ -13,17 +13,17 @@
 
 enum { DOF = 5, TILT = 3 };  // x, y, z | beta, gamma
 static const double PI = 3.14159265358979323846;
-static const double K_0 = 1e3;      // [N/m]
-static const double F_0 = 1e-3;     // [N]
-static const double STEP = 2e-5;    // longest Newton step [m]
+static const double K_0 = 1e3;    // [N/m]
+static const double F_0 = 1e-3;   // [N]
+static const double STEP = 2e-5;  // longest Newton step [m]
 
 typedef struct {
     const Kernels *kernels;
     const Model *model;
     Work *w;
-    double F_c;                     // centrifugal force [N]
-    bool tilts;                     // beta, gamma are unknowns
-    double F[3];                    // load
+    double F_c;   // centrifugal force [N]
+    bool tilts;   // beta, gamma are unknowns
+    double F[3];  // load
 } Equilibrium;
 
 // Symmetric 2 x 2 matrices (xx, xr, rr).
@@ -141,8 +141,7 @@ static void ring_balls(const Equilibrium *eq, double force[DOF], double H[DOF][D
         const double c = w->cos_theta[j], s = w->sin_theta[j], R = d->inner.R_g;
         const double G_x[DOF] = {1.0, 0.0, 0.0, R * s, -R * c}, G_r[DOF] = {0.0, c, s, 0.0, 0.0};
         for (int m = 0; m < DOF; m++)
-            for (int n = 0; n < DOF; n++)
-                H[m][n] += k_xx * G_x[m] * G_x[n] + k_xr * (G_x[m] * G_r[n] + G_r[m] * G_x[n]) + k_rr * G_r[m] * G_r[n];
+            for (int n = 0; n < DOF; n++) H[m][n] += k_xx * G_x[m] * G_x[n] + k_xr * (G_x[m] * G_r[n] + G_r[m] * G_x[n]) + k_rr * G_r[m] * G_r[n];
     }
 }
 

@@ -16,11 +16,11 @@
 static const double Q_FLOOR = 1.0;
 
 typedef struct {
-    vec F_s, F_c;      // on the ball: at the contact point, through the ball's centre [N]
-    vec M;             // moment of F_s about the ball's centre (with spin) [N.m]
-    real g;            // |traction| / |slip|: the stiff rate of the contact [N.s/m]
-    real U;            // mean surface speed with its floor [m/s]
-    real dissipated;   // [W]
+    vec F_s, F_c;     // on the ball: at the contact point, through the ball's centre [N]
+    vec M;            // moment of F_s about the ball's centre (with spin) [N.m]
+    real g;           // |traction| / |slip|: the stiff rate of the contact [N.s/m]
+    real U;           // mean surface speed with its floor [m/s]
+    real dissipated;  // [W]
 } Tangential;
 
 // ln Lambda at mean speed U and load Q; ln_Lambda_1 at U = 1 m/s, Q = 1 N.

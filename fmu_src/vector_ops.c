@@ -22,8 +22,10 @@ INLINE void combine(int n, const double *c, double *const *x, double *z)
 static void linear_combination(int n, const double *c, double *const *x, double *z)
 {
     switch (n) {
-#define CASE(n) \
-    case n: combine(n, c, x, z); return
+#define CASE(n)              \
+    case n:                  \
+        combine(n, c, x, z); \
+        return
         CASE(1);
         CASE(2);
         CASE(3);
@@ -33,7 +35,8 @@ static void linear_combination(int n, const double *c, double *const *x, double 
         CASE(7);
         CASE(8);
         CASE(9);
-    default: combine(n, c, x, z);
+    default:
+        combine(n, c, x, z);
     }
 #undef CASE
 }
@@ -49,21 +52,6 @@ static double wrms_norm(const double *x, const double *w)
     return sqrt(sum / N_STATES);
 }
 
-static void imex_explicit(const double *f, const double *D, const double *y, double *fe)
-{
-    ALL(i) fe[i] = f[i] + D[i] * y[i];
-}
-
-static void imex_implicit(const double *D, const double *y, double *fi)
-{
-    ALL(i) fi[i] = -(D[i] * y[i]);
-}
-
-static void imex_solve(double gamma, const double *D, const double *s, const double *y, double *z)
-{
-    ALL(i) z[i] = (s[i] - gamma * D[i] * y[i]) / (1.0 + gamma * D[i]);
-}
-
 static bool finite(const double *x)
 {
     double part[8] = {0};  // x - x is 0, or NaN where x is not finite
@@ -74,4 +62,4 @@ static bool finite(const double *x)
     return ((part[0] + part[1]) + (part[2] + part[3])) + ((part[4] + part[5]) + (part[6] + part[7])) == 0.0;
 }
 
-const VectorOps vector_ops = {linear_sum, linear_combination, wrms_norm, imex_explicit, imex_implicit, imex_solve, finite};
+const VectorOps vector_ops = {linear_sum, linear_combination, wrms_norm, finite};

@@ -4,12 +4,9 @@
 #include "isa.h"
 
 typedef struct {
-    void (*linear_sum)(double a, const double *x, double b, const double *y, double *z);               // z = a x + b y
-    void (*linear_combination)(int n, const double *c, double *const *x, double *z);                   // z = sum c_i x_i
-    double (*wrms_norm)(const double *x, const double *w);                                             // sqrt(mean (x w)^2)
-    void (*imex_explicit)(const double *f, const double *D, const double *y, double *fe);              // fe = f + D y
-    void (*imex_implicit)(const double *D, const double *y, double *fi);                               // fi = -D y
-    void (*imex_solve)(double gamma, const double *D, const double *s, const double *y, double *z);    // z = (s - gamma D y)/(1 + gamma D)
+    void (*linear_sum)(double a, const double *x, double b, const double *y, double *z);  // z = a x + b y
+    void (*linear_combination)(int n, const double *c, double *const *x, double *z);      // z = sum c_i x_i
+    double (*wrms_norm)(const double *x, const double *w);                                // sqrt(mean (x w)^2)
     bool (*finite)(const double *x);
 } VectorOps;
 

@@ -65,6 +65,11 @@ class Core:
             setattr(getattr(struct, group), member, value)
 
 
+def block(body, state):
+    """Slice of the state vector: block("cage", "v_y")."""
+    return getattr(variables, f"{body}_{state}".upper())
+
+
 class Model:
     """Parameters, inputs, derived constants and the results of the last evaluation."""
 
@@ -102,10 +107,22 @@ class Model:
         self.kernel("rhs")(self.pointer, t, self.core.array(y), self.core.array(y_dot), self.work)
         return y_dot
 
+    def implicit(self):
+        """Stiff blocks A (struct Implicit) at the state of the last evaluation."""
+        A = self.core.new("Implicit")
+        self.core.lib.kernels_select().implicit.set(self.pointer, self.work, A)
+        return A
+
     def rates(self):
-        """Stiff rates D [1/s] at the state of the last evaluation."""
-        D = np.empty(variables.N_STATES)
-        self.core.lib.jacobian_diagonal(self.pointer, self.work, self.core.array(D))
+        """Diagonal of A [1/s] at the state of the last evaluation."""
+        A, D = self.implicit(), np.zeros(variables.N_STATES)
+        for i, name in enumerate(("v_x", "v_r", "omega_m", "omega_x", "omega_r", "omega_t")):
+            D[block("ball", name)] = list(A.ball[(i + 1) * (i + 2) // 2 - 1])[: variables.Z]
+        for i, name in enumerate(("v_y", "v_z", "beta_dot", "gamma_dot", "s")):
+            D[block("cage", name)] = [A.half[h][i][i] for h in range(2)]
+        for name in ("plate", "head"):
+            for axis in "yz":
+                D[block("joint", f"{name}_{axis}")] = list(getattr(A, name))
         return D
 
     def energy(self, y):

@@ -4,6 +4,7 @@ import itertools
 
 import numpy as np
 import pytest
+from library import block
 from mechanics import pose
 from scipy.integrate import quad
 
@@ -115,7 +116,9 @@ def test_rates_are_derivatives(core):
         v, omega = rng.uniform(-0.1, 0.1, 2), rng.uniform(-1500, 1500)
         h = 1e-6
         m, _, _ = film(core, e, v, omega, **{"cage.g_0": 0.02})
-        for i, (rate, tilt) in enumerate(((m.work.D_cage_y[1], m.work.D_gamma[1]), (m.work.D_cage_z[1], m.work.D_beta[1]))):
+        D = m.rates()
+        for i, (across, tilting) in enumerate((("v_y", "gamma_dot"), ("v_z", "beta_dot"))):
+            rate, tilt = D[block("cage", across)][1], D[block("cage", tilting)][1]
             step = h * np.eye(2)[i]
             slope = (film(core, e, v + step, omega, **{"cage.g_0": 0.02})[1] - film(core, e, v - step, omega, **{"cage.g_0": 0.02})[1])[i] / (2 * h)
             assert rate == pytest.approx(-slope / 0.0276, rel=1e-6)
