@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from enum import IntEnum
 
 MODEL_IDENTIFIER = "RivetedBearing"
-MODEL_GUID = "{72fba27e-7e8a-7c70-1bb1-fa5bbb324150}"
+MODEL_GUID = "{8f4acfc4-858e-3818-c0a6-e4a3df9e09b7}"
 Z = 9
 
 

@@ -6,7 +6,7 @@
 #include <stddef.h>
 
 #define MODEL_IDENTIFIER "RivetedBearing"
-#define MODEL_GUID "{72fba27e-7e8a-7c70-1bb1-fa5bbb324150}"  // digest of the table
+#define MODEL_GUID "{8f4acfc4-858e-3818-c0a6-e4a3df9e09b7}"  // digest of the table
 
 enum { Z = 9 };  // number of balls
 
@@ -50,7 +50,7 @@ enum {  // MeanStress
 enum {  // Method
     METHOD_AUTO = 1,  // from the scene's measured rates
     METHOD_EXPLICIT = 2,  // classical Runge-Kutta 4(3)
-    METHOD_IMEX = 3,  // ARK324L2SA with diagonal implicit rates
+    METHOD_IMEX = 3,  // ARK324L2SA, stiff blocks of balls, film and friction implicit
 };
 
 typedef struct {
