@@ -72,7 +72,7 @@ def assemble(joint, knots, samples, fit, path, k_half):
     )
 
 
-def measured_errors(result, joint, count, workers, progress, seed=11):
+def measured_errors(result, joint, count, workers, progress, seed=2026):
     """Errors of the table against fresh solutions on another, finer grid of angles; as fractions of the channels' maxima."""
     loads = reduction.random_loads(count, seed)
     errors = reduction.hold_out_errors(result, loads, reduction.solve_loads(joint, loads, workers, progress))
