@@ -1,7 +1,8 @@
 # The core: physics, integrator, variable tables.  Its objects go into the FMU and, the same ones, into the tests' library.
 
 # Files that work on bundles of lanes: compiled once for each instruction set, chosen at run time.
-set(kernel_files rhs.c ball.c race_contact.c drag.c pocket.c cage_joint.c land_film.c vector_ops.c implicit.c)
+set(kernel_files rhs.c ball.c race_contact.c drag.c pocket.c cage_joint.c land_film.c ring.c)  # the right-hand side
+set(solver_files vector_ops.c implicit.c)                                                      # what the integrator does with it
 
 set(warnings -Wall -Wextra -Wpedantic -Werror)
 set(arithmetic -ffp-contract=off -fno-math-errno -fno-trapping-math)  # IEEE results, the same ones on every instruction set
@@ -34,17 +35,18 @@ else()
 endif()
 
 list(TRANSFORM kernel_files PREPEND ${fmu_src}/)
+list(TRANSFORM solver_files PREPEND ${fmu_src}/)
 file(GLOB core_files CONFIGURE_DEPENDS ${fmu_src}/*.c)
-list(REMOVE_ITEM core_files ${kernel_files} ${fmu_src}/fmi2_wrapper.c)
+list(REMOVE_ITEM core_files ${kernel_files} ${solver_files} ${fmu_src}/tangent.c ${fmu_src}/fmi2_wrapper.c)
 
 add_library(core OBJECT ${core_files} ${rivet_table})
 target_include_directories(core PUBLIC ${fmu_src})
 target_compile_options(core PRIVATE ${core_flags})
 target_link_libraries(core PUBLIC SUNDIALS::arkode SUNDIALS::cvode SUNDIALS::kinsol SUNDIALS::nvecserial m)
 
-# Adds the core's kernel files, compiled for one instruction set.
-function(add_kernel isa lane_width)
-    add_library(kernel_${isa} OBJECT ${kernel_files})
+# Adds the core's kernel files and `files`, compiled for one instruction set.
+function(add_kernel isa lane_width files)
+    add_library(kernel_${isa} OBJECT ${kernel_files} ${files})
     target_include_directories(kernel_${isa} PRIVATE ${fmu_src})
     target_compile_definitions(kernel_${isa} PRIVATE ISA=${isa} LANE_WIDTH=${lane_width})
     target_compile_options(kernel_${isa} PRIVATE ${core_flags} ${ARGN})
@@ -53,14 +55,19 @@ endfunction()
 
 set(core_objects $<TARGET_OBJECTS:core>)
 if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
-    add_kernel(sse2 2)
-    add_kernel(avx2 4 -mavx2)  # what dispatch.c asks the processor for, no more
-    add_kernel(avx512 8 -mavx512f -mavx512dq -mavx512vl -mprefer-vector-width=512)
+    add_kernel(sse2 2 "${solver_files}")
+    add_kernel(avx2 4 "${solver_files}" -mavx2)  # what dispatch.c asks the processor for, no more
+    add_kernel(avx512 8 "${solver_files}" -mavx512f -mavx512dq -mavx512vl -mprefer-vector-width=512)
 elseif(CMAKE_SYSTEM_PROCESSOR MATCHES "aarch64|arm64")
-    add_kernel(neon 2)
+    add_kernel(neon 2 "${solver_files}")
 else()
-    add_kernel(generic 2)
+    add_kernel(generic 2 "${solver_files}")
 endif()
+
+# And once in dual numbers: derivatives.  Complex products need no care for infinities here.
+include(CheckCCompilerFlag)
+check_c_compiler_flag("-Werror -fcx-limited-range" limited_range)
+add_kernel(dual 1 ${fmu_src}/tangent.c -DDUAL $<$<BOOL:${limited_range}>:-fcx-limited-range>)
 
 # For the tests only: each element's functions, callable from Python.
 file(GLOB test_files CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/tests/test_library.c)

@@ -9,9 +9,9 @@
 
 #include "vec.h"
 
-void ball_kinematics(const double *y, Work *w)
+void ball_kinematics(const number *y, Work *w)
 {
-    double *rows[] = {w->x, w->r, w->theta, w->v_x, w->v_r, w->omega_m, w->omega_x, w->omega_r, w->omega_t};
+    number *rows[] = {w->x, w->r, w->theta, w->v_x, w->v_r, w->omega_m, w->omega_x, w->omega_r, w->omega_t};
     for (int i = 0; i < 9; i++) memcpy(rows[i], &y[Y_BALL_X + i * Z], Z * sizeof *y);
     for (int b = 0; b < BUNDLES; b++) {
         const int j = b * LANE_WIDTH;
@@ -23,7 +23,7 @@ void ball_kinematics(const double *y, Work *w)
     }
 }
 
-void ball_acceleration(const Model *model, const Work *w, double *y_dot)
+void ball_acceleration(const Model *model, const Work *w, number *y_dot)
 {
     const double per_mass = 1.0 / model->d->m, per_inertia = 1.0 / model->d->J;
     const real g_y = real_set(model->p->gravity.y), g_z = real_set(model->p->gravity.z);

@@ -1,7 +1,7 @@
 // One instance: life cycle, stepping, peaks and statistics over accepted steps, saved state.
+#include "drive.h"
 #include "energy.h"
 #include "instance.h"
-#include "ring.h"
 #include "rivets.h"
 #include "start.h"
 

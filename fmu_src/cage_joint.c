@@ -18,8 +18,8 @@
 void cage_joint_kinematics(const Model *model, Work *w)
 {
     const Rotor *h0 = &w->half[0], *h1 = &w->half[1];
-    const double *axes_0[3] = {h0->a, h0->b_y, h0->b_z}, *axes_1[2] = {h1->b_y, h1->b_z};
-    double g[3], v[3], omega[3], drift[3];
+    const number *axes_0[3] = {h0->a, h0->b_y, h0->b_z}, *axes_1[2] = {h1->b_y, h1->b_z};
+    number g[3], v[3], omega[3], drift[3];
     for (int i = 0; i < 3; i++) {
         g[i] = h1->x[i] - h0->x[i];
         v[i] = h1->v[i] - h0->v[i];
@@ -27,15 +27,15 @@ void cage_joint_kinematics(const Model *model, Work *w)
     }
     cross3(h0->Omega, g, drift);
     for (int i = 0; i < 3; i++) v[i] -= drift[i];
-    double spin[2][3];
+    number spin[2][3];
     for (int c = 0; c < 2; c++) cross3(omega, axes_1[c], spin[c]);
 
     // u = offset + (A - 1) s with A = axes of half 1 in half 0, s = (0, rivet_y, rivet_z); v likewise with the rates
-    double *u_out[3] = {w->u_x, w->u_y, w->u_z}, *v_out[3] = {w->v_jx, w->v_jy, w->v_jz};
+    number *u_out[3] = {w->u_x, w->u_y, w->u_z}, *v_out[3] = {w->v_jx, w->v_jy, w->v_jz};
     for (int i = 0; i < 3; i++) {
-        const double u_0 = dot3(axes_0[i], g), v_0 = dot3(axes_0[i], v);
-        const double A_y = dot3(axes_0[i], axes_1[0]) - (i == 1), A_z = dot3(axes_0[i], axes_1[1]) - (i == 2);
-        const double B_y = dot3(axes_0[i], spin[0]), B_z = dot3(axes_0[i], spin[1]);
+        const number u_0 = dot3(axes_0[i], g), v_0 = dot3(axes_0[i], v);
+        const number A_y = dot3(axes_0[i], axes_1[0]) - (i == 1), A_z = dot3(axes_0[i], axes_1[1]) - (i == 2);
+        const number B_y = dot3(axes_0[i], spin[0]), B_z = dot3(axes_0[i], spin[1]);
         for (int b = 0; b < BUNDLES; b++) {
             const int k = b * LANE_WIDTH;
             const real s_y = real_load(&model->d->rivet_y[k]), s_z = real_load(&model->d->rivet_z[k]);
@@ -46,7 +46,7 @@ void cage_joint_kinematics(const Model *model, Work *w)
 }
 
 // Dahl's friction: force -k z, rate of z, stiff rate of z; returns the dissipated power.
-INLINE real cage_joint_friction(real k, real capacity, real z_y, real z_z, real v_y, real v_z, real speed, double *dot_y, double *dot_z, double *D)
+INLINE real cage_joint_friction(real k, real capacity, real z_y, real z_z, real v_y, real v_z, real speed, number *dot_y, number *dot_z, number *D)
 {
     const real rate = speed * k / capacity;
     real_store(dot_y, v_y - rate * z_y);
@@ -55,7 +55,7 @@ INLINE real cage_joint_friction(real k, real capacity, real z_y, real z_z, real 
     return k * rate * (z_y * z_y + z_z * z_z);
 }
 
-void cage_joint_force(const Model *model, const double *y, Work *w)
+void cage_joint_force(const Model *model, const number *y, Work *w)
 {
     const Parameters *p = model->p;
     const Derived *d = model->d;
@@ -107,8 +107,8 @@ void cage_joint_force(const Model *model, const double *y, Work *w)
 
     // wrench in the global frame: -F, -M on half 0; on half 1 the same about its own centre
     Rotor *h0 = &w->half[0], *h1 = &w->half[1];
-    const double F[3] = {lanes_sum(F_x), lanes_sum(F_y), lanes_sum(F_z)}, M[3] = {lanes_sum(M_x), lanes_sum(M_y), lanes_sum(M_z)};
-    double force[3], moment[3], shift[3], arm[3];
+    const number F[3] = {lanes_sum(F_x), lanes_sum(F_y), lanes_sum(F_z)}, M[3] = {lanes_sum(M_x), lanes_sum(M_y), lanes_sum(M_z)};
+    number force[3], moment[3], shift[3], arm[3];
     for (int i = 0; i < 3; i++) {
         force[i] = h0->a[i] * F[0] + h0->b_y[i] * F[1] + h0->b_z[i] * F[2];
         moment[i] = h0->a[i] * M[0] + h0->b_y[i] * M[1] + h0->b_z[i] * M[2];

@@ -8,4 +8,4 @@
 void cage_joint_kinematics(const Model *model, Work *w);
 
 // Forces of all joints: sets T, N_plate, S, H, B and the rates of the friction states, adds the wrench to both halves.
-void cage_joint_force(const Model *model, const double *y, Work *w);
+void cage_joint_force(const Model *model, const number *y, Work *w);

@@ -22,14 +22,17 @@ void drag_force(const Model *model, Work *w)
 void drag_cage(const Model *model, Work *w)
 {
     const Derived *d = model->d;
-    const real omega = real_pair(w->half[0].Omega[0], w->half[1].Omega[0]);
-    const real speed = real_abs(omega) + 1e-30;
-    real disk = d->disk_laminar * real_sqrt(speed), cylinder = real_set(d->cylinder_laminar);
-    if (real_any(speed > d->disk_laminar_omega)) disk = real_max(disk, d->disk_turbulent * real_exp(0.8 * real_log(speed)));
-    if (real_any(speed > d->cylinder_laminar_omega)) cylinder = real_max(cylinder, d->cylinder_vortex * real_exp(0.539 * real_log(speed)));
-    for (int h = 0; h < 2; h++) {
-        const double M = -(disk[h] + cylinder[h]) * omega[h];
-        w->half[h].M[0] += M;
-        w->land_dissipated -= M * omega[h];
+    for (int first = 0; first < 2; first += HALVES) {
+        Rotor *half = &w->half[first];
+        const real omega = real_pair(half[0].Omega[0], half[HALVES - 1].Omega[0]);
+        const real speed = real_abs(omega) + 1e-30;
+        real disk = d->disk_laminar * real_sqrt(speed), cylinder = real_set(d->cylinder_laminar);
+        if (real_any(real_above(speed, d->disk_laminar_omega))) disk = real_max(disk, d->disk_turbulent * real_exp(0.8 * real_log(speed)));
+        if (real_any(real_above(speed, d->cylinder_laminar_omega))) cylinder = real_max(cylinder, d->cylinder_vortex * real_exp(0.539 * real_log(speed)));
+        for (int h = 0; h < HALVES; h++) {
+            const number M = -(real_lane(disk, h) + real_lane(cylinder, h)) * real_lane(omega, h);
+            half[h].M[0] += M;
+            w->land_dissipated -= M * real_lane(omega, h);
+        }
     }
 }

@@ -20,12 +20,13 @@
 
 static const double EPS_CAP = 1.2;
 
-void land_film_force(const Model *model, Work *w)
+// Of HALVES halves, side by side.
+INLINE void land_film_bundle(const Model *model, Work *w, int first)
 {
     const Parameters *p = model->p;
     const Derived *d = model->d;
-    Rotor *h0 = &w->half[0], *h1 = &w->half[1];
-    const real x_land = real_pair(-p->cage.land_x, p->cage.land_x);
+    Rotor *h0 = &w->half[first], *h1 = &w->half[first + HALVES - 1];
+    const real x_land = real_pair(first == 0 ? -p->cage.land_x : p->cage.land_x, p->cage.land_x);
 
     // place and velocity of the lands' middles: x + a x_land, v + Omega x a x_land = v + a_dot x_land
     const real e_y = real_pair(h0->x[1], h1->x[1]) + x_land * real_pair(h0->a[1], h1->a[1]);
@@ -70,22 +71,30 @@ void land_film_force(const Model *model, Work *w)
 
     const real power = F_y * v_y + F_z * v_z + M_x * omega;
     const real elastic = 0.4 * N_0 * real_max(pen, real_set(0.0)), elastic_rate = N_0 * pen_dot;
-    w->land_elastic = elastic[0] + elastic[1];
-    w->land_dissipated = -(power[0] + elastic_rate[0]) - (power[1] + elastic_rate[1]);
 
     // -dF/dv in the global frame
     const real K_yy = kappa * (I_c * n_y * n_y - 2.0 * I_s * n_y * n_z + I_t * n_z * n_z);
     const real K_zz = kappa * (I_c * n_z * n_z + 2.0 * I_s * n_y * n_z + I_t * n_y * n_y);
     const real K_yz = kappa * ((I_c - I_t) * n_y * n_z + I_s * (n_y * n_y - n_z * n_z));
-    for (int h = 0; h < 2; h++) {
+    for (int i = 0; i < HALVES; i++) {
+        const int h = first + i;
         Rotor *half = &w->half[h];
-        const double F[3] = {0.0, F_y[h], F_z[h]}, arm[3] = {half->a[0] * x_land[h], half->a[1] * x_land[h], half->a[2] * x_land[h]};
+        const number x = real_lane(x_land, i), R_h = real_lane(R, i), F[3] = {0.0, real_lane(F_y, i), real_lane(F_z, i)};
+        const number arm[3] = {half->a[0] * x, half->a[1] * x, half->a[2] * x};
         half->F[1] += F[1];
         half->F[2] += F[2];
-        half->M[0] += M_x[h] + arm[1] * F[2] - arm[2] * F[1];
+        half->M[0] += real_lane(M_x, i) + arm[1] * F[2] - arm[2] * F[1];
         half->M[1] += -arm[0] * F[2];
         half->M[2] += arm[0] * F[1];
-        w->film_yy[h] = K_yy[h], w->film_yz[h] = K_yz[h], w->film_zz[h] = K_zz[h];
-        w->film_spin[h] = couette[h] + g[h] * R[h] * R[h];
+        w->film_yy[h] = real_lane(K_yy, i), w->film_yz[h] = real_lane(K_yz, i), w->film_zz[h] = real_lane(K_zz, i);
+        w->film_spin[h] = real_lane(couette, i) + real_lane(g, i) * R_h * R_h;
+        w->land_elastic += real_lane(elastic, i);
+        w->land_dissipated -= real_lane(power, i) + real_lane(elastic_rate, i);
     }
+}
+
+void land_film_force(const Model *model, Work *w)
+{
+    w->land_elastic = w->land_dissipated = 0.0;
+    for (int first = 0; first < 2; first += HALVES) land_film_bundle(model, w, first);
 }

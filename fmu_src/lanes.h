@@ -4,6 +4,7 @@
 // once per instruction set, and every function that another file calls gets that set's name as a suffix (FOR_ISA).
 // Each lane does the same IEEE operations in the same order whatever the width, and sums run over balls in a fixed order (lanes_sum),
 // so all instruction sets give the same bits.  No fused multiply-add is used or contracted into: baseline x86-64 has none.
+// `number` is one of a bundle's numbers, for whatever depends on the state; dual.h makes both dual numbers, which carry a derivative.
 #pragma once
 
 #include "variables.h"
@@ -32,24 +33,38 @@
 // Arrays over balls are padded to LANES; bundles cover the first BUNDLES * LANE_WIDTH of them.  Lanes past Z hold harmless ghosts.
 enum { LANES = (Z + 7) / 8 * 8, BUNDLES = (Z + LANE_WIDTH - 1) / LANE_WIDTH };
 
+#define INLINE static inline __attribute__((always_inline))
+
+#ifdef DUAL
+#include "dual.h"
+#else
+enum { HALVES = 2 };  // cage halves are lanes too, this many side by side (real_pair)
+
+typedef double number;
 typedef double real __attribute__((vector_size(8 * LANE_WIDTH)));
 typedef int64_t bits __attribute__((vector_size(8 * LANE_WIDTH)));  // a comparison's result: all ones where true
 typedef uint64_t words __attribute__((vector_size(8 * LANE_WIDTH)));
-typedef double lanes[LANES] __attribute__((aligned(64)));  // one number per ball
 
-#define INLINE static inline __attribute__((always_inline))
-
+INLINE double number_value(number x)
+{
+    return x;
+}
+INLINE number number_sqrt(number x)
+{
+    return sqrt(x);
+}
 INLINE real real_set(double value)
 {
     return value - (real){0};
 }
-// Cage halves are lanes too: half 0 in lane 0, half 1 in the others.
-INLINE real real_pair(double half_0, double half_1)
+// Numbers of the first and the last of HALVES cage halves: half 0 in lane 0, half 1 in the others.
+INLINE real real_pair(double first, double last)
 {
-    real value = real_set(half_1);
-    value[0] = half_0;
+    real value = real_set(last);
+    value[0] = first;
     return value;
 }
+#define real_lane(x, i) ((x)[i])  // a function would copy the bundle
 INLINE real real_load(const double *from)
 {
     real value;
@@ -69,6 +84,10 @@ INLINE real real_select(bits condition, real yes, real no)
 #else
     return (real)((condition & (bits)yes) | (~condition & (bits)no));
 #endif
+}
+INLINE bits real_above(real x, double limit)
+{
+    return x > limit;
 }
 INLINE bool real_any(bits condition)
 {
@@ -236,10 +255,15 @@ INLINE real real_atan(real x)
     return (real)((bits)y | ((bits)x & INT64_MIN));
 }
 
+#endif
+
+typedef number lanes[LANES] __attribute__((aligned(8 * sizeof(number))));      // one number per ball
+typedef double constants[LANES] __attribute__((aligned(8 * sizeof(double))));  // the same, independent of the state
+
 // Sum over the balls in one order for every lane width: four partial sums, then (0 + 1) + (2 + 3).
-INLINE double lanes_sum(const double *v)
+INLINE number lanes_sum(const number *v)
 {
-    double part[4] = {v[0], v[1], v[2], v[3]};
+    number part[4] = {v[0], v[1], v[2], v[3]};
     for (int j = 4; j < Z; j++) part[j % 4] += v[j];
     return (part[0] + part[1]) + (part[2] + part[3]);
 }

@@ -33,15 +33,15 @@ typedef struct {
 } Race;
 
 typedef struct {
-    lanes R;      // ball radius [m]
+    constants R;  // ball radius [m]
     double m, J;  // ball mass [kg], moment of inertia [kg.m2]
     Race inner, outer;
     double ln_pocket_piezo, ln_pocket_rigid;  // ln Lambda of the pocket film at U = 1 m/s, Q = 1 N: piezoviscous, isoviscous-rigid
     double pocket_rolling;                    // F_R = pocket_rolling U^0.66 Q^0.47
     Hertz pocket;
     double pocket_radius;                               // of the pocket [m]
-    lanes pocket_cos, pocket_sin;                       // body angle of pocket j: 2 pi j / Z
-    lanes rivet_y, rivet_z;                             // place of rivet k in a half: angle 2 pi (k + 1/2) / Z on the pitch circle [m]
+    constants pocket_cos, pocket_sin;                   // body angle of pocket j: 2 pi j / Z
+    constants rivet_y, rivet_z;                         // place of rivet k in a half: angle 2 pi (k + 1/2) / Z on the pitch circle [m]
     double drag;                                        // ball drag / v^2 [N.s2/m2]
     double com_x[2], com_e;                             // centre of mass of a half from its geometric centre: axial, toward pocket 1 [m]
     double C_land, kappa, couette;                      // radial guide clearance [m], eta R L^3 / C^3 [N.s/m], Couette torque / speed [N.m.s]
@@ -55,30 +55,32 @@ typedef struct {
     double scale[SCALE_COUNT];                          // error that tolerance 1 allows, by class of state
 } Derived;
 
+// From here on all members are numbers: jacobian.h gives the derivative of each.
+
 // ---- what the ring sees from outside, constant or a half-sine over a step; written by drive_update -------------------------------------------
 typedef struct {
-    double F[3], M[2];               // load [N], moment about Y, Z [N.m]
-    double omega;                    // speed [rad/s]
-    double beta, gamma;              // direction cosines of the shaft's tilt
-    double pulse[3];                 // amplitude of the half-sine in progress [N]
-    double pulse_start, pulse_rate;  // its start [s] and pi / duration [1/s]
+    number F[3], M[2];               // load [N], moment about Y, Z [N.m]
+    number omega;                    // speed [rad/s]
+    number beta, gamma;              // direction cosines of the shaft's tilt
+    number pulse[3];                 // amplitude of the half-sine in progress [N]
+    number pulse_start, pulse_rate;  // its start [s] and pi / duration [1/s]
 } Drive;
 
 // ---- a rigid body with an axis: inner ring or cage half; written by rotor_set ---------------------------------------------------------------
 typedef struct {
-    double x[3], v[3];      // geometric centre
-    double a[3], a_dot[3];  // axis: unit vector (a_x, gamma, -beta) and its rate
-    double Omega[3], s;     // angular velocity a x a_dot + s a, spin s
-    double b_y[3], b_z[3];  // body axes across (cage halves)
-    double c[3];            // centre of mass - geometric centre (cage halves)
-    double F[3], M[3];      // force and moment about the geometric centre, by all contacts
+    number x[3], v[3];      // geometric centre
+    number a[3], a_dot[3];  // axis: unit vector (a_x, gamma, -beta) and its rate
+    number Omega[3], s;     // angular velocity a x a_dot + s a, spin s
+    number b_y[3], b_z[3];  // body axes across (cage halves)
+    number c[3];            // centre of mass - geometric centre (cage halves)
+    number F[3], M[3];      // force and moment about the geometric centre, by all contacts
 } Rotor;
 
 // ---- force of one ball on one half; written by pocket_force, zero where they do not touch -------------------------------------------------
 typedef struct {
-    double Q;              // contact load [N]
-    double F_x, F_r, F_t;  // force on the half in the pocket's frame [N]
-    double F[3], M[3];     // force and moment on the half about its geometric centre, global frame
+    number Q;              // contact load [N]
+    number F_x, F_r, F_t;  // force on the half in the pocket's frame [N]
+    number F[3], M[3];     // force and moment on the half about its geometric centre, global frame
 } Pocket;
 
 // ---- one evaluation of the right-hand side, in the order it is written --------------------------------------------------------------------------
@@ -105,9 +107,8 @@ typedef struct {
     lanes plate_y_dot, plate_z_dot, head_y_dot, head_z_dot, D_plate, D_head;
     lanes joint_dissipated;
     // scalars
-    double land_dissipated, land_elastic, film_yy[2], film_yz[2], film_zz[2], film_spin[2];  // of each land: -dF/dv, -dM/domega
-    double ring_acceleration[5];                                                             // x, y, z, beta, gamma
-    double half_F_joint[3], half_M_joint[3];                                                 // by the joints on half 1, about its geometric centre
+    number land_dissipated, land_elastic, film_yy[2], film_yz[2], film_zz[2], film_spin[2];  // of each land: -dF/dv, -dM/domega
+    number half_F_joint[3], half_M_joint[3];                                                 // by the joints on half 1, about its geometric centre
 } Work;
 
 typedef struct {

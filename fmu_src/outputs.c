@@ -1,8 +1,9 @@
 // Outputs, group by group, from the results of the right-hand side at the present state.
+#include "drive.h"
 #include "energy.h"
 #include "hertz.h"
+#include "housing.h"
 #include "instance.h"
-#include "ring.h"
 #include "rivets.h"
 #include "traction.h"
 
@@ -18,34 +19,6 @@ static void fill_state(Bearing *b)
     b->out.ring.v_x = y[Y_RING_V_X];
     b->out.ring.v_y = y[Y_RING_V_Y];
     b->out.ring.v_z = y[Y_RING_V_Z];
-}
-
-// Force and moment about the bearing's centre that balls and cage put on the housing (outer ring, oil): what the ring puts on balls and cage
-// less what these keep as momentum.
-static void housing_reaction(const Work *w, double F[3], double M[3])
-{
-    const Rotor *bodies[3] = {&w->ring, &w->half[0], &w->half[1]};
-    for (int i = 0; i < 3; i++) F[i] = M[i] = 0.0;
-    for (int b = 0; b < 3; b++) {
-        double lever[3];
-        cross3(bodies[b]->x, bodies[b]->F, lever);
-        for (int i = 0; i < 3; i++) {
-            F[i] -= bodies[b]->F[i];
-            M[i] -= bodies[b]->M[i] + lever[i];
-        }
-    }
-    for (int j = 0; j < Z; j++) {
-        const double c = w->cos_theta[j], s = w->sin_theta[j];
-        const double place[3] = {w->x[j], w->r[j] * c, w->r[j] * s};
-        const double force[3] = {w->F_x[j], w->F_r[j] * c - w->F_t[j] * s, w->F_r[j] * s + w->F_t[j] * c};
-        const double moment[3] = {w->M_x[j], w->M_r[j] * c - w->M_t[j] * s, w->M_r[j] * s + w->M_t[j] * c};
-        double lever[3];
-        cross3(place, force, lever);
-        for (int i = 0; i < 3; i++) {
-            F[i] -= force[i];
-            M[i] -= moment[i] + lever[i];
-        }
-    }
 }
 
 static void fill_ring(Bearing *b)

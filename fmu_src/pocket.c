@@ -29,21 +29,21 @@ INLINE real pocket_mu(const Model *model, real ln_U, real ln_Q, bool mixed)
 
 // Touched pockets, side by side in one bundle: few are touched at a time.  Lanes past `count` keep older numbers: harmless.
 typedef struct {
-    double x[LANE_WIDTH], r[LANE_WIDTH], t[LANE_WIDTH];
+    number x[LANE_WIDTH], r[LANE_WIDTH], t[LANE_WIDTH];
 } VecLanes;
 
 typedef struct {
     int j[LANE_WIDTH], h[LANE_WIDTH], count;
     VecLanes place, velocity, spin;               // of the ball, in its frame
     VecLanes a, b_y, b_z, half_x, half_v, Omega;  // of the half, global
-    double cos_theta[LANE_WIDTH], sin_theta[LANE_WIDTH], R[LANE_WIDTH], cos_phi[LANE_WIDTH], sin_phi[LANE_WIDTH], side[LANE_WIDTH];
+    number cos_theta[LANE_WIDTH], sin_theta[LANE_WIDTH], R[LANE_WIDTH], cos_phi[LANE_WIDTH], sin_phi[LANE_WIDTH], side[LANE_WIDTH];
 } Touched;
 
-static inline void vec_lane(VecLanes *to, int i, double x, double r, double t)
+static inline void vec_lane(VecLanes *to, int i, number x, number r, number t)
 {
     to->x[i] = x, to->r[i] = r, to->t[i] = t;
 }
-static inline void vec_lane_of(VecLanes *to, int i, const double from[3])
+static inline void vec_lane_of(VecLanes *to, int i, const number from[3])
 {
     vec_lane(to, i, from[0], from[1], from[2]);
 }
@@ -122,20 +122,24 @@ INLINE void pocket_contacts(const Model *model, Work *w, const Touched *list, bo
     const real F_y = F_half.r * cos_theta - F_half.t * sin_theta, F_z = F_half.r * sin_theta + F_half.t * cos_theta;
     const real M_y = M_half.r * cos_theta - M_half.t * sin_theta, M_z = M_half.r * sin_theta + M_half.t * cos_theta;
     const real mass_rate = g / d->m, spin_rate = g * (R * R / d->J);
-    const vec tangent = {1.0 - n.x * n.x, 1.0 - n.r * n.r, 1.0 - n.t * n.t};
+    const vec tangent = {1.0 - n.x * n.x, 1.0 - n.r * n.r, 1.0 - n.t * n.t}, D = vec_scale(mass_rate, tangent), D_omega = vec_scale(spin_rate, tangent);
 
     for (int i = 0; i < list->count; i++) {
-        const int j = list->j[i];
-        Rotor *half = &w->half[list->h[i]];
-        w->F_x[j] += F.x[i], w->F_r[j] += F.r[i], w->F_t[j] += F.t[i];
-        w->M_x[j] += M.x[i], w->M_r[j] += M.r[i], w->M_t[j] += M.t[i];
-        w->D_x[j] += mass_rate[i] * tangent.x[i], w->D_r[j] += mass_rate[i] * tangent.r[i], w->D_t[j] += mass_rate[i] * tangent.t[i];
-        w->D_omega_x[j] += spin_rate[i] * tangent.x[i], w->D_omega_r[j] += spin_rate[i] * tangent.r[i], w->D_omega_t[j] += spin_rate[i] * tangent.t[i];
-        w->dissipated[j] += dissipated[i];
-        half->F[0] += F_half.x[i], half->F[1] += F_y[i], half->F[2] += F_z[i];
-        half->M[0] += M_half.x[i], half->M[1] += M_y[i], half->M[2] += M_z[i];
-        w->pocket[list->h[i]][j] =
-            (Pocket){.Q = Q[i], .F_x = F_x[i], .F_r = F_r[i], .F_t = F_t[i], .F = {F_half.x[i], F_y[i], F_z[i]}, .M = {M_half.x[i], M_y[i], M_z[i]}};
+        const int j = list->j[i], h = list->h[i];
+        Rotor *half = &w->half[h];
+        w->F_x[j] += real_lane(F.x, i), w->F_r[j] += real_lane(F.r, i), w->F_t[j] += real_lane(F.t, i);
+        w->M_x[j] += real_lane(M.x, i), w->M_r[j] += real_lane(M.r, i), w->M_t[j] += real_lane(M.t, i);
+        w->D_x[j] += real_lane(D.x, i), w->D_r[j] += real_lane(D.r, i), w->D_t[j] += real_lane(D.t, i);
+        w->D_omega_x[j] += real_lane(D_omega.x, i), w->D_omega_r[j] += real_lane(D_omega.r, i), w->D_omega_t[j] += real_lane(D_omega.t, i);
+        w->dissipated[j] += real_lane(dissipated, i);
+        half->F[0] += real_lane(F_half.x, i), half->F[1] += real_lane(F_y, i), half->F[2] += real_lane(F_z, i);
+        half->M[0] += real_lane(M_half.x, i), half->M[1] += real_lane(M_y, i), half->M[2] += real_lane(M_z, i);
+        w->pocket[h][j] = (Pocket){.Q = real_lane(Q, i),
+                                   .F_x = real_lane(F_x, i),
+                                   .F_r = real_lane(F_r, i),
+                                   .F_t = real_lane(F_t, i),
+                                   .F = {real_lane(F_half.x, i), real_lane(F_y, i), real_lane(F_z, i)},
+                                   .M = {real_lane(M_half.x, i), real_lane(M_y, i), real_lane(M_z, i)}};
     }
 }
 
@@ -164,7 +168,7 @@ void pocket_force(const Model *model, Work *w)
     for (int h = 0; h < (rigid ? 1 : 2); h++) {
         pocket_approach(model, w, h);
         for (int j = 0; j < Z; j++) {
-            if (!(w->delta_c[h][j] > 0.0)) continue;
+            if (!(number_value(w->delta_c[h][j]) > 0.0)) continue;
             pocket_list(model->d, w, j, h, &list);
             if (list.count == LANE_WIDTH) {
                 pocket_contacts(model, w, &list, mixed, rigid);

@@ -8,9 +8,10 @@
 #include "pocket.h"
 #include "race_contact.h"
 #include "ring.h"
+#include "rotor.h"
 
 // Pose and velocity of inner ring and cage halves from y.  A half's states are those of its centre of mass.
-static void rotor_kinematics(const Model *model, const double *y, Work *w)
+static void rotor_kinematics(const Model *model, const number *y, Work *w)
 {
     Rotor *ring = &w->ring;
     for (int i = 0; i < 3; i++) {
@@ -19,13 +20,17 @@ static void rotor_kinematics(const Model *model, const double *y, Work *w)
     }
     rotor_axis(ring, y[Y_RING_BETA], y[Y_RING_GAMMA], y[Y_RING_BETA_DOT], y[Y_RING_GAMMA_DOT], model->drive->omega);
 
-    real sine, cosine;
-    real_sincos(real_pair(y[Y_CAGE_PSI], y[Y_CAGE_PSI + 1]), &sine, &cosine);
+    number cos_psi[2], sin_psi[2];
+    for (int first = 0; first < 2; first += HALVES) {
+        real sine, cosine;
+        real_sincos(real_pair(y[Y_CAGE_PSI + first], y[Y_CAGE_PSI + first + HALVES - 1]), &sine, &cosine);
+        for (int i = 0; i < HALVES; i++) cos_psi[first + i] = real_lane(cosine, i), sin_psi[first + i] = real_lane(sine, i);
+    }
     for (int h = 0; h < 2; h++) {
         Rotor *half = &w->half[h];
         rotor_axis(half, y[Y_CAGE_BETA + h], y[Y_CAGE_GAMMA + h], y[Y_CAGE_BETA_DOT + h], y[Y_CAGE_GAMMA_DOT + h], y[Y_CAGE_S + h]);
-        rotor_body_axes(half, cosine[h], sine[h]);
-        double drift[3];
+        rotor_body_axes(half, cos_psi[h], sin_psi[h]);
+        number drift[3];
         for (int i = 0; i < 3; i++) half->c[i] = model->d->com_x[h] * half->a[i] + model->d->com_e * half->b_y[i];
         cross3(half->Omega, half->c, drift);
         for (int i = 0; i < 3; i++) {
@@ -36,7 +41,7 @@ static void rotor_kinematics(const Model *model, const double *y, Work *w)
     }
     if (model->p->scene.cage == CAGE_MODEL_RIGID) {  // half 1 goes with half 0
         Rotor *h0 = &w->half[0], *h1 = &w->half[1];
-        double drift[3];
+        number drift[3];
         *h1 = *h0;
         for (int i = 0; i < 3; i++) h1->c[i] = model->d->com_x[1] * h0->a[i] + model->d->com_e * h0->b_y[i];
         cross3(h1->Omega, h1->c, drift);
@@ -46,7 +51,7 @@ static void rotor_kinematics(const Model *model, const double *y, Work *w)
 // Sum of the race contacts on the ring.
 static void ring_sum(Work *w)
 {
-    const double *ring[] = {w->ring_F_x, w->ring_F_y, w->ring_F_z, w->ring_M_x, w->ring_M_y, w->ring_M_z};
+    const number *ring[] = {w->ring_F_x, w->ring_F_y, w->ring_F_z, w->ring_M_x, w->ring_M_y, w->ring_M_z};
     for (int i = 0; i < 3; i++) {
         w->ring.F[i] = lanes_sum(ring[i]);
         w->ring.M[i] = lanes_sum(ring[3 + i]);
@@ -54,7 +59,7 @@ static void ring_sum(Work *w)
 }
 
 // y_dot of half h whose centre of mass accelerates by acc, whose axis by a_ddot.
-static void half_rates(const double *y, const Rotor *half, int h, const double acc[3], const double a_ddot[3], double s_dot, double *y_dot)
+static void half_rates(const number *y, const Rotor *half, int h, const number acc[3], const number a_ddot[3], number s_dot, number *y_dot)
 {
     for (int i = 0; i < 3; i++) {
         y_dot[Y_CAGE_X + 2 * i + h] = y[Y_CAGE_V_X + 2 * i + h];
@@ -69,11 +74,11 @@ static void half_rates(const double *y, const Rotor *half, int h, const double a
 }
 
 // Both halves under their forces, or as one rigid body about their common centre of mass.
-static void cage_acceleration(const Model *model, const double *y, const Work *w, double *y_dot)
+static void cage_acceleration(const Model *model, const number *y, const Work *w, number *y_dot)
 {
     const Parameters *p = model->p;
     const double gravity[3] = {0.0, p->gravity.y, p->gravity.z};
-    double M[3], lever[3], a_ddot[3], acc[3], s_dot;
+    number M[3], lever[3], a_ddot[3], acc[3], s_dot;
     if (p->scene.cage == CAGE_MODEL_TWO_HALF) {
         for (int h = 0; h < 2; h++) {
             const Rotor *half = &w->half[h];
@@ -89,7 +94,7 @@ static void cage_acceleration(const Model *model, const double *y, const Work *w
     }
     const Rotor *cage = &w->half[0];
     const double J_t = 2.0 * (p->cage.J_t + p->cage.m * model->d->com_x[1] * model->d->com_x[1]);
-    double F[3], c[3], spin_up[3], carried[3], around[3], inward[3];
+    number F[3], c[3], spin_up[3], carried[3], around[3], inward[3];
     for (int i = 0; i < 3; i++) {
         F[i] = w->half[0].F[i] + w->half[1].F[i];
         c[i] = model->d->com_e * cage->b_y[i];
@@ -111,19 +116,19 @@ static void cage_acceleration(const Model *model, const double *y, const Work *w
 }
 
 // Net power into balls and cage: by the ring's motion and gravity, less what is dissipated.
-static double net_power(const Model *model, const Work *w)
+static number net_power(const Model *model, const Work *w)
 {
-    double power = -dot3(w->ring.F, w->ring.v) - dot3(w->ring.M, w->ring.Omega) - lanes_sum(w->dissipated) - w->land_dissipated;
+    number power = -dot3(w->ring.F, w->ring.v) - dot3(w->ring.M, w->ring.Omega) - lanes_sum(w->dissipated) - w->land_dissipated;
     if (model->p->scene.cage == CAGE_MODEL_TWO_HALF) power -= lanes_sum(w->joint_dissipated);
     const double g_y = model->p->gravity.y, g_z = model->p->gravity.z;
     if (g_y != 0.0 || g_z != 0.0) {
         for (int j = 0; j < Z; j++) {
-            const double v_y = w->v_r[j] * w->cos_theta[j] - w->v_t[j] * w->sin_theta[j];
-            const double v_z = w->v_r[j] * w->sin_theta[j] + w->v_t[j] * w->cos_theta[j];
+            const number v_y = w->v_r[j] * w->cos_theta[j] - w->v_t[j] * w->sin_theta[j];
+            const number v_z = w->v_r[j] * w->sin_theta[j] + w->v_t[j] * w->cos_theta[j];
             power += model->d->m * (g_y * v_y + g_z * v_z);
         }
         for (int h = 0; h < 2; h++) {
-            double drift[3];
+            number drift[3];
             cross3(w->half[h].Omega, w->half[h].c, drift);
             power += model->p->cage.m * (g_y * (w->half[h].v[1] + drift[1]) + g_z * (w->half[h].v[2] + drift[2]));
         }
@@ -131,7 +136,7 @@ static double net_power(const Model *model, const Work *w)
     return power;
 }
 
-void rhs(const Model *model, double t, const double *y, double *y_dot, Work *w)
+void rhs(const Model *model, double t, const number *y, number *y_dot, Work *w)
 {
     const bool rigid = model->p->scene.cage == CAGE_MODEL_RIGID;
     ball_kinematics(y, w);

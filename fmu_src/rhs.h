@@ -5,7 +5,7 @@
 #include "model.h"
 #include "vector_ops.h"
 
-typedef void Rhs(const Model *model, double t, const double *y, double *y_dot, Work *w);
+typedef void Rhs(const Model *model, double t, const number *y, number *y_dot, Work *w);
 typedef void ContactKernel(const Model *model, Work *w);
 
 // y_dot = f(t, y); w keeps all results.

@@ -1,20 +1,11 @@
-// The inner ring: loads, support, equations of motion.  Equations in ring.c.
+// The inner ring: equations of motion.  Equations in ring.c.
 #pragma once
 
-#include "rotor.h"
-
-// What the inputs mean for the ring at time t: loads, speed, direction cosines of the shaft's tilt, the half-sine pulse in progress.
-void drive_update(const Parameters *p, const Inputs *u, double t, Drive *drive);
-
-// First edge of the built-in pulses later than t (infinite if none).
-double drive_next_edge(const Parameters *p, double t);
+#include "isa.h"
+#include "model.h"
 
 // Load on the ring at time t [N].
-void drive_load(const Drive *drive, double t, double F[3]);
-
-// Direction cosines (beta, gamma) of the tilt about the vector (0, tilt_y, tilt_z), and back.
-void ring_cosines(double tilt_y, double tilt_z, double *beta, double *gamma);
-void ring_tilts(double beta, double gamma, double *tilt_y, double *tilt_z);
+void drive_load(const Drive *drive, double t, number F[3]);
 
 // Acceleration of the ring: y_dot of its states from the wrench of all contacts.
-void ring_acceleration(const Model *model, double t, Work *w, double *y_dot);
+void ring_acceleration(const Model *model, double t, const Work *w, number *y_dot);

@@ -9,7 +9,7 @@
 // places, else a tilted ring's balls would start inside the cage - and turns with them.
 #include "start.h"
 
-#include "ring.h"
+#include "rotor.h"
 
 enum { DOF = 5, TILT = 3 };  // x, y, z | beta, gamma
 static const double PI = 3.14159265358979323846;

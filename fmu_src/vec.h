@@ -34,21 +34,21 @@ INLINE vec vec_across(vec v, vec n)
     return vec_axpy(-vec_dot(v, n), n, v);
 }
 // A vector of the global frame, seen from balls at azimuth theta.
-INLINE vec vec_local(const double global[3], real cos_theta, real sin_theta)
+INLINE vec vec_local(const number global[3], real cos_theta, real sin_theta)
 {
     return (vec){real_set(global[0]), global[1] * cos_theta + global[2] * sin_theta, global[2] * cos_theta - global[1] * sin_theta};
 }
-INLINE void vec_to_global(vec v, real cos_theta, real sin_theta, double *x, double *y, double *z)
+INLINE void vec_to_global(vec v, real cos_theta, real sin_theta, number *x, number *y, number *z)
 {
     real_store(x, v.x);
     real_store(y, v.r * cos_theta - v.t * sin_theta);
     real_store(z, v.r * sin_theta + v.t * cos_theta);
 }
-INLINE vec vec_load(const double *x, const double *r, const double *t)
+INLINE vec vec_load(const number *x, const number *r, const number *t)
 {
     return (vec){real_load(x), real_load(r), real_load(t)};
 }
-INLINE void vec_store(vec v, double *x, double *r, double *t)
+INLINE void vec_store(vec v, number *x, number *r, number *t)
 {
     real_store(x, v.x);
     real_store(r, v.r);

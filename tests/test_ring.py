@@ -138,7 +138,7 @@ def load(core, parameters, inputs, t):
     model = core.model(parameters=parameters, inputs=inputs)
     core.lib.drive_update(model.p, model.u, t, model.drive)
     F = core.ffi.new("double[3]")
-    core.lib.drive_load(model.drive, t, F)
+    model.kernel("drive_load")(model.drive, t, F)
     return np.array(list(F))
 
 

@@ -1,0 +1,15 @@
+// Derivatives of the right-hand side: the kernels themselves in dual numbers (dual.h).
+#pragma once
+
+#include "model.h"
+
+// Derivative of y_dot(t, y, drive) along the direction (dy, d_drive), exact to rounding: dy_dot = J dy + d(y_dot)/d(drive) d_drive.  No d_drive: NULL.
+// dw (or NULL) gets the derivative of every result of the right-hand side: contact loads, the wrench on the ring, ...
+// At a kink (touch-down of a damped contact, start of slip) one side's derivative.  Cost: some five right-hand sides.
+void jacobian_product(const Model *model, double t, const double *y, const double *dy, const Drive *d_drive, double *dy_dot, Work *dw);
+
+// All derivatives by the states, column by column: J[j * N_STATES + i] = d(y_dot[i])/d(y[j]).
+void jacobian_matrix(const Model *model, double t, const double *y, double *J);
+
+// Derivative of the housing's reaction (housing.h) from results and their derivative.
+void jacobian_housing(const Work *w, const Work *dw, double dF[3], double dM[3]);

@@ -1,0 +1,10 @@
+// The right-hand side in dual numbers, for jacobian.c.  Drive and Work are dual inside; outside, here, they are arrays of doubles.
+#pragma once
+
+#include "model.h"
+
+// Derivatives of y_dot and of all results along the direction dy of the states and d_drive of the drive (or NULL); dw may be NULL.
+void tangent_rhs(const Model *model, double t, const double *y, const double *dy, const double *d_drive, double *dy_dot, double *dw);
+
+// Derivative of the housing's reaction from that of the results.
+void tangent_housing(const double *w, const double *dw, double dF[3], double dM[3]);

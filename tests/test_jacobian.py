@@ -1,0 +1,336 @@
+"""Derivatives of the right-hand side: dual numbers against differences of the kernels in plain numbers, at states of every kind.
+
+Differences are central, extrapolated to step 0 (Richardson), with their own error estimate: it tells where the right-hand side is smooth.
+Entries are judged by the largest of their block, the rows of one kind of state by the columns of another (ball_v_r by ring_x, ...).
+"""
+
+import itertools
+
+import numpy as np
+import pytest
+from mechanics import SLICE, View, Z, running_state, view
+
+from bearing_model.variables import N_STATES, CageModel, Lubrication, TiltMode, Traction
+
+KINDS = ("pockets closed", "pockets open", "rolling", "separated", "dry land", "high tilt", "unloaded", "joints apart", "slow")
+SCENES = list(itertools.product(CageModel, Traction, Lubrication, TiltMode))  # 24 of them: 216 states
+FULL = (CageModel.TWO_HALF, Traction.SLICED, Lubrication.MIXED, TiltMode.SUPPORTED)
+
+# First step of the differences: a hundredth of what changes contact forces, slip, film and friction; the last one is 1/256 of it.
+LEVELS = 9
+STEPS = {"theta": 3e-6, "psi": 3e-6, "beta": 3e-6, "gamma": 3e-6, "v": 1e-2, "omega": 1.0, "s": 1.0, "beta_dot": 0.2, "gamma_dot": 0.2, "work": 1.0}
+STEP = np.empty(N_STATES)
+for _name, _slice in SLICE.items():
+    _kind = _name.split("_", 1)[-1]
+    STEP[_slice] = STEPS.get(_kind) or STEPS.get(_kind.split("_")[0]) or (1e-6 if "joint" in _name else 1e-7)
+BLOCK = np.repeat(np.arange(len(SLICE)), [s.stop - s.start for s in SLICE.values()])
+STARTS = np.array([s.start for s in SLICE.values()])
+
+
+def make_model(core, kind, scene, **changes):
+    cage, traction, lubrication, tilt_mode = scene
+    parameters = {"scene.cage": cage, "scene.traction": traction, "scene.lubrication": lubrication, "ring.tilt_mode": tilt_mode}
+    parameters |= {"gravity.y": -9.81, "gravity.z": 3.0, "cage.unbalance": 1e-8, "ring.c": 50.0, "oil.v_0": 0.01}
+    inputs = {"shaft.M_y": 0.5, "shaft.M_z": -0.7}
+    if kind == "high tilt":
+        inputs |= {"shaft.tilt_y": 0.003, "shaft.tilt_z": 0.0087}
+    if kind == "unloaded":
+        inputs |= {"shaft.F_x": 0.0, "shaft.F_y": 0.0, "shaft.M_y": 0.0, "shaft.M_z": 0.0}
+    if kind == "slow":
+        inputs |= {"shaft.omega": 30.0}
+    return core.model(parameters | changes, inputs)
+
+
+def push_cage(model, y, eccentricity):
+    """Push the cage toward Y and turn the balls with their pockets."""
+    shift = eccentricity * model.d.C_land - y[SLICE["cage_y"]].mean(), -y[SLICE["cage_z"]].mean()
+    theta = y[SLICE["ball_theta"]]
+    theta += (shift[1] * np.cos(theta) - shift[0] * np.sin(theta)) / (0.5 * model.p.bearing.d_m)
+    y[SLICE["cage_y"]] += shift[0]
+    y[SLICE["cage_z"]] += shift[1]
+
+
+def make_state(model, kind, rng):
+    y = running_state(model, rng, pockets=kind not in ("pockets open", "separated"), slip={"rolling": 1e-3, "slow": 0.02}.get(kind, 1.0))
+    if kind == "separated":  # balls halfway between the races
+        y[SLICE["ball_x"]], y[SLICE["ball_r"]] = 0.0, 0.5 * model.p.bearing.d_m
+        for name in ("ring_x", "ring_y", "ring_z", "ring_beta", "ring_gamma"):
+            y[SLICE[name]] = 0.0
+    if kind == "dry land":
+        push_cage(model, y, 1.02)
+    if kind == "joints apart":  # plates open, shanks against their holes
+        y[SLICE["cage_x"]][1] += 1e-5
+        y[SLICE["cage_z"]][1] += 3e-5
+    return y
+
+
+def rhs(model, y, t=0.0):
+    """dy/dt with the drive as it is."""
+    out = np.empty(N_STATES)
+    model.kernel("rhs")(model.pointer, t, model.core.array(y), model.core.array(out), model.work)
+    return out
+
+
+def extrapolated(f, h, noise):
+    """Derivative of f at 0 by central differences with steps h, h/2, ..., extrapolated to 0, and an estimate of its error.
+
+    noise: what rounding does to each component of f.  The error is large where finer steps contradict: a kink lies in between.
+    """
+    best, error, level, row, finest = 0.0, np.inf, 0, [], []
+    for k in range(LEVELS):
+        above, row = row, [(f(h) - f(-h)) / (2.0 * h)]
+        for m, coarse in enumerate(above):
+            fine = row[m]
+            row.append(fine + (fine - coarse) / (4.0 ** (m + 1) - 1.0))
+            guess = np.maximum(abs(row[-1] - fine), abs(row[-1] - coarse)) + noise / h
+            best, level, error = np.where(guess < error, row[-1], best), np.where(guess < error, k, level), np.minimum(guess, error)
+        finest.append((row[min(k, 1)], 4.0 * noise / h))
+        h /= 2.0
+    for k, (value, blur) in enumerate(finest):
+        error = np.where(k > level, np.maximum(error, abs(value - best) - blur), error)
+    return best, error
+
+
+def rounding(f, y, rng):
+    """What the last bit of y and of intermediate results does to f(y)."""
+    value = f(y)
+    nearby = [f(y * (1.0 + 2.0**-52 * rng.uniform(-1.0, 1.0, N_STATES))) for _ in range(8)]
+    return np.max(abs(nearby - value), axis=0) + 2.0**-51 * abs(value)
+
+
+def matrix(model, y):
+    J = np.empty((N_STATES, N_STATES))
+    model.core.lib.jacobian_matrix(model.pointer, 0.0, model.core.array(y), model.core.array(J))
+    return J.T
+
+
+def product(model, y, dy, d_drive=None, t=0.0):
+    out, dw = np.empty(N_STATES), model.core.new("Work")
+    lib, array = model.core.lib, model.core.array
+    lib.jacobian_product(model.pointer, t, array(y), array(dy), d_drive or model.core.ffi.NULL, array(out), dw)
+    return out, dw
+
+
+def difference_matrix(model, y, rng):
+    """The matrix by differences, and the estimate of its error."""
+    noise = rounding(lambda y: rhs(model, y), y, rng)
+    columns = [extrapolated(lambda h, e=e: rhs(model, y + h * e), STEP[j], noise) for j, e in enumerate(np.eye(N_STATES))]
+    return tuple(np.array(part).T for part in zip(*columns, strict=True))
+
+
+def blocks(big):
+    """Each entry's block: the largest entry of these rows by these columns."""
+    largest = np.maximum.reduceat(np.maximum.reduceat(big, STARTS, 0), STARTS, 1)
+    return largest[np.ix_(BLOCK, BLOCK)]
+
+
+def compare(J, differences, error):
+    """Relative errors of the entries where differences know better than 1e-6 of the block, and the share of all that matter which these are."""
+    big = np.maximum(abs(J), np.where(error < 0.1 * abs(differences), abs(differences), 0.0))
+    block = blocks(big)
+    smooth = (error <= 1e-6 * block) & (block > 0.0)
+    matter = big > 1e-3 * block
+    relative = np.where(smooth, abs(J - differences) / np.where(block > 0.0, block, 1.0), 0.0)
+    return relative, np.sum(smooth & matter) / np.sum(matter)
+
+
+def prepared(core, kind, scene, rng, **changes):
+    """Model and state, the drive set."""
+    model = make_model(core, kind, scene, **changes)
+    y = make_state(model, kind, rng)
+    model.rhs(0.0, y)
+    return model, y
+
+
+@pytest.mark.parametrize("scene", SCENES, ids=lambda scene: "-".join(part.name for part in scene))
+def test_matrix_against_differences(core, scene):
+    rng = np.random.default_rng(7)
+    for kind in KINDS:
+        model, y = prepared(core, kind, scene, rng)
+        J = matrix(model, y)
+        assert np.isfinite(J).all() and np.count_nonzero(J) > 300  # a rigid cage without contacts has the fewest: 324
+        relative, share = compare(J, *difference_matrix(model, y, rng))
+        assert share > 0.8, kind  # observed 0.84...1: the rest drowns in rounding or lies at a kink
+        assert np.mean(relative > 1e-6) < 3e-4, kind  # observed 9e-5: kinks so near that only the finest differences see them
+        assert relative.max() < 1e-4, kind  # observed 3.2e-6
+
+
+def members(core, struct, prefix=""):
+    """Name -> array of all numbers in a struct, ghost lanes left out."""
+    out = {}
+    for name, field in core.ffi.typeof(struct).fields:
+        member = getattr(struct, name)
+        if name.startswith("pad_"):
+            continue
+        if isinstance(member, float):
+            out[prefix + name] = np.array([member])
+        elif field.type.kind == "struct":
+            out |= members(core, member, f"{prefix}{name}.")
+        elif field.type.item.kind == "struct":
+            for i, part in enumerate(member):
+                out |= members(core, part, f"{prefix}{name}[{i}].")
+        elif name == "pocket":
+            for h, j in itertools.product(range(2), range(Z)):
+                out |= members(core, member[h][j], f"pocket[{h}][{j}].")
+        else:
+            values = view(core, member)
+            out[prefix + name] = np.array(values[..., :Z] if values.shape[-1] == core.lib.LANES else values)
+    return out
+
+
+def housing(model, work):
+    """Force and moment on the housing: the opposite of all that acts on ring, halves and balls, about the origin."""
+    w = View(model.core, work)
+    place = np.stack([w.x[:Z], w.r[:Z] * w.cos_theta[:Z], w.r[:Z] * w.sin_theta[:Z]], -1)
+
+    def turn(x, r, t):
+        return np.stack([x[:Z], r[:Z] * w.cos_theta[:Z] - t[:Z] * w.sin_theta[:Z], r[:Z] * w.sin_theta[:Z] + t[:Z] * w.cos_theta[:Z]], -1)
+
+    force, moment = turn(w.F_x, w.F_r, w.F_t), turn(w.M_x, w.M_r, w.M_t)
+    F, M = -force.sum(0), -(moment + np.cross(place, force)).sum(0)
+    for body in (work.ring, work.half[0], work.half[1]):
+        b = View(model.core, body)
+        F, M = F - b.F, M - b.M - np.cross(b.x, b.F)
+    return np.concatenate([F, M])
+
+
+DRIVE_STEP = {"F": 10.0, "M": 0.1, "omega": 0.1, "beta": 1e-6, "gamma": 1e-6, "pulse": 5.0, "pulse_start": 1e-6, "pulse_rate": 10.0}
+PULSE = {"pulse.F_r": 500.0, "pulse.F_a": 100.0, "pulse.t_start": 0.0, "pulse.duration": 1e-3, "pulse.interval": 1e-2, "pulse.count": 1}
+
+
+@pytest.mark.parametrize("scene", SCENES, ids=lambda scene: "-".join(part.name for part in scene))
+def test_products_with_drive_and_results(core, scene):
+    """One direction in all states and the whole drive at once: dy/dt, every member of Work, the housing's reaction."""
+    rng = np.random.default_rng(8)
+    judged = 0
+    for kind in KINDS:
+        model, y = prepared(core, kind, scene, rng, **PULSE)
+        base, d_drive, t = members(core, model.drive[0]), core.new("Drive"), 3e-4
+        for name, step in DRIVE_STEP.items():
+            setattr(View(core, d_drive), name, step * rng.uniform(0.5, 1.0, np.squeeze(base[name]).shape))
+        direction = members(core, d_drive[0])
+        assert all(np.all(value != 0.0) for value in direction.values()) and np.all(base["pulse"][:2] != 0.0)
+        dy = 0.1 * STEP * rng.uniform(-1.0, 1.0, N_STATES)
+
+        def results(h, y=y, model=model, dy=dy, base=base, direction=direction, t=t):
+            for name in base:
+                setattr(View(core, model.drive), name, np.squeeze(base[name] + h * direction[name])[()])
+            y_dot = rhs(model, y + h * dy, t)
+            return {name: y_dot[s] for name, s in SLICE.items()} | members(core, model.work[0]) | {"housing": housing(model, model.work)}
+
+        def flat(*where, results=results):
+            return np.concatenate([value.ravel() for value in results(*where).values()])
+
+        names = np.repeat(*zip(*enumerate(value.size for value in results(0.0).values()), strict=True))
+        differences, error = extrapolated(flat, 1.0, rounding(lambda y, flat=flat: flat(0.0, y), y, rng))
+        results(0.0)
+        dy_dot, dw = product(model, y, dy, d_drive, t)
+        dF, dM = np.empty(3), np.empty(3)
+        core.lib.jacobian_housing(model.work, dw, core.array(dF), core.array(dM))
+        exact = np.concatenate([dy_dot] + [value.ravel() for value in members(core, dw[0]).values()] + [dF, dM])
+
+        largest = np.zeros(names[-1] + 1)
+        np.maximum.at(largest, names, np.maximum(abs(exact), abs(differences)))
+        size = largest[names]
+        smooth = (error <= 1e-6 * size) & (size > 0.0)
+        judged += np.sum(smooth)
+        assert np.all(abs(exact - differences)[smooth] <= 1e-6 * size[smooth]), kind  # observed 3e-7
+    assert judged > 5000  # observed 5200...
+
+
+# A coefficient of every element, and a state where it matters.
+COEFFICIENTS = [
+    ("bearing.E", "pockets open"),  # race contact
+    ("bearing.lambda", "pockets open"),
+    ("oil.B", "pockets open"),  # traction
+    ("oil.mu_b", "slow"),  # asperities
+    ("oil.rolling", "pockets open"),  # inlet friction
+    ("oil.C_d", "separated"),  # drag of the balls
+    ("oil.rho_mix", "separated"),  # of the cage too
+    ("cage.E", "pockets closed"),  # pocket contact
+    ("cage.lambda", "pockets closed"),
+    ("cage.mu", "pockets closed"),
+    ("cage.share_width", "pockets closed"),
+    ("oil.eta", "separated"),  # land film
+    ("cage.K_land", "dry land"),
+    ("cage.mu_land", "dry land"),
+    ("joint.mu", "pockets open"),
+    ("joint.zeta", "pockets open"),
+    ("joint.fit", "joints apart"),  # shank in its hole
+    ("cage.m", "separated"),
+    ("cage.J_p", "separated"),  # gyroscopic moment
+    ("cage.unbalance", "separated"),
+    ("gravity.y", "separated"),
+    ("ring.m", "pockets open"),
+    ("ring.c", "separated"),
+    ("ring.k_tilt", "separated"),
+]
+
+
+@pytest.mark.parametrize(("coefficient", "kind"), COEFFICIENTS, ids=lambda value: value)
+def test_one_percent_is_seen(core, coefficient, kind):
+    """Every element contributes: 1 % in one coefficient of it makes the comparison fail."""
+    rng = np.random.default_rng(9)
+    thin = {"oil.eta": 1e-5} if kind == "dry land" else {}  # else the film hides the contact behind it
+    model, y = prepared(core, kind, FULL, rng, **thin)
+    J = matrix(model, y)
+    group, member = coefficient.split(".")
+    other = make_model(core, kind, FULL, **thin | {coefficient: 1.01 * getattr(getattr(model.p, group), member)})
+    other.rhs(0.0, y)
+    relative, _ = compare(J, *difference_matrix(other, y, rng))
+    assert relative.max() > 1e-4  # observed 1.9e-4 (inlet friction)...6e-2
+
+
+def test_matrix_is_made_of_products(core):
+    rng = np.random.default_rng(10)
+    model, y = prepared(core, "pockets closed", FULL, rng)
+    J, dy = matrix(model, y), STEP * rng.uniform(-1.0, 1.0, N_STATES)
+    dy_dot, _ = product(model, y, dy)
+    np.testing.assert_allclose(dy_dot, J @ dy, rtol=0.0, atol=1e-13 * np.max(abs(J) @ abs(dy)))  # observed 1.5e-16
+    assert not J[:, SLICE["work"]].any()
+
+
+def test_time_is_the_pulse_turned_round(core):
+    """d/dt of dy/dt is that by the start of the pulse, with the sign changed: F_r sin(pi (t - t_0)/duration)/m."""
+    model, y = prepared(core, "pockets open", FULL, np.random.default_rng(11), **PULSE)
+    d_drive, t = core.new("Drive"), 3e-4
+    d_drive.pulse_start = -1.0
+    dy_dot, _ = product(model, y, np.zeros(N_STATES), d_drive, t)
+    rate = np.pi / 1e-3 * np.cos(np.pi * 0.3) / model.p.ring.m
+    expected = np.zeros(N_STATES)
+    expected[SLICE["ring_v_x"]], expected[SLICE["ring_v_y"]] = 100.0 * rate, 500.0 * rate
+    np.testing.assert_allclose(dy_dot, expected, rtol=1e-14, atol=0.0)  # observed 2e-16
+
+
+UNDAMPED = {"bearing.lambda": 0.0, "cage.lambda": 0.0, "joint.zeta": 0.0, "oil.v_0": 1e-4}
+
+
+@pytest.mark.parametrize("scene", SCENES, ids=lambda scene: "-".join(part.name for part in scene))
+def test_stiff_rates_against_the_diagonal(core, scene):
+    """D is what traction and friction states hold back: never far below -J_ii without the contacts' damping, which it leaves out, and of its size."""
+    rng = np.random.default_rng(12)
+    stiff = 0
+    for kind in KINDS:
+        model, y = prepared(core, kind, scene, rng, **UNDAMPED)
+        D, rate = model.rates(), -np.diag(matrix(model, y))
+        for name in ("ball_v_x", "ball_v_r", "ball_omega_m", "ball_omega_x", "ball_omega_t"):
+            fast = rate[SLICE[name]] > 1e4
+            ratio = D[SLICE[name]][fast] / rate[SLICE[name]][fast]
+            stiff += ratio.size
+            assert np.all((ratio > 0.999) & (ratio < 20.0)), (kind, name)  # observed 0.9999...9.5, the most where asperities slip against each other
+        for name in ("joint_plate_y", "joint_plate_z", "joint_head_y", "joint_head_z"):
+            np.testing.assert_allclose(D[SLICE[name]], rate[SLICE[name]], rtol=1e-12)  # observed 1.6e-13
+    assert stiff > 50  # observed 144...199
+
+
+def test_film_rates_against_the_diagonal(core):
+    """Of the lands' films, cage near the ring: D_y, D_z are exact, those of tilt for small tilt."""
+    rng = np.random.default_rng(13)
+    scene = (CageModel.TWO_HALF, Traction.POINT, Lubrication.FILM, TiltMode.PRESCRIBED)
+    for eccentricity in (0.9, 0.95):
+        model, y = prepared(core, "pockets open", scene, rng, **UNDAMPED)
+        push_cage(model, y, eccentricity)
+        rhs(model, y)
+        D, rate = model.rates(), -np.diag(matrix(model, y))
+        for name in ("cage_v_y", "cage_v_z", "cage_beta_dot", "cage_gamma_dot"):
+            np.testing.assert_allclose(D[SLICE[name]], rate[SLICE[name]], rtol=1e-3)  # observed 7e-5
