@@ -5,14 +5,15 @@
     rigid cage   the wrench between the halves, (half 1 - half 0)/2 as both have the same inertia, on the circle of rivets; its transverse
                  part loads plates (up to mu P), then heads (mu P), then the shank
 
-Everything is in the body frame of half 0: rivets at angles 2 pi (k + 1/2)/Z.
+The path's transverse part reaches the shank only in a hole without play: elsewhere a slip far below the play relieves it.  Its moment is
+limited where it opens the joint.  Everything is in the body frame of half 0: rivets at angles 2 pi (k + 1/2)/Z.
 """
 
 import numpy as np
 
 from bearing_model.lanes import lanes_sum
 from bearing_model.load_path import PATH_M_R, PATH_M_T, PATH_N, PATH_V_R, PATH_V_T, load_path_flexible, load_path_rigid
-from bearing_model.rivet_rom import RivetLoad
+from bearing_model.rivet_rom import RivetLoad, joint_prying
 from bearing_model.variables import CageModel
 from bearing_model.vec import vec_dot
 
@@ -67,8 +68,9 @@ def rivets_load(model, w):
     R = 0.5 * model.p.bearing.d_m
     c, s = model.d.rivet_y / R, model.d.rivet_z / R
     load.N = load.N + path[..., PATH_N]
-    load.V_y = load.V_y + path[..., PATH_V_R] * c - path[..., PATH_V_T] * s
-    load.V_z = load.V_z + path[..., PATH_V_R] * s + path[..., PATH_V_T] * c
+    if model.d.hole_gap == 0.0:  # with play a slip far below it relieves the path's transverse part
+        load.V_y = load.V_y + path[..., PATH_V_R] * c - path[..., PATH_V_T] * s
+        load.V_z = load.V_z + path[..., PATH_V_R] * s + path[..., PATH_V_T] * c
     load.M_y = load.M_y + path[..., PATH_M_R] * c - path[..., PATH_M_T] * s
     load.M_z = load.M_z + path[..., PATH_M_R] * s + path[..., PATH_M_T] * c
-    return load, V
+    return joint_prying(model.d.table, load), V

@@ -5,7 +5,8 @@
 //   rigid cage   the wrench between the halves, (half 1 - half 0)/2 as both have the same inertia, on the circle of rivets; its transverse
 //                part loads plates (up to mu P), then heads (mu P), then the shank
 //
-// Everything is in the body frame of half 0: rivets at angles 2 pi (k + 1/2)/Z.
+// The path's transverse part reaches the shank only in a hole without play: elsewhere a slip far below the play relieves it.  Its moment is
+// limited where it opens the joint.  Everything is in the body frame of half 0: rivets at angles 2 pi (k + 1/2)/Z.
 #include "rivets.h"
 
 #include "load_path.h"
@@ -95,9 +96,12 @@ void rivets_load(const Model *model, const Work *w, RivetLoad load[Z], double V[
     for (int k = 0; k < Z; k++) {
         const double c = model->d->rivet_y[k] / R, s = model->d->rivet_z[k] / R;
         load[k].N += path.N[k];
-        load[k].V_y += path.V_r[k] * c - path.V_t[k] * s;
-        load[k].V_z += path.V_r[k] * s + path.V_t[k] * c;
+        if (model->d->hole_gap == 0.0) {
+            load[k].V_y += path.V_r[k] * c - path.V_t[k] * s;
+            load[k].V_z += path.V_r[k] * s + path.V_t[k] * c;
+        }
         load[k].M_y += path.M_r[k] * c - path.M_t[k] * s;
         load[k].M_z += path.M_r[k] * s + path.M_t[k] * c;
+        joint_prying(&rivet_table.joint, &load[k]);
     }
 }
