@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from enum import IntEnum
 
 MODEL_IDENTIFIER = "RivetedBearing"
-MODEL_GUID = "{8f4acfc4-858e-3818-c0a6-e4a3df9e09b7}"
+MODEL_GUID = "{8af353ce-53e8-2d80-86f6-d235de5ff574}"
 Z = 9
 
 
@@ -171,7 +171,7 @@ PARAMETERS = {
         Variable("solver.method", 1902, "Method", "1", None, 1, None, None, 1, None, "Integration path", "default"),
         Variable("solver.max_steps", 1903, "Integer", "1", None, 10000000, 10, 2000000000, 1, None, "Largest number of internal steps in one communication step", "work limit instead of a hung host"),
         Variable("start.seed", 1951, "Integer", "1", None, 1, 0, 2147483647, 1, None, "Seed of the balls' initial spacing (splitmix64)", "default"),
-        Variable("start.spacing", 1952, "Real", "1", None, 0.1, 0.0, 1.0, 1, None, "Initial spacing error: uniform within +- this part of the pocket clearance", "assumed"),
+        Variable("start.spacing", 1952, "Real", "1", None, 0.1, 0.0, 0.5, 1, None, "Initial spacing error: uniform within +- this part of the pocket clearance", "assumed"),
         Variable("start.settle", 1953, "Real", "s", None, 0.05, 0.0, 1000000.0, 1, None, "Time before which stat.* and damage do not count", "15 revolutions at the working point"),
     )
 }

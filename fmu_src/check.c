@@ -48,12 +48,13 @@ static bool check_geometry(Bearing *b)
 {
     const Parameters *p = &b->s.p;
     const double PI = 3.14159265358979323846, D = p->bearing.D, d_m = p->bearing.d_m;
-    const double chord = d_m * sin(PI / Z), pocket = D + p->cage.pocket_clearance, play = 2.0 * (p->bearing.f_i + p->bearing.f_e - 1.0) * D;
+    const double chord = d_m * sin(PI / Z), pocket = D + p->cage.pocket_clearance, play = 4.0 * (fmin(p->bearing.f_i, p->bearing.f_e) - 0.5) * D;
     bool fine = true;
     fine &= require(b, D < chord, "bearing.D = %g m: the balls overlap; less than bearing.d_m sin(pi/Z) = %g m is allowed", D, chord);
     fine &= require(b, pocket < chord, "cage.pocket_clearance: pockets of %g m overlap; less than bearing.d_m sin(pi/Z) = %g m is allowed", pocket, chord);
-    fine &=
-        require(b, p->bearing.P_d < play, "bearing.P_d = %g m: the rings fall apart; less than 2 (f_i + f_e - 1) D = %g m is allowed", p->bearing.P_d, play);
+    fine &= require(b, p->bearing.P_d < play,
+                    "bearing.P_d = %g m: a ball on one race would reach the other groove's far side; less than 4 (min(f_i, f_e) - 1/2) D = %g m is allowed",
+                    p->bearing.P_d, play);
     fine &= require(b, -p->bearing.P_d < 0.01 * D, "bearing.P_d = %g m: the interference exceeds 1 %% of bearing.D; at least %g m is allowed", p->bearing.P_d,
                     -0.01 * D);
     fine &= require(b, p->cage.D_i < p->cage.D_o, "cage.D_i = %g m: less than cage.D_o = %g m is allowed", p->cage.D_i, p->cage.D_o);

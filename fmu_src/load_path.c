@@ -14,7 +14,8 @@ void load_path_rigid(double d_m, const double wrench[6], const double c[Z], cons
 void load_path_flexible(const double *matrix, int side, const double F_x[Z], const double F_r[Z], const double F_t[Z], PathLoads *loads)
 {
     for (int j = 0; j < Z; j++) {
-        double outward = side * F_x[j];  // mirrored to the +x half
+        if (F_x[j] == 0.0 && F_r[j] == 0.0 && F_t[j] == 0.0) continue;  // most pockets are not touched
+        double outward = side * F_x[j];                                 // mirrored to the +x half
         double push = F_t[j] < 0.0 ? -F_t[j] : F_t[j], turn = F_t[j] < 0.0 ? -1.0 : 1.0;
         for (int i = 0; i < Z; i++) {
             const double *m = matrix + 3 * PATH_LOADS * i, *t = F_t[j] < 0.0 ? matrix + 3 * PATH_LOADS * (Z - 1 - i) : m;

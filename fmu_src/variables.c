@@ -145,7 +145,7 @@ const Variable VARIABLES[N_VARIABLES] = {
     {"solver.method", "1", 1902, 1, TYPE_ENUMERATION, CAUSALITY_PARAMETER, GROUP_COUNT, offsetof(Parameters, solver.method), 1.0, 1.0, 3.0},
     {"solver.max_steps", "1", 1903, 1, TYPE_INTEGER, CAUSALITY_PARAMETER, GROUP_COUNT, offsetof(Parameters, solver.max_steps), 10000000.0, 10.0, 2000000000.0},
     {"start.seed", "1", 1951, 1, TYPE_INTEGER, CAUSALITY_PARAMETER, GROUP_COUNT, offsetof(Parameters, start.seed), 1.0, 0.0, 2147483647.0},
-    {"start.spacing", "1", 1952, 1, TYPE_REAL, CAUSALITY_PARAMETER, GROUP_COUNT, offsetof(Parameters, start.spacing), 0.1, 0.0, 1.0},
+    {"start.spacing", "1", 1952, 1, TYPE_REAL, CAUSALITY_PARAMETER, GROUP_COUNT, offsetof(Parameters, start.spacing), 0.1, 0.0, 0.5},
     {"start.settle", "s", 1953, 1, TYPE_REAL, CAUSALITY_PARAMETER, GROUP_COUNT, offsetof(Parameters, start.settle), 0.05, 0.0, 1000000.0},
     {"bearing.Z", "1", 2001, 1, TYPE_REAL, CAUSALITY_OUTPUT, GROUP_CONSTANT, offsetof(Outputs, bearing.Z), 9.0, -INFINITY, INFINITY},
     {"ring.x", "m", 2101, 1, TYPE_REAL, CAUSALITY_OUTPUT, GROUP_STATE, offsetof(Outputs, ring.x), 0.0, -INFINITY, INFINITY},

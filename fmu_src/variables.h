@@ -6,7 +6,7 @@
 #include <stddef.h>
 
 #define MODEL_IDENTIFIER "RivetedBearing"
-#define MODEL_GUID "{8f4acfc4-858e-3818-c0a6-e4a3df9e09b7}"  // digest of the table
+#define MODEL_GUID "{8af353ce-53e8-2d80-86f6-d235de5ff574}"  // digest of the table
 
 enum { Z = 9 };  // number of balls
 
