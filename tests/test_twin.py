@@ -262,7 +262,7 @@ def test_start(core, scene, record_property):
     assert difference < 1e-8  # observed 2e-10
 
 
-@pytest.mark.parametrize("changes", [{"start.seed": 7}, {"start.seed": 2**31 - 1, "start.spacing": 1.0}, {"start.spacing": 0.0}])
+@pytest.mark.parametrize("changes", [{"start.seed": 7}, {"start.seed": 2**31 - 1, "start.spacing": 0.5}, {"start.spacing": 0.0}])
 def test_start_spacing(core, changes):
     """The balls' azimuths are the same numbers: splitmix64."""
     model = Model.of(changes)
@@ -420,10 +420,14 @@ STATISTICS = ("stat.Q_c_mean", "stat.Q_c_rms", "stat.contact_duty", "stat.cage_o
 
 @pytest.mark.slow
 def test_statistics(core, record_property):
-    """Over 0.1 s trajectories have parted; the reference's statistics lie within the scatter of the core's over 16 seeds (4 standard deviations)."""
-    changes, t_end = {"start.settle": 0.02}, 0.1
-    results = simulate(changes, t_end=t_end, step=1e-3, tolerance=1e-3)
-    runs = [Instance(core, changes | {"start.seed": seed}).step(t_end) for seed in range(1, 17)]
+    """Over 0.1 s trajectories have parted; the reference's statistics lie within the scatter of the core's over 16 seeds (4 standard deviations).
+
+    Both count the ends of their steps, a few in each pocket pulse: that moves the core's mean force by 1 % from 1e-3 to 1e-6, so both run at 1e-4 with
+    methods of like step sizes.
+    """
+    changes, t_end = {"start.settle": 0.02, "scene.statistics": 2}, 0.1
+    results = simulate(changes, t_end=t_end, step=1e-3, tolerance=1e-4, method="RK45")
+    runs = [Instance(core, changes | {"start.seed": seed}, tolerance=1e-4).step(t_end) for seed in range(1, 17)]
     for name in STATISTICS:
         sample = np.array([run.output(name) for run in runs])
         deviation = (results[name] - sample.mean()) / sample.std(ddof=1)

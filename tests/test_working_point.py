@@ -165,7 +165,8 @@ def test_frozen_or_free_cage_would_be_seen(simulate, what, changes):
 
 def test_extremes_near_the_study(core):
     """The study's p99.9 = 117 N and maximum 160 N are of the largest pocket force at each instant, sampled every 4 us: their ratio 0.73 is ours of
-    that quantity (0.74), not of all balls pooled (0.54).  Observed -19 % and -22 %; the cause was not isolated (pocket damping 0 gives 110 N, a rigid cage 117 N)."""
+    that quantity (0.74), not of all balls pooled (0.54).  Observed -19 % and -22 %; the cause is not isolated
+    (pocket damping 0 gives 110 N, a rigid cage 117 N)."""
     pooled, largest = [], []
     for seed in (1, 2):
         bearing = Instance(core, STATISTICS | {"oil.rolling": 0.0, "start.seed": seed})
