@@ -90,10 +90,11 @@ def admit(variable, value):
 def check_geometry(p):
     """Parameters against each other."""
     D, d_m = p.bearing.D, p.bearing.d_m
-    chord, pocket, play = d_m * math.sin(math.pi / Z), D + p.cage.pocket_clearance, 2.0 * (p.bearing.f_i + p.bearing.f_e - 1.0) * D
+    chord, pocket, play = d_m * math.sin(math.pi / Z), D + p.cage.pocket_clearance, 4.0 * (min(p.bearing.f_i, p.bearing.f_e) - 0.5) * D
     require(D < chord, f"bearing.D = {D} m: the balls overlap; less than bearing.d_m sin(pi/Z) = {chord:g} m is allowed")
     require(pocket < chord, f"cage.pocket_clearance: pockets of {pocket:g} m overlap; less than bearing.d_m sin(pi/Z) = {chord:g} m is allowed")
-    require(p.bearing.P_d < play, f"bearing.P_d = {p.bearing.P_d} m: the rings fall apart; less than 2 (f_i + f_e - 1) D = {play:g} m is allowed")
+    far = f"a ball on one race would reach the other groove's far side; less than 4 (min(f_i, f_e) - 1/2) D = {play:g} m is allowed"
+    require(p.bearing.P_d < play, f"bearing.P_d = {p.bearing.P_d} m: {far}")
     require(-p.bearing.P_d < 0.01 * D, f"bearing.P_d = {p.bearing.P_d} m: the interference exceeds 1 % of bearing.D; at least {-0.01 * D:g} m is allowed")
     require(p.cage.D_i < p.cage.D_o, f"cage.D_i = {p.cage.D_i} m: less than cage.D_o = {p.cage.D_o} m is allowed")
     require(p.cage.D_i < d_m < p.cage.D_o, f"bearing.d_m = {d_m} m: the pitch circle must lie between cage.D_i and cage.D_o = {p.cage.D_o} m")
