@@ -41,10 +41,8 @@ static void rotor_kinematics(const Model *model, const number *y, Work *w)
     }
     if (model->p->scene.cage == CAGE_MODEL_RIGID) {  // half 1 goes with half 0
         Rotor *h0 = &w->half[0], *h1 = &w->half[1];
-        number drift[3];
         *h1 = *h0;
         for (int i = 0; i < 3; i++) h1->c[i] = model->d->com_x[1] * h0->a[i] + model->d->com_e * h0->b_y[i];
-        cross3(h1->Omega, h1->c, drift);
     }
 }
 
