@@ -181,8 +181,8 @@ BearingStatus bearing_initialize(Bearing *b, double t_start, double tolerance)
 }
 
 // ---- stepping -----------------------------------------------------------------------------------------------------------------------------------
-// Explicit or IMEX from the largest stiff rate: an explicit step is bounded by 2.5/rate (real axis), accuracy bounds it at about 8 um-s
-// times (tolerance/1e-3)^(1/3), an IMEX evaluation costs 1.5 explicit ones.  Back to explicit only where nothing is lost.
+// Explicit or IMEX from the largest stiff rate: an explicit step is bounded by 2.5/rate (real axis), accuracy bounds it at about 8 us
+// times (tolerance/1e-3)^(1/3), measured where nothing is stiff; an IMEX evaluation costs 1.5 explicit ones.  Back to explicit only where nothing is lost.
 static void choose_path(Bearing *b, double elapsed)
 {
     Saved *s = &b->s;

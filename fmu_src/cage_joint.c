@@ -120,7 +120,5 @@ void cage_joint_force(const Model *model, const number *y, Work *w)
         h0->M[i] -= moment[i];
         h1->F[i] += force[i];
         h1->M[i] += moment[i] - shift[i];
-        w->half_F_joint[i] = force[i];
-        w->half_M_joint[i] = moment[i] - shift[i];
     }
 }

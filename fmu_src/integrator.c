@@ -1,7 +1,7 @@
 // Two one-step methods of ARKODE on the same state:
 //
 //   explicit   classical Runge-Kutta 4(3); its last stage is the next step's first.  Per evaluation its stability reaches furthest along the
-//              imaginary axis (2.83/4; Bogacki-Shampine 1.73/3, Dormand-Prince 1.0/6): undamped contact modes of 2.5e5 rad/s bound the step
+//              imaginary axis (2.83/4; Bogacki-Shampine 1.73/3, Dormand-Prince 1.0/6): contacts and riveted joints ring at 2.5e5...4e5 rad/s
 //   IMEX       ARK324L2SA: f = (f + A (y - y_n)) + (-A (y - y_n)) with the stiff blocks A (implicit.h) frozen at the start of each step: a stage's
 //              equation  z - y_n = s - gamma A (z - y_n)  is solved block by block, without iteration
 //

@@ -66,7 +66,8 @@ typedef struct {
     number pulse_start, pulse_rate;  // its start [s] and pi / duration [1/s]
 } Drive;
 
-// ---- a rigid body with an axis: inner ring or cage half; written by rotor_set ---------------------------------------------------------------
+// ---- a rigid body with an axis: inner ring or cage half; written by rotor_axis, rotor_body_axes
+// ---------------------------------------------------------------
 typedef struct {
     number x[3], v[3];      // geometric centre
     number a[3], a_dot[3];  // axis: unit vector (a_x, gamma, -beta) and its rate
@@ -108,7 +109,6 @@ typedef struct {
     lanes joint_dissipated;
     // scalars
     number land_dissipated, land_elastic, film_yy[2], film_yz[2], film_zz[2], film_spin[2];  // of each land: -dF/dv, -dM/domega
-    number half_F_joint[3], half_M_joint[3];                                                 // by the joints on half 1, about its geometric centre
 } Work;
 
 typedef struct {
