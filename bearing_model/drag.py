@@ -18,12 +18,12 @@ def drag_force(model, w):
     """Adds the drag of the balls."""
     F = -model.d.drag * w.v_t * absolute(w.v_t)
     w.F = w.F + vec(0.0, 0.0, F)
-    w.dissipated = w.dissipated - F * w.v_t
+    w.drag_dissipated = -F * w.v_t
 
 
 def drag_cage(model, w):
     """Adds the drag moments of the halves' end faces and cylinders."""
-    d = model.d
+    d, w.cage_drag_dissipated = model.d, 0.0
     for half in w.half:
         omega = half.Omega[0]
         speed = absolute(omega) + 1e-30
@@ -31,4 +31,4 @@ def drag_cage(model, w):
         cylinder = maximum(d.cylinder_laminar, d.cylinder_vortex * speed**0.539)
         M = -(disk + cylinder) * omega
         half.M = half.M + vec(M, 0.0, 0.0)
-        w.land_dissipated = w.land_dissipated - M * omega
+        w.cage_drag_dissipated = w.cage_drag_dissipated - M * omega

@@ -1,4 +1,4 @@
-"""Energy of balls, cage halves and everything elastic between them and the rings.
+"""Energy of balls, cage halves and everything elastic between them and the rings, and the powers that change it.
 
     contacts (2/5) K delta^2.5, shared between the halves as in pocket.py;  joint T^2/(2 k_rivet) + N_plate^2/(2 k_plate) + k z^2/2 + hole contact
 
@@ -11,16 +11,67 @@ from bearing_model.variables import CageModel
 from bearing_model.vec import vec, vec_cross, vec_dot
 
 
-def energy_total(model, w):
-    """Kinetic and elastic energy [J] at the state of the evaluation w."""
+def energy_terms(model, w):
+    """Kinetic and elastic energies [J] by name at the state of the evaluation w, each [..., 1]."""
     p, d = model.p, model.d
     v, omega = vec(w.v_x, w.v_r, w.v_t), vec(w.omega_x, w.omega_r, w.omega_t)
-    E = 0.5 * d.m * vec_dot(v, v) + 0.5 * d.J * vec_dot(omega, omega)
-    E = E + hertz_energy(d.inner.hertz.K, w.delta_i) + hertz_energy(d.outer.hertz.K, w.delta_e) + w.pocket_energy
+    terms = {
+        "motion of the balls": lanes_sum(0.5 * d.m * vec_dot(v, v) + 0.5 * d.J * vec_dot(omega, omega)),
+        "motion of the cage": 0.0,
+        "races, elastic": lanes_sum(hertz_energy(d.inner.hertz.K, w.delta_i) + hertz_energy(d.outer.hertz.K, w.delta_e)),
+        "pockets, elastic": lanes_sum(w.pocket_energy),
+        "land, elastic": w.land_elastic,
+    }
     if p.scene.cage == CageModel.TWO_HALF:
-        E = E + w.joint_energy
-    E = lanes_sum(E) + w.land_elastic
+        terms["joints, elastic"] = lanes_sum(w.joint_energy)
     for half in w.half:
         v = half.v + vec_cross(half.Omega, half.c)  # of the centre of mass
-        E = E + 0.5 * (p.cage.m * vec_dot(v, v) + p.cage.J_t * vec_dot(half.a_dot, half.a_dot) + p.cage.J_p * half.s**2)
-    return E[..., 0]
+        motion = 0.5 * (p.cage.m * vec_dot(v, v) + p.cage.J_t * vec_dot(half.a_dot, half.a_dot) + p.cage.J_p * half.s**2)
+        terms["motion of the cage"] = terms["motion of the cage"] + motion
+    return terms
+
+
+def energy_total(model, w):
+    """Kinetic and elastic energy [J] at the state of the evaluation w."""
+    return sum(energy_terms(model, w).values())[..., 0]
+
+
+def loss_terms(model, w):
+    """Powers dissipated [W] by name, each [..., 1]."""
+    terms = {
+        "races": lanes_sum(w.race_dissipated),
+        "pockets": lanes_sum(w.pocket_dissipated),
+        "drag of the balls": lanes_sum(w.drag_dissipated),
+        "drag of the cage": w.cage_drag_dissipated,
+        "land": w.land_dissipated,
+    }
+    if model.p.scene.cage == CageModel.TWO_HALF:
+        terms["joints"] = lanes_sum(w.joint_dissipated)
+    return terms
+
+
+def power_loss(model, w):
+    """Power dissipated in contacts, films, drag and joints [W], [..., 1]."""
+    return sum(loss_terms(model, w).values())
+
+
+def supply_terms(model, w):
+    """Powers that the ring and gravity put into balls and cage [W] by name, each [..., 1]: the ring by its spin, its translation and its tilting."""
+    p, d, ring = model.p, model.d, w.ring
+    spin = -ring.s * vec_dot(ring.M, ring.a)
+    v_y, v_z = w.v_r * w.cos_theta - w.v_t * w.sin_theta, w.v_r * w.sin_theta + w.v_t * w.cos_theta
+    gravity = d.m * lanes_sum(p.gravity.y * v_y + p.gravity.z * v_z)
+    for half in w.half:
+        v = half.v + vec_cross(half.Omega, half.c)
+        gravity = gravity + p.cage.m * (p.gravity.y * v[1] + p.gravity.z * v[2])
+    return {
+        "shaft torque": spin,
+        "translation of the ring": -vec_dot(ring.F, ring.v),
+        "tilting of the ring": -vec_dot(ring.M, ring.Omega) - spin,
+        "gravity": gravity,
+    }
+
+
+def net_power(model, w):
+    """Net power into balls and cage [W], [..., 1]: by the ring's motion and gravity, less what is dissipated."""
+    return sum(supply_terms(model, w).values()) - power_loss(model, w)

@@ -16,6 +16,7 @@ from scipy.integrate import BDF, DOP853, LSODA, RK23, RK45, Radau
 from bearing_model.derived import model_derive
 from bearing_model.energy import energy_total
 from bearing_model.fatigue import FatigueChannel, FatigueLaw
+from bearing_model.ledger import Ledger
 from bearing_model.model import Model, Work
 from bearing_model.outputs import outputs
 from bearing_model.parameters import Inputs, Parameters
@@ -38,7 +39,7 @@ class Results:
     """What a simulation returns.
 
     t: communication points [s]; y: states there [points, N_STATES]; outputs: name of the variable table -> [points] or [points, Z];
-    statistics: stat.* and the damage of the rivets at the end; steps, rhs_evals: work done.
+    statistics: stat.* and the damage of the rivets at the end; ledger: where the energy went, each term [points]; steps, rhs_evals: work done.
     results[name] takes any output's name, "ball[3].Q_i" or "ball[j].Q_i".
     """
 
@@ -46,6 +47,7 @@ class Results:
     y: np.ndarray
     outputs: dict
     statistics: dict
+    ledger: Ledger
     steps: int
     rhs_evals: int
 
@@ -195,19 +197,27 @@ def simulate(parameters=None, inputs=None, t_end=1e-3, *, step=1e-4, t_start=0.0
 
     count = int(np.ceil((t_end - t_start) / step * (1.0 - 1e-12)))
     points = np.minimum(t_start + step * np.arange(count + 1), t_end)
-    states, rows = [y], [observe(model, t_start, y, energy_start) | accepted(model, record, np.array([t_start]), np.zeros(1), y[None])]
+    ledger = Ledger()
+    ledger.add(model, np.array([t_start]), y[None])
+    states, ledgers, rows = (
+        [y],
+        [ledger.copy()],
+        [observe(model, t_start, y, energy_start) | accepted(model, record, np.array([t_start]), np.zeros(1), y[None])],
+    )
     for point in points[1:]:
         u, peaks = Inputs(held(run.t)), []
         while run.t < point:
             model = Model(p, d, drive_update(p, u, run.t))
-            begin = run.t
+            begin, y_begin = run.t, run.y
             times, ys = run.segment(model, min(drive_next_edge(p, run.t), point))
             peaks.append(accepted(model, record, times, np.diff(times, prepend=begin), ys))
+            ledger.add(model, np.append(begin, times), np.vstack([y_begin, ys]))
         model = Model(p, d, drive_update(p, u, run.t))
         states.append(run.y)
+        ledgers.append(ledger.copy())
         rows.append(observe(model, run.t, run.y, energy_start) | {name: np.max([peak[name] for peak in peaks], axis=0) for name in peaks[0]})
     table_of = {name: np.array([row[name] for row in rows]) for name in rows[0]}
-    return Results(points, np.array(states), table_of, record.statistics(), run.steps, run.rhs_evals)
+    return Results(points, np.array(states), table_of, record.statistics(), Ledger.over_time(ledgers), run.steps, run.rhs_evals)
 
 
 def observe(model, t, y, energy_start):

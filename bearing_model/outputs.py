@@ -5,8 +5,7 @@ Each function returns {name: array}: [...] for one value, [..., Z] for the eleme
 
 import numpy as np
 
-from bearing_model.energy import energy_total
-from bearing_model.rhs import power_loss
+from bearing_model.energy import energy_total, power_loss
 from bearing_model.ring import ring_tilts
 from bearing_model.rivet_rom import HEAD_P1, HEAD_VM, MID_P1, MID_VM, rivet_rom_stress
 from bearing_model.rivets import rivets_load, rivets_slip

@@ -80,7 +80,7 @@ def pocket_half(model, w, h, mixed, whole):
 
     w.F = w.F + F
     w.M = w.M + M
-    w.dissipated = w.dissipated + (Q - Q_0) * delta_dot - vec_dot(F_s, slip) - vec_dot(F_c, v)
+    w.pocket_dissipated = w.pocket_dissipated + (Q - Q_0) * delta_dot - vec_dot(F_s, slip) - vec_dot(F_c, v)
     w.pocket_F[h] = vec_to_global(-F, w.cos_theta, w.sin_theta)
     w.pocket_M[h] = vec_to_global(-vec_cross(arm_p, F) - M, w.cos_theta, w.sin_theta)
     w.pocket[h] = np.array([-vec_dot(F, a), -vec_dot(F, b), -vec_dot(F, e_t)])
@@ -95,7 +95,8 @@ def pocket_force(model, w):
     pocket: force on the half in the pocket's frame (x, r, t); pocket_F, pocket_M: force and moment about the half's centre, global.
     """
     mixed, rigid = model.p.scene.lubrication == Lubrication.MIXED, model.p.scene.cage == CageModel.RIGID
-    w.delta_c, w.Q_c, w.pocket, w.pocket_F, w.pocket_M, w.pocket_energy = {}, {}, {}, {}, {}, 0.0  # by half
+    w.delta_c, w.Q_c, w.pocket, w.pocket_F, w.pocket_M = {}, {}, {}, {}, {}  # by half
+    w.pocket_energy, w.pocket_dissipated = 0.0, 0.0
     if rigid:
         pocket_half(model, w, 0, mixed, True)
         w.half[1].F, w.half[1].M = 0.0 * w.half[0].F, 0.0 * w.half[0].M

@@ -118,7 +118,7 @@ def race_contact_force(model, w):
     # sums on the balls, the wrench on the ring
     w.F = F_i + F_e
     w.M = T_i.M + T_e.M
-    w.dissipated = T_i.dissipated + T_e.dissipated + (inner.Q - inner.Q_0) * inner.delta_dot + (outer.Q - outer.Q_0) * outer.delta_dot
+    w.race_dissipated = T_i.dissipated + T_e.dissipated + (inner.Q - inner.Q_0) * inner.delta_dot + (outer.Q - outer.Q_0) * outer.delta_dot
     w.ring.F = lanes_sum(vec_to_global(-F_i, w.cos_theta, w.sin_theta))
     w.ring.M = lanes_sum(vec_to_global(-vec_cross(p_i, F_i) - T_i.M, w.cos_theta, w.sin_theta))
 

@@ -5,8 +5,8 @@ import numpy as np
 from bearing_model.ball import ball_acceleration, ball_kinematics
 from bearing_model.cage_joint import cage_joint_force, cage_joint_kinematics
 from bearing_model.drag import drag_cage, drag_force
+from bearing_model.energy import net_power
 from bearing_model.land_film import land_film_force
-from bearing_model.lanes import lanes_sum
 from bearing_model.model import Work
 from bearing_model.pocket import pocket_force
 from bearing_model.race_contact import race_contact_force
@@ -43,7 +43,7 @@ from bearing_model.variables import (
     WORK,
     CageModel,
 )
-from bearing_model.vec import vec_cross, vec_dot
+from bearing_model.vec import vec_cross
 
 CAGE_PLACE = ((CAGE_X, CAGE_V_X), (CAGE_Y, CAGE_V_Y), (CAGE_Z, CAGE_V_Z))
 
@@ -105,24 +105,6 @@ def cage_acceleration(model, y, w, y_dot):
         c = d.com_x[h] * cage.a
         acc = F / (2.0 * p.cage.m) + gravity + vec_cross(spin_up, c) + vec_cross(cage.Omega, vec_cross(cage.Omega, c))
         half_rates(y, cage, h, acc, a_ddot, s_dot, y_dot)
-
-
-def power_loss(model, w):
-    """Power dissipated in contacts, films, drag and joints [W]."""
-    power = lanes_sum(w.dissipated) + w.land_dissipated
-    return power + lanes_sum(w.joint_dissipated) if model.p.scene.cage == CageModel.TWO_HALF else power
-
-
-def net_power(model, w):
-    """Net power into balls and cage [W]: by the ring's motion and gravity, less what is dissipated."""
-    p, d = model.p, model.d
-    power = -vec_dot(w.ring.F, w.ring.v) - vec_dot(w.ring.M, w.ring.Omega) - power_loss(model, w)
-    v_y, v_z = w.v_r * w.cos_theta - w.v_t * w.sin_theta, w.v_r * w.sin_theta + w.v_t * w.cos_theta
-    power = power + d.m * lanes_sum(p.gravity.y * v_y + p.gravity.z * v_z)
-    for half in w.half:
-        v = half.v + vec_cross(half.Omega, half.c)
-        power = power + p.cage.m * (p.gravity.y * v[1] + p.gravity.z * v[2])
-    return power
 
 
 def rhs(model, t, y, w=None):

@@ -7,10 +7,10 @@ import pytest
 from mechanics import SLICE, Instance, Z
 
 from bearing_model import variables
-from bearing_model.energy import energy_total
+from bearing_model.energy import energy_total, power_loss
 from bearing_model.integrator import observe, simulate
 from bearing_model.model import Model, Work
-from bearing_model.rhs import jacobian, power_loss, rhs
+from bearing_model.rhs import jacobian, rhs
 from bearing_model.start import start_state
 from bearing_model.statistics import StatisticsChannel
 
@@ -412,7 +412,48 @@ def test_power_is_rate_of_energy(record_property):
     assert worst < 1e-12  # observed 7e-15
 
 
+def test_ledger(record_property):
+    """Supplied = change of energy + lost, term by term: everything moves, loads jump at communication points, a pulse hits between them.
+
+    Quadrature of the powers over steps of 5 us: (h omega)^4/720 = 1 % of their fluctuation at 2.5e5 rad/s, whose mean is nothing.
+    """
+    parameters = UNBALANCE | SUPPORTED | PULSE | {"cage.pocket_clearance": 5e-5, "pulse.duration": 5e-4}
+    results = simulate(parameters, lambda t: LOADS if t < 3e-4 else LOADS | {"shaft.omega": 1500.0}, 1e-3, tolerance=1e-4, method="RK45")
+    ledger = results.ledger
+    terms = ledger.supplied | ledger.stored | {f"lost: {name}": value for name, value in ledger.lost.items()}
+    turned_over = sum(abs(value[-1]) for value in ledger.supplied.values())
+    record_property("J", plain({name: value[-1] for name, value in terms.items()} | {"residual": ledger.residual[-1]}))
+    assert len(terms) == 4 + 6 + 6
+    assert np.max(np.abs(ledger.residual)) < 1e-3 * turned_over  # observed 1.2e-5
+    for name, value in terms.items():
+        assert value.shape == results.t.shape and value[0] == 0.0
+        assert np.max(np.abs(value)) > 1e-9 or name == "land, elastic", name  # the cage does not reach the wall in a millisecond
+    for name, value in ledger.lost.items():
+        assert np.all(np.diff(value) >= 0.0), name
+    energy = sum(value[-1] for value in ledger.stored.values())
+    assert energy == pytest.approx(results.y[-1, variables.WORK][0], abs=1e-4 * turned_over)  # the integrated net power: another quadrature
+
+
 # -------------------------------------------------------------------------------------------------------------------- statistics
+
+
+LONG, SETTLED = 0.1, {"start.settle": 0.02, "scene.statistics": 2}
+
+
+@functools.cache
+def long_run():
+    """0.1 s of the working point in the reference, counted from 20 ms on."""
+    return simulate(SETTLED, t_end=LONG, step=1e-3, tolerance=1e-4, method="RK45")
+
+
+@pytest.mark.slow
+def test_ledger_over_the_long_run(record_property):
+    """0.1 s at the working point: supplied = change of energy + lost to 0.1 % of the shaft's work, at every communication point after the first 10 ms."""
+    ledger = long_run().ledger
+    record_property("J", plain({name: value[-1] for name, value in (ledger.supplied | ledger.stored | ledger.lost).items()}))
+    error = np.abs(ledger.residual) / np.maximum(np.abs(ledger.supplied["shaft torque"]), 1.0)
+    print(f"ledger residual: {error[10:].max():.1e} of the work of the shaft")
+    assert error[10:].max() < 1e-3
 
 
 STATISTICS = ("stat.Q_c_mean", "stat.Q_c_rms", "stat.contact_duty", "stat.cage_omega", "stat.sigma_head_mean", "stat.sigma_head_rms", "stat.sigma_mid_rms")
@@ -425,9 +466,8 @@ def test_statistics(core, record_property):
     Both count the ends of their steps, a few in each pocket pulse: that moves the core's mean force by 1 % from 1e-3 to 1e-6, so both run at 1e-4 with
     methods of like step sizes.
     """
-    changes, t_end = {"start.settle": 0.02, "scene.statistics": 2}, 0.1
-    results = simulate(changes, t_end=t_end, step=1e-3, tolerance=1e-4, method="RK45")
-    runs = [Instance(core, changes | {"start.seed": seed}, tolerance=1e-4).step(t_end) for seed in range(1, 17)]
+    results = long_run()
+    runs = [Instance(core, SETTLED | {"start.seed": seed}, tolerance=1e-4).step(LONG) for seed in range(1, 17)]
     for name in STATISTICS:
         sample = np.array([run.output(name) for run in runs])
         deviation = (results[name] - sample.mean()) / sample.std(ddof=1)
