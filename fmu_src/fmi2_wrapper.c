@@ -1,7 +1,8 @@
 // The bearing as an FMI 2.0 co-simulation slave: call order, value references, host time, logging, saved states.  No physics.
 //
 // Every function that returns fmi2Error has changed nothing but the phase: the instance then stands in ERRONEOUS until fmi2Reset or
-// fmi2SetFMUstate (FMI 2.0.4, section 2.1.3), and its outputs read NaN, so that a host which ignores the status shows no plausible result.
+// fmi2SetFMUstate (FMI 2.0.4, section 2.1.3), and its outputs read NaN with fmi2Warning, so that a host which ignores the status shows no
+// plausible result.
 // fmi2Discard comes with fmi2Terminated and fmi2LastSuccessfulTime; the outputs then are those of the last good state.
 #include "bearing.h"
 
@@ -387,7 +388,7 @@ static fmi2Status output_value(Instance *m, const Variable *v, int element, doub
     fmi2Status status = fmi2OK;
     *value = NAN;
     if (m->session.phase == INITIALIZING) status = instance_initialize(m);
-    if (m->session.phase == ERRONEOUS) return status;
+    if (m->session.phase == ERRONEOUS) return status > fmi2OK ? status : fmi2Warning;
     bearing_update(m->bearing, v->group);
     *value = ((const double *)((const char *)bearing_outputs(m->bearing) + v->offset))[element];
     return status;
