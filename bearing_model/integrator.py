@@ -224,7 +224,7 @@ def observe(model, t, y, energy_start):
     """Outputs at one state by name."""
     w = Work()
     y_dot = rhs(model, t, y, w)
-    return outputs(model, w, y_dot, y[WORK][0], energy_start)
+    return outputs(model, w, y, y_dot, energy_start)
 
 
 def accepted(model, record, t, h, y):

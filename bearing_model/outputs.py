@@ -10,7 +10,7 @@ from bearing_model.ring import ring_tilts
 from bearing_model.rivet_rom import HEAD_P1, HEAD_VM, MID_P1, MID_VM, rivet_rom_stress
 from bearing_model.rivets import rivets_load, rivets_slip
 from bearing_model.traction import Q_FLOOR
-from bearing_model.variables import RING_V_X, RING_V_Y, RING_V_Z, CageModel, Stress, Z
+from bearing_model.variables import BALL_THETA, CAGE_PSI, RING_V_X, RING_V_Y, RING_V_Z, WORK, CageModel, Stress, Z
 from bearing_model.vec import vec, vec_cross, vec_dot, vec_local, vec_to_global
 
 
@@ -75,6 +75,15 @@ def ball_outputs(model, w):
     }
 
 
+def pose_outputs(w, y):
+    values = {"ball[j].x": w.x, "ball[j].r": w.r, "ball[j].psi": y[..., BALL_THETA]}
+    for h, half in enumerate(w.half):
+        tilt_y, tilt_z = ring_tilts(-half.a[2], half.a[1])
+        place = dict(zip(("x", "y", "z", "tilt_y", "tilt_z"), (*half.x, tilt_y, tilt_z), strict=True))
+        values |= {f"half_{h}.{name}": value[..., 0] for name, value in place.items()} | {f"half_{h}.psi": y[..., CAGE_PSI][..., h]}
+    return values
+
+
 def cage_outputs(model, w):
     h0, h1 = w.half
     epicyclic = 0.5 * model.drive.omega * (1.0 - model.p.bearing.D / model.p.bearing.d_m)
@@ -122,8 +131,9 @@ def energy_outputs(model, w, work, energy_start):
     return {"bearing.power_loss": power_loss(model, w)[..., 0], "bearing.energy_residual": residual}
 
 
-def outputs(model, w, y_dot, work, energy_start):
-    """All outputs but peaks, statistics, fatigue and the solver's.  work: the state of that name [J]; energy_start: energy_total at the start."""
+def outputs(model, w, y, y_dot, energy_start):
+    """All outputs but peaks, statistics, fatigue and the solver's, at the states y.  energy_start: energy_total at the start [J]."""
+    work = y[..., WORK][..., 0]
     values = {"bearing.Z": np.full(np.shape(work), float(Z))}
-    values |= ring_outputs(model, w, y_dot) | ball_outputs(model, w) | cage_outputs(model, w)
+    values |= ring_outputs(model, w, y_dot) | pose_outputs(w, y) | ball_outputs(model, w) | cage_outputs(model, w)
     return values | rivet_outputs(model, w) | stress_outputs(model, w) | energy_outputs(model, w, work, energy_start)

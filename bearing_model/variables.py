@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from enum import IntEnum
 
 MODEL_IDENTIFIER = "RivetedBearing"
-MODEL_GUID = "{8af353ce-53e8-2d80-86f6-d235de5ff574}"
+MODEL_GUID = "{6bf1f0e4-de72-5295-15b1-eae54e8ae684}"
 Z = 9
 
 
@@ -223,6 +223,21 @@ OUTPUTS = {
         Variable("ball[j].Lambda_i", 2520, "Real", "1", None, None, None, None, Z, "ball", "Film thickness / roughness at the inner race (0 without contact)", None),
         Variable("ball[j].Lambda_e", 2560, "Real", "1", None, None, None, None, Z, "ball", "Film thickness / roughness at the outer race (0 without contact)", None),
         Variable("ball[j].spin_roll", 2600, "Real", "1", None, None, None, None, Z, "ball", "Spin-to-roll ratio at the inner race", None),
+        Variable("ball[j].x", 2800, "Real", "m", "um", None, None, None, Z, "pose", "Axial position of the ball's centre", None),
+        Variable("ball[j].r", 2840, "Real", "m", "mm", None, None, None, Z, "pose", "Distance of the ball's centre from the axis", None),
+        Variable("ball[j].psi", 2880, "Real", "rad", "deg", None, None, None, Z, "pose", "Azimuth of the ball from Y toward Z, unbounded", None),
+        Variable("half_0.x", 2721, "Real", "m", "um", None, None, None, 1, "pose", "Displacement of the cage half on the -X side along X", None),
+        Variable("half_0.y", 2722, "Real", "m", "um", None, None, None, 1, "pose", "Displacement of the cage half on the -X side along Y", None),
+        Variable("half_0.z", 2723, "Real", "m", "um", None, None, None, 1, "pose", "Displacement of the cage half on the -X side along Z", None),
+        Variable("half_0.tilt_y", 2724, "Real", "rad", "deg", None, None, None, 1, "pose", "Tilt of the cage half on the -X side about Y", None),
+        Variable("half_0.tilt_z", 2725, "Real", "rad", "deg", None, None, None, 1, "pose", "Tilt of the cage half on the -X side about Z", None),
+        Variable("half_0.psi", 2726, "Real", "rad", "deg", None, None, None, 1, "pose", "Rotation of the cage half on the -X side about its axis, unbounded: 0 has a pocket on Y", None),
+        Variable("half_1.x", 2741, "Real", "m", "um", None, None, None, 1, "pose", "Displacement of the cage half on the +X side along X", None),
+        Variable("half_1.y", 2742, "Real", "m", "um", None, None, None, 1, "pose", "Displacement of the cage half on the +X side along Y", None),
+        Variable("half_1.z", 2743, "Real", "m", "um", None, None, None, 1, "pose", "Displacement of the cage half on the +X side along Z", None),
+        Variable("half_1.tilt_y", 2744, "Real", "rad", "deg", None, None, None, 1, "pose", "Tilt of the cage half on the +X side about Y", None),
+        Variable("half_1.tilt_z", 2745, "Real", "rad", "deg", None, None, None, 1, "pose", "Tilt of the cage half on the +X side about Z", None),
+        Variable("half_1.psi", 2746, "Real", "rad", "deg", None, None, None, 1, "pose", "Rotation of the cage half on the +X side about its axis, unbounded: 0 has a pocket on Y", None),
         Variable("cage.dislocation", 2701, "Real", "m", "um", None, None, None, 1, "rivet", "Largest slip of one cage half against the other over the joints, in the plane", None),
         Variable("cage.omega", 2702, "Real", "rad/s", "rev/min", None, None, None, 1, "cage", "Speed of the cage (mean of the halves)", None),
         Variable("cage.slip_ratio", 2703, "Real", "1", None, None, None, None, 1, "cage", "1 - cage speed / epicyclic speed (0 at standstill)", None),

@@ -90,6 +90,22 @@ static void fill_ball(Bearing *b)
     b->out.cage.F_pocket_max = force_most;
 }
 
+static void fill_pose(Bearing *b)
+{
+    const Work *w = &b->w;
+    const double *y = b->s.integrator.y;
+    for (int j = 0; j < Z; j++) {
+        b->out.ball.x[j] = w->x[j];
+        b->out.ball.r[j] = w->r[j];
+        b->out.ball.psi[j] = y[Y_BALL_THETA + j];
+    }
+    const Rotor *h0 = &w->half[0], *h1 = &w->half[1];
+    b->out.half_0.x = h0->x[0], b->out.half_0.y = h0->x[1], b->out.half_0.z = h0->x[2], b->out.half_0.psi = y[Y_CAGE_PSI];
+    b->out.half_1.x = h1->x[0], b->out.half_1.y = h1->x[1], b->out.half_1.z = h1->x[2], b->out.half_1.psi = y[Y_CAGE_PSI + 1];
+    ring_tilts(-h0->a[2], h0->a[1], &b->out.half_0.tilt_y, &b->out.half_0.tilt_z);
+    ring_tilts(-h1->a[2], h1->a[1], &b->out.half_1.tilt_y, &b->out.half_1.tilt_z);
+}
+
 static void fill_cage(Bearing *b)
 {
     const Rotor *h0 = &b->w.half[0], *h1 = &b->w.half[1];
@@ -219,9 +235,9 @@ static void fill_constant(Bearing *b)
 
 void outputs_fill(Bearing *b, OutputGroup group)
 {
-    static void (*const fill[GROUP_COUNT])(Bearing *) = {[GROUP_CONSTANT] = fill_constant, [GROUP_STATE] = fill_state, [GROUP_RING] = fill_ring,
-                                                         [GROUP_BALL] = fill_ball,         [GROUP_CAGE] = fill_cage,   [GROUP_RIVET] = fill_rivet,
-                                                         [GROUP_STRESS] = fill_stress,     [GROUP_PEAK] = fill_peak,   [GROUP_FATIGUE] = fill_fatigue,
-                                                         [GROUP_ENERGY] = fill_energy,     [GROUP_STAT] = fill_stat,   [GROUP_SOLVER] = fill_solver};
+    static void (*const fill[GROUP_COUNT])(Bearing *) = {
+        [GROUP_CONSTANT] = fill_constant, [GROUP_STATE] = fill_state, [GROUP_RING] = fill_ring,     [GROUP_POSE] = fill_pose, [GROUP_BALL] = fill_ball,
+        [GROUP_CAGE] = fill_cage,         [GROUP_RIVET] = fill_rivet, [GROUP_STRESS] = fill_stress, [GROUP_PEAK] = fill_peak, [GROUP_FATIGUE] = fill_fatigue,
+        [GROUP_ENERGY] = fill_energy,     [GROUP_STAT] = fill_stat,   [GROUP_SOLVER] = fill_solver};
     fill[group](b);
 }

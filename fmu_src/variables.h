@@ -6,7 +6,7 @@
 #include <stddef.h>
 
 #define MODEL_IDENTIFIER "RivetedBearing"
-#define MODEL_GUID "{8af353ce-53e8-2d80-86f6-d235de5ff574}"  // digest of the table
+#define MODEL_GUID "{6bf1f0e4-de72-5295-15b1-eae54e8ae684}"  // digest of the table
 
 enum { Z = 9 };  // number of balls
 
@@ -229,7 +229,26 @@ typedef struct {
         double Lambda_i[Z];  // [1] Film thickness / roughness at the inner race (0 without contact)
         double Lambda_e[Z];  // [1] Film thickness / roughness at the outer race (0 without contact)
         double spin_roll[Z];  // [1] Spin-to-roll ratio at the inner race
+        double x[Z];  // [m] Axial position of the ball's centre
+        double r[Z];  // [m] Distance of the ball's centre from the axis
+        double psi[Z];  // [rad] Azimuth of the ball from Y toward Z, unbounded
     } ball;
+    struct {
+        double x;  // [m] Displacement of the cage half on the -X side along X
+        double y;  // [m] Displacement of the cage half on the -X side along Y
+        double z;  // [m] Displacement of the cage half on the -X side along Z
+        double tilt_y;  // [rad] Tilt of the cage half on the -X side about Y
+        double tilt_z;  // [rad] Tilt of the cage half on the -X side about Z
+        double psi;  // [rad] Rotation of the cage half on the -X side about its axis, unbounded: 0 has a pocket on Y
+    } half_0;
+    struct {
+        double x;  // [m] Displacement of the cage half on the +X side along X
+        double y;  // [m] Displacement of the cage half on the +X side along Y
+        double z;  // [m] Displacement of the cage half on the +X side along Z
+        double tilt_y;  // [rad] Tilt of the cage half on the +X side about Y
+        double tilt_z;  // [rad] Tilt of the cage half on the +X side about Z
+        double psi;  // [rad] Rotation of the cage half on the +X side about its axis, unbounded: 0 has a pocket on Y
+    } half_1;
     struct {
         double dislocation;  // [m] Largest slip of one cage half against the other over the joints, in the plane
         double omega;  // [rad/s] Speed of the cage (mean of the halves)
@@ -302,6 +321,7 @@ typedef enum {
     GROUP_CONSTANT,  // fixed when the FMU is built
     GROUP_STATE,  // states themselves
     GROUP_RING,  // forces and motion of the inner ring, housing reaction
+    GROUP_POSE,  // where the balls and the cage halves are
     GROUP_BALL,  // contacts of the balls
     GROUP_CAGE,  // motion of the cage
     GROUP_RIVET,  // loads and slips of the joints
@@ -391,7 +411,7 @@ typedef struct {
     double start, min, max;
 } Variable;
 
-enum { N_VARIABLES = 190 };  // time is the first
+enum { N_VARIABLES = 205 };  // time is the first
 
 extern const Variable VARIABLES[N_VARIABLES];  // by rising value reference
 
