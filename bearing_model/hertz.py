@@ -78,3 +78,8 @@ def hertz_damped(Q, lambda_, delta_dot):
 def hertz_energy(K, delta):
     """Elastic energy (2/5) K delta^2.5 [J]."""
     return 0.4 * hertz_load(K, delta) * maximum(delta, 0.0)
+
+
+def hertz_pressure(hertz, Q):
+    """Largest pressure p_max = 3 Q/(2 pi a b) [Pa] of a contact."""
+    return 1.5 * np.cbrt(Q) / (np.pi * hertz.a * hertz.b)

@@ -6,6 +6,8 @@ Each function returns {name: array}: [...] for one value, [..., Z] for the eleme
 import numpy as np
 
 from bearing_model.energy import energy_total, power_loss
+from bearing_model.events import event_outputs
+from bearing_model.hertz import hertz_pressure
 from bearing_model.ring import ring_tilts
 from bearing_model.rivet_rom import HEAD_P1, HEAD_VM, MID_P1, MID_VM, rivet_rom_stress
 from bearing_model.rivets import rivets_load, rivets_slip
@@ -36,11 +38,6 @@ def ring_outputs(model, w, y_dot):
     return {name: value[..., 0] for name, value in values.items()}
 
 
-def pressure(hertz, Q):
-    """p_max = 3 Q/(2 pi a b) [Pa]."""
-    return 1.5 * np.cbrt(Q) / (np.pi * hertz.a * hertz.b)
-
-
 def film_ratio(race, U, Q):
     """Lambda at the present speed and load, 0 without contact."""
     return np.where(Q > 0.0, np.exp(race.ln_Lambda + 0.67 * np.log(U) - 0.067 * np.log(Q + Q_FLOOR)), 0.0)
@@ -64,8 +61,8 @@ def ball_outputs(model, w):
         "ball[j].omega_m": w.omega_m,
         "ball[j].alpha_i": np.where(w.Q_i > 0.0, np.arctan2(-w.n_i[0], -w.n_i[1]), 0.0),
         "ball[j].alpha_e": np.where(w.Q_e > 0.0, np.arctan2(w.n_e[0], w.n_e[1]), 0.0),
-        "ball[j].p_i": pressure(d.inner.hertz, w.Q_i),
-        "ball[j].p_e": pressure(d.outer.hertz, w.Q_e),
+        "ball[j].p_i": hertz_pressure(d.inner.hertz, w.Q_i),
+        "ball[j].p_e": hertz_pressure(d.outer.hertz, w.Q_e),
         "ball[j].Lambda_i": film_ratio(d.inner, w.U_i, w.Q_i),
         "ball[j].Lambda_e": film_ratio(d.outer, w.U_e, w.Q_e),
         "ball[j].spin_roll": spin_roll(w),
@@ -132,8 +129,8 @@ def energy_outputs(model, w, work, energy_start):
 
 
 def outputs(model, w, y, y_dot, energy_start):
-    """All outputs but peaks, statistics, fatigue and the solver's, at the states y.  energy_start: energy_total at the start [J]."""
+    """All outputs but peaks, statistics, fatigue, onsets and the solver's, at the states y.  energy_start: energy_total at the start [J]."""
     work = y[..., WORK][..., 0]
     values = {"bearing.Z": np.full(np.shape(work), float(Z))}
     values |= ring_outputs(model, w, y_dot) | pose_outputs(w, y) | ball_outputs(model, w) | cage_outputs(model, w)
-    return values | rivet_outputs(model, w) | stress_outputs(model, w) | energy_outputs(model, w, work, energy_start)
+    return values | rivet_outputs(model, w) | stress_outputs(model, w) | energy_outputs(model, w, work, energy_start) | event_outputs(model, w)

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from enum import IntEnum
 
 MODEL_IDENTIFIER = "RivetedBearing"
-MODEL_GUID = "{6bf1f0e4-de72-5295-15b1-eae54e8ae684}"
+MODEL_GUID = "{87e16a57-02bb-60f3-b287-20e3d2fcf530}"
 Z = 9
 
 
@@ -93,6 +93,9 @@ PARAMETERS = {
         Variable("bearing.nu", 1007, "Real", "1", None, 0.3, 0.0, 0.49, 1, None, "Poisson's ratio of balls and rings", "bearing steel, Harris"),
         Variable("bearing.rho", 1008, "Real", "kg/m3", None, 7800.0, 1000.0, 20000.0, 1, None, "Density of the balls", "bearing steel, Harris"),
         Variable("bearing.lambda", 1009, "Real", "s/m", None, 0.05, 0.0, 10.0, 1, None, "Hunt-Crossley damping of the race contacts: Q = K delta^1.5 (1 + lambda delta_dot)", "assumed: 0.01...0.2 do not change force statistics, 0 rings"),
+        Variable("bearing.h_i", 1010, "Real", "1", None, 0.2, 0.01, 0.5, 1, None, "Height of the inner ring's shoulder above the groove's bottom / ball diameter: reported when the contact ellipse reaches over it", "assumed (usual 0.17...0.25)"),
+        Variable("bearing.h_e", 1011, "Real", "1", None, 0.2, 0.01, 0.5, 1, None, "Height of the outer ring's shoulder above the groove's bottom / ball diameter: reported when the contact ellipse reaches over it", "assumed (usual 0.17...0.25)"),
+        Variable("bearing.p_limit", 1012, "Real", "Pa", "MPa", 4200000000.0, 1000000.0, 1000000000000.0, 1, None, "Contact pressure of the races beyond which a warning is given", "ISO 76: permanent deformation of 1e-4 D"),
         Variable("ball[j].dD", 1020, "Real", "m", "um", 0.0, -0.001, 5e-05, Z, None, "Excess of the ball's diameter over bearing.D", "perfect set of balls"),
         Variable("cage.pocket_clearance", 1101, "Real", "m", "mm", 0.0002, 0.0, 0.005, 1, None, "Pocket diameter - ball diameter", "assumed (0.1...0.4 mm usual)"),
         Variable("cage.guide_clearance", 1102, "Real", "m", "mm", 0.0002, 2e-06, 0.005, 1, None, "Outer ring land diameter - cage outer diameter", "assumed (0.1...0.4 mm usual)"),
@@ -300,6 +303,18 @@ OUTPUTS = {
         Variable("solver.cpu_time", 6005, "Real", "s", None, None, None, None, 1, "solver", "Processor time of this instance inside fmi2DoStep (not part of the saved state)", None),
         Variable("solver.tolerance", 6006, "Real", "1", None, None, None, None, 1, "solver", "Tolerance in force", None),
         Variable("solver.path", 6007, "Real", "1", None, None, None, None, 1, "solver", "Integration path in use: 1 explicit, 2 IMEX", None),
+        Variable("event.land_contact", 7001, "Real", "1", None, None, None, None, 1, "event", "Cage halves whose land touches the outer ring", None),
+        Variable("event.pocket_exit", 7002, "Real", "1", None, None, None, None, 1, "event", "Balls whose centre has left the section of the cage: a real pocket ends there", None),
+        Variable("event.ellipse_cut", 7003, "Real", "1", None, None, None, None, 1, "event", "Race contacts whose ellipse reaches over the shoulder", None),
+        Variable("event.overpressure", 7004, "Real", "1", None, None, None, None, 1, "event", "Race contacts beyond bearing.p_limit", None),
+        Variable("event.joint_open", 7005, "Real", "1", None, None, None, None, 1, "event", "Joints whose plates are apart", None),
+        Variable("event.rivet_yield", 7006, "Real", "1", None, None, None, None, 1, "event", "Rivets whose sigma_head_peak or sigma_mid_peak exceeds the yield stress", None),
+        Variable("event.land_contact_onsets", 7011, "Real", "1", None, None, None, None, 1, "event", "Onsets of land contact since the start", None),
+        Variable("event.pocket_exit_onsets", 7012, "Real", "1", None, None, None, None, 1, "event", "Onsets of a ball leaving its pocket since the start", None),
+        Variable("event.ellipse_cut_onsets", 7013, "Real", "1", None, None, None, None, 1, "event", "Onsets of a contact ellipse cut by the shoulder since the start", None),
+        Variable("event.overpressure_onsets", 7014, "Real", "1", None, None, None, None, 1, "event", "Onsets of a contact beyond bearing.p_limit since the start", None),
+        Variable("event.joint_open_onsets", 7015, "Real", "1", None, None, None, None, 1, "event", "Onsets of an open joint since the start", None),
+        Variable("event.rivet_yield_onsets", 7016, "Real", "1", None, None, None, None, 1, "event", "Onsets of yield of a rivet since the start", None),
     )
 }
 

@@ -78,6 +78,21 @@ static void solver_message(void *context, const char *message)
     bearing_log(context, LOG_SOLVER, "%s", message);
 }
 
+// Onsets at the state just reached, which w belongs to.
+static void report_events(Bearing *b)
+{
+    Saved *s = &b->s;
+    Event now[EVENT_COUNT];
+    events_now(&b->model, &b->w, s->head_peak, s->mid_peak, now);
+    for (EventKind kind = 0; kind < EVENT_COUNT; kind++) {
+        if (!event_onset(&s->event, kind, &now[kind])) continue;
+        char text[256];
+        event_text(kind, &now[kind], text, sizeof text);
+        const bool warning = kind == EVENT_OVERPRESSURE && s->event.onsets[kind] == 1.0;
+        bearing_log(b, warning ? LOG_WARNING : LOG_EVENT, "t = %.9g s: %s (onset %.0f)", s->integrator.t, text, s->event.onsets[kind]);
+    }
+}
+
 // ---- life cycle ---------------------------------------------------------------------------------------------------------------------------------
 Bearing *bearing_create(const BearingHost *host)
 {
@@ -175,6 +190,7 @@ BearingStatus bearing_initialize(Bearing *b, double t_start, double tolerance)
     integrator_evaluate(b->integrator);
     s->energy_start = energy_total(&b->model, s->integrator.y, &b->w);
     accepted_step(b, 0.0, &b->w);
+    report_events(b);
     b->evaluated = true;
     s->initialized = 1;
     return status;
@@ -232,7 +248,10 @@ BearingStatus bearing_step(Bearing *b, double t_end)
         status = integrator_advance(b->integrator, fmin(edge, t_end), left);
     }
     b->cpu_time += (double)(clock() - before) / CLOCKS_PER_SEC;
-    if (status == 0) return BEARING_OK;
+    if (status == 0) {
+        report_events(b);
+        return BEARING_OK;
+    }
     const double steps = s->integrator.steps - steps_before;
     if (steps >= s->p.solver.max_steps)
         bearing_log(b, LOG_ERROR, "t = %.9g s: the work limit is reached, solver.max_steps = %d steps since %.9g s; step size %g s", s->integrator.t,

@@ -1,6 +1,7 @@
 // One instance of the model: what is saved, and what can be computed from it.  Inside the core only.
 #pragma once
 
+#include "events.h"
 #include "fatigue.h"
 #include "integrator.h"
 #include "statistics.h"
@@ -26,6 +27,7 @@ typedef struct {
     double dislocation_most, duty_time, omega_time, eccentricity_time;  // integrals over time since settle
     StatisticsChannel force, head[STRESS_CHANNELS], mid[STRESS_CHANNELS];
     FatigueChannel fatigue_head[Z], fatigue_mid[Z];
+    EventState event;
     int initialized;
 } Saved;
 

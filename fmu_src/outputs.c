@@ -228,6 +228,25 @@ static void fill_solver(Bearing *b)
     b->out.solver.path = i->path;
 }
 
+static void fill_event(Bearing *b)
+{
+    Event now[EVENT_COUNT];
+    const double *onsets = b->s.event.onsets;
+    events_now(&b->model, &b->w, b->s.head_peak, b->s.mid_peak, now);
+    b->out.event.land_contact = now[EVENT_LAND_CONTACT].count;
+    b->out.event.pocket_exit = now[EVENT_POCKET_EXIT].count;
+    b->out.event.ellipse_cut = now[EVENT_ELLIPSE_CUT].count;
+    b->out.event.overpressure = now[EVENT_OVERPRESSURE].count;
+    b->out.event.joint_open = now[EVENT_JOINT_OPEN].count;
+    b->out.event.rivet_yield = now[EVENT_RIVET_YIELD].count;
+    b->out.event.land_contact_onsets = onsets[EVENT_LAND_CONTACT];
+    b->out.event.pocket_exit_onsets = onsets[EVENT_POCKET_EXIT];
+    b->out.event.ellipse_cut_onsets = onsets[EVENT_ELLIPSE_CUT];
+    b->out.event.overpressure_onsets = onsets[EVENT_OVERPRESSURE];
+    b->out.event.joint_open_onsets = onsets[EVENT_JOINT_OPEN];
+    b->out.event.rivet_yield_onsets = onsets[EVENT_RIVET_YIELD];
+}
+
 static void fill_constant(Bearing *b)
 {
     b->out.bearing.Z = Z;
@@ -236,8 +255,8 @@ static void fill_constant(Bearing *b)
 void outputs_fill(Bearing *b, OutputGroup group)
 {
     static void (*const fill[GROUP_COUNT])(Bearing *) = {
-        [GROUP_CONSTANT] = fill_constant, [GROUP_STATE] = fill_state, [GROUP_RING] = fill_ring,     [GROUP_POSE] = fill_pose, [GROUP_BALL] = fill_ball,
-        [GROUP_CAGE] = fill_cage,         [GROUP_RIVET] = fill_rivet, [GROUP_STRESS] = fill_stress, [GROUP_PEAK] = fill_peak, [GROUP_FATIGUE] = fill_fatigue,
-        [GROUP_ENERGY] = fill_energy,     [GROUP_STAT] = fill_stat,   [GROUP_SOLVER] = fill_solver};
+        [GROUP_CONSTANT] = fill_constant, [GROUP_STATE] = fill_state, [GROUP_RING] = fill_ring,     [GROUP_POSE] = fill_pose,  [GROUP_BALL] = fill_ball,
+        [GROUP_CAGE] = fill_cage,         [GROUP_RIVET] = fill_rivet, [GROUP_STRESS] = fill_stress, [GROUP_PEAK] = fill_peak,  [GROUP_FATIGUE] = fill_fatigue,
+        [GROUP_ENERGY] = fill_energy,     [GROUP_STAT] = fill_stat,   [GROUP_SOLVER] = fill_solver, [GROUP_EVENT] = fill_event};
     fill[group](b);
 }

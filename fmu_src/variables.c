@@ -67,6 +67,9 @@ const Variable VARIABLES[N_VARIABLES] = {
     {"bearing.nu", "1", 1007, 1, TYPE_REAL, CAUSALITY_PARAMETER, GROUP_COUNT, offsetof(Parameters, bearing.nu), 0.3, 0.0, 0.49},
     {"bearing.rho", "kg/m3", 1008, 1, TYPE_REAL, CAUSALITY_PARAMETER, GROUP_COUNT, offsetof(Parameters, bearing.rho), 7800.0, 1000.0, 20000.0},
     {"bearing.lambda", "s/m", 1009, 1, TYPE_REAL, CAUSALITY_PARAMETER, GROUP_COUNT, offsetof(Parameters, bearing.lambda), 0.05, 0.0, 10.0},
+    {"bearing.h_i", "1", 1010, 1, TYPE_REAL, CAUSALITY_PARAMETER, GROUP_COUNT, offsetof(Parameters, bearing.h_i), 0.2, 0.01, 0.5},
+    {"bearing.h_e", "1", 1011, 1, TYPE_REAL, CAUSALITY_PARAMETER, GROUP_COUNT, offsetof(Parameters, bearing.h_e), 0.2, 0.01, 0.5},
+    {"bearing.p_limit", "Pa", 1012, 1, TYPE_REAL, CAUSALITY_PARAMETER, GROUP_COUNT, offsetof(Parameters, bearing.p_limit), 4200000000.0, 1000000.0, 1000000000000.0},
     {"ball[j].dD", "m", 1020, Z, TYPE_REAL, CAUSALITY_PARAMETER, GROUP_COUNT, offsetof(Parameters, ball.dD), 0.0, -0.001, 5e-05},
     {"cage.pocket_clearance", "m", 1101, 1, TYPE_REAL, CAUSALITY_PARAMETER, GROUP_COUNT, offsetof(Parameters, cage.pocket_clearance), 0.0002, 0.0, 0.005},
     {"cage.guide_clearance", "m", 1102, 1, TYPE_REAL, CAUSALITY_PARAMETER, GROUP_COUNT, offsetof(Parameters, cage.guide_clearance), 0.0002, 2e-06, 0.005},
@@ -252,6 +255,18 @@ const Variable VARIABLES[N_VARIABLES] = {
     {"solver.cpu_time", "s", 6005, 1, TYPE_REAL, CAUSALITY_OUTPUT, GROUP_SOLVER, offsetof(Outputs, solver.cpu_time), 0.0, -INFINITY, INFINITY},
     {"solver.tolerance", "1", 6006, 1, TYPE_REAL, CAUSALITY_OUTPUT, GROUP_SOLVER, offsetof(Outputs, solver.tolerance), 0.0, -INFINITY, INFINITY},
     {"solver.path", "1", 6007, 1, TYPE_REAL, CAUSALITY_OUTPUT, GROUP_SOLVER, offsetof(Outputs, solver.path), 0.0, -INFINITY, INFINITY},
+    {"event.land_contact", "1", 7001, 1, TYPE_REAL, CAUSALITY_OUTPUT, GROUP_EVENT, offsetof(Outputs, event.land_contact), 0.0, -INFINITY, INFINITY},
+    {"event.pocket_exit", "1", 7002, 1, TYPE_REAL, CAUSALITY_OUTPUT, GROUP_EVENT, offsetof(Outputs, event.pocket_exit), 0.0, -INFINITY, INFINITY},
+    {"event.ellipse_cut", "1", 7003, 1, TYPE_REAL, CAUSALITY_OUTPUT, GROUP_EVENT, offsetof(Outputs, event.ellipse_cut), 0.0, -INFINITY, INFINITY},
+    {"event.overpressure", "1", 7004, 1, TYPE_REAL, CAUSALITY_OUTPUT, GROUP_EVENT, offsetof(Outputs, event.overpressure), 0.0, -INFINITY, INFINITY},
+    {"event.joint_open", "1", 7005, 1, TYPE_REAL, CAUSALITY_OUTPUT, GROUP_EVENT, offsetof(Outputs, event.joint_open), 0.0, -INFINITY, INFINITY},
+    {"event.rivet_yield", "1", 7006, 1, TYPE_REAL, CAUSALITY_OUTPUT, GROUP_EVENT, offsetof(Outputs, event.rivet_yield), 0.0, -INFINITY, INFINITY},
+    {"event.land_contact_onsets", "1", 7011, 1, TYPE_REAL, CAUSALITY_OUTPUT, GROUP_EVENT, offsetof(Outputs, event.land_contact_onsets), 0.0, -INFINITY, INFINITY},
+    {"event.pocket_exit_onsets", "1", 7012, 1, TYPE_REAL, CAUSALITY_OUTPUT, GROUP_EVENT, offsetof(Outputs, event.pocket_exit_onsets), 0.0, -INFINITY, INFINITY},
+    {"event.ellipse_cut_onsets", "1", 7013, 1, TYPE_REAL, CAUSALITY_OUTPUT, GROUP_EVENT, offsetof(Outputs, event.ellipse_cut_onsets), 0.0, -INFINITY, INFINITY},
+    {"event.overpressure_onsets", "1", 7014, 1, TYPE_REAL, CAUSALITY_OUTPUT, GROUP_EVENT, offsetof(Outputs, event.overpressure_onsets), 0.0, -INFINITY, INFINITY},
+    {"event.joint_open_onsets", "1", 7015, 1, TYPE_REAL, CAUSALITY_OUTPUT, GROUP_EVENT, offsetof(Outputs, event.joint_open_onsets), 0.0, -INFINITY, INFINITY},
+    {"event.rivet_yield_onsets", "1", 7016, 1, TYPE_REAL, CAUSALITY_OUTPUT, GROUP_EVENT, offsetof(Outputs, event.rivet_yield_onsets), 0.0, -INFINITY, INFINITY},
 };
 
 const Variable *variable_find(unsigned value_reference, int *element)

@@ -6,7 +6,7 @@
 #include <stddef.h>
 
 #define MODEL_IDENTIFIER "RivetedBearing"
-#define MODEL_GUID "{6bf1f0e4-de72-5295-15b1-eae54e8ae684}"  // digest of the table
+#define MODEL_GUID "{87e16a57-02bb-60f3-b287-20e3d2fcf530}"  // digest of the table
 
 enum { Z = 9 };  // number of balls
 
@@ -64,6 +64,9 @@ typedef struct {
         double nu;  // [1] Poisson's ratio of balls and rings
         double rho;  // [kg/m3] Density of the balls
         double lambda;  // [s/m] Hunt-Crossley damping of the race contacts: Q = K delta^1.5 (1 + lambda delta_dot)
+        double h_i;  // [1] Height of the inner ring's shoulder above the groove's bottom / ball diameter: reported when the contact ellipse reaches over it
+        double h_e;  // [1] Height of the outer ring's shoulder above the groove's bottom / ball diameter: reported when the contact ellipse reaches over it
+        double p_limit;  // [Pa] Contact pressure of the races beyond which a warning is given
     } bearing;
     struct {
         double dD[Z];  // [m] Excess of the ball's diameter over bearing.D
@@ -314,6 +317,20 @@ typedef struct {
         double tolerance;  // [1] Tolerance in force
         double path;  // [1] Integration path in use: 1 explicit, 2 IMEX
     } solver;
+    struct {
+        double land_contact;  // [1] Cage halves whose land touches the outer ring
+        double pocket_exit;  // [1] Balls whose centre has left the section of the cage: a real pocket ends there
+        double ellipse_cut;  // [1] Race contacts whose ellipse reaches over the shoulder
+        double overpressure;  // [1] Race contacts beyond bearing.p_limit
+        double joint_open;  // [1] Joints whose plates are apart
+        double rivet_yield;  // [1] Rivets whose sigma_head_peak or sigma_mid_peak exceeds the yield stress
+        double land_contact_onsets;  // [1] Onsets of land contact since the start
+        double pocket_exit_onsets;  // [1] Onsets of a ball leaving its pocket since the start
+        double ellipse_cut_onsets;  // [1] Onsets of a contact ellipse cut by the shoulder since the start
+        double overpressure_onsets;  // [1] Onsets of a contact beyond bearing.p_limit since the start
+        double joint_open_onsets;  // [1] Onsets of an open joint since the start
+        double rivet_yield_onsets;  // [1] Onsets of yield of a rivet since the start
+    } event;
 } Outputs;
 
 // What is evaluated together on first read after a step.
@@ -331,6 +348,7 @@ typedef enum {
     GROUP_ENERGY,  // power and energy balance
     GROUP_STAT,  // statistics since start.settle
     GROUP_SOLVER,  // solver health
+    GROUP_EVENT,  // what happens in the model: now, at how many places; onsets since the start, seen at communication points
     GROUP_COUNT
 } OutputGroup;
 
@@ -411,7 +429,7 @@ typedef struct {
     double start, min, max;
 } Variable;
 
-enum { N_VARIABLES = 205 };  // time is the first
+enum { N_VARIABLES = 220 };  // time is the first
 
 extern const Variable VARIABLES[N_VARIABLES];  // by rising value reference
 

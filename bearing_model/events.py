@@ -1,0 +1,59 @@
+"""What happens in the model that its laws do not cover or that a user wants to know at once, from the results of one evaluation.
+
+land contact   land of a half beyond the guide clearance: e > C                                            (land_film: dry contact)
+pocket exit    centre of a ball outside the cage's section D_i/2 ... D_o/2: a real pocket ends there       (pocket: the cylinder does not)
+ellipse cut    |alpha| + a/R_m > arccos(1 - h D/r_g): the contact ellipse reaches over the shoulder         (race_contact: Hertz uncut)
+overpressure   p_max > bearing.p_limit at a race: permanent deformation, which Hertz' law does not know     ISO 76
+joint open     plates of a joint apart: u_x > P/k_plate
+
+The core also counts onsets and reports them to the log, and sees rivets that yield by their peaks.
+"""
+
+import numpy as np
+
+from bearing_model.hertz import hertz_pressure
+from bearing_model.variables import CageModel
+from bearing_model.vec import vec, vec_dot, vec_local, vec_to_global
+
+
+def lands(model, w):
+    """Distance of each land's middle from the ring's axis and the one at which it touches [m]; [..., 2]."""
+    x_land = (-model.p.cage.land_x, model.p.cage.land_x)
+    e = [np.hypot(half.x[1] + x * half.a[1], half.x[2] + x * half.a[2]) for half, x in zip(w.half, x_land, strict=True)]
+    return np.concatenate(np.broadcast_arrays(*e), axis=-1), model.d.C_land
+
+
+def pockets(model, w):
+    """Radial distance of each ball from the middle of the cage's section and the one at which the section ends [m]; [..., Z]."""
+    cage, d = model.p.cage, model.d
+    middle, reach = 0.25 * (cage.D_o + cage.D_i), 0.25 * (cage.D_o - cage.D_i)
+    place = vec_to_global(vec(w.x, w.r, 0.0), w.cos_theta, w.sin_theta)
+    radial = [vec_dot(place - half.x, d.pocket_cos * half.b_y + d.pocket_sin * half.b_z) for half in w.half]
+    return np.max(np.abs(np.array(radial) - middle), axis=0), reach
+
+
+def ellipse(model, w, race, Q, along, height):
+    """Angle that a contact's ellipse reaches to and that of the shoulder [rad].  along: the normal's part along the race's axis."""
+    reach = np.arcsin(np.minimum(np.abs(along), 1.0)) + race.hertz.a * np.cbrt(Q) / race.R_m
+    return np.where(Q > 0.0, reach, 0.0), np.arccos(1.0 - height * model.p.bearing.D / race.r_g)
+
+
+def event_outputs(model, w):
+    """Number of places at which each kind happens, by the names of the variable table."""
+    d, p = model.d, model.p
+    tilt = vec_dot(w.n_i, vec_local(w.ring.a, w.cos_theta, w.sin_theta))
+    sides = ((d.inner, w.Q_i, tilt, p.bearing.h_i), (d.outer, w.Q_e, w.n_e[0], p.bearing.h_e))
+    cuts = [ellipse(model, w, *side) for side in sides]
+    pressures = [hertz_pressure(race.hertz, Q) for race, Q, *_ in sides]
+
+    def count(value, limit):
+        return np.sum(value > limit, axis=-1).astype(float)
+
+    rigid = p.scene.cage == CageModel.RIGID
+    return {
+        "event.land_contact": count(*lands(model, w)),
+        "event.pocket_exit": count(*pockets(model, w)),
+        "event.ellipse_cut": sum(count(*cut) for cut in cuts),
+        "event.overpressure": sum(count(value, p.bearing.p_limit) for value in pressures),
+        "event.joint_open": 0.0 * count(w.x, np.inf) if rigid else count(w.u[0], d.P / d.k_plate),
+    }

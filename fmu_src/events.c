@@ -1,0 +1,124 @@
+// Events: conditions from the results of one evaluation, see events.h.
+#include "events.h"
+
+#include <stdio.h>
+
+static void add(Event *event, int element, double value, double limit)
+{
+    if (!(value > limit)) return;
+    if (event->count++ > 0 && value * event->limit <= event->value * limit) return;
+    event->element = element;
+    event->value = value;
+    event->limit = limit;
+}
+
+static void lands(const Model *model, const Work *w, Event *event)
+{
+    for (int h = 0; h < 2; h++) {
+        const Rotor *half = &w->half[h];
+        const double x_land = h == 0 ? -model->p->cage.land_x : model->p->cage.land_x;
+        const double e_y = half->x[1] + x_land * half->a[1], e_z = half->x[2] + x_land * half->a[2];
+        add(event, h, sqrt(e_y * e_y + e_z * e_z), model->d->C_land);
+    }
+}
+
+// Radial place of a ball in the frame of a half, against the middle of the cage's section.
+static void pockets(const Model *model, const Work *w, Event *event)
+{
+    const double middle = 0.25 * (model->p->cage.D_o + model->p->cage.D_i), reach = 0.25 * (model->p->cage.D_o - model->p->cage.D_i);
+    for (int j = 0; j < Z; j++) {
+        double most = 0.0;
+        for (int h = 0; h < 2; h++) {
+            const Rotor *half = &w->half[h];
+            const double p[3] = {w->x[j] - half->x[0], w->r[j] * w->cos_theta[j] - half->x[1], w->r[j] * w->sin_theta[j] - half->x[2]};
+            double radial = 0.0;
+            for (int i = 0; i < 3; i++) radial += p[i] * (half->b_y[i] * model->d->pocket_cos[j] + half->b_z[i] * model->d->pocket_sin[j]);
+            most = fmax(most, fabs(radial - middle));
+        }
+        add(event, j, most, reach);
+    }
+}
+
+static void races(const Model *model, const Work *w, Event *cut, Event *pressure)
+{
+    const double PI = 3.14159265358979323846;
+    const Derived *d = model->d;
+    const Race *race[2] = {&d->inner, &d->outer};
+    const double D = model->p->bearing.D, height[2] = {model->p->bearing.h_i * D, model->p->bearing.h_e * D};
+    const double *a = w->ring.a;
+    for (int side = 0; side < 2; side++) {
+        const double edge = acos(1.0 - height[side] / race[side]->r_g);
+        for (int j = 0; j < Z; j++) {
+            const double Q = side == 0 ? w->Q_i[j] : w->Q_e[j];
+            if (!(Q > 0.0)) continue;
+            const double c = w->cos_theta[j], s = w->sin_theta[j];
+            const double along =  // the normal's part along the race's axis
+                side == 0 ? w->n_ix[j] * a[0] + w->n_ir[j] * (a[1] * c + a[2] * s) + w->n_it[j] * (a[2] * c - a[1] * s) : w->n_ex[j];
+            const double root = cbrt(Q);
+            add(cut, 2 * j + side, asin(fmin(fabs(along), 1.0)) + race[side]->hertz.a * root / race[side]->R_m, edge);
+            add(pressure, 2 * j + side, 1.5 * root / (PI * race[side]->hertz.a * race[side]->hertz.b), model->p->bearing.p_limit);
+        }
+    }
+}
+
+static void joints(const Model *model, const Work *w, Event *event)
+{
+    if (model->p->scene.cage == CAGE_MODEL_RIGID) return;
+    for (int k = 0; k < Z; k++) add(event, k, w->u_x[k], model->d->P / model->d->k_plate);
+}
+
+static void rivets(const double head_peak[Z], const double mid_peak[Z], Event *event)
+{
+    for (int k = 0; k < Z; k++) add(event, k, fmax(head_peak[k], mid_peak[k]), rivet_table.yield_rivet);
+}
+
+void events_now(const Model *model, const Work *w, const double head_peak[Z], const double mid_peak[Z], Event now[EVENT_COUNT])
+{
+    memset(now, 0, EVENT_COUNT * sizeof *now);
+    lands(model, w, &now[EVENT_LAND_CONTACT]);
+    pockets(model, w, &now[EVENT_POCKET_EXIT]);
+    races(model, w, &now[EVENT_ELLIPSE_CUT], &now[EVENT_OVERPRESSURE]);
+    joints(model, w, &now[EVENT_JOINT_OPEN]);
+    rivets(head_peak, mid_peak, &now[EVENT_RIVET_YIELD]);
+}
+
+bool event_onset(EventState *state, EventKind kind, const Event *now)
+{
+    const bool onset = now->count > 0 && !state->active[kind];
+    state->active[kind] = now->count > 0;
+    if (!onset) return false;
+    state->onsets[kind] += 1.0;
+    int exponent;
+    return frexp(state->onsets[kind], &exponent) == 0.5;  // a power of two
+}
+
+void event_text(EventKind kind, const Event *now, char *text, size_t size)
+{
+    const int j = now->element / 2 + 1, k = now->element + 1;
+    const char race = now->element % 2 == 0 ? 'i' : 'e';
+    switch (kind) {
+    case EVENT_LAND_CONTACT:
+        snprintf(text, size, "cage half %d touches the outer ring: its land is %.4g m off centre, cage.guide_clearance/2 = %.4g m", k, now->value, now->limit);
+        return;
+    case EVENT_POCKET_EXIT:
+        snprintf(text, size, "ball[%d] leaves its pocket: %.4g m off the middle of the cage's section, (cage.D_o - cage.D_i)/4 = %.4g m", k, now->value,
+                 now->limit);
+        return;
+    case EVENT_ELLIPSE_CUT:
+        snprintf(text, size, "ball[%d]: the contact ellipse reaches to %.4g rad, over the shoulder of bearing.h_%c at %.4g rad", j, now->value, race,
+                 now->limit);
+        return;
+    case EVENT_OVERPRESSURE:
+        snprintf(text, size, "ball[%d].p_%c = %.4g Pa exceeds bearing.p_limit = %.4g Pa: permanent deformation is not modelled", j, race, now->value,
+                 now->limit);
+        return;
+    case EVENT_JOINT_OPEN:
+        snprintf(text, size, "rivet[%d]: the joint opens by %.4g m; its preload holds it closed to %.4g m", k, now->value, now->limit);
+        return;
+    case EVENT_RIVET_YIELD:
+        snprintf(text, size, "rivet[%d] yields: %.4g Pa against a yield stress of %.4g Pa; the stress is that of an elastic rivet", k, now->value, now->limit);
+        return;
+    case EVENT_COUNT:
+        break;
+    }
+}
