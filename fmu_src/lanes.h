@@ -38,7 +38,11 @@ enum { LANES = (Z + 7) / 8 * 8, BUNDLES = (Z + LANE_WIDTH - 1) / LANE_WIDTH };
 #ifdef DUAL
 #include "dual.h"
 #else
+#if LANE_WIDTH == 1
+enum { HALVES = 1 };
+#else
 enum { HALVES = 2 };  // cage halves are lanes too, this many side by side (real_pair)
+#endif
 
 typedef double number;
 typedef double real __attribute__((vector_size(8 * LANE_WIDTH)));

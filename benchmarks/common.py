@@ -1,0 +1,147 @@
+"""What the benchmarks share: scenes, the core with either integrator, processor time, the record of a run.
+
+Times are processor times of this process: other users of the machine hardly change them, as they do wall times.
+"""
+
+import argparse
+import json
+import platform
+import subprocess
+import sys
+import time
+from datetime import UTC, datetime
+from pathlib import Path
+
+import numpy as np
+
+ROOT = Path(__file__).resolve().parents[1]
+sys.path[:0] = [str(ROOT), str(ROOT / "tests")]
+
+from library import LIBRARY, Core  # noqa: E402
+from mechanics import Instance  # noqa: E402
+
+from bearing_model import variables  # noqa: E402
+from bearing_model.app.fmu import Model, codes  # noqa: E402
+from bearing_model.app.scene import load_scene  # noqa: E402
+
+FMU = ROOT / "fmus" / "RivetedBearing.fmu"
+RESULTS = ROOT / "results"
+BUILD = ROOT / "build"
+
+# Name -> title, shipped scene, changes.  Pulses as in the paper: three half-sines in 0.01 s.
+SCENES = {
+    "demo": ("working point, 18,238 r/min", "demo", {}),
+    "slow": ("4,000 r/min", "demo", {"inputs": {"shaft.omega": "4000 rev/min"}}),
+    "tilt": ("shaft tilted by 0.5°", "demo", {"inputs": {"shaft.tilt_z": "0.5 deg"}}),
+    "impact": (
+        "impact train",
+        "demo",
+        {"parameters": {"pulse.F_r": 1401.0, "pulse.F_a": 241.0, "pulse.duration": 1e-3, "pulse.interval": 1e-2 / 3, "pulse.count": 1000}},
+    ),
+    "jam": ("jam, 4,000 r/min", "jam", {}),
+}
+
+
+class Scene:
+    """A scene as the core takes it: numbers by full variable name."""
+
+    def __init__(self, name):
+        model = Model(FMU)
+        self.name, (self.title, shipped, changes) = name, SCENES[name]
+        self.checked = load_scene(shipped, model, ("benchmark", changes))
+        items = self.checked.parameters.items()
+        self.parameters = {key: codes(model.parameters[key])[value] if isinstance(value, str) else value for key, value in items}
+        self.inputs = {key: float(history(0.0)) for key, history in self.checked.inputs.items()}
+        self.settle = self.parameters.get("start.settle", variables.PARAMETERS["start.settle"].start)  # [s]
+
+    def start(self, core, tolerance=0.0, **parameters):
+        """An initialised instance; parameters with _ for the dot change the scene's."""
+        changes = {name.replace("_", ".", 1): int(value) if isinstance(value, bool) else value for name, value in parameters.items()}
+        return Instance(core, self.parameters | changes, self.inputs, tolerance)
+
+
+def core_library():
+    """The core as it is in the FMU."""
+    return Core.load(LIBRARY)
+
+
+def build_target(name):
+    """Build a target that only benchmarks need; returns its library."""
+    cmake = Path(sys.executable).with_name("cmake")
+    subprocess.run([str(cmake if cmake.exists() else "cmake"), "--build", str(BUILD), "--target", name], check=True, stdout=subprocess.DEVNULL)
+    return BUILD / f"lib{name}.so"
+
+
+def declare(core, header):
+    """Add the functions of a header in this folder to a core's declarations."""
+    lines = (ROOT / "benchmarks" / header).read_text().splitlines()
+    text = "\n".join(line for line in lines if not line.startswith(("#", "//")))
+    core.ffi.cdef("\n".join(line.partition("//")[0] for line in text.splitlines()))
+    return core
+
+
+def set_state(instance, y, h=4e-6):
+    """Put an instance into state y with the step size h [s] to start with."""
+    core = instance.core
+    saved = core.new("Saved")
+    core.lib.bearing_save(instance.bearing, saved)
+    saved.integrator.y = list(y)
+    saved.integrator.h = h
+    saved.integrator.known = 0
+    core.lib.bearing_restore(instance.bearing, saved)
+
+
+def counters(instance):
+    """Steps, evaluations of the right-hand side and failed error tests so far."""
+    return {name: instance.output(f"solver.{name}") for name in ("steps", "rhs_evals", "error_tests_failed")}
+
+
+def cpu(action, repeat=1):
+    """Least processor time [s] of `repeat` runs of an action, and what its last run returned."""
+    best = np.inf
+    for _ in range(repeat):
+        begin = time.process_time()
+        result = action()
+        best = min(best, time.process_time() - begin)
+    return best, result
+
+
+def machine():
+    """What the numbers depend on, without names of hosts or users."""
+    processor = next((line.partition(":")[2].strip() for line in cpu_info() if line.startswith(("model name", "Model"))), platform.machine())
+    compiler = subprocess.run(["cc", "--version"], capture_output=True, text=True, check=False).stdout.partition("\n")[0]
+    return {"processor": processor, "system": f"{platform.system()} {platform.machine()}", "compiler": compiler, "python": platform.python_version()}
+
+
+def cpu_info():
+    path = Path("/proc/cpuinfo")
+    return path.read_text().splitlines() if path.is_file() else []
+
+
+def commit():
+    """Commit of the checkout, with + if files differ from it; "" outside a checkout."""
+
+    def git(*arguments):
+        return subprocess.run(["git", "-C", str(ROOT), *arguments], capture_output=True, text=True, check=False).stdout.strip()
+
+    return git("rev-parse", "--short", "HEAD") + ("+" if git("status", "--porcelain", "-uno") else "")
+
+
+def options(description):
+    """Command line of a benchmark."""
+    parser = argparse.ArgumentParser(description=description.partition("\n")[0])
+    parser.add_argument("--short", action="store_true", help="minutes instead of an hour: fewer settings, shorter runs")
+    return parser.parse_args()
+
+
+def write(name, data, short):
+    """Write results/benchmark_<name>.json."""
+    RESULTS.mkdir(exist_ok=True)
+    record = {"benchmark": name, "short": short, "date": datetime.now(UTC).isoformat(timespec="seconds"), "commit": commit(), "machine": machine()}
+    path = RESULTS / f"benchmark_{name}.json"
+    path.write_text(json.dumps(record | data, indent=1, default=float) + "\n")
+    print(f"wrote {path.relative_to(ROOT)}")
+
+
+def say(text):
+    print(text, flush=True)

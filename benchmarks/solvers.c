@@ -1,0 +1,496 @@
+// The core with another integrator: explicit Runge-Kutta methods of ARKODE, Adams and BDF of CVODE behind the core's integrator.h, so that model,
+// inputs, edges of pulses, statistics and error weights are those of the FMU and only the stepping differs.
+//
+// Vectors are SUNDIALS' own serial ones.  BDF solves its Newton systems (1 - gamma J) x = b in one of three ways:
+//
+//   dense      SUNDIALS' dense matrix and its own difference quotients: what a general multibody solver does
+//   diagonal   J = -D, the damping rates of the core's stiff blocks: no factorization
+//   bordered   each ball's nine states and each joint's four friction states couple to ring and cage only:
+//
+//                  | B_1            C_1 |        S = D - sum E_g B_g^-1 C_g,  x_d = S^-1 (b_d - sum E_g B_g^-1 b_g),
+//              M = |      B_2       C_2 |        x_g = B_g^-1 (b_g - C_g x_d)
+//                  |           ...  ... |
+//                  | E_1  E_2  ...  D   |        J by differences, one evaluation a column as in the dense case
+//
+// A statistics hook needs the right-hand side at accepted states.  Multistep methods do not evaluate there: those evaluations are made only where a
+// scene wants stress or statistics.
+#include "solvers.h"
+
+#include "instance.h"
+
+#include <arkode/arkode_erkstep.h>
+#include <cvode/cvode.h>
+#include <nvector/nvector_serial.h>
+#include <stdlib.h>
+#include <sundials/sundials_dense.h>
+#include <sunlinsol/sunlinsol_dense.h>
+#include <sunmatrix/sunmatrix_dense.h>
+#include <sunnonlinsol/sunnonlinsol_fixedpoint.h>
+
+typedef struct {
+    SolverMethod method;
+    const char *table;
+    SolverJacobian jacobian;
+    double output_interval;
+} Choice;
+
+static Choice chosen = {.method = SOLVER_ERK, .table = "ARKODE_DORMAND_PRINCE_7_4_5"};
+static double jacobian_evals_made, outputs_made;
+
+void solver_choose(SolverMethod method, const char *table, SolverJacobian jacobian, double output_interval)
+{
+    chosen = (Choice){method, table, jacobian, output_interval};
+    jacobian_evals_made = outputs_made = 0.0;
+}
+
+void solver_counts(double *jacobian_evals, double *outputs)
+{
+    *jacobian_evals = jacobian_evals_made;
+    *outputs = outputs_made;
+}
+
+struct Integrator {
+    Choice choice;
+    const Kernels *kernels;
+    const Model *model;
+    Work *w;
+    IntegratorState *s;
+    StepHook *hook;
+    IntegratorLog *log;
+    void *context;
+    SUNContext sun;
+    N_Vector y, between;
+    void *solver;
+    SUNMatrix matrix;
+    SUNLinearSolver linear;
+    SUNNonlinearSolver nonlinear;
+    double weight[N_STATES];
+    double t_latest, y_latest[N_STATES], f_latest[N_STATES];  // the evaluation that w belongs to
+    double rates[N_STATES];                                   // D of the diagonal Jacobian
+    bool rates_known;
+    unsigned spoiled;
+    double t_output;
+};
+
+// ---- right-hand side ----------------------------------------------------------------------------------------------------------------------------
+// f(t, y); nothing is computed if w belongs to (t, y) already.
+static const double *evaluate(Integrator *in, double t, const double *y, double *counter)
+{
+    if (t != in->t_latest || memcmp(y, in->y_latest, sizeof in->y_latest) != 0) {
+        in->kernels->rhs(in->model, t, y, in->f_latest, in->w);
+        in->t_latest = t;
+        memcpy(in->y_latest, y, sizeof in->y_latest);
+        *counter += 1.0;
+    }
+    return in->f_latest;
+}
+
+static int right_hand_side(sunrealtype t, N_Vector y, N_Vector f, void *user)
+{
+    Integrator *in = user;
+    memcpy(N_VGetArrayPointer(f), evaluate(in, t, N_VGetArrayPointer(y), &in->s->rhs_evals), sizeof in->f_latest);
+    if (in->kernels->ops->finite(in->f_latest)) return 0;
+    if (in->choice.method != SOLVER_ERK) return 1;  // CVODE tries a smaller step; ERKStep cannot, so its error test is made to fail
+    const double enormous = in->spoiled++ % 2 == 0 ? 1e15 : -1e15;
+    for (int i = 0; i < N_STATES; i++) N_VGetArrayPointer(f)[i] = enormous / in->weight[i];
+    return 0;
+}
+
+static int weights(N_Vector y, N_Vector ewt, void *user)
+{
+    (void)y;
+    memcpy(N_VGetArrayPointer(ewt), ((const Integrator *)user)->weight, sizeof(double) * N_STATES);
+    return 0;
+}
+
+// ---- diagonal Jacobian ----------------------------------------------------------------------------------------------------------------------------
+static void diagonal_rates(Integrator *in)
+{
+    static const int BALL[BALL_BLOCK] = {Y_BALL_V_X, Y_BALL_V_R, Y_BALL_OMEGA_M, Y_BALL_OMEGA_X, Y_BALL_OMEGA_R, Y_BALL_OMEGA_T};
+    static const int HALF[HALF_BLOCK] = {Y_CAGE_V_Y, Y_CAGE_V_Z, Y_CAGE_BETA_DOT, Y_CAGE_GAMMA_DOT, Y_CAGE_S};
+    Implicit A;
+    in->kernels->implicit->set(in->model, in->w, &A);
+    memset(in->rates, 0, sizeof in->rates);
+    for (int i = 0; i < BALL_BLOCK; i++)
+        for (int j = 0; j < Z; j++) in->rates[BALL[i] + j] = A.ball[(i + 1) * (i + 2) / 2 - 1][j];
+    for (int i = 0; i < HALF_BLOCK; i++)
+        for (int h = 0; h < 2; h++) in->rates[HALF[i] + h] = A.half[h][i][i];
+    for (int k = 0; k < Z; k++) {
+        in->rates[Y_JOINT_PLATE_Y + k] = in->rates[Y_JOINT_PLATE_Z + k] = A.plate[k];
+        in->rates[Y_JOINT_HEAD_Y + k] = in->rates[Y_JOINT_HEAD_Z + k] = A.head[k];
+    }
+}
+
+static SUNLinearSolver_Type embedded(SUNLinearSolver solver)
+{
+    (void)solver;
+    return SUNLINEARSOLVER_MATRIX_EMBEDDED;
+}
+
+static int diagonal_solve(SUNLinearSolver solver, SUNMatrix none, N_Vector x, N_Vector b, sunrealtype tolerance)
+{
+    (void)none, (void)tolerance;
+    Integrator *in = solver->content;
+    double gamma;
+    if (CVodeGetCurrentGamma(in->solver, &gamma) != CV_SUCCESS) return -1;
+    if (!in->rates_known) diagonal_rates(in);
+    in->rates_known = true;
+    for (int i = 0; i < N_STATES; i++) N_VGetArrayPointer(x)[i] = N_VGetArrayPointer(b)[i] / (1.0 + gamma * in->rates[i]);
+    return 0;
+}
+
+// ---- bordered block-diagonal Jacobian ---------------------------------------------------------------------------------------------------------
+enum { BALL_STATES = 9, JOINT_STATES = 4, GROUPS = 2 * Z, BORDER = N_STATES - (BALL_STATES + JOINT_STATES) * Z };
+
+typedef struct {
+    int size[GROUPS], at[GROUPS][BALL_STATES], border_at[BORDER];  // the states of each group and of the border
+    double J[N_STATES][N_STATES];                                  // by columns; only the pattern is used
+    double block[GROUPS][BALL_STATES][BALL_STATES], across[GROUPS][BORDER][BALL_STATES], below[GROUPS][BALL_STATES][BORDER], border[BORDER][BORDER];
+    sunindextype pivot[GROUPS][BALL_STATES], border_pivot[BORDER];
+} Bordered;
+
+// Pointers to the columns of a matrix, as SUNDIALS' dense routines want them.
+#define COLUMNS(name, matrix, n) \
+    double *name[BORDER];        \
+    for (int column = 0; column < (n); column++) name[column] = (matrix)[column]
+
+static void bordered_pattern(Bordered *m)
+{
+    static const int BALL[BALL_STATES] = {Y_BALL_X,       Y_BALL_R,       Y_BALL_THETA,   Y_BALL_V_X,    Y_BALL_V_R,
+                                          Y_BALL_OMEGA_M, Y_BALL_OMEGA_X, Y_BALL_OMEGA_R, Y_BALL_OMEGA_T};
+    static const int JOINT[JOINT_STATES] = {Y_JOINT_PLATE_Y, Y_JOINT_PLATE_Z, Y_JOINT_HEAD_Y, Y_JOINT_HEAD_Z};
+    bool inside[N_STATES] = {false};
+    for (int g = 0; g < GROUPS; g++) {
+        const bool ball = g < Z;
+        m->size[g] = ball ? BALL_STATES : JOINT_STATES;
+        for (int i = 0; i < m->size[g]; i++) {
+            m->at[g][i] = (ball ? BALL[i] : JOINT[i]) + g % Z;
+            inside[m->at[g][i]] = true;
+        }
+    }
+    int n = 0;
+    for (int i = 0; i < N_STATES; i++)
+        if (!inside[i]) m->border_at[n++] = i;
+}
+
+static void difference_jacobian(Integrator *in, double t, const double *y, double J[N_STATES][N_STATES], double *counter)
+{
+    double f[N_STATES], moved[N_STATES];
+    memcpy(f, evaluate(in, t, y, counter), sizeof f);
+    memcpy(moved, y, sizeof moved);
+    memset(J[Y_WORK], 0, sizeof J[Y_WORK]);  // nothing depends on it
+    for (int b = 0; b < N_STATE_BLOCKS; b++) {
+        const double step = 1e-6 * in->model->d->scale[STATE_BLOCKS[b].scale];
+        for (int i = STATE_BLOCKS[b].offset; i < STATE_BLOCKS[b].offset + STATE_BLOCKS[b].count; i++) {
+            if (i == Y_WORK) continue;
+            moved[i] = y[i] + step;
+            const double h = moved[i] - y[i], *changed = evaluate(in, t, moved, counter);
+            for (int k = 0; k < N_STATES; k++) J[i][k] = (changed[k] - f[k]) / h;
+            moved[i] = y[i];
+        }
+    }
+}
+
+static int bordered_system(sunrealtype t, N_Vector y, N_Vector fy, SUNMatrix M, sunbooleantype still_good, sunbooleantype *renewed, sunrealtype gamma,
+                           void *user, N_Vector a, N_Vector b, N_Vector c)
+{
+    (void)fy, (void)a, (void)b, (void)c;
+    Bordered *m = M->content;
+    if (!still_good) difference_jacobian(user, t, N_VGetArrayPointer(y), m->J, &jacobian_evals_made);
+    *renewed = !still_good;
+    for (int g = 0; g < GROUPS; g++) {
+        for (int i = 0; i < m->size[g]; i++) {
+            const double *column = m->J[m->at[g][i]];
+            for (int k = 0; k < m->size[g]; k++) m->block[g][i][k] = (i == k) - gamma * column[m->at[g][k]];
+            for (int k = 0; k < BORDER; k++) m->below[g][i][k] = -gamma * column[m->border_at[k]];
+        }
+        for (int i = 0; i < BORDER; i++)
+            for (int k = 0; k < m->size[g]; k++) m->across[g][i][k] = -gamma * m->J[m->border_at[i]][m->at[g][k]];
+    }
+    for (int i = 0; i < BORDER; i++)
+        for (int k = 0; k < BORDER; k++) m->border[i][k] = (i == k) - gamma * m->J[m->border_at[i]][m->border_at[k]];
+    return 0;
+}
+
+// b -= E_g x
+static void subtract_below(const Bordered *m, int g, const double *x, double *b)
+{
+    for (int i = 0; i < m->size[g]; i++)
+        for (int k = 0; k < BORDER; k++) b[k] -= m->below[g][i][k] * x[i];
+}
+
+static int bordered_factor(SUNLinearSolver solver, SUNMatrix M)
+{
+    (void)solver;
+    Bordered *m = M->content;
+    for (int g = 0; g < GROUPS; g++) {
+        COLUMNS(block, m->block[g], m->size[g]);
+        if (SUNDlsMat_denseGETRF(block, m->size[g], m->size[g], m->pivot[g]) != 0) return 1;
+        for (int i = 0; i < BORDER; i++) {
+            SUNDlsMat_denseGETRS(block, m->size[g], m->pivot[g], m->across[g][i]);  // B_g^-1 C_g takes the place of C_g
+            subtract_below(m, g, m->across[g][i], m->border[i]);
+        }
+    }
+    COLUMNS(border, m->border, BORDER);
+    return SUNDlsMat_denseGETRF(border, BORDER, BORDER, m->border_pivot) != 0;
+}
+
+static int bordered_solve(SUNLinearSolver solver, SUNMatrix M, N_Vector x, N_Vector b, sunrealtype tolerance)
+{
+    (void)solver, (void)tolerance;
+    Bordered *m = M->content;
+    double part[GROUPS][BALL_STATES], border_part[BORDER];
+    for (int k = 0; k < BORDER; k++) border_part[k] = N_VGetArrayPointer(b)[m->border_at[k]];
+    for (int g = 0; g < GROUPS; g++) {
+        COLUMNS(block, m->block[g], m->size[g]);
+        for (int i = 0; i < m->size[g]; i++) part[g][i] = N_VGetArrayPointer(b)[m->at[g][i]];
+        SUNDlsMat_denseGETRS(block, m->size[g], m->pivot[g], part[g]);
+        subtract_below(m, g, part[g], border_part);
+    }
+    COLUMNS(border, m->border, BORDER);
+    SUNDlsMat_denseGETRS(border, BORDER, m->border_pivot, border_part);
+    for (int k = 0; k < BORDER; k++) N_VGetArrayPointer(x)[m->border_at[k]] = border_part[k];
+    for (int g = 0; g < GROUPS; g++) {
+        for (int k = 0; k < BORDER; k++)
+            for (int i = 0; i < m->size[g]; i++) part[g][i] -= m->across[g][k][i] * border_part[k];
+        for (int i = 0; i < m->size[g]; i++) N_VGetArrayPointer(x)[m->at[g][i]] = part[g][i];
+    }
+    return 0;
+}
+
+static SUNLinearSolver_Type direct(SUNLinearSolver solver)
+{
+    (void)solver;
+    return SUNLINEARSOLVER_DIRECT;
+}
+static SUNErrCode linear_free(SUNLinearSolver solver)
+{
+    SUNLinSolFreeEmpty(solver);
+    return SUN_SUCCESS;
+}
+static SUNMatrix_ID matrix_id(SUNMatrix M)
+{
+    (void)M;
+    return SUNMATRIX_CUSTOM;
+}
+static SUNErrCode matrix_zero(SUNMatrix M)
+{
+    (void)M;  // bordered_system writes every entry
+    return SUN_SUCCESS;
+}
+static void matrix_destroy(SUNMatrix M)
+{
+    free(M->content);
+    SUNMatFreeEmpty(M);
+}
+
+double solver_outside_pattern(struct Bearing *b)
+{
+    Bordered *m = malloc(sizeof *m);
+    if (m == NULL) return NAN;
+    bordered_pattern(m);
+    Integrator *in = b->integrator;
+    double counter = 0.0, outside = 0.0, largest = 0.0;
+    difference_jacobian(in, b->s.integrator.t, b->s.integrator.y, m->J, &counter);
+    int group[N_STATES];
+    for (int i = 0; i < N_STATES; i++) group[i] = -1;  // border
+    for (int g = 0; g < GROUPS; g++)
+        for (int i = 0; i < m->size[g]; i++) group[m->at[g][i]] = g;
+    for (int i = 0; i < N_STATES; i++) {
+        for (int k = 0; k < N_STATES; k++) {
+            const double size = fabs(m->J[i][k]);
+            largest = fmax(largest, size);
+            if (group[i] >= 0 && group[k] >= 0 && group[i] != group[k]) outside = fmax(outside, size);
+        }
+    }
+    free(m);
+    return outside / largest;
+}
+
+// ---- creation -----------------------------------------------------------------------------------------------------------------------------------
+static void report(int line, const char *function, const char *file, const char *message, SUNErrCode code, void *user, SUNContext sun)
+{
+    (void)file, (void)sun;
+    const Integrator *in = user;
+    char text[512];
+    snprintf(text, sizeof text, "t = %.9g s: SUNDIALS %s, line %d: %s (code %d)", in->s->t, function, line, message, (int)code);
+    in->log(in->context, text);
+}
+
+static bool set_up_erk(Integrator *in)
+{
+    in->solver = ERKStepCreate(right_hand_side, 0.0, in->y, in->sun);
+    return in->solver != NULL && ARKodeSetUserData(in->solver, in) == ARK_SUCCESS && ARKodeWFtolerances(in->solver, weights) == ARK_SUCCESS &&
+           ERKStepSetTableName(in->solver, in->choice.table) == ARK_SUCCESS && ARKodeSetMaxErrTestFails(in->solver, 30) == ARK_SUCCESS &&
+           ARKodeSetMaxHnilWarns(in->solver, -1) == ARK_SUCCESS &&
+           (in->choice.output_interval > 0.0 || ARKodeSetInterpolantType(in->solver, ARK_INTERP_NONE) == ARK_SUCCESS);
+}
+
+static bool set_up_dense(Integrator *in)
+{
+    in->matrix = SUNDenseMatrix(N_STATES, N_STATES, in->sun);
+    in->linear = in->matrix != NULL ? SUNLinSol_Dense(in->y, in->matrix, in->sun) : NULL;
+    return in->linear != NULL && CVodeSetLinearSolver(in->solver, in->linear, in->matrix) == CV_SUCCESS;
+}
+
+static bool set_up_diagonal(Integrator *in)
+{
+    in->linear = SUNLinSolNewEmpty(in->sun);
+    if (in->linear == NULL) return false;
+    in->linear->content = in;
+    in->linear->ops->gettype = embedded;
+    in->linear->ops->solve = diagonal_solve;
+    in->linear->ops->free = linear_free;
+    return CVodeSetLinearSolver(in->solver, in->linear, NULL) == CV_SUCCESS;
+}
+
+static bool set_up_bordered(Integrator *in)
+{
+    in->matrix = SUNMatNewEmpty(in->sun);
+    in->linear = SUNLinSolNewEmpty(in->sun);
+    if (in->matrix == NULL || in->linear == NULL) return false;
+    in->matrix->ops->getid = matrix_id;
+    in->matrix->ops->zero = matrix_zero;
+    in->matrix->ops->destroy = matrix_destroy;
+    in->matrix->content = calloc(1, sizeof(Bordered));
+    if (in->matrix->content == NULL) return false;
+    bordered_pattern(in->matrix->content);
+    in->linear->ops->gettype = direct;
+    in->linear->ops->setup = bordered_factor;
+    in->linear->ops->solve = bordered_solve;
+    in->linear->ops->free = linear_free;
+    return CVodeSetLinearSolver(in->solver, in->linear, in->matrix) == CV_SUCCESS && CVodeSetLinSysFn(in->solver, bordered_system) == CV_SUCCESS;
+}
+
+static bool set_up_cvode(Integrator *in)
+{
+    in->solver = CVodeCreate(in->choice.method == SOLVER_ADAMS ? CV_ADAMS : CV_BDF, in->sun);
+    if (in->solver == NULL || CVodeInit(in->solver, right_hand_side, 0.0, in->y) != CV_SUCCESS || CVodeSetUserData(in->solver, in) != CV_SUCCESS ||
+        CVodeWFtolerances(in->solver, weights) != CV_SUCCESS || CVodeSetMaxErrTestFails(in->solver, 30) != CV_SUCCESS ||
+        CVodeSetMaxConvFails(in->solver, 30) != CV_SUCCESS || CVodeSetMaxHnilWarns(in->solver, -1) != CV_SUCCESS)
+        return false;
+    if (in->choice.method == SOLVER_ADAMS) {
+        in->nonlinear = SUNNonlinSol_FixedPoint(in->y, 0, in->sun);
+        return in->nonlinear != NULL && CVodeSetNonlinearSolver(in->solver, in->nonlinear) == CV_SUCCESS;
+    }
+    return in->choice.jacobian == JACOBIAN_DENSE ? set_up_dense(in) : in->choice.jacobian == JACOBIAN_DIAGONAL ? set_up_diagonal(in) : set_up_bordered(in);
+}
+
+Integrator *integrator_create(const Kernels *kernels, const Model *model, Work *w, IntegratorState *state, StepHook *hook, IntegratorLog *log, void *context)
+{
+    Integrator *in = calloc(1, sizeof *in);
+    if (in == NULL) return NULL;
+    *in = (Integrator){.choice = chosen, .kernels = kernels, .model = model, .w = w, .s = state, .hook = hook, .log = log, .context = context, .t_latest = NAN};
+    bool fine = SUNContext_Create(SUN_COMM_NULL, &in->sun) == SUN_SUCCESS;
+    if (fine) {
+        SUNContext_ClearErrHandlers(in->sun);
+        fine = SUNContext_PushErrHandler(in->sun, report, in) == SUN_SUCCESS;
+        in->y = N_VNew_Serial(N_STATES, in->sun);
+        in->between = N_VNew_Serial(N_STATES, in->sun);
+    }
+    fine = fine && in->y != NULL && in->between != NULL && (in->choice.method == SOLVER_ERK ? set_up_erk(in) : set_up_cvode(in));
+    if (fine) return in;
+    integrator_destroy(in);
+    return NULL;
+}
+
+void integrator_destroy(Integrator *in)
+{
+    if (in == NULL) return;
+    if (in->solver != NULL && in->choice.method == SOLVER_ERK) ARKodeFree(&in->solver);
+    if (in->solver != NULL && in->choice.method != SOLVER_ERK) CVodeFree(&in->solver);
+    if (in->nonlinear != NULL) SUNNonlinSolFree(in->nonlinear);
+    if (in->linear != NULL) SUNLinSolFree(in->linear);
+    if (in->matrix != NULL) SUNMatDestroy(in->matrix);
+    if (in->between != NULL) N_VDestroy(in->between);
+    if (in->y != NULL) N_VDestroy(in->y);
+    if (in->sun != NULL) SUNContext_Free(&in->sun);
+    free(in);
+}
+
+void integrator_tolerance(Integrator *in, double tolerance)
+{
+    for (int b = 0; b < N_STATE_BLOCKS; b++)
+        for (int i = 0; i < STATE_BLOCKS[b].count; i++) in->weight[STATE_BLOCKS[b].offset + i] = 1.0 / (tolerance * in->model->d->scale[STATE_BLOCKS[b].scale]);
+}
+
+// ---- stepping -----------------------------------------------------------------------------------------------------------------------------------
+void integrator_evaluate(Integrator *in)
+{
+    if (in->s->known) return;
+    in->t_latest = NAN;  // the drive may have changed
+    memcpy(in->s->f, evaluate(in, in->s->t, in->s->y, &in->s->rhs_evals), sizeof in->s->f);
+    in->s->known = 1;
+}
+
+void integrator_restored(Integrator *in)
+{
+    in->t_latest = NAN;
+}
+
+static int start(Integrator *in, double t_stop)
+{
+    const double h = fmin(in->s->h, t_stop - in->s->t);
+    memcpy(N_VGetArrayPointer(in->y), in->s->y, sizeof in->s->y);
+    in->rates_known = false;
+    if (in->choice.method == SOLVER_ERK)
+        return ARKodeReset(in->solver, in->s->t, in->y) | ARKodeSetInitStep(in->solver, h) | ARKodeSetStopTime(in->solver, t_stop);
+    return CVodeReInit(in->solver, in->s->t, in->y) | CVodeSetInitStep(in->solver, h) | CVodeSetStopTime(in->solver, t_stop);
+}
+
+static int one_step(Integrator *in, double t_stop, double *t)
+{
+    if (in->choice.method == SOLVER_ERK) return ARKodeEvolve(in->solver, t_stop, in->y, t, ARK_ONE_STEP);
+    return CVode(in->solver, t_stop, in->y, t, CV_ONE_STEP);
+}
+
+// Values at the output times that the last step went past.
+static void interpolate(Integrator *in, double t)
+{
+    if (in->choice.output_interval <= 0.0) return;
+    for (; in->t_output <= t; in->t_output += in->choice.output_interval) {
+        if (in->t_output <= in->s->t) continue;
+        if (in->choice.method == SOLVER_ERK)
+            ARKodeGetDky(in->solver, in->t_output, 0, in->between);
+        else
+            CVodeGetDky(in->solver, in->t_output, 0, in->between);
+        outputs_made += 1.0;
+    }
+}
+
+int integrator_advance(Integrator *in, double t_stop, long max_steps)
+{
+    IntegratorState *s = in->s;
+    const bool observed = in->model->p->scene.stress >= STRESS_PEAK || in->model->p->scene.statistics == SWITCH_ON;
+    long failed_before = 0, failed = 0, dense_evals = 0;
+    double t = s->t;
+    int status = start(in, t_stop);
+    if (in->choice.method == SOLVER_ERK) ARKodeGetNumErrTestFails(in->solver, &failed_before);
+    if (status != 0) return -1;
+    for (long step = 0; status >= 0 && s->t < t_stop; step++) {
+        if (step >= max_steps) return CV_TOO_MUCH_WORK;
+        if ((status = one_step(in, t_stop, &t)) < 0) break;
+        interpolate(in, t);
+        const double h = t - s->t;
+        memcpy(s->y, N_VGetArrayPointer(in->y), sizeof s->y);
+        s->t = t;
+        s->steps += 1.0;
+        s->known = 0;
+        in->rates_known = false;
+        if (observed) evaluate(in, s->t, s->y, &s->rhs_evals);
+        in->hook(in->context, h, in->w);
+    }
+    if (in->choice.method == SOLVER_ERK) {
+        ARKodeGetNumErrTestFails(in->solver, &failed);
+        ARKodeGetLastStep(in->solver, &s->h);
+    } else {  // counters start anew with CVodeReInit
+        CVodeGetNumErrTestFails(in->solver, &failed);
+        CVodeGetLastStep(in->solver, &s->h);
+        if (in->choice.method == SOLVER_BDF && in->choice.jacobian == JACOBIAN_DENSE) CVodeGetNumLinRhsEvals(in->solver, &dense_evals);
+        jacobian_evals_made += (double)dense_evals;
+    }
+    s->error_tests_failed += (double)(failed - failed_before);
+    if (status < 0) return status;
+    s->t = t_stop;
+    return 0;
+}
