@@ -58,6 +58,7 @@ def ball_outputs(model, w):
         "ball[j].Q_i": w.Q_i,
         "ball[j].Q_e": w.Q_e,
         "ball[j].Q_c": w.Q_pocket,
+        "ball[j].Q_cx": sum(F[0] for F in w.pocket.values()),
         "ball[j].omega_m": w.omega_m,
         "ball[j].alpha_i": np.where(w.Q_i > 0.0, np.arctan2(-w.n_i[0], -w.n_i[1]), 0.0),
         "ball[j].alpha_e": np.where(w.Q_e > 0.0, np.arctan2(w.n_e[0], w.n_e[1]), 0.0),

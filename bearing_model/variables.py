@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from enum import IntEnum
 
 MODEL_IDENTIFIER = "RivetedBearing"
-MODEL_GUID = "{87e16a57-02bb-60f3-b287-20e3d2fcf530}"
+MODEL_GUID = "{9769a36a-6dc7-ad40-aae2-e5ebe772b9d8}"
 Z = 9
 
 
@@ -226,6 +226,7 @@ OUTPUTS = {
         Variable("ball[j].Lambda_i", 2520, "Real", "1", None, None, None, None, Z, "ball", "Film thickness / roughness at the inner race (0 without contact)", None),
         Variable("ball[j].Lambda_e", 2560, "Real", "1", None, None, None, None, Z, "ball", "Film thickness / roughness at the outer race (0 without contact)", None),
         Variable("ball[j].spin_roll", 2600, "Real", "1", None, None, None, None, Z, "ball", "Spin-to-roll ratio at the inner race", None),
+        Variable("ball[j].Q_cx", 2640, "Real", "N", None, None, None, None, Z, "ball", "Axial part of the ball's force on the cage pocket, both halves together", None),
         Variable("ball[j].x", 2800, "Real", "m", "um", None, None, None, Z, "pose", "Axial position of the ball's centre", None),
         Variable("ball[j].r", 2840, "Real", "m", "mm", None, None, None, Z, "pose", "Distance of the ball's centre from the axis", None),
         Variable("ball[j].psi", 2880, "Real", "rad", "deg", None, None, None, Z, "pose", "Azimuth of the ball from Y toward Z, unbounded", None),

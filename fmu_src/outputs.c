@@ -73,6 +73,7 @@ static void fill_ball(Bearing *b)
         b->out.ball.Q_i[j] = Q_i;
         b->out.ball.Q_e[j] = Q_e;
         b->out.ball.Q_c[j] = Q_c;
+        b->out.ball.Q_cx[j] = w->pocket[0][j].F_x + w->pocket[1][j].F_x;
         b->out.ball.omega_m[j] = w->omega_m[j];
         b->out.ball.alpha_i[j] = Q_i > 0.0 ? atan2(-w->n_ix[j], -w->n_ir[j]) : 0.0;
         b->out.ball.alpha_e[j] = Q_e > 0.0 ? atan2(w->n_ex[j], w->n_er[j]) : 0.0;

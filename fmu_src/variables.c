@@ -178,6 +178,7 @@ const Variable VARIABLES[N_VARIABLES] = {
     {"ball[j].Lambda_i", "1", 2520, Z, TYPE_REAL, CAUSALITY_OUTPUT, GROUP_BALL, offsetof(Outputs, ball.Lambda_i), 0.0, -INFINITY, INFINITY},
     {"ball[j].Lambda_e", "1", 2560, Z, TYPE_REAL, CAUSALITY_OUTPUT, GROUP_BALL, offsetof(Outputs, ball.Lambda_e), 0.0, -INFINITY, INFINITY},
     {"ball[j].spin_roll", "1", 2600, Z, TYPE_REAL, CAUSALITY_OUTPUT, GROUP_BALL, offsetof(Outputs, ball.spin_roll), 0.0, -INFINITY, INFINITY},
+    {"ball[j].Q_cx", "N", 2640, Z, TYPE_REAL, CAUSALITY_OUTPUT, GROUP_BALL, offsetof(Outputs, ball.Q_cx), 0.0, -INFINITY, INFINITY},
     {"cage.dislocation", "m", 2701, 1, TYPE_REAL, CAUSALITY_OUTPUT, GROUP_RIVET, offsetof(Outputs, cage.dislocation), 0.0, -INFINITY, INFINITY},
     {"cage.omega", "rad/s", 2702, 1, TYPE_REAL, CAUSALITY_OUTPUT, GROUP_CAGE, offsetof(Outputs, cage.omega), 0.0, -INFINITY, INFINITY},
     {"cage.slip_ratio", "1", 2703, 1, TYPE_REAL, CAUSALITY_OUTPUT, GROUP_CAGE, offsetof(Outputs, cage.slip_ratio), 0.0, -INFINITY, INFINITY},

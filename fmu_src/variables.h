@@ -6,7 +6,7 @@
 #include <stddef.h>
 
 #define MODEL_IDENTIFIER "RivetedBearing"
-#define MODEL_GUID "{87e16a57-02bb-60f3-b287-20e3d2fcf530}"  // digest of the table
+#define MODEL_GUID "{9769a36a-6dc7-ad40-aae2-e5ebe772b9d8}"  // digest of the table
 
 enum { Z = 9 };  // number of balls
 
@@ -232,6 +232,7 @@ typedef struct {
         double Lambda_i[Z];  // [1] Film thickness / roughness at the inner race (0 without contact)
         double Lambda_e[Z];  // [1] Film thickness / roughness at the outer race (0 without contact)
         double spin_roll[Z];  // [1] Spin-to-roll ratio at the inner race
+        double Q_cx[Z];  // [N] Axial part of the ball's force on the cage pocket, both halves together
         double x[Z];  // [m] Axial position of the ball's centre
         double r[Z];  // [m] Distance of the ball's centre from the axis
         double psi[Z];  // [rad] Azimuth of the ball from Y toward Z, unbounded
@@ -429,7 +430,7 @@ typedef struct {
     double start, min, max;
 } Variable;
 
-enum { N_VARIABLES = 220 };  // time is the first
+enum { N_VARIABLES = 221 };  // time is the first
 
 extern const Variable VARIABLES[N_VARIABLES];  // by rising value reference
 
