@@ -7,7 +7,7 @@ from typing import Annotated
 import typer
 from rich.console import Console
 from rich.markup import escape
-from rich.progress import BarColumn, Progress, ProgressColumn, SpinnerColumn, TextColumn
+from rich.progress import BarColumn, MofNCompleteColumn, Progress, ProgressColumn, SpinnerColumn, TextColumn, TimeRemainingColumn
 from rich.table import Column, Table
 from rich.text import Text
 
@@ -203,6 +203,77 @@ def print_summary(result):
     for text in dict.fromkeys(about.get("messages", [])):
         if not result.stopped or text not in result.stopped:
             messages.print(f"[yellow]note:[/] {escape(text)}", soft_wrap=True)
+
+
+@command
+def sweep(
+    study: Annotated[Path, typer.Argument(help="sweep file (TOML): scene, what varies, repeats; see docs/sweeps.md", metavar="STUDY.toml")],
+    fmu: Annotated[Path | None, typer.Option(help="the FMU; default: RivetedBearing.fmu here, in the checkout or as installed")] = None,
+    out: Annotated[Path | None, typer.Option(help="folder of the Parquet dataset; default: results/STUDY")] = None,
+    scheduler: Annotated[str | None, typer.Option(help="address of a running Dask scheduler; default: processes of this machine")] = None,
+    workers: Annotated[int | None, typer.Option(min=1, help="number of local processes; default: one for each core")] = None,
+):
+    """Run a design of experiments on a Dask cluster, one row a run; started again, it does what is missing."""
+    from .fmu import Model
+    from .sweep import cluster, load_sweep, run_sweep
+
+    plan = load_sweep(study, Model(fmu))
+    folder = out or Path("results") / plan.name
+    with cluster(scheduler, workers) as client, sweep_progress() as progress:
+        rows = run_sweep(plan, folder, client, functools.partial(progress, plan.name))
+    failures = rows["message"][rows["status"] != "done"]
+    spent = rows["cpu_time"][rows["status"] == "done"].sum()
+    console.print(f"{len(rows['key'])} runs, {len(failures)} of them failed, CPU time {spent:.1f} s")
+    console.print(f"results  [cyan]{escape(str(folder))}[/]", soft_wrap=True)
+    for text in dict.fromkeys(failures):
+        messages.print(f"[bold red]failed:[/] {escape(text)}", soft_wrap=True)
+    if len(failures):
+        raise typer.Exit(STOPPED)
+
+
+@command
+def study(
+    names: Annotated[list[str] | None, typer.Argument(help="sweeps of the study; default: all", metavar="[NAME]...")] = None,
+    fmu: Annotated[Path | None, typer.Option(help="the FMU; default: RivetedBearing.fmu here, in the checkout or as installed")] = None,
+    out: Annotated[Path, typer.Option(help="folder of the runs")] = Path("results/study"),
+    report: Annotated[Path | None, typer.Option(help="folder of paper.md and its pictures; default: that of the runs")] = None,
+    seeds: Annotated[int | None, typer.Option(min=2, help="seeds of each point; default: eight, which the report's confidence needs")] = None,
+    scheduler: Annotated[str | None, typer.Option(help="address of a running Dask scheduler; default: processes of this machine")] = None,
+    workers: Annotated[int | None, typer.Option(min=1, help="number of local processes; default: one for each core")] = None,
+):
+    """The paper's figures again and its claims one by one: runs, pictures and paper.md; started again, it does what is missing."""
+    from .fmu import Model
+    from .paper import write_paper
+    from .study import run_study
+    from .sweep import cluster
+
+    with cluster(scheduler, workers) as client, sweep_progress() as progress:
+        data = run_study(Model(fmu), out, client, names, seeds, progress)
+    path = write_paper(data, report or out)
+    console.print(f"report   [cyan]{escape(str(path))}[/]", soft_wrap=True)
+
+
+class sweep_progress:
+    """Progress bars over runs on a terminal, nothing in a pipe; as a context manager it gives the function to call with the sweep's name and its runs
+    done, failed and in all."""
+
+    def __init__(self):
+        columns = (TextColumn("{task.description}"), BarColumn(bar_width=30), MofNCompleteColumn(), TextColumn("{task.fields[failed]}"), TimeRemainingColumn())
+        self.bar = Progress(*columns, console=messages, disable=not messages.is_terminal, transient=True, speed_estimate_period=300.0)
+
+    def __enter__(self):
+        self.bar.start()
+        tasks = {}
+
+        def progress(name, done, failed, total):
+            if name not in tasks:  # what an earlier call has done does not count for the speed
+                tasks[name] = self.bar.add_task(name, total=total, completed=done, failed="")
+            self.bar.update(tasks[name], completed=done + failed, failed=f"[red]{failed} failed[/]" if failed else "")
+
+        return progress
+
+    def __exit__(self, *_):
+        self.bar.stop()
 
 
 @command

@@ -114,9 +114,14 @@ def is_peak(name):
 def closing_values(instance, model):
     """Statistics and solver counters at the end; nothing if the FMU no longer answers."""
     try:
-        return instance.read([name for name in model.outputs if name.startswith(("stat.", "solver."))])
+        return instance.read(closing_names(model))
     except FMICallException:
         return {}
+
+
+def closing_names(model):
+    """Outputs that say how it went in all: statistics, damage, solver counters."""
+    return [name for name in model.outputs if name.startswith(("stat.", "solver.")) or ".damage_" in name]
 
 
 def provenance(model, scene):
