@@ -199,11 +199,8 @@ def simulate(parameters=None, inputs=None, t_end=1e-3, *, step=1e-4, t_start=0.0
     points = np.minimum(t_start + step * np.arange(count + 1), t_end)
     ledger = Ledger()
     ledger.add(model, np.array([t_start]), y[None])
-    states, ledgers, rows = (
-        [y],
-        [ledger.copy()],
-        [observe(model, t_start, y, energy_start) | accepted(model, record, np.array([t_start]), np.zeros(1), y[None])],
-    )
+    first = observe(model, t_start, y, energy_start) | accepted(model, record, np.array([t_start]), np.zeros(1), y[None])
+    states, ledgers, rows = [y], [ledger.copy()], [first]
     for point in points[1:]:
         u, peaks = Inputs(held(run.t)), []
         while run.t < point:
