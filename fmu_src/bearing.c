@@ -191,7 +191,6 @@ BearingStatus bearing_initialize(Bearing *b, double t_start, double tolerance)
     s->energy_start = energy_total(&b->model, s->integrator.y, &b->w);
     accepted_step(b, 0.0, &b->w);
     report_events(b);
-    b->evaluated = true;
     s->initialized = 1;
     return status;
 }

@@ -293,6 +293,17 @@ def test_outputs(core, scene, record_property):
     assert worst[name] < 1e-9  # observed 1.3e-11: friction states of 1e-7 m against the clearance
 
 
+def test_outputs_at_the_start(core):
+    """Before any step, too; from the same state."""
+    model, y, _ = start_of("mixed_supported")
+    instance = Instance(core, *SCENES["mixed_supported"])
+    w = Work()
+    rhs(model, 0.0, instance.y, w)
+    for name, value in observe(model, 0.0, instance.y, energy_total(model, w)).items():
+        c = instance.output(name.replace("[j]", "").replace("[k]", ""))
+        assert np.max(np.abs(value - c)) < 1e-9 * max(np.max(np.abs(c)), floor_of(name)), name  # as above
+
+
 def floor_of(name):
     """Size of an output below which differences are rounding: its unit's typical size in this bearing times 1e-3."""
     unit = variables.OUTPUTS[name].unit
