@@ -193,3 +193,58 @@ def rivet_bars(ax, result):
     ax.grid(axis="x", visible=False)
     ax.margins(y=0.12)
     ax.legend(ncols=2, loc="upper right")
+
+
+# ---------------------------------------------------------------------------------------------------------------------- comparison
+
+OVERLAID = (("ball[j].Q_i", "Contact loads"), ("ball[j].Q_c", "Pocket loads"), ("rivet[k].V", "Loads of the joints"))  # [N]
+
+
+def plot_comparison(found, path):
+    """Write the picture of a Comparison as PNG: outputs over each other, differences over time by tolerance, statistics in standard deviations."""
+    with plt.rc_context(STYLE):
+        rows = 3 if found.statistics else 2
+        figure, axes = plt.subplots(2, rows, figsize=(4.6 * rows, 7.0), layout="constrained")
+        figure.suptitle(f"{found.scene}: FMU against the Python reference", x=0.01, ha="left", fontsize=11)
+        by_name = {channel.name: channel for channel in found.channels}
+        panels = [axes[0, 0], axes[0, 1], axes[1, 0]]
+        for ax, (name, title) in zip(panels, OVERLAID, strict=True):
+            overlay(ax, 1e3 * found.t, by_name[name], title)
+        differences(axes[1, 1], found)
+        if found.statistics:
+            grid = axes[0, 2].get_gridspec()
+            axes[0, 2].remove(), axes[1, 2].remove()
+            deviations(figure.add_subplot(grid[:, 2]), found)
+        write_atomically(path, lambda temporary: figure.savefig(temporary, dpi=110))
+        plt.close(figure)
+    return path
+
+
+def overlay(ax, t, channel, title):
+    """One output of both: lines the reference, points the FMU at the scene's tolerance."""
+    ax.plot(t, channel.reference, color=FORCE, lw=0.8)[0].set_label("reference")
+    ax.plot(t, channel.fmu, ".", color=HEAD, ms=3.5)[0].set_label("FMU")
+    ax.set(title=title, xlabel="time [ms]", ylabel=channel.unit)
+    ax.legend(ncols=2, loc="lower right", bbox_to_anchor=(1.0, 1.0))
+
+
+def differences(ax, found):
+    """Largest difference of all motion (full lines) and of all loads and stresses (dashed) over time, by tolerance."""
+    from .compare import is_motion
+
+    for i, (tolerance, colour) in enumerate(zip(found.tolerances, (HEAD, MIDDLE, RING), strict=True)):
+        for motion, style in ((True, "-"), (False, "--")):
+            worst = np.max([channel.error[i] for channel in found.channels if is_motion(channel) == motion], axis=0)
+            ax.semilogy(1e3 * found.t[1:], worst[1:], style, color=colour, lw=1.0, label=f"{tolerance:.0e}" if motion else None)
+    ax.set(title="By tolerance", xlabel="time [ms]", ylabel="largest difference / scale: motion, - - loads")
+    ax.legend(ncols=3, loc="lower right", bbox_to_anchor=(1.0, 1.0))
+
+
+def deviations(ax, found):
+    """Statistics of the reference in standard deviations of the FMU's over seeds."""
+    rows = [row for row in found.statistics if np.isfinite(row.deviation)][::-1]
+    ax.barh(range(len(rows)), [row.deviation for row in rows], color=[MIDDLE if abs(row.deviation) < 3.0 else HEAD for row in rows], height=0.6)
+    ax.set_yticks(range(len(rows)), [row.name.removeprefix("stat.") for row in rows])
+    limit = max(3.5, 1.1 * max((abs(row.deviation) for row in rows), default=0.0))
+    ax.set(title=f"Statistics of {found.long - found.settle:g} s: reference - FMU", xlabel="standard deviations over seeds", xlim=(-limit, limit))
+    ax.axvline(0.0, color=MUTED, lw=0.8)

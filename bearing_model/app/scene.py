@@ -185,6 +185,17 @@ def positive(value, scales):
     return number
 
 
+def seconds(key, value):
+    """A time [s] of zero or more from a number or a text with a unit; UserError naming the key."""
+    try:
+        time = to_si(value, SECONDS)
+        if time < 0.0:
+            raise UserError("must not be negative")
+        return time
+    except UserError as problem:
+        raise UserError(f"{key} = {reprlib.repr(value)}: {problem}") from None
+
+
 def select(patterns, model):
     """Names of the inputs and outputs that match the patterns (* stands for any text), in the order of the FMU."""
     if not isinstance(patterns, list) or not all(isinstance(pattern, str) for pattern in patterns):
