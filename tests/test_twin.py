@@ -295,7 +295,7 @@ def test_outputs(core, scene, record_property):
 
 def test_outputs_at_the_start(core):
     """Before any step, too; from the same state."""
-    model, y, _ = start_of("mixed_supported")
+    model, _, _ = start_of("mixed_supported")
     instance = Instance(core, *SCENES["mixed_supported"])
     w = Work()
     rhs(model, 0.0, instance.y, w)
