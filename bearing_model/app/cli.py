@@ -314,6 +314,18 @@ def compare(
 
 
 @command
+def report(
+    results: Annotated[Path, typer.Argument(help="result file of `run`, or a folder of such files")],
+    out: Annotated[Path | None, typer.Option(help="the page to write, a folder for several; default: beside the results")] = None,
+):
+    """One HTML page per run that needs nothing else: figures, charts, and the motion to play and scrub."""
+    from .report import report_pages
+
+    for path in report_pages(results, out):
+        console.print(f"report  [cyan]{escape(str(path))}[/]", soft_wrap=True)
+
+
+@command
 def info(
     target: Annotated[str, typer.Argument(metavar="[BEARING|SCENE]", help="bearing file or designation, or scene file or name")] = DEFAULT_BEARING,
     fmu: Annotated[Path | None, typer.Option(help="the FMU whose parameters a scene starts from")] = None,

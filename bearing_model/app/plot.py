@@ -151,7 +151,7 @@ HEIGHTS = {loads: 0.6, stress: 1.4}
 
 def cage_orbit(ax, result):
     """Path of the cage's centre within its guide clearance."""
-    ax.set(title="Orbit of the cage's centre", xlabel="z [µm]", ylabel="y [µm]", aspect="equal")
+    ax.set(title="Orbit of the cage's centre, seen from +X", xlabel="y [µm]", ylabel="z [µm]", aspect="equal")
     if not wanted(result, ["cage.y", "cage.z"]):
         ax.text(0.5, 0.5, "cage.y and cage.z were not recorded", ha="center", transform=ax.transAxes)
         return
@@ -159,7 +159,7 @@ def cage_orbit(ax, result):
     y, z = 1e6 * result.data["cage.y"][late], 1e6 * result.data["cage.z"][late]
     clearance = 1e6 * result.parameters["cage.guide_clearance"] / 2
     ax.add_patch(Circle((0, 0), clearance, fill=False, color=MUTED, ls="--", lw=1, label="guide clearance"))
-    ax.plot(z, y, color=FORCE, lw=0.35, alpha=0.7)
+    ax.plot(y, z, color=FORCE, lw=0.35, alpha=0.7)
     limit = 1.08 * max(clearance, np.abs(y).max(), np.abs(z).max())
     ax.set(xlim=(-limit, limit), ylim=(-limit, limit))
     ax.legend(loc="lower right", bbox_to_anchor=(1.0, 1.0))
@@ -172,8 +172,8 @@ def magnified(ax, y, z, half):
     """The orbit once more in the middle of the empty circle, magnified: a square of the half width given [um]."""
     centre = (y.max() + y.min()) / 2, (z.max() + z.min()) / 2
     inset = ax.inset_axes([0.3, 0.3, 0.4, 0.4])
-    inset.plot(z, y, color=FORCE, lw=0.35, alpha=0.8)
-    inset.set(xlim=(centre[1] - half, centre[1] + half), ylim=(centre[0] - half, centre[0] + half), aspect="equal")
+    inset.plot(y, z, color=FORCE, lw=0.35, alpha=0.8)
+    inset.set(xlim=(centre[0] - half, centre[0] + half), ylim=(centre[1] - half, centre[1] + half), aspect="equal", facecolor="#ffffff")
     inset.tick_params(labelsize=7)
     ax.indicate_inset_zoom(inset, edgecolor=MUTED)
 

@@ -1,0 +1,273 @@
+"""The report: one file that needs nothing else, figures equal to the run's, life by a second hand, and a page that moves in a real browser."""
+
+import base64
+import json
+import re
+import shutil
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from bearing_model import fatigue
+from bearing_model.app import UserError, run, write_result
+from bearing_model.app.animation import BUDGET, exaggeration, frames, thinned
+from bearing_model.app.charts import PAGE_COLOURS, azimuth_of, by_bin
+from bearing_model.app.charts import thinned as thinned_result
+from bearing_model.app.life import fatigue_law, rivet_life
+from bearing_model.app.report import CHARTS, duration, figure, render, report_files, report_pages
+from bearing_model.app.results import Result
+from bearing_model.variables import Z
+
+T_END = 0.012
+
+
+@pytest.fixture(scope="module")
+def result():
+    """A run of the working point with impacts in it, short of what statistics need."""
+    return run("demo", t_end=T_END, parameters={"start.settle": 2e-3, "joint.preload": "30 N"})
+
+
+@pytest.fixture(scope="module")
+def few(result):
+    """The run with few channels, as if no others had been asked for."""
+    return replace(result, data={name: values for name, values in result.data.items() if name.startswith(("time", "ring.", "shaft."))})
+
+
+@pytest.fixture(scope="module")
+def page(result):
+    return render(result)
+
+
+# ----------------------------------------------------------------------------------------------------------------------------- page
+
+
+def test_page_is_complete_and_needs_nothing_else(page):
+    """Every chart is there, nothing is fetched, no colour is fixed where the page has light and dark, and it stays below 2 MB."""
+    assert len(page.encode()) < 2e6
+    assert page.count('role="img" aria-label') == len(CHARTS) + 3  # and three canvases
+    assert "not recorded" not in page and "too few" not in page
+    assert not re.findall(r"""(?:src|href)=["'](?!#|data:)[^"']*""", page)
+    assert not re.findall(r"url\((?!#)", page) and "@import" not in page
+    assert set(re.findall(r'https?://[^\s"<)]*', page)) <= {"http://www.w3.org/1999/xlink"}  # the name of a namespace
+    drawn = "".join(re.findall(r"<svg.*?</svg>", page, re.S))
+    assert not [colour for colour in PAGE_COLOURS if colour in drawn]
+    ids = re.findall(r'\sid="([^"]*)"', page)
+    assert len(ids) == len(set(ids))
+    assert set(re.findall(r'(?:url\(#|href="#)([^)"]*)', page)) <= set(ids)
+
+
+def test_page_shows_the_figures_of_the_run(page, result):
+    assert f"{figure(1e-6 * result.summary['stat.sigma_head_p999'])} <small>MPa" in page
+    assert f"{figure(result.summary['stat.Q_c_p999'])} <small>N" in page
+    assert f"{result.summary['solver.steps']:,.0f}" in page
+    assert "18,238" in page and "rev/min" in page
+    changed = page.split("parameters that differ")[1].split("</table>")[0]
+    assert "joint.preload" in changed and ">30<" in changed and "joint.fit" not in changed
+
+
+def test_texts_are_escaped(few):
+    shown = render(replace(few, about=few.about | {"description": "<script>alert(1)</script>", "stopped": "<b>"}))
+    assert "<script>alert" not in shown and "&lt;script&gt;" in shown
+
+
+def test_what_was_not_recorded_is_said(few):
+    """A run with few channels gives a page with what there is."""
+    page = render(few)
+    assert "No animation: not recorded: half_0.x" in page
+    assert "Load distribution over the azimuth: not recorded: ball[1].psi" in page
+    assert 'aria-label="Displacement of the inner ring over time"' in page
+
+
+def test_a_run_of_one_row_has_a_page(result):
+    """As left by an FMU that gave up in its first step."""
+    first = {name: values[:1] for name, values in result.data.items()}
+    assert "too few samples" in render(replace(result, data=first))
+
+
+# ------------------------------------------------------------------------------------------------------------------------ animation
+
+
+def numbers(channel):
+    return channel["first"] + channel["step"] * np.frombuffer(base64.b64decode(channel["data"]), "<i2")
+
+
+def test_frames_give_back_the_motion(result):
+    """Positions to 16 bits of their range, azimuths through the rotation of the cage: within 0.1 um at the pitch circle."""
+    film, missing = frames(result)
+    assert not missing
+    film = json.loads(json.dumps(film))
+    time, psi = (np.frombuffer(base64.b64decode(text), "<f4") for text in (film["time"], film["turned"]["psi"]))
+    assert time == pytest.approx(result.data["time"], abs=1e-8)
+    for j in (1, 5, Z):
+        azimuth = psi + numbers(film["channels"][f"lag{j}"]) + 2 * np.pi * (j - 1) / Z
+        assert 0.0268 * np.abs(azimuth - result.data[f"ball[{j}].psi"]).max() < 1e-7  # expected: 32 bits of 10 rad, 16 bits of the lag: 3e-8
+        x = result.data[f"ball[{j}].x"]
+        assert np.abs(numbers(film["channels"][f"x{j}"]) - x).max() <= np.ptp(x) / 131070 * 1.001
+    assert film["scale"] == 10.0
+
+
+def test_long_runs_are_thinned_to_the_budget_and_keep_their_peaks(result):
+    many = {name: np.tile(values, 80) for name, values in result.data.items()} | {"time": np.arange(80 * len(result.data["time"])) * 1e-4}
+    film, _ = frames(replace(result, data=many))
+    assert len(json.dumps(film)) < 1.1 * BUDGET
+    stress = numbers(film["channels"]["rivet.sigma_head_max"])
+    assert stress.max() == pytest.approx(many["rivet.sigma_head_max"].max(), rel=1e-6)
+
+
+def test_thinned_peaks():
+    assert thinned(np.array([1.0, 5.0, 2.0, 3.0, 9.0, 4.0, 0.0]), 3).tolist() == [1.0, 5.0, 9.0]
+
+
+@pytest.mark.parametrize(("pocket", "guide", "scale"), [(2e-4, 2e-4, 10.0), (2e-4, 3e-4, 5.0), (1e-2, 2e-4, 1.0), (2e-5, 2e-5, 100.0)])
+def test_exaggeration_fits_between_the_pockets(pocket, guide, scale):
+    """The largest radial clearance is drawn as at most 13 % of the ball."""
+    p = {"bearing.D": 0.0111125, "cage.pocket_clearance": pocket, "cage.guide_clearance": guide}
+    assert exaggeration(p) == scale
+
+
+# ------------------------------------------------------------------------------------------------------------------------- numbers
+
+
+def test_thinned_curves_keep_every_extreme(result):
+    rng = np.random.default_rng(1)
+    long = Result(data={"time": np.arange(50_000) * 1e-5, "a": rng.normal(size=50_000)}, units={}, parameters={})
+    few = thinned_result(long, 100)
+    assert len(few.data["a"]) == 200
+    assert (few.data["a"].min(), few.data["a"].max()) == (long.data["a"].min(), long.data["a"].max())
+    assert np.all(np.diff(few.data["time"]) > 0.0)
+
+
+def test_the_load_zone_is_where_the_load_points(result):
+    """F_y presses the balls at azimuth 0; those opposite carry no inner load."""
+    psi = np.concatenate([azimuth_of(result, "ball", j, Z) for j in range(1, Z + 1)])
+    load = np.concatenate([result.data[f"ball[{j}].Q_i"] for j in range(1, Z + 1)])
+    mean = by_bin(load, (psi * 12 + 0.5).astype(int) % 12, 12, np.mean)
+    assert np.argmax(mean) == 0 and mean[0] > 1000.0 and mean[6] == 0.0
+
+
+def made_up(result, history):
+    """The result with the same stress history [Pa] in every rivet, 1 ms a sample, no peaks between them."""
+    channels = {f"rivet[{k}].sigma_{place}{peak}": history for k in range(1, Z + 1) for place in ("head", "mid") for peak in ("", "_peak")}
+    data = {"time": np.arange(len(history)) * 1e-3} | channels
+    return replace(result, data=data, parameters=result.parameters | {"start.settle": 0.0})
+
+
+def test_life_of_a_constant_amplitude(result):
+    """1,000 cycles of 300 MPa about zero: D = n (sigma_a/sigma_D)^k_1 / N_D."""
+    swing = np.append(np.tile([300e6, -300e6], 1000), 300e6)
+    life = rivet_life(made_up(result, swing), 3, "head")
+    assert life.damage == pytest.approx(1000 * (300 / 250) ** 8 / 2e6, rel=1e-12)
+    assert life.life == pytest.approx(2.0 / life.damage, rel=1e-12)
+    assert life.cycles[:, 2].sum() == 1000
+
+
+def test_life_agrees_with_the_streaming_count(result):
+    """A third party's rainflow against the FMU's own algorithm, of any history."""
+    history = 1e8 + 2e8 * np.random.default_rng(5).normal(size=3000)
+    channel, law = fatigue.FatigueChannel(), fatigue_law(result.parameters)
+    for sigma in history.tolist():
+        channel.push(law, sigma)
+    assert rivet_life(made_up(result, history), 1, "mid").damage == pytest.approx(channel.damage(law), rel=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("seconds", "text"), [(30.0, "30 s"), (7200.0, "2 h"), (8766 * 3600 * 200.0, "200 years"), (1e20, "> 1e5 years"), (np.inf, "no damage")]
+)
+def test_durations_read_well(seconds, text):
+    assert duration(seconds) == text
+
+
+# --------------------------------------------------------------------------------------------------------------------------- files
+
+
+def test_pages_lie_beside_their_results(few, tmp_path):
+    for kind in ("a.parquet", "b.csv"):
+        write_result(replace(few, about=few.about | {"scene": kind}), tmp_path / kind)
+    assert [path.name for path in report_pages(tmp_path)] == ["a.html", "b.html"]
+    assert "<h1>b.csv</h1>" in (tmp_path / "b.html").read_text()
+    assert [path.name for path in report_pages(tmp_path / "a.parquet", tmp_path / "x.html")] == ["x.html"]
+    with pytest.raises(UserError, match="one page for 2 results"):
+        next(report_pages(tmp_path, tmp_path / "x.html"))
+    (tmp_path / "empty").mkdir()
+    with pytest.raises(UserError, match=r"no results in this folder; allowed are files ending in parquet"):
+        report_files(tmp_path / "empty")
+
+
+# ------------------------------------------------------------------------------------------------------------------------- browser
+
+
+@pytest.fixture(scope="module")
+def browser():
+    """A headless Chromium of this machine."""
+    playwright = pytest.importorskip("playwright.sync_api", reason='no playwright: pip install "riveted-bearing[browser]"')
+    chromium = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None)
+    if chromium is None:
+        pytest.skip("no Chromium on this machine")
+    with playwright.sync_playwright() as p:
+        browser = p.chromium.launch(executable_path=chromium, args=["--no-sandbox"])
+        yield browser
+        browser.close()
+
+
+@pytest.fixture
+def opened(browser, page, tmp_path):
+    """opened(width, height, scheme) -> the page in a window, and what it complained about or asked for."""
+    (tmp_path / "report.html").write_text(page, encoding="utf-8")
+
+    def show(width, height, scheme="light"):
+        tab, complaints = browser.new_page(viewport={"width": width, "height": height}, color_scheme=scheme), []
+        tab.on("console", lambda message: complaints.append(message.text))
+        tab.on("pageerror", lambda error: complaints.append(str(error)))
+        tab.on("request", lambda request: complaints.append(request.url) if not request.url.startswith(("file:", "data:")) else None)
+        tab.goto((tmp_path / "report.html").as_uri())
+        tab.wait_for_selector("#animation[data-ready]")
+        return tab, complaints
+
+    return show
+
+
+def milliseconds(tab):
+    """Time that the animation shows."""
+    return float(tab.inner_text("#readout").split(" ms")[0])
+
+
+@pytest.mark.parametrize(("width", "height", "scheme"), [(1280, 900, "light"), (375, 812, "dark")])
+def test_animation_plays_and_scrubs(opened, width, height, scheme):
+    tab, complaints = opened(width, height, scheme)
+    assert tab.evaluate("document.documentElement.scrollWidth") == width  # nothing sticks out
+    picture = "document.getElementById('{}').toDataURL()"
+    before, start = {name: tab.evaluate(picture.format(name)) for name in ("front", "strip", "trace")}, milliseconds(tab)
+    tab.click("#play")
+    tab.wait_for_function("start => parseFloat(document.getElementById('readout').textContent) > start + 0.3", arg=start)  # 0.15 s at 500 times slower
+    tab.click("#play")
+    assert tab.inner_text("#play") == "Play"
+    for name, picture_before in before.items():
+        assert tab.evaluate(picture.format(name)) != picture_before, name
+    stopped = milliseconds(tab)
+    tab.wait_for_timeout(100)
+    assert milliseconds(tab) == stopped
+
+    tab.focus("#when")
+    tab.keyboard.press("End")
+    assert milliseconds(tab) == pytest.approx(1e3 * T_END, abs=0.01)
+    box = tab.locator("#trace").bounding_box()
+    tab.locator("#trace").click(position={"x": 0.25 * box["width"], "y": 20})
+    assert milliseconds(tab) == pytest.approx(0.25e3 * T_END, abs=0.1)  # a pixel is 0.04 ms
+    assert float(tab.input_value("#when")) == pytest.approx(0.25 * T_END, abs=1e-4)
+    fixed = tab.evaluate(picture.format("front"))
+    tab.check("#follow")
+    assert tab.evaluate(picture.format("front")) != fixed
+    assert complaints == []
+    tab.close()
+
+
+def test_printed_page_is_light_and_has_the_picture(opened):
+    """Printing from a dark screen: dark ink on white, and the canvas drawn again for it."""
+    tab, complaints = opened(1280, 900, "dark")
+    tab.evaluate("dispatchEvent(new Event('beforeprint'))")
+    assert tab.evaluate("getComputedStyle(document.body).backgroundColor") == "rgb(255, 255, 255)"
+    tab.evaluate("dispatchEvent(new Event('afterprint'))")
+    assert tab.evaluate("getComputedStyle(document.body).backgroundColor") != "rgb(255, 255, 255)"
+    assert complaints == []
+    tab.close()
