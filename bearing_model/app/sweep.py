@@ -72,6 +72,7 @@ class Sweep:
     name: str
     description: str
     model: Model
+    fmu: bytes = field(repr=False)  # its content, as it was when the design was made
     document: dict
     factors: tuple
     scenes: dict = field(repr=False)  # key -> Scene, in the order in which they are run
@@ -98,7 +99,8 @@ def plan_sweep(name, document, model, path):
         raise UserError(f"{path}: {', '.join(sorted(twice))} varies in more than one place")
     common = {"simulation": {"outputs": list(SAMPLED)} | document.get("simulation", {})}
     common |= {section: document.get(section, {}) for section in ("parameters", "inputs")}
-    fingerprint = hashlib.sha256(model.path.read_bytes()).hexdigest()
+    fmu = model.path.read_bytes()
+    fingerprint = hashlib.sha256(fmu).hexdigest()
     scenes = {}
     for point in itertools.product(*axes):
         settings = {name: value for part in point for name, value in part.items()}
@@ -108,7 +110,7 @@ def plan_sweep(name, document, model, path):
         if key in scenes:
             raise UserError(f"{path}: the same run occurs twice: {settings}")
         scenes[key] = scene
-    return Sweep(name, str(document.get("description", "")), model, document, factors, scenes)
+    return Sweep(name, str(document.get("description", "")), model, fmu, document, factors, scenes)
 
 
 def vary_axes(path, blocks, model):
@@ -309,8 +311,7 @@ def run_sweep(sweep, folder, client, progress=None):
     finished = compact(folder, schema, keys)
     done, failed = len(finished), 0
     progress(done, failed, len(keys))
-    content = sweep.model.path.read_bytes()
-    fmu = client.submit(bytes, content, key=f"fmu-{hashlib.sha256(content).hexdigest()}")  # a task: made again if its workers die
+    fmu = client.submit(bytes, sweep.fmu, key=f"fmu-{hashlib.sha256(sweep.fmu).hexdigest()}")  # a task: made again if its workers die
     futures = [client.submit(perform, sweep.scenes[key], fmu, key=f"run-{key}") for key in keys if key not in finished]
     try:
         for future in as_completed(futures):
