@@ -68,8 +68,9 @@ class Estimate:
     high: float
 
     def __str__(self):
-        digits = max(0, 2 - int(np.floor(np.log10(max(abs(self.mean), 1e-12)))))
-        mean, low, high = (f"{value:,.{min(digits, 3)}f}" for value in (self.mean, self.low, self.high))
+        size = np.nanmax(np.abs([self.mean, self.low, self.high])) if np.isfinite(self.low) else abs(self.mean)
+        digits = int(np.clip(2 - np.floor(np.log10(max(size, 1e-12))), 0, 3))
+        mean, low, high = (f"{value if abs(value) >= 0.5 * 10.0**-digits else 0.0:,.{digits}f}" for value in (self.mean, self.low, self.high))
         return mean if low == high else f"{mean} [{low}, {high}]"
 
 
