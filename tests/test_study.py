@@ -59,9 +59,8 @@ def test_clearances_hold_what_they_say(model):
 
 def test_confidence_is_students():
     e = estimate([1.0, 2.0, 3.0])
-    assert (e.mean, e.high - e.mean, e.mean - e.low) == pytest.approx(
-        (2.0, 4.3027 / np.sqrt(3), 4.3027 / np.sqrt(3)), rel=1e-4
-    )  # t of 2 degrees of freedom, tables
+    half = 4.3027 / np.sqrt(3)  # t of 2 degrees of freedom, from tables
+    assert (e.mean, e.high - e.mean, e.mean - e.low) == pytest.approx((2.0, half, half), rel=1e-4)
 
 
 @pytest.mark.parametrize(
@@ -128,9 +127,8 @@ def test_the_page_has_pictures_claims_and_cost(clearance, tmp_path, monkeypatch)
     assert drawn == [tmp_path / "paper" / "clearance.png"] and drawn[0].read_bytes()[:4] == b"\x89PNG"
     assert "![Fig. 16: clearance ratio](paper/clearance.png)" in text and "Of 3 claims" in text
     assert text.count("| 4.1 (5)") == 3 and "| clearance | Fig. 16 | 2 | 38 |" in text
-    lowest = min(
-        np.unique(data["clearance"]["ratio"]), key=lambda r: study.clearance_series(data["clearance"], "constant sum 0.4 mm").at(ratio=r).estimate("force").mean
-    )
+    series = study.clearance_series(data["clearance"], "constant sum 0.4 mm")
+    lowest = min(np.unique(series["ratio"]), key=lambda value: series.at(ratio=value).estimate("force").mean)
     assert f"constant sum: mean force {lowest:g}," in text
 
 
