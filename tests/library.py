@@ -14,13 +14,14 @@ from pathlib import Path
 
 import cffi
 import numpy as np
+import other_bearing
 from pycparser import c_ast, c_generator, c_parser
 
 from bearing_model import variables
 
 ROOT = Path(__file__).resolve().parents[1]
-SOURCES = ROOT / "fmu_src"
-LIBRARY = ROOT / "build" / "libbearing_test.so"
+SOURCES = (other_bearing.BUILD or ROOT) / "fmu_src"
+LIBRARY = (other_bearing.BUILD or ROOT / "build") / "libbearing_test.so"
 INSTRUCTION_SETS = ("generic", "neon", "sse2", "avx2", "avx512")
 LANE_TYPES = {"real", "bits", "words", "vec"}  # depend on the lane width: no place outside the kernels
 SYSTEM_TYPES = "typedef _Bool bool; typedef unsigned long size_t; typedef long int64_t; typedef unsigned long uint64_t; typedef unsigned uint32_t;"

@@ -24,7 +24,7 @@ OTHER = {
     "bearing.nu": 0.27,
     "bearing.rho": 3200.0,
     "bearing.lambda": 0.1,
-    "ball[j].dD": [1e-6 * j for j in range(-4, 5)],
+    "ball[j].dD": [1e-6 * (j - Z // 2) for j in range(Z)],
     "cage.pocket_clearance": 0.3e-3,
     "cage.guide_clearance": 0.15e-3,
     "cage.m": 0.02,
