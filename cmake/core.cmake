@@ -1,13 +1,24 @@
 # The core: physics, integrator, variable tables.  Its objects go into the FMU and, the same ones, into the tests' library.
 
-# Files that work on bundles of lanes: compiled once for each instruction set, chosen at run time.
-set(kernel_files rhs.c ball.c race_contact.c drag.c pocket.c cage_joint.c land_film.c ring.c)  # the right-hand side
-set(solver_files vector_ops.c implicit.c)                                                      # what the integrator does with it
+include(CheckCCompilerFlag)
 
-set(warnings -Wall -Wextra -Wpedantic -Werror)
+# Files that work on bundles of lanes: compiled once for each instruction set, chosen at run time.
+set(kernel_files rhs.c ball.c race_contact.c drag.c pocket.c cage_joint.c land_film.c ring.c  # the right-hand side
+    vector_ops.c implicit.c)                                                                  # what the integrator does with it
+
+set(warnings -Wall -Wextra -Wpedantic)
 set(arithmetic -ffp-contract=off -fno-math-errno -fno-trapping-math)  # IEEE results, the same ones on every instruction set
-# Default visibility lets the tests call each element; without interposition calls are as direct as among hidden symbols, and the FMU exports fmi2* only.
-set(core_flags ${warnings} ${arithmetic} -fno-semantic-interposition)
+set(core_flags ${warnings} ${arithmetic})
+if(CMAKE_CROSSCOMPILING)
+    list(APPEND core_flags -fvisibility=hidden)
+else()
+    # Default visibility lets the tests call each element; without interposition calls are as direct as among hidden symbols, and the FMU exports fmi2* only.
+    list(APPEND core_flags -Werror)
+    check_c_compiler_flag("-Werror -fno-semantic-interposition" no_interposition)
+    if(no_interposition)
+        list(APPEND core_flags -fno-semantic-interposition)
+    endif()
+endif()
 if(NOT SANITIZE)
     list(APPEND core_flags -O3)
 endif()
@@ -35,43 +46,45 @@ else()
 endif()
 
 list(TRANSFORM kernel_files PREPEND ${fmu_src}/)
-list(TRANSFORM solver_files PREPEND ${fmu_src}/)
 file(GLOB core_files CONFIGURE_DEPENDS ${fmu_src}/*.c)
-list(REMOVE_ITEM core_files ${kernel_files} ${solver_files} ${fmu_src}/tangent.c ${fmu_src}/fmi2_wrapper.c)
+list(REMOVE_ITEM core_files ${kernel_files} ${fmu_src}/fmi2_wrapper.c)
 
 add_library(core OBJECT ${core_files} ${rivet_table})
 target_include_directories(core PUBLIC ${fmu_src})
 target_compile_options(core PRIVATE ${core_flags})
-target_link_libraries(core PUBLIC SUNDIALS::arkode SUNDIALS::cvode SUNDIALS::kinsol SUNDIALS::nvecserial m)
+target_link_libraries(core PUBLIC sundials m)
 
-# Adds the core's kernel files and `files`, compiled for one instruction set.
-function(add_kernel isa lane_width files)
-    add_library(kernel_${isa} OBJECT ${kernel_files} ${files})
+# Adds the kernel files, compiled for one instruction set.
+function(add_kernel isa lane_width)
+    add_library(kernel_${isa} OBJECT ${kernel_files})
     target_include_directories(kernel_${isa} PRIVATE ${fmu_src})
     target_compile_definitions(kernel_${isa} PRIVATE ISA=${isa} LANE_WIDTH=${lane_width})
     target_compile_options(kernel_${isa} PRIVATE ${core_flags} ${ARGN})
     set(core_objects ${core_objects} $<TARGET_OBJECTS:kernel_${isa}> PARENT_SCOPE)
 endfunction()
 
-set(core_objects $<TARGET_OBJECTS:core>)
+set(core_objects $<TARGET_OBJECTS:core> ${sundials_objects})
 if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
-    add_kernel(sse2 2 "${solver_files}")
-    add_kernel(avx2 4 "${solver_files}" -mavx2)  # what dispatch.c asks the processor for, no more
-    add_kernel(avx512 8 "${solver_files}" -mavx512f -mavx512dq -mavx512vl -mprefer-vector-width=512)
+    add_kernel(sse2 2)
+    add_kernel(avx2 4 -mavx2)  # what dispatch.c asks the processor for, no more
+    add_kernel(avx512 8 -mavx512f -mavx512dq -mavx512vl -mprefer-vector-width=512)
+    target_compile_definitions(core PRIVATE KERNELS_X86)
 elseif(CMAKE_SYSTEM_PROCESSOR MATCHES "aarch64|arm64")
-    add_kernel(neon 2 "${solver_files}")
+    add_kernel(neon 2)
+    target_compile_definitions(core PRIVATE KERNELS_NEON)
 else()
-    add_kernel(generic 2 "${solver_files}")
+    add_kernel(generic 2)
 endif()
 
 # And once in dual numbers: derivatives.  Complex products need no care for infinities here.
-include(CheckCCompilerFlag)
 check_c_compiler_flag("-Werror -fcx-limited-range" limited_range)
-add_kernel(dual 1 ${fmu_src}/tangent.c -DDUAL $<$<BOOL:${limited_range}>:-fcx-limited-range>)
+if(limited_range)
+    set_source_files_properties(${fmu_src}/tangent.c PROPERTIES COMPILE_OPTIONS -fcx-limited-range)
+endif()
 
 # For the tests only: each element's functions, callable from Python.
 file(GLOB test_files CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/tests/test_library.c)
-if(test_files)
+if(test_files AND NOT CMAKE_CROSSCOMPILING)
     add_library(bearing_test SHARED ${core_objects} ${test_files})
     target_compile_options(bearing_test PRIVATE ${core_flags})
     target_link_libraries(bearing_test PRIVATE core)

@@ -1,18 +1,21 @@
 # The FMU: its binary, which exports fmi2* only and needs libc and libm only, and the archive around it.
 
-add_library(RivetedBearing MODULE ${core_objects} ${fmu_src}/fmi2_wrapper.c)
-set_target_properties(RivetedBearing PROPERTIES PREFIX "")
+add_library(RivetedBearing SHARED ${core_objects} ${fmu_src}/fmi2_wrapper.c)
+set_target_properties(RivetedBearing PROPERTIES PREFIX "" NO_SONAME ON)
 target_include_directories(RivetedBearing SYSTEM PRIVATE ${fmpy_dir}/c-code)
 target_compile_options(RivetedBearing PRIVATE ${core_flags})
 target_link_libraries(RivetedBearing PRIVATE core)
-if(APPLE)
-    target_link_options(RivetedBearing PRIVATE -Wl,-exported_symbol,_fmi2*)
-else()
-    target_link_options(RivetedBearing PRIVATE -Wl,--version-script=${PROJECT_SOURCE_DIR}/cmake/exports.map -Wl,--gc-sections -static-libgcc)
+if(CMAKE_SYSTEM_NAME STREQUAL "Linux")
+    target_link_options(RivetedBearing PRIVATE -Wl,--version-script=${PROJECT_SOURCE_DIR}/cmake/exports.map -Wl,--gc-sections)
     set_target_properties(RivetedBearing PROPERTIES LINK_DEPENDS ${PROJECT_SOURCE_DIR}/cmake/exports.map)
     if(NOT SANITIZE)
         target_link_options(RivetedBearing PRIVATE -Wl,--no-undefined -Wl,-s)
     endif()
+elseif(APPLE AND NOT CMAKE_CROSSCOMPILING)
+    target_link_options(RivetedBearing PRIVATE -Wl,-exported_symbol,_fmi2*)  # cross-compiled, all others are hidden
+endif()
+if(CMAKE_C_COMPILER_ID STREQUAL "GNU")
+    target_link_options(RivetedBearing PRIVATE -static-libgcc)
 endif()
 
 set(FMU ${PROJECT_BINARY_DIR}/RivetedBearing.fmu CACHE FILEPATH "The FMU to write")

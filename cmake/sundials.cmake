@@ -131,7 +131,7 @@ function(find_sundials_source result)
         if(archive)
             message(STATUS "SUNDIALS: ${archive}")
             file(ARCHIVE_EXTRACT INPUT ${archive} DESTINATION ${PROJECT_BINARY_DIR}/_deps
-                PATTERNS */CMakeLists.txt */cmake/* */include/* */src/* */LICENSE)
+                PATTERNS */include/* */src/* */LICENSE)
         else()
             set(folder "")
         endif()
@@ -139,27 +139,58 @@ function(find_sundials_source result)
     set(${result} ${folder} PARENT_SCOPE)
 endfunction()
 
-# Adds the targets SUNDIALS::* of the source in `folder`.
-function(build_sundials folder)
-    foreach(off IN ITEMS BUILD_SHARED_LIBS BUILD_CVODES BUILD_IDA BUILD_IDAS BUILD_TESTING BUILD_FORTRAN_MODULE_INTERFACE EXAMPLES_ENABLE_C EXAMPLES_INSTALL
-            SUNDIALS_BUILD_WITH_PROFILING SUNDIALS_ENABLE_ERROR_CHECKS)
-        set(${off} OFF CACHE BOOL "" FORCE)
+# Writes the headers that SUNDIALS' own build configures into `folder`: double precision, 64-bit indices, nothing optional, the same on every platform.
+function(configure_sundials source folder)
+    set(PACKAGE_VERSION ${sundials_version})
+    string(REPLACE "." ";" numbers ${sundials_version})
+    list(GET numbers 0 PACKAGE_VERSION_MAJOR)
+    list(GET numbers 1 PACKAGE_VERSION_MINOR)
+    list(GET numbers 2 PACKAGE_VERSION_PATCH)
+    set(PRECISION_LEVEL "#define SUNDIALS_DOUBLE_PRECISION 1")
+    set(INDEX_TYPE "#define SUNDIALS_INT64_T 1")
+    set(SUNDIALS_CINDEX_TYPE int64_t)
+    set(SUNDIALS_LOGGING_LEVEL 0)
+    set(SUNDIALS_DEPRECATED_MSG_MACRO "")
+    foreach(stamp IN ITEMS C_COMPILER_ID C_COMPILER_VERSION C_FLAGS BUILD_TYPE)
+        set(CMAKE_${stamp} "")
     endforeach()
-    set(SUNDIALS_LOGGING_LEVEL 0 CACHE STRING "" FORCE)
-    set(CMAKE_C_VISIBILITY_PRESET hidden)
-    string(APPEND CMAKE_C_FLAGS " -ffp-contract=off -fno-math-errno")
-    set(CMAKE_MESSAGE_LOG_LEVEL WARNING)
-    add_subdirectory(${folder} ${PROJECT_BINARY_DIR}/_deps/sundials-build EXCLUDE_FROM_ALL SYSTEM)
+    configure_file(${source}/include/sundials/sundials_config.in ${folder}/sundials/sundials_config.h)
+    file(CONFIGURE OUTPUT ${folder}/sundials/sundials_export.h CONTENT
+        "#define SUNDIALS_EXPORT\n#define SUNDIALS_NO_EXPORT\n#define SUNDIALS_DEPRECATED\n#define SUNDIALS_DEPRECATED_EXPORT\n#define SUNDIALS_DEPRECATED_NO_EXPORT\n")
 endfunction()
 
+# What the integrator uses of it, and what these files need: an undefined symbol at the link names the file to add.
+set(sundials_files
+    arkode/arkode.c arkode/arkode_adapt.c arkode/arkode_arkstep.c arkode/arkode_arkstep_io.c arkode/arkode_arkstep_nls.c arkode/arkode_butcher.c
+    arkode/arkode_butcher_dirk.c arkode/arkode_butcher_erk.c arkode/arkode_erkstep.c arkode/arkode_erkstep_io.c arkode/arkode_interp.c arkode/arkode_io.c
+    arkode/arkode_ls.c arkode/arkode_mri_tables.c arkode/arkode_mristep.c arkode/arkode_mristep_io.c arkode/arkode_mristep_nls.c arkode/arkode_relaxation.c
+    arkode/arkode_root.c arkode/arkode_user_controller.c
+    sunadaptcontroller/imexgus/sunadaptcontroller_imexgus.c sunadaptcontroller/soderlind/sunadaptcontroller_soderlind.c
+    sunmatrix/band/sunmatrix_band.c sunmatrix/dense/sunmatrix_dense.c sunnonlinsol/newton/sunnonlinsol_newton.c
+    sundials/sundials_adaptcontroller.c sundials/sundials_context.c sundials/sundials_errors.c sundials/sundials_hashmap.c sundials/sundials_linearsolver.c
+    sundials/sundials_logger.c sundials/sundials_math.c sundials/sundials_matrix.c sundials/sundials_nonlinearsolver.c sundials/sundials_nvector.c
+    sundials/sundials_nvector_senswrapper.c)
+
+# Target sundials: its objects, or the installed libraries.  sundials_objects: what else a binary links.
 find_sundials_source(sundials_source)
 if(sundials_source)
-    build_sundials(${sundials_source})
+    set(sundials_headers ${PROJECT_BINARY_DIR}/_deps/sundials-include)
+    configure_sundials(${sundials_source} ${sundials_headers})
+    list(TRANSFORM sundials_files PREPEND ${sundials_source}/src/)
+    set(sundials_folders ${sundials_headers} ${sundials_source}/include ${sundials_source}/src/sundials ${sundials_source}/src/arkode)
+    add_library(sundials OBJECT ${sundials_files})
+    target_include_directories(sundials SYSTEM PUBLIC ${sundials_folders})
+    target_compile_options(sundials PRIVATE -w -ffp-contract=off -fno-math-errno -fvisibility=hidden)
+    set(sundials_objects $<TARGET_OBJECTS:sundials>)
 else()
-    find_package(SUNDIALS ${sundials_version} QUIET COMPONENTS arkode cvode kinsol nvecserial)
+    find_package(SUNDIALS ${sundials_version} QUIET COMPONENTS arkode)
     set(advice "The source of SUNDIALS ${sundials_version} cannot be reached.  Give -DFETCHCONTENT_SOURCE_DIR_SUNDIALS=<folder> for a build from source.")
     if(NOT SUNDIALS_FOUND)
         message(FATAL_ERROR "${advice}")
     endif()
     message(WARNING "${advice}  Using the installed one: up to three times slower, and the FMU needs it on every machine.")
+    add_library(sundials INTERFACE)
+    target_link_libraries(sundials INTERFACE SUNDIALS::arkode)
+    set(sundials_files "")
+    set(sundials_objects "")
 endif()

@@ -1,11 +1,10 @@
 // One instance: life cycle, stepping, peaks and statistics over accepted steps, saved state.
+#include "aligned.h"
 #include "drive.h"
 #include "energy.h"
 #include "instance.h"
 #include "rivets.h"
 #include "start.h"
-
-#include <stdlib.h>
 
 // ---- accepted steps ---------------------------------------------------------------------------------------------------------------------------
 static void add_force(Saved *s, const Work *w, bool counts, double h)
@@ -96,7 +95,7 @@ static void report_events(Bearing *b)
 // ---- life cycle ---------------------------------------------------------------------------------------------------------------------------------
 Bearing *bearing_create(const BearingHost *host)
 {
-    Bearing *b = aligned_alloc(64, (sizeof *b + 63) / 64 * 64);
+    Bearing *b = aligned_new(sizeof *b);
     if (b == NULL) return NULL;
     memset(b, 0, sizeof *b);
     b->host = *host;
@@ -104,7 +103,7 @@ Bearing *bearing_create(const BearingHost *host)
     b->model = (Model){&b->s.p, &b->d, &b->drive};
     b->integrator = integrator_create(&b->kernels, &b->model, &b->w, &b->s.integrator, accepted_step, solver_message, b);
     if (b->integrator == NULL) {
-        free(b);
+        aligned_delete(b);
         return NULL;
     }
     bearing_reset(b);
@@ -115,7 +114,7 @@ void bearing_destroy(Bearing *b)
 {
     if (b == NULL) return;
     integrator_destroy(b->integrator);
-    free(b);
+    aligned_delete(b);
 }
 
 void bearing_reset(Bearing *b)

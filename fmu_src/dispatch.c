@@ -1,29 +1,48 @@
-// Choice of the kernels for this processor, at run time.
+// Choice of the kernels for this processor, at run time.  The build names the sets that it compiled: KERNELS_X86, KERNELS_NEON; without, the one of lanes.h.
 #include "rhs.h"
 
 #undef rhs
 #undef vector_ops
 #undef implicit_ops
 #undef race_contact_force
-#define DECLARE(isa)                         \
+#define DECLARE_2(isa)                       \
     Rhs rhs_##isa;                           \
     ContactKernel race_contact_force_##isa;  \
     extern const VectorOps vector_ops_##isa; \
     extern const ImplicitOps implicit_ops_##isa
-#define KERNELS(isa) ((Kernels){#isa, rhs_##isa, race_contact_force_##isa, &vector_ops_##isa, &implicit_ops_##isa})
+#define KERNELS_2(isa) ((Kernels){#isa, rhs_##isa, race_contact_force_##isa, &vector_ops_##isa, &implicit_ops_##isa})
+#define DECLARE(isa) DECLARE_2(isa)
+#define KERNELS(isa) KERNELS_2(isa)
 
-#if defined(__x86_64__) || defined(_M_X64)
+#if defined(KERNELS_X86)
+#include <cpuid.h>
+
 DECLARE(sse2);
 DECLARE(avx2);
 DECLARE(avx512);
 
+// Registers that the operating system keeps (XCR0): 2 SSE, 4 AVX, 0xe0 AVX-512.
+static unsigned registers_kept(void)
+{
+    unsigned a, b, c, d;
+    const unsigned OSXSAVE = 1u << 27;
+    if (!__get_cpuid(1, &a, &b, &c, &d) || !(c & OSXSAVE)) return 0;
+    __asm__("xgetbv" : "=a"(a), "=d"(d) : "c"(0));
+    return a;
+}
+
+// By cpuid itself: the compilers' __builtin_cpu_supports needs a runtime library that not every tool chain has.
 Kernels kernels_select(void)
 {
-    __builtin_cpu_init();
-    if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl")) return KERNELS(avx512);
-    return __builtin_cpu_supports("avx2") ? KERNELS(avx2) : KERNELS(sse2);
+    enum { YMM = 0x6, ZMM = 0xe6 };
+    const unsigned AVX2 = 1u << 5, AVX512 = 1u << 16 | 1u << 17 | 1u << 31;  // F, DQ, VL
+    unsigned a, b, c, d;
+    const unsigned kept = registers_kept();
+    if (!__get_cpuid_count(7, 0, &a, &b, &c, &d)) b = 0;
+    if ((kept & ZMM) == ZMM && (b & AVX512) == AVX512) return KERNELS(avx512);
+    return (kept & YMM) == YMM && (b & AVX2) ? KERNELS(avx2) : KERNELS(sse2);
 }
-#elif defined(__aarch64__)
+#elif defined(KERNELS_NEON)
 DECLARE(neon);
 
 Kernels kernels_select(void)
@@ -31,11 +50,11 @@ Kernels kernels_select(void)
     return KERNELS(neon);
 }
 #else
-DECLARE(generic);
+DECLARE(ISA);
 
 Kernels kernels_select(void)
 {
-    return KERNELS(generic);
+    return KERNELS(ISA);
 }
 #endif
 

@@ -9,6 +9,8 @@
 // fresh instance continue bit for bit.  Error weights are absolute, 1/(tolerance scale): angles are unbounded.
 #include "integrator.h"
 
+#include "aligned.h"
+
 #include <arkode/arkode_arkstep.h>
 #include <arkode/arkode_erkstep.h>
 #include <stdio.h>
@@ -310,7 +312,7 @@ static bool rehearse(Integrator *in, void *stepper)
 
 Integrator *integrator_create(const Kernels *kernels, const Model *model, Work *w, IntegratorState *state, StepHook *hook, IntegratorLog *log, void *context)
 {
-    Integrator *in = aligned_alloc(64, (sizeof *in + 63) / 64 * 64);
+    Integrator *in = aligned_new(sizeof *in);
     if (in == NULL) return NULL;
     *in = (Integrator){.kernels = kernels, .model = model, .w = w, .s = state, .hook = hook, .log = log, .context = context};
     bool fine = SUNContext_Create(SUN_COMM_NULL, &in->sun) == SUN_SUCCESS;
@@ -345,7 +347,7 @@ void integrator_destroy(Integrator *in)
     if (in->stage != NULL) SUNNonlinSolFree(in->stage);
     if (in->y != NULL) N_VDestroy(in->y);
     if (in->sun != NULL) SUNContext_Free(&in->sun);
-    free(in);
+    aligned_delete(in);
 }
 
 void integrator_tolerance(Integrator *in, double tolerance)

@@ -1,8 +1,19 @@
-// Compiled with the dual kernels only: here numbers carry derivatives.
+// The kernel files once more, in dual numbers: here numbers carry derivatives.
+#define DUAL
+#define ISA dual
+#define LANE_WIDTH 1
+
 #include "tangent.h"
 
+#include "ball.c"
+#include "cage_joint.c"
+#include "drag.c"
 #include "housing.h"
-#include "rhs.h"
+#include "land_film.c"
+#include "pocket.c"
+#include "race_contact.c"
+#include "rhs.c"
+#include "ring.c"
 
 enum { DRIVE_NUMBERS = sizeof(Drive) / sizeof(number), WORK_NUMBERS = sizeof(Work) / sizeof(number) };
 

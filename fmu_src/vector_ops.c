@@ -52,7 +52,7 @@ static double wrms_norm(const double *x, const double *w)
     return sqrt(sum / N_STATES);
 }
 
-static bool finite(const double *x)
+static bool all_finite(const double *x)
 {
     double part[8] = {0};  // x - x is 0, or NaN where x is not finite
     enum { WHOLE = N_STATES / 8 * 8 };
@@ -62,4 +62,4 @@ static bool finite(const double *x)
     return ((part[0] + part[1]) + (part[2] + part[3])) + ((part[4] + part[5]) + (part[6] + part[7])) == 0.0;
 }
 
-const VectorOps vector_ops = {linear_sum, linear_combination, wrms_norm, finite};
+const VectorOps vector_ops = {linear_sum, linear_combination, wrms_norm, all_finite};
