@@ -11,7 +11,7 @@ C_FILES = $(wildcard fmu_src/*.[ch] tests/*.[ch])
 export PATH := $(CURDIR)/$(BIN):$(PATH)  # cmake finds ninja
 export MPLBACKEND = Agg
 
-.PHONY: demo test test-slow bench build generate lint format sanitize clean help
+.PHONY: demo test test-slow bench build fmu-all generate lint format sanitize clean help
 
 demo: build  ## build, then run the paper's working point: stress, cage and run-time figures
 	$(BIN)/riveted-bearing run demo
@@ -27,6 +27,10 @@ bench: build  ## measure what the README claims
 
 build: build/build.ninja  ## the FMU and the tests' library; seconds after an edit
 	$(BIN)/cmake --build build
+
+fmu-all: $(VENV)/installed  ## the FMU with binaries for Linux, Windows and macOS, cross-compiled here
+	$(BIN)/pip --disable-pip-version-check --quiet install ziglang
+	$(BIN)/riveted-bearing build --platforms all
 
 lint: $(VENV)/installed  ## formatters and linters, changing nothing
 	$(BIN)/ruff check .

@@ -4,6 +4,7 @@ add_library(RivetedBearing SHARED ${core_objects} ${fmu_src}/fmi2_wrapper.c)
 set_target_properties(RivetedBearing PROPERTIES PREFIX "" NO_SONAME ON)
 target_include_directories(RivetedBearing SYSTEM PRIVATE ${fmpy_dir}/c-code)
 target_compile_options(RivetedBearing PRIVATE ${core_flags})
+target_compile_definitions(RivetedBearing PRIVATE FMI2_OVERRIDE_FUNCTION_PREFIX)  # a binary's functions have no prefix
 target_link_libraries(RivetedBearing PRIVATE core)
 if(CMAKE_SYSTEM_NAME STREQUAL "Linux")
     target_link_options(RivetedBearing PRIVATE -Wl,--version-script=${PROJECT_SOURCE_DIR}/cmake/exports.map -Wl,--gc-sections)
@@ -18,20 +19,66 @@ if(CMAKE_C_COMPILER_ID STREQUAL "GNU")
     target_link_options(RivetedBearing PRIVATE -static-libgcc)
 endif()
 
+# The archive: each part made only when what it follows from has changed.
+#
+#   FMU        file to write (default: RivetedBearing.fmu in the build folder)
+#   BINARIES   binaries to pack as PLATFORM=FILE, separated by semicolons, instead of this build's (cmake/zig.cmake makes them)
 set(FMU ${PROJECT_BINARY_DIR}/RivetedBearing.fmu CACHE FILEPATH "The FMU to write")
+set(BINARIES "" CACHE STRING "Binaries to pack: PLATFORM=FILE;...")
 set(description ${PROJECT_SOURCE_DIR}/fmus/modelDescription.xml)
+set(parameters ${PROJECT_SOURCE_DIR}/docs/parameters.md)
 if(GENERATED_DIR)
     set(description ${GENERATED_DIR}/modelDescription.xml)
+    set(parameters ${GENERATED_DIR}/parameters.md)
 endif()
-set(package ${PROJECT_SOURCE_DIR}/bearing_model/app/package.py)
+set(tools ${PROJECT_SOURCE_DIR}/fmus)
+set(run ${Python_EXECUTABLE} ${tools})
+set(parts ${PROJECT_BINARY_DIR}/fmu)
+file(MAKE_DIRECTORY ${parts})
+
+add_custom_command(OUTPUT ${parts}/icons/icon.png ${parts}/bearing.svg
+    COMMAND ${run}/picture.py --description ${description} --icons ${parts}/icons --drawing ${parts}/bearing.svg
+    DEPENDS ${description} ${tools}/picture.py VERBATIM)
+file(GLOB texts CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/docs/*.md)
+if(sundials_files)
+    set(source_files ${core_files} ${kernel_files} ${fmu_src}/fmi2_wrapper.c ${rivet_table} ${sundials_files})
+    set(with_sources --sources)
+endif()
+add_custom_command(OUTPUT ${parts}/index.html
+    COMMAND ${run}/page.py --description ${description} --parameters ${parameters} --drawing ${parts}/bearing.svg --out ${parts}/index.html ${with_sources}
+    DEPENDS ${description} ${parameters} ${parts}/bearing.svg ${tools}/page.py ${tools}/templates/index.html ${PROJECT_SOURCE_DIR}/README.md ${texts} COMMAND_EXPAND_LISTS VERBATIM)
+
+set(binaries ${BINARIES})
+set(binary_files RivetedBearing)
+if(NOT BINARIES)
+    set(binaries $<TARGET_FILE:RivetedBearing>)
+else()
+    list(TRANSFORM BINARIES REPLACE "^[^=]*=" "" OUTPUT_VARIABLE binary_files)
+endif()
+list(TRANSFORM binaries PREPEND "--binary\n" OUTPUT_VARIABLE arguments)
+list(APPEND arguments --description ${description} --page ${parts}/index.html --pictures ${parts}/icons --out ${FMU})
+if(sundials_files)
+    list(TRANSFORM source_files PREPEND "--source\n" OUTPUT_VARIABLE sources)
+    list(TRANSFORM sundials_folders PREPEND "--include\n" OUTPUT_VARIABLE folders)
+    list(APPEND arguments ${sources} ${folders})
+endif()
+if(NOT SANITIZE)  # runs the binary in a Python without the sanitizers' library
+    add_custom_command(OUTPUT ${parts}/reference.csv
+        COMMAND ${run}/reference.py --description ${description} --out ${parts}/reference.csv --binary $<JOIN:${binaries},$<SEMICOLON>--binary$<SEMICOLON>>
+        DEPENDS ${description} ${binary_files} ${tools}/reference.py ${tools}/package.py COMMAND_EXPAND_LISTS VERBATIM)
+    set(reference ${parts}/reference.csv)
+    list(APPEND arguments --reference ${reference})
+endif()
+list(JOIN arguments "\n" arguments)
+file(GENERATE OUTPUT ${parts}/arguments.txt CONTENT "${arguments}\n")
 add_custom_command(OUTPUT ${FMU}
-    COMMAND ${Python_EXECUTABLE} ${package} --binary $<TARGET_FILE:RivetedBearing> --description ${description} --out ${FMU}
-    DEPENDS RivetedBearing ${description} ${package} ${PROJECT_SOURCE_DIR}/LICENSE ${PROJECT_SOURCE_DIR}/THIRD_PARTY_NOTICES.md VERBATIM)
+    COMMAND ${run}/package.py @${parts}/arguments.txt
+    DEPENDS ${parts}/arguments.txt ${binary_files} ${source_files} ${description} ${parts}/index.html ${parts}/icons/icon.png ${reference}
+        ${tools}/package.py ${tools}/sources.py ${tools}/terminalsAndIcons.xml ${PROJECT_SOURCE_DIR}/LICENSE ${PROJECT_SOURCE_DIR}/THIRD_PARTY_NOTICES.md VERBATIM)
 add_custom_target(fmu ALL DEPENDS ${FMU})
 
 # In the wheel: the FMU, and what `riveted-bearing build` compiles, laid out as in the checkout.
 install(FILES ${FMU} DESTINATION bearing_model COMPONENT python)
 set(source_dir bearing_model/_source)
-install(FILES CMakeLists.txt LICENSE THIRD_PARTY_NOTICES.md DESTINATION ${source_dir} COMPONENT python)
-install(DIRECTORY cmake fmu_src fmus DESTINATION ${source_dir} COMPONENT python PATTERN __pycache__ EXCLUDE PATTERN *.fmu EXCLUDE)
-install(FILES ${package} DESTINATION ${source_dir}/bearing_model/app COMPONENT python)
+install(FILES CMakeLists.txt LICENSE THIRD_PARTY_NOTICES.md README.md DESTINATION ${source_dir} COMPONENT python)
+install(DIRECTORY cmake fmu_src fmus docs DESTINATION ${source_dir} COMPONENT python PATTERN __pycache__ EXCLUDE PATTERN *.fmu EXCLUDE)

@@ -5,6 +5,7 @@
 
 #include <stddef.h>
 
+#define FMI2_FUNCTION_PREFIX RivetedBearing_  // of the functions of a source-code FMU
 #define MODEL_IDENTIFIER "RivetedBearing"
 #define MODEL_GUID "{9769a36a-6dc7-ad40-aae2-e5ebe772b9d8}"  // digest of the table
 

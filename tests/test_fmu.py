@@ -73,13 +73,6 @@ def test_archive_is_complete(folder):
     assert "SUNDIALS" in (folder / "documentation" / "licenses" / "THIRD_PARTY_NOTICES.md").read_text()
 
 
-def test_packing_again_gives_the_same_bytes(folder, fmu, tmp_path):
-    from bearing_model.app.package import package
-
-    package(binary_of(folder), folder / "modelDescription.xml", tmp_path / "again.fmu")
-    assert (tmp_path / "again.fmu").read_bytes() == fmu.read_bytes()
-
-
 @pytest.mark.skipif(not LINUX or SANITIZED, reason="reads an ELF file, without sanitizers")
 def test_binary_exports_fmi_only_and_needs_libc_and_libm_only(folder):
     symbols = subprocess.run(["nm", "-D", "--defined-only", str(binary_of(folder))], capture_output=True, text=True, check=True).stdout

@@ -4,9 +4,12 @@
     cmake -S SOURCES -B BUILD -DGENERATED_DIR=BUILD/generated -DRIVET_TABLE=TABLE
     cmake --build BUILD --target fmu
 
+For other platforms each binary is compiled in a build folder of its own with zig (cmake/zig.cmake), and the last step packs them together.
+
 Intermediate files stay in BUILD, so that the next build of the same bearing compiles only what changed.
 """
 
+import importlib.util
 import os
 import re
 import shutil
@@ -19,22 +22,25 @@ from rivet_model import closed_form, table
 from rivet_model.geometry import Geometry
 
 from .bearings import bearing_case, find_bearing
-from .errors import UserError
+from .errors import UserError, unknown
 from .fmu import FMU_NAME, PACKAGE, Instance, Model
 from .results import write_atomically
 from .scene import Scene
 
 SOURCES = (PACKAGE.parent, PACKAGE / "_source")  # a checkout, an installed package
+PLATFORMS = ("linux64", "win64", "darwin64", "aarch64-darwin")  # "all"
+LIBRARIES = ("RivetedBearing.so", "RivetedBearing.dll", "RivetedBearing.dylib")
 TRACKED_TABLE = Path(table.__file__).parent / "tables" / "6207.json"
 STEP = re.compile(r"\[\s*(?:(\d+)/(\d+)|(\d+)%)\s*\]")  # Ninja's [3/40], make's [ 7%]
 
 
-def build(bearing=None, rivet=None, out=None, say=lambda text, share=None: None):
+def build(bearing=None, rivet=None, out=None, say=lambda text, share=None: None, platforms=()):
     """Build an FMU and return its path.
 
     bearing: bearing file or designation, None for the default one; rivet: rivet table, None for the tracked one if it fits the bearing, else closed
     forms; out: the FMU to write, None for my.fmu here from my.toml, RivetedBearing.fmu from the default (in a checkout: in fmus/); say: called with what
-    is being done and the share done.  Raises UserError with the reason; `out` is then left as it was.
+    is being done and the share done; platforms: names of FMI's binary folders to cross-compile for (cmake/zig.cmake), none for this machine's compiler alone.
+    Raises UserError with the reason; `out` is then left as it was.
     """
     sources = source_folder()
     out = Path(out) if out else default_out(sources, bearing)
@@ -47,15 +53,49 @@ def build(bearing=None, rivet=None, out=None, say=lambda text, share=None: None)
         generated = folder / "generated"
         execute([sys.executable, sources / "fmus" / "generate.py", "--bearing", str(find_bearing(bearing)), "--out", generated], folder, say)
         options.append(f"-DGENERATED_DIR={generated}")
-    say("configuring (the first time fetches SUNDIALS)")
-    execute([cmake, "-S", sources, "-B", folder, *generator(folder), *options], folder, say)
-    say("compiling")
-    execute([cmake, "--build", folder, "--target", "fmu", "--parallel", str(min(os.cpu_count() or 1, 8))], folder, say)
+    binaries = [f"{platform}={cross_compile(cmake, sources, folder / platform, options, platform, say)}" for platform in platforms]
+    options.append(f"-DBINARIES={';'.join(binaries)}")
+    compile_target(cmake, sources, folder, options, "fmu", say)
     finished = folder / FMU_NAME
     say("starting it once")
     try_start(finished)
     write_atomically(out, lambda temporary: shutil.copyfile(finished, temporary))
     return out
+
+
+def platform_names(text):
+    """Platforms by "all" or names separated by commas; UserError for an unknown one."""
+    names = PLATFORMS if text == "all" else tuple(filter(None, (text or "").split(",")))
+    for name in names:
+        if name not in (*PLATFORMS, "aarch64-linux"):
+            raise unknown("--platforms", "platform", name, (*PLATFORMS, "aarch64-linux"))
+    return names
+
+
+def cross_compile(cmake, sources, folder, options, platform, say):
+    """The binary for another platform, compiled with zig in its own build folder."""
+    zig = find_zig()
+    folder.mkdir(exist_ok=True)
+    chain = [f"-DCMAKE_TOOLCHAIN_FILE={sources / 'cmake' / 'zig.cmake'}", f"-DPLATFORM={platform}", f"-DZIG={zig}"]
+    compile_target(cmake, sources, folder, [*options, *chain], "RivetedBearing", lambda text, share=None: say(f"{platform}: {text}", share))
+    return next(path for name in LIBRARIES if (path := folder / name).is_file())
+
+
+def compile_target(cmake, sources, folder, options, target, say):
+    """Configure and build one target."""
+    say("configuring (the first time fetches SUNDIALS)")
+    execute([cmake, "-S", sources, "-B", folder, *generator(folder), *options], folder, say)
+    say("compiling")
+    execute([cmake, "--build", folder, "--target", target, "--parallel", str(min(os.cpu_count() or 1, 8))], folder, say)
+
+
+def find_zig():
+    """Path of zig: the Python package's, else the one on the path."""
+    package = importlib.util.find_spec("ziglang")
+    found = (package and shutil.which("zig", path=package.submodule_search_locations[0])) or shutil.which("zig")
+    if not found:
+        raise UserError("zig not found, which compiles for other platforms: `pip install ziglang`")
+    return found
 
 
 def source_folder():

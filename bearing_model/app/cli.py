@@ -48,13 +48,16 @@ def build(
     out: Annotated[
         Path | None, typer.Option(help="the FMU to write; default: my.fmu here for my.toml; RivetedBearing.fmu, in a checkout in fmus/, for the default")
     ] = None,
+    platforms: Annotated[str | None, typer.Option(help="all, or names such as linux64,win64: cross-compiled; default: this machine's compiler")] = None,
 ):
     """Make an FMU for a bearing: needs a C compiler, takes about half a minute."""
     from .build import build as build_fmu
+    from .build import platform_names
 
     with Progress(SpinnerColumn(), TextColumn("{task.description}"), BarColumn(bar_width=30), console=messages, disable=not messages.is_terminal) as bar:
         task = bar.add_task("starting", total=None)
-        path = build_fmu(bearing, rivet, out, lambda text, share=None: bar.update(task, description=text, total=1.0 if share else None, completed=share or 0.0))
+        progress = lambda text, share=None: bar.update(task, description=text, total=1.0 if share else None, completed=share or 0.0)
+        path = build_fmu(bearing, rivet, out, progress, platform_names(platforms))
     console.print(str(path), style="cyan", soft_wrap=True)
 
 

@@ -5,6 +5,7 @@
 
 #include <stddef.h>
 
+#define FMI2_FUNCTION_PREFIX {{ table.model_name }}_  // of the functions of a source-code FMU
 #define MODEL_IDENTIFIER "{{ table.model_name }}"
 #define MODEL_GUID "{{ table.guid }}"  // digest of the table
 

@@ -1,0 +1,131 @@
+"""Packs description, binaries, sources, documentation, terminals, pictures and reference results into the FMU.
+
+    python fmus/package.py --description modelDescription.xml --binary RivetedBearing.so --out RivetedBearing.fmu [...]
+    python fmus/package.py @arguments.txt                    one argument a line, as the build writes them
+
+The same inputs give the same bytes.
+"""
+
+import argparse
+import os
+import platform
+import sys
+import tempfile
+import zipfile
+from pathlib import Path
+
+from lxml import etree
+from sources import collect
+
+PROJECT = Path(__file__).resolve().parents[1]
+LICENSES = ("LICENSE", "THIRD_PARTY_NOTICES.md")
+TERMINALS = PROJECT / "fmus" / "terminalsAndIcons.xml"
+SUFFIXES = {"linux64": ".so", "aarch64-linux": ".so", "darwin64": ".dylib", "aarch64-darwin": ".dylib", "win64": ".dll"}
+HOSTS = {  # (system, machine) -> platform as FMI 2.0 names its folder; others as FMI 3.0 does
+    ("Linux", "x86_64"): "linux64",
+    ("Linux", "aarch64"): "aarch64-linux",
+    ("Darwin", "x86_64"): "darwin64",
+    ("Darwin", "arm64"): "aarch64-darwin",
+    ("Windows", "AMD64"): "win64",
+}
+REFERENCE = "extra/org.fmi-standard.fmi-ls-ref"
+MANIFEST = """<?xml version="1.0" encoding="UTF-8"?>
+<fmiReferences xmlns:fmi-ls="http://fmi-standard.org/fmi-ls-manifest"
+    fmi-ls:fmi-ls-name="org.fmi-standard.fmi-ls-ref"
+    fmi-ls:fmi-ls-version="1.0.0-alpha.1"
+    fmi-ls:fmi-ls-description="Layered Standard providing information on related files included in an FMU.">
+  <Related type="text/csv" source="{name}" role="result"
+      description="Outputs from the start values at communication points of 1e-4 s; binaries agree to 1e-9 of each column's largest magnitude"/>
+</fmiReferences>
+"""
+
+
+def host_platform():
+    """FMI's name of this machine; ValueError if it has none."""
+    host = platform.system(), platform.machine()
+    if host not in HOSTS:
+        raise ValueError(f"host {' '.join(host)}: allowed are {', '.join(' '.join(known) for known in HOSTS)}")
+    return HOSTS[host]
+
+
+def platform_and_file(text):
+    """PLATFORM=FILE, or FILE for the host."""
+    name, equals, file = text.rpartition("=")
+    name = name if equals else host_platform()
+    if name not in SUFFIXES:
+        raise ValueError(f"--binary {text}: platform {name}: allowed are {', '.join(SUFFIXES)}")
+    return name, Path(file)
+
+
+def package(options):
+    """Write the FMU `options.out`; either it is complete or it is left as it was.
+
+    Raises OSError for a file that cannot be read or written, ValueError for a platform that FMI has no name for and for two sources of one name.
+    """
+    description = etree.parse(str(options.description), etree.XMLParser(remove_blank_text=True))
+    simulation = description.getroot().find("CoSimulation")
+    identifier = simulation.get("modelIdentifier")
+    binaries = dict(map(platform_and_file, options.binary))
+    sources, units = collect(options.source, options.include)
+    if units:
+        files = etree.Element("SourceFiles")
+        for name in units:
+            etree.SubElement(files, "File", name=name)
+        simulation.insert(0, files)
+    members = {"modelDescription.xml": etree.tostring(description, encoding="UTF-8", xml_declaration=True, pretty_print=True)}
+    members |= {f"binaries/{name}/{identifier}{SUFFIXES[name]}": file.read_bytes() for name, file in binaries.items()}
+    members |= {f"sources/{name}": content for name, content in sources.items()}
+    members |= {f"documentation/licenses/{name}": (PROJECT / name).read_bytes() for name in LICENSES}
+    members |= {"documentation/index.html": options.page.read_bytes()} if options.page else {}
+    members |= icons(options.pictures) if options.pictures else {}
+    if options.reference:
+        name = f"{identifier}_out.csv"
+        members |= {f"{REFERENCE}/fmi-ls-manifest.xml": MANIFEST.format(name=name).encode(), f"{REFERENCE}/{name}": options.reference.read_bytes()}
+    write_archive(members, options.out)
+
+
+def icons(folder):
+    """The picture of the FMU, its terminals and their pictures."""
+    members = {f"terminalsAndIcons/{file.name}": file.read_bytes() for file in sorted(folder.glob("*.png"))}
+    return members | {"model.png": (folder / "icon.png").read_bytes(), "terminalsAndIcons/terminalsAndIcons.xml": TERMINALS.read_bytes()}
+
+
+def write_archive(members, out):
+    """A zip archive that depends on its members alone: fixed times and modes."""
+    out.parent.mkdir(parents=True, exist_ok=True)
+    with tempfile.NamedTemporaryFile(dir=out.parent, suffix=".fmu", delete=False) as file:
+        try:
+            with zipfile.ZipFile(file, "w", zipfile.ZIP_DEFLATED, compresslevel=9) as archive:
+                for name, content in members.items():
+                    info = zipfile.ZipInfo(name)  # 1980-01-01
+                    info.compress_type = zipfile.ZIP_DEFLATED
+                    info.create_system = 3  # Unix
+                    info.external_attr = (0o755 if name.startswith("binaries/") else 0o644) << 16
+                    archive.writestr(info, content)
+            file.close()
+            os.chmod(file.name, 0o644)
+            os.replace(file.name, out)
+        except BaseException:
+            file.close()
+            os.unlink(file.name)
+            raise
+
+
+def main(arguments=None):
+    parser = argparse.ArgumentParser(description="Pack an FMU.", fromfile_prefix_chars="@")
+    parser.add_argument("--description", type=Path, required=True, help="modelDescription.xml, without the list of sources")
+    parser.add_argument("--out", type=Path, required=True, help="the FMU to write")
+    parser.add_argument("--binary", action="append", default=[], metavar="[PLATFORM=]FILE", help="a shared library; repeatable")
+    parser.add_argument("--source", action="append", type=Path, default=[], help="a C file to compile; repeatable")
+    parser.add_argument("--include", action="append", type=Path, default=[], help="a folder of headers that go with the sources; repeatable")
+    parser.add_argument("--page", type=Path, help="documentation (page.py)")
+    parser.add_argument("--pictures", type=Path, help="folder of the icons (picture.py)")
+    parser.add_argument("--reference", type=Path, help="reference results (reference.py)")
+    try:
+        package(parser.parse_args(arguments))
+    except (OSError, ValueError) as error:
+        sys.exit(f"package: {error}")
+
+
+if __name__ == "__main__":
+    main()
