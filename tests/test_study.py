@@ -70,6 +70,7 @@ def test_confidence_is_students():
         (Estimate(1.2345, 1.1, 1.3), "1.23 [1.10, 1.30]"),
         (Estimate(-1e-9, -2e-9, 1e-9), "0.000"),
         (Estimate(2.0, 2.0, 2.0), "2.00"),
+        (Estimate(np.nan, np.nan, np.nan), "undefined"),
     ],
     ids=str,
 )

@@ -56,7 +56,7 @@ def preload_claims(data):
     largest = {P: at[P].estimate("dislocation_max") for P in at}
     first, last = rise(at[20], at[0], "dislocation_max"), rise(at[60], at[40], "dislocation_max")
     median = float(np.median(at[40]["dislocation_max"]))
-    below, above = max(e.high for P, e in largest.items() if P < 20), max(at[P]["dislocation_max"].max() for P in at if P >= 20)
+    above = max(at[P]["dislocation_max"].max() for P in at if P >= 20)
     rest = {P: at[P]["head_rest"][0] for P in at}
     return [
         Claim(
@@ -72,14 +72,17 @@ def preload_claims(data):
             "The halves' dislocation falls with preload like a decaying exponential",
             f"largest: {largest[0]} µm at 0 N, {largest[20]} at 20 N, {largest[40]} at 40 N, {largest[60]} at 60 N",
             (rise(at[60], at[0], "dislocation_max").high < 0.0, first.high < last.low),
-            "It falls, but the friction of all joints and not the play of the rivets limits it at every preload, so that there is no steep beginning.",
+            "Steep at first: without preload only the regularized friction of open joints holds the halves (`joint.F_floor`, here a tenth of its "
+            "default, which would hide it). Beyond, single impacts decide.",
         ),
         Claim(
             "4.1 (1), Fig. 10",
             "From 20 N on the dislocation is below 0.01 mm",
-            f"largest of all seeds and preloads from 20 N on: {above:.1f} µm; below 20 N at most {below:.1f} µm",
+            f"largest of all seeds and preloads from 20 N on: {above:.1f} µm; mean of the largest at 0 / 2 / 5 / 10 / 15 N: "
+            + " / ".join(f"{largest[P].mean:.1f}" for P in (0, 2, 5, 10, 15))
+            + " µm",
             (above < 10.0,),
-            "It never leaves 10 µm by much: impacts last 0.1 ms and move the halves by micrometres each.",
+            "Impacts last 0.1 ms and move the halves by micrometres each.",
         ),
         Claim(
             "4.1 (1), Fig. 10",
@@ -110,8 +113,8 @@ def preload_claims(data):
             f"{at[60].estimate('head_peak')} at 60 N; "
             f"dynamic range {at[0].estimate('head_range')}, {at[20].estimate('head_range')}, {at[40].estimate('head_range')}, "
             f"{at[60].estimate('head_range')} MPa at 0, 20, 40, 60 N",
-            (above < 10.0, rise(at[60], at[40], "head_peak").low > 0.0, below > 10.0),
-            "More preload trades dynamic range for mean stress, as claimed; but a threshold near 20 N does not show.",
+            (above < 10.0, rise(at[60], at[40], "head_peak").low > 0.0, largest[0].low > 10.0),
+            "More preload trades dynamic range for mean stress. The range of 20 to 40 N is reasonable, but neither end is a threshold here.",
         ),
         Claim(
             "5 (1)",
@@ -336,7 +339,7 @@ def impact_claims(data):
         for width in (1, 3)
     }
     stiff_rise = {width: rise(held[width], before["demo"], "head_peak") for width in held}
-    life = {width: ratio(after[width, 1401.0], before["F"], "head_damage") for width in (1, 3)}
+    life = {width: rise(after[width, 1401.0], before["F"], "head_damage") for width in (1, 3)}
     return [
         Claim(
             "4.1 (3), Fig. 14; 5 (3)",
@@ -373,8 +376,8 @@ def impact_claims(data):
         Claim(
             "4.1 (3)",
             "Impacts cost life of cage and rivets",
-            f"F: damage rate of the worst head during the impacts {' and '.join(f'{e} times ({width} ms)' for width, e in life.items())} that without",
-            tuple(e.low > 1.0 for e in life.values()),
+            f"F: damage rate of the worst head during the impacts {' and '.join(f'10^{e} times ({width} ms)' for width, e in life.items())} that without",
+            tuple(e.low > 0.0 for e in life.values()),
             "Miner's sum goes with a high power of the dynamic range.",
         ),
     ]
@@ -407,7 +410,8 @@ def tilt_claims(data):
             "Below 0.2° of misalignment stress hardly changes",
             "0.2° in parts of 0°: " + text(0.2, 0.0, ("head", "head_peak", "head_range")),
             tuple(flat.values()),
-            "The sign decides. Radial and axial load tilt the ring by themselves; a tilt that adds to theirs leaves no flat part, one that opposes it does.",
+            "The sign decides. Radial and axial load tilt a ring by themselves; under a tilt that opposes theirs stress is flat or falls, under one that adds to "
+            "it the balls hit harder from 0.1° on (p99.9), while the mean is still nearly flat.",
         ),
         Claim(
             "4.1 (4), Fig. 15; 5 (3)",
@@ -438,7 +442,7 @@ def tilt_claims(data):
             "Moments and misalignment should be avoided",
             f"head p99.9 {at[0.0].estimate('head_peak')} MPa straight, {at[-0.5].estimate('head_peak')} and {at[0.5].estimate('head_peak')} at −0.5 and +0.5°",
             tuple(rise(at[tilt], at[0.0], "head_peak").low > 0.0 for tilt in (-0.5, 0.5)),
-            "As claimed, and more so for tilts that aid the tilt by the loads.",
+            "A tilt that aids the tilt by the loads costs stress from 0.1° on.",
         ),
     ]
 
@@ -453,14 +457,17 @@ def clearance_claims(data):
         label: {name: min(np.unique(series["ratio"]), key=lambda value: series.at(ratio=value).estimate(name).mean) for name in ("force", "head_peak")}
         for label, series in ((label, clearance_series(data["clearance"], label)) for label in ("guide 0.2 mm", "pocket 0.2 mm"))
     }
-    lighter = "A tight pocket leaves the balls less way to gather speed before they hit: peaks and stress fall with the pocket, whatever the guide does."
+    lighter = (
+        "Tight pockets and tight guides leave balls and cage less way to gather speed before they hit: RMS force and stress fall with either clearance, the "
+        "pocket's more than the guide's, so that at constant sum they keep falling toward small ratios."
+    )
     return [
         Claim(
             "4.1 (5), Fig. 16",
             "Stress first falls, then rises with the clearance ratio",
             "ends above the lowest, constant sum: " + "; ".join(f"{label} by {ends[name][0]} and {ends[name][1]}" for name, label in names.items()),
             tuple(all(e.low > 0.0 for e in ends[name]) for name in ("force", "force_rms", "head", "head_peak")),
-            f"In the mean force. {lighter}",
+            f"The mean force has the minimum. {lighter}",
         ),
         Claim(
             "4.1 (5), Fig. 16; 5 (3)",
@@ -488,9 +495,11 @@ def failure_claims(data):
     rivets = sum(name.startswith("head_damage_") for name in runs.columns)
 
     def count(chosen):
-        return sum(rise_of(chosen, f"head_damage_{k}", f"mid_damage_{k}").low > 0.0 for k in range(1, rivets + 1)), sum(
-            rise_of(chosen, f"mid_damage_{k}", f"head_damage_{k}").low > 0.0 for k in range(1, rivets + 1)
-        )
+        pairs = (("head", "mid"), ("mid", "head"))
+        return [sum(rise_of(chosen, f"{a}_damage_{k}", f"{b}_damage_{k}").low > 0.0 for k in range(1, rivets + 1)) for a, b in pairs]
+
+    def worst(chosen):
+        return ", ".join(f"{label} {10.0 ** chosen.estimate(f'{place}_damage').mean:.0e}" for place, label in (("head", "head"), ("mid", "middle")))
 
     heads, mids = {"clearance": count(clearance), "interference": count(interference)}.values()
     share = clearance.estimate("axial_share")
@@ -500,15 +509,15 @@ def failure_claims(data):
             "4.2, Fig. 17",
             "With a large clearance heads fail: five heads fell off, four rivets broke in the middle",
             f"more damage in the head for {heads[0]} of {rivets} rivets, in the middle for {heads[1]}; "
-            f"worst, per hour: head {clearance.estimate('head_damage')}, middle {clearance.estimate('mid_damage')}",
+            f"worst rivet's per hour (geometric mean): {worst(clearance)}",
             (heads[0] > rivets / 2,),
-            "The damage is a ranking: the rivets' S–N curve is assumed.",
+            "A ranking, not a life: the rivets' S–N curve is assumed, and under the straight ring both are far below the fatigue limit.",
         ),
         Claim(
             "4.2, Fig. 18",
             "With interference rivets break in the middle: seven in the middle, two at the head",
             f"more damage in the middle for {mids[1]} of {rivets} rivets, in the head for {mids[0]}; "
-            f"worst, per hour: head {interference.estimate('head_damage')}, middle {interference.estimate('mid_damage')}",
+            f"worst rivet's per hour (geometric mean): {worst(interference)}",
             (mids[1] > rivets / 2,),
             "The middle's stress is high but nearly constant; what the balls add goes to the head. "
             "Failure of the middle would be by yield and static strength, not by cycles.",

@@ -68,6 +68,8 @@ class Estimate:
     high: float
 
     def __str__(self):
+        if not np.isfinite(self.mean):
+            return "undefined"
         size = np.nanmax(np.abs([self.mean, self.low, self.high])) if np.isfinite(self.low) else abs(self.mean)
         digits = int(np.clip(2 - np.floor(np.log10(max(size, 1e-12))), 0, 3))
         mean, low, high = (f"{value if abs(value) >= 0.5 * 10.0**-digits else 0.0:,.{digits}f}" for value in (self.mean, self.low, self.high))
@@ -167,9 +169,11 @@ def runs_of(rows):
         columns[f"{place}_range"] = (of_rivets(f"stat.rivet_{place}_p999[{{}}]") - of_rivets(f"p001(rivet[{{}}].sigma_{place})")).max(axis=0)
         columns[f"{place}_rest"] = rest[:, channel]
         columns[f"{place}_above"] = columns[place] - rest[:, channel]
-        for k in range(1, rivets + 1):
-            columns[f"{place}_damage_{k}"] = rows[f"rivet[{k}].damage_{place}"] / (rows["t_end"] - rows["start.settle"]) * 3600.0
-        columns[f"{place}_damage"] = np.max([columns[f"{place}_damage_{k}"] for k in range(1, rivets + 1)], axis=0)
+        if set(rows["scene.stress"]) == {"fatigue"}:
+            counted = rows["t_end"] - rows["start.settle"]
+            for k in range(1, rivets + 1):
+                columns[f"{place}_damage_{k}"] = np.log10(rows[f"rivet[{k}].damage_{place}"] / counted * 3600.0)
+            columns[f"{place}_damage"] = np.max([columns[f"{place}_damage_{k}"] for k in range(1, rivets + 1)], axis=0)
     columns["ratio"] = np.round(columns["pocket"] / columns["guide"], 2)
     if "rms(ball[1].Q_cx)" in rows:
         axial, whole = (np.sqrt(sum(rows[f"rms(ball[{j}].{name})"] ** 2 for j in range(1, rivets + 1))) for name in ("Q_cx", "Q_c"))
@@ -204,7 +208,7 @@ def finish(axes, xlabel):
     """Titles, limits and legends of a row of panels."""
     for ax in axes:
         ax.set_xlabel(xlabel)
-        ax.set_ylim(bottom=min(0.0, ax.get_ylim()[0]))
+        ax.set_ylim(bottom=0.0)  # forces, stresses, displacements: none is negative
         if ax.get_legend_handles_labels()[0]:
             ax.legend()
 
@@ -267,7 +271,7 @@ def speed_picture(data):
         for ax, (name, (what, unit)) in zip(row, names.items(), strict=True):
             for F_r, (label, colour) in LOADS.items():
                 band(ax, data["speed"].at(scene=scene, F_r=F_r), "speed", name, colour, label if name == "force" else None)
-            ax.set(title=f"{title}\n{what}", ylabel=unit)
+            ax.set(title=f"{title}\n{what}", ylabel=unit, xticks=range(4000, 24001, 4000))
         finish(row, "speed [r/min]")
     return figure
 
@@ -343,7 +347,7 @@ def clearance_picture(data):
 
 
 def damage(runs, place):
-    """Estimates of the damage of each rivet per hour."""
+    """Estimates of log10 of the damage of each rivet per hour."""
     rivets = sum(name.startswith(f"{place}_damage_") for name in runs.columns)
     return [runs.estimate(f"{place}_damage_{k}") for k in range(1, rivets + 1)]
 
@@ -353,13 +357,14 @@ def failure_picture(data):
     figure, axes = canvas(1, 3)
     for ax, (fit, title) in zip(axes[0], {-90.0: "Clearance −0.09 mm", 40.0: "Interference +0.04 mm"}.items(), strict=False):
         for place, colour, label, shift in (("head", HEAD, "head", -0.2), ("mid", MIDDLE, "middle", 0.2)):
-            bars = damage(data["fit"].at(fit=fit), place)
-            x = np.arange(1, len(bars) + 1) + shift
-            mean = np.array([e.mean for e in bars])
+            estimates = damage(data["fit"].at(fit=fit), place)
+            x = np.arange(1, len(estimates) + 1) + shift
+            mean, low, high = (10.0 ** np.array([getattr(e, end) for e in estimates]) for end in ("mean", "low", "high"))
             ax.bar(x, mean, width=0.38, color=colour, label=label)
-            ax.errorbar(x, mean, [mean - [max(e.low, 1e-3 * e.mean) for e in bars], [e.high - e.mean for e in bars]], fmt="none", color="black", lw=0.8)
-        ax.set(title=title, ylabel="damage per hour", xlabel="rivet", yscale="log", xticks=range(1, len(bars) + 1))
-        ax.legend()
+            ax.errorbar(x, mean, [mean - low, high - mean], fmt="none", color="black", lw=0.8)
+        ax.set(title=title, ylabel="damage per hour", xlabel="rivet", yscale="log", xticks=range(1, len(estimates) + 1))
+        ax.set_ylim(top=ax.get_ylim()[1] * 1e4)
+        ax.legend(ncols=2)
     band(axes[0, 2], data["fit"], "fit", "axial_share", FORCE)
     axes[0, 2].set(title="Axial share of the pocket force, RMS", ylabel="%", ylim=(0, None), xlabel="fit [µm]")
     return figure
