@@ -1,0 +1,333 @@
+"""Writes docs/validation.md: every number of the model that something outside it knows, beside its source, what is reached, and the difference.
+
+Nothing is copied into the page by hand: figures of books and papers are arguments here, the rest is computed, or observed by the tests, which run once
+more and hand over what they saw.  Some minutes, most of them for 0.1 s of the working point in the Python reference; --short takes 0.01 s.
+"""
+
+import ast
+import re
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+from xml.etree import ElementTree
+
+import matplotlib
+
+matplotlib.use("Agg")
+
+import matplotlib.pyplot as plt
+import numpy as np
+from common import FMU, ROOT, commit, core_library, machine, options, say
+from mechanics import Instance
+
+from bearing_model.app.build import build
+from bearing_model.app.compare import compare, is_motion
+from bearing_model.app.fmu import Model
+from bearing_model.app.plot import HEAD, MIDDLE, MUTED, STYLE, plot_comparison
+from bearing_model.app.runner import run
+from bearing_model.app.scene import load_scene
+from bearing_model.app.summary import settled
+from bearing_model.hertz import curvature_difference, hertz_contact
+from bearing_model.hertz_exact import ball_race_contact
+from bearing_model.kinematics import fault_frequencies
+from bearing_model.quasi_static import Bearing, Load, quasi_static
+
+PAGE = ROOT / "docs" / "validation.md"
+PICTURES = ROOT / "docs" / "validation"
+RPM = np.pi / 30.0
+WORKING_POINT = Load(F_x=515.0, F_y=2994.0, omega=18238.0 * RPM)
+TESTS = {  # file -> those whose observations are shown
+    "tests/test_twin.py": "derivatives or jacobian or start or outputs or power_is_rate or test_ledger or trajectory",
+    "tests/test_invariance.py": "turn or mirror or units",
+    "tests/test_energy.py": "lossless or balance",
+    "tests/test_conservation.py": "momentum",
+}
+
+
+def main():
+    short = options(__doc__).short
+    PICTURES.mkdir(exist_ok=True)
+    core, model = core_library(), Model(FMU)
+    sections = []
+    for section in (contacts, kinematics, distribution, working_point, clearance):
+        say(section.__name__)
+        sections.append(section(core, model))
+    say("tests")
+    sections.append(observed_by_tests())
+    say("FMU and reference")
+    sections += twins(model, 0.01 if short else 0.1)
+    say("published experiments")
+    sections += [skid(short), cage_forces(short)]
+    PAGE.write_text("\n".join([HEAD_OF_PAGE.format(**machine(), commit=commit()), *sections]))
+    say(f"wrote {PAGE.relative_to(ROOT)}")
+
+
+HEAD_OF_PAGE = """# Validation
+
+What is known about the model from outside: each number beside its source, what is reached, and the difference. Written by `python benchmarks/validation.py`
+(also part of `make bench`); commit {commit}, {processor}, Python {python}. *Core* is the C code in the FMU, *reference* the Python twin `bearing_model`,
+written apart from it; closed forms and books stand above both.
+"""
+
+
+# --------------------------------------------------------------------------------------------------------------------------- the page
+
+
+def section(title, text, *parts):
+    return "\n".join([f"\n## {title}\n", text, *(f"\n{part}" for part in parts)])
+
+
+def table(columns, rows):
+    """A Markdown table; numbers get four digits."""
+    lines = ["| " + " | ".join(columns) + " |", "|" + "---|" * len(columns)]
+    lines += ["| " + " | ".join(cell if isinstance(cell, str) else f"{cell:.5g}" for cell in row) + " |" for row in rows]
+    return "\n".join(lines)
+
+
+def against(rows):
+    """A table of (quantity, unit, source, expected, reached by ...): the difference is the largest of those reached, relative."""
+    columns = ("quantity", "unit", "source", "expected", "core", "reference", "difference")
+    shown = []
+    for quantity, unit, source, expected, core, reference in rows:
+        reached = [value for value in (core, reference) if value is not None]
+        worst = max((value / expected - 1.0 for value in reached), key=abs)
+        shown.append((quantity, unit, source, expected, *("–" if value is None else value for value in (core, reference)), f"{100.0 * worst:+.2g} %"))
+    return table(columns, shown)
+
+
+def picture(figure, name):
+    """Saves a figure as SVG; its line in the page."""
+    path = PICTURES / f"{name}.svg"
+    figure.savefig(path)
+    plt.close(figure)
+    return f"![{name}]({PICTURES.name}/{path.name})"
+
+
+# ------------------------------------------------------------------------------------------------------------------ contacts, kinematics
+
+
+def contacts(core, model):
+    """Hertz."""
+    rows = []
+    for F_rho, delta_star, kappa in ((0.95, 0.577, 10.40), (0.7332, 0.8394, 3.4204)):
+        total, E_star = 300.0, 1e11
+        rho = 0.5 * total * (1.0 + F_rho), 0.5 * total * (1.0 - F_rho)
+        pair = core.lib.hertz_contact(*rho, E_star), hertz_contact(*rho, E_star)
+        unit = np.cbrt(1.5 / (total * E_star)) ** 2 * 0.5 * total
+        rows.append((f"δ* at F(ρ) = {F_rho}", "1", "Harris, table of contact parameters", delta_star, *(c.K ** (-2 / 3) / unit for c in pair)))
+        rows.append((f"κ at F(ρ) = {F_rho}", "1", "the same", kappa, *(c.a / c.b for c in pair)))
+        assert abs(curvature_difference(pair[1].k) - F_rho) < 1e-9
+    derived = core.model().d.inner.hertz
+    exact = ball_race_contact(0.0111125, 0.0535, 0.515, 0.0, 207e9, 0.3, "inner")
+    rows.append(("6207 inner contact, K", "N/m^1.5", "Harris' formulae, f_i 0.515, 207 GPa", 3.331e10, derived.K, exact.K))
+    p = 1.5 * np.cbrt(1000.0) / (np.pi * derived.a * derived.b)
+    rows.append(("6207 inner contact, largest pressure at 1000 N", "MPa", "the same", 1942.0, 1e-6 * p, 1e-6 * exact.p_max(1000.0)))
+    return section("Contacts", "Hertz with exact elliptic integrals (`hertz`), required to 1e-3 of the tables' four digits.", against(rows))
+
+
+def kinematics(core, model):
+    """Frequencies, and the speeds that the dynamics reaches where nothing but traction acts."""
+    found = fault_frequencies(WORKING_POINT.omega, 0.0111125, 0.0535, 9)
+    named = (("cage (FTF)", 120.4, found.FTF), ("BPFO", 1083.7, found.BPFO), ("BPFI", 1652.0, found.BPFI), ("ball (BSF)", 700.1, found.BSF))
+    rows = [(f"6207 at 18,238 r/min, {name}", "Hz", "rigid-body kinematics, given to 0.1 Hz", expected, None, reached) for name, expected, reached in named]
+    slow = Load(F_x=1000.0, omega=300.0)  # both contact angles are nearly the same: the speed does not depend on which race controls the spin
+    source = "no slip at the loaded contact angles"
+    rows.append(
+        ("balls' orbit, 300 rad/s, 1 kN thrust, strong traction", "rad/s", source, quasi_static(Bearing(), slow).omega_m, frictional_limit(core, slow), None)
+    )
+    text = "Fault frequencies; and the frictional limit of the dynamics: traction rises 45 times as steeply, no drag, no films, no contact with the cage."
+    return section("Kinematics", text, against(rows))
+
+
+def frictional_limit(core, load):
+    """Mean orbital speed of the balls after 20 ms of pure thrust [rad/s]."""
+    free = dict.fromkeys(("oil.rolling", "oil.rho_mix", "cage.mu", "cage.mu_land"), 0.0)
+    instance = Instance(
+        core, free | {"oil.B": 100.0, "oil.eta": 1e-5, "cage.pocket_clearance": 5e-3}, {"shaft.F_x": load.F_x, "shaft.F_y": 0.0, "shaft.omega": load.omega}
+    )
+    instance.step(0.02)
+    return float(np.mean(instance.output("ball.omega_m")))
+
+
+def distribution(core, model):
+    """Load integral."""
+    many = quasi_static(Bearing(Z=200, d_m=1.0, P_d=0.0), Load(F_y=2000.0))
+    nine = quasi_static(Bearing(P_d=0.0), Load(F_y=1000.0))
+    rows = [
+        ("Z Q_max/F_r, 200 balls without clearance", "1", "Stribeck, Sjövall; Harris ch. 7", 4.37, None, 200 * many.Q_i.max() / 2000.0),
+        ("the same, the 6207's nine balls", "1", "the many-ball limit", 4.37, None, 9 * nine.Q_i.max() / 1000.0),
+    ]
+    return section("Load distribution", "`quasi_static`, radial load, α = 0.", against(rows))
+
+
+# --------------------------------------------------------------------------------------------------------------------- running bearing
+
+
+def equilibrium(P_d=15e-6):
+    """Mean displacements over a ball pass [m] and, at its worst azimuth, the largest ball load [N]."""
+    results = [quasi_static(Bearing(P_d=P_d), WORKING_POINT, psi=psi) for psi in np.arange(12) * 2.0 * np.pi / 9 / 12]
+    return np.mean([r.x for r in results]), np.mean([r.y for r in results]), max(r.Q_i.max() for r in results)
+
+
+def working_point(core, model):
+    """The FMU's means against the equilibrium of the books."""
+    result = run("demo", fmu=FMU, t_end=0.25)
+    late = settled(result)
+    x, y, Q_max = equilibrium()
+    loads = np.max([result.data[f"ball[{j}].Q_i"] for j in range(1, 10)], axis=0)[late]
+    samples = round(2.0 * np.pi / (9 * 756.6) / 1e-4)  # a ball pass
+    passes = loads[: len(loads) // samples * samples].reshape(-1, samples).max(axis=1)
+    axial = sum(result.data[f"ball[{j}].Q_i"] * np.sin(result.data[f"ball[{j}].alpha_i"]) for j in range(1, 10))[late]
+    rows = [
+        ("ring, axial", "µm", "Jones–Harris equilibrium", 1e6 * x, 1e6 * result.data["ring.x"][late].mean(), None),
+        ("ring, radial", "µm", "the same", 1e6 * y, 1e6 * result.data["ring.y"][late].mean(), None),
+        ("largest ball load of a pass, mean", "N", "the same", Q_max, passes.mean(), None),
+        ("sum of Q_i sin α_i", "N", "axial load", 515.0, axial.mean(), None),
+        ("housing force, radial", "N", "radial load", 2994.0, result.data["housing.F_y"][late].mean(), None),
+        ("cage speed", "rad/s", "epicyclic", 756.6, result.data["cage.omega"][late].mean(), None),
+    ]
+    text = "Means of 0.2 s of the settled scene `demo` through the FMU. What is left is what the equilibrium leaves out: traction and cage."
+    return section("Working point", text, against(rows))
+
+
+def clearance(core, model):
+    """P_d moves the running ring."""
+    rows = []
+    for P_d in (5e-6, 15e-6, 25e-6, 40e-6):
+        result = run("demo", fmu=FMU, t_end=0.06, parameters={"bearing.P_d": P_d, "start.settle": 0.02})
+        reached = 1e6 * result.data["ring.y"][settled(result)].mean()
+        rows.append((f"ring, radial, P_d = {1e6 * P_d:g} µm", "µm", "Jones–Harris equilibrium", 1e6 * equilibrium(P_d)[1], reached, None))
+    text = "In another open code the clearance had no effect on the running ring. Here the mean radial displacement in motion follows the equilibrium's."
+    return section("Clearance", text, against(rows))
+
+
+# ------------------------------------------------------------------------------------------------------------- what the tests observe
+
+
+def observed_by_tests():
+    """Observations of the tests, as they record them; CalledProcessError if one fails."""
+    rows = []
+    for file, chosen in TESTS.items():
+        with tempfile.TemporaryDirectory() as folder:
+            record = Path(folder) / "record.xml"
+            command = [sys.executable, "-m", "pytest", "-q", "-o", "junit_family=legacy", f"--junitxml={record}", file, "-k", chosen]
+            subprocess.run(command, cwd=ROOT, check=True, stdout=subprocess.DEVNULL)
+            for case in ElementTree.parse(record).iter("testcase"):
+                rows += [(case.get("name"), entry.get("name"), shown(entry.get("value"))) for entry in case.iter("property")]
+    text = "Symmetries, conservation, convergence, twins: what the tests observed in this very run. Their bounds and the reasons for them stand in `tests/`."
+    return section("Observed by the tests", text, table(("test", "what", "observed"), rows))
+
+
+def shown(text):
+    """Numbers of a recorded property, three digits each."""
+    value = ast.literal_eval(re.sub(r"\bnan\b", "None", text))
+    if isinstance(value, dict):
+        return ", ".join(f"{name} {number:.2e}" for name, number in value.items())
+    return ", ".join(f"{number:.2e}" for number in np.ravel(value))
+
+
+# ------------------------------------------------------------------------------------------------------------- FMU against reference
+
+
+def twins(model, long):
+    """`riveted-bearing compare demo`, its tables here."""
+    found = compare(model, load_scene("demo", model), short=1e-3, long=long)
+    plot_comparison(found, PICTURES / "compare.png")
+    worst = []
+    for motion, name in ((True, "places, angles, speeds"), (False, "loads, stresses, powers")):
+        channels = [channel for channel in found.channels if is_motion(channel) == motion]
+        worst.append((name, *(f"{value:.1e} ({channels[i].name})" for value, i in largest(channels))))
+    columns = ("largest difference / scale", *(f"FMU at {tolerance:.0e}" for tolerance in found.tolerances))
+    text = (
+        "Scene `demo` through the FMU and through the reference (SciPy, DOP853), the same instants of the first millisecond. Motion in the integrator's error"
+        " scales, so a number compares with the tolerance; loads and stresses in their largest value. What falls with the tolerance is the integration's."
+    )
+    first = section("FMU against reference", text, table(columns, worst), f"![compare]({PICTURES.name}/compare.png)")
+
+    text = f"From {found.settle:g} to {found.long:g} s trajectories have parted; the reference's statistics against {found.seeds} seeds of the FMU."
+    columns = ("statistic", "unit", "reference", "FMU, mean", "standard deviation", "difference in these")
+    rows = [(f"`{row.name}`", row.unit, row.reference, row.mean, f"{row.scatter:.2g}", f"{row.deviation:+.1f}") for row in found.statistics]
+    second = section("Statistics", text, table(columns, rows))
+
+    ledger = found.ledger
+    accounts = (("supplied", ledger.supplied), ("stored", ledger.stored), ("lost", ledger.lost))
+    rows = [(f"{title}: {name}", f"{value[-1]:.6f}") for title, account in accounts for name, value in account.items()]
+    rows.append(("**supplied − stored − lost**", f"{ledger.residual[-1]:.6f}"))
+    share = np.abs(ledger.residual[1:]).max() / abs(ledger.supplied["shaft torque"][-1])
+    text = (
+        f"The same {found.long:g} s of the reference, each term integrated on its own from the powers of the elements. Required: closed to 0.1 %;"
+        f" reached: {100.0 * share:.1g} % of the work of the shaft, at every communication point."
+    )
+    third = section("Where the energy goes", text, table(("term", "J"), rows))
+    return [first, second, third]
+
+
+def largest(channels):
+    """(value, index of its channel) at each tolerance."""
+    table_ = np.array([channel.worst for channel in channels])
+    return [(column.max(), int(column.argmax())) for column in table_.T]
+
+
+# --------------------------------------------------------------------------------------------------------------- published experiments
+
+
+def built(name):
+    """The FMU of a bearing of this folder."""
+    return build(ROOT / "benchmarks" / "bearings" / f"{name}.toml", out=ROOT / "build" / f"{name}.fmu")
+
+
+def running(fmu, speed_rpm, t_end, **changes):
+    """Cage slip [%], largest and 99.9 % ball–pocket force [N] of a bearing after settling."""
+    inputs = {"shaft.omega": speed_rpm * RPM} | {name.replace("__", "."): value for name, value in changes.items()}
+    result = run("demo", fmu=fmu, t_end=t_end, inputs=inputs, parameters={"start.settle": 0.5 * t_end})
+    slip = 100.0 * result.data["cage.slip_ratio"][settled(result)].mean()
+    return slip, result.summary["stat.Q_c_max"], result.summary["stat.Q_c_p999"], result.summary["stat.Q_c_mean"]
+
+
+def skid(short):
+    """NASA TN D-7870."""
+    fmu, t_end = built("120mm"), 0.05 if short else 0.4
+    speeds, loads = (12000, 16700, 20800, 25000), (2224.0, 6672.0, 22240.0)
+    slips = {F_x: [running(fmu, speed, t_end, shaft__F_x=F_x, shaft__F_y=0.0)[0] for speed in speeds] for F_x in loads}
+    rows = [(f"{F_x:.0f}", *(f"{slip:.2f}" for slip in row)) for F_x, row in slips.items()]
+    with plt.rc_context(STYLE):
+        figure, ax = plt.subplots(figsize=(5.0, 3.0), layout="constrained")
+        for (F_x, row), colour in zip(slips.items(), (HEAD, MIDDLE, MUTED), strict=True):
+            ax.plot(speeds, row, ".-", color=colour, label=f"{F_x:.0f} N")
+        ax.axhline(6.0, color="black", lw=0.6, ls="--")
+        ax.set(title="Cage slip, 120-mm bearing; dashed: the report's largest", xlabel="r/min", ylabel="%")
+        ax.legend()
+    grows = all(np.all(np.diff(row) > 0.0) for row in slips.values())
+    text = (
+        "NASA TN D-7870 (Bamberger, Zaretsky, Signer, 1975), abstract: a 120-mm angular contact bearing under thrust skids by various amounts, generally"
+        " growing with speed at a given load, 6 % at most, at 25,000 r/min. Here: a bearing like theirs (`benchmarks/bearings/120mm.toml`), mean slip of the"
+        f" cage after {0.5 * t_end:g} s. Grows with speed at each load: {'yes' if grows else 'no'}; largest {max(map(max, slips.values())):.1f} %."
+        " What differs: number and size of balls, curvatures, contact angle and oil are assumed; their oil's temperature and flow change with speed, ours do"
+        " not; their cage is one piece. A check of the trend and of the order of magnitude, no more."
+    )
+    columns = ("thrust [N] \\ speed [r/min]", *(f"{speed:,}" for speed in speeds))
+    return section("Skid of a 120-mm bearing", text, table(columns, rows), picture(figure, "skid"))
+
+
+def cage_forces(short):
+    """ASME J. Lubr. Tech. 101(2)."""
+    fmu, t_end = built("110mm"), 0.05 if short else 0.4
+    loads = {"thrust 2224 N": (2224.0, 0.0), "thrust 2224 N, radial 1112 N": (2224.0, 1112.0)}
+    rows = []
+    for speed in (4000, 8000, 12000):
+        for name, (F_x, F_y) in loads.items():
+            _, most, p999, mean = running(fmu, speed, t_end, shaft__F_x=F_x, shaft__F_y=F_y)
+            rows.append((f"{speed:,}", name, f"{mean:.2f}", f"{p999:.1f}", f"{most:.1f}"))
+    text = (
+        "Nypan, ASME J. Lubr. Tech. 101(2) (1979) 180, abstract: forces between balls and cage of a 110-mm bearing to 12,000 r/min, by the deflection of a"
+        f" part of the cage, 25 N at most. Here: a bearing like theirs (`benchmarks/bearings/110mm.toml`), {t_end:g} s. What differs: all but bore and speed is"
+        " assumed; their cage is guided by the inner ring; and a part of the cage soft enough to be seen moving hardly follows pulses of 0.1 ms, so their"
+        " largest force compares with sustained forces here rather than with peaks."
+    )
+    columns = ("speed [r/min]", "load", "mean force [N]", "99.9 % [N]", "largest [N]")
+    return section("Ball–cage forces of a 110-mm bearing", text, table(columns, rows))
+
+
+if __name__ == "__main__":
+    main()
