@@ -89,7 +89,7 @@ def test_the_stress_at_rest_is_what_the_fmu_starts_with():
     columns = ("joint.preload", "joint.fit", "joint.swell", "rivet.fit_model")
     rows = {name: np.array([result.parameters[name]]) for name in columns}
     start = [result.data[f"rivet[1].{name}"][0] for name in ("sigma_head", "sigma_mid")]
-    assert study.stress_at_rest(rows)[0] == pytest.approx(start, rel=1e-9)  # two twins' rounding: observed 1e-15
+    assert study.stress_by(rows)[0] == pytest.approx(start, rel=1e-9)  # two twins' rounding: observed 1e-15
 
 
 def test_a_crossing_is_found_between_the_fits():

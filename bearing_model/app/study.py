@@ -162,7 +162,7 @@ def runs_of(rows):
         "dislocation_max": rows["stat.dislocation_max"] * 1e6,
         "slip": (rows["max(cage.dislocation)"] - rows["min(cage.dislocation)"]) * 1e6,
     }
-    rest = stress_at_rest(rows) * 1e-6
+    rest = stress_by(rows) * 1e-6
     for place, channel in (("head", 0), ("mid", 1)):
         columns[place] = rows[f"stat.sigma_{place}_mean"] * 1e-6
         columns[f"{place}_peak"] = rows[f"stat.sigma_{place}_p999"] * 1e-6
@@ -175,6 +175,10 @@ def runs_of(rows):
                 columns[f"{place}_damage_{k}"] = np.log10(rows[f"rivet[{k}].damage_{place}"] / counted * 3600.0)
             columns[f"{place}_damage"] = np.max([columns[f"{place}_damage_{k}"] for k in range(1, rivets + 1)], axis=0)
     columns["ratio"] = np.round(columns["pocket"] / columns["guide"], 2)
+    if "p999(rivet[1].M)" in rows:  # stress if the worst rivet bore its preload and only one of its loads
+        for name, letter in (("tension", "N"), ("moment", "M_y")):
+            load = np.max([rows[f"p999(rivet[{k}].{letter[0]})"] for k in range(1, rivets + 1)], axis=0)
+            columns[f"head_by_{name}"] = 1e-6 * stress_by(rows, **{letter: load})[:, 0]
     if "rms(ball[1].Q_cx)" in rows:
         axial, whole = (np.sqrt(sum(rows[f"rms(ball[{j}].{name})"] ** 2 for j in range(1, rivets + 1))) for name in ("Q_cx", "Q_c"))
         columns["axial_share"] = 100.0 * axial / whole
@@ -183,14 +187,12 @@ def runs_of(rows):
     return Runs(columns)
 
 
-def stress_at_rest(rows):
-    """Stress of head and middle by preload and fit alone [Pa], one line a run."""
+def stress_by(rows, **loads):
+    """Stress of head and middle by preload, fit and loads on one rivet [Pa], one line a run."""
     table = default_table()
-    fits = [
-        rivet_rom.rivet_rom_fit_eff(table, fit, model == "j2")
-        for fit, model in zip(rows["joint.fit"] + rows["joint.swell"], rows["rivet.fit_model"], strict=True)
-    ]
-    stress, _ = rivet_rom.rivet_rom_stress(table, rivet_rom.RivetLoad(P=rows["joint.preload"]), np.array(fits))
+    fits = rows["joint.fit"] + rows["joint.swell"]
+    effective = [rivet_rom.rivet_rom_fit_eff(table, fit, model == "j2") for fit, model in zip(fits, rows["rivet.fit_model"], strict=True)]
+    stress, _ = rivet_rom.rivet_rom_stress(table, rivet_rom.RivetLoad(P=rows["joint.preload"], **loads), np.array(effective))
     return stress[:, [rivet_rom.HEAD_P1, rivet_rom.MID_VM]]
 
 
