@@ -12,6 +12,7 @@ import pytest
 
 from bearing_model.app import Result, UserError, read_result, run, write_result
 from bearing_model.app.bearings import bearing_case, find_bearing, flat, shipped_bearings
+from bearing_model.app.build import start_document
 from bearing_model.app.fmu import Instance, Model
 from bearing_model.app.results import FORMATS, write_atomically
 from bearing_model.app.summary import rivet_rows, summary_rows
@@ -272,6 +273,53 @@ def test_shipped_bearings_are_consistent(designation):
     assert v["cage.land_x"] + v["cage.land_width"] / 2 <= width
     assert case.equilibrium().F[1] == pytest.approx(v["shaft.F_y"], rel=1e-6)
     assert find_bearing(designation).name == f"{designation}.toml"
+
+
+def test_bearing_files_take_units(tmp_path):
+    """The same values as numbers in SI and as texts with units; Z = 12 of 5 mm."""
+    texts = """Z = 12
+[catalogue]
+bore = "20 mm"
+C = "9.36 kN"
+[parameters]
+bearing.D = "5 mm"
+bearing.d_m = "30 mm"
+ring.tilt_mode = "free"
+[inputs]
+shaft.omega = "6000 rev/min"
+"""
+    numbers = texts.replace('"20 mm"', "0.02").replace('"9.36 kN"', "9360").replace('"5 mm"', "0.005").replace('"30 mm"', "0.03")
+    (tmp_path / "texts.toml").write_text(texts)
+    (tmp_path / "numbers.toml").write_text(numbers.replace('"6000 rev/min"', "628.318530717958"))
+    with_texts, with_numbers = (bearing_case(tmp_path / f"{name}.toml") for name in ("texts", "numbers"))
+    assert with_texts.catalogue == pytest.approx(with_numbers.catalogue, rel=1e-12)
+    changed = {name: value for name, value in with_texts.values.items() if isinstance(value, float)}
+    assert changed == pytest.approx({name: with_numbers.values[name] for name in changed}, rel=1e-12)
+    document = start_document(with_texts)
+    assert document["parameters"]["bearing.D"] == 0.005 and document["parameters"]["ring.tilt_mode"] == "free" and document["Z"] == 12
+
+
+@pytest.mark.parametrize(
+    ("text", "fragments"),
+    [
+        ('[parameters]\nbearing.D = "8 N"', ["parameters.bearing.D = '8 N'", '"N" does not fit', "m, mm, um"]),
+        ('[parameters]\nbearing.D = "800 mm"', ["parameters.bearing.D", "0.001 ... 0.1 m"]),
+        ('[catalogue]\nbore = "-1 mm"', ["catalogue.bore", "greater than 0"]),
+        ('[catalogue]\nC = "1 mm"', ["catalogue.C", "N, kN"]),
+        ("Z = 4", ["Z = 4", "5 to 32"]),
+    ],
+)
+def test_bad_bearing_files_name_key_value_and_what_is_allowed(tmp_path, text, fragments):
+    (tmp_path / "mine.toml").write_text(text)
+    with pytest.raises(UserError) as error:
+        bearing_case(tmp_path / "mine.toml")
+    assert all(fragment in str(error.value) for fragment in ["mine.toml", *fragments])
+
+
+def test_a_run_shorter_than_settling_says_that_there_are_no_statistics(tmp_path):
+    done = command("run", "demo", "--t-end", "2 ms", "--no-plot", "--set", "joint.preload='30 N'", "--out", tmp_path, folder=tmp_path)
+    assert done.returncode == 0 and "start.settle = 0.05 s" in done.stderr and "after the first" not in done.stdout
+    assert read_result(tmp_path / "demo.parquet").parameters["joint.preload"] == 30.0
 
 
 def test_an_fmu_of_the_second_bearing(tmp_path):

@@ -149,7 +149,10 @@ BAD_SCENES = [
     ("[simulation]\noutputs = 'ring.y'", ["simulation.outputs", "list of names"]),
     ("[parameters]\njoint.preloat = 1", ["mine.toml", '"joint.preloat"', '"joint.preload"']),
     ("[parameters]\nfoo.bar = 1", ["unknown parameter", '"foo']),
-    ("[parameters]\nshaft.F_y = 1", ["unknown parameter", '"shaft']),
+    ("[parameters]\nshaft.F_y = 1", ["parameters.shaft.F_y", "into [inputs]"]),
+    ("[inputs]\njoint.preload = 1", ["inputs.joint.preload", "into [parameters]"]),
+    ("[inputs]\nshaft.omega = 18238", ["inputs.shaft.omega = 18238", "174160 rev/min is out of range", "47746.5 rev/min"]),  # meant as rev/min
+    ("Z = 8", ["a bearing file, not a scene", "build --bearing"]),
     ("[parameters]\njoint.preload = '20 mm'", ["parameters.joint.preload = '20 mm'", '"mm" does not fit', "allowed: N"]),
     ("[parameters]\njoint.preload = '20'", ["parameters.joint.preload = '20'", "needs a unit", "N"]),
     ("[parameters]\njoint.preload = -1", ["parameters.joint.preload = -1", "0 ... 1000 N"]),

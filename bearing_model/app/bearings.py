@@ -4,11 +4,11 @@
     Z = 8
     [catalogue]           # optional: bore, outside_diameter, width [m], C, C_0 [N]
     [parameters]          # start values of the FMU made from this file
-    bearing.D = 0.01905
+    bearing.D = "19.05 mm"
     [inputs]              # likewise
     shaft.F_y = 6000.0
 
-All values are SI; what is left out keeps its start value of the variable table, that of the 6207.
+A number is SI, a text carries its unit; what is left out keeps its start value of the variable table, that of the 6207.
 """
 
 import math
@@ -20,7 +20,8 @@ from bearing_model import variables
 from bearing_model.quasi_static import Bearing, Load, quasi_static
 
 from .errors import UserError, unknown
-from .scene import load_scene, read_toml, refusal, shipped_scenes
+from .scene import load_scene, positive, read_toml, refusal, shipped_scenes
+from .units import MULTIPLES, to_si
 
 SHIPPED = files("bearing_model") / "data" / "bearings"
 KEYS = ("designation", "description", "Z", "catalogue", "parameters", "inputs")
@@ -91,16 +92,28 @@ def bearing_case(source):
     Z, catalogue = document.get("Z", variables.Z), document.get("catalogue", {})
     if isinstance(Z, bool) or not isinstance(Z, int) or not 5 <= Z <= 32:
         raise refusal(path, "Z", Z, "allowed: an integer from 5 to 32")
-    for key, value in catalogue.items():
-        if key not in CATALOGUE:
-            raise unknown(path, "catalogue key", key, CATALOGUE)
-        if not is_number(value) or value <= 0.0:
-            raise refusal(path, f"catalogue.{key}", value, "not a positive number in SI units")
+    catalogue = dict(catalogue_values(path, catalogue))
     values = {}
     for section, known in (("parameters", variables.PARAMETERS), ("inputs", variables.INPUTS)):
         values |= {name: named(variable, variable.start) for name, variable in known.items()}
         values |= dict(start_values(path, section, document.get(section, {}), known))
     return Case(str(document.get("designation", Path(path.name).stem)), str(document.get("description", "")), Z, values, catalogue)
+
+
+def catalogue_values(path, section):
+    """Keys and SI values of the catalogue's data, each checked."""
+    for key, value in section.items():
+        if key not in CATALOGUE:
+            raise unknown(path, "catalogue key", key, CATALOGUE)
+        try:
+            yield key, positive(value, unit_scales("N" if key in ("C", "C_0") else "m"))
+        except UserError as problem:
+            raise refusal(path, f"catalogue.{key}", value, problem) from None
+
+
+def unit_scales(unit):
+    """Symbols that a text may carry for an SI unit, with their (factor, offset)."""
+    return variables.UNITS[unit] | MULTIPLES.get(unit, {})
 
 
 def start_values(path, section, tree, known):
@@ -112,9 +125,13 @@ def start_values(path, section, tree, known):
         items = [] if variable.type in ("Real", "Integer") else [item.name.lower() for item in getattr(variables, variable.type)]
         if items and value not in items:
             raise refusal(path, f"{section}.{name}", value, f"allowed: {', '.join(items)}")
+        try:
+            value = to_si(value, unit_scales(variable.unit)) if isinstance(value, str) and not items else value
+        except UserError as problem:
+            raise refusal(path, f"{section}.{name}", value, problem) from None
         low, high = (-math.inf if variable.min is None else variable.min), (math.inf if variable.max is None else variable.max)
         if not items and not (is_number(value) and low <= value <= high):
-            raise refusal(path, f"{section}.{name}", value, f"not a number (SI) in {low:g} ... {high:g} {variable.unit}")
+            raise refusal(path, f"{section}.{name}", value, f"not a number in {low:g} ... {high:g} {variable.unit}, or a text with its unit")
         yield name, value
 
 

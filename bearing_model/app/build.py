@@ -18,13 +18,14 @@ import sys
 import sysconfig
 from pathlib import Path
 
+from bearing_model import variables
 from rivet_model import closed_form, table
 from rivet_model.geometry import Geometry
 
-from .bearings import bearing_case, find_bearing
+from .bearings import bearing_case
 from .errors import UserError, unknown
 from .fmu import FMU_NAME, PACKAGE, Instance, Model
-from .results import write_atomically
+from .results import to_toml, write_atomically
 from .scene import Scene
 
 SOURCES = (PACKAGE.parent, PACKAGE / "_source")  # a checkout, an installed package
@@ -51,7 +52,9 @@ def build(bearing=None, rivet=None, out=None, say=lambda text, share=None: None,
     if bearing:
         say("variables")
         generated = folder / "generated"
-        execute([sys.executable, sources / "fmus" / "generate.py", "--bearing", str(find_bearing(bearing)), "--out", generated], folder, say)
+        resolved = folder / "bearing.toml"
+        resolved.write_text("\n".join(to_toml(start_document(case))), encoding="utf-8")
+        execute([sys.executable, sources / "fmus" / "generate.py", "--bearing", resolved, "--out", generated], folder, say)
         options.append(f"-DGENERATED_DIR={generated}")
     binaries = [f"{platform}={cross_compile(cmake, sources, folder / platform, options, platform, say)}" for platform in platforms]
     options.append(f"-DBINARIES={';'.join(binaries)}")
@@ -96,6 +99,12 @@ def find_zig():
     if not found:
         raise UserError("zig not found, which compiles for other platforms: `pip install ziglang`")
     return found
+
+
+def start_document(case):
+    """A case as fmus/generate.py reads it: all start values in SI."""
+    sections = {"parameters": variables.PARAMETERS, "inputs": variables.INPUTS}
+    return {"Z": case.Z} | {section: {name: case.values[name] for name in known} for section, known in sections.items()}
 
 
 def source_folder():

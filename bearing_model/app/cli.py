@@ -118,7 +118,7 @@ def changes(model, settings, seed, t_end, step):
         if not equals:
             raise UserError(f'--set {setting}: not of the form NAME=VALUE, e.g. joint.preload="30 N"')
         section = "inputs" if name.strip() in model.inputs else "parameters"
-        document[section][name.strip()] = number_or_text(value.strip())
+        document[section][name.strip()] = number_or_text(value.strip().strip("\"'"))
         if section == "parameters" and name.strip() not in model.parameters:
             raise unknown("--set", "parameter or input", name.strip(), [*model.parameters, *model.inputs])
     if seed is not None:
@@ -194,7 +194,10 @@ def print_summary(result):
         worst = max(rivets, key=lambda row: row[1].p999)
         console.print(f"worst rivet: {worst[0]} (head p99.9 {worst[1].p999:.4g} MPa, middle p99.9 {worst[2].p999:.4g} MPa)")
     settle = result.parameters.get("start.settle", 0.0)
-    console.print(f"[dim]after the first {settle:g} s; every internal step, * at communication points only[/]")
+    if summary["simulated_time"] > settle:
+        console.print(f"[dim]after the first {settle:g} s; every internal step, * at communication points only[/]")
+    else:
+        messages.print(f"[yellow]note:[/] no statistics: they begin at start.settle = {settle:g} s, and the run ended at {summary['simulated_time']:g} s")
     counters = {name: f"{summary[f'solver.{name}']:,.0f}" for name in ("steps", "rhs_evals", "error_tests_failed") if f"solver.{name}" in summary}
     if counters:
         console.print(f"{counters['steps']} steps, {counters['rhs_evals']} evaluations of the equations, {counters['error_tests_failed']} steps rejected")

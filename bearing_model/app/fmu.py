@@ -78,7 +78,9 @@ class Model:
         high = np.inf if variable.max is None else float(variable.max)
         if not low <= number <= high:
             symbol, (factor, offset) = self.display(variable)
-            raise UserError(f"out of range, allowed: {factor * low + offset:.6g} ... {factor * high + offset:.6g} {symbol}")
+            raise UserError(
+                f"{factor * number + offset:.6g} {symbol} is out of range, allowed: {factor * low + offset:.6g} ... {factor * high + offset:.6g} {symbol}"
+            )
 
     def display(self, variable):
         """Symbol, (factor, offset) of the unit in which people read a variable."""

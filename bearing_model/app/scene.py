@@ -125,6 +125,8 @@ def read_toml(path):
 
 def apply(scene, where, document, model, folder):
     """The scene with one document's settings on top."""
+    if "Z" in document:
+        raise UserError(f"{where}: this is a bearing file, not a scene: `riveted-bearing build --bearing {where}` makes an FMU of it")
     for key in document:
         if key not in SECTIONS:
             raise unknown(where, "key", key, SECTIONS)
@@ -135,16 +137,19 @@ def apply(scene, where, document, model, folder):
     return replace(
         scene,
         description=str(document.get("description", scene.description)),
-        parameters=scene.parameters | read_section(where, "parameters", sections["parameters"], model.parameters, model.parameter_value),
-        inputs=scene.inputs | read_section(where, "inputs", sections["inputs"], model.inputs, lambda value, v: input_history(value, v, model, folder)),
+        parameters=scene.parameters | read_section(where, "parameters", sections["parameters"], model.parameters, model.inputs, model.parameter_value),
+        inputs=scene.inputs
+        | read_section(where, "inputs", sections["inputs"], model.inputs, model.parameters, lambda value, v: input_history(value, v, model, folder)),
         **read_simulation(where, sections["simulation"], model),
     )
 
 
-def read_section(where, kind, section, variables, value_of):
-    """Settings of one section by full variable name."""
+def read_section(where, kind, section, variables, others, value_of):
+    """Settings of one section by full variable name; others: the variables of the other section."""
     settings = {}
-    for name, value in leaves(section, variables):
+    for name, value in leaves(section, variables | others):
+        if name in others:
+            raise UserError(f"{where}: {kind}.{name}: does not belong into [{kind}] but into [{'inputs' if kind == 'parameters' else 'parameters'}]")
         if name not in variables:
             raise unknown(where, kind.removesuffix("s"), name, variables)
         try:

@@ -37,6 +37,14 @@ class {{ name }}(IntEnum):
 
 {% endfor %}
 
+# Scales of each unit: symbol -> (factor, offset), value in that symbol = factor * SI value + offset.
+UNITS = {
+{% for unit, entry in table.units.items() %}
+    {{ unit | quoted }}: { {{- unit | quoted }}: (1.0, 0.0)
+{%- for symbol, scale in entry.get("display", {}).items() %}, {{ symbol | quoted }}: ({{ scale | join(", ") if scale is sequence else "%r, 0.0" % scale }}){% endfor %}},
+{% endfor %}
+}
+
 # name, vr, type, unit, display, start, min, max, count, group, description, source
 {% for causality, title in (("parameter", "PARAMETERS"), ("input", "INPUTS"), ("output", "OUTPUTS")) %}
 {{ title }} = {
