@@ -6,7 +6,9 @@ PYTHON  = $(BIN)/python
 FMU     = fmus/RivetedBearing.fmu
 COPY    = $(CURDIR)/build/sanitize
 PYTEST  = $(PYTHON) -m pytest
-C_FILES = $(wildcard fmu_src/*.[ch] tests/*.[ch])
+C_FILES = $(wildcard fmu_src/*.[ch] tests/*.[ch] benchmarks/*.[ch])
+BENCHMARKS = rhs scenes scaling work_precision
+FORM    = --short
 
 export PATH := $(CURDIR)/$(BIN):$(PATH)  # cmake finds ninja
 export MPLBACKEND = Agg
@@ -22,8 +24,9 @@ test: build lint  ## the fast tests
 test-slow: build  ## the tests that take minutes
 	$(PYTEST) -n 2 -m slow
 
-bench: build  ## measure what the README claims
-	for file in benchmarks/*.py; do $(PYTHON) $$file || exit 1; done
+bench: build  ## measure what the README claims and write docs/performance.md, in minutes; hours with FORM=
+	for name in $(BENCHMARKS); do $(PYTHON) benchmarks/$$name.py $(FORM) || exit 1; done
+	$(PYTHON) benchmarks/page.py
 
 build: build/build.ninja  ## the FMU and the tests' library; seconds after an edit
 	$(BIN)/cmake --build build

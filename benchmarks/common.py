@@ -36,7 +36,16 @@ SCENES = {
     "impact": (
         "impact train",
         "demo",
-        {"parameters": {"pulse.F_r": 1401.0, "pulse.F_a": 241.0, "pulse.duration": 1e-3, "pulse.interval": 1e-2 / 3, "pulse.count": 1000}},
+        {
+            "parameters": {
+                "pulse.t_start": 0.0,
+                "pulse.F_r": 1401.0,
+                "pulse.F_a": 241.0,
+                "pulse.duration": 1e-3,
+                "pulse.interval": 1e-2 / 3,
+                "pulse.count": 1000,
+            }
+        },
     ),
     "jam": ("jam, 4,000 r/min", "jam", {}),
 }

@@ -52,10 +52,17 @@ void element_times(const Model *model, const double *y, int rounds, Work *w, dou
     TIME(9, ring_acceleration(model, 0.0, w, y_dot));
 }
 
-// A value has to be in a vector register here.
-#if defined(__x86_64__) && LANE_WIDTH == 1
-#define USE(value) __asm__ volatile("" ::"x"(real_lane(value, 0)) : "memory")
-#elif defined(__x86_64__)
+// A bundle that stays in a register: gcc keeps bundles of one in memory.
+#if LANE_WIDTH == 1
+typedef double chain;
+#define CHAIN_ROOT sqrt
+#else
+typedef real chain;
+#define CHAIN_ROOT real_sqrt
+#endif
+
+// A loaded value has to be in a vector register here.
+#if defined(__x86_64__)
 #define USE(value) __asm__ volatile("" ::"x"(value) : "memory")
 #else
 #define USE(value) __asm__ volatile("" ::"w"(value) : "memory")
@@ -69,19 +76,19 @@ enum { CHAINS = 12 };
         _Pragma("GCC unroll 12") for (int i = 0; i < CHAINS; i++) operation; \
     }                                                                        \
     ns[index] = (now() - begin) / ((double)rounds * CHAINS * (count));       \
-    for (int i = 0; i < CHAINS; i++) real_store(&sink[i * LANE_WIDTH], x[i])
+    for (int i = 0; i < CHAINS; i++) memcpy(&sink[i * LANE_WIDTH], &x[i], sizeof x[i])
 
 void peak_times(long rounds, double ns[PEAKS])
 {
     _Alignas(64) double memory[CHAINS * LANE_WIDTH], sink[CHAINS * LANE_WIDTH];
-    const real near_one = real_set(1.0 - 1e-9), small = real_set(1e-9);
-    real x[CHAINS];
+    const double near_one = 1.0 - 1e-9, small = 1e-9;
+    chain x[CHAINS];
     double begin;
     for (int i = 0; i < CHAINS * LANE_WIDTH; i++) memory[i] = 1e-9 * i;
-    for (int i = 0; i < CHAINS; i++) x[i] = real_set(1.0 + i);
+    for (int i = 0; i < CHAINS; i++) x[i] = (1.0 + i) - (chain){0};
     PEAK(PEAK_ARITHMETIC, 2, x[i] = x[i] * near_one + small);
-    PEAK(PEAK_LOAD, 1, USE(real_load(&memory[i * LANE_WIDTH])));
+    PEAK(PEAK_LOAD, 1, USE(*(const chain *)&memory[i * LANE_WIDTH]));
     PEAK(PEAK_DIVIDE, 1, x[i] = near_one / x[i]);
-    PEAK(PEAK_ROOT, 1, x[i] = real_sqrt(x[i]));
+    PEAK(PEAK_ROOT, 1, x[i] = CHAIN_ROOT(x[i]));
     __asm__ volatile("" ::"r"(sink) : "memory");
 }

@@ -101,7 +101,7 @@ def balls(scene, length, repeat):
 
 def horizon_child(connection, length):
     """One long run in a process of its own: cost and memory quarter by quarter."""
-    model, scene = Model(FMU), Scene("demo").checked
+    model, scene = Model(FMU), replace(Scene("demo").checked, t_end=length)
     rows = []
     with Instance(model) as instance:
         instance.initialize(scene)
@@ -118,7 +118,7 @@ def horizon_child(connection, length):
 
 def parallel_child(connection, barrier, length):
     """One of several runs at the same time."""
-    model, scene = Model(FMU), Scene("demo").checked
+    model, scene = Model(FMU), replace(Scene("demo").checked, t_end=length)
     barrier.wait()
     wall = time.perf_counter()
     row = simulate(model, scene, length, 1e-4, outputs=peak_channels(model))
@@ -132,6 +132,8 @@ def children(count, target, *arguments):
     processes = [context.Process(target=target, args=(sender, *arguments)) for _, sender in pairs]
     for process in processes:
         process.start()
+    for _, sender in pairs:
+        sender.close()  # the child holds the other end: EOFError below if it fails
     results = [receiver.recv() for receiver, _ in pairs]
     for process in processes:
         process.join()
