@@ -1,13 +1,18 @@
 # For the benchmarks only, built on demand: the core with other integrators; loops around the kernels, which are compiled once more without vectors.
 
-if(EXISTS ${PROJECT_SOURCE_DIR}/benchmarks/solvers.c AND test_files)
+if(EXISTS ${PROJECT_SOURCE_DIR}/benchmarks/solvers.c AND TARGET bearing_test AND sundials_source)
     set(benchmarks ${PROJECT_SOURCE_DIR}/benchmarks)
-    set(sundials $<TARGET_PROPERTY:core,INTERFACE_LINK_LIBRARIES>)  # not core itself: all its objects would come along
 
-    add_library(bearing_solvers SHARED EXCLUDE_FROM_ALL $<FILTER:${core_objects},EXCLUDE,integrator\\.c> ${test_files} ${benchmarks}/solvers.c)
-    target_include_directories(bearing_solvers PRIVATE ${fmu_src})
-    target_compile_options(bearing_solvers PRIVATE ${core_flags})
-    target_link_libraries(bearing_solvers PRIVATE ${sundials})
+    # What solvers.c needs of SUNDIALS beyond the FMU's part.
+    set(cvode_files cvode/cvode.c cvode/cvode_io.c cvode/cvode_ls.c cvode/cvode_nls.c cvode/cvode_proj.c nvector/serial/nvector_serial.c
+        sundials/sundials_dense.c sunlinsol/dense/sunlinsol_dense.c sunnonlinsol/fixedpoint/sunnonlinsol_fixedpoint.c)
+    list(TRANSFORM cvode_files PREPEND ${sundials_source}/src/)
+    add_library(sundials_cvode OBJECT EXCLUDE_FROM_ALL ${cvode_files})
+    target_include_directories(sundials_cvode SYSTEM PRIVATE ${sundials_folders} ${sundials_source}/src/cvode)
+    target_compile_options(sundials_cvode PRIVATE -w -ffp-contract=off -fno-math-errno -fvisibility=hidden)
+
+    add_library(bearing_solvers SHARED EXCLUDE_FROM_ALL
+        $<FILTER:${core_objects},EXCLUDE,integrator\\.c> $<TARGET_OBJECTS:sundials_cvode> ${test_files} ${benchmarks}/solvers.c)
 
     # Adds the timing loops for one instruction set; options as for its kernels.
     function(add_timing isa lane_width)
@@ -19,7 +24,7 @@ if(EXISTS ${PROJECT_SOURCE_DIR}/benchmarks/solvers.c AND test_files)
     endfunction()
 
     set(scalar -fno-tree-vectorize -fno-tree-slp-vectorize)
-    add_kernel(scalar 1 "" ${scalar})
+    add_kernel(scalar 1 ${scalar})
     set_target_properties(kernel_scalar PROPERTIES EXCLUDE_FROM_ALL ON)
     add_timing(scalar 1 ${scalar})
     if(TARGET kernel_avx512)
@@ -32,8 +37,13 @@ if(EXISTS ${PROJECT_SOURCE_DIR}/benchmarks/solvers.c AND test_files)
         add_timing(generic 2)
     endif()
     add_library(bearing_kernels SHARED EXCLUDE_FROM_ALL ${core_objects} ${timing_objects} ${test_files} ${benchmarks}/trace.c)
-    target_include_directories(bearing_kernels PRIVATE ${fmu_src})
-    target_compile_options(bearing_kernels PRIVATE ${core_flags})
-    target_compile_definitions(bearing_kernels PRIVATE _DEFAULT_SOURCE)
-    target_link_libraries(bearing_kernels PRIVATE ${sundials})
+
+    foreach(library IN ITEMS bearing_solvers bearing_kernels)
+        target_include_directories(${library} PRIVATE ${fmu_src})
+        target_include_directories(${library} SYSTEM PRIVATE ${sundials_folders})
+        target_compile_definitions(${library} PRIVATE _DEFAULT_SOURCE)
+        target_compile_options(${library} PRIVATE ${core_flags})
+        target_link_libraries(${library} PRIVATE m)  # not core: all its objects would come along
+        target_link_options(${library} PRIVATE -Wl,--no-undefined)
+    endforeach()
 endif()

@@ -1,0 +1,86 @@
+"""The solvers that the benchmarks compare with integrate the same problem: their ends meet, closer with the tolerance."""
+
+import subprocess
+import sys
+
+import pytest
+from library import ROOT
+
+pytestmark = pytest.mark.slow  # builds a target of its own
+
+sys.path.insert(0, str(ROOT / "benchmarks"))
+
+HORIZON = 0.5e-3  # [s]; errors double about once in it
+TABLE = "ARKODE_DORMAND_PRINCE_7_4_5"
+SOLVERS = {"explicit": (0, TABLE, 0, 0.0), "adams": (1, "", 0, 0.0), "dense": (2, "", 0, 4e-5), "diagonal": (2, "", 1, 4e-5), "bordered": (2, "", 2, 4e-5)}
+
+
+@pytest.fixture(scope="module")
+def bench():
+    from work_precision import Bench
+
+    return Bench()
+
+
+@pytest.fixture(scope="module")
+def problem(bench):
+    """Scene, a state in motion, where it goes to at 1e-9."""
+    from common import Scene
+    from work_precision import Setting
+
+    scene = Scene("demo")
+    start = scene.start(bench.core, scene_stress=1).step(5e-3).y
+    _, _, end = bench.advance(scene, Setting("", 1e-9, choice=SOLVERS["explicit"]), start, HORIZON)
+    return scene, start, end
+
+
+def error(bench, problem, tolerance, **solver):
+    from work_precision import Setting, rms
+
+    scene, start, end = problem
+    _, work, y = bench.advance(scene, Setting("", tolerance, **solver), start, HORIZON)
+    assert work["steps"] > 20 and work["rhs_evals"] > work["steps"]
+    return rms((y - end) / bench.scales(scene))
+
+
+@pytest.mark.parametrize("solver", SOLVERS)
+def test_solvers_meet(bench, problem, solver):
+    """Error at 1e-6 below 1e-4 (some hundred steps of that error add up at most; observed 5e-6...1.5e-5), far less than at 1e-2 (1e-2...4e-2)."""
+    errors = [error(bench, problem, tolerance, choice=SOLVERS[solver]) for tolerance in (1e-2, 1e-6)]
+    assert errors[1] < 1e-4 and errors[1] < 0.01 * errors[0], errors
+
+
+def test_the_core_meets_them(bench, problem):
+    """Our own default likewise; observed 2e-05."""
+    assert error(bench, problem, 1e-6, method=1) < 1e-4
+
+
+def test_bordered_pattern_holds_all(bench, problem):
+    """Balls and joints couple to ring and cage only: exactly nothing outside the pattern."""
+    from work_precision import Setting
+
+    instance = bench.instance(problem[0], Setting("", 1e-3, choice=SOLVERS["bordered"]))
+    assert bench.other.lib.solver_outside_pattern(instance.bearing) == 0.0
+
+
+def test_instructions_are_counted():
+    """Single steps of an evaluation find packed arithmetic, and none in the scalar build."""
+    code = f"""
+import sys
+sys.path.insert(0, {str(ROOT / "benchmarks")!r})
+import rhs
+from common import Core, Scene, build_target
+library = build_target("bearing_kernels")
+core, scene = Core.load(library), Scene("demo")
+core.ffi.cdef("void rhs_scalar(const Model *, double, const double *, double *, Work *);")
+model = core.model(scene.parameters, scene.inputs)
+for isa in rhs.instruction_sets(core):
+    counts = rhs.instructions(core, library, rhs.disassembly(library), model, isa, [model.start()])
+    print(isa, counts["arithmetic"], counts.get("arithmetic_packed", 0))
+"""
+    output = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True, cwd=ROOT).stdout
+    rows = {isa: (float(total), float(packed)) for isa, total, packed in map(str.split, output.splitlines())}
+    assert rows["scalar"][1] == 0.0
+    for isa, (total, packed) in rows.items():
+        assert total > 1000.0
+        assert isa == "scalar" or packed > 0.7 * total, (isa, total, packed)
