@@ -32,19 +32,19 @@ def pockets(model, w):
     return np.max(np.abs(np.array(radial) - middle), axis=0), reach
 
 
-def ellipse(model, w, race, Q, along, height):
-    """Angle that a contact's ellipse reaches to and that of the shoulder [rad].  along: the normal's part along the race's axis."""
-    reach = np.arcsin(np.minimum(np.abs(along), 1.0)) + race.hertz.a * np.cbrt(Q) / race.R_m
-    return np.where(Q > 0.0, reach, 0.0), np.arccos(1.0 - height * model.p.bearing.D / race.r_g)
+def ellipse_reach(model, w):
+    """Angles from the groove's bottom to which the contact ellipses on inner and outer race reach [rad], 0 without contact; (2, ..., Z)."""
+    tilted = vec_dot(w.n_i, vec_local(w.ring.a, w.cos_theta, w.sin_theta))
+    sides = ((model.d.inner, w.Q_i, tilted), (model.d.outer, w.Q_e, w.n_e[0]))
+    reach = [np.arcsin(np.minimum(np.abs(along), 1.0)) + race.hertz.a * np.cbrt(Q) / race.R_m for race, Q, along in sides]
+    return np.where(np.array([w.Q_i, w.Q_e]) > 0.0, reach, 0.0)
 
 
 def event_outputs(model, w):
     """Number of places at which each kind happens, by the names of the variable table."""
     d, p = model.d, model.p
-    tilt = vec_dot(w.n_i, vec_local(w.ring.a, w.cos_theta, w.sin_theta))
-    sides = ((d.inner, w.Q_i, tilt, p.bearing.h_i), (d.outer, w.Q_e, w.n_e[0], p.bearing.h_e))
-    cuts = [ellipse(model, w, *side) for side in sides]
-    pressures = [hertz_pressure(race.hertz, Q) for race, Q, *_ in sides]
+    edges = [np.arccos(1.0 - height * p.bearing.D / race.r_g) for race, height in ((d.inner, p.bearing.h_i), (d.outer, p.bearing.h_e))]
+    pressures = [hertz_pressure(race.hertz, Q) for race, Q in ((d.inner, w.Q_i), (d.outer, w.Q_e))]
 
     def count(value, limit):
         return np.sum(value > limit, axis=-1).astype(float)
@@ -53,7 +53,7 @@ def event_outputs(model, w):
     return {
         "event.land_contact": count(*lands(model, w)),
         "event.pocket_exit": count(*pockets(model, w)),
-        "event.ellipse_cut": sum(count(*cut) for cut in cuts),
+        "event.ellipse_cut": sum(count(reach, edge) for reach, edge in zip(ellipse_reach(model, w), edges, strict=True)),
         "event.overpressure": sum(count(value, p.bearing.p_limit) for value in pressures),
         "event.joint_open": 0.0 * count(w.x, np.inf) if rigid else count(w.u[0], d.P / d.k_plate),
     }

@@ -90,18 +90,21 @@ def admit(variable, value):
 def check_geometry(p):
     """Parameters against each other."""
     D, d_m = p.bearing.D, p.bearing.d_m
-    chord, pocket, play = d_m * math.sin(math.pi / Z), D + p.cage.pocket_clearance, 4.0 * (min(p.bearing.f_i, p.bearing.f_e) - 0.5) * D
+    chord, pocket, play = d_m * math.sin(math.pi / Z), p.cage.pocket_clearance, 4.0 * (min(p.bearing.f_i, p.bearing.f_e) - 0.5) * D
     require(D < chord, f"bearing.D = {D} m: the balls overlap; less than bearing.d_m sin(pi/Z) = {chord:g} m is allowed")
-    require(pocket < chord, f"cage.pocket_clearance: pockets of {pocket:g} m overlap; less than bearing.d_m sin(pi/Z) = {chord:g} m is allowed")
+    apart = f"the pockets overlap; less than bearing.d_m sin(pi/Z) - bearing.D = {chord - D:g} m is allowed"
+    require(D + pocket < chord, f"cage.pocket_clearance = {pocket} m: {apart}")
     far = f"a ball on one race would reach the other groove's far side; less than 4 (min(f_i, f_e) - 1/2) D = {play:g} m is allowed"
     require(p.bearing.P_d < play, f"bearing.P_d = {p.bearing.P_d} m: {far}")
     require(-p.bearing.P_d < 0.01 * D, f"bearing.P_d = {p.bearing.P_d} m: the interference exceeds 1 % of bearing.D; at least {-0.01 * D:g} m is allowed")
     require(p.cage.D_i < p.cage.D_o, f"cage.D_i = {p.cage.D_i} m: less than cage.D_o = {p.cage.D_o} m is allowed")
-    require(p.cage.D_i < d_m < p.cage.D_o, f"bearing.d_m = {d_m} m: the pitch circle must lie between cage.D_i and cage.D_o = {p.cage.D_o} m")
+    require(p.cage.D_i < d_m, f"cage.D_i = {p.cage.D_i} m: less than bearing.d_m = {d_m} m is allowed")
+    require(d_m < p.cage.D_o, f"cage.D_o = {p.cage.D_o} m: more than bearing.d_m = {d_m} m is allowed")
     half = 0.5 * p.cage.width
     require(p.cage.land_width <= half, f"cage.land_width = {p.cage.land_width} m: at most half of cage.width, {half:g} m, is allowed")
     require(p.fatigue.k_2 >= p.fatigue.k_1, f"fatigue.k_2 = {p.fatigue.k_2}: at least fatigue.k_1 = {p.fatigue.k_1} is allowed")
     apart = p.pulse.count < 2 or p.pulse.interval >= p.pulse.duration
     require(apart, f"pulse.interval = {p.pulse.interval} s: at least pulse.duration = {p.pulse.duration} s is allowed")
-    largest, room = np.max(p.ball.dD), p.cage.pocket_clearance
-    require(largest <= 0.0 or largest < room, f"ball.dD = {largest} m: less than cage.pocket_clearance = {room} m is allowed")
+    j = np.argmax(p.ball.dD)
+    dD = p.ball.dD[j]
+    require(dD <= 0.0 or dD < pocket, f"ball[{j + 1}].dD = {dD} m: less than cage.pocket_clearance = {pocket} m is allowed")

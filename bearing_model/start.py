@@ -13,6 +13,7 @@ the first harmonic of their axial places, else a tilted ring's balls would start
 import numpy as np
 from scipy.optimize import minimize
 
+from bearing_model.events import ellipse_reach
 from bearing_model.hertz import hertz_energy
 from bearing_model.model import Work
 from bearing_model.race_contact import race_contact_force
@@ -160,12 +161,26 @@ def cage_place(model, w, omega_m, y):
     y[CAGE_S] = omega_m
 
 
+def check_grooves(model, w):
+    """ValueError if a ball's contact reaches beyond its groove's half circle."""
+    reach = ellipse_reach(model, w)
+    race, j = np.unravel_index(np.argmax(reach), reach.shape)
+    if reach[race, j] >= 0.5 * np.pi:
+        drive = model.drive
+        F, tilt = (", ".join(f"{value:g}" for value in values) for values in (drive.F, (drive.beta, drive.gamma)))
+        raise ValueError(
+            f"ball[{j + 1}] is pressed out of the {('inner', 'outer')[race]} race's groove at the start: its contact reaches to {reach[race, j]:g} rad, "
+            f"less than pi/2 is allowed; the loads ({F}) N on the ring and the shaft's tilt ({tilt}) rad are too much"
+        )
+
+
 def start_state(model):
-    """The start state [N_STATES] and the largest force that is left in the equilibrium [N]."""
+    """The start state [N_STATES] and the largest force that is left in the equilibrium [N]; ValueError if a ball is pressed out of its groove."""
     d, theta = model.d, spacing(model.p)
     eq = Equilibrium(model, theta)
     z, residual = equilibrium(eq)
     w = eq.contacts(z)
+    check_grooves(model, w)
 
     y = np.zeros(N_STATES)
     omega_m = orbital_speed(model, w)

@@ -187,6 +187,7 @@ BearingStatus bearing_initialize(Bearing *b, double t_start, double tolerance)
         status = BEARING_WARNING;
     }
     integrator_evaluate(b->integrator);
+    if (!check_start(b)) return BEARING_ERROR;
     s->energy_start = energy_total(&b->model, s->integrator.y, &b->w);
     accepted_step(b, 0.0, &b->w);
     report_events(b);

@@ -48,26 +48,30 @@ static bool check_geometry(Bearing *b)
 {
     const Parameters *p = &b->s.p;
     const double PI = 3.14159265358979323846, D = p->bearing.D, d_m = p->bearing.d_m;
-    const double chord = d_m * sin(PI / Z), pocket = D + p->cage.pocket_clearance, play = 4.0 * (fmin(p->bearing.f_i, p->bearing.f_e) - 0.5) * D;
+    const double chord = d_m * sin(PI / Z), play = 4.0 * (fmin(p->bearing.f_i, p->bearing.f_e) - 0.5) * D;
     bool fine = true;
     fine &= require(b, D < chord, "bearing.D = %g m: the balls overlap; less than bearing.d_m sin(pi/Z) = %g m is allowed", D, chord);
-    fine &= require(b, pocket < chord, "cage.pocket_clearance: pockets of %g m overlap; less than bearing.d_m sin(pi/Z) = %g m is allowed", pocket, chord);
+    fine &= require(b, D + p->cage.pocket_clearance < chord,
+                    "cage.pocket_clearance = %g m: the pockets overlap; less than bearing.d_m sin(pi/Z) - bearing.D = %g m is allowed",
+                    p->cage.pocket_clearance, chord - D);
     fine &= require(b, p->bearing.P_d < play,
                     "bearing.P_d = %g m: a ball on one race would reach the other groove's far side; less than 4 (min(f_i, f_e) - 1/2) D = %g m is allowed",
                     p->bearing.P_d, play);
     fine &= require(b, -p->bearing.P_d < 0.01 * D, "bearing.P_d = %g m: the interference exceeds 1 %% of bearing.D; at least %g m is allowed", p->bearing.P_d,
                     -0.01 * D);
     fine &= require(b, p->cage.D_i < p->cage.D_o, "cage.D_i = %g m: less than cage.D_o = %g m is allowed", p->cage.D_i, p->cage.D_o);
-    fine &= require(b, p->cage.D_i < d_m && d_m < p->cage.D_o, "bearing.d_m = %g m: the pitch circle must lie between cage.D_i and cage.D_o = %g m", d_m,
-                    p->cage.D_o);
+    fine &= require(b, p->cage.D_i < d_m, "cage.D_i = %g m: less than bearing.d_m = %g m is allowed", p->cage.D_i, d_m);
+    fine &= require(b, d_m < p->cage.D_o, "cage.D_o = %g m: more than bearing.d_m = %g m is allowed", p->cage.D_o, d_m);
     fine &= require(b, p->cage.land_width <= 0.5 * p->cage.width, "cage.land_width = %g m: at most half of cage.width, %g m, is allowed", p->cage.land_width,
                     0.5 * p->cage.width);
     fine &= require(b, p->fatigue.k_2 >= p->fatigue.k_1, "fatigue.k_2 = %g: at least fatigue.k_1 = %g is allowed", p->fatigue.k_2, p->fatigue.k_1);
     fine &= require(b, p->pulse.count < 2 || p->pulse.interval >= p->pulse.duration, "pulse.interval = %g s: at least pulse.duration = %g s is allowed",
                     p->pulse.interval, p->pulse.duration);
-    for (int j = 0; j < Z; j++)
-        fine &= require(b, p->ball.dD[j] < p->cage.pocket_clearance || p->ball.dD[j] <= 0.0,
-                        "ball.dD = %g m: less than cage.pocket_clearance = %g m is allowed", p->ball.dD[j], p->cage.pocket_clearance);
+    for (int j = 0; j < Z; j++) {
+        if (p->ball.dD[j] < p->cage.pocket_clearance || p->ball.dD[j] <= 0.0) continue;
+        bearing_log(b, LOG_ERROR, "ball[%d].dD = %g m: less than cage.pocket_clearance = %g m is allowed", j + 1, p->ball.dD[j], p->cage.pocket_clearance);
+        fine = false;
+    }
     return fine;
 }
 
@@ -87,4 +91,20 @@ bool check_all(Bearing *b)
     bool fine = check_variables(b, CAUSALITY_PARAMETER, &b->s.p);
     fine &= check_inputs(b);
     return fine && check_geometry(b) && check_table(b);
+}
+
+bool check_start(Bearing *b)
+{
+    const double HALF_PI = 1.57079632679489662;
+    for (int i = 0; i < 2 * Z; i++) {
+        const double reach = ellipse_reach(&b->model, &b->w, i % 2 == 1, i / 2);
+        if (reach < HALF_PI) continue;
+        bearing_log(b, LOG_ERROR,
+                    "ball[%d] is pressed out of the %s race's groove at the start: its contact reaches to %g rad, less than pi/2 is allowed; shaft.F_x = %g N, "
+                    "shaft.F_y = %g N, shaft.F_z = %g N, shaft.tilt_y = %g rad, shaft.tilt_z = %g rad are too much",
+                    i / 2 + 1, i % 2 == 1 ? "outer" : "inner", reach, b->s.u.shaft.F_x, b->s.u.shaft.F_y, b->s.u.shaft.F_z, b->s.u.shaft.tilt_y,
+                    b->s.u.shaft.tilt_z);
+        return false;
+    }
+    return true;
 }

@@ -39,24 +39,26 @@ static void pockets(const Model *model, const Work *w, Event *event)
     }
 }
 
+double ellipse_reach(const Model *model, const Work *w, bool outer, int j)
+{
+    const Race *race = outer ? &model->d->outer : &model->d->inner;
+    const double Q = outer ? w->Q_e[j] : w->Q_i[j];
+    if (!(Q > 0.0)) return 0.0;
+    const double *a = w->ring.a, c = w->cos_theta[j], s = w->sin_theta[j];
+    const double along = outer ? w->n_ex[j] : w->n_ix[j] * a[0] + w->n_ir[j] * (a[1] * c + a[2] * s) + w->n_it[j] * (a[2] * c - a[1] * s);
+    return asin(fmin(fabs(along), 1.0)) + race->hertz.a * cbrt(Q) / race->R_m;
+}
+
 static void races(const Model *model, const Work *w, Event *cut, Event *pressure)
 {
-    const double PI = 3.14159265358979323846;
-    const Derived *d = model->d;
-    const Race *race[2] = {&d->inner, &d->outer};
-    const double D = model->p->bearing.D, height[2] = {model->p->bearing.h_i * D, model->p->bearing.h_e * D};
-    const double *a = w->ring.a;
-    for (int side = 0; side < 2; side++) {
-        const double edge = acos(1.0 - height[side] / race[side]->r_g);
+    const double PI = 3.14159265358979323846, D = model->p->bearing.D;
+    for (int outer = 0; outer < 2; outer++) {
+        const Race *race = outer ? &model->d->outer : &model->d->inner;
+        const double *Q = outer ? w->Q_e : w->Q_i, height = outer ? model->p->bearing.h_e : model->p->bearing.h_i;
+        const double edge = acos(1.0 - height * D / race->r_g);
         for (int j = 0; j < Z; j++) {
-            const double Q = side == 0 ? w->Q_i[j] : w->Q_e[j];
-            if (!(Q > 0.0)) continue;
-            const double c = w->cos_theta[j], s = w->sin_theta[j];
-            const double along =  // the normal's part along the race's axis
-                side == 0 ? w->n_ix[j] * a[0] + w->n_ir[j] * (a[1] * c + a[2] * s) + w->n_it[j] * (a[2] * c - a[1] * s) : w->n_ex[j];
-            const double root = cbrt(Q);
-            add(cut, 2 * j + side, asin(fmin(fabs(along), 1.0)) + race[side]->hertz.a * root / race[side]->R_m, edge);
-            add(pressure, 2 * j + side, 1.5 * root / (PI * race[side]->hertz.a * race[side]->hertz.b), model->p->bearing.p_limit);
+            add(cut, 2 * j + outer, ellipse_reach(model, w, outer, j), edge);
+            add(pressure, 2 * j + outer, 1.5 * cbrt(Q[j]) / (PI * race->hertz.a * race->hertz.b), model->p->bearing.p_limit);
         }
     }
 }

@@ -26,6 +26,9 @@ typedef struct {
     int active[EVENT_COUNT];
 } EventState;
 
+// Angle from a groove's bottom to which the contact ellipse of ball j reaches [rad], 0 without contact.
+double ellipse_reach(const Model *model, const Work *w, bool outer, int j);
+
 // All kinds at the state that w belongs to.  head_peak, mid_peak: of each rivet [Pa].
 void events_now(const Model *model, const Work *w, const double head_peak[Z], const double mid_peak[Z], Event now[EVENT_COUNT]);
 

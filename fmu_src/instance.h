@@ -53,6 +53,9 @@ void outputs_fill(struct Bearing *b, OutputGroup group);
 // Whether parameters and inputs make a bearing; messages go to the log.
 bool check_all(struct Bearing *b);
 
+// Whether the balls of the start, which w belongs to, lie in their grooves.
+bool check_start(struct Bearing *b);
+
 // Whether inputs are within their limits (they may change at every step).
 bool check_inputs(struct Bearing *b);
 
