@@ -1,6 +1,7 @@
 // One instance: life cycle, stepping, peaks and statistics over accepted steps, saved state.
 #include "aligned.h"
 #include "drive.h"
+#include "elementary.h"
 #include "energy.h"
 #include "instance.h"
 #include "rivets.h"
@@ -207,7 +208,7 @@ static void choose_path(Bearing *b, double elapsed)
         s->integrator.path = s->p.solver.method == METHOD_IMEX ? PATH_IMEX : PATH_EXPLICIT;
         return;
     }
-    const double h_accurate = 8e-6 * cbrt(fmin(s->tolerance / 1e-3, 1.0)), h_stable = 2.5 / fmax(s->stiffness, 1.0);
+    const double h_accurate = 8e-6 * portable_cbrt(fmin(s->tolerance / 1e-3, 1.0)), h_stable = 2.5 / fmax(s->stiffness, 1.0);
     if (h_stable < h_accurate / 1.5)
         s->integrator.path = PATH_IMEX;
     else if (h_stable > h_accurate)

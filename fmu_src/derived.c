@@ -1,22 +1,23 @@
 // Constants derived once from the parameters, element by element; equations stand in the elements' files.
+#include "elementary.h"
 #include "hertz.h"
 #include "traction.h"
 
 static const double PI = 3.14159265358979323846;
 
-// ln of 2.69 G^0.53 (1 - 0.61 exp(-0.73 k)) R_x (eta/(E' R_x))^0.67 (1/(E' R_x^2))^-0.067 / sigma: ln Lambda at U = 1 m/s, Q = 1 N.
+// ln of 2.69 G^0.53 (1 - 0.61 portable_exp(-0.73 k)) R_x (eta/(E' R_x))^0.67 (1/(E' R_x^2))^-0.067 / sigma: ln Lambda at U = 1 m/s, Q = 1 N.
 static double ln_film(double E_prime, double R_x, double k, const Parameters *p, double sigma)
 {
     const double G = p->oil.alpha * E_prime;
-    return log(2.69 * (1.0 - 0.61 * exp(-0.73 * k)) * R_x / sigma) + 0.53 * log(G) + 0.67 * log(p->oil.eta / (E_prime * R_x)) +
-           0.067 * log(E_prime * R_x * R_x);
+    return portable_log(2.69 * (1.0 - 0.61 * portable_exp(-0.73 * k)) * R_x / sigma) + 0.53 * portable_log(G) +
+           0.67 * portable_log(p->oil.eta / (E_prime * R_x)) + 0.067 * portable_log(E_prime * R_x * R_x);
 }
 
 // 2.86 E' R_x^2 (R_y/R_x)^0.348 G^0.022 (eta/(E' R_x))^0.66 (1/(E' R_x^2))^0.47: F_R at U = 1 m/s, Q = 1 N.
 static double inlet(double E_prime, double R_x, double R_y, const Parameters *p)
 {
-    return p->oil.rolling * 2.86 * E_prime * R_x * R_x * pow(R_y / R_x, 0.348) * pow(p->oil.alpha * E_prime, 0.022) * pow(p->oil.eta / (E_prime * R_x), 0.66) *
-           pow(E_prime * R_x * R_x, -0.47);
+    return p->oil.rolling * 2.86 * E_prime * R_x * R_x * portable_pow(R_y / R_x, 0.348) * portable_pow(p->oil.alpha * E_prime, 0.022) *
+           portable_pow(p->oil.eta / (E_prime * R_x), 0.66) * portable_pow(E_prime * R_x * R_x, -0.47);
 }
 
 // inner: side = -1, outer: side = +1.
@@ -54,16 +55,16 @@ static void derive_pockets(const Parameters *p, Derived *d)
     d->pocket = hertz_contact(1.0 / R, rho_y, E_star);
     d->pocket_rolling = inlet(2.0 * E_star, R, 1.0 / rho_y, p);
     d->ln_pocket_piezo = ln_film(2.0 * E_star, R, d->pocket.k, p, p->oil.sigma_pocket);
-    // isoviscous-rigid: h/R = 128 alpha_r lambda_b^2 (0.131 atan(alpha_r/2) + 1.683)^2 (U/W)^2, alpha_r = R_y/R.  Hamrock & Dowson (1979), Brewe
+    // isoviscous-rigid: h/R = 128 alpha_r lambda_b^2 (0.131 portable_atan(alpha_r/2) + 1.683)^2 (U/W)^2, alpha_r = R_y/R.  Hamrock & Dowson (1979), Brewe
     const double alpha_r = 1.0 / (rho_y * R), lambda_b = 1.0 / (1.0 + 0.698 / alpha_r);
-    const double shape = 128.0 * alpha_r * lambda_b * lambda_b * pow(0.131 * atan(0.5 * alpha_r) + 1.683, 2.0);
-    d->ln_pocket_rigid = log(shape * R / p->oil.sigma_pocket) + 2.0 * log(p->oil.eta * R);
+    const double shape = 128.0 * alpha_r * lambda_b * lambda_b * portable_pow(0.131 * portable_atan(0.5 * alpha_r) + 1.683, 2.0);
+    d->ln_pocket_rigid = portable_log(shape * R / p->oil.sigma_pocket) + 2.0 * portable_log(p->oil.eta * R);
     for (int j = 0; j < LANES; j++) {
         const double phi = 2.0 * PI * (j % Z) / Z, phi_r = 2.0 * PI * (j % Z + 0.5) / Z;
-        d->pocket_cos[j] = cos(phi);
-        d->pocket_sin[j] = sin(phi);
-        d->rivet_y[j] = 0.5 * p->bearing.d_m * cos(phi_r);
-        d->rivet_z[j] = 0.5 * p->bearing.d_m * sin(phi_r);
+        d->pocket_cos[j] = portable_cos(phi);
+        d->pocket_sin[j] = portable_sin(phi);
+        d->rivet_y[j] = 0.5 * p->bearing.d_m * portable_cos(phi_r);
+        d->rivet_z[j] = 0.5 * p->bearing.d_m * portable_sin(phi_r);
     }
 }
 
@@ -76,18 +77,18 @@ static void derive_cage(const Parameters *p, Derived *d)
     d->C_land = 0.5 * p->cage.guide_clearance;
     d->kappa = p->oil.eta * R * L * L * L / (d->C_land * d->C_land * d->C_land);
     d->couette = 2.0 * PI * p->oil.eta * R * R * R * L / d->C_land;
-    d->ln_land = log(d->C_land / p->oil.sigma_land);
+    d->ln_land = portable_log(d->C_land / p->oil.sigma_land);
     // end face: (1/2) rho omega^2 (r_o^5 - r_i^5) C_n/2, given per omega (drag_cage multiplies by omega)
-    const double face = 0.25 * p->oil.rho_mix * (pow(R, 5.0) - pow(r_i, 5.0)), Re = R * R / nu;
+    const double face = 0.25 * p->oil.rho_mix * (portable_pow(R, 5.0) - portable_pow(r_i, 5.0)), Re = R * R / nu;
     d->disk_laminar = face * 3.87 / sqrt(Re);
-    d->disk_turbulent = face * 0.146 * pow(Re, -0.2);
+    d->disk_turbulent = face * 0.146 * portable_pow(Re, -0.2);
     // cylinder outside the land, at the same gap
     const double width = fmax(0.5 * p->cage.width - L, 0.0), Ta = R * d->C_land / nu * sqrt(d->C_land / R);
     d->cylinder_laminar = p->oil.rho_mix * nu * R / d->C_land * (2.0 * PI * R * width) * R;
-    d->cylinder_vortex = d->cylinder_laminar * 1.3 * pow(Ta / 41.0, 0.539);
+    d->cylinder_vortex = d->cylinder_laminar * 1.3 * portable_pow(Ta / 41.0, 0.539);
     // the turbulent laws overtake at k_t omega^0.8 = k_l omega^0.5 and 1.3 (Ta/41)^0.539 = 1; just below, so that max() decides
-    d->disk_laminar_omega = 0.999 * pow(d->disk_laminar / d->disk_turbulent, 1.0 / 0.3);
-    d->cylinder_laminar_omega = 0.999 * pow(d->cylinder_laminar / d->cylinder_vortex, 1.0 / 0.539);
+    d->disk_laminar_omega = 0.999 * portable_pow(d->disk_laminar / d->disk_turbulent, 1.0 / 0.3);
+    d->cylinder_laminar_omega = 0.999 * portable_pow(d->cylinder_laminar / d->cylinder_vortex, 1.0 / 0.539);
 }
 
 static void derive_joint(const Parameters *p, Derived *d)

@@ -1,14 +1,16 @@
 // The inputs as the ring sees them.
 //
-//   pulses: F_r sin(pi (t - t_n)/duration) along the radial load (+Y without one) and F_a along +X, t_n = t_start + n interval
+//   pulses: F_r portable_sin(pi (t - t_n)/duration) along the radial load (+Y without one) and F_a along +X, t_n = t_start + n interval
 //
 // The vectors of force are in the global frame.  Shaft tilt is a rotation about (0, tilt_y, tilt_z): a = (cos, tilt_z sinc, -tilt_y sinc).
 #include "drive.h"
 
+#include "elementary.h"
+
 void ring_cosines(double tilt_y, double tilt_z, double *beta, double *gamma)
 {
     const double angle = sqrt(tilt_y * tilt_y + tilt_z * tilt_z);
-    const double sinc = angle > 1e-8 ? sin(angle) / angle : 1.0;
+    const double sinc = angle > 1e-8 ? portable_sin(angle) / angle : 1.0;
     *beta = tilt_y * sinc;
     *gamma = tilt_z * sinc;
 }
@@ -16,7 +18,7 @@ void ring_cosines(double tilt_y, double tilt_z, double *beta, double *gamma)
 void ring_tilts(double beta, double gamma, double *tilt_y, double *tilt_z)
 {
     const double sine = sqrt(beta * beta + gamma * gamma);
-    const double factor = sine > 1e-8 ? asin(sine) / sine : 1.0;
+    const double factor = sine > 1e-8 ? portable_asin(sine) / sine : 1.0;
     *tilt_y = beta * factor;
     *tilt_z = gamma * factor;
 }

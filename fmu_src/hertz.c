@@ -8,6 +8,8 @@
 // Harris, Rolling Bearing Analysis, chapter 6.  kappa = 1 gives the sphere: a* = b* = delta* = 1.
 #include "hertz.h"
 
+#include "elementary.h"
+
 static const double PI = 3.14159265358979323846;
 
 void hertz_elliptic(double k2, double *first, double *second)
@@ -49,9 +51,9 @@ Hertz hertz_contact(double rho_x, double rho_y, double E_star)
     const double kappa = sqrt(low * high);
     double F, E;
     hertz_elliptic(1.0 - 1.0 / (kappa * kappa), &F, &E);
-    const double a_star = cbrt(2.0 * kappa * kappa * E / PI), b_star = a_star / kappa, delta_star = 2.0 * F / (PI * a_star);
+    const double a_star = portable_cbrt(2.0 * kappa * kappa * E / PI), b_star = a_star / kappa, delta_star = 2.0 * F / (PI * a_star);
     const double load = 3.0 / (2.0 * sum * E_star);  // (Q load)^(1/3) scales the ellipse
-    const double compliance = delta_star * 0.5 * sum * cbrt(load) * cbrt(load);
-    const double K = pow(compliance, -1.5), a = a_star * cbrt(load);
-    return (Hertz){.K = K, .a = a, .b = b_star * cbrt(load), .a_delta = a * cbrt(K), .k = kappa, .R_x = 1.0 / rho_x};
+    const double compliance = delta_star * 0.5 * sum * portable_cbrt(load) * portable_cbrt(load);
+    const double K = portable_pow(compliance, -1.5), a = a_star * portable_cbrt(load);
+    return (Hertz){.K = K, .a = a, .b = b_star * portable_cbrt(load), .a_delta = a * portable_cbrt(K), .k = kappa, .R_x = 1.0 / rho_x};
 }

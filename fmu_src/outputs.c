@@ -1,5 +1,6 @@
 // Outputs, group by group, from the results of the right-hand side at the present state.
 #include "drive.h"
+#include "elementary.h"
 #include "energy.h"
 #include "hertz.h"
 #include "housing.h"
@@ -42,13 +43,13 @@ static void fill_ring(Bearing *b)
 // p_max = 3 Q/(2 pi a b).
 static double pressure(const Hertz *hertz, double Q)
 {
-    const double root = cbrt(Q);
+    const double root = portable_cbrt(Q);
     return Q > 0.0 ? 1.5 * root / (PI * hertz->a * hertz->b) : 0.0;
 }
 
 static double film_ratio(const Race *race, double U, double Q)
 {
-    return Q > 0.0 ? exp(race->ln_Lambda + 0.67 * log(U) - 0.067 * log(Q + Q_FLOOR)) : 0.0;
+    return Q > 0.0 ? portable_exp(race->ln_Lambda + 0.67 * portable_log(U) - 0.067 * portable_log(Q + Q_FLOOR)) : 0.0;
 }
 
 // Spin of the ball against the inner ring about the contact normal / rolling speed across it.

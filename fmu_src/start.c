@@ -9,6 +9,8 @@
 // places, else a tilted ring's balls would start inside the cage - and turns with them.
 #include "start.h"
 
+#include "elementary.h"
+
 #include "rotor.h"
 
 enum { DOF = 5, TILT = 3 };  // x, y, z | beta, gamma
@@ -259,8 +261,8 @@ double start_state(const Kernels *kernels, const Model *model, Work *w, double *
     const double spread = p->start.spacing * p->cage.pocket_clearance / (0.5 * p->bearing.d_m);
     for (int j = 0; j < Z; j++) {
         w->theta[j] = 2.0 * PI * j / Z + spread * (2.0 * uniform(&random) - 1.0);
-        w->cos_theta[j] = cos(w->theta[j]);
-        w->sin_theta[j] = sin(w->theta[j]);
+        w->cos_theta[j] = portable_cos(w->theta[j]);
+        w->sin_theta[j] = portable_sin(w->theta[j]);
         w->r[j] = 0.5 * p->bearing.d_m + 0.25 * p->bearing.P_d;
     }
     double q[DOF] = {0.0, 0.0, 0.0, model->drive->beta, model->drive->gamma};

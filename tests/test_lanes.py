@@ -59,6 +59,21 @@ def test_atan(core):
     assert relative_error(core.map(core.lib.test_atan, x), np.arctan(x.astype(np.longdouble))) < 1e-14
 
 
+@extended
+def test_powers_and_arcsine(core):
+    """Errors as elementary.h states them: those of exp and log times |y ln x|; observed 1.0e-15, 1.7e-16, 3.9e-15."""
+    x = np.exp(uniform(-30.0, 30.0))
+    exact = x.astype(np.longdouble)
+    for y in (-1.5, 0.067, 5.0):
+        scale = 1.0 + np.abs(y * np.log(x))
+        assert np.max(np.abs(core.map(core.lib.test_pow, x, y) / exact**y - 1.0) / scale) < 3e-15
+    assert relative_error(core.map(core.lib.test_cbrt, x), np.cbrt(exact)) < 5e-16
+    sine = uniform(-0.99, 0.99)
+    assert relative_error(core.map(core.lib.test_asin, sine), np.arcsin(sine.astype(np.longdouble))) < 1.1e-14  # of atan, and of its argument
+    zeros = [core.map(core.lib.test_pow, [0.0], 0.3)[0], core.map(core.lib.test_cbrt, [0.0])[0], core.map(core.lib.test_asin, [0.0])[0]]
+    assert zeros == [0.0, 0.0, 0.0]
+
+
 def test_inverse_functions(core):
     """exp(log x) = x and sin^2 + cos^2 = 1: holds without a reference."""
     x = np.exp(uniform(-5.0, 5.0))

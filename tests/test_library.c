@@ -1,5 +1,6 @@
 // What the tests' library adds to the core's objects: the inline functions, callable over arrays, and memory as the kernels want it.
 #include "bearing.h"
+#include "elementary.h"
 #include "hertz.h"
 #include "lanes.h"
 #include "model.h"
@@ -12,6 +13,9 @@ void test_exp(int n, const double *x, double *y);
 void test_log(int n, const double *x, double *y);
 void test_sincos(int n, const double *x, double *sine, double *cosine);
 void test_atan(int n, const double *x, double *y);
+void test_pow(int n, double y, const double *x, double *power);
+void test_cbrt(int n, const double *x, double *y);
+void test_asin(int n, const double *x, double *y);
 void test_hertz_load(int n, double K, const double *delta, double *Q);
 void test_hertz_damped(int n, double Q, double lambda, const double *delta_dot, double *damped);
 void test_traction_mu(int n, const Parameters *p, const double *s, double f_a, bool mixed, double *mu);
@@ -49,6 +53,21 @@ void test_sincos(int n, const double *x, double *sine, double *cosine)
 void test_atan(int n, const double *x, double *y)
 {
     for (int i = 0; i < n; i++) y[i] = real_atan(real_set(x[i]))[0];
+}
+
+void test_pow(int n, double y, const double *x, double *power)
+{
+    for (int i = 0; i < n; i++) power[i] = portable_pow(x[i], y);
+}
+
+void test_cbrt(int n, const double *x, double *y)
+{
+    for (int i = 0; i < n; i++) y[i] = portable_cbrt(x[i]);
+}
+
+void test_asin(int n, const double *x, double *y)
+{
+    for (int i = 0; i < n; i++) y[i] = portable_asin(x[i]);
 }
 
 void test_hertz_load(int n, double K, const double *delta, double *Q)

@@ -1,0 +1,49 @@
+// Elementary functions of single numbers: those of the bundles (lanes.h), so that every platform's C library gives the same model, bit for bit.
+#pragma once
+
+#include "lanes.h"
+
+#ifndef DUAL
+
+static inline double portable_exp(double x)
+{
+    return real_exp(real_set(x))[0];
+}
+static inline double portable_log(double x)
+{
+    return real_log(real_set(x))[0];
+}
+static inline double portable_sin(double x)
+{
+    real sine, cosine;
+    real_sincos(real_set(x), &sine, &cosine);
+    return sine[0];
+}
+static inline double portable_cos(double x)
+{
+    real sine, cosine;
+    real_sincos(real_set(x), &sine, &cosine);
+    return cosine[0];
+}
+static inline double portable_atan(double x)
+{
+    return real_atan(real_set(x))[0];
+}
+// |x| < 1
+static inline double portable_asin(double x)
+{
+    return portable_atan(x / sqrt((1.0 - x) * (1.0 + x)));
+}
+// x^y of x >= 0, relative error < 3e-15 (1 + |y ln x|)
+static inline double portable_pow(double x, double y)
+{
+    return x > 0.0 ? portable_exp(y * portable_log(x)) : 0.0;
+}
+// Of x >= 0; one step of Newton's method gives the last bits.
+static inline double portable_cbrt(double x)
+{
+    const double y = portable_pow(x, 1.0 / 3.0);
+    return y > 0.0 ? y - (y * y * y - x) / (3.0 * y * y) : 0.0;
+}
+
+#endif
