@@ -164,6 +164,8 @@ def test_a_changed_design_keeps_what_still_belongs(tmp_path, model, client):
     assert second["joint.preload"].tolist() == [40.0, 30.0, 50.0] and second["run"].tolist() == [0, 1, 2]
     assert second["date"][1] == first["date"][1]
     assert len(list((tmp_path / "out" / SUPERSEDED).glob("*.parquet"))) == 1  # 10 N is not lost
+    third = run_sweep(plan(tmp_path, model, SHORT + "[[vary]]\njoint.preload = [60]"), tmp_path / "out", client)
+    assert third["joint.preload"].tolist() == [60.0] and len(list((tmp_path / "out" / SUPERSEDED).glob("*.parquet"))) == 2
 
 
 def test_killed_workers_cost_only_time(tmp_path, model, client):

@@ -402,7 +402,7 @@ def compact(folder, schema, keys):
         path = folder / SUPERSEDED / f"{datetime.now(UTC):%Y%m%d-%H%M%S-%f}.parquet"
         write_atomically(path, lambda temporary: parquet.write_table(table.take(foreign), temporary, compression="zstd"))
     places = {key: place for place, key in enumerate(keys) if key in latest}
-    kept = table.take([latest[key] for key in places]).select(schema.names).cast(schema)
+    kept = table.take(pa.array([latest[key] for key in places], pa.int64())).select(schema.names).cast(schema)
     kept = kept.set_column(schema.get_field_index("run"), schema.field("run"), pa.array(list(places.values()), pa.int64()))
     write_atomically(whole, lambda temporary: parquet.write_table(kept.replace_schema_metadata(schema.metadata), temporary, compression="zstd"))
     for path in files:
