@@ -119,8 +119,9 @@ def race_contact_force(model, w):
     w.F = F_i + F_e
     w.M = T_i.M + T_e.M
     w.race_dissipated = T_i.dissipated + T_e.dissipated + (inner.Q - inner.Q_0) * inner.delta_dot + (outer.Q - outer.Q_0) * outer.delta_dot
-    w.ring.F = lanes_sum(vec_to_global(-F_i, w.cos_theta, w.sin_theta))
-    w.ring.M = lanes_sum(vec_to_global(-vec_cross(p_i, F_i) - T_i.M, w.cos_theta, w.sin_theta))
+    w.ring_F = vec_to_global(-F_i, w.cos_theta, w.sin_theta)  # by each ball, about the ring's centre
+    w.ring_M = vec_to_global(-vec_cross(p_i, F_i) - T_i.M, w.cos_theta, w.sin_theta)
+    w.ring.F, w.ring.M = lanes_sum(w.ring_F), lanes_sum(w.ring_M)
 
     w.delta_i, w.delta_e, w.Q_i, w.Q_e, w.n_i, w.n_e = inner.delta, outer.delta, inner.Q, outer.Q, inner.n, outer.n
     w.U_i, w.U_e = T_i.U, T_e.U

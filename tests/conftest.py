@@ -1,7 +1,14 @@
-"""What the tests share: the built FMU and the C core."""
+"""What the tests share: the built FMU and the C core, or in files that say TWINS = True each of the twins in turn."""
 
 import pytest
 from library import LIBRARY, ROOT, Core
+from python_core import python_core
+
+
+def pytest_generate_tests(metafunc):
+    """In files with TWINS = True, tests of `core` run on the C core and on the Python reference, unless they are marked c_only."""
+    if "core" in metafunc.fixturenames and getattr(metafunc.module, "TWINS", False) and not metafunc.definition.get_closest_marker("c_only"):
+        metafunc.parametrize("core", ["C", "Python"], indirect=True)
 
 
 @pytest.fixture(scope="session")
@@ -13,7 +20,9 @@ def fmu():
 
 
 @pytest.fixture(scope="session")
-def core():
-    """The C core: models of it, and every function by name (see library.py)."""
+def core(request):
+    """The C core: models of it, and every function by name (see library.py); or the reference in its place (see python_core.py)."""
+    if getattr(request, "param", "C") == "Python":
+        return python_core()
     assert LIBRARY.is_file(), f"{LIBRARY} is missing: make build"
     return Core.load()

@@ -90,13 +90,16 @@ class Model:
         """A function of the kernel files in this model's instruction set."""
         return getattr(self.core.lib, f"{name}_{self.isa}")
 
-    def start(self):
-        """The state vector of the quasi-static start at t = 0."""
+    def solve_start(self):
+        """State of the quasi-static start at t = 0 and its residual force [N]; the work struct keeps its contacts."""
         y = np.zeros(variables.N_STATES)
         self.core.lib.drive_update(self.p, self.u, 0.0, self.drive)
         kernels = self.core.ffi.new("Kernels *", self.core.lib.kernels_select())
-        self.core.lib.start_state(kernels, self.pointer, self.work, self.core.array(y))
-        return y
+        return y, self.core.lib.start_state(kernels, self.pointer, self.work, self.core.array(y))
+
+    def start(self):
+        """The state vector of the quasi-static start at t = 0."""
+        return self.solve_start()[0]
 
     def rhs(self, t, y):
         """dy/dt at time t [s]; the work struct keeps all results."""

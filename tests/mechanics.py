@@ -1,6 +1,7 @@
 """What the tests of the dynamics share: views of C structs, poses of bodies, states away from rest."""
 
 import numpy as np
+from python_core import Body, PythonWork
 
 from bearing_model import variables
 
@@ -18,6 +19,9 @@ def view(core, member):
 
 class View:
     """Members of a C struct by name: arrays as numpy views, numbers as they are."""
+
+    def __new__(cls, core, struct):
+        return struct if isinstance(struct, (Body, PythonWork)) else super().__new__(cls)
 
     def __init__(self, core, struct):
         object.__setattr__(self, "core", core)

@@ -8,6 +8,7 @@ from mechanics import SLICE, Instance, View, pocket_loads, running_state
 
 from bearing_model.variables import CageModel, Lubrication, Method, Traction
 
+TWINS = True
 SCENES = list(itertools.product(CageModel, Traction, Lubrication))
 LOSSLESS = {
     "oil.A": 0.0,
@@ -97,6 +98,7 @@ def order(core, tolerances, parameters, t):
     return np.polyfit(np.log(tolerances), np.log(residuals), 1)[0], residuals[-1]
 
 
+@pytest.mark.c_only
 def test_lossless_energy_stays(core):
     """Friction, damping, drag and films off, a heavy ring: balls rattle in their pockets with 60 N (4e-5 J a pulse) and 26.5 J stay.
 
@@ -117,6 +119,7 @@ def test_lossless_energy_stays(core):
     assert model.energy(bearing.y) == pytest.approx(start, abs=1e-4)  # the springs of the start give 2e-5 J of work to the ring
 
 
+@pytest.mark.c_only
 @pytest.mark.parametrize("path", [Method.EXPLICIT, Method.IMEX])
 @pytest.mark.parametrize("cage", CageModel)
 def test_energy_balance_of_a_run(core, cage, path):

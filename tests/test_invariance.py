@@ -8,6 +8,7 @@ from bearing_model import variables
 from bearing_model.model import Model
 from bearing_model.variables import CageModel, Lubrication, TiltMode, Traction
 
+TWINS = True
 POLAR = ("F_y", "F_z"), ("M_y", "M_z"), ("tilt_y", "tilt_z")
 INPUTS = {"shaft.F_x": 515.0, "shaft.F_y": 2994.0, "shaft.F_z": -400.0, "shaft.M_y": 3.0, "shaft.M_z": -2.0, "shaft.tilt_y": 1e-3, "shaft.tilt_z": 2e-3}
 INPUTS |= {"shaft.omega": 1909.8788938, "impact.F_r": 70.0, "impact.F_a": -30.0}
@@ -193,6 +194,7 @@ def test_reading_units():
     assert factor("N.s/m") == pytest.approx(TIME / LENGTH, rel=1e-15)
 
 
+@pytest.mark.c_only
 @pytest.mark.parametrize("scene", SCENES, ids=["film", "sliced mixed", "rigid"])
 def test_other_units(core, scene, record_property):
     """Every parameter, input and state in other units of length, time and mass: dy/dt follows.  No hidden constant has a dimension but Q_FLOOR = 1 N.
@@ -240,6 +242,7 @@ def image_of(kind):
     return load, other, lambda y: turned(y, 1)
 
 
+@pytest.mark.c_only
 @pytest.mark.parametrize("kind", ["turn", "mirror"])
 def test_trajectory_of_the_image(core, kind, record_property):
     """1 ms from the start in a tight cage: the turned or mirrored loads give the turned or mirrored motion.

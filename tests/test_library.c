@@ -18,7 +18,7 @@ void test_cbrt(int n, const double *x, double *y);
 void test_asin(int n, const double *x, double *y);
 void test_hertz_load(int n, double K, const double *delta, double *Q);
 void test_hertz_damped(int n, double Q, double lambda, const double *delta_dot, double *damped);
-void test_traction_mu(int n, const Parameters *p, const double *s, double f_a, bool mixed, double *mu);
+void test_traction_mu(int n, const Parameters *p, double f_a, bool mixed, const double *s, double *mu);
 void test_traction_asperity_share(int n, const double *ln_Lambda, double *f_a);
 void test_traction_ln_film(int n, double ln_Lambda_1, double Q, const double *U, double *ln_Lambda);
 void test_traction_inlet(int n, double rolling, double Q, const double *U, double *F_R);
@@ -80,7 +80,7 @@ void test_hertz_damped(int n, double Q, double lambda, const double *delta_dot, 
     for (int i = 0; i < n; i++) damped[i] = hertz_damped(real_set(Q), real_set(lambda), real_set(delta_dot[i]))[0];
 }
 
-void test_traction_mu(int n, const Parameters *p, const double *s, double f_a, bool mixed, double *mu)
+void test_traction_mu(int n, const Parameters *p, double f_a, bool mixed, const double *s, double *mu)
 {
     for (int i = 0; i < n; i++) mu[i] = traction_mu(p, real_set(s[i]), real_set(f_a), mixed)[0];
 }

@@ -7,6 +7,7 @@ from scipy.spatial.transform import Rotation
 
 from bearing_model.variables import CageModel, Lubrication
 
+TWINS = True
 R, GAP, WIDTH = 0.0111125 / 2, 1e-4, 0.05
 R_PITCH = 0.02675
 ELASTIC = {"cage.mu": 0.0, "oil.rolling": 0.0, "cage.lambda": 0.0}

@@ -9,6 +9,7 @@ from scipy.spatial.transform import Rotation
 
 from bearing_model.variables import Lubrication, Traction
 
+TWINS = True
 D, R = 0.0111125, 0.0111125 / 2
 DRY = {"oil.A": 0.0, "oil.B": 0.0, "oil.rolling": 0.0}  # no tangential force
 
