@@ -520,6 +520,13 @@ def test_bad_values_are_named(make, message):
         make()
 
 
+def test_overload_is_refused():
+    """Hertz' theory ends: 100 kN on a bearing with C_0 = 15.3 kN, while three times C_0 is still computed."""
+    with pytest.raises(ArithmeticError, match=r"D/100 = 0\.000111 m: the bearing does not carry"):
+        quasi_static(Bearing(), Load(F_y=1e5))
+    assert quasi_static(Bearing(), Load(F_y=3 * 15.3e3)).p_i.max() > 4.2e9
+
+
 def test_race_control_at_vanishing_contact_is_refused():
     """Free ring, no thrust, thousands of newtons of radial load on a 45 deg bearing at speed: inner control cannot hold, and says so."""
     load = Load(F_z=1668.65, omega=-2375.0, k_tilt=0.0)
