@@ -25,7 +25,7 @@ T_END = 0.012
 @pytest.fixture(scope="module")
 def result():
     """A run of the working point with impacts in it, short of what statistics need."""
-    return run("demo", t_end=T_END, parameters={"start.settle": 2e-3, "joint.preload": "30 N"})
+    return run("demo", t_end=T_END, parameters={"start.settle": 2e-3, "joint.preload": "30 N", "scene.stress": "fatigue"})
 
 
 @pytest.fixture(scope="module")
@@ -169,6 +169,15 @@ def test_life_agrees_with_the_streaming_count(result):
     for sigma in history.tolist():
         channel.push(law, sigma)
     assert rivet_life(made_up(result, history), 1, "mid").damage == pytest.approx(channel.damage(law), rel=1e-9)
+
+
+def test_life_agrees_with_the_count_of_every_step(result):
+    """Peaks and samples miss the dips between communication points: never more damage than the FMU counts, and by the 15th root the stress
+    that would do it is at most some per cent less.  Observed 0.96 ... 1.00 here."""
+    ratio = [rivet_life(result, k, place).damage / result.data[f"rivet[{k}].damage_{place}"][-1] for k in range(1, Z + 1) for place in ("head", "mid")]
+    stress = np.array(ratio) ** (1 / result.parameters["fatigue.k_2"])
+    print(stress.min(), stress.max())
+    assert stress.min() > 0.93 and stress.max() < 1.005
 
 
 @pytest.mark.parametrize(

@@ -190,11 +190,12 @@ def stress_over_azimuth(figure, result):
 
 
 def stress_over_time(figure, result):
-    """Largest head stress, rivet by rivet, in stretches of time."""
+    """Largest head stress, rivet by rivet, in stretches of time; the colours end at the largest one after settling."""
     names, t = columns(result, "rivet[", "].sigma_head_peak"), result.data["time"]
     first = np.unique(np.linspace(0, len(t), 240, endpoint=False).astype(int))
     rows = [1e-6 * np.maximum.reduceat(result.data[name], first) for name in names]
-    heat_map(figure, rows, (0.0, 1e3 * t[-1]), "time [ms]")
+    highest = 1e-6 * max(result.data[name][settled(result)].max() for name in names)
+    heat_map(figure, np.minimum(rows, highest), (0.0, 1e3 * t[-1]), "time [ms]")
 
 
 def heat_map(figure, rows, extent, xlabel, ticks=None):

@@ -234,6 +234,10 @@ def solver_rows(result):
         yield "energy residual at the end", f"{1e3 * result.data['bearing.energy_residual'][-1]:.3g} mJ"
     if "bearing.penetration" in result.data:
         yield "largest elastic approach", f"{1e6 * result.data['bearing.penetration'].max():.1f} µm"
+    onsets = {name: int(result.data[name][-1]) for name in result.data if name.startswith("event.") and name.endswith("_onsets")}
+    if onsets:
+        seen = [f"{name.removeprefix('event.').removesuffix('_onsets').replace('_', ' ')} {count:,}" for name, count in onsets.items() if count]
+        yield "onsets of events", ", ".join(seen) or "none"
     flags = columns(result, "rivet[", "].flag")
     if flags:
         seen = np.bitwise_or.reduce(np.concatenate([result.data[name] for name in flags]).astype(int))
@@ -253,4 +257,8 @@ def duration(seconds):
     if not math.isfinite(seconds):
         return "no damage"
     hours = seconds / 3600.0
-    return f"{seconds:.3g} s" if hours < 0.1 else f"{hours:.3g} h" if hours < 1e5 else f"{hours / 8766.0:.3g} years" if hours < 1e9 else "> 1e5 years"
+    if hours < 0.1:
+        return f"{figure(seconds)} s"
+    if hours < 1e5:
+        return f"{hours:,.0f} h" if hours >= 100.0 else f"{hours:.3g} h"
+    return f"{hours / 8766.0:,.0f} years" if hours < 1e9 else "> 1e5 years"

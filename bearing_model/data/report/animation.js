@@ -18,17 +18,22 @@
   const pocket = R + scale * mm("cage.pocket_clearance") / 2, guide = scale * mm("cage.guide_clearance") / 2;
   const outerRace = pitch + R + scale * mm("bearing.P_d") / 4, innerRace = pitch - R - scale * mm("bearing.P_d") / 4;
   const cageOut = mm("cage.D_o") / 2, cageIn = mm("cage.D_i") / 2, rivet = 0.075 * mm("bearing.D") + 0.2;
-  const largest = (name) => {
-    let most = 0;
-    for (let j = 1; j <= Z; j++) if (channels[name + j]) for (const n of channels[name + j].n) most = Math.max(most, channels[name + j].first + channels[name + j].step * n);
-    return most;
-  };
-  const most = { race: Math.max(largest("Q_i"), largest("Q_e")), pocket: largest("Q_c"), stress: largest("stress") };
-  const least = (() => {
-    let value = most.stress;
-    for (let j = 1; j <= Z; j++) if (channels["stress" + j]) for (const n of channels["stress" + j].n) value = Math.min(value, channels["stress" + j].first + channels["stress" + j].step * n);
-    return value;
-  })();
+  // Smallest and largest value of channels after settling: the first shocks shall not set the scales.
+  const settled = Math.min(time.findIndex((t) => t >= film.settle) >>> 0, time.length - 2);
+  function range(names) {
+    let low = Infinity, high = -Infinity;
+    for (const c of names.map((name) => channels[name]).filter(Boolean)) {
+      for (let i = settled; i < time.length; i++) {
+        const v = c.first + c.step * c.n[i];
+        low = Math.min(low, v);
+        high = Math.max(high, v);
+      }
+    }
+    return { low, high };
+  }
+  const ofBalls = (...names) => Array.from({ length: Z }, (_, j) => names.map((name) => name + (j + 1))).flat();
+  const most = { race: range(ofBalls("Q_i", "Q_e")).high, pocket: range(ofBalls("Q_c")).high, stress: range(ofBalls("stress")).high };
+  const least = range(ofBalls("stress")).low;
   let now = 0, playing = false, lastTick = 0, colours = {};
 
   // Index and weight of the frame before t; angles go on in straight lines between frames, as do all other channels but peaks.
@@ -177,13 +182,13 @@
         g.fill();
       }
       if (most.race > 0) {
-        const outside = (bar * see.value("Q_e" + j)) / most.race, inside = (bar * see.value("Q_i" + j)) / most.race;
+        const [outside, inside] = ["Q_e", "Q_i"].map((name) => bar * Math.min(1, see.value(name + j) / most.race));
         arrow(g, (rim + 0.4) * c, (rim + 0.4) * s, (rim + 0.4 + outside) * c, (rim + 0.4 + outside) * s, colours.force, 0.7);
         arrow(g, ry + (bore - 0.4) * c, rz + (bore - 0.4) * s, ry + (bore - 0.4 - inside) * c, rz + (bore - 0.4 - inside) * s, colours.middle, 0.7);
       }
       const push = see.value("Q_c" + j);
       if (push > 0.01 * most.pocket) {
-        const side = gapSide(see, j) * (0.5 * R + (1.4 * R * push) / most.pocket);
+        const side = gapSide(see, j) * R * (0.5 + 1.4 * Math.min(1, push / most.pocket));
         arrow(g, r * c, r * s, r * c - s * side, r * s + c * side, colours.head, 0.9);
       }
     }
@@ -263,7 +268,7 @@
       g.fillText(String(j), 0, 4);
       g.restore();
       const push = see.value("Q_c" + j);
-      if (push > 0.01 * most.pocket) arrow(g, s, x + 0.65 * R, s + gapSide(see, j) * (0.4 * R + (1.2 * R * push) / most.pocket), x + 0.65 * R, colours.head, 0.9);
+      if (push > 0.01 * most.pocket) arrow(g, s, x + 0.65 * R, s + gapSide(see, j) * R * (0.4 + 1.2 * Math.min(1, push / most.pocket)), x + 0.65 * R, colours.head, 0.9);
     }
     g.restore();
   }
@@ -273,8 +278,7 @@
   function traceCurve(name, top, height, width, g, colour) {
     const c = channels[name];
     if (!c) return;
-    let peak = 0;
-    for (const n of c.n) peak = Math.max(peak, c.first + c.step * n);
+    const peak = range([name]).high, up = (v) => Math.min(1, Math.max(0, v / (peak || 1))) * height;
     g.strokeStyle = colour;
     g.lineWidth = 1;
     g.beginPath();
@@ -286,8 +290,8 @@
         high = Math.max(high, v);
         low = Math.min(low, v);
       }
-      g.moveTo(x + 0.5, top + height - (height * low) / (peak || 1));
-      g.lineTo(x + 0.5, top + height - (height * high) / (peak || 1) - 0.5);
+      g.moveTo(x + 0.5, top + height - up(low));
+      g.lineTo(x + 0.5, top + height - up(high) - 0.5);
     }
     g.stroke();
     return peak;
