@@ -46,7 +46,7 @@ if(sundials_files)
 endif()
 add_custom_command(OUTPUT ${parts}/index.html
     COMMAND ${run}/page.py --description ${description} --parameters ${parameters} --drawing ${parts}/bearing.svg --out ${parts}/index.html ${with_sources}
-    DEPENDS ${description} ${parameters} ${parts}/bearing.svg ${tools}/page.py ${tools}/templates/index.html ${PROJECT_SOURCE_DIR}/README.md ${texts} COMMAND_EXPAND_LISTS VERBATIM)
+    DEPENDS ${description} ${parameters} ${parts}/bearing.svg ${tools}/page.py ${tools}/templates/index.html ${PROJECT_SOURCE_DIR}/README.md ${texts} VERBATIM)
 
 set(binaries ${BINARIES})
 set(binary_files RivetedBearing)
@@ -55,8 +55,10 @@ if(NOT BINARIES)
 else()
     list(TRANSFORM BINARIES REPLACE "^[^=]*=" "" OUTPUT_VARIABLE binary_files)
 endif()
-list(TRANSFORM binaries PREPEND "--binary\n" OUTPUT_VARIABLE arguments)
-list(APPEND arguments --description ${description} --page ${parts}/index.html --pictures ${parts}/icons --out ${FMU})
+foreach(binary IN LISTS binaries)
+    list(APPEND binary_arguments --binary ${binary})
+endforeach()
+set(arguments ${binary_arguments} --description ${description} --page ${parts}/index.html --pictures ${parts}/icons --out ${FMU})
 if(sundials_files)
     list(TRANSFORM source_files PREPEND "--source\n" OUTPUT_VARIABLE sources)
     list(TRANSFORM sundials_folders PREPEND "--include\n" OUTPUT_VARIABLE folders)
@@ -64,8 +66,8 @@ if(sundials_files)
 endif()
 if(NOT SANITIZE)  # runs the binary in a Python without the sanitizers' library
     add_custom_command(OUTPUT ${parts}/reference.csv
-        COMMAND ${run}/reference.py --description ${description} --out ${parts}/reference.csv --binary $<JOIN:${binaries},$<SEMICOLON>--binary$<SEMICOLON>>
-        DEPENDS ${description} ${binary_files} ${tools}/reference.py ${tools}/package.py COMMAND_EXPAND_LISTS VERBATIM)
+        COMMAND ${run}/reference.py --description ${description} --out ${parts}/reference.csv ${binary_arguments}
+        DEPENDS ${description} ${binary_files} ${tools}/reference.py ${tools}/package.py VERBATIM)
     set(reference ${parts}/reference.csv)
     list(APPEND arguments --reference ${reference})
 endif()
