@@ -99,13 +99,14 @@ def order(core, tolerances, parameters, t):
 
 
 @pytest.mark.c_only
-def test_lossless_energy_stays(core):
+def test_lossless_energy_stays(core, record_property):
     """Friction, damping, drag and films off, a heavy ring: balls rattle in their pockets with 60 N (4e-5 J a pulse) and 26.5 J stay.
 
     Bogacki-Shampine's global error of third order is proportional to the tolerance: slope 1, observed 0.96 from 1e-5 to 1e-7; 7.6e-9 J at 1e-7.
     """
     parameters = LOSSLESS | {"ring.m": 1000.0, "cage.pocket_clearance": 7e-5}
     slope, last = order(core, [1e-5, 1e-6, 1e-7], parameters, 2e-3)
+    record_property("drift", {"slope": float(slope), "J at 1e-7": float(last)})
     assert slope == pytest.approx(1.0, abs=0.2)
     assert last < 2e-8
     _, loss, bearing = residual(core, 1e-5, parameters, 2e-3)
@@ -122,11 +123,12 @@ def test_lossless_energy_stays(core):
 @pytest.mark.c_only
 @pytest.mark.parametrize("path", [Method.EXPLICIT, Method.IMEX])
 @pytest.mark.parametrize("cage", CageModel)
-def test_energy_balance_of_a_run(core, cage, path):
+def test_energy_balance_of_a_run(core, cage, path, record_property):
     """The working point for 10 ms dissipates 2.6 J; the balance closes to 1e-5 of it at the default tolerance (observed 1...4e-6) and with slope 1."""
     parameters = {"scene.cage": cage, "solver.method": path}
     error, loss, _ = residual(core, 1e-4, parameters, 1e-2)
     assert 150.0 < loss < 500.0
+    record_property("residual", {"of what is dissipated": float(error / 2.6)})
     assert error < 1e-5 * 2.6
     slope, _ = order(core, [1e-4, 1e-5, 1e-6], parameters, 1e-2)
     assert slope == pytest.approx(1.0, abs=0.35)  # chaos after 3 ms: observed 0.83...0.97

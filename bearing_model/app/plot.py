@@ -200,7 +200,7 @@ def rivet_bars(ax, result):
 OVERLAID = (("ball[j].Q_i", "Contact loads"), ("ball[j].Q_c", "Pocket loads"), ("rivet[k].V", "Loads of the joints"))  # [N]
 
 
-def plot_comparison(found, path):
+def plot_comparison(found, path, dpi=110):
     """Write the picture of a Comparison as PNG: outputs over each other, differences over time by tolerance, statistics in standard deviations."""
     with plt.rc_context(STYLE):
         rows = 3 if found.statistics else 2
@@ -215,7 +215,7 @@ def plot_comparison(found, path):
             grid = axes[0, 2].get_gridspec()
             axes[0, 2].remove(), axes[1, 2].remove()
             deviations(figure.add_subplot(grid[:, 2]), found)
-        write_atomically(path, lambda temporary: figure.savefig(temporary, dpi=110))
+        write_atomically(path, lambda temporary: figure.savefig(temporary, dpi=dpi))
         plt.close(figure)
     return path
 
