@@ -10,6 +10,7 @@ from common import RESULTS, ROOT
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
+from matplotlib.ticker import FormatStrFormatter, LogLocator
 
 PAGE, PICTURES = ROOT / "docs" / "performance.md", ROOT / "docs" / "performance"
 REACH = {"demo": 0.5, "slow": 0.6, "tilt": 1.0, "jam": 1.2}  # real-time factors aimed at
@@ -32,11 +33,16 @@ plt.rcParams.update({"svg.fonttype": "none", "svg.hashsalt": "performance", "fon
 
 
 def record(name):
-    """The record of a benchmark; a sentence for the user if it has not run."""
-    path = RESULTS / f"benchmark_{name}.json"
-    if not path.is_file():
-        raise SystemExit(f"{path.relative_to(ROOT)} is missing: python benchmarks/{name}.py")
-    return json.loads(path.read_text())
+    """The record of a benchmark."""
+    return json.loads((RESULTS / f"benchmark_{name}.json").read_text())
+
+
+def section(title, name, write):
+    """A chapter of the page from the record of a benchmark, or what is missing for it."""
+    try:
+        return f"## {title}\n\n{write(record(name))}"
+    except FileNotFoundError:
+        return f"## {title}\n\nNot measured here: `python benchmarks/{name}.py` does it.\n"
 
 
 def table(head, rows):
@@ -114,6 +120,8 @@ def draw_work_precision(data):
             axis.loglog(error, rtf, color=colour, marker=marker, ms=3.5, lw=width, label=family)
         default = row_of(rows, **data["default"])
         axis.loglog(default["error"], default["rtf"], "o", ms=10, mfc="none", mec="#0b3c8c")
+        axis.yaxis.set(major_locator=LogLocator(subs=(1, 2, 5)), major_formatter=FormatStrFormatter("%g"))
+        axis.minorticks_off()
         axis.set(title=scene["title"], xlabel="error after 2 ms / tolerance scale", ylabel="processor time / simulated time")
     handles, labels = axes.flat[0].get_legend_handles_labels()
     for axis in list(axes.flat)[len(data["scenes"]) :]:
@@ -198,15 +206,12 @@ def python_table(data):
     return table(["", "RTF", "evaluations per 10 ms", "error after 0.5 ms"], rows)
 
 
-def work_precision():
-    data = record("work_precision")
+def work_precision(data):
     draw_work_precision(data)
     first = next(iter(data["scenes"].values()))
     doubt = max(scene["states"]["reference_doubt"] for scene in data["scenes"].values())
     tight = number(first["statistics"]["truth_cost"]["rtf"])
-    return f"""## Run time against error
-
-{origin(data)}.
+    return f"""{origin(data)}.
 
 {headline(data)}
 
@@ -215,8 +220,9 @@ RMS and 99.9 % quantile of pocket force, head stress and middle stress of the wo
 
 ![Run time against error of every solver](performance/work_precision.svg)
 
-Ring: the default, {data["default"]["family"].partition(", ")[2]} at {data["default"]["tolerance"]:g}. All start from the same settled states (geometric mean
-of {first["states"]["starts"]}). The error is the RMS over all states of error/(tolerance scale): 1 is 10 µm, 0.1 m/s, a friction state's whole deflection. The
+Ring: the default, {data["default"]["family"].partition(", ")[2]} at {data["default"]["tolerance"]:g}. All start from the same settled states
+(geometric mean of {first["states"]["starts"]}).
+The error is the RMS over all states of error/(tolerance scale): 1 is 10 µm, 0.1 m/s, a friction state's whole deflection. The
 reference is Dormand–Prince at 1e-10; Verner 6(5) at 1e-10 ends within {doubt:.0e} of it. BDF's Jacobian is SUNDIALS' own by differences (*dense*: what
 a general multibody solver does, the stand-in for the paper's GSTIFF with its 10,000 outputs in 0.4 s), the diagonal of damping rates, or bordered block
 diagonal. No stress, no statistics in these runs.
@@ -243,8 +249,7 @@ The last row of each scene is the FMU's default over the same horizon.
 # ------------------------------------------------------------------------------------------------------------------------- right-hand side
 
 
-def rhs():
-    data = record("rhs")
+def rhs(data):
     sets = list(data["peaks"])
     rows = []
     for scene in data["scenes"].values():
@@ -274,23 +279,20 @@ def rhs():
                 ]
             )
     peaks = "; ".join(f"{isa} {p['arithmetic']:.3f}, {p['load']:.3f}, {p['divide']:.2f}, {p['root']:.2f}" for isa, p in data["peaks"].items())
-    return f"""## One evaluation of the right-hand side
-
-{origin(data)}. Times in ns over states of a settled run, elements timed one by one.
+    return f"""{origin(data)}. Times in ns over states of a settled run, elements timed one by one.
 
 {table(["", *sets], rows)}
 
 Scalar is the same source with bundles of one ball, vectorisation off. The floor multiplies the instructions of one evaluation, counted by single steps,
-with the shortest time of an independent instruction on this processor (add or multiply, load, divide, root in ns: {peaks}): no order of these
-instructions can be faster than the largest of the three. What lies above it is mostly latency: chains of dependent operations in few bundles.
+with the shortest time of an independent instruction on this processor (add or multiply, load, divide, root in ns: {peaks}).
+No order of these instructions can be faster than the largest of the three. What lies above it is mostly latency: chains of dependent operations in few bundles.
 """
 
 
 # ------------------------------------------------------------------------------------------------------------------------------------ scenes
 
 
-def scenes():
-    data = record("scenes")
+def scenes(data):
     stress = data["stress"]
     base, span = stress["off"]["rtf"], data["span"]
     rows = [
@@ -319,9 +321,7 @@ def scenes():
         ]
         for name, row in data["models"].items()
     ]
-    return f"""## What a scene does not need
-
-{origin(data)}. Working point, 1e-4 s communication steps, through the core's C interface.
+    return f"""{origin(data)}. Working point, 1e-4 s communication steps, through the core's C interface.
 
 {table(["stress", "RTF", "against off", "end state"], rows)}
 
@@ -362,8 +362,7 @@ def draw_scaling(data):
     save(figure, "scaling")
 
 
-def scaling():
-    data = record("scaling")
+def scaling(data):
     draw_scaling(data)
     balls = [[z, number(r["rtf"]), f"{r['evals'] / 100:,.0f}", f"{r['us_per_eval']:.2f}", f"{r['start_ms']:.1f}"] for z, r in data["balls"].items()]
     steps = [
@@ -380,9 +379,7 @@ def scaling():
     head = ["communication step, s", "RTF, constant inputs", "inside the FMU", "RTF, changing inputs", "inside the FMU"]
     head += ["evaluations per 10 ms, constant", "changing", "fmpy's own µs per step"]
     parallel = [[count, number(row["rtf"], 3), number(row["wall"], 3)] for count, row in data["parallel"].items()]
-    return f"""## Scaling
-
-{origin(data)}. Through the FMU and fmpy. Instantiated FMU to first step (quasi-static start included): {data["start_ms"]:.1f} ms.
+    return f"""{origin(data)}. Through the FMU and fmpy. Instantiated FMU to first step (quasi-static start included): {data["start_ms"]:.1f} ms.
 
 ![Cost over balls, communication step and outputs](performance/scaling.svg)
 
@@ -408,10 +405,10 @@ def main():
 Written by `make bench` (short form, minutes) or `make bench FORM=` (full form, hours): the programs in `benchmarks/` measure, `benchmarks/page.py` writes
 this page. Times are processor times of one core. They scatter by some percent on a machine that others use; counts of evaluations and steps do not.
 
-{work_precision()}
-{rhs()}
-{scenes()}
-{scaling()}"""
+{section("Run time against error", "work_precision", work_precision)}
+{section("One evaluation of the right-hand side", "rhs", rhs)}
+{section("What a scene does not need", "scenes", scenes)}
+{section("Scaling", "scaling", scaling)}"""
     PAGE.write_text("\n".join(line.rstrip() for line in text.splitlines()) + "\n")
     size = sum(path.stat().st_size for path in PICTURES.glob("*.svg")) / 1024
     print(f"wrote {PAGE.relative_to(ROOT)}, pictures {size:.0f} kB")
