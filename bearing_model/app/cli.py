@@ -93,6 +93,7 @@ def run(
     for label, path in zip(("results", "picture"), paths, strict=False):
         console.print(f"{label}  [cyan]{escape(str(path))}[/]", soft_wrap=True)
     console.print(f"FMU      [cyan]{escape(str(model.path))}[/]", soft_wrap=True)
+    console.print(f"[dim]riveted-bearing report {escape(str(paths[0]))}[/]  a page with charts, life and the motion to play", soft_wrap=True)
     if result.stopped:
         messages.print(f"[bold red]stopped:[/] {escape(result.stopped)}", soft_wrap=True)
         raise typer.Exit(STOPPED)
