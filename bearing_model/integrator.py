@@ -19,9 +19,9 @@ from bearing_model.fatigue import FatigueChannel, FatigueLaw
 from bearing_model.ledger import Ledger
 from bearing_model.model import Model, Work
 from bearing_model.outputs import outputs
-from bearing_model.parameters import Inputs, Parameters
+from bearing_model.parameters import InputDerivatives, Inputs, Parameters
 from bearing_model.rhs import jacobian, rhs
-from bearing_model.ring import drive_next_edge, drive_update
+from bearing_model.ring import course_update, course_varies, drive_at, drive_inputs, drive_next_edge, drive_update
 from bearing_model.rivet_rom import HEAD_P1, MID_VM, rivet_rom_stress
 from bearing_model.rivets import rivets_load, rivets_slip
 from bearing_model.start import start_state
@@ -170,12 +170,14 @@ class Integration:
         return np.array(times), np.array(states)
 
 
-def simulate(parameters=None, inputs=None, t_end=1e-3, *, step=1e-4, t_start=0.0, tolerance=None, method="DOP853", y=None, table=None):
+def simulate(parameters=None, inputs=None, t_end=1e-3, *, derivatives=None, step=1e-4, t_start=0.0, tolerance=None, method="DOP853", y=None, table=None):
     """Integrate from the quasi-static start (or the state y) at t_start to t_end [s]; returns Results at communication points `step` [s] apart.
 
     parameters: {name: value} of the variable table in SI, others at their start values.  inputs: the same, or a function t -> {name: value} called
-    at each communication point and held until the next one, as an FMU's inputs are.  tolerance: of a step, relative to the error scales; default
-    solver.tol.  method: DOP853, RK45, RK23, or with the exact Jacobian Radau, BDF, LSODA.  table: RivetTable, default that of the 6207.
+    at each communication point and held until the next one, as an FMU's inputs are.  derivatives: a function t -> (first, second) derivatives of
+    inputs {name: value}, called there too: with them the inputs are polynomials of time until the next point.  tolerance: of a step, relative to
+    the error scales; default solver.tol.  method: DOP853, RK45, RK23, or with the exact Jacobian Radau, BDF, LSODA.  table: RivetTable, default
+    that of the 6207.
     ValueError names a value that is not allowed; RuntimeError if the solver cannot go on.
 
     >>> results = simulate({"scene.cage": "rigid"}, {"shaft.F_y": 1000.0}, t_end=1e-4)
@@ -187,6 +189,7 @@ def simulate(parameters=None, inputs=None, t_end=1e-3, *, step=1e-4, t_start=0.0
     if not (t_end > t_start and step > 0.0):
         raise ValueError(f"t_end = {t_end} s, step = {step} s: t_end must be after t_start = {t_start} s and step positive")
     p, held = Parameters(parameters), inputs if callable(inputs) else lambda t: inputs
+    slopes = derivatives or (lambda t: ({}, {}))
     d = model_derive(p, table)
     model = Model(p, d, drive_update(p, Inputs(held(t_start)), t_start))
     y = start_state(model)[0] if y is None else np.array(y, dtype=float)
@@ -202,14 +205,14 @@ def simulate(parameters=None, inputs=None, t_end=1e-3, *, step=1e-4, t_start=0.0
     first = observe(model, t_start, y, energy_start) | accepted(model, record, np.array([t_start]), np.zeros(1), y[None])
     states, ledgers, rows = [y], [ledger.copy()], [first]
     for point in points[1:]:
-        u, peaks = Inputs(held(run.t)), []
+        u, peaks, t_0 = [Inputs(held(run.t)), *map(InputDerivatives, slopes(run.t))], [], run.t
         while run.t < point:
-            model = Model(p, d, drive_update(p, u, run.t))
-            begin, y_begin = run.t, run.y
+            course, begin, y_begin = course_update(p, u, t_0, run.t), run.t, run.y
+            model = Model(p, d, drive_at(course, run.t), course if course_varies(course) else None)
             times, ys = run.segment(model, min(drive_next_edge(p, run.t), point))
             peaks.append(accepted(model, record, times, np.diff(times, prepend=begin), ys))
             ledger.add(model, np.append(begin, times), np.vstack([y_begin, ys]))
-        model = Model(p, d, drive_update(p, u, run.t))
+        model = Model(p, d, drive_update(p, drive_inputs(course, run.t), run.t))
         states.append(run.y)
         ledgers.append(ledger.copy())
         rows.append(observe(model, run.t, run.y, energy_start) | {name: np.max([peak[name] for peak in peaks], axis=0) for name in peaks[0]})
@@ -227,5 +230,5 @@ def observe(model, t, y, energy_start):
 def accepted(model, record, t, h, y):
     """Records accepted steps that end at times t in states y [steps, N_STATES]; returns their peaks."""
     w = Work()
-    rhs(model, t[-1], y, w)
+    rhs(model, t, y, w)
     return record.add(model, t, h, w)

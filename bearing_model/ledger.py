@@ -37,8 +37,8 @@ class Ledger:
     def add(self, model, t, y):
         """Steps between the times t [points] in the states y [points, N_STATES], the start of the first step included."""
         w, along = Work(), Work()
-        y_dot = rhs(model, t[-1], y, w)
-        rhs(model, t[-1], y + 1j * STEP * y_dot, along)
+        y_dot = rhs(model, t, y, w)
+        rhs(model, t + 1j * STEP, y + 1j * STEP * y_dot, along)
         for account, terms in ((self.supplied, supply_terms), (self.lost, loss_terms)):
             for name, rate in terms(model, along).items():
                 P = np.broadcast_to(rate, (len(t), 1))[:, 0]

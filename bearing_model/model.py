@@ -9,8 +9,8 @@ from dataclasses import dataclass
 from types import SimpleNamespace
 
 from bearing_model.derived import Derived, model_derive
-from bearing_model.parameters import Inputs, Parameters
-from bearing_model.ring import Drive, drive_update
+from bearing_model.parameters import InputDerivatives, Inputs, Parameters
+from bearing_model.ring import Course, Drive, course_update, course_varies, drive_at
 
 
 class Work(SimpleNamespace):
@@ -19,11 +19,12 @@ class Work(SimpleNamespace):
 
 @dataclass
 class Model:
-    """What the right-hand side needs beside time and state: parameters, constants derived from them, loads and speed held over a step."""
+    """What the right-hand side needs beside time and state: parameters, constants derived from them, loads and speed."""
 
     p: Parameters
     d: Derived
     drive: Drive
+    course: Course | None = None  # where the drive changes with time: takes its place
 
     @classmethod
     def of(cls, parameters=None, inputs=None, t=0.0, table=None):
@@ -37,4 +38,5 @@ class Model:
         """
         p, u = Parameters(parameters), Inputs(inputs)
         d = model_derive(p, table)
-        return cls(p, d, drive_update(p, u, t))
+        course = course_update(p, (u, InputDerivatives(), InputDerivatives()), t, t)
+        return cls(p, d, drive_at(course, t), course if course_varies(course) else None)

@@ -12,7 +12,7 @@ from bearing_model.ring import ring_tilts
 from bearing_model.rivet_rom import HEAD_P1, HEAD_VM, MID_P1, MID_VM, rivet_rom_stress
 from bearing_model.rivets import rivets_load, rivets_slip
 from bearing_model.traction import Q_FLOOR
-from bearing_model.variables import BALL_THETA, CAGE_PSI, RING_V_X, RING_V_Y, RING_V_Z, WORK, CageModel, Stress, Z
+from bearing_model.variables import BALL_THETA, CAGE_PSI, RING_BETA_DOT, RING_GAMMA_DOT, RING_V_X, RING_V_Y, RING_V_Z, WORK, CageModel, Stress, Z
 from bearing_model.vec import vec, vec_cross, vec_dot, vec_local, vec_to_global
 
 
@@ -28,10 +28,13 @@ def housing_reaction(w):
 
 def ring_outputs(model, w, y_dot):
     F, M = housing_reaction(w)
-    tilt_y, tilt_z = ring_tilts(-w.ring.a[2], w.ring.a[1])
+    beta, gamma = -w.ring.a[2], w.ring.a[1]
+    tilt_y, tilt_z = ring_tilts(beta, gamma)
     values = {f"ring.{name}": w.ring.x[i] for i, name in enumerate("xyz")}
     values |= {f"ring.v_{name}": w.ring.v[i] for i, name in enumerate("xyz")}
     values |= {f"ring.a_{name}": y_dot[..., block] for name, block in zip("xyz", (RING_V_X, RING_V_Y, RING_V_Z), strict=True)}
+    values |= {"ring.beta": beta, "ring.gamma": gamma, "ring.beta_dot": -w.ring.a_dot[2], "ring.gamma_dot": w.ring.a_dot[1]}
+    values |= {"ring.beta_ddot": y_dot[..., RING_BETA_DOT], "ring.gamma_ddot": y_dot[..., RING_GAMMA_DOT]}
     values |= {"ring.tilt_y": tilt_y, "ring.tilt_z": tilt_z}
     values |= {f"housing.F_{name}": F[i] for i, name in enumerate("xyz")} | {"housing.M_y": M[1], "housing.M_z": M[2]}
     values["bearing.friction_torque"] = -vec_dot(w.ring.M, w.ring.a)

@@ -5,6 +5,7 @@ A name that Python reserves has an underscore behind it: p.bearing.lambda_.
 
 import keyword
 import math
+from dataclasses import replace
 from types import SimpleNamespace
 
 import numpy as np
@@ -65,6 +66,13 @@ class Inputs(Values):
 
     def __init__(self, values=None):
         super().__init__(INPUTS, values)
+
+
+class InputDerivatives(Values):
+    """Derivatives of all inputs by time, 0 where nothing is given; ValueError for an unknown name."""
+
+    def __init__(self, values=None):
+        super().__init__({name: replace(v, start=0.0, min=None, max=None) for name, v in INPUTS.items()}, values)
 
 
 def require(condition, message):

@@ -1,5 +1,7 @@
 """The table of contents of the physics: one evaluation of dy/dt in named steps."""
 
+from dataclasses import replace
+
 import numpy as np
 
 from bearing_model.ball import ball_acceleration, ball_kinematics
@@ -10,7 +12,7 @@ from bearing_model.land_film import land_film_force
 from bearing_model.model import Work
 from bearing_model.pocket import pocket_force
 from bearing_model.race_contact import race_contact_force
-from bearing_model.ring import ring_acceleration
+from bearing_model.ring import drive_at, ring_acceleration
 from bearing_model.rotor import Rotor, rotor_acceleration, rotor_axis, rotor_body_axes, rotor_roll
 from bearing_model.variables import (
     CAGE_BETA,
@@ -108,7 +110,7 @@ def cage_acceleration(model, y, w, y_dot):
 
 
 def rhs(model, t, y, w=None):
-    """dy/dt at time t [s].
+    """dy/dt at time t [s], one for all states or one for each.
 
     y: state [..., N_STATES], offsets in variables.py; leading axes are independent states, complex values carry derivatives.
     w: a Work that keeps all results, if given.
@@ -116,6 +118,8 @@ def rhs(model, t, y, w=None):
     if y.shape[-1] != N_STATES:
         raise ValueError(f"y has {y.shape[-1]} states; {N_STATES} are needed")
     w = Work() if w is None else w
+    if model.course:
+        model = replace(model, drive=drive_at(model.course, np.expand_dims(t, -1)), course=None)
     rigid = model.p.scene.cage == CageModel.RIGID
     ball_kinematics(y, w)
     rotor_kinematics(model, y, w)
@@ -130,7 +134,7 @@ def rhs(model, t, y, w=None):
     y_dot = np.zeros_like(y)
     ball_acceleration(model, w, y_dot)
     cage_acceleration(model, y, w, y_dot)
-    ring_acceleration(model, t, w, y_dot)
+    ring_acceleration(model, w, y_dot)
     if not rigid:
         y_dot[..., JOINT_PLATE_Y] = w.plate_y_dot
         y_dot[..., JOINT_PLATE_Z] = w.plate_z_dot

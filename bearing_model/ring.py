@@ -5,15 +5,18 @@
           supported   M = k_tilt (shaft - ring) - c_tilt rates + shaft.M
           free        M = shaft.M only
           both with the gyroscopic moment of the spin (rotor.py)
+    inputs: u(t) = u_0 + u_0' (t - t_0) + u_0'' (t - t_0)^2/2 from the communication point t_0 on
     pulses: F_r sin(pi (t - t_n)/duration) along the radial load (+Y without one) and F_a along +X, t_n = t_start + n interval
 
 The vectors of force are in the global frame.  Shaft tilt is a rotation about (0, tilt_y, tilt_z): a = (cos, tilt_z sinc, -tilt_y sinc).
 """
 
 from dataclasses import dataclass
+from types import SimpleNamespace
 
 import numpy as np
 
+from bearing_model.parameters import InputDerivatives
 from bearing_model.rotor import rotor_acceleration
 from bearing_model.variables import (
     RING_BETA,
@@ -31,17 +34,26 @@ from bearing_model.variables import (
 
 
 @dataclass(frozen=True)
+class Course:
+    """The inputs over a communication step: polynomials of time, and the half-sine in progress."""
+
+    t_0: float  # communication point [s]
+    u: tuple  # the inputs there (Inputs) and their derivatives (InputDerivatives)
+    pulse_r: float  # amplitude of the half-sine in progress, radial and axial [N]; 0 between pulses
+    pulse_a: float
+    pulse_start: float  # its start [s]
+    pulse_rate: float  # pi / duration [1/s]
+
+
+@dataclass(frozen=True)
 class Drive:
-    """What the ring sees from outside, constant or a half-sine over a step."""
+    """What the ring sees of them at one time."""
 
     F: tuple  # load [N]
     M: tuple  # moment about Y, Z [N.m]
     omega: float  # speed [rad/s]
     beta: float  # direction cosines of the shaft's tilt
     gamma: float
-    pulse: tuple  # amplitude of the half-sine in progress [N]
-    pulse_start: float  # its start [s]
-    pulse_rate: float  # pi / duration [1/s]
 
 
 def ring_cosines(tilt_y, tilt_z):
@@ -84,38 +96,54 @@ def drive_next_edge(p, t):
     return min((edge for edge in edges if edge > t), default=np.inf)
 
 
-def drive_update(p, u, t):
-    """The Drive from parameters and inputs, held from time t [s]."""
-    radial = np.hypot(u.shaft.F_y, u.shaft.F_z)
-    y, z = (u.shaft.F_y / radial, u.shaft.F_z / radial) if radial > 0.0 else (1.0, 0.0)
-    beta, gamma = ring_cosines(u.shaft.tilt_y, u.shaft.tilt_z)
+def course_update(p, u, t_0, t):
+    """The course of the inputs u (value and derivatives at t_0 [s]) from time t up to the next edge of a pulse."""
     i = pulse_index(p, t)
     active = i >= 0 and t < pulse_start(p, i) + p.pulse.duration
-    return Drive(
-        F=(u.shaft.F_x + u.impact.F_a, u.shaft.F_y + u.impact.F_r * y, u.shaft.F_z + u.impact.F_r * z),
-        M=(u.shaft.M_y, u.shaft.M_z),
-        omega=u.shaft.omega,
-        beta=beta,
-        gamma=gamma,
-        pulse=(p.pulse.F_a, p.pulse.F_r * y, p.pulse.F_r * z) if active else (0.0, 0.0, 0.0),
-        pulse_start=pulse_start(p, i) if active else 0.0,
-        pulse_rate=np.pi / p.pulse.duration,
-    )
+    pulse = (p.pulse.F_r, p.pulse.F_a, pulse_start(p, i)) if active else (0.0, 0.0, 0.0)
+    return Course(t_0, tuple(u), *pulse, np.pi / p.pulse.duration)
 
 
-def drive_load(drive, t):
-    """Load on the ring [N] at time t [s]."""
-    return np.array(drive.F) + np.array(drive.pulse) * np.sin((t - drive.pulse_start) * drive.pulse_rate)
+def course_varies(course):
+    """Whether the drive changes along it."""
+    derivatives = [value for u in course.u[1:] for group in vars(u).values() for value in vars(group).values()]
+    return course.pulse_r != 0.0 or course.pulse_a != 0.0 or any(derivatives)
 
 
-def ring_acceleration(model, t, w, y_dot):
+def drive_inputs(course, t):
+    """The inputs at time t [s]: Taylor's polynomial."""
+    tau, u = t - course.t_0, SimpleNamespace()
+    for group in vars(course.u[0]):
+        u_0, u_1, u_2 = (vars(getattr(u, group)) for u in course.u)
+        setattr(u, group, SimpleNamespace(**{name: u_0[name] + tau * (u_1[name] + 0.5 * tau * u_2[name]) for name in u_0}))
+    return u
+
+
+def drive_at(course, t):
+    """The Drive at time t [s]; arrays of times give arrays, complex ones carry derivatives."""
+    u = drive_inputs(course, t)
+    sine = np.sin((t - course.pulse_start) * course.pulse_rate)
+    F_r, F_a = u.impact.F_r + course.pulse_r * sine, u.impact.F_a + course.pulse_a * sine
+    radial = np.sqrt(u.shaft.F_y**2 + u.shaft.F_z**2)
+    loaded, length = np.real(radial) > 0.0, np.where(radial == 0.0, 1.0, radial)
+    y, z = np.where(loaded, u.shaft.F_y / length, 1.0), np.where(loaded, u.shaft.F_z / length, 0.0)
+    beta, gamma = ring_cosines(u.shaft.tilt_y, u.shaft.tilt_z)
+    F = (u.shaft.F_x + F_a, u.shaft.F_y + F_r * y, u.shaft.F_z + F_r * z)
+    return Drive(F, (u.shaft.M_y, u.shaft.M_z), u.shaft.omega, beta, gamma)
+
+
+def drive_update(p, u, t):
+    """The Drive at time t [s], inputs u held."""
+    return drive_at(course_update(p, (u, InputDerivatives(), InputDerivatives()), t, t), t)
+
+
+def ring_acceleration(model, w, y_dot):
     p, drive, ring = model.p, model.drive, w.ring
     gravity = (0.0, p.gravity.y, p.gravity.z)
     beta, gamma, beta_dot, gamma_dot = -ring.a[2], ring.a[1], -ring.a_dot[2], ring.a_dot[1]
-    F = drive_load(drive, t)
     for i, (X, V) in enumerate(((RING_X, RING_V_X), (RING_Y, RING_V_Y), (RING_Z, RING_V_Z))):
         y_dot[..., X] = ring.v[i]
-        y_dot[..., V] = (F[i] + ring.F[i] - p.ring.c * ring.v[i]) / p.ring.m + gravity[i]
+        y_dot[..., V] = (drive.F[i] + ring.F[i] - p.ring.c * ring.v[i]) / p.ring.m + gravity[i]
     y_dot[..., RING_BETA] = beta_dot
     y_dot[..., RING_GAMMA] = gamma_dot
     if p.ring.tilt_mode == TiltMode.PRESCRIBED:

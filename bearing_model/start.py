@@ -86,7 +86,7 @@ class Equilibrium:
         """Forces on the free unknowns [N]; zero in equilibrium."""
         z, drive, r = self.place(free), self.model.drive, self.r
         w, target = self.contacts(z), np.array([drive.beta, drive.gamma]) * r
-        ring = np.moveaxis(w.ring.F[..., 0], 0, -1) + drive.F - K_0 * z[..., :3]  # a pulse begins at zero
+        ring = np.moveaxis(w.ring.F[..., 0], 0, -1) + drive.F - K_0 * z[..., :3]
         moment = np.moveaxis(w.ring.M[1:, ..., 0], 0, -1) + drive.M
         tilt = (moment - self.k * (z[..., 3:5] - target) / r) / r - K_0 * z[..., 3:5]
         return np.concatenate([ring, tilt, w.F[0] - K_0 * w.x, w.F[1] + self.F_c], axis=-1)[..., self.free]

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from enum import IntEnum
 
 MODEL_IDENTIFIER = "RivetedBearing"
-MODEL_GUID = "{9769a36a-6dc7-ad40-aae2-e5ebe772b9d8}"
+MODEL_GUID = "{82ad458b-69af-ad35-9cc1-e3d5a150f52a}"
 Z = 9
 
 
@@ -103,6 +103,7 @@ UNITS = {
     "kg.m2": {"kg.m2": (1.0, 0.0)},
     "kg/m3": {"kg/m3": (1.0, 0.0)},
     "1/s": {"1/s": (1.0, 0.0)},
+    "1/s2": {"1/s2": (1.0, 0.0)},
     "s": {"s": (1.0, 0.0), "ms": (1000.0, 0.0)},
     "K": {"K": (1.0, 0.0), "degC": (1.0, -273.15)},
     "W": {"W": (1.0, 0.0)},
@@ -240,6 +241,12 @@ OUTPUTS = {
         Variable("ring.a_z", 2109, "Real", "m/s2", None, None, None, None, 1, "ring", "Acceleration of the inner ring along Z", None),
         Variable("ring.tilt_y", 2110, "Real", "rad", "deg", None, None, None, 1, "ring", "Tilt of the inner ring about Y", None),
         Variable("ring.tilt_z", 2111, "Real", "rad", "deg", None, None, None, 1, "ring", "Tilt of the inner ring about Z", None),
+        Variable("ring.beta", 2112, "Real", "1", None, None, None, None, 1, "state", "Axis of the inner ring a = (a_x, gamma, -beta): direction cosine, the sine of a tilt about Y", None),
+        Variable("ring.gamma", 2113, "Real", "1", None, None, None, None, 1, "state", "Axis of the inner ring: direction cosine, the sine of a tilt about Z", None),
+        Variable("ring.beta_dot", 2114, "Real", "1/s", None, None, None, None, 1, "state", "Rate of ring.beta", None),
+        Variable("ring.gamma_dot", 2115, "Real", "1/s", None, None, None, None, 1, "state", "Rate of ring.gamma", None),
+        Variable("ring.beta_ddot", 2116, "Real", "1/s2", None, None, None, None, 1, "ring", "Second derivative of ring.beta", None),
+        Variable("ring.gamma_ddot", 2117, "Real", "1/s2", None, None, None, None, 1, "ring", "Second derivative of ring.gamma", None),
         Variable("housing.F_x", 2151, "Real", "N", None, None, None, None, 1, "ring", "Force on the housing along X (by balls and cage through the outer ring)", None),
         Variable("housing.F_y", 2152, "Real", "N", None, None, None, None, 1, "ring", "Force on the housing along Y", None),
         Variable("housing.F_z", 2153, "Real", "N", None, None, None, None, 1, "ring", "Force on the housing along Z", None),

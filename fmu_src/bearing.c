@@ -4,6 +4,7 @@
 #include "elementary.h"
 #include "energy.h"
 #include "instance.h"
+#include "jacobian.h"
 #include "rivets.h"
 #include "start.h"
 
@@ -101,7 +102,7 @@ Bearing *bearing_create(const BearingHost *host)
     memset(b, 0, sizeof *b);
     b->host = *host;
     b->kernels = kernels_select();
-    b->model = (Model){&b->s.p, &b->d, &b->drive};
+    b->model = (Model){.p = &b->s.p, .d = &b->d, .drive = &b->drive};
     b->integrator = integrator_create(&b->kernels, &b->model, &b->w, &b->s.integrator, accepted_step, solver_message, b);
     if (b->integrator == NULL) {
         aligned_delete(b);
@@ -122,7 +123,7 @@ void bearing_reset(Bearing *b)
 {
     memset(&b->s, 0, sizeof b->s);
     memset(&b->out, 0, sizeof b->out);
-    variables_set_start(&b->s.p, &b->s.u);
+    variables_set_start(&b->s.p, &b->s.u[0]);
     b->current = 0;
     b->evaluated = false;
     b->cpu_time = 0.0;
@@ -132,9 +133,9 @@ Parameters *bearing_parameters(Bearing *b)
 {
     return &b->s.p;
 }
-Inputs *bearing_inputs(Bearing *b)
+Inputs *bearing_inputs(Bearing *b, int order)
 {
-    return &b->s.u;
+    return &b->s.u[order];
 }
 const Outputs *bearing_outputs(const Bearing *b)
 {
@@ -149,11 +150,18 @@ double bearing_time(const Bearing *b)
     return b->s.integrator.t;
 }
 
+// The drive that the present state has seen last.
+static void hold_drive(Bearing *b)
+{
+    b->model.course = NULL;
+    drive_update(&b->s.p, &b->s.seen, b->s.integrator.t, &b->drive);
+}
+
 // What follows from parameters and inputs; nothing of it is saved.
 static void derive(Bearing *b)
 {
     model_derive(&b->s.p, &b->d);
-    drive_update(&b->s.p, &b->s.u, b->s.integrator.t, &b->drive);
+    hold_drive(b);
     work_init(&b->d, &b->w);
     integrator_tolerance(b->integrator, b->s.tolerance);
     integrator_restored(b->integrator);
@@ -176,6 +184,8 @@ BearingStatus bearing_initialize(Bearing *b, double t_start, double tolerance)
     if (!check_all(b)) return BEARING_ERROR;
     s->t_start = t_start;
     s->tolerance = tolerance > 0.0 ? tolerance : s->p.solver.tol;
+    s->seen = s->u[0];
+    s->seen_dot = s->u[1];
     s->integrator.t = t_start;
     s->integrator.h = 1e-6;
     s->integrator.path = s->p.solver.method == METHOD_IMEX ? PATH_IMEX : PATH_EXPLICIT;
@@ -215,38 +225,48 @@ static void choose_path(Bearing *b, double elapsed)
         s->integrator.path = PATH_EXPLICIT;
 }
 
-// A change of inputs makes the known derivative obsolete.
-static void renew_drive(Bearing *b)
+// The inputs' course from here to the next edge of a pulse, in a step that began at t_0.  Where the drive jumps, the known derivative is obsolete.
+static void begin_course(Bearing *b, double t_0)
 {
-    Drive drive;
-    memset(&drive, 0, sizeof drive);
-    drive_update(&b->s.p, &b->s.u, b->s.integrator.t, &drive);
-    if (memcmp(&drive, &b->drive, sizeof drive) == 0) return;
-    b->drive = drive;
-    b->s.integrator.known = 0;
+    Saved *s = &b->s;
+    const Drive before = b->drive;
+    course_update(&s->p, s->u, t_0, s->integrator.t, &b->course);
+    b->model.course = course_varies(&b->course) ? &b->course : NULL;
+    drive_at(&b->course, s->integrator.t, &b->drive);
+    if (memcmp(&b->drive, &before, sizeof before) == 0) return;
+    s->integrator.known = 0;
     integrator_restored(b->integrator);
+}
+
+static void end_course(Bearing *b)
+{
+    course_inputs(&b->course, b->s.integrator.t, &b->s.seen, &b->s.seen_dot);
+    hold_drive(b);
 }
 
 BearingStatus bearing_step(Bearing *b, double t_end)
 {
     Saved *s = &b->s;
-    if (!check_inputs(b)) return BEARING_ERROR;
-    const clock_t before = clock();
     const double t_begin = s->integrator.t, steps_before = s->integrator.steps;
+    if (!check_inputs(b, t_end - t_begin)) return BEARING_ERROR;
+    const clock_t before = clock();
     s->force_peak = 0.0;
     for (int k = 0; k < Z; k++) s->head_peak[k] = s->mid_peak[k] = 0.0;
     b->current = 0;
     b->evaluated = false;
 
     int status = 0;
-    renew_drive(b);
+    begin_course(b, t_begin);
     choose_path(b, t_end - t_begin);
     while (status == 0 && s->integrator.t < t_end) {
-        renew_drive(b);  // at the edges of pulses
+        begin_course(b, t_begin);  // at the edges of pulses
         const double edge = drive_next_edge(&s->p, s->integrator.t);
         const long left = s->p.solver.max_steps - (long)(s->integrator.steps - steps_before);
         status = integrator_advance(b->integrator, fmin(edge, t_end), left);
+        end_course(b);
     }
+    s->u[0] = s->seen;
+    memset(&s->u[1], 0, INPUT_ORDERS * sizeof *s->u);
     b->cpu_time += (double)(clock() - before) / CLOCKS_PER_SEC;
     if (status == 0) {
         report_events(b);
@@ -270,6 +290,27 @@ void bearing_update(Bearing *b, OutputGroup group)
     b->current |= 1u << group;
 }
 
+// ---- derivatives --------------------------------------------------------------------------------------------------------------------------------
+static void differentiate(Bearing *b, double dt, const Inputs *du, const double *dy, Outputs *derivatives)
+{
+    const Saved *s = &b->s;
+    const Inputs u[INPUT_ORDERS + 1] = {s->seen, s->seen_dot};
+    Course course;
+    course_update(&s->p, u, s->integrator.t, s->integrator.t, &course);
+    jacobian_outputs(&b->model, &course, s->integrator.t, dt, du, s->integrator.y, dy, derivatives);
+}
+
+void bearing_time_derivatives(Bearing *b, Outputs *derivatives)
+{
+    evaluate(b);
+    differentiate(b, 1.0, NULL, b->y_dot, derivatives);
+}
+
+void bearing_directional_derivatives(Bearing *b, const Inputs *inputs, const double state[N_STATES], Outputs *derivatives)
+{
+    differentiate(b, 0.0, inputs, state, derivatives);
+}
+
 // ---- saved state --------------------------------------------------------------------------------------------------------------------------------
 size_t bearing_saved_size(void)
 {
@@ -285,4 +326,9 @@ void bearing_restore(Bearing *b, const void *saved)
 {
     memcpy(&b->s, saved, sizeof b->s);
     derive(b);
+}
+
+const char *bearing_table_digest(void)
+{
+    return rivet_table.digest;
 }

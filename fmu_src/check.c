@@ -1,4 +1,5 @@
 // What is refused before a run: values outside their limits, parameters that make no bearing, a rivet table for another one.
+#include "drive.h"
 #include "instance.h"
 
 #include <stdarg.h>
@@ -32,9 +33,18 @@ static bool check_variables(Bearing *b, Causality causality, const void *values)
     return fine;
 }
 
-bool check_inputs(Bearing *b)
+// Polynomials of second order are extreme at the ends or where their slope vanishes.
+bool check_inputs(Bearing *b, double h)
 {
-    return check_variables(b, CAUSALITY_INPUT, &b->s.u);
+    const double *u_1 = (const double *)&b->s.u[1], *u_2 = (const double *)&b->s.u[2];
+    Course course = {.t_0 = 0.0, .u = {b->s.u[0], b->s.u[1], b->s.u[2]}};
+    Inputs u, turning = b->s.u[0];
+    drive_inputs(&course, h, &u);
+    for (int i = 0; i < N_INPUTS; i++) {
+        const double tau = -u_1[i] / u_2[i];
+        if (tau > 0.0 && tau < h) ((double *)&turning)[i] += 0.5 * tau * u_1[i];
+    }
+    return check_variables(b, CAUSALITY_INPUT, &b->s.u[0]) && check_variables(b, CAUSALITY_INPUT, &u) && check_variables(b, CAUSALITY_INPUT, &turning);
 }
 
 static bool require(Bearing *b, bool condition, const char *format, double value, double limit)
@@ -89,7 +99,7 @@ static bool check_table(Bearing *b)
 bool check_all(Bearing *b)
 {
     bool fine = check_variables(b, CAUSALITY_PARAMETER, &b->s.p);
-    fine &= check_inputs(b);
+    fine &= check_inputs(b, 0.0);
     return fine && check_geometry(b) && check_table(b);
 }
 
@@ -102,8 +112,8 @@ bool check_start(Bearing *b)
         bearing_log(b, LOG_ERROR,
                     "ball[%d] is pressed out of the %s race's groove at the start: its contact reaches to %g rad, less than pi/2 is allowed; shaft.F_x = %g N, "
                     "shaft.F_y = %g N, shaft.F_z = %g N, shaft.tilt_y = %g rad, shaft.tilt_z = %g rad are too much",
-                    i / 2 + 1, i % 2 == 1 ? "outer" : "inner", reach, b->s.u.shaft.F_x, b->s.u.shaft.F_y, b->s.u.shaft.F_z, b->s.u.shaft.tilt_y,
-                    b->s.u.shaft.tilt_z);
+                    i / 2 + 1, i % 2 == 1 ? "outer" : "inner", reach, b->s.u[0].shaft.F_x, b->s.u[0].shaft.F_y, b->s.u[0].shaft.F_z, b->s.u[0].shaft.tilt_y,
+                    b->s.u[0].shaft.tilt_z);
         return false;
     }
     return true;

@@ -1,27 +1,5 @@
-// The inputs as the ring sees them.
-//
-//   pulses: F_r portable_sin(pi (t - t_n)/duration) along the radial load (+Y without one) and F_a along +X, t_n = t_start + n interval
-//
-// The vectors of force are in the global frame.  Shaft tilt is a rotation about (0, tilt_y, tilt_z): a = (cos, tilt_z sinc, -tilt_y sinc).
+// Course of the inputs from point to point, built-in pulses.  Equations in drive.h.
 #include "drive.h"
-
-#include "elementary.h"
-
-void ring_cosines(double tilt_y, double tilt_z, double *beta, double *gamma)
-{
-    const double angle = sqrt(tilt_y * tilt_y + tilt_z * tilt_z);
-    const double sinc = angle > 1e-8 ? portable_sin(angle) / angle : 1.0;
-    *beta = tilt_y * sinc;
-    *gamma = tilt_z * sinc;
-}
-
-void ring_tilts(double beta, double gamma, double *tilt_y, double *tilt_z)
-{
-    const double sine = sqrt(beta * beta + gamma * gamma);
-    const double factor = sine > 1e-8 ? portable_asin(sine) / sine : 1.0;
-    *tilt_y = beta * factor;
-    *tilt_z = gamma * factor;
-}
 
 static const double PI = 3.14159265358979323846;
 
@@ -49,23 +27,37 @@ double drive_next_edge(const Parameters *p, double t)
     return i + 1 < p->pulse.count ? pulse_start(p, i + 1) : INFINITY;
 }
 
-void drive_update(const Parameters *p, const Inputs *u, double t, Drive *drive)
+void course_update(const Parameters *p, const Inputs u[INPUT_ORDERS + 1], double t_0, double t, Course *course)
 {
-    const double radial = sqrt(u->shaft.F_y * u->shaft.F_y + u->shaft.F_z * u->shaft.F_z);
-    const double y = radial > 0.0 ? u->shaft.F_y / radial : 1.0, z = radial > 0.0 ? u->shaft.F_z / radial : 0.0;
-    drive->F[0] = u->shaft.F_x + u->impact.F_a;
-    drive->F[1] = u->shaft.F_y + u->impact.F_r * y;
-    drive->F[2] = u->shaft.F_z + u->impact.F_r * z;
-    drive->M[0] = u->shaft.M_y;
-    drive->M[1] = u->shaft.M_z;
-    drive->omega = u->shaft.omega;
-    ring_cosines(u->shaft.tilt_y, u->shaft.tilt_z, &drive->beta, &drive->gamma);
-
     const int i = pulse_index(p, t);
     const bool active = i >= 0 && t < pulse_start(p, i) + p->pulse.duration;
-    drive->pulse[0] = active ? p->pulse.F_a : 0.0;
-    drive->pulse[1] = active ? p->pulse.F_r * y : 0.0;
-    drive->pulse[2] = active ? p->pulse.F_r * z : 0.0;
-    drive->pulse_start = active ? pulse_start(p, i) : 0.0;
-    drive->pulse_rate = PI / p->pulse.duration;
+    course->t_0 = t_0;
+    memcpy(course->u, u, sizeof course->u);
+    course->pulse_r = active ? p->pulse.F_r : 0.0;
+    course->pulse_a = active ? p->pulse.F_a : 0.0;
+    course->pulse_start = active ? pulse_start(p, i) : 0.0;
+    course->pulse_rate = PI / p->pulse.duration;
+}
+
+bool course_varies(const Course *course)
+{
+    const double *derivative = (const double *)&course->u[1];
+    bool varies = course->pulse_r != 0.0 || course->pulse_a != 0.0;
+    for (int i = 0; i < INPUT_ORDERS * N_INPUTS; i++) varies |= derivative[i] != 0.0;
+    return varies;
+}
+
+void course_inputs(const Course *course, double t, Inputs *u, Inputs *u_dot)
+{
+    const double *u_1 = (const double *)&course->u[1], *u_2 = (const double *)&course->u[2];
+    drive_inputs(course, t, u);
+    for (int i = 0; i < N_INPUTS; i++) ((double *)u_dot)[i] = u_1[i] + (t - course->t_0) * u_2[i];
+}
+
+void drive_update(const Parameters *p, const Inputs *u, double t, Drive *drive)
+{
+    const Inputs held[INPUT_ORDERS + 1] = {*u};
+    Course course;
+    course_update(p, held, t, t, &course);
+    drive_at(&course, t, drive);
 }

@@ -13,9 +13,23 @@
 #define SEED 1e-100
 enum { HALVES = 1 };  // cage halves side by side
 
-typedef double _Complex number;
 typedef number real;
 typedef bool bits;
+
+// What is compiled for values and, here, for derivatives, beside the kernel files (isa.h).
+#define energy_total FOR_ISA(energy_total)
+#define load_path_rigid FOR_ISA(load_path_rigid)
+#define load_path_flexible FOR_ISA(load_path_flexible)
+#define rivet_rom_stress FOR_ISA(rivet_rom_stress)
+#define rivet_rom_primary FOR_ISA(rivet_rom_primary)
+#define rivet_rom_fit_eff FOR_ISA(rivet_rom_fit_eff)
+#define joint_preload FOR_ISA(joint_preload)
+#define joint_fit FOR_ISA(joint_fit)
+#define joint_hole_stiffness FOR_ISA(joint_hole_stiffness)
+#define joint_prying FOR_ISA(joint_prying)
+#define rivets_load FOR_ISA(rivets_load)
+#define rivets_slip FOR_ISA(rivets_slip)
+#define outputs_evaluate FOR_ISA(outputs_evaluate)
 
 INLINE double number_value(number x)
 {
@@ -80,6 +94,28 @@ INLINE number number_sqrt(number x)
 {
     return real_sqrt(x);
 }
+INLINE number number_cbrt(number x)
+{
+    const double root = cbrt(creal(x));
+    return number_chain(x, root, root != 0.0 ? 1.0 / (3.0 * root * root) : 0.0);
+}
+INLINE number number_asin(number x)
+{
+    return number_chain(x, asin(creal(x)), 1.0 / sqrt(1.0 - creal(x) * creal(x)));
+}
+INLINE number number_atan2(number y, number x)
+{
+    const double a = creal(x), b = creal(y), square = a * a + b * b;
+    return __builtin_complex(atan2(b, a), (a * cimag(y) - b * cimag(x)) / square);
+}
+INLINE number number_max(number x, number y)
+{
+    return creal(x) > creal(y) ? x : y;
+}
+INLINE number number_min(number x, number y)
+{
+    return creal(x) < creal(y) ? x : y;
+}
 INLINE real real_exp(real x)
 {
     const double value = creal(x), power = value < -700.0 ? 0.0 : exp(fmin(value, 700.0));
@@ -88,6 +124,14 @@ INLINE real real_exp(real x)
 INLINE real real_log(real x)
 {
     return number_chain(x, log(creal(x)), 1.0 / creal(x));
+}
+INLINE number number_exp(number x)
+{
+    return real_exp(x);
+}
+INLINE number number_log(number x)
+{
+    return real_log(x);
 }
 INLINE void real_log2(real x, real y, real *ln_x, real *ln_y)
 {

@@ -46,4 +46,26 @@ static inline double portable_cbrt(double x)
     return y > 0.0 ? y - (y * y * y - x) / (3.0 * y * y) : 0.0;
 }
 
+// The same as numbers, which dual.h gives derivatives.
+static inline number number_exp(number x)
+{
+    return portable_exp(x);
+}
+static inline number number_log(number x)
+{
+    return portable_log(x);
+}
+static inline number number_asin(number x)
+{
+    return portable_asin(x);
+}
+static inline number number_cbrt(number x)
+{
+    return portable_cbrt(x);
+}
+static inline number number_atan2(number y, number x)
+{
+    return atan2(y, x);
+}
+
 #endif

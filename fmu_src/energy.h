@@ -4,4 +4,4 @@
 #include "model.h"
 
 // From the state y and the results of the right-hand side there [J].
-double energy_total(const Model *model, const double *y, const Work *w);
+number energy_total(const Model *model, const number *y, const Work *w);

@@ -21,7 +21,8 @@ typedef enum { INSTANTIATED = 1, INITIALIZING = 2, STEPPING = 4, FAILED = 8, TER
 
 enum { NEVER = 0, STEPPED = STEPPING | FAILED | TERMINATED | ERRONEOUS, READABLE = INITIALIZING | STEPPED, ALIVE = INSTANTIATED | READABLE };
 
-// Function and phases in which it may be called (FMI 2.0.4, section 4.2.4); steps are never in progress or canceled.
+// Function and phases in which it may be called (FMI 2.0.4, section 4.2.4); steps are never in progress or canceled.  No directional derivatives in
+// initialization mode: there the inputs act through the equilibrium, which has none.
 typedef enum {
     CALL_SetDebugLogging,
     CALL_SetupExperiment,
@@ -43,6 +44,9 @@ typedef enum {
     CALL_SerializedFMUstateSize,
     CALL_SerializeFMUstate,
     CALL_DeSerializeFMUstate,
+    CALL_SetRealInputDerivatives,
+    CALL_GetRealOutputDerivatives,
+    CALL_GetDirectionalDerivative,
     CALL_DoStep,
     CALL_CancelStep,
     CALL_GetStatus,
@@ -76,6 +80,9 @@ static const struct {
     [CALL_SerializedFMUstateSize] = {"fmi2SerializedFMUstateSize", ALIVE},
     [CALL_SerializeFMUstate] = {"fmi2SerializeFMUstate", ALIVE},
     [CALL_DeSerializeFMUstate] = {"fmi2DeSerializeFMUstate", ALIVE},
+    [CALL_SetRealInputDerivatives] = {"fmi2SetRealInputDerivatives", INSTANTIATED | INITIALIZING | STEPPING},
+    [CALL_GetRealOutputDerivatives] = {"fmi2GetRealOutputDerivatives", STEPPED},
+    [CALL_GetDirectionalDerivative] = {"fmi2GetDirectionalDerivative", STEPPED},
     [CALL_DoStep] = {"fmi2DoStep", STEPPING},
     [CALL_CancelStep] = {"fmi2CancelStep", NEVER},
     [CALL_GetStatus] = {"fmi2GetStatus", STEPPED},
@@ -216,10 +223,11 @@ static fmi2Status instance_initialize(Instance *m)
     if (m->session.initialized) return fmi2OK;
     const fenv_t host = floating_point_default();
     const Parameters parameters = *bearing_parameters(m->bearing);
-    const Inputs inputs = *bearing_inputs(m->bearing);
+    Inputs inputs[INPUT_ORDERS + 1];
+    for (int order = 0; order <= INPUT_ORDERS; order++) inputs[order] = *bearing_inputs(m->bearing, order);
     bearing_reset(m->bearing);
     *bearing_parameters(m->bearing) = parameters;
-    *bearing_inputs(m->bearing) = inputs;
+    for (int order = 0; order <= INPUT_ORDERS; order++) *bearing_inputs(m->bearing, order) = inputs[order];
     BearingStatus status = bearing_initialize(m->bearing, m->session.start_time, m->session.tolerance);
     fesetenv(&host);
     if (status == BEARING_DISCARD) status = BEARING_ERROR;
@@ -378,7 +386,7 @@ static const Variable *find(Instance *m, Call call, fmi2ValueReference reference
 
 static void *place(Instance *m, const Variable *v)
 {
-    char *base = v->causality == CAUSALITY_INPUT ? (char *)bearing_inputs(m->bearing) : (char *)bearing_parameters(m->bearing);
+    char *base = v->causality == CAUSALITY_INPUT ? (char *)bearing_inputs(m->bearing, 0) : (char *)bearing_parameters(m->bearing);
     return base + v->offset;
 }
 
@@ -536,17 +544,113 @@ fmi2Status fmi2SetString(fmi2Component component, const fmi2ValueReference vr[],
     return no_variables(component, CALL_SetString, n, "String");
 }
 
+// ---- derivatives ------------------------------------------------------------------------------------------------------------------------------
+// The input of a value reference, if it may have this derivative.
+static const Variable *differentiable_input(Instance *m, fmi2ValueReference reference, int order, double value, int *element)
+{
+    const Variable *v = find(m, CALL_SetRealInputDerivatives, reference, true, element);
+    if (!v) return NULL;
+    if (v->causality != CAUSALITY_INPUT) {
+        refuse(m, CALL_SetRealInputDerivatives, "%s: only inputs have derivatives that can be set", v->name);
+    } else if (order < 1 || order > INPUT_ORDERS) {
+        refuse(m, CALL_SetRealInputDerivatives, "order = %d of %s is not allowed: it must lie in [1, %d]", order, v->name, INPUT_ORDERS);
+    } else if (!isfinite(value)) {
+        refuse(m, CALL_SetRealInputDerivatives, "%s: derivative of order %d = %g is not allowed: it must be finite", v->name, order, value);
+    } else {
+        return v;
+    }
+    return NULL;
+}
+
+// They hold for the next step, from its beginning on; without them an input stays where it is.
+fmi2Status fmi2SetRealInputDerivatives(fmi2Component component, const fmi2ValueReference vr[], size_t n, const fmi2Integer order[], const fmi2Real value[])
+{
+    Instance *m = enter(component, CALL_SetRealInputDerivatives);
+    if (!m) return fmi2Error;
+    if (n > 0 && (!vr || !order || !value)) return refuse(m, CALL_SetRealInputDerivatives, "a null pointer for %zu values", n);
+    int element;
+    for (size_t i = 0; i < n; i++) {
+        if (!differentiable_input(m, vr[i], order[i], value[i], &element)) return fmi2Error;
+    }
+    for (size_t i = 0; i < n; i++) {
+        const Variable *v = variable_find(vr[i], &element);
+        ((double *)((char *)bearing_inputs(m->bearing, order[i]) + v->offset))[element] = value[i];
+    }
+    m->session.initialized = false;
+    return fmi2OK;
+}
+
+// Derivatives of the variables vr, all outputs, from those of all outputs; NaN after an error, as the outputs themselves.
+static fmi2Status output_derivatives(Instance *m, Call call, const Outputs *derivatives, const fmi2ValueReference vr[], size_t n, fmi2Real value[])
+{
+    const bool erroneous = m->session.phase == ERRONEOUS;
+    for (size_t i = 0; i < n; i++) {
+        int element;
+        const Variable *v = find(m, call, vr[i], true, &element);
+        if (!v) return fmi2Error;
+        if (v->causality != CAUSALITY_OUTPUT) return refuse(m, call, "%s is no output: it has no derivative that could be asked for", v->name);
+        value[i] = erroneous ? NAN : ((const double *)((const char *)derivatives + v->offset))[element];
+    }
+    return fmi2OK;
+}
+
+fmi2Status fmi2GetRealOutputDerivatives(fmi2Component component, const fmi2ValueReference vr[], size_t n, const fmi2Integer order[], fmi2Real value[])
+{
+    Instance *m = enter(component, CALL_GetRealOutputDerivatives);
+    if (!m) return fmi2Error;
+    if (n > 0 && (!vr || !order || !value)) return refuse(m, CALL_GetRealOutputDerivatives, "a null pointer for %zu values", n);
+    for (size_t i = 0; i < n; i++) {
+        if (order[i] != 1) return refuse(m, CALL_GetRealOutputDerivatives, "order = %d is not allowed: it must be 1", order[i]);
+    }
+    Outputs derivatives;
+    const fenv_t host = floating_point_default();
+    bearing_time_derivatives(m->bearing, &derivatives);
+    fesetenv(&host);
+    return output_derivatives(m, CALL_GetRealOutputDerivatives, &derivatives, vr, n, value);
+}
+
+// Known are inputs and the states of the ring, all other states kept.
+fmi2Status fmi2GetDirectionalDerivative(fmi2Component component, const fmi2ValueReference unknown[], size_t n_unknown, const fmi2ValueReference known[],
+                                        size_t n_known, const fmi2Real d_known[], fmi2Real d_unknown[])
+{
+    const Call call = CALL_GetDirectionalDerivative;
+    Instance *m = enter(component, call);
+    if (!m) return fmi2Error;
+    if ((n_unknown > 0 && (!unknown || !d_unknown)) || (n_known > 0 && (!known || !d_known))) return refuse(m, call, "a null pointer");
+    Inputs inputs;
+    double state[N_STATES] = {0.0};
+    memset(&inputs, 0, sizeof inputs);
+    for (size_t i = 0; i < n_known; i++) {
+        int element;
+        const Variable *v = find(m, call, known[i], true, &element);
+        if (!v) return fmi2Error;
+        if (!isfinite(d_known[i])) return refuse(m, call, "%s: %g is not allowed in a direction: it must be finite", v->name, d_known[i]);
+        if (v->causality == CAUSALITY_INPUT)
+            ((double *)((char *)&inputs + v->offset))[element] += d_known[i];
+        else if (v->state >= 0)
+            state[v->state] += d_known[i];
+        else
+            return refuse(m, call, "%s is neither an input nor a state: there is no derivative by it", v->name);
+    }
+    Outputs derivatives;
+    const fenv_t host = floating_point_default();
+    bearing_directional_derivatives(m->bearing, &inputs, state, &derivatives);
+    fesetenv(&host);
+    return output_derivatives(m, call, &derivatives, unknown, n_unknown, d_unknown);
+}
+
 // ---- saved states: one block of bytes, in memory as in a file -------------------------------------------------------------------------------
 typedef struct {
     char magic[8];
     uint64_t version;   // of this layout
     char guid[40];      // of the model
+    char table[72];     // digest of the rivet table
     uint64_t size;      // of the whole block
     uint64_t checksum;  // of all that follows the header
 } BlobHeader;
 
 static const char BLOB_MAGIC[8] = "RBstate";
-enum { BLOB_VERSION = 1 };
+enum { BLOB_VERSION = 2 };
 
 static size_t blob_size(void)
 {
@@ -570,6 +674,7 @@ static const char *blob_problem(const unsigned char *blob, size_t size, bool che
     if (memcmp(header.magic, BLOB_MAGIC, sizeof header.magic) != 0) return "this is not a saved state of a bearing";
     if (header.version != BLOB_VERSION) return "the saved state is of another version of this FMU";
     if (strncmp(header.guid, MODEL_GUID, sizeof header.guid) != 0) return "the saved state is of another model (its GUID is not " MODEL_GUID ")";
+    if (strncmp(header.table, bearing_table_digest(), sizeof header.table) != 0) return "the saved state is of an FMU with another rivet table";
     if (header.size != blob_size()) return "the saved state is of another build of this FMU (its size differs)";
     if (size != header.size) return "the saved state is truncated or too long";
     if (checked && header.checksum != blob_checksum(blob)) return "the saved state is corrupted (its checksum is wrong)";
@@ -585,6 +690,7 @@ fmi2Status fmi2GetFMUstate(fmi2Component component, fmi2FMUstate *state)
     if (!blob) return refuse(m, CALL_GetFMUstate, "out of memory");
     BlobHeader header = {.version = BLOB_VERSION, .guid = MODEL_GUID, .size = blob_size()};
     memcpy(header.magic, BLOB_MAGIC, sizeof header.magic);
+    snprintf(header.table, sizeof header.table, "%s", bearing_table_digest());
     memcpy(blob, &header, sizeof header);
     memcpy(blob + sizeof header, &m->session, sizeof m->session);
     bearing_save(m->bearing, blob + sizeof header + sizeof m->session);
@@ -740,26 +846,7 @@ fmi2Status fmi2GetStringStatus(fmi2Component component, const fmi2StatusKind kin
     return fmi2OK;
 }
 
-// ---- not offered: the capability flags say so -------------------------------------------------------------------------------------------------
-fmi2Status fmi2SetRealInputDerivatives(fmi2Component c, const fmi2ValueReference vr[], size_t n, const fmi2Integer order[], const fmi2Real value[])
-{
-    (void)vr, (void)n, (void)order, (void)value;
-    return refuse_unsupported(c, "fmi2SetRealInputDerivatives");
-}
-
-fmi2Status fmi2GetRealOutputDerivatives(fmi2Component c, const fmi2ValueReference vr[], size_t n, const fmi2Integer order[], fmi2Real value[])
-{
-    (void)vr, (void)n, (void)order, (void)value;
-    return refuse_unsupported(c, "fmi2GetRealOutputDerivatives");
-}
-
-fmi2Status fmi2GetDirectionalDerivative(fmi2Component c, const fmi2ValueReference unknown[], size_t n_unknown, const fmi2ValueReference known[], size_t n_known,
-                                        const fmi2Real d_known[], fmi2Real d_unknown[])
-{
-    (void)unknown, (void)n_unknown, (void)known, (void)n_known, (void)d_known, (void)d_unknown;
-    return refuse_unsupported(c, "fmi2GetDirectionalDerivative");
-}
-
+// ---- not offered ------------------------------------------------------------------------------------------------------------------------------
 // Model exchange: exported because some importers refuse a binary without these symbols.
 fmi2Status fmi2EnterEventMode(fmi2Component c)
 {

@@ -17,7 +17,8 @@ enum { WORST_RIVET = Z, STRESS_CHANNELS = Z + 1 };  // channels of stress statis
 // Everything that the future depends on: plain bytes.
 typedef struct {
     Parameters p;
-    Inputs u;
+    Inputs u[INPUT_ORDERS + 1];  // of the next step: at its start, with their derivatives
+    Inputs seen, seen_dot;       // that the present state has seen last, and their rates
     IntegratorState integrator;
     double t_start, tolerance;
     double energy_start;
@@ -35,6 +36,7 @@ struct Bearing {
     BearingHost host;
     Saved s;
     Derived d;
+    Course course;
     Drive drive;
     Model model;
     Work w;
@@ -56,7 +58,7 @@ bool check_all(struct Bearing *b);
 // Whether the balls of the start, which w belongs to, lie in their grooves.
 bool check_start(struct Bearing *b);
 
-// Whether inputs are within their limits (they may change at every step).
-bool check_inputs(struct Bearing *b);
+// Whether inputs stay within their limits over a step of length h (they may change at every step).
+bool check_inputs(struct Bearing *b, double h);
 
 void bearing_log(struct Bearing *b, LogCategory category, const char *format, ...) __attribute__((format(printf, 3, 4)));

@@ -12,6 +12,5 @@
 #define land_film_force FOR_ISA(land_film_force)
 #define cage_joint_kinematics FOR_ISA(cage_joint_kinematics)
 #define cage_joint_force FOR_ISA(cage_joint_force)
-#define drive_load FOR_ISA(drive_load)
 #define ring_acceleration FOR_ISA(ring_acceleration)
 #define rhs FOR_ISA(rhs)

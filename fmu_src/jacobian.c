@@ -16,6 +16,11 @@ void jacobian_matrix(const Model *model, double t, const double *y, double *J)
     }
 }
 
+void jacobian_outputs(const Model *model, const Course *course, double t, double dt, const Inputs *du, const double *y, const double *dy, Outputs *d_out)
+{
+    tangent_outputs(model, (const double *)course, t, dt, (const double *)du, y, dy, (double *)d_out);
+}
+
 void jacobian_housing(const Work *w, const Work *dw, double dF[3], double dM[3])
 {
     tangent_housing((const double *)w, (const double *)dw, dF, dM);

@@ -11,5 +11,9 @@ void jacobian_product(const Model *model, double t, const double *y, const doubl
 // All derivatives by the states, column by column: J[j * N_STATES + i] = d(y_dot[i])/d(y[j]).
 void jacobian_matrix(const Model *model, double t, const double *y, double *J);
 
+// Derivatives of all outputs along dt of time, du of the inputs (or NULL) and dy of the states: exact as those of y_dot.
+// course: of the inputs at time t.  What is recorded over steps (peaks, statistics, fatigue, solver) stays as it is: 0.
+void jacobian_outputs(const Model *model, const Course *course, double t, double dt, const Inputs *du, const double *y, const double *dy, Outputs *d_out);
+
 // Derivative of the housing's reaction (housing.h) from results and their derivative.
 void jacobian_housing(const Work *w, const Work *dw, double dF[3], double dM[3]);

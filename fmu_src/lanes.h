@@ -44,7 +44,6 @@ enum { HALVES = 1 };
 enum { HALVES = 2 };  // cage halves are lanes too, this many side by side (real_pair)
 #endif
 
-typedef double number;
 typedef double real __attribute__((vector_size(8 * LANE_WIDTH)));
 typedef int64_t bits __attribute__((vector_size(8 * LANE_WIDTH)));  // a comparison's result: all ones where true
 typedef uint64_t words __attribute__((vector_size(8 * LANE_WIDTH)));
@@ -56,6 +55,14 @@ INLINE double number_value(number x)
 INLINE number number_sqrt(number x)
 {
     return sqrt(x);
+}
+INLINE number number_max(number x, number y)
+{
+    return x > y ? x : y;
+}
+INLINE number number_min(number x, number y)
+{
+    return x < y ? x : y;
 }
 INLINE real real_set(double value)
 {

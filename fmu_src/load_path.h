@@ -13,18 +13,18 @@
 // A force on the -x half acts by mirror: N and M add, V subtracts.
 #pragma once
 
-#include "variables.h"
+#include "lanes.h"
 
 enum { PATH_N, PATH_V_R, PATH_V_T, PATH_M_R, PATH_M_T, PATH_LOADS };
 
 // Loads at the rivets beyond the dynamics' own [N, N.m], on the +x half.
 typedef struct {
-    double N[Z], V_r[Z], V_t[Z], M_r[Z], M_t[Z];
+    number N[Z], V_r[Z], V_t[Z], M_r[Z], M_t[Z];
 } PathLoads;
 
 // Wrench (F_x, F_y, F_z, M_x, M_y, M_z) that the rivets must carry from outside onto the +x half, taken at the centre of the circle;
 // c[k], s[k]: cosine and sine of the rivets' angles in the frame of the wrench.  Returns N, V_y, V_z at each rivet [N].
-void load_path_rigid(double d_m, const double wrench[6], const double c[Z], const double s[Z], double N[Z], double V_y[Z], double V_z[Z]);
+void load_path_rigid(double d_m, const number wrench[6], const double c[Z], const double s[Z], number N[Z], number V_y[Z], number V_z[Z]);
 
 // Adds the flexible share of pocket forces (F_x, F_r, F_t)[j] on one half: side +1 or -1.  matrix: [Z][PATH_LOADS][3] of the rivet table.
-void load_path_flexible(const double *matrix, int side, const double F_x[Z], const double F_r[Z], const double F_t[Z], PathLoads *loads);
+void load_path_flexible(const double *matrix, int side, const number F_x[Z], const number F_r[Z], const number F_t[Z], PathLoads *loads);

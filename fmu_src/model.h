@@ -57,13 +57,19 @@ typedef struct {
 
 // From here on all members are numbers: jacobian.h gives the derivative of each.
 
-// ---- what the ring sees from outside, constant or a half-sine over a step; written by drive_update -------------------------------------------
+// ---- the inputs over a communication step: polynomials of time, and the half-sine in progress; written by course_update ------------------------
 typedef struct {
-    number F[3], M[2];               // load [N], moment about Y, Z [N.m]
-    number omega;                    // speed [rad/s]
-    number beta, gamma;              // direction cosines of the shaft's tilt
-    number pulse[3];                 // amplitude of the half-sine in progress [N]
+    number t_0;                      // communication point [s]
+    Inputs u[INPUT_ORDERS + 1];      // the inputs there and their derivatives
+    number pulse_r, pulse_a;         // amplitude of the half-sine in progress, radial and axial [N]; 0 between pulses
     number pulse_start, pulse_rate;  // its start [s] and pi / duration [1/s]
+} Course;
+
+// ---- what the ring sees of them at one time; written by drive_at ---------------------------------------------------------------------------------
+typedef struct {
+    number F[3], M[2];   // load [N], moment about Y, Z [N.m]
+    number omega;        // speed [rad/s]
+    number beta, gamma;  // direction cosines of the shaft's tilt
 } Drive;
 
 // ---- a rigid body with an axis: inner ring or cage half; written by rotor_axis, rotor_body_axes
@@ -114,7 +120,8 @@ typedef struct {
 typedef struct {
     const Parameters *p;
     const Derived *d;
-    const Drive *drive;
+    const Drive *drive;    // now
+    const Course *course;  // where the drive changes with time: takes the place of the drive; NULL where it is held
 } Model;
 
 // Derived constants of all elements; the parameters have been checked.

@@ -4,6 +4,7 @@
 #include "ball.h"
 #include "cage_joint.h"
 #include "drag.h"
+#include "drive.h"
 #include "land_film.h"
 #include "pocket.h"
 #include "race_contact.h"
@@ -134,7 +135,7 @@ static number net_power(const Model *model, const Work *w)
     return power;
 }
 
-void rhs(const Model *model, double t, const number *y, number *y_dot, Work *w)
+static void evaluate(const Model *model, const number *y, number *y_dot, Work *w)
 {
     const bool rigid = model->p->scene.cage == CAGE_MODEL_RIGID;
     ball_kinematics(y, w);
@@ -151,7 +152,7 @@ void rhs(const Model *model, double t, const number *y, number *y_dot, Work *w)
     }
     ball_acceleration(model, w, y_dot);
     cage_acceleration(model, y, w, y_dot);
-    ring_acceleration(model, t, w, y_dot);
+    ring_acceleration(model, w, y_dot);
     if (!rigid) {
         memcpy(&y_dot[Y_JOINT_PLATE_Y], w->plate_y_dot, Z * sizeof *y_dot);
         memcpy(&y_dot[Y_JOINT_PLATE_Z], w->plate_z_dot, Z * sizeof *y_dot);
@@ -159,4 +160,12 @@ void rhs(const Model *model, double t, const number *y, number *y_dot, Work *w)
         memcpy(&y_dot[Y_JOINT_HEAD_Z], w->head_z_dot, Z * sizeof *y_dot);
     }
     y_dot[Y_WORK] = net_power(model, w);
+}
+
+void rhs(const Model *model, double t, const number *y, number *y_dot, Work *w)
+{
+    Drive drive;
+    const Model now = {model->p, model->d, &drive, NULL};
+    if (model->course) drive_at(model->course, t, &drive);
+    evaluate(model->course ? &now : model, y, y_dot, w);
 }

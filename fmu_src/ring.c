@@ -11,26 +11,16 @@
 
 #include "rotor.h"
 
-void drive_load(const Drive *drive, double t, number F[3])
-{
-    real sine = real_set(0.0), cosine;
-    if (drive->pulse[0] != 0.0 || drive->pulse[1] != 0.0 || drive->pulse[2] != 0.0)
-        real_sincos(real_set((t - drive->pulse_start) * drive->pulse_rate), &sine, &cosine);
-    for (int i = 0; i < 3; i++) F[i] = drive->F[i] + drive->pulse[i] * real_lane(sine, 0);
-}
-
-void ring_acceleration(const Model *model, double t, const Work *w, number *y_dot)
+void ring_acceleration(const Model *model, const Work *w, number *y_dot)
 {
     const Parameters *p = model->p;
     const Drive *drive = model->drive;
     const Rotor *ring = &w->ring;
     const double gravity[3] = {0.0, p->gravity.y, p->gravity.z};
     const number beta = -ring->a[2], gamma = ring->a[1], beta_dot = -ring->a_dot[2], gamma_dot = ring->a_dot[1];
-    number F[3];
-    drive_load(drive, t, F);
     for (int i = 0; i < 3; i++) {
         y_dot[Y_RING_X + i] = ring->v[i];
-        y_dot[Y_RING_V_X + i] = (F[i] + ring->F[i] - p->ring.c * ring->v[i]) / p->ring.m + gravity[i];
+        y_dot[Y_RING_V_X + i] = (drive->F[i] + ring->F[i] - p->ring.c * ring->v[i]) / p->ring.m + gravity[i];
     }
     y_dot[Y_RING_BETA] = beta_dot;
     y_dot[Y_RING_GAMMA] = gamma_dot;

@@ -7,22 +7,22 @@
 // Three active splines of one axis: index of the first coefficient and their weights.
 typedef struct {
     int first;
-    double w[3];
+    number w[3];
 } Splines;
 
 // Cell of u: number of inner knots not above it.
-static int axis_cell(const RivetAxis *axis, double u)
+static int axis_cell(const RivetAxis *axis, number u)
 {
     int cell = 0;
-    for (int i = 1; i < axis->cells; i++) cell += u >= axis->knot[i];
+    for (int i = 1; i < axis->cells; i++) cell += number_value(u) >= axis->knot[i];
     return cell;
 }
 
 // Quadratic B-splines (de Boor), u inside the axis.  Their sum is 1; C1 at the knots.
-static Splines axis_splines(const RivetAxis *axis, double u)
+static Splines axis_splines(const RivetAxis *axis, number u)
 {
     int i = axis_cell(axis, u);
-    double up = u - axis->knot[i], down = axis->knot[i + 1] - u;
+    number up = u - axis->knot[i], down = axis->knot[i + 1] - u;
     Splines s = {.first = i};
     s.w[0] = down * down * axis->fall[i];
     s.w[2] = up * up * axis->rise[i];
@@ -31,13 +31,13 @@ static Splines axis_splines(const RivetAxis *axis, double u)
 }
 
 // s times the splines of xi = fit/s, without dividing where s may vanish.
-static Splines axis_splines_xi(const RivetAxis *axis, double s, double fit)
+static Splines axis_splines_xi(const RivetAxis *axis, number s, double fit)
 {
     int last = axis->cells - 1;
-    if (fit <= s * axis->knot[0]) return (Splines){.first = 0, .w = {s, 0.0, 0.0}};
-    double beyond = fit - s * axis->knot[axis->cells];
-    if (beyond >= 0.0) {  // end value and end slope, which is 2 h rise of the last spline
-        double w = 2.0 * (axis->knot[last + 1] - axis->knot[last]) * axis->rise[last] * beyond;
+    if (fit <= number_value(s) * axis->knot[0]) return (Splines){.first = 0, .w = {s, 0.0, 0.0}};
+    number beyond = fit - s * axis->knot[axis->cells];
+    if (number_value(beyond) >= 0.0) {  // end value and end slope, which is 2 h rise of the last spline
+        number w = 2.0 * (axis->knot[last + 1] - axis->knot[last]) * axis->rise[last] * beyond;
         return (Splines){.first = last, .w = {0.0, -w, s + w}};
     }
     Splines splines = axis_splines(axis, fit / s);
@@ -48,24 +48,44 @@ static Splines axis_splines_xi(const RivetAxis *axis, double s, double fit)
 // A load's place in the table; the splines of xi carry the factor s.
 typedef struct {
     Splines at[RIVET_AXES];
-    double plane[2];  // weight of the sheet "plane" in head and middle
+    number plane[2];  // weight of the sheet "plane" in head and middle
 } Place;
 
 static Place load_place(const RivetTable *t, const RivetLoad *load, double fit_eff)
 {
-    double P = fmax(load->P, 0.0), N = fmax(load->N, 0.0);
-    double V = sqrt(load->V_y * load->V_y + load->V_z * load->V_z), M = sqrt(load->M_y * load->M_y + load->M_z * load->M_z);
-    double axial = P + N, force = axial + V, moment = M / t->moment_length, s = force + moment, VM = V * M;
+    number P = number_max(load->P, 0.0), N = number_max(load->N, 0.0);
+    number V = number_sqrt(load->V_y * load->V_y + load->V_z * load->V_z), M = number_sqrt(load->M_y * load->M_y + load->M_z * load->M_z);
+    number axial = P + N, force = axial + V, moment = M / t->moment_length, s = force + moment, VM = V * M;
+    number across = load->V_y * load->M_z - load->V_z * load->M_y;
     Place place;
-    place.plane[0] = VM > 0.0 ? fmin(fabs(load->V_y * load->M_z - load->V_z * load->M_y) / VM, 1.0) : 0.0;
-    place.plane[1] = place.plane[0] * sqrt(place.plane[0]);
-    place.at[RIVET_A] = axis_splines(&t->axis[RIVET_A], force > 0.0 ? V / force : 0.0);
-    place.at[RIVET_B] = axis_splines(&t->axis[RIVET_B], axial > 0.0 ? N / axial : 0.0);
-    place.at[RIVET_C] = axis_splines(&t->axis[RIVET_C], s > 0.0 ? moment / s : 0.0);
+    place.plane[0] = number_value(VM) > 0.0 ? number_min(number_max(across, -across) / VM, 1.0) : 0.0;
+    place.plane[1] = place.plane[0] * number_sqrt(place.plane[0]);
+    place.at[RIVET_A] = axis_splines(&t->axis[RIVET_A], number_value(force) > 0.0 ? V / force : 0.0);
+    place.at[RIVET_B] = axis_splines(&t->axis[RIVET_B], number_value(axial) > 0.0 ? N / axial : 0.0);
+    place.at[RIVET_C] = axis_splines(&t->axis[RIVET_C], number_value(s) > 0.0 ? moment / s : 0.0);
     place.at[RIVET_XI] = axis_splines_xi(&t->axis[RIVET_XI], s, fit_eff);
     return place;
 }
 
+// Tensor product over 3^4 coefficients of both sheets for a pair of channels.  Order of sums: xi with chi, c, b, a.
+#ifdef DUAL
+static void contract(const RivetTable *t, const void *coefficients, bool single, const Place *place, number sigma[2])
+{
+    const Splines *A = &place->at[RIVET_A], *B = &place->at[RIVET_B], *C = &place->at[RIVET_C], *X = &place->at[RIVET_XI];
+    int n_b = t->axis[RIVET_B].cells + 2, n_c = t->axis[RIVET_C].cells + 2, n_xi = t->axis[RIVET_XI].cells + 2;
+    sigma[0] = sigma[1] = 0.0;
+    for (int i = 0; i < 81; i++) {
+        int a = i / 27, b = i / 9 % 3, c = i / 3 % 3, x = i % 3;
+        int T = 4 * (((((A->first + a) * n_b + B->first + b) * n_c) + C->first + c) * n_xi + X->first + x);
+        number weight = A->w[a] * B->w[b] * C->w[c] * X->w[x];
+        for (int k = 0; k < 2; k++) {
+            double plane = single ? ((const float *)coefficients)[T + k] : ((const double *)coefficients)[T + k];
+            double across = single ? ((const float *)coefficients)[T + 2 + k] : ((const double *)coefficients)[T + 2 + k];
+            sigma[k] += weight * (place->plane[k] * plane + (1.0 - place->plane[k]) * across);
+        }
+    }
+}
+#else
 // Two channels side by side.
 typedef double pair __attribute__((vector_size(16)));
 
@@ -84,7 +104,6 @@ static inline pair fetch(const void *coefficients, int index, bool single)
     return (pair){from[0], from[1]};
 }
 
-// Tensor product over 3^4 coefficients of both sheets for a pair of channels.  Order of sums: xi with chi, c, b, a.
 static inline void contract(const RivetTable *t, const void *coefficients, bool single, const Place *place, double sigma[2])
 {
     const Splines *A = &place->at[RIVET_A], *B = &place->at[RIVET_B], *C = &place->at[RIVET_C], *X = &place->at[RIVET_XI];
@@ -113,20 +132,21 @@ static inline void contract(const RivetTable *t, const void *coefficients, bool 
     }
     memcpy(sigma, &sum, sizeof sum);
 }
+#endif
 
-void rivet_rom_primary(const RivetTable *t, const RivetLoad *load, double fit_eff, double *head_p1, double *mid_vm)
+void rivet_rom_primary(const RivetTable *t, const RivetLoad *load, double fit_eff, number *head_p1, number *mid_vm)
 {
     Place place = load_place(t, load, fit_eff);
-    double sigma[2];
+    number sigma[2];
     contract(t, t->primary, false, &place, sigma);
     *head_p1 = sigma[0] + t->head_friction * load->F_head;
     *mid_vm = sigma[1];
 }
 
-unsigned rivet_rom_stress(const RivetTable *t, const RivetLoad *load, double fit_eff, double sigma[RIVET_CHANNELS])
+unsigned rivet_rom_stress(const RivetTable *t, const RivetLoad *load, double fit_eff, number sigma[RIVET_CHANNELS])
 {
     Place place = load_place(t, load, fit_eff);
-    double primary[2], secondary[2];
+    number primary[2], secondary[2];
     contract(t, t->primary, false, &place, primary);
     contract(t, t->secondary, true, &place, secondary);
     sigma[HEAD_P1] = primary[0] + t->head_friction * load->F_head;
@@ -135,10 +155,10 @@ unsigned rivet_rom_stress(const RivetTable *t, const RivetLoad *load, double fit
     sigma[MID_P1] = secondary[1];
 
     unsigned flags = 0;
-    if (fmax(sigma[HEAD_VM], sigma[MID_VM]) > t->yield_rivet) flags |= RIVET_YIELDS;
+    if (fmax(number_value(sigma[HEAD_VM]), number_value(sigma[MID_VM])) > t->yield_rivet) flags |= RIVET_YIELDS;
     if (fit_eff > t->fit_flange_yield) flags |= FLANGE_YIELDS;
-    if (load->N < 0.0) flags |= JOINT_COMPRESSED;
-    if (fit_eff > t->j2.fit_a[t->j2.count - 1] || !isfinite(sigma[HEAD_P1])) flags |= RIVET_OUTSIDE;
+    if (number_value(load->N) < 0.0) flags |= JOINT_COMPRESSED;
+    if (fit_eff > t->j2.fit_a[t->j2.count - 1] || !isfinite(number_value(sigma[HEAD_P1]))) flags |= RIVET_OUTSIDE;
     return flags;
 }
 
@@ -178,10 +198,10 @@ double joint_hole_stiffness(const JointData *j, double fit_a)
 
 void joint_prying(const JointData *j, RivetLoad *load)
 {
-    double M = sqrt(load->M_y * load->M_y + load->M_z * load->M_z);
-    double M_0 = j->prying_lever * fmax(load->P - fmax(load->N, 0.0), 0.0);
-    if (M <= M_0) return;
-    double part = (M_0 + j->prying_share * (M - M_0)) / M;
+    const number M = number_sqrt(load->M_y * load->M_y + load->M_z * load->M_z);
+    const number M_0 = j->prying_lever * number_max(load->P - number_max(load->N, 0.0), 0.0);
+    if (number_value(M) <= number_value(M_0)) return;
+    const number part = (M_0 + j->prying_share * (M - M_0)) / M;
     load->M_y *= part;
     load->M_z *= part;
 }

@@ -23,15 +23,17 @@
 // the head channels and nothing in the middle.
 #pragma once
 
+#include "lanes.h"
+
 #include <stdbool.h>
 
 // Loads of one rivet [N, N.m]; y, z: two perpendicular directions in the plane of the joint, x, y, z right-handed.
 typedef struct {
-    double P;         // preload
-    double N;         // external tension of the joint, before preload shielding; negative (compression) counts as 0
-    double V_y, V_z;  // transverse load that the rivet carries, on the +x half
-    double M_y, M_z;  // prying moment about the rivet's place in the split plane, on the +x half
-    double F_head;    // modulus of the friction force at the heads
+    number P;         // preload
+    number N;         // external tension of the joint, before preload shielding; negative (compression) counts as 0
+    number V_y, V_z;  // transverse load that the rivet carries, on the +x half
+    number M_y, M_z;  // prying moment about the rivet's place in the split plane, on the +x half
+    number F_head;    // modulus of the friction force at the heads
 } RivetLoad;
 
 enum { HEAD_P1, HEAD_VM, MID_VM, MID_P1, RIVET_CHANNELS };  // largest principal (P1) and von Mises (VM) stress in head fillet and middle
@@ -81,6 +83,7 @@ typedef struct {
 typedef struct {
     const char *kind;           // "closed_form" or "fe"
     const char *geometry_hash;  // of the rivet, flanges and cage that it was computed for
+    const char *digest;         // of this table (SHA-256): its numbers decide over results
     int Z;
     double moment_length;  // L [m]
     RivetAxis axis[RIVET_AXES];
@@ -101,10 +104,10 @@ extern const RivetTable rivet_table;  // rivet_table.c, written by rivet_model/e
 double rivet_rom_fit_eff(const RivetTable *t, double fit_a, bool j2);
 
 // All channels sigma [Pa]; returns the flags.  Never NaN for finite loads.
-unsigned rivet_rom_stress(const RivetTable *t, const RivetLoad *load, double fit_eff, double sigma[RIVET_CHANNELS]);
+unsigned rivet_rom_stress(const RivetTable *t, const RivetLoad *load, double fit_eff, number sigma[RIVET_CHANNELS]);
 
 // The two channels of peaks and fatigue only, at half the cost: HEAD_P1 and MID_VM [Pa].
-void rivet_rom_primary(const RivetTable *t, const RivetLoad *load, double fit_eff, double *head_p1, double *mid_vm);
+void rivet_rom_primary(const RivetTable *t, const RivetLoad *load, double fit_eff, number *head_p1, number *mid_vm);
 
 double joint_preload(const JointData *j, double preload, double T);  // preload at temperature T [N], not below 0
 double joint_fit(const JointData *j, double fit, double T);          // fit at temperature T [m]

@@ -12,55 +12,56 @@
 #include "load_path.h"
 #include "rotor.h"
 
-void rivets_slip(const Model *model, const Work *w, double slip[Z])
+void rivets_slip(const Model *model, const Work *w, number slip[Z])
 {
     const bool rigid = model->p->scene.cage == CAGE_MODEL_RIGID;
-    for (int k = 0; k < Z; k++) slip[k] = rigid ? 0.0 : sqrt(w->u_y[k] * w->u_y[k] + w->u_z[k] * w->u_z[k]);
+    for (int k = 0; k < Z; k++) slip[k] = rigid ? 0.0 : number_sqrt(w->u_y[k] * w->u_y[k] + w->u_z[k] * w->u_z[k]);
 }
 
-static void two_half_load(const Model *model, const Work *w, RivetLoad load[Z], double V[Z])
+static void two_half_load(const Model *model, const Work *w, RivetLoad load[Z], number V[Z])
 {
     for (int k = 0; k < Z; k++) {
-        const double V_y = w->S_y[k] + w->H_y[k] + w->B_y[k], V_z = w->S_z[k] + w->H_z[k] + w->B_z[k];
+        const number V_y = w->S_y[k] + w->H_y[k] + w->B_y[k], V_z = w->S_z[k] + w->H_z[k] + w->B_z[k];
         load[k] = (RivetLoad){.P = model->d->P,
                               .N = w->T[k] - w->N_plate[k],
                               .V_y = -w->B_y[k],
                               .V_z = -w->B_z[k],
-                              .F_head = sqrt(w->H_y[k] * w->H_y[k] + w->H_z[k] * w->H_z[k])};
-        V[k] = sqrt(V_y * V_y + V_z * V_z);
+                              .F_head = number_sqrt(w->H_y[k] * w->H_y[k] + w->H_z[k] * w->H_z[k])};
+        V[k] = number_sqrt(V_y * V_y + V_z * V_z);
     }
 }
 
 // Wrench of pockets and land on half 1 less that on half 0, halved, about the cage's centre in its body frame.
-static void rigid_wrench(const Model *model, const Work *w, double wrench[6])
+static void rigid_wrench(const Model *model, const Work *w, number wrench[6])
 {
     const Rotor *cage = &w->half[0];
     const double width = model->p->cage.share_width;
-    double global[6];
+    number global[6];
     for (int i = 0; i < 3; i++) {
         global[i] = 0.5 * (w->half[1].F[i] - w->half[0].F[i]);
         global[3 + i] = 0.5 * (w->half[1].M[i] - w->half[0].M[i]);
     }
     for (int j = 0; j < Z; j++) {  // half 0 holds the pocket forces: their share of half 1 less that of half 0 instead
         const Pocket *pocket = &w->pocket[0][j];
-        const double F_2 = pocket->F_x * pocket->F_x + pocket->F_t * pocket->F_t;
-        const double share = F_2 > 0.0 ? pocket->F_x / sqrt(pocket->F_x * pocket->F_x + width * width * F_2) : 0.0;
+        const number F_2 = pocket->F_x * pocket->F_x + pocket->F_t * pocket->F_t;
+        const number share = number_value(F_2) > 0.0 ? pocket->F_x / number_sqrt(pocket->F_x * pocket->F_x + width * width * F_2) : 0.0;
         for (int i = 0; i < 3; i++) {
             global[i] += 0.5 * (1.0 + share) * pocket->F[i];
             global[3 + i] += 0.5 * (1.0 + share) * pocket->M[i];
         }
     }
-    const double *axes[3] = {cage->a, cage->b_y, cage->b_z};
+    const number *axes[3] = {cage->a, cage->b_y, cage->b_z};
     for (int i = 0; i < 3; i++) {
         wrench[i] = dot3(axes[i], global);
         wrench[3 + i] = dot3(axes[i], global + 3);
     }
 }
 
-static void rigid_load(const Model *model, const Work *w, RivetLoad load[Z], double V[Z])
+static void rigid_load(const Model *model, const Work *w, RivetLoad load[Z], number V[Z])
 {
     const double R = 0.5 * model->p->bearing.d_m, friction = model->p->joint.mu * model->d->P;
-    double wrench[6], c[Z], s[Z], N[Z], V_y[Z], V_z[Z];
+    double c[Z], s[Z];
+    number wrench[6], N[Z], V_y[Z], V_z[Z];
     rigid_wrench(model, w, wrench);
     for (int k = 0; k < Z; k++) {
         c[k] = model->d->rivet_y[k] / R;
@@ -68,21 +69,22 @@ static void rigid_load(const Model *model, const Work *w, RivetLoad load[Z], dou
     }
     load_path_rigid(2.0 * R, wrench, c, s, N, V_y, V_z);
     for (int k = 0; k < Z; k++) {
-        V[k] = sqrt(V_y[k] * V_y[k] + V_z[k] * V_z[k]);
-        const double shank = V[k] > 2.0 * friction ? (V[k] - 2.0 * friction) / V[k] : 0.0;
-        load[k] = (RivetLoad){.P = model->d->P, .N = N[k], .V_y = shank * V_y[k], .V_z = shank * V_z[k], .F_head = fmin(fmax(V[k] - friction, 0.0), friction)};
+        V[k] = number_sqrt(V_y[k] * V_y[k] + V_z[k] * V_z[k]);
+        const number shank = number_value(V[k]) > 2.0 * friction ? (V[k] - 2.0 * friction) / V[k] : 0.0;
+        load[k] = (RivetLoad){
+            .P = model->d->P, .N = N[k], .V_y = shank * V_y[k], .V_z = shank * V_z[k], .F_head = number_min(number_max(V[k] - friction, 0.0), friction)};
     }
 }
 
 // What the forces on the pockets of one half pry at the rivets.
 static void pocket_path(const Pocket pocket[Z], int side, PathLoads *path)
 {
-    double F_x[Z], F_r[Z], F_t[Z];
+    number F_x[Z], F_r[Z], F_t[Z];
     for (int j = 0; j < Z; j++) F_x[j] = pocket[j].F_x, F_r[j] = pocket[j].F_r, F_t[j] = pocket[j].F_t;
     load_path_flexible(rivet_table.load_path, side, F_x, F_r, F_t, path);
 }
 
-void rivets_load(const Model *model, const Work *w, RivetLoad load[Z], double V[Z])
+void rivets_load(const Model *model, const Work *w, RivetLoad load[Z], number V[Z])
 {
     const bool rigid = model->p->scene.cage == CAGE_MODEL_RIGID;
     if (rigid)

@@ -253,7 +253,7 @@ double start_state(const Kernels *kernels, const Model *model, Work *w, double *
     const Derived *d = model->d;
     Equilibrium eq = {.kernels = kernels, .model = model, .w = w, .tilts = p->ring.tilt_mode != TILT_MODE_PRESCRIBED};
     work_init(d, w);
-    memcpy(eq.F, model->drive->F, sizeof eq.F);  // a pulse begins at zero
+    memcpy(eq.F, model->drive->F, sizeof eq.F);
     const double omega_0 = 0.5 * model->drive->omega * (1.0 - p->bearing.D / p->bearing.d_m);
     eq.F_c = d->m * 0.5 * p->bearing.d_m * omega_0 * omega_0 + F_0;
 

@@ -3,11 +3,13 @@
 // All variables of the model: what users set (Parameters, Inputs), what they read (Outputs), the state vector, and tables of them.  SI units.
 #pragma once
 
+#include "number.h"
+
 #include <stddef.h>
 
 #define FMI2_FUNCTION_PREFIX RivetedBearing_  // of the functions of a source-code FMU
 #define MODEL_IDENTIFIER "RivetedBearing"
-#define MODEL_GUID "{9769a36a-6dc7-ad40-aae2-e5ebe772b9d8}"  // digest of the table
+#define MODEL_GUID "{82ad458b-69af-ad35-9cc1-e3d5a150f52a}"  // digest of the table
 
 enum { Z = 9 };  // number of balls
 
@@ -177,161 +179,167 @@ typedef struct {
 
 typedef struct {
     struct {
-        double F_x;  // [N] Axial load on the inner ring
-        double F_y;  // [N] Radial load on the inner ring along Y
-        double F_z;  // [N] Radial load on the inner ring along Z
-        double M_y;  // [N.m] Moment about Y on the inner ring (supported or free tilt)
-        double M_z;  // [N.m] Moment about Z on the inner ring (supported or free tilt)
-        double omega;  // [rad/s] Speed of the inner ring about X
-        double tilt_y;  // [rad] Tilt of the shaft about Y (+X turns toward -Z)
-        double tilt_z;  // [rad] Tilt of the shaft about Z (+X turns toward +Y)
+        number F_x;  // [N] Axial load on the inner ring
+        number F_y;  // [N] Radial load on the inner ring along Y
+        number F_z;  // [N] Radial load on the inner ring along Z
+        number M_y;  // [N.m] Moment about Y on the inner ring (supported or free tilt)
+        number M_z;  // [N.m] Moment about Z on the inner ring (supported or free tilt)
+        number omega;  // [rad/s] Speed of the inner ring about X
+        number tilt_y;  // [rad] Tilt of the shaft about Y (+X turns toward -Z)
+        number tilt_z;  // [rad] Tilt of the shaft about Z (+X turns toward +Y)
     } shaft;
     struct {
-        double F_r;  // [N] Impact load added along the present radial load (+Y if there is none)
-        double F_a;  // [N] Impact load added along +X
+        number F_r;  // [N] Impact load added along the present radial load (+Y if there is none)
+        number F_a;  // [N] Impact load added along +X
     } impact;
 } Inputs;
 
 typedef struct {
     struct {
-        double Z;  // [1] Number of balls (build-time constant)
-        double friction_torque;  // [N.m] Torque that the shaft must supply about X
-        double power_loss;  // [W] Power dissipated in contacts, films, drag, joints and dampers
-        double energy_residual;  // [J] Energy now - energy at start - net work since: 0 but for the integration error
-        double contacts;  // [1] Number of closed contacts (races and pockets)
-        double penetration;  // [m] Largest elastic approach of all contacts
+        number Z;  // [1] Number of balls (build-time constant)
+        number friction_torque;  // [N.m] Torque that the shaft must supply about X
+        number power_loss;  // [W] Power dissipated in contacts, films, drag, joints and dampers
+        number energy_residual;  // [J] Energy now - energy at start - net work since: 0 but for the integration error
+        number contacts;  // [1] Number of closed contacts (races and pockets)
+        number penetration;  // [m] Largest elastic approach of all contacts
     } bearing;
     struct {
-        double x;  // [m] Displacement of the inner ring along X
-        double y;  // [m] Displacement of the inner ring along Y
-        double z;  // [m] Displacement of the inner ring along Z
-        double v_x;  // [m/s] Velocity of the inner ring along X
-        double v_y;  // [m/s] Velocity of the inner ring along Y
-        double v_z;  // [m/s] Velocity of the inner ring along Z
-        double a_x;  // [m/s2] Acceleration of the inner ring along X
-        double a_y;  // [m/s2] Acceleration of the inner ring along Y
-        double a_z;  // [m/s2] Acceleration of the inner ring along Z
-        double tilt_y;  // [rad] Tilt of the inner ring about Y
-        double tilt_z;  // [rad] Tilt of the inner ring about Z
+        number x;  // [m] Displacement of the inner ring along X
+        number y;  // [m] Displacement of the inner ring along Y
+        number z;  // [m] Displacement of the inner ring along Z
+        number v_x;  // [m/s] Velocity of the inner ring along X
+        number v_y;  // [m/s] Velocity of the inner ring along Y
+        number v_z;  // [m/s] Velocity of the inner ring along Z
+        number a_x;  // [m/s2] Acceleration of the inner ring along X
+        number a_y;  // [m/s2] Acceleration of the inner ring along Y
+        number a_z;  // [m/s2] Acceleration of the inner ring along Z
+        number tilt_y;  // [rad] Tilt of the inner ring about Y
+        number tilt_z;  // [rad] Tilt of the inner ring about Z
+        number beta;  // [1] Axis of the inner ring a = (a_x, gamma, -beta): direction cosine, the sine of a tilt about Y
+        number gamma;  // [1] Axis of the inner ring: direction cosine, the sine of a tilt about Z
+        number beta_dot;  // [1/s] Rate of ring.beta
+        number gamma_dot;  // [1/s] Rate of ring.gamma
+        number beta_ddot;  // [1/s2] Second derivative of ring.beta
+        number gamma_ddot;  // [1/s2] Second derivative of ring.gamma
     } ring;
     struct {
-        double F_x;  // [N] Force on the housing along X (by balls and cage through the outer ring)
-        double F_y;  // [N] Force on the housing along Y
-        double F_z;  // [N] Force on the housing along Z
-        double M_y;  // [N.m] Moment on the housing about Y
-        double M_z;  // [N.m] Moment on the housing about Z
+        number F_x;  // [N] Force on the housing along X (by balls and cage through the outer ring)
+        number F_y;  // [N] Force on the housing along Y
+        number F_z;  // [N] Force on the housing along Z
+        number M_y;  // [N.m] Moment on the housing about Y
+        number M_z;  // [N.m] Moment on the housing about Z
     } housing;
     struct {
-        double Q_i[Z];  // [N] Contact load on the inner race
-        double Q_e[Z];  // [N] Contact load on the outer race
-        double alpha_i[Z];  // [rad] Contact angle at the inner race (0 without contact)
-        double alpha_e[Z];  // [rad] Contact angle at the outer race (0 without contact)
-        double Q_c[Z];  // [N] Contact load on the cage pocket, both halves together
-        double omega_m[Z];  // [rad/s] Orbital speed
-        double p_i[Z];  // [Pa] Largest contact pressure on the inner race
-        double p_e[Z];  // [Pa] Largest contact pressure on the outer race
-        double Lambda_i[Z];  // [1] Film thickness / roughness at the inner race (0 without contact)
-        double Lambda_e[Z];  // [1] Film thickness / roughness at the outer race (0 without contact)
-        double spin_roll[Z];  // [1] Spin-to-roll ratio at the inner race
-        double Q_cx[Z];  // [N] Axial part of the ball's force on the cage pocket, both halves together
-        double x[Z];  // [m] Axial position of the ball's centre
-        double r[Z];  // [m] Distance of the ball's centre from the axis
-        double psi[Z];  // [rad] Azimuth of the ball from Y toward Z, unbounded
+        number Q_i[Z];  // [N] Contact load on the inner race
+        number Q_e[Z];  // [N] Contact load on the outer race
+        number alpha_i[Z];  // [rad] Contact angle at the inner race (0 without contact)
+        number alpha_e[Z];  // [rad] Contact angle at the outer race (0 without contact)
+        number Q_c[Z];  // [N] Contact load on the cage pocket, both halves together
+        number omega_m[Z];  // [rad/s] Orbital speed
+        number p_i[Z];  // [Pa] Largest contact pressure on the inner race
+        number p_e[Z];  // [Pa] Largest contact pressure on the outer race
+        number Lambda_i[Z];  // [1] Film thickness / roughness at the inner race (0 without contact)
+        number Lambda_e[Z];  // [1] Film thickness / roughness at the outer race (0 without contact)
+        number spin_roll[Z];  // [1] Spin-to-roll ratio at the inner race
+        number Q_cx[Z];  // [N] Axial part of the ball's force on the cage pocket, both halves together
+        number x[Z];  // [m] Axial position of the ball's centre
+        number r[Z];  // [m] Distance of the ball's centre from the axis
+        number psi[Z];  // [rad] Azimuth of the ball from Y toward Z, unbounded
     } ball;
     struct {
-        double x;  // [m] Displacement of the cage half on the -X side along X
-        double y;  // [m] Displacement of the cage half on the -X side along Y
-        double z;  // [m] Displacement of the cage half on the -X side along Z
-        double tilt_y;  // [rad] Tilt of the cage half on the -X side about Y
-        double tilt_z;  // [rad] Tilt of the cage half on the -X side about Z
-        double psi;  // [rad] Rotation of the cage half on the -X side about its axis, unbounded: 0 has a pocket on Y
+        number x;  // [m] Displacement of the cage half on the -X side along X
+        number y;  // [m] Displacement of the cage half on the -X side along Y
+        number z;  // [m] Displacement of the cage half on the -X side along Z
+        number tilt_y;  // [rad] Tilt of the cage half on the -X side about Y
+        number tilt_z;  // [rad] Tilt of the cage half on the -X side about Z
+        number psi;  // [rad] Rotation of the cage half on the -X side about its axis, unbounded: 0 has a pocket on Y
     } half_0;
     struct {
-        double x;  // [m] Displacement of the cage half on the +X side along X
-        double y;  // [m] Displacement of the cage half on the +X side along Y
-        double z;  // [m] Displacement of the cage half on the +X side along Z
-        double tilt_y;  // [rad] Tilt of the cage half on the +X side about Y
-        double tilt_z;  // [rad] Tilt of the cage half on the +X side about Z
-        double psi;  // [rad] Rotation of the cage half on the +X side about its axis, unbounded: 0 has a pocket on Y
+        number x;  // [m] Displacement of the cage half on the +X side along X
+        number y;  // [m] Displacement of the cage half on the +X side along Y
+        number z;  // [m] Displacement of the cage half on the +X side along Z
+        number tilt_y;  // [rad] Tilt of the cage half on the +X side about Y
+        number tilt_z;  // [rad] Tilt of the cage half on the +X side about Z
+        number psi;  // [rad] Rotation of the cage half on the +X side about its axis, unbounded: 0 has a pocket on Y
     } half_1;
     struct {
-        double dislocation;  // [m] Largest slip of one cage half against the other over the joints, in the plane
-        double omega;  // [rad/s] Speed of the cage (mean of the halves)
-        double slip_ratio;  // [1] 1 - cage speed / epicyclic speed (0 at standstill)
-        double y;  // [m] Displacement of the cage's centre along Y (mean of the halves)
-        double z;  // [m] Displacement of the cage's centre along Z (mean of the halves)
-        double eccentricity;  // [1] Displacement of the cage's centre / radial guide clearance
-        double F_pocket_max;  // [N] Largest pocket contact load of all balls
-        double F_pocket_peak;  // [N] Largest pocket contact load since the last communication point
+        number dislocation;  // [m] Largest slip of one cage half against the other over the joints, in the plane
+        number omega;  // [rad/s] Speed of the cage (mean of the halves)
+        number slip_ratio;  // [1] 1 - cage speed / epicyclic speed (0 at standstill)
+        number y;  // [m] Displacement of the cage's centre along Y (mean of the halves)
+        number z;  // [m] Displacement of the cage's centre along Z (mean of the halves)
+        number eccentricity;  // [1] Displacement of the cage's centre / radial guide clearance
+        number F_pocket_max;  // [N] Largest pocket contact load of all balls
+        number F_pocket_peak;  // [N] Largest pocket contact load since the last communication point
     } cage;
     struct {
-        double sigma_head[Z];  // [Pa] Largest principal stress in the head fillet
-        double sigma_mid[Z];  // [Pa] von Mises stress of the shank at the split (|z| <= 0.1 mm)
-        double sigma_head_vm[Z];  // [Pa] von Mises stress in the head fillet
-        double sigma_mid_p1[Z];  // [Pa] Largest principal stress of the shank at the split
-        double sigma_head_peak[Z];  // [Pa] Largest sigma_head since the last communication point
-        double sigma_mid_peak[Z];  // [Pa] Largest sigma_mid since the last communication point
-        double sigma_head_max;  // [Pa] Largest sigma_head_peak of all rivets
-        double sigma_mid_max;  // [Pa] Largest sigma_mid_peak of all rivets
-        double damage_head[Z];  // [1] Miner's sum of sigma_head since start.settle
-        double damage_mid[Z];  // [1] Miner's sum of sigma_mid since start.settle
-        double N[Z];  // [N] External tension of the joint, before preload shielding
-        double V[Z];  // [N] Transverse load of the joint
-        double T[Z];  // [N] Tension of the rivet
-        double M[Z];  // [N.m] Prying moment of the joint
-        double P[Z];  // [N] Preload at the present temperature
-        double slip[Z];  // [m] Slip of one half against the other at the joint, in the plane
-        double flag[Z];  // [1] Sum of 1 rivet yields, 2 flange yields, 4 compressed joint (N counted as 0), 8 load outside the stress table
+        number sigma_head[Z];  // [Pa] Largest principal stress in the head fillet
+        number sigma_mid[Z];  // [Pa] von Mises stress of the shank at the split (|z| <= 0.1 mm)
+        number sigma_head_vm[Z];  // [Pa] von Mises stress in the head fillet
+        number sigma_mid_p1[Z];  // [Pa] Largest principal stress of the shank at the split
+        number sigma_head_peak[Z];  // [Pa] Largest sigma_head since the last communication point
+        number sigma_mid_peak[Z];  // [Pa] Largest sigma_mid since the last communication point
+        number sigma_head_max;  // [Pa] Largest sigma_head_peak of all rivets
+        number sigma_mid_max;  // [Pa] Largest sigma_mid_peak of all rivets
+        number damage_head[Z];  // [1] Miner's sum of sigma_head since start.settle
+        number damage_mid[Z];  // [1] Miner's sum of sigma_mid since start.settle
+        number N[Z];  // [N] External tension of the joint, before preload shielding
+        number V[Z];  // [N] Transverse load of the joint
+        number T[Z];  // [N] Tension of the rivet
+        number M[Z];  // [N.m] Prying moment of the joint
+        number P[Z];  // [N] Preload at the present temperature
+        number slip[Z];  // [m] Slip of one half against the other at the joint, in the plane
+        number flag[Z];  // [1] Sum of 1 rivet yields, 2 flange yields, 4 compressed joint (N counted as 0), 8 load outside the stress table
     } rivet;
     struct {
-        double time;  // [s] Time that the statistics cover
-        double Q_c_mean;  // [N] Pocket force of all balls pooled: mean, zeros included
-        double Q_c_rms;  // [N] Pocket force of all balls pooled: RMS
-        double Q_c_p999;  // [N] Pocket force of all balls pooled: 99.9 % quantile
-        double Q_c_max;  // [N] Pocket force of all balls pooled: largest
-        double contact_duty;  // [1] Part of the time that a ball touches its pocket
-        double cage_omega;  // [rad/s] Mean cage speed
-        double eccentricity;  // [1] Mean eccentricity of the cage
-        double dislocation_max;  // [m] Largest dislocation of the cage halves
-        double sigma_head_mean;  // [Pa] Head stress of the worst rivet at each instant: mean
-        double sigma_head_rms;  // [Pa] Head stress of the worst rivet at each instant: RMS
-        double sigma_head_p999;  // [Pa] Head stress of the worst rivet at each instant: 99.9 % quantile
-        double sigma_head_max;  // [Pa] Head stress of the worst rivet at each instant: largest
-        double sigma_mid_mean;  // [Pa] Middle stress of the worst rivet at each instant: mean
-        double sigma_mid_rms;  // [Pa] Middle stress of the worst rivet at each instant: RMS
-        double sigma_mid_p999;  // [Pa] Middle stress of the worst rivet at each instant: 99.9 % quantile
-        double sigma_mid_max;  // [Pa] Middle stress of the worst rivet at each instant: largest
-        double rivet_head_mean[Z];  // [Pa] Head stress of each rivet: mean
-        double rivet_head_rms[Z];  // [Pa] Head stress of each rivet: RMS
-        double rivet_head_p999[Z];  // [Pa] Head stress of each rivet: 99.9 % quantile
-        double rivet_head_max[Z];  // [Pa] Head stress of each rivet: largest
-        double rivet_mid_mean[Z];  // [Pa] Middle stress of each rivet: mean
-        double rivet_mid_rms[Z];  // [Pa] Middle stress of each rivet: RMS
-        double rivet_mid_p999[Z];  // [Pa] Middle stress of each rivet: 99.9 % quantile
-        double rivet_mid_max[Z];  // [Pa] Middle stress of each rivet: largest
+        number time;  // [s] Time that the statistics cover
+        number Q_c_mean;  // [N] Pocket force of all balls pooled: mean, zeros included
+        number Q_c_rms;  // [N] Pocket force of all balls pooled: RMS
+        number Q_c_p999;  // [N] Pocket force of all balls pooled: 99.9 % quantile
+        number Q_c_max;  // [N] Pocket force of all balls pooled: largest
+        number contact_duty;  // [1] Part of the time that a ball touches its pocket
+        number cage_omega;  // [rad/s] Mean cage speed
+        number eccentricity;  // [1] Mean eccentricity of the cage
+        number dislocation_max;  // [m] Largest dislocation of the cage halves
+        number sigma_head_mean;  // [Pa] Head stress of the worst rivet at each instant: mean
+        number sigma_head_rms;  // [Pa] Head stress of the worst rivet at each instant: RMS
+        number sigma_head_p999;  // [Pa] Head stress of the worst rivet at each instant: 99.9 % quantile
+        number sigma_head_max;  // [Pa] Head stress of the worst rivet at each instant: largest
+        number sigma_mid_mean;  // [Pa] Middle stress of the worst rivet at each instant: mean
+        number sigma_mid_rms;  // [Pa] Middle stress of the worst rivet at each instant: RMS
+        number sigma_mid_p999;  // [Pa] Middle stress of the worst rivet at each instant: 99.9 % quantile
+        number sigma_mid_max;  // [Pa] Middle stress of the worst rivet at each instant: largest
+        number rivet_head_mean[Z];  // [Pa] Head stress of each rivet: mean
+        number rivet_head_rms[Z];  // [Pa] Head stress of each rivet: RMS
+        number rivet_head_p999[Z];  // [Pa] Head stress of each rivet: 99.9 % quantile
+        number rivet_head_max[Z];  // [Pa] Head stress of each rivet: largest
+        number rivet_mid_mean[Z];  // [Pa] Middle stress of each rivet: mean
+        number rivet_mid_rms[Z];  // [Pa] Middle stress of each rivet: RMS
+        number rivet_mid_p999[Z];  // [Pa] Middle stress of each rivet: 99.9 % quantile
+        number rivet_mid_max[Z];  // [Pa] Middle stress of each rivet: largest
     } stat;
     struct {
-        double steps;  // [1] Accepted internal steps
-        double rhs_evals;  // [1] Evaluations of the right-hand side
-        double step_size;  // [s] Internal step size that the next step starts with
-        double error_tests_failed;  // [1] Internal steps rejected by the error test
-        double cpu_time;  // [s] Processor time of this instance inside fmi2DoStep (not part of the saved state)
-        double tolerance;  // [1] Tolerance in force
-        double path;  // [1] Integration path in use: 1 explicit, 2 IMEX
+        number steps;  // [1] Accepted internal steps
+        number rhs_evals;  // [1] Evaluations of the right-hand side
+        number step_size;  // [s] Internal step size that the next step starts with
+        number error_tests_failed;  // [1] Internal steps rejected by the error test
+        number cpu_time;  // [s] Processor time of this instance inside fmi2DoStep (not part of the saved state)
+        number tolerance;  // [1] Tolerance in force
+        number path;  // [1] Integration path in use: 1 explicit, 2 IMEX
     } solver;
     struct {
-        double land_contact;  // [1] Cage halves whose land touches the outer ring
-        double pocket_exit;  // [1] Balls whose centre has left the section of the cage: a real pocket ends there
-        double ellipse_cut;  // [1] Race contacts whose ellipse reaches over the shoulder
-        double overpressure;  // [1] Race contacts beyond bearing.p_limit
-        double joint_open;  // [1] Joints whose plates are apart
-        double rivet_yield;  // [1] Rivets whose sigma_head_peak or sigma_mid_peak exceeds the yield stress
-        double land_contact_onsets;  // [1] Onsets of land contact since the start
-        double pocket_exit_onsets;  // [1] Onsets of a ball leaving its pocket since the start
-        double ellipse_cut_onsets;  // [1] Onsets of a contact ellipse cut by the shoulder since the start
-        double overpressure_onsets;  // [1] Onsets of a contact beyond bearing.p_limit since the start
-        double joint_open_onsets;  // [1] Onsets of an open joint since the start
-        double rivet_yield_onsets;  // [1] Onsets of yield of a rivet since the start
+        number land_contact;  // [1] Cage halves whose land touches the outer ring
+        number pocket_exit;  // [1] Balls whose centre has left the section of the cage: a real pocket ends there
+        number ellipse_cut;  // [1] Race contacts whose ellipse reaches over the shoulder
+        number overpressure;  // [1] Race contacts beyond bearing.p_limit
+        number joint_open;  // [1] Joints whose plates are apart
+        number rivet_yield;  // [1] Rivets whose sigma_head_peak or sigma_mid_peak exceeds the yield stress
+        number land_contact_onsets;  // [1] Onsets of land contact since the start
+        number pocket_exit_onsets;  // [1] Onsets of a ball leaving its pocket since the start
+        number ellipse_cut_onsets;  // [1] Onsets of a contact ellipse cut by the shoulder since the start
+        number overpressure_onsets;  // [1] Onsets of a contact beyond bearing.p_limit since the start
+        number joint_open_onsets;  // [1] Onsets of an open joint since the start
+        number rivet_yield_onsets;  // [1] Onsets of yield of a rivet since the start
     } event;
 } Outputs;
 
@@ -427,11 +435,13 @@ typedef struct {
     VariableType type;
     Causality causality;
     OutputGroup group;  // of an output
+    int state;          // its place in y if it is one, else -1
     size_t offset;      // of the first element in Inputs, Parameters or Outputs
     double start, min, max;
 } Variable;
 
-enum { N_VARIABLES = 221 };  // time is the first
+enum { N_INPUTS = 10 };  // all of them numbers
+enum { N_VARIABLES = 227 };  // time is the first
 
 extern const Variable VARIABLES[N_VARIABLES];  // by rising value reference
 

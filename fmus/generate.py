@@ -6,6 +6,7 @@ python fmus/generate.py --bearing FILE --out DIR         another bearing (number
 """
 
 import argparse
+import fnmatch
 import hashlib
 import json
 import math
@@ -55,6 +56,7 @@ class Variable:
     source: str | None = None
     state: str | None = None
     derivative_of: str | None = None
+    depends: tuple | None = None  # patterns of names; default: the group's
     choices: tuple = ()  # names of an enumeration's items
 
     @property
@@ -276,9 +278,12 @@ def write_description(table):
         "CoSimulation",
         modelIdentifier=table.model_name,
         canHandleVariableCommunicationStepSize="true",
+        canInterpolateInputs="true",
+        maxOutputDerivativeOrder="1",
         canNotUseMemoryManagementFunctions="true",
         canGetAndSetFMUstate="true",
         canSerializeFMUstate="true",
+        providesDirectionalDerivative="true",
     )
     add_units(root, table)
     add_types(root, table)
@@ -354,27 +359,28 @@ def value_attributes(v, indices):
 
 
 def add_structure(root, table, indices):
-    """Outputs with what they depend on, derivatives of the exposed states, and what initialization computes (FMI 2.0.4, section 2.2.8)."""
+    """Outputs and derivatives with what they depend on, and what initialization computes (FMI 2.0.4, section 2.2.8)."""
     structure = etree.SubElement(root, "ModelStructure")
     outputs = etree.SubElement(structure, "Outputs")
     for v in table.of("output"):
         for name, _ in v.elements:
-            depends = {}
-            if v.state:
-                depends = {"dependencies": str(indices[name])}
-            elif not table.groups[v.group]["feedthrough"]:
-                depends = {"dependencies": ""}
-            etree.SubElement(outputs, "Unknown", index=str(indices[name]), **depends)
+            etree.SubElement(outputs, "Unknown", index=str(indices[name]), dependencies=dependencies(v, table, indices))
     derivatives = etree.SubElement(structure, "Derivatives")
     for v in table.of("output"):
         if v.derivative_of:
-            depends = {"dependencies": str(indices[v.name])} if v.state else {}
-            etree.SubElement(derivatives, "Unknown", index=str(indices[v.name]), **depends)
+            etree.SubElement(derivatives, "Unknown", index=str(indices[v.name]), dependencies=dependencies(v, table, indices))
     unknowns = etree.SubElement(structure, "InitialUnknowns")
     for v in table.of("output"):
         if v.group != "constant":
             for name, _ in v.elements:
                 etree.SubElement(unknowns, "Unknown", index=str(indices[name]))
+
+
+def dependencies(v, table, indices):
+    """Indices of the inputs and states that an output depends on directly."""
+    patterns = [v.name] if v.state else table.groups[v.group]["depends"] if v.depends is None else v.depends
+    known = [k.name for k in table.variables if k.causality == "input" or k.state]
+    return " ".join(str(indices[name]) for name in known if any(fnmatch.fnmatchcase(name, pattern) for pattern in patterns))
 
 
 # ------------------------------------------------------------------------------------------------------------------- command

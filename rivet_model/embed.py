@@ -1,6 +1,7 @@
 """Write a rivet table as C constants: python -m rivet_model.embed TABLE OUT.c [--Z 9].  Needs numpy only; the same table gives the same bytes."""
 
 import argparse
+import hashlib
 import sys
 from pathlib import Path
 
@@ -41,7 +42,7 @@ def c_source(t):
     joint = ", ".join(f".{key} = {float(t.joint[key])!r}" for key in table.JOINT_KEYS)
     parts.append(f"""
 const RivetTable rivet_table = {{
-    .kind = "{t.kind}", .geometry_hash = "{t.geometry_hash}", .Z = {t.Z}, .moment_length = {float(t.moment_length)!r},
+    .kind = "{t.kind}", .geometry_hash = "{t.geometry_hash}", .digest = "@digest@", .Z = {t.Z}, .moment_length = {float(t.moment_length)!r},
     .axis = {{{", ".join(axes)}}},
     .primary = primary, .secondary = secondary, .head_friction = {float(t.head_friction)!r}, .head_friction_vm = {float(t.head_friction_vm)!r},
     .yield_rivet = {float(t.yield_rivet)!r}, .fit_flange_yield = {float(t.fit_flange_yield)!r},
@@ -51,7 +52,8 @@ const RivetTable rivet_table = {{
     .load_path = load_path}};
 // clang-format on
 """)
-    return "".join(parts)
+    text = "".join(parts)
+    return text.replace("@digest@", hashlib.sha256(text.encode()).hexdigest())
 
 
 def main(arguments=None):

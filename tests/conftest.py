@@ -1,8 +1,12 @@
 """What the tests share: the built FMU and the C core, or in files that say TWINS = True each of the twins in turn."""
 
+from pathlib import Path
+
+import fmpy
 import pytest
 from library import LIBRARY, ROOT, Core
 from python_core import python_core
+from slave import Slave
 
 
 def pytest_generate_tests(metafunc):
@@ -26,3 +30,19 @@ def core(request):
         return python_core()
     assert LIBRARY.is_file(), f"{LIBRARY} is missing: make build"
     return Core.load()
+
+
+@pytest.fixture(scope="session")
+def folder(fmu, tmp_path_factory):
+    """The FMU, unzipped."""
+    return Path(fmpy.extract(str(fmu), str(tmp_path_factory.mktemp("fmu"))))
+
+
+@pytest.fixture
+def slave(folder):
+    return Slave(folder)
+
+
+@pytest.fixture
+def running(slave):
+    return slave.initialize()

@@ -173,7 +173,7 @@ class Instance:
 
     def set(self, **inputs):
         """Inputs by their names in the variable table."""
-        self.core.set_values(self.lib.bearing_inputs(self.bearing), variables.INPUTS, inputs)
+        self.core.set_values(self.lib.bearing_inputs(self.bearing, 0), variables.INPUTS, inputs)
 
     @property
     def time(self):

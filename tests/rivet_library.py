@@ -23,7 +23,7 @@ def build(folder, table=ROOT / "rivet_model" / "tables" / "6207.json", extra="",
     flags = ["-std=c17", "-O3", "-ffp-contract=off", "-fPIC", "-shared", "-Wall", "-Wextra", "-Wpedantic", "-Werror"]
     subprocess.run(["cc", *flags, f"-I{ROOT / 'fmu_src'}", *files, "-o", str(library), "-lm"], check=True)
     ffi = cffi.FFI()
-    ffi.cdef(f"enum {{ Z = {variables_z()} }};")
+    ffi.cdef(f"enum {{ Z = {variables_z()} }}; typedef double number;")
     for name in HEADERS:
         text = (ROOT / "fmu_src" / name).read_text(encoding="utf-8")
         text = re.sub(r"//[^\n]*", "", text)

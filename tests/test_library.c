@@ -1,5 +1,6 @@
 // What the tests' library adds to the core's objects: the inline functions, callable over arrays, and memory as the kernels want it.
 #include "bearing.h"
+#include "drive.h"
 #include "elementary.h"
 #include "hertz.h"
 #include "lanes.h"
@@ -9,6 +10,8 @@
 #include <stdlib.h>
 
 void *test_allocate(size_t size);
+void test_ring_tilts(double beta, double gamma, double *tilt_y, double *tilt_z);
+void test_drive_at(const Course *course, double t, Drive *drive);
 void test_exp(int n, const double *x, double *y);
 void test_log(int n, const double *x, double *y);
 void test_sincos(int n, const double *x, double *sine, double *cosine);
@@ -29,6 +32,16 @@ void *test_allocate(size_t size)
     size = (size + 63) / 64 * 64;
     void *memory = aligned_alloc(64, size);
     return memory ? memset(memory, 0, size) : NULL;
+}
+
+void test_ring_tilts(double beta, double gamma, double *tilt_y, double *tilt_z)
+{
+    ring_tilts(beta, gamma, tilt_y, tilt_z);
+}
+
+void test_drive_at(const Course *course, double t, Drive *drive)
+{
+    drive_at(course, t, drive);
 }
 
 void test_exp(int n, const double *x, double *y)

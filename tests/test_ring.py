@@ -5,7 +5,9 @@ import pytest
 from mechanics import SLICE, Instance
 from scipy.integrate import quad, solve_ivp
 
-from bearing_model.variables import TiltMode
+from bearing_model import ring
+from bearing_model.parameters import InputDerivatives, Inputs, Parameters
+from bearing_model.variables import INPUTS, TiltMode
 
 LOOSE = {"bearing.P_d": 4e-4}  # a ring that rests free of the balls
 
@@ -55,12 +57,13 @@ def test_tilt_is_a_rotation_vector(core):
     from scipy.spatial.transform import Rotation
 
     tilt_y, tilt_z = 0.021, -0.033
-    beta, gamma = (core.ffi.new("double *") for _ in range(2))
-    core.lib.ring_cosines(tilt_y, tilt_z, beta, gamma)
+    model = core.model(inputs={"shaft.tilt_y": tilt_y, "shaft.tilt_z": tilt_z})
+    core.lib.drive_update(model.p, model.u, 0.0, model.drive)
+    beta, gamma = model.drive.beta, model.drive.gamma
     a = Rotation.from_rotvec([0.0, tilt_y, tilt_z]).apply([1.0, 0.0, 0.0])
-    assert (gamma[0], -beta[0]) == pytest.approx((a[1], a[2]), rel=1e-13)
+    assert (gamma, -beta) == pytest.approx((a[1], a[2]), rel=1e-13)
     back = [core.ffi.new("double *") for _ in range(2)]
-    core.lib.ring_tilts(beta[0], gamma[0], *back)
+    core.lib.test_ring_tilts(beta, gamma, *back)
     assert (back[0][0], back[1][0]) == pytest.approx((tilt_y, tilt_z), rel=1e-13)
     assert a[1] < 0.0  # + tilt_z turns +X toward +Y, here it is negative
 
@@ -130,6 +133,7 @@ def test_translation(core):
 # ------------------------------------------------------------------------------------------------------------------------- pulses
 
 
+RADIAL = (("shaft", "F_y"), ("shaft", "F_z"), ("impact", "F_r"))
 PULSES = {"pulse.F_r": 1401.0, "pulse.F_a": 241.0, "pulse.t_start": 0.1, "pulse.duration": 1e-3, "pulse.interval": 10e-3 / 3, "pulse.count": 3}
 
 
@@ -137,9 +141,7 @@ def load(core, parameters, inputs, t):
     """Load on the ring at time t, as a step to t sets it."""
     model = core.model(parameters=parameters, inputs=inputs)
     core.lib.drive_update(model.p, model.u, t, model.drive)
-    F = core.ffi.new("double[3]")
-    model.kernel("drive_load")(model.drive, t, F)
-    return np.array(list(F))
+    return np.array(list(model.drive.F))
 
 
 @pytest.mark.parametrize(("F_y", "F_z"), [(2994.0, 0.0), (-300.0, 400.0), (0.0, 0.0)])
@@ -189,3 +191,52 @@ def test_impact_inputs(core):
     """impact.F_r adds along the present radial load, impact.F_a along +X."""
     inputs = {"shaft.F_x": 10.0, "shaft.F_y": -30.0, "shaft.F_z": 40.0, "impact.F_r": 5.0, "impact.F_a": -2.0}
     assert load(core, {}, inputs, 0.0) == pytest.approx([8.0, -33.0, 44.0], rel=1e-14)
+
+
+# ----------------------------------------------------------------------------------------------------------------- inputs by time
+
+
+def random_course(core, rng):
+    """The same polynomials of all inputs in both twins, at a time in the middle of a pulse."""
+    names, u = list(INPUTS), core.ffi.new("Inputs[3]")
+    size = np.array([{"omega": 1000.0, "tilt": 0.01}.get(name.split(".")[1].split("_")[0], 1000.0) for name in names])
+    values = np.frombuffer(core.ffi.buffer(u)).reshape(3, -1)
+    values[...] = rng.uniform(-1.0, 1.0, values.shape) * size * np.array([[1.0], [1e3], [1e6]])
+    t_0, t = 0.1001, 0.1004
+    model, course = core.model(parameters=PULSES), core.new("Course")
+    core.lib.course_update(model.p, u, t_0, t, course)
+    orders = [dict(zip(names, row.tolist(), strict=True)) for row in values]
+    return model, course, ring.course_update(Parameters(PULSES), (Inputs(orders[0]), *map(InputDerivatives, orders[1:])), t_0, t)
+
+
+def test_drive_along_the_course(core):
+    """Both twins, at random polynomials and times; the load is Taylor's polynomial plus the pulse along the present radial load."""
+    rng = np.random.default_rng(4)
+    for _ in range(50):
+        _, course, twin = random_course(core, rng)
+        drive, t = core.new("Drive"), rng.uniform(0.1, 0.101)
+        core.lib.test_drive_at(course, t, drive)
+        other = ring.drive_at(twin, t)
+        got = np.array([*drive.F, *drive.M, drive.omega, drive.beta, drive.gamma])
+        np.testing.assert_allclose(got, np.array([*other.F, *other.M, other.omega, other.beta, other.gamma]), rtol=1e-12, atol=1e-12 * np.abs(got).max())
+        u, tau = course.u, t - 0.1001
+        F_y, F_z, F_r = (sum(getattr(getattr(u[k], group), name) * tau**k / (1, 1, 2)[k] for k in range(3)) for group, name in RADIAL)
+        pulse = 1401.0 * np.sin(np.pi * (t - 0.1) / 1e-3)
+        assert drive.F[1] == pytest.approx(F_y * (1.0 + (F_r + pulse) / np.hypot(F_y, F_z)), rel=1e-9, abs=1e-6)
+
+
+def test_rhs_takes_the_drive_from_the_course(core):
+    """At each time the same bits as under inputs held at that time's values; a course that does not vary says so."""
+    rng = np.random.default_rng(5)
+    model, course, _ = random_course(core, rng)
+    y = core.model().start()
+    held, moving = (np.empty_like(y) for _ in range(2))
+    for t in rng.uniform(0.1, 0.101, 10):
+        core.lib.test_drive_at(course, t, model.drive)
+        for out, along in ((held, core.ffi.NULL), (moving, course)):
+            model.pointer.course = along
+            model.kernel("rhs")(model.pointer, t, core.array(y), core.array(out), model.work)
+        assert held.tobytes() == moving.tobytes()
+    assert core.lib.course_varies(course)
+    core.lib.course_update(core.model().p, core.ffi.new("Inputs[3]", [core.model().u[0]]), 0.0, 0.0, course)
+    assert not core.lib.course_varies(course)

@@ -114,11 +114,14 @@ def test_structure(description):
     assert {u.variable.name for u in description.outputs} == outputs
     assert {u.variable.name for u in description.initialUnknowns} == outputs - {"bearing.Z"}
     derivatives = {u.variable.name: u.variable.derivative.name for u in description.derivatives}
-    assert derivatives == {f"ring.{d}_{x}": f"ring.{s}" for x in "xyz" for d, s in (("v", x), ("a", f"v_{x}"))}
+    motion = {f"ring.{d}_{x}": f"ring.{s}" for x in "xyz" for d, s in (("v", x), ("a", f"v_{x}"))}
+    turning = {f"ring.{x}_{d}": f"ring.{x}{s}" for x in ("beta", "gamma") for d, s in (("dot", ""), ("ddot", "_dot"))}
+    assert derivatives == motion | turning
     by_name = {u.variable.name: u for u in description.outputs}
     assert by_name["stat.Q_c_mean"].dependencies == []
     assert [v.name for v in by_name["ring.x"].dependencies] == ["ring.x"]
-    assert by_name["ring.a_x"].dependencies is None  # may depend on all
+    assert [v.name for v in by_name["ring.tilt_y"].dependencies] == ["ring.beta", "ring.gamma"]
+    assert {"shaft.F_x", "shaft.omega", "ring.v_z"} <= {v.name for v in by_name["ring.a_x"].dependencies}
 
 
 def test_python_names_the_same_variables(description):

@@ -3,6 +3,8 @@
 // All variables of the model: what users set (Parameters, Inputs), what they read (Outputs), the state vector, and tables of them.  SI units.
 #pragma once
 
+#include "number.h"
+
 #include <stddef.h>
 
 #define FMI2_FUNCTION_PREFIX {{ table.model_name }}_  // of the functions of a source-code FMU
@@ -19,21 +21,21 @@ enum {  // {{ name }}
 };
 {% endfor %}
 
-{% macro struct(name, causality) %}
+{% macro struct(name, causality, real) %}
 typedef struct {
 {% for group, members in table.of(causality) | struct_members %}
     struct {
 {% for member, v in members %}
-        {{ "double" if v.type == "Real" else "int" }} {{ member }}{{ "[Z]" if v.is_array }};  // {{ "[%s] " % v.unit if v.type == "Real" -}}
+        {{ real if v.type == "Real" else "int" }} {{ member }}{{ "[Z]" if v.is_array }};  // {{ "[%s] " % v.unit if v.type == "Real" -}}
            {{ v.type ~ ": " if v.type in table.enumerations }}{{ v.description }}
 {% endfor %}
     } {{ group }};
 {% endfor %}
 } {{ name }};
 {% endmacro %}
-{{ struct("Parameters", "parameter") }}
-{{ struct("Inputs", "input") }}
-{{ struct("Outputs", "output") }}
+{{ struct("Parameters", "parameter", "double") }}
+{{ struct("Inputs", "input", "number") }}
+{{ struct("Outputs", "output", "number") }}
 // What is evaluated together on first read after a step.
 typedef enum {
 {% for group, entry in table.groups.items() %}
@@ -76,10 +78,12 @@ typedef struct {
     VariableType type;
     Causality causality;
     OutputGroup group;  // of an output
+    int state;          // its place in y if it is one, else -1
     size_t offset;      // of the first element in Inputs, Parameters or Outputs
     double start, min, max;
 } Variable;
 
+enum { N_INPUTS = {{ table.of("input") | length }} };  // all of them numbers
 enum { N_VARIABLES = {{ table.variables | length + 1 }} };  // time is the first
 
 extern const Variable VARIABLES[N_VARIABLES];  // by rising value reference
