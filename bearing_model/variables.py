@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from enum import IntEnum
 
 MODEL_IDENTIFIER = "RivetedBearing"
-MODEL_GUID = "{82ad458b-69af-ad35-9cc1-e3d5a150f52a}"
+MODEL_GUID = "{f7052f1b-f74b-aac5-7c51-a533a57ce568}"
 Z = 9
 
 

@@ -9,7 +9,7 @@
 
 #define FMI2_FUNCTION_PREFIX RivetedBearing_  // of the functions of a source-code FMU
 #define MODEL_IDENTIFIER "RivetedBearing"
-#define MODEL_GUID "{82ad458b-69af-ad35-9cc1-e3d5a150f52a}"  // digest of the table
+#define MODEL_GUID "{f7052f1b-f74b-aac5-7c51-a533a57ce568}"  // digest of the table
 
 enum { Z = 9 };  // number of balls
 
