@@ -13,7 +13,7 @@ FORM    = --short
 export PATH := $(CURDIR)/$(BIN):$(PATH)  # cmake finds ninja
 export MPLBACKEND = Agg
 
-.PHONY: demo test test-slow bench build fmu-all generate lint format sanitize clean help
+.PHONY: demo test test-slow bench build fmu-all generate lint format sanitize analyze fuzz clean help
 
 demo: build  ## build, then run the paper's working point: stress, cage and run-time figures
 	$(BIN)/riveted-bearing run demo
@@ -53,6 +53,18 @@ sanitize: $(VENV)/installed  ## the fast tests on a copy compiled with the addre
 	$(BIN)/cmake -S $(COPY) -B $(COPY)/build -G Ninja -DSANITIZE=address,undefined -DFMU=$(COPY)/$(FMU) -DPython_EXECUTABLE=$(CURDIR)/$(PYTHON)
 	$(BIN)/cmake --build $(COPY)/build
 	cd $(COPY) && PYTHONPATH=$(COPY) PYTHONMALLOC=malloc ASAN_OPTIONS=detect_leaks=0 LD_PRELOAD="$$(cc -print-file-name=libasan.so) libstdc++.so.6" $(CURDIR)/$(PYTEST) -n 2
+
+analyze: build  ## static analysis without findings: the compiler's analyzer and clang-tidy
+	$(BIN)/cmake -S . -B build/analyze -G Ninja -DANALYZE=ON -DFMU=$(CURDIR)/build/analyze/analyzed.fmu -DPython_EXECUTABLE=$(CURDIR)/$(PYTHON)
+	$(BIN)/cmake --build build/analyze --target RivetedBearing
+	clang-tidy -p build --quiet fmu_src/*.c
+
+FUZZ_SECONDS = 120
+fuzz: $(VENV)/installed  ## coverage-guided fuzzing of the FMI functions with sanitizers (clang) for FUZZ_SECONDS
+	$(BIN)/cmake -S . -B build/fuzz -G Ninja -DCMAKE_C_COMPILER=clang -DSANITIZE=fuzzer-no-link,address,undefined -DFMU=$(CURDIR)/build/fuzz/fuzzed.fmu -DPython_EXECUTABLE=$(CURDIR)/$(PYTHON)
+	$(BIN)/cmake --build build/fuzz --target fuzz_api
+	mkdir -p build/corpus
+	build/fuzz/fuzz_api build/corpus -max_len=2048 -len_control=0 -timeout=20 -max_total_time=$(FUZZ_SECONDS)
 
 clean:  ## remove what was built; the Python environment and the cached SUNDIALS archive stay
 	rm -rf build $(FMU)
