@@ -94,7 +94,7 @@ def set_state(instance, y, h=4e-6):
     core = instance.core
     saved = core.new("Saved")
     core.lib.bearing_save(instance.bearing, saved)
-    saved.integrator.y = list(y)
+    saved.integrator.now.y = list(y)
     saved.integrator.h = h
     saved.integrator.known = 0
     core.lib.bearing_restore(instance.bearing, saved)

@@ -82,7 +82,7 @@ per simulated second, times 9/Z, over that of the working point in the same proc
 
 
 def slow_row(r):
-    path = {1: "explicit", 2: "IMEX"}.get(r["path"], r["path"])
+    path = {1: "Verlet", 2: "Runge-Kutta"}.get(r["path"], r["path"])
     return f"{r['family']}: {r['name']}", f"{r['ratio']:.1f}", f"{r['evaluations'] / r['t'] / 1e3:.0f}", path
 
 

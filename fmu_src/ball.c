@@ -11,8 +11,12 @@
 
 void ball_kinematics(const number *y, Work *w)
 {
-    number *rows[] = {w->x, w->r, w->theta, w->v_x, w->v_r, w->omega_m, w->omega_x, w->omega_r, w->omega_t};
-    for (int i = 0; i < 9; i++) memcpy(rows[i], &y[Y_BALL_X + i * Z], Z * sizeof *y);
+    number *places[] = {w->x, w->r, w->theta}, *velocities[] = {w->v_x, w->v_r, w->omega_m}, *spins[] = {w->omega_x, w->omega_r, w->omega_t};
+    for (int i = 0; i < 3; i++) {
+        memcpy(places[i], &y[Y_BALL_X + i * Z], Z * sizeof *y);
+        memcpy(velocities[i], &y[Y_BALL_V_X + i * Z], Z * sizeof *y);
+        memcpy(spins[i], &y[Y_BALL_OMEGA_X + i * Z], Z * sizeof *y);
+    }
     for (int b = 0; b < BUNDLES; b++) {
         const int j = b * LANE_WIDTH;
         real cosine, sine;
@@ -43,5 +47,8 @@ void ball_acceleration(const Model *model, const Work *w, number *y_dot)
     memcpy(&y_dot[Y_BALL_X], w->v_x, Z * sizeof *y_dot);
     memcpy(&y_dot[Y_BALL_R], w->v_r, Z * sizeof *y_dot);
     memcpy(&y_dot[Y_BALL_THETA], w->omega_m, Z * sizeof *y_dot);
-    for (int i = 0; i < 6; i++) memcpy(&y_dot[Y_BALL_V_X + i * Z], rows[i], Z * sizeof *y_dot);
+    for (int i = 0; i < 3; i++) {
+        memcpy(&y_dot[Y_BALL_V_X + i * Z], rows[i], Z * sizeof *y_dot);
+        memcpy(&y_dot[Y_BALL_OMEGA_X + i * Z], rows[3 + i], Z * sizeof *y_dot);
+    }
 }

@@ -1,7 +1,6 @@
 // One instance: life cycle, stepping, peaks and statistics over accepted steps, saved state.
 #include "aligned.h"
 #include "drive.h"
-#include "elementary.h"
 #include "energy.h"
 #include "instance.h"
 #include "jacobian.h"
@@ -143,7 +142,7 @@ const Outputs *bearing_outputs(const Bearing *b)
 }
 double *bearing_state(Bearing *b)
 {
-    return b->s.integrator.y;
+    return b->s.integrator.now.y;
 }
 double bearing_time(const Bearing *b)
 {
@@ -164,7 +163,6 @@ static void derive(Bearing *b)
     hold_drive(b);
     work_init(&b->d, &b->w);
     integrator_tolerance(b->integrator, b->s.tolerance);
-    integrator_restored(b->integrator);
     b->current = 0;
     b->evaluated = false;
 }
@@ -174,7 +172,7 @@ static void evaluate(Bearing *b)
 {
     if (b->evaluated) return;
     const IntegratorState *i = &b->s.integrator;
-    b->kernels.rhs(&b->model, i->t, i->y, b->y_dot, &b->w);
+    b->kernels.rhs(&b->model, i->t, i->now.y, b->y_dot, &b->w);
     b->evaluated = true;
 }
 
@@ -188,9 +186,8 @@ BearingStatus bearing_initialize(Bearing *b, double t_start, double tolerance)
     s->seen_dot = s->u[1];
     s->integrator.t = t_start;
     s->integrator.h = 1e-6;
-    s->integrator.path = s->p.solver.method == METHOD_IMEX ? PATH_IMEX : PATH_EXPLICIT;
     derive(b);
-    const double residual = start_state(&b->kernels, &b->model, &b->w, s->integrator.y);
+    const double residual = start_state(&b->kernels, &b->model, &b->w, s->integrator.now.y);
     const double load = fabs(b->drive.F[0]) + fabs(b->drive.F[1]) + fabs(b->drive.F[2]);
     BearingStatus status = BEARING_OK;
     if (!(residual < 1e-6 * (load + 1.0))) {
@@ -199,7 +196,7 @@ BearingStatus bearing_initialize(Bearing *b, double t_start, double tolerance)
     }
     integrator_evaluate(b->integrator);
     if (!check_start(b)) return BEARING_ERROR;
-    s->energy_start = energy_total(&b->model, s->integrator.y, &b->w);
+    s->energy_start = energy_total(&b->model, s->integrator.now.y, &b->w);
     accepted_step(b, 0.0, &b->w);
     report_events(b);
     s->initialized = 1;
@@ -207,24 +204,6 @@ BearingStatus bearing_initialize(Bearing *b, double t_start, double tolerance)
 }
 
 // ---- stepping -----------------------------------------------------------------------------------------------------------------------------------
-// Explicit or IMEX from the largest stiff rate: an explicit step is bounded by 2.5/rate (real axis), accuracy bounds it at about 8 us
-// times (tolerance/1e-3)^(1/3), measured where nothing is stiff; an IMEX evaluation costs 1.5 explicit ones.  Back to explicit only where nothing is lost.
-static void choose_path(Bearing *b, double elapsed)
-{
-    Saved *s = &b->s;
-    integrator_evaluate(b->integrator);
-    s->stiffness += (s->integrator.stiffness - s->stiffness) * (elapsed < 1e-3 ? elapsed / 1e-3 : 1.0);
-    if (s->p.solver.method != METHOD_AUTO) {
-        s->integrator.path = s->p.solver.method == METHOD_IMEX ? PATH_IMEX : PATH_EXPLICIT;
-        return;
-    }
-    const double h_accurate = 8e-6 * portable_cbrt(fmin(s->tolerance / 1e-3, 1.0)), h_stable = 2.5 / fmax(s->stiffness, 1.0);
-    if (h_stable < h_accurate / 1.5)
-        s->integrator.path = PATH_IMEX;
-    else if (h_stable > h_accurate)
-        s->integrator.path = PATH_EXPLICIT;
-}
-
 // The inputs' course from here to the next edge of a pulse, in a step that began at t_0.  Where the drive jumps, the known derivative is obsolete.
 static void begin_course(Bearing *b, double t_0)
 {
@@ -235,7 +214,6 @@ static void begin_course(Bearing *b, double t_0)
     drive_at(&b->course, s->integrator.t, &b->drive);
     if (memcmp(&b->drive, &before, sizeof before) == 0) return;
     s->integrator.known = 0;
-    integrator_restored(b->integrator);
 }
 
 static void end_course(Bearing *b)
@@ -257,7 +235,6 @@ BearingStatus bearing_step(Bearing *b, double t_end)
 
     int status = 0;
     begin_course(b, t_begin);
-    choose_path(b, t_end - t_begin);
     while (status == 0 && s->integrator.t < t_end) {
         begin_course(b, t_begin);  // at the edges of pulses
         const double edge = drive_next_edge(&s->p, s->integrator.t);
@@ -297,7 +274,7 @@ static void differentiate(Bearing *b, double dt, const Inputs *du, const double 
     const Inputs u[INPUT_ORDERS + 1] = {s->seen, s->seen_dot};
     Course course;
     course_update(&s->p, u, s->integrator.t, s->integrator.t, &course);
-    jacobian_outputs(&b->model, &course, s->integrator.t, dt, du, s->integrator.y, dy, derivatives);
+    jacobian_outputs(&b->model, &course, s->integrator.t, dt, du, s->integrator.now.y, dy, derivatives);
 }
 
 void bearing_time_derivatives(Bearing *b, Outputs *derivatives)

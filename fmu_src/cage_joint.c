@@ -55,6 +55,42 @@ INLINE real cage_joint_friction(real k, real capacity, real z_y, real z_z, real 
     return k * rate * (z_y * z_y + z_z * z_z);
 }
 
+#ifndef DUAL
+// z += h z'/(1 + h D/2), D = speed k/capacity: the implicit midpoint rule.
+static void advance(const Work *w, double h, double k, const double *capacity, int row_y, int row_z, double *y)
+{
+    lanes z_y = {0}, z_z = {0};
+    memcpy(z_y, &y[row_y], Z * sizeof *y);
+    memcpy(z_z, &y[row_z], Z * sizeof *y);
+    for (int b = 0; b < BUNDLES; b++) {
+        const int i = b * LANE_WIDTH;
+        const real v_y = real_load(&w->v_jy[i]), v_z = real_load(&w->v_jz[i]);
+        const real rate = real_sqrt(v_y * v_y + v_z * v_z) * k / real_load(&capacity[i]), per = h / (1.0 + (0.5 * h) * rate);
+        const real a = real_load(&z_y[i]), c = real_load(&z_z[i]);
+        real_store(&z_y[i], a + (v_y - rate * a) * per);
+        real_store(&z_z[i], c + (v_z - rate * c) * per);
+    }
+    memcpy(&y[row_y], z_y, Z * sizeof *y);
+    memcpy(&y[row_z], z_z, Z * sizeof *y);
+}
+
+void cage_joint_advance(const Model *model, const Work *w, double h, double *y)
+{
+    const Derived *d = model->d;
+    const double mu = model->p->joint.mu, floor = model->p->joint.F_floor;
+    const real zero = real_set(0.0);
+    lanes plates, heads;
+    for (int b = 0; b < BUNDLES; b++) {
+        const int k = b * LANE_WIDTH;
+        const real u_x = real_load(&w->u_x[k]);
+        real_store(&plates[k], mu * real_max(d->P - d->k_plate * u_x, zero) + floor);
+        real_store(&heads[k], mu * real_max(d->P + d->k_rivet * u_x, zero) + floor);
+    }
+    advance(w, h, d->k_plate_t, plates, Y_JOINT_PLATE_Y, Y_JOINT_PLATE_Z, y);
+    advance(w, h, d->k_head, heads, Y_JOINT_HEAD_Y, Y_JOINT_HEAD_Z, y);
+}
+#endif
+
 void cage_joint_force(const Model *model, const number *y, Work *w)
 {
     const Parameters *p = model->p;

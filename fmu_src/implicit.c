@@ -1,260 +1,322 @@
-// The blocks of A, from the results of the right-hand side.
+// What holds back velocities, in blocks:
 //
-//   ball   traction of a race contact holds back its slip: F = -g P (v + omega x R n), M = R n x F, P = 1 - n n^T, g = |traction|/|slip|.
-//          In (v, omega): A = sum g B^T P B, B = (1, -R [n]x), over mass and inertia; the pockets' friction enters by its diagonal
-//   half   the land film holds back the land's velocity: F = -K (v_y + gamma_dot x, v_z - beta_dot x), K symmetric 2 x 2, x the land's lever;
-//          Couette drag and dry friction hold back the spin.  A rigid cage feels both lands with both masses
-//   joint  friction states: their own rates
+//   ball    traction of a race contact holds back its slip: F = -g P (v + omega x R n), M = R n x F, P = 1 - n n^T, g = |traction|/|slip|;
+//           its normal force the approach, with rate lambda Q and stiffness 3 Q/(2 delta) along n; the pockets' friction by its diagonal
+//   half    the film holds back the land's velocity: F = -C (v_y + gamma_dot x, v_z - beta_dot x), C symmetric 2 x 2, x the land's lever;
+//           Couette drag and dry friction hold back the spin; plates and rivets the axial motion of one half against the other
+//   ring    its support
 //
-// Rolling couples the velocities of a ball as strongly as each is damped, so a diagonal alone leaves stiff terms in the explicit part.
-// Scaled by the roots of mass and inertia the blocks are symmetric and positive semidefinite: 1 + gamma A has a Cholesky factor.
+// Rolling couples the velocities of a ball as strongly as each is damped, so a diagonal alone would leave stiff terms outside.
 #include "implicit.h"
 
-#define AT(i, k) ((i) * ((i) + 1) / 2 + (k))  // row i, column k <= i of a triangle
-static const int BALL_ROW[BALL_BLOCK] = {Y_BALL_V_X, Y_BALL_V_R, Y_BALL_OMEGA_M, Y_BALL_OMEGA_X, Y_BALL_OMEGA_R, Y_BALL_OMEGA_T};
-static const int HALF_ROW[HALF_BLOCK] = {Y_CAGE_V_Y, Y_CAGE_V_Z, Y_CAGE_BETA_DOT, Y_CAGE_GAMMA_DOT, Y_CAGE_S};
+#include "rotor.h"
 
 // ---- balls --------------------------------------------------------------------------------------------------------------------------------------
-// Adds g B^T P B of one contact; P W = W as W omega = omega x R n lies across n.
-INLINE void add_contact(const Derived *d, real g, real R, const real n[3], real A[BALL_TERMS])
+static const double MUCH = 2.0;  // gamma A of a ball from which trapezoidal steps overshoot: (1 - z)/(1 + z) < -1/3
+enum { BLOCK = 6, TERMS = BLOCK * (BLOCK + 1) / 2 };
+#define AT(i, k) ((i) * ((i) + 1) / 2 + (k))  // row i, column k <= i of a triangle
+
+// Adds B^T (g P + normal n n^T) B, B = (1, -R [n]x).
+INLINE void add_contact(real g, real normal, real R, const real n[3], real A[TERMS])
 {
-    const real g_m = g * (1.0 / d->m), g_J = g * R * R * (1.0 / d->J), g_mJ = g * R * (1.0 / sqrt(d->m * d->J));
+    const real g_R = g * R, g_RR = g_R * R;
     for (int i = 0; i < 3; i++) {
         for (int k = 0; k <= i; k++) {
-            const real P = (i == k ? 1.0 : 0.0) - n[i] * n[k];
-            A[AT(i, k)] += g_m * P;
-            A[AT(3 + i, 3 + k)] += g_J * P;
+            const real nn = n[i] * n[k];
+            A[AT(i, k)] += (normal - g) * nn;
+            A[AT(3 + i, 3 + k)] -= g_RR * nn;
         }
+        A[AT(i, i)] += g;
+        A[AT(3 + i, 3 + i)] += g_RR;
     }
-    A[AT(3, 1)] -= g_mJ * n[2];  // (omega x n)_r = omega_t n_x - omega_x n_t, and so on
-    A[AT(3, 2)] += g_mJ * n[1];
-    A[AT(4, 0)] += g_mJ * n[2];
-    A[AT(4, 2)] -= g_mJ * n[0];
-    A[AT(5, 0)] -= g_mJ * n[1];
-    A[AT(5, 1)] += g_mJ * n[0];
+    A[AT(3, 1)] -= g_R * n[2];  // (omega x n)_r = omega_t n_x - omega_x n_t, and so on
+    A[AT(3, 2)] += g_R * n[1];
+    A[AT(4, 0)] += g_R * n[2];
+    A[AT(4, 2)] -= g_R * n[0];
+    A[AT(5, 0)] -= g_R * n[1];
+    A[AT(5, 1)] += g_R * n[0];
 }
 
-static void set_balls(const Model *model, const Work *w, Implicit *A)
+// x = A^-1 x of a symmetric positive definite A, which becomes its factors L, D.
+INLINE void solve_block(real A[TERMS], real x[BLOCK])
+{
+    real per[BLOCK];
+    for (int i = 0; i < BLOCK; i++) {
+        for (int k = 1; k < i; k++)
+            for (int q = 0; q < k; q++) A[AT(i, k)] -= A[AT(i, q)] * A[AT(k, q)];
+        for (int k = 0; k < i; k++) {
+            const real l = A[AT(i, k)] * per[k];
+            A[AT(i, i)] -= l * A[AT(i, k)];
+            A[AT(i, k)] = l;
+            x[i] -= l * x[k];
+        }
+        per[i] = 1.0 / A[AT(i, i)];
+    }
+    for (int i = BLOCK - 1; i >= 0; i--) {
+        x[i] *= per[i];
+        for (int k = i + 1; k < BLOCK; k++) x[i] -= A[AT(k, i)] * x[k];
+    }
+}
+
+// gamma lambda Q + gamma^2 3 Q/(2 delta) of a race contact.
+INLINE real normal_rate(const Model *model, double gamma, real Q, real delta)
+{
+    const real k = real_select(real_above(delta, 0.0), 1.5 * Q / real_max(delta, real_set(1e-12)), real_set(0.0));
+    return gamma * (model->p->bearing.lambda * Q + gamma * k);
+}
+
+// M (1 + gamma A + gamma^2 K) of one bundle, K only if asked for; returns gamma A's trace / 2: the two tangents of a contact share it.
+INLINE real bundle_matrix(const Model *model, const Work *w, int j, double gamma, bool stiff, real A[TERMS])
 {
     const Derived *d = model->d;
-    const real root_m = real_set(sqrt(d->m)), root_J = real_set(sqrt(d->J));
-    const double *pocket[BALL_BLOCK] = {w->D_x, w->D_r, w->D_t, w->D_omega_x, w->D_omega_r, w->D_omega_t};
-    for (int b = 0; b < BUNDLES; b++) {
-        const int j = b * LANE_WIDTH;
-        const real R = real_load(&d->R[j]), zero = real_set(0.0);
-        const real n_i[3] = {real_load(&w->n_ix[j]), real_load(&w->n_ir[j]), real_load(&w->n_it[j])};
-        const real n_e[3] = {real_load(&w->n_ex[j]), real_load(&w->n_er[j]), zero};
-        real a[BALL_TERMS];
-        for (int i = 0; i < BALL_TERMS; i++) a[i] = zero;
-        add_contact(d, real_load(&w->g_i[j]), R, n_i, a);
-        add_contact(d, real_load(&w->g_e[j]), R, n_e, a);
-        for (int i = 0; i < BALL_BLOCK; i++) {
-            const real scale = i == 2 ? root_m * real_load(&w->r[j]) : i < 3 ? root_m : root_J;  // omega_m stands for v_t/r
-            a[AT(i, i)] += real_load(&pocket[i][j]);
-            real_store(&A->ball_scale[i][j], scale);
-            real_store(&A->ball_per_scale[i][j], 1.0 / scale);
-        }
-        for (int i = 0; i < BALL_TERMS; i++) real_store(&A->ball[i][j], a[i]);
+    const double *pocket[BLOCK] = {w->D_x, w->D_r, w->D_t, w->D_omega_x, w->D_omega_r, w->D_omega_t};
+    const real R = real_load(&d->R[j]), zero = real_set(0.0);
+    const real n_i[3] = {real_load(&w->n_ix[j]), real_load(&w->n_ir[j]), real_load(&w->n_it[j])};
+    const real n_e[3] = {real_load(&w->n_ex[j]), real_load(&w->n_er[j]), zero};
+    const real normal_i = stiff ? normal_rate(model, gamma, real_load(&w->Q_i[j]), real_load(&w->delta_i[j])) : zero;
+    const real normal_e = stiff ? normal_rate(model, gamma, real_load(&w->Q_e[j]), real_load(&w->delta_e[j])) : zero;
+    real trace = zero;
+    for (int i = 0; i < TERMS; i++) A[i] = zero;
+    add_contact(gamma * real_load(&w->g_i[j]), normal_i, R, n_i, A);
+    add_contact(gamma * real_load(&w->g_e[j]), normal_e, R, n_e, A);
+    for (int i = 0; i < BLOCK; i++) {
+        const double inertia = i < 3 ? model->d->m : model->d->J;
+        A[AT(i, i)] += (gamma * inertia) * real_load(&pocket[i][j]);
+        trace += A[AT(i, i)] * (0.5 / inertia);
+        A[AT(i, i)] += inertia;
     }
-    for (int j = 0; j < Z; j++) {
-        double trace = 0.0;
-        for (int i = 0; i < BALL_BLOCK; i++) trace += A->ball[AT(i, i)][j];
-        A->largest = fmax(A->largest, 0.5 * trace);  // the two tangents of a contact share it
+    return trace;
+}
+
+static const int BALL_ROW[BLOCK] = {Y_BALL_V_X, Y_BALL_V_R, Y_BALL_OMEGA_M, Y_BALL_OMEGA_X, Y_BALL_OMEGA_R, Y_BALL_OMEGA_T};
+
+static void load_balls(const double *v, lanes rows[BLOCK])
+{
+    for (int i = 0; i < BLOCK; i++) {
+        memset(&rows[i][LANES - 8], 0, 8 * sizeof(double));
+        memcpy(rows[i], &v[BALL_ROW[i]], Z * sizeof *v);
     }
 }
 
-static void factor_balls(Implicit *A, double gamma)
+static void store_balls(lanes rows[BLOCK], double *v)
 {
-    for (int b = 0; b < BUNDLES; b++) {
-        const int j = b * LANE_WIDTH;
-        real l[BALL_TERMS];
-        for (int i = 0; i < BALL_BLOCK; i++) {
-            for (int k = 0; k <= i; k++) {
-                real sum = gamma * real_load(&A->ball[AT(i, k)][j]);
-                if (i == k) sum += 1.0;
-                for (int q = 0; q < k; q++) sum -= l[AT(i, q)] * l[AT(k, q)];
-                l[AT(i, k)] = i == k ? 1.0 / real_sqrt(sum) : sum * l[AT(k, k)];
-            }
-        }
-        for (int i = 0; i < BALL_TERMS; i++) real_store(&A->ball_factor[i][j], l[i]);
-    }
+    for (int i = 0; i < BLOCK; i++) memcpy(&v[BALL_ROW[i]], rows[i], Z * sizeof *v);
 }
 
-static void add_balls(const Implicit *A, const double *y, const double *y_n, double *f)
+// x = A^-1 M x of one bundle of rows.
+INLINE void solve_bundle(const Model *model, const Work *w, int j, real A[TERMS], lanes rows[BLOCK], real x[BLOCK])
 {
-    lanes rows[BALL_BLOCK];
-    for (int i = 0; i < BALL_BLOCK; i++)
-        for (int j = 0; j < LANES; j++) rows[i][j] = j < Z ? y[BALL_ROW[i] + j] - y_n[BALL_ROW[i] + j] : 0.0;
-    for (int b = 0; b < BUNDLES; b++) {
-        const int j = b * LANE_WIDTH;
-        real v[BALL_BLOCK];
-        for (int i = 0; i < BALL_BLOCK; i++) v[i] = real_load(&rows[i][j]) * real_load(&A->ball_scale[i][j]);
-        for (int i = 0; i < BALL_BLOCK; i++) {
-            real sum = real_set(0.0);
-            for (int k = 0; k < BALL_BLOCK; k++) sum += real_load(&A->ball[i >= k ? AT(i, k) : AT(k, i)][j]) * v[k];
-            real_store(&rows[i][j], sum * real_load(&A->ball_per_scale[i][j]));
-        }
-    }
-    for (int i = 0; i < BALL_BLOCK; i++)
-        for (int j = 0; j < Z; j++) f[BALL_ROW[i] + j] += rows[i][j];
+    const double m = model->d->m, J = model->d->J;
+    const real r = real_load(&w->r[j]);
+    for (int i = 0; i < BLOCK; i++) x[i] = real_load(&rows[i][j]) * (i < 3 ? m : J);
+    x[2] *= r;  // v_t = r omega_m
+    solve_block(A, x);
+    x[2] /= r;
 }
 
-static void solve_balls(const Implicit *A, double *x)
+static void solve_balls(const Model *model, const Work *w, double gamma, double *v)
 {
-    lanes rows[BALL_BLOCK];
-    for (int i = 0; i < BALL_BLOCK; i++)
-        for (int j = 0; j < LANES; j++) rows[i][j] = j < Z ? x[BALL_ROW[i] + j] : 0.0;
-    for (int b = 0; b < BUNDLES; b++) {
-        const int j = b * LANE_WIDTH;
-        real v[BALL_BLOCK];
-        for (int i = 0; i < BALL_BLOCK; i++) {
-            v[i] = real_load(&rows[i][j]) * real_load(&A->ball_scale[i][j]);
-            for (int k = 0; k < i; k++) v[i] -= real_load(&A->ball_factor[AT(i, k)][j]) * v[k];
-            v[i] *= real_load(&A->ball_factor[AT(i, i)][j]);
-        }
-        for (int i = BALL_BLOCK - 1; i >= 0; i--) {
-            for (int k = i + 1; k < BALL_BLOCK; k++) v[i] -= real_load(&A->ball_factor[AT(k, i)][j]) * v[k];
-            v[i] *= real_load(&A->ball_factor[AT(i, i)][j]);
-            real_store(&rows[i][j], v[i] * real_load(&A->ball_per_scale[i][j]));
-        }
+    lanes rows[BLOCK];
+    load_balls(v, rows);
+    for (int j = 0; j < BUNDLES * LANE_WIDTH; j += LANE_WIDTH) {
+        real A[TERMS], x[BLOCK];
+        bundle_matrix(model, w, j, gamma, true, A);
+        solve_bundle(model, w, j, A, rows, x);
+        for (int i = 0; i < BLOCK; i++) real_store(&rows[i][j], x[i]);
     }
-    for (int i = 0; i < BALL_BLOCK; i++) memcpy(&x[BALL_ROW[i]], rows[i], Z * sizeof *x);
+    store_balls(rows, v);
+}
+
+static void held_balls(const Model *model, const Work *w, double gamma, double *v)
+{
+    lanes rows[BLOCK];
+    load_balls(v, rows);
+    for (int j = 0; j < BUNDLES * LANE_WIDTH; j += LANE_WIDTH) {
+        real A[TERMS], x[BLOCK];
+        const bits much = real_above(bundle_matrix(model, w, j, gamma, false, A), MUCH);
+        const bool any = real_any(much);
+        if (any) solve_bundle(model, w, j, A, rows, x);
+        for (int i = 0; i < BLOCK; i++) real_store(&rows[i][j], any ? real_select(much, real_load(&rows[i][j]) - x[i], real_set(0.0)) : real_set(0.0));
+    }
+    store_balls(rows, v);
 }
 
 // ---- cage halves --------------------------------------------------------------------------------------------------------------------------------
-static void set_halves(const Model *model, const Work *w, Implicit *A)
+typedef struct {
+    double x, y, z, beta, gamma, s;
+} Half;  // velocities of one half
+
+typedef struct {
+    double m, J_p, J_t, x, yy, yz, zz, spin;
+} Film;  // body and lever of a land; what it feels is held back by (1/gamma C^-1 + 1/m + x^2/J_t)^-1, its spin by 1/(1 + spin)
+
+static Film film(const Work *w, int land, double m, double J_p, double J_t, double x, double gamma)
+{
+    const double per_m = 1.0 / m + x * x / J_t, yy = gamma * w->film_yy[land], yz = gamma * w->film_yz[land], zz = gamma * w->film_zz[land];
+    const double a = 1.0 + per_m * yy, b = per_m * yz, c = 1.0 + per_m * zz, per = 1.0 / (a * c - b * b);
+    return (Film){m, J_p, J_t, x, (yy * c - yz * b) * per, (yz * a - yy * b) * per, (zz * a - yz * b) * per, gamma * w->film_spin[land] / J_p};
+}
+
+static void film_solve(const Film *f, Half *v)
+{
+    const double u_y = v->y + v->gamma * f->x, u_z = v->z - v->beta * f->x;
+    const double I_y = f->yy * u_y + f->yz * u_z, I_z = f->yz * u_y + f->zz * u_z;
+    v->y -= I_y / f->m;
+    v->z -= I_z / f->m;
+    v->gamma -= f->x * I_y / f->J_t;
+    v->beta += f->x * I_z / f->J_t;
+    v->s /= 1.0 + f->spin;
+}
+
+// Lands that act on half h: one, or both on a rigid cage.  Returns their number.
+static int films(const Model *model, const Work *w, int h, double gamma, Film f[2])
 {
     const Parameters *p = model->p;
+    const double m = p->cage.m, J_p = p->cage.J_p, J_t = p->cage.J_t, x_c = p->cage.x_c;
+    if (p->scene.cage == CAGE_MODEL_TWO_HALF) {
+        f[0] = film(w, h, m, J_p, J_t, (h == 0 ? -p->cage.land_x : p->cage.land_x) - model->d->com_x[h], gamma);
+        return 1;
+    }
+    for (int land = 0; land < 2; land++)
+        f[land] = film(w, land, 2.0 * m, 2.0 * J_p, 2.0 * (J_t + m * x_c * x_c), land == 0 ? -p->cage.land_x : p->cage.land_x, gamma);
+    return 2;
+}
+
+static Half half_load(const double *v, int h)
+{
+    return (Half){v[Y_CAGE_V_X + h], v[Y_CAGE_V_Y + h], v[Y_CAGE_V_Z + h], v[Y_CAGE_BETA_DOT + h], v[Y_CAGE_GAMMA_DOT + h], v[Y_CAGE_S + h]};
+}
+
+static void half_store(const Half *half, double *v, int h)
+{
+    v[Y_CAGE_V_X + h] = half->x, v[Y_CAGE_V_Y + h] = half->y, v[Y_CAGE_V_Z + h] = half->z;
+    v[Y_CAGE_BETA_DOT + h] = half->beta, v[Y_CAGE_GAMMA_DOT + h] = half->gamma, v[Y_CAGE_S + h] = half->s;
+}
+
+// Sum over rivets of (gamma c + gamma^2 k) b b^T, b = (1, z, -y): what holds back v_x, beta_dot, gamma_dot of half 1 against half 0.
+static void joint_matrix(const Model *model, const Work *w, double gamma, double A[3][3])
+{
     const Derived *d = model->d;
-    const bool rigid = p->scene.cage == CAGE_MODEL_RIGID;
-    const double m = (rigid ? 2.0 : 1.0) * p->cage.m, J_p = (rigid ? 2.0 : 1.0) * p->cage.J_p;
-    const double J_t = rigid ? 2.0 * (p->cage.J_t + p->cage.m * p->cage.x_c * p->cage.x_c) : p->cage.J_t;
-    const double scale = sqrt(J_t / m);
-    for (int i = 0; i < HALF_BLOCK; i++) {
-        A->half_scale[i] = i == 2 || i == 3 ? scale : 1.0;
-        A->half_per_scale[i] = 1.0 / A->half_scale[i];
+    const Rotor *h0 = &w->half[0];
+    lanes rate, rate_y, rate_z, rate_yy, rate_yz, rate_zz;
+    const real zero = real_set(0.0);
+    for (int k = 0; k < BUNDLES * LANE_WIDTH; k += LANE_WIDTH) {
+        const real T = real_load(&w->T[k]), N_plate = real_load(&w->N_plate[k]), s_y = real_load(&d->rivet_y[k]), s_z = real_load(&d->rivet_z[k]);
+        const real y = s_y * h0->b_y[1] + s_z * h0->b_z[1], z = s_y * h0->b_y[2] + s_z * h0->b_z[2];
+        const real stiffness = real_select(real_above(T, 0.0), real_set(d->k_rivet), zero) + real_select(real_above(N_plate, 0.0), real_set(d->k_plate), zero);
+        const real rate_k = gamma * (d->c_joint * N_plate / (N_plate + model->p->joint.F_floor) + gamma * stiffness);
+        real_store(&rate[k], rate_k);
+        real_store(&rate_y[k], rate_k * y);
+        real_store(&rate_z[k], rate_k * z);
+        real_store(&rate_yy[k], rate_k * y * y);
+        real_store(&rate_yz[k], rate_k * y * z);
+        real_store(&rate_zz[k], rate_k * z * z);
     }
-    memset(A->half, 0, sizeof A->half);
+    A[0][0] = lanes_sum(rate), A[1][0] = A[0][1] = lanes_sum(rate_z), A[2][0] = A[0][2] = -lanes_sum(rate_y);
+    A[1][1] = lanes_sum(rate_zz), A[2][1] = A[1][2] = -lanes_sum(rate_yz), A[2][2] = lanes_sum(rate_yy);
+}
+
+// x = B^-1 x by Cramer's rule.
+static void solve_3(double B[3][3], double x[3])
+{
+    double minor[3][3], out[3];
+    for (int i = 0; i < 3; i++)
+        for (int k = 0; k < 3; k++) {
+            const int a = (i + 1) % 3, b = (i + 2) % 3, c = (k + 1) % 3, e = (k + 2) % 3;
+            minor[i][k] = B[a][c] * B[b][e] - B[a][e] * B[b][c];
+        }
+    const double per = 1.0 / (B[0][0] * minor[0][0] + B[0][1] * minor[0][1] + B[0][2] * minor[0][2]);
+    for (int i = 0; i < 3; i++) out[i] = (minor[0][i] * x[0] + minor[1][i] * x[1] + minor[2][i] * x[2]) * per;
+    memcpy(x, out, sizeof out);
+}
+
+// Impulses x of the joints: (1 + A G) x = A dv, dv their velocities without, G what they feel of both halves held by their films.
+static void solve_joints(const Model *model, const Work *w, double gamma, const Film f[2], Half half[2])
+{
+    double A[3][3], B[3][3], x[3], G_xx = 0.0, G_bb = 0.0, G_bg = 0.0, G_gg = 0.0;
+    joint_matrix(model, w, gamma, A);
     for (int h = 0; h < 2; h++) {
-        for (int land = 0; land < 2; land++) {
-            if (!rigid && land != h) continue;
-            const double x = (land == 0 ? -p->cage.land_x : p->cage.land_x) - (rigid ? 0.0 : d->com_x[h]);
-            const double B[2][HALF_BLOCK] = {{1.0, 0.0, 0.0, x / scale, 0.0}, {0.0, 1.0, -x / scale, 0.0, 0.0}};
-            const double K[2][2] = {{w->film_yy[land] / m, w->film_yz[land] / m}, {w->film_yz[land] / m, w->film_zz[land] / m}};
-            for (int i = 0; i < HALF_BLOCK; i++)
-                for (int k = 0; k < HALF_BLOCK; k++)
-                    for (int u = 0; u < 2; u++)
-                        for (int v = 0; v < 2; v++) A->half[h][i][k] += B[u][i] * K[u][v] * B[v][k];
-            A->half[h][4][4] += w->film_spin[land] / J_p;
-        }
-        double trace = 0.0;
-        for (int i = 0; i < HALF_BLOCK; i++) trace += A->half[h][i][i];
-        A->largest = fmax(A->largest, trace);
+        const double lever = f[h].x / f[h].J_t;
+        G_xx += 1.0 / f[h].m;
+        G_bb += 1.0 / f[h].J_t - lever * lever * f[h].zz;
+        G_bg += lever * lever * f[h].yz;
+        G_gg += 1.0 / f[h].J_t - lever * lever * f[h].yy;
+    }
+    const double dv[3] = {half[1].x - half[0].x, half[1].beta - half[0].beta, half[1].gamma - half[0].gamma};
+    for (int i = 0; i < 3; i++) {
+        B[i][0] = (i == 0) + A[i][0] * G_xx;
+        B[i][1] = (i == 1) + A[i][1] * G_bb + A[i][2] * G_bg;
+        B[i][2] = (i == 2) + A[i][1] * G_bg + A[i][2] * G_gg;
+        x[i] = A[i][0] * dv[0] + A[i][1] * dv[1] + A[i][2] * dv[2];
+    }
+    solve_3(B, x);
+    for (int h = 0; h < 2; h++) {
+        const double sign = h == 0 ? 1.0 : -1.0;
+        Half change = {sign * x[0] / f[h].m, 0.0, 0.0, sign * x[1] / f[h].J_t, sign * x[2] / f[h].J_t, 0.0};
+        film_solve(&f[h], &change);
+        half[h].x += change.x, half[h].y += change.y, half[h].z += change.z, half[h].beta += change.beta, half[h].gamma += change.gamma;
     }
 }
 
-static void factor_halves(Implicit *A, double gamma)
+static void solve_halves(const Model *model, const Work *w, double gamma, double *v)
+{
+    Film f[2][2];
+    Half half[2];
+    for (int h = 0; h < 2; h++) {
+        half[h] = half_load(v, h);
+        const int count = films(model, w, h, gamma, f[h]);
+        for (int land = 0; land < count; land++) film_solve(&f[h][land], &half[h]);
+    }
+    if (model->p->scene.cage == CAGE_MODEL_TWO_HALF) solve_joints(model, w, gamma, (Film[2]){f[0][0], f[1][0]}, half);
+    for (int h = 0; h < 2; h++) half_store(&half[h], v, h);
+}
+
+static void held_halves(const Model *model, const Work *w, double gamma, double *v)
 {
     for (int h = 0; h < 2; h++) {
-        double (*l)[HALF_BLOCK] = A->half_factor[h];
-        for (int i = 0; i < HALF_BLOCK; i++) {
-            for (int k = 0; k <= i; k++) {
-                double sum = (i == k) + gamma * A->half[h][i][k];
-                for (int q = 0; q < k; q++) sum -= l[i][q] * l[k][q];
-                l[i][k] = i == k ? 1.0 / sqrt(sum) : sum * l[k][k];
-            }
-        }
+        Film f[2];
+        Half half = half_load(v, h);
+        const Half before = half;
+        const int count = films(model, w, h, gamma, f);
+        for (int land = 0; land < count; land++) film_solve(&f[land], &half);
+        const Half held = {0.0, before.y - half.y, before.z - half.z, before.beta - half.beta, before.gamma - half.gamma, before.s - half.s};
+        half_store(&held, v, h);
     }
 }
 
-static void add_halves(const Implicit *A, const double *y, const double *y_n, double *f)
+// ---- ring -----------------------------------------------------------------------------------------------------------------------------------------
+static void solve_ring(const Model *model, double gamma, double *v)
 {
-    for (int h = 0; h < 2; h++) {
-        double v[HALF_BLOCK];
-        for (int i = 0; i < HALF_BLOCK; i++) v[i] = (y[HALF_ROW[i] + h] - y_n[HALF_ROW[i] + h]) * A->half_scale[i];
-        for (int i = 0; i < HALF_BLOCK; i++) {
-            double sum = 0.0;
-            for (int k = 0; k < HALF_BLOCK; k++) sum += A->half[h][i][k] * v[k];
-            f[HALF_ROW[i] + h] += sum * A->half_per_scale[i];
-        }
-    }
+    const Parameters *p = model->p;
+    const double rate = gamma / p->ring.tilt_time;
+    double held = 0.0;
+    if (p->ring.tilt_mode == TILT_MODE_PRESCRIBED) held = 2.0 * rate + rate * rate;
+    if (p->ring.tilt_mode == TILT_MODE_SUPPORTED) held = gamma * (p->ring.c_tilt + gamma * p->ring.k_tilt) / p->ring.J_t;
+    for (int i = 0; i < 3; i++) v[Y_RING_V_X + i] /= 1.0 + gamma * p->ring.c / p->ring.m;
+    v[Y_RING_BETA_DOT] /= 1.0 + held;
+    v[Y_RING_GAMMA_DOT] /= 1.0 + held;
 }
 
-static void solve_halves(const Implicit *A, double *x)
+static void held_ring(const Model *model, double gamma, double *v)
 {
-    for (int h = 0; h < 2; h++) {
-        const double (*l)[HALF_BLOCK] = A->half_factor[h];
-        double v[HALF_BLOCK];
-        for (int i = 0; i < HALF_BLOCK; i++) {
-            v[i] = x[HALF_ROW[i] + h] * A->half_scale[i];
-            for (int k = 0; k < i; k++) v[i] -= l[i][k] * v[k];
-            v[i] *= l[i][i];
-        }
-        for (int i = HALF_BLOCK - 1; i >= 0; i--) {
-            for (int k = i + 1; k < HALF_BLOCK; k++) v[i] -= l[k][i] * v[k];
-            v[i] *= l[i][i];
-            x[HALF_ROW[i] + h] = v[i] * A->half_per_scale[i];
-        }
-    }
-}
-
-// ---- friction states of the joints ----------------------------------------------------------------------------------------------------------------
-static const int JOINT_ROW[4] = {Y_JOINT_PLATE_Y, Y_JOINT_PLATE_Z, Y_JOINT_HEAD_Y, Y_JOINT_HEAD_Z};
-
-static void set_joints(const Model *model, const Work *w, Implicit *A)
-{
-    memset(A->plate, 0, sizeof A->plate);
-    memset(A->head, 0, sizeof A->head);
-    if (model->p->scene.cage == CAGE_MODEL_RIGID) return;
-    memcpy(A->plate, w->D_plate, sizeof A->plate);
-    memcpy(A->head, w->D_head, sizeof A->head);
-    for (int k = 0; k < Z; k++) A->largest = fmax(A->largest, fmax(A->plate[k], A->head[k]));
-}
-
-static void add_joints(const Implicit *A, const double *y, const double *y_n, double *f)
-{
-    for (int row = 0; row < 4; row++) {
-        const double *rate = row < 2 ? A->plate : A->head;
-        const int at = JOINT_ROW[row];
-        for (int k = 0; k < Z; k++) f[at + k] += rate[k] * (y[at + k] - y_n[at + k]);
-    }
-}
-
-static void solve_joints(const Implicit *A, double *x)
-{
-    for (int row = 0; row < 4; row++) {
-        const double *rate = row < 2 ? A->plate : A->head;
-        for (int k = 0; k < Z; k++) x[JOINT_ROW[row] + k] /= 1.0 + A->gamma * rate[k];
-    }
+    const Parameters *p = model->p;
+    const double support = gamma * p->ring.c / p->ring.m, tilt = p->ring.tilt_mode == TILT_MODE_SUPPORTED ? gamma * p->ring.c_tilt / p->ring.J_t : 0.0;
+    for (int i = 0; i < 3; i++) v[Y_RING_V_X + i] *= support / (1.0 + support);
+    v[Y_RING_BETA_DOT] *= tilt / (1.0 + tilt);
+    v[Y_RING_GAMMA_DOT] *= tilt / (1.0 + tilt);
 }
 
 // ---- all --------------------------------------------------------------------------------------------------------------------------------------------
-static void set(const Model *model, const Work *w, Implicit *A)
+void implicit_solve(const Model *model, const Work *w, double gamma, double *v)
 {
-    A->gamma = -1.0;
-    A->largest = 0.0;
-    set_balls(model, w, A);
-    set_halves(model, w, A);
-    set_joints(model, w, A);
+    solve_balls(model, w, gamma, v);
+    solve_halves(model, w, gamma, v);
+    solve_ring(model, gamma, v);
 }
 
-static void add(const Implicit *A, const double *y, const double *y_n, double *f)
+void implicit_held(const Model *model, const Work *w, double gamma, double *v)
 {
-    add_balls(A, y, y_n, f);
-    add_halves(A, y, y_n, f);
-    add_joints(A, y, y_n, f);
+    held_balls(model, w, gamma, v);
+    held_halves(model, w, gamma, v);
+    held_ring(model, gamma, v);
 }
-
-static void solve(Implicit *A, double gamma, double *x)
-{
-    if (gamma != A->gamma) {
-        factor_balls(A, gamma);
-        factor_halves(A, gamma);
-        A->gamma = gamma;
-    }
-    solve_balls(A, x);
-    solve_halves(A, x);
-    solve_joints(A, x);
-}
-
-const ImplicitOps implicit_ops = {set, add, solve};

@@ -22,7 +22,6 @@ typedef struct {
     IntegratorState integrator;
     double t_start, tolerance;
     double energy_start;
-    double stiffness;   // largest stiff rate, smoothed over about 1 ms [1/s]
     double force_peak;  // since the last communication point
     double head_peak[Z], mid_peak[Z];
     double dislocation_most, duty_time, omega_time, eccentricity_time;  // integrals over time since settle

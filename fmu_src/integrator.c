@@ -1,21 +1,18 @@
-// Two one-step methods of ARKODE on the same state:
+// Two one-step methods on the same state, with the same control of the error:
 //
-//   explicit   classical Runge-Kutta 4(3); its last stage is the next step's first.  Per evaluation its stability reaches furthest along the
-//              imaginary axis (2.83/4; Bogacki-Shampine 1.73/3, Dormand-Prince 1.0/6): contacts and riveted joints ring at 2.5e5...4e5 rad/s
-//   IMEX       ARK324L2SA: f = (f + A (y - y_n)) + (-A (y - y_n)) with the stiff blocks A (implicit.h) frozen at the start of each step: a stage's
-//              equation  z - y_n = s - gamma A (z - y_n)  is solved block by block, without iteration
+//   verlet     velocity Verlet, linearly implicit in what is stiff (verlet.c): second order, one evaluation a step, the default
+//   explicit   ARKODE's classical Runge-Kutta 4(3); its last stage is the next step's first.  For tolerances below about 1e-5, and as a check
 //
-// Each advance resets ARKODE with the remembered step size and a stop time, so that it is a pure function of IntegratorState: rollback and a
-// fresh instance continue bit for bit.  Error weights are absolute, 1/(tolerance scale): angles are unbounded.
+// Each advance is a pure function of IntegratorState: rollback and a fresh instance continue bit for bit (ARKODE is reset with the remembered
+// step size).  Error weights are absolute, 1/(tolerance scale): angles are unbounded.
 #include "integrator.h"
 
 #include "aligned.h"
+#include "elementary.h"
 
-#include <arkode/arkode_arkstep.h>
 #include <arkode/arkode_erkstep.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <sundials/sundials_nonlinearsolver.h>
 #include <sundials/sundials_nvector.h>
 
 struct Integrator {
@@ -27,12 +24,10 @@ struct Integrator {
     IntegratorLog *log;
     void *context;
     SUNContext sun;
-    N_Vector y;        // the step's result
-    void *stepper[2];  // by Path - 1
-    SUNNonlinearSolver stage;
+    N_Vector y;  // the step's result
+    void *arkode;
     double weight[N_STATES];
-    Implicit A;            // frozen over a step of the IMEX path
-    bool frozen;           // A belongs to the present state
+    VerletState trial;
     const double *latest;  // where ARKODE keeps the latest evaluation
     bool starting;         // the next evaluation is the one at (s->t, s->y)
     bool rehearsing;       // dy/dt = 0
@@ -170,12 +165,12 @@ static N_Vector vector_new(SUNContext sun, const VectorOps *vector_operations)
 static void evaluate(Integrator *in, double t, const double *y, double *f)
 {
     if (in->rehearsing) {
-        memset(f, 0, sizeof in->s->f);
+        memset(f, 0, sizeof in->s->now.f);
         return;
     }
     if (in->starting) {
         in->starting = false;
-        memcpy(f, in->s->f, sizeof in->s->f);
+        memcpy(f, in->s->now.f, sizeof in->s->now.f);
         return;
     }
     in->kernels->rhs(in->model, t, y, f, in->w);
@@ -192,74 +187,11 @@ static int explicit_rhs(sunrealtype t, N_Vector y, N_Vector f, void *user)
     return 0;
 }
 
-static int imex_explicit(sunrealtype t, N_Vector y, N_Vector f, void *user)
-{
-    Integrator *in = user;
-    evaluate(in, t, data(y), data(f));
-    in->kernels->implicit->add(&in->A, data(y), in->s->y, data(f));
-    return 0;
-}
-
-// -A (y - y_n): 0 at the step's start.  In the stages ARKODE takes it from the solved equation instead.
-static int imex_implicit(sunrealtype t, N_Vector y, N_Vector f, void *user)
-{
-    (void)t;
-    const Integrator *in = user;
-    memset(data(f), 0, sizeof(double) * N_STATES);
-    in->kernels->implicit->add(&in->A, in->s->y, data(y), data(f));
-    return 0;
-}
-
 static int weights(N_Vector y, N_Vector ewt, void *user)
 {
     (void)y;
     memcpy(data(ewt), ((const Integrator *)user)->weight, sizeof(double) * N_STATES);
     return 0;
-}
-
-// ---- the linear implicit stage as ARKODE's nonlinear solver --------------------------------------------------------------------------------
-static SUNNonlinearSolver_Type stage_type(SUNNonlinearSolver solver)
-{
-    (void)solver;
-    return SUNNONLINEARSOLVER_ROOTFIND;
-}
-
-static int stage_set_system(SUNNonlinearSolver solver, SUNNonlinSolSysFn system)
-{
-    (void)solver, (void)system;
-    return SUN_SUCCESS;
-}
-
-static int stage_solve(SUNNonlinearSolver solver, N_Vector start, N_Vector correction, N_Vector weight, sunrealtype tolerance, sunbooleantype setup,
-                       void *arkode)
-{
-    (void)start, (void)weight, (void)tolerance, (void)setup;
-    Integrator *in = solver->content;
-    double t, gamma;
-    N_Vector predicted, z, implicit, known;
-    void *user;
-    if (ARKodeGetNonlinearSystemData(arkode, &t, &predicted, &z, &implicit, &gamma, &known, &user) != ARK_SUCCESS) return SUN_ERR_GENERIC;
-    memcpy(data(correction), data(known), sizeof(double) * N_STATES);  // the predictor is y_n, where the implicit part is 0
-    in->kernels->implicit->solve(&in->A, gamma, data(correction));
-    return SUN_SUCCESS;
-}
-
-static int stage_free(SUNNonlinearSolver solver)
-{
-    SUNNonlinSolFreeEmpty(solver);
-    return SUN_SUCCESS;
-}
-
-static SUNNonlinearSolver stage_new(Integrator *in)
-{
-    SUNNonlinearSolver solver = SUNNonlinSolNewEmpty(in->sun);
-    if (solver == NULL) return NULL;
-    solver->content = in;
-    solver->ops->gettype = stage_type;
-    solver->ops->setsysfn = stage_set_system;
-    solver->ops->solve = stage_solve;
-    solver->ops->free = stage_free;
-    return solver;
 }
 
 // ---- creation ---------------------------------------------------------------------------------------------------------------------------------
@@ -272,17 +204,17 @@ static void report(int line, const char *function, const char *file, const char 
     in->log(in->context, text);
 }
 
-static int set_up(Integrator *in, void *stepper)
+static int set_up(void *arkode, Integrator *in)
 {
-    if (ARKodeSetUserData(stepper, in) != ARK_SUCCESS) return -1;
-    if (ARKodeWFtolerances(stepper, weights) != ARK_SUCCESS) return -1;
-    if (ARKodeSetInterpolantType(stepper, ARK_INTERP_NONE) != ARK_SUCCESS) return -1;
-    if (ARKodeSetMaxErrTestFails(stepper, 30) != ARK_SUCCESS) return -1;
-    return ARKodeSetMaxHnilWarns(stepper, -1) == ARK_SUCCESS ? 0 : -1;
+    if (ARKodeSetUserData(arkode, in) != ARK_SUCCESS) return -1;
+    if (ARKodeWFtolerances(arkode, weights) != ARK_SUCCESS) return -1;
+    if (ARKodeSetInterpolantType(arkode, ARK_INTERP_NONE) != ARK_SUCCESS) return -1;
+    if (ARKodeSetMaxErrTestFails(arkode, 30) != ARK_SUCCESS) return -1;
+    return ARKodeSetMaxHnilWarns(arkode, -1) == ARK_SUCCESS ? 0 : -1;
 }
 
 // Classical fourth order; theta h (k_5 - k_4) with k_5 the next step's first stage is the difference to an embedded third order.
-static int explicit_table(void *stepper)
+static int explicit_table(void *arkode)
 {
     enum { STAGES = 5 };
     const double theta = 0.05;
@@ -294,18 +226,18 @@ static int explicit_table(void *stepper)
                                  0.0,       0.0,       1.0,       0.0,       0.0,  //
                                  1.0 / 6.0, 1.0 / 3.0, 1.0 / 3.0, 1.0 / 6.0, 0.0};
     ARKodeButcherTable table = ARKodeButcherTable_Create(STAGES, 4, 3, c, A, b, d);
-    const int status = table != NULL ? ERKStepSetTable(stepper, table) : ARK_MEM_FAIL;
+    const int status = table != NULL ? ERKStepSetTable(arkode, table) : ARK_MEM_FAIL;
     ARKodeButcherTable_Free(table);
     return status;
 }
 
 // One step of dy/dt = 0: ARKODE allocates in its first step, which is to happen here and not in fmi2DoStep.
-static bool rehearse(Integrator *in, void *stepper)
+static bool rehearse(Integrator *in)
 {
     double t;
     in->rehearsing = true;
-    const bool fine = ARKodeSetInitStep(stepper, 1.0) == ARK_SUCCESS && ARKodeSetStopTime(stepper, 1.0) == ARK_SUCCESS &&
-                      ARKodeEvolve(stepper, 1.0, in->y, &t, ARK_ONE_STEP) >= 0;
+    const bool fine = ARKodeSetInitStep(in->arkode, 1.0) == ARK_SUCCESS && ARKodeSetStopTime(in->arkode, 1.0) == ARK_SUCCESS &&
+                      ARKodeEvolve(in->arkode, 1.0, in->y, &t, ARK_ONE_STEP) >= 0;
     in->rehearsing = false;
     return fine;
 }
@@ -321,16 +253,10 @@ Integrator *integrator_create(const Kernels *kernels, const Model *model, Work *
         fine = SUNContext_PushErrHandler(in->sun, report, in) == SUN_SUCCESS && (in->y = vector_new(in->sun, kernels->ops)) != NULL;
     }
     if (fine) {
-        in->stepper[PATH_EXPLICIT - 1] = ERKStepCreate(explicit_rhs, 0.0, in->y, in->sun);
-        in->stepper[PATH_IMEX - 1] = ARKStepCreate(imex_explicit, imex_implicit, 0.0, in->y, in->sun);
-        in->stage = stage_new(in);
-        void *explicit_ = in->stepper[0], *imex = in->stepper[1];
-        fine = explicit_ != NULL && imex != NULL && in->stage != NULL && set_up(in, explicit_) == 0 && set_up(in, imex) == 0 &&
-               explicit_table(explicit_) == ARK_SUCCESS && ARKStepSetTableNum(imex, ARKODE_ARK324L2SA_DIRK_4_2_3, ARKODE_ARK324L2SA_ERK_4_2_3) == ARK_SUCCESS &&
-               ARKodeSetNonlinearSolver(imex, in->stage) == ARK_SUCCESS && ARKodeSetLinear(imex, 0) == ARK_SUCCESS &&
-               ARKodeSetDeduceImplicitRhs(imex, SUNTRUE) == ARK_SUCCESS;
+        in->arkode = ERKStepCreate(explicit_rhs, 0.0, in->y, in->sun);
+        fine = in->arkode != NULL && set_up(in->arkode, in) == 0 && explicit_table(in->arkode) == ARK_SUCCESS;
         for (int i = 0; i < N_STATES; i++) in->weight[i] = 1.0;
-        fine = fine && rehearse(in, explicit_) && rehearse(in, imex);
+        fine = fine && rehearse(in);
     }
     if (!fine) {
         integrator_destroy(in);
@@ -342,9 +268,7 @@ Integrator *integrator_create(const Kernels *kernels, const Model *model, Work *
 void integrator_destroy(Integrator *in)
 {
     if (in == NULL) return;
-    for (int i = 0; i < 2; i++)
-        if (in->stepper[i] != NULL) ARKodeFree(&in->stepper[i]);
-    if (in->stage != NULL) SUNNonlinSolFree(in->stage);
+    if (in->arkode != NULL) ARKodeFree(&in->arkode);
     if (in->y != NULL) N_VDestroy(in->y);
     if (in->sun != NULL) SUNContext_Free(&in->sun);
     aligned_delete(in);
@@ -361,78 +285,91 @@ void integrator_evaluate(Integrator *in)
 {
     IntegratorState *s = in->s;
     if (s->known) return;
-    in->kernels->rhs(in->model, s->t, s->y, s->f, in->w);
+    in->kernels->rhs(in->model, s->t, s->now.y, s->now.f, in->w);
     s->rhs_evals += 1.0;
     s->known = 1;
-    in->kernels->implicit->set(in->model, in->w, &in->A);
-    in->frozen = true;
-    s->stiffness = in->A.largest;
 }
 
-// A at the present state, the same bits whether the state was reached or restored.
-static void freeze(Integrator *in)
+static int shrunk(const Integrator *in, double h)
 {
-    double f[N_STATES];
-    if (in->frozen) return;
-    in->kernels->rhs(in->model, in->s->t, in->s->y, f, in->w);
-    in->kernels->implicit->set(in->model, in->w, &in->A);
-    in->frozen = true;
+    char text[128];
+    snprintf(text, sizeof text, "t = %.9g s: Verlet: the error test fails with the smallest step, %g s", in->s->t, h);
+    in->log(in->context, text);
+    return ARK_ERR_FAILURE;
 }
 
-void integrator_restored(Integrator *in)
-{
-    in->frozen = false;
-}
-
-int integrator_advance(Integrator *in, double t_stop, long max_steps)
+// Step sizes follow the error estimate, an h^3 of a step; the last two steps before t_stop are equal.
+static int verlet_advance(Integrator *in, double t_stop, long max_steps)
 {
     IntegratorState *s = in->s;
-    void *stepper = in->stepper[s->path - 1];
-    integrator_evaluate(in);
-    if (!in->kernels->ops->finite(s->f)) return -1;
-    if (s->path == PATH_IMEX) freeze(in);
+    double h_goal = s->h;
+    while (s->t < t_stop) {
+        if (max_steps-- <= 0) return ARK_TOO_MUCH_WORK;
+        const double left = t_stop - s->t;
+        const bool last = h_goal >= left * (1.0 - 1e-9);
+        const double h = last ? left : left < 2.0 * h_goal ? 0.5 * left : h_goal;
+        const double error = in->kernels->verlet(in->model, s->t, h, in->weight, &s->now, &in->trial, in->w);
+        const double factor = error > 0.0 ? 0.8 / portable_cbrt(error) : error == 0.0 ? 2.0 : 0.0;  // NaN: the least
+        s->rhs_evals += 1.0;
+        if (!(error <= 1.0)) {  // NaN fails too
+            s->error_tests_failed += 1.0;
+            h_goal = h * fmax(factor, 0.2);
+            if (s->t + h_goal == s->t) return shrunk(in, h);
+            continue;
+        }
+        s->now = in->trial;
+        s->t = last ? t_stop : s->t + h;
+        s->steps += 1.0;
+        if (h == h_goal || factor < 1.0) h_goal = h * fmin(factor, 1.5);
+        in->hook(in->context, h, in->w);
+    }
+    s->h = h_goal;
+    return 0;
+}
+
+static int explicit_advance(Integrator *in, double t_stop, long max_steps)
+{
+    IntegratorState *s = in->s;
     in->spoiled = 0;
-    memcpy(data(in->y), s->y, sizeof s->y);
-    if (ARKodeReset(stepper, s->t, in->y) != ARK_SUCCESS) return -1;
-    if (ARKodeSetInitStep(stepper, fmin(s->h, t_stop - s->t)) != ARK_SUCCESS) return -1;
-    if (ARKodeSetStopTime(stepper, t_stop) != ARK_SUCCESS) return -1;
-    long steps_before = 0, failed_before = 0, failed = 0;
-    ARKodeGetNumErrTestFails(stepper, &failed_before);
+    memcpy(data(in->y), s->now.y, sizeof s->now.y);
+    if (ARKodeReset(in->arkode, s->t, in->y) != ARK_SUCCESS) return -1;
+    if (ARKodeSetInitStep(in->arkode, fmin(s->h, t_stop - s->t)) != ARK_SUCCESS) return -1;
+    if (ARKodeSetStopTime(in->arkode, t_stop) != ARK_SUCCESS) return -1;
+    long failed_before = 0, failed = 0;
+    ARKodeGetNumErrTestFails(in->arkode, &failed_before);
 
     double h_next = 0.0, t = s->t;
     int status = ARK_SUCCESS;
     while (status >= 0 && status != ARK_TSTOP_RETURN) {
-        if (steps_before++ >= max_steps) {
+        if (max_steps-- <= 0) {
             status = ARK_TOO_MUCH_WORK;
             break;
         }
         in->starting = s->known;
-        status = ARKodeEvolve(stepper, t_stop, in->y, &t, ARK_ONE_STEP);
+        status = ARKodeEvolve(in->arkode, t_stop, in->y, &t, ARK_ONE_STEP);
         if (status < 0) break;
         const double h = t - s->t;
-        memcpy(s->y, data(in->y), sizeof s->y);
+        memcpy(s->now.y, data(in->y), sizeof s->now.y);
         s->t = t;
         s->steps += 1.0;
-        ARKodeGetCurrentStep(stepper, &h_next);
         s->known = 0;
-        in->frozen = false;
-        if (s->path == PATH_IMEX) integrator_evaluate(in);  // the next step's start: f and A
+        ARKodeGetCurrentStep(in->arkode, &h_next);
         in->hook(in->context, h, in->w);
     }
     in->starting = false;
-    ARKodeGetNumErrTestFails(stepper, &failed);
+    ARKodeGetNumErrTestFails(in->arkode, &failed);
     s->error_tests_failed += (double)(failed - failed_before);
     s->h = fmax(h_next, 0.9 * s->h);
-    if (status < 0) {
-        s->known = 0;
-        return status;
-    }
+    if (status < 0) return status;
     s->t = t_stop;
-    if (s->path == PATH_EXPLICIT) {  // the last stage was at the new state
-        memcpy(s->f, in->latest, sizeof s->f);
-        in->kernels->implicit->set(in->model, in->w, &in->A);
-        s->stiffness = in->A.largest;
-        s->known = 1;
-    }
+    memcpy(s->now.f, in->latest, sizeof s->now.f);  // the last stage was at the new state
+    s->known = 1;
     return 0;
+}
+
+int integrator_advance(Integrator *in, double t_stop, long max_steps)
+{
+    integrator_evaluate(in);
+    if (!in->kernels->ops->finite(in->s->now.f)) return ARK_RHSFUNC_FAIL;
+    return in->model->p->solver.method == METHOD_EXPLICIT ? explicit_advance(in, t_stop, max_steps) : verlet_advance(in, t_stop, max_steps);
 }

@@ -1,18 +1,14 @@
-// Integration of the right-hand side by ARKODE.  The only file that knows SUNDIALS is integrator.c.
+// Integration of the right-hand side with control of the error.  The only file that knows SUNDIALS is integrator.c.
 #pragma once
 
 #include "rhs.h"
 
-typedef enum { PATH_EXPLICIT = 1, PATH_IMEX = 2 } Path;
-
 // What the integrator carries from step to step; plain bytes, part of the saved state.
 typedef struct {
-    double t, y[N_STATES];
-    double h;            // step size to start with
-    double f[N_STATES];  // dy/dt at (t, y), if known
-    double stiffness;    // largest stiff rate there [1/s]
-    int known;
-    int path;  // Path in use
+    double t;
+    VerletState now;
+    double h;   // step size to start with [s]
+    int known;  // now.f belongs to now.y and the present drive
     double steps, rhs_evals, error_tests_failed;
 } IntegratorState;
 
@@ -30,11 +26,8 @@ void integrator_destroy(Integrator *integrator);
 // Error weights for the tolerance; scale of each state class in model->d.
 void integrator_tolerance(Integrator *integrator, double tolerance);
 
-// f and stiffness at the present state; cheap if known.
+// now.f at the present state; cheap if known.
 void integrator_evaluate(Integrator *integrator);
-
-// The state was exchanged from outside.
-void integrator_restored(Integrator *integrator);
 
 // Steps to t_stop with the present drive, at most max_steps.  0, or < 0 if it cannot go on: then the state is the last good one.
 int integrator_advance(Integrator *integrator, double t_stop, long max_steps);

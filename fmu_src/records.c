@@ -68,7 +68,7 @@ static void fill_solver(Bearing *b)
     b->out.solver.error_tests_failed = i->error_tests_failed;
     b->out.solver.cpu_time = b->cpu_time;
     b->out.solver.tolerance = b->s.tolerance;
-    b->out.solver.path = i->path;
+    b->out.solver.path = b->s.p.solver.method;
 }
 
 static void fill_event(Bearing *b)
@@ -99,7 +99,7 @@ void outputs_fill(Bearing *b, OutputGroup group)
 {
     static void (*const fill[GROUP_COUNT])(Bearing *) = {[GROUP_CONSTANT] = fill_constant, [GROUP_PEAK] = fill_peak,     [GROUP_FATIGUE] = fill_fatigue,
                                                          [GROUP_STAT] = fill_stat,         [GROUP_SOLVER] = fill_solver, [GROUP_EVENT] = fill_event};
-    const Evaluation now = {&b->model, b->s.integrator.y, b->y_dot, &b->w};
+    const Evaluation now = {&b->model, b->s.integrator.now.y, b->y_dot, &b->w};
     if (!outputs_evaluate(&now, group, &b->out)) fill[group](b);
     if (group == GROUP_ENERGY) b->out.bearing.energy_residual -= b->s.energy_start;
 }

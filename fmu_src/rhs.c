@@ -135,6 +135,17 @@ static number net_power(const Model *model, const Work *w)
     return power;
 }
 
+#ifndef DUAL
+void rhs_cage_advance(const Model *model, const double *middle, double h, double *y, Work *w)
+{
+    rotor_kinematics(model, middle, w);
+    for (int i = 0; i < 2; i++) y[Y_CAGE_PSI + i] += h * (w->half[i].s - rotor_roll(&w->half[i]));
+    if (model->p->scene.cage == CAGE_MODEL_RIGID) return;
+    cage_joint_kinematics(model, w);
+    cage_joint_advance(model, w, h, y);
+}
+#endif
+
 static void evaluate(const Model *model, const number *y, number *y_dot, Work *w)
 {
     const bool rigid = model->p->scene.cage == CAGE_MODEL_RIGID;

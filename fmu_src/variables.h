@@ -9,7 +9,7 @@
 
 #define FMI2_FUNCTION_PREFIX RivetedBearing_  // of the functions of a source-code FMU
 #define MODEL_IDENTIFIER "RivetedBearing"
-#define MODEL_GUID "{f7052f1b-f74b-aac5-7c51-a533a57ce568}"  // digest of the table
+#define MODEL_GUID "{8ac04a08-f8c0-906e-3b5a-3cdda6339792}"  // digest of the table
 
 enum { Z = 9 };  // number of balls
 
@@ -51,9 +51,8 @@ enum {  // MeanStress
     MEAN_STRESS_MORROW = 4,  // Morrow
 };
 enum {  // Method
-    METHOD_AUTO = 1,  // from the scene's measured rates
+    METHOD_VERLET = 1,  // velocity Verlet, linearly implicit in what is stiff
     METHOD_EXPLICIT = 2,  // classical Runge-Kutta 4(3)
-    METHOD_IMEX = 3,  // ARK324L2SA, stiff blocks of balls, film and friction implicit
 };
 
 typedef struct {
@@ -167,7 +166,7 @@ typedef struct {
     } scene;
     struct {
         double tol;  // [1] Tolerance: local error / scale of each state class; a tolerance of fmi2SetupExperiment takes its place
-        int method;  // Method: Integration path
+        int method;  // Method: Integration method
         int max_steps;  // Largest number of internal steps in one communication step
     } solver;
     struct {
@@ -325,7 +324,7 @@ typedef struct {
         number error_tests_failed;  // [1] Internal steps rejected by the error test
         number cpu_time;  // [s] Processor time of this instance inside fmi2DoStep (not part of the saved state)
         number tolerance;  // [1] Tolerance in force
-        number path;  // [1] Integration path in use: 1 explicit, 2 IMEX
+        number path;  // [1] Integration method in use: 1 velocity Verlet, 2 Runge-Kutta
     } solver;
     struct {
         number land_contact;  // [1] Cage halves whose land touches the outer ring
@@ -367,39 +366,39 @@ enum {
     Y_BALL_X = 0,  // [Z] [m] Axial position of the ball
     Y_BALL_R = 9,  // [Z] [m] Radial position
     Y_BALL_THETA = 18,  // [Z] [rad] Azimuth from Y toward Z, unbounded
-    Y_BALL_V_X = 27,  // [Z] [m/s] Axial velocity
-    Y_BALL_V_R = 36,  // [Z] [m/s] Radial velocity
-    Y_BALL_OMEGA_M = 45,  // [Z] [rad/s] Orbital speed
-    Y_BALL_OMEGA_X = 54,  // [Z] [rad/s] Angular velocity about X
-    Y_BALL_OMEGA_R = 63,  // [Z] [rad/s] Angular velocity about the radial direction of the ball
-    Y_BALL_OMEGA_T = 72,  // [Z] [rad/s] Angular velocity about the tangential direction of the ball
-    Y_JOINT_PLATE_Y = 81,  // [Z] [m] Friction state of the plates, y of the cage frame
-    Y_JOINT_PLATE_Z = 90,  // [Z] [m] Friction state of the plates, z of the cage frame
-    Y_JOINT_HEAD_Y = 99,  // [Z] [m] Friction state of the rivet heads, y of the cage frame
-    Y_JOINT_HEAD_Z = 108,  // [Z] [m] Friction state of the rivet heads, z of the cage frame
-    Y_CAGE_X = 117,  // [2] [m] Position of a half's centre of mass along X
-    Y_CAGE_Y = 119,  // [2] [m] along Y
-    Y_CAGE_Z = 121,  // [2] [m] along Z
-    Y_CAGE_BETA = 123,  // [2] [1] Axis of the half a = (a_x, gamma, -beta): direction cosine
-    Y_CAGE_GAMMA = 125,  // [2] [1] Axis of the half: direction cosine
-    Y_CAGE_PSI = 127,  // [2] [rad] Rotation of the half about its axis, unbounded
-    Y_CAGE_V_X = 129,  // [2] [m/s] Velocity of the half's centre of mass along X
-    Y_CAGE_V_Y = 131,  // [2] [m/s] along Y
-    Y_CAGE_V_Z = 133,  // [2] [m/s] along Z
-    Y_CAGE_BETA_DOT = 135,  // [2] [1/s] Rate of beta
-    Y_CAGE_GAMMA_DOT = 137,  // [2] [1/s] Rate of gamma
-    Y_CAGE_S = 139,  // [2] [rad/s] Spin: angular velocity along the half's axis
-    Y_RING_X = 141,  // [1] [m] Inner ring: position along X
-    Y_RING_Y = 142,  // [1] [m] along Y
-    Y_RING_Z = 143,  // [1] [m] along Z
-    Y_RING_BETA = 144,  // [1] [1] Axis of the ring a = (a_x, gamma, -beta): direction cosine
-    Y_RING_GAMMA = 145,  // [1] [1] Axis of the ring: direction cosine
-    Y_RING_V_X = 146,  // [1] [m/s] Inner ring: velocity along X
-    Y_RING_V_Y = 147,  // [1] [m/s] along Y
-    Y_RING_V_Z = 148,  // [1] [m/s] along Z
-    Y_RING_BETA_DOT = 149,  // [1] [1/s] Rate of beta
-    Y_RING_GAMMA_DOT = 150,  // [1] [1/s] Rate of gamma
-    Y_WORK = 151,  // [1] [J] Net work done on balls and cage since the start: supplied - dissipated
+    Y_CAGE_X = 27,  // [2] [m] Position of a half's centre of mass along X
+    Y_CAGE_Y = 29,  // [2] [m] along Y
+    Y_CAGE_Z = 31,  // [2] [m] along Z
+    Y_CAGE_BETA = 33,  // [2] [1] Axis of the half a = (a_x, gamma, -beta): direction cosine
+    Y_CAGE_GAMMA = 35,  // [2] [1] Axis of the half: direction cosine
+    Y_CAGE_PSI = 37,  // [2] [rad] Rotation of the half about its axis, unbounded
+    Y_RING_X = 39,  // [1] [m] Inner ring: position along X
+    Y_RING_Y = 40,  // [1] [m] along Y
+    Y_RING_Z = 41,  // [1] [m] along Z
+    Y_RING_BETA = 42,  // [1] [1] Axis of the ring a = (a_x, gamma, -beta): direction cosine
+    Y_RING_GAMMA = 43,  // [1] [1] Axis of the ring: direction cosine
+    Y_JOINT_PLATE_Y = 44,  // [Z] [m] Friction state of the plates, y of the cage frame
+    Y_JOINT_PLATE_Z = 53,  // [Z] [m] Friction state of the plates, z of the cage frame
+    Y_JOINT_HEAD_Y = 62,  // [Z] [m] Friction state of the rivet heads, y of the cage frame
+    Y_JOINT_HEAD_Z = 71,  // [Z] [m] Friction state of the rivet heads, z of the cage frame
+    Y_WORK = 80,  // [1] [J] Net work done on balls and cage since the start: supplied - dissipated
+    Y_BALL_V_X = 81,  // [Z] [m/s] Axial velocity
+    Y_BALL_V_R = 90,  // [Z] [m/s] Radial velocity
+    Y_BALL_OMEGA_M = 99,  // [Z] [rad/s] Orbital speed
+    Y_CAGE_V_X = 108,  // [2] [m/s] Velocity of the half's centre of mass along X
+    Y_CAGE_V_Y = 110,  // [2] [m/s] along Y
+    Y_CAGE_V_Z = 112,  // [2] [m/s] along Z
+    Y_CAGE_BETA_DOT = 114,  // [2] [1/s] Rate of beta
+    Y_CAGE_GAMMA_DOT = 116,  // [2] [1/s] Rate of gamma
+    Y_CAGE_S = 118,  // [2] [rad/s] Spin: angular velocity along the half's axis
+    Y_RING_V_X = 120,  // [1] [m/s] Inner ring: velocity along X
+    Y_RING_V_Y = 121,  // [1] [m/s] along Y
+    Y_RING_V_Z = 122,  // [1] [m/s] along Z
+    Y_RING_BETA_DOT = 123,  // [1] [1/s] Rate of beta
+    Y_RING_GAMMA_DOT = 124,  // [1] [1/s] Rate of gamma
+    Y_BALL_OMEGA_X = 125,  // [Z] [rad/s] Angular velocity about X
+    Y_BALL_OMEGA_R = 134,  // [Z] [rad/s] Angular velocity about the radial direction of the ball
+    Y_BALL_OMEGA_T = 143,  // [Z] [rad/s] Angular velocity about the tangential direction of the ball
     N_STATES = 152,
     N_STATE_BLOCKS = 36
 };
@@ -407,13 +406,13 @@ enum {
 typedef enum {
     SCALE_LENGTH,
     SCALE_ANGLE,
+    SCALE_TILT,
+    SCALE_PLATE,
+    SCALE_HEAD,
+    SCALE_ENERGY,
     SCALE_VELOCITY,
     SCALE_RATE,
     SCALE_SPIN,
-    SCALE_PLATE,
-    SCALE_HEAD,
-    SCALE_TILT,
-    SCALE_ENERGY,
     SCALE_COUNT
 } StateScale;
 

@@ -66,6 +66,9 @@ class Core:
             setattr(getattr(struct, group), member, value)
 
 
+VELOCITIES = range(variables.BALL_V_X.start, variables.N_STATES)
+
+
 def block(body, state):
     """Slice of the state vector: block("cage", "v_y")."""
     return getattr(variables, f"{body}_{state}".upper())
@@ -111,23 +114,33 @@ class Model:
         self.kernel("rhs")(self.pointer, t, self.core.array(y), self.core.array(y_dot), self.work)
         return y_dot
 
-    def implicit(self):
-        """Stiff blocks A (struct Implicit) at the state of the last evaluation."""
-        A = self.core.new("Implicit")
-        self.core.lib.kernels_select().implicit.set(self.pointer, self.work, A)
-        return A
+    def implicit(self, function, gamma, v):
+        """implicit_solve or implicit_held of velocities v (rows of the state vector) at the state of the last evaluation."""
+        v = np.array(v, dtype=float)
+        self.kernel(function)(self.pointer, self.work, gamma, self.core.array(v))
+        return v
 
     def rates(self):
-        """Diagonal of A [1/s] at the state of the last evaluation."""
-        A, D = self.implicit(), np.zeros(variables.N_STATES)
-        for i, name in enumerate(("v_x", "v_r", "omega_m", "omega_x", "omega_r", "omega_t")):
-            D[block("ball", name)] = list(A.ball[(i + 1) * (i + 2) // 2 - 1])[: variables.Z]
-        for i, name in enumerate(("v_y", "v_z", "beta_dot", "gamma_dot", "s")):
-            D[block("cage", name)] = [A.half[h][i][i] for h in range(2)]
+        """Rates [1/s] by which velocities and friction states hold themselves back in implicit.c, at the state of the last evaluation."""
+        gamma, D = 1e-12, np.zeros(variables.N_STATES)  # small: A_ii beside its coupling to others; rounding 1e-4 1/s
+        stiffness = self.d.k_plate, self.d.k_rivet
+        self.d.k_plate = self.d.k_rivet = 0.0
+        for i in VELOCITIES:
+            unit = np.zeros(variables.N_STATES)
+            unit[i] = 1.0
+            D[i] = (1.0 / self.implicit("implicit_solve", gamma, unit)[i] - 1.0) / gamma
+        self.d.k_plate, self.d.k_rivet = stiffness
         for name in ("plate", "head"):
             for axis in "yz":
-                D[block("joint", f"{name}_{axis}")] = list(getattr(A, name))
+                D[block("joint", f"{name}_{axis}")] = list(getattr(self.work, f"D_{name}"))[: variables.Z]
         return D
+
+    def verlet(self, t, h, start, weight):
+        """One Verlet step of length h from `start` (VerletState) at t; returns the VerletState reached and the error's norm in units of 1/weight."""
+        end = self.core.new("VerletState")
+        self.core.lib.drive_update(self.p, self.u, t, self.drive)
+        error = self.kernel("verlet_step")(self.pointer, t, h, self.core.array(weight), start, end, self.work)
+        return end, error
 
     def energy(self, y):
         """Kinetic and elastic energy [J] at the state of the last evaluation."""

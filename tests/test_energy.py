@@ -102,9 +102,10 @@ def order(core, tolerances, parameters, t):
 def test_lossless_energy_stays(core, record_property):
     """Friction, damping, drag and films off, a heavy ring: balls rattle in their pockets with 60 N (4e-5 J a pulse) and 26.5 J stay.
 
-    Bogacki-Shampine's global error of third order is proportional to the tolerance: slope 1, observed 0.96 from 1e-5 to 1e-7; 7.6e-9 J at 1e-7.
+    Runge-Kutta's global error of order 4, with steps by an estimate of order 4, is proportional to the tolerance: slope 1, observed 0.96 from 1e-5
+    to 1e-7; 7.6e-9 J at 1e-7.
     """
-    parameters = LOSSLESS | {"ring.m": 1000.0, "cage.pocket_clearance": 7e-5}
+    parameters = LOSSLESS | {"solver.method": Method.EXPLICIT, "ring.m": 1000.0, "cage.pocket_clearance": 7e-5}
     slope, last = order(core, [1e-5, 1e-6, 1e-7], parameters, 2e-3)
     record_property("drift", {"slope": float(slope), "J at 1e-7": float(last)})
     assert slope == pytest.approx(1.0, abs=0.2)
@@ -121,14 +122,17 @@ def test_lossless_energy_stays(core, record_property):
 
 
 @pytest.mark.c_only
-@pytest.mark.parametrize("path", [Method.EXPLICIT, Method.IMEX])
+@pytest.mark.parametrize(("method", "order_of_error", "largest"), [(Method.EXPLICIT, 1.0, 1e-5), (Method.VERLET, 2.0 / 3.0, 1e-4)])
 @pytest.mark.parametrize("cage", CageModel)
-def test_energy_balance_of_a_run(core, cage, path, record_property):
-    """The working point for 10 ms dissipates 2.6 J; the balance closes to 1e-5 of it at the default tolerance (observed 1...4e-6) and with slope 1."""
-    parameters = {"scene.cage": cage, "solver.method": path}
+def test_energy_balance_of_a_run(core, cage, method, order_of_error, largest, record_property):
+    """The working point for 10 ms dissipates 2.6 J; the balance closes to 1e-5 of it at 1e-4 (observed 1...4e-6), by Verlet to 1e-4 (6...7e-5).
+
+    Error by tolerance: slope 1 (Runge-Kutta), 2/3 (Verlet: order 2, steps by an estimate of order 3).
+    """
+    parameters = {"scene.cage": cage, "solver.method": method}
     error, loss, _ = residual(core, 1e-4, parameters, 1e-2)
     assert 150.0 < loss < 500.0
     record_property("residual", {"of what is dissipated": float(error / 2.6)})
-    assert error < 1e-5 * 2.6
+    assert error < largest * 2.6
     slope, _ = order(core, [1e-4, 1e-5, 1e-6], parameters, 1e-2)
-    assert slope == pytest.approx(1.0, abs=0.35)  # chaos after 3 ms: observed 0.83...0.97
+    assert slope == pytest.approx(order_of_error, abs=0.35)  # chaos after 3 ms: observed 0.72...0.97; 0.59 and 0.67

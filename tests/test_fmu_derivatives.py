@@ -240,7 +240,7 @@ SCENES = {
 def test_directional_derivatives_are_those_of_the_core(core, folder, scene):
     """Every input and every state of the ring reaches its place: the core's derivatives, which test_jacobian.py compares with differences."""
     parameters, inputs = SCENES[scene]
-    slave = Slave(folder).initialize(**named(parameters | inputs)).step(H, 5)
+    slave = Slave(folder).initialize(**named(parameters | inputs)).step(H, 7)
     bearing, names = Instance(core, parameters, inputs), all_outputs(slave)
     for _ in range(5):
         bearing.step(bearing.time + H)
@@ -268,7 +268,7 @@ def test_dependencies_are_those_declared(folder):
     exempt = ("housing.", "event.", "bearing.contacts", "bearing.penetration")
     missing = None
     for parameters, inputs in SCENES.values():
-        slave = Slave(folder).initialize(**named(parameters | inputs)).step(H, 5)
+        slave = Slave(folder).initialize(**named(parameters | inputs)).step(H, 7)
         known = [*INPUTS, *STATES, *RATES]
         declared = {(u.variable.name, d.name) for u in slave.description.outputs for d in u.dependencies}
         J, names = jacobian(slave, all_outputs(slave), known), all_outputs(slave)

@@ -120,7 +120,7 @@ def test_saved_state_continues_bit_for_bit(folder):
 
 SCENES = {
     "working_point": {},
-    "imex": {"solver__method": 3},
+    "explicit": {"solver__method": 2},
     "slow_mixed": {"shaft__omega": 400.0, "scene__lubrication": 2},
     "tilted": {"shaft__tilt_z": 0.0087},
     "sliced_fatigue": {"scene__traction": 2, "scene__stress": 4, "start__settle": 0.0},

@@ -347,10 +347,9 @@ def test_long_runs_over_the_range(simulate, case, scene):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("method", [Method.EXPLICIT, Method.IMEX])
-def test_paths_agree_in_statistics(simulate, method):
-    """Each integration path against the automatic choice: the same ensemble within its scatter."""
+def test_methods_agree_in_statistics(simulate):
+    """Verlet at the default tolerance against Runge-Kutta at 1e-4: the same ensemble within its scatter."""
     seeds = (1, 2, 3, 4)
-    reference, other = pooled(simulate, 1e-3, seeds, 0.4), pooled(simulate, 1e-3, seeds, 0.4, **{"solver.method": int(method)})
+    reference, default = pooled(simulate, 1e-4, seeds, 0.4, **{"solver.method": int(Method.EXPLICIT)}), pooled(simulate, 1e-3, seeds, 0.4)
     for name, scatter in SCATTER.items():
-        assert other[f"stat.{name}"] == pytest.approx(reference[f"stat.{name}"], rel=4.0 * scatter * math.sqrt(2 / len(seeds)))
+        assert default[f"stat.{name}"] == pytest.approx(reference[f"stat.{name}"], rel=4.0 * scatter * math.sqrt(2 / len(seeds)))

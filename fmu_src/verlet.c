@@ -1,0 +1,82 @@
+// A second-order one-step method that costs one evaluation: velocity Verlet, linearly implicit in what is stiff.
+//
+//   v_m = v_n + gamma a_n,  gamma = h/2
+//   q_{n+1} = q_n + h q'(q_m, v_m),  q_m = q_n + gamma v_m       friction states: implicit midpoint (cage_joint_advance)
+//   v^ = v_n + h a_n,  a^ = a(q_{n+1}, v^)
+//   (1 + gamma A + gamma^2 K) delta = gamma (a^ - a_n)           rates A, stiffnesses K of stiff local contacts (implicit.c)
+//   v_{n+1} = v^ + delta,  a_{n+1} = a_n + delta/gamma           so v_{n+1} = v_n + gamma (a_n + a_{n+1})
+//   q_{n+1} += gamma delta                                       where K acts: there positions follow the trapezoidal rule too
+//
+// Any A and K keep the second order; the exact ones make the step stable for every h, K = 0 for frequencies up to 2/h (Swope et al. 1982).
+// Rates above 1/h would ring, by the trapezoidal factor (1 - gamma A)/(1 + gamma A): a_{n+1} gives up 0.15 H (a_{n+1} - 2 a_n + a_{n-1}), of
+// second order itself, H = gamma A/(1 + gamma A) (implicit_held).  The factor of a fast rate is then between 0.38 and 0.46 for gamma A > 2.
+// Error of a step: h^3/12 a'' of the trapezoidal rule and h^3/24 q''' of the midpoint rule (friction states), from differences of two steps.
+#include "verlet.h"
+
+#include "implicit.h"
+#include "rhs.h"
+
+enum { PAIRED = Y_JOINT_PLATE_Y, VELOCITY = Y_BALL_V_X, FRICTIONS = Y_WORK };  // rows: positions 0...PAIRED - 1, frictions, work, velocities
+_Static_assert(Y_CAGE_V_X - Y_CAGE_X == VELOCITY && Y_RING_V_X - Y_RING_X == VELOCITY && Y_BALL_OMEGA_X - VELOCITY == PAIRED,
+               "velocities are in the order of their positions");
+static const double SMOOTHING = 0.15;
+
+static void advance_positions(const Model *model, double h, const VerletState *from, double *y, Work *w)
+{
+    const double gamma = 0.5 * h;
+    double middle[N_STATES];
+    memcpy(y, from->y, sizeof from->y);
+    for (int i = VELOCITY; i < N_STATES; i++) y[i] += gamma * from->f[i];
+    memcpy(middle, y, sizeof middle);
+    for (int i = Y_CAGE_X; i < Y_RING_X; i++) middle[i] += gamma * y[VELOCITY + i];
+    for (int i = 0; i < PAIRED; i++) y[i] += h * y[VELOCITY + i];
+    memcpy(&y[Y_CAGE_PSI], &from->y[Y_CAGE_PSI], 2 * sizeof *y);
+    rhs_cage_advance(model, middle, h, y, w);
+}
+
+static void correct_positions(const Model *model, double gamma, const double *delta, double *y)
+{
+    for (int i = 0; i < 2 * Z; i++) y[Y_BALL_X + i] += gamma * delta[VELOCITY + Y_BALL_X + i];
+    if (model->p->ring.tilt_mode != TILT_MODE_FREE)
+        for (int i = Y_RING_BETA; i <= Y_RING_GAMMA; i++) y[i] += gamma * delta[VELOCITY + i];
+    if (model->p->scene.cage == CAGE_MODEL_RIGID) return;
+    static const int axial[3] = {Y_CAGE_X, Y_CAGE_BETA, Y_CAGE_GAMMA};  // the motion of one half against the other
+    for (int i = 0; i < 3; i++) {
+        const double share = 0.5 * gamma * (delta[VELOCITY + axial[i] + 1] - delta[VELOCITY + axial[i]]);
+        y[axial[i]] -= share;
+        y[axial[i] + 1] += share;
+    }
+}
+
+double verlet_step(const Model *model, double t, double h, const double *weight, const VerletState *from, VerletState *to, Work *w)
+{
+    const double gamma = 0.5 * h, *f = from->f;
+    double delta[N_STATES], bend[N_STATES], *y = to->y;
+    advance_positions(model, h, from, y, w);
+    for (int i = VELOCITY; i < N_STATES; i++) y[i] += gamma * f[i];
+    rhs(model, t + h, y, to->f, w);
+    for (int i = VELOCITY; i < N_STATES; i++) delta[i] = gamma * (to->f[i] - f[i]);
+    implicit_solve(model, w, gamma, delta);
+    correct_positions(model, gamma, delta, y);
+    y[Y_WORK] += gamma * (f[Y_WORK] + to->f[Y_WORK]);
+
+    const double per_gamma = 1.0 / gamma, per_h = 1.0 / h, per_span = 2.0 / (h + from->h), second = h * h * per_span;
+    double error[N_STATES] = {0};
+    for (int i = VELOCITY; i < N_STATES; i++) {
+        y[i] += delta[i];
+        bend[i] = second * (delta[i] * (per_gamma * per_h) - from->jerk[i]);  // h^2 a''
+        error[i] = (h / 12.0) * bend[i];
+    }
+    implicit_held(model, w, gamma, bend);
+    for (int i = VELOCITY; i < N_STATES; i++) {
+        to->f[i] = f[i] + delta[i] * per_gamma - SMOOTHING * bend[i];
+        to->jerk[i] = (to->f[i] - f[i]) * per_h;
+    }
+    for (int i = PAIRED; i < FRICTIONS; i++) {
+        to->f[i] = (y[i] - from->y[i]) * per_h;
+        to->jerk[i] = (to->f[i] - f[i]) * per_span;
+        error[i] = (h * second / 24.0) * (to->jerk[i] - from->jerk[i]);
+    }
+    to->h = h;
+    return vector_ops.wrms_norm(error, weight);
+}
