@@ -123,56 +123,120 @@ def _need(condition, path, message):
         raise ValueError(f"{path}: {message}")
 
 
-def read(path, Z=None):
-    """Read and check a table.
+def _numbers(path, where, values):
+    """An array of finite numbers."""
+    try:
+        array = np.array(values, dtype=float)
+    except (TypeError, ValueError, OverflowError) as error:
+        raise ValueError(f"{path}: {where} is not made of numbers: {error}") from None
+    _need(np.all(np.isfinite(array)), path, f"{where} contains a number that is not finite")
+    return array
 
-    Z: number of rivets that is needed, if given.  Raises ValueError naming file and fault (not JSON, another format, a damaged section, a wrong
-    size, a table for another Z), OSError if it cannot be read.
-    """
+
+class _Section:
+    """One section of a file: its members by name, each checked."""
+
+    def __init__(self, path, name, members):
+        _need(isinstance(members, dict), path, f"{name} is no table of names and values")
+        self.path, self.name, self.members = path, name, members
+
+    def member(self, key, kind):
+        _need(key in self.members, self.path, f"{self.name} lacks {key!r}")
+        value = self.members[key]
+        right = isinstance(value, kind) and not isinstance(value, bool)
+        _need(right, self.path, f"{self.name}.{key} is of type {type(value).__name__}, not {kind.__name__}")
+        return value
+
+    def number(self, key):
+        _need(key in self.members, self.path, f"{self.name} lacks {key!r}")
+        array = _numbers(self.path, f"{self.name}.{key}", self.members[key])
+        _need(array.ndim == 0, self.path, f"{self.name}.{key} is not one number")
+        return float(array)
+
+    def numbers(self, key):
+        array = _numbers(self.path, f"{self.name}.{key}", self.member(key, list))
+        _need(array.ndim == 1 and len(array) > 1, self.path, f"{self.name}.{key} is not a list of numbers")
+        return array
+
+
+def _sections(path):
+    """Header and sections of a file whose format and digest are right."""
     try:
         data = json.loads(Path(path).read_text(encoding="utf-8"))
-        header, stress, fit, joint, load_path = (data[k] for k in ("header", "stress", "fit_eff", "joint", "load_path"))
-        known_format, digest = header["format"], header["digest"]
-    except (json.JSONDecodeError, UnicodeDecodeError) as error:
+        known_format, digest = data["header"]["format"], data["header"]["digest"]
+        sections = {name: data[name] for name in ("header", "stress", "fit_eff", "joint", "load_path")}
+    except (json.JSONDecodeError, UnicodeDecodeError, RecursionError) as error:
         raise ValueError(f"{path}: not a rivet table (JSON text): {error}") from error
     except (KeyError, TypeError) as error:
         raise ValueError(f"{path}: not a rivet table: {error} is missing") from error
     _need(known_format == FORMAT, path, f"format is {known_format!r}; {FORMAT!r} is needed")
     _need(_digest({k: data[k] for k in data if k != "header"}) == digest, path, "damaged: the digest in the header does not fit its sections")
-    _need(Z is None or header["Z"] == Z, path, f"made for Z = {header['Z']} rivets; Z = {Z} is needed")
-    _need(stress["channels"] == list(CHANNELS), path, f"channels are {stress['channels']}; {list(CHANNELS)} are needed")
-    knots = {name: np.array(stress["knots"][name]) for name in AXES}
+    load_path = sections.pop("load_path")
+    return *(_Section(path, name, members) for name, members in sections.items()), load_path
+
+
+def _read_coefficients(path, stress):
+    """Knots by axis and the array of coefficients."""
+    channels, axes = stress.member("channels", list), _Section(path, "stress.knots", stress.member("knots", dict))
+    _need(channels == list(CHANNELS), path, f"channels are {channels}; {list(CHANNELS)} are needed")
+    knots = {name: axes.numbers(name) for name in AXES}
     for name, values in knots.items():
-        _need(len(values) >= 2 and np.all(np.diff(values) > 0), path, f"knots of axis {name} do not increase")
+        _need(np.all(np.diff(values) > 0), path, f"knots of axis {name} do not increase")
     shape = (*(len(knots[name]) + 1 for name in AXES), len(SHEETS), len(CHANNELS))
-    _need(len(stress["coefficients"]) == np.prod(shape), path, f"{len(stress['coefficients'])} coefficients; {np.prod(shape)} are needed")
-    load_path = np.array(load_path)
-    _need(load_path.shape == (header["Z"], 5, 3), path, f"load_path has shape {load_path.shape}; {(header['Z'], 5, 3)} is needed")
-    missing = [key for key in (*JOINT_KEYS, "hole_fit", "k_hole") if key not in joint]
-    _need(not missing, path, f"joint lacks {missing}")
-    table = RivetTable(
-        kind=header["kind"],
-        geometry=header["geometry"],
-        geometry_hash=header["geometry_hash"],
-        Z=header["Z"],
-        moment_length=stress["moment_length"],
+    coefficients = stress.numbers("coefficients")
+    _need(len(coefficients) == np.prod(shape), path, f"{len(coefficients)} coefficients; {np.prod(shape)} are needed")
+    return knots, _as_embedded(coefficients.reshape(shape))
+
+
+def _check_joint(path, joint):
+    """Stiffnesses and lengths are positive numbers, the hole's stiffness belongs to rising fits."""
+    for key in JOINT_KEYS:
+        joint.number(key)
+    for key in (key for key in JOINT_KEYS if key.startswith("k_")):
+        _need(joint.number(key) > 0.0, path, f"joint.{key} = {joint.number(key)}: more than 0 is needed")
+    fit, k_hole = joint.numbers("hole_fit"), joint.numbers("k_hole")
+    _need(len(fit) == len(k_hole) and np.all(np.diff(fit) > 0), path, "joint.hole_fit does not increase, or has not as many values as joint.k_hole")
+    _need(np.all(k_hole > 0.0), path, "joint.k_hole: more than 0 is needed")
+
+
+def read(path, Z=None):
+    """Read and check a table.
+
+    Z: number of rivets that is needed, if given.  Raises ValueError naming file and fault (not JSON, another format, a damaged section, a wrong
+    type or size, a number that is not finite, a table for another Z), OSError if it cannot be read.
+    """
+    header, stress, fit, joint, load_path = _sections(path)
+    made_for = header.member("Z", int)
+    _need(Z is None or made_for == Z, path, f"made for Z = {made_for} rivets; Z = {Z} is needed")
+    knots, coefficients = _read_coefficients(path, stress)
+    load_path = _numbers(path, "load_path", load_path)
+    _need(load_path.shape == (made_for, 5, 3), path, f"load_path has shape {load_path.shape}; {(made_for, 5, 3)} is needed")
+    _check_joint(path, joint)
+    fits = {name: fit.numbers(name) for name in ("fit_a", "j2", "slope")}
+    _need(len({len(values) for values in fits.values()}) == 1, path, "fit_eff: fit_a, j2 and slope have different lengths")
+    _need(np.all(np.diff(fits["fit_a"]) > 0), path, "fit_eff.fit_a does not increase")
+    length = stress.number("moment_length")
+    _need(length > 0.0, path, f"stress.moment_length = {length} m: more than 0 is needed")
+    return RivetTable(
+        kind=header.member("kind", str),
+        geometry=header.member("geometry", dict),
+        geometry_hash=header.member("geometry_hash", str),
+        Z=made_for,
+        moment_length=length,
         knots=knots,
-        coefficients=_as_embedded(np.array(stress["coefficients"]).reshape(shape)),
-        head_friction=stress["head_friction"] * MPA_PER_N,
-        head_friction_vm=stress["head_friction_vm"] * MPA_PER_N,
-        yield_rivet=stress["yield_rivet"],
-        fit_flange_yield=fit["fit_flange_yield"],
-        fit_a=np.array(fit["fit_a"]),
-        fit_eff=np.array(fit["j2"]),
-        fit_slope=np.array(fit["slope"]),
-        joint=joint,
+        coefficients=coefficients,
+        head_friction=stress.number("head_friction") * MPA_PER_N,
+        head_friction_vm=stress.number("head_friction_vm") * MPA_PER_N,
+        yield_rivet=stress.number("yield_rivet"),
+        fit_flange_yield=fit.number("fit_flange_yield"),
+        fit_a=fits["fit_a"],
+        fit_eff=fits["j2"],
+        fit_slope=fits["slope"],
+        joint=joint.members,
         load_path=load_path,
-        note=header["note"],
-        errors=header["errors"],
+        note=header.member("note", str),
+        errors=header.member("errors", dict),
     )
-    numbers = [table.coefficients, table.fit_a, table.fit_eff, table.fit_slope, load_path, [joint[k] for k in JOINT_KEYS]]
-    _need(all(np.all(np.isfinite(n)) for n in numbers), path, "contains a number that is not finite")
-    return table
 
 
 def monotone_slopes(x, y):

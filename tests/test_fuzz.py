@@ -1,9 +1,11 @@
-"""Random calls of the FMI functions: programs of the build tree, see fuzz_api.c for what they hold."""
+"""Random calls of the FMI functions (see fuzz_api.c for what they hold) and damaged input files."""
 
+import random
 import re
 import subprocess
 
 import pytest
+from fuzz_readers import try_one
 from library import ROOT
 
 
@@ -32,3 +34,12 @@ def test_random_calls_in_two_threads():
 @pytest.mark.slow
 def test_ten_million_random_calls():
     check(fuzz(10_000_000, seed=2), 10_000_000)
+
+
+@pytest.mark.filterwarnings("ignore:overflow")  # 1e308 MPa/N
+@pytest.mark.parametrize("strings", [400, pytest.param(40_000, marks=pytest.mark.slow)])
+def test_damaged_files_are_read_or_refused_by_name(strings):
+    """Bearings, scenes, rivet tables: both happens."""
+    bytes_of = random.Random(strings).randbytes
+    read = sum(try_one(bytes_of(64)) for _ in range(strings))
+    assert 0.02 * strings < read < 0.5 * strings

@@ -60,7 +60,7 @@ class Model:
     def parameter_value(self, value, variable):
         """A parameter's value checked: SI number, integer or item name of its enumeration."""
         if variable.type == "Enumeration":
-            if value not in codes(variable):
+            if not isinstance(value, str) or value not in codes(variable):
                 raise UserError(f"allowed: {', '.join(codes(variable))}")
             return value
         if variable.type == "Integer":
