@@ -49,7 +49,7 @@ void element_times(const Model *model, const double *y, int rounds, Work *w, dou
     TIME(6, cage_joint_kinematics(model, w));
     TIME(7, cage_joint_force(model, y, w));
     TIME(8, ball_acceleration(model, w, y_dot));
-    TIME(9, ring_acceleration(model, 0.0, w, y_dot));
+    TIME(9, ring_acceleration(model, w, y_dot));
 }
 
 // A bundle that stays in a register: gcc keeps bundles of one in memory.

@@ -1,8 +1,10 @@
 """docs/performance.md and its pictures from the records that the benchmarks left in results/."""
 
+import io
 import itertools
 import json
 import math
+import re
 
 import matplotlib
 import numpy as np
@@ -72,9 +74,18 @@ def origin(data):
 
 
 def save(figure, name):
-    PICTURES.mkdir(parents=True, exist_ok=True)
-    figure.savefig(PICTURES / f"{name}.svg", metadata={"Date": None}, bbox_inches="tight")
+    """A picture as SVG, coordinates to 0.1 pt."""
+    text = io.StringIO()
+    figure.savefig(text, format="svg", metadata={"Date": None}, bbox_inches="tight")
     plt.close(figure)
+    PICTURES.mkdir(parents=True, exist_ok=True)
+    (PICTURES / f"{name}.svg").write_text(re.sub(r"(\d\.\d)\d+", r"\1", text.getvalue()))
+
+
+def read_off(axis):
+    """Numbers at 1, 2, 5, 10 ... along a logarithmic axis of costs."""
+    axis.yaxis.set(major_locator=LogLocator(subs=(1, 2, 5)), major_formatter=FormatStrFormatter("%g"))
+    axis.minorticks_off()
 
 
 def style(family, families):
@@ -120,8 +131,7 @@ def draw_work_precision(data):
             axis.loglog(error, rtf, color=colour, marker=marker, ms=3.5, lw=width, label=family)
         default = row_of(rows, **data["default"])
         axis.loglog(default["error"], default["rtf"], "o", ms=10, mfc="none", mec="#0b3c8c")
-        axis.yaxis.set(major_locator=LogLocator(subs=(1, 2, 5)), major_formatter=FormatStrFormatter("%g"))
-        axis.minorticks_off()
+        read_off(axis)
         axis.set(title=scene["title"], xlabel="error after 2 ms / tolerance scale", ylabel="processor time / simulated time")
     handles, labels = axes.flat[0].get_legend_handles_labels()
     for axis in list(axes.flat)[len(data["scenes"]) :]:
@@ -354,6 +364,7 @@ def draw_scaling(data):
     middle.loglog(steps, [row["constant"]["inside"] for row in data["step"].values()], "s--", color="#3f83d9", label="inside the FMU")
     middle.loglog(steps, [row["changing"]["rtf"] for row in data["step"].values()], "^:", color="#c0271f", label="process, inputs changing")
     middle.set(xlabel="communication step [s]", ylabel="processor time / simulated time")
+    read_off(middle)
     middle.legend(frameon=False)
     counts = [int(count) for count in data["outputs"]]
     right.plot(counts, [row["rtf"] for row in data["outputs"].values()], "o-", color="#0b3c8c")
@@ -379,7 +390,7 @@ def scaling(data):
     head = ["communication step, s", "RTF, constant inputs", "inside the FMU", "RTF, changing inputs", "inside the FMU"]
     head += ["evaluations per 10 ms, constant", "changing", "fmpy's own µs per step"]
     parallel = [[count, number(row["rtf"], 3), number(row["wall"], 3)] for count, row in data["parallel"].items()]
-    return f"""{origin(data)}. Through the FMU and fmpy. Instantiated FMU to first step (quasi-static start included): {data["start_ms"]:.1f} ms.
+    return f"""{origin(data)}. Through the FMU and fmpy. Initialisation, quasi-static start included: {data["start_ms"]:.1f} ms.
 
 ![Cost over balls, communication step and outputs](performance/scaling.svg)
 

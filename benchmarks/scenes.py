@@ -116,7 +116,7 @@ def output_groups(core, scene, repeat):
     instance = scene.start(core, scene_stress=int(Stress.PEAK), scene_statistics=int(Switch.ON), start_settle=0.0)
     costs, rounds = {}, 40 * repeat
     t = 0.0
-    for group in ("nothing else: the state's evaluation", *GROUPS, "all"):
+    for group in ("the evaluation that all share", *GROUPS, "all"):
         names = GROUPS if group == "all" else [group] if group in GROUPS else ["state"]
         codes = [getattr(core.lib, f"GROUP_{name.upper()}") for name in names]
         spent = []
@@ -142,7 +142,7 @@ def unchanged_inputs(core, scene, length, step, repeat):
         for name in ("free", "constant", "changing"):
             instance = scene.start(core, scene_stress=int(Stress.OFF), scene_statistics=int(Switch.OFF))
             instance.step(0.01)
-            before, inputs = counters(instance)["rhs_evals"], core.lib.bearing_inputs(instance.bearing)
+            before, inputs = counters(instance)["rhs_evals"], core.lib.bearing_inputs(instance.bearing, 0)
             load = inputs.shaft.F_y
 
             def steps(name=name, instance=instance, inputs=inputs, load=load):
