@@ -1,13 +1,20 @@
-"""Critical plane after Findley for a history of stress at a free surface: offline, from logged loads and the rivet's finite elements.
+"""Critical plane after Findley for a history of stress at a free surface: offline, from logged loads and the rivet's stress components.
 
     f = max over planes of (tau_a + k sigma_n,max)        Findley (1959); crack initiation where f reaches the material's limit
 
 tau_a: shear amplitude on the plane (half the largest extent of the shear vector's path), sigma_n,max: largest normal stress on it.
+
+    components = rivet_model.components.read("components.npz")
+    fields = components.fields(logged_load(result.data, k=1), fit_eff)
+    place, point, angle, plane = worst_point(fields)
 """
 
 from dataclasses import dataclass
+from dataclasses import fields as dataclass_fields
 
 import numpy as np
+
+from bearing_model.rivet_rom import RivetLoad
 
 DIRECTIONS = 36  # in a plane, over 180 degrees: extent to (1 - cos 2.5 deg) = 0.1 %
 
@@ -60,14 +67,28 @@ def findley(stress, k=0.3, step=5.0):
     return best
 
 
-def rivet_history(joint, loads, angles=16):
-    """Surface stress of both fillets and the middle over a history of loads: three arrays [3, points, angles, times] in Pa.
+def worst_point(fields, k=0.3, step=5.0):
+    """Worst of all points of several histories: (place, point, angle, CriticalPlane), indices into `fields`.
 
-    joint: rivet_model.load_cases.Joint.  loads: (P, N, V, M_plane, M_across, fit, azimuth) per time, azimuth of V in the rivet [rad]; SI.
+    fields: arrays [3, points, angles, times] of (tt, hoop, shear) in Pa, e.g. of rivet_model.components.Components.fields.  Points are searched in the
+    order of a bound of f, half the ranges' norm for tau_a and the largest principal stress for sigma_n, and no further than that can be worst.
     """
-    fields = []
-    for P, N, V, M_plane, M_across, fit, azimuth in loads:
-        forces = joint.solve(P, N, V, M_plane, M_across, fit)[0]
-        turn = round(azimuth / (2 * np.pi / angles)) % angles  # to the nearest of the angles
-        fields.append([np.roll(field[..., 0], turn, axis=2) for field in joint.fields(forces[:, None], angles)])
-    return tuple(np.stack([f[i] for f in fields], axis=-1) for i in range(3))
+    candidates = []
+    for place, field in enumerate(fields):
+        spread = np.ptp(field, axis=-1)
+        mean, half = 0.5 * (field[0] + field[1]), np.hypot(0.5 * (field[0] - field[1]), field[2])
+        bound = 0.5 * np.sqrt((spread[0] ** 2 + spread[1] ** 2) / 2 + spread[2] ** 2) + k * np.maximum(np.max(mean + half, axis=-1), 0.0)
+        candidates += [(value, place, *index) for index, value in np.ndenumerate(bound)]
+    worst = None
+    for bound, place, point, angle in sorted(candidates, reverse=True):
+        if worst is not None and bound <= worst[-1].f:
+            break
+        found = findley(fields[place][:, point, angle], k, step)
+        if worst is None or found.f > worst[-1].f:
+            worst = place, point, angle, found
+    return worst
+
+
+def logged_load(data, k):
+    """RivetLoad of rivet k over time from the outputs rivet[k].P ... rivet[k].F_head of a run; data: arrays by name of the output."""
+    return RivetLoad(*(np.asarray(data[f"rivet[{k}].{field.name}"]) for field in dataclass_fields(RivetLoad)))

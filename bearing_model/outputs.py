@@ -108,6 +108,11 @@ def rivet_outputs(model, w):
         "rivet[k].T": P if rigid else w.T,
         "rivet[k].M": np.hypot(load.M_y, load.M_z),
         "rivet[k].P": P,
+        "rivet[k].V_y": load.V_y,
+        "rivet[k].V_z": load.V_z,
+        "rivet[k].M_y": load.M_y,
+        "rivet[k].M_z": load.M_z,
+        "rivet[k].F_head": load.F_head,
         "rivet[k].slip": slip,
         "cage.dislocation": np.max(slip, axis=-1),
     }

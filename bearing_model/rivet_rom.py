@@ -1,6 +1,6 @@
 """Rivet stress from the reduced model: twin of fmu_src/rivet_rom.c, where the equations stand.
 
-sigma = s (w T_plane + (1 - w) T_across)(a, b, c, xi), homogeneous of degree 1 in the loads and the fit; T a tensor product of quadratic B-splines.
+sigma = s (w T_i + (1 - w) T_(i+1))(a, b, c, xi), sheets i around chi, homogeneous of degree 1 in loads and fit; T: tensor products of quadratic B-splines.
 Loads are arrays of one shape; `table` is a rivet_model.table.RivetTable (read one with rivet_model.table.read).
 """
 
@@ -71,7 +71,10 @@ def rivet_rom_stress(table, load, fit_eff):
     flat = [np.atleast_1d(a).ravel() for a in arrays]
     load, fit_eff = RivetLoad(*flat[:-1]), flat[-1]
     chi, at = load_splines(table, load, fit_eff)
-    plane = np.stack([chi, chi, chi * np.sqrt(chi), chi * np.sqrt(chi)], axis=-1)  # head, head, middle, middle
+    sheet = np.where(chi >= 0.5, 0, 1)  # the first of the two sheets around chi, and its weight in head and middle
+    head = 2.0 * chi - (1 - sheet)
+    mid = np.where(sheet == 0, head, head * np.sqrt(head))
+    first = np.stack([head, head, mid, mid], axis=-1)
     sigma = np.zeros((len(fit_eff), 4))
     (A, wa), (B, wb), (C, wc), (xi, wxi) = (at[name] for name in ("a", "b", "c", "xi"))
     for a in range(3):
@@ -79,8 +82,9 @@ def rivet_rom_stress(table, load, fit_eff):
             for c in range(3):
                 w = (wa[:, a] * wb[:, b] * wc[:, c])[:, None]
                 for i in range(3):
-                    T = table.coefficients[A + a, B + b, C + c, xi + i]
-                    sigma += w * wxi[:, i : i + 1] * (plane * T[:, 0] + (1.0 - plane) * T[:, 1])
+                    place = A + a, B + b, C + c, xi + i
+                    T, U = table.coefficients[*place, sheet], table.coefficients[*place, sheet + 1]
+                    sigma += w * wxi[:, i : i + 1] * (first * T + (1.0 - first) * U)
     sigma[:, HEAD_P1] += table.head_friction * load.F_head
     sigma[:, HEAD_VM] += table.head_friction_vm * load.F_head
     flags = (

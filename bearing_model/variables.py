@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from enum import IntEnum
 
 MODEL_IDENTIFIER = "RivetedBearing"
-MODEL_GUID = "{8ac04a08-f8c0-906e-3b5a-3cdda6339792}"
+MODEL_GUID = "{a46c3e56-0b5b-eed3-e202-2805d90ecedc}"
 Z = 9
 
 
@@ -303,6 +303,11 @@ OUTPUTS = {
         Variable("rivet[k].P", 3490, "Real", "N", None, None, None, None, Z, "rivet", "Preload at the present temperature", None),
         Variable("rivet[k].slip", 3530, "Real", "m", "um", None, None, None, Z, "rivet", "Slip of one half against the other at the joint, in the plane", None),
         Variable("rivet[k].flag", 3570, "Real", "1", None, None, None, None, Z, "stress", "Sum of 1 rivet yields, 2 flange yields, 4 compressed joint (N counted as 0), 8 load outside the stress table", None),
+        Variable("rivet[k].V_y", 3610, "Real", "N", None, None, None, None, Z, "rivet", "Transverse load that the shank carries, on the +X half, along y of the cage's frame", None),
+        Variable("rivet[k].V_z", 3650, "Real", "N", None, None, None, None, Z, "rivet", "Transverse load that the shank carries, on the +X half, along z of the cage's frame", None),
+        Variable("rivet[k].M_y", 3690, "Real", "N.m", None, None, None, None, Z, "rivet", "Prying moment on the +X half about y of the cage's frame", None),
+        Variable("rivet[k].M_z", 3730, "Real", "N.m", None, None, None, None, Z, "rivet", "Prying moment on the +X half about z of the cage's frame", None),
+        Variable("rivet[k].F_head", 3770, "Real", "N", None, None, None, None, Z, "rivet", "Friction force at the heads", None),
         Variable("bearing.friction_torque", 4001, "Real", "N.m", None, None, None, None, 1, "ring", "Torque that the shaft must supply about X", None),
         Variable("bearing.power_loss", 4002, "Real", "W", None, None, None, None, 1, "energy", "Power dissipated in contacts, films, drag, joints and dampers", None),
         Variable("bearing.energy_residual", 4003, "Real", "J", None, None, None, None, 1, "energy", "Energy now - energy at start - net work since: 0 but for the integration error", None),

@@ -136,6 +136,11 @@ static void fill_rivet(const Evaluation *at, Outputs *out)
         out->rivet.T[k] = rigid ? at->model->d->P : at->w->T[k];
         out->rivet.M[k] = number_sqrt(load[k].M_y * load[k].M_y + load[k].M_z * load[k].M_z);
         out->rivet.P[k] = at->model->d->P;
+        out->rivet.V_y[k] = load[k].V_y;
+        out->rivet.V_z[k] = load[k].V_z;
+        out->rivet.M_y[k] = load[k].M_y;
+        out->rivet.M_z[k] = load[k].M_z;
+        out->rivet.F_head[k] = load[k].F_head;
         out->rivet.slip[k] = slip[k];
         most = number_max(most, slip[k]);
     }

@@ -48,7 +48,8 @@ static Splines axis_splines_xi(const RivetAxis *axis, number s, double fit)
 // A load's place in the table; the splines of xi carry the factor s.
 typedef struct {
     Splines at[RIVET_AXES];
-    number plane[2];  // weight of the sheet "plane" in head and middle
+    int sheet;        // the first of the two sheets around chi
+    number first[2];  // its weight in head and middle
 } Place;
 
 static Place load_place(const RivetTable *t, const RivetLoad *load, double fit_eff)
@@ -58,8 +59,11 @@ static Place load_place(const RivetTable *t, const RivetLoad *load, double fit_e
     number axial = P + N, force = axial + V, moment = M / t->moment_length, s = force + moment, VM = V * M;
     number across = load->V_y * load->M_z - load->V_z * load->M_y;
     Place place;
-    place.plane[0] = number_value(VM) > 0.0 ? number_min(number_max(across, -across) / VM, 1.0) : 0.0;
-    place.plane[1] = place.plane[0] * number_sqrt(place.plane[0]);
+    number w = number_value(VM) > 0.0 ? 2.0 * number_min(number_max(across, -across) / VM, 1.0) : 0.0;
+    place.sheet = number_value(w) >= 1.0 ? RIVET_PLANE : RIVET_OBLIQUE;
+    if (place.sheet == RIVET_PLANE) w -= 1.0;
+    place.first[0] = w;
+    place.first[1] = place.sheet == RIVET_PLANE ? w : w * number_sqrt(w);
     place.at[RIVET_A] = axis_splines(&t->axis[RIVET_A], number_value(force) > 0.0 ? V / force : 0.0);
     place.at[RIVET_B] = axis_splines(&t->axis[RIVET_B], number_value(axial) > 0.0 ? N / axial : 0.0);
     place.at[RIVET_C] = axis_splines(&t->axis[RIVET_C], number_value(s) > 0.0 ? moment / s : 0.0);
@@ -67,64 +71,52 @@ static Place load_place(const RivetTable *t, const RivetLoad *load, double fit_e
     return place;
 }
 
-// Tensor product over 3^4 coefficients of both sheets for a pair of channels.  Order of sums: xi with chi, c, b, a.
+// Tensor product over 3^4 coefficients of two sheets for a pair of channels.  Order of sums: xi with chi, c, b, a.
 #ifdef DUAL
-static void contract(const RivetTable *t, const void *coefficients, bool single, const Place *place, number sigma[2])
+static void contract(const RivetTable *t, const float *coefficients, const Place *place, number sigma[2])
 {
     const Splines *A = &place->at[RIVET_A], *B = &place->at[RIVET_B], *C = &place->at[RIVET_C], *X = &place->at[RIVET_XI];
     int n_b = t->axis[RIVET_B].cells + 2, n_c = t->axis[RIVET_C].cells + 2, n_xi = t->axis[RIVET_XI].cells + 2;
     sigma[0] = sigma[1] = 0.0;
     for (int i = 0; i < 81; i++) {
         int a = i / 27, b = i / 9 % 3, c = i / 3 % 3, x = i % 3;
-        int T = 4 * (((((A->first + a) * n_b + B->first + b) * n_c) + C->first + c) * n_xi + X->first + x);
+        int place_xi = (((A->first + a) * n_b + B->first + b) * n_c + C->first + c) * n_xi + X->first + x;
+        const float *T = coefficients + 2 * (RIVET_SHEETS * place_xi + place->sheet);
         number weight = A->w[a] * B->w[b] * C->w[c] * X->w[x];
-        for (int k = 0; k < 2; k++) {
-            double plane = single ? ((const float *)coefficients)[T + k] : ((const double *)coefficients)[T + k];
-            double across = single ? ((const float *)coefficients)[T + 2 + k] : ((const double *)coefficients)[T + 2 + k];
-            sigma[k] += weight * (place->plane[k] * plane + (1.0 - place->plane[k]) * across);
-        }
+        for (int k = 0; k < 2; k++) sigma[k] += weight * (place->first[k] * T[k] + (1.0 - place->first[k]) * T[2 + k]);
     }
 }
 #else
 // Two channels side by side.
 typedef double pair __attribute__((vector_size(16)));
 
-static inline pair pair_load(const double *from)
+static inline pair fetch(const float *from)
 {
-    pair value;
-    memcpy(&value, from, sizeof value);
-    return value;
-}
-
-// Pair of coefficients from an array of double or of single precision.
-static inline pair fetch(const void *coefficients, int index, bool single)
-{
-    if (!single) return pair_load((const double *)coefficients + index);
-    const float *from = (const float *)coefficients + index;
     return (pair){from[0], from[1]};
 }
 
-static inline void contract(const RivetTable *t, const void *coefficients, bool single, const Place *place, double sigma[2])
+static inline void contract(const RivetTable *t, const float *coefficients, const Place *place, double sigma[2])
 {
     const Splines *A = &place->at[RIVET_A], *B = &place->at[RIVET_B], *C = &place->at[RIVET_C], *X = &place->at[RIVET_XI];
     int n_b = t->axis[RIVET_B].cells + 2, n_c = t->axis[RIVET_C].cells + 2, n_xi = t->axis[RIVET_XI].cells + 2;
-    pair plane[3], across[3];
+    const int xi = 2 * RIVET_SHEETS, row = n_xi * xi;  // coefficients from one xi, one c to the next
+    const pair w = {place->first[0], place->first[1]};
+    pair first[3], second[3];
     for (int i = 0; i < 3; i++) {
-        plane[i] = X->w[i] * pair_load(place->plane);
-        across[i] = X->w[i] * (1.0 - pair_load(place->plane));
+        first[i] = X->w[i] * w;
+        second[i] = X->w[i] * (1.0 - w);
     }
     pair sum = {0};
     for (int a = 0; a < 3; a++) {
         pair sum_a = {0};
         for (int b = 0; b < 3; b++) {
-            int T = 4 * (((((A->first + a) * n_b + B->first + b) * n_c) + C->first) * n_xi + X->first);
+            const float *T = coefficients + row * (((A->first + a) * n_b + B->first + b) * n_c + C->first) + xi * X->first + 2 * place->sheet;
             pair part[3];
-            for (int c = 0; c < 3; c++, T += 4 * n_xi) {
-                pair in_plane =
-                    plane[0] * fetch(coefficients, T, single) + plane[1] * fetch(coefficients, T + 4, single) + plane[2] * fetch(coefficients, T + 8, single);
-                pair beside = across[0] * fetch(coefficients, T + 2, single) + across[1] * fetch(coefficients, T + 6, single) +
-                              across[2] * fetch(coefficients, T + 10, single);
-                part[c] = C->w[c] * (in_plane + beside);
+            for (int c = 0; c < 3; c++, T += row) {
+                const float *U = T + 2;  // the second sheet
+                pair one = first[0] * fetch(T) + first[1] * fetch(T + xi) + first[2] * fetch(T + 2 * xi);
+                pair other = second[0] * fetch(U) + second[1] * fetch(U + xi) + second[2] * fetch(U + 2 * xi);
+                part[c] = C->w[c] * (one + other);
             }
             sum_a += B->w[b] * (part[0] + part[1] + part[2]);
         }
@@ -138,7 +130,7 @@ void rivet_rom_primary(const RivetTable *t, const RivetLoad *load, double fit_ef
 {
     Place place = load_place(t, load, fit_eff);
     number sigma[2];
-    contract(t, t->primary, false, &place, sigma);
+    contract(t, t->primary, &place, sigma);
     *head_p1 = sigma[0] + t->head_friction * load->F_head;
     *mid_vm = sigma[1];
 }
@@ -147,8 +139,8 @@ unsigned rivet_rom_stress(const RivetTable *t, const RivetLoad *load, double fit
 {
     Place place = load_place(t, load, fit_eff);
     number primary[2], secondary[2];
-    contract(t, t->primary, false, &place, primary);
-    contract(t, t->secondary, true, &place, secondary);
+    contract(t, t->primary, &place, primary);
+    contract(t, t->secondary, &place, secondary);
     sigma[HEAD_P1] = primary[0] + t->head_friction * load->F_head;
     sigma[MID_VM] = primary[1];
     sigma[HEAD_VM] = secondary[0] + t->head_friction_vm * load->F_head;

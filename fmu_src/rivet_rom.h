@@ -10,16 +10,18 @@
 // The frictionless joint (elastic bodies, unilateral contacts, gaps proportional to the fit) answers homogeneously of degree 1 in
 // (P, N, V, M, fit), so one argument divides out:
 //
-//     sigma = s (w T_plane(a, b, c, xi) + (1 - w) T_across(a, b, c, xi)),      s = P + N + V + |M|/L,   L = moment_length of the table
+//     sigma = s (w T_i(a, b, c, xi) + (1 - w) T_(i+1)(a, b, c, xi)),      s = P + N + V + |M|/L,   L = moment_length of the table
 //     a = V/(P + N + V),  b = N/(P + N),  c = |M|/(L s),  xi = fit_eff/s
 //     chi = |V_y M_z - V_z M_y|/(V |M|): 1 if M bends in the plane of V, 0 if across it
-//     w = chi in the head, chi^1.5 in the middle: the measured rule between the two, within 0.6 % and 2 % of the largest clearance stress
+//     i: sheets T of chi = 1 (plane), 1/2 (oblique), 0 (across), the two around chi;  w = 2 chi - 1 above 1/2, below it 2 chi in the head,
+//     (2 chi)^1.5 in the middle: the measured rule between the sheets, within 0.4 % and 1.3 % of the largest clearance stress
 //
 // The channels are the largest stress over both heads and all angles.  A half turn and the mirror of the halves change the sign of M against
 // V, so the sign only says which head carries more, and the channel does not depend on it.
 // a, b, c lie in [0, 1] for every load, so no load lies outside the table.  xi: constant below its axis (contact in the hole is
 // saturated: the size of the gap no longer matters), linear above (every contact of the hole closed).  T is a tensor product of
-// quadratic B-splines, C1 in each argument; sigma is C0 where V, N + P, M or chi passes through 0.  Head friction adds head_friction F_head to
+// quadratic B-splines, C1 in each argument; sigma is C0 where V, N + P or M passes through 0
+// and where chi passes through 0 or 1/2.  Head friction adds head_friction F_head to
 // the head channels and nothing in the middle.
 #pragma once
 
@@ -46,6 +48,7 @@ enum {
 };
 
 enum { RIVET_A, RIVET_B, RIVET_C, RIVET_XI, RIVET_AXES };
+enum { RIVET_PLANE, RIVET_OBLIQUE, RIVET_ACROSS, RIVET_SHEETS };
 
 // Clamped knots of one axis: `cells` + 1 knots, `cells` + 2 coefficients, and for each cell i the constants of its three splines
 //   rise[i] = 1/((t[i+2] - t[i]) (t[i+1] - t[i])),  fall[i] = 1/((t[i+1] - t[i-1]) (t[i+1] - t[i])).
@@ -87,7 +90,7 @@ typedef struct {
     int Z;
     double moment_length;  // L [m]
     RivetAxis axis[RIVET_AXES];
-    const double *primary;    // spline coefficients [a][b][c][xi][plane, across][HEAD_P1, MID_VM], in 1/m2
+    const float *primary;     // spline coefficients [a][b][c][xi][sheet][HEAD_P1, MID_VM], in 1/m2
     const float *secondary;   // the same of [HEAD_VM, MID_P1], which only outputs ask for
     double head_friction;     // [1/m2]
     double head_friction_vm;  // [1/m2]

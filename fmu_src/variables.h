@@ -9,7 +9,7 @@
 
 #define FMI2_FUNCTION_PREFIX RivetedBearing_  // of the functions of a source-code FMU
 #define MODEL_IDENTIFIER "RivetedBearing"
-#define MODEL_GUID "{8ac04a08-f8c0-906e-3b5a-3cdda6339792}"  // digest of the table
+#define MODEL_GUID "{a46c3e56-0b5b-eed3-e202-2805d90ecedc}"  // digest of the table
 
 enum { Z = 9 };  // number of balls
 
@@ -289,6 +289,11 @@ typedef struct {
         number P[Z];  // [N] Preload at the present temperature
         number slip[Z];  // [m] Slip of one half against the other at the joint, in the plane
         number flag[Z];  // [1] Sum of 1 rivet yields, 2 flange yields, 4 compressed joint (N counted as 0), 8 load outside the stress table
+        number V_y[Z];  // [N] Transverse load that the shank carries, on the +X half, along y of the cage's frame
+        number V_z[Z];  // [N] Transverse load that the shank carries, on the +X half, along z of the cage's frame
+        number M_y[Z];  // [N.m] Prying moment on the +X half about y of the cage's frame
+        number M_z[Z];  // [N.m] Prying moment on the +X half about z of the cage's frame
+        number F_head[Z];  // [N] Friction force at the heads
     } rivet;
     struct {
         number time;  // [s] Time that the statistics cover
@@ -440,7 +445,7 @@ typedef struct {
 } Variable;
 
 enum { N_INPUTS = 10 };  // all of them numbers
-enum { N_VARIABLES = 227 };  // time is the first
+enum { N_VARIABLES = 232 };  // time is the first
 
 extern const Variable VARIABLES[N_VARIABLES];  // by rising value reference
 

@@ -100,7 +100,7 @@ def make_table(geometry=None):
     """Table of kind closed_form for the geometry (default: the study's)."""
     geometry = geometry or Geometry()
     a, b, c, xi = np.meshgrid(*(splines.sites(KNOTS[name]) for name in table.AXES), indexing="ij")
-    sheets = [stress(geometry, *loads_of(a, b, c, MOMENT_LENGTH), chi, xi) / table.MPA_PER_N for chi in (1.0, 0.0)]
+    sheets = [stress(geometry, *loads_of(a, b, c, MOMENT_LENGTH), chi, xi) / table.MPA_PER_N for chi in (1.0, 0.5, 0.0)]
     yield_pressure = geometry.yield_flange / np.sqrt(3)  # first yield at the bore: 2 tau = p + hoop tension, taken as pure shear 2 p
     fit_yield = yield_pressure / lame_pressure(geometry, 1.0)
     full = 2 / np.sqrt(3) * geometry.yield_flange * np.log(2 * geometry.patch_radius / geometry.shank_diameter)  # fully plastic ring

@@ -121,10 +121,14 @@ class Body:
         nodes: mesh vertices of the contact edge, in order; positions: places of the rings along it (coordinate `axis`), among the nodes.
         A pressure p_j acts as -G_j p_j; G_j^T u is the mean normal displacement times the ring's area (without the factor of theta).
         """
+        return self.traction_loads(nodes, positions, (normal[0], 0.0, normal[1]), axis)
+
+    def traction_loads(self, nodes, positions, direction, axis):
+        """The same for a traction along a constant direction (r, theta, z)."""
         facets = self._facets(nodes)
         vector = FacetBasis(self.mesh, self.element, facets=facets, intorder=5)
         scalar = FacetBasis(self.mesh, ElementQuad1(), facets=facets, intorder=5)
-        form = BilinearForm(lambda p, v, w: p * (v[0] * normal[0] + v[2] * normal[1]) * w.x[0])
+        form = BilinearForm(lambda p, v, w: p * (v[0] * direction[0] + v[1] * direction[1] + v[2] * direction[2]) * w.x[0])
         G = form.assemble(scalar, vector).tocsc()[:, scalar.nodal_dofs[0, nodes]]
         hats = np.stack([np.interp(self.mesh.p[axis, nodes], positions, row) for row in np.eye(len(positions))], axis=1)
         return G @ hats

@@ -30,7 +30,7 @@ def c_source(t):
         axes.append(f"{{{len(t.knots[name]) - 1}, {name}_knot, {name}_rise, {name}_fall}}")
     channel = table.CHANNELS.index
     parts += [
-        _array("primary", t.coefficients[..., [channel("head_p1"), channel("mid_vm")]]),
+        _array("primary", t.coefficients[..., [channel("head_p1"), channel("mid_vm")]], "float"),
         _array("secondary", t.coefficients[..., [channel("head_vm"), channel("mid_p1")]], "float"),
         _array("j2_fit_a", t.fit_a),
         _array("j2_fit_eff", t.fit_eff),

@@ -66,6 +66,7 @@ class Geometry:
         limits = [
             ("head_diameter", self.head_diameter / 2, ">", "the relieved hole's radius", radius + self.relief_radius),
             ("patch_radius", self.patch_radius, ">", "the head's radius", self.head_diameter / 2),
+            ("head_height", self.head_height, ">", "fillet_radius", self.fillet_radius),
             ("fillet_radius", self.fillet_radius, "<", "relief_radius", self.relief_radius),
             ("fillet_radius", self.fillet_radius, "<", "relief_depth", self.relief_depth),
             ("relief_depth + edge_break", self.relief_depth + self.edge_break, "<", "flange_thickness", self.flange_thickness),
@@ -91,8 +92,10 @@ class Geometry:
         return hashlib.sha256(json.dumps(asdict(self), sort_keys=True).encode()).hexdigest()[:16]
 
     @classmethod
-    def from_toml(cls, path):
+    def from_toml(cls, path, cage=None):
         """Read a TOML file; what it leaves out keeps its default.
+
+        cage: values that a bearing gives (name: value); the file may repeat but not change them, except patch_radius, which is the joint's own.
 
         >>> Geometry().digest == Geometry(**asdict(Geometry())).digest
         True
@@ -107,7 +110,10 @@ class Geometry:
         unknown = sorted(set(data) - known)
         if unknown:
             raise ValueError(f"{path}: unknown key {unknown[0]!r}; allowed are {', '.join(sorted(known))}")
+        for name, value in (cage or {}).items():
+            if name != "patch_radius" and data.get(name, value) != value:
+                raise ValueError(f"{path}: {name} = {data[name]!r}: the bearing has {value!r}")
         try:
-            return cls(**data)
+            return cls(**((cage or {}) | data))
         except ValueError as error:
             raise ValueError(f"{path}: {error}") from error

@@ -1,105 +1,161 @@
-"""Curves of a rivet table (the paper's Figs. 11 and 12, and over transverse load) and pictures of the finite elements behind it.
+"""Curves of one rivet (the paper's Figs. 11 and 12, and over transverse load) and pictures of the finite elements behind them."""
 
-python -m rivet_model.pictures OUT.png [TABLE.json]            curves
-python -m rivet_model.pictures OUT.png --section [GEOMETRY]    mesh, deformed section and stress under preload, tension and transverse load
-"""
-
-import sys
-from pathlib import Path
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from bearing_model.rivet_rom import HEAD_P1, MID_VM, RivetLoad, rivet_rom_fit_eff, rivet_rom_stress
 
-from . import table
-from .geometry import Geometry
-from .load_cases import Joint
+from . import plastic_fit
+from .load_cases import GROUPS
 
-DEFAULT_TABLE = Path(__file__).parent / "tables" / "6207.json"
 SWELL = 4e-6  # m, default of joint.swell
-REFERENCE = {"P": 20.0, "N": 10.0, "V_y": 10.0}  # N: preload of the paper's section 4.1 (3), loads of the study
+FIT = -10e-6 + SWELL  # m, of the default joint
+REFERENCE = RivetLoad(P=20.0, N=10.0, V_y=10.0)  # P: preload of the paper's section 4.1 (3); N, V: loads of the study
+HEAD, MIDDLE = "#c8442b", "#2a6f97"
 
 
-def curves(t, swell=SWELL):
-    """Data of three curves: name -> (x, head [Pa], middle [Pa]), x in N or m.  Fig. 11 over preload at the largest clearance, Fig. 12 over the fit."""
-    preload, fit, V = np.linspace(0.0, 60.0, 61), np.linspace(-90e-6, 40e-6, 131), np.linspace(0.0, 60.0, 61)
+@dataclass(frozen=True)
+class Curve:
+    """Stress of head (largest principal) and middle (von Mises) [Pa] over x [SI]."""
 
-    def stress(load, fit_a):
-        sigma, _ = rivet_rom_stress(t, load, fit_a)
-        return sigma[..., HEAD_P1], sigma[..., MID_VM]
+    label: str
+    unit: str
+    scale: float  # x in `unit` / x in SI
+    x: np.ndarray
+    head: np.ndarray
+    mid: np.ndarray
 
-    yielded = rivet_rom_fit_eff(t, fit + swell, True)
+
+def table_response(t):
+    """stress(load, fit_eff) -> channels [..., 4] in Pa, fit_eff(fit_a) [m]: of a table."""
+    return lambda load, fit: rivet_rom_stress(t, load, fit)[0], lambda fit_a: rivet_rom_fit_eff(t, fit_a, True)
+
+
+def joint_response(joint):
+    """The same by fresh solutions of a Joint, without a table."""
+    fitted = plastic_fit.plastic_fit(joint.geometry)
+
+    def stress(load, fit):
+        P, N, V, fit = np.broadcast_arrays(load.P, load.N, load.V_y, fit)
+        forces = [joint.solve(*case[:3], 0.0, 0.0, case[3])[0] for case in zip(P.flat, N.flat, V.flat, fit.flat, strict=True)]
+        return joint.channels(np.stack(forces, axis=1))
+
+    return stress, lambda fit_a: np.where(fit_a > 0.0, np.interp(fit_a, fitted.fit_a, fitted.fit_eff), fit_a)
+
+
+def curves(stress, fit_eff, swell=SWELL):
+    """Curves by name; Fig. 11: preload alone at the largest clearance; Fig. 12: REFERENCE over the fit, elastic and with the flange's yield."""
+    preload, fit, V = np.linspace(0.0, 60.0, 25), 1e-6 * np.arange(-90.0, 40.1, 2.0), np.linspace(0.0, 60.0, 25)
+
+    def curve(label, unit, scale, x, load, fit_a):
+        sigma = stress(load, fit_a)
+        return Curve(label, unit, scale, x, sigma[..., HEAD_P1], sigma[..., MID_VM])
+
     return {
-        "preload": (preload, *stress(RivetLoad(P=preload), -90e-6)),
-        "fit, elastic": (fit, *stress(RivetLoad(**REFERENCE), fit + swell)),
-        "fit, with yield": (fit, *stress(RivetLoad(**REFERENCE), yielded)),
-        "transverse load": (V, *stress(RivetLoad(P=20.0, V_y=V), -6e-6)),
+        "Fig. 11": curve("preload", "N", 1.0, preload, RivetLoad(P=preload), -90e-6),
+        "Fig. 12, elastic": curve("fit", "µm", 1e6, fit, REFERENCE, fit + swell),
+        "Fig. 12, with yield": curve("fit", "µm", 1e6, fit, REFERENCE, fit_eff(fit + swell)),
+        "transverse load": curve("transverse load", "N", 1.0, V, replace(REFERENCE, N=0.0, V_y=V), FIT),
     }
 
 
-def text(data):
-    """The curves as a table to print."""
-    lines = []
-    for name, (x, head, mid) in data.items():
-        scale, unit = (1e6, "um") if name.startswith("fit") else (1.0, "N")
-        lines.append(f"{name} [{unit}]: head, middle [MPa]")
-        chosen = np.linspace(0, len(x) - 1, 11).astype(int)
-        lines += [f"{scale * x[i]:8.1f} {head[i] / 1e6:8.1f} {mid[i] / 1e6:8.1f}" for i in chosen]
-    return "\n".join(lines)
-
-
-def plot_curves(data):
+def plot_curves(data, title=""):
     """Figure of the curves."""
     from matplotlib.figure import Figure
 
-    figure = Figure(figsize=(13, 4), layout="constrained")
+    figure = Figure(figsize=(13, 4.2), layout="constrained")
     axes = figure.subplots(1, 3)
-    for name, (x, head, mid) in data.items():
-        ax = axes[0 if name == "preload" else 2 if name == "transverse load" else 1]
-        style, label = ("--", ", elastic") if name.endswith("elastic") else ("-", "")
-        x = 1e6 * x if name.startswith("fit") else x
-        ax.plot(x, head / 1e6, style, color="C0", label="head" + label)
-        ax.plot(x, mid / 1e6, style, color="C1", label="middle" + label)
-    for ax, label in zip(axes, ("preload [N]", "fit [µm]", "transverse load [N]"), strict=True):
-        ax.set(xlabel=label, ylabel="stress [MPa]")
-        ax.legend()
-    axes[1].set_ylim(0, 700)
+    panel = {"preload": axes[0], "fit": axes[1], "transverse load": axes[2]}
+    for name, c in data.items():
+        style, kind = ("--", ", elastic") if name.endswith("elastic") else ("-", "")
+        panel[c.label].plot(c.scale * c.x, c.head / 1e6, style, color=HEAD, label="head" + kind)
+        panel[c.label].plot(c.scale * c.x, c.mid / 1e6, style, color=MIDDLE, label="middle" + kind)
+        panel[c.label].set(xlabel=f"{c.label} [{c.unit}]", ylabel="stress [MPa]", ylim=(0.0, None))
+    r, yielded = REFERENCE, data["Fig. 12, with yield"]
+    axes[0].set_title("Fig. 11: preload alone, fit −90 µm")
+    axes[1].set_title(f"Fig. 12: P {r.P:g} N, N {r.N:g} N, V {r.V_y:g} N")
+    axes[2].set_title(f"P {r.P:g} N, fit {1e6 * (FIT - SWELL):g} µm")
+    axes[1].set_ylim(0.0, 1.5e-6 * max(yielded.head.max(), yielded.mid.max()))
+    axes[1].axvspan(-20.0, 0.0, color="0.93", zorder=0)
+    for ax in axes:
+        ax.grid(color="0.9")
+        ax.set_axisbelow(True)
+        ax.spines[["top", "right"]].set_visible(False)
+        ax.legend(frameon=False)
+    figure.suptitle(title, x=0.01, ha="left")
     return figure
 
 
-def plot_section(joint, P=20.0, N=10.0, V=20.0, fit=-6e-6, magnified=200.0):
-    """Figure: meshes; the section in the plane of the load, deformed, with its largest principal stress."""
+# The section -------------------------------------------------------------------------------------------------------------------------------
+
+
+def plot_section(joint, load=REFERENCE, fit=FIT, magnified=60.0):
+    """Figure: meshes; the joint in the plane of V, deformed, with its largest principal stress; the fillet that carries most.
+
+    Gaps are drawn as much larger than they are as the displacements, so what touches in the picture touches.
+    """
     from matplotlib.figure import Figure
 
-    figure = Figure(figsize=(12, 7), layout="constrained")
-    left, right = figure.subplots(1, 2)
+    figure = Figure(figsize=(13, 6.4), layout="constrained")
+    left, middle, right = figure.subplots(1, 3, width_ratios=[0.75, 1.2, 1.0])
     for mesh in (joint.rivet.mesh, joint.flange.mesh):
-        _draw_mesh(left, mesh.p, mesh.t)
-    left.set(title="mesh (the lower flange mirrors the upper one)", xlabel="r [mm]", ylabel="x [mm]", aspect="equal")
-    forces = joint.solve(P, N, V, 0.0, 0.0, fit)[0]
-    for theta in (0.0, np.pi):
-        moved, stress = joint_displacement(joint, forces, theta)
-        mesh = joint.rivet.mesh
-        side = np.cos(theta)
-        p = np.stack([side * (mesh.p[0] + magnified * moved[0]), mesh.p[1] + magnified * moved[1]])
-        filled = right.tripcolor(1e3 * p[0], 1e3 * p[1], _triangles(mesh.t), stress / 1e6, shading="gouraud", cmap="viridis", vmin=0, vmax=150)
+        for ax in (left, right):
+            _draw_mesh(ax, mesh)
+    left.set(title="mesh (lower flange: mirrored)", xlabel="r [mm]", ylabel="x [mm]", aspect="equal")
+
+    forces, q, *_ = joint.solve(load.P, load.N, load.V_y, 0.0, 0.0, fit)
+    parts = [part for theta in (0.0, np.pi) for part in section(joint, forces, q, theta, load.P, fit, magnified)]
+    limit = max(stress.max() for _, _, _, stress in parts) / 1e6
+    shade = {"shading": "gouraud", "cmap": "viridis", "vmin": 0.0, "vmax": limit}
+    for moved, _, triangles, stress in parts:
+        filled = middle.tripcolor(*(1e3 * moved), triangles, stress / 1e6, **shade)
+    middle.set(title=f"displacements and gaps × {magnified:g}", xlabel="along V [mm]", aspect="equal")
+
+    g = joint.geometry
+    _, place, triangles, stress = max(parts, key=lambda part: part[3].max())
+    up = np.sign(place[1, np.argmax(stress)])
+    right.tripcolor(1e3 * np.abs(place[0]), 1e3 * up * place[1], triangles, stress / 1e6, **shade)
+    centre, size = (1e3 * g.shank_diameter / 2, 1e3 * g.flange_thickness), 3e3 * g.fillet_radius
+    right.set(xlim=(centre[0] - 1.5 * size, centre[0] + size), ylim=(centre[1] - size, centre[1] + 1.5 * size), xlabel="r [mm]", aspect="equal")
+    right.set_title("the fillet with the largest stress")
     figure.colorbar(filled, ax=right, label="largest principal stress [MPa]")
-    right.set(title=f"P {P:g} N, N {N:g} N, V {V:g} N, fit {1e6 * fit:g} µm; displacements × {magnified:g}", xlabel="r [mm]", aspect="equal")
+    figure.suptitle(f"P {load.P:g} N, N {load.N:g} N, V {load.V_y:g} N, hole contact at fit {1e6 * fit:g} µm", x=0.01, ha="left")
     return figure
 
 
-def joint_displacement(joint, forces, theta, harmonics=8):
-    """Elastic displacement (r, z) [2, vertices] and largest principal stress [vertices] of the rivet in the half plane at `theta`.
+def section(joint, forces, q, theta, P, fit, magnified):
+    """Rivet, upper and lower flange in the half plane at theta = 0 or pi.
 
-    forces: contact forces of a solution.  The first harmonics only: enough for a picture.
+    forces, q: contact forces and rigid motions of a solution under the preload P.  Returns for each body the moved and the original places of the
+    vertices (along V, x) [2, vertices], triangles, and the largest principal stress [vertices] in Pa.
     """
-    rivet, mesh = joint.rivet, joint.rivet.mesh
-    amplitude = joint.amplitudes(forces[:, None], joint.ring_slices)
-    moved, stress = np.zeros((2, mesh.nvertices)), np.zeros((6, rivet.basis.nelems))
-    S_0, S_1 = rivet.centre_stress()
-    for n in range(harmonics + 1):
-        u = -rivet.solve(n, joint.rivet_loads @ amplitude[0, n])
-        moved += np.cos(n * theta) * u[rivet.basis.nodal_dofs[[0, 2]], 0]
+    g, side = joint.geometry, np.cos(theta)
+    mirrored = {"LH": joint.upper["UH"], "LB": joint.upper["UB"], "PP": joint.upper["PP"]}
+    short = np.array([0.5 * fit / (g.shank_diameter / 2), -0.5 * joint.overclosure(P, fit) / g.flange_thickness])  # the rivet's gaps, per length
+    still = np.zeros(5)
+    bodies = (
+        (joint.rivet, joint.rivet_loads, joint.ring_slices, 1.0, q[:5], short),
+        (joint.flange, joint.flange_loads, joint.upper, 1.0, q[5:], 0.0 * short),
+        (joint.flange, joint.flange_loads, mirrored, -1.0, still, 0.0 * short),
+    )
+    for body, loads, rings, up, motion, shrink in bodies:
+        amplitude = joint.amplitudes(forces[:, None], {name: rings[name] for name in GROUPS if name in rings})
+        elastic, stress = _response(body, loads, amplitude[0, :, :, 0], theta)
+        r, z = body.mesh.p
+        place = np.stack([side * r, up * z])
+        moved = np.stack([side * elastic[0], up * elastic[1]]) + shrink[:, None] * place
+        moved += np.stack([motion[0] + motion[4] * place[1], motion[2] - motion[4] * place[0]])
+        yield place + magnified * moved, place, _triangles(body.mesh.t), stress
+
+
+def _response(body, loads, amplitude, theta):
+    """Elastic displacement (r, z) [2, vertices] and largest principal stress [vertices] under the rings' pressures [harmonics, rings]."""
+    mesh, (S_0, S_1) = body.mesh, body.centre_stress()
+    moved, stress = np.zeros((2, mesh.nvertices)), np.zeros((6, body.basis.nelems))
+    for n in range(min(len(amplitude), 13)):  # enough for a picture
+        u = -body.solve(n, (loads @ amplitude[n])[:, None])
+        moved += np.cos(n * theta) * u[body.basis.nodal_dofs[[0, 2]], 0]
         stress += ((S_0 + n * S_1) @ u).reshape(6, -1) * np.where(np.arange(6) < 4, np.cos(n * theta), np.sin(n * theta))[:, None]
     tensor = stress[[0, 4, 3, 4, 1, 5, 3, 5, 2]].T.reshape(-1, 3, 3)
     largest = np.linalg.eigvalsh(tensor)[:, 2]
@@ -111,27 +167,6 @@ def _triangles(quads):
     return np.concatenate([quads[[0, 1, 2]], quads[[0, 2, 3]]], axis=1).T
 
 
-def _draw_mesh(ax, p, quads):
-    loop = np.concatenate([quads, quads[:1]])
-    x, y = 1e3 * p[0][loop], 1e3 * p[1][loop]
+def _draw_mesh(ax, mesh):
+    x, y = 1e3 * mesh.p[:, np.concatenate([mesh.t, mesh.t[:1]])]
     ax.plot(x, y, color="0.4", linewidth=0.3)
-
-
-def main(arguments):
-    """Command line."""
-    if not arguments:
-        print(__doc__)
-        return 2
-    if "--section" in arguments:
-        rest = [a for a in arguments[1:] if a != "--section"]
-        figure = plot_section(Joint(Geometry.from_toml(rest[0]) if rest else Geometry()))
-    else:
-        data = curves(table.read(arguments[1] if len(arguments) > 1 else DEFAULT_TABLE))
-        print(text(data))
-        figure = plot_curves(data)
-    figure.savefig(arguments[0], dpi=120)
-    return 0
-
-
-if __name__ == "__main__":
-    sys.exit(main(sys.argv[1:]))

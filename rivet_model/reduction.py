@@ -1,11 +1,12 @@
 """From the condensed joint to the table: sample the homogeneous response, fit splines, measure the error on loads that did not build it."""
 
-import os
 from concurrent.futures import ProcessPoolExecutor
+from contextlib import ExitStack
 from dataclasses import dataclass
 from multiprocessing import get_context
 
 import numpy as np
+from threadpoolctl import threadpool_limits
 
 from bearing_model import rivet_rom
 
@@ -24,25 +25,26 @@ FULL = {
 }
 COARSE = {"a": np.array([0.0, 0.5, 1.0]), "b": np.array([0.0, 0.5, 1.0]), "c": np.array([0.0, 0.5, 1.0]), "xi": 1e-9 * np.array([-1000, -100, 0, 30, 400])}
 
+DIRECTION = {"plane": 0.0, "oblique": np.pi / 3, "across": np.pi / 2}  # of M, to the axis across V: chi = cos
+
 _joint = None  # of the worker processes, inherited by fork
 
 
-def _use_one_thread():
-    for name in ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS"):
-        os.environ[name] = "1"
+def _moments(M, direction):
+    """Parts of a moment in the plane of V and across it; exactly 0 where symmetry says so."""
+    return 0.0 if direction == np.pi / 2 else M * np.cos(direction), M * np.sin(direction)
 
 
 def _row(task):
-    """All xi of one (a, b, c, sheet), from high to low so that contacts open one after the other: T in 1/m2 [xi, channel]."""
-    a, b, c, sheet, xi = task
+    """All xi of one (a, b, c, sheet), from high to low so that contacts open one after the other: what `measure` sees, per newton [xi, ...]."""
+    a, b, c, sheet, xi, measure = task
     P, N, V, M = loads_of(a, b, c, MOMENT_LENGTH)
     forces, active = [], None
     for value in xi[::-1]:
-        moments = (M, 0.0) if sheet == "plane" else (0.0, M)
-        force, _, solution, _ = _joint.solve(P, N, V, *moments, value, active)
+        force, _, solution, _ = _joint.solve(P, N, V, *_moments(M, DIRECTION[sheet]), value, active)
         active = solution.active
         forces.append(force)
-    return _joint.channels(np.stack(forces[::-1], axis=1))
+    return measure(_joint, np.stack(forces[::-1], axis=1))
 
 
 def representative(a, b, c, sheet):
@@ -56,29 +58,30 @@ def representative(a, b, c, sheet):
     return a, b, c, sheet
 
 
+@threadpool_limits.wrap(limits=1)
 def _map(joint, function, tasks, workers, progress):
+    """function of all tasks, in `workers` processes that inherit the joint by fork, each with one thread: the matrices are small."""
     global _joint
     _joint = joint
     results = []
-    if workers == 1:
-        for i, task in enumerate(tasks):
-            results.append(function(task))
-            progress(i + 1, len(tasks))
-        return results
-    with ProcessPoolExecutor(workers, mp_context=get_context("fork")) as pool:
-        for i, result in enumerate(pool.map(function, tasks, chunksize=4)):
+    with ExitStack() as stack:
+        pool = stack.enter_context(ProcessPoolExecutor(workers, mp_context=get_context("fork"))) if workers > 1 else None
+        for result in pool.map(function, tasks, chunksize=4) if pool else map(function, tasks):
             results.append(result)
-            progress(i + 1, len(tasks))
+            progress(len(results), len(tasks))
     return results
 
 
-def sample(joint, knots, workers=2, progress=None):
-    """T [1/m2] at the sites of all axes: [a, b, c, xi, sheet, channel]."""
+def sample(joint, knots, workers=2, progress=None, measure=Joint.channels, representative=representative):
+    """T [1/m2] at the sites of all axes: [a, b, c, xi, sheet, channel].
+
+    measure(joint, forces [contacts, cases]) -> [cases, numbers]; representative: which coordinates stand for others.
+    """
     a, b, c, xi = (splines.sites(knots[name]) for name in table.AXES)
     points = [(x, y, z, sheet) for x in a for y in b for z in c for sheet in table.SHEETS]
     names = [representative(*point) for point in points]
     unique = list(dict.fromkeys(names))
-    rows = _map(joint, _row, [(*name, xi) for name in unique], workers, progress or (lambda done, total: None))
+    rows = _map(joint, _row, [(*name, xi, measure) for name in unique], workers, progress or (lambda done, total: None))
     found = dict(zip(unique, rows, strict=True))
     values = np.stack([found[name] for name in names]).reshape(len(a), len(b), len(c), len(table.SHEETS), len(xi), -1)
     return np.moveaxis(values, 3, 4)
@@ -108,12 +111,13 @@ def random_loads(count, seed, largest_fit=9.1e-6, clearance_only=False):
     return loads
 
 
+def load_forces(joint, load):
+    """Contact forces [contacts] of a fresh solution."""
+    return joint.solve(load.P, load.N, load.V, *_moments(load.M, load.direction), load.fit)[0]
+
+
 def _fresh(load):
-    across = np.pi / 2 == load.direction
-    M_plane = 0.0 if across else load.M * np.cos(load.direction)
-    M_across = load.M if across else load.M * np.sin(load.direction)
-    force, *_ = _joint.solve(load.P, load.N, load.V, M_plane, M_across, load.fit)
-    return _joint.channels(force[:, None])[0]
+    return _joint.channels(load_forces(_joint, load)[:, None])[0]
 
 
 def solve_loads(joint, loads, workers=2, progress=None):
@@ -141,9 +145,3 @@ def hold_out_errors(t, loads, fresh):
             "channel_maximum_MPa": dict(zip(table.CHANNELS, (fresh[chosen].max(axis=0) / 1e6).round(1).tolist(), strict=True)),
         }
     return report
-
-
-def condense(geometry, grid, progress=None):
-    """The condensed joint, computed with one thread: processes share the machine."""
-    _use_one_thread()
-    return Joint(geometry, grid, progress)

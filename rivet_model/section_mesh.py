@@ -66,7 +66,7 @@ class _Blocks:
         if np.any(area == 0.0):
             raise ValueError("geometry cannot be meshed: an element has no area")
         quads = np.where(area > 0.0, quads, quads[::-1])
-        return MeshQuad(p, np.ascontiguousarray(quads))
+        return MeshQuad(np.ascontiguousarray(p), np.ascontiguousarray(quads))
 
 
 def bore_levels(g, fine):
@@ -76,14 +76,14 @@ def bore_levels(g, fine):
 
 def head_radii(g, fine):
     """Radii of the contact under the head."""
-    return graded_both(g.shank_diameter / 2 + g.relief_radius, g.head_diameter / 2, fine(4), 1.5)
+    return graded_both(g.shank_diameter / 2 + g.relief_radius, g.head_diameter / 2, fine(6), 1.5)
 
 
 def plate_radii(g, fine):
     """Radii of the contact in the split plane."""
     R = g.shank_diameter / 2
     inner = np.linspace(R + g.edge_break, R + g.relief_radius, fine(1) + 1)
-    return _levels([inner, head_radii(g, fine), np.linspace(g.head_diameter / 2, g.patch_radius, fine(5) + 1)])
+    return _levels([inner, head_radii(g, fine), np.linspace(g.head_diameter / 2, g.patch_radius, fine(8) + 1)])
 
 
 def rivet_mesh(g, fine=None):
@@ -92,9 +92,9 @@ def rivet_mesh(g, fine=None):
     R, rf, t = g.shank_diameter / 2, g.fillet_radius, g.flange_thickness
     top = t + g.head_height
     w = min(1.6 * rf, 0.45 * R, 0.45 * g.head_height)  # depth of the refined layers
-    layers = w * graded(0.0, 1.0, fine(5), 6.0)  # distance from the surface
+    layers = w * graded(0.0, 1.0, fine(7), 8.0)  # distance from the surface
     core = np.linspace(0.0, R - w, fine(5) + 1)
-    arc = fine(7)
+    arc = fine(10)
     middle = _levels([np.linspace(0.0, g.middle_zone, fine(3) + 1), np.linspace(g.middle_zone, g.edge_break, fine(2) + 1)])
     neck = graded_both(g.flange_thickness - g.relief_depth, t - rf, fine(6), 2.0)
     shank = _levels([middle, bore_levels(g, fine), neck])
@@ -126,7 +126,7 @@ def flange_mesh(g, fine=None):
     bore = bore_levels(g, fine)
     chamfer = np.linspace(0.0, g.edge_break, fine(2) + 1)
     relief = graded(t - g.relief_depth, t, fine(4), 1.0)
-    outer = _levels([head_radii(g, fine), np.linspace(g.head_diameter / 2, g.patch_radius, fine(5) + 1)])
+    outer = _levels([head_radii(g, fine), np.linspace(g.head_diameter / 2, g.patch_radius, fine(8) + 1)])
     edge = R + g.relief_radius
     blocks = _Blocks()
     blocks.rectangle(R + inner * g.relief_radius, bore)

@@ -15,10 +15,10 @@ import numpy as np
 from . import splines
 from .geometry import Geometry
 
-FORMAT = "rivet-table-1"
+FORMAT = "rivet-table-2"
 CHANNELS = ("head_p1", "head_vm", "mid_vm", "mid_p1")
 AXES = ("a", "b", "c", "xi")
-SHEETS = ("plane", "across")
+SHEETS = ("plane", "oblique", "across")  # chi, |cos| of the direction of M, is 1, 1/2, 0
 MPA_PER_N = 1e6  # 1/mm2 in 1/m2
 UNITS = {"T": "MPa/N", "xi": "m/N", "fit": "m", "stiffness": "N/m", "length": "m", "stress": "Pa", "expansion": "1/K", "load_path": "1 and m"}
 JOINT_KEYS = (
@@ -41,7 +41,7 @@ JOINT_KEYS = (
 
 @dataclass
 class RivetTable:
-    """Everything the FMU knows of one rivet joint.  Arrays are those of the file; `coefficients` in 1/m2, rounded to six digits."""
+    """Everything the FMU knows of one rivet joint.  Arrays are those of the file; `coefficients` in 1/m2, rounded to five digits."""
 
     kind: str  # "closed_form" or "fe"
     geometry: dict
@@ -64,16 +64,13 @@ class RivetTable:
 
 
 def rounded(numbers):
-    """The numbers as the file keeps them: six digits."""
-    return np.array([float(f"{value:.6g}") for value in np.ravel(numbers)]).reshape(np.shape(numbers))
+    """The numbers as the file keeps them: five digits, a hundredth of the table's own error."""
+    return np.array([float(f"{value:.5g}") for value in np.ravel(numbers)]).reshape(np.shape(numbers))
 
 
 def _as_embedded(coefficients):
-    """The coefficients that both readers use: those of the secondary channels in single precision."""
-    coefficients = MPA_PER_N * coefficients
-    secondary = [CHANNELS.index("head_vm"), CHANNELS.index("mid_p1")]
-    coefficients[..., secondary] = coefficients[..., secondary].astype(np.float32)
-    return coefficients
+    """The coefficients that both readers use: single precision."""
+    return (MPA_PER_N * coefficients).astype(np.float32).astype(float)
 
 
 def _digest(sections):
@@ -114,7 +111,7 @@ def write(table, path):
         "errors": table.errors,
         "digest": _digest(sections),
     }
-    blocks = [f' "{name}": {json.dumps(value)}' for name, value in ({"header": header} | sections).items()]
+    blocks = [f'"{name}":{json.dumps(value, separators=(",", ":"))}' for name, value in ({"header": header} | sections).items()]
     Path(path).write_text("{\n" + ",\n".join(blocks) + "\n}\n", encoding="utf-8")
 
 

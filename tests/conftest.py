@@ -7,12 +7,20 @@ import pytest
 from library import LIBRARY, ROOT, Core
 from python_core import python_core
 from slave import Slave
+from threadpoolctl import threadpool_limits
 
 
 def pytest_generate_tests(metafunc):
     """In files with TWINS = True, tests of `core` run on the C core and on the Python reference, unless they are marked c_only."""
     if "core" in metafunc.fixturenames and getattr(metafunc.module, "TWINS", False) and not metafunc.definition.get_closest_marker("c_only"):
         metafunc.parametrize("core", ["C", "Python"], indirect=True)
+
+
+@pytest.fixture(scope="session", autouse=True)
+def one_thread():
+    """Small matrices: on a shared machine the threads of the linear algebra wait for each other longer than they compute."""
+    with threadpool_limits(1):
+        yield
 
 
 @pytest.fixture(scope="session")

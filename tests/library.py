@@ -163,7 +163,7 @@ def declarations(sources):
         lines.append(generator.visit(node) + ";")
     for isa in INSTRUCTION_SETS[1:]:
         lines += [generator.visit(node) + ";" for node in parse(sources, isa) if (node.name or "").endswith(f"_{isa}")]
-    return "\n".join(lines)
+    return "\n".join(lines).replace("extern const ", "extern ")  # cffi takes const data for a compile-time constant
 
 
 def parse(sources, isa):

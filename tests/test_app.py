@@ -15,6 +15,7 @@ from bearing_model.app.bearings import bearing_case, find_bearing, flat, shipped
 from bearing_model.app.build import start_document
 from bearing_model.app.fmu import Instance, Model
 from bearing_model.app.results import FORMATS, write_atomically
+from bearing_model.app.rivet import TRACKED_TABLE
 from bearing_model.app.summary import rivet_rows, summary_rows
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -216,7 +217,15 @@ def test_run_in_a_pipe(tmp_path):
         (["build", "--bearing", "bad.toml"], ["bad.toml", "Z = 3", "5 to 32"]),
         (["build", "--bearing", "6309"], ['"6309"', '"6310"']),
         (["build", "--rivet", "none.json"], ["none.json", "No such file"]),
-        (["build", "--rivet", "bad.toml"], ["bad.toml", "not a rivet table"]),
+        (["build", "--rivet", "bad.json"], ["bad.json", "not a rivet table"]),
+        (["build", "--rivet", "half.json"], ["half.json", "not a rivet table"]),
+        (["build", "--rivet", "nine.json", "--bearing", "6310"], ["nine.json", "made for Z = 9", "Z = 8 is needed"]),
+        (["build", "--rivet", "bad.toml"], ["bad.toml", "Z = 3: the bearing has 9"]),
+        (["build", "--rivet", "negative.toml"], ["negative.toml", "shank_diameter = -0.0015"]),
+        (["build", "--rivet", "wide.toml"], ["wide.toml", "fillet_radius = 0.0003 must be below relief_radius"]),
+        (["build", "--rivet", "none.toml"], ["none.toml", "No such file"]),
+        (["rivet", "bad.json"], ["bad.json", "not a rivet table"]),
+        (["rivet", "negative.toml"], ["negative.toml", "shank_diameter = -0.0015"]),
         (["build", "--bearing", "typo.toml"], ["typo.toml", '"bearing.Dm"', 'did you mean "bearing.D']),
         (["info", "far.toml"], ["far.toml", "bearing.f_i = 0.4", "0.5005 ... 0.6"]),
     ],
@@ -224,6 +233,11 @@ def test_run_in_a_pipe(tmp_path):
 )
 def test_errors_are_one_message(tmp_path, arguments, fragments):
     (tmp_path / "broken.fmu").write_bytes(b"PK no zip")
+    (tmp_path / "bad.json").write_text("Z = 3")
+    (tmp_path / "half.json").write_bytes(TRACKED_TABLE.read_bytes()[:100_000])
+    (tmp_path / "nine.json").write_bytes(TRACKED_TABLE.read_bytes())
+    (tmp_path / "negative.toml").write_text("shank_diameter = -1.5e-3")
+    (tmp_path / "wide.toml").write_text("fillet_radius = 0.3e-3")
     (tmp_path / "bad.toml").write_text("Z = 3")
     (tmp_path / "typo.toml").write_text("Z = 8\n[parameters]\nbearing.Dm = 0.05")
     (tmp_path / "far.toml").write_text("Z = 8\n[parameters]\nbearing.f_i = 0.4")
@@ -231,6 +245,7 @@ def test_errors_are_one_message(tmp_path, arguments, fragments):
     assert done.returncode == 2 and done.stdout == "" and done.stderr.count("\n") == 1 and done.stderr.startswith("error: ")
     for fragment in fragments:
         assert fragment in done.stderr
+    assert [path.name for path in tmp_path.rglob("*.fmu")] == ["broken.fmu"]
 
 
 def test_help_names_the_commands(tmp_path):

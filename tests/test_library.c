@@ -5,6 +5,7 @@
 #include "hertz.h"
 #include "lanes.h"
 #include "model.h"
+#include "rivet_rom.h"
 #include "traction.h"
 
 #include <stdlib.h>
@@ -25,6 +26,7 @@ void test_traction_mu(int n, const Parameters *p, double f_a, bool mixed, const 
 void test_traction_asperity_share(int n, const double *ln_Lambda, double *f_a);
 void test_traction_ln_film(int n, double ln_Lambda_1, double Q, const double *U, double *ln_Lambda);
 void test_traction_inlet(int n, double rolling, double Q, const double *U, double *F_R);
+void test_rivet_primary(int n, const RivetLoad *load, double fit_eff, double *head_p1, double *mid_vm);
 
 // Zeroed, aligned for any lane width; free() releases it.
 void *test_allocate(size_t size)
@@ -112,4 +114,9 @@ void test_traction_inlet(int n, double rolling, double Q, const double *U, doubl
 {
     const real ln_Q = real_log(real_set(Q + Q_FLOOR));
     for (int i = 0; i < n; i++) F_R[i] = traction_inlet(real_set(rolling), real_log(real_set(U[i])), real_set(Q), ln_Q)[0];
+}
+
+void test_rivet_primary(int n, const RivetLoad *load, double fit_eff, double *head_p1, double *mid_vm)
+{
+    for (int i = 0; i < n; i++) rivet_rom_primary(&rivet_table, &load[i], fit_eff, &head_p1[i], &mid_vm[i]);
 }

@@ -2,18 +2,12 @@
 
 import numpy as np
 import pytest
-import rivet_library
 
 from bearing_model import load_path
+from bearing_model.variables import Z
 
-Z = rivet_library.variables_z()
 D_M = 53.5e-3
 ANGLE = 2 * np.pi * (np.arange(Z) + 0.5) / Z
-
-
-@pytest.fixture(scope="module")
-def c_library(tmp_path_factory):
-    return rivet_library.build(tmp_path_factory.mktemp("rivet"))
 
 
 def doubles(ffi, values):
@@ -21,10 +15,10 @@ def doubles(ffi, values):
 
 
 @pytest.fixture(params=["C", "Python"])
-def rigid(request, c_library):
+def rigid(request, core):
     if request.param == "Python":
         return load_path.load_path_rigid
-    ffi, lib = c_library
+    ffi, lib = core.ffi, core.lib
 
     def call(d_m, wrench, c, s):
         out = [ffi.new("double[]", Z) for _ in range(3)]
@@ -35,10 +29,10 @@ def rigid(request, c_library):
 
 
 @pytest.fixture(params=["C", "Python"])
-def flexible(request, c_library):
+def flexible(request, core):
     if request.param == "Python":
         return load_path.load_path_flexible
-    ffi, lib = c_library
+    ffi, lib = core.ffi, core.lib
 
     def call(matrix, side, *forces):
         loads = ffi.new("PathLoads *")
@@ -102,9 +96,9 @@ def test_mirrored_halves(flexible):
     np.testing.assert_array_equal(plus[:, 1:3], -minus[:, 1:3])
 
 
-def test_twins(c_library):
+def test_twins(core):
     """C and Python agree to the order of their sums (observed 4e-16)."""
-    ffi, lib = c_library
+    ffi, lib = core.ffi, core.lib
     rng = np.random.default_rng(4)
     matrix, forces = rng.normal(size=(Z, 5, 3)), rng.normal(size=(3, Z))
     loads = ffi.new("PathLoads *")

@@ -26,28 +26,29 @@ from .bearings import bearing_case
 from .errors import UserError, unknown
 from .fmu import FMU_NAME, PACKAGE, Instance, Model
 from .results import to_toml, write_atomically
+from .rivet import TRACKED_TABLE, read_geometry, read_table, table_of
 from .scene import Scene
 
 SOURCES = (PACKAGE.parent, PACKAGE / "_source")  # a checkout, an installed package
 PLATFORMS = ("linux64", "win64", "darwin64", "aarch64-darwin")  # "all"
 LIBRARIES = ("RivetedBearing.so", "RivetedBearing.dll", "RivetedBearing.dylib")
-TRACKED_TABLE = Path(table.__file__).parent / "tables" / "6207.json"
 STEP = re.compile(r"\[\s*(?:(\d+)/(\d+)|(\d+)%)\s*\]")  # Ninja's [3/40], make's [ 7%]
 
 
-def build(bearing=None, rivet=None, out=None, say=lambda text, share=None: None, platforms=()):
+def build(bearing=None, rivet=None, out=None, say=lambda text, share=None: None, platforms=(), coarse=False):
     """Build an FMU and return its path.
 
-    bearing: bearing file or designation, None for the default one; rivet: rivet table, None for the tracked one if it fits the bearing, else closed
-    forms; out: the FMU to write, None for my.fmu here from my.toml, RivetedBearing.fmu from the default (in a checkout: in fmus/); say: called with what
-    is being done and the share done; platforms: names of FMI's binary folders to cross-compile for (cmake/zig.cmake), none for this machine's compiler alone.
+    bearing: bearing file or designation, None for the default one; rivet: rivet table (JSON), or geometry (TOML) to make one by finite elements,
+    None for the tracked table if it fits the bearing, else closed forms; out: the FMU to write, None for my.fmu here from my.toml, RivetedBearing.fmu
+    from the default (in a checkout: in fmus/); say: called with what is being done and the share done; platforms: names of FMI's binary folders to
+    cross-compile for (cmake/zig.cmake), none for this machine's compiler alone; coarse: see table_of.
     Raises UserError with the reason; `out` is then left as it was.
     """
     sources = source_folder()
-    out = Path(out) if out else default_out(sources, bearing)
+    out = Path(out) if out else default_out(sources, bearing or rivet)
     case, folder = bearing_case(bearing or "6207"), build_folder(sources, bearing)
-    rivet = check_table(rivet, case.Z) if rivet else rivet_table(case, folder)
     cmake = find_tools()
+    rivet = given_table(rivet, case, folder, coarse, say) if rivet else rivet_table(case, folder)
     options = [f"-DRIVET_TABLE={rivet}", f"-DPython_EXECUTABLE={sys.executable}"]
     if bearing:
         say("variables")
@@ -115,10 +116,10 @@ def source_folder():
     raise UserError(f"the C sources are not there (looked in {', '.join(map(str, SOURCES))}): install the package again, or build in a checkout")
 
 
-def default_out(sources, bearing):
-    """Where the FMU goes unless told: my.fmu here for my.toml; the default one in fmus/ of a checkout, else here."""
-    if bearing:
-        return Path.cwd() / f"{Path(bearing).stem}.fmu"
+def default_out(sources, source):
+    """Where the FMU goes unless told: my.fmu here for the bearing or rivet my.toml; the default one in fmus/ of a checkout, else here."""
+    if source:
+        return Path.cwd() / f"{Path(source).stem}.fmu"
     return (sources / "fmus" if sources == PACKAGE.parent else Path.cwd()) / FMU_NAME
 
 
@@ -154,31 +155,34 @@ def generator(folder):
     return ["-G", "Ninja", f"-DCMAKE_MAKE_PROGRAM={ninja}"] if ninja and not (folder / "Makefile").is_file() else []
 
 
-def check_table(path, Z):
-    """Absolute path of a rivet table; UserError if it is missing, damaged or made for another number of rivets."""
-    try:
-        table.read(path, Z)
-    except OSError as problem:
-        raise UserError(f"--rivet {path}: {problem.strerror}") from None
-    except ValueError as problem:
-        raise UserError(f"--rivet {problem}") from None
-    return Path(path).resolve()
+def given_table(path, case, folder, coarse, say):
+    """Absolute path of the user's rivet table, or of the one made for the user's geometry; UserError if it cannot be had or is for another cage."""
+    path = Path(path)
+    if path.suffix != ".toml":
+        read_table(path, case.Z)
+        return path.resolve()
+    return table_of(path, read_geometry(path, cage(case)), folder, coarse, say)
+
+
+def cage(case):
+    """What a bearing says of the geometry of its rivets: sizes of the cage [m] and the number of rivets."""
+    v = case.values
+    return {
+        "Z": case.Z,
+        "d_m": v["bearing.d_m"],
+        "ball_diameter": v["bearing.D"],
+        "pocket_clearance": v["cage.pocket_clearance"],
+        "cage_outer_diameter": v["cage.D_o"],
+        "cage_inner_diameter": v["cage.D_i"],
+        "cage_half_width": 2.0 * v["cage.x_c"],
+        "patch_radius": (v["cage.D_o"] - v["cage.D_i"]) / 4.0,
+    }
 
 
 def rivet_table(case, folder):
     """The tracked rivet table if it was made for this bearing's cage, else a new one from closed forms; UserError if the cage has no room for rivets."""
-    v = case.values
     try:
-        geometry = Geometry(
-            Z=case.Z,
-            d_m=v["bearing.d_m"],
-            ball_diameter=v["bearing.D"],
-            pocket_clearance=v["cage.pocket_clearance"],
-            cage_outer_diameter=v["cage.D_o"],
-            cage_inner_diameter=v["cage.D_i"],
-            cage_half_width=2.0 * v["cage.x_c"],
-            patch_radius=(v["cage.D_o"] - v["cage.D_i"]) / 4.0,
-        )
+        geometry = Geometry(**cage(case))
     except ValueError as problem:
         raise UserError(f"{case.designation}: {problem}") from None
     if geometry.digest == Geometry().digest:

@@ -7,7 +7,7 @@ from typing import Annotated
 import typer
 from rich.console import Console
 from rich.markup import escape
-from rich.progress import BarColumn, MofNCompleteColumn, Progress, ProgressColumn, SpinnerColumn, TextColumn, TimeRemainingColumn
+from rich.progress import BarColumn, MofNCompleteColumn, Progress, ProgressColumn, SpinnerColumn, TextColumn, TimeElapsedColumn, TimeRemainingColumn
 from rich.table import Column, Table
 from rich.text import Text
 
@@ -44,20 +44,31 @@ def command(function):
 @command
 def build(
     bearing: Annotated[str | None, typer.Option(help="bearing file (TOML) or designation; default: the 6207")] = None,
-    rivet: Annotated[Path | None, typer.Option(help="rivet table; default: the one shipped if it fits the bearing, else closed forms")] = None,
+    rivet: Annotated[
+        Path | None,
+        typer.Option(
+            help="rivet table (JSON), or geometry (TOML) to make one by finite elements; default: the one shipped if it fits the bearing, else closed forms"
+        ),
+    ] = None,
+    coarse: Annotated[bool, typer.Option("--coarse", help="with a geometry: a rough table in seconds instead of some half an hour")] = False,
     out: Annotated[
-        Path | None, typer.Option(help="the FMU to write; default: my.fmu here for my.toml; RivetedBearing.fmu, in a checkout in fmus/, for the default")
+        Path | None,
+        typer.Option(help="the FMU to write; default: my.fmu here for the bearing or rivet my.toml, else RivetedBearing.fmu, in a checkout in fmus/"),
     ] = None,
     platforms: Annotated[str | None, typer.Option(help="all, or names such as linux64,win64: cross-compiled; default: this machine's compiler")] = None,
 ):
-    """Make an FMU for a bearing: needs a C compiler, takes about half a minute."""
+    """Make an FMU for a bearing: needs a C compiler, takes about half a minute; with a rivet's geometry also half an hour for its table."""
     from .build import build as build_fmu
     from .build import platform_names
 
-    with Progress(SpinnerColumn(), TextColumn("{task.description}"), BarColumn(bar_width=30), console=messages, disable=not messages.is_terminal) as bar:
+    columns = SpinnerColumn(), TextColumn("{task.description}"), BarColumn(bar_width=30), TimeElapsedColumn()
+    with Progress(*columns, console=messages, disable=not messages.is_terminal) as bar:
         task = bar.add_task("starting", total=None)
-        progress = lambda text, share=None: bar.update(task, description=text, total=1.0 if share else None, completed=share or 0.0)
-        path = build_fmu(bearing, rivet, out, progress, platform_names(platforms))
+
+        def say(text, share=None):
+            bar.update(task, description=text, total=1.0 if share else None, completed=share or 0.0)
+
+        path = build_fmu(bearing, rivet, out, say, platform_names(platforms), coarse)
     console.print(str(path), style="cyan", soft_wrap=True)
 
 
@@ -349,3 +360,22 @@ def info(
     for title, table in info_tables(case):
         console.print(f"\n[bold]{title}[/]", soft_wrap=True)
         console.print(table)
+
+
+@command
+def rivet(
+    source: Annotated[Path | None, typer.Argument(metavar="[TABLE|GEOMETRY]", help="rivet table (JSON) or geometry (TOML); default: the table shipped")] = None,
+    out: Annotated[Path, typer.Option(help="folder for the pictures")] = Path("results"),
+):
+    """Stress of the rivet over preload, fit and transverse load; pictures of curves, mesh, deformed section and stress."""
+    from .rivet import curve_tables, rivet_curves, write_pictures
+
+    with messages.status("finite elements"):
+        title, curves, joint = rivet_curves(source)
+        paths = write_pictures(out, title, curves, joint)
+    console.print(f"[bold]{escape(title)}[/]", soft_wrap=True)
+    for name, rows in curve_tables(curves):
+        console.print(f"\n[bold]{name}[/]", soft_wrap=True)
+        console.print(rows)
+    for path in paths:
+        console.print(f"picture  [cyan]{escape(str(path))}[/]", soft_wrap=True)

@@ -1,0 +1,61 @@
+"""Cost of the rivets' stress from the table, at the loads of settled runs, beside one evaluation of the right-hand side.
+
+Both loop in C over many states, so that neither a call from Python nor a table that one load has warmed up decides; least of several repeats.
+"""
+
+import numpy as np
+from common import SCENES, Core, Scene, build_target, cpu, options, say, write
+from rhs import settled_states
+
+from bearing_model.variables import Z
+
+REACH = 0.5e-6  # s for the 2 Z channels
+CALLS = 20_000  # evaluations of Z rivets in one timing
+
+
+def rivet_loads(core, model, y):
+    """RivetLoad of all rivets in all states, as a C array."""
+    loads, V = core.ffi.new("RivetLoad[]", Z * len(y)), core.ffi.new("double[]", Z)
+    for i, state in enumerate(y):
+        model.rhs(0.0, state)
+        core.lib.rivets_load(model.pointer, model.work, loads + Z * i, V)
+    return loads
+
+
+def table_time(core, model, loads, count):
+    """Time of the peak channels of Z rivets [s]."""
+    head, mid = core.ffi.new("double[]", count), core.ffi.new("double[]", count)
+    rounds = -(-CALLS * Z // count)
+
+    def evaluate():
+        for _ in range(rounds):
+            core.lib.test_rivet_primary(count, loads, model.d.fit_eff, head, mid)
+
+    return cpu(evaluate, 9)[0] / (rounds * count / Z)
+
+
+def rhs_time(core, model, y):
+    """Time of one evaluation of the right-hand side [s]."""
+    rounds = -(-CALLS // len(y))
+    return min(getattr(core.lib, f"rhs_time_{model.isa}")(model.pointer, len(y), core.array(y), rounds, model.work) for _ in range(9)) * 1e-9
+
+
+def main():
+    short = options(__doc__).short
+    core = Core.load(build_target("bearing_kernels"))
+    scenes = {}
+    for name in ("demo", "jam") if short else SCENES:
+        scene = Scene(name)
+        y = settled_states(scene, core, 64 if short else 256)
+        model = core.model(scene.parameters, scene.inputs)
+        core.ffi.cdef(f"double rhs_time_{model.isa}(const Model *, int, const double *, int, Work *);", override=True)
+        table, rhs = table_time(core, model, rivet_loads(core, model, y), Z * len(y)), rhs_time(core, model, y)
+        scenes[name] = {"title": scene.title, "isa": model.isa, "table": table, "rhs": rhs}
+        verdict = "within" if table <= REACH else "beyond"
+        say(f"{name}: {2 * Z} channels {1e6 * table:.2f} us, {verdict} {1e6 * REACH:g} us; {table / rhs:.2f} of a right-hand side")
+    worst = np.max([scene["table"] for scene in scenes.values()])
+    write("rivet", {"reach": REACH, "worst": worst, "scenes": scenes}, short)
+
+
+if __name__ == "__main__":
+    main()

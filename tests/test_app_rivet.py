@@ -1,0 +1,114 @@
+"""Rivets from the command line: curves and pictures, a table and an FMU for another rivet, and nothing left behind by what cannot be built."""
+
+import numpy as np
+import pytest
+from library import ROOT
+from test_app import command
+
+from bearing_model import rivet_rom
+from bearing_model.app import UserError, rivet, run
+from bearing_model.app.bearings import bearing_case
+from bearing_model.app.build import given_table
+from rivet_model import load_cases, pictures, table
+from rivet_model.geometry import Geometry
+
+TABLE = table.read(ROOT / "rivet_model" / "tables" / "6207.json")
+
+
+@pytest.fixture(scope="module")
+def joint():
+    return load_cases.Joint(Geometry(), load_cases.COARSE)
+
+
+def test_curves_of_the_paper():
+    """Fig. 11: the head above 140 MPa at 60 N (calibrated), straight lines through 0.  Fig. 12: head above middle in clearance, the other way round
+    in interference, crossing inside -20...0 um (calibrated), lower there than at the largest interference; yield lowers both."""
+    curves = pictures.curves(*pictures.table_response(TABLE))
+    preload = curves["Fig. 11"]
+    assert 140e6 < preload.head[-1] < 150e6
+    np.testing.assert_allclose(preload.head, preload.head[-1] * preload.x / preload.x[-1], rtol=1e-9)
+    elastic, yielded = curves["Fig. 12, elastic"], curves["Fig. 12, with yield"]
+    leads = elastic.x[np.argmax(elastic.mid > elastic.head)]
+    assert -20e-6 <= leads <= 0.0 and elastic.head[0] > 2 * elastic.mid[0]
+    assert np.all(yielded.head <= elastic.head) and np.all(yielded.mid <= elastic.mid) and yielded.mid[-1] > 1.5 * yielded.head[-1]
+    assert np.all(np.diff(curves["transverse load"].head) > 0.0)
+
+
+def test_curves_of_a_geometry_are_its_finite_elements(joint):
+    """Without a table: solutions of the joint itself, and the map of its own plasticity."""
+    stress, fit_eff = pictures.joint_response(joint)
+    load = pictures.REFERENCE
+    forces = joint.solve(load.P, load.N, load.V_y, 0.0, 0.0, -6e-6)[0]
+    np.testing.assert_allclose(stress(load, np.array([-6e-6]))[0], joint.channels(forces[:, None])[0], rtol=1e-12)
+    assert fit_eff(-5e-6) == -5e-6 and 0.0 < fit_eff(30e-6) < 15e-6
+
+
+def test_pictures_draw_contact_as_contact(joint):
+    """Displacements and gaps magnified alike: where pressure acts, both bodies are in the same place (to the unevenness along a hat: 5 % of the gap)."""
+    load, fit, magnified = pictures.REFERENCE, -6e-6, 60.0
+    forces, q, *_ = joint.solve(load.P, load.N, load.V_y, 0.0, 0.0, fit)
+    radius = joint.geometry.shank_diameter / 2
+
+    def bore(moved, place):
+        on = (np.abs(np.abs(place[0]) - radius) < 1e-9) & (place[1] > 0.2e-3) & (place[1] < 0.3e-3)
+        return np.mean(moved[0, on])
+
+    gaps = []
+    for theta in (0.0, np.pi):
+        (shank, at, *_), (flange, place, *_), _ = pictures.section(joint, forces, q, theta, load.P, fit, magnified)
+        gaps.append(np.cos(theta) * (bore(flange, place) - bore(shank, at)) / magnified)
+    assert min(gaps) == pytest.approx(0.0, abs=0.05 * 6e-6)
+    assert max(gaps) == pytest.approx(6e-6, rel=0.1)
+    figure = pictures.plot_section(joint)
+    assert len(figure.axes) == 4 and figure.axes[1].collections
+
+
+def test_a_table_for_another_rivet(tmp_path, monkeypatch):
+    """Geometry of the file, cage of the bearing; stages reported; made once; an error leaves no file."""
+    case, source, stages = bearing_case("6310"), tmp_path / "stout.toml", {}
+    source.write_text("shank_diameter = 1.3e-3")
+
+    def say(stage, share):
+        assert stages.get(stage, 0.0) < share <= 1.0
+        stages[stage] = share
+
+    path = given_table(source, case, tmp_path, True, say)
+    t = table.read(path, Z=8)
+    assert t.kind == "fe" and t.geometry["shank_diameter"] == 1.3e-3 and t.geometry["d_m"] == case.values["bearing.d_m"]
+    assert list(stages) == [f"rivet: {name}" for name in ("elements", "contacts", "interference", "load path", "hold-out")]
+    assert set(stages.values()) == {1.0}
+    sigma, _ = rivet_rom.rivet_rom_stress(t, rivet_rom.RivetLoad(P=20.0), -90e-6)
+    assert sigma[rivet_rom.MID_VM] == pytest.approx(20.0 / (np.pi / 4 * 1.3e-3**2), rel=0.01)  # F/A, heads more than two diameters away
+
+    def broken(*arguments, **options):
+        raise ArithmeticError("contact not found")
+
+    monkeypatch.setattr(rivet, "make_table", broken)
+    assert given_table(source, case, tmp_path, True, say) == path  # not made again
+    source.write_text("shank_diameter = 1.2e-3")
+    files = sorted(tmp_path.iterdir())
+    with pytest.raises(UserError, match=r"stout.toml: contact not found"):
+        given_table(source, case, tmp_path, True, say)
+    assert sorted(tmp_path.iterdir()) == files
+
+
+@pytest.mark.slow
+def test_an_fmu_for_another_rivet(tmp_path):
+    """Built and run: stress of the preload before anything moves = that of the new table, not of the shipped one."""
+    (tmp_path / "long_head.toml").write_text("head_height = 0.6e-3")
+    done = command("build", "--rivet", "long_head.toml", "--coarse", folder=tmp_path)
+    assert done.returncode == 0, done.stderr
+    result = run("demo", fmu=tmp_path / "long_head.fmu", t_end=1e-4, outputs=["rivet[1].sigma_mid", "rivet[1].sigma_head", "rivet[1].N"])
+    ratio = result.data["rivet[1].sigma_head"][0] / result.data["rivet[1].sigma_mid"][0]
+    sigma, _ = rivet_rom.rivet_rom_stress(TABLE, rivet_rom.RivetLoad(P=20.0), -6e-6)
+    assert ratio > 1.2 * sigma[rivet_rom.HEAD_P1] / sigma[rivet_rom.MID_VM]  # study: 145 MPa at 0.9 mm, some 200 at 0.6
+
+
+@pytest.mark.slow
+def test_rivet_command(tmp_path):
+    """Prints the curves and writes two pictures."""
+    done = command("rivet", "--out", "pictures", folder=tmp_path)
+    assert done.returncode == 0, done.stderr
+    assert all(text in done.stdout for text in ("Fig. 11", "Fig. 12, with yield", "transverse load", "147.0"))
+    for name in ("rivet_curves.png", "rivet_section.png"):
+        assert (tmp_path / "pictures" / name).read_bytes().startswith(b"\x89PNG")

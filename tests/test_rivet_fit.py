@@ -1,0 +1,38 @@
+"""Head against middle at the ends of the paper's range of fits, under the loads that the dynamics delivers there."""
+
+import pytest
+
+from bearing_model.app import run
+
+
+def largest(summary, channel, measure):
+    """Largest of the rivets."""
+    return max(value for name, value in summary.items() if name.startswith(f"stat.rivet_{channel}_{measure}["))
+
+
+def ratio(fmu, fit, model):
+    """mid/head by measure."""
+    result = run("demo", fmu=fmu, t_end=0.15, parameters={"joint.fit": fit, "rivet.fit_model": model})
+    assert result.stopped == ""
+    return {measure: largest(result.summary, "mid", measure) / largest(result.summary, "head", measure) for measure in ("rms", "p999", "max")}
+
+
+def test_the_head_leads_in_clearance(fmu):
+    """-0.09 mm: head at least 3 times the middle (issue 3), lasting and in peaks (observed 4.8 RMS, 4.1 p99.9, 4.0 maximum; scene R 5.3, 4.1, 4.0)."""
+    assert max(ratio(fmu, -90e-6, "j2").values()) < 1 / 3
+
+
+@pytest.mark.parametrize(
+    ("model", "reached"),
+    [
+        ("elastic", {"rms": 1.5, "p999": 1.5, "max": 1.5}),  # observed 2.5, 2.1, 2.0; scene R 2.5, 1.8, 1.7
+        ("j2", {"rms": 1.5}),  # observed 2.1; in peaks the middle leads by 1.2 and 1.15 only, in scene R the head does (0.98 and 0.9)
+    ],
+)
+def test_the_middle_leads_in_interference(fmu, model, reached):
+    """+0.04 mm: the middle at least 1.5 times the head (issue 3).
+
+    With the flange's yield this holds for the lasting stress only: the pressure of the fit stops growing, load peaks do not, and they go to the head.
+    """
+    found = ratio(fmu, 40e-6, model)
+    assert all(found[measure] >= limit for measure, limit in reached.items()), found
