@@ -265,7 +265,7 @@ def test_coarse_table_end_to_end(tmp_path):
     joint = Joint(G, load_cases.COARSE)
     sampled = reduction.solve_loads(joint, [reduction.Load(20.0, 0.0, 0.0, 0.0, 0.0, -30e-6)], 1)
     got, _ = rivet_rom.rivet_rom_stress(t, rivet_rom.RivetLoad(P=20.0), -30e-6)
-    np.testing.assert_allclose(got, sampled[0], rtol=1e-5)
+    np.testing.assert_allclose(got, sampled[0], rtol=1e-4)  # five digits in the file
 
 
 def test_nothing_is_written_for_an_impossible_geometry(tmp_path, capsys):
@@ -284,8 +284,7 @@ def test_grid_with_too_few_harmonics_is_refused():
 def test_hold_out_of_the_shipped_table():
     """What the shipped table says of itself, measured on 320 loads that neither built it nor chose its knots.
 
-    Reach: 2 % and RMS 0.5 % of each channel's maximum.  Met (observed 0.9 %, 0.42 %) but for the middle's largest error in clearance alone, 2.9 %:
-    there the rule for moments between "plane" and "across" is not good enough, and a third sheet would be needed.
+    Reach: 2 % and RMS 0.5 % of each channel's maximum (issue 3), over all loads and in clearance alone.
     """
     path = build.Path(build.__file__).parent / "tables" / "6207.json"
     t = table.read(path)
@@ -293,8 +292,7 @@ def test_hold_out_of_the_shipped_table():
     for region in ("all", "clearance"):
         report = t.errors[region]
         assert report["loads"] >= 160
-        limits = {name: 0.03 if region == "clearance" and name.startswith("mid") else 0.02 for name in table.CHANNELS}
-        assert all(report["maximum"][name] <= limit for name, limit in limits.items()), report
+        assert max(report["maximum"].values()) <= 0.02, report
         assert max(report["rms"].values()) <= 0.005, report
 
 
@@ -311,10 +309,10 @@ def test_table_against_fresh_solutions():
 
 @pytest.mark.slow
 def test_h_convergence():
-    """Half the element size: head stress moves by less than 0.5 % (observed 0.4 %)."""
+    """Half the element size: head stress moves by less than 0.5 % (issue 3; observed 0.19, 0.18, 0.11, 0.43 %)."""
     coarse, fine = Joint(G, Grid(Fineness(1.0), 7.5, 12, 24)), Joint(G, Grid(Fineness(2.0), 7.5, 12, 24))
     for load in ((60.0, 0, 0, 0, 0, -90e-6), (20.0, 0, 20.0, 0, 0, -20e-6), (20.0, 10.0, 10.0, 0, 0, 5e-6), (20.0, 0, 10.0, 0.04, 0, -1e-5)):
-        assert channels(coarse, *load)[0] == pytest.approx(channels(fine, *load)[0], rel=0.008)
+        assert channels(coarse, *load)[0] == pytest.approx(channels(fine, *load)[0], rel=0.005)
 
 
 @pytest.mark.slow
