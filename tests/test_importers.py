@@ -1,0 +1,201 @@
+"""Other importers simulate the bearing as fmpy does: each a program of its own, with its own idea of time, start values and tolerance."""
+
+import ctypes
+import json
+import logging
+import sys
+import zipfile
+from pathlib import Path
+
+import fmpy
+import numpy as np
+import pytest
+
+from bearing_model import variables
+
+STEP, STEPS = 1e-4, 20
+TOLERANCE = variables.PARAMETERS["solver.tol"].start
+# Off the FMU's own start values: an importer that does not pass them on fails.
+START = {"shaft.omega": 1500.0, "shaft.F_y": 2000.0, "shaft.F_x": 300.0, "joint.preload": 30.0}
+OUTPUTS = ("rivet.sigma_head_max", "housing.F_y", "bearing.friction_torque", "ring.y", "cage.slip_ratio", "ball[1].Q_i")
+# The steps have equal sizes but in rounding, where hosts count time their own way (t + h, k h, nanoseconds): what a user may count on over a short
+# horizon, as for the binaries of other platforms in test_package.py.
+SAME = 1e-9
+
+
+def simulate(path, start=START, tolerance=TOLERANCE):
+    """Outputs at the communication points by fmpy, the start among them.
+
+    With the FMU's own tolerance, which the other importers leave as it is; fmpy would pass on the one of the default experiment.
+    """
+    times = {"stop_time": STEPS * STEP, "step_size": STEP, "output_interval": STEP}
+    result = fmpy.simulate_fmu(str(path), **times, relative_tolerance=tolerance, start_values=start, output=OUTPUTS)
+    return np.array([result[name] for name in OUTPUTS]).T
+
+
+@pytest.fixture(scope="module")
+def expected(fmu):
+    rows = simulate(fmu)
+    assert len(rows) == STEPS + 1
+    default = simulate(fmu, start={})
+    assert np.all(np.abs(rows - default).max(axis=0) > 1e-3 * np.abs(default).max(axis=0))  # the start values matter to each output
+    return rows
+
+
+def difference(rows, expected):
+    """Largest difference of an output against its largest magnitude."""
+    return np.max(np.abs(rows - expected) / np.abs(expected).max(axis=0))
+
+
+def test_libcosim(fmu, expected, tmp_path):
+    """Fixed-step master in nanoseconds.  Observed: 5e-12."""
+    pytest.importorskip("libcosimpy", reason="libcosimpy is not installed: pip install libcosimpy")
+    from libcosimpy.CosimExecution import CosimExecution
+    from libcosimpy.CosimObserver import CosimObserver
+    from libcosimpy.CosimSlave import CosimLocalSlave
+
+    vr = {v.name: v.valueReference for v in fmpy.read_model_description(str(fmu)).modelVariables}
+    execution = CosimExecution.from_step_size(round(STEP * 1e9))
+    slave = execution.add_local_slave(CosimLocalSlave(fmu_path=str(fmu), instance_name="bearing"))
+    observer = CosimObserver.create_last_value()
+    execution.add_observer(observer)
+    for name, value in START.items():
+        assert execution.real_initial_value(slave, vr[name], value)
+    rows = []
+    for _ in range(STEPS):
+        assert execution.step()
+        rows.append(observer.last_real_values(slave, [vr[name] for name in OUTPUTS]))
+    assert difference(rows, expected[1:]) < SAME
+
+
+def test_ecos(fmu, expected):
+    """Observed: 8e-12."""
+    tbb = Path(sys.prefix) / "lib" / "libtbb.so.12"  # which ecos needs and its package does not bring: pip install tbb, or the system's
+    if tbb.exists():
+        ctypes.CDLL(str(tbb))
+    ecospy = pytest.importorskip("ecospy", reason="ecospy is not installed: pip install ecospy")
+    structure = ecospy.EcosSimulationStructure()
+    structure.add_model("bearing", fmu)
+    structure.add_parameter_set("start", {f"bearing::{name}": value for name, value in START.items()})
+    rows = []
+    with ecospy.EcosSimulation(structure=structure, step_size=STEP) as simulation:
+        simulation.init(parameter_set="start")
+        for _ in range(STEPS):
+            simulation.step()
+            rows.append([simulation.get_real(f"bearing::{name}") for name in OUTPUTS])
+    assert difference(rows, expected[1:]) < SAME
+
+
+def test_fmuloader(fmu, expected):
+    """A loader that asks for the functions of model exchange too.  Observed: 1.2e-11."""
+    fmi2 = pytest.importorskip("fmuloader.fmi2", reason="fmuloader is not installed: pip install fmuloader")
+    description = fmpy.read_model_description(str(fmu))
+    vr = {v.name: v.valueReference for v in description.modelVariables}
+    rows = []
+    with fmi2.Fmi2Slave(str(fmu), model_identifier=description.coSimulation.modelIdentifier) as slave:
+        slave.instantiate("bearing", fmi2.Fmi2Type.CO_SIMULATION, guid=description.guid)
+        slave.setup_experiment(start_time=0.0)
+        slave.set_real([vr[name] for name in START], list(START.values()))
+        slave.enter_initialization_mode()
+        slave.exit_initialization_mode()
+        for k in range(STEPS):
+            slave.do_step(k * STEP, STEP)
+            rows.append(slave.get_real([vr[name] for name in OUTPUTS]))
+        slave.terminate()
+    assert difference(rows, expected[1:]) < SAME
+
+
+def test_pathsim(fmu, expected):
+    """A block diagram with the bearing between constant blocks.
+
+    The bearing's step to (k + 1) STEP is an event at k STEP: that far it has come when the diagram's clock shows k STEP.  Observed: 1.2e-11.
+    """
+    pathsim = pytest.importorskip("pathsim", reason="pathsim-fmi is not installed: pip install pathsim-fmi")
+    pathsim_fmi = pytest.importorskip("pathsim_fmi", reason="pathsim-fmi is not installed: pip install pathsim-fmi")
+    from pathsim.blocks import Constant
+
+    bearing = pathsim_fmi.CoSimulationFMU(str(fmu), start_values=START, dt=STEP)
+    inputs = {v.name: v for v in bearing.fmu_wrapper.model_description.modelVariables if v.causality == "input"}
+    sources = [Constant(START.get(name, float(variable.start))) for name, variable in inputs.items()]
+    wires = [pathsim.Connection(source, bearing[name]) for name, source in zip(inputs, sources)]
+    simulation = pathsim.Simulation([bearing, *sources], wires, dt=STEP, log=False)
+    rows = []
+    for _ in range(STEPS - 1):
+        simulation.run(STEP, reset=False)
+        values = dict(zip(bearing.fmu_wrapper.output_refs, bearing.outputs.to_array()))
+        rows.append([values[name] for name in OUTPUTS])
+    assert difference(rows, expected[2:]) < SAME
+
+
+def test_checker_of_fmu_manipulation_toolbox(fmu, caplog):
+    """Schema and the rules it cannot express: no finding."""
+    checker = pytest.importorskip("fmu_manipulation_toolbox.checker", reason="pip install fmu-manipulation-toolbox")
+    from fmu_manipulation_toolbox.operations import FMU
+
+    with caplog.at_level(logging.INFO, logger="fmu_manipulation_toolbox"), FMU(str(fmu)) as archive:
+        for check in checker.get_checkers():
+            archive.apply_operation(check())
+    assert any("compliant" in record.message for record in caplog.records)
+    assert [record.message for record in caplog.records if record.levelno >= logging.WARNING] == []
+
+
+def test_container_of_fmu_manipulation_toolbox(fmu, expected, tmp_path):
+    """The bearing inside another FMU.  Observed: 1.2e-11."""
+    assembly = pytest.importorskip("fmu_manipulation_toolbox.assembly", reason="pip install fmu-manipulation-toolbox")
+    (tmp_path / fmu.name).symlink_to(fmu)
+    start = [[fmu.name, name, str(value)] for name, value in START.items()]
+    description = {"name": "container.fmu", "step_size": STEP, "fmu": [fmu.name], "start": start}
+    (tmp_path / "container.json").write_text(json.dumps(description))
+    assembly.Assembly("container.json", fmu_directory=tmp_path).make_fmu()
+    rows = simulate(tmp_path / "container.fmu", start={}, tolerance=None)  # which it would take for one of time: no step is ever as long as 1e-3 s
+    assert difference(rows[1:], expected[1:]) < SAME
+
+
+def test_container_of_fmpy(fmu, expected, tmp_path):
+    """The bearing inside another FMU, its inputs and outputs passed through.  Observed: 1.2e-11."""
+    cli = pytest.importorskip("fmpy.container_fmu.cli", reason="needs fmpy >= 0.3.24")
+    from fmpy.container_fmu.config import Component, Configuration
+    from fmpy.model_description import CoSimulation, DefaultExperiment, ModelDescription, Unknown
+
+    description = fmpy.read_model_description(str(fmu))
+    inner = [v for v in description.modelVariables if v.name in (*START, *OUTPUTS) or v.causality == "independent"]
+    outer = [v for v in fmpy.read_model_description(str(fmu)).modelVariables if v.name in {v.name for v in inner}]
+    container = ModelDescription(
+        fmiVersion="2.0", modelName="Container", instantiationToken="{container}", modelVariables=outer, unitDefinitions=description.unitDefinitions,
+        typeDefinitions=description.typeDefinitions, outputs=[Unknown(variable=v) for v in outer if v.causality == "output"],
+        coSimulation=CoSimulation("container_fmu", fixedInternalStepSize=STEP), defaultExperiment=DefaultExperiment(),
+    )  # fmt: skip
+    bearing = Component("bearing", fmu, description)
+    mappings = {o: [(bearing, i)] for o, i in zip(outer, inner) if o.causality != "independent"}
+    (tmp_path / "unzipped").mkdir()
+    cli.create_container_fmu(Configuration(False, container, [bearing], [], mappings), tmp_path / "unzipped", tmp_path / "container.fmu")
+    rows = simulate(tmp_path / "container.fmu")
+    assert difference(rows[1:], expected[1:]) < SAME
+
+
+def test_ssp_of_fmpy(fmu, expected, tmp_path):
+    """A system of one component, start values in its parameter set.  Observed: 8e-12."""
+    from fmpy.ssp.simulation import simulate_ssp
+    from fmpy.ssp.ssd import Parameter, ParameterSet
+
+    path = tmp_path / "system.ssp"
+    with zipfile.ZipFile(path, "w") as archive:
+        archive.write(fmu, f"resources/{fmu.name}")
+        archive.writestr("SystemStructure.ssd", SYSTEM.format(fmu=fmu.name, connectors="".join(CONNECTOR.format(name=name) for name in OUTPUTS)))
+    start = ParameterSet(parameters=[Parameter(name=f"bearing.{name}", value=value) for name, value in START.items()])
+    result = simulate_ssp(str(path), stop_time=(STEPS - 0.5) * STEP, step_size=STEP, parameter_set=start)
+    rows = np.array([result[f"bearing.{name}"] for name in OUTPUTS]).T
+    assert difference(rows, expected[1:]) < SAME
+
+
+SYSTEM = """<ssd:SystemStructureDescription xmlns:ssd="http://ssp-standard.org/SSP1/SystemStructureDescription"
+    xmlns:ssc="http://ssp-standard.org/SSP1/SystemStructureCommon" name="system" version="1.0">
+  <ssd:System name="system">
+    <ssd:Elements>
+      <ssd:Component name="bearing" type="application/x-fmu-sharedlibrary" source="resources/{fmu}">
+        <ssd:Connectors>{connectors}</ssd:Connectors>
+      </ssd:Component>
+    </ssd:Elements>
+  </ssd:System>
+</ssd:SystemStructureDescription>"""
+CONNECTOR = '<ssd:Connector name="{name}" kind="output"><ssc:Real/></ssd:Connector>'
