@@ -337,35 +337,48 @@ def slope(steps, error):
     return -np.polyfit(np.log(steps), np.log(error), 1)[0]
 
 
+PARTING = 1.4e-3  # s in which neighbouring motions part e-fold, at the least
+
+
+def bound(steps, tolerance, t_end):
+    """Error that the steps can add up to: each is accepted with one tolerance at most, and the motion stretches what has gathered.
+
+    Not a multiple of the tolerance: the number of steps grows as tolerance^(-1/3) in Verlet, whose estimate is of order 3, and as tolerance^(-1/4) in
+    Runge-Kutta 4(3), which also adds the better of its two solutions and so stays further below.
+    """
+    return steps * tolerance * np.exp(t_end / PARTING)
+
+
 @pytest.mark.parametrize(("scene", "t_end"), [("demo", 1e-3), ("sliced_mixed", 2.5e-4), slow("mixed_supported", 2.5e-4), slow("other", 1e-3)])
 def test_trajectory(core, scene, t_end, record_property):
-    """The core's trajectory converges to the reference's: order 4 (explicit) and 2 (Verlet), and stays near the tolerance.
+    """The core's trajectory converges to the reference's: order 4 (explicit) and 2 (Verlet), within the sum of its steps' errors.
 
-    Two languages, two integrators, two start solvers.  Kinks of the contacts (C1) and of |v| in the joints scatter the slope.
-    Observed: slopes 3.8, 3.9, 3.2, 3.7 (explicit), 2.0, 2.0 (Verlet, first two scenes); error/tolerance at most 190 and, as the error falls with
-    tolerance^(2/3) only, 2100.
+    Two languages, two integrators, two start solvers.  Kinks of the contacts (C1) and of |v| in the joints scatter the slope; observed 3.8, 3.9, 3.1, 3.7
+    (explicit), 2.01, 1.99, 1.99, 1.95 (Verlet).  Error / bound: observed 0.15 ... 0.30 (Verlet), 0.02 ... 0.13 (explicit).
     """
-    for method, order, largest in ((variables.Method.EXPLICIT, 4, 400.0), (variables.Method.VERLET, 2, 4e3)):
+    for method, order in ((variables.Method.EXPLICIT, 4), (variables.Method.VERLET, 2)):
         tolerances = np.array([1e-5, 1e-6, 1e-7, 1e-8])
         steps, error = errors(core, scene, t_end, method, tolerances)
         record_property(method.name, plain(error))
-        print(f"{scene} {method.name}: steps {steps}, errors {error}, slope {slope(steps, error):.2f}, error/tolerance {error / tolerances}")
+        print(f"{scene} {method.name}: steps {steps}, errors {error}, slope {slope(steps, error):.2f}, error/bound {error / bound(steps, tolerances, t_end)}")
         assert abs(slope(steps, error) - order) < (0.25 if scene in ("demo", "sliced_mixed") else 1.0)
-        assert np.all(error < largest * tolerances)
+        assert np.all(error < bound(steps, tolerances, t_end))
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize("scene", SCENES)
 def test_trajectories(core, scene, record_property):
-    """All scenes over 1 ms.  Where balls hit the cage early the error grows fast (a chaotic motion): a multiple of the tolerance, by scene.
+    """All scenes over 1 ms, balls that hit the cage early among them: within the sum of the steps' errors at a coarse and at a fine tolerance.
 
-    Observed at 1e-4: 1e-5 ... 2e-2 explicit, XXX Verlet; at 1e-8: 2e-8 ... 5e-7 explicit.
+    Observed error / bound: 5e-3 ... 0.46 explicit, 6e-3 ... 0.25 Verlet; jam and other_rigid less (from 4e-5 on), whose explicit steps at 1e-4 are
+    bounded by stability.  Errors 2e-5 ... 2e-2 of the scales at 1e-4, 4e-8 ... 6e-5 at 1e-8.
     """
-    for method, tolerance, largest in ((variables.Method.EXPLICIT, 1e-4, 0.1), (variables.Method.VERLET, 1e-4, 0.1), (variables.Method.EXPLICIT, 1e-8, 5e-6)):
-        _, error = errors(core, scene, 1e-3, method, [tolerance])
-        record_property(f"{method.name} {tolerance}", plain(error[0]))
-        print(f"{scene} {method.name}: error {error[0]:.1e} at tolerance {tolerance:.0e}")
-        assert error[0] < largest
+    tolerances = np.array([1e-4, 1e-8])
+    for method in (variables.Method.EXPLICIT, variables.Method.VERLET):
+        steps, error = errors(core, scene, 1e-3, method, tolerances)
+        record_property(method.name, plain(error))
+        print(f"{scene} {method.name}: steps {steps}, errors {error}, error/bound {error / bound(steps, tolerances, 1e-3)}")
+        assert np.all(error < bound(steps, tolerances, 1e-3))
 
 
 def test_pulses(core):
