@@ -93,11 +93,11 @@ def set_state(instance, y, h=4e-6):
     """Put an instance into state y with the step size h [s] to start with."""
     core = instance.core
     saved = core.new("Saved")
-    core.lib.bearing_save(instance.bearing, saved)
+    core.lib.part_save(instance.bearing, saved)
     saved.integrator.now.y = list(y)
     saved.integrator.h = h
     saved.integrator.known = 0
-    core.lib.bearing_restore(instance.bearing, saved)
+    core.lib.part_restore(instance.bearing, saved)
 
 
 def counters(instance):

@@ -24,11 +24,11 @@ def march(core, scene, length, groups=(), **parameters):
     """Processor time per simulated second, evaluations per second and the end state of a run in communication steps, output groups read at each."""
     instance = scene.start(core, **parameters)
     codes = [getattr(core.lib, f"GROUP_{group.upper()}") for group in groups]
-    bearing, step, update = instance.bearing, core.lib.bearing_step, core.lib.bearing_update
+    bearing, step, update = instance.bearing, core.lib.part_step, core.lib.part_update
 
     def steps():
         for i in range(round(length / STEP)):
-            if step(bearing, (i + 1) * STEP) != core.lib.BEARING_OK:
+            if step(bearing, (i + 1) * STEP) != core.lib.PART_OK:
                 raise ArithmeticError(f"{scene.name}: {instance.messages}")
             for code in codes:
                 update(bearing, code)
@@ -124,10 +124,10 @@ def output_groups(core, scene, repeat):
             t += 1e-5
             instance.step(t)
             if group in GROUPS:
-                core.lib.bearing_update(instance.bearing, core.lib.GROUP_STATE)  # the evaluation that all groups share
+                core.lib.part_update(instance.bearing, core.lib.GROUP_STATE)  # the evaluation that all groups share
             begin = time.perf_counter_ns()
             for code in codes:
-                core.lib.bearing_update(instance.bearing, code)
+                core.lib.part_update(instance.bearing, code)
             spent.append(1e-3 * (time.perf_counter_ns() - begin))
         costs[group] = float(np.median(spent))
     length = 0.01
@@ -142,7 +142,7 @@ def unchanged_inputs(core, scene, length, step, repeat):
         for name in ("free", "constant", "changing"):
             instance = scene.start(core, scene_stress=int(Stress.OFF), scene_statistics=int(Switch.OFF))
             instance.step(0.01)
-            before, inputs = counters(instance)["rhs_evals"], core.lib.bearing_inputs(instance.bearing, 0)
+            before, inputs = counters(instance)["rhs_evals"], core.lib.part_inputs(instance.bearing, 0)
             load = inputs.shaft.F_y
 
             def steps(name=name, instance=instance, inputs=inputs, load=load):
@@ -152,7 +152,7 @@ def unchanged_inputs(core, scene, length, step, repeat):
                 for i in range(round(length / step)):
                     if name == "changing":
                         inputs.shaft.F_y = load * (1.0 + 0.01 * math.sin(2e3 * math.pi * i * step))
-                    core.lib.bearing_step(instance.bearing, 0.01 + (i + 1) * step)
+                    core.lib.part_step(instance.bearing, 0.01 + (i + 1) * step)
 
             seconds, _ = cpu(steps)
             evals = counters(instance)["rhs_evals"] - before

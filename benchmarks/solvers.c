@@ -284,7 +284,7 @@ static void matrix_destroy(SUNMatrix M)
     SUNMatFreeEmpty(M);
 }
 
-double solver_outside_pattern(struct Bearing *b)
+double solver_outside_pattern(struct Part *b)
 {
     Bordered *m = malloc(sizeof *m);
     if (m == NULL) return NAN;

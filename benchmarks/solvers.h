@@ -14,5 +14,5 @@ void solver_choose(SolverMethod method, const char *table, SolverJacobian jacobi
 void solver_counts(double *jacobian_evals, double *outputs);
 
 // Largest entry of the Jacobian outside the bordered pattern / largest entry, at state y.
-struct Bearing;
-double solver_outside_pattern(struct Bearing *bearing);
+struct Part;
+double solver_outside_pattern(struct Part *bearing);

@@ -228,7 +228,7 @@ def problems(records):
 def tiny_steps(count=10_000_000, h=1e-9):
     """Ten million communication steps of 1 ns: time, memory of the solver and energy."""
     instance = CoreInstance(core_library(), {"scene.cage": 2, "scene.stress": 1, "scene.statistics": 1})
-    step, bearing = instance.lib.bearing_step, instance.bearing
+    step, bearing = instance.lib.part_step, instance.bearing
 
     def go():
         return max(step(bearing, (k + 1) * h) for k in range(count))
@@ -239,7 +239,7 @@ def tiny_steps(count=10_000_000, h=1e-9):
     one = CoreInstance(core_library(), {"scene.cage": 2, "scene.stress": 1, "scene.statistics": 1}).step(1e-3)
     few = CoreInstance(core_library(), {"scene.cage": 2, "scene.stress": 1, "scene.statistics": 1})
     for k in range(1_000_000):
-        few.lib.bearing_step(few.bearing, (k + 1) * h)
+        few.lib.part_step(few.bearing, (k + 1) * h)
     difference = np.max(np.abs(few.y - one.y)[variables.RING_Y])
     return {
         "steps": count,
@@ -277,7 +277,7 @@ def many_turns(turns=1_000_000, t_end=1e-3):
     angles = np.concatenate([np.arange(variables.N_STATES)[s] for s in (variables.BALL_THETA, variables.CAGE_PSI)])
     for ahead in (0, turns):
         instance = CoreInstance(core, {}, {}, 1e-8)
-        y = np.frombuffer(core.ffi.buffer(core.lib.bearing_state(instance.bearing), 8 * variables.N_STATES))
+        y = np.frombuffer(core.ffi.buffer(core.lib.part_state(instance.bearing), 8 * variables.N_STATES))
         y[angles] += 2.0 * np.pi * ahead
         moved = instance.step(t_end).y
         moved[angles] -= 2.0 * np.pi * ahead

@@ -175,7 +175,7 @@ def moments(instance):
     """The running statistics' numbers by channel: time, sums, histogram."""
     core = instance.core
     saved = core.new("Saved")
-    core.lib.bearing_save(instance.bearing, saved)
+    core.lib.part_save(instance.bearing, saved)
     worst = variables.Z
     places = {"Q_c": saved.force, "sigma_head": saved.head[worst], "sigma_mid": saved.mid[worst]}
     return {name: np.array([place.time, place.first, place.second, *place.weight]) for name, place in places.items()}

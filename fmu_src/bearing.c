@@ -94,7 +94,7 @@ static void report_events(Bearing *b)
 }
 
 // ---- life cycle ---------------------------------------------------------------------------------------------------------------------------------
-Bearing *bearing_create(const BearingHost *host)
+Bearing *part_create(const PartHost *host)
 {
     Bearing *b = aligned_new(sizeof *b);
     if (b == NULL) return NULL;
@@ -107,18 +107,18 @@ Bearing *bearing_create(const BearingHost *host)
         aligned_delete(b);
         return NULL;
     }
-    bearing_reset(b);
+    part_reset(b);
     return b;
 }
 
-void bearing_destroy(Bearing *b)
+void part_destroy(Bearing *b)
 {
     if (b == NULL) return;
     integrator_destroy(b->integrator);
     aligned_delete(b);
 }
 
-void bearing_reset(Bearing *b)
+void part_reset(Bearing *b)
 {
     memset(&b->s, 0, sizeof b->s);
     memset(&b->out, 0, sizeof b->out);
@@ -128,23 +128,23 @@ void bearing_reset(Bearing *b)
     b->cpu_time = 0.0;
 }
 
-Parameters *bearing_parameters(Bearing *b)
+Parameters *part_parameters(Bearing *b)
 {
     return &b->s.p;
 }
-Inputs *bearing_inputs(Bearing *b, int order)
+Inputs *part_inputs(Bearing *b, int order)
 {
     return &b->s.u[order];
 }
-const Outputs *bearing_outputs(const Bearing *b)
+const Outputs *part_outputs(const Bearing *b)
 {
     return &b->out;
 }
-double *bearing_state(Bearing *b)
+double *part_state(Bearing *b)
 {
     return b->s.integrator.now.y;
 }
-double bearing_time(const Bearing *b)
+double part_time(const Bearing *b)
 {
     return b->s.integrator.t;
 }
@@ -176,10 +176,10 @@ static void evaluate(Bearing *b)
     b->evaluated = true;
 }
 
-BearingStatus bearing_initialize(Bearing *b, double t_start, double tolerance)
+PartStatus part_initialize(Bearing *b, double t_start, double tolerance)
 {
     Saved *s = &b->s;
-    if (!check_all(b)) return BEARING_ERROR;
+    if (!check_all(b)) return PART_ERROR;
     s->t_start = t_start;
     s->tolerance = tolerance > 0.0 ? tolerance : s->p.solver.tol;
     s->seen = s->u[0];
@@ -189,13 +189,13 @@ BearingStatus bearing_initialize(Bearing *b, double t_start, double tolerance)
     derive(b);
     const double residual = start_state(&b->kernels, &b->model, &b->w, s->integrator.now.y);
     const double load = fabs(b->drive.F[0]) + fabs(b->drive.F[1]) + fabs(b->drive.F[2]);
-    BearingStatus status = BEARING_OK;
+    PartStatus status = PART_OK;
     if (!(residual < 1e-6 * (load + 1.0))) {
         bearing_log(b, LOG_WARNING, "t = %g s: the start is not in equilibrium, residual %g N of a load of %g N", t_start, residual, load);
-        status = BEARING_WARNING;
+        status = PART_WARNING;
     }
     integrator_evaluate(b->integrator);
-    if (!check_start(b)) return BEARING_ERROR;
+    if (!check_start(b)) return PART_ERROR;
     s->energy_start = energy_total(&b->model, s->integrator.now.y, &b->w);
     accepted_step(b, 0.0, &b->w);
     report_events(b);
@@ -222,11 +222,11 @@ static void end_course(Bearing *b)
     hold_drive(b);
 }
 
-BearingStatus bearing_step(Bearing *b, double t_end)
+PartStatus part_step(Bearing *b, double t_end)
 {
     Saved *s = &b->s;
     const double t_begin = s->integrator.t, steps_before = s->integrator.steps;
-    if (!check_inputs(b, t_end - t_begin)) return BEARING_ERROR;
+    if (!check_inputs(b, t_end - t_begin)) return PART_ERROR;
     const clock_t before = clock();
     s->force_peak = 0.0;
     for (int k = 0; k < Z; k++) s->head_peak[k] = s->mid_peak[k] = 0.0;
@@ -247,7 +247,7 @@ BearingStatus bearing_step(Bearing *b, double t_end)
     b->cpu_time += (double)(clock() - before) / CLOCKS_PER_SEC;
     if (status == 0) {
         report_events(b);
-        return BEARING_OK;
+        return PART_OK;
     }
     const double steps = s->integrator.steps - steps_before;
     if (steps >= s->p.solver.max_steps)
@@ -256,10 +256,10 @@ BearingStatus bearing_step(Bearing *b, double t_end)
     else
         bearing_log(b, LOG_ERROR, "t = %.9g s: the solver cannot go on (code %d) after %g steps since %.9g s; step size %g s", s->integrator.t, status, steps,
                     t_begin, s->integrator.h);
-    return BEARING_DISCARD;
+    return PART_DISCARD;
 }
 
-void bearing_update(Bearing *b, OutputGroup group)
+void part_update(Bearing *b, OutputGroup group)
 {
     if (b->current >> group & 1u) return;
     evaluate(b);
@@ -277,35 +277,35 @@ static void differentiate(Bearing *b, double dt, const Inputs *du, const double 
     jacobian_outputs(&b->model, &course, s->integrator.t, dt, du, s->integrator.now.y, dy, derivatives);
 }
 
-void bearing_time_derivatives(Bearing *b, Outputs *derivatives)
+void part_time_derivatives(Bearing *b, Outputs *derivatives)
 {
     evaluate(b);
     differentiate(b, 1.0, NULL, b->y_dot, derivatives);
 }
 
-void bearing_directional_derivatives(Bearing *b, const Inputs *inputs, const double state[N_STATES], Outputs *derivatives)
+void part_directional_derivatives(Bearing *b, const Inputs *inputs, const double state[N_STATES], Outputs *derivatives)
 {
     differentiate(b, 0.0, inputs, state, derivatives);
 }
 
 // ---- saved state --------------------------------------------------------------------------------------------------------------------------------
-size_t bearing_saved_size(void)
+size_t part_saved_size(void)
 {
     return sizeof(Saved);
 }
 
-void bearing_save(const Bearing *b, void *saved)
+void part_save(const Bearing *b, void *saved)
 {
     memcpy(saved, &b->s, sizeof b->s);
 }
 
-void bearing_restore(Bearing *b, const void *saved)
+void part_restore(Bearing *b, const void *saved)
 {
     memcpy(&b->s, saved, sizeof b->s);
     derive(b);
 }
 
-const char *bearing_table_digest(void)
+const char *part_data_digest(void)
 {
     return rivet_table.digest;
 }

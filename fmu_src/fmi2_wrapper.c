@@ -1,10 +1,10 @@
-// The bearing as an FMI 2.0 co-simulation slave: call order, value references, host time, logging, saved states.  No physics.
+// A part (part.h) as an FMI 2.0 co-simulation slave: call order, value references, host time, logging, saved states.  No physics.
 //
 // Every function that returns fmi2Error has changed nothing but the phase: the instance then stands in ERRONEOUS until fmi2Reset or
 // fmi2SetFMUstate (FMI 2.0.4, section 2.1.3), and its outputs read NaN with fmi2Warning, so that a host which ignores the status shows no
 // plausible result.
 // fmi2Discard comes with fmi2Terminated and fmi2LastSuccessfulTime; the outputs then are those of the last good state.
-#include "bearing.h"
+#include "part.h"
 
 #include "fmi2Functions.h"
 
@@ -110,12 +110,12 @@ typedef struct {
     double stop_time;      // [s], infinite if none
     double tolerance;      // 0: solver.tol
     uint64_t step_status;  // fmi2Status of the last step
-} Session;                 // what the saved state holds beside the bearing
+} Session;                 // what the saved state holds beside the part
 
 typedef struct {
-    Bearing *bearing;
+    Part *part;
     Session session;
-    BearingHost host;
+    PartHost host;
     fmi2CallbackFunctions callbacks;
     char *name;
     unsigned categories;  // that are sent: bits 1 << LogCategory
@@ -158,7 +158,7 @@ static fmi2Status refuse(Instance *m, Call call, const char *format, ...)
     va_start(arguments, format);
     vsnprintf(reason, sizeof reason, format, arguments);
     va_end(arguments);
-    snprintf(message, sizeof message, "%s at t = %.9g s: %s", CALLS[call].name, bearing_time(m->bearing), reason);
+    snprintf(message, sizeof message, "%s at t = %.9g s: %s", CALLS[call].name, part_time(m->part), reason);
     instance_log(m, LOG_ERROR, message);
     m->session.phase = ERRONEOUS;
     return fmi2Error;
@@ -187,20 +187,20 @@ static fmi2Status refuse_unsupported(fmi2Component component, const char *functi
 }
 
 // The status of the core as FMI's, with the phase that follows.
-static fmi2Status conclude(Instance *m, BearingStatus status)
+static fmi2Status conclude(Instance *m, PartStatus status)
 {
     switch (status) {
-    case BEARING_OK:
+    case PART_OK:
         return fmi2OK;
-    case BEARING_WARNING:
+    case PART_WARNING:
         return fmi2Warning;
-    case BEARING_DISCARD:
+    case PART_DISCARD:
         m->session.phase = FAILED;
         return fmi2Discard;
-    case BEARING_ERROR:
+    case PART_ERROR:
         m->session.phase = ERRONEOUS;
         return fmi2Error;
-    case BEARING_FATAL:
+    case PART_FATAL:
         break;
     }
     m->session.phase = FATAL;
@@ -216,22 +216,22 @@ static fenv_t floating_point_default(void)
     return host;
 }
 
-// The quasi-static start for the present parameters and inputs, from a new bearing: an earlier start, made to read outputs, leaves no trace.
+// The start for the present parameters and inputs, from a new part: an earlier start, made to read outputs, leaves no trace.
 // A step cannot be discarded here: there is no last good state.
 static fmi2Status instance_initialize(Instance *m)
 {
     if (m->session.initialized) return fmi2OK;
     const fenv_t host = floating_point_default();
-    const Parameters parameters = *bearing_parameters(m->bearing);
+    const Parameters parameters = *part_parameters(m->part);
     Inputs inputs[INPUT_ORDERS + 1];
-    for (int order = 0; order <= INPUT_ORDERS; order++) inputs[order] = *bearing_inputs(m->bearing, order);
-    bearing_reset(m->bearing);
-    *bearing_parameters(m->bearing) = parameters;
-    for (int order = 0; order <= INPUT_ORDERS; order++) *bearing_inputs(m->bearing, order) = inputs[order];
-    BearingStatus status = bearing_initialize(m->bearing, m->session.start_time, m->session.tolerance);
+    for (int order = 0; order <= INPUT_ORDERS; order++) inputs[order] = *part_inputs(m->part, order);
+    part_reset(m->part);
+    *part_parameters(m->part) = parameters;
+    for (int order = 0; order <= INPUT_ORDERS; order++) *part_inputs(m->part, order) = inputs[order];
+    PartStatus status = part_initialize(m->part, m->session.start_time, m->session.tolerance);
     fesetenv(&host);
-    if (status == BEARING_DISCARD) status = BEARING_ERROR;
-    m->session.initialized = status == BEARING_OK || status == BEARING_WARNING;
+    if (status == PART_DISCARD) status = PART_ERROR;
+    m->session.initialized = status == PART_OK || status == PART_WARNING;
     return conclude(m, status);
 }
 
@@ -264,12 +264,12 @@ fmi2Component fmi2Instantiate(fmi2String name, fmi2Type type, fmi2String guid, f
     Instance *m = problem ? NULL : calloc(1, sizeof *m);
     if (m) {
         m->session = NEW_SESSION;
-        m->host = (BearingHost){m, instance_log};
+        m->host = (PartHost){m, instance_log};
         m->callbacks = *functions;
         m->categories = logging ? ALL_CATEGORIES : ALWAYS_SENT;
         m->name = malloc(strlen(name) + 1);
-        if (m->name) m->bearing = bearing_create(&m->host);
-        if (m->bearing) {
+        if (m->name) m->part = part_create(&m->host);
+        if (m->part) {
             strcpy(m->name, name);
             return m;
         }
@@ -283,7 +283,7 @@ void fmi2FreeInstance(fmi2Component component)
 {
     Instance *m = component;
     if (!m) return;
-    bearing_destroy(m->bearing);
+    part_destroy(m->part);
     free(m->name);
     free(m);
 }
@@ -321,7 +321,8 @@ fmi2Status fmi2SetupExperiment(fmi2Component component, fmi2Boolean tolerance_de
     Instance *m = enter(component, CALL_SetupExperiment);
     if (!m) return fmi2Error;
     char message[256];
-    if (tolerance_defined && !variable_allows(variable_named("solver.tol"), 0, tolerance, message, sizeof message)) {
+    const Variable *known = variable_named("solver.tol");  // a part without it has no use for a tolerance
+    if (tolerance_defined && known && !variable_allows(known, 0, tolerance, message, sizeof message)) {
         return refuse(m, CALL_SetupExperiment, "%s (given as tolerance)", message);
     }
     if (!isfinite(start_time)) return refuse(m, CALL_SetupExperiment, "startTime = %g s is not allowed: it must be finite", start_time);
@@ -363,7 +364,7 @@ fmi2Status fmi2Reset(fmi2Component component)
 {
     Instance *m = enter(component, CALL_Reset);
     if (!m) return fmi2Error;
-    bearing_reset(m->bearing);
+    part_reset(m->part);
     m->session = NEW_SESSION;
     m->message[0] = '\0';
     return fmi2OK;
@@ -386,7 +387,7 @@ static const Variable *find(Instance *m, Call call, fmi2ValueReference reference
 
 static void *place(Instance *m, const Variable *v)
 {
-    char *base = v->causality == CAUSALITY_INPUT ? (char *)bearing_inputs(m->bearing, 0) : (char *)bearing_parameters(m->bearing);
+    char *base = v->causality == CAUSALITY_INPUT ? (char *)part_inputs(m->part, 0) : (char *)part_parameters(m->part);
     return base + v->offset;
 }
 
@@ -397,8 +398,8 @@ static fmi2Status output_value(Instance *m, const Variable *v, int element, doub
     *value = NAN;
     if (m->session.phase == INITIALIZING) status = instance_initialize(m);
     if (m->session.phase == ERRONEOUS) return status > fmi2OK ? status : fmi2Warning;
-    bearing_update(m->bearing, v->group);
-    *value = ((const double *)((const char *)bearing_outputs(m->bearing) + v->offset))[element];
+    part_update(m->part, v->group);
+    *value = ((const double *)((const char *)part_outputs(m->part) + v->offset))[element];
     return status;
 }
 
@@ -406,7 +407,7 @@ static fmi2Status real_value(Instance *m, const Variable *v, int element, double
 {
     switch (v->causality) {
     case CAUSALITY_INDEPENDENT:
-        *value = m->session.phase == INITIALIZING ? m->session.start_time : bearing_time(m->bearing);
+        *value = m->session.phase == INITIALIZING ? m->session.start_time : part_time(m->part);
         return fmi2OK;
     case CAUSALITY_INPUT:
     case CAUSALITY_PARAMETER:
@@ -574,7 +575,7 @@ fmi2Status fmi2SetRealInputDerivatives(fmi2Component component, const fmi2ValueR
     }
     for (size_t i = 0; i < n; i++) {
         const Variable *v = variable_find(vr[i], &element);
-        ((double *)((char *)bearing_inputs(m->bearing, order[i]) + v->offset))[element] = value[i];
+        ((double *)((char *)part_inputs(m->part, order[i]) + v->offset))[element] = value[i];
     }
     m->session.initialized = false;
     return fmi2OK;
@@ -604,7 +605,7 @@ fmi2Status fmi2GetRealOutputDerivatives(fmi2Component component, const fmi2Value
     }
     Outputs derivatives;
     const fenv_t host = floating_point_default();
-    bearing_time_derivatives(m->bearing, &derivatives);
+    part_time_derivatives(m->part, &derivatives);
     fesetenv(&host);
     return output_derivatives(m, CALL_GetRealOutputDerivatives, &derivatives, vr, n, value);
 }
@@ -634,7 +635,7 @@ fmi2Status fmi2GetDirectionalDerivative(fmi2Component component, const fmi2Value
     }
     Outputs derivatives;
     const fenv_t host = floating_point_default();
-    bearing_directional_derivatives(m->bearing, &inputs, state, &derivatives);
+    part_directional_derivatives(m->part, &inputs, state, &derivatives);
     fesetenv(&host);
     return output_derivatives(m, call, &derivatives, unknown, n_unknown, d_unknown);
 }
@@ -644,7 +645,7 @@ typedef struct {
     char magic[8];
     uint64_t version;   // of this layout
     char guid[40];      // of the model
-    char table[72];     // digest of the rivet table
+    char data[72];      // digest of data built in
     uint64_t size;      // of the whole block
     uint64_t checksum;  // of all that follows the header
 } BlobHeader;
@@ -654,7 +655,7 @@ enum { BLOB_VERSION = 2 };
 
 static size_t blob_size(void)
 {
-    return sizeof(BlobHeader) + sizeof(Session) + bearing_saved_size();
+    return sizeof(BlobHeader) + sizeof(Session) + part_saved_size();
 }
 
 // FNV-1a, 64 bits: changes with any single byte.
@@ -671,10 +672,11 @@ static const char *blob_problem(const unsigned char *blob, size_t size, bool che
     BlobHeader header;
     if (size < sizeof header) return "the saved state is truncated";
     memcpy(&header, blob, sizeof header);
-    if (memcmp(header.magic, BLOB_MAGIC, sizeof header.magic) != 0) return "this is not a saved state of a bearing";
+    if (memcmp(header.magic, BLOB_MAGIC, sizeof header.magic) != 0) return "this is not a saved state of a " MODEL_IDENTIFIER;
     if (header.version != BLOB_VERSION) return "the saved state is of another version of this FMU";
     if (strncmp(header.guid, MODEL_GUID, sizeof header.guid) != 0) return "the saved state is of another model (its GUID is not " MODEL_GUID ")";
-    if (strncmp(header.table, bearing_table_digest(), sizeof header.table) != 0) return "the saved state is of an FMU with another rivet table";
+    if (strncmp(header.data, part_data_digest(), sizeof header.data) != 0)
+        return "the saved state is of an FMU with other data built in (of a bearing: another rivet table)";
     if (header.size != blob_size()) return "the saved state is of another build of this FMU (its size differs)";
     if (size != header.size) return "the saved state is truncated or too long";
     if (checked && header.checksum != blob_checksum(blob)) return "the saved state is corrupted (its checksum is wrong)";
@@ -690,10 +692,10 @@ fmi2Status fmi2GetFMUstate(fmi2Component component, fmi2FMUstate *state)
     if (!blob) return refuse(m, CALL_GetFMUstate, "out of memory");
     BlobHeader header = {.version = BLOB_VERSION, .guid = MODEL_GUID, .size = blob_size()};
     memcpy(header.magic, BLOB_MAGIC, sizeof header.magic);
-    snprintf(header.table, sizeof header.table, "%s", bearing_table_digest());
+    snprintf(header.data, sizeof header.data, "%s", part_data_digest());
     memcpy(blob, &header, sizeof header);
     memcpy(blob + sizeof header, &m->session, sizeof m->session);
-    bearing_save(m->bearing, blob + sizeof header + sizeof m->session);
+    part_save(m->part, blob + sizeof header + sizeof m->session);
     *state = blob;
     return fmi2OK;
 }
@@ -706,7 +708,7 @@ fmi2Status fmi2SetFMUstate(fmi2Component component, fmi2FMUstate state)
     const char *problem = blob ? blob_problem(blob, blob_size(), false) : "a null pointer for the state";
     if (problem) return refuse(m, CALL_SetFMUstate, "%s", problem);
     memcpy(&m->session, blob + sizeof(BlobHeader), sizeof m->session);
-    bearing_restore(m->bearing, blob + sizeof(BlobHeader) + sizeof m->session);
+    part_restore(m->part, blob + sizeof(BlobHeader) + sizeof m->session);
     return fmi2OK;
 }
 
@@ -765,7 +767,7 @@ static double clock_slack(double time, double step)
 
 static fmi2Status do_step(Instance *m, double point, double step)
 {
-    const double time = bearing_time(m->bearing), end = point + step;
+    const double time = part_time(m->part), end = point + step;
     if (!(isfinite(step) && step > 0.0)) {
         return refuse(m, CALL_DoStep, "communicationStepSize = %g s is not allowed: it must be positive and finite", step);
     }
@@ -775,7 +777,7 @@ static fmi2Status do_step(Instance *m, double point, double step)
     if (end > m->session.stop_time + clock_slack(m->session.stop_time, step)) {
         return refuse(m, CALL_DoStep, "communicationStepSize = %g s is not allowed: the step goes beyond stopTime = %.17g s", step, m->session.stop_time);
     }
-    return conclude(m, end > time ? bearing_step(m->bearing, end) : BEARING_OK);
+    return conclude(m, end > time ? part_step(m->part, end) : PART_OK);
 }
 
 fmi2Status fmi2DoStep(fmi2Component component, fmi2Real point, fmi2Real step, fmi2Boolean no_earlier_state)
@@ -813,7 +815,7 @@ fmi2Status fmi2GetRealStatus(fmi2Component component, const fmi2StatusKind kind,
     if (!m) return fmi2Error;
     if (!value) return refuse(m, CALL_GetRealStatus, "a null pointer");
     if (kind != fmi2LastSuccessfulTime) return fmi2Discard;
-    *value = bearing_time(m->bearing);
+    *value = part_time(m->part);
     return fmi2OK;
 }
 

@@ -31,8 +31,10 @@ typedef struct {
     int initialized;
 } Saved;
 
-struct Bearing {
-    BearingHost host;
+typedef struct Part Bearing;  // the part that this FMU is
+
+struct Part {
+    PartHost host;
     Saved s;
     Derived d;
     Course course;
@@ -49,15 +51,15 @@ struct Bearing {
 };
 
 // Fills one group of outputs from w and the saved state.
-void outputs_fill(struct Bearing *b, OutputGroup group);
+void outputs_fill(Bearing *b, OutputGroup group);
 
 // Whether parameters and inputs make a bearing; messages go to the log.
-bool check_all(struct Bearing *b);
+bool check_all(Bearing *b);
 
 // Whether the balls of the start, which w belongs to, lie in their grooves.
-bool check_start(struct Bearing *b);
+bool check_start(Bearing *b);
 
 // Whether inputs stay within their limits over a step of length h (they may change at every step).
-bool check_inputs(struct Bearing *b, double h);
+bool check_inputs(Bearing *b, double h);
 
-void bearing_log(struct Bearing *b, LogCategory category, const char *format, ...) __attribute__((format(printf, 3, 4)));
+void bearing_log(Bearing *b, LogCategory category, const char *format, ...) __attribute__((format(printf, 3, 4)));

@@ -5,8 +5,8 @@
 // surface into it, seen from the ball (the ball is pushed along -n).
 #pragma once
 
-#include "bearing.h"
 #include "lanes.h"
+#include "part.h"
 #include "rivet_rom.h"
 
 typedef struct {

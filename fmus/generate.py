@@ -1,8 +1,9 @@
-"""Writes every file that is derived from fmus/variables.toml, the one table of all variables.
+"""Writes every file that is derived from a table of variables: fmus/variables.toml is the bearing's.
 
 python fmus/generate.py                                  write the tracked files
 python fmus/generate.py --check                          compare them byte for byte, exit 1 on a difference
 python fmus/generate.py --bearing FILE --out DIR         another bearing (number of balls, start values), all files into one folder
+python fmus/generate.py --table FILE --out DIR           another part of a machine behind the same wrapper, all files into one folder
 """
 
 import argparse
@@ -27,7 +28,7 @@ Z_MIN, Z_MAX = 5, 32
 CAUSALITIES = {"inputs": "input", "parameters": "parameter", "outputs": "output"}
 BASE_UNITS = ("kg", "m", "s", "A", "K", "mol", "cd", "rad")
 LABELS = {"m": "m", "um": "µm", "m/s2": "m/s²", "rad/s2": "rad/s²", "N/m1.5": "N/m^1.5", "kg.m2": "kg.m²", "kg/m3": "kg/m³", "degC": "°C"}
-LOG_CATEGORIES = {  # in the order of LogCategory in bearing.h
+LOG_CATEGORIES = {  # in the order of LogCategory in part.h
     "logStatusError": "Refused calls and values, failed steps: always sent",
     "logStatusWarning": "Done, but worth a look: always sent",
     "logEvents": "Course of the simulation",
@@ -101,7 +102,7 @@ class StateBlock:
 
 @dataclass(frozen=True)
 class Table:
-    Z: int
+    Z: int | None  # number of balls; None if the part has none
     model_name: str
     description: str
     units: dict
@@ -120,13 +121,14 @@ class Table:
         return "{" + "-".join((digest[:8], digest[8:12], digest[12:16], digest[16:20], digest[20:32])) + "}"
 
 
-def load_table(bearing=None):
+def load_table(bearing=None, path=None):
     """The table, with Z and start values of a bearing file; ValueError names file, key, value and what is allowed."""
-    raw = tomllib.loads(TABLE.read_text())
+    path = path or TABLE
+    raw = tomllib.loads(Path(path).read_text())
     changes = tomllib.loads(Path(bearing).read_text()) if bearing else {}
-    Z = changes.get("Z", raw["Z"])
-    if type(Z) is not int or not Z_MIN <= Z <= Z_MAX:
-        raise ValueError(f"{bearing or TABLE}: Z = {Z!r}: allowed is an integer from {Z_MIN} to {Z_MAX}")
+    Z = changes.get("Z", raw.get("Z"))
+    if "Z" in raw and (type(Z) is not int or not Z_MIN <= Z <= Z_MAX):
+        raise ValueError(f"{bearing or path}: Z = {Z!r}: allowed is an integer from {Z_MIN} to {Z_MAX}")
     variables = []
     for section, causality in CAUSALITIES.items():
         for entry in raw[section]["list"]:
@@ -142,7 +144,7 @@ def load_table(bearing=None):
         states.append(StateBlock(**entry | {"count": count}, offset=offset, of_balls=entry["count"] == "Z"))
         offset += count
     table = Table(Z, raw["model_name"], raw["description"], raw["units"], raw["enumerations"], raw["groups"], tuple(variables), tuple(states))
-    check_table(table)
+    check_table(table, path)
     return table
 
 
@@ -173,7 +175,7 @@ def set_start(variables, causality, name, value, source):
     variables[places[name]] = replace(v, start=float(start) if v.kind == "Real" else start)
 
 
-def check_table(table):
+def check_table(table, path):
     """Every variable complete and consistent, every name and value reference given once; else ValueError."""
     names, references = {"time"}, {0: "time"}
     for v in table.variables:
@@ -193,10 +195,10 @@ def check_table(table):
         names.add(v.name)
         for problem, found in problems.items():
             if found:
-                raise ValueError(f"{TABLE}: {v.name}: {problem}")
+                raise ValueError(f"{path}: {v.name}: {problem}")
     for s in table.states:
         if s.unit not in table.units:
-            raise ValueError(f"{TABLE}: {s.name}: unknown unit {s.unit!r}")
+            raise ValueError(f"{path}: {s.name}: unknown unit {s.unit!r}")
 
 
 # ---------------------------------------------------------------------------------------------------------------- text files
@@ -249,12 +251,12 @@ def allowed(v, table):
     return ", ".join(v.choices) if v.choices else " … ".join(shown(value, v, table) for value in v.limits)
 
 
-def render(template, table):
+def render(template, table, source):
     """A template of fmus/templates filled in."""
     environment = jinja2.Environment(trim_blocks=True, lstrip_blocks=True, keep_trailing_newline=True, undefined=jinja2.StrictUndefined)
     environment.filters |= {f.__name__: f for f in (screaming, struct_members, c_number, quoted, label)}
     scales = list(dict.fromkeys(s.scale for s in table.states))
-    return environment.from_string((TEMPLATES / template).read_text()).render(table=table, scales=scales, shown=shown, allowed=allowed)
+    return environment.from_string((TEMPLATES / template).read_text()).render(table=table, source=source, scales=scales, shown=shown, allowed=allowed)
 
 
 # ------------------------------------------------------------------------------------------------------- modelDescription.xml
@@ -386,28 +388,30 @@ def dependencies(v, table, indices):
 # ------------------------------------------------------------------------------------------------------------------- command
 
 
-def generate(bearing=None):
+def generate(bearing=None, path=None):
     """Contents of all files by their place in the project; ValueError if the table or the bearing file is wrong."""
-    table = load_table(bearing)
-    return {place: write_description(table) if place.endswith(".xml") else render(Path(place).name, table) for place in OUTPUTS}
+    table = load_table(bearing, path)
+    source = Path(path).name if path else TABLE.relative_to(ROOT).as_posix()
+    return {place: write_description(table) if place.endswith(".xml") else render(Path(place).name, table, source) for place in OUTPUTS}
 
 
 def main(arguments=None):
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--bearing", type=Path, help="bearing file (bearing_model/data/bearings) with Z and start values")
+    parser.add_argument("--table", type=Path, help="another part's table of variables")
     parser.add_argument("--out", type=Path, help="one folder for all files, instead of their places in the project")
     parser.add_argument("--check", action="store_true", help="write nothing, compare")
     options = parser.parse_args(arguments)
-    if options.bearing and not options.out and not options.check:
-        parser.error("--bearing needs --out: the tracked files are those of the table itself")
+    if (options.bearing or options.table) and not options.out and not options.check:
+        parser.error("--bearing and --table need --out: the tracked files are those of the bearing's own table")
     try:
-        files = generate(options.bearing)
+        files = generate(options.bearing, options.table)
     except (OSError, ValueError) as error:
         sys.exit(f"generate: {error}")
     places = {(options.out / Path(name).name if options.out else ROOT / name): content for name, content in files.items()}
     if options.check:
         stale = [str(path) for path, content in places.items() if not path.is_file() or path.read_bytes() != content.encode()]
-        sys.exit(f"generate: not what {TABLE.name} says: {', '.join(stale)}" if stale else 0)
+        sys.exit(f"generate: not what {(options.table or TABLE).name} says: {', '.join(stale)}" if stale else 0)
     for path, content in places.items():
         path.parent.mkdir(parents=True, exist_ok=True)
         if not path.is_file() or path.read_bytes() != content.encode():  # unchanged files keep their time: nothing is recompiled

@@ -157,41 +157,41 @@ def rigid_halves(model, y, beta, gamma, psi, slip, rng):
 
 
 class Instance:
-    """A whole bearing behind bearing.h: parameters and inputs by name, stepping, states and outputs.  Freed with this object."""
+    """A whole bearing behind part.h: parameters and inputs by name, stepping, states and outputs.  Freed with this object."""
 
     def __init__(self, core, parameters=None, inputs=None, tolerance=0.0):
         self.core, self.lib, self.messages = core, core.lib, []
         ffi = core.ffi
         self.log = ffi.callback("void(void *, LogCategory, const char *)", lambda _, category, text: self.messages.append(ffi.string(text).decode()))
-        self.host = ffi.new("BearingHost *", {"environment": ffi.NULL, "log": self.log})
-        self.bearing = ffi.gc(self.lib.bearing_create(self.host), self.lib.bearing_destroy)
-        core.set_values(self.lib.bearing_parameters(self.bearing), variables.PARAMETERS, parameters or {})
+        self.host = ffi.new("PartHost *", {"environment": ffi.NULL, "log": self.log})
+        self.bearing = ffi.gc(self.lib.part_create(self.host), self.lib.part_destroy)
+        core.set_values(self.lib.part_parameters(self.bearing), variables.PARAMETERS, parameters or {})
         self.set(**(inputs or {}))
-        status = self.lib.bearing_initialize(self.bearing, 0.0, tolerance)
-        if status != self.lib.BEARING_OK:
+        status = self.lib.part_initialize(self.bearing, 0.0, tolerance)
+        if status != self.lib.PART_OK:
             raise ValueError(f"initialisation: status {status}, {self.messages}")
 
     def set(self, **inputs):
         """Inputs by their names in the variable table."""
-        self.core.set_values(self.lib.bearing_inputs(self.bearing, 0), variables.INPUTS, inputs)
+        self.core.set_values(self.lib.part_inputs(self.bearing, 0), variables.INPUTS, inputs)
 
     @property
     def time(self):
-        return self.lib.bearing_time(self.bearing)
+        return self.lib.part_time(self.bearing)
 
     def step(self, t):
         """To time t; ArithmeticError if the solver cannot go on."""
-        if self.lib.bearing_step(self.bearing, t) != self.lib.BEARING_OK:
+        if self.lib.part_step(self.bearing, t) != self.lib.PART_OK:
             raise ArithmeticError(f"t = {t}: {self.messages}")
         return self
 
     @property
     def y(self):
         """A copy of the state."""
-        return np.frombuffer(self.core.ffi.buffer(self.lib.bearing_state(self.bearing), 8 * variables.N_STATES)).copy()
+        return np.frombuffer(self.core.ffi.buffer(self.lib.part_state(self.bearing), 8 * variables.N_STATES)).copy()
 
     def output(self, name):
         """One output now; an array for ball[j] and rivet[k]."""
         group, member = name.split(".")
-        self.lib.bearing_update(self.bearing, getattr(self.lib, f"GROUP_{OUTPUTS[name].group.upper()}"))
-        return getattr(View(self.core, getattr(self.lib.bearing_outputs(self.bearing), group)), member)
+        self.lib.part_update(self.bearing, getattr(self.lib, f"GROUP_{OUTPUTS[name].group.upper()}"))
+        return getattr(View(self.core, getattr(self.lib.part_outputs(self.bearing), group)), member)

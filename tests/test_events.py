@@ -21,7 +21,7 @@ def resting(core):
     def place(changes, parameters=None):
         """changes: state block -> values added to it."""
         instance = Instance(core, parameters or {}, REST).step(1e-9)
-        y = np.frombuffer(core.ffi.buffer(core.lib.bearing_state(instance.bearing), 8 * variables.N_STATES))
+        y = np.frombuffer(core.ffi.buffer(core.lib.part_state(instance.bearing), 8 * variables.N_STATES))
         for block, values in changes.items():
             y[getattr(variables, block)] += values
         return instance

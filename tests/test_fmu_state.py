@@ -211,7 +211,7 @@ def test_state_holds_parameters_inputs_and_phase(slave):
 
 def corrupted(data):
     """What must be refused, and why."""
-    header = 144  # magic 8, version 8, GUID 40, digest of the rivet table 72, size 8, checksum 8
+    header = 144  # magic 8, version 8, GUID 40, digest of data built in 72, size 8, checksum 8
     for position in (header, header + 100, len(data) // 2, len(data) - 1, *np.random.default_rng(3).integers(header, len(data), 50)):
         yield data[:position] + bytes([data[position] ^ 1]) + data[position + 1 :], "corrupted"
     yield data[:136] + struct.pack("<Q", struct.unpack_from("<Q", data, 136)[0] ^ 1) + data[header:], "corrupted"
@@ -221,7 +221,7 @@ def corrupted(data):
     yield bytes(len(data)), "not a saved state"
     yield data[:8] + struct.pack("<Q", 99) + data[16:], "another version"
     yield data[:17] + b"0123" + data[21:], "another model"
-    yield data[:56] + b"0123" + data[60:], "another rivet table"
+    yield data[:56] + b"0123" + data[60:], "other data built in"
     yield data[:128] + struct.pack("<Q", len(data) - 8) + data[136:-8], "another build"
 
 

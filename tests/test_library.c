@@ -1,10 +1,10 @@
 // What the tests' library adds to the core's objects: the inline functions, callable over arrays, and memory as the kernels want it.
-#include "bearing.h"
 #include "drive.h"
 #include "elementary.h"
 #include "hertz.h"
 #include "lanes.h"
 #include "model.h"
+#include "part.h"
 #include "rivet_rom.h"
 #include "traction.h"
 

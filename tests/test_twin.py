@@ -283,7 +283,7 @@ def test_outputs(core, scene, record_property):
     energy_start, t = energy_total(model, w), 3e-4
     for y in random_states(model, y_start, np.random.default_rng(4), 5):
         instance = Instance(core, parameters, inputs).step(t)
-        np.frombuffer(core.ffi.buffer(core.lib.bearing_state(instance.bearing), y.nbytes))[:] = y
+        np.frombuffer(core.ffi.buffer(core.lib.part_state(instance.bearing), y.nbytes))[:] = y
         for name, value in observe(model, t, y, energy_start).items():
             c = instance.output(name.replace("[j]", "").replace("[k]", ""))
             worst[name] = max(worst.get(name, 0.0), np.max(np.abs(value - c)) / max(np.max(np.abs(c)), floor_of(name)))

@@ -1,4 +1,4 @@
-// Written by fmus/generate.py from fmus/variables.toml: do not edit.
+// Written by fmus/generate.py from {{ source }}: do not edit.
 // clang-format off
 #include "variables.h"
 

@@ -1,4 +1,4 @@
-// Written by fmus/generate.py from fmus/variables.toml: do not edit.
+// Written by fmus/generate.py from {{ source }}: do not edit.
 // clang-format off
 // All variables of the model: what users set (Parameters, Inputs), what they read (Outputs), the state vector, and tables of them.  SI units.
 #pragma once
@@ -11,7 +11,9 @@
 #define MODEL_IDENTIFIER "{{ table.model_name }}"
 #define MODEL_GUID "{{ table.guid }}"  // digest of the table
 
+{% if table.Z %}
 enum { Z = {{ table.Z }} };  // number of balls
+{% endif %}
 
 {% for name, items in table.enumerations.items() %}
 enum {  // {{ name }}

@@ -1,4 +1,4 @@
-"""Every variable of the FMU, the enumerations and the state vector's layout.  Written by fmus/generate.py from fmus/variables.toml: do not edit."""
+"""Every variable of the FMU, the enumerations and the state vector's layout.  Written by fmus/generate.py from {{ source }}: do not edit."""
 
 # fmt: off
 # ruff: noqa: E501
