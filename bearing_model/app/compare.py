@@ -23,7 +23,9 @@ FINER = (1.0, 1e-2, 1e-4)  # tolerances of the FMU / the scene's
 REFERENCE_FINER = 1e-6  # the reference's on the short horizon
 SETTLED = 0.2  # share of the long horizon that its statistics leave out, unless the scene settles earlier
 MOTION = {"m": 1e-5, "m/s": 0.1}
-LEAST = {"N": 1.0, "N.m": 1e-3, "Pa": 1e5, "m/s2": 1.0, "W": 1.0, "rad": 1e-3, "1": 1e-3}  # smallest scale of loads, stresses, contact angles, ratios
+LEAST = {  # smallest scale of loads, stresses, accelerations, contact angles, ratios
+    "N": 1.0, "N.m": 1e-3, "Pa": 1e5, "m/s2": 1.0, "1/s2": 100.0, "W": 1.0, "rad": 1e-3, "1": 1e-3
+}  # fmt: skip
 LEFT_OUT = ("rivet[k].flag", "bearing.contacts", "bearing.energy_residual")  # jump from one whole number to the next; is an integration's own error
 STEPS_COUNT = ("peak", "event")  # groups that depend on the steps taken
 SEEDS = 8
@@ -155,7 +157,7 @@ def channels(model, names, reference, runs):
 def scale_of(variable, values, parameters):
     """What a difference is measured in: the integrator's error scale for motion, else the largest value."""
     r = 0.5 * parameters["bearing.d_m"]
-    motion = MOTION | {"rad": MOTION["m"] / r, "rad/s": MOTION["m/s"] / r}
+    motion = MOTION | {"rad": MOTION["m"] / r, "rad/s": MOTION["m/s"] / r, "1/s": MOTION["m/s"] / r}
     if is_motion(variable):
         return motion[variable.unit]
     return max(float(np.max(np.abs(values))), LEAST[variable.unit])
@@ -163,7 +165,7 @@ def scale_of(variable, values, parameters):
 
 def is_motion(channel):
     """Whether a channel is a place, an angle or a speed of a body, measured in the integrator's error scales."""
-    return channel.unit in ("m", "m/s", "rad", "rad/s") and "alpha" not in channel.name
+    return channel.unit in ("m", "m/s", "rad", "rad/s", "1/s") and "alpha" not in channel.name
 
 
 def family(name):
