@@ -1,6 +1,7 @@
 """The report: one file that needs nothing else, figures equal to the run's, life by a second hand, and a page that moves in a real browser."""
 
 import base64
+import io
 import json
 import re
 import shutil
@@ -8,6 +9,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from PIL import Image
 
 from bearing_model import fatigue
 from bearing_model.app import UserError, run, write_result
@@ -276,6 +278,13 @@ def test_printed_page_is_light_and_has_the_picture(opened):
     tab, complaints = opened(1280, 900, "dark")
     tab.evaluate("dispatchEvent(new Event('beforeprint'))")
     assert tab.evaluate("getComputedStyle(document.body).backgroundColor") == "rgb(255, 255, 255)"
+    tab.emulate_media(media="print", color_scheme="dark")
+    shown = np.array(Image.open(io.BytesIO(tab.screenshot(full_page=True))).convert("RGB"))
+    box = tab.locator("#front").bounding_box()
+    part = shown[round(box["y"]) : round(box["y"] + box["height"]), round(box["x"]) : round(box["x"] + box["width"])]
+    extents = [np.ptp(where) for where in np.nonzero(np.all(part == (211, 219, 227), axis=2))]  # the colour of the rings on paper
+    assert min(extents) > 150 and extents[0] == pytest.approx(extents[1], rel=0.02)  # a circle: to 2 of 250 pixels; stretched over the paper's width 2.2
+    tab.emulate_media(media="screen", color_scheme="dark")
     tab.evaluate("dispatchEvent(new Event('afterprint'))")
     assert tab.evaluate("getComputedStyle(document.body).backgroundColor") != "rgb(255, 255, 255)"
     assert complaints == []

@@ -1,7 +1,9 @@
 """The FMU seen from Python: what it offers (Model) and one running instance of it (Instance)."""
 
 import ctypes
+import functools
 import shutil
+import weakref
 from pathlib import Path
 
 import numpy as np
@@ -56,6 +58,13 @@ class Model:
         self.parameters = {v.name: v for v in variables if v.causality == "parameter"}
         self.inputs = {v.name: v for v in variables if v.causality == "input"}
         self.outputs = {v.name: v for v in variables if v.causality == "output"}
+
+    @functools.cached_property
+    def folder(self):
+        """The FMU unpacked, for all its instances: removed with the Model."""
+        folder = extract(str(self.path))
+        weakref.finalize(self, shutil.rmtree, folder, ignore_errors=True)
+        return folder
 
     def parameter_value(self, value, variable):
         """A parameter's value checked: SI number, integer or item name of its enumeration."""
@@ -113,12 +122,11 @@ class Instance:
         self.log = []
 
     def __enter__(self):
-        self.folder = extract(str(self.model.path))
         description = self.model.description
         try:
             self.fmu = FMU2Slave(
                 guid=description.instantiationToken,
-                unzipDirectory=self.folder,
+                unzipDirectory=self.model.folder,
                 modelIdentifier=description.coSimulation.modelIdentifier,
                 instanceName=description.modelName,
             )
@@ -144,9 +152,8 @@ class Instance:
         return callbacks
 
     def forget(self):
-        """Remove the unpacked files and the log's registration."""
+        """Remove the log's registration."""
         LOGS.pop(id(self), None)
-        shutil.rmtree(self.folder, ignore_errors=True)
 
     def complaints(self):
         """What the FMU had to say when it failed, the last messages last."""

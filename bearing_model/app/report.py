@@ -227,7 +227,7 @@ def solver_rows(result):
     if "solver.tolerance" in s:
         yield "tolerance", f"{s['solver.tolerance']:g}"
     if "solver.path" in s:
-        yield "path at the end", {1: "explicit", 2: "implicit-explicit"}.get(int(s["solver.path"]), f"{s['solver.path']:g}")
+        yield "method", {1: "velocity Verlet", 2: "Runge–Kutta 4(3)"}.get(int(s["solver.path"]), f"{s['solver.path']:g}")
     if "real_time_factor" in s:
         yield "CPU time / simulated time", f"{s['real_time_factor']:.2f}"
     if "bearing.energy_residual" in result.data:

@@ -146,6 +146,7 @@ def runs_of(rows):
         "tolerance": rows["solver.tolerance"],
         "speed": np.round(rows["shaft.omega"] * RPM, 3),
         "F_r": rows["shaft.F_y"],
+        "F_a": rows["shaft.F_x"],
         "tilt": np.round(rows["shaft.tilt_z"] * DEG, 6),
         "preload": rows["joint.preload"],
         "mu": rows["joint.mu"],
@@ -153,6 +154,7 @@ def runs_of(rows):
         "pocket": np.round(rows["cage.pocket_clearance"] * 1e6, 3),
         "guide": np.round(rows["cage.guide_clearance"] * 1e6, 3),
         "pocket_damping": rows["cage.lambda"],
+        "share_width": rows["cage.share_width"],
         "impact": rows["pulse.F_r"],
         "width": np.round(rows["pulse.duration"] * 1e3, 6),
         "force": rows["stat.Q_c_mean"],
@@ -372,13 +374,27 @@ def failure_picture(data):
     return figure
 
 
+GRIPS = {  # name: (conditions that differ from the first one, colour)
+    "as it is": ({}, FORCE),
+    "dry joints (μ 0.3)": ({"mu": 0.3}, MUTED),
+    "soft impacts (10 s/m)": ({"pocket_damping": 10.0}, MIDDLE),
+    "pockets of 0.1 mm": ({"pocket": 100.0}, RING),
+    "share by the contact patch": ({"share_width": 0.12}, HEAD),
+    "no axial load": ({"F_a": 0.0}, "#8e5aa8"),
+}
+
+
+def grip(runs, name):
+    """Runs of one of the changes."""
+    return runs.at(**{"mu": 0.15, "pocket_damping": 1.0, "pocket": 200.0, "share_width": 0.05, "F_a": 515.0} | GRIPS[name][0])
+
+
 def grip_picture(data):
     """What it takes to hold the halves together."""
     figure, axes = canvas(1, 2)
-    for ax, (name, title) in zip(axes[0], {"dislocation_max": "Largest dislocation", "slip": "Range of the dislocation"}.items(), strict=True):
-        for mu, style in ((0.15, "-"), (0.3, "--")):
-            for damping, colour in ((1.0, FORCE), (10.0, RING)):
-                band(ax, data["grip"].at(mu=mu, pocket_damping=damping), "preload", name, colour, f"μ {mu:g}, pocket damping {damping:g} s/m", style)
+    for ax, (column, title) in zip(axes[0], {"dislocation_max": "Largest dislocation", "slip": "Range of the dislocation"}.items(), strict=True):
+        for name, (_, colour) in GRIPS.items():
+            band(ax, grip(data["grip"], name), "preload", column, colour, name if ax is axes[0, 0] else None)
         ax.set(title=title, ylabel="µm")
     finish(axes[0], "preload [N]")
     return figure

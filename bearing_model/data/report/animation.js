@@ -1,4 +1,4 @@
-// Draws the frames of animation.py: the bearing seen along +X, the cage unrolled, and the largest stress over time.
+// Draws the frames of animation.py: the bearing seen from +X, the cage unrolled, and the largest stress over time.
 // Displacements and clearances are magnified `scale` times about the undisturbed positions, so gaps close on the screen when they close in the bearing.
 "use strict";
 (function () {
