@@ -49,6 +49,8 @@ def main():
     short = options(__doc__).short
     PICTURES.mkdir(exist_ok=True)
     core, model = core_library(), Model(FMU)
+    say("FMUs of two more bearings")
+    fmus = [build(ROOT / "benchmarks" / "bearings" / f"{name}.toml", out=ROOT / "build" / f"{name}.fmu") for name in ("120mm", "110mm")]
     sections = []
     for section in (contacts, kinematics, distribution, working_point, clearance):
         say(section.__name__)
@@ -58,7 +60,7 @@ def main():
     say("FMU and reference")
     sections += twins(model, 0.01 if short else 0.1)
     say("published experiments")
-    sections += [skid(short), cage_forces(short)]
+    sections += [skid(fmus[0], short), cage_forces(fmus[1], short)]
     PAGE.write_text("\n".join([HEAD_OF_PAGE.format(**machine(), commit=commit()), *sections]))
     say(f"wrote {PAGE.relative_to(ROOT)}")
 
@@ -281,11 +283,6 @@ def largest(channels):
 # --------------------------------------------------------------------------------------------------------------- published experiments
 
 
-def built(name):
-    """The FMU of a bearing of this folder."""
-    return build(ROOT / "benchmarks" / "bearings" / f"{name}.toml", out=ROOT / "build" / f"{name}.fmu")
-
-
 def running(fmu, speed_rpm, t_end, **changes):
     """Cage slip [%], largest and 99.9 % ball–pocket force [N] of a bearing after settling."""
     inputs = {"shaft.omega": speed_rpm * RPM} | {name.replace("__", "."): value for name, value in changes.items()}
@@ -294,9 +291,9 @@ def running(fmu, speed_rpm, t_end, **changes):
     return slip, result.summary["stat.Q_c_max"], result.summary["stat.Q_c_p999"], result.summary["stat.Q_c_mean"]
 
 
-def skid(short):
+def skid(fmu, short):
     """NASA TN D-7870."""
-    fmu, t_end = built("120mm"), 0.05 if short else 0.4
+    t_end = 0.05 if short else 0.4
     speeds, loads = (12000, 16700, 20800, 25000), (2224.0, 6672.0, 22240.0)
     slips = {F_x: [running(fmu, speed, t_end, shaft__F_x=F_x, shaft__F_y=0.0)[0] for speed in speeds] for F_x in loads}
     rows = [(f"{F_x:.0f}", *(f"{slip:.2f}" for slip in row)) for F_x, row in slips.items()]
@@ -319,9 +316,9 @@ def skid(short):
     return section("Skid of a 120-mm bearing", text, table(columns, rows), picture(figure, "skid"))
 
 
-def cage_forces(short):
+def cage_forces(fmu, short):
     """ASME J. Lubr. Tech. 101(2)."""
-    fmu, t_end = built("110mm"), 0.05 if short else 0.4
+    t_end = 0.05 if short else 0.4
     loads = {"thrust 2224 N": (2224.0, 0.0), "thrust 2224 N, radial 1112 N": (2224.0, 1112.0)}
     rows = []
     for speed in (4000, 8000, 12000):
