@@ -106,9 +106,12 @@ def test_an_fmu_for_another_rivet(tmp_path):
 
 @pytest.mark.slow
 def test_rivet_command(tmp_path):
-    """Prints the curves and writes two pictures."""
+    """Prints the curves, the table's own numbers in them, and writes two pictures."""
     done = command("rivet", "--out", "pictures", folder=tmp_path)
     assert done.returncode == 0, done.stderr
-    assert all(text in done.stdout for text in ("Fig. 11", "Fig. 12, with yield", "transverse load", "147.0"))
+    preload = pictures.curves(*pictures.table_response(TABLE))["Fig. 11"]
+    last = ["60", f"{1e-6 * preload.head[-1]:.1f}", f"{1e-6 * preload.mid[-1]:.1f}"]
+    assert all(text in done.stdout for text in ("Fig. 11", "Fig. 12, with yield", "transverse load"))
+    assert last in [line.split() for line in done.stdout.splitlines()]
     for name in ("rivet_curves.png", "rivet_section.png"):
         assert (tmp_path / "pictures" / name).read_bytes().startswith(b"\x89PNG")

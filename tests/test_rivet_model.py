@@ -296,6 +296,15 @@ def test_hold_out_of_the_shipped_table():
         assert max(report["rms"].values()) <= 0.005, report
 
 
+def test_errors_on_the_page():
+    """docs/rivet.md shows the errors of the shipped table's header."""
+    folder = build.Path(build.__file__).parent
+    errors, page = table.read(folder / "tables" / "6207.json").errors, (folder.parent / "docs" / "rivet.md").read_text(encoding="utf-8")
+    for title, region in (("all", "all"), ("clearance alone", "clearance")):
+        shown = [f"{100 * errors[region]['maximum'][name]:.2f} %, {100 * errors[region]['rms'][name]:.2f} %" for name in table.CHANNELS]
+        assert f"| {title}: maximum, RMS | {' | '.join(shown)} |" in page
+
+
 @pytest.mark.slow
 def test_table_against_fresh_solutions():
     """Forty loads of another seed, solved anew with 100 angles around each bore: the header's promise holds."""
