@@ -10,7 +10,7 @@
     I_s = int sin phi cos phi/(...)^3 dphi               = 2 b/q^4 + a^2 b/(q^4 (1 - b^2)) + 3 a b S/q^5
 
 Steady rotation gives Ocvirk's force (a = 0), pure squeeze the pi-film's.  Regular at e = 0; C0 in V (cavitation), C1 elsewhere.
-q^2 has the floor g_0 and eps the cap 1.2; the dry contact F = K_land (e - C)^1.5 takes over there.
+q^2 is g_0 at the wall and g_0/2 behind it, eps has the cap 1.2; the dry contact F = K_land (e - C)^1.5 takes over there.
 """
 
 import numpy as np
@@ -34,6 +34,12 @@ def land_film_integrals(a, b, q2):
     return I_c, I_s
 
 
+def land_film_gap(eps, g_0):
+    """q^2 = 1 - eps^2, but g_0 at the wall and g_0/2 far behind it."""
+    above = 1.0 - eps * eps - 0.5 * g_0
+    return 0.5 * g_0 + 0.5 * (above + np.sqrt(above * above + 2.0 * g_0 * g_0))
+
+
 def land_film_force(model, w):
     """Adds film, friction and dry contact of both lands to the halves; sets their elastic energy and dissipated power."""
     p, d = model.p, model.d
@@ -54,8 +60,7 @@ def land_film_force(model, w):
     eps = e / d.C_land
     cap = minimum(1.0, EPS_CAP / eps) / d.C_land
     a, b = (e_y * n_y + e_z * n_z) * cap, (e_z * n_y - e_y * n_z) * cap
-    q2_free = 1.0 - eps * eps
-    q2 = 0.5 * (q2_free + np.sqrt(q2_free**2 + 4.0 * p.cage.g_0**2))
+    q2 = land_film_gap(eps, p.cage.g_0)
     I_c, I_s = land_film_integrals(a, b, q2)
     F_y, F_z = -d.kappa * (I_c * V_y - I_s * V_z), -d.kappa * (I_c * V_z + I_s * V_y)
     couette = d.couette / np.sqrt(q2)

@@ -105,7 +105,7 @@ def tilts():
 def clearances():
     for P_d in (-50e-6, -20e-6, -5e-6, 0.0, 5e-6, 100e-6, 300e-6, 600e-6):
         yield Scene("clearance", f"P_d {P_d * 1e6:g} um", {"bearing.P_d": P_d})
-    for pocket, guide in itertools.product((0.0, 1e-6, 5e-5, 5e-4, 2e-3), (2e-6, 2e-5, 5e-4, 3e-3)):
+    for pocket, guide in itertools.product((0.0, 1e-6, 5e-5, 5e-4, 2e-3), (1e-5, 2e-5, 5e-4, 3e-3)):
         yield Scene("clearance", f"pocket {pocket * 1e3:g} mm, guide {guide * 1e3:g} mm", {"cage.pocket_clearance": pocket, "cage.guide_clearance": guide})
     for f_i, f_e in itertools.product((0.5005, 0.505, 0.6), repeat=2):
         yield Scene("clearance", f"conformity {f_i}, {f_e}", {"bearing.f_i": f_i, "bearing.f_e": f_e, "bearing.P_d": 0.0})
@@ -239,6 +239,7 @@ def impossible():
         "cage beside the pitch circle": {"cage.D_i": 0.055},
         "land wider than the cage": {"cage.land_width": 0.01},
         "no guide clearance": {"cage.guide_clearance": 0.0},
+        "guide clearance 0.002 mm": {"cage.guide_clearance": 2e-6},
         "ball larger than its pocket": {"cage.pocket_clearance": 1e-5, "ball[1].dD": 2e-5},
         "pitch circle of another rivet table": {"bearing.d_m": 0.0545},
         "pulses overlap": {"pulse.interval": 1e-4, "pulse.duration": 1e-3},

@@ -2,6 +2,8 @@
 //
 //   ball    traction of a race contact holds back its slip: F = -g P (v + omega x R n), M = R n x F, P = 1 - n n^T, g = |traction|/|slip|;
 //           its normal force the approach, with rate lambda Q and stiffness 3 Q/(2 delta) along n; the pockets' friction by its diagonal
+//   race    the inner contacts' traction couples the ring to all balls: where that is much for its mass (slow or mixed), through each ball's
+//           inverse (race_couple), else each for itself
 //   half    the film holds back the land's velocity: F = -C (v_y + gamma_dot x, v_z - beta_dot x), C symmetric 2 x 2, x the land's lever;
 //           Couette drag and dry friction hold back the spin; plates and rivets the axial motion of one half against the other
 //   ring    its support
@@ -37,24 +39,33 @@ INLINE void add_contact(real g, real normal, real R, const real n[3], real A[TER
     A[AT(5, 1)] += g_R * n[0];
 }
 
-// x = A^-1 x of a symmetric positive definite A, which becomes its factors L, D.
-INLINE void solve_block(real A[TERMS], real x[BLOCK])
+typedef struct {
+    real A[TERMS], per[BLOCK];  // factors L, D of a symmetric positive definite matrix, 1/D
+} Factors;
+
+INLINE void factor_block(Factors *f)
 {
-    real per[BLOCK];
+    real *A = f->A;
     for (int i = 0; i < BLOCK; i++) {
         for (int k = 1; k < i; k++)
             for (int q = 0; q < k; q++) A[AT(i, k)] -= A[AT(i, q)] * A[AT(k, q)];
         for (int k = 0; k < i; k++) {
-            const real l = A[AT(i, k)] * per[k];
+            const real l = A[AT(i, k)] * f->per[k];
             A[AT(i, i)] -= l * A[AT(i, k)];
             A[AT(i, k)] = l;
-            x[i] -= l * x[k];
         }
-        per[i] = 1.0 / A[AT(i, i)];
+        f->per[i] = 1.0 / A[AT(i, i)];
     }
+}
+
+// x = A^-1 x.
+INLINE void solve_block(const Factors *f, real x[BLOCK])
+{
+    for (int i = 1; i < BLOCK; i++)
+        for (int k = 0; k < i; k++) x[i] -= f->A[AT(i, k)] * x[k];
     for (int i = BLOCK - 1; i >= 0; i--) {
-        x[i] *= per[i];
-        for (int k = i + 1; k < BLOCK; k++) x[i] -= A[AT(k, i)] * x[k];
+        x[i] *= f->per[i];
+        for (int k = i + 1; k < BLOCK; k++) x[i] -= f->A[AT(k, i)] * x[k];
     }
 }
 
@@ -104,27 +115,66 @@ static void store_balls(lanes rows[BLOCK], double *v)
 }
 
 // x = A^-1 M x of one bundle of rows.
-INLINE void solve_bundle(const Model *model, const Work *w, int j, real A[TERMS], lanes rows[BLOCK], real x[BLOCK])
+INLINE void solve_bundle(const Model *model, const Work *w, int j, Factors *f, lanes rows[BLOCK], real x[BLOCK])
 {
     const double m = model->d->m, J = model->d->J;
     const real r = real_load(&w->r[j]);
     for (int i = 0; i < BLOCK; i++) x[i] = real_load(&rows[i][j]) * (i < 3 ? m : J);
     x[2] *= r;  // v_t = r omega_m
-    solve_block(A, x);
+    factor_block(f);
+    solve_block(f, x);
     x[2] /= r;
 }
 
-static void solve_balls(const Model *model, const Work *w, double gamma, double *v)
+// A moving race carries the balls with it: at its speed u [m/s] at the inner contact (x, r, t) ball velocities change by give u, and the ring
+// feels the impulse drag - hold u, where drag is what the balls' own velocities bring.
+typedef struct {
+    lanes give[BLOCK][3], hold[3][3], drag[3];
+} Coupling;
+
+INLINE void couple_bundle(const Model *model, const Work *w, int j, double gamma, const Factors *f, const real x[BLOCK], Coupling *c)
 {
-    lanes rows[BLOCK];
-    load_balls(v, rows);
+    const real g = gamma * real_load(&w->g_i[j]), r = real_load(&w->r[j]), n[3] = {real_load(&w->n_ix[j]), real_load(&w->n_ir[j]), real_load(&w->n_it[j])};
+    const real g_R = g * real_load(&model->d->R[j]), zero = real_set(0.0);
+    const real turn[3][3] = {{zero, -g_R * n[2], g_R * n[1]}, {g_R * n[2], zero, -g_R * n[0]}, {-g_R * n[1], g_R * n[0], zero}};  // R n x
+    for (int k = 0; k < 3; k++) {
+        real pull[BLOCK], y[BLOCK];
+        for (int i = 0; i < 3; i++) {
+            pull[i] = (i == k ? g : zero) - g * n[i] * n[k];
+            pull[3 + i] = turn[i][k];
+        }
+        memcpy(y, pull, sizeof y);
+        solve_block(f, y);
+        real drag = pull[2] * (r * x[2]);
+        for (int i = 0; i < BLOCK; i++)
+            if (i != 2) drag += pull[i] * x[i];
+        real_store(&c->drag[k][j], drag);
+        for (int q = 0; q <= k; q++) {
+            // hold = g P - pull_q.A^-1 pull_k, symmetric
+            real hold = (q == k ? g : zero) - g * n[q] * n[k];
+            for (int i = 0; i < 3; i++) {
+                hold -= ((i == q ? g : zero) - g * n[i] * n[q]) * y[i];
+                hold -= turn[i][q] * y[3 + i];
+            }
+            real_store(&c->hold[q][k][j], hold);
+            real_store(&c->hold[k][q][j], hold);
+        }
+        y[2] /= r;
+        for (int i = 0; i < BLOCK; i++) real_store(&c->give[i][k][j], y[i]);
+    }
+}
+
+// c: only where the ring is coupled.
+static void solve_balls(const Model *model, const Work *w, double gamma, lanes rows[BLOCK], Coupling *c)
+{
     for (int j = 0; j < BUNDLES * LANE_WIDTH; j += LANE_WIDTH) {
-        real A[TERMS], x[BLOCK];
-        bundle_matrix(model, w, j, gamma, true, A);
-        solve_bundle(model, w, j, A, rows, x);
+        Factors f;
+        real x[BLOCK];
+        bundle_matrix(model, w, j, gamma, true, f.A);
+        solve_bundle(model, w, j, &f, rows, x);
+        if (c != NULL) couple_bundle(model, w, j, gamma, &f, x, c);
         for (int i = 0; i < BLOCK; i++) real_store(&rows[i][j], x[i]);
     }
-    store_balls(rows, v);
 }
 
 static void held_balls(const Model *model, const Work *w, double gamma, double *v)
@@ -132,10 +182,11 @@ static void held_balls(const Model *model, const Work *w, double gamma, double *
     lanes rows[BLOCK];
     load_balls(v, rows);
     for (int j = 0; j < BUNDLES * LANE_WIDTH; j += LANE_WIDTH) {
-        real A[TERMS], x[BLOCK];
-        const bits much = real_above(bundle_matrix(model, w, j, gamma, false, A), MUCH);
+        Factors f;
+        real x[BLOCK];
+        const bits much = real_above(bundle_matrix(model, w, j, gamma, false, f.A), MUCH);
         const bool any = real_any(much);
-        if (any) solve_bundle(model, w, j, A, rows, x);
+        if (any) solve_bundle(model, w, j, &f, rows, x);
         for (int i = 0; i < BLOCK; i++) real_store(&rows[i][j], any ? real_select(much, real_load(&rows[i][j]) - x[i], real_set(0.0)) : real_set(0.0));
     }
     store_balls(rows, v);
@@ -285,16 +336,85 @@ static void held_halves(const Model *model, const Work *w, double gamma, double 
 }
 
 // ---- ring -----------------------------------------------------------------------------------------------------------------------------------------
-static void solve_ring(const Model *model, double gamma, double *v)
+enum { RING = 5 };                  // velocities of the ring: v_x, v_y, v_z, beta_dot, gamma_dot
+static const double COUPLED = 0.2;  // gamma A of the ring by traction from which it is coupled to the balls
+
+// What holds back each velocity of the ring by itself: gamma A + gamma^2 K of support and tilt.
+static void ring_support(const Model *model, double gamma, double support[RING])
 {
     const Parameters *p = model->p;
     const double rate = gamma / p->ring.tilt_time;
-    double held = 0.0;
-    if (p->ring.tilt_mode == TILT_MODE_PRESCRIBED) held = 2.0 * rate + rate * rate;
-    if (p->ring.tilt_mode == TILT_MODE_SUPPORTED) held = gamma * (p->ring.c_tilt + gamma * p->ring.k_tilt) / p->ring.J_t;
-    for (int i = 0; i < 3; i++) v[Y_RING_V_X + i] /= 1.0 + gamma * p->ring.c / p->ring.m;
-    v[Y_RING_BETA_DOT] /= 1.0 + held;
-    v[Y_RING_GAMMA_DOT] /= 1.0 + held;
+    double tilt = 0.0;
+    if (p->ring.tilt_mode == TILT_MODE_PRESCRIBED) tilt = 2.0 * rate + rate * rate;
+    if (p->ring.tilt_mode == TILT_MODE_SUPPORTED) tilt = gamma * (p->ring.c_tilt + gamma * p->ring.k_tilt) / p->ring.J_t;
+    for (int i = 0; i < RING; i++) support[i] = i < 3 ? gamma * p->ring.c / p->ring.m : tilt;
+}
+
+static bool ring_coupled(const Model *model, const Work *w, double gamma)
+{
+    const Parameters *p = model->p;
+    const double rate = gamma * lanes_sum(w->g_i), r = 0.5 * p->bearing.d_m;
+    return rate > COUPLED * p->ring.m || (p->ring.tilt_mode != TILT_MODE_PRESCRIBED && rate * r * r > COUPLED * p->ring.J_t);
+}
+
+// Velocity (x, r, t) of the race at ball j's contact by each velocity of the ring.
+static void race_motion(const Model *model, const Work *w, int j, double D[3][RING])
+{
+    const double R = model->d->R[j], x = w->x[j] + R * w->n_ix[j], r = w->r[j] + R * w->n_ir[j], t = R * w->n_it[j];
+    const double c = w->cos_theta[j], s = w->sin_theta[j];
+    const double axes[2][3] = {{0.0, c, -s}, {0.0, s, c}};  // Y and Z
+    memset(D, 0, 3 * RING * sizeof(double));
+    D[0][0] = 1.0;
+    for (int i = 0; i < 2; i++) {
+        const double *axis = axes[i];
+        for (int k = 0; k < 3; k++) D[k][1 + i] = axis[k];
+        D[0][3 + i] = axis[1] * t - axis[2] * r;
+        D[1][3 + i] = axis[2] * x;
+        D[2][3 + i] = -axis[1] * x;
+    }
+}
+
+// x = S^-1 x, S is overwritten.  No pivoting: S is symmetric positive definite, or is so where forces move the ring and diagonal elsewhere.
+static void solve_ring_matrix(double S[RING][RING], double x[RING])
+{
+    for (int i = 0; i < RING; i++)
+        for (int k = i + 1; k < RING; k++) {
+            const double l = S[k][i] / S[i][i];
+            for (int q = i; q < RING; q++) S[k][q] -= l * S[i][q];
+            x[k] -= l * x[i];
+        }
+    for (int i = RING - 1; i >= 0; i--) {
+        for (int k = i + 1; k < RING; k++) x[i] -= S[i][k] * x[k];
+        x[i] /= S[i][i];
+    }
+}
+
+// The ring's velocities V under the balls' drag and hold, then what V gives the balls.
+static void race_couple(const Model *model, const Work *w, const double support[RING], const Coupling *c, lanes rows[BLOCK], double V[RING])
+{
+    const int moved = model->p->ring.tilt_mode == TILT_MODE_PRESCRIBED ? 3 : RING;  // velocities that forces change
+    double D[Z][3][RING], S[RING][RING] = {0};
+    for (int i = 0; i < RING; i++) {
+        const double inertia = i < 3 ? model->p->ring.m : model->p->ring.J_t;
+        V[i] *= inertia;
+        S[i][i] = inertia * (1.0 + support[i]);
+    }
+    for (int j = 0; j < Z; j++) {
+        race_motion(model, w, j, D[j]);
+        for (int k = 0; k < 3; k++)
+            for (int i = 0; i < moved; i++) {
+                V[i] += D[j][k][i] * c->drag[k][j];
+                for (int q = 0; q < 3; q++)
+                    for (int e = 0; e < RING; e++) S[i][e] += D[j][k][i] * c->hold[k][q][j] * D[j][q][e];
+            }
+    }
+    solve_ring_matrix(S, V);
+    for (int j = 0; j < Z; j++)
+        for (int k = 0; k < 3; k++) {
+            double u = 0.0;
+            for (int i = 0; i < RING; i++) u += D[j][k][i] * V[i];
+            for (int i = 0; i < BLOCK; i++) rows[i][j] += c->give[i][k][j] * u;
+        }
 }
 
 static void held_ring(const Model *model, double gamma, double *v)
@@ -309,9 +429,19 @@ static void held_ring(const Model *model, double gamma, double *v)
 // ---- all --------------------------------------------------------------------------------------------------------------------------------------------
 void implicit_solve(const Model *model, const Work *w, double gamma, double *v)
 {
-    solve_balls(model, w, gamma, v);
+    lanes rows[BLOCK];
+    Coupling coupling;
+    double support[RING], *V = &v[Y_RING_V_X];
+    const bool coupled = ring_coupled(model, w, gamma);
+    load_balls(v, rows);
+    solve_balls(model, w, gamma, rows, coupled ? &coupling : NULL);
+    ring_support(model, gamma, support);
+    if (coupled)
+        race_couple(model, w, support, &coupling, rows, V);
+    else
+        for (int i = 0; i < RING; i++) V[i] /= 1.0 + support[i];
+    store_balls(rows, v);
     solve_halves(model, w, gamma, v);
-    solve_ring(model, gamma, v);
 }
 
 void implicit_held(const Model *model, const Work *w, double gamma, double *v)

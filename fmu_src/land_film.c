@@ -12,7 +12,7 @@
 //
 // Steady rotation gives Ocvirk's force (a = 0), pure squeeze the pi-film's.  F derives from int (V.n)^2/h^3 over the closing half, so
 // -dF/dV = kappa (I_c, I_s; I_s, I_t) exactly: these are the stiff rates.  Regular at e = 0; C0 in V (cavitation), C1 elsewhere.
-// q^2 has the floor g_0 and eps the cap 1.2; the dry contact F = K_land (e - C)^1.5 takes over there.
+// q^2 is g_0 at the wall and g_0/2 behind it, eps has the cap 1.2; the dry contact F = K_land (e - C)^1.5 takes over there.
 #include "land_film.h"
 
 #include "hertz.h"
@@ -43,7 +43,8 @@ INLINE void land_film_bundle(const Model *model, Work *w, int first)
     const double per_C = 1.0 / d->C_land;
     const real eps = e * per_C, cap = real_min(real_set(per_C), EPS_CAP * per_e);
     const real a = (e_y * n_y + e_z * n_z) * cap, b = (e_z * n_y - e_y * n_z) * cap;
-    const real q2_free = 1.0 - eps * eps, q2 = 0.5 * (q2_free + real_sqrt(q2_free * q2_free + 4.0 * p->cage.g_0 * p->cage.g_0));
+    const double floor = 0.5 * p->cage.g_0;
+    const real above = 1.0 - eps * eps - floor, q2 = floor + 0.5 * (above + real_sqrt(above * above + 8.0 * floor * floor));
     const real per_q = 1.0 / real_sqrt(q2), per_q2 = per_q * per_q, per_c2 = 1.0 / (q2 + a * a);  // c^2 = 1 - b^2
     const real S = per_q * (1.5707963267948966 + real_atan(a * per_q));                           // S/q, and all integrals times q^4
     const real I_c = 3.0 * a + S * (q2 + 3.0 * a * a);

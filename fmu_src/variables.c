@@ -72,7 +72,7 @@ const Variable VARIABLES[N_VARIABLES] = {
     {"bearing.p_limit", "Pa", 1012, 1, TYPE_REAL, CAUSALITY_PARAMETER, GROUP_COUNT, -1, offsetof(Parameters, bearing.p_limit), 4200000000.0, 1000000.0, 1000000000000.0},
     {"ball[j].dD", "m", 1020, Z, TYPE_REAL, CAUSALITY_PARAMETER, GROUP_COUNT, -1, offsetof(Parameters, ball.dD), 0.0, -0.001, 5e-05},
     {"cage.pocket_clearance", "m", 1101, 1, TYPE_REAL, CAUSALITY_PARAMETER, GROUP_COUNT, -1, offsetof(Parameters, cage.pocket_clearance), 0.0002, 0.0, 0.005},
-    {"cage.guide_clearance", "m", 1102, 1, TYPE_REAL, CAUSALITY_PARAMETER, GROUP_COUNT, -1, offsetof(Parameters, cage.guide_clearance), 0.0002, 2e-06, 0.005},
+    {"cage.guide_clearance", "m", 1102, 1, TYPE_REAL, CAUSALITY_PARAMETER, GROUP_COUNT, -1, offsetof(Parameters, cage.guide_clearance), 0.0002, 1e-05, 0.005},
     {"cage.D_o", "m", 1103, 1, TYPE_REAL, CAUSALITY_PARAMETER, GROUP_COUNT, -1, offsetof(Parameters, cage.D_o), 0.0595, 0.005, 2.0},
     {"cage.D_i", "m", 1104, 1, TYPE_REAL, CAUSALITY_PARAMETER, GROUP_COUNT, -1, offsetof(Parameters, cage.D_i), 0.0497, 0.005, 2.0},
     {"cage.m", "kg", 1105, 1, TYPE_REAL, CAUSALITY_PARAMETER, GROUP_COUNT, -1, offsetof(Parameters, cage.m), 0.0276, 1e-05, 10.0},

@@ -9,7 +9,7 @@
 
 #define FMI2_FUNCTION_PREFIX RivetedBearing_  // of the functions of a source-code FMU
 #define MODEL_IDENTIFIER "RivetedBearing"
-#define MODEL_GUID "{a46c3e56-0b5b-eed3-e202-2805d90ecedc}"  // digest of the table
+#define MODEL_GUID "{62feea90-9d6f-1b7f-4f17-7681307726fb}"  // digest of the table
 
 enum { Z = 9 };  // number of balls
 

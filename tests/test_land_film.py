@@ -141,14 +141,14 @@ def test_film_never_gives_energy(core):
 
 
 def test_floor_keeps_the_film_finite(core):
-    """At the wall 1 - eps^2 is g_0 = 0.02: (pi/2)/q^3 for a motion along it; beyond, eps counts as 1.2 at most in the squeeze's numerators."""
+    """q^2 is g_0 = 0.02 at the wall, (pi/2)/q^3 for a motion along it, and g_0/2 far behind it, where eps counts as 1.2 in the squeeze's numerators."""
     soft = {"cage.g_0": 0.02, "cage.K_land": 0.0}
     _, F, _ = film(core, (C, 0.0), (0.0, 0.01), 0.0, **soft)
     assert F[1] == pytest.approx(-KAPPA * 0.01 * np.pi / 2 / 0.02**1.5, rel=1e-6)
-    _, F, _ = film(core, (1.3 * C, 0.0), (0.01, 0.0), 0.0, **soft)
-    q = np.sqrt(0.5 * ((1 - 1.3**2) + np.hypot(1 - 1.3**2, 2 * 0.02)))
+    _, F, _ = film(core, (100 * C, 0.0), (0.01, 0.0), 0.0, **soft)
+    q = np.sqrt(0.5 * 0.02)
     integral = 3 * 1.2 / q**4 + (np.pi / 2 + np.arctan(1.2 / q)) * (q**2 + 3 * 1.2**2) / q**5
-    assert F[0] == pytest.approx(-KAPPA * 0.01 * integral, rel=1e-9)
+    assert F[0] == pytest.approx(-KAPPA * 0.01 * integral, rel=1e-5)  # q^2 is g_0^2/2/(100^2) above g_0/2
 
 
 # --------------------------------------------------------------------------------------------------------------------- dry contact
