@@ -1,5 +1,6 @@
 """The command line and the Python interface: runs, results in all formats, exit codes, and that the physics does not depend on them."""
 
+import gc
 import json
 import re
 import subprocess
@@ -371,6 +372,18 @@ def test_two_instances_keep_their_messages_apart():
         with pytest.raises(Exception, match="fmi2SetReal"):
             first.fmu.setReal([model.parameters["joint.preload"].valueReference], [-1.0])
         assert first.log and not second.log
+
+
+def test_an_fmu_is_unpacked_once_and_removed_with_its_model():
+    model = Model()
+    folder = Path(model.folder)
+    with Instance(model), Instance(model):
+        assert Path(model.folder) == folder and (folder / "modelDescription.xml").is_file()
+    with Instance(model):
+        assert Path(model.folder) == folder
+    del model
+    gc.collect()
+    assert not folder.exists()
 
 
 def test_physics_does_not_need_the_application():

@@ -8,10 +8,12 @@ import sys
 import time
 from pathlib import Path
 
+import cloudpickle
 import numpy as np
 import pytest
 
 from bearing_model.app import UserError, run
+from bearing_model.app import sweep as engine
 from bearing_model.app.fmu import Model
 from bearing_model.app.sweep import SUPERSEDED, cluster, columns_of, load_sweep, outcome, run_sweep
 
@@ -185,6 +187,26 @@ def test_killed_workers_cost_only_time(tmp_path, model, client):
     with cluster(address=client.scheduler.address) as other:  # the same scheduler, as `--scheduler` finds it
         calm = run_sweep(sweep, tmp_path / "calm", other)
     assert calm["stat.Q_c_rms"].tolist() == rows["stat.Q_c_rms"].tolist()
+
+
+def deadly(scene, fmu):
+    """engine.perform, but for a run that ends its worker like one that takes all memory."""
+    if scene.parameters["joint.preload"] == 13.0:
+        os.kill(os.getpid(), signal.SIGKILL)
+    return engine.perform(scene, fmu)
+
+
+@pytest.mark.slow
+def test_a_run_that_kills_every_worker_becomes_a_failed_row(tmp_path, model, client, monkeypatch):
+    """Dask gives up after four workers; the other runs are done, then or in the next call.  Half a minute, most of it new workers."""
+    cloudpickle.register_pickle_by_value(sys.modules[__name__])  # the workers cannot import the tests
+    harmless = engine.perform
+    monkeypatch.setattr(engine, "perform", deadly)
+    rows = run_sweep(plan(tmp_path, model, SHORT + "[[vary]]\njoint.preload = [10, 13, 20, 30]"), tmp_path / "out", client)
+    assert rows["status"][1] == "failed" and "KilledWorker" in rows["message"][1]
+    monkeypatch.setattr(engine, "perform", harmless)
+    again = run_sweep(plan(tmp_path, model, SHORT + "[[vary]]\njoint.preload = [10, 13, 20, 30]"), tmp_path / "out", client)
+    assert set(again["status"]) == {"done"}
 
 
 def test_a_killed_driver_leaves_what_is_done(tmp_path, model, client):
