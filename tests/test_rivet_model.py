@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from library import ROOT
 from skfem import Basis, BilinearForm, ElementHex2, ElementVector, FacetBasis, LinearForm, MeshQuad, condense, solve
 
 from bearing_model import rivet_rom
@@ -13,6 +14,7 @@ from rivet_model.section_mesh import Fineness, edge_nodes
 
 G = geometry.Geometry()
 R, E, NU = 0.75e-3, 200e9, 0.3
+TABLE = ROOT / "rivet_model" / "tables" / "6207.json"
 
 
 @pytest.fixture(scope="module")
@@ -286,8 +288,7 @@ def test_hold_out_of_the_shipped_table():
 
     Reach: 2 % and RMS 0.5 % of each channel's maximum (issue 3), over all loads and in clearance alone.
     """
-    path = build.Path(build.__file__).parent / "tables" / "6207.json"
-    t = table.read(path)
+    t = table.read(TABLE)
     assert t.kind == "fe" and t.geometry_hash == G.digest
     for region in ("all", "clearance"):
         report = t.errors[region]
@@ -298,8 +299,7 @@ def test_hold_out_of_the_shipped_table():
 
 def test_errors_on_the_page():
     """docs/rivet.md shows the errors of the shipped table's header."""
-    folder = build.Path(build.__file__).parent
-    errors, page = table.read(folder / "tables" / "6207.json").errors, (folder.parent / "docs" / "rivet.md").read_text(encoding="utf-8")
+    errors, page = table.read(TABLE).errors, (ROOT / "docs" / "rivet.md").read_text(encoding="utf-8")
     for title, region in (("all", "all"), ("clearance alone", "clearance")):
         shown = [f"{100 * errors[region]['maximum'][name]:.2f} %, {100 * errors[region]['rms'][name]:.2f} %" for name in table.CHANNELS]
         assert f"| {title}: maximum, RMS | {' | '.join(shown)} |" in page
@@ -308,7 +308,7 @@ def test_errors_on_the_page():
 @pytest.mark.slow
 def test_table_against_fresh_solutions():
     """Forty loads of another seed, solved anew with 100 angles around each bore: the header's promise holds."""
-    t = table.read(build.Path(build.__file__).parent / "tables" / "6207.json")
+    t = table.read(TABLE)
     joint = Joint(G, load_cases.TRUTH)
     loads = reduction.random_loads(40, seed=77)
     errors = reduction.hold_out_errors(t, loads, reduction.solve_loads(joint, loads, 2))
