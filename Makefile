@@ -6,7 +6,7 @@ PYTHON  = $(BIN)/python
 FMU     = fmus/RivetedBearing.fmu
 COPY    = $(CURDIR)/build/sanitize
 PYTEST  = $(PYTHON) -m pytest
-C_FILES = $(wildcard fmu_src/*.[ch] tests/*.[ch] benchmarks/*.[ch])
+C_FILES = $(wildcard fmu_src/*.[ch] tests/*.[ch] benchmarks/*.[ch] examples/*/*.c)
 BENCHMARKS = rhs scenes scaling work_precision
 FORM    = --short
 
@@ -67,7 +67,7 @@ fuzz: $(VENV)/installed  ## coverage-guided fuzzing of the FMI functions with sa
 	build/fuzz/fuzz_api build/corpus -max_len=2048 -len_control=0 -timeout=20 -max_total_time=$(FUZZ_SECONDS)
 
 clean:  ## remove what was built; the Python environment and the cached SUNDIALS archive stay
-	rm -rf build $(FMU)
+	rm -rf build $(FMU) fmus/Shaft.fmu fmus/Transmission.ssp
 
 help:  ## this list
 	@sed -n 's/^\([a-z-]*\):[^#]*## /  make \1\t/p' $(firstword $(MAKEFILE_LIST)) | expand -t 20

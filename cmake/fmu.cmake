@@ -1,23 +1,28 @@
 # The FMU: its binary, which exports fmi2* only and needs libc and libm only, and the archive around it.
 
-add_library(RivetedBearing SHARED ${core_objects} ${fmu_src}/fmi2_wrapper.c)
-set_target_properties(RivetedBearing PROPERTIES PREFIX "" NO_SONAME ON)
-target_include_directories(RivetedBearing SYSTEM PRIVATE ${fmpy_dir}/c-code)
-target_compile_options(RivetedBearing PRIVATE ${core_flags})
-target_compile_definitions(RivetedBearing PRIVATE FMI2_OVERRIDE_FUNCTION_PREFIX)  # a binary's functions have no prefix
-target_link_libraries(RivetedBearing PRIVATE core)
-if(CMAKE_SYSTEM_NAME STREQUAL "Linux")
-    target_link_options(RivetedBearing PRIVATE -Wl,--version-script=${PROJECT_SOURCE_DIR}/cmake/exports.map -Wl,--gc-sections)
-    set_target_properties(RivetedBearing PROPERTIES LINK_DEPENDS ${PROJECT_SOURCE_DIR}/cmake/exports.map)
-    if(NOT SANITIZE)
-        target_link_options(RivetedBearing PRIVATE -Wl,--no-undefined -Wl,-s)
+# A binary of FMI functions from the wrapper and the part behind it.
+function(add_fmu_binary name)
+    add_library(${name} SHARED ${ARGN})
+    set_target_properties(${name} PROPERTIES PREFIX "" NO_SONAME ON)
+    target_include_directories(${name} SYSTEM PRIVATE ${fmpy_dir}/c-code)
+    target_compile_options(${name} PRIVATE ${core_flags})
+    target_compile_definitions(${name} PRIVATE FMI2_OVERRIDE_FUNCTION_PREFIX)  # a binary's functions have no prefix
+    if(CMAKE_SYSTEM_NAME STREQUAL "Linux")
+        target_link_options(${name} PRIVATE -Wl,--version-script=${PROJECT_SOURCE_DIR}/cmake/exports.map -Wl,--gc-sections)
+        set_target_properties(${name} PROPERTIES LINK_DEPENDS ${PROJECT_SOURCE_DIR}/cmake/exports.map)
+        if(NOT SANITIZE)
+            target_link_options(${name} PRIVATE -Wl,--no-undefined -Wl,-s)
+        endif()
+    elseif(APPLE AND NOT CMAKE_CROSSCOMPILING)
+        target_link_options(${name} PRIVATE -Wl,-exported_symbol,_fmi2*)  # cross-compiled, all others are hidden
     endif()
-elseif(APPLE AND NOT CMAKE_CROSSCOMPILING)
-    target_link_options(RivetedBearing PRIVATE -Wl,-exported_symbol,_fmi2*)  # cross-compiled, all others are hidden
-endif()
-if(CMAKE_C_COMPILER_ID STREQUAL "GNU")
-    target_link_options(RivetedBearing PRIVATE -static-libgcc)
-endif()
+    if(CMAKE_C_COMPILER_ID STREQUAL "GNU")
+        target_link_options(${name} PRIVATE -static-libgcc)
+    endif()
+endfunction()
+
+add_fmu_binary(RivetedBearing ${core_objects} ${fmu_src}/fmi2_wrapper.c)
+target_link_libraries(RivetedBearing PRIVATE core)
 
 # The archive: each part made only when what it follows from has changed.
 #

@@ -288,7 +288,8 @@ def write_description(table):
         providesDirectionalDerivative="true",
     )
     add_units(root, table)
-    add_types(root, table)
+    if table.enumerations:
+        add_types(root, table)
     add_log_categories(root)
     etree.SubElement(root, "DefaultExperiment", startTime="0", stopTime="0.4", tolerance="1e-4", stepSize="1e-4")
     indices = add_variables(root, table)

@@ -1,0 +1,36 @@
+# The example: a shaft as a second FMU behind the same wrapper, and the system of both (examples/transmission).  The checkout's own bearing only.
+
+set(transmission ${PROJECT_SOURCE_DIR}/examples/transmission)
+if(GENERATED_DIR OR CMAKE_CROSSCOMPILING OR NOT EXISTS ${transmission})
+    return()
+endif()
+
+# #include "variables.h" looks beside the including file first: the wrapper's sources get new neighbours.
+set(shaft ${PROJECT_BINARY_DIR}/shaft)
+file(MAKE_DIRECTORY ${shaft})
+foreach(file IN ITEMS ${fmu_src}/fmi2_wrapper.c ${fmu_src}/part.h ${fmu_src}/number.h ${transmission}/shaft.c)
+    get_filename_component(name ${file} NAME)
+    file(CREATE_LINK ${file} ${shaft}/${name} SYMBOLIC)
+endforeach()
+set(generated ${shaft}/variables.h ${shaft}/variables.c ${shaft}/modelDescription.xml)
+file(GLOB templates CONFIGURE_DEPENDS ${tools}/templates/*)
+add_custom_command(OUTPUT ${generated}
+    COMMAND ${run}/generate.py --table ${transmission}/shaft.toml --out ${shaft}
+    COMMAND ${CMAKE_COMMAND} -E touch ${generated}
+    DEPENDS ${transmission}/shaft.toml ${tools}/generate.py ${templates} VERBATIM)
+set(shaft_sources ${shaft}/shaft.c ${shaft}/fmi2_wrapper.c ${shaft}/variables.c)
+add_fmu_binary(Shaft ${shaft_sources} ${shaft}/variables.h)
+target_link_libraries(Shaft PRIVATE m)
+
+get_filename_component(fmu_dir ${FMU} DIRECTORY)
+list(TRANSFORM shaft_sources PREPEND "--source=" OUTPUT_VARIABLE sources)
+add_custom_command(OUTPUT ${fmu_dir}/Shaft.fmu
+    COMMAND ${run}/package.py --description ${shaft}/modelDescription.xml --binary $<TARGET_FILE:Shaft> ${sources} --out ${fmu_dir}/Shaft.fmu
+    DEPENDS Shaft ${generated} ${tools}/package.py ${tools}/sources.py VERBATIM)
+set(system ${fmu_dir}/Transmission.ssp)
+add_custom_command(OUTPUT ${system}
+    COMMAND ${run}/system.py --description ${transmission}/transmission.ssd --out ${system}
+        --resource ${transmission}/shaft.ssv --resource ${transmission}/bearing.ssv --resource ${fmu_dir}/Shaft.fmu --resource ${FMU}
+    DEPENDS ${FMU} ${fmu_dir}/Shaft.fmu ${transmission}/transmission.ssd ${transmission}/shaft.ssv ${transmission}/bearing.ssv ${tools}/system.py ${tools}/package.py VERBATIM)
+add_custom_target(transmission ALL DEPENDS ${system})
+add_dependencies(transmission fmu)

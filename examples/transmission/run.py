@@ -1,0 +1,129 @@
+"""Simulates a system of FMUs that an SSP describes, with its parameter sets: all start from values exchanged in initialization mode, then step together.
+
+    python examples/transmission/run.py [fmus/Transmission.ssp] [--stop 0.05] [--step 1e-4] [--picture transmission.png]
+
+fmpy's own simulate_ssp starts every connected input from 0: here a bearing at rest and without load for one step.
+"""
+
+import argparse
+import tempfile
+import zipfile
+from pathlib import Path
+
+import numpy as np
+from fmpy import extract, read_model_description
+from fmpy.fmi2 import FMU2Slave
+from fmpy.ssp.ssd import get_connections, read_ssd, read_ssv
+
+SYSTEM = Path(__file__).resolve().parents[2] / "fmus" / "Transmission.ssp"
+
+
+class Component:
+    """One FMU of the system, instantiated."""
+
+    def __init__(self, name, path):
+        description = read_model_description(str(path))
+        self.variables = {v.name: v for v in description.modelVariables}
+        identifier = description.coSimulation.modelIdentifier
+        self.fmu = FMU2Slave(guid=description.guid, unzipDirectory=extract(str(path)), modelIdentifier=identifier, instanceName=name)
+        self.fmu.instantiate()
+        self.fmu.setupExperiment(startTime=0.0)
+
+    def set(self, name, value):
+        variable = self.variables[name]
+        if variable.type == "Real":
+            self.fmu.setReal([variable.valueReference], [float(value)])
+        else:
+            self.fmu.setInteger([variable.valueReference], [int(value)])
+
+    def get(self, name):
+        return self.fmu.getReal([self.variables[name].valueReference])[0]
+
+
+def simulate(path=SYSTEM, stop=0.05, step=1e-4, changes=None, without=()):
+    """Outputs at the communication points: {"component.connector": array}, and "time".
+
+    path: SSP with FMI 2.0 co-simulation FMUs and a parameter set for each; stop, step [s]; changes: {"component.variable": start value} beyond the parameter
+    sets; without: connections left open, by the names of their ends.  KeyError for an unknown name, fmpy's FMICallException if an FMU refuses.
+    """
+    with tempfile.TemporaryDirectory() as folder:
+        with zipfile.ZipFile(path) as archive:
+            archive.extractall(folder)
+        system = read_ssd(str(path)).system
+        parts = {element.name: Component(element.name, Path(folder) / element.source) for element in system.elements}
+        sets = {element.name: read_ssv(str(Path(folder) / binding.source)) for element in system.elements for binding in element.parameterBindings}
+    start = {f"{component}.{parameter.name}": parameter.value for component, values in sets.items() for parameter in values.parameters}
+    for name, value in (start | (changes or {})).items():
+        component, variable = name.split(".", 1)
+        parts[component].set(variable, value)
+    wires = [(a.parent.name, a.name, b.parent.name, b.name) for a, b in get_connections(system) if f"{b.parent.name}.{b.name}" not in without]
+
+    def exchange():
+        """All outputs are read before the first input is set: no component is ahead of another."""
+        for value, (_, _, to, name) in [(parts[source].get(output), wire) for wire in wires for source, output in [wire[:2]]]:
+            parts[to].set(name, value)
+
+    for part in parts.values():
+        part.fmu.enterInitializationMode()
+    for _ in parts:  # as often as a value may have to travel on
+        exchange()
+    for part in parts.values():
+        part.fmu.exitInitializationMode()
+    shown = [(e.name, c.name) for e in system.elements for c in e.connectors if c.kind == "output"]
+    rows = [[parts[component].get(name) for component, name in shown]]
+    steps = round(stop / step)
+    for k in range(steps):
+        for part in parts.values():
+            part.fmu.doStep(currentCommunicationPoint=k * step, communicationStepSize=step)
+        exchange()
+        rows.append([parts[component].get(name) for component, name in shown])
+    for part in parts.values():
+        part.fmu.terminate()
+        part.fmu.freeInstance()
+    columns = np.array(rows).T
+    return {"time": step * np.arange(steps + 1)} | {f"{component}.{name}": column for (component, name), column in zip(shown, columns, strict=True)}
+
+
+def plot(result, path):
+    """Speed, torques, load and reaction, and rivet stress over time, as a picture."""
+    import matplotlib.pyplot as plt
+
+    ms = 1e3 * result["time"]
+    figure, axes = plt.subplots(2, 2, figsize=(9, 5), sharex=True, layout="constrained")
+    (speed, force), (torque, stress) = axes
+    speed.plot(ms, result["shaft.shaft.omega"] * 30 / np.pi)
+    speed.set_ylabel("speed [r/min]")
+    force.plot(ms, np.hypot(result["bearing.housing.F_y"], result["bearing.housing.F_z"]), label="reaction of bearing A")
+    force.plot(ms, np.hypot(result["shaft.shaft.F_y"], result["shaft.shaft.F_z"]), label="its load")
+    force.set_ylabel("radial force [N]")
+    force.legend()
+    torque.plot(ms, result["bearing.bearing.friction_torque"], label="bearing A")
+    torque.plot(ms, result["shaft.support.M"], label="bearing B")
+    torque.set_ylabel("friction torque [N m]")
+    torque.legend()
+    stress.plot(ms, result["bearing.rivet.sigma_head_max"] / 1e6)
+    stress.set_ylabel("largest head stress [MPa]")
+    for axis in axes[1]:
+        axis.set_xlabel("time [ms]")
+    figure.savefig(path, dpi=120)
+
+
+def main():
+    parser = argparse.ArgumentParser(description="Simulate the transmission.")
+    parser.add_argument("system", type=Path, nargs="?", default=SYSTEM)
+    parser.add_argument("--stop", type=float, default=0.05, help="[s]")
+    parser.add_argument("--step", type=float, default=1e-4, help="communication step [s]")
+    parser.add_argument("--picture", type=Path, help="PNG to write")
+    options = parser.parse_args()
+    result = simulate(options.system, options.stop, options.step)
+    late = result["time"] >= 0.5 * options.stop
+    print(f"second half of {options.stop:g} s:")
+    for name, column in result.items():
+        if name != "time":
+            print(f"  {name:32} mean {column[late].mean():14.6g}   {column[late].min():14.6g} ... {column[late].max():.6g}")
+    if options.picture:
+        plot(result, options.picture)
+
+
+if __name__ == "__main__":
+    main()
