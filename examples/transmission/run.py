@@ -93,6 +93,7 @@ def plot(result, path):
     (speed, force), (torque, stress) = axes
     speed.plot(ms, result["shaft.shaft.omega"] * 30 / np.pi)
     speed.set_ylabel("speed [r/min]")
+    speed.ticklabel_format(useOffset=False)
     force.plot(ms, np.hypot(result["bearing.housing.F_y"], result["bearing.housing.F_z"]), label="reaction of bearing A")
     force.plot(ms, np.hypot(result["shaft.shaft.F_y"], result["shaft.shaft.F_z"]), label="its load")
     force.set_ylabel("radial force [N]")
