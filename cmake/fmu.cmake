@@ -23,6 +23,7 @@ endfunction()
 
 add_fmu_binary(RivetedBearing ${core_objects} ${fmu_src}/fmi2_wrapper.c)
 target_link_libraries(RivetedBearing PRIVATE core)
+add_custom_target(binaries DEPENDS RivetedBearing)  # all there are for this platform
 
 # The archive: each part made only when what it follows from has changed.
 #

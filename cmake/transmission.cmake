@@ -1,7 +1,7 @@
 # The example: a shaft as a second FMU behind the same wrapper, and the system of both (examples/transmission).  The checkout's own bearing only.
 
 set(transmission ${PROJECT_SOURCE_DIR}/examples/transmission)
-if(GENERATED_DIR OR CMAKE_CROSSCOMPILING OR NOT EXISTS ${transmission})
+if(GENERATED_DIR OR NOT EXISTS ${transmission})
     return()
 endif()
 
@@ -21,12 +21,24 @@ add_custom_command(OUTPUT ${generated}
 set(shaft_sources ${shaft}/shaft.c ${shaft}/fmi2_wrapper.c ${shaft}/variables.c)
 add_fmu_binary(Shaft ${shaft_sources} ${shaft}/variables.h)
 target_link_libraries(Shaft PRIVATE m)
+add_dependencies(binaries Shaft)
+if(CMAKE_CROSSCOMPILING)
+    return()
+endif()
 
+# Its binaries lie beside the bearing's.
+set(shaft_binaries $<TARGET_FILE:Shaft>)
+set(shaft_files Shaft)
+if(BINARIES)
+    list(TRANSFORM BINARIES REPLACE "RivetedBearing([.][a-z]+)$" "Shaft\\1" OUTPUT_VARIABLE shaft_binaries)
+    list(TRANSFORM shaft_binaries REPLACE "^[^=]*=" "" OUTPUT_VARIABLE shaft_files)
+endif()
+list(TRANSFORM shaft_binaries PREPEND "--binary=")
 get_filename_component(fmu_dir ${FMU} DIRECTORY)
 list(TRANSFORM shaft_sources PREPEND "--source=" OUTPUT_VARIABLE sources)
 add_custom_command(OUTPUT ${fmu_dir}/Shaft.fmu
-    COMMAND ${run}/package.py --description ${shaft}/modelDescription.xml --binary $<TARGET_FILE:Shaft> ${sources} --out ${fmu_dir}/Shaft.fmu
-    DEPENDS Shaft ${generated} ${tools}/package.py ${tools}/sources.py VERBATIM)
+    COMMAND ${run}/package.py --description ${shaft}/modelDescription.xml ${shaft_binaries} ${sources} --out ${fmu_dir}/Shaft.fmu
+    DEPENDS ${shaft_files} ${generated} ${tools}/package.py ${tools}/sources.py VERBATIM)
 set(system ${fmu_dir}/Transmission.ssp)
 add_custom_command(OUTPUT ${system}
     COMMAND ${run}/system.py --description ${transmission}/transmission.ssd --out ${system}

@@ -127,12 +127,13 @@ def test_pathsim(fmu, expected):
     assert difference(rows, expected[2:]) < SAME
 
 
-def test_checker_of_fmu_manipulation_toolbox(fmu, caplog):
+@pytest.mark.parametrize("name", ["RivetedBearing.fmu", "Shaft.fmu"])
+def test_checker_of_fmu_manipulation_toolbox(fmu, name, caplog):
     """Schema and the rules it cannot express: no finding."""
     checker = pytest.importorskip("fmu_manipulation_toolbox.checker", reason="pip install fmu-manipulation-toolbox")
     from fmu_manipulation_toolbox.operations import FMU
 
-    with caplog.at_level(logging.INFO, logger="fmu_manipulation_toolbox"), FMU(str(fmu)) as archive:
+    with caplog.at_level(logging.INFO, logger="fmu_manipulation_toolbox"), FMU(str(fmu.with_name(name))) as archive:
         for check in checker.get_checkers():
             archive.apply_operation(check())
     assert any("compliant" in record.message for record in caplog.records)

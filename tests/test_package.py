@@ -21,6 +21,8 @@ from library import ROOT
 from lxml import etree
 from slave import Slave, describe
 
+from bearing_model.app.build import build_folder
+
 FMI_HEADERS = Path(fmpy.__file__).parent / "c-code"
 SCHEMA = Path(fmpy.__file__).parent / "schema" / "fmi3"  # FMI 2.0.4 takes terminals and icons from 3.0
 LINUX = sys.platform.startswith("linux")
@@ -234,6 +236,14 @@ def test_binaries_export_fmi_only_and_need_the_system_only(everywhere, platform)
         assert {name.name for name in library.libraries} <= {"RivetedBearing.dylib", "/usr/lib/libSystem.B.dylib"}
         assert library.build_version.minos[0] == 11
         assert library.has_code_signature or platform == "darwin64"  # Apple Silicon runs signed code only
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("platform", PLATFORMS)
+def test_shaft_is_cross_compiled_with_it(everywhere, platform):
+    """The second FMU of examples/transmission, beside the bearing's binary."""
+    library = lief.parse(str(build_folder(ROOT, None) / platform / f"Shaft{PLATFORMS[platform]}"))
+    assert len({symbol.name for symbol in library.exported_functions if symbol.name.removeprefix("_").startswith("fmi2")}) == 44
 
 
 @pytest.mark.slow

@@ -64,6 +64,10 @@ def build(bearing=None, rivet=None, out=None, say=lambda text, share=None: None,
     say("starting it once")
     try_start(finished)
     write_atomically(out, lambda temporary: shutil.copyfile(finished, temporary))
+    if out.resolve() == sources / "fmus" / FMU_NAME and not bearing and (sources / "examples").is_dir():  # the example goes with the checkout's own
+        compile_target(cmake, sources, folder, options, "transmission", say)
+        for name in ("Shaft.fmu", "Transmission.ssp"):
+            write_atomically(out.with_name(name), lambda temporary, made=folder / name: shutil.copyfile(made, temporary))
     return out
 
 
@@ -81,7 +85,7 @@ def cross_compile(cmake, sources, folder, options, platform, say):
     zig = find_zig()
     folder.mkdir(exist_ok=True)
     chain = [f"-DCMAKE_TOOLCHAIN_FILE={sources / 'cmake' / 'zig.cmake'}", f"-DPLATFORM={platform}", f"-DZIG={zig}"]
-    compile_target(cmake, sources, folder, [*options, *chain], "RivetedBearing", lambda text, share=None: say(f"{platform}: {text}", share))
+    compile_target(cmake, sources, folder, [*options, *chain], "binaries", lambda text, share=None: say(f"{platform}: {text}", share))
     return next(path for name in LIBRARIES if (path := folder / name).is_file())
 
 
