@@ -24,24 +24,23 @@ static void add_stress(Bearing *b, bool counts, double h)
     Saved *s = &b->s;
     FatigueLaw law;
     RivetLoad load[Z];
-    double V[Z], head_most = 0.0, mid_most = 0.0;
+    double V[Z], head[Z], mid[Z], head_most = 0.0, mid_most = 0.0;
     const bool fatigue = s->p.scene.stress == STRESS_FATIGUE && s->integrator.t >= s->p.start.settle;
     memcpy(&law, &s->p.fatigue, sizeof law);
     rivets_load(&b->model, &b->w, load, V);
+    b->kernels.rivet_primary(&rivet_table, load, b->d.fit_eff, head, mid);
     for (int k = 0; k < Z; k++) {
-        double head, mid;
-        rivet_rom_primary(&rivet_table, &load[k], b->d.fit_eff, &head, &mid);
-        s->head_peak[k] = fmax(s->head_peak[k], head);
-        s->mid_peak[k] = fmax(s->mid_peak[k], mid);
-        head_most = fmax(head_most, head);
-        mid_most = fmax(mid_most, mid);
+        s->head_peak[k] = number_max(s->head_peak[k], head[k]);
+        s->mid_peak[k] = number_max(s->mid_peak[k], mid[k]);
+        head_most = number_max(head_most, head[k]);
+        mid_most = number_max(mid_most, mid[k]);
         if (counts) {
-            statistics_add(&s->head[k], STRESS_FLOOR, h, head);
-            statistics_add(&s->mid[k], STRESS_FLOOR, h, mid);
+            statistics_add(&s->head[k], STRESS_FLOOR, h, head[k]);
+            statistics_add(&s->mid[k], STRESS_FLOOR, h, mid[k]);
         }
         if (fatigue) {
-            fatigue_push(&s->fatigue_head[k], &law, head);
-            fatigue_push(&s->fatigue_mid[k], &law, mid);
+            fatigue_push(&s->fatigue_head[k], &law, head[k]);
+            fatigue_push(&s->fatigue_mid[k], &law, mid[k]);
         }
     }
     if (counts) {

@@ -21,7 +21,6 @@ typedef bool bits;
 #define load_path_rigid FOR_ISA(load_path_rigid)
 #define load_path_flexible FOR_ISA(load_path_flexible)
 #define rivet_rom_stress FOR_ISA(rivet_rom_stress)
-#define rivet_rom_primary FOR_ISA(rivet_rom_primary)
 #define rivet_rom_fit_eff FOR_ISA(rivet_rom_fit_eff)
 #define joint_preload FOR_ISA(joint_preload)
 #define joint_fit FOR_ISA(joint_fit)

@@ -76,8 +76,8 @@ INLINE real normal_rate(const Model *model, double gamma, real Q, real delta)
     return gamma * (model->p->bearing.lambda * Q + gamma * k);
 }
 
-// M (1 + gamma A + gamma^2 K) of one bundle, K only if asked for; returns gamma A's trace / 2: the two tangents of a contact share it.
-INLINE real bundle_matrix(const Model *model, const Work *w, int j, double gamma, bool stiff, real A[TERMS])
+// M (1 + gamma A + gamma^2 K) of one bundle, with lambda Q and K of the normal forces only if asked for.
+INLINE void bundle_matrix(const Model *model, const Work *w, int j, double gamma, bool stiff, real A[TERMS])
 {
     const Derived *d = model->d;
     const double *pocket[BLOCK] = {w->D_x, w->D_r, w->D_t, w->D_omega_x, w->D_omega_r, w->D_omega_t};
@@ -86,17 +86,24 @@ INLINE real bundle_matrix(const Model *model, const Work *w, int j, double gamma
     const real n_e[3] = {real_load(&w->n_ex[j]), real_load(&w->n_er[j]), zero};
     const real normal_i = stiff ? normal_rate(model, gamma, real_load(&w->Q_i[j]), real_load(&w->delta_i[j])) : zero;
     const real normal_e = stiff ? normal_rate(model, gamma, real_load(&w->Q_e[j]), real_load(&w->delta_e[j])) : zero;
-    real trace = zero;
     for (int i = 0; i < TERMS; i++) A[i] = zero;
     add_contact(gamma * real_load(&w->g_i[j]), normal_i, R, n_i, A);
     add_contact(gamma * real_load(&w->g_e[j]), normal_e, R, n_e, A);
     for (int i = 0; i < BLOCK; i++) {
-        const double inertia = i < 3 ? model->d->m : model->d->J;
-        A[AT(i, i)] += (gamma * inertia) * real_load(&pocket[i][j]);
-        trace += A[AT(i, i)] * (0.5 / inertia);
-        A[AT(i, i)] += inertia;
+        const double inertia = i < 3 ? d->m : d->J;
+        A[AT(i, i)] += (gamma * inertia) * real_load(&pocket[i][j]) + inertia;
     }
-    return trace;
+}
+
+// gamma A's trace / 2: the two tangents of a contact share it.
+INLINE real bundle_rate(const Model *model, const Work *w, int j, double gamma)
+{
+    const Derived *d = model->d;
+    const double *pocket[BLOCK] = {w->D_x, w->D_r, w->D_t, w->D_omega_x, w->D_omega_r, w->D_omega_t};
+    const real R = real_load(&d->R[j]);
+    real sum = (1.0 / d->m + R * R / d->J) * (real_load(&w->g_i[j]) + real_load(&w->g_e[j]));
+    for (int i = 0; i < BLOCK; i++) sum += 0.5 * real_load(&pocket[i][j]);
+    return gamma * sum;
 }
 
 static const int BALL_ROW[BLOCK] = {Y_BALL_V_X, Y_BALL_V_R, Y_BALL_OMEGA_M, Y_BALL_OMEGA_X, Y_BALL_OMEGA_R, Y_BALL_OMEGA_T};
@@ -182,12 +189,16 @@ static void held_balls(const Model *model, const Work *w, double gamma, double *
     lanes rows[BLOCK];
     load_balls(v, rows);
     for (int j = 0; j < BUNDLES * LANE_WIDTH; j += LANE_WIDTH) {
+        const bits much = real_above(bundle_rate(model, w, j, gamma), MUCH);
+        if (!real_any(much)) {
+            for (int i = 0; i < BLOCK; i++) real_store(&rows[i][j], real_set(0.0));
+            continue;
+        }
         Factors f;
         real x[BLOCK];
-        const bits much = real_above(bundle_matrix(model, w, j, gamma, false, f.A), MUCH);
-        const bool any = real_any(much);
-        if (any) solve_bundle(model, w, j, &f, rows, x);
-        for (int i = 0; i < BLOCK; i++) real_store(&rows[i][j], any ? real_select(much, real_load(&rows[i][j]) - x[i], real_set(0.0)) : real_set(0.0));
+        bundle_matrix(model, w, j, gamma, false, f.A);
+        solve_bundle(model, w, j, &f, rows, x);
+        for (int i = 0; i < BLOCK; i++) real_store(&rows[i][j], real_select(much, real_load(&rows[i][j]) - x[i], real_set(0.0)));
     }
     store_balls(rows, v);
 }

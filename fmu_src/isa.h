@@ -19,3 +19,4 @@
 #define cage_joint_advance FOR_ISA(cage_joint_advance)
 #define rhs_cage_advance FOR_ISA(rhs_cage_advance)
 #define implicit_held FOR_ISA(implicit_held)
+#define rivet_primary FOR_ISA(rivet_primary)

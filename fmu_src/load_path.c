@@ -12,21 +12,27 @@ void load_path_rigid(double d_m, const number wrench[6], const double c[Z], cons
     }
 }
 
+// Adds what the forces on one pocket give the rivets beside it and beyond.
+static void add_pocket(const double *column, number outward, number along, number push, number *sum)
+{
+    for (int k = 0; k < PATH_WIDTH; k++) sum[k] += column[k] * outward + column[PATH_WIDTH + k] * along + column[2 * PATH_WIDTH + k] * push;
+}
+
 void load_path_flexible(const double *matrix, int side, const number F_x[Z], const number F_r[Z], const number F_t[Z], PathLoads *loads)
 {
+    number sum[PATH_LOADS][2 * Z] = {0};  // of rivets k and k + Z
     for (int j = 0; j < Z; j++) {
         if (F_x[j] == 0.0 && F_r[j] == 0.0 && F_t[j] == 0.0) continue;  // most pockets are not touched
         const bool back = number_value(F_t[j]) < 0.0;
-        const double turn = back ? -1.0 : 1.0;
-        const number outward = side * F_x[j], push = turn * F_t[j];  // mirrored to the +x half
-        for (int i = 0; i < Z; i++) {
-            const double *m = matrix + 3 * PATH_LOADS * i, *t = back ? matrix + 3 * PATH_LOADS * (Z - 1 - i) : m;
-            int k = i + j < Z ? i + j : i + j - Z;
-            loads->N[k] += m[0] * outward + m[1] * F_r[j] + t[2] * push;
-            loads->V_r[k] += side * (m[3] * outward + m[4] * F_r[j] + t[5] * push);
-            loads->V_t[k] += side * (m[6] * outward + m[7] * F_r[j] + turn * t[8] * push);
-            loads->M_r[k] += m[9] * outward + m[10] * F_r[j] + turn * t[11] * push;
-            loads->M_t[k] += m[12] * outward + m[13] * F_r[j] + t[14] * push;
-        }
+        const number outward = side * F_x[j], along = F_r[j], push = back ? -F_t[j] : F_t[j];  // on the +x half
+        const double *column = matrix + back * PATH_LOADS * 3 * PATH_WIDTH;
+        for (int i = 0; i < PATH_LOADS; i++, column += 3 * PATH_WIDTH) add_pocket(column, outward, along, push, &sum[i][j]);
+    }
+    for (int k = 0; k < Z; k++) {
+        loads->N[k] += sum[PATH_N][k] + sum[PATH_N][Z + k];
+        loads->V_r[k] += side * (sum[PATH_V_R][k] + sum[PATH_V_R][Z + k]);
+        loads->V_t[k] += side * (sum[PATH_V_T][k] + sum[PATH_V_T][Z + k]);
+        loads->M_r[k] += sum[PATH_M_R][k] + sum[PATH_M_R][Z + k];
+        loads->M_t[k] += sum[PATH_M_T][k] + sum[PATH_M_T][Z + k];
     }
 }

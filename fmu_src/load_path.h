@@ -16,6 +16,7 @@
 #include "lanes.h"
 
 enum { PATH_N, PATH_V_R, PATH_V_T, PATH_M_R, PATH_M_T, PATH_LOADS };
+enum { PATH_WIDTH = Z + Z % 2 };  // Z, padded to an even number
 
 // Loads at the rivets beyond the dynamics' own [N, N.m], on the +x half.
 typedef struct {
@@ -26,5 +27,6 @@ typedef struct {
 // c[k], s[k]: cosine and sine of the rivets' angles in the frame of the wrench.  Returns N, V_y, V_z at each rivet [N].
 void load_path_rigid(double d_m, const number wrench[6], const double c[Z], const double s[Z], number N[Z], number V_y[Z], number V_z[Z]);
 
-// Adds the flexible share of pocket forces (F_x, F_r, F_t)[j] on one half: side +1 or -1.  matrix: [Z][PATH_LOADS][3] of the rivet table.
+// Adds the flexible share of pocket forces (F_x, F_r, F_t)[j] on one half: side +1 or -1.
+// matrix: [F_t > 0, F_t < 0][PATH_LOADS][x, r, |t|][(rivet - pocket) mod Z, padded to PATH_WIDTH], as the rivet table holds it.
 void load_path_flexible(const double *matrix, int side, const number F_x[Z], const number F_r[Z], const number F_t[Z], PathLoads *loads);

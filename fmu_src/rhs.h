@@ -3,6 +3,7 @@
 
 #include "implicit.h"
 #include "model.h"
+#include "rivet_primary.h"
 #include "vector_ops.h"
 #include "verlet.h"
 
@@ -23,6 +24,7 @@ typedef struct {
     const VectorOps *ops;
     VerletStep *verlet;
     ImplicitSolve *implicit;
+    RivetPrimary *rivet_primary;
 } Kernels;
 
 // Those of the best instruction set of this processor.

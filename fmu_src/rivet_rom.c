@@ -1,57 +1,11 @@
 // Rivet stress from the reduced model: see rivet_rom.h for the equations.
 #include "rivet_rom.h"
 
+#include "rivet_splines.h"
+
 #include <math.h>
-#include <string.h>
 
-// Three active splines of one axis: index of the first coefficient and their weights.
-typedef struct {
-    int first;
-    number w[3];
-} Splines;
-
-// Cell of u: number of inner knots not above it.
-static int axis_cell(const RivetAxis *axis, number u)
-{
-    int cell = 0;
-    for (int i = 1; i < axis->cells; i++) cell += number_value(u) >= axis->knot[i];
-    return cell;
-}
-
-// Quadratic B-splines (de Boor), u inside the axis.  Their sum is 1; C1 at the knots.
-static Splines axis_splines(const RivetAxis *axis, number u)
-{
-    int i = axis_cell(axis, u);
-    number up = u - axis->knot[i], down = axis->knot[i + 1] - u;
-    Splines s = {.first = i};
-    s.w[0] = down * down * axis->fall[i];
-    s.w[2] = up * up * axis->rise[i];
-    s.w[1] = 1.0 - s.w[0] - s.w[2];
-    return s;
-}
-
-// s times the splines of xi = fit/s, without dividing where s may vanish.
-static Splines axis_splines_xi(const RivetAxis *axis, number s, double fit)
-{
-    int last = axis->cells - 1;
-    if (fit <= number_value(s) * axis->knot[0]) return (Splines){.first = 0, .w = {s, 0.0, 0.0}};
-    number beyond = fit - s * axis->knot[axis->cells];
-    if (number_value(beyond) >= 0.0) {  // end value and end slope, which is 2 h rise of the last spline
-        number w = 2.0 * (axis->knot[last + 1] - axis->knot[last]) * axis->rise[last] * beyond;
-        return (Splines){.first = last, .w = {0.0, -w, s + w}};
-    }
-    Splines splines = axis_splines(axis, fit / s);
-    for (int i = 0; i < 3; i++) splines.w[i] *= s;
-    return splines;
-}
-
-// A load's place in the table; the splines of xi carry the factor s.
-typedef struct {
-    Splines at[RIVET_AXES];
-    int sheet;        // the first of the two sheets around chi
-    number first[2];  // its weight in head and middle
-} Place;
-
+// A load's place in the table: see the head of rivet_rom.h.
 static Place load_place(const RivetTable *t, const RivetLoad *load, double fit_eff)
 {
     number P = number_max(load->P, 0.0), N = number_max(load->N, 0.0);
@@ -64,75 +18,13 @@ static Place load_place(const RivetTable *t, const RivetLoad *load, double fit_e
     if (place.sheet == RIVET_PLANE) w -= 1.0;
     place.first[0] = w;
     place.first[1] = place.sheet == RIVET_PLANE ? w : w * number_sqrt(w);
-    place.at[RIVET_A] = axis_splines(&t->axis[RIVET_A], number_value(force) > 0.0 ? V / force : 0.0);
-    place.at[RIVET_B] = axis_splines(&t->axis[RIVET_B], number_value(axial) > 0.0 ? N / axial : 0.0);
-    place.at[RIVET_C] = axis_splines(&t->axis[RIVET_C], number_value(s) > 0.0 ? moment / s : 0.0);
-    place.at[RIVET_XI] = axis_splines_xi(&t->axis[RIVET_XI], s, fit_eff);
+    const number a = number_value(force) > 0.0 ? V / force : 0.0, b = number_value(axial) > 0.0 ? N / axial : 0.0;
+    const number c = number_value(s) > 0.0 ? moment / s : 0.0, xi = number_value(s) > 0.0 ? fit_eff / s : 0.0;
+    place.at[RIVET_A] = axis_splines(&t->axis[RIVET_A], axis_cell(&t->axis[RIVET_A], a), a);
+    place.at[RIVET_B] = axis_splines(&t->axis[RIVET_B], axis_cell(&t->axis[RIVET_B], b), b);
+    place.at[RIVET_C] = axis_splines(&t->axis[RIVET_C], axis_cell(&t->axis[RIVET_C], c), c);
+    place.at[RIVET_XI] = axis_splines_xi(&t->axis[RIVET_XI], axis_cell(&t->axis[RIVET_XI], xi), xi, s, fit_eff);
     return place;
-}
-
-// Tensor product over 3^4 coefficients of two sheets for a pair of channels.  Order of sums: xi with chi, c, b, a.
-#ifdef DUAL
-static void contract(const RivetTable *t, const float *coefficients, const Place *place, number sigma[2])
-{
-    const Splines *A = &place->at[RIVET_A], *B = &place->at[RIVET_B], *C = &place->at[RIVET_C], *X = &place->at[RIVET_XI];
-    int n_b = t->axis[RIVET_B].cells + 2, n_c = t->axis[RIVET_C].cells + 2, n_xi = t->axis[RIVET_XI].cells + 2;
-    sigma[0] = sigma[1] = 0.0;
-    for (int i = 0; i < 81; i++) {
-        int a = i / 27, b = i / 9 % 3, c = i / 3 % 3, x = i % 3;
-        int place_xi = (((A->first + a) * n_b + B->first + b) * n_c + C->first + c) * n_xi + X->first + x;
-        const float *T = coefficients + 2 * (RIVET_SHEETS * place_xi + place->sheet);
-        number weight = A->w[a] * B->w[b] * C->w[c] * X->w[x];
-        for (int k = 0; k < 2; k++) sigma[k] += weight * (place->first[k] * T[k] + (1.0 - place->first[k]) * T[2 + k]);
-    }
-}
-#else
-// Two channels side by side.
-typedef double pair __attribute__((vector_size(16)));
-
-static inline pair fetch(const float *from)
-{
-    return (pair){from[0], from[1]};
-}
-
-static inline void contract(const RivetTable *t, const float *coefficients, const Place *place, double sigma[2])
-{
-    const Splines *A = &place->at[RIVET_A], *B = &place->at[RIVET_B], *C = &place->at[RIVET_C], *X = &place->at[RIVET_XI];
-    int n_b = t->axis[RIVET_B].cells + 2, n_c = t->axis[RIVET_C].cells + 2, n_xi = t->axis[RIVET_XI].cells + 2;
-    const int xi = 2 * RIVET_SHEETS, row = n_xi * xi;  // coefficients from one xi, one c to the next
-    const pair w = {place->first[0], place->first[1]};
-    pair first[3], second[3];
-    for (int i = 0; i < 3; i++) {
-        first[i] = X->w[i] * w;
-        second[i] = X->w[i] * (1.0 - w);
-    }
-    pair sum = {0};
-    for (int a = 0; a < 3; a++) {
-        pair sum_a = {0};
-        for (int b = 0; b < 3; b++) {
-            const float *T = coefficients + row * (((A->first + a) * n_b + B->first + b) * n_c + C->first) + xi * X->first + 2 * place->sheet;
-            pair part[3];
-            for (int c = 0; c < 3; c++, T += row) {
-                const float *U = T + 2;  // the second sheet
-                pair one = first[0] * fetch(T) + first[1] * fetch(T + xi) + first[2] * fetch(T + 2 * xi);
-                pair other = second[0] * fetch(U) + second[1] * fetch(U + xi) + second[2] * fetch(U + 2 * xi);
-                part[c] = C->w[c] * (one + other);
-            }
-            sum_a += B->w[b] * (part[0] + part[1] + part[2]);
-        }
-        sum += A->w[a] * sum_a;
-    }
-    memcpy(sigma, &sum, sizeof sum);
-}
-#endif
-
-void rivet_rom_primary(const RivetTable *t, const RivetLoad *load, double fit_eff, number *head_p1, number *mid_vm)
-{
-    Place place = load_place(t, load, fit_eff);
-    number sigma[2];
-    contract(t, t->primary, &place, sigma);
-    *head_p1 = sigma[0] + t->head_friction * load->F_head;
-    *mid_vm = sigma[1];
 }
 
 unsigned rivet_rom_stress(const RivetTable *t, const RivetLoad *load, double fit_eff, number sigma[RIVET_CHANNELS])

@@ -98,7 +98,7 @@ typedef struct {
     double fit_flange_yield;  // effective fit at which the flange begins to yield [m]
     FitMap j2;                // interference with plasticity
     JointData joint;
-    const double *load_path;  // [Z][5][3], see load_path.h
+    const double *load_path;  // see load_path_flexible
 } RivetTable;
 
 extern const RivetTable rivet_table;  // rivet_table.c, written by rivet_model/embed.py
@@ -108,9 +108,6 @@ double rivet_rom_fit_eff(const RivetTable *t, double fit_a, bool j2);
 
 // All channels sigma [Pa]; returns the flags.  Never NaN for finite loads.
 unsigned rivet_rom_stress(const RivetTable *t, const RivetLoad *load, double fit_eff, number sigma[RIVET_CHANNELS]);
-
-// The two channels of peaks and fatigue only, at half the cost: HEAD_P1 and MID_VM [Pa].
-void rivet_rom_primary(const RivetTable *t, const RivetLoad *load, double fit_eff, number *head_p1, number *mid_vm);
 
 double joint_preload(const JointData *j, double preload, double T);  // preload at temperature T [N], not below 0
 double joint_fit(const JointData *j, double fit, double T);          // fit at temperature T [m]

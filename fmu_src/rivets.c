@@ -94,9 +94,9 @@ void rivets_load(const Model *model, const Work *w, RivetLoad load[Z], number V[
 
     PathLoads path = {0};
     for (int h = 0; h < (rigid ? 1 : 2); h++) pocket_path(w->pocket[h], h == 0 ? -1 : 1, &path);
-    const double R = 0.5 * model->p->bearing.d_m;
+    const double per_R = 2.0 / model->p->bearing.d_m;
     for (int k = 0; k < Z; k++) {
-        const double c = model->d->rivet_y[k] / R, s = model->d->rivet_z[k] / R;
+        const double c = model->d->rivet_y[k] * per_R, s = model->d->rivet_z[k] * per_R;
         load[k].N += path.N[k];
         if (model->d->hole_gap == 0.0) {
             load[k].V_y += path.V_r[k] * c - path.V_t[k] * s;

@@ -16,6 +16,14 @@ def _array(name, values, kind="double"):
     return f"static const {kind} {name}[{len(text)}] = {{\n    " + ",\n    ".join(lines) + "};\n"
 
 
+def path_columns(load_path):
+    """The load path's matrix [Z, 5, 3] as the C reader wants it, [F_t > 0 and < 0, 5, 3, Z padded to even]: F_t < 0 is the mirror image about the pocket."""
+    columns = np.moveaxis(load_path, 0, -1)
+    back = columns.copy()
+    back[:, 2] = columns[:, 2, ::-1] * np.array([1.0, 1.0, -1.0, -1.0, 1.0])[:, None]  # rivet -1 - i for i; V_t and M_r change sign
+    return np.pad(np.stack([columns, back]), [(0, 0)] * 3 + [(0, columns.shape[-1] % 2)])
+
+
 def c_source(t):
     """The C text of rivet_table.c."""
     parts = [
@@ -37,7 +45,7 @@ def c_source(t):
         _array("j2_slope", t.fit_slope),
         _array("hole_fit", t.joint["hole_fit"]),
         _array("k_hole", t.joint["k_hole"]),
-        _array("load_path", t.load_path),
+        _array("load_path", path_columns(t.load_path)),
     ]
     joint = ", ".join(f".{key} = {float(t.joint[key])!r}" for key in table.JOINT_KEYS)
     parts.append(f"""

@@ -5,7 +5,7 @@
 #include "lanes.h"
 #include "model.h"
 #include "part.h"
-#include "rivet_rom.h"
+#include "rhs.h"
 #include "traction.h"
 
 #include <stdlib.h>
@@ -118,5 +118,6 @@ void test_traction_inlet(int n, double rolling, double Q, const double *U, doubl
 
 void test_rivet_primary(int n, const RivetLoad *load, double fit_eff, double *head_p1, double *mid_vm)
 {
-    for (int i = 0; i < n; i++) rivet_rom_primary(&rivet_table, &load[i], fit_eff, &head_p1[i], &mid_vm[i]);
+    const Kernels kernels = kernels_select();
+    for (int i = 0; i < n; i += Z) kernels.rivet_primary(&rivet_table, &load[i], fit_eff, &head_p1[i], &mid_vm[i]);
 }

@@ -5,6 +5,7 @@ import pytest
 
 from bearing_model import load_path
 from bearing_model.variables import Z
+from rivet_model.embed import path_columns
 
 D_M = 53.5e-3
 ANGLE = 2 * np.pi * (np.arange(Z) + 0.5) / Z
@@ -36,7 +37,7 @@ def flexible(request, core):
 
     def call(matrix, side, *forces):
         loads = ffi.new("PathLoads *")
-        lib.load_path_flexible(doubles(ffi, matrix), side, *(doubles(ffi, f) for f in forces), loads)
+        lib.load_path_flexible(doubles(ffi, path_columns(matrix)), side, *(doubles(ffi, f) for f in forces), loads)
         return np.array([list(getattr(loads, name)) for name in ("N", "V_r", "V_t", "M_r", "M_t")]).T
 
     return call
@@ -102,6 +103,6 @@ def test_twins(core):
     rng = np.random.default_rng(4)
     matrix, forces = rng.normal(size=(Z, 5, 3)), rng.normal(size=(3, Z))
     loads = ffi.new("PathLoads *")
-    lib.load_path_flexible(doubles(ffi, matrix), -1, *(doubles(ffi, f) for f in forces), loads)
+    lib.load_path_flexible(doubles(ffi, path_columns(matrix)), -1, *(doubles(ffi, f) for f in forces), loads)
     got = np.array([list(getattr(loads, name)) for name in ("N", "V_r", "V_t", "M_r", "M_t")]).T
     np.testing.assert_allclose(got, load_path.load_path_flexible(matrix, -1, *forces), rtol=1e-13, atol=1e-13)

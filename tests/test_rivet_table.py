@@ -9,6 +9,7 @@ from library import ROOT
 
 from bearing_model import rivet_rom
 from bearing_model.rivet_rom import FLANGE_YIELDS, JOINT_COMPRESSED, RIVET_OUTSIDE, RIVET_YIELDS, RivetLoad
+from bearing_model.variables import Z
 from rivet_model import closed_form, embed, geometry, splines, table
 
 TABLE = ROOT / "rivet_model" / "tables" / "6207.json"
@@ -103,13 +104,26 @@ def test_twins_agree(core, rivets):
         assert c_flags == flags
 
 
-def test_primary_channels_equal_all_channels(core):
+def test_peak_channels_equal_all_channels(core):
+    """All rivets at once against one by one, idle ones among them: the same bits but for the order in which compilers sum (observed none)."""
     ffi, lib = core.ffi, core.lib
-    head, mid = ffi.new("double *"), ffi.new("double *")
-    for load, fit in zip(*random_loads(100, seed=3), strict=True):
-        lib.rivet_rom_primary(ffi.addressof(lib.rivet_table), ffi.new("RivetLoad *", vars(load)), float(fit), head, mid)
-        sigma, _ = c_stress(ffi, lib, load, fit)
-        assert (head[0], mid[0]) == (sigma[0], sigma[2])
+    loads, fits = random_loads(90 * Z, seed=3)
+    for k, load in enumerate(loads):
+        if k % 4 == 0:
+            load.M_y = load.M_z = 0.0
+        if k % 3 == 0:
+            load.V_y = load.V_z = 0.0
+        if k % 5 == 0:
+            load.N = 0.0
+        if k % 60 == 0:
+            load.P = 0.0
+    head, mid = ffi.new("double[]", Z), ffi.new("double[]", Z)
+    for first in range(0, len(loads), Z):
+        fit = float(fits[first])
+        lib.test_rivet_primary(Z, ffi.new("RivetLoad[]", [vars(load) for load in loads[first : first + Z]]), fit, head, mid)
+        for k, load in enumerate(loads[first : first + Z]):
+            sigma, _ = c_stress(ffi, lib, load, fit)
+            np.testing.assert_allclose([head[k], mid[k]], sigma[[0, 2]], rtol=1e-12, atol=1e-12 * sigma.max(), err_msg=str(load))
 
 
 def test_continuously_differentiable(rivets):
