@@ -2,6 +2,7 @@
 
 import ctypes
 import importlib.util
+import json
 import subprocess
 import sys
 from pathlib import Path
@@ -9,6 +10,7 @@ from pathlib import Path
 import fmpy
 import numpy as np
 import pytest
+from fmpy.ssp.ssd import get_connections, read_ssd, read_ssv
 from fmpy.validation import validate_fmu
 from library import ROOT
 from slave import OK, Slave
@@ -255,3 +257,27 @@ def test_ecos_runs_the_system(short):
             simulation.step()
             rows.append([simulation.get_real(name.replace(".", "::", 1)) for name in NAMES])
     assert difference(rows, short) < 1e-9
+
+
+def test_container_of_fmu_manipulation_toolbox_runs_the_system(tmp_path, short):
+    """Both FMUs inside a third.  It breaks the loop at the shaft, whose inputs therefore start from given values.  Observed: 0."""
+    assembly = pytest.importorskip("fmu_manipulation_toolbox.assembly", reason="pip install fmu-manipulation-toolbox")
+    files = {"shaft": FMU, "bearing": ROOT / "fmus" / "RivetedBearing.fmu"}
+    for path in files.values():
+        (tmp_path / path.name).symlink_to(path)
+    first = transmission.simulate(SYSTEM, STEP, STEP)
+    wires = get_connections(read_ssd(str(SYSTEM)).system)
+    values = [(part, p.name, p.value) for part in files for p in read_ssv(str(ROOT / "examples" / "transmission" / f"{part}.ssv")).parameters]
+    values += [("shaft", b.name, str(first[f"bearing.{a.name}"][0])) for a, b in wires if b.parent.name == "shaft"]
+    outputs = {name: name.replace(".", "_") for name in NAMES}
+    description = {
+        "name": "container.fmu", "step_size": STEP, "fmu": [path.name for path in files.values()], "auto_input": False, "auto_output": False,
+        "link": [[files[a.parent.name].name, a.name, files[b.parent.name].name, b.name] for a, b in wires],
+        "start": [[files[part].name, name, value] for part, name, value in values],
+        "output": [[files[name.split(".")[0]].name, name.split(".", 1)[1], shown] for name, shown in outputs.items()],
+    }  # fmt: skip
+    (tmp_path / "container.json").write_text(json.dumps(description))
+    assembly.Assembly("container.json", fmu_directory=tmp_path).make_fmu()
+    times = {"stop_time": len(short) * STEP, "step_size": STEP, "output_interval": STEP}
+    result = fmpy.simulate_fmu(str(tmp_path / "container.fmu"), **times, output=list(outputs.values()))
+    assert difference(np.array([result[shown] for shown in outputs.values()]).T[1:], short) < 1e-9
