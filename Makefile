@@ -7,7 +7,7 @@ FMU     = fmus/RivetedBearing.fmu
 COPY    = $(CURDIR)/build/sanitize
 PYTEST  = $(PYTHON) -m pytest
 C_FILES = $(wildcard fmu_src/*.[ch] tests/*.[ch] benchmarks/*.[ch] examples/*/*.c)
-BENCHMARKS = rhs scenes scaling work_precision
+BENCHMARKS = rhs step scenes scaling work_precision
 FORM    = --short
 
 export PATH := $(CURDIR)/$(BIN):$(PATH)  # cmake finds ninja

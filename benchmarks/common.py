@@ -95,6 +95,8 @@ def set_state(instance, y, h=4e-6):
     saved = core.new("Saved")
     core.lib.part_save(instance.bearing, saved)
     saved.integrator.now.y = list(y)
+    saved.integrator.now.jerk = [0.0] * len(y)  # no memory of another way
+    saved.integrator.now.h = 0.0
     saved.integrator.h = h
     saved.integrator.known = 0
     core.lib.part_restore(instance.bearing, saved)

@@ -107,7 +107,7 @@ def instructions(core, library, table, model, isa, y):
         base = base_address(library)
         for address in addresses[:count]:
             found = table.get(int(address) - base)
-            if found is None or found[0] == "trace_rhs" or "@plt" in found[0]:
+            if found is None or found[0] in ("trace", "call_rhs") or "@plt" in found[0]:
                 continue  # around the call; libc's memcpy and memset
             counts.update(kinds(*found[1:]))
     return {kind: number / len(y) for kind, number in counts.items()}

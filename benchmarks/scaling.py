@@ -25,8 +25,8 @@ def peak_channels(model):
 
 def simulate(model, scene, length, step, outputs=(), changing=False, begin=0.0):
     """Run through fmpy's calls: processor times per simulated second, of the process and inside fmi2DoStep, and evaluations per second."""
+    started = time.process_time()
     with Instance(model) as instance:
-        started = time.process_time()
         instance.initialize(scene)
         start_time = time.process_time() - started
         if begin > 0.0:

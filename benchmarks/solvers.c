@@ -4,7 +4,7 @@
 // Vectors are SUNDIALS' own serial ones.  BDF solves its Newton systems (1 - gamma J) x = b in one of three ways:
 //
 //   dense      SUNDIALS' dense matrix and its own difference quotients: what a general multibody solver does
-//   diagonal   J = -D, the damping rates of the core's stiff blocks: no factorization
+//   diagonal   J = -D, the damping rates that the core's stepper knows: no factorization
 //   bordered   each ball's nine states and each joint's four friction states couple to ring and cage only:
 //
 //                  | B_1            C_1 |        S = D - sum E_g B_g^-1 C_g,  x_d = S^-1 (b_d - sum E_g B_g^-1 b_g),
@@ -104,20 +104,35 @@ static int weights(N_Vector y, N_Vector ewt, void *user)
 }
 
 // ---- diagonal Jacobian ----------------------------------------------------------------------------------------------------------------------------
+// By traction, pockets, land films and bristles, each state for itself.
 static void diagonal_rates(Integrator *in)
 {
-    static const int BALL[BALL_BLOCK] = {Y_BALL_V_X, Y_BALL_V_R, Y_BALL_OMEGA_M, Y_BALL_OMEGA_X, Y_BALL_OMEGA_R, Y_BALL_OMEGA_T};
-    static const int HALF[HALF_BLOCK] = {Y_CAGE_V_Y, Y_CAGE_V_Z, Y_CAGE_BETA_DOT, Y_CAGE_GAMMA_DOT, Y_CAGE_S};
-    Implicit A;
-    in->kernels->implicit->set(in->model, in->w, &A);
+    enum { AXES = 3 };
+    static const int V[AXES] = {Y_BALL_V_X, Y_BALL_V_R, Y_BALL_OMEGA_M}, OMEGA[AXES] = {Y_BALL_OMEGA_X, Y_BALL_OMEGA_R, Y_BALL_OMEGA_T};
+    const Work *w = in->w;
+    const Derived *d = in->model->d;
+    const Parameters *p = in->model->p;
+    const double *v_pocket[AXES] = {w->D_x, w->D_r, w->D_t}, *omega_pocket[AXES] = {w->D_omega_x, w->D_omega_r, w->D_omega_t};
     memset(in->rates, 0, sizeof in->rates);
-    for (int i = 0; i < BALL_BLOCK; i++)
-        for (int j = 0; j < Z; j++) in->rates[BALL[i] + j] = A.ball[(i + 1) * (i + 2) / 2 - 1][j];
-    for (int i = 0; i < HALF_BLOCK; i++)
-        for (int h = 0; h < 2; h++) in->rates[HALF[i] + h] = A.half[h][i][i];
+    for (int j = 0; j < Z; j++) {
+        const double n_i[AXES] = {w->n_ix[j], w->n_ir[j], w->n_it[j]}, n_e[AXES] = {w->n_ex[j], w->n_er[j], 0.0};
+        for (int i = 0; i < AXES; i++) {
+            const double g = w->g_i[j] * (1.0 - n_i[i] * n_i[i]) + w->g_e[j] * (1.0 - n_e[i] * n_e[i]);
+            in->rates[V[i] + j] = v_pocket[i][j] + g / d->m;
+            in->rates[OMEGA[i] + j] = omega_pocket[i][j] + g * d->R[j] * d->R[j] / d->J;
+        }
+    }
+    for (int h = 0; h < 2; h++) {
+        const double x = (h == 0 ? -p->cage.land_x : p->cage.land_x) - d->com_x[h], xx = x * x;
+        in->rates[Y_CAGE_V_Y + h] = w->film_yy[h] / p->cage.m;
+        in->rates[Y_CAGE_V_Z + h] = w->film_zz[h] / p->cage.m;
+        in->rates[Y_CAGE_BETA_DOT + h] = xx * w->film_zz[h] / p->cage.J_t;
+        in->rates[Y_CAGE_GAMMA_DOT + h] = xx * w->film_yy[h] / p->cage.J_t;
+        in->rates[Y_CAGE_S + h] = w->film_spin[h] / p->cage.J_p;
+    }
     for (int k = 0; k < Z; k++) {
-        in->rates[Y_JOINT_PLATE_Y + k] = in->rates[Y_JOINT_PLATE_Z + k] = A.plate[k];
-        in->rates[Y_JOINT_HEAD_Y + k] = in->rates[Y_JOINT_HEAD_Z + k] = A.head[k];
+        in->rates[Y_JOINT_PLATE_Y + k] = in->rates[Y_JOINT_PLATE_Z + k] = w->D_plate[k];
+        in->rates[Y_JOINT_HEAD_Y + k] = in->rates[Y_JOINT_HEAD_Z + k] = w->D_head[k];
     }
 }
 
@@ -291,7 +306,7 @@ double solver_outside_pattern(struct Part *b)
     bordered_pattern(m);
     Integrator *in = b->integrator;
     double counter = 0.0, outside = 0.0, largest = 0.0;
-    difference_jacobian(in, b->s.integrator.t, b->s.integrator.y, m->J, &counter);
+    difference_jacobian(in, b->s.integrator.t, b->s.integrator.now.y, m->J, &counter);
     int group[N_STATES];
     for (int i = 0; i < N_STATES; i++) group[i] = -1;  // border
     for (int g = 0; g < GROUPS; g++)
@@ -419,19 +434,14 @@ void integrator_evaluate(Integrator *in)
 {
     if (in->s->known) return;
     in->t_latest = NAN;  // the drive may have changed
-    memcpy(in->s->f, evaluate(in, in->s->t, in->s->y, &in->s->rhs_evals), sizeof in->s->f);
+    memcpy(in->s->now.f, evaluate(in, in->s->t, in->s->now.y, &in->s->rhs_evals), sizeof in->s->now.f);
     in->s->known = 1;
-}
-
-void integrator_restored(Integrator *in)
-{
-    in->t_latest = NAN;
 }
 
 static int start(Integrator *in, double t_stop)
 {
     const double h = fmin(in->s->h, t_stop - in->s->t);
-    memcpy(N_VGetArrayPointer(in->y), in->s->y, sizeof in->s->y);
+    memcpy(N_VGetArrayPointer(in->y), in->s->now.y, sizeof in->s->now.y);
     in->rates_known = false;
     if (in->choice.method == SOLVER_ERK)
         return ARKodeReset(in->solver, in->s->t, in->y) | ARKodeSetInitStep(in->solver, h) | ARKodeSetStopTime(in->solver, t_stop);
@@ -464,6 +474,7 @@ int integrator_advance(Integrator *in, double t_stop, long max_steps)
     const bool observed = in->model->p->scene.stress >= STRESS_PEAK || in->model->p->scene.statistics == SWITCH_ON;
     long failed_before = 0, failed = 0, dense_evals = 0;
     double t = s->t;
+    integrator_evaluate(in);
     int status = start(in, t_stop);
     if (in->choice.method == SOLVER_ERK) ARKodeGetNumErrTestFails(in->solver, &failed_before);
     if (status != 0) return -1;
@@ -472,12 +483,12 @@ int integrator_advance(Integrator *in, double t_stop, long max_steps)
         if ((status = one_step(in, t_stop, &t)) < 0) break;
         interpolate(in, t);
         const double h = t - s->t;
-        memcpy(s->y, N_VGetArrayPointer(in->y), sizeof s->y);
+        memcpy(s->now.y, N_VGetArrayPointer(in->y), sizeof s->now.y);
         s->t = t;
         s->steps += 1.0;
         s->known = 0;
         in->rates_known = false;
-        if (observed) evaluate(in, s->t, s->y, &s->rhs_evals);
+        if (observed) evaluate(in, s->t, s->now.y, &s->rhs_evals);
         in->hook(in->context, h, in->w);
     }
     if (in->choice.method == SOLVER_ERK) {

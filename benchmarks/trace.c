@@ -1,4 +1,4 @@
-// Counts instructions of one evaluation of the right-hand side by single steps of a child process (Linux).
+// Instructions of a call, by single steps of a child process (Linux).
 #include "trace.h"
 #include "rhs.h"
 
@@ -8,16 +8,16 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-long trace_rhs(Rhs *function, const Model *model, const double *y, Work *w, unsigned long *address, long most)
+typedef void Action(void *context);
+
+static long trace(Action *action, void *context, unsigned long *address, long most)
 {
-    double y_dot[N_STATES];
-    function(model, 0.0, y, y_dot, w);  // symbols bound, memory touched
     const pid_t child = fork();
     if (child < 0) return -1;
     if (child == 0) {
         ptrace(PTRACE_TRACEME, 0, NULL, NULL);
         raise(SIGSTOP);
-        function(model, 0.0, y, y_dot, w);
+        action(context);
         _exit(0);
     }
     int status;
@@ -32,6 +32,45 @@ long trace_rhs(Rhs *function, const Model *model, const double *y, Work *w, unsi
         if (ptrace(PTRACE_SINGLESTEP, child, NULL, NULL) != 0) break;
         waitpid(child, &status, 0);
     }
-    if (!WIFEXITED(status)) kill(child, SIGKILL), waitpid(child, &status, 0);
-    return count;
+    if (WIFEXITED(status)) return count;
+    kill(child, SIGKILL), waitpid(child, &status, 0);
+    return -1;
+}
+
+typedef struct {
+    Rhs *function;
+    const Model *model;
+    const double *y;
+    Work *w;
+} Evaluation;
+
+static void call_rhs(void *context)
+{
+    const Evaluation *e = context;
+    double y_dot[N_STATES];
+    e->function(e->model, 0.0, e->y, y_dot, e->w);
+}
+
+long trace_rhs(Rhs *function, const Model *model, const double *y, Work *w, unsigned long *address, long most)
+{
+    Evaluation e = {function, model, y, w};
+    call_rhs(&e);  // symbols bound, memory touched
+    return trace(call_rhs, &e, address, most);
+}
+
+typedef struct {
+    Part *part;
+    double t;
+} Step;
+
+static void call_step(void *context)
+{
+    const Step *s = context;
+    part_step(s->part, s->t);
+}
+
+long trace_step(Part *part, double t, unsigned long *address, long most)
+{
+    Step s = {part, t};
+    return trace(call_step, &s, address, most);
 }

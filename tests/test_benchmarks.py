@@ -50,9 +50,11 @@ def test_solvers_meet(bench, problem, solver):
     assert errors[1] < 1e-4 and errors[1] < 0.01 * errors[0], errors
 
 
-def test_the_core_meets_them(bench, problem):
-    """Our own default likewise; observed 2e-05."""
-    assert error(bench, problem, 1e-6, method=1) < 1e-4
+@pytest.mark.parametrize(("method", "bound"), [(1, 1e-3), (2, 1e-4)])
+def test_the_core_meets_them(bench, problem, method, bound):
+    """Our own methods likewise; Verlet takes ten times as many steps of that error.  Observed TODO, TODO."""
+    errors = [error(bench, problem, tolerance, method=method) for tolerance in (1e-2, 1e-6)]
+    assert errors[1] < bound and errors[1] < 0.01 * errors[0], errors
 
 
 def test_bordered_pattern_holds_all(bench, problem):
@@ -84,3 +86,30 @@ for isa in rhs.instruction_sets(core):
     for isa, (total, packed) in rows.items():
         assert total > 1000.0
         assert isa == "scalar" or packed > 0.7 * total, (isa, total, packed)
+
+
+def test_instructions_of_a_step_are_told_apart():
+    """A step has the instructions of one evaluation by both counts, those of the cage's middle state and of rejected steps on top; observed TODO.
+
+    Little lies outside the core; observed TODO.
+    """
+    code = f"""
+import sys
+sys.path.insert(0, {str(ROOT / "benchmarks")!r})
+import rhs, step
+from common import Core, Scene, build_target
+library = build_target("bearing_kernels")
+core, scene = Core.load(library), Scene("demo")
+step.declare(core)
+parts = step.instructions(scene, core, library, 1)
+model = core.model(scene.parameters, scene.inputs)
+core.ffi.cdef("void rhs_scalar(const Model *, double, const double *, double *, Work *);")
+isa, states = rhs.instruction_sets(core)[-1], rhs.settled_states(scene, core, 4)
+whole = rhs.instructions(core, library, rhs.disassembly(library), model, isa, states)
+elements = ("race contacts", "pockets", "land films", "joints", "balls: kinematics, accelerations", "drag", "ring", "cage bodies, sums")
+total = sum(part["instructions"] for part in parts.values())
+print(sum(parts[part]["instructions"] for part in elements) / whole["instructions"], parts[step.OUTSIDE]["instructions"] / total)
+"""
+    output = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True, cwd=ROOT).stdout
+    evaluations, outside = map(float, output.split())
+    assert 1.0 < evaluations < 1.5 and outside < 0.05, output

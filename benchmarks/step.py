@@ -1,0 +1,130 @@
+"""Where a step's instructions go, by element, with the processor's floor beside them.
+
+Communication steps of 1e-4 s with peak stress and statistics are run instruction by instruction in a child process and counted by the source file of their
+function (what the compiler inlines from a header counts where it is used).  Counts are per accepted step, rejected ones included.  For the floor see rhs.py.
+"""
+
+import collections
+import re
+import subprocess
+from bisect import bisect_right
+
+import numpy as np
+from common import BUILD, Core, Scene, build_target, counters, cpu, options, say, write
+from rhs import base_address, disassembly, floor, instruction_sets, kinds, peaks
+
+from bearing_model.variables import Stress, Switch
+
+STEP = 1e-4  # [s]
+PARTS = {  # source file -> part
+    "race_contact": "race contacts",
+    "pocket": "pockets",
+    "land_film": "land films",
+    "cage_joint": "joints",
+    "ball": "balls: kinematics, accelerations",
+    "drag": "drag",
+    "ring": "ring",
+    "rhs": "cage bodies, sums",
+    "implicit": "implicit solve",
+    "verlet": "Verlet step itself",
+    "vector_ops": "error norm",
+    "load_path": "rivet loads",
+    "rivets": "rivet loads",
+    "rivet_rom": "rivet table",
+    "records": "peaks and statistics",
+    "statistics": "peaks and statistics",
+}
+REST, OUTSIDE = "control of steps, inputs", "memcpy, memset, clock"
+
+
+def lines(*command):
+    return subprocess.run([str(word) for word in command], capture_output=True, text=True, check=True).stdout.splitlines()
+
+
+def sources(library):
+    """Starts of the functions in order, and (end, source file) of each: local symbols follow their file's, global ones are found in the objects."""
+    defined = {}
+    for path in BUILD.glob("CMakeFiles/*.dir/*/*.c.o"):
+        defined |= {line.split()[2]: path.name.removesuffix(".c.o") for line in lines("nm", "--defined-only", path) if " T " in line}
+    functions, file = {}, ""
+    for line in lines("readelf", "-sW", library):
+        match = re.match(r"\s*\d+: ([0-9a-f]+)\s+(\S+) (FILE|FUNC)\s+(LOCAL|GLOBAL|WEAK)\s+\S+\s+\S+ (\S+)", line)
+        if match and match[3] == "FILE":
+            file = match[5].removesuffix(".c")
+        elif match and int(match[2], 0) > 0:
+            begin = int(match[1], 16)
+            functions[begin] = (begin + int(match[2], 0), file if match[4] == "LOCAL" else defined.get(match[5], ""))
+    starts = sorted(functions)
+    return starts, [functions[start] for start in starts]
+
+
+def part_of(offset, starts, functions):
+    """Which part an instruction belongs to."""
+    i = bisect_right(starts, offset) - 1
+    inside = i >= 0 and offset < functions[i][0]
+    return PARTS.get(functions[i][1], REST) if inside else OUTSIDE
+
+
+def declare(core):
+    core.ffi.cdef("long trace_step(struct Part *, double, unsigned long *, long);", override=True)
+    return core
+
+
+def moving(scene, core):
+    """A settled instance with peak stress and statistics."""
+    return scene.start(core, scene_stress=int(Stress.PEAK), scene_statistics=int(Switch.ON)).step(scene.settle)
+
+
+def instructions(scene, core, library, samples):
+    """Counts by part and kind per accepted step, over some communication steps 3.7 ms apart."""
+    table, (starts, functions), base = disassembly(library), sources(library), base_address(library)
+    instance, addresses, steps = moving(scene, core), np.empty(20_000_000, dtype=np.uint64), 0.0
+    pointer = core.ffi.cast("unsigned long *", core.ffi.from_buffer(addresses))
+    counts = collections.defaultdict(collections.Counter)
+    for i in range(samples):
+        instance.step(scene.settle + 3.7e-3 * (i + 1))
+        t, before = instance.time + STEP, counters(instance)["steps"]
+        found = core.lib.trace_step(instance.bearing, t, pointer, len(addresses))
+        if found <= 0:
+            raise SystemExit(f"{scene.name}: no single steps of a child process here ({found})")
+        for address, number in zip(*np.unique(addresses[:found], return_counts=True)):
+            offset = int(address) - base
+            row = counts[part_of(offset, starts, functions)]
+            for kind in kinds(*table[offset][1:]) if offset in table else ["instructions"]:
+                row[kind] += int(number)
+        steps += counters(instance.step(t))["steps"] - before
+    return {part: {kind: number / steps for kind, number in row.items()} for part, row in counts.items()}
+
+
+def time_of_step(scene, core, length, repeat):
+    """Least processor time of an accepted step [ns], and steps and evaluations per second."""
+    best = np.inf
+    for _ in range(repeat):
+        instance = moving(scene, core)
+        before = counters(instance)
+        seconds, _ = cpu(lambda instance=instance: [instance.step(scene.settle + (i + 1) * STEP) for i in range(round(length / STEP))])
+        done = {name: (value - before[name]) / length for name, value in counters(instance).items()}
+        best = min(best, 1e9 * seconds / (done["steps"] * length))
+    return {"ns": best} | done
+
+
+def main():
+    short = options(__doc__).short
+    library = build_target("bearing_kernels")
+    core, scenes = declare(Core.load(library)), {}
+    isa = instruction_sets(core)[-1]
+    core.ffi.cdef(f"void peak_times_{isa}(long, double *);")
+    peak = peaks(core, isa)
+    for name in ("demo", "tilt", "jam"):
+        scene = Scene(name)
+        row = time_of_step(scene, core, 0.02 if short else 0.1, 5)
+        parts = instructions(scene, core, library, 2 if short else 8)
+        whole = sum(map(collections.Counter, parts.values()), collections.Counter())
+        row |= {"parts": {part: {"counts": counts, "floor": floor(counts, peak)["floor"]} for part, counts in parts.items()}}
+        scenes[name] = row | {"title": scene.title, "counts": whole, "floor": floor(whole, peak)}
+        say(f"{name}: {row['ns']:.0f} ns a step, {whole['instructions']:.0f} instructions, floor {scenes[name]['floor']['floor']:.0f} ns")
+    write("step", {"isa": isa, "peaks": peak, "scenes": scenes}, short)
+
+
+if __name__ == "__main__":
+    main()
