@@ -1,7 +1,8 @@
 // What holds back velocities, in blocks:
 //
 //   ball    traction of a race contact holds back its slip: F = -g P (v + omega x R n), M = R n x F, P = 1 - n n^T, g = |traction|/|slip|;
-//           its normal force the approach, with rate lambda Q and stiffness 3 Q/(2 delta) along n; the pockets' friction by its diagonal
+//           sliced traction the spin about n by its moment; its normal force the approach, with rate lambda Q and stiffness 3 Q/(2 delta) along n; the pockets'
+//           friction by its diagonal
 //   race    the inner contacts' traction couples the ring to all balls: where that is much for its mass (slow or mixed), through each ball's
 //           inverse (race_couple), else each for itself
 //   half    the film holds back the land's velocity: F = -C (v_y + gamma_dot x, v_z - beta_dot x), C symmetric 2 x 2, x the land's lever;
@@ -69,6 +70,13 @@ INLINE void solve_block(const Factors *f, real x[BLOCK])
     }
 }
 
+// Adds g_spin n n^T to the angular velocities.
+INLINE void add_spin(real g_spin, const real n[3], real A[TERMS])
+{
+    for (int i = 0; i < 3; i++)
+        for (int k = 0; k <= i; k++) A[AT(3 + i, 3 + k)] += g_spin * n[i] * n[k];
+}
+
 // gamma lambda Q + gamma^2 3 Q/(2 delta) of a race contact.
 INLINE real normal_rate(const Model *model, double gamma, real Q, real delta)
 {
@@ -89,6 +97,10 @@ INLINE void bundle_matrix(const Model *model, const Work *w, int j, double gamma
     for (int i = 0; i < TERMS; i++) A[i] = zero;
     add_contact(gamma * real_load(&w->g_i[j]), normal_i, R, n_i, A);
     add_contact(gamma * real_load(&w->g_e[j]), normal_e, R, n_e, A);
+    if (model->p->scene.traction == TRACTION_SLICED) {
+        add_spin(gamma * real_load(&w->g_spin_i[j]), n_i, A);
+        add_spin(gamma * real_load(&w->g_spin_e[j]), n_e, A);
+    }
     for (int i = 0; i < BLOCK; i++) {
         const double inertia = i < 3 ? d->m : d->J;
         A[AT(i, i)] += (gamma * inertia) * real_load(&pocket[i][j]) + inertia;

@@ -98,7 +98,8 @@ typedef struct {
     Rotor ring, half[2];
     // contacts: total force and moment on the ball about its centre (race_contact_force sets, pocket_force and drag_force add)
     lanes F_x, F_r, F_t, M_x, M_r, M_t;
-    lanes g_i, g_e;  // race contacts: |traction|/|slip| [N.s/m] (race_contact_force)
+    lanes g_i, g_e;            // race contacts: |traction|/|slip| [N.s/m] (race_contact_force)
+    lanes g_spin_i, g_spin_e;  // their moment/spin about the normal [N.m.s]
     // stiff rates of the ball's velocities by the pockets, 1/s: -d(acceleration)/d(velocity) (race_contact_force clears, pocket_force adds)
     lanes D_x, D_r, D_t, D_omega_x, D_omega_r, D_omega_t;
     lanes dissipated;  // by contacts and drag [W]

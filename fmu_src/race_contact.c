@@ -52,6 +52,7 @@ INLINE Tangential race_traction(const Model *model, const Race *race, const Cont
     if (!sliced) {
         const real slip_2 = vec_dot(c->slip, c->slip) + p->oil.v_0 * p->oil.v_0, per_slip = 1.0 / real_sqrt(slip_2);
         out.g = traction_mu(p, slip_2 * per_slip * per_U, f_a, mixed) * c->Q * per_slip;
+        out.g_spin = real_set(0.0);
         out.F_s = vec_scale(-out.g, c->slip);
         out.M = vec_cross(arm, out.F_s);
         out.dissipated = -vec_dot(out.F_s, c->slip);
@@ -67,6 +68,7 @@ INLINE Tangential race_traction(const Model *model, const Race *race, const Cont
             const real g = SHARE[i] * traction_mu(p, slip_2 * per_slip * per_U, f_a, mixed) * c->Q * per_slip;
             const vec F = vec_scale(-g, slip_i);
             out.g += g;
+            out.g_spin += g * xi * xi;
             out.F_s = vec_add(out.F_s, F);
             out.M = vec_add(out.M, vec_cross(vec_axpy(xi, c->t_2, vec_scale(c->R - sagitta, c->n)), F));
             out.dissipated -= vec_dot(F, slip_i);
@@ -146,6 +148,8 @@ INLINE void race_contact_bundle(const Model *model, Work *w, int j, bool mixed, 
     const vec none = {0};
     real_store(&w->g_i[j], T_i.g);
     real_store(&w->g_e[j], T_e.g);
+    real_store(&w->g_spin_i[j], T_i.g_spin);
+    real_store(&w->g_spin_e[j], T_e.g_spin);
     vec_store(none, &w->D_x[j], &w->D_r[j], &w->D_t[j]);
     vec_store(none, &w->D_omega_x[j], &w->D_omega_r[j], &w->D_omega_t[j]);
     real_store(&w->dissipated[j], T_i.dissipated + T_e.dissipated + (inner.Q - Q_i0) * delta_i_dot + (outer.Q - Q_e0) * delta_e_dot);

@@ -19,6 +19,7 @@ typedef struct {
     vec F_s, F_c;     // on the ball: at the contact point, through the ball's centre [N]
     vec M;            // moment of F_s about the ball's centre (with spin) [N.m]
     real g;           // |traction| / |slip|: the stiff rate of the contact [N.s/m]
+    real g_spin;      // moment / spin about the normal of what slips beside the centre [N.m.s]
     real U;           // mean surface speed with its floor [m/s]
     real dissipated;  // [W]
 } Tangential;

@@ -19,9 +19,9 @@ HALF = ("cage_v_x", "cage_v_y", "cage_v_z", "cage_beta_dot", "cage_gamma_dot", "
 SCENE = (CageModel.TWO_HALF, Traction.POINT, Lubrication.FILM, TiltMode.SUPPORTED)
 
 
-def rolling(core, **changes):
+def rolling(core, scene=SCENE, **changes):
     """A model whose balls roll, out of touch with their pockets, and the Jacobian there."""
-    model, y = prepared(core, "rolling", SCENE, np.random.default_rng(21), **LINEAR | changes)
+    model, y = prepared(core, "rolling", scene, np.random.default_rng(21), **LINEAR | changes)
     model.d.pocket.K = 0.0
     return model, y, matrix(model, y)
 
@@ -64,6 +64,23 @@ def test_ball_blocks(core):
         compared += 1
         strong += np.max(np.abs(expected - np.eye(6))) > 0.5
     assert compared >= 4 and strong >= 2
+
+
+def test_spin(core):
+    """Sliced traction holds back a ball's spin about its contacts' normals: that part of the matrix of implicit.c, its inverse's inverse.  Observed 0...2 %."""
+    model, _, J = rolling(core, (SCENE[0], Traction.SLICED, *SCENE[2:]))
+    compared = 0
+    for j in range(Z):
+        rows, scale = ball(model, j)
+        w = model.work
+        n = np.array([w.n_ix[j], w.n_ir[j], w.n_it[j]])
+        exact = -GAMMA * n @ J[np.ix_(rows[3:], rows[3:])] @ n
+        got = n @ np.linalg.inv(response(model, "implicit_solve", rows, scale))[3:, 3:] @ n - 1.0
+        if w.Q_i[j] > 100.0:
+            assert got == pytest.approx(exact, rel=0.03)
+            assert exact > 0.005
+            compared += 1
+    assert compared >= 3
 
 
 def test_held_part_of_balls(core):
