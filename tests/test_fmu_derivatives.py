@@ -262,8 +262,8 @@ def test_directional_derivatives_are_those_of_the_core(core, folder, scene):
 def test_dependencies_are_those_declared(folder):
     """No derivative where the description declares none; each declared one occurs in some scene.
 
-    But for three: counts have none, penetration is often that of an outer race, and the ring's push passes through the balls to the housing only
-    where a film pushes one of its sides.
+    But for four: counts have none, penetration is often that of an outer race, the ring's push passes through the balls to the housing only
+    where a film pushes one of its sides, and the ring's spin moves its contacts along themselves: of its effect on their loads only rounding is left.
     """
     exempt = ("housing.", "event.", "bearing.contacts", "bearing.penetration")
     missing = None
@@ -277,8 +277,8 @@ def test_dependencies_are_those_declared(folder):
         found = {(names[i], known[j]) for i, j in zip(*np.nonzero(significant), strict=True)}
         assert found <= declared
         missing = declared - found if missing is None else missing - found
-    print(sorted(missing))
-    assert {(unknown, known) for unknown, known in missing if not unknown.startswith(exempt)} == set()
+    missing = {(unknown, known) for unknown, known in missing if not unknown.startswith(exempt)}
+    assert {(unknown, known) for unknown, known in missing if known != "shaft.omega" or not unknown.endswith((".Q_i", ".p_i"))} == set()
 
 
 def test_loads_accelerate_the_ring(folder):
