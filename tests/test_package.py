@@ -21,7 +21,8 @@ from library import ROOT
 from lxml import etree
 from slave import Slave, describe
 
-from bearing_model.app.build import build_folder
+from bearing_model.app.build import bearing_case, build_folder, rivet_table
+from bearing_model.app.rivet import TRACKED_TABLE
 
 FMI_HEADERS = Path(fmpy.__file__).parent / "c-code"
 SCHEMA = Path(fmpy.__file__).parent / "schema" / "fmi3"  # FMI 2.0.4 takes terminals and icons from 3.0
@@ -198,6 +199,12 @@ def test_sources_compile_with_fmpy(folder, tmp_path, monkeypatch):
 
 
 # ----------------------------------------------------------------------------------------------------------- other platforms
+
+
+def test_default_bearing_takes_the_shipped_rivet_table(tmp_path):
+    """`riveted-bearing build` embeds the finite elements' table that `make build` embeds, not closed forms."""
+    assert rivet_table(bearing_case("6207"), tmp_path) == TRACKED_TABLE
+
 
 PLATFORMS = {"linux64": ".so", "win64": ".dll", "darwin64": ".dylib", "aarch64-darwin": ".dylib"}
 

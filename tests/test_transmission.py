@@ -177,7 +177,7 @@ def test_reaction_carries_the_load(result):
     late = result["time"] > 0.01
     for axis in "yz":
         mean, load = result[f"bearing.housing.F_{axis}"][late].mean(), result[f"shaft.shaft.F_{axis}"][-1]
-        assert mean == pytest.approx(load, abs=10.0)  # sampled each 0.1 ms, scatter 20 N / sqrt(400) = 1 N; observed 0.2 N
+        assert mean == pytest.approx(load, abs=10.0)  # sampled each 0.1 ms, scatter 20 N / sqrt(400) = 1 N; observed 0.1 to 0.3 N
 
 
 def test_speed_answers_to_the_friction_of_the_bearing(result):
