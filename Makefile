@@ -24,7 +24,7 @@ test: build lint  ## the fast tests
 test-slow: build  ## the tests that take minutes
 	$(PYTEST) -n 2 -m slow
 
-bench: build  ## measure what the README claims and write docs/performance.md, in minutes; hours with FORM=
+bench: build  ## measure what the README claims and write docs/performance.md, in minutes; in an hour with FORM=
 	for name in $(BENCHMARKS); do $(PYTHON) benchmarks/$$name.py $(FORM) || exit 1; done
 	$(PYTHON) benchmarks/page.py
 

@@ -500,7 +500,7 @@ def goals():
 def main():
     text = f"""# Performance
 
-Written by `make bench` (short form, minutes) or `make bench FORM=` (full form, hours): the programs in `benchmarks/` measure, `benchmarks/page.py` writes
+Written by `make bench` (short form, minutes) or `make bench FORM=` (full form, an hour): the programs in `benchmarks/` measure, `benchmarks/page.py` writes
 this page. Times are processor times of one core. They scatter by some percent on a machine that others use; counts of evaluations and steps do not.
 
 {goals()}
