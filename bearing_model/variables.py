@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from enum import IntEnum
 
 MODEL_IDENTIFIER = "RivetedBearing"
-MODEL_GUID = "{62feea90-9d6f-1b7f-4f17-7681307726fb}"
+MODEL_GUID = "{d4252dd5-323a-561d-521c-a89db5b50f43}"
 Z = 9
 
 
@@ -310,7 +310,7 @@ OUTPUTS = {
         Variable("rivet[k].F_head", 3770, "Real", "N", None, None, None, None, Z, "rivet", "Friction force at the heads", None),
         Variable("bearing.friction_torque", 4001, "Real", "N.m", None, None, None, None, 1, "ring", "Torque that the shaft must supply about X", None),
         Variable("bearing.power_loss", 4002, "Real", "W", None, None, None, None, 1, "energy", "Power dissipated in contacts, films, drag, joints and dampers", None),
-        Variable("bearing.energy_residual", 4003, "Real", "J", None, None, None, None, 1, "energy", "Energy now - energy at start - net work since: 0 but for the integration error", None),
+        Variable("bearing.energy_residual", 4003, "Real", "J", None, None, None, None, 1, "energy", "Energy now - energy at start - net work since: 0 but for the errors of the integration and of the work's own integral", None),
         Variable("bearing.contacts", 4004, "Real", "1", None, None, None, None, 1, "ball", "Number of closed contacts (races and pockets)", None),
         Variable("bearing.penetration", 4005, "Real", "m", "um", None, None, None, 1, "ball", "Largest elastic approach of all contacts", None),
         Variable("stat.time", 5001, "Real", "s", None, None, None, None, 1, "stat", "Time that the statistics cover", None),

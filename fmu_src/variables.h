@@ -9,7 +9,7 @@
 
 #define FMI2_FUNCTION_PREFIX RivetedBearing_  // of the functions of a source-code FMU
 #define MODEL_IDENTIFIER "RivetedBearing"
-#define MODEL_GUID "{62feea90-9d6f-1b7f-4f17-7681307726fb}"  // digest of the table
+#define MODEL_GUID "{d4252dd5-323a-561d-521c-a89db5b50f43}"  // digest of the table
 
 enum { Z = 9 };  // number of balls
 
@@ -198,7 +198,7 @@ typedef struct {
         number Z;  // [1] Number of balls (build-time constant)
         number friction_torque;  // [N.m] Torque that the shaft must supply about X
         number power_loss;  // [W] Power dissipated in contacts, films, drag, joints and dampers
-        number energy_residual;  // [J] Energy now - energy at start - net work since: 0 but for the integration error
+        number energy_residual;  // [J] Energy now - energy at start - net work since: 0 but for the errors of the integration and of the work's own integral
         number contacts;  // [1] Number of closed contacts (races and pockets)
         number penetration;  // [m] Largest elastic approach of all contacts
     } bearing;
