@@ -18,7 +18,7 @@ def rivet_loads(core, model, y):
     loads, V = core.ffi.new("RivetLoad[]", Z * len(y)), core.ffi.new("double[]", Z)
     for i, state in enumerate(y):
         model.rhs(0.0, state)
-        core.lib.rivets_load(model.pointer, model.work, loads + Z * i, V)
+        model.kernel("rivets_load")(model.pointer, model.work, loads + Z * i, V)
     return loads
 
 

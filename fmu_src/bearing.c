@@ -27,7 +27,7 @@ static void add_stress(Bearing *b, bool counts, double h)
     double V[Z], head[Z], mid[Z], head_most = 0.0, mid_most = 0.0;
     const bool fatigue = s->p.scene.stress == STRESS_FATIGUE && s->integrator.t >= s->p.start.settle;
     memcpy(&law, &s->p.fatigue, sizeof law);
-    rivets_load(&b->model, &b->w, load, V);
+    b->kernels.rivets_load(&b->model, &b->w, load, V);
     b->kernels.rivet_primary(&rivet_table, load, b->d.fit_eff, head, mid);
     for (int k = 0; k < Z; k++) {
         s->head_peak[k] = number_max(s->head_peak[k], head[k]);

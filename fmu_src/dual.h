@@ -18,16 +18,12 @@ typedef bool bits;
 
 // What is compiled for values and, here, for derivatives, beside the kernel files (isa.h).
 #define energy_total FOR_ISA(energy_total)
-#define load_path_rigid FOR_ISA(load_path_rigid)
-#define load_path_flexible FOR_ISA(load_path_flexible)
 #define rivet_rom_stress FOR_ISA(rivet_rom_stress)
 #define rivet_rom_fit_eff FOR_ISA(rivet_rom_fit_eff)
 #define joint_preload FOR_ISA(joint_preload)
 #define joint_fit FOR_ISA(joint_fit)
 #define joint_hole_stiffness FOR_ISA(joint_hole_stiffness)
 #define joint_prying FOR_ISA(joint_prying)
-#define rivets_load FOR_ISA(rivets_load)
-#define rivets_slip FOR_ISA(rivets_slip)
 #define outputs_evaluate FOR_ISA(outputs_evaluate)
 
 INLINE double number_value(number x)

@@ -13,7 +13,7 @@
 // A force on the -x half acts by mirror: N and M add, V subtracts.
 #pragma once
 
-#include "lanes.h"
+#include "isa.h"
 
 enum { PATH_N, PATH_V_R, PATH_V_T, PATH_M_R, PATH_M_T, PATH_LOADS };
 enum { PATH_WIDTH = Z + Z % 2 };  // Z, padded to an even number

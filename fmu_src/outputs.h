@@ -1,13 +1,14 @@
 // Outputs, group by group.
 #pragma once
 
-#include "model.h"
+#include "rivets.h"
 
 // Where an evaluation stands: the state y, y_dot and all other results of the right-hand side there.
 typedef struct {
     const Model *model;
     const number *y, *y_dot;
     const Work *w;
+    RivetsLoad *rivets_load;
 } Evaluation;
 
 // Fills one group of outputs that follow from an evaluation; false: this group is of another kind.

@@ -99,7 +99,7 @@ void outputs_fill(Bearing *b, OutputGroup group)
 {
     static void (*const fill[GROUP_COUNT])(Bearing *) = {[GROUP_CONSTANT] = fill_constant, [GROUP_PEAK] = fill_peak,     [GROUP_FATIGUE] = fill_fatigue,
                                                          [GROUP_STAT] = fill_stat,         [GROUP_SOLVER] = fill_solver, [GROUP_EVENT] = fill_event};
-    const Evaluation now = {&b->model, b->s.integrator.now.y, b->y_dot, &b->w};
+    const Evaluation now = {&b->model, b->s.integrator.now.y, b->y_dot, &b->w, b->kernels.rivets_load};
     if (!outputs_evaluate(&now, group, &b->out)) fill[group](b);
     if (group == GROUP_ENERGY) b->out.bearing.energy_residual -= b->s.energy_start;
 }

@@ -4,6 +4,7 @@
 #include "implicit.h"
 #include "model.h"
 #include "rivet_primary.h"
+#include "rivets.h"
 #include "vector_ops.h"
 #include "verlet.h"
 
@@ -24,6 +25,7 @@ typedef struct {
     const VectorOps *ops;
     VerletStep *verlet;
     ImplicitSolve *implicit;
+    RivetsLoad *rivets_load;
     RivetPrimary *rivet_primary;
 } Kernels;
 

@@ -12,12 +12,6 @@
 #include "load_path.h"
 #include "rotor.h"
 
-void rivets_slip(const Model *model, const Work *w, number slip[Z])
-{
-    const bool rigid = model->p->scene.cage == CAGE_MODEL_RIGID;
-    for (int k = 0; k < Z; k++) slip[k] = rigid ? 0.0 : number_sqrt(w->u_y[k] * w->u_y[k] + w->u_z[k] * w->u_z[k]);
-}
-
 static void two_half_load(const Model *model, const Work *w, RivetLoad load[Z], number V[Z])
 {
     for (int k = 0; k < Z; k++) {

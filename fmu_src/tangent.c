@@ -70,7 +70,7 @@ void tangent_outputs(const Model *model, const double *course, double t, double 
     drive_at(&inputs, number_dual(t, dt), &drive);
     numbers_join(N_STATES, y, dy, state);
     rhs(&dual, t, state, rate, &work);
-    const Evaluation at = {&dual, state, rate, &work};
+    const Evaluation at = {&dual, state, rate, &work, rivets_load};
     for (int group = 0; group < GROUP_COUNT; group++) outputs_evaluate(&at, group, &out);
     numbers_derivative(OUTPUT_NUMBERS, (const number *)&out, d_out);
 }

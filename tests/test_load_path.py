@@ -19,11 +19,11 @@ def doubles(ffi, values):
 def rigid(request, core):
     if request.param == "Python":
         return load_path.load_path_rigid
-    ffi, lib = core.ffi, core.lib
+    ffi = core.ffi
 
     def call(d_m, wrench, c, s):
         out = [ffi.new("double[]", Z) for _ in range(3)]
-        lib.load_path_rigid(d_m, doubles(ffi, wrench), doubles(ffi, c), doubles(ffi, s), *out)
+        core.model().kernel("load_path_rigid")(d_m, doubles(ffi, wrench), doubles(ffi, c), doubles(ffi, s), *out)
         return tuple(np.array(list(v)) for v in out)
 
     return call
@@ -33,11 +33,11 @@ def rigid(request, core):
 def flexible(request, core):
     if request.param == "Python":
         return load_path.load_path_flexible
-    ffi, lib = core.ffi, core.lib
+    ffi = core.ffi
 
     def call(matrix, side, *forces):
         loads = ffi.new("PathLoads *")
-        lib.load_path_flexible(doubles(ffi, path_columns(matrix)), side, *(doubles(ffi, f) for f in forces), loads)
+        core.model().kernel("load_path_flexible")(doubles(ffi, path_columns(matrix)), side, *(doubles(ffi, f) for f in forces), loads)
         return np.array([list(getattr(loads, name)) for name in ("N", "V_r", "V_t", "M_r", "M_t")]).T
 
     return call
@@ -99,10 +99,10 @@ def test_mirrored_halves(flexible):
 
 def test_twins(core):
     """C and Python agree to the order of their sums (observed 4e-16)."""
-    ffi, lib = core.ffi, core.lib
+    ffi = core.ffi
     rng = np.random.default_rng(4)
     matrix, forces = rng.normal(size=(Z, 5, 3)), rng.normal(size=(3, Z))
     loads = ffi.new("PathLoads *")
-    lib.load_path_flexible(doubles(ffi, path_columns(matrix)), -1, *(doubles(ffi, f) for f in forces), loads)
+    core.model().kernel("load_path_flexible")(doubles(ffi, path_columns(matrix)), -1, *(doubles(ffi, f) for f in forces), loads)
     got = np.array([list(getattr(loads, name)) for name in ("N", "V_r", "V_t", "M_r", "M_t")]).T
     np.testing.assert_allclose(got, load_path.load_path_flexible(matrix, -1, *forces), rtol=1e-13, atol=1e-13)
