@@ -129,7 +129,7 @@ static void fill_rivet(const Evaluation *at, Outputs *out)
     const bool rigid = at->model->p->scene.cage == CAGE_MODEL_RIGID;
     RivetLoad load[Z];
     number slip[Z], most = 0.0;
-    at->rivets_load(at->model, at->w, load, out->rivet.V);
+    at->loads(at->model, at->w, load, out->rivet.V);
     rivets_slip(at->model, at->w, slip);
     for (int k = 0; k < Z; k++) {
         out->rivet.N[k] = load[k].N;
@@ -152,7 +152,7 @@ static void fill_stress(const Evaluation *at, Outputs *out)
     RivetLoad load[Z];
     number V[Z], sigma[RIVET_CHANNELS] = {0.0};
     const bool off = at->model->p->scene.stress == STRESS_OFF;
-    if (!off) at->rivets_load(at->model, at->w, load, V);
+    if (!off) at->loads(at->model, at->w, load, V);
     for (int k = 0; k < Z; k++) {
         const unsigned flags = off ? 0 : rivet_rom_stress(&rivet_table, &load[k], at->model->d->fit_eff, sigma);
         out->rivet.sigma_head[k] = sigma[HEAD_P1];

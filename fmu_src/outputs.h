@@ -8,7 +8,7 @@ typedef struct {
     const Model *model;
     const number *y, *y_dot;
     const Work *w;
-    RivetsLoad *rivets_load;
+    RivetsLoad *loads;
 } Evaluation;
 
 // Fills one group of outputs that follow from an evaluation; false: this group is of another kind.

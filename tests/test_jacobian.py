@@ -259,7 +259,7 @@ class Course:
         lib.course_update(self.model.p, self.u, self.t, self.t, self.course)
         lib.test_drive_at(self.course, self.t + dt, self.model.drive)
         y_dot = rhs(self.model, y)
-        members = {"model": self.model.pointer, "y": array(y), "y_dot": array(y_dot), "w": self.model.work, "rivets_load": self.model.kernel("rivets_load")}
+        members = {"model": self.model.pointer, "y": array(y), "y_dot": array(y_dot), "w": self.model.work, "loads": self.model.kernel("rivets_load")}
         at = self.core.ffi.new("Evaluation *", members)
         for group in EVALUATED:
             assert lib.outputs_evaluate(at, getattr(lib, f"GROUP_{group}"), self.out)
