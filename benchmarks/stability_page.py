@@ -71,6 +71,7 @@ per simulated second, times 9/Z, over that of the working point in the same proc
 """
     head = ("family", "scenes", "finished", "discarded", "refused", "energy", "rejected", "run time")
     text += table(head, family_rows(records))
+    text += energy_text(records)
     text += "## What must not happen\n\n" + ("".join(f"- {line}\n" for line in bad) if bad else "Nothing of it happened.\n") + "\n"
     text += f"## The slowest admissible scenes\n\nThe limit is 20 times the working point; the worst has {slow[0]['ratio']:.1f}.\n\n"
     text += table(("scene", "run time", "evaluations per ms", "path"), [slow_row(r) for r in slow[:10]])
@@ -79,6 +80,19 @@ per simulated second, times 9/Z, over that of the working point in the same proc
     text += "## What was refused\n\n" + table(("scene", "reason"), [(r["name"], r["message"]) for r in records if r["outcome"] == "refused"])
     long = load("stability_long")
     path.write_text(text + (long_text(long) if long else ""))
+
+
+def energy_text(records):
+    """Where the balance does not close."""
+    open_ = sorted((r for r in records if r.get("balance", 0.0) > 0.01 and r["family"] != "tolerance"), key=lambda r: -r["residual"])
+    if not open_:
+        return ""
+    worst = ", ".join(f"{r['family']}: {r['name']} ({r['residual']:.1g} J)" for r in open_[:4])
+    return f"""The balance does not close to 1 % in {len(open_)} scenes, most of them at or near standstill, where all energies are microjoules.
+The largest residuals: {worst}.
+The work integral takes power at predicted velocities (`verlet.c`), the motion the corrected ones.
+
+"""
 
 
 def slow_row(r):

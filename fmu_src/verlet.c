@@ -48,6 +48,27 @@ static void correct_positions(const Model *model, double gamma, const double *de
     }
 }
 
+static double product(const double *x, const double *y, int row, int count)
+{
+    double sum = 0.0;
+    for (int i = row; i < row + count; i++) sum += x[i] * y[i];
+    return sum;
+}
+
+// delta.A delta: power that v^ loses beyond v_{n+1}, of one sign: against the film that holds a cage it would be most of the work.  What is linear in
+// delta = gamma (a_{n+1} - a_n) alternates and leaves h^2 a.A a, which is of the method's order.
+static double excess_power(const Model *model, const double *y, const double *f_n, const double *f, double gamma, const double *delta)
+{
+    const Parameters *p = model->p;
+    const double m = model->d->m, J = model->d->J, per_gamma = 1.0 / gamma;
+    double held[N_STATES], orbital = 0.0;
+    for (int i = VELOCITY; i < N_STATES; i++) held[i] = f[i] - f_n[i] - per_gamma * delta[i];  // A delta
+    for (int j = 0; j < Z; j++) orbital += y[Y_BALL_R + j] * y[Y_BALL_R + j] * delta[Y_BALL_OMEGA_M + j] * held[Y_BALL_OMEGA_M + j];
+    return m * (product(delta, held, Y_BALL_V_X, 2 * Z) + orbital) + J * product(delta, held, Y_BALL_OMEGA_X, 3 * Z) +
+           p->cage.m * product(delta, held, Y_CAGE_V_X, 6) + p->cage.J_t * product(delta, held, Y_CAGE_BETA_DOT, 4) +
+           p->cage.J_p * product(delta, held, Y_CAGE_S, 2);
+}
+
 double verlet_step(const Model *model, double t, double h, const double *weight, const VerletState *from, VerletState *to, Work *w)
 {
     const double gamma = 0.5 * h, *f = from->f;
@@ -57,6 +78,7 @@ double verlet_step(const Model *model, double t, double h, const double *weight,
     rhs(model, t + h, y, to->f, w);
     for (int i = VELOCITY; i < N_STATES; i++) delta[i] = gamma * (to->f[i] - f[i]);
     implicit_solve(model, w, gamma, delta);
+    to->f[Y_WORK] += excess_power(model, y, f, to->f, gamma, delta);
     correct_positions(model, gamma, delta, y);
     y[Y_WORK] += gamma * (f[Y_WORK] + to->f[Y_WORK]);
 

@@ -137,3 +137,18 @@ def test_energy_balance_of_a_run(core, cage, method, order_of_error, largest, re
     assert error < largest * 2.6
     slope, _ = order(core, [1e-4, 1e-5, 1e-6], parameters, 2e-3)
     assert slope == pytest.approx(order_of_error, abs=0.1)  # observed 0.94, 0.98; 0.63
+
+
+@pytest.mark.c_only
+@pytest.mark.parametrize("eta", [0.5e-3, 20e-3])
+def test_energy_balance_of_a_slow_run(core, eta):
+    """400 r/min for 10 ms at the default tolerance: films hold the cage by rates far above 1/h.  The balance closes to 1 % of the motion's
+    energy, 17 mJ, and what is lost (observed 0.7 %, 0.2 %); with the work of predicted velocities alone it is off by 3.8 % and 2.3 %."""
+    omega = 400.0 * np.pi / 30.0
+    bearing = Instance(core, {"oil.eta": eta}, {"shaft.omega": omega})
+    loss = 0.0
+    for k in range(100):
+        bearing.step((k + 1) * 1e-4)
+        loss += bearing.output("bearing.power_loss") * 1e-4
+    motion = 0.5 * 0.106 * (0.25 * omega * 0.0535) ** 2  # [J] of 0.106 kg of balls and cage
+    assert abs(bearing.output("bearing.energy_residual")) < 0.01 * (loss + motion)
