@@ -47,13 +47,15 @@ SHANKS = {"soft rivets": 0.8e-3, "stiff rivets": 2.4e-3}  # diameters [m]
 
 
 def fmu_of(bearing):
-    """The FMU of a bearing of the matrix, built on demand."""
-    if bearing == "6207":
-        return FMU
+    return FMU if bearing == "6207" else FOLDER / f"{bearing.replace(' ', '_')}.fmu"
+
+
+def build_fmu(bearing):
+    """Builds the FMU of a bearing of the matrix."""
     FOLDER.mkdir(parents=True, exist_ok=True)
-    name = bearing.replace(" ", "_")
     Z, changes = BEARINGS[bearing]
-    source, target = FOLDER / f"{name}.toml", FOLDER / f"{name}.fmu"
+    target = fmu_of(bearing)
+    source, name = target.with_suffix(".toml"), target.stem
     text = f'designation = "{bearing}"\nZ = {Z}\n[parameters]\n' + "".join(f"{key} = {value}\n" for key, value in changes.items())
     source.write_text(text)
     rivet = None
@@ -62,7 +64,6 @@ def fmu_of(bearing):
         rivet = FOLDER / f"{name}.json"
         table.write(closed_form.make_table(Geometry(shank_diameter=shank, head_diameter=1.75 * shank)), rivet)
     build(str(source), rivet, target)
-    return target
 
 
 # ---------------------------------------------------------------------------------------------------------------------- one scene
@@ -302,7 +303,7 @@ def main():
         scenes = [s for s in matrix() if chosen.family in (None, s.family) and (chosen.name or "") in s.name]
         for bearing in {scene.bearing for scene in scenes} - {"6207"}:
             say(f"building {bearing}")
-            fmu_of(bearing)
+            build_fmu(bearing)
         records = run_all(scenes, chosen.workers) if chosen.workers else run_share(scenes)
         for text in problems(records):
             say(text)
