@@ -5,7 +5,9 @@ if(EXISTS ${PROJECT_SOURCE_DIR}/benchmarks/solvers.c AND TARGET bearing_test AND
 
     # What solvers.c needs of SUNDIALS beyond the FMU's part.
     set(cvode_files cvode/cvode.c cvode/cvode_io.c cvode/cvode_ls.c cvode/cvode_nls.c cvode/cvode_proj.c nvector/serial/nvector_serial.c
-        sundials/sundials_dense.c sunlinsol/dense/sunlinsol_dense.c sunnonlinsol/fixedpoint/sunnonlinsol_fixedpoint.c)
+        sundials/sundials_dense.c sundials/sundials_linearsolver.c sundials/sundials_matrix.c sundials/sundials_nonlinearsolver.c
+        sundials/sundials_nvector_senswrapper.c sunlinsol/dense/sunlinsol_dense.c sunmatrix/band/sunmatrix_band.c sunmatrix/dense/sunmatrix_dense.c
+        sunnonlinsol/fixedpoint/sunnonlinsol_fixedpoint.c sunnonlinsol/newton/sunnonlinsol_newton.c)
     list(TRANSFORM cvode_files PREPEND ${sundials_source}/src/)
     add_library(sundials_cvode OBJECT EXCLUDE_FROM_ALL ${cvode_files})
     target_include_directories(sundials_cvode SYSTEM PRIVATE ${sundials_folders} ${sundials_source}/src/cvode)

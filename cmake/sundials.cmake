@@ -161,15 +161,11 @@ endfunction()
 
 # What the integrator uses of it, and what these files need: an undefined symbol at the link names the file to add.
 set(sundials_files
-    arkode/arkode.c arkode/arkode_adapt.c arkode/arkode_arkstep.c arkode/arkode_arkstep_io.c arkode/arkode_arkstep_nls.c arkode/arkode_butcher.c
-    arkode/arkode_butcher_dirk.c arkode/arkode_butcher_erk.c arkode/arkode_erkstep.c arkode/arkode_erkstep_io.c arkode/arkode_interp.c arkode/arkode_io.c
-    arkode/arkode_ls.c arkode/arkode_mri_tables.c arkode/arkode_mristep.c arkode/arkode_mristep_io.c arkode/arkode_mristep_nls.c arkode/arkode_relaxation.c
-    arkode/arkode_root.c arkode/arkode_user_controller.c
+    arkode/arkode.c arkode/arkode_adapt.c arkode/arkode_butcher.c arkode/arkode_butcher_erk.c arkode/arkode_erkstep.c arkode/arkode_erkstep_io.c
+    arkode/arkode_interp.c arkode/arkode_io.c arkode/arkode_relaxation.c arkode/arkode_root.c arkode/arkode_user_controller.c
     sunadaptcontroller/imexgus/sunadaptcontroller_imexgus.c sunadaptcontroller/soderlind/sunadaptcontroller_soderlind.c
-    sunmatrix/band/sunmatrix_band.c sunmatrix/dense/sunmatrix_dense.c sunnonlinsol/newton/sunnonlinsol_newton.c
-    sundials/sundials_adaptcontroller.c sundials/sundials_context.c sundials/sundials_errors.c sundials/sundials_hashmap.c sundials/sundials_linearsolver.c
-    sundials/sundials_logger.c sundials/sundials_math.c sundials/sundials_matrix.c sundials/sundials_nonlinearsolver.c sundials/sundials_nvector.c
-    sundials/sundials_nvector_senswrapper.c)
+    sundials/sundials_adaptcontroller.c sundials/sundials_context.c sundials/sundials_errors.c sundials/sundials_hashmap.c sundials/sundials_logger.c
+    sundials/sundials_math.c sundials/sundials_nvector.c)
 
 # Target sundials: its objects, or the installed libraries.  sundials_objects: what else a binary links.
 find_sundials_source(sundials_source)
