@@ -56,7 +56,7 @@ class Geometry:
         for field in fields(self):
             value = getattr(self, field.name)
             if isinstance(value, bool) or not isinstance(value, (int, float)) or not math.isfinite(value) or value <= 0.0:
-                raise ValueError(f"geometry: {field.name} = {value!r}: a positive number is needed")
+                raise ValueError(f"geometry: {field.name} = {value!r}: a positive number is needed, in SI units without their symbol")
         for name in ("nu_rivet", "nu_flange"):
             if getattr(self, name) >= 0.5:
                 raise ValueError(f"geometry: {name} = {getattr(self, name)!r}: Poisson's ratio must be below 0.5")

@@ -99,9 +99,11 @@ def test_a_file_is_written_whole_or_not_at_all(tmp_path):
         temporary.write_text("half")
         raise OSError("disk full")
 
-    with pytest.raises(OSError, match="disk full"):
+    with pytest.raises(UserError, match="x.csv: cannot be written: disk full"):
         write_atomically(path, fail)
     assert path.read_text() == "old" and list(path.parent.iterdir()) == [path]
+    with pytest.raises(UserError, match="x.csv: no folder to write to: "):
+        write_atomically(path / "y.csv", fail)
 
 
 def test_mat_is_nested_as_the_names_are(result, tmp_path):
@@ -213,6 +215,9 @@ def test_run_in_a_pipe(tmp_path):
         (["run", "demo", "--format", "xls"], ['"xls"', "parquet, csv, mat"]),
         (["run", "demo", "--format", "csv", "--out", "a.mat"], ["a.mat", "csv"]),
         (["run", "demo", "--t-end", "1 m"], ["t_end = '1 m'", "s, ms, us"]),
+        (["run", "demo", "--set", "bearing.f_i=0.4"], ["bearing.f_i = 0.4: 0.4 is out of range, allowed: 0.5005 ... 0.6\n"]),
+        (["run", "demo", "--out", "bad.json"], ["bad.json: no folder to write to", "File exists"]),
+        (["run", "demo", "--t-end", "1 ms", "--step", "2 ms"], ["demo.toml with the command line", "step = 0.002", "t_end = 0.001 s"]),
         (["info", "6208"], ['"6208"', '"6207"']),
         (["info", "bad.toml"], ["bad.toml", "Z = 3", "5 to 32"]),
         (["build", "--bearing", "bad.toml"], ["bad.toml", "Z = 3", "5 to 32"]),
@@ -228,7 +233,7 @@ def test_run_in_a_pipe(tmp_path):
         (["rivet", "bad.json"], ["bad.json", "not a rivet table"]),
         (["rivet", "negative.toml"], ["negative.toml", "shank_diameter = -0.0015"]),
         (["build", "--bearing", "typo.toml"], ["typo.toml", '"bearing.Dm"', 'did you mean "bearing.D']),
-        (["info", "far.toml"], ["far.toml", "bearing.f_i = 0.4", "0.5005 ... 0.6"]),
+        (["info", "far.toml"], ["far.toml", "bearing.f_i = 0.4", "0.5005 ... 0.6, or a text"]),
     ],
     ids=" ".join,
 )

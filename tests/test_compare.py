@@ -86,6 +86,14 @@ def test_names():
     ]  # fmt: skip
 
 
+def test_the_tolerance_is_the_scenes(model):
+    """A tolerance of the simulation takes the place of solver.tol, as in the FMU; each is that of the first of three runs."""
+    settings = {"parameters": {"solver.tol": 3e-4}}
+    assert compare(model, load_scene("demo", model, ("test", settings)), short=1e-5, long=0.0).tolerances[0] == 3e-4
+    settings["simulation"] = {"tolerance": 2e-3}
+    assert compare(model, load_scene("demo", model, ("test", settings)), short=1e-5, long=0.0).tolerances[0] == 2e-3
+
+
 def test_refusals(model, monkeypatch):
     """What cannot be compared is said by name."""
     scene = load_scene("demo", model)

@@ -160,7 +160,7 @@ BAD_SCENES = [
     ("[parameters]\nring.tilt_mode = 'suported'", ["parameters.ring.tilt_mode = 'suported'", "prescribed, supported, free"]),
     ("[parameters]\nring.tilt_mode = 2", ["parameters.ring.tilt_mode = 2", "prescribed, supported, free"]),
     ("[parameters]\nstart.seed = 1.5", ["parameters.start.seed = 1.5", "integer"]),
-    ("[parameters]\nstart.seed = -1", ["parameters.start.seed = -1", "0 ... 2.14748e+09"]),
+    ("[parameters]\nstart.seed = -1", ["parameters.start.seed = -1", "-1 is out of range, allowed: 0 ... 2.14748e+09"]),
     ("[inputs]\nshaft.speed = 1", ['unknown input "shaft.speed"', "shaft."]),
     ("[inputs]\nshaft.omega = '3600 Hz'", ["inputs.shaft.omega = '3600 Hz'", "rad/s, rev/min"]),
     ("[inputs]\nshaft.tilt_z = '5 deg'", ["inputs.shaft.tilt_z = '5 deg'", "2.00535 deg"]),
@@ -174,12 +174,16 @@ BAD_SCENES = [
     ("[inputs]\nshaft.F_y = { file = 'loads.csv', column = 'Fq' }", ["loads.csv", '"Fq"', "time, Fr, word"]),
     ("[inputs]\nshaft.F_y = { file = 'loads.csv', column = 'word' }", ["loads.csv", '"word"', "no numbers"]),
     ("[inputs]\nshaft.F_y = { file = 'loads.csv', column = 'Fr', unit = 'MN' }", ['"MN"', "N, kN"]),
+    ("[inputs]\nshaft.F_y = { file = 'loads.csv', column = 'Fr', unit = 3 }", ["inputs.shaft.F_y", "unit = 3: not a text"]),
+    ("[inputs]\nshaft.F_y = { file = 3, column = 'Fr' }", ["inputs.shaft.F_y", "file = 3: not a text"]),
+    ("[inputs]\nshaft.F_y = { file = 'picture.png', column = 'Fr' }", ["picture.png", "not a CSV table"]),
 ]
 
 
 @pytest.mark.parametrize(("text", "fragments"), BAD_SCENES, ids=[text.replace("\n", " ") for text, _ in BAD_SCENES])
 def test_bad_scenes_name_file_key_value_and_what_is_allowed(model, scene_file, tmp_path, text, fragments):
     (tmp_path / "loads.csv").write_text("time,Fr,word\n0,1,a\n1,2,b\n")
+    (tmp_path / "picture.png").write_bytes(b"\x89PNG\r\n\x1a\n")
     with pytest.raises(UserError) as error:
         load_scene(scene_file(text), model)
     for fragment in ["mine.toml", *fragments]:

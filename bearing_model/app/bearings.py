@@ -21,7 +21,7 @@ from bearing_model.quasi_static import Bearing, Load, quasi_static
 
 from .errors import UserError, unknown
 from .scene import load_scene, positive, read_toml, refusal, shipped_scenes
-from .units import MULTIPLES, to_si
+from .units import MULTIPLES, suffix, to_si
 
 SHIPPED = files("bearing_model") / "data" / "bearings"
 KEYS = ("designation", "description", "Z", "catalogue", "parameters", "inputs")
@@ -131,7 +131,7 @@ def start_values(path, section, tree, known):
             raise refusal(path, f"{section}.{name}", value, problem) from None
         low, high = (-math.inf if variable.min is None else variable.min), (math.inf if variable.max is None else variable.max)
         if not items and not (is_number(value) and low <= value <= high):
-            raise refusal(path, f"{section}.{name}", value, f"not a number in {low:g} ... {high:g} {variable.unit}, or a text with its unit")
+            raise refusal(path, f"{section}.{name}", value, f"not a number in {low:g} ... {high:g}{suffix(variable.unit)}, or a text with its unit")
         yield name, value
 
 

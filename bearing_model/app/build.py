@@ -25,7 +25,7 @@ from rivet_model.geometry import Geometry
 from .bearings import bearing_case
 from .errors import UserError, unknown
 from .fmu import FMU_NAME, PACKAGE, Instance, Model
-from .results import to_toml, write_atomically
+from .results import make_folder, to_toml, write_atomically
 from .rivet import TRACKED_TABLE, read_geometry, read_table, table_of
 from .scene import Scene
 
@@ -48,6 +48,7 @@ def build(bearing=None, rivet=None, out=None, say=lambda text, share=None: None,
     out = Path(out) if out else default_out(sources, bearing or rivet)
     case, folder = bearing_case(bearing or "6207"), build_folder(sources, bearing)
     cmake = find_tools()
+    make_folder(out.parent)
     rivet = given_table(rivet, case, folder, coarse, say) if rivet else rivet_table(case, folder)
     options = [f"-DRIVET_TABLE={rivet}", f"-DPython_EXECUTABLE={sys.executable}"]
     if bearing:

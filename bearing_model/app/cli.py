@@ -12,7 +12,7 @@ from rich.table import Column, Table
 from rich.text import Text
 
 from .errors import UserError, unknown
-from .results import FORMATS, write_result
+from .results import FORMATS, make_folder, write_result
 from .scene import load_scene, shipped_scenes
 
 BAD_INPUT, STOPPED = 2, 3  # exit codes
@@ -93,6 +93,7 @@ def run(
     target = result_path(scene, out, format)
     model = Model(fmu)
     plan = load_scene(scene, model, ("the command line", changes(model, set or [], seed, t_end, step)))
+    make_folder(target.parent)
     with simulation_progress(plan) as progress:
         result = simulate(model, plan, progress)
     print_summary(result)
@@ -237,6 +238,7 @@ def sweep(
 
     plan = load_sweep(study, Model(fmu))
     folder = out or Path("results") / plan.name
+    make_folder(folder)
     with cluster(scheduler, workers) as client, sweep_progress() as progress:
         rows = run_sweep(plan, folder, client, functools.partial(progress, plan.name))
     failures = rows["message"][rows["status"] != "done"]
@@ -265,6 +267,7 @@ def study(
     from .study import run_study
     from .sweep import cluster
 
+    make_folder(report or out)
     with cluster(scheduler, workers) as client, sweep_progress() as progress:
         data = run_study(Model(fmu), out, client, names, seeds, progress)
     path = write_paper(data, report or out)
@@ -314,6 +317,7 @@ def compare(
 
     model = Model(fmu)
     plan = load_scene(scene, model, ("the command line", changes(model, set or [], None, None, None)))
+    make_folder(out)
     horizons = {name: seconds(f"--{name}", number_or_text(text)) for name, text in (("short", short), ("long", long))}
     with Progress(SpinnerColumn(), TextColumn("{task.description}"), BarColumn(bar_width=30), console=messages, disable=not messages.is_terminal) as bar:
         task = bar.add_task("FMU, short horizon", total=1.0)
@@ -370,6 +374,7 @@ def rivet(
     """Stress of the rivet over preload, fit and transverse load; pictures of curves, mesh, deformed section and stress."""
     from .rivet import curve_tables, rivet_curves, write_pictures
 
+    make_folder(out)
     with messages.status("finite elements"):
         title, curves, joint = rivet_curves(source)
         paths = write_pictures(out, title, curves, joint)

@@ -96,7 +96,7 @@ def compare(model, scene, short=1e-3, long=0.1, seeds=SEEDS, method="DOP853", pr
     check_same_bearing(model)
     if seeds < 2:
         raise UserError(f"seeds = {seeds}: at least 2 are needed for a scatter")
-    tolerance = scene.tolerance or model.default(model.parameters["solver.tol"])
+    tolerance = scene.tolerance or scene.parameters.get("solver.tol") or model.default(model.parameters["solver.tol"])
     tolerances = tuple(tolerance * finer for finer in FINER)
     names = [name for name in model.outputs if family(name) in variables.OUTPUTS]
     near = replace(scene, t_end=short, step=short / POINTS, output_interval=None, outputs=tuple(names))

@@ -13,7 +13,7 @@ from fmpy.fmi2 import FMU2Slave, defaultCallbacks, fmi2CallbackFunctions, fmi2Ca
 from fmpy.logging import addLoggerProxy
 
 from .errors import UserError
-from .units import to_si, unit_table
+from .units import suffix, to_si, unit_table
 
 FMU_NAME = "RivetedBearing.fmu"
 PACKAGE = Path(__file__).resolve().parents[1]
@@ -87,9 +87,8 @@ class Model:
         high = np.inf if variable.max is None else float(variable.max)
         if not low <= number <= high:
             symbol, (factor, offset) = self.display(variable)
-            raise UserError(
-                f"{factor * number + offset:.6g} {symbol} is out of range, allowed: {factor * low + offset:.6g} ... {factor * high + offset:.6g} {symbol}"
-            )
+            value, low, high = (f"{factor * limit + offset:.6g}" for limit in (number, low, high))
+            raise UserError(f"{value}{suffix(symbol)} is out of range, allowed: {low} ... {high}{suffix(symbol)}")
 
     def display(self, variable):
         """Symbol, (factor, offset) of the unit in which people read a variable."""

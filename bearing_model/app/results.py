@@ -71,13 +71,26 @@ def format_of(path):
     return kind
 
 
+def make_folder(folder):
+    """Make a folder unless it is there; UserError if files cannot be written to it."""
+    folder = Path(folder)
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError as problem:
+        raise UserError(f"{folder}: no folder to write to: {problem.strerror}") from None
+    if not os.access(folder, os.W_OK | os.X_OK):
+        raise UserError(f"{folder}: no permission to write to this folder")
+
+
 def write_atomically(path, write):
-    """Let write(temporary path) make a file beside `path`, then put it in its place: never half a file."""
-    path.parent.mkdir(parents=True, exist_ok=True)
+    """Let write(temporary path) make a file beside `path`, then put it in its place: never half a file.  UserError if folder or disk refuse."""
+    make_folder(path.parent)
     temporary = path.with_name(f".{path.stem}.{os.getpid()}{path.suffix}")
     try:
         write(temporary)
         os.replace(temporary, path)
+    except OSError as problem:
+        raise UserError(f"{path}: cannot be written: {problem.strerror or problem}") from None
     finally:
         temporary.unlink(missing_ok=True)
 

@@ -97,7 +97,7 @@ def load_scene(source, model, *changes):
     scene = Scene(name=Path(path.name).stem, parameters={"scene.statistics": "on"})
     for where, document in [(str(path), read_toml(path)), *changes]:
         scene = apply(scene, where, document, model, Path(str(path)).parent)
-    check_times(scene, str(path))
+    check_times(scene, " with ".join([str(path), *(where for where, _ in changes)]))
     return replace(scene, outputs=scene.outputs or default_outputs(model))
 
 
@@ -258,10 +258,12 @@ def from_column(value, scales, folder):
         raise UserError(f"{path}: no such file")
     from pyarrow import ArrowInvalid, csv
 
-    text = "\n".join(line for line in path.read_text(encoding="utf-8").splitlines() if not line.startswith("#"))
     try:
+        text = "\n".join(line for line in path.read_text(encoding="utf-8").splitlines() if not line.startswith("#"))
         table = csv.read_csv(io.BytesIO(text.encode()))
-    except ArrowInvalid as problem:
+    except OSError as problem:
+        raise UserError(f"{path}: {problem.strerror}") from None
+    except (ArrowInvalid, UnicodeDecodeError) as problem:
         raise UserError(f"{path}: not a CSV table: {problem}") from None
     names = [name.strip() for name in table.column_names]
 
@@ -278,10 +280,12 @@ def from_column(value, scales, folder):
 
 
 def check_keys(value, allowed, needed):
-    """Keys of an input's table: none unknown, none missing."""
-    for key in value:
+    """Keys of an input's table: none unknown, none missing, texts where only t and value hold numbers."""
+    for key, entry in value.items():
         if key not in allowed:
             raise UserError(f'unknown key "{key}"; allowed: {shortlist(allowed)}')
+        if key not in ("t", "value") and not isinstance(entry, str):
+            raise UserError(f"{key} = {reprlib.repr(entry)}: not a text")
     for key in needed:
         if key not in value:
             raise UserError(f'"{key}" is missing; allowed: {shortlist(allowed)}')

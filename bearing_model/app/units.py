@@ -24,6 +24,11 @@ def unit_table(unit_definitions):
     }
 
 
+def suffix(symbol):
+    """A unit as it stands behind a number: nothing for 1."""
+    return "" if symbol in ("1", "") else f" {symbol}"
+
+
 def scale(symbol, scales):
     """Factor and offset of a unit's symbol; UserError if the variable has no such unit."""
     symbol = symbol.replace("·", ".").replace("*", ".") or "1"

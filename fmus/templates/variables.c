@@ -60,7 +60,9 @@ int variable_allows(const Variable *variable, int element, double value, char *m
     if (isfinite(value) && value >= variable->min && value <= variable->max) return 1;
     char name[64];
     variable_element_name(variable, element, name, sizeof name);
-    snprintf(message, size, "%s = %.10g %s is not allowed: it must lie in [%.10g, %.10g]", name, value, variable->unit, variable->min, variable->max);
+    const int bare = strcmp(variable->unit, "1") == 0;
+    snprintf(message, size, "%s = %.10g%s%s is not allowed: it must lie in [%.10g, %.10g]", name, value, bare ? "" : " ", bare ? "" : variable->unit,
+             variable->min, variable->max);
     return 0;
 }
 
