@@ -4,7 +4,8 @@ import copy
 import math
 from dataclasses import dataclass, field
 
-FATIGUE_NONE, FATIGUE_GOODMAN, FATIGUE_SWT, FATIGUE_MORROW = 1, 2, 3, 4
+from bearing_model.variables import MeanStress
+
 FATIGUE_DEPTH = 128
 
 
@@ -18,16 +19,16 @@ class FatigueLaw:
     k_2: float = 15.0
     sigma_m: float = 785e6
     sigma_f: float = 1180e6
-    mean_stress: int = FATIGUE_GOODMAN
+    mean_stress: int = MeanStress.GOODMAN
 
 
 def fully_reversed(law, sigma_a, sigma_mean):
     """Amplitude at zero mean of equal damage [Pa]; infinite where the mean alone breaks the part."""
-    if law.mean_stress == FATIGUE_SWT:
+    if law.mean_stress == MeanStress.SWT:
         return math.sqrt(max(sigma_mean + sigma_a, 0.0) * sigma_a)
-    if law.mean_stress == FATIGUE_GOODMAN:
+    if law.mean_stress == MeanStress.GOODMAN:
         room = 1.0 - max(sigma_mean, 0.0) / law.sigma_m
-    elif law.mean_stress == FATIGUE_MORROW:
+    elif law.mean_stress == MeanStress.MORROW:
         room = 1.0 - sigma_mean / law.sigma_f
     else:
         room = 1.0
@@ -48,7 +49,7 @@ def fatigue_cycle(law, range_, mean):
 class FatigueChannel:
     """History of one stress channel.
 
-    >>> law, channel = FatigueLaw(k_2=8.0, sigma_D=1.0, N_D=1.0, mean_stress=FATIGUE_NONE), FatigueChannel()
+    >>> law, channel = FatigueLaw(k_2=8.0, sigma_D=1.0, N_D=1.0, mean_stress=MeanStress.NONE), FatigueChannel()
     >>> for sigma in (0.0, 1.0, 0.0): channel.push(law, sigma)
     >>> channel.damage(law) == 0.5**8
     True

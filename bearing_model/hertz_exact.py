@@ -1,4 +1,4 @@
-"""Elliptic Hertz contact by complete elliptic integrals, apart from the fitted or tabulated constants of the dynamics.
+"""Elliptic Hertz contact for the quasi-static model, written apart from the dynamics' own (hertz.py) so that each checks the other.
 
     F(rho) = sum of the curvature differences / sum of the curvatures,   kappa = a/b >= 1,   m = 1 - 1/kappa^2
     F(rho) = ((kappa^2 + 1) E(m) - 2 F(m)) / ((kappa^2 - 1) E(m))        -> kappa

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from enum import IntEnum
 
 MODEL_IDENTIFIER = "RivetedBearing"
-MODEL_GUID = "{d4252dd5-323a-561d-521c-a89db5b50f43}"
+MODEL_GUID = "{c2072c49-b78d-2593-b9e7-8e5075ff8beb}"
 Z = 9
 
 
@@ -200,7 +200,7 @@ PARAMETERS = {
         Variable("scene.lubrication", 1803, "Lubrication", "1", None, 1, None, None, 1, None, "Full film or mixed lubrication", "default"),
         Variable("scene.stress", 1804, "Stress", "1", None, 3, None, None, 1, None, "When the rivet stress is computed", "default"),
         Variable("scene.statistics", 1805, "Switch", "1", None, 1, None, None, 1, None, "Running mean, RMS and histogram behind stat.*", "default"),
-        Variable("solver.tol", 1901, "Real", "1", None, 0.001, 1e-10, 0.1, 1, None, "Tolerance: local error / scale of each state class; a tolerance of fmi2SetupExperiment takes its place", "measured: forces and stress within 1 % of the limit, every scene"),
+        Variable("solver.tol", 1901, "Real", "1", None, 0.001, 1e-10, 0.1, 1, None, "Tolerance: local error / scale of each state class; a tolerance of fmi2SetupExperiment takes its place", "measured: forces and stress within 1 % of the limit, the mean stress of one jam within 2 %"),
         Variable("solver.method", 1902, "Method", "1", None, 1, None, None, 1, None, "Integration method", "measured: fewest processor seconds at every tolerance down to 2e-5"),
         Variable("solver.max_steps", 1903, "Integer", "1", None, 10000000, 10, 2000000000, 1, None, "Largest number of internal steps in one communication step", "work limit instead of a hung host"),
         Variable("start.seed", 1951, "Integer", "1", None, 1, 0, 2147483647, 1, None, "Seed of the balls' initial spacing (splitmix64)", "default"),

@@ -69,8 +69,8 @@ def main():
 
 HEAD_OF_PAGE = """# Validation
 
-What is known about the model from outside: each number beside its source, what is reached, and the difference. Written by `python benchmarks/validation.py`
-(also part of `make bench`); commit {commit}, {processor}, Python {python}. *Core* is the C code in the FMU, *reference* the Python twin `bearing_model`,
+What is known about the model from outside: each number beside its source, what is reached, and the difference. Written by `python benchmarks/validation.py`;
+commit {commit}, {processor}, Python {python}. *Core* is the C code in the FMU, *reference* the Python twin `bearing_model`,
 written apart from it; closed forms and books stand above both.
 """
 

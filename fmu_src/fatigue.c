@@ -1,21 +1,25 @@
 // Streaming rainflow and Miner's sum: see fatigue.h.
 #include "fatigue.h"
 
+#include "variables.h"
+
 #include <math.h>
 #include <string.h>
+
+_Static_assert(sizeof(FatigueLaw) == sizeof(((Parameters *)0)->fatigue), "FatigueLaw is p->fatigue, member by member");
 
 // Amplitude at zero mean of equal damage; infinite where the mean alone breaks the part.
 static double fully_reversed(const FatigueLaw *law, double sigma_a, double sigma_mean)
 {
     double room;
     switch (law->mean_stress) {
-    case FATIGUE_GOODMAN:
+    case MEAN_STRESS_GOODMAN:
         room = 1.0 - fmax(sigma_mean, 0.0) / law->sigma_m;
         return room > 0.0 ? sigma_a / room : INFINITY;
-    case FATIGUE_MORROW:
+    case MEAN_STRESS_MORROW:
         room = 1.0 - sigma_mean / law->sigma_f;
         return room > 0.0 ? sigma_a / room : INFINITY;
-    case FATIGUE_SWT:
+    case MEAN_STRESS_SWT:
         return sqrt(fmax(sigma_mean + sigma_a, 0.0) * sigma_a);
     default:
         return sigma_a;

@@ -13,12 +13,10 @@
 // A cycle whose mean reaches sigma_m or sigma_f, or whose life is below one cycle, uses up the part: damage 1.
 #pragma once
 
-enum { FATIGUE_NONE = 1, FATIGUE_GOODMAN, FATIGUE_SWT, FATIGUE_MORROW };  // values of the enumeration MeanStress
-
 // Material: p->fatigue of the variable table, in its order [Pa, 1].
 typedef struct {
     double sigma_D, N_D, k_1, k_2, sigma_m, sigma_f;
-    int mean_stress;
+    int mean_stress;  // MEAN_STRESS_* of variables.h
 } FatigueLaw;
 
 // The residue's ranges shrink, so its length grows with the logarithm of the signal's resolution: 26 points seen on 2e5 random samples.

@@ -1,7 +1,7 @@
 // Two one-step methods on the same state, with the same control of the error:
 //
 //   verlet     velocity Verlet, linearly implicit in what is stiff (verlet.c): second order, one evaluation a step, the default
-//   explicit   ARKODE's classical Runge-Kutta 4(3); its last stage is the next step's first.  For tolerances below about 1e-5, and as a check
+//   explicit   ARKODE's classical Runge-Kutta 4(3); its last stage is the next step's first.  For tolerances below about 2e-5, and as a check
 //
 // Each advance is a pure function of IntegratorState: rollback and a fresh instance continue bit for bit (ARKODE is reset with the remembered
 // step size).  Error weights are absolute, 1/(tolerance scale): angles are unbounded.
@@ -83,7 +83,7 @@ static void vector_linear_sum(sunrealtype a, N_Vector x, sunrealtype b, N_Vector
 }
 static SUNErrCode vector_linear_combination(int n, sunrealtype *c, N_Vector *x, N_Vector z)
 {
-    enum { MOST = 16 };  // more than twice the stages
+    enum { MOST = 8 };  // more than the stages and the state
     double *values[MOST];
     if (n > MOST) return SUN_ERR_ARG_OUTOFRANGE;
     for (int i = 0; i < n; i++) values[i] = data(x[i]);

@@ -7,7 +7,7 @@
 //     N_k = F_x/Z + 2 (M_y r_z,k - M_z r_y,k)/(Z R^2),     V_k = (F_y, F_z)/Z + M_x e_t,k/(Z R),    R = d_m/2.
 //
 // Flexible share: a pocket force bends the half between its rivets, which pries at the joints although the rigid halves carry nothing there.
-// Static reduction by finite elements (rivet_model/load_cases.py): [N, V_r, V_t, M_r, M_t] of rivet k per unit pocket force along (x, r, t)
+// Static reduction by finite elements (rivet_model/cage_half.py): [N, V_r, V_t, M_r, M_t] of rivet k per unit pocket force along (x, r, t)
 // on the +x half at pocket j is the matrix of relative index (k - j) mod Z: circulant, as all pockets are alike.  The ball touches the wall
 // that it pushes: the matrix holds F_t > 0, and F_t < 0 is its mirror image about the pocket (rivet -1 - i for i; V_t and M_r change sign).
 // A force on the -x half acts by mirror: N and M add, V subtracts.

@@ -72,8 +72,7 @@ typedef struct {
     number beta, gamma;  // direction cosines of the shaft's tilt
 } Drive;
 
-// ---- a rigid body with an axis: inner ring or cage half; written by rotor_axis, rotor_body_axes
-// ---------------------------------------------------------------
+// ---- a rigid body with an axis: inner ring or cage half; written by rotor_axis, rotor_body_axes --------------------------------------------------
 typedef struct {
     number x[3], v[3];      // geometric centre
     number a[3], a_dot[3];  // axis: unit vector (a_x, gamma, -beta) and its rate

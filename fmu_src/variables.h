@@ -9,7 +9,7 @@
 
 #define FMI2_FUNCTION_PREFIX RivetedBearing_  // of the functions of a source-code FMU
 #define MODEL_IDENTIFIER "RivetedBearing"
-#define MODEL_GUID "{d4252dd5-323a-561d-521c-a89db5b50f43}"  // digest of the table
+#define MODEL_GUID "{c2072c49-b78d-2593-b9e7-8e5075ff8beb}"  // digest of the table
 
 enum { Z = 9 };  // number of balls
 

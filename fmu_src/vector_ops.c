@@ -32,9 +32,6 @@ static void linear_combination(int n, const double *c, double *const *x, double 
         CASE(4);
         CASE(5);
         CASE(6);
-        CASE(7);
-        CASE(8);
-        CASE(9);
     default:
         combine(n, c, x, z);
     }

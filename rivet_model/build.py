@@ -18,7 +18,6 @@ from .geometry import Geometry
 from .load_cases import COARSE, SHIPPED, TRUTH, Joint
 from .section_mesh import Fineness
 
-STAGES = ("elements", "contacts", "interference", "load path", "hold-out")
 RULE = "direction of M: linear in chi between the sheets, (2 chi)^1.5 in the middle below 1/2"
 
 

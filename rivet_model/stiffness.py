@@ -35,12 +35,6 @@ def stack_stiffness(joint):
     return REFERENCE / joint.overclosure(REFERENCE, -90e-6)
 
 
-def clamp_force(joint, P, N):
-    """Force in the split plane [N] under the tension N."""
-    force = joint.solve(P, N, 0.0, 0.0, 0.0, -90e-6)[0]
-    return force[joint.slices["PP"]].sum()
-
-
 def head_friction(joint, P=REFERENCE, F=2.0):
     """Tangential stiffness of both sticking heads in series [N/m]; growth of the fillet's stress per newton of friction [1/m2]: p1, von Mises.
 

@@ -8,14 +8,15 @@ import pytest
 import rainflow
 
 from bearing_model import fatigue
+from bearing_model.variables import MeanStress
 
 ASTM = [-2.0, 1.0, -3.0, 5.0, -1.0, 3.0, -4.0, 4.0, -2.0]  # ASTM E1049-85, figure 6
 LAWS = {
-    "none": fatigue.FatigueLaw(mean_stress=fatigue.FATIGUE_NONE),
-    "goodman": fatigue.FatigueLaw(mean_stress=fatigue.FATIGUE_GOODMAN),
-    "swt": fatigue.FatigueLaw(mean_stress=fatigue.FATIGUE_SWT),
-    "morrow": fatigue.FatigueLaw(mean_stress=fatigue.FATIGUE_MORROW),
-    "linear": fatigue.FatigueLaw(sigma_D=1.0, N_D=1e9, k_1=1.0, k_2=1.0, mean_stress=fatigue.FATIGUE_NONE),
+    "none": fatigue.FatigueLaw(mean_stress=MeanStress.NONE),
+    "goodman": fatigue.FatigueLaw(mean_stress=MeanStress.GOODMAN),
+    "swt": fatigue.FatigueLaw(mean_stress=MeanStress.SWT),
+    "morrow": fatigue.FatigueLaw(mean_stress=MeanStress.MORROW),
+    "linear": fatigue.FatigueLaw(sigma_D=1.0, N_D=1e9, k_1=1.0, k_2=1.0, mean_stress=MeanStress.NONE),
 }
 
 

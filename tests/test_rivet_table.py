@@ -13,7 +13,6 @@ from bearing_model.variables import Z
 from rivet_model import closed_form, embed, geometry, splines, table
 
 TABLE = ROOT / "rivet_model" / "tables" / "6207.json"
-CHANNEL_NAMES = ("head_p1", "head_vm", "mid_vm", "mid_p1")
 FIT = -6e-6  # default fit and swell
 
 

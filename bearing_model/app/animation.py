@@ -13,7 +13,6 @@ SCALARS = (
 )
 OF_BALLS = ("x", "r", "Q_i", "Q_e", "Q_c")
 STRESS = "sigma_head_peak"
-DIMENSIONS = ("bearing.D", "bearing.d_m", "bearing.P_d", "cage.D_o", "cage.D_i", "cage.width", "cage.pocket_clearance", "cage.guide_clearance")
 DRAWN = 0.13  # largest clearance as drawn / ball diameter
 
 
