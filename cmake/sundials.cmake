@@ -1,4 +1,4 @@
-# SUNDIALS 7.1.1, static and hidden, only what is used.  A source build: a distribution's binary costs 2.8 times the run time (vector overhead).
+# SUNDIALS 7.1.1, static and hidden, only what is used.  A source build: an FMU with a distribution's library would need it on every machine.
 # Sought in this order: FETCHCONTENT_SOURCE_DIR_SUNDIALS, the user's cache, upstream's release, Debian's source package, an installed SUNDIALS.
 
 set(sundials_version 7.1.1)
@@ -184,7 +184,7 @@ else()
     if(NOT SUNDIALS_FOUND)
         message(FATAL_ERROR "${advice}")
     endif()
-    message(WARNING "${advice}  Using the installed one: up to three times slower, and the FMU needs it on every machine.")
+    message(WARNING "${advice}  Using the installed one: the FMU needs it on every machine.")
     add_library(sundials INTERFACE)
     target_link_libraries(sundials INTERFACE SUNDIALS::arkode)
     set(sundials_files "")

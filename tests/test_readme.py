@@ -33,6 +33,11 @@ def test_linked_file_exists(path):
     assert (ROOT / path).exists()
 
 
+def test_verdicts_are_the_studys():
+    sentence = re.search(r"Of \d+ claims .*? not\b", (ROOT / "docs" / "paper.md").read_text())[0]
+    assert sentence in README
+
+
 def test_example_runs(monkeypatch, capsys):
     pytest.importorskip("fmpy")
     if not (ROOT / "fmus" / "RivetedBearing.fmu").exists():
