@@ -19,13 +19,13 @@ SYSTEM = Path(__file__).resolve().parents[2] / "fmus" / "Transmission.ssp"
 
 
 class Component:
-    """One FMU of the system, instantiated."""
+    """One FMU of the system, unpacked beside its file and instantiated."""
 
     def __init__(self, name, path):
         description = read_model_description(str(path))
         self.variables = {v.name: v for v in description.modelVariables}
         identifier = description.coSimulation.modelIdentifier
-        self.fmu = FMU2Slave(guid=description.guid, unzipDirectory=extract(str(path)), modelIdentifier=identifier, instanceName=name)
+        self.fmu = FMU2Slave(guid=description.guid, unzipDirectory=extract(str(path), str(path.with_name(name))), modelIdentifier=identifier, instanceName=name)
         self.fmu.instantiate()
         self.fmu.setupExperiment(startTime=0.0)
 
@@ -40,23 +40,36 @@ class Component:
         return self.fmu.getReal([self.variables[name].valueReference])[0]
 
 
+def load(path, folder):
+    """The system of an SSP unpacked to a folder: its description, its components by name, and the start values of its parameter sets."""
+    with zipfile.ZipFile(path) as archive:
+        archive.extractall(folder)
+    system = read_ssd(str(path)).system
+    parts = {element.name: Component(element.name, folder / element.source) for element in system.elements}
+    sets = {element.name: read_ssv(str(folder / binding.source)) for element in system.elements for binding in element.parameterBindings}
+    return system, parts, {f"{component}.{parameter.name}": parameter.value for component, values in sets.items() for parameter in values.parameters}
+
+
 def simulate(path=SYSTEM, stop=0.05, step=1e-4, changes=None, without=()):
     """Outputs at the communication points: {"component.connector": array}, and "time".
 
     path: SSP with FMI 2.0 co-simulation FMUs and a parameter set for each; stop, step [s]; changes: {"component.variable": start value} beyond the parameter
     sets; without: connections left open, by the names of their ends.  KeyError for an unknown name, fmpy's FMICallException if an FMU refuses.
     """
-    with tempfile.TemporaryDirectory() as folder:
-        with zipfile.ZipFile(path) as archive:
-            archive.extractall(folder)
-        system = read_ssd(str(path)).system
-        parts = {element.name: Component(element.name, Path(folder) / element.source) for element in system.elements}
-        sets = {element.name: read_ssv(str(Path(folder) / binding.source)) for element in system.elements for binding in element.parameterBindings}
-    start = {f"{component}.{parameter.name}": parameter.value for component, values in sets.items() for parameter in values.parameters}
-    for name, value in (start | (changes or {})).items():
-        component, variable = name.split(".", 1)
-        parts[component].set(variable, value)
-    wires = [(a.parent.name, a.name, b.parent.name, b.name) for a, b in get_connections(system) if f"{b.parent.name}.{b.name}" not in without]
+    with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as folder:  # Windows may hold on to a binary
+        system, parts, start = load(path, Path(folder))
+        for name, value in (start | (changes or {})).items():
+            component, variable = name.split(".", 1)
+            parts[component].set(variable, value)
+        wires = [(a.parent.name, a.name, b.parent.name, b.name) for a, b in get_connections(system) if f"{b.parent.name}.{b.name}" not in without]
+        shown = [(e.name, c.name) for e in system.elements for c in e.connectors if c.kind == "output"]
+        rows = march(parts, wires, shown, round(stop / step), step)
+    columns = np.array(rows).T
+    return {"time": step * np.arange(len(rows))} | {f"{component}.{name}": column for (component, name), column in zip(shown, columns, strict=True)}
+
+
+def march(parts, wires, shown, steps, step):
+    """Rows of the outputs `shown` at the start and after each step."""
 
     def exchange():
         """All outputs are read before the first input is set: no component is ahead of another."""
@@ -69,9 +82,7 @@ def simulate(path=SYSTEM, stop=0.05, step=1e-4, changes=None, without=()):
         exchange()
     for part in parts.values():
         part.fmu.exitInitializationMode()
-    shown = [(e.name, c.name) for e in system.elements for c in e.connectors if c.kind == "output"]
     rows = [[parts[component].get(name) for component, name in shown]]
-    steps = round(stop / step)
     for k in range(steps):
         for part in parts.values():
             part.fmu.doStep(currentCommunicationPoint=k * step, communicationStepSize=step)
@@ -80,8 +91,7 @@ def simulate(path=SYSTEM, stop=0.05, step=1e-4, changes=None, without=()):
     for part in parts.values():
         part.fmu.terminate()
         part.fmu.freeInstance()
-    columns = np.array(rows).T
-    return {"time": step * np.arange(steps + 1)} | {f"{component}.{name}": column for (component, name), column in zip(shown, columns, strict=True)}
+    return rows
 
 
 def plot(result, path):
