@@ -254,9 +254,9 @@ def tiny_steps(count=10_000_000, h=1e-9):
 
 def long_run(t_end=100.0, h=1e-4):
     """The working point for 100 s: a line every second."""
-    instance = CoreInstance(core_library(), {"scene.stress": 4})
+    instance = CoreInstance(core_library(), {"scene.stress": 4, "scene.statistics": 2})
     psi_0, rows = instance.y[variables.CAGE_PSI][0], []
-    names = ("bearing.energy_residual", "stat.Q_c_rms", "stat.time", "stat.cage_omega", "solver.steps", "cage.dislocation")
+    names = ("bearing.energy_residual", "bearing.power_loss", "stat.Q_c_rms", "stat.time", "stat.cage_omega", "solver.steps", "cage.dislocation")
     seconds, n = 0.0, round(1.0 / h)
     for second in range(round(t_end)):
 

@@ -104,6 +104,7 @@ def long_text(data):
     tiny, turns, rows = data["tiny_steps"], data["many_turns"], data["long_run"]["rows"]
     last = rows[-1]
     drift = np.polyfit([r["t"] for r in rows], [r["bearing.energy_residual"] for r in rows], 1)[0]
+    loss = np.mean([r["bearing.power_loss"] for r in rows])
     differences = ", ".join(f"{name} {value:.1e}" for name, value in turns["differences"].items())
     text = f"""## Long runs
 
@@ -111,7 +112,8 @@ def long_text(data):
 {1e6 * tiny["cpu_per_step"]:.1f} µs of processor time each.
 
 **{last["t"]:g} s of the working point** ({last["psi"] / (2 * np.pi):,.0f} turns of the cage, {last["solver.steps"]:,.0f} steps): the energy residual is
-{last["bearing.energy_residual"]:.2e} J, after {abs(last["work"]):.2e} J of net work on balls and cage; its mean drift is {drift:.1e} W.
+{last["bearing.energy_residual"]:.2e} J, its mean drift {drift:.1e} W: {100 * abs(drift) / loss:.1g} % of the power lost, the work integral's bias at the
+default tolerance.
 The cage's angle and its mean speed, summed apart, differ by {phase(rows):.1e}; friction states stay within {1e6 * max(r["friction"] for r in rows):.2f} µm,
 `stat.time` is off by {abs(last["stat.time"] - last["t"] + 0.05):.1e} s.
 
