@@ -13,10 +13,10 @@ import numpy as np
 from . import splines, table
 from .geometry import Geometry
 
-K_T = 4.25  # tension, fillet under a loaded head: study, converged finite elements for the default geometry
+K_T = 4.25  # tension, fillet under a loaded head: converged finite elements, default geometry
 K_B = 2.25  # bending, shoulder fillet D/d = 1.733, r/d = 0.0533: Peterson 2.18, finite elements 2.25
-K_PRESSURE = 0.5  # head stress per interference pressure: study, default relief depth
-HEAD_FRICTION = 11.7e6  # head stress per friction force at the heads [1/m2]: study
+K_PRESSURE = 0.5  # head stress per interference pressure: finite elements, default relief depth
+HEAD_FRICTION = 11.7e6  # head stress per friction force at the heads [1/m2]: finite elements
 MOMENT_LENGTH = 2e-3  # L: prying opens the default joint near M = P L
 KNOTS = {
     "a": np.linspace(0.0, 1.0, 9),
@@ -74,7 +74,7 @@ def loads_of(a, b, c, moment_length):
 
 
 def joint_data(geometry):
-    """Joint for the dynamics.  Stiffnesses are those of the dynamics study (axial, friction) and of the rivet study (hole, stack, prying)."""
+    """Joint for the dynamics.  Stiffnesses are those of the default geometry, rounded, whatever the geometry."""
     g = geometry
     return {
         "A": g.shank_area,
@@ -97,7 +97,7 @@ def joint_data(geometry):
 
 
 def make_table(geometry=None):
-    """Table of kind closed_form for the geometry (default: the study's)."""
+    """Table of kind closed_form for the geometry (default: that of Geometry)."""
     geometry = geometry or Geometry()
     a, b, c, xi = np.meshgrid(*(splines.sites(KNOTS[name]) for name in table.AXES), indexing="ij")
     sheets = [stress(geometry, *loads_of(a, b, c, MOMENT_LENGTH), chi, xi) / table.MPA_PER_N for chi in (1.0, 0.5, 0.0)]

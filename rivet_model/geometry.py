@@ -21,7 +21,7 @@ from pathlib import Path
 
 @dataclass(frozen=True)
 class Geometry:
-    """Rivet joint and cage half; SI units.  Sources: see each line; "assumed" values are the study's, fitted ones say to what."""
+    """Rivet joint and cage half; SI units.  Sources: see each line; "assumed" values are estimates, calibrated ones say to what."""
 
     shank_diameter: float = 1.5e-3  # paper Table 1
     head_diameter: float = 2.6e-3  # assumed

@@ -11,7 +11,7 @@ from .load_cases import GROUPS
 
 SWELL = 4e-6  # m, default of joint.swell
 FIT = -10e-6 + SWELL  # m, of the default joint
-REFERENCE = RivetLoad(P=20.0, N=10.0, V_y=10.0)  # P: preload of the paper's section 4.1 (3); N, V: loads of the study
+REFERENCE = RivetLoad(P=20.0, N=10.0, V_y=10.0)  # P: preload of the paper's section 4.1 (3); N, V: large enough to be seen
 HEAD, MIDDLE = "#c8442b", "#2a6f97"
 
 

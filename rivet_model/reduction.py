@@ -100,7 +100,7 @@ class Load:
 
 
 def random_loads(count, seed, largest_fit=9.1e-6, clearance_only=False):
-    """Loads of the study's hold-out with prying in all directions: P, V <= 60 N, N <= 40 N, M <= 60 N.mm, half of the fits in clearance."""
+    """Loads that no table is built from, prying in all directions: P, V <= 60 N, N <= 40 N, M <= 60 N.mm, half of the fits in clearance."""
     rng = np.random.default_rng(seed)
     loads = []
     for i in range(count):

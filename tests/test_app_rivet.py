@@ -101,7 +101,7 @@ def test_an_fmu_for_another_rivet(tmp_path):
     result = run("demo", fmu=tmp_path / "long_head.fmu", t_end=1e-4, outputs=["rivet[1].sigma_mid", "rivet[1].sigma_head", "rivet[1].N"])
     ratio = result.data["rivet[1].sigma_head"][0] / result.data["rivet[1].sigma_mid"][0]
     sigma, _ = rivet_rom.rivet_rom_stress(TABLE, rivet_rom.RivetLoad(P=20.0), -6e-6)
-    assert ratio > 1.2 * sigma[rivet_rom.HEAD_P1] / sigma[rivet_rom.MID_VM]  # study: 145 MPa at 0.9 mm, some 200 at 0.6
+    assert ratio > 1.2 * sigma[rivet_rom.HEAD_P1] / sigma[rivet_rom.MID_VM]  # a prototype: 145 MPa at 0.9 mm, some 200 at 0.6
 
 
 @pytest.mark.slow

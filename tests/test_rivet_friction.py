@@ -1,4 +1,4 @@
-"""Coulomb friction of the closed joint: against Coulomb's own limits, the study's independent prototype, and the numbers the dynamics uses."""
+"""Coulomb friction of the closed joint: against Coulomb's own limits, an independent prototype, and the numbers the dynamics uses."""
 
 import re
 
@@ -47,7 +47,7 @@ def test_forces_balance_and_obey_coulomb(curve):
 
 
 def test_against_the_prototype(curve):
-    """The study's semismooth Newton on another mesh: plates first, then the heads.  V: slip [um], plates, heads [N], head stress [MPa]."""
+    """A separate program, not kept: semismooth Newton on another mesh: plates first, then the heads.  V: slip [um], plates, heads [N], head stress [MPa]."""
     for V, slip, plates, heads, head_p1 in ((2.0, 0.01, 1.97, 0.03, 49.0), (4.0, 0.15, 3.00, 1.00, 60.0), (5.8, 0.43, 2.99, 2.81, 82.0)):
         a = curve[V]
         assert (a.plates, a.heads) == pytest.approx((plates, heads), abs=0.03)  # observed 0.02

@@ -105,7 +105,7 @@ def test_persson(clearance, load, half_angle):
     """Pin in hole: half-angles of Persson (1964) in Ciavarella and Decuzzi's form (2001), to 0.5 degrees; hats 0.7 degrees apart."""
     found, peak = pin_in_hole(clearance, load, 512, 256)
     assert found == pytest.approx(half_angle, abs=0.5)
-    if clearance == 45e-6:  # a = sqrt(4 Q R*/(pi E*)), p = 2 Q/(pi a): Hertz for nearly equal radii; study: 534 against 514
+    if clearance == 45e-6:  # a = sqrt(4 Q R*/(pi E*)), p = 2 Q/(pi a): Hertz for nearly equal radii; a finer model: 534 against 514
         R_star, E_star = R * (R + clearance) / clearance, E / (2 * (1 - NU**2))
         a = np.sqrt(4 * load * R_star / (np.pi * E_star))
         assert peak == pytest.approx(2 * load / (np.pi * a), rel=0.06)
@@ -181,7 +181,7 @@ def test_monotone_in_preload(joint):
 
 
 def test_joint_stiffness(joint):
-    """Against the study's independent prototype: rivet 41 kN/mm, stack 50.5, heads 6.5, bores 14-15 (-90 um) and 46-47 (+5 um), head 11.7 MPa/N."""
+    """Against an independent prototype, not kept here: rivet 41 kN/mm, stack 50.5, heads 6.5, bores 14-15 (-90 um) and 46-47 (+5 um), head 11.7 MPa/N."""
     data = stiffness.joint_data(joint, 2000.0)
     assert data["k_rivet"] == pytest.approx(41e6, rel=0.06)
     assert data["k_stack"] == pytest.approx(50.5e6, rel=0.08)
@@ -195,7 +195,7 @@ def test_joint_stiffness(joint):
 
 
 def test_prying(joint):
-    """Opening begins near P x 2 mm (study) and ends in a hinge of the rivet's stiffness: k_rivet x (1.5...2.5 mm)^2."""
+    """Opening begins near P x 2 mm (prototype) and ends in a hinge of the rivet's stiffness: k_rivet x (1.5...2.5 mm)^2."""
     lever, k_open = stiffness.prying(joint)
     assert 1.3e-3 < lever < 2.2e-3
     assert 40e6 * 1.5e-3**2 < k_open < 40e6 * 2.5e-3**2
@@ -210,7 +210,7 @@ def fit_map():
 
 
 def test_fit_map(fit_map):
-    """Elastic first, then less; onset of the flange between +2 and +5 um (study); a 590 MPa rivet yields later."""
+    """Elastic first, then less; onset of the flange between +2 and +5 um (prototype); a 590 MPa rivet yields later."""
     assert fit_map.fit_eff[1] == fit_map.fit_a[1]
     assert np.all(np.diff(fit_map.fit_eff) > 0.0) and np.all(fit_map.fit_eff <= fit_map.fit_a * (1 + 1e-9))
     assert 2e-6 < fit_map.flange_yield < 5e-6 < fit_map.rivet_yield

@@ -172,7 +172,7 @@ def test_flags_never_nan(stress, rivets):
 
 
 def test_head_friction_loads_the_head_only(stress, rivets):
-    """Study: 11.7 MPa per newton in the head, nothing in the middle."""
+    """Growth by the table's own constant in the head, nothing in the middle."""
     without, with_friction = stress(RivetLoad(P=20.0), FIT)[0], stress(RivetLoad(P=20.0, F_head=3.0), FIT)[0]
     np.testing.assert_allclose(with_friction[0] - without[0], 3.0 * rivets.head_friction)
     np.testing.assert_array_equal(with_friction[2:], without[2:])
@@ -191,7 +191,7 @@ def test_fit_eff(core, rivets):
 
 
 def test_joint_functions(core, rivets):
-    """Thermal preload by hand: 0.83 N/K, 0.0083 um/K for the study's stack; hole stiffness inside its table's values; twins alike."""
+    """Thermal preload by hand: 0.83 N/K, 0.0083 um/K for the default stack; hole stiffness inside its table's values; twins alike."""
     ffi, lib = core.ffi, core.lib
     joint = ffi.addressof(lib.rivet_table.joint)
     j = rivets.joint
