@@ -90,7 +90,8 @@ def energy_text(records):
     worst = ", ".join(f"{r['family']}: {r['name']} ({r['residual']:.1g} J)" for r in open_[:4])
     return f"""The balance does not close to 1 % in {len(open_)} scenes, most of them at or near standstill, where all energies are microjoules.
 The largest residuals: {worst}.
-The work integral takes power at predicted velocities (`verlet.c`), the motion the corrected ones.
+The work integral takes power at predicted velocities, less what these dissipate too much where rates are linear (`verlet.c`); the rest of their difference
+from the corrected ones stays.
 
 """
 

@@ -18,7 +18,7 @@ def ratio(fmu, fit, model):
 
 
 def test_the_head_leads_in_clearance(fmu):
-    """-0.09 mm: head at least 3 times the middle (issue 3), lasting and in peaks (observed 4.8 RMS, 4.1 p99.9, 4.0 maximum; scene R 5.3, 4.1, 4.0)."""
+    """-0.09 mm: head at least 3 times the middle (the aim), lasting and in peaks (observed 4.8 RMS, 4.1 p99.9, 4.0 maximum; scene R 5.3, 4.1, 4.0)."""
     assert max(ratio(fmu, -90e-6, "j2").values()) < 1 / 3
 
 
@@ -30,7 +30,7 @@ def test_the_head_leads_in_clearance(fmu):
     ],
 )
 def test_the_middle_leads_in_interference(fmu, model, reached):
-    """+0.04 mm: the middle at least 1.5 times the head (issue 3).
+    """+0.04 mm: the middle at least 1.5 times the head (the aim).
 
     With the flange's yield this holds for the lasting stress only: the pressure of the fit stops growing, load peaks do not, and they go to the head.
     """

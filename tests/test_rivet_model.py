@@ -41,7 +41,7 @@ def end_loads(body, height):
 
 @pytest.mark.parametrize(("n", "profile"), [(0, lambda r: 1.0 + 0.0 * r), (1, lambda r: r / R)])
 def test_tension_and_bending_of_a_bar(n, profile):
-    """sigma_zz = F/A, and M r cos theta/I: fields that the elements contain, so exact (observed 1e-11; issue 3 asks for 1e-3)."""
+    """sigma_zz = F/A, and M r cos theta/I: fields that the elements contain, so exact (observed 1e-11)."""
     body = Body(MeshQuad.init_tensor(np.linspace(0, R, 5), np.linspace(0, 4 * R, 9)), E, NU)
     loads, radii = end_loads(body, 4 * R)
     u = body.solve(n, loads @ profile(radii)[:, None])
@@ -54,7 +54,7 @@ def test_tension_and_bending_of_a_bar(n, profile):
 
 
 def test_lame(joint):
-    """Pressure of a solid shank in a ring, plane stress: compliances of both bodies against Lame (issue: 1 %; observed 1e-5)."""
+    """Pressure of a solid shank in a ring, plane stress: compliances of both bodies against Lame (observed 1e-5)."""
     height, outer = 1e-3, 2.45e-3
     disc = Body(MeshQuad.init_tensor(np.linspace(0, R, 5), np.linspace(0, height, 3)), E, NU)
     ring = Body(MeshQuad.init_tensor(np.linspace(R, outer, 12), np.linspace(0, height, 3)), 110e9, 0.33)
@@ -287,7 +287,7 @@ def test_grid_with_too_few_harmonics_is_refused():
 def test_hold_out_of_the_shipped_table():
     """What the shipped table says of itself, measured on 320 loads that neither built it nor chose its knots.
 
-    Reach: 2 % and RMS 0.5 % of each channel's maximum (issue 3), over all loads and in clearance alone.
+    Reach: 2 % and RMS 0.5 % of each channel's maximum, over all loads and in clearance alone.
     """
     t = table.read(TABLE)
     assert t.kind == "fe" and t.geometry_hash == G.digest
@@ -319,7 +319,7 @@ def test_table_against_fresh_solutions():
 
 @pytest.mark.slow
 def test_h_convergence():
-    """Half the element size: head stress moves by less than 0.5 % (issue 3; observed 0.19, 0.18, 0.11, 0.43 %)."""
+    """Half the element size: head stress moves by less than 0.5 % (observed 0.19, 0.18, 0.11, 0.43 %)."""
     coarse, fine = Joint(G, Grid(Fineness(1.0), 7.5, 12, 24)), Joint(G, Grid(Fineness(2.0), 7.5, 12, 24))
     for load in ((60.0, 0, 0, 0, 0, -90e-6), (20.0, 0, 20.0, 0, 0, -20e-6), (20.0, 10.0, 10.0, 0, 0, 5e-6), (20.0, 0, 10.0, 0.04, 0, -1e-5)):
         assert channels(coarse, *load)[0] == pytest.approx(channels(fine, *load)[0], rel=0.005)

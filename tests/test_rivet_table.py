@@ -237,7 +237,7 @@ def test_speed(core, capsys):
 
 
 def test_sizes(rivets, tmp_path):
-    """At most 2 MB of text, at most 1 MB embedded (issue 3)."""
+    """At most 2 MB of text, at most 1 MB embedded."""
     assert TABLE.stat().st_size <= 2_000_000
     numbers = sum(len(k) * 3 for k in rivets.knots.values()) + 4 * len(rivets.fit_a) + rivets.load_path.size
     assert 4 * rivets.coefficients.size + 8 * numbers <= 2**20
