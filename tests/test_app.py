@@ -328,6 +328,8 @@ shaft.omega = "6000 rev/min"
         ('[catalogue]\nbore = "-1 mm"', ["catalogue.bore", "greater than 0"]),
         ('[catalogue]\nC = "1 mm"', ["catalogue.C", "N, kN"]),
         ("Z = 4", ["Z = 4", "5 to 32"]),
+        ("catalogue = 3", ["catalogue = 3", "not a table"]),
+        ("parameters = 3", ["parameters = 3", "not a table"]),
     ],
 )
 def test_bad_bearing_files_name_key_value_and_what_is_allowed(tmp_path, text, fragments):

@@ -81,6 +81,12 @@ def test_what_was_not_recorded_is_said(few):
     assert 'aria-label="Displacement of the inner ring over time"' in page
 
 
+@pytest.mark.filterwarnings("error")
+def test_a_run_without_stress_has_a_page():
+    shown = render(run("demo", t_end=2e-3, parameters={"start.settle": 0.0, "scene.stress": "off"}))
+    assert shown.count("the stress does not change") == 2  # spectra, rainflow
+
+
 def test_a_run_of_one_row_has_a_page(result):
     """As left by an FMU that gave up in its first step."""
     first = {name: values[:1] for name, values in result.data.items()}

@@ -108,6 +108,12 @@ def test_a_sobol_sequence_is_balanced_in_both_halves_of_each_axis(tmp_path, mode
         ("[sample]\nmethod = 'random'\ncount = 6\nbetween.joint.mu = [0, 1]", ["sample.method = 'random'", "latin_hypercube, sobol"]),
         ("[sample]\nmethod = 'sobol'\ncount = 4\nbetween.joint.mu = [1, 0]", ["lowest value must be below"]),
         ("[sample]\nmethod = 'sobol'\ncount = 4", ["sample.between"]),
+        ("[sample]\nmethod = 'sobol'\ncount = 4\nseed = 'a'\nbetween.joint.mu = [0, 1]", ["sample.seed = 'a'", "from 0 on"]),
+        ("[sample]\nmethod = ['sobol']\ncount = 4\nbetween.joint.mu = [0, 1]", ["sample.method = ['sobol']", "latin_hypercube, sobol"]),
+        ("[sample]\nbetween = 3", ["sample: between = 3", "not a table"]),
+        ("sample = 3", ["sample = 3", "not a table"]),
+        ("simulation = 3", ["simulation = 3", "not a table"]),
+        ("scene = 3", ["scene = 3", "a file is needed"]),
     ],
 )
 def test_a_design_that_cannot_be_run_is_refused(tmp_path, model, text, fragments):

@@ -20,7 +20,7 @@ from bearing_model import variables
 from bearing_model.quasi_static import Bearing, Load, quasi_static
 
 from .errors import UserError, unknown
-from .scene import load_scene, positive, read_toml, refusal, shipped_scenes
+from .scene import load_scene, positive, read_toml, refusal, section_of, shipped_scenes
 from .units import MULTIPLES, suffix, to_si
 
 SHIPPED = files("bearing_model") / "data" / "bearings"
@@ -89,14 +89,14 @@ def bearing_case(source):
     for key in document:
         if key not in KEYS:
             raise unknown(path, "key", key, KEYS)
-    Z, catalogue = document.get("Z", variables.Z), document.get("catalogue", {})
+    Z = document.get("Z", variables.Z)
     if isinstance(Z, bool) or not isinstance(Z, int) or not 5 <= Z <= 32:
         raise refusal(path, "Z", Z, "allowed: an integer from 5 to 32")
-    catalogue = dict(catalogue_values(path, catalogue))
+    catalogue = dict(catalogue_values(path, section_of(path, document, "catalogue")))
     values = {}
     for section, known in (("parameters", variables.PARAMETERS), ("inputs", variables.INPUTS)):
         values |= {name: named(variable, variable.start) for name, variable in known.items()}
-        values |= dict(start_values(path, section, document.get(section, {}), known))
+        values |= dict(start_values(path, section, section_of(path, document, section), known))
     return Case(str(document.get("designation", Path(path.name).stem)), str(document.get("description", "")), Z, values, catalogue)
 
 

@@ -125,11 +125,11 @@ def chart(result, name, lives):
     if missing or len(result.data["time"]) < 16:
         lack = f"not recorded: {', '.join(missing[:4])}{' …' if len(missing) > 4 else ''}" if missing else "too few samples"
         return f'<p class="missing">{label}: {lack}</p>'
+    if name in ("spectra", "rainflow") and not np.any(np.diff(result.data[f"rivet[{charts.worst_rivet(result)}].sigma_head"][settled(result)])):
+        return f'<p class="missing">{label}: the stress does not change</p>'
     if name == "rainflow":
         k = charts.worst_rivet(result)
         cycles = next(life["head"].cycles for life in lives if str(life["k"]) == k) * np.array([1e-6, 1e-6, 1.0])
-        if not np.any(cycles[:, 0] > 0.0):
-            return f'<p class="missing">{label}: the stress does not change</p>'
         return charts.svg(lambda figure: charts.rainflow_matrix(figure, cycles), size, label)
     return charts.svg(lambda figure: draw(figure, result), size, label)
 

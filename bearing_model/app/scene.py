@@ -130,10 +130,7 @@ def apply(scene, where, document, model, folder):
     for key in document:
         if key not in SECTIONS:
             raise unknown(where, "key", key, SECTIONS)
-    sections = {name: document.get(name, {}) for name in SECTIONS[1:]}
-    for name, section in sections.items():
-        if not isinstance(section, dict):
-            raise refusal(where, name, section, "not a table")
+    sections = {name: section_of(where, document, name) for name in SECTIONS[1:]}
     return replace(
         scene,
         description=str(document.get("description", scene.description)),
@@ -142,6 +139,14 @@ def apply(scene, where, document, model, folder):
         | read_section(where, "inputs", sections["inputs"], model.inputs, model.parameters, lambda value, v: input_history(value, v, model, folder)),
         **read_simulation(where, sections["simulation"], model),
     )
+
+
+def section_of(where, document, name):
+    """A document's table of this name, empty if there is none; UserError if it is something else."""
+    section = document.get(name, {})
+    if not isinstance(section, dict):
+        raise refusal(where, name, section, "not a table")
+    return section
 
 
 def read_section(where, kind, section, variables, others, value_of):

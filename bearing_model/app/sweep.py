@@ -43,7 +43,7 @@ from .errors import UserError, unknown
 from .fmu import Model
 from .results import KEY, write_atomically
 from .runner import closing_names, own_version, simulate
-from .scene import SECONDS, SIMULATION, leaves, load_scene, read_toml, refusal, shipped_scenes
+from .scene import SECONDS, SIMULATION, leaves, load_scene, read_toml, refusal, section_of, shipped_scenes
 from .summary import settled
 from .units import to_si
 
@@ -91,14 +91,14 @@ def plan_sweep(name, document, model, path):
     for key in document:
         if key not in SECTIONS:
             raise unknown(path, "key", key, SECTIONS)
-    axes = [*vary_axes(path, document.get("vary", []), model), *sample_axes(path, document.get("sample"), model)]
+    axes = [*vary_axes(path, document.get("vary", []), model), *sample_axes(path, section_of(path, document, "sample"), model)]
     if "repeats" in document:
         axes.insert(0, [{"start.seed": seed} for seed in range(1, count_of(path, "repeats", document["repeats"]) + 1)])
     factors = tuple(name for axis in axes for name in axis[0])
     if twice := {name for name in factors if factors.count(name) > 1}:
         raise UserError(f"{path}: {', '.join(sorted(twice))} varies in more than one place")
-    common = {"simulation": {"outputs": list(SAMPLED)} | document.get("simulation", {})}
-    common |= {section: document.get(section, {}) for section in ("parameters", "inputs")}
+    common = {section: section_of(path, document, section) for section in ("simulation", "parameters", "inputs")}
+    common["simulation"] = {"outputs": list(SAMPLED)} | common["simulation"]
     fmu = model.path.read_bytes()
     fingerprint = hashlib.sha256(fmu).hexdigest()
     scenes = {}
@@ -175,14 +175,14 @@ def count_of(path, name, value):
 
 def sample_axes(path, section, model):
     """The axis of [sample], if there is one: points of a Latin hypercube or a Sobol sequence (scrambled) in the box `between`."""
-    if section is None:
+    if not section:
         return []
     from scipy.stats import qmc
 
     for key in section:
         if key not in SAMPLE:
             raise unknown(path, "key", f"sample.{key}", [f"sample.{name}" for name in SAMPLE])
-    box = dict(leaves(section.get("between", {}), known_names(model)))
+    box = dict(leaves(section_of(f"{path}: sample", section, "between"), known_names(model)))
     if not box:
         raise UserError(f"{path}: sample.between: name at least one parameter or input with its lowest and highest value")
     for name, pair in box.items():
@@ -194,17 +194,22 @@ def sample_axes(path, section, model):
     if not np.all(low < high):
         raise refusal(path, "sample.between", section["between"], "each lowest value must be below its highest")
     methods = {"latin_hypercube": qmc.LatinHypercube, "sobol": qmc.Sobol}
-    if section.get("method") not in methods:
-        raise refusal(path, "sample.method", section.get("method"), f"allowed: {', '.join(methods)}")
+    method, seed = section.get("method"), section.get("seed", 0)
+    if not isinstance(method, str) or method not in methods:
+        raise refusal(path, "sample.method", method, f"allowed: {', '.join(methods)}")
+    if isinstance(seed, bool) or not isinstance(seed, int) or seed < 0:
+        raise refusal(path, "sample.seed", seed, "a whole number from 0 on is needed")
     count = count_of(path, "sample.count", section.get("count"))
-    if section["method"] == "sobol" and count & (count - 1):
+    if method == "sobol" and count & (count - 1):
         raise refusal(path, "sample.count", count, "a Sobol sequence is balanced only for powers of 2")
-    points = methods[section["method"]](d=len(box), seed=section.get("seed", 0)).random(count)
+    points = methods[method](d=len(box), seed=seed).random(count)
     return [[dict(zip(box, point, strict=True)) for point in qmc.scale(points, low, high).tolist()]]
 
 
 def beside(path, source):
     """A scene's name or file, looked for beside the sweep's file."""
+    if not isinstance(source, str):
+        raise refusal(path, "scene", source, "a shipped scene's name or a file is needed")
     if source in shipped_scenes() or Path(source).is_absolute():
         return source
     return Path(path).parent / source
