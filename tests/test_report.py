@@ -85,6 +85,7 @@ def test_what_was_not_recorded_is_said(few):
 def test_a_run_without_stress_has_a_page():
     shown = render(run("demo", t_end=2e-3, parameters={"start.settle": 0.0, "scene.stress": "off"}))
     assert shown.count("the stress does not change") == 2  # spectra, rainflow
+    assert "<span>Head stress</span>" not in shown and "Life of the weakest rivet" not in shown  # no zeros for what nobody computed
 
 
 def test_a_run_of_one_row_has_a_page(result):

@@ -137,6 +137,8 @@ def chart(result, name, lives):
 def all_lives(result):
     """One dict a rivet: k, RivetLife of head and middle, and the FMU's own Miner's sums if it counted."""
     rows = []
+    if result.parameters.get("scene.stress") == "off":
+        return rows
     for k in range(1, number_of_balls(result) + 1):
         head, mid = (rivet_life(result, k, place) for place in ("head", "mid"))
         if head and mid:

@@ -25,8 +25,8 @@ def summary_rows(result):
     """Rows for every channel that the result has; values before start.settle [s] do not count."""
     rows = [
         counted(result, "pocket force, all balls", "N", "stat.Q_c_{}", 1.0),
-        counted(result, "head stress, worst rivet", "MPa", "stat.sigma_head_{}", 1e-6),
-        counted(result, "middle stress, worst rivet", "MPa", "stat.sigma_mid_{}", 1e-6),
+        stress(result, "head stress, worst rivet", "stat.sigma_head_{}"),
+        stress(result, "middle stress, worst rivet", "stat.sigma_mid_{}"),
         sampled(result, "largest inner contact load", "N", 1.0, columns(result, "ball[", "].Q_i"), largest_of),
         sampled(result, "largest outer contact load", "N", 1.0, columns(result, "ball[", "].Q_e"), largest_of),
         sampled(result, "largest inner pressure", "MPa", 1e-6, columns(result, "ball[", "].p_i"), largest_of),
@@ -46,9 +46,7 @@ def summary_rows(result):
 def rivet_rows(result):
     """Head and middle stress [MPa] of each rivet over every internal step, as (k, Row of the head, Row of the middle)."""
     count = sum(name.startswith("stat.rivet_head_mean[") for name in result.summary)
-    pairs = [
-        tuple(counted(result, f"rivet {k}, {place}", "MPa", f"stat.rivet_{place}_{{}}[{k}]", 1e-6) for place in ("head", "mid")) for k in range(1, count + 1)
-    ]
+    pairs = [tuple(stress(result, f"rivet {k}, {place}", f"stat.rivet_{place}_{{}}[{k}]") for place in ("head", "mid")) for k in range(1, count + 1)]
     return [(k, *pair) for k, pair in enumerate(pairs, 1) if all(pair)]
 
 
@@ -58,6 +56,12 @@ def counted(result, channel, unit, pattern, factor):
     if not result.summary.get("stat.time") or not all(name in result.summary for name in names):
         return None
     return Row(channel, unit, *(factor * result.summary[name] for name in names), every_step=True)
+
+
+def stress(result, channel, pattern):
+    """A row of stress; None too where it was not computed at every step, and is 0 there."""
+    every_step = result.parameters.get("scene.stress") in ("peak", "fatigue")
+    return counted(result, channel, "MPa", pattern, 1e-6) if every_step else None
 
 
 def sampled(result, channel, unit, factor, names, combine=None):
