@@ -1,5 +1,5 @@
 // A part of a machine as its users see it: one instance, its parameters, inputs and outputs, and what can be done with it.
-// The wrapper (fmi2_wrapper.c) and the tests include this file only.  Parameters, Inputs and Outputs come from a table of variables: the bearing's is
+// The wrapper (fmi2_wrapper.c) includes this file only.  Parameters, Inputs and Outputs come from a table of variables: the bearing's is
 // fmus/variables.toml, and bearing.c is what stands behind these functions; examples/transmission/shaft.c is another part behind the same wrapper.
 #pragma once
 

@@ -253,7 +253,7 @@ def sweep(
 
 @command
 def study(
-    names: Annotated[list[str] | None, typer.Argument(help="sweeps of the study; default: all", metavar="[NAME]...")] = None,
+    names: Annotated[list[str] | None, typer.Argument(help="sweeps of the study; default: all", metavar="NAME")] = None,
     fmu: Annotated[Path | None, typer.Option(help="the FMU; default: RivetedBearing.fmu here, in the checkout or as installed")] = None,
     out: Annotated[Path, typer.Option(help="folder of the runs")] = Path("results/study"),
     report: Annotated[Path | None, typer.Option(help="folder of paper.md and its pictures; default: that of the runs")] = None,
@@ -349,7 +349,7 @@ def report(
 
 @command
 def info(
-    target: Annotated[str, typer.Argument(metavar="[BEARING|SCENE]", help="bearing file or designation, or scene file or name")] = DEFAULT_BEARING,
+    target: Annotated[str, typer.Argument(metavar="BEARING|SCENE", help="bearing file or designation, or scene file or name")] = DEFAULT_BEARING,
     fmu: Annotated[Path | None, typer.Option(help="the FMU whose parameters a scene starts from")] = None,
 ):
     """Geometry, masses, kinematic and fault frequencies, quasi-static loads and life."""
@@ -368,7 +368,7 @@ def info(
 
 @command
 def rivet(
-    source: Annotated[Path | None, typer.Argument(metavar="[TABLE|GEOMETRY]", help="rivet table (JSON) or geometry (TOML); default: the table shipped")] = None,
+    source: Annotated[Path | None, typer.Argument(metavar="TABLE|GEOMETRY", help="rivet table (JSON) or geometry (TOML); default: the table shipped")] = None,
     out: Annotated[Path, typer.Option(help="folder for the pictures")] = Path("results"),
 ):
     """Stress of the rivet over preload, fit and transverse load; pictures of curves, mesh, deformed section and stress."""
