@@ -188,6 +188,8 @@ def simulate(parameters=None, inputs=None, t_end=1e-3, *, derivatives=None, step
         raise ValueError(f"method = {method!r}: allowed are {', '.join(METHODS)}")
     if not (t_end > t_start and step > 0.0):
         raise ValueError(f"t_end = {t_end} s, step = {step} s: t_end must be after t_start = {t_start} s and step positive")
+    if tolerance is not None and not tolerance > 0.0:
+        raise ValueError(f"tolerance = {tolerance}: more than 0 is allowed")
     p, held = Parameters(parameters), inputs if callable(inputs) else lambda t: inputs
     slopes = derivatives or (lambda t: ({}, {}))
     d = model_derive(p, table)

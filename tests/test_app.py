@@ -144,6 +144,14 @@ def test_changes_reach_the_fmu():
     assert result.data["rivet[1].P"] == pytest.approx(30.0, rel=1e-12)  # at assembly temperature
 
 
+def test_numbers_may_be_numpys():
+    history = {"t": np.array([0.0, 1e-4]), "value": np.array([2000, 2100])}
+    changes = {"parameters": {"joint.preload": np.float32(30)}, "inputs": {"shaft.F_y": history}, "seed": np.int64(5)}
+    result = run("demo", t_end=2e-4, outputs=["shaft.F_y"], **changes)
+    assert result.parameters["joint.preload"] == 30.0 and result.parameters["start.seed"] == 5
+    assert result.data["shaft.F_y"].tolist() == [2000.0, 2000.0, 2100.0]  # inputs hold over a step
+
+
 def test_time_histories_reach_the_fmu(tmp_path):
     (tmp_path / "thrust.csv").write_text("time,kilo\n0,0.5\n0.0005,0.6\n0.001,0.4\n")
     scene = tmp_path / "mine.toml"

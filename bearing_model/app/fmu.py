@@ -4,6 +4,7 @@ import ctypes
 import functools
 import shutil
 import weakref
+from numbers import Integral
 from pathlib import Path
 
 import numpy as np
@@ -73,9 +74,9 @@ class Model:
                 raise UserError(f"allowed: {', '.join(codes(variable))}")
             return value
         if variable.type == "Integer":
-            if isinstance(value, bool) or not isinstance(value, int):
+            if isinstance(value, bool) or not isinstance(value, Integral):
                 raise UserError("not an integer")
-            number = value
+            number = int(value)
         else:
             number = to_si(value, self.units[variable.unit])
         self.check_range(number, variable)

@@ -248,7 +248,7 @@ def input_history(value, variable, model, folder):
 def from_points(value, scales):
     """A History from { t = [...], value = [...] }."""
     check_keys(value, HISTORY, ("t", "value"))
-    if not isinstance(value["t"], list) or not isinstance(value["value"], list):
+    if not all(isinstance(value[key], (list, tuple, np.ndarray)) for key in ("t", "value")):
         raise UserError("t and value must be lists")
     factor, offset = scale(value["unit"], scales) if "unit" in value else (1.0, 0.0)
     si = [to_si(entry, scales) if isinstance(entry, str) else (to_si(entry, scales) - offset) / factor for entry in value["value"]]

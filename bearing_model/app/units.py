@@ -6,6 +6,7 @@ The units are those of the FMU (fmus/variables.toml, [units]).  A text must carr
 
 import math
 import re
+from numbers import Real
 
 from .errors import UserError
 
@@ -47,9 +48,9 @@ def to_si(value, scales):
     if isinstance(value, str):
         match = NUMBER.fullmatch(value)
         if not match:
-            raise UserError(f'not a number with a unit such as "1.5 {list(scales)[-1]}"')
+            raise UserError("not a number" if list(scales) == ["1"] else f'not a number with a unit such as "1.5 {list(scales)[-1]}"')
         factor, offset = scale(match[2], scales)
         value = (float(match[1]) - offset) / factor
-    if isinstance(value, bool) or not isinstance(value, (int, float)) or not math.isfinite(value):
+    if isinstance(value, bool) or not isinstance(value, Real) or not math.isfinite(value):
         raise UserError("not a finite number")
     return float(value)
