@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from enum import IntEnum
 
 MODEL_IDENTIFIER = "RivetedBearing"
-MODEL_GUID = "{c2072c49-b78d-2593-b9e7-8e5075ff8beb}"
+MODEL_GUID = "{6db33452-6d6e-bf10-896a-7971ae3bf67e}"
 Z = 9
 
 
@@ -302,7 +302,7 @@ OUTPUTS = {
         Variable("rivet[k].M", 3450, "Real", "N.m", None, None, None, None, Z, "rivet", "Prying moment of the joint", None),
         Variable("rivet[k].P", 3490, "Real", "N", None, None, None, None, Z, "rivet", "Preload at the present temperature", None),
         Variable("rivet[k].slip", 3530, "Real", "m", "um", None, None, None, Z, "rivet", "Slip of one half against the other at the joint, in the plane", None),
-        Variable("rivet[k].flag", 3570, "Real", "1", None, None, None, None, Z, "stress", "Sum of 1 rivet yields, 2 flange yields, 4 compressed joint (N counted as 0), 8 load outside the stress table", None),
+        Variable("rivet[k].flag", 3570, "Real", "1", None, None, None, None, Z, "stress", "Sum of 1 rivet yields, 2 flange yields, 4 compressed joint (N counted as 0), 8 fit beyond the stress table", None),
         Variable("rivet[k].V_y", 3610, "Real", "N", None, None, None, None, Z, "rivet", "Transverse load that the shank carries, on the +X half, along y of the cage's frame", None),
         Variable("rivet[k].V_z", 3650, "Real", "N", None, None, None, None, Z, "rivet", "Transverse load that the shank carries, on the +X half, along z of the cage's frame", None),
         Variable("rivet[k].M_y", 3690, "Real", "N.m", None, None, None, None, Z, "rivet", "Prying moment on the +X half about y of the cage's frame", None),

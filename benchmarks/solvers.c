@@ -4,7 +4,7 @@
 // Vectors are SUNDIALS' own serial ones.  BDF solves its Newton systems (1 - gamma J) x = b in one of three ways:
 //
 //   dense      SUNDIALS' dense matrix and its own difference quotients: what a general multibody solver does
-//   diagonal   J = -D, the damping rates that the core's stepper knows: no factorization
+//   diagonal   J = -D, the damping rates that the core computes, each state for itself: no factorization
 //   bordered   each ball's nine states and each joint's four friction states couple to ring and cage only:
 //
 //                  | B_1            C_1 |        S = D - sum E_g B_g^-1 C_g,  x_d = S^-1 (b_d - sum E_g B_g^-1 b_g),

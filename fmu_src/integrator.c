@@ -1,7 +1,7 @@
 // Two one-step methods on the same state, with the same control of the error:
 //
 //   verlet     velocity Verlet, linearly implicit in what is stiff (verlet.c): second order, one evaluation a step, the default
-//   explicit   ARKODE's classical Runge-Kutta 4(3); its last stage is the next step's first.  For tolerances below about 2e-5, and as a check
+//   explicit   classical Runge-Kutta 4(3), stepped by ARKODE; its last stage is the next step's first.  For tolerances below about 2e-5, and as a check
 //
 // Each advance is a pure function of IntegratorState: rollback and a fresh instance continue bit for bit (ARKODE is reset with the remembered
 // step size).  Error weights are absolute, 1/(tolerance scale): angles are unbounded.

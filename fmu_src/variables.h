@@ -9,7 +9,7 @@
 
 #define FMI2_FUNCTION_PREFIX RivetedBearing_  // of the functions of a source-code FMU
 #define MODEL_IDENTIFIER "RivetedBearing"
-#define MODEL_GUID "{c2072c49-b78d-2593-b9e7-8e5075ff8beb}"  // digest of the table
+#define MODEL_GUID "{6db33452-6d6e-bf10-896a-7971ae3bf67e}"  // digest of the table
 
 enum { Z = 9 };  // number of balls
 
@@ -288,7 +288,7 @@ typedef struct {
         number M[Z];  // [N.m] Prying moment of the joint
         number P[Z];  // [N] Preload at the present temperature
         number slip[Z];  // [m] Slip of one half against the other at the joint, in the plane
-        number flag[Z];  // [1] Sum of 1 rivet yields, 2 flange yields, 4 compressed joint (N counted as 0), 8 load outside the stress table
+        number flag[Z];  // [1] Sum of 1 rivet yields, 2 flange yields, 4 compressed joint (N counted as 0), 8 fit beyond the stress table
         number V_y[Z];  // [N] Transverse load that the shank carries, on the +X half, along y of the cage's frame
         number V_z[Z];  // [N] Transverse load that the shank carries, on the +X half, along z of the cage's frame
         number M_y[Z];  // [N.m] Prying moment on the +X half about y of the cage's frame

@@ -243,7 +243,7 @@ def solver_rows(result):
     flags = columns(result, "rivet[", "].flag")
     if flags:
         seen = np.bitwise_or.reduce(np.concatenate([result.data[name] for name in flags]).astype(int))
-        meanings = {1: "rivet yields", 2: "flange yields", 4: "joint compressed", 8: "outside the stress table"}
+        meanings = {1: "rivet yields", 2: "flange yields", 4: "joint compressed", 8: "fit beyond the stress table"}
         yield "flags of the rivets", ", ".join(text for bit, text in meanings.items() if seen & bit) or "none"
 
 
