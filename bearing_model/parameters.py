@@ -91,7 +91,8 @@ def admit(variable, value):
             raise ValueError(f"{variable.name} = {value}: allowed are {allowed}") from None
     low = -math.inf if variable.min is None else variable.min
     high = math.inf if variable.max is None else variable.max
-    require(math.isfinite(value) and low <= value <= high, f"{variable.name} = {value} {variable.unit}: {low:g} ... {high:g} is allowed")
+    unit = "" if variable.unit == "1" else f" {variable.unit}"
+    require(math.isfinite(value) and low <= value <= high, f"{variable.name} = {value}{unit}: {low:g} ... {high:g} is allowed")
     return int(value) if variable.type == "Integer" else float(value)
 
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from enum import IntEnum
 
 MODEL_IDENTIFIER = "RivetedBearing"
-MODEL_GUID = "{6db33452-6d6e-bf10-896a-7971ae3bf67e}"
+MODEL_GUID = "{bcc0235e-760a-a942-e78a-34f8caa55496}"
 Z = 9
 
 
@@ -309,7 +309,7 @@ OUTPUTS = {
         Variable("rivet[k].M_z", 3730, "Real", "N.m", None, None, None, None, Z, "rivet", "Prying moment on the +X half about z of the cage's frame", None),
         Variable("rivet[k].F_head", 3770, "Real", "N", None, None, None, None, Z, "rivet", "Friction force at the heads", None),
         Variable("bearing.friction_torque", 4001, "Real", "N.m", None, None, None, None, 1, "ring", "Torque that the shaft must supply about X", None),
-        Variable("bearing.power_loss", 4002, "Real", "W", None, None, None, None, 1, "energy", "Power dissipated in contacts, films, drag, joints and dampers", None),
+        Variable("bearing.power_loss", 4002, "Real", "W", None, None, None, None, 1, "energy", "Power dissipated in contacts, films, drag and joints", None),
         Variable("bearing.energy_residual", 4003, "Real", "J", None, None, None, None, 1, "energy", "Energy now - energy at start - net work since: 0 but for the errors of the integration and of the work's own integral", None),
         Variable("bearing.contacts", 4004, "Real", "1", None, None, None, None, 1, "ball", "Number of closed contacts (races and pockets)", None),
         Variable("bearing.penetration", 4005, "Real", "m", "um", None, None, None, 1, "ball", "Largest elastic approach of all contacts", None),

@@ -9,7 +9,7 @@
 
 #define FMI2_FUNCTION_PREFIX RivetedBearing_  // of the functions of a source-code FMU
 #define MODEL_IDENTIFIER "RivetedBearing"
-#define MODEL_GUID "{6db33452-6d6e-bf10-896a-7971ae3bf67e}"  // digest of the table
+#define MODEL_GUID "{bcc0235e-760a-a942-e78a-34f8caa55496}"  // digest of the table
 
 enum { Z = 9 };  // number of balls
 
@@ -197,7 +197,7 @@ typedef struct {
     struct {
         number Z;  // [1] Number of balls (build-time constant)
         number friction_torque;  // [N.m] Torque that the shaft must supply about X
-        number power_loss;  // [W] Power dissipated in contacts, films, drag, joints and dampers
+        number power_loss;  // [W] Power dissipated in contacts, films, drag and joints
         number energy_residual;  // [J] Energy now - energy at start - net work since: 0 but for the errors of the integration and of the work's own integral
         number contacts;  // [1] Number of closed contacts (races and pockets)
         number penetration;  // [m] Largest elastic approach of all contacts
