@@ -3,6 +3,7 @@
 import base64
 import io
 import json
+import os
 import re
 import shutil
 from dataclasses import replace
@@ -223,7 +224,8 @@ def browser():
     if chromium is None:
         pytest.skip("no Chromium on this machine")
     with playwright.sync_playwright() as p:
-        browser = p.chromium.launch(executable_path=chromium, args=["--no-sandbox"])
+        env = {name: value for name, value in os.environ.items() if name != "LD_PRELOAD"}  # the sanitizers' library is not for the browser
+        browser = p.chromium.launch(executable_path=chromium, args=["--no-sandbox"], env=env)
         yield browser
         browser.close()
 

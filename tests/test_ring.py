@@ -243,5 +243,6 @@ def test_rhs_takes_the_drive_from_the_course(core):
             model.kernel("rhs")(model.pointer, t, core.array(y), core.array(out), model.work)
         assert held.tobytes() == moving.tobytes()
     assert core.lib.course_varies(course)
-    core.lib.course_update(core.model().p, core.ffi.new("Inputs[3]", [core.model().u[0]]), 0.0, 0.0, course)
+    still = core.model()
+    core.lib.course_update(still.p, core.ffi.new("Inputs[3]", [still.u[0]]), 0.0, 0.0, course)
     assert not core.lib.course_varies(course)
