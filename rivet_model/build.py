@@ -86,6 +86,8 @@ def main(arguments=None):
     parser.add_argument("--coarse", action="store_true")
     parser.add_argument("--workers", type=int, default=min(2, os.cpu_count() or 1))
     options = parser.parse_args(arguments)
+    if not Path(options.out).resolve().parent.is_dir():
+        parser.error(f"{options.out}: no such folder")
     shown = {"at": 0.0}
 
     def progress(stage, done, total):

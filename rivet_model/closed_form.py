@@ -6,6 +6,7 @@ Bolted joint with preload shielding, beam bending of the shank under head and ho
 Expect tens of per cent of error in the head: K_t and the lever arms are estimates, not results.
 """
 
+import argparse
 import sys
 
 import numpy as np
@@ -123,15 +124,19 @@ def make_table(geometry=None):
     )
 
 
-def main(arguments):
-    """Command line."""
-    if not 1 <= len(arguments) <= 2:
-        print(__doc__)
+def main(arguments=None):
+    """Command line; returns 0, or 2 with a message and no file."""
+    parser = argparse.ArgumentParser(prog="python -m rivet_model.closed_form", description=__doc__.partition("\n")[0])
+    parser.add_argument("out")
+    parser.add_argument("geometry", nargs="?")
+    options = parser.parse_args(arguments)
+    try:
+        table.write(make_table(Geometry.from_toml(options.geometry) if options.geometry else None), options.out)
+    except (OSError, ValueError) as error:
+        print(f"rivet table: {error}", file=sys.stderr)
         return 2
-    geometry = Geometry.from_toml(arguments[1]) if len(arguments) == 2 else Geometry()
-    table.write(make_table(geometry), arguments[0])
     return 0
 
 
 if __name__ == "__main__":
-    sys.exit(main(sys.argv[1:]))
+    sys.exit(main())

@@ -195,6 +195,8 @@ def main(arguments=None):
     parser.add_argument("--coarse", action="store_true")
     parser.add_argument("--workers", type=int, default=2)
     options = parser.parse_args(arguments)
+    if not Path(options.out).resolve().parent.is_dir():
+        parser.error(f"{options.out}: no such folder")
     try:
         made = make(Geometry.from_toml(options.geometry) if options.geometry else Geometry(), options.coarse, options.workers)
         write(made, options.out)

@@ -73,10 +73,10 @@ def main(arguments=None):
     options = parser.parse_args(arguments)
     try:
         text = c_source(table.read(options.table, options.Z))
+        Path(options.out).write_text(text, encoding="utf-8")
     except (OSError, ValueError) as error:
         print(f"rivet table: {error}", file=sys.stderr)
         return 2
-    Path(options.out).write_text(text, encoding="utf-8")
     return 0
 
 

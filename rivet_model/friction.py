@@ -10,6 +10,7 @@ solved for each step by Newton's method on both conditions written with projecti
 the plane of V, so half of the circle is enough.
 """
 
+import argparse
 import sys
 from dataclasses import dataclass
 
@@ -221,10 +222,17 @@ class Friction:
         return surface_stress(*total)[0].max()
 
 
-def main(arguments):
-    """Print the slip curve of a geometry at P = 20 N, mu = 0.15."""
+def main(arguments=None):
+    """Print the slip curve of a geometry at P = 20 N, mu = 0.15; returns 0, or 2 with a message."""
+    parser = argparse.ArgumentParser(prog="python -m rivet_model.friction", description=__doc__.partition("\n")[0])
+    parser.add_argument("geometry", nargs="?")
+    options = parser.parse_args(arguments)
     P, mu = 20.0, 0.15
-    friction = Friction(Joint(Geometry.from_toml(arguments[0]) if arguments else Geometry(), GRID))
+    try:
+        friction = Friction(Joint(Geometry.from_toml(options.geometry) if options.geometry else Geometry(), GRID))
+    except (OSError, ValueError) as error:
+        print(f"rivet friction: {error}", file=sys.stderr)
+        return 2
     print("V [N]  slip [um]  plates [N]  heads [N]  head stress [MPa]")
     for a in friction.curve(P, np.arange(0.5, 5.8, 0.5), mu):
         print(f"{a.V:5.1f} {1e6 * a.slip:9.3f} {a.plates:10.2f} {a.heads:10.2f} {a.head_p1 / 1e6:10.1f}")
@@ -232,4 +240,4 @@ def main(arguments):
 
 
 if __name__ == "__main__":
-    sys.exit(main(sys.argv[1:]))
+    sys.exit(main())

@@ -9,7 +9,7 @@ from library import ROOT
 from bearing_model import rivet_rom
 from bearing_model.rivet_rom import FLANGE_YIELDS, JOINT_COMPRESSED, RIVET_OUTSIDE, RIVET_YIELDS, RivetLoad
 from bearing_model.variables import Z
-from rivet_model import closed_form, embed, geometry, splines, table
+from rivet_model import build, closed_form, components, embed, friction, geometry, splines, table
 
 TABLE = ROOT / "rivet_model" / "tables" / "6207.json"
 FIT = -6e-6  # default fit and swell
@@ -313,3 +313,12 @@ def test_closed_form_table_follows_its_closed_forms():
     error = np.abs(got - exact) / exact.max(axis=0)
     assert error.max() < 0.05, error.max(axis=0)
     assert np.sqrt((error**2).mean(axis=0)).max() < 0.008  # observed 0.0056
+
+
+@pytest.mark.parametrize("program", [build, components, closed_form, friction])
+def test_programs_say_what_they_cannot_read(program, tmp_path, capsys):
+    """Exit code 2, the file's name, no traceback, nothing left."""
+    out = [] if program is friction else [str(tmp_path / "out")]
+    assert program.main([*out, str(tmp_path / "none.toml")]) == 2
+    assert "none.toml" in capsys.readouterr().err
+    assert not list(tmp_path.iterdir())
