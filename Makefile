@@ -57,9 +57,10 @@ sanitize: $(VENV)/installed  ## the fast tests on a copy compiled with the addre
 	cd $(COPY) && PYTHONPATH=$(COPY) PYTHONMALLOC=malloc ASAN_OPTIONS=$(ASAN) LD_PRELOAD="$$(cc -print-file-name=libasan.so) libstdc++.so.6" $(CURDIR)/$(PYTEST) -n 2
 
 analyze: build  ## static analysis without findings: the compiler's analyzer and clang-tidy
+	$(BIN)/pip --disable-pip-version-check --quiet install clang-tidy
 	$(BIN)/cmake -S . -B build/analyze -G Ninja -DANALYZE=ON -DFMU=$(CURDIR)/build/analyze/analyzed.fmu -DPython_EXECUTABLE=$(CURDIR)/$(PYTHON)
 	$(BIN)/cmake --build build/analyze --target RivetedBearing
-	clang-tidy -p build --quiet fmu_src/*.c
+	$(BIN)/clang-tidy -p build --quiet fmu_src/*.c
 
 FUZZ_SECONDS = 120
 fuzz: $(VENV)/installed  ## coverage-guided fuzzing of the FMI functions with sanitizers (clang) for FUZZ_SECONDS

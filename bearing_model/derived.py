@@ -9,7 +9,7 @@ import numpy as np
 
 import rivet_model
 from bearing_model.hertz import Hertz, hertz_contact
-from bearing_model.rivet_rom import joint_fit, joint_hole_stiffness, joint_preload, rivet_rom_fit_eff
+from bearing_model.rivet_rom import joint_fit, joint_hole_stiffness, joint_preload, rivet_rom_fit_eff, rivet_rom_fit_flags
 from bearing_model.variables import N_STATES, STATE_SCALES, STATE_SLICES, FitModel, Z
 from rivet_model import table as rivet_table
 
@@ -112,6 +112,7 @@ def derive_joint(p, d, table):
     d.P = joint_preload(table, p.joint.preload, p.rivet.temperature)
     d.fit_a = joint_fit(table, p.joint.fit + p.joint.swell, p.rivet.temperature)
     d.fit_eff = rivet_rom_fit_eff(table, d.fit_a, p.rivet.fit_model == FitModel.J2)
+    d.fit_flags = rivet_rom_fit_flags(table, d.fit_a)
     d.k_rivet = joint["k_rivet"]
     d.k_plate = joint["k_plate"]
     d.k_plate_t = joint["k_t_plate"]

@@ -123,6 +123,7 @@ def stress_outputs(model, w):
     sigma, flags = np.zeros((*shape, 4)), np.zeros(shape)
     if model.p.scene.stress != Stress.OFF:
         sigma, flags = rivet_rom_stress(model.d.table, rivets_load(model, w)[0], model.d.fit_eff)
+        flags = flags | model.d.fit_flags
     return {
         "rivet[k].sigma_head": sigma[..., HEAD_P1],
         "rivet[k].sigma_head_vm": sigma[..., HEAD_VM],

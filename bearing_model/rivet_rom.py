@@ -61,10 +61,10 @@ def load_splines(table, load, fit_eff):
 
 
 def rivet_rom_stress(table, load, fit_eff):
-    """Stress of all channels [..., 4] in Pa and the flags.
+    """Stress of all channels [..., 4] in Pa and the load's flags.
 
     Channels: HEAD_P1 largest principal stress in the head fillet, HEAD_VM von Mises there, MID_VM and MID_P1 in the middle of the shank.
-    Flags: sum of RIVET_YIELDS, FLANGE_YIELDS, JOINT_COMPRESSED (N < 0 counted as 0), RIVET_OUTSIDE.
+    Flags: sum of RIVET_YIELDS, JOINT_COMPRESSED (N < 0 counted as 0), RIVET_OUTSIDE (a load is not finite).
     """
     arrays = np.broadcast_arrays(*(np.asarray(v, dtype=float) for v in (*vars(load).values(), fit_eff)))
     shape = arrays[0].shape
@@ -89,11 +89,15 @@ def rivet_rom_stress(table, load, fit_eff):
     sigma[:, HEAD_VM] += table.head_friction_vm * load.F_head
     flags = (
         RIVET_YIELDS * (np.maximum(sigma[:, HEAD_VM], sigma[:, MID_VM]) > table.yield_rivet)
-        + FLANGE_YIELDS * (fit_eff > table.fit_flange_yield)
         + JOINT_COMPRESSED * (load.N < 0.0)
-        + RIVET_OUTSIDE * ((fit_eff > table.fit_a[-1]) | ~np.isfinite(sigma[:, HEAD_P1]))
+        + RIVET_OUTSIDE * ~np.isfinite(sigma[:, HEAD_P1])
     )
     return sigma.reshape(*shape, 4), flags.reshape(shape)
+
+
+def rivet_rom_fit_flags(table, fit_a):
+    """Flags of the fit alone: FLANGE_YIELDS, RIVET_OUTSIDE (beyond the map of effective fits)."""
+    return FLANGE_YIELDS * (fit_a > table.fit_flange_yield) + RIVET_OUTSIDE * (fit_a > table.fit_a[-1])
 
 
 def rivet_rom_fit_eff(table, fit_a, j2):

@@ -97,6 +97,7 @@ static void derive_joint(const Parameters *p, Derived *d)
     d->P = joint_preload(joint, p->joint.preload, p->rivet.temperature);
     d->fit_a = joint_fit(joint, p->joint.fit + p->joint.swell, p->rivet.temperature);
     d->fit_eff = rivet_rom_fit_eff(&rivet_table, d->fit_a, p->rivet.fit_model == FIT_MODEL_J2);
+    d->fit_flags = rivet_rom_fit_flags(&rivet_table, d->fit_a);
     d->k_rivet = joint->k_rivet;
     d->k_plate = joint->k_plate;
     d->k_plate_t = joint->k_t_plate;

@@ -92,7 +92,7 @@ static const struct {
     [CALL_GetStringStatus] = {"fmi2GetStringStatus", STEPPED},
 };
 
-static const char *phase_name(Phase phase)
+static const char *phase_name(uint32_t phase)
 {
     return phase == INSTANTIATED   ? "instantiated"
            : phase == INITIALIZING ? "initialization mode"
@@ -267,10 +267,11 @@ fmi2Component fmi2Instantiate(fmi2String name, fmi2Type type, fmi2String guid, f
         m->host = (PartHost){m, instance_log};
         m->callbacks = *functions;
         m->categories = logging ? ALL_CATEGORIES : ALWAYS_SENT;
-        m->name = malloc(strlen(name) + 1);
+        const size_t size = strlen(name) + 1;
+        m->name = malloc(size);
         if (m->name) m->part = part_create(&m->host);
         if (m->part) {
-            strcpy(m->name, name);
+            memcpy(m->name, name, size);
             return m;
         }
         fmi2FreeInstance(m);

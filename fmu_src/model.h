@@ -50,6 +50,7 @@ typedef struct {
     double disk_laminar_omega, cylinder_laminar_omega;  // cage speeds below which both are laminar [rad/s]
     double cylinder_laminar, cylinder_vortex;           // cylinder drag moment / |omega|, |omega|^1.539 of one half
     double P, fit_a, fit_eff, k_hole, hole_gap;         // joint at the present temperature
+    unsigned fit_flags;                                 // rivet_rom_fit_flags
     double k_rivet, k_plate, k_plate_t, k_head;         // its stiffnesses [N/m]
     double c_joint;                                     // axial damping of one closed joint [N.s/m]
     double scale[SCALE_COUNT];                          // error that tolerance 1 allows, by class of state

@@ -154,7 +154,7 @@ static void fill_stress(const Evaluation *at, Outputs *out)
     const bool off = at->model->p->scene.stress == STRESS_OFF;
     if (!off) at->loads(at->model, at->w, load, V);
     for (int k = 0; k < Z; k++) {
-        const unsigned flags = off ? 0 : rivet_rom_stress(&rivet_table, &load[k], at->model->d->fit_eff, sigma);
+        const unsigned flags = off ? 0 : at->model->d->fit_flags | rivet_rom_stress(&rivet_table, &load[k], at->model->d->fit_eff, sigma);
         out->rivet.sigma_head[k] = sigma[HEAD_P1];
         out->rivet.sigma_head_vm[k] = sigma[HEAD_VM];
         out->rivet.sigma_mid[k] = sigma[MID_VM];

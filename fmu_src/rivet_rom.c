@@ -40,9 +40,16 @@ unsigned rivet_rom_stress(const RivetTable *t, const RivetLoad *load, double fit
 
     unsigned flags = 0;
     if (fmax(number_value(sigma[HEAD_VM]), number_value(sigma[MID_VM])) > t->yield_rivet) flags |= RIVET_YIELDS;
-    if (fit_eff > t->fit_flange_yield) flags |= FLANGE_YIELDS;
     if (number_value(load->N) < 0.0) flags |= JOINT_COMPRESSED;
-    if (fit_eff > t->j2.fit_a[t->j2.count - 1] || !isfinite(number_value(sigma[HEAD_P1]))) flags |= RIVET_OUTSIDE;
+    if (!isfinite(number_value(sigma[HEAD_P1]))) flags |= RIVET_OUTSIDE;
+    return flags;
+}
+
+unsigned rivet_rom_fit_flags(const RivetTable *t, double fit_a)
+{
+    unsigned flags = 0;
+    if (fit_a > t->fit_flange_yield) flags |= FLANGE_YIELDS;
+    if (fit_a > t->j2.fit_a[t->j2.count - 1]) flags |= RIVET_OUTSIDE;
     return flags;
 }
 

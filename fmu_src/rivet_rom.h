@@ -95,7 +95,7 @@ typedef struct {
     double head_friction;     // [1/m2]
     double head_friction_vm;  // [1/m2]
     double yield_rivet;       // [Pa]
-    double fit_flange_yield;  // effective fit at which the flange begins to yield [m]
+    double fit_flange_yield;  // fit at which the flange begins to yield [m]
     FitMap j2;                // interference with plasticity
     JointData joint;
     const double *load_path;  // see load_path_flexible
@@ -106,7 +106,10 @@ extern const RivetTable rivet_table;  // rivet_table.c, written by rivet_model/e
 // Effective fit [m]: fit_a itself, or with j2 the elastic fit that leaves the pressure of the yielded flange.
 double rivet_rom_fit_eff(const RivetTable *t, double fit_a, bool j2);
 
-// All channels sigma [Pa]; returns the flags.  Never NaN for finite loads.
+// Flags of the fit alone.
+unsigned rivet_rom_fit_flags(const RivetTable *t, double fit_a);
+
+// All channels sigma [Pa]; returns the load's flags.  Never NaN for finite loads.
 unsigned rivet_rom_stress(const RivetTable *t, const RivetLoad *load, double fit_eff, number sigma[RIVET_CHANNELS]);
 
 double joint_preload(const JointData *j, double preload, double T);  // preload at temperature T [N], not below 0

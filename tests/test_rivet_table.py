@@ -1,4 +1,4 @@
-"""The rivet table: closed forms, homogeneity, invariance, limits, twins, speed, and what a damaged file does."""
+"""The rivet table: closed forms, homogeneity, invariance, limits, twins, and what a damaged file does."""
 
 import json
 
@@ -8,7 +8,7 @@ from library import ROOT
 
 from bearing_model import rivet_rom
 from bearing_model.rivet_rom import FLANGE_YIELDS, JOINT_COMPRESSED, RIVET_OUTSIDE, RIVET_YIELDS, RivetLoad
-from bearing_model.variables import Z
+from bearing_model.variables import FitModel, Z
 from rivet_model import build, closed_form, components, embed, friction, geometry, splines, table
 
 TABLE = ROOT / "rivet_model" / "tables" / "6207.json"
@@ -162,12 +162,20 @@ def test_flags_never_nan(stress, rivets):
     assert stress(RivetLoad(P=20.0, N=-5.0), FIT)[1] == JOINT_COMPRESSED
     np.testing.assert_array_equal(stress(RivetLoad(P=20.0, N=-5.0), FIT)[0], stress(RivetLoad(P=20.0), FIT)[0])
     assert stress(RivetLoad(P=2000.0), FIT)[1] & RIVET_YIELDS
-    assert stress(RivetLoad(P=20.0), rivets.fit_flange_yield * 1.01)[1] & FLANGE_YIELDS
-    assert stress(RivetLoad(P=20.0), rivets.fit_a[-1] * 1.01)[1] & RIVET_OUTSIDE
     rng = np.random.default_rng(6)
     for row in rng.choice([0.0, 1e-300, 1e-12, 1.0, 1e6], (300, 7)):
         for fit in (-1e-4, 0.0, 1e-300, 1e-5):
             assert np.all(np.isfinite(stress(RivetLoad(*map(float, row)), fit)[0]))
+
+
+def test_flags_of_the_fit(core, rivets):
+    """By the fit itself, which the map of effective fits may cut short: an output of both twins."""
+    largest = rivets.fit_a[-1]
+    for fit, flag in ((0.99 * rivets.fit_flange_yield, 0), (1.01 * rivets.fit_flange_yield, FLANGE_YIELDS), (1.01 * largest, FLANGE_YIELDS | RIVET_OUTSIDE)):
+        assert rivet_rom.rivet_rom_fit_flags(rivets, fit) == flag
+    for fit_model in FitModel:
+        model = core.model(parameters={"joint.fit": 1.05 * rivets.fit_a[-1], "rivet.fit_model": fit_model})
+        assert model.d.fit_flags == FLANGE_YIELDS | RIVET_OUTSIDE
 
 
 def test_head_friction_loads_the_head_only(stress, rivets):
