@@ -28,16 +28,110 @@ static const double SLICE[SLICES] = {-0.8997579954114603, -0.6771862795107377, -
 static const double SHARE[SLICES] = {0.02363715011287406, 0.11148030343755763, 0.22556281855841187, 0.27863945578231275,
                                      0.22556281855841187, 0.11148030343755763, 0.02363715011287406};
 
-// What traction needs to know of one contact.
+static const double TINY = 1e-30;  // ghosts and balls at a groove's centre: no division by 0
+
+// One ball, in its own frame (x, r, t).
+typedef struct {
+    vec x, v, omega;  // centre, velocity, angular velocity
+    real omega_m, R;
+} BallMotion;
+
+// One contact.
 typedef struct {
     vec n, t_1, t_2;  // normal, rolling direction, long axis of the ellipse
     vec slip, roll;   // Delta u, U
     vec spin;         // omega_ball - Omega of the race
     vec approach;     // velocity of the ball's centre against the race there
-    real Q, sqrt_delta, R;
+    real R, delta, sqrt_delta, Q, dissipated;
 } Contact;
 
-// Traction at a point or over the slices, and the inlet's rolling friction.
+// Load of a contact approaching by delta, at the rate n.approach, and what its damping dissipates.
+INLINE void load_contact(const Model *model, const Race *race, real delta, real delta_dot, Contact *c)
+{
+    const real Q_0 = hertz_load(real_set(race->hertz.K), delta);
+    c->delta = delta;
+    c->sqrt_delta = real_sqrt(real_max(delta, real_set(0.0)));
+    c->Q = hertz_damped(Q_0, real_set(model->p->bearing.lambda), delta_dot);
+    c->dissipated = (c->Q - Q_0) * delta_dot;
+}
+
+// Inner race.  p: from the centre of the ring to that of the ball; a, v, Omega: axis, velocity and angular velocity of the ring; all in the frame of the ball.
+INLINE Contact inner_contact(const Model *model, const BallMotion *ball, vec p, vec a, vec v, vec Omega)
+{
+    const Race *race = &model->d->inner;
+    const real along = vec_dot(p, a), tiny = real_set(TINY);
+    const vec radial = vec_axpy(-along, a, p);
+    const real r = real_sqrt(vec_dot(radial, radial) + tiny);
+    const vec e = vec_scale(1.0 / r, radial);
+    const real across = r - race->R_g, L = real_sqrt(along * along + across * across + tiny), per_L = 1.0 / L;
+    Contact c = {.R = ball->R, .n = vec_axpy(across * per_L, e, vec_scale(along * per_L, a)), .t_1 = vec_cross(a, e)};
+    c.t_2 = vec_cross(c.n, c.t_1);
+    c.approach = vec_sub(vec_sub(ball->v, v), vec_cross(Omega, p));
+    c.spin = vec_sub(ball->omega, Omega);
+    load_contact(model, race, L - (race->r_g - ball->R), vec_dot(c.n, c.approach), &c);
+
+    const vec arm = vec_scale(ball->R, c.n), axis = {ball->omega_m, real_set(0.0), real_set(0.0)};
+    const vec u_ball = vec_cross(ball->omega, arm), orbit = vec_cross(axis, arm);
+    const vec u_race = vec_sub(vec_cross(Omega, arm), c.approach);  // v + Omega x (p + arm) - v_ball
+    c.slip = vec_across(vec_sub(u_ball, u_race), c.n);
+    c.roll = vec_across(vec_axpy(real_set(-1.0), orbit, vec_scale(real_set(0.5), vec_add(u_ball, u_race))), c.n);
+    return c;
+}
+
+// Outer race: the same for a ring at rest whose axis is X, with what vanishes left out.
+INLINE Contact outer_contact(const Model *model, const BallMotion *ball)
+{
+    const Race *race = &model->d->outer;
+    const vec v = ball->v, omega = ball->omega;
+    const real R = ball->R, across = ball->x.r - race->R_g;
+    const real L = real_sqrt(ball->x.x * ball->x.x + across * across + real_set(TINY)), per_L = 1.0 / L;
+    Contact c = {.R = R, .n = {ball->x.x * per_L, across * per_L, real_set(0.0)}, .t_1 = {real_set(0.0), real_set(0.0), real_set(1.0)}};
+    c.t_2 = (vec){c.n.r, -c.n.x, real_set(0.0)};
+    c.approach = v;
+    c.spin = omega;
+    load_contact(model, race, L - (race->r_g - R), c.n.x * v.x + c.n.r * v.r, &c);
+
+    const vec u_ball = {-omega.t * R * c.n.r, omega.t * R * c.n.x, R * (omega.x * c.n.r - omega.r * c.n.x)};
+    const real orbit = ball->omega_m * R * c.n.r;  // along t
+    c.slip = vec_across(vec_add(u_ball, v), c.n);
+    c.roll = vec_across((vec){0.5 * (u_ball.x - v.x), 0.5 * (u_ball.r - v.r), 0.5 * (u_ball.t - v.t) - orbit}, c.n);
+    return c;
+}
+
+// Traction at the contact's middle.
+INLINE Tangential point_traction(const Parameters *p, const Contact *c, real per_U, real f_a, bool mixed)
+{
+    const real slip_2 = vec_dot(c->slip, c->slip) + p->oil.v_0 * p->oil.v_0, per_slip = 1.0 / real_sqrt(slip_2);
+    Tangential out = {0};
+    out.g = traction_mu(p, slip_2 * per_slip * per_U, f_a, mixed) * c->Q * per_slip;
+    out.F_s = vec_scale(-out.g, c->slip);
+    out.M = vec_cross(vec_scale(c->R, c->n), out.F_s);
+    out.dissipated = -vec_dot(out.F_s, c->slip);
+    return out;
+}
+
+// Traction over the long axis of the ellipse.
+INLINE Tangential sliced_traction(const Parameters *p, const Race *race, const Contact *c, real per_U, real f_a, bool mixed)
+{
+    const real a = race->hertz.a_delta * c->sqrt_delta, spin_n = vec_dot(c->spin, c->n);
+    const vec bend = vec_cross(c->spin, c->n);  // its part along t_1 and t_2 only
+    Tangential out = {0};
+    for (int i = 0; i < SLICES; i++) {
+        const real xi = a * SLICE[i], sagitta = xi * xi * (0.5 / race->R_m);
+        const vec slip_i = vec_axpy(-sagitta, bend, vec_axpy(-xi * spin_n, c->t_1, c->slip));
+        const real slip_2 = vec_dot(slip_i, slip_i) + p->oil.v_0 * p->oil.v_0, per_slip = 1.0 / real_sqrt(slip_2);
+        const real g = SHARE[i] * traction_mu(p, slip_2 * per_slip * per_U, f_a, mixed) * c->Q * per_slip;
+        const vec F = vec_scale(-g, slip_i);
+        out.g += g;
+        out.g_spin += g * xi * xi;
+        out.F_s = vec_add(out.F_s, F);
+        out.M = vec_add(out.M, vec_cross(vec_axpy(xi, c->t_2, vec_scale(c->R - sagitta, c->n)), F));
+        out.dissipated -= vec_dot(F, slip_i);
+    }
+    return out;
+}
+
+// Traction and the inlet's rolling friction: -F_R U/|U| at the surface, the film's horizontal pressure force +F_H U/|U| through the ball's centre.
 INLINE Tangential race_traction(const Model *model, const Race *race, const Contact *c, bool mixed, bool sliced)
 {
     const Parameters *p = model->p;
@@ -46,127 +140,59 @@ INLINE Tangential race_traction(const Model *model, const Race *race, const Cont
     real_log2(U_2 * per_U, c->Q + Q_FLOOR, &ln_U, &ln_Q);
     const real f_a = mixed ? traction_asperity_share(traction_ln_film(real_set(race->ln_Lambda), ln_U, ln_Q)) : real_set(0.0);
     const real F_R = traction_inlet(real_set(race->rolling), ln_U, c->Q, ln_Q);
-    const vec arm = vec_scale(c->R, c->n);
-
-    Tangential out;
-    if (!sliced) {
-        const real slip_2 = vec_dot(c->slip, c->slip) + p->oil.v_0 * p->oil.v_0, per_slip = 1.0 / real_sqrt(slip_2);
-        out.g = traction_mu(p, slip_2 * per_slip * per_U, f_a, mixed) * c->Q * per_slip;
-        out.g_spin = real_set(0.0);
-        out.F_s = vec_scale(-out.g, c->slip);
-        out.M = vec_cross(arm, out.F_s);
-        out.dissipated = -vec_dot(out.F_s, c->slip);
-    } else {
-        const real a = race->hertz.a_delta * c->sqrt_delta;
-        const real spin_n = vec_dot(c->spin, c->n);
-        const vec bend = vec_cross(c->spin, c->n);  // its part along t_1 and t_2 only
-        out = (Tangential){0};
-        for (int i = 0; i < SLICES; i++) {
-            const real xi = a * SLICE[i], sagitta = xi * xi * (0.5 / race->R_m);
-            const vec slip_i = vec_axpy(-sagitta, bend, vec_axpy(-xi * spin_n, c->t_1, c->slip));
-            const real slip_2 = vec_dot(slip_i, slip_i) + p->oil.v_0 * p->oil.v_0, per_slip = 1.0 / real_sqrt(slip_2);
-            const real g = SHARE[i] * traction_mu(p, slip_2 * per_slip * per_U, f_a, mixed) * c->Q * per_slip;
-            const vec F = vec_scale(-g, slip_i);
-            out.g += g;
-            out.g_spin += g * xi * xi;
-            out.F_s = vec_add(out.F_s, F);
-            out.M = vec_add(out.M, vec_cross(vec_axpy(xi, c->t_2, vec_scale(c->R - sagitta, c->n)), F));
-            out.dissipated -= vec_dot(F, slip_i);
-        }
-    }
-    // Inlet: -F_R U/|U| at the surface, the film's horizontal pressure force +F_H U/|U| through the ball's centre.
     const vec rolling = vec_scale(F_R * per_U, c->roll);
+
+    Tangential out = sliced ? sliced_traction(p, race, c, per_U, f_a, mixed) : point_traction(p, c, per_U, f_a, mixed);
     out.F_s = vec_sub(out.F_s, rolling);
-    out.M = vec_sub(out.M, vec_cross(arm, rolling));
+    out.M = vec_sub(out.M, vec_cross(vec_scale(c->R, c->n), rolling));
     out.F_c = vec_scale(real_set(race->horizontal), rolling);
     out.U = U_2 * per_U;
     out.dissipated += vec_dot(rolling, c->slip) - vec_dot(out.F_c, c->approach);
     return out;
 }
 
+INLINE void store_contacts(Work *w, int j, const Contact *inner, const Contact *outer, const Tangential *T_i, const Tangential *T_e)
+{
+    real_store(&w->delta_i[j], inner->delta);
+    real_store(&w->delta_e[j], outer->delta);
+    real_store(&w->Q_i[j], inner->Q);
+    real_store(&w->Q_e[j], outer->Q);
+    vec_store(inner->n, &w->n_ix[j], &w->n_ir[j], &w->n_it[j]);
+    real_store(&w->n_ex[j], outer->n.x);
+    real_store(&w->n_er[j], outer->n.r);
+    real_store(&w->U_i[j], T_i->U);
+    real_store(&w->U_e[j], T_e->U);
+    real_store(&w->g_i[j], T_i->g);
+    real_store(&w->g_e[j], T_e->g);
+    real_store(&w->g_spin_i[j], T_i->g_spin);
+    real_store(&w->g_spin_e[j], T_e->g_spin);
+    real_store(&w->dissipated[j], T_i->dissipated + T_e->dissipated + inner->dissipated + outer->dissipated);
+}
+
 INLINE void race_contact_bundle(const Model *model, Work *w, int j, bool mixed, bool sliced)
 {
-    const Parameters *p = model->p;
     const Derived *d = model->d;
-    const real cos_theta = real_load(&w->cos_theta[j]), sin_theta = real_load(&w->sin_theta[j]);
-    const real omega_m = real_load(&w->omega_m[j]), R = real_load(&d->R[j]), lambda = real_set(p->bearing.lambda);
-    const vec v_b = vec_load(&w->v_x[j], &w->v_r[j], &w->v_t[j]);
-    const vec omega_b = vec_load(&w->omega_x[j], &w->omega_r[j], &w->omega_t[j]);
-    const vec position = {real_load(&w->x[j]), real_load(&w->r[j]), real_set(0.0)};
-    const real tiny = real_set(1e-30);  // ghosts and balls at a groove's centre: no division by 0
+    const real cos_theta = real_load(&w->cos_theta[j]), sin_theta = real_load(&w->sin_theta[j]), minus = real_set(-1.0);
+    const BallMotion ball = {.x = {real_load(&w->x[j]), real_load(&w->r[j]), real_set(0.0)},
+                             .v = vec_load(&w->v_x[j], &w->v_r[j], &w->v_t[j]),
+                             .omega = vec_load(&w->omega_x[j], &w->omega_r[j], &w->omega_t[j]),
+                             .omega_m = real_load(&w->omega_m[j]),
+                             .R = real_load(&d->R[j])};
+    const vec p_i = vec_sub(ball.x, vec_local(w->ring.x, cos_theta, sin_theta));
+    const Contact inner = inner_contact(model, &ball, p_i, vec_local(w->ring.a, cos_theta, sin_theta), vec_local(w->ring.v, cos_theta, sin_theta),
+                                        vec_local(w->ring.Omega, cos_theta, sin_theta));
+    const Contact outer = outer_contact(model, &ball);
+    const Tangential T_i = race_traction(model, &d->inner, &inner, mixed, sliced), T_e = race_traction(model, &d->outer, &outer, mixed, sliced);
+    store_contacts(w, j, &inner, &outer, &T_i, &T_e);
 
-    // ---- inner race: the ring's centre x_i, axis a, in the ball's frame
-    const vec a = vec_local(w->ring.a, cos_theta, sin_theta), Omega = vec_local(w->ring.Omega, cos_theta, sin_theta);
-    const vec v_i = vec_local(w->ring.v, cos_theta, sin_theta);
-    const vec p_i = vec_sub(position, vec_local(w->ring.x, cos_theta, sin_theta));
-    const real along = vec_dot(p_i, a);
-    const vec radial = vec_axpy(-along, a, p_i);
-    const real r_i = real_sqrt(vec_dot(radial, radial) + tiny);
-    const vec e = vec_scale(1.0 / r_i, radial);
-    const real across = r_i - d->inner.R_g;
-    const real L_i = real_sqrt(along * along + across * across + tiny), per_L_i = 1.0 / L_i;
-    Contact inner = {.R = R, .n = vec_axpy(across * per_L_i, e, vec_scale(along * per_L_i, a)), .t_1 = vec_cross(a, e)};
-    inner.approach = vec_sub(vec_sub(v_b, v_i), vec_cross(Omega, p_i));
-    const real delta_i = L_i - (d->inner.r_g - R), delta_i_dot = vec_dot(inner.n, inner.approach);
-    const real Q_i0 = hertz_load(real_set(d->inner.hertz.K), delta_i);
-    inner.Q = hertz_damped(Q_i0, lambda, delta_i_dot);
-    inner.sqrt_delta = real_sqrt(real_max(delta_i, real_set(0.0)));
-    inner.t_2 = vec_cross(inner.n, inner.t_1);
-    inner.spin = vec_sub(omega_b, Omega);
-    {
-        const vec arm = vec_scale(R, inner.n);
-        const vec ball = vec_cross(omega_b, arm), orbit = vec_cross((vec){omega_m, real_set(0.0), real_set(0.0)}, arm);
-        const vec race = vec_sub(vec_cross(Omega, arm), inner.approach);  // v_i + Omega x (p + arm) - v_b
-        inner.slip = vec_across(vec_sub(ball, race), inner.n);
-        inner.roll = vec_across(vec_axpy(real_set(-1.0), orbit, vec_scale(real_set(0.5), vec_add(ball, race))), inner.n);
-    }
-    const Tangential T_i = race_traction(model, &d->inner, &inner, mixed, sliced);
-    const vec F_i = vec_axpy(-inner.Q, inner.n, vec_add(T_i.F_s, T_i.F_c));
-
-    // ---- outer race: fixed, its axis is X
-    const real L_er = position.r - d->outer.R_g, L_e = real_sqrt(position.x * position.x + L_er * L_er + tiny), per_L_e = 1.0 / L_e;
-    Contact outer = {.R = R, .n = {position.x * per_L_e, L_er * per_L_e, real_set(0.0)}, .t_1 = {real_set(0.0), real_set(0.0), real_set(1.0)}};
-    outer.approach = v_b;
-    const real delta_e = L_e - (d->outer.r_g - R), delta_e_dot = outer.n.x * v_b.x + outer.n.r * v_b.r;
-    const real Q_e0 = hertz_load(real_set(d->outer.hertz.K), delta_e);
-    outer.Q = hertz_damped(Q_e0, lambda, delta_e_dot);
-    outer.sqrt_delta = real_sqrt(real_max(delta_e, real_set(0.0)));
-    outer.t_2 = (vec){outer.n.r, -outer.n.x, real_set(0.0)};
-    outer.spin = omega_b;
-    {
-        const vec ball = {-omega_b.t * R * outer.n.r, omega_b.t * R * outer.n.x, R * (omega_b.x * outer.n.r - omega_b.r * outer.n.x)};
-        const real orbit = omega_m * R * outer.n.r;  // along t
-        outer.slip = vec_across(vec_add(ball, v_b), outer.n);
-        outer.roll = vec_across((vec){0.5 * (ball.x - v_b.x), 0.5 * (ball.r - v_b.r), 0.5 * (ball.t - v_b.t) - orbit}, outer.n);
-    }
-    const Tangential T_e = race_traction(model, &d->outer, &outer, mixed, sliced);
-    const vec F_e = vec_axpy(-outer.Q, outer.n, vec_add(T_e.F_s, T_e.F_c));
-
-    // ---- sums on the ball, the wrench on the ring
+    const vec none = {0}, F_i = vec_axpy(-inner.Q, inner.n, vec_add(T_i.F_s, T_i.F_c)), F_e = vec_axpy(-outer.Q, outer.n, vec_add(T_e.F_s, T_e.F_c));
+    const vec M_ring = vec_sub(vec_scale(minus, vec_cross(p_i, F_i)), T_i.M);
     vec_store(vec_add(F_i, F_e), &w->F_x[j], &w->F_r[j], &w->F_t[j]);
     vec_store(vec_add(T_i.M, T_e.M), &w->M_x[j], &w->M_r[j], &w->M_t[j]);
-    const vec none = {0};
-    real_store(&w->g_i[j], T_i.g);
-    real_store(&w->g_e[j], T_e.g);
-    real_store(&w->g_spin_i[j], T_i.g_spin);
-    real_store(&w->g_spin_e[j], T_e.g_spin);
     vec_store(none, &w->D_x[j], &w->D_r[j], &w->D_t[j]);
     vec_store(none, &w->D_omega_x[j], &w->D_omega_r[j], &w->D_omega_t[j]);
-    real_store(&w->dissipated[j], T_i.dissipated + T_e.dissipated + (inner.Q - Q_i0) * delta_i_dot + (outer.Q - Q_e0) * delta_e_dot);
-
-    const vec M_ring = vec_sub(vec_scale(real_set(-1.0), vec_cross(p_i, F_i)), T_i.M);
-    vec_to_global(vec_scale(real_set(-1.0), F_i), cos_theta, sin_theta, &w->ring_F_x[j], &w->ring_F_y[j], &w->ring_F_z[j]);
+    vec_to_global(vec_scale(minus, F_i), cos_theta, sin_theta, &w->ring_F_x[j], &w->ring_F_y[j], &w->ring_F_z[j]);
     vec_to_global(M_ring, cos_theta, sin_theta, &w->ring_M_x[j], &w->ring_M_y[j], &w->ring_M_z[j]);
-
-    real_store(&w->delta_i[j], delta_i);
-    real_store(&w->delta_e[j], delta_e);
-    real_store(&w->Q_i[j], inner.Q);
-    real_store(&w->Q_e[j], outer.Q);
-    vec_store(inner.n, &w->n_ix[j], &w->n_ir[j], &w->n_it[j]);
-    real_store(&w->n_ex[j], outer.n.x);
-    real_store(&w->n_er[j], outer.n.r);
-    real_store(&w->U_i[j], T_i.U);
-    real_store(&w->U_e[j], T_e.U);
 }
 
 void race_contact_force(const Model *model, Work *w)
