@@ -7,7 +7,7 @@ FMU     = fmus/RivetedBearing.fmu
 COPY    = $(CURDIR)/build/sanitize
 PYTEST  = $(PYTHON) -m pytest
 C_FILES = $(wildcard fmu_src/*.[ch] tests/*.[ch] benchmarks/*.[ch] examples/*/*.c)
-BENCHMARKS = rhs step scenes scaling work_precision
+BENCHMARKS = rtf rhs step scenes scaling work_precision
 FORM    = --short
 # Leaks are Python's, mismatches those of libecosc.
 ASAN    = detect_leaks=0:new_delete_type_mismatch=0

@@ -23,7 +23,6 @@ from scipy.stats import t as student
 
 from bearing_model import integrator as reference_implementation
 from bearing_model import variables
-from bearing_model.app import run
 from bearing_model.statistics import StatisticsChannel
 
 HORIZON, PYTHON_HORIZON, BLOCK = 2e-3, 0.5e-3, 20e-3  # [s]
@@ -296,18 +295,6 @@ def statistics_part(bench, scene, short):
     return {"rows": rows, "truth": truth, "truth_cost": truth_cost, "seeds": [len(few), len(many)], "length": length}
 
 
-def through_fmpy(name, short):
-    """Real-time factor of the default settings through fmpy with 1e-4 s steps, peak stress channels read."""
-    _, shipped, changes = SCENES[name]
-    outputs = ["rivet[*].sigma_head_peak", "rivet[*].sigma_mid_peak", "cage.F_pocket_peak"]
-    # least of three: other users of the machine only add
-    summary = min(
-        (run(shipped, **changes, t_end=0.1 if short else 0.4, step=1e-4, outputs=outputs).summary for _ in range(3)), key=lambda s: s["real_time_factor"]
-    )
-    span = summary["simulated_time"]
-    return {"rtf": summary["real_time_factor"], "inside": summary["solver.cpu_time"] / span, "evals": summary["solver.rhs_evals"] / span}
-
-
 def main():
     short = options(__doc__).short
     bench, scenes = Bench(), {}
@@ -318,7 +305,7 @@ def main():
         outside = bench.other.lib.solver_outside_pattern(instance.bearing)
         if outside > 1e-9:
             raise SystemExit(f"{name}: the Jacobian has entries outside the bordered pattern, {outside:.1e} of the largest one")
-        scenes[name] = {"title": scene.title, "fmpy": through_fmpy(name, short), "states": state_part(bench, scene, short)}
+        scenes[name] = {"title": scene.title, "states": state_part(bench, scene, short)}
         scenes[name]["statistics"] = statistics_part(bench, scene, short)
         write(
             "work_precision",

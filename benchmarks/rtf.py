@@ -1,0 +1,34 @@
+"""Real-time factor through fmpy: default settings, 1e-4 s communication steps, peak stress of all rivets read at each.
+
+Apart from work_precision.py, which takes the better part of an hour: other users of the machine only add time, so the scenes take turns and the least of
+several rounds counts.
+"""
+
+from common import SCENES, options, say, write
+
+from bearing_model.app import run
+
+OUTPUTS = ["rivet[*].sigma_head_peak", "rivet[*].sigma_mid_peak", "cage.F_pocket_peak"]
+STEP, SPAN, ROUNDS = 1e-4, 0.4, 7  # [s], [s], 1
+
+
+def measure(name, span):
+    """Processor time per simulated time, in all and inside the FMU, and evaluations of the right-hand side."""
+    _, shipped, changes = SCENES[name]
+    summary = run(shipped, **changes, t_end=span, step=STEP, outputs=OUTPUTS).summary
+    span = summary["simulated_time"]
+    return {"rtf": summary["real_time_factor"], "inside": summary["solver.cpu_time"] / span, "evals": summary["solver.rhs_evals"] / span}
+
+
+def main():
+    short = options(__doc__).short
+    rounds = [{name: measure(name, 0.1 if short else SPAN) for name in SCENES} for _ in range(3 if short else ROUNDS)]
+    scenes = {name: min((found[name] for found in rounds), key=lambda figures: figures["rtf"]) for name in SCENES}
+    for name, figures in scenes.items():
+        slowest = max(found[name]["rtf"] for found in rounds)
+        say(f"{name}: RTF {figures['rtf']:.2f} (slowest round {slowest:.2f}), inside the FMU {figures['inside']:.2f}")
+    write("rtf", {"rounds": len(rounds), "scenes": scenes}, short)
+
+
+if __name__ == "__main__":
+    main()
