@@ -452,8 +452,8 @@ static void get_status(Fuzz *f, Host *host)
 static void derivatives(Fuzz *f, Host *host)
 {
     fmi2ValueReference unknowns[MOST_VALUES], knowns[MOST_VALUES];
-    fmi2Integer orders[MOST_VALUES];
-    fmi2Real values[MOST_VALUES], seeds[MOST_VALUES];
+    fmi2Integer orders[MOST_VALUES] = {0};
+    fmi2Real values[MOST_VALUES] = {0}, seeds[MOST_VALUES];
     const size_t n = some(&f->bytes), m = some(&f->bytes);
     for (size_t i = 0; i < n; i++) unknowns[i] = any_reference(&f->bytes), orders[i] = (fmi2Integer)choose(&f->bytes, 4), values[i] = any_double(&f->bytes);
     for (size_t i = 0; i < m; i++) {
