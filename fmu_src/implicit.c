@@ -12,6 +12,7 @@
 // Rolling couples the velocities of a ball as strongly as each is damped, so a diagonal alone would leave stiff terms outside.
 #include "implicit.h"
 
+#include "elimination.h"
 #include "rotor.h"
 
 // ---- balls --------------------------------------------------------------------------------------------------------------------------------------
@@ -359,7 +360,7 @@ static void held_halves(const Model *model, const Work *w, double gamma, double 
 }
 
 // ---- ring -----------------------------------------------------------------------------------------------------------------------------------------
-enum { RING = 5 };                  // velocities of the ring: v_x, v_y, v_z, beta_dot, gamma_dot
+enum { RING = RING_DOF };           // velocities of the ring: v_x, v_y, v_z, beta_dot, gamma_dot
 static const double COUPLED = 0.2;  // gamma A of the ring by traction from which it is coupled to the balls
 
 // What holds back each velocity of the ring by itself: gamma A + gamma^2 K of support and tilt.
@@ -397,21 +398,6 @@ static void race_motion(const Model *model, const Work *w, int j, double D[3][RI
     }
 }
 
-// x = S^-1 x, S is overwritten.  No pivoting: S is symmetric positive definite, or is so where forces move the ring and diagonal elsewhere.
-static void solve_ring_matrix(double S[RING][RING], double x[RING])
-{
-    for (int i = 0; i < RING; i++)
-        for (int k = i + 1; k < RING; k++) {
-            const double l = S[k][i] / S[i][i];
-            for (int q = i; q < RING; q++) S[k][q] -= l * S[i][q];
-            x[k] -= l * x[i];
-        }
-    for (int i = RING - 1; i >= 0; i--) {
-        for (int k = i + 1; k < RING; k++) x[i] -= S[i][k] * x[k];
-        x[i] /= S[i][i];
-    }
-}
-
 // The ring's velocities V under the balls' drag and hold, then what V gives the balls.
 static void race_couple(const Model *model, const Work *w, const double support[RING], const Coupling *c, lanes rows[BLOCK], double V[RING])
 {
@@ -431,7 +417,7 @@ static void race_couple(const Model *model, const Work *w, const double support[
                     for (int e = 0; e < RING; e++) S[i][e] += D[j][k][i] * c->hold[k][q][j] * D[j][q][e];
             }
     }
-    solve_ring_matrix(S, V);
+    eliminate(S, V);
     for (int j = 0; j < Z; j++)
         for (int k = 0; k < 3; k++) {
             double u = 0.0;

@@ -10,10 +10,11 @@
 #include "start.h"
 
 #include "elementary.h"
+#include "elimination.h"
 
 #include "rotor.h"
 
-enum { DOF = 5, TILT = 3 };  // x, y, z | beta, gamma
+enum { DOF = RING_DOF, TILT = 3 };  // x, y, z | beta, gamma
 static const double PI = 3.14159265358979323846;
 static const double K_0 = 1e3;    // [N/m]
 static const double F_0 = 1e-3;   // [N]
@@ -147,22 +148,6 @@ static void ring_balls(const Equilibrium *eq, double force[DOF], double H[DOF][D
     }
 }
 
-// Solves H dq = force, H symmetric and positive definite; rows of fixed tilts are the identity.
-static void solve(double H[DOF][DOF], double force[DOF])
-{
-    for (int i = 0; i < DOF; i++) {
-        for (int m = i + 1; m < DOF; m++) {
-            const double factor = H[m][i] / H[i][i];
-            for (int n = i; n < DOF; n++) H[m][n] -= factor * H[i][n];
-            force[m] -= factor * force[i];
-        }
-    }
-    for (int i = DOF - 1; i >= 0; i--) {
-        for (int n = i + 1; n < DOF; n++) force[i] -= H[i][n] * force[n];
-        force[i] /= H[i][i];
-    }
-}
-
 // Finds ring pose q and ball positions (in w); returns the largest residual force.
 static double equilibrium(const Equilibrium *eq, double q[DOF])
 {
@@ -182,7 +167,7 @@ static double equilibrium(const Equilibrium *eq, double q[DOF])
                 for (int n = 0; n < DOF; n++) H[i][n] = H[n][i] = n == i ? 1.0 : 0.0;
         }
         if (residual < 1e-9) break;
-        solve(H, force);
+        eliminate(H, force);  // rows of fixed tilts are the identity
         double length = 0.0, step[DOF], trial[DOF];
         for (int i = 0; i < DOF; i++) length = fmax(length, fabs(force[i]) * (i < TILT ? 1.0 : r));
         for (int i = 0; i < DOF; i++) step[i] = force[i] * fmin(1.0, STEP / fmax(length, 1e-300));

@@ -62,7 +62,7 @@ static double excess_power(const Model *model, const double *y, const double *f_
     const Parameters *p = model->p;
     const double m = model->d->m, J = model->d->J, per_gamma = 1.0 / gamma;
     double held[N_STATES], orbital = 0.0;
-    for (int i = VELOCITY; i < N_STATES; i++) held[i] = f[i] - f_n[i] - per_gamma * delta[i];  // A delta
+    for (int i = VELOCITY; i < N_STATES; i++) held[i] = f[i] - f_n[i] - per_gamma * delta[i];  // (A + gamma K) delta: where rates are stiff, A delta
     for (int j = 0; j < Z; j++) orbital += y[Y_BALL_R + j] * y[Y_BALL_R + j] * delta[Y_BALL_OMEGA_M + j] * held[Y_BALL_OMEGA_M + j];
     return m * (product(delta, held, Y_BALL_V_X, 2 * Z) + orbital) + J * product(delta, held, Y_BALL_OMEGA_X, 3 * Z) +
            p->cage.m * product(delta, held, Y_CAGE_V_X, 6) + p->cage.J_t * product(delta, held, Y_CAGE_BETA_DOT, 4) +
