@@ -14,24 +14,24 @@ CALLS = 20_000  # evaluations of Z rivets in one timing
 
 
 def rivet_loads(core, model, y):
-    """RivetLoad of all rivets in all states, as a C array."""
-    loads, V = core.ffi.new("RivetLoad[]", Z * len(y)), core.ffi.new("double[]", Z)
+    """RivetLoads of all states, as a C array."""
+    loads = core.new("RivetLoads", len(y))
     for i, state in enumerate(y):
         model.rhs(0.0, state)
-        model.kernel("rivets_load")(model.pointer, model.work, loads + Z * i, V)
+        model.kernel("rivets_load")(model.pointer, model.work, loads + i)
     return loads
 
 
 def table_time(core, model, loads, count):
     """Time of the peak channels of Z rivets [s]."""
-    head, mid = core.ffi.new("double[]", count), core.ffi.new("double[]", count)
-    rounds = -(-CALLS * Z // count)
+    head, mid = core.ffi.new("double[]", Z * count), core.ffi.new("double[]", Z * count)
+    rounds = -(-CALLS // count)
 
     def evaluate():
         for _ in range(rounds):
             core.lib.test_rivet_primary(count, loads, model.d.fit_eff, head, mid)
 
-    return cpu(evaluate, 9)[0] / (rounds * count / Z)
+    return cpu(evaluate, 9)[0] / (rounds * count)
 
 
 def rhs_time(core, model, y):
@@ -49,7 +49,7 @@ def main():
         y = settled_states(scene, core, 64 if short else 256)
         model = core.model(scene.parameters, scene.inputs)
         core.ffi.cdef(f"double rhs_time_{model.isa}(const Model *, int, const double *, int, Work *);", override=True)
-        table, rhs = table_time(core, model, rivet_loads(core, model, y), Z * len(y)), rhs_time(core, model, y)
+        table, rhs = table_time(core, model, rivet_loads(core, model, y), len(y)), rhs_time(core, model, y)
         scenes[name] = {"title": scene.title, "isa": model.isa, "table": table, "rhs": rhs}
         verdict = "within" if table <= REACH else "beyond"
         say(f"{name}: {2 * Z} channels {1e6 * table:.2f} us, {verdict} {1e6 * REACH:g} us; {table / rhs:.2f} of a right-hand side")

@@ -120,7 +120,7 @@ def run(scene):
     except FMICallException:
         return {"outcome": "refused", "message": instance.complaints(), "t": 0.0}
     names = [name for name in OUTPUTS if name in instance.model.outputs]
-    row, read = np.empty(len(names)), instance.reader(names)
+    read = instance.reader(names)
     at = {name: i for i, name in enumerate(names)}
     references = [instance.model.inputs[name].valueReference for name in inputs]
     values, residual, loss, force, t, outcome, message = None, 0.0, 0.0, 0.0, 0.0, "finished", ""
@@ -135,7 +135,7 @@ def run(scene):
         except FMICallException as failure:
             outcome = "discarded" if failure.status == fmi2Discard else "error"
             message, t = instance.complaints(), instance.last_successful_time(t)
-        read(row)
+        row = read()
         if not np.isfinite(row).all():
             outcome, message = "not finite", ", ".join(names[i] for i in np.flatnonzero(~np.isfinite(row))[:5])
         if outcome != "finished":

@@ -12,7 +12,7 @@ static void add_force(Saved *s, const Work *w, bool counts, double h)
 {
     for (int j = 0; j < Z; j++) {
         const double Q_c = w->pocket[0][j].Q + w->pocket[1][j].Q;
-        s->force_peak = fmax(s->force_peak, Q_c);
+        s->force_peak = number_max(s->force_peak, Q_c);
         if (!counts) continue;
         statistics_add(&s->force, FORCE_FLOOR, h, Q_c);
         if (Q_c > 0.0) s->duty_time += h;
@@ -23,12 +23,12 @@ static void add_stress(Bearing *b, bool counts, double h)
 {
     Saved *s = &b->s;
     FatigueLaw law;
-    RivetLoad load[Z];
-    double V[Z], head[Z], mid[Z], head_most = 0.0, mid_most = 0.0;
+    RivetLoads load;
+    double head[Z], mid[Z], head_most = 0.0, mid_most = 0.0;
     const bool fatigue = s->p.scene.stress == STRESS_FATIGUE && s->integrator.t >= s->p.start.settle;
     memcpy(&law, &s->p.fatigue, sizeof law);
-    b->kernels.rivets_load(&b->model, &b->w, load, V);
-    b->kernels.rivet_primary(&rivet_table, load, b->d.fit_eff, head, mid);
+    b->kernels.rivets_load(&b->model, &b->w, &load);
+    b->kernels.rivet_primary(&rivet_table, &load, b->d.fit_eff, head, mid);
     for (int k = 0; k < Z; k++) {
         s->head_peak[k] = number_max(s->head_peak[k], head[k]);
         s->mid_peak[k] = number_max(s->mid_peak[k], mid[k]);
@@ -56,7 +56,7 @@ static void add_cage(Bearing *b, double h)
     const double y = 0.5 * (h0->x[1] + h1->x[1]), z = 0.5 * (h0->x[2] + h1->x[2]);
     double slip[Z];
     rivets_slip(&b->model, &b->w, slip);
-    for (int k = 0; k < Z; k++) s->dislocation_most = fmax(s->dislocation_most, slip[k]);
+    for (int k = 0; k < Z; k++) s->dislocation_most = number_max(s->dislocation_most, slip[k]);
     s->omega_time += h * 0.5 * (h0->s + h1->s);
     s->eccentricity_time += h * sqrt(y * y + z * z) / b->d.C_land;
 }

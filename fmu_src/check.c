@@ -19,7 +19,7 @@ void bearing_log(Bearing *b, LogCategory category, const char *format, ...)
 static bool check_variables(Bearing *b, Causality causality, const void *values)
 {
     bool fine = true;
-    for (int v = 0; v < N_VARIABLES; v++) {
+    for (int v = 0; v < N_VARIABLES && VARIABLES[v].causality <= causality; v++) {  // they are in the order of causality
         if (VARIABLES[v].causality != causality) continue;
         for (int i = 0; i < VARIABLES[v].count; i++) {
             const char *at = (const char *)values + VARIABLES[v].offset;
@@ -38,7 +38,8 @@ bool check_inputs(Bearing *b, double h)
 {
     const double *u_1 = (const double *)&b->s.u[1], *u_2 = (const double *)&b->s.u[2];
     Course course = {.t_0 = 0.0, .u = {b->s.u[0], b->s.u[1], b->s.u[2]}};
-    Inputs u, turning = b->s.u[0];
+    Inputs u = b->s.u[0], turning = u;
+    if (!course_varies(&course)) return check_variables(b, CAUSALITY_INPUT, &u);
     drive_inputs(&course, h, &u);
     for (int i = 0; i < N_INPUTS; i++) {
         const double tau = -u_1[i] / u_2[i];

@@ -24,7 +24,6 @@ typedef bool bits;
 #define joint_preload FOR_ISA(joint_preload)
 #define joint_fit FOR_ISA(joint_fit)
 #define joint_hole_stiffness FOR_ISA(joint_hole_stiffness)
-#define joint_prying FOR_ISA(joint_prying)
 #define outputs_evaluate FOR_ISA(outputs_evaluate)
 
 INLINE double number_value(number x)
@@ -67,6 +66,10 @@ INLINE bits real_above(real x, double limit)
 INLINE bool real_any(bits condition)
 {
     return condition;
+}
+INLINE real real_select(bits condition, real yes, real no)
+{
+    return condition ? yes : no;
 }
 INLINE real real_max(real x, real y)
 {

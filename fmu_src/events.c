@@ -33,32 +33,57 @@ static void pockets(const Model *model, const Work *w, Event *event)
             const double p[3] = {w->x[j] - half->x[0], w->r[j] * w->cos_theta[j] - half->x[1], w->r[j] * w->sin_theta[j] - half->x[2]};
             double radial = 0.0;
             for (int i = 0; i < 3; i++) radial += p[i] * (half->b_y[i] * model->d->pocket_cos[j] + half->b_z[i] * model->d->pocket_sin[j]);
-            most = fmax(most, fabs(radial - middle));
+            most = number_max(most, fabs(radial - middle));
         }
         add(event, j, most, reach);
     }
 }
 
-double ellipse_reach(const Model *model, const Work *w, bool outer, int j)
+// |sin| of the contact angle against the ring's axis.
+static double contact_along(const Work *w, bool outer, int j)
 {
-    const Race *race = outer ? &model->d->outer : &model->d->inner;
-    const double Q = outer ? w->Q_e[j] : w->Q_i[j];
-    if (!(Q > 0.0)) return 0.0;
+    if (outer) return fabs(w->n_ex[j]);
     const double *a = w->ring.a, c = w->cos_theta[j], s = w->sin_theta[j];
-    const double along = outer ? w->n_ex[j] : w->n_ix[j] * a[0] + w->n_ir[j] * (a[1] * c + a[2] * s) + w->n_it[j] * (a[2] * c - a[1] * s);
-    return asin(fmin(fabs(along), 1.0)) + race->hertz.a * cbrt(Q) / race->R_m;
+    return fabs(w->n_ix[j] * a[0] + w->n_ir[j] * (a[1] * c + a[2] * s) + w->n_it[j] * (a[2] * c - a[1] * s));
 }
 
-static void races(const Model *model, const Work *w, Event *cut, Event *pressure)
+static double reach(const Race *race, double along, double cbrt_Q)
 {
-    const double PI = 3.14159265358979323846, D = model->p->bearing.D;
+    return asin(number_min(along, 1.0)) + race->hertz.a * cbrt_Q / race->R_m;
+}
+
+static double pressure(const Race *race, double cbrt_Q)
+{
+    const double PI = 3.14159265358979323846;
+    return 1.5 * cbrt_Q / (PI * race->hertz.a * race->hertz.b);
+}
+
+double ellipse_reach(const Model *model, const Work *w, bool outer, int j)
+{
+    const double Q = outer ? w->Q_e[j] : w->Q_i[j];
+    return Q > 0.0 ? reach(outer ? &model->d->outer : &model->d->inner, contact_along(w, outer, j), cbrt(Q)) : 0.0;
+}
+
+static void races(const Model *model, const Work *w, Event *cut, Event *overpressure)
+{
+    const double D = model->p->bearing.D, p_limit = model->p->bearing.p_limit;
     for (int outer = 0; outer < 2; outer++) {
         const Race *race = outer ? &model->d->outer : &model->d->inner;
         const double *Q = outer ? w->Q_e : w->Q_i, height = outer ? model->p->bearing.h_e : model->p->bearing.h_i;
         const double edge = acos(1.0 - height * D / race->r_g);
+        double along[Z], along_most = 0.0, Q_most = 0.0;
         for (int j = 0; j < Z; j++) {
-            add(cut, 2 * j + outer, ellipse_reach(model, w, outer, j), edge);
-            add(pressure, 2 * j + outer, 1.5 * cbrt(Q[j]) / (PI * race->hertz.a * race->hertz.b), model->p->bearing.p_limit);
+            along[j] = contact_along(w, outer, j);
+            along_most = number_max(along_most, along[j]);
+            Q_most = number_max(Q_most, Q[j]);
+        }
+        const double most = cbrt(Q_most);
+        if (reach(race, along_most, most) <= edge && pressure(race, most) <= p_limit) continue;  // roots and angles are dear
+        for (int j = 0; j < Z; j++) {
+            if (!(Q[j] > 0.0)) continue;
+            const double cbrt_Q = cbrt(Q[j]);
+            add(cut, 2 * j + outer, reach(race, along[j], cbrt_Q), edge);
+            add(overpressure, 2 * j + outer, pressure(race, cbrt_Q), p_limit);
         }
     }
 }
@@ -71,7 +96,7 @@ static void joints(const Model *model, const Work *w, Event *event)
 
 static void rivets(const double head_peak[Z], const double mid_peak[Z], Event *event)
 {
-    for (int k = 0; k < Z; k++) add(event, k, fmax(head_peak[k], mid_peak[k]), rivet_table.yield_rivet);
+    for (int k = 0; k < Z; k++) add(event, k, number_max(head_peak[k], mid_peak[k]), rivet_table.yield_rivet);
 }
 
 void events_now(const Model *model, const Work *w, const double head_peak[Z], const double mid_peak[Z], Event now[EVENT_COUNT])

@@ -22,4 +22,5 @@
 #define load_path_rigid FOR_ISA(load_path_rigid)
 #define load_path_flexible FOR_ISA(load_path_flexible)
 #define rivets_load FOR_ISA(rivets_load)
+#define joint_prying FOR_ISA(joint_prying)
 #define rivet_primary FOR_ISA(rivet_primary)

@@ -12,27 +12,31 @@ void load_path_rigid(double d_m, const number wrench[6], const double c[Z], cons
     }
 }
 
-// Adds what the forces on one pocket give the rivets beside it and beyond.
-static void add_pocket(const double *column, number outward, number along, number push, number *sum)
-{
-    for (int k = 0; k < PATH_WIDTH; k++) sum[k] += column[k] * outward + column[PATH_WIDTH + k] * along + column[2 * PATH_WIDTH + k] * push;
-}
+// A touched pocket: its place in the matrix, the forces that count there.
+typedef struct {
+    const double *column;
+    number outward, along, push;
+} Touch;
 
 void load_path_flexible(const double *matrix, int side, const number F_x[Z], const number F_r[Z], const number F_t[Z], PathLoads *loads)
 {
-    number sum[PATH_LOADS][2 * Z] = {0};  // of rivets k and k + Z
+    Touch touch[Z];
+    int count = 0;
     for (int j = 0; j < Z; j++) {
         if (F_x[j] == 0.0 && F_r[j] == 0.0 && F_t[j] == 0.0) continue;  // most pockets are not touched
         const bool back = number_value(F_t[j]) < 0.0;
-        const number outward = side * F_x[j], along = F_r[j], push = back ? -F_t[j] : F_t[j];  // on the +x half
-        const double *column = matrix + back * PATH_LOADS * 3 * PATH_WIDTH;
-        for (int i = 0; i < PATH_LOADS; i++, column += 3 * PATH_WIDTH) add_pocket(column, outward, along, push, &sum[i][j]);
+        touch[count++] = (Touch){matrix + back * PATH_LOADS * 3 * PATH_WIDTH + Z - 1 - j, side * F_x[j], F_r[j], back ? -F_t[j] : F_t[j]};  // as on the +x half
     }
-    for (int k = 0; k < Z; k++) {
-        loads->N[k] += sum[PATH_N][k] + sum[PATH_N][Z + k];
-        loads->V_r[k] += side * (sum[PATH_V_R][k] + sum[PATH_V_R][Z + k]);
-        loads->V_t[k] += side * (sum[PATH_V_T][k] + sum[PATH_V_T][Z + k]);
-        loads->M_r[k] += sum[PATH_M_R][k] + sum[PATH_M_R][Z + k];
-        loads->M_t[k] += sum[PATH_M_T][k] + sum[PATH_M_T][Z + k];
+    for (int i = 0; i < PATH_LOADS; i++) {
+        const double sign = i == PATH_V_R || i == PATH_V_T ? side : 1.0;
+        for (int k = 0; k < BUNDLES * LANE_WIDTH; k += LANE_WIDTH) {
+            real sum = real_set(0.0);
+            for (int n = 0; n < count; n++) {
+                const Touch *on = &touch[n];
+                const double *row = on->column + i * 3 * PATH_WIDTH + k;
+                sum += on->outward * real_load(row) + on->along * real_load(row + PATH_WIDTH) + on->push * real_load(row + 2 * PATH_WIDTH);
+            }
+            real_store(&loads->sum[i][k], real_load(&loads->sum[i][k]) + sign * sum);
+        }
     }
 }

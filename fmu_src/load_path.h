@@ -16,11 +16,11 @@
 #include "isa.h"
 
 enum { PATH_N, PATH_V_R, PATH_V_T, PATH_M_R, PATH_M_T, PATH_LOADS };
-enum { PATH_WIDTH = Z + Z % 2 };  // Z, padded to an even number
+enum { PATH_WIDTH = LANES + Z - 1 };  // one row of the matrix for pocket 0, continued so that those of all pockets are parts of it
 
 // Loads at the rivets beyond the dynamics' own [N, N.m], on the +x half.
 typedef struct {
-    number N[Z], V_r[Z], V_t[Z], M_r[Z], M_t[Z];
+    lanes sum[PATH_LOADS];
 } PathLoads;
 
 // Wrench (F_x, F_y, F_z, M_x, M_y, M_z) that the rivets must carry from outside onto the +x half, taken at the centre of the circle;
@@ -28,5 +28,5 @@ typedef struct {
 void load_path_rigid(double d_m, const number wrench[6], const double c[Z], const double s[Z], number N[Z], number V_y[Z], number V_z[Z]);
 
 // Adds the flexible share of pocket forces (F_x, F_r, F_t)[j] on one half: side +1 or -1.
-// matrix: [F_t > 0, F_t < 0][PATH_LOADS][x, r, |t|][(rivet - pocket) mod Z, padded to PATH_WIDTH], as the rivet table holds it.
+// matrix: [F_t > 0, F_t < 0][PATH_LOADS][x, r, |t|][PATH_WIDTH], as the rivet table holds it: rivet k and pocket j at k - j + Z - 1.
 void load_path_flexible(const double *matrix, int side, const number F_x[Z], const number F_r[Z], const number F_t[Z], PathLoads *loads);

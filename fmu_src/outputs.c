@@ -127,20 +127,21 @@ static void fill_cage(const Evaluation *at, Outputs *out)
 static void fill_rivet(const Evaluation *at, Outputs *out)
 {
     const bool rigid = at->model->p->scene.cage == CAGE_MODEL_RIGID;
-    RivetLoad load[Z];
+    RivetLoads load;
     number slip[Z], most = 0.0;
-    at->loads(at->model, at->w, load, out->rivet.V);
+    at->loads(at->model, at->w, &load);
     rivets_slip(at->model, at->w, slip);
     for (int k = 0; k < Z; k++) {
-        out->rivet.N[k] = load[k].N;
+        out->rivet.N[k] = load.N[k];
         out->rivet.T[k] = rigid ? at->model->d->P : at->w->T[k];
-        out->rivet.M[k] = number_sqrt(load[k].M_y * load[k].M_y + load[k].M_z * load[k].M_z);
+        out->rivet.M[k] = number_sqrt(load.M_y[k] * load.M_y[k] + load.M_z[k] * load.M_z[k]);
+        out->rivet.V[k] = load.V[k];
         out->rivet.P[k] = at->model->d->P;
-        out->rivet.V_y[k] = load[k].V_y;
-        out->rivet.V_z[k] = load[k].V_z;
-        out->rivet.M_y[k] = load[k].M_y;
-        out->rivet.M_z[k] = load[k].M_z;
-        out->rivet.F_head[k] = load[k].F_head;
+        out->rivet.V_y[k] = load.V_y[k];
+        out->rivet.V_z[k] = load.V_z[k];
+        out->rivet.M_y[k] = load.M_y[k];
+        out->rivet.M_z[k] = load.M_z[k];
+        out->rivet.F_head[k] = load.F_head[k];
         out->rivet.slip[k] = slip[k];
         most = number_max(most, slip[k]);
     }
@@ -149,12 +150,16 @@ static void fill_rivet(const Evaluation *at, Outputs *out)
 
 static void fill_stress(const Evaluation *at, Outputs *out)
 {
-    RivetLoad load[Z];
-    number V[Z], sigma[RIVET_CHANNELS] = {0.0};
+    RivetLoads load;
+    number sigma[RIVET_CHANNELS] = {0.0};
     const bool off = at->model->p->scene.stress == STRESS_OFF;
-    if (!off) at->loads(at->model, at->w, load, V);
+    if (!off) at->loads(at->model, at->w, &load);
     for (int k = 0; k < Z; k++) {
-        const unsigned flags = off ? 0 : at->model->d->fit_flags | rivet_rom_stress(&rivet_table, &load[k], at->model->d->fit_eff, sigma);
+        unsigned flags = 0;
+        if (!off) {
+            const RivetLoad one = rivet_load_of(&load, k);
+            flags = at->model->d->fit_flags | rivet_rom_stress(&rivet_table, &one, at->model->d->fit_eff, sigma);
+        }
         out->rivet.sigma_head[k] = sigma[HEAD_P1];
         out->rivet.sigma_head_vm[k] = sigma[HEAD_VM];
         out->rivet.sigma_mid[k] = sigma[MID_VM];

@@ -26,18 +26,12 @@ INLINE void find_cell(const RivetTable *t, int axis, int j, real u, Places *plac
     real_store(&places->cell[axis][j], cell);
 }
 
-static void find_places(const RivetTable *t, const RivetLoad load[Z], double fit_eff, Places *places)
+static void find_places(const RivetTable *t, const RivetLoads *load, double fit_eff, Places *places)
 {
-    lanes P = {0}, N = {0}, V_y = {0}, V_z = {0}, M_y = {0}, M_z = {0};
-    for (int k = 0; k < Z; k++) {
-        P[k] = load[k].P, N[k] = load[k].N;
-        V_y[k] = load[k].V_y, V_z[k] = load[k].V_z;
-        M_y[k] = load[k].M_y, M_z[k] = load[k].M_z;
-    }
     const real zero = real_set(0.0), one = real_set(1.0);
     for (int j = 0; j < BUNDLES * LANE_WIDTH; j += LANE_WIDTH) {
-        const real v_y = real_load(&V_y[j]), v_z = real_load(&V_z[j]), m_y = real_load(&M_y[j]), m_z = real_load(&M_z[j]);
-        const real p = real_max(real_load(&P[j]), zero), n = real_max(real_load(&N[j]), zero);
+        const real v_y = real_load(&load->V_y[j]), v_z = real_load(&load->V_z[j]), m_y = real_load(&load->M_y[j]), m_z = real_load(&load->M_z[j]);
+        const real p = real_max(real_load(&load->P[j]), zero), n = real_max(real_load(&load->N[j]), zero);
         const real V = real_sqrt(v_y * v_y + v_z * v_z), M = real_sqrt(m_y * m_y + m_z * m_z);
         const real axial = p + n, force = axial + V, moment = M / t->moment_length, s = force + moment, across = v_y * m_z - v_z * m_y;
         const real w = 2.0 * real_min(ratio(real_max(across, -across), V * M), one);
@@ -53,7 +47,7 @@ static void find_places(const RivetTable *t, const RivetLoad load[Z], double fit
     }
 }
 
-void rivet_primary(const RivetTable *t, const RivetLoad load[Z], double fit_eff, double head_p1[Z], double mid_vm[Z])
+void rivet_primary(const RivetTable *t, const RivetLoads *load, double fit_eff, double head_p1[Z], double mid_vm[Z])
 {
     Places places;
     find_places(t, load, fit_eff, &places);
@@ -63,7 +57,7 @@ void rivet_primary(const RivetTable *t, const RivetLoad load[Z], double fit_eff,
         place.at[RIVET_XI] = axis_splines_xi(&t->axis[RIVET_XI], (int)places.cell[RIVET_XI][k], places.u[RIVET_XI][k], places.s[k], fit_eff);
         double sigma[2];
         contract(t, t->primary, &place, sigma);
-        head_p1[k] = sigma[0] + t->head_friction * load[k].F_head;
+        head_p1[k] = sigma[0] + t->head_friction * load->F_head[k];
         mid_vm[k] = sigma[1];
     }
 }

@@ -86,13 +86,3 @@ double joint_hole_stiffness(const JointData *j, double fit_a)
     double u = (fit_a - j->hole_fit[i]) / (j->hole_fit[i + 1] - j->hole_fit[i]);
     return j->k_hole[i] + u * (j->k_hole[i + 1] - j->k_hole[i]);
 }
-
-void joint_prying(const JointData *j, RivetLoad *load)
-{
-    const number M = number_sqrt(load->M_y * load->M_y + load->M_z * load->M_z);
-    const number M_0 = j->prying_lever * number_max(load->P - number_max(load->N, 0.0), 0.0);
-    if (number_value(M) <= number_value(M_0)) return;
-    const number part = (M_0 + j->prying_share * (M - M_0)) / M;
-    load->M_y *= part;
-    load->M_z *= part;
-}

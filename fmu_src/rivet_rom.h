@@ -38,6 +38,17 @@ typedef struct {
     number F_head;    // modulus of the friction force at the heads
 } RivetLoad;
 
+// The loads of all rivets side by side.
+typedef struct {
+    lanes P, N, V_y, V_z, M_y, M_z, F_head;
+    lanes V;  // modulus of the joint's whole transverse load, of which the rivet carries V_y, V_z [N]
+} RivetLoads;
+
+INLINE RivetLoad rivet_load_of(const RivetLoads *all, int k)
+{
+    return (RivetLoad){all->P[k], all->N[k], all->V_y[k], all->V_z[k], all->M_y[k], all->M_z[k], all->F_head[k]};
+}
+
 enum { HEAD_P1, HEAD_VM, MID_VM, MID_P1, RIVET_CHANNELS };  // largest principal (P1) and von Mises (VM) stress in head fillet and middle
 
 enum {
@@ -115,7 +126,3 @@ unsigned rivet_rom_stress(const RivetTable *t, const RivetLoad *load, double fit
 double joint_preload(const JointData *j, double preload, double T);  // preload at temperature T [N], not below 0
 double joint_fit(const JointData *j, double fit, double T);          // fit at temperature T [m]
 double joint_hole_stiffness(const JointData *j, double fit_a);       // [N/m], constant outside its table
-
-// Limits the prying moment of a load: where it opens the joint, the joint turns, and the cage half carries the rest to its neighbours.
-// M stays up to M_0 = prying_lever (P - N), beyond it grows by prying_share only.  C0; the direction is kept.
-void joint_prying(const JointData *j, RivetLoad *load);

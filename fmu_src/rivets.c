@@ -12,16 +12,21 @@
 #include "load_path.h"
 #include "rotor.h"
 
-static void two_half_load(const Model *model, const Work *w, RivetLoad load[Z], number V[Z])
+INLINE real modulus(real y, real z)
 {
-    for (int k = 0; k < Z; k++) {
-        const number V_y = w->S_y[k] + w->H_y[k] + w->B_y[k], V_z = w->S_z[k] + w->H_z[k] + w->B_z[k];
-        load[k] = (RivetLoad){.P = model->d->P,
-                              .N = w->T[k] - w->N_plate[k],
-                              .V_y = -w->B_y[k],
-                              .V_z = -w->B_z[k],
-                              .F_head = number_sqrt(w->H_y[k] * w->H_y[k] + w->H_z[k] * w->H_z[k])};
-        V[k] = number_sqrt(V_y * V_y + V_z * V_z);
+    return real_sqrt(y * y + z * z);
+}
+
+static void two_half_load(const Model *model, const Work *w, RivetLoads *load)
+{
+    for (int k = 0; k < BUNDLES * LANE_WIDTH; k += LANE_WIDTH) {
+        const real H_y = real_load(&w->H_y[k]), H_z = real_load(&w->H_z[k]), B_y = real_load(&w->B_y[k]), B_z = real_load(&w->B_z[k]);
+        real_store(&load->P[k], real_set(model->d->P));
+        real_store(&load->N[k], real_load(&w->T[k]) - real_load(&w->N_plate[k]));
+        real_store(&load->V_y[k], -B_y);
+        real_store(&load->V_z[k], -B_z);
+        real_store(&load->F_head[k], modulus(H_y, H_z));
+        real_store(&load->V[k], modulus(real_load(&w->S_y[k]) + H_y + B_y, real_load(&w->S_z[k]) + H_z + B_z));
     }
 }
 
@@ -51,26 +56,29 @@ static void rigid_wrench(const Model *model, const Work *w, number wrench[6])
     }
 }
 
-static void rigid_load(const Model *model, const Work *w, RivetLoad load[Z], number V[Z])
+static void rigid_load(const Model *model, const Work *w, RivetLoads *load)
 {
     const double R = 0.5 * model->p->bearing.d_m, friction = model->p->joint.mu * model->d->P;
     double c[Z], s[Z];
-    number wrench[6], N[Z], V_y[Z], V_z[Z];
+    number wrench[6], V_y[Z], V_z[Z];
     rigid_wrench(model, w, wrench);
     for (int k = 0; k < Z; k++) {
         c[k] = model->d->rivet_y[k] / R;
         s[k] = model->d->rivet_z[k] / R;
     }
-    load_path_rigid(2.0 * R, wrench, c, s, N, V_y, V_z);
+    load_path_rigid(2.0 * R, wrench, c, s, load->N, V_y, V_z);
     for (int k = 0; k < Z; k++) {
-        V[k] = number_sqrt(V_y[k] * V_y[k] + V_z[k] * V_z[k]);
-        const number shank = number_value(V[k]) > 2.0 * friction ? (V[k] - 2.0 * friction) / V[k] : 0.0;
-        load[k] = (RivetLoad){
-            .P = model->d->P, .N = N[k], .V_y = shank * V_y[k], .V_z = shank * V_z[k], .F_head = number_min(number_max(V[k] - friction, 0.0), friction)};
+        const number V = number_sqrt(V_y[k] * V_y[k] + V_z[k] * V_z[k]);
+        const number shank = number_value(V) > 2.0 * friction ? (V - 2.0 * friction) / V : 0.0;
+        load->P[k] = model->d->P;
+        load->V_y[k] = shank * V_y[k];
+        load->V_z[k] = shank * V_z[k];
+        load->F_head[k] = number_min(number_max(V - friction, 0.0), friction);
+        load->V[k] = V;
     }
 }
 
-// What the forces on the pockets of one half pry at the rivets.
+// Adds what the forces on the pockets of one half pry at the rivets.
 static void pocket_path(const Pocket pocket[Z], int side, PathLoads *path)
 {
     number F_x[Z], F_r[Z], F_t[Z];
@@ -78,26 +86,43 @@ static void pocket_path(const Pocket pocket[Z], int side, PathLoads *path)
     load_path_flexible(rivet_table.load_path, side, F_x, F_r, F_t, path);
 }
 
-void rivets_load(const Model *model, const Work *w, RivetLoad load[Z], number V[Z])
+// Adds a vector (r, t) at every rivet, given radially and along the circle, to one along y and z.
+INLINE void add_turned(const Model *model, const lanes r, const lanes t, number *y, number *z)
+{
+    const double per_R = 2.0 / model->p->bearing.d_m;
+    for (int k = 0; k < BUNDLES * LANE_WIDTH; k += LANE_WIDTH) {
+        const real c = real_load(&model->d->rivet_y[k]) * per_R, s = real_load(&model->d->rivet_z[k]) * per_R;
+        const real v_r = real_load(&r[k]), v_t = real_load(&t[k]);
+        real_store(&y[k], real_load(&y[k]) + v_r * c - v_t * s);
+        real_store(&z[k], real_load(&z[k]) + v_r * s + v_t * c);
+    }
+}
+
+void joint_prying(const JointData *j, RivetLoads *load)
+{
+    const real zero = real_set(0.0), one = real_set(1.0);
+    for (int k = 0; k < BUNDLES * LANE_WIDTH; k += LANE_WIDTH) {
+        const real M_y = real_load(&load->M_y[k]), M_z = real_load(&load->M_z[k]), M = modulus(M_y, M_z);
+        const real M_0 = j->prying_lever * real_max(real_load(&load->P[k]) - real_max(real_load(&load->N[k]), zero), zero);
+        const real part = real_select(real_above(M - M_0, 0.0), (M_0 + j->prying_share * (M - M_0)) / M, one);
+        real_store(&load->M_y[k], M_y * part);
+        real_store(&load->M_z[k], M_z * part);
+    }
+}
+
+void rivets_load(const Model *model, const Work *w, RivetLoads *load)
 {
     const bool rigid = model->p->scene.cage == CAGE_MODEL_RIGID;
+    *load = (RivetLoads){0};
     if (rigid)
-        rigid_load(model, w, load, V);
+        rigid_load(model, w, load);
     else
-        two_half_load(model, w, load, V);
+        two_half_load(model, w, load);
 
     PathLoads path = {0};
     for (int h = 0; h < (rigid ? 1 : 2); h++) pocket_path(w->pocket[h], h == 0 ? -1 : 1, &path);
-    const double per_R = 2.0 / model->p->bearing.d_m;
-    for (int k = 0; k < Z; k++) {
-        const double c = model->d->rivet_y[k] * per_R, s = model->d->rivet_z[k] * per_R;
-        load[k].N += path.N[k];
-        if (model->d->hole_gap == 0.0) {
-            load[k].V_y += path.V_r[k] * c - path.V_t[k] * s;
-            load[k].V_z += path.V_r[k] * s + path.V_t[k] * c;
-        }
-        load[k].M_y += path.M_r[k] * c - path.M_t[k] * s;
-        load[k].M_z += path.M_r[k] * s + path.M_t[k] * c;
-        joint_prying(&rivet_table.joint, &load[k]);
-    }
+    for (int k = 0; k < BUNDLES * LANE_WIDTH; k += LANE_WIDTH) real_store(&load->N[k], real_load(&load->N[k]) + real_load(&path.sum[PATH_N][k]));
+    if (model->d->hole_gap == 0.0) add_turned(model, path.sum[PATH_V_R], path.sum[PATH_V_T], load->V_y, load->V_z);
+    add_turned(model, path.sum[PATH_M_R], path.sum[PATH_M_T], load->M_y, load->M_z);
+    joint_prying(&rivet_table.joint, load);
 }

@@ -5,9 +5,13 @@
 #include "model.h"
 #include "rivet_rom.h"
 
-// Loads of all rivets at the state of w, as the stress table takes them; V: modulus of the whole transverse load of the joint [N].
-typedef void RivetsLoad(const Model *model, const Work *w, RivetLoad load[Z], number V[Z]);
+// Loads of all rivets at the state of w, as the stress table takes them.
+typedef void RivetsLoad(const Model *model, const Work *w, RivetLoads *load);
 RivetsLoad rivets_load;
+
+// Limits the prying moments: where one opens its joint, the joint turns, and the cage half carries the rest to its neighbours.
+// M stays up to M_0 = prying_lever (P - N), beyond it grows by prying_share only.  C0; the direction is kept.
+void joint_prying(const JointData *j, RivetLoads *load);
 
 // Slip of half 1 against half 0 at each joint, in the plane [m].
 INLINE void rivets_slip(const Model *model, const Work *w, number slip[Z])

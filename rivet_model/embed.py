@@ -17,18 +17,20 @@ def _array(name, values, kind="double"):
 
 
 def path_columns(load_path):
-    """The load path's matrix [Z, 5, 3] as the C reader wants it, [F_t > 0 and < 0, 5, 3, Z padded to even]: F_t < 0 is the mirror image about the pocket."""
+    """The load path's matrix [Z, 5, 3] as the C reader wants it, [F_t > 0 and < 0, 5, 3, PATH_WIDTH]: F_t < 0 is the mirror image about the pocket."""
     columns = np.moveaxis(load_path, 0, -1)
     back = columns.copy()
     back[:, 2] = columns[:, 2, ::-1] * np.array([1.0, 1.0, -1.0, -1.0, 1.0])[:, None]  # rivet -1 - i for i; V_t and M_r change sign
-    return np.pad(np.stack([columns, back]), [(0, 0)] * 3 + [(0, columns.shape[-1] % 2)])
+    Z = columns.shape[-1]
+    lanes = -(-Z // 8) * 8  # as in fmu_src/lanes.h
+    return np.stack([columns, back])[..., (np.arange(lanes + Z - 1) - (Z - 1)) % Z]
 
 
 def c_source(t):
     """The C text of rivet_table.c."""
     parts = [
         f"// The rivet table, kind {t.kind}, geometry {t.geometry_hash}: written by rivet_model/embed.py, not to be edited.\n",
-        '#include "rivet_rom.h"\n\n#include "variables.h"\n\n',
+        '#include "load_path.h"\n#include "rivet_rom.h"\n\n',
         f'_Static_assert(Z == {t.Z}, "the rivet table was made for Z = {t.Z}");\n\n// clang-format off\n',
     ]
     axes = []
@@ -46,6 +48,7 @@ def c_source(t):
         _array("hole_fit", t.joint["hole_fit"]),
         _array("k_hole", t.joint["k_hole"]),
         _array("load_path", path_columns(t.load_path)),
+        '_Static_assert(sizeof load_path == 2 * PATH_LOADS * 3 * PATH_WIDTH * sizeof *load_path, "the load path has another width");\n',
     ]
     joint = ", ".join(f".{key} = {float(t.joint[key])!r}" for key in table.JOINT_KEYS)
     parts.append(f"""

@@ -40,10 +40,10 @@ class Core:
         ffi.cdef(declarations(Path(sources)))
         return cls(ffi, ffi.dlopen(str(path)))
 
-    def new(self, type_name):
-        """A zeroed struct, aligned as the kernels want it."""
+    def new(self, type_name, count=1):
+        """Zeroed structs, aligned as the kernels want them."""
         ffi = self.ffi
-        return ffi.gc(ffi.cast(f"{type_name} *", self.lib.test_allocate(ffi.sizeof(type_name))), self.lib.free)
+        return ffi.gc(ffi.cast(f"{type_name} *", self.lib.test_allocate(count * ffi.sizeof(type_name))), self.lib.free)
 
     def array(self, x):
         """A float array as a C pointer; writes go into the array, which must outlive the pointer."""

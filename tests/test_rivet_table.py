@@ -35,6 +35,15 @@ def c_stress(ffi, lib, load, fit):
     return np.array(list(sigma)), flags
 
 
+def side_by_side(core, loads):
+    """C's RivetLoads of one RivetLoad for each rivet."""
+    together = core.new("RivetLoads")
+    for k, load in enumerate(loads):
+        for name, value in vars(load).items():
+            getattr(together, name)[k] = value
+    return together
+
+
 def random_loads(count, seed=0):
     """Loads and fits well inside, at the faces and outside of everything that runs produce."""
     rng = np.random.default_rng(seed)
@@ -118,7 +127,7 @@ def test_peak_channels_equal_all_channels(core):
     head, mid = ffi.new("double[]", Z), ffi.new("double[]", Z)
     for first in range(0, len(loads), Z):
         fit = float(fits[first])
-        lib.test_rivet_primary(Z, ffi.new("RivetLoad[]", [vars(load) for load in loads[first : first + Z]]), fit, head, mid)
+        lib.test_rivet_primary(1, side_by_side(core, loads[first : first + Z]), fit, head, mid)
         for k, load in enumerate(loads[first : first + Z]):
             sigma, _ = c_stress(ffi, lib, load, fit)
             np.testing.assert_allclose([head[k], mid[k]], sigma[[0, 2]], rtol=1e-12, atol=1e-12 * sigma.max(), err_msg=str(load))
@@ -221,13 +230,14 @@ def test_prying_is_limited(core, rivets):
     lever, share = rivets.joint["prying_lever"], rivets.joint["prying_share"]
     assert 0.0 < share < 1.0
     for load in random_loads(100, seed=9)[0]:
-        c = ffi.new("RivetLoad *", vars(load))
-        lib.joint_prying(ffi.addressof(lib.rivet_table.joint), c)
+        c = side_by_side(core, [load] * Z)
+        core.model().kernel("joint_prying")(ffi.addressof(lib.rivet_table.joint), c)
         python = rivet_rom.joint_prying(rivets, load)
-        np.testing.assert_allclose([c.M_y, c.M_z], [python.M_y, python.M_z], rtol=1e-13)
-        M, M_0 = np.hypot(load.M_y, load.M_z), lever * max(load.P - max(load.N, 0.0), 0.0)
-        assert np.hypot(c.M_y, c.M_z) == pytest.approx(M if M <= M_0 else M_0 + share * (M - M_0), rel=1e-12)
-        assert c.M_y * load.M_z == pytest.approx(c.M_z * load.M_y)
+        for M_y, M_z in zip(c.M_y[0:Z], c.M_z[0:Z], strict=True):
+            np.testing.assert_allclose([M_y, M_z], [python.M_y, python.M_z], rtol=1e-13)
+            M, M_0 = np.hypot(load.M_y, load.M_z), lever * max(load.P - max(load.N, 0.0), 0.0)
+            assert np.hypot(M_y, M_z) == pytest.approx(M if M <= M_0 else M_0 + share * (M - M_0), rel=1e-12)
+            assert M_y * load.M_z == pytest.approx(M_z * load.M_y)
 
 
 def test_sizes(rivets, tmp_path):

@@ -195,18 +195,19 @@ class Instance:
 
     def read(self, names):
         """Present values of the named outputs."""
-        values = np.empty(len(names))
-        self.reader(names)(values)
-        return dict(zip(names, values.tolist()))
+        return dict(zip(names, self.reader(names)().tolist()))
 
     def reader(self, names):
-        """A function that reads the named variables into a row of an array, with one call of the FMU."""
+        """A function that reads the named variables, with one call of the FMU, into an array that its next call overwrites."""
         variables = self.model.inputs | self.model.outputs
         references = (fmi2ValueReference * len(names))(*(variables[name].valueReference for name in names))
-        pointer = ctypes.POINTER(ctypes.c_double)
+        buffer = (ctypes.c_double * len(names))()
+        values = np.frombuffer(buffer)
+        component, get_real = self.fmu.component, self.fmu.fmi2GetReal
 
-        def read(row):
-            self.fmu.fmi2GetReal(self.fmu.component, references, len(references), row.ctypes.data_as(pointer))
+        def read():
+            get_real(component, references, len(references), buffer)
+            return values
 
         return read
 

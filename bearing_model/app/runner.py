@@ -1,5 +1,6 @@
 """Run a scene through the FMU, step by step, and keep what it did."""
 
+import itertools
 import platform
 import time
 from datetime import UTC, datetime
@@ -75,33 +76,33 @@ def march(instance, scene, progress):
     rows = np.empty((-(-(len(times) - 1) // stride) + 2, len(scene.outputs)))
     row_times = np.zeros(len(rows))
     read = instance.reader(scene.outputs)
-    read(rows[0])
+    rows[0] = read()
     row, due, stopped = 0, 0.0, ""
-    for i in range(len(times) - 1):
+    for i, (now, then) in enumerate(itertools.pairwise(times.tolist())):
         try:
             if changed[i]:
                 instance.fmu.setReal(references, inputs[i].tolist())
-            instance.fmu.doStep(times[i], times[i + 1] - times[i])
+            instance.fmu.doStep(now, then - now)
         except FMICallException as failure:
-            stopped = f"the FMU gave up in the step from t = {times[i]:.9g} s: {instance.complaints()}"
-            reached = instance.last_successful_time(times[i]) if failure.status == fmi2Discard else times[i]
+            stopped = f"the FMU gave up in the step from t = {now:.9g} s: {instance.complaints()}"
+            reached = instance.last_successful_time(now) if failure.status == fmi2Discard else now
             if reached > row_times[row]:
                 row += 1
-                read(rows[row])
+                rows[row] = read()
                 row_times[row] = reached
             break
         except KeyboardInterrupt:
-            stopped = f"interrupted after t = {times[i]:.9g} s"
+            stopped = f"interrupted after t = {now:.9g} s"
             break
         row = i // stride + 1
         held = rows[row, peaks] if i % stride else -np.inf  # a copy
-        read(rows[row])
+        rows[row] = read()
         if peaks:
             rows[row, peaks] = np.maximum(rows[row, peaks], held)
-        row_times[row] = times[i + 1]
-        if (now := time.perf_counter()) >= due:
-            progress(times[i + 1])
-            due = now + PROGRESS_INTERVAL
+        row_times[row] = then
+        if (clock := time.perf_counter()) >= due:
+            progress(then)
+            due = clock + PROGRESS_INTERVAL
     progress(row_times[row])
     return row_times[: row + 1], rows[: row + 1], stopped
 
