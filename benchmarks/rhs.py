@@ -153,7 +153,7 @@ def main():
         touched = []
         for state in y:
             model.rhs(0.0, state)
-            touched.append(sum(model.work.pocket[h][j].Q > 0.0 for h in range(2) for j in range(variables.Z)))
+            touched.append(sum(Q > 0.0 for h in range(2) for Q in list(model.work.pocket[h].Q)[: variables.Z]))
         rows = {}
         for isa in sets:
             rows[isa] = timing(core, model, isa, y, 50 if short else 200)

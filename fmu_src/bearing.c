@@ -11,7 +11,7 @@
 static void add_force(Saved *s, const Work *w, bool counts, double h)
 {
     for (int j = 0; j < Z; j++) {
-        const double Q_c = w->pocket[0][j].Q + w->pocket[1][j].Q;
+        const double Q_c = w->pocket[0].Q[j] + w->pocket[1].Q[j];
         s->force_peak = number_max(s->force_peak, Q_c);
         if (!counts) continue;
         statistics_add(&s->force, FORCE_FLOOR, h, Q_c);

@@ -38,7 +38,7 @@ static void derive_race(const Parameters *p, double f, double side, Race *race)
 static void derive_balls(const Parameters *p, Derived *d)
 {
     const double D = p->bearing.D, area = 0.25 * PI * D * D;
-    for (int j = 0; j < LANES; j++) d->R[j] = 0.5 * (D + (j < Z ? p->ball.dD[j] : 0.0));
+    for (int j = 0; j < LANES; j++) d->R[j] = j < Z ? 0.5 * (D + p->ball.dD[j]) : 0.0;  // ghosts touch nothing
     d->m = p->bearing.rho * PI / 6.0 * D * D * D;
     d->J = 0.1 * d->m * D * D;
     d->drag = 0.5 * p->oil.C_d * p->oil.rho_mix * area;
@@ -61,8 +61,8 @@ static void derive_pockets(const Parameters *p, Derived *d)
     d->ln_pocket_rigid = portable_log(shape * R / p->oil.sigma_pocket) + 2.0 * portable_log(p->oil.eta * R);
     for (int j = 0; j < LANES; j++) {
         const double phi = 2.0 * PI * (j % Z) / Z, phi_r = 2.0 * PI * (j % Z + 0.5) / Z;
-        d->pocket_cos[j] = portable_cos(phi);
-        d->pocket_sin[j] = portable_sin(phi);
+        d->pocket_cos[j] = j < Z ? portable_cos(phi) : 0.0;
+        d->pocket_sin[j] = j < Z ? portable_sin(phi) : 0.0;
         d->rivet_y[j] = 0.5 * p->bearing.d_m * portable_cos(phi_r);
         d->rivet_z[j] = 0.5 * p->bearing.d_m * portable_sin(phi_r);
     }

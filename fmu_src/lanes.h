@@ -274,7 +274,17 @@ typedef double constants[LANES] __attribute__((aligned(8 * sizeof(double))));  /
 // Sum over the balls in one order for every lane width: four partial sums, then (0 + 1) + (2 + 3).
 INLINE number lanes_sum(const number *v)
 {
+    int j = 4;
+#ifdef DUAL
     number part[4] = {v[0], v[1], v[2], v[3]};
-    for (int j = 4; j < Z; j++) part[j % 4] += v[j];
+#else
+    double part __attribute__((vector_size(32))), next __attribute__((vector_size(32)));
+    memcpy(&part, v, sizeof part);
+    for (; j + 4 <= Z; j += 4) {
+        memcpy(&next, &v[j], sizeof next);
+        part += next;
+    }
+#endif
+    for (; j < Z; j++) part[j % 4] += v[j];
     return (part[0] + part[1]) + (part[2] + part[3]);
 }

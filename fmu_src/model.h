@@ -83,12 +83,13 @@ typedef struct {
     number F[3], M[3];      // force and moment about the geometric centre, by all contacts
 } Rotor;
 
-// ---- force of one ball on one half; written by pocket_force, zero where they do not touch -------------------------------------------------
+// ---- the balls in the pockets of one half; written by pocket_force, forces zero where they do not touch ------------------------------------------
 typedef struct {
-    number Q;              // contact load [N]
-    number F_x, F_r, F_t;  // force on the half in the pocket's frame [N]
-    number F[3], M[3];     // force and moment on the half about its geometric centre, global frame
-} Pocket;
+    lanes Q;                             // contact load [N]
+    lanes F_x, F_r, F_t;                 // force on the half in the pocket's frame [N]
+    lanes half_F_x, half_F_y, half_F_z;  // force on the half, global frame
+    lanes half_M_x, half_M_y, half_M_z;  // moment on the half about its geometric centre, global frame
+} Pockets;
 
 // ---- one evaluation of the right-hand side, in the order it is written --------------------------------------------------------------------------
 typedef struct {
@@ -107,8 +108,8 @@ typedef struct {
     lanes ring_F_x, ring_F_y, ring_F_z, ring_M_x, ring_M_y, ring_M_z;
     // contact results
     lanes delta_i, delta_e, Q_i, Q_e, n_ix, n_ir, n_it, n_ex, n_er, U_i, U_e;
-    lanes delta_c[2];  // elastic approach of ball and half
-    Pocket pocket[2][Z];
+    lanes delta_c[2];   // elastic approach of ball and half
+    Pockets pocket[2];  // on each half; on a rigid cage all on the first
     // joints, in the frame of half 0 (cage_joint_force)
     lanes u_x, u_y, u_z, v_jx, v_jy, v_jz;           // half 1 against half 0: offset, velocity
     lanes T, N_plate, S_y, S_z, H_y, H_z, B_y, B_z;  // rivet tension, plate force, forces on half 1 by plates S, heads H, hole B

@@ -72,12 +72,12 @@ static void fill_ball(const Evaluation *at, Outputs *out)
     double contacts = 0.0;
     number penetration = 0.0, force_most = 0.0;
     for (int j = 0; j < Z; j++) {
-        const number Q_i = w->Q_i[j], Q_e = w->Q_e[j], Q_c = w->pocket[0][j].Q + w->pocket[1][j].Q;
+        const number Q_i = w->Q_i[j], Q_e = w->Q_e[j], Q_c = w->pocket[0].Q[j] + w->pocket[1].Q[j];
         const number delta[3] = {w->delta_i[j], w->delta_e[j], rigid ? w->delta_c[0][j] : number_max(w->delta_c[0][j], w->delta_c[1][j])};
         out->ball.Q_i[j] = Q_i;
         out->ball.Q_e[j] = Q_e;
         out->ball.Q_c[j] = Q_c;
-        out->ball.Q_cx[j] = w->pocket[0][j].F_x + w->pocket[1][j].F_x;
+        out->ball.Q_cx[j] = w->pocket[0].F_x[j] + w->pocket[1].F_x[j];
         out->ball.omega_m[j] = w->omega_m[j];
         out->ball.alpha_i[j] = number_value(Q_i) > 0.0 ? number_atan2(-w->n_ix[j], -w->n_ir[j]) : 0.0;
         out->ball.alpha_e[j] = number_value(Q_e) > 0.0 ? number_atan2(w->n_ex[j], w->n_er[j]) : 0.0;

@@ -40,14 +40,12 @@ static void rigid_wrench(const Model *model, const Work *w, number wrench[6])
         global[i] = 0.5 * (w->half[1].F[i] - w->half[0].F[i]);
         global[3 + i] = 0.5 * (w->half[1].M[i] - w->half[0].M[i]);
     }
-    for (int j = 0; j < Z; j++) {  // half 0 holds the pocket forces: their share of half 1 less that of half 0 instead
-        const Pocket *pocket = &w->pocket[0][j];
-        const number F_2 = pocket->F_x * pocket->F_x + pocket->F_t * pocket->F_t;
-        const number share = number_value(F_2) > 0.0 ? pocket->F_x / number_sqrt(pocket->F_x * pocket->F_x + width * width * F_2) : 0.0;
-        for (int i = 0; i < 3; i++) {
-            global[i] += 0.5 * (1.0 + share) * pocket->F[i];
-            global[3 + i] += 0.5 * (1.0 + share) * pocket->M[i];
-        }
+    const Pockets *pocket = &w->pocket[0];  // half 0 holds the pocket forces: their share of half 1 less that of half 0 instead
+    const number *wrenches[6] = {pocket->half_F_x, pocket->half_F_y, pocket->half_F_z, pocket->half_M_x, pocket->half_M_y, pocket->half_M_z};
+    for (int j = 0; j < Z; j++) {
+        const number F_x = pocket->F_x[j], F_t = pocket->F_t[j], F_2 = F_x * F_x + F_t * F_t;
+        const number share = number_value(F_2) > 0.0 ? F_x / number_sqrt(F_x * F_x + width * width * F_2) : 0.0;
+        for (int i = 0; i < 6; i++) global[i] += 0.5 * (1.0 + share) * wrenches[i][j];
     }
     const number *axes[3] = {cage->a, cage->b_y, cage->b_z};
     for (int i = 0; i < 3; i++) {
@@ -76,14 +74,6 @@ static void rigid_load(const Model *model, const Work *w, RivetLoads *load)
         load->F_head[k] = number_min(number_max(V - friction, 0.0), friction);
         load->V[k] = V;
     }
-}
-
-// Adds what the forces on the pockets of one half pry at the rivets.
-static void pocket_path(const Pocket pocket[Z], int side, PathLoads *path)
-{
-    number F_x[Z], F_r[Z], F_t[Z];
-    for (int j = 0; j < Z; j++) F_x[j] = pocket[j].F_x, F_r[j] = pocket[j].F_r, F_t[j] = pocket[j].F_t;
-    load_path_flexible(rivet_table.load_path, side, F_x, F_r, F_t, path);
 }
 
 // Adds a vector (r, t) at every rivet, given radially and along the circle, to one along y and z.
@@ -120,7 +110,10 @@ void rivets_load(const Model *model, const Work *w, RivetLoads *load)
         two_half_load(model, w, load);
 
     PathLoads path = {0};
-    for (int h = 0; h < (rigid ? 1 : 2); h++) pocket_path(w->pocket[h], h == 0 ? -1 : 1, &path);
+    for (int h = 0; h < (rigid ? 1 : 2); h++) {
+        const Pockets *pocket = &w->pocket[h];
+        load_path_flexible(rivet_table.load_path, h == 0 ? -1 : 1, pocket->F_x, pocket->F_r, pocket->F_t, &path);
+    }
     for (int k = 0; k < BUNDLES * LANE_WIDTH; k += LANE_WIDTH) real_store(&load->N[k], real_load(&load->N[k]) + real_load(&path.sum[PATH_N][k]));
     if (model->d->hole_gap == 0.0) add_turned(model, path.sum[PATH_V_R], path.sum[PATH_V_T], load->V_y, load->V_z);
     add_turned(model, path.sum[PATH_M_R], path.sum[PATH_M_T], load->M_y, load->M_z);

@@ -94,12 +94,12 @@ def ring_wrench(w):
 def pocket_wrench(model, h):
     """Force and moment on half h by each ball, about the half's centre, global frame, (Z, 3) each."""
     row = model.work.pocket[h]
-    return tuple(np.array([list(getattr(row[j], kind)) for j in range(Z)]) for kind in "FM")
+    return tuple(np.array([list(getattr(row, f"half_{kind}_{i}"))[:Z] for i in "xyz"]).T for kind in "FM")
 
 
 def pocket_loads(model):
     """Contact load of each ball with each half, (2, Z) [N]."""
-    return np.array([[model.work.pocket[h][j].Q for j in range(Z)] for h in range(2)])
+    return np.array([list(model.work.pocket[h].Q)[:Z] for h in range(2)])
 
 
 def running_state(model, rng, *, pockets=True, slip=1.0):

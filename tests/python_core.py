@@ -27,7 +27,7 @@ VECTORS = {f"{kind}_{axis}": (kind, i) for kind in "FM" for i, axis in enumerate
 WRENCH = {f"ring_{kind}_{axis}": (f"ring_{kind}", i) for kind in "FM" for i, axis in enumerate("xyz")}
 NORMALS = {f"n_{race}{axis}": (f"n_{race}", i) for race in "ie" for i, axis in enumerate("xrt")}
 COMPONENTS = VECTORS | WRENCH | NORMALS
-NOTHING = [SimpleNamespace(Q=0.0, F=np.zeros(3), M=np.zeros(3))] * Z  # the rigid cage has one set of pockets
+NOTHING = SimpleNamespace(Q=np.zeros(Z), **{f"half_{kind}_{i}": np.zeros(Z) for kind in "FM" for i in "xyz"})  # the rigid cage has one set of pockets
 DISSIPATED = ("race_dissipated", "pocket_dissipated", "drag_dissipated")
 
 
@@ -76,7 +76,12 @@ class PythonWork:
     def pocket(self):
         """Load, force and moment about the half's centre of each ball on each half."""
         w = self.w
-        return [[SimpleNamespace(Q=w.Q_c[h][j], F=w.pocket_F[h][:, j], M=w.pocket_M[h][:, j]) for j in range(Z)] if h in w.Q_c else NOTHING for h in range(2)]
+
+        def of_half(h):
+            wrench = {"F": w.pocket_F[h], "M": w.pocket_M[h]}
+            return SimpleNamespace(Q=w.Q_c[h], **{f"half_{kind}_{i}": row for kind, rows in wrench.items() for i, row in zip("xyz", rows, strict=True)})
+
+        return [of_half(h) if h in w.Q_c else NOTHING for h in range(2)]
 
     @property
     def land_dissipated(self):

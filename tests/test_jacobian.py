@@ -169,9 +169,6 @@ def members(core, struct, prefix=""):
         elif field.type.item.kind == "struct":
             for i, part in enumerate(member):
                 out |= members(core, part, f"{prefix}{name}[{i}].")
-        elif name == "pocket":
-            for h, j in itertools.product(range(2), range(Z)):
-                out |= members(core, member[h][j], f"pocket[{h}][{j}].")
         else:
             values = view(core, member)
             out[prefix + name] = np.array(values[..., :Z] if values.shape[-1] == core.lib.LANES else values)
