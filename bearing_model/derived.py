@@ -83,7 +83,7 @@ def derive_pockets(p, d):
     alpha_r = 1.0 / (rho_y * R)
     lambda_b = 1.0 / (1.0 + 0.698 / alpha_r)
     shape = 128.0 * alpha_r * lambda_b**2 * (0.131 * np.arctan(0.5 * alpha_r) + 1.683) ** 2
-    d.ln_pocket_rigid = np.log(shape * R / p.oil.sigma_pocket * (p.oil.eta * R) ** 2)
+    d.ln_pocket_rigid = np.log(shape * R / p.oil.sigma_pocket) + 2.0 * np.log(p.oil.eta * R)
     phi, phi_r = 2.0 * np.pi * np.arange(Z) / Z, 2.0 * np.pi * (np.arange(Z) + 0.5) / Z
     d.pocket_cos, d.pocket_sin = np.cos(phi), np.sin(phi)
     d.rivet_y, d.rivet_z = 0.5 * p.bearing.d_m * np.cos(phi_r), 0.5 * p.bearing.d_m * np.sin(phi_r)

@@ -28,7 +28,8 @@ ELEMENT_NAMES = (
 )
 PEAKS = ("arithmetic", "load", "divide", "root")
 LANES = {"scalar": 1, "sse2": 2, "generic": 2, "neon": 2, "avx2": 4, "avx512": 8}
-ARITHMETIC = re.compile(r"^v?(add|sub|mul|max|min)[sp]d$")
+FUSED = r"fn?m(?:add|sub)\d{3}"
+ARITHMETIC = re.compile(rf"^v?(add|sub|mul|max|min|{FUSED})[sp]d$")
 DIVIDE, ROOT = re.compile(r"^v?div[sp]d$"), re.compile(r"^v?sqrt[sp]d$")
 DECLARATIONS = """
 double rhs_time_{isa}(const Model *, int, const double *, int, Work *);
@@ -121,7 +122,7 @@ def kinds(mnemonic, operands):
     for name, pattern in (("arithmetic", ARITHMETIC), ("divide", DIVIDE), ("root", ROOT)):
         if pattern.match(mnemonic):
             result += [name, f"{name}_packed"] if packed else [name]
-            result += ["flops"] * (width if packed else 1)
+            result += ["flops"] * (width if packed else 1) * (2 if re.match(f"v{FUSED}", mnemonic) else 1)
     if "(" in operands and not mnemonic.startswith(("lea", "nop", "prefetch", "cmp", "test")):
         result.append("stores" if operands.endswith(")") else "loads")
     return result

@@ -59,23 +59,35 @@ target_include_directories(core PUBLIC ${fmu_src})
 target_compile_options(core PRIVATE ${core_flags})
 target_link_libraries(core PUBLIC sundials m)
 
-# Adds the kernel files, compiled for one instruction set.
+file(GLOB test_files CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/tests/test_library.c)
+file(GLOB elementary_test CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/tests/test_elementary.c)
+
+# An object library of these files, compiled for one instruction set.
+function(compile_for target isa lane_width files)
+    add_library(${target} OBJECT ${files})
+    target_include_directories(${target} PRIVATE ${fmu_src})
+    target_compile_definitions(${target} PRIVATE ISA=${isa} LANE_WIDTH=${lane_width})
+    target_compile_options(${target} PRIVATE ${core_flags} ${ARGN})
+endfunction()
+
+# Adds the kernel files, compiled for one instruction set, and their elementary functions for the tests.
 function(add_kernel isa lane_width)
-    add_library(kernel_${isa} OBJECT ${kernel_files})
-    target_include_directories(kernel_${isa} PRIVATE ${fmu_src})
-    target_compile_definitions(kernel_${isa} PRIVATE ISA=${isa} LANE_WIDTH=${lane_width})
-    target_compile_options(kernel_${isa} PRIVATE ${core_flags} ${ARGN})
+    compile_for(kernel_${isa} ${isa} ${lane_width} "${kernel_files}" ${ARGN})
     set(core_objects ${core_objects} $<TARGET_OBJECTS:kernel_${isa}> PARENT_SCOPE)
+    if(elementary_test AND NOT CMAKE_CROSSCOMPILING)
+        compile_for(elementary_${isa} ${isa} ${lane_width} ${elementary_test} ${ARGN})
+        set(test_objects ${test_objects} $<TARGET_OBJECTS:elementary_${isa}> PARENT_SCOPE)
+    endif()
 endfunction()
 
 set(core_objects $<TARGET_OBJECTS:core> ${sundials_objects})
 if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
     add_kernel(sse2 2)
-    add_kernel(avx2 4 -mavx2)  # what dispatch.c asks the processor for, no more
-    add_kernel(avx512 8 -mavx512f -mavx512dq -mavx512vl -mprefer-vector-width=512)
+    add_kernel(avx2 4 -mavx2 -mfma -DFUSED)  # what dispatch.c asks the processor for, no more
+    add_kernel(avx512 8 -mavx512f -mavx512dq -mavx512vl -mfma -mprefer-vector-width=512 -DFUSED)
     target_compile_definitions(core PRIVATE KERNELS_X86)
 elseif(CMAKE_SYSTEM_PROCESSOR MATCHES "aarch64|arm64")
-    add_kernel(neon 2)
+    add_kernel(neon 2 -DFUSED)
     target_compile_definitions(core PRIVATE KERNELS_NEON)
 else()
     add_kernel(generic 2)
@@ -88,9 +100,12 @@ if(limited_range)
 endif()
 
 # For the tests only: each element's functions, callable from Python.
-file(GLOB test_files CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/tests/test_library.c)
 if(test_files AND NOT CMAKE_CROSSCOMPILING)
-    add_library(bearing_test SHARED ${core_objects} ${test_files})
+    if(NOT TARGET elementary_generic)  # those of the core
+        compile_for(elementary_generic generic 2 ${elementary_test})
+        list(APPEND test_objects $<TARGET_OBJECTS:elementary_generic>)
+    endif()
+    add_library(bearing_test SHARED ${core_objects} ${test_files} ${test_objects})
     target_compile_options(bearing_test PRIVATE ${core_flags})
     target_link_libraries(bearing_test PRIVATE core)
 endif()

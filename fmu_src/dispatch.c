@@ -43,8 +43,10 @@ Kernels kernels_select(void)
 {
     enum { YMM = 0x6, ZMM = 0xe6 };
     const unsigned AVX2 = 1u << 5, AVX512 = 1u << 16 | 1u << 17 | 1u << 31;  // F, DQ, VL
+    const unsigned FMA = 1u << 12;
     unsigned a, b, c, d;
     const unsigned kept = registers_kept();
+    if (!__get_cpuid(1, &a, &b, &c, &d) || !(c & FMA)) return KERNELS(sse2);
     if (!__get_cpuid_count(7, 0, &a, &b, &c, &d)) b = 0;
     if ((kept & ZMM) == ZMM && (b & AVX512) == AVX512) return KERNELS(avx512);
     return (kept & YMM) == YMM && (b & AVX2) ? KERNELS(avx2) : KERNELS(sse2);

@@ -71,6 +71,10 @@ INLINE real real_select(bits condition, real yes, real no)
 {
     return condition ? yes : no;
 }
+INLINE real real_fma(real x, real y, real z)
+{
+    return x * y + z;
+}
 INLINE real real_max(real x, real y)
 {
     return creal(x) > creal(y) ? x : y;

@@ -27,18 +27,18 @@ INLINE void add_contact(real g, real normal, real R, const real n[3], real A[TER
     for (int i = 0; i < 3; i++) {
         for (int k = 0; k <= i; k++) {
             const real nn = n[i] * n[k];
-            A[AT(i, k)] += (normal - g) * nn;
-            A[AT(3 + i, 3 + k)] -= g_RR * nn;
+            A[AT(i, k)] = real_fma(normal - g, nn, A[AT(i, k)]);
+            A[AT(3 + i, 3 + k)] = real_fma(-g_RR, nn, A[AT(3 + i, 3 + k)]);
         }
         A[AT(i, i)] += g;
         A[AT(3 + i, 3 + i)] += g_RR;
     }
-    A[AT(3, 1)] -= g_R * n[2];  // (omega x n)_r = omega_t n_x - omega_x n_t, and so on
-    A[AT(3, 2)] += g_R * n[1];
-    A[AT(4, 0)] += g_R * n[2];
-    A[AT(4, 2)] -= g_R * n[0];
-    A[AT(5, 0)] -= g_R * n[1];
-    A[AT(5, 1)] += g_R * n[0];
+    A[AT(3, 1)] = real_fma(-g_R, n[2], A[AT(3, 1)]);  // (omega x n)_r = omega_t n_x - omega_x n_t, and so on
+    A[AT(3, 2)] = real_fma(g_R, n[1], A[AT(3, 2)]);
+    A[AT(4, 0)] = real_fma(g_R, n[2], A[AT(4, 0)]);
+    A[AT(4, 2)] = real_fma(-g_R, n[0], A[AT(4, 2)]);
+    A[AT(5, 0)] = real_fma(-g_R, n[1], A[AT(5, 0)]);
+    A[AT(5, 1)] = real_fma(g_R, n[0], A[AT(5, 1)]);
 }
 
 typedef struct {
@@ -50,10 +50,10 @@ INLINE void factor_block(Factors *f)
     real *A = f->A;
     for (int i = 0; i < BLOCK; i++) {
         for (int k = 1; k < i; k++)
-            for (int q = 0; q < k; q++) A[AT(i, k)] -= A[AT(i, q)] * A[AT(k, q)];
+            for (int q = 0; q < k; q++) A[AT(i, k)] = real_fma(-A[AT(i, q)], A[AT(k, q)], A[AT(i, k)]);
         for (int k = 0; k < i; k++) {
             const real l = A[AT(i, k)] * f->per[k];
-            A[AT(i, i)] -= l * A[AT(i, k)];
+            A[AT(i, i)] = real_fma(-l, A[AT(i, k)], A[AT(i, i)]);
             A[AT(i, k)] = l;
         }
         f->per[i] = 1.0 / A[AT(i, i)];
@@ -64,10 +64,10 @@ INLINE void factor_block(Factors *f)
 INLINE void solve_block(const Factors *f, real x[BLOCK])
 {
     for (int i = 1; i < BLOCK; i++)
-        for (int k = 0; k < i; k++) x[i] -= f->A[AT(i, k)] * x[k];
+        for (int k = 0; k < i; k++) x[i] = real_fma(-f->A[AT(i, k)], x[k], x[i]);
     for (int i = BLOCK - 1; i >= 0; i--) {
         x[i] *= f->per[i];
-        for (int k = i + 1; k < BLOCK; k++) x[i] -= f->A[AT(k, i)] * x[k];
+        for (int k = i + 1; k < BLOCK; k++) x[i] = real_fma(-f->A[AT(k, i)], x[k], x[i]);
     }
 }
 
@@ -75,7 +75,7 @@ INLINE void solve_block(const Factors *f, real x[BLOCK])
 INLINE void add_spin(real g_spin, const real n[3], real A[TERMS])
 {
     for (int i = 0; i < 3; i++)
-        for (int k = 0; k <= i; k++) A[AT(3 + i, 3 + k)] += g_spin * n[i] * n[k];
+        for (int k = 0; k <= i; k++) A[AT(3 + i, 3 + k)] = real_fma(g_spin * n[i], n[k], A[AT(3 + i, 3 + k)]);
 }
 
 // gamma lambda Q + gamma^2 3 Q/(2 delta) of a race contact.

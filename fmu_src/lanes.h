@@ -2,8 +2,9 @@
 //
 // `real` holds LANE_WIDTH doubles and has C's operators; a bundle's code reads like the code for one ball.  The kernel files are compiled
 // once per instruction set, and every function that another file calls gets that set's name as a suffix (FOR_ISA).
-// Each lane does the same IEEE operations in the same order whatever the width, and sums run over balls in a fixed order (lanes_sum),
-// so all instruction sets give the same bits.  No fused multiply-add is used or contracted into: baseline x86-64 has none.
+// Each lane does the same IEEE operations in the same order whatever the width, and sums run over balls in a fixed order (lanes_sum), so all
+// instruction sets with a fused multiply-add (FUSED: AVX2, AVX-512, NEON) give the same bits, and all without one.  It stands where it is
+// written, real_fma; compilers contract nothing into it.
 // `number` is one of a bundle's numbers, for whatever depends on the state; dual.h makes both dual numbers, which carry a derivative.
 #pragma once
 
@@ -129,6 +130,19 @@ INLINE real real_sqrt(real x)
     return x;
 #endif
 }
+// x y + z with one rounding where the kernels' instruction set has it.
+INLINE real real_fma(real x, real y, real z)
+{
+#if defined(FUSED) && defined(__AVX512F__) && LANE_WIDTH == 8
+    return (real)_mm512_fmadd_pd((__m512d)x, (__m512d)y, (__m512d)z);
+#elif defined(FUSED) && defined(__FMA__) && LANE_WIDTH == 4
+    return (real)_mm256_fmadd_pd((__m256d)x, (__m256d)y, (__m256d)z);
+#elif defined(FUSED) && defined(__ARM_NEON) && LANE_WIDTH == 2
+    return (real)vfmaq_f64((float64x2_t)z, (float64x2_t)x, (float64x2_t)y);
+#else
+    return x * y + z;
+#endif
+}
 INLINE real real_max(real x, real y)  // y where x is NaN, like the x86 instruction
 {
 #if defined(__AVX512F__) && LANE_WIDTH == 8
@@ -168,17 +182,17 @@ INLINE real real_exp(real x)
     x = real_max(real_min(x, real_set(700.0)), real_set(-700.0));
     bits n;
     const real k = real_round(x * 1.4426950408889634, &n);
-    const real r = (x - k * 0.6931471805582987) - k * 1.6465949582897082e-12;  // ln 2 in two parts
+    const real r = real_fma(k, real_set(-1.6465949582897082e-12), real_fma(k, real_set(-0.6931471805582987), x));  // ln 2 in two parts
     real p = real_set(2.761380686153829e-07);
-    p = p * r + 2.762511557828763e-06;
-    p = p * r + 2.4801536388690766e-05;
-    p = p * r + 0.00019841208732536384;
-    p = p * r + 0.0013888888905881542;
-    p = p * r + 0.008333333353729397;
-    p = p * r + 0.04166666666665136;
-    p = p * r + 0.1666666666664829;
-    p = p * r + 0.5;
-    p = p * r * r + r + 1.0;
+    p = real_fma(p, r, real_set(2.762511557828763e-06));
+    p = real_fma(p, r, real_set(2.4801536388690766e-05));
+    p = real_fma(p, r, real_set(0.00019841208732536384));
+    p = real_fma(p, r, real_set(0.0013888888905881542));
+    p = real_fma(p, r, real_set(0.008333333353729397));
+    p = real_fma(p, r, real_set(0.04166666666665136));
+    p = real_fma(p, r, real_set(0.1666666666664829));
+    p = real_fma(p, r, real_set(0.5));
+    p = real_fma(p * r, r, r) + 1.0;
     return real_select(underflow, real_set(0.0), (real)((words)p + ((words)n << 52)));
 }
 
@@ -195,12 +209,12 @@ INLINE real real_log_of(real k, real t)
 {
     const real z = t * t;
     real p = real_set(0.166219470901774);
-    p = p * z + 0.18140185202493248;
-    p = p * z + 0.22222862476849542;
-    p = p * z + 0.2857142413651635;
-    p = p * z + 0.400000000112122;
-    p = p * z + 0.6666666666666208;
-    return k * 0.6931471805582987 + (k * 1.6465949582897082e-12 + (2.0 * t + t * z * p));
+    p = real_fma(p, z, real_set(0.18140185202493248));
+    p = real_fma(p, z, real_set(0.22222862476849542));
+    p = real_fma(p, z, real_set(0.2857142413651635));
+    p = real_fma(p, z, real_set(0.400000000112122));
+    p = real_fma(p, z, real_set(0.6666666666666208));
+    return real_fma(k, real_set(0.6931471805582987), real_fma(k, real_set(1.6465949582897082e-12), real_fma(t * z, p, 2.0 * t)));
 }
 // ln x of a normal x > 0, relative error < 3e-15.
 INLINE real real_log(real x)
@@ -223,21 +237,22 @@ INLINE void real_sincos(real x, real *sine, real *cosine)
 {
     bits n;
     const real k = real_round(x * 0.6366197723675814, &n);
-    const real r = ((x - k * 1.570796325802803) - k * 9.920935791635221e-10) - k * 5.170182981794105e-19;  // pi/2 in three parts
+    const real near = real_fma(k, real_set(-9.920935791635221e-10), real_fma(k, real_set(-1.570796325802803), x));
+    const real r = real_fma(k, real_set(-5.170182981794105e-19), near);  // pi/2 in three parts
     const real z = r * r;
     real p = real_set(1.591810123027412e-10), q = real_set(-1.1382614868556325e-11);
-    p = p * z - 2.5051131455427946e-08;
-    p = p * z + 2.755731610068303e-06;
-    p = p * z - 0.0001984126983675497;
-    p = p * z + 0.008333333333330946;
-    p = p * z - 0.16666666666666666;
-    p = r + r * z * p;
-    q = q * z + 2.0876146024689747e-09;
-    q = q * z - 2.7557317270560326e-07;
-    q = q * z + 2.4801587298763433e-05;
-    q = q * z - 0.0013888888888887395;
-    q = q * z + 0.041666666666666664;
-    q = 1.0 - 0.5 * z + z * z * q;
+    p = real_fma(p, z, real_set(-2.5051131455427946e-08));
+    p = real_fma(p, z, real_set(2.755731610068303e-06));
+    p = real_fma(p, z, real_set(-0.0001984126983675497));
+    p = real_fma(p, z, real_set(0.008333333333330946));
+    p = real_fma(p, z, real_set(-0.16666666666666666));
+    p = real_fma(r * z, p, r);
+    q = real_fma(q, z, real_set(2.0876146024689747e-09));
+    q = real_fma(q, z, real_set(-2.7557317270560326e-07));
+    q = real_fma(q, z, real_set(2.4801587298763433e-05));
+    q = real_fma(q, z, real_set(-0.0013888888888887395));
+    q = real_fma(q, z, real_set(0.041666666666666664));
+    q = real_fma(z * z, q, real_fma(real_set(-0.5), z, real_set(1.0)));
     const bits swap = (n & 1) != 0;
     const words sign_s = ((words)n & 2) << 62, sign_c = ((words)(n + 1) & 2) << 62;
     *sine = (real)((words)real_select(swap, q, p) ^ sign_s);
@@ -254,15 +269,15 @@ INLINE real real_atan(real x)
     const real offset = real_select(large, real_set(1.5707963267948966), real_select(middle, real_set(0.7853981633974483), real_set(0.0)));
     const real r = top / bottom, z = r * r;
     real p = real_set(-0.027229493655218973);
-    p = p * z + 0.051686162502498884;
-    p = p * z - 0.0655085023854286;
-    p = p * z + 0.07681037484051574;
-    p = p * z - 0.09090255377464372;
-    p = p * z + 0.11111089626077861;
-    p = p * z - 0.14285713929925073;
-    p = p * z + 0.1999999999772153;
-    p = p * z - 0.3333333333333092;
-    const real y = offset + (r + r * z * p);
+    p = real_fma(p, z, real_set(0.051686162502498884));
+    p = real_fma(p, z, real_set(-0.0655085023854286));
+    p = real_fma(p, z, real_set(0.07681037484051574));
+    p = real_fma(p, z, real_set(-0.09090255377464372));
+    p = real_fma(p, z, real_set(0.11111089626077861));
+    p = real_fma(p, z, real_set(-0.14285713929925073));
+    p = real_fma(p, z, real_set(0.1999999999772153));
+    p = real_fma(p, z, real_set(-0.3333333333333092));
+    const real y = offset + real_fma(r * z, p, r);
     return (real)((bits)y | ((bits)x & INT64_MIN));
 }
 

@@ -5,11 +5,11 @@
 
 INLINE real vec_dot(vec u, vec v)
 {
-    return u.x * v.x + u.r * v.r + u.t * v.t;
+    return real_fma(u.t, v.t, real_fma(u.r, v.r, u.x * v.x));
 }
 INLINE vec vec_cross(vec u, vec v)
 {
-    return (vec){u.r * v.t - u.t * v.r, u.t * v.x - u.x * v.t, u.x * v.r - u.r * v.x};
+    return (vec){real_fma(u.r, v.t, -(u.t * v.r)), real_fma(u.t, v.x, -(u.x * v.t)), real_fma(u.x, v.r, -(u.r * v.x))};
 }
 INLINE vec vec_add(vec u, vec v)
 {
@@ -26,7 +26,7 @@ INLINE vec vec_scale(real k, vec v)
 // u + k v
 INLINE vec vec_axpy(real k, vec v, vec u)
 {
-    return (vec){u.x + k * v.x, u.r + k * v.r, u.t + k * v.t};
+    return (vec){real_fma(k, v.x, u.x), real_fma(k, v.r, u.r), real_fma(k, v.t, u.t)};
 }
 // The part of v across the unit vector n.
 INLINE vec vec_across(vec v, vec n)
@@ -36,13 +36,14 @@ INLINE vec vec_across(vec v, vec n)
 // A vector of the global frame, seen from balls at azimuth theta.
 INLINE vec vec_local(const number global[3], real cos_theta, real sin_theta)
 {
-    return (vec){real_set(global[0]), global[1] * cos_theta + global[2] * sin_theta, global[2] * cos_theta - global[1] * sin_theta};
+    const real y = real_set(global[1]), z = real_set(global[2]);
+    return (vec){real_set(global[0]), real_fma(y, cos_theta, z * sin_theta), real_fma(z, cos_theta, -(y * sin_theta))};
 }
 INLINE void vec_to_global(vec v, real cos_theta, real sin_theta, number *x, number *y, number *z)
 {
     real_store(x, v.x);
-    real_store(y, v.r * cos_theta - v.t * sin_theta);
-    real_store(z, v.r * sin_theta + v.t * cos_theta);
+    real_store(y, real_fma(v.r, cos_theta, -(v.t * sin_theta)));
+    real_store(z, real_fma(v.r, sin_theta, v.t * cos_theta));
 }
 INLINE vec vec_load(const number *x, const number *r, const number *t)
 {

@@ -167,8 +167,8 @@ def declarations(sources):
 
 
 def parse(sources, isa):
-    """Declarations of all headers and of test_library.c, without function bodies and without types that depend on the lane width."""
-    files = [*sorted(sources.glob("*.h")), Path(__file__).with_name("test_library.c")]
+    """Declarations of all headers and of the tests' own C files, without function bodies and without types that depend on the lane width."""
+    files = [*sorted(sources.glob("*.h")), Path(__file__).with_name("test_library.c"), Path(__file__).with_name("test_elementary.c")]
     text = preprocess(files, f"-DISA={isa}", f"-I{sources}", before=SYSTEM_TYPES)
     nodes = c_parser.CParser().parse(text).ext
     own = SYSTEM_TYPES.count(";")

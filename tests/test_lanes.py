@@ -1,10 +1,13 @@
-"""Elementary functions against extended precision, and the same bits on every instruction set."""
+"""Elementary functions against extended precision; the same bits on all instruction sets with a fused multiply-add, and on all without."""
+
+import itertools
 
 import numpy as np
 import pytest
+from library import INSTRUCTION_SETS
 from mechanics import pocket_loads, running_state
 
-from bearing_model.variables import N_STATES, CageModel, Lubrication, Traction
+from bearing_model.variables import N_STATES, STATE_SLICES, CageModel, Lubrication, Traction
 
 extended = pytest.mark.skipif(np.finfo(np.longdouble).eps > 2e-19, reason="this machine's long double is no better than double")
 N = 100_000
@@ -18,45 +21,63 @@ def uniform(low, high, seed=1):
     return np.random.default_rng(seed).uniform(low, high, N)
 
 
+def instruction_sets(core):
+    """Those that are built and that this processor has, the narrowest first."""
+    order = ("generic", "neon", "sse2", "avx2", "avx512")
+    best = core.ffi.string(core.lib.kernels_select().name).decode()
+    return [isa for isa in order[: order.index(best) + 1] if hasattr(core.lib, f"rhs_{isa}")]
+
+
+@pytest.fixture(params=INSTRUCTION_SETS)
+def function(core, request):
+    """The elementary functions by name: of the core ("generic") and of every instruction set of the kernels."""
+    if request.param not in ("generic", *instruction_sets(core)):
+        pytest.skip("not on this processor")
+    return lambda name: getattr(core.lib, f"{name}_{request.param}")
+
+
 @extended
-def test_exp(core):
+def test_exp(core, function):
     """Errors as lanes.h states them; observed 1.3e-15."""
     for span in (1.0, 50.0, 700.0):
         x = uniform(-span, span)
-        assert relative_error(core.map(core.lib.test_exp, x), np.exp(x.astype(np.longdouble))) < 3e-15
+        assert relative_error(core.map(function("test_exp"), x), np.exp(x.astype(np.longdouble))) < 3e-15
 
 
-def test_exp_far_out(core):
-    assert core.map(core.lib.test_exp, [0.0])[0] == 1.0
-    assert core.map(core.lib.test_exp, [-1e4, -800.0]).tolist() == [0.0, 0.0]
-    assert core.map(core.lib.test_exp, [800.0, 1e300]) == pytest.approx(np.exp(700.0), rel=1e-14)
+def test_exp_far_out(core, function):
+    assert core.map(function("test_exp"), [0.0])[0] == 1.0
+    assert core.map(function("test_exp"), [-1e4, -800.0]).tolist() == [0.0, 0.0]
+    assert core.map(function("test_exp"), [800.0, 1e300]) == pytest.approx(np.exp(700.0), rel=1e-14)
 
 
 @extended
-def test_log(core):
+def test_log(core, function):
     """Uniform in the exponent, and close to 1 where the logarithm vanishes; observed 7e-16."""
     x = np.exp(uniform(-700.0, 700.0))
-    assert relative_error(core.map(core.lib.test_log, x), np.log(x.astype(np.longdouble))) < 3e-15
+    assert relative_error(core.map(function("test_log"), x), np.log(x.astype(np.longdouble))) < 3e-15
+    direct, inverse = core.map(function("test_log2"), x, outputs=2)
+    assert relative_error(direct, np.log(x.astype(np.longdouble))) < 3e-15
+    assert relative_error(inverse, np.log((1.0 / x).astype(np.longdouble))) < 3e-15
     x = 1.0 + np.exp(uniform(-30.0, -1.0, 2)) * np.sign(uniform(-1.0, 1.0, 3))
-    assert relative_error(core.map(core.lib.test_log, x), np.log(x.astype(np.longdouble))) < 3e-15
+    assert relative_error(core.map(function("test_log"), x), np.log(x.astype(np.longdouble))) < 3e-15
 
 
 @extended
-def test_sincos(core):
+def test_sincos(core, function):
     """304 rad are reached in 0.4 s, 1e7 rad in 3.6 h; observed 2.0e-16."""
     for span in (4.0, 400.0, 1e7):
         x = uniform(-span, span)
-        sine, cosine = core.map(core.lib.test_sincos, x, outputs=2)
+        sine, cosine = core.map(function("test_sincos"), x, outputs=2)
         exact = x.astype(np.longdouble)
         assert np.max(np.abs(sine - np.sin(exact))) < 3e-16
         assert np.max(np.abs(cosine - np.cos(exact))) < 3e-16
 
 
 @extended
-def test_atan(core):
+def test_atan(core, function):
     """Observed 3.8e-15."""
     x = np.exp(uniform(-40.0, 40.0)) * np.sign(uniform(-1.0, 1.0, 2))
-    assert relative_error(core.map(core.lib.test_atan, x), np.arctan(x.astype(np.longdouble))) < 1e-14
+    assert relative_error(core.map(function("test_atan"), x), np.arctan(x.astype(np.longdouble))) < 1e-14
 
 
 @extended
@@ -74,22 +95,15 @@ def test_powers_and_arcsine(core):
     assert zeros == [0.0, 0.0, 0.0]
 
 
-def test_inverse_functions(core):
+def test_inverse_functions(core, function):
     """exp(log x) = x and sin^2 + cos^2 = 1: holds without a reference."""
     x = np.exp(uniform(-5.0, 5.0))
-    assert relative_error(core.map(core.lib.test_exp, core.map(core.lib.test_log, x)), x) < 5e-15
-    sine, cosine = core.map(core.lib.test_sincos, uniform(-400.0, 400.0), outputs=2)
+    assert relative_error(core.map(function("test_exp"), core.map(function("test_log"), x)), x) < 5e-15
+    sine, cosine = core.map(function("test_sincos"), uniform(-400.0, 400.0), outputs=2)
     assert np.max(np.abs(sine**2 + cosine**2 - 1.0)) < 1e-15
 
 
 # ------------------------------------------------------------------------------------------------------------ instruction sets
-
-
-def instruction_sets(core):
-    """Those that are built and that this processor has, the narrowest first."""
-    order = ("generic", "neon", "sse2", "avx2", "avx512")
-    best = core.ffi.string(core.lib.kernels_select().name).decode()
-    return [isa for isa in order[: order.index(best) + 1] if hasattr(core.lib, f"rhs_{isa}")]
 
 
 def verlet_step(core, m, y):
@@ -100,10 +114,17 @@ def verlet_step(core, m, y):
     return np.concatenate([list(end.y), list(end.f), list(end.jerk), [error]])
 
 
+FUSED = ("neon", "avx2", "avx512")
+
+
 @pytest.mark.parametrize("lubrication", Lubrication)
 @pytest.mark.parametrize("traction", Traction)
 @pytest.mark.parametrize("cage", CageModel)
-def test_same_bits_on_every_instruction_set(core, cage, traction, lubrication):
+def test_instruction_sets(core, cage, traction, lubrication):
+    """The same bits but for fused multiply-adds; with and without them to rounding.
+
+    An approach of 1 um between places known to 3.5e-18 m (27 mm) has 3.5e-12 of its own, its force half as much again: 1e-10 of the largest in a block.
+    """
     sets = instruction_sets(core)
     if len(sets) < 2:
         pytest.skip(f"this processor has {sets} only")
@@ -116,5 +137,9 @@ def test_same_bits_on_every_instruction_set(core, cage, traction, lubrication):
         closed = pocket_loads(models[0]).max()
         assert closed > 0.0
         assert np.isfinite(results[0]).all()
-        for isa, other in zip(sets[1:], results[1:], strict=True):
-            assert other.tobytes() == results[0].tobytes(), (sets[0], isa, np.flatnonzero(other != results[0]))
+        for (isa, mine), (other, its) in itertools.pairwise(zip(sets, results, strict=True)):
+            if (isa in FUSED) == (other in FUSED):
+                assert mine.tobytes() == its.tobytes(), (isa, other, np.flatnonzero(mine != its))
+        first, last = results[0][:N_STATES], results[-1][:N_STATES]
+        for rows in STATE_SLICES.values():
+            assert np.max(np.abs(last[rows] - first[rows])) <= 1e-10 * np.max(np.abs(first[rows])), (sets, rows)

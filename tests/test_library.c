@@ -13,10 +13,6 @@
 void *test_allocate(size_t size);
 void test_ring_tilts(double beta, double gamma, double *tilt_y, double *tilt_z);
 void test_drive_at(const Course *course, double t, Drive *drive);
-void test_exp(int n, const double *x, double *y);
-void test_log(int n, const double *x, double *y);
-void test_sincos(int n, const double *x, double *sine, double *cosine);
-void test_atan(int n, const double *x, double *y);
 void test_pow(int n, double y, const double *x, double *power);
 void test_cbrt(int n, const double *x, double *y);
 void test_asin(int n, const double *x, double *y);
@@ -44,30 +40,6 @@ void test_ring_tilts(double beta, double gamma, double *tilt_y, double *tilt_z)
 void test_drive_at(const Course *course, double t, Drive *drive)
 {
     drive_at(course, t, drive);
-}
-
-void test_exp(int n, const double *x, double *y)
-{
-    for (int i = 0; i < n; i++) y[i] = real_exp(real_set(x[i]))[0];
-}
-
-void test_log(int n, const double *x, double *y)
-{
-    for (int i = 0; i < n; i++) y[i] = real_log(real_set(x[i]))[0];
-}
-
-void test_sincos(int n, const double *x, double *sine, double *cosine)
-{
-    for (int i = 0; i < n; i++) {
-        real s, c;
-        real_sincos(real_set(x[i]), &s, &c);
-        sine[i] = s[0], cosine[i] = c[0];
-    }
-}
-
-void test_atan(int n, const double *x, double *y)
-{
-    for (int i = 0; i < n; i++) y[i] = real_atan(real_set(x[i]))[0];
 }
 
 void test_pow(int n, double y, const double *x, double *power)

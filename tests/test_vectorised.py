@@ -1,6 +1,6 @@
 """The kernels keep their vectors: arithmetic of the kernels' objects counted by disassembly, packed and as wide as the instruction set, against scalar.
 
-A bundle's arithmetic must be packed; what remains scalar belongs to bodies of which there is one (cage, joint frame) or to ghosts of a touched list.
+A bundle's arithmetic must be packed; what remains scalar belongs to bodies of which there is one (cage, joint frame) or sums over the balls.
 Losing the vectors (wrong options, a member that the compiler takes apart, code per ball) halves the speed without a warning and without a wrong number.
 """
 
@@ -14,9 +14,9 @@ from library import ROOT
 
 OBJECTS = ROOT / "build" / "CMakeFiles"
 REGISTER = {"sse2": "xmm", "avx2": "ymm", "avx512": "zmm"}
-# Least share of full-width packed instructions in the arithmetic; observed 0.996...0.998, 0.94...0.96, 0.97...0.99, 0.41...0.50
-LEAST = {"race_contact": 0.98, "pocket": 0.90, "ball": 0.95, "cage_joint": 0.35}
-ARITHMETIC = re.compile(r"\sv?(?:add|sub|mul|div|sqrt|max|min)([ps])d\s+(\S.*)$")
+# Least share of full-width packed instructions in the arithmetic; observed 0.994...0.997, 0.90...0.93, 0.97...0.99, 0.55...0.71
+LEAST = {"race_contact": 0.98, "pocket": 0.85, "ball": 0.95, "cage_joint": 0.5}
+ARITHMETIC = re.compile(r"\sv?(?:add|sub|mul|div|sqrt|max|min|fn?m(?:add|sub)\d{3})([ps])d\s+(\S.*)$")
 
 
 @pytest.fixture(scope="module")
@@ -51,7 +51,7 @@ def test_arithmetic_is_packed(commands, element, isa):
 def test_loss_is_seen(commands, tmp_path):
     """The same element with bundles of four compiled without AVX: half-width registers, as after a lost option."""
     command = next(text for name, text in commands.items() if name.endswith("kernel_avx2.dir/fmu_src/race_contact.c.o"))
-    words = [word for word in command.split() if word != "-mavx2"]
+    words = [word for word in command.split() if word not in ("-mavx2", "-mfma")]
     words[words.index("-o") + 1] = str(tmp_path / "lost.o")
     subprocess.run([*words, "-Wno-psabi"], check=True, cwd=ROOT / "build")
     share, _ = packed_share(tmp_path / "lost.o", REGISTER["avx2"])
