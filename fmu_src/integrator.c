@@ -298,33 +298,40 @@ static int shrunk(const Integrator *in, double h)
     return ARK_ERR_FAILURE;
 }
 
-// Step sizes follow the error estimate, an h^3 of a step; the last two steps before t_stop are equal.
+// Step sizes follow the error estimate, an h^3 of a step; the last two steps before t_stop are equal.  States take turns in two places.
 static int verlet_advance(Integrator *in, double t_stop, long max_steps)
 {
     IntegratorState *s = in->s;
+    VerletState *now = &s->now, *next = &in->trial;
     double h_goal = s->h;
-    while (s->t < t_stop) {
-        if (max_steps-- <= 0) return ARK_TOO_MUCH_WORK;
+    int status = 0;
+    while (status == 0 && s->t < t_stop) {
+        if (max_steps-- <= 0) {
+            status = ARK_TOO_MUCH_WORK;
+            break;
+        }
         const double left = t_stop - s->t;
         const bool last = h_goal >= left * (1.0 - 1e-9);
         const double h = last ? left : left < 2.0 * h_goal ? 0.5 * left : h_goal;
-        const double error = in->kernels->verlet(in->model, s->t, h, in->weight, &s->now, &in->trial, in->w);
-        const double factor = error > 0.0 ? 0.8 / portable_cbrt(error) : error == 0.0 ? 2.0 : 0.0;  // NaN: the least
+        const double error = in->kernels->verlet(in->model, s->t, h, in->weight, now, next, in->w);
+        const double factor = error > 0.0 ? 0.8 * rough_rcbrt(error) : error == 0.0 ? 2.0 : 0.0;  // NaN: the least
         s->rhs_evals += 1.0;
         if (!(error <= 1.0)) {  // NaN fails too
             s->error_tests_failed += 1.0;
             h_goal = h * fmax(factor, 0.2);
-            if (s->t + h_goal == s->t) return shrunk(in, h);
+            if (s->t + h_goal == s->t) status = shrunk(in, h);
             continue;
         }
-        s->now = in->trial;
+        VerletState *const before = now;
+        now = next, next = before;
         s->t = last ? t_stop : s->t + h;
         s->steps += 1.0;
         if (h == h_goal || factor < 1.0) h_goal = h * fmin(factor, 1.5);
         in->hook(in->context, h, in->w);
     }
+    if (now != &s->now) s->now = *now;
     s->h = h_goal;
-    return 0;
+    return status;
 }
 
 static int explicit_advance(Integrator *in, double t_stop, long max_steps)

@@ -18,7 +18,7 @@ typedef struct {
     number outward, along, push;
 } Touch;
 
-void load_path_flexible(const double *matrix, int side, const number F_x[Z], const number F_r[Z], const number F_t[Z], PathLoads *loads)
+void load_path_flexible(const double *matrix, int side, bool transverse, const number F_x[Z], const number F_r[Z], const number F_t[Z], PathLoads *loads)
 {
     Touch touch[Z];
     int count = 0;
@@ -28,13 +28,17 @@ void load_path_flexible(const double *matrix, int side, const number F_x[Z], con
         touch[count++] = (Touch){matrix + back * PATH_LOADS * 3 * PATH_WIDTH + Z - 1 - j, side * F_x[j], F_r[j], back ? -F_t[j] : F_t[j]};  // as on the +x half
     }
     for (int i = 0; i < PATH_LOADS; i++) {
-        const double sign = i == PATH_V_R || i == PATH_V_T ? side : 1.0;
+        const bool V = i == PATH_V_R || i == PATH_V_T;
+        if (V && !transverse) continue;
+        const double sign = V ? side : 1.0;
         for (int k = 0; k < BUNDLES * LANE_WIDTH; k += LANE_WIDTH) {
             real sum = real_set(0.0);
             for (int n = 0; n < count; n++) {
                 const Touch *on = &touch[n];
                 const double *row = on->column + i * 3 * PATH_WIDTH + k;
-                sum += on->outward * real_load(row) + on->along * real_load(row + PATH_WIDTH) + on->push * real_load(row + 2 * PATH_WIDTH);
+                sum = real_fma(real_set(on->outward), real_load(row), sum);
+                sum = real_fma(real_set(on->along), real_load(row + PATH_WIDTH), sum);
+                sum = real_fma(real_set(on->push), real_load(row + 2 * PATH_WIDTH), sum);
             }
             real_store(&loads->sum[i][k], real_load(&loads->sum[i][k]) + sign * sum);
         }

@@ -102,7 +102,7 @@ void joint_prying(const JointData *j, RivetLoads *load)
 
 void rivets_load(const Model *model, const Work *w, RivetLoads *load)
 {
-    const bool rigid = model->p->scene.cage == CAGE_MODEL_RIGID;
+    const bool rigid = model->p->scene.cage == CAGE_MODEL_RIGID, transverse = model->d->hole_gap == 0.0;
     *load = (RivetLoads){0};
     if (rigid)
         rigid_load(model, w, load);
@@ -112,10 +112,10 @@ void rivets_load(const Model *model, const Work *w, RivetLoads *load)
     PathLoads path = {0};
     for (int h = 0; h < (rigid ? 1 : 2); h++) {
         const Pockets *pocket = &w->pocket[h];
-        load_path_flexible(rivet_table.load_path, h == 0 ? -1 : 1, pocket->F_x, pocket->F_r, pocket->F_t, &path);
+        load_path_flexible(rivet_table.load_path, h == 0 ? -1 : 1, transverse, pocket->F_x, pocket->F_r, pocket->F_t, &path);
     }
     for (int k = 0; k < BUNDLES * LANE_WIDTH; k += LANE_WIDTH) real_store(&load->N[k], real_load(&load->N[k]) + real_load(&path.sum[PATH_N][k]));
-    if (model->d->hole_gap == 0.0) add_turned(model, path.sum[PATH_V_R], path.sum[PATH_V_T], load->V_y, load->V_z);
+    if (transverse) add_turned(model, path.sum[PATH_V_R], path.sum[PATH_V_T], load->V_y, load->V_z);
     add_turned(model, path.sum[PATH_M_R], path.sum[PATH_M_T], load->M_y, load->M_z);
     joint_prying(&rivet_table.joint, load);
 }

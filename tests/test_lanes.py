@@ -89,6 +89,8 @@ def test_powers_and_arcsine(core):
         scale = 1.0 + np.abs(y * np.log(x))
         assert np.max(np.abs(core.map(core.lib.test_pow, x, y) / exact**y - 1.0) / scale) < 3e-15
     assert relative_error(core.map(core.lib.test_cbrt, x), np.cbrt(exact)) < 5e-16
+    wide = np.exp(uniform(-700.0, 700.0))
+    assert relative_error(core.map(core.lib.test_rcbrt, wide), 1.0 / np.cbrt(wide)) < 2e-5
     sine = uniform(-0.99, 0.99)
     assert relative_error(core.map(core.lib.test_asin, sine), np.arcsin(sine.astype(np.longdouble))) < 1.1e-14  # of atan, and of its argument
     zeros = [core.map(core.lib.test_pow, [0.0], 0.3)[0], core.map(core.lib.test_cbrt, [0.0])[0], core.map(core.lib.test_asin, [0.0])[0]]

@@ -15,6 +15,7 @@ void test_ring_tilts(double beta, double gamma, double *tilt_y, double *tilt_z);
 void test_drive_at(const Course *course, double t, Drive *drive);
 void test_pow(int n, double y, const double *x, double *power);
 void test_cbrt(int n, const double *x, double *y);
+void test_rcbrt(int n, const double *x, double *y);
 void test_asin(int n, const double *x, double *y);
 void test_hertz_load(int n, double K, const double *delta, double *Q);
 void test_hertz_damped(int n, double Q, double lambda, const double *delta_dot, double *damped);
@@ -50,6 +51,11 @@ void test_pow(int n, double y, const double *x, double *power)
 void test_cbrt(int n, const double *x, double *y)
 {
     for (int i = 0; i < n; i++) y[i] = portable_cbrt(x[i]);
+}
+
+void test_rcbrt(int n, const double *x, double *y)
+{
+    for (int i = 0; i < n; i++) y[i] = rough_rcbrt(x[i]);
 }
 
 void test_asin(int n, const double *x, double *y)

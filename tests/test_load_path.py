@@ -37,7 +37,7 @@ def flexible(request, core):
 
     def call(matrix, side, *forces):
         loads = core.new("PathLoads")
-        core.model().kernel("load_path_flexible")(doubles(ffi, path_columns(matrix)), side, *(doubles(ffi, f) for f in forces), loads)
+        core.model().kernel("load_path_flexible")(doubles(ffi, path_columns(matrix)), side, True, *(doubles(ffi, f) for f in forces), loads)
         return np.array([list(sum)[:Z] for sum in loads.sum]).T
 
     return call
