@@ -20,10 +20,10 @@ static Place load_place(const RivetTable *t, const RivetLoad *load, double fit_e
     place.first[1] = place.sheet == RIVET_PLANE ? w : w * number_sqrt(w);
     const number a = number_value(force) > 0.0 ? V / force : 0.0, b = number_value(axial) > 0.0 ? N / axial : 0.0;
     const number c = number_value(s) > 0.0 ? moment / s : 0.0, xi = number_value(s) > 0.0 ? fit_eff / s : 0.0;
-    place.at[RIVET_A] = axis_splines(&t->axis[RIVET_A], axis_cell(&t->axis[RIVET_A], a), a);
-    place.at[RIVET_B] = axis_splines(&t->axis[RIVET_B], axis_cell(&t->axis[RIVET_B], b), b);
-    place.at[RIVET_C] = axis_splines(&t->axis[RIVET_C], axis_cell(&t->axis[RIVET_C], c), c);
-    place.at[RIVET_XI] = axis_splines_xi(&t->axis[RIVET_XI], axis_cell(&t->axis[RIVET_XI], xi), xi, s, fit_eff);
+    place.at[RIVET_A] = axis_splines(&t->axis[RIVET_A], a);
+    place.at[RIVET_B] = axis_splines(&t->axis[RIVET_B], b);
+    place.at[RIVET_C] = axis_splines(&t->axis[RIVET_C], c);
+    place.at[RIVET_XI] = axis_splines_xi(&t->axis[RIVET_XI], xi, s, fit_eff);
     return place;
 }
 

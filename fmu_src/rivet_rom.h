@@ -61,11 +61,19 @@ enum {
 enum { RIVET_A, RIVET_B, RIVET_C, RIVET_XI, RIVET_AXES };
 enum { RIVET_PLANE, RIVET_OBLIQUE, RIVET_ACROSS, RIVET_SHEETS };
 
-// Clamped knots of one axis: `cells` + 1 knots, `cells` + 2 coefficients, and for each cell i the constants of its three splines
-//   rise[i] = 1/((t[i+2] - t[i]) (t[i+1] - t[i])),  fall[i] = 1/((t[i+1] - t[i-1]) (t[i+1] - t[i])).
+// One cell between knots t_i and t_(i+1), with the constants of its three splines
+//   rise = 1/((t_(i+2) - t_i) (t_(i+1) - t_i)),  fall = 1/((t_(i+1) - t_(i-1)) (t_(i+1) - t_i)).
+typedef struct {
+    double start, end, rise, fall;
+} RivetCell;
+
+// One axis with clamped knots: `cells` cells, `cells` + 2 coefficients.  In RIVET_BINS equal bins: the cell in which each begins.
+enum { RIVET_BINS = 256 };
 typedef struct {
     int cells;
-    const double *knot, *rise, *fall;
+    double start, end, per_bin;  // per_bin = RIVET_BINS/(end - start)
+    const RivetCell *cell;
+    const unsigned char *bin;  // RIVET_BINS + 1
 } RivetAxis;
 
 // Monotone map fit_a -> fit_eff: piecewise cubic Hermite with given slopes, continued linearly.

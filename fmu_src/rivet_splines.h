@@ -3,49 +3,47 @@
 
 #include "rivet_rom.h"
 
-#include <string.h>
-
 // Active splines of one axis: index of the first coefficient, their weights, and how many there are: one at the axis' start, where idle loads are.
 typedef struct {
     int first, count;
     number w[3];
 } Splines;
 
-// Cell of u, by bisection: number of inner knots not above it; fewer than twice MOST_CELLS of them.
-INLINE int axis_cell(const RivetAxis *axis, number u)
+// Cell of u: the one in which its bin begins, or one of the next few.
+INLINE const RivetCell *axis_cell(const RivetAxis *axis, double u)
 {
-    enum { MOST_CELLS = 32 };
-    int cell = 0;
-    for (int step = MOST_CELLS; step > 0; step /= 2)
-        if (cell + step < axis->cells && number_value(u) >= axis->knot[cell + step]) cell += step;
+    const double bin = number_min(number_max((u - axis->start) * axis->per_bin, 0.0), RIVET_BINS);  // 0 of NaN
+    const RivetCell *cell = &axis->cell[axis->bin[(int)bin]], *last = &axis->cell[axis->cells - 1];
+    while (u >= cell->end && cell < last) cell++;
     return cell;
 }
 
-// Quadratic B-splines (de Boor), u inside the axis, in its cell i.  Their sum is 1; C1 at the knots.
-INLINE Splines axis_splines(const RivetAxis *axis, int i, number u)
+// Quadratic B-splines (de Boor), u inside the axis.  Their sum is 1; C1 at the knots.
+INLINE Splines axis_splines(const RivetAxis *axis, number u)
 {
 #ifndef DUAL
-    if (u == axis->knot[0]) return (Splines){.count = 1, .w = {1.0, 0.0, 0.0}};
+    if (u == axis->start) return (Splines){.count = 1, .w = {1.0, 0.0, 0.0}};
 #endif
-    number up = u - axis->knot[i], down = axis->knot[i + 1] - u;
-    Splines s = {.first = i, .count = 3};
-    s.w[0] = down * down * axis->fall[i];
-    s.w[2] = up * up * axis->rise[i];
+    const RivetCell *cell = axis_cell(axis, number_value(u));
+    const number up = u - cell->start, down = cell->end - u;
+    Splines s = {.first = (int)(cell - axis->cell), .count = 3};
+    s.w[0] = down * down * cell->fall;
+    s.w[2] = up * up * cell->rise;
     s.w[1] = 1.0 - s.w[0] - s.w[2];
     return s;
 }
 
-// s times the splines of xi = fit/s in its cell; outside the axis without xi, as s may vanish.
-INLINE Splines axis_splines_xi(const RivetAxis *axis, int cell, number xi, number s, double fit)
+// s times the splines of xi = fit/s; outside the axis without xi, as s may vanish.
+INLINE Splines axis_splines_xi(const RivetAxis *axis, number xi, number s, double fit)
 {
-    int last = axis->cells - 1;
-    if (fit <= number_value(s) * axis->knot[0]) return (Splines){.count = 3, .w = {s, 0.0, 0.0}};
-    number beyond = fit - s * axis->knot[axis->cells];
+    if (fit <= number_value(s) * axis->start) return (Splines){.count = 3, .w = {s, 0.0, 0.0}};
+    const number beyond = fit - s * axis->end;
     if (number_value(beyond) >= 0.0) {  // end value and end slope, which is 2 h rise of the last spline
-        number w = 2.0 * (axis->knot[last + 1] - axis->knot[last]) * axis->rise[last] * beyond;
-        return (Splines){.first = last, .count = 3, .w = {0.0, -w, s + w}};
+        const RivetCell *last = &axis->cell[axis->cells - 1];
+        const number w = 2.0 * (last->end - last->start) * last->rise * beyond;
+        return (Splines){.first = axis->cells - 1, .count = 3, .w = {0.0, -w, s + w}};
     }
-    Splines splines = axis_splines(axis, cell, xi);
+    Splines splines = axis_splines(axis, xi);
     for (int i = 0; i < 3; i++) splines.w[i] *= s;
     return splines;
 }
@@ -57,7 +55,7 @@ typedef struct {
     number first[2];  // its weight in head and middle
 } Place;
 
-// Tensor product over 3^4 coefficients of two sheets for a pair of channels.  Order of sums: xi with chi, c, b, a.
+// Tensor product over 3^4 coefficients of two sheets for a pair of channels.  Order of sums: c, b, a, xi, chi.
 #ifdef DUAL
 INLINE void contract(const RivetTable *t, const float *coefficients, const Place *place, number sigma[2])
 {
@@ -73,10 +71,9 @@ INLINE void contract(const RivetTable *t, const float *coefficients, const Place
     }
 }
 #else
-// Two channels of two neighbouring sheets side by side, as they lie in the table.
+// Two channels of two neighbouring sheets side by side, as they lie in the table.  By pointer: values would want registers that the baseline has not.
 typedef double quad __attribute__((vector_size(32)));
 
-// By pointer: as a value it would want registers that the baseline does not have.
 INLINE void fetch(const float *from, quad *to)
 {
 #if defined(__AVX__)
@@ -86,31 +83,45 @@ INLINE void fetch(const float *from, quad *to)
 #endif
 }
 
+// sum += w x.
+INLINE void add_part(double w, const quad *x, quad *sum)
+{
+    const quad weight = {w, w, w, w};
+#if defined(FUSED) && defined(__FMA__)
+    *sum = (quad)_mm256_fmadd_pd((__m256d)weight, (__m256d)*x, (__m256d)*sum);
+#elif defined(FUSED) && defined(__ARM_NEON)
+    for (int i = 0; i < 4; i++) (*sum)[i] = fma(w, (*x)[i], (*sum)[i]);
+#else
+    *sum += weight * *x;
+#endif
+}
+
 INLINE void contract(const RivetTable *t, const float *coefficients, const Place *place, double sigma[2])
 {
     const Splines *A = &place->at[RIVET_A], *B = &place->at[RIVET_B], *C = &place->at[RIVET_C], *X = &place->at[RIVET_XI];
     const int n_b = t->axis[RIVET_B].cells + 2, n_c = t->axis[RIVET_C].cells + 2, n_xi = t->axis[RIVET_XI].cells + 2;
     const int xi = 2 * RIVET_SHEETS, row = n_xi * xi;  // coefficients from one xi, one c to the next
-    const quad sheets = {place->first[0], place->first[1], 1.0 - place->first[0], 1.0 - place->first[1]};
-    const quad w[3] = {X->w[0] * sheets, X->w[1] * sheets, X->w[2] * sheets};
-    quad sum = {0};
+    const float *origin = coefficients + xi * X->first + 2 * place->sheet;
+    quad sum[3] = {{0}, {0}, {0}}, all = {0};  // by xi
     for (int a = 0; a < A->count; a++) {
-        quad sum_a = {0};
+        quad sum_a[3] = {{0}, {0}, {0}};
         for (int b = 0; b < B->count; b++) {
-            const float *T = coefficients + row * (((A->first + a) * n_b + B->first + b) * n_c + C->first) + xi * X->first + 2 * place->sheet;
-            quad sum_b = {0};
+            const float *T = origin + row * (((A->first + a) * n_b + B->first + b) * n_c + C->first);
+            quad sum_b[3] = {{0}, {0}, {0}};
             for (int c = 0; c < C->count; c++, T += row) {
-                quad low, mid, high;
-                fetch(T, &low);
-                fetch(T + xi, &mid);
-                fetch(T + 2 * xi, &high);
-                sum_b += C->w[c] * (w[0] * low + w[1] * mid + w[2] * high);
+                for (int x = 0; x < 3; x++) {
+                    quad value;
+                    fetch(T + x * xi, &value);
+                    add_part(C->w[c], &value, &sum_b[x]);
+                }
             }
-            sum_a += B->w[b] * sum_b;
+            for (int x = 0; x < 3; x++) add_part(B->w[b], &sum_b[x], &sum_a[x]);
         }
-        sum += A->w[a] * sum_a;
+        for (int x = 0; x < 3; x++) add_part(A->w[a], &sum_a[x], &sum[x]);
     }
-    sigma[0] = sum[0] + sum[2];
-    sigma[1] = sum[1] + sum[3];
+    for (int x = 0; x < 3; x++) add_part(X->w[x], &sum[x], &all);
+    const double *first = place->first;
+    sigma[0] = first[0] * all[0] + (1.0 - first[0]) * all[2];
+    sigma[1] = first[1] * all[1] + (1.0 - first[1]) * all[3];
 }
 #endif

@@ -9,11 +9,23 @@ import numpy as np
 
 from . import splines, table
 
+BINS = 256  # RIVET_BINS in fmu_src/rivet_rom.h
+
 
 def _array(name, values, kind="double"):
-    text = [repr(float(value)) + "f" * (kind == "float") for value in np.ravel(values)]
+    text = [repr(value) + "f" * (kind == "float") for value in np.ravel(values).tolist()]
     lines = [", ".join(text[i : i + 8]) for i in range(0, len(text), 8)]
     return f"static const {kind} {name}[{len(text)}] = {{\n    " + ",\n    ".join(lines) + "};\n"
+
+
+def bin_cells(knots):
+    """Cell in which each of BINS equal bins begins; a knot at a bin's start belongs to it, whichever way places in bins are rounded.
+
+    >>> bin_cells(np.array([0.0, 0.5, 1.0]))[[0, 127, 128, 129, 256]]
+    array([0, 0, 0, 1, 1])
+    """
+    starts = knots[0] + (np.arange(BINS + 1) - 1e-6) * (knots[-1] - knots[0]) / BINS
+    return np.searchsorted(knots[1:-1], starts, side="right")
 
 
 def path_columns(load_path):
@@ -35,9 +47,13 @@ def c_source(t):
     ]
     axes = []
     for name in table.AXES:
-        rise, fall = splines.constants(t.knots[name])
-        parts += [_array(f"{name}_knot", t.knots[name]), _array(f"{name}_rise", rise), _array(f"{name}_fall", fall)]
-        axes.append(f"{{{len(t.knots[name]) - 1}, {name}_knot, {name}_rise, {name}_fall}}")
+        knots = t.knots[name]
+        rows = np.column_stack([knots[:-1], knots[1:], *splines.constants(knots)])
+        cells = ",\n".join(f"    {{{', '.join(map(repr, row))}}}" for row in rows.tolist())
+        parts.append(f"static const RivetCell {name}_cell[{len(rows)}] = {{\n{cells}}};\n")
+        parts.append(_array(f"{name}_bin", bin_cells(knots), "unsigned char"))
+        start, end = float(knots[0]), float(knots[-1])
+        axes.append(f"{{{len(rows)}, {start!r}, {end!r}, {BINS / (end - start)!r}, {name}_cell, {name}_bin}}")
     channel = table.CHANNELS.index
     parts += [
         _array("primary", t.coefficients[..., [channel("head_p1"), channel("mid_vm")]], "float"),
