@@ -1,5 +1,6 @@
 // One instance: life cycle, stepping, peaks and statistics over accepted steps, saved state.
 #include "aligned.h"
+#include "cpu_clock.h"
 #include "drive.h"
 #include "energy.h"
 #include "instance.h"
@@ -226,7 +227,7 @@ PartStatus part_step(Bearing *b, double t_end)
     Saved *s = &b->s;
     const double t_begin = s->integrator.t, steps_before = s->integrator.steps;
     if (!check_inputs(b, t_end - t_begin)) return PART_ERROR;
-    const clock_t before = clock();
+    const double before = cpu_clock();
     s->force_peak = 0.0;
     for (int k = 0; k < Z; k++) s->head_peak[k] = s->mid_peak[k] = 0.0;
     b->current = 0;
@@ -243,7 +244,7 @@ PartStatus part_step(Bearing *b, double t_end)
     }
     s->u[0] = s->seen;
     memset(&s->u[1], 0, INPUT_ORDERS * sizeof *s->u);
-    b->cpu_time += (double)(clock() - before) / CLOCKS_PER_SEC;
+    b->cpu_time += cpu_clock() - before;
     if (status == 0) {
         report_events(b);
         return PART_OK;

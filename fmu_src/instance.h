@@ -6,8 +6,6 @@
 #include "integrator.h"
 #include "statistics.h"
 
-#include <time.h>
-
 // Floors of the statistics' bins: the smallest value told apart.
 static const double FORCE_FLOOR = 1e-3;  // [N]
 static const double STRESS_FLOOR = 1e3;  // [Pa]

@@ -6,6 +6,7 @@ import struct
 import subprocess
 import sys
 import threading
+import time
 from pathlib import Path
 
 import numpy as np
@@ -53,6 +54,20 @@ def test_any_thread(folder):
         thread.join()
     for slave, load in zip(slaves, loads, strict=True):
         assert same_bits(slave.outputs(), Slave(folder).initialize(shaft__F_y=float(load)).step(H, 10).outputs())
+
+
+@pytest.mark.skipif(not LINUX, reason="other systems' clocks tick too rarely")
+def test_processor_time_is_of_the_stepping_thread(folder):
+    """Two threads at a time: what both count is no more than what the process spent, which a clock of the process would count twice."""
+    slaves = [Slave(folder).initialize() for _ in range(2)]
+    threads = [threading.Thread(target=slave.step, args=(1e-2, 20)) for slave in slaves]
+    before = time.process_time()
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    counted = sum(slave.get("solver.cpu_time")[0] for slave in slaves)
+    assert 0.0 < counted <= time.process_time() - before
 
 
 @pytest.mark.skipif(not LINUX, reason="rounding modes by number")
