@@ -121,6 +121,20 @@ static void derive_scales(const Parameters *p, Derived *d)
     d->scale[SCALE_ENERGY] = 1e30;
 }
 
+static void fill(double *row, int count, double value)
+{
+    for (int i = 0; i < count; i++) row[i] = value;
+}
+
+static void derive_inertia(const Parameters *p, Derived *d)
+{
+    fill(&d->inertia[Y_BALL_V_X], 3 * Z, d->m);
+    fill(&d->inertia[Y_BALL_OMEGA_X], 3 * Z, d->J);
+    fill(&d->inertia[Y_CAGE_V_X], 6, p->cage.m);
+    fill(&d->inertia[Y_CAGE_BETA_DOT], 4, p->cage.J_t);
+    fill(&d->inertia[Y_CAGE_S], 2, p->cage.J_p);
+}
+
 void model_derive(const Parameters *p, Derived *d)
 {
     memset(d, 0, sizeof *d);
@@ -129,4 +143,5 @@ void model_derive(const Parameters *p, Derived *d)
     derive_cage(p, d);
     derive_joint(p, d);
     derive_scales(p, d);
+    derive_inertia(p, d);
 }

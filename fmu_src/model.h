@@ -54,6 +54,7 @@ typedef struct {
     double k_rivet, k_plate, k_plate_t, k_head;         // its stiffnesses [N/m]
     double c_joint;                                     // axial damping of one closed joint [N.s/m]
     double scale[SCALE_COUNT];                          // error that tolerance 1 allows, by class of state
+    double inertia[N_STATES];                           // of balls and cage in each velocity, of orbital speeds per r^2; 0 elsewhere
 } Derived;
 
 // From here on all members are numbers: jacobian.h gives the derivative of each.

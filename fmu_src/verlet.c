@@ -21,15 +21,16 @@ _Static_assert(Y_CAGE_V_X - Y_CAGE_X == VELOCITY && Y_RING_V_X - Y_RING_X == VEL
                "velocities are in the order of their positions");
 static const double SMOOTHING = 0.15;
 
+// y: positions and frictions of the next step, velocities of the middle.
 static void advance_positions(const Model *model, double h, const VerletState *from, double *y, Work *w)
 {
     const double gamma = 0.5 * h;
-    double middle[N_STATES];
-    memcpy(y, from->y, sizeof from->y);
-    for (int i = VELOCITY; i < N_STATES; i++) y[i] += gamma * from->f[i];
-    memcpy(middle, y, sizeof middle);
-    for (int i = Y_CAGE_X; i < Y_RING_X; i++) middle[i] += gamma * y[VELOCITY + i];
-    for (int i = 0; i < PAIRED; i++) y[i] += h * y[VELOCITY + i];
+    double middle[N_STATES];  // of cage and ring
+    for (int i = VELOCITY; i < N_STATES; i++) middle[i] = y[i] = from->y[i] + gamma * from->f[i];
+    for (int i = 0; i < PAIRED; i++) y[i] = from->y[i] + h * y[VELOCITY + i];
+    for (int i = PAIRED; i < VELOCITY; i++) y[i] = from->y[i];
+    for (int i = Y_CAGE_X; i < Y_RING_X; i++) middle[i] = from->y[i] + gamma * y[VELOCITY + i];
+    for (int i = Y_RING_X; i < PAIRED; i++) middle[i] = from->y[i];
     memcpy(&y[Y_CAGE_PSI], &from->y[Y_CAGE_PSI], 2 * sizeof *y);
     rhs_cage_advance(model, middle, h, y, w);
 }
@@ -48,25 +49,22 @@ static void correct_positions(const Model *model, double gamma, const double *de
     }
 }
 
-static double product(const double *x, const double *y, int row, int count)
-{
-    double sum = 0.0;
-    for (int i = row; i < row + count; i++) sum += x[i] * y[i];
-    return sum;
-}
-
 // delta.A delta: power that v^ loses beyond v_{n+1}, of one sign: against the film that holds a cage it would be most of the work.  What is linear in
 // delta = gamma (a_{n+1} - a_n) alternates and leaves h^2 a.A a, which is of the method's order.
 static double excess_power(const Model *model, const double *y, const double *f_n, const double *f, double gamma, const double *delta)
 {
-    const Parameters *p = model->p;
-    const double m = model->d->m, J = model->d->J, per_gamma = 1.0 / gamma;
-    double held[N_STATES], orbital = 0.0;
-    for (int i = VELOCITY; i < N_STATES; i++) held[i] = f[i] - f_n[i] - per_gamma * delta[i];  // (A + gamma K) delta: where rates are stiff, A delta
-    for (int j = 0; j < Z; j++) orbital += y[Y_BALL_R + j] * y[Y_BALL_R + j] * delta[Y_BALL_OMEGA_M + j] * held[Y_BALL_OMEGA_M + j];
-    return m * (product(delta, held, Y_BALL_V_X, 2 * Z) + orbital) + J * product(delta, held, Y_BALL_OMEGA_X, 3 * Z) +
-           p->cage.m * product(delta, held, Y_CAGE_V_X, 6) + p->cage.J_t * product(delta, held, Y_CAGE_BETA_DOT, 4) +
-           p->cage.J_p * product(delta, held, Y_CAGE_S, 2);
+    enum { COUNT = N_STATES - VELOCITY, WHOLE = COUNT / 8 * 8 };
+    const double *inertia = &model->d->inertia[VELOCITY], per_gamma = 1.0 / gamma;
+    double power[COUNT], part[8] = {0};
+    for (int i = 0; i < COUNT; i++) {
+        const double held = f[VELOCITY + i] - f_n[VELOCITY + i] - per_gamma * delta[VELOCITY + i];  // (A + gamma K) delta: where rates are stiff, A delta
+        power[i] = inertia[i] * delta[VELOCITY + i] * held;
+    }
+    for (int j = 0; j < Z; j++) power[Y_BALL_OMEGA_M - VELOCITY + j] *= y[Y_BALL_R + j] * y[Y_BALL_R + j];
+    for (int i = 0; i < WHOLE; i += 8)
+        for (int k = 0; k < 8; k++) part[k] += power[i + k];
+    for (int i = WHOLE; i < COUNT; i++) part[i - WHOLE] += power[i];
+    return ((part[0] + part[1]) + (part[2] + part[3])) + ((part[4] + part[5]) + (part[6] + part[7]));
 }
 
 double verlet_step(const Model *model, double t, double h, const double *weight, const VerletState *from, VerletState *to, Work *w)
@@ -83,7 +81,9 @@ double verlet_step(const Model *model, double t, double h, const double *weight,
     y[Y_WORK] += gamma * (f[Y_WORK] + to->f[Y_WORK]);
 
     const double per_gamma = 1.0 / gamma, per_h = 1.0 / h, per_span = 2.0 / (h + from->h), second = h * h * per_span;
-    double error[N_STATES] = {0};
+    double error[N_STATES];
+    for (int i = 0; i < PAIRED; i++) error[i] = 0.0;
+    error[Y_WORK] = 0.0;
     for (int i = VELOCITY; i < N_STATES; i++) {
         y[i] += delta[i];
         bend[i] = second * (delta[i] * (per_gamma * per_h) - from->jerk[i]);  // h^2 a''
