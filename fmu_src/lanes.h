@@ -289,17 +289,18 @@ typedef double constants[LANES] __attribute__((aligned(8 * sizeof(double))));  /
 // Sum over the balls in one order for every lane width: four partial sums, then (0 + 1) + (2 + 3).
 INLINE number lanes_sum(const number *v)
 {
-    int j = 4;
+    enum { WHOLE = Z / 4 * 4 };
 #ifdef DUAL
     number part[4] = {v[0], v[1], v[2], v[3]};
+    for (int j = 4; j < WHOLE; j++) part[j % 4] += v[j];
 #else
     double part __attribute__((vector_size(32))), next __attribute__((vector_size(32)));
     memcpy(&part, v, sizeof part);
-    for (; j + 4 <= Z; j += 4) {
+    for (int j = 4; j < WHOLE; j += 4) {
         memcpy(&next, &v[j], sizeof next);
         part += next;
     }
 #endif
-    for (; j < Z; j++) part[j % 4] += v[j];
+    for (int j = WHOLE; j < Z; j++) part[j - WHOLE] += v[j];
     return (part[0] + part[1]) + (part[2] + part[3]);
 }
