@@ -346,6 +346,17 @@ static void solve_halves(const Model *model, const Work *w, double gamma, double
     for (int h = 0; h < 2; h++) half_store(&half[h], v, h);
 }
 
+void implicit_films(const Model *model, const Work *w, double gamma, double *v)
+{
+    for (int h = 0; h < 2; h++) {
+        Film f[2];
+        Half half = half_load(v, h);
+        const int count = films(model, w, h, gamma, f);
+        for (int land = 0; land < count; land++) film_solve(&f[land], &half);
+        half_store(&half, v, h);
+    }
+}
+
 static void held_halves(const Model *model, const Work *w, double gamma, double *v)
 {
     for (int h = 0; h < 2; h++) {

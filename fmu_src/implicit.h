@@ -8,5 +8,8 @@
 typedef void ImplicitSolve(const Model *model, const Work *w, double gamma, double *v);
 ImplicitSolve implicit_solve;
 
+// v = (1 + gamma A)^-1 v of the cage halves' velocities, A of their films alone.
+void implicit_films(const Model *model, const Work *w, double gamma, double *v);
+
 // v = v - (1 + gamma A)^-1 v: the part of v that damping holds back within a time gamma; 0 for a ball whose rates are below 2/gamma.
 void implicit_held(const Model *model, const Work *w, double gamma, double *v);

@@ -19,6 +19,7 @@
 #define cage_joint_advance FOR_ISA(cage_joint_advance)
 #define rhs_cage_advance FOR_ISA(rhs_cage_advance)
 #define implicit_held FOR_ISA(implicit_held)
+#define implicit_films FOR_ISA(implicit_films)
 #define load_path_rigid FOR_ISA(load_path_rigid)
 #define load_path_flexible FOR_ISA(load_path_flexible)
 #define rivets_load FOR_ISA(rivets_load)

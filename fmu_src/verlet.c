@@ -1,11 +1,11 @@
 // A second-order one-step method that costs one evaluation: velocity Verlet, linearly implicit in what is stiff.
 //
 //   v_m = v_n + gamma a_n,  gamma = h/2
-//   q_{n+1} = q_n + h q'(q_m, v_m),  q_m = q_n + gamma v_m       friction states: implicit midpoint (cage_joint_advance)
-//   v^ = v_n + h a_n,  a^ = a(q_{n+1}, v^)
-//   (1 + gamma A + gamma^2 K) delta = gamma (a^ - a_n)           rates A, stiffnesses K of stiff local contacts (implicit.c)
-//   v_{n+1} = v^ + delta,  a_{n+1} = a_n + delta/gamma           so v_{n+1} = v_n + gamma (a_n + a_{n+1})
-//   q_{n+1} += gamma delta                                       where K acts: there positions follow the trapezoidal rule too
+//   q_{n+1} = q_n + h q'(q_m, v_m),  q_m = q_n + gamma v_m           friction states: implicit midpoint (cage_joint_advance)
+//   v^ = v_n + h a_n,  a^ = a(q_{n+1}, v^)                           of cage halves less what their films hold back of h a_n
+//   (1 + gamma A + gamma^2 K) delta = v_n - v^ + gamma (a_n + a^)    rates A, stiffnesses K of stiff local contacts (implicit.c)
+//   v_{n+1} = v^ + delta = v_n + gamma (a_n + a_{n+1})
+//   q_{n+1} += gamma (v_{n+1} - v_n - h a_n)                         where K acts: there positions follow the trapezoidal rule too
 //
 // Any A and K keep the second order; the exact ones make the step stable for every h, K = 0 for frequencies up to 2/h (Swope et al. 1982).
 // Rates above 1/h would ring, by the trapezoidal factor (1 - gamma A)/(1 + gamma A): a_{n+1} gives up 0.15 H (a_{n+1} - 2 a_n + a_{n-1}), of
@@ -51,13 +51,13 @@ static void correct_positions(const Model *model, double gamma, const double *de
 
 // delta.A delta: power that v^ loses beyond v_{n+1}, of one sign: against the film that holds a cage it would be most of the work.  What is linear in
 // delta = gamma (a_{n+1} - a_n) alternates and leaves h^2 a.A a, which is of the method's order.
-static double excess_power(const Model *model, const double *y, const double *f_n, const double *f, double gamma, const double *delta)
+static double excess_power(const Model *model, const double *y, const double *pull, double gamma, const double *delta)
 {
     enum { COUNT = N_STATES - VELOCITY, WHOLE = COUNT / 8 * 8 };
     const double *inertia = &model->d->inertia[VELOCITY], per_gamma = 1.0 / gamma;
     double power[COUNT], part[8] = {0};
     for (int i = 0; i < COUNT; i++) {
-        const double held = f[VELOCITY + i] - f_n[VELOCITY + i] - per_gamma * delta[VELOCITY + i];  // (A + gamma K) delta: where rates are stiff, A delta
+        const double held = per_gamma * (pull[VELOCITY + i] - delta[VELOCITY + i]);  // (A + gamma K) delta: where rates are stiff, A delta
         power[i] = inertia[i] * delta[VELOCITY + i] * held;
     }
     for (int j = 0; j < Z; j++) power[Y_BALL_OMEGA_M - VELOCITY + j] *= y[Y_BALL_R + j] * y[Y_BALL_R + j];
@@ -67,16 +67,47 @@ static double excess_power(const Model *model, const double *y, const double *f_
     return ((part[0] + part[1]) + (part[2] + part[3])) + ((part[4] + part[5]) + (part[6] + part[7]));
 }
 
+// A land film holds back where it closes and hardly where it opens: a land that rests against it would be thrown off by a prediction from a_n alone.
+// Of h a_n of the cage halves: what the films at the step's start hold back.
+static void held_by_films(const Model *model, double h, const VerletState *from, Work *w, double *held)
+{
+    double free[N_STATES];
+    for (int i = Y_CAGE_V_X; i < Y_RING_V_X; i++) free[i] = h * from->f[i];
+    for (int land = 0; land < 2; land++) {
+        w->film_yy[land] = from->film[land][0], w->film_yz[land] = from->film[land][1], w->film_zz[land] = from->film[land][2];
+        w->film_spin[land] = 0.0;
+    }
+    implicit_films(model, w, h, free);
+    for (int i = Y_CAGE_V_X; i < Y_RING_V_X; i++) held[i] = h * from->f[i] - free[i];
+}
+
+static void keep_films(const Work *w, VerletState *to)
+{
+    for (int land = 0; land < 2; land++) {
+        const double film[3] = {w->film_yy[land], w->film_yz[land], w->film_zz[land]};
+        memcpy(to->film[land], film, sizeof film);
+    }
+}
+
 double verlet_step(const Model *model, double t, double h, const double *weight, const VerletState *from, VerletState *to, Work *w)
 {
     const double gamma = 0.5 * h, *f = from->f;
-    double delta[N_STATES], bend[N_STATES], *y = to->y;
+    double held[N_STATES], pull[N_STATES], delta[N_STATES], bend[N_STATES], *y = to->y;
     advance_positions(model, h, from, y, w);
+    held_by_films(model, h, from, w, held);
     for (int i = VELOCITY; i < N_STATES; i++) y[i] += gamma * f[i];
+    for (int i = Y_CAGE_V_X; i < Y_RING_V_X; i++) y[i] -= held[i];
     rhs(model, t + h, y, to->f, w);
-    for (int i = VELOCITY; i < N_STATES; i++) delta[i] = gamma * (to->f[i] - f[i]);
+    keep_films(w, to);
+    for (int i = VELOCITY; i < N_STATES; i++) pull[i] = gamma * (to->f[i] - f[i]);
+    for (int i = Y_CAGE_V_X; i < Y_RING_V_X; i++) pull[i] += held[i];
+    for (int i = VELOCITY; i < N_STATES; i++) delta[i] = pull[i];
     implicit_solve(model, w, gamma, delta);
-    to->f[Y_WORK] += excess_power(model, y, f, to->f, gamma, delta);
+    to->f[Y_WORK] += excess_power(model, y, pull, gamma, delta);
+    for (int i = Y_CAGE_V_X; i < Y_RING_V_X; i++) {  // from here on against v_n + h a_n
+        y[i] += held[i];
+        delta[i] -= held[i];
+    }
     correct_positions(model, gamma, delta, y);
     y[Y_WORK] += gamma * (f[Y_WORK] + to->f[Y_WORK]);
 

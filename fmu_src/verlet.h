@@ -9,6 +9,7 @@ typedef struct {
     double y[N_STATES];
     double f[N_STATES];     // its dy/dt; after a step: accelerations, friction states' mean rates over the step, power
     double jerk[N_STATES];  // change of f over the last step / its length, where the error is estimated from it
+    double film[2][3];      // -dF/dv of each land's film there: yy, yz, zz
     double h;               // length of that step [s], 0: none yet
 } VerletState;
 
