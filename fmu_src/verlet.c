@@ -68,17 +68,21 @@ static double excess_power(const Model *model, const double *y, const double *pu
 }
 
 // A land film holds back where it closes and hardly where it opens: a land that rests against it would be thrown off by a prediction from a_n alone.
-// Of h a_n of the cage halves: what the films at the step's start hold back.
+// Of what is new in h a_n of the cage halves, beyond the part that a_n and a_{n-1} share: what the films at the step's start hold back.
 static void held_by_films(const Model *model, double h, const VerletState *from, Work *w, double *held)
 {
     double free[N_STATES];
-    for (int i = Y_CAGE_V_X; i < Y_RING_V_X; i++) free[i] = h * from->f[i];
+    for (int i = Y_CAGE_V_X; i < Y_RING_V_X; i++) {
+        const double now = from->f[i], before = now - from->h * from->jerk[i];
+        const double steady = now * before <= 0.0 ? 0.0 : fabs(now) < fabs(before) ? now : before;
+        held[i] = free[i] = h * (now - steady);
+    }
     for (int land = 0; land < 2; land++) {
         w->film_yy[land] = from->film[land][0], w->film_yz[land] = from->film[land][1], w->film_zz[land] = from->film[land][2];
         w->film_spin[land] = 0.0;
     }
     implicit_films(model, w, h, free);
-    for (int i = Y_CAGE_V_X; i < Y_RING_V_X; i++) held[i] = h * from->f[i] - free[i];
+    for (int i = Y_CAGE_V_X; i < Y_RING_V_X; i++) held[i] -= free[i];
 }
 
 static void keep_films(const Work *w, VerletState *to)

@@ -155,14 +155,22 @@ def test_ring_and_balls_together(core, tilt_mode):
     assert np.max(np.abs(got - expected)) < 0.015
 
 
-@pytest.mark.parametrize("fit", [-1e-5, -1.4e-4])
-def test_a_land_rests_against_its_film(core, fit):
+def test_a_land_rests_against_its_film(core):
     """A cage with 10 um of play between pockets and guide under a tilt of 0.36 deg: its lands are pressed against the film, which hardly pulls.
 
-    Expected: no more evaluations than the working point takes, 220 a millisecond; predictions that do not know the film took 9,100 and 3,400.
+    Expected: no more evaluations than the working point takes, 220 a millisecond; predictions that do not know the film took 3,400.
     """
-    parameters = {"bearing.P_d": -9.7e-6, "cage.pocket_clearance": 2.1e-5, "cage.guide_clearance": 2.6e-5, "joint.preload": 0.0, "joint.fit": fit}
+    parameters = {"bearing.P_d": -9.7e-6, "cage.pocket_clearance": 2.1e-5, "cage.guide_clearance": 2.6e-5, "joint.preload": 0.0, "joint.fit": -1.4e-4}
     inputs = {"shaft.omega": -160.0, "shaft.F_x": 350.0, "shaft.F_y": -3446.0, "shaft.F_z": -1355.0, "shaft.tilt_y": -0.00114, "shaft.tilt_z": -0.0062}
     instance = Instance(core, parameters, inputs).step(1e-2)
-    assert instance.output("solver.rhs_evals") < 2200  # observed 1,700...1,850
-    assert abs(instance.output("bearing.energy_residual")) < 1e-3  # J, of the 0.03 J that the load gives over 10 um; observed 4e-4
+    assert instance.output("solver.rhs_evals") < 2200  # observed 1,800
+    assert abs(instance.output("bearing.energy_residual")) < 1e-3  # J, of the 0.03 J that the load gives over 10 um; observed 2e-4
+
+
+def test_a_whirling_land_is_not_held_back(core):
+    """100 g.mm of unbalance whirl the cage along its guide: films that hold back the steady acceleration too take 10 % of the energy."""
+    instance, loss = Instance(core, {"cage.unbalance": 1e-4}), 0.0
+    for k in range(100):
+        loss += 1e-4 * instance.step((k + 1) * 1e-4).output("bearing.power_loss")
+    assert instance.output("cage.eccentricity") > 0.95
+    assert abs(instance.output("bearing.energy_residual")) < 2e-3 * loss  # observed 8e-4, without predictions that know the film 3e-4
