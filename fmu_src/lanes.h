@@ -290,7 +290,7 @@ typedef double constants[LANES] __attribute__((aligned(8 * sizeof(double))));  /
 INLINE number lanes_sum(const number *v)
 {
     enum { WHOLE = Z / 4 * 4 };
-#ifdef DUAL
+#if defined(DUAL) || LANE_WIDTH == 1
     number part[4] = {v[0], v[1], v[2], v[3]};
     for (int j = 4; j < WHOLE; j++) part[j % 4] += v[j];
 #else
