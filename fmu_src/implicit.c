@@ -359,15 +359,10 @@ void implicit_films(const Model *model, const Work *w, double gamma, double *v)
 
 static void held_halves(const Model *model, const Work *w, double gamma, double *v)
 {
-    for (int h = 0; h < 2; h++) {
-        Film f[2];
-        Half half = half_load(v, h);
-        const Half before = half;
-        const int count = films(model, w, h, gamma, f);
-        for (int land = 0; land < count; land++) film_solve(&f[land], &half);
-        const Half held = {0.0, before.y - half.y, before.z - half.z, before.beta - half.beta, before.gamma - half.gamma, before.s - half.s};
-        half_store(&held, v, h);
-    }
+    double left[N_STATES];
+    memcpy(&left[Y_CAGE_V_X], &v[Y_CAGE_V_X], (Y_RING_V_X - Y_CAGE_V_X) * sizeof *v);
+    implicit_films(model, w, gamma, left);
+    for (int i = Y_CAGE_V_X; i < Y_RING_V_X; i++) v[i] -= left[i];
 }
 
 // ---- ring -----------------------------------------------------------------------------------------------------------------------------------------

@@ -2,7 +2,7 @@
 //
 //   v_m = v_n + gamma a_n,  gamma = h/2
 //   q_{n+1} = q_n + h q'(q_m, v_m),  q_m = q_n + gamma v_m           friction states: implicit midpoint (cage_joint_advance)
-//   v^ = v_n + h a_n,  a^ = a(q_{n+1}, v^)                           of cage halves less what their films hold back of h a_n
+//   v^ = v_n + h a_n,  a^ = a(q_{n+1}, v^)                           of cage halves less what their films hold back (held_by_films)
 //   (1 + gamma A + gamma^2 K) delta = v_n - v^ + gamma (a_n + a^)    rates A, stiffnesses K of stiff local contacts (implicit.c)
 //   v_{n+1} = v^ + delta = v_n + gamma (a_n + a_{n+1})
 //   q_{n+1} += gamma (v_{n+1} - v_n - h a_n)                         where K acts: there positions follow the trapezoidal rule too
