@@ -17,6 +17,7 @@
 #include "solvers.h"
 
 #include "instance.h"
+#include "stepping.h"
 
 #include <arkode/arkode_erkstep.h>
 #include <cvode/cvode.h>
@@ -91,8 +92,7 @@ static int right_hand_side(sunrealtype t, N_Vector y, N_Vector f, void *user)
     memcpy(N_VGetArrayPointer(f), evaluate(in, t, N_VGetArrayPointer(y), &in->s->rhs_evals), sizeof in->f_latest);
     if (in->kernels->ops->finite(in->f_latest)) return 0;
     if (in->choice.method != SOLVER_ERK) return 1;  // CVODE tries a smaller step; ERKStep cannot, so its error test is made to fail
-    const double enormous = in->nonfinite_stages++ % 2 == 0 ? 1e15 : -1e15;
-    for (int i = 0; i < N_STATES; i++) N_VGetArrayPointer(f)[i] = enormous / in->weight[i];
+    stepping_refuse(in->weight, in->nonfinite_stages++, N_VGetArrayPointer(f));
     return 0;
 }
 
@@ -131,8 +131,9 @@ static void diagonal_rates(Integrator *in)
         in->rates[Y_CAGE_S + h] = w->film_spin[h] / p->cage.J_p;
     }
     for (int k = 0; k < Z; k++) {
-        in->rates[Y_JOINT_PLATE_Y + k] = in->rates[Y_JOINT_PLATE_Z + k] = w->D_plate[k];
-        in->rates[Y_JOINT_HEAD_Y + k] = in->rates[Y_JOINT_HEAD_Z + k] = w->D_head[k];
+        const double speed = sqrt(w->v_jy[k] * w->v_jy[k] + w->v_jz[k] * w->v_jz[k]), mu = p->joint.mu, floor = p->joint.F_floor;
+        in->rates[Y_JOINT_PLATE_Y + k] = in->rates[Y_JOINT_PLATE_Z + k] = speed * d->k_plate_t / (mu * w->N_plate[k] + floor);
+        in->rates[Y_JOINT_HEAD_Y + k] = in->rates[Y_JOINT_HEAD_Z + k] = speed * d->k_head / (mu * w->T[k] + floor);
     }
 }
 
@@ -327,9 +328,7 @@ static void report(int line, const char *function, const char *file, const char 
 {
     (void)file, (void)sun;
     const Integrator *in = user;
-    char text[512];
-    snprintf(text, sizeof text, "t = %.9g s: SUNDIALS %s, line %d: %s (code %d)", in->s->t, function, line, message, (int)code);
-    in->log(in->context, text);
+    stepping_report(in->s->t, function, line, message, (int)code, in->log, in->context);
 }
 
 static bool set_up_erk(Integrator *in)
@@ -425,8 +424,7 @@ void integrator_destroy(Integrator *in)
 
 void integrator_tolerance(Integrator *in, double tolerance)
 {
-    for (int b = 0; b < N_STATE_BLOCKS; b++)
-        for (int i = 0; i < STATE_BLOCKS[b].count; i++) in->weight[STATE_BLOCKS[b].offset + i] = 1.0 / (tolerance * in->model->d->scale[STATE_BLOCKS[b].scale]);
+    stepping_weights(in->model->d, tolerance, in->weight);
 }
 
 // ---- stepping -----------------------------------------------------------------------------------------------------------------------------------
@@ -482,11 +480,7 @@ int integrator_advance(Integrator *in, double t_stop, long max_steps)
         if (step >= max_steps) return CV_TOO_MUCH_WORK;
         if ((status = one_step(in, t_stop, &t)) < 0) break;
         interpolate(in, t);
-        const double h = t - s->t;
-        memcpy(s->now.y, N_VGetArrayPointer(in->y), sizeof s->now.y);
-        s->t = t;
-        s->steps += 1.0;
-        s->f_is_current = 0;
+        const double h = stepping_accept(s, t, N_VGetArrayPointer(in->y));
         in->rates_known = false;
         if (observed) evaluate(in, s->t, s->now.y, &s->rhs_evals);
         in->hook(in->context, h, in->w);

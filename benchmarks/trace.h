@@ -1,6 +1,7 @@
 // Instruction counts.
 #pragma once
 
+#include "part.h"
 #include "rhs.h"
 
 // Each runs a call in a child process and writes the address of each instruction on the way (those around the call too); returns their number,

@@ -92,7 +92,7 @@ endif()
 # And once in dual numbers: derivatives.  Complex products need no care for infinities here.
 check_c_compiler_flag("-Werror -fcx-limited-range" limited_range)
 if(limited_range)
-    set_source_files_properties(${fmu_src}/tangent.c PROPERTIES COMPILE_OPTIONS -fcx-limited-range)
+    set_source_files_properties(${fmu_src}/jacobian.c PROPERTIES COMPILE_OPTIONS -fcx-limited-range)
 endif()
 
 # For the tests only: each element's functions, callable from Python.

@@ -8,6 +8,20 @@
 #include "rivets.h"
 #include "start.h"
 
+#include <stdarg.h>
+#include <stdio.h>
+
+void bearing_log(Bearing *b, LogCategory category, const char *format, ...)
+{
+    if (b->host.log == NULL) return;
+    char message[1024];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(message, sizeof message, format, arguments);
+    va_end(arguments);
+    b->host.log(b->host.environment, category, message);
+}
+
 // ---- accepted steps ---------------------------------------------------------------------------------------------------------------------------
 static void add_force(InstanceState *s, const Work *w, bool counts, double h)
 {
@@ -234,9 +248,8 @@ PartStatus part_step(Bearing *b, double t_end)
     b->evaluated = false;
 
     int status = 0;
-    begin_trajectory(b, t_begin);
     while (status == 0 && s->integrator.t < t_end) {
-        begin_trajectory(b, t_begin);  // at the edges of pulses
+        begin_trajectory(b, t_begin);
         const double edge = pulse_next_edge(&s->p, s->integrator.t);
         const long left = s->p.solver.max_steps - (long)(s->integrator.steps - steps_before);
         status = integrator_advance(b->integrator, fmin(edge, t_end), left);
@@ -274,7 +287,7 @@ static void differentiate(Bearing *b, double dt, const Inputs *du, const double 
     const Inputs u[INPUT_ORDERS + 1] = {s->u_now, s->u_now_dot};
     InputTrajectory trajectory;
     input_trajectory_update(&s->p, u, s->integrator.t, s->integrator.t, &trajectory);
-    jacobian_outputs(&b->model, &trajectory, s->integrator.t, dt, du, s->integrator.now.y, dy, derivatives);
+    jacobian_outputs(&b->model, (const double *)&trajectory, s->integrator.t, dt, (const double *)du, s->integrator.now.y, dy, (double *)derivatives);
 }
 
 void part_time_derivatives(Bearing *b, Outputs *derivatives)

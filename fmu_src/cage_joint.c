@@ -45,13 +45,12 @@ void cage_joint_kinematics(const Model *model, Work *w)
     }
 }
 
-// Dahl's friction: force -k z, rate of z, stiff rate of z; returns the dissipated power.
-INLINE wide cage_joint_friction(wide k, wide capacity, wide z_y, wide z_z, wide v_y, wide v_z, wide speed, scalar *dot_y, scalar *dot_z, scalar *D)
+// Dahl's friction: force -k z, rate of z; returns the dissipated power.
+INLINE wide cage_joint_friction(wide k, wide capacity, wide z_y, wide z_z, wide v_y, wide v_z, wide speed, scalar *dot_y, scalar *dot_z)
 {
     const wide rate = speed * k / capacity;
     wide_store(dot_y, v_y - rate * z_y);
     wide_store(dot_z, v_z - rate * z_z);
-    wide_store(D, rate);
     return k * rate * (z_y * z_y + z_z * z_z);
 }
 
@@ -114,8 +113,8 @@ void cage_joint_force(const Model *model, const scalar *y, Work *w)
         const wide damping = d->c_joint * N_plate / (N_plate + floor);
         const wide speed = wide_sqrt(v_y * v_y + v_z * v_z);
         const wide zp_y = wide_load(&z_y[k]), zp_z = wide_load(&z_z[k]), zh_y = wide_load(&h_y[k]), zh_z = wide_load(&h_z[k]);
-        wide lost = cage_joint_friction(k_t, mu * N_plate + floor, zp_y, zp_z, v_y, v_z, speed, &w->plate_y_dot[k], &w->plate_z_dot[k], &w->D_plate[k]);
-        lost += cage_joint_friction(k_h, mu * T + floor, zh_y, zh_z, v_y, v_z, speed, &w->head_y_dot[k], &w->head_z_dot[k], &w->D_head[k]);
+        wide lost = cage_joint_friction(k_t, mu * N_plate + floor, zp_y, zp_z, v_y, v_z, speed, &w->plate_y_dot[k], &w->plate_z_dot[k]);
+        lost += cage_joint_friction(k_h, mu * T + floor, zh_y, zh_z, v_y, v_z, speed, &w->head_y_dot[k], &w->head_z_dot[k]);
 
         const wide slip = wide_sqrt(u_y * u_y + u_z * u_z + 1e-30);
         const wide bearing = d->k_hole * wide_max(slip - d->hole_gap, zero) / slip;

@@ -1,20 +1,7 @@
 // What is refused before a run: values outside their limits, parameters that make no bearing, a rivet table for another one.
 #include "instance.h"
 #include "ring_load.h"
-
-#include <stdarg.h>
-#include <stdio.h>
-
-void bearing_log(Bearing *b, LogCategory category, const char *format, ...)
-{
-    if (b->host.log == NULL) return;
-    char message[1024];
-    va_list arguments;
-    va_start(arguments, format);
-    vsnprintf(message, sizeof message, format, arguments);
-    va_end(arguments);
-    b->host.log(b->host.environment, category, message);
-}
+#include "rivet_rom.h"
 
 static bool check_variables(Bearing *b, Causality causality, const void *values)
 {
@@ -58,7 +45,7 @@ static bool require(Bearing *b, bool condition, const char *format, double value
 static bool check_geometry(Bearing *b)
 {
     const Parameters *p = &b->s.p;
-    const double PI = 3.14159265358979323846, D = p->bearing.D, d_m = p->bearing.d_m;
+    const double D = p->bearing.D, d_m = p->bearing.d_m;
     const double chord = d_m * sin(PI / Z), play = 4.0 * (fmin(p->bearing.f_i, p->bearing.f_e) - 0.5) * D;
     bool fine = true;
     fine &= require(b, D < chord, "bearing.D = %g m: the balls overlap; less than bearing.d_m sin(pi/Z) = %g m is allowed", D, chord);
@@ -106,10 +93,9 @@ bool check_all(Bearing *b)
 
 bool check_start(Bearing *b)
 {
-    const double HALF_PI = 1.57079632679489662;
     for (int i = 0; i < 2 * Z; i++) {
         const double reach = ellipse_reach(&b->model, &b->w, i % 2 == 1, i / 2);
-        if (reach < HALF_PI) continue;
+        if (reach < 0.5 * PI) continue;
         bearing_log(b, LOG_ERROR,
                     "ball[%d] is pressed out of the %s race's groove at the start: its contact reaches to %g rad, less than pi/2 is allowed; shaft.F_x = %g N, "
                     "shaft.F_y = %g N, shaft.F_z = %g N, shaft.tilt_y = %g rad, shaft.tilt_z = %g rad are too much",

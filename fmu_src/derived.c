@@ -1,11 +1,10 @@
 // Constants derived once from the parameters, element by element; equations stand in the elements' files.
 #include "elementary.h"
 #include "hertz.h"
+#include "rivet_rom.h"
 #include "traction.h"
 
-static const double PI = 3.14159265358979323846;
-
-// ln of 2.69 G^0.53 (1 - 0.61 portable_exp(-0.73 k)) R_x (eta/(E' R_x))^0.67 (1/(E' R_x^2))^-0.067 / sigma: ln Lambda at U = 1 m/s, Q = 1 N.
+// ln of 2.69 G^0.53 (1 - 0.61 exp(-0.73 k)) R_x (eta/(E' R_x))^0.67 (1/(E' R_x^2))^-0.067 / sigma: ln Lambda at U = 1 m/s, Q = 1 N.
 static double ln_film(double E_prime, double R_x, double k, const Parameters *p, double sigma)
 {
     const double G = p->oil.alpha * E_prime;
@@ -55,7 +54,7 @@ static void derive_pockets(const Parameters *p, Derived *d)
     d->pocket = hertz_contact(1.0 / R, rho_y, E_star);
     d->pocket_rolling = inlet(2.0 * E_star, R, 1.0 / rho_y, p);
     d->ln_pocket_piezo = ln_film(2.0 * E_star, R, d->pocket.k, p, p->oil.sigma_pocket);
-    // isoviscous-rigid: h/R = 128 alpha_r lambda_b^2 (0.131 portable_atan(alpha_r/2) + 1.683)^2 (U/W)^2, alpha_r = R_y/R.  Hamrock & Dowson (1979), Brewe
+    // isoviscous-rigid: h/R = 128 alpha_r lambda_b^2 (0.131 atan(alpha_r/2) + 1.683)^2 (U/W)^2, alpha_r = R_y/R.  Hamrock & Dowson (1979), Brewe
     const double alpha_r = 1.0 / (rho_y * R), lambda_b = 1.0 / (1.0 + 0.698 / alpha_r);
     const double shape = 128.0 * alpha_r * lambda_b * lambda_b * portable_pow(0.131 * portable_atan(0.5 * alpha_r) + 1.683, 2.0);
     d->ln_pocket_rigid = portable_log(shape * R / p->oil.sigma_pocket) + 2.0 * portable_log(p->oil.eta * R);

@@ -1,6 +1,8 @@
 // Events: conditions from the results of one evaluation, see events.h.
 #include "events.h"
 
+#include "rivet_rom.h"
+
 #include <stdio.h>
 
 static void add(Event *event, int element, double value, double limit)
@@ -54,7 +56,6 @@ static double reach(const Race *race, double along, double cbrt_Q)
 
 static double pressure(const Race *race, double cbrt_Q)
 {
-    const double PI = 3.14159265358979323846;
     return 1.5 * cbrt_Q / (PI * race->hertz.a * race->hertz.b);
 }
 

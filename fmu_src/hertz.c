@@ -10,8 +10,6 @@
 
 #include "elementary.h"
 
-static const double PI = 3.14159265358979323846;
-
 void hertz_elliptic(double k2, double *first, double *second)
 {
     // a_n, b_n -> AGM; F = pi/(2 a), E = F (1 - sum 2^(n-1) c_n^2).  Abramowitz & Stegun 17.6.

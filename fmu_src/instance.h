@@ -4,6 +4,7 @@
 #include "events.h"
 #include "fatigue.h"
 #include "integrator.h"
+#include "part.h"
 #include "statistics.h"
 
 // Floors of the statistics' bins: the smallest value told apart.
@@ -22,7 +23,8 @@ typedef struct {
     double energy_start;
     double force_peak;  // since the last communication point
     double head_peak[Z], mid_peak[Z];
-    double dislocation_max, duty_time, omega_time, eccentricity_time;  // integrals over time since settle
+    double dislocation_max;                           // largest slip of a joint since start.settle [m]
+    double duty_time, omega_time, eccentricity_time;  // integrals over time since start.settle: of contact, cage speed, eccentricity
     StatisticsChannel force, head[STRESS_CHANNELS], mid[STRESS_CHANNELS];
     FatigueChannel fatigue_head[Z], fatigue_mid[Z];
     EventState event;

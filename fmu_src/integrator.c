@@ -9,6 +9,7 @@
 
 #include "aligned.h"
 #include "elementary.h"
+#include "stepping.h"
 
 #include <arkode/arkode_erkstep.h>
 #include <stdio.h>
@@ -177,8 +178,7 @@ static void evaluate(Integrator *in, double t, const double *y, double *f)
     in->s->rhs_evals += 1.0;
     in->latest = f;
     if (in->kernels->ops->finite(f)) return;
-    const double enormous = in->nonfinite_stages++ % 2 == 0 ? 1e15 : -1e15;  // [1/s] in units of the tolerance
-    for (int i = 0; i < N_STATES; i++) f[i] = enormous / in->weight[i];
+    stepping_refuse(in->weight, in->nonfinite_stages++, f);
 }
 
 static int explicit_rhs(sunrealtype t, N_Vector y, N_Vector f, void *user)
@@ -199,9 +199,7 @@ static void report(int line, const char *function, const char *file, const char 
 {
     (void)file, (void)sun;
     const Integrator *in = user;
-    char text[512];
-    snprintf(text, sizeof text, "t = %.9g s: SUNDIALS %s, line %d: %s (code %d)", in->s->t, function, line, message, (int)code);
-    in->log(in->context, text);
+    stepping_report(in->s->t, function, line, message, (int)code, in->log, in->context);
 }
 
 static int set_up(void *arkode, Integrator *in)
@@ -276,8 +274,7 @@ void integrator_destroy(Integrator *in)
 
 void integrator_tolerance(Integrator *in, double tolerance)
 {
-    for (int b = 0; b < N_STATE_BLOCKS; b++)
-        for (int i = 0; i < STATE_BLOCKS[b].count; i++) in->weight[STATE_BLOCKS[b].offset + i] = 1.0 / (tolerance * in->model->d->scale[STATE_BLOCKS[b].scale]);
+    stepping_weights(in->model->d, tolerance, in->weight);
 }
 
 // ---- stepping -----------------------------------------------------------------------------------------------------------------------------------
@@ -355,11 +352,7 @@ static int explicit_advance(Integrator *in, double t_stop, long max_steps)
         in->starting = s->f_is_current;
         status = ARKodeEvolve(in->arkode, t_stop, in->y, &t, ARK_ONE_STEP);
         if (status < 0) break;
-        const double h = t - s->t;
-        memcpy(s->now.y, data(in->y), sizeof s->now.y);
-        s->t = t;
-        s->steps += 1.0;
-        s->f_is_current = 0;
+        const double h = stepping_accept(s, t, data(in->y));
         ARKodeGetCurrentStep(in->arkode, &h_next);
         in->hook(in->context, h, in->w);
     }

@@ -21,7 +21,7 @@
 static const double EPS_CAP = 1.2;
 
 // Of HALVES halves, side by side.
-INLINE void land_film_bundle(const Model *model, Work *w, int first)
+INLINE void land_film_packet(const Model *model, Work *w, int first)
 {
     const Parameters *p = model->p;
     const Derived *d = model->d;
@@ -46,7 +46,7 @@ INLINE void land_film_bundle(const Model *model, Work *w, int first)
     const double floor = 0.5 * p->cage.g_0;
     const wide above = 1.0 - eps * eps - floor, q2 = floor + 0.5 * (above + wide_sqrt(above * above + 8.0 * floor * floor));
     const wide inv_q = 1.0 / wide_sqrt(q2), inv_q2 = inv_q * inv_q, inv_c2 = 1.0 / (q2 + a * a);  // c^2 = 1 - b^2
-    const wide S = inv_q * (1.5707963267948966 + wide_atan(a * inv_q));                           // S/q, and all integrals times q^4
+    const wide S = inv_q * (0.5 * PI + wide_atan(a * inv_q));                                     // S/q, and all integrals times q^4
     const wide I_c = 3.0 * a + S * (q2 + 3.0 * a * a);
     const wide I_s = 2.0 * b + a * a * b * inv_c2 + 3.0 * a * b * S;
     const wide I_t = a * inv_c2 * (q2 + b * b * (3.0 + 2.0 * q2 * inv_c2)) + S * (q2 + 3.0 * b * b);
@@ -97,5 +97,5 @@ INLINE void land_film_bundle(const Model *model, Work *w, int first)
 void land_film_force(const Model *model, Work *w)
 {
     w->land_elastic = w->land_dissipated = 0.0;
-    for (int first = 0; first < 2; first += HALVES) land_film_bundle(model, w, first);
+    for (int first = 0; first < 2; first += HALVES) land_film_packet(model, w, first);
 }

@@ -266,7 +266,7 @@ INLINE wide wide_atan(wide x)
     const bits large = u > 2.414213562373095, middle = u > 0.41421356237309503;  // tan 3 pi/8, tan pi/8
     const wide top = wide_select(large, wide_set(-1.0), wide_select(middle, u - 1.0, u));
     const wide bottom = wide_select(large, u, wide_select(middle, u + 1.0, wide_set(1.0)));
-    const wide offset = wide_select(large, wide_set(1.5707963267948966), wide_select(middle, wide_set(0.7853981633974483), wide_set(0.0)));
+    const wide offset = wide_select(large, wide_set(0.5 * PI), wide_select(middle, wide_set(0.25 * PI), wide_set(0.0)));
     const wide r = top / bottom, z = r * r;
     wide p = wide_set(-0.027229493655218973);
     p = wide_fma(p, z, wide_set(0.051686162502498884));

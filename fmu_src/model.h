@@ -6,8 +6,7 @@
 #pragma once
 
 #include "lanes.h"
-#include "part.h"
-#include "rivet_rom.h"
+#include "variable_table.h"
 
 typedef struct {
     wide x, r, t;
@@ -114,7 +113,7 @@ typedef struct {
     // joints, in the frame of half 0 (cage_joint_force)
     ball_array u_x, u_y, u_z, v_jx, v_jy, v_jz;           // half 1 against half 0: offset, velocity
     ball_array T, N_plate, S_y, S_z, H_y, H_z, B_y, B_z;  // rivet tension, plate force, forces on half 1 by plates S, heads H, hole B
-    ball_array plate_y_dot, plate_z_dot, head_y_dot, head_z_dot, D_plate, D_head;
+    ball_array plate_y_dot, plate_z_dot, head_y_dot, head_z_dot;
     ball_array joint_dissipated;
     // scalars
     scalar land_dissipated, land_elastic, film_yy[2], film_yz[2], film_zz[2], film_spin[2];  // of each land: -dF/dv, -dM/domega

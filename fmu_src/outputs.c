@@ -8,8 +8,6 @@
 #include "rivets.h"
 #include "traction.h"
 
-static const double PI = 3.14159265358979323846;
-
 // The states that are outputs as they are: copied by name.
 static void fill_state(const Evaluation *at, Outputs *out)
 {
@@ -177,12 +175,40 @@ static void fill_energy(const Evaluation *at, Outputs *out)
     out->bearing.energy_residual = energy_total(at->model, at->y, w) - at->y[Y_WORK];
 }
 
-bool outputs_evaluate(const Evaluation *at, OutputGroup group, Outputs *out)
+void outputs_evaluate(const Evaluation *at, OutputGroup group, Outputs *out)
 {
-    static void (*const fill[GROUP_COUNT])(const Evaluation *, Outputs *) = {
-        [GROUP_STATE] = fill_state, [GROUP_RING] = fill_ring,   [GROUP_POSE] = fill_pose,     [GROUP_BALL] = fill_ball,
-        [GROUP_CAGE] = fill_cage,   [GROUP_RIVET] = fill_rivet, [GROUP_STRESS] = fill_stress, [GROUP_ENERGY] = fill_energy};
-    if (!fill[group]) return false;
-    fill[group](at, out);
-    return true;
+    switch (group) {
+    case GROUP_STATE:
+        fill_state(at, out);
+        return;
+    case GROUP_RING:
+        fill_ring(at, out);
+        return;
+    case GROUP_POSE:
+        fill_pose(at, out);
+        return;
+    case GROUP_BALL:
+        fill_ball(at, out);
+        return;
+    case GROUP_CAGE:
+        fill_cage(at, out);
+        return;
+    case GROUP_RIVET:
+        fill_rivet(at, out);
+        return;
+    case GROUP_STRESS:
+        fill_stress(at, out);
+        return;
+    case GROUP_ENERGY:
+        fill_energy(at, out);
+        return;
+    case GROUP_CONSTANT:
+    case GROUP_PEAK:
+    case GROUP_FATIGUE:
+    case GROUP_STAT:
+    case GROUP_SOLVER:
+    case GROUP_EVENT:
+    case GROUP_COUNT:
+        return;  // outputs_recorded.c
+    }
 }

@@ -11,5 +11,5 @@ typedef struct {
     RivetsLoad *loads;
 } Evaluation;
 
-// Fills one group of outputs that follow from an evaluation; false: this group is of another kind.
-bool outputs_evaluate(const Evaluation *at, OutputGroup group, Outputs *out);
+// Fills one group of outputs that follow from an evaluation; the recorded groups (outputs_recorded.c) are left as they are.
+void outputs_evaluate(const Evaluation *at, OutputGroup group, Outputs *out);

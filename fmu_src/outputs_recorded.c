@@ -97,9 +97,40 @@ static void fill_constant(Bearing *b)
 
 void outputs_fill(Bearing *b, OutputGroup group)
 {
-    static void (*const fill[GROUP_COUNT])(Bearing *) = {[GROUP_CONSTANT] = fill_constant, [GROUP_PEAK] = fill_peak,     [GROUP_FATIGUE] = fill_fatigue,
-                                                         [GROUP_STAT] = fill_stat,         [GROUP_SOLVER] = fill_solver, [GROUP_EVENT] = fill_event};
     const Evaluation now = {&b->model, b->s.integrator.now.y, b->y_dot, &b->w, b->kernels.rivets_load};
-    if (!outputs_evaluate(&now, group, &b->out)) fill[group](b);
-    if (group == GROUP_ENERGY) b->out.bearing.energy_residual -= b->s.energy_start;
+    switch (group) {
+    case GROUP_CONSTANT:
+        fill_constant(b);
+        return;
+    case GROUP_PEAK:
+        fill_peak(b);
+        return;
+    case GROUP_FATIGUE:
+        fill_fatigue(b);
+        return;
+    case GROUP_STAT:
+        fill_stat(b);
+        return;
+    case GROUP_SOLVER:
+        fill_solver(b);
+        return;
+    case GROUP_EVENT:
+        fill_event(b);
+        return;
+    case GROUP_ENERGY:
+        outputs_evaluate(&now, group, &b->out);
+        b->out.bearing.energy_residual -= b->s.energy_start;
+        return;
+    case GROUP_STATE:
+    case GROUP_RING:
+    case GROUP_POSE:
+    case GROUP_BALL:
+    case GROUP_CAGE:
+    case GROUP_RIVET:
+    case GROUP_STRESS:
+        outputs_evaluate(&now, group, &b->out);
+        return;
+    case GROUP_COUNT:
+        return;
+    }
 }

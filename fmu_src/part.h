@@ -27,8 +27,6 @@ typedef struct {
 
 typedef struct Part Part;
 
-enum { INPUT_ORDERS = 2 };  // inputs are polynomials of time up to this order inside a step
-
 Part *part_create(const PartHost *host);  // with the start values of the variable table; NULL if out of memory
 void part_destroy(Part *part);            // NULL is allowed
 void part_reset(Part *part);              // as newly created

@@ -169,7 +169,7 @@ INLINE void store_contacts(Work *w, int j, const Contact *inner, const Contact *
     wide_store(&w->dissipated[j], T_i->dissipated + T_e->dissipated + inner->dissipated + outer->dissipated);
 }
 
-INLINE void race_contact_bundle(const Model *model, Work *w, int j, bool mixed, bool sliced)
+INLINE void race_contact_packet(const Model *model, Work *w, int j, bool mixed, bool sliced)
 {
     const Derived *d = model->d;
     const wide cos_theta = wide_load(&w->cos_theta[j]), sin_theta = wide_load(&w->sin_theta[j]), minus = wide_set(-1.0);
@@ -201,8 +201,8 @@ void race_contact_force(const Model *model, Work *w)
     for (int b = 0; b < PACKETS; b++) {
         const int j = b * LANE_WIDTH;
         if (sliced)
-            mixed ? race_contact_bundle(model, w, j, true, true) : race_contact_bundle(model, w, j, false, true);
+            mixed ? race_contact_packet(model, w, j, true, true) : race_contact_packet(model, w, j, false, true);
         else
-            mixed ? race_contact_bundle(model, w, j, true, false) : race_contact_bundle(model, w, j, false, false);
+            mixed ? race_contact_packet(model, w, j, true, false) : race_contact_packet(model, w, j, false, false);
     }
 }

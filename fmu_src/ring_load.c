@@ -1,8 +1,6 @@
 // InputTrajectory of the inputs from point to point, built-in pulses.  Equations in ring_load.h.
 #include "ring_load.h"
 
-static const double PI = 3.14159265358979323846;
-
 static double pulse_start(const Parameters *p, int n)
 {
     return p->pulse.t_start + n * p->pulse.interval;

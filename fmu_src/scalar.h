@@ -6,3 +6,5 @@ typedef double _Complex scalar;
 #else
 typedef double scalar;
 #endif
+
+static const double PI = 3.14159265358979323846;

@@ -5,6 +5,8 @@
 
 #include <stddef.h>
 
+enum { INPUT_ORDERS = 2 };  // inside a step inputs are polynomials of time up to this order
+
 typedef struct {
     int offset, count;
     StateScale scale;  // class of its error scale
