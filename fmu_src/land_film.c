@@ -71,7 +71,7 @@ INLINE void land_film_packet(const Model *model, Work *w, int first)
     const wide M_x = R * F_t - couette * omega;
 
     const wide power = F_y * v_y + F_z * v_z + M_x * omega;
-    const wide elastic = 0.4 * N_0 * wide_max(pen, wide_set(0.0)), elastic_rate = N_0 * pen_dot;
+    const wide elastic = hertz_energy(wide_set(p->cage.K_land), pen), elastic_rate = N_0 * pen_dot;
 
     // -dF/dv in the global frame
     const wide K_yy = kappa * (I_c * n_y * n_y - 2.0 * I_s * n_y * n_z + I_t * n_z * n_z);

@@ -61,14 +61,13 @@ INLINE void pocket_contacts(const Model *model, Work *w, int h, int j, bool mixe
     const wide delta_dot = vec_dot(n, v);
 
     // share of the half and its slope; the sign is that of the half's side
-    const double side = h == 0 ? -1.0 : 1.0, width2 = p->cage.share_width * p->cage.share_width;
-    const wide inv_root = 1.0 / wide_sqrt(n_x * n_x + width2);
-    const wide share = whole ? wide_set(1.0) : 0.5 * (1.0 + side * n_x * inv_root);
-    const wide share_slope = whole ? wide_set(0.0) : 0.5 * side * width2 * (inv_root * inv_root * inv_root);
+    const double side = h == 0 ? -1.0 : 1.0, width = p->cage.share_width;
+    const wide share = whole ? wide_set(1.0) : pocket_share(side, n_x, width);
+    const wide share_slope = whole ? wide_set(0.0) : pocket_share_slope(side, n_x, width);
 
-    const wide Q_full = hertz_load(wide_set(d->pocket.K), delta), Q_0 = share * Q_full;
+    const wide K = wide_set(d->pocket.K), Q_0 = share * hertz_load(K, delta);
     const wide Q = hertz_damped(Q_0, wide_set(p->cage.lambda), delta_dot);
-    const wide F_across = 0.4 * Q_full * wide_max(delta, wide_set(0.0)) * share_slope * n_t * inv_S;  // dV/dn_x grad n_x, grad n_x = (n_t a - n_x e_t) n_t/S
+    const wide F_across = hertz_energy(K, delta) * share_slope * n_t * inv_S;  // dV/dn_x grad n_x, grad n_x = (n_t a - n_x e_t) n_t/S
     const vec F_n = vec_axpy(-Q, n, vec_axpy(-F_across * n_t, a, vec_scale(F_across * n_x, e_t)));
 
     const vec arm = vec_scale(R, n);
