@@ -33,7 +33,7 @@ PARTS = {  # source file -> part
     "rivet_primary": "rivet table",
     "rivet_rom": "rivet table",
     "bearing": "peaks and statistics",
-    "records": "peaks and statistics",
+    "outputs_recorded": "peaks and statistics",
     "statistics": "peaks and statistics",
 }
 REST, OUTSIDE = "control of steps, inputs", "memcpy, memset, clock"

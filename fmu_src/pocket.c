@@ -39,20 +39,38 @@ INLINE void add_vec(vec v, scalar *x, scalar *r, scalar *t)
     vec_store(vec_add(vec_load(x, r, t), v), x, r, t);
 }
 
+// Where a packet of balls lies in the pockets of one half, in the frames of the balls.
+typedef struct {
+    vec arm;        // p: ball centre - geometric centre of the half
+    vec a, b, e_t;  // axis of the half, direction of the pocket, tangent
+    wide x, t;      // of the ball against the pocket's axis
+    wide S, delta;  // its distance from the axis; elastic approach (negative: open)
+} PocketGap;
+
+INLINE PocketGap pocket_gap(const Derived *d, const Work *w, const Rotor *half, int j)
+{
+    const wide cos_theta = wide_load(&w->cos_theta[j]), sin_theta = wide_load(&w->sin_theta[j]);
+    const vec centre = {wide_load(&w->x[j]), wide_load(&w->r[j]), wide_set(0.0)};
+    PocketGap gap = {.a = vec_local(half->a, cos_theta, sin_theta), .b = pocket_direction(d, half, j, cos_theta, sin_theta)};
+    gap.e_t = vec_cross(gap.a, gap.b);
+    gap.arm = vec_sub(centre, vec_local(half->x, cos_theta, sin_theta));
+    gap.x = vec_dot(gap.arm, gap.a);
+    gap.t = vec_dot(gap.arm, gap.e_t);
+    gap.S = wide_sqrt(gap.x * gap.x + gap.t * gap.t + 1e-30);
+    gap.delta = gap.S - (d->pocket_radius - wide_load(&d->R[j]));
+    return gap;
+}
+
 // Forces in a packet of pockets, stored for the half and added to the balls.
-INLINE void pocket_contacts(const Model *model, Work *w, int h, int j, bool mixed, bool whole)
+INLINE void pocket_contacts(const Model *model, Work *w, int h, int j, const PocketGap *gap, bool mixed, bool whole)
 {
     const Parameters *p = model->p;
     const Derived *d = model->d;
     const Rotor *half = &w->half[h];
     Pockets *pocket = &w->pocket[h];
     const wide cos_theta = wide_load(&w->cos_theta[j]), sin_theta = wide_load(&w->sin_theta[j]), R = wide_load(&d->R[j]);
-
-    const vec a = vec_local(half->a, cos_theta, sin_theta), b = pocket_direction(d, half, j, cos_theta, sin_theta), e_t = vec_cross(a, b);
-    const vec centre = {wide_load(&w->x[j]), wide_load(&w->r[j]), wide_set(0.0)}, arm_p = vec_sub(centre, vec_local(half->x, cos_theta, sin_theta));
-    const wide x = vec_dot(arm_p, a), t = vec_dot(arm_p, e_t);
-    const wide S = wide_sqrt(x * x + t * t + 1e-30), inv_S = 1.0 / S, n_x = x * inv_S, n_t = t * inv_S;
-    const wide delta = S - (d->pocket_radius - R);
+    const vec a = gap->a, b = gap->b, e_t = gap->e_t, arm_p = gap->arm;
+    const wide delta = gap->delta, inv_S = 1.0 / gap->S, n_x = gap->x * inv_S, n_t = gap->t * inv_S;
     const vec n = vec_axpy(n_t, e_t, vec_scale(n_x, a));
 
     const vec omega_b = vec_load(&w->omega_x[j], &w->omega_r[j], &w->omega_t[j]), v_b = vec_load(&w->v_x[j], &w->v_r[j], &w->v_t[j]);
@@ -106,18 +124,6 @@ INLINE void pocket_clear(Pockets *pocket, int j)
     vec_store(none, &pocket->half_M_x[j], &pocket->half_M_y[j], &pocket->half_M_z[j]);
 }
 
-// Elastic approach of a packet of balls to the pockets of one half (negative: open).
-INLINE wide pocket_approach(const Derived *d, const Work *w, const Rotor *half, int j)
-{
-    const wide r = wide_load(&w->r[j]);
-    const wide p_x = wide_load(&w->x[j]) - half->x[0], p_y = r * wide_load(&w->cos_theta[j]) - half->x[1];
-    const wide p_z = r * wide_load(&w->sin_theta[j]) - half->x[2];
-    const wide x = p_x * half->a[0] + p_y * half->a[1] + p_z * half->a[2];
-    const wide y = p_x * half->b_y[0] + p_y * half->b_y[1] + p_z * half->b_y[2], z = p_x * half->b_z[0] + p_y * half->b_z[1] + p_z * half->b_z[2];
-    const wide t = z * wide_load(&d->pocket_cos[j]) - y * wide_load(&d->pocket_sin[j]);  // e_t = b_z cos phi - b_y sin phi
-    return wide_sqrt(x * x + t * t + 1e-30) - (d->pocket_radius - wide_load(&d->R[j]));
-}
-
 // All pockets of one half; most are not touched.
 INLINE void pocket_half(const Model *model, Work *w, int h, bool mixed, bool whole)
 {
@@ -125,10 +131,10 @@ INLINE void pocket_half(const Model *model, Work *w, int h, bool mixed, bool who
     Rotor *half = &w->half[h];
     bool touched = false;
     for (int j = 0; j < PACKETS * LANE_WIDTH; j += LANE_WIDTH) {
-        const wide delta = pocket_approach(model->d, w, half, j);
-        wide_store(&w->delta_c[h][j], delta);
-        if (wide_any(wide_above(delta, 0.0))) {
-            pocket_contacts(model, w, h, j, mixed, whole);
+        const PocketGap gap = pocket_gap(model->d, w, half, j);
+        wide_store(&w->delta_c[h][j], gap.delta);
+        if (wide_any(wide_above(gap.delta, 0.0))) {
+            pocket_contacts(model, w, h, j, &gap, mixed, whole);
             touched = true;
         } else
             pocket_clear(pocket, j);
