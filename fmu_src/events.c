@@ -1,6 +1,8 @@
 // Events: conditions from the results of one evaluation, see events.h.
 #include "events.h"
 
+#include "elementary.h"
+#include "hertz.h"
 #include "rivet_rom.h"
 
 #include <stdio.h>
@@ -54,15 +56,10 @@ static double reach(const Race *race, double along, double cbrt_Q)
     return asin(scalar_min(along, 1.0)) + race->hertz.a * cbrt_Q / race->R_m;
 }
 
-static double pressure(const Race *race, double cbrt_Q)
-{
-    return 1.5 * cbrt_Q / (PI * race->hertz.a * race->hertz.b);
-}
-
 double ellipse_reach(const Model *model, const Work *w, bool outer, int j)
 {
     const double Q = outer ? w->Q_e[j] : w->Q_i[j];
-    return Q > 0.0 ? reach(outer ? &model->d->outer : &model->d->inner, contact_along(w, outer, j), cbrt(Q)) : 0.0;
+    return Q > 0.0 ? reach(outer ? &model->d->outer : &model->d->inner, contact_along(w, outer, j), portable_cbrt(Q)) : 0.0;
 }
 
 static void races(const Model *model, const Work *w, Event *cut, Event *overpressure)
@@ -78,13 +75,13 @@ static void races(const Model *model, const Work *w, Event *cut, Event *overpres
             along_max = scalar_max(along_max, along[j]);
             Q_max = scalar_max(Q_max, Q[j]);
         }
-        const double max = cbrt(Q_max);
-        if (reach(race, along_max, max) <= edge && pressure(race, max) <= p_limit) continue;  // roots and angles are dear
+        const double cbrt_max = portable_cbrt(Q_max);
+        if (reach(race, along_max, cbrt_max) <= edge && hertz_pressure(&race->hertz, cbrt_max) <= p_limit) continue;  // roots and angles are dear
         for (int j = 0; j < Z; j++) {
             if (!(Q[j] > 0.0)) continue;
-            const double cbrt_Q = cbrt(Q[j]);
+            const double cbrt_Q = portable_cbrt(Q[j]);
             add(cut, 2 * j + outer, reach(race, along[j], cbrt_Q), edge);
-            add(overpressure, 2 * j + outer, pressure(race, cbrt_Q), p_limit);
+            add(overpressure, 2 * j + outer, hertz_pressure(&race->hertz, cbrt_Q), p_limit);
         }
     }
 }

@@ -23,6 +23,12 @@ INLINE wide hertz_energy(wide K, wide delta)
     return 0.4 * hertz_load(K, delta) * wide_max(delta, wide_set(0.0));
 }
 
+// Largest pressure 3 Q/(2 pi a b), by the load's cube root, which the semi-axes grow with.
+static inline scalar hertz_pressure(const Hertz *hertz, scalar cbrt_Q)
+{
+    return 1.5 * cbrt_Q / (PI * hertz->a * hertz->b);
+}
+
 // Hunt-Crossley damping: Q (1 + lambda delta_dot), never pulling.  Hunt & Crossley (1975), J. Appl. Mech. 42, 440.
 INLINE wide hertz_damped(wide Q, wide lambda, wide delta_dot)
 {
