@@ -5,11 +5,13 @@
 // The inner ring is outside: its motion does the work -F.v - M.Omega of the contacts.  Outputs only; never in the integration.
 #include "energy.h"
 
+#include "hertz.h"
+#include "pocket.h"
 #include "rotor.h"
 
 static scalar contact_energy(double K, scalar delta)
 {
-    return scalar_value(delta) > 0.0 ? 0.4 * K * delta * delta * scalar_sqrt(delta) : 0.0;
+    return wide_lane(hertz_energy(wide_set(K), wide_set(delta)), 0);
 }
 
 static scalar ball_energy(const Model *model, const scalar *y, const Work *w, int j)
@@ -31,9 +33,8 @@ static scalar pocket_energy(const Model *model, const Work *w, int j, int h)
     if (model->p->scene.cage == CAGE_MODEL_TWO_HALF) {
         scalar x = 0.0;
         for (int i = 0; i < 3; i++) x += (ball[i] - half->x[i]) * half->a[i];
-        const double width = model->p->cage.share_width;
         const scalar n_x = x / (w->delta_c[h][j] + model->d->pocket_radius - model->d->R[j]);
-        share = 0.5 * (1.0 + (h == 0 ? -1.0 : 1.0) * n_x / scalar_sqrt(n_x * n_x + width * width));
+        share = wide_lane(pocket_share(h == 0 ? -1.0 : 1.0, wide_set(n_x), model->p->cage.share_width), 0);
     }
     return share * contact_energy(model->d->pocket.K, w->delta_c[h][j]);
 }
