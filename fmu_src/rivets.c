@@ -10,6 +10,7 @@
 #include "rivets.h"
 
 #include "load_path.h"
+#include "pocket.h"
 #include "rotor.h"
 
 INLINE wide modulus(wide y, wide z)
@@ -34,7 +35,6 @@ static void two_half_load(const Model *model, const Work *w, RivetLoads *load)
 static void rigid_wrench(const Model *model, const Work *w, scalar wrench[6])
 {
     const Rotor *cage = &w->half[0];
-    const double width = model->p->cage.share_width;
     scalar global[6];
     for (int i = 0; i < 3; i++) {
         global[i] = 0.5 * (w->half[1].F[i] - w->half[0].F[i]);
@@ -42,11 +42,14 @@ static void rigid_wrench(const Model *model, const Work *w, scalar wrench[6])
     }
     const Pockets *pocket = &w->pocket[0];  // half 0 holds the pocket forces: their share of half 1 less that of half 0 instead
     const scalar *wrenches[6] = {pocket->half_F_x, pocket->half_F_y, pocket->half_F_z, pocket->half_M_x, pocket->half_M_y, pocket->half_M_z};
-    for (int j = 0; j < Z; j++) {
-        const scalar F_x = pocket->F_x[j], F_t = pocket->F_t[j], F_2 = F_x * F_x + F_t * F_t;
-        const scalar share = scalar_value(F_2) > 0.0 ? F_x / scalar_sqrt(F_x * F_x + width * width * F_2) : 0.0;
-        for (int i = 0; i < 6; i++) global[i] += 0.5 * (1.0 + share) * wrenches[i][j];
+    ball_array share;
+    for (int j = 0; j < PACKETS * LANE_WIDTH; j += LANE_WIDTH) {
+        const wide F_x = wide_load(&pocket->F_x[j]), F_t = wide_load(&pocket->F_t[j]);
+        const wide n_x = F_x / wide_sqrt(F_x * F_x + F_t * F_t + 1e-30);  // 0 without a force
+        wide_store(&share[j], pocket_share(1.0, n_x, model->p->cage.share_width));
     }
+    for (int j = 0; j < Z; j++)
+        for (int i = 0; i < 6; i++) global[i] += share[j] * wrenches[i][j];
     const scalar *axes[3] = {cage->a, cage->b_y, cage->b_z};
     for (int i = 0; i < 3; i++) {
         wrench[i] = dot3(axes[i], global);
