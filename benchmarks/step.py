@@ -30,7 +30,6 @@ PARTS = {  # source file -> part
     "vector_ops": "error norm",
     "load_path": "rivet loads",
     "rivets": "rivet loads",
-    "rivet_primary": "rivet table",
     "rivet_rom": "rivet table",
     "bearing": "peaks and statistics",
     "outputs_recorded": "peaks and statistics",

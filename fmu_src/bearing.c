@@ -39,11 +39,12 @@ static void add_stress(Bearing *b, bool counts, double h)
     InstanceState *s = &b->s;
     FatigueLaw law;
     RivetLoads load;
-    double head[Z], mid[Z], head_max = 0.0, mid_max = 0.0;
+    double sigma[RIVET_CHANNELS][Z], head_max = 0.0, mid_max = 0.0;
     const bool fatigue = s->p.scene.stress == STRESS_FATIGUE && s->integrator.t >= s->p.start.settle;
     memcpy(&law, &s->p.fatigue, sizeof law);
     b->kernels.rivets_load(&b->model, &b->w, &load);
-    b->kernels.rivet_primary(&rivet_table, &load, b->d.fit_eff, head, mid);
+    b->kernels.rivet_rom_stress(&rivet_table, &load, b->d.fit_eff, false, sigma);
+    const double *head = sigma[HEAD_P1], *mid = sigma[MID_VM];
     for (int k = 0; k < Z; k++) {
         s->head_peak[k] = scalar_max(s->head_peak[k], head[k]);
         s->mid_peak[k] = scalar_max(s->mid_peak[k], mid[k]);

@@ -7,17 +7,18 @@
 #undef verlet_step
 #undef race_contact_force
 #undef rivets_load
-#undef rivet_primary
+#undef rivet_rom_stress
 #define DECLARE_2(isa)                         \
     Rhs rhs_##isa;                             \
     RaceContactForce race_contact_force_##isa; \
     VerletStep verlet_step_##isa;              \
     ImplicitSolve implicit_solve_##isa;        \
     RivetsLoad rivets_load_##isa;              \
-    RivetPrimary rivet_primary_##isa;          \
+    RivetRomStress rivet_rom_stress_##isa;     \
     extern const VectorOps vector_ops_##isa
-#define KERNELS_2(isa) \
-    ((Kernels){#isa, rhs_##isa, race_contact_force_##isa, &vector_ops_##isa, verlet_step_##isa, implicit_solve_##isa, rivets_load_##isa, rivet_primary_##isa})
+#define KERNELS_2(isa)                                                                                                                   \
+    ((Kernels){#isa, rhs_##isa, race_contact_force_##isa, &vector_ops_##isa, verlet_step_##isa, implicit_solve_##isa, rivets_load_##isa, \
+               rivet_rom_stress_##isa})
 #define DECLARE(isa) DECLARE_2(isa)
 #define KERNELS(isa) KERNELS_2(isa)
 

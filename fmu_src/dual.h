@@ -18,12 +18,6 @@ typedef bool bits;
 
 // What is compiled for values and, here, for derivatives, beside the kernel files (isa.h).
 #define energy_total FOR_ISA(energy_total)
-#define rivet_rom_stress FOR_ISA(rivet_rom_stress)
-#define rivet_rom_fit_flags FOR_ISA(rivet_rom_fit_flags)
-#define rivet_rom_fit_eff FOR_ISA(rivet_rom_fit_eff)
-#define joint_preload FOR_ISA(joint_preload)
-#define joint_fit FOR_ISA(joint_fit)
-#define joint_hole_stiffness FOR_ISA(joint_hole_stiffness)
 #define outputs_evaluate FOR_ISA(outputs_evaluate)
 
 INLINE double scalar_value(scalar x)

@@ -24,4 +24,4 @@
 #define load_path_flexible FOR_ISA(load_path_flexible)
 #define rivets_load FOR_ISA(rivets_load)
 #define joint_prying FOR_ISA(joint_prying)
-#define rivet_primary FOR_ISA(rivet_primary)
+#define rivet_rom_stress FOR_ISA(rivet_rom_stress)

@@ -79,7 +79,7 @@ void jacobian_outputs(const Model *model, const double *trajectory, double t, do
     ring_load_at(&inputs, scalar_dual(t, dt), &ring_load);
     scalars_join(N_STATES, y, dy, state);
     rhs(&dual, t, state, rate, &work);
-    const Evaluation at = {&dual, state, rate, &work, rivets_load};
+    const Evaluation at = {&dual, state, rate, &work, rivets_load, rivet_rom_stress};
     for (int group = 0; group < GROUP_COUNT; group++) outputs_evaluate(&at, group, &out);
     scalars_derivative(OUTPUT_SCALARS, (const scalar *)&out, d_out);
 }

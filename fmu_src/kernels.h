@@ -4,7 +4,7 @@
 #include "implicit.h"
 #include "race_contact.h"
 #include "rhs.h"
-#include "rivet_primary.h"
+#include "rivet_rom.h"
 #include "rivets.h"
 #include "vector_ops.h"
 #include "verlet.h"
@@ -18,7 +18,7 @@ typedef struct {
     VerletStep *verlet;
     ImplicitSolve *implicit;
     RivetsLoad *rivets_load;
-    RivetPrimary *rivet_primary;
+    RivetRomStress *rivet_rom_stress;
 } Kernels;
 
 // Those of the best instruction set of this processor.

@@ -144,20 +144,18 @@ static void fill_rivet(const Evaluation *at, Outputs *out)
 static void fill_stress(const Evaluation *at, Outputs *out)
 {
     RivetLoads load;
-    scalar sigma[RIVET_CHANNELS] = {0.0};
+    scalar sigma[RIVET_CHANNELS][Z] = {{0.0}};
     const bool off = at->model->p->scene.stress == STRESS_OFF;
-    if (!off) at->loads(at->model, at->w, &load);
+    if (!off) {
+        at->loads(at->model, at->w, &load);
+        at->stress(&rivet_table, &load, at->model->d->fit_eff, true, sigma);
+    }
     for (int k = 0; k < Z; k++) {
-        unsigned flags = 0;
-        if (!off) {
-            const RivetLoad one = rivet_load_of(&load, k);
-            flags = at->model->d->fit_flags | rivet_rom_stress(&rivet_table, &one, at->model->d->fit_eff, sigma);
-        }
-        out->rivet.sigma_head[k] = sigma[HEAD_P1];
-        out->rivet.sigma_head_vm[k] = sigma[HEAD_VM];
-        out->rivet.sigma_mid[k] = sigma[MID_VM];
-        out->rivet.sigma_mid_p1[k] = sigma[MID_P1];
-        out->rivet.flag[k] = flags;
+        out->rivet.sigma_head[k] = sigma[HEAD_P1][k];
+        out->rivet.sigma_head_vm[k] = sigma[HEAD_VM][k];
+        out->rivet.sigma_mid[k] = sigma[MID_VM][k];
+        out->rivet.sigma_mid_p1[k] = sigma[MID_P1][k];
+        out->rivet.flag[k] = off ? 0.0 : at->model->d->fit_flags | rivet_rom_load_flags(&rivet_table, &load, sigma, k);
     }
 }
 

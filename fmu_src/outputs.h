@@ -9,6 +9,7 @@ typedef struct {
     const scalar *y, *y_dot;
     const Work *w;
     RivetsLoad *loads;
+    RivetRomStress *stress;
 } Evaluation;
 
 // Fills one group of outputs that follow from an evaluation; the recorded groups (outputs_recorded.c) are left as they are.

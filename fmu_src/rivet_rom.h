@@ -25,29 +25,17 @@
 // the head channels and nothing in the middle.
 #pragma once
 
-#include "lanes.h"
+#include "isa.h"
 
-#include <stdbool.h>
-
-// Loads of one rivet [N, N.m]; y, z: two perpendicular directions in the plane of the joint, x, y, z right-handed.
+// Loads of all rivets [N, N.m]; y, z: two perpendicular directions in the plane of the joint, x, y, z right-handed.
 typedef struct {
-    scalar P;         // preload
-    scalar N;         // external tension of the joint, before preload shielding; negative (compression) counts as 0
-    scalar V_y, V_z;  // transverse load that the rivet carries, on the +x half
-    scalar M_y, M_z;  // prying moment about the rivet's place in the split plane, on the +x half
-    scalar F_head;    // modulus of the friction force at the heads
-} RivetLoad;
-
-// The loads of all rivets side by side.
-typedef struct {
-    ball_array P, N, V_y, V_z, M_y, M_z, F_head;
-    ball_array V;  // modulus of the joint's whole transverse load, of which the rivet carries V_y, V_z [N]
+    ball_array P;         // preload
+    ball_array N;         // external tension of the joint, before preload shielding; negative (compression) counts as 0
+    ball_array V_y, V_z;  // transverse load that the rivet carries, on the +x half
+    ball_array M_y, M_z;  // prying moment about the rivet's position in the split plane, on the +x half
+    ball_array F_head;    // modulus of the friction force at the heads
+    ball_array V;         // modulus of the joint's whole transverse load, of which the rivet carries V_y, V_z
 } RivetLoads;
-
-INLINE RivetLoad rivet_load_of(const RivetLoads *all, int k)
-{
-    return (RivetLoad){all->P[k], all->N[k], all->V_y[k], all->V_z[k], all->M_y[k], all->M_z[k], all->F_head[k]};
-}
 
 enum { HEAD_P1, HEAD_VM, MID_VM, MID_P1, RIVET_CHANNELS };  // largest principal (P1) and von Mises (VM) stress in head fillet and middle
 
@@ -128,8 +116,20 @@ double rivet_rom_fit_eff(const RivetTable *t, double fit_a, bool j2);
 // Flags of the fit alone.
 unsigned rivet_rom_fit_flags(const RivetTable *t, double fit_a);
 
-// All channels sigma [Pa]; returns the load's flags.  Never NaN for finite loads.
-unsigned rivet_rom_stress(const RivetTable *t, const RivetLoad *load, double fit_eff, scalar sigma[RIVET_CHANNELS]);
+// Channels sigma of all rivets [Pa]: HEAD_P1 and MID_VM, with `all` the other two as well.  Never NaN for finite loads.
+typedef void RivetRomStress(const RivetTable *t, const RivetLoads *load, double fit_eff, bool all, scalar sigma[RIVET_CHANNELS][Z]);
+RivetRomStress rivet_rom_stress;
+
+// Flags of rivet k's load, whose channels are sigma.
+INLINE unsigned rivet_rom_load_flags(const RivetTable *t, const RivetLoads *load, scalar sigma[RIVET_CHANNELS][Z], int k)
+{
+    const double head = scalar_value(sigma[HEAD_VM][k]), mid = scalar_value(sigma[MID_VM][k]);
+    unsigned flags = 0;
+    if (head > t->yield_rivet || mid > t->yield_rivet) flags |= RIVET_YIELDS;
+    if (scalar_value(load->N[k]) < 0.0) flags |= JOINT_COMPRESSED;
+    if (!isfinite(scalar_value(sigma[HEAD_P1][k]))) flags |= RIVET_OUTSIDE;
+    return flags;
+}
 
 double joint_preload(const JointData *j, double preload, double T);  // preload at temperature T [N], not below 0
 double joint_fit(const JointData *j, double fit, double T);          // fit at temperature T [m]

@@ -258,7 +258,14 @@ class Trajectory:
         lib.input_trajectory_update(self.model.p, self.u, self.t, self.t, self.trajectory)
         lib.test_ring_load_at(self.trajectory, self.t + dt, self.model.ring_load)
         y_dot = rhs(self.model, y)
-        members = {"model": self.model.pointer, "y": array(y), "y_dot": array(y_dot), "w": self.model.work, "loads": self.model.kernel("rivets_load")}
+        members = {
+            "model": self.model.pointer,
+            "y": array(y),
+            "y_dot": array(y_dot),
+            "w": self.model.work,
+            "loads": self.model.kernel("rivets_load"),
+            "stress": self.model.kernel("rivet_rom_stress"),
+        }
         at = self.core.ffi.new("Evaluation *", members)
         for group in EVALUATED:
             lib.outputs_evaluate(at, getattr(lib, f"GROUP_{group}"), self.out)
