@@ -33,13 +33,14 @@ def pocket_mu(model, ln_U, ln_Q, mixed):
     return film + traction_asperity_share(maximum(ln_piezo, ln_rigid)) * (model.p.oil.mu_b - film)
 
 
-def pocket_share(model, n_x, h, whole):
-    """Part of the contact that half h carries, and its slope over n_x; whole: the rigid cage carries all."""
-    if whole:
-        return 1.0, 0.0
-    side, width2 = 2 * h - 1, model.p.cage.share_width**2
-    root = np.sqrt(n_x * n_x + width2)
-    return 0.5 * (1.0 + side * n_x / root), 0.5 * side * width2 / root**3
+def pocket_share(side, n_x, width):
+    """Share w of one half in the energy of a contact, by the axial part n_x of the contact's normal.  side: -1 for half 0, +1 for half 1."""
+    return 0.5 * (1.0 + side * n_x / np.sqrt(n_x * n_x + width * width))
+
+
+def pocket_share_slope(side, n_x, width):
+    """dw/dn_x."""
+    return 0.5 * side * width * width / (n_x * n_x + width * width) ** 1.5
 
 
 def pocket_half(model, w, h, mixed, whole):
@@ -61,7 +62,11 @@ def pocket_half(model, w, h, mixed, whole):
     n = n_x * a + n_t * e_t
     delta_dot = vec_dot(n, v)
 
-    share, share_slope = pocket_share(model, n_x, h, whole)
+    # share of the half and its slope; the sign is that of the half's side
+    side, width = 2 * h - 1, p.cage.share_width
+    share = 1.0 if whole else pocket_share(side, n_x, width)
+    share_slope = 0.0 if whole else pocket_share_slope(side, n_x, width)
+
     Q_0 = share * hertz_load(d.pocket.K, delta)
     Q = hertz_damped(Q_0, p.cage.lambda_, delta_dot)
     F_across = hertz_energy(d.pocket.K, delta) * share_slope * n_t / S  # -dV/dn_x grad n_x, grad n_x = (n_t a - n_x e_t) n_t / S

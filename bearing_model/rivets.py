@@ -13,6 +13,7 @@ import numpy as np
 
 from bearing_model.lanes import ball_array_sum
 from bearing_model.load_path import PATH_M_R, PATH_M_T, PATH_N, PATH_V_R, PATH_V_T, load_path_flexible, load_path_rigid
+from bearing_model.pocket import pocket_share
 from bearing_model.rivet_rom import RivetLoad, joint_prying
 from bearing_model.variables import CageModel
 from bearing_model.vec import vec_dot
@@ -35,10 +36,9 @@ def rigid_wrench(model, w):
     F, M = 0.5 * (other.F - cage.F), 0.5 * (other.M - cage.M)
     # half 0 holds the pocket forces: their share of half 1 less that of half 0 instead
     F_x, _, F_t = w.pocket[0]
-    root = np.sqrt(F_x**2 + model.p.cage.share_width**2 * (F_x**2 + F_t**2))
-    share = np.divide(F_x, root, out=np.zeros_like(F_x), where=root > 0.0)
-    F = F + 0.5 * ball_array_sum((1.0 + share) * w.pocket_F[0])
-    M = M + 0.5 * ball_array_sum((1.0 + share) * w.pocket_M[0])
+    share = pocket_share(1, F_x / np.sqrt(F_x**2 + F_t**2 + 1e-30), model.p.cage.share_width)
+    F = F + ball_array_sum(share * w.pocket_F[0])
+    M = M + ball_array_sum(share * w.pocket_M[0])
     axes = (cage.a, cage.b_y, cage.b_z)
     return [vec_dot(e, F) for e in axes] + [vec_dot(e, M) for e in axes]
 

@@ -51,15 +51,15 @@ static double contact_along(const Work *w, bool outer, int j)
     return fabs(w->n_ix[j] * a[0] + w->n_ir[j] * (a[1] * c + a[2] * s) + w->n_it[j] * (a[2] * c - a[1] * s));
 }
 
-static double reach(const Race *race, double along, double cbrt_Q)
+static double reach(const Race *race, double along, double Q)
 {
-    return asin(scalar_min(along, 1.0)) + race->hertz.a * cbrt_Q / race->R_m;
+    return asin(scalar_min(along, 1.0)) + race->hertz.a * portable_cbrt(Q) / race->R_m;
 }
 
 double ellipse_reach(const Model *model, const Work *w, bool outer, int j)
 {
     const double Q = outer ? w->Q_e[j] : w->Q_i[j];
-    return Q > 0.0 ? reach(outer ? &model->d->outer : &model->d->inner, contact_along(w, outer, j), portable_cbrt(Q)) : 0.0;
+    return Q > 0.0 ? reach(outer ? &model->d->outer : &model->d->inner, contact_along(w, outer, j), Q) : 0.0;
 }
 
 static void races(const Model *model, const Work *w, Event *cut, Event *overpressure)
@@ -75,13 +75,11 @@ static void races(const Model *model, const Work *w, Event *cut, Event *overpres
             along_max = scalar_max(along_max, along[j]);
             Q_max = scalar_max(Q_max, Q[j]);
         }
-        const double cbrt_max = portable_cbrt(Q_max);
-        if (reach(race, along_max, cbrt_max) <= edge && hertz_pressure(&race->hertz, cbrt_max) <= p_limit) continue;  // roots and angles are dear
+        if (reach(race, along_max, Q_max) <= edge && hertz_pressure(&race->hertz, Q_max) <= p_limit) continue;  // roots and angles are dear
         for (int j = 0; j < Z; j++) {
             if (!(Q[j] > 0.0)) continue;
-            const double cbrt_Q = portable_cbrt(Q[j]);
-            add(cut, 2 * j + outer, reach(race, along[j], cbrt_Q), edge);
-            add(overpressure, 2 * j + outer, hertz_pressure(&race->hertz, cbrt_Q), p_limit);
+            add(cut, 2 * j + outer, reach(race, along[j], Q[j]), edge);
+            add(overpressure, 2 * j + outer, hertz_pressure(&race->hertz, Q[j]), p_limit);
         }
     }
 }

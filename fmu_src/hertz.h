@@ -1,6 +1,7 @@
 // Elastic point contact of two smooth bodies.  Stiffness is found once; the load law runs in the right-hand side.
 #pragma once
 
+#include "elementary.h"
 #include "model.h"
 
 // Contact of bodies whose principal curvatures add up to rho_x in one direction and rho_y in the other [1/m], rho_x > rho_y >= 0.
@@ -23,10 +24,10 @@ INLINE wide hertz_energy(wide K, wide delta)
     return 0.4 * hertz_load(K, delta) * wide_max(delta, wide_set(0.0));
 }
 
-// Largest pressure 3 Q/(2 pi a b), by the load's cube root, which the semi-axes grow with.
-static inline scalar hertz_pressure(const Hertz *hertz, scalar cbrt_Q)
+// Largest pressure p_max = 3 Q/(2 pi a b); the semi-axes grow with the cube root of the load.
+static inline scalar hertz_pressure(const Hertz *hertz, scalar Q)
 {
-    return 1.5 * cbrt_Q / (PI * hertz->a * hertz->b);
+    return 1.5 * scalar_cbrt(Q) / (PI * hertz->a * hertz->b);
 }
 
 // Hunt-Crossley damping: Q (1 + lambda delta_dot), never pulling.  Hunt & Crossley (1975), J. Appl. Mech. 42, 440.

@@ -1,7 +1,6 @@
 // Outputs that follow from one evaluation of the right-hand side, group by group.  Compiled for their values and, in dual numbers, for their derivatives.
 #include "outputs.h"
 
-#include "elementary.h"
 #include "energy.h"
 #include "hertz.h"
 #include "housing.h"
@@ -74,8 +73,8 @@ static void fill_ball(const Evaluation *at, Outputs *out)
         out->ball.omega_m[j] = w->omega_m[j];
         out->ball.alpha_i[j] = scalar_value(Q_i) > 0.0 ? scalar_atan2(-w->n_ix[j], -w->n_ir[j]) : 0.0;
         out->ball.alpha_e[j] = scalar_value(Q_e) > 0.0 ? scalar_atan2(w->n_ex[j], w->n_er[j]) : 0.0;
-        out->ball.p_i[j] = hertz_pressure(&d->inner.hertz, scalar_cbrt(Q_i));
-        out->ball.p_e[j] = hertz_pressure(&d->outer.hertz, scalar_cbrt(Q_e));
+        out->ball.p_i[j] = hertz_pressure(&d->inner.hertz, Q_i);
+        out->ball.p_e[j] = hertz_pressure(&d->outer.hertz, Q_e);
         out->ball.Lambda_i[j] = film_ratio(&d->inner, w->U_i[j], Q_i);
         out->ball.Lambda_e[j] = film_ratio(&d->outer, w->U_e[j], Q_e);
         out->ball.spin_roll[j] = spin_roll(w, j);
