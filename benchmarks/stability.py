@@ -25,10 +25,10 @@ from stability_page import write_page
 from stability_scenes import WORKING, Scene, matrix
 
 from bearing_model import variables
-from bearing_model.app.build import build
-from bearing_model.app.fmu import Instance, Model
 from rivet_model import closed_form, table
 from rivet_model.geometry import Geometry
+from riveted_bearing import build
+from riveted_bearing.fmu import Instance, Model
 
 FOLDER = BUILD / "stability"
 HANGS = 600.0  # a scene that takes longer is called hanging [s]

@@ -503,7 +503,8 @@ def goals():
 def main():
     text = f"""# Performance
 
-Written by `make bench` (short form, minutes) or `make bench FORM=` (full form, an hour): the programs in `benchmarks/` measure, `benchmarks/page.py` writes
+Written by `make bench` (short form, minutes) or `make bench FORM=` (full form, an hour): the programs in `benchmarks/`
+measure, `benchmarks/performance_page.py` writes
 this page. Times are processor times of one core. They scatter by some percent on a machine that others use; counts of evaluations and steps do not.
 
 {goals()}
