@@ -1,7 +1,7 @@
-"""What the paper claims in its section 4 and its conclusions, paraphrased, against the runs of the study: figures, verdicts and the physics behind them.
+"""The paper's claims (its section 4 and its conclusions, paraphrased) against the runs of the study: figures, verdicts and the physics behind them.
 
-A claim holds as far as its conditions do, and these look at nothing but the runs.  Where the paper says "stress", they are asked of the mean and of the
-99.9 % quantile of the worst rivet, because it does not say which it means.
+A claim holds as far as its conditions hold, and conditions depend on the runs only.  Where the paper says "stress", conditions are checked for the mean
+and for the 99.9 % quantile of the worst rivet, because the paper does not say which stress it means.
 """
 
 from dataclasses import dataclass
@@ -10,13 +10,13 @@ import numpy as np
 
 from .study import GRIPS, clearance_series, estimate, grip, ratio, rise
 
-PAPER_SECONDS = 1800.0  # of one run of 0.4 s, on 40 cores
+PAPER_SECONDS = 1800.0  # for one run of 0.4 s on 40 cores
 SPEEDS = (4000.0, 8000.0, 12000.0, 16000.0, 20000.0, 24000.0)
 
 
 @dataclass(frozen=True)
 class Claim:
-    """A sentence of the paper: where it stands, what it says, what the runs give, which of its conditions they meet, and why."""
+    """A sentence of the paper: its place, the sentence, the figures of the runs, the conditions that the runs meet, and the reason."""
 
     where: str
     said: str
@@ -31,7 +31,7 @@ class Claim:
 
 
 def all_claims(data):
-    """Claims whose runs are there, in the order of the paper, by the picture (of study.PICTURES, or "cost") that shows them."""
+    """Claims for which there are runs, in the order of the paper, by the picture (of study.PICTURES, or "cost") that shows them."""
     return {picture: claims(data) for picture, (needed, claims) in CLAIMS.items() if needed in data}
 
 
@@ -143,7 +143,7 @@ def ratio_within(runs, above, below):
 
 
 def grip_text(data):
-    """What moves the halves and what holds them, from the sweep beside Fig. 10."""
+    """The forces that move the halves and those that hold them, from the sweep beside Fig. 10."""
     if "grip" not in data:
         return ""
     medians = {(name, P): float(np.median(grip(data["grip"], name).at(preload=P)["dislocation_max"])) for name in GRIPS for P in (20, 40, 160)}
@@ -238,7 +238,7 @@ def spread(runs, speed, name):
 
 
 def lowest(runs, name):
-    """Speed of the smallest mean, and how many times it the mean at 4,000 r/min is."""
+    """Speed of the smallest mean, and the ratio of the mean at 4,000 r/min to it."""
     speeds, curve = runs.curve("speed", name)
     means = np.array([e.mean for e in curve])
     return speeds[means.argmin()], means[0] / means.min()

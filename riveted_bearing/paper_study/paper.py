@@ -1,4 +1,4 @@
-"""docs/paper.md: what comes of the paper's study, made from the runs by `riveted-bearing study`."""
+"""docs/paper.md: the page about the paper's study, which `riveted-bearing study` makes from the runs."""
 
 from pathlib import Path
 
@@ -63,7 +63,7 @@ def picture_text(name, path, claims):
 
 
 def details_text(claims):
-    """Each claim with its verdict, what the runs give, and why."""
+    """Each claim with its verdict, the figures of the runs, and the reason."""
     text = "".join(f"- **{claim.said}** ({claim.where}): {claim.verdict}.\n  - Here: {claim.found}\n  - Why: {claim.why}\n" for claim in claims)
     return text.replace("Here: \n", "Here:\n")
 
