@@ -74,7 +74,7 @@ per simulated second, times 9/Z, over that of the working point in the same proc
     head = ("family", "scenes", "finished", "discarded", "refused", "energy", "rejected", "run time")
     text += table(head, family_rows(records))
     text += energy_text(records)
-    text += "## What must not happen\n\n" + ("".join(f"- {line}\n" for line in bad) if bad else "Nothing of it happened.\n") + "\n"
+    text += "## What must not happen\n\n" + ("".join(f"- {line}\n" for line in bad) if bad else "None of these happened.\n") + "\n"
     text += f"## The slowest admissible scenes\n\nThe limit is 20 times the working point; the worst has {slow[0]['ratio']:.1f}.\n\n"
     text += table(("scene", "run time", "evaluations per ms", "path"), [slow_row(r) for r in slow[:10]])
     text += "## What happened in the model\n\nScenes with at least one onset, as reported by the logger and by `event.*`:\n\n"
@@ -92,8 +92,8 @@ def energy_text(records):
     worst = ", ".join(f"{r['family']}: {r['name']} ({r['residual']:.1g} J)" for r in open_[:4])
     return f"""The balance does not close to 1 % in {len(open_)} scenes, most of them at or near standstill, where all energies are microjoules.
 The largest residuals: {worst}.
-The work integral takes power at predicted velocities, less what these dissipate too much where rates are linear (`verlet.c`); the rest of their difference
-from the corrected ones stays.
+The work integral takes the power at predicted velocities and subtracts their excess dissipation by linear rates (`verlet.c`); the rest of the difference
+between predicted and corrected velocities remains.
 
 """
 
