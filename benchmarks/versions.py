@@ -19,7 +19,7 @@ sys.path.insert(0, str(ROOT))
 
 from fmpy import read_model_description  # noqa: E402
 
-from bearing_model.app import run  # noqa: E402
+from riveted_bearing import run  # noqa: E402
 
 SCENES = ("demo", "R", "F", "jam")
 FIGURES = [f"stat.{channel}_{figure}" for channel in ("Q_c", "sigma_head", "sigma_mid") for figure in ("mean", "rms", "p999")]
