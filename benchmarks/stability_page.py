@@ -1,4 +1,4 @@
-"""docs/stability.md from what stability.py has measured."""
+"""docs/stability.md from the newest records of stability.py."""
 
 from collections import Counter
 
@@ -54,7 +54,7 @@ def event_rows(records):
 
 
 def write_page(path, problems):
-    """problems: from records to sentences on what must not happen."""
+    """Write the page; problems: function from records to sentences about faults."""
     data = load("stability")
     records = data["records"]
     count = Counter(r["outcome"] for r in records)
@@ -66,9 +66,9 @@ def write_page(path, problems):
 {count["refused"]} refused, {count["crashed"]} crashed, {count["hung"]} hung, {count["not finite"]} with a value that is not finite.
 Measured {data["date"][:10]} at commit {data["commit"]} on {data["machine"]["processor"]}, processor times of one core.
 
-*Energy*: largest `bearing.energy_residual` against the energy lost so far, the kinetic energy of balls and cage and 10 µm of the load's way, at the
-default tolerance and communication steps of 10 µs and more.  *Rejected*: steps that failed the error test, of all steps.  *Run time*: processor time
-per simulated second, times 9/Z, over that of the working point in the same process; the slowest of the family.
+*Energy*: largest `bearing.energy_residual`, relative to the sum of the energy lost so far, the kinetic energy of balls and cage, and the work of the load
+over 10 µm, at the default tolerance and communication steps of 10 µs and more.  *Rejected*: steps that failed the error test, of all steps.
+*Run time*: processor time per simulated second, times 9/Z, relative to the working point in the same process; of the slowest scene of the family.
 
 """
     head = ("family", "scenes", "finished", "discarded", "refused", "energy", "rejected", "run time")
@@ -85,7 +85,7 @@ per simulated second, times 9/Z, over that of the working point in the same proc
 
 
 def energy_text(records):
-    """Where the balance does not close."""
+    """Paragraph about the scenes whose energy balance does not close."""
     open_ = sorted((r for r in records if r.get("balance", 0.0) > 0.01 and r["family"] != "tolerance"), key=lambda r: -r["residual"])
     if not open_:
         return ""

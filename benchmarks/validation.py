@@ -1,7 +1,7 @@
-"""Writes docs/validation.md: every number of the model that something outside it knows, beside its source, what is reached, and the difference.
+"""Writes docs/validation.md: numbers from outside the model, each with its source, the model's value and the difference.
 
-Nothing is copied into the page by hand: figures of books and papers are arguments here, the rest is computed, or observed by the tests, which run once
-more and hand over what they saw.  Some minutes, most of them for 0.1 s of the working point in the Python reference; --short takes 0.01 s.
+Nothing is copied into the page by hand: figures of books and papers are arguments here; all others are computed, or recorded by the tests, which run once
+more for this.  Some minutes, most of them for 0.1 s of the working point in the Python reference; --short takes 0.01 s.
 """
 
 import ast
@@ -36,9 +36,9 @@ from riveted_bearing.summary import settled
 PAGE = ROOT / "docs" / "validation.md"
 PICTURES = ROOT / "docs" / "validation"
 RPM = np.pi / 30.0
-MANY = 20  # entries of a record; of more only the largest is shown
+MANY = 20  # entries of a test's record; of longer records only the largest entry is shown
 WORKING_POINT = Load(F_x=515.0, F_y=2994.0, omega=18238.0 * RPM)
-TESTS = {  # file -> those whose observations are shown
+TESTS = {  # file -> tests whose observations are shown
     "tests/test_twin.py": "derivatives or jacobian or start or outputs or power_is_rate or test_ledger or trajectory",
     "tests/test_invariance.py": "turn or mirror or units",
     "tests/test_energy.py": "lossless or balance",
