@@ -1,15 +1,17 @@
-"""Rivet table from closed forms: what the FMU reads until, and where, no finite-element table exists.
+"""Rivet table from closed forms: the FMU reads such a table where there is none from finite elements.
 
 python -m rivet_model.closed_form OUT.json [GEOMETRY.toml]
 
 Bolted joint with preload shielding, beam bending of the shank under head and hole, notch factors as stated below, interference by Lame.
-Expect tens of per cent of error in the head: K_t and the lever arms are estimates, not results.
+The stress of the head has an error of tens of per cent, because notch factors and lever arms are estimates.
 """
 
 import argparse
 import sys
 
 import numpy as np
+
+from bearing_model import rivet_table
 
 from . import splines, table
 from .geometry import Geometry
@@ -28,7 +30,7 @@ KNOTS = {
 
 
 def load_share(geometry):
-    """Part of an outer tension that reaches the rivet of the closed joint: rivet against pressure cone (Shigley, 30 degrees)."""
+    """Share of an external tension that the rivet of the closed joint takes: stiffness of the rivet beside that of the pressure cone (Shigley, 30 degrees)."""
     g = geometry
     grip = 2 * g.flange_thickness
     k_rivet = g.E_rivet * g.shank_area / (grip + 2 * g.head_height)
@@ -38,7 +40,7 @@ def load_share(geometry):
 
 
 def rivet_tension(geometry, P, N):
-    """P + share N until the joint opens, then N.  Without external tension P exactly."""
+    """Tension P + share N until the joint opens, N after that; exactly P without external tension."""
     return np.maximum(P + load_share(geometry) * N, N)
 
 
@@ -100,8 +102,8 @@ def joint_data(geometry):
 def make_table(geometry=None):
     """Table of kind closed_form for the geometry (default: that of Geometry)."""
     geometry = geometry or Geometry()
-    a, b, c, xi = np.meshgrid(*(splines.sites(KNOTS[name]) for name in table.AXES), indexing="ij")
-    sheets = [stress(geometry, *loads_of(a, b, c, MOMENT_LENGTH), chi, xi) / table.MPA_PER_N for chi in (1.0, 0.5, 0.0)]
+    a, b, c, xi = np.meshgrid(*(splines.sites(KNOTS[name]) for name in rivet_table.AXES), indexing="ij")
+    sheets = [stress(geometry, *loads_of(a, b, c, MOMENT_LENGTH), chi, xi) / rivet_table.MPA_PER_N for chi in (1.0, 0.5, 0.0)]
     yield_pressure = geometry.yield_flange / np.sqrt(3)  # first yield at the bore: 2 tau = p + hoop tension, taken as pure shear 2 p
     fit_yield = yield_pressure / lame_pressure(geometry, 1.0)
     full = 2 / np.sqrt(3) * geometry.yield_flange * np.log(2 * geometry.patch_radius / geometry.shank_diameter)  # fully plastic ring

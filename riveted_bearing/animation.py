@@ -1,0 +1,108 @@
+"""The motion of a run as compact numbers that animation.js draws: positions, loads and rivet stress at a limited number of frames."""
+
+import base64
+
+import numpy as np
+
+from .runner import is_peak
+
+BUDGET = 650_000  # characters of all channels in the page
+SCALARS = (
+    *(f"half_{h}.{name}" for h in (0, 1) for name in ("x", "y", "z", "tilt_y", "tilt_z")),
+    *("ring.x", "ring.y", "ring.z", "shaft.F_y", "shaft.F_z", "cage.F_pocket_peak", "rivet.sigma_head_max"),
+)
+OF_BALLS = ("x", "r", "Q_i", "Q_e", "Q_c")
+STRESS = "sigma_head_peak"
+DRAWN = 0.13  # largest clearance as drawn / ball diameter
+
+
+def needed(Z):
+    """Channels that the drawing cannot do without."""
+    halves = [f"half_{h}.{name}" for h in (0, 1) for name in ("x", "y", "z", "psi")]
+    return halves + [f"ball[{j}].{name}" for j in range(1, Z + 1) for name in ("x", "r", "psi")]
+
+
+def number_of_balls(result):
+    """Z of the FMU that ran."""
+    return sum(name.startswith("ball[") and name.endswith("].dD") for name in result.parameters)
+
+
+def frames(result):
+    """Data for animation.js, ready for JSON (None if channels are missing), and the list of missing channels.
+
+    Azimuths are relative to the mean rotation of the halves, `psi` [rad], so that they fit 16 bits; channels are {first, step, data}: value = first + step n,
+    n 16-bit numbers in base64; SI units.
+    """
+    Z = number_of_balls(result)
+    missing = [name for name in needed(Z) if name not in result.data]
+    if missing or len(result.data["time"]) < 2:
+        return None, missing
+    stride = thinning(len(result.data["time"]), Z)
+    rows = slice(None, None, stride)
+    data = result.data
+    psi = 0.5 * (data["half_0.psi"] + data["half_1.psi"])
+    pitch = 2.0 * np.pi / Z
+    channels = {name: data[name] for name in SCALARS if name in data}
+    channels["twist"] = data["half_1.psi"] - data["half_0.psi"]
+    for j in range(1, Z + 1):
+        channels[f"lag{j}"] = data[f"ball[{j}].psi"] - psi - pitch * (j - 1)
+        channels |= {f"{name}{j}": data[f"ball[{j}].{name}"] for name in OF_BALLS if f"ball[{j}].{name}" in data}
+        if (name := f"rivet[{j}].{STRESS}") in data:
+            channels[f"stress{j}"] = data[name]
+    turned = {"psi": psi, "shaft": angle(data["time"], data["shaft.omega"]) if "shaft.omega" in data else psi}
+    p = result.parameters
+    return {
+        "Z": Z,
+        "time": packed(data["time"][rows]),
+        "turned": {name: packed(values[rows]) for name, values in turned.items()},
+        "channels": {name: quantized(thinned(values, stride) if shows_peak(name) else values[rows]) for name, values in channels.items()},
+        "scale": exaggeration(p),
+        "bearing": {
+            name: p[name]
+            for name in ("bearing.D", "bearing.d_m", "bearing.P_d", "cage.D_o", "cage.D_i", "cage.width", "cage.pocket_clearance", "cage.guide_clearance")
+        },
+        "settle": p.get("start.settle", 0.0),
+    }, []
+
+
+def thinning(rows, Z):
+    """Distance of the rows to keep, so that all channels, at 2 bytes a value in base64, fit the budget."""
+    channels = len(SCALARS) + 1 + Z * (len(OF_BALLS) + 2)
+    return max(1, -(-rows * channels * 8 // (3 * BUDGET)))
+
+
+def shows_peak(name):
+    """Whether a channel holds largest values between frames."""
+    return is_peak(name) or name.startswith("stress")
+
+
+def thinned(values, stride):
+    """Largest of the values since the frame before."""
+    last = np.arange(0, len(values), stride)
+    return np.maximum.reduceat(values, np.concatenate([[0], last[:-1] + 1])) if len(last) > 1 else values[:1]
+
+
+def angle(t, omega):
+    """Rotation [rad] at a speed omega [rad/s]."""
+    return np.concatenate([[0.0], np.cumsum(0.5 * np.diff(t) * (omega[1:] + omega[:-1]))])
+
+
+def exaggeration(p):
+    """Factor by which displacements and clearances are magnified: 1, 2 or 5 times a power of ten, limited to a share of the ball."""
+    largest = DRAWN * p["bearing.D"] / max(0.5 * p["cage.pocket_clearance"], 0.5 * p["cage.guide_clearance"], 1e-5)
+    decade = 10.0 ** np.floor(np.log10(largest))
+    return float(max(1.0, decade * max(step for step in (1, 2, 5) if step * decade <= largest)))
+
+
+def quantized(values):
+    """A channel in 16 bits: error at most 1/131070 of its range."""
+    values = np.nan_to_num(np.asarray(values, dtype=float))
+    low, high = float(values.min()), float(values.max())
+    step = (high - low) / 65535 or 1.0
+    numbers = np.round((values - low) / step) - 32768
+    return {"first": low + 32768 * step, "step": step, "data": base64.b64encode(numbers.astype("<i2").tobytes()).decode()}
+
+
+def packed(values):
+    """Numbers in 32 bits."""
+    return base64.b64encode(np.asarray(values).astype("<f4").tobytes()).decode()

@@ -1,0 +1,245 @@
+"""The report's charts: matplotlib draws them as SVG, whose colours the page sets."""
+
+import html
+import io
+import re
+from dataclasses import replace
+
+import numpy as np
+from scipy.signal import welch
+
+from . import plot
+from .plot import FORCE, HEAD, MIDDLE, MUTED, RING, STYLE, wanted
+from .summary import columns, settled
+
+import matplotlib.pyplot as plt  # isort: skip  (after plot has chosen the backend)
+from matplotlib.colors import LogNorm
+
+PAGE_COLOURS = {  # of plot.py -> custom properties of style.css
+    HEAD: "var(--head)",
+    MIDDLE: "var(--middle)",
+    FORCE: "var(--force)",
+    RING: "var(--green)",
+    MUTED: "var(--muted)",
+    "#e4e7eb": "var(--line)",
+    "#f3f4f6": "var(--shade)",
+    "#e09f3e": "var(--amber)",
+    "#000000": "var(--ink)",
+    "#ffffff": "var(--paper)",
+}
+SVG = {"svg.fonttype": "none", "image.composite_image": False, "figure.facecolor": "none", "axes.facecolor": "none"}
+BUCKETS = 600  # of time, each with the smallest and the largest value
+AZIMUTHS = 36
+
+
+def svg(draw, size, label):
+    """The figure of draw(figure) as an <svg> element without fixed size; size: inches, at which 9 points are legible on a phone's width."""
+    with plt.rc_context(STYLE | SVG | {"svg.hashsalt": label}):
+        figure = plt.figure(figsize=size, layout="constrained")
+        draw(figure)
+        out = io.StringIO()
+        figure.savefig(out, format="svg", metadata={"Date": None, "Creator": None, "Format": None, "Type": None})
+        plt.close(figure)
+    text = out.getvalue()
+    text = text[text.index("<svg") :]
+    for colour, name in PAGE_COLOURS.items():
+        text = text.replace(colour, name)
+    text = re.sub(r"<metadata>.*?</metadata>", "", text, flags=re.S)
+    text = re.sub(r"font: (\S+) '[^;\"]*", r"font: \1 inherit", text).replace(" inherit", " system-ui, sans-serif")
+    text = re.sub(r' d="[^"]*"', lambda path: re.sub(r"-?\d+\.\d+", lambda number: f"{float(number[0]):.1f}", path[0]), text)
+    prefix = re.sub(r"\W+", "-", label)
+    text = re.sub(r'(id="|url\(#|href="#)', rf"\g<1>{prefix}-", text)  # ids are shared by all charts of a page
+    opening = rf'<svg viewBox="\1" role="img" aria-label="{html.escape(label)}" xmlns:xlink="http://www.w3.org/1999/xlink">'
+    return re.sub(r'<svg [^>]*?viewBox="([^"]*)"[^>]*>', opening, text, count=1)
+
+
+def thinned(result, buckets=BUCKETS):
+    """The result with at most two rows per stretch of time: the smallest and the largest value of each channel, so that no peak is lost."""
+    t = result.data["time"]
+    if len(t) <= 2 * buckets:
+        return result
+    first = np.linspace(0, len(t), buckets, endpoint=False).astype(int)
+    data = {name: np.column_stack([reduce.reduceat(values, first) for reduce in (np.minimum, np.maximum)]).ravel() for name, values in result.data.items()}
+    return replace(result, data=data)
+
+
+def over_time(panel):
+    """A panel of plot.py alone."""
+    draw, names = panel
+
+    def chart(figure, result):
+        ax = figure.subplots()
+        few = thinned(replace(result, data={"time": result.data["time"]} | wanted(result, names)))
+        draw(ax, 1e3 * few.data["time"], {name: few.data[name] for name in names if name in few.data})
+        plot.mark_settling(ax, few)
+        plot.show_settled(ax, few)
+        ax.set(title="", xlabel="time [ms]")
+
+    return chart
+
+
+def worst_rivet(result):
+    """Number, as text, of the rivet with the largest head stress in the run; None if it was not recorded."""
+    names = columns(result, "rivet[", "].sigma_head_peak") or columns(result, "rivet[", "].sigma_head")
+    late = settled(result)
+    return max(names, key=lambda name: result.data[name][late].max()).split("]")[0].removeprefix("rivet[") if names else None
+
+
+def spectra(figure, result):
+    """Amplitude density of head and middle stress of the worst rivet, kinematic frequencies marked."""
+    ax, k, late = figure.subplots(), worst_rivet(result), settled(result)
+    t = result.data["time"][late]
+    rate = (len(t) - 1) / (t[-1] - t[0])
+    for name, colour, label in (("sigma_head", HEAD, "head fillet"), ("sigma_mid", MIDDLE, "middle")):
+        values = result.data.get(f"rivet[{k}].{name}")
+        if values is not None:
+            f, power = welch(1e-6 * values[late], rate, nperseg=min(len(t), 1024), detrend="constant")
+            ax.loglog(f[1:], np.sqrt(power[1:]), color=colour, lw=0.8, label=label)
+    ax.set(xlabel=f"frequency [Hz]; {1e-3 * rate:g} samples per ms", ylabel="MPa/√Hz", xlim=(2.0 * rate / 1024, 0.5 * rate))
+    for name, frequency in frequencies(result).items():
+        if ax.get_xlim()[0] < frequency < ax.get_xlim()[1]:
+            ax.axvline(frequency, color=MUTED, lw=0.8, ls=":")
+            ax.annotate(name, (frequency, 1.0), xycoords=("data", "axes fraction"), fontsize=7, va="bottom", ha="center")
+    ax.legend(loc="lower left")
+
+
+def frequencies(result):
+    """Frequencies of shaft, cage and ball passes from the mean speeds of the run [Hz]."""
+    late = settled(result)
+    if not all(name in result.data for name in ("shaft.omega", "cage.omega")):
+        return {}
+    shaft, cage = (abs(result.data[name][late].mean()) / (2 * np.pi) for name in ("shaft.omega", "cage.omega"))
+    Z = len([name for name in result.parameters if name.startswith("ball[") and name.endswith("].dD")])
+    return {"cage": cage, "shaft": shaft, "BPFO": Z * cage, "BPFI": Z * abs(shaft - cage)}
+
+
+def azimuth_of(result, kind, j, Z):
+    """Azimuth of ball j or of rivet j over time in turns 0 ... 1."""
+    if kind == "ball":
+        return result.data[f"ball[{j}].psi"] / (2 * np.pi) % 1.0
+    return (result.data["half_0.psi"] / (2 * np.pi) + (j - 0.5) / Z) % 1.0
+
+
+def load_distribution(figure, result):
+    """Mean, smallest and largest race loads over the azimuth, all balls pooled."""
+    ax, late = figure.subplots(), settled(result)
+    Z = len(columns(result, "ball[", "].psi"))
+    place = np.concatenate([azimuth_of(result, "ball", j, Z)[late] for j in range(1, Z + 1)])
+    bins = ((place + 0.5) % 1.0 * AZIMUTHS).astype(int)
+    middle = 360.0 * ((np.arange(AZIMUTHS) + 0.5) / AZIMUTHS - 0.5)
+    for name, colour, label in (("Q_e", FORCE, "outer race"), ("Q_i", MIDDLE, "inner race")):
+        load = np.concatenate([result.data[f"ball[{j}].{name}"][late] for j in range(1, Z + 1)])
+        low, mean, high = (by_bin(load, bins, AZIMUTHS, reduce) for reduce in (np.min, np.mean, np.max))
+        ax.fill_between(middle, low, high, color=colour, alpha=0.2, lw=0)
+        ax.plot(middle, mean, color=colour, label=label)
+    ax.set(xlabel="azimuth from Y toward Z [deg]", ylabel="N", xlim=(-180, 180), xticks=range(-180, 181, 90))
+    ax.set_ylim(bottom=0)
+    plot.legend(ax)
+
+
+def by_bin(values, bins, count, reduce):
+    """Values reduced bin by bin, nan where a bin is empty."""
+    return np.array([reduce(values[bins == b]) if np.any(bins == b) else np.nan for b in range(count)])
+
+
+def cage_orbit(figure, result):
+    """Orbit of the cage's centre in its guide clearance."""
+    ax = figure.subplots()
+    plot.cage_orbit(ax, result)
+    ax.set_title("")
+
+
+def force_histogram(figure, result):
+    """Share of time over contact loads: pockets, then races."""
+    pockets, races = figure.subplots(1, 2)
+    late = settled(result)
+    force = np.concatenate([result.data[name][late] for name in columns(result, "ball[", "].Q_c")])
+    touching = force[force > 1e-3]
+    if len(touching):
+        bins = np.geomspace(max(touching.min(), 1e-3), touching.max() * 1.001, 40)
+        pockets.hist(touching, bins, weights=np.full(len(touching), 100.0 / len(force)), color=FORCE, alpha=0.85)
+        pockets.set_xscale("log")
+    pockets.set(xlabel="pocket force [N]", ylabel="share of time [%]", title=f"touching {100 * len(touching) / len(force):.1f} %")
+    for name, colour, label in (("Q_e", FORCE, "outer"), ("Q_i", MIDDLE, "inner")):
+        names = columns(result, "ball[", f"].{name}")
+        if names:
+            load = np.concatenate([result.data[n][late] for n in names])
+            races.hist(load, 40, weights=np.full(len(load), 100.0 / len(load)), histtype="step", color=colour, label=label)
+    races.set(xlabel="race load [N]")
+    races.set_yscale("log")
+    races.legend(ncols=2, loc="lower right", bbox_to_anchor=(1.0, 1.0))
+    for ax in (pockets, races):
+        ax.tick_params(labelsize=8)
+
+
+def rivet_bars(figure, result):
+    """Mean and p99.9 of every rivet."""
+    ax = figure.subplots()
+    plot.rivet_bars(ax, result)
+    ax.set_title("")
+
+
+def stress_over_azimuth(figure, result):
+    """Mean peak of the head stress, rivet by rivet, over the rivet's azimuth."""
+    late, names = settled(result), columns(result, "rivet[", "].sigma_head_peak")
+    Z, rows = len(names), []
+    for k, name in enumerate(names, 1):
+        bins = ((azimuth_of(result, "rivet", k, Z)[late] + 0.5) % 1.0 * AZIMUTHS).astype(int)
+        rows.append(by_bin(1e-6 * result.data[name][late], bins, AZIMUTHS, np.mean))
+    heat_map(figure, rows, (-180, 180), "azimuth of the rivet from Y toward Z [deg]", range(-180, 181, 90))
+
+
+def stress_over_time(figure, result):
+    """Largest head stress, rivet by rivet, in stretches of time; the colour scale ends at the largest stress after settling."""
+    names, t = columns(result, "rivet[", "].sigma_head_peak"), result.data["time"]
+    first = np.unique(np.linspace(0, len(t), 240, endpoint=False).astype(int))
+    rows = [1e-6 * np.maximum.reduceat(result.data[name], first) for name in names]
+    highest = 1e-6 * max(result.data[name][settled(result)].max() for name in names)
+    heat_map(figure, np.minimum(rows, highest), (0.0, 1e3 * t[-1]), "time [ms]")
+
+
+def heat_map(figure, rows, extent, xlabel, ticks=None):
+    """One row a rivet, in MPa."""
+    ax, count = figure.subplots(), len(rows)
+    image = ax.imshow(rows, aspect="auto", origin="lower", extent=(*extent, 0.5, count + 0.5), cmap="viridis", interpolation="none")
+    ax.set(xlabel=xlabel, ylabel="rivet", yticks=range(1, count + 1, 1 + count // 12))
+    if ticks:
+        ax.set_xticks(ticks)
+    ax.grid(False)
+    figure.colorbar(image, ax=ax, label="MPa", pad=0.02).outline.set_visible(False)
+
+
+def rainflow_matrix(figure, cycles):
+    """Cycles of the worst rivet's head over range and mean [MPa]; cycles: rows (range, mean, count)."""
+    ax = figure.subplots()
+    span, mean, count = np.asarray(cycles).T
+    keep = span > 0.0
+    x, y = np.linspace(0.0, max(span.max(), 1e-3), 33), np.linspace(mean.min(), max(mean.max(), mean.min() + 1e-3), 25)
+    table, *_ = np.histogram2d(mean[keep], span[keep], [y, x], weights=count[keep])
+    image = ax.imshow(
+        np.where(table > 0, table, np.nan),
+        aspect="auto",
+        origin="lower",
+        extent=(x[0], x[-1], y[0], y[-1]),
+        cmap="viridis",
+        interpolation="none",
+        norm=LogNorm(0.5, max(table.max(), 1.0)),
+    )
+    ax.set(xlabel="range [MPa]", ylabel="mean [MPa]")
+    ax.grid(False)
+    figure.colorbar(image, ax=ax, label="cycles", pad=0.02).outline.set_visible(False)
+
+
+def energy(figure, result):
+    """Power loss and the residual of the energy balance."""
+    ax = figure.subplots()
+    few = thinned(replace(result, data={"time": result.data["time"]} | wanted(result, ["bearing.power_loss", "bearing.energy_residual"])))
+    ax.plot(1e3 * few.data["time"], few.data["bearing.power_loss"], color=RING, lw=0.6, label="power loss")
+    ax.set(xlabel="time [ms]", ylabel="W")
+    if "bearing.energy_residual" in few.data:
+        twin = ax.twinx()
+        twin.plot(1e3 * few.data["time"], 1e3 * few.data["bearing.energy_residual"], color=HEAD, lw=0.8)
+        twin.set_ylabel("energy residual [mJ]", color=HEAD)
+        twin.grid(False)
+    plot.mark_settling(ax, few)
+    plot.legend(ax)

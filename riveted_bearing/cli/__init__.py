@@ -1,0 +1,10 @@
+"""The command line, `riveted-bearing`: each command is a module, which adds the command to the program when it is imported.
+
+For a further command write its module here and add the module's name to the line below, whose order is that of the help.  What the command computes
+belongs into a module of riveted_bearing.  Slow imports (fmpy, matplotlib, SciPy) stand inside the command's function.
+"""
+
+from . import build, run, sweep, study, compare, report, info, rivet  # noqa: F401, I001
+from .terminal import program
+
+__all__ = ["program"]

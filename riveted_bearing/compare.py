@@ -1,0 +1,231 @@
+"""One scene through the FMU and through the Python reference (bearing_model.integrator), which shares no code with it.
+
+Short horizon: outputs at the same instants, at several tolerances.  A difference that falls with the tolerance is the integration's error; a difference that
+stays is one of the models.  Differences of motion are given in the integrator's error scales (10 um, 0.1 m/s, angles by arc length at the pitch circle),
+so that they compare with the tolerance; those of loads and stresses as parts of the largest value.
+Long horizon: trajectories have parted (errors grow e-fold in 1.4 ... 2.7 ms), so statistics are compared: the reference with the FMU's scatter over seeds.
+"""
+
+import re
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+from rich.markup import escape
+from rich.table import Column, Table
+
+from bearing_model import integrator, variables
+
+from .errors import UserError
+from .runner import simulate
+
+POINTS = 20  # instants of the short horizon
+FINER = (1.0, 1e-2, 1e-4)  # tolerances of the FMU / the scene's
+REFERENCE_FINER = 1e-6  # tolerance of the reference on the short horizon / the scene's
+LONG_FINER = 1e-2  # on the long horizon: at 1e-3 the error of RK45 moves the mean stress by 0.3 %, more than the scatter over seeds; 1e-5 costs no more
+SETTLED = 0.2  # share of the long horizon that its statistics leave out, unless the scene settles earlier
+MOTION = {"m": 1e-5, "m/s": 0.1}
+LEAST = {  # smallest scale of loads, stresses, accelerations, contact angles, ratios
+    "N": 1.0, "N.m": 1e-3, "Pa": 1e5, "m/s2": 1.0, "1/s2": 100.0, "W": 1.0, "rad": 1e-3, "1": 1e-3
+}  # fmt: skip
+LEFT_OUT = ("rivet[k].flag", "bearing.contacts", "bearing.energy_residual")  # the first two jump between whole numbers, the last one is itself an error
+STEPS_COUNT = ("peak", "event")  # groups that depend on the steps taken
+SEEDS = 8
+
+
+@dataclass(frozen=True)
+class Channel:
+    """One output, all its elements: values [points, elements] of the reference, scale [its unit], largest |difference|/scale at each point by tolerance."""
+
+    name: str
+    unit: str
+    scale: float
+    reference: np.ndarray
+    fmu: np.ndarray  # at the scene's tolerance
+    error: np.ndarray  # [tolerances, points]
+
+    @property
+    def worst(self):
+        """Largest difference over the horizon / scale, by tolerance."""
+        return self.error.max(axis=1)
+
+
+@dataclass(frozen=True)
+class Statistic:
+    """One of stat.*: the reference's value, the FMU's mean and standard deviation over seeds."""
+
+    name: str
+    unit: str
+    reference: float
+    mean: float
+    scatter: float
+
+    @property
+    def difference(self):
+        """(reference - FMU)/FMU."""
+        return (self.reference - self.mean) / self.mean if self.mean else 0.0
+
+    @property
+    def deviation(self):
+        """Difference in standard deviations of the FMU over seeds; nan where all seeds give one value."""
+        return (self.reference - self.mean) / self.scatter if self.scatter else float("nan")
+
+
+@dataclass(frozen=True)
+class Comparison:
+    """What compare() found: channels over the times t [s] by tolerance, statistics from `settle` to `long` [s] (none if long is 0), where the energy went."""
+
+    scene: str
+    t: np.ndarray
+    tolerances: tuple
+    channels: list
+    statistics: list = field(default_factory=list)
+    settle: float = 0.0
+    long: float = 0.0
+    seeds: int = 0
+    ledger: integrator.Ledger | None = None
+
+
+def compare(model, scene, short=1e-3, long=0.1, seeds=SEEDS, method="DOP853", progress=None):
+    """Run a Scene, checked against the Model, through FMU and reference as the head of this file says; returns a Comparison.
+
+    short, long: horizons [s], long = 0 for none; seeds: runs of the FMU over the long horizon; method: the reference's method over the short horizon
+    (Radau where films or joints are stiff; over the long horizon RK45, whose steps are as dense as the FMU's); progress: called with the name of the
+    present run and the share done.
+    Raises UserError if the FMU is of another bearing than the reference, or if FMU or reference refuse or cannot go on.
+    """
+    progress = progress or (lambda what, share: None)
+    check_same_bearing(model)
+    if seeds < 2:
+        raise UserError(f"seeds = {seeds}: at least 2 are needed for a scatter")
+    tolerance = scene.tolerance or scene.parameters.get("solver.tol") or model.default(model.parameters["solver.tol"])
+    tolerances = tuple(tolerance * finer for finer in FINER)
+    names = [name for name in model.outputs if family(name) in variables.OUTPUTS]
+    near = replace(scene, t_end=short, step=short / POINTS, output_interval=None, outputs=tuple(names))
+    runs = [through_fmu(model, near, tol) for tol in tolerances]
+    reference = through_reference(runs[0].parameters, near, tolerance * REFERENCE_FINER, method, lambda share: progress("reference, short horizon", share))
+    found = Comparison(scene.name, runs[0].data["time"], tolerances, channels(model, names, reference, runs))
+    return with_statistics(found, model, scene, tolerance, long, seeds, progress) if long > 0.0 else found
+
+
+def check_same_bearing(model):
+    """UserError unless the FMU has the reference's number of balls and its variables."""
+    Z = sum(name.startswith("ball[") and name.endswith("].Q_i") for name in model.outputs)
+    if Z != variables.Z:
+        raise UserError(f"{model.path}: bearing.Z = {Z}; the reference in this installation is for Z = {variables.Z}")
+    missing = sorted({family(name) for name in model.parameters} - set(variables.PARAMETERS))
+    if missing:
+        raise UserError(f"{model.path}: parameter {missing[0]} is not known to the reference: build the FMU anew")
+
+
+def through_fmu(model, scene, tolerance, **parameters):
+    """The Result of a scene; UserError where the FMU gives up."""
+    result = simulate(model, replace(scene, tolerance=tolerance, parameters=scene.parameters | parameters))
+    if result.stopped:
+        raise UserError(result.stopped)
+    return result
+
+
+def through_reference(parameters, scene, tolerance, method, progress):
+    """The reference's Results of a scene with the FMU's own parameters; UserError if the reference refuses or cannot go on."""
+
+    def held(t):
+        progress(t / scene.t_end)
+        return {name: float(history(t)) for name, history in scene.inputs.items()}
+
+    try:
+        return integrator.simulate(parameters, held, scene.t_end, step=scene.step, tolerance=tolerance, method=method)
+    except (ValueError, RuntimeError) as problem:
+        raise UserError(f"reference: {problem}") from None
+
+
+# ------------------------------------------------------------------------------------------------------------------- short horizon
+
+
+def channels(model, names, reference, runs):
+    """A Channel for every output of an instant that the reference has and that is continuous."""
+    found = []
+    for name, variable in variables.OUTPUTS.items():
+        if name not in reference.outputs or variable.group in STEPS_COUNT or name in LEFT_OUT:
+            continue
+        elements = [element for element in names if family(element) == name]
+        exact = reference.outputs[name].reshape(len(reference.t), -1)
+        values = np.array([np.column_stack([run.data[element] for element in elements]) for run in runs])
+        scale = scale_of(variable, exact, runs[0].parameters)
+        error = np.max(np.abs(values - exact), axis=2) / scale
+        found.append(Channel(name, variable.unit, scale, exact, values[0], error))
+    return found
+
+
+def scale_of(variable, values, parameters):
+    """Scale of a channel's differences: the integrator's error scale for motion, else the largest value."""
+    r = 0.5 * parameters["bearing.d_m"]
+    motion = MOTION | {"rad": MOTION["m"] / r, "rad/s": MOTION["m/s"] / r, "1/s": MOTION["m/s"] / r}
+    if is_motion(variable):
+        return motion[variable.unit]
+    return max(float(np.max(np.abs(values))), LEAST[variable.unit])
+
+
+def is_motion(channel):
+    """Whether a channel is a position, an angle or a speed of a body, whose differences are measured in the integrator's error scales."""
+    return channel.unit in ("m", "m/s", "rad", "rad/s", "1/s") and "alpha" not in channel.name
+
+
+def family(name):
+    """Name in the variable table: ball[3].Q_i is one of ball[j].Q_i."""
+    return re.sub(r"^(ball|rivet)\[\d+\]", lambda match: f"{match[1]}[{'j' if match[1] == 'ball' else 'k'}]", name)
+
+
+# -------------------------------------------------------------------------------------------------------------------- long horizon
+
+
+def with_statistics(found, model, scene, tolerance, long, seeds, progress):
+    """The Comparison with its statistics."""
+    settle = min(scene.parameters.get("start.settle", np.inf), SETTLED * long)
+    far = replace(scene, t_end=long, output_interval=None, outputs=(), parameters=scene.parameters | {"start.settle": settle, "scene.statistics": "on"})
+    runs = []
+    for n in range(seeds):
+        progress("FMU, long horizon", n / seeds)
+        runs.append(through_fmu(model, far, tolerance, **{"start.seed": n + 1}))
+    first = runs[0].parameters
+    reference = through_reference(first, far, tolerance * LONG_FINER, "RK45", lambda share: progress("reference, long horizon", share))
+    rows = []
+    for name, value in reference.statistics.items():
+        if name in runs[0].summary and name != "stat.time":
+            sample = np.array([run.summary[name] for run in runs])
+            rows.append(Statistic(name, variables.OUTPUTS[name].unit, float(value), float(sample.mean()), float(sample.std(ddof=1))))
+    return replace(found, statistics=rows, settle=settle, long=long, seeds=seeds, ledger=reference.ledger)
+
+
+# -------------------------------------------------------------------------------------------------------------------------- tables
+
+
+def short_table(found):
+    """Rich table of the short horizon: size and largest difference of each output, worst first within motion, loads and stresses."""
+    columns = ("scale", "", *(f"at {tolerance:.0e}" for tolerance in found.tolerances))
+    table = Table("largest difference / scale", *(Column(text, justify="right") for text in columns), box=None, pad_edge=False)
+    for part in (True, False):
+        rows = sorted((channel for channel in found.channels if is_motion(channel) == part), key=lambda channel: -channel.worst[0])
+        for channel in rows:
+            table.add_row(escape(channel.name), f"{channel.scale:.4g}", channel.unit, *(f"{value:.1e}" for value in channel.worst))
+        table.add_section()
+    return table
+
+
+def long_table(found):
+    """Rich table of the statistics."""
+    columns = ("reference", "FMU, mean", "scatter", "difference", "in scatters")
+    table = Table(Column("", no_wrap=True), "unit", *(Column(text, justify="right") for text in columns), box=None, pad_edge=False)
+    for row in found.statistics:
+        figures = (f"{row.reference:.5g}", f"{row.mean:.5g}", f"{row.scatter:.2g}", f"{100.0 * row.difference:+.2f} %", f"{row.deviation:+.1f}")
+        table.add_row(row.name, row.unit, *figures)
+    return table
+
+
+def ledger_table(ledger):
+    """Rich table of the energies supplied, stored and lost in the reference."""
+    table = Table("", Column("J", justify="right"), box=None, pad_edge=False)
+    for title, account in (("supplied", ledger.supplied), ("stored", ledger.stored), ("lost", ledger.lost)):
+        for name, value in account.items():
+            table.add_row(f"{title}: {name}", f"{value[-1]:.6f}")
+    table.add_row("supplied - stored - lost", f"{ledger.residual[-1]:.6f}")
+    return table

@@ -1,0 +1,20 @@
+"""Errors that the user can put right: one message each, without a traceback."""
+
+from difflib import get_close_matches
+
+
+class UserError(ValueError):
+    """A file, name, value or unit that cannot be used; the message says where it stands, what it is and what is allowed."""
+
+
+def unknown(where, kind, name, allowed):
+    """The error for a name that is not among those allowed, with the nearest one if there is any."""
+    near = get_close_matches(str(name), list(allowed), n=1, cutoff=0.6)
+    hint = f'did you mean "{near[0]}"?' if near else f"allowed: {shortlist(allowed)}"
+    return UserError(f'{where}: unknown {kind} "{name}"; {hint}')
+
+
+def shortlist(names, length=12):
+    """The first names, separated by commas."""
+    names = [str(name) for name in names]
+    return ", ".join(names[:length]) + (f", ... ({len(names)} in all)" if len(names) > length else "")

@@ -1,0 +1,52 @@
+"""Rainflow cycles and life of the rivets from recorded stress, by the `rainflow` package (ASTM E1049) and the S-N law of bearing_model.fatigue."""
+
+from dataclasses import dataclass
+
+import numpy as np
+import rainflow
+
+from bearing_model.fatigue import FatigueLaw, fatigue_cycle
+from bearing_model.variables import MeanStress
+
+from .summary import settled
+
+CHANNELS = {"head": "sigma_head", "mid": "sigma_mid"}
+
+
+@dataclass(frozen=True)
+class RivetLife:
+    """Cycles (rows of range [Pa], mean [Pa], count) of one rivet's stress, Miner's sum of the run and time [s] to Miner's sum 1 if the run repeated."""
+
+    cycles: np.ndarray
+    damage: float
+    life: float
+
+
+def fatigue_law(parameters):
+    """FatigueLaw of a result's parameters."""
+    values = {name.removeprefix("fatigue."): value for name, value in parameters.items() if name.startswith("fatigue.")}
+    return FatigueLaw(**values | {"mean_stress": int(MeanStress[values["mean_stress"].upper()])})
+
+
+def stress_history(result, k, place):
+    """Stress of rivet k at "head" or "mid" after settling [Pa]: peak and end of each communication step in turn, None if not recorded.
+
+    Minima between communication points are not recorded, so ranges are those between peaks and samples.
+    """
+    ends = result.data.get(f"rivet[{k}].{CHANNELS[place]}")
+    if ends is None:
+        return None
+    late = settled(result)
+    peaks = result.data.get(f"rivet[{k}].{CHANNELS[place]}_peak", ends)
+    return np.column_stack([peaks[late], ends[late]]).ravel()
+
+
+def rivet_life(result, k, place):
+    """RivetLife of rivet k at "head" or "mid", None if its stress was not recorded."""
+    history = stress_history(result, k, place)
+    if history is None:
+        return None
+    law, t = fatigue_law(result.parameters), result.data["time"][settled(result)]
+    cycles = np.array([(span, mean, count) for span, mean, count, *_ in rainflow.extract_cycles(history)]).reshape(-1, 3)
+    damage = sum(count * fatigue_cycle(law, span, mean) for span, mean, count in cycles if span > 0.0)
+    return RivetLife(cycles, damage, float(t[-1] - t[0]) / damage if damage > 0.0 else np.inf)
