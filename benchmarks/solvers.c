@@ -89,9 +89,11 @@ static const double *evaluate(Integrator *in, double t, const double *y, double 
 static int right_hand_side(sunrealtype t, N_Vector y, N_Vector f, void *user)
 {
     Integrator *in = user;
-    memcpy(N_VGetArrayPointer(f), evaluate(in, t, N_VGetArrayPointer(y), &in->s->rhs_evals), sizeof in->f_latest);
+    memcpy(N_VGetArrayPointer(f), evaluate(in, t, N_VGetArrayPointer(y), &in->s->rhs_evals),
+           sizeof in->f_latest);
     if (in->kernels->ops->finite(in->f_latest)) return 0;
-    if (in->choice.method != SOLVER_ERK) return 1;  // CVODE tries a smaller step; ERKStep cannot, so its error test is made to fail
+    if (in->choice.method != SOLVER_ERK)
+        return 1;  // CVODE tries a smaller step; ERKStep cannot, so its error test is made to fail
     stepping_refuse(in->weight, in->nonfinite_stages++, N_VGetArrayPointer(f));
     return 0;
 }
@@ -108,14 +110,17 @@ static int weights(N_Vector y, N_Vector ewt, void *user)
 static void diagonal_rates(Integrator *in)
 {
     enum { AXES = 3 };
-    static const int V[AXES] = {Y_BALL_V_X, Y_BALL_V_R, Y_BALL_OMEGA_M}, OMEGA[AXES] = {Y_BALL_OMEGA_X, Y_BALL_OMEGA_R, Y_BALL_OMEGA_T};
+    static const int V[AXES] = {Y_BALL_V_X, Y_BALL_V_R, Y_BALL_OMEGA_M},
+                     OMEGA[AXES] = {Y_BALL_OMEGA_X, Y_BALL_OMEGA_R, Y_BALL_OMEGA_T};
     const Work *w = in->w;
     const Derived *d = in->model->d;
     const Parameters *p = in->model->p;
-    const double *v_pocket[AXES] = {w->D_x, w->D_r, w->D_t}, *omega_pocket[AXES] = {w->D_omega_x, w->D_omega_r, w->D_omega_t};
+    const double *v_pocket[AXES] = {w->D_x, w->D_r, w->D_t},
+                 *omega_pocket[AXES] = {w->D_omega_x, w->D_omega_r, w->D_omega_t};
     memset(in->rates, 0, sizeof in->rates);
     for (int j = 0; j < Z; j++) {
-        const double n_i[AXES] = {w->n_ix[j], w->n_ir[j], w->n_it[j]}, n_e[AXES] = {w->n_ex[j], w->n_er[j], 0.0};
+        const double n_i[AXES] = {w->n_ix[j], w->n_ir[j], w->n_it[j]},
+                     n_e[AXES] = {w->n_ex[j], w->n_er[j], 0.0};
         for (int i = 0; i < AXES; i++) {
             const double g = w->g_i[j] * (1.0 - n_i[i] * n_i[i]) + w->g_e[j] * (1.0 - n_e[i] * n_e[i]);
             in->rates[V[i] + j] = v_pocket[i][j] + g / d->m;
@@ -131,9 +136,12 @@ static void diagonal_rates(Integrator *in)
         in->rates[Y_CAGE_S + h] = w->film_spin[h] / p->cage.J_p;
     }
     for (int k = 0; k < Z; k++) {
-        const double speed = sqrt(w->v_jy[k] * w->v_jy[k] + w->v_jz[k] * w->v_jz[k]), mu = p->joint.mu, floor = p->joint.F_floor;
-        in->rates[Y_JOINT_PLATE_Y + k] = in->rates[Y_JOINT_PLATE_Z + k] = speed * d->k_plate_t / (mu * w->N_plate[k] + floor);
-        in->rates[Y_JOINT_HEAD_Y + k] = in->rates[Y_JOINT_HEAD_Z + k] = speed * d->k_head / (mu * w->T[k] + floor);
+        const double speed = sqrt(w->v_jy[k] * w->v_jy[k] + w->v_jz[k] * w->v_jz[k]), mu = p->joint.mu,
+                     floor = p->joint.F_floor;
+        in->rates[Y_JOINT_PLATE_Y + k] = in->rates[Y_JOINT_PLATE_Z + k] =
+            speed * d->k_plate_t / (mu * w->N_plate[k] + floor);
+        in->rates[Y_JOINT_HEAD_Y + k] = in->rates[Y_JOINT_HEAD_Z + k] =
+            speed * d->k_head / (mu * w->T[k] + floor);
     }
 }
 
@@ -143,7 +151,8 @@ static SUNLinearSolver_Type embedded(SUNLinearSolver solver)
     return SUNLINEARSOLVER_MATRIX_EMBEDDED;
 }
 
-static int diagonal_solve(SUNLinearSolver solver, SUNMatrix none, N_Vector x, N_Vector b, sunrealtype tolerance)
+static int diagonal_solve(SUNLinearSolver solver, SUNMatrix none, N_Vector x, N_Vector b,
+                          sunrealtype tolerance)
 {
     (void)none, (void)tolerance;
     Integrator *in = solver->content;
@@ -151,17 +160,25 @@ static int diagonal_solve(SUNLinearSolver solver, SUNMatrix none, N_Vector x, N_
     if (CVodeGetCurrentGamma(in->solver, &gamma) != CV_SUCCESS) return -1;
     if (!in->rates_known) diagonal_rates(in);
     in->rates_known = true;
-    for (int i = 0; i < N_STATES; i++) N_VGetArrayPointer(x)[i] = N_VGetArrayPointer(b)[i] / (1.0 + gamma * in->rates[i]);
+    for (int i = 0; i < N_STATES; i++)
+        N_VGetArrayPointer(x)[i] = N_VGetArrayPointer(b)[i] / (1.0 + gamma * in->rates[i]);
     return 0;
 }
 
 // ---- bordered block-diagonal Jacobian ---------------------------------------------------------------------------------------------------------
-enum { BALL_STATES = 9, JOINT_STATES = 4, GROUPS = 2 * Z, BORDER = N_STATES - (BALL_STATES + JOINT_STATES) * Z };
+enum {
+    BALL_STATES = 9,
+    JOINT_STATES = 4,
+    GROUPS = 2 * Z,
+    BORDER = N_STATES - (BALL_STATES + JOINT_STATES) * Z
+};
 
 typedef struct {
-    int size[GROUPS], at[GROUPS][BALL_STATES], border_at[BORDER];  // the states of each group and of the border
-    double J[N_STATES][N_STATES];                                  // by columns; only the pattern is used
-    double block[GROUPS][BALL_STATES][BALL_STATES], across[GROUPS][BORDER][BALL_STATES], below[GROUPS][BALL_STATES][BORDER], border[BORDER][BORDER];
+    int size[GROUPS], at[GROUPS][BALL_STATES],
+        border_at[BORDER];         // the states of each group and of the border
+    double J[N_STATES][N_STATES];  // by columns; only the pattern is used
+    double block[GROUPS][BALL_STATES][BALL_STATES], across[GROUPS][BORDER][BALL_STATES],
+        below[GROUPS][BALL_STATES][BORDER], border[BORDER][BORDER];
     sunindextype pivot[GROUPS][BALL_STATES], border_pivot[BORDER];
 } Bordered;
 
@@ -172,8 +189,9 @@ typedef struct {
 
 static void bordered_pattern(Bordered *m)
 {
-    static const int BALL[BALL_STATES] = {Y_BALL_X,       Y_BALL_R,       Y_BALL_THETA,   Y_BALL_V_X,    Y_BALL_V_R,
-                                          Y_BALL_OMEGA_M, Y_BALL_OMEGA_X, Y_BALL_OMEGA_R, Y_BALL_OMEGA_T};
+    static const int BALL[BALL_STATES] = {Y_BALL_X,       Y_BALL_R,       Y_BALL_THETA,
+                                          Y_BALL_V_X,     Y_BALL_V_R,     Y_BALL_OMEGA_M,
+                                          Y_BALL_OMEGA_X, Y_BALL_OMEGA_R, Y_BALL_OMEGA_T};
     static const int JOINT[JOINT_STATES] = {Y_JOINT_PLATE_Y, Y_JOINT_PLATE_Z, Y_JOINT_HEAD_Y, Y_JOINT_HEAD_Z};
     bool inside[N_STATES] = {false};
     for (int g = 0; g < GROUPS; g++) {
@@ -189,7 +207,8 @@ static void bordered_pattern(Bordered *m)
         if (!inside[i]) m->border_at[n++] = i;
 }
 
-static void difference_jacobian(Integrator *in, double t, const double *y, double J[N_STATES][N_STATES], double *counter)
+static void difference_jacobian(Integrator *in, double t, const double *y, double J[N_STATES][N_STATES],
+                                double *counter)
 {
     double f[N_STATES], moved[N_STATES];
     memcpy(f, evaluate(in, t, y, counter), sizeof f);
@@ -207,8 +226,9 @@ static void difference_jacobian(Integrator *in, double t, const double *y, doubl
     }
 }
 
-static int bordered_system(sunrealtype t, N_Vector y, N_Vector fy, SUNMatrix M, sunbooleantype still_good, sunbooleantype *renewed, sunrealtype gamma,
-                           void *user, N_Vector a, N_Vector b, N_Vector c)
+static int bordered_system(sunrealtype t, N_Vector y, N_Vector fy, SUNMatrix M, sunbooleantype still_good,
+                           sunbooleantype *renewed, sunrealtype gamma, void *user, N_Vector a, N_Vector b,
+                           N_Vector c)
 {
     (void)fy, (void)a, (void)b, (void)c;
     Bordered *m = M->content;
@@ -221,10 +241,12 @@ static int bordered_system(sunrealtype t, N_Vector y, N_Vector fy, SUNMatrix M, 
             for (int k = 0; k < BORDER; k++) m->below[g][i][k] = -gamma * column[m->border_at[k]];
         }
         for (int i = 0; i < BORDER; i++)
-            for (int k = 0; k < m->size[g]; k++) m->across[g][i][k] = -gamma * m->J[m->border_at[i]][m->at[g][k]];
+            for (int k = 0; k < m->size[g]; k++)
+                m->across[g][i][k] = -gamma * m->J[m->border_at[i]][m->at[g][k]];
     }
     for (int i = 0; i < BORDER; i++)
-        for (int k = 0; k < BORDER; k++) m->border[i][k] = (i == k) - gamma * m->J[m->border_at[i]][m->border_at[k]];
+        for (int k = 0; k < BORDER; k++)
+            m->border[i][k] = (i == k) - gamma * m->J[m->border_at[i]][m->border_at[k]];
     return 0;
 }
 
@@ -243,7 +265,8 @@ static int bordered_factor(SUNLinearSolver solver, SUNMatrix M)
         COLUMNS(block, m->block[g], m->size[g]);
         if (SUNDlsMat_denseGETRF(block, m->size[g], m->size[g], m->pivot[g]) != 0) return 1;
         for (int i = 0; i < BORDER; i++) {
-            SUNDlsMat_denseGETRS(block, m->size[g], m->pivot[g], m->across[g][i]);  // B_g^-1 C_g takes the place of C_g
+            SUNDlsMat_denseGETRS(block, m->size[g], m->pivot[g],
+                                 m->across[g][i]);  // B_g^-1 C_g takes the place of C_g
             subtract_below(m, g, m->across[g][i], m->border[i]);
         }
     }
@@ -324,7 +347,8 @@ double solver_outside_pattern(struct Part *b)
 }
 
 // ---- creation -----------------------------------------------------------------------------------------------------------------------------------
-static void report(int line, const char *function, const char *file, const char *message, SUNErrCode code, void *user, SUNContext sun)
+static void report(int line, const char *function, const char *file, const char *message, SUNErrCode code,
+                   void *user, SUNContext sun)
 {
     (void)file, (void)sun;
     const Integrator *in = user;
@@ -334,10 +358,13 @@ static void report(int line, const char *function, const char *file, const char 
 static bool set_up_erk(Integrator *in)
 {
     in->solver = ERKStepCreate(right_hand_side, 0.0, in->y, in->sun);
-    return in->solver != NULL && ARKodeSetUserData(in->solver, in) == ARK_SUCCESS && ARKodeWFtolerances(in->solver, weights) == ARK_SUCCESS &&
-           ERKStepSetTableName(in->solver, in->choice.table) == ARK_SUCCESS && ARKodeSetMaxErrTestFails(in->solver, 30) == ARK_SUCCESS &&
+    return in->solver != NULL && ARKodeSetUserData(in->solver, in) == ARK_SUCCESS &&
+           ARKodeWFtolerances(in->solver, weights) == ARK_SUCCESS &&
+           ERKStepSetTableName(in->solver, in->choice.table) == ARK_SUCCESS &&
+           ARKodeSetMaxErrTestFails(in->solver, 30) == ARK_SUCCESS &&
            ARKodeSetMaxHnilWarns(in->solver, -1) == ARK_SUCCESS &&
-           (in->choice.output_interval > 0.0 || ARKodeSetInterpolantType(in->solver, ARK_INTERP_NONE) == ARK_SUCCESS);
+           (in->choice.output_interval > 0.0 ||
+            ARKodeSetInterpolantType(in->solver, ARK_INTERP_NONE) == ARK_SUCCESS);
 }
 
 static bool set_up_dense(Integrator *in)
@@ -373,28 +400,43 @@ static bool set_up_bordered(Integrator *in)
     in->linear->ops->setup = bordered_factor;
     in->linear->ops->solve = bordered_solve;
     in->linear->ops->free = linear_free;
-    return CVodeSetLinearSolver(in->solver, in->linear, in->matrix) == CV_SUCCESS && CVodeSetLinSysFn(in->solver, bordered_system) == CV_SUCCESS;
+    return CVodeSetLinearSolver(in->solver, in->linear, in->matrix) == CV_SUCCESS &&
+           CVodeSetLinSysFn(in->solver, bordered_system) == CV_SUCCESS;
 }
 
 static bool set_up_cvode(Integrator *in)
 {
     in->solver = CVodeCreate(in->choice.method == SOLVER_ADAMS ? CV_ADAMS : CV_BDF, in->sun);
-    if (in->solver == NULL || CVodeInit(in->solver, right_hand_side, 0.0, in->y) != CV_SUCCESS || CVodeSetUserData(in->solver, in) != CV_SUCCESS ||
-        CVodeWFtolerances(in->solver, weights) != CV_SUCCESS || CVodeSetMaxErrTestFails(in->solver, 30) != CV_SUCCESS ||
-        CVodeSetMaxConvFails(in->solver, 30) != CV_SUCCESS || CVodeSetMaxHnilWarns(in->solver, -1) != CV_SUCCESS)
+    if (in->solver == NULL || CVodeInit(in->solver, right_hand_side, 0.0, in->y) != CV_SUCCESS ||
+        CVodeSetUserData(in->solver, in) != CV_SUCCESS ||
+        CVodeWFtolerances(in->solver, weights) != CV_SUCCESS ||
+        CVodeSetMaxErrTestFails(in->solver, 30) != CV_SUCCESS ||
+        CVodeSetMaxConvFails(in->solver, 30) != CV_SUCCESS ||
+        CVodeSetMaxHnilWarns(in->solver, -1) != CV_SUCCESS)
         return false;
     if (in->choice.method == SOLVER_ADAMS) {
         in->nonlinear = SUNNonlinSol_FixedPoint(in->y, 0, in->sun);
         return in->nonlinear != NULL && CVodeSetNonlinearSolver(in->solver, in->nonlinear) == CV_SUCCESS;
     }
-    return in->choice.jacobian == JACOBIAN_DENSE ? set_up_dense(in) : in->choice.jacobian == JACOBIAN_DIAGONAL ? set_up_diagonal(in) : set_up_bordered(in);
+    return in->choice.jacobian == JACOBIAN_DENSE      ? set_up_dense(in)
+           : in->choice.jacobian == JACOBIAN_DIAGONAL ? set_up_diagonal(in)
+                                                      : set_up_bordered(in);
 }
 
-Integrator *integrator_create(const Kernels *kernels, const Model *model, Work *w, IntegratorState *state, StepHook *hook, IntegratorLog *log, void *context)
+Integrator *integrator_create(const Kernels *kernels, const Model *model, Work *w, IntegratorState *state,
+                              StepHook *hook, IntegratorLog *log, void *context)
 {
     Integrator *in = calloc(1, sizeof *in);
     if (in == NULL) return NULL;
-    *in = (Integrator){.choice = chosen, .kernels = kernels, .model = model, .w = w, .s = state, .hook = hook, .log = log, .context = context, .t_latest = NAN};
+    *in = (Integrator){.choice = chosen,
+                       .kernels = kernels,
+                       .model = model,
+                       .w = w,
+                       .s = state,
+                       .hook = hook,
+                       .log = log,
+                       .context = context,
+                       .t_latest = NAN};
     bool fine = SUNContext_Create(SUN_COMM_NULL, &in->sun) == SUN_SUCCESS;
     if (fine) {
         SUNContext_ClearErrHandlers(in->sun);
@@ -402,7 +444,8 @@ Integrator *integrator_create(const Kernels *kernels, const Model *model, Work *
         in->y = N_VNew_Serial(N_STATES, in->sun);
         in->between = N_VNew_Serial(N_STATES, in->sun);
     }
-    fine = fine && in->y != NULL && in->between != NULL && (in->choice.method == SOLVER_ERK ? set_up_erk(in) : set_up_cvode(in));
+    fine = fine && in->y != NULL && in->between != NULL &&
+           (in->choice.method == SOLVER_ERK ? set_up_erk(in) : set_up_cvode(in));
     if (fine) return in;
     integrator_destroy(in);
     return NULL;
@@ -442,8 +485,10 @@ static int start(Integrator *in, double t_stop)
     memcpy(N_VGetArrayPointer(in->y), in->s->now.y, sizeof in->s->now.y);
     in->rates_known = false;
     if (in->choice.method == SOLVER_ERK)
-        return ARKodeReset(in->solver, in->s->t, in->y) | ARKodeSetInitStep(in->solver, h) | ARKodeSetStopTime(in->solver, t_stop);
-    return CVodeReInit(in->solver, in->s->t, in->y) | CVodeSetInitStep(in->solver, h) | CVodeSetStopTime(in->solver, t_stop);
+        return ARKodeReset(in->solver, in->s->t, in->y) | ARKodeSetInitStep(in->solver, h) |
+               ARKodeSetStopTime(in->solver, t_stop);
+    return CVodeReInit(in->solver, in->s->t, in->y) | CVodeSetInitStep(in->solver, h) |
+           CVodeSetStopTime(in->solver, t_stop);
 }
 
 static int one_step(Integrator *in, double t_stop, double *t)
@@ -469,7 +514,8 @@ static void interpolate(Integrator *in, double t)
 int integrator_advance(Integrator *in, double t_stop, long max_steps)
 {
     IntegratorState *s = in->s;
-    const bool observed = in->model->p->scene.stress >= STRESS_PEAK || in->model->p->scene.statistics == SWITCH_ON;
+    const bool observed =
+        in->model->p->scene.stress >= STRESS_PEAK || in->model->p->scene.statistics == SWITCH_ON;
     long failed_before = 0, failed = 0, dense_evals = 0;
     double t = s->t;
     integrator_evaluate(in);
@@ -491,7 +537,8 @@ int integrator_advance(Integrator *in, double t_stop, long max_steps)
     } else {  // counters start anew with CVodeReInit
         CVodeGetNumErrTestFails(in->solver, &failed);
         CVodeGetLastStep(in->solver, &s->h);
-        if (in->choice.method == SOLVER_BDF && in->choice.jacobian == JACOBIAN_DENSE) CVodeGetNumLinRhsEvals(in->solver, &dense_evals);
+        if (in->choice.method == SOLVER_BDF && in->choice.jacobian == JACOBIAN_DENSE)
+            CVodeGetNumLinRhsEvals(in->solver, &dense_evals);
         jacobian_evals_made += (double)dense_evals;
     }
     s->error_tests_failed += (double)(failed - failed_before);

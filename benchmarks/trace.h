@@ -8,7 +8,8 @@
 // < 0 on failure or if there are more than `max_count`.
 
 // One evaluation of the right-hand side.
-long trace_rhs(Rhs *function, const Model *model, const double *y, Work *w, unsigned long *address, long max_count);
+long trace_rhs(Rhs *function, const Model *model, const double *y, Work *w, unsigned long *address,
+               long max_count);
 
 // The communication step to t.  The instance itself stays where it is.
 long trace_step(Part *part, double t, unsigned long *address, long max_count);

@@ -11,7 +11,8 @@
 
 void ball_kinematics(const scalar *y, Work *w)
 {
-    scalar *positions[] = {w->x, w->r, w->theta}, *velocities[] = {w->v_x, w->v_r, w->omega_m}, *spins[] = {w->omega_x, w->omega_r, w->omega_t};
+    scalar *positions[] = {w->x, w->r, w->theta}, *velocities[] = {w->v_x, w->v_r, w->omega_m},
+           *spins[] = {w->omega_x, w->omega_r, w->omega_t};
     for (int i = 0; i < 3; i++) {
         memcpy(positions[i], &y[Y_BALL_X + i * Z], Z * sizeof *y);
         memcpy(velocities[i], &y[Y_BALL_V_X + i * Z], Z * sizeof *y);
@@ -38,8 +39,10 @@ void ball_acceleration(const Model *model, const Work *w, scalar *y_dot)
         const wide cosine = wide_load(&w->cos_theta[j]), sine = wide_load(&w->sin_theta[j]);
         const wide omega_r = wide_load(&w->omega_r[j]), omega_t = wide_load(&w->omega_t[j]);
         wide_store(&rows[0][j], wide_load(&w->F_x[j]) * inv_mass);
-        wide_store(&rows[1][j], wide_load(&w->F_r[j]) * inv_mass + g_y * cosine + g_z * sine + r * omega_m * omega_m);
-        wide_store(&rows[2][j], (wide_load(&w->F_t[j]) * inv_mass + g_z * cosine - g_y * sine - 2.0 * v_r * omega_m) / r);
+        wide_store(&rows[1][j],
+                   wide_load(&w->F_r[j]) * inv_mass + g_y * cosine + g_z * sine + r * omega_m * omega_m);
+        wide_store(&rows[2][j],
+                   (wide_load(&w->F_t[j]) * inv_mass + g_z * cosine - g_y * sine - 2.0 * v_r * omega_m) / r);
         wide_store(&rows[3][j], wide_load(&w->M_x[j]) * inv_inertia);
         wide_store(&rows[4][j], wide_load(&w->M_r[j]) * inv_inertia + omega_m * omega_t);
         wide_store(&rows[5][j], wide_load(&w->M_t[j]) * inv_inertia - omega_m * omega_r);

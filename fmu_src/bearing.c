@@ -104,7 +104,8 @@ static void report_events(Bearing *b)
         char text[256];
         event_text(kind, &now[kind], text, sizeof text);
         const bool warning = kind == EVENT_OVERPRESSURE && s->event.onsets[kind] == 1.0;
-        bearing_log(b, warning ? LOG_WARNING : LOG_EVENT, "t = %.9g s: %s (onset %.0f)", s->integrator.t, text, s->event.onsets[kind]);
+        bearing_log(b, warning ? LOG_WARNING : LOG_EVENT, "t = %.9g s: %s (onset %.0f)", s->integrator.t,
+                    text, s->event.onsets[kind]);
     }
 }
 
@@ -117,7 +118,8 @@ Bearing *part_create(const PartHost *host)
     b->host = *host;
     b->kernels = kernels_select();
     b->model = (Model){.p = &b->s.p, .d = &b->d, .ring_load = &b->ring_load};
-    b->integrator = integrator_create(&b->kernels, &b->model, &b->w, &b->s.integrator, accepted_step, solver_message, b);
+    b->integrator =
+        integrator_create(&b->kernels, &b->model, &b->w, &b->s.integrator, accepted_step, solver_message, b);
     if (b->integrator == NULL) {
         aligned_delete(b);
         return NULL;
@@ -206,7 +208,9 @@ PartStatus part_initialize(Bearing *b, double t_start, double tolerance)
     const double load = fabs(b->ring_load.F[0]) + fabs(b->ring_load.F[1]) + fabs(b->ring_load.F[2]);
     PartStatus status = PART_OK;
     if (!(residual < 1e-6 * (load + 1.0))) {
-        bearing_log(b, LOG_WARNING, "t = %g s: the start is not in equilibrium, residual %g N of a load of %g N", t_start, residual, load);
+        bearing_log(b, LOG_WARNING,
+                    "t = %g s: the start is not in equilibrium, residual %g N of a load of %g N", t_start,
+                    residual, load);
         status = PART_WARNING;
     }
     integrator_evaluate(b->integrator);
@@ -265,11 +269,15 @@ PartStatus part_step(Bearing *b, double t_end)
     }
     const double steps = s->integrator.steps - steps_before;
     if (steps >= s->p.solver.max_steps)
-        bearing_log(b, LOG_ERROR, "t = %.9g s: the work limit is reached, solver.max_steps = %d steps since %.9g s; step size %g s", s->integrator.t,
-                    s->p.solver.max_steps, t_begin, s->integrator.h);
+        bearing_log(
+            b, LOG_ERROR,
+            "t = %.9g s: the work limit is reached, solver.max_steps = %d steps since %.9g s; step size %g s",
+            s->integrator.t, s->p.solver.max_steps, t_begin, s->integrator.h);
     else
-        bearing_log(b, LOG_ERROR, "t = %.9g s: the solver cannot go on (code %d) after %g steps since %.9g s; step size %g s", s->integrator.t, status, steps,
-                    t_begin, s->integrator.h);
+        bearing_log(
+            b, LOG_ERROR,
+            "t = %.9g s: the solver cannot go on (code %d) after %g steps since %.9g s; step size %g s",
+            s->integrator.t, status, steps, t_begin, s->integrator.h);
     return PART_DISCARD;
 }
 
@@ -288,7 +296,8 @@ static void differentiate(Bearing *b, double dt, const Inputs *du, const double 
     const Inputs u[INPUT_ORDERS + 1] = {s->u_now, s->u_now_dot};
     InputTrajectory trajectory;
     input_trajectory_update(&s->p, u, s->integrator.t, s->integrator.t, &trajectory);
-    jacobian_outputs(&b->model, (const double *)&trajectory, s->integrator.t, dt, (const double *)du, s->integrator.now.y, dy, (double *)derivatives);
+    jacobian_outputs(&b->model, (const double *)&trajectory, s->integrator.t, dt, (const double *)du,
+                     s->integrator.now.y, dy, (double *)derivatives);
 }
 
 void part_time_derivatives(Bearing *b, Outputs *derivatives)
@@ -297,7 +306,8 @@ void part_time_derivatives(Bearing *b, Outputs *derivatives)
     differentiate(b, 1.0, NULL, b->y_dot, derivatives);
 }
 
-void part_directional_derivatives(Bearing *b, const Inputs *inputs, const double state[N_STATES], Outputs *derivatives)
+void part_directional_derivatives(Bearing *b, const Inputs *inputs, const double state[N_STATES],
+                                  Outputs *derivatives)
 {
     differentiate(b, 0.0, inputs, state, derivatives);
 }

@@ -27,8 +27,10 @@ void drag_cage(const Model *model, Work *w)
         const wide omega = wide_pair(half[0].Omega[0], half[HALVES - 1].Omega[0]);
         const wide speed = wide_abs(omega) + 1e-30;
         wide disk = d->disk_laminar * wide_sqrt(speed), cylinder = wide_set(d->cylinder_laminar);
-        if (wide_any(wide_above(speed, d->disk_laminar_omega))) disk = wide_max(disk, d->disk_turbulent * wide_exp(0.8 * wide_log(speed)));
-        if (wide_any(wide_above(speed, d->cylinder_laminar_omega))) cylinder = wide_max(cylinder, d->cylinder_vortex * wide_exp(0.539 * wide_log(speed)));
+        if (wide_any(wide_above(speed, d->disk_laminar_omega)))
+            disk = wide_max(disk, d->disk_turbulent * wide_exp(0.8 * wide_log(speed)));
+        if (wide_any(wide_above(speed, d->cylinder_laminar_omega)))
+            cylinder = wide_max(cylinder, d->cylinder_vortex * wide_exp(0.539 * wide_log(speed)));
         for (int h = 0; h < HALVES; h++) {
             const scalar M = -(wide_lane(disk, h) + wide_lane(cylinder, h)) * wide_lane(omega, h);
             half[h].M[0] += M;

@@ -29,14 +29,18 @@ static void lands(const Model *model, const Work *w, Event *event)
 // Radial place of a ball in the frame of a half, against the middle of the cage's section.
 static void pockets(const Model *model, const Work *w, Event *event)
 {
-    const double middle = 0.25 * (model->p->cage.D_o + model->p->cage.D_i), reach = 0.25 * (model->p->cage.D_o - model->p->cage.D_i);
+    const double middle = 0.25 * (model->p->cage.D_o + model->p->cage.D_i),
+                 reach = 0.25 * (model->p->cage.D_o - model->p->cage.D_i);
     for (int j = 0; j < Z; j++) {
         double max = 0.0;
         for (int h = 0; h < 2; h++) {
             const Rotor *half = &w->half[h];
-            const double p[3] = {w->x[j] - half->x[0], w->r[j] * w->cos_theta[j] - half->x[1], w->r[j] * w->sin_theta[j] - half->x[2]};
+            const double p[3] = {w->x[j] - half->x[0], w->r[j] * w->cos_theta[j] - half->x[1],
+                                 w->r[j] * w->sin_theta[j] - half->x[2]};
             double radial = 0.0;
-            for (int i = 0; i < 3; i++) radial += p[i] * (half->b_y[i] * model->d->pocket_cos[j] + half->b_z[i] * model->d->pocket_sin[j]);
+            for (int i = 0; i < 3; i++)
+                radial +=
+                    p[i] * (half->b_y[i] * model->d->pocket_cos[j] + half->b_z[i] * model->d->pocket_sin[j]);
             max = scalar_max(max, fabs(radial - middle));
         }
         add(event, j, max, reach);
@@ -67,7 +71,8 @@ static void races(const Model *model, const Work *w, Event *cut, Event *overpres
     const double D = model->p->bearing.D, p_limit = model->p->bearing.p_limit;
     for (int outer = 0; outer < 2; outer++) {
         const Race *race = outer ? &model->d->outer : &model->d->inner;
-        const double *Q = outer ? w->Q_e : w->Q_i, height = outer ? model->p->bearing.h_e : model->p->bearing.h_i;
+        const double *Q = outer ? w->Q_e : w->Q_i,
+                     height = outer ? model->p->bearing.h_e : model->p->bearing.h_i;
         const double edge = acos(1.0 - height * D / race->r_g);
         double along[Z], along_max = 0.0, Q_max = 0.0;
         for (int j = 0; j < Z; j++) {
@@ -75,7 +80,8 @@ static void races(const Model *model, const Work *w, Event *cut, Event *overpres
             along_max = scalar_max(along_max, along[j]);
             Q_max = scalar_max(Q_max, Q[j]);
         }
-        if (reach(race, along_max, Q_max) <= edge && hertz_pressure(&race->hertz, Q_max) <= p_limit) continue;  // roots and angles are dear
+        if (reach(race, along_max, Q_max) <= edge && hertz_pressure(&race->hertz, Q_max) <= p_limit)
+            continue;  // roots and angles are dear
         for (int j = 0; j < Z; j++) {
             if (!(Q[j] > 0.0)) continue;
             add(cut, 2 * j + outer, reach(race, along[j], Q[j]), edge);
@@ -95,7 +101,8 @@ static void rivets(const double head_peak[Z], const double mid_peak[Z], Event *e
     for (int k = 0; k < Z; k++) add(event, k, scalar_max(head_peak[k], mid_peak[k]), rivet_table.yield_rivet);
 }
 
-void events_now(const Model *model, const Work *w, const double head_peak[Z], const double mid_peak[Z], Event now[EVENT_COUNT])
+void events_now(const Model *model, const Work *w, const double head_peak[Z], const double mid_peak[Z],
+                Event now[EVENT_COUNT])
 {
     memset(now, 0, EVENT_COUNT * sizeof *now);
     lands(model, w, &now[EVENT_LAND_CONTACT]);
@@ -121,27 +128,39 @@ void event_text(EventKind kind, const Event *now, char *text, size_t size)
     const char race = now->element % 2 == 0 ? 'i' : 'e';
     switch (kind) {
     case EVENT_LAND_CONTACT:
-        snprintf(text, size, "cage half %d touches the outer ring: its land is %.4g m off centre, cage.guide_clearance/2 = %.4g m", k, now->value, now->limit);
+        snprintf(text, size,
+                 "cage half %d touches the outer ring: its land is %.4g m off centre, cage.guide_clearance/2 "
+                 "= %.4g m",
+                 k, now->value, now->limit);
         return;
     case EVENT_POCKET_EXIT:
-        snprintf(text, size, "ball[%d] leaves its pocket: %.4g m off the middle of the cage's section, (cage.D_o - cage.D_i)/4 = %.4g m", k, now->value,
-                 now->limit);
+        snprintf(text, size,
+                 "ball[%d] leaves its pocket: %.4g m off the middle of the cage's section, (cage.D_o - "
+                 "cage.D_i)/4 = %.4g m",
+                 k, now->value, now->limit);
         return;
     case EVENT_ELLIPSE_CUT:
-        snprintf(text, size, "ball[%d]: the contact ellipse reaches to %.4g rad, over the shoulder of bearing.h_%c at %.4g rad", j, now->value, race,
-                 now->limit);
+        snprintf(text, size,
+                 "ball[%d]: the contact ellipse reaches to %.4g rad, over the shoulder of bearing.h_%c at "
+                 "%.4g rad",
+                 j, now->value, race, now->limit);
         return;
     case EVENT_OVERPRESSURE:
-        snprintf(text, size, "ball[%d].p_%c = %.4g Pa exceeds bearing.p_limit = %.4g Pa: permanent deformation is not modelled", j, race, now->value,
-                 now->limit);
+        snprintf(text, size,
+                 "ball[%d].p_%c = %.4g Pa exceeds bearing.p_limit = %.4g Pa: permanent deformation is not "
+                 "modelled",
+                 j, race, now->value, now->limit);
         return;
     case EVENT_JOINT_OPEN:
-        snprintf(text, size, "rivet[%d]: the joint opens by %.4g m; its preload holds it closed to %.4g m", k, now->value, now->limit);
+        snprintf(text, size, "rivet[%d]: the joint opens by %.4g m; its preload holds it closed to %.4g m", k,
+                 now->value, now->limit);
         return;
     case EVENT_RIVET_YIELD:
-        snprintf(text, size, "rivet[%d] yields: %.4g Pa against a yield stress of %.4g Pa; the stress is that of an elastic rivet", k, now->value, now->limit);
+        snprintf(text, size,
+                 "rivet[%d] yields: %.4g Pa against a yield stress of %.4g Pa; the stress is that of an "
+                 "elastic rivet",
+                 k, now->value, now->limit);
         return;
-    case EVENT_COUNT:
-        break;
+    case EVENT_COUNT: break;
     }
 }

@@ -11,7 +11,15 @@
 
 #include "model.h"
 
-typedef enum { EVENT_LAND_CONTACT, EVENT_POCKET_EXIT, EVENT_ELLIPSE_CUT, EVENT_OVERPRESSURE, EVENT_JOINT_OPEN, EVENT_RIVET_YIELD, EVENT_COUNT } EventKind;
+typedef enum {
+    EVENT_LAND_CONTACT,
+    EVENT_POCKET_EXIT,
+    EVENT_ELLIPSE_CUT,
+    EVENT_OVERPRESSURE,
+    EVENT_JOINT_OPEN,
+    EVENT_RIVET_YIELD,
+    EVENT_COUNT
+} EventKind;
 
 // One kind at one instant.
 typedef struct {
@@ -30,7 +38,8 @@ typedef struct {
 double ellipse_reach(const Model *model, const Work *w, bool outer, int j);
 
 // All kinds at the state that w belongs to.  head_peak, mid_peak: of each rivet [Pa].
-void events_now(const Model *model, const Work *w, const double head_peak[Z], const double mid_peak[Z], Event now[EVENT_COUNT]);
+void events_now(const Model *model, const Work *w, const double head_peak[Z], const double mid_peak[Z],
+                Event now[EVENT_COUNT]);
 
 // Counts an onset; true if it is one to report.
 bool event_onset(EventState *state, EventKind kind, const Event *now);

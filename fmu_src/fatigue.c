@@ -6,7 +6,8 @@
 #include <math.h>
 #include <string.h>
 
-_Static_assert(sizeof(FatigueLaw) == sizeof(((Parameters *)0)->fatigue), "FatigueLaw is p->fatigue, member by member");
+_Static_assert(sizeof(FatigueLaw) == sizeof(((Parameters *)0)->fatigue),
+               "FatigueLaw is p->fatigue, member by member");
 
 // Amplitude at zero mean of equal damage; infinite where the mean alone breaks the part.
 static double fully_reversed(const FatigueLaw *law, double sigma_a, double sigma_mean)
@@ -19,10 +20,8 @@ static double fully_reversed(const FatigueLaw *law, double sigma_a, double sigma
     case MEAN_STRESS_MORROW:
         room = 1.0 - sigma_mean / law->sigma_f;
         return room > 0.0 ? sigma_a / room : INFINITY;
-    case MEAN_STRESS_SWT:
-        return sqrt(fmax(sigma_mean + sigma_a, 0.0) * sigma_a);
-    default:
-        return sigma_a;
+    case MEAN_STRESS_SWT: return sqrt(fmax(sigma_mean + sigma_a, 0.0) * sigma_a);
+    default: return sigma_a;
     }
 }
 

@@ -35,4 +35,6 @@ typedef struct {
 
 double fatigue_cycle(const FatigueLaw *law, double range, double mean);     // damage of one cycle
 void fatigue_push(FatigueChannel *c, const FatigueLaw *law, double sigma);  // next sample of the history
-double fatigue_damage(const FatigueChannel *c, const FatigueLaw *law);      // sum with the residue at half weight; leaves the channel as it is
+double
+fatigue_damage(const FatigueChannel *c,
+               const FatigueLaw *law);  // sum with the residue at half weight; leaves the channel as it is

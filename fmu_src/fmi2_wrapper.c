@@ -17,9 +17,22 @@
 #include <string.h>
 
 // ---- call order ---------------------------------------------------------------------------------------------------------------------------
-typedef enum { INSTANTIATED = 1, INITIALIZING = 2, STEPPING = 4, FAILED = 8, TERMINATED = 16, ERRONEOUS = 32, FATAL = 64 } Phase;
+typedef enum {
+    INSTANTIATED = 1,
+    INITIALIZING = 2,
+    STEPPING = 4,
+    FAILED = 8,
+    TERMINATED = 16,
+    ERRONEOUS = 32,
+    FATAL = 64
+} Phase;
 
-enum { NEVER = 0, STEPPED = STEPPING | FAILED | TERMINATED | ERRONEOUS, READABLE = INITIALIZING | STEPPED, ALIVE = INSTANTIATED | READABLE };
+enum {
+    NEVER = 0,
+    STEPPED = STEPPING | FAILED | TERMINATED | ERRONEOUS,
+    READABLE = INITIALIZING | STEPPED,
+    ALIVE = INSTANTIATED | READABLE
+};
 
 // Function and phases in which it may be called (FMI 2.0.4, section 4.2.4); steps are never in progress or canceled.  No directional derivatives in
 // initialization mode: there the inputs act through the equilibrium, which has none.
@@ -130,7 +143,8 @@ enum { N_CATEGORIES = sizeof CATEGORIES / sizeof CATEGORIES[0], ALL_CATEGORIES =
 enum { ALWAYS_SENT = 1 << LOG_ERROR | 1 << LOG_WARNING };
 
 // Hosts read the message as a printf format and '#' as the start of a value reference: both are doubled.
-static void send(const fmi2CallbackFunctions *callbacks, const char *instance, fmi2Status status, LogCategory category, const char *message)
+static void send(const fmi2CallbackFunctions *callbacks, const char *instance, fmi2Status status,
+                 LogCategory category, const char *message)
 {
     if (!callbacks->logger) return;
     char escaped[1024];
@@ -147,7 +161,8 @@ static void instance_log(void *environment, LogCategory category, const char *me
 {
     static const fmi2Status status[] = {fmi2Error, fmi2Warning, fmi2OK, fmi2OK};
     Instance *m = environment;
-    if (category == LOG_ERROR || category == LOG_WARNING) snprintf(m->message, sizeof m->message, "%s", message);
+    if (category == LOG_ERROR || category == LOG_WARNING)
+        snprintf(m->message, sizeof m->message, "%s", message);
     if (m->categories & 1u << category) send(&m->callbacks, m->name, status[category], category, message);
 }
 
@@ -170,7 +185,8 @@ static Instance *enter(fmi2Component component, Call call)
     Instance *m = component;
     if (!m) return NULL;
     if (m->session.phase & CALLS[call].phases) return m;
-    if (m->session.phase != FATAL) refuse(m, call, "not allowed in state \"%s\"", phase_name(m->session.phase));
+    if (m->session.phase != FATAL)
+        refuse(m, call, "not allowed in state \"%s\"", phase_name(m->session.phase));
     return NULL;
 }
 
@@ -179,7 +195,8 @@ static fmi2Status refuse_unsupported(fmi2Component component, const char *functi
     Instance *m = component;
     if (m && m->session.phase != FATAL) {
         char message[128];
-        snprintf(message, sizeof message, "%s is not offered by this FMU (see its capability flags)", function);
+        snprintf(message, sizeof message, "%s is not offered by this FMU (see its capability flags)",
+                 function);
         instance_log(m, LOG_ERROR, message);
         m->session.phase = ERRONEOUS;
     }
@@ -190,18 +207,11 @@ static fmi2Status refuse_unsupported(fmi2Component component, const char *functi
 static fmi2Status conclude(Instance *m, PartStatus status)
 {
     switch (status) {
-    case PART_OK:
-        return fmi2OK;
-    case PART_WARNING:
-        return fmi2Warning;
-    case PART_DISCARD:
-        m->session.phase = FAILED;
-        return fmi2Discard;
-    case PART_ERROR:
-        m->session.phase = ERRONEOUS;
-        return fmi2Error;
-    case PART_FATAL:
-        break;
+    case PART_OK: return fmi2OK;
+    case PART_WARNING: return fmi2Warning;
+    case PART_DISCARD: m->session.phase = FAILED; return fmi2Discard;
+    case PART_ERROR: m->session.phase = ERRONEOUS; return fmi2Error;
+    case PART_FATAL: break;
     }
     m->session.phase = FATAL;
     return fmi2Fatal;
@@ -250,12 +260,15 @@ static const char *instantiation_problem(fmi2String name, fmi2Type type, fmi2Str
 {
     if (!name || !*name) return "fmi2Instantiate: the instance name is empty";
     if (type != fmi2CoSimulation) return "fmi2Instantiate: this FMU offers co-simulation only";
-    if (!guid || strcmp(guid, MODEL_GUID) != 0) return "fmi2Instantiate: the GUID is not " MODEL_GUID ": description and binary do not belong together";
+    if (!guid || strcmp(guid, MODEL_GUID) != 0)
+        return "fmi2Instantiate: the GUID is not " MODEL_GUID
+               ": description and binary do not belong together";
     return NULL;
 }
 
-fmi2Component fmi2Instantiate(fmi2String name, fmi2Type type, fmi2String guid, fmi2String resources, const fmi2CallbackFunctions *functions,
-                              fmi2Boolean visible, fmi2Boolean logging)
+fmi2Component fmi2Instantiate(fmi2String name, fmi2Type type, fmi2String guid, fmi2String resources,
+                              const fmi2CallbackFunctions *functions, fmi2Boolean visible,
+                              fmi2Boolean logging)
 {
     (void)resources;
     (void)visible;
@@ -276,7 +289,8 @@ fmi2Component fmi2Instantiate(fmi2String name, fmi2Type type, fmi2String guid, f
         }
         fmi2FreeInstance(m);
     }
-    send(functions, name ? name : "", fmi2Error, LOG_ERROR, problem ? problem : "fmi2Instantiate: out of memory");
+    send(functions, name ? name : "", fmi2Error, LOG_ERROR,
+         problem ? problem : "fmi2Instantiate: out of memory");
     return NULL;
 }
 
@@ -290,7 +304,8 @@ void fmi2FreeInstance(fmi2Component component)
 }
 
 // Unknown categories are ignored with a warning.
-fmi2Status fmi2SetDebugLogging(fmi2Component component, fmi2Boolean on, size_t n, const fmi2String categories[])
+fmi2Status fmi2SetDebugLogging(fmi2Component component, fmi2Boolean on, size_t n,
+                               const fmi2String categories[])
 {
     Instance *m = enter(component, CALL_SetDebugLogging);
     if (!m) return fmi2Error;
@@ -305,7 +320,8 @@ fmi2Status fmi2SetDebugLogging(fmi2Component component, fmi2Boolean on, size_t n
         if (categories[i] && strcmp(categories[i], "logAll") == 0) found = ALL_CATEGORIES;
         if (!found) {
             char message[200];
-            snprintf(message, sizeof message, "fmi2SetDebugLogging: unknown category \"%.60s\"", categories[i] ? categories[i] : "(null)");
+            snprintf(message, sizeof message, "fmi2SetDebugLogging: unknown category \"%.60s\"",
+                     categories[i] ? categories[i] : "(null)");
             instance_log(m, LOG_WARNING, message);
             status = fmi2Warning;
         }
@@ -316,8 +332,8 @@ fmi2Status fmi2SetDebugLogging(fmi2Component component, fmi2Boolean on, size_t n
 }
 
 // ---- initialization and end -----------------------------------------------------------------------------------------------------------------
-fmi2Status fmi2SetupExperiment(fmi2Component component, fmi2Boolean tolerance_defined, fmi2Real tolerance, fmi2Real start_time, fmi2Boolean stop_time_defined,
-                               fmi2Real stop_time)
+fmi2Status fmi2SetupExperiment(fmi2Component component, fmi2Boolean tolerance_defined, fmi2Real tolerance,
+                               fmi2Real start_time, fmi2Boolean stop_time_defined, fmi2Real stop_time)
 {
     Instance *m = enter(component, CALL_SetupExperiment);
     if (!m) return fmi2Error;
@@ -326,9 +342,13 @@ fmi2Status fmi2SetupExperiment(fmi2Component component, fmi2Boolean tolerance_de
     if (tolerance_defined && known && !variable_allows(known, 0, tolerance, message, sizeof message)) {
         return refuse(m, CALL_SetupExperiment, "%s (given as tolerance)", message);
     }
-    if (!isfinite(start_time)) return refuse(m, CALL_SetupExperiment, "startTime = %g s is not allowed: it must be finite", start_time);
+    if (!isfinite(start_time))
+        return refuse(m, CALL_SetupExperiment, "startTime = %g s is not allowed: it must be finite",
+                      start_time);
     if (stop_time_defined && !(stop_time >= start_time)) {
-        return refuse(m, CALL_SetupExperiment, "stopTime = %g s is not allowed: it must not lie before startTime = %g s", stop_time, start_time);
+        return refuse(m, CALL_SetupExperiment,
+                      "stopTime = %g s is not allowed: it must not lie before startTime = %g s", stop_time,
+                      start_time);
     }
     m->session.tolerance = tolerance_defined ? tolerance : 0.0;
     m->session.start_time = start_time;
@@ -382,13 +402,15 @@ static const Variable *find(Instance *m, Call call, fmi2ValueReference reference
 {
     const Variable *v = variable_find(reference, element);
     if (v && is_real(v) == real) return v;
-    refuse(m, call, "value reference %u belongs to no %s variable", reference, real ? "Real" : "Integer or Enumeration");
+    refuse(m, call, "value reference %u belongs to no %s variable", reference,
+           real ? "Real" : "Integer or Enumeration");
     return NULL;
 }
 
 static void *storage(Instance *m, const Variable *v)
 {
-    char *base = v->causality == CAUSALITY_INPUT ? (char *)part_inputs(m->part, 0) : (char *)part_parameters(m->part);
+    char *base =
+        v->causality == CAUSALITY_INPUT ? (char *)part_inputs(m->part, 0) : (char *)part_parameters(m->part);
     return base + v->offset;
 }
 
@@ -411,11 +433,8 @@ static fmi2Status real_value(Instance *m, const Variable *v, int element, double
         *value = m->session.phase == INITIALIZING ? m->session.start_time : part_time(m->part);
         return fmi2OK;
     case CAUSALITY_INPUT:
-    case CAUSALITY_PARAMETER:
-        *value = ((const double *)storage(m, v))[element];
-        return fmi2OK;
-    case CAUSALITY_OUTPUT:
-        break;
+    case CAUSALITY_PARAMETER: *value = ((const double *)storage(m, v))[element]; return fmi2OK;
+    case CAUSALITY_OUTPUT: break;
     }
     return output_value(m, v, element, value);
 }
@@ -437,7 +456,8 @@ fmi2Status fmi2GetReal(fmi2Component component, const fmi2ValueReference vr[], s
     return status;
 }
 
-fmi2Status fmi2GetInteger(fmi2Component component, const fmi2ValueReference vr[], size_t n, fmi2Integer value[])
+fmi2Status fmi2GetInteger(fmi2Component component, const fmi2ValueReference vr[], size_t n,
+                          fmi2Integer value[])
 {
     Instance *m = enter(component, CALL_GetInteger);
     if (!m) return fmi2Error;
@@ -465,7 +485,8 @@ static bool settable(Instance *m, Call call, fmi2ValueReference reference, bool 
     }
     if (v->causality == CAUSALITY_PARAMETER && m->session.phase == STEPPING) {
         variable_element_name(v, element, message, sizeof message);
-        refuse(m, call, "%s = %.10g is not allowed: parameters are fixed after initialization", message, value);
+        refuse(m, call, "%s = %.10g is not allowed: parameters are fixed after initialization", message,
+               value);
         return false;
     }
     if (!variable_allows(v, element, value, message, sizeof message)) {
@@ -476,7 +497,8 @@ static bool settable(Instance *m, Call call, fmi2ValueReference reference, bool 
 }
 
 // All values are checked before the first is set.
-fmi2Status fmi2SetReal(fmi2Component component, const fmi2ValueReference vr[], size_t n, const fmi2Real value[])
+fmi2Status fmi2SetReal(fmi2Component component, const fmi2ValueReference vr[], size_t n,
+                       const fmi2Real value[])
 {
     Instance *m = enter(component, CALL_SetReal);
     if (!m) return fmi2Error;
@@ -493,7 +515,8 @@ fmi2Status fmi2SetReal(fmi2Component component, const fmi2ValueReference vr[], s
     return fmi2OK;
 }
 
-fmi2Status fmi2SetInteger(fmi2Component component, const fmi2ValueReference vr[], size_t n, const fmi2Integer value[])
+fmi2Status fmi2SetInteger(fmi2Component component, const fmi2ValueReference vr[], size_t n,
+                          const fmi2Integer value[])
 {
     Instance *m = enter(component, CALL_SetInteger);
     if (!m) return fmi2Error;
@@ -518,14 +541,16 @@ static fmi2Status no_variables(fmi2Component component, Call call, size_t n, con
     return n == 0 ? fmi2OK : refuse(m, call, "this FMU has no %s variables", type);
 }
 
-fmi2Status fmi2GetBoolean(fmi2Component component, const fmi2ValueReference vr[], size_t n, fmi2Boolean value[])
+fmi2Status fmi2GetBoolean(fmi2Component component, const fmi2ValueReference vr[], size_t n,
+                          fmi2Boolean value[])
 {
     (void)vr;
     (void)value;
     return no_variables(component, CALL_GetBoolean, n, "Boolean");
 }
 
-fmi2Status fmi2SetBoolean(fmi2Component component, const fmi2ValueReference vr[], size_t n, const fmi2Boolean value[])
+fmi2Status fmi2SetBoolean(fmi2Component component, const fmi2ValueReference vr[], size_t n,
+                          const fmi2Boolean value[])
 {
     (void)vr;
     (void)value;
@@ -539,7 +564,8 @@ fmi2Status fmi2GetString(fmi2Component component, const fmi2ValueReference vr[],
     return no_variables(component, CALL_GetString, n, "String");
 }
 
-fmi2Status fmi2SetString(fmi2Component component, const fmi2ValueReference vr[], size_t n, const fmi2String value[])
+fmi2Status fmi2SetString(fmi2Component component, const fmi2ValueReference vr[], size_t n,
+                         const fmi2String value[])
 {
     (void)vr;
     (void)value;
@@ -548,16 +574,19 @@ fmi2Status fmi2SetString(fmi2Component component, const fmi2ValueReference vr[],
 
 // ---- derivatives ------------------------------------------------------------------------------------------------------------------------------
 // The input of a value reference, if it may have this derivative.
-static const Variable *differentiable_input(Instance *m, fmi2ValueReference reference, int order, double value, int *element)
+static const Variable *differentiable_input(Instance *m, fmi2ValueReference reference, int order,
+                                            double value, int *element)
 {
     const Variable *v = find(m, CALL_SetRealInputDerivatives, reference, true, element);
     if (!v) return NULL;
     if (v->causality != CAUSALITY_INPUT) {
         refuse(m, CALL_SetRealInputDerivatives, "%s: only inputs have derivatives that can be set", v->name);
     } else if (order < 1 || order > INPUT_ORDERS) {
-        refuse(m, CALL_SetRealInputDerivatives, "order = %d of %s is not allowed: it must lie in [1, %d]", order, v->name, INPUT_ORDERS);
+        refuse(m, CALL_SetRealInputDerivatives, "order = %d of %s is not allowed: it must lie in [1, %d]",
+               order, v->name, INPUT_ORDERS);
     } else if (!isfinite(value)) {
-        refuse(m, CALL_SetRealInputDerivatives, "%s: derivative of order %d = %g is not allowed: it must be finite", v->name, order, value);
+        refuse(m, CALL_SetRealInputDerivatives,
+               "%s: derivative of order %d = %g is not allowed: it must be finite", v->name, order, value);
     } else {
         return v;
     }
@@ -565,11 +594,13 @@ static const Variable *differentiable_input(Instance *m, fmi2ValueReference refe
 }
 
 // They hold for the next step, from its beginning on; without them an input stays where it is.
-fmi2Status fmi2SetRealInputDerivatives(fmi2Component component, const fmi2ValueReference vr[], size_t n, const fmi2Integer order[], const fmi2Real value[])
+fmi2Status fmi2SetRealInputDerivatives(fmi2Component component, const fmi2ValueReference vr[], size_t n,
+                                       const fmi2Integer order[], const fmi2Real value[])
 {
     Instance *m = enter(component, CALL_SetRealInputDerivatives);
     if (!m) return fmi2Error;
-    if (n > 0 && (!vr || !order || !value)) return refuse(m, CALL_SetRealInputDerivatives, "a null pointer for %zu values", n);
+    if (n > 0 && (!vr || !order || !value))
+        return refuse(m, CALL_SetRealInputDerivatives, "a null pointer for %zu values", n);
     int element;
     for (size_t i = 0; i < n; i++) {
         if (!differentiable_input(m, vr[i], order[i], value[i], &element)) return fmi2Error;
@@ -583,26 +614,32 @@ fmi2Status fmi2SetRealInputDerivatives(fmi2Component component, const fmi2ValueR
 }
 
 // Derivatives of the variables vr, all outputs, from those of all outputs; NaN after an error, as the outputs themselves.
-static fmi2Status output_derivatives(Instance *m, Call call, const Outputs *derivatives, const fmi2ValueReference vr[], size_t n, fmi2Real value[])
+static fmi2Status output_derivatives(Instance *m, Call call, const Outputs *derivatives,
+                                     const fmi2ValueReference vr[], size_t n, fmi2Real value[])
 {
     const bool erroneous = m->session.phase == ERRONEOUS;
     for (size_t i = 0; i < n; i++) {
         int element;
         const Variable *v = find(m, call, vr[i], true, &element);
         if (!v) return fmi2Error;
-        if (v->causality != CAUSALITY_OUTPUT) return refuse(m, call, "%s is no output: it has no derivative that could be asked for", v->name);
+        if (v->causality != CAUSALITY_OUTPUT)
+            return refuse(m, call, "%s is no output: it has no derivative that could be asked for", v->name);
         value[i] = erroneous ? NAN : ((const double *)((const char *)derivatives + v->offset))[element];
     }
     return fmi2OK;
 }
 
-fmi2Status fmi2GetRealOutputDerivatives(fmi2Component component, const fmi2ValueReference vr[], size_t n, const fmi2Integer order[], fmi2Real value[])
+fmi2Status fmi2GetRealOutputDerivatives(fmi2Component component, const fmi2ValueReference vr[], size_t n,
+                                        const fmi2Integer order[], fmi2Real value[])
 {
     Instance *m = enter(component, CALL_GetRealOutputDerivatives);
     if (!m) return fmi2Error;
-    if (n > 0 && (!vr || !order || !value)) return refuse(m, CALL_GetRealOutputDerivatives, "a null pointer for %zu values", n);
+    if (n > 0 && (!vr || !order || !value))
+        return refuse(m, CALL_GetRealOutputDerivatives, "a null pointer for %zu values", n);
     for (size_t i = 0; i < n; i++) {
-        if (order[i] != 1) return refuse(m, CALL_GetRealOutputDerivatives, "order = %d is not allowed: it must be 1", order[i]);
+        if (order[i] != 1)
+            return refuse(m, CALL_GetRealOutputDerivatives, "order = %d is not allowed: it must be 1",
+                          order[i]);
     }
     Outputs derivatives;
     const fenv_t host = floating_point_default();
@@ -612,13 +649,15 @@ fmi2Status fmi2GetRealOutputDerivatives(fmi2Component component, const fmi2Value
 }
 
 // Known are inputs and the states of the ring, all other states kept.
-fmi2Status fmi2GetDirectionalDerivative(fmi2Component component, const fmi2ValueReference unknown[], size_t n_unknown, const fmi2ValueReference known[],
-                                        size_t n_known, const fmi2Real d_known[], fmi2Real d_unknown[])
+fmi2Status fmi2GetDirectionalDerivative(fmi2Component component, const fmi2ValueReference unknown[],
+                                        size_t n_unknown, const fmi2ValueReference known[], size_t n_known,
+                                        const fmi2Real d_known[], fmi2Real d_unknown[])
 {
     const Call call = CALL_GetDirectionalDerivative;
     Instance *m = enter(component, call);
     if (!m) return fmi2Error;
-    if ((n_unknown > 0 && (!unknown || !d_unknown)) || (n_known > 0 && (!known || !d_known))) return refuse(m, call, "a null pointer");
+    if ((n_unknown > 0 && (!unknown || !d_unknown)) || (n_known > 0 && (!known || !d_known)))
+        return refuse(m, call, "a null pointer");
     Inputs inputs;
     double state[N_STATES] = {0.0};
     memset(&inputs, 0, sizeof inputs);
@@ -626,13 +665,16 @@ fmi2Status fmi2GetDirectionalDerivative(fmi2Component component, const fmi2Value
         int element;
         const Variable *v = find(m, call, known[i], true, &element);
         if (!v) return fmi2Error;
-        if (!isfinite(d_known[i])) return refuse(m, call, "%s: %g is not allowed in a direction: it must be finite", v->name, d_known[i]);
+        if (!isfinite(d_known[i]))
+            return refuse(m, call, "%s: %g is not allowed in a direction: it must be finite", v->name,
+                          d_known[i]);
         if (v->causality == CAUSALITY_INPUT)
             ((double *)((char *)&inputs + v->offset))[element] += d_known[i];
         else if (v->state >= 0)
             state[v->state] += d_known[i];
         else
-            return refuse(m, call, "%s is neither an input nor a state: there is no derivative by it", v->name);
+            return refuse(m, call, "%s is neither an input nor a state: there is no derivative by it",
+                          v->name);
     }
     Outputs derivatives;
     const fenv_t host = floating_point_default();
@@ -673,14 +715,18 @@ static const char *blob_problem(const unsigned char *blob, size_t size, bool che
     BlobHeader header;
     if (size < sizeof header) return "the saved state is truncated";
     memcpy(&header, blob, sizeof header);
-    if (memcmp(header.magic, BLOB_MAGIC, sizeof header.magic) != 0) return "this is not a saved state of a " MODEL_IDENTIFIER;
+    if (memcmp(header.magic, BLOB_MAGIC, sizeof header.magic) != 0)
+        return "this is not a saved state of a " MODEL_IDENTIFIER;
     if (header.version != BLOB_VERSION) return "the saved state is of another version of this FMU";
-    if (strncmp(header.guid, MODEL_GUID, sizeof header.guid) != 0) return "the saved state is of another model (its GUID is not " MODEL_GUID ")";
+    if (strncmp(header.guid, MODEL_GUID, sizeof header.guid) != 0)
+        return "the saved state is of another model (its GUID is not " MODEL_GUID ")";
     if (strncmp(header.data, part_data_digest(), sizeof header.data) != 0)
         return "the saved state is of an FMU with other data built in (of a bearing: another rivet table)";
-    if (header.size != blob_size()) return "the saved state is of another build of this FMU (its size differs)";
+    if (header.size != blob_size())
+        return "the saved state is of another build of this FMU (its size differs)";
     if (size != header.size) return "the saved state is truncated or too long";
-    if (checked && header.checksum != blob_checksum(blob)) return "the saved state is corrupted (its checksum is wrong)";
+    if (checked && header.checksum != blob_checksum(blob))
+        return "the saved state is corrupted (its checksum is wrong)";
     return NULL;
 }
 
@@ -737,7 +783,9 @@ fmi2Status fmi2SerializeFMUstate(fmi2Component component, fmi2FMUstate state, fm
     Instance *m = enter(component, CALL_SerializeFMUstate);
     if (!m) return fmi2Error;
     if (!state || !bytes) return refuse(m, CALL_SerializeFMUstate, "a null pointer");
-    if (size < blob_size()) return refuse(m, CALL_SerializeFMUstate, "size = %zu is not allowed: the state has %zu bytes", size, blob_size());
+    if (size < blob_size())
+        return refuse(m, CALL_SerializeFMUstate, "size = %zu is not allowed: the state has %zu bytes", size,
+                      blob_size());
     BlobHeader header;
     memcpy(&header, state, sizeof header);
     header.checksum = blob_checksum(state);
@@ -746,7 +794,8 @@ fmi2Status fmi2SerializeFMUstate(fmi2Component component, fmi2FMUstate state, fm
     return fmi2OK;
 }
 
-fmi2Status fmi2DeSerializeFMUstate(fmi2Component component, const fmi2Byte bytes[], size_t size, fmi2FMUstate *state)
+fmi2Status fmi2DeSerializeFMUstate(fmi2Component component, const fmi2Byte bytes[], size_t size,
+                                   fmi2FMUstate *state)
 {
     Instance *m = enter(component, CALL_DeSerializeFMUstate);
     if (!m) return fmi2Error;
@@ -770,13 +819,18 @@ static fmi2Status do_step(Instance *m, double point, double step)
 {
     const double time = part_time(m->part), end = point + step;
     if (!(isfinite(step) && step > 0.0)) {
-        return refuse(m, CALL_DoStep, "communicationStepSize = %g s is not allowed: it must be positive and finite", step);
+        return refuse(m, CALL_DoStep,
+                      "communicationStepSize = %g s is not allowed: it must be positive and finite", step);
     }
     if (!(fabs(point - time) <= clock_slack(time, step))) {
-        return refuse(m, CALL_DoStep, "currentCommunicationPoint = %.17g s is not allowed: the last step ended at %.17g s", point, time);
+        return refuse(m, CALL_DoStep,
+                      "currentCommunicationPoint = %.17g s is not allowed: the last step ended at %.17g s",
+                      point, time);
     }
     if (end > m->session.stop_time + clock_slack(m->session.stop_time, step)) {
-        return refuse(m, CALL_DoStep, "communicationStepSize = %g s is not allowed: the step goes beyond stopTime = %.17g s", step, m->session.stop_time);
+        return refuse(m, CALL_DoStep,
+                      "communicationStepSize = %g s is not allowed: the step goes beyond stopTime = %.17g s",
+                      step, m->session.stop_time);
     }
     return conclude(m, end > time ? part_step(m->part, end) : PART_OK);
 }
@@ -864,7 +918,8 @@ fmi2Status fmi2EnterContinuousTimeMode(fmi2Component c)
 {
     return refuse_unsupported(c, "fmi2EnterContinuousTimeMode");
 }
-fmi2Status fmi2CompletedIntegratorStep(fmi2Component c, fmi2Boolean no_earlier_state, fmi2Boolean *enter_event_mode, fmi2Boolean *terminate)
+fmi2Status fmi2CompletedIntegratorStep(fmi2Component c, fmi2Boolean no_earlier_state,
+                                       fmi2Boolean *enter_event_mode, fmi2Boolean *terminate)
 {
     (void)no_earlier_state, (void)enter_event_mode, (void)terminate;
     return refuse_unsupported(c, "fmi2CompletedIntegratorStep");

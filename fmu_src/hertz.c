@@ -36,8 +36,9 @@ static double curvature_difference(double kappa)
 Hertz hertz_contact(double rho_x, double rho_y, double E_star)
 {
     const double sum = rho_x + rho_y;
-    const double F_rho = fmin((rho_x - rho_y) / sum, 1.0 - 1e-9);  // a line contact is out of range: kappa <= 1e5
-    double low = 1.0 + 1e-9, high = 1e5;                           // F(rho) grows with kappa; near the sphere it is (3/4)(kappa - 1)
+    const double F_rho =
+        fmin((rho_x - rho_y) / sum, 1.0 - 1e-9);  // a line contact is out of range: kappa <= 1e5
+    double low = 1.0 + 1e-9, high = 1e5;  // F(rho) grows with kappa; near the sphere it is (3/4)(kappa - 1)
     if (F_rho <= 1e-8) high = low;
     for (int i = 0; i < 200 && high - low > 1e-15 * high; i++) {
         const double kappa = sqrt(low * high);
@@ -49,9 +50,15 @@ Hertz hertz_contact(double rho_x, double rho_y, double E_star)
     const double kappa = sqrt(low * high);
     double F, E;
     hertz_elliptic(1.0 - 1.0 / (kappa * kappa), &F, &E);
-    const double a_star = portable_cbrt(2.0 * kappa * kappa * E / PI), b_star = a_star / kappa, delta_star = 2.0 * F / (PI * a_star);
+    const double a_star = portable_cbrt(2.0 * kappa * kappa * E / PI), b_star = a_star / kappa,
+                 delta_star = 2.0 * F / (PI * a_star);
     const double load = 3.0 / (2.0 * sum * E_star);  // (Q load)^(1/3) scales the ellipse
     const double compliance = delta_star * 0.5 * sum * portable_cbrt(load) * portable_cbrt(load);
     const double K = portable_pow(compliance, -1.5), a = a_star * portable_cbrt(load);
-    return (Hertz){.K = K, .a = a, .b = b_star * portable_cbrt(load), .a_delta = a * portable_cbrt(K), .k = kappa, .R_x = 1.0 / rho_x};
+    return (Hertz){.K = K,
+                   .a = a,
+                   .b = b_star * portable_cbrt(load),
+                   .a_delta = a * portable_cbrt(K),
+                   .k = kappa,
+                   .R_x = 1.0 / rho_x};
 }

@@ -16,7 +16,8 @@
 #include "rotor.h"
 
 // ---- balls --------------------------------------------------------------------------------------------------------------------------------------
-static const double STIFF_LIMIT = 2.0;  // gamma A of a ball from which trapezoidal steps overshoot: (1 - z)/(1 + z) < -1/3
+static const double STIFF_LIMIT =
+    2.0;  // gamma A of a ball from which trapezoidal steps overshoot: (1 - z)/(1 + z) < -1/3
 enum { BLOCK = 6, TERMS = BLOCK * (BLOCK + 1) / 2 };
 #define AT(i, k) ((i) * ((i) + 1) / 2 + (k))  // row i, column k <= i of a triangle
 
@@ -81,7 +82,8 @@ INLINE void add_spin(wide g_spin, const wide n[3], wide A[TERMS])
 // gamma lambda Q + gamma^2 3 Q/(2 delta) of a race contact.
 INLINE wide normal_rate(const Model *model, double gamma, wide Q, wide delta)
 {
-    const wide k = wide_select(wide_above(delta, 0.0), 1.5 * Q / wide_max(delta, wide_set(1e-12)), wide_set(0.0));
+    const wide k =
+        wide_select(wide_above(delta, 0.0), 1.5 * Q / wide_max(delta, wide_set(1e-12)), wide_set(0.0));
     return gamma * (model->p->bearing.lambda * Q + gamma * k);
 }
 
@@ -93,8 +95,10 @@ INLINE void packet_matrix(const Model *model, const Work *w, int j, double gamma
     const wide R = wide_load(&d->R[j]), zero = wide_set(0.0);
     const wide n_i[3] = {wide_load(&w->n_ix[j]), wide_load(&w->n_ir[j]), wide_load(&w->n_it[j])};
     const wide n_e[3] = {wide_load(&w->n_ex[j]), wide_load(&w->n_er[j]), zero};
-    const wide normal_i = stiff ? normal_rate(model, gamma, wide_load(&w->Q_i[j]), wide_load(&w->delta_i[j])) : zero;
-    const wide normal_e = stiff ? normal_rate(model, gamma, wide_load(&w->Q_e[j]), wide_load(&w->delta_e[j])) : zero;
+    const wide normal_i =
+        stiff ? normal_rate(model, gamma, wide_load(&w->Q_i[j]), wide_load(&w->delta_i[j])) : zero;
+    const wide normal_e =
+        stiff ? normal_rate(model, gamma, wide_load(&w->Q_e[j]), wide_load(&w->delta_e[j])) : zero;
     for (int i = 0; i < TERMS; i++) A[i] = zero;
     add_contact(gamma * wide_load(&w->g_i[j]), normal_i, R, n_i, A);
     add_contact(gamma * wide_load(&w->g_e[j]), normal_e, R, n_e, A);
@@ -119,7 +123,8 @@ INLINE wide packet_rate(const Model *model, const Work *w, int j, double gamma)
     return gamma * sum;
 }
 
-static const int BALL_ROW[BLOCK] = {Y_BALL_V_X, Y_BALL_V_R, Y_BALL_OMEGA_M, Y_BALL_OMEGA_X, Y_BALL_OMEGA_R, Y_BALL_OMEGA_T};
+static const int BALL_ROW[BLOCK] = {Y_BALL_V_X,     Y_BALL_V_R,     Y_BALL_OMEGA_M,
+                                    Y_BALL_OMEGA_X, Y_BALL_OMEGA_R, Y_BALL_OMEGA_T};
 
 static void load_balls(const double *v, ball_array rows[BLOCK])
 {
@@ -135,7 +140,8 @@ static void store_balls(ball_array rows[BLOCK], double *v)
 }
 
 // x = A^-1 M x of one packet of rows.
-INLINE void solve_packet(const Model *model, const Work *w, int j, Factors *f, ball_array rows[BLOCK], wide x[BLOCK])
+INLINE void solve_packet(const Model *model, const Work *w, int j, Factors *f, ball_array rows[BLOCK],
+                         wide x[BLOCK])
 {
     const double m = model->d->m, J = model->d->J;
     const wide r = wide_load(&w->r[j]);
@@ -152,11 +158,15 @@ typedef struct {
     ball_array dv_du[BLOCK][3], schur[3][3], schur_rhs[3];
 } Coupling;
 
-INLINE void couple_packet(const Model *model, const Work *w, int j, double gamma, const Factors *f, const wide x[BLOCK], Coupling *c)
+INLINE void couple_packet(const Model *model, const Work *w, int j, double gamma, const Factors *f,
+                          const wide x[BLOCK], Coupling *c)
 {
-    const wide g = gamma * wide_load(&w->g_i[j]), r = wide_load(&w->r[j]), n[3] = {wide_load(&w->n_ix[j]), wide_load(&w->n_ir[j]), wide_load(&w->n_it[j])};
+    const wide g = gamma * wide_load(&w->g_i[j]), r = wide_load(&w->r[j]),
+               n[3] = {wide_load(&w->n_ix[j]), wide_load(&w->n_ir[j]), wide_load(&w->n_it[j])};
     const wide g_R = g * wide_load(&model->d->R[j]), zero = wide_set(0.0);
-    const wide turn[3][3] = {{zero, -g_R * n[2], g_R * n[1]}, {g_R * n[2], zero, -g_R * n[0]}, {-g_R * n[1], g_R * n[0], zero}};  // R n x
+    const wide turn[3][3] = {{zero, -g_R * n[2], g_R * n[1]},
+                             {g_R * n[2], zero, -g_R * n[0]},
+                             {-g_R * n[1], g_R * n[0], zero}};  // R n x
     for (int k = 0; k < 3; k++) {
         wide column[BLOCK], y[BLOCK];
         for (int i = 0; i < 3; i++) {
@@ -211,7 +221,8 @@ static void stiff_part_of_balls(const Model *model, const Work *w, double gamma,
         wide x[BLOCK];
         packet_matrix(model, w, j, gamma, false, f.A);
         solve_packet(model, w, j, &f, rows, x);
-        for (int i = 0; i < BLOCK; i++) wide_store(&rows[i][j], wide_select(stiff, wide_load(&rows[i][j]) - x[i], wide_set(0.0)));
+        for (int i = 0; i < BLOCK; i++)
+            wide_store(&rows[i][j], wide_select(stiff, wide_load(&rows[i][j]) - x[i], wide_set(0.0)));
     }
     store_balls(rows, v);
 }
@@ -227,9 +238,17 @@ typedef struct {
 
 static Film film(const Work *w, int land, double m, double J_p, double J_t, double x, double gamma)
 {
-    const double inv_m = 1.0 / m + x * x / J_t, yy = gamma * w->film_yy[land], yz = gamma * w->film_yz[land], zz = gamma * w->film_zz[land];
+    const double inv_m = 1.0 / m + x * x / J_t, yy = gamma * w->film_yy[land], yz = gamma * w->film_yz[land],
+                 zz = gamma * w->film_zz[land];
     const double a = 1.0 + inv_m * yy, b = inv_m * yz, c = 1.0 + inv_m * zz, inv_det = 1.0 / (a * c - b * b);
-    return (Film){m, J_p, J_t, x, (yy * c - yz * b) * inv_det, (yz * a - yy * b) * inv_det, (zz * a - yz * b) * inv_det, gamma * w->film_spin[land] / J_p};
+    return (Film){m,
+                  J_p,
+                  J_t,
+                  x,
+                  (yy * c - yz * b) * inv_det,
+                  (yz * a - yy * b) * inv_det,
+                  (zz * a - yz * b) * inv_det,
+                  gamma * w->film_spin[land] / J_p};
 }
 
 static void film_solve(const Film *f, Half *v)
@@ -249,17 +268,20 @@ static int films(const Model *model, const Work *w, int h, double gamma, Film f[
     const Parameters *p = model->p;
     const double m = p->cage.m, J_p = p->cage.J_p, J_t = p->cage.J_t, x_c = p->cage.x_c;
     if (p->scene.cage == CAGE_MODEL_TWO_HALF) {
-        f[0] = film(w, h, m, J_p, J_t, (h == 0 ? -p->cage.land_x : p->cage.land_x) - model->d->com_x[h], gamma);
+        f[0] =
+            film(w, h, m, J_p, J_t, (h == 0 ? -p->cage.land_x : p->cage.land_x) - model->d->com_x[h], gamma);
         return 1;
     }
     for (int land = 0; land < 2; land++)
-        f[land] = film(w, land, 2.0 * m, 2.0 * J_p, 2.0 * (J_t + m * x_c * x_c), land == 0 ? -p->cage.land_x : p->cage.land_x, gamma);
+        f[land] = film(w, land, 2.0 * m, 2.0 * J_p, 2.0 * (J_t + m * x_c * x_c),
+                       land == 0 ? -p->cage.land_x : p->cage.land_x, gamma);
     return 2;
 }
 
 static Half half_load(const double *v, int h)
 {
-    return (Half){v[Y_CAGE_V_X + h], v[Y_CAGE_V_Y + h], v[Y_CAGE_V_Z + h], v[Y_CAGE_BETA_DOT + h], v[Y_CAGE_GAMMA_DOT + h], v[Y_CAGE_S + h]};
+    return (Half){v[Y_CAGE_V_X + h],      v[Y_CAGE_V_Y + h],       v[Y_CAGE_V_Z + h],
+                  v[Y_CAGE_BETA_DOT + h], v[Y_CAGE_GAMMA_DOT + h], v[Y_CAGE_S + h]};
 }
 
 static void half_store(const Half *half, double *v, int h)
@@ -276,10 +298,13 @@ static void joint_matrix(const Model *model, const Work *w, double gamma, double
     ball_array rate, rate_y, rate_z, rate_yy, rate_yz, rate_zz;
     const wide zero = wide_set(0.0);
     for (int k = 0; k < PACKETS * LANE_WIDTH; k += LANE_WIDTH) {
-        const wide T = wide_load(&w->T[k]), N_plate = wide_load(&w->N_plate[k]), s_y = wide_load(&d->rivet_y[k]), s_z = wide_load(&d->rivet_z[k]);
+        const wide T = wide_load(&w->T[k]), N_plate = wide_load(&w->N_plate[k]),
+                   s_y = wide_load(&d->rivet_y[k]), s_z = wide_load(&d->rivet_z[k]);
         const wide y = s_y * h0->b_y[1] + s_z * h0->b_z[1], z = s_y * h0->b_y[2] + s_z * h0->b_z[2];
-        const wide stiffness = wide_select(wide_above(T, 0.0), wide_set(d->k_rivet), zero) + wide_select(wide_above(N_plate, 0.0), wide_set(d->k_plate), zero);
-        const wide rate_k = gamma * (d->c_joint * N_plate / (N_plate + model->p->joint.F_floor) + gamma * stiffness);
+        const wide stiffness = wide_select(wide_above(T, 0.0), wide_set(d->k_rivet), zero) +
+                               wide_select(wide_above(N_plate, 0.0), wide_set(d->k_plate), zero);
+        const wide rate_k =
+            gamma * (d->c_joint * N_plate / (N_plate + model->p->joint.F_floor) + gamma * stiffness);
         wide_store(&rate[k], rate_k);
         wide_store(&rate_y[k], rate_k * y);
         wide_store(&rate_z[k], rate_k * z);
@@ -287,8 +312,10 @@ static void joint_matrix(const Model *model, const Work *w, double gamma, double
         wide_store(&rate_yz[k], rate_k * y * z);
         wide_store(&rate_zz[k], rate_k * z * z);
     }
-    A[0][0] = ball_array_sum(rate), A[1][0] = A[0][1] = ball_array_sum(rate_z), A[2][0] = A[0][2] = -ball_array_sum(rate_y);
-    A[1][1] = ball_array_sum(rate_zz), A[2][1] = A[1][2] = -ball_array_sum(rate_yz), A[2][2] = ball_array_sum(rate_yy);
+    A[0][0] = ball_array_sum(rate), A[1][0] = A[0][1] = ball_array_sum(rate_z),
+    A[2][0] = A[0][2] = -ball_array_sum(rate_y);
+    A[1][1] = ball_array_sum(rate_zz), A[2][1] = A[1][2] = -ball_array_sum(rate_yz),
+    A[2][2] = ball_array_sum(rate_yy);
 }
 
 // x = B^-1 x by Cramer's rule.
@@ -301,7 +328,8 @@ static void solve_3(double B[3][3], double x[3])
             minor[i][k] = B[a][c] * B[b][e] - B[a][e] * B[b][c];
         }
     const double inv_det = 1.0 / (B[0][0] * minor[0][0] + B[0][1] * minor[0][1] + B[0][2] * minor[0][2]);
-    for (int i = 0; i < 3; i++) out[i] = (minor[0][i] * x[0] + minor[1][i] * x[1] + minor[2][i] * x[2]) * inv_det;
+    for (int i = 0; i < 3; i++)
+        out[i] = (minor[0][i] * x[0] + minor[1][i] * x[1] + minor[2][i] * x[2]) * inv_det;
     memcpy(x, out, sizeof out);
 }
 
@@ -329,7 +357,8 @@ static void solve_joints(const Model *model, const Work *w, double gamma, const 
         const double sign = h == 0 ? 1.0 : -1.0;
         Half change = {sign * x[0] / f[h].m, 0.0, 0.0, sign * x[1] / f[h].J_t, sign * x[2] / f[h].J_t, 0.0};
         film_solve(&f[h], &change);
-        half[h].x += change.x, half[h].y += change.y, half[h].z += change.z, half[h].beta += change.beta, half[h].gamma += change.gamma;
+        half[h].x += change.x, half[h].y += change.y, half[h].z += change.z, half[h].beta += change.beta,
+            half[h].gamma += change.gamma;
     }
 }
 
@@ -342,7 +371,8 @@ static void solve_halves(const Model *model, const Work *w, double gamma, double
         const int count = films(model, w, h, gamma, f[h]);
         for (int land = 0; land < count; land++) film_solve(&f[h][land], &half[h]);
     }
-    if (model->p->scene.cage == CAGE_MODEL_TWO_HALF) solve_joints(model, w, gamma, (Film[2]){f[0][0], f[1][0]}, half);
+    if (model->p->scene.cage == CAGE_MODEL_TWO_HALF)
+        solve_joints(model, w, gamma, (Film[2]){f[0][0], f[1][0]}, half);
     for (int h = 0; h < 2; h++) half_store(&half[h], v, h);
 }
 
@@ -366,8 +396,9 @@ static void stiff_part_of_halves(const Model *model, const Work *w, double gamma
 }
 
 // ---- ring -----------------------------------------------------------------------------------------------------------------------------------------
-enum { RING = RING_DOF };                  // velocities of the ring: v_x, v_y, v_z, beta_dot, gamma_dot
-static const double COUPLING_LIMIT = 0.2;  // gamma A of the ring by traction from which it is coupled to the balls
+enum { RING = RING_DOF };  // velocities of the ring: v_x, v_y, v_z, beta_dot, gamma_dot
+static const double COUPLING_LIMIT =
+    0.2;  // gamma A of the ring by traction from which it is coupled to the balls
 
 // What holds back each velocity of the ring by itself: gamma A + gamma^2 K of support and tilt.
 static void ring_support(const Model *model, double gamma, double support[RING])
@@ -376,7 +407,8 @@ static void ring_support(const Model *model, double gamma, double support[RING])
     const double rate = gamma / p->ring.tilt_time;
     double tilt = 0.0;
     if (p->ring.tilt_mode == TILT_MODE_PRESCRIBED) tilt = 2.0 * rate + rate * rate;
-    if (p->ring.tilt_mode == TILT_MODE_SUPPORTED) tilt = gamma * (p->ring.c_tilt + gamma * p->ring.k_tilt) / p->ring.J_t;
+    if (p->ring.tilt_mode == TILT_MODE_SUPPORTED)
+        tilt = gamma * (p->ring.c_tilt + gamma * p->ring.k_tilt) / p->ring.J_t;
     for (int i = 0; i < RING; i++) support[i] = i < 3 ? gamma * p->ring.c / p->ring.m : tilt;
 }
 
@@ -384,13 +416,15 @@ static bool ring_coupled(const Model *model, const Work *w, double gamma)
 {
     const Parameters *p = model->p;
     const double rate = gamma * ball_array_sum(w->g_i), r = 0.5 * p->bearing.d_m;
-    return rate > COUPLING_LIMIT * p->ring.m || (p->ring.tilt_mode != TILT_MODE_PRESCRIBED && rate * r * r > COUPLING_LIMIT * p->ring.J_t);
+    return rate > COUPLING_LIMIT * p->ring.m ||
+           (p->ring.tilt_mode != TILT_MODE_PRESCRIBED && rate * r * r > COUPLING_LIMIT * p->ring.J_t);
 }
 
 // Velocity (x, r, t) of the race at ball j's contact by each velocity of the ring.
 static void race_motion(const Model *model, const Work *w, int j, double D[3][RING])
 {
-    const double R = model->d->R[j], x = w->x[j] + R * w->n_ix[j], r = w->r[j] + R * w->n_ir[j], t = R * w->n_it[j];
+    const double R = model->d->R[j], x = w->x[j] + R * w->n_ix[j], r = w->r[j] + R * w->n_ir[j],
+                 t = R * w->n_it[j];
     const double c = w->cos_theta[j], s = w->sin_theta[j];
     const double axes[2][3] = {{0.0, c, -s}, {0.0, s, c}};  // Y and Z
     memset(D, 0, 3 * RING * sizeof(double));
@@ -405,9 +439,11 @@ static void race_motion(const Model *model, const Work *w, int j, double D[3][RI
 }
 
 // The ring's velocities V under the balls' schur_rhs and schur, then what V gives the balls.
-static void race_couple(const Model *model, const Work *w, const double support[RING], const Coupling *c, ball_array rows[BLOCK], double V[RING])
+static void race_couple(const Model *model, const Work *w, const double support[RING], const Coupling *c,
+                        ball_array rows[BLOCK], double V[RING])
 {
-    const int moved = model->p->ring.tilt_mode == TILT_MODE_PRESCRIBED ? 3 : RING;  // velocities that forces change
+    const int moved =
+        model->p->ring.tilt_mode == TILT_MODE_PRESCRIBED ? 3 : RING;  // velocities that forces change
     double D[Z][3][RING], S[RING][RING] = {0};
     for (int i = 0; i < RING; i++) {
         const double inertia = i < 3 ? model->p->ring.m : model->p->ring.J_t;
@@ -435,7 +471,8 @@ static void race_couple(const Model *model, const Work *w, const double support[
 static void stiff_part_of_ring(const Model *model, double gamma, double *v)
 {
     const Parameters *p = model->p;
-    const double support = gamma * p->ring.c / p->ring.m, tilt = p->ring.tilt_mode == TILT_MODE_SUPPORTED ? gamma * p->ring.c_tilt / p->ring.J_t : 0.0;
+    const double support = gamma * p->ring.c / p->ring.m,
+                 tilt = p->ring.tilt_mode == TILT_MODE_SUPPORTED ? gamma * p->ring.c_tilt / p->ring.J_t : 0.0;
     for (int i = 0; i < 3; i++) v[Y_RING_V_X + i] *= support / (1.0 + support);
     v[Y_RING_BETA_DOT] *= tilt / (1.0 + tilt);
     v[Y_RING_GAMMA_DOT] *= tilt / (1.0 + tilt);

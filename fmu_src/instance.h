@@ -11,7 +11,10 @@
 static const double FORCE_FLOOR = 1e-3;  // [N]
 static const double STRESS_FLOOR = 1e3;  // [Pa]
 
-enum { WORST_RIVET = Z, STRESS_CHANNELS = Z + 1 };  // channels of stress statistics: each rivet, the worst one at each instant
+enum {
+    WORST_RIVET = Z,
+    STRESS_CHANNELS = Z + 1
+};  // channels of stress statistics: each rivet, the worst one at each instant
 
 // Everything that the future depends on: plain bytes.
 typedef struct {
@@ -23,8 +26,9 @@ typedef struct {
     double energy_start;
     double force_peak;  // since the last communication point
     double head_peak[Z], mid_peak[Z];
-    double dislocation_max;                           // largest slip of a joint since start.settle [m]
-    double duty_time, omega_time, eccentricity_time;  // integrals over time since start.settle: of contact, cage speed, eccentricity
+    double dislocation_max;  // largest slip of a joint since start.settle [m]
+    double duty_time, omega_time,
+        eccentricity_time;  // integrals over time since start.settle: of contact, cage speed, eccentricity
     StatisticsChannel force, head[STRESS_CHANNELS], mid[STRESS_CHANNELS];
     FatigueChannel fatigue_head[Z], fatigue_mid[Z];
     EventState event;
@@ -62,4 +66,5 @@ bool check_start(Bearing *b);
 // Whether inputs stay within their limits over a step of length h (they may change at every step).
 bool check_inputs(Bearing *b, double h);
 
-void bearing_log(Bearing *b, LogCategory category, const char *format, ...) __attribute__((format(printf, 3, 4)));
+void bearing_log(Bearing *b, LogCategory category, const char *format, ...)
+    __attribute__((format(printf, 3, 4)));

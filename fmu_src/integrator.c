@@ -195,7 +195,8 @@ static int weights(N_Vector y, N_Vector ewt, void *user)
 }
 
 // ---- creation ---------------------------------------------------------------------------------------------------------------------------------
-static void report(int line, const char *function, const char *file, const char *message, SUNErrCode code, void *user, SUNContext sun)
+static void report(int line, const char *function, const char *file, const char *message, SUNErrCode code,
+                   void *user, SUNContext sun)
 {
     (void)file, (void)sun;
     const Integrator *in = user;
@@ -216,7 +217,8 @@ static int explicit_table(void *arkode)
 {
     enum { STAGES = 5 };
     const double theta = 0.05;
-    double c[STAGES] = {0.0, 0.5, 0.5, 1.0, 1.0}, b[STAGES] = {1.0 / 6.0, 1.0 / 3.0, 1.0 / 3.0, 1.0 / 6.0, 0.0};
+    double c[STAGES] = {0.0, 0.5, 0.5, 1.0, 1.0},
+           b[STAGES] = {1.0 / 6.0, 1.0 / 3.0, 1.0 / 3.0, 1.0 / 6.0, 0.0};
     double d[STAGES] = {1.0 / 6.0, 1.0 / 3.0, 1.0 / 3.0, 1.0 / 6.0 - theta, theta};
     double A[STAGES * STAGES] = {0.0,       0.0,       0.0,       0.0,       0.0,  //
                                  0.5,       0.0,       0.0,       0.0,       0.0,  //
@@ -234,21 +236,25 @@ static bool warm_up(Integrator *in)
 {
     double t;
     in->warming_up = true;
-    const bool fine = ARKodeSetInitStep(in->arkode, 1.0) == ARK_SUCCESS && ARKodeSetStopTime(in->arkode, 1.0) == ARK_SUCCESS &&
+    const bool fine = ARKodeSetInitStep(in->arkode, 1.0) == ARK_SUCCESS &&
+                      ARKodeSetStopTime(in->arkode, 1.0) == ARK_SUCCESS &&
                       ARKodeEvolve(in->arkode, 1.0, in->y, &t, ARK_ONE_STEP) >= 0;
     in->warming_up = false;
     return fine;
 }
 
-Integrator *integrator_create(const Kernels *kernels, const Model *model, Work *w, IntegratorState *state, StepHook *hook, IntegratorLog *log, void *context)
+Integrator *integrator_create(const Kernels *kernels, const Model *model, Work *w, IntegratorState *state,
+                              StepHook *hook, IntegratorLog *log, void *context)
 {
     Integrator *in = aligned_new(sizeof *in);
     if (in == NULL) return NULL;
-    *in = (Integrator){.kernels = kernels, .model = model, .w = w, .s = state, .hook = hook, .log = log, .context = context};
+    *in = (Integrator){
+        .kernels = kernels, .model = model, .w = w, .s = state, .hook = hook, .log = log, .context = context};
     bool fine = SUNContext_Create(SUN_COMM_NULL, &in->sun) == SUN_SUCCESS;
     if (fine) {
         SUNContext_ClearErrHandlers(in->sun);
-        fine = SUNContext_PushErrHandler(in->sun, report, in) == SUN_SUCCESS && (in->y = vector_new(in->sun, kernels->ops)) != NULL;
+        fine = SUNContext_PushErrHandler(in->sun, report, in) == SUN_SUCCESS &&
+               (in->y = vector_new(in->sun, kernels->ops)) != NULL;
     }
     if (fine) {
         in->arkode = ERKStepCreate(explicit_rhs, 0.0, in->y, in->sun);
@@ -290,7 +296,8 @@ void integrator_evaluate(Integrator *in)
 static int step_underflow(const Integrator *in, double h)
 {
     char text[128];
-    snprintf(text, sizeof text, "t = %.9g s: Verlet: the error test fails with the smallest step, %g s", in->s->t, h);
+    snprintf(text, sizeof text, "t = %.9g s: Verlet: the error test fails with the smallest step, %g s",
+             in->s->t, h);
     in->log(in->context, text);
     return ARK_ERR_FAILURE;
 }
@@ -311,7 +318,9 @@ static int verlet_advance(Integrator *in, double t_stop, long max_steps)
         const bool last = h_goal >= left * (1.0 - 1e-9);
         const double h = last ? left : left < 2.0 * h_goal ? 0.5 * left : h_goal;
         const double error = in->kernels->verlet(in->model, s->t, h, in->weight, now, next, in->w);
-        const double factor = error > 0.0 ? 0.8 * approx_inv_cbrt(error) : error == 0.0 ? 2.0 : 0.0;  // NaN: the least
+        const double factor = error > 0.0    ? 0.8 * approx_inv_cbrt(error)
+                              : error == 0.0 ? 2.0
+                                             : 0.0;  // NaN: the least
         s->rhs_evals += 1.0;
         if (!(error <= 1.0)) {  // NaN fails too
             s->error_tests_failed += 1.0;
@@ -371,5 +380,6 @@ int integrator_advance(Integrator *in, double t_stop, long max_steps)
 {
     integrator_evaluate(in);
     if (!in->kernels->ops->finite(in->s->now.f)) return ARK_RHSFUNC_FAIL;
-    return in->model->p->solver.method == METHOD_EXPLICIT ? explicit_advance(in, t_stop, max_steps) : verlet_advance(in, t_stop, max_steps);
+    return in->model->p->solver.method == METHOD_EXPLICIT ? explicit_advance(in, t_stop, max_steps)
+                                                          : verlet_advance(in, t_stop, max_steps);
 }

@@ -20,7 +20,8 @@ typedef void StepHook(void *context, double h, const Work *w);
 typedef void IntegratorLog(void *context, const char *message);
 
 // NULL if out of memory.  All memory is taken here.
-Integrator *integrator_create(const Kernels *kernels, const Model *model, Work *w, IntegratorState *state, StepHook *hook, IntegratorLog *log, void *context);
+Integrator *integrator_create(const Kernels *kernels, const Model *model, Work *w, IntegratorState *state,
+                              StepHook *hook, IntegratorLog *log, void *context);
 void integrator_destroy(Integrator *integrator);
 
 // Error weights for the tolerance; scale of each state class in model->d.

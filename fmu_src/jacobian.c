@@ -36,7 +36,8 @@ static void scalars_derivative(int n, const scalar *x, double *derivative)
     for (int i = 0; i < n; i++) derivative[i] = scalar_derivative(x[i]);
 }
 
-void jacobian_product(const Model *model, double t, const double *y, const double *dy, const double *d_ring_load, double *dy_dot, double *dw)
+void jacobian_product(const Model *model, double t, const double *y, const double *dy,
+                      const double *d_ring_load, double *dy_dot, double *dw)
 {
     RingLoad ring_load;
     InputTrajectory trajectory;
@@ -65,7 +66,8 @@ void jacobian_matrix(const Model *model, double t, const double *y, double *J)
     }
 }
 
-void jacobian_outputs(const Model *model, const double *trajectory, double t, double dt, const double *du, const double *y, const double *dy, double *d_out)
+void jacobian_outputs(const Model *model, const double *trajectory, double t, double dt, const double *du,
+                      const double *y, const double *dy, double *d_out)
 {
     InputTrajectory inputs;
     RingLoad ring_load;

@@ -9,7 +9,8 @@
 // Derivative of y_dot(t, y, ring load) along the direction (dy, d_ring_load): dy_dot = J dy + d(y_dot)/d(ring load) d_ring_load.
 // d_ring_load: a RingLoad, or NULL for none.  dw: a Work for the derivatives of all results of the right-hand side, or NULL.
 // The cost is that of some five right-hand sides.
-void jacobian_product(const Model *model, double t, const double *y, const double *dy, const double *d_ring_load, double *dy_dot, double *dw);
+void jacobian_product(const Model *model, double t, const double *y, const double *dy,
+                      const double *d_ring_load, double *dy_dot, double *dw);
 
 // All derivatives by the states, column by column: J[j * N_STATES + i] = d(y_dot[i])/d(y[j]).
 void jacobian_matrix(const Model *model, double t, const double *y, double *J);
@@ -17,7 +18,8 @@ void jacobian_matrix(const Model *model, double t, const double *y, double *J);
 // Derivatives of all outputs along dt of time, du of the inputs and dy of the states.
 // trajectory: the InputTrajectory at time t.  du: Inputs, or NULL for none.  d_out: Outputs; what is recorded over steps (peaks, statistics,
 // fatigue, solver) does not follow from one evaluation, and its derivative is 0.
-void jacobian_outputs(const Model *model, const double *trajectory, double t, double dt, const double *du, const double *y, const double *dy, double *d_out);
+void jacobian_outputs(const Model *model, const double *trajectory, double t, double dt, const double *du,
+                      const double *y, const double *dy, double *d_out);
 
 // Derivative of the housing's reaction (housing.h) from results and their derivative (Work).
 void jacobian_housing(const double *w, const double *dw, double dF[3], double dM[3]);

@@ -46,7 +46,8 @@ enum { HALVES = 2 };  // cage halves are lanes too, this many side by side (wide
 #endif
 
 typedef double wide __attribute__((vector_size(8 * LANE_WIDTH)));
-typedef int64_t bits __attribute__((vector_size(8 * LANE_WIDTH)));  // a comparison's result: all ones where true
+typedef int64_t bits
+    __attribute__((vector_size(8 * LANE_WIDTH)));  // a comparison's result: all ones where true
 typedef uint64_t words __attribute__((vector_size(8 * LANE_WIDTH)));
 
 INLINE double scalar_value(scalar x)
@@ -182,7 +183,8 @@ INLINE wide wide_exp(wide x)
     x = wide_max(wide_min(x, wide_set(700.0)), wide_set(-700.0));
     bits n;
     const wide k = wide_round(x * 1.4426950408889634, &n);
-    const wide r = wide_fma(k, wide_set(-1.6465949582897082e-12), wide_fma(k, wide_set(-0.6931471805582987), x));  // ln 2 in two parts
+    const wide r = wide_fma(k, wide_set(-1.6465949582897082e-12),
+                            wide_fma(k, wide_set(-0.6931471805582987), x));  // ln 2 in two parts
     wide p = wide_set(2.761380686153829e-07);
     p = wide_fma(p, r, wide_set(2.762511557828763e-06));
     p = wide_fma(p, r, wide_set(2.4801536388690766e-05));
@@ -199,8 +201,9 @@ INLINE wide wide_exp(wide x)
 // x = 2^k m with sqrt(1/2) <= m < sqrt(2).
 INLINE wide wide_split(wide x, wide *m)
 {
-    const uint64_t one = 0x3ff0000000000000, sqrt_half = 0x3fe6a09e667f3bcd, two_52 = 0x4330000000000000;  // the bits of these numbers
-    const words exponent = ((words)x + (one - sqrt_half)) >> 52;                                           // k + 1023
+    const uint64_t one = 0x3ff0000000000000, sqrt_half = 0x3fe6a09e667f3bcd,
+                   two_52 = 0x4330000000000000;                   // the bits of these numbers
+    const words exponent = ((words)x + (one - sqrt_half)) >> 52;  // k + 1023
     *m = (wide)((words)x - (exponent << 52) + one);
     return (wide)(exponent | two_52) - (4503599627370496.0 + 1023.0);
 }
@@ -214,7 +217,8 @@ INLINE wide wide_log_of(wide k, wide t)
     p = wide_fma(p, z, wide_set(0.2857142413651635));
     p = wide_fma(p, z, wide_set(0.400000000112122));
     p = wide_fma(p, z, wide_set(0.6666666666666208));
-    return wide_fma(k, wide_set(0.6931471805582987), wide_fma(k, wide_set(1.6465949582897082e-12), wide_fma(t * z, p, 2.0 * t)));
+    return wide_fma(k, wide_set(0.6931471805582987),
+                    wide_fma(k, wide_set(1.6465949582897082e-12), wide_fma(t * z, p, 2.0 * t)));
 }
 // ln x of a normal x > 0, relative error < 3e-15.
 INLINE wide wide_log(wide x)
@@ -237,7 +241,8 @@ INLINE void wide_sincos(wide x, wide *sine, wide *cosine)
 {
     bits n;
     const wide k = wide_round(x * 0.6366197723675814, &n);
-    const wide near = wide_fma(k, wide_set(-9.920935791635221e-10), wide_fma(k, wide_set(-1.570796325802803), x));
+    const wide near =
+        wide_fma(k, wide_set(-9.920935791635221e-10), wide_fma(k, wide_set(-1.570796325802803), x));
     const wide r = wide_fma(k, wide_set(-5.170182981794105e-19), near);  // pi/2 in three parts
     const wide z = r * r;
     wide p = wide_set(1.591810123027412e-10), q = wide_set(-1.1382614868556325e-11);
@@ -266,7 +271,8 @@ INLINE wide wide_atan(wide x)
     const bits large = u > 2.414213562373095, middle = u > 0.41421356237309503;  // tan 3 pi/8, tan pi/8
     const wide top = wide_select(large, wide_set(-1.0), wide_select(middle, u - 1.0, u));
     const wide bottom = wide_select(large, u, wide_select(middle, u + 1.0, wide_set(1.0)));
-    const wide offset = wide_select(large, wide_set(0.5 * PI), wide_select(middle, wide_set(0.25 * PI), wide_set(0.0)));
+    const wide offset =
+        wide_select(large, wide_set(0.5 * PI), wide_select(middle, wide_set(0.25 * PI), wide_set(0.0)));
     const wide r = top / bottom, z = r * r;
     wide p = wide_set(-0.027229493655218973);
     p = wide_fma(p, z, wide_set(0.051686162502498884));
@@ -284,7 +290,8 @@ INLINE wide wide_atan(wide x)
 #endif
 
 typedef scalar ball_array[LANES] __attribute__((aligned(8 * sizeof(scalar))));  // one number per ball
-typedef double constants[LANES] __attribute__((aligned(8 * sizeof(double))));   // the same, independent of the state
+typedef double constants[LANES]
+    __attribute__((aligned(8 * sizeof(double))));  // the same, independent of the state
 
 // Sum over the balls in one order for every lane width: four partial sums, then (0 + 1) + (2 + 3).
 INLINE scalar ball_array_sum(const scalar *v)

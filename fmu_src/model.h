@@ -35,34 +35,38 @@ typedef struct {
     constants R;  // ball radius [m]
     double m, J;  // ball mass [kg], moment of inertia [kg.m2]
     Race inner, outer;
-    double ln_pocket_piezo, ln_pocket_rigid;  // ln Lambda of the pocket film at U = 1 m/s, Q = 1 N: piezoviscous, isoviscous-rigid
-    double pocket_rolling;                    // F_R = pocket_rolling U^0.66 Q^0.47
+    double ln_pocket_piezo,
+        ln_pocket_rigid;  // ln Lambda of the pocket film at U = 1 m/s, Q = 1 N: piezoviscous, isoviscous-rigid
+    double pocket_rolling;  // F_R = pocket_rolling U^0.66 Q^0.47
     Hertz pocket;
-    double pocket_radius;                               // of the pocket [m]
-    constants pocket_cos, pocket_sin;                   // body angle of pocket j: 2 pi j / Z
-    constants rivet_y, rivet_z;                         // place of rivet k in a half: angle 2 pi (k + 1/2) / Z on the pitch circle [m]
-    double drag;                                        // ball drag / v^2 [N.s2/m2]
-    double com_x[2], com_e;                             // centre of mass of a half from its geometric centre: axial, toward pocket 1 [m]
-    double C_land, kappa, couette;                      // radial guide clearance [m], eta R L^3 / C^3 [N.s/m], Couette torque / speed [N.m.s]
-    double ln_land;                                     // ln Lambda of a land film of thickness C
-    double disk_laminar, disk_turbulent;                // end-face drag moment / |omega|^1.5, |omega|^1.8 of one half
+    double pocket_radius;              // of the pocket [m]
+    constants pocket_cos, pocket_sin;  // body angle of pocket j: 2 pi j / Z
+    constants rivet_y,
+        rivet_z;             // place of rivet k in a half: angle 2 pi (k + 1/2) / Z on the pitch circle [m]
+    double drag;             // ball drag / v^2 [N.s2/m2]
+    double com_x[2], com_e;  // centre of mass of a half from its geometric centre: axial, toward pocket 1 [m]
+    double C_land, kappa,
+        couette;     // radial guide clearance [m], eta R L^3 / C^3 [N.s/m], Couette torque / speed [N.m.s]
+    double ln_land;  // ln Lambda of a land film of thickness C
+    double disk_laminar, disk_turbulent;  // end-face drag moment / |omega|^1.5, |omega|^1.8 of one half
     double disk_laminar_omega, cylinder_laminar_omega;  // cage speeds below which both are laminar [rad/s]
-    double cylinder_laminar, cylinder_vortex;           // cylinder drag moment / |omega|, |omega|^1.539 of one half
-    double P, fit_a, fit_eff, k_hole, hole_gap;         // joint at the present temperature
-    unsigned fit_flags;                                 // rivet_rom_fit_flags
-    double k_rivet, k_plate, k_plate_t, k_head;         // its stiffnesses [N/m]
-    double c_joint;                                     // axial damping of one closed joint [N.s/m]
-    double scale[SCALE_COUNT];                          // error that tolerance 1 allows, by class of state
-    double inertia[N_STATES];                           // of balls and cage in each velocity, of orbital speeds per r^2; 0 elsewhere
+    double cylinder_laminar, cylinder_vortex;    // cylinder drag moment / |omega|, |omega|^1.539 of one half
+    double P, fit_a, fit_eff, k_hole, hole_gap;  // joint at the present temperature
+    unsigned fit_flags;                          // rivet_rom_fit_flags
+    double k_rivet, k_plate, k_plate_t, k_head;  // its stiffnesses [N/m]
+    double c_joint;                              // axial damping of one closed joint [N.s/m]
+    double scale[SCALE_COUNT];                   // error that tolerance 1 allows, by class of state
+    double inertia[N_STATES];  // of balls and cage in each velocity, of orbital speeds per r^2; 0 elsewhere
 } Derived;
 
 // From here on all members are numbers: jacobian.h gives the derivative of each.
 
 // ---- the inputs over a communication step: polynomials of time, and the half-sine in progress; written by input_trajectory_update ------------------------
 typedef struct {
-    scalar t_0;                      // communication point [s]
-    Inputs u[INPUT_ORDERS + 1];      // the inputs there and their derivatives
-    scalar pulse_r, pulse_a;         // amplitude of the half-sine in progress, radial and axial [N]; 0 between pulses
+    scalar t_0;                  // communication point [s]
+    Inputs u[INPUT_ORDERS + 1];  // the inputs there and their derivatives
+    scalar pulse_r,
+        pulse_a;  // amplitude of the half-sine in progress, radial and axial [N]; 0 between pulses
     scalar pulse_start, pulse_rate;  // its start [s] and pi / duration [1/s]
 } InputTrajectory;
 
@@ -111,19 +115,22 @@ typedef struct {
     ball_array delta_c[2];  // elastic approach of ball and half
     Pockets pocket[2];      // on each half; on a rigid cage all on the first
     // joints, in the frame of half 0 (cage_joint_force)
-    ball_array u_x, u_y, u_z, v_jx, v_jy, v_jz;           // half 1 against half 0: offset, velocity
-    ball_array T, N_plate, S_y, S_z, H_y, H_z, B_y, B_z;  // rivet tension, plate force, forces on half 1 by plates S, heads H, hole B
+    ball_array u_x, u_y, u_z, v_jx, v_jy, v_jz;  // half 1 against half 0: offset, velocity
+    ball_array T, N_plate, S_y, S_z, H_y, H_z, B_y,
+        B_z;  // rivet tension, plate force, forces on half 1 by plates S, heads H, hole B
     ball_array plate_y_dot, plate_z_dot, head_y_dot, head_z_dot;
     ball_array joint_dissipated;
     // scalars
-    scalar land_dissipated, land_elastic, film_yy[2], film_yz[2], film_zz[2], film_spin[2];  // of each land: -dF/dv, -dM/domega
+    scalar land_dissipated, land_elastic, film_yy[2], film_yz[2], film_zz[2],
+        film_spin[2];  // of each land: -dF/dv, -dM/domega
 } Work;
 
 typedef struct {
     const Parameters *p;
     const Derived *d;
-    const RingLoad *ring_load;          // now
-    const InputTrajectory *trajectory;  // where the drive changes with time: takes the place of the drive; NULL where it is held
+    const RingLoad *ring_load;  // now
+    const InputTrajectory *
+        trajectory;  // where the drive changes with time: takes the place of the drive; NULL where it is held
 } Model;
 
 // Derived constants of all elements; the parameters have been checked.

@@ -44,15 +44,19 @@ static void fill_ring(const Evaluation *at, Outputs *out)
 
 static scalar film_ratio(const Race *race, scalar U, scalar Q)
 {
-    return scalar_value(Q) > 0.0 ? scalar_exp(race->ln_Lambda + 0.67 * scalar_log(U) - 0.067 * scalar_log(Q + Q_FLOOR)) : 0.0;
+    return scalar_value(Q) > 0.0
+               ? scalar_exp(race->ln_Lambda + 0.67 * scalar_log(U) - 0.067 * scalar_log(Q + Q_FLOOR))
+               : 0.0;
 }
 
 // Spin of the ball against the inner ring about the contact normal / rolling speed across it.
 static scalar spin_roll(const Work *w, int j)
 {
     const scalar *Omega = w->ring.Omega, c = w->cos_theta[j], s = w->sin_theta[j];
-    const scalar rel[3] = {w->omega_x[j] - Omega[0], w->omega_r[j] - (Omega[1] * c + Omega[2] * s), w->omega_t[j] - (Omega[2] * c - Omega[1] * s)};
-    const scalar n[3] = {w->n_ix[j], w->n_ir[j], w->n_it[j]}, spin = dot3(rel, n), across = dot3(rel, rel) - spin * spin;
+    const scalar rel[3] = {w->omega_x[j] - Omega[0], w->omega_r[j] - (Omega[1] * c + Omega[2] * s),
+                           w->omega_t[j] - (Omega[2] * c - Omega[1] * s)};
+    const scalar n[3] = {w->n_ix[j], w->n_ir[j], w->n_it[j]}, spin = dot3(rel, n),
+                 across = dot3(rel, rel) - spin * spin;
     return scalar_value(w->Q_i[j]) > 0.0 && scalar_value(across) > 0.0 ? spin / scalar_sqrt(across) : 0.0;
 }
 
@@ -65,7 +69,8 @@ static void fill_ball(const Evaluation *at, Outputs *out)
     scalar penetration = 0.0, force_max = 0.0;
     for (int j = 0; j < Z; j++) {
         const scalar Q_i = w->Q_i[j], Q_e = w->Q_e[j], Q_c = w->pocket[0].Q[j] + w->pocket[1].Q[j];
-        const scalar delta[3] = {w->delta_i[j], w->delta_e[j], rigid ? w->delta_c[0][j] : scalar_max(w->delta_c[0][j], w->delta_c[1][j])};
+        const scalar delta[3] = {w->delta_i[j], w->delta_e[j],
+                                 rigid ? w->delta_c[0][j] : scalar_max(w->delta_c[0][j], w->delta_c[1][j])};
         out->ball.Q_i[j] = Q_i;
         out->ball.Q_e[j] = Q_e;
         out->ball.Q_c[j] = Q_c;
@@ -98,8 +103,10 @@ static void fill_pose(const Evaluation *at, Outputs *out)
         out->ball.psi[j] = at->y[Y_BALL_THETA + j];
     }
     const Rotor *h0 = &w->half[0], *h1 = &w->half[1];
-    out->half_0.x = h0->x[0], out->half_0.y = h0->x[1], out->half_0.z = h0->x[2], out->half_0.psi = at->y[Y_CAGE_PSI];
-    out->half_1.x = h1->x[0], out->half_1.y = h1->x[1], out->half_1.z = h1->x[2], out->half_1.psi = at->y[Y_CAGE_PSI + 1];
+    out->half_0.x = h0->x[0], out->half_0.y = h0->x[1], out->half_0.z = h0->x[2],
+    out->half_0.psi = at->y[Y_CAGE_PSI];
+    out->half_1.x = h1->x[0], out->half_1.y = h1->x[1], out->half_1.z = h1->x[2],
+    out->half_1.psi = at->y[Y_CAGE_PSI + 1];
     ring_tilts(-h0->a[2], h0->a[1], &out->half_0.tilt_y, &out->half_0.tilt_z);
     ring_tilts(-h1->a[2], h1->a[1], &out->half_1.tilt_y, &out->half_1.tilt_z);
 }
@@ -113,7 +120,8 @@ static void fill_cage(const Evaluation *at, Outputs *out)
     out->cage.slip_ratio = scalar_value(epicyclic) != 0.0 ? 1.0 - out->cage.omega / epicyclic : 0.0;
     out->cage.y = 0.5 * (h0->x[1] + h1->x[1]);
     out->cage.z = 0.5 * (h0->x[2] + h1->x[2]);
-    out->cage.eccentricity = scalar_sqrt(out->cage.y * out->cage.y + out->cage.z * out->cage.z) / at->model->d->C_land;
+    out->cage.eccentricity =
+        scalar_sqrt(out->cage.y * out->cage.y + out->cage.z * out->cage.z) / at->model->d->C_land;
 }
 
 static void fill_rivet(const Evaluation *at, Outputs *out)
@@ -154,7 +162,8 @@ static void fill_stress(const Evaluation *at, Outputs *out)
         out->rivet.sigma_head_vm[k] = sigma[HEAD_VM][k];
         out->rivet.sigma_mid[k] = sigma[MID_VM][k];
         out->rivet.sigma_mid_p1[k] = sigma[MID_P1][k];
-        out->rivet.flag[k] = off ? 0.0 : at->model->d->fit_flags | rivet_rom_load_flags(&rivet_table, &load, sigma, k);
+        out->rivet.flag[k] =
+            off ? 0.0 : at->model->d->fit_flags | rivet_rom_load_flags(&rivet_table, &load, sigma, k);
     }
 }
 
@@ -163,44 +172,28 @@ static void fill_energy(const Evaluation *at, Outputs *out)
 {
     const Work *w = at->w;
     out->bearing.power_loss = ball_array_sum(w->dissipated) + w->land_dissipated;
-    if (at->model->p->scene.cage == CAGE_MODEL_TWO_HALF) out->bearing.power_loss += ball_array_sum(w->joint_dissipated);
+    if (at->model->p->scene.cage == CAGE_MODEL_TWO_HALF)
+        out->bearing.power_loss += ball_array_sum(w->joint_dissipated);
     out->bearing.energy_residual = energy_total(at->model, at->y, w) - at->y[Y_WORK];
 }
 
 void outputs_evaluate(const Evaluation *at, OutputGroup group, Outputs *out)
 {
     switch (group) {
-    case GROUP_STATE:
-        fill_state(at, out);
-        return;
-    case GROUP_RING:
-        fill_ring(at, out);
-        return;
-    case GROUP_POSE:
-        fill_pose(at, out);
-        return;
-    case GROUP_BALL:
-        fill_ball(at, out);
-        return;
-    case GROUP_CAGE:
-        fill_cage(at, out);
-        return;
-    case GROUP_RIVET:
-        fill_rivet(at, out);
-        return;
-    case GROUP_STRESS:
-        fill_stress(at, out);
-        return;
-    case GROUP_ENERGY:
-        fill_energy(at, out);
-        return;
+    case GROUP_STATE: fill_state(at, out); return;
+    case GROUP_RING: fill_ring(at, out); return;
+    case GROUP_POSE: fill_pose(at, out); return;
+    case GROUP_BALL: fill_ball(at, out); return;
+    case GROUP_CAGE: fill_cage(at, out); return;
+    case GROUP_RIVET: fill_rivet(at, out); return;
+    case GROUP_STRESS: fill_stress(at, out); return;
+    case GROUP_ENERGY: fill_energy(at, out); return;
     case GROUP_CONSTANT:
     case GROUP_PEAK:
     case GROUP_FATIGUE:
     case GROUP_STAT:
     case GROUP_SOLVER:
     case GROUP_EVENT:
-    case GROUP_COUNT:
-        return;  // outputs_recorded.c
+    case GROUP_COUNT: return;  // outputs_recorded.c
     }
 }

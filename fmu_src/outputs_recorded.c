@@ -97,26 +97,15 @@ static void fill_constant(Bearing *b)
 
 void outputs_fill(Bearing *b, OutputGroup group)
 {
-    const Evaluation now = {&b->model, b->s.integrator.now.y, b->y_dot, &b->w, b->kernels.rivets_load, b->kernels.rivet_rom_stress};
+    const Evaluation now = {&b->model, b->s.integrator.now.y,  b->y_dot,
+                            &b->w,     b->kernels.rivets_load, b->kernels.rivet_rom_stress};
     switch (group) {
-    case GROUP_CONSTANT:
-        fill_constant(b);
-        return;
-    case GROUP_PEAK:
-        fill_peak(b);
-        return;
-    case GROUP_FATIGUE:
-        fill_fatigue(b);
-        return;
-    case GROUP_STAT:
-        fill_stat(b);
-        return;
-    case GROUP_SOLVER:
-        fill_solver(b);
-        return;
-    case GROUP_EVENT:
-        fill_event(b);
-        return;
+    case GROUP_CONSTANT: fill_constant(b); return;
+    case GROUP_PEAK: fill_peak(b); return;
+    case GROUP_FATIGUE: fill_fatigue(b); return;
+    case GROUP_STAT: fill_stat(b); return;
+    case GROUP_SOLVER: fill_solver(b); return;
+    case GROUP_EVENT: fill_event(b); return;
     case GROUP_ENERGY:
         outputs_evaluate(&now, group, &b->out);
         b->out.bearing.energy_residual -= b->s.energy_start;
@@ -127,10 +116,7 @@ void outputs_fill(Bearing *b, OutputGroup group)
     case GROUP_BALL:
     case GROUP_CAGE:
     case GROUP_RIVET:
-    case GROUP_STRESS:
-        outputs_evaluate(&now, group, &b->out);
-        return;
-    case GROUP_COUNT:
-        return;
+    case GROUP_STRESS: outputs_evaluate(&now, group, &b->out); return;
+    case GROUP_COUNT: return;
     }
 }

@@ -27,9 +27,10 @@ typedef struct {
 
 typedef struct Part Part;
 
-Part *part_create(const PartHost *host);  // with the start values of the variable table; NULL if out of memory
-void part_destroy(Part *part);            // NULL is allowed
-void part_reset(Part *part);              // as newly created
+Part *
+part_create(const PartHost *host);  // with the start values of the variable table; NULL if out of memory
+void part_destroy(Part *part);      // NULL is allowed
+void part_reset(Part *part);        // as newly created
 
 Parameters *part_parameters(Part *part);  // may be changed before part_initialize
 // Inputs (order 0) and their derivatives (1...INPUT_ORDERS) at the present time; may be changed before each step, which leaves the inputs where
@@ -51,7 +52,8 @@ void part_update(Part *part, OutputGroup group);
 // Derivatives of all outputs: by time, inputs going on as they came, and along a direction of inputs and states (arrays as y).  What is recorded
 // over steps (peaks, statistics, fatigue, solver) is held between them: derivative 0.
 void part_time_derivatives(Part *part, Outputs *derivatives);
-void part_directional_derivatives(Part *part, const Inputs *inputs, const double state[N_STATES], Outputs *derivatives);
+void part_directional_derivatives(Part *part, const Inputs *inputs, const double state[N_STATES],
+                                  Outputs *derivatives);
 
 // The whole state as one block of plain bytes: equal blocks continue bit for bit alike.
 size_t part_saved_size(void);

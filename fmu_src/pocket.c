@@ -30,7 +30,8 @@ INLINE wide pocket_mu(const Model *model, wide ln_U, wide ln_Q, bool mixed)
 // Direction of the pockets: body angle phi_j turned by the half, b = b_y cos phi + b_z sin phi, in the frames of the balls.
 INLINE vec pocket_direction(const Derived *d, const Rotor *half, int j, wide cos_theta, wide sin_theta)
 {
-    const vec b_y = vec_local(half->b_y, cos_theta, sin_theta), b_z = vec_local(half->b_z, cos_theta, sin_theta);
+    const vec b_y = vec_local(half->b_y, cos_theta, sin_theta),
+              b_z = vec_local(half->b_z, cos_theta, sin_theta);
     return vec_axpy(wide_load(&d->pocket_sin[j]), b_z, vec_scale(wide_load(&d->pocket_cos[j]), b_y));
 }
 
@@ -51,7 +52,8 @@ INLINE PocketGap pocket_gap(const Derived *d, const Work *w, const Rotor *half, 
 {
     const wide cos_theta = wide_load(&w->cos_theta[j]), sin_theta = wide_load(&w->sin_theta[j]);
     const vec centre = {wide_load(&w->x[j]), wide_load(&w->r[j]), wide_set(0.0)};
-    PocketGap gap = {.a = vec_local(half->a, cos_theta, sin_theta), .b = pocket_direction(d, half, j, cos_theta, sin_theta)};
+    PocketGap gap = {.a = vec_local(half->a, cos_theta, sin_theta),
+                     .b = pocket_direction(d, half, j, cos_theta, sin_theta)};
     gap.e_t = vec_cross(gap.a, gap.b);
     gap.arm = vec_sub(centre, vec_local(half->x, cos_theta, sin_theta));
     gap.x = vec_dot(gap.arm, gap.a);
@@ -62,18 +64,21 @@ INLINE PocketGap pocket_gap(const Derived *d, const Work *w, const Rotor *half, 
 }
 
 // Forces in a packet of pockets, stored for the half and added to the balls.
-INLINE void pocket_contacts(const Model *model, Work *w, int h, int j, const PocketGap *gap, bool mixed, bool whole)
+INLINE void pocket_contacts(const Model *model, Work *w, int h, int j, const PocketGap *gap, bool mixed,
+                            bool whole)
 {
     const Parameters *p = model->p;
     const Derived *d = model->d;
     const Rotor *half = &w->half[h];
     Pockets *pocket = &w->pocket[h];
-    const wide cos_theta = wide_load(&w->cos_theta[j]), sin_theta = wide_load(&w->sin_theta[j]), R = wide_load(&d->R[j]);
+    const wide cos_theta = wide_load(&w->cos_theta[j]), sin_theta = wide_load(&w->sin_theta[j]),
+               R = wide_load(&d->R[j]);
     const vec a = gap->a, b = gap->b, e_t = gap->e_t, arm_p = gap->arm;
     const wide delta = gap->delta, inv_S = 1.0 / gap->S, n_x = gap->x * inv_S, n_t = gap->t * inv_S;
     const vec n = vec_axpy(n_t, e_t, vec_scale(n_x, a));
 
-    const vec omega_b = vec_load(&w->omega_x[j], &w->omega_r[j], &w->omega_t[j]), v_b = vec_load(&w->v_x[j], &w->v_r[j], &w->v_t[j]);
+    const vec omega_b = vec_load(&w->omega_x[j], &w->omega_r[j], &w->omega_t[j]),
+              v_b = vec_load(&w->v_x[j], &w->v_r[j], &w->v_t[j]);
     const vec Omega = vec_local(half->Omega, cos_theta, sin_theta);
     const vec v = vec_sub(vec_sub(v_b, vec_local(half->v, cos_theta, sin_theta)), vec_cross(Omega, arm_p));
     const wide delta_dot = vec_dot(n, v);
@@ -85,12 +90,14 @@ INLINE void pocket_contacts(const Model *model, Work *w, int h, int j, const Poc
 
     const wide K = wide_set(d->pocket.K), Q_0 = share * hertz_load(K, delta);
     const wide Q = hertz_damped(Q_0, wide_set(p->cage.lambda), delta_dot);
-    const wide F_across = hertz_energy(K, delta) * share_slope * n_t * inv_S;  // dV/dn_x grad n_x, grad n_x = (n_t a - n_x e_t) n_t/S
+    const wide F_across = hertz_energy(K, delta) * share_slope * n_t *
+                          inv_S;  // dV/dn_x grad n_x, grad n_x = (n_t a - n_x e_t) n_t/S
     const vec F_n = vec_axpy(-Q, n, vec_axpy(-F_across * n_t, a, vec_scale(F_across * n_x, e_t)));
 
     const vec arm = vec_scale(R, n);
     const vec slip = vec_across(vec_add(v, vec_cross(vec_sub(omega_b, Omega), arm)), n);
-    const wide slip_2 = vec_dot(slip, slip), U_2 = 0.25 * slip_2 + p->oil.U_0 * p->oil.U_0, inv_U = 1.0 / wide_sqrt(U_2);
+    const wide slip_2 = vec_dot(slip, slip), U_2 = 0.25 * slip_2 + p->oil.U_0 * p->oil.U_0,
+               inv_U = 1.0 / wide_sqrt(U_2);
     wide ln_U, ln_Q;
     wide_log2(U_2 * inv_U, Q + Q_FLOOR, &ln_U, &ln_Q);
     const wide g = pocket_mu(model, ln_U, ln_Q, mixed) * Q / wide_sqrt(slip_2 + p->cage.v_c * p->cage.v_c);
@@ -103,15 +110,18 @@ INLINE void pocket_contacts(const Model *model, Work *w, int h, int j, const Poc
     wide_store(&pocket->F_x[j], vec_dot(F_half, a));
     wide_store(&pocket->F_r[j], vec_dot(F_half, b));
     wide_store(&pocket->F_t[j], vec_dot(F_half, e_t));
-    vec_to_global(F_half, cos_theta, sin_theta, &pocket->half_F_x[j], &pocket->half_F_y[j], &pocket->half_F_z[j]);
-    vec_to_global(M_half, cos_theta, sin_theta, &pocket->half_M_x[j], &pocket->half_M_y[j], &pocket->half_M_z[j]);
+    vec_to_global(F_half, cos_theta, sin_theta, &pocket->half_F_x[j], &pocket->half_F_y[j],
+                  &pocket->half_F_z[j]);
+    vec_to_global(M_half, cos_theta, sin_theta, &pocket->half_M_x[j], &pocket->half_M_y[j],
+                  &pocket->half_M_z[j]);
 
     const vec tangent = {1.0 - n.x * n.x, 1.0 - n.r * n.r, 1.0 - n.t * n.t};
     add_vec(F, &w->F_x[j], &w->F_r[j], &w->F_t[j]);
     add_vec(M, &w->M_x[j], &w->M_r[j], &w->M_t[j]);
     add_vec(vec_scale(g / d->m, tangent), &w->D_x[j], &w->D_r[j], &w->D_t[j]);
     add_vec(vec_scale(g * (R * R / d->J), tangent), &w->D_omega_x[j], &w->D_omega_r[j], &w->D_omega_t[j]);
-    wide_store(&w->dissipated[j], wide_load(&w->dissipated[j]) + ((Q - Q_0) * delta_dot - vec_dot(F_s, slip) - vec_dot(F_c, v)));
+    wide_store(&w->dissipated[j],
+               wide_load(&w->dissipated[j]) + ((Q - Q_0) * delta_dot - vec_dot(F_s, slip) - vec_dot(F_c, v)));
 }
 
 // Nothing touches.
@@ -140,7 +150,8 @@ INLINE void pocket_half(const Model *model, Work *w, int h, bool mixed, bool who
             pocket_clear(pocket, j);
     }
     if (!touched) return;
-    const scalar *F[3] = {pocket->half_F_x, pocket->half_F_y, pocket->half_F_z}, *M[3] = {pocket->half_M_x, pocket->half_M_y, pocket->half_M_z};
+    const scalar *F[3] = {pocket->half_F_x, pocket->half_F_y, pocket->half_F_z},
+                 *M[3] = {pocket->half_M_x, pocket->half_M_y, pocket->half_M_z};
     for (int i = 0; i < 3; i++) {
         half->F[i] += ball_array_sum(F[i]);
         half->M[i] += ball_array_sum(M[i]);
@@ -149,6 +160,7 @@ INLINE void pocket_half(const Model *model, Work *w, int h, bool mixed, bool who
 
 void pocket_force(const Model *model, Work *w)
 {
-    const bool mixed = model->p->scene.lubrication == LUBRICATION_MIXED, rigid = model->p->scene.cage == CAGE_MODEL_RIGID;
+    const bool mixed = model->p->scene.lubrication == LUBRICATION_MIXED,
+               rigid = model->p->scene.cage == CAGE_MODEL_RIGID;
     for (int h = 0; h < (rigid ? 1 : 2); h++) pocket_half(model, w, h, mixed, rigid);
 }

@@ -25,8 +25,9 @@
 enum { SLICES = 7 };
 static const double SLICE[SLICES] = {-0.8997579954114603, -0.6771862795107377, -0.36311746382617816, 0.0,
                                      0.36311746382617816, 0.6771862795107377,  0.8997579954114603};
-static const double SHARE[SLICES] = {0.02363715011287406, 0.11148030343755763, 0.22556281855841187, 0.27863945578231275,
-                                     0.22556281855841187, 0.11148030343755763, 0.02363715011287406};
+static const double SHARE[SLICES] = {0.02363715011287406, 0.11148030343755763, 0.22556281855841187,
+                                     0.27863945578231275, 0.22556281855841187, 0.11148030343755763,
+                                     0.02363715011287406};
 
 static const double TINY = 1e-30;  // padding lanes and balls at a groove's centre: no division by 0
 
@@ -64,7 +65,8 @@ INLINE Contact inner_contact(const Model *model, const BallMotion *ball, vec p, 
     const wide r = wide_sqrt(vec_dot(radial, radial) + tiny);
     const vec e = vec_scale(1.0 / r, radial);
     const wide across = r - race->R_g, L = wide_sqrt(along * along + across * across + tiny), inv_L = 1.0 / L;
-    Contact c = {.R = ball->R, .n = vec_axpy(across * inv_L, e, vec_scale(along * inv_L, a)), .t_1 = vec_cross(a, e)};
+    Contact c = {
+        .R = ball->R, .n = vec_axpy(across * inv_L, e, vec_scale(along * inv_L, a)), .t_1 = vec_cross(a, e)};
     c.t_2 = vec_cross(c.n, c.t_1);
     c.approach = vec_sub(vec_sub(ball->v, v), vec_cross(Omega, p));
     c.spin = vec_sub(ball->omega, Omega);
@@ -74,7 +76,8 @@ INLINE Contact inner_contact(const Model *model, const BallMotion *ball, vec p, 
     const vec u_ball = vec_cross(ball->omega, arm), orbit = vec_cross(axis, arm);
     const vec u_race = vec_sub(vec_cross(Omega, arm), c.approach);  // v + Omega x (p + arm) - v_ball
     c.slip = vec_across(vec_sub(u_ball, u_race), c.n);
-    c.roll = vec_across(vec_axpy(wide_set(-1.0), orbit, vec_scale(wide_set(0.5), vec_add(u_ball, u_race))), c.n);
+    c.roll =
+        vec_across(vec_axpy(wide_set(-1.0), orbit, vec_scale(wide_set(0.5), vec_add(u_ball, u_race))), c.n);
     return c;
 }
 
@@ -85,7 +88,9 @@ INLINE Contact outer_contact(const Model *model, const BallMotion *ball)
     const vec v = ball->v, omega = ball->omega;
     const wide R = ball->R, across = ball->x.r - race->R_g;
     const wide L = wide_sqrt(ball->x.x * ball->x.x + across * across + wide_set(TINY)), inv_L = 1.0 / L;
-    Contact c = {.R = R, .n = {ball->x.x * inv_L, across * inv_L, wide_set(0.0)}, .t_1 = {wide_set(0.0), wide_set(0.0), wide_set(1.0)}};
+    Contact c = {.R = R,
+                 .n = {ball->x.x * inv_L, across * inv_L, wide_set(0.0)},
+                 .t_1 = {wide_set(0.0), wide_set(0.0), wide_set(1.0)}};
     c.t_2 = (vec){c.n.r, -c.n.x, wide_set(0.0)};
     c.approach = v;
     c.spin = omega;
@@ -94,14 +99,16 @@ INLINE Contact outer_contact(const Model *model, const BallMotion *ball)
     const vec u_ball = {-omega.t * R * c.n.r, omega.t * R * c.n.x, R * (omega.x * c.n.r - omega.r * c.n.x)};
     const wide orbit = ball->omega_m * R * c.n.r;  // along t
     c.slip = vec_across(vec_add(u_ball, v), c.n);
-    c.roll = vec_across((vec){0.5 * (u_ball.x - v.x), 0.5 * (u_ball.r - v.r), 0.5 * (u_ball.t - v.t) - orbit}, c.n);
+    c.roll = vec_across((vec){0.5 * (u_ball.x - v.x), 0.5 * (u_ball.r - v.r), 0.5 * (u_ball.t - v.t) - orbit},
+                        c.n);
     return c;
 }
 
 // Traction at the contact's middle.
 INLINE Tangential point_traction(const Parameters *p, const Contact *c, wide inv_U, wide f_a, bool mixed)
 {
-    const wide slip_2 = vec_dot(c->slip, c->slip) + p->oil.v_0 * p->oil.v_0, inv_slip = 1.0 / wide_sqrt(slip_2);
+    const wide slip_2 = vec_dot(c->slip, c->slip) + p->oil.v_0 * p->oil.v_0,
+               inv_slip = 1.0 / wide_sqrt(slip_2);
     Tangential out = {0};
     out.g = traction_mu(p, slip_2 * inv_slip * inv_U, f_a, mixed) * c->Q * inv_slip;
     out.F_s = vec_scale(-out.g, c->slip);
@@ -111,7 +118,8 @@ INLINE Tangential point_traction(const Parameters *p, const Contact *c, wide inv
 }
 
 // Traction over the long axis of the ellipse.
-INLINE Tangential sliced_traction(const Parameters *p, const Race *race, const Contact *c, wide inv_U, wide f_a, bool mixed)
+INLINE Tangential sliced_traction(const Parameters *p, const Race *race, const Contact *c, wide inv_U,
+                                  wide f_a, bool mixed)
 {
     const wide a = race->hertz.a_delta * c->sqrt_delta, spin_n = vec_dot(c->spin, c->n);
     const vec bend = vec_cross(c->spin, c->n);  // its part along t_1 and t_2 only
@@ -119,7 +127,8 @@ INLINE Tangential sliced_traction(const Parameters *p, const Race *race, const C
     for (int i = 0; i < SLICES; i++) {
         const wide xi = a * SLICE[i], sagitta = xi * xi * (0.5 / race->R_m);
         const vec slip_i = vec_axpy(-sagitta, bend, vec_axpy(-xi * spin_n, c->t_1, c->slip));
-        const wide slip_2 = vec_dot(slip_i, slip_i) + p->oil.v_0 * p->oil.v_0, inv_slip = 1.0 / wide_sqrt(slip_2);
+        const wide slip_2 = vec_dot(slip_i, slip_i) + p->oil.v_0 * p->oil.v_0,
+                   inv_slip = 1.0 / wide_sqrt(slip_2);
         const wide g = SHARE[i] * traction_mu(p, slip_2 * inv_slip * inv_U, f_a, mixed) * c->Q * inv_slip;
         const vec F = vec_scale(-g, slip_i);
         out.g += g;
@@ -132,17 +141,20 @@ INLINE Tangential sliced_traction(const Parameters *p, const Race *race, const C
 }
 
 // Traction and the inlet's rolling friction: -F_R U/|U| at the surface, the film's horizontal pressure force +F_H U/|U| through the ball's centre.
-INLINE Tangential race_traction(const Model *model, const Race *race, const Contact *c, bool mixed, bool sliced)
+INLINE Tangential race_traction(const Model *model, const Race *race, const Contact *c, bool mixed,
+                                bool sliced)
 {
     const Parameters *p = model->p;
     const wide U_2 = vec_dot(c->roll, c->roll) + p->oil.U_0 * p->oil.U_0, inv_U = 1.0 / wide_sqrt(U_2);
     wide ln_U, ln_Q;
     wide_log2(U_2 * inv_U, c->Q + Q_FLOOR, &ln_U, &ln_Q);
-    const wide f_a = mixed ? traction_asperity_share(traction_ln_film(wide_set(race->ln_Lambda), ln_U, ln_Q)) : wide_set(0.0);
+    const wide f_a = mixed ? traction_asperity_share(traction_ln_film(wide_set(race->ln_Lambda), ln_U, ln_Q))
+                           : wide_set(0.0);
     const wide F_R = traction_inlet(wide_set(race->rolling), ln_U, c->Q, ln_Q);
     const vec rolling = vec_scale(F_R * inv_U, c->roll);
 
-    Tangential out = sliced ? sliced_traction(p, race, c, inv_U, f_a, mixed) : point_traction(p, c, inv_U, f_a, mixed);
+    Tangential out =
+        sliced ? sliced_traction(p, race, c, inv_U, f_a, mixed) : point_traction(p, c, inv_U, f_a, mixed);
     out.F_s = vec_sub(out.F_s, rolling);
     out.M = vec_sub(out.M, vec_cross(vec_scale(c->R, c->n), rolling));
     out.F_c = vec_scale(wide_set(race->horizontal), rolling);
@@ -151,7 +163,8 @@ INLINE Tangential race_traction(const Model *model, const Race *race, const Cont
     return out;
 }
 
-INLINE void store_contacts(Work *w, int j, const Contact *inner, const Contact *outer, const Tangential *T_i, const Tangential *T_e)
+INLINE void store_contacts(Work *w, int j, const Contact *inner, const Contact *outer, const Tangential *T_i,
+                           const Tangential *T_e)
 {
     wide_store(&w->delta_i[j], inner->delta);
     wide_store(&w->delta_e[j], outer->delta);
@@ -172,37 +185,45 @@ INLINE void store_contacts(Work *w, int j, const Contact *inner, const Contact *
 INLINE void race_contact_packet(const Model *model, Work *w, int j, bool mixed, bool sliced)
 {
     const Derived *d = model->d;
-    const wide cos_theta = wide_load(&w->cos_theta[j]), sin_theta = wide_load(&w->sin_theta[j]), minus = wide_set(-1.0);
+    const wide cos_theta = wide_load(&w->cos_theta[j]), sin_theta = wide_load(&w->sin_theta[j]),
+               minus = wide_set(-1.0);
     const BallMotion ball = {.x = {wide_load(&w->x[j]), wide_load(&w->r[j]), wide_set(0.0)},
                              .v = vec_load(&w->v_x[j], &w->v_r[j], &w->v_t[j]),
                              .omega = vec_load(&w->omega_x[j], &w->omega_r[j], &w->omega_t[j]),
                              .omega_m = wide_load(&w->omega_m[j]),
                              .R = wide_load(&d->R[j])};
     const vec p_i = vec_sub(ball.x, vec_local(w->ring.x, cos_theta, sin_theta));
-    const Contact inner = inner_contact(model, &ball, p_i, vec_local(w->ring.a, cos_theta, sin_theta), vec_local(w->ring.v, cos_theta, sin_theta),
+    const Contact inner = inner_contact(model, &ball, p_i, vec_local(w->ring.a, cos_theta, sin_theta),
+                                        vec_local(w->ring.v, cos_theta, sin_theta),
                                         vec_local(w->ring.Omega, cos_theta, sin_theta));
     const Contact outer = outer_contact(model, &ball);
-    const Tangential T_i = race_traction(model, &d->inner, &inner, mixed, sliced), T_e = race_traction(model, &d->outer, &outer, mixed, sliced);
+    const Tangential T_i = race_traction(model, &d->inner, &inner, mixed, sliced),
+                     T_e = race_traction(model, &d->outer, &outer, mixed, sliced);
     store_contacts(w, j, &inner, &outer, &T_i, &T_e);
 
-    const vec none = {0}, F_i = vec_axpy(-inner.Q, inner.n, vec_add(T_i.F_s, T_i.F_c)), F_e = vec_axpy(-outer.Q, outer.n, vec_add(T_e.F_s, T_e.F_c));
+    const vec none = {0}, F_i = vec_axpy(-inner.Q, inner.n, vec_add(T_i.F_s, T_i.F_c)),
+              F_e = vec_axpy(-outer.Q, outer.n, vec_add(T_e.F_s, T_e.F_c));
     const vec M_ring = vec_sub(vec_scale(minus, vec_cross(p_i, F_i)), T_i.M);
     vec_store(vec_add(F_i, F_e), &w->F_x[j], &w->F_r[j], &w->F_t[j]);
     vec_store(vec_add(T_i.M, T_e.M), &w->M_x[j], &w->M_r[j], &w->M_t[j]);
     vec_store(none, &w->D_x[j], &w->D_r[j], &w->D_t[j]);
     vec_store(none, &w->D_omega_x[j], &w->D_omega_r[j], &w->D_omega_t[j]);
-    vec_to_global(vec_scale(minus, F_i), cos_theta, sin_theta, &w->ring_F_x[j], &w->ring_F_y[j], &w->ring_F_z[j]);
+    vec_to_global(vec_scale(minus, F_i), cos_theta, sin_theta, &w->ring_F_x[j], &w->ring_F_y[j],
+                  &w->ring_F_z[j]);
     vec_to_global(M_ring, cos_theta, sin_theta, &w->ring_M_x[j], &w->ring_M_y[j], &w->ring_M_z[j]);
 }
 
 void race_contact_force(const Model *model, Work *w)
 {
-    const bool mixed = model->p->scene.lubrication == LUBRICATION_MIXED, sliced = model->p->scene.traction == TRACTION_SLICED;
+    const bool mixed = model->p->scene.lubrication == LUBRICATION_MIXED,
+               sliced = model->p->scene.traction == TRACTION_SLICED;
     for (int b = 0; b < PACKETS; b++) {
         const int j = b * LANE_WIDTH;
         if (sliced)
-            mixed ? race_contact_packet(model, w, j, true, true) : race_contact_packet(model, w, j, false, true);
+            mixed ? race_contact_packet(model, w, j, true, true)
+                  : race_contact_packet(model, w, j, false, true);
         else
-            mixed ? race_contact_packet(model, w, j, true, false) : race_contact_packet(model, w, j, false, false);
+            mixed ? race_contact_packet(model, w, j, true, false)
+                  : race_contact_packet(model, w, j, false, false);
     }
 }

@@ -19,25 +19,30 @@ static void rotor_kinematics(const Model *model, const scalar *y, Work *w)
         ring->x[i] = y[Y_RING_X + i];
         ring->v[i] = y[Y_RING_V_X + i];
     }
-    rotor_axis(ring, y[Y_RING_BETA], y[Y_RING_GAMMA], y[Y_RING_BETA_DOT], y[Y_RING_GAMMA_DOT], model->ring_load->omega);
+    rotor_axis(ring, y[Y_RING_BETA], y[Y_RING_GAMMA], y[Y_RING_BETA_DOT], y[Y_RING_GAMMA_DOT],
+               model->ring_load->omega);
 
     scalar cos_psi[2], sin_psi[2];
     for (int first = 0; first < 2; first += HALVES) {
         wide sine, cosine;
         wide_sincos(wide_pair(y[Y_CAGE_PSI + first], y[Y_CAGE_PSI + first + HALVES - 1]), &sine, &cosine);
-        for (int i = 0; i < HALVES; i++) cos_psi[first + i] = wide_lane(cosine, i), sin_psi[first + i] = wide_lane(sine, i);
+        for (int i = 0; i < HALVES; i++)
+            cos_psi[first + i] = wide_lane(cosine, i), sin_psi[first + i] = wide_lane(sine, i);
     }
     for (int h = 0; h < 2; h++) {
         Rotor *half = &w->half[h];
-        rotor_axis(half, y[Y_CAGE_BETA + h], y[Y_CAGE_GAMMA + h], y[Y_CAGE_BETA_DOT + h], y[Y_CAGE_GAMMA_DOT + h], y[Y_CAGE_S + h]);
+        rotor_axis(half, y[Y_CAGE_BETA + h], y[Y_CAGE_GAMMA + h], y[Y_CAGE_BETA_DOT + h],
+                   y[Y_CAGE_GAMMA_DOT + h], y[Y_CAGE_S + h]);
         rotor_body_axes(half, cos_psi[h], sin_psi[h]);
         scalar drift[3];
-        for (int i = 0; i < 3; i++) half->c[i] = model->d->com_x[h] * half->a[i] + model->d->com_e * half->b_y[i];
+        for (int i = 0; i < 3; i++)
+            half->c[i] = model->d->com_x[h] * half->a[i] + model->d->com_e * half->b_y[i];
         cross3(half->Omega, half->c, drift);
         for (int i = 0; i < 3; i++) {
             half->x[i] = y[Y_CAGE_X + 2 * i + h] - half->c[i];
             half->v[i] = y[Y_CAGE_V_X + 2 * i + h] - drift[i];
-            half->F[i] = half->M[i] = 0.0;  // pocket_force, land_film_force, drag_cage and cage_joint_force add
+            half->F[i] = half->M[i] =
+                0.0;  // pocket_force, land_film_force, drag_cage and cage_joint_force add
         }
     }
     if (model->p->scene.cage == CAGE_MODEL_RIGID) {  // half 1 goes with half 0
@@ -58,7 +63,8 @@ static void ring_sum(Work *w)
 }
 
 // y_dot of half h whose centre of mass accelerates by acc, whose axis by a_ddot.
-static void half_rates(const scalar *y, const Rotor *half, int h, const scalar acc[3], const scalar a_ddot[3], scalar s_dot, scalar *y_dot)
+static void half_rates(const scalar *y, const Rotor *half, int h, const scalar acc[3], const scalar a_ddot[3],
+                       scalar s_dot, scalar *y_dot)
 {
     for (int i = 0; i < 3; i++) {
         y_dot[Y_CAGE_X + 2 * i + h] = y[Y_CAGE_V_X + 2 * i + h];
@@ -117,7 +123,8 @@ static void cage_acceleration(const Model *model, const scalar *y, const Work *w
 // Net power into balls and cage: by the ring's motion and gravity, less what is dissipated.
 static scalar net_power(const Model *model, const Work *w)
 {
-    scalar power = -dot3(w->ring.F, w->ring.v) - dot3(w->ring.M, w->ring.Omega) - ball_array_sum(w->dissipated) - w->land_dissipated;
+    scalar power = -dot3(w->ring.F, w->ring.v) - dot3(w->ring.M, w->ring.Omega) -
+                   ball_array_sum(w->dissipated) - w->land_dissipated;
     if (model->p->scene.cage == CAGE_MODEL_TWO_HALF) power -= ball_array_sum(w->joint_dissipated);
     const double g_y = model->p->gravity.y, g_z = model->p->gravity.z;
     if (g_y != 0.0 || g_z != 0.0) {
@@ -129,7 +136,8 @@ static scalar net_power(const Model *model, const Work *w)
         for (int h = 0; h < 2; h++) {
             scalar drift[3];
             cross3(w->half[h].Omega, w->half[h].c, drift);
-            power += model->p->cage.m * (g_y * (w->half[h].v[1] + drift[1]) + g_z * (w->half[h].v[2] + drift[2]));
+            power +=
+                model->p->cage.m * (g_y * (w->half[h].v[1] + drift[1]) + g_z * (w->half[h].v[2] + drift[2]));
         }
     }
     return power;

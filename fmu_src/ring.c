@@ -17,10 +17,12 @@ void ring_acceleration(const Model *model, const Work *w, scalar *y_dot)
     const RingLoad *ring_load = model->ring_load;
     const Rotor *ring = &w->ring;
     const double gravity[3] = {0.0, p->gravity.y, p->gravity.z};
-    const scalar beta = -ring->a[2], gamma = ring->a[1], beta_dot = -ring->a_dot[2], gamma_dot = ring->a_dot[1];
+    const scalar beta = -ring->a[2], gamma = ring->a[1], beta_dot = -ring->a_dot[2],
+                 gamma_dot = ring->a_dot[1];
     for (int i = 0; i < 3; i++) {
         y_dot[Y_RING_X + i] = ring->v[i];
-        y_dot[Y_RING_V_X + i] = (ring_load->F[i] + ring->F[i] - p->ring.c * ring->v[i]) / p->ring.m + gravity[i];
+        y_dot[Y_RING_V_X + i] =
+            (ring_load->F[i] + ring->F[i] - p->ring.c * ring->v[i]) / p->ring.m + gravity[i];
     }
     y_dot[Y_RING_BETA] = beta_dot;
     y_dot[Y_RING_GAMMA] = gamma_dot;
@@ -35,7 +37,8 @@ void ring_acceleration(const Model *model, const Work *w, scalar *y_dot)
         M[1] += p->ring.k_tilt * (ring_load->beta - beta) - p->ring.c_tilt * beta_dot;
         M[2] += p->ring.k_tilt * (ring_load->gamma - gamma) - p->ring.c_tilt * gamma_dot;
     }
-    rotor_acceleration(ring, p->ring.J_p, p->ring.J_t, M, a_ddot, &s_dot);  // s_dot: the drive holds the speed
+    rotor_acceleration(ring, p->ring.J_p, p->ring.J_t, M, a_ddot,
+                       &s_dot);  // s_dot: the drive holds the speed
     y_dot[Y_RING_BETA_DOT] = -a_ddot[2];
     y_dot[Y_RING_GAMMA_DOT] = a_ddot[1];
 }

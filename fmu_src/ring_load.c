@@ -25,7 +25,8 @@ double pulse_next_edge(const Parameters *p, double t)
     return i + 1 < p->pulse.count ? pulse_start(p, i + 1) : INFINITY;
 }
 
-void input_trajectory_update(const Parameters *p, const Inputs u[INPUT_ORDERS + 1], double t_0, double t, InputTrajectory *trajectory)
+void input_trajectory_update(const Parameters *p, const Inputs u[INPUT_ORDERS + 1], double t_0, double t,
+                             InputTrajectory *trajectory)
 {
     const int i = pulse_index(p, t);
     const bool active = i >= 0 && t < pulse_start(p, i) + p->pulse.duration;

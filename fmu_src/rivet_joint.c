@@ -20,7 +20,8 @@ double rivet_rom_fit_eff(const RivetTable *t, double fit_a, bool j2)
     int i = 0;
     while (fit_a >= map->fit_a[i + 1]) i++;
     double h = map->fit_a[i + 1] - map->fit_a[i], u = (fit_a - map->fit_a[i]) / h, v = 1.0 - u;
-    return map->fit_eff[i] * v * v * (1.0 + 2.0 * u) + map->fit_eff[i + 1] * u * u * (1.0 + 2.0 * v) + h * u * v * (map->slope[i] * v - map->slope[i + 1] * u);
+    return map->fit_eff[i] * v * v * (1.0 + 2.0 * u) + map->fit_eff[i + 1] * u * u * (1.0 + 2.0 * v) +
+           h * u * v * (map->slope[i] * v - map->slope[i + 1] * u);
 }
 
 // The flanges outgrow the rivet: k_stack (alpha_flange - alpha_rivet) grip per kelvin.

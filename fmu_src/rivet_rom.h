@@ -29,15 +29,22 @@
 
 // Loads of all rivets [N, N.m]; y, z: two perpendicular directions in the plane of the joint, x, y, z right-handed.
 typedef struct {
-    ball_array P;         // preload
-    ball_array N;         // external tension of the joint, before preload shielding; negative (compression) counts as 0
+    ball_array P;  // preload
+    ball_array
+        N;  // external tension of the joint, before preload shielding; negative (compression) counts as 0
     ball_array V_y, V_z;  // transverse load that the rivet carries, on the +x half
     ball_array M_y, M_z;  // prying moment about the rivet's position in the split plane, on the +x half
     ball_array F_head;    // modulus of the friction force at the heads
     ball_array V;         // modulus of the joint's whole transverse load, of which the rivet carries V_y, V_z
 } RivetLoads;
 
-enum { HEAD_P1, HEAD_VM, MID_VM, MID_P1, RIVET_CHANNELS };  // largest principal (P1) and von Mises (VM) stress in head fillet and middle
+enum {
+    HEAD_P1,
+    HEAD_VM,
+    MID_VM,
+    MID_P1,
+    RIVET_CHANNELS
+};  // largest principal (P1) and von Mises (VM) stress in head fillet and middle
 
 enum {
     RIVET_YIELDS = 1,      // a von Mises channel exceeds the rivet's yield stress
@@ -86,7 +93,7 @@ typedef struct {
     double T_0;           // temperature at which preload and fit are given [K]
     double prying_lever;  // moment at which the joint opens per clamp force P - N [m]
     double prying_share;  // part of a further moment that the open joint still takes, 0...1
-    int hole_count;       // hole contact: tangent stiffness k_hole [N/m] of both holes in series over fit_a [m]
+    int hole_count;  // hole contact: tangent stiffness k_hole [N/m] of both holes in series over fit_a [m]
     const double *hole_fit, *k_hole;
 } JointData;
 
@@ -117,11 +124,13 @@ double rivet_rom_fit_eff(const RivetTable *t, double fit_a, bool j2);
 unsigned rivet_rom_fit_flags(const RivetTable *t, double fit_a);
 
 // Channels sigma of all rivets [Pa]: HEAD_P1 and MID_VM, with `all` the other two as well.  Never NaN for finite loads.
-typedef void RivetRomStress(const RivetTable *t, const RivetLoads *load, double fit_eff, bool all, scalar sigma[RIVET_CHANNELS][Z]);
+typedef void RivetRomStress(const RivetTable *t, const RivetLoads *load, double fit_eff, bool all,
+                            scalar sigma[RIVET_CHANNELS][Z]);
 RivetRomStress rivet_rom_stress;
 
 // Flags of rivet k's load, whose channels are sigma.
-INLINE unsigned rivet_rom_load_flags(const RivetTable *t, const RivetLoads *load, scalar sigma[RIVET_CHANNELS][Z], int k)
+INLINE unsigned rivet_rom_load_flags(const RivetTable *t, const RivetLoads *load,
+                                     scalar sigma[RIVET_CHANNELS][Z], int k)
 {
     const double head = scalar_value(sigma[HEAD_VM][k]), mid = scalar_value(sigma[MID_VM][k]);
     unsigned flags = 0;
@@ -131,6 +140,7 @@ INLINE unsigned rivet_rom_load_flags(const RivetTable *t, const RivetLoads *load
     return flags;
 }
 
-double joint_preload(const JointData *j, double preload, double T);  // preload at temperature T [N], not below 0
-double joint_fit(const JointData *j, double fit, double T);          // fit at temperature T [m]
-double joint_hole_stiffness(const JointData *j, double fit_a);       // [N/m], constant outside its table
+double joint_preload(const JointData *j, double preload,
+                     double T);                                 // preload at temperature T [N], not below 0
+double joint_fit(const JointData *j, double fit, double T);     // fit at temperature T [m]
+double joint_hole_stiffness(const JointData *j, double fit_a);  // [N/m], constant outside its table

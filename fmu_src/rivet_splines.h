@@ -12,7 +12,8 @@ typedef struct {
 // Cell of u: the one in which its bin begins, or one of the next few.
 INLINE const RivetCell *axis_cell(const RivetAxis *axis, double u)
 {
-    const double bin = scalar_min(scalar_max((u - axis->start) * axis->inv_bin, 0.0), RIVET_BINS);  // 0 of NaN
+    const double bin =
+        scalar_min(scalar_max((u - axis->start) * axis->inv_bin, 0.0), RIVET_BINS);  // 0 of NaN
     const RivetCell *cell = &axis->cell[axis->bin[(int)bin]], *last = &axis->cell[axis->cells - 1];
     while (u >= cell->end && cell < last) cell++;
     return cell;
@@ -59,15 +60,18 @@ typedef struct {
 #ifdef DUAL
 INLINE void contract(const RivetTable *t, const float *coefficients, const TablePoint *point, scalar sigma[2])
 {
-    const Splines *A = &point->at[RIVET_A], *B = &point->at[RIVET_B], *C = &point->at[RIVET_C], *X = &point->at[RIVET_XI];
-    int n_b = t->axis[RIVET_B].cells + 2, n_c = t->axis[RIVET_C].cells + 2, n_xi = t->axis[RIVET_XI].cells + 2;
+    const Splines *A = &point->at[RIVET_A], *B = &point->at[RIVET_B], *C = &point->at[RIVET_C],
+                  *X = &point->at[RIVET_XI];
+    int n_b = t->axis[RIVET_B].cells + 2, n_c = t->axis[RIVET_C].cells + 2,
+        n_xi = t->axis[RIVET_XI].cells + 2;
     sigma[0] = sigma[1] = 0.0;
     for (int i = 0; i < 81; i++) {
         int a = i / 27, b = i / 9 % 3, c = i / 3 % 3, x = i % 3;
         int index = (((A->first + a) * n_b + B->first + b) * n_c + C->first + c) * n_xi + X->first + x;
         const float *T = coefficients + 2 * (RIVET_SHEETS * index + point->sheet);
         scalar weight = A->w[a] * B->w[b] * C->w[c] * X->w[x];
-        for (int k = 0; k < 2; k++) sigma[k] += weight * (point->first[k] * T[k] + (1.0 - point->first[k]) * T[2 + k]);
+        for (int k = 0; k < 2; k++)
+            sigma[k] += weight * (point->first[k] * T[k] + (1.0 - point->first[k]) * T[2 + k]);
     }
 }
 #else
@@ -98,8 +102,10 @@ INLINE void add_part(double w, const quad *x, quad *sum)
 
 INLINE void contract(const RivetTable *t, const float *coefficients, const TablePoint *point, double sigma[2])
 {
-    const Splines *A = &point->at[RIVET_A], *B = &point->at[RIVET_B], *C = &point->at[RIVET_C], *X = &point->at[RIVET_XI];
-    const int n_b = t->axis[RIVET_B].cells + 2, n_c = t->axis[RIVET_C].cells + 2, n_xi = t->axis[RIVET_XI].cells + 2;
+    const Splines *A = &point->at[RIVET_A], *B = &point->at[RIVET_B], *C = &point->at[RIVET_C],
+                  *X = &point->at[RIVET_XI];
+    const int n_b = t->axis[RIVET_B].cells + 2, n_c = t->axis[RIVET_C].cells + 2,
+              n_xi = t->axis[RIVET_XI].cells + 2;
     const int xi = 2 * RIVET_SHEETS, row = n_xi * xi;  // coefficients from one xi, one c to the next
     const float *origin = coefficients + xi * X->first + 2 * point->sheet;
     quad sum[3] = {{0}, {0}, {0}}, all = {0};  // by xi

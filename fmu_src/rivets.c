@@ -21,13 +21,15 @@ INLINE wide modulus(wide y, wide z)
 static void two_half_load(const Model *model, const Work *w, RivetLoads *load)
 {
     for (int k = 0; k < PACKETS * LANE_WIDTH; k += LANE_WIDTH) {
-        const wide H_y = wide_load(&w->H_y[k]), H_z = wide_load(&w->H_z[k]), B_y = wide_load(&w->B_y[k]), B_z = wide_load(&w->B_z[k]);
+        const wide H_y = wide_load(&w->H_y[k]), H_z = wide_load(&w->H_z[k]), B_y = wide_load(&w->B_y[k]),
+                   B_z = wide_load(&w->B_z[k]);
         wide_store(&load->P[k], wide_set(model->d->P));
         wide_store(&load->N[k], wide_load(&w->T[k]) - wide_load(&w->N_plate[k]));
         wide_store(&load->V_y[k], -B_y);
         wide_store(&load->V_z[k], -B_z);
         wide_store(&load->F_head[k], modulus(H_y, H_z));
-        wide_store(&load->V[k], modulus(wide_load(&w->S_y[k]) + H_y + B_y, wide_load(&w->S_z[k]) + H_z + B_z));
+        wide_store(&load->V[k],
+                   modulus(wide_load(&w->S_y[k]) + H_y + B_y, wide_load(&w->S_z[k]) + H_z + B_z));
     }
 }
 
@@ -40,8 +42,10 @@ static void rigid_wrench(const Model *model, const Work *w, scalar wrench[6])
         global[i] = 0.5 * (w->half[1].F[i] - w->half[0].F[i]);
         global[3 + i] = 0.5 * (w->half[1].M[i] - w->half[0].M[i]);
     }
-    const Pockets *pocket = &w->pocket[0];  // half 0 holds the pocket forces: their share of half 1 less that of half 0 instead
-    const scalar *wrenches[6] = {pocket->half_F_x, pocket->half_F_y, pocket->half_F_z, pocket->half_M_x, pocket->half_M_y, pocket->half_M_z};
+    const Pockets *pocket =
+        &w->pocket[0];  // half 0 holds the pocket forces: their share of half 1 less that of half 0 instead
+    const scalar *wrenches[6] = {pocket->half_F_x, pocket->half_F_y, pocket->half_F_z,
+                                 pocket->half_M_x, pocket->half_M_y, pocket->half_M_z};
     ball_array share;
     for (int j = 0; j < PACKETS * LANE_WIDTH; j += LANE_WIDTH) {
         const wide F_x = wide_load(&pocket->F_x[j]), F_t = wide_load(&pocket->F_t[j]);
@@ -96,7 +100,8 @@ void joint_prying(const JointData *j, RivetLoads *load)
     const wide zero = wide_set(0.0), one = wide_set(1.0);
     for (int k = 0; k < PACKETS * LANE_WIDTH; k += LANE_WIDTH) {
         const wide M_y = wide_load(&load->M_y[k]), M_z = wide_load(&load->M_z[k]), M = modulus(M_y, M_z);
-        const wide M_0 = j->prying_lever * wide_max(wide_load(&load->P[k]) - wide_max(wide_load(&load->N[k]), zero), zero);
+        const wide M_0 =
+            j->prying_lever * wide_max(wide_load(&load->P[k]) - wide_max(wide_load(&load->N[k]), zero), zero);
         const wide part = wide_select(wide_above(M - M_0, 0.0), (M_0 + j->prying_share * (M - M_0)) / M, one);
         wide_store(&load->M_y[k], M_y * part);
         wide_store(&load->M_z[k], M_z * part);
@@ -115,9 +120,11 @@ void rivets_load(const Model *model, const Work *w, RivetLoads *load)
     PathLoads path = {0};
     for (int h = 0; h < (rigid ? 1 : 2); h++) {
         const Pockets *pocket = &w->pocket[h];
-        load_path_flexible(rivet_table.load_path, h == 0 ? -1 : 1, transverse, pocket->F_x, pocket->F_r, pocket->F_t, &path);
+        load_path_flexible(rivet_table.load_path, h == 0 ? -1 : 1, transverse, pocket->F_x, pocket->F_r,
+                           pocket->F_t, &path);
     }
-    for (int k = 0; k < PACKETS * LANE_WIDTH; k += LANE_WIDTH) wide_store(&load->N[k], wide_load(&load->N[k]) + wide_load(&path.sum[PATH_N][k]));
+    for (int k = 0; k < PACKETS * LANE_WIDTH; k += LANE_WIDTH)
+        wide_store(&load->N[k], wide_load(&load->N[k]) + wide_load(&path.sum[PATH_N][k]));
     if (transverse) add_turned(model, path.sum[PATH_V_R], path.sum[PATH_V_T], load->V_y, load->V_z);
     add_turned(model, path.sum[PATH_M_R], path.sum[PATH_M_T], load->M_y, load->M_z);
     joint_prying(&rivet_table.joint, load);

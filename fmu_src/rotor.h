@@ -22,7 +22,8 @@ static inline void cross3(const scalar u[3], const scalar v[3], scalar out[3])
 }
 
 // Axis, its rate and the angular velocity.
-static inline void rotor_axis(Rotor *rotor, scalar beta, scalar gamma, scalar beta_dot, scalar gamma_dot, scalar s)
+static inline void rotor_axis(Rotor *rotor, scalar beta, scalar gamma, scalar beta_dot, scalar gamma_dot,
+                              scalar s)
 {
     const scalar a_x = scalar_sqrt(1.0 - beta * beta - gamma * gamma);
     scalar *a = rotor->a, *a_dot = rotor->a_dot;
@@ -44,12 +45,15 @@ static inline void rotor_body_axes(Rotor *rotor, scalar cos_psi, scalar sin_psi)
 {
     const scalar *a = rotor->a, k = 1.0 / (1.0 + a[0]);
     const scalar k_y = (a[1] * cos_psi + a[2] * sin_psi) * k, k_z = (a[2] * cos_psi - a[1] * sin_psi) * k;
-    rotor->b_y[0] = -k_y * (1.0 + a[0]), rotor->b_y[1] = cos_psi - k_y * a[1], rotor->b_y[2] = sin_psi - k_y * a[2];
-    rotor->b_z[0] = -k_z * (1.0 + a[0]), rotor->b_z[1] = -sin_psi - k_z * a[1], rotor->b_z[2] = cos_psi - k_z * a[2];
+    rotor->b_y[0] = -k_y * (1.0 + a[0]), rotor->b_y[1] = cos_psi - k_y * a[1],
+    rotor->b_y[2] = sin_psi - k_y * a[2];
+    rotor->b_z[0] = -k_z * (1.0 + a[0]), rotor->b_z[1] = -sin_psi - k_z * a[1],
+    rotor->b_z[2] = cos_psi - k_z * a[2];
 }
 
 // Accelerations of the axis and of the spin under the moment M about the centre of mass.
-static inline void rotor_acceleration(const Rotor *rotor, double J_p, double J_t, const scalar M[3], scalar a_ddot[3], scalar *s_dot)
+static inline void rotor_acceleration(const Rotor *rotor, double J_p, double J_t, const scalar M[3],
+                                      scalar a_ddot[3], scalar *s_dot)
 {
     const scalar *a = rotor->a, *a_dot = rotor->a_dot, M_a = dot3(M, a);
     scalar m[3];

@@ -37,7 +37,8 @@ static Stiffness contact_stiffness(double K, double delta, double L, double n_x,
 {
     if (delta <= 0.0) return (Stiffness){0.0, 0.0, 0.0};
     const double root = sqrt(delta), along = 1.5 * K * root, across = K * delta * root / L;
-    return (Stiffness){across + (along - across) * n_x * n_x, (along - across) * n_x * n_r, across + (along - across) * n_r * n_r};
+    return (Stiffness){across + (along - across) * n_x * n_x, (along - across) * n_x * n_r,
+                       across + (along - across) * n_r * n_r};
 }
 
 static double elastic(double K, double delta)
@@ -49,7 +50,8 @@ static double ball_potential(const Equilibrium *eq, int j)
 {
     const Derived *d = eq->model->d;
     const Work *w = eq->w;
-    return elastic(d->inner.hertz.K, w->delta_i[j]) + elastic(d->outer.hertz.K, w->delta_e[j]) - eq->F_c * w->r[j] + 0.5 * K_0 * w->x[j] * w->x[j];
+    return elastic(d->inner.hertz.K, w->delta_i[j]) + elastic(d->outer.hertz.K, w->delta_e[j]) -
+           eq->F_c * w->r[j] + 0.5 * K_0 * w->x[j] * w->x[j];
 }
 
 // Minimises the potential of every ball for the ring's present pose; returns the sum.
@@ -63,10 +65,14 @@ static double balls_settle(const Equilibrium *eq)
     for (int iteration = 0; iteration < 60; iteration++) {
         double moved = 0.0;
         for (int j = 0; j < Z; j++) {
-            const double L_i = w->delta_i[j] + d->inner.r_g - d->R[j], L_e = w->delta_e[j] + d->outer.r_g - d->R[j];
-            const Stiffness k_i = contact_stiffness(d->inner.hertz.K, w->delta_i[j], L_i, w->n_ix[j], w->n_ir[j]);
-            const Stiffness k_e = contact_stiffness(d->outer.hertz.K, w->delta_e[j], L_e, w->n_ex[j], w->n_er[j]);
-            const double xx = k_i.xx + k_e.xx + K_0, xr = k_i.xr + k_e.xr, rr = k_i.rr + k_e.rr + K_0, det = xx * rr - xr * xr;
+            const double L_i = w->delta_i[j] + d->inner.r_g - d->R[j],
+                         L_e = w->delta_e[j] + d->outer.r_g - d->R[j];
+            const Stiffness k_i =
+                contact_stiffness(d->inner.hertz.K, w->delta_i[j], L_i, w->n_ix[j], w->n_ir[j]);
+            const Stiffness k_e =
+                contact_stiffness(d->outer.hertz.K, w->delta_e[j], L_e, w->n_ex[j], w->n_er[j]);
+            const double xx = k_i.xx + k_e.xx + K_0, xr = k_i.xr + k_e.xr, rr = k_i.rr + k_e.rr + K_0,
+                         det = xx * rr - xr * xr;
             const double F_x = w->F_x[j] - K_0 * w->x[j], F_r = w->F_r[j] + eq->F_c;
             x[j] = w->x[j], r[j] = w->r[j], part[j] = 1.0;
             dx[j] = (rr * F_x - xr * F_r) / det, dr[j] = (xx * F_r - xr * F_x) / det;
@@ -75,7 +81,8 @@ static double balls_settle(const Equilibrium *eq)
             moved = fmax(moved, length);
         }
         if (moved < 1e-16) break;
-        for (int trial = 0; trial < 30; trial++) {  // every ball halves its own step until its potential falls
+        for (int trial = 0; trial < 30;
+             trial++) {  // every ball halves its own step until its potential falls
             bool again = false;
             for (int j = 0; j < Z; j++) {
                 w->x[j] = x[j] + part[j] * dx[j];
@@ -108,7 +115,8 @@ static double ring_potential(const Equilibrium *eq, const double q[DOF], double 
 {
     const Parameters *p = eq->model->p;
     const RingLoad *ring_load = eq->model->ring_load;
-    const double target[2] = {ring_load->beta, ring_load->gamma}, k = p->ring.tilt_mode == TILT_MODE_SUPPORTED ? p->ring.k_tilt : 0.0;
+    const double target[2] = {ring_load->beta, ring_load->gamma},
+                 k = p->ring.tilt_mode == TILT_MODE_SUPPORTED ? p->ring.k_tilt : 0.0;
     const double r2 = 0.25 * p->bearing.d_m * p->bearing.d_m;  // k_0 acts at the pitch radius
     double Pi = 0.0;
     for (int i = 0; i < 3; i++) {
@@ -118,7 +126,9 @@ static double ring_potential(const Equilibrium *eq, const double q[DOF], double 
     for (int i = 0; i < 2; i++) {
         const double angle = q[TILT + i] - target[i];
         force[TILT + i] = eq->tilts ? ring_load->M[i] - k * angle - K_0 * r2 * q[TILT + i] : 0.0;
-        if (eq->tilts) Pi += 0.5 * k * angle * angle + 0.5 * K_0 * r2 * q[TILT + i] * q[TILT + i] - ring_load->M[i] * q[TILT + i];
+        if (eq->tilts)
+            Pi += 0.5 * k * angle * angle + 0.5 * K_0 * r2 * q[TILT + i] * q[TILT + i] -
+                  ring_load->M[i] * q[TILT + i];
     }
     return Pi;
 }
@@ -128,23 +138,30 @@ static void ring_balls(const Equilibrium *eq, double force[DOF], double H[DOF][D
 {
     const Derived *d = eq->model->d;
     const Work *w = eq->w;
-    const double F[DOF] = {ball_array_sum(w->ring_F_x), ball_array_sum(w->ring_F_y), ball_array_sum(w->ring_F_z), ball_array_sum(w->ring_M_y),
+    const double F[DOF] = {ball_array_sum(w->ring_F_x), ball_array_sum(w->ring_F_y),
+                           ball_array_sum(w->ring_F_z), ball_array_sum(w->ring_M_y),
                            ball_array_sum(w->ring_M_z)};
     for (int i = 0; i < DOF; i++)
         if (i < TILT || eq->tilts) force[i] += F[i];
     for (int j = 0; j < Z; j++) {
-        const double L_i = w->delta_i[j] + d->inner.r_g - d->R[j], L_e = w->delta_e[j] + d->outer.r_g - d->R[j];
+        const double L_i = w->delta_i[j] + d->inner.r_g - d->R[j],
+                     L_e = w->delta_e[j] + d->outer.r_g - d->R[j];
         const Stiffness a = contact_stiffness(d->inner.hertz.K, w->delta_i[j], L_i, w->n_ix[j], w->n_ir[j]);
         const Stiffness b = contact_stiffness(d->outer.hertz.K, w->delta_e[j], L_e, w->n_ex[j], w->n_er[j]);
-        const double xx = a.xx + b.xx + K_0, xr = a.xr + b.xr, rr = a.rr + b.rr + K_0, det = xx * rr - xr * xr;
+        const double xx = a.xx + b.xx + K_0, xr = a.xr + b.xr, rr = a.rr + b.rr + K_0,
+                     det = xx * rr - xr * xr;
         // k = a - a (a + b)^-1 a
         const double i_xx = rr / det, i_xr = -xr / det, i_rr = xx / det;
-        const double m_xx = a.xx * i_xx + a.xr * i_xr, m_xr = a.xx * i_xr + a.xr * i_rr, m_rx = a.xr * i_xx + a.rr * i_xr, m_rr = a.xr * i_xr + a.rr * i_rr;
-        const double k_xx = a.xx - m_xx * a.xx - m_xr * a.xr, k_xr = a.xr - m_xx * a.xr - m_xr * a.rr, k_rr = a.rr - m_rx * a.xr - m_rr * a.rr;
+        const double m_xx = a.xx * i_xx + a.xr * i_xr, m_xr = a.xx * i_xr + a.xr * i_rr,
+                     m_rx = a.xr * i_xx + a.rr * i_xr, m_rr = a.xr * i_xr + a.rr * i_rr;
+        const double k_xx = a.xx - m_xx * a.xx - m_xr * a.xr, k_xr = a.xr - m_xx * a.xr - m_xr * a.rr,
+                     k_rr = a.rr - m_rx * a.xr - m_rr * a.rr;
         const double c = w->cos_theta[j], s = w->sin_theta[j], R = d->inner.R_g;
         const double G_x[DOF] = {1.0, 0.0, 0.0, R * s, -R * c}, G_r[DOF] = {0.0, c, s, 0.0, 0.0};
         for (int m = 0; m < DOF; m++)
-            for (int n = 0; n < DOF; n++) H[m][n] += k_xx * G_x[m] * G_x[n] + k_xr * (G_x[m] * G_r[n] + G_r[m] * G_x[n]) + k_rr * G_r[m] * G_r[n];
+            for (int n = 0; n < DOF; n++)
+                H[m][n] += k_xx * G_x[m] * G_x[n] + k_xr * (G_x[m] * G_r[n] + G_r[m] * G_x[n]) +
+                           k_rr * G_r[m] * G_r[n];
     }
 }
 
@@ -162,7 +179,8 @@ static double equilibrium(const Equilibrium *eq, double q[DOF])
         residual = 0.0;
         for (int i = 0; i < DOF; i++) {
             residual = fmax(residual, fabs(force[i]) / (i < TILT ? 1.0 : r));
-            H[i][i] += i < TILT ? K_0 : K_0 * r2 + (p->ring.tilt_mode == TILT_MODE_SUPPORTED ? p->ring.k_tilt : 0.0);
+            H[i][i] +=
+                i < TILT ? K_0 : K_0 * r2 + (p->ring.tilt_mode == TILT_MODE_SUPPORTED ? p->ring.k_tilt : 0.0);
             if (i >= TILT && !eq->tilts)
                 for (int n = 0; n < DOF; n++) H[i][n] = H[n][i] = n == i ? 1.0 : 0.0;
         }
@@ -236,7 +254,8 @@ double start_state(const Kernels *kernels, const Model *model, Work *w, double *
 {
     const Parameters *p = model->p;
     const Derived *d = model->d;
-    Equilibrium eq = {.kernels = kernels, .model = model, .w = w, .tilts = p->ring.tilt_mode != TILT_MODE_PRESCRIBED};
+    Equilibrium eq = {
+        .kernels = kernels, .model = model, .w = w, .tilts = p->ring.tilt_mode != TILT_MODE_PRESCRIBED};
     work_init(d, w);
     memcpy(eq.F, model->ring_load->F, sizeof eq.F);
     const double omega_0 = 0.5 * model->ring_load->omega * (1.0 - p->bearing.D / p->bearing.d_m);

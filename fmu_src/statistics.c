@@ -17,7 +17,8 @@ static int bin_of(double ratio)
 // Lower edge of a bin as a multiple of the floor.
 static double edge_of(int bin)
 {
-    return ldexp(1.0 + (bin % STATISTICS_PER_OCTAVE) / (double)STATISTICS_PER_OCTAVE, bin / STATISTICS_PER_OCTAVE);
+    return ldexp(1.0 + (bin % STATISTICS_PER_OCTAVE) / (double)STATISTICS_PER_OCTAVE,
+                 bin / STATISTICS_PER_OCTAVE);
 }
 
 void statistics_add(StatisticsChannel *channel, double floor, double weight, double value)

@@ -2,7 +2,11 @@
 #pragma once
 
 // 32 bins in each octave, 106 a decade: a bin is 1.6...3.1 % wide; 24 octaves above the channel's floor.  Smaller values count as below.
-enum { STATISTICS_OCTAVES = 24, STATISTICS_PER_OCTAVE = 32, STATISTICS_BINS = STATISTICS_OCTAVES * STATISTICS_PER_OCTAVE };
+enum {
+    STATISTICS_OCTAVES = 24,
+    STATISTICS_PER_OCTAVE = 32,
+    STATISTICS_BINS = STATISTICS_OCTAVES * STATISTICS_PER_OCTAVE
+};
 
 // Plain bytes; all zeros is an empty channel.
 typedef struct {

@@ -9,7 +9,8 @@
 static inline void stepping_weights(const Derived *d, double tolerance, double weight[N_STATES])
 {
     for (int b = 0; b < N_STATE_BLOCKS; b++)
-        for (int i = 0; i < STATE_BLOCKS[b].count; i++) weight[STATE_BLOCKS[b].offset + i] = 1.0 / (tolerance * d->scale[STATE_BLOCKS[b].scale]);
+        for (int i = 0; i < STATE_BLOCKS[b].count; i++)
+            weight[STATE_BLOCKS[b].offset + i] = 1.0 / (tolerance * d->scale[STATE_BLOCKS[b].scale]);
 }
 
 // Goes on to the state y at time t, whose derivative is not known yet; returns the length of the step.
@@ -32,9 +33,11 @@ static inline void stepping_refuse(const double weight[N_STATES], unsigned count
 }
 
 // A message of SUNDIALS as one line of the log.
-static inline void stepping_report(double t, const char *function, int line, const char *message, int code, IntegratorLog *log, void *context)
+static inline void stepping_report(double t, const char *function, int line, const char *message, int code,
+                                   IntegratorLog *log, void *context)
 {
     char text[512];
-    snprintf(text, sizeof text, "t = %.9g s: SUNDIALS %s, line %d: %s (code %d)", t, function, line, message, code);
+    snprintf(text, sizeof text, "t = %.9g s: SUNDIALS %s, line %d: %s (code %d)", t, function, line, message,
+             code);
     log(context, text);
 }

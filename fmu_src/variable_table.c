@@ -7,7 +7,8 @@
 
 const Variable *variable_find(unsigned value_reference, int *element)
 {
-    int low = 0, high = N_VARIABLES;  // VARIABLES[low] starts at or below the reference, VARIABLES[high] above
+    int low = 0,
+        high = N_VARIABLES;  // VARIABLES[low] starts at or below the reference, VARIABLES[high] above
     while (high - low > 1) {
         const int middle = (low + high) / 2;
         if (VARIABLES[middle].value_reference <= value_reference)
@@ -36,7 +37,8 @@ void variable_element_name(const Variable *variable, int element, char *name, si
         snprintf(name, size, "%s", variable->name);
         return;
     }
-    snprintf(name, size, "%.*s[%d]%s", (int)(bracket - variable->name), variable->name, element + 1, bracket + 3);
+    snprintf(name, size, "%.*s[%d]%s", (int)(bracket - variable->name), variable->name, element + 1,
+             bracket + 3);
 }
 
 int variable_allows(const Variable *variable, int element, double value, char *message, size_t size)
@@ -45,8 +47,8 @@ int variable_allows(const Variable *variable, int element, double value, char *m
     char name[64];
     variable_element_name(variable, element, name, sizeof name);
     const int bare = strcmp(variable->unit, "1") == 0;
-    snprintf(message, size, "%s = %.10g%s%s is not allowed: it must lie in [%.10g, %.10g]", name, value, bare ? "" : " ", bare ? "" : variable->unit,
-             variable->min, variable->max);
+    snprintf(message, size, "%s = %.10g%s%s is not allowed: it must lie in [%.10g, %.10g]", name, value,
+             bare ? "" : " ", bare ? "" : variable->unit, variable->min, variable->max);
     return 0;
 }
 
@@ -54,7 +56,8 @@ void variables_set_start(Parameters *parameters, Inputs *inputs)
 {
     for (const Variable *v = VARIABLES; v < VARIABLES + N_VARIABLES; v++) {
         if (v->causality != CAUSALITY_PARAMETER && v->causality != CAUSALITY_INPUT) continue;
-        char *storage = (v->causality == CAUSALITY_PARAMETER ? (char *)parameters : (char *)inputs) + v->offset;
+        char *storage =
+            (v->causality == CAUSALITY_PARAMETER ? (char *)parameters : (char *)inputs) + v->offset;
         for (int element = 0; element < v->count; element++) {
             if (v->type == TYPE_REAL)
                 ((double *)storage)[element] = v->start;

@@ -9,7 +9,8 @@ INLINE wide vec_dot(vec u, vec v)
 }
 INLINE vec vec_cross(vec u, vec v)
 {
-    return (vec){wide_fma(u.r, v.t, -(u.t * v.r)), wide_fma(u.t, v.x, -(u.x * v.t)), wide_fma(u.x, v.r, -(u.r * v.x))};
+    return (vec){wide_fma(u.r, v.t, -(u.t * v.r)), wide_fma(u.t, v.x, -(u.x * v.t)),
+                 wide_fma(u.x, v.r, -(u.r * v.x))};
 }
 INLINE vec vec_add(vec u, vec v)
 {
@@ -37,7 +38,8 @@ INLINE vec vec_across(vec v, vec n)
 INLINE vec vec_local(const scalar global[3], wide cos_theta, wide sin_theta)
 {
     const wide y = wide_set(global[1]), z = wide_set(global[2]);
-    return (vec){wide_set(global[0]), wide_fma(y, cos_theta, z * sin_theta), wide_fma(z, cos_theta, -(y * sin_theta))};
+    return (vec){wide_set(global[0]), wide_fma(y, cos_theta, z * sin_theta),
+                 wide_fma(z, cos_theta, -(y * sin_theta))};
 }
 INLINE void vec_to_global(vec v, wide cos_theta, wide sin_theta, scalar *x, scalar *y, scalar *z)
 {

@@ -22,18 +22,15 @@ INLINE void combine(int n, const double *c, double *const *x, double *z)
 static void linear_combination(int n, const double *c, double *const *x, double *z)
 {
     switch (n) {
-#define CASE(n)              \
-    case n:                  \
-        combine(n, c, x, z); \
-        return
+#define CASE(n) \
+    case n: combine(n, c, x, z); return
         CASE(1);
         CASE(2);
         CASE(3);
         CASE(4);
         CASE(5);
         CASE(6);
-    default:
-        combine(n, c, x, z);
+    default: combine(n, c, x, z);
     }
 #undef CASE
 }
@@ -45,7 +42,8 @@ static double wrms_norm(const double *x, const double *w)
     for (int i = 0; i < WHOLE; i += 8)
         for (int k = 0; k < 8; k++) part[k] += (x[i + k] * w[i + k]) * (x[i + k] * w[i + k]);
     for (int i = WHOLE; i < N_STATES; i++) part[i - WHOLE] += (x[i] * w[i]) * (x[i] * w[i]);
-    const double sum = ((part[0] + part[1]) + (part[2] + part[3])) + ((part[4] + part[5]) + (part[6] + part[7]));
+    const double sum =
+        ((part[0] + part[1]) + (part[2] + part[3])) + ((part[4] + part[5]) + (part[6] + part[7]));
     return sqrt(sum / N_STATES);
 }
 

@@ -6,7 +6,7 @@
 typedef struct {
     void (*linear_sum)(double a, const double *x, double b, const double *y, double *z);  // z = a x + b y
     void (*linear_combination)(int n, const double *c, double *const *x, double *z);      // z = sum c_i x_i
-    double (*wrms_norm)(const double *x, const double *w);                                // sqrt(mean (x w)^2)
+    double (*wrms_norm)(const double *x, const double *w);  // sqrt(mean (x w)^2)
     bool (*finite)(const double *x);
 } VectorOps;
 

@@ -17,8 +17,13 @@
 #include "rhs.h"
 #include "vector_ops.h"
 
-enum { PAIRED = Y_JOINT_PLATE_Y, VELOCITY = Y_BALL_V_X, FRICTIONS = Y_WORK };  // rows: positions 0...PAIRED - 1, frictions, work, velocities
-_Static_assert(Y_CAGE_V_X - Y_CAGE_X == VELOCITY && Y_RING_V_X - Y_RING_X == VELOCITY && Y_BALL_OMEGA_X - VELOCITY == PAIRED,
+enum {
+    PAIRED = Y_JOINT_PLATE_Y,
+    VELOCITY = Y_BALL_V_X,
+    FRICTIONS = Y_WORK
+};  // rows: positions 0...PAIRED - 1, frictions, work, velocities
+_Static_assert(Y_CAGE_V_X - Y_CAGE_X == VELOCITY && Y_RING_V_X - Y_RING_X == VELOCITY &&
+                   Y_BALL_OMEGA_X - VELOCITY == PAIRED,
                "velocities are in the order of their positions");
 static const double SMOOTHING = 0.15;
 
@@ -42,7 +47,8 @@ static void correct_positions(const Model *model, double gamma, const double *de
     if (model->p->ring.tilt_mode != TILT_MODE_FREE)
         for (int i = Y_RING_BETA; i <= Y_RING_GAMMA; i++) y[i] += gamma * delta[VELOCITY + i];
     if (model->p->scene.cage == CAGE_MODEL_RIGID) return;
-    static const int axial[3] = {Y_CAGE_X, Y_CAGE_BETA, Y_CAGE_GAMMA};  // the motion of one half against the other
+    static const int axial[3] = {Y_CAGE_X, Y_CAGE_BETA,
+                                 Y_CAGE_GAMMA};  // the motion of one half against the other
     for (int i = 0; i < 3; i++) {
         const double share = 0.5 * gamma * (delta[VELOCITY + axial[i] + 1] - delta[VELOCITY + axial[i]]);
         y[axial[i]] -= share;
@@ -52,13 +58,16 @@ static void correct_positions(const Model *model, double gamma, const double *de
 
 // delta.A delta: power that v^ loses beyond v_{n+1}, of one sign: against the film that holds a cage it would be most of the work.  What is linear in
 // delta = gamma (a_{n+1} - a_n) alternates and leaves h^2 a.A a, which is of the method's order.
-static double dissipation_correction(const Model *model, const double *y, const double *residual, double gamma, const double *delta)
+static double dissipation_correction(const Model *model, const double *y, const double *residual,
+                                     double gamma, const double *delta)
 {
     enum { COUNT = N_STATES - VELOCITY, WHOLE = COUNT / 8 * 8 };
     const double *inertia = &model->d->inertia[VELOCITY], inv_gamma = 1.0 / gamma;
     double power[COUNT], part[8] = {0};
     for (int i = 0; i < COUNT; i++) {
-        const double damping = inv_gamma * (residual[VELOCITY + i] - delta[VELOCITY + i]);  // (A + gamma K) delta: where rates are stiff, A delta
+        const double damping =
+            inv_gamma * (residual[VELOCITY + i] -
+                         delta[VELOCITY + i]);  // (A + gamma K) delta: where rates are stiff, A delta
         power[i] = inertia[i] * delta[VELOCITY + i] * damping;
     }
     for (int j = 0; j < Z; j++) power[Y_BALL_OMEGA_M - VELOCITY + j] *= y[Y_BALL_R + j] * y[Y_BALL_R + j];
@@ -79,7 +88,8 @@ static void predictor_limiter(const Model *model, double h, const VerletState *f
         removed[i] = kept[i] = h * (now - steady);
     }
     for (int land = 0; land < 2; land++) {
-        w->film_yy[land] = from->film[land][0], w->film_yz[land] = from->film[land][1], w->film_zz[land] = from->film[land][2];
+        w->film_yy[land] = from->film[land][0], w->film_yz[land] = from->film[land][1],
+        w->film_zz[land] = from->film[land][2];
         w->film_spin[land] = 0.0;
     }
     implicit_films(model, w, h, kept);
@@ -94,7 +104,8 @@ static void keep_films(const Work *w, VerletState *to)
     }
 }
 
-double verlet_step(const Model *model, double t, double h, const double *weight, const VerletState *from, VerletState *to, Work *w)
+double verlet_step(const Model *model, double t, double h, const double *weight, const VerletState *from,
+                   VerletState *to, Work *w)
 {
     const double gamma = 0.5 * h, *f = from->f;
     double removed[N_STATES], residual[N_STATES], delta[N_STATES], second_difference[N_STATES], *y = to->y;
@@ -116,7 +127,8 @@ double verlet_step(const Model *model, double t, double h, const double *weight,
     correct_positions(model, gamma, delta, y);
     y[Y_WORK] += gamma * (f[Y_WORK] + to->f[Y_WORK]);
 
-    const double inv_gamma = 1.0 / gamma, inv_h = 1.0 / h, inv_span = 2.0 / (h + from->h), second = h * h * inv_span;
+    const double inv_gamma = 1.0 / gamma, inv_h = 1.0 / h, inv_span = 2.0 / (h + from->h),
+                 second = h * h * inv_span;
     double error[N_STATES];
     for (int i = 0; i < PAIRED; i++) error[i] = 0.0;
     error[Y_WORK] = 0.0;

@@ -67,14 +67,16 @@ static void evaluate(const Parameters *p, const Inputs *u, const double *y, Outp
 }
 
 // Derivatives of the outputs along a direction du, dy.
-static void differentiate(const Parameters *p, const Inputs *u, const double *y, const Inputs *du, const double *dy, Outputs *d)
+static void differentiate(const Parameters *p, const Inputs *u, const double *y, const Inputs *du,
+                          const double *dy, Outputs *d)
 {
     Outputs at;
     linear(p, u, y, &at);
     linear(p, du, dy, d);
     const double F = hypot(at.support.F_y, at.support.F_z), c = 0.5 * p->support.mu * p->support.d;
     const double dF = F > 0.0 ? (at.support.F_y * d->support.F_y + at.support.F_z * d->support.F_z) / F : 0.0;
-    const double w = hypot(y[Y_OMEGA], p->support.omega_0), slope = p->support.omega_0 * p->support.omega_0 / (w * w * w);
+    const double w = hypot(y[Y_OMEGA], p->support.omega_0),
+                 slope = p->support.omega_0 * p->support.omega_0 / (w * w * w);
     accelerate(p, du, c * (dF * y[Y_OMEGA] / w + F * slope * dy[Y_OMEGA]), d);
 }
 
@@ -94,7 +96,8 @@ static void rhs(const Parameters *p, const Inputs *u, const double *y, double *y
 // The inputs' polynomials, tau after the start of the step, and their rates.
 static void course(const Inputs from[], double tau, Inputs *u, Inputs *u_dot)
 {
-    const double *u_0 = (const double *)&from[0], *u_1 = (const double *)&from[1], *u_2 = (const double *)&from[2];
+    const double *u_0 = (const double *)&from[0], *u_1 = (const double *)&from[1],
+                 *u_2 = (const double *)&from[2];
     for (int i = 0; i < N_INPUTS; i++) {
         ((double *)u)[i] = u_0[i] + tau * (u_1[i] + 0.5 * tau * u_2[i]);
         ((double *)u_dot)[i] = u_1[i] + tau * u_2[i];
@@ -123,7 +126,8 @@ static double steps_needed(const Saved *s, double h)
     Outputs at;
     linear(&s->p, &s->u[0], s->y, &at);
     const double F = hypot(at.support.F_y, at.support.F_z);
-    const double rate = (s->p.drive.k + 0.5 * s->p.support.mu * s->p.support.d * F / s->p.support.omega_0) / s->p.shaft.J;
+    const double rate =
+        (s->p.drive.k + 0.5 * s->p.support.mu * s->p.support.d * F / s->p.support.omega_0) / s->p.shaft.J;
     return ceil(h * fmax(1e4, 20.0 * rate));
 }
 
@@ -134,7 +138,9 @@ PartStatus part_step(Part *part, double t_end)
     const double h = t_end - s->t, n = steps_needed(s, h);
     char message[200];
     if (!(n <= MOST_STEPS)) {
-        snprintf(message, sizeof message, "t = %.9g s: a step of %g s would take %g internal steps: allowed are %d", s->t, h, n, MOST_STEPS);
+        snprintf(message, sizeof message,
+                 "t = %.9g s: a step of %g s would take %g internal steps: allowed are %d", s->t, h, n,
+                 MOST_STEPS);
         part->host.log(part->host.environment, LOG_ERROR, message);
         return PART_ERROR;
     }
@@ -142,7 +148,8 @@ PartStatus part_step(Part *part, double t_end)
     memcpy(y, s->y, sizeof y);
     for (int k = 0; k < (int)n; k++) runge_kutta(s, k * (h / n), h / n, y);
     if (!isfinite(y[Y_PHI])) {
-        snprintf(message, sizeof message, "t = %.9g s: speed and angle leave all bounds in the next %g s", s->t, h);
+        snprintf(message, sizeof message, "t = %.9g s: speed and angle leave all bounds in the next %g s",
+                 s->t, h);
         part->host.log(part->host.environment, LOG_ERROR, message);
         return PART_DISCARD;
     }
@@ -220,7 +227,8 @@ void part_time_derivatives(Part *part, Outputs *derivatives)
     differentiate(&part->s.p, &part->s.seen, part->s.y, &part->s.seen_dot, y_dot, derivatives);
 }
 
-void part_directional_derivatives(Part *part, const Inputs *inputs, const double state[N_STATES], Outputs *derivatives)
+void part_directional_derivatives(Part *part, const Inputs *inputs, const double state[N_STATES],
+                                  Outputs *derivatives)
 {
     differentiate(&part->s.p, &part->s.seen, part->s.y, inputs, state, derivatives);
 }
