@@ -110,17 +110,17 @@ static int weights(N_Vector y, N_Vector ewt, void *user)
 static void diagonal_rates(Integrator *in)
 {
     enum { AXES = 3 };
-    static const int V[AXES] = {Y_BALL_V_X, Y_BALL_V_R, Y_BALL_OMEGA_M},
-                     OMEGA[AXES] = {Y_BALL_OMEGA_X, Y_BALL_OMEGA_R, Y_BALL_OMEGA_T};
+    static const int V[AXES] = {Y_BALL_V_X, Y_BALL_V_R, Y_BALL_OMEGA_M};
+    static const int OMEGA[AXES] = {Y_BALL_OMEGA_X, Y_BALL_OMEGA_R, Y_BALL_OMEGA_T};
     const Work *w = in->w;
     const Derived *d = in->model->d;
     const Parameters *p = in->model->p;
-    const double *v_pocket[AXES] = {w->D_x, w->D_r, w->D_t},
-                 *omega_pocket[AXES] = {w->D_omega_x, w->D_omega_r, w->D_omega_t};
+    const double *v_pocket[AXES] = {w->D_x, w->D_r, w->D_t};
+    const double *omega_pocket[AXES] = {w->D_omega_x, w->D_omega_r, w->D_omega_t};
     memset(in->rates, 0, sizeof in->rates);
     for (int j = 0; j < Z; j++) {
-        const double n_i[AXES] = {w->n_ix[j], w->n_ir[j], w->n_it[j]},
-                     n_e[AXES] = {w->n_ex[j], w->n_er[j], 0.0};
+        const double n_i[AXES] = {w->n_ix[j], w->n_ir[j], w->n_it[j]};
+        const double n_e[AXES] = {w->n_ex[j], w->n_er[j], 0.0};
         for (int i = 0; i < AXES; i++) {
             const double g = w->g_i[j] * (1.0 - n_i[i] * n_i[i]) + w->g_e[j] * (1.0 - n_e[i] * n_e[i]);
             in->rates[V[i] + j] = v_pocket[i][j] + g / d->m;
@@ -136,8 +136,8 @@ static void diagonal_rates(Integrator *in)
         in->rates[Y_CAGE_S + h] = w->film_spin[h] / p->cage.J_p;
     }
     for (int k = 0; k < Z; k++) {
-        const double speed = sqrt(w->v_jy[k] * w->v_jy[k] + w->v_jz[k] * w->v_jz[k]), mu = p->joint.mu,
-                     floor = p->joint.F_floor;
+        const double speed = sqrt(w->v_jy[k] * w->v_jy[k] + w->v_jz[k] * w->v_jz[k]), mu = p->joint.mu;
+        const double floor = p->joint.F_floor;
         in->rates[Y_JOINT_PLATE_Y + k] = in->rates[Y_JOINT_PLATE_Z + k] =
             speed * d->k_plate_t / (mu * w->N_plate[k] + floor);
         in->rates[Y_JOINT_HEAD_Y + k] = in->rates[Y_JOINT_HEAD_Z + k] =
@@ -174,11 +174,11 @@ enum {
 };
 
 typedef struct {
-    int size[GROUPS], at[GROUPS][BALL_STATES],
-        border_at[BORDER];         // the states of each group and of the border
+    int size[GROUPS], at[GROUPS][BALL_STATES];
+    int border_at[BORDER];         // the states of each group and of the border
     double J[N_STATES][N_STATES];  // by columns; only the pattern is used
-    double block[GROUPS][BALL_STATES][BALL_STATES], across[GROUPS][BORDER][BALL_STATES],
-        below[GROUPS][BALL_STATES][BORDER], border[BORDER][BORDER];
+    double block[GROUPS][BALL_STATES][BALL_STATES], across[GROUPS][BORDER][BALL_STATES];
+    double below[GROUPS][BALL_STATES][BORDER], border[BORDER][BORDER];
     sunindextype pivot[GROUPS][BALL_STATES], border_pivot[BORDER];
 } Bordered;
 

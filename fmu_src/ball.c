@@ -11,8 +11,8 @@
 
 void ball_kinematics(const scalar *y, Work *w)
 {
-    scalar *positions[] = {w->x, w->r, w->theta}, *velocities[] = {w->v_x, w->v_r, w->omega_m},
-           *spins[] = {w->omega_x, w->omega_r, w->omega_t};
+    scalar *positions[] = {w->x, w->r, w->theta}, *velocities[] = {w->v_x, w->v_r, w->omega_m};
+    scalar *spins[] = {w->omega_x, w->omega_r, w->omega_t};
     for (int i = 0; i < 3; i++) {
         memcpy(positions[i], &y[Y_BALL_X + i * Z], Z * sizeof *y);
         memcpy(velocities[i], &y[Y_BALL_V_X + i * Z], Z * sizeof *y);

@@ -66,8 +66,8 @@ static void advance(const Work *w, double h, double k, const double *capacity, i
     for (int b = 0; b < PACKETS; b++) {
         const int i = b * LANE_WIDTH;
         const wide v_y = wide_load(&w->v_jy[i]), v_z = wide_load(&w->v_jz[i]);
-        const wide rate = wide_sqrt(v_y * v_y + v_z * v_z) * k / wide_load(&capacity[i]),
-                   inv = h / (1.0 + (0.5 * h) * rate);
+        const wide rate = wide_sqrt(v_y * v_y + v_z * v_z) * k / wide_load(&capacity[i]);
+        const wide inv = h / (1.0 + (0.5 * h) * rate);
         const wide a = wide_load(&z_y[i]), c = wide_load(&z_z[i]);
         wide_store(&z_y[i], a + (v_y - rate * a) * inv);
         wide_store(&z_z[i], c + (v_z - rate * c) * inv);
@@ -105,8 +105,8 @@ void cage_joint_force(const Model *model, const scalar *y, Work *w)
     memcpy(h_y, &y[Y_JOINT_HEAD_Y], Z * sizeof *y);
     memcpy(h_z, &y[Y_JOINT_HEAD_Z], Z * sizeof *y);
 
-    const wide zero = wide_set(0.0), P = wide_set(d->P), floor = wide_set(p->joint.F_floor),
-               mu = wide_set(p->joint.mu);
+    const wide zero = wide_set(0.0), P = wide_set(d->P), floor = wide_set(p->joint.F_floor);
+    const wide mu = wide_set(p->joint.mu);
     const wide k_t = wide_set(d->k_plate_t), k_h = wide_set(d->k_head);
     for (int b = 0; b < PACKETS; b++) {
         const int k = b * LANE_WIDTH;
@@ -116,8 +116,8 @@ void cage_joint_force(const Model *model, const scalar *y, Work *w)
         const wide T = wide_max(P + d->k_rivet * u_x, zero), N_plate = wide_max(P - d->k_plate * u_x, zero);
         const wide damping = d->c_joint * N_plate / (N_plate + floor);
         const wide speed = wide_sqrt(v_y * v_y + v_z * v_z);
-        const wide zp_y = wide_load(&z_y[k]), zp_z = wide_load(&z_z[k]), zh_y = wide_load(&h_y[k]),
-                   zh_z = wide_load(&h_z[k]);
+        const wide zp_y = wide_load(&z_y[k]), zp_z = wide_load(&z_z[k]), zh_y = wide_load(&h_y[k]);
+        const wide zh_z = wide_load(&h_z[k]);
         wide lost = cage_joint_friction(k_t, mu * N_plate + floor, zp_y, zp_z, v_y, v_z, speed,
                                         &w->plate_y_dot[k], &w->plate_z_dot[k]);
         lost += cage_joint_friction(k_h, mu * T + floor, zh_y, zh_z, v_y, v_z, speed, &w->head_y_dot[k],
@@ -137,8 +137,8 @@ void cage_joint_force(const Model *model, const scalar *y, Work *w)
         wide_store(&w->joint_dissipated[k], lost + damping * v_x * v_x);
 
         // on half 1 at its hole: s + u from the centre of half 0, in the frame of half 0
-        const wide f_x = N_plate - T - damping * v_x, f_y = -k_t * zp_y - k_h * zh_y - bearing * u_y,
-                   f_z = -k_t * zp_z - k_h * zh_z - bearing * u_z;
+        const wide f_x = N_plate - T - damping * v_x, f_y = -k_t * zp_y - k_h * zh_y - bearing * u_y;
+        const wide f_z = -k_t * zp_z - k_h * zh_z - bearing * u_z;
         const wide r_y = wide_load(&d->rivet_y[k]) + u_y, r_z = wide_load(&d->rivet_z[k]) + u_z;
         wide_store(&F_x[k], f_x);
         wide_store(&F_y[k], f_y);
@@ -150,8 +150,8 @@ void cage_joint_force(const Model *model, const scalar *y, Work *w)
 
     // wrench in the global frame: -F, -M on half 0; on half 1 the same about its own centre
     Rotor *h0 = &w->half[0], *h1 = &w->half[1];
-    const scalar F[3] = {ball_array_sum(F_x), ball_array_sum(F_y), ball_array_sum(F_z)},
-                 M[3] = {ball_array_sum(M_x), ball_array_sum(M_y), ball_array_sum(M_z)};
+    const scalar F[3] = {ball_array_sum(F_x), ball_array_sum(F_y), ball_array_sum(F_z)};
+    const scalar M[3] = {ball_array_sum(M_x), ball_array_sum(M_y), ball_array_sum(M_z)};
     scalar force[3], moment[3], shift[3], arm[3];
     for (int i = 0; i < 3; i++) {
         force[i] = h0->a[i] * F[0] + h0->b_y[i] * F[1] + h0->b_z[i] * F[2];

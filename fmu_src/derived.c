@@ -75,8 +75,8 @@ static void derive_pockets(const Parameters *p, Derived *d)
 
 static void derive_cage(const Parameters *p, Derived *d)
 {
-    const double R = 0.5 * p->cage.D_o, L = p->cage.land_width, nu = p->oil.eta / p->oil.rho,
-                 r_i = 0.5 * p->cage.D_i;
+    const double R = 0.5 * p->cage.D_o, L = p->cage.land_width, nu = p->oil.eta / p->oil.rho;
+    const double r_i = 0.5 * p->cage.D_i;
     d->com_x[0] = -p->cage.x_c;
     d->com_x[1] = p->cage.x_c;
     d->com_e = p->cage.unbalance / (2.0 * p->cage.m);
@@ -85,8 +85,8 @@ static void derive_cage(const Parameters *p, Derived *d)
     d->couette = 2.0 * PI * p->oil.eta * R * R * R * L / d->C_land;
     d->ln_land = portable_log(d->C_land / p->oil.sigma_land);
     // end face: (1/2) rho omega^2 (r_o^5 - r_i^5) C_n/2, given per omega (drag_cage multiplies by omega)
-    const double face = 0.25 * p->oil.rho_mix * (portable_pow(R, 5.0) - portable_pow(r_i, 5.0)),
-                 Re = R * R / nu;
+    const double face = 0.25 * p->oil.rho_mix * (portable_pow(R, 5.0) - portable_pow(r_i, 5.0));
+    const double Re = R * R / nu;
     d->disk_laminar = face * 3.87 / sqrt(Re);
     d->disk_turbulent = face * 0.146 * portable_pow(Re, -0.2);
     // cylinder outside the land, at the same gap

@@ -17,8 +17,8 @@ static scalar contact_energy(double K, scalar delta)
 static scalar ball_energy(const Model *model, const scalar *y, const Work *w, int j)
 {
     const Derived *d = model->d;
-    const scalar v_x = y[Y_BALL_V_X + j], v_r = y[Y_BALL_V_R + j],
-                 v_t = y[Y_BALL_R + j] * y[Y_BALL_OMEGA_M + j];
+    const scalar v_x = y[Y_BALL_V_X + j], v_r = y[Y_BALL_V_R + j];
+    const scalar v_t = y[Y_BALL_R + j] * y[Y_BALL_OMEGA_M + j];
     const scalar o_x = y[Y_BALL_OMEGA_X + j], o_r = y[Y_BALL_OMEGA_R + j], o_t = y[Y_BALL_OMEGA_T + j];
     return 0.5 * d->m * (v_x * v_x + v_r * v_r + v_t * v_t) +
            0.5 * d->J * (o_x * o_x + o_r * o_r + o_t * o_t) +
@@ -43,8 +43,8 @@ static scalar pocket_energy(const Model *model, const Work *w, int j, int h)
 
 static scalar joint_energy(const Derived *d, const scalar *y, const Work *w, int k)
 {
-    const scalar z_y = y[Y_JOINT_PLATE_Y + k], z_z = y[Y_JOINT_PLATE_Z + k], h_y = y[Y_JOINT_HEAD_Y + k],
-                 h_z = y[Y_JOINT_HEAD_Z + k];
+    const scalar z_y = y[Y_JOINT_PLATE_Y + k], z_z = y[Y_JOINT_PLATE_Z + k], h_y = y[Y_JOINT_HEAD_Y + k];
+    const scalar h_z = y[Y_JOINT_HEAD_Z + k];
     const scalar bearing =
         scalar_max(0.0, scalar_sqrt(w->u_y[k] * w->u_y[k] + w->u_z[k] * w->u_z[k]) - d->hole_gap);
     return 0.5 * (w->T[k] * w->T[k] / d->k_rivet + w->N_plate[k] * w->N_plate[k] / d->k_plate +

@@ -29,8 +29,8 @@ static void lands(const Model *model, const Work *w, Event *event)
 // Radial place of a ball in the frame of a half, against the middle of the cage's section.
 static void pockets(const Model *model, const Work *w, Event *event)
 {
-    const double middle = 0.25 * (model->p->cage.D_o + model->p->cage.D_i),
-                 reach = 0.25 * (model->p->cage.D_o - model->p->cage.D_i);
+    const double middle = 0.25 * (model->p->cage.D_o + model->p->cage.D_i);
+    const double reach = 0.25 * (model->p->cage.D_o - model->p->cage.D_i);
     for (int j = 0; j < Z; j++) {
         double max = 0.0;
         for (int h = 0; h < 2; h++) {
@@ -71,8 +71,8 @@ static void races(const Model *model, const Work *w, Event *cut, Event *overpres
     const double D = model->p->bearing.D, p_limit = model->p->bearing.p_limit;
     for (int outer = 0; outer < 2; outer++) {
         const Race *race = outer ? &model->d->outer : &model->d->inner;
-        const double *Q = outer ? w->Q_e : w->Q_i,
-                     height = outer ? model->p->bearing.h_e : model->p->bearing.h_i;
+        const double *Q = outer ? w->Q_e : w->Q_i;
+        const double height = outer ? model->p->bearing.h_e : model->p->bearing.h_i;
         const double edge = acos(1.0 - height * D / race->r_g);
         double along[Z], along_max = 0.0, Q_max = 0.0;
         for (int j = 0; j < Z; j++) {

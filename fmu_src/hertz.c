@@ -50,8 +50,8 @@ Hertz hertz_contact(double rho_x, double rho_y, double E_star)
     const double kappa = sqrt(low * high);
     double F, E;
     hertz_elliptic(1.0 - 1.0 / (kappa * kappa), &F, &E);
-    const double a_star = portable_cbrt(2.0 * kappa * kappa * E / PI), b_star = a_star / kappa,
-                 delta_star = 2.0 * F / (PI * a_star);
+    const double a_star = portable_cbrt(2.0 * kappa * kappa * E / PI), b_star = a_star / kappa;
+    const double delta_star = 2.0 * F / (PI * a_star);
     const double load = 3.0 / (2.0 * sum * E_star);  // (Q load)^(1/3) scales the ellipse
     const double compliance = delta_star * 0.5 * sum * portable_cbrt(load) * portable_cbrt(load);
     const double K = portable_pow(compliance, -1.5), a = a_star * portable_cbrt(load);

@@ -27,8 +27,8 @@ typedef struct {
     double force_peak;  // since the last communication point
     double head_peak[Z], mid_peak[Z];
     double dislocation_max;  // largest slip of a joint since start.settle [m]
-    double duty_time, omega_time,
-        eccentricity_time;  // integrals over time since start.settle: of contact, cage speed, eccentricity
+    double duty_time, omega_time;
+    double eccentricity_time;  // integrals over time since start.settle: of contact, cage speed, eccentricity
     StatisticsChannel force, head[STRESS_CHANNELS], mid[STRESS_CHANNELS];
     FatigueChannel fatigue_head[Z], fatigue_mid[Z];
     EventState event;

@@ -44,10 +44,10 @@ INLINE void land_film_packet(const Model *model, Work *w, int first)
     const wide eps = e * inv_C, cap = wide_min(wide_set(inv_C), EPS_CAP * inv_e);
     const wide a = (e_y * n_y + e_z * n_z) * cap, b = (e_z * n_y - e_y * n_z) * cap;
     const double floor = 0.5 * p->cage.g_0;
-    const wide above = 1.0 - eps * eps - floor,
-               q2 = floor + 0.5 * (above + wide_sqrt(above * above + 8.0 * floor * floor));
-    const wide inv_q = 1.0 / wide_sqrt(q2), inv_q2 = inv_q * inv_q,
-               inv_c2 = 1.0 / (q2 + a * a);                    // c^2 = 1 - b^2
+    const wide above = 1.0 - eps * eps - floor;
+    const wide q2 = floor + 0.5 * (above + wide_sqrt(above * above + 8.0 * floor * floor));
+    const wide inv_q = 1.0 / wide_sqrt(q2), inv_q2 = inv_q * inv_q;
+    const wide inv_c2 = 1.0 / (q2 + a * a);                    // c^2 = 1 - b^2
     const wide S = inv_q * (0.5 * PI + wide_atan(a * inv_q));  // S/q, and all integrals times q^4
     const wide I_c = 3.0 * a + S * (q2 + 3.0 * a * a);
     const wide I_s = 2.0 * b + a * a * b * inv_c2 + 3.0 * a * b * S;
@@ -59,15 +59,15 @@ INLINE void land_film_packet(const Model *model, Work *w, int first)
     // dry contact and friction at the place of the smallest gap; with mixed lubrication asperities carry their share of the film force too
     const wide u_y = e_y * inv_e, u_z = e_z * inv_e;
     const wide pen = e - d->C_land, pen_dot = v_y * u_y + v_z * u_z;
-    const wide N_0 = hertz_load(wide_set(p->cage.K_land), pen),
-               N = hertz_damped(N_0, wide_set(p->cage.lambda), pen_dot);
+    const wide N_0 = hertz_load(wide_set(p->cage.K_land), pen);
+    const wide N = hertz_damped(N_0, wide_set(p->cage.lambda), pen_dot);
     wide N_mu = N;
     if (p->scene.lubrication == LUBRICATION_MIXED) {
         const wide ln_Lambda = d->ln_land + wide_log(q2 / (1.0 + eps));
         N_mu += traction_asperity_share(ln_Lambda) * wide_sqrt(F_y * F_y + F_z * F_z);
     }
-    const wide R = wide_set(0.5 * p->cage.D_o),
-               slip = v_z * u_y - v_y * u_z + omega * R;  // along t = e_x x u
+    const wide R = wide_set(0.5 * p->cage.D_o);
+    const wide slip = v_z * u_y - v_y * u_z + omega * R;  // along t = e_x x u
     const wide g = p->cage.mu_land * N_mu / wide_sqrt(slip * slip + p->cage.v_c * p->cage.v_c);
     const wide F_t = -g * slip;
     F_y += -N * u_y - F_t * u_z;
@@ -84,8 +84,8 @@ INLINE void land_film_packet(const Model *model, Work *w, int first)
     for (int i = 0; i < HALVES; i++) {
         const int h = first + i;
         Rotor *half = &w->half[h];
-        const scalar x = wide_lane(x_land, i), R_h = wide_lane(R, i),
-                     F[3] = {0.0, wide_lane(F_y, i), wide_lane(F_z, i)};
+        const scalar x = wide_lane(x_land, i), R_h = wide_lane(R, i);
+        const scalar F[3] = {0.0, wide_lane(F_y, i), wide_lane(F_z, i)};
         const scalar arm[3] = {half->a[0] * x, half->a[1] * x, half->a[2] * x};
         half->F[1] += F[1];
         half->F[2] += F[2];

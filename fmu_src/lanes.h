@@ -201,8 +201,8 @@ INLINE wide wide_exp(wide x)
 // x = 2^k m with sqrt(1/2) <= m < sqrt(2).
 INLINE wide wide_split(wide x, wide *m)
 {
-    const uint64_t one = 0x3ff0000000000000, sqrt_half = 0x3fe6a09e667f3bcd,
-                   two_52 = 0x4330000000000000;                   // the bits of these numbers
+    const uint64_t one = 0x3ff0000000000000, sqrt_half = 0x3fe6a09e667f3bcd;
+    const uint64_t two_52 = 0x4330000000000000;                   // the bits of these numbers
     const words exponent = ((words)x + (one - sqrt_half)) >> 52;  // k + 1023
     *m = (wide)((words)x - (exponent << 52) + one);
     return (wide)(exponent | two_52) - (4503599627370496.0 + 1023.0);

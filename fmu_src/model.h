@@ -35,7 +35,8 @@ typedef struct {
     constants R;  // ball radius [m]
     double m, J;  // ball mass [kg], moment of inertia [kg.m2]
     Race inner, outer;
-    double ln_pocket_piezo,
+    double ln_pocket_piezo;
+    double
         ln_pocket_rigid;  // ln Lambda of the pocket film at U = 1 m/s, Q = 1 N: piezoviscous, isoviscous-rigid
     double pocket_rolling;  // F_R = pocket_rolling U^0.66 Q^0.47
     Hertz pocket;
@@ -45,8 +46,8 @@ typedef struct {
         rivet_z;             // place of rivet k in a half: angle 2 pi (k + 1/2) / Z on the pitch circle [m]
     double drag;             // ball drag / v^2 [N.s2/m2]
     double com_x[2], com_e;  // centre of mass of a half from its geometric centre: axial, toward pocket 1 [m]
-    double C_land, kappa,
-        couette;     // radial guide clearance [m], eta R L^3 / C^3 [N.s/m], Couette torque / speed [N.m.s]
+    double C_land, kappa;
+    double couette;  // radial guide clearance [m], eta R L^3 / C^3 [N.s/m], Couette torque / speed [N.m.s]
     double ln_land;  // ln Lambda of a land film of thickness C
     double disk_laminar, disk_turbulent;  // end-face drag moment / |omega|^1.5, |omega|^1.8 of one half
     double disk_laminar_omega, cylinder_laminar_omega;  // cage speeds below which both are laminar [rad/s]
@@ -65,8 +66,8 @@ typedef struct {
 typedef struct {
     scalar t_0;                  // communication point [s]
     Inputs u[INPUT_ORDERS + 1];  // the inputs there and their derivatives
-    scalar pulse_r,
-        pulse_a;  // amplitude of the half-sine in progress, radial and axial [N]; 0 between pulses
+    scalar pulse_r;
+    scalar pulse_a;  // amplitude of the half-sine in progress, radial and axial [N]; 0 between pulses
     scalar pulse_start, pulse_rate;  // its start [s] and pi / duration [1/s]
 } InputTrajectory;
 
@@ -116,13 +117,13 @@ typedef struct {
     Pockets pocket[2];      // on each half; on a rigid cage all on the first
     // joints, in the frame of half 0 (cage_joint_force)
     ball_array u_x, u_y, u_z, v_jx, v_jy, v_jz;  // half 1 against half 0: offset, velocity
-    ball_array T, N_plate, S_y, S_z, H_y, H_z, B_y,
-        B_z;  // rivet tension, plate force, forces on half 1 by plates S, heads H, hole B
+    ball_array T, N_plate, S_y, S_z, H_y, H_z, B_y;
+    ball_array B_z;  // rivet tension, plate force, forces on half 1 by plates S, heads H, hole B
     ball_array plate_y_dot, plate_z_dot, head_y_dot, head_z_dot;
     ball_array joint_dissipated;
     // scalars
-    scalar land_dissipated, land_elastic, film_yy[2], film_yz[2], film_zz[2],
-        film_spin[2];  // of each land: -dF/dv, -dM/domega
+    scalar land_dissipated, land_elastic, film_yy[2], film_yz[2], film_zz[2];
+    scalar film_spin[2];  // of each land: -dF/dv, -dM/domega
 } Work;
 
 typedef struct {

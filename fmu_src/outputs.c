@@ -55,8 +55,8 @@ static scalar spin_roll(const Work *w, int j)
     const scalar *Omega = w->ring.Omega, c = w->cos_theta[j], s = w->sin_theta[j];
     const scalar rel[3] = {w->omega_x[j] - Omega[0], w->omega_r[j] - (Omega[1] * c + Omega[2] * s),
                            w->omega_t[j] - (Omega[2] * c - Omega[1] * s)};
-    const scalar n[3] = {w->n_ix[j], w->n_ir[j], w->n_it[j]}, spin = dot3(rel, n),
-                 across = dot3(rel, rel) - spin * spin;
+    const scalar n[3] = {w->n_ix[j], w->n_ir[j], w->n_it[j]}, spin = dot3(rel, n);
+    const scalar across = dot3(rel, rel) - spin * spin;
     return scalar_value(w->Q_i[j]) > 0.0 && scalar_value(across) > 0.0 ? spin / scalar_sqrt(across) : 0.0;
 }
 

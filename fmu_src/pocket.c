@@ -30,8 +30,8 @@ INLINE wide pocket_mu(const Model *model, wide ln_U, wide ln_Q, bool mixed)
 // Direction of the pockets: body angle phi_j turned by the half, b = b_y cos phi + b_z sin phi, in the frames of the balls.
 INLINE vec pocket_direction(const Derived *d, const Rotor *half, int j, wide cos_theta, wide sin_theta)
 {
-    const vec b_y = vec_local(half->b_y, cos_theta, sin_theta),
-              b_z = vec_local(half->b_z, cos_theta, sin_theta);
+    const vec b_y = vec_local(half->b_y, cos_theta, sin_theta);
+    const vec b_z = vec_local(half->b_z, cos_theta, sin_theta);
     return vec_axpy(wide_load(&d->pocket_sin[j]), b_z, vec_scale(wide_load(&d->pocket_cos[j]), b_y));
 }
 
@@ -71,14 +71,14 @@ INLINE void pocket_contacts(const Model *model, Work *w, int h, int j, const Poc
     const Derived *d = model->d;
     const Rotor *half = &w->half[h];
     Pockets *pocket = &w->pocket[h];
-    const wide cos_theta = wide_load(&w->cos_theta[j]), sin_theta = wide_load(&w->sin_theta[j]),
-               R = wide_load(&d->R[j]);
+    const wide cos_theta = wide_load(&w->cos_theta[j]), sin_theta = wide_load(&w->sin_theta[j]);
+    const wide R = wide_load(&d->R[j]);
     const vec a = gap->a, b = gap->b, e_t = gap->e_t, arm_p = gap->arm;
     const wide delta = gap->delta, inv_S = 1.0 / gap->S, n_x = gap->x * inv_S, n_t = gap->t * inv_S;
     const vec n = vec_axpy(n_t, e_t, vec_scale(n_x, a));
 
-    const vec omega_b = vec_load(&w->omega_x[j], &w->omega_r[j], &w->omega_t[j]),
-              v_b = vec_load(&w->v_x[j], &w->v_r[j], &w->v_t[j]);
+    const vec omega_b = vec_load(&w->omega_x[j], &w->omega_r[j], &w->omega_t[j]);
+    const vec v_b = vec_load(&w->v_x[j], &w->v_r[j], &w->v_t[j]);
     const vec Omega = vec_local(half->Omega, cos_theta, sin_theta);
     const vec v = vec_sub(vec_sub(v_b, vec_local(half->v, cos_theta, sin_theta)), vec_cross(Omega, arm_p));
     const wide delta_dot = vec_dot(n, v);
@@ -96,8 +96,8 @@ INLINE void pocket_contacts(const Model *model, Work *w, int h, int j, const Poc
 
     const vec arm = vec_scale(R, n);
     const vec slip = vec_across(vec_add(v, vec_cross(vec_sub(omega_b, Omega), arm)), n);
-    const wide slip_2 = vec_dot(slip, slip), U_2 = 0.25 * slip_2 + p->oil.U_0 * p->oil.U_0,
-               inv_U = 1.0 / wide_sqrt(U_2);
+    const wide slip_2 = vec_dot(slip, slip), U_2 = 0.25 * slip_2 + p->oil.U_0 * p->oil.U_0;
+    const wide inv_U = 1.0 / wide_sqrt(U_2);
     wide ln_U, ln_Q;
     wide_log2(U_2 * inv_U, Q + Q_FLOOR, &ln_U, &ln_Q);
     const wide g = pocket_mu(model, ln_U, ln_Q, mixed) * Q / wide_sqrt(slip_2 + p->cage.v_c * p->cage.v_c);
@@ -150,8 +150,8 @@ INLINE void pocket_half(const Model *model, Work *w, int h, bool mixed, bool who
             pocket_clear(pocket, j);
     }
     if (!touched) return;
-    const scalar *F[3] = {pocket->half_F_x, pocket->half_F_y, pocket->half_F_z},
-                 *M[3] = {pocket->half_M_x, pocket->half_M_y, pocket->half_M_z};
+    const scalar *F[3] = {pocket->half_F_x, pocket->half_F_y, pocket->half_F_z};
+    const scalar *M[3] = {pocket->half_M_x, pocket->half_M_y, pocket->half_M_z};
     for (int i = 0; i < 3; i++) {
         half->F[i] += ball_array_sum(F[i]);
         half->M[i] += ball_array_sum(M[i]);
@@ -160,7 +160,7 @@ INLINE void pocket_half(const Model *model, Work *w, int h, bool mixed, bool who
 
 void pocket_force(const Model *model, Work *w)
 {
-    const bool mixed = model->p->scene.lubrication == LUBRICATION_MIXED,
-               rigid = model->p->scene.cage == CAGE_MODEL_RIGID;
+    const bool mixed = model->p->scene.lubrication == LUBRICATION_MIXED;
+    const bool rigid = model->p->scene.cage == CAGE_MODEL_RIGID;
     for (int h = 0; h < (rigid ? 1 : 2); h++) pocket_half(model, w, h, mixed, rigid);
 }

@@ -107,8 +107,8 @@ INLINE Contact outer_contact(const Model *model, const BallMotion *ball)
 // Traction at the contact's middle.
 INLINE Tangential point_traction(const Parameters *p, const Contact *c, wide inv_U, wide f_a, bool mixed)
 {
-    const wide slip_2 = vec_dot(c->slip, c->slip) + p->oil.v_0 * p->oil.v_0,
-               inv_slip = 1.0 / wide_sqrt(slip_2);
+    const wide slip_2 = vec_dot(c->slip, c->slip) + p->oil.v_0 * p->oil.v_0;
+    const wide inv_slip = 1.0 / wide_sqrt(slip_2);
     Tangential out = {0};
     out.g = traction_mu(p, slip_2 * inv_slip * inv_U, f_a, mixed) * c->Q * inv_slip;
     out.F_s = vec_scale(-out.g, c->slip);
@@ -127,8 +127,8 @@ INLINE Tangential sliced_traction(const Parameters *p, const Race *race, const C
     for (int i = 0; i < SLICES; i++) {
         const wide xi = a * SLICE[i], sagitta = xi * xi * (0.5 / race->R_m);
         const vec slip_i = vec_axpy(-sagitta, bend, vec_axpy(-xi * spin_n, c->t_1, c->slip));
-        const wide slip_2 = vec_dot(slip_i, slip_i) + p->oil.v_0 * p->oil.v_0,
-                   inv_slip = 1.0 / wide_sqrt(slip_2);
+        const wide slip_2 = vec_dot(slip_i, slip_i) + p->oil.v_0 * p->oil.v_0;
+        const wide inv_slip = 1.0 / wide_sqrt(slip_2);
         const wide g = SHARE[i] * traction_mu(p, slip_2 * inv_slip * inv_U, f_a, mixed) * c->Q * inv_slip;
         const vec F = vec_scale(-g, slip_i);
         out.g += g;
@@ -185,8 +185,8 @@ INLINE void store_contacts(Work *w, int j, const Contact *inner, const Contact *
 INLINE void race_contact_packet(const Model *model, Work *w, int j, bool mixed, bool sliced)
 {
     const Derived *d = model->d;
-    const wide cos_theta = wide_load(&w->cos_theta[j]), sin_theta = wide_load(&w->sin_theta[j]),
-               minus = wide_set(-1.0);
+    const wide cos_theta = wide_load(&w->cos_theta[j]), sin_theta = wide_load(&w->sin_theta[j]);
+    const wide minus = wide_set(-1.0);
     const BallMotion ball = {.x = {wide_load(&w->x[j]), wide_load(&w->r[j]), wide_set(0.0)},
                              .v = vec_load(&w->v_x[j], &w->v_r[j], &w->v_t[j]),
                              .omega = vec_load(&w->omega_x[j], &w->omega_r[j], &w->omega_t[j]),
@@ -201,8 +201,8 @@ INLINE void race_contact_packet(const Model *model, Work *w, int j, bool mixed, 
                      T_e = race_traction(model, &d->outer, &outer, mixed, sliced);
     store_contacts(w, j, &inner, &outer, &T_i, &T_e);
 
-    const vec none = {0}, F_i = vec_axpy(-inner.Q, inner.n, vec_add(T_i.F_s, T_i.F_c)),
-              F_e = vec_axpy(-outer.Q, outer.n, vec_add(T_e.F_s, T_e.F_c));
+    const vec none = {0}, F_i = vec_axpy(-inner.Q, inner.n, vec_add(T_i.F_s, T_i.F_c));
+    const vec F_e = vec_axpy(-outer.Q, outer.n, vec_add(T_e.F_s, T_e.F_c));
     const vec M_ring = vec_sub(vec_scale(minus, vec_cross(p_i, F_i)), T_i.M);
     vec_store(vec_add(F_i, F_e), &w->F_x[j], &w->F_r[j], &w->F_t[j]);
     vec_store(vec_add(T_i.M, T_e.M), &w->M_x[j], &w->M_r[j], &w->M_t[j]);
@@ -215,8 +215,8 @@ INLINE void race_contact_packet(const Model *model, Work *w, int j, bool mixed, 
 
 void race_contact_force(const Model *model, Work *w)
 {
-    const bool mixed = model->p->scene.lubrication == LUBRICATION_MIXED,
-               sliced = model->p->scene.traction == TRACTION_SLICED;
+    const bool mixed = model->p->scene.lubrication == LUBRICATION_MIXED;
+    const bool sliced = model->p->scene.traction == TRACTION_SLICED;
     for (int b = 0; b < PACKETS; b++) {
         const int j = b * LANE_WIDTH;
         if (sliced)

@@ -17,8 +17,8 @@ void ring_acceleration(const Model *model, const Work *w, scalar *y_dot)
     const RingLoad *ring_load = model->ring_load;
     const Rotor *ring = &w->ring;
     const double gravity[3] = {0.0, p->gravity.y, p->gravity.z};
-    const scalar beta = -ring->a[2], gamma = ring->a[1], beta_dot = -ring->a_dot[2],
-                 gamma_dot = ring->a_dot[1];
+    const scalar beta = -ring->a[2], gamma = ring->a[1], beta_dot = -ring->a_dot[2];
+    const scalar gamma_dot = ring->a_dot[1];
     for (int i = 0; i < 3; i++) {
         y_dot[Y_RING_X + i] = ring->v[i];
         y_dot[Y_RING_V_X + i] =

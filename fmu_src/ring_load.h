@@ -45,8 +45,8 @@ INLINE scalar scalar_sin(scalar x)
 INLINE void input_trajectory_at(const InputTrajectory *trajectory, scalar t, Inputs *u)
 {
     const scalar tau = t - trajectory->t_0;
-    const scalar *u_0 = (const scalar *)&trajectory->u[0], *u_1 = (const scalar *)&trajectory->u[1],
-                 *u_2 = (const scalar *)&trajectory->u[2];
+    const scalar *u_0 = (const scalar *)&trajectory->u[0], *u_1 = (const scalar *)&trajectory->u[1];
+    const scalar *u_2 = (const scalar *)&trajectory->u[2];
     for (int i = 0; i < N_INPUTS; i++) ((scalar *)u)[i] = u_0[i] + tau * (u_1[i] + 0.5 * tau * u_2[i]);
 }
 

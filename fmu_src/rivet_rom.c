@@ -19,12 +19,12 @@ static void find_points(const RivetTable *t, const RivetLoads *load, double fit_
 {
     const wide zero = wide_set(0.0), one = wide_set(1.0), inv_length = wide_set(1.0 / t->moment_length);
     for (int j = 0; j < PACKETS * LANE_WIDTH; j += LANE_WIDTH) {
-        const wide v_y = wide_load(&load->V_y[j]), v_z = wide_load(&load->V_z[j]),
-                   m_y = wide_load(&load->M_y[j]), m_z = wide_load(&load->M_z[j]);
+        const wide v_y = wide_load(&load->V_y[j]), v_z = wide_load(&load->V_z[j]);
+        const wide m_y = wide_load(&load->M_y[j]), m_z = wide_load(&load->M_z[j]);
         const wide p = wide_max(wide_load(&load->P[j]), zero), n = wide_max(wide_load(&load->N[j]), zero);
         const wide V = wide_sqrt(v_y * v_y + v_z * v_z), M = wide_sqrt(m_y * m_y + m_z * m_z);
-        const wide axial = p + n, force = axial + V, moment = M * inv_length, s = force + moment,
-                   inv_s = ratio(one, s), across = v_y * m_z - v_z * m_y;
+        const wide axial = p + n, force = axial + V, moment = M * inv_length, s = force + moment;
+        const wide inv_s = ratio(one, s), across = v_y * m_z - v_z * m_y;
         const wide w = 2.0 * wide_min(ratio(wide_max(across, -across), V * M), one);
         const bits plane = wide_above(w, 1.0);
         wide_store(&points->u[RIVET_A][j], ratio(V, force));

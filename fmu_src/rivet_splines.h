@@ -62,8 +62,8 @@ INLINE void contract(const RivetTable *t, const float *coefficients, const Table
 {
     const Splines *A = &point->at[RIVET_A], *B = &point->at[RIVET_B], *C = &point->at[RIVET_C],
                   *X = &point->at[RIVET_XI];
-    int n_b = t->axis[RIVET_B].cells + 2, n_c = t->axis[RIVET_C].cells + 2,
-        n_xi = t->axis[RIVET_XI].cells + 2;
+    int n_b = t->axis[RIVET_B].cells + 2, n_c = t->axis[RIVET_C].cells + 2;
+    int n_xi = t->axis[RIVET_XI].cells + 2;
     sigma[0] = sigma[1] = 0.0;
     for (int i = 0; i < 81; i++) {
         int a = i / 27, b = i / 9 % 3, c = i / 3 % 3, x = i % 3;
@@ -104,8 +104,8 @@ INLINE void contract(const RivetTable *t, const float *coefficients, const Table
 {
     const Splines *A = &point->at[RIVET_A], *B = &point->at[RIVET_B], *C = &point->at[RIVET_C],
                   *X = &point->at[RIVET_XI];
-    const int n_b = t->axis[RIVET_B].cells + 2, n_c = t->axis[RIVET_C].cells + 2,
-              n_xi = t->axis[RIVET_XI].cells + 2;
+    const int n_b = t->axis[RIVET_B].cells + 2, n_c = t->axis[RIVET_C].cells + 2;
+    const int n_xi = t->axis[RIVET_XI].cells + 2;
     const int xi = 2 * RIVET_SHEETS, row = n_xi * xi;  // coefficients from one xi, one c to the next
     const float *origin = coefficients + xi * X->first + 2 * point->sheet;
     quad sum[3] = {{0}, {0}, {0}}, all = {0};  // by xi

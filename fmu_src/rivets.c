@@ -21,8 +21,8 @@ INLINE wide modulus(wide y, wide z)
 static void two_half_load(const Model *model, const Work *w, RivetLoads *load)
 {
     for (int k = 0; k < PACKETS * LANE_WIDTH; k += LANE_WIDTH) {
-        const wide H_y = wide_load(&w->H_y[k]), H_z = wide_load(&w->H_z[k]), B_y = wide_load(&w->B_y[k]),
-                   B_z = wide_load(&w->B_z[k]);
+        const wide H_y = wide_load(&w->H_y[k]), H_z = wide_load(&w->H_z[k]), B_y = wide_load(&w->B_y[k]);
+        const wide B_z = wide_load(&w->B_z[k]);
         wide_store(&load->P[k], wide_set(model->d->P));
         wide_store(&load->N[k], wide_load(&w->T[k]) - wide_load(&w->N_plate[k]));
         wide_store(&load->V_y[k], -B_y);

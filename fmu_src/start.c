@@ -65,14 +65,14 @@ static double balls_settle(const Equilibrium *eq)
     for (int iteration = 0; iteration < 60; iteration++) {
         double moved = 0.0;
         for (int j = 0; j < Z; j++) {
-            const double L_i = w->delta_i[j] + d->inner.r_g - d->R[j],
-                         L_e = w->delta_e[j] + d->outer.r_g - d->R[j];
+            const double L_i = w->delta_i[j] + d->inner.r_g - d->R[j];
+            const double L_e = w->delta_e[j] + d->outer.r_g - d->R[j];
             const Stiffness k_i =
                 contact_stiffness(d->inner.hertz.K, w->delta_i[j], L_i, w->n_ix[j], w->n_ir[j]);
             const Stiffness k_e =
                 contact_stiffness(d->outer.hertz.K, w->delta_e[j], L_e, w->n_ex[j], w->n_er[j]);
-            const double xx = k_i.xx + k_e.xx + K_0, xr = k_i.xr + k_e.xr, rr = k_i.rr + k_e.rr + K_0,
-                         det = xx * rr - xr * xr;
+            const double xx = k_i.xx + k_e.xx + K_0, xr = k_i.xr + k_e.xr, rr = k_i.rr + k_e.rr + K_0;
+            const double det = xx * rr - xr * xr;
             const double F_x = w->F_x[j] - K_0 * w->x[j], F_r = w->F_r[j] + eq->F_c;
             x[j] = w->x[j], r[j] = w->r[j], part[j] = 1.0;
             dx[j] = (rr * F_x - xr * F_r) / det, dr[j] = (xx * F_r - xr * F_x) / det;
@@ -115,8 +115,8 @@ static double ring_potential(const Equilibrium *eq, const double q[DOF], double 
 {
     const Parameters *p = eq->model->p;
     const RingLoad *ring_load = eq->model->ring_load;
-    const double target[2] = {ring_load->beta, ring_load->gamma},
-                 k = p->ring.tilt_mode == TILT_MODE_SUPPORTED ? p->ring.k_tilt : 0.0;
+    const double target[2] = {ring_load->beta, ring_load->gamma};
+    const double k = p->ring.tilt_mode == TILT_MODE_SUPPORTED ? p->ring.k_tilt : 0.0;
     const double r2 = 0.25 * p->bearing.d_m * p->bearing.d_m;  // k_0 acts at the pitch radius
     double Pi = 0.0;
     for (int i = 0; i < 3; i++) {
@@ -144,18 +144,18 @@ static void ring_balls(const Equilibrium *eq, double force[DOF], double H[DOF][D
     for (int i = 0; i < DOF; i++)
         if (i < TILT || eq->tilts) force[i] += F[i];
     for (int j = 0; j < Z; j++) {
-        const double L_i = w->delta_i[j] + d->inner.r_g - d->R[j],
-                     L_e = w->delta_e[j] + d->outer.r_g - d->R[j];
+        const double L_i = w->delta_i[j] + d->inner.r_g - d->R[j];
+        const double L_e = w->delta_e[j] + d->outer.r_g - d->R[j];
         const Stiffness a = contact_stiffness(d->inner.hertz.K, w->delta_i[j], L_i, w->n_ix[j], w->n_ir[j]);
         const Stiffness b = contact_stiffness(d->outer.hertz.K, w->delta_e[j], L_e, w->n_ex[j], w->n_er[j]);
-        const double xx = a.xx + b.xx + K_0, xr = a.xr + b.xr, rr = a.rr + b.rr + K_0,
-                     det = xx * rr - xr * xr;
+        const double xx = a.xx + b.xx + K_0, xr = a.xr + b.xr, rr = a.rr + b.rr + K_0;
+        const double det = xx * rr - xr * xr;
         // k = a - a (a + b)^-1 a
         const double i_xx = rr / det, i_xr = -xr / det, i_rr = xx / det;
-        const double m_xx = a.xx * i_xx + a.xr * i_xr, m_xr = a.xx * i_xr + a.xr * i_rr,
-                     m_rx = a.xr * i_xx + a.rr * i_xr, m_rr = a.xr * i_xr + a.rr * i_rr;
-        const double k_xx = a.xx - m_xx * a.xx - m_xr * a.xr, k_xr = a.xr - m_xx * a.xr - m_xr * a.rr,
-                     k_rr = a.rr - m_rx * a.xr - m_rr * a.rr;
+        const double m_xx = a.xx * i_xx + a.xr * i_xr, m_xr = a.xx * i_xr + a.xr * i_rr;
+        const double m_rx = a.xr * i_xx + a.rr * i_xr, m_rr = a.xr * i_xr + a.rr * i_rr;
+        const double k_xx = a.xx - m_xx * a.xx - m_xr * a.xr, k_xr = a.xr - m_xx * a.xr - m_xr * a.rr;
+        const double k_rr = a.rr - m_rx * a.xr - m_rr * a.rr;
         const double c = w->cos_theta[j], s = w->sin_theta[j], R = d->inner.R_g;
         const double G_x[DOF] = {1.0, 0.0, 0.0, R * s, -R * c}, G_r[DOF] = {0.0, c, s, 0.0, 0.0};
         for (int m = 0; m < DOF; m++)

@@ -7,8 +7,8 @@
 
 const Variable *variable_find(unsigned value_reference, int *element)
 {
-    int low = 0,
-        high = N_VARIABLES;  // VARIABLES[low] starts at or below the reference, VARIABLES[high] above
+    int low = 0;
+    int high = N_VARIABLES;  // VARIABLES[low] starts at or below the reference, VARIABLES[high] above
     while (high - low > 1) {
         const int middle = (low + high) / 2;
         if (VARIABLES[middle].value_reference <= value_reference)
