@@ -70,6 +70,7 @@ typedef wide chain;
 
 // `CHAINS` independent instructions in each round.
 enum { CHAINS = 12 };
+
 #define PEAK(index, count, operation)                                        \
     begin = now();                                                           \
     for (long round = 0; round < rounds; round++) {                          \

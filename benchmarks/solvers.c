@@ -110,6 +110,7 @@ static int weights(N_Vector y, N_Vector ewt, void *user)
 static void diagonal_rates(Integrator *in)
 {
     enum { AXES = 3 };
+
     static const int V[AXES] = {Y_BALL_V_X, Y_BALL_V_R, Y_BALL_OMEGA_M};
     static const int OMEGA[AXES] = {Y_BALL_OMEGA_X, Y_BALL_OMEGA_R, Y_BALL_OMEGA_T};
     const Work *w = in->w;
@@ -302,21 +303,25 @@ static SUNLinearSolver_Type direct(SUNLinearSolver solver)
     (void)solver;
     return SUNLINEARSOLVER_DIRECT;
 }
+
 static SUNErrCode linear_free(SUNLinearSolver solver)
 {
     SUNLinSolFreeEmpty(solver);
     return SUN_SUCCESS;
 }
+
 static SUNMatrix_ID matrix_id(SUNMatrix M)
 {
     (void)M;
     return SUNMATRIX_CUSTOM;
 }
+
 static SUNErrCode matrix_zero(SUNMatrix M)
 {
     (void)M;  // bordered_system writes every entry
     return SUN_SUCCESS;
 }
+
 static void matrix_destroy(SUNMatrix M)
 {
     free(M->content);

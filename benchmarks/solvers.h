@@ -2,6 +2,7 @@
 #pragma once
 
 typedef enum { SOLVER_ERK, SOLVER_ADAMS, SOLVER_BDF } SolverMethod;
+
 typedef enum { JACOBIAN_DENSE, JACOBIAN_DIAGONAL, JACOBIAN_BORDERED } SolverJacobian;
 
 // Solver of all instances created from now on.

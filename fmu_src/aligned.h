@@ -10,6 +10,7 @@ static inline void *aligned_new(size_t size)
 {
     return _aligned_malloc(size, 64);
 }
+
 static inline void aligned_delete(void *memory)
 {
     _aligned_free(memory);
@@ -19,6 +20,7 @@ static inline void *aligned_new(size_t size)
 {
     return aligned_alloc(64, (size + 63) / 64 * 64);
 }
+
 static inline void aligned_delete(void *memory)
 {
     free(memory);

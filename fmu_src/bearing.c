@@ -149,18 +149,22 @@ Parameters *part_parameters(Bearing *b)
 {
     return &b->s.p;
 }
+
 Inputs *part_inputs(Bearing *b, int order)
 {
     return &b->s.u[order];
 }
+
 const Outputs *part_outputs(const Bearing *b)
 {
     return &b->out;
 }
+
 double *part_state(Bearing *b)
 {
     return b->s.integrator.now.y;
 }
+
 double part_time(const Bearing *b)
 {
     return b->s.integrator.t;

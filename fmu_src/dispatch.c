@@ -43,6 +43,7 @@ static unsigned registers_kept(void)
 Kernels kernels_select(void)
 {
     enum { YMM = 0x6, ZMM = 0xe6 };
+
     const unsigned AVX2 = 1u << 5, AVX512 = 1u << 16 | 1u << 17 | 1u << 31;  // F, DQ, VL
     const unsigned FMA = 1u << 12;
     unsigned a, b, c, d;

@@ -11,6 +11,7 @@
 #include <complex.h>
 
 #define SEED 1e-100
+
 enum { HALVES = 1 };  // cage halves side by side
 
 typedef scalar wide;
@@ -24,14 +25,17 @@ INLINE double scalar_value(scalar x)
 {
     return creal(x);
 }
+
 INLINE scalar scalar_dual(double value, double derivative)
 {
     return __builtin_complex(value, SEED * derivative);
 }
+
 INLINE double scalar_derivative(scalar x)
 {
     return cimag(x) / SEED;
 }
+
 // f(x) from f and f' at the value of x.
 INLINE scalar scalar_chain(scalar x, double f, double df_dx)
 {
@@ -42,105 +46,129 @@ INLINE wide wide_set(scalar value)
 {
     return value;
 }
+
 INLINE wide wide_pair(scalar first, scalar last)
 {
     (void)last;  // the same half
     return first;
 }
+
 #define wide_lane(x, i) ((void)(i), (x))
 #define wide_load(from) ((wide) * (from))  // of numbers and of constants
+
 INLINE void wide_store(scalar *to, wide value)
 {
     *to = value;
 }
+
 INLINE bits wide_above(wide x, double limit)
 {
     return creal(x) > limit;
 }
+
 INLINE bool wide_any(bits condition)
 {
     return condition;
 }
+
 INLINE wide wide_select(bits condition, wide yes, wide no)
 {
     return condition ? yes : no;
 }
+
 INLINE wide wide_fma(wide x, wide y, wide z)
 {
     return x * y + z;
 }
+
 INLINE wide wide_max(wide x, wide y)
 {
     return creal(x) > creal(y) ? x : y;
 }
+
 INLINE wide wide_min(wide x, wide y)
 {
     return creal(x) < creal(y) ? x : y;
 }
+
 INLINE wide wide_abs(wide x)
 {
     return signbit(creal(x)) ? -x : x;
 }
+
 // 0 has derivative 0: where kernels take the root of 0, a factor of 0 stands before it or the direction is without a slope.
 INLINE wide wide_sqrt(wide x)
 {
     const double root = sqrt(creal(x));
     return scalar_chain(x, root, root > 0.0 ? 0.5 / root : 0.0);
 }
+
 INLINE scalar scalar_sqrt(scalar x)
 {
     return wide_sqrt(x);
 }
+
 INLINE scalar scalar_cbrt(scalar x)
 {
     const double root = cbrt(creal(x));
     return scalar_chain(x, root, root != 0.0 ? 1.0 / (3.0 * root * root) : 0.0);
 }
+
 INLINE scalar scalar_asin(scalar x)
 {
     return scalar_chain(x, asin(creal(x)), 1.0 / sqrt(1.0 - creal(x) * creal(x)));
 }
+
 INLINE scalar scalar_atan2(scalar y, scalar x)
 {
     const double a = creal(x), b = creal(y), square = a * a + b * b;
     return __builtin_complex(atan2(b, a), (a * cimag(y) - b * cimag(x)) / square);
 }
+
 INLINE scalar scalar_max(scalar x, scalar y)
 {
     return creal(x) > creal(y) ? x : y;
 }
+
 INLINE scalar scalar_min(scalar x, scalar y)
 {
     return creal(x) < creal(y) ? x : y;
 }
+
 INLINE wide wide_exp(wide x)
 {
     const double value = creal(x), power = value < -700.0 ? 0.0 : exp(fmin(value, 700.0));
     return scalar_chain(x, power, value > 700.0 ? 0.0 : power);
 }
+
 INLINE wide wide_log(wide x)
 {
     return scalar_chain(x, log(creal(x)), 1.0 / creal(x));
 }
+
 INLINE scalar scalar_exp(scalar x)
 {
     return wide_exp(x);
 }
+
 INLINE scalar scalar_log(scalar x)
 {
     return wide_log(x);
 }
+
 INLINE void wide_log2(wide x, wide y, wide *ln_x, wide *ln_y)
 {
     *ln_x = wide_log(x);
     *ln_y = wide_log(y);
 }
+
 INLINE void wide_sincos(wide x, wide *sine, wide *cosine)
 {
     const double s = sin(creal(x)), c = cos(creal(x));
     *sine = scalar_chain(x, s, c);
     *cosine = scalar_chain(x, c, -s);
 }
+
 INLINE wide wide_atan(wide x)
 {
     return scalar_chain(x, atan(creal(x)), 1.0 / (1.0 + creal(x) * creal(x)));

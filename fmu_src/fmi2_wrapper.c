@@ -139,7 +139,9 @@ static const Session NEW_SESSION = {.phase = INSTANTIATED, .stop_time = INFINITY
 
 // In the order of LogCategory; errors and warnings are always sent.
 static const char *const CATEGORIES[] = {"logStatusError", "logStatusWarning", "logEvents", "logSolver"};
+
 enum { N_CATEGORIES = sizeof CATEGORIES / sizeof CATEGORIES[0], ALL_CATEGORIES = (1 << N_CATEGORIES) - 1 };
+
 enum { ALWAYS_SENT = 1 << LOG_ERROR | 1 << LOG_WARNING };
 
 // Hosts read the message as a printf format and '#' as the start of a value reference: both are doubled.
@@ -694,6 +696,7 @@ typedef struct {
 } BlobHeader;
 
 static const char BLOB_MAGIC[8] = "RBstate";
+
 enum { BLOB_VERSION = 2 };
 
 static size_t blob_size(void)
@@ -909,46 +912,55 @@ fmi2Status fmi2EnterEventMode(fmi2Component c)
 {
     return refuse_unsupported(c, "fmi2EnterEventMode");
 }
+
 fmi2Status fmi2NewDiscreteStates(fmi2Component c, fmi2EventInfo *info)
 {
     (void)info;
     return refuse_unsupported(c, "fmi2NewDiscreteStates");
 }
+
 fmi2Status fmi2EnterContinuousTimeMode(fmi2Component c)
 {
     return refuse_unsupported(c, "fmi2EnterContinuousTimeMode");
 }
+
 fmi2Status fmi2CompletedIntegratorStep(fmi2Component c, fmi2Boolean no_earlier_state,
                                        fmi2Boolean *enter_event_mode, fmi2Boolean *terminate)
 {
     (void)no_earlier_state, (void)enter_event_mode, (void)terminate;
     return refuse_unsupported(c, "fmi2CompletedIntegratorStep");
 }
+
 fmi2Status fmi2SetTime(fmi2Component c, fmi2Real time)
 {
     (void)time;
     return refuse_unsupported(c, "fmi2SetTime");
 }
+
 fmi2Status fmi2SetContinuousStates(fmi2Component c, const fmi2Real x[], size_t n)
 {
     (void)x, (void)n;
     return refuse_unsupported(c, "fmi2SetContinuousStates");
 }
+
 fmi2Status fmi2GetDerivatives(fmi2Component c, fmi2Real derivatives[], size_t n)
 {
     (void)derivatives, (void)n;
     return refuse_unsupported(c, "fmi2GetDerivatives");
 }
+
 fmi2Status fmi2GetEventIndicators(fmi2Component c, fmi2Real indicators[], size_t n)
 {
     (void)indicators, (void)n;
     return refuse_unsupported(c, "fmi2GetEventIndicators");
 }
+
 fmi2Status fmi2GetContinuousStates(fmi2Component c, fmi2Real x[], size_t n)
 {
     (void)x, (void)n;
     return refuse_unsupported(c, "fmi2GetContinuousStates");
 }
+
 fmi2Status fmi2GetNominalsOfContinuousStates(fmi2Component c, fmi2Real nominals[], size_t n)
 {
     (void)nominals, (void)n;

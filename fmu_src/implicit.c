@@ -18,7 +18,9 @@
 // ---- balls --------------------------------------------------------------------------------------------------------------------------------------
 static const double STIFF_LIMIT =
     2.0;  // gamma A of a ball from which trapezoidal steps overshoot: (1 - z)/(1 + z) < -1/3
+
 enum { BLOCK = 6, TERMS = BLOCK * (BLOCK + 1) / 2 };
+
 #define AT(i, k) ((i) * ((i) + 1) / 2 + (k))  // row i, column k <= i of a triangle
 
 // Adds B^T (g P + normal n n^T) B, B = (1, -R [n]x).
@@ -397,6 +399,7 @@ static void stiff_part_of_halves(const Model *model, const Work *w, double gamma
 
 // ---- ring -----------------------------------------------------------------------------------------------------------------------------------------
 enum { RING = RING_DOF };  // velocities of the ring: v_x, v_y, v_z, beta_dot, gamma_dot
+
 static const double COUPLING_LIMIT =
     0.2;  // gamma A of the ring by traction from which it is coupled to the balls
 

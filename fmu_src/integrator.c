@@ -45,20 +45,24 @@ static double *data(N_Vector v)
 {
     return ((Content *)v->content)->value;
 }
+
 static const VectorOps *ops(N_Vector v)
 {
     return ((const Content *)v->content)->ops;
 }
+
 static N_Vector_ID vector_id(N_Vector v)
 {
     (void)v;
     return SUNDIALS_NVEC_CUSTOM;
 }
+
 static sunindextype vector_length(N_Vector v)
 {
     (void)v;
     return N_STATES;
 }
+
 static N_Vector vector_clone(N_Vector like)
 {
     N_Vector v = N_VNewEmpty(like->sunctx);
@@ -72,29 +76,35 @@ static N_Vector vector_clone(N_Vector like)
     ((Content *)v->content)->ops = ops(like);
     return v;
 }
+
 static void vector_destroy(N_Vector v)
 {
     if (v == NULL) return;
     free(v->content);
     N_VFreeEmpty(v);
 }
+
 static void vector_linear_sum(sunrealtype a, N_Vector x, sunrealtype b, N_Vector y, N_Vector z)
 {
     ops(z)->linear_sum(a, data(x), b, data(y), data(z));
 }
+
 static SUNErrCode vector_linear_combination(int n, sunrealtype *c, N_Vector *x, N_Vector z)
 {
     enum { MAX_VECTORS = 8 };  // more than the stages and the state
+
     double *values[MAX_VECTORS];
     if (n > MAX_VECTORS) return SUN_ERR_ARG_OUTOFRANGE;
     for (int i = 0; i < n; i++) values[i] = data(x[i]);
     ops(z)->linear_combination(n, c, values, data(z));
     return SUN_SUCCESS;
 }
+
 static double vector_wrms_norm(N_Vector x, N_Vector w)
 {
     return ops(x)->wrms_norm(data(x), data(w));
 }
+
 static void vector_scale(sunrealtype c, N_Vector x, N_Vector z)
 {
     if (c == 1.0) {
@@ -103,27 +113,33 @@ static void vector_scale(sunrealtype c, N_Vector x, N_Vector z)
         for (int i = 0; i < N_STATES; i++) data(z)[i] = c * data(x)[i];
     }
 }
+
 static void vector_const(sunrealtype c, N_Vector z)
 {
     for (int i = 0; i < N_STATES; i++) data(z)[i] = c;
 }
+
 // ARKODE wants these to exist; it calls them only to choose a first step, which is always given.
 static void vector_div(N_Vector x, N_Vector y, N_Vector z)
 {
     for (int i = 0; i < N_STATES; i++) data(z)[i] = data(x)[i] / data(y)[i];
 }
+
 static void vector_abs(N_Vector x, N_Vector z)
 {
     for (int i = 0; i < N_STATES; i++) data(z)[i] = fabs(data(x)[i]);
 }
+
 static void vector_inv(N_Vector x, N_Vector z)
 {
     for (int i = 0; i < N_STATES; i++) data(z)[i] = 1.0 / data(x)[i];
 }
+
 static void vector_add_const(N_Vector x, sunrealtype b, N_Vector z)
 {
     for (int i = 0; i < N_STATES; i++) data(z)[i] = data(x)[i] + b;
 }
+
 static double vector_max_norm(N_Vector x)
 {
     double max = 0.0;
@@ -216,6 +232,7 @@ static int set_up(void *arkode, Integrator *in)
 static int explicit_table(void *arkode)
 {
     enum { STAGES = 5 };
+
     const double theta = 0.05;
     double c[STAGES] = {0.0, 0.5, 0.5, 1.0, 1.0},
            b[STAGES] = {1.0 / 6.0, 1.0 / 3.0, 1.0 / 3.0, 1.0 / 6.0, 0.0};

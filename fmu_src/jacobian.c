@@ -31,6 +31,7 @@ static void scalars_join(int n, const double *value, const double *derivative, s
 {
     for (int i = 0; i < n; i++) x[i] = scalar_dual(value[i], derivative ? derivative[i] : 0.0);
 }
+
 static void scalars_derivative(int n, const scalar *x, double *derivative)
 {
     for (int i = 0; i < n; i++) derivative[i] = scalar_derivative(x[i]);

@@ -54,22 +54,27 @@ INLINE double scalar_value(scalar x)
 {
     return x;
 }
+
 INLINE scalar scalar_sqrt(scalar x)
 {
     return sqrt(x);
 }
+
 INLINE scalar scalar_max(scalar x, scalar y)
 {
     return x > y ? x : y;
 }
+
 INLINE scalar scalar_min(scalar x, scalar y)
 {
     return x < y ? x : y;
 }
+
 INLINE wide wide_set(double value)
 {
     return value - (wide){0};
 }
+
 // Numbers of the first and the last of HALVES cage halves: half 0 in lane 0, half 1 in the others.
 INLINE wide wide_pair(double first, double last)
 {
@@ -77,17 +82,21 @@ INLINE wide wide_pair(double first, double last)
     value[0] = first;
     return value;
 }
+
 #define wide_lane(x, i) ((x)[i])  // a function would copy the packet
+
 INLINE wide wide_load(const double *from)
 {
     wide value;
     memcpy(&value, from, sizeof value);
     return value;
 }
+
 INLINE void wide_store(double *to, wide value)
 {
     memcpy(to, &value, sizeof value);
 }
+
 INLINE wide wide_select(bits condition, wide yes, wide no)
 {
 #if defined(__AVX512F__) && LANE_WIDTH == 8
@@ -98,10 +107,12 @@ INLINE wide wide_select(bits condition, wide yes, wide no)
     return (wide)((condition & (bits)yes) | (~condition & (bits)no));
 #endif
 }
+
 INLINE bits wide_above(wide x, double limit)
 {
     return x > limit;
 }
+
 INLINE bool wide_any(bits condition)
 {
 #if defined(__AVX512F__) && LANE_WIDTH == 8
@@ -116,6 +127,7 @@ INLINE bool wide_any(bits condition)
     return any != 0;
 #endif
 }
+
 INLINE wide wide_sqrt(wide x)
 {
 #if defined(__AVX512F__) && LANE_WIDTH == 8
@@ -131,6 +143,7 @@ INLINE wide wide_sqrt(wide x)
     return x;
 #endif
 }
+
 // x y + z with one rounding where the kernels' instruction set has it.
 INLINE wide wide_fma(wide x, wide y, wide z)
 {
@@ -144,6 +157,7 @@ INLINE wide wide_fma(wide x, wide y, wide z)
     return x * y + z;
 #endif
 }
+
 INLINE wide wide_max(wide x, wide y)  // y where x is NaN, like the x86 instruction
 {
 #if defined(__AVX512F__) && LANE_WIDTH == 8
@@ -156,10 +170,12 @@ INLINE wide wide_max(wide x, wide y)  // y where x is NaN, like the x86 instruct
     return wide_select(x > y, x, y);
 #endif
 }
+
 INLINE wide wide_min(wide x, wide y)
 {
     return -wide_max(-x, -y);
 }
+
 INLINE wide wide_abs(wide x)
 {
     return (wide)((bits)x & INT64_MAX);
@@ -207,6 +223,7 @@ INLINE wide wide_split(wide x, wide *m)
     *m = (wide)((words)x - (exponent << 52) + one);
     return (wide)(exponent | two_52) - (4503599627370496.0 + 1023.0);
 }
+
 // k ln 2 + 2 atanh t
 INLINE wide wide_log_of(wide k, wide t)
 {
@@ -220,6 +237,7 @@ INLINE wide wide_log_of(wide k, wide t)
     return wide_fma(k, wide_set(0.6931471805582987),
                     wide_fma(k, wide_set(1.6465949582897082e-12), wide_fma(t * z, p, 2.0 * t)));
 }
+
 // ln x of a normal x > 0, relative error < 3e-15.
 INLINE wide wide_log(wide x)
 {
@@ -227,6 +245,7 @@ INLINE wide wide_log(wide x)
     const wide k = wide_split(x, &m);
     return wide_log_of(k, (m - 1.0) / (m + 1.0));
 }
+
 // Two logarithms for one division.
 INLINE void wide_log2(wide x, wide y, wide *ln_x, wide *ln_y)
 {

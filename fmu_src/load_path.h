@@ -16,6 +16,7 @@
 #include "isa.h"
 
 enum { PATH_N, PATH_V_R, PATH_V_T, PATH_M_R, PATH_M_T, PATH_LOADS };
+
 enum {
     PATH_WIDTH = LANES + Z - 1
 };  // one row of the matrix for pocket 0, continued so that those of all pockets are parts of it

@@ -23,6 +23,7 @@
 
 // Gauss-Jacobi points and weights for the weight (3/4)(1 - s^2) on [-1, 1]: exact to degree 13.
 enum { SLICES = 7 };
+
 static const double SLICE[SLICES] = {-0.8997579954114603, -0.6771862795107377, -0.36311746382617816, 0.0,
                                      0.36311746382617816, 0.6771862795107377,  0.8997579954114603};
 static const double SHARE[SLICES] = {0.02363715011287406, 0.11148030343755763, 0.22556281855841187,

@@ -54,6 +54,7 @@ enum {
 };
 
 enum { RIVET_A, RIVET_B, RIVET_C, RIVET_XI, RIVET_AXES };
+
 enum { RIVET_PLANE, RIVET_OBLIQUE, RIVET_ACROSS, RIVET_SHEETS };
 
 // One cell between knots t_i and t_(i+1), with the constants of its three splines
@@ -64,6 +65,7 @@ typedef struct {
 
 // One axis with clamped knots: `cells` cells, `cells` + 2 coefficients.  In RIVET_BINS equal bins: the cell in which each begins.
 enum { RIVET_BINS = 256 };
+
 typedef struct {
     int cells;
     double start, end, inv_bin;  // inv_bin = RIVET_BINS/(end - start)

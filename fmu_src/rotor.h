@@ -14,6 +14,7 @@ static inline scalar dot3(const scalar u[3], const scalar v[3])
 {
     return u[0] * v[0] + u[1] * v[1] + u[2] * v[2];
 }
+
 static inline void cross3(const scalar u[3], const scalar v[3], scalar out[3])
 {
     out[0] = u[1] * v[2] - u[2] * v[1];

@@ -15,9 +15,10 @@
 #include "rotor.h"
 
 enum { DOF = RING_DOF, TILT = 3 };  // x, y, z | beta, gamma
-static const double K_0 = 1e3;      // [N/m]
-static const double F_0 = 1e-3;     // [N]
-static const double STEP = 2e-5;    // longest Newton step [m]
+
+static const double K_0 = 1e3;    // [N/m]
+static const double F_0 = 1e-3;   // [N]
+static const double STEP = 2e-5;  // longest Newton step [m]
 
 typedef struct {
     const Kernels *kernels;

@@ -38,7 +38,9 @@ static void linear_combination(int n, const double *c, double *const *x, double 
 static double wrms_norm(const double *x, const double *w)
 {
     double part[8] = {0};
+
     enum { WHOLE = N_STATES / 8 * 8 };
+
     for (int i = 0; i < WHOLE; i += 8)
         for (int k = 0; k < 8; k++) part[k] += (x[i + k] * w[i + k]) * (x[i + k] * w[i + k]);
     for (int i = WHOLE; i < N_STATES; i++) part[i - WHOLE] += (x[i] * w[i]) * (x[i] * w[i]);
@@ -50,7 +52,9 @@ static double wrms_norm(const double *x, const double *w)
 static bool all_finite(const double *x)
 {
     double part[8] = {0};  // x - x is 0, or NaN where x is not finite
+
     enum { WHOLE = N_STATES / 8 * 8 };
+
     for (int i = 0; i < WHOLE; i += 8)
         for (int k = 0; k < 8; k++) part[k] += x[i + k] - x[i + k];
     for (int i = WHOLE; i < N_STATES; i++) part[0] += x[i] - x[i];

@@ -22,6 +22,7 @@ enum {
     VELOCITY = Y_BALL_V_X,
     FRICTIONS = Y_WORK
 };  // rows: positions 0...PAIRED - 1, frictions, work, velocities
+
 _Static_assert(Y_CAGE_V_X - Y_CAGE_X == VELOCITY && Y_RING_V_X - Y_RING_X == VELOCITY &&
                    Y_BALL_OMEGA_X - VELOCITY == PAIRED,
                "velocities are in the order of their positions");
@@ -62,6 +63,7 @@ static double dissipation_correction(const Model *model, const double *y, const 
                                      double gamma, const double *delta)
 {
     enum { COUNT = N_STATES - VELOCITY, WHOLE = COUNT / 8 * 8 };
+
     const double *inertia = &model->d->inertia[VELOCITY], inv_gamma = 1.0 / gamma;
     double power[COUNT], part[8] = {0};
     for (int i = 0; i < COUNT; i++) {

@@ -30,24 +30,29 @@ void *malloc(size_t size)
 {
     return counted(__libc_malloc(size));
 }
+
 void *calloc(size_t n, size_t size)
 {
     return counted(__libc_calloc(n, size));
 }
+
 void *realloc(void *memory, size_t size)
 {
     blocks -= memory != NULL;
     return counted(__libc_realloc(memory, size));
 }
+
 void *aligned_alloc(size_t alignment, size_t size)
 {
     return counted(__libc_memalign(alignment, size));
 }
+
 int posix_memalign(void **memory, size_t alignment, size_t size)
 {
     *memory = counted(__libc_memalign(alignment, size));
     return *memory ? 0 : 12;
 }
+
 void free(void *memory)
 {
     blocks -= memory != NULL;

@@ -23,6 +23,7 @@ static void *function(const char *name)
         FARPROC found;
         void *pointer;
     } address = {GetProcAddress(library, name)};
+
     if (!address.found) {
         fprintf(stderr, "no function %s\n", name);
         exit(1);

@@ -628,6 +628,7 @@ static void *run_share(void *argument)
 int main(int argc, char **argv)
 {
     enum { MAX_THREADS = 16 };
+
     const long wanted = argc > 1 ? atol(argv[1]) : 100000, seed = argc > 2 ? atol(argv[2]) : 1;
     const int threads = argc > 3 ? atoi(argv[3]) : 1;
     Share share[MAX_THREADS] = {{0}}, all = {0};

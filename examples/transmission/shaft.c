@@ -134,7 +134,9 @@ static double steps_needed(const Saved *s, double h)
 PartStatus part_step(Part *part, double t_end)
 {
     Saved *s = &part->s;
+
     enum { MOST_STEPS = 10000000 };
+
     const double h = t_end - s->t, n = steps_needed(s, h);
     char message[200];
     if (!(n <= MOST_STEPS)) {
@@ -196,18 +198,22 @@ Parameters *part_parameters(Part *part)
 {
     return &part->s.p;
 }
+
 Inputs *part_inputs(Part *part, int order)
 {
     return &part->s.u[order];
 }
+
 const Outputs *part_outputs(const Part *part)
 {
     return &part->out;
 }
+
 double *part_state(Part *part)
 {
     return part->s.y;
 }
+
 double part_time(const Part *part)
 {
     return part->s.t;
@@ -238,14 +244,17 @@ size_t part_saved_size(void)
 {
     return sizeof(Saved);
 }
+
 void part_save(const Part *part, void *saved)
 {
     memcpy(saved, &part->s, sizeof part->s);
 }
+
 void part_restore(Part *part, const void *saved)
 {
     memcpy(&part->s, saved, sizeof part->s);
 }
+
 const char *part_data_digest(void)
 {
     return "";
