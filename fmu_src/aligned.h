@@ -1,4 +1,5 @@
-// Memory aligned for any lane width: C17's aligned_alloc, which Windows' C library has not.
+// Memory aligned for any lane width: C17's aligned_alloc; Windows' C library lacks this function and has its
+// own.
 #pragma once
 
 #include <stdlib.h>

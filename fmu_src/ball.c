@@ -1,10 +1,12 @@
-// A ball in its cylindrical frame (x, r, t), azimuth theta, orbital speed omega_m = theta_dot, angular velocity omega:
+// A ball in its cylindrical frame (x, r, t), azimuth theta, orbital speed omega_m = theta_dot, angular
+// velocity omega:
 //
 //   m x''                       = F_x            J omega_x' = M_x
 //   m (r'' - r omega_m^2)       = F_r            J omega_r' = M_r + J omega_m omega_t
 //   m (r omega_m' + 2 r' omega_m) = F_t          J omega_t' = M_t - J omega_m omega_r
 //
-// Gupta (1979), J. Lubr. Technol. 101, 293.  The last terms are the gyroscopic moments: the frame turns, the sphere has no axis of its own.
+// Gupta (1979), J. Lubr. Technol. 101, 293.  The last terms on the right are the gyroscopic moments: they
+// arise because the frame turns with the orbit; the sphere itself needs no orientation.
 #include "ball.h"
 
 #include "vec.h"
@@ -47,6 +49,8 @@ void ball_acceleration(const Model *model, const Work *w, scalar *y_dot)
         wide_store(&rows[4][j], wide_load(&w->M_r[j]) * inv_inertia + omega_m * omega_t);
         wide_store(&rows[5][j], wide_load(&w->M_t[j]) * inv_inertia - omega_m * omega_r);
     }
+
+    // into the rows of the state vector
     memcpy(&y_dot[Y_BALL_X], w->v_x, Z * sizeof *y_dot);
     memcpy(&y_dot[Y_BALL_R], w->v_r, Z * sizeof *y_dot);
     memcpy(&y_dot[Y_BALL_THETA], w->omega_m, Z * sizeof *y_dot);

@@ -1,4 +1,4 @@
-// One instance: life cycle, stepping, peaks and statistics over accepted steps, saved state.
+// One instance of the bearing: life cycle, stepping, peaks and statistics over accepted steps, saved state.
 #include "aligned.h"
 #include "cpu_clock.h"
 #include "energy.h"
@@ -22,7 +22,7 @@ void bearing_log(Bearing *b, LogCategory category, const char *format, ...)
     b->host.log(b->host.environment, category, message);
 }
 
-// ---- accepted steps ---------------------------------------------------------------------------------------------------------------------------
+// ---- accepted steps ---------------------------------------------------------------------------------------
 static void add_force(InstanceState *s, const Work *w, bool counts, double h)
 {
     for (int j = 0; j < Z; j++) {
@@ -42,9 +42,13 @@ static void add_stress(Bearing *b, bool counts, double h)
     double sigma[RIVET_CHANNELS][Z], head_max = 0.0, mid_max = 0.0;
     const bool fatigue = s->p.scene.stress == STRESS_FATIGUE && s->integrator.t >= s->p.start.settle;
     memcpy(&law, &s->p.fatigue, sizeof law);
+
+    // stress of all rivets
     b->kernels.rivets_load(&b->model, &b->w, &load);
     b->kernels.rivet_rom_stress(&rivet_table, &load, b->d.fit_eff, false, sigma);
     const double *head = sigma[HEAD_P1], *mid = sigma[MID_VM];
+
+    // peaks, statistics and fatigue of each rivet, statistics of the worst one
     for (int k = 0; k < Z; k++) {
         s->head_peak[k] = scalar_max(s->head_peak[k], head[k]);
         s->mid_peak[k] = scalar_max(s->mid_peak[k], mid[k]);
@@ -77,7 +81,7 @@ static void add_cage(Bearing *b, double h)
     s->eccentricity_time += h * sqrt(y * y + z * z) / b->d.C_land;
 }
 
-// Peaks, statistics and fatigue from the state just reached.
+// Adds the state just reached, after a step of length h, to peaks, statistics and fatigue.
 static void accepted_step(void *context, double h, const Work *w)
 {
     Bearing *b = context;
@@ -93,7 +97,7 @@ static void solver_message(void *context, const char *message)
     bearing_log(context, LOG_SOLVER, "%s", message);
 }
 
-// Onsets at the state just reached, which w belongs to.
+// Reports the events that begin at the state just reached; w holds the results there.
 static void report_events(Bearing *b)
 {
     InstanceState *s = &b->s;
@@ -109,7 +113,7 @@ static void report_events(Bearing *b)
     }
 }
 
-// ---- life cycle ---------------------------------------------------------------------------------------------------------------------------------
+// ---- life cycle -------------------------------------------------------------------------------------------
 Bearing *part_create(const PartHost *host)
 {
     Bearing *b = aligned_new(sizeof *b);
@@ -170,14 +174,14 @@ double part_time(const Bearing *b)
     return b->s.integrator.t;
 }
 
-// The drive that the present state has seen last.
+// Puts the load of the present inputs u_now on the ring and holds it: there is no trajectory to follow.
 static void hold_ring_load(Bearing *b)
 {
     b->model.trajectory = NULL;
     ring_load_update(&b->s.p, &b->s.u_now, b->s.integrator.t, &b->ring_load);
 }
 
-// What follows from parameters and inputs; nothing of it is saved.
+// Computes all that follows from parameters and inputs and is therefore not saved.
 static void derive(Bearing *b)
 {
     model_derive(&b->s.p, &b->d);
@@ -188,7 +192,7 @@ static void derive(Bearing *b)
     b->evaluated = false;
 }
 
-// Makes w and y_dot belong to the present state and inputs.
+// Evaluates the right-hand side if w and y_dot do not belong to the present state and inputs yet.
 static void evaluate(Bearing *b)
 {
     if (b->evaluated) return;
@@ -208,6 +212,8 @@ PartStatus part_initialize(Bearing *b, double t_start, double tolerance)
     s->integrator.t = t_start;
     s->integrator.h = 1e-6;
     derive(b);
+
+    // quasi-static start
     const double residual = start_state(&b->kernels, &b->model, &b->w, s->integrator.now.y);
     const double load = fabs(b->ring_load.F[0]) + fabs(b->ring_load.F[1]) + fabs(b->ring_load.F[2]);
     PartStatus status = PART_OK;
@@ -217,6 +223,8 @@ PartStatus part_initialize(Bearing *b, double t_start, double tolerance)
                     residual, load);
         status = PART_WARNING;
     }
+
+    // first evaluation; the start counts as an accepted step of length 0
     integrator_evaluate(b->integrator);
     if (!check_start(b)) return PART_ERROR;
     s->energy_start = energy_total(&b->model, s->integrator.now.y, &b->w);
@@ -226,8 +234,10 @@ PartStatus part_initialize(Bearing *b, double t_start, double tolerance)
     return status;
 }
 
-// ---- stepping -----------------------------------------------------------------------------------------------------------------------------------
-// The inputs' course from here to the next edge of a pulse, in a step that began at t_0.  Where the drive jumps, the known derivative is obsolete.
+// ---- stepping ---------------------------------------------------------------------------------------------
+// Sets the trajectory of the inputs from the present time to the next edge of a pulse, in a communication
+// step that began at t_0.  Where the load on the ring jumps, the derivative at the present state is no longer
+// current.
 static void begin_trajectory(Bearing *b, double t_0)
 {
     InstanceState *s = &b->s;
@@ -239,6 +249,7 @@ static void begin_trajectory(Bearing *b, double t_0)
     s->integrator.f_is_current = 0;
 }
 
+// Ends the trajectory at the present time: the inputs reached are held from there on.
 static void end_trajectory(Bearing *b)
 {
     input_trajectory_rates_at(&b->trajectory, b->s.integrator.t, &b->s.u_now, &b->s.u_now_dot);
@@ -256,6 +267,7 @@ PartStatus part_step(Bearing *b, double t_end)
     b->current = 0;
     b->evaluated = false;
 
+    // one advance for each stretch between edges of pulses
     int status = 0;
     while (status == 0 && s->integrator.t < t_end) {
         begin_trajectory(b, t_begin);
@@ -264,6 +276,8 @@ PartStatus part_step(Bearing *b, double t_end)
         status = integrator_advance(b->integrator, fmin(edge, t_end), left);
         end_trajectory(b);
     }
+
+    // the inputs stay where they are now
     s->u[0] = s->u_now;
     memset(&s->u[1], 0, INPUT_ORDERS * sizeof *s->u);
     b->cpu_time += cpu_clock() - before;
@@ -293,7 +307,8 @@ void part_update(Bearing *b, OutputGroup group)
     b->current |= 1u << group;
 }
 
-// ---- derivatives --------------------------------------------------------------------------------------------------------------------------------
+// ---- derivatives ------------------------------------------------------------------------------------------
+// Derivatives of all outputs at the present state along dt of time, du of the inputs and dy of the states.
 static void differentiate(Bearing *b, double dt, const Inputs *du, const double *dy, Outputs *derivatives)
 {
     const InstanceState *s = &b->s;
@@ -316,7 +331,7 @@ void part_directional_derivatives(Bearing *b, const Inputs *inputs, const double
     differentiate(b, 0.0, inputs, state, derivatives);
 }
 
-// ---- saved state --------------------------------------------------------------------------------------------------------------------------------
+// ---- saved state ------------------------------------------------------------------------------------------
 size_t part_saved_size(void)
 {
     return sizeof(InstanceState);

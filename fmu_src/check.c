@@ -1,8 +1,10 @@
-// What is refused before a run: values outside their limits, parameters that make no bearing, a rivet table for another one.
+// Refusals before a run or a step: values outside their limits, parameters that make no bearing, a rivet
+// table that belongs to another bearing.
 #include "instance.h"
 #include "ring_load.h"
 #include "rivet_rom.h"
 
+// Checks all values of one causality (Parameters or Inputs) against the limits of the variable table.
 static bool check_variables(Bearing *b, Causality causality, const void *values)
 {
     bool fine = true;
@@ -22,7 +24,8 @@ static bool check_variables(Bearing *b, Causality causality, const void *values)
     return fine;
 }
 
-// Polynomials of second order are extreme at the ends or where their slope vanishes.
+// Inputs are polynomials of second order: their extremes are at the ends of the step or where their slope
+// vanishes.
 bool check_inputs(Bearing *b, double h)
 {
     const double *u_1 = (const double *)&b->s.u[1], *u_2 = (const double *)&b->s.u[2];
@@ -38,13 +41,14 @@ bool check_inputs(Bearing *b, double h)
            check_variables(b, CAUSALITY_INPUT, &turning);
 }
 
+// Logs value and limit unless the condition holds.
 static bool require(Bearing *b, bool condition, const char *format, double value, double limit)
 {
     if (!condition) bearing_log(b, LOG_ERROR, format, value, limit);
     return condition;
 }
 
-// Parameters against each other.
+// Checks parameters against each other.
 static bool check_geometry(Bearing *b)
 {
     const Parameters *p = &b->s.p;
@@ -89,7 +93,7 @@ static bool check_geometry(Bearing *b)
     return fine;
 }
 
-// The embedded rivet table belongs to one number of rivets and one pitch circle.
+// Checks the embedded rivet table, which belongs to one number of rivets and one pitch circle.
 static bool check_table(Bearing *b)
 {
     const double d_m = b->s.p.bearing.d_m, table = rivet_table.joint.d_m;

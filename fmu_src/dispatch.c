@@ -1,4 +1,5 @@
-// Choice of the kernels for this processor, at run time.  The build names the sets that it compiled: KERNELS_X86, KERNELS_NEON; without, the one of lanes.h.
+// Choice of the kernels for this processor, at run time.  The build names the instruction sets that it
+// compiled by KERNELS_X86 or KERNELS_NEON; without such a name there is only the one of lanes.h.
 #include "kernels.h"
 
 #undef rhs
@@ -29,7 +30,7 @@ DECLARE(sse2);
 DECLARE(avx2);
 DECLARE(avx512);
 
-// Registers that the operating system keeps (XCR0): 2 SSE, 4 AVX, 0xe0 AVX-512.
+// Bits of the registers that the operating system keeps for a process (XCR0): 2 SSE, 4 AVX, 0xe0 AVX-512.
 static unsigned registers_kept(void)
 {
     unsigned a, b, c, d;
@@ -39,7 +40,8 @@ static unsigned registers_kept(void)
     return a;
 }
 
-// By cpuid itself: the compilers' __builtin_cpu_supports needs a runtime library that not every tool chain has.
+// Asks the processor by cpuid, because the compilers' __builtin_cpu_supports needs a runtime library that not
+// every tool chain has.
 Kernels kernels_select(void)
 {
     enum { YMM = 0x6, ZMM = 0xe6 };

@@ -1,9 +1,11 @@
 // Dual numbers in place of packets: value + derivative along one direction, one ball at a time.
 //
-// C has operators for complex numbers only, and with a derivative scaled by SEED they are the arithmetic of dual numbers:
-//   (a + i b)(c + i d) = (a c - b d) + i (a d + b c),  b d ~ 1e-200 a c: gone to the last bit, likewise in quotients
-// so the kernel files, compiled with these types, give exact derivatives (to rounding) of the very formulas they give values of.
-// Squire & Trapp (1998), SIAM Rev. 40, 110.  Choices (max, min, |x|, above) follow the value; at a kink one side's derivative is taken.
+// C has operators for complex numbers only.  With a derivative that is scaled by SEED these operators are the
+// arithmetic of dual numbers:
+//   (a + i b)(c + i d) = (a c - b d) + i (a d + b c),  b d ~ 1e-200 a c: lost in rounding, likewise in quotients
+// Compiled with these types, the kernel files therefore give derivatives of their own formulas, exact to
+// rounding.  Squire & Trapp (1998), SIAM Rev. 40, 110.  Choices (max, min, |x|, above) follow the value; at a
+// kink the derivative is that of one side.
 #pragma once
 
 #ifdef DUAL
@@ -17,7 +19,8 @@ enum { HALVES = 1 };  // cage halves side by side
 typedef scalar wide;
 typedef bool bits;
 
-// What is compiled for values and, here, for derivatives, beside the kernel files (isa.h).
+// Functions beside those of the kernel files (isa.h) that are compiled for values and, under these names, for
+// derivatives.
 #define energy_total FOR_ISA(energy_total)
 #define outputs_evaluate FOR_ISA(outputs_evaluate)
 
@@ -49,12 +52,12 @@ INLINE wide wide_set(scalar value)
 
 INLINE wide wide_pair(scalar first, scalar last)
 {
-    (void)last;  // the same half
+    (void)last;  // first and last are the same half
     return first;
 }
 
 #define wide_lane(x, i) ((void)(i), (x))
-#define wide_load(from) ((wide) * (from))  // of numbers and of constants
+#define wide_load(from) ((wide) * (from))  // both of scalars and of constants
 
 INLINE void wide_store(scalar *to, wide value)
 {
@@ -96,7 +99,8 @@ INLINE wide wide_abs(wide x)
     return signbit(creal(x)) ? -x : x;
 }
 
-// 0 has derivative 0: where kernels take the root of 0, a factor of 0 stands before it or the direction is without a slope.
+// The root of 0 gets the derivative 0: where kernels take the root of 0, a factor of 0 stands before the
+// root, or the direction has no slope.
 INLINE wide wide_sqrt(wide x)
 {
     const double root = sqrt(creal(x));

@@ -1,4 +1,5 @@
-// Elementary functions of single numbers: those of the packets (lanes.h), so that every platform's C library gives the same model, bit for bit.
+// Elementary functions of single numbers.  They use the functions of packets (lanes.h) and not those of the
+// platform's C library, so that the model is the same on every platform, bit for bit.
 #pragma once
 
 #include "lanes.h"
@@ -46,14 +47,15 @@ static inline double portable_pow(double x, double y)
     return x > 0.0 ? portable_exp(y * portable_log(x)) : 0.0;
 }
 
-// Of x >= 0; one step of Newton's method gives the last bits.
+// Cube root of x >= 0; one step of Newton's method gives the last bits.
 static inline double portable_cbrt(double x)
 {
     const double y = portable_pow(x, 1.0 / 3.0);
     return y > 0.0 ? y - (y * y * y - x) / (3.0 * y * y) : 0.0;
 }
 
-// x^(-1/3) of a normal x > 0, relative error < 2e-5: minus a third of the exponent (and of what follows it), then two steps of Newton's method.
+// x^(-1/3) of a normal x > 0, relative error < 2e-5: minus a third of the number's bits, read as an integer,
+// is a first guess, which two steps of Newton's method improve.
 static inline double approx_inv_cbrt(double x)
 {
     int64_t bits_of;
@@ -65,7 +67,7 @@ static inline double approx_inv_cbrt(double x)
     return y;
 }
 
-// The same as numbers, which dual.h gives derivatives.
+// The same functions of scalars, for which dual.h has versions with derivatives.
 static inline scalar scalar_exp(scalar x)
 {
     return portable_exp(x);

@@ -1,19 +1,23 @@
 // Energy of balls, cage halves and everything elastic between them and the rings.
 //
-//   contacts (2/5) K delta^2.5, shared between the halves as in pocket.c;  joint T^2/(2 k_rivet) + N_plate^2/(2 k_plate) + k z^2/2 + hole contact
+//   contacts  (2/5) K delta^2.5, shared between the halves as in pocket.c
+//   joint     T^2/(2 k_rivet) + N_plate^2/(2 k_plate) + k z^2/2 + hole contact
 //
-// The inner ring is outside: its motion does the work -F.v - M.Omega of the contacts.  Outputs only; never in the integration.
+// The inner ring is outside this balance: its motion puts the power -F.v - M.Omega into balls and cage, with
+// F and M of the contacts on the ring.  The energy is for outputs only; the integration does not use it.
 #include "energy.h"
 
 #include "hertz.h"
 #include "pocket.h"
 #include "rotor.h"
 
+// Elastic energy of one race or pocket contact.
 static scalar contact_energy(double K, scalar delta)
 {
     return wide_lane(hertz_energy(wide_set(K), wide_set(delta)), 0);
 }
 
+// Kinetic energy of ball j and elastic energy of its race contacts.
 static scalar ball_energy(const Model *model, const scalar *y, const Work *w, int j)
 {
     const Derived *d = model->d;
@@ -41,6 +45,7 @@ static scalar pocket_energy(const Model *model, const Work *w, int j, int h)
     return share * contact_energy(model->d->pocket.K, w->delta_c[h][j]);
 }
 
+// Elastic energy of joint k: rivet, plates, friction states, hole contact.
 static scalar joint_energy(const Derived *d, const scalar *y, const Work *w, int k)
 {
     const scalar z_y = y[Y_JOINT_PLATE_Y + k], z_z = y[Y_JOINT_PLATE_Z + k], h_y = y[Y_JOINT_HEAD_Y + k];

@@ -7,6 +7,7 @@
 
 #include <stdio.h>
 
+// Counts an element whose value is above its limit; the event keeps the one with the largest value/limit.
 static void add(Event *event, int element, double value, double limit)
 {
     if (!(value > limit)) return;
@@ -26,7 +27,8 @@ static void lands(const Model *model, const Work *w, Event *event)
     }
 }
 
-// Radial place of a ball in the frame of a half, against the middle of the cage's section.
+// Radial distance of a ball from the middle of the cage's section, in the frame of the half from which the
+// ball is farther.
 static void pockets(const Model *model, const Work *w, Event *event)
 {
     const double middle = 0.25 * (model->p->cage.D_o + model->p->cage.D_i);
@@ -55,6 +57,7 @@ static double contact_along(const Work *w, bool outer, int j)
     return fabs(w->n_ix[j] * a[0] + w->n_ir[j] * (a[1] * c + a[2] * s) + w->n_it[j] * (a[2] * c - a[1] * s));
 }
 
+// Angle from the groove's bottom to the end of the contact ellipse [rad].
 static double reach(const Race *race, double along, double Q)
 {
     return asin(scalar_min(along, 1.0)) + race->hertz.a * portable_cbrt(Q) / race->R_m;

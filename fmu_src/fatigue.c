@@ -9,7 +9,7 @@
 _Static_assert(sizeof(FatigueLaw) == sizeof(((Parameters *)0)->fatigue),
                "FatigueLaw is p->fatigue, member by member");
 
-// Amplitude at zero mean of equal damage; infinite where the mean alone breaks the part.
+// Amplitude that does the same damage at zero mean; infinite where the mean alone breaks the part.
 static double fully_reversed(const FatigueLaw *law, double sigma_a, double sigma_mean)
 {
     double room;
@@ -32,17 +32,20 @@ double fatigue_cycle(const FatigueLaw *law, double range, double mean)
     return fmin(pow(sigma_ar / law->sigma_D, k) / law->N_D, 1.0);
 }
 
+// Damage of a number of cycles between two stresses.
 static double count(const FatigueLaw *law, double cycles, double from, double to)
 {
     return cycles * fatigue_cycle(law, fabs(from - to), 0.5 * (from + to));
 }
 
+// Counts the first range of the stack as half a cycle and takes its first point off.
 static void drop_first(FatigueChannel *c, const FatigueLaw *law)
 {
     c->damage += count(law, 0.5, c->stack[0], c->stack[1]);
     memmove(c->stack, c->stack + 1, (size_t)(--c->depth) * sizeof c->stack[0]);
 }
 
+// Puts a turning point on the stack and counts the cycles that it closes.
 static void turning_point(FatigueChannel *c, const FatigueLaw *law, double sigma)
 {
     if (c->depth == FATIGUE_DEPTH) {

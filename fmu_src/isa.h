@@ -1,4 +1,5 @@
-// The functions of the kernel files that other files call: each instruction set has its own copy under its own name.
+// Functions of the kernel files that other files call: each instruction set has its own copy, under a name of
+// its own.
 #pragma once
 
 #include "lanes.h"

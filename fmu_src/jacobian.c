@@ -1,4 +1,4 @@
-// The kernel files and the outputs once more, with dual numbers for scalars.
+// Derivatives: the kernel files and the outputs are compiled once more, with dual numbers for scalars.
 #define DUAL
 #define ISA dual
 #define LANE_WIDTH 1
@@ -27,6 +27,7 @@ enum {
     OUTPUT_SCALARS = sizeof(Outputs) / sizeof(scalar)
 };
 
+// Dual numbers from n values and derivatives (NULL: all derivatives are 0).
 static void scalars_join(int n, const double *value, const double *derivative, scalar *x)
 {
     for (int i = 0; i < n; i++) x[i] = scalar_dual(value[i], derivative ? derivative[i] : 0.0);

@@ -1,14 +1,17 @@
-// Derivatives of the right-hand side and of the outputs, exact to rounding: the kernel files themselves in dual numbers (dual.h).
+// Derivatives of the right-hand side and of the outputs, exact to rounding: the kernel files themselves in
+// dual numbers (dual.h).
 //
-// jacobian.c sees the structs of model.h with a dual number in place of every scalar; across this border they are arrays of doubles, in the
-// order of the members.  At a kink (touch-down of a damped contact, start of slip) the derivative is that of one side.
+// Inside jacobian.c the structs of model.h hold a dual number in place of every scalar.  Its functions take
+// and give these structs as arrays of doubles, in the order of the members.  At a kink (touch-down of a
+// damped contact, start of slip) the derivative is that of one side.
 #pragma once
 
 #include "model.h"
 
-// Derivative of y_dot(t, y, ring load) along the direction (dy, d_ring_load): dy_dot = J dy + d(y_dot)/d(ring load) d_ring_load.
-// d_ring_load: a RingLoad, or NULL for none.  dw: a Work for the derivatives of all results of the right-hand side, or NULL.
-// The cost is that of some five right-hand sides.
+// Derivative of y_dot(t, y, ring load) along the direction (dy, d_ring_load):
+//     dy_dot = J dy + d(y_dot)/d(ring load) d_ring_load
+// d_ring_load: a RingLoad, or NULL for 0.  dw: a Work for the derivatives of all results of the right-hand
+// side, or NULL.  One product costs as much as some five right-hand sides.
 void jacobian_product(const Model *model, double t, const double *y, const double *dy,
                       const double *d_ring_load, double *dy_dot, double *dw);
 
@@ -16,8 +19,10 @@ void jacobian_product(const Model *model, double t, const double *y, const doubl
 void jacobian_matrix(const Model *model, double t, const double *y, double *J);
 
 // Derivatives of all outputs along dt of time, du of the inputs and dy of the states.
-// trajectory: the InputTrajectory at time t.  du: Inputs, or NULL for none.  d_out: Outputs; what is recorded over steps (peaks, statistics,
-// fatigue, solver) does not follow from one evaluation, and its derivative is 0.
+//
+// trajectory: the InputTrajectory at time t.  du: Inputs, or NULL for 0.  d_out: Outputs; those that are
+// recorded over steps (peaks, statistics, fatigue, solver) do not follow from one evaluation, and their
+// derivatives are 0.
 void jacobian_outputs(const Model *model, const double *trajectory, double t, double dt, const double *du,
                       const double *y, const double *dy, double *d_out);
 

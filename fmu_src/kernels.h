@@ -1,4 +1,4 @@
-// The functions that exist once per instruction set, and the choice among them at run time.
+// Functions that exist once for each instruction set, and the choice among them at run time.
 #pragma once
 
 #include "implicit.h"
@@ -21,5 +21,5 @@ typedef struct {
     RivetRomStress *rivet_rom_stress;
 } Kernels;
 
-// Those of the best instruction set of this processor.
+// The kernels of the best instruction set that this processor and its operating system support.
 Kernels kernels_select(void);

@@ -1,11 +1,17 @@
-// Arithmetic on packets of doubles: the balls (or joints, or cage halves) of one packet are computed side by side.
+// Arithmetic on packets of doubles: the balls (or joints, or cage halves) of one packet are computed side by
+// side.
 //
-// `wide` holds LANE_WIDTH doubles and has C's operators; a packet's code reads like the code for one ball.  The kernel files are compiled
-// once per instruction set, and every function that another file calls gets that set's name as a suffix (FOR_ISA).
-// Each lane does the same IEEE operations in the same order whatever the width, and sums run over balls in a fixed order (ball_array_sum), so all
-// instruction sets with a fused multiply-add (FUSED: AVX2, AVX-512, NEON) give the same bits, and all without one.  It stands where it is
-// written, wide_fma; compilers contract nothing into it.
-// `scalar` is one of a packet's numbers, for whatever depends on the state; dual.h makes both dual numbers, which carry a derivative.
+// A `wide` holds LANE_WIDTH doubles and has C's operators, so that the code for a packet reads like the code
+// for one ball.  The kernel files are compiled once for each instruction set, and every function that another
+// file calls gets the set's name as a suffix (FOR_ISA).
+//
+// Each lane does the same IEEE operations in the same order whatever the width, and sums run over the balls
+// in a fixed order (ball_array_sum).  Therefore all instruction sets with a fused multiply-add (FUSED: AVX2,
+// AVX-512, NEON) give the same bits, and so do all sets without one.  A fused multiply-add is computed where
+// wide_fma is written and nowhere else; compilers must not contract other expressions into one.
+//
+// A `scalar` is a single number that depends on the state.  dual.h makes both types dual numbers, which carry
+// a derivative.
 #pragma once
 
 #include "variables.h"
@@ -31,7 +37,8 @@
 #include <arm_neon.h>
 #endif
 
-// Arrays over balls are padded to LANES; packets cover the first PACKETS * LANE_WIDTH of them.  Lanes past Z are padding with harmless numbers.
+// Arrays over balls are padded to LANES elements; packets cover the first PACKETS * LANE_WIDTH of these.  The
+// elements from Z on are padding and hold harmless numbers.
 enum { LANES = (Z + 7) / 8 * 8, PACKETS = (Z + LANE_WIDTH - 1) / LANE_WIDTH };
 
 #define INLINE static inline __attribute__((always_inline))
@@ -42,7 +49,7 @@ enum { LANES = (Z + 7) / 8 * 8, PACKETS = (Z + LANE_WIDTH - 1) / LANE_WIDTH };
 #if LANE_WIDTH == 1
 enum { HALVES = 1 };
 #else
-enum { HALVES = 2 };  // cage halves are lanes too, this many side by side (wide_pair)
+enum { HALVES = 2 };  // cage halves that are computed side by side in one packet (wide_pair)
 #endif
 
 typedef double wide __attribute__((vector_size(8 * LANE_WIDTH)));
@@ -75,7 +82,7 @@ INLINE wide wide_set(double value)
     return value - (wide){0};
 }
 
-// Numbers of the first and the last of HALVES cage halves: half 0 in lane 0, half 1 in the others.
+// A packet of the numbers of two cage halves: the first half's in lane 0, the last half's in all others.
 INLINE wide wide_pair(double first, double last)
 {
     wide value = wide_set(last);
@@ -83,7 +90,7 @@ INLINE wide wide_pair(double first, double last)
     return value;
 }
 
-#define wide_lane(x, i) ((x)[i])  // a function would copy the packet
+#define wide_lane(x, i) ((x)[i])  // a macro, because a function would copy the packet
 
 INLINE wide wide_load(const double *from)
 {
@@ -144,7 +151,7 @@ INLINE wide wide_sqrt(wide x)
 #endif
 }
 
-// x y + z with one rounding where the kernels' instruction set has it.
+// x y + z, with one rounding where the kernels' instruction set has a fused multiply-add.
 INLINE wide wide_fma(wide x, wide y, wide z)
 {
 #if defined(FUSED) && defined(__AVX512F__) && LANE_WIDTH == 8
@@ -158,7 +165,8 @@ INLINE wide wide_fma(wide x, wide y, wide z)
 #endif
 }
 
-INLINE wide wide_max(wide x, wide y)  // y where x is NaN, like the x86 instruction
+// The larger one; y where x is NaN, like the x86 instruction.
+INLINE wide wide_max(wide x, wide y)
 {
 #if defined(__AVX512F__) && LANE_WIDTH == 8
     return (wide)_mm512_max_pd((__m512d)x, (__m512d)y);
@@ -181,7 +189,8 @@ INLINE wide wide_abs(wide x)
     return (wide)((bits)x & INT64_MAX);
 }
 
-// Nearest integer of |x| < 2^51 as a double and as an integer, by the rounding of x + 1.5 * 2^52.
+// Nearest integer to x, |x| < 2^51, as a double and as the integer n: the sum x + 1.5 * 2^52 rounds to an
+// integer.
 INLINE wide wide_round(wide x, bits *n)
 {
     const wide shift = wide_set(6755399441055744.0);
@@ -190,7 +199,8 @@ INLINE wide wide_round(wide x, bits *n)
     return shifted - shift;
 }
 
-// The polynomials below are Chebyshev fits over the reduced ranges; the errors are those of tests/test_lanes.py.
+// The polynomials below are Chebyshev fits over the reduced ranges; tests/test_lanes.py measures the errors
+// stated.
 
 // e^x, relative error < 3e-15; 0 below -700, e^700 above 700.
 INLINE wide wide_exp(wide x)
@@ -246,7 +256,7 @@ INLINE wide wide_log(wide x)
     return wide_log_of(k, (m - 1.0) / (m + 1.0));
 }
 
-// Two logarithms for one division.
+// ln x and ln y for the price of one division.
 INLINE void wide_log2(wide x, wide y, wide *ln_x, wide *ln_y)
 {
     wide m, n;

@@ -1,4 +1,5 @@
-// Outputs that follow from one evaluation of the right-hand side, group by group.  Compiled for their values and, in dual numbers, for their derivatives.
+// Outputs that follow from one evaluation of the right-hand side, group by group.  The file is compiled for
+// values and, with dual numbers, for derivatives.
 #include "outputs.h"
 
 #include "energy.h"
@@ -8,7 +9,7 @@
 #include "rivets.h"
 #include "traction.h"
 
-// The states that are outputs as they are: copied by name.
+// States that are outputs themselves.
 static void fill_state(const Evaluation *at, Outputs *out)
 {
     out->ring.x = at->y[Y_RING_X];
@@ -42,6 +43,7 @@ static void fill_ring(const Evaluation *at, Outputs *out)
     out->bearing.friction_torque = -dot3(w->ring.M, w->ring.a);
 }
 
+// Film thickness / roughness at mean speed U and load Q, 0 without contact.
 static scalar film_ratio(const Race *race, scalar U, scalar Q)
 {
     return scalar_value(Q) > 0.0
@@ -76,6 +78,8 @@ static void fill_ball(const Evaluation *at, Outputs *out)
         out->ball.Q_c[j] = Q_c;
         out->ball.Q_cx[j] = w->pocket[0].F_x[j] + w->pocket[1].F_x[j];
         out->ball.omega_m[j] = w->omega_m[j];
+
+        // angles, pressures, films, spin
         out->ball.alpha_i[j] = scalar_value(Q_i) > 0.0 ? scalar_atan2(-w->n_ix[j], -w->n_ir[j]) : 0.0;
         out->ball.alpha_e[j] = scalar_value(Q_e) > 0.0 ? scalar_atan2(w->n_ex[j], w->n_er[j]) : 0.0;
         out->ball.p_i[j] = hertz_pressure(&d->inner.hertz, Q_i);
@@ -83,6 +87,8 @@ static void fill_ball(const Evaluation *at, Outputs *out)
         out->ball.Lambda_i[j] = film_ratio(&d->inner, w->U_i[j], Q_i);
         out->ball.Lambda_e[j] = film_ratio(&d->outer, w->U_e[j], Q_e);
         out->ball.spin_roll[j] = spin_roll(w, j);
+
+        // over all balls
         for (int i = 0; i < 3; i++) {
             contacts += scalar_value(delta[i]) > 0.0;
             penetration = scalar_max(penetration, delta[i]);
@@ -167,7 +173,7 @@ static void fill_stress(const Evaluation *at, Outputs *out)
     }
 }
 
-// The residual counts from energy 0: whoever knows the energy at the start takes it off.
+// The energy at the start is not known here: outputs_fill subtracts it from the residual.
 static void fill_energy(const Evaluation *at, Outputs *out)
 {
     const Work *w = at->w;

@@ -1,23 +1,27 @@
 // Ball and pocket: a cylinder with a radial axis, cut by the split plane into the two halves.
 //
-//        x (a)                      a     axis of the half         p = ball centre - geometric centre of the half
-//        |   half 1                 e_t   its tangent at pocket j  (x, t) = (p.a, p.e_t): ball against the pocket's axis
-//     .--+--.                       S = sqrt(x^2 + t^2),  n = (x, t)/S
-//    (   |n->)---- t (e_t)          delta = S - (R_c - R)                                                  Cui et al. (2023)
-//     '--+--'                       V = w(n_x) (2/5) K delta^2.5,  w = (1 +- n_x/sqrt(n_x^2 + width^2))/2  share of this half
-//        |   half 0                 force on the ball: -dV/d(x, t), damping -(K w delta^1.5) lambda delta_dot n, Coulomb friction mu Q
+//        x (a)               a     axis of the half;  e_t  its tangent at pocket j
+//        |   half 1          p = ball centre - geometric centre of the half
+//     .--+--.                (x, t) = (p.a, p.e_t): ball against the pocket's axis;  S = sqrt(x^2 + t^2),  n = (x, t)/S
+//    (   |n->)---- t (e_t)   delta = S - (R_c - R)                                                  Cui et al. (2023)
+//     '--+--'                V = w(n_x) (2/5) K delta^2.5,  share of this half w = (1 +- n_x/sqrt(n_x^2 + width^2))/2
+//        |   half 0          force on the ball: -dV/d(x, t), damping -(K w delta^1.5) lambda delta_dot n,
+//                            Coulomb friction mu Q
 //
-// Both halves share one contact energy, so the force has a part along the gradient of the share; without it energy is not conserved.
-// Friction P_S at the contact point p + R n with the slip v + omega x R n; the coefficient goes from that of the film to that of the
-// asperities by Lambda (mixed lubrication); P_R and its horizontal counterpart are the inlet's rolling friction as in the races, with the
+// Both halves share one contact energy, so the force has a part along the gradient of the share; without this
+// part energy would not be conserved.  The friction P_S acts at the contact point p + R n, where the slip is
+// v + omega x R n; in mixed lubrication its coefficient goes from that of the film to that of the asperities
+// by Lambda.  P_R and its horizontal counterpart are the inlet's rolling friction as in the races, with the
 // mean speed |slip|/2 and R_x = R.  The half gets the opposite forces at the same points.
-// Smoothness: C1 at touch-down.  The cylinder has no radial end: a ball whose equator leaves the cage's section is reported, not modelled.
+// Smoothness: C1 at touch-down.  The cylinder has no radial end: a ball whose equator leaves the cage's
+// section is reported (events.h), not modelled.
 #include "pocket.h"
 
 #include "hertz.h"
 #include "traction.h"
 
-// Friction coefficient of a pocket at sliding speed v and load Q.  Film: the thicker one of piezoviscous and isoviscous-rigid lubrication.
+// Friction coefficient of a pocket at mean speed U and load Q.  The film is the thicker one of piezoviscous
+// and isoviscous-rigid lubrication.
 INLINE wide pocket_mu(const Model *model, wide ln_U, wide ln_Q, bool mixed)
 {
     const wide film = wide_set(model->p->cage.mu);
@@ -27,7 +31,8 @@ INLINE wide pocket_mu(const Model *model, wide ln_U, wide ln_Q, bool mixed)
     return film + traction_asperity_share(wide_max(ln_piezo, ln_rigid)) * (model->p->oil.mu_b - film);
 }
 
-// Direction of the pockets: body angle phi_j turned by the half, b = b_y cos phi + b_z sin phi, in the frames of the balls.
+// Radial direction of the pockets in the frames of the balls: b = b_y cos phi_j + b_z sin phi_j, with the
+// body axes b_y, b_z of the half and the body angle phi_j of pocket j.
 INLINE vec pocket_direction(const Derived *d, const Rotor *half, int j, wide cos_theta, wide sin_theta)
 {
     const vec b_y = vec_local(half->b_y, cos_theta, sin_theta);
@@ -35,6 +40,7 @@ INLINE vec pocket_direction(const Derived *d, const Rotor *half, int j, wide cos
     return vec_axpy(wide_load(&d->pocket_sin[j]), b_z, vec_scale(wide_load(&d->pocket_cos[j]), b_y));
 }
 
+// Adds v to the vectors stored at x, r, t.
 INLINE void add_vec(vec v, scalar *x, scalar *r, scalar *t)
 {
     vec_store(vec_add(vec_load(x, r, t), v), x, r, t);
@@ -45,7 +51,7 @@ typedef struct {
     vec arm;        // p: ball centre - geometric centre of the half
     vec a, b, e_t;  // axis of the half, direction of the pocket, tangent
     wide x, t;      // of the ball against the pocket's axis
-    wide S, delta;  // its distance from the axis; elastic approach (negative: open)
+    wide S, delta;  // distance from the axis; elastic approach (negative: the pocket is open)
 } PocketGap;
 
 INLINE PocketGap pocket_gap(const Derived *d, const Work *w, const Rotor *half, int j)
@@ -63,7 +69,8 @@ INLINE PocketGap pocket_gap(const Derived *d, const Work *w, const Rotor *half, 
     return gap;
 }
 
-// Forces in a packet of pockets, stored for the half and added to the balls.
+// Forces in a packet of pockets, stored for the half and added to the balls.  whole: the rigid cage, whose
+// half 0 carries the whole contact.
 INLINE void pocket_contacts(const Model *model, Work *w, int h, int j, const PocketGap *gap, bool mixed,
                             bool whole)
 {
@@ -73,27 +80,31 @@ INLINE void pocket_contacts(const Model *model, Work *w, int h, int j, const Poc
     Pockets *pocket = &w->pocket[h];
     const wide cos_theta = wide_load(&w->cos_theta[j]), sin_theta = wide_load(&w->sin_theta[j]);
     const wide R = wide_load(&d->R[j]);
+
+    // normal
     const vec a = gap->a, b = gap->b, e_t = gap->e_t, arm_p = gap->arm;
     const wide delta = gap->delta, inv_S = 1.0 / gap->S, n_x = gap->x * inv_S, n_t = gap->t * inv_S;
     const vec n = vec_axpy(n_t, e_t, vec_scale(n_x, a));
 
+    // velocity of the ball's centre against the half there
     const vec omega_b = vec_load(&w->omega_x[j], &w->omega_r[j], &w->omega_t[j]);
     const vec v_b = vec_load(&w->v_x[j], &w->v_r[j], &w->v_t[j]);
     const vec Omega = vec_local(half->Omega, cos_theta, sin_theta);
     const vec v = vec_sub(vec_sub(v_b, vec_local(half->v, cos_theta, sin_theta)), vec_cross(Omega, arm_p));
     const wide delta_dot = vec_dot(n, v);
 
-    // share of the half and its slope; the sign is that of the half's side
+    // share of the half and its slope over n_x; the sign is that of the half's side
     const double side = h == 0 ? -1.0 : 1.0, width = p->cage.share_width;
     const wide share = whole ? wide_set(1.0) : pocket_share(side, n_x, width);
     const wide share_slope = whole ? wide_set(0.0) : pocket_share_slope(side, n_x, width);
 
+    // contact load, and the energy's gradient across n: dV/dn_x grad n_x, grad n_x = (n_t a - n_x e_t) n_t/S
     const wide K = wide_set(d->pocket.K), Q_0 = share * hertz_load(K, delta);
     const wide Q = hertz_damped(Q_0, wide_set(p->cage.lambda), delta_dot);
-    const wide F_across = hertz_energy(K, delta) * share_slope * n_t *
-                          inv_S;  // dV/dn_x grad n_x, grad n_x = (n_t a - n_x e_t) n_t/S
+    const wide F_across = hertz_energy(K, delta) * share_slope * n_t * inv_S;
     const vec F_n = vec_axpy(-Q, n, vec_axpy(-F_across * n_t, a, vec_scale(F_across * n_x, e_t)));
 
+    // friction at the contact point (F_s), film force through the ball's centre (F_c)
     const vec arm = vec_scale(R, n);
     const vec slip = vec_across(vec_add(v, vec_cross(vec_sub(omega_b, Omega), arm)), n);
     const wide slip_2 = vec_dot(slip, slip), U_2 = 0.25 * slip_2 + p->oil.U_0 * p->oil.U_0;
@@ -115,6 +126,7 @@ INLINE void pocket_contacts(const Model *model, Work *w, int h, int j, const Poc
     vec_to_global(M_half, cos_theta, sin_theta, &pocket->half_M_x[j], &pocket->half_M_y[j],
                   &pocket->half_M_z[j]);
 
+    // on the balls: forces, stiff rates of friction in the tangent plane, dissipated power
     const vec tangent = {1.0 - n.x * n.x, 1.0 - n.r * n.r, 1.0 - n.t * n.t};
     add_vec(F, &w->F_x[j], &w->F_r[j], &w->F_t[j]);
     add_vec(M, &w->M_x[j], &w->M_r[j], &w->M_t[j]);
@@ -124,7 +136,7 @@ INLINE void pocket_contacts(const Model *model, Work *w, int h, int j, const Poc
                wide_load(&w->dissipated[j]) + ((Q - Q_0) * delta_dot - vec_dot(F_s, slip) - vec_dot(F_c, v)));
 }
 
-// Nothing touches.
+// Forces of a packet in which no ball touches its pocket.
 INLINE void pocket_clear(Pockets *pocket, int j)
 {
     const vec none = {0};
@@ -134,7 +146,7 @@ INLINE void pocket_clear(Pockets *pocket, int j)
     vec_store(none, &pocket->half_M_x[j], &pocket->half_M_y[j], &pocket->half_M_z[j]);
 }
 
-// All pockets of one half; most are not touched.
+// All pockets of one half.  Most pockets are not touched, so that their forces are not computed.
 INLINE void pocket_half(const Model *model, Work *w, int h, bool mixed, bool whole)
 {
     Pockets *pocket = &w->pocket[h];

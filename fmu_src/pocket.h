@@ -4,7 +4,8 @@
 #include "isa.h"
 #include "model.h"
 
-// Share w of one half in the energy of a pocket contact, by the axial part n_x of the contact's normal.  side: -1 for half 0, +1 for half 1.
+// Share w of one half in the energy of a contact, by the axial part n_x of the contact's normal.
+// side: -1 for half 0, +1 for half 1.
 INLINE wide pocket_share(double side, wide n_x, double width)
 {
     return 0.5 * (1.0 + side * n_x * (1.0 / wide_sqrt(n_x * n_x + width * width)));

@@ -1,19 +1,23 @@
 // Ball and race: Hertz' contact under a groove that may be displaced and tilted, with traction.
 //
-//            groove-curvature circle, radius R_g about the ring's axis a           p   ball centre - ring centre
-//                  o ________                                                       e   unit vector from the axis to the ball: radial part of p
-//                 /  L       \                                                      L = (p.a) a + (|p - (p.a) a| - R_g) e
-//                /            \         n = L/|L|: out of the groove's centre       delta = |L| - (r_g - R)
-//        race   (    ball      )        through the ball's centre to the contact    delta_dot = n.(v_ball - v_ring - Omega x p)
-//                \            /                                                     Q = K delta^1.5 max(0, 1 + lambda delta_dot)
-//                 \__________/                                                      force on the ball -Q n
+//         circle of groove centres,              p = ball centre - ring centre
+//         radius R_g about the ring's axis a     e   unit vector from the axis to the ball: radial part of p
+//               o ________                       L = (p.a) a + (|p - (p.a) a| - R_g) e
+//              /  L       \                      n = L/|L|: from the groove's centre through the ball's to the contact
+//             /            \                     delta = |L| - (r_g - R)
+//     race   (    ball      )                    delta_dot = n.(v_ball - v_ring - Omega x p)
+//             \            /                     Q = K delta^1.5 max(0, 1 + lambda delta_dot)
+//              \__________/                      force on the ball -Q n
 //
-// Nothing is small here: any offset and tilt is exact, so that the normal forces derive from a potential.
+// No offset or tilt is taken as small: the geometry is exact, so that the normal forces derive from a
+// potential.
+//
 // Slip and mean speed at the contact point p + R n, seen from the frame that orbits with the ball:
 //   u_ball = (omega_ball - omega_m e_x) x R n,   u_race = v_ring + Omega x (p + R n) - v_ball - omega_m e_x x R n
 //   Delta u = u_ball - u_race,   U = (u_ball + u_race)/2     (their parts in the tangent plane)
-// The ring gets the opposite forces at the same points: force -F, moment -(p x F) - M about its centre.
-// Friction angle, spin: `sliced` integrates the traction over the long axis of the ellipse, where slip varies by spin and curvature:
+// The ring gets the opposite forces at the same points: force -F, moment -(p x F) - M about its centre.  Spin
+// and curvature let the slip vary along the long axis of the ellipse; `sliced` integrates the traction over
+// this axis:
 //   Delta u(xi) = Delta u + Delta omega x (xi t_2 - xi^2/(2 R_m) n),  pressure (3/4)(1 - xi^2/a^2) per length
 // Smoothness: C1 at touch-down.  Hertz' ellipse is not cut at the shoulder.
 #include "race_contact.h"
@@ -30,7 +34,7 @@ static const double SHARE[SLICES] = {0.02363715011287406, 0.11148030343755763, 0
                                      0.27863945578231275, 0.22556281855841187, 0.11148030343755763,
                                      0.02363715011287406};
 
-static const double TINY = 1e-30;  // padding lanes and balls at a groove's centre: no division by 0
+static const double TINY = 1e-30;  // keeps padding lanes and balls at a groove's centre from dividing by 0
 
 // One ball, in its own frame (x, r, t).
 typedef struct {
@@ -47,7 +51,8 @@ typedef struct {
     wide R, delta, sqrt_delta, Q, dissipated;
 } Contact;
 
-// Load of a contact approaching by delta, at the rate n.approach, and what its damping dissipates.
+// Load of a contact with approach delta, which grows at the rate delta_dot, and the power that its damping
+// dissipates.
 INLINE void load_contact(const Model *model, const Race *race, wide delta, wide delta_dot, Contact *c)
 {
     const wide Q_0 = hertz_load(wide_set(race->hertz.K), delta);
@@ -57,7 +62,8 @@ INLINE void load_contact(const Model *model, const Race *race, wide delta, wide 
     c->dissipated = (c->Q - Q_0) * delta_dot;
 }
 
-// Inner race.  p: from the centre of the ring to that of the ball; a, v, Omega: axis, velocity and angular velocity of the ring; all in the frame of the ball.
+// Inner race.  p: from the centre of the ring to that of the ball; a, v, Omega: axis, velocity and angular
+// velocity of the ring.  All vectors are in the frames of the balls.
 INLINE Contact inner_contact(const Model *model, const BallMotion *ball, vec p, vec a, vec v, vec Omega)
 {
     const Race *race = &model->d->inner;
@@ -73,6 +79,7 @@ INLINE Contact inner_contact(const Model *model, const BallMotion *ball, vec p, 
     c.spin = vec_sub(ball->omega, Omega);
     load_contact(model, race, L - (race->r_g - ball->R), vec_dot(c.n, c.approach), &c);
 
+    // velocities at the contact point against the ball's centre, seen from the orbiting frame
     const vec arm = vec_scale(ball->R, c.n), axis = {ball->omega_m, wide_set(0.0), wide_set(0.0)};
     const vec u_ball = vec_cross(ball->omega, arm), orbit = vec_cross(axis, arm);
     const vec u_race = vec_sub(vec_cross(Omega, arm), c.approach);  // v + Omega x (p + arm) - v_ball
@@ -82,7 +89,7 @@ INLINE Contact inner_contact(const Model *model, const BallMotion *ball, vec p, 
     return c;
 }
 
-// Outer race: the same for a ring at rest whose axis is X, with what vanishes left out.
+// Outer race: the same for a ring at rest whose axis is X; terms that vanish for this ring are left out.
 INLINE Contact outer_contact(const Model *model, const BallMotion *ball)
 {
     const Race *race = &model->d->outer;
@@ -97,15 +104,16 @@ INLINE Contact outer_contact(const Model *model, const BallMotion *ball)
     c.spin = omega;
     load_contact(model, race, L - (race->r_g - R), c.n.x * v.x + c.n.r * v.r, &c);
 
+    // velocities at the contact point, likewise; orbit is along t
     const vec u_ball = {-omega.t * R * c.n.r, omega.t * R * c.n.x, R * (omega.x * c.n.r - omega.r * c.n.x)};
-    const wide orbit = ball->omega_m * R * c.n.r;  // along t
+    const wide orbit = ball->omega_m * R * c.n.r;
     c.slip = vec_across(vec_add(u_ball, v), c.n);
     c.roll = vec_across((vec){0.5 * (u_ball.x - v.x), 0.5 * (u_ball.r - v.r), 0.5 * (u_ball.t - v.t) - orbit},
                         c.n);
     return c;
 }
 
-// Traction at the contact's middle.
+// Traction with the slip at the contact's middle.
 INLINE Tangential point_traction(const Parameters *p, const Contact *c, wide inv_U, wide f_a, bool mixed)
 {
     const wide slip_2 = vec_dot(c->slip, c->slip) + p->oil.v_0 * p->oil.v_0;
@@ -118,12 +126,12 @@ INLINE Tangential point_traction(const Parameters *p, const Contact *c, wide inv
     return out;
 }
 
-// Traction over the long axis of the ellipse.
+// Traction over the long axis of the ellipse, slice by slice.
 INLINE Tangential sliced_traction(const Parameters *p, const Race *race, const Contact *c, wide inv_U,
                                   wide f_a, bool mixed)
 {
     const wide a = race->hertz.a_delta * c->sqrt_delta, spin_n = vec_dot(c->spin, c->n);
-    const vec bend = vec_cross(c->spin, c->n);  // its part along t_1 and t_2 only
+    const vec bend = vec_cross(c->spin, c->n);  // has parts along t_1 and t_2 only
     Tangential out = {0};
     for (int i = 0; i < SLICES; i++) {
         const wide xi = a * SLICE[i], sagitta = xi * xi * (0.5 / race->R_m);
@@ -141,7 +149,8 @@ INLINE Tangential sliced_traction(const Parameters *p, const Race *race, const C
     return out;
 }
 
-// Traction and the inlet's rolling friction: -F_R U/|U| at the surface, the film's horizontal pressure force +F_H U/|U| through the ball's centre.
+// Traction and the inlet's rolling friction: -F_R U/|U| at the surface, and the film's horizontal pressure
+// force +F_H U/|U| through the ball's centre.
 INLINE Tangential race_traction(const Model *model, const Race *race, const Contact *c, bool mixed,
                                 bool sliced)
 {
@@ -164,6 +173,7 @@ INLINE Tangential race_traction(const Model *model, const Race *race, const Cont
     return out;
 }
 
+// Contact results that other elements and outputs read.
 INLINE void store_contacts(Work *w, int j, const Contact *inner, const Contact *outer, const Tangential *T_i,
                            const Tangential *T_e)
 {
@@ -183,6 +193,7 @@ INLINE void store_contacts(Work *w, int j, const Contact *inner, const Contact *
     wide_store(&w->dissipated[j], T_i->dissipated + T_e->dissipated + inner->dissipated + outer->dissipated);
 }
 
+// Both race contacts of a packet of balls.
 INLINE void race_contact_packet(const Model *model, Work *w, int j, bool mixed, bool sliced)
 {
     const Derived *d = model->d;
@@ -198,11 +209,13 @@ INLINE void race_contact_packet(const Model *model, Work *w, int j, bool mixed, 
                                         vec_local(w->ring.v, cos_theta, sin_theta),
                                         vec_local(w->ring.Omega, cos_theta, sin_theta));
     const Contact outer = outer_contact(model, &ball);
-    const Tangential T_i = race_traction(model, &d->inner, &inner, mixed, sliced),
-                     T_e = race_traction(model, &d->outer, &outer, mixed, sliced);
+    const Tangential T_i = race_traction(model, &d->inner, &inner, mixed, sliced);
+    const Tangential T_e = race_traction(model, &d->outer, &outer, mixed, sliced);
     store_contacts(w, j, &inner, &outer, &T_i, &T_e);
 
-    const vec none = {0}, F_i = vec_axpy(-inner.Q, inner.n, vec_add(T_i.F_s, T_i.F_c));
+    // forces and moments on the balls, cleared rates of the pockets, wrench on the ring about its centre
+    const vec none = {0};
+    const vec F_i = vec_axpy(-inner.Q, inner.n, vec_add(T_i.F_s, T_i.F_c));
     const vec F_e = vec_axpy(-outer.Q, outer.n, vec_add(T_e.F_s, T_e.F_c));
     const vec M_ring = vec_sub(vec_scale(minus, vec_cross(p_i, F_i)), T_i.M);
     vec_store(vec_add(F_i, F_e), &w->F_x[j], &w->F_r[j], &w->F_t[j]);

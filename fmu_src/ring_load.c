@@ -1,4 +1,4 @@
-// InputTrajectory of the inputs from point to point, built-in pulses.  Equations in ring_load.h.
+// Trajectory of the inputs over a communication step, and the built-in pulses.  Equations in ring_load.h.
 #include "ring_load.h"
 
 static double pulse_start(const Parameters *p, int n)
@@ -12,7 +12,7 @@ static int pulse_index(const Parameters *p, double t)
     if (p->pulse.count == 0 || t < p->pulse.t_start) return -1;
     const double n = floor((t - p->pulse.t_start) / p->pulse.interval);
     int i = n < p->pulse.count ? (int)n : p->pulse.count - 1;
-    while (i + 1 < p->pulse.count && pulse_start(p, i + 1) <= t) i++;  // the division may round either way
+    while (i + 1 < p->pulse.count && pulse_start(p, i + 1) <= t) i++;  // the division may round up or down
     while (i > 0 && pulse_start(p, i) > t) i--;
     return i;
 }

@@ -1,4 +1,5 @@
-// Fit and joint data of the rivet table at the present temperature: needed once, when constants are derived.
+// Preload, fit and stiffness of a joint from the rivet table and the temperature, for the constants derived
+// once.
 #include "rivet_rom.h"
 
 #include <math.h>
@@ -24,7 +25,8 @@ double rivet_rom_fit_eff(const RivetTable *t, double fit_a, bool j2)
            h * u * v * (map->slope[i] * v - map->slope[i + 1] * u);
 }
 
-// The flanges outgrow the rivet: k_stack (alpha_flange - alpha_rivet) grip per kelvin.
+// The flanges expand more than the rivet, which adds k_stack (alpha_flange - alpha_rivet) grip to the preload
+// per kelvin.
 double joint_preload(const JointData *j, double preload, double T)
 {
     return fmax(0.0, preload + j->k_stack * (j->alpha_flange - j->alpha_rivet) * j->grip * (T - j->T_0));

@@ -1,20 +1,26 @@
 // Rivet stress from the reduced model: see rivet_rom.h for the equations.
 //
-// A packet of rivets finds its points in the table together; then each rivet sums a pair of channels on two sheets side by side.
+// The points of the loads in the table are computed for a packet of rivets at once.  Then the splines of each
+// rivet are summed for a pair of channels and two sheets side by side.
 #include "rivet_rom.h"
 
 #include "rivet_splines.h"
 
 typedef struct {
-    ball_array u[RIVET_AXES];     // a, b, c, xi
-    ball_array s, first[2], chi;  // weights of the first of two sheets in head and middle; 2 chi
+    ball_array u[RIVET_AXES];  // a, b, c, xi
+    ball_array s;              // P + N + V + |M|/L [N]
+    ball_array first[2];       // weight of the first of two sheets in head and middle
+    ball_array two_chi;        // 2 chi
 } TablePoints;
 
+// part/whole, 0 where whole is 0.
 INLINE wide ratio(wide part, wide whole)
 {
-    return wide_select(wide_above(whole, 1e-300), part / whole, wide_set(0.0));  // 1/whole is finite
+    return wide_select(wide_above(whole, 1e-300), part / whole,
+                       wide_set(0.0));  // above this limit 1/whole is finite
 }
 
+// Points of the loads of all rivets in the table.
 static void find_points(const RivetTable *t, const RivetLoads *load, double fit_eff, TablePoints *points)
 {
     const wide zero = wide_set(0.0), one = wide_set(1.0), inv_length = wide_set(1.0 / t->moment_length);
@@ -34,7 +40,7 @@ static void find_points(const RivetTable *t, const RivetLoads *load, double fit_
         wide_store(&points->s[j], s);
         wide_store(&points->first[0][j], wide_select(plane, w - 1.0, w));
         wide_store(&points->first[1][j], wide_select(plane, w - 1.0, w * wide_sqrt(w)));
-        wide_store(&points->chi[j], w);
+        wide_store(&points->two_chi[j], w);
     }
 }
 
@@ -44,8 +50,8 @@ void rivet_rom_stress(const RivetTable *t, const RivetLoads *load, double fit_ef
     TablePoints points;
     find_points(t, load, fit_eff, &points);
     for (int k = 0; k < Z; k++) {
-        TablePoint point;  // without an initialiser, which would clear all of it first
-        point.sheet = scalar_value(points.chi[k]) > 1.0 ? RIVET_PLANE : RIVET_OBLIQUE;
+        TablePoint point;  // no initialiser: it would clear the whole struct first
+        point.sheet = scalar_value(points.two_chi[k]) > 1.0 ? RIVET_PLANE : RIVET_OBLIQUE;
         for (int i = 0; i < 2; i++) point.first[i] = points.first[i][k];
         for (int i = RIVET_A; i <= RIVET_C; i++) point.at[i] = axis_splines(&t->axis[i], points.u[i][k]);
         point.at[RIVET_XI] = axis_splines_xi(&t->axis[RIVET_XI], points.u[RIVET_XI][k], points.s[k], fit_eff);

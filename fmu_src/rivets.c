@@ -1,23 +1,27 @@
 // Loads of the rivets.
 //
-//   two halves   N = T - N_plate; the shank carries the hole force B, the heads the friction H; plate friction S bypasses the rivet;
-//                the flexible cage half adds what a pocket force pries at the joints beside it (load_path.h)
-//   rigid cage   the wrench between the halves, (half 1 - half 0)/2 as both have the same inertia, on the circle of rivets; its transverse
-//                part loads plates (up to mu P), then heads (mu P), then the shank
+//   two halves   N = T - N_plate; the shank carries the hole force B, the heads the friction H; plate friction S
+//                bypasses the rivet; the flexible cage half adds the loads by which a pocket force pries the joints
+//                beside it open (load_path.h)
+//   rigid cage   the wrench between the halves, (half 1 - half 0)/2 as both have the same inertia, on the circle of
+//                rivets; its transverse part loads plates (up to mu P), then heads (mu P), then the shank
 //
-// The path's transverse part reaches the shank only in a hole without play: elsewhere a slip far below the play relieves it.  Its moment is
-// limited where it opens the joint.  Everything is in the body frame of half 0: rivets at angles 2 pi (k + 1/2)/Z.
+// The transverse part of the load path reaches the shank only in a hole without play: in a hole with play the
+// joint relieves this part by slipping, by much less than the play.  The prying moment is limited where it
+// opens the joint.  All loads are in the body frame of half 0; the rivets are at angles 2 pi (k + 1/2)/Z.
 #include "rivets.h"
 
 #include "load_path.h"
 #include "pocket.h"
 #include "rotor.h"
 
+// Length of the vector (y, z).
 INLINE wide modulus(wide y, wide z)
 {
     return wide_sqrt(y * y + z * z);
 }
 
+// Loads of the joints between two halves, without the flexible share.
 static void two_half_load(const Model *model, const Work *w, RivetLoads *load)
 {
     for (int k = 0; k < PACKETS * LANE_WIDTH; k += LANE_WIDTH) {
@@ -33,7 +37,8 @@ static void two_half_load(const Model *model, const Work *w, RivetLoads *load)
     }
 }
 
-// Wrench of pockets and land on half 1 less that on half 0, halved, about the cage's centre in its body frame.
+// Wrench of pockets and land on half 1 less that on half 0, halved, about the cage's centre in its body
+// frame.
 static void rigid_wrench(const Model *model, const Work *w, scalar wrench[6])
 {
     const Rotor *cage = &w->half[0];
@@ -42,18 +47,21 @@ static void rigid_wrench(const Model *model, const Work *w, scalar wrench[6])
         global[i] = 0.5 * (w->half[1].F[i] - w->half[0].F[i]);
         global[3 + i] = 0.5 * (w->half[1].M[i] - w->half[0].M[i]);
     }
-    const Pockets *pocket =
-        &w->pocket[0];  // half 0 holds the pocket forces: their share of half 1 less that of half 0 instead
+
+    // half 0 holds all pocket forces: their share of half 1 is to count for half 1
+    const Pockets *pocket = &w->pocket[0];
     const scalar *wrenches[6] = {pocket->half_F_x, pocket->half_F_y, pocket->half_F_z,
                                  pocket->half_M_x, pocket->half_M_y, pocket->half_M_z};
     ball_array share;
     for (int j = 0; j < PACKETS * LANE_WIDTH; j += LANE_WIDTH) {
         const wide F_x = wide_load(&pocket->F_x[j]), F_t = wide_load(&pocket->F_t[j]);
-        const wide n_x = F_x / wide_sqrt(F_x * F_x + F_t * F_t + 1e-30);  // 0 without a force
+        const wide n_x = F_x / wide_sqrt(F_x * F_x + F_t * F_t + 1e-30);  // 0 where there is no force
         wide_store(&share[j], pocket_share(1.0, n_x, model->p->cage.share_width));
     }
     for (int j = 0; j < Z; j++)
         for (int i = 0; i < 6; i++) global[i] += share[j] * wrenches[i][j];
+
+    // into the body frame
     const scalar *axes[3] = {cage->a, cage->b_y, cage->b_z};
     for (int i = 0; i < 3; i++) {
         wrench[i] = dot3(axes[i], global);
@@ -61,6 +69,7 @@ static void rigid_wrench(const Model *model, const Work *w, scalar wrench[6])
     }
 }
 
+// Loads of the joints of a rigid cage, without the flexible share.
 static void rigid_load(const Model *model, const Work *w, RivetLoads *load)
 {
     const double R = 0.5 * model->p->bearing.d_m, friction = model->p->joint.mu * model->d->P;
@@ -83,7 +92,8 @@ static void rigid_load(const Model *model, const Work *w, RivetLoads *load)
     }
 }
 
-// Adds a vector (r, t) at every rivet, given radially and along the circle, to one along y and z.
+// Adds a vector at every rivet, given by its radial and tangential parts (r, t), to a vector given along y
+// and z.
 INLINE void add_turned(const Model *model, const ball_array r, const ball_array t, scalar *y, scalar *z)
 {
     const double inv_R = 2.0 / model->p->bearing.d_m;
@@ -117,6 +127,7 @@ void rivets_load(const Model *model, const Work *w, RivetLoads *load)
     else
         two_half_load(model, w, load);
 
+    // flexible share
     PathLoads path = {0};
     for (int h = 0; h < (rigid ? 1 : 2); h++) {
         const Pockets *pocket = &w->pocket[h];

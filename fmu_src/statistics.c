@@ -1,11 +1,12 @@
-// Running statistics.  The bin is read off the number's exponent and the first five bits of its mantissa: no logarithm.
+// Running statistics.  The exponent of a number and the first five bits of its mantissa give its bin, without
+// a logarithm.
 #include "statistics.h"
 
 #include <math.h>
 #include <stdint.h>
 #include <string.h>
 
-// value/floor in [1, 2^24) -> bin
+// Bin of the ratio value/floor >= 1.
 static int bin_of(double ratio)
 {
     uint64_t word;
@@ -45,7 +46,7 @@ double statistics_rms(const StatisticsChannel *channel)
 
 double statistics_quantile(const StatisticsChannel *channel, double floor, double p)
 {
-    double above = (1.0 - p) * channel->time;  // weight that lies above the quantile: summed from the top
+    double above = (1.0 - p) * channel->time;  // weight above the quantile; the bins are summed from the top
     if (channel->time <= 0.0) return 0.0;
     for (int bin = STATISTICS_BINS - 1; bin >= 0; bin--) {
         const double weight = channel->weight[bin];

@@ -1,11 +1,12 @@
-// What every solver does around its steps, whichever it is: error weights, the state just reached, trial states without a derivative, messages.
+// Work around the steps that all solvers share: error weights, acceptance of a state, trial states without a
+// derivative, messages.
 #pragma once
 
 #include "integrator.h"
 
 #include <stdio.h>
 
-// Error weights 1/(tolerance scale): absolute, as angles are unbounded.
+// Error weights 1/(tolerance scale).  They are absolute, because angles are unbounded.
 static inline void stepping_weights(const Derived *d, double tolerance, double weight[N_STATES])
 {
     for (int b = 0; b < N_STATE_BLOCKS; b++)
@@ -13,7 +14,7 @@ static inline void stepping_weights(const Derived *d, double tolerance, double w
             weight[STATE_BLOCKS[b].offset + i] = 1.0 / (tolerance * d->scale[STATE_BLOCKS[b].scale]);
 }
 
-// Goes on to the state y at time t, whose derivative is not known yet; returns the length of the step.
+// Makes y at time t the present state, whose derivative is not known yet; returns the length of the step.
 static inline double stepping_accept(IntegratorState *s, double t, const double *y)
 {
     const double h = t - s->t;
@@ -24,15 +25,16 @@ static inline double stepping_accept(IntegratorState *s, double t, const double 
     return h;
 }
 
-// A derivative for a trial state that has none (NaN).  ERKStep has no recoverable failure, so the huge derivative makes the error test fail and the
-// step is tried again with a smaller size.  The sign alternates with the count of such stages, so that two of them do not cancel.
+// Sets a huge derivative for a trial state whose own derivative is not finite.  ERKStep has no recoverable
+// failure for such a stage; the huge derivative makes the error test fail, and the step is repeated with a
+// smaller size.  The sign alternates with the count of such stages, so that two of them do not cancel.
 static inline void stepping_refuse(const double weight[N_STATES], unsigned count, double *f)
 {
     const double huge = count % 2 == 0 ? 1e15 : -1e15;  // [1/s] in units of the tolerance
     for (int i = 0; i < N_STATES; i++) f[i] = huge / weight[i];
 }
 
-// A message of SUNDIALS as one line of the log.
+// Sends a message of SUNDIALS to the log, as one line.
 static inline void stepping_report(double t, const char *function, int line, const char *message, int code,
                                    IntegratorLog *log, void *context)
 {

@@ -1,4 +1,4 @@
-// Vectors of the balls' frames: three packets.
+// Vectors in the frames of the balls: three packets each.
 #pragma once
 
 #include "model.h"
@@ -41,7 +41,7 @@ INLINE vec vec_across(vec v, vec n)
     return vec_axpy(-vec_dot(v, n), n, v);
 }
 
-// A vector of the global frame, seen from balls at azimuth theta.
+// Components of a vector of the global frame in the frames of balls at azimuth theta.
 INLINE vec vec_local(const scalar global[3], wide cos_theta, wide sin_theta)
 {
     const wide y = wide_set(global[1]), z = wide_set(global[2]);

@@ -1,4 +1,5 @@
-// Operations on the state vector.  Elementwise, or summed in eight partial sums: the same bits for every instruction set.
+// Operations on the state vector.  They run element by element, or sum in eight partial sums, so that every
+// instruction set gives the same bits.
 #include "vector_ops.h"
 
 #define ALL(i) for (int i = 0; i < N_STATES; i++)
@@ -8,7 +9,8 @@ static void linear_sum(double a, const double *x, double b, const double *y, dou
     ALL(i) z[i] = a * x[i] + b * y[i];
 }
 
-// One pass for a number n of vectors that the compiler knows; z may be one of them.
+// Linear combination of n vectors in one pass; the compiler knows n where it inlines this function.  z may be
+// one of the vectors.
 INLINE void combine(int n, const double *c, double *const *x, double *z)
 {
     ALL(i)
@@ -51,7 +53,7 @@ static double wrms_norm(const double *x, const double *w)
 
 static bool all_finite(const double *x)
 {
-    double part[8] = {0};  // x - x is 0, or NaN where x is not finite
+    double part[8] = {0};  // sums of x - x, which is 0 for a finite x and NaN otherwise
 
     enum { WHOLE = N_STATES / 8 * 8 };
 

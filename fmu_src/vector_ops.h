@@ -1,4 +1,5 @@
-// Operations on the state vector, for ARKODE and the error norm of Verlet steps: fixed length, one pass each, in the instruction set of the right-hand side.
+// Operations on the state vector for ARKODE and for the error norm of Verlet steps: fixed length, one pass
+// each, in the instruction set of the right-hand side.
 #pragma once
 
 #include "isa.h"
