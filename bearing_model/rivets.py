@@ -11,7 +11,7 @@ limited where it opens the joint.  Everything is in the body frame of half 0: ri
 
 import numpy as np
 
-from bearing_model.lanes import lanes_sum
+from bearing_model.lanes import ball_array_sum
 from bearing_model.load_path import PATH_M_R, PATH_M_T, PATH_N, PATH_V_R, PATH_V_T, load_path_flexible, load_path_rigid
 from bearing_model.pocket import pocket_split
 from bearing_model.rivet_rom import RivetLoad, joint_prying
@@ -34,8 +34,8 @@ def rigid_wrench(model, w, pocket_F, pocket_M):
     """Wrench of pockets and lands on half 1 less that on half 0, halved, about the cage's centre in its body frame."""
     cage, other = w.half
     # half 0 holds the pocket forces: what half 1 gets of them goes over
-    F = 0.5 * (other.F - cage.F) + lanes_sum(pocket_F[1])
-    M = 0.5 * (other.M - cage.M) + lanes_sum(pocket_M[1])
+    F = 0.5 * (other.F - cage.F) + ball_array_sum(pocket_F[1])
+    M = 0.5 * (other.M - cage.M) + ball_array_sum(pocket_M[1])
     axes = (cage.a, cage.b_y, cage.b_z)
     return [vec_dot(e, F) for e in axes] + [vec_dot(e, M) for e in axes]
 
