@@ -15,7 +15,8 @@ force across n that pushes the halves apart; without it energy is not conserved.
 Friction P_S at the contact point p + R n with the slip v + omega x R n; the coefficient goes from that of the film to that of the
 asperities by Lambda (mixed lubrication); P_R and its horizontal counterpart are the inlet's rolling friction as in the races, with the
 mean speed |slip|/2 and R_x = R.  The half gets the opposite forces at the same points.
-Smoothness: C1 at touch-down and where the patch leaves a half.  The cylinder has no radial end: a ball whose equator leaves the cage's section is reported, not modelled.
+Smoothness: C1 at touch-down and where the patch leaves a half.  The cylinder has no radial end: a ball whose equator leaves the cage's section is
+reported, not modelled.
 """
 
 import numpy as np
