@@ -2,11 +2,10 @@
 
 import numpy as np
 import pytest
-from mechanics import Z, clear_balls, frames, on_ball, place_balls, pocket_loads, pocket_wrench, pose
+from mechanics import Z, clear_balls, frames, on_ball, place_balls, pocket_contact, pocket_loads, pocket_wrench, pose
 from scipy.integrate import quad
 from scipy.spatial.transform import Rotation
 
-from bearing_model.hertz_exact import HertzContact, hertz_ellipse
 from bearing_model.variables import CageModel, Lubrication
 
 TWINS = True
@@ -50,14 +49,6 @@ def test_cylinder(core):
     assert not pocket_loads(m).any()
 
 
-def ellipse(Q):
-    """Half axes of the contact ellipse under Q [N], the long one around the pocket's axis, where the pocket hugs the ball: by the quasi-static model."""
-    curvatures = np.array([1 / R, 1 / R - 1 / (R + GAP)])  # along the pocket's axis the ball alone
-    F_rho = (curvatures[0] - curvatures[1]) / curvatures.sum()
-    E_star = 1.0 / ((1 - 0.3**2) / 207e9 + (1 - 0.33**2) / 110e9)
-    return HertzContact(curvatures.sum(), F_rho, E_star, hertz_ellipse(F_rho)).semi_axes(Q)
-
-
 def pressure_beyond(chord, a, b):
     """Part of the pressure sqrt(1 - (x/a)^2 - (y/b)^2) at x > -chord, by quadrature over the ellipse."""
     across = quad(lambda x: quad(lambda y: np.sqrt(max(1 - (x / a) ** 2 - (y / b) ** 2, 0.0)), 0.0, b * np.sqrt(1 - (x / a) ** 2))[0], -chord, a)[0]
@@ -72,7 +63,7 @@ def test_shares_are_those_of_the_pressure(core, angle):
     m, _w = one_ball(core, S * np.sin(angle), S * np.cos(angle), **ELASTIC)
     Q = pocket_loads(m)[:, 0]
     assert Q.sum() == pytest.approx(m.d.pocket.K * delta**1.5, rel=1e-9)
-    a, b = ellipse(Q.sum())
+    a, b = pocket_contact().semi_axes(Q.sum())
     chord = np.clip((R + GAP) * np.sin(angle), -a, a)  # of the wall, whose radius is R + GAP
     assert Q[1] / Q.sum() == pytest.approx(pressure_beyond(chord, a, b), abs=1e-6)  # the quadrature is off by 2e-7 at the rim
 
@@ -81,7 +72,7 @@ def test_the_patch_lets_go_smoothly(core):
     """A half's load goes to 0 with its slope where the patch leaves it: 3/4 (1 - xi)^2 of the whole."""
     delta = 3e-6
     m, _w = one_ball(core, 0.0, GAP + delta, **ELASTIC)
-    a, _b = ellipse(pocket_loads(m)[:, 0].sum())
+    a, _b = pocket_contact().semi_axes(pocket_loads(m)[:, 0].sum())
     for rest in (1e-2, 1e-3, -1e-3):
         angle = np.arcsin((1.0 - rest) * a / (R + GAP))
         m, _w = one_ball(core, (GAP + delta) * np.sin(angle), (GAP + delta) * np.cos(angle), **ELASTIC)
@@ -95,7 +86,7 @@ def test_the_split_is_pushed_open(core):
     m, _w = one_ball(core, 0.0, GAP + delta, **ELASTIC)
     F_x = np.array([pocket_wrench(m, h)[0][0, 0] for h in range(2)])
     Q = pocket_loads(m)[:, 0].sum()
-    a, _b = ellipse(Q)
+    a, _b = pocket_contact().semi_axes(Q)
     assert F_x == pytest.approx(0.375 * Q * delta * (R + GAP) / (a * (GAP + delta)) * np.array([-1.0, 1.0]), rel=1e-5)
     assert 1.2 < F_x[1] / (3.0 / 16.0 * Q * a / (R + GAP)) < 1.4
 
