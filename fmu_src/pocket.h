@@ -29,7 +29,7 @@ INLINE PocketPlace pocket_place(const Derived *d, const Work *w, const Rotor *ha
     const vec centre = {wide_load(&w->x[j]), wide_load(&w->r[j]), wide_set(0.0)};
     at.p = vec_sub(centre, vec_local(half->x, cos_theta, sin_theta));
     const wide x = vec_dot(at.p, at.a), t = vec_dot(at.p, at.e_t);
-    const wide S = wide_sqrt(x * x + t * t + 1e-30);  // a centred ball has no direction
+    const wide S = wide_sqrt(x * x + t * t + 1e-30);  // 1e-30 gives a centred ball a direction
     at.inv_S = 1.0 / S, at.n_x = x * at.inv_S, at.n_t = t * at.inv_S;
     at.delta = S - (d->pocket_radius - wide_load(&d->R[j]));
     return at;
