@@ -2,19 +2,29 @@
 //
 //        x (a)               a     axis of the half;  e_t  its tangent at pocket j
 //        |   half 1          p = ball centre - geometric centre of the half
-//     .--+--.                (x, t) = (p.a, p.e_t): ball against the pocket's axis;  S = sqrt(x^2 + t^2),  n = (x, t)/S
-//    (   |n->)---- t (e_t)   delta = S - (R_c - R)                                                  Cui et al. (2023)
-//     '--+--'                V = w(n_x) (2/5) K delta^2.5,  share of this half w = (1 +- n_x/sqrt(n_x^2 + width^2))/2
-//        |   half 0          force on the ball: -dV/d(x, t), damping -(K w delta^1.5) lambda delta_dot n,
+//     .--+--.                (x, t) = (p.a, p.e_t): ball against the pocket's axis
+//    (   |n->)---- t (e_t)   S = sqrt(x^2 + t^2),  n = (x, t)/S,  delta = S - (R_c - R)           Cui et al. (2023)
+//     '--+--'                V = e(xi) (2/5) K delta^2.5
+//        |   half 0          xi = +- n_x R_c/a, at most 1: split plane against the patch, a = a_delta delta^0.5
+//                            force on the ball: -dV/d(x, t), damping -(w K delta^1.5) lambda delta_dot n,
 //                            Coulomb friction mu Q
 //
-// Both halves share one contact energy, so the force has a part along the gradient of the share; without this
-// part energy would not be conserved.  The friction P_S acts at the contact point p + R n, where the slip is
-// v + omega x R n; in mixed lubrication its coefficient goes from that of the film to that of the asperities
-// by Lambda.  P_R and its horizontal counterpart are the inlet's rolling friction as in the races, with the
-// mean speed |slip|/2 and R_x = R.  The half gets the opposite forces at the same points.
-// Smoothness: C1 at touch-down.  The cylinder has no radial end: a ball whose equator leaves the cage's
-// section is reported (events.h), not modelled.
+// A half bears the part of the Hertz pressure on its side of the split plane, which cuts the contact ellipse
+// across its long half axis a:
+//     w = 1/2 + 3/4 xi - 1/4 xi^3,  e = 1/2 + 15/16 xi - 5/8 xi^3 + 3/16 xi^5
+// w is the part of the load: the pressure sqrt(1 - (x/a)^2 - (y/b)^2), summed over y, leaves 1 - (x/a)^2
+// along x.  e is the part of the energy: the integral of w K delta^1.5 over delta at the contact's position.
+// Therefore -dV/d(delta) is w K delta^1.5, and both halves together store and bear as much as one whole
+// contact.  The slope of V along the wall is a force across n that pushes the halves apart; without this
+// force energy would not be conserved.
+//
+// The friction P_S acts at the contact point p + R n, where the slip is v + omega x R n; in mixed lubrication
+// its coefficient goes from that of the film to that of the asperities by Lambda.  P_R and its horizontal
+// counterpart are the inlet's rolling friction as in the races, with the mean speed |slip|/2 and R_x = R.
+// The half gets the opposite forces at the same points.
+//
+// Smoothness: C1 at touch-down and where the patch leaves a half.  The cylinder has no radial end: a ball
+// whose equator leaves the cage's section is reported (events.h), not modelled.
 #include "pocket.h"
 
 #include "hertz.h"
@@ -31,42 +41,10 @@ INLINE wide pocket_mu(const Model *model, wide ln_U, wide ln_Q, bool mixed)
     return film + traction_asperity_share(wide_max(ln_piezo, ln_rigid)) * (model->p->oil.mu_b - film);
 }
 
-// Radial direction of the pockets in the frames of the balls: b = b_y cos phi_j + b_z sin phi_j, with the
-// body axes b_y, b_z of the half and the body angle phi_j of pocket j.
-INLINE vec pocket_direction(const Derived *d, const Rotor *half, int j, wide cos_theta, wide sin_theta)
-{
-    const vec b_y = vec_local(half->b_y, cos_theta, sin_theta);
-    const vec b_z = vec_local(half->b_z, cos_theta, sin_theta);
-    return vec_axpy(wide_load(&d->pocket_sin[j]), b_z, vec_scale(wide_load(&d->pocket_cos[j]), b_y));
-}
-
 // Adds v to the vectors stored at x, r, t.
 INLINE void add_vec(vec v, scalar *x, scalar *r, scalar *t)
 {
     vec_store(vec_add(vec_load(x, r, t), v), x, r, t);
-}
-
-// Where a packet of balls lies in the pockets of one half, in the frames of the balls.
-typedef struct {
-    vec arm;        // p: ball centre - geometric centre of the half
-    vec a, b, e_t;  // axis of the half, direction of the pocket, tangent
-    wide x, t;      // of the ball against the pocket's axis
-    wide S, delta;  // distance from the axis; elastic approach (negative: the pocket is open)
-} PocketGap;
-
-INLINE PocketGap pocket_gap(const Derived *d, const Work *w, const Rotor *half, int j)
-{
-    const wide cos_theta = wide_load(&w->cos_theta[j]), sin_theta = wide_load(&w->sin_theta[j]);
-    const vec centre = {wide_load(&w->x[j]), wide_load(&w->r[j]), wide_set(0.0)};
-    PocketGap gap = {.a = vec_local(half->a, cos_theta, sin_theta),
-                     .b = pocket_direction(d, half, j, cos_theta, sin_theta)};
-    gap.e_t = vec_cross(gap.a, gap.b);
-    gap.arm = vec_sub(centre, vec_local(half->x, cos_theta, sin_theta));
-    gap.x = vec_dot(gap.arm, gap.a);
-    gap.t = vec_dot(gap.arm, gap.e_t);
-    gap.S = wide_sqrt(gap.x * gap.x + gap.t * gap.t + 1e-30);
-    gap.delta = gap.S - (d->pocket_radius - wide_load(&d->R[j]));
-    return gap;
 }
 
 // Forces in a packet of pockets, stored for the half and added to the balls.  whole: the rigid cage, whose
@@ -82,8 +60,8 @@ INLINE void pocket_contacts(const Model *model, Work *w, int h, int j, const Poc
     const wide R = wide_load(&d->R[j]);
 
     // normal
-    const vec a = gap->a, b = gap->b, e_t = gap->e_t, arm_p = gap->arm;
-    const wide delta = gap->delta, inv_S = 1.0 / gap->S, n_x = gap->x * inv_S, n_t = gap->t * inv_S;
+    const vec a = gap->a, e_t = gap->e_t, arm_p = gap->p;
+    const wide n_x = gap->n_x, n_t = gap->n_t;
     const vec n = vec_axpy(n_t, e_t, vec_scale(n_x, a));
 
     // velocity of the ball's centre against the half there
@@ -93,15 +71,12 @@ INLINE void pocket_contacts(const Model *model, Work *w, int h, int j, const Poc
     const vec v = vec_sub(vec_sub(v_b, vec_local(half->v, cos_theta, sin_theta)), vec_cross(Omega, arm_p));
     const wide delta_dot = vec_dot(n, v);
 
-    // share of the half and its slope over n_x; the sign is that of the half's side
-    const double side = h == 0 ? -1.0 : 1.0, width = p->cage.share_width;
-    const wide share = whole ? wide_set(1.0) : pocket_share(side, n_x, width);
-    const wide share_slope = whole ? wide_set(0.0) : pocket_share_slope(side, n_x, width);
-
-    // contact load, and the energy's gradient across n: dV/dn_x grad n_x, grad n_x = (n_t a - n_x e_t) n_t/S
-    const wide K = wide_set(d->pocket.K), Q_0 = share * hertz_load(K, delta);
+    // share of the half, contact load, and the energy's gradient across n
+    const PocketShare all = {wide_set(1.0), wide_set(1.0), wide_set(0.0)};
+    const PocketShare share = whole ? all : pocket_share(d, h, n_x, gap->delta);
+    const wide Q_0 = share.load * hertz_load(wide_set(d->pocket.K), gap->delta);
     const wide Q = hertz_damped(Q_0, wide_set(p->cage.lambda), delta_dot);
-    const wide F_across = hertz_energy(K, delta) * share_slope * n_t * inv_S;
+    const wide F_across = pocket_across(d, gap, share.slope);
     const vec F_n = vec_axpy(-Q, n, vec_axpy(-F_across * n_t, a, vec_scale(F_across * n_x, e_t)));
 
     // friction at the contact point (F_s), film force through the ball's centre (F_c)
@@ -119,7 +94,7 @@ INLINE void pocket_contacts(const Model *model, Work *w, int h, int j, const Poc
 
     wide_store(&pocket->Q[j], Q);
     wide_store(&pocket->F_x[j], vec_dot(F_half, a));
-    wide_store(&pocket->F_r[j], vec_dot(F_half, b));
+    wide_store(&pocket->F_r[j], vec_dot(F_half, gap->b));
     wide_store(&pocket->F_t[j], vec_dot(F_half, e_t));
     vec_to_global(F_half, cos_theta, sin_theta, &pocket->half_F_x[j], &pocket->half_F_y[j],
                   &pocket->half_F_z[j]);
@@ -175,4 +150,38 @@ void pocket_force(const Model *model, Work *w)
     const bool mixed = model->p->scene.lubrication == LUBRICATION_MIXED;
     const bool rigid = model->p->scene.cage == CAGE_MODEL_RIGID;
     for (int h = 0; h < (rigid ? 1 : 2); h++) pocket_half(model, w, h, mixed, rigid);
+}
+
+void pocket_split(const Model *model, const Work *w, Pockets on[2])
+{
+    const Derived *d = model->d;
+    const Rotor *cage = &w->half[0];
+    const Pockets *whole = &w->pocket[0];
+    const scalar *from[] = {whole->F_x,      whole->F_r,      whole->F_t,
+                            whole->half_F_x, whole->half_F_y, whole->half_F_z,
+                            whole->half_M_x, whole->half_M_y, whole->half_M_z};
+    scalar *to[2][9];
+    for (int h = 0; h < 2; h++) {
+        scalar *rows[] = {on[h].F_x,      on[h].F_r,      on[h].F_t,      on[h].half_F_x, on[h].half_F_y,
+                          on[h].half_F_z, on[h].half_M_x, on[h].half_M_y, on[h].half_M_z};
+        memcpy(to[h], rows, sizeof rows);
+    }
+    for (int j = 0; j < PACKETS * LANE_WIDTH; j += LANE_WIDTH) {
+        const wide cos_theta = wide_load(&w->cos_theta[j]), sin_theta = wide_load(&w->sin_theta[j]);
+        const PocketGap gap = pocket_gap(d, w, cage, j);
+        const PocketShare share = pocket_share(d, 1, gap.n_x, gap.delta);
+        const wide F_across = pocket_across(d, &gap, share.slope);
+        const vec push = vec_axpy(F_across * gap.n_t, gap.a, vec_scale(-F_across * gap.n_x, gap.e_t));
+        vec_store((vec){F_across * gap.n_t, wide_set(0.0), -F_across * gap.n_x}, &on[1].F_x[j], &on[1].F_r[j],
+                  &on[1].F_t[j]);
+        vec_to_global(push, cos_theta, sin_theta, &on[1].half_F_x[j], &on[1].half_F_y[j], &on[1].half_F_z[j]);
+        vec_to_global(vec_cross(gap.p, push), cos_theta, sin_theta, &on[1].half_M_x[j], &on[1].half_M_y[j],
+                      &on[1].half_M_z[j]);
+        for (int i = 0; i < 9; i++) {
+            const wide both = wide_load(&from[i][j]),
+                       part = wide_fma(share.load, both, wide_load(&to[1][i][j]));
+            wide_store(&to[1][i][j], part);
+            wide_store(&to[0][i][j], both - part);
+        }
+    }
 }

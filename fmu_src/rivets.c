@@ -39,7 +39,7 @@ static void two_half_load(const Model *model, const Work *w, RivetLoads *load)
 
 // Wrench of pockets and land on half 1 less that on half 0, halved, about the cage's centre in its body
 // frame.
-static void rigid_wrench(const Model *model, const Work *w, scalar wrench[6])
+static void rigid_wrench(const Work *w, const Pockets *on_1, scalar wrench[6])
 {
     const Rotor *cage = &w->half[0];
     scalar global[6];
@@ -48,18 +48,10 @@ static void rigid_wrench(const Model *model, const Work *w, scalar wrench[6])
         global[3 + i] = 0.5 * (w->half[1].M[i] - w->half[0].M[i]);
     }
 
-    // half 0 holds all pocket forces: their share of half 1 is to count for half 1
-    const Pockets *pocket = &w->pocket[0];
-    const scalar *wrenches[6] = {pocket->half_F_x, pocket->half_F_y, pocket->half_F_z,
-                                 pocket->half_M_x, pocket->half_M_y, pocket->half_M_z};
-    ball_array share;
-    for (int j = 0; j < PACKETS * LANE_WIDTH; j += LANE_WIDTH) {
-        const wide F_x = wide_load(&pocket->F_x[j]), F_t = wide_load(&pocket->F_t[j]);
-        const wide n_x = F_x / wide_sqrt(F_x * F_x + F_t * F_t + 1e-30);  // 0 where there is no force
-        wide_store(&share[j], pocket_share(1.0, n_x, model->p->cage.share_width));
-    }
-    for (int j = 0; j < Z; j++)
-        for (int i = 0; i < 6; i++) global[i] += share[j] * wrenches[i][j];
+    // half 0 holds all pocket forces: those of half 1 go over to it
+    const scalar *pockets[6] = {on_1->half_F_x, on_1->half_F_y, on_1->half_F_z,
+                                on_1->half_M_x, on_1->half_M_y, on_1->half_M_z};
+    for (int i = 0; i < 6; i++) global[i] += ball_array_sum(pockets[i]);
 
     // into the body frame
     const scalar *axes[3] = {cage->a, cage->b_y, cage->b_z};
@@ -70,12 +62,12 @@ static void rigid_wrench(const Model *model, const Work *w, scalar wrench[6])
 }
 
 // Loads of the joints of a rigid cage, without the flexible share.
-static void rigid_load(const Model *model, const Work *w, RivetLoads *load)
+static void rigid_load(const Model *model, const Work *w, const Pockets *on_1, RivetLoads *load)
 {
     const double R = 0.5 * model->p->bearing.d_m, friction = model->p->joint.mu * model->d->P;
     double c[Z], s[Z];
     scalar wrench[6], V_y[Z], V_z[Z];
-    rigid_wrench(model, w, wrench);
+    rigid_wrench(w, on_1, wrench);
     for (int k = 0; k < Z; k++) {
         c[k] = model->d->rivet_y[k] / R;
         s[k] = model->d->rivet_z[k] / R;
@@ -121,19 +113,21 @@ void joint_prying(const JointData *j, RivetLoads *load)
 void rivets_load(const Model *model, const Work *w, RivetLoads *load)
 {
     const bool rigid = model->p->scene.cage == CAGE_MODEL_RIGID, transverse = model->d->hole_gap == 0.0;
+    const Pockets *on = w->pocket;
+    Pockets split[2];
     *load = (RivetLoads){0};
-    if (rigid)
-        rigid_load(model, w, load);
-    else
+    if (rigid) {
+        pocket_split(model, w, split);
+        on = split;
+        rigid_load(model, w, &split[1], load);
+    } else
         two_half_load(model, w, load);
 
     // flexible share
     PathLoads path = {0};
-    for (int h = 0; h < (rigid ? 1 : 2); h++) {
-        const Pockets *pocket = &w->pocket[h];
-        load_path_flexible(rivet_table.load_path, h == 0 ? -1 : 1, transverse, pocket->F_x, pocket->F_r,
-                           pocket->F_t, &path);
-    }
+    for (int h = 0; h < 2; h++)
+        load_path_flexible(rivet_table.load_path, h == 0 ? -1 : 1, transverse, on[h].F_x, on[h].F_r,
+                           on[h].F_t, &path);
     for (int k = 0; k < PACKETS * LANE_WIDTH; k += LANE_WIDTH)
         wide_store(&load->N[k], wide_load(&load->N[k]) + wide_load(&path.sum[PATH_N][k]));
     if (transverse) add_turned(model, path.sum[PATH_V_R], path.sum[PATH_V_T], load->V_y, load->V_z);
