@@ -8,8 +8,10 @@
         '-----------'          with a = eps.V/|V|, b = eps.V_perp/|V|, V_perp = e_x x V, q^2 = 1 - eps^2, S = pi/2 + atan(a/q):
     I_c = int cos^2 phi/(1 - a cos phi - b sin phi)^3 dphi = 3 a/q^4 + S (q^2 + 3 a^2)/q^5                    phi = -pi/2 ... pi/2
     I_s = int sin phi cos phi/(...)^3 dphi               = 2 b/q^4 + a^2 b/(q^4 (1 - b^2)) + 3 a b S/q^5
+    I_t = int sin^2 phi/(...)^3 dphi                     = a/(q^2 (1 - b^2)) + 3 a b^2/(q^4 (1 - b^2)) + 2 a b^2/(q^2 (1 - b^2)^2) + S (q^2 + 3 b^2)/q^5
 
-Steady rotation gives Ocvirk's force (a = 0), pure squeeze the pi-film's.  Regular at e = 0; C0 in V (cavitation), C1 elsewhere.
+Steady rotation gives Ocvirk's force (a = 0), pure squeeze the pi-film's.  F derives from int (V.n)^2/h^3 over the closing half, so
+-dF/dV = kappa (I_c, I_s; I_s, I_t) exactly: these are the stiff rates.  Regular at e = 0; C0 in V (cavitation), C1 elsewhere.
 q^2 is g_0 at the wall and g_0/2 behind it, eps has the cap 1.2; the dry contact F = K_land (e - C)^1.5 takes over there.
 """
 
@@ -25,13 +27,14 @@ EPS_CAP = 1.2
 
 
 def land_film_integrals(a, b, q2):
-    """I_c and I_s of the head of this file."""
+    """I_c, I_s and I_t of the head of this file."""
     q = np.sqrt(q2)
     q4, q5, c2 = q2 * q2, q2 * q2 * q, q2 + a * a  # c2 = 1 - b^2
     S = 0.5 * np.pi + np.arctan(a / q)
     I_c = 3.0 * a / q4 + S * (q2 + 3.0 * a * a) / q5
     I_s = 2.0 * b / q4 + a * a * b / (q4 * c2) + 3.0 * a * b * S / q5
-    return I_c, I_s
+    I_t = a / (q2 * c2) + 3.0 * a * b * b / (q4 * c2) + 2.0 * a * b * b / (q2 * c2 * c2) + S * (q2 + 3.0 * b * b) / q5
+    return I_c, I_s, I_t
 
 
 def land_film_gap(eps, g_0):
@@ -41,7 +44,10 @@ def land_film_gap(eps, g_0):
 
 
 def land_film_force(model, w):
-    """Adds film, friction and dry contact of both lands to the halves; sets their elastic energy and dissipated power."""
+    """Adds film, friction and dry contact of both lands to the halves; sets their elastic energy and dissipated power.
+
+    film_yy, film_yz, film_zz, film_spin: -dF/dv [N.s/m] and -dM/domega [N.m.s] of each land, for the integrator's Jacobian.
+    """
     p, d = model.p, model.d
     h0, h1 = w.half
     x_land = np.array([-p.cage.land_x, p.cage.land_x])
@@ -61,7 +67,7 @@ def land_film_force(model, w):
     cap = minimum(1.0, EPS_CAP / eps) / d.C_land
     a, b = (e_y * n_y + e_z * n_z) * cap, (e_z * n_y - e_y * n_z) * cap
     q2 = land_film_gap(eps, p.cage.g_0)
-    I_c, I_s = land_film_integrals(a, b, q2)
+    I_c, I_s, I_t = land_film_integrals(a, b, q2)
     F_y, F_z = -d.kappa * (I_c * V_y - I_s * V_z), -d.kappa * (I_c * V_z + I_s * V_y)
     couette = d.couette / np.sqrt(q2)
 
@@ -76,7 +82,8 @@ def land_film_force(model, w):
         N_mu = N + traction_asperity_share(ln_Lambda) * np.sqrt(F_y * F_y + F_z * F_z)
     R = 0.5 * p.cage.D_o
     slip = v_z * u_y - v_y * u_z + omega * R  # along t = e_x x u
-    F_t = -p.cage.mu_land * N_mu * slip / np.sqrt(slip * slip + p.cage.v_c**2)
+    g = p.cage.mu_land * N_mu / np.sqrt(slip * slip + p.cage.v_c**2)
+    F_t = -g * slip
     F_y = F_y - N * u_y - F_t * u_z
     F_z = F_z - N * u_z + F_t * u_y
     M_x = R * F_t - couette * omega
@@ -84,6 +91,12 @@ def land_film_force(model, w):
     power = F_y * v_y + F_z * v_z + M_x * omega
     w.land_elastic = lanes_sum(hertz_energy(p.cage.K_land, pen))
     w.land_dissipated = -lanes_sum(power + N_0 * pen_dot)
+
+    # -dF/dv in the global frame
+    w.film_yy = d.kappa * (I_c * n_y * n_y - 2.0 * I_s * n_y * n_z + I_t * n_z * n_z)
+    w.film_zz = d.kappa * (I_c * n_z * n_z + 2.0 * I_s * n_y * n_z + I_t * n_y * n_y)
+    w.film_yz = d.kappa * ((I_c - I_t) * n_y * n_z + I_s * (n_y * n_y - n_z * n_z))
+    w.film_spin = couette + g * R * R
 
     F = vec(0.0, F_y, F_z)
     M = vec(M_x, 0.0, 0.0) + vec_cross(x_land * axis, F)
