@@ -1,5 +1,5 @@
 """The default step: verlet.c, implicit.c and the control of integrator.c against their dense twin bearing_model/verlet.py, and both against what numerical
-analysis expects of them.  Differences are in units of the error scales (10 um, 0.1 m/s ..., derived.py): what a tolerance of 1 allows.
+analysis expects of them.  The error scales (10 um, 0.1 m/s ..., derived.py) are the units.
 """
 
 from types import SimpleNamespace
@@ -12,7 +12,7 @@ from test_jacobian import KINDS, SCENES, make_model, make_state
 from bearing_model import verlet
 from bearing_model.model import Model, Work
 from bearing_model.rhs import jacobian, rhs
-from bearing_model.variables import N_STATES, RING_V_X, WORK, CageModel, Lubrication, TiltMode, Traction
+from bearing_model.variables import N_STATES, RING_BETA_DOT, RING_GAMMA_DOT, RING_V_X, STATE_SLICES, WORK, CageModel, Lubrication, TiltMode, Traction
 from bearing_model.verlet import FRICTION, N_V, POSITIONS, RING, V, VerletState
 
 TWIN = SimpleNamespace(model=Model.of)  # what make_model builds models with
@@ -35,14 +35,15 @@ def copied(state):
     return VerletState(np.array(list(state.y)), np.array(list(state.f)), np.array(list(state.jerk)), np.array(film), state.h)
 
 
-def differences(c, end, h, scale):
-    """Largest difference of each kind of result between the C core's VerletState and the twin's."""
-    units, found = {"y": scale, "f": scale / h, "jerk": scale / h**2}, {}
-    for name, unit in units.items():
-        difference = np.abs(np.array(list(getattr(c, name))) - getattr(end, name)) / unit
+def differences(c, start, end, h, scale):
+    """Largest difference of each kind of result between the C core's VerletState and the twin's, relative to 1 + the largest change of that kind."""
+    found = {}
+    for name, unit in (("y", scale), ("f", scale / h), ("jerk", scale / h**2)):
+        by_core, by_twin = np.array(list(getattr(c, name))) / unit, getattr(end, name) / unit
+        change = by_twin - start.y / scale if name == "y" else by_twin
         for part, rows in (("positions", POSITIONS), ("friction states", FRICTION), ("velocities", V)):
             if name == "y" or rows != POSITIONS:
-                found[f"{part}: {name}"] = np.max(difference[rows])
+                found[f"{part}: {name}"] = np.max(np.abs(by_core - by_twin)[rows]) / (1.0 + np.max(np.abs(change)[rows]))
     for name in ("y", "f"):
         value = getattr(end, name)[WORK][0]
         found[f"work: {name}"] = abs(getattr(c, name)[WORK.start] - value) / max(abs(value), 1.0)
@@ -66,20 +67,24 @@ def test_step(core, scene, record_property):
         return b
 
     for i, kind in enumerate(KINDS):
-        c, model = make_model(core, kind, scene), make_model(TWIN, kind, scene)
+        changes = {"oil.A": 0.0, "oil.B": 30.0, "oil.C": 0.0} if kind == "slow" else {}  # steep traction: the ring is coupled
+        c, model = make_model(core, kind, scene, **changes), make_model(TWIN, kind, scene, **changes)
         state = started(core, c, make_state(c, kind, rng))
-        for h in 10.0 ** rng.uniform(-6.3, -5.0, 2) * (10.0 if kind == "slow" else 1.0):
+        for h in (1e-5, 7e-6) if kind == "slow" else 10.0 ** rng.uniform(-6.3, -5.0, 2):
             start = copied(state)
             weight = np.where(np.arange(N_STATES) < WORK.start, i % 2, 1 - i % 2) / model.d.scale  # the error of friction states or that of velocities
             state, error = c.verlet(0.0, h, state, weight)
             end, error_twin = verlet.verlet_step(model, 0.0, h, weight, start, watched)
-            found = differences(state, end, h, model.d.scale) | {"error": abs(error - error_twin) / max(error_twin, 1e-3)}
+            found = differences(state, start, end, h, model.d.scale) | {"error": abs(error - error_twin) / max(error_twin, 1e-3)}
             worst = {name: max(worst.get(name, 0.0), value) for name, value in found.items()}
             seen.update({"limited"} if np.any(verlet.predictor_limiter(model, h, start)) else ())
     record_property("worst", {name: float(value) for name, value in worst.items()})
     print({name: f"{value:.1e}" for name, value in worst.items()}, sorted(seen))
     assert max(worst.values()) < 1e-9  # observed 6e-11
     assert seen == {"stiff balls", "slow balls", "ring coupled", "ring alone", "limited"}
+
+
+ROUNDING = {"rtol": 1e-10, "atol": 1e-12}  # observed 7e-13
 
 
 def evaluated(core, kind, scene, **changes):
@@ -91,25 +96,37 @@ def evaluated(core, kind, scene, **changes):
     return c, model, y, w
 
 
+def set_ball(work, name, j, value):
+    """One number of ball j in the C core's Work or in the twin's."""
+    if hasattr(work, name):
+        getattr(work, name)[j] = value
+    else:
+        vector, axis = name.rsplit("_", 1)
+        getattr(work, vector)["xrt".index(axis), j] = value
+
+
 def solved(c, model, y, w, gamma):
     """Random velocities taken through both linear solves by the C core and by the twin: [2, N_V] each."""
     b, v = verlet.jacobian_blocks(model, 0.0, y, w, gamma), np.zeros(N_STATES)
     v[V] = np.random.default_rng(33).standard_normal(N_V)
-    by_core = np.array([c.implicit(function, gamma, v)[V] for function in ("implicit_solve", "implicit_held")])
+    by_core = np.array([c.implicit(function, gamma, v)[V] for function in ("implicit_solve", "implicit_stiff_part")])
     return by_core, np.array([np.linalg.solve(b.matrix(gamma), v[V]), v[V] - np.linalg.solve(b.matrix_stiff(gamma), v[V])])
 
 
-def test_stiff_limit(core):
+@pytest.mark.parametrize("by", ["traction", "pocket"])
+def test_stiff_limit(core, by):
     """A ball's accelerations are damped from gamma A = 2 on, A the mean rate along its contacts' two tangents: half a percent less, and they are not."""
     c, model, y, w = evaluated(core, "pockets closed", POINT_FILM)
-    g, D = w.g_i + w.g_e, np.sum(w.D, axis=0) + np.sum(w.D_omega, axis=0)
-    rate = g / model.d.m + g * model.d.R**2 / model.d.J + D / 2.0
-    j = np.argmax(D)  # a ball in touch with its pocket
-    assert D[j] / 2.0 > 0.05 * rate[j]
+    j = np.argmax(np.sum(w.D, axis=0))  # a ball in touch with its pocket: held back by the one or the other alone
+    for work in (c.work, w):
+        for name in ("g_i", "g_e") if by == "pocket" else ("D_x", "D_r", "D_t", "D_omega_x", "D_omega_r", "D_omega_t"):
+            set_ball(work, name, j, 0.0)
+    g, d = w.g_i[j] + w.g_e[j], model.d
+    rate = g / d.m + g * d.R[j] ** 2 / d.J + (np.sum(w.D[:, j]) + np.sum(w.D_omega[:, j])) / 2.0
     for factor in (0.995, 1.005):
-        by_core, by_twin = solved(c, model, y, w, factor * 2.0 / rate[j])
-        np.testing.assert_allclose(by_core, by_twin, rtol=0.0, atol=1e-11)
-        assert np.any(by_core[1][verlet.BALL[:, j]]) == (factor > 1.0)
+        by_core, by_twin = (result[:, verlet.BALL[:, j]] for result in solved(c, model, y, w, factor * 2.0 / rate))
+        np.testing.assert_allclose(by_core, by_twin, **ROUNDING)
+        assert np.any(by_core[1]) == (factor > 1.0)
 
 
 @pytest.mark.parametrize("tilt_mode", [TiltMode.PRESCRIBED, TiltMode.SUPPORTED])
@@ -121,7 +138,7 @@ def test_coupling_limit(core, tilt_mode):
     assert r * r / ring.J_t > 1.1 / ring.m  # each criterion decides once
     for factor in (0.995, 1.005):
         by_core, by_twin = solved(c, model, y, w, factor * 0.2 / rate)
-        np.testing.assert_allclose(by_core, by_twin, rtol=0.0, atol=1e-11)
+        np.testing.assert_allclose(by_core, by_twin, **ROUNDING)
         coupled = verlet.jacobian_blocks(model, 0.0, y, w, factor * 0.2 / rate).A[np.ix_(verlet.BALL[0], RING)]
         assert np.any(coupled) == (factor > 1.0)
 
@@ -129,17 +146,16 @@ def test_coupling_limit(core, tilt_mode):
 def test_approach_floor(core):
     """The stiffness 3 Q/(2 delta) takes an approach of less than 1e-12 m as 1e-12 m; without approach there is none."""
     c, model, y, w = evaluated(core, "pockets open", POINT_FILM)
-    stiffness = []
+    found = []
     for delta in (5e-13, 1e-12, 0.0):
-        for name, work in (("Q", 1e-6), ("delta", delta)):
-            for race in "ie":
-                getattr(c.work, f"{name}_{race}")[0] = work
-                getattr(w, f"{name}_{race}")[0] = work
+        for work in (c.work, w):
+            for name, value in (("Q_i", 1e-6), ("Q_e", 1e-6), ("delta_i", delta), ("delta_e", delta)):
+                set_ball(work, name, 0, value)
         by_core, by_twin = solved(c, model, y, w, 4e-6)
-        np.testing.assert_allclose(by_core, by_twin, rtol=0.0, atol=1e-11)
-        stiffness.append(by_core[0][verlet.BALL[:, 0]])
-    assert np.max(np.abs(stiffness[0] - stiffness[1])) < 1e-12
-    assert np.max(np.abs(stiffness[0] - stiffness[2])) > 1e-4
+        np.testing.assert_allclose(by_core, by_twin, **ROUNDING)
+        found.append(by_core[0][verlet.BALL[:, 0]])
+    assert np.max(np.abs(found[0] - found[1])) < 1e-12
+    assert np.max(np.abs(found[0] - found[2])) > 1e-4
 
 
 # ------------------------------------------------------------------------------------------------------------------- order
@@ -180,12 +196,15 @@ def running(core, name):
 
 @pytest.mark.parametrize("name", RUNNING)
 def test_order(core, name, record_property):
-    """Order two in 10 us of 8, 16 and 32 steps, whatever A and K are: a W-method.  The error stays below the sum of the steps' estimates."""
+    """Order two in 20 and 40 steps over 20 us, whatever A and K are: a W-method.
+
+    The error itself is the sum of the steps' estimates, as far as errors add up in so short a time.
+    """
     model, y = running(core, name)
-    reference, T, numbers = exact(model, y, [1e-5], steps=40)[0], 1e-5, np.array([8, 16, 32])
-    unit = 1.0 / model.d.scale
-    unit[WORK] = 0.0
-    for blocks in (verlet.jacobian_blocks, verlet.masked_jacobian, perturbed, explicit):
+    T, numbers, unit = 2e-5, np.array([20, 40]), 1.0 / model.d.scale
+    reference, unit[WORK] = exact(model, y, [T], steps=60)[0], 0.0
+    others = (verlet.masked_jacobian, explicit) if name == "working point" else ()
+    for blocks in (verlet.jacobian_blocks, perturbed, *others):
         error, estimate = [], []
         for n in numbers:
             state, estimates = VerletState(y.copy(), rhs(model, 0.0, y)), []
@@ -193,8 +212,197 @@ def test_order(core, name, record_property):
                 state, norm = verlet.verlet_step(model, k * T / n, T / n, unit, state, blocks)
                 estimates.append(norm)
             error.append(np.sqrt(np.mean(((state.y - reference) * unit) ** 2)))
-            estimate.append(sum(estimates[1:]))
-        slope = -np.polyfit(np.log(numbers), np.log(error), 1)[0]
-        record_property(blocks.__name__, [float(value) for value in (slope, *error)])
-        print(f"{name}, {blocks.__name__}: slope {slope:.3f}, errors {error}, estimates {estimate}")
-        assert abs(slope - 2.0) < 0.1 
+            estimate.append(sum(estimates[1:]))  # the first step has no history to estimate from
+        slope, share = np.log(error[0] / error[1]) / np.log(2.0), np.array(error) / estimate
+        record_property(blocks.__name__, [float(value) for value in (slope, *error, *share)])
+        print(f"{name}, {blocks.__name__}: slope {slope:.3f}, errors {error}, of the estimates {share}")
+        assert abs(slope - 2.0) < 0.1  # observed 2.000 +- 0.004 with the default's A and K, 1.993 ... 2.005 perturbed, 1.91 ... 2.09 without
+        assert np.all((share > 0.5) & (share < 2.0))  # observed 0.89 ... 1.15
+
+
+def extrapolated(coarse, middle, fine):
+    """Limit of values at h, h/2, h/4: errors of the first and second order in h cancel."""
+    return (8.0 * fine - 6.0 * middle + coarse) / 3.0
+
+
+def expected_error(model, y, h, blocks):
+    """Start of a step at y, the state that it should reach, its leading error per h^3 [N_STATES] and what its estimate shows of it: see test_local_error."""
+    f = rhs(model, 0.0, y)
+
+    def along(direction):
+        return np.imag(rhs(model, 0.0, y + 1e-30j * direction)) / 1e-30
+
+    before_2, before, after = exact(model, y, [-2.0 * h, -h, h])
+    second = along(f)
+    jerk, snap = second[V], ((rhs(model, 0.0, after) - 2.0 * f + rhs(model, 0.0, before)) / h**2)[V]
+    third = (after - 3.0 * y + 3.0 * before - before_2) / h**3
+    wrong = (blocks.A + jacobian(model, 0.0, y)[V, V]) @ jerk
+
+    by_stiffness = np.zeros(N_V)
+    for rows in (*verlet.BALL[:2], RING[3:]):
+        by_stiffness[rows] = jerk[rows]
+    for rows in verlet.HALF[[0, 3, 4]]:  # half 1 against half 0
+        by_stiffness[rows] = 0.5 * (jerk[rows[1]] - jerk[rows[0]]) * np.array([-1.0, 1.0])
+    middle = f.copy()  # what the state in the middle of the step is wrong by, per h^2/8
+    middle[POSITIONS], middle[V], middle[FRICTION] = f[V][POSITIONS], -jerk, second[FRICTION]
+
+    error, estimate = np.zeros((2, N_STATES))
+    error[V], estimate[V] = snap / 12.0 - wrong / 2.0, snap / 12.0
+    error[POSITIONS] = (-jerk / 6.0 + by_stiffness / 4.0)[POSITIONS]
+    error[FRICTION], estimate[FRICTION] = (along(middle) / 8.0 - third / 24.0)[FRICTION], third[FRICTION] / 24.0
+    history = VerletState(y, f.copy(), (f - rhs(model, 0.0, before)) / h, h=h)
+    history.f[V] -= h**2 / 2.0 * wrong  # as the steps before have left it
+    history.f[FRICTION], history.jerk[FRICTION] = (y - before)[FRICTION] / h + h**2 * error[FRICTION], (y - 2.0 * before + before_2)[FRICTION] / h**2
+    return history, after, error, estimate
+
+
+def test_local_error(core, record_property):
+    """The error of one step in a run is what docs/method.md derives, and its estimate too.  Per h^3, with J = da/dv, g the rates of the friction states z:
+
+        velocities        a"/12 - (A + J) a'/2                                estimate a"/12
+        positions         -a'/6, where a stiffness acts + a'/12
+        friction states   (dg/dq a - dg/dv a' + dg/dz z")/8 - z"'/24          estimate z"'/24
+
+    Derivatives of the trajectory by complex steps and differences of Runge-Kutta steps; everything is extrapolated to h = 0.
+    """
+    model, y = running(core, "working point")
+    w, scale, found = Work(), model.d.scale, []
+    rhs(model, 0.0, y, w)
+    kinds = [np.where(np.isin(np.arange(N_STATES), np.arange(N_STATES)[rows]), 1.0 / scale, 0.0) for rows in (V, FRICTION)]
+    for h in (1.2e-6, 6e-7, 3e-7):
+        blocks = verlet.jacobian_blocks(model, 0.0, y, w, 0.5 * h)
+        start, after, error, estimate = expected_error(model, y, h, blocks)
+        start.film = verlet.land_films(w)
+        (end, *norm), (_, *norm_friction) = (verlet.verlet_step(model, 0.0, h, weight, start) for weight in kinds)
+        expected_norms = [np.sqrt(np.mean((estimate * weight) ** 2)) for weight in kinds]
+        found.append(((end.y - after) / h**3, error, np.array(norm + norm_friction) / h**3, np.array(expected_norms)))
+    error, expected, norms, expected_norms = (extrapolated(*values) for values in zip(*found, strict=True))
+    deviation = {}
+    for name, rows in STATE_SLICES.items():
+        if name != "work" and np.any(expected[rows]):
+            deviation[name] = np.max(np.abs(error - expected)[rows]) / np.max(np.abs(expected)[rows])
+    record_property("deviation", {name: float(value) for name, value in deviation.items()})
+    print({name: f"{value:.1e}" for name, value in deviation.items()}, norms / expected_norms - 1.0)
+    np.testing.assert_allclose(norms, expected_norms, rtol=1e-3)
+    assert len(deviation) == 31 and max(deviation.values()) < 0.02  # observed 9e-3, azimuths of balls, by rounding
+
+
+# ----------------------------------------------------------------------------------------------------------------- damping
+
+
+def amplification(z, theta=0.15):
+    """One step of v' = -A v, z = gamma A, as a matrix on (v_n, gamma a_n, gamma a_{n-1}); theta: smoothing."""
+    H = z / (1.0 + z)
+    new = np.array([-H, -H, 0.0])
+    return np.array([[1.0 / (1.0 + z), 1.0 / (1.0 + z), 0.0], new - theta * H * (new - [0.0, 2.0, -1.0]), [0.0, 1.0, 0.0]])
+
+
+@pytest.mark.parametrize("z", [0.3, 2.0, 10.0, 1e3])
+def test_damping(core, z):
+    """A ring that nothing but its support holds, v' = -c/m v: each step is the matrix of docs/method.md; stiff rates shrink by at least 0.46 a step."""
+    scene, h = (CageModel.RIGID, Traction.POINT, Lubrication.FILM, TiltMode.SUPPORTED), 2e-6
+    c, model = (make_model(twin, "unloaded", scene, **{"gravity.y": 0.0, "gravity.z": 0.0}) for twin in (core, TWIN))
+    c.p.ring.c = model.p.ring.c = 2.0 * z / h * model.p.ring.m
+    y = make_state(c, "separated", np.random.default_rng(36))
+    y[RING_V_X.start : RING_GAMMA_DOT.stop] = 0.0
+    y[RING_V_X] = 1e-3 / (1.0 + z)  # h a < 2e-3 m/s: nothing touches
+    state, unit, found = started(core, c, y), np.ones(N_STATES), []
+    twin = copied(state)
+    for _ in range(6):
+        assert max(c.work.Q_i) == 0.0
+        state, _ = c.verlet(0.0, h, state, unit)
+        twin, _ = verlet.verlet_step(model, 0.0, h, unit, twin)
+        found.append([state.y[RING_V_X.start], 0.5 * h * state.f[RING_V_X.start]])
+        assert [twin.y[RING_V_X][0], 0.5 * h * twin.f[RING_V_X][0]] == pytest.approx(found[-1], rel=1e-9, abs=1e-15)
+    for (_, w_0), (v_1, w_1), (v_2, w_2) in zip(found, found[1:], found[2:], strict=False):
+        assert [v_2, w_2] == pytest.approx((amplification(z) @ [v_1, w_1, w_0])[:2], rel=1e-9, abs=1e-15)
+    if z >= 2.0:
+        assert 0.38 < np.max(np.abs(np.linalg.eigvals(amplification(z)))) < 0.461
+
+
+# ------------------------------------------------------------------------------------------------------------ control of steps
+
+
+class CoreIntegrator:
+    """verlet_advance of integrator.c on its own: the lengths of the accepted steps."""
+
+    def __init__(self, core, c, y, tolerance):
+        ffi, self.lib, self.taken, self.messages = core.ffi, core.lib, [], []
+        self.state = core.new("IntegratorState")
+        self.state.now.y = list(y)
+        self.hook = ffi.callback("void(void *, double, const Work *)", lambda context, h, w: self.taken.append(h))
+        self.log = ffi.callback("void(void *, const char *)", lambda context, text: self.messages.append(ffi.string(text).decode()))
+        self.kernels, self.model = ffi.new("Kernels *", core.lib.kernels_select()), c
+        new = self.lib.integrator_create(self.kernels, c.pointer, c.work, self.state, self.hook, self.log, ffi.NULL)
+        self.integrator = ffi.gc(new, self.lib.integrator_destroy)
+        self.lib.integrator_tolerance(self.integrator, tolerance)
+
+    def advance(self, h, t_stop):
+        """From time 0 to t_stop, the first step goal h: the accepted lengths, the next goal, the number of refused steps."""
+        self.state.h = h
+        assert self.lib.integrator_advance(self.integrator, t_stop, 10000) == 0, self.messages
+        return np.array(self.taken), self.state.h, self.state.error_tests_failed
+
+
+def both(core, h, t_stop, tolerance, **parameters):
+    """Steps under control by the C core and by the twin: (lengths, next goal, refused) of each."""
+    y, c, model = Instance(core, parameters).step(5e-3).y, core.model(parameters), Model.of(parameters)
+    c.rhs(0.0, y)
+    by_core = CoreIntegrator(core, c, y, tolerance).advance(h, t_stop)
+    with np.errstate(invalid="ignore"):
+        _, *by_twin = verlet.verlet_advance(model, 0.0, t_stop, h, 1.0 / (tolerance * model.d.scale), VerletState(y, rhs(model, 0.0, y)))
+    return by_core, (by_twin[1], by_twin[0], by_twin[2])
+
+
+def same(by_core, by_twin):
+    """Equal numbers of steps and equal lengths; tolerance: the C core's cube root of the error has a relative error of 2e-5."""
+    np.testing.assert_allclose(by_core[0], by_twin[0], rtol=1e-4)
+    assert by_core[1] == pytest.approx(by_twin[1], rel=1e-4)
+    assert by_core[2] == by_twin[2]
+    return by_core[0]
+
+
+@pytest.mark.parametrize(("h", "lubrication"), [(1e-8, 1), (1e-4, 2)])
+def test_control(core, h, lubrication):
+    """Steps that grow from far too small, 1.5 times each, or shrink from far too large, to 0.2 times; then they follow 0.8 error^(-1/3)."""
+    by_core, by_twin = both(core, h, 1.2e-4, 1e-3, **{"scene.lubrication": lubrication})
+    taken = same(by_core, by_twin)
+    if h == 1e-8:
+        np.testing.assert_allclose(taken[1:10] / taken[:9], 1.5, rtol=1e-9)
+    else:
+        assert by_core[2] >= 2.0
+        assert taken[0] < 0.05 * h
+    assert len(taken) > 20
+
+
+def test_last_steps(core):
+    """A goal of up to 1e-9 short of the end takes it in one step; the last two steps are equal where the goal is more than half of what is left."""
+    end, expected = 1e-6, {1.0 - 0.995e-9: [1.0], 1.0 - 1.005e-9: [0.5, 0.5], 0.5025: [0.5, 0.5], 0.4975: [0.4975, 0.5025]}
+    for goal, lengths in expected.items():
+        taken = same(*both(core, goal * end, end, 1.0))
+        np.testing.assert_allclose(taken, np.array(lengths) * end, rtol=1e-12)
+
+
+def test_acceptance(core):
+    """A step is refused from an error of 1 tolerance on."""
+    h, model = 2e-5, Model.of()
+    y = Instance(core).step(5e-3).y
+    _, error = verlet.verlet_step(model, 0.0, h, 1.0 / model.d.scale, VerletState(y, rhs(model, 0.0, y)))
+    for factor, refused in ((1.005, 0.0), (0.995, 1.0)):
+        by_core, by_twin = both(core, h, h, factor * error)
+        assert by_core[2] == by_twin[2] == refused
+
+
+def test_no_derivative(core):
+    """A step into states without a derivative (an axis tilted beyond 90 degrees) is refused, the next one 0.2 times as long."""
+    y, c = Instance(core).step(5e-3).y, core.model({"ring.tilt_mode": TiltMode.FREE})
+    y[RING_BETA_DOT] = 150.0
+    integrator = CoreIntegrator(core, c, y, 1.0)
+    integrator.state.h = 1e-2
+    assert integrator.lib.integrator_advance(integrator.integrator, 1.0, 1) < 0  # the one step that is allowed is refused
+    assert (integrator.state.h, integrator.state.error_tests_failed) == (0.2 * 1e-2, 1.0)
+
+    errors = iter((np.nan, 0.0, 0.0, 0.0, 0.0))
+    taken, refused = verlet.verlet_advance(None, 0.0, 1e-2, 1e-2, None, None, lambda *_: (None, next(errors)))[2:]
+    np.testing.assert_allclose(taken, [2e-3, 3e-3, 2.5e-3, 2.5e-3], rtol=1e-12)  # 0.2 times; 1.5 times where there is no error; two halves
+    assert refused == 1
