@@ -12,7 +12,7 @@ A number is SI, a text carries its unit; what is left out keeps its start value 
 """
 
 import math
-from dataclasses import dataclass, field, fields
+from dataclasses import dataclass, field, fields, replace
 from importlib.resources import files
 from pathlib import Path
 
@@ -58,8 +58,16 @@ class Case:
 
     def equilibrium(self):
         """The QuasiStatic of ring and balls; UserError if there is none."""
+        return self.solved(self.load, "exact")
+
+    def standard_equilibrium(self):
+        """The QuasiStatic as ISO/TS 16281 has it, with linear kinematics and without centrifugal forces; UserError if there is none."""
+        return self.solved(replace(self.load, omega=0.0), "linear")
+
+    def solved(self, load, kinematics):
+        """The QuasiStatic under a load; UserError if there is none."""
         try:
-            return quasi_static(self.bearing, self.load)
+            return quasi_static(self.bearing, load, kinematics=kinematics)
         except (ValueError, ArithmeticError) as problem:
             raise UserError(f"{self.designation}: {problem}") from None
 

@@ -87,11 +87,19 @@ def equilibrium(case, state):
     yield "largest pressure inner, outer", f"{1e-6 * state.p_i.max():.0f}, {1e-6 * state.p_e.max():.0f}", "MPa"
     yield "cage speed", f"{RPM * state.omega_m:,.0f}", "r/min"
     yield "centrifugal force of a ball", f"{state.F_c.mean():.1f}", "N"
-    yield "static safety S_0 (ISO 76)", f"{state.S_0:.3g}", ""
+    if case.bearing.C_0 and math.isfinite(state.S_0):
+        yield "P_0, static safety S_0 = C_0/P_0 (ISO 76)", f"{state.P_0:.0f} N, {state.S_0:.3g}", ""
+    if math.isfinite(state.pressure_safety):
+        yield "safety by pressure, (4200 MPa/p_max)^3", f"{state.pressure_safety:.3g}", ""
     if case.bearing.C and math.isfinite(state.L_10r):
-        yield "reference life L_10r (ISO/TS 16281)", f"{state.L_10r:.4g}", "1e6 turns"
-        if case.load.omega:
-            yield "the same at this speed", f"{state.L_10r * 1e6 * 2.0 * math.pi / abs(case.load.omega) / 3600.0:.4g}", "h"
+        yield "reference life L_10r (ISO/TS 16281)", *life(case.standard_equilibrium().L_10r, case.load)
+        yield "L_10r, exact kinematics, at speed", *life(state.L_10r, case.load)
+
+
+def life(L_10r, load):
+    """A life in 10^6 revolutions as text and unit, with its hours if the bearing turns."""
+    turns = f"{L_10r:.4g}"
+    return (f"{turns}, {L_10r * 1e6 * 2.0 * math.pi / abs(load.omega) / 3600.0:.4g}", "1e6 turns, h") if load.omega else (turns, "1e6 turns")
 
 
 def balls(state):
