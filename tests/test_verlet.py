@@ -393,6 +393,17 @@ def test_acceptance(core):
         assert by_core[2] == by_twin[2] == refused
 
 
+def test_a_step_cut_short(core):
+    """The end of a communication step cuts a step short: the goal before it stays if 0.8 error^(-1/3) is 1 or more, else it follows the short step."""
+    h, model = 2e-5, Model.of()
+    y = Instance(core).step(5e-3).y
+    _, error = verlet.verlet_step(model, 0.0, h, 1.0 / model.d.scale, VerletState(y, rhs(model, 0.0, y)))
+    for factor, goal in ((1.005, 2.0 * h), (0.995, 0.995 * h)):
+        by_core, by_twin = both(core, 2.0 * h, h, error / (0.8 / factor) ** 3)
+        assert by_core[1] == pytest.approx(goal, rel=1e-4)
+        same(by_core, by_twin)
+
+
 def test_no_derivative(core):
     """A step into states without a derivative (an axis tilted beyond 90 degrees) is refused, the next one 0.2 times as long."""
     y, c = Instance(core).step(5e-3).y, core.model({"ring.tilt_mode": TiltMode.FREE})
