@@ -37,13 +37,13 @@ static const double STIFF_LIMIT = 2.0;
 // Least approach in the stiffness 3 Q/(2 delta) [m]: no division by 0.
 static const double APPROACH_FLOOR = 1e-12;
 
-// A symmetric 6 x 6 matrix of a packet's velocities (v, omega) is stored as its lower triangle; row i, column
-// k <= i.
+// A symmetric 6 x 6 matrix of the velocities (v, omega) of a packet's balls is stored as its lower triangle.
+// AT: place of row i, column k <= i.
 enum { BLOCK = 6, TERMS = BLOCK * (BLOCK + 1) / 2 };
 #define AT(i, k) ((i) * ((i) + 1) / 2 + (k))
 
-// Adds B^T (g (1 - n n^T) + normal n n^T) B, B = (1, -R [n]x): the velocity of the ball's surface at its
-// contact.
+// Adds B^T (g (1 - n n^T) + normal n n^T) B, where B = (1, -R [n]x) gives the velocity v + omega x R n of the
+// ball's surface at its contact.
 INLINE void add_contact(wide g, wide normal, wide R, const wide n[3], wide W[TERMS])
 {
     const wide g_R = g * R, g_RR = g_R * R;
@@ -187,9 +187,9 @@ INLINE void solve_packet(const Model *model, const Work *w, int j, Factors *f, b
     x[2] /= r;
 }
 
-// What remains of the balls in the ring's equations.  With the velocity u (x, r, t) of the race at a ball's
-// inner contact and the coupling G = B^T gamma g (1 - n n^T), 6 x 3, the ball's equations are W x - G u = M
-// v.  Eliminated, x = W^-1 M v + W^-1 G u, and the ring feels the impulse schur_rhs - schur u.
+// What remains of the balls in the ring's equations.  The coupling of a ball with the velocity u (x, r, t) of
+// the race at its inner contact is G = B^T gamma g (1 - n n^T), 6 x 3, and the ball's equations are
+// W x - G u = M v.  Eliminated, x = W^-1 M v + W^-1 G u, and the ring feels the impulse schur_rhs - schur u.
 typedef struct {
     ball_array dv_du[BLOCK][3];  // W^-1 G
     ball_array schur[3][3];      // gamma g (1 - n n^T) - G^T W^-1 G
@@ -213,16 +213,18 @@ INLINE void couple_packet(const Model *model, const Work *w, int j, double gamma
         }
 
     for (int k = 0; k < 3; k++) {
-        wide y[BLOCK];  // W^-1 G e_k
+        // y = W^-1 G e_k.
+        wide y[BLOCK];
         memcpy(y, G[k], sizeof y);
         solve_block(f, y);
 
+        // G^T W^-1 M v; the third velocity of x is an orbital speed.
         wide schur_rhs = G[k][2] * (r * x[2]);
         for (int i = 0; i < BLOCK; i++)
             if (i != 2) schur_rhs += G[k][i] * x[i];
         wide_store(&c->schur_rhs[k][j], schur_rhs);
 
-        // The Schur complement is symmetric.
+        // gamma g (1 - n n^T) - G^T W^-1 G, symmetric.
         for (int q = 0; q <= k; q++) {
             wide schur = G[k][q];
             for (int i = 0; i < 3; i++) {
@@ -233,6 +235,7 @@ INLINE void couple_packet(const Model *model, const Work *w, int j, double gamma
             wide_store(&c->schur[k][q][j], schur);
         }
 
+        // W^-1 G in the state's velocities.
         y[2] /= r;
         for (int i = 0; i < BLOCK; i++) wide_store(&c->dv_du[i][k][j], y[i]);
     }
@@ -281,9 +284,10 @@ typedef struct {
     double x, y, z, beta, gamma, s;
 } Half;
 
-// A land's film ready to be solved for one body.  The film holds back u = (v_y + gamma_dot x, v_z - beta_dot
-// x) of the land at the lever x.  Because u has two components, the inverse of the body's 4 x 4 block needs a
-// 2 x 2 inverse only (Woodbury): the impulse is (1/gamma C^-1 + 1/m + x^2/J_t)^-1 u = (yy, yz; yz, zz) u.
+// A land's film ready to be solved for one body.  The film holds back the velocity u of the land at the lever
+// x, u_y = v_y + gamma_dot x and u_z = v_z - beta_dot x.  Because u has two components, the inverse of the
+// body's 4 x 4 block needs a 2 x 2 inverse only (Woodbury): with the film matrix C the impulse is
+// (C^-1/gamma + 1/m + x^2/J_t)^-1 u = (yy, yz; yz, zz) u.
 typedef struct {
     double m, J_p, J_t;  // inertia of the body
     double x;            // lever of the land from the body's centre of mass

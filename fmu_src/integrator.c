@@ -2,15 +2,15 @@
 // weights:
 //
 //   verlet     the default: a linearly implicit trapezoidal rule, order two, one evaluation a step (verlet.c)
-//   explicit   classical Runge-Kutta 4(3), stepped by ARKODE's ERKStep: for tolerances below 2e-5, and as a check
+//   explicit   classical Runge-Kutta 4(3), stepped by ARKODE: for tolerances below 2e-5, and as a check
 //
 // Order, error estimate and step-size control are derived in docs/method.md; bearing_model/verlet.py has the
-// control again. SUNDIALS steps the explicit method, carries its vectors and reports its errors; the default
+// control again.  SUNDIALS steps the explicit method, carries its vectors and reports its errors; the default
 // method needs none of it.
 //
 // Determinism: an advance is a function of IntegratorState, model and t_stop alone, bit for bit, so that a
 // restored state and another instance go on alike.  For this ARKODE is reset at the start of every advance,
-// with the remembered step size. Error weights are absolute, 1/(tolerance scale): angles are unbounded, so
+// with the remembered step size.  Error weights are absolute, 1/(tolerance scale): angles are unbounded, so
 // that relative ones would fade.
 #include "integrator.h"
 

@@ -15,8 +15,8 @@ typedef struct {
 
 typedef struct Integrator Integrator;
 
-// Called after every accepted step: w holds the evaluation at the state reached, h is the length of the step
-// [s].
+// Called after every accepted step of length h [s].  w: the last evaluation of the step, at its end; that of
+// the default method is at the predicted velocities.
 typedef void StepHook(void *context, double h, const Work *w);
 
 typedef void IntegratorLog(void *context, const char *message);

@@ -3,7 +3,7 @@
 // docs/method.md.  The same step with dense matrices, to be read beside this file: bearing_model/verlet.py.
 //
 //   gamma = h/2,  v_m = v_n + gamma a_n
-//   q_{n+1} = q_n + h q'(q_m, v_m),  q_m = q_n + gamma v_m         friction states: implicit midpoint rule
+//   q_{n+1} = q_n + h q'(q_m, v_m),  q_m = q_n + gamma v_m         friction states z: implicit midpoint rule
 //   v^ = v_n + h a_n - limiter                                     predictor; the limiter is the cage's
 //   a^ = a(t_{n+1}, q_{n+1}, v^)                                   the evaluation
 //   (1 + gamma A + gamma^2 K) delta = v_n - v^ + gamma (a_n + a^)  one Newton iteration
@@ -21,9 +21,9 @@
 #include "rhs.h"
 #include "vector_ops.h"
 
-// Rows of the state: positions [0, FRICTION), friction states [FRICTION, Y_WORK), the work, velocities
-// [VELOCITY, N_STATES). The velocity of position i < FRICTION is in row VELOCITY + i; the balls' spins, last,
-// have no position.
+// Rows of the state: positions from 0 on, friction states from FRICTION on, the work, velocities from
+// VELOCITY on.  The velocity of position i < FRICTION is in row VELOCITY + i; the balls' spins come last and
+// have no position.  Rows CAGE to CAGE_END are the velocities of the cage halves.
 enum { FRICTION = Y_JOINT_PLATE_Y, VELOCITY = Y_BALL_V_X, CAGE = Y_CAGE_V_X, CAGE_END = Y_RING_V_X };
 _Static_assert(Y_CAGE_V_X - Y_CAGE_X == VELOCITY && Y_RING_V_X - Y_RING_X == VELOCITY, "order of velocities");
 _Static_assert(Y_BALL_OMEGA_X - VELOCITY == FRICTION, "velocities are in the order of their positions");
@@ -87,10 +87,10 @@ static void predictor_limiter(const Model *model, double h, const VerletState *f
     for (int i = CAGE; i < CAGE_END; i++) removed[i] -= kept[i];
 }
 
-// Power that the right-hand side, evaluated at v^, dissipates beyond what it would at v_{n+1}: delta.M (A +
-// gamma K) delta of balls and cage, M their inertia.  The term is quadratic, of one sign, and against a film
-// that holds the cage it would be most of the work.  The terms linear in delta = O(h^2) change sign and are
-// of the method's order.
+// Power that the right-hand side dissipates because it was evaluated at v^ and not at v_{n+1}, as far as it
+// has one sign: delta.M (A + gamma K) delta of balls and cage, M their inertia.  Against a film that holds
+// the cage this term would be most of the work.  The terms linear in delta = O(h^2) change sign from step to
+// step and are of the method's order.
 static double dissipation_correction(const Model *model, const double *y, double gamma, const double *residual, const double *delta)
 {
     enum { COUNT = N_STATES - VELOCITY };
@@ -105,8 +105,8 @@ static double dissipation_correction(const Model *model, const double *y, double
     return sum_of(power, COUNT);
 }
 
-// Where a stiffness acts, positions follow the trapezoidal rule too: q_{n+1} += gamma (v_{n+1} - v_n - h
-// a_n), delta being the bracket.  These are the balls' axial and radial positions, the tilts of a supported
+// Where a stiffness acts, positions follow the trapezoidal rule too: q_{n+1} += gamma delta with
+// delta = v_{n+1} - v_n - h a_n.  These are the balls' axial and radial positions, the tilts of a supported
 // or prescribed ring, and the axial motion of one cage half against the other.
 static void correct_positions(const Model *model, double gamma, const double *delta, double *y)
 {
@@ -132,13 +132,15 @@ static void remember_films(const Work *w, VerletState *to)
     }
 }
 
-// Accelerations, jerks and errors of the velocities.  The leading error of the trapezoidal rule is h^3
-// a''/12, and h^2 a'' is the second difference of the accelerations over this step and the last.
+// Accelerations, jerks and errors of the velocities.  The trapezoidal rule's own leading error is h^3 a''/12,
+// and h^2 a'' is the second difference of the accelerations over this step and the last.
 static void remember_velocities(const Model *model, const Work *w, double h, const VerletState *from, const double *delta, VerletState *to, double *error)
 {
     const double gamma = 0.5 * h, inv_gamma = 1.0 / gamma, inv_h = 1.0 / h, inv_span = 2.0 / (h + from->h);
     const double second = h * h * inv_span, *f = from->f;
     double second_difference[N_STATES];
+
+    // h^2 a'' over two steps that may differ in length, and the error.
     for (int i = VELOCITY; i < N_STATES; i++) {
         second_difference[i] = second * (delta[i] * (inv_gamma * inv_h) - from->jerk[i]);
         error[i] = (h / 12.0) * second_difference[i];
@@ -153,9 +155,9 @@ static void remember_velocities(const Model *model, const Work *w, double h, con
     }
 }
 
-// Mean rates of the friction states over the step, their changes and errors.  The leading error of the
-// midpoint rule is h^3 q'''/24.  The mean rates belong to the middles of the steps, so their differences give
-// q'', and those of q'' give q'''.
+// Mean rates of the friction states over the step, their changes and errors.  The midpoint rule's own leading
+// error is h^3 z'''/24.  The mean rates belong to the middles of the steps, so that their differences give
+// z'' and the differences of z'' give z'''.
 static void remember_friction(double h, const VerletState *from, VerletState *to, double *error)
 {
     const double inv_h = 1.0 / h, inv_span = 2.0 / (h + from->h), second = h * h * inv_span;
@@ -186,13 +188,15 @@ double verlet_step(const Model *model, double t, double h, const double *weight,
     implicit_solve(model, w, gamma, delta);
     to->f[Y_WORK] += dissipation_correction(model, y, gamma, residual, delta);
 
-    // From here on delta is v_{n+1} - v_n - h a_n: the limiter is given back.
+    // The limiter is given back: from here on delta is v_{n+1} - v_n - h a_n.
     for (int i = CAGE; i < CAGE_END; i++) {
         y[i] += removed[i];
         delta[i] -= removed[i];
     }
     for (int i = VELOCITY; i < N_STATES; i++) y[i] += delta[i];
     correct_positions(model, gamma, delta, y);
+
+    // The work by the trapezoidal rule.
     y[Y_WORK] += gamma * (f[Y_WORK] + to->f[Y_WORK]);
 
     // History for the next step, and the error: positions and the work have none of their own.
