@@ -186,38 +186,41 @@ def explicit(model, t, y, w, gamma):
     return verlet.Blocks(nothing, nothing, b.A_stiff, b.K_stiff)
 
 
-RUNNING = {"working point": {}, "rigid cage, point traction": {"scene.cage": 2, "scene.traction": 1}, "mixed lubrication": {"scene.lubrication": 2}}
+RUNNING = {"working point": {}, "rigid cage, mixed lubrication": {"scene.cage": 2, "scene.lubrication": 2, "scene.traction": 1}}
+TIMES = (4e-3, 5e-3, 6e-3)
 
 
-def running(core, name):
-    """The twin's model and a state on the C core's trajectory, 5 ms after the start: everything moves, no contact is about to open or close."""
-    return Model.of(RUNNING[name]), Instance(core, RUNNING[name]).step(5e-3).y
+def running(core, name, t=5e-3):
+    """The twin's model and a state on the C core's trajectory: everything moves."""
+    return Model.of(RUNNING[name]), Instance(core, RUNNING[name]).step(t).y
+
+
+def errors(model, y, T, number, blocks, reference):
+    """Error [units of the error scales] after `number` steps to time T, and the sum of the steps' estimates but the first, which has no history."""
+    unit, state, estimates = 1.0 / model.d.scale, VerletState(y.copy(), rhs(model, 0.0, y)), []
+    unit[WORK] = 0.0
+    for _ in range(number):
+        state, norm = verlet.verlet_step(model, 0.0, T / number, unit, state, blocks)
+        estimates.append(norm)
+    return np.sqrt(np.mean(((state.y - reference) * unit) ** 2)), sum(estimates[1:])
 
 
 @pytest.mark.parametrize("name", RUNNING)
 def test_order(core, name, record_property):
-    """Order two in 20 and 40 steps over 20 us, whatever A and K are: a W-method.
+    """Order two in 10 and 20 steps over 5 us, whatever A and K are: a W-method.  The error is of the size of the sum of the steps' estimates.
 
-    The error itself is the sum of the steps' estimates, as far as errors add up in so short a time.
+    Median of three states: a contact that opens or closes on the way (C1) costs order there.
     """
-    model, y = running(core, name)
-    T, numbers, unit = 2e-5, np.array([20, 40]), 1.0 / model.d.scale
-    reference, unit[WORK] = exact(model, y, [T], steps=60)[0], 0.0
-    others = (verlet.masked_jacobian, explicit) if name == "working point" else ()
-    for blocks in (verlet.jacobian_blocks, perturbed, *others):
-        error, estimate = [], []
-        for n in numbers:
-            state, estimates = VerletState(y.copy(), rhs(model, 0.0, y)), []
-            for k in range(n):
-                state, norm = verlet.verlet_step(model, k * T / n, T / n, unit, state, blocks)
-                estimates.append(norm)
-            error.append(np.sqrt(np.mean(((state.y - reference) * unit) ** 2)))
-            estimate.append(sum(estimates[1:]))  # the first step has no history to estimate from
-        slope, share = np.log(error[0] / error[1]) / np.log(2.0), np.array(error) / estimate
-        record_property(blocks.__name__, [float(value) for value in (slope, *error, *share)])
-        print(f"{name}, {blocks.__name__}: slope {slope:.3f}, errors {error}, of the estimates {share}")
-        assert abs(slope - 2.0) < 0.1  # observed 2.000 +- 0.004 with the default's A and K, 1.993 ... 2.005 perturbed, 1.91 ... 2.09 without
-        assert np.all((share > 0.5) & (share < 2.0))  # observed 0.89 ... 1.15
+    T, starts = 5e-6, [running(core, name, t) for t in TIMES]
+    references = [exact(model, y, [T], steps=20)[0] for model, y in starts]
+    for blocks in (verlet.jacobian_blocks, perturbed, explicit, *([verlet.masked_jacobian] if name == "working point" else [])):
+        cases = [(*start, reference) for start, reference in zip(starts, references, strict=True)]
+        found = np.array([[errors(model, y, T, number, blocks, reference) for number in (10, 20)] for model, y, reference in cases])
+        slope, share = np.log2(found[:, 0, 0] / found[:, 1, 0]), found[:, 1, 0] / found[:, 1, 1]
+        record_property(blocks.__name__, [slope.tolist(), share.tolist()])
+        print(f"{name}, {blocks.__name__}: slopes {slope}, errors {found[:, 1, 0]}, of the estimates {share}")
+        assert abs(np.median(slope) - 2.0) < 0.1  # observed 1.97 ... 2.002
+        assert 0.2 < np.median(share) < 4.0  # observed 0.7 ... 1.9; friction states inherit more than is estimated
 
 
 def extrapolated(coarse, middle, fine):
@@ -269,7 +272,7 @@ def test_local_error(core, record_property):
     w, scale, found = Work(), model.d.scale, []
     rhs(model, 0.0, y, w)
     kinds = [np.where(np.isin(np.arange(N_STATES), np.arange(N_STATES)[rows]), 1.0 / scale, 0.0) for rows in (V, FRICTION)]
-    for h in (1.2e-6, 6e-7, 3e-7):
+    for h in (8e-7, 4e-7, 2e-7):
         blocks = verlet.jacobian_blocks(model, 0.0, y, w, 0.5 * h)
         start, after, error, estimate = expected_error(model, y, h, blocks)
         start.film = verlet.land_films(w)
@@ -280,11 +283,12 @@ def test_local_error(core, record_property):
     deviation = {}
     for name, rows in STATE_SLICES.items():
         if name != "work" and np.any(expected[rows]):
-            deviation[name] = np.max(np.abs(error - expected)[rows]) / np.max(np.abs(expected)[rows])
+            rounding = 8.0 * np.finfo(float).eps * np.max(np.abs(y[rows])) / h**3
+            deviation[name] = np.max(np.abs(error - expected)[rows]) / (np.max(np.abs(expected)[rows]) + 50.0 * rounding)
     record_property("deviation", {name: float(value) for name, value in deviation.items()})
     print({name: f"{value:.1e}" for name, value in deviation.items()}, norms / expected_norms - 1.0)
     np.testing.assert_allclose(norms, expected_norms, rtol=1e-3)
-    assert len(deviation) == 31 and max(deviation.values()) < 0.02  # observed 9e-3, azimuths of balls, by rounding
+    assert len(deviation) == 31 and max(deviation.values()) < 0.02  # observed 1e-2, plates against rivets, whose frequency is 4e5 rad/s
 
 
 # ----------------------------------------------------------------------------------------------------------------- damping
@@ -371,8 +375,8 @@ def test_control(core, h, lubrication):
         np.testing.assert_allclose(taken[1:10] / taken[:9], 1.5, rtol=1e-9)
     else:
         assert by_core[2] >= 2.0
-        assert taken[0] < 0.05 * h
-    assert len(taken) > 20
+        assert taken[0] < 0.2 * h
+    assert len(taken) >= 15
 
 
 def test_last_steps(core):
