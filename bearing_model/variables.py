@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from enum import IntEnum
 
 MODEL_IDENTIFIER = "RivetedBearing"
-MODEL_GUID = "{d5a91f25-47b6-15d6-1014-f583fbadd5cd}"
+MODEL_GUID = "{f9428bc8-d2b6-5725-471d-3c888a149c46}"
 Z = 9
 
 
@@ -294,6 +294,7 @@ OUTPUTS = {
         Variable("rivet[k].sigma_mid_peak", 3200, "Real", "Pa", "MPa", None, None, None, Z, "peak", "Largest sigma_mid since the last communication point", None),
         Variable("rivet.sigma_head_max", 3240, "Real", "Pa", "MPa", None, None, None, 1, "peak", "Largest sigma_head_peak of all rivets", None),
         Variable("rivet.sigma_mid_max", 3241, "Real", "Pa", "MPa", None, None, None, 1, "peak", "Largest sigma_mid_peak of all rivets", None),
+        Variable("rivet.table_kind", 3242, "Real", "1", None, None, None, None, 1, "rivet", "What the rivets' stress table rests on: 1 finite elements, 2 coarse finite elements, 3 closed forms", None),
         Variable("rivet[k].damage_head", 3250, "Real", "1", None, None, None, None, Z, "fatigue", "Miner's sum of sigma_head since start.settle", None),
         Variable("rivet[k].damage_mid", 3290, "Real", "1", None, None, None, None, Z, "fatigue", "Miner's sum of sigma_mid since start.settle", None),
         Variable("rivet[k].N", 3330, "Real", "N", None, None, None, None, Z, "rivet", "External tension of the joint, before preload shielding", None),

@@ -2,7 +2,7 @@
 
 python fmus/generate.py                                  write the tracked files
 python fmus/generate.py --check                          compare them byte for byte, exit 1 on a difference
-python fmus/generate.py --bearing FILE --out DIR         another bearing (number of balls, start values), all files into one folder
+python fmus/generate.py --bearing FILE --out DIR         another bearing (balls, start values, description), all files into one folder
 python fmus/generate.py --table FILE --out DIR           another part of a machine behind the same wrapper, all files into one folder
 """
 
@@ -143,7 +143,8 @@ def load_table(bearing=None, path=None):
         count = number_of(entry["count"], Z)
         states.append(StateBlock(**entry | {"count": count}, offset=offset, of_balls=entry["count"] == "Z"))
         offset += count
-    table = Table(Z, raw["model_name"], raw["description"], raw["units"], raw["enumerations"], raw["groups"], tuple(variables), tuple(states))
+    description = ". ".join(filter(None, (raw["description"], changes.get("description", raw.get("case")))))
+    table = Table(Z, raw["model_name"], description, raw["units"], raw["enumerations"], raw["groups"], tuple(variables), tuple(states))
     check_table(table, path)
     return table
 

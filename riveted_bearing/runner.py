@@ -98,8 +98,8 @@ def closing_values(instance, model):
 
 
 def closing_names(model):
-    """Outputs that say how it went in all: statistics, damage, solver counters."""
-    return [name for name in model.outputs if name.startswith(("stat.", "solver.")) or ".damage_" in name]
+    """Outputs that say how it went in all: statistics, damage, solver counters, and what the rivets' stress rests on."""
+    return [name for name in model.outputs if name.startswith(("stat.", "solver.")) or ".damage_" in name or name == "rivet.table_kind"]
 
 
 def provenance(model, scene):

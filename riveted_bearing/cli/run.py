@@ -64,7 +64,7 @@ def result_path(scene, out, kind):
 
 def print_summary(result):
     """The figures of a run on the terminal."""
-    from ..summary import rivet_rows, summary_rows
+    from ..summary import rivet_rows, summary_rows, table_note
 
     about, summary = result.about, result.summary
     console.print(f"[bold]{escape(about['scene'])}[/]  {escape(about['description'])}", soft_wrap=True)
@@ -90,6 +90,8 @@ def print_summary(result):
         f"[bold]real-time factor {summary['real_time_factor']:.2f}[/] (CPU time / simulated time)",
         soft_wrap=True,
     )
+    if table_note(result):
+        messages.print(f"[yellow]note:[/] {escape(table_note(result))}", soft_wrap=True)
     for text in dict.fromkeys(about.get("messages", [])):
         if not result.stopped or text not in result.stopped:
             messages.print(f"[yellow]note:[/] {escape(text)}", soft_wrap=True)
