@@ -1,7 +1,7 @@
 """Finite elements to table: python -m rivet_model.build OUT.json [GEOMETRY.toml] [--coarse] [--workers 2]
 
 About 20 minutes on two cores for the shipped fineness, most of it contact solutions; --coarse takes seconds and is for tests and first looks.
-The file is written last and in one piece: no table is left behind by an error.
+The file is written last and in one piece, so that an error leaves no table behind.
 """
 
 import argparse

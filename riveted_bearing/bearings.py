@@ -365,7 +365,7 @@ def case_of(target, fmu=None):
 
 
 def scene_case(source, model):
-    """The Case of a scene at its start, with the FMU's values for all that the scene leaves open."""
+    """The Case of a scene at its start, with the FMU's start values for all variables that the scene does not set."""
     scene = load_scene(source, model)
     values = {name: model.default(variable) for name, variable in (model.parameters | model.inputs).items()}
     values |= scene.parameters | {name: float(history(0.0)) for name, history in scene.inputs.items()}

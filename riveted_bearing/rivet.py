@@ -1,4 +1,4 @@
-"""What the rivets of a table or of a geometry carry: curves over preload, fit and transverse load, and pictures of the finite elements."""
+"""Stress of the rivets of a table or of a geometry: curves over preload, fit and transverse load, and pictures of the finite elements."""
 
 import os
 from concurrent.futures import BrokenExecutor
@@ -21,14 +21,14 @@ from .results import make_folder, write_atomically
 from .scene import read_toml, refusal
 
 TABLES = ("coarse", "full", "closed-form")  # kinds that a user can ask for
-ROWS = {"preload": 10.0, "fit": 10e-6, "transverse load": 10.0}  # distance of the rows printed, SI
+ROWS = {"preload": 10.0, "fit": 10e-6, "transverse load": 10.0}  # distance of the printed rows, SI
 
 
 @threadpool_limits.wrap(limits=1)  # small matrices
 def rivet_curves(source=None):
     """Title, curves (see rivet_model.pictures.curves) and Joint of a rivet.
 
-    source: rivet table (JSON) or geometry (TOML), None for the tracked table; a geometry is solved on the spot, in some 20 s.
+    source: rivet table (JSON) or geometry (TOML), None for the tracked table; for a geometry the finite elements are solved, in some 20 s.
     Raises UserError naming file and fault.
     """
     path = Path(source or rivet_table.DEFAULT_TABLE)
@@ -127,7 +127,7 @@ def table_text(t):
 
 
 def sources_digest():
-    """What the files are that make a table, so that a table made by others is not taken for theirs."""
+    """Digest of the source files that make a table, so that a table made by other sources is not taken for theirs."""
     readers = (Path(module.__file__) for module in (load_path, rivet_rom, rivet_splines, rivet_table))
     files = [*sorted(Path(table.__file__).parent.glob("*.py")), *readers]
     return sha256(b"".join(file.read_bytes() for file in files)).hexdigest()[:8]

@@ -1,4 +1,4 @@
-"""Run a scene through the FMU, step by step, and keep what it did."""
+"""Run a scene through the FMU, step by step, and keep its outputs."""
 
 import itertools
 import platform
@@ -103,7 +103,7 @@ def closing_names(model):
 
 
 def provenance(model, scene):
-    """Where a result comes from."""
+    """Origin of a result: scene, inputs, FMU, versions, machine, date."""
     return {
         "scene": scene.name,
         "description": scene.description,

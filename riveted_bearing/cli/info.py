@@ -1,4 +1,4 @@
-"""riveted-bearing info: what can be said of a bearing before any simulation."""
+"""riveted-bearing info: a bearing without a simulation."""
 
 import math
 from typing import Annotated
@@ -108,7 +108,7 @@ def load_text(load):
 
 
 def equilibrium(case, state):
-    """Name, value and unit of what the loads do."""
+    """Name, value and unit of displacements, loads and life in the equilibrium."""
     loaded = state.Q_i > 0.0
     yield "ring displacement x, y, z", ", ".join(fixed(1e6 * value, 2) for value in (state.x, state.y, state.z)), "um"
     yield "ring tilt y, z", f"{fixed(DEG * state.tilt_y, 4)}, {fixed(DEG * state.tilt_z, 4)}", "deg"
@@ -155,7 +155,7 @@ def balls(state):
 
 
 def fixed(value, digits):
-    """A number with so many digits after the point, without a minus sign before zero."""
+    """A number with the given digits after the point, and no minus sign before zero."""
     return f"{round(value, digits) + 0.0:.{digits}f}"
 
 
