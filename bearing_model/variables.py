@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from enum import IntEnum
 
 MODEL_IDENTIFIER = "RivetedBearing"
-MODEL_GUID = "{68d1bfb9-7b4e-7b13-d6ba-1261bca2da3d}"
+MODEL_GUID = "{c1a7f0fb-1f21-ce87-5b54-bbabe28f99b0}"
 Z = 9
 
 
@@ -78,6 +78,15 @@ class Method(IntEnum):
     VERLET = 1
     EXPLICIT = 2
 
+
+# Assumed parameters that move the rivets' stress most, strongest first: smallest and largest usual value over the value, and the source.
+ASSUMPTIONS = {
+    "cage.pocket_clearance": (0.5, 2.0, "0.1 to 0.4 mm are usual in a 6207"),
+    "cage.guide_clearance": (0.5, 2.0, "0.1 to 0.4 mm are usual in a 6207"),
+    "oil.eta": (0.4, 2.1, "5 mm2/s aviation oils (MIL-PRF-23699) from 150 down to 60 degC"),
+    "oil.rho_mix": (0.25, 1.3, "1 to 5 % oil between the rings (Parker, NASA TP-2275, 1984)"),
+    "cage.x_c": (0.95, 1.13, "webs of 0.8 to 2 mm in a 6207, whose half is 2 x_c wide"),
+}
 
 # Scales of each unit: symbol -> (factor, offset), value in that symbol = factor * SI value + offset.
 UNITS = {

@@ -109,15 +109,14 @@ class Case:
         """Names of the values of one origin."""
         return [name for name, found in self.origin.items() if found == origin]
 
-    def not_given(self):
-        """What was not given, in words; "" for a shipped file, which gives all that its bearing needs."""
-        parts = []
-        if "shipped" not in self.origin.values():
-            for origin, source in (("catalogue", f"from {catalogue.SOURCE}"), ("rule", "by rule")):
-                names = self.of_origin(origin)
-                if names:
-                    parts.append(f"{source}: {grouped(names)}")
-        return "; ".join(parts)
+
+def not_given(origin):
+    """What was not given, by what stands for it: {"by rule": names, ...}; nothing for a shipped file, which gives all that its bearing needs."""
+    if "shipped" in origin.values():
+        return {}
+    sources = {"catalogue": f"from {catalogue.SOURCE}", "rule": "by rule"}
+    found = {source: [name for name, of in origin.items() if of == key] for key, source in sources.items()}
+    return {source: grouped(names) for source, names in found.items() if names}
 
 
 def grouped(names):

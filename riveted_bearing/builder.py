@@ -109,15 +109,14 @@ def start_document(case, table):
     """A case with its rivet table as fmus/generate.py reads it: all start values in SI, and what an importer shows of the FMU."""
     sections = {"parameters": variables.PARAMETERS, "inputs": variables.INPUTS}
     start = {section: {name: case.values[name] for name in known} for section, known in sections.items()}
-    return {"Z": case.Z, "description": fmu_description(case, read_table(table, case.Z))} | start
+    return {"Z": case.Z, "description": fmu_description(case, read_table(table, case.Z)), "origin": case.origin} | start
 
 
 def fmu_description(case, table):
-    """Which bearing an FMU is, what its stress table rests on, and what was not given."""
+    """Which bearing an FMU is, and what its stress table rests on."""
     parts = [f"{case.designation}: {case.description}" if case.description else case.designation]
     parts += [CAGE_MEANT] if case.bare else []
     parts += [f"Stress table of the rivets: {table_text(table)}"]
-    parts += [f"Not given, {text}" for text in [case.not_given()] if text]
     return ". ".join(parts)
 
 

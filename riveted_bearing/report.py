@@ -16,7 +16,7 @@ from .animation import frames, number_of_balls
 from .errors import UserError
 from .life import rivet_life
 from .results import FORMATS, read_result, write_atomically
-from .summary import DEG, RPM, columns, life_is_known, settled, summary_rows, table_note
+from .summary import DEG, RPM, assumed_rows, columns, life_is_known, settled, summary_rows, table_note
 
 PARTS = files("riveted_bearing") / "data" / "report"
 WIDE, LOW, SQUARE, HIGH = (4.9, 2.7), (4.9, 1.9), (4.9, 4.2), (4.9, 3.0)  # inches
@@ -78,6 +78,7 @@ def render(result):
         worst=charts.worst_rivet(result),
         fatigue=result.parameters.get("scene.stress") == "fatigue",
         table_note=table_note(result),
+        assumed=list(assumed_rows(result)),
         life_is_known=life_is_known(result),
         solver=list(solver_rows(result)),
         charts={name: chart(result, name, lives) for name in CHARTS},

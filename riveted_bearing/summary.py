@@ -4,6 +4,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from bearing_model import variables
+
 RPM = 30.0 / np.pi  # rev/min per rad/s
 DEG = 180.0 / np.pi
 
@@ -52,6 +54,16 @@ TABLE_NOTES = {  # by rivet.table_kind
 def table_note(result):
     """What limits the rivets' stress beside the model: "" for a full table by finite elements, or if it is not known."""
     return TABLE_NOTES.get(int(result.summary.get("rivet.table_kind", 0)), "")
+
+
+def assumed_rows(result):
+    """Assumed parameters that move the rivets' stress most and that neither scene nor bearing file gives: (name, value, low, high, unit, source)."""
+    for name, (low, high, source) in variables.ASSUMPTIONS.items():
+        if name in result.parameters and name not in result.about.get("given", ()):
+            unit = variables.PARAMETERS[name].display or variables.PARAMETERS[name].unit
+            factor, _ = variables.UNITS[variables.PARAMETERS[name].unit][unit]
+            value = factor * result.parameters[name]
+            yield name, value, low * value, high * value, unit, source
 
 
 def life_is_known(result):

@@ -328,7 +328,7 @@ shaft.omega = "6000 rev/min"
     changed = {name: value for name, value in with_texts.values.items() if isinstance(value, float)}
     assert changed == pytest.approx({name: with_numbers.values[name] for name in changed}, rel=1e-12)
     document = start_document(with_texts, closed_form_table(with_texts, tmp_path))
-    assert "closed forms" in document["description"] and "Not given, by rule: " in document["description"]
+    assert "closed forms" in document["description"] and document["origin"]["bearing.D"] == "yours" and document["origin"]["cage.D_o"] == "rule"
     assert document["parameters"]["bearing.D"] == 0.005 and document["parameters"]["ring.tilt_mode"] == "free" and document["Z"] == 12
 
 

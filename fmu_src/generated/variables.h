@@ -9,7 +9,7 @@
 
 #define FMI2_FUNCTION_PREFIX RivetedBearing_  // of the functions of a source-code FMU
 #define MODEL_IDENTIFIER "RivetedBearing"
-#define MODEL_GUID "{68d1bfb9-7b4e-7b13-d6ba-1261bca2da3d}"  // digest of the table
+#define MODEL_GUID "{c1a7f0fb-1f21-ce87-5b54-bbabe28f99b0}"  // digest of the table
 
 enum { Z = 9 };  // number of balls
 

@@ -11,7 +11,7 @@ from rich.table import Column, Table
 from bearing_model.kinematics import fault_frequencies
 from rivet_model.geometry import Geometry
 
-from ..catalogue import SOURCE
+from ..bearings import CAGE_MEANT, not_given
 from ..summary import DEG, RPM
 from .terminal import FMU, command, console
 
@@ -25,7 +25,7 @@ def info(
     fmu: FMU = None,
 ):
     """Geometry, masses, kinematic and fault frequencies, quasi-static loads and life."""
-    from ..bearings import CAGE_MEANT, case_of
+    from ..bearings import case_of
 
     case = case_of(target, fmu)
     console.print(f"[bold]{escape(case.designation)}[/]  {escape(case.description)}", soft_wrap=True)
@@ -41,7 +41,7 @@ def info_tables(case):
     state = case.equilibrium()
     return [
         ("Geometry and masses", pairs(geometry(case))),
-        *([("Not given", sources(case))] if case.not_given() else []),
+        *([("Not given", sources(case))] if not_given(case.origin) else []),
         (f"Frequencies at {RPM * case.load.omega:,.0f} r/min", frequencies(case, state)),
         (f"Quasi-static equilibrium, {load_text(case.load)}", pairs(equilibrium(case, state))),
         ("Balls", balls(state)),
@@ -78,12 +78,9 @@ def origins(case, *names):
 
 def sources(case):
     """Names of what was not given, by what stands for it."""
-    from ..bearings import grouped
-
     table = Table("", "", box=None, pad_edge=False, show_header=False)
-    for origin, source in (("catalogue", SOURCE), ("rule", "by rule: docs/guide.md")):
-        if names := case.of_origin(origin):
-            table.add_row(source, grouped(names))
+    for source, names in not_given(case.origin).items():
+        table.add_row(source, names)
     table.add_row("default", "all other parameters: docs/parameters.md has each with its source")
     return table
 
