@@ -11,7 +11,6 @@ from rich.table import Column, Table
 from bearing_model.kinematics import fault_frequencies
 from rivet_model.geometry import Geometry
 
-from ..bearings import CAGE_MEANT, not_given
 from ..summary import DEG, RPM
 from .terminal import FMU, command, console
 
@@ -25,7 +24,7 @@ def info(
     fmu: FMU = None,
 ):
     """Geometry, masses, kinematic and fault frequencies, quasi-static loads and life."""
-    from ..bearings import case_of
+    from ..bearings import CAGE_MEANT, case_of
 
     case = case_of(target, fmu)
     console.print(f"[bold]{escape(case.designation)}[/]  {escape(case.description)}", soft_wrap=True)
@@ -38,10 +37,12 @@ def info(
 
 def info_tables(case):
     """Tables for the terminal: (title, rich table) for geometry, frequencies, equilibrium and the single balls."""
+    from ..bearings import not_given
+
     state = case.equilibrium()
     return [
         ("Geometry and masses", pairs(geometry(case))),
-        *([("Not given", sources(case))] if not_given(case.origin) else []),
+        *([("Not given", sources(missing))] if (missing := not_given(case.origin)) else []),
         (f"Frequencies at {RPM * case.load.omega:,.0f} r/min", frequencies(case, state)),
         (f"Quasi-static equilibrium, {load_text(case.load)}", pairs(equilibrium(case, state))),
         ("Balls", balls(state)),
@@ -76,10 +77,10 @@ def origins(case, *names):
     return ", ".join(dict.fromkeys(case.origin.get(name, "default") for name in names)) if case.origin else ""
 
 
-def sources(case):
+def sources(missing):
     """Names of what was not given, by what stands for it."""
     table = Table("", "", box=None, pad_edge=False, show_header=False)
-    for source, names in not_given(case.origin).items():
+    for source, names in missing.items():
         table.add_row(source, names)
     table.add_row("default", "all other parameters: docs/parameters.md has each with its source")
     return table
