@@ -152,6 +152,7 @@ static void fill_rivet(const Evaluation *at, Outputs *out)
         max = scalar_max(max, slip[k]);
     }
     out->cage.dislocation = max;
+    out->rivet.table_kind = rivet_table.kind;
 }
 
 static void fill_stress(const Evaluation *at, Outputs *out)

@@ -104,7 +104,7 @@ typedef struct {
 } JointData;
 
 typedef struct {
-    const char *kind;           // "closed_form" or "fe"
+    int kind;                   // 1 finite elements, 2 coarse finite elements, 3 closed forms
     const char *geometry_hash;  // of the rivet, flanges and cage that it was computed for
     const char *digest;         // SHA-256 of this table
     int Z;

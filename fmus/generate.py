@@ -2,7 +2,7 @@
 
 python fmus/generate.py                                  write the tracked files
 python fmus/generate.py --check                          compare them byte for byte, exit 1 on a difference
-python fmus/generate.py --bearing FILE --out DIR         another bearing (number of balls, start values), all files into one folder
+python fmus/generate.py --bearing FILE --out DIR         another bearing (balls, start values, description), all files into one folder
 python fmus/generate.py --table FILE --out DIR           another part of a machine behind the same wrapper, all files into one folder
 """
 
@@ -110,6 +110,8 @@ class Table:
     groups: dict
     variables: tuple
     states: tuple
+    assumptions: dict  # by parameter: usual range as factors of its value, and the source
+    origin: dict  # where the values of another bearing come from, by name
 
     def of(self, causality):
         return [v for v in self.variables if v.causality == causality]
@@ -143,7 +145,9 @@ def load_table(bearing=None, path=None):
         count = number_of(entry["count"], Z)
         states.append(StateBlock(**entry | {"count": count}, offset=offset, of_balls=entry["count"] == "Z"))
         offset += count
-    table = Table(Z, raw["model_name"], raw["description"], raw["units"], raw["enumerations"], raw["groups"], tuple(variables), tuple(states))
+    description = ". ".join(filter(None, (raw["description"], changes.get("description", raw.get("case")))))
+    layout = raw["units"], raw["enumerations"], raw["groups"], tuple(variables), tuple(states)
+    table = Table(Z, raw["model_name"], description, *layout, raw.get("assumptions", {}), changes.get("origin", {}))
     check_table(table, path, raw.get("retired", ()))
     return table
 
@@ -292,6 +296,8 @@ def write_description(table):
         add_types(root, table)
     add_log_categories(root)
     etree.SubElement(root, "DefaultExperiment", startTime="0", stopTime="0.4", stepSize="1e-4")  # a tolerance here would overrule solver.tol
+    if table.origin:
+        add_origin(root, table)
     indices = add_variables(root, table)
     add_structure(root, table, indices)
     return etree.tostring(root, encoding="UTF-8", xml_declaration=True, pretty_print=True).decode()
@@ -320,6 +326,13 @@ def add_log_categories(root):
     categories = etree.SubElement(root, "LogCategories")
     for name, description in LOG_CATEGORIES.items():
         etree.SubElement(categories, "Category", name=name, description=description)
+
+
+def add_origin(root, table):
+    """Where start values come from, for `riveted-bearing run`: an annotation that other tools pass over."""
+    tool = etree.SubElement(etree.SubElement(root, "VendorAnnotations"), "Tool", name="riveted-bearing")
+    for name, origin in table.origin.items():
+        etree.SubElement(tool, "Value", name=name, origin=origin)
 
 
 def add_variables(root, table):

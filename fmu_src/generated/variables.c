@@ -213,6 +213,7 @@ const Variable VARIABLES[N_VARIABLES] = {
     {"rivet[k].sigma_mid_peak", "Pa", 3200, Z, TYPE_REAL, CAUSALITY_OUTPUT, GROUP_PEAK, -1, offsetof(Outputs, rivet.sigma_mid_peak), 0.0, -INFINITY, INFINITY},
     {"rivet.sigma_head_max", "Pa", 3240, 1, TYPE_REAL, CAUSALITY_OUTPUT, GROUP_PEAK, -1, offsetof(Outputs, rivet.sigma_head_max), 0.0, -INFINITY, INFINITY},
     {"rivet.sigma_mid_max", "Pa", 3241, 1, TYPE_REAL, CAUSALITY_OUTPUT, GROUP_PEAK, -1, offsetof(Outputs, rivet.sigma_mid_max), 0.0, -INFINITY, INFINITY},
+    {"rivet.table_kind", "1", 3242, 1, TYPE_REAL, CAUSALITY_OUTPUT, GROUP_RIVET, -1, offsetof(Outputs, rivet.table_kind), 0.0, -INFINITY, INFINITY},
     {"rivet[k].damage_head", "1", 3250, Z, TYPE_REAL, CAUSALITY_OUTPUT, GROUP_FATIGUE, -1, offsetof(Outputs, rivet.damage_head), 0.0, -INFINITY, INFINITY},
     {"rivet[k].damage_mid", "1", 3290, Z, TYPE_REAL, CAUSALITY_OUTPUT, GROUP_FATIGUE, -1, offsetof(Outputs, rivet.damage_mid), 0.0, -INFINITY, INFINITY},
     {"rivet[k].N", "N", 3330, Z, TYPE_REAL, CAUSALITY_OUTPUT, GROUP_RIVET, -1, offsetof(Outputs, rivet.N), 0.0, -INFINITY, INFINITY},
