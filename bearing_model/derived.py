@@ -137,8 +137,8 @@ def derive_scales(p, d):
         "energy": 1e30,
     }
     d.scale = np.empty(N_STATES)
-    for name, place in STATE_SLICES.items():
-        d.scale[place] = by_class[STATE_SCALES[name]]
+    for name, rows in STATE_SLICES.items():
+        d.scale[rows] = by_class[STATE_SCALES[name]]
 
 
 @functools.lru_cache

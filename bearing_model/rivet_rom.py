@@ -82,8 +82,8 @@ def rivet_rom_stress(table, load, fit_eff):
             for c in range(3):
                 w = (wa[:, a] * wb[:, b] * wc[:, c])[:, None]
                 for i in range(3):
-                    place = A + a, B + b, C + c, xi + i
-                    T, U = table.coefficients[*place, sheet], table.coefficients[*place, sheet + 1]
+                    index = A + a, B + b, C + c, xi + i
+                    T, U = table.coefficients[*index, sheet], table.coefficients[*index, sheet + 1]
                     sigma += w * wxi[:, i : i + 1] * (first * T + (1.0 - first) * U)
     sigma[:, HEAD_P1] += table.head_friction * load.F_head
     sigma[:, HEAD_VM] += table.head_friction_vm * load.F_head

@@ -313,9 +313,9 @@ def rhs(data):
 
 {table(["", *sets], rows)}
 
-Scalar is the same source with bundles of one ball, vectorisation off. The floor multiplies the instructions of one evaluation, counted by single steps,
+Scalar is the same source with packets of one ball, vectorisation off. The floor multiplies the instructions of one evaluation, counted by single steps,
 with the shortest time of an independent instruction on this processor (add or multiply, load, divide, root in ns: {peaks}).
-No order of these instructions can be faster than the largest of the three. What lies above it is mostly latency: chains of dependent operations in few bundles.
+No order of these instructions can be faster than the largest of the three. What lies above it is mostly latency: chains of dependent operations in few packets.
 """
 
 
@@ -449,7 +449,7 @@ def scaling(data):
 
 {table(["balls", "RTF", "evaluations per 10 ms", "µs per evaluation", "start, ms"], balls)}
 
-Pitch, masses and load grow with the number of balls, their speed stays. Arrays are padded to whole bundles of eight.
+Pitch, masses and load grow with the number of balls, their speed stays. Arrays are padded to whole packets of eight.
 
 {table(head, steps)}
 

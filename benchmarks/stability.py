@@ -155,7 +155,7 @@ def run(scene):
         "steps": row[at["solver.steps"]],
         "evaluations": row[at["solver.rhs_evals"]],
         "rejected": row[at["solver.error_tests_failed"]],
-        "path": row[at["solver.path"]],
+        "path": row[at["solver.method_used"]],
         "events": {name[6:-7]: row[i] for name, i in at.items() if name.startswith("event.") and name.endswith("_onsets")},
         "warnings": [text for level, text in instance.log if level == "warning"],
     }

@@ -228,8 +228,8 @@ def solver_rows(result):
         yield "mean step", f"{1e6 * s['simulated_time'] / s['solver.steps']:.2f} µs"
     if "solver.tolerance" in s:
         yield "tolerance", f"{s['solver.tolerance']:g}"
-    if "solver.path" in s:
-        yield "method", {1: "velocity Verlet", 2: "Runge–Kutta 4(3)"}.get(int(s["solver.path"]), f"{s['solver.path']:g}")
+    if "solver.method_used" in s:
+        yield "method", {1: "velocity Verlet", 2: "Runge–Kutta 4(3)"}.get(int(s["solver.method_used"]), f"{s['solver.method_used']:g}")
     if "real_time_factor" in s:
         yield "CPU time / simulated time", f"{s['real_time_factor']:.2f}"
     if "bearing.energy_residual" in result.data:

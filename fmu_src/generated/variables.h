@@ -1,15 +1,15 @@
 // Written by fmus/generate.py from fmus/variables.toml: do not edit.
 // clang-format off
-// All variables of the model: what users set (Parameters, Inputs), what they read (Outputs), the state vector, and tables of them.  SI units.
+// All variables of the model: what users set (Parameters, Inputs), what they read (Outputs), and the state vector.  SI units.
 #pragma once
 
-#include "number.h"
+#include "scalar.h"
 
 #include <stddef.h>
 
 #define FMI2_FUNCTION_PREFIX RivetedBearing_  // of the functions of a source-code FMU
 #define MODEL_IDENTIFIER "RivetedBearing"
-#define MODEL_GUID "{bcc0235e-760a-a942-e78a-34f8caa55496}"  // digest of the table
+#define MODEL_GUID "{d5a91f25-47b6-15d6-1014-f583fbadd5cd}"  // digest of the table
 
 enum { Z = 9 };  // number of balls
 
@@ -178,172 +178,172 @@ typedef struct {
 
 typedef struct {
     struct {
-        number F_x;  // [N] Axial load on the inner ring
-        number F_y;  // [N] Radial load on the inner ring along Y
-        number F_z;  // [N] Radial load on the inner ring along Z
-        number M_y;  // [N.m] Moment about Y on the inner ring (supported or free tilt)
-        number M_z;  // [N.m] Moment about Z on the inner ring (supported or free tilt)
-        number omega;  // [rad/s] Speed of the inner ring about X
-        number tilt_y;  // [rad] Tilt of the shaft about Y (+X turns toward -Z)
-        number tilt_z;  // [rad] Tilt of the shaft about Z (+X turns toward +Y)
+        scalar F_x;  // [N] Axial load on the inner ring
+        scalar F_y;  // [N] Radial load on the inner ring along Y
+        scalar F_z;  // [N] Radial load on the inner ring along Z
+        scalar M_y;  // [N.m] Moment about Y on the inner ring (supported or free tilt)
+        scalar M_z;  // [N.m] Moment about Z on the inner ring (supported or free tilt)
+        scalar omega;  // [rad/s] Speed of the inner ring about X
+        scalar tilt_y;  // [rad] Tilt of the shaft about Y (+X turns toward -Z)
+        scalar tilt_z;  // [rad] Tilt of the shaft about Z (+X turns toward +Y)
     } shaft;
     struct {
-        number F_r;  // [N] Impact load added along the present radial load (+Y if there is none)
-        number F_a;  // [N] Impact load added along +X
+        scalar F_r;  // [N] Impact load added along the present radial load (+Y if there is none)
+        scalar F_a;  // [N] Impact load added along +X
     } impact;
 } Inputs;
 
 typedef struct {
     struct {
-        number Z;  // [1] Number of balls (build-time constant)
-        number friction_torque;  // [N.m] Torque that the shaft must supply about X
-        number power_loss;  // [W] Power dissipated in contacts, films, drag and joints
-        number energy_residual;  // [J] Energy now - energy at start - net work since: 0 but for the errors of the integration and of the work's own integral
-        number contacts;  // [1] Number of closed contacts (races and pockets)
-        number penetration;  // [m] Largest elastic approach of all contacts
+        scalar Z;  // [1] Number of balls (build-time constant)
+        scalar friction_torque;  // [N.m] Torque that the shaft must supply about X
+        scalar power_loss;  // [W] Power dissipated in contacts, films, drag and joints
+        scalar energy_residual;  // [J] Energy now - energy at start - net work since: 0 but for the errors of the integration and of the work's own integral
+        scalar contacts;  // [1] Number of closed contacts (races and pockets)
+        scalar penetration;  // [m] Largest elastic approach of all contacts
     } bearing;
     struct {
-        number x;  // [m] Displacement of the inner ring along X
-        number y;  // [m] Displacement of the inner ring along Y
-        number z;  // [m] Displacement of the inner ring along Z
-        number v_x;  // [m/s] Velocity of the inner ring along X
-        number v_y;  // [m/s] Velocity of the inner ring along Y
-        number v_z;  // [m/s] Velocity of the inner ring along Z
-        number a_x;  // [m/s2] Acceleration of the inner ring along X
-        number a_y;  // [m/s2] Acceleration of the inner ring along Y
-        number a_z;  // [m/s2] Acceleration of the inner ring along Z
-        number tilt_y;  // [rad] Tilt of the inner ring about Y
-        number tilt_z;  // [rad] Tilt of the inner ring about Z
-        number beta;  // [1] Axis of the inner ring a = (a_x, gamma, -beta): direction cosine, the sine of a tilt about Y
-        number gamma;  // [1] Axis of the inner ring: direction cosine, the sine of a tilt about Z
-        number beta_dot;  // [1/s] Rate of ring.beta
-        number gamma_dot;  // [1/s] Rate of ring.gamma
-        number beta_ddot;  // [1/s2] Second derivative of ring.beta
-        number gamma_ddot;  // [1/s2] Second derivative of ring.gamma
+        scalar x;  // [m] Displacement of the inner ring along X
+        scalar y;  // [m] Displacement of the inner ring along Y
+        scalar z;  // [m] Displacement of the inner ring along Z
+        scalar v_x;  // [m/s] Velocity of the inner ring along X
+        scalar v_y;  // [m/s] Velocity of the inner ring along Y
+        scalar v_z;  // [m/s] Velocity of the inner ring along Z
+        scalar a_x;  // [m/s2] Acceleration of the inner ring along X
+        scalar a_y;  // [m/s2] Acceleration of the inner ring along Y
+        scalar a_z;  // [m/s2] Acceleration of the inner ring along Z
+        scalar tilt_y;  // [rad] Tilt of the inner ring about Y
+        scalar tilt_z;  // [rad] Tilt of the inner ring about Z
+        scalar beta;  // [1] Axis of the inner ring a = (a_x, gamma, -beta): direction cosine, the sine of a tilt about Y
+        scalar gamma;  // [1] Axis of the inner ring: direction cosine, the sine of a tilt about Z
+        scalar beta_dot;  // [1/s] Rate of ring.beta
+        scalar gamma_dot;  // [1/s] Rate of ring.gamma
+        scalar beta_ddot;  // [1/s2] Second derivative of ring.beta
+        scalar gamma_ddot;  // [1/s2] Second derivative of ring.gamma
     } ring;
     struct {
-        number F_x;  // [N] Force on the housing along X (by balls and cage through the outer ring)
-        number F_y;  // [N] Force on the housing along Y
-        number F_z;  // [N] Force on the housing along Z
-        number M_y;  // [N.m] Moment on the housing about Y
-        number M_z;  // [N.m] Moment on the housing about Z
+        scalar F_x;  // [N] Force on the housing along X (by balls and cage through the outer ring)
+        scalar F_y;  // [N] Force on the housing along Y
+        scalar F_z;  // [N] Force on the housing along Z
+        scalar M_y;  // [N.m] Moment on the housing about Y
+        scalar M_z;  // [N.m] Moment on the housing about Z
     } housing;
     struct {
-        number Q_i[Z];  // [N] Contact load on the inner race
-        number Q_e[Z];  // [N] Contact load on the outer race
-        number alpha_i[Z];  // [rad] Contact angle at the inner race (0 without contact)
-        number alpha_e[Z];  // [rad] Contact angle at the outer race (0 without contact)
-        number Q_c[Z];  // [N] Contact load on the cage pocket, both halves together
-        number omega_m[Z];  // [rad/s] Orbital speed
-        number p_i[Z];  // [Pa] Largest contact pressure on the inner race
-        number p_e[Z];  // [Pa] Largest contact pressure on the outer race
-        number Lambda_i[Z];  // [1] Film thickness / roughness at the inner race (0 without contact)
-        number Lambda_e[Z];  // [1] Film thickness / roughness at the outer race (0 without contact)
-        number spin_roll[Z];  // [1] Spin-to-roll ratio at the inner race
-        number Q_cx[Z];  // [N] Axial part of the ball's force on the cage pocket, both halves together
-        number x[Z];  // [m] Axial position of the ball's centre
-        number r[Z];  // [m] Distance of the ball's centre from the axis
-        number psi[Z];  // [rad] Azimuth of the ball from Y toward Z, unbounded
+        scalar Q_i[Z];  // [N] Contact load on the inner race
+        scalar Q_e[Z];  // [N] Contact load on the outer race
+        scalar alpha_i[Z];  // [rad] Contact angle at the inner race (0 without contact)
+        scalar alpha_e[Z];  // [rad] Contact angle at the outer race (0 without contact)
+        scalar Q_c[Z];  // [N] Contact load on the cage pocket, both halves together
+        scalar omega_m[Z];  // [rad/s] Orbital speed
+        scalar p_i[Z];  // [Pa] Largest contact pressure on the inner race
+        scalar p_e[Z];  // [Pa] Largest contact pressure on the outer race
+        scalar Lambda_i[Z];  // [1] Film thickness / roughness at the inner race (0 without contact)
+        scalar Lambda_e[Z];  // [1] Film thickness / roughness at the outer race (0 without contact)
+        scalar spin_roll[Z];  // [1] Spin-to-roll ratio at the inner race
+        scalar Q_cx[Z];  // [N] Axial part of the ball's force on the cage pocket, both halves together
+        scalar x[Z];  // [m] Axial position of the ball's centre
+        scalar r[Z];  // [m] Distance of the ball's centre from the axis
+        scalar psi[Z];  // [rad] Azimuth of the ball from Y toward Z, unbounded
     } ball;
     struct {
-        number x;  // [m] Displacement of the cage half on the -X side along X
-        number y;  // [m] Displacement of the cage half on the -X side along Y
-        number z;  // [m] Displacement of the cage half on the -X side along Z
-        number tilt_y;  // [rad] Tilt of the cage half on the -X side about Y
-        number tilt_z;  // [rad] Tilt of the cage half on the -X side about Z
-        number psi;  // [rad] Rotation of the cage half on the -X side about its axis, unbounded: 0 has a pocket on Y
+        scalar x;  // [m] Displacement of the cage half on the -X side along X
+        scalar y;  // [m] Displacement of the cage half on the -X side along Y
+        scalar z;  // [m] Displacement of the cage half on the -X side along Z
+        scalar tilt_y;  // [rad] Tilt of the cage half on the -X side about Y
+        scalar tilt_z;  // [rad] Tilt of the cage half on the -X side about Z
+        scalar psi;  // [rad] Rotation of the cage half on the -X side about its axis, unbounded: 0 has a pocket on Y
     } half_0;
     struct {
-        number x;  // [m] Displacement of the cage half on the +X side along X
-        number y;  // [m] Displacement of the cage half on the +X side along Y
-        number z;  // [m] Displacement of the cage half on the +X side along Z
-        number tilt_y;  // [rad] Tilt of the cage half on the +X side about Y
-        number tilt_z;  // [rad] Tilt of the cage half on the +X side about Z
-        number psi;  // [rad] Rotation of the cage half on the +X side about its axis, unbounded: 0 has a pocket on Y
+        scalar x;  // [m] Displacement of the cage half on the +X side along X
+        scalar y;  // [m] Displacement of the cage half on the +X side along Y
+        scalar z;  // [m] Displacement of the cage half on the +X side along Z
+        scalar tilt_y;  // [rad] Tilt of the cage half on the +X side about Y
+        scalar tilt_z;  // [rad] Tilt of the cage half on the +X side about Z
+        scalar psi;  // [rad] Rotation of the cage half on the +X side about its axis, unbounded: 0 has a pocket on Y
     } half_1;
     struct {
-        number dislocation;  // [m] Largest slip of one cage half against the other over the joints, in the plane
-        number omega;  // [rad/s] Speed of the cage (mean of the halves)
-        number slip_ratio;  // [1] 1 - cage speed / epicyclic speed (0 at standstill)
-        number y;  // [m] Displacement of the cage's centre along Y (mean of the halves)
-        number z;  // [m] Displacement of the cage's centre along Z (mean of the halves)
-        number eccentricity;  // [1] Displacement of the cage's centre / radial guide clearance
-        number F_pocket_max;  // [N] Largest pocket contact load of all balls
-        number F_pocket_peak;  // [N] Largest pocket contact load since the last communication point
+        scalar dislocation;  // [m] Largest slip of one cage half against the other over the joints, in the plane
+        scalar omega;  // [rad/s] Speed of the cage (mean of the halves)
+        scalar slip_ratio;  // [1] 1 - cage speed / epicyclic speed (0 at standstill)
+        scalar y;  // [m] Displacement of the cage's centre along Y (mean of the halves)
+        scalar z;  // [m] Displacement of the cage's centre along Z (mean of the halves)
+        scalar eccentricity;  // [1] Displacement of the cage's centre / radial guide clearance
+        scalar F_pocket_max;  // [N] Largest pocket contact load of all balls
+        scalar F_pocket_peak;  // [N] Largest pocket contact load since the last communication point
     } cage;
     struct {
-        number sigma_head[Z];  // [Pa] Largest principal stress in the head fillet
-        number sigma_mid[Z];  // [Pa] von Mises stress of the shank at the split (|z| <= 0.1 mm)
-        number sigma_head_vm[Z];  // [Pa] von Mises stress in the head fillet
-        number sigma_mid_p1[Z];  // [Pa] Largest principal stress of the shank at the split
-        number sigma_head_peak[Z];  // [Pa] Largest sigma_head since the last communication point
-        number sigma_mid_peak[Z];  // [Pa] Largest sigma_mid since the last communication point
-        number sigma_head_max;  // [Pa] Largest sigma_head_peak of all rivets
-        number sigma_mid_max;  // [Pa] Largest sigma_mid_peak of all rivets
-        number damage_head[Z];  // [1] Miner's sum of sigma_head since start.settle
-        number damage_mid[Z];  // [1] Miner's sum of sigma_mid since start.settle
-        number N[Z];  // [N] External tension of the joint, before preload shielding
-        number V[Z];  // [N] Transverse load of the joint
-        number T[Z];  // [N] Tension of the rivet
-        number M[Z];  // [N.m] Prying moment of the joint
-        number P[Z];  // [N] Preload at the present temperature
-        number slip[Z];  // [m] Slip of one half against the other at the joint, in the plane
-        number flag[Z];  // [1] Sum of 1 rivet yields, 2 flange yields, 4 compressed joint (N counted as 0), 8 fit beyond the stress table
-        number V_y[Z];  // [N] Transverse load that the shank carries, on the +X half, along y of the cage's frame
-        number V_z[Z];  // [N] Transverse load that the shank carries, on the +X half, along z of the cage's frame
-        number M_y[Z];  // [N.m] Prying moment on the +X half about y of the cage's frame
-        number M_z[Z];  // [N.m] Prying moment on the +X half about z of the cage's frame
-        number F_head[Z];  // [N] Friction force at the heads
+        scalar sigma_head[Z];  // [Pa] Largest principal stress in the head fillet
+        scalar sigma_mid[Z];  // [Pa] von Mises stress of the shank at the split (|z| <= 0.1 mm)
+        scalar sigma_head_vm[Z];  // [Pa] von Mises stress in the head fillet
+        scalar sigma_mid_p1[Z];  // [Pa] Largest principal stress of the shank at the split
+        scalar sigma_head_peak[Z];  // [Pa] Largest sigma_head since the last communication point
+        scalar sigma_mid_peak[Z];  // [Pa] Largest sigma_mid since the last communication point
+        scalar sigma_head_max;  // [Pa] Largest sigma_head_peak of all rivets
+        scalar sigma_mid_max;  // [Pa] Largest sigma_mid_peak of all rivets
+        scalar damage_head[Z];  // [1] Miner's sum of sigma_head since start.settle
+        scalar damage_mid[Z];  // [1] Miner's sum of sigma_mid since start.settle
+        scalar N[Z];  // [N] External tension of the joint, before preload shielding
+        scalar V[Z];  // [N] Transverse load of the joint
+        scalar T[Z];  // [N] Tension of the rivet
+        scalar M[Z];  // [N.m] Prying moment of the joint
+        scalar P[Z];  // [N] Preload at the present temperature
+        scalar slip[Z];  // [m] Slip of one half against the other at the joint, in the plane
+        scalar flag[Z];  // [1] Sum of 1 rivet yields, 2 flange yields, 4 compressed joint (N counted as 0), 8 fit beyond the stress table
+        scalar V_y[Z];  // [N] Transverse load that the shank carries, on the +X half, along y of the cage's frame
+        scalar V_z[Z];  // [N] Transverse load that the shank carries, on the +X half, along z of the cage's frame
+        scalar M_y[Z];  // [N.m] Prying moment on the +X half about y of the cage's frame
+        scalar M_z[Z];  // [N.m] Prying moment on the +X half about z of the cage's frame
+        scalar F_head[Z];  // [N] Friction force at the heads
     } rivet;
     struct {
-        number time;  // [s] Time that the statistics cover
-        number Q_c_mean;  // [N] Pocket force of all balls pooled: mean, zeros included
-        number Q_c_rms;  // [N] Pocket force of all balls pooled: RMS
-        number Q_c_p999;  // [N] Pocket force of all balls pooled: 99.9 % quantile
-        number Q_c_max;  // [N] Pocket force of all balls pooled: largest
-        number contact_duty;  // [1] Part of the time that a ball touches its pocket
-        number cage_omega;  // [rad/s] Mean cage speed
-        number eccentricity;  // [1] Mean eccentricity of the cage
-        number dislocation_max;  // [m] Largest dislocation of the cage halves
-        number sigma_head_mean;  // [Pa] Head stress of the worst rivet at each instant: mean
-        number sigma_head_rms;  // [Pa] Head stress of the worst rivet at each instant: RMS
-        number sigma_head_p999;  // [Pa] Head stress of the worst rivet at each instant: 99.9 % quantile
-        number sigma_head_max;  // [Pa] Head stress of the worst rivet at each instant: largest
-        number sigma_mid_mean;  // [Pa] Middle stress of the worst rivet at each instant: mean
-        number sigma_mid_rms;  // [Pa] Middle stress of the worst rivet at each instant: RMS
-        number sigma_mid_p999;  // [Pa] Middle stress of the worst rivet at each instant: 99.9 % quantile
-        number sigma_mid_max;  // [Pa] Middle stress of the worst rivet at each instant: largest
-        number rivet_head_mean[Z];  // [Pa] Head stress of each rivet: mean
-        number rivet_head_rms[Z];  // [Pa] Head stress of each rivet: RMS
-        number rivet_head_p999[Z];  // [Pa] Head stress of each rivet: 99.9 % quantile
-        number rivet_head_max[Z];  // [Pa] Head stress of each rivet: largest
-        number rivet_mid_mean[Z];  // [Pa] Middle stress of each rivet: mean
-        number rivet_mid_rms[Z];  // [Pa] Middle stress of each rivet: RMS
-        number rivet_mid_p999[Z];  // [Pa] Middle stress of each rivet: 99.9 % quantile
-        number rivet_mid_max[Z];  // [Pa] Middle stress of each rivet: largest
+        scalar time;  // [s] Time that the statistics cover
+        scalar Q_c_mean;  // [N] Pocket force of all balls pooled: mean, zeros included
+        scalar Q_c_rms;  // [N] Pocket force of all balls pooled: RMS
+        scalar Q_c_p999;  // [N] Pocket force of all balls pooled: 99.9 % quantile
+        scalar Q_c_max;  // [N] Pocket force of all balls pooled: largest
+        scalar contact_duty;  // [1] Part of the time that a ball touches its pocket
+        scalar cage_omega;  // [rad/s] Mean cage speed
+        scalar eccentricity;  // [1] Mean eccentricity of the cage
+        scalar dislocation_max;  // [m] Largest dislocation of the cage halves
+        scalar sigma_head_mean;  // [Pa] Head stress of the worst rivet at each instant: mean
+        scalar sigma_head_rms;  // [Pa] Head stress of the worst rivet at each instant: RMS
+        scalar sigma_head_p999;  // [Pa] Head stress of the worst rivet at each instant: 99.9 % quantile
+        scalar sigma_head_max;  // [Pa] Head stress of the worst rivet at each instant: largest
+        scalar sigma_mid_mean;  // [Pa] Middle stress of the worst rivet at each instant: mean
+        scalar sigma_mid_rms;  // [Pa] Middle stress of the worst rivet at each instant: RMS
+        scalar sigma_mid_p999;  // [Pa] Middle stress of the worst rivet at each instant: 99.9 % quantile
+        scalar sigma_mid_max;  // [Pa] Middle stress of the worst rivet at each instant: largest
+        scalar rivet_head_mean[Z];  // [Pa] Head stress of each rivet: mean
+        scalar rivet_head_rms[Z];  // [Pa] Head stress of each rivet: RMS
+        scalar rivet_head_p999[Z];  // [Pa] Head stress of each rivet: 99.9 % quantile
+        scalar rivet_head_max[Z];  // [Pa] Head stress of each rivet: largest
+        scalar rivet_mid_mean[Z];  // [Pa] Middle stress of each rivet: mean
+        scalar rivet_mid_rms[Z];  // [Pa] Middle stress of each rivet: RMS
+        scalar rivet_mid_p999[Z];  // [Pa] Middle stress of each rivet: 99.9 % quantile
+        scalar rivet_mid_max[Z];  // [Pa] Middle stress of each rivet: largest
     } stat;
     struct {
-        number steps;  // [1] Accepted internal steps
-        number rhs_evals;  // [1] Evaluations of the right-hand side
-        number step_size;  // [s] Internal step size that the next step starts with
-        number error_tests_failed;  // [1] Internal steps rejected by the error test
-        number cpu_time;  // [s] Processor time of this instance inside fmi2DoStep (not part of the saved state)
-        number tolerance;  // [1] Tolerance in force
-        number path;  // [1] Integration method in use: 1 velocity Verlet, 2 Runge-Kutta
+        scalar steps;  // [1] Accepted internal steps
+        scalar rhs_evals;  // [1] Evaluations of the right-hand side
+        scalar step_size;  // [s] Internal step size that the next step starts with
+        scalar error_tests_failed;  // [1] Internal steps rejected by the error test
+        scalar cpu_time;  // [s] Processor time of this instance inside fmi2DoStep (not part of the saved state)
+        scalar tolerance;  // [1] Tolerance in force
+        scalar method_used;  // [1] Integration method in use: 1 velocity Verlet, 2 Runge-Kutta
     } solver;
     struct {
-        number land_contact;  // [1] Cage halves whose land touches the outer ring
-        number pocket_exit;  // [1] Balls whose centre has left the section of the cage: a real pocket ends there
-        number ellipse_cut;  // [1] Race contacts whose ellipse reaches over the shoulder
-        number overpressure;  // [1] Race contacts beyond bearing.p_limit
-        number joint_open;  // [1] Joints whose plates are apart
-        number rivet_yield;  // [1] Rivets whose sigma_head_peak or sigma_mid_peak exceeds the yield stress
-        number land_contact_onsets;  // [1] Onsets of land contact since the start
-        number pocket_exit_onsets;  // [1] Onsets of a ball leaving its pocket since the start
-        number ellipse_cut_onsets;  // [1] Onsets of a contact ellipse cut by the shoulder since the start
-        number overpressure_onsets;  // [1] Onsets of a contact beyond bearing.p_limit since the start
-        number joint_open_onsets;  // [1] Onsets of an open joint since the start
-        number rivet_yield_onsets;  // [1] Onsets of yield of a rivet since the start
+        scalar land_contact;  // [1] Cage halves whose land touches the outer ring
+        scalar pocket_exit;  // [1] Balls whose centre has left the section of the cage: a real pocket ends there
+        scalar ellipse_cut;  // [1] Race contacts whose ellipse reaches over the shoulder
+        scalar overpressure;  // [1] Race contacts beyond bearing.p_limit
+        scalar joint_open;  // [1] Joints whose plates are apart
+        scalar rivet_yield;  // [1] Rivets whose sigma_head_peak or sigma_mid_peak exceeds the yield stress
+        scalar land_contact_onsets;  // [1] Onsets of land contact since the start
+        scalar pocket_exit_onsets;  // [1] Onsets of a ball leaving its pocket since the start
+        scalar ellipse_cut_onsets;  // [1] Onsets of a contact ellipse cut by the shoulder since the start
+        scalar overpressure_onsets;  // [1] Onsets of a contact beyond bearing.p_limit since the start
+        scalar joint_open_onsets;  // [1] Onsets of an open joint since the start
+        scalar rivet_yield_onsets;  // [1] Onsets of yield of a rivet since the start
     } event;
 } Outputs;
 
@@ -421,45 +421,5 @@ typedef enum {
     SCALE_COUNT
 } StateScale;
 
-typedef struct {
-    int offset, count;
-    StateScale scale;  // class of its error scale
-    const char *name;
-} StateBlock;
-
-extern const StateBlock STATE_BLOCKS[N_STATE_BLOCKS];
-
-typedef enum { TYPE_REAL, TYPE_INTEGER, TYPE_ENUMERATION } VariableType;  // double; int; int
-typedef enum { CAUSALITY_INDEPENDENT, CAUSALITY_INPUT, CAUSALITY_PARAMETER, CAUSALITY_OUTPUT } Causality;
-
-typedef struct {
-    const char *name, *unit;
-    unsigned value_reference;  // of the first element
-    int count;                 // of elements
-    VariableType type;
-    Causality causality;
-    OutputGroup group;  // of an output
-    int state;          // its place in y if it is one, else -1
-    size_t offset;      // of the first element in Inputs, Parameters or Outputs
-    double start, min, max;
-} Variable;
-
 enum { N_INPUTS = 10 };  // all of them numbers
 enum { N_VARIABLES = 232 };  // time is the first
-
-extern const Variable VARIABLES[N_VARIABLES];  // by rising value reference
-
-// The variable of a value reference and the index of its element; NULL if there is none.
-const Variable *variable_find(unsigned value_reference, int *element);
-
-// The variable of a name of the table; NULL if there is none.
-const Variable *variable_named(const char *name);
-
-// Whether the variable may have this value; if not, a message with its name, value, unit and allowed range.
-int variable_allows(const Variable *variable, int element, double value, char *message, size_t size);
-
-// The name of one element, numbered from 1 as FMI does: "ball[3].Q_i".
-void variable_element_name(const Variable *variable, int element, char *name, size_t size);
-
-// All start values.
-void variables_set_start(Parameters *parameters, Inputs *inputs);

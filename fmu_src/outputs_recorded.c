@@ -27,35 +27,35 @@ static void fill_fatigue(Bearing *b)
 
 static void fill_stat(Bearing *b)
 {
-    const Saved *s = &b->s;
+    const InstanceState *s = &b->s;
     const double time = s->force.time / Z, p = 0.999;  // every ball adds its own time
     const StatisticsChannel *head = &s->head[WORST_RIVET], *mid = &s->mid[WORST_RIVET];
     b->out.stat.time = time;
     b->out.stat.Q_c_mean = statistics_mean(&s->force);
     b->out.stat.Q_c_rms = statistics_rms(&s->force);
     b->out.stat.Q_c_p999 = statistics_quantile(&s->force, FORCE_FLOOR, p);
-    b->out.stat.Q_c_max = s->force.most;
+    b->out.stat.Q_c_max = s->force.max;
     b->out.stat.contact_duty = time > 0.0 ? s->duty_time / (Z * time) : 0.0;
     b->out.stat.cage_omega = time > 0.0 ? s->omega_time / time : 0.0;
     b->out.stat.eccentricity = time > 0.0 ? s->eccentricity_time / time : 0.0;
-    b->out.stat.dislocation_max = s->dislocation_most;
+    b->out.stat.dislocation_max = s->dislocation_max;
     b->out.stat.sigma_head_mean = statistics_mean(head);
     b->out.stat.sigma_head_rms = statistics_rms(head);
     b->out.stat.sigma_head_p999 = statistics_quantile(head, STRESS_FLOOR, p);
-    b->out.stat.sigma_head_max = head->most;
+    b->out.stat.sigma_head_max = head->max;
     b->out.stat.sigma_mid_mean = statistics_mean(mid);
     b->out.stat.sigma_mid_rms = statistics_rms(mid);
     b->out.stat.sigma_mid_p999 = statistics_quantile(mid, STRESS_FLOOR, p);
-    b->out.stat.sigma_mid_max = mid->most;
+    b->out.stat.sigma_mid_max = mid->max;
     for (int k = 0; k < Z; k++) {
         b->out.stat.rivet_head_mean[k] = statistics_mean(&s->head[k]);
         b->out.stat.rivet_head_rms[k] = statistics_rms(&s->head[k]);
         b->out.stat.rivet_head_p999[k] = statistics_quantile(&s->head[k], STRESS_FLOOR, p);
-        b->out.stat.rivet_head_max[k] = s->head[k].most;
+        b->out.stat.rivet_head_max[k] = s->head[k].max;
         b->out.stat.rivet_mid_mean[k] = statistics_mean(&s->mid[k]);
         b->out.stat.rivet_mid_rms[k] = statistics_rms(&s->mid[k]);
         b->out.stat.rivet_mid_p999[k] = statistics_quantile(&s->mid[k], STRESS_FLOOR, p);
-        b->out.stat.rivet_mid_max[k] = s->mid[k].most;
+        b->out.stat.rivet_mid_max[k] = s->mid[k].max;
     }
 }
 
@@ -68,7 +68,7 @@ static void fill_solver(Bearing *b)
     b->out.solver.error_tests_failed = i->error_tests_failed;
     b->out.solver.cpu_time = b->cpu_time;
     b->out.solver.tolerance = b->s.tolerance;
-    b->out.solver.path = b->s.p.solver.method;
+    b->out.solver.method_used = b->s.p.solver.method;
 }
 
 static void fill_event(Bearing *b)

@@ -1,5 +1,5 @@
 // Compiled once per instruction set, like the kernels.
-#include "kernels.h"
+#include "kernel_loops.h"
 
 #include "ball.h"
 #include "cage_joint.h"
@@ -52,13 +52,13 @@ void element_times(const Model *model, const double *y, int rounds, Work *w, dou
     TIME(9, ring_acceleration(model, w, y_dot));
 }
 
-// A bundle that stays in a register: gcc keeps bundles of one in memory.
+// A packet that stays in a register: gcc keeps packets of one in memory.
 #if LANE_WIDTH == 1
 typedef double chain;
 #define CHAIN_ROOT sqrt
 #else
-typedef real chain;
-#define CHAIN_ROOT real_sqrt
+typedef wide chain;
+#define CHAIN_ROOT wide_sqrt
 #endif
 
 // A loaded value has to be in a vector register here.
