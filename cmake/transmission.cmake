@@ -14,7 +14,8 @@ add_custom_command(OUTPUT ${generated}
     COMMAND ${run}/generate.py --table ${transmission}/shaft.toml --out ${shaft}
     COMMAND ${CMAKE_COMMAND} -E touch ${generated}
     DEPENDS ${transmission}/shaft.toml ${tools}/generate.py ${templates} VERBATIM)
-set(shaft_sources ${transmission}/shaft.c ${fmu_src}/fmi2_wrapper.c ${fmu_src}/variable_table.c ${shaft}/variables.c)
+set(shaft_core ${transmission}/shaft.c ${fmu_src}/variable_table.c ${shaft}/variables.c)
+set(shaft_sources ${shaft_core} ${fmu_src}/fmi2_wrapper.c)
 add_fmu_binary(Shaft ${shaft_sources} ${shaft}/variables.h)
 target_include_directories(Shaft PRIVATE ${fmu_src} ${shaft})
 target_link_libraries(Shaft PRIVATE m)

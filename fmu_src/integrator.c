@@ -9,13 +9,19 @@
 
 #include "aligned.h"
 #include "elementary.h"
+#include "reserved_memory.h"
 
 #include <arkode/arkode_erkstep.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <sundials/sundials_nvector.h>
 
+// SUNDIALS' memory: 15 vectors of the states, and what does not grow with them.  A test sees that it is enough.
+enum { SUNDIALS_MEMORY = 20 * N_STATES * sizeof(double) + 32768 };
+
 struct Integrator {
+    _Alignas(64) unsigned char block[SUNDIALS_MEMORY];
+    ReservedMemory memory;
     const Kernels *kernels;
     const Model *model;
     Work *w;
@@ -246,7 +252,11 @@ Integrator *integrator_create(const Kernels *kernels, const Model *model, Work *
 {
     Integrator *in = aligned_new(sizeof *in);
     if (in == NULL) return NULL;
-    *in = (Integrator){.kernels = kernels, .model = model, .w = w, .s = state, .hook = hook, .log = log, .context = context};
+    memset(in, 0, sizeof *in);
+    in->kernels = kernels, in->model = model, in->w = w, in->s = state;
+    in->hook = hook, in->log = log, in->context = context;
+    in->memory = (ReservedMemory){in->block, sizeof in->block, 0};
+    reserved_memory_use(&in->memory);
     bool fine = SUNContext_Create(SUN_COMM_NULL, &in->sun) == SUN_SUCCESS;
     if (fine) {
         SUNContext_ClearErrHandlers(in->sun);
@@ -258,6 +268,7 @@ Integrator *integrator_create(const Kernels *kernels, const Model *model, Work *
         for (int i = 0; i < N_STATES; i++) in->weight[i] = 1.0;
         fine = fine && warm_up(in);
     }
+    reserved_memory_use(NULL);
     if (!fine) {
         integrator_destroy(in);
         return NULL;
@@ -268,9 +279,11 @@ Integrator *integrator_create(const Kernels *kernels, const Model *model, Work *
 void integrator_destroy(Integrator *in)
 {
     if (in == NULL) return;
+    reserved_memory_use(&in->memory);
     if (in->arkode != NULL) ARKodeFree(&in->arkode);
     if (in->y != NULL) N_VDestroy(in->y);
     if (in->sun != NULL) SUNContext_Free(&in->sun);
+    reserved_memory_use(NULL);
     aligned_delete(in);
 }
 
@@ -378,5 +391,9 @@ int integrator_advance(Integrator *in, double t_stop, long max_steps)
 {
     integrator_evaluate(in);
     if (!in->kernels->ops->finite(in->s->now.f)) return ARK_RHSFUNC_FAIL;
-    return in->model->p->solver.method == METHOD_EXPLICIT ? explicit_advance(in, t_stop, max_steps) : verlet_advance(in, t_stop, max_steps);
+    if (in->model->p->solver.method != METHOD_EXPLICIT) return verlet_advance(in, t_stop, max_steps);
+    reserved_memory_use(&in->memory);  // messages need some
+    const int status = explicit_advance(in, t_stop, max_steps);
+    reserved_memory_use(NULL);
+    return status;
 }
