@@ -35,5 +35,8 @@ void events_now(const Model *model, const Work *w, const double head_peak[Z], co
 // Counts an onset; true if it is one to report.
 bool event_onset(EventState *state, EventKind kind, const Event *now);
 
+// Whether counting onsets can have made it.
+bool event_state_is_valid(const EventState *state);
+
 // What a message says of an event.
 void event_text(EventKind kind, const Event *now, char *text, size_t size);

@@ -13,6 +13,8 @@
 // A cycle whose mean reaches sigma_m or sigma_f, or whose life is below one cycle, uses up the part: damage 1.
 #pragma once
 
+#include <stdbool.h>
+
 // Material: p->fatigue of the variable table, in its order [Pa, 1].
 typedef struct {
     double sigma_D, N_D, k_1, k_2, sigma_m, sigma_f;
@@ -36,3 +38,4 @@ typedef struct {
 double fatigue_cycle(const FatigueLaw *law, double range, double mean);     // damage of one cycle
 void fatigue_push(FatigueChannel *c, const FatigueLaw *law, double sigma);  // next sample of the history
 double fatigue_damage(const FatigueChannel *c, const FatigueLaw *law);      // sum with the residue at half weight; leaves the channel as it is
+bool fatigue_is_valid(const FatigueChannel *c);                             // whether pushing samples can have made it

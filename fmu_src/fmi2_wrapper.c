@@ -7,6 +7,7 @@
 #include "part.h"
 
 #include "float_environment.h"
+#include "build_info.h"
 #include "fmi2Functions.h"
 #include "fmi2_calls.h"
 
@@ -152,21 +153,36 @@ static fmi2Status conclude(Instance *m, PartStatus status)
     return fmi2Fatal;
 }
 
-// The start for the present parameters and inputs, from a new part: an earlier start, made to read outputs, leaves no trace.
+// A new part with the present parameters and inputs.
+static void renew(Part *part)
+{
+    const Parameters parameters = *part_parameters(part);
+    Inputs inputs[INPUT_ORDERS + 1];
+    for (int order = 0; order <= INPUT_ORDERS; order++) inputs[order] = *part_inputs(part, order);
+    part_reset(part);
+    *part_parameters(part) = parameters;
+    for (int order = 0; order <= INPUT_ORDERS; order++) *part_inputs(part, order) = inputs[order];
+}
+
+// The start for the present parameters and inputs: an earlier start, made to read outputs, leaves no trace, nor does one that fails.
 // A step cannot be discarded here: there is no last good state.
 static fmi2Status instance_initialize(Instance *m)
 {
     if (m->session.initialized) return fmi2OK;
-    const Parameters parameters = *part_parameters(m->part);
-    Inputs inputs[INPUT_ORDERS + 1];
-    for (int order = 0; order <= INPUT_ORDERS; order++) inputs[order] = *part_inputs(m->part, order);
-    part_reset(m->part);
-    *part_parameters(m->part) = parameters;
-    for (int order = 0; order <= INPUT_ORDERS; order++) *part_inputs(m->part, order) = inputs[order];
+    renew(m->part);
     PartStatus status = part_initialize(m->part, m->session.start_time, m->session.tolerance);
     if (status == PART_DISCARD) status = PART_ERROR;
     m->session.initialized = status == PART_OK || status == PART_WARNING;
+    if (!m->session.initialized) renew(m->part);
     return conclude(m, status);
+}
+
+// Parameters or inputs have changed: in initialization mode the start that outputs were read from is none any more.
+static void forget_start(Instance *m)
+{
+    if (m->session.phase != INITIALIZING || !m->session.initialized) return;
+    renew(m->part);
+    m->session.initialized = false;
 }
 
 // ---- creation and destruction ---------------------------------------------------------------------------------------------------------------
@@ -414,7 +430,7 @@ static fmi2Status SetReal(fmi2Component c, const fmi2ValueReference vr[], size_t
         const Variable *v = variable_find(vr[i], &element);
         ((double *)storage(m, v))[element] = value[i];
     }
-    m->session.initialized = false;
+    if (n > 0) forget_start(m);
     return fmi2OK;
 }
 
@@ -430,7 +446,7 @@ static fmi2Status SetInteger(fmi2Component c, const fmi2ValueReference vr[], siz
         const Variable *v = variable_find(vr[i], &element);
         ((int *)storage(m, v))[element] = value[i];
     }
-    m->session.initialized = false;
+    if (n > 0) forget_start(m);
     return fmi2OK;
 }
 
@@ -500,7 +516,7 @@ static fmi2Status SetRealInputDerivatives(fmi2Component c, const fmi2ValueRefere
         const Variable *v = variable_find(vr[i], &element);
         ((double *)((char *)part_inputs(m->part, order[i]) + v->offset))[element] = value[i];
     }
-    m->session.initialized = false;
+    if (n > 0) forget_start(m);
     return fmi2OK;
 }
 
@@ -557,18 +573,25 @@ static fmi2Status GetDirectionalDerivative(fmi2Component c, const fmi2ValueRefer
     return output_derivatives(m, call, &derivatives, unknown, n_unknown, d_unknown);
 }
 
+// Rounding that a host's clock may have: t += h, start + k h or whole nanoseconds agree to a few spacings of doubles at the largest of these times.
+static double clock_slack(const Session *s, double time, double step)
+{
+    return 4.0 * DBL_EPSILON * (fabs(s->start_time) + fabs(time) + step);
+}
+
 // ---- saved states: one block of bytes, in memory as in a file -------------------------------------------------------------------------------
 typedef struct {
     char magic[8];
     uint64_t version;   // of this layout
     char guid[40];      // of the model
+    char build[72];     // digest of the sources
     char data[72];      // digest of data built in
     uint64_t size;      // of the whole block
     uint64_t checksum;  // of all that follows the header
 } BlobHeader;
 
 static const char BLOB_MAGIC[8] = "RBstate";
-enum { BLOB_VERSION = 2 };
+enum { BLOB_VERSION = 3 };
 
 static size_t blob_size(void)
 {
@@ -594,10 +617,56 @@ static const char *blob_problem(const unsigned char *blob, size_t size, bool che
     if (strncmp(header.guid, MODEL_GUID, sizeof header.guid) != 0) return "the saved state is of another model (its GUID is not " MODEL_GUID ")";
     if (strncmp(header.data, part_data_digest(), sizeof header.data) != 0)
         return "the saved state is of an FMU with other data built in (of a bearing: another rivet table)";
-    if (header.size != blob_size()) return "the saved state is of another build of this FMU (its size differs)";
+    if (strncmp(header.build, BUILD_DIGEST, sizeof header.build) != 0) return "the saved state is of an FMU that was built from other sources";
+    if (header.size != blob_size()) return "the saved state has another size than this FMU's";
     if (size != header.size) return "the saved state is truncated or too long";
     if (checked && header.checksum != blob_checksum(blob)) return "the saved state is corrupted (its checksum is wrong)";
     return NULL;
+}
+
+// Where the messages about a state go that is tried: the last one is the reason.
+typedef struct {
+    char *text;
+    size_t size;
+} Reason;
+
+static void keep_reason(void *environment, LogCategory category, const char *message)
+{
+    const Reason *reason = environment;
+    if (category == LOG_ERROR) snprintf(reason->text, reason->size, "the saved state cannot be restored: %s", message);
+}
+
+// Why this cannot be the session of a part at this time; NULL if it can.
+static const char *session_problem(const Session *s, const Part *part)
+{
+    const Variable *tolerance = variable_named("solver.tol");
+    const double time = part_time(part), slack = clock_slack(s, time, 0.0) + 1e-6 * (1.0 + time - s->start_time);
+    if (!(s->phase == INSTANTIATED || s->phase == INITIALIZING || s->phase == STEPPING || s->phase == FAILED || s->phase == TERMINATED || s->phase == ERRONEOUS))
+        return "there is no such phase";
+    if (s->initialized > 1 || (s->initialized && (s->phase == INSTANTIATED || !part_is_initialized(part)))) return "phase and part do not belong together";
+    if (s->phase & (STEPPING | FAILED | TERMINATED) && !part_is_initialized(part)) return "it has this phase without a start";
+    if (!isfinite(s->start_time) || !(s->stop_time >= s->start_time)) return "start and stop time are not in order";
+    if (s->phase & (STEPPING | FAILED | TERMINATED) && !(time >= s->start_time && time <= s->stop_time + slack)) return "its time is not between start and stop";
+    if (s->tolerance != 0.0 && !(tolerance && s->tolerance >= tolerance->min && s->tolerance <= tolerance->max)) return "its tolerance is out of range";
+    if (s->step_status > fmi2Error) return "there is no such status of a step";
+    return NULL;
+}
+
+// Whether a block of this model, from outside, holds what an instance can go on from: tried on a part of its own.
+static bool blob_can_be_restored(const unsigned char *blob, char *reason, size_t size)
+{
+    Reason kept = {reason, size};
+    const PartHost listener = {&kept, keep_reason};
+    Session session;
+    memcpy(&session, blob + sizeof(BlobHeader), sizeof session);
+    snprintf(reason, size, "out of memory");
+    Part *part = part_create(&listener);
+    if (!part) return false;
+    bool fine = part_restore_unknown(part, blob + sizeof(BlobHeader) + sizeof session);
+    const char *problem = fine ? session_problem(&session, part) : NULL;
+    if (problem) keep_reason(&kept, LOG_ERROR, problem);
+    part_destroy(part);
+    return fine && !problem;
 }
 
 static fmi2Status GetFMUstate(fmi2Component c, fmi2FMUstate *state)
@@ -608,6 +677,7 @@ static fmi2Status GetFMUstate(fmi2Component c, fmi2FMUstate *state)
     if (!blob) return refuse(m, CALL_GetFMUstate, "out of memory");
     BlobHeader header = {.version = BLOB_VERSION, .guid = MODEL_GUID, .size = blob_size()};
     memcpy(header.magic, BLOB_MAGIC, sizeof header.magic);
+    snprintf(header.build, sizeof header.build, "%s", BUILD_DIGEST);
     snprintf(header.data, sizeof header.data, "%s", part_data_digest());
     memcpy(blob, &header, sizeof header);
     memcpy(blob + sizeof header, &m->session, sizeof m->session);
@@ -663,6 +733,8 @@ static fmi2Status DeSerializeFMUstate(fmi2Component c, const fmi2Byte bytes[], s
     if (!bytes || !state) return refuse(m, CALL_DeSerializeFMUstate, "a null pointer");
     const char *problem = blob_problem((const unsigned char *)bytes, size, true);
     if (problem) return refuse(m, CALL_DeSerializeFMUstate, "%s", problem);
+    char reason[300];
+    if (!blob_can_be_restored((const unsigned char *)bytes, reason, sizeof reason)) return refuse(m, CALL_DeSerializeFMUstate, "%s", reason);
     if (!*state) *state = calloc(1, blob_size());
     if (!*state) return refuse(m, CALL_DeSerializeFMUstate, "out of memory");
     memcpy(*state, bytes, blob_size());
@@ -670,12 +742,6 @@ static fmi2Status DeSerializeFMUstate(fmi2Component c, const fmi2Byte bytes[], s
 }
 
 // ---- steps ----------------------------------------------------------------------------------------------------------------------------------
-// Rounding that a host's clock may have: t += h, start + k h or whole nanoseconds agree to a few spacings of doubles at the largest of these times.
-static double clock_slack(const Session *s, double time, double step)
-{
-    return 4.0 * DBL_EPSILON * (fabs(s->start_time) + fabs(time) + step);
-}
-
 static fmi2Status do_step(Instance *m, double point, double step)
 {
     const Session *s = &m->session;

@@ -8,6 +8,7 @@
 #include "integrator.h"
 
 #include "aligned.h"
+#include "check.h"
 #include "elementary.h"
 #include "reserved_memory.h"
 
@@ -390,10 +391,24 @@ static int explicit_advance(Integrator *in, double t_stop, long max_steps)
 int integrator_advance(Integrator *in, double t_stop, long max_steps)
 {
     integrator_evaluate(in);
-    if (!in->kernels->ops->finite(in->s->now.f)) return ARK_RHSFUNC_FAIL;
+    if (!in->kernels->ops->finite(in->s->now.f)) {
+        memset(in->s->now.f, 0, sizeof in->s->now.f);
+        in->s->f_is_current = 0;
+        return ARK_RHSFUNC_FAIL;
+    }
     if (in->model->p->solver.method != METHOD_EXPLICIT) return verlet_advance(in, t_stop, max_steps);
     reserved_memory_use(&in->memory);  // messages need some
     const int status = explicit_advance(in, t_stop, max_steps);
     reserved_memory_use(NULL);
     return status;
+}
+
+bool integrator_state_is_valid(const IntegratorState *s)
+{
+    const double positive[] = {s->h}, amounts[] = {s->now.h};
+    bool fine = values_are_sane(&s->t, 1) && values_are_amounts(amounts, 1) && values_are_amounts(positive, 1) && s->h > 0.0;
+    fine &= values_are_sane(s->now.y, N_STATES) && values_are_sane(s->now.f, N_STATES) && values_are_sane(s->now.jerk, N_STATES);
+    fine &= values_are_sane(&s->now.film[0][0], sizeof s->now.film / sizeof s->now.film[0][0]);
+    fine &= s->f_is_current == 0 || s->f_is_current == 1;
+    return fine && value_is_count(s->steps) && value_is_count(s->rhs_evals) && value_is_count(s->error_tests_failed);
 }

@@ -23,6 +23,9 @@ typedef void IntegratorLog(void *context, const char *message);
 Integrator *integrator_create(const Kernels *kernels, const Model *model, Work *w, IntegratorState *state, StepHook *hook, IntegratorLog *log, void *context);
 void integrator_destroy(Integrator *integrator);
 
+// Whether steps can have made it.
+bool integrator_state_is_valid(const IntegratorState *state);
+
 // Error weights for the tolerance; scale of each state class in model->d.
 void integrator_tolerance(Integrator *integrator, double tolerance);
 

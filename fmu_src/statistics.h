@@ -1,6 +1,8 @@
 // Running statistics over time, weighted by the length of the steps: mean, RMS, largest value and quantiles of positive quantities.
 #pragma once
 
+#include <stdbool.h>
+
 // 32 bins in each octave, 106 a decade: a bin is 1.6...3.1 % wide; 24 octaves above the channel's floor.  Smaller values count as below.
 enum { STATISTICS_OCTAVES = 24, STATISTICS_PER_OCTAVE = 32, STATISTICS_BINS = STATISTICS_OCTAVES * STATISTICS_PER_OCTAVE };
 
@@ -17,3 +19,6 @@ double statistics_rms(const StatisticsChannel *channel);
 
 // Value that the part p of the time is not above; linear inside a bin, 0 below the floor.
 double statistics_quantile(const StatisticsChannel *channel, double floor, double p);
+
+// Whether adding values for `time` at most can have made it.
+bool statistics_is_valid(const StatisticsChannel *channel, double time);

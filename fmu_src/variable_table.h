@@ -3,6 +3,7 @@
 
 #include "variables.h"
 
+#include <stdbool.h>
 #include <stddef.h>
 
 typedef struct {
@@ -38,6 +39,9 @@ const Variable *variable_named(const char *name);
 
 // Whether the variable may have this value; if not, a message with its name, value, unit and allowed range.
 int variable_allows(const Variable *variable, int element, double value, char *message, size_t size);
+
+// Whether all variables of one causality may have the values in a Parameters or an Inputs; each that may not is reported with its message.
+bool variables_allow(Causality causality, const void *values, void (*report)(void *context, const char *message), void *context);
 
 // The name of one element, numbered from 1 as FMI does: "ball[3].Q_i".
 void variable_element_name(const Variable *variable, int element, char *name, size_t size);

@@ -17,6 +17,8 @@
 // C1 in omega: friction passes through rest as omega / sqrt(omega^2 + omega_0^2).
 #include "part.h"
 
+#include "check.h"
+
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -141,7 +143,7 @@ PartStatus part_step(Part *part, double t_end)
     double y[N_STATES];
     memcpy(y, s->y, sizeof y);
     for (int k = 0; k < (int)n; k++) runge_kutta(s, k * (h / n), h / n, y);
-    if (!isfinite(y[Y_PHI])) {
+    if (!values_are_sane(y, N_STATES)) {
         snprintf(message, sizeof message, "t = %.9g s: speed and angle leave all bounds in the next %g s", s->t, h);
         part->host.log(part->host.environment, LOG_ERROR, message);
         return PART_DISCARD;
@@ -238,6 +240,30 @@ void part_restore(Part *part, const void *saved)
 {
     memcpy(&part->s, saved, sizeof part->s);
 }
+
+static void report_error(void *part, const char *message)
+{
+    const PartHost *host = &((Part *)part)->host;
+    host->log(host->environment, LOG_ERROR, message);
+}
+
+bool part_restore_unknown(Part *part, const void *saved)
+{
+    Saved *s = &part->s;
+    memcpy(s, saved, sizeof *s);
+    bool fine = values_are_sane(&s->t, 1) && values_are_sane(s->y, N_STATES);
+    fine = fine && values_are_sane((const double *)&s->u[1], (size_t)INPUT_ORDERS * N_INPUTS) && values_are_sane((const double *)&s->seen_dot, N_INPUTS);
+    if (!fine) report_error(part, "time, states or rates of inputs: not what a run can have left there");
+    return fine && variables_allow(CAUSALITY_PARAMETER, &s->p, report_error, part) && variables_allow(CAUSALITY_INPUT, &s->u[0], report_error, part) &&
+           variables_allow(CAUSALITY_INPUT, &s->seen, report_error, part);
+}
+
+bool part_is_initialized(const Part *part)
+{
+    (void)part;  // it can be stepped from any state
+    return true;
+}
+
 const char *part_data_digest(void)
 {
     return "";
