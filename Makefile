@@ -28,7 +28,7 @@ test-slow: build  ## the tests that take minutes
 
 bench: build  ## measure what the README claims and write docs/performance.md, in minutes; in an hour with FORM=
 	for name in $(BENCHMARKS); do $(PYTHON) benchmarks/$$name.py $(FORM) || exit 1; done
-	$(PYTHON) benchmarks/page.py
+	$(PYTHON) benchmarks/performance_page.py
 
 build: build/build.ninja  ## the FMU and the tests' library; seconds after an edit
 	$(BIN)/cmake --build build

@@ -30,7 +30,7 @@ class Model:
     def of(cls, parameters=None, inputs=None, t=0.0, table=None):
         """The model of some parameters and inputs {name: value} (SI, others at their start values), inputs held from time t [s].
 
-        table: a rivet_model.table.RivetTable; default that of the 6207.  ValueError names a value that is not allowed.
+        table: a rivet_table.RivetTable; default that of the 6207.  ValueError names a value that is not allowed.
 
         >>> model = Model.of({"bearing.P_d": 20e-6}, {"shaft.omega": 500.0})
         >>> print(f"{model.d.inner.hertz.K:.4g} N/m^1.5")

@@ -21,8 +21,8 @@ from library import ROOT
 from lxml import etree
 from slave import Slave, describe
 
-from bearing_model.app.build import bearing_case, build_folder, rivet_table
-from bearing_model.app.rivet import TRACKED_TABLE
+from bearing_model.rivet_table import DEFAULT_TABLE
+from riveted_bearing.builder import bearing_case, build_folder, rivet_table
 
 FMI_HEADERS = Path(fmpy.__file__).parent / "c-code"
 SCHEMA = Path(fmpy.__file__).parent / "schema" / "fmi3"  # FMI 2.0.4 takes terminals and icons from 3.0
@@ -208,7 +208,7 @@ def test_sources_compile_with_fmpy(folder, tmp_path, monkeypatch):
 
 def test_default_bearing_takes_the_shipped_rivet_table(tmp_path):
     """`riveted-bearing build` embeds the finite elements' table that `make build` embeds, not closed forms."""
-    assert rivet_table(bearing_case("6207"), tmp_path) == TRACKED_TABLE
+    assert rivet_table(bearing_case("6207"), tmp_path) == DEFAULT_TABLE
 
 
 PLATFORMS = {"linux64": ".so", "win64": ".dll", "darwin64": ".dylib", "aarch64-darwin": ".dylib"}
@@ -220,7 +220,7 @@ def everywhere(tmp_path_factory):
     if not importlib.util.find_spec("ziglang"):
         pytest.skip("needs the package ziglang: pip install ziglang")
     path = tmp_path_factory.mktemp("all") / "everywhere.fmu"
-    subprocess.run([sys.executable, "-m", "bearing_model.app", "build", "--platforms", "all", "--out", str(path)], check=True)
+    subprocess.run([sys.executable, "-m", "riveted_bearing", "build", "--platforms", "all", "--out", str(path)], check=True)
     assert validate_fmu(str(path)) == []
     return Path(fmpy.extract(str(path), str(path.parent / "unpacked")))
 

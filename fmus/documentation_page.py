@@ -1,6 +1,6 @@
 """The FMU's documentation/index.html: one readable page that needs no other file, from modelDescription.xml and the project's own texts.
 
-python fmus/page.py --description modelDescription.xml --parameters parameters.md --drawing bearing.svg --sources --out index.html
+python fmus/documentation_page.py --description modelDescription.xml --parameters parameters.md --drawing bearing.svg --sources --out index.html
 """
 
 import argparse

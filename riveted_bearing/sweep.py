@@ -42,10 +42,11 @@ import numpy as np
 from .errors import UserError, unknown
 from .fmu import Model
 from .results import KEY, write_atomically
-from .runner import closing_names, own_version, simulate
+from .runner import closing_names, simulate
 from .scene import SECONDS, SIMULATION, leaves, load_scene, read_toml, refusal, section_of, shipped_scenes
 from .summary import settled
 from .units import to_si
+from .version import __version__
 
 SECTIONS = ("description", "scene", "repeats", "simulation", "parameters", "inputs", "vary", "sample")
 SAMPLE = ("method", "count", "seed", "between")
@@ -373,7 +374,7 @@ def schema_of(sweep):
         "document": sweep.document,
         "factors": sweep.factors,
         "guid": model.description.instantiationToken,
-        "version": own_version(),
+        "version": __version__,
     }
     return pa.schema(fields, metadata={KEY: json.dumps(about)})
 

@@ -18,7 +18,7 @@ from .life import rivet_life
 from .results import FORMATS, read_result, write_atomically
 from .summary import DEG, RPM, columns, settled, summary_rows
 
-PARTS = files("bearing_model") / "data" / "report"
+PARTS = files("riveted_bearing") / "data" / "report"
 WIDE, LOW, SQUARE, HIGH = (4.9, 2.7), (4.9, 1.9), (4.9, 4.2), (4.9, 3.0)  # inches
 DISPLAY = {"rad/s": (RPM, "rev/min"), "rad": (DEG, "deg"), "Pa": (1e-6, "MPa"), "m": (1e3, "mm")}
 

@@ -4,8 +4,8 @@ from pathlib import Path
 
 import numpy as np
 
+from ..results import write_atomically
 from .claims import all_claims
-from .results import write_atomically
 from .study import PICTURES, draw, estimate, ratio, shipped_studies
 
 INTRODUCTION = """# The paper's study, again
@@ -16,7 +16,7 @@ Cui et al., *Study on Fatigue Characteristics of Rivets in Bearing Cage for an A
 model, and each claim of the paper's section 4 and of its conclusions. The paper's clearances, conformities, oil, masses, friction and support of the ring are
 not published; ours are in [parameters.md](parameters.md), each with its source, and none leaves its documented range here. The scenes `demo`, `R` and `F` were
 chosen once, before this model had its load path and head friction, and not again. Preload, fit and load are the paper's; the sweeps stand in
-`bearing_model/data/studies/`.
+`riveted_bearing/data/studies/`.
 
 - Curves are means over seeds, bands and brackets the 95 % confidence interval of the mean (Student's t). A seed changes the balls' first spacing; the impacts
   come at twelve phases besides. Where balls press on their pockets all the time (R and F at low speed) all seeds end on one periodic motion: the band closes,
@@ -28,7 +28,7 @@ chosen once, before this model had its load path and head friction, and not agai
   and 14), the local bending of the cage halves (Fig. 13), the clearances (Fig. 16), and how the two halves share a pocket force (beside Fig. 10).
 - Rivets are elastic here: figures beyond yield (590 MPa, assumed) say how far, not what stress.
 - **Verdict**: *reproduced* if all conditions of a claim hold with their confidence, *partly* if some do, *not* if none does. The conditions are in
-  `bearing_model/app/claims.py`.
+  `riveted_bearing/paper_study/claims.py`.
 """
 
 

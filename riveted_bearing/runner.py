@@ -4,44 +4,21 @@ import itertools
 import platform
 import time
 from datetime import UTC, datetime
-from importlib.metadata import PackageNotFoundError, version
 
 import numpy as np
 from fmpy import __version__ as fmpy_version
 from fmpy.fmi1 import FMICallException
 from fmpy.fmi2 import fmi2Discard
 
-from .fmu import Instance, Model
+from .fmu import Instance
 from .results import Result
-from .scene import load_scene
+from .version import __version__
 
 PROGRESS_INTERVAL = 0.05  # s of wall time between calls of progress
 
 
-def run(scene="demo", *, parameters=None, inputs=None, fmu=None, seed=None, t_end=None, step=None, outputs=None, tolerance=None, progress=None):
-    """Simulate a scene and return its Result.
-
-    scene: name of a shipped scene or path of a TOML file; parameters, inputs: changes by full variable name, values as in the file
-    (SI numbers, "30 N", item names; inputs also {"t": [...], "value": [...]}); fmu: path of the FMU, None for the default one;
-    seed: start.seed; t_end, step: s; outputs: names or patterns; progress: called now and then with the simulated time [s].
-    Raises UserError (a ValueError) naming what cannot be used.  A run that the FMU ends early returns what there is, with `stopped` telling why.
-
-        >>> from bearing_model.app import run
-        >>> result = run("demo", parameters={"joint.preload": "30 N"}, t_end=0.01)
-        >>> result.data["rivet.sigma_head_max"].max() / 1e6     # MPa
-    """
-    model = Model(fmu)
-    simulation = {"t_end": t_end, "step": step, "outputs": outputs, "tolerance": tolerance}
-    changes = {
-        "simulation": {key: value for key, value in simulation.items() if value is not None},
-        "parameters": (parameters or {}) | ({} if seed is None else {"start.seed": seed}),
-        "inputs": inputs or {},
-    }
-    return simulate(model, load_scene(scene, model, ("run()", changes)), progress)
-
-
 def simulate(model, scene, progress=None):
-    """Run a Scene that was checked against the Model; see run()."""
+    """Run a Scene that was checked against the Model; returns its Result, see riveted_bearing.run."""
     with Instance(model) as instance:
         instance.initialize(scene)
         parameters = instance.parameters()
@@ -141,15 +118,7 @@ def provenance(model, scene):
         "guid": model.description.instantiationToken,
         "model": model.description.description or model.description.modelName,
         "generated": f"{model.description.generationTool or ''} {model.description.generationDateAndTime or ''}".strip(),
-        "versions": {"riveted-bearing": own_version(), "fmpy": fmpy_version, "python": platform.python_version()},
+        "versions": {"riveted-bearing": __version__, "fmpy": fmpy_version, "python": platform.python_version()},
         "machine": f"{platform.system()} {platform.machine()}",
         "date": datetime.now(UTC).isoformat(timespec="seconds"),
     }
-
-
-def own_version():
-    """Version of the installed package."""
-    try:
-        return version("riveted-bearing")
-    except PackageNotFoundError:
-        return "checkout"

@@ -1,13 +1,32 @@
-"""What can be said of a bearing before any simulation: geometry, masses, frequencies, quasi-static loads and life."""
+"""riveted-bearing info: what can be said of a bearing before any simulation."""
 
 import math
+from typing import Annotated
 
 import numpy as np
+import typer
+from rich.markup import escape
 from rich.table import Column, Table
 
 from bearing_model.kinematics import fault_frequencies
 
-from .summary import DEG, RPM
+from ..summary import DEG, RPM
+from .terminal import FMU, command, console
+
+
+@command
+def info(
+    target: Annotated[str, typer.Argument(metavar="BEARING|SCENE", help="bearing file or designation, or scene file or name")] = "6207",
+    fmu: FMU = None,
+):
+    """Geometry, masses, kinematic and fault frequencies, quasi-static loads and life."""
+    from ..bearings import case_of
+
+    case = case_of(target, fmu)
+    console.print(f"[bold]{escape(case.designation)}[/]  {escape(case.description)}", soft_wrap=True)
+    for title, table in info_tables(case):
+        console.print(f"\n[bold]{title}[/]", soft_wrap=True)
+        console.print(table)
 
 
 def info_tables(case):

@@ -32,6 +32,11 @@ class Result:
     summary: dict = field(default_factory=dict)
     about: dict = field(default_factory=dict)
 
+    def __repr__(self):
+        times = self.data.get("time", ())
+        span = f"{len(self.data)} channels at {len(times)} times to {times[-1]:g} s" if len(times) else "no data"
+        return f"<Result of scene {self.about.get('scene', '?')}: {span}{', stopped early' if self.stopped else ''}>"
+
     @property
     def stopped(self):
         """Why the run ended before its time, "" if it did not."""
@@ -42,14 +47,14 @@ class Result:
         return {"format": FORMAT_VERSION, "about": self.about, "parameters": self.parameters, "summary": self.summary, "units": self.units}
 
 
-def write_result(result, path):
+def write_result(result: Result, path: str | Path) -> Path:
     """Write a result whole or not at all; the suffix of `path` (.parquet, .csv, .mat) is the format."""
     path = Path(path)
     write_atomically(path, lambda temporary: WRITERS[format_of(path)](result, temporary))
     return path
 
 
-def read_result(path):
+def read_result(path: str | Path) -> Result:
     """The Result stored in a file; UserError if it is missing, damaged or something else."""
     path = Path(path)
     if not path.is_file():

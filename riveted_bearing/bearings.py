@@ -23,7 +23,7 @@ from .errors import UserError, unknown
 from .scene import load_scene, positive, read_toml, refusal, section_of, shipped_scenes
 from .units import MULTIPLES, suffix, to_si
 
-SHIPPED = files("bearing_model") / "data" / "bearings"
+SHIPPED = files("riveted_bearing") / "data" / "bearings"
 KEYS = ("designation", "description", "Z", "catalogue", "parameters", "inputs")
 CATALOGUE = ("bore", "outside_diameter", "width", "C", "C_0")
 
@@ -37,6 +37,9 @@ class Case:
     Z: int
     values: dict
     catalogue: dict = field(default_factory=dict)
+
+    def __repr__(self):
+        return f"<Case {self.designation}: {self.description or 'no description'}; Z = {self.Z}, {len(self.values)} values>"
 
     @property
     def bearing(self):
@@ -143,6 +146,18 @@ def named(variable, value):
 def is_number(value):
     """Whether a TOML value is a finite number."""
     return isinstance(value, (int, float)) and not isinstance(value, bool) and math.isfinite(value)
+
+
+def case_of(target, fmu=None):
+    """The Case of a bearing (file or designation) or of a scene at its start (file or name); fmu: path of the FMU that a scene is for."""
+    names = [*shipped_bearings(), *shipped_scenes()]
+    if str(target) not in names and not Path(target).is_file():
+        raise unknown("info", "bearing, scene or file", target, names)
+    if is_bearing(target):
+        return bearing_case(target)
+    from .fmu import Model
+
+    return scene_case(target, Model(fmu))
 
 
 def scene_case(source, model):

@@ -8,6 +8,7 @@ import numpy as np
 from rich.table import Column, Table
 from threadpoolctl import threadpool_limits
 
+from bearing_model import load_path, rivet_rom, rivet_splines, rivet_table
 from rivet_model import pictures, table
 from rivet_model.build import make_table
 from rivet_model.geometry import Geometry
@@ -16,7 +17,6 @@ from rivet_model.load_cases import Joint
 from .errors import UserError
 from .results import write_atomically
 
-TRACKED_TABLE = Path(table.__file__).parent / "tables" / "6207.json"
 ROWS = {"preload": 10.0, "fit": 10e-6, "transverse load": 10.0}  # distance of the rows printed, SI
 
 
@@ -27,7 +27,7 @@ def rivet_curves(source=None):
     source: rivet table (JSON) or geometry (TOML), None for the tracked table; a geometry is solved on the spot, in some 20 s.
     Raises UserError naming file and fault.
     """
-    path = Path(source or TRACKED_TABLE)
+    path = Path(source or rivet_table.DEFAULT_TABLE)
     if path.suffix == ".toml":
         joint = condensed(read_geometry(path), path)
         return f"{path.name}: finite elements", pictures.curves(*pictures.joint_response(joint)), joint
@@ -50,7 +50,7 @@ def read_geometry(path, cage=None):
 def read_table(path, Z=None):
     """Rivet table; UserError if it is missing, damaged or made for another number of rivets."""
     try:
-        return table.read(path, Z)
+        return rivet_table.read(path, Z)
     except OSError as problem:
         raise UserError(f"{path}: {problem.strerror}") from None
     except ValueError as problem:
@@ -84,8 +84,9 @@ def table_of(path, geometry, folder, coarse=False, say=lambda text, share: None)
 
 
 def sources_digest():
-    """What the rivet model's files are, so that a table made by others is not taken for theirs."""
-    files = sorted(Path(table.__file__).parent.glob("*.py"))
+    """What the files are that make a table, so that a table made by others is not taken for theirs."""
+    readers = (Path(module.__file__) for module in (load_path, rivet_rom, rivet_splines, rivet_table))
+    files = [*sorted(Path(table.__file__).parent.glob("*.py")), *readers]
     return sha256(b"".join(file.read_bytes() for file in files)).hexdigest()[:8]
 
 

@@ -19,6 +19,7 @@ import sysconfig
 from pathlib import Path
 
 from bearing_model import variables
+from bearing_model.rivet_table import DEFAULT_TABLE
 from rivet_model import closed_form, table
 from rivet_model.geometry import Geometry
 
@@ -26,7 +27,7 @@ from .bearings import bearing_case
 from .errors import UserError, unknown
 from .fmu import FMU_NAME, PACKAGE, Instance, Model
 from .results import make_folder, to_toml, write_atomically
-from .rivet import TRACKED_TABLE, read_geometry, read_table, table_of
+from .rivet import read_geometry, read_table, table_of
 from .scene import Scene
 
 SOURCES = (PACKAGE.parent, PACKAGE / "_source")  # a checkout, an installed package
@@ -35,7 +36,7 @@ LIBRARIES = ("RivetedBearing.so", "RivetedBearing.dll", "RivetedBearing.dylib")
 STEP = re.compile(r"\[\s*(?:(\d+)/(\d+)|(\d+)%)\s*\]")  # Ninja's [3/40], make's [ 7%]
 
 
-def build(bearing=None, rivet=None, out=None, say=lambda text, share=None: None, platforms=(), coarse=False):
+def build_fmu(bearing=None, rivet=None, out=None, say=lambda text, share=None: None, platforms=(), coarse=False):
     """Build an FMU and return its path.
 
     bearing: bearing file or designation, None for the default one; rivet: rivet table (JSON), or geometry (TOML) to make one by finite elements,
@@ -191,7 +192,7 @@ def rivet_table(case, folder):
     except ValueError as problem:
         raise UserError(f"{case.designation}: {problem}") from None
     if geometry.digest == Geometry().digest:
-        return TRACKED_TABLE
+        return DEFAULT_TABLE
     path = folder / "rivet_table.json"
     table.write(closed_form.make_table(geometry), path)
     return path

@@ -1,6 +1,6 @@
 """The paper's study (Cui et al., Machines 2023, 11, 700, section 4): its figures again, and what comes of its claims.
 
-Every figure is a sweep in bearing_model/data/studies, over at least eight seeds.  Curves are means over the seeds with the 95 % confidence interval of that
+Every figure is a sweep in riveted_bearing/data/studies, over at least eight seeds.  Curves are means over the seeds with the 95 % confidence interval of that
 mean (Student's t).  Stress is shown three ways, because the paper does not say which it means: the mean over time of the worst rivet, its 99.9 % quantile over
 every internal step, and the dynamic range of a single rivet (99.9 % quantile - 0.1 % quantile of the samples, of the rivet where it is largest), in which
 the preload has no share.
@@ -21,13 +21,13 @@ from scipy.stats import t as student
 from bearing_model import rivet_rom
 from bearing_model.derived import default_table
 
-from .errors import unknown
-from .plot import FORCE, HEAD, MIDDLE, MUTED, RING, STYLE
-from .results import write_atomically
-from .summary import DEG, RPM
-from .sweep import load_sweep, plan_sweep, run_sweep
+from ..errors import unknown
+from ..plot import FORCE, HEAD, MIDDLE, MUTED, RING, STYLE
+from ..results import write_atomically
+from ..summary import DEG, RPM
+from ..sweep import load_sweep, plan_sweep, run_sweep
 
-SHIPPED = files("bearing_model") / "data" / "studies"
+SHIPPED = files("riveted_bearing") / "data" / "studies"
 LOADS = {2994: ("2994 / 515 N", HEAD), 2246: ("2246 / 386 N", MIDDLE), 1994: ("1994 / 258 N", RING)}  # Fr / Fa
 
 

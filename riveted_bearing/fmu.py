@@ -17,7 +17,7 @@ from .errors import UserError
 from .units import suffix, to_si, unit_table
 
 FMU_NAME = "RivetedBearing.fmu"
-PACKAGE = Path(__file__).resolve().parents[1]
+PACKAGE = Path(__file__).resolve().parent
 LEVELS = ("ok", "warning", "discard", "error", "fatal", "pending")
 LOGS = {}  # component environment -> log of its instance
 

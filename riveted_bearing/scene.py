@@ -31,7 +31,7 @@ import numpy as np
 from .errors import UserError, shortlist, unknown
 from .units import scale, to_si
 
-SHIPPED = files("bearing_model") / "data" / "scenes"
+SHIPPED = files("riveted_bearing") / "data" / "scenes"
 SECTIONS = ("description", "simulation", "parameters", "inputs")
 SIMULATION = ("t_end", "step", "output_interval", "tolerance", "outputs")
 SECONDS = {"s": (1.0, 0.0), "ms": (1e3, 0.0), "us": (1e6, 0.0)}

@@ -1,14 +1,15 @@
-"""docs/performance.md and its pictures from the records that the benchmarks left in results/."""
+"""docs/performance.md and its pictures from the newest records of the benchmarks in benchmarks/results/."""
 
+import contextlib
 import io
 import itertools
-import json
 import math
 import re
 
 import matplotlib
 import numpy as np
-from common import RESULTS, ROOT, SCENES
+from common import ROOT, SCENES
+from records import newest_record
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
@@ -44,15 +45,10 @@ SPARE = [("#555555", "h", 1.2), ("#999999", "p", 1.2), ("#222222", "*", 1.2)]
 plt.rcParams.update({"svg.fonttype": "none", "svg.hashsalt": "performance", "font.size": 8, "axes.grid": True, "grid.alpha": 0.25, "axes.axisbelow": True})
 
 
-def record(name):
-    """The record of a benchmark."""
-    return json.loads((RESULTS / f"benchmark_{name}.json").read_text())
-
-
 def section(title, name, write):
     """A chapter of the page from the record of a benchmark, or what is missing for it."""
     try:
-        return f"## {title}\n\n{write(record(name))}"
+        return f"## {title}\n\n{write(newest_record(name))}"
     except FileNotFoundError:
         return f"## {title}\n\nNot measured here: `python benchmarks/{name}.py` does it.\n"
 
@@ -178,7 +174,7 @@ def largest_error(data, scene):
 
 
 def headline(data):
-    through = record("rtf")
+    through = newest_record("rtf")
     rows = [
         [
             scene["title"],
@@ -245,7 +241,7 @@ def work_precision(data):
 {headline(data)}
 
 RTF: processor time / simulated time on one core; through fmpy with 1e-4 s communication steps, the peak stress of all rivets read at each; inside the FMU
-without fmpy's own part (`benchmarks/rtf.py`, least of {record("rtf")["rounds"]} rounds).
+without fmpy's own part (`benchmarks/rtf.py`, least of {newest_record("rtf")["rounds"]} rounds).
 Errors are of mean, RMS and 99.9 % quantile of pocket force, head stress and middle stress of the worst rivet, with 95 % half-widths.
 
 ![Run time against error of every solver](performance/work_precision.svg)
@@ -468,7 +464,10 @@ The last column is fmpy's overhead for `doStep` and one `getReal` of 18 channels
 
 def goals():
     """What the project set out to reach, and where it is: from all records that there are."""
-    found = {name: record(name) for name in ("rtf", "work_precision", "rhs", "scenes", "scaling") if (RESULTS / f"benchmark_{name}.json").exists()}
+    found = {}
+    for name in ("rtf", "work_precision", "rhs", "scenes", "scaling"):
+        with contextlib.suppress(FileNotFoundError):
+            found[name] = newest_record(name)
     rows = []
     if data := found.get("rtf"):
         rows += [[f"RTF through fmpy, {SCENES[name][0]}", f"≤ {REACH[name]:g}", number(data["scenes"][name]["rtf"])] for name in REACH]
@@ -503,8 +502,9 @@ def goals():
 def main():
     text = f"""# Performance
 
-Written by `make bench` (short form, minutes) or `make bench FORM=` (full form, an hour): the programs in `benchmarks/` measure, `benchmarks/page.py` writes
-this page. Times are processor times of one core. They scatter by some percent on a machine that others use; counts of evaluations and steps do not.
+Written by `make bench` (short form, minutes) or `make bench FORM=` (full form, an hour): the programs in `benchmarks/`
+measure, their records stand in `benchmarks/results/`, and `benchmarks/performance_page.py` writes this page from the newest ones.
+Times are processor times of one core. They scatter by some percent on a machine that others use; counts of evaluations and steps do not.
 
 {goals()}
 
