@@ -6,8 +6,8 @@
 // fmi2Discard comes with fmi2Terminated and fmi2LastSuccessfulTime; the outputs then are those of the last good state.
 #include "part.h"
 
-#include "float_environment.h"
 #include "build_info.h"
+#include "float_environment.h"
 #include "fmi2Functions.h"
 #include "fmi2_calls.h"
 
@@ -641,12 +641,14 @@ static const char *session_problem(const Session *s, const Part *part)
 {
     const Variable *tolerance = variable_named("solver.tol");
     const double time = part_time(part), slack = clock_slack(s, time, 0.0) + 1e-6 * (1.0 + time - s->start_time);
-    if (!(s->phase == INSTANTIATED || s->phase == INITIALIZING || s->phase == STEPPING || s->phase == FAILED || s->phase == TERMINATED || s->phase == ERRONEOUS))
+    if (!(s->phase == INSTANTIATED || s->phase == INITIALIZING || s->phase == STEPPING || s->phase == FAILED || s->phase == TERMINATED ||
+          s->phase == ERRONEOUS))
         return "there is no such phase";
     if (s->initialized > 1 || (s->initialized && (s->phase == INSTANTIATED || !part_is_initialized(part)))) return "phase and part do not belong together";
     if (s->phase & (STEPPING | FAILED | TERMINATED) && !part_is_initialized(part)) return "it has this phase without a start";
     if (!isfinite(s->start_time) || !(s->stop_time >= s->start_time)) return "start and stop time are not in order";
-    if (s->phase & (STEPPING | FAILED | TERMINATED) && !(time >= s->start_time && time <= s->stop_time + slack)) return "its time is not between start and stop";
+    if (s->phase & (STEPPING | FAILED | TERMINATED) && !(time >= s->start_time && time <= s->stop_time + slack))
+        return "its time is not between start and stop";
     if (s->tolerance != 0.0 && !(tolerance && s->tolerance >= tolerance->min && s->tolerance <= tolerance->max)) return "its tolerance is out of range";
     if (s->step_status > fmi2Error) return "there is no such status of a step";
     return NULL;

@@ -37,6 +37,12 @@ struct Part {
     Outputs out;
 };
 
+// Of a vector; C's hypot would ask for glibc 2.35, and no square leaves the range of doubles here.
+static double length(double y, double z)
+{
+    return sqrt(y * y + z * z);
+}
+
 // ---- equations ----------------------------------------------------------------------------------------------------------------------------
 // All that is linear in inputs and state: their derivatives follow from the same lines.
 static void linear(const Parameters *p, const Inputs *u, const double *y, Outputs *out)
@@ -64,8 +70,8 @@ static void accelerate(const Parameters *p, const Inputs *u, double M_B, Outputs
 static void evaluate(const Parameters *p, const Inputs *u, const double *y, Outputs *out)
 {
     linear(p, u, y, out);
-    const double full = 0.5 * p->support.mu * p->support.d * hypot(out->support.F_y, out->support.F_z);
-    accelerate(p, u, full * y[Y_OMEGA] / hypot(y[Y_OMEGA], p->support.omega_0), out);
+    const double full = 0.5 * p->support.mu * p->support.d * length(out->support.F_y, out->support.F_z);
+    accelerate(p, u, full * y[Y_OMEGA] / length(y[Y_OMEGA], p->support.omega_0), out);
 }
 
 // Derivatives of the outputs along a direction du, dy.
@@ -74,9 +80,9 @@ static void differentiate(const Parameters *p, const Inputs *u, const double *y,
     Outputs at;
     linear(p, u, y, &at);
     linear(p, du, dy, d);
-    const double F = hypot(at.support.F_y, at.support.F_z), c = 0.5 * p->support.mu * p->support.d;
+    const double F = length(at.support.F_y, at.support.F_z), c = 0.5 * p->support.mu * p->support.d;
     const double dF = F > 0.0 ? (at.support.F_y * d->support.F_y + at.support.F_z * d->support.F_z) / F : 0.0;
-    const double w = hypot(y[Y_OMEGA], p->support.omega_0), slope = p->support.omega_0 * p->support.omega_0 / (w * w * w);
+    const double w = length(y[Y_OMEGA], p->support.omega_0), slope = p->support.omega_0 * p->support.omega_0 / (w * w * w);
     accelerate(p, du, c * (dF * y[Y_OMEGA] / w + F * slope * dy[Y_OMEGA]), d);
 }
 
@@ -124,7 +130,7 @@ static double steps_needed(const Saved *s, double h)
 {
     Outputs at;
     linear(&s->p, &s->u[0], s->y, &at);
-    const double F = hypot(at.support.F_y, at.support.F_z);
+    const double F = length(at.support.F_y, at.support.F_z);
     const double rate = (s->p.drive.k + 0.5 * s->p.support.mu * s->p.support.d * F / s->p.support.omega_0) / s->p.shaft.J;
     return ceil(h * fmax(1e4, 20.0 * rate));
 }
