@@ -125,7 +125,6 @@ void part_reset(Bearing *b)
     variables_set_start(&b->s.p, &b->s.u[0]);
     b->current = 0;
     b->evaluated = false;
-    b->cpu_time = 0.0;
 }
 
 Parameters *part_parameters(Bearing *b)

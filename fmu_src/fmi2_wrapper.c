@@ -361,6 +361,7 @@ static fmi2Status real_value(Instance *m, const Variable *v, int element, double
         *value = ((const double *)storage(m, v))[element];
         return fmi2OK;
     case CAUSALITY_OUTPUT:
+    case CAUSALITY_LOCAL:
         break;
     }
     return output_value(m, v, element, value);
@@ -576,7 +577,7 @@ static fmi2Status GetDirectionalDerivative(fmi2Component c, const fmi2ValueRefer
 // Rounding that a host's clock may have: t += h, start + k h or whole nanoseconds agree to a few spacings of doubles at the largest of these times.
 static double clock_slack(const Session *s, double time, double step)
 {
-    return 4.0 * DBL_EPSILON * (fabs(s->start_time) + fabs(time) + step);
+    return 2.0 * DBL_EPSILON * (fmax(fabs(s->start_time), fabs(time)) + step);
 }
 
 // ---- saved states: one block of bytes, in memory as in a file -------------------------------------------------------------------------------

@@ -31,7 +31,7 @@ enum { INPUT_ORDERS = 2 };  // inputs are polynomials of time up to this order i
 
 Part *part_create(const PartHost *host);  // with the start values of the variable table; NULL if out of memory
 void part_destroy(Part *part);            // NULL is allowed
-void part_reset(Part *part);              // as newly created
+void part_reset(Part *part);              // as newly created, but for the processor time it has used
 
 Parameters *part_parameters(Part *part);  // may be changed before part_initialize
 // Inputs (order 0) and their derivatives (1...INPUT_ORDERS) at the present time; may be changed before each step, which leaves the inputs where

@@ -15,7 +15,7 @@ typedef struct {
 extern const StateBlock STATE_BLOCKS[N_STATE_BLOCKS];
 
 typedef enum { TYPE_REAL, TYPE_INTEGER, TYPE_ENUMERATION } VariableType;  // double; int; int
-typedef enum { CAUSALITY_INDEPENDENT, CAUSALITY_INPUT, CAUSALITY_PARAMETER, CAUSALITY_OUTPUT } Causality;
+typedef enum { CAUSALITY_INDEPENDENT, CAUSALITY_INPUT, CAUSALITY_PARAMETER, CAUSALITY_OUTPUT, CAUSALITY_LOCAL } Causality;
 
 typedef struct {
     const char *name, *unit;

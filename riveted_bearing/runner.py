@@ -98,8 +98,8 @@ def closing_values(instance, model):
 
 
 def closing_names(model):
-    """Outputs that say how it went in all: statistics, damage, solver counters."""
-    return [name for name in model.outputs if name.startswith(("stat.", "solver.")) or ".damage_" in name]
+    """What says how it went in all: statistics, damage, solver counters, processor time."""
+    return [name for name in [*model.outputs, *model.locals] if name.startswith(("stat.", "solver.")) or ".damage_" in name]
 
 
 def provenance(model, scene):

@@ -26,7 +26,7 @@ def script(folder, changes):
     """What float_host reads: GUID, outputs, an input, Integer and Real parameters with values."""
     description = describe(folder)
     variables = {v.name: v for v in description.modelVariables}
-    outputs = [v.valueReference for v in variables.values() if v.causality == "output" and v.name != "solver.cpu_time"]
+    outputs = [v.valueReference for v in variables.values() if v.causality == "output"]
     integers = {name: value for name, value in changes.items() if variables[name].type != "Real"}
     reals = {name: value for name, value in changes.items() if variables[name].type == "Real"}
     words = [description.guid, len(outputs), *outputs, variables[INPUT[description.modelName]].valueReference]

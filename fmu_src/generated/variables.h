@@ -9,7 +9,7 @@
 
 #define FMI2_FUNCTION_PREFIX RivetedBearing_  // of the functions of a source-code FMU
 #define MODEL_IDENTIFIER "RivetedBearing"
-#define MODEL_GUID "{d5a91f25-47b6-15d6-1014-f583fbadd5cd}"  // digest of the table
+#define MODEL_GUID "{a9cf9b39-1e02-ecc5-4dc6-040bf2498a19}"  // digest of the table
 
 enum { Z = 9 };  // number of balls
 
@@ -327,9 +327,9 @@ typedef struct {
         scalar rhs_evals;  // [1] Evaluations of the right-hand side
         scalar step_size;  // [s] Internal step size that the next step starts with
         scalar error_tests_failed;  // [1] Internal steps rejected by the error test
-        scalar cpu_time;  // [s] Processor time of this instance inside fmi2DoStep (not part of the saved state)
         scalar tolerance;  // [1] Tolerance in force
         scalar method_used;  // [1] Integration method in use: 1 velocity Verlet, 2 Runge-Kutta
+        scalar cpu_time;  // [s] Processor time of this instance inside fmi2DoStep, from its creation on (not part of the saved state)
     } solver;
     struct {
         scalar land_contact;  // [1] Cage halves whose land touches the outer ring
