@@ -7,7 +7,8 @@
     half 0     |        head friction   H = -k_h z_h, likewise with mu T + F_floor
     ---+-   -+---       hole contact    B = -k_hole max(0, |u| - gap) u/|u|,  gap = max(0, -fit_a): the diametral play
        |     |
-After the plates (mu P) the heads drag the rivet (mu P more), then the halves slip freely by the gap, then the shank bears.
+Under a growing transverse load the plates slip first (at mu P), then the heads slip on the rivet (at mu P more), then the halves move freely
+across the gap, and at last the shank bears against its holes.
 Force and reaction act at the same point, so momentum and energy are exact.  External tension of the joint: N = T - N_plate.
 Smoothness: C0 at opening and bearing (a spring of finite stiffness begins), C0 at v = 0.
 """
@@ -35,7 +36,7 @@ def cage_joint_kinematics(model, w):
 
 def cage_joint_friction(k, capacity, z_y, z_z, v_y, v_z):
     """Dahl's friction with force -k z: rates of z and the dissipated power."""
-    # |v| has no derivative at rest, where its complex step shall be 0
+    # |v| has no derivative at v = 0; the complex step of |v| is taken as 0 there
     speed_2 = v_y * v_y + v_z * v_z
     speed = np.sqrt(np.where(np.real(speed_2) > 0.0, speed_2, 0.0))
     rate = speed * k / capacity
@@ -66,12 +67,12 @@ def cage_joint_force(model, y, w):
         + d.k_hole * maximum(slip - d.hole_gap, 0.0) ** 2
     )
 
-    # on half 1 at its hole: s + u from the centre of half 0, in the frame of half 0
+    # force on half 1 at its hole, which lies at s + u from the centre of half 0; in the frame of half 0
     f = vec(w.N_plate - w.T - damping * v_x, *(w.S + w.H + w.B))
     r = vec(u_x, d.rivet_y + u_y, d.rivet_z + u_z)
     F, M = ball_array_sum(f), ball_array_sum(vec_cross(r, f))
 
-    # wrench in the global frame: -F, -M on half 0; on half 1 the same about its own centre
+    # wrench in the global frame: half 0 gets -F and -M, half 1 gets F and the moment about its own centre
     h0, h1 = w.half
     force, moment = (h0.a * v[0] + h0.b_y * v[1] + h0.b_z * v[2] for v in (F, M))
     h0.F = h0.F - force

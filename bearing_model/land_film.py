@@ -9,8 +9,9 @@
     I_c = int cos^2 phi/(1 - a cos phi - b sin phi)^3 dphi = 3 a/q^4 + S (q^2 + 3 a^2)/q^5                    phi = -pi/2 ... pi/2
     I_s = int sin phi cos phi/(...)^3 dphi               = 2 b/q^4 + a^2 b/(q^4 (1 - b^2)) + 3 a b S/q^5
 
-Steady rotation gives Ocvirk's force (a = 0), pure squeeze the pi-film's.  Regular at e = 0; C0 in V (cavitation), C1 elsewhere.
-q^2 is g_0 at the wall and g_0/2 behind it, eps has the cap 1.2; the dry contact F = K_land (e - C)^1.5 takes over there.
+Steady rotation gives Ocvirk's force (a = 0), pure squeeze that of the pi-film.  The force is regular at e = 0, C0 in V (cavitation) and C1 elsewhere.
+At the wall the film stays finite: q^2 is g_0 at the wall and tends to g_0/2 behind it, and eps is capped at 1.2.  Behind the wall the dry contact
+F = K_land (e - C)^1.5 carries.
 """
 
 import numpy as np
@@ -25,7 +26,7 @@ EPS_CAP = 1.2
 
 
 def land_film_integrals(a, b, q2):
-    """I_c and I_s of the head of this file."""
+    """The integrals I_c and I_s that stand at the head of this file."""
     q = np.sqrt(q2)
     q4, q5, c2 = q2 * q2, q2 * q2 * q, q2 + a * a  # c2 = 1 - b^2
     S = 0.5 * np.pi + np.arctan(a / q)
@@ -35,7 +36,7 @@ def land_film_integrals(a, b, q2):
 
 
 def land_film_gap(eps, g_0):
-    """q^2 = 1 - eps^2, but g_0 at the wall and g_0/2 far behind it."""
+    """q^2: 1 - eps^2 inside, g_0 at the wall, and g_0/2 far behind the wall."""
     above = 1.0 - eps * eps - 0.5 * g_0
     return 0.5 * g_0 + 0.5 * (above + np.sqrt(above * above + 2.0 * g_0 * g_0))
 
@@ -46,7 +47,7 @@ def land_film_force(model, w):
     h0, h1 = w.half
     x_land = np.array([-p.cage.land_x, p.cage.land_x])
 
-    # place and velocity of the lands' middles: x + a x_land, v + Omega x a x_land = v + a_dot x_land
+    # position and velocity of the middle of each land: x + a x_land, v + Omega x a x_land = v + a_dot x_land
     axis, axis_dot = wide_pair(h0.a, h1.a), wide_pair(h0.a_dot, h1.a_dot)
     _, e_y, e_z = wide_pair(h0.x, h1.x) + x_land * axis
     _, v_y, v_z = wide_pair(h0.v, h1.v) + x_land * axis_dot
@@ -65,7 +66,7 @@ def land_film_force(model, w):
     F_y, F_z = -d.kappa * (I_c * V_y - I_s * V_z), -d.kappa * (I_c * V_z + I_s * V_y)
     couette = d.couette / np.sqrt(q2)
 
-    # dry contact and friction at the place of the smallest gap; with mixed lubrication asperities carry their share of the film force too
+    # dry contact and friction where the gap is smallest; with mixed lubrication the asperities carry their share of the film force too
     u_y, u_z = e_y / e, e_z / e
     pen, pen_dot = e - d.C_land, v_y * u_y + v_z * u_z
     N_0 = hertz_load(p.cage.K_land, pen)

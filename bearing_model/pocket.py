@@ -7,7 +7,7 @@
       '--+--'                       V = w(n_x) (2/5) K delta^2.5,  w = (1 +- n_x/sqrt(n_x^2 + width^2))/2  share of this half
          |   half 0                 force on the ball: -dV/d(x, t), damping -(K w delta^1.5) lambda delta_dot n, Coulomb friction mu Q
 
-Both halves share one contact energy, so the force has a part along the gradient of the share; without it energy is not conserved.
+Both halves share one contact energy, so the force has a part along the gradient of the share; without this part energy would not be conserved.
 Friction P_S at the contact point p + R n with the slip v + omega x R n; the coefficient goes from that of the film to that of the
 asperities by Lambda (mixed lubrication); P_R and its horizontal counterpart are the inlet's rolling friction as in the races, with the
 mean speed |slip|/2 and R_x = R.  The half gets the opposite forces at the same points.
@@ -34,7 +34,7 @@ def pocket_mu(model, ln_U, ln_Q, mixed):
 
 
 def pocket_share(model, n_x, h, whole):
-    """Part of the contact that half h carries, and its slope over n_x; whole: the rigid cage carries all."""
+    """Share of the contact that half h carries, and the slope of this share over n_x; whole: a rigid cage carries the whole contact."""
     if whole:
         return 1.0, 0.0
     side, width2 = 2 * h - 1, model.p.cage.share_width**2
@@ -52,7 +52,7 @@ def pocket_half(model, w, h, mixed, whole):
     e_t = vec_cross(a, b)
     arm_p = vec(w.x, w.r, 0.0) - x_h
     x, t = vec_dot(arm_p, a), vec_dot(arm_p, e_t)
-    S = np.sqrt(x * x + t * t + 1e-30)  # a centred ball has no direction
+    S = np.sqrt(x * x + t * t + 1e-30)  # 1e-30 gives a centred ball a direction
     delta = S - (d.pocket_radius - d.R)
 
     omega_b, v_b = vec(w.omega_x, w.omega_r, w.omega_t), vec(w.v_x, w.v_r, w.v_t)

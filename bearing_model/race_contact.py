@@ -8,12 +8,12 @@
                  \\            /                                                     Q = K delta^1.5 max(0, 1 + lambda delta_dot)
                   \\__________/                                                      force on the ball -Q n
 
-Nothing is small here: any offset and tilt is exact, so that the normal forces derive from a potential.
+No offset or tilt is taken as small: the geometry is exact, so that the normal forces derive from a potential.
 Slip and mean speed at the contact point p + R n, seen from the frame that orbits with the ball:
     u_ball = (omega_ball - omega_m e_x) x R n,   u_race = v_ring + Omega x (p + R n) - v_ball - omega_m e_x x R n
     Delta u = u_ball - u_race,   U = (u_ball + u_race)/2     (their parts in the tangent plane)
 The ring gets the opposite forces at the same points: force -F, moment -(p x F) - M about its centre.
-Friction angle, spin: `sliced` integrates the traction over the long axis of the ellipse, where slip varies by spin and curvature:
+Spin and curvature let the slip vary along the long axis of the ellipse; `sliced` integrates the traction over this axis:
     Delta u(xi) = Delta u + Delta omega x (xi t_2 - xi^2/(2 R_m) n),  pressure (3/4)(1 - xi^2/a^2) per length
 Smoothness: C1 at touch-down.  Hertz' ellipse is not cut at the shoulder.
 """

@@ -1,12 +1,13 @@
 """Loads of the rivets.
 
     two halves   N = T - N_plate; the shank carries the hole force B, the heads the friction H; plate friction S bypasses the rivet;
-                 the flexible cage half adds what a pocket force pries at the joints beside it (load_path.py)
+                 the flexible cage half adds the loads by which a pocket force pries the joints beside it open (load_path.py)
     rigid cage   the wrench between the halves, (half 1 - half 0)/2 as both have the same inertia, on the circle of rivets; its transverse
                  part loads plates (up to mu P), then heads (mu P), then the shank
 
-The path's transverse part reaches the shank only in a hole without play: elsewhere a slip far below the play relieves it.  Its moment is
-limited where it opens the joint.  Everything is in the body frame of half 0: rivets at angles 2 pi (k + 1/2)/Z.
+The transverse part of the load path reaches the shank only in a hole without play: in a hole with play the joint relieves this part by slipping,
+by much less than the play.  The prying moment is limited where it opens the joint.  All loads are in the body frame of half 0; the rivets are at
+angles 2 pi (k + 1/2)/Z.
 """
 
 import numpy as np
@@ -33,7 +34,7 @@ def rigid_wrench(model, w):
     """Wrench of pockets and lands on half 1 less that on half 0, halved, about the cage's centre in its body frame."""
     cage, other = w.half
     F, M = 0.5 * (other.F - cage.F), 0.5 * (other.M - cage.M)
-    # half 0 holds the pocket forces: their share of half 1 less that of half 0 instead
+    # a rigid cage keeps all pocket forces on half 0: divide them between the halves by their shares
     F_x, _, F_t = w.pocket[0]
     root = np.sqrt(F_x**2 + model.p.cage.share_width**2 * (F_x**2 + F_t**2))
     share = np.divide(F_x, root, out=np.zeros_like(F_x), where=root > 0.0)
@@ -53,7 +54,7 @@ def rigid_load(model, w):
 
 
 def pocket_path(model, w, h):
-    """What the forces on the pockets of half h pry at the rivets [..., Z, 5]."""
+    """Loads (N, V_r, V_t, M_r, M_t) of the rivets by prying of the forces on the pockets of half h [..., Z, 5]."""
     matrix, side = model.d.table.load_path, 2 * h - 1
     forces = np.moveaxis(w.pocket[h], 0, -2)  # [..., 3, Z]
     flat = forces.reshape(-1, *forces.shape[-2:])
@@ -68,7 +69,7 @@ def rivets_load(model, w):
     R = 0.5 * model.p.bearing.d_m
     c, s = model.d.rivet_y / R, model.d.rivet_z / R
     load.N = load.N + path[..., PATH_N]
-    if model.d.hole_gap == 0.0:  # with play a slip far below it relieves the path's transverse part
+    if model.d.hole_gap == 0.0:  # in a hole with play, slip relieves the transverse part of the load path
         load.V_y = load.V_y + path[..., PATH_V_R] * c - path[..., PATH_V_T] * s
         load.V_z = load.V_z + path[..., PATH_V_R] * s + path[..., PATH_V_T] * c
     load.M_y = load.M_y + path[..., PATH_M_R] * c - path[..., PATH_M_T] * s

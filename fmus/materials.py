@@ -11,7 +11,7 @@ from pathlib import Path
 
 PLACE = "extra/org.cyclonedx/bom.json"
 LIBRARIES = {  # name -> description, licence, package URL without its version
-    "sundials": ("Suite of nonlinear and differential/algebraic equation solvers: context, vectors, ARKODE; compiled from source", "BSD-3-Clause", "github/LLNL/sundials@v"),
+    "sundials": ("Suite of equation solvers: context, vectors and ARKODE, compiled from source", "BSD-3-Clause", "github/LLNL/sundials@v"),
     "fmpy": ("Headers of FMI 2.0 by the Modelica Association, as fmpy carries them", "BSD-2-Clause", "pypi/fmpy@"),
 }
 

@@ -1,4 +1,4 @@
-"""Bearing files: what a bearing is, its catalogue data and what follows from them without a simulation.
+"""Bearing files: geometry, materials and catalogue data of a bearing, and the results that need no simulation.
 
     designation = "6310"
     Z = 8
@@ -8,11 +8,11 @@
     [inputs]              # likewise
     shaft.F_y = 6000.0
 
-A number is SI, a text carries its unit; what is left out keeps its start value of the variable table, that of the 6207.
+A number is SI, a text carries its unit; a variable that the file leaves out keeps its start value in the variable table, that of the 6207.
 """
 
 import math
-from dataclasses import dataclass, field, fields
+from dataclasses import dataclass, field, fields, replace
 from importlib.resources import files
 from pathlib import Path
 
@@ -58,8 +58,16 @@ class Case:
 
     def equilibrium(self):
         """The QuasiStatic of ring and balls; UserError if there is none."""
+        return self.solved(self.load, "exact")
+
+    def standard_equilibrium(self):
+        """The QuasiStatic as ISO/TS 16281 has it, with linear kinematics and without centrifugal forces; UserError if there is none."""
+        return self.solved(replace(self.load, omega=0.0), "linear")
+
+    def solved(self, load, kinematics):
+        """The QuasiStatic under a load; UserError if there is none."""
         try:
-            return quasi_static(self.bearing, self.load)
+            return quasi_static(self.bearing, load, kinematics=kinematics)
         except (ValueError, ArithmeticError) as problem:
             raise UserError(f"{self.designation}: {problem}") from None
 
@@ -86,7 +94,7 @@ def is_bearing(source):
 
 
 def bearing_case(source):
-    """The Case of a bearing file: its values over the variable table's; UserError naming file, key, value and what is allowed."""
+    """The Case of a bearing file: its values, and start values of the variable table for all others; UserError naming file, key, value and what is allowed."""
     path = find_bearing(source)
     document = read_toml(path)
     for key in document:
@@ -161,7 +169,7 @@ def case_of(target, fmu=None):
 
 
 def scene_case(source, model):
-    """The Case of a scene at its start, with the FMU's values for all that the scene leaves open."""
+    """The Case of a scene at its start, with the FMU's start values for all variables that the scene does not set."""
     scene = load_scene(source, model)
     values = {name: model.default(variable) for name, variable in (model.parameters | model.inputs).items()}
     values |= scene.parameters | {name: float(history(0.0)) for name, history in scene.inputs.items()}

@@ -1,4 +1,4 @@
-"""riveted-bearing info: what can be said of a bearing before any simulation."""
+"""riveted-bearing info: a bearing without a simulation."""
 
 import math
 from typing import Annotated
@@ -41,7 +41,7 @@ def info_tables(case):
 
 
 def geometry(case):
-    """Name, value and unit of what the bearing is."""
+    """Name, value and unit of the bearing's geometry and masses."""
     bearing, values, catalogue = case.bearing, case.values, case.catalogue
     if all(key in catalogue for key in ("bore", "outside_diameter", "width")):
         yield "bore x outside diameter x width", " x ".join(f"{1e3 * catalogue[key]:g}" for key in ("bore", "outside_diameter", "width")), "mm"
@@ -77,7 +77,7 @@ def load_text(load):
 
 
 def equilibrium(case, state):
-    """Name, value and unit of what the loads do."""
+    """Name, value and unit of displacements, loads and life in the equilibrium."""
     loaded = state.Q_i > 0.0
     yield "ring displacement x, y, z", ", ".join(fixed(1e6 * value, 2) for value in (state.x, state.y, state.z)), "um"
     yield "ring tilt y, z", f"{fixed(DEG * state.tilt_y, 4)}, {fixed(DEG * state.tilt_z, 4)}", "deg"
@@ -87,11 +87,19 @@ def equilibrium(case, state):
     yield "largest pressure inner, outer", f"{1e-6 * state.p_i.max():.0f}, {1e-6 * state.p_e.max():.0f}", "MPa"
     yield "cage speed", f"{RPM * state.omega_m:,.0f}", "r/min"
     yield "centrifugal force of a ball", f"{state.F_c.mean():.1f}", "N"
-    yield "static safety S_0 (ISO 76)", f"{state.S_0:.3g}", ""
+    if case.bearing.C_0 and math.isfinite(state.S_0):
+        yield "P_0, static safety S_0 = C_0/P_0 (ISO 76)", f"{state.P_0:.0f} N, {state.S_0:.3g}", ""
+    if math.isfinite(state.pressure_safety):
+        yield "safety by pressure, (4200 MPa/p_max)^3", f"{state.pressure_safety:.3g}", ""
     if case.bearing.C and math.isfinite(state.L_10r):
-        yield "reference life L_10r (ISO/TS 16281)", f"{state.L_10r:.4g}", "1e6 turns"
-        if case.load.omega:
-            yield "the same at this speed", f"{state.L_10r * 1e6 * 2.0 * math.pi / abs(case.load.omega) / 3600.0:.4g}", "h"
+        yield "reference life L_10r (ISO/TS 16281)", *life(case.standard_equilibrium().L_10r, case.load)
+        yield "L_10r, exact kinematics, at speed", *life(state.L_10r, case.load)
+
+
+def life(L_10r, load):
+    """A life in 10^6 revolutions as text and unit, with its hours if the bearing turns."""
+    turns = f"{L_10r:.4g}"
+    return (f"{turns}, {L_10r * 1e6 * 2.0 * math.pi / abs(load.omega) / 3600.0:.4g}", "1e6 turns, h") if load.omega else (turns, "1e6 turns")
 
 
 def balls(state):
@@ -116,7 +124,7 @@ def balls(state):
 
 
 def fixed(value, digits):
-    """A number with so many digits after the point, without a minus sign before zero."""
+    """A number with the given digits after the point, and no minus sign before zero."""
     return f"{round(value, digits) + 0.0:.{digits}f}"
 
 
