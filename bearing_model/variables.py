@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from enum import IntEnum
 
 MODEL_IDENTIFIER = "RivetedBearing"
-MODEL_GUID = "{c1a7f0fb-1f21-ce87-5b54-bbabe28f99b0}"
+MODEL_GUID = "{c434e8c7-3da7-8a06-7e6b-f475e05f9812}"
 Z = 9
 
 
@@ -351,7 +351,6 @@ OUTPUTS = {
         Variable("solver.rhs_evals", 6002, "Real", "1", None, None, None, None, 1, "solver", "Evaluations of the right-hand side", None),
         Variable("solver.step_size", 6003, "Real", "s", None, None, None, None, 1, "solver", "Internal step size that the next step starts with", None),
         Variable("solver.error_tests_failed", 6004, "Real", "1", None, None, None, None, 1, "solver", "Internal steps rejected by the error test", None),
-        Variable("solver.cpu_time", 6005, "Real", "s", None, None, None, None, 1, "solver", "Processor time of this instance inside fmi2DoStep (not part of the saved state)", None),
         Variable("solver.tolerance", 6006, "Real", "1", None, None, None, None, 1, "solver", "Tolerance in force", None),
         Variable("event.land_contact", 7001, "Real", "1", None, None, None, None, 1, "event", "Cage halves whose land touches the outer ring", None),
         Variable("event.pocket_exit", 7002, "Real", "1", None, None, None, None, 1, "event", "Balls whose centre has left the section of the cage: a real pocket ends there", None),
@@ -366,6 +365,13 @@ OUTPUTS = {
         Variable("event.joint_open_onsets", 7015, "Real", "1", None, None, None, None, 1, "event", "Onsets of an open joint since the start", None),
         Variable("event.rivet_yield_onsets", 7016, "Real", "1", None, None, None, None, 1, "event", "Onsets of yield of a rivet since the start", None),
         Variable("solver.method_used", 6007, "Real", "1", None, None, None, None, 1, "solver", "Integration method in use: 1 velocity Verlet, 2 Runge-Kutta", None),
+    )
+}
+
+LOCALS = {
+    v.name: v
+    for v in (
+        Variable("solver.cpu_time", 6005, "Real", "s", None, None, None, None, 1, "solver", "Processor time of this instance inside fmi2DoStep, from its creation on (not part of the saved state)", None),
     )
 }
 

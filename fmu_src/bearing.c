@@ -146,7 +146,6 @@ void part_reset(Bearing *b)
     variables_set_start(&b->s.p, &b->s.u[0]);
     b->current = 0;
     b->evaluated = false;
-    b->cpu_time = 0.0;
 }
 
 Parameters *part_parameters(Bearing *b)
@@ -346,6 +345,34 @@ void part_restore(Bearing *b, const void *saved)
 {
     memcpy(&b->s, saved, sizeof b->s);
     derive(b);
+}
+
+// All outputs at the restored state, and its derivative.
+static bool outputs_are_numbers(Bearing *b)
+{
+    evaluate(b);
+    bool fine = b->kernels.ops->finite(b->y_dot);
+    for (int group = 0; group < GROUP_COUNT; group++) part_update(b, (OutputGroup)group);
+    for (const Variable *v = VARIABLES; v < VARIABLES + N_VARIABLES; v++) {
+        if (v->causality != CAUSALITY_OUTPUT) continue;
+        const double *value = (const double *)((const char *)&b->out + v->offset);
+        for (int i = 0; i < v->count; i++) fine &= isfinite(value[i]) != 0;
+    }
+    if (!fine) bearing_log(b, LOG_ERROR, "the outputs there are no numbers");
+    return fine;
+}
+
+bool part_restore_unknown(Bearing *b, const void *saved)
+{
+    memcpy(&b->s, saved, sizeof b->s);
+    if (!check_saved(b)) return false;
+    derive(b);
+    return !b->s.initialized || outputs_are_numbers(b);
+}
+
+bool part_is_initialized(const Bearing *b)
+{
+    return b->s.initialized;
 }
 
 const char *part_data_digest(void)

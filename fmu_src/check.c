@@ -1,27 +1,22 @@
 // Refusals before a run or a step: values outside their limits, parameters that make no bearing, a rivet
 // table that belongs to another bearing.
+#include "check.h"
+
 #include "instance.h"
 #include "ring_load.h"
 #include "rivet_rom.h"
 
+#include <float.h>
+
+static void report_error(void *bearing, const char *message)
+{
+    bearing_log(bearing, LOG_ERROR, "%s", message);
+}
+
 // Checks all values of one causality (Parameters or Inputs) against the limits of the variable table.
 static bool check_variables(Bearing *b, Causality causality, const void *values)
 {
-    bool fine = true;
-    for (int v = 0; v < N_VARIABLES && VARIABLES[v].causality <= causality;
-         v++) {  // they are in the order of causality
-        if (VARIABLES[v].causality != causality) continue;
-        for (int i = 0; i < VARIABLES[v].count; i++) {
-            const char *at = (const char *)values + VARIABLES[v].offset;
-            const double value =
-                VARIABLES[v].type == TYPE_REAL ? ((const double *)at)[i] : ((const int *)at)[i];
-            char message[512];
-            if (variable_allows(&VARIABLES[v], i, value, message, sizeof message)) continue;
-            bearing_log(b, LOG_ERROR, "%s", message);
-            fine = false;
-        }
-    }
-    return fine;
+    return variables_allow(causality, values, report_error, b);
 }
 
 // Inputs are polynomials of second order: their extremes are at the ends of the step or where their slope
@@ -130,4 +125,68 @@ bool check_start(Bearing *b)
         return false;
     }
     return true;
+}
+
+static bool is_zero(const void *memory, size_t size)
+{
+    const unsigned char *byte = memory;
+    for (size_t i = 0; i < size; i++)
+        if (byte[i] != 0) return false;
+    return true;
+}
+
+static bool saved_is(Bearing *b, bool condition, const char *what)
+{
+    if (!condition) bearing_log(b, LOG_ERROR, "%s: not what a run can have left there", what);
+    return condition;
+}
+
+// Of each rivet and of all balls together, over the time since the start; every ball adds its own time to the pocket forces.
+static bool check_recorded(Bearing *b, double time)
+{
+    const InstanceState *s = &b->s;
+    const double amounts[] = {s->force_peak, s->dislocation_max, s->duty_time, s->eccentricity_time};
+    const double sums[] = {s->energy_start, s->omega_time};
+    bool fine = values_are_amounts(amounts, sizeof amounts / sizeof amounts[0]) &&
+                values_are_sane(sums, sizeof sums / sizeof sums[0]);
+    fine &= values_are_amounts(s->head_peak, Z) && values_are_amounts(s->mid_peak, Z);
+    fine = saved_is(b, fine, "peaks and sums") &&
+           saved_is(b, event_state_is_valid(&s->event), "counts of events");
+    fine = fine && saved_is(b, statistics_is_valid(&s->force, Z * time), "statistics of the pocket forces");
+    for (int k = 0; fine && k < STRESS_CHANNELS; k++)
+        fine = saved_is(b, statistics_is_valid(&s->head[k], time) && statistics_is_valid(&s->mid[k], time),
+                        "statistics of the stress");
+    for (int k = 0; fine && k < Z; k++)
+        fine = saved_is(b, fatigue_is_valid(&s->fatigue_head[k]) && fatigue_is_valid(&s->fatigue_mid[k]),
+                        "turning points of the stress");
+    return fine;
+}
+
+bool check_saved(Bearing *b)
+{
+    const InstanceState *s = &b->s;
+    const Variable *tolerance = variable_named("solver.tol");
+    if (!saved_is(b, s->initialized == 0 || s->initialized == 1, "the mark of a started run")) return false;
+    if (!s->initialized) {
+        const size_t first = offsetof(InstanceState, u_now), end = offsetof(InstanceState, initialized);
+        if (!saved_is(b, is_zero((const char *)s + first, end - first), "a run that has not been started"))
+            return false;
+        return check_variables(b, CAUSALITY_PARAMETER, &s->p) &&
+               check_variables(b, CAUSALITY_INPUT, &s->u[0]) &&
+               saved_is(b, values_are_sane((const double *)&s->u[1], (size_t)INPUT_ORDERS * N_INPUTS),
+                        "derivatives of inputs");
+    }
+    char message[256];
+    bool fine = check_all(b) && check_variables(b, CAUSALITY_INPUT, &s->u_now);
+    fine = fine && saved_is(b, values_are_sane((const double *)&s->u[1], (size_t)INPUT_ORDERS * N_INPUTS),
+                            "derivatives of inputs");
+    fine = fine && saved_is(b, values_are_sane((const double *)&s->u_now_dot, N_INPUTS), "rates of inputs");
+    fine = fine &&
+           saved_is(b, variable_allows(tolerance, 0, s->tolerance, message, sizeof message), "the tolerance");
+    fine = fine && saved_is(b, integrator_state_is_valid(&s->integrator), "states and steps");
+    fine = fine && saved_is(b, values_are_sane(&s->t_start, 1) && s->integrator.t >= s->t_start, "time");
+    const double rounding =
+        s->integrator.steps * DBL_EPSILON *
+        fabs(s->integrator.t);  // of the time, not of the lengths of the steps that are summed
+    return fine && check_recorded(b, s->integrator.t - s->t_start + rounding);
 }

@@ -1,6 +1,7 @@
 // Events: conditions from the results of one evaluation, see events.h.
 #include "events.h"
 
+#include "check.h"
 #include "elementary.h"
 #include "hertz.h"
 #include "rivet_rom.h"
@@ -123,6 +124,17 @@ bool event_onset(EventState *state, EventKind kind, const Event *now)
     state->onsets[kind] += 1.0;
     int exponent;
     return frexp(state->onsets[kind], &exponent) == 0.5;  // a power of two
+}
+
+bool event_state_is_valid(const EventState *state)
+{
+    bool fine = true;
+    for (int kind = 0; kind < EVENT_COUNT; kind++) {
+        const int active = state->active[kind];
+        fine &= value_is_count(state->onsets[kind]) &&
+                (active == 0 || (active == 1 && state->onsets[kind] > 0.0));
+    }
+    return fine;
 }
 
 void event_text(EventKind kind, const Event *now, char *text, size_t size)

@@ -49,5 +49,8 @@ void events_now(const Model *model, const Work *w, const double head_peak[Z], co
 // Counts the event's onset if it has one; returns whether this onset is to be reported.
 bool event_onset(EventState *state, EventKind kind, const Event *now);
 
+// Whether counting onsets can have made the state.
+bool event_state_is_valid(const EventState *state);
+
 // Text of the message on an event.
 void event_text(EventKind kind, const Event *now, char *text, size_t size);

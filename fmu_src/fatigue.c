@@ -1,8 +1,10 @@
 // Streaming rainflow and Miner's sum: see fatigue.h.
 #include "fatigue.h"
 
+#include "check.h"
 #include "variables.h"
 
+#include <limits.h>
 #include <math.h>
 #include <string.h>
 
@@ -50,7 +52,7 @@ static void turning_point(FatigueChannel *c, const FatigueLaw *law, double sigma
 {
     if (c->depth == FATIGUE_DEPTH) {
         drop_first(c, law);
-        c->dropped++;
+        if (c->dropped < INT_MAX) c->dropped++;
     }
     c->stack[c->depth++] = sigma;
     while (c->depth >= 3) {
@@ -85,4 +87,14 @@ double fatigue_damage(const FatigueChannel *c, const FatigueLaw *law)
     if (rest.direction != 0) turning_point(&rest, law, rest.last);  // the newest sample ends the history
     for (int i = 1; i < rest.depth; i++) rest.damage += count(law, 0.5, rest.stack[i - 1], rest.stack[i]);
     return rest.damage;
+}
+
+bool fatigue_is_valid(const FatigueChannel *c)
+{
+    const bool counts = c->depth >= 0 && c->depth <= FATIGUE_DEPTH && c->direction >= -1 &&
+                        c->direction <= 1 && c->dropped >= 0;
+    const bool begun = c->samples == 1 && c->depth > 0,
+               empty = c->samples == 0 && c->depth == 0 && c->direction == 0 && c->dropped == 0;
+    return counts && (begun || empty) && values_are_sane(c->stack, FATIGUE_DEPTH) &&
+           values_are_sane(&c->last, 1) && values_are_amounts(&c->damage, 1);
 }

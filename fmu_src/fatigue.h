@@ -16,6 +16,8 @@
 // damage is 1.
 #pragma once
 
+#include <stdbool.h>
+
 // Material: p->fatigue of the variable table, in its order [Pa, 1].
 typedef struct {
     double sigma_D, N_D, k_1, k_2, sigma_m, sigma_f;
@@ -42,3 +44,4 @@ void fatigue_push(FatigueChannel *c, const FatigueLaw *law, double sigma);  // n
 double
 fatigue_damage(const FatigueChannel *c,
                const FatigueLaw *law);  // sum with the residue at half weight; leaves the channel as it is
+bool fatigue_is_valid(const FatigueChannel *c);  // whether pushing samples can have made it

@@ -66,6 +66,10 @@ bool check_start(Bearing *b);
 // Whether the inputs stay within their limits over a step of length h; inputs may change at every step.
 bool check_inputs(Bearing *b, double h);
 
+// Whether b->s, copied from bytes of unknown origin, is what a run can have left there, as far as single
+// values tell.
+bool check_saved(Bearing *b);
+
 // Sends a message to the host, formatted as by printf.
 void bearing_log(Bearing *b, LogCategory category, const char *format, ...)
     __attribute__((format(printf, 3, 4)));

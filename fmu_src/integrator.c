@@ -15,7 +15,9 @@
 #include "integrator.h"
 
 #include "aligned.h"
+#include "check.h"
 #include "elementary.h"
+#include "reserved_memory.h"
 #include "stepping.h"
 
 #include <arkode/arkode_erkstep.h>
@@ -23,7 +25,12 @@
 #include <stdlib.h>
 #include <sundials/sundials_nvector.h>
 
+// SUNDIALS' memory: 15 vectors of the states, and what does not grow with them.  A test sees that it is enough.
+enum { SUNDIALS_MEMORY = 20 * N_STATES * sizeof(double) + 32768 };
+
 struct Integrator {
+    _Alignas(64) unsigned char block[SUNDIALS_MEMORY];
+    ReservedMemory memory;
     const Kernels *kernels;
     const Model *model;
     Work *w;
@@ -282,8 +289,11 @@ Integrator *integrator_create(const Kernels *kernels, const Model *model, Work *
 {
     Integrator *in = aligned_new(sizeof *in);
     if (in == NULL) return NULL;
-    *in = (Integrator){
-        .kernels = kernels, .model = model, .w = w, .s = state, .hook = hook, .log = log, .context = context};
+    memset(in, 0, sizeof *in);
+    in->kernels = kernels, in->model = model, in->w = w, in->s = state;
+    in->hook = hook, in->log = log, in->context = context;
+    in->memory = (ReservedMemory){in->block, sizeof in->block, 0};
+    reserved_memory_use(&in->memory);
     bool fine = SUNContext_Create(SUN_COMM_NULL, &in->sun) == SUN_SUCCESS;
     if (fine) {
         SUNContext_ClearErrHandlers(in->sun);
@@ -296,6 +306,7 @@ Integrator *integrator_create(const Kernels *kernels, const Model *model, Work *
         for (int i = 0; i < N_STATES; i++) in->weight[i] = 1.0;
         fine = fine && warm_up(in);
     }
+    reserved_memory_use(NULL);
     if (!fine) {
         integrator_destroy(in);
         return NULL;
@@ -306,9 +317,11 @@ Integrator *integrator_create(const Kernels *kernels, const Model *model, Work *
 void integrator_destroy(Integrator *in)
 {
     if (in == NULL) return;
+    reserved_memory_use(&in->memory);
     if (in->arkode != NULL) ARKodeFree(&in->arkode);
     if (in->y != NULL) N_VDestroy(in->y);
     if (in->sun != NULL) SUNContext_Free(&in->sun);
+    reserved_memory_use(NULL);
     aligned_delete(in);
 }
 
@@ -448,7 +461,27 @@ static int explicit_advance(Integrator *in, double t_stop, long max_steps)
 int integrator_advance(Integrator *in, double t_stop, long max_steps)
 {
     integrator_evaluate(in);
-    if (!in->kernels->ops->finite(in->s->now.f)) return ARK_RHSFUNC_FAIL;
-    return in->model->p->solver.method == METHOD_EXPLICIT ? explicit_advance(in, t_stop, max_steps)
-                                                          : verlet_advance(in, t_stop, max_steps);
+    if (!in->kernels->ops->finite(in->s->now.f)) {
+        memset(in->s->now.f, 0, sizeof in->s->now.f);
+        in->s->f_is_current = 0;
+        return ARK_RHSFUNC_FAIL;
+    }
+    if (in->model->p->solver.method != METHOD_EXPLICIT) return verlet_advance(in, t_stop, max_steps);
+    reserved_memory_use(&in->memory);  // messages need some
+    const int status = explicit_advance(in, t_stop, max_steps);
+    reserved_memory_use(NULL);
+    return status;
+}
+
+bool integrator_state_is_valid(const IntegratorState *s)
+{
+    const double positive[] = {s->h}, amounts[] = {s->now.h};
+    bool fine = values_are_sane(&s->t, 1) && values_are_amounts(amounts, 1) &&
+                values_are_amounts(positive, 1) && s->h > 0.0;
+    fine &= values_are_sane(s->now.y, N_STATES) && values_are_sane(s->now.f, N_STATES) &&
+            values_are_sane(s->now.jerk, N_STATES);
+    fine &= values_are_sane(&s->now.film[0][0], sizeof s->now.film / sizeof s->now.film[0][0]);
+    fine &= s->f_is_current == 0 || s->f_is_current == 1;
+    return fine && value_is_count(s->steps) && value_is_count(s->rhs_evals) &&
+           value_is_count(s->error_tests_failed);
 }

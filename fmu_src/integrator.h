@@ -26,6 +26,9 @@ Integrator *integrator_create(const Kernels *kernels, const Model *model, Work *
                               StepHook *hook, IntegratorLog *log, void *context);
 void integrator_destroy(Integrator *integrator);
 
+// Whether steps can have made the state.
+bool integrator_state_is_valid(const IntegratorState *state);
+
 // Error weights 1/(tolerance scale), the scale of each class of states in model->d.
 void integrator_tolerance(Integrator *integrator, double tolerance);
 

@@ -33,7 +33,7 @@ typedef struct Part Part;
 // A new part with the start values of the variable table; NULL if out of memory.
 Part *part_create(const PartHost *host);
 void part_destroy(Part *part);  // NULL is allowed
-void part_reset(Part *part);    // as newly created
+void part_reset(Part *part);    // as newly created, but for the processor time it has used
 
 Parameters *part_parameters(Part *part);  // may be changed before part_initialize
 // Inputs (order 0) and their derivatives (1...INPUT_ORDERS) at the present time.  The host may change them
@@ -66,6 +66,13 @@ void part_directional_derivatives(Part *part, const Inputs *inputs, const double
 size_t part_saved_size(void);
 void part_save(const Part *part, void *saved);
 void part_restore(Part *part, const void *saved);
+
+// The same from bytes of unknown origin: false, with the reason in the log, unless every count, index, choice
+// and time lies in its range, all values are numbers, and so are all outputs there.  A part that refuses can
+// only be reset or destroyed.
+bool part_restore_unknown(Part *part, const void *saved);
+
+bool part_is_initialized(const Part *part);
 
 // Digest of data that are built in and not part of the saved state: the bearing's rivet table.
 const char *part_data_digest(void);

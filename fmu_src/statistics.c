@@ -2,6 +2,8 @@
 // a logarithm.
 #include "statistics.h"
 
+#include "check.h"
+
 #include <math.h>
 #include <stdint.h>
 #include <string.h>
@@ -57,4 +59,15 @@ double statistics_quantile(const StatisticsChannel *channel, double floor, doubl
         above -= weight;
     }
     return 0.0;
+}
+
+bool statistics_is_valid(const StatisticsChannel *channel, double time)
+{
+    const double most = time * (1.0 + 1e-6);  // rounding of the sums
+    bool fine = channel->time <= most && channel->below <= most;
+    for (int bin = 0; bin < STATISTICS_BINS; bin++) fine &= channel->weight[bin] <= most;
+    fine &= values_are_amounts(&channel->time, 1) && values_are_amounts(&channel->below, 1) &&
+            values_are_amounts(channel->weight, STATISTICS_BINS);
+    return fine && values_are_sane(&channel->first, 1) && values_are_amounts(&channel->second, 1) &&
+           values_are_amounts(&channel->max, 1);
 }

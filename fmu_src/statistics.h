@@ -2,6 +2,8 @@
 // of positive quantities.
 #pragma once
 
+#include <stdbool.h>
+
 // 32 bins in each octave, 106 in each decade: a bin is 1.6...3.1 % wide.  There are 24 octaves above the
 // channel's floor; smaller values count as below the floor.
 enum {
@@ -24,3 +26,6 @@ double statistics_rms(const StatisticsChannel *channel);
 // Quantile: the value that is not exceeded for the part p of the time.  Linear inside a bin, 0 below the
 // floor.
 double statistics_quantile(const StatisticsChannel *channel, double floor, double p);
+
+// Whether adding values for `time` at most can have made it.
+bool statistics_is_valid(const StatisticsChannel *channel, double time);

@@ -52,6 +52,26 @@ int variable_allows(const Variable *variable, int element, double value, char *m
     return 0;
 }
 
+bool variables_allow(Causality causality, const void *values,
+                     void (*report)(void *context, const char *message), void *context)
+{
+    bool fine = true;
+    for (int v = 0; v < N_VARIABLES && VARIABLES[v].causality <= causality;
+         v++) {  // they are in the order of causality
+        if (VARIABLES[v].causality != causality) continue;
+        for (int i = 0; i < VARIABLES[v].count; i++) {
+            const char *at = (const char *)values + VARIABLES[v].offset;
+            const double value =
+                VARIABLES[v].type == TYPE_REAL ? ((const double *)at)[i] : ((const int *)at)[i];
+            char message[512];
+            if (variable_allows(&VARIABLES[v], i, value, message, sizeof message)) continue;
+            report(context, message);
+            fine = false;
+        }
+    }
+    return fine;
+}
+
 void variables_set_start(Parameters *parameters, Inputs *inputs)
 {
     for (const Variable *v = VARIABLES; v < VARIABLES + N_VARIABLES; v++) {

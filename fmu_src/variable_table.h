@@ -3,6 +3,7 @@
 
 #include "variables.h"
 
+#include <stdbool.h>
 #include <stddef.h>
 
 enum { INPUT_ORDERS = 2 };  // inside a step inputs are polynomials of time of up to this order
@@ -17,7 +18,13 @@ extern const StateBlock STATE_BLOCKS[N_STATE_BLOCKS];
 
 typedef enum { TYPE_REAL, TYPE_INTEGER, TYPE_ENUMERATION } VariableType;  // stored as double, int, int
 
-typedef enum { CAUSALITY_INDEPENDENT, CAUSALITY_INPUT, CAUSALITY_PARAMETER, CAUSALITY_OUTPUT } Causality;
+typedef enum {
+    CAUSALITY_INDEPENDENT,
+    CAUSALITY_INPUT,
+    CAUSALITY_PARAMETER,
+    CAUSALITY_OUTPUT,
+    CAUSALITY_LOCAL
+} Causality;
 
 typedef struct {
     const char *name, *unit;
@@ -41,6 +48,10 @@ const Variable *variable_named(const char *name);
 
 // Whether the variable may have this value; if not, sets a message with name, value, unit and allowed range.
 int variable_allows(const Variable *variable, int element, double value, char *message, size_t size);
+
+// Whether all variables of one causality may have the values in a Parameters or an Inputs; each that may not is reported with its message.
+bool variables_allow(Causality causality, const void *values,
+                     void (*report)(void *context, const char *message), void *context);
 
 // The name of one element, numbered from 1 as FMI does: "ball[3].Q_i".
 void variable_element_name(const Variable *variable, int element, char *name, size_t size);

@@ -25,7 +25,8 @@ TABLE = ROOT / "fmus" / "variables.toml"
 OUTPUTS = ("fmu_src/generated/variables.h", "fmu_src/generated/variables.c", "fmus/modelDescription.xml", "bearing_model/variables.py", "docs/parameters.md")
 TEMPLATES = ROOT / "fmus" / "templates"
 Z_MIN, Z_MAX = 5, 32
-CAUSALITIES = {"inputs": "input", "parameters": "parameter", "outputs": "output"}
+CAUSALITIES = {"inputs": "input", "parameters": "parameter", "outputs": "output", "locals": "local"}
+CALCULATED = ("output", "local")
 BASE_UNITS = ("kg", "m", "s", "A", "K", "mol", "cd", "rad")
 LABELS = {"m": "m", "um": "µm", "m/s2": "m/s²", "rad/s2": "rad/s²", "N/m1.5": "N/m^1.5", "kg.m2": "kg.m²", "kg/m3": "kg/m³", "degC": "°C"}
 LOG_CATEGORIES = {  # in the order of LogCategory in part.h
@@ -113,8 +114,8 @@ class Table:
     assumptions: dict  # by parameter: usual range as factors of its value, and the source
     origin: dict  # where the values of another bearing come from, by name
 
-    def of(self, causality):
-        return [v for v in self.variables if v.causality == causality]
+    def of(self, *causalities):
+        return [v for v in self.variables if v.causality in causalities]
 
     @property
     def guid(self):
@@ -133,7 +134,7 @@ def load_table(bearing=None, path=None):
         raise ValueError(f"{bearing or path}: Z = {Z!r}: allowed is an integer from {Z_MIN} to {Z_MAX}")
     variables = []
     for section, causality in CAUSALITIES.items():
-        for entry in raw[section]["list"]:
+        for entry in raw.get(section, {}).get("list", ()):
             v = Variable(causality=causality, **entry | {"count": number_of(entry.get("count", 1), Z)})
             v = replace(v, choices=tuple(raw["enumerations"].get(v.type, ())))
             variables.append(replace(v, start=Z) if v.group == "constant" else v)
@@ -192,9 +193,9 @@ def check_table(table, path, retired=()):
             f"type {v.type!r} is not Real, Integer or an enumeration": v.type not in ("Real", "Integer", *table.enumerations),
             f"unknown unit {v.unit!r}": v.unit not in table.units,
             f"unknown display unit {v.display!r}": v.display and v.display not in table.units.get(v.unit, {}).get("display", {}),
-            f"unknown group {v.group!r}": v.causality == "output" and v.group not in table.groups,
-            "no source": v.causality != "output" and not v.source,
-            f"start {v.start!r} outside {v.limits}": v.causality != "output" and (v.start is None or not v.limits[0] <= v.start <= v.limits[1]),
+            f"unknown group {v.group!r}": v.causality in CALCULATED and v.group not in table.groups,
+            "no source": v.causality not in CALCULATED and not v.source,
+            f"start {v.start!r} outside {v.limits}": v.causality not in CALCULATED and (v.start is None or not v.limits[0] <= v.start <= v.limits[1]),
         }
         names.add(v.name)
         for problem, found in problems.items():
@@ -359,7 +360,7 @@ def variability(v):
         return {"variability": "fixed", "initial": "exact"}
     if v.group == "constant":
         return {"variability": "constant", "initial": "exact"}
-    return {"variability": "continuous"} | ({"initial": "calculated"} if v.causality == "output" else {})
+    return {"variability": "continuous"} | ({"initial": "calculated"} if v.causality in CALCULATED else {})
 
 
 def value_attributes(v, indices):

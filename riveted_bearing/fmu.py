@@ -61,6 +61,7 @@ class Model:
         self.parameters = {v.name: v for v in variables if v.causality == "parameter"}
         self.inputs = {v.name: v for v in variables if v.causality == "input"}
         self.outputs = {v.name: v for v in variables if v.causality == "output"}
+        self.locals = {v.name: v for v in variables if v.causality == "local"}
 
     @functools.cached_property
     def origin(self):
@@ -208,7 +209,7 @@ class Instance:
 
     def reader(self, names):
         """A function that reads the named variables, with one call of the FMU, into an array that its next call overwrites."""
-        variables = self.model.inputs | self.model.outputs
+        variables = self.model.inputs | self.model.outputs | self.model.locals
         references = (fmi2ValueReference * len(names))(*(variables[name].valueReference for name in names))
         buffer = (ctypes.c_double * len(names))()
         values = np.frombuffer(buffer)

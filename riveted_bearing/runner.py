@@ -99,8 +99,9 @@ def closing_values(instance, model):
 
 
 def closing_names(model):
-    """Outputs that say how it went in all: statistics, damage, solver counters, and what the rivets' stress rests on."""
-    return [name for name in model.outputs if name.startswith(("stat.", "solver.")) or ".damage_" in name or name == "rivet.table_kind"]
+    """Variables that say how it went over the whole run: statistics, damage, solver counters, processor time, and what the rivets' stress rests on."""
+    names = [*model.outputs, *model.locals]
+    return [name for name in names if name.startswith(("stat.", "solver.")) or ".damage_" in name or name == "rivet.table_kind"]
 
 
 def provenance(model, scene):

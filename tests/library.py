@@ -25,6 +25,7 @@ GENERATED = other_bearing.BUILD / "generated" if other_bearing.BUILD else SOURCE
 LIBRARY = (other_bearing.BUILD or ROOT / "build") / "libbearing_test.so"
 INSTRUCTION_SETS = ("generic", "neon", "sse2", "avx2", "avx512")
 LANE_TYPES = {"wide", "bits", "words", "vec"}  # depend on the lane width: no place outside the kernels
+AROUND_THE_CORE = {"float_environment.h", "fmi2_calls.h", "reserved_memory.h"}  # of the wrapper and of SUNDIALS: macros and instructions, no physics
 SYSTEM_TYPES = "typedef _Bool bool; typedef unsigned long size_t; typedef long int64_t; typedef unsigned long uint64_t; typedef unsigned uint32_t;"
 
 
@@ -188,7 +189,7 @@ def parse(sources, isa):
 
 
 def headers(sources):
-    return [path for folder in sources for path in sorted(folder.glob("*.h"))]
+    return [path for folder in sources for path in sorted(folder.glob("*.h")) if path.name not in AROUND_THE_CORE]
 
 
 def preprocess(files, *options, before=""):

@@ -17,6 +17,8 @@
 // C1 in omega: friction passes through rest as omega / sqrt(omega^2 + omega_0^2).
 #include "part.h"
 
+#include "check.h"
+
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -34,6 +36,12 @@ struct Part {
     Saved s;
     Outputs out;
 };
+
+// Of a vector; C's hypot would ask for glibc 2.35, and no square leaves the range of doubles here.
+static double length(double y, double z)
+{
+    return sqrt(y * y + z * z);
+}
 
 // ---- equations ----------------------------------------------------------------------------------------------------------------------------
 // All that is linear in inputs and state: their derivatives follow from the same lines.
@@ -62,8 +70,8 @@ static void accelerate(const Parameters *p, const Inputs *u, double M_B, Outputs
 static void evaluate(const Parameters *p, const Inputs *u, const double *y, Outputs *out)
 {
     linear(p, u, y, out);
-    const double full = 0.5 * p->support.mu * p->support.d * hypot(out->support.F_y, out->support.F_z);
-    accelerate(p, u, full * y[Y_OMEGA] / hypot(y[Y_OMEGA], p->support.omega_0), out);
+    const double full = 0.5 * p->support.mu * p->support.d * length(out->support.F_y, out->support.F_z);
+    accelerate(p, u, full * y[Y_OMEGA] / length(y[Y_OMEGA], p->support.omega_0), out);
 }
 
 // Derivatives of the outputs along a direction du, dy.
@@ -73,9 +81,9 @@ static void differentiate(const Parameters *p, const Inputs *u, const double *y,
     Outputs at;
     linear(p, u, y, &at);
     linear(p, du, dy, d);
-    const double F = hypot(at.support.F_y, at.support.F_z), c = 0.5 * p->support.mu * p->support.d;
+    const double F = length(at.support.F_y, at.support.F_z), c = 0.5 * p->support.mu * p->support.d;
     const double dF = F > 0.0 ? (at.support.F_y * d->support.F_y + at.support.F_z * d->support.F_z) / F : 0.0;
-    const double w = hypot(y[Y_OMEGA], p->support.omega_0),
+    const double w = length(y[Y_OMEGA], p->support.omega_0),
                  slope = p->support.omega_0 * p->support.omega_0 / (w * w * w);
     accelerate(p, du, c * (dF * y[Y_OMEGA] / w + F * slope * dy[Y_OMEGA]), d);
 }
@@ -125,7 +133,7 @@ static double steps_needed(const Saved *s, double h)
 {
     Outputs at;
     linear(&s->p, &s->u[0], s->y, &at);
-    const double F = hypot(at.support.F_y, at.support.F_z);
+    const double F = length(at.support.F_y, at.support.F_z);
     const double rate =
         (s->p.drive.k + 0.5 * s->p.support.mu * s->p.support.d * F / s->p.support.omega_0) / s->p.shaft.J;
     return ceil(h * fmax(1e4, 20.0 * rate));
@@ -149,7 +157,7 @@ PartStatus part_step(Part *part, double t_end)
     double y[N_STATES];
     memcpy(y, s->y, sizeof y);
     for (int k = 0; k < (int)n; k++) runge_kutta(s, k * (h / n), h / n, y);
-    if (!isfinite(y[Y_PHI])) {
+    if (!values_are_sane(y, N_STATES)) {
         snprintf(message, sizeof message, "t = %.9g s: speed and angle leave all bounds in the next %g s",
                  s->t, h);
         part->host.log(part->host.environment, LOG_ERROR, message);
@@ -253,6 +261,31 @@ void part_save(const Part *part, void *saved)
 void part_restore(Part *part, const void *saved)
 {
     memcpy(&part->s, saved, sizeof part->s);
+}
+
+static void report_error(void *part, const char *message)
+{
+    const PartHost *host = &((Part *)part)->host;
+    host->log(host->environment, LOG_ERROR, message);
+}
+
+bool part_restore_unknown(Part *part, const void *saved)
+{
+    Saved *s = &part->s;
+    memcpy(s, saved, sizeof *s);
+    bool fine = values_are_sane(&s->t, 1) && values_are_sane(s->y, N_STATES);
+    fine = fine && values_are_sane((const double *)&s->u[1], (size_t)INPUT_ORDERS * N_INPUTS) &&
+           values_are_sane((const double *)&s->seen_dot, N_INPUTS);
+    if (!fine) report_error(part, "time, states or rates of inputs: not what a run can have left there");
+    return fine && variables_allow(CAUSALITY_PARAMETER, &s->p, report_error, part) &&
+           variables_allow(CAUSALITY_INPUT, &s->u[0], report_error, part) &&
+           variables_allow(CAUSALITY_INPUT, &s->seen, report_error, part);
+}
+
+bool part_is_initialized(const Part *part)
+{
+    (void)part;  // it can be stepped from any state
+    return true;
 }
 
 const char *part_data_digest(void)

@@ -262,7 +262,7 @@ const Variable VARIABLES[N_VARIABLES] = {
     {"solver.rhs_evals", "1", 6002, 1, TYPE_REAL, CAUSALITY_OUTPUT, GROUP_SOLVER, -1, offsetof(Outputs, solver.rhs_evals), 0.0, -INFINITY, INFINITY},
     {"solver.step_size", "s", 6003, 1, TYPE_REAL, CAUSALITY_OUTPUT, GROUP_SOLVER, -1, offsetof(Outputs, solver.step_size), 0.0, -INFINITY, INFINITY},
     {"solver.error_tests_failed", "1", 6004, 1, TYPE_REAL, CAUSALITY_OUTPUT, GROUP_SOLVER, -1, offsetof(Outputs, solver.error_tests_failed), 0.0, -INFINITY, INFINITY},
-    {"solver.cpu_time", "s", 6005, 1, TYPE_REAL, CAUSALITY_OUTPUT, GROUP_SOLVER, -1, offsetof(Outputs, solver.cpu_time), 0.0, -INFINITY, INFINITY},
+    {"solver.cpu_time", "s", 6005, 1, TYPE_REAL, CAUSALITY_LOCAL, GROUP_SOLVER, -1, offsetof(Outputs, solver.cpu_time), 0.0, -INFINITY, INFINITY},
     {"solver.tolerance", "1", 6006, 1, TYPE_REAL, CAUSALITY_OUTPUT, GROUP_SOLVER, -1, offsetof(Outputs, solver.tolerance), 0.0, -INFINITY, INFINITY},
     {"solver.method_used", "1", 6007, 1, TYPE_REAL, CAUSALITY_OUTPUT, GROUP_SOLVER, -1, offsetof(Outputs, solver.method_used), 0.0, -INFINITY, INFINITY},
     {"event.land_contact", "1", 7001, 1, TYPE_REAL, CAUSALITY_OUTPUT, GROUP_EVENT, -1, offsetof(Outputs, event.land_contact), 0.0, -INFINITY, INFINITY},

@@ -9,7 +9,7 @@
 
 #define FMI2_FUNCTION_PREFIX RivetedBearing_  // of the functions of a source-code FMU
 #define MODEL_IDENTIFIER "RivetedBearing"
-#define MODEL_GUID "{c1a7f0fb-1f21-ce87-5b54-bbabe28f99b0}"  // digest of the table
+#define MODEL_GUID "{c434e8c7-3da7-8a06-7e6b-f475e05f9812}"  // digest of the table
 
 enum { Z = 9 };  // number of balls
 
@@ -327,9 +327,9 @@ typedef struct {
         scalar rhs_evals;  // [1] Evaluations of the right-hand side
         scalar step_size;  // [s] Internal step size that the next step starts with
         scalar error_tests_failed;  // [1] Internal steps rejected by the error test
-        scalar cpu_time;  // [s] Processor time of this instance inside fmi2DoStep (not part of the saved state)
         scalar tolerance;  // [1] Tolerance in force
         scalar method_used;  // [1] Integration method in use: 1 velocity Verlet, 2 Runge-Kutta
+        scalar cpu_time;  // [s] Processor time of this instance inside fmi2DoStep, from its creation on (not part of the saved state)
     } solver;
     struct {
         scalar land_contact;  // [1] Cage halves whose land touches the outer ring

@@ -53,7 +53,7 @@ UNITS = {
 }
 
 # name, vr, type, unit, display, start, min, max, count, group, description, source
-{% for causality, title in (("parameter", "PARAMETERS"), ("input", "INPUTS"), ("output", "OUTPUTS")) %}
+{% for causality, title in (("parameter", "PARAMETERS"), ("input", "INPUTS"), ("output", "OUTPUTS"), ("local", "LOCALS")) %}
 {{ title }} = {
     v.name: v
     for v in (
