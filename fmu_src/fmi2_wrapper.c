@@ -7,6 +7,7 @@
 #include "part.h"
 
 #include "build_info.h"
+#include "check.h"
 #include "float_environment.h"
 #include "fmi2Functions.h"
 #include "fmi2_calls.h"
@@ -276,7 +277,9 @@ static fmi2Status SetupExperiment(fmi2Component c, fmi2Boolean tolerance_defined
                                   fmi2Real stop_time)
 {
     Instance *m = c;
-    if (!isfinite(start_time)) return refuse(m, CALL_SetupExperiment, "startTime = %g s is not allowed: it must be finite", start_time);
+    if (!values_are_within(&start_time, 1, LARGEST_TIME)) {
+        return refuse(m, CALL_SetupExperiment, "startTime = %g s is not allowed: it must lie within +-%g s", start_time, LARGEST_TIME);
+    }
     if (stop_time_defined && !(stop_time >= start_time)) {
         return refuse(m, CALL_SetupExperiment, "stopTime = %g s is not allowed: it must not lie before startTime = %g s", stop_time, start_time);
     }
@@ -647,7 +650,7 @@ static const char *session_problem(const Session *s, const Part *part)
         return "there is no such phase";
     if (s->initialized > 1 || (s->initialized && (s->phase == INSTANTIATED || !part_is_initialized(part)))) return "phase and part do not belong together";
     if (s->phase & (STEPPING | FAILED | TERMINATED) && !part_is_initialized(part)) return "it has this phase without a start";
-    if (!isfinite(s->start_time) || !(s->stop_time >= s->start_time)) return "start and stop time are not in order";
+    if (!values_are_within(&s->start_time, 1, LARGEST_TIME) || !(s->stop_time >= s->start_time)) return "start and stop time are not in order";
     if (s->phase & (STEPPING | FAILED | TERMINATED) && !(time >= s->start_time && time <= s->stop_time + slack))
         return "its time is not between start and stop";
     if (s->tolerance != 0.0 && !(tolerance && s->tolerance >= tolerance->min && s->tolerance <= tolerance->max)) return "its tolerance is out of range";

@@ -9,6 +9,7 @@
 #include "traction.h"
 
 static const double PI = 3.14159265358979323846;
+static const double STANDSTILL = 1e-9;  // [rad/s] up to it a speed is none that others are compared with
 
 // The states that are outputs as they are: copied by name.
 static void fill_state(const Evaluation *at, Outputs *out)
@@ -118,7 +119,7 @@ static void fill_cage(const Evaluation *at, Outputs *out)
     const Parameters *p = at->model->p;
     const scalar epicyclic = 0.5 * at->model->ring_load->omega * (1.0 - p->bearing.D / p->bearing.d_m);
     out->cage.omega = 0.5 * (h0->s + h1->s);
-    out->cage.slip_ratio = scalar_value(epicyclic) != 0.0 ? 1.0 - out->cage.omega / epicyclic : 0.0;
+    out->cage.slip_ratio = fabs(scalar_value(epicyclic)) > STANDSTILL ? 1.0 - out->cage.omega / epicyclic : 0.0;
     out->cage.y = 0.5 * (h0->x[1] + h1->x[1]);
     out->cage.z = 0.5 * (h0->x[2] + h1->x[2]);
     out->cage.eccentricity = scalar_sqrt(out->cage.y * out->cage.y + out->cage.z * out->cage.z) / at->model->d->C_land;
