@@ -14,6 +14,7 @@ import numpy as np
 
 from bearing_model.lanes import ball_array_sum
 from bearing_model.load_path import PATH_M_R, PATH_M_T, PATH_N, PATH_V_R, PATH_V_T, load_path_flexible, load_path_rigid
+from bearing_model.pocket import pocket_split
 from bearing_model.rivet_rom import RivetLoad, joint_prying
 from bearing_model.variables import CageModel
 from bearing_model.vec import vec_dot
@@ -30,33 +31,29 @@ def two_half_load(model, w):
     return load, np.hypot(V_y, V_z)
 
 
-def rigid_wrench(model, w):
+def rigid_wrench(model, w, pocket_F, pocket_M):
     """Wrench of pockets and lands on half 1 less that on half 0, halved, about the cage's centre in its body frame."""
     cage, other = w.half
-    F, M = 0.5 * (other.F - cage.F), 0.5 * (other.M - cage.M)
-    # a rigid cage keeps all pocket forces on half 0: divide them between the halves by their shares
-    F_x, _, F_t = w.pocket[0]
-    root = np.sqrt(F_x**2 + model.p.cage.share_width**2 * (F_x**2 + F_t**2))
-    share = np.divide(F_x, root, out=np.zeros_like(F_x), where=root > 0.0)
-    F = F + 0.5 * ball_array_sum((1.0 + share) * w.pocket_F[0])
-    M = M + 0.5 * ball_array_sum((1.0 + share) * w.pocket_M[0])
+    # a rigid cage keeps all pocket forces on half 0: the part of half 1 goes over
+    F = 0.5 * (other.F - cage.F) + ball_array_sum(pocket_F[1])
+    M = 0.5 * (other.M - cage.M) + ball_array_sum(pocket_M[1])
     axes = (cage.a, cage.b_y, cage.b_z)
     return [vec_dot(e, F) for e in axes] + [vec_dot(e, M) for e in axes]
 
 
-def rigid_load(model, w):
+def rigid_load(model, w, pocket_F, pocket_M):
     R, friction = 0.5 * model.p.bearing.d_m, model.p.joint.mu * model.d.P
-    N, V_y, V_z = load_path_rigid(2.0 * R, rigid_wrench(model, w), model.d.rivet_y / R, model.d.rivet_z / R)
+    N, V_y, V_z = load_path_rigid(2.0 * R, rigid_wrench(model, w, pocket_F, pocket_M), model.d.rivet_y / R, model.d.rivet_z / R)
     V = np.hypot(V_y, V_z)
     shank = np.divide(V - 2.0 * friction, V, out=np.zeros_like(V), where=V > 2.0 * friction)
     F_head = np.clip(V - friction, 0.0, friction)
     return RivetLoad(P=model.d.P, N=N, V_y=shank * V_y, V_z=shank * V_z, M_y=0.0, M_z=0.0, F_head=F_head), V
 
 
-def pocket_path(model, w, h):
+def pocket_path(model, pocket, h):
     """Loads (N, V_r, V_t, M_r, M_t) of the rivets by prying of the forces on the pockets of half h [..., Z, 5]."""
     matrix, side = model.d.table.load_path, 2 * h - 1
-    forces = np.moveaxis(w.pocket[h], 0, -2)  # [..., 3, Z]
+    forces = np.moveaxis(pocket, 0, -2)  # [..., 3, Z]
     flat = forces.reshape(-1, *forces.shape[-2:])
     loads = np.array([load_path_flexible(matrix, side, *F) for F in flat])
     return loads.reshape(*forces.shape[:-2], *loads.shape[-2:])
@@ -64,8 +61,13 @@ def pocket_path(model, w, h):
 
 def rivets_load(model, w):
     """RivetLoad of all rivets and the transverse load V of the joints [N], arrays [..., Z]."""
-    load, V = rigid_load(model, w) if model.p.scene.cage == CageModel.RIGID else two_half_load(model, w)
-    path = sum(pocket_path(model, w, h) for h in w.pocket)
+    if model.p.scene.cage == CageModel.RIGID:
+        pocket, pocket_F, pocket_M = pocket_split(model, w)
+        load, V = rigid_load(model, w, pocket_F, pocket_M)
+    else:
+        pocket = w.pocket
+        load, V = two_half_load(model, w)
+    path = sum(pocket_path(model, pocket[h], h) for h in range(2))
     R = 0.5 * model.p.bearing.d_m
     c, s = model.d.rivet_y / R, model.d.rivet_z / R
     load.N = load.N + path[..., PATH_N]

@@ -599,14 +599,18 @@ enum { BLOB_VERSION = 3 };
 
 static size_t blob_size(void)
 {
-    return sizeof(BlobHeader) + sizeof(Session) + part_saved_size();
+    return (sizeof(BlobHeader) + sizeof(Session) + part_saved_size() + 7) / 8 * 8;
 }
 
-// FNV-1a, 64 bits: changes with any single byte.
+// 64 bits, eight bytes at a time: each step is a permutation of the hash, so a change of any single word changes it.
 static uint64_t blob_checksum(const unsigned char *blob)
 {
-    uint64_t hash = 0xcbf29ce484222325u;
-    for (size_t i = sizeof(BlobHeader); i < blob_size(); i++) hash = (hash ^ blob[i]) * 0x100000001b3u;
+    uint64_t hash = 0xcbf29ce484222325u, word;
+    for (size_t i = sizeof(BlobHeader); i + sizeof word <= blob_size(); i += sizeof word) {
+        memcpy(&word, blob + i, sizeof word);
+        hash = (hash ^ word) * 0x9e3779b97f4a7c15u;
+        hash ^= hash >> 32;
+    }
     return hash;
 }
 

@@ -145,7 +145,7 @@ def load_table(bearing=None, path=None):
         states.append(StateBlock(**entry | {"count": count}, offset=offset, of_balls=entry["count"] == "Z"))
         offset += count
     table = Table(Z, raw["model_name"], raw["description"], raw["units"], raw["enumerations"], raw["groups"], tuple(variables), tuple(states))
-    check_table(table, path)
+    check_table(table, path, raw.get("retired", ()))
     return table
 
 
@@ -176,9 +176,9 @@ def set_start(variables, causality, name, value, source):
     variables[places[name]] = replace(v, start=float(start) if v.kind == "Real" else start)
 
 
-def check_table(table, path):
-    """Every variable complete and consistent, every name and value reference given once; else ValueError."""
-    names, references = {"time"}, {0: "time"}
+def check_table(table, path, retired=()):
+    """Every variable complete and consistent, every name and value reference given once and none that is retired; else ValueError."""
+    names, references = {"time"}, {0: "time"} | dict.fromkeys(retired, "a variable that is gone")
     for v in table.variables:
         last = v.vr + (Z_MAX if v.is_array else 1)
         shared = {references[r] for r in range(v.vr, last) if r in references}

@@ -71,8 +71,12 @@ static unsigned char *serialized(fmi2Component c)
 
 static void seal(unsigned char *bytes)
 {
-    uint64_t hash = 0xcbf29ce484222325u;
-    for (size_t i = HEADER; i < size; i++) hash = (hash ^ bytes[i]) * 0x100000001b3u;
+    uint64_t hash = 0xcbf29ce484222325u, word;
+    for (size_t i = HEADER; i < size; i += 8) {
+        memcpy(&word, bytes + i, 8);
+        hash = (hash ^ word) * 0x9e3779b97f4a7c15u;
+        hash ^= hash >> 32;
+    }
     memcpy(bytes + CHECKSUM, &hash, sizeof hash);
 }
 

@@ -154,7 +154,6 @@ def runs_of(rows):
         "pocket": np.round(rows["cage.pocket_clearance"] * 1e6, 3),
         "guide": np.round(rows["cage.guide_clearance"] * 1e6, 3),
         "pocket_damping": rows["cage.lambda"],
-        "share_width": rows["cage.share_width"],
         "impact": rows["pulse.F_r"],
         "width": np.round(rows["pulse.duration"] * 1e3, 6),
         "force": rows["stat.Q_c_mean"],
@@ -379,14 +378,13 @@ GRIPS = {  # name: (conditions that differ from the first one, colour)
     "dry joints (μ 0.3)": ({"mu": 0.3}, MUTED),
     "soft impacts (10 s/m)": ({"pocket_damping": 10.0}, MIDDLE),
     "pockets of 0.1 mm": ({"pocket": 100.0}, RING),
-    "share by the contact patch": ({"share_width": 0.12}, HEAD),
     "no axial load": ({"F_a": 0.0}, "#8e5aa8"),
 }
 
 
 def grip(runs, name):
     """Runs of one of the changes."""
-    return runs.at(**{"mu": 0.15, "pocket_damping": 1.0, "pocket": 200.0, "share_width": 0.05, "F_a": 515.0} | GRIPS[name][0])
+    return runs.at(**{"mu": 0.15, "pocket_damping": 1.0, "pocket": 200.0, "F_a": 515.0} | GRIPS[name][0])
 
 
 def grip_picture(data):
