@@ -1,6 +1,7 @@
 # Programs that drive the FMI functions for the tests, linked with the core.
 #
 #   fuzz_api        pseudo-random calls; with SANITIZE=fuzzer,... (clang) a coverage-guided fuzzer instead
+#   forge_states    saved states with changed content and a right checksum, both FMUs
 #   fault_memory    allocations refused one after the other, both FMUs (Linux: the linker sends them to the program)
 
 find_package(Threads REQUIRED)
@@ -26,6 +27,13 @@ if(TARGET fuzz_api AND SANITIZE MATCHES "fuzzer")
     target_link_options(fuzz_api PRIVATE -fsanitize=fuzzer)
 elseif(TARGET fuzz_api)
     target_compile_definitions(fuzz_api PRIVATE STANDALONE)
+endif()
+add_driver(forge_states forge_states "${core_includes}" ${core_objects} ${build_info})
+if(TARGET forge_states)
+    target_compile_definitions(forge_states PRIVATE BEARING)
+    if(shaft_core)
+        add_driver(forge_states_shaft forge_states "${fmu_src};${shaft}" ${shaft_core} ${shaft}/build_info.c)
+    endif()
 endif()
 if(CMAKE_SYSTEM_NAME STREQUAL "Linux")
     add_driver(fault_memory fault_memory "${core_includes}" ${core_objects} ${build_info})

@@ -5,13 +5,20 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-// Whether all of them are numbers whose products of a few stay finite: no quantity of the model, in SI units, comes near this bound.
+static const double LARGEST_TIME = 1e12;  // [s]
+
+// Whether all of them are numbers between -largest and largest.
+static inline bool values_are_within(const double *value, size_t n, double largest)
+{
+    for (size_t i = 0; i < n; i++)
+        if (!(fabs(value[i]) <= largest)) return false;
+    return true;
+}
+
+// Whether products of a few of them stay finite: no sum of the model, in SI units, comes near this bound.
 static inline bool values_are_sane(const double *value, size_t n)
 {
-    const double LARGEST = 1e60;
-    for (size_t i = 0; i < n; i++)
-        if (!(fabs(value[i]) <= LARGEST)) return false;
-    return true;
+    return values_are_within(value, n, 1e60);
 }
 
 // Whether they are, and none is negative.

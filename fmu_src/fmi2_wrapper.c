@@ -7,6 +7,7 @@
 #include "part.h"
 
 #include "build_info.h"
+#include "check.h"
 #include "float_environment.h"
 #include "fmi2Functions.h"
 #include "fmi2_calls.h"
@@ -283,9 +284,10 @@ static fmi2Status SetupExperiment(fmi2Component c, fmi2Boolean tolerance_defined
                                   fmi2Real start_time, fmi2Boolean stop_time_defined, fmi2Real stop_time)
 {
     Instance *m = c;
-    if (!isfinite(start_time))
-        return refuse(m, CALL_SetupExperiment, "startTime = %g s is not allowed: it must be finite",
-                      start_time);
+    if (!values_are_within(&start_time, 1, LARGEST_TIME)) {
+        return refuse(m, CALL_SetupExperiment, "startTime = %g s is not allowed: it must lie within +-%g s",
+                      start_time, LARGEST_TIME);
+    }
     if (stop_time_defined && !(stop_time >= start_time)) {
         return refuse(m, CALL_SetupExperiment,
                       "stopTime = %g s is not allowed: it must not lie before startTime = %g s", stop_time,
@@ -627,14 +629,18 @@ enum { BLOB_VERSION = 3 };
 
 static size_t blob_size(void)
 {
-    return sizeof(BlobHeader) + sizeof(Session) + part_saved_size();
+    return (sizeof(BlobHeader) + sizeof(Session) + part_saved_size() + 7) / 8 * 8;
 }
 
-// FNV-1a, 64 bits: changes with any single byte.
+// 64 bits, eight bytes at a time: each step is a permutation of the hash, so a change of any single word changes it.
 static uint64_t blob_checksum(const unsigned char *blob)
 {
-    uint64_t hash = 0xcbf29ce484222325u;
-    for (size_t i = sizeof(BlobHeader); i < blob_size(); i++) hash = (hash ^ blob[i]) * 0x100000001b3u;
+    uint64_t hash = 0xcbf29ce484222325u, word;
+    for (size_t i = sizeof(BlobHeader); i + sizeof word <= blob_size(); i += sizeof word) {
+        memcpy(&word, blob + i, sizeof word);
+        hash = (hash ^ word) * 0x9e3779b97f4a7c15u;
+        hash ^= hash >> 32;
+    }
     return hash;
 }
 
@@ -686,7 +692,7 @@ static const char *session_problem(const Session *s, const Part *part)
         return "phase and part do not belong together";
     if (s->phase & (STEPPING | FAILED | TERMINATED) && !part_is_initialized(part))
         return "it has this phase without a start";
-    if (!isfinite(s->start_time) || !(s->stop_time >= s->start_time))
+    if (!values_are_within(&s->start_time, 1, LARGEST_TIME) || !(s->stop_time >= s->start_time))
         return "start and stop time are not in order";
     if (s->phase & (STEPPING | FAILED | TERMINATED) &&
         !(time >= s->start_time && time <= s->stop_time + slack))

@@ -473,14 +473,39 @@ int integrator_advance(Integrator *in, double t_stop, long max_steps)
     return status;
 }
 
+// Bound of a state far beyond all that a bearing does, within which the error of a step can still be told from the rounding of the state [SI].
+static double largest_of(StateScale scale)
+{
+    switch (scale) {
+    case SCALE_LENGTH:
+    case SCALE_VELOCITY: return 1e6;
+    case SCALE_ANGLE: return 1e15;
+    case SCALE_TILT:
+    case SCALE_PLATE:
+    case SCALE_HEAD: return 1.0;
+    case SCALE_RATE:
+    case SCALE_SPIN: return 1e9;
+    case SCALE_ENERGY: return 1e30;
+    case SCALE_COUNT: break;
+    }
+    return 0.0;
+}
+
 bool integrator_state_is_valid(const IntegratorState *s)
 {
-    const double positive[] = {s->h}, amounts[] = {s->now.h};
-    bool fine = values_are_sane(&s->t, 1) && values_are_amounts(amounts, 1) &&
-                values_are_amounts(positive, 1) && s->h > 0.0;
-    fine &= values_are_sane(s->now.y, N_STATES) && values_are_sane(s->now.f, N_STATES) &&
-            values_are_sane(s->now.jerk, N_STATES);
-    fine &= values_are_sane(&s->now.film[0][0], sizeof s->now.film / sizeof s->now.film[0][0]);
+    const double RATE = 1e6,
+                 LARGEST_FILM = 1e30;  // a state crosses its range in no less than a microsecond [1/s]
+    bool fine = values_are_within(&s->t, 1, LARGEST_TIME) && values_are_amounts(&s->now.h, 1) &&
+                values_are_amounts(&s->h, 1) && s->h > 0.0;
+    for (const StateBlock *b = STATE_BLOCKS; b < STATE_BLOCKS + N_STATE_BLOCKS; b++) {
+        const size_t n = (size_t)b->count;
+        const double largest = largest_of(b->scale);
+        fine &= values_are_within(s->now.y + b->offset, n, largest) &&
+                values_are_within(s->now.f + b->offset, n, RATE * largest);
+        fine &= values_are_within(s->now.jerk + b->offset, n, RATE * RATE * RATE * largest);
+    }
+    fine &=
+        values_are_within(&s->now.film[0][0], sizeof s->now.film / sizeof s->now.film[0][0], LARGEST_FILM);
     fine &= s->f_is_current == 0 || s->f_is_current == 1;
     return fine && value_is_count(s->steps) && value_is_count(s->rhs_evals) &&
            value_is_count(s->error_tests_failed);

@@ -9,6 +9,9 @@
 #include "rivets.h"
 #include "traction.h"
 
+// Speed [rad/s] up to which no slip ratio is formed: a bearing at standstill has none.
+static const double STANDSTILL = 1e-9;
+
 // States that are outputs themselves.
 static void fill_state(const Evaluation *at, Outputs *out)
 {
@@ -123,7 +126,8 @@ static void fill_cage(const Evaluation *at, Outputs *out)
     const Parameters *p = at->model->p;
     const scalar epicyclic = 0.5 * at->model->ring_load->omega * (1.0 - p->bearing.D / p->bearing.d_m);
     out->cage.omega = 0.5 * (h0->s + h1->s);
-    out->cage.slip_ratio = scalar_value(epicyclic) != 0.0 ? 1.0 - out->cage.omega / epicyclic : 0.0;
+    out->cage.slip_ratio =
+        fabs(scalar_value(epicyclic)) > STANDSTILL ? 1.0 - out->cage.omega / epicyclic : 0.0;
     out->cage.y = 0.5 * (h0->x[1] + h1->x[1]);
     out->cage.z = 0.5 * (h0->x[2] + h1->x[2]);
     out->cage.eccentricity =

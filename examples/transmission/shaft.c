@@ -273,7 +273,7 @@ bool part_restore_unknown(Part *part, const void *saved)
 {
     Saved *s = &part->s;
     memcpy(s, saved, sizeof *s);
-    bool fine = values_are_sane(&s->t, 1) && values_are_sane(s->y, N_STATES);
+    bool fine = values_are_within(&s->t, 1, LARGEST_TIME) && values_are_sane(s->y, N_STATES);
     fine = fine && values_are_sane((const double *)&s->u[1], (size_t)INPUT_ORDERS * N_INPUTS) &&
            values_are_sane((const double *)&s->seen_dot, N_INPUTS);
     if (!fine) report_error(part, "time, states or rates of inputs: not what a run can have left there");
