@@ -1,6 +1,6 @@
-"""Load path of a cage half: what a pocket force does to the rivets beyond the share of a rigid half, by solid finite elements.
+"""Load path of a cage half: loads of the rivets by a pocket force beyond those of a rigid half, by solid finite elements.
 
-One pitch of the half, from pocket to pocket around its rivet, repeated Z times: cyclic symmetry with waves m = 0...Z/2.
+The mesh is one pitch of the half, from pocket to pocket around its rivet; cyclic symmetry with waves m = 0...Z - 1 gives the whole half.
 
          x ^   ____________________
            |  |                    |      s: arc length on the circle d_m, 0 at the rivet; pockets (cylinders with radial
@@ -10,11 +10,11 @@ One pitch of the half, from pocket to pocket around its rivet, repeated Z times:
            +-----+---=======----+---> s
 
 The joint is closed and does not slip, and the other half mirrors this one, so a force is half a symmetric pair (the pad cannot move along x:
-tension N, prying M) and half an antisymmetric one (the pad cannot move in the plane: V).  The motions that are left free are balanced by inertia,
-as in the dynamics.  The share that rigid halves carry without prying is the bolt group of fmu_src/load_path.h; the matrix holds the difference.
+tension N, prying M) and half an antisymmetric one (the pad cannot move in the plane: V).  Inertia balances the free motions, as in the
+dynamics.  The bolt group of fmu_src/load_path.h gives the share of rigid halves, without prying; the matrix holds the difference.
 
 A force on the ball's side acts where the ball touches: F_t > 0 on the wall at growing angle, near the split; F_x and F_r at the pocket's bottom.
-F_t < 0 touches the opposite wall, which is the mirror image.
+A force F_t < 0 acts on the opposite wall: its matrix is the mirror image.
 """
 
 from dataclasses import dataclass
@@ -26,7 +26,7 @@ from skfem import Basis, BilinearForm, ElementHex2, ElementVector, FacetBasis, L
 
 from bearing_model.load_path import load_path_rigid
 
-INERTIA = 1e-6  # of the softest elastic rate: inertia balances free motions and changes nothing else
+INERTIA = 1e-6  # times the softest elastic rate: inertia balances free motions and is negligible otherwise
 
 
 @dataclass(frozen=True)
@@ -137,7 +137,7 @@ class CageHalf:
         return np.flatnonzero((self.x[0] < 1e-9) & (np.abs(s) < pad * 1.001))
 
     def pocket_loads(self):
-        """Nodal loads [dofs, 3] of unit forces (x, r, t > 0) on pocket 0, and where they act [3, 3] (points as columns)."""
+        """Nodal loads [dofs, 3] of unit forces (x, r, t > 0) on pocket 0, and the points at which they act [3, 3], as columns."""
         g, loads, places = self.g, [], []
         half_pitch, pocket = np.pi / g.Z, 0.5 * (g.ball_diameter + g.pocket_clearance)
         mesh, R = self.basis.mesh, g.d_m / 2
@@ -180,7 +180,7 @@ class CageHalf:
         return I
 
     def _reactions(self, f, dofs, sector):
-        """(N, V_r, V_t, M_r, M_t) that outside gives to the joint, from the nodal forces f the pad exerts on the half."""
+        """Loads (N, V_r, V_t, M_r, M_t) on the joint from the nodal forces f that the pad exerts on the half."""
         angle = 2 * np.pi * (sector + 0.5) / self.g.Z
         e_r, e_t = np.array([0, np.cos(angle), np.sin(angle)]), np.array([0, -np.sin(angle), np.cos(angle)])
         unit = np.eye(3)[self.component[dofs]]
@@ -217,7 +217,7 @@ class CageHalf:
         return sp.csr_matrix((np.concatenate(values), (np.concatenate(rows), np.concatenate(columns))), shape=(N, len(keep)))
 
     def reactions(self):
-        """Joint loads per unit pocket-0 force on this half [rivet, 5, 3] with the joint closed: elastic, rigid share included."""
+        """Loads of the closed joints [rivet, 5, 3] per unit force on pocket 0 of this half: elastic, with the rigid share included."""
         loads, _ = self.pocket_loads()
         return self._cyclic(loads) if self.sectors == 1 else self._whole(loads)
 
@@ -280,7 +280,7 @@ class CageHalf:
         return result
 
     def rigid_share(self):
-        """The same by the bolt group for a rigid half, balanced by its inertia where it is free [rivet, 5, 3]."""
+        """Loads of the joints [rivet, 5, 3] for a rigid half: the bolt group, with inertia balancing the free motions."""
         g = self.g
         _, places = self.pocket_loads()
         angle = 2 * np.pi * (np.arange(g.Z) + 0.5) / g.Z
