@@ -1,6 +1,6 @@
 // Refusals before a run or a step: values outside their limits, parameters that make no bearing, a rivet
 // table that belongs to another bearing.
-#include "check.h"
+#include "saved_numbers.h"
 
 #include "instance.h"
 #include "ring_load.h"

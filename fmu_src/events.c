@@ -1,7 +1,7 @@
 // Events: conditions from the results of one evaluation, see events.h.
 #include "events.h"
 
-#include "check.h"
+#include "saved_numbers.h"
 #include "elementary.h"
 #include "hertz.h"
 #include "rivet_rom.h"

@@ -1,7 +1,7 @@
 // Streaming rainflow and Miner's sum: see fatigue.h.
 #include "fatigue.h"
 
-#include "check.h"
+#include "saved_numbers.h"
 #include "variables.h"
 
 #include <limits.h>

@@ -7,7 +7,7 @@
 #include "part.h"
 
 #include "build_info.h"
-#include "check.h"
+#include "saved_numbers.h"
 #include "float_environment.h"
 #include "fmi2Functions.h"
 #include "fmi2_calls.h"

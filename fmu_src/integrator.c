@@ -15,7 +15,7 @@
 #include "integrator.h"
 
 #include "aligned.h"
-#include "check.h"
+#include "saved_numbers.h"
 #include "elementary.h"
 #include "reserved_memory.h"
 #include "stepping.h"

@@ -2,7 +2,7 @@
 // a logarithm.
 #include "statistics.h"
 
-#include "check.h"
+#include "saved_numbers.h"
 
 #include <math.h>
 #include <stdint.h>

@@ -17,7 +17,7 @@
 // C1 in omega: friction passes through rest as omega / sqrt(omega^2 + omega_0^2).
 #include "part.h"
 
-#include "check.h"
+#include "saved_numbers.h"
 
 #include <math.h>
 #include <stdio.h>
