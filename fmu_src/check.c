@@ -8,8 +8,7 @@
 static bool check_variables(Bearing *b, Causality causality, const void *values)
 {
     bool fine = true;
-    for (int v = 0; v < N_VARIABLES && VARIABLES[v].causality <= causality;
-         v++) {  // they are in the order of causality
+    for (int v = 0; v < N_VARIABLES; v++) {
         if (VARIABLES[v].causality != causality) continue;
         for (int i = 0; i < VARIABLES[v].count; i++) {
             const char *at = (const char *)values + VARIABLES[v].offset;

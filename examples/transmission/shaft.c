@@ -25,13 +25,13 @@
 typedef struct {
     Parameters p;
     Inputs u[INPUT_ORDERS + 1];  // of the next step: at its start, with their derivatives
-    Inputs seen, seen_dot;       // that the present state has seen last, and their rates
+    Inputs u_now, u_now_dot;     // inputs under which the present state was reached, and their rates
     double t, y[N_STATES];
-} Saved;
+} State;
 
 struct Part {
     PartHost host;
-    Saved s;
+    State s;
     Outputs out;
 };
 
@@ -105,7 +105,7 @@ static void course(const Inputs from[], double tau, Inputs *u, Inputs *u_dot)
 }
 
 // One step of the classical Runge-Kutta method, tau after the start of the communication step.
-static void runge_kutta(const Saved *s, double tau, double h, double *y)
+static void runge_kutta(const State *s, double tau, double h, double *y)
 {
     static const double node[4] = {0.0, 0.5, 0.5, 1.0}, weight[4] = {1.0 / 6, 1.0 / 3, 1.0 / 3, 1.0 / 6};
     double stage[N_STATES], slope[N_STATES] = {0.0}, sum[N_STATES] = {0.0};
@@ -121,7 +121,7 @@ static void runge_kutta(const Saved *s, double tau, double h, double *y)
 
 // Internal steps of a communication step: at most 0.1 ms, and a twentieth of the shortest time constant, that of drive and friction: error (1/20)^4 / 120
 // = 5e-8 for each time constant.
-static double steps_needed(const Saved *s, double h)
+static double steps_needed(const State *s, double h)
 {
     Outputs at;
     linear(&s->p, &s->u[0], s->y, &at);
@@ -133,7 +133,7 @@ static double steps_needed(const Saved *s, double h)
 
 PartStatus part_step(Part *part, double t_end)
 {
-    Saved *s = &part->s;
+    State *s = &part->s;
 
     enum { MOST_STEPS = 10000000 };
 
@@ -157,8 +157,8 @@ PartStatus part_step(Part *part, double t_end)
     }
     memcpy(s->y, y, sizeof y);
     s->t = t_end;
-    course(s->u, h, &s->seen, &s->seen_dot);
-    s->u[0] = s->seen;
+    course(s->u, h, &s->u_now, &s->u_now_dot);
+    s->u[0] = s->u_now;
     memset(&s->u[1], 0, INPUT_ORDERS * sizeof *s->u);
     return PART_OK;
 }
@@ -189,8 +189,8 @@ PartStatus part_initialize(Part *part, double t_start, double tolerance)
     (void)tolerance;  // the error is far below any
     part->s.t = t_start;
     part->s.y[Y_OMEGA] = part->s.p.shaft.omega_start;
-    part->s.seen = part->s.u[0];
-    part->s.seen_dot = part->s.u[1];
+    part->s.u_now = part->s.u[0];
+    part->s.u_now_dot = part->s.u[1];
     return PART_OK;
 }
 
@@ -223,26 +223,26 @@ double part_time(const Part *part)
 void part_update(Part *part, OutputGroup group)
 {
     (void)group;  // all together: a few multiplications
-    evaluate(&part->s.p, &part->s.seen, part->s.y, &part->out);
+    evaluate(&part->s.p, &part->s.u_now, part->s.y, &part->out);
 }
 
 void part_time_derivatives(Part *part, Outputs *derivatives)
 {
     double y_dot[N_STATES];
-    rhs(&part->s.p, &part->s.seen, part->s.y, y_dot);
-    differentiate(&part->s.p, &part->s.seen, part->s.y, &part->s.seen_dot, y_dot, derivatives);
+    rhs(&part->s.p, &part->s.u_now, part->s.y, y_dot);
+    differentiate(&part->s.p, &part->s.u_now, part->s.y, &part->s.u_now_dot, y_dot, derivatives);
 }
 
 void part_directional_derivatives(Part *part, const Inputs *inputs, const double state[N_STATES],
                                   Outputs *derivatives)
 {
-    differentiate(&part->s.p, &part->s.seen, part->s.y, inputs, state, derivatives);
+    differentiate(&part->s.p, &part->s.u_now, part->s.y, inputs, state, derivatives);
 }
 
 // ---- saved state --------------------------------------------------------------------------------------------------------------------------
 size_t part_saved_size(void)
 {
-    return sizeof(Saved);
+    return sizeof(State);
 }
 
 void part_save(const Part *part, void *saved)
