@@ -1,4 +1,5 @@
-// A shaft that turns in two bearings, driven at one end, loaded by a gear: a part (part.h) to couple with the bearing's FMU.
+// A shaft that turns in two bearings, driven at one end, loaded by a gear: a part (part.h) to couple with the
+// bearing's FMU.
 //
 //   drive k (omega_d - omega)          Y
 //       ->|====A=========[G]=========B  |
@@ -11,7 +12,8 @@
 //
 // Loads on the bearings, moments about A (the shaft is statically determinate; A carries F_a):
 //   B_y = (x F_r + r F_a) / L,  B_z = x F_t / L,         A = (F_a, F_r - B_y, F_t - B_z)
-// A is a bearing with a motion of its own: its housing feels R instead of A.  What the shaft then lays on B is F - R, and it costs
+// A is a bearing with a motion of its own: its housing feels R instead of A.  What the shaft then lays on B
+// is F - R, and it costs
 //   M_B = mu |F - R| d / 2,                              SKF catalogue, constant coefficient of friction
 //   J omega_dot = k (omega_d - omega) - M - M_A - M_B.   M_A: friction torque of bearing A
 // C1 in omega: friction passes through rest as omega / sqrt(omega^2 + omega_0^2).
@@ -35,7 +37,7 @@ struct Part {
     Outputs out;
 };
 
-// ---- equations ----------------------------------------------------------------------------------------------------------------------------
+// ---- equations --------------------------------------------------------------------------------------------
 // All that is linear in inputs and state: their derivatives follow from the same lines.
 static void linear(const Parameters *p, const Inputs *u, const double *y, Outputs *out)
 {
@@ -92,7 +94,7 @@ static void rhs(const Parameters *p, const Inputs *u, const double *y, double *y
     y_dot[Y_WORK_SUPPORT] = at.support.M * y[Y_OMEGA];
 }
 
-// ---- integration --------------------------------------------------------------------------------------------------------------------------
+// ---- integration ------------------------------------------------------------------------------------------
 // The inputs' polynomials, tau after the start of the step, and their rates.
 static void course(const Inputs from[], double tau, Inputs *u, Inputs *u_dot)
 {
@@ -119,8 +121,8 @@ static void runge_kutta(const State *s, double tau, double h, double *y)
     for (int i = 0; i < N_STATES; i++) y[i] += h * sum[i];
 }
 
-// Internal steps of a communication step: at most 0.1 ms, and a twentieth of the shortest time constant, that of drive and friction: error (1/20)^4 / 120
-// = 5e-8 for each time constant.
+// Internal steps of a communication step: at most 0.1 ms, and a twentieth of the shortest time constant, that
+// of drive and friction: error (1/20)^4 / 120 = 5e-8 for each time constant.
 static double steps_needed(const State *s, double h)
 {
     Outputs at;
@@ -163,7 +165,7 @@ PartStatus part_step(Part *part, double t_end)
     return PART_OK;
 }
 
-// ---- life cycle ---------------------------------------------------------------------------------------------------------------------------
+// ---- life cycle -------------------------------------------------------------------------------------------
 Part *part_create(const PartHost *host)
 {
     Part *part = malloc(sizeof *part);
@@ -219,7 +221,7 @@ double part_time(const Part *part)
     return part->s.t;
 }
 
-// ---- outputs ------------------------------------------------------------------------------------------------------------------------------
+// ---- outputs ----------------------------------------------------------------------------------------------
 void part_update(Part *part, OutputGroup group)
 {
     (void)group;  // all together: a few multiplications
@@ -239,7 +241,7 @@ void part_directional_derivatives(Part *part, const Inputs *inputs, const double
     differentiate(&part->s.p, &part->s.u_now, part->s.y, inputs, state, derivatives);
 }
 
-// ---- saved state --------------------------------------------------------------------------------------------------------------------------
+// ---- saved state ------------------------------------------------------------------------------------------
 size_t part_saved_size(void)
 {
     return sizeof(State);
