@@ -1,7 +1,9 @@
-// The core with another integrator: explicit Runge-Kutta methods of ARKODE, Adams and BDF of CVODE behind the core's integrator.h, so that model,
-// inputs, edges of pulses, statistics and error weights are those of the FMU and only the stepping differs.
+// The core with another integrator: explicit Runge-Kutta methods of ARKODE, Adams and BDF of CVODE behind the
+// core's integrator.h, so that model, inputs, edges of pulses, statistics and error weights are those of the
+// FMU and only the stepping differs.
 //
-// Vectors are SUNDIALS' own serial ones.  BDF solves its Newton systems (1 - gamma J) x = b in one of three ways:
+// Vectors are SUNDIALS' own serial ones.  BDF solves its Newton systems (1 - gamma J) x = b in one of three
+// ways:
 //
 //   dense      SUNDIALS' dense matrix and its own difference quotients: what a general multibody solver does
 //   diagonal   J = -D, the damping rates that the core computes, each state for itself: no factorization
@@ -12,8 +14,8 @@
 //                  |           ...  ... |
 //                  | E_1  E_2  ...  D   |        J by differences, one evaluation a column as in the dense case
 //
-// A statistics hook needs the right-hand side at accepted states.  Multistep methods do not evaluate there: those evaluations are made only where a
-// scene wants stress or statistics.
+// A statistics hook needs the right-hand side at accepted states.  Multistep methods do not evaluate there:
+// those evaluations are made only where a scene wants stress or statistics.
 #include "solvers.h"
 
 #include "instance.h"
@@ -73,7 +75,7 @@ struct Integrator {
     double t_output;
 };
 
-// ---- right-hand side ----------------------------------------------------------------------------------------------------------------------------
+// ---- right-hand side --------------------------------------------------------------------------------------
 // f(t, y); nothing is computed if w belongs to (t, y) already.
 static const double *evaluate(Integrator *in, double t, const double *y, double *counter)
 {
@@ -105,7 +107,7 @@ static int weights(N_Vector y, N_Vector ewt, void *user)
     return 0;
 }
 
-// ---- diagonal Jacobian ----------------------------------------------------------------------------------------------------------------------------
+// ---- diagonal Jacobian ------------------------------------------------------------------------------------
 // By traction, pockets, land films and bristles, each state for itself.
 static void diagonal_rates(Integrator *in)
 {
@@ -166,7 +168,7 @@ static int diagonal_solve(SUNLinearSolver solver, SUNMatrix none, N_Vector x, N_
     return 0;
 }
 
-// ---- bordered block-diagonal Jacobian ---------------------------------------------------------------------------------------------------------
+// ---- bordered block-diagonal Jacobian ---------------------------------------------------------------------
 enum {
     BALL_STATES = 9,
     JOINT_STATES = 4,
@@ -351,7 +353,7 @@ double solver_outside_pattern(struct Part *b)
     return outside / largest;
 }
 
-// ---- creation -----------------------------------------------------------------------------------------------------------------------------------
+// ---- creation ---------------------------------------------------------------------------------------------
 static void report(int line, const char *function, const char *file, const char *message, SUNErrCode code,
                    void *user, SUNContext sun)
 {
@@ -475,7 +477,7 @@ void integrator_tolerance(Integrator *in, double tolerance)
     stepping_weights(in->model->d, tolerance, in->weight);
 }
 
-// ---- stepping -----------------------------------------------------------------------------------------------------------------------------------
+// ---- stepping ---------------------------------------------------------------------------------------------
 void integrator_evaluate(Integrator *in)
 {
     if (in->s->f_is_current) return;

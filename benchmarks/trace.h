@@ -4,8 +4,8 @@
 #include "part.h"
 #include "rhs.h"
 
-// Each runs a call in a child process and writes the address of each instruction on the way (those around the call too); returns their number,
-// < 0 on failure or if there are more than `max_count`.
+// Each runs a call in a child process and writes the address of each instruction on the way (those around the
+// call too); returns their number, < 0 on failure or if there are more than `max_count`.
 
 // One evaluation of the right-hand side.
 long trace_rhs(Rhs *function, const Model *model, const double *y, Work *w, unsigned long *address,

@@ -1,10 +1,10 @@
 // Events: conditions from the results of one evaluation, see events.h.
 #include "events.h"
 
-#include "saved_numbers.h"
 #include "elementary.h"
 #include "hertz.h"
 #include "rivet_rom.h"
+#include "saved_numbers.h"
 
 #include <stdio.h>
 
@@ -85,7 +85,7 @@ static void races(const Model *model, const Work *w, Event *cut, Event *overpres
             Q_max = scalar_max(Q_max, Q[j]);
         }
         if (reach(race, along_max, Q_max) <= edge && hertz_pressure(&race->hertz, Q_max) <= p_limit)
-            continue;  // roots and angles are dear
+            continue;  // no ball can be beyond a limit
         for (int j = 0; j < Z; j++) {
             if (!(Q[j] > 0.0)) continue;
             add(cut, 2 * j + outer, reach(race, along[j], Q[j]), edge);

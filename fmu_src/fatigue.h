@@ -39,9 +39,14 @@ typedef struct {
     int dropped;                  // first points dropped, counted as half cycles, because the stack was full
 } FatigueChannel;
 
-double fatigue_cycle(const FatigueLaw *law, double range, double mean);     // damage of one cycle
-void fatigue_push(FatigueChannel *c, const FatigueLaw *law, double sigma);  // next sample of the history
-double
-fatigue_damage(const FatigueChannel *c,
-               const FatigueLaw *law);  // sum with the residue at half weight; leaves the channel as it is
-bool fatigue_is_valid(const FatigueChannel *c);  // whether pushing samples can have made it
+// Damage of one cycle.
+double fatigue_cycle(const FatigueLaw *law, double range, double mean);
+
+// Adds the next sample of the history.
+void fatigue_push(FatigueChannel *c, const FatigueLaw *law, double sigma);
+
+// Miner's sum with the ranges that remain on the stack as half cycles; the channel does not change.
+double fatigue_damage(const FatigueChannel *c, const FatigueLaw *law);
+
+// Whether pushing samples can have made the channel.
+bool fatigue_is_valid(const FatigueChannel *c);

@@ -7,10 +7,10 @@
 #include "part.h"
 
 #include "build_info.h"
-#include "saved_numbers.h"
 #include "float_environment.h"
 #include "fmi2Functions.h"
 #include "fmi2_calls.h"
+#include "saved_numbers.h"
 
 #include <float.h>
 #include <math.h>

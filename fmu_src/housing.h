@@ -4,8 +4,8 @@
 #include "rotor.h"
 
 // Force and moment about the bearing's centre that balls and cage put on the housing (outer ring, oil).
-// Balls and cage are accelerated by the sum of all forces on them; the housing carries what the ring puts on
-// them less what accelerates them.
+// All forces on balls and cage together accelerate them; the housing carries the forces that the ring puts on
+// balls and cage less the sum that accelerates them.
 static inline void housing_reaction(const Work *w, scalar F[3], scalar M[3])
 {
     const Rotor *bodies[3] = {&w->ring, &w->half[0], &w->half[1]};

@@ -15,9 +15,9 @@
 #include "integrator.h"
 
 #include "aligned.h"
-#include "saved_numbers.h"
 #include "elementary.h"
 #include "reserved_memory.h"
+#include "saved_numbers.h"
 #include "stepping.h"
 
 #include <arkode/arkode_erkstep.h>
@@ -194,9 +194,7 @@ static N_Vector vector_new(SUNContext sun, const VectorOps *vector_operations)
 
 // ---- what ARKODE calls ------------------------------------------------------------------------------------
 
-// dy/dt; at a step's start the one that is already known.  ERKStep has no recoverable failure for a stage
-// without a finite derivative: such a stage returns a huge one, so that the error test fails and the step is
-// repeated smaller.  Its sign alternates, so that two such stages do not cancel.
+// dy/dt; at a step's start the one that is already known.
 static void evaluate(Integrator *in, double t, const double *y, double *f)
 {
     if (in->warming_up) {

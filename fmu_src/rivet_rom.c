@@ -13,11 +13,10 @@ typedef struct {
     ball_array two_chi;        // 2 chi
 } TablePoints;
 
-// part/whole, 0 where whole is 0.
+// part/whole; 0 where whole is so small that 1/whole is not finite.
 INLINE wide ratio(wide part, wide whole)
 {
-    return wide_select(wide_above(whole, 1e-300), part / whole,
-                       wide_set(0.0));  // above this limit 1/whole is finite
+    return wide_select(wide_above(whole, 1e-300), part / whole, wide_set(0.0));
 }
 
 // Points of the loads of all rivets in the table.

@@ -1,6 +1,8 @@
-// Counts what an FMU's binary takes of memory: allocations inside fmi2DoStep, fmi2GetReal and the derivative functions, growth of the process.
+// Counts what an FMU's binary takes of memory: allocations inside fmi2DoStep, fmi2GetReal and the derivative
+// functions, growth of the process.
 //     allocations BINARY GUID STEPS STEP_SIZE REFERENCE...
-// prints: allocations, bytes grown in the second half of the steps; blocks left and bytes grown by 500 lives of an instance after 500 others
+// prints: allocations, bytes grown in the second half of the steps; blocks left and bytes grown by 500 lives
+// of an instance after 500 others
 #define _GNU_SOURCE
 #include "fmi2Functions.h"
 

@@ -1,5 +1,5 @@
-// A host in the plainest C: loads the FMU's Windows binary, simulates and prints all values as hexadecimal floats.
-// Usage: fmu_host LIBRARY GUID STEPS STEP_SIZE < value references
+// A host in the plainest C: loads the FMU's Windows binary, simulates and prints all values as hexadecimal
+// floats.  Usage: fmu_host LIBRARY GUID STEPS STEP_SIZE < value references
 #include <stdio.h>
 #include <stdlib.h>
 #include <windows.h>

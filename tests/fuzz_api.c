@@ -1,12 +1,14 @@
-// Calls the FMI functions in any order with any arguments, as a byte string says, and holds what must hold whatever the calls were:
+// Calls the FMI functions in any order with any arguments, as a byte string says, and holds what must hold
+// whatever the calls were:
 //
 //   a status of the standard, never fmi2Fatal;  no NaN with fmi2OK;  an error comes with a message
 //   fmi2Discard of a step: fmi2Terminated is true, the time reached lies inside the step, all outputs are finite
 //   a reset instance runs as a new one: its state after one step is the same byte for byte
 //   floating-point environment and arguments beyond the given sizes are left alone (the sanitizers see the latter)
 //
-// LLVMFuzzerTestOneInput is what coverage-guided fuzzers call.  With -DSTANDALONE:  fuzz_api CALLS [SEED [THREADS]]  feeds pseudo-random
-// strings until each thread has made that many calls and prints what came back.  A violation aborts.
+// LLVMFuzzerTestOneInput is what coverage-guided fuzzers call.  With -DSTANDALONE:  fuzz_api CALLS [SEED
+// [THREADS]]  feeds pseudo-random strings until each thread has made that many calls and prints what came
+// back.  A violation aborts.
 #include "part.h"
 
 #include "fmi2Functions.h"
@@ -23,7 +25,7 @@
 
 enum { INSTANCES = 2, STATES = 3, MAX_VALUES = 24, N_STATUS = 6 };
 
-// ---- the string that decides -----------------------------------------------------------------------------------------------------------------
+// ---- the string that decides ------------------------------------------------------------------------------
 typedef struct {
     const uint8_t *next, *end;
 } Bytes;
@@ -61,7 +63,7 @@ static double any_double(Bytes *bytes)
     return value;
 }
 
-// ---- bookkeeping -----------------------------------------------------------------------------------------------------------------------------
+// ---- bookkeeping ------------------------------------------------------------------------------------------
 static _Thread_local long calls, counts[N_STATUS], runs_compared;
 static _Thread_local const char *last_call = "nothing";
 
@@ -129,7 +131,7 @@ static void new_instance(Host *host, Bytes *bytes, bool wrong)
     host->stop = INFINITY;
 }
 
-// ---- arguments -------------------------------------------------------------------------------------------------------------------------------
+// ---- arguments --------------------------------------------------------------------------------------------
 // Mostly references of the table.
 static fmi2ValueReference any_reference(Bytes *bytes)
 {
@@ -167,7 +169,7 @@ static size_t some(Bytes *bytes)
     return chance(bytes, 230) ? choose(bytes, 4) : choose(bytes, MAX_VALUES + 1);
 }
 
-// ---- actions ---------------------------------------------------------------------------------------------------------------------------------
+// ---- actions ----------------------------------------------------------------------------------------------
 static void check_outputs(Host *host)
 {
     for (const Variable *v = VARIABLES; v < VARIABLES + N_VARIABLES; v++) {
@@ -520,7 +522,7 @@ static void renew(Fuzz *f, Host *host)
     new_instance(host, &f->bytes, false);
 }
 
-// ---- a reset instance is as a new one --------------------------------------------------------------------------------------------------------
+// ---- a reset instance is as a new one ---------------------------------------------------------------------
 static unsigned char *run_state(Host *host, size_t *size)
 {
     fmi2FMUstate state = NULL;
@@ -560,7 +562,7 @@ static void compare_run(Fuzz *f, Host *host)
     runs_compared++;
 }
 
-// ---- one string ------------------------------------------------------------------------------------------------------------------------------
+// ---- one string -------------------------------------------------------------------------------------------
 typedef void Action(Fuzz *, Host *);
 static Action *const ACTIONS[] = {
     get_real,      get_real,      get_real,       get_integer,

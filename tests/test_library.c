@@ -1,4 +1,5 @@
-// What the tests' library adds to the core's objects: the inline functions, callable over arrays, and memory as the kernels want it.
+// What the tests' library adds to the core's objects: the inline functions, callable over arrays, and memory
+// as the kernels want it.
 #include "elementary.h"
 #include "hertz.h"
 #include "kernels.h"

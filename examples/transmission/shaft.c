@@ -1,4 +1,5 @@
-// A shaft that turns in two bearings, driven at one end, loaded by a gear: a part (part.h) to couple with the bearing's FMU.
+// A shaft that turns in two bearings, driven at one end, loaded by a gear: a part (part.h) to couple with the
+// bearing's FMU.
 //
 //   drive k (omega_d - omega)          Y
 //       ->|====A=========[G]=========B  |
@@ -11,7 +12,8 @@
 //
 // Loads on the bearings, moments about A (the shaft is statically determinate; A carries F_a):
 //   B_y = (x F_r + r F_a) / L,  B_z = x F_t / L,         A = (F_a, F_r - B_y, F_t - B_z)
-// A is a bearing with a motion of its own: its housing feels R instead of A.  What the shaft then lays on B is F - R, and it costs
+// A is a bearing with a motion of its own: its housing feels R instead of A.  What the shaft then lays on B
+// is F - R, and it costs
 //   M_B = mu |F - R| d / 2,                              SKF catalogue, constant coefficient of friction
 //   J omega_dot = k (omega_d - omega) - M - M_A - M_B.   M_A: friction torque of bearing A
 // C1 in omega: friction passes through rest as omega / sqrt(omega^2 + omega_0^2).
@@ -27,23 +29,23 @@
 typedef struct {
     Parameters p;
     Inputs u[INPUT_ORDERS + 1];  // of the next step: at its start, with their derivatives
-    Inputs seen, seen_dot;       // that the present state has seen last, and their rates
+    Inputs u_now, u_now_dot;     // inputs under which the present state was reached, and their rates
     double t, y[N_STATES];
-} Saved;
+} State;
 
 struct Part {
     PartHost host;
-    Saved s;
+    State s;
     Outputs out;
 };
 
-// Of a vector; C's hypot would ask for glibc 2.35, and no square leaves the range of doubles here.
+// Length of a vector across the axis; C's hypot would ask for glibc 2.35, and no square leaves the range of doubles here.
 static double length(double y, double z)
 {
     return sqrt(y * y + z * z);
 }
 
-// ---- equations ----------------------------------------------------------------------------------------------------------------------------
+// ---- equations --------------------------------------------------------------------------------------------
 // All that is linear in inputs and state: their derivatives follow from the same lines.
 static void linear(const Parameters *p, const Inputs *u, const double *y, Outputs *out)
 {
@@ -100,7 +102,7 @@ static void rhs(const Parameters *p, const Inputs *u, const double *y, double *y
     y_dot[Y_WORK_SUPPORT] = at.support.M * y[Y_OMEGA];
 }
 
-// ---- integration --------------------------------------------------------------------------------------------------------------------------
+// ---- integration ------------------------------------------------------------------------------------------
 // The inputs' polynomials, tau after the start of the step, and their rates.
 static void course(const Inputs from[], double tau, Inputs *u, Inputs *u_dot)
 {
@@ -113,7 +115,7 @@ static void course(const Inputs from[], double tau, Inputs *u, Inputs *u_dot)
 }
 
 // One step of the classical Runge-Kutta method, tau after the start of the communication step.
-static void runge_kutta(const Saved *s, double tau, double h, double *y)
+static void runge_kutta(const State *s, double tau, double h, double *y)
 {
     static const double node[4] = {0.0, 0.5, 0.5, 1.0}, weight[4] = {1.0 / 6, 1.0 / 3, 1.0 / 3, 1.0 / 6};
     double stage[N_STATES], slope[N_STATES] = {0.0}, sum[N_STATES] = {0.0};
@@ -127,9 +129,9 @@ static void runge_kutta(const Saved *s, double tau, double h, double *y)
     for (int i = 0; i < N_STATES; i++) y[i] += h * sum[i];
 }
 
-// Internal steps of a communication step: at most 0.1 ms, and a twentieth of the shortest time constant, that of drive and friction: error (1/20)^4 / 120
-// = 5e-8 for each time constant.
-static double steps_needed(const Saved *s, double h)
+// Internal steps of a communication step: at most 0.1 ms, and a twentieth of the shortest time constant, that
+// of drive and friction: error (1/20)^4 / 120 = 5e-8 for each time constant.
+static double steps_needed(const State *s, double h)
 {
     Outputs at;
     linear(&s->p, &s->u[0], s->y, &at);
@@ -141,7 +143,7 @@ static double steps_needed(const Saved *s, double h)
 
 PartStatus part_step(Part *part, double t_end)
 {
-    Saved *s = &part->s;
+    State *s = &part->s;
 
     enum { MOST_STEPS = 10000000 };
 
@@ -165,13 +167,13 @@ PartStatus part_step(Part *part, double t_end)
     }
     memcpy(s->y, y, sizeof y);
     s->t = t_end;
-    course(s->u, h, &s->seen, &s->seen_dot);
-    s->u[0] = s->seen;
+    course(s->u, h, &s->u_now, &s->u_now_dot);
+    s->u[0] = s->u_now;
     memset(&s->u[1], 0, INPUT_ORDERS * sizeof *s->u);
     return PART_OK;
 }
 
-// ---- life cycle ---------------------------------------------------------------------------------------------------------------------------
+// ---- life cycle -------------------------------------------------------------------------------------------
 Part *part_create(const PartHost *host)
 {
     Part *part = malloc(sizeof *part);
@@ -197,8 +199,8 @@ PartStatus part_initialize(Part *part, double t_start, double tolerance)
     (void)tolerance;  // the error is far below any
     part->s.t = t_start;
     part->s.y[Y_OMEGA] = part->s.p.shaft.omega_start;
-    part->s.seen = part->s.u[0];
-    part->s.seen_dot = part->s.u[1];
+    part->s.u_now = part->s.u[0];
+    part->s.u_now_dot = part->s.u[1];
     return PART_OK;
 }
 
@@ -227,30 +229,30 @@ double part_time(const Part *part)
     return part->s.t;
 }
 
-// ---- outputs ------------------------------------------------------------------------------------------------------------------------------
+// ---- outputs ----------------------------------------------------------------------------------------------
 void part_update(Part *part, OutputGroup group)
 {
     (void)group;  // all together: a few multiplications
-    evaluate(&part->s.p, &part->s.seen, part->s.y, &part->out);
+    evaluate(&part->s.p, &part->s.u_now, part->s.y, &part->out);
 }
 
 void part_time_derivatives(Part *part, Outputs *derivatives)
 {
     double y_dot[N_STATES];
-    rhs(&part->s.p, &part->s.seen, part->s.y, y_dot);
-    differentiate(&part->s.p, &part->s.seen, part->s.y, &part->s.seen_dot, y_dot, derivatives);
+    rhs(&part->s.p, &part->s.u_now, part->s.y, y_dot);
+    differentiate(&part->s.p, &part->s.u_now, part->s.y, &part->s.u_now_dot, y_dot, derivatives);
 }
 
 void part_directional_derivatives(Part *part, const Inputs *inputs, const double state[N_STATES],
                                   Outputs *derivatives)
 {
-    differentiate(&part->s.p, &part->s.seen, part->s.y, inputs, state, derivatives);
+    differentiate(&part->s.p, &part->s.u_now, part->s.y, inputs, state, derivatives);
 }
 
-// ---- saved state --------------------------------------------------------------------------------------------------------------------------
+// ---- saved state ------------------------------------------------------------------------------------------
 size_t part_saved_size(void)
 {
-    return sizeof(Saved);
+    return sizeof(State);
 }
 
 void part_save(const Part *part, void *saved)
