@@ -273,15 +273,15 @@ static void report_error(void *part, const char *message)
 
 bool part_restore_unknown(Part *part, const void *saved)
 {
-    Saved *s = &part->s;
+    State *s = &part->s;
     memcpy(s, saved, sizeof *s);
     bool fine = values_are_within(&s->t, 1, LARGEST_TIME) && values_are_sane(s->y, N_STATES);
     fine = fine && values_are_sane((const double *)&s->u[1], (size_t)INPUT_ORDERS * N_INPUTS) &&
-           values_are_sane((const double *)&s->seen_dot, N_INPUTS);
+           values_are_sane((const double *)&s->u_now_dot, N_INPUTS);
     if (!fine) report_error(part, "time, states or rates of inputs: not what a run can have left there");
     return fine && variables_allow(CAUSALITY_PARAMETER, &s->p, report_error, part) &&
            variables_allow(CAUSALITY_INPUT, &s->u[0], report_error, part) &&
-           variables_allow(CAUSALITY_INPUT, &s->seen, report_error, part);
+           variables_allow(CAUSALITY_INPUT, &s->u_now, report_error, part);
 }
 
 bool part_is_initialized(const Part *part)
