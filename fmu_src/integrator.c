@@ -349,11 +349,10 @@ static const double SAFETY = 0.8, MIN_FACTOR = 0.2, MAX_FACTOR = 1.5;
 // rounding's sake.
 static const double LAST_STEP = 1e-9;
 
-static int step_underflow(const Integrator *in, double h)
+static int step_underflow(const Integrator *in, const char *method, double h)
 {
     char text[128];
-    snprintf(text, sizeof text, "t = %.9g s: Verlet: the error test fails with the smallest step, %g s",
-             in->s->t, h);
+    snprintf(text, sizeof text, "t = %.9g s: %s: a step of %g s is lost in the rounding of time", in->s->t, method, h);
     in->log(in->context, text);
     return ARK_ERR_FAILURE;
 }
@@ -386,6 +385,10 @@ static int verlet_advance(Integrator *in, double t_stop, long max_steps)
             break;
         }
         const double left = t_stop - s->t, h = step_length(goal, left);
+        if (s->t + h == s->t) {
+            status = step_underflow(in, "Verlet", h);
+            break;
+        }
         const double error = in->kernels->verlet(in->model, s->t, h, in->weight, now, next, in->w);
         const double factor = step_factor(error);
         s->rhs_evals += 1.0;
@@ -394,7 +397,6 @@ static int verlet_advance(Integrator *in, double t_stop, long max_steps)
         if (!(error <= 1.0)) {
             s->error_tests_failed += 1.0;
             goal = h * fmax(factor, MIN_FACTOR);
-            if (s->t + goal == s->t) status = step_underflow(in, h);
             continue;
         }
 
@@ -439,6 +441,12 @@ static int explicit_advance(Integrator *in, double t_stop, long max_steps)
         in->starting = s->f_is_current;
         status = ARKodeEvolve(in->arkode, t_stop, in->y, &t, ARK_ONE_STEP);
         if (status < 0) break;
+        if (t == s->t) {
+            double h_last = 0.0;
+            ARKodeGetLastStep(in->arkode, &h_last);
+            status = step_underflow(in, "Runge-Kutta", h_last);
+            break;
+        }
         const double h = stepping_accept(s, t, data(in->y));
         ARKodeGetCurrentStep(in->arkode, &h_next);
         in->hook(in->context, h, in->w);
