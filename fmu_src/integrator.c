@@ -25,7 +25,8 @@
 #include <stdlib.h>
 #include <sundials/sundials_nvector.h>
 
-// SUNDIALS' memory: 15 vectors of the states, and what does not grow with them.  A test sees that it is enough.
+// Size of the block in which SUNDIALS allocates: its 15 vectors of the states, and what does not grow with them.
+// A test sees that the block is large enough.
 enum { SUNDIALS_MEMORY = 20 * N_STATES * sizeof(double) + 32768 };
 
 struct Integrator {
@@ -466,6 +467,7 @@ static int explicit_advance(Integrator *in, double t_stop, long max_steps)
 
 int integrator_advance(Integrator *in, double t_stop, long max_steps)
 {
+    // Without a derivative at the start there is no step.
     integrator_evaluate(in);
     if (!in->kernels->ops->finite(in->s->now.f)) {
         memset(in->s->now.f, 0, sizeof in->s->now.f);
@@ -473,13 +475,16 @@ int integrator_advance(Integrator *in, double t_stop, long max_steps)
         return ARK_RHSFUNC_FAIL;
     }
     if (in->model->p->solver.method != METHOD_EXPLICIT) return verlet_advance(in, t_stop, max_steps);
-    reserved_memory_use(&in->memory);  // messages need some
+
+    // SUNDIALS allocates memory for its error messages; in the reserved block.
+    reserved_memory_use(&in->memory);
     const int status = explicit_advance(in, t_stop, max_steps);
     reserved_memory_use(NULL);
     return status;
 }
 
-// Bound of a state far beyond all that a bearing does, within which the error of a step can still be told from the rounding of the state [SI].
+// Bound of a state of each class [SI]: far beyond all that a bearing does, and so small that the error of a step
+// can still be told from the rounding of the state.
 static double largest_of(StateScale scale)
 {
     switch (scale) {
