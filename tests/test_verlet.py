@@ -431,3 +431,16 @@ def test_explicit_step_cut_short(core):
     h, y = 2e-6, Instance(core).step(5e-3).y
     integrator = CoreIntegrator(core, core.model({"solver.method": Method.EXPLICIT}), y, 1e-3)
     assert integrator.advance(h, 1e-3 * h)[1] == pytest.approx(0.9 * h, rel=1e-12)
+
+
+def test_explicit_error_estimate(core):
+    """A step is accepted where theta h (k_4 - k_5), theta = 0.05, has a norm of 1 in units of the tolerance: a thousandth less tolerance, and it is refused."""
+    h, y, c = 1e-6, Instance(core).step(5e-3).y, core.model({"solver.method": Method.EXPLICIT})
+    slope = [np.array(c.rhs(0.0, y))]
+    for before in (0.5 * h, 0.5 * h, h):
+        slope.append(np.array(c.rhs(0.0, y + before * slope[-1])))
+    last = np.array(c.rhs(0.0, y + h / 6.0 * (slope[0] + 2.0 * slope[1] + 2.0 * slope[2] + slope[3])))
+    error = 0.05 * h * (slope[3] - last) / Model.of({}).d.scale
+    norm = np.sqrt(np.mean(error**2))
+    for tolerance, refused in ((1.001 * norm, False), (0.999 * norm, True)):
+        assert (CoreIntegrator(core, c, y, tolerance).advance(h, h)[2] > 0) == refused
