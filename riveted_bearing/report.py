@@ -1,6 +1,5 @@
 """A run as one self-contained HTML page: settings, stress, loads, cage, life, solver, and the motion to play and scrub."""
 
-import json
 import math
 from dataclasses import replace
 from importlib.resources import files
@@ -65,7 +64,7 @@ def render(result):
         stopped=result.stopped,
         style=(PARTS / "style.css").read_text(encoding="utf-8"),
         script=(PARTS / "animation.js").read_text(encoding="utf-8"),
-        film=json.dumps(film) if film else "",
+        film=film,
         missing=missing,
         scale=film["scale"] if film else 1,
         cards=cards(result, lives),

@@ -14,6 +14,9 @@ from pathlib import Path
 
 import numpy as np
 
+from bearing_model.parameters import TYPES
+from bearing_model.variables import PARAMETERS
+
 from .errors import UserError
 
 FORMATS = ("parquet", "csv", "mat")
@@ -61,11 +64,49 @@ def read_result(path: str | Path) -> Result:
         raise UserError(f"{path}: no such file")
     try:
         data, metadata = READERS[format_of(path)](path)
-        return Result(data=data, units=metadata["units"], parameters=metadata["parameters"], summary=metadata["summary"], about=metadata["about"])
+        result = Result(data=data, units=metadata["units"], parameters=metadata["parameters"], summary=metadata["summary"], about=metadata["about"])
+        check_result(result, path)
+        return result
     except UserError:
         raise
     except Exception as problem:  # each library has its own errors for a damaged file
         raise UserError(f"{path}: not a result of riveted-bearing, or damaged: {problem!r}") from None
+
+
+def check_result(result, path):
+    """Refuse values that no run writes, by name: what a reader of results may rely on.  UserError for the first one."""
+    for part in ("data", "units", "parameters", "summary", "about"):
+        if not isinstance(getattr(result, part), dict):
+            raise UserError(f"{path}: {part}: not a table")
+    times = result.data.get("time")
+    if times is None or times.ndim != 1 or not len(times) or not np.all(np.isfinite(times)):
+        raise UserError(f"{path}: time: not a column of finite numbers")
+    for name, values in result.data.items():
+        if values.shape != times.shape or values.dtype.kind != "f":
+            raise UserError(f"{path}: {name}: not a column of as many numbers as there are times")
+        if not isinstance(result.units.get(name), str):
+            raise UserError(f"{path}: {name}: no unit")
+    for name, value in result.parameters.items():
+        if problem := parameter_problem(name, value):
+            raise UserError(f"{path}: {name} = {value!r}: {problem}")
+    for name, value in result.summary.items():
+        if not is_number(value):
+            raise UserError(f"{path}: {name} = {value!r}: not a number")
+
+
+def parameter_problem(name, value):
+    """What is wrong with the value of a parameter in a result, nothing if it may stand there."""
+    known = PARAMETERS.get(re.sub(r"\[\d+\]", "[j]", name))
+    if known is not None and known.type in TYPES:
+        items = [item.name.lower() for item in TYPES[known.type]]
+        return "" if value in items else f"allowed: {', '.join(items)}"
+    if known is None and isinstance(value, str):  # an enumeration of another version
+        return ""
+    return "" if is_number(value) else "not a number"
+
+
+def is_number(value):
+    return isinstance(value, int | float) and not isinstance(value, bool)
 
 
 def format_of(path):

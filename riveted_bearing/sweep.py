@@ -292,7 +292,7 @@ class cluster:
             except (OSError, ValueError) as problem:
                 raise UserError(f"--scheduler {self.address}: {problem}") from None
         else:
-            self.local = LocalCluster(n_workers=self.workers, threads_per_worker=1, processes=True, dashboard_address=":0", silence_logs=logging.CRITICAL)
+            self.local = LocalCluster(n_workers=self.workers, threads_per_worker=1, processes=True, dashboard_address="127.0.0.1:0", silence_logs=logging.CRITICAL)
             self.client = Client(self.local)
         return self.client
 
