@@ -173,12 +173,16 @@ bool check_saved(Bearing *b)
             return false;
         return check_variables(b, CAUSALITY_PARAMETER, &s->p) &&
                check_variables(b, CAUSALITY_INPUT, &s->u[0]) &&
-               saved_is(b, values_are_sane((const double *)&s->u[1], (size_t)INPUT_ORDERS * N_INPUTS),
+               saved_is(b,
+                        values_are_within((const double *)&s->u[1], (size_t)INPUT_ORDERS * N_INPUTS,
+                                          LARGEST_DERIVATIVE),
                         "derivatives of inputs");
     }
     char message[256];
     bool fine = check_all(b) && check_variables(b, CAUSALITY_INPUT, &s->u_now);
-    fine = fine && saved_is(b, values_are_sane((const double *)&s->u[1], (size_t)INPUT_ORDERS * N_INPUTS),
+    fine = fine && saved_is(b,
+                            values_are_within((const double *)&s->u[1], (size_t)INPUT_ORDERS * N_INPUTS,
+                                              LARGEST_DERIVATIVE),
                             "derivatives of inputs");
     fine = fine && saved_is(b, values_are_sane((const double *)&s->u_now_dot, N_INPUTS), "rates of inputs");
     fine = fine &&

@@ -75,6 +75,15 @@ def read_table(path, Z=None):
         raise UserError(str(problem)) from None
 
 
+def is_table(path):
+    """Whether there is a table that is not damaged."""
+    try:
+        rivet_table.read(path)
+    except (OSError, ValueError):
+        return False
+    return True
+
+
 def condensed(geometry, path):
     """The Joint of a geometry; UserError if it cannot be meshed."""
     try:
@@ -93,7 +102,7 @@ def table_of(where, geometry, kind=None, say=lambda text, share=None: None):
         return rivet_table.DEFAULT_TABLE
     kind = kind or "coarse"
     target = cache_folder("tables") / f"{kind}-{geometry.digest}-{sources_digest()}.json"
-    if target.is_file():
+    if is_table(target):
         return target
     try:
         made = (
