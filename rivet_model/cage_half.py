@@ -245,6 +245,36 @@ class CageHalf:
         """Real blocks [Z, ...] of relative pitch k from the waves 0...Z/2 [waves, ...]."""
         return np.fft.irfft(waves, self.g.Z, axis=0)
 
+    def held(self, rows, motions):
+        """The half with some patterns held everywhere: those of `rows` do not move, and no inertia balances `motions`.
+
+        motions: wave -> which of its two rigid motions the held patterns balance.
+        Returns by waves: stiffness of the held patterns [waves, rows, rows]; their reactions to all patterns [waves, rows, patterns], as loads that the
+        half gives to what holds it; compliance of all patterns [waves, patterns, patterns].
+        """
+        K, R, G = [], [], []
+        for m, C in enumerate(self.waves):
+            rigid = self._rigid(m)[:, motions.get(m, [])]
+            D = (self.resultants @ rigid) * self._phase(m).conj()[:, None] * np.abs(C[rows, rows]).max()
+            n = rows.stop - rows.start
+            A = np.block([[C[rows, rows], D[rows]], [D[rows].conj().T, np.zeros(2 * (rigid.shape[1],))]])
+            load = np.vstack([C[rows], D.conj().T])
+            solution = np.linalg.solve(A, np.column_stack([np.eye(len(A))[:, :n], load]))
+            K.append(solution[:n, :n])
+            R.append(solution[:n, n:])
+            G.append(C - load.conj().T @ solution[:, n:])
+        return np.stack(K), np.stack(R), np.stack(G)
+
+    @cached_property
+    def mirrored(self):
+        """`held` by the pads along x: of loads that push both halves alike.  Pads balance forces along x and tilting moments."""
+        return self.held(self.patterns.pad, {0: [0], 1: [1]})
+
+    @cached_property
+    def opposed(self):
+        """`held` by friction in the split plane: of loads that push the halves against each other.  It balances transverse forces and the torque."""
+        return self.held(self.patterns.plane, {0: [1], 1: [0]})
+
 
 def _matrices(basis, E, nu):
     """Stiffness, and mass at unit density, of an elastic solid with quadratic hexahedra; the same as by skfem's forms, by matrix products."""

@@ -186,7 +186,7 @@ def pitch_mesh(g, size=None):
         ends = np.unwrap(np.arctan2(line[[0, -1], 1], line[[0, -1], 0]))
         angle = np.linspace(*ends, line.shape[0])
         circle = np.stack([np.cos(angle), np.sin(angle)], axis=1)
-        share = _levels([0.0, 1.0], [size.outer])[:, None, None]
+        share = 1.0 - (1.0 - _levels([0.0, 1.0], [size.outer])[:, None, None]) ** 2  # finer toward the pad's edge, where an opening joint touches
         beyond = rings[-1] * circle * (1.0 - share) + line * share
         within = [_levels(list(pair), [1])[:, None, None] * circle for pair in pairwise(rings)]
         for plane, top in zip([*within, beyond], [relief_top, flange_top, flange_top, levels.size], strict=True):
@@ -244,6 +244,11 @@ def half_inertia(g, density=DENSITY, density_rivet=DENSITY_RIVET, size=None):
     J_p = sum((dm * r2).sum() for dm, _, r2 in bodies)
     J_t = 0.5 * J_p + sum((dm * x**2).sum() for dm, x, _ in bodies) - m * x_c**2
     return Inertia(float(m), float(x_c), float(J_p), float(J_t))
+
+
+def rivet_mass(g, density=DENSITY_RIVET):
+    """Mass of half a rivet [kg]: one head and the shank up to the split."""
+    return density * np.pi / 4 * (g.shank_diameter**2 * g.flange_thickness + g.head_diameter**2 * g.head_height)
 
 
 def check_half(g):
