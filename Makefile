@@ -15,20 +15,20 @@ ASAN    = detect_leaks=0:new_delete_type_mismatch=0
 export PATH := $(CURDIR)/$(BIN):$(PATH)  # cmake finds ninja
 export MPLBACKEND = Agg
 
-.PHONY: demo test test-slow bench build fmu-all generate lint format sanitize analyze fuzz clean help
+.PHONY: demo test test-slow bench build fmu-all generate lint format sanitize analyze fuzz bare clean help
 
 demo: build  ## build, then run the paper's working point: stress, cage and run-time figures
 	$(BIN)/riveted-bearing run demo
 
-test: build lint  ## the fast tests
-	$(PYTEST) -n 2
+test: build lint  ## the fast tests, the ten slowest of them listed
+	$(PYTEST) -n 2 --durations=10
 
 test-slow: build  ## the tests that take minutes
 	$(PYTEST) -n 2 -m slow
 
 bench: build  ## measure what the README claims and write docs/performance.md, in minutes; in an hour with FORM=
 	for name in $(BENCHMARKS); do $(PYTHON) benchmarks/$$name.py $(FORM) || exit 1; done
-	$(PYTHON) benchmarks/page.py
+	$(PYTHON) benchmarks/performance_page.py
 
 build: build/build.ninja  ## the FMU and the tests' library; seconds after an edit
 	$(BIN)/cmake --build build
@@ -68,6 +68,10 @@ fuzz: $(VENV)/installed  ## coverage-guided fuzzing of the FMI functions with sa
 	$(BIN)/cmake --build build/fuzz --target fuzz_api
 	mkdir -p build/corpus
 	build/fuzz/fuzz_api build/corpus -max_len=2048 -len_control=0 -timeout=20 -max_total_time=$(FUZZ_SECONDS)
+
+DEBIAN = 12
+bare:  ## `make demo` and `make test` on a bare Debian DEBIAN=12 or 13, as root
+	.ci/bare $(DEBIAN)
 
 clean:  ## remove what was built; the Python environment and the cached SUNDIALS archive stay
 	rm -rf build $(FMU) fmus/Shaft.fmu fmus/Transmission.ssp

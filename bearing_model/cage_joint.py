@@ -14,7 +14,7 @@ Smoothness: C0 at opening and bearing (a spring of finite stiffness begins), C0 
 
 import numpy as np
 
-from bearing_model.lanes import lanes_sum, maximum
+from bearing_model.lanes import ball_array_sum, maximum
 from bearing_model.variables import JOINT_HEAD_Y, JOINT_HEAD_Z, JOINT_PLATE_Y, JOINT_PLATE_Z
 from bearing_model.vec import vec, vec_cross, vec_dot
 
@@ -69,7 +69,7 @@ def cage_joint_force(model, y, w):
     # on half 1 at its hole: s + u from the centre of half 0, in the frame of half 0
     f = vec(w.N_plate - w.T - damping * v_x, *(w.S + w.H + w.B))
     r = vec(u_x, d.rivet_y + u_y, d.rivet_z + u_z)
-    F, M = lanes_sum(f), lanes_sum(vec_cross(r, f))
+    F, M = ball_array_sum(f), ball_array_sum(vec_cross(r, f))
 
     # wrench in the global frame: -F, -M on half 0; on half 1 the same about its own centre
     h0, h1 = w.half

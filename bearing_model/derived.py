@@ -1,19 +1,15 @@
 """Constants derived once from the parameters, element by element; equations stand in the elements' files."""
 
 import functools
-from pathlib import Path
 from types import SimpleNamespace
 from typing import NamedTuple
 
 import numpy as np
 
-import rivet_model
+from bearing_model import rivet_table
 from bearing_model.hertz import Hertz, hertz_contact
 from bearing_model.rivet_rom import joint_fit, joint_hole_stiffness, joint_preload, rivet_rom_fit_eff, rivet_rom_fit_flags
 from bearing_model.variables import N_STATES, STATE_SCALES, STATE_SLICES, FitModel, Z
-from rivet_model import table as rivet_table
-
-DEFAULT_TABLE = Path(rivet_model.__file__).parent / "tables" / "6207.json"
 
 
 class Race(NamedTuple):
@@ -137,20 +133,20 @@ def derive_scales(p, d):
         "energy": 1e30,
     }
     d.scale = np.empty(N_STATES)
-    for name, place in STATE_SLICES.items():
-        d.scale[place] = by_class[STATE_SCALES[name]]
+    for name, rows in STATE_SLICES.items():
+        d.scale[rows] = by_class[STATE_SCALES[name]]
 
 
 @functools.lru_cache
 def default_table():
     """The rivet table of the 6207."""
-    return rivet_table.read(DEFAULT_TABLE)
+    return rivet_table.read(rivet_table.DEFAULT_TABLE)
 
 
 def model_derive(p, table=None):
     """Derived constants of all elements.
 
-    p: Parameters.  table: rivet_model.table.RivetTable, default that of the 6207.  ValueError if it belongs to another bearing.
+    p: Parameters.  table: rivet_table.RivetTable, default that of the 6207.  ValueError if it belongs to another bearing.
     """
     table = table or default_table()
     if table.Z != Z:

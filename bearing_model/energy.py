@@ -6,7 +6,7 @@ The inner ring is outside: its motion does the work -F.v - M.Omega of the contac
 """
 
 from bearing_model.hertz import hertz_energy
-from bearing_model.lanes import lanes_sum
+from bearing_model.lanes import ball_array_sum
 from bearing_model.variables import CageModel
 from bearing_model.vec import vec, vec_cross, vec_dot
 
@@ -16,14 +16,14 @@ def energy_terms(model, w):
     p, d = model.p, model.d
     v, omega = vec(w.v_x, w.v_r, w.v_t), vec(w.omega_x, w.omega_r, w.omega_t)
     terms = {
-        "motion of the balls": lanes_sum(0.5 * d.m * vec_dot(v, v) + 0.5 * d.J * vec_dot(omega, omega)),
+        "motion of the balls": ball_array_sum(0.5 * d.m * vec_dot(v, v) + 0.5 * d.J * vec_dot(omega, omega)),
         "motion of the cage": 0.0,
-        "races, elastic": lanes_sum(hertz_energy(d.inner.hertz.K, w.delta_i) + hertz_energy(d.outer.hertz.K, w.delta_e)),
-        "pockets, elastic": lanes_sum(w.pocket_energy),
+        "races, elastic": ball_array_sum(hertz_energy(d.inner.hertz.K, w.delta_i) + hertz_energy(d.outer.hertz.K, w.delta_e)),
+        "pockets, elastic": ball_array_sum(w.pocket_energy),
         "land, elastic": w.land_elastic,
     }
     if p.scene.cage == CageModel.TWO_HALF:
-        terms["joints, elastic"] = lanes_sum(w.joint_energy)
+        terms["joints, elastic"] = ball_array_sum(w.joint_energy)
     for half in w.half:
         v = half.v + vec_cross(half.Omega, half.c)  # of the centre of mass
         motion = 0.5 * (p.cage.m * vec_dot(v, v) + p.cage.J_t * vec_dot(half.a_dot, half.a_dot) + p.cage.J_p * half.s**2)
@@ -39,14 +39,14 @@ def energy_total(model, w):
 def loss_terms(model, w):
     """Powers dissipated [W] by name, each [..., 1]."""
     terms = {
-        "races": lanes_sum(w.race_dissipated),
-        "pockets": lanes_sum(w.pocket_dissipated),
-        "drag of the balls": lanes_sum(w.drag_dissipated),
+        "races": ball_array_sum(w.race_dissipated),
+        "pockets": ball_array_sum(w.pocket_dissipated),
+        "drag of the balls": ball_array_sum(w.drag_dissipated),
         "drag of the cage": w.cage_drag_dissipated,
         "land": w.land_dissipated,
     }
     if model.p.scene.cage == CageModel.TWO_HALF:
-        terms["joints"] = lanes_sum(w.joint_dissipated)
+        terms["joints"] = ball_array_sum(w.joint_dissipated)
     return terms
 
 
@@ -60,7 +60,7 @@ def supply_terms(model, w):
     p, d, ring = model.p, model.d, w.ring
     spin = -ring.s * vec_dot(ring.M, ring.a)
     v_y, v_z = w.v_r * w.cos_theta - w.v_t * w.sin_theta, w.v_r * w.sin_theta + w.v_t * w.cos_theta
-    gravity = d.m * lanes_sum(p.gravity.y * v_y + p.gravity.z * v_z)
+    gravity = d.m * ball_array_sum(p.gravity.y * v_y + p.gravity.z * v_z)
     for half in w.half:
         v = half.v + vec_cross(half.Omega, half.c)
         gravity = gravity + p.cage.m * (p.gravity.y * v[1] + p.gravity.z * v[2])

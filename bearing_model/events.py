@@ -27,8 +27,8 @@ def pockets(model, w):
     """Radial distance of each ball from the middle of the cage's section and the one at which the section ends [m]; [..., Z]."""
     cage, d = model.p.cage, model.d
     middle, reach = 0.25 * (cage.D_o + cage.D_i), 0.25 * (cage.D_o - cage.D_i)
-    place = vec_to_global(vec(w.x, w.r, 0.0), w.cos_theta, w.sin_theta)
-    radial = [vec_dot(place - half.x, d.pocket_cos * half.b_y + d.pocket_sin * half.b_z) for half in w.half]
+    position = vec_to_global(vec(w.x, w.r, 0.0), w.cos_theta, w.sin_theta)
+    radial = [vec_dot(position - half.x, d.pocket_cos * half.b_y + d.pocket_sin * half.b_z) for half in w.half]
     return np.max(np.abs(np.array(radial) - middle), axis=0), reach
 
 

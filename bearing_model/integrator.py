@@ -21,7 +21,7 @@ from bearing_model.model import Model, Work
 from bearing_model.outputs import outputs
 from bearing_model.parameters import InputDerivatives, Inputs, Parameters
 from bearing_model.rhs import jacobian, rhs
-from bearing_model.ring import course_update, course_varies, drive_at, drive_inputs, drive_next_edge, drive_update
+from bearing_model.ring_load import input_trajectory_at, input_trajectory_update, input_trajectory_varies, pulse_next_edge, ring_load_at, ring_load_update
 from bearing_model.rivet_rom import HEAD_P1, MID_VM, rivet_rom_stress
 from bearing_model.rivets import rivets_load, rivets_slip
 from bearing_model.start import start_state
@@ -77,7 +77,7 @@ class Record:
     duty_time: float = 0.0
     omega_time: float = 0.0
     eccentricity_time: float = 0.0
-    dislocation_most: float = 0.0
+    dislocation_max: float = 0.0
 
     @property
     def law(self):
@@ -95,7 +95,7 @@ class Record:
         centre = 0.5 * (h0.x + h1.x)[..., 0]
         self.omega_time += np.sum((h * 0.5 * (h0.s + h1.s)[..., 0])[counts])
         self.eccentricity_time += np.sum((h * np.hypot(centre[1], centre[2]) / model.d.C_land)[counts])
-        self.dislocation_most = max(self.dislocation_most, np.max(rivets_slip(model, w)[counts], initial=0.0))
+        self.dislocation_max = max(self.dislocation_max, np.max(rivets_slip(model, w)[counts], initial=0.0))
         return peaks
 
     def add_stress(self, model, t, h, counts, w):
@@ -111,8 +111,8 @@ class Record:
                 for values in stress[t >= self.p.start.settle]:
                     for k in range(Z):
                         fatigue[k].push(self.law, values[k])
-            most = np.max(stress, axis=0)
-            peaks |= {f"rivet[k].sigma_{name}_peak": most, f"rivet.sigma_{name}_max": np.max(most)}
+            peak = np.max(stress, axis=0)
+            peaks |= {f"rivet[k].sigma_{name}_peak": peak, f"rivet.sigma_{name}_max": np.max(peak)}
         return peaks
 
     def statistics(self):
@@ -120,10 +120,10 @@ class Record:
         time, p = self.force.time / Z, 0.999  # every ball adds its own time
         share = 1.0 / time if time > 0.0 else 0.0
         values = {"stat.time": time, "stat.contact_duty": self.duty_time * share / Z, "stat.cage_omega": self.omega_time * share}
-        values |= {"stat.eccentricity": self.eccentricity_time * share, "stat.dislocation_max": self.dislocation_most}
+        values |= {"stat.eccentricity": self.eccentricity_time * share, "stat.dislocation_max": self.dislocation_max}
 
         def four(channel):
-            return {"mean": channel.mean, "rms": channel.rms, "p999": channel.quantile(p), "max": channel.most}
+            return {"mean": channel.mean, "rms": channel.rms, "p999": channel.quantile(p), "max": channel.max}
 
         values |= {f"stat.Q_c_{name}": value for name, value in four(self.force).items()}
         for part, channels, fatigue in (("head", self.head, self.fatigue_head), ("mid", self.mid, self.fatigue_mid)):
@@ -148,7 +148,7 @@ class Integration:
         self.step_size, self.steps, self.rhs_evals = FIRST_STEP, 0, 0
 
     def segment(self, model, t_end):
-        """Accepted steps from here to t_end under one drive: their times and states, without the start."""
+        """Accepted steps from here to t_end under one ring load: their times and states, without the start."""
         options = {"rtol": 100.0 * np.finfo(float).eps, "atol": self.atol}  # the smallest rtol that scipy takes: absolute only
         if self.method in IMPLICIT:
             options["jac"] = lambda t, y: jacobian(model, t, y)
@@ -193,7 +193,7 @@ def simulate(parameters=None, inputs=None, t_end=1e-3, *, derivatives=None, step
     p, held = Parameters(parameters), inputs if callable(inputs) else lambda t: inputs
     slopes = derivatives or (lambda t: ({}, {}))
     d = model_derive(p, table)
-    model = Model(p, d, drive_update(p, Inputs(held(t_start)), t_start))
+    model = Model(p, d, ring_load_update(p, Inputs(held(t_start)), t_start))
     y = start_state(model)[0] if y is None else np.array(y, dtype=float)
     run = Integration(p, d, t_start, y, p.solver.tol if tolerance is None else tolerance, method)
     record, w = Record(p), Work()
@@ -209,12 +209,12 @@ def simulate(parameters=None, inputs=None, t_end=1e-3, *, derivatives=None, step
     for point in points[1:]:
         u, peaks, t_0 = [Inputs(held(run.t)), *map(InputDerivatives, slopes(run.t))], [], run.t
         while run.t < point:
-            course, begin, y_begin = course_update(p, u, t_0, run.t), run.t, run.y
-            model = Model(p, d, drive_at(course, run.t), course if course_varies(course) else None)
-            times, ys = run.segment(model, min(drive_next_edge(p, run.t), point))
+            trajectory, begin, y_begin = input_trajectory_update(p, u, t_0, run.t), run.t, run.y
+            model = Model(p, d, ring_load_at(trajectory, run.t), trajectory if input_trajectory_varies(trajectory) else None)
+            times, ys = run.segment(model, min(pulse_next_edge(p, run.t), point))
             peaks.append(accepted(model, record, times, np.diff(times, prepend=begin), ys))
             ledger.add(model, np.append(begin, times), np.vstack([y_begin, ys]))
-        model = Model(p, d, drive_update(p, drive_inputs(course, run.t), run.t))
+        model = Model(p, d, ring_load_update(p, input_trajectory_at(trajectory, run.t), run.t))
         states.append(run.y)
         ledgers.append(ledger.copy())
         rows.append(observe(model, run.t, run.y, energy_start) | {name: np.max([peak[name] for peak in peaks], axis=0) for name in peaks[0]})

@@ -16,7 +16,7 @@ q^2 is g_0 at the wall and g_0/2 behind it, eps has the cap 1.2; the dry contact
 import numpy as np
 
 from bearing_model.hertz import hertz_damped, hertz_energy, hertz_load
-from bearing_model.lanes import lanes_sum, minimum, real_pair
+from bearing_model.lanes import ball_array_sum, minimum, wide_pair
 from bearing_model.traction import traction_asperity_share
 from bearing_model.variables import Lubrication
 from bearing_model.vec import vec, vec_cross
@@ -47,10 +47,10 @@ def land_film_force(model, w):
     x_land = np.array([-p.cage.land_x, p.cage.land_x])
 
     # place and velocity of the lands' middles: x + a x_land, v + Omega x a x_land = v + a_dot x_land
-    axis, axis_dot = real_pair(h0.a, h1.a), real_pair(h0.a_dot, h1.a_dot)
-    _, e_y, e_z = real_pair(h0.x, h1.x) + x_land * axis
-    _, v_y, v_z = real_pair(h0.v, h1.v) + x_land * axis_dot
-    omega = real_pair(h0.Omega[0], h1.Omega[0])
+    axis, axis_dot = wide_pair(h0.a, h1.a), wide_pair(h0.a_dot, h1.a_dot)
+    _, e_y, e_z = wide_pair(h0.x, h1.x) + x_land * axis
+    _, v_y, v_z = wide_pair(h0.v, h1.v) + x_land * axis_dot
+    omega = wide_pair(h0.Omega[0], h1.Omega[0])
 
     # film
     V_y, V_z = v_y + 0.5 * omega * e_z, v_z - 0.5 * omega * e_y
@@ -82,8 +82,8 @@ def land_film_force(model, w):
     M_x = R * F_t - couette * omega
 
     power = F_y * v_y + F_z * v_z + M_x * omega
-    w.land_elastic = lanes_sum(hertz_energy(p.cage.K_land, pen))
-    w.land_dissipated = -lanes_sum(power + N_0 * pen_dot)
+    w.land_elastic = ball_array_sum(hertz_energy(p.cage.K_land, pen))
+    w.land_dissipated = -ball_array_sum(power + N_0 * pen_dot)
 
     F = vec(0.0, F_y, F_z)
     M = vec(M_x, 0.0, 0.0) + vec_cross(x_land * axis, F)

@@ -21,11 +21,11 @@ def absolute(x):
     return np.where(np.real(x) < 0.0, -x, x)
 
 
-def lanes_sum(v):
+def ball_array_sum(v):
     """Sum over the balls, kept as an axis of length 1."""
     return np.sum(v, axis=-1, keepdims=True)
 
 
-def real_pair(half_0, half_1):
+def wide_pair(half_0, half_1):
     """Both halves side by side on the last axis."""
     return np.concatenate([half_0, half_1], axis=-1)

@@ -10,7 +10,7 @@ from types import SimpleNamespace
 
 from bearing_model.derived import Derived, model_derive
 from bearing_model.parameters import InputDerivatives, Inputs, Parameters
-from bearing_model.ring import Course, Drive, course_update, course_varies, drive_at
+from bearing_model.ring_load import InputTrajectory, RingLoad, input_trajectory_update, input_trajectory_varies, ring_load_at
 
 
 class Work(SimpleNamespace):
@@ -23,14 +23,14 @@ class Model:
 
     p: Parameters
     d: Derived
-    drive: Drive
-    course: Course | None = None  # where the drive changes with time: takes its place
+    ring_load: RingLoad
+    trajectory: InputTrajectory | None = None  # where the drive changes with time: takes its place
 
     @classmethod
     def of(cls, parameters=None, inputs=None, t=0.0, table=None):
         """The model of some parameters and inputs {name: value} (SI, others at their start values), inputs held from time t [s].
 
-        table: a rivet_model.table.RivetTable; default that of the 6207.  ValueError names a value that is not allowed.
+        table: a rivet_table.RivetTable; default that of the 6207.  ValueError names a value that is not allowed.
 
         >>> model = Model.of({"bearing.P_d": 20e-6}, {"shaft.omega": 500.0})
         >>> print(f"{model.d.inner.hertz.K:.4g} N/m^1.5")
@@ -38,5 +38,5 @@ class Model:
         """
         p, u = Parameters(parameters), Inputs(inputs)
         d = model_derive(p, table)
-        course = course_update(p, (u, InputDerivatives(), InputDerivatives()), t, t)
-        return cls(p, d, drive_at(course, t), course if course_varies(course) else None)
+        trajectory = input_trajectory_update(p, (u, InputDerivatives(), InputDerivatives()), t, t)
+        return cls(p, d, ring_load_at(trajectory, t), trajectory if input_trajectory_varies(trajectory) else None)

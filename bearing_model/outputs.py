@@ -8,7 +8,7 @@ import numpy as np
 from bearing_model.energy import energy_total, power_loss
 from bearing_model.events import event_outputs
 from bearing_model.hertz import hertz_pressure
-from bearing_model.ring import ring_tilts
+from bearing_model.ring_load import ring_tilts
 from bearing_model.rivet_rom import HEAD_P1, HEAD_VM, MID_P1, MID_VM, rivet_rom_stress
 from bearing_model.rivets import rivets_load, rivets_slip
 from bearing_model.traction import Q_FLOOR
@@ -22,8 +22,8 @@ def housing_reaction(w):
     for body in (w.ring, *w.half):
         F = F - body.F
         M = M - body.M - vec_cross(body.x, body.F)
-    place, force, moment = (vec_to_global(v, w.cos_theta, w.sin_theta) for v in (vec(w.x, w.r, 0.0), w.F, w.M))
-    return F - np.sum(force, axis=-1, keepdims=True), M - np.sum(moment + vec_cross(place, force), axis=-1, keepdims=True)
+    position, force, moment = (vec_to_global(v, w.cos_theta, w.sin_theta) for v in (vec(w.x, w.r, 0.0), w.F, w.M))
+    return F - np.sum(force, axis=-1, keepdims=True), M - np.sum(moment + vec_cross(position, force), axis=-1, keepdims=True)
 
 
 def ring_outputs(model, w, y_dot):
@@ -80,14 +80,14 @@ def pose_outputs(w, y):
     values = {"ball[j].x": w.x, "ball[j].r": w.r, "ball[j].psi": y[..., BALL_THETA]}
     for h, half in enumerate(w.half):
         tilt_y, tilt_z = ring_tilts(-half.a[2], half.a[1])
-        place = dict(zip(("x", "y", "z", "tilt_y", "tilt_z"), (*half.x, tilt_y, tilt_z), strict=True))
-        values |= {f"half_{h}.{name}": value[..., 0] for name, value in place.items()} | {f"half_{h}.psi": y[..., CAGE_PSI][..., h]}
+        pose = dict(zip(("x", "y", "z", "tilt_y", "tilt_z"), (*half.x, tilt_y, tilt_z), strict=True))
+        values |= {f"half_{h}.{name}": value[..., 0] for name, value in pose.items()} | {f"half_{h}.psi": y[..., CAGE_PSI][..., h]}
     return values
 
 
 def cage_outputs(model, w):
     h0, h1 = w.half
-    epicyclic = 0.5 * model.drive.omega * (1.0 - model.p.bearing.D / model.p.bearing.d_m)
+    epicyclic = 0.5 * model.ring_load.omega * (1.0 - model.p.bearing.D / model.p.bearing.d_m)
     omega, centre = 0.5 * (h0.s + h1.s)[..., 0], 0.5 * (h0.x + h1.x)[..., 0]
     return {
         "cage.omega": omega,

@@ -17,7 +17,7 @@ Smoothness: C1 at touch-down.  The cylinder has no radial end: a ball whose equa
 import numpy as np
 
 from bearing_model.hertz import hertz_damped, hertz_energy, hertz_load
-from bearing_model.lanes import lanes_sum, maximum
+from bearing_model.lanes import ball_array_sum, maximum
 from bearing_model.traction import Q_FLOOR, traction_asperity_share, traction_inlet, traction_ln_film
 from bearing_model.variables import CageModel, Lubrication
 from bearing_model.vec import vec, vec_across, vec_cross, vec_dot, vec_local, vec_to_global
@@ -84,7 +84,7 @@ def pocket_half(model, w, h, mixed, whole):
     w.pocket_F[h] = vec_to_global(-F, w.cos_theta, w.sin_theta)
     w.pocket_M[h] = vec_to_global(-vec_cross(arm_p, F) - M, w.cos_theta, w.sin_theta)
     w.pocket[h] = np.array([-vec_dot(F, a), -vec_dot(F, b), -vec_dot(F, e_t)])
-    half.F, half.M = lanes_sum(w.pocket_F[h]), lanes_sum(w.pocket_M[h])
+    half.F, half.M = ball_array_sum(w.pocket_F[h]), ball_array_sum(w.pocket_M[h])
     w.delta_c[h], w.Q_c[h] = delta, Q
     w.pocket_energy = w.pocket_energy + share * hertz_energy(d.pocket.K, delta)
 

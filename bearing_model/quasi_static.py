@@ -11,9 +11,11 @@ For given inertia loads the equilibrium is the minimum of the potential energy V
 problem, nearly convex, with no case for loose balls, clearance or preload.  It is the exact rest state of the frictionless bearing whose balls orbit
 at omega_m.  Gyroscopic moments (race control "outer" or "inner") need friction forces at the races, which are held as loads and iterated upon.
 
+kinematics = "linear" takes the ring's displacements as those of ISO/TS 16281: small tilt, every ball at the pitch radius, no sideways motion of the ring's
+groove.  It gives the ball loads and lives that programs for this standard print; the default "exact" holds for any displacement and tilt.
+
 Sources: Jones, ASME J. Basic Eng. 82 (1960) 309-320; Harris & Kotzalas, Advanced Concepts of Bearing Technology (2006), ch. 1 and 3;
-de Mul, Vree & Maas, ASME J. Tribol. 111 (1989) 142-148.  Life: ISO/TS 16281:2008.
-Energy and derivatives are those of the exact geometry at any tilt.
+de Mul, Vree & Maas, ASME J. Tribol. 111 (1989) 142-148.  Life: ISO/TS 16281:2008.  Static safety: ISO 76:2006.
 """
 
 import math
@@ -25,6 +27,9 @@ from bearing_model.hertz_exact import ball_race_contact
 from bearing_model.kinematics import CONTROLS, FaultFrequencies, ball_motion
 
 RING = 5  # ring coordinates: x, y, z, tilt_y, tilt_z
+KINEMATICS = ("exact", "linear")
+Y_0_ANGLES = np.radians([5.0, 10.0, 15.0, 20.0, 25.0, 30.0, 35.0, 40.0, 45.0])  # contact angles of ISO 76:2006, table 2
+Y_0_VALUES = (0.52, 0.50, 0.46, 0.42, 0.38, 0.33, 0.29, 0.26, 0.22)
 
 
 @dataclass(frozen=True)
@@ -89,6 +94,11 @@ class Bearing:
     def nominal_angle(self):
         """Contact angle for which Hertz constants and load rating are taken: alpha_0, 0 for a deep groove bearing [rad]."""
         return self.alpha_0 or 0.0
+
+    @property
+    def static_factors(self):
+        """X_0, Y_0 of the static equivalent load X_0 F_r + Y_0 F_a of one row: 0.6, 0.5 for deep groove, else by contact angle.  ISO 76:2006, table 2."""
+        return (0.5, float(np.interp(self.nominal_angle, Y_0_ANGLES, Y_0_VALUES))) if self.nominal_angle >= Y_0_ANGLES[0] else (0.6, 0.5)
 
     @property
     def ball_mass(self):
@@ -162,6 +172,7 @@ class QuasiStatic:
     spin_e: np.ndarray
     F_c: np.ndarray  # centrifugal force [N]
     M_g: np.ndarray  # gyroscopic moment carried by friction [N.m]
+    kinematics: str  # "exact" or "linear"
 
     @property
     def frequencies(self):
@@ -176,6 +187,7 @@ class QuasiStatic:
     def L_10r(self):
         """Basic reference rating life [10^6 revolutions], inf without load; the load stands still.  ISO/TS 16281:2008, point contact, one row.
 
+        The standard's own number asks for kinematics = "linear" and omega = 0, for it knows no centrifugal force.
         Q_ci, Q_ce: ball loads that give the rings the rating C.  Raises ValueError without bearing.C.
         """
         b = self.bearing
@@ -196,17 +208,23 @@ class QuasiStatic:
         return self.bearing.C / self.L_10r ** (1 / 3)
 
     @property
-    def S_0(self):
-        """Static safety C_0/P_0 = (4200 MPa / p_max)^3, inf without load: 4200 MPa at the ball most loaded define C_0.  ISO 76:2006."""
-        p_max = max(self.p_i.max(), self.p_e.max())
-        return float((4.2e9 / p_max) ** 3) if p_max > 0.0 else math.inf
+    def P_0(self):
+        """Static equivalent load of the shaft's load [N]: X_0 F_r + Y_0 F_a, at least F_r.  ISO 76:2006."""
+        F_r, (X_0, Y_0) = math.hypot(self.load.F_y, self.load.F_z), self.bearing.static_factors
+        return max(X_0 * F_r + Y_0 * abs(self.load.F_x), F_r)
 
     @property
-    def P_0(self):
-        """Static equivalent load C_0/S_0 [N].  Raises ValueError without bearing.C_0."""
+    def S_0(self):
+        """Static safety C_0/P_0, inf without load.  ISO 76:2006.  Raises ValueError without bearing.C_0."""
         if self.bearing.C_0 is None:
-            raise ValueError("bearing.C_0 = None: the static equivalent load needs the static load rating [N]")
-        return self.bearing.C_0 / self.S_0
+            raise ValueError("bearing.C_0 = None: the static safety needs the static load rating [N]")
+        return self.bearing.C_0 / self.P_0 if self.P_0 > 0.0 else math.inf
+
+    @property
+    def pressure_safety(self):
+        """Static safety by pressure, (4200 MPa/p_max)^3, inf without load: how often the load of the ball most loaded fits into the one that defines C_0."""
+        p_max = max(self.p_i.max(), self.p_e.max())
+        return float((4.2e9 / p_max) ** 3) if p_max > 0.0 else math.inf
 
 
 def admit(owner, obj, name, test, allowed):
@@ -274,6 +292,10 @@ class Potential:
         in_plane = p - (p @ a)[:, None] * a
         return ball, C + self.R_i * in_plane / np.linalg.norm(in_plane, axis=1)[:, None]
 
+    def levers(self, v):
+        """Arms of the contact forces about the ring's centre (Z x 3) [m]."""
+        return self.inner_centres(v)[1] - v[:3] - [self.x_touch, 0.0, 0.0]
+
     def approaches(self, v):
         """Elastic approach delta_i, delta_e of each ball at both races [m]; negative: gap."""
         _, x_b, r_b = self.split(v)
@@ -302,16 +324,37 @@ class Potential:
 
     def contact_derivatives(self, v):
         """Gradient (Z x 7) and Hessian (Z x 7 x 7) of each ball's contact energy in (ring, x_j, r_j)."""
-        q, x_b, r_b = self.split(v)
+        _, x_b, r_b = self.split(v)
         gradient, hessian = np.zeros((len(r_b), 7)), np.zeros((len(r_b), 7, 7))
 
-        # inner race: the distance d of ball and circle through h = p.a along the axis and s = sqrt(p.p - h^2) across it, d^2 = h^2 + (R_i - s)^2
+        # inner race: distance of ball and groove centre, d^2 = h^2 + w^2
+        (h, h_q, h_qq), (w, w_q, w_qq) = self.inner_distance(v)
+        delta_i, _ = self.approaches(v)
+        d, h, w = (delta_i + self.l_i)[:, None], h[:, None], w[:, None]
+        d_q = (h * h_q + w * w_q) / d
+        d_qq = (outer(h_q) + h[:, :, None] * h_qq + outer(w_q) + w[:, :, None] * w_qq - outer(d_q)) / d[:, :, None]
+        add_contact(gradient, hessian, self.inner.K, delta_i, d_q, d_qq)
+
+        # outer race: plane distance
+        d = np.hypot(x_b, r_b - self.R_e)[:, None]
+        d_q, d_qq = np.zeros_like(gradient), np.zeros_like(hessian)
+        d_q[:, 5], d_q[:, 6] = x_b / d[:, 0], (r_b - self.R_e) / d[:, 0]
+        d_qq[:, 5:, 5:] = (np.eye(2) - outer(d_q[:, 5:])) / d[:, :, None]
+        add_contact(gradient, hessian, self.outer.K, d[:, 0] - self.l_e, d_q, d_qq)
+        return gradient, hessian
+
+    def inner_distance(self, v):
+        """Distance of each ball from the inner groove-centre circle: h along the ring's axis, w across it, each with gradient and Hessian in (ring, x_j, r_j).
+
+        With p from the ring's centre to the ball: h = p.a, w = R_i - s, s = sqrt(p.p - h^2).
+        """
+        q, _, r_b = self.split(v)
         a = self.axis(q)
         a_q = np.zeros((3, 7))  # da/dq, and d2a/dq2 (x component only)
         a_q[0, 3:5], a_q[2, 3], a_q[1, 4] = -q[3:5] / a[0], -1.0, 1.0
         a_qq = np.zeros((7, 7))
         a_qq[3:5, 3:5] = -np.eye(2) / a[0] - np.outer(q[3:5], q[3:5]) / a[0] ** 3
-        ball, c = self.inner_centres(v)
+        ball, _ = self.inner_centres(v)
         p = ball - (q[:3] + [self.x_touch, 0.0, 0.0])
         p_q = np.zeros((len(r_b), 3, 7))
         p_q[:, :, :3] = -np.eye(3)
@@ -325,19 +368,7 @@ class Potential:
         s = np.linalg.norm(p - h[:, None] * a, axis=1)[:, None]
         s_q = (np.einsum("jkm,jk->jm", p_q, p) - h[:, None] * h_q) / s
         s_qq = (np.einsum("jkm,jkn->jmn", p_q, p_q) - outer(h_q) - h[:, None, None] * h_qq - outer(s_q)) / s[:, :, None]
-        d = np.linalg.norm(c - ball, axis=1)[:, None]
-        w = self.R_i - s
-        d_q = (h[:, None] * h_q - w * s_q) / d
-        d_qq = (outer(h_q) + h[:, None, None] * h_qq + outer(s_q) - w[:, :, None] * s_qq - outer(d_q)) / d[:, :, None]
-        add_contact(gradient, hessian, self.inner.K, d[:, 0] - self.l_i, d_q, d_qq)
-
-        # outer race: plane distance
-        d = np.hypot(x_b, r_b - self.R_e)[:, None]
-        d_q, d_qq = np.zeros_like(gradient), np.zeros_like(hessian)
-        d_q[:, 5], d_q[:, 6] = x_b / d[:, 0], (r_b - self.R_e) / d[:, 0]
-        d_qq[:, 5:, 5:] = (np.eye(2) - outer(d_q[:, 5:])) / d[:, :, None]
-        add_contact(gradient, hessian, self.outer.K, d[:, 0] - self.l_e, d_q, d_qq)
-        return gradient, hessian
+        return (h, h_q, h_qq), (self.R_i - s[:, 0], -s_q, -s_qq)
 
     def derivatives(self, v):
         """Gradient [N, N.m] and Hessian of the potential energy."""
@@ -361,6 +392,42 @@ class Potential:
         _, H = self.contact_derivatives(v)
         H[:, 6, 6] -= self.inertia.m_omega2
         return sum(H_j[:5, :5] - H_j[:5, 5:] @ np.linalg.pinv(H_j[5:, 5:]) @ H_j[5:, :5] for H_j in H if H_j[:5, :5].any()) + np.zeros((RING, RING))
+
+
+class LinearPotential(Potential):
+    """The same with the displacements of the inner groove linear in the ring's coordinates.  ISO/TS 16281:2008, 4.2; its psi is any tilt here.
+
+    Seen from the ball j in its half-plane the groove centre moves by  x - d_m/2 (tilt_z cos psi_j - tilt_y sin psi_j)  along the bearing's axis and by
+    y cos psi_j + z sin psi_j  outward.  Forces act at the pitch radius d_m/2.
+    """
+
+    def inner_centres(self, v):
+        """Ball centres, and the inner groove centres in the balls' half-planes (Z x 3 each) [m]."""
+        q, x_b, r_b = self.split(v)
+        motion = self.motion() @ q
+        ball = x_b[:, None] * [1.0, 0.0, 0.0] + r_b[:, None] * self.e_r
+        return ball, (self.x_touch + motion[:, 0])[:, None] * [1.0, 0.0, 0.0] + (self.R_i + motion[:, 1])[:, None] * self.e_r
+
+    def motion(self):
+        """Derivatives of the groove centres' displacements (along the axis, outward) by the ring's coordinates, Z x 2 x 5."""
+        cos, sin = self.e_r[:, 1], self.e_r[:, 2]
+        motion = np.zeros((len(cos), 2, RING))
+        motion[:, 0, 0], motion[:, 0, 3], motion[:, 0, 4] = 1.0, 0.5 * self.bearing.d_m * sin, -0.5 * self.bearing.d_m * cos
+        motion[:, 1, 1], motion[:, 1, 2] = cos, sin
+        return motion
+
+    def levers(self, v):
+        """Arms of the contact forces: the pitch radius (Z x 3) [m]."""
+        return 0.5 * self.bearing.d_m * self.e_r
+
+    def inner_distance(self, v):
+        """As in Potential; h and w are linear, their Hessians zero."""
+        ball, c = self.inner_centres(v)
+        h_q, w_q = np.zeros((2, len(ball), 7))
+        h_q[:, :RING], w_q[:, :RING] = self.motion().transpose(1, 0, 2)
+        h_q[:, 5] = w_q[:, 6] = -1.0
+        none = np.zeros((len(ball), 7, 7))
+        return ((c - ball)[:, 0], h_q, none), (np.einsum("jk,jk->j", c - ball, self.e_r), w_q, none)
 
 
 def outer(u):
@@ -490,11 +557,12 @@ def azimuths(psi, Z):
     return psi + 2.0 * np.pi / Z * np.arange(Z) if psi.ndim == 0 else psi
 
 
-def quasi_static(bearing, load, psi=0.0, control="none"):
+def quasi_static(bearing, load, psi=0.0, control="none", kinematics="exact"):
     """Equilibrium of the inner ring and the balls of a bearing under a load: a QuasiStatic.
 
     psi: azimuth of ball 1 (balls evenly spaced) or of each ball, from Y toward Z [rad].
     control: "none" - no friction, no gyroscopic moments: the rest state of the frictionless dynamics; "outer", "inner" - race control (Jones) with them.
+    kinematics: "exact" for any displacement and tilt; "linear" as ISO/TS 16281 has it, without race control (omega = 0 leaves out centrifugal forces too).
     Raises ValueError for inadmissible values, ArithmeticError if the bearing cannot carry the load (no equilibrium, or contacts beyond Hertz' theory).
 
     >>> result = quasi_static(Bearing(C=25.7e3), Load(F_x=515.0, F_y=2994.0, omega=1909.88))
@@ -503,7 +571,11 @@ def quasi_static(bearing, load, psi=0.0, control="none"):
     """
     if control not in CONTROLS:
         raise ValueError(f"control = {control!r}: must be one of {', '.join(CONTROLS)}")
-    potential = Potential(bearing, load, azimuths(psi, bearing.Z))
+    if kinematics not in KINEMATICS:
+        raise ValueError(f"kinematics = {kinematics!r}: must be one of {', '.join(KINEMATICS)}")
+    if kinematics == "linear" and control != "none":
+        raise ValueError(f'control = {control!r} with kinematics = "linear": must be "none", ISO/TS 16281 has no gyroscopic moments')
+    potential = {"exact": Potential, "linear": LinearPotential}[kinematics](bearing, load, azimuths(psi, bearing.Z))
     v = np.zeros(RING + 2 * bearing.Z)
     v[3:RING] = load.tilt_y, load.tilt_z
     alpha = bearing.nominal_angle  # balls touch the outer race
@@ -517,7 +589,7 @@ def quasi_static(bearing, load, psi=0.0, control="none"):
         change = potential.inertia.distance(loads, potential.R_e)
         if change <= 1e-9 * (1.0 + loads.m_omega2 * potential.R_e):
             check_approach(potential, v)
-            return report(potential, v, motion, omega_m, M_g)
+            return report(potential, v, motion, omega_m, M_g, kinematics)
         potential.inertia = loads if turn < 10 else potential.inertia.halfway(loads)
     raise ArithmeticError(f"inertia loads do not settle (last change {change:.3g} N): race control {control!r} does not hold for balls that hardly touch")
 
@@ -529,19 +601,18 @@ def check_approach(potential, v):
         raise ArithmeticError(f"a ball is pressed {delta:.3g} m into a race, more than D/100 = {0.01 * D:.3g} m: the bearing does not carry this load")
 
 
-def report(potential, v, motion, omega_m, M_g):
+def report(potential, v, motion, omega_m, M_g, kinematics):
     """The equilibrium at v as a QuasiStatic."""
     q, x_b, r_b = potential.split(v)
     Q_i, Q_e, alpha_i, alpha_e, n_i = contact_state(potential, v)
     delta_i, delta_e = potential.approaches(v)
-    _, c = potential.inner_centres(v)
     carried = Q_i[:, None] * n_i  # on the balls
     a_i, b_i = potential.inner.semi_axes(Q_i)
     a_e, b_e = potential.outer.semi_axes(Q_e)
     F = carried.sum(axis=0) - potential.inertia.ring[:3]
-    M = np.cross(c - q[:3] - [potential.x_touch, 0.0, 0.0], carried).sum(axis=0) - [0.0, *potential.inertia.ring[3:]]
+    M = np.cross(potential.levers(v), carried).sum(axis=0) - [0.0, *potential.inertia.ring[3:]]
     return QuasiStatic(
         potential.bearing, potential.load, *map(float, q), potential.psi, x_b, r_b, Q_i, Q_e, alpha_i, alpha_e, delta_i, delta_e,
         a_i, b_i, a_e, b_e, potential.inner.p_max(Q_i), potential.outer.p_max(Q_e), F, M, potential.stiffness(v),
-        omega_m, motion.omega_R, motion.beta, motion.spin_i, motion.spin_e, potential.inertia.m_omega2 * r_b, M_g,
+        omega_m, motion.omega_R, motion.beta, motion.spin_i, motion.spin_e, potential.inertia.m_omega2 * r_b, M_g, kinematics,
     )  # fmt: skip

@@ -24,7 +24,7 @@ import numpy as np
 from scipy.special import roots_jacobi
 
 from bearing_model.hertz import hertz_damped, hertz_load
-from bearing_model.lanes import lanes_sum, maximum
+from bearing_model.lanes import ball_array_sum, maximum
 from bearing_model.traction import Q_FLOOR, traction_asperity_share, traction_inlet, traction_ln_film, traction_mu
 from bearing_model.variables import Lubrication, Traction
 from bearing_model.vec import vec, vec_across, vec_cross, vec_dot, vec_local, vec_to_global
@@ -53,12 +53,12 @@ def race_traction(model, race, c, mixed, sliced):
     for s, share in zip(SLICE, SHARE, strict=True) if sliced else [(0.0, 1.0)]:
         xi = a * s
         sagitta = xi * xi * (0.5 / race.R_m)
-        place = (c.R - sagitta) * c.n + xi * c.t_2
-        slip_i = vec_across(c.slip + vec_cross(c.spin, place - c.R * c.n), c.n)
+        lever = (c.R - sagitta) * c.n + xi * c.t_2
+        slip_i = vec_across(c.slip + vec_cross(c.spin, lever - c.R * c.n), c.n)
         slip = np.sqrt(vec_dot(slip_i, slip_i) + p.oil.v_0**2)
         F = -share * traction_mu(p, slip / U, f_a, mixed) * c.Q * slip_i / slip
         out.F_s = out.F_s + F
-        out.M = out.M + vec_cross(place, F)
+        out.M = out.M + vec_cross(lever, F)
         out.dissipated = out.dissipated - vec_dot(F, slip_i)
     # Inlet: -F_R U/|U| at the surface, the film's horizontal pressure force +F_H U/|U| through the ball's centre.
     rolling = F_R / U * c.roll
@@ -121,7 +121,7 @@ def race_contact_force(model, w):
     w.race_dissipated = T_i.dissipated + T_e.dissipated + (inner.Q - inner.Q_0) * inner.delta_dot + (outer.Q - outer.Q_0) * outer.delta_dot
     w.ring_F = vec_to_global(-F_i, w.cos_theta, w.sin_theta)  # by each ball, about the ring's centre
     w.ring_M = vec_to_global(-vec_cross(p_i, F_i) - T_i.M, w.cos_theta, w.sin_theta)
-    w.ring.F, w.ring.M = lanes_sum(w.ring_F), lanes_sum(w.ring_M)
+    w.ring.F, w.ring.M = ball_array_sum(w.ring_F), ball_array_sum(w.ring_M)
 
     w.delta_i, w.delta_e, w.Q_i, w.Q_e, w.n_i, w.n_e = inner.delta, outer.delta, inner.Q, outer.Q, inner.n, outer.n
     w.U_i, w.U_e = T_i.U, T_e.U

@@ -12,7 +12,8 @@ from bearing_model.land_film import land_film_force
 from bearing_model.model import Work
 from bearing_model.pocket import pocket_force
 from bearing_model.race_contact import race_contact_force
-from bearing_model.ring import drive_at, ring_acceleration
+from bearing_model.ring import ring_acceleration
+from bearing_model.ring_load import ring_load_at
 from bearing_model.rotor import Rotor, rotor_acceleration, rotor_axis, rotor_body_axes, rotor_roll
 from bearing_model.variables import (
     CAGE_BETA,
@@ -60,7 +61,7 @@ def rotor_kinematics(model, y, w):
     w.ring, w.half = Rotor(), [Rotor(), Rotor()]
     w.ring.x = np.array([y[..., RING_X], y[..., RING_Y], y[..., RING_Z]])
     w.ring.v = np.array([y[..., RING_V_X], y[..., RING_V_Y], y[..., RING_V_Z]])
-    rotor_axis(w.ring, y[..., RING_BETA], y[..., RING_GAMMA], y[..., RING_BETA_DOT], y[..., RING_GAMMA_DOT], model.drive.omega)
+    rotor_axis(w.ring, y[..., RING_BETA], y[..., RING_GAMMA], y[..., RING_BETA_DOT], y[..., RING_GAMMA_DOT], model.ring_load.omega)
     for h, half in enumerate(w.half):
         rotor_axis(half, *(of_half(y, block, h) for block in (CAGE_BETA, CAGE_GAMMA, CAGE_BETA_DOT, CAGE_GAMMA_DOT, CAGE_S)))
         psi = of_half(y, CAGE_PSI, h)
@@ -118,8 +119,8 @@ def rhs(model, t, y, w=None):
     if y.shape[-1] != N_STATES:
         raise ValueError(f"y has {y.shape[-1]} states; {N_STATES} are needed")
     w = Work() if w is None else w
-    if model.course:
-        model = replace(model, drive=drive_at(model.course, np.expand_dims(t, -1)), course=None)
+    if model.trajectory:
+        model = replace(model, ring_load=ring_load_at(model.trajectory, np.expand_dims(t, -1)), trajectory=None)
     rigid = model.p.scene.cage == CageModel.RIGID
     ball_kinematics(y, w)
     rotor_kinematics(model, y, w)

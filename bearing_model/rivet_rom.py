@@ -1,14 +1,14 @@
 """Rivet stress from the reduced model: twin of fmu_src/rivet_rom.c, where the equations stand.
 
 sigma = s (w T_i + (1 - w) T_(i+1))(a, b, c, xi), sheets i around chi, homogeneous of degree 1 in loads and fit; T: tensor products of quadratic B-splines.
-Loads are arrays of one shape; `table` is a rivet_model.table.RivetTable (read one with rivet_model.table.read).
+Loads are arrays of one shape; `table` is a bearing_model.rivet_table.RivetTable (read one with rivet_table.read).
 """
 
 from dataclasses import dataclass, replace
 
 import numpy as np
 
-from rivet_model import splines
+from bearing_model.rivet_splines import cell_weights, constants
 
 HEAD_P1, HEAD_VM, MID_VM, MID_P1 = range(4)
 RIVET_YIELDS, FLANGE_YIELDS, JOINT_COMPRESSED, RIVET_OUTSIDE = 1, 2, 4, 8
@@ -29,9 +29,9 @@ class RivetLoad:
 
 def axis_splines_xi(knots, s, fit):
     """s times the splines of xi = fit/s, without dividing where s may vanish: first coefficient and weights."""
-    rise, _ = splines.constants(knots)
+    rise, _ = constants(knots)
     inside = np.clip(np.divide(fit, s, out=np.zeros_like(s), where=s > 0.0), knots[0], knots[-1])
-    first, w = splines.cell_weights(knots, inside)
+    first, w = cell_weights(knots, inside)
     w = w * s[..., None]
     below, beyond = fit <= s * knots[0], fit - s * knots[-1]
     last = len(knots) - 2
@@ -55,7 +55,7 @@ def load_splines(table, load, fit_eff):
 
     chi = np.minimum(ratio(np.abs(load.V_y * load.M_z - load.V_z * load.M_y), VM), 1.0)
     values = {"a": ratio(V, force), "b": ratio(N, axial), "c": ratio(moment, s)}
-    at = {name: splines.cell_weights(table.knots[name], value) for name, value in values.items()}
+    at = {name: cell_weights(table.knots[name], value) for name, value in values.items()}
     at["xi"] = axis_splines_xi(table.knots["xi"], s, fit_eff)
     return chi, at
 
@@ -82,8 +82,8 @@ def rivet_rom_stress(table, load, fit_eff):
             for c in range(3):
                 w = (wa[:, a] * wb[:, b] * wc[:, c])[:, None]
                 for i in range(3):
-                    place = A + a, B + b, C + c, xi + i
-                    T, U = table.coefficients[*place, sheet], table.coefficients[*place, sheet + 1]
+                    index = A + a, B + b, C + c, xi + i
+                    T, U = table.coefficients[*index, sheet], table.coefficients[*index, sheet + 1]
                     sigma += w * wxi[:, i : i + 1] * (first * T + (1.0 - first) * U)
     sigma[:, HEAD_P1] += table.head_friction * load.F_head
     sigma[:, HEAD_VM] += table.head_friction_vm * load.F_head

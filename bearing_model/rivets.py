@@ -11,7 +11,7 @@ limited where it opens the joint.  Everything is in the body frame of half 0: ri
 
 import numpy as np
 
-from bearing_model.lanes import lanes_sum
+from bearing_model.lanes import ball_array_sum
 from bearing_model.load_path import PATH_M_R, PATH_M_T, PATH_N, PATH_V_R, PATH_V_T, load_path_flexible, load_path_rigid
 from bearing_model.rivet_rom import RivetLoad, joint_prying
 from bearing_model.variables import CageModel
@@ -37,8 +37,8 @@ def rigid_wrench(model, w):
     F_x, _, F_t = w.pocket[0]
     root = np.sqrt(F_x**2 + model.p.cage.share_width**2 * (F_x**2 + F_t**2))
     share = np.divide(F_x, root, out=np.zeros_like(F_x), where=root > 0.0)
-    F = F + 0.5 * lanes_sum((1.0 + share) * w.pocket_F[0])
-    M = M + 0.5 * lanes_sum((1.0 + share) * w.pocket_M[0])
+    F = F + 0.5 * ball_array_sum((1.0 + share) * w.pocket_F[0])
+    M = M + 0.5 * ball_array_sum((1.0 + share) * w.pocket_M[0])
     axes = (cage.a, cage.b_y, cage.b_z)
     return [vec_dot(e, F) for e in axes] + [vec_dot(e, M) for e in axes]
 

@@ -54,13 +54,15 @@ class Equilibrium:
     """Forces and potential over the unknowns z = (x, y, z, r beta, r gamma of the ring, x of the balls, r of the balls) [m], r = d_m/2."""
 
     def __init__(self, model, theta):
-        p, drive = model.p, model.drive
+        p, ring_load = model.p, model.ring_load
         self.model, self.r = model, 0.5 * p.bearing.d_m
         self.cos_theta, self.sin_theta = np.cos(theta), np.sin(theta)
-        omega_0 = 0.5 * drive.omega * (1.0 - p.bearing.D / p.bearing.d_m)
+        omega_0 = 0.5 * ring_load.omega * (1.0 - p.bearing.D / p.bearing.d_m)
         self.F_c = model.d.m * self.r * omega_0**2 + F_0
         self.k = p.ring.k_tilt if p.ring.tilt_mode == TiltMode.SUPPORTED else 0.0
-        self.start = np.concatenate([[0.0, 0.0, 0.0, drive.beta * self.r, drive.gamma * self.r], np.zeros(Z), np.full(Z, self.r + 0.25 * p.bearing.P_d)])
+        self.start = np.concatenate(
+            [[0.0, 0.0, 0.0, ring_load.beta * self.r, ring_load.gamma * self.r], np.zeros(Z), np.full(Z, self.r + 0.25 * p.bearing.P_d)]
+        )
         self.free = np.arange(len(self.start))
         if p.ring.tilt_mode == TiltMode.PRESCRIBED:
             self.free = np.delete(self.free, [3, 4])
@@ -76,7 +78,7 @@ class Equilibrium:
         race_contact_force(self.model, w)
         return w
 
-    def place(self, free):
+    def unknowns(self, free):
         """All unknowns from the free ones: prescribed tilts stay."""
         z = np.zeros((*free.shape[:-1], len(self.start)), dtype=free.dtype) + self.start
         z[..., self.free] = free
@@ -84,10 +86,10 @@ class Equilibrium:
 
     def force(self, free):
         """Forces on the free unknowns [N]; zero in equilibrium."""
-        z, drive, r = self.place(free), self.model.drive, self.r
-        w, target = self.contacts(z), np.array([drive.beta, drive.gamma]) * r
-        ring = np.moveaxis(w.ring.F[..., 0], 0, -1) + drive.F - K_0 * z[..., :3]
-        moment = np.moveaxis(w.ring.M[1:, ..., 0], 0, -1) + drive.M
+        z, ring_load, r = self.unknowns(free), self.model.ring_load, self.r
+        w, target = self.contacts(z), np.array([ring_load.beta, ring_load.gamma]) * r
+        ring = np.moveaxis(w.ring.F[..., 0], 0, -1) + ring_load.F - K_0 * z[..., :3]
+        moment = np.moveaxis(w.ring.M[1:, ..., 0], 0, -1) + ring_load.M
         tilt = (moment - self.k * (z[..., 3:5] - target) / r) / r - K_0 * z[..., 3:5]
         return np.concatenate([ring, tilt, w.F[0] - K_0 * w.x, w.F[1] + self.F_c], axis=-1)[..., self.free]
 
@@ -98,11 +100,11 @@ class Equilibrium:
 
     def potential(self, free):
         """Pi [J]."""
-        z, d, drive = self.place(free), self.model.d, self.model.drive
+        z, d, ring_load = self.unknowns(free), self.model.d, self.model.ring_load
         w, tilt = self.contacts(z), z[3:5] / self.r
         balls = hertz_energy(d.inner.hertz.K, w.delta_i) + hertz_energy(d.outer.hertz.K, w.delta_e) - self.F_c * w.r + 0.5 * K_0 * w.x**2
-        support = 0.5 * self.k * np.sum((tilt - [drive.beta, drive.gamma]) ** 2)
-        return np.sum(balls) + support + 0.5 * K_0 * z[:5] @ z[:5] - np.dot(drive.F, z[:3]) - np.dot(drive.M, tilt)
+        support = 0.5 * self.k * np.sum((tilt - [ring_load.beta, ring_load.gamma]) ** 2)
+        return np.sum(balls) + support + 0.5 * K_0 * z[:5] @ z[:5] - np.dot(ring_load.F, z[:3]) - np.dot(ring_load.M, tilt)
 
 
 def equilibrium(eq):
@@ -116,7 +118,7 @@ def equilibrium(eq):
         if not left < residual:
             break
         z, residual = trial, left
-    return eq.place(z), residual
+    return eq.unknowns(z), residual
 
 
 def uniform(state):
@@ -142,10 +144,10 @@ def spacing(p):
 def orbital_speed(model, w):
     """Orbital speed without slip at both races [rad/s]: the balls' centres move half as fast as the inner contact points; mean by load."""
     cosine, load = np.where(w.Q_i > 0.0, np.abs(w.n_i[1]), 1.0), w.Q_i + 1e-9
-    return model.drive.omega * np.average(0.5 * (1.0 - 2.0 * model.d.R * cosine / model.p.bearing.d_m), weights=load)
+    return model.ring_load.omega * np.average(0.5 * (1.0 - 2.0 * model.d.R * cosine / model.p.bearing.d_m), weights=load)
 
 
-def cage_place(model, w, omega_m, y):
+def cage_pose(model, w, omega_m, y):
     """Both halves at x_0 + (beta sin theta - gamma cos theta) r, the balls' axial places but for higher harmonics, turning steadily about that axis."""
     x_0 = np.mean(w.x)
     beta, gamma = 2.0 * np.mean(w.x / w.r * w.sin_theta), -2.0 * np.mean(w.x / w.r * w.cos_theta)
@@ -166,8 +168,8 @@ def check_grooves(model, w):
     reach = ellipse_reach(model, w)
     race, j = np.unravel_index(np.argmax(reach), reach.shape)
     if reach[race, j] >= 0.5 * np.pi:
-        drive = model.drive
-        F, tilt = (", ".join(f"{value:g}" for value in values) for values in (drive.F, (drive.beta, drive.gamma)))
+        ring_load = model.ring_load
+        F, tilt = (", ".join(f"{value:g}" for value in values) for values in (ring_load.F, (ring_load.beta, ring_load.gamma)))
         raise ValueError(
             f"ball[{j + 1}] is pressed out of the {('inner', 'outer')[race]} race's groove at the start: its contact reaches to {reach[race, j]:g} rad, "
             f"less than pi/2 is allowed; the loads ({F}) N on the ring and the shaft's tilt ({tilt}) rad are too much"
@@ -192,7 +194,7 @@ def start_state(model):
     rolling = -w.r * omega_m / d.R
     y[BALL_OMEGA_X] = rolling * w.n_e[1]
     y[BALL_OMEGA_R] = -rolling * w.n_e[0]
-    cage_place(model, w, omega_m, y)
+    cage_pose(model, w, omega_m, y)
     y[RING_X], y[RING_Y], y[RING_Z] = z[:3]
     y[RING_BETA], y[RING_GAMMA] = z[3:5] / eq.r
     return y, residual

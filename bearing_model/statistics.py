@@ -32,7 +32,7 @@ class StatisticsChannel:
 
     def __init__(self, floor):
         self.floor = floor
-        self.time, self.first, self.second, self.most = 0.0, 0.0, 0.0, 0.0
+        self.time, self.first, self.second, self.max = 0.0, 0.0, 0.0, 0.0
         self.weight = np.zeros(STATISTICS_BINS)
 
     def add(self, weight, value):
@@ -40,7 +40,7 @@ class StatisticsChannel:
         self.time += np.sum(weight)
         self.first += np.sum(weight * value)
         self.second += np.sum(weight * value * value)
-        self.most = max(self.most, np.max(value, initial=0.0))
+        self.max = max(self.max, np.max(value, initial=0.0))
         counts = value >= self.floor
         self.weight += np.bincount(bin_of(value[counts] / self.floor), weights=weight[counts], minlength=STATISTICS_BINS)
 
@@ -62,4 +62,4 @@ class StatisticsChannel:
         bin_ = reached[-1]
         low, high = edge_of(bin_), edge_of(bin_ + 1)
         rest = above - (beyond[bin_] - self.weight[bin_])
-        return min(self.floor * (high - (high - low) * rest / self.weight[bin_]), self.most)
+        return min(self.floor * (high - (high - low) * rest / self.weight[bin_]), self.max)

@@ -4,7 +4,6 @@ Times are processor times of this process: other users of the machine hardly cha
 """
 
 import argparse
-import json
 import platform
 import subprocess
 import sys
@@ -13,6 +12,7 @@ from datetime import UTC, datetime
 from pathlib import Path
 
 import numpy as np
+from records import write_record
 
 ROOT = Path(__file__).resolve().parents[1]
 sys.path[:0] = [str(ROOT), str(ROOT / "tests")]
@@ -21,11 +21,10 @@ from library import LIBRARY, Core  # noqa: E402
 from mechanics import Instance  # noqa: E402
 
 from bearing_model import variables  # noqa: E402
-from bearing_model.app.fmu import Model, codes  # noqa: E402
-from bearing_model.app.scene import load_scene  # noqa: E402
+from riveted_bearing.fmu import Model, codes  # noqa: E402
+from riveted_bearing.scene import load_scene  # noqa: E402
 
 FMU = ROOT / "fmus" / "RivetedBearing.fmu"
-RESULTS = ROOT / "results"
 BUILD = ROOT / "build"
 
 # Name -> title, shipped scene, changes.  Pulses as in the paper: three half-sines in 0.01 s.
@@ -130,12 +129,12 @@ def cpu_info():
 
 
 def commit():
-    """Commit of the checkout, with + if files differ from it; "" outside a checkout."""
+    """Commit of the checkout, with + if files differ from it, records and pages apart; "" outside a checkout."""
 
     def git(*arguments):
         return subprocess.run(["git", "-C", str(ROOT), *arguments], capture_output=True, text=True, check=False).stdout.strip()
 
-    return git("rev-parse", "--short", "HEAD") + ("+" if git("status", "--porcelain", "-uno") else "")
+    return git("rev-parse", "--short", "HEAD") + ("+" if git("status", "--porcelain", "-uno", "--", ".", ":!benchmarks/results", ":!docs") else "")
 
 
 def options(description):
@@ -146,11 +145,9 @@ def options(description):
 
 
 def write(name, data, short):
-    """Write results/benchmark_<name>.json."""
-    RESULTS.mkdir(exist_ok=True)
-    record = {"benchmark": name, "short": short, "date": datetime.now(UTC).isoformat(timespec="seconds"), "commit": commit(), "machine": machine()}
-    path = RESULTS / f"benchmark_{name}.json"
-    path.write_text(json.dumps(record | data, indent=1, default=float) + "\n")
+    """Write the record of a benchmark, with commit, date and machine, to benchmarks/results/."""
+    about = {"benchmark": name, "short": short, "date": datetime.now(UTC).isoformat(timespec="seconds"), "commit": commit(), "machine": machine()}
+    path = write_record(about | data)
     print(f"wrote {path.relative_to(ROOT)}")
 
 

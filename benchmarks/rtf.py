@@ -6,7 +6,7 @@ several rounds counts.
 
 from common import SCENES, options, say, write
 
-from bearing_model.app import run
+from riveted_bearing import run
 
 OUTPUTS = ["rivet[*].sigma_head_peak", "rivet[*].sigma_mid_peak", "cage.F_pocket_peak"]
 STEP, SPAN, ROUNDS = 1e-4, 0.4, 7  # [s], [s], 1

@@ -13,8 +13,8 @@ from dataclasses import replace
 import numpy as np
 from common import BUILD, FMU, Scene, options, say, write
 
-from bearing_model.app.build import build
-from bearing_model.app.fmu import Instance, Model
+from riveted_bearing import build
+from riveted_bearing.fmu import Instance, Model
 
 BALLS = (5, 9, 16, 32)
 

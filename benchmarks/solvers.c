@@ -68,7 +68,7 @@ struct Integrator {
     double t_latest, y_latest[N_STATES], f_latest[N_STATES];  // the evaluation that w belongs to
     double rates[N_STATES];                                   // D of the diagonal Jacobian
     bool rates_known;
-    unsigned spoiled;
+    unsigned nonfinite_stages;
     double t_output;
 };
 
@@ -91,7 +91,7 @@ static int right_hand_side(sunrealtype t, N_Vector y, N_Vector f, void *user)
     memcpy(N_VGetArrayPointer(f), evaluate(in, t, N_VGetArrayPointer(y), &in->s->rhs_evals), sizeof in->f_latest);
     if (in->kernels->ops->finite(in->f_latest)) return 0;
     if (in->choice.method != SOLVER_ERK) return 1;  // CVODE tries a smaller step; ERKStep cannot, so its error test is made to fail
-    const double enormous = in->spoiled++ % 2 == 0 ? 1e15 : -1e15;
+    const double enormous = in->nonfinite_stages++ % 2 == 0 ? 1e15 : -1e15;
     for (int i = 0; i < N_STATES; i++) N_VGetArrayPointer(f)[i] = enormous / in->weight[i];
     return 0;
 }
@@ -432,10 +432,10 @@ void integrator_tolerance(Integrator *in, double tolerance)
 // ---- stepping -----------------------------------------------------------------------------------------------------------------------------------
 void integrator_evaluate(Integrator *in)
 {
-    if (in->s->known) return;
+    if (in->s->f_is_current) return;
     in->t_latest = NAN;  // the drive may have changed
     memcpy(in->s->now.f, evaluate(in, in->s->t, in->s->now.y, &in->s->rhs_evals), sizeof in->s->now.f);
-    in->s->known = 1;
+    in->s->f_is_current = 1;
 }
 
 static int start(Integrator *in, double t_stop)
@@ -486,7 +486,7 @@ int integrator_advance(Integrator *in, double t_stop, long max_steps)
         memcpy(s->now.y, N_VGetArrayPointer(in->y), sizeof s->now.y);
         s->t = t;
         s->steps += 1.0;
-        s->known = 0;
+        s->f_is_current = 0;
         in->rates_known = false;
         if (observed) evaluate(in, s->t, s->now.y, &s->rhs_evals);
         in->hook(in->context, h, in->w);

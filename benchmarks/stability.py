@@ -3,7 +3,7 @@
 python benchmarks/stability.py                 the whole matrix, then docs/stability.md
 python benchmarks/stability.py --family tilt   one family, printed
 python benchmarks/stability.py --long          ten million tiny steps, 100 s of simulated time, angles after a million revolutions (minutes)
-python benchmarks/stability.py --page          only the page, from results/benchmark_stability*.json
+python benchmarks/stability.py --page          only the page, from the newest records in benchmarks/results/
 
 A scene is finished, discarded (the solver gave up and said so) or refused (before the run, by name, value and limit).  What must not happen:
 a crash, a hang, a value that is not finite with status OK, a refused scene that is admissible, an impossible one that runs.
@@ -25,10 +25,10 @@ from stability_page import write_page
 from stability_scenes import WORKING, Scene, matrix
 
 from bearing_model import variables
-from bearing_model.app.build import build
-from bearing_model.app.fmu import Instance, Model
 from rivet_model import closed_form, table
 from rivet_model.geometry import Geometry
+from riveted_bearing import build
+from riveted_bearing.fmu import Instance, Model
 
 FOLDER = BUILD / "stability"
 HANGS = 600.0  # a scene that takes longer is called hanging [s]
@@ -155,7 +155,7 @@ def run(scene):
         "steps": row[at["solver.steps"]],
         "evaluations": row[at["solver.rhs_evals"]],
         "rejected": row[at["solver.error_tests_failed"]],
-        "path": row[at["solver.path"]],
+        "path": row[at["solver.method_used"]],
         "events": {name[6:-7]: row[i] for name, i in at.items() if name.startswith("event.") and name.endswith("_onsets")},
         "warnings": [text for level, text in instance.log if level == "warning"],
     }

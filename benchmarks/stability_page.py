@@ -1,15 +1,17 @@
 """docs/stability.md from what stability.py has measured."""
 
-import json
 from collections import Counter
 
 import numpy as np
-from common import RESULTS
+from records import newest_record
 
 
 def load(name):
-    path = RESULTS / f"benchmark_{name}.json"
-    return json.loads(path.read_text()) if path.is_file() else None
+    """The newest record of a benchmark, None if there is none."""
+    try:
+        return newest_record(name)
+    except FileNotFoundError:
+        return None
 
 
 def row(*cells):

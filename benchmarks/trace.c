@@ -10,7 +10,7 @@
 
 typedef void Action(void *context);
 
-static long trace(Action *action, void *context, unsigned long *address, long most)
+static long trace(Action *action, void *context, unsigned long *address, long max_count)
 {
     const pid_t child = fork();
     if (child < 0) return -1;
@@ -23,7 +23,7 @@ static long trace(Action *action, void *context, unsigned long *address, long mo
     int status;
     long count = 0;
     waitpid(child, &status, 0);
-    while (WIFSTOPPED(status) && count < most) {
+    while (WIFSTOPPED(status) && count < max_count) {
         struct user_regs_struct registers;
         if (ptrace(PTRACE_GETREGS, child, NULL, &registers) != 0) break;
 #if defined(__x86_64__)
@@ -51,11 +51,11 @@ static void call_rhs(void *context)
     e->function(e->model, 0.0, e->y, y_dot, e->w);
 }
 
-long trace_rhs(Rhs *function, const Model *model, const double *y, Work *w, unsigned long *address, long most)
+long trace_rhs(Rhs *function, const Model *model, const double *y, Work *w, unsigned long *address, long max_count)
 {
     Evaluation e = {function, model, y, w};
     call_rhs(&e);  // symbols bound, memory touched
-    return trace(call_rhs, &e, address, most);
+    return trace(call_rhs, &e, address, max_count);
 }
 
 typedef struct {
@@ -69,8 +69,8 @@ static void call_step(void *context)
     part_step(s->part, s->t);
 }
 
-long trace_step(Part *part, double t, unsigned long *address, long most)
+long trace_step(Part *part, double t, unsigned long *address, long max_count)
 {
     Step s = {part, t};
-    return trace(call_step, &s, address, most);
+    return trace(call_step, &s, address, max_count);
 }

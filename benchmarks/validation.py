@@ -22,17 +22,16 @@ import numpy as np
 from common import FMU, ROOT, commit, core_library, machine, options, say
 from mechanics import Instance
 
-from bearing_model.app.build import build
-from bearing_model.app.compare import compare, is_motion
-from bearing_model.app.fmu import Model
-from bearing_model.app.plot import HEAD, MIDDLE, MUTED, STYLE, plot_comparison
-from bearing_model.app.runner import run
-from bearing_model.app.scene import load_scene
-from bearing_model.app.summary import settled
 from bearing_model.hertz import curvature_difference, hertz_contact
 from bearing_model.hertz_exact import ball_race_contact
 from bearing_model.kinematics import fault_frequencies
 from bearing_model.quasi_static import Bearing, Load, quasi_static
+from riveted_bearing import build, run
+from riveted_bearing.compare import compare, is_motion
+from riveted_bearing.fmu import Model
+from riveted_bearing.plot import HEAD, MIDDLE, MUTED, STYLE, plot_comparison
+from riveted_bearing.scene import load_scene
+from riveted_bearing.summary import settled
 
 PAGE = ROOT / "docs" / "validation.md"
 PICTURES = ROOT / "docs" / "validation"

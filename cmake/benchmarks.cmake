@@ -18,8 +18,8 @@ if(EXISTS ${PROJECT_SOURCE_DIR}/benchmarks/solvers.c AND TARGET bearing_test AND
 
     # Adds the timing loops for one instruction set; options as for its kernels.
     function(add_timing isa lane_width)
-        add_library(timing_${isa} OBJECT EXCLUDE_FROM_ALL ${benchmarks}/kernels.c)
-        target_include_directories(timing_${isa} PRIVATE ${fmu_src})
+        add_library(timing_${isa} OBJECT EXCLUDE_FROM_ALL ${benchmarks}/kernel_loops.c)
+        target_include_directories(timing_${isa} PRIVATE ${core_includes})
         target_compile_definitions(timing_${isa} PRIVATE _DEFAULT_SOURCE ISA=${isa} LANE_WIDTH=${lane_width})
         target_compile_options(timing_${isa} PRIVATE ${core_flags} ${ARGN})
         set(timing_objects ${timing_objects} $<TARGET_OBJECTS:timing_${isa}> PARENT_SCOPE)
@@ -41,7 +41,7 @@ if(EXISTS ${PROJECT_SOURCE_DIR}/benchmarks/solvers.c AND TARGET bearing_test AND
     add_library(bearing_kernels SHARED EXCLUDE_FROM_ALL ${core_objects} ${timing_objects} ${test_files} ${benchmarks}/trace.c)
 
     foreach(library IN ITEMS bearing_solvers bearing_kernels)
-        target_include_directories(${library} PRIVATE ${fmu_src})
+        target_include_directories(${library} PRIVATE ${core_includes})
         target_include_directories(${library} SYSTEM PRIVATE ${sundials_folders})
         target_compile_definitions(${library} PRIVATE _DEFAULT_SOURCE)
         target_compile_options(${library} PRIVATE ${core_flags})

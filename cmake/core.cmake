@@ -2,7 +2,7 @@
 
 include(CheckCCompilerFlag)
 
-# Files that work on bundles of lanes: compiled once for each instruction set, chosen at run time.
+# Files that work on packets of balls: compiled once for each instruction set, chosen at run time.
 set(kernel_files rhs.c ball.c race_contact.c drag.c pocket.c cage_joint.c land_film.c ring.c  # the right-hand side
     vector_ops.c implicit.c verlet.c                                                              # what the integrator does with it
     rivets.c load_path.c rivet_primary.c)                                                         # stress after each step
@@ -29,22 +29,17 @@ if(NOT SANITIZE)
 endif()
 
 set(fmu_src ${PROJECT_SOURCE_DIR}/fmu_src)
+set(generated ${fmu_src}/generated)  # folder of variables.h and variables.c
 if(GENERATED_DIR)
-    # #include "variables.h" looks beside the including file first: give the sources new neighbours.
-    file(GLOB files CONFIGURE_DEPENDS ${fmu_src}/*.c ${fmu_src}/*.h)
-    set(fmu_src ${PROJECT_BINARY_DIR}/fmu_src)
-    file(MAKE_DIRECTORY ${fmu_src})
-    foreach(file IN LISTS files ITEMS ${GENERATED_DIR}/variables.h ${GENERATED_DIR}/variables.c)
-        get_filename_component(name ${file} NAME)
-        file(CREATE_LINK ${file} ${fmu_src}/${name} SYMBOLIC)
-    endforeach()
+    set(generated ${GENERATED_DIR})
 endif()
+set(core_includes ${fmu_src} ${generated})
 
 set(rivet_table ${PROJECT_BINARY_DIR}/rivet_table.c)
 if(GENERATED_DIR AND EXISTS ${GENERATED_DIR}/rivet_table.c)
     set(rivet_table ${GENERATED_DIR}/rivet_table.c)
 else()
-    file(GLOB embed_sources CONFIGURE_DEPENDS ${rivet_model_dir}/*.py)
+    file(GLOB embed_sources CONFIGURE_DEPENDS ${rivet_model_dir}/*.py ${bearing_model_dir}/rivet_*.py)
     add_custom_command(OUTPUT ${rivet_table}
         COMMAND ${Python_EXECUTABLE} -m rivet_model.embed ${RIVET_TABLE} ${rivet_table}
         DEPENDS ${RIVET_TABLE} ${embed_sources} WORKING_DIRECTORY ${PROJECT_SOURCE_DIR} VERBATIM)
@@ -53,9 +48,10 @@ endif()
 list(TRANSFORM kernel_files PREPEND ${fmu_src}/)
 file(GLOB core_files CONFIGURE_DEPENDS ${fmu_src}/*.c)
 list(REMOVE_ITEM core_files ${kernel_files} ${fmu_src}/fmi2_wrapper.c)
+list(APPEND core_files ${generated}/variables.c)
 
 add_library(core OBJECT ${core_files} ${rivet_table})
-target_include_directories(core PUBLIC ${fmu_src})
+target_include_directories(core PUBLIC ${core_includes})
 target_compile_options(core PRIVATE ${core_flags})
 target_link_libraries(core PUBLIC sundials m)
 
@@ -65,7 +61,7 @@ file(GLOB elementary_test CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/tests/test_ele
 # An object library of these files, compiled for one instruction set.
 function(compile_for target isa lane_width files)
     add_library(${target} OBJECT ${files})
-    target_include_directories(${target} PRIVATE ${fmu_src})
+    target_include_directories(${target} PRIVATE ${core_includes})
     target_compile_definitions(${target} PRIVATE ISA=${isa} LANE_WIDTH=${lane_width})
     target_compile_options(${target} PRIVATE ${core_flags} ${ARGN})
 endfunction()

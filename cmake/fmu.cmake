@@ -51,8 +51,8 @@ if(sundials_files)
     set(with_sources --sources)
 endif()
 add_custom_command(OUTPUT ${parts}/index.html
-    COMMAND ${run}/page.py --description ${description} --parameters ${parameters} --drawing ${parts}/bearing.svg --out ${parts}/index.html ${with_sources}
-    DEPENDS ${description} ${parameters} ${parts}/bearing.svg ${tools}/page.py ${tools}/templates/index.html ${PROJECT_SOURCE_DIR}/README.md ${texts} VERBATIM)
+    COMMAND ${run}/documentation_page.py --description ${description} --parameters ${parameters} --drawing ${parts}/bearing.svg --out ${parts}/index.html ${with_sources}
+    DEPENDS ${description} ${parameters} ${parts}/bearing.svg ${tools}/documentation_page.py ${tools}/templates/index.html ${PROJECT_SOURCE_DIR}/README.md ${texts} VERBATIM)
 
 set(binaries ${BINARIES})
 set(binary_files RivetedBearing)
@@ -67,7 +67,8 @@ endforeach()
 set(arguments ${binary_arguments} --description ${description} --page ${parts}/index.html --pictures ${parts}/icons --out ${FMU})
 if(sundials_files)
     list(TRANSFORM source_files PREPEND "--source\n" OUTPUT_VARIABLE sources)
-    list(TRANSFORM sundials_folders PREPEND "--include\n" OUTPUT_VARIABLE folders)
+    set(source_folders ${core_includes} ${sundials_folders})
+    list(TRANSFORM source_folders PREPEND "--include\n" OUTPUT_VARIABLE folders)
     list(APPEND arguments ${sources} ${folders})
 endif()
 if(NOT SANITIZE)  # runs the binary in a Python without the sanitizers' library
@@ -86,7 +87,7 @@ add_custom_command(OUTPUT ${FMU}
 add_custom_target(fmu ALL DEPENDS ${FMU})
 
 # In the wheel: the FMU, and what `riveted-bearing build` compiles, laid out as in the checkout.
-install(FILES ${FMU} DESTINATION bearing_model COMPONENT python)
-set(source_dir bearing_model/_source)
+install(FILES ${FMU} DESTINATION riveted_bearing COMPONENT python)
+set(source_dir riveted_bearing/_source)
 install(FILES CMakeLists.txt LICENSE THIRD_PARTY_NOTICES.md README.md DESTINATION ${source_dir} COMPONENT python)
 install(DIRECTORY cmake fmu_src fmus docs DESTINATION ${source_dir} COMPONENT python PATTERN __pycache__ EXCLUDE PATTERN *.fmu EXCLUDE)

@@ -1,4 +1,4 @@
-# Folders of Python packages: FMI headers come with fmpy, the rivet tables with rivet_model.
+# Folders of Python packages: FMI headers come with fmpy, the rivet tables with rivet_model, their reader with bearing_model.
 
 function(find_python_package name result)
     execute_process(
@@ -12,6 +12,7 @@ function(find_python_package name result)
 endfunction()
 
 find_python_package(fmpy fmpy_dir)
+find_python_package(bearing_model bearing_model_dir)
 find_python_package(rivet_model rivet_model_dir)
 if(NOT RIVET_TABLE)
     set(RIVET_TABLE ${rivet_model_dir}/tables/6207.json)

@@ -5,21 +5,18 @@ if(GENERATED_DIR OR NOT EXISTS ${transmission})
     return()
 endif()
 
-# #include "variables.h" looks beside the including file first: the wrapper's sources get new neighbours.
+# The shaft's own variables stand where the bearing's would: the include path decides whose table the wrapper sees.
 set(shaft ${PROJECT_BINARY_DIR}/shaft)
 file(MAKE_DIRECTORY ${shaft})
-foreach(file IN ITEMS ${fmu_src}/fmi2_wrapper.c ${fmu_src}/part.h ${fmu_src}/number.h ${transmission}/shaft.c)
-    get_filename_component(name ${file} NAME)
-    file(CREATE_LINK ${file} ${shaft}/${name} SYMBOLIC)
-endforeach()
 set(generated ${shaft}/variables.h ${shaft}/variables.c ${shaft}/modelDescription.xml)
 file(GLOB templates CONFIGURE_DEPENDS ${tools}/templates/*)
 add_custom_command(OUTPUT ${generated}
     COMMAND ${run}/generate.py --table ${transmission}/shaft.toml --out ${shaft}
     COMMAND ${CMAKE_COMMAND} -E touch ${generated}
     DEPENDS ${transmission}/shaft.toml ${tools}/generate.py ${templates} VERBATIM)
-set(shaft_sources ${shaft}/shaft.c ${shaft}/fmi2_wrapper.c ${shaft}/variables.c)
+set(shaft_sources ${transmission}/shaft.c ${fmu_src}/fmi2_wrapper.c ${fmu_src}/variable_table.c ${shaft}/variables.c)
 add_fmu_binary(Shaft ${shaft_sources} ${shaft}/variables.h)
+target_include_directories(Shaft PRIVATE ${fmu_src} ${shaft})
 target_link_libraries(Shaft PRIVATE m)
 add_dependencies(binaries Shaft)
 if(CMAKE_CROSSCOMPILING)
@@ -37,7 +34,8 @@ list(TRANSFORM shaft_binaries PREPEND "--binary=")
 get_filename_component(fmu_dir ${FMU} DIRECTORY)
 list(TRANSFORM shaft_sources PREPEND "--source=" OUTPUT_VARIABLE sources)
 add_custom_command(OUTPUT ${fmu_dir}/Shaft.fmu
-    COMMAND ${run}/package.py --description ${shaft}/modelDescription.xml ${shaft_binaries} ${sources} --out ${fmu_dir}/Shaft.fmu
+    COMMAND ${run}/package.py --description ${shaft}/modelDescription.xml ${shaft_binaries} ${sources}
+        --include ${fmu_src} --include ${shaft} --out ${fmu_dir}/Shaft.fmu
     DEPENDS ${shaft_files} ${generated} ${tools}/package.py ${tools}/sources.py VERBATIM)
 set(system ${fmu_dir}/Transmission.ssp)
 add_custom_command(OUTPUT ${system}

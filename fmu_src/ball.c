@@ -9,40 +9,40 @@
 
 #include "vec.h"
 
-void ball_kinematics(const number *y, Work *w)
+void ball_kinematics(const scalar *y, Work *w)
 {
-    number *places[] = {w->x, w->r, w->theta}, *velocities[] = {w->v_x, w->v_r, w->omega_m}, *spins[] = {w->omega_x, w->omega_r, w->omega_t};
+    scalar *positions[] = {w->x, w->r, w->theta}, *velocities[] = {w->v_x, w->v_r, w->omega_m}, *spins[] = {w->omega_x, w->omega_r, w->omega_t};
     for (int i = 0; i < 3; i++) {
-        memcpy(places[i], &y[Y_BALL_X + i * Z], Z * sizeof *y);
+        memcpy(positions[i], &y[Y_BALL_X + i * Z], Z * sizeof *y);
         memcpy(velocities[i], &y[Y_BALL_V_X + i * Z], Z * sizeof *y);
         memcpy(spins[i], &y[Y_BALL_OMEGA_X + i * Z], Z * sizeof *y);
     }
-    for (int b = 0; b < BUNDLES; b++) {
+    for (int b = 0; b < PACKETS; b++) {
         const int j = b * LANE_WIDTH;
-        real cosine, sine;
-        real_sincos(real_load(&w->theta[j]), &sine, &cosine);
-        real_store(&w->cos_theta[j], cosine);
-        real_store(&w->sin_theta[j], sine);
-        real_store(&w->v_t[j], real_load(&w->r[j]) * real_load(&w->omega_m[j]));
+        wide cosine, sine;
+        wide_sincos(wide_load(&w->theta[j]), &sine, &cosine);
+        wide_store(&w->cos_theta[j], cosine);
+        wide_store(&w->sin_theta[j], sine);
+        wide_store(&w->v_t[j], wide_load(&w->r[j]) * wide_load(&w->omega_m[j]));
     }
 }
 
-void ball_acceleration(const Model *model, const Work *w, number *y_dot)
+void ball_acceleration(const Model *model, const Work *w, scalar *y_dot)
 {
-    const double per_mass = 1.0 / model->d->m, per_inertia = 1.0 / model->d->J;
-    const real g_y = real_set(model->p->gravity.y), g_z = real_set(model->p->gravity.z);
-    lanes rows[6];
-    for (int b = 0; b < BUNDLES; b++) {
+    const double inv_mass = 1.0 / model->d->m, inv_inertia = 1.0 / model->d->J;
+    const wide g_y = wide_set(model->p->gravity.y), g_z = wide_set(model->p->gravity.z);
+    ball_array rows[6];
+    for (int b = 0; b < PACKETS; b++) {
         const int j = b * LANE_WIDTH;
-        const real r = real_load(&w->r[j]), v_r = real_load(&w->v_r[j]), omega_m = real_load(&w->omega_m[j]);
-        const real cosine = real_load(&w->cos_theta[j]), sine = real_load(&w->sin_theta[j]);
-        const real omega_r = real_load(&w->omega_r[j]), omega_t = real_load(&w->omega_t[j]);
-        real_store(&rows[0][j], real_load(&w->F_x[j]) * per_mass);
-        real_store(&rows[1][j], real_load(&w->F_r[j]) * per_mass + g_y * cosine + g_z * sine + r * omega_m * omega_m);
-        real_store(&rows[2][j], (real_load(&w->F_t[j]) * per_mass + g_z * cosine - g_y * sine - 2.0 * v_r * omega_m) / r);
-        real_store(&rows[3][j], real_load(&w->M_x[j]) * per_inertia);
-        real_store(&rows[4][j], real_load(&w->M_r[j]) * per_inertia + omega_m * omega_t);
-        real_store(&rows[5][j], real_load(&w->M_t[j]) * per_inertia - omega_m * omega_r);
+        const wide r = wide_load(&w->r[j]), v_r = wide_load(&w->v_r[j]), omega_m = wide_load(&w->omega_m[j]);
+        const wide cosine = wide_load(&w->cos_theta[j]), sine = wide_load(&w->sin_theta[j]);
+        const wide omega_r = wide_load(&w->omega_r[j]), omega_t = wide_load(&w->omega_t[j]);
+        wide_store(&rows[0][j], wide_load(&w->F_x[j]) * inv_mass);
+        wide_store(&rows[1][j], wide_load(&w->F_r[j]) * inv_mass + g_y * cosine + g_z * sine + r * omega_m * omega_m);
+        wide_store(&rows[2][j], (wide_load(&w->F_t[j]) * inv_mass + g_z * cosine - g_y * sine - 2.0 * v_r * omega_m) / r);
+        wide_store(&rows[3][j], wide_load(&w->M_x[j]) * inv_inertia);
+        wide_store(&rows[4][j], wide_load(&w->M_r[j]) * inv_inertia + omega_m * omega_t);
+        wide_store(&rows[5][j], wide_load(&w->M_t[j]) * inv_inertia - omega_m * omega_r);
     }
     memcpy(&y_dot[Y_BALL_X], w->v_x, Z * sizeof *y_dot);
     memcpy(&y_dot[Y_BALL_R], w->v_r, Z * sizeof *y_dot);

@@ -4,5 +4,5 @@
 #include "isa.h"
 #include "model.h"
 
-void ball_kinematics(const number *y, Work *w);                            // copies of the state, azimuth's cosine and sine
-void ball_acceleration(const Model *model, const Work *w, number *y_dot);  // from the total forces and moments
+void ball_kinematics(const scalar *y, Work *w);                            // copies of the state, azimuth's cosine and sine
+void ball_acceleration(const Model *model, const Work *w, scalar *y_dot);  // from the total forces and moments

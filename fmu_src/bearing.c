@@ -1,19 +1,19 @@
 // One instance: life cycle, stepping, peaks and statistics over accepted steps, saved state.
 #include "aligned.h"
 #include "cpu_clock.h"
-#include "drive.h"
 #include "energy.h"
 #include "instance.h"
 #include "jacobian.h"
+#include "ring_load.h"
 #include "rivets.h"
 #include "start.h"
 
 // ---- accepted steps ---------------------------------------------------------------------------------------------------------------------------
-static void add_force(Saved *s, const Work *w, bool counts, double h)
+static void add_force(InstanceState *s, const Work *w, bool counts, double h)
 {
     for (int j = 0; j < Z; j++) {
         const double Q_c = w->pocket[0].Q[j] + w->pocket[1].Q[j];
-        s->force_peak = number_max(s->force_peak, Q_c);
+        s->force_peak = scalar_max(s->force_peak, Q_c);
         if (!counts) continue;
         statistics_add(&s->force, FORCE_FLOOR, h, Q_c);
         if (Q_c > 0.0) s->duty_time += h;
@@ -22,19 +22,19 @@ static void add_force(Saved *s, const Work *w, bool counts, double h)
 
 static void add_stress(Bearing *b, bool counts, double h)
 {
-    Saved *s = &b->s;
+    InstanceState *s = &b->s;
     FatigueLaw law;
     RivetLoads load;
-    double head[Z], mid[Z], head_most = 0.0, mid_most = 0.0;
+    double head[Z], mid[Z], head_max = 0.0, mid_max = 0.0;
     const bool fatigue = s->p.scene.stress == STRESS_FATIGUE && s->integrator.t >= s->p.start.settle;
     memcpy(&law, &s->p.fatigue, sizeof law);
     b->kernels.rivets_load(&b->model, &b->w, &load);
     b->kernels.rivet_primary(&rivet_table, &load, b->d.fit_eff, head, mid);
     for (int k = 0; k < Z; k++) {
-        s->head_peak[k] = number_max(s->head_peak[k], head[k]);
-        s->mid_peak[k] = number_max(s->mid_peak[k], mid[k]);
-        head_most = number_max(head_most, head[k]);
-        mid_most = number_max(mid_most, mid[k]);
+        s->head_peak[k] = scalar_max(s->head_peak[k], head[k]);
+        s->mid_peak[k] = scalar_max(s->mid_peak[k], mid[k]);
+        head_max = scalar_max(head_max, head[k]);
+        mid_max = scalar_max(mid_max, mid[k]);
         if (counts) {
             statistics_add(&s->head[k], STRESS_FLOOR, h, head[k]);
             statistics_add(&s->mid[k], STRESS_FLOOR, h, mid[k]);
@@ -45,19 +45,19 @@ static void add_stress(Bearing *b, bool counts, double h)
         }
     }
     if (counts) {
-        statistics_add(&s->head[WORST_RIVET], STRESS_FLOOR, h, head_most);
-        statistics_add(&s->mid[WORST_RIVET], STRESS_FLOOR, h, mid_most);
+        statistics_add(&s->head[WORST_RIVET], STRESS_FLOOR, h, head_max);
+        statistics_add(&s->mid[WORST_RIVET], STRESS_FLOOR, h, mid_max);
     }
 }
 
 static void add_cage(Bearing *b, double h)
 {
-    Saved *s = &b->s;
+    InstanceState *s = &b->s;
     const Rotor *h0 = &b->w.half[0], *h1 = &b->w.half[1];
     const double y = 0.5 * (h0->x[1] + h1->x[1]), z = 0.5 * (h0->x[2] + h1->x[2]);
     double slip[Z];
     rivets_slip(&b->model, &b->w, slip);
-    for (int k = 0; k < Z; k++) s->dislocation_most = number_max(s->dislocation_most, slip[k]);
+    for (int k = 0; k < Z; k++) s->dislocation_max = scalar_max(s->dislocation_max, slip[k]);
     s->omega_time += h * 0.5 * (h0->s + h1->s);
     s->eccentricity_time += h * sqrt(y * y + z * z) / b->d.C_land;
 }
@@ -66,7 +66,7 @@ static void add_cage(Bearing *b, double h)
 static void accepted_step(void *context, double h, const Work *w)
 {
     Bearing *b = context;
-    Saved *s = &b->s;
+    InstanceState *s = &b->s;
     const bool counts = s->p.scene.statistics == SWITCH_ON && s->integrator.t >= s->p.start.settle;
     add_force(s, w, counts, h);
     if (s->p.scene.stress >= STRESS_PEAK) add_stress(b, counts, h);
@@ -81,7 +81,7 @@ static void solver_message(void *context, const char *message)
 // Onsets at the state just reached, which w belongs to.
 static void report_events(Bearing *b)
 {
-    Saved *s = &b->s;
+    InstanceState *s = &b->s;
     Event now[EVENT_COUNT];
     events_now(&b->model, &b->w, s->head_peak, s->mid_peak, now);
     for (EventKind kind = 0; kind < EVENT_COUNT; kind++) {
@@ -101,7 +101,7 @@ Bearing *part_create(const PartHost *host)
     memset(b, 0, sizeof *b);
     b->host = *host;
     b->kernels = kernels_select();
-    b->model = (Model){.p = &b->s.p, .d = &b->d, .drive = &b->drive};
+    b->model = (Model){.p = &b->s.p, .d = &b->d, .ring_load = &b->ring_load};
     b->integrator = integrator_create(&b->kernels, &b->model, &b->w, &b->s.integrator, accepted_step, solver_message, b);
     if (b->integrator == NULL) {
         aligned_delete(b);
@@ -150,17 +150,17 @@ double part_time(const Bearing *b)
 }
 
 // The drive that the present state has seen last.
-static void hold_drive(Bearing *b)
+static void hold_ring_load(Bearing *b)
 {
-    b->model.course = NULL;
-    drive_update(&b->s.p, &b->s.seen, b->s.integrator.t, &b->drive);
+    b->model.trajectory = NULL;
+    ring_load_update(&b->s.p, &b->s.u_now, b->s.integrator.t, &b->ring_load);
 }
 
 // What follows from parameters and inputs; nothing of it is saved.
 static void derive(Bearing *b)
 {
     model_derive(&b->s.p, &b->d);
-    hold_drive(b);
+    hold_ring_load(b);
     work_init(&b->d, &b->w);
     integrator_tolerance(b->integrator, b->s.tolerance);
     b->current = 0;
@@ -178,17 +178,17 @@ static void evaluate(Bearing *b)
 
 PartStatus part_initialize(Bearing *b, double t_start, double tolerance)
 {
-    Saved *s = &b->s;
+    InstanceState *s = &b->s;
     if (!check_all(b)) return PART_ERROR;
     s->t_start = t_start;
     s->tolerance = tolerance > 0.0 ? tolerance : s->p.solver.tol;
-    s->seen = s->u[0];
-    s->seen_dot = s->u[1];
+    s->u_now = s->u[0];
+    s->u_now_dot = s->u[1];
     s->integrator.t = t_start;
     s->integrator.h = 1e-6;
     derive(b);
     const double residual = start_state(&b->kernels, &b->model, &b->w, s->integrator.now.y);
-    const double load = fabs(b->drive.F[0]) + fabs(b->drive.F[1]) + fabs(b->drive.F[2]);
+    const double load = fabs(b->ring_load.F[0]) + fabs(b->ring_load.F[1]) + fabs(b->ring_load.F[2]);
     PartStatus status = PART_OK;
     if (!(residual < 1e-6 * (load + 1.0))) {
         bearing_log(b, LOG_WARNING, "t = %g s: the start is not in equilibrium, residual %g N of a load of %g N", t_start, residual, load);
@@ -205,26 +205,26 @@ PartStatus part_initialize(Bearing *b, double t_start, double tolerance)
 
 // ---- stepping -----------------------------------------------------------------------------------------------------------------------------------
 // The inputs' course from here to the next edge of a pulse, in a step that began at t_0.  Where the drive jumps, the known derivative is obsolete.
-static void begin_course(Bearing *b, double t_0)
+static void begin_trajectory(Bearing *b, double t_0)
 {
-    Saved *s = &b->s;
-    const Drive before = b->drive;
-    course_update(&s->p, s->u, t_0, s->integrator.t, &b->course);
-    b->model.course = course_varies(&b->course) ? &b->course : NULL;
-    drive_at(&b->course, s->integrator.t, &b->drive);
-    if (memcmp(&b->drive, &before, sizeof before) == 0) return;
-    s->integrator.known = 0;
+    InstanceState *s = &b->s;
+    const RingLoad before = b->ring_load;
+    input_trajectory_update(&s->p, s->u, t_0, s->integrator.t, &b->trajectory);
+    b->model.trajectory = input_trajectory_varies(&b->trajectory) ? &b->trajectory : NULL;
+    ring_load_at(&b->trajectory, s->integrator.t, &b->ring_load);
+    if (memcmp(&b->ring_load, &before, sizeof before) == 0) return;
+    s->integrator.f_is_current = 0;
 }
 
-static void end_course(Bearing *b)
+static void end_trajectory(Bearing *b)
 {
-    course_inputs(&b->course, b->s.integrator.t, &b->s.seen, &b->s.seen_dot);
-    hold_drive(b);
+    input_trajectory_rates_at(&b->trajectory, b->s.integrator.t, &b->s.u_now, &b->s.u_now_dot);
+    hold_ring_load(b);
 }
 
 PartStatus part_step(Bearing *b, double t_end)
 {
-    Saved *s = &b->s;
+    InstanceState *s = &b->s;
     const double t_begin = s->integrator.t, steps_before = s->integrator.steps;
     if (!check_inputs(b, t_end - t_begin)) return PART_ERROR;
     const double before = cpu_clock();
@@ -234,15 +234,15 @@ PartStatus part_step(Bearing *b, double t_end)
     b->evaluated = false;
 
     int status = 0;
-    begin_course(b, t_begin);
+    begin_trajectory(b, t_begin);
     while (status == 0 && s->integrator.t < t_end) {
-        begin_course(b, t_begin);  // at the edges of pulses
-        const double edge = drive_next_edge(&s->p, s->integrator.t);
+        begin_trajectory(b, t_begin);  // at the edges of pulses
+        const double edge = pulse_next_edge(&s->p, s->integrator.t);
         const long left = s->p.solver.max_steps - (long)(s->integrator.steps - steps_before);
         status = integrator_advance(b->integrator, fmin(edge, t_end), left);
-        end_course(b);
+        end_trajectory(b);
     }
-    s->u[0] = s->seen;
+    s->u[0] = s->u_now;
     memset(&s->u[1], 0, INPUT_ORDERS * sizeof *s->u);
     b->cpu_time += cpu_clock() - before;
     if (status == 0) {
@@ -270,11 +270,11 @@ void part_update(Bearing *b, OutputGroup group)
 // ---- derivatives --------------------------------------------------------------------------------------------------------------------------------
 static void differentiate(Bearing *b, double dt, const Inputs *du, const double *dy, Outputs *derivatives)
 {
-    const Saved *s = &b->s;
-    const Inputs u[INPUT_ORDERS + 1] = {s->seen, s->seen_dot};
-    Course course;
-    course_update(&s->p, u, s->integrator.t, s->integrator.t, &course);
-    jacobian_outputs(&b->model, &course, s->integrator.t, dt, du, s->integrator.now.y, dy, derivatives);
+    const InstanceState *s = &b->s;
+    const Inputs u[INPUT_ORDERS + 1] = {s->u_now, s->u_now_dot};
+    InputTrajectory trajectory;
+    input_trajectory_update(&s->p, u, s->integrator.t, s->integrator.t, &trajectory);
+    jacobian_outputs(&b->model, &trajectory, s->integrator.t, dt, du, s->integrator.now.y, dy, derivatives);
 }
 
 void part_time_derivatives(Bearing *b, Outputs *derivatives)
@@ -291,7 +291,7 @@ void part_directional_derivatives(Bearing *b, const Inputs *inputs, const double
 // ---- saved state --------------------------------------------------------------------------------------------------------------------------------
 size_t part_saved_size(void)
 {
-    return sizeof(Saved);
+    return sizeof(InstanceState);
 }
 
 void part_save(const Bearing *b, void *saved)

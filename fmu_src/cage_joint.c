@@ -18,8 +18,8 @@
 void cage_joint_kinematics(const Model *model, Work *w)
 {
     const Rotor *h0 = &w->half[0], *h1 = &w->half[1];
-    const number *axes_0[3] = {h0->a, h0->b_y, h0->b_z}, *axes_1[2] = {h1->b_y, h1->b_z};
-    number g[3], v[3], omega[3], drift[3];
+    const scalar *axes_0[3] = {h0->a, h0->b_y, h0->b_z}, *axes_1[2] = {h1->b_y, h1->b_z};
+    scalar g[3], v[3], omega[3], drift[3];
     for (int i = 0; i < 3; i++) {
         g[i] = h1->x[i] - h0->x[i];
         v[i] = h1->v[i] - h0->v[i];
@@ -27,31 +27,31 @@ void cage_joint_kinematics(const Model *model, Work *w)
     }
     cross3(h0->Omega, g, drift);
     for (int i = 0; i < 3; i++) v[i] -= drift[i];
-    number spin[2][3];
+    scalar spin[2][3];
     for (int c = 0; c < 2; c++) cross3(omega, axes_1[c], spin[c]);
 
     // u = offset + (A - 1) s with A = axes of half 1 in half 0, s = (0, rivet_y, rivet_z); v likewise with the rates
-    number *u_out[3] = {w->u_x, w->u_y, w->u_z}, *v_out[3] = {w->v_jx, w->v_jy, w->v_jz};
+    scalar *u_out[3] = {w->u_x, w->u_y, w->u_z}, *v_out[3] = {w->v_jx, w->v_jy, w->v_jz};
     for (int i = 0; i < 3; i++) {
-        const number u_0 = dot3(axes_0[i], g), v_0 = dot3(axes_0[i], v);
-        const number A_y = dot3(axes_0[i], axes_1[0]) - (i == 1), A_z = dot3(axes_0[i], axes_1[1]) - (i == 2);
-        const number B_y = dot3(axes_0[i], spin[0]), B_z = dot3(axes_0[i], spin[1]);
-        for (int b = 0; b < BUNDLES; b++) {
+        const scalar u_0 = dot3(axes_0[i], g), v_0 = dot3(axes_0[i], v);
+        const scalar A_y = dot3(axes_0[i], axes_1[0]) - (i == 1), A_z = dot3(axes_0[i], axes_1[1]) - (i == 2);
+        const scalar B_y = dot3(axes_0[i], spin[0]), B_z = dot3(axes_0[i], spin[1]);
+        for (int b = 0; b < PACKETS; b++) {
             const int k = b * LANE_WIDTH;
-            const real s_y = real_load(&model->d->rivet_y[k]), s_z = real_load(&model->d->rivet_z[k]);
-            real_store(&u_out[i][k], u_0 + A_y * s_y + A_z * s_z);
-            real_store(&v_out[i][k], v_0 + B_y * s_y + B_z * s_z);
+            const wide s_y = wide_load(&model->d->rivet_y[k]), s_z = wide_load(&model->d->rivet_z[k]);
+            wide_store(&u_out[i][k], u_0 + A_y * s_y + A_z * s_z);
+            wide_store(&v_out[i][k], v_0 + B_y * s_y + B_z * s_z);
         }
     }
 }
 
 // Dahl's friction: force -k z, rate of z, stiff rate of z; returns the dissipated power.
-INLINE real cage_joint_friction(real k, real capacity, real z_y, real z_z, real v_y, real v_z, real speed, number *dot_y, number *dot_z, number *D)
+INLINE wide cage_joint_friction(wide k, wide capacity, wide z_y, wide z_z, wide v_y, wide v_z, wide speed, scalar *dot_y, scalar *dot_z, scalar *D)
 {
-    const real rate = speed * k / capacity;
-    real_store(dot_y, v_y - rate * z_y);
-    real_store(dot_z, v_z - rate * z_z);
-    real_store(D, rate);
+    const wide rate = speed * k / capacity;
+    wide_store(dot_y, v_y - rate * z_y);
+    wide_store(dot_z, v_z - rate * z_z);
+    wide_store(D, rate);
     return k * rate * (z_y * z_y + z_z * z_z);
 }
 
@@ -59,16 +59,16 @@ INLINE real cage_joint_friction(real k, real capacity, real z_y, real z_z, real 
 // z += h z'/(1 + h D/2), D = speed k/capacity: the implicit midpoint rule.
 static void advance(const Work *w, double h, double k, const double *capacity, int row_y, int row_z, double *y)
 {
-    lanes z_y = {0}, z_z = {0};
+    ball_array z_y = {0}, z_z = {0};
     memcpy(z_y, &y[row_y], Z * sizeof *y);
     memcpy(z_z, &y[row_z], Z * sizeof *y);
-    for (int b = 0; b < BUNDLES; b++) {
+    for (int b = 0; b < PACKETS; b++) {
         const int i = b * LANE_WIDTH;
-        const real v_y = real_load(&w->v_jy[i]), v_z = real_load(&w->v_jz[i]);
-        const real rate = real_sqrt(v_y * v_y + v_z * v_z) * k / real_load(&capacity[i]), per = h / (1.0 + (0.5 * h) * rate);
-        const real a = real_load(&z_y[i]), c = real_load(&z_z[i]);
-        real_store(&z_y[i], a + (v_y - rate * a) * per);
-        real_store(&z_z[i], c + (v_z - rate * c) * per);
+        const wide v_y = wide_load(&w->v_jy[i]), v_z = wide_load(&w->v_jz[i]);
+        const wide rate = wide_sqrt(v_y * v_y + v_z * v_z) * k / wide_load(&capacity[i]), inv = h / (1.0 + (0.5 * h) * rate);
+        const wide a = wide_load(&z_y[i]), c = wide_load(&z_z[i]);
+        wide_store(&z_y[i], a + (v_y - rate * a) * inv);
+        wide_store(&z_z[i], c + (v_z - rate * c) * inv);
     }
     memcpy(&y[row_y], z_y, Z * sizeof *y);
     memcpy(&y[row_z], z_z, Z * sizeof *y);
@@ -78,73 +78,73 @@ void cage_joint_advance(const Model *model, const Work *w, double h, double *y)
 {
     const Derived *d = model->d;
     const double mu = model->p->joint.mu, floor = model->p->joint.F_floor;
-    const real zero = real_set(0.0);
-    lanes plates, heads;
-    for (int b = 0; b < BUNDLES; b++) {
+    const wide zero = wide_set(0.0);
+    ball_array plates, heads;
+    for (int b = 0; b < PACKETS; b++) {
         const int k = b * LANE_WIDTH;
-        const real u_x = real_load(&w->u_x[k]);
-        real_store(&plates[k], mu * real_max(d->P - d->k_plate * u_x, zero) + floor);
-        real_store(&heads[k], mu * real_max(d->P + d->k_rivet * u_x, zero) + floor);
+        const wide u_x = wide_load(&w->u_x[k]);
+        wide_store(&plates[k], mu * wide_max(d->P - d->k_plate * u_x, zero) + floor);
+        wide_store(&heads[k], mu * wide_max(d->P + d->k_rivet * u_x, zero) + floor);
     }
     advance(w, h, d->k_plate_t, plates, Y_JOINT_PLATE_Y, Y_JOINT_PLATE_Z, y);
     advance(w, h, d->k_head, heads, Y_JOINT_HEAD_Y, Y_JOINT_HEAD_Z, y);
 }
 #endif
 
-void cage_joint_force(const Model *model, const number *y, Work *w)
+void cage_joint_force(const Model *model, const scalar *y, Work *w)
 {
     const Parameters *p = model->p;
     const Derived *d = model->d;
-    lanes z_y, z_z, h_y, h_z;  // friction states with ghosts
-    lanes F_x, F_y, F_z, M_x, M_y, M_z;
+    ball_array z_y, z_z, h_y, h_z;  // friction states with padding lanes
+    ball_array F_x, F_y, F_z, M_x, M_y, M_z;
     for (int k = 0; k < LANES; k++) z_y[k] = z_z[k] = h_y[k] = h_z[k] = 0.0;
     memcpy(z_y, &y[Y_JOINT_PLATE_Y], Z * sizeof *y);
     memcpy(z_z, &y[Y_JOINT_PLATE_Z], Z * sizeof *y);
     memcpy(h_y, &y[Y_JOINT_HEAD_Y], Z * sizeof *y);
     memcpy(h_z, &y[Y_JOINT_HEAD_Z], Z * sizeof *y);
 
-    const real zero = real_set(0.0), P = real_set(d->P), floor = real_set(p->joint.F_floor), mu = real_set(p->joint.mu);
-    const real k_t = real_set(d->k_plate_t), k_h = real_set(d->k_head);
-    for (int b = 0; b < BUNDLES; b++) {
+    const wide zero = wide_set(0.0), P = wide_set(d->P), floor = wide_set(p->joint.F_floor), mu = wide_set(p->joint.mu);
+    const wide k_t = wide_set(d->k_plate_t), k_h = wide_set(d->k_head);
+    for (int b = 0; b < PACKETS; b++) {
         const int k = b * LANE_WIDTH;
-        const real u_x = real_load(&w->u_x[k]), u_y = real_load(&w->u_y[k]), u_z = real_load(&w->u_z[k]);
-        const real v_x = real_load(&w->v_jx[k]), v_y = real_load(&w->v_jy[k]), v_z = real_load(&w->v_jz[k]);
+        const wide u_x = wide_load(&w->u_x[k]), u_y = wide_load(&w->u_y[k]), u_z = wide_load(&w->u_z[k]);
+        const wide v_x = wide_load(&w->v_jx[k]), v_y = wide_load(&w->v_jy[k]), v_z = wide_load(&w->v_jz[k]);
 
-        const real T = real_max(P + d->k_rivet * u_x, zero), N_plate = real_max(P - d->k_plate * u_x, zero);
-        const real damping = d->c_joint * N_plate / (N_plate + floor);
-        const real speed = real_sqrt(v_y * v_y + v_z * v_z);
-        const real zp_y = real_load(&z_y[k]), zp_z = real_load(&z_z[k]), zh_y = real_load(&h_y[k]), zh_z = real_load(&h_z[k]);
-        real lost = cage_joint_friction(k_t, mu * N_plate + floor, zp_y, zp_z, v_y, v_z, speed, &w->plate_y_dot[k], &w->plate_z_dot[k], &w->D_plate[k]);
+        const wide T = wide_max(P + d->k_rivet * u_x, zero), N_plate = wide_max(P - d->k_plate * u_x, zero);
+        const wide damping = d->c_joint * N_plate / (N_plate + floor);
+        const wide speed = wide_sqrt(v_y * v_y + v_z * v_z);
+        const wide zp_y = wide_load(&z_y[k]), zp_z = wide_load(&z_z[k]), zh_y = wide_load(&h_y[k]), zh_z = wide_load(&h_z[k]);
+        wide lost = cage_joint_friction(k_t, mu * N_plate + floor, zp_y, zp_z, v_y, v_z, speed, &w->plate_y_dot[k], &w->plate_z_dot[k], &w->D_plate[k]);
         lost += cage_joint_friction(k_h, mu * T + floor, zh_y, zh_z, v_y, v_z, speed, &w->head_y_dot[k], &w->head_z_dot[k], &w->D_head[k]);
 
-        const real slip = real_sqrt(u_y * u_y + u_z * u_z + 1e-30);
-        const real bearing = d->k_hole * real_max(slip - d->hole_gap, zero) / slip;
+        const wide slip = wide_sqrt(u_y * u_y + u_z * u_z + 1e-30);
+        const wide bearing = d->k_hole * wide_max(slip - d->hole_gap, zero) / slip;
 
-        real_store(&w->T[k], T);
-        real_store(&w->N_plate[k], N_plate);
-        real_store(&w->S_y[k], -k_t * zp_y);
-        real_store(&w->S_z[k], -k_t * zp_z);
-        real_store(&w->H_y[k], -k_h * zh_y);
-        real_store(&w->H_z[k], -k_h * zh_z);
-        real_store(&w->B_y[k], -bearing * u_y);
-        real_store(&w->B_z[k], -bearing * u_z);
-        real_store(&w->joint_dissipated[k], lost + damping * v_x * v_x);
+        wide_store(&w->T[k], T);
+        wide_store(&w->N_plate[k], N_plate);
+        wide_store(&w->S_y[k], -k_t * zp_y);
+        wide_store(&w->S_z[k], -k_t * zp_z);
+        wide_store(&w->H_y[k], -k_h * zh_y);
+        wide_store(&w->H_z[k], -k_h * zh_z);
+        wide_store(&w->B_y[k], -bearing * u_y);
+        wide_store(&w->B_z[k], -bearing * u_z);
+        wide_store(&w->joint_dissipated[k], lost + damping * v_x * v_x);
 
         // on half 1 at its hole: s + u from the centre of half 0, in the frame of half 0
-        const real f_x = N_plate - T - damping * v_x, f_y = -k_t * zp_y - k_h * zh_y - bearing * u_y, f_z = -k_t * zp_z - k_h * zh_z - bearing * u_z;
-        const real r_y = real_load(&d->rivet_y[k]) + u_y, r_z = real_load(&d->rivet_z[k]) + u_z;
-        real_store(&F_x[k], f_x);
-        real_store(&F_y[k], f_y);
-        real_store(&F_z[k], f_z);
-        real_store(&M_x[k], r_y * f_z - r_z * f_y);
-        real_store(&M_y[k], r_z * f_x - u_x * f_z);
-        real_store(&M_z[k], u_x * f_y - r_y * f_x);
+        const wide f_x = N_plate - T - damping * v_x, f_y = -k_t * zp_y - k_h * zh_y - bearing * u_y, f_z = -k_t * zp_z - k_h * zh_z - bearing * u_z;
+        const wide r_y = wide_load(&d->rivet_y[k]) + u_y, r_z = wide_load(&d->rivet_z[k]) + u_z;
+        wide_store(&F_x[k], f_x);
+        wide_store(&F_y[k], f_y);
+        wide_store(&F_z[k], f_z);
+        wide_store(&M_x[k], r_y * f_z - r_z * f_y);
+        wide_store(&M_y[k], r_z * f_x - u_x * f_z);
+        wide_store(&M_z[k], u_x * f_y - r_y * f_x);
     }
 
     // wrench in the global frame: -F, -M on half 0; on half 1 the same about its own centre
     Rotor *h0 = &w->half[0], *h1 = &w->half[1];
-    const number F[3] = {lanes_sum(F_x), lanes_sum(F_y), lanes_sum(F_z)}, M[3] = {lanes_sum(M_x), lanes_sum(M_y), lanes_sum(M_z)};
-    number force[3], moment[3], shift[3], arm[3];
+    const scalar F[3] = {ball_array_sum(F_x), ball_array_sum(F_y), ball_array_sum(F_z)}, M[3] = {ball_array_sum(M_x), ball_array_sum(M_y), ball_array_sum(M_z)};
+    scalar force[3], moment[3], shift[3], arm[3];
     for (int i = 0; i < 3; i++) {
         force[i] = h0->a[i] * F[0] + h0->b_y[i] * F[1] + h0->b_z[i] * F[2];
         moment[i] = h0->a[i] * M[0] + h0->b_y[i] * M[1] + h0->b_z[i] * M[2];

@@ -8,7 +8,7 @@
 void cage_joint_kinematics(const Model *model, Work *w);
 
 // Forces of all joints: sets T, N_plate, S, H, B and the rates of the friction states, adds the wrench to both halves.
-void cage_joint_force(const Model *model, const number *y, Work *w);
+void cage_joint_force(const Model *model, const scalar *y, Work *w);
 
 // The friction states in y over a step h in whose middle w's kinematics are.
 void cage_joint_advance(const Model *model, const Work *w, double h, double *y);

@@ -1,6 +1,6 @@
 // What is refused before a run: values outside their limits, parameters that make no bearing, a rivet table for another one.
-#include "drive.h"
 #include "instance.h"
+#include "ring_load.h"
 
 #include <stdarg.h>
 #include <stdio.h>
@@ -37,10 +37,10 @@ static bool check_variables(Bearing *b, Causality causality, const void *values)
 bool check_inputs(Bearing *b, double h)
 {
     const double *u_1 = (const double *)&b->s.u[1], *u_2 = (const double *)&b->s.u[2];
-    Course course = {.t_0 = 0.0, .u = {b->s.u[0], b->s.u[1], b->s.u[2]}};
+    InputTrajectory trajectory = {.t_0 = 0.0, .u = {b->s.u[0], b->s.u[1], b->s.u[2]}};
     Inputs u = b->s.u[0], turning = u;
-    if (!course_varies(&course)) return check_variables(b, CAUSALITY_INPUT, &u);
-    drive_inputs(&course, h, &u);
+    if (!input_trajectory_varies(&trajectory)) return check_variables(b, CAUSALITY_INPUT, &u);
+    input_trajectory_at(&trajectory, h, &u);
     for (int i = 0; i < N_INPUTS; i++) {
         const double tau = -u_1[i] / u_2[i];
         if (tau > 0.0 && tau < h) ((double *)&turning)[i] += 0.5 * tau * u_1[i];

@@ -38,7 +38,7 @@ static void derive_race(const Parameters *p, double f, double side, Race *race)
 static void derive_balls(const Parameters *p, Derived *d)
 {
     const double D = p->bearing.D, area = 0.25 * PI * D * D;
-    for (int j = 0; j < LANES; j++) d->R[j] = j < Z ? 0.5 * (D + p->ball.dD[j]) : 0.0;  // ghosts touch nothing
+    for (int j = 0; j < LANES; j++) d->R[j] = j < Z ? 0.5 * (D + p->ball.dD[j]) : 0.0;  // padding lanes touch nothing
     d->m = p->bearing.rho * PI / 6.0 * D * D * D;
     d->J = 0.1 * d->m * D * D;
     d->drag = 0.5 * p->oil.C_d * p->oil.rho_mix * area;
@@ -144,4 +144,10 @@ void model_derive(const Parameters *p, Derived *d)
     derive_joint(p, d);
     derive_scales(p, d);
     derive_inertia(p, d);
+}
+
+void work_init(const Derived *d, Work *w)
+{
+    memset(w, 0, sizeof *w);
+    for (int j = 0; j < LANES; j++) w->r[j] = 0.5 * (d->inner.R_g + d->outer.R_g);
 }

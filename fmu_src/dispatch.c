@@ -1,5 +1,5 @@
 // Choice of the kernels for this processor, at run time.  The build names the sets that it compiled: KERNELS_X86, KERNELS_NEON; without, the one of lanes.h.
-#include "rhs.h"
+#include "kernels.h"
 
 #undef rhs
 #undef vector_ops
@@ -8,13 +8,13 @@
 #undef race_contact_force
 #undef rivets_load
 #undef rivet_primary
-#define DECLARE_2(isa)                      \
-    Rhs rhs_##isa;                          \
-    ContactKernel race_contact_force_##isa; \
-    VerletStep verlet_step_##isa;           \
-    ImplicitSolve implicit_solve_##isa;     \
-    RivetsLoad rivets_load_##isa;           \
-    RivetPrimary rivet_primary_##isa;       \
+#define DECLARE_2(isa)                         \
+    Rhs rhs_##isa;                             \
+    RaceContactForce race_contact_force_##isa; \
+    VerletStep verlet_step_##isa;              \
+    ImplicitSolve implicit_solve_##isa;        \
+    RivetsLoad rivets_load_##isa;              \
+    RivetPrimary rivet_primary_##isa;          \
     extern const VectorOps vector_ops_##isa
 #define KERNELS_2(isa) \
     ((Kernels){#isa, rhs_##isa, race_contact_force_##isa, &vector_ops_##isa, verlet_step_##isa, implicit_solve_##isa, rivets_load_##isa, rivet_primary_##isa})
@@ -66,9 +66,3 @@ Kernels kernels_select(void)
     return KERNELS(ISA);
 }
 #endif
-
-void work_init(const Derived *d, Work *w)
-{
-    memset(w, 0, sizeof *w);
-    for (int j = 0; j < LANES; j++) w->r[j] = 0.5 * (d->inner.R_g + d->outer.R_g);
-}

@@ -10,12 +10,12 @@
 
 void drag_force(const Model *model, Work *w)
 {
-    const real k = real_set(model->d->drag);
-    for (int b = 0; b < BUNDLES; b++) {
+    const wide k = wide_set(model->d->drag);
+    for (int b = 0; b < PACKETS; b++) {
         const int j = b * LANE_WIDTH;
-        const real v_t = real_load(&w->v_t[j]), F = -k * v_t * real_abs(v_t);
-        real_store(&w->F_t[j], real_load(&w->F_t[j]) + F);
-        real_store(&w->dissipated[j], real_load(&w->dissipated[j]) - F * v_t);
+        const wide v_t = wide_load(&w->v_t[j]), F = -k * v_t * wide_abs(v_t);
+        wide_store(&w->F_t[j], wide_load(&w->F_t[j]) + F);
+        wide_store(&w->dissipated[j], wide_load(&w->dissipated[j]) - F * v_t);
     }
 }
 
@@ -24,15 +24,15 @@ void drag_cage(const Model *model, Work *w)
     const Derived *d = model->d;
     for (int first = 0; first < 2; first += HALVES) {
         Rotor *half = &w->half[first];
-        const real omega = real_pair(half[0].Omega[0], half[HALVES - 1].Omega[0]);
-        const real speed = real_abs(omega) + 1e-30;
-        real disk = d->disk_laminar * real_sqrt(speed), cylinder = real_set(d->cylinder_laminar);
-        if (real_any(real_above(speed, d->disk_laminar_omega))) disk = real_max(disk, d->disk_turbulent * real_exp(0.8 * real_log(speed)));
-        if (real_any(real_above(speed, d->cylinder_laminar_omega))) cylinder = real_max(cylinder, d->cylinder_vortex * real_exp(0.539 * real_log(speed)));
+        const wide omega = wide_pair(half[0].Omega[0], half[HALVES - 1].Omega[0]);
+        const wide speed = wide_abs(omega) + 1e-30;
+        wide disk = d->disk_laminar * wide_sqrt(speed), cylinder = wide_set(d->cylinder_laminar);
+        if (wide_any(wide_above(speed, d->disk_laminar_omega))) disk = wide_max(disk, d->disk_turbulent * wide_exp(0.8 * wide_log(speed)));
+        if (wide_any(wide_above(speed, d->cylinder_laminar_omega))) cylinder = wide_max(cylinder, d->cylinder_vortex * wide_exp(0.539 * wide_log(speed)));
         for (int h = 0; h < HALVES; h++) {
-            const number M = -(real_lane(disk, h) + real_lane(cylinder, h)) * real_lane(omega, h);
+            const scalar M = -(wide_lane(disk, h) + wide_lane(cylinder, h)) * wide_lane(omega, h);
             half[h].M[0] += M;
-            w->land_dissipated -= M * real_lane(omega, h);
+            w->land_dissipated -= M * wide_lane(omega, h);
         }
     }
 }

@@ -1,4 +1,4 @@
-// Dual numbers in place of bundles: value + derivative along one direction, one ball at a time.
+// Dual numbers in place of packets: value + derivative along one direction, one ball at a time.
 //
 // C has operators for complex numbers only, and with a derivative scaled by SEED they are the arithmetic of dual numbers:
 //   (a + i b)(c + i d) = (a c - b d) + i (a d + b c),  b d ~ 1e-200 a c: gone to the last bit, likewise in quotients
@@ -13,7 +13,7 @@
 #define SEED 1e-100
 enum { HALVES = 1 };  // cage halves side by side
 
-typedef number real;
+typedef scalar wide;
 typedef bool bits;
 
 // What is compiled for values and, here, for derivatives, beside the kernel files (isa.h).
@@ -26,130 +26,130 @@ typedef bool bits;
 #define joint_hole_stiffness FOR_ISA(joint_hole_stiffness)
 #define outputs_evaluate FOR_ISA(outputs_evaluate)
 
-INLINE double number_value(number x)
+INLINE double scalar_value(scalar x)
 {
     return creal(x);
 }
-INLINE number number_dual(double value, double derivative)
+INLINE scalar scalar_dual(double value, double derivative)
 {
     return __builtin_complex(value, SEED * derivative);
 }
-INLINE double number_derivative(number x)
+INLINE double scalar_derivative(scalar x)
 {
     return cimag(x) / SEED;
 }
 // f(x) from f and f' at the value of x.
-INLINE number number_chain(number x, double f, double df_dx)
+INLINE scalar scalar_chain(scalar x, double f, double df_dx)
 {
     return __builtin_complex(f, df_dx * cimag(x));
 }
 
-INLINE real real_set(number value)
+INLINE wide wide_set(scalar value)
 {
     return value;
 }
-INLINE real real_pair(number first, number last)
+INLINE wide wide_pair(scalar first, scalar last)
 {
     (void)last;  // the same half
     return first;
 }
-#define real_lane(x, i) ((void)(i), (x))
-#define real_load(from) ((real) * (from))  // of numbers and of constants
-INLINE void real_store(number *to, real value)
+#define wide_lane(x, i) ((void)(i), (x))
+#define wide_load(from) ((wide) * (from))  // of numbers and of constants
+INLINE void wide_store(scalar *to, wide value)
 {
     *to = value;
 }
-INLINE bits real_above(real x, double limit)
+INLINE bits wide_above(wide x, double limit)
 {
     return creal(x) > limit;
 }
-INLINE bool real_any(bits condition)
+INLINE bool wide_any(bits condition)
 {
     return condition;
 }
-INLINE real real_select(bits condition, real yes, real no)
+INLINE wide wide_select(bits condition, wide yes, wide no)
 {
     return condition ? yes : no;
 }
-INLINE real real_fma(real x, real y, real z)
+INLINE wide wide_fma(wide x, wide y, wide z)
 {
     return x * y + z;
 }
-INLINE real real_max(real x, real y)
+INLINE wide wide_max(wide x, wide y)
 {
     return creal(x) > creal(y) ? x : y;
 }
-INLINE real real_min(real x, real y)
+INLINE wide wide_min(wide x, wide y)
 {
     return creal(x) < creal(y) ? x : y;
 }
-INLINE real real_abs(real x)
+INLINE wide wide_abs(wide x)
 {
     return signbit(creal(x)) ? -x : x;
 }
 // 0 has derivative 0: where kernels take the root of 0, a factor of 0 stands before it or the direction is without a slope.
-INLINE real real_sqrt(real x)
+INLINE wide wide_sqrt(wide x)
 {
     const double root = sqrt(creal(x));
-    return number_chain(x, root, root > 0.0 ? 0.5 / root : 0.0);
+    return scalar_chain(x, root, root > 0.0 ? 0.5 / root : 0.0);
 }
-INLINE number number_sqrt(number x)
+INLINE scalar scalar_sqrt(scalar x)
 {
-    return real_sqrt(x);
+    return wide_sqrt(x);
 }
-INLINE number number_cbrt(number x)
+INLINE scalar scalar_cbrt(scalar x)
 {
     const double root = cbrt(creal(x));
-    return number_chain(x, root, root != 0.0 ? 1.0 / (3.0 * root * root) : 0.0);
+    return scalar_chain(x, root, root != 0.0 ? 1.0 / (3.0 * root * root) : 0.0);
 }
-INLINE number number_asin(number x)
+INLINE scalar scalar_asin(scalar x)
 {
-    return number_chain(x, asin(creal(x)), 1.0 / sqrt(1.0 - creal(x) * creal(x)));
+    return scalar_chain(x, asin(creal(x)), 1.0 / sqrt(1.0 - creal(x) * creal(x)));
 }
-INLINE number number_atan2(number y, number x)
+INLINE scalar scalar_atan2(scalar y, scalar x)
 {
     const double a = creal(x), b = creal(y), square = a * a + b * b;
     return __builtin_complex(atan2(b, a), (a * cimag(y) - b * cimag(x)) / square);
 }
-INLINE number number_max(number x, number y)
+INLINE scalar scalar_max(scalar x, scalar y)
 {
     return creal(x) > creal(y) ? x : y;
 }
-INLINE number number_min(number x, number y)
+INLINE scalar scalar_min(scalar x, scalar y)
 {
     return creal(x) < creal(y) ? x : y;
 }
-INLINE real real_exp(real x)
+INLINE wide wide_exp(wide x)
 {
     const double value = creal(x), power = value < -700.0 ? 0.0 : exp(fmin(value, 700.0));
-    return number_chain(x, power, value > 700.0 ? 0.0 : power);
+    return scalar_chain(x, power, value > 700.0 ? 0.0 : power);
 }
-INLINE real real_log(real x)
+INLINE wide wide_log(wide x)
 {
-    return number_chain(x, log(creal(x)), 1.0 / creal(x));
+    return scalar_chain(x, log(creal(x)), 1.0 / creal(x));
 }
-INLINE number number_exp(number x)
+INLINE scalar scalar_exp(scalar x)
 {
-    return real_exp(x);
+    return wide_exp(x);
 }
-INLINE number number_log(number x)
+INLINE scalar scalar_log(scalar x)
 {
-    return real_log(x);
+    return wide_log(x);
 }
-INLINE void real_log2(real x, real y, real *ln_x, real *ln_y)
+INLINE void wide_log2(wide x, wide y, wide *ln_x, wide *ln_y)
 {
-    *ln_x = real_log(x);
-    *ln_y = real_log(y);
+    *ln_x = wide_log(x);
+    *ln_y = wide_log(y);
 }
-INLINE void real_sincos(real x, real *sine, real *cosine)
+INLINE void wide_sincos(wide x, wide *sine, wide *cosine)
 {
     const double s = sin(creal(x)), c = cos(creal(x));
-    *sine = number_chain(x, s, c);
-    *cosine = number_chain(x, c, -s);
+    *sine = scalar_chain(x, s, c);
+    *cosine = scalar_chain(x, c, -s);
 }
-INLINE real real_atan(real x)
+INLINE wide wide_atan(wide x)
 {
-    return number_chain(x, atan(creal(x)), 1.0 / (1.0 + creal(x) * creal(x)));
+    return scalar_chain(x, atan(creal(x)), 1.0 / (1.0 + creal(x) * creal(x)));
 }
 
 #endif

@@ -1,4 +1,4 @@
-// Elementary functions of single numbers: those of the bundles (lanes.h), so that every platform's C library gives the same model, bit for bit.
+// Elementary functions of single numbers: those of the packets (lanes.h), so that every platform's C library gives the same model, bit for bit.
 #pragma once
 
 #include "lanes.h"
@@ -7,27 +7,27 @@
 
 static inline double portable_exp(double x)
 {
-    return real_exp(real_set(x))[0];
+    return wide_exp(wide_set(x))[0];
 }
 static inline double portable_log(double x)
 {
-    return real_log(real_set(x))[0];
+    return wide_log(wide_set(x))[0];
 }
 static inline double portable_sin(double x)
 {
-    real sine, cosine;
-    real_sincos(real_set(x), &sine, &cosine);
+    wide sine, cosine;
+    wide_sincos(wide_set(x), &sine, &cosine);
     return sine[0];
 }
 static inline double portable_cos(double x)
 {
-    real sine, cosine;
-    real_sincos(real_set(x), &sine, &cosine);
+    wide sine, cosine;
+    wide_sincos(wide_set(x), &sine, &cosine);
     return cosine[0];
 }
 static inline double portable_atan(double x)
 {
-    return real_atan(real_set(x))[0];
+    return wide_atan(wide_set(x))[0];
 }
 // |x| < 1
 static inline double portable_asin(double x)
@@ -46,7 +46,7 @@ static inline double portable_cbrt(double x)
     return y > 0.0 ? y - (y * y * y - x) / (3.0 * y * y) : 0.0;
 }
 // x^(-1/3) of a normal x > 0, relative error < 2e-5: minus a third of the exponent (and of what follows it), then two steps of Newton's method.
-static inline double rough_rcbrt(double x)
+static inline double approx_inv_cbrt(double x)
 {
     int64_t bits_of;
     double y;
@@ -58,23 +58,23 @@ static inline double rough_rcbrt(double x)
 }
 
 // The same as numbers, which dual.h gives derivatives.
-static inline number number_exp(number x)
+static inline scalar scalar_exp(scalar x)
 {
     return portable_exp(x);
 }
-static inline number number_log(number x)
+static inline scalar scalar_log(scalar x)
 {
     return portable_log(x);
 }
-static inline number number_asin(number x)
+static inline scalar scalar_asin(scalar x)
 {
     return portable_asin(x);
 }
-static inline number number_cbrt(number x)
+static inline scalar scalar_cbrt(scalar x)
 {
     return portable_cbrt(x);
 }
-static inline number number_atan2(number y, number x)
+static inline scalar scalar_atan2(scalar y, scalar x)
 {
     return atan2(y, x);
 }

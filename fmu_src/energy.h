@@ -4,4 +4,4 @@
 #include "model.h"
 
 // From the state y and the results of the right-hand side there [J].
-number energy_total(const Model *model, const number *y, const Work *w);
+scalar energy_total(const Model *model, const scalar *y, const Work *w);

@@ -27,15 +27,15 @@ static void pockets(const Model *model, const Work *w, Event *event)
 {
     const double middle = 0.25 * (model->p->cage.D_o + model->p->cage.D_i), reach = 0.25 * (model->p->cage.D_o - model->p->cage.D_i);
     for (int j = 0; j < Z; j++) {
-        double most = 0.0;
+        double max = 0.0;
         for (int h = 0; h < 2; h++) {
             const Rotor *half = &w->half[h];
             const double p[3] = {w->x[j] - half->x[0], w->r[j] * w->cos_theta[j] - half->x[1], w->r[j] * w->sin_theta[j] - half->x[2]};
             double radial = 0.0;
             for (int i = 0; i < 3; i++) radial += p[i] * (half->b_y[i] * model->d->pocket_cos[j] + half->b_z[i] * model->d->pocket_sin[j]);
-            most = number_max(most, fabs(radial - middle));
+            max = scalar_max(max, fabs(radial - middle));
         }
-        add(event, j, most, reach);
+        add(event, j, max, reach);
     }
 }
 
@@ -49,7 +49,7 @@ static double contact_along(const Work *w, bool outer, int j)
 
 static double reach(const Race *race, double along, double cbrt_Q)
 {
-    return asin(number_min(along, 1.0)) + race->hertz.a * cbrt_Q / race->R_m;
+    return asin(scalar_min(along, 1.0)) + race->hertz.a * cbrt_Q / race->R_m;
 }
 
 static double pressure(const Race *race, double cbrt_Q)
@@ -71,14 +71,14 @@ static void races(const Model *model, const Work *w, Event *cut, Event *overpres
         const Race *race = outer ? &model->d->outer : &model->d->inner;
         const double *Q = outer ? w->Q_e : w->Q_i, height = outer ? model->p->bearing.h_e : model->p->bearing.h_i;
         const double edge = acos(1.0 - height * D / race->r_g);
-        double along[Z], along_most = 0.0, Q_most = 0.0;
+        double along[Z], along_max = 0.0, Q_max = 0.0;
         for (int j = 0; j < Z; j++) {
             along[j] = contact_along(w, outer, j);
-            along_most = number_max(along_most, along[j]);
-            Q_most = number_max(Q_most, Q[j]);
+            along_max = scalar_max(along_max, along[j]);
+            Q_max = scalar_max(Q_max, Q[j]);
         }
-        const double most = cbrt(Q_most);
-        if (reach(race, along_most, most) <= edge && pressure(race, most) <= p_limit) continue;  // roots and angles are dear
+        const double max = cbrt(Q_max);
+        if (reach(race, along_max, max) <= edge && pressure(race, max) <= p_limit) continue;  // roots and angles are dear
         for (int j = 0; j < Z; j++) {
             if (!(Q[j] > 0.0)) continue;
             const double cbrt_Q = cbrt(Q[j]);
@@ -96,7 +96,7 @@ static void joints(const Model *model, const Work *w, Event *event)
 
 static void rivets(const double head_peak[Z], const double mid_peak[Z], Event *event)
 {
-    for (int k = 0; k < Z; k++) add(event, k, number_max(head_peak[k], mid_peak[k]), rivet_table.yield_rivet);
+    for (int k = 0; k < Z; k++) add(event, k, scalar_max(head_peak[k], mid_peak[k]), rivet_table.yield_rivet);
 }
 
 void events_now(const Model *model, const Work *w, const double head_peak[Z], const double mid_peak[Z], Event now[EVENT_COUNT])

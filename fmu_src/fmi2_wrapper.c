@@ -386,7 +386,7 @@ static const Variable *find(Instance *m, Call call, fmi2ValueReference reference
     return NULL;
 }
 
-static void *place(Instance *m, const Variable *v)
+static void *storage(Instance *m, const Variable *v)
 {
     char *base = v->causality == CAUSALITY_INPUT ? (char *)part_inputs(m->part, 0) : (char *)part_parameters(m->part);
     return base + v->offset;
@@ -412,7 +412,7 @@ static fmi2Status real_value(Instance *m, const Variable *v, int element, double
         return fmi2OK;
     case CAUSALITY_INPUT:
     case CAUSALITY_PARAMETER:
-        *value = ((const double *)place(m, v))[element];
+        *value = ((const double *)storage(m, v))[element];
         return fmi2OK;
     case CAUSALITY_OUTPUT:
         break;
@@ -446,7 +446,7 @@ fmi2Status fmi2GetInteger(fmi2Component component, const fmi2ValueReference vr[]
         int element;
         const Variable *v = find(m, CALL_GetInteger, vr[i], false, &element);
         if (!v) return fmi2Error;
-        value[i] = ((const int *)place(m, v))[element];
+        value[i] = ((const int *)storage(m, v))[element];
     }
     return fmi2OK;
 }
@@ -487,7 +487,7 @@ fmi2Status fmi2SetReal(fmi2Component component, const fmi2ValueReference vr[], s
     for (size_t i = 0; i < n; i++) {
         int element;
         const Variable *v = variable_find(vr[i], &element);
-        ((double *)place(m, v))[element] = value[i];
+        ((double *)storage(m, v))[element] = value[i];
     }
     m->session.initialized = false;
     return fmi2OK;
@@ -504,7 +504,7 @@ fmi2Status fmi2SetInteger(fmi2Component component, const fmi2ValueReference vr[]
     for (size_t i = 0; i < n; i++) {
         int element;
         const Variable *v = variable_find(vr[i], &element);
-        ((int *)place(m, v))[element] = value[i];
+        ((int *)storage(m, v))[element] = value[i];
     }
     m->session.initialized = false;
     return fmi2OK;

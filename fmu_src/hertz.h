@@ -11,14 +11,14 @@ Hertz hertz_contact(double rho_x, double rho_y, double E_star);
 void hertz_elliptic(double k2, double *first, double *second);
 
 // Load Q = K delta^1.5, none in separation.  C1 at touch-down.  Johnson (1985), eq. 4.23.
-INLINE real hertz_load(real K, real delta)
+INLINE wide hertz_load(wide K, wide delta)
 {
-    delta = real_max(delta, real_set(0.0));
-    return K * delta * real_sqrt(delta);
+    delta = wide_max(delta, wide_set(0.0));
+    return K * delta * wide_sqrt(delta);
 }
 
 // Hunt-Crossley damping: Q (1 + lambda delta_dot), never pulling.  Hunt & Crossley (1975), J. Appl. Mech. 42, 440.
-INLINE real hertz_damped(real Q, real lambda, real delta_dot)
+INLINE wide hertz_damped(wide Q, wide lambda, wide delta_dot)
 {
-    return Q * real_max(1.0 + lambda * delta_dot, real_set(0.0));
+    return Q * wide_max(1.0 + lambda * delta_dot, wide_set(0.0));
 }

@@ -5,12 +5,12 @@
 
 // Force and moment about the bearing's centre that balls and cage put on the housing (outer ring, oil): what the ring puts on balls and cage
 // less what these keep as momentum.
-static inline void housing_reaction(const Work *w, number F[3], number M[3])
+static inline void housing_reaction(const Work *w, scalar F[3], scalar M[3])
 {
     const Rotor *bodies[3] = {&w->ring, &w->half[0], &w->half[1]};
     for (int i = 0; i < 3; i++) F[i] = M[i] = 0.0;
     for (int b = 0; b < 3; b++) {
-        number lever[3];
+        scalar lever[3];
         cross3(bodies[b]->x, bodies[b]->F, lever);
         for (int i = 0; i < 3; i++) {
             F[i] -= bodies[b]->F[i];
@@ -18,12 +18,12 @@ static inline void housing_reaction(const Work *w, number F[3], number M[3])
         }
     }
     for (int j = 0; j < Z; j++) {
-        const number c = w->cos_theta[j], s = w->sin_theta[j];
-        const number place[3] = {w->x[j], w->r[j] * c, w->r[j] * s};
-        const number force[3] = {w->F_x[j], w->F_r[j] * c - w->F_t[j] * s, w->F_r[j] * s + w->F_t[j] * c};
-        const number moment[3] = {w->M_x[j], w->M_r[j] * c - w->M_t[j] * s, w->M_r[j] * s + w->M_t[j] * c};
-        number lever[3];
-        cross3(place, force, lever);
+        const scalar c = w->cos_theta[j], s = w->sin_theta[j];
+        const scalar position[3] = {w->x[j], w->r[j] * c, w->r[j] * s};
+        const scalar force[3] = {w->F_x[j], w->F_r[j] * c - w->F_t[j] * s, w->F_r[j] * s + w->F_t[j] * c};
+        const scalar moment[3] = {w->M_x[j], w->M_r[j] * c - w->M_t[j] * s, w->M_r[j] * s + w->M_t[j] * c};
+        scalar lever[3];
+        cross3(position, force, lever);
         for (int i = 0; i < 3; i++) {
             F[i] -= force[i];
             M[i] -= moment[i] + lever[i];

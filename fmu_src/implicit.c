@@ -16,112 +16,112 @@
 #include "rotor.h"
 
 // ---- balls --------------------------------------------------------------------------------------------------------------------------------------
-static const double MUCH = 2.0;  // gamma A of a ball from which trapezoidal steps overshoot: (1 - z)/(1 + z) < -1/3
+static const double STIFF_LIMIT = 2.0;  // gamma A of a ball from which trapezoidal steps overshoot: (1 - z)/(1 + z) < -1/3
 enum { BLOCK = 6, TERMS = BLOCK * (BLOCK + 1) / 2 };
 #define AT(i, k) ((i) * ((i) + 1) / 2 + (k))  // row i, column k <= i of a triangle
 
 // Adds B^T (g P + normal n n^T) B, B = (1, -R [n]x).
-INLINE void add_contact(real g, real normal, real R, const real n[3], real A[TERMS])
+INLINE void add_contact(wide g, wide normal, wide R, const wide n[3], wide A[TERMS])
 {
-    const real g_R = g * R, g_RR = g_R * R;
+    const wide g_R = g * R, g_RR = g_R * R;
     for (int i = 0; i < 3; i++) {
         for (int k = 0; k <= i; k++) {
-            const real nn = n[i] * n[k];
-            A[AT(i, k)] = real_fma(normal - g, nn, A[AT(i, k)]);
-            A[AT(3 + i, 3 + k)] = real_fma(-g_RR, nn, A[AT(3 + i, 3 + k)]);
+            const wide nn = n[i] * n[k];
+            A[AT(i, k)] = wide_fma(normal - g, nn, A[AT(i, k)]);
+            A[AT(3 + i, 3 + k)] = wide_fma(-g_RR, nn, A[AT(3 + i, 3 + k)]);
         }
         A[AT(i, i)] += g;
         A[AT(3 + i, 3 + i)] += g_RR;
     }
-    A[AT(3, 1)] = real_fma(-g_R, n[2], A[AT(3, 1)]);  // (omega x n)_r = omega_t n_x - omega_x n_t, and so on
-    A[AT(3, 2)] = real_fma(g_R, n[1], A[AT(3, 2)]);
-    A[AT(4, 0)] = real_fma(g_R, n[2], A[AT(4, 0)]);
-    A[AT(4, 2)] = real_fma(-g_R, n[0], A[AT(4, 2)]);
-    A[AT(5, 0)] = real_fma(-g_R, n[1], A[AT(5, 0)]);
-    A[AT(5, 1)] = real_fma(g_R, n[0], A[AT(5, 1)]);
+    A[AT(3, 1)] = wide_fma(-g_R, n[2], A[AT(3, 1)]);  // (omega x n)_r = omega_t n_x - omega_x n_t, and so on
+    A[AT(3, 2)] = wide_fma(g_R, n[1], A[AT(3, 2)]);
+    A[AT(4, 0)] = wide_fma(g_R, n[2], A[AT(4, 0)]);
+    A[AT(4, 2)] = wide_fma(-g_R, n[0], A[AT(4, 2)]);
+    A[AT(5, 0)] = wide_fma(-g_R, n[1], A[AT(5, 0)]);
+    A[AT(5, 1)] = wide_fma(g_R, n[0], A[AT(5, 1)]);
 }
 
 typedef struct {
-    real A[TERMS], per[BLOCK];  // factors L, D of a symmetric positive definite matrix, 1/D
+    wide A[TERMS], inv_D[BLOCK];  // factors L, D of a symmetric positive definite matrix, 1/D
 } Factors;
 
 INLINE void factor_block(Factors *f)
 {
-    real *A = f->A;
+    wide *A = f->A;
     for (int i = 0; i < BLOCK; i++) {
         for (int k = 1; k < i; k++)
-            for (int q = 0; q < k; q++) A[AT(i, k)] = real_fma(-A[AT(i, q)], A[AT(k, q)], A[AT(i, k)]);
+            for (int q = 0; q < k; q++) A[AT(i, k)] = wide_fma(-A[AT(i, q)], A[AT(k, q)], A[AT(i, k)]);
         for (int k = 0; k < i; k++) {
-            const real l = A[AT(i, k)] * f->per[k];
-            A[AT(i, i)] = real_fma(-l, A[AT(i, k)], A[AT(i, i)]);
+            const wide l = A[AT(i, k)] * f->inv_D[k];
+            A[AT(i, i)] = wide_fma(-l, A[AT(i, k)], A[AT(i, i)]);
             A[AT(i, k)] = l;
         }
-        f->per[i] = 1.0 / A[AT(i, i)];
+        f->inv_D[i] = 1.0 / A[AT(i, i)];
     }
 }
 
 // x = A^-1 x.
-INLINE void solve_block(const Factors *f, real x[BLOCK])
+INLINE void solve_block(const Factors *f, wide x[BLOCK])
 {
     for (int i = 1; i < BLOCK; i++)
-        for (int k = 0; k < i; k++) x[i] = real_fma(-f->A[AT(i, k)], x[k], x[i]);
+        for (int k = 0; k < i; k++) x[i] = wide_fma(-f->A[AT(i, k)], x[k], x[i]);
     for (int i = BLOCK - 1; i >= 0; i--) {
-        x[i] *= f->per[i];
-        for (int k = i + 1; k < BLOCK; k++) x[i] = real_fma(-f->A[AT(k, i)], x[k], x[i]);
+        x[i] *= f->inv_D[i];
+        for (int k = i + 1; k < BLOCK; k++) x[i] = wide_fma(-f->A[AT(k, i)], x[k], x[i]);
     }
 }
 
 // Adds g_spin n n^T to the angular velocities.
-INLINE void add_spin(real g_spin, const real n[3], real A[TERMS])
+INLINE void add_spin(wide g_spin, const wide n[3], wide A[TERMS])
 {
     for (int i = 0; i < 3; i++)
-        for (int k = 0; k <= i; k++) A[AT(3 + i, 3 + k)] = real_fma(g_spin * n[i], n[k], A[AT(3 + i, 3 + k)]);
+        for (int k = 0; k <= i; k++) A[AT(3 + i, 3 + k)] = wide_fma(g_spin * n[i], n[k], A[AT(3 + i, 3 + k)]);
 }
 
 // gamma lambda Q + gamma^2 3 Q/(2 delta) of a race contact.
-INLINE real normal_rate(const Model *model, double gamma, real Q, real delta)
+INLINE wide normal_rate(const Model *model, double gamma, wide Q, wide delta)
 {
-    const real k = real_select(real_above(delta, 0.0), 1.5 * Q / real_max(delta, real_set(1e-12)), real_set(0.0));
+    const wide k = wide_select(wide_above(delta, 0.0), 1.5 * Q / wide_max(delta, wide_set(1e-12)), wide_set(0.0));
     return gamma * (model->p->bearing.lambda * Q + gamma * k);
 }
 
-// M (1 + gamma A + gamma^2 K) of one bundle, with lambda Q and K of the normal forces only if asked for.
-INLINE void bundle_matrix(const Model *model, const Work *w, int j, double gamma, bool stiff, real A[TERMS])
+// M (1 + gamma A + gamma^2 K) of one packet, with lambda Q and K of the normal forces only if asked for.
+INLINE void packet_matrix(const Model *model, const Work *w, int j, double gamma, bool stiff, wide A[TERMS])
 {
     const Derived *d = model->d;
     const double *pocket[BLOCK] = {w->D_x, w->D_r, w->D_t, w->D_omega_x, w->D_omega_r, w->D_omega_t};
-    const real R = real_load(&d->R[j]), zero = real_set(0.0);
-    const real n_i[3] = {real_load(&w->n_ix[j]), real_load(&w->n_ir[j]), real_load(&w->n_it[j])};
-    const real n_e[3] = {real_load(&w->n_ex[j]), real_load(&w->n_er[j]), zero};
-    const real normal_i = stiff ? normal_rate(model, gamma, real_load(&w->Q_i[j]), real_load(&w->delta_i[j])) : zero;
-    const real normal_e = stiff ? normal_rate(model, gamma, real_load(&w->Q_e[j]), real_load(&w->delta_e[j])) : zero;
+    const wide R = wide_load(&d->R[j]), zero = wide_set(0.0);
+    const wide n_i[3] = {wide_load(&w->n_ix[j]), wide_load(&w->n_ir[j]), wide_load(&w->n_it[j])};
+    const wide n_e[3] = {wide_load(&w->n_ex[j]), wide_load(&w->n_er[j]), zero};
+    const wide normal_i = stiff ? normal_rate(model, gamma, wide_load(&w->Q_i[j]), wide_load(&w->delta_i[j])) : zero;
+    const wide normal_e = stiff ? normal_rate(model, gamma, wide_load(&w->Q_e[j]), wide_load(&w->delta_e[j])) : zero;
     for (int i = 0; i < TERMS; i++) A[i] = zero;
-    add_contact(gamma * real_load(&w->g_i[j]), normal_i, R, n_i, A);
-    add_contact(gamma * real_load(&w->g_e[j]), normal_e, R, n_e, A);
+    add_contact(gamma * wide_load(&w->g_i[j]), normal_i, R, n_i, A);
+    add_contact(gamma * wide_load(&w->g_e[j]), normal_e, R, n_e, A);
     if (model->p->scene.traction == TRACTION_SLICED) {
-        add_spin(gamma * real_load(&w->g_spin_i[j]), n_i, A);
-        add_spin(gamma * real_load(&w->g_spin_e[j]), n_e, A);
+        add_spin(gamma * wide_load(&w->g_spin_i[j]), n_i, A);
+        add_spin(gamma * wide_load(&w->g_spin_e[j]), n_e, A);
     }
     for (int i = 0; i < BLOCK; i++) {
         const double inertia = i < 3 ? d->m : d->J;
-        A[AT(i, i)] += (gamma * inertia) * real_load(&pocket[i][j]) + inertia;
+        A[AT(i, i)] += (gamma * inertia) * wide_load(&pocket[i][j]) + inertia;
     }
 }
 
 // gamma A's trace / 2: the two tangents of a contact share it.
-INLINE real bundle_rate(const Model *model, const Work *w, int j, double gamma)
+INLINE wide packet_rate(const Model *model, const Work *w, int j, double gamma)
 {
     const Derived *d = model->d;
     const double *pocket[BLOCK] = {w->D_x, w->D_r, w->D_t, w->D_omega_x, w->D_omega_r, w->D_omega_t};
-    const real R = real_load(&d->R[j]);
-    real sum = (1.0 / d->m + R * R / d->J) * (real_load(&w->g_i[j]) + real_load(&w->g_e[j]));
-    for (int i = 0; i < BLOCK; i++) sum += 0.5 * real_load(&pocket[i][j]);
+    const wide R = wide_load(&d->R[j]);
+    wide sum = (1.0 / d->m + R * R / d->J) * (wide_load(&w->g_i[j]) + wide_load(&w->g_e[j]));
+    for (int i = 0; i < BLOCK; i++) sum += 0.5 * wide_load(&pocket[i][j]);
     return gamma * sum;
 }
 
 static const int BALL_ROW[BLOCK] = {Y_BALL_V_X, Y_BALL_V_R, Y_BALL_OMEGA_M, Y_BALL_OMEGA_X, Y_BALL_OMEGA_R, Y_BALL_OMEGA_T};
 
-static void load_balls(const double *v, lanes rows[BLOCK])
+static void load_balls(const double *v, ball_array rows[BLOCK])
 {
     for (int i = 0; i < BLOCK; i++) {
         memset(&rows[i][LANES - 8], 0, 8 * sizeof(double));
@@ -129,89 +129,89 @@ static void load_balls(const double *v, lanes rows[BLOCK])
     }
 }
 
-static void store_balls(lanes rows[BLOCK], double *v)
+static void store_balls(ball_array rows[BLOCK], double *v)
 {
     for (int i = 0; i < BLOCK; i++) memcpy(&v[BALL_ROW[i]], rows[i], Z * sizeof *v);
 }
 
-// x = A^-1 M x of one bundle of rows.
-INLINE void solve_bundle(const Model *model, const Work *w, int j, Factors *f, lanes rows[BLOCK], real x[BLOCK])
+// x = A^-1 M x of one packet of rows.
+INLINE void solve_packet(const Model *model, const Work *w, int j, Factors *f, ball_array rows[BLOCK], wide x[BLOCK])
 {
     const double m = model->d->m, J = model->d->J;
-    const real r = real_load(&w->r[j]);
-    for (int i = 0; i < BLOCK; i++) x[i] = real_load(&rows[i][j]) * (i < 3 ? m : J);
+    const wide r = wide_load(&w->r[j]);
+    for (int i = 0; i < BLOCK; i++) x[i] = wide_load(&rows[i][j]) * (i < 3 ? m : J);
     x[2] *= r;  // v_t = r omega_m
     factor_block(f);
     solve_block(f, x);
     x[2] /= r;
 }
 
-// A moving race carries the balls with it: at its speed u [m/s] at the inner contact (x, r, t) ball velocities change by give u, and the ring
-// feels the impulse drag - hold u, where drag is what the balls' own velocities bring.
+// A moving race carries the balls with it: at its speed u [m/s] at the inner contact (x, r, t) ball velocities change by dv_du u, and the ring
+// feels the impulse schur_rhs - schur u, where schur_rhs is what the balls' own velocities bring.
 typedef struct {
-    lanes give[BLOCK][3], hold[3][3], drag[3];
+    ball_array dv_du[BLOCK][3], schur[3][3], schur_rhs[3];
 } Coupling;
 
-INLINE void couple_bundle(const Model *model, const Work *w, int j, double gamma, const Factors *f, const real x[BLOCK], Coupling *c)
+INLINE void couple_packet(const Model *model, const Work *w, int j, double gamma, const Factors *f, const wide x[BLOCK], Coupling *c)
 {
-    const real g = gamma * real_load(&w->g_i[j]), r = real_load(&w->r[j]), n[3] = {real_load(&w->n_ix[j]), real_load(&w->n_ir[j]), real_load(&w->n_it[j])};
-    const real g_R = g * real_load(&model->d->R[j]), zero = real_set(0.0);
-    const real turn[3][3] = {{zero, -g_R * n[2], g_R * n[1]}, {g_R * n[2], zero, -g_R * n[0]}, {-g_R * n[1], g_R * n[0], zero}};  // R n x
+    const wide g = gamma * wide_load(&w->g_i[j]), r = wide_load(&w->r[j]), n[3] = {wide_load(&w->n_ix[j]), wide_load(&w->n_ir[j]), wide_load(&w->n_it[j])};
+    const wide g_R = g * wide_load(&model->d->R[j]), zero = wide_set(0.0);
+    const wide turn[3][3] = {{zero, -g_R * n[2], g_R * n[1]}, {g_R * n[2], zero, -g_R * n[0]}, {-g_R * n[1], g_R * n[0], zero}};  // R n x
     for (int k = 0; k < 3; k++) {
-        real pull[BLOCK], y[BLOCK];
+        wide column[BLOCK], y[BLOCK];
         for (int i = 0; i < 3; i++) {
-            pull[i] = (i == k ? g : zero) - g * n[i] * n[k];
-            pull[3 + i] = turn[i][k];
+            column[i] = (i == k ? g : zero) - g * n[i] * n[k];
+            column[3 + i] = turn[i][k];
         }
-        memcpy(y, pull, sizeof y);
+        memcpy(y, column, sizeof y);
         solve_block(f, y);
-        real drag = pull[2] * (r * x[2]);
+        wide schur_rhs = column[2] * (r * x[2]);
         for (int i = 0; i < BLOCK; i++)
-            if (i != 2) drag += pull[i] * x[i];
-        real_store(&c->drag[k][j], drag);
+            if (i != 2) schur_rhs += column[i] * x[i];
+        wide_store(&c->schur_rhs[k][j], schur_rhs);
         for (int q = 0; q <= k; q++) {
-            // hold = g P - pull_q.A^-1 pull_k, symmetric
-            real hold = (q == k ? g : zero) - g * n[q] * n[k];
+            // schur = g P - column_q.A^-1 column_k, symmetric
+            wide schur = (q == k ? g : zero) - g * n[q] * n[k];
             for (int i = 0; i < 3; i++) {
-                hold -= ((i == q ? g : zero) - g * n[i] * n[q]) * y[i];
-                hold -= turn[i][q] * y[3 + i];
+                schur -= ((i == q ? g : zero) - g * n[i] * n[q]) * y[i];
+                schur -= turn[i][q] * y[3 + i];
             }
-            real_store(&c->hold[q][k][j], hold);
-            real_store(&c->hold[k][q][j], hold);
+            wide_store(&c->schur[q][k][j], schur);
+            wide_store(&c->schur[k][q][j], schur);
         }
         y[2] /= r;
-        for (int i = 0; i < BLOCK; i++) real_store(&c->give[i][k][j], y[i]);
+        for (int i = 0; i < BLOCK; i++) wide_store(&c->dv_du[i][k][j], y[i]);
     }
 }
 
 // c: only where the ring is coupled.
-static void solve_balls(const Model *model, const Work *w, double gamma, lanes rows[BLOCK], Coupling *c)
+static void solve_balls(const Model *model, const Work *w, double gamma, ball_array rows[BLOCK], Coupling *c)
 {
-    for (int j = 0; j < BUNDLES * LANE_WIDTH; j += LANE_WIDTH) {
+    for (int j = 0; j < PACKETS * LANE_WIDTH; j += LANE_WIDTH) {
         Factors f;
-        real x[BLOCK];
-        bundle_matrix(model, w, j, gamma, true, f.A);
-        solve_bundle(model, w, j, &f, rows, x);
-        if (c != NULL) couple_bundle(model, w, j, gamma, &f, x, c);
-        for (int i = 0; i < BLOCK; i++) real_store(&rows[i][j], x[i]);
+        wide x[BLOCK];
+        packet_matrix(model, w, j, gamma, true, f.A);
+        solve_packet(model, w, j, &f, rows, x);
+        if (c != NULL) couple_packet(model, w, j, gamma, &f, x, c);
+        for (int i = 0; i < BLOCK; i++) wide_store(&rows[i][j], x[i]);
     }
 }
 
-static void held_balls(const Model *model, const Work *w, double gamma, double *v)
+static void stiff_part_of_balls(const Model *model, const Work *w, double gamma, double *v)
 {
-    lanes rows[BLOCK];
+    ball_array rows[BLOCK];
     load_balls(v, rows);
-    for (int j = 0; j < BUNDLES * LANE_WIDTH; j += LANE_WIDTH) {
-        const bits much = real_above(bundle_rate(model, w, j, gamma), MUCH);
-        if (!real_any(much)) {
-            for (int i = 0; i < BLOCK; i++) real_store(&rows[i][j], real_set(0.0));
+    for (int j = 0; j < PACKETS * LANE_WIDTH; j += LANE_WIDTH) {
+        const bits stiff = wide_above(packet_rate(model, w, j, gamma), STIFF_LIMIT);
+        if (!wide_any(stiff)) {
+            for (int i = 0; i < BLOCK; i++) wide_store(&rows[i][j], wide_set(0.0));
             continue;
         }
         Factors f;
-        real x[BLOCK];
-        bundle_matrix(model, w, j, gamma, false, f.A);
-        solve_bundle(model, w, j, &f, rows, x);
-        for (int i = 0; i < BLOCK; i++) real_store(&rows[i][j], real_select(much, real_load(&rows[i][j]) - x[i], real_set(0.0)));
+        wide x[BLOCK];
+        packet_matrix(model, w, j, gamma, false, f.A);
+        solve_packet(model, w, j, &f, rows, x);
+        for (int i = 0; i < BLOCK; i++) wide_store(&rows[i][j], wide_select(stiff, wide_load(&rows[i][j]) - x[i], wide_set(0.0)));
     }
     store_balls(rows, v);
 }
@@ -227,9 +227,9 @@ typedef struct {
 
 static Film film(const Work *w, int land, double m, double J_p, double J_t, double x, double gamma)
 {
-    const double per_m = 1.0 / m + x * x / J_t, yy = gamma * w->film_yy[land], yz = gamma * w->film_yz[land], zz = gamma * w->film_zz[land];
-    const double a = 1.0 + per_m * yy, b = per_m * yz, c = 1.0 + per_m * zz, per = 1.0 / (a * c - b * b);
-    return (Film){m, J_p, J_t, x, (yy * c - yz * b) * per, (yz * a - yy * b) * per, (zz * a - yz * b) * per, gamma * w->film_spin[land] / J_p};
+    const double inv_m = 1.0 / m + x * x / J_t, yy = gamma * w->film_yy[land], yz = gamma * w->film_yz[land], zz = gamma * w->film_zz[land];
+    const double a = 1.0 + inv_m * yy, b = inv_m * yz, c = 1.0 + inv_m * zz, inv_det = 1.0 / (a * c - b * b);
+    return (Film){m, J_p, J_t, x, (yy * c - yz * b) * inv_det, (yz * a - yy * b) * inv_det, (zz * a - yz * b) * inv_det, gamma * w->film_spin[land] / J_p};
 }
 
 static void film_solve(const Film *f, Half *v)
@@ -273,22 +273,22 @@ static void joint_matrix(const Model *model, const Work *w, double gamma, double
 {
     const Derived *d = model->d;
     const Rotor *h0 = &w->half[0];
-    lanes rate, rate_y, rate_z, rate_yy, rate_yz, rate_zz;
-    const real zero = real_set(0.0);
-    for (int k = 0; k < BUNDLES * LANE_WIDTH; k += LANE_WIDTH) {
-        const real T = real_load(&w->T[k]), N_plate = real_load(&w->N_plate[k]), s_y = real_load(&d->rivet_y[k]), s_z = real_load(&d->rivet_z[k]);
-        const real y = s_y * h0->b_y[1] + s_z * h0->b_z[1], z = s_y * h0->b_y[2] + s_z * h0->b_z[2];
-        const real stiffness = real_select(real_above(T, 0.0), real_set(d->k_rivet), zero) + real_select(real_above(N_plate, 0.0), real_set(d->k_plate), zero);
-        const real rate_k = gamma * (d->c_joint * N_plate / (N_plate + model->p->joint.F_floor) + gamma * stiffness);
-        real_store(&rate[k], rate_k);
-        real_store(&rate_y[k], rate_k * y);
-        real_store(&rate_z[k], rate_k * z);
-        real_store(&rate_yy[k], rate_k * y * y);
-        real_store(&rate_yz[k], rate_k * y * z);
-        real_store(&rate_zz[k], rate_k * z * z);
+    ball_array rate, rate_y, rate_z, rate_yy, rate_yz, rate_zz;
+    const wide zero = wide_set(0.0);
+    for (int k = 0; k < PACKETS * LANE_WIDTH; k += LANE_WIDTH) {
+        const wide T = wide_load(&w->T[k]), N_plate = wide_load(&w->N_plate[k]), s_y = wide_load(&d->rivet_y[k]), s_z = wide_load(&d->rivet_z[k]);
+        const wide y = s_y * h0->b_y[1] + s_z * h0->b_z[1], z = s_y * h0->b_y[2] + s_z * h0->b_z[2];
+        const wide stiffness = wide_select(wide_above(T, 0.0), wide_set(d->k_rivet), zero) + wide_select(wide_above(N_plate, 0.0), wide_set(d->k_plate), zero);
+        const wide rate_k = gamma * (d->c_joint * N_plate / (N_plate + model->p->joint.F_floor) + gamma * stiffness);
+        wide_store(&rate[k], rate_k);
+        wide_store(&rate_y[k], rate_k * y);
+        wide_store(&rate_z[k], rate_k * z);
+        wide_store(&rate_yy[k], rate_k * y * y);
+        wide_store(&rate_yz[k], rate_k * y * z);
+        wide_store(&rate_zz[k], rate_k * z * z);
     }
-    A[0][0] = lanes_sum(rate), A[1][0] = A[0][1] = lanes_sum(rate_z), A[2][0] = A[0][2] = -lanes_sum(rate_y);
-    A[1][1] = lanes_sum(rate_zz), A[2][1] = A[1][2] = -lanes_sum(rate_yz), A[2][2] = lanes_sum(rate_yy);
+    A[0][0] = ball_array_sum(rate), A[1][0] = A[0][1] = ball_array_sum(rate_z), A[2][0] = A[0][2] = -ball_array_sum(rate_y);
+    A[1][1] = ball_array_sum(rate_zz), A[2][1] = A[1][2] = -ball_array_sum(rate_yz), A[2][2] = ball_array_sum(rate_yy);
 }
 
 // x = B^-1 x by Cramer's rule.
@@ -300,8 +300,8 @@ static void solve_3(double B[3][3], double x[3])
             const int a = (i + 1) % 3, b = (i + 2) % 3, c = (k + 1) % 3, e = (k + 2) % 3;
             minor[i][k] = B[a][c] * B[b][e] - B[a][e] * B[b][c];
         }
-    const double per = 1.0 / (B[0][0] * minor[0][0] + B[0][1] * minor[0][1] + B[0][2] * minor[0][2]);
-    for (int i = 0; i < 3; i++) out[i] = (minor[0][i] * x[0] + minor[1][i] * x[1] + minor[2][i] * x[2]) * per;
+    const double inv_det = 1.0 / (B[0][0] * minor[0][0] + B[0][1] * minor[0][1] + B[0][2] * minor[0][2]);
+    for (int i = 0; i < 3; i++) out[i] = (minor[0][i] * x[0] + minor[1][i] * x[1] + minor[2][i] * x[2]) * inv_det;
     memcpy(x, out, sizeof out);
 }
 
@@ -357,7 +357,7 @@ void implicit_films(const Model *model, const Work *w, double gamma, double *v)
     }
 }
 
-static void held_halves(const Model *model, const Work *w, double gamma, double *v)
+static void stiff_part_of_halves(const Model *model, const Work *w, double gamma, double *v)
 {
     double left[N_STATES];
     memcpy(&left[Y_CAGE_V_X], &v[Y_CAGE_V_X], (Y_RING_V_X - Y_CAGE_V_X) * sizeof *v);
@@ -366,8 +366,8 @@ static void held_halves(const Model *model, const Work *w, double gamma, double 
 }
 
 // ---- ring -----------------------------------------------------------------------------------------------------------------------------------------
-enum { RING = RING_DOF };           // velocities of the ring: v_x, v_y, v_z, beta_dot, gamma_dot
-static const double COUPLED = 0.2;  // gamma A of the ring by traction from which it is coupled to the balls
+enum { RING = RING_DOF };                  // velocities of the ring: v_x, v_y, v_z, beta_dot, gamma_dot
+static const double COUPLING_LIMIT = 0.2;  // gamma A of the ring by traction from which it is coupled to the balls
 
 // What holds back each velocity of the ring by itself: gamma A + gamma^2 K of support and tilt.
 static void ring_support(const Model *model, double gamma, double support[RING])
@@ -383,8 +383,8 @@ static void ring_support(const Model *model, double gamma, double support[RING])
 static bool ring_coupled(const Model *model, const Work *w, double gamma)
 {
     const Parameters *p = model->p;
-    const double rate = gamma * lanes_sum(w->g_i), r = 0.5 * p->bearing.d_m;
-    return rate > COUPLED * p->ring.m || (p->ring.tilt_mode != TILT_MODE_PRESCRIBED && rate * r * r > COUPLED * p->ring.J_t);
+    const double rate = gamma * ball_array_sum(w->g_i), r = 0.5 * p->bearing.d_m;
+    return rate > COUPLING_LIMIT * p->ring.m || (p->ring.tilt_mode != TILT_MODE_PRESCRIBED && rate * r * r > COUPLING_LIMIT * p->ring.J_t);
 }
 
 // Velocity (x, r, t) of the race at ball j's contact by each velocity of the ring.
@@ -404,8 +404,8 @@ static void race_motion(const Model *model, const Work *w, int j, double D[3][RI
     }
 }
 
-// The ring's velocities V under the balls' drag and hold, then what V gives the balls.
-static void race_couple(const Model *model, const Work *w, const double support[RING], const Coupling *c, lanes rows[BLOCK], double V[RING])
+// The ring's velocities V under the balls' schur_rhs and schur, then what V gives the balls.
+static void race_couple(const Model *model, const Work *w, const double support[RING], const Coupling *c, ball_array rows[BLOCK], double V[RING])
 {
     const int moved = model->p->ring.tilt_mode == TILT_MODE_PRESCRIBED ? 3 : RING;  // velocities that forces change
     double D[Z][3][RING], S[RING][RING] = {0};
@@ -418,9 +418,9 @@ static void race_couple(const Model *model, const Work *w, const double support[
         race_motion(model, w, j, D[j]);
         for (int k = 0; k < 3; k++)
             for (int i = 0; i < moved; i++) {
-                V[i] += D[j][k][i] * c->drag[k][j];
+                V[i] += D[j][k][i] * c->schur_rhs[k][j];
                 for (int q = 0; q < 3; q++)
-                    for (int e = 0; e < RING; e++) S[i][e] += D[j][k][i] * c->hold[k][q][j] * D[j][q][e];
+                    for (int e = 0; e < RING; e++) S[i][e] += D[j][k][i] * c->schur[k][q][j] * D[j][q][e];
             }
     }
     eliminate(S, V);
@@ -428,11 +428,11 @@ static void race_couple(const Model *model, const Work *w, const double support[
         for (int k = 0; k < 3; k++) {
             double u = 0.0;
             for (int i = 0; i < RING; i++) u += D[j][k][i] * V[i];
-            for (int i = 0; i < BLOCK; i++) rows[i][j] += c->give[i][k][j] * u;
+            for (int i = 0; i < BLOCK; i++) rows[i][j] += c->dv_du[i][k][j] * u;
         }
 }
 
-static void held_ring(const Model *model, double gamma, double *v)
+static void stiff_part_of_ring(const Model *model, double gamma, double *v)
 {
     const Parameters *p = model->p;
     const double support = gamma * p->ring.c / p->ring.m, tilt = p->ring.tilt_mode == TILT_MODE_SUPPORTED ? gamma * p->ring.c_tilt / p->ring.J_t : 0.0;
@@ -444,7 +444,7 @@ static void held_ring(const Model *model, double gamma, double *v)
 // ---- all --------------------------------------------------------------------------------------------------------------------------------------------
 void implicit_solve(const Model *model, const Work *w, double gamma, double *v)
 {
-    lanes rows[BLOCK];
+    ball_array rows[BLOCK];
     Coupling coupling;
     double support[RING], *V = &v[Y_RING_V_X];
     const bool coupled = ring_coupled(model, w, gamma);
@@ -459,9 +459,9 @@ void implicit_solve(const Model *model, const Work *w, double gamma, double *v)
     solve_halves(model, w, gamma, v);
 }
 
-void implicit_held(const Model *model, const Work *w, double gamma, double *v)
+void implicit_stiff_part(const Model *model, const Work *w, double gamma, double *v)
 {
-    held_balls(model, w, gamma, v);
-    held_halves(model, w, gamma, v);
-    held_ring(model, gamma, v);
+    stiff_part_of_balls(model, w, gamma, v);
+    stiff_part_of_halves(model, w, gamma, v);
+    stiff_part_of_ring(model, gamma, v);
 }

@@ -12,4 +12,4 @@ ImplicitSolve implicit_solve;
 void implicit_films(const Model *model, const Work *w, double gamma, double *v);
 
 // v = v - (1 + gamma A)^-1 v: the part of v that damping holds back within a time gamma; 0 for a ball whose rates are below 2/gamma.
-void implicit_held(const Model *model, const Work *w, double gamma, double *v);
+void implicit_stiff_part(const Model *model, const Work *w, double gamma, double *v);

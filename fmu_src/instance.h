@@ -16,27 +16,27 @@ enum { WORST_RIVET = Z, STRESS_CHANNELS = Z + 1 };  // channels of stress statis
 typedef struct {
     Parameters p;
     Inputs u[INPUT_ORDERS + 1];  // of the next step: at its start, with their derivatives
-    Inputs seen, seen_dot;       // that the present state has seen last, and their rates
+    Inputs u_now, u_now_dot;     // that the present state has seen last, and their rates
     IntegratorState integrator;
     double t_start, tolerance;
     double energy_start;
     double force_peak;  // since the last communication point
     double head_peak[Z], mid_peak[Z];
-    double dislocation_most, duty_time, omega_time, eccentricity_time;  // integrals over time since settle
+    double dislocation_max, duty_time, omega_time, eccentricity_time;  // integrals over time since settle
     StatisticsChannel force, head[STRESS_CHANNELS], mid[STRESS_CHANNELS];
     FatigueChannel fatigue_head[Z], fatigue_mid[Z];
     EventState event;
     int initialized;
-} Saved;
+} InstanceState;
 
 typedef struct Part Bearing;  // the part that this FMU is
 
 struct Part {
     PartHost host;
-    Saved s;
+    InstanceState s;
     Derived d;
-    Course course;
-    Drive drive;
+    InputTrajectory trajectory;
+    RingLoad ring_load;
     Model model;
     Work w;
     Outputs out;

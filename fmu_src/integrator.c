@@ -28,10 +28,10 @@ struct Integrator {
     void *arkode;
     double weight[N_STATES];
     VerletState trial;
-    const double *latest;  // where ARKODE keeps the latest evaluation
-    bool starting;         // the next evaluation is the one at (s->t, s->y)
-    bool rehearsing;       // dy/dt = 0
-    unsigned spoiled;      // trial states without a derivative in this advance
+    const double *latest;       // where ARKODE keeps the latest evaluation
+    bool starting;              // the next evaluation is the one at (s->t, s->y)
+    bool warming_up;            // dy/dt = 0
+    unsigned nonfinite_stages;  // trial states without a derivative in this advance
 };
 
 // ---- vectors of fixed length with the operations of this processor ---------------------------------------------------------------------------
@@ -83,9 +83,9 @@ static void vector_linear_sum(sunrealtype a, N_Vector x, sunrealtype b, N_Vector
 }
 static SUNErrCode vector_linear_combination(int n, sunrealtype *c, N_Vector *x, N_Vector z)
 {
-    enum { MOST = 8 };  // more than the stages and the state
-    double *values[MOST];
-    if (n > MOST) return SUN_ERR_ARG_OUTOFRANGE;
+    enum { MAX_VECTORS = 8 };  // more than the stages and the state
+    double *values[MAX_VECTORS];
+    if (n > MAX_VECTORS) return SUN_ERR_ARG_OUTOFRANGE;
     for (int i = 0; i < n; i++) values[i] = data(x[i]);
     ops(z)->linear_combination(n, c, values, data(z));
     return SUN_SUCCESS;
@@ -125,9 +125,9 @@ static void vector_add_const(N_Vector x, sunrealtype b, N_Vector z)
 }
 static double vector_max_norm(N_Vector x)
 {
-    double most = 0.0;
-    for (int i = 0; i < N_STATES; i++) most = fmax(most, fabs(data(x)[i]));
-    return most;
+    double max = 0.0;
+    for (int i = 0; i < N_STATES; i++) max = fmax(max, fabs(data(x)[i]));
+    return max;
 }
 
 static N_Vector vector_new(SUNContext sun, const VectorOps *vector_operations)
@@ -164,7 +164,7 @@ static N_Vector vector_new(SUNContext sun, const VectorOps *vector_operations)
 // of alternating sign: the error test fails and the step is tried again with a smaller size.
 static void evaluate(Integrator *in, double t, const double *y, double *f)
 {
-    if (in->rehearsing) {
+    if (in->warming_up) {
         memset(f, 0, sizeof in->s->now.f);
         return;
     }
@@ -177,7 +177,7 @@ static void evaluate(Integrator *in, double t, const double *y, double *f)
     in->s->rhs_evals += 1.0;
     in->latest = f;
     if (in->kernels->ops->finite(f)) return;
-    const double enormous = in->spoiled++ % 2 == 0 ? 1e15 : -1e15;  // [1/s] in units of the tolerance
+    const double enormous = in->nonfinite_stages++ % 2 == 0 ? 1e15 : -1e15;  // [1/s] in units of the tolerance
     for (int i = 0; i < N_STATES; i++) f[i] = enormous / in->weight[i];
 }
 
@@ -232,13 +232,13 @@ static int explicit_table(void *arkode)
 }
 
 // One step of dy/dt = 0: ARKODE allocates in its first step, which is to happen here and not in fmi2DoStep.
-static bool rehearse(Integrator *in)
+static bool warm_up(Integrator *in)
 {
     double t;
-    in->rehearsing = true;
+    in->warming_up = true;
     const bool fine = ARKodeSetInitStep(in->arkode, 1.0) == ARK_SUCCESS && ARKodeSetStopTime(in->arkode, 1.0) == ARK_SUCCESS &&
                       ARKodeEvolve(in->arkode, 1.0, in->y, &t, ARK_ONE_STEP) >= 0;
-    in->rehearsing = false;
+    in->warming_up = false;
     return fine;
 }
 
@@ -256,7 +256,7 @@ Integrator *integrator_create(const Kernels *kernels, const Model *model, Work *
         in->arkode = ERKStepCreate(explicit_rhs, 0.0, in->y, in->sun);
         fine = in->arkode != NULL && set_up(in->arkode, in) == 0 && explicit_table(in->arkode) == ARK_SUCCESS;
         for (int i = 0; i < N_STATES; i++) in->weight[i] = 1.0;
-        fine = fine && rehearse(in);
+        fine = fine && warm_up(in);
     }
     if (!fine) {
         integrator_destroy(in);
@@ -284,13 +284,13 @@ void integrator_tolerance(Integrator *in, double tolerance)
 void integrator_evaluate(Integrator *in)
 {
     IntegratorState *s = in->s;
-    if (s->known) return;
+    if (s->f_is_current) return;
     in->kernels->rhs(in->model, s->t, s->now.y, s->now.f, in->w);
     s->rhs_evals += 1.0;
-    s->known = 1;
+    s->f_is_current = 1;
 }
 
-static int shrunk(const Integrator *in, double h)
+static int step_underflow(const Integrator *in, double h)
 {
     char text[128];
     snprintf(text, sizeof text, "t = %.9g s: Verlet: the error test fails with the smallest step, %g s", in->s->t, h);
@@ -314,12 +314,12 @@ static int verlet_advance(Integrator *in, double t_stop, long max_steps)
         const bool last = h_goal >= left * (1.0 - 1e-9);
         const double h = last ? left : left < 2.0 * h_goal ? 0.5 * left : h_goal;
         const double error = in->kernels->verlet(in->model, s->t, h, in->weight, now, next, in->w);
-        const double factor = error > 0.0 ? 0.8 * rough_rcbrt(error) : error == 0.0 ? 2.0 : 0.0;  // NaN: the least
+        const double factor = error > 0.0 ? 0.8 * approx_inv_cbrt(error) : error == 0.0 ? 2.0 : 0.0;  // NaN: the least
         s->rhs_evals += 1.0;
         if (!(error <= 1.0)) {  // NaN fails too
             s->error_tests_failed += 1.0;
             h_goal = h * fmax(factor, 0.2);
-            if (s->t + h_goal == s->t) status = shrunk(in, h);
+            if (s->t + h_goal == s->t) status = step_underflow(in, h);
             continue;
         }
         VerletState *const before = now;
@@ -337,7 +337,7 @@ static int verlet_advance(Integrator *in, double t_stop, long max_steps)
 static int explicit_advance(Integrator *in, double t_stop, long max_steps)
 {
     IntegratorState *s = in->s;
-    in->spoiled = 0;
+    in->nonfinite_stages = 0;
     memcpy(data(in->y), s->now.y, sizeof s->now.y);
     if (ARKodeReset(in->arkode, s->t, in->y) != ARK_SUCCESS) return -1;
     if (ARKodeSetInitStep(in->arkode, fmin(s->h, t_stop - s->t)) != ARK_SUCCESS) return -1;
@@ -352,14 +352,14 @@ static int explicit_advance(Integrator *in, double t_stop, long max_steps)
             status = ARK_TOO_MUCH_WORK;
             break;
         }
-        in->starting = s->known;
+        in->starting = s->f_is_current;
         status = ARKodeEvolve(in->arkode, t_stop, in->y, &t, ARK_ONE_STEP);
         if (status < 0) break;
         const double h = t - s->t;
         memcpy(s->now.y, data(in->y), sizeof s->now.y);
         s->t = t;
         s->steps += 1.0;
-        s->known = 0;
+        s->f_is_current = 0;
         ARKodeGetCurrentStep(in->arkode, &h_next);
         in->hook(in->context, h, in->w);
     }
@@ -370,7 +370,7 @@ static int explicit_advance(Integrator *in, double t_stop, long max_steps)
     if (status < 0) return status;
     s->t = t_stop;
     memcpy(s->now.f, in->latest, sizeof s->now.f);  // the last stage was at the new state
-    s->known = 1;
+    s->f_is_current = 1;
     return 0;
 }
 

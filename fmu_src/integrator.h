@@ -1,14 +1,14 @@
 // Integration of the right-hand side with control of the error.  The only file that knows SUNDIALS is integrator.c.
 #pragma once
 
-#include "rhs.h"
+#include "kernels.h"
 
 // What the integrator carries from step to step; plain bytes, part of the saved state.
 typedef struct {
     double t;
     VerletState now;
-    double h;   // step size to start with [s]
-    int known;  // now.f belongs to now.y and the present drive
+    double h;          // step size to start with [s]
+    int f_is_current;  // now.f belongs to now.y and the present drive
     double steps, rhs_evals, error_tests_failed;
 } IntegratorState;
 

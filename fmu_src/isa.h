@@ -18,7 +18,7 @@
 #define implicit_solve FOR_ISA(implicit_solve)
 #define cage_joint_advance FOR_ISA(cage_joint_advance)
 #define rhs_cage_advance FOR_ISA(rhs_cage_advance)
-#define implicit_held FOR_ISA(implicit_held)
+#define implicit_stiff_part FOR_ISA(implicit_stiff_part)
 #define implicit_films FOR_ISA(implicit_films)
 #define load_path_rigid FOR_ISA(load_path_rigid)
 #define load_path_flexible FOR_ISA(load_path_flexible)

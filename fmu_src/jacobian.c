@@ -2,9 +2,9 @@
 
 #include "tangent.h"
 
-void jacobian_product(const Model *model, double t, const double *y, const double *dy, const Drive *d_drive, double *dy_dot, Work *dw)
+void jacobian_product(const Model *model, double t, const double *y, const double *dy, const RingLoad *d_ring_load, double *dy_dot, Work *dw)
 {
-    tangent_rhs(model, t, y, dy, (const double *)d_drive, dy_dot, (double *)dw);
+    tangent_rhs(model, t, y, dy, (const double *)d_ring_load, dy_dot, (double *)dw);
 }
 
 void jacobian_matrix(const Model *model, double t, const double *y, double *J)
@@ -16,9 +16,10 @@ void jacobian_matrix(const Model *model, double t, const double *y, double *J)
     }
 }
 
-void jacobian_outputs(const Model *model, const Course *course, double t, double dt, const Inputs *du, const double *y, const double *dy, Outputs *d_out)
+void jacobian_outputs(const Model *model, const InputTrajectory *trajectory, double t, double dt, const Inputs *du, const double *y, const double *dy,
+                      Outputs *d_out)
 {
-    tangent_outputs(model, (const double *)course, t, dt, (const double *)du, y, dy, (double *)d_out);
+    tangent_outputs(model, (const double *)trajectory, t, dt, (const double *)du, y, dy, (double *)d_out);
 }
 
 void jacobian_housing(const Work *w, const Work *dw, double dF[3], double dM[3])

@@ -26,71 +26,71 @@ INLINE void land_film_bundle(const Model *model, Work *w, int first)
     const Parameters *p = model->p;
     const Derived *d = model->d;
     Rotor *h0 = &w->half[first], *h1 = &w->half[first + HALVES - 1];
-    const real x_land = real_pair(first == 0 ? -p->cage.land_x : p->cage.land_x, p->cage.land_x);
+    const wide x_land = wide_pair(first == 0 ? -p->cage.land_x : p->cage.land_x, p->cage.land_x);
 
     // place and velocity of the lands' middles: x + a x_land, v + Omega x a x_land = v + a_dot x_land
-    const real e_y = real_pair(h0->x[1], h1->x[1]) + x_land * real_pair(h0->a[1], h1->a[1]);
-    const real e_z = real_pair(h0->x[2], h1->x[2]) + x_land * real_pair(h0->a[2], h1->a[2]);
-    const real v_y = real_pair(h0->v[1], h1->v[1]) + x_land * real_pair(h0->a_dot[1], h1->a_dot[1]);
-    const real v_z = real_pair(h0->v[2], h1->v[2]) + x_land * real_pair(h0->a_dot[2], h1->a_dot[2]);
-    const real omega = real_pair(h0->Omega[0], h1->Omega[0]);
+    const wide e_y = wide_pair(h0->x[1], h1->x[1]) + x_land * wide_pair(h0->a[1], h1->a[1]);
+    const wide e_z = wide_pair(h0->x[2], h1->x[2]) + x_land * wide_pair(h0->a[2], h1->a[2]);
+    const wide v_y = wide_pair(h0->v[1], h1->v[1]) + x_land * wide_pair(h0->a_dot[1], h1->a_dot[1]);
+    const wide v_z = wide_pair(h0->v[2], h1->v[2]) + x_land * wide_pair(h0->a_dot[2], h1->a_dot[2]);
+    const wide omega = wide_pair(h0->Omega[0], h1->Omega[0]);
 
     // film
-    const real V_y = v_y + 0.5 * omega * e_z, V_z = v_z - 0.5 * omega * e_y;
-    const real per_V = 1.0 / real_sqrt(V_y * V_y + V_z * V_z + 1e-30);
-    const real n_y = V_y * per_V, n_z = V_z * per_V;
-    const real e_2 = e_y * e_y + e_z * e_z + 1e-30, per_e = 1.0 / real_sqrt(e_2), e = e_2 * per_e;
-    const double per_C = 1.0 / d->C_land;
-    const real eps = e * per_C, cap = real_min(real_set(per_C), EPS_CAP * per_e);
-    const real a = (e_y * n_y + e_z * n_z) * cap, b = (e_z * n_y - e_y * n_z) * cap;
+    const wide V_y = v_y + 0.5 * omega * e_z, V_z = v_z - 0.5 * omega * e_y;
+    const wide inv_V = 1.0 / wide_sqrt(V_y * V_y + V_z * V_z + 1e-30);
+    const wide n_y = V_y * inv_V, n_z = V_z * inv_V;
+    const wide e_2 = e_y * e_y + e_z * e_z + 1e-30, inv_e = 1.0 / wide_sqrt(e_2), e = e_2 * inv_e;
+    const double inv_C = 1.0 / d->C_land;
+    const wide eps = e * inv_C, cap = wide_min(wide_set(inv_C), EPS_CAP * inv_e);
+    const wide a = (e_y * n_y + e_z * n_z) * cap, b = (e_z * n_y - e_y * n_z) * cap;
     const double floor = 0.5 * p->cage.g_0;
-    const real above = 1.0 - eps * eps - floor, q2 = floor + 0.5 * (above + real_sqrt(above * above + 8.0 * floor * floor));
-    const real per_q = 1.0 / real_sqrt(q2), per_q2 = per_q * per_q, per_c2 = 1.0 / (q2 + a * a);  // c^2 = 1 - b^2
-    const real S = per_q * (1.5707963267948966 + real_atan(a * per_q));                           // S/q, and all integrals times q^4
-    const real I_c = 3.0 * a + S * (q2 + 3.0 * a * a);
-    const real I_s = 2.0 * b + a * a * b * per_c2 + 3.0 * a * b * S;
-    const real I_t = a * per_c2 * (q2 + b * b * (3.0 + 2.0 * q2 * per_c2)) + S * (q2 + 3.0 * b * b);
-    const real kappa = d->kappa * per_q2 * per_q2;
-    real F_y = -kappa * (I_c * V_y - I_s * V_z), F_z = -kappa * (I_c * V_z + I_s * V_y);
-    const real couette = d->couette * per_q;
+    const wide above = 1.0 - eps * eps - floor, q2 = floor + 0.5 * (above + wide_sqrt(above * above + 8.0 * floor * floor));
+    const wide inv_q = 1.0 / wide_sqrt(q2), inv_q2 = inv_q * inv_q, inv_c2 = 1.0 / (q2 + a * a);  // c^2 = 1 - b^2
+    const wide S = inv_q * (1.5707963267948966 + wide_atan(a * inv_q));                           // S/q, and all integrals times q^4
+    const wide I_c = 3.0 * a + S * (q2 + 3.0 * a * a);
+    const wide I_s = 2.0 * b + a * a * b * inv_c2 + 3.0 * a * b * S;
+    const wide I_t = a * inv_c2 * (q2 + b * b * (3.0 + 2.0 * q2 * inv_c2)) + S * (q2 + 3.0 * b * b);
+    const wide kappa = d->kappa * inv_q2 * inv_q2;
+    wide F_y = -kappa * (I_c * V_y - I_s * V_z), F_z = -kappa * (I_c * V_z + I_s * V_y);
+    const wide couette = d->couette * inv_q;
 
     // dry contact and friction at the place of the smallest gap; with mixed lubrication asperities carry their share of the film force too
-    const real u_y = e_y * per_e, u_z = e_z * per_e;
-    const real pen = e - d->C_land, pen_dot = v_y * u_y + v_z * u_z;
-    const real N_0 = hertz_load(real_set(p->cage.K_land), pen), N = hertz_damped(N_0, real_set(p->cage.lambda), pen_dot);
-    real N_mu = N;
+    const wide u_y = e_y * inv_e, u_z = e_z * inv_e;
+    const wide pen = e - d->C_land, pen_dot = v_y * u_y + v_z * u_z;
+    const wide N_0 = hertz_load(wide_set(p->cage.K_land), pen), N = hertz_damped(N_0, wide_set(p->cage.lambda), pen_dot);
+    wide N_mu = N;
     if (p->scene.lubrication == LUBRICATION_MIXED) {
-        const real ln_Lambda = d->ln_land + real_log(q2 / (1.0 + eps));
-        N_mu += traction_asperity_share(ln_Lambda) * real_sqrt(F_y * F_y + F_z * F_z);
+        const wide ln_Lambda = d->ln_land + wide_log(q2 / (1.0 + eps));
+        N_mu += traction_asperity_share(ln_Lambda) * wide_sqrt(F_y * F_y + F_z * F_z);
     }
-    const real R = real_set(0.5 * p->cage.D_o), slip = v_z * u_y - v_y * u_z + omega * R;  // along t = e_x x u
-    const real g = p->cage.mu_land * N_mu / real_sqrt(slip * slip + p->cage.v_c * p->cage.v_c);
-    const real F_t = -g * slip;
+    const wide R = wide_set(0.5 * p->cage.D_o), slip = v_z * u_y - v_y * u_z + omega * R;  // along t = e_x x u
+    const wide g = p->cage.mu_land * N_mu / wide_sqrt(slip * slip + p->cage.v_c * p->cage.v_c);
+    const wide F_t = -g * slip;
     F_y += -N * u_y - F_t * u_z;
     F_z += -N * u_z + F_t * u_y;
-    const real M_x = R * F_t - couette * omega;
+    const wide M_x = R * F_t - couette * omega;
 
-    const real power = F_y * v_y + F_z * v_z + M_x * omega;
-    const real elastic = 0.4 * N_0 * real_max(pen, real_set(0.0)), elastic_rate = N_0 * pen_dot;
+    const wide power = F_y * v_y + F_z * v_z + M_x * omega;
+    const wide elastic = 0.4 * N_0 * wide_max(pen, wide_set(0.0)), elastic_rate = N_0 * pen_dot;
 
     // -dF/dv in the global frame
-    const real K_yy = kappa * (I_c * n_y * n_y - 2.0 * I_s * n_y * n_z + I_t * n_z * n_z);
-    const real K_zz = kappa * (I_c * n_z * n_z + 2.0 * I_s * n_y * n_z + I_t * n_y * n_y);
-    const real K_yz = kappa * ((I_c - I_t) * n_y * n_z + I_s * (n_y * n_y - n_z * n_z));
+    const wide K_yy = kappa * (I_c * n_y * n_y - 2.0 * I_s * n_y * n_z + I_t * n_z * n_z);
+    const wide K_zz = kappa * (I_c * n_z * n_z + 2.0 * I_s * n_y * n_z + I_t * n_y * n_y);
+    const wide K_yz = kappa * ((I_c - I_t) * n_y * n_z + I_s * (n_y * n_y - n_z * n_z));
     for (int i = 0; i < HALVES; i++) {
         const int h = first + i;
         Rotor *half = &w->half[h];
-        const number x = real_lane(x_land, i), R_h = real_lane(R, i), F[3] = {0.0, real_lane(F_y, i), real_lane(F_z, i)};
-        const number arm[3] = {half->a[0] * x, half->a[1] * x, half->a[2] * x};
+        const scalar x = wide_lane(x_land, i), R_h = wide_lane(R, i), F[3] = {0.0, wide_lane(F_y, i), wide_lane(F_z, i)};
+        const scalar arm[3] = {half->a[0] * x, half->a[1] * x, half->a[2] * x};
         half->F[1] += F[1];
         half->F[2] += F[2];
-        half->M[0] += real_lane(M_x, i) + arm[1] * F[2] - arm[2] * F[1];
+        half->M[0] += wide_lane(M_x, i) + arm[1] * F[2] - arm[2] * F[1];
         half->M[1] += -arm[0] * F[2];
         half->M[2] += arm[0] * F[1];
-        w->film_yy[h] = real_lane(K_yy, i), w->film_yz[h] = real_lane(K_yz, i), w->film_zz[h] = real_lane(K_zz, i);
-        w->film_spin[h] = real_lane(couette, i) + real_lane(g, i) * R_h * R_h;
-        w->land_elastic += real_lane(elastic, i);
-        w->land_dissipated -= real_lane(power, i) + real_lane(elastic_rate, i);
+        w->film_yy[h] = wide_lane(K_yy, i), w->film_yz[h] = wide_lane(K_yz, i), w->film_zz[h] = wide_lane(K_zz, i);
+        w->film_spin[h] = wide_lane(couette, i) + wide_lane(g, i) * R_h * R_h;
+        w->land_elastic += wide_lane(elastic, i);
+        w->land_dissipated -= wide_lane(power, i) + wide_lane(elastic_rate, i);
     }
 }
 

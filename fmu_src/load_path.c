@@ -1,10 +1,10 @@
 // Load path of the cage: see load_path.h for the equations.
 #include "load_path.h"
 
-void load_path_rigid(double d_m, const number wrench[6], const double c[Z], const double s[Z], number N[Z], number V_y[Z], number V_z[Z])
+void load_path_rigid(double d_m, const scalar wrench[6], const double c[Z], const double s[Z], scalar N[Z], scalar V_y[Z], scalar V_z[Z])
 {
     const double R = 0.5 * d_m;
-    const number shear = wrench[3] / (Z * R);
+    const scalar shear = wrench[3] / (Z * R);
     for (int k = 0; k < Z; k++) {
         N[k] = wrench[0] / Z + 2.0 * (wrench[4] * s[k] - wrench[5] * c[k]) / (Z * R);
         V_y[k] = wrench[1] / Z - shear * s[k];
@@ -15,32 +15,32 @@ void load_path_rigid(double d_m, const number wrench[6], const double c[Z], cons
 // A touched pocket: its place in the matrix, the forces that count there.
 typedef struct {
     const double *column;
-    number outward, along, push;
+    scalar F_x, F_r, abs_F_t;
 } Touch;
 
-void load_path_flexible(const double *matrix, int side, bool transverse, const number F_x[Z], const number F_r[Z], const number F_t[Z], PathLoads *loads)
+void load_path_flexible(const double *matrix, int side, bool transverse, const scalar F_x[Z], const scalar F_r[Z], const scalar F_t[Z], PathLoads *loads)
 {
     Touch touch[Z];
     int count = 0;
     for (int j = 0; j < Z; j++) {
         if (F_x[j] == 0.0 && F_r[j] == 0.0 && F_t[j] == 0.0) continue;  // most pockets are not touched
-        const bool back = number_value(F_t[j]) < 0.0;
+        const bool back = scalar_value(F_t[j]) < 0.0;
         touch[count++] = (Touch){matrix + back * PATH_LOADS * 3 * PATH_WIDTH + Z - 1 - j, side * F_x[j], F_r[j], back ? -F_t[j] : F_t[j]};  // as on the +x half
     }
     for (int i = 0; i < PATH_LOADS; i++) {
         const bool V = i == PATH_V_R || i == PATH_V_T;
         if (V && !transverse) continue;
         const double sign = V ? side : 1.0;
-        for (int k = 0; k < BUNDLES * LANE_WIDTH; k += LANE_WIDTH) {
-            real sum = real_set(0.0);
+        for (int k = 0; k < PACKETS * LANE_WIDTH; k += LANE_WIDTH) {
+            wide sum = wide_set(0.0);
             for (int n = 0; n < count; n++) {
                 const Touch *on = &touch[n];
                 const double *row = on->column + i * 3 * PATH_WIDTH + k;
-                sum = real_fma(real_set(on->outward), real_load(row), sum);
-                sum = real_fma(real_set(on->along), real_load(row + PATH_WIDTH), sum);
-                sum = real_fma(real_set(on->push), real_load(row + 2 * PATH_WIDTH), sum);
+                sum = wide_fma(wide_set(on->F_x), wide_load(row), sum);
+                sum = wide_fma(wide_set(on->F_r), wide_load(row + PATH_WIDTH), sum);
+                sum = wide_fma(wide_set(on->abs_F_t), wide_load(row + 2 * PATH_WIDTH), sum);
             }
-            real_store(&loads->sum[i][k], real_load(&loads->sum[i][k]) + sign * sum);
+            wide_store(&loads->sum[i][k], wide_load(&loads->sum[i][k]) + sign * sum);
         }
     }
 }

@@ -20,13 +20,13 @@ enum { PATH_WIDTH = LANES + Z - 1 };  // one row of the matrix for pocket 0, con
 
 // Loads at the rivets beyond the dynamics' own [N, N.m], on the +x half.
 typedef struct {
-    lanes sum[PATH_LOADS];
+    ball_array sum[PATH_LOADS];
 } PathLoads;
 
 // Wrench (F_x, F_y, F_z, M_x, M_y, M_z) that the rivets must carry from outside onto the +x half, taken at the centre of the circle;
 // c[k], s[k]: cosine and sine of the rivets' angles in the frame of the wrench.  Returns N, V_y, V_z at each rivet [N].
-void load_path_rigid(double d_m, const number wrench[6], const double c[Z], const double s[Z], number N[Z], number V_y[Z], number V_z[Z]);
+void load_path_rigid(double d_m, const scalar wrench[6], const double c[Z], const double s[Z], scalar N[Z], scalar V_y[Z], scalar V_z[Z]);
 
 // Adds the flexible share of pocket forces (F_x, F_r, F_t)[j] on one half: side +1 or -1; V_r and V_t only if `transverse`.
 // matrix: [F_t > 0, F_t < 0][PATH_LOADS][x, r, |t|][PATH_WIDTH], as the rivet table holds it: rivet k and pocket j at k - j + Z - 1.
-void load_path_flexible(const double *matrix, int side, bool transverse, const number F_x[Z], const number F_r[Z], const number F_t[Z], PathLoads *loads);
+void load_path_flexible(const double *matrix, int side, bool transverse, const scalar F_x[Z], const scalar F_r[Z], const scalar F_t[Z], PathLoads *loads);

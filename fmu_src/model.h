@@ -10,8 +10,8 @@
 #include "rivet_rom.h"
 
 typedef struct {
-    real x, r, t;
-} vec;  // one vector per ball of a bundle, in the balls' own frames
+    wide x, r, t;
+} vec;  // one vector per ball of a packet, in the balls' own frames
 
 // ---- constants, written once by model_derive ---------------------------------------------------------------------------------------------
 typedef struct {
@@ -59,73 +59,76 @@ typedef struct {
 
 // From here on all members are numbers: jacobian.h gives the derivative of each.
 
-// ---- the inputs over a communication step: polynomials of time, and the half-sine in progress; written by course_update ------------------------
+// ---- the inputs over a communication step: polynomials of time, and the half-sine in progress; written by input_trajectory_update ------------------------
 typedef struct {
-    number t_0;                      // communication point [s]
+    scalar t_0;                      // communication point [s]
     Inputs u[INPUT_ORDERS + 1];      // the inputs there and their derivatives
-    number pulse_r, pulse_a;         // amplitude of the half-sine in progress, radial and axial [N]; 0 between pulses
-    number pulse_start, pulse_rate;  // its start [s] and pi / duration [1/s]
-} Course;
+    scalar pulse_r, pulse_a;         // amplitude of the half-sine in progress, radial and axial [N]; 0 between pulses
+    scalar pulse_start, pulse_rate;  // its start [s] and pi / duration [1/s]
+} InputTrajectory;
 
-// ---- what the ring sees of them at one time; written by drive_at ---------------------------------------------------------------------------------
+// ---- what the ring sees of them at one time; written by ring_load_at ---------------------------------------------------------------------------------
 typedef struct {
-    number F[3], M[2];   // load [N], moment about Y, Z [N.m]
-    number omega;        // speed [rad/s]
-    number beta, gamma;  // direction cosines of the shaft's tilt
-} Drive;
+    scalar F[3], M[2];   // load [N], moment about Y, Z [N.m]
+    scalar omega;        // speed [rad/s]
+    scalar beta, gamma;  // direction cosines of the shaft's tilt
+} RingLoad;
 
 // ---- a rigid body with an axis: inner ring or cage half; written by rotor_axis, rotor_body_axes --------------------------------------------------
 typedef struct {
-    number x[3], v[3];      // geometric centre
-    number a[3], a_dot[3];  // axis: unit vector (a_x, gamma, -beta) and its rate
-    number Omega[3], s;     // angular velocity a x a_dot + s a, spin s
-    number b_y[3], b_z[3];  // body axes across (cage halves)
-    number c[3];            // centre of mass - geometric centre (cage halves)
-    number F[3], M[3];      // force and moment about the geometric centre, by all contacts
+    scalar x[3], v[3];      // geometric centre
+    scalar a[3], a_dot[3];  // axis: unit vector (a_x, gamma, -beta) and its rate
+    scalar Omega[3], s;     // angular velocity a x a_dot + s a, spin s
+    scalar b_y[3], b_z[3];  // body axes across (cage halves)
+    scalar c[3];            // centre of mass - geometric centre (cage halves)
+    scalar F[3], M[3];      // force and moment about the geometric centre, by all contacts
 } Rotor;
 
 // ---- the balls in the pockets of one half; written by pocket_force, forces zero where they do not touch ------------------------------------------
 typedef struct {
-    lanes Q;                             // contact load [N]
-    lanes F_x, F_r, F_t;                 // force on the half in the pocket's frame [N]
-    lanes half_F_x, half_F_y, half_F_z;  // force on the half, global frame
-    lanes half_M_x, half_M_y, half_M_z;  // moment on the half about its geometric centre, global frame
+    ball_array Q;                             // contact load [N]
+    ball_array F_x, F_r, F_t;                 // force on the half in the pocket's frame [N]
+    ball_array half_F_x, half_F_y, half_F_z;  // force on the half, global frame
+    ball_array half_M_x, half_M_y, half_M_z;  // moment on the half about its geometric centre, global frame
 } Pockets;
 
 // ---- one evaluation of the right-hand side, in the order it is written --------------------------------------------------------------------------
 typedef struct {
     // position and velocity of the balls: copies of y (ball_kinematics)
-    lanes x, r, theta, v_x, v_r, omega_m, omega_x, omega_r, omega_t;
-    lanes cos_theta, sin_theta, v_t;
+    ball_array x, r, theta, v_x, v_r, omega_m, omega_x, omega_r, omega_t;
+    ball_array cos_theta, sin_theta, v_t;
     Rotor ring, half[2];
     // contacts: total force and moment on the ball about its centre (race_contact_force sets, pocket_force and drag_force add)
-    lanes F_x, F_r, F_t, M_x, M_r, M_t;
-    lanes g_i, g_e;            // race contacts: |traction|/|slip| [N.s/m] (race_contact_force)
-    lanes g_spin_i, g_spin_e;  // their moment/spin about the normal [N.m.s]
+    ball_array F_x, F_r, F_t, M_x, M_r, M_t;
+    ball_array g_i, g_e;            // race contacts: |traction|/|slip| [N.s/m] (race_contact_force)
+    ball_array g_spin_i, g_spin_e;  // their moment/spin about the normal [N.m.s]
     // stiff rates of the ball's velocities by the pockets, 1/s: -d(acceleration)/d(velocity) (race_contact_force clears, pocket_force adds)
-    lanes D_x, D_r, D_t, D_omega_x, D_omega_r, D_omega_t;
-    lanes dissipated;  // by contacts and drag [W]
+    ball_array D_x, D_r, D_t, D_omega_x, D_omega_r, D_omega_t;
+    ball_array dissipated;  // by contacts and drag [W]
     // wrench of the race contacts on the inner ring about its centre, global frame
-    lanes ring_F_x, ring_F_y, ring_F_z, ring_M_x, ring_M_y, ring_M_z;
+    ball_array ring_F_x, ring_F_y, ring_F_z, ring_M_x, ring_M_y, ring_M_z;
     // contact results
-    lanes delta_i, delta_e, Q_i, Q_e, n_ix, n_ir, n_it, n_ex, n_er, U_i, U_e;
-    lanes delta_c[2];   // elastic approach of ball and half
-    Pockets pocket[2];  // on each half; on a rigid cage all on the first
+    ball_array delta_i, delta_e, Q_i, Q_e, n_ix, n_ir, n_it, n_ex, n_er, U_i, U_e;
+    ball_array delta_c[2];  // elastic approach of ball and half
+    Pockets pocket[2];      // on each half; on a rigid cage all on the first
     // joints, in the frame of half 0 (cage_joint_force)
-    lanes u_x, u_y, u_z, v_jx, v_jy, v_jz;           // half 1 against half 0: offset, velocity
-    lanes T, N_plate, S_y, S_z, H_y, H_z, B_y, B_z;  // rivet tension, plate force, forces on half 1 by plates S, heads H, hole B
-    lanes plate_y_dot, plate_z_dot, head_y_dot, head_z_dot, D_plate, D_head;
-    lanes joint_dissipated;
+    ball_array u_x, u_y, u_z, v_jx, v_jy, v_jz;           // half 1 against half 0: offset, velocity
+    ball_array T, N_plate, S_y, S_z, H_y, H_z, B_y, B_z;  // rivet tension, plate force, forces on half 1 by plates S, heads H, hole B
+    ball_array plate_y_dot, plate_z_dot, head_y_dot, head_z_dot, D_plate, D_head;
+    ball_array joint_dissipated;
     // scalars
-    number land_dissipated, land_elastic, film_yy[2], film_yz[2], film_zz[2], film_spin[2];  // of each land: -dF/dv, -dM/domega
+    scalar land_dissipated, land_elastic, film_yy[2], film_yz[2], film_zz[2], film_spin[2];  // of each land: -dF/dv, -dM/domega
 } Work;
 
 typedef struct {
     const Parameters *p;
     const Derived *d;
-    const Drive *drive;    // now
-    const Course *course;  // where the drive changes with time: takes the place of the drive; NULL where it is held
+    const RingLoad *ring_load;          // now
+    const InputTrajectory *trajectory;  // where the drive changes with time: takes the place of the drive; NULL where it is held
 } Model;
 
 // Derived constants of all elements; the parameters have been checked.
 void model_derive(const Parameters *p, Derived *d);
+
+// A Work whose padding lanes are harmless.
+void work_init(const Derived *d, Work *w);

@@ -1,10 +1,10 @@
 // Outputs that follow from one evaluation of the right-hand side, group by group.  Compiled for their values and, in dual numbers, for their derivatives.
 #include "outputs.h"
 
-#include "drive.h"
 #include "energy.h"
 #include "hertz.h"
 #include "housing.h"
+#include "ring_load.h"
 #include "rivets.h"
 #include "traction.h"
 
@@ -28,7 +28,7 @@ static void fill_state(const Evaluation *at, Outputs *out)
 static void fill_ring(const Evaluation *at, Outputs *out)
 {
     const Work *w = at->w;
-    number F[3], M[3];
+    scalar F[3], M[3];
     out->ring.a_x = at->y_dot[Y_RING_V_X];
     out->ring.a_y = at->y_dot[Y_RING_V_Y];
     out->ring.a_z = at->y_dot[Y_RING_V_Z];
@@ -45,23 +45,23 @@ static void fill_ring(const Evaluation *at, Outputs *out)
 }
 
 // p_max = 3 Q/(2 pi a b).
-static number pressure(const Hertz *hertz, number Q)
+static scalar pressure(const Hertz *hertz, scalar Q)
 {
-    return number_value(Q) > 0.0 ? 1.5 * number_cbrt(Q) / (PI * hertz->a * hertz->b) : 0.0;
+    return scalar_value(Q) > 0.0 ? 1.5 * scalar_cbrt(Q) / (PI * hertz->a * hertz->b) : 0.0;
 }
 
-static number film_ratio(const Race *race, number U, number Q)
+static scalar film_ratio(const Race *race, scalar U, scalar Q)
 {
-    return number_value(Q) > 0.0 ? number_exp(race->ln_Lambda + 0.67 * number_log(U) - 0.067 * number_log(Q + Q_FLOOR)) : 0.0;
+    return scalar_value(Q) > 0.0 ? scalar_exp(race->ln_Lambda + 0.67 * scalar_log(U) - 0.067 * scalar_log(Q + Q_FLOOR)) : 0.0;
 }
 
 // Spin of the ball against the inner ring about the contact normal / rolling speed across it.
-static number spin_roll(const Work *w, int j)
+static scalar spin_roll(const Work *w, int j)
 {
-    const number *Omega = w->ring.Omega, c = w->cos_theta[j], s = w->sin_theta[j];
-    const number rel[3] = {w->omega_x[j] - Omega[0], w->omega_r[j] - (Omega[1] * c + Omega[2] * s), w->omega_t[j] - (Omega[2] * c - Omega[1] * s)};
-    const number n[3] = {w->n_ix[j], w->n_ir[j], w->n_it[j]}, spin = dot3(rel, n), across = dot3(rel, rel) - spin * spin;
-    return number_value(w->Q_i[j]) > 0.0 && number_value(across) > 0.0 ? spin / number_sqrt(across) : 0.0;
+    const scalar *Omega = w->ring.Omega, c = w->cos_theta[j], s = w->sin_theta[j];
+    const scalar rel[3] = {w->omega_x[j] - Omega[0], w->omega_r[j] - (Omega[1] * c + Omega[2] * s), w->omega_t[j] - (Omega[2] * c - Omega[1] * s)};
+    const scalar n[3] = {w->n_ix[j], w->n_ir[j], w->n_it[j]}, spin = dot3(rel, n), across = dot3(rel, rel) - spin * spin;
+    return scalar_value(w->Q_i[j]) > 0.0 && scalar_value(across) > 0.0 ? spin / scalar_sqrt(across) : 0.0;
 }
 
 static void fill_ball(const Evaluation *at, Outputs *out)
@@ -70,31 +70,31 @@ static void fill_ball(const Evaluation *at, Outputs *out)
     const Derived *d = at->model->d;
     const bool rigid = at->model->p->scene.cage == CAGE_MODEL_RIGID;
     double contacts = 0.0;
-    number penetration = 0.0, force_most = 0.0;
+    scalar penetration = 0.0, force_max = 0.0;
     for (int j = 0; j < Z; j++) {
-        const number Q_i = w->Q_i[j], Q_e = w->Q_e[j], Q_c = w->pocket[0].Q[j] + w->pocket[1].Q[j];
-        const number delta[3] = {w->delta_i[j], w->delta_e[j], rigid ? w->delta_c[0][j] : number_max(w->delta_c[0][j], w->delta_c[1][j])};
+        const scalar Q_i = w->Q_i[j], Q_e = w->Q_e[j], Q_c = w->pocket[0].Q[j] + w->pocket[1].Q[j];
+        const scalar delta[3] = {w->delta_i[j], w->delta_e[j], rigid ? w->delta_c[0][j] : scalar_max(w->delta_c[0][j], w->delta_c[1][j])};
         out->ball.Q_i[j] = Q_i;
         out->ball.Q_e[j] = Q_e;
         out->ball.Q_c[j] = Q_c;
         out->ball.Q_cx[j] = w->pocket[0].F_x[j] + w->pocket[1].F_x[j];
         out->ball.omega_m[j] = w->omega_m[j];
-        out->ball.alpha_i[j] = number_value(Q_i) > 0.0 ? number_atan2(-w->n_ix[j], -w->n_ir[j]) : 0.0;
-        out->ball.alpha_e[j] = number_value(Q_e) > 0.0 ? number_atan2(w->n_ex[j], w->n_er[j]) : 0.0;
+        out->ball.alpha_i[j] = scalar_value(Q_i) > 0.0 ? scalar_atan2(-w->n_ix[j], -w->n_ir[j]) : 0.0;
+        out->ball.alpha_e[j] = scalar_value(Q_e) > 0.0 ? scalar_atan2(w->n_ex[j], w->n_er[j]) : 0.0;
         out->ball.p_i[j] = pressure(&d->inner.hertz, Q_i);
         out->ball.p_e[j] = pressure(&d->outer.hertz, Q_e);
         out->ball.Lambda_i[j] = film_ratio(&d->inner, w->U_i[j], Q_i);
         out->ball.Lambda_e[j] = film_ratio(&d->outer, w->U_e[j], Q_e);
         out->ball.spin_roll[j] = spin_roll(w, j);
         for (int i = 0; i < 3; i++) {
-            contacts += number_value(delta[i]) > 0.0;
-            penetration = number_max(penetration, delta[i]);
+            contacts += scalar_value(delta[i]) > 0.0;
+            penetration = scalar_max(penetration, delta[i]);
         }
-        force_most = number_max(force_most, Q_c);
+        force_max = scalar_max(force_max, Q_c);
     }
     out->bearing.contacts = contacts;
     out->bearing.penetration = penetration;
-    out->cage.F_pocket_max = force_most;
+    out->cage.F_pocket_max = force_max;
 }
 
 static void fill_pose(const Evaluation *at, Outputs *out)
@@ -116,25 +116,25 @@ static void fill_cage(const Evaluation *at, Outputs *out)
 {
     const Rotor *h0 = &at->w->half[0], *h1 = &at->w->half[1];
     const Parameters *p = at->model->p;
-    const number epicyclic = 0.5 * at->model->drive->omega * (1.0 - p->bearing.D / p->bearing.d_m);
+    const scalar epicyclic = 0.5 * at->model->ring_load->omega * (1.0 - p->bearing.D / p->bearing.d_m);
     out->cage.omega = 0.5 * (h0->s + h1->s);
-    out->cage.slip_ratio = number_value(epicyclic) != 0.0 ? 1.0 - out->cage.omega / epicyclic : 0.0;
+    out->cage.slip_ratio = scalar_value(epicyclic) != 0.0 ? 1.0 - out->cage.omega / epicyclic : 0.0;
     out->cage.y = 0.5 * (h0->x[1] + h1->x[1]);
     out->cage.z = 0.5 * (h0->x[2] + h1->x[2]);
-    out->cage.eccentricity = number_sqrt(out->cage.y * out->cage.y + out->cage.z * out->cage.z) / at->model->d->C_land;
+    out->cage.eccentricity = scalar_sqrt(out->cage.y * out->cage.y + out->cage.z * out->cage.z) / at->model->d->C_land;
 }
 
 static void fill_rivet(const Evaluation *at, Outputs *out)
 {
     const bool rigid = at->model->p->scene.cage == CAGE_MODEL_RIGID;
     RivetLoads load;
-    number slip[Z], most = 0.0;
+    scalar slip[Z], max = 0.0;
     at->loads(at->model, at->w, &load);
     rivets_slip(at->model, at->w, slip);
     for (int k = 0; k < Z; k++) {
         out->rivet.N[k] = load.N[k];
         out->rivet.T[k] = rigid ? at->model->d->P : at->w->T[k];
-        out->rivet.M[k] = number_sqrt(load.M_y[k] * load.M_y[k] + load.M_z[k] * load.M_z[k]);
+        out->rivet.M[k] = scalar_sqrt(load.M_y[k] * load.M_y[k] + load.M_z[k] * load.M_z[k]);
         out->rivet.V[k] = load.V[k];
         out->rivet.P[k] = at->model->d->P;
         out->rivet.V_y[k] = load.V_y[k];
@@ -143,15 +143,15 @@ static void fill_rivet(const Evaluation *at, Outputs *out)
         out->rivet.M_z[k] = load.M_z[k];
         out->rivet.F_head[k] = load.F_head[k];
         out->rivet.slip[k] = slip[k];
-        most = number_max(most, slip[k]);
+        max = scalar_max(max, slip[k]);
     }
-    out->cage.dislocation = most;
+    out->cage.dislocation = max;
 }
 
 static void fill_stress(const Evaluation *at, Outputs *out)
 {
     RivetLoads load;
-    number sigma[RIVET_CHANNELS] = {0.0};
+    scalar sigma[RIVET_CHANNELS] = {0.0};
     const bool off = at->model->p->scene.stress == STRESS_OFF;
     if (!off) at->loads(at->model, at->w, &load);
     for (int k = 0; k < Z; k++) {
@@ -172,8 +172,8 @@ static void fill_stress(const Evaluation *at, Outputs *out)
 static void fill_energy(const Evaluation *at, Outputs *out)
 {
     const Work *w = at->w;
-    out->bearing.power_loss = lanes_sum(w->dissipated) + w->land_dissipated;
-    if (at->model->p->scene.cage == CAGE_MODEL_TWO_HALF) out->bearing.power_loss += lanes_sum(w->joint_dissipated);
+    out->bearing.power_loss = ball_array_sum(w->dissipated) + w->land_dissipated;
+    if (at->model->p->scene.cage == CAGE_MODEL_TWO_HALF) out->bearing.power_loss += ball_array_sum(w->joint_dissipated);
     out->bearing.energy_residual = energy_total(at->model, at->y, w) - at->y[Y_WORK];
 }
 

@@ -6,7 +6,7 @@
 // Where an evaluation stands: the state y, y_dot and all other results of the right-hand side there.
 typedef struct {
     const Model *model;
-    const number *y, *y_dot;
+    const scalar *y, *y_dot;
     const Work *w;
     RivetsLoad *loads;
 } Evaluation;

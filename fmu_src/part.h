@@ -3,7 +3,7 @@
 // fmus/variables.toml, and bearing.c is what stands behind these functions; examples/transmission/shaft.c is another part behind the same wrapper.
 #pragma once
 
-#include "variables.h"
+#include "variable_table.h"
 
 #include <stdbool.h>
 #include <stddef.h>

@@ -18,74 +18,74 @@
 #include "traction.h"
 
 // Friction coefficient of a pocket at sliding speed v and load Q.  Film: the thicker one of piezoviscous and isoviscous-rigid lubrication.
-INLINE real pocket_mu(const Model *model, real ln_U, real ln_Q, bool mixed)
+INLINE wide pocket_mu(const Model *model, wide ln_U, wide ln_Q, bool mixed)
 {
-    const real film = real_set(model->p->cage.mu);
+    const wide film = wide_set(model->p->cage.mu);
     if (!mixed) return film;
-    const real ln_piezo = traction_ln_film(real_set(model->d->ln_pocket_piezo), ln_U, ln_Q);
-    const real ln_rigid = model->d->ln_pocket_rigid + 2.0 * (ln_U - ln_Q);
-    return film + traction_asperity_share(real_max(ln_piezo, ln_rigid)) * (model->p->oil.mu_b - film);
+    const wide ln_piezo = traction_ln_film(wide_set(model->d->ln_pocket_piezo), ln_U, ln_Q);
+    const wide ln_rigid = model->d->ln_pocket_rigid + 2.0 * (ln_U - ln_Q);
+    return film + traction_asperity_share(wide_max(ln_piezo, ln_rigid)) * (model->p->oil.mu_b - film);
 }
 
 // Direction of the pockets: body angle phi_j turned by the half, b = b_y cos phi + b_z sin phi, in the frames of the balls.
-INLINE vec pocket_direction(const Derived *d, const Rotor *half, int j, real cos_theta, real sin_theta)
+INLINE vec pocket_direction(const Derived *d, const Rotor *half, int j, wide cos_theta, wide sin_theta)
 {
     const vec b_y = vec_local(half->b_y, cos_theta, sin_theta), b_z = vec_local(half->b_z, cos_theta, sin_theta);
-    return vec_axpy(real_load(&d->pocket_sin[j]), b_z, vec_scale(real_load(&d->pocket_cos[j]), b_y));
+    return vec_axpy(wide_load(&d->pocket_sin[j]), b_z, vec_scale(wide_load(&d->pocket_cos[j]), b_y));
 }
 
-INLINE void add_vec(vec v, number *x, number *r, number *t)
+INLINE void add_vec(vec v, scalar *x, scalar *r, scalar *t)
 {
     vec_store(vec_add(vec_load(x, r, t), v), x, r, t);
 }
 
-// Forces in a bundle of pockets, stored for the half and added to the balls.
+// Forces in a packet of pockets, stored for the half and added to the balls.
 INLINE void pocket_contacts(const Model *model, Work *w, int h, int j, bool mixed, bool whole)
 {
     const Parameters *p = model->p;
     const Derived *d = model->d;
     const Rotor *half = &w->half[h];
     Pockets *pocket = &w->pocket[h];
-    const real cos_theta = real_load(&w->cos_theta[j]), sin_theta = real_load(&w->sin_theta[j]), R = real_load(&d->R[j]);
+    const wide cos_theta = wide_load(&w->cos_theta[j]), sin_theta = wide_load(&w->sin_theta[j]), R = wide_load(&d->R[j]);
 
     const vec a = vec_local(half->a, cos_theta, sin_theta), b = pocket_direction(d, half, j, cos_theta, sin_theta), e_t = vec_cross(a, b);
-    const vec centre = {real_load(&w->x[j]), real_load(&w->r[j]), real_set(0.0)}, arm_p = vec_sub(centre, vec_local(half->x, cos_theta, sin_theta));
-    const real x = vec_dot(arm_p, a), t = vec_dot(arm_p, e_t);
-    const real S = real_sqrt(x * x + t * t + 1e-30), per_S = 1.0 / S, n_x = x * per_S, n_t = t * per_S;
-    const real delta = S - (d->pocket_radius - R);
+    const vec centre = {wide_load(&w->x[j]), wide_load(&w->r[j]), wide_set(0.0)}, arm_p = vec_sub(centre, vec_local(half->x, cos_theta, sin_theta));
+    const wide x = vec_dot(arm_p, a), t = vec_dot(arm_p, e_t);
+    const wide S = wide_sqrt(x * x + t * t + 1e-30), inv_S = 1.0 / S, n_x = x * inv_S, n_t = t * inv_S;
+    const wide delta = S - (d->pocket_radius - R);
     const vec n = vec_axpy(n_t, e_t, vec_scale(n_x, a));
 
     const vec omega_b = vec_load(&w->omega_x[j], &w->omega_r[j], &w->omega_t[j]), v_b = vec_load(&w->v_x[j], &w->v_r[j], &w->v_t[j]);
     const vec Omega = vec_local(half->Omega, cos_theta, sin_theta);
     const vec v = vec_sub(vec_sub(v_b, vec_local(half->v, cos_theta, sin_theta)), vec_cross(Omega, arm_p));
-    const real delta_dot = vec_dot(n, v);
+    const wide delta_dot = vec_dot(n, v);
 
     // share of the half and its slope; the sign is that of the half's side
     const double side = h == 0 ? -1.0 : 1.0, width2 = p->cage.share_width * p->cage.share_width;
-    const real per_root = 1.0 / real_sqrt(n_x * n_x + width2);
-    const real share = whole ? real_set(1.0) : 0.5 * (1.0 + side * n_x * per_root);
-    const real share_slope = whole ? real_set(0.0) : 0.5 * side * width2 * (per_root * per_root * per_root);
+    const wide inv_root = 1.0 / wide_sqrt(n_x * n_x + width2);
+    const wide share = whole ? wide_set(1.0) : 0.5 * (1.0 + side * n_x * inv_root);
+    const wide share_slope = whole ? wide_set(0.0) : 0.5 * side * width2 * (inv_root * inv_root * inv_root);
 
-    const real Q_full = hertz_load(real_set(d->pocket.K), delta), Q_0 = share * Q_full;
-    const real Q = hertz_damped(Q_0, real_set(p->cage.lambda), delta_dot);
-    const real F_across = 0.4 * Q_full * real_max(delta, real_set(0.0)) * share_slope * n_t * per_S;  // dV/dn_x grad n_x, grad n_x = (n_t a - n_x e_t) n_t/S
+    const wide Q_full = hertz_load(wide_set(d->pocket.K), delta), Q_0 = share * Q_full;
+    const wide Q = hertz_damped(Q_0, wide_set(p->cage.lambda), delta_dot);
+    const wide F_across = 0.4 * Q_full * wide_max(delta, wide_set(0.0)) * share_slope * n_t * inv_S;  // dV/dn_x grad n_x, grad n_x = (n_t a - n_x e_t) n_t/S
     const vec F_n = vec_axpy(-Q, n, vec_axpy(-F_across * n_t, a, vec_scale(F_across * n_x, e_t)));
 
     const vec arm = vec_scale(R, n);
     const vec slip = vec_across(vec_add(v, vec_cross(vec_sub(omega_b, Omega), arm)), n);
-    const real slip_2 = vec_dot(slip, slip), U_2 = 0.25 * slip_2 + p->oil.U_0 * p->oil.U_0, per_U = 1.0 / real_sqrt(U_2);
-    real ln_U, ln_Q;
-    real_log2(U_2 * per_U, Q + Q_FLOOR, &ln_U, &ln_Q);
-    const real g = pocket_mu(model, ln_U, ln_Q, mixed) * Q / real_sqrt(slip_2 + p->cage.v_c * p->cage.v_c);
-    const real g_R = 0.5 * traction_inlet(real_set(d->pocket_rolling), ln_U, Q, ln_Q) * per_U;
+    const wide slip_2 = vec_dot(slip, slip), U_2 = 0.25 * slip_2 + p->oil.U_0 * p->oil.U_0, inv_U = 1.0 / wide_sqrt(U_2);
+    wide ln_U, ln_Q;
+    wide_log2(U_2 * inv_U, Q + Q_FLOOR, &ln_U, &ln_Q);
+    const wide g = pocket_mu(model, ln_U, ln_Q, mixed) * Q / wide_sqrt(slip_2 + p->cage.v_c * p->cage.v_c);
+    const wide g_R = 0.5 * traction_inlet(wide_set(d->pocket_rolling), ln_U, Q, ln_Q) * inv_U;
     const vec F_s = vec_scale(-(g + g_R), slip), F_c = vec_scale(2.0 * g_R, slip);
     const vec F = vec_add(F_n, vec_add(F_s, F_c)), M = vec_cross(arm, F_s);
-    const vec F_half = vec_scale(real_set(-1.0), F), M_half = vec_sub(vec_cross(arm_p, F_half), M);
+    const vec F_half = vec_scale(wide_set(-1.0), F), M_half = vec_sub(vec_cross(arm_p, F_half), M);
 
-    real_store(&pocket->Q[j], Q);
-    real_store(&pocket->F_x[j], vec_dot(F_half, a));
-    real_store(&pocket->F_r[j], vec_dot(F_half, b));
-    real_store(&pocket->F_t[j], vec_dot(F_half, e_t));
+    wide_store(&pocket->Q[j], Q);
+    wide_store(&pocket->F_x[j], vec_dot(F_half, a));
+    wide_store(&pocket->F_r[j], vec_dot(F_half, b));
+    wide_store(&pocket->F_t[j], vec_dot(F_half, e_t));
     vec_to_global(F_half, cos_theta, sin_theta, &pocket->half_F_x[j], &pocket->half_F_y[j], &pocket->half_F_z[j]);
     vec_to_global(M_half, cos_theta, sin_theta, &pocket->half_M_x[j], &pocket->half_M_y[j], &pocket->half_M_z[j]);
 
@@ -94,29 +94,29 @@ INLINE void pocket_contacts(const Model *model, Work *w, int h, int j, bool mixe
     add_vec(M, &w->M_x[j], &w->M_r[j], &w->M_t[j]);
     add_vec(vec_scale(g / d->m, tangent), &w->D_x[j], &w->D_r[j], &w->D_t[j]);
     add_vec(vec_scale(g * (R * R / d->J), tangent), &w->D_omega_x[j], &w->D_omega_r[j], &w->D_omega_t[j]);
-    real_store(&w->dissipated[j], real_load(&w->dissipated[j]) + ((Q - Q_0) * delta_dot - vec_dot(F_s, slip) - vec_dot(F_c, v)));
+    wide_store(&w->dissipated[j], wide_load(&w->dissipated[j]) + ((Q - Q_0) * delta_dot - vec_dot(F_s, slip) - vec_dot(F_c, v)));
 }
 
 // Nothing touches.
 INLINE void pocket_clear(Pockets *pocket, int j)
 {
     const vec none = {0};
-    real_store(&pocket->Q[j], real_set(0.0));
+    wide_store(&pocket->Q[j], wide_set(0.0));
     vec_store(none, &pocket->F_x[j], &pocket->F_r[j], &pocket->F_t[j]);
     vec_store(none, &pocket->half_F_x[j], &pocket->half_F_y[j], &pocket->half_F_z[j]);
     vec_store(none, &pocket->half_M_x[j], &pocket->half_M_y[j], &pocket->half_M_z[j]);
 }
 
-// Elastic approach of a bundle of balls to the pockets of one half (negative: open).
-INLINE real pocket_approach(const Derived *d, const Work *w, const Rotor *half, int j)
+// Elastic approach of a packet of balls to the pockets of one half (negative: open).
+INLINE wide pocket_approach(const Derived *d, const Work *w, const Rotor *half, int j)
 {
-    const real r = real_load(&w->r[j]);
-    const real p_x = real_load(&w->x[j]) - half->x[0], p_y = r * real_load(&w->cos_theta[j]) - half->x[1];
-    const real p_z = r * real_load(&w->sin_theta[j]) - half->x[2];
-    const real x = p_x * half->a[0] + p_y * half->a[1] + p_z * half->a[2];
-    const real y = p_x * half->b_y[0] + p_y * half->b_y[1] + p_z * half->b_y[2], z = p_x * half->b_z[0] + p_y * half->b_z[1] + p_z * half->b_z[2];
-    const real t = z * real_load(&d->pocket_cos[j]) - y * real_load(&d->pocket_sin[j]);  // e_t = b_z cos phi - b_y sin phi
-    return real_sqrt(x * x + t * t + 1e-30) - (d->pocket_radius - real_load(&d->R[j]));
+    const wide r = wide_load(&w->r[j]);
+    const wide p_x = wide_load(&w->x[j]) - half->x[0], p_y = r * wide_load(&w->cos_theta[j]) - half->x[1];
+    const wide p_z = r * wide_load(&w->sin_theta[j]) - half->x[2];
+    const wide x = p_x * half->a[0] + p_y * half->a[1] + p_z * half->a[2];
+    const wide y = p_x * half->b_y[0] + p_y * half->b_y[1] + p_z * half->b_y[2], z = p_x * half->b_z[0] + p_y * half->b_z[1] + p_z * half->b_z[2];
+    const wide t = z * wide_load(&d->pocket_cos[j]) - y * wide_load(&d->pocket_sin[j]);  // e_t = b_z cos phi - b_y sin phi
+    return wide_sqrt(x * x + t * t + 1e-30) - (d->pocket_radius - wide_load(&d->R[j]));
 }
 
 // All pockets of one half; most are not touched.
@@ -125,20 +125,20 @@ INLINE void pocket_half(const Model *model, Work *w, int h, bool mixed, bool who
     Pockets *pocket = &w->pocket[h];
     Rotor *half = &w->half[h];
     bool touched = false;
-    for (int j = 0; j < BUNDLES * LANE_WIDTH; j += LANE_WIDTH) {
-        const real delta = pocket_approach(model->d, w, half, j);
-        real_store(&w->delta_c[h][j], delta);
-        if (real_any(real_above(delta, 0.0))) {
+    for (int j = 0; j < PACKETS * LANE_WIDTH; j += LANE_WIDTH) {
+        const wide delta = pocket_approach(model->d, w, half, j);
+        wide_store(&w->delta_c[h][j], delta);
+        if (wide_any(wide_above(delta, 0.0))) {
             pocket_contacts(model, w, h, j, mixed, whole);
             touched = true;
         } else
             pocket_clear(pocket, j);
     }
     if (!touched) return;
-    const number *F[3] = {pocket->half_F_x, pocket->half_F_y, pocket->half_F_z}, *M[3] = {pocket->half_M_x, pocket->half_M_y, pocket->half_M_z};
+    const scalar *F[3] = {pocket->half_F_x, pocket->half_F_y, pocket->half_F_z}, *M[3] = {pocket->half_M_x, pocket->half_M_y, pocket->half_M_z};
     for (int i = 0; i < 3; i++) {
-        half->F[i] += lanes_sum(F[i]);
-        half->M[i] += lanes_sum(M[i]);
+        half->F[i] += ball_array_sum(F[i]);
+        half->M[i] += ball_array_sum(M[i]);
     }
 }
 

@@ -28,12 +28,12 @@ static const double SLICE[SLICES] = {-0.8997579954114603, -0.6771862795107377, -
 static const double SHARE[SLICES] = {0.02363715011287406, 0.11148030343755763, 0.22556281855841187, 0.27863945578231275,
                                      0.22556281855841187, 0.11148030343755763, 0.02363715011287406};
 
-static const double TINY = 1e-30;  // ghosts and balls at a groove's centre: no division by 0
+static const double TINY = 1e-30;  // padding lanes and balls at a groove's centre: no division by 0
 
 // One ball, in its own frame (x, r, t).
 typedef struct {
     vec x, v, omega;  // centre, velocity, angular velocity
-    real omega_m, R;
+    wide omega_m, R;
 } BallMotion;
 
 // One contact.
@@ -42,16 +42,16 @@ typedef struct {
     vec slip, roll;   // Delta u, U
     vec spin;         // omega_ball - Omega of the race
     vec approach;     // velocity of the ball's centre against the race there
-    real R, delta, sqrt_delta, Q, dissipated;
+    wide R, delta, sqrt_delta, Q, dissipated;
 } Contact;
 
 // Load of a contact approaching by delta, at the rate n.approach, and what its damping dissipates.
-INLINE void load_contact(const Model *model, const Race *race, real delta, real delta_dot, Contact *c)
+INLINE void load_contact(const Model *model, const Race *race, wide delta, wide delta_dot, Contact *c)
 {
-    const real Q_0 = hertz_load(real_set(race->hertz.K), delta);
+    const wide Q_0 = hertz_load(wide_set(race->hertz.K), delta);
     c->delta = delta;
-    c->sqrt_delta = real_sqrt(real_max(delta, real_set(0.0)));
-    c->Q = hertz_damped(Q_0, real_set(model->p->bearing.lambda), delta_dot);
+    c->sqrt_delta = wide_sqrt(wide_max(delta, wide_set(0.0)));
+    c->Q = hertz_damped(Q_0, wide_set(model->p->bearing.lambda), delta_dot);
     c->dissipated = (c->Q - Q_0) * delta_dot;
 }
 
@@ -59,22 +59,22 @@ INLINE void load_contact(const Model *model, const Race *race, real delta, real 
 INLINE Contact inner_contact(const Model *model, const BallMotion *ball, vec p, vec a, vec v, vec Omega)
 {
     const Race *race = &model->d->inner;
-    const real along = vec_dot(p, a), tiny = real_set(TINY);
+    const wide along = vec_dot(p, a), tiny = wide_set(TINY);
     const vec radial = vec_axpy(-along, a, p);
-    const real r = real_sqrt(vec_dot(radial, radial) + tiny);
+    const wide r = wide_sqrt(vec_dot(radial, radial) + tiny);
     const vec e = vec_scale(1.0 / r, radial);
-    const real across = r - race->R_g, L = real_sqrt(along * along + across * across + tiny), per_L = 1.0 / L;
-    Contact c = {.R = ball->R, .n = vec_axpy(across * per_L, e, vec_scale(along * per_L, a)), .t_1 = vec_cross(a, e)};
+    const wide across = r - race->R_g, L = wide_sqrt(along * along + across * across + tiny), inv_L = 1.0 / L;
+    Contact c = {.R = ball->R, .n = vec_axpy(across * inv_L, e, vec_scale(along * inv_L, a)), .t_1 = vec_cross(a, e)};
     c.t_2 = vec_cross(c.n, c.t_1);
     c.approach = vec_sub(vec_sub(ball->v, v), vec_cross(Omega, p));
     c.spin = vec_sub(ball->omega, Omega);
     load_contact(model, race, L - (race->r_g - ball->R), vec_dot(c.n, c.approach), &c);
 
-    const vec arm = vec_scale(ball->R, c.n), axis = {ball->omega_m, real_set(0.0), real_set(0.0)};
+    const vec arm = vec_scale(ball->R, c.n), axis = {ball->omega_m, wide_set(0.0), wide_set(0.0)};
     const vec u_ball = vec_cross(ball->omega, arm), orbit = vec_cross(axis, arm);
     const vec u_race = vec_sub(vec_cross(Omega, arm), c.approach);  // v + Omega x (p + arm) - v_ball
     c.slip = vec_across(vec_sub(u_ball, u_race), c.n);
-    c.roll = vec_across(vec_axpy(real_set(-1.0), orbit, vec_scale(real_set(0.5), vec_add(u_ball, u_race))), c.n);
+    c.roll = vec_across(vec_axpy(wide_set(-1.0), orbit, vec_scale(wide_set(0.5), vec_add(u_ball, u_race))), c.n);
     return c;
 }
 
@@ -83,27 +83,27 @@ INLINE Contact outer_contact(const Model *model, const BallMotion *ball)
 {
     const Race *race = &model->d->outer;
     const vec v = ball->v, omega = ball->omega;
-    const real R = ball->R, across = ball->x.r - race->R_g;
-    const real L = real_sqrt(ball->x.x * ball->x.x + across * across + real_set(TINY)), per_L = 1.0 / L;
-    Contact c = {.R = R, .n = {ball->x.x * per_L, across * per_L, real_set(0.0)}, .t_1 = {real_set(0.0), real_set(0.0), real_set(1.0)}};
-    c.t_2 = (vec){c.n.r, -c.n.x, real_set(0.0)};
+    const wide R = ball->R, across = ball->x.r - race->R_g;
+    const wide L = wide_sqrt(ball->x.x * ball->x.x + across * across + wide_set(TINY)), inv_L = 1.0 / L;
+    Contact c = {.R = R, .n = {ball->x.x * inv_L, across * inv_L, wide_set(0.0)}, .t_1 = {wide_set(0.0), wide_set(0.0), wide_set(1.0)}};
+    c.t_2 = (vec){c.n.r, -c.n.x, wide_set(0.0)};
     c.approach = v;
     c.spin = omega;
     load_contact(model, race, L - (race->r_g - R), c.n.x * v.x + c.n.r * v.r, &c);
 
     const vec u_ball = {-omega.t * R * c.n.r, omega.t * R * c.n.x, R * (omega.x * c.n.r - omega.r * c.n.x)};
-    const real orbit = ball->omega_m * R * c.n.r;  // along t
+    const wide orbit = ball->omega_m * R * c.n.r;  // along t
     c.slip = vec_across(vec_add(u_ball, v), c.n);
     c.roll = vec_across((vec){0.5 * (u_ball.x - v.x), 0.5 * (u_ball.r - v.r), 0.5 * (u_ball.t - v.t) - orbit}, c.n);
     return c;
 }
 
 // Traction at the contact's middle.
-INLINE Tangential point_traction(const Parameters *p, const Contact *c, real per_U, real f_a, bool mixed)
+INLINE Tangential point_traction(const Parameters *p, const Contact *c, wide inv_U, wide f_a, bool mixed)
 {
-    const real slip_2 = vec_dot(c->slip, c->slip) + p->oil.v_0 * p->oil.v_0, per_slip = 1.0 / real_sqrt(slip_2);
+    const wide slip_2 = vec_dot(c->slip, c->slip) + p->oil.v_0 * p->oil.v_0, inv_slip = 1.0 / wide_sqrt(slip_2);
     Tangential out = {0};
-    out.g = traction_mu(p, slip_2 * per_slip * per_U, f_a, mixed) * c->Q * per_slip;
+    out.g = traction_mu(p, slip_2 * inv_slip * inv_U, f_a, mixed) * c->Q * inv_slip;
     out.F_s = vec_scale(-out.g, c->slip);
     out.M = vec_cross(vec_scale(c->R, c->n), out.F_s);
     out.dissipated = -vec_dot(out.F_s, c->slip);
@@ -111,16 +111,16 @@ INLINE Tangential point_traction(const Parameters *p, const Contact *c, real per
 }
 
 // Traction over the long axis of the ellipse.
-INLINE Tangential sliced_traction(const Parameters *p, const Race *race, const Contact *c, real per_U, real f_a, bool mixed)
+INLINE Tangential sliced_traction(const Parameters *p, const Race *race, const Contact *c, wide inv_U, wide f_a, bool mixed)
 {
-    const real a = race->hertz.a_delta * c->sqrt_delta, spin_n = vec_dot(c->spin, c->n);
+    const wide a = race->hertz.a_delta * c->sqrt_delta, spin_n = vec_dot(c->spin, c->n);
     const vec bend = vec_cross(c->spin, c->n);  // its part along t_1 and t_2 only
     Tangential out = {0};
     for (int i = 0; i < SLICES; i++) {
-        const real xi = a * SLICE[i], sagitta = xi * xi * (0.5 / race->R_m);
+        const wide xi = a * SLICE[i], sagitta = xi * xi * (0.5 / race->R_m);
         const vec slip_i = vec_axpy(-sagitta, bend, vec_axpy(-xi * spin_n, c->t_1, c->slip));
-        const real slip_2 = vec_dot(slip_i, slip_i) + p->oil.v_0 * p->oil.v_0, per_slip = 1.0 / real_sqrt(slip_2);
-        const real g = SHARE[i] * traction_mu(p, slip_2 * per_slip * per_U, f_a, mixed) * c->Q * per_slip;
+        const wide slip_2 = vec_dot(slip_i, slip_i) + p->oil.v_0 * p->oil.v_0, inv_slip = 1.0 / wide_sqrt(slip_2);
+        const wide g = SHARE[i] * traction_mu(p, slip_2 * inv_slip * inv_U, f_a, mixed) * c->Q * inv_slip;
         const vec F = vec_scale(-g, slip_i);
         out.g += g;
         out.g_spin += g * xi * xi;
@@ -135,49 +135,49 @@ INLINE Tangential sliced_traction(const Parameters *p, const Race *race, const C
 INLINE Tangential race_traction(const Model *model, const Race *race, const Contact *c, bool mixed, bool sliced)
 {
     const Parameters *p = model->p;
-    const real U_2 = vec_dot(c->roll, c->roll) + p->oil.U_0 * p->oil.U_0, per_U = 1.0 / real_sqrt(U_2);
-    real ln_U, ln_Q;
-    real_log2(U_2 * per_U, c->Q + Q_FLOOR, &ln_U, &ln_Q);
-    const real f_a = mixed ? traction_asperity_share(traction_ln_film(real_set(race->ln_Lambda), ln_U, ln_Q)) : real_set(0.0);
-    const real F_R = traction_inlet(real_set(race->rolling), ln_U, c->Q, ln_Q);
-    const vec rolling = vec_scale(F_R * per_U, c->roll);
+    const wide U_2 = vec_dot(c->roll, c->roll) + p->oil.U_0 * p->oil.U_0, inv_U = 1.0 / wide_sqrt(U_2);
+    wide ln_U, ln_Q;
+    wide_log2(U_2 * inv_U, c->Q + Q_FLOOR, &ln_U, &ln_Q);
+    const wide f_a = mixed ? traction_asperity_share(traction_ln_film(wide_set(race->ln_Lambda), ln_U, ln_Q)) : wide_set(0.0);
+    const wide F_R = traction_inlet(wide_set(race->rolling), ln_U, c->Q, ln_Q);
+    const vec rolling = vec_scale(F_R * inv_U, c->roll);
 
-    Tangential out = sliced ? sliced_traction(p, race, c, per_U, f_a, mixed) : point_traction(p, c, per_U, f_a, mixed);
+    Tangential out = sliced ? sliced_traction(p, race, c, inv_U, f_a, mixed) : point_traction(p, c, inv_U, f_a, mixed);
     out.F_s = vec_sub(out.F_s, rolling);
     out.M = vec_sub(out.M, vec_cross(vec_scale(c->R, c->n), rolling));
-    out.F_c = vec_scale(real_set(race->horizontal), rolling);
-    out.U = U_2 * per_U;
+    out.F_c = vec_scale(wide_set(race->horizontal), rolling);
+    out.U = U_2 * inv_U;
     out.dissipated += vec_dot(rolling, c->slip) - vec_dot(out.F_c, c->approach);
     return out;
 }
 
 INLINE void store_contacts(Work *w, int j, const Contact *inner, const Contact *outer, const Tangential *T_i, const Tangential *T_e)
 {
-    real_store(&w->delta_i[j], inner->delta);
-    real_store(&w->delta_e[j], outer->delta);
-    real_store(&w->Q_i[j], inner->Q);
-    real_store(&w->Q_e[j], outer->Q);
+    wide_store(&w->delta_i[j], inner->delta);
+    wide_store(&w->delta_e[j], outer->delta);
+    wide_store(&w->Q_i[j], inner->Q);
+    wide_store(&w->Q_e[j], outer->Q);
     vec_store(inner->n, &w->n_ix[j], &w->n_ir[j], &w->n_it[j]);
-    real_store(&w->n_ex[j], outer->n.x);
-    real_store(&w->n_er[j], outer->n.r);
-    real_store(&w->U_i[j], T_i->U);
-    real_store(&w->U_e[j], T_e->U);
-    real_store(&w->g_i[j], T_i->g);
-    real_store(&w->g_e[j], T_e->g);
-    real_store(&w->g_spin_i[j], T_i->g_spin);
-    real_store(&w->g_spin_e[j], T_e->g_spin);
-    real_store(&w->dissipated[j], T_i->dissipated + T_e->dissipated + inner->dissipated + outer->dissipated);
+    wide_store(&w->n_ex[j], outer->n.x);
+    wide_store(&w->n_er[j], outer->n.r);
+    wide_store(&w->U_i[j], T_i->U);
+    wide_store(&w->U_e[j], T_e->U);
+    wide_store(&w->g_i[j], T_i->g);
+    wide_store(&w->g_e[j], T_e->g);
+    wide_store(&w->g_spin_i[j], T_i->g_spin);
+    wide_store(&w->g_spin_e[j], T_e->g_spin);
+    wide_store(&w->dissipated[j], T_i->dissipated + T_e->dissipated + inner->dissipated + outer->dissipated);
 }
 
 INLINE void race_contact_bundle(const Model *model, Work *w, int j, bool mixed, bool sliced)
 {
     const Derived *d = model->d;
-    const real cos_theta = real_load(&w->cos_theta[j]), sin_theta = real_load(&w->sin_theta[j]), minus = real_set(-1.0);
-    const BallMotion ball = {.x = {real_load(&w->x[j]), real_load(&w->r[j]), real_set(0.0)},
+    const wide cos_theta = wide_load(&w->cos_theta[j]), sin_theta = wide_load(&w->sin_theta[j]), minus = wide_set(-1.0);
+    const BallMotion ball = {.x = {wide_load(&w->x[j]), wide_load(&w->r[j]), wide_set(0.0)},
                              .v = vec_load(&w->v_x[j], &w->v_r[j], &w->v_t[j]),
                              .omega = vec_load(&w->omega_x[j], &w->omega_r[j], &w->omega_t[j]),
-                             .omega_m = real_load(&w->omega_m[j]),
-                             .R = real_load(&d->R[j])};
+                             .omega_m = wide_load(&w->omega_m[j]),
+                             .R = wide_load(&d->R[j])};
     const vec p_i = vec_sub(ball.x, vec_local(w->ring.x, cos_theta, sin_theta));
     const Contact inner = inner_contact(model, &ball, p_i, vec_local(w->ring.a, cos_theta, sin_theta), vec_local(w->ring.v, cos_theta, sin_theta),
                                         vec_local(w->ring.Omega, cos_theta, sin_theta));
@@ -198,7 +198,7 @@ INLINE void race_contact_bundle(const Model *model, Work *w, int j, bool mixed, 
 void race_contact_force(const Model *model, Work *w)
 {
     const bool mixed = model->p->scene.lubrication == LUBRICATION_MIXED, sliced = model->p->scene.traction == TRACTION_SLICED;
-    for (int b = 0; b < BUNDLES; b++) {
+    for (int b = 0; b < PACKETS; b++) {
         const int j = b * LANE_WIDTH;
         if (sliced)
             mixed ? race_contact_bundle(model, w, j, true, true) : race_contact_bundle(model, w, j, false, true);

@@ -5,4 +5,5 @@
 #include "model.h"
 
 // Sets the forces, moments, stiff rates and contact results of all balls, and the wrench on the inner ring.
-void race_contact_force(const Model *model, Work *w);
+typedef void RaceContactForce(const Model *model, Work *w);
+RaceContactForce race_contact_force;

@@ -4,34 +4,34 @@
 #include "ball.h"
 #include "cage_joint.h"
 #include "drag.h"
-#include "drive.h"
 #include "land_film.h"
 #include "pocket.h"
 #include "race_contact.h"
 #include "ring.h"
+#include "ring_load.h"
 #include "rotor.h"
 
 // Pose and velocity of inner ring and cage halves from y.  A half's states are those of its centre of mass.
-static void rotor_kinematics(const Model *model, const number *y, Work *w)
+static void rotor_kinematics(const Model *model, const scalar *y, Work *w)
 {
     Rotor *ring = &w->ring;
     for (int i = 0; i < 3; i++) {
         ring->x[i] = y[Y_RING_X + i];
         ring->v[i] = y[Y_RING_V_X + i];
     }
-    rotor_axis(ring, y[Y_RING_BETA], y[Y_RING_GAMMA], y[Y_RING_BETA_DOT], y[Y_RING_GAMMA_DOT], model->drive->omega);
+    rotor_axis(ring, y[Y_RING_BETA], y[Y_RING_GAMMA], y[Y_RING_BETA_DOT], y[Y_RING_GAMMA_DOT], model->ring_load->omega);
 
-    number cos_psi[2], sin_psi[2];
+    scalar cos_psi[2], sin_psi[2];
     for (int first = 0; first < 2; first += HALVES) {
-        real sine, cosine;
-        real_sincos(real_pair(y[Y_CAGE_PSI + first], y[Y_CAGE_PSI + first + HALVES - 1]), &sine, &cosine);
-        for (int i = 0; i < HALVES; i++) cos_psi[first + i] = real_lane(cosine, i), sin_psi[first + i] = real_lane(sine, i);
+        wide sine, cosine;
+        wide_sincos(wide_pair(y[Y_CAGE_PSI + first], y[Y_CAGE_PSI + first + HALVES - 1]), &sine, &cosine);
+        for (int i = 0; i < HALVES; i++) cos_psi[first + i] = wide_lane(cosine, i), sin_psi[first + i] = wide_lane(sine, i);
     }
     for (int h = 0; h < 2; h++) {
         Rotor *half = &w->half[h];
         rotor_axis(half, y[Y_CAGE_BETA + h], y[Y_CAGE_GAMMA + h], y[Y_CAGE_BETA_DOT + h], y[Y_CAGE_GAMMA_DOT + h], y[Y_CAGE_S + h]);
         rotor_body_axes(half, cos_psi[h], sin_psi[h]);
-        number drift[3];
+        scalar drift[3];
         for (int i = 0; i < 3; i++) half->c[i] = model->d->com_x[h] * half->a[i] + model->d->com_e * half->b_y[i];
         cross3(half->Omega, half->c, drift);
         for (int i = 0; i < 3; i++) {
@@ -50,15 +50,15 @@ static void rotor_kinematics(const Model *model, const number *y, Work *w)
 // Sum of the race contacts on the ring.
 static void ring_sum(Work *w)
 {
-    const number *ring[] = {w->ring_F_x, w->ring_F_y, w->ring_F_z, w->ring_M_x, w->ring_M_y, w->ring_M_z};
+    const scalar *ring[] = {w->ring_F_x, w->ring_F_y, w->ring_F_z, w->ring_M_x, w->ring_M_y, w->ring_M_z};
     for (int i = 0; i < 3; i++) {
-        w->ring.F[i] = lanes_sum(ring[i]);
-        w->ring.M[i] = lanes_sum(ring[3 + i]);
+        w->ring.F[i] = ball_array_sum(ring[i]);
+        w->ring.M[i] = ball_array_sum(ring[3 + i]);
     }
 }
 
 // y_dot of half h whose centre of mass accelerates by acc, whose axis by a_ddot.
-static void half_rates(const number *y, const Rotor *half, int h, const number acc[3], const number a_ddot[3], number s_dot, number *y_dot)
+static void half_rates(const scalar *y, const Rotor *half, int h, const scalar acc[3], const scalar a_ddot[3], scalar s_dot, scalar *y_dot)
 {
     for (int i = 0; i < 3; i++) {
         y_dot[Y_CAGE_X + 2 * i + h] = y[Y_CAGE_V_X + 2 * i + h];
@@ -73,11 +73,11 @@ static void half_rates(const number *y, const Rotor *half, int h, const number a
 }
 
 // Both halves under their forces, or as one rigid body about their common centre of mass.
-static void cage_acceleration(const Model *model, const number *y, const Work *w, number *y_dot)
+static void cage_acceleration(const Model *model, const scalar *y, const Work *w, scalar *y_dot)
 {
     const Parameters *p = model->p;
     const double gravity[3] = {0.0, p->gravity.y, p->gravity.z};
-    number M[3], lever[3], a_ddot[3], acc[3], s_dot;
+    scalar M[3], lever[3], a_ddot[3], acc[3], s_dot;
     if (p->scene.cage == CAGE_MODEL_TWO_HALF) {
         for (int h = 0; h < 2; h++) {
             const Rotor *half = &w->half[h];
@@ -93,7 +93,7 @@ static void cage_acceleration(const Model *model, const number *y, const Work *w
     }
     const Rotor *cage = &w->half[0];
     const double J_t = 2.0 * (p->cage.J_t + p->cage.m * model->d->com_x[1] * model->d->com_x[1]);
-    number F[3], c[3], spin_up[3], carried[3], around[3], inward[3];
+    scalar F[3], c[3], spin_up[3], carried[3], around[3], inward[3];
     for (int i = 0; i < 3; i++) {
         F[i] = w->half[0].F[i] + w->half[1].F[i];
         c[i] = model->d->com_e * cage->b_y[i];
@@ -115,19 +115,19 @@ static void cage_acceleration(const Model *model, const number *y, const Work *w
 }
 
 // Net power into balls and cage: by the ring's motion and gravity, less what is dissipated.
-static number net_power(const Model *model, const Work *w)
+static scalar net_power(const Model *model, const Work *w)
 {
-    number power = -dot3(w->ring.F, w->ring.v) - dot3(w->ring.M, w->ring.Omega) - lanes_sum(w->dissipated) - w->land_dissipated;
-    if (model->p->scene.cage == CAGE_MODEL_TWO_HALF) power -= lanes_sum(w->joint_dissipated);
+    scalar power = -dot3(w->ring.F, w->ring.v) - dot3(w->ring.M, w->ring.Omega) - ball_array_sum(w->dissipated) - w->land_dissipated;
+    if (model->p->scene.cage == CAGE_MODEL_TWO_HALF) power -= ball_array_sum(w->joint_dissipated);
     const double g_y = model->p->gravity.y, g_z = model->p->gravity.z;
     if (g_y != 0.0 || g_z != 0.0) {
         for (int j = 0; j < Z; j++) {
-            const number v_y = w->v_r[j] * w->cos_theta[j] - w->v_t[j] * w->sin_theta[j];
-            const number v_z = w->v_r[j] * w->sin_theta[j] + w->v_t[j] * w->cos_theta[j];
+            const scalar v_y = w->v_r[j] * w->cos_theta[j] - w->v_t[j] * w->sin_theta[j];
+            const scalar v_z = w->v_r[j] * w->sin_theta[j] + w->v_t[j] * w->cos_theta[j];
             power += model->d->m * (g_y * v_y + g_z * v_z);
         }
         for (int h = 0; h < 2; h++) {
-            number drift[3];
+            scalar drift[3];
             cross3(w->half[h].Omega, w->half[h].c, drift);
             power += model->p->cage.m * (g_y * (w->half[h].v[1] + drift[1]) + g_z * (w->half[h].v[2] + drift[2]));
         }
@@ -146,7 +146,7 @@ void rhs_cage_advance(const Model *model, const double *middle, double h, double
 }
 #endif
 
-static void evaluate(const Model *model, const number *y, number *y_dot, Work *w)
+static void evaluate(const Model *model, const scalar *y, scalar *y_dot, Work *w)
 {
     const bool rigid = model->p->scene.cage == CAGE_MODEL_RIGID;
     ball_kinematics(y, w);
@@ -173,10 +173,10 @@ static void evaluate(const Model *model, const number *y, number *y_dot, Work *w
     y_dot[Y_WORK] = net_power(model, w);
 }
 
-void rhs(const Model *model, double t, const number *y, number *y_dot, Work *w)
+void rhs(const Model *model, double t, const scalar *y, scalar *y_dot, Work *w)
 {
-    Drive drive;
-    const Model now = {model->p, model->d, &drive, NULL};
-    if (model->course) drive_at(model->course, t, &drive);
-    evaluate(model->course ? &now : model, y, y_dot, w);
+    RingLoad ring_load;
+    const Model now = {model->p, model->d, &ring_load, NULL};
+    if (model->trajectory) ring_load_at(model->trajectory, t, &ring_load);
+    evaluate(model->trajectory ? &now : model, y, y_dot, w);
 }

@@ -11,29 +11,29 @@
 
 #include "rotor.h"
 
-void ring_acceleration(const Model *model, const Work *w, number *y_dot)
+void ring_acceleration(const Model *model, const Work *w, scalar *y_dot)
 {
     const Parameters *p = model->p;
-    const Drive *drive = model->drive;
+    const RingLoad *ring_load = model->ring_load;
     const Rotor *ring = &w->ring;
     const double gravity[3] = {0.0, p->gravity.y, p->gravity.z};
-    const number beta = -ring->a[2], gamma = ring->a[1], beta_dot = -ring->a_dot[2], gamma_dot = ring->a_dot[1];
+    const scalar beta = -ring->a[2], gamma = ring->a[1], beta_dot = -ring->a_dot[2], gamma_dot = ring->a_dot[1];
     for (int i = 0; i < 3; i++) {
         y_dot[Y_RING_X + i] = ring->v[i];
-        y_dot[Y_RING_V_X + i] = (drive->F[i] + ring->F[i] - p->ring.c * ring->v[i]) / p->ring.m + gravity[i];
+        y_dot[Y_RING_V_X + i] = (ring_load->F[i] + ring->F[i] - p->ring.c * ring->v[i]) / p->ring.m + gravity[i];
     }
     y_dot[Y_RING_BETA] = beta_dot;
     y_dot[Y_RING_GAMMA] = gamma_dot;
     if (p->ring.tilt_mode == TILT_MODE_PRESCRIBED) {
         const double rate = 1.0 / p->ring.tilt_time;
-        y_dot[Y_RING_BETA_DOT] = ((drive->beta - beta) * rate - 2.0 * beta_dot) * rate;
-        y_dot[Y_RING_GAMMA_DOT] = ((drive->gamma - gamma) * rate - 2.0 * gamma_dot) * rate;
+        y_dot[Y_RING_BETA_DOT] = ((ring_load->beta - beta) * rate - 2.0 * beta_dot) * rate;
+        y_dot[Y_RING_GAMMA_DOT] = ((ring_load->gamma - gamma) * rate - 2.0 * gamma_dot) * rate;
         return;
     }
-    number M[3] = {ring->M[0], ring->M[1] + drive->M[0], ring->M[2] + drive->M[1]}, a_ddot[3], s_dot;
+    scalar M[3] = {ring->M[0], ring->M[1] + ring_load->M[0], ring->M[2] + ring_load->M[1]}, a_ddot[3], s_dot;
     if (p->ring.tilt_mode == TILT_MODE_SUPPORTED) {
-        M[1] += p->ring.k_tilt * (drive->beta - beta) - p->ring.c_tilt * beta_dot;
-        M[2] += p->ring.k_tilt * (drive->gamma - gamma) - p->ring.c_tilt * gamma_dot;
+        M[1] += p->ring.k_tilt * (ring_load->beta - beta) - p->ring.c_tilt * beta_dot;
+        M[2] += p->ring.k_tilt * (ring_load->gamma - gamma) - p->ring.c_tilt * gamma_dot;
     }
     rotor_acceleration(ring, p->ring.J_p, p->ring.J_t, M, a_ddot, &s_dot);  // s_dot: the drive holds the speed
     y_dot[Y_RING_BETA_DOT] = -a_ddot[2];

@@ -5,4 +5,4 @@
 #include "model.h"
 
 // Acceleration of the ring: y_dot of its states from the wrench of all contacts.
-void ring_acceleration(const Model *model, const Work *w, number *y_dot);
+void ring_acceleration(const Model *model, const Work *w, scalar *y_dot);

@@ -5,43 +5,43 @@
 
 #include <math.h>
 
-// A load's place in the table: see the head of rivet_rom.h.
-static Place load_place(const RivetTable *t, const RivetLoad *load, double fit_eff)
+// The point of a load in the table: see the head of rivet_rom.h.
+static TablePoint table_point(const RivetTable *t, const RivetLoad *load, double fit_eff)
 {
-    number P = number_max(load->P, 0.0), N = number_max(load->N, 0.0);
-    number V = number_sqrt(load->V_y * load->V_y + load->V_z * load->V_z), M = number_sqrt(load->M_y * load->M_y + load->M_z * load->M_z);
-    number axial = P + N, force = axial + V, moment = M / t->moment_length, s = force + moment, VM = V * M;
-    number across = load->V_y * load->M_z - load->V_z * load->M_y;
-    Place place;
-    number w = number_value(VM) > 0.0 ? 2.0 * number_min(number_max(across, -across) / VM, 1.0) : 0.0;
-    place.sheet = number_value(w) >= 1.0 ? RIVET_PLANE : RIVET_OBLIQUE;
-    if (place.sheet == RIVET_PLANE) w -= 1.0;
-    place.first[0] = w;
-    place.first[1] = place.sheet == RIVET_PLANE ? w : w * number_sqrt(w);
-    const number a = number_value(force) > 0.0 ? V / force : 0.0, b = number_value(axial) > 0.0 ? N / axial : 0.0;
-    const number c = number_value(s) > 0.0 ? moment / s : 0.0, xi = number_value(s) > 0.0 ? fit_eff / s : 0.0;
-    place.at[RIVET_A] = axis_splines(&t->axis[RIVET_A], a);
-    place.at[RIVET_B] = axis_splines(&t->axis[RIVET_B], b);
-    place.at[RIVET_C] = axis_splines(&t->axis[RIVET_C], c);
-    place.at[RIVET_XI] = axis_splines_xi(&t->axis[RIVET_XI], xi, s, fit_eff);
-    return place;
+    scalar P = scalar_max(load->P, 0.0), N = scalar_max(load->N, 0.0);
+    scalar V = scalar_sqrt(load->V_y * load->V_y + load->V_z * load->V_z), M = scalar_sqrt(load->M_y * load->M_y + load->M_z * load->M_z);
+    scalar axial = P + N, force = axial + V, moment = M / t->moment_length, s = force + moment, VM = V * M;
+    scalar across = load->V_y * load->M_z - load->V_z * load->M_y;
+    TablePoint point;
+    scalar w = scalar_value(VM) > 0.0 ? 2.0 * scalar_min(scalar_max(across, -across) / VM, 1.0) : 0.0;
+    point.sheet = scalar_value(w) >= 1.0 ? RIVET_PLANE : RIVET_OBLIQUE;
+    if (point.sheet == RIVET_PLANE) w -= 1.0;
+    point.first[0] = w;
+    point.first[1] = point.sheet == RIVET_PLANE ? w : w * scalar_sqrt(w);
+    const scalar a = scalar_value(force) > 0.0 ? V / force : 0.0, b = scalar_value(axial) > 0.0 ? N / axial : 0.0;
+    const scalar c = scalar_value(s) > 0.0 ? moment / s : 0.0, xi = scalar_value(s) > 0.0 ? fit_eff / s : 0.0;
+    point.at[RIVET_A] = axis_splines(&t->axis[RIVET_A], a);
+    point.at[RIVET_B] = axis_splines(&t->axis[RIVET_B], b);
+    point.at[RIVET_C] = axis_splines(&t->axis[RIVET_C], c);
+    point.at[RIVET_XI] = axis_splines_xi(&t->axis[RIVET_XI], xi, s, fit_eff);
+    return point;
 }
 
-unsigned rivet_rom_stress(const RivetTable *t, const RivetLoad *load, double fit_eff, number sigma[RIVET_CHANNELS])
+unsigned rivet_rom_stress(const RivetTable *t, const RivetLoad *load, double fit_eff, scalar sigma[RIVET_CHANNELS])
 {
-    Place place = load_place(t, load, fit_eff);
-    number primary[2], secondary[2];
-    contract(t, t->primary, &place, primary);
-    contract(t, t->secondary, &place, secondary);
+    TablePoint point = table_point(t, load, fit_eff);
+    scalar primary[2], secondary[2];
+    contract(t, t->primary, &point, primary);
+    contract(t, t->secondary, &point, secondary);
     sigma[HEAD_P1] = primary[0] + t->head_friction * load->F_head;
     sigma[MID_VM] = primary[1];
     sigma[HEAD_VM] = secondary[0] + t->head_friction_vm * load->F_head;
     sigma[MID_P1] = secondary[1];
 
     unsigned flags = 0;
-    if (fmax(number_value(sigma[HEAD_VM]), number_value(sigma[MID_VM])) > t->yield_rivet) flags |= RIVET_YIELDS;
-    if (number_value(load->N) < 0.0) flags |= JOINT_COMPRESSED;
-    if (!isfinite(number_value(sigma[HEAD_P1]))) flags |= RIVET_OUTSIDE;
+    if (fmax(scalar_value(sigma[HEAD_VM]), scalar_value(sigma[MID_VM])) > t->yield_rivet) flags |= RIVET_YIELDS;
+    if (scalar_value(load->N) < 0.0) flags |= JOINT_COMPRESSED;
+    if (!isfinite(scalar_value(sigma[HEAD_P1]))) flags |= RIVET_OUTSIDE;
     return flags;
 }
 

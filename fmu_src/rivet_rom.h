@@ -31,17 +31,17 @@
 
 // Loads of one rivet [N, N.m]; y, z: two perpendicular directions in the plane of the joint, x, y, z right-handed.
 typedef struct {
-    number P;         // preload
-    number N;         // external tension of the joint, before preload shielding; negative (compression) counts as 0
-    number V_y, V_z;  // transverse load that the rivet carries, on the +x half
-    number M_y, M_z;  // prying moment about the rivet's place in the split plane, on the +x half
-    number F_head;    // modulus of the friction force at the heads
+    scalar P;         // preload
+    scalar N;         // external tension of the joint, before preload shielding; negative (compression) counts as 0
+    scalar V_y, V_z;  // transverse load that the rivet carries, on the +x half
+    scalar M_y, M_z;  // prying moment about the rivet's place in the split plane, on the +x half
+    scalar F_head;    // modulus of the friction force at the heads
 } RivetLoad;
 
 // The loads of all rivets side by side.
 typedef struct {
-    lanes P, N, V_y, V_z, M_y, M_z, F_head;
-    lanes V;  // modulus of the joint's whole transverse load, of which the rivet carries V_y, V_z [N]
+    ball_array P, N, V_y, V_z, M_y, M_z, F_head;
+    ball_array V;  // modulus of the joint's whole transverse load, of which the rivet carries V_y, V_z [N]
 } RivetLoads;
 
 INLINE RivetLoad rivet_load_of(const RivetLoads *all, int k)
@@ -71,7 +71,7 @@ typedef struct {
 enum { RIVET_BINS = 256 };
 typedef struct {
     int cells;
-    double start, end, per_bin;  // per_bin = RIVET_BINS/(end - start)
+    double start, end, inv_bin;  // inv_bin = RIVET_BINS/(end - start)
     const RivetCell *cell;
     const unsigned char *bin;  // RIVET_BINS + 1
 } RivetAxis;
@@ -129,7 +129,7 @@ double rivet_rom_fit_eff(const RivetTable *t, double fit_a, bool j2);
 unsigned rivet_rom_fit_flags(const RivetTable *t, double fit_a);
 
 // All channels sigma [Pa]; returns the load's flags.  Never NaN for finite loads.
-unsigned rivet_rom_stress(const RivetTable *t, const RivetLoad *load, double fit_eff, number sigma[RIVET_CHANNELS]);
+unsigned rivet_rom_stress(const RivetTable *t, const RivetLoad *load, double fit_eff, scalar sigma[RIVET_CHANNELS]);
 
 double joint_preload(const JointData *j, double preload, double T);  // preload at temperature T [N], not below 0
 double joint_fit(const JointData *j, double fit, double T);          // fit at temperature T [m]

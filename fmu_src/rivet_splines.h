@@ -6,26 +6,26 @@
 // Active splines of one axis: index of the first coefficient, their weights, and how many there are: one at the axis' start, where idle loads are.
 typedef struct {
     int first, count;
-    number w[3];
+    scalar w[3];
 } Splines;
 
 // Cell of u: the one in which its bin begins, or one of the next few.
 INLINE const RivetCell *axis_cell(const RivetAxis *axis, double u)
 {
-    const double bin = number_min(number_max((u - axis->start) * axis->per_bin, 0.0), RIVET_BINS);  // 0 of NaN
+    const double bin = scalar_min(scalar_max((u - axis->start) * axis->inv_bin, 0.0), RIVET_BINS);  // 0 of NaN
     const RivetCell *cell = &axis->cell[axis->bin[(int)bin]], *last = &axis->cell[axis->cells - 1];
     while (u >= cell->end && cell < last) cell++;
     return cell;
 }
 
 // Quadratic B-splines (de Boor), u inside the axis.  Their sum is 1; C1 at the knots.
-INLINE Splines axis_splines(const RivetAxis *axis, number u)
+INLINE Splines axis_splines(const RivetAxis *axis, scalar u)
 {
 #ifndef DUAL
     if (u == axis->start) return (Splines){.count = 1, .w = {1.0, 0.0, 0.0}};
 #endif
-    const RivetCell *cell = axis_cell(axis, number_value(u));
-    const number up = u - cell->start, down = cell->end - u;
+    const RivetCell *cell = axis_cell(axis, scalar_value(u));
+    const scalar up = u - cell->start, down = cell->end - u;
     Splines s = {.first = (int)(cell - axis->cell), .count = 3};
     s.w[0] = down * down * cell->fall;
     s.w[2] = up * up * cell->rise;
@@ -34,13 +34,13 @@ INLINE Splines axis_splines(const RivetAxis *axis, number u)
 }
 
 // s times the splines of xi = fit/s; outside the axis without xi, as s may vanish.
-INLINE Splines axis_splines_xi(const RivetAxis *axis, number xi, number s, double fit)
+INLINE Splines axis_splines_xi(const RivetAxis *axis, scalar xi, scalar s, double fit)
 {
-    if (fit <= number_value(s) * axis->start) return (Splines){.count = 3, .w = {s, 0.0, 0.0}};
-    const number beyond = fit - s * axis->end;
-    if (number_value(beyond) >= 0.0) {  // end value and end slope, which is 2 h rise of the last spline
+    if (fit <= scalar_value(s) * axis->start) return (Splines){.count = 3, .w = {s, 0.0, 0.0}};
+    const scalar beyond = fit - s * axis->end;
+    if (scalar_value(beyond) >= 0.0) {  // end value and end slope, which is 2 h rise of the last spline
         const RivetCell *last = &axis->cell[axis->cells - 1];
-        const number w = 2.0 * (last->end - last->start) * last->rise * beyond;
+        const scalar w = 2.0 * (last->end - last->start) * last->rise * beyond;
         return (Splines){.first = axis->cells - 1, .count = 3, .w = {0.0, -w, s + w}};
     }
     Splines splines = axis_splines(axis, xi);
@@ -48,26 +48,26 @@ INLINE Splines axis_splines_xi(const RivetAxis *axis, number xi, number s, doubl
     return splines;
 }
 
-// A load's place in the table; the splines of xi carry the factor s.
+// The point of a load in the table; the splines of xi carry the factor s.
 typedef struct {
     Splines at[RIVET_AXES];
     int sheet;        // the first of the two sheets around chi
-    number first[2];  // its weight in head and middle
-} Place;
+    scalar first[2];  // its weight in head and middle
+} TablePoint;
 
 // Tensor product over 3^4 coefficients of two sheets for a pair of channels.  Order of sums: c, b, a, xi, chi.
 #ifdef DUAL
-INLINE void contract(const RivetTable *t, const float *coefficients, const Place *place, number sigma[2])
+INLINE void contract(const RivetTable *t, const float *coefficients, const TablePoint *point, scalar sigma[2])
 {
-    const Splines *A = &place->at[RIVET_A], *B = &place->at[RIVET_B], *C = &place->at[RIVET_C], *X = &place->at[RIVET_XI];
+    const Splines *A = &point->at[RIVET_A], *B = &point->at[RIVET_B], *C = &point->at[RIVET_C], *X = &point->at[RIVET_XI];
     int n_b = t->axis[RIVET_B].cells + 2, n_c = t->axis[RIVET_C].cells + 2, n_xi = t->axis[RIVET_XI].cells + 2;
     sigma[0] = sigma[1] = 0.0;
     for (int i = 0; i < 81; i++) {
         int a = i / 27, b = i / 9 % 3, c = i / 3 % 3, x = i % 3;
-        int place_xi = (((A->first + a) * n_b + B->first + b) * n_c + C->first + c) * n_xi + X->first + x;
-        const float *T = coefficients + 2 * (RIVET_SHEETS * place_xi + place->sheet);
-        number weight = A->w[a] * B->w[b] * C->w[c] * X->w[x];
-        for (int k = 0; k < 2; k++) sigma[k] += weight * (place->first[k] * T[k] + (1.0 - place->first[k]) * T[2 + k]);
+        int index = (((A->first + a) * n_b + B->first + b) * n_c + C->first + c) * n_xi + X->first + x;
+        const float *T = coefficients + 2 * (RIVET_SHEETS * index + point->sheet);
+        scalar weight = A->w[a] * B->w[b] * C->w[c] * X->w[x];
+        for (int k = 0; k < 2; k++) sigma[k] += weight * (point->first[k] * T[k] + (1.0 - point->first[k]) * T[2 + k]);
     }
 }
 #else
@@ -96,12 +96,12 @@ INLINE void add_part(double w, const quad *x, quad *sum)
 #endif
 }
 
-INLINE void contract(const RivetTable *t, const float *coefficients, const Place *place, double sigma[2])
+INLINE void contract(const RivetTable *t, const float *coefficients, const TablePoint *point, double sigma[2])
 {
-    const Splines *A = &place->at[RIVET_A], *B = &place->at[RIVET_B], *C = &place->at[RIVET_C], *X = &place->at[RIVET_XI];
+    const Splines *A = &point->at[RIVET_A], *B = &point->at[RIVET_B], *C = &point->at[RIVET_C], *X = &point->at[RIVET_XI];
     const int n_b = t->axis[RIVET_B].cells + 2, n_c = t->axis[RIVET_C].cells + 2, n_xi = t->axis[RIVET_XI].cells + 2;
     const int xi = 2 * RIVET_SHEETS, row = n_xi * xi;  // coefficients from one xi, one c to the next
-    const float *origin = coefficients + xi * X->first + 2 * place->sheet;
+    const float *origin = coefficients + xi * X->first + 2 * point->sheet;
     quad sum[3] = {{0}, {0}, {0}}, all = {0};  // by xi
     for (int a = 0; a < A->count; a++) {
         quad sum_a[3] = {{0}, {0}, {0}};
@@ -120,7 +120,7 @@ INLINE void contract(const RivetTable *t, const float *coefficients, const Place
         for (int x = 0; x < 3; x++) add_part(A->w[a], &sum_a[x], &sum[x]);
     }
     for (int x = 0; x < 3; x++) add_part(X->w[x], &sum[x], &all);
-    const double *first = place->first;
+    const double *first = point->first;
     sigma[0] = first[0] * all[0] + (1.0 - first[0]) * all[2];
     sigma[1] = first[1] * all[1] + (1.0 - first[1]) * all[3];
 }

@@ -12,42 +12,42 @@
 #include "load_path.h"
 #include "rotor.h"
 
-INLINE real modulus(real y, real z)
+INLINE wide modulus(wide y, wide z)
 {
-    return real_sqrt(y * y + z * z);
+    return wide_sqrt(y * y + z * z);
 }
 
 static void two_half_load(const Model *model, const Work *w, RivetLoads *load)
 {
-    for (int k = 0; k < BUNDLES * LANE_WIDTH; k += LANE_WIDTH) {
-        const real H_y = real_load(&w->H_y[k]), H_z = real_load(&w->H_z[k]), B_y = real_load(&w->B_y[k]), B_z = real_load(&w->B_z[k]);
-        real_store(&load->P[k], real_set(model->d->P));
-        real_store(&load->N[k], real_load(&w->T[k]) - real_load(&w->N_plate[k]));
-        real_store(&load->V_y[k], -B_y);
-        real_store(&load->V_z[k], -B_z);
-        real_store(&load->F_head[k], modulus(H_y, H_z));
-        real_store(&load->V[k], modulus(real_load(&w->S_y[k]) + H_y + B_y, real_load(&w->S_z[k]) + H_z + B_z));
+    for (int k = 0; k < PACKETS * LANE_WIDTH; k += LANE_WIDTH) {
+        const wide H_y = wide_load(&w->H_y[k]), H_z = wide_load(&w->H_z[k]), B_y = wide_load(&w->B_y[k]), B_z = wide_load(&w->B_z[k]);
+        wide_store(&load->P[k], wide_set(model->d->P));
+        wide_store(&load->N[k], wide_load(&w->T[k]) - wide_load(&w->N_plate[k]));
+        wide_store(&load->V_y[k], -B_y);
+        wide_store(&load->V_z[k], -B_z);
+        wide_store(&load->F_head[k], modulus(H_y, H_z));
+        wide_store(&load->V[k], modulus(wide_load(&w->S_y[k]) + H_y + B_y, wide_load(&w->S_z[k]) + H_z + B_z));
     }
 }
 
 // Wrench of pockets and land on half 1 less that on half 0, halved, about the cage's centre in its body frame.
-static void rigid_wrench(const Model *model, const Work *w, number wrench[6])
+static void rigid_wrench(const Model *model, const Work *w, scalar wrench[6])
 {
     const Rotor *cage = &w->half[0];
     const double width = model->p->cage.share_width;
-    number global[6];
+    scalar global[6];
     for (int i = 0; i < 3; i++) {
         global[i] = 0.5 * (w->half[1].F[i] - w->half[0].F[i]);
         global[3 + i] = 0.5 * (w->half[1].M[i] - w->half[0].M[i]);
     }
     const Pockets *pocket = &w->pocket[0];  // half 0 holds the pocket forces: their share of half 1 less that of half 0 instead
-    const number *wrenches[6] = {pocket->half_F_x, pocket->half_F_y, pocket->half_F_z, pocket->half_M_x, pocket->half_M_y, pocket->half_M_z};
+    const scalar *wrenches[6] = {pocket->half_F_x, pocket->half_F_y, pocket->half_F_z, pocket->half_M_x, pocket->half_M_y, pocket->half_M_z};
     for (int j = 0; j < Z; j++) {
-        const number F_x = pocket->F_x[j], F_t = pocket->F_t[j], F_2 = F_x * F_x + F_t * F_t;
-        const number share = number_value(F_2) > 0.0 ? F_x / number_sqrt(F_x * F_x + width * width * F_2) : 0.0;
+        const scalar F_x = pocket->F_x[j], F_t = pocket->F_t[j], F_2 = F_x * F_x + F_t * F_t;
+        const scalar share = scalar_value(F_2) > 0.0 ? F_x / scalar_sqrt(F_x * F_x + width * width * F_2) : 0.0;
         for (int i = 0; i < 6; i++) global[i] += 0.5 * (1.0 + share) * wrenches[i][j];
     }
-    const number *axes[3] = {cage->a, cage->b_y, cage->b_z};
+    const scalar *axes[3] = {cage->a, cage->b_y, cage->b_z};
     for (int i = 0; i < 3; i++) {
         wrench[i] = dot3(axes[i], global);
         wrench[3 + i] = dot3(axes[i], global + 3);
@@ -58,7 +58,7 @@ static void rigid_load(const Model *model, const Work *w, RivetLoads *load)
 {
     const double R = 0.5 * model->p->bearing.d_m, friction = model->p->joint.mu * model->d->P;
     double c[Z], s[Z];
-    number wrench[6], V_y[Z], V_z[Z];
+    scalar wrench[6], V_y[Z], V_z[Z];
     rigid_wrench(model, w, wrench);
     for (int k = 0; k < Z; k++) {
         c[k] = model->d->rivet_y[k] / R;
@@ -66,37 +66,37 @@ static void rigid_load(const Model *model, const Work *w, RivetLoads *load)
     }
     load_path_rigid(2.0 * R, wrench, c, s, load->N, V_y, V_z);
     for (int k = 0; k < Z; k++) {
-        const number V = number_sqrt(V_y[k] * V_y[k] + V_z[k] * V_z[k]);
-        const number shank = number_value(V) > 2.0 * friction ? (V - 2.0 * friction) / V : 0.0;
+        const scalar V = scalar_sqrt(V_y[k] * V_y[k] + V_z[k] * V_z[k]);
+        const scalar shank = scalar_value(V) > 2.0 * friction ? (V - 2.0 * friction) / V : 0.0;
         load->P[k] = model->d->P;
         load->V_y[k] = shank * V_y[k];
         load->V_z[k] = shank * V_z[k];
-        load->F_head[k] = number_min(number_max(V - friction, 0.0), friction);
+        load->F_head[k] = scalar_min(scalar_max(V - friction, 0.0), friction);
         load->V[k] = V;
     }
 }
 
 // Adds a vector (r, t) at every rivet, given radially and along the circle, to one along y and z.
-INLINE void add_turned(const Model *model, const lanes r, const lanes t, number *y, number *z)
+INLINE void add_turned(const Model *model, const ball_array r, const ball_array t, scalar *y, scalar *z)
 {
-    const double per_R = 2.0 / model->p->bearing.d_m;
-    for (int k = 0; k < BUNDLES * LANE_WIDTH; k += LANE_WIDTH) {
-        const real c = real_load(&model->d->rivet_y[k]) * per_R, s = real_load(&model->d->rivet_z[k]) * per_R;
-        const real v_r = real_load(&r[k]), v_t = real_load(&t[k]);
-        real_store(&y[k], real_load(&y[k]) + v_r * c - v_t * s);
-        real_store(&z[k], real_load(&z[k]) + v_r * s + v_t * c);
+    const double inv_R = 2.0 / model->p->bearing.d_m;
+    for (int k = 0; k < PACKETS * LANE_WIDTH; k += LANE_WIDTH) {
+        const wide c = wide_load(&model->d->rivet_y[k]) * inv_R, s = wide_load(&model->d->rivet_z[k]) * inv_R;
+        const wide v_r = wide_load(&r[k]), v_t = wide_load(&t[k]);
+        wide_store(&y[k], wide_load(&y[k]) + v_r * c - v_t * s);
+        wide_store(&z[k], wide_load(&z[k]) + v_r * s + v_t * c);
     }
 }
 
 void joint_prying(const JointData *j, RivetLoads *load)
 {
-    const real zero = real_set(0.0), one = real_set(1.0);
-    for (int k = 0; k < BUNDLES * LANE_WIDTH; k += LANE_WIDTH) {
-        const real M_y = real_load(&load->M_y[k]), M_z = real_load(&load->M_z[k]), M = modulus(M_y, M_z);
-        const real M_0 = j->prying_lever * real_max(real_load(&load->P[k]) - real_max(real_load(&load->N[k]), zero), zero);
-        const real part = real_select(real_above(M - M_0, 0.0), (M_0 + j->prying_share * (M - M_0)) / M, one);
-        real_store(&load->M_y[k], M_y * part);
-        real_store(&load->M_z[k], M_z * part);
+    const wide zero = wide_set(0.0), one = wide_set(1.0);
+    for (int k = 0; k < PACKETS * LANE_WIDTH; k += LANE_WIDTH) {
+        const wide M_y = wide_load(&load->M_y[k]), M_z = wide_load(&load->M_z[k]), M = modulus(M_y, M_z);
+        const wide M_0 = j->prying_lever * wide_max(wide_load(&load->P[k]) - wide_max(wide_load(&load->N[k]), zero), zero);
+        const wide part = wide_select(wide_above(M - M_0, 0.0), (M_0 + j->prying_share * (M - M_0)) / M, one);
+        wide_store(&load->M_y[k], M_y * part);
+        wide_store(&load->M_z[k], M_z * part);
     }
 }
 
@@ -114,7 +114,7 @@ void rivets_load(const Model *model, const Work *w, RivetLoads *load)
         const Pockets *pocket = &w->pocket[h];
         load_path_flexible(rivet_table.load_path, h == 0 ? -1 : 1, transverse, pocket->F_x, pocket->F_r, pocket->F_t, &path);
     }
-    for (int k = 0; k < BUNDLES * LANE_WIDTH; k += LANE_WIDTH) real_store(&load->N[k], real_load(&load->N[k]) + real_load(&path.sum[PATH_N][k]));
+    for (int k = 0; k < PACKETS * LANE_WIDTH; k += LANE_WIDTH) wide_store(&load->N[k], wide_load(&load->N[k]) + wide_load(&path.sum[PATH_N][k]));
     if (transverse) add_turned(model, path.sum[PATH_V_R], path.sum[PATH_V_T], load->V_y, load->V_z);
     add_turned(model, path.sum[PATH_M_R], path.sum[PATH_M_T], load->M_y, load->M_z);
     joint_prying(&rivet_table.joint, load);

@@ -10,11 +10,11 @@
 
 #include "model.h"
 
-static inline number dot3(const number u[3], const number v[3])
+static inline scalar dot3(const scalar u[3], const scalar v[3])
 {
     return u[0] * v[0] + u[1] * v[1] + u[2] * v[2];
 }
-static inline void cross3(const number u[3], const number v[3], number out[3])
+static inline void cross3(const scalar u[3], const scalar v[3], scalar out[3])
 {
     out[0] = u[1] * v[2] - u[2] * v[1];
     out[1] = u[2] * v[0] - u[0] * v[2];
@@ -22,10 +22,10 @@ static inline void cross3(const number u[3], const number v[3], number out[3])
 }
 
 // Axis, its rate and the angular velocity.
-static inline void rotor_axis(Rotor *rotor, number beta, number gamma, number beta_dot, number gamma_dot, number s)
+static inline void rotor_axis(Rotor *rotor, scalar beta, scalar gamma, scalar beta_dot, scalar gamma_dot, scalar s)
 {
-    const number a_x = number_sqrt(1.0 - beta * beta - gamma * gamma);
-    number *a = rotor->a, *a_dot = rotor->a_dot;
+    const scalar a_x = scalar_sqrt(1.0 - beta * beta - gamma * gamma);
+    scalar *a = rotor->a, *a_dot = rotor->a_dot;
     a[0] = a_x, a[1] = gamma, a[2] = -beta;
     a_dot[0] = -(beta * beta_dot + gamma * gamma_dot) / a_x, a_dot[1] = gamma_dot, a_dot[2] = -beta_dot;
     cross3(a, a_dot, rotor->Omega);
@@ -34,28 +34,28 @@ static inline void rotor_axis(Rotor *rotor, number beta, number gamma, number be
 }
 
 // Rate of the rotation about the axis beyond s.
-static inline number rotor_roll(const Rotor *rotor)
+static inline scalar rotor_roll(const Rotor *rotor)
 {
     return (rotor->a_dot[1] * rotor->a[2] - rotor->a_dot[2] * rotor->a[1]) / (1.0 + rotor->a[0]);
 }
 
 // Body axes b_y, b_z: T (0, cos psi, sin psi) and T (0, -sin psi, cos psi).
-static inline void rotor_body_axes(Rotor *rotor, number cos_psi, number sin_psi)
+static inline void rotor_body_axes(Rotor *rotor, scalar cos_psi, scalar sin_psi)
 {
-    const number *a = rotor->a, k = 1.0 / (1.0 + a[0]);
-    const number k_y = (a[1] * cos_psi + a[2] * sin_psi) * k, k_z = (a[2] * cos_psi - a[1] * sin_psi) * k;
+    const scalar *a = rotor->a, k = 1.0 / (1.0 + a[0]);
+    const scalar k_y = (a[1] * cos_psi + a[2] * sin_psi) * k, k_z = (a[2] * cos_psi - a[1] * sin_psi) * k;
     rotor->b_y[0] = -k_y * (1.0 + a[0]), rotor->b_y[1] = cos_psi - k_y * a[1], rotor->b_y[2] = sin_psi - k_y * a[2];
     rotor->b_z[0] = -k_z * (1.0 + a[0]), rotor->b_z[1] = -sin_psi - k_z * a[1], rotor->b_z[2] = cos_psi - k_z * a[2];
 }
 
 // Accelerations of the axis and of the spin under the moment M about the centre of mass.
-static inline void rotor_acceleration(const Rotor *rotor, double J_p, double J_t, const number M[3], number a_ddot[3], number *s_dot)
+static inline void rotor_acceleration(const Rotor *rotor, double J_p, double J_t, const scalar M[3], scalar a_ddot[3], scalar *s_dot)
 {
-    const number *a = rotor->a, *a_dot = rotor->a_dot, M_a = dot3(M, a);
-    number m[3];
+    const scalar *a = rotor->a, *a_dot = rotor->a_dot, M_a = dot3(M, a);
+    scalar m[3];
     for (int i = 0; i < 3; i++) m[i] = (M[i] - M_a * a[i] - J_p * rotor->s * a_dot[i]) / J_t;
     cross3(m, a, a_ddot);
-    const number rate_2 = dot3(a_dot, a_dot);
+    const scalar rate_2 = dot3(a_dot, a_dot);
     for (int i = 0; i < 3; i++) a_ddot[i] -= rate_2 * a[i];
     *s_dot = M_a / J_p;
 }

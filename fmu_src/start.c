@@ -98,7 +98,7 @@ static double balls_settle(const Equilibrium *eq)
     return sum;
 }
 
-static void ring_place(const Equilibrium *eq, const double q[DOF])
+static void ring_pose(const Equilibrium *eq, const double q[DOF])
 {
     for (int i = 0; i < 3; i++) eq->w->ring.x[i] = q[i];
     rotor_axis(&eq->w->ring, q[3], q[4], 0.0, 0.0, 0.0);
@@ -108,8 +108,8 @@ static void ring_place(const Equilibrium *eq, const double q[DOF])
 static double ring_potential(const Equilibrium *eq, const double q[DOF], double force[DOF])
 {
     const Parameters *p = eq->model->p;
-    const Drive *drive = eq->model->drive;
-    const double target[2] = {drive->beta, drive->gamma}, k = p->ring.tilt_mode == TILT_MODE_SUPPORTED ? p->ring.k_tilt : 0.0;
+    const RingLoad *ring_load = eq->model->ring_load;
+    const double target[2] = {ring_load->beta, ring_load->gamma}, k = p->ring.tilt_mode == TILT_MODE_SUPPORTED ? p->ring.k_tilt : 0.0;
     const double r2 = 0.25 * p->bearing.d_m * p->bearing.d_m;  // k_0 acts at the pitch radius
     double Pi = 0.0;
     for (int i = 0; i < 3; i++) {
@@ -118,8 +118,8 @@ static double ring_potential(const Equilibrium *eq, const double q[DOF], double 
     }
     for (int i = 0; i < 2; i++) {
         const double angle = q[TILT + i] - target[i];
-        force[TILT + i] = eq->tilts ? drive->M[i] - k * angle - K_0 * r2 * q[TILT + i] : 0.0;
-        if (eq->tilts) Pi += 0.5 * k * angle * angle + 0.5 * K_0 * r2 * q[TILT + i] * q[TILT + i] - drive->M[i] * q[TILT + i];
+        force[TILT + i] = eq->tilts ? ring_load->M[i] - k * angle - K_0 * r2 * q[TILT + i] : 0.0;
+        if (eq->tilts) Pi += 0.5 * k * angle * angle + 0.5 * K_0 * r2 * q[TILT + i] * q[TILT + i] - ring_load->M[i] * q[TILT + i];
     }
     return Pi;
 }
@@ -129,7 +129,8 @@ static void ring_balls(const Equilibrium *eq, double force[DOF], double H[DOF][D
 {
     const Derived *d = eq->model->d;
     const Work *w = eq->w;
-    const double F[DOF] = {lanes_sum(w->ring_F_x), lanes_sum(w->ring_F_y), lanes_sum(w->ring_F_z), lanes_sum(w->ring_M_y), lanes_sum(w->ring_M_z)};
+    const double F[DOF] = {ball_array_sum(w->ring_F_x), ball_array_sum(w->ring_F_y), ball_array_sum(w->ring_F_z), ball_array_sum(w->ring_M_y),
+                           ball_array_sum(w->ring_M_z)};
     for (int i = 0; i < DOF; i++)
         if (i < TILT || eq->tilts) force[i] += F[i];
     for (int j = 0; j < Z; j++) {
@@ -154,7 +155,7 @@ static double equilibrium(const Equilibrium *eq, double q[DOF])
     const Parameters *p = eq->model->p;
     const double r = 0.5 * p->bearing.d_m, r2 = r * r;
     double residual = 0.0, force[DOF];
-    ring_place(eq, q);
+    ring_pose(eq, q);
     double Pi = balls_settle(eq) + ring_potential(eq, q, force);
     for (int iteration = 0; iteration < 100; iteration++) {
         double H[DOF][DOF] = {{0}};
@@ -175,7 +176,7 @@ static double equilibrium(const Equilibrium *eq, double q[DOF])
         double Pi_new = Pi, part = 1.0;
         for (int halving = 0; halving < 30; halving++, part *= 0.5) {
             for (int i = 0; i < DOF; i++) trial[i] = q[i] + part * step[i];
-            ring_place(eq, trial);
+            ring_pose(eq, trial);
             Pi_new = balls_settle(eq) + ring_potential(eq, trial, force);
             if (Pi_new <= Pi + 1e-13 * fabs(Pi)) break;
         }
@@ -203,11 +204,11 @@ static double orbital_speed(const Model *model, const Work *w)
         sum += load * 0.5 * (1.0 - 2.0 * model->d->R[j] * cosine / model->p->bearing.d_m);
         weight += load;
     }
-    return model->drive->omega * sum / weight;
+    return model->ring_load->omega * sum / weight;
 }
 
 // Both halves at x_0 + (beta sin theta - gamma cos theta) r, the balls' axial places but for higher harmonics, turning steadily about that axis.
-static void cage_place(const Model *model, const Work *w, double omega_m, double *y)
+static void cage_pose(const Model *model, const Work *w, double omega_m, double *y)
 {
     const Derived *d = model->d;
     double x_0 = 0.0, beta = 0.0, gamma = 0.0, drift[3];
@@ -238,8 +239,8 @@ double start_state(const Kernels *kernels, const Model *model, Work *w, double *
     const Derived *d = model->d;
     Equilibrium eq = {.kernels = kernels, .model = model, .w = w, .tilts = p->ring.tilt_mode != TILT_MODE_PRESCRIBED};
     work_init(d, w);
-    memcpy(eq.F, model->drive->F, sizeof eq.F);
-    const double omega_0 = 0.5 * model->drive->omega * (1.0 - p->bearing.D / p->bearing.d_m);
+    memcpy(eq.F, model->ring_load->F, sizeof eq.F);
+    const double omega_0 = 0.5 * model->ring_load->omega * (1.0 - p->bearing.D / p->bearing.d_m);
     eq.F_c = d->m * 0.5 * p->bearing.d_m * omega_0 * omega_0 + F_0;
 
     uint64_t random = (uint64_t)p->start.seed;
@@ -250,7 +251,7 @@ double start_state(const Kernels *kernels, const Model *model, Work *w, double *
         w->sin_theta[j] = portable_sin(w->theta[j]);
         w->r[j] = 0.5 * p->bearing.d_m + 0.25 * p->bearing.P_d;
     }
-    double q[DOF] = {0.0, 0.0, 0.0, model->drive->beta, model->drive->gamma};
+    double q[DOF] = {0.0, 0.0, 0.0, model->ring_load->beta, model->ring_load->gamma};
     const double residual = equilibrium(&eq, q);
 
     memset(y, 0, N_STATES * sizeof *y);
@@ -265,7 +266,7 @@ double start_state(const Kernels *kernels, const Model *model, Work *w, double *
         y[Y_BALL_OMEGA_X + j] = rolling * w->n_er[j];
         y[Y_BALL_OMEGA_R + j] = -rolling * w->n_ex[j];
     }
-    cage_place(model, w, omega_m, y);
+    cage_pose(model, w, omega_m, y);
     for (int i = 0; i < 3; i++) y[Y_RING_X + i] = q[i];
     y[Y_RING_BETA] = q[3];
     y[Y_RING_GAMMA] = q[4];

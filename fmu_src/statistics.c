@@ -25,7 +25,7 @@ void statistics_add(StatisticsChannel *channel, double floor, double weight, dou
     channel->time += weight;
     channel->first += weight * value;
     channel->second += weight * value * value;
-    if (value > channel->most) channel->most = value;
+    if (value > channel->max) channel->max = value;
     if (value < floor)
         channel->below += weight;
     else
@@ -50,7 +50,7 @@ double statistics_quantile(const StatisticsChannel *channel, double floor, doubl
         const double weight = channel->weight[bin];
         if (weight > 0.0 && weight >= above) {
             const double low = edge_of(bin), high = edge_of(bin + 1);
-            return fmin(floor * (high - (high - low) * above / weight), channel->most);
+            return fmin(floor * (high - (high - low) * above / weight), channel->max);
         }
         above -= weight;
     }

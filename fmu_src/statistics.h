@@ -6,8 +6,8 @@ enum { STATISTICS_OCTAVES = 24, STATISTICS_PER_OCTAVE = 32, STATISTICS_BINS = ST
 
 // Plain bytes; all zeros is an empty channel.
 typedef struct {
-    double time, first, second, most;  // sums of weight, weight x, weight x^2; largest x
-    double below;                      // weight of values under the floor
+    double time, first, second, max;  // sums of weight, weight x, weight x^2; largest x
+    double below;                     // weight of values under the floor
     double weight[STATISTICS_BINS];
 } StatisticsChannel;
 

@@ -21,66 +21,66 @@
 #include "rivets.c"
 
 enum {
-    DRIVE_NUMBERS = sizeof(Drive) / sizeof(number),
-    COURSE_NUMBERS = sizeof(Course) / sizeof(number),
-    WORK_NUMBERS = sizeof(Work) / sizeof(number),
-    OUTPUT_NUMBERS = sizeof(Outputs) / sizeof(number)
+    LOAD_SCALARS = sizeof(RingLoad) / sizeof(scalar),
+    TRAJECTORY_SCALARS = sizeof(InputTrajectory) / sizeof(scalar),
+    WORK_SCALARS = sizeof(Work) / sizeof(scalar),
+    OUTPUT_SCALARS = sizeof(Outputs) / sizeof(scalar)
 };
 
-static void numbers_join(int n, const double *value, const double *derivative, number *x)
+static void scalars_join(int n, const double *value, const double *derivative, scalar *x)
 {
-    for (int i = 0; i < n; i++) x[i] = number_dual(value[i], derivative ? derivative[i] : 0.0);
+    for (int i = 0; i < n; i++) x[i] = scalar_dual(value[i], derivative ? derivative[i] : 0.0);
 }
-static void numbers_derivative(int n, const number *x, double *derivative)
+static void scalars_derivative(int n, const scalar *x, double *derivative)
 {
-    for (int i = 0; i < n; i++) derivative[i] = number_derivative(x[i]);
+    for (int i = 0; i < n; i++) derivative[i] = scalar_derivative(x[i]);
 }
 
-void tangent_rhs(const Model *model, double t, const double *y, const double *dy, const double *d_drive, double *dy_dot, double *dw)
+void tangent_rhs(const Model *model, double t, const double *y, const double *dy, const double *d_ring_load, double *dy_dot, double *dw)
 {
-    Drive drive;
-    Course course;
+    RingLoad ring_load;
+    InputTrajectory trajectory;
     Work work = {0};
-    number state[N_STATES], rate[N_STATES];
-    const Model dual = {model->p, model->d, &drive, NULL};
-    numbers_join(DRIVE_NUMBERS, (const double *)model->drive, NULL, (number *)&drive);
-    if (model->course) {
-        numbers_join(COURSE_NUMBERS, (const double *)model->course, NULL, (number *)&course);
-        drive_at(&course, t, &drive);
+    scalar state[N_STATES], rate[N_STATES];
+    const Model dual = {model->p, model->d, &ring_load, NULL};
+    scalars_join(LOAD_SCALARS, (const double *)model->ring_load, NULL, (scalar *)&ring_load);
+    if (model->trajectory) {
+        scalars_join(TRAJECTORY_SCALARS, (const double *)model->trajectory, NULL, (scalar *)&trajectory);
+        ring_load_at(&trajectory, t, &ring_load);
     }
-    if (d_drive)
-        for (int i = 0; i < DRIVE_NUMBERS; i++) ((number *)&drive)[i] += number_dual(0.0, d_drive[i]);
-    numbers_join(N_STATES, y, dy, state);
+    if (d_ring_load)
+        for (int i = 0; i < LOAD_SCALARS; i++) ((scalar *)&ring_load)[i] += scalar_dual(0.0, d_ring_load[i]);
+    scalars_join(N_STATES, y, dy, state);
     rhs(&dual, t, state, rate, &work);
-    numbers_derivative(N_STATES, rate, dy_dot);
-    if (dw) numbers_derivative(WORK_NUMBERS, (const number *)&work, dw);
+    scalars_derivative(N_STATES, rate, dy_dot);
+    if (dw) scalars_derivative(WORK_SCALARS, (const scalar *)&work, dw);
 }
 
-void tangent_outputs(const Model *model, const double *course, double t, double dt, const double *du, const double *y, const double *dy, double *d_out)
+void tangent_outputs(const Model *model, const double *trajectory, double t, double dt, const double *du, const double *y, const double *dy, double *d_out)
 {
-    Course inputs;
-    Drive drive;
+    InputTrajectory inputs;
+    RingLoad ring_load;
     Work work = {0};
     Outputs out = {0};
-    number state[N_STATES], rate[N_STATES];
-    const Model dual = {model->p, model->d, &drive, NULL};
-    numbers_join(COURSE_NUMBERS, course, NULL, (number *)&inputs);
+    scalar state[N_STATES], rate[N_STATES];
+    const Model dual = {model->p, model->d, &ring_load, NULL};
+    scalars_join(TRAJECTORY_SCALARS, trajectory, NULL, (scalar *)&inputs);
     if (du)
-        for (int i = 0; i < N_INPUTS; i++) ((number *)&inputs.u[0])[i] += number_dual(0.0, du[i]);
-    drive_at(&inputs, number_dual(t, dt), &drive);
-    numbers_join(N_STATES, y, dy, state);
+        for (int i = 0; i < N_INPUTS; i++) ((scalar *)&inputs.u[0])[i] += scalar_dual(0.0, du[i]);
+    ring_load_at(&inputs, scalar_dual(t, dt), &ring_load);
+    scalars_join(N_STATES, y, dy, state);
     rhs(&dual, t, state, rate, &work);
     const Evaluation at = {&dual, state, rate, &work, rivets_load};
     for (int group = 0; group < GROUP_COUNT; group++) outputs_evaluate(&at, group, &out);
-    numbers_derivative(OUTPUT_NUMBERS, (const number *)&out, d_out);
+    scalars_derivative(OUTPUT_SCALARS, (const scalar *)&out, d_out);
 }
 
 void tangent_housing(const double *w, const double *dw, double dF[3], double dM[3])
 {
     Work work;
-    number F[3], M[3];
-    numbers_join(WORK_NUMBERS, w, dw, (number *)&work);
+    scalar F[3], M[3];
+    scalars_join(WORK_SCALARS, w, dw, (scalar *)&work);
     housing_reaction(&work, F, M);
-    numbers_derivative(3, F, dF);
-    numbers_derivative(3, M, dM);
+    scalars_derivative(3, F, dF);
+    scalars_derivative(3, M, dM);
 }

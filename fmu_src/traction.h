@@ -18,41 +18,41 @@ static const double Q_FLOOR = 1.0;
 typedef struct {
     vec F_s, F_c;     // on the ball: at the contact point, through the ball's centre [N]
     vec M;            // moment of F_s about the ball's centre (with spin) [N.m]
-    real g;           // |traction| / |slip|: the stiff rate of the contact [N.s/m]
-    real g_spin;      // moment / spin about the normal of what slips beside the centre [N.m.s]
-    real U;           // mean surface speed with its floor [m/s]
-    real dissipated;  // [W]
+    wide g;           // |traction| / |slip|: the stiff rate of the contact [N.s/m]
+    wide g_spin;      // moment / spin about the normal of what slips beside the centre [N.m.s]
+    wide U;           // mean surface speed with its floor [m/s]
+    wide dissipated;  // [W]
 } Tangential;
 
 // ln Lambda at mean speed U and load Q; ln_Lambda_1 at U = 1 m/s, Q = 1 N.
-INLINE real traction_ln_film(real ln_Lambda_1, real ln_U, real ln_Q)
+INLINE wide traction_ln_film(wide ln_Lambda_1, wide ln_U, wide ln_Q)
 {
     return ln_Lambda_1 + 0.67 * ln_U - 0.067 * ln_Q;
 }
 
 // Part of the load that asperities carry.
-INLINE real traction_asperity_share(real ln_Lambda)
+INLINE wide traction_asperity_share(wide ln_Lambda)
 {
-    return real_exp(-1.8 * real_exp(1.2 * ln_Lambda));
+    return wide_exp(-1.8 * wide_exp(1.2 * ln_Lambda));
 }
 
 // Traction coefficient of the film.
-INLINE real traction_film(const Parameters *p, real s)
+INLINE wide traction_film(const Parameters *p, wide s)
 {
-    return (p->oil.A + p->oil.B * s) * real_exp(-p->oil.C * s) - p->oil.A;
+    return (p->oil.A + p->oil.B * s) * wide_exp(-p->oil.C * s) - p->oil.A;
 }
 
 // Traction coefficient with the asperity share f_a (zero where there is only film).
-INLINE real traction_mu(const Parameters *p, real s, real f_a, bool mixed)
+INLINE wide traction_mu(const Parameters *p, wide s, wide f_a, bool mixed)
 {
-    const real film = traction_film(p, s);
+    const wide film = traction_film(p, s);
     if (!mixed) return film;
-    const real boundary = p->oil.mu_b * s / real_sqrt(s * s + p->oil.s_0 * p->oil.s_0);
+    const wide boundary = p->oil.mu_b * s / wide_sqrt(s * s + p->oil.s_0 * p->oil.s_0);
     return film + f_a * (boundary - film);
 }
 
 // F_R; rolling at U = 1 m/s, Q = 1 N.  W^0.47 is taken as W (W + W_floor)^-0.53.
-INLINE real traction_inlet(real rolling, real ln_U, real Q, real ln_Q)
+INLINE wide traction_inlet(wide rolling, wide ln_U, wide Q, wide ln_Q)
 {
-    return rolling * Q * real_exp(0.66 * ln_U - 0.53 * ln_Q);
+    return rolling * Q * wide_exp(0.66 * ln_U - 0.53 * ln_Q);
 }

@@ -22,7 +22,7 @@ from lxml import etree
 
 ROOT = Path(__file__).resolve().parent.parent
 TABLE = ROOT / "fmus" / "variables.toml"
-OUTPUTS = ("fmu_src/variables.h", "fmu_src/variables.c", "fmus/modelDescription.xml", "bearing_model/variables.py", "docs/parameters.md")
+OUTPUTS = ("fmu_src/generated/variables.h", "fmu_src/generated/variables.c", "fmus/modelDescription.xml", "bearing_model/variables.py", "docs/parameters.md")
 TEMPLATES = ROOT / "fmus" / "templates"
 Z_MIN, Z_MAX = 5, 32
 CAUSALITIES = {"inputs": "input", "parameters": "parameter", "outputs": "output"}
@@ -398,7 +398,7 @@ def generate(bearing=None, path=None):
 
 def main(arguments=None):
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--bearing", type=Path, help="bearing file (bearing_model/data/bearings) with Z and start values")
+    parser.add_argument("--bearing", type=Path, help="bearing file (riveted_bearing/data/bearings) with Z and start values")
     parser.add_argument("--table", type=Path, help="another part's table of variables")
     parser.add_argument("--out", type=Path, help="one folder for all files, instead of their places in the project")
     parser.add_argument("--check", action="store_true", help="write nothing, compare")

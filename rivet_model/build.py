@@ -13,6 +13,8 @@ from pathlib import Path
 import numpy as np
 from threadpoolctl import threadpool_limits
 
+from bearing_model import rivet_table
+
 from . import cage_half, plastic_fit, reduction, stiffness, table
 from .geometry import Geometry
 from .load_cases import COARSE, SHIPPED, TRUTH, Joint
@@ -58,7 +60,7 @@ def assemble(joint, knots, samples, fit, path, k_half):
         geometry,
         "fe",
         knots,
-        samples / table.MPA_PER_N,
+        samples / rivet_table.MPA_PER_N,
         (fit.fit_a, fit.fit_eff),
         stiffness.joint_data(joint, k_half),
         path,
@@ -105,7 +107,7 @@ def main(arguments=None):
         print(f"rivet table: {error}", file=sys.stderr)
         return 2
     for region, report in ((k, v) for k, v in result.errors.items() if isinstance(v, dict)):
-        print(region, *(f"{name} max {100 * report['maximum'][name]:.2f} % rms {100 * report['rms'][name]:.2f} %" for name in table.CHANNELS), sep="  ")
+        print(region, *(f"{name} max {100 * report['maximum'][name]:.2f} % rms {100 * report['rms'][name]:.2f} %" for name in rivet_table.CHANNELS), sep="  ")
     return 0
 
 

@@ -11,6 +11,8 @@ import sys
 
 import numpy as np
 
+from bearing_model import rivet_table
+
 from . import splines, table
 from .geometry import Geometry
 
@@ -100,8 +102,8 @@ def joint_data(geometry):
 def make_table(geometry=None):
     """Table of kind closed_form for the geometry (default: that of Geometry)."""
     geometry = geometry or Geometry()
-    a, b, c, xi = np.meshgrid(*(splines.sites(KNOTS[name]) for name in table.AXES), indexing="ij")
-    sheets = [stress(geometry, *loads_of(a, b, c, MOMENT_LENGTH), chi, xi) / table.MPA_PER_N for chi in (1.0, 0.5, 0.0)]
+    a, b, c, xi = np.meshgrid(*(splines.sites(KNOTS[name]) for name in rivet_table.AXES), indexing="ij")
+    sheets = [stress(geometry, *loads_of(a, b, c, MOMENT_LENGTH), chi, xi) / rivet_table.MPA_PER_N for chi in (1.0, 0.5, 0.0)]
     yield_pressure = geometry.yield_flange / np.sqrt(3)  # first yield at the bore: 2 tau = p + hoop tension, taken as pure shear 2 p
     fit_yield = yield_pressure / lame_pressure(geometry, 1.0)
     full = 2 / np.sqrt(3) * geometry.yield_flange * np.log(2 * geometry.patch_radius / geometry.shank_diameter)  # fully plastic ring

@@ -17,9 +17,9 @@ from pathlib import Path
 
 import numpy as np
 
-from bearing_model import rivet_rom
+from bearing_model import rivet_rom, rivet_table
 
-from . import reduction, splines, table
+from . import reduction, splines
 from .geometry import Geometry
 from .load_cases import COARSE, SHIPPED, Joint
 
@@ -32,7 +32,7 @@ KNOTS = {
     "c": np.array([0.0, 0.15, 0.42, 0.7, 1.0]),
     "xi": 1e-9 * np.array([-1500, -400, -110, -20, 0.5, 5, 18, 60, 400]),
 }
-PHI = np.array([reduction.DIRECTION[sheet] for sheet in table.SHEETS])
+PHI = np.array([reduction.DIRECTION[sheet] for sheet in rivet_table.SHEETS])
 PLACES = ("upper fillet", "lower fillet", "middle")
 
 
@@ -82,7 +82,7 @@ class Components:
         """Amplitudes of the modes [times, mode] at the splines' places and directions phi of M in the first quadrant."""
         basis = np.stack([np.ones(3), np.cos(PHI), np.sin(PHI)], axis=-1)
         weight = np.linalg.solve(basis.T, np.stack([np.ones_like(phi), np.cos(phi), np.sin(phi)])).T  # [times, sheet]
-        (A, wa), (B, wb), (C, wc), (X, wx) = (at[name] for name in table.AXES)
+        (A, wa), (B, wb), (C, wc), (X, wx) = (at[name] for name in rivet_table.AXES)
         total = np.zeros((len(phi), self.coefficients.shape[-1]))
         for i, j, k, m in np.ndindex(3, 3, 3, 3):
             w = (wa[:, i] * wb[:, j] * wc[:, k] * wx[:, m])[:, None] * weight
@@ -135,7 +135,7 @@ def make(geometry, coarse=False, workers=2, progress=None, hold_out=60):
     rows = samples.reshape(-1, samples.shape[-1])
     scale, vectors = np.linalg.eigh(rows.T @ rows) if rows.shape[1] < len(rows) else _row_space(rows)
     modes = vectors[:, np.argsort(scale)[::-1][:MODES]].T
-    coefficients = splines.interpolate([knots[name] for name in table.AXES], samples @ modes.T)
+    coefficients = splines.interpolate([knots[name] for name in rivet_table.AXES], samples @ modes.T)
     points = tuple(place[2].shape[1] for place in (joint.fillet, joint.fillet, joint.middle))
     made = Components(geometry.digest, reduction.MOMENT_LENGTH, knots, coefficients, modes, points, {})
     made.errors = hold_out_errors(made, joint, reduction.random_loads(hold_out, 2027)) if hold_out else {}
@@ -178,7 +178,7 @@ def read(path, geometry_hash=None):
     try:
         with np.load(path, allow_pickle=False) as file:
             header = json.loads(str(file["header"]))
-            knots = {name: file[f"knots_{name}"] for name in table.AXES}
+            knots = {name: file[f"knots_{name}"] for name in rivet_table.AXES}
             arrays = {name: file[name].astype(float) for name in ("coefficients", "modes")}
     except (ValueError, KeyError, EOFError) as error:
         raise ValueError(f"{path}: not a file of rivet components: {error}") from error

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
-from . import splines, table
+from bearing_model import rivet_splines, rivet_table
 
 BINS = 256  # RIVET_BINS in fmu_src/rivet_rom.h
 
@@ -46,15 +46,15 @@ def c_source(t):
         f'_Static_assert(Z == {t.Z}, "the rivet table was made for Z = {t.Z}");\n\n// clang-format off\n',
     ]
     axes = []
-    for name in table.AXES:
+    for name in rivet_table.AXES:
         knots = t.knots[name]
-        rows = np.column_stack([knots[:-1], knots[1:], *splines.constants(knots)])
+        rows = np.column_stack([knots[:-1], knots[1:], *rivet_splines.constants(knots)])
         cells = ",\n".join(f"    {{{', '.join(map(repr, row))}}}" for row in rows.tolist())
         parts.append(f"static const RivetCell {name}_cell[{len(rows)}] = {{\n{cells}}};\n")
         parts.append(_array(f"{name}_bin", bin_cells(knots), "unsigned char"))
         start, end = float(knots[0]), float(knots[-1])
         axes.append(f"{{{len(rows)}, {start!r}, {end!r}, {BINS / (end - start)!r}, {name}_cell, {name}_bin}}")
-    channel = table.CHANNELS.index
+    channel = rivet_table.CHANNELS.index
     parts += [
         _array("primary", t.coefficients[..., [channel("head_p1"), channel("mid_vm")]], "float"),
         _array("secondary", t.coefficients[..., [channel("head_vm"), channel("mid_p1")]], "float"),
@@ -66,7 +66,7 @@ def c_source(t):
         _array("load_path", path_columns(t.load_path)),
         '_Static_assert(sizeof load_path == 2 * PATH_LOADS * 3 * PATH_WIDTH * sizeof *load_path, "the load path has another width");\n',
     ]
-    joint = ", ".join(f".{key} = {float(t.joint[key])!r}" for key in table.JOINT_KEYS)
+    joint = ", ".join(f".{key} = {float(t.joint[key])!r}" for key in rivet_table.JOINT_KEYS)
     parts.append(f"""
 const RivetTable rivet_table = {{
     .kind = "{t.kind}", .geometry_hash = "{t.geometry_hash}", .digest = "@digest@", .Z = {t.Z}, .moment_length = {float(t.moment_length)!r},
@@ -91,7 +91,7 @@ def main(arguments=None):
     parser.add_argument("--Z", type=int, help="number of rivets that the build needs")
     options = parser.parse_args(arguments)
     try:
-        text = c_source(table.read(options.table, options.Z))
+        text = c_source(rivet_table.read(options.table, options.Z))
         Path(options.out).write_text(text, encoding="utf-8")
     except (OSError, ValueError) as error:
         print(f"rivet table: {error}", file=sys.stderr)

@@ -8,9 +8,9 @@ from multiprocessing import get_context
 import numpy as np
 from threadpoolctl import threadpool_limits
 
-from bearing_model import rivet_rom
+from bearing_model import rivet_rom, rivet_table
 
-from . import splines, table
+from . import splines
 from .closed_form import loads_of
 from .load_cases import Joint
 
@@ -77,13 +77,13 @@ def sample(joint, knots, workers=2, progress=None, measure=Joint.channels, repre
 
     measure(joint, forces [contacts, cases]) -> [cases, numbers]; representative: which coordinates stand for others.
     """
-    a, b, c, xi = (splines.sites(knots[name]) for name in table.AXES)
-    points = [(x, y, z, sheet) for x in a for y in b for z in c for sheet in table.SHEETS]
+    a, b, c, xi = (splines.sites(knots[name]) for name in rivet_table.AXES)
+    points = [(x, y, z, sheet) for x in a for y in b for z in c for sheet in rivet_table.SHEETS]
     names = [representative(*point) for point in points]
     unique = list(dict.fromkeys(names))
     rows = _map(joint, _row, [(*name, xi, measure) for name in unique], workers, progress or (lambda done, total: None))
     found = dict(zip(unique, rows, strict=True))
-    values = np.stack([found[name] for name in names]).reshape(len(a), len(b), len(c), len(table.SHEETS), len(xi), -1)
+    values = np.stack([found[name] for name in names]).reshape(len(a), len(b), len(c), len(rivet_table.SHEETS), len(xi), -1)
     return np.moveaxis(values, 3, 4)
 
 
@@ -140,8 +140,8 @@ def hold_out_errors(t, loads, fresh):
         error = (got - fresh)[chosen] / fresh[chosen].max(axis=0)
         report[name] = {
             "loads": int(chosen.sum()),
-            "maximum": dict(zip(table.CHANNELS, np.abs(error).max(axis=0).round(5).tolist(), strict=True)),
-            "rms": dict(zip(table.CHANNELS, np.sqrt((error**2).mean(axis=0)).round(5).tolist(), strict=True)),
-            "channel_maximum_MPa": dict(zip(table.CHANNELS, (fresh[chosen].max(axis=0) / 1e6).round(1).tolist(), strict=True)),
+            "maximum": dict(zip(rivet_table.CHANNELS, np.abs(error).max(axis=0).round(5).tolist(), strict=True)),
+            "rms": dict(zip(rivet_table.CHANNELS, np.sqrt((error**2).mean(axis=0)).round(5).tolist(), strict=True)),
+            "channel_maximum_MPa": dict(zip(rivet_table.CHANNELS, (fresh[chosen].max(axis=0) / 1e6).round(1).tolist(), strict=True)),
         }
     return report

@@ -1,5 +1,8 @@
 """What the tests share: the built FMU and the C core, or in files that say TWINS = True each of the twins in turn."""
 
+import ctypes
+import os
+import sys
 from pathlib import Path
 
 import fmpy
@@ -54,3 +57,23 @@ def slave(folder):
 @pytest.fixture
 def running(slave):
     return slave.initialize()
+
+
+UNZIP = """#!/bin/sh
+# unzip -o ARCHIVE -d FOLDER
+exec "{python}" -m zipfile -e "$2" "$4"
+"""
+
+
+@pytest.fixture
+def ecospy(tmp_path, monkeypatch):
+    """The importer ecos with what its package does not bring: the program `unzip`, and the library TBB (`pip install tbb`, or the system's)."""
+    program = tmp_path / "bin" / "unzip"
+    program.parent.mkdir()
+    program.write_text(UNZIP.format(python=sys.executable))
+    program.chmod(0o755)
+    monkeypatch.setenv("PATH", str(program.parent), prepend=os.pathsep)
+    tbb = Path(sys.prefix) / "lib" / "libtbb.so.12"
+    if tbb.exists():
+        ctypes.CDLL(str(tbb))
+    return pytest.importorskip("ecospy", reason="ecospy is not installed: pip install ecospy")

@@ -6,7 +6,7 @@
 
 #include "fmi2FunctionTypes.h"
 
-enum { MOST = 4096 };
+enum { MAX_VALUES = 4096 };
 
 static void forward(fmi2ComponentEnvironment environment, fmi2String instance, fmi2Status status, fmi2String category, fmi2String message, ...)
 {
@@ -39,11 +39,11 @@ static void check(fmi2Status status, const char *what)
 
 int main(int count, char **argument)
 {
-    static fmi2ValueReference reference[MOST];
-    static fmi2Real value[MOST];
+    static fmi2ValueReference reference[MAX_VALUES];
+    static fmi2Real value[MAX_VALUES];
     size_t n = 0;
     if (count != 5) return 2;
-    while (n < MOST && scanf("%u", &reference[n]) == 1) n++;
+    while (n < MAX_VALUES && scanf("%u", &reference[n]) == 1) n++;
     const int steps = atoi(argument[3]);
     const double h = atof(argument[4]);
     library = LoadLibraryA(argument[1]);

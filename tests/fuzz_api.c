@@ -21,7 +21,7 @@
 
 #define REQUIRE(condition) require(condition, #condition, __LINE__)
 
-enum { INSTANCES = 2, STATES = 3, MOST_VALUES = 24, N_STATUS = 6 };
+enum { INSTANCES = 2, STATES = 3, MAX_VALUES = 24, N_STATUS = 6 };
 
 // ---- the string that decides -----------------------------------------------------------------------------------------------------------------
 typedef struct {
@@ -161,7 +161,7 @@ static double value_for(fmi2ValueReference reference, Bytes *bytes)
 
 static size_t some(Bytes *bytes)
 {
-    return chance(bytes, 230) ? choose(bytes, 4) : choose(bytes, MOST_VALUES + 1);
+    return chance(bytes, 230) ? choose(bytes, 4) : choose(bytes, MAX_VALUES + 1);
 }
 
 // ---- actions ---------------------------------------------------------------------------------------------------------------------------------
@@ -180,7 +180,7 @@ static void check_outputs(Host *host)
 
 static void get_real(Fuzz *f, Host *host)
 {
-    fmi2ValueReference references[MOST_VALUES];
+    fmi2ValueReference references[MAX_VALUES];
     const size_t n = some(&f->bytes);
     double *values = malloc((n + 1) * sizeof *values);  // exactly as large as told: the address sanitizer watches
     for (size_t i = 0; i < n; i++) references[i] = any_reference(&f->bytes);
@@ -194,8 +194,8 @@ static void get_real(Fuzz *f, Host *host)
 
 static void get_integer(Fuzz *f, Host *host)
 {
-    fmi2ValueReference references[MOST_VALUES];
-    fmi2Integer values[MOST_VALUES];
+    fmi2ValueReference references[MAX_VALUES];
+    fmi2Integer values[MAX_VALUES];
     const size_t n = some(&f->bytes);
     for (size_t i = 0; i < n; i++) references[i] = any_reference(&f->bytes);
     CALL(host, GetInteger, host->component, references, n, chance(&f->bytes, 4) ? NULL : values);
@@ -215,8 +215,8 @@ static void get_other(Fuzz *f, Host *host)
 
 static void set_real(Fuzz *f, Host *host)
 {
-    fmi2ValueReference references[MOST_VALUES];
-    double values[MOST_VALUES];
+    fmi2ValueReference references[MAX_VALUES];
+    double values[MAX_VALUES];
     const size_t n = some(&f->bytes);
     for (size_t i = 0; i < n; i++) {
         references[i] = chance(&f->bytes, 240) ? settable_reference(&f->bytes) : any_reference(&f->bytes);
@@ -451,9 +451,9 @@ static void get_status(Fuzz *f, Host *host)
 
 static void derivatives(Fuzz *f, Host *host)
 {
-    fmi2ValueReference unknowns[MOST_VALUES], knowns[MOST_VALUES];
-    fmi2Integer orders[MOST_VALUES] = {0};
-    fmi2Real values[MOST_VALUES] = {0}, seeds[MOST_VALUES];
+    fmi2ValueReference unknowns[MAX_VALUES], knowns[MAX_VALUES];
+    fmi2Integer orders[MAX_VALUES] = {0};
+    fmi2Real values[MAX_VALUES] = {0}, seeds[MAX_VALUES];
     const size_t n = some(&f->bytes), m = some(&f->bytes);
     for (size_t i = 0; i < n; i++) unknowns[i] = any_reference(&f->bytes), orders[i] = (fmi2Integer)choose(&f->bytes, 4), values[i] = any_double(&f->bytes);
     for (size_t i = 0; i < m; i++) {
@@ -636,12 +636,12 @@ static void *run_share(void *argument)
 
 int main(int argc, char **argv)
 {
-    enum { MOST_THREADS = 16 };
+    enum { MAX_THREADS = 16 };
     const long wanted = argc > 1 ? atol(argv[1]) : 100000, seed = argc > 2 ? atol(argv[2]) : 1;
     const int threads = argc > 3 ? atoi(argv[3]) : 1;
-    Share share[MOST_THREADS] = {{0}}, all = {0};
-    pthread_t thread[MOST_THREADS];
-    if (threads < 1 || threads > MOST_THREADS) return 2;
+    Share share[MAX_THREADS] = {{0}}, all = {0};
+    pthread_t thread[MAX_THREADS];
+    if (threads < 1 || threads > MAX_THREADS) return 2;
     remember_new_run();
     for (int i = 0; i < threads; i++) {
         share[i] = (Share){.wanted = wanted, .seed = (uint64_t)(seed + i)};

@@ -14,11 +14,11 @@ import tempfile
 from functools import cache
 from pathlib import Path
 
-from bearing_model.app import bearings, errors, fmu, scene, units
-from rivet_model import table
+from bearing_model import rivet_table
+from riveted_bearing import bearings, errors, fmu, scene, units
 
 ROOT = Path(__file__).resolve().parents[1]
-DATA = ROOT / "bearing_model" / "data"
+DATA = ROOT / "riveted_bearing" / "data"
 ODD = (None, True, "", "nan", "x" * 300, "1 N", "\0", -1, 0, 10**400, 1e308, float("inf"), float("nan"), -0.0, [], {}, [[]], {"": 0}, [1, "a"], 5e-324)
 TOKENS = (
     b"[",
@@ -115,11 +115,11 @@ def model():
 @cache
 def small_table():
     """A rivet table's document with few coefficients, so that reading it is quick."""
-    document = json.loads(Path(table.__file__).with_name("tables").joinpath("6207.json").read_text())
+    document = json.loads(rivet_table.DEFAULT_TABLE.read_text())
     stress = document["stress"]
-    for name in table.AXES:
+    for name in rivet_table.AXES:
         stress["knots"][name] = [stress["knots"][name][0], stress["knots"][name][-1]]
-    stress["coefficients"] = stress["coefficients"][: 3**4 * len(table.SHEETS) * len(table.CHANNELS)]
+    stress["coefficients"] = stress["coefficients"][: 3**4 * len(rivet_table.SHEETS) * len(rivet_table.CHANNELS)]
     return document
 
 
@@ -128,7 +128,7 @@ def sealed(document):
     sections = {key: value for key, value in document.items() if key != "header"}
     try:
         if isinstance(document.get("header"), dict) and "digest" in document["header"]:
-            document["header"]["digest"] = table._digest(sections)
+            document["header"]["digest"] = rivet_table.digest_of(sections)
         return json.dumps(document).encode()
     except (TypeError, ValueError):  # beyond JSON
         return b"{}"
@@ -136,7 +136,7 @@ def sealed(document):
 
 def read_table(text, path):
     path.write_bytes(text)
-    table.read(path, 9)
+    rivet_table.read(path, 9)
 
 
 def read_bearing(text, path):
@@ -174,7 +174,7 @@ def try_one(data):
 def main():
     import atheris
 
-    for module in (table, bearings, errors, fmu, scene, units):
+    for module in (rivet_table, bearings, errors, fmu, scene, units):
         for name, function in vars(module).copy().items():
             if inspect.isfunction(function) and function.__module__ == module.__name__:
                 setattr(module, name, atheris.instrument_func(function))

@@ -20,10 +20,11 @@ from pycparser import c_ast, c_generator, c_parser
 from bearing_model import variables
 
 ROOT = Path(__file__).resolve().parents[1]
-SOURCES = (other_bearing.BUILD or ROOT) / "fmu_src"
+SOURCES = ROOT / "fmu_src"
+GENERATED = other_bearing.BUILD / "generated" if other_bearing.BUILD else SOURCES / "generated"
 LIBRARY = (other_bearing.BUILD or ROOT / "build") / "libbearing_test.so"
 INSTRUCTION_SETS = ("generic", "neon", "sse2", "avx2", "avx512")
-LANE_TYPES = {"real", "bits", "words", "vec"}  # depend on the lane width: no place outside the kernels
+LANE_TYPES = {"wide", "bits", "words", "vec"}  # depend on the lane width: no place outside the kernels
 SYSTEM_TYPES = "typedef _Bool bool; typedef unsigned long size_t; typedef long int64_t; typedef unsigned long uint64_t; typedef unsigned uint32_t;"
 
 
@@ -34,10 +35,10 @@ class Core:
         self.ffi, self.lib = ffi, lib
 
     @classmethod
-    def load(cls, path=LIBRARY, sources=SOURCES):
+    def load(cls, path=LIBRARY, sources=(SOURCES, GENERATED)):
         """Open the library; OSError if it has not been built."""
         ffi = cffi.FFI()
-        ffi.cdef(declarations(Path(sources)))
+        ffi.cdef(declarations(sources))
         return cls(ffi, ffi.dlopen(str(path)))
 
     def new(self, type_name, count=1):
@@ -79,14 +80,14 @@ class Model:
 
     def __init__(self, core, parameters, inputs, isa):
         self.core = core
-        self.p, self.u, self.d, self.drive, self.work = map(core.new, ("Parameters", "Inputs", "Derived", "Drive", "Work"))
+        self.p, self.u, self.d, self.ring_load, self.work = map(core.new, ("Parameters", "Inputs", "Derived", "RingLoad", "Work"))
         core.lib.variables_set_start(self.p, self.u)
         core.set_values(self.p, variables.PARAMETERS, parameters)
         core.set_values(self.u, variables.INPUTS, inputs)
         core.lib.model_derive(self.p, self.d)
         core.lib.work_init(self.d, self.work)
         self.pointer = core.new("Model")
-        self.pointer.p, self.pointer.d, self.pointer.drive = self.p, self.d, self.drive
+        self.pointer.p, self.pointer.d, self.pointer.ring_load = self.p, self.d, self.ring_load
         self.isa = isa or core.ffi.string(core.lib.kernels_select().name).decode()
 
     def kernel(self, name):
@@ -96,7 +97,7 @@ class Model:
     def solve_start(self):
         """State of the quasi-static start at t = 0 and its residual force [N]; the work struct keeps its contacts."""
         y = np.zeros(variables.N_STATES)
-        self.core.lib.drive_update(self.p, self.u, 0.0, self.drive)
+        self.core.lib.ring_load_update(self.p, self.u, 0.0, self.ring_load)
         kernels = self.core.ffi.new("Kernels *", self.core.lib.kernels_select())
         return y, self.core.lib.start_state(kernels, self.pointer, self.work, self.core.array(y))
 
@@ -110,12 +111,12 @@ class Model:
         if y.shape != (variables.N_STATES,):
             raise ValueError(f"y has shape {y.shape}: allowed is ({variables.N_STATES},)")
         y_dot = np.empty_like(y)
-        self.core.lib.drive_update(self.p, self.u, t, self.drive)
+        self.core.lib.ring_load_update(self.p, self.u, t, self.ring_load)
         self.kernel("rhs")(self.pointer, t, self.core.array(y), self.core.array(y_dot), self.work)
         return y_dot
 
     def implicit(self, function, gamma, v):
-        """implicit_solve or implicit_held of velocities v (rows of the state vector) at the state of the last evaluation."""
+        """implicit_solve or implicit_stiff_part of velocities v (rows of the state vector) at the state of the last evaluation."""
         v = np.array(v, dtype=float)
         self.kernel(function)(self.pointer, self.work, gamma, self.core.array(v))
         return v
@@ -138,7 +139,7 @@ class Model:
     def verlet(self, t, h, start, weight):
         """One Verlet step of length h from `start` (VerletState) at t; returns the VerletState reached and the error's norm in units of 1/weight."""
         end = self.core.new("VerletState")
-        self.core.lib.drive_update(self.p, self.u, t, self.drive)
+        self.core.lib.ring_load_update(self.p, self.u, t, self.ring_load)
         error = self.kernel("verlet_step")(self.pointer, t, h, self.core.array(weight), start, end, self.work)
         return end, error
 
@@ -152,7 +153,7 @@ class Model:
 
 
 def declarations(sources):
-    """All types and functions of the headers, as cffi reads them."""
+    """All types and functions of the headers in the folders `sources`, as cffi reads them."""
     tree = parse(sources, INSTRUCTION_SETS[0])
     layout = struct_layout(sources, tree)
     generator = c_generator.CGenerator()
@@ -168,11 +169,15 @@ def declarations(sources):
 
 def parse(sources, isa):
     """Declarations of all headers and of the tests' own C files, without function bodies and without types that depend on the lane width."""
-    files = [*sorted(sources.glob("*.h")), Path(__file__).with_name("test_library.c"), Path(__file__).with_name("test_elementary.c")]
-    text = preprocess(files, f"-DISA={isa}", f"-I{sources}", before=SYSTEM_TYPES)
+    files = [*headers(sources), Path(__file__).with_name("test_library.c"), Path(__file__).with_name("test_elementary.c")]
+    text = preprocess(files, f"-DISA={isa}", *(f"-I{folder}" for folder in sources), before=SYSTEM_TYPES)
     nodes = c_parser.CParser().parse(text).ext
     own = SYSTEM_TYPES.count(";")
     return [node for node in nodes[own:] if not isinstance(node, (c_ast.FuncDef, c_ast.StaticAssert)) and declares(node)]
+
+
+def headers(sources):
+    return [path for folder in sources for path in sorted(folder.glob("*.h"))]
 
 
 def preprocess(files, *options, before=""):
@@ -218,11 +223,13 @@ def struct_layout(sources, tree):
         + f", sizeof({name}));\n"
         for name, members in structs.items()
     )
-    includes = "".join(f'#include "{path.name}"\n' for path in sorted(sources.glob("*.h")))
+    includes = "".join(f'#include "{path.name}"\n' for path in headers(sources))
     with tempfile.TemporaryDirectory() as folder:
         program = Path(folder) / "layout"
         text = f"#include <stdio.h>\n{includes}int main(void) {{\n{prints}return 0; }}\n"
-        subprocess.run([compiler(), "-std=c17", f"-I{sources}", "-x", "c", "-", "-o", str(program), "-lm"], input=text, text=True, check=True)
+        subprocess.run(
+            [compiler(), "-std=c17", *(f"-I{folder}" for folder in sources), "-x", "c", "-", "-o", str(program), "-lm"], input=text, text=True, check=True
+        )
         output = subprocess.run([str(program)], capture_output=True, text=True, check=True).stdout
     layout = {}
     for line in output.splitlines():

@@ -20,9 +20,9 @@ def install(build):
     module = importlib.util.module_from_spec(spec)
     sys.modules[spec.name] = bearing_model.variables = module
     spec.loader.exec_module(module)
-    from bearing_model import derived
+    from bearing_model import rivet_table
 
-    derived.DEFAULT_TABLE = build / "rivet_table.json"
+    rivet_table.DEFAULT_TABLE = build / "rivet_table.json"
 
 
 if BUILD:

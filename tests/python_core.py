@@ -16,7 +16,7 @@ from bearing_model.energy import energy_total
 from bearing_model.model import Model, Work
 from bearing_model.parameters import Inputs, Parameters
 from bearing_model.rhs import rhs
-from bearing_model.ring import drive_update
+from bearing_model.ring_load import ring_load_update
 from bearing_model.rotor import Rotor
 from bearing_model.start import start_state
 
@@ -114,7 +114,7 @@ class PythonModel:
         self.pointer = self
 
     def model(self, t=0.0):
-        return Model(self.p, self.d, drive_update(self.p, self.u, t))
+        return Model(self.p, self.d, ring_load_update(self.p, self.u, t))
 
     def kernel(self, name):
         return lambda _, work: KERNELS[name](self.model(), work.w)

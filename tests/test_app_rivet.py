@@ -5,14 +5,14 @@ import pytest
 from library import ROOT
 from test_app import command
 
-from bearing_model import rivet_rom
-from bearing_model.app import UserError, rivet, run
-from bearing_model.app.bearings import bearing_case
-from bearing_model.app.build import given_table
-from rivet_model import load_cases, pictures, table
+from bearing_model import rivet_rom, rivet_table
+from rivet_model import load_cases, pictures
 from rivet_model.geometry import Geometry
+from riveted_bearing import UserError, rivet, run
+from riveted_bearing.bearings import bearing_case
+from riveted_bearing.builder import given_table
 
-TABLE = table.read(ROOT / "rivet_model" / "tables" / "6207.json")
+TABLE = rivet_table.read(ROOT / "rivet_model" / "tables" / "6207.json")
 
 
 @pytest.fixture(scope="module")
@@ -73,7 +73,7 @@ def test_a_table_for_another_rivet(tmp_path, monkeypatch):
         stages[stage] = share
 
     path = given_table(source, case, tmp_path, True, say)
-    t = table.read(path, Z=8)
+    t = rivet_table.read(path, Z=8)
     assert t.kind == "fe" and t.geometry["shank_diameter"] == 1.3e-3 and t.geometry["d_m"] == case.values["bearing.d_m"]
     assert list(stages) == [f"rivet: {name}" for name in ("elements", "contacts", "interference", "load path", "hold-out")]
     assert set(stages.values()) == {1.0}

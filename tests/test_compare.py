@@ -6,13 +6,13 @@ import numpy as np
 import pytest
 from typer.testing import CliRunner
 
-from bearing_model.app.cli import app
-from bearing_model.app.compare import Statistic, compare, family, is_motion, through_reference
-from bearing_model.app.errors import UserError
-from bearing_model.app.fmu import Model
-from bearing_model.app.plot import plot_comparison
-from bearing_model.app.scene import load_scene
 from bearing_model.variables import OUTPUTS
+from riveted_bearing.cli import program
+from riveted_bearing.compare import Statistic, compare, family, is_motion, through_reference
+from riveted_bearing.errors import UserError
+from riveted_bearing.fmu import Model
+from riveted_bearing.plot import plot_comparison
+from riveted_bearing.scene import load_scene
 
 
 @pytest.fixture(scope="module")
@@ -50,7 +50,7 @@ def test_all_outputs_but_peaks_are_compared(found):
 
 def test_a_wrong_coefficient_shows(model, monkeypatch):
     """A reference with one per mille more stiffness: the difference no longer falls with the tolerance."""
-    import bearing_model.app.compare as module
+    import riveted_bearing.compare as module
 
     monkeypatch.setattr(module, "through_reference", lambda parameters, *rest: through_reference(parameters | {"bearing.E": 1.001 * 207e9}, *rest))
     wrong = compare(model, load_scene("demo", model), short=2e-5, long=0.0)
@@ -101,17 +101,17 @@ def test_refusals(model, monkeypatch):
         compare(model, scene, seeds=1)
     with pytest.raises(UserError, match="reference: method = 'Euler'"):
         compare(model, scene, short=1e-5, long=0.0, method="Euler")
-    monkeypatch.setattr("bearing_model.app.compare.variables.Z", 8)
+    monkeypatch.setattr("riveted_bearing.compare.variables.Z", 8)
     with pytest.raises(UserError, match=r"bearing.Z = 9; .* Z = 8"):
         compare(model, scene)
 
 
 def test_command(tmp_path):
     """As a user starts it."""
-    done = CliRunner().invoke(app, ["compare", "demo", "--short", "20 us", "--long", "0", "--out", str(tmp_path)])
+    done = CliRunner().invoke(program, ["compare", "demo", "--short", "20 us", "--long", "0", "--out", str(tmp_path)])
     assert done.exit_code == 0, done.output
     assert "ball[j].Q_i" in done.stdout
     assert (tmp_path / "demo_compare.png").is_file()
-    refused = CliRunner().invoke(app, ["compare", "demo", "--short", "fast"])
+    refused = CliRunner().invoke(program, ["compare", "demo", "--short", "fast"])
     assert refused.exit_code == 2
     assert "--short = 'fast'" in refused.stderr

@@ -11,11 +11,11 @@ import typer
 from typer.main import get_command
 
 from bearing_model import variables
-from bearing_model.app.bearings import bearing_case
-from bearing_model.app.cli import app
-from bearing_model.app.fmu import Model
-from bearing_model.app.scene import load_scene
-from bearing_model.app.sweep import load_sweep
+from riveted_bearing.bearings import bearing_case
+from riveted_bearing.cli import program
+from riveted_bearing.fmu import Model
+from riveted_bearing.scene import load_scene
+from riveted_bearing.sweep import load_sweep
 
 ROOT = Path(__file__).parents[1]
 GUIDE = (ROOT / "docs" / "guide.md").read_text(encoding="utf-8")
@@ -57,7 +57,7 @@ def test_files_can_be_read(folder):
 def test_commands_parse(line):
     """Known command, options and kinds of value; what they do is for test_the_whole_guide."""
     _, name, *arguments = shlex.split(line)
-    command = get_command(app)
+    command = get_command(program)
     with typer.Context(command) as context:
         command.get_command(context, name).make_context(name, arguments, parent=context)
 
@@ -103,6 +103,6 @@ def test_the_whole_guide(folder):
 def run_in_shell(line):
     """A command as typed, with this Python's program of the checkout."""
     program, *arguments = shlex.split(line)
-    module = ["-m", "bearing_model.app"] if program == "riveted-bearing" else []
+    module = ["-m", "riveted_bearing"] if program == "riveted-bearing" else []
     done = subprocess.run([sys.executable, *module, *arguments], capture_output=True, text=True, timeout=1800, check=False)
     assert done.returncode == 0, f"{line}\n{done.stdout}\n{done.stderr}"

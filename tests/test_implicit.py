@@ -90,7 +90,7 @@ def test_held_part_of_balls(core):
     for j in range(Z):
         rows, scale = ball(model, j)
         M = np.eye(6) - GAMMA * J[np.ix_(rows, rows)]
-        got = response(model, "implicit_held", rows, scale)
+        got = response(model, "implicit_stiff_part", rows, scale)
         much = 0.5 * np.trace(M - np.eye(6)) > 2.0
         seen.add(bool(much))
         expected = np.eye(6) - np.linalg.inv(M) * scale[:, None] / scale if much else np.zeros((6, 6))

@@ -1,11 +1,8 @@
 """Other importers simulate the bearing as fmpy does: each a program of its own, with its own idea of time, start values and tolerance."""
 
-import ctypes
 import json
 import logging
-import sys
 import zipfile
-from pathlib import Path
 
 import fmpy
 import numpy as np
@@ -62,12 +59,8 @@ def test_libcosim(fmu, expected, tmp_path):
     assert difference(rows, expected[1:]) < SAME
 
 
-def test_ecos(fmu, expected):
+def test_ecos(ecospy, fmu, expected):
     """Observed: 8e-12."""
-    tbb = Path(sys.prefix) / "lib" / "libtbb.so.12"  # which ecos needs and its package does not bring: pip install tbb, or the system's
-    if tbb.exists():
-        ctypes.CDLL(str(tbb))
-    ecospy = pytest.importorskip("ecospy", reason="ecospy is not installed: pip install ecospy")
     structure = ecospy.EcosSimulationStructure()
     structure.add_model("bearing", fmu)
     structure.add_parameter_set("start", {f"bearing::{name}": value for name, value in START.items()})

@@ -104,10 +104,10 @@ def matrix(model, y):
     return J.T
 
 
-def product(model, y, dy, d_drive=None, t=0.0):
+def product(model, y, dy, d_ring_load=None, t=0.0):
     out, dw = np.empty(N_STATES), model.core.new("Work")
     lib, array = model.core.lib, model.core.array
-    lib.jacobian_product(model.pointer, t, array(y), array(dy), d_drive or model.core.ffi.NULL, array(out), dw)
+    lib.jacobian_product(model.pointer, t, array(y), array(dy), d_ring_load or model.core.ffi.NULL, array(out), dw)
     return out, dw
 
 
@@ -156,7 +156,7 @@ def test_matrix_against_differences(core, scene):
 
 
 def members(core, struct, prefix=""):
-    """Name -> array of all numbers in a struct, ghost lanes left out."""
+    """Name -> array of all numbers in a struct, padding lanes left out."""
     out = {}
     for name, field in core.ffi.typeof(struct).fields:
         member = getattr(struct, name)
@@ -196,21 +196,21 @@ DRIVE_STEP = {"F": 10.0, "M": 0.1, "omega": 0.1, "beta": 1e-6, "gamma": 1e-6}
 
 @pytest.mark.parametrize("scene", SCENES, ids=lambda scene: "-".join(part.name for part in scene))
 def test_products_with_drive_and_results(core, scene):
-    """One direction in all states and the whole drive at once: dy/dt, every member of Work, the housing's reaction."""
+    """One direction in all states and the whole ring load at once: dy/dt, every member of Work, the housing's reaction."""
     rng = np.random.default_rng(8)
     judged = 0
     for kind in KINDS:
         model, y = prepared(core, kind, scene, rng)
-        base, d_drive, t = members(core, model.drive[0]), core.new("Drive"), 3e-4
+        base, d_ring_load, t = members(core, model.ring_load[0]), core.new("RingLoad"), 3e-4
         for name, step in DRIVE_STEP.items():
-            setattr(View(core, d_drive), name, step * rng.uniform(0.5, 1.0, np.squeeze(base[name]).shape))
-        direction = members(core, d_drive[0])
+            setattr(View(core, d_ring_load), name, step * rng.uniform(0.5, 1.0, np.squeeze(base[name]).shape))
+        direction = members(core, d_ring_load[0])
         assert all(np.all(value != 0.0) for value in direction.values())
         dy = 0.1 * STEP * rng.uniform(-1.0, 1.0, N_STATES)
 
         def results(h, y=y, model=model, dy=dy, base=base, direction=direction, t=t):
             for name in base:
-                setattr(View(core, model.drive), name, np.squeeze(base[name] + h * direction[name])[()])
+                setattr(View(core, model.ring_load), name, np.squeeze(base[name] + h * direction[name])[()])
             y_dot = rhs(model, y + h * dy, t)
             return {name: y_dot[s] for name, s in SLICE.items()} | members(core, model.work[0]) | {"housing": housing(model, model.work)}
 
@@ -220,7 +220,7 @@ def test_products_with_drive_and_results(core, scene):
         names = np.repeat(*zip(*enumerate(value.size for value in results(0.0).values()), strict=True))
         differences, error = extrapolated(flat, 1.0, rounding(lambda y, flat=flat: flat(0.0, y), y, rng))
         results(0.0)
-        dy_dot, dw = product(model, y, dy, d_drive, t)
+        dy_dot, dw = product(model, y, dy, d_ring_load, t)
         dF, dM = np.empty(3), np.empty(3)
         core.lib.jacobian_housing(model.work, dw, core.array(dF), core.array(dM))
         exact = np.concatenate([dy_dot] + [value.ravel() for value in members(core, dw[0]).values()] + [dF, dM])
@@ -239,13 +239,13 @@ INPUT_STEP = {"F": 10.0, "M": 0.1, "omega": 0.1, "tilt": 1e-6}
 PULSE = {"pulse.F_r": 500.0, "pulse.F_a": 100.0, "pulse.t_start": 0.0, "pulse.duration": 1e-3, "pulse.interval": 1e-2, "pulse.count": 1}
 
 
-class Course:
+class Trajectory:
     """Inputs on their way through a pulse, and all outputs that follow from an evaluation under them."""
 
     def __init__(self, core, model, t, rng):
         self.core, self.model, self.t = core, model, t
         self.size = np.array([INPUT_STEP[name.split(".")[1].split("_")[0]] for name in INPUTS])
-        self.u, self.course, self.out = core.ffi.new("Inputs[3]"), core.new("Course"), core.new("Outputs")
+        self.u, self.trajectory, self.out = core.ffi.new("Inputs[3]"), core.new("InputTrajectory"), core.new("Outputs")
         self.u[0] = model.u[0]
         self.values = np.frombuffer(core.ffi.buffer(self.u)).reshape(3, -1)
         self.start, self.values[1] = self.values[0].copy(), 1e5 * self.size * rng.uniform(-1.0, 1.0, len(INPUTS))
@@ -253,8 +253,8 @@ class Course:
     def outputs(self, dt, du, y):
         lib, array = self.core.lib, self.core.array
         self.values[0] = self.start + du
-        lib.course_update(self.model.p, self.u, self.t, self.t, self.course)
-        lib.test_drive_at(self.course, self.t + dt, self.model.drive)
+        lib.input_trajectory_update(self.model.p, self.u, self.t, self.t, self.trajectory)
+        lib.test_ring_load_at(self.trajectory, self.t + dt, self.model.ring_load)
         y_dot = rhs(self.model, y)
         members = {"model": self.model.pointer, "y": array(y), "y_dot": array(y_dot), "w": self.model.work, "loads": self.model.kernel("rivets_load")}
         at = self.core.ffi.new("Evaluation *", members)
@@ -266,7 +266,7 @@ class Course:
         self.outputs(0.0, 0.0, y)
         array, out = self.core.array, self.core.new("Outputs")
         inputs = self.core.ffi.cast("Inputs *", array(du))
-        self.core.lib.jacobian_outputs(self.model.pointer, self.course, self.t, dt, inputs, array(y), array(dy), out)
+        self.core.lib.jacobian_outputs(self.model.pointer, self.trajectory, self.t, dt, inputs, array(y), array(dy), out)
         return np.frombuffer(self.core.ffi.buffer(out)).copy()
 
 
@@ -276,11 +276,11 @@ def test_outputs_by_time_inputs_and_states(core, scene):
     rng, judged = np.random.default_rng(12), 0
     for kind in KINDS:
         model, y = prepared(core, kind, scene, rng, **PULSE)
-        course = Course(core, model, 3e-4, rng)
-        dt, du, dy = 1e-6, course.size * rng.uniform(0.5, 1.0, len(INPUTS)), 0.1 * STEP * rng.uniform(-1.0, 1.0, N_STATES)
-        noise = rounding(lambda y, course=course: course.outputs(0.0, 0.0, y), y, rng)
-        differences, error = extrapolated(lambda h, c=course, dt=dt, du=du, y=y, dy=dy: c.outputs(h * dt, h * du, y + h * dy), 1.0, noise)
-        exact = course.derivatives(dt, du, y, dy)
+        trajectory = Trajectory(core, model, 3e-4, rng)
+        dt, du, dy = 1e-6, trajectory.size * rng.uniform(0.5, 1.0, len(INPUTS)), 0.1 * STEP * rng.uniform(-1.0, 1.0, N_STATES)
+        noise = rounding(lambda y, trajectory=trajectory: trajectory.outputs(0.0, 0.0, y), y, rng)
+        differences, error = extrapolated(lambda h, c=trajectory, dt=dt, du=du, y=y, dy=dy: c.outputs(h * dt, h * du, y + h * dy), 1.0, noise)
+        exact = trajectory.derivatives(dt, du, y, dy)
         size = np.maximum(abs(exact), abs(differences))
         smooth = (error <= 1e-6 * size) & (size > 0.0)
         judged += np.sum(smooth)

@@ -1,18 +1,18 @@
 // What the tests' library adds to the core's objects: the inline functions, callable over arrays, and memory as the kernels want it.
-#include "drive.h"
 #include "elementary.h"
 #include "hertz.h"
+#include "kernels.h"
 #include "lanes.h"
 #include "model.h"
 #include "part.h"
-#include "rhs.h"
+#include "ring_load.h"
 #include "traction.h"
 
 #include <stdlib.h>
 
 void *test_allocate(size_t size);
 void test_ring_tilts(double beta, double gamma, double *tilt_y, double *tilt_z);
-void test_drive_at(const Course *course, double t, Drive *drive);
+void test_ring_load_at(const InputTrajectory *trajectory, double t, RingLoad *ring_load);
 void test_pow(int n, double y, const double *x, double *power);
 void test_cbrt(int n, const double *x, double *y);
 void test_rcbrt(int n, const double *x, double *y);
@@ -38,9 +38,9 @@ void test_ring_tilts(double beta, double gamma, double *tilt_y, double *tilt_z)
     ring_tilts(beta, gamma, tilt_y, tilt_z);
 }
 
-void test_drive_at(const Course *course, double t, Drive *drive)
+void test_ring_load_at(const InputTrajectory *trajectory, double t, RingLoad *ring_load)
 {
-    drive_at(course, t, drive);
+    ring_load_at(trajectory, t, ring_load);
 }
 
 void test_pow(int n, double y, const double *x, double *power)
@@ -55,7 +55,7 @@ void test_cbrt(int n, const double *x, double *y)
 
 void test_rcbrt(int n, const double *x, double *y)
 {
-    for (int i = 0; i < n; i++) y[i] = rough_rcbrt(x[i]);
+    for (int i = 0; i < n; i++) y[i] = approx_inv_cbrt(x[i]);
 }
 
 void test_asin(int n, const double *x, double *y)
@@ -65,33 +65,33 @@ void test_asin(int n, const double *x, double *y)
 
 void test_hertz_load(int n, double K, const double *delta, double *Q)
 {
-    for (int i = 0; i < n; i++) Q[i] = hertz_load(real_set(K), real_set(delta[i]))[0];
+    for (int i = 0; i < n; i++) Q[i] = hertz_load(wide_set(K), wide_set(delta[i]))[0];
 }
 
 void test_hertz_damped(int n, double Q, double lambda, const double *delta_dot, double *damped)
 {
-    for (int i = 0; i < n; i++) damped[i] = hertz_damped(real_set(Q), real_set(lambda), real_set(delta_dot[i]))[0];
+    for (int i = 0; i < n; i++) damped[i] = hertz_damped(wide_set(Q), wide_set(lambda), wide_set(delta_dot[i]))[0];
 }
 
 void test_traction_mu(int n, const Parameters *p, double f_a, bool mixed, const double *s, double *mu)
 {
-    for (int i = 0; i < n; i++) mu[i] = traction_mu(p, real_set(s[i]), real_set(f_a), mixed)[0];
+    for (int i = 0; i < n; i++) mu[i] = traction_mu(p, wide_set(s[i]), wide_set(f_a), mixed)[0];
 }
 
 void test_traction_asperity_share(int n, const double *ln_Lambda, double *f_a)
 {
-    for (int i = 0; i < n; i++) f_a[i] = traction_asperity_share(real_set(ln_Lambda[i]))[0];
+    for (int i = 0; i < n; i++) f_a[i] = traction_asperity_share(wide_set(ln_Lambda[i]))[0];
 }
 
 void test_traction_ln_film(int n, double ln_Lambda_1, double Q, const double *U, double *ln_Lambda)
 {
-    for (int i = 0; i < n; i++) ln_Lambda[i] = traction_ln_film(real_set(ln_Lambda_1), real_log(real_set(U[i])), real_log(real_set(Q)))[0];
+    for (int i = 0; i < n; i++) ln_Lambda[i] = traction_ln_film(wide_set(ln_Lambda_1), wide_log(wide_set(U[i])), wide_log(wide_set(Q)))[0];
 }
 
 void test_traction_inlet(int n, double rolling, double Q, const double *U, double *F_R)
 {
-    const real ln_Q = real_log(real_set(Q + Q_FLOOR));
-    for (int i = 0; i < n; i++) F_R[i] = traction_inlet(real_set(rolling), real_log(real_set(U[i])), real_set(Q), ln_Q)[0];
+    const wide ln_Q = wide_log(wide_set(Q + Q_FLOOR));
+    for (int i = 0; i < n; i++) F_R[i] = traction_inlet(wide_set(rolling), wide_log(wide_set(U[i])), wide_set(Q), ln_Q)[0];
 }
 
 void test_rivet_primary(int n, const RivetLoads *load, double fit_eff, double *head_p1, double *mid_vm)

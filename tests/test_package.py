@@ -1,6 +1,5 @@
 """What the FMU carries: sources that compile, pictures, terminals, documentation, reference results, binaries of other platforms."""
 
-import csv
 import importlib.util
 import os
 import re
@@ -16,24 +15,20 @@ import lief
 import matplotlib.image
 import numpy as np
 import pytest
+import reference_results
 from fmpy.validation import validate_fmu
 from library import ROOT
 from lxml import etree
+from reference_results import SAME
 from slave import Slave, describe
 
-from bearing_model.app.build import bearing_case, build_folder, rivet_table
-from bearing_model.app.rivet import TRACKED_TABLE
+from bearing_model.rivet_table import DEFAULT_TABLE
+from riveted_bearing.builder import bearing_case, build_folder, rivet_table
 
 FMI_HEADERS = Path(fmpy.__file__).parent / "c-code"
 SCHEMA = Path(fmpy.__file__).parent / "schema" / "fmi3"  # FMI 2.0.4 takes terminals and icons from 3.0
 LINUX = sys.platform.startswith("linux")
 STEP, STEPS = 1e-4, 10  # of the reference results: 1 ms, over which trajectories can be compared point by point
-# Largest difference of an output against its largest magnitude: what a user may count on.  Observed: 0 for zig's clang and for gcc -O1 and -O3 on Linux,
-# 2e-16 for Windows (contact angles, by the system's atan2), 3e-10 for sources compiled without the fused multiply-adds of the binary's kernels.  Only because
-# elementary.h takes no other function from the system: with the systems' own, differences of 1e-16 at the start reached 1e-2 in 0.6 ms, when one error test was
-# passed here and failed there.
-SAME = 1e-9
-FLOORS = {"m": 1e-7, "N": 0.1, "1": 1e-7}  # what stays smaller is compared with these: a slip of 3e-11 m is a difference of places known to 4e-18 m
 
 
 @pytest.fixture(scope="module")
@@ -58,11 +53,8 @@ def trajectory(folder):
 
 def difference(rows, folder):
     """Largest difference of each output from its trajectory in another FMU, against its largest magnitude there."""
-    expected, units = trajectory(folder), {v.name: v.unit or "1" for v in describe(folder).modelVariables}
-    assert rows.shape == expected.shape
-    assert np.abs(expected).max() > 1e3
-    largest = np.maximum(np.abs(expected).max(axis=0), [FLOORS.get(units[name], 0.0) for name in outputs_of(folder)])
-    return np.max(np.abs(rows - expected) / np.where(largest > 0.0, largest, 1.0))
+    units = {v.name: v.unit or "1" for v in describe(folder).modelVariables}
+    return reference_results.difference(rows, trajectory(folder), [units[name] for name in outputs_of(folder)]).max()
 
 
 # ------------------------------------------------------------------------------------------------------------------- archive
@@ -146,15 +138,20 @@ def test_documentation_is_complete_and_self_contained(folder):
 
 @pytest.mark.skipif("asan" in os.environ.get("LD_PRELOAD", ""), reason="a build with sanitizers cannot run its binary while packing")
 def test_reference_results_are_this_binarys(folder):
-    (path,) = (folder / "extra" / "org.fmi-standard.fmi-ls-ref").glob("*.csv")
-    names, *rows = csv.reader(path.read_text().splitlines())
-    rows = np.array(rows, dtype=float)
-    assert rows[:, 0] == pytest.approx(STEP * np.arange(STEPS + 1), abs=1e-15)
-    at = [outputs_of(folder).index(name) for name in names[1:]]
+    names, times, rows = reference_results.read_reference(folder)
+    assert times == pytest.approx(STEP * np.arange(STEPS + 1), abs=1e-15)
+    at = [outputs_of(folder).index(name) for name in names]
     assert len(at) > 100
-    assert np.array_equal(trajectory(folder)[:, at], rows[:, 1:])
+    assert np.array_equal(trajectory(folder)[:, at], rows)
+    (path,) = (folder / "extra" / "org.fmi-standard.fmi-ls-ref").glob("*.csv")
     manifest = etree.parse(path.with_name("fmi-ls-manifest.xml"))
     assert [related.get("source") for related in manifest.iter("Related")] == [path.name]
+
+
+@pytest.mark.skipif("asan" in os.environ.get("LD_PRELOAD", ""), reason="a build with sanitizers has no reference results")
+def test_fmpy_repeats_the_reference_results(fmu):
+    """Its master adds up the time where the reference multiplies.  Observed: 6.5e-11."""
+    assert reference_results.main(fmu) == 0
 
 
 # ------------------------------------------------------------------------------------------------------------------- sources
@@ -208,7 +205,7 @@ def test_sources_compile_with_fmpy(folder, tmp_path, monkeypatch):
 
 def test_default_bearing_takes_the_shipped_rivet_table(tmp_path):
     """`riveted-bearing build` embeds the finite elements' table that `make build` embeds, not closed forms."""
-    assert rivet_table(bearing_case("6207"), tmp_path) == TRACKED_TABLE
+    assert rivet_table(bearing_case("6207"), tmp_path) == DEFAULT_TABLE
 
 
 PLATFORMS = {"linux64": ".so", "win64": ".dll", "darwin64": ".dylib", "aarch64-darwin": ".dylib"}
@@ -220,7 +217,7 @@ def everywhere(tmp_path_factory):
     if not importlib.util.find_spec("ziglang"):
         pytest.skip("needs the package ziglang: pip install ziglang")
     path = tmp_path_factory.mktemp("all") / "everywhere.fmu"
-    subprocess.run([sys.executable, "-m", "bearing_model.app", "build", "--platforms", "all", "--out", str(path)], check=True)
+    subprocess.run([sys.executable, "-m", "riveted_bearing", "build", "--platforms", "all", "--out", str(path)], check=True)
     assert validate_fmu(str(path)) == []
     return Path(fmpy.extract(str(path), str(path.parent / "unpacked")))
 

@@ -13,14 +13,14 @@ import pytest
 from PIL import Image
 
 from bearing_model import fatigue
-from bearing_model.app import UserError, run, write_result
-from bearing_model.app.animation import BUDGET, exaggeration, frames, thinned
-from bearing_model.app.charts import PAGE_COLOURS, azimuth_of, by_bin
-from bearing_model.app.charts import thinned as thinned_result
-from bearing_model.app.life import fatigue_law, rivet_life
-from bearing_model.app.report import CHARTS, duration, figure, render, report_files, report_pages
-from bearing_model.app.results import Result
 from bearing_model.variables import Z
+from riveted_bearing import UserError, run, write_result
+from riveted_bearing.animation import BUDGET, exaggeration, frames, thinned
+from riveted_bearing.charts import PAGE_COLOURS, azimuth_of, by_bin
+from riveted_bearing.charts import thinned as thinned_result
+from riveted_bearing.life import fatigue_law, rivet_life
+from riveted_bearing.report import CHARTS, duration, figure, render, report_files, report_pages
+from riveted_bearing.results import Result
 
 T_END = 0.012
 

@@ -5,7 +5,7 @@ import pytest
 from mechanics import SLICE, Instance
 from scipy.integrate import quad, solve_ivp
 
-from bearing_model import ring
+from bearing_model import ring_load as twin_load
 from bearing_model.parameters import InputDerivatives, Inputs, Parameters
 from bearing_model.variables import INPUTS, Method, TiltMode
 
@@ -58,8 +58,8 @@ def test_tilt_is_a_rotation_vector(core):
 
     tilt_y, tilt_z = 0.021, -0.033
     model = core.model(inputs={"shaft.tilt_y": tilt_y, "shaft.tilt_z": tilt_z})
-    core.lib.drive_update(model.p, model.u, 0.0, model.drive)
-    beta, gamma = model.drive.beta, model.drive.gamma
+    core.lib.ring_load_update(model.p, model.u, 0.0, model.ring_load)
+    beta, gamma = model.ring_load.beta, model.ring_load.gamma
     a = Rotation.from_rotvec([0.0, tilt_y, tilt_z]).apply([1.0, 0.0, 0.0])
     assert (gamma, -beta) == pytest.approx((a[1], a[2]), rel=1e-13)
     back = [core.ffi.new("double *") for _ in range(2)]
@@ -140,8 +140,8 @@ PULSES = {"pulse.F_r": 1401.0, "pulse.F_a": 241.0, "pulse.t_start": 0.1, "pulse.
 def load(core, parameters, inputs, t):
     """Load on the ring at time t, as a step to t sets it."""
     model = core.model(parameters=parameters, inputs=inputs)
-    core.lib.drive_update(model.p, model.u, t, model.drive)
-    return np.array(list(model.drive.F))
+    core.lib.ring_load_update(model.p, model.u, t, model.ring_load)
+    return np.array(list(model.ring_load.F))
 
 
 @pytest.mark.parametrize(("F_y", "F_z"), [(2994.0, 0.0), (-300.0, 400.0), (0.0, 0.0)])
@@ -168,10 +168,10 @@ def test_edges(core):
     starts = [0.1 + n * (10e-3 / 3) for n in range(3)]
     expected = [edge for start in starts for edge in (start, start + 1e-3)]
     t, edges = 0.0, []
-    while np.isfinite(t := core.lib.drive_next_edge(p, t)):
+    while np.isfinite(t := core.lib.pulse_next_edge(p, t)):
         edges.append(t)
     assert edges == expected
-    assert core.lib.drive_next_edge(core.model().p, 0.0) == np.inf
+    assert core.lib.pulse_next_edge(core.model().p, 0.0) == np.inf
 
 
 @pytest.mark.parametrize(("method", "steps"), [(Method.VERLET, 220), (Method.EXPLICIT, 25)])
@@ -201,48 +201,48 @@ def test_impact_inputs(core):
 # ----------------------------------------------------------------------------------------------------------------- inputs by time
 
 
-def random_course(core, rng):
+def random_trajectory(core, rng):
     """The same polynomials of all inputs in both twins, at a time in the middle of a pulse."""
     names, u = list(INPUTS), core.ffi.new("Inputs[3]")
     size = np.array([{"omega": 1000.0, "tilt": 0.01}.get(name.split(".")[1].split("_")[0], 1000.0) for name in names])
     values = np.frombuffer(core.ffi.buffer(u)).reshape(3, -1)
     values[...] = rng.uniform(-1.0, 1.0, values.shape) * size * np.array([[1.0], [1e3], [1e6]])
     t_0, t = 0.1001, 0.1004
-    model, course = core.model(parameters=PULSES), core.new("Course")
-    core.lib.course_update(model.p, u, t_0, t, course)
+    model, trajectory = core.model(parameters=PULSES), core.new("InputTrajectory")
+    core.lib.input_trajectory_update(model.p, u, t_0, t, trajectory)
     orders = [dict(zip(names, row.tolist(), strict=True)) for row in values]
-    return model, course, ring.course_update(Parameters(PULSES), (Inputs(orders[0]), *map(InputDerivatives, orders[1:])), t_0, t)
+    return model, trajectory, twin_load.input_trajectory_update(Parameters(PULSES), (Inputs(orders[0]), *map(InputDerivatives, orders[1:])), t_0, t)
 
 
-def test_drive_along_the_course(core):
+def test_ring_load_along_the_trajectory(core):
     """Both twins, at random polynomials and times; the load is Taylor's polynomial plus the pulse along the present radial load."""
     rng = np.random.default_rng(4)
     for _ in range(50):
-        _, course, twin = random_course(core, rng)
-        drive, t = core.new("Drive"), rng.uniform(0.1, 0.101)
-        core.lib.test_drive_at(course, t, drive)
-        other = ring.drive_at(twin, t)
-        got = np.array([*drive.F, *drive.M, drive.omega, drive.beta, drive.gamma])
+        _, trajectory, twin = random_trajectory(core, rng)
+        ring_load, t = core.new("RingLoad"), rng.uniform(0.1, 0.101)
+        core.lib.test_ring_load_at(trajectory, t, ring_load)
+        other = twin_load.ring_load_at(twin, t)
+        got = np.array([*ring_load.F, *ring_load.M, ring_load.omega, ring_load.beta, ring_load.gamma])
         np.testing.assert_allclose(got, np.array([*other.F, *other.M, other.omega, other.beta, other.gamma]), rtol=1e-12, atol=1e-12 * np.abs(got).max())
-        u, tau = course.u, t - 0.1001
+        u, tau = trajectory.u, t - 0.1001
         F_y, F_z, F_r = (sum(getattr(getattr(u[k], group), name) * tau**k / (1, 1, 2)[k] for k in range(3)) for group, name in RADIAL)
         pulse = 1401.0 * np.sin(np.pi * (t - 0.1) / 1e-3)
-        assert drive.F[1] == pytest.approx(F_y * (1.0 + (F_r + pulse) / np.hypot(F_y, F_z)), rel=1e-9, abs=1e-6)
+        assert ring_load.F[1] == pytest.approx(F_y * (1.0 + (F_r + pulse) / np.hypot(F_y, F_z)), rel=1e-9, abs=1e-6)
 
 
-def test_rhs_takes_the_drive_from_the_course(core):
-    """At each time the same bits as under inputs held at that time's values; a course that does not vary says so."""
+def test_rhs_takes_the_ring_load_from_the_trajectory(core):
+    """At each time the same bits as under inputs held at that time's values; a trajectory that does not vary says so."""
     rng = np.random.default_rng(5)
-    model, course, _ = random_course(core, rng)
+    model, trajectory, _ = random_trajectory(core, rng)
     y = core.model().start()
     held, moving = (np.empty_like(y) for _ in range(2))
     for t in rng.uniform(0.1, 0.101, 10):
-        core.lib.test_drive_at(course, t, model.drive)
-        for out, along in ((held, core.ffi.NULL), (moving, course)):
-            model.pointer.course = along
+        core.lib.test_ring_load_at(trajectory, t, model.ring_load)
+        for out, along in ((held, core.ffi.NULL), (moving, trajectory)):
+            model.pointer.trajectory = along
             model.kernel("rhs")(model.pointer, t, core.array(y), core.array(out), model.work)
         assert held.tobytes() == moving.tobytes()
-    assert core.lib.course_varies(course)
+    assert core.lib.input_trajectory_varies(trajectory)
     still = core.model()
-    core.lib.course_update(still.p, core.ffi.new("Inputs[3]", [still.u[0]]), 0.0, 0.0, course)
-    assert not core.lib.course_varies(course)
+    core.lib.input_trajectory_update(still.p, core.ffi.new("Inputs[3]", [still.u[0]]), 0.0, 0.0, trajectory)
+    assert not core.lib.input_trajectory_varies(trajectory)

@@ -2,7 +2,7 @@
 
 import pytest
 
-from bearing_model.app import run
+from riveted_bearing import run
 
 
 def largest(summary, channel, measure):

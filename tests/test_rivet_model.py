@@ -5,8 +5,8 @@ import pytest
 from library import ROOT
 from skfem import Basis, BilinearForm, ElementHex2, ElementVector, FacetBasis, LinearForm, MeshQuad, condense, solve
 
-from bearing_model import rivet_rom
-from rivet_model import build, cage_half, geometry, load_cases, plastic_fit, reduction, section_mesh, stiffness, table
+from bearing_model import rivet_rom, rivet_table
+from rivet_model import build, cage_half, geometry, load_cases, plastic_fit, reduction, section_mesh, stiffness
 from rivet_model.elasticity import Body
 from rivet_model.lcp import Contact
 from rivet_model.load_cases import Grid, Joint, hat_harmonics
@@ -263,7 +263,7 @@ def test_coarse_table_end_to_end(tmp_path):
     """A coarse table in seconds: written, read, and equal to its own finite elements where it was sampled."""
     path = tmp_path / "coarse.json"
     assert build.main([str(path), "--coarse", "--workers", "1"]) == 0
-    t = table.read(path, Z=9)
+    t = rivet_table.read(path, Z=9)
     assert t.kind == "fe" and t.geometry_hash == G.digest and np.any(t.load_path)
     joint = Joint(G, load_cases.COARSE)
     sampled = reduction.solve_loads(joint, [reduction.Load(20.0, 0.0, 0.0, 0.0, 0.0, -30e-6)], 1)
@@ -289,7 +289,7 @@ def test_hold_out_of_the_shipped_table():
 
     Reach: 2 % and RMS 0.5 % of each channel's maximum, over all loads and in clearance alone.
     """
-    t = table.read(TABLE)
+    t = rivet_table.read(TABLE)
     assert t.kind == "fe" and t.geometry_hash == G.digest
     for region in ("all", "clearance"):
         report = t.errors[region]
@@ -300,16 +300,16 @@ def test_hold_out_of_the_shipped_table():
 
 def test_errors_on_the_page():
     """docs/rivet.md shows the errors of the shipped table's header."""
-    errors, page = table.read(TABLE).errors, (ROOT / "docs" / "rivet.md").read_text(encoding="utf-8")
+    errors, page = rivet_table.read(TABLE).errors, (ROOT / "docs" / "rivet.md").read_text(encoding="utf-8")
     for title, region in (("all", "all"), ("clearance alone", "clearance")):
-        shown = [f"{100 * errors[region]['maximum'][name]:.2f} %, {100 * errors[region]['rms'][name]:.2f} %" for name in table.CHANNELS]
+        shown = [f"{100 * errors[region]['maximum'][name]:.2f} %, {100 * errors[region]['rms'][name]:.2f} %" for name in rivet_table.CHANNELS]
         assert f"| {title}: maximum, RMS | {' | '.join(shown)} |" in page
 
 
 @pytest.mark.slow
 def test_table_against_fresh_solutions():
     """Forty loads of another seed, solved anew with 100 angles around each bore: the header's promise holds."""
-    t = table.read(TABLE)
+    t = rivet_table.read(TABLE)
     joint = Joint(G, load_cases.TRUTH)
     loads = reduction.random_loads(40, seed=77)
     errors = reduction.hold_out_errors(t, loads, reduction.solve_loads(joint, loads, 2))

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from library import ROOT
 
-from bearing_model import rivet_rom
+from bearing_model import rivet_rom, rivet_table
 from bearing_model.rivet_rom import FLANGE_YIELDS, JOINT_COMPRESSED, RIVET_OUTSIDE, RIVET_YIELDS, RivetLoad
 from bearing_model.variables import FitModel, Z
 from rivet_model import build, closed_form, components, embed, friction, geometry, splines, table
@@ -17,7 +17,7 @@ FIT = -6e-6  # default fit and swell
 
 @pytest.fixture(scope="module")
 def rivets():
-    return table.read(TABLE)
+    return rivet_table.read(TABLE)
 
 
 @pytest.fixture(params=["C", "Python"])
@@ -136,14 +136,14 @@ def test_peak_channels_equal_all_channels(core):
 def test_continuously_differentiable(rivets):
     """One-sided differences meet at every knot of every axis; a tensor of linear interpolation would jump by its kink."""
     rng = np.random.default_rng(5)
-    for name in table.AXES:
+    for name in rivet_table.AXES:
         for knot in rivets.knots[name][1:-1]:
             point = {axis: rng.uniform(k[0], k[-1]) for axis, k in rivets.knots.items()} | {name: knot}
             h = 1e-5 * np.min(np.diff(rivets.knots[name]))
 
             def T(offset, point=point, name=name, knot=knot):
                 total = rivets.coefficients
-                for axis in table.AXES:
+                for axis in rivet_table.AXES:
                     u = knot + offset if axis == name else point[axis]
                     total = np.tensordot(splines.collocation(rivets.knots[axis], [u])[0], total, axes=(0, 0))
                 return total
@@ -251,7 +251,7 @@ def test_write_and_read_are_inverse(rivets, tmp_path):
     """A table read and written again is the same file; embedding it twice gives the same C text."""
     table.write(rivets, tmp_path / "again.json")
     assert (tmp_path / "again.json").read_bytes() == TABLE.read_bytes()
-    assert embed.c_source(rivets) == embed.c_source(table.read(tmp_path / "again.json"))
+    assert embed.c_source(rivets) == embed.c_source(rivet_table.read(tmp_path / "again.json"))
 
 
 def damaged(tmp_path, change):
@@ -275,7 +275,7 @@ def test_damaged_tables_are_refused(tmp_path, change, message):
     """A clear message naming file and fault, and no C file written."""
     path = damaged(tmp_path, change)
     with pytest.raises(ValueError, match=message) as error:
-        table.read(path)
+        rivet_table.read(path)
     assert str(path) in str(error.value)
     assert embed.main([str(path), str(tmp_path / "out.c")]) == 2
     assert not (tmp_path / "out.c").exists()
@@ -283,14 +283,14 @@ def test_damaged_tables_are_refused(tmp_path, change, message):
 
 def test_wrong_z_and_no_json_are_refused(tmp_path):
     with pytest.raises(ValueError, match="made for Z = 9 rivets; Z = 8 is needed"):
-        table.read(TABLE, Z=8)
+        rivet_table.read(TABLE, Z=8)
     (tmp_path / "text.json").write_text("no table", encoding="utf-8")
     with pytest.raises(ValueError, match="not a rivet table"):
-        table.read(tmp_path / "text.json")
+        rivet_table.read(tmp_path / "text.json")
     half = tmp_path / "half.json"
     half.write_bytes(TABLE.read_bytes()[:100_000])
     with pytest.raises(ValueError, match="not a rivet table"):
-        table.read(half)
+        rivet_table.read(half)
 
 
 def test_impossible_geometries_are_refused(tmp_path):

@@ -246,7 +246,7 @@ def comma_locale(tmp_path):
         os.environ["LOCPATH"] = str(tmp_path)
         name = "de_DE.UTF-8"
     if not libc.setlocale(1, name.encode()):
-        pytest.skip(f"{name} cannot be set")
+        pytest.skip(f"{name} can be neither made nor set: apt-get install locales")
     yield name
     libc.setlocale(1, b"C")
     os.environ.pop("LOCPATH", None)

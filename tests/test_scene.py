@@ -5,10 +5,10 @@ import math
 import numpy as np
 import pytest
 
-from bearing_model.app.errors import UserError
-from bearing_model.app.fmu import Model
-from bearing_model.app.scene import History, load_scene, shipped_scenes
-from bearing_model.app.units import to_si
+from riveted_bearing.errors import UserError
+from riveted_bearing.fmu import Model
+from riveted_bearing.scene import History, load_scene, shipped_scenes
+from riveted_bearing.units import to_si
 
 SPEED = {"rad/s": (1.0, 0.0), "rev/min": (30.0 / math.pi, 0.0)}
 TEMPERATURE = {"K": (1.0, 0.0), "degC": (1.0, -273.15)}

@@ -7,7 +7,8 @@ import sys
 import pytest
 from library import ROOT
 
-from bearing_model.app.build import build, build_folder
+from riveted_bearing import build
+from riveted_bearing.builder import build_folder
 
 TESTS = "derivatives or jacobian or start or outputs or power_is_rate"
 

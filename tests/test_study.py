@@ -6,14 +6,14 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from bearing_model import variables
-from bearing_model.app import claims, paper, run, study
-from bearing_model.app.build import TRACKED_TABLE, build
-from bearing_model.app.fmu import Model
-from bearing_model.app.study import Estimate, Runs, estimate, ratio, rise, shipped_studies, study_sweep
-from bearing_model.app.sweep import plan_sweep, read_toml, run_sweep
+from bearing_model import rivet_table, variables
 from bearing_model.hertz_exact import HertzContact, hertz_ellipse
 from rivet_model import table
+from riveted_bearing import build, run
+from riveted_bearing.fmu import Model
+from riveted_bearing.paper_study import claims, paper, study
+from riveted_bearing.paper_study.study import Estimate, Runs, estimate, ratio, rise, shipped_studies, study_sweep
+from riveted_bearing.sweep import plan_sweep, read_toml, run_sweep
 
 
 @pytest.fixture(scope="module")
@@ -174,7 +174,7 @@ def test_bending_of_the_cage_halves_keeps_the_loads_apart(tmp_path):
     """Scene F without the load path's bending: the 99.9 % head stress under the heavy load has its minimum at 8,000 r/min, and at 16,000 r/min the loads differ
     by less than 60 % of what they do at 4,000 (the figures of a prototype with rigid halves); with bending the loads move apart instead.
     Observed without: 76.6, 73.0, 89.7 and 62.4, 74.8, 87.7 MPa, difference 14 -> 2; with: 95, 90, 233 and 65, 118, 161 MPa, 30 -> 73.  A minute."""
-    shipped = table.read(TRACKED_TABLE)
+    shipped = rivet_table.read(rivet_table.DEFAULT_TABLE)
     table.write(replace(shipped, load_path=np.zeros_like(shipped.load_path)), tmp_path / "rigid.json")
     fmus = {"rigid": build(rivet=tmp_path / "rigid.json", out=tmp_path / "rigid.fmu"), "bending": None}
     stress = {

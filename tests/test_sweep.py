@@ -12,10 +12,10 @@ import cloudpickle
 import numpy as np
 import pytest
 
-from bearing_model.app import UserError, run
-from bearing_model.app import sweep as engine
-from bearing_model.app.fmu import Model
-from bearing_model.app.sweep import SUPERSEDED, cluster, columns_of, load_sweep, outcome, run_sweep
+from riveted_bearing import UserError, run
+from riveted_bearing import sweep as engine
+from riveted_bearing.fmu import Model
+from riveted_bearing.sweep import SUPERSEDED, cluster, columns_of, load_sweep, outcome, run_sweep
 
 ROOT = Path(__file__).resolve().parents[1]
 SHORT = '[simulation]\nt_end = 2e-3\n[parameters]\nstart.settle = "0.5 ms"\n'  # 4 ms of processor time a run
@@ -219,7 +219,7 @@ def test_a_killed_driver_leaves_what_is_done(tmp_path, model, client):
     study, out = tmp_path / "study.toml", tmp_path / "out"
     study.write_text("repeats = 24\n" + LONGER)
     driver = subprocess.Popen(
-        [sys.executable, "-m", "bearing_model.app", "sweep", study, "--out", out, "--workers", "1"], env=os.environ | {"PYTHONPATH": str(ROOT)}
+        [sys.executable, "-m", "riveted_bearing", "sweep", study, "--out", out, "--workers", "1"], env=os.environ | {"PYTHONPATH": str(ROOT)}
     )
     patience = time.monotonic() + 120
     while len(list(out.glob("run-*.parquet"))) < 2 and time.monotonic() < patience:
@@ -239,7 +239,7 @@ def test_the_command_shows_failures_and_says_where_the_rows_are(tmp_path):
     study = tmp_path / "mine.toml"
     study.write_text(SHORT + "[[vary]]\nbearing.D = [0.0111125, 0.019]")
     done = subprocess.run(
-        [sys.executable, "-m", "bearing_model.app", "sweep", study, "--workers", "1"],
+        [sys.executable, "-m", "riveted_bearing", "sweep", study, "--workers", "1"],
         cwd=tmp_path,
         env=os.environ | {"PYTHONPATH": str(ROOT)},
         capture_output=True,

@@ -1,6 +1,5 @@
 """The shaft, a second FMU behind the same wrapper, against closed forms; shaft and bearing as one system, by three masters."""
 
-import ctypes
 import importlib.util
 import json
 import os
@@ -245,12 +244,8 @@ def test_libcosim_runs_the_system(short):
     assert difference(rows, short) < 1e-9
 
 
-def test_ecos_runs_the_system(short):
+def test_ecos_runs_the_system(ecospy, short):
     """Observed: 3e-12."""
-    tbb = Path(sys.prefix) / "lib" / "libtbb.so.12"
-    if tbb.exists():
-        ctypes.CDLL(str(tbb))
-    ecospy = pytest.importorskip("ecospy", reason="ecospy is not installed: pip install ecospy")
     rows = []
     with ecospy.EcosSimulation(ssp_path=str(SYSTEM), step_size=STEP) as simulation:
         simulation.init(parameter_set="transmission")

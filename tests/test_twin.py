@@ -157,14 +157,14 @@ CLASSES = {  # blocks whose entries are parts of the same sums
 
 def film_terms(model, w):
     """Largest term 3 kappa |V|/q^4 of the lands' film forces [N]: where the gap opens, the force is a small difference of such terms."""
-    p, d, most = model.p, model.d, 0.0
+    p, d, largest = model.p, model.d, 0.0
     for h, half in enumerate(w.half):
         x_land = (2 * h - 1) * p.cage.land_x
         _, e_y, e_z = (half.x + x_land * half.a)[..., 0]
         _, v_y, v_z = (half.v + x_land * half.a_dot)[..., 0]
         omega, q2 = half.Omega[0, :, 0], land_film_gap(np.hypot(e_y, e_z) / d.C_land, p.cage.g_0)
-        most = np.maximum(most, 3.0 * d.kappa * np.hypot(v_y + 0.5 * omega * e_z, v_z - 0.5 * omega * e_y) / q2**2)
-    return most
+        largest = np.maximum(largest, 3.0 * d.kappa * np.hypot(v_y + 0.5 * omega * e_z, v_z - 0.5 * omega * e_y) / q2**2)
+    return largest
 
 
 def differences(model, w, f, g):
@@ -514,6 +514,6 @@ def test_running_statistics(core):
         core.lib.statistics_add(c, 1e-3, w, v)
     assert channel.mean == pytest.approx(core.lib.statistics_mean(c), rel=1e-12)
     assert channel.rms == pytest.approx(core.lib.statistics_rms(c), rel=1e-12)
-    assert channel.most == c.most
+    assert channel.max == c.max
     for p in (0.0, 0.1, 0.5, 0.9, 0.999, 1.0):
         assert channel.quantile(p) == pytest.approx(core.lib.statistics_quantile(c, 1e-3, p), rel=1e-9)

@@ -175,7 +175,7 @@ def test_bearing_file_sets_balls_and_start_values(tmp_path):
     assert table.guid != TABLE.guid
 
 
-@pytest.mark.parametrize("path", sorted((ROOT / "bearing_model" / "data" / "bearings").glob("*.toml")), ids=lambda path: path.stem)
+@pytest.mark.parametrize("path", sorted((ROOT / "riveted_bearing" / "data" / "bearings").glob("*.toml")), ids=lambda path: path.stem)
 def test_shipped_bearings_are_accepted(path):
     assert len(generate.generate(path)) == len(generate.OUTPUTS)
 

@@ -1,6 +1,6 @@
 """The kernels keep their vectors: arithmetic of the kernels' objects counted by disassembly, packed and as wide as the instruction set, against scalar.
 
-A bundle's arithmetic must be packed; what remains scalar belongs to bodies of which there is one (cage, joint frame) or sums over the balls.
+A packet's arithmetic must be packed; what remains scalar belongs to bodies of which there is one (cage, joint frame) or sums over the balls.
 Losing the vectors (wrong options, a member that the compiler takes apart, code per ball) halves the speed without a warning and without a wrong number.
 """
 
@@ -49,7 +49,7 @@ def test_arithmetic_is_packed(commands, element, isa):
 
 
 def test_loss_is_seen(commands, tmp_path):
-    """The same element with bundles of four compiled without AVX: half-width registers, as after a lost option."""
+    """The same element with packets of four compiled without AVX: half-width registers, as after a lost option."""
     command = next(text for name, text in commands.items() if name.endswith("kernel_avx2.dir/fmu_src/race_contact.c.o"))
     words = [word for word in command.split() if word not in ("-mavx2", "-mfma")]
     words[words.index("-o") + 1] = str(tmp_path / "lost.o")

@@ -1,0 +1,191 @@
+"""The rivet table: its file format and its reader.  rivet_model writes the file; the FMU's build and the Python reference read it here.
+
+The file is JSON text.  Sections: `header` {format, kind closed_form|fe, note, geometry, geometry_hash, Z, units, errors, digest}, `stress` (knots and spline
+coefficients of T, see fmu_src/rivet_rom.h), `fit_eff` (interference with plasticity), `joint` (stiffnesses for the dynamics), `load_path`
+(see fmu_src/load_path.h).  Units in the file are SI except T, which is in MPa/N = 1/mm2 to keep it readable.
+"""
+
+import hashlib
+import json
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import numpy as np
+
+DEFAULT_TABLE = Path(__file__).resolve().parents[1] / "rivet_model" / "tables" / "6207.json"
+FORMAT = "rivet-table-2"
+CHANNELS = ("head_p1", "head_vm", "mid_vm", "mid_p1")
+AXES = ("a", "b", "c", "xi")
+SHEETS = ("plane", "oblique", "across")  # chi, |cos| of the direction of M, is 1, 1/2, 0
+MPA_PER_N = 1e6  # 1/mm2 in 1/m2
+JOINT_KEYS = (
+    "A",
+    "d_m",
+    "grip",
+    "k_rivet",
+    "k_plate",
+    "k_t_plate",
+    "k_t_head",
+    "k_stack",
+    "alpha_rivet",
+    "alpha_flange",
+    "d",
+    "T_0",
+    "prying_lever",
+    "prying_share",
+)
+
+
+@dataclass
+class RivetTable:
+    """Everything the FMU knows of one rivet joint.  Arrays are those of the file; `coefficients` in 1/m2, rounded to five digits."""
+
+    kind: str  # "closed_form" or "fe"
+    geometry: dict
+    geometry_hash: str
+    Z: int
+    moment_length: float  # L [m]
+    knots: dict  # axis name -> knots
+    coefficients: np.ndarray  # [a, b, c, xi, sheet, channel] [1/m2]
+    head_friction: float  # [1/m2]
+    head_friction_vm: float  # [1/m2]
+    yield_rivet: float  # [Pa]
+    fit_flange_yield: float  # [m]
+    fit_a: np.ndarray
+    fit_eff: np.ndarray
+    fit_slope: np.ndarray
+    joint: dict  # JOINT_KEYS and hole_fit, k_hole
+    load_path: np.ndarray  # [Z, 5, 3]
+    note: str = ""
+    errors: dict = field(default_factory=dict)
+
+
+def as_embedded(coefficients):
+    """The coefficients that both readers use: single precision."""
+    return (MPA_PER_N * coefficients).astype(np.float32).astype(float)
+
+
+def digest_of(sections):
+    """Digest of the sections behind the header: it tells a damaged file."""
+    return hashlib.sha256(json.dumps(sections, sort_keys=True, separators=(",", ":")).encode()).hexdigest()
+
+
+def _need(condition, path, message):
+    if not condition:
+        raise ValueError(f"{path}: {message}")
+
+
+def _numbers(path, where, values):
+    """An array of finite numbers."""
+    try:
+        array = np.array(values, dtype=float)
+    except (TypeError, ValueError, OverflowError) as error:
+        raise ValueError(f"{path}: {where} is not made of numbers: {error}") from None
+    _need(np.all(np.isfinite(array)), path, f"{where} contains a number that is not finite")
+    return array
+
+
+class _Section:
+    """One section of a file: its members by name, each checked."""
+
+    def __init__(self, path, name, members):
+        _need(isinstance(members, dict), path, f"{name} is no table of names and values")
+        self.path, self.name, self.members = path, name, members
+
+    def member(self, key, kind):
+        _need(key in self.members, self.path, f"{self.name} lacks {key!r}")
+        value = self.members[key]
+        right = isinstance(value, kind) and not isinstance(value, bool)
+        _need(right, self.path, f"{self.name}.{key} is of type {type(value).__name__}, not {kind.__name__}")
+        return value
+
+    def number(self, key):
+        _need(key in self.members, self.path, f"{self.name} lacks {key!r}")
+        array = _numbers(self.path, f"{self.name}.{key}", self.members[key])
+        _need(array.ndim == 0, self.path, f"{self.name}.{key} is not one number")
+        return float(array)
+
+    def numbers(self, key):
+        array = _numbers(self.path, f"{self.name}.{key}", self.member(key, list))
+        _need(array.ndim == 1 and len(array) > 1, self.path, f"{self.name}.{key} is not a list of numbers")
+        return array
+
+
+def _sections(path):
+    """Header and sections of a file whose format and digest are right."""
+    try:
+        data = json.loads(Path(path).read_text(encoding="utf-8"))
+        known_format, digest = data["header"]["format"], data["header"]["digest"]
+        sections = {name: data[name] for name in ("header", "stress", "fit_eff", "joint", "load_path")}
+    except (json.JSONDecodeError, UnicodeDecodeError, RecursionError) as error:
+        raise ValueError(f"{path}: not a rivet table (JSON text): {error}") from error
+    except (KeyError, TypeError) as error:
+        raise ValueError(f"{path}: not a rivet table: {error} is missing") from error
+    _need(known_format == FORMAT, path, f"format is {known_format!r}; {FORMAT!r} is needed")
+    _need(digest_of({k: data[k] for k in data if k != "header"}) == digest, path, "damaged: the digest in the header does not fit its sections")
+    load_path = sections.pop("load_path")
+    return *(_Section(path, name, members) for name, members in sections.items()), load_path
+
+
+def _read_coefficients(path, stress):
+    """Knots by axis and the array of coefficients."""
+    channels, axes = stress.member("channels", list), _Section(path, "stress.knots", stress.member("knots", dict))
+    _need(channels == list(CHANNELS), path, f"channels are {channels}; {list(CHANNELS)} are needed")
+    knots = {name: axes.numbers(name) for name in AXES}
+    for name, values in knots.items():
+        _need(np.all(np.diff(values) > 0), path, f"knots of axis {name} do not increase")
+    shape = (*(len(knots[name]) + 1 for name in AXES), len(SHEETS), len(CHANNELS))
+    coefficients = stress.numbers("coefficients")
+    _need(len(coefficients) == np.prod(shape), path, f"{len(coefficients)} coefficients; {np.prod(shape)} are needed")
+    return knots, as_embedded(coefficients.reshape(shape))
+
+
+def _check_joint(path, joint):
+    """Stiffnesses and lengths are positive numbers, the hole's stiffness belongs to rising fits."""
+    for key in JOINT_KEYS:
+        joint.number(key)
+    for key in (key for key in JOINT_KEYS if key.startswith("k_")):
+        _need(joint.number(key) > 0.0, path, f"joint.{key} = {joint.number(key)}: more than 0 is needed")
+    fit, k_hole = joint.numbers("hole_fit"), joint.numbers("k_hole")
+    _need(len(fit) == len(k_hole) and np.all(np.diff(fit) > 0), path, "joint.hole_fit does not increase, or has not as many values as joint.k_hole")
+    _need(np.all(k_hole > 0.0), path, "joint.k_hole: more than 0 is needed")
+
+
+def read(path, Z=None):
+    """Read and check a table.
+
+    Z: number of rivets that is needed, if given.  Raises ValueError naming file and fault (not JSON, another format, a damaged section, a wrong
+    type or size, a number that is not finite, a table for another Z), OSError if it cannot be read.
+    """
+    header, stress, fit, joint, load_path = _sections(path)
+    made_for = header.member("Z", int)
+    _need(Z is None or made_for == Z, path, f"made for Z = {made_for} rivets; Z = {Z} is needed")
+    knots, coefficients = _read_coefficients(path, stress)
+    load_path = _numbers(path, "load_path", load_path)
+    _need(load_path.shape == (made_for, 5, 3), path, f"load_path has shape {load_path.shape}; {(made_for, 5, 3)} is needed")
+    _check_joint(path, joint)
+    fits = {name: fit.numbers(name) for name in ("fit_a", "j2", "slope")}
+    _need(len({len(values) for values in fits.values()}) == 1, path, "fit_eff: fit_a, j2 and slope have different lengths")
+    _need(np.all(np.diff(fits["fit_a"]) > 0), path, "fit_eff.fit_a does not increase")
+    length = stress.number("moment_length")
+    _need(length > 0.0, path, f"stress.moment_length = {length} m: more than 0 is needed")
+    return RivetTable(
+        kind=header.member("kind", str),
+        geometry=header.member("geometry", dict),
+        geometry_hash=header.member("geometry_hash", str),
+        Z=made_for,
+        moment_length=length,
+        knots=knots,
+        coefficients=coefficients,
+        head_friction=stress.number("head_friction") * MPA_PER_N,
+        head_friction_vm=stress.number("head_friction_vm") * MPA_PER_N,
+        yield_rivet=stress.number("yield_rivet"),
+        fit_flange_yield=fit.number("fit_flange_yield"),
+        fit_a=fits["fit_a"],
+        fit_eff=fits["j2"],
+        fit_slope=fits["slope"],
+        joint=joint.members,
+        load_path=load_path,
+        note=header.member("note", str),
+        errors=header.member("errors", dict),
+    )

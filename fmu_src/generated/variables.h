@@ -1,0 +1,425 @@
+// Written by fmus/generate.py from fmus/variables.toml: do not edit.
+// clang-format off
+// All variables of the model: what users set (Parameters, Inputs), what they read (Outputs), and the state vector.  SI units.
+#pragma once
+
+#include "scalar.h"
+
+#include <stddef.h>
+
+#define FMI2_FUNCTION_PREFIX RivetedBearing_  // of the functions of a source-code FMU
+#define MODEL_IDENTIFIER "RivetedBearing"
+#define MODEL_GUID "{d5a91f25-47b6-15d6-1014-f583fbadd5cd}"  // digest of the table
+
+enum { Z = 9 };  // number of balls
+
+enum {  // TiltMode
+    TILT_MODE_PRESCRIBED = 1,  // tilt follows shaft.tilt through a critically damped filter
+    TILT_MODE_SUPPORTED = 2,  // elastic support: k_tilt (shaft.tilt - ring.tilt) + c_tilt (rates) + shaft.M
+    TILT_MODE_FREE = 3,  // external moments shaft.M only
+};
+enum {  // CageModel
+    CAGE_MODEL_TWO_HALF = 1,  // two halves held by the rivets
+    CAGE_MODEL_RIGID = 2,  // one rigid cage: faster, rivet loads by the rigid-body share
+};
+enum {  // Traction
+    TRACTION_POINT = 1,  // one slip for the whole contact
+    TRACTION_SLICED = 2,  // slip, spin and curvature in seven slices over the contact ellipse
+};
+enum {  // Lubrication
+    LUBRICATION_FILM = 1,  // full film in races and pockets
+    LUBRICATION_MIXED = 2,  // asperity share by the film ratio Lambda
+};
+enum {  // Stress
+    STRESS_OFF = 1,  // no rivet stress
+    STRESS_SAMPLED = 2,  // at communication points
+    STRESS_PEAK = 3,  // and largest value over every accepted step
+    STRESS_FATIGUE = 4,  // and rainflow counting with Miner's sum
+};
+enum {  // Switch
+    SWITCH_OFF = 1,  // off
+    SWITCH_ON = 2,  // on
+};
+enum {  // FitModel
+    FIT_MODEL_ELASTIC = 1,  // interference stays elastic
+    FIT_MODEL_J2 = 2,  // interference yields the flange: fit_eff of the rivet table
+};
+enum {  // MeanStress
+    MEAN_STRESS_NONE = 1,  // no mean-stress correction
+    MEAN_STRESS_GOODMAN = 2,  // Goodman
+    MEAN_STRESS_SWT = 3,  // Smith-Watson-Topper
+    MEAN_STRESS_MORROW = 4,  // Morrow
+};
+enum {  // Method
+    METHOD_VERLET = 1,  // velocity Verlet, linearly implicit in what is stiff
+    METHOD_EXPLICIT = 2,  // classical Runge-Kutta 4(3)
+};
+
+typedef struct {
+    struct {
+        double D;  // [m] Ball diameter
+        double d_m;  // [m] Pitch diameter: mean of the groove-bottom diameters
+        double f_i;  // [1] Inner groove radius / ball diameter
+        double f_e;  // [1] Outer groove radius / ball diameter
+        double P_d;  // [m] Diametral (radial internal) clearance, negative = preload
+        double E;  // [Pa] Young's modulus of balls and rings
+        double nu;  // [1] Poisson's ratio of balls and rings
+        double rho;  // [kg/m3] Density of the balls
+        double lambda;  // [s/m] Hunt-Crossley damping of the race contacts: Q = K delta^1.5 (1 + lambda delta_dot)
+        double h_i;  // [1] Height of the inner ring's shoulder above the groove's bottom / ball diameter: reported when the contact ellipse reaches over it
+        double h_e;  // [1] Height of the outer ring's shoulder above the groove's bottom / ball diameter: reported when the contact ellipse reaches over it
+        double p_limit;  // [Pa] Contact pressure of the races beyond which a warning is given
+    } bearing;
+    struct {
+        double dD[Z];  // [m] Excess of the ball's diameter over bearing.D
+    } ball;
+    struct {
+        double pocket_clearance;  // [m] Pocket diameter - ball diameter
+        double guide_clearance;  // [m] Outer ring land diameter - cage outer diameter
+        double D_o;  // [m] Cage outer diameter (guided by the outer ring)
+        double D_i;  // [m] Cage bore diameter
+        double m;  // [kg] Mass of one cage half
+        double J_p;  // [kg.m2] Polar moment of inertia of one cage half
+        double J_t;  // [kg.m2] Transverse moment of inertia of one cage half about its own centre of mass
+        double x_c;  // [m] Axial distance of a half's centre of mass from the split plane
+        double land_width;  // [m] Width of the guiding land of one half
+        double land_x;  // [m] Axial distance of the land's middle from the split plane
+        double E;  // [Pa] Young's modulus of the cage
+        double nu;  // [1] Poisson's ratio of the cage
+        double mu;  // [1] Friction coefficient between ball and pocket with a full film
+        double v_c;  // [m/s] Sliding speed at which pocket and land friction are 71 % of Coulomb's
+        double lambda;  // [s/m] Hunt-Crossley damping of the pocket contacts
+        double share_width;  // [1] Width of the share between the halves: w = (1 +- n_x/sqrt(n_x^2 + width^2))/2
+        double mu_land;  // [1] Dry friction coefficient between land and outer ring
+        double K_land;  // [N/m1.5] Dry contact stiffness of the land: F = K_land (e - C)^1.5
+        double g_0;  // [1] Floor of 1 - epsilon^2 in the land film
+        double unbalance;  // [kg.m] Static unbalance of the whole cage, in the direction of pocket 1
+        double width;  // [m] Axial width of the whole cage
+    } cage;
+    struct {
+        double preload;  // [N] Preload of each rivet at 293.15 K
+        double fit;  // [m] Rivet diameter - hole diameter, negative = clearance
+        double swell;  // [m] Growth of the rivet's diameter by riveting, added to the fit
+        double mu;  // [1] Friction coefficient of plates and rivet heads
+        double zeta;  // [1] Damping ratio of the closed joints in the axial direction
+        double F_floor;  // [N] Friction capacity that remains in an open joint
+    } joint;
+    struct {
+        double temperature;  // [K] Temperature of cage and rivets: changes preload and fit by their expansion
+        int fit_model;  // FitModel: Interference: elastic, or with yield of the flange
+    } rivet;
+    struct {
+        double eta;  // [Pa.s] Dynamic viscosity of the oil
+        double alpha;  // [1/Pa] Pressure-viscosity coefficient
+        double A;  // [1] Traction law mu(s) = (A + B s) exp(-C s) - A
+        double B;  // [1] Traction law: linear term
+        double C;  // [1] Traction law: decay
+        double v_0;  // [m/s] Slip speed below which traction is linear in any case
+        double U_0;  // [m/s] Floor of the rolling speed in slide-roll ratio and film
+        double rolling;  // [1] Factor on the inlet rolling friction F_R and the horizontal film force F_H
+        double rho_mix;  // [kg/m3] Density of the oil-air mixture between the rings
+        double C_d;  // [1] Drag coefficient of a ball in the mixture
+        double mu_b;  // [1] Boundary friction coefficient of asperities (mixed lubrication)
+        double s_0;  // [1] Slide-roll ratio at which asperity friction is 71 % of mu_b
+        double sigma_race;  // [m] Composite RMS roughness of ball and race
+        double sigma_pocket;  // [m] Composite RMS roughness of ball and pocket
+        double sigma_land;  // [m] Composite RMS roughness of cage and outer ring lands
+        double rho;  // [kg/m3] Density of the oil
+    } oil;
+    struct {
+        double m;  // [kg] Mass of the inner ring with its share of the shaft
+        double J_p;  // [kg.m2] Polar moment of inertia of the inner ring
+        double J_t;  // [kg.m2] Transverse moment of inertia of the inner ring
+        double c;  // [N.s/m] Damping of the inner ring's translation against the housing
+        int tilt_mode;  // TiltMode: How the inner ring tilts
+        double tilt_time;  // [s] Time constant of the critically damped filter of the prescribed tilt
+        double k_tilt;  // [N.m/rad] Angular stiffness of the ring's support (supported tilt)
+        double c_tilt;  // [N.m.s/rad] Angular damping of the ring's support (supported tilt)
+    } ring;
+    struct {
+        double y;  // [m/s2] Gravity along Y
+        double z;  // [m/s2] Gravity along Z
+    } gravity;
+    struct {
+        double F_r;  // [N] Amplitude of the built-in half-sine impacts along the radial load
+        double F_a;  // [N] Amplitude of the built-in half-sine impacts along +X
+        double t_start;  // [s] Start of the first impact
+        double duration;  // [s] Duration of one impact
+        double interval;  // [s] Time from one impact's start to the next one's (not shorter than the duration)
+        int count;  // Number of impacts
+    } pulse;
+    struct {
+        double sigma_D;  // [Pa] Stress amplitude at the knee of the S-N curve (R = -1)
+        double N_D;  // [1] Cycles at the knee
+        double k_1;  // [1] Slope above the knee: N = N_D (sigma_a/sigma_D)^-k_1
+        double k_2;  // [1] Slope below the knee
+        double sigma_m;  // [Pa] Tensile strength (Goodman)
+        double sigma_f;  // [Pa] Fatigue strength coefficient (Morrow)
+        int mean_stress;  // MeanStress: Mean-stress correction
+    } fatigue;
+    struct {
+        int cage;  // CageModel: Cage of two halves or rigid
+        int traction;  // Traction: Traction at a point or over slices of the contact ellipse
+        int lubrication;  // Lubrication: Full film or mixed lubrication
+        int stress;  // Stress: When the rivet stress is computed
+        int statistics;  // Switch: Running mean, RMS and histogram behind stat.*
+    } scene;
+    struct {
+        double tol;  // [1] Tolerance: local error / scale of each state class; a tolerance of fmi2SetupExperiment takes its place
+        int method;  // Method: Integration method
+        int max_steps;  // Largest number of internal steps in one communication step
+    } solver;
+    struct {
+        int seed;  // Seed of the balls' initial spacing (splitmix64)
+        double spacing;  // [1] Initial spacing error: uniform within +- this part of the pocket clearance
+        double settle;  // [s] Time before which stat.* and damage do not count
+    } start;
+} Parameters;
+
+typedef struct {
+    struct {
+        scalar F_x;  // [N] Axial load on the inner ring
+        scalar F_y;  // [N] Radial load on the inner ring along Y
+        scalar F_z;  // [N] Radial load on the inner ring along Z
+        scalar M_y;  // [N.m] Moment about Y on the inner ring (supported or free tilt)
+        scalar M_z;  // [N.m] Moment about Z on the inner ring (supported or free tilt)
+        scalar omega;  // [rad/s] Speed of the inner ring about X
+        scalar tilt_y;  // [rad] Tilt of the shaft about Y (+X turns toward -Z)
+        scalar tilt_z;  // [rad] Tilt of the shaft about Z (+X turns toward +Y)
+    } shaft;
+    struct {
+        scalar F_r;  // [N] Impact load added along the present radial load (+Y if there is none)
+        scalar F_a;  // [N] Impact load added along +X
+    } impact;
+} Inputs;
+
+typedef struct {
+    struct {
+        scalar Z;  // [1] Number of balls (build-time constant)
+        scalar friction_torque;  // [N.m] Torque that the shaft must supply about X
+        scalar power_loss;  // [W] Power dissipated in contacts, films, drag and joints
+        scalar energy_residual;  // [J] Energy now - energy at start - net work since: 0 but for the errors of the integration and of the work's own integral
+        scalar contacts;  // [1] Number of closed contacts (races and pockets)
+        scalar penetration;  // [m] Largest elastic approach of all contacts
+    } bearing;
+    struct {
+        scalar x;  // [m] Displacement of the inner ring along X
+        scalar y;  // [m] Displacement of the inner ring along Y
+        scalar z;  // [m] Displacement of the inner ring along Z
+        scalar v_x;  // [m/s] Velocity of the inner ring along X
+        scalar v_y;  // [m/s] Velocity of the inner ring along Y
+        scalar v_z;  // [m/s] Velocity of the inner ring along Z
+        scalar a_x;  // [m/s2] Acceleration of the inner ring along X
+        scalar a_y;  // [m/s2] Acceleration of the inner ring along Y
+        scalar a_z;  // [m/s2] Acceleration of the inner ring along Z
+        scalar tilt_y;  // [rad] Tilt of the inner ring about Y
+        scalar tilt_z;  // [rad] Tilt of the inner ring about Z
+        scalar beta;  // [1] Axis of the inner ring a = (a_x, gamma, -beta): direction cosine, the sine of a tilt about Y
+        scalar gamma;  // [1] Axis of the inner ring: direction cosine, the sine of a tilt about Z
+        scalar beta_dot;  // [1/s] Rate of ring.beta
+        scalar gamma_dot;  // [1/s] Rate of ring.gamma
+        scalar beta_ddot;  // [1/s2] Second derivative of ring.beta
+        scalar gamma_ddot;  // [1/s2] Second derivative of ring.gamma
+    } ring;
+    struct {
+        scalar F_x;  // [N] Force on the housing along X (by balls and cage through the outer ring)
+        scalar F_y;  // [N] Force on the housing along Y
+        scalar F_z;  // [N] Force on the housing along Z
+        scalar M_y;  // [N.m] Moment on the housing about Y
+        scalar M_z;  // [N.m] Moment on the housing about Z
+    } housing;
+    struct {
+        scalar Q_i[Z];  // [N] Contact load on the inner race
+        scalar Q_e[Z];  // [N] Contact load on the outer race
+        scalar alpha_i[Z];  // [rad] Contact angle at the inner race (0 without contact)
+        scalar alpha_e[Z];  // [rad] Contact angle at the outer race (0 without contact)
+        scalar Q_c[Z];  // [N] Contact load on the cage pocket, both halves together
+        scalar omega_m[Z];  // [rad/s] Orbital speed
+        scalar p_i[Z];  // [Pa] Largest contact pressure on the inner race
+        scalar p_e[Z];  // [Pa] Largest contact pressure on the outer race
+        scalar Lambda_i[Z];  // [1] Film thickness / roughness at the inner race (0 without contact)
+        scalar Lambda_e[Z];  // [1] Film thickness / roughness at the outer race (0 without contact)
+        scalar spin_roll[Z];  // [1] Spin-to-roll ratio at the inner race
+        scalar Q_cx[Z];  // [N] Axial part of the ball's force on the cage pocket, both halves together
+        scalar x[Z];  // [m] Axial position of the ball's centre
+        scalar r[Z];  // [m] Distance of the ball's centre from the axis
+        scalar psi[Z];  // [rad] Azimuth of the ball from Y toward Z, unbounded
+    } ball;
+    struct {
+        scalar x;  // [m] Displacement of the cage half on the -X side along X
+        scalar y;  // [m] Displacement of the cage half on the -X side along Y
+        scalar z;  // [m] Displacement of the cage half on the -X side along Z
+        scalar tilt_y;  // [rad] Tilt of the cage half on the -X side about Y
+        scalar tilt_z;  // [rad] Tilt of the cage half on the -X side about Z
+        scalar psi;  // [rad] Rotation of the cage half on the -X side about its axis, unbounded: 0 has a pocket on Y
+    } half_0;
+    struct {
+        scalar x;  // [m] Displacement of the cage half on the +X side along X
+        scalar y;  // [m] Displacement of the cage half on the +X side along Y
+        scalar z;  // [m] Displacement of the cage half on the +X side along Z
+        scalar tilt_y;  // [rad] Tilt of the cage half on the +X side about Y
+        scalar tilt_z;  // [rad] Tilt of the cage half on the +X side about Z
+        scalar psi;  // [rad] Rotation of the cage half on the +X side about its axis, unbounded: 0 has a pocket on Y
+    } half_1;
+    struct {
+        scalar dislocation;  // [m] Largest slip of one cage half against the other over the joints, in the plane
+        scalar omega;  // [rad/s] Speed of the cage (mean of the halves)
+        scalar slip_ratio;  // [1] 1 - cage speed / epicyclic speed (0 at standstill)
+        scalar y;  // [m] Displacement of the cage's centre along Y (mean of the halves)
+        scalar z;  // [m] Displacement of the cage's centre along Z (mean of the halves)
+        scalar eccentricity;  // [1] Displacement of the cage's centre / radial guide clearance
+        scalar F_pocket_max;  // [N] Largest pocket contact load of all balls
+        scalar F_pocket_peak;  // [N] Largest pocket contact load since the last communication point
+    } cage;
+    struct {
+        scalar sigma_head[Z];  // [Pa] Largest principal stress in the head fillet
+        scalar sigma_mid[Z];  // [Pa] von Mises stress of the shank at the split (|z| <= 0.1 mm)
+        scalar sigma_head_vm[Z];  // [Pa] von Mises stress in the head fillet
+        scalar sigma_mid_p1[Z];  // [Pa] Largest principal stress of the shank at the split
+        scalar sigma_head_peak[Z];  // [Pa] Largest sigma_head since the last communication point
+        scalar sigma_mid_peak[Z];  // [Pa] Largest sigma_mid since the last communication point
+        scalar sigma_head_max;  // [Pa] Largest sigma_head_peak of all rivets
+        scalar sigma_mid_max;  // [Pa] Largest sigma_mid_peak of all rivets
+        scalar damage_head[Z];  // [1] Miner's sum of sigma_head since start.settle
+        scalar damage_mid[Z];  // [1] Miner's sum of sigma_mid since start.settle
+        scalar N[Z];  // [N] External tension of the joint, before preload shielding
+        scalar V[Z];  // [N] Transverse load of the joint
+        scalar T[Z];  // [N] Tension of the rivet
+        scalar M[Z];  // [N.m] Prying moment of the joint
+        scalar P[Z];  // [N] Preload at the present temperature
+        scalar slip[Z];  // [m] Slip of one half against the other at the joint, in the plane
+        scalar flag[Z];  // [1] Sum of 1 rivet yields, 2 flange yields, 4 compressed joint (N counted as 0), 8 fit beyond the stress table
+        scalar V_y[Z];  // [N] Transverse load that the shank carries, on the +X half, along y of the cage's frame
+        scalar V_z[Z];  // [N] Transverse load that the shank carries, on the +X half, along z of the cage's frame
+        scalar M_y[Z];  // [N.m] Prying moment on the +X half about y of the cage's frame
+        scalar M_z[Z];  // [N.m] Prying moment on the +X half about z of the cage's frame
+        scalar F_head[Z];  // [N] Friction force at the heads
+    } rivet;
+    struct {
+        scalar time;  // [s] Time that the statistics cover
+        scalar Q_c_mean;  // [N] Pocket force of all balls pooled: mean, zeros included
+        scalar Q_c_rms;  // [N] Pocket force of all balls pooled: RMS
+        scalar Q_c_p999;  // [N] Pocket force of all balls pooled: 99.9 % quantile
+        scalar Q_c_max;  // [N] Pocket force of all balls pooled: largest
+        scalar contact_duty;  // [1] Part of the time that a ball touches its pocket
+        scalar cage_omega;  // [rad/s] Mean cage speed
+        scalar eccentricity;  // [1] Mean eccentricity of the cage
+        scalar dislocation_max;  // [m] Largest dislocation of the cage halves
+        scalar sigma_head_mean;  // [Pa] Head stress of the worst rivet at each instant: mean
+        scalar sigma_head_rms;  // [Pa] Head stress of the worst rivet at each instant: RMS
+        scalar sigma_head_p999;  // [Pa] Head stress of the worst rivet at each instant: 99.9 % quantile
+        scalar sigma_head_max;  // [Pa] Head stress of the worst rivet at each instant: largest
+        scalar sigma_mid_mean;  // [Pa] Middle stress of the worst rivet at each instant: mean
+        scalar sigma_mid_rms;  // [Pa] Middle stress of the worst rivet at each instant: RMS
+        scalar sigma_mid_p999;  // [Pa] Middle stress of the worst rivet at each instant: 99.9 % quantile
+        scalar sigma_mid_max;  // [Pa] Middle stress of the worst rivet at each instant: largest
+        scalar rivet_head_mean[Z];  // [Pa] Head stress of each rivet: mean
+        scalar rivet_head_rms[Z];  // [Pa] Head stress of each rivet: RMS
+        scalar rivet_head_p999[Z];  // [Pa] Head stress of each rivet: 99.9 % quantile
+        scalar rivet_head_max[Z];  // [Pa] Head stress of each rivet: largest
+        scalar rivet_mid_mean[Z];  // [Pa] Middle stress of each rivet: mean
+        scalar rivet_mid_rms[Z];  // [Pa] Middle stress of each rivet: RMS
+        scalar rivet_mid_p999[Z];  // [Pa] Middle stress of each rivet: 99.9 % quantile
+        scalar rivet_mid_max[Z];  // [Pa] Middle stress of each rivet: largest
+    } stat;
+    struct {
+        scalar steps;  // [1] Accepted internal steps
+        scalar rhs_evals;  // [1] Evaluations of the right-hand side
+        scalar step_size;  // [s] Internal step size that the next step starts with
+        scalar error_tests_failed;  // [1] Internal steps rejected by the error test
+        scalar cpu_time;  // [s] Processor time of this instance inside fmi2DoStep (not part of the saved state)
+        scalar tolerance;  // [1] Tolerance in force
+        scalar method_used;  // [1] Integration method in use: 1 velocity Verlet, 2 Runge-Kutta
+    } solver;
+    struct {
+        scalar land_contact;  // [1] Cage halves whose land touches the outer ring
+        scalar pocket_exit;  // [1] Balls whose centre has left the section of the cage: a real pocket ends there
+        scalar ellipse_cut;  // [1] Race contacts whose ellipse reaches over the shoulder
+        scalar overpressure;  // [1] Race contacts beyond bearing.p_limit
+        scalar joint_open;  // [1] Joints whose plates are apart
+        scalar rivet_yield;  // [1] Rivets whose sigma_head_peak or sigma_mid_peak exceeds the yield stress
+        scalar land_contact_onsets;  // [1] Onsets of land contact since the start
+        scalar pocket_exit_onsets;  // [1] Onsets of a ball leaving its pocket since the start
+        scalar ellipse_cut_onsets;  // [1] Onsets of a contact ellipse cut by the shoulder since the start
+        scalar overpressure_onsets;  // [1] Onsets of a contact beyond bearing.p_limit since the start
+        scalar joint_open_onsets;  // [1] Onsets of an open joint since the start
+        scalar rivet_yield_onsets;  // [1] Onsets of yield of a rivet since the start
+    } event;
+} Outputs;
+
+// What is evaluated together on first read after a step.
+typedef enum {
+    GROUP_CONSTANT,  // fixed when the FMU is built
+    GROUP_STATE,  // states themselves
+    GROUP_RING,  // forces and motion of the inner ring, housing reaction
+    GROUP_POSE,  // where the balls and the cage halves are
+    GROUP_BALL,  // contacts of the balls
+    GROUP_CAGE,  // motion of the cage
+    GROUP_RIVET,  // loads and slips of the joints
+    GROUP_STRESS,  // rivet stress now
+    GROUP_PEAK,  // largest values since the last communication point
+    GROUP_FATIGUE,  // damage sums
+    GROUP_ENERGY,  // power and energy balance
+    GROUP_STAT,  // statistics since start.settle
+    GROUP_SOLVER,  // solver health
+    GROUP_EVENT,  // what happens in the model: now, at how many places; onsets since the start, seen at communication points
+    GROUP_COUNT
+} OutputGroup;
+
+// The state vector y: offsets of its blocks.
+enum {
+    Y_BALL_X = 0,  // [Z] [m] Axial position of the ball
+    Y_BALL_R = 9,  // [Z] [m] Radial position
+    Y_BALL_THETA = 18,  // [Z] [rad] Azimuth from Y toward Z, unbounded
+    Y_CAGE_X = 27,  // [2] [m] Position of a half's centre of mass along X
+    Y_CAGE_Y = 29,  // [2] [m] along Y
+    Y_CAGE_Z = 31,  // [2] [m] along Z
+    Y_CAGE_BETA = 33,  // [2] [1] Axis of the half a = (a_x, gamma, -beta): direction cosine
+    Y_CAGE_GAMMA = 35,  // [2] [1] Axis of the half: direction cosine
+    Y_CAGE_PSI = 37,  // [2] [rad] Rotation of the half about its axis, unbounded
+    Y_RING_X = 39,  // [1] [m] Inner ring: position along X
+    Y_RING_Y = 40,  // [1] [m] along Y
+    Y_RING_Z = 41,  // [1] [m] along Z
+    Y_RING_BETA = 42,  // [1] [1] Axis of the ring a = (a_x, gamma, -beta): direction cosine
+    Y_RING_GAMMA = 43,  // [1] [1] Axis of the ring: direction cosine
+    Y_JOINT_PLATE_Y = 44,  // [Z] [m] Friction state of the plates, y of the cage frame
+    Y_JOINT_PLATE_Z = 53,  // [Z] [m] Friction state of the plates, z of the cage frame
+    Y_JOINT_HEAD_Y = 62,  // [Z] [m] Friction state of the rivet heads, y of the cage frame
+    Y_JOINT_HEAD_Z = 71,  // [Z] [m] Friction state of the rivet heads, z of the cage frame
+    Y_WORK = 80,  // [1] [J] Net work done on balls and cage since the start: supplied - dissipated
+    Y_BALL_V_X = 81,  // [Z] [m/s] Axial velocity
+    Y_BALL_V_R = 90,  // [Z] [m/s] Radial velocity
+    Y_BALL_OMEGA_M = 99,  // [Z] [rad/s] Orbital speed
+    Y_CAGE_V_X = 108,  // [2] [m/s] Velocity of the half's centre of mass along X
+    Y_CAGE_V_Y = 110,  // [2] [m/s] along Y
+    Y_CAGE_V_Z = 112,  // [2] [m/s] along Z
+    Y_CAGE_BETA_DOT = 114,  // [2] [1/s] Rate of beta
+    Y_CAGE_GAMMA_DOT = 116,  // [2] [1/s] Rate of gamma
+    Y_CAGE_S = 118,  // [2] [rad/s] Spin: angular velocity along the half's axis
+    Y_RING_V_X = 120,  // [1] [m/s] Inner ring: velocity along X
+    Y_RING_V_Y = 121,  // [1] [m/s] along Y
+    Y_RING_V_Z = 122,  // [1] [m/s] along Z
+    Y_RING_BETA_DOT = 123,  // [1] [1/s] Rate of beta
+    Y_RING_GAMMA_DOT = 124,  // [1] [1/s] Rate of gamma
+    Y_BALL_OMEGA_X = 125,  // [Z] [rad/s] Angular velocity about X
+    Y_BALL_OMEGA_R = 134,  // [Z] [rad/s] Angular velocity about the radial direction of the ball
+    Y_BALL_OMEGA_T = 143,  // [Z] [rad/s] Angular velocity about the tangential direction of the ball
+    N_STATES = 152,
+    N_STATE_BLOCKS = 36
+};
+
+typedef enum {
+    SCALE_LENGTH,
+    SCALE_ANGLE,
+    SCALE_TILT,
+    SCALE_PLATE,
+    SCALE_HEAD,
+    SCALE_ENERGY,
+    SCALE_VELOCITY,
+    SCALE_RATE,
+    SCALE_SPIN,
+    SCALE_COUNT
+} StateScale;
+
+enum { N_INPUTS = 10 };  // all of them numbers
+enum { N_VARIABLES = 232 };  // time is the first

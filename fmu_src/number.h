@@ -1,8 +1,0 @@
-// `number`: whatever depends on state, inputs or time.  A double; where kernels and outputs are compiled for derivatives a dual number (dual.h).
-#pragma once
-
-#ifdef DUAL
-typedef double _Complex number;
-#else
-typedef double number;
-#endif

@@ -1,0 +1,63 @@
+// InputTrajectory of the inputs from point to point, built-in pulses.  Equations in ring_load.h.
+#include "ring_load.h"
+
+static const double PI = 3.14159265358979323846;
+
+static double pulse_start(const Parameters *p, int n)
+{
+    return p->pulse.t_start + n * p->pulse.interval;
+}
+
+// Index of the last pulse that started at or before t, -1 before the first one.
+static int pulse_index(const Parameters *p, double t)
+{
+    if (p->pulse.count == 0 || t < p->pulse.t_start) return -1;
+    const double n = floor((t - p->pulse.t_start) / p->pulse.interval);
+    int i = n < p->pulse.count ? (int)n : p->pulse.count - 1;
+    while (i + 1 < p->pulse.count && pulse_start(p, i + 1) <= t) i++;  // the division may round either way
+    while (i > 0 && pulse_start(p, i) > t) i--;
+    return i;
+}
+
+double pulse_next_edge(const Parameters *p, double t)
+{
+    if (p->pulse.F_r == 0.0 && p->pulse.F_a == 0.0) return INFINITY;
+    const int i = pulse_index(p, t);
+    if (i >= 0 && pulse_start(p, i) + p->pulse.duration > t) return pulse_start(p, i) + p->pulse.duration;
+    return i + 1 < p->pulse.count ? pulse_start(p, i + 1) : INFINITY;
+}
+
+void input_trajectory_update(const Parameters *p, const Inputs u[INPUT_ORDERS + 1], double t_0, double t, InputTrajectory *trajectory)
+{
+    const int i = pulse_index(p, t);
+    const bool active = i >= 0 && t < pulse_start(p, i) + p->pulse.duration;
+    trajectory->t_0 = t_0;
+    memcpy(trajectory->u, u, sizeof trajectory->u);
+    trajectory->pulse_r = active ? p->pulse.F_r : 0.0;
+    trajectory->pulse_a = active ? p->pulse.F_a : 0.0;
+    trajectory->pulse_start = active ? pulse_start(p, i) : 0.0;
+    trajectory->pulse_rate = PI / p->pulse.duration;
+}
+
+bool input_trajectory_varies(const InputTrajectory *trajectory)
+{
+    const double *derivative = (const double *)&trajectory->u[1];
+    bool varies = trajectory->pulse_r != 0.0 || trajectory->pulse_a != 0.0;
+    for (int i = 0; i < INPUT_ORDERS * N_INPUTS; i++) varies |= derivative[i] != 0.0;
+    return varies;
+}
+
+void input_trajectory_rates_at(const InputTrajectory *trajectory, double t, Inputs *u, Inputs *u_dot)
+{
+    const double *u_1 = (const double *)&trajectory->u[1], *u_2 = (const double *)&trajectory->u[2];
+    input_trajectory_at(trajectory, t, u);
+    for (int i = 0; i < N_INPUTS; i++) ((double *)u_dot)[i] = u_1[i] + (t - trajectory->t_0) * u_2[i];
+}
+
+void ring_load_update(const Parameters *p, const Inputs *u, double t, RingLoad *ring_load)
+{
+    const Inputs held[INPUT_ORDERS + 1] = {*u};
+    InputTrajectory trajectory;
+    input_trajectory_update(p, held, t, t, &trajectory);
+    ring_load_at(&trajectory, t, ring_load);
+}

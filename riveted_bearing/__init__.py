@@ -1,0 +1,107 @@
+"""Ball bearing with a two-piece riveted cage: the FMU from Python, and what can be asked of it.
+
+    import riveted_bearing as rb
+
+    case = rb.info("6207")                                       # geometry, quasi-static loads, frequencies: no FMU needed
+    case.equilibrium().Q_i                                       # load of each ball on the inner race [N]
+    result = rb.run("demo", parameters={"joint.preload": "30 N"}, t_end=0.1)
+    result.data["rivet.sigma_head_max"].max()                    # largest stress in a rivet's head [Pa]
+    again = rb.read_result("results/demo.parquet")               # what `riveted-bearing run demo` has written
+    path = rb.build("6310")                                      # an FMU for another bearing: needs a C compiler
+
+Numbers are SI; a text carries its unit ("30 N", "18238 rev/min").  Whatever cannot be used raises UserError with one message that names it.
+The command `riveted-bearing` does the same and more; docs/running.md explains both.  The physics without an FMU is in the package bearing_model,
+the finite elements of the rivet in rivet_model.
+"""
+
+# The functions below import what they need when they are called: fmpy, SciPy and matplotlib take a second.  A module of this package has another name
+# than any function here (runner and run, builder and build), because Python puts an imported module of the same name in the function's place.
+
+from collections.abc import Callable, Mapping, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from .errors import UserError
+from .results import Result, read_result, write_result
+from .version import __version__
+
+if TYPE_CHECKING:
+    from .bearings import Case
+
+__all__ = ["Result", "UserError", "__version__", "build", "info", "read_result", "run", "write_result"]
+
+
+def run(
+    scene: str | Path = "demo",
+    *,
+    parameters: Mapping | None = None,
+    inputs: Mapping | None = None,
+    fmu: str | Path | None = None,
+    seed: int | None = None,
+    t_end: float | str | None = None,
+    step: float | str | None = None,
+    outputs: Sequence[str] | None = None,
+    tolerance: float | None = None,
+    progress: Callable[[float], None] | None = None,
+) -> Result:
+    """Simulate a scene and return its Result.
+
+    scene: name of a shipped scene (demo, R, F, jam) or path of a TOML file; parameters, inputs: changes by full variable name, values as in the file
+    (SI numbers, "30 N", item names; inputs also {"t": [...], "value": [...]}); fmu: path of the FMU, None for the default one;
+    seed: start.seed; t_end, step: s; outputs: names or patterns; progress: called now and then with the simulated time [s].
+    Raises UserError (a ValueError) naming what cannot be used.  A run that the FMU ends early returns what there is, with `stopped` telling why.
+
+        >>> import riveted_bearing as rb
+        >>> result = rb.run("demo", parameters={"joint.preload": "30 N"}, t_end=0.01)
+        >>> result.data["rivet.sigma_head_max"].max() / 1e6     # MPa
+    """
+    from .fmu import Model
+    from .runner import simulate
+    from .scene import load_scene
+
+    model = Model(fmu)
+    simulation = {"t_end": t_end, "step": step, "outputs": outputs, "tolerance": tolerance}
+    changes = {
+        "simulation": {key: value for key, value in simulation.items() if value is not None},
+        "parameters": dict(parameters or {}) | ({} if seed is None else {"start.seed": seed}),
+        "inputs": dict(inputs or {}),
+    }
+    return simulate(model, load_scene(scene, model, ("run()", changes)), progress)
+
+
+def info(target: str | Path = "6207", fmu: str | Path | None = None) -> "Case":
+    """What is known of a bearing, or of a scene at its start, without a simulation.
+
+    target: designation of a shipped bearing (6207, 6310), bearing file, name of a shipped scene or scene file; fmu: the FMU whose start values a scene
+    begins from, None for the default one.
+    Returns a Case: .bearing and .load of the quasi-static model, .values by variable name, .equilibrium() with loads, contact angles, pressures,
+    stiffness, life and frequencies.  Raises UserError naming what cannot be used.
+
+        >>> import riveted_bearing as rb
+        >>> round(rb.info("6207").equilibrium().Q_i.sum())      # N
+    """
+    from .bearings import case_of
+
+    return case_of(target, fmu)
+
+
+def build(
+    bearing: str | Path | None = None,
+    rivet: str | Path | None = None,
+    out: str | Path | None = None,
+    *,
+    platforms: Sequence[str] = (),
+    coarse: bool = False,
+    progress: Callable[..., None] | None = None,
+) -> Path:
+    """Build an FMU for a bearing and return its path: needs a C compiler and takes about half a minute.
+
+    bearing: bearing file or designation, None for the 6207; rivet: rivet table (JSON), or geometry (TOML) to make one by finite elements in some half an
+    hour (coarse: in seconds, roughly), None for the shipped table if it fits the bearing, else closed forms; out: the FMU to write, None for my.fmu in the
+    working directory from my.toml, and RivetedBearing.fmu (in a checkout: in fmus/) from the default; platforms: FMI's names, e.g. ["win64"], of the
+    systems to compile for instead of this one (needs ziglang); progress: called with what is being done and, if known, the share done.
+    Raises UserError with the reason; `out` is then left as it was.
+    """
+    from .builder import build_fmu, platform_names
+
+    return build_fmu(bearing, rivet, out, progress or (lambda text, share=None: None), platform_names(",".join(platforms)), coarse)

@@ -1,0 +1,225 @@
+"""Make an FMU for a bearing: variable files, rivet table, compilation and archive, and a first start to see that it works.
+
+    python fmus/generate.py --bearing FILE --out BUILD/generated
+    cmake -S SOURCES -B BUILD -DGENERATED_DIR=BUILD/generated -DRIVET_TABLE=TABLE
+    cmake --build BUILD --target fmu
+
+For other platforms each binary is compiled in a build folder of its own with zig (cmake/zig.cmake), and the last step packs them together.
+
+Intermediate files stay in BUILD, so that the next build of the same bearing compiles only what changed.
+"""
+
+import importlib.util
+import os
+import re
+import shutil
+import subprocess
+import sys
+import sysconfig
+from pathlib import Path
+
+from bearing_model import variables
+from bearing_model.rivet_table import DEFAULT_TABLE
+from rivet_model import closed_form, table
+from rivet_model.geometry import Geometry
+
+from .bearings import bearing_case
+from .errors import UserError, unknown
+from .fmu import FMU_NAME, PACKAGE, Instance, Model
+from .results import make_folder, to_toml, write_atomically
+from .rivet import read_geometry, read_table, table_of
+from .scene import Scene
+
+SOURCES = (PACKAGE.parent, PACKAGE / "_source")  # a checkout, an installed package
+PLATFORMS = ("linux64", "win64", "darwin64", "aarch64-darwin")  # "all"
+LIBRARIES = ("RivetedBearing.so", "RivetedBearing.dll", "RivetedBearing.dylib")
+STEP = re.compile(r"\[\s*(?:(\d+)/(\d+)|(\d+)%)\s*\]")  # Ninja's [3/40], make's [ 7%]
+
+
+def build_fmu(bearing=None, rivet=None, out=None, say=lambda text, share=None: None, platforms=(), coarse=False):
+    """Build an FMU and return its path.
+
+    bearing: bearing file or designation, None for the default one; rivet: rivet table (JSON), or geometry (TOML) to make one by finite elements,
+    None for the tracked table if it fits the bearing, else closed forms; out: the FMU to write, None for my.fmu here from my.toml, RivetedBearing.fmu
+    from the default (in a checkout: in fmus/); say: called with what is being done and the share done; platforms: names of FMI's binary folders to
+    cross-compile for (cmake/zig.cmake), none for this machine's compiler alone; coarse: see table_of.
+    Raises UserError with the reason; `out` is then left as it was.
+    """
+    sources = source_folder()
+    out = Path(out) if out else default_out(sources, bearing or rivet)
+    case, folder = bearing_case(bearing or "6207"), build_folder(sources, bearing)
+    cmake = find_tools()
+    make_folder(out.parent)
+    rivet = given_table(rivet, case, folder, coarse, say) if rivet else rivet_table(case, folder)
+    options = [f"-DRIVET_TABLE={rivet}", f"-DPython_EXECUTABLE={sys.executable}"]
+    if bearing:
+        say("variables")
+        generated = folder / "generated"
+        resolved = folder / "bearing.toml"
+        resolved.write_text("\n".join(to_toml(start_document(case))), encoding="utf-8")
+        execute([sys.executable, sources / "fmus" / "generate.py", "--bearing", resolved, "--out", generated], folder, say)
+        options.append(f"-DGENERATED_DIR={generated}")
+    binaries = [f"{platform}={cross_compile(cmake, sources, folder / platform, options, platform, say)}" for platform in platforms]
+    options.append(f"-DBINARIES={';'.join(binaries)}")
+    compile_target(cmake, sources, folder, options, "fmu", say)
+    finished = folder / FMU_NAME
+    say("starting it once")
+    try_start(finished)
+    write_atomically(out, lambda temporary: shutil.copyfile(finished, temporary))
+    if out.resolve() == sources / "fmus" / FMU_NAME and not bearing and (sources / "examples").is_dir():  # the example goes with the checkout's own
+        compile_target(cmake, sources, folder, options, "transmission", say)
+        for name in ("Shaft.fmu", "Transmission.ssp"):
+            write_atomically(out.with_name(name), lambda temporary, made=folder / name: shutil.copyfile(made, temporary))
+    return out
+
+
+def platform_names(text):
+    """Platforms by "all" or names separated by commas; UserError for an unknown one."""
+    names = PLATFORMS if text == "all" else tuple(filter(None, (text or "").split(",")))
+    for name in names:
+        if name not in (*PLATFORMS, "aarch64-linux"):
+            raise unknown("--platforms", "platform", name, (*PLATFORMS, "aarch64-linux"))
+    return names
+
+
+def cross_compile(cmake, sources, folder, options, platform, say):
+    """The binary for another platform, compiled with zig in its own build folder."""
+    zig = find_zig()
+    folder.mkdir(exist_ok=True)
+    chain = [f"-DCMAKE_TOOLCHAIN_FILE={sources / 'cmake' / 'zig.cmake'}", f"-DPLATFORM={platform}", f"-DZIG={zig}"]
+    compile_target(cmake, sources, folder, [*options, *chain], "binaries", lambda text, share=None: say(f"{platform}: {text}", share))
+    return next(path for name in LIBRARIES if (path := folder / name).is_file())
+
+
+def compile_target(cmake, sources, folder, options, target, say):
+    """Configure and build one target."""
+    say("configuring (the first time fetches SUNDIALS)")
+    execute([cmake, "-S", sources, "-B", folder, *generator(folder), *options], folder, say)
+    say("compiling")
+    execute([cmake, "--build", folder, "--target", target, "--parallel", str(min(os.cpu_count() or 1, 8))], folder, say)
+
+
+def find_zig():
+    """Path of zig: the Python package's, else the one on the path."""
+    package = importlib.util.find_spec("ziglang")
+    found = (package and shutil.which("zig", path=package.submodule_search_locations[0])) or shutil.which("zig")
+    if not found:
+        raise UserError("zig not found, which compiles for other platforms: `pip install ziglang`")
+    return found
+
+
+def start_document(case):
+    """A case as fmus/generate.py reads it: all start values in SI."""
+    sections = {"parameters": variables.PARAMETERS, "inputs": variables.INPUTS}
+    return {"Z": case.Z} | {section: {name: case.values[name] for name in known} for section, known in sections.items()}
+
+
+def source_folder():
+    """Folder with CMakeLists.txt, fmu_src and fmus."""
+    for folder in SOURCES:
+        if (folder / "CMakeLists.txt").is_file():
+            return folder
+    raise UserError(f"the C sources are not there (looked in {', '.join(map(str, SOURCES))}): install the package again, or build in a checkout")
+
+
+def default_out(sources, source):
+    """Where the FMU goes unless told: my.fmu here for the bearing or rivet my.toml; the default one in fmus/ of a checkout, else here."""
+    if source:
+        return Path.cwd() / f"{Path(source).stem}.fmu"
+    return (sources / "fmus" if sources == PACKAGE.parent else Path.cwd()) / FMU_NAME
+
+
+def build_folder(sources, bearing):
+    """Folder for intermediate files, one per bearing: in the checkout's build/, else in the user's cache."""
+    cache = Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache") / "riveted-bearing"
+    folder = (sources / "build" if sources == PACKAGE.parent else cache) / "bearings" / (Path(str(bearing)).stem if bearing else "default")
+    folder.mkdir(parents=True, exist_ok=True)
+    return folder
+
+
+def find_tools():
+    """Path of cmake, after checking that there is a C compiler."""
+    compilers = [os.environ["CC"].split()[0]] if os.environ.get("CC") else ["cc", "gcc", "clang"]
+    if not any(map(shutil.which, compilers)):
+        raise UserError(f"no C compiler ({', '.join(compilers)}) found: install one, e.g. `apt-get install gcc`, or set CC")
+    return tool("cmake") or no_tool("cmake")
+
+
+def tool(name):
+    """A program beside this Python or on the path; None if there is none."""
+    return shutil.which(name, path=sysconfig.get_path("scripts")) or shutil.which(name)
+
+
+def no_tool(name):
+    """The error for a missing program."""
+    raise UserError(f"{name} not found: `pip install {name}`, or install it with the system's packages")
+
+
+def generator(folder):
+    """Ninja if it is there, except in a folder that was configured without."""
+    ninja = tool("ninja")
+    return ["-G", "Ninja", f"-DCMAKE_MAKE_PROGRAM={ninja}"] if ninja and not (folder / "Makefile").is_file() else []
+
+
+def given_table(path, case, folder, coarse, say):
+    """Absolute path of the user's rivet table, or of the one made for the user's geometry; UserError if it cannot be had or is for another cage."""
+    path = Path(path)
+    if path.suffix != ".toml":
+        read_table(path, case.Z)
+        return path.resolve()
+    return table_of(path, read_geometry(path, cage(case)), folder, coarse, say)
+
+
+def cage(case):
+    """What a bearing says of the geometry of its rivets: sizes of the cage [m] and the number of rivets."""
+    v = case.values
+    return {
+        "Z": case.Z,
+        "d_m": v["bearing.d_m"],
+        "ball_diameter": v["bearing.D"],
+        "pocket_clearance": v["cage.pocket_clearance"],
+        "cage_outer_diameter": v["cage.D_o"],
+        "cage_inner_diameter": v["cage.D_i"],
+        "cage_half_width": 2.0 * v["cage.x_c"],
+        "patch_radius": round((v["cage.D_o"] - v["cage.D_i"]) / 4.0, 12),  # without the rounding of the difference: the table's digest knows every bit
+    }
+
+
+def rivet_table(case, folder):
+    """The tracked rivet table if it was made for this bearing's cage, else a new one from closed forms; UserError if the cage has no room for rivets."""
+    try:
+        geometry = Geometry(**cage(case))
+    except ValueError as problem:
+        raise UserError(f"{case.designation}: {problem}") from None
+    if geometry.digest == Geometry().digest:
+        return DEFAULT_TABLE
+    path = folder / "rivet_table.json"
+    table.write(closed_form.make_table(geometry), path)
+    return path
+
+
+def execute(command, folder, say):
+    """Run one program of the build, its output in BUILD/build.log; UserError with the first error lines if it fails."""
+    lines = []
+    with subprocess.Popen([str(part) for part in command], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, errors="replace") as process:
+        for line in process.stdout:
+            lines.append(line)
+            if match := STEP.match(line):
+                done, of, percent = match.groups()
+                say("compiling", int(percent) / 100 if percent else int(done) / int(of))
+    (folder / "build.log").write_text("".join(lines))
+    if process.returncode:
+        raise UserError(f"{Path(str(command[0])).name} failed: {essence(lines)} (all of it in {folder / 'build.log'})")
+
+
+def essence(lines):
+    """The lines that tell what went wrong: those with an error and what follows, else the last ones."""
+    lines = [line.strip() for line in lines if line.strip() and not STEP.match(line)]
+    first = next((i for i, line in enumerate(lines) if re.search(r"\berror\b|^generate:|^rivet table:", line, re.IGNORECASE)), max(len(lines) - 3, 0))
+    return " ".join(lines[first : first + 3])
+
+
+def try_start(fmu):
+    """Initialize the FMU at its start values; UserError with its reason if it refuses."""
+    with Instance(Model(fmu)) as instance:
+        instance.initialize(Scene(name="start values of the bearing"))

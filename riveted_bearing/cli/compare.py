@@ -1,0 +1,50 @@
+"""riveted-bearing compare: the FMU against the Python reference."""
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+from rich.markup import escape
+from rich.progress import BarColumn, Progress, SpinnerColumn, TextColumn
+
+from ..results import make_folder
+from ..scene import load_scene
+from .terminal import FMU, SETTINGS, changes, command, console, messages, number_or_text
+
+
+@command
+def compare(
+    scene: Annotated[str, typer.Argument(help="scene file (TOML) or one of the shipped scenes")],
+    fmu: FMU = None,
+    out: Annotated[Path, typer.Option(help="folder for the picture")] = Path("results"),
+    settings: SETTINGS = None,
+    short: Annotated[str, typer.Option(help="horizon of the comparison point by point")] = "1 ms",
+    long: Annotated[str, typer.Option(help="horizon of the statistics, 0 for none; 0.1 s take the reference some minutes")] = "0.1 s",
+    seeds: Annotated[int, typer.Option(help="runs of the FMU over the long horizon")] = 8,
+    method: Annotated[str, typer.Option(help="the reference's method over the short horizon: DOP853, Radau where films or joints are stiff")] = "DOP853",
+):
+    """Run a scene through the FMU and through the Python reference: differences in tables and a picture."""
+    from ..compare import compare as compare_scene
+    from ..compare import ledger_table, long_table, short_table
+    from ..fmu import Model
+    from ..plot import plot_comparison
+    from ..scene import seconds
+
+    model = Model(fmu)
+    plan = load_scene(scene, model, ("the command line", changes(model, settings or [], None, None, None)))
+    make_folder(out)
+    horizons = {name: seconds(f"--{name}", number_or_text(text)) for name, text in (("short", short), ("long", long))}
+    with Progress(SpinnerColumn(), TextColumn("{task.description}"), BarColumn(bar_width=30), console=messages, disable=not messages.is_terminal) as bar:
+        task = bar.add_task("FMU, short horizon", total=1.0)
+        found = compare_scene(
+            model, plan, **horizons, seeds=seeds, method=method, progress=lambda what, share: bar.update(task, description=what, completed=share)
+        )
+    console.print(f"[bold]{escape(plan.name)}[/]: FMU against reference over {1e3 * found.t[-1]:g} ms, at tolerances of the FMU", soft_wrap=True)
+    console.print(short_table(found))
+    if found.statistics:
+        console.print(f"\n[bold]Statistics[/] from {found.settle:g} to {found.long:g} s, {found.seeds} seeds of the FMU, one of the reference", soft_wrap=True)
+        console.print(long_table(found))
+        console.print("\n[bold]Energy in the reference[/]")
+        console.print(ledger_table(found.ledger))
+    path = plot_comparison(found, out / f"{Path(scene).stem}_compare.png")
+    console.print(f"picture  [cyan]{escape(str(path))}[/]", soft_wrap=True)

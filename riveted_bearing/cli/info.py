@@ -1,0 +1,136 @@
+"""riveted-bearing info: what can be said of a bearing before any simulation."""
+
+import math
+from typing import Annotated
+
+import numpy as np
+import typer
+from rich.markup import escape
+from rich.table import Column, Table
+
+from bearing_model.kinematics import fault_frequencies
+
+from ..summary import DEG, RPM
+from .terminal import FMU, command, console
+
+
+@command
+def info(
+    target: Annotated[str, typer.Argument(metavar="BEARING|SCENE", help="bearing file or designation, or scene file or name")] = "6207",
+    fmu: FMU = None,
+):
+    """Geometry, masses, kinematic and fault frequencies, quasi-static loads and life."""
+    from ..bearings import case_of
+
+    case = case_of(target, fmu)
+    console.print(f"[bold]{escape(case.designation)}[/]  {escape(case.description)}", soft_wrap=True)
+    for title, table in info_tables(case):
+        console.print(f"\n[bold]{title}[/]", soft_wrap=True)
+        console.print(table)
+
+
+def info_tables(case):
+    """Tables for the terminal: (title, rich table) for geometry, frequencies, equilibrium and the single balls."""
+    state = case.equilibrium()
+    return [
+        ("Geometry and masses", pairs(geometry(case))),
+        (f"Frequencies at {RPM * case.load.omega:,.0f} r/min", frequencies(case, state)),
+        (f"Quasi-static equilibrium, {load_text(case.load)}", pairs(equilibrium(case, state))),
+        ("Balls", balls(state)),
+    ]
+
+
+def geometry(case):
+    """Name, value and unit of what the bearing is."""
+    bearing, values, catalogue = case.bearing, case.values, case.catalogue
+    if all(key in catalogue for key in ("bore", "outside_diameter", "width")):
+        yield "bore x outside diameter x width", " x ".join(f"{1e3 * catalogue[key]:g}" for key in ("bore", "outside_diameter", "width")), "mm"
+    if "C" in catalogue and "C_0" in catalogue:
+        yield "load ratings C, C_0", f"{1e-3 * catalogue['C']:g}, {1e-3 * catalogue['C_0']:g}", "kN"
+    yield "balls", f"{case.Z} x {1e3 * bearing.D:g}", "mm"
+    yield "pitch diameter", f"{1e3 * bearing.d_m:g}", "mm"
+    yield "groove radius / ball diameter, inner, outer", f"{bearing.f_i:g}, {bearing.f_e:g}", ""
+    yield "diametral clearance", f"{1e6 * bearing.clearance:g}", "um"
+    yield "free contact angle", f"{DEG * bearing.free_contact_angle:.2f}", "deg"
+    yield "pocket, guide clearance (diametral)", f"{1e3 * values['cage.pocket_clearance']:g}, {1e3 * values['cage.guide_clearance']:g}", "mm"
+    yield "mass of a ball, a cage half", f"{1e3 * bearing.ball_mass:.3g}, {1e3 * values['cage.m']:.3g}", "g"
+    yield "mass of the inner ring and its share of shaft", f"{values['ring.m']:g}", "kg"
+
+
+def frequencies(case, state):
+    """Cage, ball pass and ball spin frequencies, for pure radial contact and in the equilibrium."""
+    table = Table("", *(Column(text, justify="right") for text in ("alpha = 0", "as loaded")), "", box=None, pad_edge=False)
+    nominal, loaded = fault_frequencies(case.load.omega, case.bearing.D, case.bearing.d_m, case.Z), state.frequencies
+    rows = (("cage (FTF)", "FTF"), ("balls over the outer race (BPFO)", "BPFO"), ("balls over the inner race (BPFI)", "BPFI"), ("spin of a ball (BSF)", "BSF"))
+    for label, name in rows:
+        table.add_row(label, f"{getattr(nominal, name):.1f}", f"{getattr(loaded, name):.1f}", "Hz")
+    return table
+
+
+def load_text(load):
+    """The loads in words."""
+    parts = [f"{name} {getattr(load, name):g} N" for name in ("F_x", "F_y", "F_z") if getattr(load, name)]
+    parts += [f"{name} {DEG * getattr(load, name):g} deg" for name in ("tilt_y", "tilt_z") if getattr(load, name)]
+    if not math.isinf(load.k_tilt):
+        parts.append(f"k_tilt {load.k_tilt:g} N.m/rad")
+    return ", ".join(parts) or "no load"
+
+
+def equilibrium(case, state):
+    """Name, value and unit of what the loads do."""
+    loaded = state.Q_i > 0.0
+    yield "ring displacement x, y, z", ", ".join(fixed(1e6 * value, 2) for value in (state.x, state.y, state.z)), "um"
+    yield "ring tilt y, z", f"{fixed(DEG * state.tilt_y, 4)}, {fixed(DEG * state.tilt_z, 4)}", "deg"
+    yield "stiffness x, y, z (tilt held)", ", ".join(f"{1e-6 * value:.3g}" for value in np.diag(state.K)[:3]), "N/um"
+    yield "balls carrying on the inner race", f"{loaded.sum()} of {case.Z}", ""
+    yield "largest contact load inner, outer", f"{state.Q_i.max():.0f}, {state.Q_e.max():.0f}", "N"
+    yield "largest pressure inner, outer", f"{1e-6 * state.p_i.max():.0f}, {1e-6 * state.p_e.max():.0f}", "MPa"
+    yield "cage speed", f"{RPM * state.omega_m:,.0f}", "r/min"
+    yield "centrifugal force of a ball", f"{state.F_c.mean():.1f}", "N"
+    if case.bearing.C_0 and math.isfinite(state.S_0):
+        yield "P_0, static safety S_0 = C_0/P_0 (ISO 76)", f"{state.P_0:.0f} N, {state.S_0:.3g}", ""
+    if math.isfinite(state.pressure_safety):
+        yield "safety by pressure, (4200 MPa/p_max)^3", f"{state.pressure_safety:.3g}", ""
+    if case.bearing.C and math.isfinite(state.L_10r):
+        yield "reference life L_10r (ISO/TS 16281)", *life(case.standard_equilibrium().L_10r, case.load)
+        yield "L_10r, exact kinematics, at speed", *life(state.L_10r, case.load)
+
+
+def life(L_10r, load):
+    """A life in 10^6 revolutions as text and unit, with its hours if the bearing turns."""
+    turns = f"{L_10r:.4g}"
+    return (f"{turns}, {L_10r * 1e6 * 2.0 * math.pi / abs(load.omega) / 3600.0:.4g}", "1e6 turns, h") if load.omega else (turns, "1e6 turns")
+
+
+def balls(state):
+    """One line per ball."""
+    names = ("azimuth", "Q_i", "Q_e", "alpha_i", "alpha_e", "p_i", "p_e", "spin/roll i")
+    table = Table("ball", *(Column(name, justify="right") for name in names), box=None, pad_edge=False)
+    table.add_row("", "deg", "N", "N", "deg", "deg", "MPa", "MPa", "", style="dim")
+    rows = zip(state.psi, state.Q_i, state.Q_e, state.alpha_i, state.alpha_e, state.p_i, state.p_e, state.spin_i, state.omega_R, strict=True)
+    for j, (psi, Q_i, Q_e, alpha_i, alpha_e, p_i, p_e, spin, roll) in enumerate(rows, 1):
+        table.add_row(
+            str(j),
+            f"{DEG * psi:.0f}",
+            f"{Q_i:.0f}",
+            f"{Q_e:.0f}",
+            fixed(DEG * alpha_i, 2) if Q_i > 0.0 else "-",
+            fixed(DEG * alpha_e, 2) if Q_e > 0.0 else "-",
+            f"{1e-6 * p_i:.0f}",
+            f"{1e-6 * p_e:.0f}",
+            f"{abs(spin / roll):.3f}" if Q_i > 0.0 and roll else "-",
+        )
+    return table
+
+
+def fixed(value, digits):
+    """A number with so many digits after the point, without a minus sign before zero."""
+    return f"{round(value, digits) + 0.0:.{digits}f}"
+
+
+def pairs(rows):
+    """A table of names, values and units."""
+    table = Table("", Column("", justify="right"), "", box=None, pad_edge=False, show_header=False)
+    for row in rows:
+        table.add_row(*row)
+    return table

@@ -1,0 +1,21 @@
+"""riveted-bearing report: one HTML page for each run."""
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+from rich.markup import escape
+
+from .terminal import command, console
+
+
+@command
+def report(
+    results: Annotated[Path, typer.Argument(help="result file of `run`, or a folder of such files")],
+    out: Annotated[Path | None, typer.Option(help="the page to write, a folder for several; default: beside the results")] = None,
+):
+    """One HTML page per run that needs nothing else: figures, charts, and the motion to play and scrub."""
+    from ..report import report_pages
+
+    for path in report_pages(results, out):
+        console.print(f"report  [cyan]{escape(str(path))}[/]", soft_wrap=True)

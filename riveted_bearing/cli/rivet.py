@@ -1,0 +1,30 @@
+"""riveted-bearing rivet: what the rivet of a table or a geometry carries."""
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+from rich.markup import escape
+
+from ..results import make_folder
+from .terminal import command, console, messages
+
+
+@command
+def rivet(
+    source: Annotated[Path | None, typer.Argument(metavar="TABLE|GEOMETRY", help="rivet table (JSON) or geometry (TOML); default: the table shipped")] = None,
+    out: Annotated[Path, typer.Option(help="folder for the pictures")] = Path("results"),
+):
+    """Stress of the rivet over preload, fit and transverse load; pictures of curves, mesh, deformed section and stress."""
+    from ..rivet import curve_tables, rivet_curves, write_pictures
+
+    make_folder(out)
+    with messages.status("finite elements"):
+        title, curves, joint = rivet_curves(source)
+        paths = write_pictures(out, title, curves, joint)
+    console.print(f"[bold]{escape(title)}[/]", soft_wrap=True)
+    for name, rows in curve_tables(curves):
+        console.print(f"\n[bold]{name}[/]", soft_wrap=True)
+        console.print(rows)
+    for path in paths:
+        console.print(f"picture  [cyan]{escape(str(path))}[/]", soft_wrap=True)

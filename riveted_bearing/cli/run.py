@@ -1,0 +1,95 @@
+"""riveted-bearing run: one scene through the FMU."""
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+from rich.markup import escape
+from rich.table import Column, Table
+
+from ..errors import UserError, unknown
+from ..results import FORMATS, make_folder, write_result
+from ..scene import load_scene, shipped_scenes
+from .terminal import FMU, SETTINGS, STOPPED, changes, command, console, messages, simulation_progress
+
+
+@command
+def run(
+    scene: Annotated[str, typer.Argument(help=f"scene file (TOML) or one of the shipped scenes: {', '.join(shipped_scenes())}")],
+    fmu: FMU = None,
+    out: Annotated[Path, typer.Option(help="folder, or file whose suffix is the format")] = Path("results"),
+    format: Annotated[str | None, typer.Option(help=f"{', '.join(FORMATS)} (default: the suffix of --out, else {FORMATS[0]})")] = None,
+    settings: SETTINGS = None,
+    seed: Annotated[int | None, typer.Option(help="start.seed: initial spacing of the balls")] = None,
+    t_end: Annotated[str | None, typer.Option(help='simulated time, e.g. 0.4 or "400 ms"')] = None,
+    step: Annotated[str | None, typer.Option(help='communication step, e.g. 1e-4 or "0.1 ms"')] = None,
+    plot: Annotated[bool, typer.Option(help="write a picture beside the results")] = True,
+):
+    """Simulate a scene: progress, a summary, results with all parameters inside, and a picture."""
+    from ..fmu import Model
+    from ..runner import simulate
+
+    target = result_path(scene, out, format)
+    model = Model(fmu)
+    plan = load_scene(scene, model, ("the command line", changes(model, settings or [], seed, t_end, step)))
+    make_folder(target.parent)
+    with simulation_progress(plan) as progress:
+        result = simulate(model, plan, progress)
+    print_summary(result)
+    paths = [write_result(result, target)]
+    if plot:
+        from ..plot import plot_result
+
+        paths.append(plot_result(result, target.with_suffix(".png")))
+    for label, path in zip(("results", "picture"), paths, strict=False):
+        console.print(f"{label}  [cyan]{escape(str(path))}[/]", soft_wrap=True)
+    console.print(f"FMU      [cyan]{escape(str(model.path))}[/]", soft_wrap=True)
+    console.print(f"[dim]riveted-bearing report {escape(str(paths[0]))}[/]  a page with charts, life and the motion to play", soft_wrap=True)
+    if result.stopped:
+        messages.print(f"[bold red]stopped:[/] {escape(result.stopped)}", soft_wrap=True)
+        raise typer.Exit(STOPPED)
+
+
+def result_path(scene, out, kind):
+    """File of the results: --out itself if it has the suffix of a format, else named after the scene in the folder --out."""
+    suffix = out.suffix.removeprefix(".")
+    if kind is not None and kind not in FORMATS:
+        raise unknown("--format", "format", kind, FORMATS)
+    if suffix not in FORMATS:
+        return out / f"{Path(scene).stem}.{kind or FORMATS[0]}"
+    if kind not in (None, suffix):
+        raise UserError(f"--out {out}: does not go with --format {kind}")
+    return out
+
+
+def print_summary(result):
+    """The figures of a run on the terminal."""
+    from ..summary import rivet_rows, summary_rows
+
+    about, summary = result.about, result.summary
+    console.print(f"[bold]{escape(about['scene'])}[/]  {escape(about['description'])}", soft_wrap=True)
+    table = Table("", "unit", *(Column(text, justify="right") for text in ("mean", "RMS", "p99.9", "max")), box=None, pad_edge=False)
+    for row in summary_rows(result):
+        mark = "" if row.every_step else " *"
+        table.add_row(row.channel + mark, row.unit, *(f"{value:.4g}" for value in (row.mean, row.rms, row.p999, row.largest)))
+    console.print(table)
+    rivets = rivet_rows(result)
+    if rivets:
+        worst = max(rivets, key=lambda row: row[1].p999)
+        console.print(f"worst rivet: {worst[0]} (head p99.9 {worst[1].p999:.4g} MPa, middle p99.9 {worst[2].p999:.4g} MPa)")
+    settle = result.parameters.get("start.settle", 0.0)
+    if summary["simulated_time"] > settle:
+        console.print(f"[dim]after the first {settle:g} s; every internal step, * at communication points only[/]")
+    else:
+        messages.print(f"[yellow]note:[/] no statistics: they begin at start.settle = {settle:g} s, and the run ended at {summary['simulated_time']:g} s")
+    counters = {name: f"{summary[f'solver.{name}']:,.0f}" for name in ("steps", "rhs_evals", "error_tests_failed") if f"solver.{name}" in summary}
+    if counters:
+        console.print(f"{counters['steps']} steps, {counters['rhs_evals']} evaluations of the equations, {counters['error_tests_failed']} steps rejected")
+    console.print(
+        f"simulated {summary['simulated_time']:g} s in {summary['wall_time']:.2f} s, CPU time {summary['cpu_time']:.2f} s, "
+        f"[bold]real-time factor {summary['real_time_factor']:.2f}[/] (CPU time / simulated time)",
+        soft_wrap=True,
+    )
+    for text in dict.fromkeys(about.get("messages", [])):
+        if not result.stopped or text not in result.stopped:
+            messages.print(f"[yellow]note:[/] {escape(text)}", soft_wrap=True)

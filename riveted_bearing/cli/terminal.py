@@ -1,0 +1,136 @@
+"""What the commands share: the program itself, its two consoles, how a command is added, options, progress bars."""
+
+import functools
+from pathlib import Path
+from typing import Annotated
+
+import typer
+from rich.console import Console
+from rich.markup import escape
+from rich.progress import BarColumn, MofNCompleteColumn, Progress, ProgressColumn, TextColumn, TimeRemainingColumn
+from rich.text import Text
+
+from ..errors import UserError, unknown
+
+BAD_INPUT, STOPPED = 2, 3  # exit codes
+program = typer.Typer(no_args_is_help=True, add_completion=False, pretty_exceptions_enable=False)
+console = Console(highlight=False)
+messages = Console(stderr=True, highlight=False)
+
+# Options that several commands have.
+FMU = Annotated[Path | None, typer.Option("--fmu", help="the FMU; default: RivetedBearing.fmu here, in the checkout or as installed")]
+SETTINGS = Annotated[
+    list[str] | None, typer.Option("--set", help='parameter or constant input, e.g. --set joint.preload="30 N"; repeatable', metavar="NAME=VALUE")
+]
+SCHEDULER = Annotated[str | None, typer.Option("--scheduler", help="address of a running Dask scheduler; default: processes of this machine")]
+WORKERS = Annotated[int | None, typer.Option("--workers", min=1, help="number of local processes; default: one for each core")]
+
+
+@program.callback()
+def main():
+    """riveted-bearing: dynamics of a ball bearing with a two-piece riveted cage, as an FMU."""
+
+
+def command(function):
+    """A command of the program: what the user can put right is one line on stderr and exit code 2."""
+
+    @functools.wraps(function)
+    def guarded(*arguments, **options):
+        try:
+            return function(*arguments, **options)
+        except UserError as problem:
+            messages.print(f"[bold red]error:[/] {escape(str(problem))}", soft_wrap=True)
+            raise typer.Exit(BAD_INPUT) from None
+
+    return program.command()(guarded)
+
+
+def changes(model, settings, seed, t_end, step):
+    """The command line's options as a document like a scene file's."""
+    document = {"parameters": {}, "inputs": {}, "simulation": {}}
+    for setting in settings:
+        name, equals, value = setting.partition("=")
+        if not equals:
+            raise UserError(f'--set {setting}: not of the form NAME=VALUE, e.g. joint.preload="30 N"')
+        section = "inputs" if name.strip() in model.inputs else "parameters"
+        document[section][name.strip()] = number_or_text(value.strip().strip("\"'"))
+        if section == "parameters" and name.strip() not in model.parameters:
+            raise unknown("--set", "parameter or input", name.strip(), [*model.parameters, *model.inputs])
+    if seed is not None:
+        document["parameters"]["start.seed"] = seed
+    document["simulation"] |= {key: number_or_text(value) for key, value in (("t_end", t_end), ("step", step)) if value is not None}
+    return document
+
+
+def number_or_text(value):
+    """An int or float if the text is one."""
+    for kind in (int, float):
+        try:
+            return kind(value)
+        except ValueError:
+            pass
+    return value
+
+
+class RealTimeFactor(ProgressColumn):
+    """Wall time per simulated time so far."""
+
+    def render(self, task):
+        elapsed = task.elapsed or 0.0
+        return Text(f"{elapsed / task.completed:.2f} x real time" if task.completed else "")
+
+
+class Remaining(ProgressColumn):
+    """Wall time still needed at the speed so far."""
+
+    def render(self, task):
+        if not task.completed:
+            return Text("")
+        return Text(f"{(task.elapsed or 0.0) * (task.total / task.completed - 1.0):.0f} s left")
+
+
+class simulation_progress:
+    """A progress bar for a scene on a terminal, nothing in a pipe; as a context manager it gives the function to call with the simulated time [s]."""
+
+    def __init__(self, scene):
+        self.bar = Progress(
+            TextColumn("{task.description}"),
+            BarColumn(bar_width=30),
+            TextColumn("{task.completed:.3f} of {task.total:g} s"),
+            RealTimeFactor(),
+            Remaining(),
+            console=messages,
+            disable=not messages.is_terminal,
+            transient=True,
+        )
+        self.task = self.bar.add_task(scene.name, total=scene.t_end)
+
+    def __enter__(self):
+        self.bar.start()
+        return lambda t: self.bar.update(self.task, completed=t)
+
+    def __exit__(self, *_):
+        self.bar.stop()
+
+
+class sweep_progress:
+    """Progress bars over runs on a terminal, nothing in a pipe; as a context manager it gives the function to call with the sweep's name and its runs
+    done, failed and in all."""
+
+    def __init__(self):
+        columns = (TextColumn("{task.description}"), BarColumn(bar_width=30), MofNCompleteColumn(), TextColumn("{task.fields[failed]}"), TimeRemainingColumn())
+        self.bar = Progress(*columns, console=messages, disable=not messages.is_terminal, transient=True, speed_estimate_period=300.0)
+
+    def __enter__(self):
+        self.bar.start()
+        tasks = {}
+
+        def progress(name, done, failed, total):
+            if name not in tasks:  # what an earlier call has done does not count for the speed
+                tasks[name] = self.bar.add_task(name, total=total, completed=done, failed="")
+            self.bar.update(tasks[name], completed=done + failed, failed=f"[red]{failed} failed[/]" if failed else "")
+
+        return progress
+
+    def __exit__(self, *_):
+        self.bar.stop()

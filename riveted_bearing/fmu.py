@@ -1,0 +1,221 @@
+"""The FMU seen from Python: what it offers (Model) and one running instance of it (Instance)."""
+
+import ctypes
+import functools
+import shutil
+import weakref
+from numbers import Integral
+from pathlib import Path
+
+import numpy as np
+from fmpy import extract, read_model_description
+from fmpy.fmi1 import FMICallException
+from fmpy.fmi2 import FMU2Slave, defaultCallbacks, fmi2CallbackFunctions, fmi2CallbackLoggerTYPE, fmi2LastSuccessfulTime, fmi2ValueReference
+from fmpy.logging import addLoggerProxy
+
+from .errors import UserError
+from .units import suffix, to_si, unit_table
+
+FMU_NAME = "RivetedBearing.fmu"
+PACKAGE = Path(__file__).resolve().parent
+LEVELS = ("ok", "warning", "discard", "error", "fatal", "pending")
+LOGS = {}  # component environment -> log of its instance
+
+
+@fmi2CallbackLoggerTYPE
+def keep_message(environment, name, status, category, message):
+    """Callback of all FMUs' loggers: fmpy's proxy, which formats the message, knows only one, so the instances differ by their environment."""
+    if environment in LOGS:
+        LOGS[environment].append((LEVELS[status], message.decode(errors="replace").strip()))
+
+
+def default_fmu():
+    """The FMU of the working directory, of the checkout, or the one installed with the package; UserError if there is none."""
+    places = [Path.cwd() / FMU_NAME, PACKAGE.parent / "fmus" / FMU_NAME, PACKAGE / FMU_NAME]
+    for path in places:
+        if path.is_file():
+            return path
+    raise UserError(f"no FMU yet: `riveted-bearing build` makes one (looked for {', '.join(map(str, places))})")
+
+
+class Model:
+    """What an FMU offers: its variables by name, with units, limits and enumerations.
+
+    path: the .fmu file, None for the default one.  Raises UserError if it is not a co-simulation FMU of FMI 2.0.
+    """
+
+    def __init__(self, path=None):
+        self.path = Path(path) if path else default_fmu()
+        if not self.path.is_file():
+            raise UserError(f"{self.path}: no such FMU")
+        try:
+            self.description = read_model_description(str(self.path), validate=False)
+        except Exception as problem:  # fmpy raises whatever zip and XML readers raise
+            raise UserError(f"{self.path}: not a readable FMU: {problem}") from None
+        if self.description.coSimulation is None or not self.description.fmiVersion.startswith("2."):
+            raise UserError(f"{self.path}: not a co-simulation FMU of FMI 2.0")
+        self.units = {"1": {"1": (1.0, 0.0)}, None: {"1": (1.0, 0.0)}} | unit_table(self.description.unitDefinitions)
+        variables = self.description.modelVariables
+        self.parameters = {v.name: v for v in variables if v.causality == "parameter"}
+        self.inputs = {v.name: v for v in variables if v.causality == "input"}
+        self.outputs = {v.name: v for v in variables if v.causality == "output"}
+
+    @functools.cached_property
+    def folder(self):
+        """The FMU unpacked, for all its instances: removed with the Model."""
+        folder = extract(str(self.path))
+        weakref.finalize(self, shutil.rmtree, folder, ignore_errors=True)
+        return folder
+
+    def parameter_value(self, value, variable):
+        """A parameter's value checked: SI number, integer or item name of its enumeration."""
+        if variable.type == "Enumeration":
+            if not isinstance(value, str) or value not in codes(variable):
+                raise UserError(f"allowed: {', '.join(codes(variable))}")
+            return value
+        if variable.type == "Integer":
+            if isinstance(value, bool) or not isinstance(value, Integral):
+                raise UserError("not an integer")
+            number = int(value)
+        else:
+            number = to_si(value, self.units[variable.unit])
+        self.check_range(number, variable)
+        return number
+
+    def check_range(self, number, variable):
+        """UserError if an SI value is outside the limits of its variable."""
+        low = -np.inf if variable.min is None else float(variable.min)
+        high = np.inf if variable.max is None else float(variable.max)
+        if not low <= number <= high:
+            symbol, (factor, offset) = self.display(variable)
+            value, low, high = (f"{factor * limit + offset:.6g}" for limit in (number, low, high))
+            raise UserError(f"{value}{suffix(symbol)} is out of range, allowed: {low} ... {high}{suffix(symbol)}")
+
+    def display(self, variable):
+        """Symbol, (factor, offset) of the unit in which people read a variable."""
+        scales = self.units[variable.unit]
+        symbol = variable.displayUnit or variable.unit or "1"
+        return symbol, scales[symbol]
+
+    def default(self, variable):
+        """Start value of a parameter or input, item name for an enumeration."""
+        if variable.type == "Enumeration":
+            return item_name(variable, int(variable.start))
+        return int(variable.start) if variable.type == "Integer" else float(variable.start)
+
+
+def codes(variable):
+    """Item names of an enumeration with their numbers."""
+    return {item.name: int(item.value) for item in variable.declaredType.items}
+
+
+def item_name(variable, code):
+    """Item name of an enumeration's number."""
+    return next(name for name, number in codes(variable).items() if number == code)
+
+
+class Instance:
+    """One instance of an FMU, from instantiation to freeing (a context manager).  Everything the FMU logs is kept in `log`."""
+
+    def __init__(self, model):
+        self.model = model
+        self.log = []
+
+    def __enter__(self):
+        description = self.model.description
+        try:
+            self.fmu = FMU2Slave(
+                guid=description.instantiationToken,
+                unzipDirectory=self.model.folder,
+                modelIdentifier=description.coSimulation.modelIdentifier,
+                instanceName=description.modelName,
+            )
+            self.fmu.instantiate(callbacks=self.callbacks())
+        except Exception as problem:
+            self.forget()
+            raise UserError(f"{self.model.path}: cannot be loaded: {'; '.join([str(problem), *(message for _, message in self.log)])}") from None
+        return self
+
+    def __exit__(self, *_):
+        self.fmu.freeInstance()
+        self.forget()
+
+    def callbacks(self):
+        """Memory and logging functions for the FMU."""
+        LOGS[id(self)] = self.log
+        callbacks = fmi2CallbackFunctions()
+        callbacks.logger = keep_message
+        callbacks.allocateMemory = defaultCallbacks.allocateMemory
+        callbacks.freeMemory = defaultCallbacks.freeMemory
+        addLoggerProxy(ctypes.byref(callbacks))
+        callbacks.componentEnvironment = id(self)
+        return callbacks
+
+    def forget(self):
+        """Remove the log's registration."""
+        LOGS.pop(id(self), None)
+
+    def complaints(self):
+        """What the FMU had to say when it failed, the last messages last."""
+        lines = [message for level, message in self.log if level in ("discard", "error", "fatal")] or [message for _, message in self.log[-3:]]
+        return "; ".join(lines) or "the FMU gave no reason"
+
+    def initialize(self, scene):
+        """Set parameters and the inputs at the start, then find the quasi-static start; UserError with the FMU's reason if it refuses."""
+        inputs = {name: float(history(0.0)) for name, history in scene.inputs.items()}
+        try:
+            for name, value in scene.parameters.items():
+                self.set_parameter(self.model.parameters[name], value)
+            self.fmu.setReal([self.model.inputs[name].valueReference for name in inputs], list(inputs.values()))
+            self.fmu.setupExperiment(tolerance=scene.tolerance, startTime=0.0, stopTime=scene.t_end)
+            self.fmu.enterInitializationMode()
+            self.fmu.exitInitializationMode()
+        except FMICallException:
+            raise UserError(f"{scene.name}: the FMU refuses to start: {self.complaints()}") from None
+
+    def set_parameter(self, variable, value):
+        """Set one parameter given as SI value or item name."""
+        if variable.type == "Real":
+            self.fmu.setReal([variable.valueReference], [value])
+        elif variable.type == "Enumeration":
+            self.fmu.setInteger([variable.valueReference], [codes(variable)[value]])
+        else:
+            self.fmu.setInteger([variable.valueReference], [value])
+
+    def parameters(self):
+        """All parameters as the FMU has them: SI value or item name by full name."""
+        values = {}
+        for name, variable in self.model.parameters.items():
+            if variable.type == "Real":
+                values[name] = self.fmu.getReal([variable.valueReference])[0]
+            else:
+                value = self.fmu.getInteger([variable.valueReference])[0]
+                values[name] = item_name(variable, value) if variable.type == "Enumeration" else value
+        return values
+
+    def read(self, names):
+        """Present values of the named outputs."""
+        return dict(zip(names, self.reader(names)().tolist()))
+
+    def reader(self, names):
+        """A function that reads the named variables, with one call of the FMU, into an array that its next call overwrites."""
+        variables = self.model.inputs | self.model.outputs
+        references = (fmi2ValueReference * len(names))(*(variables[name].valueReference for name in names))
+        buffer = (ctypes.c_double * len(names))()
+        values = np.frombuffer(buffer)
+        component, get_real = self.fmu.component, self.fmu.fmi2GetReal
+
+        def read():
+            get_real(component, references, len(references), buffer)
+            return values
+
+        return read
+
+    def last_successful_time(self, otherwise):
+        """Time up to which a discarded step got [s]."""
+        value = ctypes.c_double(otherwise)
+        try:
+            self.fmu.fmi2GetRealStatus(self.fmu.component, fmi2LastSuccessfulTime, ctypes.byref(value))
+        except FMICallException:
+            pass
+        return value.value

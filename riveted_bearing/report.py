@@ -1,0 +1,266 @@
+"""A run as one HTML page that needs nothing else: what was run, stress, loads, cage, life, solver, and the motion to play and scrub."""
+
+import json
+import math
+from dataclasses import replace
+from importlib.resources import files
+from pathlib import Path
+
+import jinja2
+import numpy as np
+
+from bearing_model import variables
+
+from . import charts, plot
+from .animation import frames, number_of_balls
+from .errors import UserError
+from .life import rivet_life
+from .results import FORMATS, read_result, write_atomically
+from .summary import DEG, RPM, columns, settled, summary_rows
+
+PARTS = files("riveted_bearing") / "data" / "report"
+WIDE, LOW, SQUARE, HIGH = (4.9, 2.7), (4.9, 1.9), (4.9, 4.2), (4.9, 3.0)  # inches
+DISPLAY = {"rad/s": (RPM, "rev/min"), "rad": (DEG, "deg"), "Pa": (1e-6, "MPa"), "m": (1e3, "mm")}
+
+
+def report_files(source):
+    """The result files that a path means: itself, or all of a folder; UserError if there are none."""
+    source = Path(source)
+    if not source.is_dir():
+        return [source]
+    found = sorted(path for path in source.iterdir() if path.suffix.removeprefix(".") in FORMATS and not path.name.startswith("."))
+    if not found:
+        raise UserError(f"{source}: no results in this folder; allowed are files ending in {', '.join(FORMATS)}")
+    return found
+
+
+def report_pages(source, out=None):
+    """Write a page for each result that a path means, and give back their paths one by one.
+
+    out: file, or folder for the pages; None for beside the results.  Raises UserError if there is no result, or if several are to go into one file.
+    """
+    sources, out = report_files(source), Path(out) if out else None
+    as_file = out is not None and out.suffix in (".html", ".htm")
+    if as_file and len(sources) > 1:
+        raise UserError(f"--out {out}: one page for {len(sources)} results; allowed is a folder")
+    for path in sources:
+        name = path.with_suffix(".html")
+        yield write_report(read_result(path), out if as_file else out / name.name if out else name)
+
+
+def write_report(result, path):
+    """Write the page of a result, whole or not at all; returns the path."""
+    page = render(result)
+    write_atomically(Path(path), lambda temporary: temporary.write_text(page, encoding="utf-8"))
+    return Path(path)
+
+
+def render(result):
+    """The page as text."""
+    environment = jinja2.Environment(autoescape=True, trim_blocks=True, lstrip_blocks=True, undefined=jinja2.StrictUndefined)
+    film, missing = frames(result)
+    lives = all_lives(result)
+    return environment.from_string((PARTS / "page.html").read_text(encoding="utf-8")).render(
+        about=result.about,
+        stopped=result.stopped,
+        style=(PARTS / "style.css").read_text(encoding="utf-8"),
+        script=(PARTS / "animation.js").read_text(encoding="utf-8"),
+        film=json.dumps(film) if film else "",
+        missing=missing,
+        scale=film["scale"] if film else 1,
+        cards=cards(result, lives),
+        inputs=list(input_rows(result)),
+        settings=list(setting_rows(result)),
+        rows=[replace(row, unit=row.unit.replace("um", "µm")) for row in summary_rows(result)],
+        balls=list(ball_rows(result)),
+        settle=min(result.parameters.get("start.settle", 0.0), float(result.data["time"][-1])),
+        lives=lives,
+        worst=charts.worst_rivet(result),
+        fatigue=result.parameters.get("scene.stress") == "fatigue",
+        solver=list(solver_rows(result)),
+        charts={name: chart(result, name, lives) for name in CHARTS},
+        figure=figure,
+        duration=duration,
+    )
+
+
+def ball_channels(*names):
+    """Channels of all balls."""
+    return lambda result: [f"ball[{j}].{name}" for j in range(1, number_of_balls(result) + 1) for name in names]
+
+
+def rivet_channels(*names):
+    """Channels of all rivets."""
+    return lambda result: [f"rivet[{k}].{name}" for k in range(1, number_of_balls(result) + 1) for name in names]
+
+
+def named(*names):
+    """Channels by name."""
+    return lambda result: list(names)
+
+
+PANELS = {draw.__name__: charts.over_time((draw, names)) for draw, names in plot.OVER_TIME}
+CHARTS = {  # name: (draw(figure, result), size, label, channels without which there is nothing to draw)
+    "loads": (PANELS["loads"], LOW, "Loads on the inner ring over time", named("shaft.F_x", "shaft.F_y", "shaft.omega")),
+    "stress": (PANELS["stress"], WIDE, "Largest rivet stress over time", named("rivet.sigma_head_max", "rivet.sigma_mid_max")),
+    "spectra": (charts.spectra, WIDE, "Spectra of the worst rivet's stress", rivet_channels("sigma_head", "sigma_mid")),
+    "bars": (charts.rivet_bars, WIDE, "Stress of each rivet", named()),
+    "map": (charts.stress_over_azimuth, HIGH, "Head stress of each rivet over its azimuth", lambda r: ["half_0.psi", *rivet_channels("sigma_head_peak")(r)]),
+    "history": (charts.stress_over_time, HIGH, "Head stress of each rivet over time", rivet_channels("sigma_head_peak")),
+    "rainflow": (None, HIGH, "Rainflow matrix of the worst rivet's head", rivet_channels("sigma_head")),
+    "distribution": (charts.load_distribution, WIDE, "Load distribution over the azimuth", ball_channels("psi", "Q_i", "Q_e")),
+    "histogram": (charts.force_histogram, WIDE, "Histogram of contact forces", ball_channels("Q_c")),
+    "pocket": (PANELS["pocket_force"], WIDE, "Pocket force over time", named("cage.F_pocket_peak")),
+    "orbit": (charts.cage_orbit, SQUARE, "Orbit of the cage's centre", named("cage.y", "cage.z")),
+    "slip": (PANELS["slip"], LOW, "Cage slip over time", named("cage.slip_ratio")),
+    "ring": (PANELS["ring"], WIDE, "Displacement of the inner ring over time", named("ring.x", "ring.y", "ring.z")),
+    "energy": (charts.energy, LOW, "Power loss and energy balance over time", named("bearing.power_loss")),
+}
+
+
+def chart(result, name, lives):
+    """SVG of one chart, or in words which channels it lacks."""
+    draw, size, label, needs = CHARTS[name]
+    missing = [channel for channel in needs(result) if channel not in result.data]
+    if missing or len(result.data["time"]) < 16:
+        lack = f"not recorded: {', '.join(missing[:4])}{' …' if len(missing) > 4 else ''}" if missing else "too few samples"
+        return f'<p class="missing">{label}: {lack}</p>'
+    if name in ("spectra", "rainflow") and not np.any(np.diff(result.data[f"rivet[{charts.worst_rivet(result)}].sigma_head"][settled(result)])):
+        return f'<p class="missing">{label}: the stress does not change</p>'
+    if name == "rainflow":
+        k = charts.worst_rivet(result)
+        cycles = next(life["head"].cycles for life in lives if str(life["k"]) == k) * np.array([1e-6, 1e-6, 1.0])
+        return charts.svg(lambda figure: charts.rainflow_matrix(figure, cycles), size, label)
+    return charts.svg(lambda figure: draw(figure, result), size, label)
+
+
+def all_lives(result):
+    """One dict a rivet: k, RivetLife of head and middle, and the FMU's own Miner's sums if it counted."""
+    rows = []
+    if result.parameters.get("scene.stress") == "off":
+        return rows
+    for k in range(1, number_of_balls(result) + 1):
+        head, mid = (rivet_life(result, k, place) for place in ("head", "mid"))
+        if head and mid:
+            own = [float(result.data[name][-1]) if (name := f"rivet[{k}].damage_{place}") in result.data else math.nan for place in ("head", "mid")]
+            rows.append({"k": k, "head": head, "mid": mid, "fmu_head": own[0], "fmu_mid": own[1]})
+    return rows
+
+
+def cards(result, lives):
+    """The figures to see first: (title, value, unit, remark)."""
+    rows = {row.channel: row for row in summary_rows(result)}
+    for channel, title in (
+        ("head stress, worst rivet", "Head stress"),
+        ("middle stress, worst rivet", "Middle stress"),
+        ("pocket force, all balls", "Pocket force"),
+    ):
+        if channel in rows:
+            row = rows[channel]
+            yield title, figure(row.p999), row.unit, f"p99.9 · mean {figure(row.mean)} · largest {figure(row.largest)}"
+    if "cage slip ratio" in rows:
+        yield "Cage slip", figure(rows["cage slip ratio"].mean), "%", f"mean · {figure(rows['cage speed'].mean)} rev/min" if "cage speed" in rows else "mean"
+    if "cage dislocation" in rows:
+        yield "Dislocation of the halves", figure(rows["cage dislocation"].largest), "µm", f"largest · mean {figure(rows['cage dislocation'].mean)}"
+    if lives:
+        shortest = min((life[place].life, f"rivet {life['k']}, {'head' if place == 'head' else 'middle'}") for life in lives for place in ("head", "mid"))
+        yield "Life of the weakest rivet", duration(shortest[0]), "", f"{shortest[1]} · Miner's sum 1"
+    if "real_time_factor" in result.summary:
+        s = result.summary
+        yield "Real-time factor", figure(s["real_time_factor"]), "", f"{s['cpu_time']:.2f} s for {s['simulated_time']:g} s"
+
+
+def input_rows(result):
+    """Name, meaning and value of every input that is not zero all the time, in the units that people read."""
+    for name, variable in variables.INPUTS.items():
+        if name in result.data and np.any(result.data[name]):
+            factor, unit = DISPLAY.get(variable.unit, (1.0, variable.unit))
+            low, high = factor * result.data[name].min(), factor * result.data[name].max()
+            yield name, variable.description, figure(low) if low == high else f"{figure(low)} … {figure(high)}", unit
+
+
+def setting_rows(result):
+    """Name, meaning, value, unit of every parameter and whether it differs from the 6207's default."""
+    for name, value in result.parameters.items():
+        variable = variables.PARAMETERS.get(name) or variables.PARAMETERS.get("ball[j].dD" if name.startswith("ball[") else name)
+        if variable is None:
+            yield name, "", value if isinstance(value, str) else figure(value), "", False
+        elif isinstance(value, str):
+            yield name, variable.description, value, "", value != getattr(variables, variable.type)(variable.start).name.lower()
+        else:
+            factor, unit = DISPLAY.get(variable.unit, (1.0, variable.unit))
+            unit = "" if variable.type == "Integer" or unit == "1" else unit
+            yield name, variable.description, figure(factor * value), unit, not math.isclose(value, variable.start, rel_tol=1e-9, abs_tol=1e-15)
+
+
+def ball_rows(result):
+    """Smallest, mean and largest of what happens in the race contacts while they carry: (name, unit, three figures)."""
+    late = settled(result)
+    for title, name, factor, unit in (
+        ("Load, inner race", "Q_i", 1.0, "N"),
+        ("Load, outer race", "Q_e", 1.0, "N"),
+        ("Pressure, inner race", "p_i", 1e-6, "MPa"),
+        ("Pressure, outer race", "p_e", 1e-6, "MPa"),
+        ("Contact angle, inner race", "alpha_i", DEG, "deg"),
+        ("Contact angle, outer race", "alpha_e", DEG, "deg"),
+        ("Film / roughness, inner race", "Lambda_i", 1.0, ""),
+        ("Film / roughness, outer race", "Lambda_e", 1.0, ""),
+        ("Spin / roll, inner race", "spin_roll", 1.0, ""),
+    ):
+        names = columns(result, "ball[", f"].{name}")
+        loads = columns(result, "ball[", f"].Q_{'e' if name.endswith('e') else 'i'}")
+        if not names or len(names) != len(loads):
+            continue
+        values = np.concatenate([result.data[n][late] for n in names])
+        carrying = np.concatenate([result.data[n][late] for n in loads]) > 0.0
+        if carrying.any():
+            values = factor * values[carrying]
+            yield title, unit, figure(values.min()), figure(values.mean()), figure(values.max())
+
+
+def solver_rows(result):
+    """Name and value of what the solver did and of its self-checks."""
+    s = result.summary
+    for key, text in (("steps", "internal steps"), ("rhs_evals", "evaluations of the equations"), ("error_tests_failed", "steps rejected")):
+        if f"solver.{key}" in s:
+            yield text, f"{s[f'solver.{key}']:,.0f}"
+    if s.get("solver.steps"):
+        yield "mean step", f"{1e6 * s['simulated_time'] / s['solver.steps']:.2f} µs"
+    if "solver.tolerance" in s:
+        yield "tolerance", f"{s['solver.tolerance']:g}"
+    if "solver.method_used" in s:
+        yield "method", {1: "velocity Verlet", 2: "Runge–Kutta 4(3)"}.get(int(s["solver.method_used"]), f"{s['solver.method_used']:g}")
+    if "real_time_factor" in s:
+        yield "CPU time / simulated time", f"{s['real_time_factor']:.2f}"
+    if "bearing.energy_residual" in result.data:
+        yield "energy residual at the end", f"{1e3 * result.data['bearing.energy_residual'][-1]:.3g} mJ"
+    if "bearing.penetration" in result.data:
+        yield "largest elastic approach", f"{1e6 * result.data['bearing.penetration'].max():.1f} µm"
+    onsets = {name: int(result.data[name][-1]) for name in result.data if name.startswith("event.") and name.endswith("_onsets")}
+    if onsets:
+        seen = [f"{name.removeprefix('event.').removesuffix('_onsets').replace('_', ' ')} {count:,}" for name, count in onsets.items() if count]
+        yield "onsets of events", ", ".join(seen) or "none"
+    flags = columns(result, "rivet[", "].flag")
+    if flags:
+        seen = np.bitwise_or.reduce(np.concatenate([result.data[name] for name in flags]).astype(int))
+        meanings = {1: "rivet yields", 2: "flange yields", 4: "joint compressed", 8: "fit beyond the stress table"}
+        yield "flags of the rivets", ", ".join(text for bit, text in meanings.items() if seen & bit) or "none"
+
+
+def figure(value):
+    """A number with four digits, thousands apart."""
+    if isinstance(value, int) or (math.isfinite(value) and value == round(value) and 1e4 <= abs(value) < 1e7):
+        return f"{value:,.0f}" if abs(value) >= 1e4 else f"{value:g}"
+    return f"{value:,.0f}" if 1e4 <= abs(value) < 1e7 else f"{value:.4g}"
+
+
+def duration(seconds):
+    """A time in the unit in which it reads best."""
+    if not math.isfinite(seconds):
+        return "no damage"
+    hours = seconds / 3600.0
+    if hours < 0.1:
+        return f"{figure(seconds)} s"
+    if hours < 1e5:
+        return f"{hours:,.0f} h" if hours >= 100.0 else f"{hours:.3g} h"
+    return f"{hours / 8766.0:,.0f} years" if hours < 1e9 else "> 1e5 years"

@@ -1,0 +1,205 @@
+"""Results of a run, in memory and as Parquet, CSV or MAT files that carry all parameters, units and their origin inside.
+
+Parquet: one column per channel; the schema's metadata holds the key "riveted_bearing" (JSON), each field its unit.
+CSV:     a header of TOML behind "# ", then a line of names and the numbers.
+MAT:     a struct `result` nested like the names, ball[3].Q_i in column 3 of result.ball.Q_i; result.metadata is the same JSON.
+"""
+
+import json
+import os
+import re
+import tomllib
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import numpy as np
+
+from .errors import UserError
+
+FORMATS = ("parquet", "csv", "mat")
+FORMAT_VERSION = 1
+KEY = "riveted_bearing"
+
+
+@dataclass(frozen=True)
+class Result:
+    """What a run gave: data (arrays by channel, "time" [s] first), units by channel, all parameters (SI value or item name),
+    summary (statistics over every internal step, solver counters and run times at the end) and about (scene, FMU, versions, why it stopped)."""
+
+    data: dict
+    units: dict
+    parameters: dict
+    summary: dict = field(default_factory=dict)
+    about: dict = field(default_factory=dict)
+
+    def __repr__(self):
+        times = self.data.get("time", ())
+        span = f"{len(self.data)} channels at {len(times)} times to {times[-1]:g} s" if len(times) else "no data"
+        return f"<Result of scene {self.about.get('scene', '?')}: {span}{', stopped early' if self.stopped else ''}>"
+
+    @property
+    def stopped(self):
+        """Why the run ended before its time, "" if it did not."""
+        return self.about.get("stopped", "")
+
+    def metadata(self):
+        """All but the numbers over time."""
+        return {"format": FORMAT_VERSION, "about": self.about, "parameters": self.parameters, "summary": self.summary, "units": self.units}
+
+
+def write_result(result: Result, path: str | Path) -> Path:
+    """Write a result whole or not at all; the suffix of `path` (.parquet, .csv, .mat) is the format."""
+    path = Path(path)
+    write_atomically(path, lambda temporary: WRITERS[format_of(path)](result, temporary))
+    return path
+
+
+def read_result(path: str | Path) -> Result:
+    """The Result stored in a file; UserError if it is missing, damaged or something else."""
+    path = Path(path)
+    if not path.is_file():
+        raise UserError(f"{path}: no such file")
+    try:
+        data, metadata = READERS[format_of(path)](path)
+        return Result(data=data, units=metadata["units"], parameters=metadata["parameters"], summary=metadata["summary"], about=metadata["about"])
+    except UserError:
+        raise
+    except Exception as problem:  # each library has its own errors for a damaged file
+        raise UserError(f"{path}: not a result of riveted-bearing, or damaged: {problem!r}") from None
+
+
+def format_of(path):
+    """Format by suffix."""
+    kind = path.suffix.removeprefix(".")
+    if kind not in FORMATS:
+        raise UserError(f'{path}: unknown format "{kind}"; allowed: {", ".join(FORMATS)}')
+    return kind
+
+
+def make_folder(folder):
+    """Make a folder unless it is there; UserError if files cannot be written to it."""
+    folder = Path(folder)
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError as problem:
+        raise UserError(f"{folder}: no folder to write to: {problem.strerror}") from None
+    if not os.access(folder, os.W_OK | os.X_OK):
+        raise UserError(f"{folder}: no permission to write to this folder")
+
+
+def write_atomically(path, write):
+    """Let write(temporary path) make a file beside `path`, then put it in its place: never half a file.  UserError if folder or disk refuse."""
+    make_folder(path.parent)
+    temporary = path.with_name(f".{path.stem}.{os.getpid()}{path.suffix}")
+    try:
+        write(temporary)
+        os.replace(temporary, path)
+    except OSError as problem:
+        raise UserError(f"{path}: cannot be written: {problem.strerror or problem}") from None
+    finally:
+        temporary.unlink(missing_ok=True)
+
+
+def write_parquet(result, path):
+    """Columns with units, metadata in the schema."""
+    import pyarrow as pa
+    from pyarrow import parquet
+
+    fields = [pa.field(name, pa.float64(), metadata={"unit": result.units[name]}) for name in result.data]
+    schema = pa.schema(fields, metadata={KEY: json.dumps(result.metadata())})
+    parquet.write_table(pa.table(list(result.data.values()), schema=schema), path, compression="zstd")
+
+
+def read_parquet(path):
+    """Data and metadata of write_parquet."""
+    from pyarrow import parquet
+
+    table = parquet.read_table(path)
+    return {name: table[name].to_numpy() for name in table.column_names}, json.loads(table.schema.metadata[KEY.encode()])
+
+
+def write_csv(result, path):
+    """TOML behind "# ", names, numbers with all their digits."""
+    with path.open("w", encoding="utf-8") as file:
+        file.writelines(f"# {line}\n" for line in to_toml(result.metadata()))
+        file.write(",".join(result.data) + "\n")
+        np.savetxt(file, np.column_stack(list(result.data.values())), fmt="%.17g", delimiter=",")
+
+
+def read_csv(path):
+    """Data and metadata of write_csv."""
+    with path.open(encoding="utf-8") as file:
+        header = []
+        for line in file:
+            if not line.startswith("#"):
+                break
+            header.append(line[2:])
+        names = line.rstrip("\n").split(",")
+        numbers = file.readlines()
+    columns = np.loadtxt(numbers, delimiter=",", ndmin=2) if numbers else np.empty((0, 0))
+    return dict(zip(names, columns.T, strict=True)), tomllib.loads("".join(header))
+
+
+def to_toml(document, table=""):
+    """Lines of TOML for nested dicts of numbers, truth values, texts and lists of these."""
+    for key, value in document.items():
+        if not isinstance(value, dict):
+            yield f"{toml_key(key)} = {toml_value(value)}"
+    for key, value in document.items():
+        if isinstance(value, dict):
+            name = f"{table}.{toml_key(key)}" if table else toml_key(key)
+            yield f"[{name}]"
+            yield from to_toml(value, name)
+
+
+def toml_key(key):
+    """A key, quoted unless it is a bare word."""
+    return key if re.fullmatch(r"[\w-]+", key, re.ASCII) else json.dumps(key, ensure_ascii=False)
+
+
+def toml_value(value):
+    """A value as TOML writes it: like JSON but for nan and inf."""
+    if isinstance(value, list):
+        return f"[{', '.join(map(toml_value, value))}]"
+    return repr(value) if isinstance(value, float) else json.dumps(value, ensure_ascii=False)
+
+
+def write_mat(result, path):
+    """Nested structs; the elements of ball[...] and rivet[...] as columns."""
+    from scipy.io import savemat
+
+    tree = {"metadata": json.dumps(result.metadata()), "names": np.array(list(result.data), dtype=object)}
+    for place, columns in group_by_place(result.data).items():
+        *branches, leaf = place
+        node = tree
+        for branch in branches:
+            node = node.setdefault(branch, {})
+        node[leaf] = np.column_stack([result.data[name] for name in columns])
+    savemat(path, {"result": tree}, do_compression=True, long_field_names=True)
+
+
+def read_mat(path):
+    """Data and metadata of write_mat."""
+    from scipy.io import loadmat
+
+    tree = loadmat(path, simplify_cells=False, struct_as_record=True, squeeze_me=False)["result"][0, 0]
+    names = [str(np.squeeze(name)) for name in tree["names"].ravel()]
+    data = dict.fromkeys(names)
+    for place, columns in group_by_place(names).items():
+        node = tree
+        for branch in place[:-1]:
+            node = node[branch][0, 0]
+        data |= dict(zip(columns, node[place[-1]].T, strict=True))
+    return data, json.loads(str(np.squeeze(tree["metadata"])))
+
+
+def group_by_place(names):
+    """Names by their place without indices: ("ball", "Q_i") -> ["ball[1].Q_i", "ball[2].Q_i", ...]."""
+    places = {}
+    for name in names:
+        places.setdefault(tuple(re.sub(r"\[\d+\]", "", name).split(".")), []).append(name)
+    return places
+
+
+WRITERS = {"parquet": write_parquet, "csv": write_csv, "mat": write_mat}
+READERS = {"parquet": read_parquet, "csv": read_csv, "mat": read_mat}

@@ -1,0 +1,124 @@
+"""Run a scene through the FMU, step by step, and keep what it did."""
+
+import itertools
+import platform
+import time
+from datetime import UTC, datetime
+
+import numpy as np
+from fmpy import __version__ as fmpy_version
+from fmpy.fmi1 import FMICallException
+from fmpy.fmi2 import fmi2Discard
+
+from .fmu import Instance
+from .results import Result
+from .version import __version__
+
+PROGRESS_INTERVAL = 0.05  # s of wall time between calls of progress
+
+
+def simulate(model, scene, progress=None):
+    """Run a Scene that was checked against the Model; returns its Result, see riveted_bearing.run."""
+    with Instance(model) as instance:
+        instance.initialize(scene)
+        parameters = instance.parameters()
+        wall, cpu = time.perf_counter(), time.thread_time()
+        times, rows, stopped = march(instance, scene, progress or (lambda t: None))
+        wall, cpu = time.perf_counter() - wall, time.thread_time() - cpu
+        summary = closing_values(instance, model)
+    simulated = float(times[-1])
+    summary |= {"simulated_time": simulated, "cpu_time": cpu, "wall_time": wall, "real_time_factor": cpu / simulated if simulated else float("nan")}
+    names = ["time", *scene.outputs]
+    variables = model.inputs | model.outputs
+    return Result(
+        data=dict(zip(names, [times, *rows.T], strict=True)),
+        units={"time": "s"} | {name: variables[name].unit or "1" for name in scene.outputs},
+        parameters=parameters,
+        summary=summary,
+        about=provenance(model, scene) | {"stopped": stopped, "messages": [text for level, text in instance.log if level != "ok"][-20:]},
+    )
+
+
+def march(instance, scene, progress):
+    """All communication steps of a scene.
+
+    Returns the times [s] and rows of outputs up to the end or to the point where the FMU gave up, and the reason for that ("" at the end).
+    """
+    times = scene.communication_points()
+    references = [instance.model.inputs[name].valueReference for name in scene.inputs]
+    inputs = np.column_stack([history(times) for history in scene.inputs.values()] or [np.zeros((len(times), 0))])
+    changed = [False, *np.any(np.diff(inputs, axis=0), axis=1)]
+    stride = scene.stride
+    peaks = [i for i, name in enumerate(scene.outputs) if is_peak(name)] if stride > 1 else []
+    rows = np.empty((-(-(len(times) - 1) // stride) + 2, len(scene.outputs)))
+    row_times = np.zeros(len(rows))
+    read = instance.reader(scene.outputs)
+    rows[0] = read()
+    row, due, stopped = 0, 0.0, ""
+    for i, (now, then) in enumerate(itertools.pairwise(times.tolist())):
+        try:
+            if changed[i]:
+                instance.fmu.setReal(references, inputs[i].tolist())
+            instance.fmu.doStep(now, then - now)
+        except FMICallException as failure:
+            stopped = f"the FMU gave up in the step from t = {now:.9g} s: {instance.complaints()}"
+            reached = instance.last_successful_time(now) if failure.status == fmi2Discard else now
+            if reached > row_times[row]:
+                row += 1
+                rows[row] = read()
+                row_times[row] = reached
+            break
+        except KeyboardInterrupt:
+            stopped = f"interrupted after t = {now:.9g} s"
+            break
+        row = i // stride + 1
+        held = rows[row, peaks] if i % stride else -np.inf  # a copy
+        rows[row] = read()
+        if peaks:
+            rows[row, peaks] = np.maximum(rows[row, peaks], held)
+        row_times[row] = then
+        if (clock := time.perf_counter()) >= due:
+            progress(then)
+            due = clock + PROGRESS_INTERVAL
+    progress(row_times[row])
+    return row_times[: row + 1], rows[: row + 1], stopped
+
+
+def is_peak(name):
+    """Whether a channel is the largest value since the last communication point."""
+    return name.endswith("_peak") or name in ("rivet.sigma_head_max", "rivet.sigma_mid_max")
+
+
+def closing_values(instance, model):
+    """Statistics and solver counters at the end; nothing if the FMU no longer answers."""
+    try:
+        return instance.read(closing_names(model))
+    except FMICallException:
+        return {}
+
+
+def closing_names(model):
+    """Outputs that say how it went in all: statistics, damage, solver counters."""
+    return [name for name in model.outputs if name.startswith(("stat.", "solver.")) or ".damage_" in name]
+
+
+def provenance(model, scene):
+    """Where a result comes from."""
+    return {
+        "scene": scene.name,
+        "description": scene.description,
+        "t_end": scene.t_end,
+        "step": scene.step,
+        "inputs": {
+            name: {"t": history.t.tolist(), "value": history.value.tolist(), "hold": history.hold}
+            for name, history in scene.inputs.items()
+            if len(history.t) <= 1000
+        },
+        "fmu": str(model.path),
+        "guid": model.description.instantiationToken,
+        "model": model.description.description or model.description.modelName,
+        "generated": f"{model.description.generationTool or ''} {model.description.generationDateAndTime or ''}".strip(),
+        "versions": {"riveted-bearing": __version__, "fmpy": fmpy_version, "python": platform.python_version()},
+        "machine": f"{platform.system()} {platform.machine()}",
+        "date": datetime.now(UTC).isoformat(timespec="seconds"),
+    }

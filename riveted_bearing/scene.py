@@ -1,0 +1,325 @@
+"""Scenes: what to simulate, from TOML, checked against the FMU that is to run it.
+
+    description = "..."
+    [simulation]
+    t_end = 0.4                       # s
+    step = "0.1 ms"                   # communication step
+    output_interval = 1e-3            # optional, a multiple of step; *_peak channels keep the largest value in between
+    tolerance = 1e-4                  # optional
+    outputs = ["ring.*", "rivet[*].sigma_head_peak"]   # optional
+    [parameters]                      # fixed during the run; dotted keys, nested tables or quoted full names
+    joint.preload = "30 N"
+    ring.tilt_mode = "supported"
+    [inputs]                          # constant, points or a column of a CSV file; held before the first and after the last point
+    shaft.F_y = "2994 N"
+    shaft.omega = { t = [0, 0.1], value = [0, 18238], unit = "rev/min", interpolation = "linear" }
+    shaft.F_x = { file = "loads.csv", column = "thrust", time = "t", unit = "kN", interpolation = "hold" }
+
+A number is SI, a text carries its unit.  Inputs are evaluated at the communication points and held over each step.
+"""
+
+import io
+import re
+import reprlib
+import tomllib
+from dataclasses import dataclass, field, replace
+from importlib.resources import files
+from pathlib import Path
+
+import numpy as np
+
+from .errors import UserError, shortlist, unknown
+from .units import scale, to_si
+
+SHIPPED = files("riveted_bearing") / "data" / "scenes"
+SECTIONS = ("description", "simulation", "parameters", "inputs")
+SIMULATION = ("t_end", "step", "output_interval", "tolerance", "outputs")
+SECONDS = {"s": (1.0, 0.0), "ms": (1e3, 0.0), "us": (1e6, 0.0)}
+HISTORY = ("t", "value", "unit", "interpolation")
+COLUMN = ("file", "column", "time", "unit", "interpolation")
+LARGEST_RESULT = 4 * 2**30  # bytes
+
+
+@dataclass(frozen=True)
+class History:
+    """An input over time: straight lines between points or, with hold, steps; constant outside."""
+
+    t: np.ndarray
+    value: np.ndarray
+    hold: bool = False
+
+    def __call__(self, t):
+        """Values at the times t [s]."""
+        if self.hold:
+            return self.value[np.maximum(np.searchsorted(self.t, t, side="right") - 1, 0)]
+        return np.interp(t, self.t, self.value)
+
+
+@dataclass(frozen=True)
+class Scene:
+    """What to simulate, checked: times in s, SI values and item names of enumerations by full variable name."""
+
+    name: str = "default"
+    description: str = ""
+    t_end: float = 0.4
+    step: float = 1e-4
+    output_interval: float | None = None
+    tolerance: float | None = None
+    outputs: tuple = ()
+    parameters: dict = field(default_factory=dict)
+    inputs: dict = field(default_factory=dict)
+
+    @property
+    def stride(self):
+        """Communication steps per row of the result."""
+        return round((self.output_interval or self.step) / self.step)
+
+    def communication_points(self):
+        """0, step, 2 step ... t_end [s]; the last step may be shorter."""
+        count = int(np.ceil(self.t_end / self.step * (1 - 1e-12)))
+        return np.minimum(np.arange(count + 1) * self.step, self.t_end)
+
+
+def shipped_scenes():
+    """Names of the scenes that come with the program."""
+    return sorted(path.name.removesuffix(".toml") for path in SHIPPED.iterdir() if path.name.endswith(".toml"))
+
+
+def load_scene(source, model, *changes):
+    """Read a scene and apply changes to it.
+
+    source: path of a TOML file or name of a shipped scene; model: the Model to run it;
+    changes: pairs (origin for messages, document like the file's), later ones win.
+    scene.statistics is on unless set: communication points alone miss the impacts.
+    Returns a Scene; raises UserError naming file, key, value and what is allowed.
+    """
+    path = find_scene(source)
+    scene = Scene(name=Path(path.name).stem, parameters={"scene.statistics": "on"})
+    for where, document in [(str(path), read_toml(path)), *changes]:
+        scene = apply(scene, where, document, model, Path(str(path)).parent)
+    check_times(scene, " with ".join([str(path), *(where for where, _ in changes)]))
+    return replace(scene, outputs=scene.outputs or default_outputs(model))
+
+
+def find_scene(source):
+    """The file of a scene given by path or by shipped name."""
+    if str(source) in shipped_scenes():
+        return SHIPPED / f"{source}.toml"
+    path = Path(source)
+    if path.is_file():
+        return path
+    if path.suffix:
+        raise UserError(f"{source}: no such scene file")
+    raise unknown("scene", "name", source, shipped_scenes())
+
+
+def read_toml(path):
+    """The document of a TOML file; UserError if it cannot be read."""
+    try:
+        return tomllib.loads(path.read_text(encoding="utf-8"))
+    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as problem:
+        raise UserError(f"{path}: not valid TOML: {problem}") from None
+    except OSError as problem:
+        raise UserError(f"{path}: {problem.strerror}") from None
+
+
+def apply(scene, where, document, model, folder):
+    """The scene with one document's settings on top."""
+    if "Z" in document:
+        raise UserError(f"{where}: this is a bearing file, not a scene: `riveted-bearing build --bearing {where}` makes an FMU of it")
+    for key in document:
+        if key not in SECTIONS:
+            raise unknown(where, "key", key, SECTIONS)
+    sections = {name: section_of(where, document, name) for name in SECTIONS[1:]}
+    return replace(
+        scene,
+        description=str(document.get("description", scene.description)),
+        parameters=scene.parameters | read_section(where, "parameters", sections["parameters"], model.parameters, model.inputs, model.parameter_value),
+        inputs=scene.inputs
+        | read_section(where, "inputs", sections["inputs"], model.inputs, model.parameters, lambda value, v: input_history(value, v, model, folder)),
+        **read_simulation(where, sections["simulation"], model),
+    )
+
+
+def section_of(where, document, name):
+    """A document's table of this name, empty if there is none; UserError if it is something else."""
+    section = document.get(name, {})
+    if not isinstance(section, dict):
+        raise refusal(where, name, section, "not a table")
+    return section
+
+
+def read_section(where, kind, section, variables, others, value_of):
+    """Settings of one section by full variable name; others: the variables of the other section."""
+    settings = {}
+    for name, value in leaves(section, variables | others):
+        if name in others:
+            raise UserError(f"{where}: {kind}.{name}: does not belong into [{kind}] but into [{'inputs' if kind == 'parameters' else 'parameters'}]")
+        if name not in variables:
+            raise unknown(where, kind.removesuffix("s"), name, variables)
+        try:
+            settings[name] = value_of(value, variables[name])
+        except UserError as problem:
+            raise refusal(where, f"{kind}.{name}", value, problem) from None
+    return settings
+
+
+def leaves(tree, names, prefix=""):
+    """Full names and values of nested tables; a table is entered as long as some variable's name begins like it."""
+    for key, value in tree.items():
+        name = f"{prefix}{key}"
+        if isinstance(value, dict) and any(known.startswith(f"{name}.") for known in names):
+            yield from leaves(value, names, f"{name}.")
+        else:
+            yield name, value
+
+
+def read_simulation(where, section, model):
+    """The settings of [simulation]."""
+    settings = {}
+    for key, value in section.items():
+        if key not in SIMULATION:
+            raise unknown(where, "key", f"simulation.{key}", [f"simulation.{name}" for name in SIMULATION])
+        try:
+            settings[key] = select(value, model) if key == "outputs" else positive(value, SECONDS if key != "tolerance" else {"1": (1.0, 0.0)})
+        except UserError as problem:
+            raise refusal(where, f"simulation.{key}", value, problem) from None
+    return settings
+
+
+def positive(value, scales):
+    """SI value greater than zero."""
+    number = to_si(value, scales)
+    if number <= 0.0:
+        raise UserError("must be greater than 0")
+    return number
+
+
+def seconds(key, value):
+    """A time [s] of zero or more from a number or a text with a unit; UserError naming the key."""
+    try:
+        time = to_si(value, SECONDS)
+        if time < 0.0:
+            raise UserError("must not be negative")
+        return time
+    except UserError as problem:
+        raise UserError(f"{key} = {reprlib.repr(value)}: {problem}") from None
+
+
+def select(patterns, model):
+    """Names of the inputs and outputs that match the patterns (* stands for any text), in the order of the FMU."""
+    if not isinstance(patterns, list) or not all(isinstance(pattern, str) for pattern in patterns):
+        raise UserError('not a list of names such as ["ring.*", "rivet[*].sigma_head"]')
+    names = [*model.inputs, *model.outputs]
+    chosen = set()
+    for pattern in patterns:
+        matches = [name for name in names if re.fullmatch(re.escape(pattern).replace(r"\*", ".*"), name)]
+        if not matches:
+            raise unknown("outputs", "name", pattern, names)
+        chosen.update(matches)
+    return tuple(name for name in names if name in chosen)
+
+
+def default_outputs(model):
+    """All inputs and outputs but the statistics, which are read once at the end."""
+    return tuple(name for name in [*model.inputs, *model.outputs] if not name.startswith("stat."))
+
+
+def input_history(value, variable, model, folder):
+    """The History of an input from a constant, points or a column of a file."""
+    scales = model.units[variable.unit]
+    if not isinstance(value, dict):
+        history = History(np.zeros(1), np.array([to_si(value, scales)]))
+    elif "file" in value:
+        history = from_column(value, scales, folder)
+    else:
+        history = from_points(value, scales)
+    if len(history.t) != len(history.value) or not len(history.t):
+        raise UserError(f"as many times as values are needed, got {len(history.t)} and {len(history.value)}")
+    if not np.all(np.isfinite(history.t)) or not np.all(np.isfinite(history.value)):
+        raise UserError("not all times and values are finite numbers")
+    if not np.all(np.diff(history.t) > 0.0):
+        raise UserError("the times do not increase")
+    for extreme in (history.value.min(), history.value.max()):
+        model.check_range(extreme, variable)
+    return history
+
+
+def from_points(value, scales):
+    """A History from { t = [...], value = [...] }."""
+    check_keys(value, HISTORY, ("t", "value"))
+    if not all(isinstance(value[key], (list, tuple, np.ndarray)) for key in ("t", "value")):
+        raise UserError("t and value must be lists")
+    factor, offset = scale(value["unit"], scales) if "unit" in value else (1.0, 0.0)
+    si = [to_si(entry, scales) if isinstance(entry, str) else (to_si(entry, scales) - offset) / factor for entry in value["value"]]
+    return History(np.array([to_si(entry, SECONDS) for entry in value["t"]]), np.array(si), is_hold(value))
+
+
+def from_column(value, scales, folder):
+    """A History from { file = "...", column = "..." }: CSV with a header line, lines with # in front are skipped, times in s."""
+    check_keys(value, COLUMN, ("file", "column"))
+    path = folder / value["file"]
+    if not path.is_file():
+        raise UserError(f"{path}: no such file")
+    from pyarrow import ArrowInvalid, csv
+
+    try:
+        text = "\n".join(line for line in path.read_text(encoding="utf-8").splitlines() if not line.startswith("#"))
+        table = csv.read_csv(io.BytesIO(text.encode()))
+    except OSError as problem:
+        raise UserError(f"{path}: {problem.strerror}") from None
+    except (ArrowInvalid, UnicodeDecodeError) as problem:
+        raise UserError(f"{path}: not a CSV table: {problem}") from None
+    names = [name.strip() for name in table.column_names]
+
+    def column(name):
+        if name not in names:
+            raise unknown(path, "column", name, names)
+        values = table.column(names.index(name)).to_numpy()
+        if not np.issubdtype(values.dtype, np.number):
+            raise UserError(f'{path}: column "{name}" has entries that are no numbers')
+        return values.astype(float)
+
+    factor, offset = scale(value["unit"], scales) if "unit" in value else (1.0, 0.0)
+    return History(column(value.get("time", "time")), (column(value["column"]) - offset) / factor, is_hold(value))
+
+
+def check_keys(value, allowed, needed):
+    """Keys of an input's table: none unknown, none missing, texts where only t and value hold numbers."""
+    for key, entry in value.items():
+        if key not in allowed:
+            raise UserError(f'unknown key "{key}"; allowed: {shortlist(allowed)}')
+        if key not in ("t", "value") and not isinstance(entry, str):
+            raise UserError(f"{key} = {reprlib.repr(entry)}: not a text")
+    for key in needed:
+        if key not in value:
+            raise UserError(f'"{key}" is missing; allowed: {shortlist(allowed)}')
+
+
+def is_hold(value):
+    """Whether an input's table asks for steps instead of straight lines."""
+    kind = value.get("interpolation", "linear")
+    if kind not in ("linear", "hold"):
+        raise UserError(f'interpolation "{kind}"; allowed: linear, hold')
+    return kind == "hold"
+
+
+def check_times(scene, where):
+    """Steps must fit the end and each other."""
+    if scene.step > scene.t_end:
+        raise refusal(where, "simulation.step", scene.step, f"not longer than t_end = {scene.t_end:g} s is allowed")
+    if scene.output_interval is not None and (scene.stride < 1 or abs(scene.stride * scene.step / scene.output_interval - 1.0) > 1e-9):
+        raise refusal(where, "simulation.output_interval", scene.output_interval, f"multiples of step = {scene.step:g} s are allowed")
+    size = 8 * len(scene.outputs or range(400)) * scene.t_end / (scene.step * scene.stride)
+    if size > LARGEST_RESULT:
+        raise refusal(
+            where,
+            "simulation.output_interval",
+            scene.output_interval or scene.step,
+            f"the result would need {size / 2**30:.0f} GiB: choose outputs, or a longer interval",
+        )
+
+
+def refusal(where, key, value, reason):
+    """The error for a value that cannot be used."""
+    return UserError(f"{where}: {key} = {reprlib.repr(value)}: {reason}")

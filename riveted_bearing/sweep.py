@@ -1,0 +1,428 @@
+"""Sweeps: many runs of the FMU on a Dask cluster, one row each in a Parquet dataset.
+
+    description = "..."
+    scene = "demo"                       # shipped name or file, relative to the sweep's own; default: demo
+    repeats = 8                          # start.seed = 1 ... 8; default: the scene's seed
+    [simulation]                         # as in a scene file; outputs are sampled at the communication points
+    [parameters]                         # as in a scene file, for all runs
+    [inputs]
+
+    [[vary]]                             # each block is an axis of the design, all axes are crossed
+    joint.preload = ["0 N", "20 N"]      # a list ...
+    [[vary]]
+    shaft.omega = { from = "4000 rev/min", to = "24000 rev/min", count = 6 }     # ... or a range, spacing = "linear" or "log"
+    [[vary]]                             # entries of one block go together
+    shaft.F_y = ["2994 N", "2246 N"]
+    shaft.F_x = ["515 N", "386 N"]
+    [[vary]]
+    scene = ["R", "F"]                   # scenes can vary, and simulation.tolerance, simulation.t_end ...
+
+    [sample]                             # one more axis: points spread over a box
+    method = "sobol"                     # or "latin_hypercube"
+    count = 64
+    seed = 1
+    between.joint.mu = [0.05, 0.3]       # lowest and highest value
+
+A row holds what was run (all parameters and inputs in SI units), how it ended (status: done, stopped by the FMU, failed), the FMU's statistics over every
+internal step, solver counters, run time (cpu_time of the simulation, whole_cpu_time with its start and end), and of each sampled output mean, rms, min, max
+and the quantiles p001 and p999 (0.1 and 99.9 %) after start.settle, as `mean(ring.y)`.
+Rows are written as they arrive, each file whole or not at all; a rerun does only what is missing or failed.
+"""
+
+import hashlib
+import itertools
+import json
+import time
+from dataclasses import dataclass, field
+from datetime import UTC, datetime
+from pathlib import Path
+
+import numpy as np
+
+from .errors import UserError, unknown
+from .fmu import Model
+from .results import KEY, write_atomically
+from .runner import closing_names, simulate
+from .scene import SECONDS, SIMULATION, leaves, load_scene, read_toml, refusal, section_of, shipped_scenes
+from .summary import settled
+from .units import to_si
+from .version import __version__
+
+SECTIONS = ("description", "scene", "repeats", "simulation", "parameters", "inputs", "vary", "sample")
+SAMPLE = ("method", "count", "seed", "between")
+RANGE = ("from", "to", "count", "spacing")
+SETTINGS = {"simulation.t_end": SECONDS, "simulation.step": SECONDS, "simulation.output_interval": SECONDS, "simulation.tolerance": {"1": (1.0, 0.0)}}
+SAMPLED = ("cage.dislocation", "rivet[*].sigma_head", "rivet[*].sigma_mid")  # unless simulation.outputs names others
+KINDS = {
+    "mean": np.mean,
+    "rms": lambda x: np.sqrt(np.mean(x**2)),
+    "min": np.min,
+    "max": np.max,
+    "p001": lambda x: np.quantile(x, 0.001),
+    "p999": lambda x: np.quantile(x, 0.999),
+}
+ROW_VERSION = 1
+ROWS = "runs.parquet"
+SUPERSEDED = "_superseded"  # readers of Parquet datasets pass over names that begin so
+
+
+@dataclass(frozen=True)
+class Sweep:
+    """A design of experiments checked against its Model: scenes by key, and the names that vary."""
+
+    name: str
+    description: str
+    model: Model
+    fmu: bytes = field(repr=False)  # its content, as it was when the design was made
+    document: dict
+    factors: tuple
+    scenes: dict = field(repr=False)  # key -> Scene, in the order in which they are run
+
+
+def load_sweep(path, model):
+    """Read a sweep's TOML file; raises UserError naming file, key, value and what is allowed."""
+    path = Path(path)
+    if not path.is_file():
+        raise UserError(f"{path}: no such sweep file")
+    return plan_sweep(path.stem, read_toml(path), model, path)
+
+
+def plan_sweep(name, document, model, path):
+    """The Sweep of a document like the file's; `path` is where it stands, for messages and for the scene files it names."""
+    for key in document:
+        if key not in SECTIONS:
+            raise unknown(path, "key", key, SECTIONS)
+    axes = [*vary_axes(path, document.get("vary", []), model), *sample_axes(path, section_of(path, document, "sample"), model)]
+    if "repeats" in document:
+        axes.insert(0, [{"start.seed": seed} for seed in range(1, count_of(path, "repeats", document["repeats"]) + 1)])
+    factors = tuple(name for axis in axes for name in axis[0])
+    if twice := {name for name in factors if factors.count(name) > 1}:
+        raise UserError(f"{path}: {', '.join(sorted(twice))} varies in more than one place")
+    common = {section: section_of(path, document, section) for section in ("simulation", "parameters", "inputs")}
+    common["simulation"] = {"outputs": list(SAMPLED)} | common["simulation"]
+    fmu = model.path.read_bytes()
+    fingerprint = hashlib.sha256(fmu).hexdigest()
+    scenes = {}
+    for point in itertools.product(*axes):
+        settings = {name: value for part in point for name, value in part.items()}
+        source = settings.pop("scene", document.get("scene", "demo"))
+        scene = load_scene(beside(path, source), model, (str(path), common), (str(path), sections_of(settings, model)))
+        key = key_of(scene, fingerprint)
+        if key in scenes:
+            raise UserError(f"{path}: the same run occurs twice: {settings}")
+        scenes[key] = scene
+    return Sweep(name, str(document.get("description", "")), model, fmu, document, factors, scenes)
+
+
+def vary_axes(path, blocks, model):
+    """The axes of [[vary]]: for each block a list of points, {name: value as in a scene file}."""
+    if not isinstance(blocks, list) or not all(isinstance(block, dict) and block for block in blocks):
+        raise UserError(f"{path}: vary: write [[vary]] with a name and a list below it")
+    return [vary_axis(path, block, model) for block in blocks]
+
+
+def vary_axis(path, block, model):
+    """One axis: the entries of its names go together."""
+    values = {name: values_of(path, name, value, model) for name, value in leaves(block, known_names(model))}
+    lengths = {name: len(value) for name, value in values.items()}
+    if len(set(lengths.values())) != 1:
+        raise UserError(f"{path}: vary: entries of one block go together, but their numbers differ: {lengths}")
+    return [dict(zip(values, point, strict=True)) for point in zip(*values.values(), strict=True)]
+
+
+def known_names(model):
+    """All that can vary."""
+    return ["scene", *(f"simulation.{key}" for key in SIMULATION), *model.parameters, *model.inputs]
+
+
+def values_of(path, name, value, model):
+    """The values of a factor from a list or a range."""
+    if name not in known_names(model):
+        raise unknown(path, "parameter, input or setting", name, known_names(model))
+    if isinstance(value, list) and value:
+        return value
+    if not isinstance(value, dict) or not {"from", "to", "count"} <= set(value) <= set(RANGE):
+        raise refusal(path, f"vary.{name}", value, 'a list or { from = ..., to = ..., count = ..., spacing = "linear" or "log" } is needed')
+    low, high, count = *bounds(path, name, (value["from"], value["to"]), model), count_of(path, f"vary.{name}.count", value["count"])
+    spacing = value.get("spacing", "linear")
+    if spacing not in ("linear", "log"):
+        raise refusal(path, f"vary.{name}.spacing", spacing, "allowed: linear, log")
+    if spacing == "log" and low * high <= 0.0:
+        raise refusal(path, f"vary.{name}", value, "a logarithmic range needs two ends of one sign, not 0")
+    return (np.linspace if spacing == "linear" else np.geomspace)(low, high, count).tolist()
+
+
+def bounds(path, name, pair, model):
+    """Two SI values of a Real parameter, an input or a setting of [simulation]."""
+    variable = (model.parameters | model.inputs).get(name)
+    if name in SETTINGS:
+        scales = SETTINGS[name]
+    elif variable is not None and variable.type == "Real":
+        scales = model.units[variable.unit]
+    else:
+        raise refusal(path, name, list(pair), "only real numbers have ranges: list the values instead")
+    try:
+        return tuple(to_si(value, scales) for value in pair)
+    except UserError as problem:
+        raise refusal(path, name, list(pair), problem) from None
+
+
+def count_of(path, name, value):
+    """A whole number of at least 1."""
+    if isinstance(value, bool) or not isinstance(value, int) or value < 1:
+        raise refusal(path, name, value, "a whole number from 1 on is needed")
+    return value
+
+
+def sample_axes(path, section, model):
+    """The axis of [sample], if there is one: points of a Latin hypercube or a Sobol sequence (scrambled) in the box `between`."""
+    if not section:
+        return []
+    from scipy.stats import qmc
+
+    for key in section:
+        if key not in SAMPLE:
+            raise unknown(path, "key", f"sample.{key}", [f"sample.{name}" for name in SAMPLE])
+    box = dict(leaves(section_of(f"{path}: sample", section, "between"), known_names(model)))
+    if not box:
+        raise UserError(f"{path}: sample.between: name at least one parameter or input with its lowest and highest value")
+    for name, pair in box.items():
+        if name not in known_names(model):
+            raise unknown(path, "parameter or input", name, known_names(model))
+        if not isinstance(pair, list) or len(pair) != 2:
+            raise refusal(path, f"sample.between.{name}", pair, "[lowest, highest] is needed")
+    low, high = np.array([bounds(path, name, pair, model) for name, pair in box.items()]).T
+    if not np.all(low < high):
+        raise refusal(path, "sample.between", section["between"], "each lowest value must be below its highest")
+    methods = {"latin_hypercube": qmc.LatinHypercube, "sobol": qmc.Sobol}
+    method, seed = section.get("method"), section.get("seed", 0)
+    if not isinstance(method, str) or method not in methods:
+        raise refusal(path, "sample.method", method, f"allowed: {', '.join(methods)}")
+    if isinstance(seed, bool) or not isinstance(seed, int) or seed < 0:
+        raise refusal(path, "sample.seed", seed, "a whole number from 0 on is needed")
+    count = count_of(path, "sample.count", section.get("count"))
+    if method == "sobol" and count & (count - 1):
+        raise refusal(path, "sample.count", count, "a Sobol sequence is balanced only for powers of 2")
+    points = methods[method](d=len(box), seed=seed).random(count)
+    return [[dict(zip(box, point, strict=True)) for point in qmc.scale(points, low, high).tolist()]]
+
+
+def beside(path, source):
+    """A scene's name or file, looked for beside the sweep's file."""
+    if not isinstance(source, str):
+        raise refusal(path, "scene", source, "a shipped scene's name or a file is needed")
+    if source in shipped_scenes() or Path(source).is_absolute():
+        return source
+    return Path(path).parent / source
+
+
+def sections_of(settings, model):
+    """A point of the design as a document like a scene file's."""
+    document = {"simulation": {}, "parameters": {}, "inputs": {}}
+    for name, value in settings.items():
+        if name.startswith("simulation."):
+            document["simulation"][name.removeprefix("simulation.")] = value
+        else:
+            document["inputs" if name in model.inputs else "parameters"][name] = value
+    return document
+
+
+def key_of(scene, fingerprint):
+    """What tells one run from another: the FMU's content and everything about the scene."""
+    content = vars(scene) | {
+        "description": "",
+        "inputs": {name: (history.t.tolist(), history.value.tolist(), history.hold) for name, history in scene.inputs.items()},
+        "fmu": fingerprint,
+        "row": ROW_VERSION,
+    }
+    return hashlib.sha256(json.dumps(content, sort_keys=True).encode()).hexdigest()[:24]
+
+
+# What a worker does --------------------------------------------------------------------------------------------------------------------------
+
+
+def perform(scene, fmu):
+    """Run a scene through the FMU given as bytes; the measured part of its row."""
+    started, cpu = datetime.now(UTC).isoformat(timespec="milliseconds"), time.thread_time()
+    try:
+        result = simulate(unpacked(fmu), scene)
+    except UserError as problem:
+        return {"status": "failed", "message": str(problem), "date": started}
+    late = settled(result)
+    sampled = {f"{kind}({name})": float(of(result.data[name][late])) for name in scene.outputs for kind, of in KINDS.items()}
+    about = {"status": "stopped" if result.stopped else "done", "message": result.stopped, "date": started, "whole_cpu_time": time.thread_time() - cpu}
+    return about | result.summary | sampled
+
+
+def unpacked(fmu):
+    """The Model of an FMU given as bytes, kept as a file in the worker's own folder; one a process."""
+    from distributed import get_worker
+
+    path = Path(get_worker().local_directory) / f"{hashlib.sha256(fmu).hexdigest()}.fmu"
+    if path not in MODELS:
+        if not path.is_file():
+            write_atomically(path, lambda temporary: temporary.write_bytes(fmu))
+        MODELS[path] = Model(path)
+    return MODELS[path]
+
+
+MODELS = {}  # by path
+
+
+# What the driver does ------------------------------------------------------------------------------------------------------------------------
+
+
+class cluster:
+    """A Dask client, as a context manager: of the scheduler at `address`, or of `workers` processes of its own with one thread each."""
+
+    def __init__(self, address=None, workers=None):
+        self.address, self.workers = address, workers
+
+    def __enter__(self):
+        import logging
+
+        import dask
+        from distributed import Client, LocalCluster
+
+        dask.config.set({"distributed.admin.large-graph-warning-threshold": "64MB"})  # the FMU travels inside the graph
+        if self.address:
+            self.local = None
+            try:
+                self.client = Client(self.address, timeout="20s")
+            except (OSError, ValueError) as problem:
+                raise UserError(f"--scheduler {self.address}: {problem}") from None
+        else:
+            self.local = LocalCluster(n_workers=self.workers, threads_per_worker=1, processes=True, dashboard_address=":0", silence_logs=logging.CRITICAL)
+            self.client = Client(self.local)
+        return self.client
+
+    def __exit__(self, *_):
+        self.client.close()
+        if self.local:
+            self.local.close()
+
+
+def run_sweep(sweep, folder, client, progress=None):
+    """Do what is missing of a sweep and return the rows of all of it.
+
+    folder: of the Parquet dataset, made if need be; client: of a Dask cluster whose workers have this package (the FMU travels with the runs);
+    progress: called with the numbers of runs done, failed, and in all.  A worker that dies is replaced by another, its run counts once.
+    A run that fails is a row with status and message, and is tried again in the next call.
+    """
+    from distributed import as_completed
+
+    folder = Path(folder)
+    progress = progress or (lambda *_: None)
+    schema, keys = schema_of(sweep), list(sweep.scenes)
+    finished = compact(folder, schema, keys)
+    done, failed = len(finished), 0
+    progress(done, failed, len(keys))
+    fmu = client.submit(bytes, sweep.fmu, key=f"fmu-{hashlib.sha256(sweep.fmu).hexdigest()}")  # a task: made again if its workers die
+    futures = [client.submit(perform, sweep.scenes[key], fmu, key=f"run-{key}") for key in keys if key not in finished]
+    try:
+        for future in as_completed(futures):
+            key = future.key.removeprefix("run-")
+            row = about_run(sweep, key) | outcome(future)
+            future.release()
+            write_row(folder / f"run-{key}.parquet", row, schema)
+            done, failed = (done + 1, failed) if row["status"] == "done" else (done, failed + 1)
+            progress(done, failed, len(keys))
+    finally:
+        client.cancel(futures)
+    compact(folder, schema, keys)
+    return columns_of(folder)
+
+
+def outcome(future):
+    """A worker's part of a row, or why there is none."""
+    if future.status == "finished":
+        return future.result()
+    reason = future.exception() if future.status == "error" else "cancelled"
+    return {"status": "failed", "message": f"no result: {reason!r}", "date": datetime.now(UTC).isoformat(timespec="milliseconds")}
+
+
+def about_run(sweep, key):
+    """The driver's part of a row: what was to be run."""
+    scene, model = sweep.scenes[key], sweep.model
+    row = {"key": key, "scene": scene.name, "t_end": scene.t_end, "step": scene.step}
+    row |= {name: scene.parameters.get(name, model.default(variable)) for name, variable in model.parameters.items()}
+    row["solver.tol"] = row["solver.tol"] if scene.tolerance is None else scene.tolerance
+    for name, variable in model.inputs.items():
+        history = scene.inputs.get(name)
+        row[name] = model.default(variable) if history is None else float(history.value[0]) if len(history.t) == 1 else None  # None: varies in time
+    return row
+
+
+def schema_of(sweep):
+    """Columns of the dataset with their units; the design itself in the metadata."""
+    import pyarrow as pa
+
+    model = sweep.model
+    units = {name: v.unit or "1" for name, v in (model.parameters | model.inputs | model.outputs).items()}
+    kinds = {"Real": pa.float64(), "Integer": pa.int64(), "Enumeration": pa.string()}
+    outputs = dict.fromkeys(name for scene in sweep.scenes.values() for name in scene.outputs)
+    fields = [pa.field(name, pa.string()) for name in ("key", "scene", "status", "message", "date")]
+    fields += [pa.field("run", pa.int64())]
+    fields += [pa.field(name, pa.float64(), metadata={"unit": "s"}) for name in ("t_end", "step", "simulated_time", "cpu_time", "whole_cpu_time", "wall_time")]
+    fields += [pa.field(name, kinds[v.type], metadata={"unit": units[name]}) for name, v in (model.parameters | model.inputs).items()]
+    fields += [pa.field(name, pa.float64(), metadata={"unit": units[name]}) for name in closing_names(model)]
+    fields += [pa.field(f"{kind}({name})", pa.float64(), metadata={"unit": units[name]}) for name in outputs for kind in KINDS]
+    about = {
+        "format": ROW_VERSION,
+        "sweep": sweep.name,
+        "description": sweep.description,
+        "document": sweep.document,
+        "factors": sweep.factors,
+        "guid": model.description.instantiationToken,
+        "version": __version__,
+    }
+    return pa.schema(fields, metadata={KEY: json.dumps(about)})
+
+
+def write_row(path, row, schema):
+    """Write a row as a Parquet file, whole or not at all; what it lacks is null."""
+    import pyarrow as pa
+    from pyarrow import parquet
+
+    table = pa.Table.from_pylist([row], schema=schema)
+    write_atomically(path, lambda temporary: parquet.write_table(table, temporary))
+
+
+def compact(folder, schema, keys):
+    """Put all rows into one file, in the order of the design, a run once; returns the keys of those that are done.
+
+    Rows that the design no longer has (it changed, or the FMU did) go to a folder that no reader looks into.
+    The new file stands before the old ones go: a kill in between leaves rows twice, until the next call.
+    """
+    import pyarrow as pa
+    from pyarrow import parquet
+
+    files = sorted(folder.glob("[!._]*.parquet"))
+    whole = folder / ROWS
+    if not files:
+        return set()
+    table = pa.concat_tables([schema.empty_table(), *(parquet.read_table(path) for path in files)], promote_options="default")
+    facts = zip(*(table[name].to_pylist() for name in ("key", "status", "date")), strict=True)
+    latest = {key: i for _, _, key, i in sorted((status == "done", date, key, i) for i, (key, status, date) in enumerate(facts))}
+    if foreign := [i for key, i in latest.items() if key not in set(keys)]:
+        path = folder / SUPERSEDED / f"{datetime.now(UTC):%Y%m%d-%H%M%S-%f}.parquet"
+        write_atomically(path, lambda temporary: parquet.write_table(table.take(foreign), temporary, compression="zstd"))
+    places = {key: place for place, key in enumerate(keys) if key in latest}
+    kept = table.take(pa.array([latest[key] for key in places], pa.int64())).select(schema.names).cast(schema)
+    kept = kept.set_column(schema.get_field_index("run"), schema.field("run"), pa.array(list(places.values()), pa.int64()))
+    write_atomically(whole, lambda temporary: parquet.write_table(kept.replace_schema_metadata(schema.metadata), temporary, compression="zstd"))
+    for path in files:
+        if path != whole:
+            path.unlink()
+    return {key for key, status in zip(kept["key"].to_pylist(), kept["status"].to_pylist(), strict=True) if status == "done"}
+
+
+def columns_of(folder):
+    """The rows of a sweep's folder by column name, as numpy arrays; raises UserError if there are none."""
+    from pyarrow import parquet
+
+    path = Path(folder) / ROWS
+    if not path.is_file():
+        raise UserError(f"{path}: no such sweep result")
+    table = parquet.read_table(path)
+    return {name: table[name].to_numpy() for name in table.column_names}

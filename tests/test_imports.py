@@ -1,0 +1,136 @@
+"""Who imports whom: riveted_bearing -> rivet_model -> the table's reader in bearing_model, and never back.
+
+The arrows are read from the source text, imports inside functions included, so that a lazy import counts as much as one at the top.
+"""
+
+import ast
+import graphlib
+import subprocess
+import sys
+
+import pytest
+from library import ROOT
+
+PACKAGES = ("bearing_model", "rivet_model", "riveted_bearing")
+READERS = {f"bearing_model.{name}" for name in ("rivet_table", "rivet_rom", "rivet_splines", "load_path")}  # all that rivet_model may know of bearing_model
+
+
+def name_of(path):
+    """The module of a file: riveted_bearing/cli/run.py is riveted_bearing.cli.run."""
+    parts = path.relative_to(ROOT).with_suffix("").parts
+    return ".".join(parts[:-1] if parts[-1] == "__init__" else parts)
+
+
+FILES = {name_of(path): path for package in PACKAGES for path in (ROOT / package).rglob("*.py")}
+
+
+def imported(name, tree):
+    """Full names that a module's import statements ask for, relative ones resolved; `from a import b` gives a.b where that is a module, else a."""
+    package = name if FILES[name].name == "__init__.py" else name.rpartition(".")[0]
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Import):
+            yield from (alias.name for alias in node.names)
+        elif isinstance(node, ast.ImportFrom):
+            above = package.split(".")[: len(package.split(".")) - node.level + 1] if node.level else []
+            base = ".".join([*above, *filter(None, [node.module])])
+            yield from (full if (full := f"{base}.{alias.name}") in FILES else base for alias in node.names)
+
+
+GRAPH = {name: set(imported(name, ast.parse(path.read_text(encoding="utf-8")))) for name, path in FILES.items()}
+
+
+def package_of(module):
+    return module.partition(".")[0]
+
+
+def arrows(of, to):
+    """Imports from modules of one package in modules of another: (importer, imported)."""
+    return {(name, target) for name, targets in GRAPH.items() if package_of(name) == of for target in targets if package_of(target) == to}
+
+
+def test_all_modules_are_read():
+    """The numbers of modules and of imports, so that a reader that finds nothing does not pass for good order."""
+    assert len(FILES) > 70 and {package_of(name) for name in FILES} == set(PACKAGES)
+    assert sum(package_of(target) in PACKAGES for targets in GRAPH.values() for target in targets) > 200
+    assert ("rivet_model.reduction", "bearing_model.rivet_rom") in arrows("rivet_model", "bearing_model")
+    assert "riveted_bearing.fmu" in GRAPH["riveted_bearing"], "an import inside a function"
+    assert "riveted_bearing.sweep" in GRAPH["riveted_bearing.paper_study.study"], "a relative import"
+
+
+@pytest.mark.parametrize(("of", "to"), [("bearing_model", "rivet_model"), ("bearing_model", "riveted_bearing"), ("rivet_model", "riveted_bearing")])
+def test_no_arrow_upwards(of, to):
+    assert not arrows(of, to)
+
+
+def test_rivet_model_knows_the_tables_reader_and_nothing_of_the_dynamics():
+    assert {target for _, target in arrows("rivet_model", "bearing_model")} <= READERS
+    for reader in READERS:
+        assert {target for target in GRAPH[reader] if package_of(target) in PACKAGES} <= READERS
+
+
+def test_only_riveted_bearing_loads_an_fmu():
+    loading = {name for name, targets in GRAPH.items() if any(package_of(target) in ("fmpy", "ctypes", "cffi") for target in targets)}
+    assert loading and {package_of(name) for name in loading} == {"riveted_bearing"}
+
+
+def circle(graph):
+    """Modules that import each other in a ring, None if there are none."""
+    try:
+        graphlib.TopologicalSorter(graph).prepare()
+    except graphlib.CycleError as error:
+        return error.args[1]
+    return None
+
+
+def test_no_circle():
+    """Neither among modules, nor among packages; a package's __init__ counts as a module."""
+    assert circle({name: targets - {name} for name, targets in GRAPH.items()}) is None
+    between = {package: {to for to in PACKAGES if to != package and arrows(package, to)} for package in PACKAGES}
+    assert circle(between) is None
+    assert circle({"a": {"b"}, "b": {"c"}, "c": {"a"}}) is not None
+
+
+def test_public_names_are_no_modules():
+    """An imported module takes the place of a function of its name in the package."""
+    import riveted_bearing
+
+    assert not [name for name in riveted_bearing.__all__ if f"riveted_bearing.{name}" in FILES]
+
+
+@pytest.mark.parametrize("package", PACKAGES)
+def test_public_names_exist(package):
+    """Each name of __all__, also of the packages that import them when they are asked for; and no other name."""
+    module = __import__(package)
+    for name in module.__all__:
+        assert getattr(module, name) is not None
+    assert set(module.__all__) <= set(dir(module))
+    with pytest.raises(AttributeError, match="no attribute 'nothing'"):
+        _ = module.nothing
+
+
+def loaded(code):
+    """Modules that are there after some code in a fresh Python."""
+    done = subprocess.run([sys.executable, "-c", f"import sys\n{code}\nprint(*sys.modules)"], cwd=ROOT, capture_output=True, text=True, check=True)
+    return set(done.stdout.split())
+
+
+def test_physics_runs_without_the_application():
+    physics = [name for name in FILES if package_of(name) in ("bearing_model", "rivet_model")]
+    modules = loaded("\n".join(f"import {name}" for name in physics))
+    assert set(physics) <= modules
+    assert not {"fmpy", "typer", "matplotlib", "riveted_bearing"} & modules
+
+
+def test_rivet_model_runs_without_the_dynamics():
+    modules = loaded("import rivet_model.build, rivet_model.components, rivet_model.embed, rivet_model.pictures")
+    assert {name for name in modules if name.startswith("bearing_model.")} == READERS
+
+
+def test_embedding_a_table_needs_numpy_only():
+    """Builds of the wheel have neither SciPy nor scikit-fem."""
+    assert not {"scipy", "skfem"} & loaded("import rivet_model.embed")
+
+
+def test_interface_is_imported_quickly():
+    """The interface and the help of the command line come without what takes seconds."""
+    assert not {"fmpy", "scipy", "matplotlib", "pyarrow", "dask"} & loaded("import riveted_bearing, riveted_bearing.cli")
