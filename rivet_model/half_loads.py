@@ -12,9 +12,10 @@ same N, M_t, dP, dm_t ... and the opposite V.
 
 import numpy as np
 
+from bearing_model.joint_law import AXES, JointLaw, joint_law, law_load
+
 from . import half, splines
 from .cage_half import SPIN, CageHalf
-from .joint_law import AXES, JointLaw, joint_law, law_load
 from .lcp import Contact
 
 ROWS = ("N", "V_r", "V_t", "M_r", "M_t", "dP", "dm_r", "dm_t")
