@@ -60,6 +60,35 @@ def load_splines(table, load, fit_eff):
     return chi, at
 
 
+def shank_stress(shank, T, V_y, V_z, m_y, m_z, fit_eff):
+    """Stress of all channels [n, 4] in Pa of rivets whose shanks carry tension T, transverse load V and moment m at the split [n] (arrays of one shape).
+
+    sigma = s (w T_i + (1 - w) T_(i+1))(a, c, xi),  s = T + V,  a = V/s,  c = min(1, |m|/(length T)),  sheets i and chi as in rivet_rom_stress.
+    """
+    T, V_y, V_z, m_y, m_z, fit_eff = (np.atleast_1d(v) for v in np.broadcast_arrays(T, V_y, V_z, m_y, m_z, np.asarray(fit_eff, dtype=float)))
+    T, V, m = np.maximum(T, 0.0), np.hypot(V_y, V_z), np.hypot(m_y, m_z)
+    s = T + V
+
+    def ratio(top, bottom):
+        return np.divide(top, bottom, out=np.zeros_like(bottom), where=bottom > 0.0)
+
+    chi = np.minimum(ratio(np.abs(V_y * m_z - V_z * m_y), V * m), 1.0)
+    (A, wa), (C, wc) = (cell_weights(shank.knots[name], value) for name, value in (("a", ratio(V, s)), ("c", np.minimum(ratio(m, shank.length * T), 1.0))))
+    xi, wxi = axis_splines_xi(shank.knots["xi"], s, fit_eff)
+    sheet = np.where(chi >= 0.5, 0, 1)
+    head = 2.0 * chi - (1 - sheet)
+    mid = np.where(sheet == 0, head, head * np.sqrt(head))
+    first = np.stack([head, head, mid, mid], axis=-1)
+    sigma = np.zeros((len(T), 4))
+    for a in range(3):
+        for c in range(3):
+            for i in range(3):
+                place = A + a, C + c, xi + i
+                w = (wa[:, a] * wc[:, c] * wxi[:, i])[:, None]
+                sigma += w * (first * shank.coefficients[*place, sheet] + (1.0 - first) * shank.coefficients[*place, sheet + 1])
+    return sigma
+
+
 def rivet_rom_stress(table, load, fit_eff):
     """Stress of all channels [..., 4] in Pa and the load's flags.
 

@@ -2,7 +2,7 @@
 
 The file is JSON text.  Sections: `header` {format, kind closed_form|fe, note, geometry, geometry_hash, Z, units, errors, digest}, `stress` (knots and spline
 coefficients of T, see fmu_src/rivet_rom.h), `fit_eff` (interference with plasticity), `joint` (stiffnesses for the dynamics), `load_path`
-(see fmu_src/load_path.h).  Units in the file are SI except T, which is in MPa/N = 1/mm2 to keep it readable.
+(see fmu_src/load_path.h), `shank` (stress over the shank's own loads), `half` (the elastic cage half and the law of its joints).  Units in the file are SI except T, which is in MPa/N = 1/mm2 to keep it readable.
 """
 
 import hashlib
@@ -11,6 +11,8 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 import numpy as np
+
+from bearing_model import half_path, joint_law
 
 DEFAULT_TABLE = Path(__file__).resolve().parents[1] / "rivet_model" / "tables" / "6207.json"
 FORMAT = "rivet-table-2"
@@ -36,6 +38,35 @@ JOINT_KEYS = (
 )
 
 
+SHANK_AXES = ("a", "c", "xi")
+
+
+@dataclass
+class ShankTable:
+    """Stress of the rivet over what its shank carries: sigma = s T(a, c, xi), s = tension + V, a = V/s, c = |m|/(length tension), xi = fit_eff/s."""
+
+    length: float  # of c = 1: largest moment of the shank per tension [m]
+    knots: dict  # SHANK_AXES -> knots
+    coefficients: np.ndarray  # [a, c, xi, sheet, channel] [1/m2]
+
+
+@dataclass
+class HalfData:
+    """What the table holds of the elastic cage half: see half_path.py and joint_law.py."""
+
+    m: float  # mass of one half with its half of the rivets [kg]
+    x_c: float  # place of its centre of mass [m]
+    J_p: float  # moments of inertia about it [kg m2]
+    J_t: float
+    chi: np.ndarray  # nodes of the wall's angle [rad]
+    path: np.ndarray  # [chi, Z, 8, 3]
+    spin: np.ndarray  # [8] per (rad/s)^2 at mass m
+    law: joint_law.JointLaw
+
+    def __post_init__(self):
+        self.path_slope = half_path.path_slopes(self.chi, self.path)
+
+
 @dataclass
 class RivetTable:
     """Everything the FMU knows of one rivet joint.  Arrays are those of the file; `coefficients` in 1/m2, rounded to five digits."""
@@ -56,6 +87,8 @@ class RivetTable:
     fit_slope: np.ndarray
     joint: dict  # JOINT_KEYS and hole_fit, k_hole
     load_path: np.ndarray  # [Z, 5, 3]
+    shank: ShankTable | None = None
+    half: HalfData | None = None
     note: str = ""
     errors: dict = field(default_factory=dict)
 
@@ -117,6 +150,7 @@ def _sections(path):
         data = json.loads(Path(path).read_text(encoding="utf-8"))
         known_format, digest = data["header"]["format"], data["header"]["digest"]
         sections = {name: data[name] for name in ("header", "stress", "fit_eff", "joint", "load_path")}
+        more = [_Section(path, name, data[name]) if name in data else None for name in ("shank", "half")]
     except (json.JSONDecodeError, UnicodeDecodeError, RecursionError) as error:
         raise ValueError(f"{path}: not a rivet table (JSON text): {error}") from error
     except (KeyError, TypeError) as error:
@@ -124,7 +158,7 @@ def _sections(path):
     _need(known_format == FORMAT, path, f"format is {known_format!r}; {FORMAT!r} is needed")
     _need(digest_of({k: data[k] for k in data if k != "header"}) == digest, path, "damaged: the digest in the header does not fit its sections")
     load_path = sections.pop("load_path")
-    return *(_Section(path, name, members) for name, members in sections.items()), load_path
+    return *(_Section(path, name, members) for name, members in sections.items()), load_path, *more
 
 
 def _read_coefficients(path, stress):
@@ -138,6 +172,47 @@ def _read_coefficients(path, stress):
     coefficients = stress.numbers("coefficients")
     _need(len(coefficients) == np.prod(shape), path, f"{len(coefficients)} coefficients; {np.prod(shape)} are needed")
     return knots, as_embedded(coefficients.reshape(shape))
+
+
+def _spline(path, section, axes, shape):
+    """Knots by axis and coefficients [axes ..., *shape] of a tensor product of splines."""
+    at = _Section(path, f"{section.name}.knots", section.member("knots", dict))
+    knots = {name: at.numbers(name) for name in axes}
+    for name, values in knots.items():
+        _need(np.all(np.diff(values) > 0), path, f"{section.name}: knots of axis {name} do not increase")
+    shape = (*(len(knots[name]) + 1 for name in axes), *shape)
+    coefficients = section.numbers("coefficients")
+    _need(len(coefficients) == np.prod(shape), path, f"{section.name}: {len(coefficients)} coefficients; {np.prod(shape)} are needed")
+    return knots, coefficients.reshape(shape)
+
+
+def _read_shank(path, section):
+    knots, coefficients = _spline(path, section, SHANK_AXES, (len(SHEETS), len(CHANNELS)))
+    return ShankTable(section.number("length"), knots, as_embedded(coefficients))
+
+
+def _read_half(path, section, Z):
+    """The section of the cage half, its arrays checked for their shapes."""
+
+    def array(key, shape):
+        values = _numbers(path, f"{section.name}.{key}", section.member(key, list))
+        _need(values.shape == shape, path, f"{section.name}.{key} has shape {values.shape}; {shape} is needed")
+        return values
+
+    law, start = (_Section(path, f"{section.name}.{name}", section.member(name, dict)) for name in ("law", "start"))
+    knots, coefficients = _spline(path, law, joint_law.AXES, (len(joint_law.NUMBERS),))
+    chi, x = section.numbers("chi"), start.numbers("x")
+    moves = _numbers(path, "half.start.move", start.member("move", list))
+    _need(moves.shape == (len(x), 3), path, f"half.start.move has shape {moves.shape}; {(len(x), 3)} is needed")
+    return HalfData(
+        **{key: section.number(key) for key in ("m", "x_c", "J_p", "J_t")},
+        chi=chi,
+        path=array("path", (len(chi), Z, 8, 3)),
+        spin=array("spin", (8,)),
+        law=joint_law.JointLaw(
+            law.number("length"), knots, coefficients, array("stiffness", (Z, 3, 3)), array("slip_stiffness", (Z, 2, 2)), (x, moves)
+        ),
+    )
 
 
 def _check_joint(path, joint):
@@ -157,7 +232,7 @@ def read(path, Z=None):
     Z: number of rivets that is needed, if given.  Raises ValueError naming file and fault (not JSON, another format, a damaged section, a wrong
     type or size, a number that is not finite, a table for another Z), OSError if it cannot be read.
     """
-    header, stress, fit, joint, load_path = _sections(path)
+    header, stress, fit, joint, load_path, shank, half = _sections(path)
     made_for = header.member("Z", int)
     _need(Z is None or made_for == Z, path, f"made for Z = {made_for} rivets; Z = {Z} is needed")
     knots, coefficients = _read_coefficients(path, stress)
@@ -186,6 +261,8 @@ def read(path, Z=None):
         fit_slope=fits["slope"],
         joint=joint.members,
         load_path=load_path,
+        shank=_read_shank(path, shank) if shank else None,
+        half=_read_half(path, half, made_for) if half else None,
         note=header.member("note", str),
         errors=header.member("errors", dict),
     )

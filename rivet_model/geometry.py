@@ -50,6 +50,7 @@ class Geometry:
     cage_inner_diameter: float = 49.7e-3  # paper Table 1
     ball_diameter: float = 11.1125e-3  # paper Table 1
     pocket_clearance: float = 0.2e-3  # assumed, diametral
+    seat_diameter: float = 3.0e-3  # assumed: counterbore in the bar, room for the riveting tool around the head
     cage_half_width: float = 6.8e-3  # assumed: twice the distance of a half's centre of mass from the split
 
     def __post_init__(self):

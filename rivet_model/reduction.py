@@ -145,3 +145,70 @@ def hold_out_errors(t, loads, fresh):
             "channel_maximum_MPa": dict(zip(rivet_table.CHANNELS, (fresh[chosen].max(axis=0) / 1e6).round(1).tolist(), strict=True)),
         }
     return report
+
+
+# Stress over what the shank carries ---------------------------------------------------------------------------------------------------------
+
+SHANK_LENGTH = 0.3e-3  # m: opening joints reach |m|/T = 0.2 mm; heads would lift off at 0.5 mm
+SHANK_FULL = {"a": FULL["a"], "c": np.array([0.0, 0.2, 0.45, 0.7, 1.0]), "xi": FULL["xi"]}
+SHANK_COARSE = {"a": COARSE["a"], "c": np.array([0.0, 1.0]), "xi": COARSE["xi"]}
+
+
+def _shank_row(task):
+    """All xi of one (a, c, sheet) by channels, per newton of tension + V [xi, 4]."""
+    a, c, sheet, xi = task
+    T, m = 1.0 - a, c * SHANK_LENGTH * (1.0 - a)
+    forces, active = [], None
+    for value in xi[::-1]:
+        force, solution = _joint.solve_shank(T, a, *_moments(m, DIRECTION[sheet]), value, active)
+        active = solution.active
+        forces.append(force)
+    return _joint.channels(np.stack(forces[::-1], axis=1))
+
+
+def shank_sample(joint, knots, workers=2, progress=None):
+    """T [1/m2] at the sites of all axes: [a, c, xi, sheet, channel].  Without V or without a moment its direction has no meaning."""
+    a, c, xi = (splines.sites(knots[name]) for name in rivet_table.SHANK_AXES)
+    points = [(x, y, sheet) for x in a for y in c for sheet in rivet_table.SHEETS]
+    names = [(x, 0.0 if x == 1.0 else y, "plane" if x in (0.0, 1.0) or y == 0.0 else sheet) for x, y, sheet in points]
+    unique = list(dict.fromkeys(names))
+    found = dict(zip(unique, _map(joint, _shank_row, [(*name, xi) for name in unique], workers, progress or (lambda done, total: None)), strict=True))
+    return np.moveaxis(np.stack([found[name] for name in names]).reshape(len(a), len(c), len(rivet_table.SHEETS), len(xi), -1), 2, 3)
+
+
+@dataclass(frozen=True)
+class ShankLoad:
+    """One load of the hold-out set [N, N.m, m]; direction: angle of m to the axis across V [rad], 0 bends in the plane of V."""
+
+    T: float
+    V: float
+    m: float
+    direction: float
+    fit: float
+
+
+def random_shank_loads(count, seed, largest_fit=9.1e-6):
+    """Loads that no table is built from: T <= 120 N, V <= 60 N, m up to 0.2 mm T in all directions, half of the fits in clearance."""
+    rng = np.random.default_rng(seed)
+    loads = []
+    for i in range(count):
+        direction = rng.choice([0.0, np.pi / 2, rng.uniform(0.0, np.pi / 2)])
+        fit = -90e-6 * rng.uniform() ** 2 if i % 2 == 0 else largest_fit * rng.uniform()
+        T = rng.uniform(2, 120)
+        loads.append(ShankLoad(T, rng.uniform(0, 60), 0.2e-3 * T * rng.uniform(), direction, fit))
+    return loads
+
+
+def _fresh_shank(load):
+    return _joint.channels(_joint.solve_shank(load.T, load.V, *_moments(load.m, load.direction), load.fit)[0][:, None])[0]
+
+
+def solve_shank_loads(joint, loads, workers=2, progress=None):
+    """Channels [loads, 4] in Pa by fresh contact solutions."""
+    return np.array(_map(joint, _fresh_shank, loads, workers, progress or (lambda done, total: None)))
+
+
+def shank_table_stress(shank, loads):
+    """Channels [loads, 4] in Pa by the table at effective fit = fit."""
+    T, V, m, direction, fit = (np.array([getattr(load, name) for load in loads]) for name in ("T", "V", "m", "direction", "fit"))
+    return rivet_rom.shank_stress(shank, T, V, 0.0 * V, m * np.sin(direction), m * np.cos(direction), fit)

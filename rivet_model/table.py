@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 
-from bearing_model.rivet_table import AXES, CHANNELS, FORMAT, MPA_PER_N, SHEETS, RivetTable, as_embedded, digest_of
+from bearing_model.rivet_table import AXES, CHANNELS, FORMAT, MPA_PER_N, SHANK_AXES, SHEETS, RivetTable, as_embedded, digest_of
 
 from . import splines
 from .geometry import Geometry
@@ -42,6 +42,14 @@ def write(table, path):
         "joint": {key: (value if np.isscalar(value) else [float(v) for v in value]) for key, value in table.joint.items()},
         "load_path": np.asarray(table.load_path, dtype=float).tolist(),
     }
+    if table.shank:
+        sections["shank"] = {
+            "length": table.shank.length,
+            "knots": {name: [float(v) for v in table.shank.knots[name]] for name in SHANK_AXES},
+            "coefficients": rounded(table.shank.coefficients / MPA_PER_N).ravel().tolist(),
+        }
+    if table.half:
+        sections["half"] = _half_section(table.half)
     header = {
         "format": FORMAT,
         "kind": table.kind,
@@ -55,6 +63,29 @@ def write(table, path):
     }
     blocks = [f'"{name}":{json.dumps(value, separators=(",", ":"))}' for name, value in ({"header": header} | sections).items()]
     Path(path).write_text("{\n" + ",\n".join(blocks) + "\n}\n", encoding="utf-8")
+
+
+def _half_section(half):
+    law = half.law
+    return {
+        **{name: float(f"{getattr(half, name):.9g}") for name in ("m", "x_c", "J_p", "J_t")},
+        "chi": [float(v) for v in half.chi],
+        "path": rounded(tidy(half.path)).tolist(),
+        "spin": rounded(tidy(half.spin)).tolist(),
+        "stiffness": rounded(tidy(law.stiffness)).tolist(),
+        "slip_stiffness": rounded(tidy(law.slip_stiffness)).tolist(),
+        "law": {
+            "length": law.length,
+            "knots": {name: [float(v) for v in law.knots[name]] for name in law.knots},
+            "coefficients": rounded(tidy(law.coefficients)).ravel().tolist(),
+        },
+        "start": {"x": [float(v) for v in law.start[0]], "move": rounded(law.start[1]).tolist()},
+    }
+
+
+def tidy(array):
+    """The array with 0 where a number is only rounding beside the others of its kind (last axis: kinds; 1e-9 of the largest)."""
+    return np.where(np.abs(array) < 1e-9 * np.abs(array).max(), 0.0, array)
 
 
 def monotone_slopes(x, y):

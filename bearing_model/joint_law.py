@@ -1,0 +1,149 @@
+"""Law of one riveted joint, and what it leaves of the loads that bonded joints would carry; rivet_model/half_loads.py makes its numbers.
+
+Bonded, the joints of a half carry L_b = (N, M_r, M_t)_k (half_path.py: pocket forces, centrifugal load).  A joint that opens moves, by
+delta = (u, phi_r, phi_t) of one pad against its bonded place, and is relieved through the half's stiffness K, a circulant matrix:
+
+    L_k = L_b,k - sum_j K_(k-j) delta_j                         K: moves of all pads -> loads; rigid motions of the half relieve nothing
+    (delta, T, m_r, m_t)_k = law(L*_k, P_k),   L*_k = L_k + K_0 delta_k = L_b,k - sum_(j != k) K_(k-j) delta_j
+
+The law is the contact of one pad whose neighbours are held (joint_contact.py): L* is what the joint would carry if it too were bonded.  So the
+compliance of the half around the joint is in the law, that of the rest in K, and nothing is in both.  Loads that equilibrium imposes are those that
+no move relieves: K has no stiffness there.  The law is positively homogeneous of degree 1 in (L*, P), so with the length l
+
+    M = |(M_r, M_t)|/l,   W = |(N, M)|,   s = P + W,   tau = W/s,   q = N/(|N| + M),   psi = M_t/(|M_t| + |M_r|)
+    (u, |phi_r|, phi_t, T, |m_r|, m_t) = s S(tau, q, psi),   S: tensor product of quadratic B-splines; phi_r and m_r have the sign of M_r
+
+Fixed point: a few sweeps over all joints, starting from the state under the centrifugal load alone, where all joints are alike:
+
+    delta_0 = s d(c/s),   c: bonded M_t of the centrifugal load / l,  s = P + |c|           (found once; table `start`)
+
+In the plane, joints slip instead: V_b relieved through the slip stiffness, joint_slip below.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from bearing_model.rivet_splines import cell_weights
+
+AXES = ("tau", "q", "psi")
+NUMBERS = ("u", "phi_r", "phi_t", "T", "m_r", "m_t")
+SWEEPS = 3
+CONTRACTION = 0.5  # of one sweep: neighbours that open relieve and load each other by half as much as themselves
+
+
+@dataclass
+class JointLaw:
+    """Numbers of the law of one geometry."""
+
+    length: float  # l [m]
+    knots: dict  # AXES -> knots
+    coefficients: np.ndarray  # [tau, q, psi, NUMBERS], per newton
+    stiffness: np.ndarray  # K [Z, 3, 3]: load on the joint k pitches farther per move (u, phi_r, phi_t); N/m, N/rad, N.m/rad
+    slip_stiffness: np.ndarray  # [Z, 2, 2]: (V_r, V_t) of the joint k pitches farther per slip of one half against the other [N/m]
+    start: tuple = ()  # (knots of |c|/s, d [knots, 3]) for the sign of c that the half has
+
+    @property
+    def Z(self):
+        return len(self.stiffness)
+
+
+def ratio(top, bottom):
+    """top/bottom, 0 where bottom is 0."""
+    return np.divide(top, bottom, out=np.zeros(np.broadcast(top, bottom).shape), where=np.asarray(bottom) > 0.0)
+
+
+def law_coordinates(length, load, P):
+    """s and (tau, q, psi) of loads [..., 3] = (N, M_r, M_t) and preloads [...]."""
+    N, M_r, M_t = np.moveaxis(load, -1, 0)
+    M = np.hypot(M_r, M_t) / length
+    W = np.hypot(N, M)
+    s = P + W
+    return s, (ratio(W, s), ratio(N, np.abs(N) + M), ratio(M_t, np.abs(M_t) + np.abs(M_r)))
+
+
+def law_load(length, tau, q, psi):
+    """(N, M_r, M_t), P of s = 1 N at the coordinates, M_r >= 0: the inverse of law_coordinates."""
+    m = 1.0 - abs(q)
+    a, b = 1.0 - abs(psi), psi
+    W, M = tau / np.hypot(q, m), length / np.hypot(a, b)
+    return np.array([W * q, W * m * M * a, W * m * M * b]), 1.0 - tau
+
+
+def joint_law(law, load, P):
+    """Moves (u, phi_r, phi_t) [..., 3] of the pad and loads (T, m_r, m_t) [..., 3] of the rivet, under loads [..., 3] and preloads [...] >= 0."""
+    load, P = np.asarray(load, dtype=float), np.asarray(P, dtype=float)
+    s, at = law_coordinates(law.length, load, P)
+    first, weight = zip(*(cell_weights(law.knots[name], value) for name, value in zip(AXES, at, strict=True)), strict=True)
+    result = 0.0
+    for i in range(3):
+        for j in range(3):
+            for k in range(3):
+                w = weight[0][..., i] * weight[1][..., j] * weight[2][..., k]
+                result = result + w[..., None] * law.coefficients[first[0] + i, first[1] + j, first[2] + k]
+    result = result * s[..., None]
+    side = np.where(load[..., 1] < 0.0, -1.0, 1.0)[..., None] * [0.0, 1.0, 0.0] + [1.0, 0.0, 1.0]
+    return result[..., :3] * side, result[..., 3:] * side
+
+
+def relief(stiffness, moves):
+    """sum_j K_(k-j) moves_j [..., Z, n] for a circulant K [Z, n, n]."""
+    Z = len(stiffness)
+    return np.einsum("kjab,...jb->...ka", stiffness[(np.arange(Z)[:, None] - np.arange(Z)) % Z], moves)
+
+
+def start_moves(law, c, P):
+    """Moves [..., Z, 3] under the centrifugal load alone: c [...] = bonded M_t of any joint, P [..., Z]."""
+    load = np.abs(np.asarray(c, dtype=float))[..., None] / law.length
+    s = P + load
+    knots, d = law.start
+    x = ratio(load, s)
+    return s[..., None] * np.stack([np.interp(x, knots, column) for column in d.T], axis=-1)
+
+
+def joints_open(law, bonded, P, moves, sweeps=SWEEPS):
+    """What joints that open leave of the bonded loads.
+
+    bonded [..., Z, 3] = (N, M_r, M_t), P [..., Z] >= 0, moves [..., Z, 3] to start from.
+    Returns (N, M_r, M_t), (T, m_r, m_t), moves, each [..., Z, 3].
+    """
+    others = law.stiffness.copy()
+    others[0] = 0.0
+    before, weight = moves, 1.0
+    for sweep in range(sweeps):
+        alone = bonded - relief(others, moves)
+        alone_moves, rivet = joint_law(law, alone, P)
+        weight = 1.0 if sweep == 0 else 1.0 / (1.0 - CONTRACTION**2 * weight * (0.5 if sweep == 1 else 0.25))
+        before, moves = moves, before + weight * (alone_moves - before)
+    return alone - alone_moves @ law.stiffness[0].T, rivet, alone_moves
+
+
+def joint_slip(V, K, gap, plate, head, k_head, k_hole):
+    """Slip [m] of a joint that would carry V [N] bonded, and what heads and hole then carry [N]; all along V.
+
+    K: slip stiffness of the halves around this joint.  Plates hold up to `plate`, then the heads drag the rivet (k_head) up to `head`, then the halves
+    slip freely to `gap`, then the hole bears (k_hole): V - K slip = plate + min(k_head slip, head) + k_hole max(0, slip - gap).
+    """
+    beyond = V - plate
+    free = np.maximum(beyond / (K + k_head), (beyond - head) / K)
+    bears = np.maximum((beyond + k_hole * gap) / (K + k_head + k_hole), (beyond - head + k_hole * gap) / (K + k_hole))
+    slip = np.maximum(np.where(free <= gap, free, bears), 0.0)
+    return slip, np.minimum(k_head * slip, head), k_hole * np.maximum(slip - gap, 0.0)
+
+
+def joints_slip(law, bonded, gap, plate, head, k_head, k_hole, sweeps=SWEEPS):
+    """(V_r, V_t) of plates, heads and holes, and the slip, each [..., Z, 2], of joints that would carry `bonded` [..., Z, 2]."""
+    others = law.slip_stiffness.copy()
+    others[0] = 0.0
+    K_0 = law.slip_stiffness[0]
+    slip = np.zeros_like(bonded)
+    for _ in range(sweeps):
+        alone = bonded - relief(others, slip)
+        V = np.hypot(alone[..., 0], alone[..., 1])
+        e = ratio(alone, V[..., None])
+        K = np.einsum("...a,ab,...b->...", e, K_0, e) + np.where(V > 0.0, 0.0, K_0[0, 0])
+        along, H, B = joint_slip(V, K, gap, plate, head, k_head, k_hole)
+        slip = along[..., None] * e
+    total = alone - slip @ K_0.T
+    H, B = H[..., None] * e, B[..., None] * e
+    return total - H - B, H, B, slip

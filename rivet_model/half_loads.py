@@ -1,0 +1,181 @@
+"""What bonded joints carry, by the elastic half: pocket forces over the wall's angle, centrifugal load; and the numbers of the joint's law.
+
+Rows of a joint's loads (on the +x half, frame (x, r, t) at the rivet):
+
+    N, V_r, V_t, M_r, M_t   of the joint whose pads do not move; M of what holds the pad along x, V of what holds it in the plane
+    dP, dm_r, dm_t          of its rivet: the seat's bottom gives under a load nearby, though the pad does not move; dP is the change of preload that
+                            would shift the head as much, dm the bending moment of the shank
+
+A force on one half is half a mirrored pair, which gives N, M, dP, dm, and half an opposed pair, which gives V.  On the -x half the mirrored force has the
+same N, M_t, dP, dm_t ... and the opposite V.
+"""
+
+import numpy as np
+
+from bearing_model.joint_law import AXES, JointLaw, joint_law, law_load
+
+from . import half, splines
+from .cage_half import SPIN, CageHalf
+from .lcp import Contact
+
+ROWS = ("N", "V_r", "V_t", "M_r", "M_t", "dP", "dm_r", "dm_t")
+MIRROR = np.array([1.0, 1.0, -1.0, -1.0, 1.0, 1.0, -1.0, 1.0])  # of the rows, in the plane through the pocket's axis: rivet -1 - i for i
+FORCE_MIRROR = np.array([1.0, 1.0, -1.0])  # of forces (x, r, t)
+CHI = np.deg2rad([0.0, 6.0, 12.0, 20.0, 30.0, 42.0, 56.0, 72.0, 90.0])
+KNOTS = {
+    "tau": np.array([0.0, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0]),
+    "q": np.array([-1.0, -0.75, -0.5, -0.25, 0.0, 0.2, 0.4, 0.6, 0.8, 1.0]),
+    "psi": np.array([-1.0, -0.8, -0.6, -0.4, -0.2, 0.0, 0.2, 0.4, 0.6, 0.8, 1.0]),
+}
+LENGTH = 1.5e-3  # l of the law: about the distance of the pad's edge from the rivet
+
+
+class JointAlone:
+    """Contact of one pad with its rivet while all other pads are held: exact, from the condensed half."""
+
+    def __init__(self, elastic, rivet_compliance):
+        self.elastic, p = elastic, elastic.patterns
+        self.n = p.pad.stop - p.pad.start
+        r, t = elastic.pad_place
+        self.lever = np.stack([np.ones(self.n), t, -r], axis=1)
+        head = slice(p.head.start, p.head.start + 3)
+        self.head = head
+        stiffness, reactions, held = elastic.mirrored
+        self.K_waves = self.lever.T @ stiffness @ self.lever
+        own, to_head, clamped = (elastic.circulant(wave)[0] for wave in (stiffness, reactions[:, :, head], held[:, head, head]))
+        B = np.linalg.inv(own)  # of the pad's hats alone
+        B = 0.5 * (B + B.T)
+        self.B_ph = B @ to_head  # hats by the head: what the held pad gives back undoes it
+        self.clamped = 0.5 * (clamped + clamped.T) + np.diag(rivet_compliance)  # of the head with its rivet, the pad held
+        self.K_0 = self.lever.T @ own @ self.lever
+        A = np.linalg.inv(self.clamped + self.B_ph.T @ own @ self.B_ph)
+        self.A, self.pull, self.own = A, self.B_ph @ A, own
+        C = B - self.pull @ self.B_ph.T
+        self.contact = Contact(0.5 * (C + C.T), np.zeros((self.n, 1)), np.ones(1))
+        self.follows = np.eye(3) - self.B_ph.T @ own @ self.lever  # move of the head per move of the pad's surroundings, the pad held
+        self.shortening = 1.0
+        self.shortening = 1.0 / self.solve(np.zeros(3), 1.0)[1][0]
+
+    def solve(self, load, P, active=None):
+        """Move [3], rivet's loads (T, m_r, m_t), active set under L* = load and preload P."""
+        a = np.linalg.solve(self.K_0, load)
+        free_head = a + [self.shortening * P, 0.0, 0.0]
+        solution = self.contact.solve(self.lever @ a - self.pull @ free_head, np.zeros(1), active)
+        rivet = self.A @ (self.B_ph.T @ solution.p + free_head)
+        carried = rivet - solution.p @ self.lever
+        return np.linalg.solve(self.K_0, load - carried), rivet, solution.active
+
+    def rivet_rows(self, waves, loads):
+        """dP, dm_r, dm_t [waves, 3] for free motions of the heads with all pads held `waves` [waves, 3] and the bonded loads [waves, 3]."""
+        shift = waves - loads @ np.linalg.inv(self.K_0).T @ self.follows.T
+        moment = np.linalg.solve(self.clamped, shift.T).T
+        return np.concatenate([shift[:, :1] / self.shortening, moment[:, 1:]], axis=1)
+
+
+def bonded_rows(elastic, alone, column):
+    """Rows [Z, 8] of all joints under a unit of the patterns `column` [patterns] on both halves (mirrored) and against each other (opposed)."""
+    _, reactions, held = elastic.mirrored
+    M = (reactions @ column) @ alone.lever  # [waves, 3]
+    rivet = alone.rivet_rows((held @ column)[:, alone.head], M)
+    V = elastic.opposed[1] @ column
+    rows = np.concatenate([M[:, :1], V, M[:, 1:], rivet], axis=1)
+    return elastic.circulant(rows)
+
+
+def bolt_group(d_m, wrench, c, s):
+    """N, V_y, V_z at equal rivets on a circle whose halves are rigid, of the wrench (F_x ... M_z) on the +x half about the circle's centre."""
+    Z, R = len(c), 0.5 * d_m
+    shear = wrench[3] / (Z * R)
+    return wrench[0] / Z + 2.0 * (wrench[4] * s - wrench[5] * c) / (Z * R), wrench[1] / Z - shear * s, wrench[2] / Z + shear * c
+
+
+def rigid_rows(elastic, place):
+    """N, V_r, V_t [Z, 3] of rigid halves per unit force (x, r, t) [3, Z, 3] at a place (x, r, t) of pocket 0; inertia balances what joints leave free."""
+    g, I = elastic.g, elastic.loads[:, :6].T @ elastic.motions * elastic.g.Z
+    angle = 2 * np.pi * (np.arange(g.Z) + 0.5) / g.Z
+    c, s = np.cos(angle), np.sin(angle)
+    I = _round_inertia(I)
+    result = []
+    for force in np.eye(3):
+        load = np.concatenate([force, np.cross(place, force)])
+        wrench = np.zeros(6)
+        for held, free in (([0, 4, 5], [1, 2, 3]), ([1, 2, 3], [0, 4, 5])):
+            wrench[held] = load[held] - I[np.ix_(held, free)] @ np.linalg.solve(I[np.ix_(free, free)], load[free])
+        N, V_y, V_z = bolt_group(g.d_m, 0.5 * wrench, c, s)
+        result.append(np.stack([N, c * V_y + s * V_z, c * V_z - s * V_y], axis=1))
+    return np.stack(result)
+
+
+def _round_inertia(I):
+    """Inertia of all pitches from Z times that of one, which is averaged over the angles."""
+    m, first, polar = I[0, 0], 0.0, I[3, 3]
+    first = 0.5 * (abs(I[1, 5]) + abs(I[2, 4]))
+    across = 0.5 * (I[4, 4] + I[5, 5])
+    J = np.diag([m, m, m, polar, across, across])
+    J[1, 5] = J[5, 1] = first
+    J[2, 4] = J[4, 2] = -first
+    return J
+
+
+def path_at(elastic, alone, point):
+    """Rows [Z, 8, 3] by unit forces (x, r, t) at a point of the half: elastic less the rigid share (N and V)."""
+    p, n = elastic.patterns, len(elastic.points)
+    rigid = rigid_rows(elastic, elastic.point_places()[point])
+    result = np.zeros((elastic.g.Z, len(ROWS), 3))
+    for f in range(3):
+        column = np.zeros(elastic.loads.shape[1])
+        column[p.pocket.start + 3 * point + f] = column[p.pocket.start + 3 * (n + point) + f] = 0.5
+        result[:, :, f] = bonded_rows(elastic, alone, column)
+        result[:, :3, f] -= rigid[f]
+    return result
+
+
+def centrifugal_rows(elastic, alone, density=half.DENSITY, density_rivet=half.DENSITY_RIVET):
+    """Rows [8] of any joint per (rad/s)^2: the half's own load, and that of the half rivet, which the head gives to the seat's bottom."""
+    g = elastic.g
+    column = np.zeros(elastic.loads.shape[1])
+    column[SPIN] = density
+    column[elastic.patterns.head.start + 3] = half.rivet_mass(g, density_rivet) * 0.5 * g.d_m
+    _, reactions, held = elastic.mirrored
+    M = (reactions[:1] @ column).real @ alone.lever
+    rivet = alone.rivet_rows((held[:1] @ column).real[:, alone.head], M)
+    return np.concatenate([M[0, :1], [0.0, 0.0], M[0, 1:], rivet[0]])
+
+
+def make_law(elastic, alone, knots=None, progress=lambda done, total: None):
+    """The joint's law of the geometry, from contact solutions of one pad at the sites of the knots."""
+    knots = knots or KNOTS
+    sites = [splines.sites(knots[name]) for name in AXES]
+    values = np.zeros((*(len(s) for s in sites), 6))
+    for j, q in enumerate(sites[1]):
+        for k, psi in enumerate(sites[2]):
+            active = None
+            for i, tau in enumerate(sites[0]):
+                load, P = law_load(LENGTH, tau, q, psi)
+                move, rivet, active = alone.solve(load, P, active)
+                values[i, j, k] = np.concatenate([move, rivet])
+        progress(j + 1, len(sites[1]))
+    K = elastic.circulant(alone.K_waves)
+    slip = 0.5 * elastic.circulant(elastic.opposed[0])
+    return JointLaw(LENGTH, knots, splines.interpolate([knots[name] for name in AXES], values), K, slip)
+
+
+def make_start(law, sign, count=33):
+    """Moves of joints that are all alike under a bonded M_t of this sign, per newton of s = P + |M_t|/l: (knots of |M_t|/(l s), moves [knots, 3])."""
+    wave_0 = law.stiffness.sum(axis=0)
+    x, moves = np.linspace(0.0, 1.0, count), np.zeros((count, 3))
+    for i in range(1, count):
+        move, load = moves[i - 1], np.array([0.0, 0.0, sign * x[i] * law.length])
+        for _ in range(200):
+            new = joint_law(law, load - (wave_0 - law.stiffness[0]) @ move, 1.0 - x[i])[0]
+            if np.abs(new - move).max() < 1e-13 * np.abs(new).max():
+                break
+            move = new
+        moves[i] = move
+    return x, moves
+
+
+def elastic_half(g, size=None, points=()):
+    """CageHalf with the nodes of the wall's angle as points, then further ones."""
+    nodes = np.stack([CHI, np.full(len(CHI), g.d_m / 2)], axis=1)
+    return CageHalf(g, size, np.concatenate([nodes, np.reshape(points, (-1, 2))]))
