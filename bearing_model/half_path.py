@@ -1,4 +1,4 @@
-"""From pocket forces over the wall's angle, and from the cage's speed, to the loads that bonded joints would carry; rivet_model/half_loads.py makes the numbers.
+"""From pocket forces over the wall's angle to the loads that bonded joints would carry; rivet_model/half_loads.py makes the numbers.
 
 Rows of a joint's loads, on the +x half in the frame (x, r, t) at the rivet: N, V_r, V_t, M_r, M_t of the joint [N, N.m] (N and V: elastic less the rigid
 halves' share, which the dynamics has), then dP, dm_r, dm_t: what the rivet gets beside it because the half gives under its head.

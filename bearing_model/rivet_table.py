@@ -2,7 +2,8 @@
 
 The file is JSON text.  Sections: `header` {format, kind closed_form|fe, note, geometry, geometry_hash, Z, units, errors, digest}, `stress` (knots and spline
 coefficients of T, see fmu_src/rivet_rom.h), `fit_eff` (interference with plasticity), `joint` (stiffnesses for the dynamics), `load_path`
-(see fmu_src/load_path.h), `shank` (stress over the shank's own loads), `half` (the elastic cage half and the law of its joints).  Units in the file are SI except T, which is in MPa/N = 1/mm2 to keep it readable.
+(see fmu_src/load_path.h), `shank` (stress over the shank's own loads), `half` (the elastic cage half and the law of its joints).
+Units in the file are SI except T, which is in MPa/N = 1/mm2 to keep it readable.
 """
 
 import hashlib
@@ -62,6 +63,8 @@ class HalfData:
     path: np.ndarray  # [chi, Z, 8, 3]
     spin: np.ndarray  # [8] per (rad/s)^2 at mass m
     law: joint_law.JointLaw
+    k_closed: float  # force per separation of the halves' bodies, for each joint: plates closed, plates open [N/m]
+    k_open: float
 
     def __post_init__(self):
         self.path_slope = half_path.path_slopes(self.chi, self.path)
@@ -205,13 +208,11 @@ def _read_half(path, section, Z):
     moves = _numbers(path, "half.start.move", start.member("move", list))
     _need(moves.shape == (len(x), 3), path, f"half.start.move has shape {moves.shape}; {(len(x), 3)} is needed")
     return HalfData(
-        **{key: section.number(key) for key in ("m", "x_c", "J_p", "J_t")},
+        **{key: section.number(key) for key in ("m", "x_c", "J_p", "J_t", "k_closed", "k_open")},
         chi=chi,
         path=array("path", (len(chi), Z, 8, 3)),
         spin=array("spin", (8,)),
-        law=joint_law.JointLaw(
-            law.number("length"), knots, coefficients, array("stiffness", (Z, 3, 3)), array("slip_stiffness", (Z, 2, 2)), (x, moves)
-        ),
+        law=joint_law.JointLaw(law.number("length"), knots, coefficients, array("stiffness", (Z, 3, 3)), array("slip_stiffness", (Z, 2, 2)), (x, moves)),
     )
 
 

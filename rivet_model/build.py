@@ -15,7 +15,7 @@ from threadpoolctl import threadpool_limits
 
 from bearing_model import rivet_table
 
-from . import cage_half, plastic_fit, reduction, stiffness, table
+from . import half, half_loads, plastic_fit, reduction, stiffness, table
 from .geometry import Geometry
 from .load_cases import COARSE, SHIPPED, TRUTH, Joint
 from .section_mesh import Fineness
@@ -44,16 +44,18 @@ def make_table(geometry, coarse=False, workers=2, progress=_quiet, hold_out=320)
     samples = reduction.sample(joint, knots, workers, stage("contacts"))
     fine = Fineness(0.5) if coarse else Fineness()
     fit = plastic_fit.plastic_fit(geometry, fine=fine, progress=stage("interference"))
-    path, k_half = cage_half.load_path(geometry, cage_half.HalfMesh(2, 2, 1) if coarse else cage_half.HalfMesh())
-    progress("load path", 1, 1)
-    result = assemble(joint, knots, samples, fit, path, k_half)
+    cage = half_loads.make_half(geometry, half.COARSE if coarse else None, half_loads.COARSE_KNOTS if coarse else None, stage("cage half"))
+    result = assemble(joint, knots, samples, fit, cage)
+    shank_knots = reduction.SHANK_COARSE if coarse else reduction.SHANK_FULL
+    shank_samples = reduction.shank_sample(joint, shank_knots, workers, stage("shank"))
+    result.shank = table.make_shank(reduction.SHANK_LENGTH, shank_knots, shank_samples / rivet_table.MPA_PER_N)
     if hold_out:
         result.errors = measured_errors(result, joint if coarse else Joint(geometry, TRUTH), hold_out // 8 if coarse else hold_out, workers, stage("hold-out"))
     return result
 
 
-def assemble(joint, knots, samples, fit, path, k_half):
-    """The table from its parts."""
+def assemble(joint, knots, samples, fit, cage):
+    """The table from its parts, without its stress over the shank's loads."""
     geometry = joint.geometry
     _, head, head_vm = stiffness.head_friction(joint)
     return table.make(
@@ -62,8 +64,9 @@ def assemble(joint, knots, samples, fit, path, k_half):
         knots,
         samples / rivet_table.MPA_PER_N,
         (fit.fit_a, fit.fit_eff),
-        stiffness.joint_data(joint, k_half),
-        path,
+        stiffness.joint_data(joint, cage.law.stiffness[0, 1, 1]),
+        half_loads.two_walls(cage),
+        half=cage,
         moment_length=reduction.MOMENT_LENGTH,
         head_friction=float(head),
         head_friction_vm=float(head_vm),
@@ -75,8 +78,11 @@ def assemble(joint, knots, samples, fit, path, k_half):
 
 def measured_errors(result, joint, count, workers, progress, seed=2026):
     """Errors of the table against fresh solutions on another, finer grid of angles; as fractions of the channels' maxima."""
-    loads = reduction.random_loads(count, seed)
-    errors = reduction.hold_out_errors(result, loads, reduction.solve_loads(joint, loads, workers, progress))
+    loads, shank_loads = reduction.random_loads(count, seed), reduction.random_shank_loads(count, seed)
+    errors = reduction.hold_out_errors(reduction.table_stress(result, loads), loads, reduction.solve_loads(joint, loads, workers, progress))
+    fresh = reduction.solve_shank_loads(joint, shank_loads, workers, progress)
+    shank = reduction.hold_out_errors(reduction.shank_table_stress(result.shank, shank_loads), shank_loads, fresh)
+    errors |= {f"shank_{name}": report for name, report in shank.items()}
     return errors | {"seed": seed, "angles": len(joint.angles["UB"]), "harmonics": joint.grid.n_max, "rule": RULE}
 
 

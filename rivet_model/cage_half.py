@@ -4,7 +4,7 @@ A load pattern is a set of nodal loads on one pitch; what the half does under it
 between patterns is symmetric.  In the frames of the pitches a load on pitch 0 is the sum of all waves exp(2 pi i m k/Z)/Z, and each wave meets
 itself at the cuts through the webs: u(far) = turn(2 pi/Z) exp(2 pi i m/Z) u(near).  Inside, the pitch is eliminated once:
 
-    work compliance of wave m    H_m = A_FF + A_FB T_m (T_m^H S T_m)^-1 T_m^H A_FB^T,      S = K_BB - K_BI K_II^-1 K_IB,  T_m: near -> near, far
+    compliance of wave m    H_m = A_FF + A_FB T_m (T_m^H S T_m)^-1 T_m^H A_FB^T,      S = K_BB - K_BI K_II^-1 K_IB,  T_m: near -> near, far
 
 Rigid motions of the half (waves 0, 1, Z-1) are balanced by inertia, as in the dynamics: loads are freed of their resultants by body forces
 proportional to the rigid motions, and displacements are measured without them.
@@ -12,54 +12,37 @@ proportional to the rigid motions, and displacements are measured without them.
 
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import pairwise
 
 import numpy as np
 import scipy.sparse as sp
-from scipy.spatial import cKDTree
 from scipy.sparse.linalg import splu
+from scipy.spatial import cKDTree
 from skfem import BilinearForm, ElementHex1, ElementHex2, ElementVector, FacetBasis, LinearForm
 
 from . import half
 from .half import HalfMesh
 
 SYMMETRIC = {"permc_spec": "MMD_AT_PLUS_A", "diag_pivot_thresh": 0.0, "options": {"SymmetricMode": True}}  # for splu
-BODY = 6  # patterns of the rigid motions (x, y, z, rotations about x, y, z), times density: the first ones
-SPIN = 6  # pattern of the centrifugal body force per (rad/s)2 and unit density
+BODY = 6  # the first patterns: body forces that rigid motions x, y, z and rotations about x, y, z would need, per unit density
+MIRRORED, OPPOSED = {0: [0], 1: [1]}, {0: [1], 1: [0]}  # wave -> rigid motion (see _rigid) that joints prevent if the halves' loads mirror or oppose each other
+SPIN = 6  # the next one: centrifugal body force per (rad/s)^2 and unit density
 
 
-@dataclass(frozen=True)
-class Patterns:
-    """Where the groups of patterns stand among the columns."""
+class CyclicSolid:
+    """An elastic solid of Z equal pitches, condensed to the load patterns of one of them (which lies between theta = 0 and 2 pi/Z)."""
 
-    body: slice  # rigid motions times density 1, x, y, z, rotations; then centrifugal at spin
-    pad: slice  # hats on the pad, along x
-    plane: slice  # forces along r and t that friction gives to the pad, below the cone under the rivet's head
-    head: slice  # at the seat's bottom, under the rivet's head: force along x, moments about r and t; then forces along r and t
-    pocket: slice  # points of the wall, three directions each: near part, then far part
-
-
-class CageHalf:
-    """Condensed half of a geometry.
-
-    points: places of unit forces on the pocket's wall [n, 2]: angle from the split toward growing x [rad, 0...pi: pi/2 the bottom] and radius [m].
-    """
-
-    def __init__(self, g, size=None, points=()):
-        self.g, self.size = g, size or HalfMesh()
-        mesh = half.pitch_mesh(g, self.size)
+    def __init__(self, mesh, Z, E, nu):
+        self.Z = Z
         self.basis = half.solid_basis(mesh, ElementVector(ElementHex2()))
-        self.K, self.M = _matrices(self.basis, g.E_flange, g.nu_flange)
+        self.K, self.M = _matrices(self.basis, E, nu)
         self.x = self.basis.doflocs
         self.component = np.zeros(self.basis.N, dtype=int)
         b = self.basis
         for dofs in (b.nodal_dofs, b.edge_dofs, b.facet_dofs, b.interior_dofs):
             for i, row in enumerate(dofs):
                 self.component[row] = i % 3
-        self.points = np.reshape(points, (-1, 2))
-        self.loads, self.patterns = self._loads()
-        self._condense()
-
-    # Loads -----------------------------------------------------------------------------------------------------------------------------
+        self.motions = self.rigid_motions()
 
     def rigid_motions(self):
         """Displacements [dofs, 6] by unit rigid motions about the centre of the circle in the split plane."""
@@ -68,16 +51,148 @@ class CageHalf:
         fields = [(1 + zero, zero, zero), (zero, 1 + zero, zero), (zero, zero, 1 + zero), (zero, -x[2], x[1]), (x[2], zero, -x[0]), (-x[1], x[0], zero)]
         return np.stack([np.choose(self.component, field) for field in fields], axis=1)
 
-    def _loads(self):
-        self.motions = self.rigid_motions()
-        spin = np.choose(self.component, [0.0 * self.x[0], self.x[1], self.x[2]])
-        columns, place, start = [], {}, 0
-        groups = [("body", self.M @ np.column_stack([self.motions, spin])), *self._pad_loads().items(), ("head", self._head_loads()), ("pocket", self._pocket_loads())]
-        for name, loads in groups:
-            columns.append(loads)
-            place[name] = slice(start, start + loads.shape[1])
-            start += loads.shape[1]
-        return np.column_stack(columns), Patterns(**place)
+    def body_loads(self):
+        """The patterns of body forces at unit density [dofs, 7]: BODY rigid motions, then SPIN."""
+        outward = np.choose(self.component, [0.0 * self.x[0], self.x[1], self.x[2]])
+        return self.M @ np.column_stack([self.motions, outward])
+
+    # Condensation ----------------------------------------------------------------------------------------------------------------------
+
+    def condense(self, loads, back=None):
+        """Take the patterns [dofs, patterns], the first of them from body_loads; back: which of them stand one pitch back (on its far end)."""
+        self.loads = loads
+        self.back = np.zeros(loads.shape[1], dtype=bool) if back is None else back
+        theta, r = np.arctan2(self.x[2], self.x[1]), np.hypot(self.x[1], self.x[2])
+        near, far = np.flatnonzero(np.abs(theta) < 1e-9), np.flatnonzero(np.abs(theta - 2 * np.pi / self.Z) < 1e-9)
+
+        def ordered(dofs):
+            return dofs[np.lexsort((self.component[dofs], np.round(r[dofs] * 1e9), np.round(self.x[0][dofs] * 1e9)))]
+
+        near, far = ordered(near), ordered(far)
+        self.near = near
+        edge = np.concatenate([near, far])
+        inside = np.setdiff1d(np.arange(self.basis.N), edge)
+        F_I, F_B = self.loads[inside], self.loads[edge]
+        K_IB = self.K[inside][:, edge].toarray()
+        right = np.column_stack([F_I, K_IB])
+        X, filled = np.zeros_like(right), np.any(right, axis=0)
+        X[:, filled] = splu(self.K[inside][:, inside], **SYMMETRIC).solve(right[:, filled])
+        X_F, X_B = X[:, : F_I.shape[1]], X[:, F_I.shape[1] :]
+        self.A_FF, self.A_FB = F_I.T @ X_F, F_B.T - F_I.T @ X_B
+        S = self.K[edge][:, edge].toarray() - K_IB.T @ X_B
+        self.A_FF, self.S = 0.5 * (self.A_FF + self.A_FF.T), 0.5 * (S + S.T)
+        self.resultants = self.loads.T @ self.motions  # [patterns, 6]: work of the patterns on rigid motions
+
+    def _phase(self, m):
+        """Factor by which patterns count in wave m [patterns]."""
+        return np.where(self.back, np.exp(2j * np.pi * m / self.Z), 1.0)
+
+    def _rigid(self, m):
+        """Rigid motions of wave m as combinations of the six [6, 2]: displacement u = motions @ column, turned on from pitch to pitch."""
+        e = np.eye(6, dtype=complex)
+        if m == 0:
+            return e[:, [0, 3]]
+        if m == 1:
+            return np.stack([e[:, 1] + 1j * e[:, 2], e[:, 4] + 1j * e[:, 5]], axis=1)
+        return np.zeros((6, 0))
+
+    def wave(self, m):
+        """Compliance [patterns, patterns] of wave m, 0...Z/2; that of Z - m is its conjugate.  Rigid motions are balanced by inertia."""
+        n = len(self.near)
+        alpha = 2 * np.pi / self.Z
+        c, s = np.cos(alpha), np.sin(alpha)
+        turn = np.kron(np.eye(n // 3), np.array([[1, 0, 0], [0, c, -s], [0, s, c]]))
+        T = np.vstack([np.eye(n), np.exp(1j * m * alpha) * turn])
+        phase = self._phase(m)
+        S, L = T.conj().T @ self.S @ T, (phase.conj()[:, None] * self.A_FB) @ T  # work of patterns on boundary motions: conj(load) . u
+        rigid = self._rigid(m)
+        boundary = self.motions[self.near] @ rigid
+        Q, _ = np.linalg.qr(boundary)
+        S = S + np.abs(S).max() * (Q @ Q.conj().T)  # holds the rigid motions, which the balanced loads do not excite
+        H = phase.conj()[:, None] * self.A_FF * phase + L @ np.linalg.solve(S, L.conj().T)
+        if rigid.shape[1]:
+            balance = self.balance(m)
+            H = balance.conj().T @ H @ balance
+        return 0.5 * (H + H.conj().T)
+
+    def balance(self, m):
+        """Matrix [patterns, patterns] that adds the body forces of inertia to the patterns: balanced = loads @ balance."""
+        rigid, phase = self._rigid(m), self._phase(m)
+        E = np.zeros((self.loads.shape[1], rigid.shape[1]), dtype=complex)
+        E[:BODY] = rigid
+        work = rigid.conj().T @ self.resultants.T  # of patterns on the rigid motions, pitch 0
+        gram = work @ E
+        return np.eye(self.loads.shape[1]) - E @ np.linalg.solve(gram, work * phase)
+
+    @cached_property
+    def waves(self):
+        """Compliances of the waves 0...Z/2: [waves, patterns, patterns]."""
+        return np.stack([self.wave(m) for m in range(self.Z // 2 + 1)])
+
+    def circulant(self, waves):
+        """Real blocks [Z, ...] of relative pitch k from the waves 0...Z/2 [waves, ...]."""
+        return np.fft.irfft(waves, self.Z, axis=0)
+
+    def prevented(self, m, motions):
+        """Rigid motions of wave m that held patterns prevent, freed of those that stay free (orthogonal to them over the mass): [6, count].
+
+        A load does work on them with what inertia takes of it along the free ones already counted.
+        """
+        rigid, chosen = self._rigid(m), motions.get(m, [])
+        held, free = rigid[:, chosen], np.delete(rigid, chosen, axis=1)
+        if not chosen:
+            return held
+        mass = self.resultants[:BODY]
+        return held - free @ np.linalg.solve(free.conj().T @ mass @ free, free.conj().T @ mass @ held)
+
+    def held(self, rows, motions):
+        """The half with some patterns held everywhere: those of `rows` do not move.
+
+        motions: wave -> which of its two rigid motions they prevent; inertia balances the other, which does not move them.
+        Returns by waves: stiffness of the held patterns [waves, rows, rows]; their reactions to all patterns [waves, rows, patterns], as loads that the
+        half gives to what holds it; compliance of all patterns [waves, patterns, patterns].
+        """
+        K, R, G = [], [], []
+        for m, C in enumerate(self.waves):
+            rigid = self.prevented(m, motions)
+            D = (self.resultants @ rigid) * self._phase(m).conj()[:, None] * np.abs(C[rows, rows]).max()
+            n = rows.stop - rows.start
+            A = np.block([[C[rows, rows], D[rows]], [D[rows].conj().T, np.zeros(2 * (rigid.shape[1],))]])
+            load = np.vstack([C[rows], D.conj().T])
+            solution = np.linalg.solve(A, np.column_stack([np.eye(len(A))[:, :n], load]))
+            K.append(solution[:n, :n])
+            R.append(solution[:n, n:])
+            G.append(C - load.conj().T @ solution[:, n:])
+        return np.stack(K), np.stack(R), np.stack(G)
+
+
+@dataclass(frozen=True)
+class Patterns:
+    """Where the groups of patterns stand among the columns."""
+
+    body: slice  # rigid motions, then centrifugal: see body_loads
+    pad: slice  # hats on the pad, along x
+    plane: slice  # forces along r and t that friction gives to the pad, below the cone under the rivet's head
+    head: slice  # at the seat's bottom, under the rivet's head: force along x, moments about r and t; then forces along r and t
+    pocket: slice  # unit forces (x, r, t) at points of pocket 0's wall: near parts, then parts on the far end of the pitch before
+
+
+class CageHalf(CyclicSolid):
+    """Condensed half of a geometry.
+
+    points: places of unit forces on the pocket's wall [n, 2]: angle from the split toward growing x [rad, 0...pi: pi/2 the bottom] and radius [m].
+    """
+
+    def __init__(self, g, size=None, points=()):
+        self.g, self.size = g, size or HalfMesh()
+        super().__init__(half.pitch_mesh(g, self.size), g.Z, g.E_flange, g.nu_flange)
+        self.points = np.reshape(points, (-1, 2))
+        groups = {"body": self.body_loads(), **self._pad_loads(), "head": self._head_loads(), "pocket": self._pocket_loads()}
+        ends = np.cumsum([0] + [loads.shape[1] for loads in groups.values()])
+        self.patterns = Patterns(*(slice(a, b) for a, b in pairwise(ends.tolist())))
+        back = np.zeros(ends[-1], dtype=bool)
+        back[self.patterns.pocket.start + 3 * len(self.points) :] = True
+        self.condense(np.column_stack(list(groups.values())), back)
 
     def _axes(self):
         """Unit vectors (x, r, t) at the rivet."""
@@ -169,111 +284,15 @@ class CageHalf:
         z = half.pocket_radius(self.g) * np.cos(angle)
         return np.stack([half.pocket_radius(self.g) * np.sin(angle), np.sqrt(radius**2 - z**2), z], axis=1)
 
-    # Condensation ----------------------------------------------------------------------------------------------------------------------
-
-    def _condense(self):
-        g = self.g
-        theta, r = np.arctan2(self.x[2], self.x[1]), np.hypot(self.x[1], self.x[2])
-        near, far = np.flatnonzero(np.abs(theta) < 1e-9), np.flatnonzero(np.abs(theta - 2 * np.pi / g.Z) < 1e-9)
-
-        def ordered(dofs):
-            return dofs[np.lexsort((self.component[dofs], np.round(r[dofs] * 1e9), np.round(self.x[0][dofs] * 1e9)))]
-
-        near, far = ordered(near), ordered(far)
-        self.near = near
-        edge = np.concatenate([near, far])
-        inside = np.setdiff1d(np.arange(self.basis.N), edge)
-        F_I, F_B = self.loads[inside], self.loads[edge]
-        K_IB = self.K[inside][:, edge].toarray()
-        X = splu(self.K[inside][:, inside], **SYMMETRIC).solve(np.column_stack([F_I, K_IB]))
-        X_F, X_B = X[:, : F_I.shape[1]], X[:, F_I.shape[1] :]
-        self.A_FF, self.A_FB = F_I.T @ X_F, F_B.T - F_I.T @ X_B
-        S = self.K[edge][:, edge].toarray() - K_IB.T @ X_B
-        self.A_FF, self.S = 0.5 * (self.A_FF + self.A_FF.T), 0.5 * (S + S.T)
-        self.resultants = self.loads.T @ self.motions  # [patterns, 6]: work of the patterns on rigid motions
-
-    def _phase(self, m):
-        """Factor by which patterns count in wave m: those on the far end stand one pitch back [patterns]."""
-        phase = np.ones(self.loads.shape[1], dtype=complex)
-        half_count = 3 * len(self.points)
-        phase[self.patterns.pocket.start + half_count : self.patterns.pocket.stop] = np.exp(2j * np.pi * m / self.g.Z)
-        return phase
-
-    def _rigid(self, m):
-        """Rigid motions of wave m as combinations of the six [6, 2]: displacement u = motions @ column, turned on from pitch to pitch."""
-        e = np.eye(6, dtype=complex)
-        if m == 0:
-            return e[:, [0, 3]]
-        if m == 1:
-            return np.stack([e[:, 1] + 1j * e[:, 2], e[:, 4] + 1j * e[:, 5]], axis=1)
-        return np.zeros((6, 0))
-
-    def wave(self, m):
-        """Compliance [patterns, patterns] of wave m, 0...Z/2; that of Z - m is its conjugate.  Rigid motions are balanced by inertia."""
-        g, n = self.g, len(self.near)
-        alpha = 2 * np.pi / g.Z
-        c, s = np.cos(alpha), np.sin(alpha)
-        turn = np.kron(np.eye(n // 3), np.array([[1, 0, 0], [0, c, -s], [0, s, c]]))
-        T = np.vstack([np.eye(n), np.exp(1j * m * alpha) * turn])
-        phase = self._phase(m)
-        S, L = T.conj().T @ self.S @ T, (phase.conj()[:, None] * self.A_FB) @ T  # work of patterns on boundary motions: conj(load) . u
-        rigid = self._rigid(m)
-        boundary = self.motions[self.near] @ rigid
-        Q, _ = np.linalg.qr(boundary)
-        S = S + np.abs(S).max() * (Q @ Q.conj().T)  # holds the rigid motions, which the balanced loads do not excite
-        H = phase.conj()[:, None] * self.A_FF * phase + L @ np.linalg.solve(S, L.conj().T)
-        if rigid.shape[1]:
-            balance = self.balance(m)
-            H = balance.conj().T @ H @ balance
-        return 0.5 * (H + H.conj().T)
-
-    def balance(self, m):
-        """Matrix [patterns, patterns] that adds the body forces of inertia to the patterns: balanced = loads @ balance."""
-        rigid, phase = self._rigid(m), self._phase(m)
-        E = np.zeros((self.loads.shape[1], rigid.shape[1]), dtype=complex)
-        E[:BODY] = rigid
-        work = rigid.conj().T @ self.resultants.T  # of patterns on the rigid motions, pitch 0
-        gram = work @ E
-        return np.eye(self.loads.shape[1]) - E @ np.linalg.solve(gram, work * phase)
-
-    @cached_property
-    def waves(self):
-        """Compliances of the waves 0...Z/2: [waves, patterns, patterns]."""
-        return np.stack([self.wave(m) for m in range(self.g.Z // 2 + 1)])
-
-    def circulant(self, waves):
-        """Real blocks [Z, ...] of relative pitch k from the waves 0...Z/2 [waves, ...]."""
-        return np.fft.irfft(waves, self.g.Z, axis=0)
-
-    def held(self, rows, motions):
-        """The half with some patterns held everywhere: those of `rows` do not move, and no inertia balances `motions`.
-
-        motions: wave -> which of its two rigid motions the held patterns balance.
-        Returns by waves: stiffness of the held patterns [waves, rows, rows]; their reactions to all patterns [waves, rows, patterns], as loads that the
-        half gives to what holds it; compliance of all patterns [waves, patterns, patterns].
-        """
-        K, R, G = [], [], []
-        for m, C in enumerate(self.waves):
-            rigid = self._rigid(m)[:, motions.get(m, [])]
-            D = (self.resultants @ rigid) * self._phase(m).conj()[:, None] * np.abs(C[rows, rows]).max()
-            n = rows.stop - rows.start
-            A = np.block([[C[rows, rows], D[rows]], [D[rows].conj().T, np.zeros(2 * (rigid.shape[1],))]])
-            load = np.vstack([C[rows], D.conj().T])
-            solution = np.linalg.solve(A, np.column_stack([np.eye(len(A))[:, :n], load]))
-            K.append(solution[:n, :n])
-            R.append(solution[:n, n:])
-            G.append(C - load.conj().T @ solution[:, n:])
-        return np.stack(K), np.stack(R), np.stack(G)
-
     @cached_property
     def mirrored(self):
         """`held` by the pads along x: of loads that push both halves alike.  Pads balance forces along x and tilting moments."""
-        return self.held(self.patterns.pad, {0: [0], 1: [1]})
+        return self.held(self.patterns.pad, MIRRORED)
 
     @cached_property
     def opposed(self):
         """`held` by friction in the split plane: of loads that push the halves against each other.  It balances transverse forces and the torque."""
-        return self.held(self.patterns.plane, {0: [1], 1: [0]})
+        return self.held(self.patterns.plane, OPPOSED)
 
 
 def _matrices(basis, E, nu):

@@ -21,6 +21,7 @@ K_B = 2.25  # bending, shoulder fillet D/d = 1.733, r/d = 0.0533: Peterson 2.18,
 K_PRESSURE = 0.5  # head stress per interference pressure: finite elements, default relief depth
 HEAD_FRICTION = 11.7e6  # head stress per friction force at the heads [1/m2]: finite elements
 MOMENT_LENGTH = 2e-3  # L: prying opens the default joint near M = P L
+SHANK_LENGTH = 0.3e-3  # m: opening joints reach |m|/T = 0.2 mm; heads would lift off at 0.5 mm
 KNOTS = {
     "a": np.linspace(0.0, 1.0, 9),
     "b": np.array([0.0, 0.2, 0.35, 0.45, 0.5, 0.55, 0.6, 0.7, 0.85, 1.0]),
@@ -69,6 +70,27 @@ def stress(geometry, P, N, V, M, chi, fit):
     return np.stack([head, head_vm, mid_vm, mid_p1], axis=-1)
 
 
+def shank_stress(geometry, T, V, m, chi, fit):
+    """Channels [..., 4] in Pa of a shank that carries tension T, transverse load V and moment m, elastic fit [m]; chi as in fmu_src/rivet_rom.h."""
+    g = geometry
+    lever = V * g.relief_depth
+    bending = np.sqrt((lever + m * np.abs(chi)) ** 2 + m**2 * (1 - chi**2)) / (np.pi * g.shank_diameter**3 / 32)
+    p = lame_pressure(g, fit)
+    head = K_T * T / g.shank_area + K_B * bending + K_PRESSURE * p
+    axial, shear = T / g.shank_area + m / (np.pi * g.shank_diameter**3 / 32), 4 / 3 * V / g.shank_area
+    mid_vm, mid_p1 = np.sqrt((axial + p) ** 2 + 3 * shear**2), axial / 2 + np.sqrt((axial / 2) ** 2 + shear**2)
+    return np.stack([head, np.sqrt(1 - g.nu_rivet + g.nu_rivet**2) * head, mid_vm, mid_p1], axis=-1)
+
+
+def shank_table(geometry):
+    """ShankTable of the closed forms."""
+    knots = {"a": KNOTS["a"], "c": np.array([0.0, 0.5, 1.0]), "xi": KNOTS["xi"]}
+    a, c, xi = np.meshgrid(*(splines.sites(knots[name]) for name in rivet_table.SHANK_AXES), indexing="ij")
+    T = 1.0 - a
+    sheets = [shank_stress(geometry, T, a, c * SHANK_LENGTH * T, chi, xi) / rivet_table.MPA_PER_N for chi in (1.0, 0.5, 0.0)]
+    return table.make_shank(SHANK_LENGTH, knots, np.stack(sheets, axis=-2))
+
+
 def loads_of(a, b, c, moment_length):
     """Loads (P, N, V, M) of s = 1 N at the table's coordinates: the inverse of the formulas in fmu_src/rivet_rom.h."""
     force = 1.0 - c
@@ -99,9 +121,13 @@ def joint_data(geometry):
     }
 
 
-def make_table(geometry=None):
-    """Table of kind closed_form for the geometry (default: that of Geometry)."""
+def make_table(geometry=None, cage=None):
+    """Table of kind closed_form for the geometry (default: that of Geometry); cage: its HalfData (default: by coarse finite elements, seconds)."""
     geometry = geometry or Geometry()
+    if cage is None:
+        from . import half, half_loads  # not needed by those who bring it
+
+        cage = half_loads.make_half(geometry, half.COARSE, half_loads.COARSE_KNOTS)
     a, b, c, xi = np.meshgrid(*(splines.sites(KNOTS[name]) for name in rivet_table.AXES), indexing="ij")
     sheets = [stress(geometry, *loads_of(a, b, c, MOMENT_LENGTH), chi, xi) / rivet_table.MPA_PER_N for chi in (1.0, 0.5, 0.0)]
     yield_pressure = geometry.yield_flange / np.sqrt(3)  # first yield at the bore: 2 tau = p + hoop tension, taken as pure shear 2 p
@@ -118,11 +144,13 @@ def make_table(geometry=None):
         (fit_a, fit_eff),
         joint_data(geometry),
         np.zeros((geometry.Z, 5, 3)),
+        shank=shank_table(geometry),
+        half=cage,
         moment_length=MOMENT_LENGTH,
         head_friction=HEAD_FRICTION,
         head_friction_vm=HEAD_FRICTION * float(np.sqrt(1 - geometry.nu_rivet + geometry.nu_rivet**2)),
         fit_flange_yield=float(fit_yield),
-        note="closed forms with stated notch factors, not finite elements; load path: rigid share only",
+        note="closed forms with stated notch factors, not finite elements; cage half by coarse finite elements",
     )
 
 

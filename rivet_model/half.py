@@ -57,24 +57,19 @@ def pad_half_length(g):
     return min(g.patch_radius, 0.9 * narrowest_half_bar(g))
 
 
-def half_limits(g, outer_groove_diameter=None):
-    """Limits of the half as (key, value, sign, allowed, reason); those that do not hold name what cannot be built.
-
-    outer_groove_diameter: diameter of the outer ring's land beside its groove [m], if known: the cage must fit into it.
-    """
+def half_limits(g, guide_clearance=0.0):
+    """Limits of what can be built, each with key, value, sign, allowed value and reason; guide_clearance: of the cage in the outer ring's lands [m]."""
     R, seat = g.d_m / 2, g.seat_diameter / 2 + LEAST_WALL
-    limits = [
+    return [
         Limit("cage_half_width", g.cage_half_width, ">", g.flange_thickness + g.head_height, "a seat that takes the rivet's head above the flange"),
         Limit("cage_half_width", g.cage_half_width, ">", pocket_radius(g) + 0.02 * g.ball_diameter, "a web that closes the pocket"),
         Limit("seat_diameter", g.seat_diameter, ">", g.head_diameter, "a seat that takes the rivet's head"),
-        Limit("ball_diameter + pocket_clearance", 2 * pocket_radius(g), "<", g.cage_inner_diameter, "a pocket inside the cage"),
         Limit("seat_diameter", g.seat_diameter, "<", 2 * (narrowest_half_bar(g) - LEAST_WALL), "a bridge between pockets that holds the rivet's head"),
         Limit("cage_inner_diameter", g.cage_inner_diameter, "<", 2 * (R - seat), "metal between the rivet's seat and the cage's bore"),
         Limit("cage_outer_diameter", g.cage_outer_diameter, ">", 2 * (R + seat), "metal between the rivet's seat and the cage's outside"),
+        Limit("cage_outer_diameter", g.cage_outer_diameter, "<", g.d_m + g.ball_diameter - guide_clearance, "a cage that the outer groove allows"),
+        Limit("cage_inner_diameter", g.cage_inner_diameter, ">", g.d_m - g.ball_diameter, "a cage that the inner groove allows"),
     ]
-    if outer_groove_diameter is not None:
-        limits.append(Limit("cage_outer_diameter", g.cage_outer_diameter, "<", outer_groove_diameter, "a cage that goes into the outer ring"))
-    return limits
 
 
 @dataclass(frozen=True)

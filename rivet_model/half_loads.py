@@ -2,38 +2,38 @@
 
 Rows of a joint's loads (on the +x half, frame (x, r, t) at the rivet):
 
-    N, V_r, V_t, M_r, M_t   of the joint whose pads do not move; M of what holds the pad along x, V of what holds it in the plane
+    N, V_r, V_t, M_r, M_t   of the joint whose pads do not move: N, M of what holds the pads along x, V of what holds them in the plane
     dP, dm_r, dm_t          of its rivet: the seat's bottom gives under a load nearby, though the pad does not move; dP is the change of preload that
                             would shift the head as much, dm the bending moment of the shank
 
-A force on one half is half a mirrored pair, which gives N, M, dP, dm, and half an opposed pair, which gives V.  On the -x half the mirrored force has the
-same N, M_t, dP, dm_t ... and the opposite V.
+A force on one half is half a mirrored pair of forces, which gives N, M, dP, dm, and half an opposed pair, which gives V.
 """
 
 import numpy as np
 
-from bearing_model.joint_law import AXES, JointLaw, joint_law, law_load
+from bearing_model.joint_law import AXES, NUMBERS, JointLaw, joint_law, law_load
+from bearing_model.load_path import load_path_rigid
+from bearing_model.rivet_table import HalfData
 
 from . import half, splines
-from .cage_half import SPIN, CageHalf
+from .cage_half import BODY, SPIN, CageHalf
+from .joint_contact import rivet_compliance
 from .lcp import Contact
 
-ROWS = ("N", "V_r", "V_t", "M_r", "M_t", "dP", "dm_r", "dm_t")
-MIRROR = np.array([1.0, 1.0, -1.0, -1.0, 1.0, 1.0, -1.0, 1.0])  # of the rows, in the plane through the pocket's axis: rivet -1 - i for i
-FORCE_MIRROR = np.array([1.0, 1.0, -1.0])  # of forces (x, r, t)
 CHI = np.deg2rad([0.0, 6.0, 12.0, 20.0, 30.0, 42.0, 56.0, 72.0, 90.0])
 KNOTS = {
     "tau": np.array([0.0, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0]),
     "q": np.array([-1.0, -0.75, -0.5, -0.25, 0.0, 0.2, 0.4, 0.6, 0.8, 1.0]),
     "psi": np.array([-1.0, -0.8, -0.6, -0.4, -0.2, 0.0, 0.2, 0.4, 0.6, 0.8, 1.0]),
 }
+COARSE_KNOTS = {name: knots[:: 1 if name == "tau" else 2] for name, knots in KNOTS.items()}
 LENGTH = 1.5e-3  # l of the law: about the distance of the pad's edge from the rivet
 
 
 class JointAlone:
     """Contact of one pad with its rivet while all other pads are held: exact, from the condensed half."""
 
-    def __init__(self, elastic, rivet_compliance):
+    def __init__(self, elastic, rivet=None):
         self.elastic, p = elastic, elastic.patterns
         self.n = p.pad.stop - p.pad.start
         r, t = elastic.pad_place
@@ -46,7 +46,9 @@ class JointAlone:
         B = np.linalg.inv(own)  # of the pad's hats alone
         B = 0.5 * (B + B.T)
         self.B_ph = B @ to_head  # hats by the head: what the held pad gives back undoes it
-        self.clamped = 0.5 * (clamped + clamped.T) + np.diag(rivet_compliance)  # of the head with its rivet, the pad held
+        self.clamped = 0.5 * (clamped + clamped.T) + np.diag(
+            np.array(rivet or rivet_compliance(elastic.g))[[0, 1, 1]]
+        )  # of the head with its rivet, the pad held
         self.K_0 = self.lever.T @ own @ self.lever
         A = np.linalg.inv(self.clamped + self.B_ph.T @ own @ self.B_ph)
         self.A, self.pull, self.own = A, self.B_ph @ A, own
@@ -82,46 +84,38 @@ def bonded_rows(elastic, alone, column):
     return elastic.circulant(rows)
 
 
-def bolt_group(d_m, wrench, c, s):
-    """N, V_y, V_z at equal rivets on a circle whose halves are rigid, of the wrench (F_x ... M_z) on the +x half about the circle's centre."""
-    Z, R = len(c), 0.5 * d_m
-    shear = wrench[3] / (Z * R)
-    return wrench[0] / Z + 2.0 * (wrench[4] * s - wrench[5] * c) / (Z * R), wrench[1] / Z - shear * s, wrench[2] / Z + shear * c
+def rigid_inertia(elastic):
+    """Mass matrix [6, 6] per unit density of the whole half for its rigid motions about the centre of the circle in the split plane."""
+    pitch = elastic.resultants[:BODY]
+    I = np.zeros((6, 6))
+    for k in range(elastic.Z):
+        c, s = np.cos(2 * np.pi * k / elastic.Z), np.sin(2 * np.pi * k / elastic.Z)
+        turn = np.kron(np.eye(2), np.array([[1.0, 0.0, 0.0], [0.0, c, -s], [0.0, s, c]]))
+        I += turn @ pitch @ turn.T
+    return I
 
 
 def rigid_rows(elastic, place):
-    """N, V_r, V_t [Z, 3] of rigid halves per unit force (x, r, t) [3, Z, 3] at a place (x, r, t) of pocket 0; inertia balances what joints leave free."""
-    g, I = elastic.g, elastic.loads[:, :6].T @ elastic.motions * elastic.g.Z
-    angle = 2 * np.pi * (np.arange(g.Z) + 0.5) / g.Z
+    """N, V_r, V_t [3, Z, 3] of rigid halves per unit force (x, r, t) at a place (x, r, t) of pocket 0; inertia balances what joints leave free."""
+    Z, I = elastic.Z, rigid_inertia(elastic)
+    angle = 2 * np.pi * (np.arange(Z) + 0.5) / Z
     c, s = np.cos(angle), np.sin(angle)
-    I = _round_inertia(I)
     result = []
     for force in np.eye(3):
         load = np.concatenate([force, np.cross(place, force)])
         wrench = np.zeros(6)
         for held, free in (([0, 4, 5], [1, 2, 3]), ([1, 2, 3], [0, 4, 5])):
             wrench[held] = load[held] - I[np.ix_(held, free)] @ np.linalg.solve(I[np.ix_(free, free)], load[free])
-        N, V_y, V_z = bolt_group(g.d_m, 0.5 * wrench, c, s)
+        N, V_y, V_z = load_path_rigid(elastic.g.d_m, 0.5 * wrench, c, s)
         result.append(np.stack([N, c * V_y + s * V_z, c * V_z - s * V_y], axis=1))
     return np.stack(result)
-
-
-def _round_inertia(I):
-    """Inertia of all pitches from Z times that of one, which is averaged over the angles."""
-    m, first, polar = I[0, 0], 0.0, I[3, 3]
-    first = 0.5 * (abs(I[1, 5]) + abs(I[2, 4]))
-    across = 0.5 * (I[4, 4] + I[5, 5])
-    J = np.diag([m, m, m, polar, across, across])
-    J[1, 5] = J[5, 1] = first
-    J[2, 4] = J[4, 2] = -first
-    return J
 
 
 def path_at(elastic, alone, point):
     """Rows [Z, 8, 3] by unit forces (x, r, t) at a point of the half: elastic less the rigid share (N and V)."""
     p, n = elastic.patterns, len(elastic.points)
     rigid = rigid_rows(elastic, elastic.point_places()[point])
-    result = np.zeros((elastic.g.Z, len(ROWS), 3))
+    result = np.zeros((elastic.Z, 8, 3))
     for f in range(3):
         column = np.zeros(elastic.loads.shape[1])
         column[p.pocket.start + 3 * point + f] = column[p.pocket.start + 3 * (n + point) + f] = 0.5
@@ -130,12 +124,16 @@ def path_at(elastic, alone, point):
     return result
 
 
-def centrifugal_rows(elastic, alone, density=half.DENSITY, density_rivet=half.DENSITY_RIVET):
-    """Rows [8] of any joint per (rad/s)^2: the half's own load, and that of the half rivet, which the head gives to the seat's bottom."""
-    g = elastic.g
+def centrifugal(elastic, density=half.DENSITY, density_rivet=half.DENSITY_RIVET):
+    """Patterns [patterns] of each pitch per (rad/s)^2: its own body force, and that of half a rivet, which the head's friction gives to the seat's bottom."""
     column = np.zeros(elastic.loads.shape[1])
     column[SPIN] = density
-    column[elastic.patterns.head.start + 3] = half.rivet_mass(g, density_rivet) * 0.5 * g.d_m
+    column[elastic.patterns.head.start + 3] = half.rivet_mass(elastic.g, density_rivet) * 0.5 * elastic.g.d_m
+    return column
+
+
+def alike_rows(elastic, alone, column):
+    """Rows [8] of any joint if every pitch has the mirrored patterns `column`."""
     _, reactions, held = elastic.mirrored
     M = (reactions[:1] @ column).real @ alone.lever
     rivet = alone.rivet_rows((held[:1] @ column).real[:, alone.head], M)
@@ -146,7 +144,7 @@ def make_law(elastic, alone, knots=None, progress=lambda done, total: None):
     """The joint's law of the geometry, from contact solutions of one pad at the sites of the knots."""
     knots = knots or KNOTS
     sites = [splines.sites(knots[name]) for name in AXES]
-    values = np.zeros((*(len(s) for s in sites), 6))
+    values = np.zeros((*(len(s) for s in sites), len(NUMBERS)))
     for j, q in enumerate(sites[1]):
         for k, psi in enumerate(sites[2]):
             active = None
@@ -175,7 +173,48 @@ def make_start(law, sign, count=33):
     return x, moves
 
 
+def pair_stiffness(elastic, alone, law, P=20.0):
+    """Force per separation of the two halves' bodies, all joints alike [N/m for each joint]: closed (N = -P/4...P/4) and open (N = 3 P...4 P).
+
+    The body of a half is its mean over the mass.  It moves by what the half gives between bonded pads and by the joints' moves.
+    """
+    column = np.zeros(elastic.loads.shape[1])
+    column[0] = 1.0 / elastic.resultants[0, 0]  # a unit force on each pitch, spread like its mass
+    rows, wave_0 = alike_rows(elastic, alone, column), law.stiffness.sum(axis=0)
+    bonded = (column @ elastic.mirrored[2][0] @ column).real
+
+    def separation(N):
+        move = np.zeros(3)
+        for _ in range(200):
+            before, move = move, alone.solve(N * rows[[0, 3, 4]] - (wave_0 - law.stiffness[0]) @ move, P + N * rows[5])[0]
+            if np.abs(move - before).max() < 1e-14:
+                break
+        return 2.0 * (bonded * N + rows[[0, 3, 4]] @ move)
+
+    return tuple(float((b - a) * P / (separation(b * P) - separation(a * P))) for a, b in ((-0.25, 0.25), (3.0, 4.0)))
+
+
+def make_half(g, size=None, knots=None, progress=lambda done, total: None):
+    """HalfData of a geometry by finite elements of the size `size` and contact solutions at the sites of `knots`."""
+    elastic = elastic_half(g, size)
+    alone = JointAlone(elastic)
+    progress(1, 3)
+    law = make_law(elastic, alone, knots)
+    progress(2, 3)
+    spin = alike_rows(elastic, alone, centrifugal(elastic))
+    law.start = make_start(law, np.sign(spin[4]))
+    path = np.stack([path_at(elastic, alone, i) for i in range(len(CHI))])
+    k_closed, k_open = pair_stiffness(elastic, alone, law)
+    progress(3, 3)
+    return HalfData(**half.half_inertia(g, size=half.HalfMesh())._asdict(), chi=CHI, path=path, spin=spin, law=law, k_closed=k_closed, k_open=k_open)
+
+
+def two_walls(cage):
+    """The path at two angles alone, [Z, 5, 3]: forces along x and r at the pocket's bottom, along t at the split."""
+    return np.concatenate([cage.path[-1][:, :5, :2], cage.path[0][:, :5, 2:]], axis=2)
+
+
 def elastic_half(g, size=None, points=()):
-    """CageHalf with the nodes of the wall's angle as points, then further ones."""
+    """CageHalf with the nodes of the wall's angle as points, then further ones [n, 2]."""
     nodes = np.stack([CHI, np.full(len(CHI), g.d_m / 2)], axis=1)
     return CageHalf(g, size, np.concatenate([nodes, np.reshape(points, (-1, 2))]))

@@ -15,7 +15,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from . import section_mesh
+from .cage_half import MIRRORED
+from .elasticity import Body
 from .lcp import Contact
+from .section_mesh import edge_nodes
 
 
 @dataclass
@@ -26,14 +30,11 @@ class JointState:
     rivet: np.ndarray  # [Z, 3]
     motion: np.ndarray  # [Z, 3]
     pressure: np.ndarray  # [Z, hats] forces [N]
+    closing: np.ndarray  # [3] motion along x, rotations about y and z of the whole half
 
 
 def rivet_compliance(g, fine=None):
     """Half a rivet under uniform and linear pressure below its head: axial [m/N] and bending [rad/(N.m)], by the elements of revolution."""
-    from . import section_mesh
-    from .elasticity import Body
-    from .section_mesh import edge_nodes
-
     body = Body(section_mesh.rivet_mesh(g, fine), g.E_rivet, g.nu_rivet)
     radii = (g.shank_diameter / 2 + g.relief_radius, g.head_diameter / 2)
     up, down = (edge_nodes(body.mesh, z=z, between=radii) for z in (g.flange_thickness, -g.flange_thickness))
@@ -68,7 +69,7 @@ class JointContact:
             return block.transpose(0, 2, 1, 3).reshape(Z * block.shape[2], -1)
 
         C_pp, C_ph, C_hh = spread(p.pad, p.pad), spread(p.pad, self.head), spread(self.head, self.head)
-        D = self._rigid()
+        D = self.rigid = self._rigid()
         D_p, D_h = D[:, p.pad].reshape(-1, 3), D[:, self.head].reshape(-1, 3)
         self.A = np.linalg.inv(C_hh + np.kron(np.eye(Z), self.c_rivet))
         self.C_ph, self.D_h = C_ph, D_h
@@ -80,14 +81,13 @@ class JointContact:
         self.e = self._shortening()
 
     def _rigid(self):
-        """Work of the patterns on (motion along x, rotations about y, z of the whole half) [Z, patterns, 3]."""
-        work = self.half.resultants[:, [0, 4, 5]]  # of pitch 0
-        Z = self.Z
-        D = np.zeros((Z, len(work), 3))
-        for k in range(Z):
-            c, s = np.cos(2 * np.pi * k / Z), np.sin(2 * np.pi * k / Z)
-            # rotation vectors y, z of the whole half in the frame of pitch k
-            D[k] = work @ np.array([[1, 0, 0], [0, c, s], [0, -s, c]])
+        """Work of the patterns on (motion along x, rotations about y, z of the whole half) [Z, patterns, 3], what inertia takes of it left out."""
+        e = self.half
+        x, tilt = e.prevented(0, MIRRORED)[:, 0].real, e.prevented(1, MIRRORED)[:, 0]  # tilt: about y, and i times about z
+        D = np.zeros((self.Z, len(e.resultants), 3))
+        for k in range(self.Z):
+            about = np.exp(2j * np.pi * k / self.Z) * (e.resultants @ tilt)
+            D[k] = np.stack([e.resultants @ x, about.real, about.imag], axis=1)
         return D
 
     def _shortening(self):
@@ -104,27 +104,24 @@ class JointContact:
         h = -self.A @ (self.C_ph.T @ solution.p + self.D_h @ q + e)
         return solution.p, h, q, solution
 
-    def loads(self, forces=None, spin=0.0):
-        """Mirrored loads for `solve`: (free displacements of hats [Z, hats], of heads [Z, 3], resultant [3]).
+    def loads(self, forces=(), column=None):
+        """Mirrored loads for `solve`: (displacements of all patterns if nothing held them [Z, patterns], resultant [3]).
 
-        forces: list of (pocket, point, (F_x, F_r, F_t)) on the +x half, point: index into the half's points; half of each is mirrored.
-        Mirrored walls (F_t < 0): `mirror` True as a fourth member.  spin: centrifugal load of both halves, (rad/s)^2 times density [kg/m3].
+        forces: (pocket, point, (F_x, F_r, F_t)) on the +x half, point: index into the half's points; half of each is mirrored.
+        column: patterns [patterns] that every pitch of both halves has beside (half_loads.centrifugal).
         """
         p, Z = self.half.patterns, self.Z
         count = 3 * len(self.half.points)
         u, resultant = np.zeros((Z, self.C.shape[1])), np.zeros(3)
-        rigid = self._rigid()
-        for pocket, point, force in forces or []:
+        if column is not None:
+            u += self.C.sum(axis=0) @ column
+        for pocket, point, force in forces:
             for part, shift in ((0, 0), (1, -1)):
                 columns = p.pocket.start + part * count + 3 * point + np.arange(3)
                 pitch = (pocket + shift) % Z
                 f = 0.5 * np.asarray(force)
                 u += np.roll(self.C[:, :, columns] @ f, pitch, axis=0)
-                resultant += f @ rigid[pitch, columns]
-        if spin:
-            from .cage_half import SPIN
-
-            u += spin * self.C[:, :, SPIN].sum(axis=0)
+                resultant += f @ self.rigid[pitch, columns]
         return u, resultant
 
     def solve(self, P, load, active=None):
@@ -133,32 +130,16 @@ class JointContact:
         p = self.half.patterns
         e = self.e * np.repeat(np.broadcast_to(P, self.Z), 3) + u[:, self.head].ravel()
         forces, h, q, solution = self._solve(u[:, p.pad].ravel(), e, resultant, active)
-        return self._state(forces.reshape(self.Z, -1), -h.reshape(self.Z, 3), u, solution)
-
-    def _state(self, forces, rivet, u, solution):
-        load = rivet - forces @ self.lever
-        gap = solution.gap.reshape(self.Z, -1)
+        forces, rivet = forces.reshape(self.Z, -1), -h.reshape(self.Z, 3)
         # motion of the pad: mean and rotation of its hats, weighted by their areas
         area = self.half.pad_area[:, None] * self.lever
-        motion = np.linalg.solve(self.lever.T @ area, area.T @ gap.T).T
-        state = JointState(load, rivet, motion, forces)
-        state.active, state.gap = solution.active, gap
-        return state
+        motion = np.linalg.solve(self.lever.T @ area, area.T @ solution.gap.reshape(self.Z, -1).T).T
+        return JointState(rivet - forces @ self.lever, rivet, motion, forces, q)
 
-    def bonded(self, load):
-        """(N, M_r, M_t) [Z, 3] of joints whose pads cannot move along x at all."""
-        u, resultant = load
-        Z, p = self.Z, self.half.patterns
-        if not hasattr(self, "_bonded"):
-            relative = (np.arange(Z)[:, None] - np.arange(Z)) % Z
-            block = self.C[:, p.pad, p.pad][relative]
-            C = block.transpose(0, 2, 1, 3).reshape(Z * self.hats, -1)
-            D = self._rigid()[:, p.pad].reshape(-1, 3)
-            full = np.block([[C, D], [D.T, np.zeros((3, 3))]])
-            scale = np.abs(C).max()
-            full[: len(C), len(C) :] *= scale
-            full[len(C) :, : len(C)] *= scale
-            self._bonded = np.linalg.inv(full), scale
-        inverse, scale = self._bonded
-        p_all = (inverse @ -np.concatenate([u[:, p.pad].ravel(), scale * resultant]))[: Z * self.hats]
-        return -p_all.reshape(Z, -1) @ self.lever
+    def displacement(self, column, pitch, load, state):
+        """Work-conjugate displacement of the patterns `column` [patterns] of one pitch in a state under a load of `solve`."""
+        u, p = load[0].copy(), self.half.patterns
+        relative = (np.arange(self.Z)[:, None] - np.arange(self.Z)) % self.Z
+        for where, forces in ((p.pad, state.pressure), (self.head, -state.rivet)):
+            u += np.einsum("kjpq,jq->kp", self.C[:, :, where][relative], forces)
+        return column @ (u[pitch] + self.rigid[pitch] @ state.closing)

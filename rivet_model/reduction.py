@@ -11,7 +11,7 @@ from threadpoolctl import threadpool_limits
 from bearing_model import rivet_rom, rivet_table
 
 from . import splines
-from .closed_form import loads_of
+from .closed_form import SHANK_LENGTH, loads_of
 from .load_cases import Joint
 
 MOMENT_LENGTH = 2e-3  # L: prying opens the default joint near M = P L
@@ -132,9 +132,9 @@ def table_stress(t, loads):
     return rivet_rom.rivet_rom_stress(t, rivet_load, fit)[0]
 
 
-def hold_out_errors(t, loads, fresh):
-    """Largest and RMS error of each channel relative to the channel's maximum, over all loads and over those in clearance."""
-    got, clear = table_stress(t, loads), np.array([load.fit <= 0.0 for load in loads])
+def hold_out_errors(got, loads, fresh):
+    """Largest and RMS error of each channel [loads, 4] relative to the channel's maximum, over all loads and over those in clearance."""
+    clear = np.array([load.fit <= 0.0 for load in loads])
     report = {}
     for name, chosen in (("all", np.ones(len(loads), dtype=bool)), ("clearance", clear)):
         error = (got - fresh)[chosen] / fresh[chosen].max(axis=0)
@@ -149,7 +149,6 @@ def hold_out_errors(t, loads, fresh):
 
 # Stress over what the shank carries ---------------------------------------------------------------------------------------------------------
 
-SHANK_LENGTH = 0.3e-3  # m: opening joints reach |m|/T = 0.2 mm; heads would lift off at 0.5 mm
 SHANK_FULL = {"a": FULL["a"], "c": np.array([0.0, 0.2, 0.45, 0.7, 1.0]), "xi": FULL["xi"]}
 SHANK_COARSE = {"a": COARSE["a"], "c": np.array([0.0, 1.0]), "xi": COARSE["xi"]}
 

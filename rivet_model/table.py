@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 
-from bearing_model.rivet_table import AXES, CHANNELS, FORMAT, MPA_PER_N, SHANK_AXES, SHEETS, RivetTable, as_embedded, digest_of
+from bearing_model.rivet_table import AXES, CHANNELS, FORMAT, MPA_PER_N, SHANK_AXES, SHEETS, RivetTable, ShankTable, as_embedded, digest_of
 
 from . import splines
 from .geometry import Geometry
@@ -68,7 +68,7 @@ def write(table, path):
 def _half_section(half):
     law = half.law
     return {
-        **{name: float(f"{getattr(half, name):.9g}") for name in ("m", "x_c", "J_p", "J_t")},
+        **{name: float(f"{getattr(half, name):.9g}") for name in ("m", "x_c", "J_p", "J_t", "k_closed", "k_open")},
         "chi": [float(v) for v in half.chi],
         "path": rounded(tidy(half.path)).tolist(),
         "spin": rounded(tidy(half.spin)).tolist(),
@@ -95,6 +95,11 @@ def monotone_slopes(x, y):
     with np.errstate(divide="ignore", invalid="ignore"):
         inner = np.where(d[1:] * d[:-1] > 0, (w_1 + w_2) / (w_1 / d[:-1] + w_2 / d[1:]), 0.0)
     return np.concatenate([d[:1], inner, d[-1:]])
+
+
+def make_shank(length, knots, samples_mpa):
+    """ShankTable from samples of T [1/mm2] at the sites of its axes, in the order SHANK_AXES, then sheets, channels last."""
+    return ShankTable(length, knots, as_embedded(rounded(splines.interpolate([knots[name] for name in SHANK_AXES], samples_mpa))))
 
 
 def make(geometry: Geometry, kind, knots, samples_mpa, fit_map, joint, load_path, **scalars):

@@ -6,7 +6,7 @@ from library import ROOT
 from skfem import Basis, BilinearForm, ElementHex2, ElementVector, FacetBasis, LinearForm, MeshQuad, condense, solve
 
 from bearing_model import rivet_rom, rivet_table
-from rivet_model import build, cage_half, geometry, load_cases, plastic_fit, reduction, section_mesh, stiffness
+from rivet_model import build, geometry, half, load_cases, plastic_fit, reduction, section_mesh, stiffness
 from rivet_model.elasticity import Body
 from rivet_model.lcp import Contact
 from rivet_model.load_cases import Grid, Joint, hat_harmonics
@@ -231,31 +231,6 @@ def test_elastic_pressure_of_contact_and_plasticity_agree(joint, fit_map):
     assert fit_map.pressure[0] == pytest.approx(mean, rel=0.03)
 
 
-# Load path ----------------------------------------------------------------------------------------------------------------------------
-
-
-def test_load_path_balances():
-    """Elastic and rigid shares carry the same wrench: N, M_y, M_z and in-plane forces (observed 3e-6: the inertia's part)."""
-    half = cage_half.CageHalf(G, cage_half.HalfMesh(2, 2, 1))
-    angle = 2 * np.pi * (np.arange(G.Z) + 0.5) / G.Z
-    c, s, radius = np.cos(angle), np.sin(angle), G.d_m / 2
-
-    def wrench(share):
-        N, V_r, V_t, M_r, M_t = np.moveaxis(share, 1, 0)
-        c_, s_ = c[:, None], s[:, None]
-        bending = (radius * s_ * N + c_ * M_r - s_ * M_t).sum(axis=0), (-radius * c_ * N + s_ * M_r + c_ * M_t).sum(axis=0)
-        return np.stack([N.sum(axis=0), *(b / radius for b in bending), (c_ * V_r - s_ * V_t).sum(axis=0), (s_ * V_r + c_ * V_t).sum(axis=0)])
-
-    np.testing.assert_allclose(wrench(half.reactions()), wrench(half.rigid_share()), atol=1e-4)
-
-
-def test_load_path_by_waves_equals_the_whole_half():
-    """Cyclic symmetry against a model of all Z pitches at once, same elements (observed 1e-6)."""
-    size = cage_half.HalfMesh(2, 1, 1)
-    waves, whole = (cage_half.CageHalf(G, size, sectors).reactions() for sectors in (1, G.Z))
-    assert np.all(np.abs(waves - whole) < 1e-4 * np.abs(whole).max(axis=(0, 2), keepdims=True))
-
-
 # The table ----------------------------------------------------------------------------------------------------------------------------
 
 
@@ -342,7 +317,7 @@ def test_full_3d():
     r, x = flat.p
     p = np.concatenate([np.stack([r * np.cos(t), r * np.sin(t), x]) for t in theta], axis=1)
     cells = [np.concatenate([flat.t + k * r.size, flat.t + (k + 1) * r.size]) for k in range(sectors)]
-    mesh = cage_half.hexahedra(p, np.concatenate(cells, axis=1))
+    mesh = half.hexahedra(p, np.concatenate(cells, axis=1))
     basis = Basis(mesh, ElementVector(ElementHex2()), intorder=4)
     mu, lam = G.E_flange / (2 * (1 + G.nu_flange)), G.E_flange * G.nu_flange / ((1 + G.nu_flange) * (1 - 2 * G.nu_flange))
 
