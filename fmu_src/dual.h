@@ -87,6 +87,10 @@ INLINE wide wide_abs(wide x)
 {
     return signbit(creal(x)) ? -x : x;
 }
+INLINE wide wide_floor(wide x)
+{
+    return floor(creal(x));
+}
 // 0 has derivative 0: where kernels take the root of 0, a factor of 0 stands before it or the direction is without a slope.
 INLINE wide wide_sqrt(wide x)
 {

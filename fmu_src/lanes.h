@@ -173,6 +173,13 @@ INLINE wide wide_round(wide x, bits *n)
     return shifted - shift;
 }
 
+// Largest integer of |x| < 2^51 that is not above x; of an integer, it or the one below.
+INLINE wide wide_floor(wide x)
+{
+    bits n;
+    return wide_round(x - 0.5, &n);
+}
+
 // The polynomials below are Chebyshev fits over the reduced ranges; the errors are those of tests/test_lanes.py.
 
 // e^x, relative error < 3e-15; 0 below -700, e^700 above 700.
@@ -285,6 +292,12 @@ INLINE wide wide_atan(wide x)
 
 typedef scalar ball_array[LANES] __attribute__((aligned(8 * sizeof(scalar))));  // one number per ball
 typedef double constants[LANES] __attribute__((aligned(8 * sizeof(double))));   // the same, independent of the state
+
+// Length of a vector across.
+INLINE wide wide_hypot(wide y, wide z)
+{
+    return wide_sqrt(y * y + z * z);
+}
 
 // Sum over the balls in one order for every lane width: four partial sums, then (0 + 1) + (2 + 3).
 INLINE scalar ball_array_sum(const scalar *v)

@@ -53,6 +53,7 @@ typedef struct {
     unsigned fit_flags;                                 // rivet_rom_fit_flags
     double k_rivet, k_plate, k_plate_t, k_head;         // its stiffnesses [N/m]
     double c_joint;                                     // axial damping of one closed joint [N.s/m]
+    double spin[ROWS];                                  // rows of bonded joints (half_path.h) under the cage's centrifugal load, per (rad/s)^2
     double scale[SCALE_COUNT];                          // error that tolerance 1 allows, by class of state
     double inertia[N_STATES];                           // of balls and cage in each velocity, of orbital speeds per r^2; 0 elsewhere
 } Derived;
@@ -88,6 +89,7 @@ typedef struct {
 typedef struct {
     ball_array Q;                             // contact load [N]
     ball_array F_x, F_r, F_t;                 // force on the half in the pocket's frame [N]
+    ball_array push_x, push_t;                // its normal part
     ball_array half_F_x, half_F_y, half_F_z;  // force on the half, global frame
     ball_array half_M_x, half_M_y, half_M_z;  // moment on the half about its geometric centre, global frame
 } Pockets;

@@ -4,7 +4,7 @@
 #include "isa.h"
 #include "rivet_rom.h"
 
-typedef void RivetPrimary(const RivetTable *t, const RivetLoads *load, double fit_eff, double head_p1[Z], double mid_vm[Z]);
+typedef void RivetPrimary(const RivetTable *t, const JointLoads *load, double fit_eff, double head_p1[Z], double mid_vm[Z]);
 
 // HEAD_P1 and MID_VM of Z rivets [Pa].
 RivetPrimary rivet_primary;

@@ -8,20 +8,18 @@
 // The point of a load in the table: see the head of rivet_rom.h.
 static TablePoint table_point(const RivetTable *t, const RivetLoad *load, double fit_eff)
 {
-    scalar P = scalar_max(load->P, 0.0), N = scalar_max(load->N, 0.0);
-    scalar V = scalar_sqrt(load->V_y * load->V_y + load->V_z * load->V_z), M = scalar_sqrt(load->M_y * load->M_y + load->M_z * load->M_z);
-    scalar axial = P + N, force = axial + V, moment = M / t->moment_length, s = force + moment, VM = V * M;
-    scalar across = load->V_y * load->M_z - load->V_z * load->M_y;
+    const scalar T = scalar_max(load->T, 0.0), V = scalar_sqrt(load->V_y * load->V_y + load->V_z * load->V_z);
+    const scalar m = scalar_sqrt(load->m_y * load->m_y + load->m_z * load->m_z), s = T + V, Vm = V * m, largest = t->moment_length * T;
+    const scalar across = load->V_y * load->m_z - load->V_z * load->m_y;
     TablePoint point;
-    scalar w = scalar_value(VM) > 0.0 ? 2.0 * scalar_min(scalar_max(across, -across) / VM, 1.0) : 0.0;
+    scalar w = scalar_value(Vm) > 0.0 ? 2.0 * scalar_min(scalar_max(across, -across) / Vm, 1.0) : 0.0;
     point.sheet = scalar_value(w) >= 1.0 ? RIVET_PLANE : RIVET_OBLIQUE;
     if (point.sheet == RIVET_PLANE) w -= 1.0;
     point.first[0] = w;
     point.first[1] = point.sheet == RIVET_PLANE ? w : w * scalar_sqrt(w);
-    const scalar a = scalar_value(force) > 0.0 ? V / force : 0.0, b = scalar_value(axial) > 0.0 ? N / axial : 0.0;
-    const scalar c = scalar_value(s) > 0.0 ? moment / s : 0.0, xi = scalar_value(s) > 0.0 ? fit_eff / s : 0.0;
+    const scalar a = scalar_value(s) > 0.0 ? V / s : 0.0, c = scalar_value(largest) > 0.0 ? scalar_min(m / largest, 1.0) : 0.0;
+    const scalar xi = scalar_value(s) > 0.0 ? fit_eff / s : 0.0;
     point.at[RIVET_A] = axis_splines(&t->axis[RIVET_A], a);
-    point.at[RIVET_B] = axis_splines(&t->axis[RIVET_B], b);
     point.at[RIVET_C] = axis_splines(&t->axis[RIVET_C], c);
     point.at[RIVET_XI] = axis_splines_xi(&t->axis[RIVET_XI], xi, s, fit_eff);
     return point;
@@ -29,7 +27,7 @@ static TablePoint table_point(const RivetTable *t, const RivetLoad *load, double
 
 unsigned rivet_rom_stress(const RivetTable *t, const RivetLoad *load, double fit_eff, scalar sigma[RIVET_CHANNELS])
 {
-    TablePoint point = table_point(t, load, fit_eff);
+    const TablePoint point = table_point(t, load, fit_eff);
     scalar primary[2], secondary[2];
     contract(t, t->primary, &point, primary);
     contract(t, t->secondary, &point, secondary);
@@ -40,7 +38,6 @@ unsigned rivet_rom_stress(const RivetTable *t, const RivetLoad *load, double fit
 
     unsigned flags = 0;
     if (fmax(scalar_value(sigma[HEAD_VM]), scalar_value(sigma[MID_VM])) > t->yield_rivet) flags |= RIVET_YIELDS;
-    if (scalar_value(load->N) < 0.0) flags |= JOINT_COMPRESSED;
     if (!isfinite(scalar_value(sigma[HEAD_P1]))) flags |= RIVET_OUTSIDE;
     return flags;
 }

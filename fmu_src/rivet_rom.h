@@ -1,64 +1,64 @@
 // Rivet stress and joint data from the reduced rivet model: one table, read here and in bearing_model/rivet_rom.py.
 //
-//      N ^  | M        +x half: force V, moment M, pull N from outside,
+//      T ^  | m        +x half: the shank carries tension T, transverse load V, bending moment m
 //     ___|__|_____     -x half: the opposite
 //    |   |     ___|--> V
 //    |   |rivet   |
-//    |-- | -------|    split plane, x = 0, where V and M are taken
+//    |-- | -------|    split plane, x = 0, where V and m are taken
 //    |___|________|
 //
-// The frictionless joint (elastic bodies, unilateral contacts, gaps proportional to the fit) answers homogeneously of degree 1 in
-// (P, N, V, M, fit), so one argument divides out:
+// The frictionless rivet in its holes (elastic bodies, unilateral contacts, gaps proportional to the fit) answers homogeneously of degree 1 in
+// (T, V, m, fit), so one argument divides out:
 //
-//     sigma = s (w T_i(a, b, c, xi) + (1 - w) T_(i+1)(a, b, c, xi)),      s = P + N + V + |M|/L,   L = moment_length of the table
-//     a = V/(P + N + V),  b = N/(P + N),  c = |M|/(L s),  xi = fit_eff/s
-//     chi = |V_y M_z - V_z M_y|/(V |M|): 1 if M bends in the plane of V, 0 if across it
-//     i: sheets T of chi = 1 (plane), 1/2 (oblique), 0 (across), the two around chi;  w = 2 chi - 1 above 1/2, below it 2 chi in the head,
+//     sigma = s (w S_i(a, c, xi) + (1 - w) S_(i+1)(a, c, xi)),      s = T + V
+//     a = V/s,  c = |m|/(L T) at most 1,  xi = fit_eff/s,  L = moment_length of the table
+//     chi = |V_y m_z - V_z m_y|/(V |m|): 1 if m bends in the plane of V, 0 if across it
+//     i: sheets S of chi = 1 (plane), 1/2 (oblique), 0 (across), the two around chi;  w = 2 chi - 1 above 1/2, below it 2 chi in the head,
 //     (2 chi)^1.5 in the middle: the measured rule between the sheets, within 0.4 % and 1.3 % of the largest clearance stress
 //
-// The channels are the largest stress over both heads and all angles.  A half turn and the mirror of the halves change the sign of M against
+// The channels are the largest stress over both heads and all angles.  A half turn and the mirror of the halves change the sign of m against
 // V, so the sign only says which head carries more, and the channel does not depend on it.
-// a, b, c lie in [0, 1] for every load, so no load lies outside the table.  xi: constant below its axis (contact in the hole is
-// saturated: the size of the gap no longer matters), linear above (every contact of the hole closed).  T is a tensor product of
-// quadratic B-splines, C1 in each argument; sigma is C0 where V, N + P or M passes through 0
-// and where chi passes through 0 or 1/2.  Head friction adds head_friction F_head to
-// the head channels and nothing in the middle.
+// xi: constant below its axis (contact in the hole is saturated: the size of the gap no longer matters), linear above (every contact of the
+// hole closed).  S is a tensor product of quadratic B-splines, C1 in each argument; sigma is C0 where V, T or m passes through 0
+// and where chi passes through 0 or 1/2.  Head friction adds head_friction F_head to the head channels and nothing in the middle.
 #pragma once
 
+#include "half_path.h"
+#include "joint_law.h"
 #include "lanes.h"
 
 #include <stdbool.h>
 
-// Loads of one rivet [N, N.m]; y, z: two perpendicular directions in the plane of the joint, x, y, z right-handed.
+// What one rivet carries [N, N.m]; y, z: two perpendicular directions in the plane of the joint, x, y, z right-handed.
 typedef struct {
-    scalar P;         // preload
-    scalar N;         // external tension of the joint, before preload shielding; negative (compression) counts as 0
-    scalar V_y, V_z;  // transverse load that the rivet carries, on the +x half
-    scalar M_y, M_z;  // prying moment about the rivet's place in the split plane, on the +x half
+    scalar T;         // tension
+    scalar V_y, V_z;  // transverse load of the shank, on the +x half
+    scalar m_y, m_z;  // bending moment of the shank in the split plane, on the +x half
     scalar F_head;    // modulus of the friction force at the heads
 } RivetLoad;
 
-// The loads of all rivets side by side.
+// The loads of all joints side by side, on the +x half in the frames (x, r, t) of the rivets.
 typedef struct {
-    ball_array P, N, V_y, V_z, M_y, M_z, F_head;
-    ball_array V;  // modulus of the joint's whole transverse load, of which the rivet carries V_y, V_z [N]
-} RivetLoads;
+    ball_array N, M_r, M_t;       // external tension of the joint, moment that it transmits [N, N.m]
+    ball_array V;                 // modulus of its whole transverse load [N]
+    ball_array T, m_r, m_t;       // rivet: tension with preload and prying, bending of its shank
+    ball_array V_r, V_t, F_head;  // transverse load of its shank, modulus of the friction at its heads
+} JointLoads;
 
-INLINE RivetLoad rivet_load_of(const RivetLoads *all, int k)
+INLINE RivetLoad rivet_load_of(const JointLoads *all, int k)
 {
-    return (RivetLoad){all->P[k], all->N[k], all->V_y[k], all->V_z[k], all->M_y[k], all->M_z[k], all->F_head[k]};
+    return (RivetLoad){all->T[k], all->V_r[k], all->V_t[k], all->m_r[k], all->m_t[k], all->F_head[k]};
 }
 
 enum { HEAD_P1, HEAD_VM, MID_VM, MID_P1, RIVET_CHANNELS };  // largest principal (P1) and von Mises (VM) stress in head fillet and middle
 
 enum {
-    RIVET_YIELDS = 1,      // a von Mises channel exceeds the rivet's yield stress
-    FLANGE_YIELDS = 2,     // the fit exceeds the one at which the flange begins to yield
-    JOINT_COMPRESSED = 4,  // N < 0 counted as 0
-    RIVET_OUTSIDE = 8      // the fit exceeds the largest one of fit_eff's map, or a load is not finite
+    RIVET_YIELDS = 1,   // a von Mises channel exceeds the rivet's yield stress
+    FLANGE_YIELDS = 2,  // the fit exceeds the one at which the flange begins to yield
+    RIVET_OUTSIDE = 8   // the fit exceeds the largest one of fit_eff's map, or a load is not finite; 4 meant a compressed joint
 };
 
-enum { RIVET_A, RIVET_B, RIVET_C, RIVET_XI, RIVET_AXES };
+enum { RIVET_A, RIVET_C, RIVET_XI, RIVET_AXES };
 enum { RIVET_PLANE, RIVET_OBLIQUE, RIVET_ACROSS, RIVET_SHEETS };
 
 // One cell between knots t_i and t_(i+1), with the constants of its three splines
@@ -87,7 +87,7 @@ typedef struct {
     double A;             // shank section [m2]
     double d_m;           // diameter of the circle of rivets [m]
     double grip;          // clamped length [m]
-    double k_rivet;       // axial stiffness of the open joint: rivet, heads and flanges in series [N/m]
+    double k_rivet;       // force per separation of the halves' bodies: of the open joint [N/m]
     double k_plate;       // what the closed split plane adds to it [N/m]
     double k_t_plate;     // tangential stiffness of the split plane before it slips [N/m]
     double k_t_head;      // of the two heads in series, through the rivet [N/m]
@@ -96,11 +96,17 @@ typedef struct {
     double alpha_flange;  // [1/K]
     double d;             // shank diameter [m]
     double T_0;           // temperature at which preload and fit are given [K]
-    double prying_lever;  // moment at which the joint opens per clamp force P - N [m]
-    double prying_share;  // part of a further moment that the open joint still takes, 0...1
     int hole_count;       // hole contact: tangent stiffness k_hole [N/m] of both holes in series over fit_a [m]
     const double *hole_fit, *k_hole;
 } JointData;
+
+// One half of the cage, with its half of the rivets, in SI.
+typedef struct {
+    double m;  // mass [kg]
+    HalfPath path;
+    double spin[ROWS];  // rows of all joints under the centrifugal load of both halves, per (rad/s)^2, at this mass
+    JointLaw law;
+} CageHalfData;
 
 typedef struct {
     const char *kind;           // "closed_form" or "fe"
@@ -109,7 +115,7 @@ typedef struct {
     int Z;
     double moment_length;  // L [m]
     RivetAxis axis[RIVET_AXES];
-    const float *primary;     // spline coefficients [a][b][c][xi][sheet][HEAD_P1, MID_VM], in 1/m2
+    const float *primary;     // spline coefficients [a][c][xi][sheet][HEAD_P1, MID_VM], in 1/m2
     const float *secondary;   // the same of [HEAD_VM, MID_P1], which only outputs ask for
     double head_friction;     // [1/m2]
     double head_friction_vm;  // [1/m2]
@@ -117,7 +123,7 @@ typedef struct {
     double fit_flange_yield;  // fit at which the flange begins to yield [m]
     FitMap j2;                // interference with plasticity
     JointData joint;
-    const double *load_path;  // see load_path_flexible
+    CageHalfData half;
 } RivetTable;
 
 extern const RivetTable rivet_table;  // rivet_table.c, written by rivet_model/embed.py

@@ -55,18 +55,18 @@ typedef struct {
     scalar first[2];  // its weight in head and middle
 } TablePoint;
 
-// Tensor product over 3^4 coefficients of two sheets for a pair of channels.  Order of sums: c, b, a, xi, chi.
+// Tensor product over 3^3 coefficients of two sheets for a pair of channels.  Order of sums: c, a, xi, chi.
 #ifdef DUAL
 INLINE void contract(const RivetTable *t, const float *coefficients, const TablePoint *point, scalar sigma[2])
 {
-    const Splines *A = &point->at[RIVET_A], *B = &point->at[RIVET_B], *C = &point->at[RIVET_C], *X = &point->at[RIVET_XI];
-    int n_b = t->axis[RIVET_B].cells + 2, n_c = t->axis[RIVET_C].cells + 2, n_xi = t->axis[RIVET_XI].cells + 2;
+    const Splines *A = &point->at[RIVET_A], *C = &point->at[RIVET_C], *X = &point->at[RIVET_XI];
+    int n_c = t->axis[RIVET_C].cells + 2, n_xi = t->axis[RIVET_XI].cells + 2;
     sigma[0] = sigma[1] = 0.0;
-    for (int i = 0; i < 81; i++) {
-        int a = i / 27, b = i / 9 % 3, c = i / 3 % 3, x = i % 3;
-        int index = (((A->first + a) * n_b + B->first + b) * n_c + C->first + c) * n_xi + X->first + x;
+    for (int i = 0; i < 27; i++) {
+        int a = i / 9, c = i / 3 % 3, x = i % 3;
+        int index = ((A->first + a) * n_c + C->first + c) * n_xi + X->first + x;
         const float *T = coefficients + 2 * (RIVET_SHEETS * index + point->sheet);
-        scalar weight = A->w[a] * B->w[b] * C->w[c] * X->w[x];
+        scalar weight = A->w[a] * C->w[c] * X->w[x];
         for (int k = 0; k < 2; k++) sigma[k] += weight * (point->first[k] * T[k] + (1.0 - point->first[k]) * T[2 + k]);
     }
 }
@@ -98,24 +98,20 @@ INLINE void add_part(double w, const quad *x, quad *sum)
 
 INLINE void contract(const RivetTable *t, const float *coefficients, const TablePoint *point, double sigma[2])
 {
-    const Splines *A = &point->at[RIVET_A], *B = &point->at[RIVET_B], *C = &point->at[RIVET_C], *X = &point->at[RIVET_XI];
-    const int n_b = t->axis[RIVET_B].cells + 2, n_c = t->axis[RIVET_C].cells + 2, n_xi = t->axis[RIVET_XI].cells + 2;
+    const Splines *A = &point->at[RIVET_A], *C = &point->at[RIVET_C], *X = &point->at[RIVET_XI];
+    const int n_c = t->axis[RIVET_C].cells + 2, n_xi = t->axis[RIVET_XI].cells + 2;
     const int xi = 2 * RIVET_SHEETS, row = n_xi * xi;  // coefficients from one xi, one c to the next
     const float *origin = coefficients + xi * X->first + 2 * point->sheet;
     quad sum[3] = {{0}, {0}, {0}}, all = {0};  // by xi
     for (int a = 0; a < A->count; a++) {
+        const float *T = origin + row * ((A->first + a) * n_c + C->first);
         quad sum_a[3] = {{0}, {0}, {0}};
-        for (int b = 0; b < B->count; b++) {
-            const float *T = origin + row * (((A->first + a) * n_b + B->first + b) * n_c + C->first);
-            quad sum_b[3] = {{0}, {0}, {0}};
-            for (int c = 0; c < C->count; c++, T += row) {
-                for (int x = 0; x < 3; x++) {
-                    quad value;
-                    fetch(T + x * xi, &value);
-                    add_part(C->w[c], &value, &sum_b[x]);
-                }
+        for (int c = 0; c < C->count; c++, T += row) {
+            for (int x = 0; x < 3; x++) {
+                quad value;
+                fetch(T + x * xi, &value);
+                add_part(C->w[c], &value, &sum_a[x]);
             }
-            for (int x = 0; x < 3; x++) add_part(B->w[b], &sum_b[x], &sum_a[x]);
         }
         for (int x = 0; x < 3; x++) add_part(A->w[a], &sum_a[x], &sum[x]);
     }

@@ -23,7 +23,7 @@ void test_traction_mu(int n, const Parameters *p, double f_a, bool mixed, const 
 void test_traction_asperity_share(int n, const double *ln_Lambda, double *f_a);
 void test_traction_ln_film(int n, double ln_Lambda_1, double Q, const double *U, double *ln_Lambda);
 void test_traction_inlet(int n, double rolling, double Q, const double *U, double *F_R);
-void test_rivet_primary(int n, const RivetLoads *load, double fit_eff, double *head_p1, double *mid_vm);
+void test_rivet_primary(int n, const JointLoads *load, double fit_eff, double *head_p1, double *mid_vm);
 
 // Zeroed, aligned for any lane width; free() releases it.
 void *test_allocate(size_t size)
@@ -94,7 +94,7 @@ void test_traction_inlet(int n, double rolling, double Q, const double *U, doubl
     for (int i = 0; i < n; i++) F_R[i] = traction_inlet(wide_set(rolling), wide_log(wide_set(U[i])), wide_set(Q), ln_Q)[0];
 }
 
-void test_rivet_primary(int n, const RivetLoads *load, double fit_eff, double *head_p1, double *mid_vm)
+void test_rivet_primary(int n, const JointLoads *load, double fit_eff, double *head_p1, double *mid_vm)
 {
     const Kernels kernels = kernels_select();
     for (int i = 0; i < n; i++) kernels.rivet_primary(&rivet_table, &load[i], fit_eff, &head_p1[Z * i], &mid_vm[Z * i]);
