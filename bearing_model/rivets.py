@@ -16,7 +16,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from bearing_model.half_path import bolt_group, path_load
-from bearing_model.joint_law import joints_open, joints_slip, start_moves
+from bearing_model.joint_law import joints_open, joints_slip
 from bearing_model.lanes import ball_array_sum
 from bearing_model.pocket import pocket_split
 from bearing_model.rivet_rom import RivetLoad
@@ -137,8 +137,7 @@ def rivets_load(model, w):
 
     # joints that open
     bonded, P = np.stack([share.N + N, M_r, M_t], axis=-1), np.maximum(d.P + dP, 0.0)
-    start = start_moves(law, spin[..., 0, 4], np.maximum(d.P + spin[..., 5], 0.0) + 0.0 * dP)
-    load, rivet, _ = joints_open(law, bonded, P, start)
+    load, rivet, _ = joints_open(law, bonded, P, spin[..., 0, 4], np.maximum(d.P + spin[..., 0, 5], 0.0))
 
     # joints that slip
     args = share.gap_left, share.plates_left, share.heads_left, d.k_head, d.k_hole

@@ -49,16 +49,22 @@ bool half_path_add(const HalfPath *path, int side, const PathForces *on, PathRow
         touches[count++] = touch(path, side, on, j);
     }
     if (count == 0) return false;
-    for (int i = 0; i < ROWS; i++) {
-        const double sign = i == ROW_V_R || i == ROW_V_T ? side : 1.0;
-        for (int k = 0; k < PACKETS * LANE_WIDTH; k += LANE_WIDTH) {
-            wide sum = wide_set(0.0);
-            for (int n = 0; n < count; n++) {
-                const double *row = touches[n].column + i * ROW + k;
-                for (int m = 0; m < TERMS; m++) sum = wide_fma(wide_set(touches[n].weight[0][m]), wide_load(row + m * PATH_WIDTH), sum);
-                for (int m = 0; m < TERMS; m++) sum = wide_fma(wide_set(touches[n].weight[1][m]), wide_load(row + NODE + m * PATH_WIDTH), sum);
+    for (int n = 0; n < count; n++) {
+        wide weight[2][TERMS];
+        for (int m = 0; m < TERMS; m++) {
+            weight[0][m] = wide_set(touches[n].weight[0][m]);
+            weight[1][m] = wide_set(touches[n].weight[1][m]);
+        }
+        for (int i = 0; i < ROWS; i++) {
+            const double sign = i == ROW_V_R || i == ROW_V_T ? side : 1.0, *row = touches[n].column + i * ROW;
+            for (int k = 0; k < PACKETS * LANE_WIDTH; k += LANE_WIDTH) {
+                wide near = weight[0][0] * wide_load(row + k), far = weight[1][0] * wide_load(row + NODE + k);
+                for (int m = 1; m < TERMS; m++) {
+                    near = wide_fma(weight[0][m], wide_load(row + m * PATH_WIDTH + k), near);
+                    far = wide_fma(weight[1][m], wide_load(row + NODE + m * PATH_WIDTH + k), far);
+                }
+                wide_store(&rows->row[i][k], wide_load(&rows->row[i][k]) + sign * (near + far));
             }
-            wide_store(&rows->row[i][k], wide_load(&rows->row[i][k]) + sign * sum);
         }
     }
     return true;

@@ -4,7 +4,7 @@
 #include "octet.h"
 
 enum { SWEEPS = 6, SLIP_SWEEPS = 3 };
-static const double CHANGE = 0.01;
+static const double NEAR = 0.05, CHANGE = 0.01;
 
 INLINE wide ratio(wide part, wide whole)
 {
@@ -28,7 +28,7 @@ INLINE wide axis_weights(wide u, int cells, int k, ball_array w[3])
     return cell;
 }
 
-INLINE void find_points(const JointLaw *law, const ball_array load[3], const ball_array P, int k, LawPoints *at)
+INLINE void find_points(const JointLaw *law, ball_array load[3], const ball_array P, int k, LawPoints *at)
 {
     const double inv_length = 1.0 / law->length, cells[LAW_AXES] = {law->cells[0], law->cells[1], law->cells[2]};
     const wide N = wide_load(&load[0][k]), M_r = wide_load(&load[1][k]), M_t = wide_load(&load[2][k]);
@@ -62,20 +62,26 @@ INLINE void joint_law(const JointLaw *law, const LawPoints *at, int k, scalar mo
     rivet[0] = s * sum.x[4], rivet[1] = across * sum.x[5], rivet[2] = s * sum.x[6];
 }
 
-// Moves of all joints, once more behind the last one, so that those of neighbours lie side by side.
-typedef scalar Moves[3][2 * Z + LANES];
+// What is sought: moves of all joints, once more behind the last one, so that those of neighbours lie side by side; L*; s; loads of the rivets.
+typedef struct {
+    scalar move[3][2 * Z + LANES];
+    ball_array alone[3], s, *rivet;
+} Opening;
 
-// L* of a packet of joints.
-INLINE void load_alone(const JointLaw *law, const ball_array bonded[3], Moves moves, int k, wide alone[3])
+// The joints to be found by the law, and the packets that they are in.
+typedef struct {
+    int count, joint[Z];
+    bool packet[PACKETS];
+} Wanted;
+
+INLINE void want(Wanted *wanted, int p, bits which)
 {
-    for (int i = 0; i < 3; i++) alone[i] = wide_load(&bonded[i][k]);
-    for (int n = 0; n < law->neighbours; n++) {
-        const int j = k + Z - law->neighbour[n];
-        for (int m = 0; m < 3; m++) {
-            const wide move = wide_load(&moves[m][j]);
-            for (int i = 0; i < 3; i++) alone[i] = wide_fma(wide_set(-law->K[n][i][m]), move, alone[i]);
-        }
-    }
+    ball_array flag;
+    wanted->packet[p] = wide_any(which);
+    if (!wanted->packet[p]) return;
+    wide_store(&flag[p * LANE_WIDTH], wide_select(which, wide_set(1.0), wide_set(0.0)));
+    for (int k = p * LANE_WIDTH; k < (p + 1) * LANE_WIDTH && k < Z; k++)
+        if (scalar_value(flag[k]) > 0.0) wanted->joint[wanted->count++] = k;
 }
 
 // |N| + (|M_r| + |M_t|)/l.
@@ -84,77 +90,111 @@ INLINE wide size(const JointLaw *law, wide N, wide M_r, wide M_t)
     return wide_abs(N) + (wide_abs(M_r) + wide_abs(M_t)) * (1.0 / law->length);
 }
 
-// L* of the first sweep: all joints have moved alike.
-static void start_alone(const JointLaw *law, const ball_array bonded[3], scalar spin_M, scalar spin_P, ball_array alone[3])
+// What all joints have in common, of the table's `alike` for c and P, in newtons.
+static void find_alike(const JointLaw *law, scalar c, scalar P, scalar at[ALIKE_WIDTH])
 {
-    const scalar c = (scalar_value(spin_M) < 0.0 ? -spin_M : spin_M) / law->length, s = spin_P + c;
-    const scalar x = scalar_value(s) > 0.0 ? c / s * (law->starts - 1.0) : 0.0;
-    const int i = (int)fmin(fmax(scalar_value(x), 0.0), law->starts - 2.0);
-    scalar move[3];
-    for (int m = 0; m < 3; m++) move[m] = s * (law->start[i][m] + (x - i) * (law->start[i + 1][m] - law->start[i][m]));
-    for (int n = 0; n < 3; n++) {
-        const scalar relieved = law->K_others[n][0] * move[0] + law->K_others[n][1] * move[1] + law->K_others[n][2] * move[2];
-        for (int k = 0; k < PACKETS * LANE_WIDTH; k += LANE_WIDTH) wide_store(&alone[n][k], wide_load(&bonded[n][k]) - wide_set(relieved));
-    }
+    const scalar s = c + P, x = scalar_value(s) > 0.0 ? c / s * (law->alike_count - 1.0) : 0.0;
+    const int i = (int)fmin(fmax(scalar_value(x), 0.0), law->alike_count - 2.0);
+    const double *from = law->alike[i], *to = law->alike[i + 1];
+    const scalar up = x - i;
+    for (int n = 0; n < ALIKE_WIDTH; n++) at[n] = from[n] + up * (to[n] - from[n]);
+    for (int n = 0; n < ALIKE_SLOPES; n++) at[n] *= s;
 }
 
-// The joints whose L* has changed by more than CHANGE s; theirs is taken over.
-static int find_changed(const JointLaw *law, const ball_array bonded[3], const ball_array P, Moves moves, ball_array alone[3], int joint[Z],
-                        bool packet[PACKETS])
+// First sweep by the tangent at the state where all joints are alike; those too far from it are wanted.
+static void sweep_near(const JointLaw *law, ball_array bonded[3], const ball_array P, scalar c, scalar spin_P, Opening *o, Wanted *wanted)
 {
-    int count = 0;
+    scalar at[ALIKE_WIDTH], relieved[3];
+    find_alike(law, c, spin_P, at);
+    for (int i = 0; i < 3; i++) relieved[i] = law->K_others[i][0] * at[ALIKE_U] + law->K_others[i][2] * at[ALIKE_PHI_T];
+    ball_array move[3];
+    wanted->count = 0;
     for (int p = 0; p < PACKETS; p++) {
         const int k = p * LANE_WIDTH;
-        wide load[3], before[3];
-        load_alone(law, bonded, moves, k, load);
-        for (int i = 0; i < 3; i++) before[i] = wide_load(&alone[i][k]);
-        const wide limit = CHANGE * (wide_load(&P[k]) + size(law, wide_load(&bonded[0][k]), wide_load(&bonded[1][k]), wide_load(&bonded[2][k])));
-        const bits above = wide_above(size(law, load[0] - before[0], load[1] - before[1], load[2] - before[2]) - limit, 0.0);
-        packet[p] = wide_any(above);
-        if (!packet[p]) continue;
-        ball_array flag;
-        wide_store(&flag[k], wide_select(above, wide_set(1.0), wide_set(0.0)));
-        for (int i = 0; i < 3; i++) wide_store(&alone[i][k], wide_select(above, load[i], before[i]));
-        for (int i = k; i < k + LANE_WIDTH && i < Z; i++)
-            if (scalar_value(flag[i]) > 0.0) joint[count++] = i;
+        wide load[3];
+        for (int i = 0; i < 3; i++) {
+            load[i] = wide_load(&bonded[i][k]) - wide_set(relieved[i]);
+            wide_store(&o->alone[i][k], load[i]);
+        }
+        const wide N = load[0] - at[ALIKE_N], M_r = load[1], M_t = load[2] - at[ALIKE_M_T], more_P = wide_load(&P[k]) - spin_P;
+        wide value[4];  // u, phi_t, T, m_t
+        for (int n = 0; n < 4; n++) {
+            const scalar *slope = &at[ALIKE_SLOPES + 3 * n];
+            value[n] = wide_fma(wide_set(slope[2]), more_P, wide_fma(wide_set(slope[1]), M_t, wide_fma(wide_set(slope[0]), N, wide_set(at[ALIKE_U + n]))));
+        }
+        wide_store(&move[0][k], value[0]);
+        wide_store(&move[1][k], at[ALIKE_PHI_R] * M_r);
+        wide_store(&move[2][k], value[1]);
+        wide_store(&o->rivet[0][k], value[2]);
+        wide_store(&o->rivet[1][k], at[ALIKE_M_R_RIVET] * M_r);
+        wide_store(&o->rivet[2][k], value[3]);
+        const wide s = wide_load(&P[k]) + size(law, wide_load(&bonded[0][k]), wide_load(&bonded[1][k]), wide_load(&bonded[2][k]));
+        wide_store(&o->s[k], s);
+        want(wanted, p, wide_above(size(law, N, M_r, M_t) + wide_abs(more_P) - NEAR * s, 0.0));
     }
-    return count;
+    for (int i = 0; i < 3; i++) {
+        memcpy(&o->move[i][0], move[i], Z * sizeof(scalar));
+        memcpy(&o->move[i][Z], move[i], Z * sizeof(scalar));
+        for (int k = 2 * Z; k < 2 * Z + LANES; k++) o->move[i][k] = 0.0;  // padding
+    }
 }
 
-void joints_open(const JointLaw *law, const ball_array bonded[3], const ball_array P, scalar spin_M, scalar spin_P, ball_array load[3], ball_array rivet[3])
+// L* by the neighbours' moves; joints where it has changed by more than CHANGE s take it over and are wanted.
+static void sweep_neighbours(const JointLaw *law, ball_array bonded[3], Opening *o, Wanted *wanted)
 {
-    ball_array alone[3];
-    Moves moves;
-    LawPoints at;
-    int joint[Z], count = Z;
-    bool packet[PACKETS];
-    for (int k = 0; k < Z; k++) joint[k] = k;
-    for (int p = 0; p < PACKETS; p++) packet[p] = true;
-    for (int i = 0; i < 3; i++) {  // padding
-        for (int k = 2 * Z; k < 2 * Z + LANES; k++) moves[i][k] = 0.0;
-        for (int k = Z; k < LANES; k++) rivet[i][k] = 0.0;
+    wide load[PACKETS][3], before[3];
+    for (int p = 0; p < PACKETS; p++)
+        for (int i = 0; i < 3; i++) load[p][i] = wide_load(&bonded[i][p * LANE_WIDTH]);
+    for (int n = 0; n < law->neighbours; n++)
+        for (int m = 0; m < 3; m++) {
+            const scalar *move = &o->move[m][Z - law->neighbour[n]];
+            for (int i = 0; i < 3; i++) {
+                const wide K = wide_set(law->K[n][i][m]);
+                for (int p = 0; p < PACKETS; p++) load[p][i] = wide_fma(-K, wide_load(move + p * LANE_WIDTH), load[p][i]);
+            }
+        }
+    wanted->count = 0;
+    for (int p = 0; p < PACKETS; p++) {
+        const int k = p * LANE_WIDTH;
+        for (int i = 0; i < 3; i++) before[i] = wide_load(&o->alone[i][k]);
+        const wide change = size(law, load[p][0] - before[0], load[p][1] - before[1], load[p][2] - before[2]);
+        const bits changed = wide_above(change - CHANGE * wide_load(&o->s[k]), 0.0);
+        want(wanted, p, changed);
+        if (!wanted->packet[p]) continue;
+        for (int i = 0; i < 3; i++) wide_store(&o->alone[i][k], wide_select(changed, load[p][i], before[i]));
     }
-    start_alone(law, bonded, spin_M, spin_P, alone);
-    for (int sweep = 0; count > 0 && sweep < SWEEPS; sweep++) {
-        if (sweep > 0) count = find_changed(law, bonded, P, moves, alone, joint, packet);
+}
+
+void joints_open(const JointLaw *law, ball_array bonded[3], const ball_array P, scalar spin_M, scalar spin_P, ball_array load[3], ball_array rivet[3])
+{
+    const scalar c = (scalar_value(spin_M) < 0.0 ? -spin_M : spin_M) / law->length;
+    Opening o;
+    Wanted wanted;
+    LawPoints at;
+    o.rivet = rivet;
+    sweep_near(law, bonded, P, c, spin_P, &o, &wanted);
+    for (int sweep = 0; sweep < SWEEPS && wanted.count > 0; sweep++) {
+        if (sweep > 0) sweep_neighbours(law, bonded, &o, &wanted);
         for (int p = 0; p < PACKETS; p++)
-            if (packet[p]) find_points(law, alone, P, p * LANE_WIDTH, &at);
-        for (int n = 0; n < count; n++) {
-            const int k = joint[n];
+            if (wanted.packet[p]) find_points(law, o.alone, P, p * LANE_WIDTH, &at);
+        for (int n = 0; n < wanted.count; n++) {
+            const int k = wanted.joint[n];
             scalar move[3], carried[3];
             joint_law(law, &at, k, move, carried);
             for (int i = 0; i < 3; i++) {
-                moves[i][k] = moves[i][Z + k] = move[i];
+                o.move[i][k] = o.move[i][Z + k] = move[i];
                 rivet[i][k] = carried[i];
             }
         }
     }
-    for (int k = 0; k < PACKETS * LANE_WIDTH; k += LANE_WIDTH)
-        for (int i = 0; i < 3; i++) {
-            wide left = wide_load(&alone[i][k]);
-            for (int m = 0; m < 3; m++) left = wide_fma(wide_set(-law->K_0[i][m]), wide_load(&moves[m][Z + k]), left);
+    for (int i = 0; i < 3; i++) {
+        const wide K[3] = {wide_set(law->K_0[i][0]), wide_set(law->K_0[i][1]), wide_set(law->K_0[i][2])};
+        for (int k = 0; k < PACKETS * LANE_WIDTH; k += LANE_WIDTH) {
+            wide left = wide_load(&o.alone[i][k]);
+            for (int m = 0; m < 3; m++) left = wide_fma(-K[m], wide_load(&o.move[m][Z + k]), left);
             wide_store(&load[i][k], left);
         }
+    }
 }
 
 // ---- slip -----------------------------------------------------------------------------------------------------------------------------------------
@@ -178,26 +218,34 @@ static void add_vector(ball_array sum[2], int k, wide r, wide t)
     wide_store(&sum[1][k], wide_load(&sum[1][k]) + t);
 }
 
-void joints_slip(const JointLaw *law, const ball_array V[2], const SlipLimits *limits, ball_array plates[2], ball_array heads[2], ball_array shank[2])
+void joints_slip(const JointLaw *law, const ball_array V_r, const ball_array V_t, const SlipLimits *limits, ball_array plates[2], ball_array heads[2],
+                 ball_array shank[2])
 {
     bool slips = false;
     for (int k = 0; k < PACKETS * LANE_WIDTH; k += LANE_WIDTH)
-        slips |= wide_any(wide_above(wide_hypot(wide_load(&V[0][k]), wide_load(&V[1][k])) - wide_load(&limits->plates[k]), 0.0));
+        slips |= wide_any(wide_above(wide_hypot(wide_load(&V_r[k]), wide_load(&V_t[k])) - wide_load(&limits->plates[k]), 0.0));
     if (!slips) {
-        for (int k = 0; k < PACKETS * LANE_WIDTH; k += LANE_WIDTH) add_vector(plates, k, wide_load(&V[0][k]), wide_load(&V[1][k]));
+        for (int k = 0; k < PACKETS * LANE_WIDTH; k += LANE_WIDTH) add_vector(plates, k, wide_load(&V_r[k]), wide_load(&V_t[k]));
         return;
     }
     const double (*K)[2] = law->K_slip[0];
     scalar slip[2][2 * Z + LANES] = {{0.0}};  // once more behind the last one
     for (int sweep = 0; sweep < SLIP_SWEEPS; sweep++) {
         ball_array next[2];
-        for (int k = 0; k < PACKETS * LANE_WIDTH; k += LANE_WIDTH) {
-            wide r = wide_load(&V[0][k]), t = wide_load(&V[1][k]);
-            for (int d = 1; sweep > 0 && d < Z; d++) {
-                const wide slip_r = wide_load(&slip[0][k + Z - d]), slip_t = wide_load(&slip[1][k + Z - d]);
-                r = wide_fma(wide_set(-law->K_slip[d][0][1]), slip_t, wide_fma(wide_set(-law->K_slip[d][0][0]), slip_r, r));
-                t = wide_fma(wide_set(-law->K_slip[d][1][1]), slip_t, wide_fma(wide_set(-law->K_slip[d][1][0]), slip_r, t));
-            }
+        wide alone[PACKETS][2];
+        for (int p = 0; p < PACKETS; p++) {
+            alone[p][0] = wide_load(&V_r[p * LANE_WIDTH]);
+            alone[p][1] = wide_load(&V_t[p * LANE_WIDTH]);
+        }
+        for (int d = 1; sweep > 0 && d < Z; d++)
+            for (int m = 0; m < 2; m++)
+                for (int i = 0; i < 2; i++) {
+                    const wide K_d = wide_set(law->K_slip[d][i][m]);
+                    for (int p = 0; p < PACKETS; p++) alone[p][i] = wide_fma(-K_d, wide_load(&slip[m][Z - d + p * LANE_WIDTH]), alone[p][i]);
+                }
+        for (int p = 0; p < PACKETS; p++) {
+            const int k = p * LANE_WIDTH;
+            const wide r = alone[p][0], t = alone[p][1];
             const wide V_rt = wide_hypot(r, t), e_r = ratio(r, V_rt), e_t = ratio(t, V_rt);
             const wide along = e_r * (K[0][0] * e_r + (K[0][1] + K[1][0]) * e_t) + K[1][1] * (e_t * e_t);
             const wide stiffness = wide_select(wide_above(V_rt, 0.0), along, wide_set(K[0][0]));

@@ -15,10 +15,11 @@
 //
 // Fixed point: sweeps over all joints from the state under the centrifugal load alone, where all joints are alike,
 //
-//     delta_0 = s d(c/s),   c: bonded M_t of the centrifugal load / l,  s = P + |c|           (table `start`, linear)
+//     delta = s d(c/s),   c: bonded M_t of the centrifugal load / l,  s = P + |c|             (table `alike`, linear)
 //
-// after the first one only over joints whose L* has changed by more than CHANGE s.  Loads that equilibrium imposes, as the centrifugal moment, are
-// those that no move relieves: K has no stiffness there.
+// In the first sweep joints whose L* and P are within NEAR s of that state answer by its tangent; in the following ones only joints are found again
+// whose L* has changed by more than CHANGE s.  A joint is hardly felt beyond its second neighbour.  Loads that equilibrium imposes, as the
+// centrifugal moment, are those that no move relieves: K has no stiffness there.
 //
 // In the plane a joint slips, by s along V: of V_b what its friction and its hole do not take is relieved through the slip stiffness K_s (joint_slip).
 #pragma once
@@ -27,6 +28,10 @@
 
 enum { AXIS_TAU, AXIS_Q, AXIS_PSI, LAW_AXES };
 enum { LAW_WIDTH = 8 };  // u, phi_r, phi_t, -, T, m_r, m_t, -
+
+// Joints that are all alike: L* and what pad and rivet do, per newton of s; how one of them answers to a change of its N, M_t, P (rows u, phi_t, T, m_t)
+// and of its M_r.
+enum { ALIKE_N, ALIKE_M_T, ALIKE_U, ALIKE_PHI_T, ALIKE_T, ALIKE_M_T_RIVET, ALIKE_SLOPES, ALIKE_PHI_R = ALIKE_SLOPES + 12, ALIKE_M_R_RIVET, ALIKE_WIDTH };
 
 typedef struct {
     double length;               // l [m]
@@ -38,13 +43,13 @@ typedef struct {
     const int *neighbour;          // k - j mod Z of the other joints that are felt
     const double (*K)[3][3];       // their blocks
     const double (*K_slip)[2][2];  // load (V_r, V_t) relieved by slip, by k - j mod Z [N/m]
-    int starts;
-    const double (*start)[3];  // d at equal steps of |c|/s from 0 to 1, per newton
+    int alike_count;
+    const double (*alike)[ALIKE_WIDTH];  // joints under the same load, at equal steps of |c|/s from 0 to 1
 } JointLaw;
 
 // Loads (N, M_r, M_t) of the joints and (T, m_r, m_t) of the rivets [N, N.m], from bonded loads and preloads P >= 0.  spin_M, spin_P: bonded M_t under
 // the centrifugal load alone, and the preload with it.
-void joints_open(const JointLaw *law, const ball_array bonded[3], const ball_array P, scalar spin_M, scalar spin_P, ball_array load[3], ball_array rivet[3]);
+void joints_open(const JointLaw *law, ball_array bonded[3], const ball_array P, scalar spin_M, scalar spin_P, ball_array load[3], ball_array rivet[3]);
 
 // What joints have for the transverse loads: friction of plates and heads [N], play [m]; stiffness of heads and hole [N/m].
 typedef struct {
@@ -52,5 +57,6 @@ typedef struct {
     double k_head, k_hole;
 } SlipLimits;
 
-// Adds what plates, heads and shanks carry (r, t) of the bonded loads V (r, t) [N].
-void joints_slip(const JointLaw *law, const ball_array V[2], const SlipLimits *limits, ball_array plates[2], ball_array heads[2], ball_array shank[2]);
+// Adds what plates, heads and shanks carry (r, t) of the bonded loads V_r, V_t [N].
+void joints_slip(const JointLaw *law, const ball_array V_r, const ball_array V_t, const SlipLimits *limits, ball_array plates[2], ball_array heads[2],
+                 ball_array shank[2]);

@@ -9,11 +9,15 @@ typedef struct {
     scalar w[3];
 } Splines;
 
-// Cell of u: the one in which its bin begins, or one of the next few.
+// Cell of u: the one in which its bin begins, or one of the next few; on short axes by search from the first.
 INLINE const RivetCell *axis_cell(const RivetAxis *axis, double u)
 {
-    const double bin = scalar_min(scalar_max((u - axis->start) * axis->inv_bin, 0.0), RIVET_BINS);  // 0 of NaN
-    const RivetCell *cell = &axis->cell[axis->bin[(int)bin]], *last = &axis->cell[axis->cells - 1];
+    enum { SHORT = 8 };
+    const RivetCell *cell = axis->cell, *last = &axis->cell[axis->cells - 1];
+    if (axis->cells > SHORT) {
+        const double bin = scalar_min(scalar_max((u - axis->start) * axis->inv_bin, 0.0), RIVET_BINS);  // 0 of NaN
+        cell = &axis->cell[axis->bin[(int)bin]];
+    }
     while (u >= cell->end && cell < last) cell++;
     return cell;
 }

@@ -109,26 +109,28 @@ void rivets_load(const Model *model, const Work *w, JointLoads *load)
     } else
         two_half_share(model, w, &share);
 
-    PathRows rows = {0};
+    const scalar omega2 = 0.5 * (w->half[0].s * w->half[0].s + w->half[1].s * w->half[1].s);
+    PathRows rows;
+    for (int i = 0; i < ROWS; i++) {
+        const wide spin = wide_set(omega2 * d->spin[i]);
+        for (int k = 0; k < PACKETS * LANE_WIDTH; k += LANE_WIDTH) wide_store(&rows.row[i][k], spin);
+    }
     bool touched = false;
     for (int h = 0; h < 2; h++)
         touched |= half_path_add(&half->path, h == 0 ? -1 : 1, &(PathForces){on[h].F_x, on[h].F_r, on[h].F_t, on[h].push_x, on[h].push_t}, &rows);
-    const scalar omega2 = 0.5 * (w->half[0].s * w->half[0].s + w->half[1].s * w->half[1].s);
-    wide spin[ROWS];
-    for (int i = 0; i < ROWS; i++) spin[i] = wide_set(omega2 * d->spin[i]);
 
     // joints that open
     ball_array bonded[3], P, open[3], rivet[3];
     for (int k = 0; k < PACKETS * LANE_WIDTH; k += LANE_WIDTH) {
-        wide_store(&bonded[0][k], wide_load(&share.N[k]) + (wide_load(&rows.row[ROW_N][k]) + spin[ROW_N]));
-        wide_store(&bonded[1][k], wide_load(&rows.row[ROW_M_R][k]) + spin[ROW_M_R]);
-        wide_store(&bonded[2][k], wide_load(&rows.row[ROW_M_T][k]) + spin[ROW_M_T]);
-        wide_store(&P[k], wide_max(d->P + (wide_load(&rows.row[ROW_DP][k]) + spin[ROW_DP]), wide_set(0.0)));
+        wide_store(&bonded[0][k], wide_load(&share.N[k]) + wide_load(&rows.row[ROW_N][k]));
+        wide_store(&bonded[1][k], wide_load(&rows.row[ROW_M_R][k]));
+        wide_store(&bonded[2][k], wide_load(&rows.row[ROW_M_T][k]));
+        wide_store(&P[k], wide_max(d->P + wide_load(&rows.row[ROW_DP][k]), wide_set(0.0)));
     }
     joints_open(&half->law, bonded, P, omega2 * d->spin[ROW_M_T], scalar_max(d->P + omega2 * d->spin[ROW_DP], 0.0), open, rivet);
 
-    // joints that slip: the centrifugal load has no transverse part
-    if (touched) joints_slip(&half->law, &rows.row[ROW_V_R], &share.left, share.plates, share.heads, share.shank);
+    // joints that slip: under the centrifugal load alone none does
+    if (touched) joints_slip(&half->law, rows.row[ROW_V_R], rows.row[ROW_V_T], &share.left, share.plates, share.heads, share.shank);
 
     for (int k = 0; k < PACKETS * LANE_WIDTH; k += LANE_WIDTH) {
         const wide heads_r = wide_load(&share.heads[0][k]), heads_t = wide_load(&share.heads[1][k]);
@@ -138,8 +140,8 @@ void rivets_load(const Model *model, const Work *w, JointLoads *load)
         wide_store(&load->M_t[k], wide_load(&open[2][k]));
         wide_store(&load->V[k], wide_hypot(wide_load(&share.plates[0][k]) + heads_r + V_r, wide_load(&share.plates[1][k]) + heads_t + V_t));
         wide_store(&load->T[k], wide_load(&rivet[0][k]));
-        wide_store(&load->m_r[k], wide_load(&rivet[1][k]) + (wide_load(&rows.row[ROW_DM_R][k]) + spin[ROW_DM_R]));
-        wide_store(&load->m_t[k], wide_load(&rivet[2][k]) + (wide_load(&rows.row[ROW_DM_T][k]) + spin[ROW_DM_T]));
+        wide_store(&load->m_r[k], wide_load(&rivet[1][k]) + wide_load(&rows.row[ROW_DM_R][k]));
+        wide_store(&load->m_t[k], wide_load(&rivet[2][k]) + wide_load(&rows.row[ROW_DM_T][k]));
         wide_store(&load->V_r[k], V_r);
         wide_store(&load->V_t[k], V_t);
         wide_store(&load->F_head[k], wide_hypot(heads_r, heads_t));

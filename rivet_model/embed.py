@@ -41,21 +41,38 @@ def path_columns(half):
     return np.stack([columns, back])[..., (np.arange(lanes + Z - 1) - (Z - 1)) % Z]
 
 
+def uniform_cells(name, knots):
+    """Number of equal cells whose ends hold all knots; ValueError if there are none."""
+    step = np.diff(knots).min()
+    ends = (knots - knots[0]) / step
+    if not np.allclose(ends, np.round(ends), atol=1e-6):
+        raise ValueError(f"half.law: knots of axis {name} = {knots.tolist()}: multiples of their smallest step are allowed")
+    return int(round(ends[-1]))
+
+
 def uniform_coefficients(law):
-    """Coefficients of the law [tau, q, psi, LAW_WIDTH] for uniform splines without clamped ends, on the same cells: the same function."""
+    """Coefficients of the law [tau, q, psi, LAW_WIDTH] for uniform splines without clamped ends, on equal cells: the same function."""
     values = law.coefficients
     for axis, name in enumerate(joint_law.AXES):
         knots = law.knots[name]
-        at = splines.sites(knots)
-        cell = np.minimum(((at - knots[0]) / (knots[1] - knots[0])).astype(int), len(knots) - 2)
-        up = (at - knots[cell]) / (knots[1] - knots[0])
+        cells = uniform_cells(name, knots)
+        at = splines.sites(np.arange(cells + 1.0))
+        cell = np.minimum(at.astype(int), cells - 1)
+        up = at - cell
         uniform = np.zeros((len(at), len(at)))
         for k, weight in enumerate((0.5 * (1 - up) ** 2, 0.5 + up - up**2, 0.5 * up**2)):
             uniform[np.arange(len(at)), cell + k] = weight
-        change = np.linalg.solve(uniform, splines.collocation(knots, at))
-        values = np.moveaxis(np.tensordot(change, values, axes=(1, axis)), 0, axis)
-    zero = np.zeros(values.shape[:-1] + (1,))
+        clamped = splines.collocation(knots, knots[0] + (knots[-1] - knots[0]) * at / cells)
+        values = np.moveaxis(np.tensordot(np.linalg.solve(uniform, clamped), values, axes=(1, axis)), 0, axis)
+    zero = np.zeros((*values.shape[:-1], 1))
     return np.concatenate([values[..., :3], zero, values[..., 3:], zero], axis=-1)
+
+
+def alike_rows(alike):
+    """Rows of fmu_src/joint_law.h's ALIKE_WIDTH."""
+    even = [0, 2, 3, 5]  # u, phi_t, T, m_t, over N, M_t, P
+    slopes = alike.slopes[:, even][:, :, [0, 2, 3]].reshape(len(alike.x), -1)
+    return np.column_stack([alike.load[:, [0, 2]], alike.values[:, even], slopes, alike.slopes[:, 1, 1], alike.slopes[:, 4, 1]])
 
 
 def _braces(values):
@@ -76,15 +93,15 @@ def _half_source(half):
         f"static const int law_neighbour[{len(felt)}] = {_braces(felt)};\n",
         f"static const double law_K[{len(felt)}][3][3] = {_braces(law.others[felt])};\n",
         f"static const double law_K_slip[{law.Z}][2][2] = {_braces(law.slip_stiffness)};\n",
-        f"static const double law_start[{len(law.start[1])}][3] = {_braces(law.start[1])};\n",
+        f"static const double law_alike[{len(law.alike.x)}][ALIKE_WIDTH] = {_braces(alike_rows(law.alike))};\n",
     ]
-    cells = [len(law.knots[name]) - 1 for name in joint_law.AXES]
+    cells = [uniform_cells(name, law.knots[name]) for name in joint_law.AXES]
     text = f"""{{
         .m = {float(half.m)!r}, .path = {{{len(half.chi)}, path_chi, path_rows}}, .spin = {_braces(half.spin)},
         .law = {{.length = {float(law.length)!r}, .cells = {_braces(cells)}, .coefficients = law_coefficients,
                 .K_0 = {_braces(law.stiffness[0])}, .K_others = {_braces(law.others.sum(axis=0))},
                 .neighbours = {len(felt)}, .neighbour = law_neighbour, .K = law_K, .K_slip = law_K_slip,
-                .starts = {len(law.start[1])}, .start = law_start}}}}"""
+                .alike_count = {len(law.alike.x)}, .alike = law_alike}}}}"""
     return arrays, text
 
 
