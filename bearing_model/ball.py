@@ -4,7 +4,8 @@
     m (r'' - r omega_m^2)         = F_r            J omega_r' = M_r + J omega_m omega_t
     m (r omega_m' + 2 r' omega_m) = F_t            J omega_t' = M_t - J omega_m omega_r
 
-Gupta (1979), J. Lubr. Technol. 101, 293.  The last terms are the gyroscopic moments: the frame turns, the sphere has no axis of its own.
+Gupta (1979), J. Lubr. Technol. 101, 293.  The last terms on the right are the gyroscopic moments:
+they arise because the frame turns with the orbit; the sphere itself needs no orientation.
 """
 
 import numpy as np
@@ -23,7 +24,7 @@ from bearing_model.variables import (
 
 
 def ball_kinematics(y, w):
-    """Places and velocities of the balls from the state."""
+    """Positions and velocities of the balls, from the state."""
     w.x, w.r, w.theta = y[..., BALL_X], y[..., BALL_R], y[..., BALL_THETA]
     w.v_x, w.v_r, w.omega_m = y[..., BALL_V_X], y[..., BALL_V_R], y[..., BALL_OMEGA_M]
     w.omega_x, w.omega_r, w.omega_t = y[..., BALL_OMEGA_X], y[..., BALL_OMEGA_R], y[..., BALL_OMEGA_T]

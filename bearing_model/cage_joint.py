@@ -7,7 +7,8 @@
     half 0     |        head friction   H = -k_h z_h, likewise with mu T + F_floor
     ---+-   -+---       hole contact    B = -k_hole max(0, |u| - gap) u/|u|,  gap = max(0, -fit_a): the diametral play
        |     |
-After the plates (mu P) the heads drag the rivet (mu P more), then the halves slip freely by the gap, then the shank bears.
+Under a growing transverse load the plates slip first (at mu P), then the heads slip on the rivet (at mu P more), then the halves move freely
+across the gap, and at last the shank bears against its holes.
 Force and reaction act at the same point, so momentum and energy are exact.  External tension of the joint: N = T - N_plate.
 Smoothness: C0 at opening and bearing (a spring of finite stiffness begins), C0 at v = 0.
 """
@@ -35,11 +36,25 @@ def cage_joint_kinematics(model, w):
 
 def cage_joint_friction(k, capacity, z_y, z_z, v_y, v_z):
     """Dahl's friction with force -k z: rates of z and the dissipated power."""
-    # |v| has no derivative at rest, where its complex step shall be 0
+    # |v| has no derivative at v = 0; the complex step of |v| is taken as 0 there
     speed_2 = v_y * v_y + v_z * v_z
     speed = np.sqrt(np.where(np.real(speed_2) > 0.0, speed_2, 0.0))
     rate = speed * k / capacity
     return v_y - rate * z_y, v_z - rate * z_z, k * rate * (z_y * z_y + z_z * z_z)
+
+
+def cage_joint_advance(model, w, h, y):
+    """The friction states in y [N_STATES] over a step h [s] at the offsets and velocities of w: z += h z'/(1 + h D/2), D = |v| k/capacity.
+
+    The implicit midpoint rule of z' = v - D z, solved in closed form.
+    """
+    p, d = model.p, model.d
+    u_x, (_, v_y, v_z) = w.u[0], w.v_j
+    plates, heads = maximum(d.P - d.k_plate * u_x, 0.0), maximum(d.P + d.k_rivet * u_x, 0.0)
+    for k, load, blocks in ((d.k_plate_t, plates, (JOINT_PLATE_Y, JOINT_PLATE_Z)), (d.k_head, heads, (JOINT_HEAD_Y, JOINT_HEAD_Z))):
+        rate = np.hypot(v_y, v_z) * k / (p.joint.mu * load + p.joint.F_floor)
+        for v, z in zip((v_y, v_z), blocks, strict=True):
+            y[z] += h * (v - rate * y[z]) / (1.0 + 0.5 * h * rate)
 
 
 def cage_joint_force(model, y, w):
@@ -66,12 +81,12 @@ def cage_joint_force(model, y, w):
         + d.k_hole * maximum(slip - d.hole_gap, 0.0) ** 2
     )
 
-    # on half 1 at its hole: s + u from the centre of half 0, in the frame of half 0
+    # force on half 1 at its hole, which lies at s + u from the centre of half 0; in the frame of half 0
     f = vec(w.N_plate - w.T - damping * v_x, *(w.S + w.H + w.B))
     r = vec(u_x, d.rivet_y + u_y, d.rivet_z + u_z)
     F, M = ball_array_sum(f), ball_array_sum(vec_cross(r, f))
 
-    # wrench in the global frame: -F, -M on half 0; on half 1 the same about its own centre
+    # wrench in the global frame: half 0 gets -F and -M, half 1 gets F and the moment about its own centre
     h0, h1 = w.half
     force, moment = (h0.a * v[0] + h0.b_y * v[1] + h0.b_z * v[2] for v in (F, M))
     h0.F = h0.F - force

@@ -16,7 +16,7 @@ import numpy as np
 
 from bearing_model.rivet_rom import RivetLoad
 
-DIRECTIONS = 36  # in a plane, over 180 degrees: extent to (1 - cos 2.5 deg) = 0.1 %
+DIRECTIONS = 36  # tried in a plane, over 180 degrees: they give the extent within 1 - cos(2.5 deg) = 0.1 %
 
 
 @dataclass(frozen=True)
@@ -70,8 +70,9 @@ def findley(stress, k=0.3, step=5.0):
 def worst_point(fields, k=0.3, step=5.0):
     """Worst of all points of several histories: (place, point, angle, CriticalPlane), indices into `fields`.
 
-    fields: arrays [3, points, angles, times] of (tt, hoop, shear) in Pa, e.g. of rivet_model.components.Components.fields.  Points are searched in the
-    order of a bound of f, half the ranges' norm for tau_a and the largest principal stress for sigma_n, and no further than that can be worst.
+    fields: arrays [3, points, angles, times] of (tt, hoop, shear) in Pa, e.g. of rivet_model.components.Components.fields.  The points are
+    searched in the order of an upper bound of f (half the norm of the ranges for tau_a, the largest principal stress for sigma_n), and the search
+    ends where the bound falls below the largest f found.
     """
     candidates = []
     for place, field in enumerate(fields):

@@ -41,7 +41,7 @@ def inlet(E_prime, R_x, R_y, p):
 
 
 def derive_race(p, f, side):
-    """inner: side = -1, outer: side = +1."""
+    """Constants of the contacts with one race; side: -1 for the inner race, +1 for the outer one."""
     D, R, gamma = p.bearing.D, 0.5 * p.bearing.D, p.bearing.D / p.bearing.d_m
     E_star = 0.5 * p.bearing.E / (1.0 - p.bearing.nu**2)
     rho_x, rho_y = 1.0 / (R * (1.0 + side * gamma)), 1.0 / R - 1.0 / (f * D)
@@ -71,7 +71,7 @@ def derive_pockets(p, d):
     R = 0.5 * p.bearing.D
     d.pocket_radius = R + 0.5 * p.cage.pocket_clearance
     E_star = 1.0 / ((1.0 - p.bearing.nu**2) / p.bearing.E + (1.0 - p.cage.nu**2) / p.cage.E)
-    rho_y = max(1.0 / R - 1.0 / d.pocket_radius, 1e-3 / R)  # conformity has a limit: R_y <= 1000 R
+    rho_y = max(1.0 / R - 1.0 / d.pocket_radius, 1e-3 / R)  # a limit of conformity: R_y <= 1000 R
     d.pocket = hertz_contact(1.0 / R, rho_y, E_star)
     d.pocket_rolling = inlet(2.0 * E_star, R, 1.0 / rho_y, p)
     d.ln_pocket_piezo = ln_film(2.0 * E_star, R, d.pocket.k, p, p.oil.sigma_pocket)
@@ -120,7 +120,7 @@ def derive_joint(p, d, table):
 
 def derive_scales(p, d):
     length, velocity, r = 1e-5, 0.1, 0.5 * p.bearing.d_m
-    friction = max(p.joint.mu * d.P, 3.0)  # a loose joint is not held to a finer force than the default one
+    friction = max(p.joint.mu * d.P, 3.0)  # the error scale of a loose joint is no finer than that of the default joint
     by_class = {
         "length": length,
         "velocity": velocity,

@@ -5,7 +5,8 @@
     cylinder   T_CDO = tau A R,  tau = rho_mix nu omega R/c (Couette), with Taylor vortices 1.3 (Ta/41)^0.539 times more, Ta = omega R c/nu sqrt(c/R)
 
 Gupta, Advanced Dynamics of Rolling Elements (1984), churning of rotating cylinders and disks.  The mixture has the oil's kinematic
-viscosity nu.  Laminar or not: the larger one, continuous.  The lands' own film is in land_film.py.
+viscosity nu.  The larger one of the laminar and the turbulent moment counts, which makes the drag continuous.  The film between land and ring
+is in land_film.py.
 """
 
 import numpy as np

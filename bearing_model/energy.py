@@ -2,7 +2,7 @@
 
     contacts (2/5) K delta^2.5, shared between the halves as in pocket.py;  joint T^2/(2 k_rivet) + N_plate^2/(2 k_plate) + k z^2/2 + hole contact
 
-The inner ring is outside: its motion does the work -F.v - M.Omega of the contacts.
+The inner ring is outside this balance: its motion puts the power -F.v - M.Omega into balls and cage, with F and M of the contacts on the ring.
 """
 
 from bearing_model.hertz import hertz_energy

@@ -1,4 +1,4 @@
-"""What happens in the model that its laws do not cover or that a user wants to know at once, from the results of one evaluation.
+"""Events: what the model's laws do not cover, or what a user wants to know at once; counted from the results of one evaluation.
 
 land contact   land of a half beyond the guide clearance: e > C                                            (land_film: dry contact)
 pocket exit    centre of a ball outside the cage's section D_i/2 ... D_o/2: a real pocket ends there       (pocket: the cylinder does not)
@@ -6,7 +6,7 @@ ellipse cut    |alpha| + a/R_m > arccos(1 - h D/r_g): the contact ellipse reache
 overpressure   p_max > bearing.p_limit at a race: permanent deformation, which Hertz' law does not know     ISO 76
 joint open     plates of a joint apart: u_x > P/k_plate
 
-The core also counts onsets and reports them to the log, and sees rivets that yield by their peaks.
+The core also counts the onsets of events and reports them to the log, and finds rivets that yield from their peak stresses.
 """
 
 import numpy as np
@@ -17,14 +17,14 @@ from bearing_model.vec import vec, vec_dot, vec_local, vec_to_global
 
 
 def lands(model, w):
-    """Distance of each land's middle from the ring's axis and the one at which it touches [m]; [..., 2]."""
+    """Distance of the middle of each land from the ring's axis, and the distance at which the land touches the ring [m]; [..., 2]."""
     x_land = (-model.p.cage.land_x, model.p.cage.land_x)
     e = [np.hypot(half.x[1] + x * half.a[1], half.x[2] + x * half.a[2]) for half, x in zip(w.half, x_land, strict=True)]
     return np.concatenate(np.broadcast_arrays(*e), axis=-1), model.d.C_land
 
 
 def pockets(model, w):
-    """Radial distance of each ball from the middle of the cage's section and the one at which the section ends [m]; [..., Z]."""
+    """Radial distance of each ball from the middle of the cage's section, and half the section's height [m]; [..., Z]."""
     cage, d = model.p.cage, model.d
     middle, reach = 0.25 * (cage.D_o + cage.D_i), 0.25 * (cage.D_o - cage.D_i)
     position = vec_to_global(vec(w.x, w.r, 0.0), w.cos_theta, w.sin_theta)
@@ -41,7 +41,7 @@ def ellipse_reach(model, w):
 
 
 def event_outputs(model, w):
-    """Number of places at which each kind happens, by the names of the variable table."""
+    """Number of balls, lands or joints at which each kind of event happens, by the names of the variable table."""
     d, p = model.d, model.p
     edges = [np.arccos(1.0 - height * p.bearing.D / race.r_g) for race, height in ((d.inner, p.bearing.h_i), (d.outer, p.bearing.h_e))]
     pressures = [hertz_pressure(race.hertz, Q) for race, Q in ((d.inner, w.Q_i), (d.outer, w.Q_e))]

@@ -23,7 +23,7 @@ class FatigueLaw:
 
 
 def fully_reversed(law, sigma_a, sigma_mean):
-    """Amplitude at zero mean of equal damage [Pa]; infinite where the mean alone breaks the part."""
+    """Amplitude [Pa] that does the same damage at zero mean stress; infinite where the mean stress alone breaks the part."""
     if law.mean_stress == MeanStress.SWT:
         return math.sqrt(max(sigma_mean + sigma_a, 0.0) * sigma_a)
     if law.mean_stress == MeanStress.GOODMAN:
@@ -75,7 +75,7 @@ class FatigueChannel:
         self.last = sigma
 
     def damage(self, law):
-        """Miner's sum with the residue at half weight; the history goes on unchanged."""
+        """Miner's sum, in which the ranges of the residue count as half cycles; the channel itself is not changed."""
         rest = copy.deepcopy(self)
         if rest.direction != 0:
             rest._turning_point(law, rest.last)

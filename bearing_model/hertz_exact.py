@@ -43,7 +43,7 @@ def hertz_ellipse(F_rho):
         F, E = ellipkm1(1.0 / k2), ellipe(1.0 - 1.0 / k2)
         return ((k2 + 1.0) * E - 2.0 * F) / ((k2 - 1.0) * E) - F_rho
 
-    # F(rho) is odd in log kappa, 3/4 log kappa near the circle; there the quotient loses its digits and the line is exact to F^3 = 1e-12
+    # F(rho) is odd in log kappa and tends to 3/4 log kappa at the circle; there the quotient loses digits, and the line is exact to F^3 = 1e-12
     kappa = np.exp(4.0 / 3.0 * F_rho if F_rho < 1e-4 else brentq(difference, 1e-5, 30.0, xtol=1e-15, rtol=1e-14))
     F, E = ellipkm1(1.0 / kappa**2), ellipe(1.0 - 1.0 / kappa**2)
     a_star = (2.0 * kappa**2 * E / np.pi) ** (1 / 3)

@@ -3,8 +3,8 @@
     results = simulate({"cage.pocket_clearance": 0.1e-3}, {"shaft.tilt_z": 2e-3}, t_end=0.01)
     results["ball[1].Q_c"], results["cage.omega"]
 
-Communication points and edges of pulses are hit exactly: each is the end of an integration.  Error of a step: RMS over the states of
-error/(tolerance scale), scale as in derived.py, nothing relative.
+Communication points and edges of pulses are hit exactly, because an integration ends at each of them.  The error of a step is the RMS over the
+states of error/(tolerance scale); derived.py sets the scales, and no tolerance is relative.
 """
 
 import functools
@@ -30,7 +30,7 @@ from bearing_model.variables import OUTPUTS, WORK, Stress, Switch, Z
 
 METHODS = {"DOP853": DOP853, "RK45": RK45, "RK23": RK23, "Radau": Radau, "BDF": BDF, "LSODA": LSODA}
 IMPLICIT = ("Radau", "BDF", "LSODA")
-FORCE_FLOOR, STRESS_FLOOR = 1e-3, 1e3  # smallest values that the statistics tell apart [N], [Pa]
+FORCE_FLOOR, STRESS_FLOOR = 1e-3, 1e3  # the statistics do not resolve smaller values [N], [Pa]
 FIRST_STEP = 1e-6  # [s]
 
 
@@ -70,7 +70,7 @@ class Record:
 
     p: Parameters
     force: StatisticsChannel = field(default_factory=lambda: StatisticsChannel(FORCE_FLOOR))
-    head: list = field(default_factory=lambda: [StatisticsChannel(STRESS_FLOOR) for _ in range(Z + 1)])  # each rivet, the worst one
+    head: list = field(default_factory=lambda: [StatisticsChannel(STRESS_FLOOR) for _ in range(Z + 1)])  # one for each rivet, the last one for the worst rivet
     mid: list = field(default_factory=lambda: [StatisticsChannel(STRESS_FLOOR) for _ in range(Z + 1)])
     fatigue_head: list = field(default_factory=lambda: [FatigueChannel() for _ in range(Z)])
     fatigue_mid: list = field(default_factory=lambda: [FatigueChannel() for _ in range(Z)])
@@ -84,7 +84,7 @@ class Record:
         return FatigueLaw(**vars(self.p.fatigue))
 
     def add(self, model, t, h, w):
-        """Accepted steps of lengths h [s] that end at t, with the evaluation w of their ends; returns their peaks by output name."""
+        """Record accepted steps of lengths h [s] that end at the times t, from the evaluation w at their ends; returns the peaks by output name."""
         p, counts = self.p, (t >= self.p.start.settle) & (self.p.scene.statistics == Switch.ON)
         weight = np.repeat(h[:, None], Z, axis=1)
         self.force.add(weight[counts].ravel(), w.Q_pocket[counts].ravel())
@@ -117,7 +117,7 @@ class Record:
 
     def statistics(self):
         """stat.* and damage by the names of the variable table."""
-        time, p = self.force.time / Z, 0.999  # every ball adds its own time
+        time, p = self.force.time / Z, 0.999  # each ball has added the time of each step
         share = 1.0 / time if time > 0.0 else 0.0
         values = {"stat.time": time, "stat.contact_duty": self.duty_time * share / Z, "stat.cage_omega": self.omega_time * share}
         values |= {"stat.eccentricity": self.eccentricity_time * share, "stat.dislocation_max": self.dislocation_max}
@@ -134,7 +134,7 @@ class Record:
 
 
 def no_stress():
-    """Peaks where no stress is recorded."""
+    """Zeros in the place of the peak stresses, for scenes that record no stress."""
     names = [name for name, variable in OUTPUTS.items() if variable.group == "peak" and "sigma" in name]
     return {name: np.zeros(Z) if "[k]" in name else 0.0 for name in names}
 
@@ -149,7 +149,7 @@ class Integration:
 
     def segment(self, model, t_end):
         """Accepted steps from here to t_end under one ring load: their times and states, without the start."""
-        options = {"rtol": 100.0 * np.finfo(float).eps, "atol": self.atol}  # the smallest rtol that scipy takes: absolute only
+        options = {"rtol": 100.0 * np.finfo(float).eps, "atol": self.atol}  # the smallest rtol that SciPy accepts: in effect only atol counts
         if self.method in IMPLICIT:
             options["jac"] = lambda t, y: jacobian(model, t, y)
         first = min(self.step_size, t_end - self.t)
@@ -175,7 +175,7 @@ def simulate(parameters=None, inputs=None, t_end=1e-3, *, derivatives=None, step
 
     parameters: {name: value} of the variable table in SI, others at their start values.  inputs: the same, or a function t -> {name: value} called
     at each communication point and held until the next one, as an FMU's inputs are.  derivatives: a function t -> (first, second) derivatives of
-    inputs {name: value}, called there too: with them the inputs are polynomials of time until the next point.  tolerance: of a step, relative to
+    inputs {name: value}, called at the same points: the inputs are then polynomials of time until the next point.  tolerance: of a step, relative to
     the error scales; default solver.tol.  method: DOP853, RK45, RK23, or with the exact Jacobian Radau, BDF, LSODA.  table: RivetTable, default
     that of the 6207.
     ValueError names a value that is not allowed; RuntimeError if the solver cannot go on.
@@ -230,7 +230,7 @@ def observe(model, t, y, energy_start):
 
 
 def accepted(model, record, t, h, y):
-    """Records accepted steps that end at times t in states y [steps, N_STATES]; returns their peaks."""
+    """Record accepted steps that end at times t in states y [steps, N_STATES]; returns the peaks of these steps."""
     w = Work()
     rhs(model, t, y, w)
     return record.add(model, t, h, w)

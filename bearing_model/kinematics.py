@@ -1,7 +1,7 @@
 """Speeds of balls and cage, and the frequencies at which a damaged part is felt.
 
-The ball rolls on both races without slip along the rolling direction.  Its spin omega_R, seen from the cage, lies in the plane of axis and ball
-centre at the pitch angle beta against the axis, backwards:  omega_R (-cos beta, sin beta)  in (x, r).  With g = d_m/D
+The ball rolls on both races without slip along the rolling direction.  Its spin omega_R, seen from the cage, lies in the plane through the bearing's
+axis and the ball's centre and turns backwards; beta is the pitch angle between spin and axis:  omega_R (-cos beta, sin beta)  in (x, r).  With g = d_m/D
 
     outer:  omega_R cos(beta - alpha_e) = (omega_m - omega_e) (g + cos alpha_e)
     inner:  omega_R cos(beta - alpha_i) = (omega_i - omega_m) (g - cos alpha_i)

@@ -1,23 +1,23 @@
 """Arithmetic of the elements: the last axis runs over balls, joints or halves (length 1: a body's own numbers), leading axes over states.
 
-Everything is analytic in its arguments' real parts, so that y + ih dy carries derivatives (complex step): comparisons look at real parts only.
+Comparisons look at real parts only, so that all functions are analytic between their kinks and a complex step y + ih dy carries derivatives.
 """
 
 import numpy as np
 
 
 def maximum(x, y):
-    """The one with the larger real part."""
+    """x or y, whichever has the larger real part."""
     return np.where(np.real(x) > np.real(y), x, y)
 
 
 def minimum(x, y):
-    """The one with the smaller real part."""
+    """x or y, whichever has the smaller real part."""
     return np.where(np.real(x) < np.real(y), x, y)
 
 
 def absolute(x):
-    """x or -x: the one whose real part is not negative."""
+    """x or -x, whichever has a real part that is not negative."""
     return np.where(np.real(x) < 0.0, -x, x)
 
 

@@ -3,7 +3,8 @@
     sum of supplied = change of energy + sum of lost
 
 Powers are integrated over the accepted steps from their values and rates at both ends,  h (P_0 + P_1)/2 + h^2 (P_0' - P_1')/12  (order 4, Hermite),
-the energies are those of the states: the two sides have nothing in common but the trajectory.  The rates are complex steps along dy/dt.
+the energies are those of the states, so that the two sides of the balance share nothing but the trajectory.  The rates of the powers are complex
+steps along dy/dt.
 """
 
 from dataclasses import dataclass, field
@@ -19,7 +20,7 @@ STEP = 1e-30  # of the complex step [s]
 
 @dataclass
 class Ledger:
-    """Energies [J] since the start by name: numbers while it runs, [points] in Results.
+    """Energies [J] since the start by name: numbers during a simulation, arrays [points] in Results.
 
     supplied: by the ring's spin (the shaft's torque), translation and tilting, and by gravity; stored: change of kinetic and elastic energies;
     lost: in races, pockets, drag, land and joints.
@@ -31,11 +32,11 @@ class Ledger:
 
     @property
     def residual(self):
-        """Supplied - stored - lost [J]: what the integration leaves open."""
+        """Supplied - stored - lost [J]: zero but for the error of the integration."""
         return sum(self.supplied.values()) - sum(self.stored.values()) - sum(self.lost.values())
 
     def add(self, model, t, y):
-        """Steps between the times t [points] in the states y [points, N_STATES], the start of the first step included."""
+        """Add the steps between the times t [points], whose states are y [points, N_STATES]; the first point is the start of the first step."""
         w, along = Work(), Work()
         y_dot = rhs(model, t, y, w)
         rhs(model, t + 1j * STEP, y + 1j * STEP * y_dot, along)
@@ -51,7 +52,7 @@ class Ledger:
 
     @classmethod
     def over_time(cls, ledgers):
-        """One Ledger of arrays from those of all points; a term that comes later was nothing before."""
+        """One Ledger of arrays from those of all points; a term that appears at a later point is 0 before it."""
 
         def account(name):
             terms = getattr(ledgers[-1], name)

@@ -1,4 +1,4 @@
-"""The inside of the model: constants derived once, what is held over a step, and what one evaluation of the right-hand side leaves behind.
+"""Data of the model: constants that are derived once, loads that are held over a step, and the results of one evaluation of the right-hand side.
 
 Frame: X axial, Y and Z radial.  Ball j has its own cylindrical frame (x, r, t): x along X, r from the axis through the ball, t = x cross r.
 Letters: i inner, e outer race, c cage, half h = 0 on the side of -X, h = 1 on +X; alpha contact angle; n unit normal from race or pocket

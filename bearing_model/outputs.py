@@ -42,7 +42,7 @@ def ring_outputs(model, w, y_dot):
 
 
 def film_ratio(race, U, Q):
-    """Lambda at the present speed and load, 0 without contact."""
+    """Film thickness / roughness Lambda at mean speed U and load Q, 0 without contact."""
     return np.where(Q > 0.0, np.exp(race.ln_Lambda + 0.67 * np.log(U) - 0.067 * np.log(Q + Q_FLOOR)), 0.0)
 
 

@@ -97,7 +97,7 @@ def admit(variable, value):
 
 
 def check_geometry(p):
-    """Parameters against each other."""
+    """Refuse parameters that contradict each other: ValueError naming one of them, its value and what is allowed."""
     D, d_m = p.bearing.D, p.bearing.d_m
     chord, pocket, play = d_m * math.sin(math.pi / Z), p.cage.pocket_clearance, 4.0 * (min(p.bearing.f_i, p.bearing.f_e) - 0.5) * D
     require(D < chord, f"bearing.D = {D} m: the balls overlap; less than bearing.d_m sin(pi/Z) = {chord:g} m is allowed")

@@ -4,20 +4,25 @@
          |   half 1                 e_t   its tangent at pocket j  (x, t) = (p.a, p.e_t): ball against the pocket's axis
       .--+--.                       S = sqrt(x^2 + t^2),  n = (x, t)/S
      (   |n->)---- t (e_t)          delta = S - (R_c - R)                                                  Cui et al. (2023)
-      '--+--'                       V = w(n_x) (2/5) K delta^2.5,  w = (1 +- n_x/sqrt(n_x^2 + width^2))/2  share of this half
-         |   half 0                 force on the ball: -dV/d(x, t), damping -(K w delta^1.5) lambda delta_dot n, Coulomb friction mu Q
+      '--+--'                       V = e(xi) (2/5) K delta^2.5,  xi = +- n_x R_c/a, at most 1: split plane against the patch, a = a_delta delta^0.5
+         |   half 0                 force on the ball: -dV/d(x, t), damping -(w K delta^1.5) lambda delta_dot n, Coulomb friction mu Q
 
-Both halves share one contact energy, so the force has a part along the gradient of the share; without it energy is not conserved.
+A half bears the part of the Hertz pressure on its side of the split plane, which cuts the contact ellipse across its long half axis a:
+    w = 1/2 + 3/4 xi - 1/4 xi^3,  e = 1/2 + 15/16 xi - 5/8 xi^3 + 3/16 xi^5
+w: the pressure sqrt(1 - (x/a)^2 - (y/b)^2) summed over y leaves 1 - (x/a)^2 along x.  e: the work of pressing the half in, of w K delta^1.5 over delta
+at its place; so -dV/d(delta) is w K delta^1.5, and both halves together store and bear what one contact does.  The slope of V along the wall is a
+force across n that pushes the halves apart; without this force energy would not be conserved.
 Friction P_S at the contact point p + R n with the slip v + omega x R n; the coefficient goes from that of the film to that of the
 asperities by Lambda (mixed lubrication); P_R and its horizontal counterpart are the inlet's rolling friction as in the races, with the
 mean speed |slip|/2 and R_x = R.  The half gets the opposite forces at the same points.
-Smoothness: C1 at touch-down.  The cylinder has no radial end: a ball whose equator leaves the cage's section is reported, not modelled.
+Smoothness: C1 at touch-down and where the patch leaves a half.  The cylinder has no radial end: a ball whose equator leaves the cage's section is
+reported, not modelled.
 """
 
 import numpy as np
 
 from bearing_model.hertz import hertz_damped, hertz_energy, hertz_load
-from bearing_model.lanes import ball_array_sum, maximum
+from bearing_model.lanes import ball_array_sum, maximum, minimum
 from bearing_model.traction import Q_FLOOR, traction_asperity_share, traction_inlet, traction_ln_film
 from bearing_model.variables import CageModel, Lubrication
 from bearing_model.vec import vec, vec_across, vec_cross, vec_dot, vec_local, vec_to_global
@@ -33,38 +38,44 @@ def pocket_mu(model, ln_U, ln_Q, mixed):
     return film + traction_asperity_share(maximum(ln_piezo, ln_rigid)) * (model.p.oil.mu_b - film)
 
 
-def pocket_share(model, n_x, h, whole):
-    """Part of the contact that half h carries, and its slope over n_x; whole: the rigid cage carries all."""
-    if whole:
-        return 1.0, 0.0
-    side, width2 = 2 * h - 1, model.p.cage.share_width**2
-    root = np.sqrt(n_x * n_x + width2)
-    return 0.5 * (1.0 + side * n_x / root), 0.5 * side * width2 / root**3
+def pocket_share(d, h, n_x, delta):
+    """Parts w of the load and e of the energy that half h has of a contact at n_x, and de/dn_x."""
+    xi_n = (2 * h - 1) * d.pocket_radius / (d.pocket.a_delta * np.sqrt(maximum(delta, 1e-30)))
+    xi = maximum(minimum(xi_n * n_x, 1.0), -1.0)
+    xi_2 = xi * xi
+    w = 0.5 + xi * (0.75 - 0.25 * xi_2)
+    e = 0.5 + xi * (15.0 / 16.0 - xi_2 * (0.625 - 3.0 / 16.0 * xi_2))
+    return w, e, 15.0 / 16.0 * (1.0 - xi_2) * (1.0 - xi_2) * xi_n
+
+
+def pocket_place(model, w, h):
+    """Axes a, b, e_t of the pockets of half h in the balls' frames, p, and S, n_x, n_t, delta of the balls in them."""
+    d, half = model.d, w.half[h]
+    # direction of pocket j: body angle phi_j turned by the half, b = b_y cos phi + b_z sin phi, e_t = a x b
+    a, b_y, b_z, x_h = (vec_local(v, w.cos_theta, w.sin_theta) for v in (half.a, half.b_y, half.b_z, half.x))
+    b = d.pocket_cos * b_y + d.pocket_sin * b_z
+    e_t = vec_cross(a, b)
+    arm_p = vec(w.x, w.r, 0.0) - x_h
+    x, t = vec_dot(arm_p, a), vec_dot(arm_p, e_t)
+    S = np.sqrt(x * x + t * t + 1e-30)  # 1e-30 gives a centred ball a direction
+    return a, b, e_t, arm_p, S, x / S, t / S, S - (d.pocket_radius - d.R)
 
 
 def pocket_half(model, w, h, mixed, whole):
     """The contact with one half (or the whole rigid cage), added to F, M of the balls."""
     p, d, half = model.p, model.d, w.half[h]
-
-    # Direction of pocket j: body angle phi_j turned by the half, b = b_y cos phi + b_z sin phi, e_t = a x b.
-    a, b_y, b_z, x_h, v_h, Omega = (vec_local(v, w.cos_theta, w.sin_theta) for v in (half.a, half.b_y, half.b_z, half.x, half.v, half.Omega))
-    b = d.pocket_cos * b_y + d.pocket_sin * b_z
-    e_t = vec_cross(a, b)
-    arm_p = vec(w.x, w.r, 0.0) - x_h
-    x, t = vec_dot(arm_p, a), vec_dot(arm_p, e_t)
-    S = np.sqrt(x * x + t * t + 1e-30)  # a centred ball has no direction
-    delta = S - (d.pocket_radius - d.R)
+    a, b, e_t, arm_p, S, n_x, n_t, delta = pocket_place(model, w, h)
+    v_h, Omega = (vec_local(v, w.cos_theta, w.sin_theta) for v in (half.v, half.Omega))
 
     omega_b, v_b = vec(w.omega_x, w.omega_r, w.omega_t), vec(w.v_x, w.v_r, w.v_t)
     v = v_b - v_h - vec_cross(Omega, arm_p)
-    n_x, n_t = x / S, t / S
     n = n_x * a + n_t * e_t
     delta_dot = vec_dot(n, v)
 
-    share, share_slope = pocket_share(model, n_x, h, whole)
-    Q_0 = share * hertz_load(d.pocket.K, delta)
+    w_h, e_h, slope = (1.0, 1.0, 0.0) if whole else pocket_share(d, h, n_x, delta)
+    Q_0 = w_h * hertz_load(d.pocket.K, delta)
     Q = hertz_damped(Q_0, p.cage.lambda_, delta_dot)
-    F_across = hertz_energy(d.pocket.K, delta) * share_slope * n_t / S  # -dV/dn_x grad n_x, grad n_x = (n_t a - n_x e_t) n_t / S
+    F_across = hertz_energy(d.pocket.K, delta) * slope * n_t / S  # -dV/dn_x grad n_x, grad n_x = (n_t a - n_x e_t) n_t/S
     F_n = -Q * n - F_across * (n_t * a - n_x * e_t)
 
     arm = d.R * n
@@ -80,23 +91,27 @@ def pocket_half(model, w, h, mixed, whole):
 
     w.F = w.F + F
     w.M = w.M + M
+    w.D = w.D + g / d.m * (1.0 - n * n)
+    w.D_omega = w.D_omega + g * d.R**2 / d.J * (1.0 - n * n)
     w.pocket_dissipated = w.pocket_dissipated + (Q - Q_0) * delta_dot - vec_dot(F_s, slip) - vec_dot(F_c, v)
     w.pocket_F[h] = vec_to_global(-F, w.cos_theta, w.sin_theta)
     w.pocket_M[h] = vec_to_global(-vec_cross(arm_p, F) - M, w.cos_theta, w.sin_theta)
     w.pocket[h] = np.array([-vec_dot(F, a), -vec_dot(F, b), -vec_dot(F, e_t)])
     half.F, half.M = ball_array_sum(w.pocket_F[h]), ball_array_sum(w.pocket_M[h])
     w.delta_c[h], w.Q_c[h] = delta, Q
-    w.pocket_energy = w.pocket_energy + share * hertz_energy(d.pocket.K, delta)
+    w.pocket_energy = w.pocket_energy + e_h * hertz_energy(d.pocket.K, delta)
 
 
 def pocket_force(model, w):
     """Adds the pocket contacts to the balls; sets their results and wrench on the halves.
 
     pocket: force on the half in the pocket's frame (x, r, t); pocket_F, pocket_M: force and moment about the half's centre, global.
+    D, D_omega: rates at which friction slows each velocity of a ball by itself, -d(acceleration)/d(velocity) [1/s], for the integrator's Jacobian.
     """
     mixed, rigid = model.p.scene.lubrication == Lubrication.MIXED, model.p.scene.cage == CageModel.RIGID
     w.delta_c, w.Q_c, w.pocket, w.pocket_F, w.pocket_M = {}, {}, {}, {}, {}  # by half
     w.pocket_energy, w.pocket_dissipated = 0.0, 0.0
+    w.D, w.D_omega = 0.0 * w.F, 0.0 * w.F
     if rigid:
         pocket_half(model, w, 0, mixed, True)
         w.half[1].F, w.half[1].M = 0.0 * w.half[0].F, 0.0 * w.half[0].M
@@ -104,3 +119,20 @@ def pocket_force(model, w):
         for h in range(2):
             pocket_half(model, w, h, mixed, False)
     w.Q_pocket = sum(w.Q_c.values())  # of both halves together
+
+
+def pocket_split(model, w):
+    """pocket, pocket_F, pocket_M on each half of a rigid cage, lists; pocket_force has them all on half 0."""
+    d = model.d
+    a, _, e_t, arm_p, S, n_x, n_t, delta = pocket_place(model, w, 0)
+    w_1, _, slope = pocket_share(d, 1, n_x, delta)
+    F_across = hertz_energy(d.pocket.K, delta) * slope * n_t / S
+    push = F_across * (n_t * a - n_x * e_t)
+    push_moment = vec_cross(arm_p, push)
+    on_1 = (
+        w_1 * w.pocket[0] + np.array([F_across * n_t, 0.0 * n_t, -F_across * n_x]),
+        w_1 * w.pocket_F[0] + vec_to_global(push, w.cos_theta, w.sin_theta),
+        w_1 * w.pocket_M[0] + vec_to_global(push_moment, w.cos_theta, w.sin_theta),
+    )
+    whole = w.pocket[0], w.pocket_F[0], w.pocket_M[0]
+    return tuple([both - part, part] for both, part in zip(whole, on_1, strict=True))

@@ -7,9 +7,10 @@
     delta = |c - ball| - (f - 1/2) D,  c the nearest point of the circle          Q = K delta^1.5
     V = sum 2/5 K delta^2.5 - sum 1/2 m omega_m^2 r_j^2 - F.C - M.tilt + 1/2 k_tilt (tilt - shaft tilt)^2
 
-For given inertia loads the equilibrium is the minimum of the potential energy V over the ring's five coordinates and the 2 Z of the balls: one smooth
-problem, nearly convex, with no case for loose balls, clearance or preload.  It is the exact rest state of the frictionless bearing whose balls orbit
-at omega_m.  Gyroscopic moments (race control "outer" or "inner") need friction forces at the races, which are held as loads and iterated upon.
+For given inertia loads the equilibrium is the minimum of the potential energy V over the ring's five coordinates and the 2 Z of the balls.  This one
+problem is smooth and nearly convex; loose balls, clearance and preload are no special cases.  The minimum is the exact rest state of a
+frictionless bearing whose balls orbit at omega_m.  Gyroscopic moments (race control "outer" or "inner") need friction forces at the races, which are held
+as loads during a search and iterated.
 
 kinematics = "linear" takes the ring's displacements as those of ISO/TS 16281: small tilt, every ball at the pitch radius, no sideways motion of the ring's
 groove.  It gives the ball loads and lives that programs for this standard print; the default "exact" holds for any displacement and tilt.
@@ -244,7 +245,7 @@ def admit(owner, obj, name, test, allowed):
 
 @dataclass
 class InertiaLoads:
-    """What the balls' motion adds, held during the search: centrifugal stiffness m omega_m^2 and friction forces that carry gyroscopic moments."""
+    """Loads by the balls' motion, held during the search: centrifugal stiffness m omega_m^2 and friction forces that carry gyroscopic moments."""
 
     m_omega2: float  # [N/m]
     ball: np.ndarray  # friction on the balls (x, r), Z x 2 [N]
@@ -449,11 +450,11 @@ def add_contact(gradient, hessian, K, delta, d_q, d_qq):
 def minimum(potential, v):
     """Coordinates of the stable equilibrium, searched from v.
 
-    Newton's method in the eigenvectors of the Hessian: downhill where it is not convex, each step limited to a radius that the fall of the energy sets.
-    Directions without force (loose balls, loose ring) stay where they are.  An equilibrium on a ridge (the ring balanced on one ball) is left downhill.
-    Raises ArithmeticError if there is none: the load is not carried.
+    Newton's method in the eigenvectors of the Hessian, with a trust region: steps go downhill where the energy is not convex, and the decrease of the
+    energy sets the radius.  Coordinates without force (loose balls, a loose ring) keep their values.  From an equilibrium on a ridge (the ring balanced
+    on one ball) the search goes on downhill.  Raises ArithmeticError if there is no equilibrium: the bearing does not carry the load.
     """
-    # units in which a contact of 10 um counts as one
+    # scales: an approach of 10 um counts as one
     length = 1e-5
     scale = np.full(len(v), length)
     scale[3:RING] /= 0.5 * potential.bearing.d_m
@@ -481,7 +482,7 @@ def minimum(potential, v):
         if np.abs(g).max() <= enough or radius < 1e-12:
             if curvature[0] >= -1e-9 * curvature[-1]:
                 break
-            step, radius = 0.1 * mode[:, 0] * np.sign(mode[np.abs(mode[:, 0]).argmax(), 0]), 1.0  # off the ridge, the same way every time
+            step, radius = 0.1 * mode[:, 0] * np.sign(mode[np.abs(mode[:, 0]).argmax(), 0]), 1.0  # off the ridge, in the same direction in every run
         else:
             step = mode @ (force / np.maximum(np.abs(curvature), np.abs(force) / radius + 1e-300))
         trial = moved(v, step)
@@ -515,9 +516,10 @@ def contact_state(potential, v):
 
 
 def orbit(bearing, load, Q_i, alpha_i, alpha_e, control):
-    """Motion of each ball, and the one orbital speed omega_m [rad/s] that the cage gives them: the mean of theirs, weighted by the load that drives them.
+    """Motion of each ball, and the one orbital speed omega_m [rad/s] that the cage imposes: the mean of the balls' speeds, weighted by the inner contact load.
 
-    A ball loose from the inner race rolls on the outer one.  Each ball also counts as loose with 1 N: the mean is continuous where contacts open.
+    A ball loose from the inner race rolls on the outer one.  Each ball also counts with 1 N at its speed when loose, so that the mean is continuous
+    where contacts open.
     """
     loose = ball_motion(load.omega, bearing.D, bearing.d_m, alpha_e, alpha_e, control)
     motion = ball_motion(load.omega, bearing.D, bearing.d_m, np.where(Q_i > 0.0, alpha_i, alpha_e), alpha_e, control)
@@ -529,7 +531,7 @@ def inertia_loads(potential, v, control):
     """Centrifugal and gyroscopic loads for the contact angles at v, with the motion they come from.
 
     Gyroscopic moment M_g = J omega_m omega_R sin(beta) about the tangent, carried by friction lambda M_g/D at the races, lambda_i + lambda_e = 2:
-    outer control (0, 2), inner control (1, 1).  Harris & Kotzalas (2006), ch. 3; loose balls carry none, nor do they without race control.
+    outer control (0, 2), inner control (1, 1).  Harris & Kotzalas (2006), ch. 3; a loose ball has no such moment, and without race control no ball has.
     """
     bearing, load = potential.bearing, potential.load
     Q_i, Q_e, alpha_i, alpha_e, n_i = contact_state(potential, v)
@@ -581,7 +583,7 @@ def quasi_static(bearing, load, psi=0.0, control="none", kinematics="exact"):
     alpha = bearing.nominal_angle  # balls touch the outer race
     v[RING::2], v[RING + 1 :: 2] = potential.l_e * math.sin(alpha), potential.R_e + potential.l_e * math.cos(alpha)
 
-    # the contact angles set speeds and inertia loads, these the contact angles: a weak coupling, a fixed point in a few turns
+    # contact angles set speeds and inertia loads, which in turn set contact angles: the coupling is weak, so a fixed-point iteration settles in a few turns
     potential.inertia, *_ = inertia_loads(potential, v, control)
     for turn in range(80):
         v = minimum(potential, v)

@@ -52,7 +52,7 @@ CAGE_PLACE = ((CAGE_X, CAGE_V_X), (CAGE_Y, CAGE_V_Y), (CAGE_Z, CAGE_V_Z))
 
 
 def of_half(y, block, h):
-    """One half's part of a block of the state, its axis kept."""
+    """The entry of half h in a block of the state, with an axis of length 1."""
     return y[..., block][..., h : h + 1]
 
 
@@ -69,14 +69,14 @@ def rotor_kinematics(model, y, w):
         half.c = model.d.com_x[h] * half.a + model.d.com_e * half.b_y
         half.x = np.array([of_half(y, X, h) for X, _ in CAGE_PLACE]) - half.c
         half.v = np.array([of_half(y, V, h) for _, V in CAGE_PLACE]) - vec_cross(half.Omega, half.c)
-    if model.p.scene.cage == CageModel.RIGID:  # half 1 goes with half 0
+    if model.p.scene.cage == CageModel.RIGID:  # half 1 moves with half 0
         h0 = w.half[0]
         w.half[1] = Rotor(**vars(h0))
         w.half[1].c = model.d.com_x[1] * h0.a + model.d.com_e * h0.b_y
 
 
 def half_rates(y, half, h, acc, a_ddot, s_dot, y_dot):
-    """y_dot of half h whose centre of mass accelerates by acc, whose axis by a_ddot."""
+    """Set y_dot of half h from the accelerations of its centre of mass (acc), of its axis (a_ddot) and of its spin (s_dot)."""
     for i, (X, V) in enumerate(CAGE_PLACE):
         of_half(y_dot, X, h)[...] = of_half(y, V, h)
         of_half(y_dot, V, h)[...] = acc[i]

@@ -4,9 +4,9 @@
     tilt: prescribed  beta'' = (beta_shaft - beta)/tau^2 - 2 beta'/tau, gamma likewise: critically damped
           supported   M = k_tilt (shaft - ring) - c_tilt rates + shaft.M
           free        M = shaft.M only
-          both with the gyroscopic moment of the spin (rotor.py)
+          supported and free include the gyroscopic moment of the spin (rotor.py)
 
-The vectors of force are in the global frame.
+Forces and moments are in the global frame.
 """
 
 import numpy as np
@@ -45,6 +45,6 @@ def ring_acceleration(model, w, y_dot):
     if p.ring.tilt_mode == TiltMode.SUPPORTED:
         M[1] += p.ring.k_tilt * (ring_load.beta - beta) - p.ring.c_tilt * beta_dot
         M[2] += p.ring.k_tilt * (ring_load.gamma - gamma) - p.ring.c_tilt * gamma_dot
-    a_ddot, _ = rotor_acceleration(ring, p.ring.J_p, p.ring.J_t, M)  # the drive holds the speed
+    a_ddot, _ = rotor_acceleration(ring, p.ring.J_p, p.ring.J_t, M)  # the shaft holds the speed
     y_dot[..., RING_BETA_DOT] = -a_ddot[2]
     y_dot[..., RING_GAMMA_DOT] = a_ddot[1]

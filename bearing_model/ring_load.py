@@ -3,7 +3,7 @@
     inputs: u(t) = u_0 + u_0' (t - t_0) + u_0'' (t - t_0)^2/2 from the communication point t_0 on
     pulses: F_r sin(pi (t - t_n)/duration) along the radial load (+Y without one) and F_a along +X, t_n = t_start + n interval
 
-The vectors of force are in the global frame.  Shaft tilt is a rotation about (0, tilt_y, tilt_z): a = (cos, tilt_z sinc, -tilt_y sinc).
+Forces and moments are in the global frame.  Shaft tilt is a rotation about (0, tilt_y, tilt_z): a = (cos, tilt_z sinc, -tilt_y sinc).
 """
 
 from dataclasses import dataclass
@@ -28,7 +28,7 @@ class InputTrajectory:
 
 @dataclass(frozen=True)
 class RingLoad:
-    """What the ring sees of them at one time."""
+    """Load and motion that the inputs impose on the ring at one time."""
 
     F: tuple  # load [N]
     M: tuple  # moment about Y, Z [N.m]
@@ -62,7 +62,7 @@ def pulse_index(p, t):
 
 
 def pulse_candidates(p, t):
-    """Indices of the pulses that may have started last: the division may round either way."""
+    """Indices of the pulses that may have started last: the division may round up or down."""
     n = int((t - p.pulse.t_start) // p.pulse.interval)
     return [i for i in (n - 1, n, n + 1, p.pulse.count - 1) if 0 <= i < p.pulse.count]
 
@@ -86,7 +86,7 @@ def input_trajectory_update(p, u, t_0, t):
 
 
 def input_trajectory_varies(trajectory):
-    """Whether the drive changes along it."""
+    """Whether load or motion changes along the trajectory."""
     derivatives = [value for u in trajectory.u[1:] for group in vars(u).values() for value in vars(group).values()]
     return trajectory.pulse_r != 0.0 or trajectory.pulse_a != 0.0 or any(derivatives)
 

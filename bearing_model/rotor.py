@@ -2,7 +2,7 @@
 
 axis a = (a_x, gamma, -beta), a unit vector: beta turns +X toward -Z, gamma turns +X toward +Y, exact for any tilt below 90 degrees
 angular velocity Omega = a x a_dot + s a,  s spin about the axis
-minimal rotation T of e_x to a:  T v = v - (a.v)/(1 + a_x) (a + e_x)  for v across e_x;  its own rate about a is -roll,
+minimal rotation T of e_x to a:  T v = v - (a.v)/(1 + a_x) (a + e_x)  for v across e_x;  T turns about a at the rate roll,
 so the rotation psi about the axis has psi_dot = s - roll,  roll = (a_y' a_z - a_z' a_y)/(1 + a_x)
 angular momentum J_t a x a_dot + J_p s a, its rate M:   s_dot = M.a/J_p,   a_ddot = m x a - |a_dot|^2 a,
                                                         m = (M - (M.a) a - J_p s a_dot)/J_t
@@ -24,7 +24,7 @@ class Rotor(SimpleNamespace):
 
 
 def rotor_axis(rotor, beta, gamma, beta_dot, gamma_dot, s):
-    """Axis, its rate and the angular velocity."""
+    """Set the axis, its rate and the angular velocity."""
     a_x = np.sqrt(1.0 - beta * beta - gamma * gamma)
     a, a_dot = vec(a_x, gamma, -beta), vec(-(beta * beta_dot + gamma * gamma_dot) / a_x, gamma_dot, -beta_dot)
     rotor.a, rotor.a_dot = a, a_dot
@@ -33,7 +33,7 @@ def rotor_axis(rotor, beta, gamma, beta_dot, gamma_dot, s):
 
 
 def rotor_roll(rotor):
-    """Rate of the rotation about the axis beyond s."""
+    """Rate at which the minimal rotation T turns about the axis: psi_dot = s - roll."""
     return (rotor.a_dot[1] * rotor.a[2] - rotor.a_dot[2] * rotor.a[1]) / (1.0 + rotor.a[0])
 
 

@@ -5,9 +5,10 @@
     these are minus the gradient of
     Pi = sum_j (2/5)(K_i delta_i^2.5 + K_e delta_e^2.5) - F_c r_j + k_0 x_j^2/2  - F.x - M.(beta, gamma) + support energy + k_0 (x^2 + ...)/2
 
-Forces come from race_contact_force at rest.  F_0 presses unloaded balls outward where nothing else does (standstill), k_0 holds what no load holds
-(no axial load, no load): 0.01 N over 10 um.  Then all parts run at kinematic speeds without slip; the cage is centred on the balls - their mean and
-the first harmonic of their axial places, else a tilted ring's balls would start inside the cage - and turns with them.
+Forces come from race_contact_force at rest.  Two small forces make the equilibrium unique: F_0 presses unloaded balls outward at standstill, and the
+springs k_0 (0.01 N over 10 um) hold the coordinates on which no load acts, as the axial one without axial load.  Then all parts get kinematic speeds
+without slip.  The cage takes the mean and the first harmonic of the balls' axial positions, because the balls of a tilted ring would otherwise start
+inside its walls, and turns with the balls.
 """
 
 import numpy as np
@@ -51,7 +52,7 @@ STEP = 2e-5  # first trust radius of the minimisation [m]
 
 
 class Equilibrium:
-    """Forces and potential over the unknowns z = (x, y, z, r beta, r gamma of the ring, x of the balls, r of the balls) [m], r = d_m/2."""
+    """Forces and potential as functions of the unknowns z = (x, y, z, r beta, r gamma of the ring, x of the balls, r of the balls) [m], r = d_m/2."""
 
     def __init__(self, model, theta):
         p, ring_load = model.p, model.ring_load
@@ -79,7 +80,7 @@ class Equilibrium:
         return w
 
     def unknowns(self, free):
-        """All unknowns from the free ones: prescribed tilts stay."""
+        """All unknowns from the free ones; prescribed tilts keep their values."""
         z = np.zeros((*free.shape[:-1], len(self.start)), dtype=free.dtype) + self.start
         z[..., self.free] = free
         return z
@@ -108,12 +109,12 @@ class Equilibrium:
 
 
 def equilibrium(eq):
-    """All unknowns in equilibrium and the largest force that is left [N]."""
+    """All unknowns in equilibrium, and the largest residual force [N]."""
     options = {"gtol": 0.1 * F_0, "initial_trust_radius": STEP, "max_trust_radius": 20.0 * STEP, "maxiter": 300}
     z = minimize(eq.potential, eq.start[eq.free], method="trust-exact", jac=lambda z: -eq.force(z), hess=eq.stiffness, options=options).x
     residual = np.max(np.abs(eq.force(z)))
-    for _ in range(50):  # Newton, as long as it helps
-        trial = z + np.linalg.solve(eq.stiffness(z) + np.eye(len(z)), eq.force(z))  # 1 N/m: a ball between the races has no stiffness
+    for _ in range(50):  # Newton's method, as long as the residual falls
+        trial = z + np.linalg.solve(eq.stiffness(z) + np.eye(len(z)), eq.force(z))  # 1 N/m more: a ball loose between the races has no stiffness
         left = np.max(np.abs(eq.force(trial)))
         if not left < residual:
             break
@@ -148,7 +149,7 @@ def orbital_speed(model, w):
 
 
 def cage_pose(model, w, omega_m, y):
-    """Both halves at x_0 + (beta sin theta - gamma cos theta) r, the balls' axial places but for higher harmonics, turning steadily about that axis."""
+    """Set both halves into the plane x_0 + (beta sin theta - gamma cos theta) r, which fits the balls' axial positions, turning steadily about its normal."""
     x_0 = np.mean(w.x)
     beta, gamma = 2.0 * np.mean(w.x / w.r * w.sin_theta), -2.0 * np.mean(w.x / w.r * w.cos_theta)
     half = Rotor()
@@ -177,7 +178,7 @@ def check_grooves(model, w):
 
 
 def start_state(model):
-    """The start state [N_STATES] and the largest force that is left in the equilibrium [N]; ValueError if a ball is pressed out of its groove."""
+    """The start state [N_STATES] and the largest residual force of the equilibrium [N]; ValueError if a ball is pressed out of its groove."""
     d, theta = model.d, spacing(model.p)
     eq = Equilibrium(model, theta)
     z, residual = equilibrium(eq)
@@ -190,7 +191,7 @@ def start_state(model):
     y[BALL_R] = w.r
     y[BALL_THETA] = theta
     y[BALL_OMEGA_M] = omega_m
-    # rolls on the outer race about the axis across its contact normal: v_t + R (omega_x n_r - omega_r n_x) = 0
+    # each ball rolls on the outer race, about an axis across its contact normal: v_t + R (omega_x n_r - omega_r n_x) = 0
     rolling = -w.r * omega_m / d.R
     y[BALL_OMEGA_X] = rolling * w.n_e[1]
     y[BALL_OMEGA_R] = -rolling * w.n_e[0]

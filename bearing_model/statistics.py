@@ -1,6 +1,6 @@
 """Running statistics over time, weighted by the length of the steps: mean, RMS, largest value and quantiles of positive quantities.
 
-32 bins in each octave, 106 a decade: a bin is 1.6...3.1 % wide; 24 octaves above the channel's floor.  Smaller values count as below.
+32 bins in each octave, 106 a decade: a bin is 1.6...3.1 % wide; 24 octaves above the channel's floor.  Smaller values count as below the floor.
 """
 
 import numpy as np
@@ -22,7 +22,7 @@ def edge_of(bin_):
 
 
 class StatisticsChannel:
-    """Statistics of one quantity; floor: the smallest value told apart.
+    """Statistics of one quantity; floor: smaller values are not resolved.
 
     >>> channel = StatisticsChannel(1e-3)
     >>> channel.add(np.array([1.0, 3.0]), np.array([4.0, 0.0]))
@@ -36,7 +36,7 @@ class StatisticsChannel:
         self.weight = np.zeros(STATISTICS_BINS)
 
     def add(self, weight, value):
-        """Values with their weights [s], arrays of one shape."""
+        """Add values with their weights [s], arrays of one shape."""
         self.time += np.sum(weight)
         self.first += np.sum(weight * value)
         self.second += np.sum(weight * value * value)
@@ -53,7 +53,7 @@ class StatisticsChannel:
         return np.sqrt(self.second / self.time) if self.time > 0.0 else 0.0
 
     def quantile(self, p):
-        """Value that the part p of the time is not above; linear inside a bin, 0 below the floor."""
+        """Value that the quantity does not exceed in the part p of the time: linear inside a bin, 0 below the floor."""
         above = (1.0 - p) * self.time  # weight that lies above the quantile
         beyond = np.cumsum(self.weight[::-1])[::-1]  # weight in this bin and higher ones
         reached = np.flatnonzero((self.weight > 0.0) & (beyond >= above))

@@ -6,8 +6,8 @@
     Lambda      film / roughness, h/R_x = 2.69 U^0.67 G^0.53 W^-0.067 (1 - 0.61 exp(-0.73 k))    Hamrock & Dowson (1977), central film
     inlet       F_R = 2.86 E' R_x^2 (R_y/R_x)^0.348 G^0.022 U^0.66 W^0.47      Houpert (1987), as in Balan et al., Lubricants 3 (2015), 222
 
-with U = eta u/(E' R_x), W = Q/(E' R_x^2), G = alpha E', E' = 2 E_star, u the mean surface speed.  Load and speed have floors, so that all of it
-is C1 in approach and speed.
+with U = eta u/(E' R_x), W = Q/(E' R_x^2), G = alpha E', E' = 2 E_star, u the mean surface speed.  Load and speed have floors, so that
+these forces are C1 in approach and speed.
 """
 
 import numpy as np
@@ -40,5 +40,5 @@ def traction_mu(p, s, f_a, mixed):
 
 
 def traction_inlet(rolling, ln_U, Q, ln_Q):
-    """F_R [N]; rolling at U = 1 m/s, Q = 1 N.  W^0.47 is taken as W (W + W_floor)^-0.53."""
+    """Rolling friction F_R [N] of the inlet; rolling: F_R at U = 1 m/s, Q = 1 N.  W^0.47 is taken as W (W + W_floor)^-0.53, linear at small loads."""
     return rolling * Q * np.exp(0.66 * ln_U - 0.53 * ln_Q)

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from enum import IntEnum
 
 MODEL_IDENTIFIER = "RivetedBearing"
-MODEL_GUID = "{d5a91f25-47b6-15d6-1014-f583fbadd5cd}"
+MODEL_GUID = "{2933852d-f80a-f3ab-8e04-ee25385fc11d}"
 Z = 9
 
 
@@ -142,7 +142,6 @@ PARAMETERS = {
         Variable("cage.mu", 1113, "Real", "1", None, 0.05, 0.0, 1.0, 1, None, "Friction coefficient between ball and pocket with a full film", "assumed (lubricated bronze on steel)"),
         Variable("cage.v_c", 1114, "Real", "m/s", None, 0.2, 0.0001, 10.0, 1, None, "Sliding speed at which pocket and land friction are 71 % of Coulomb's", "regularization of Coulomb's law"),
         Variable("cage.lambda", 1115, "Real", "s/m", None, 1.0, 0.0, 20.0, 1, None, "Hunt-Crossley damping of the pocket contacts", "assumed: moves RMS pocket force by -24 % from 0 to 10"),
-        Variable("cage.share_width", 1116, "Real", "1", None, 0.05, 0.001, 1.0, 1, None, "Width of the share between the halves: w = (1 +- n_x/sqrt(n_x^2 + width^2))/2", "regularization: sine of the angle over which a contact passes from half to half"),
         Variable("cage.mu_land", 1117, "Real", "1", None, 0.08, 0.0, 1.0, 1, None, "Dry friction coefficient between land and outer ring", "assumed (boundary lubrication)"),
         Variable("cage.K_land", 1118, "Real", "N/m1.5", None, 2000000000.0, 1000000.0, 1000000000000.0, 1, None, "Dry contact stiffness of the land: F = K_land (e - C)^1.5", "assumed"),
         Variable("cage.g_0", 1119, "Real", "1", None, 0.02, 0.0001, 0.2, 1, None, "Floor of 1 - epsilon^2 in the land film", "regularization: 0.005...0.05 change RMS force by less than 2 % at 0.5 deg tilt"),

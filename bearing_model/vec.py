@@ -22,10 +22,10 @@ def vec_across(v, n):
 
 
 def vec_local(v, cos_theta, sin_theta):
-    """A vector of the global frame, seen from balls at azimuth theta."""
+    """Components of a vector of the global frame in the frames of balls at azimuth theta."""
     return np.array([v[0] + 0.0 * cos_theta, v[1] * cos_theta + v[2] * sin_theta, v[2] * cos_theta - v[1] * sin_theta])
 
 
 def vec_to_global(v, cos_theta, sin_theta):
-    """A vector of the balls' frames, in the global one."""
+    """Components of a vector of the balls' frames in the global frame."""
     return np.array([v[0], v[1] * cos_theta - v[2] * sin_theta, v[1] * sin_theta + v[2] * cos_theta])

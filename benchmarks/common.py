@@ -1,6 +1,6 @@
-"""What the benchmarks share: scenes, the core with either integrator, processor time, the record of a run.
+"""Shared by the benchmarks: scenes, the core with either integrator, processor time, records.
 
-Times are processor times of this process: other users of the machine hardly change them, as they do wall times.
+Times are processor times of this process: other users of the machine change wall times, but hardly processor times.
 """
 
 import argparse
@@ -94,7 +94,7 @@ def set_state(instance, y, h=4e-6):
     saved = core.new("Saved")
     core.lib.part_save(instance.bearing, saved)
     saved.integrator.now.y = list(y)
-    saved.integrator.now.jerk = [0.0] * len(y)  # no memory of another way
+    saved.integrator.now.jerk = [0.0] * len(y)  # no memory of another trajectory
     saved.integrator.now.h = 0.0
     saved.integrator.h = h
     saved.integrator.known = 0
@@ -117,7 +117,7 @@ def cpu(action, repeat=1):
 
 
 def machine():
-    """What the numbers depend on, without names of hosts or users."""
+    """Processor, system, compiler and Python, without names of hosts or users."""
     processor = next((line.partition(":")[2].strip() for line in cpu_info() if line.startswith(("model name", "Model"))), platform.machine())
     compiler = subprocess.run(["cc", "--version"], capture_output=True, text=True, check=False).stdout.partition("\n")[0]
     return {"processor": processor, "system": f"{platform.system()} {platform.machine()}", "compiler": compiler, "python": platform.python_version()}

@@ -311,7 +311,8 @@ def rhs(data):
 
 Scalar is the same source with packets of one ball, vectorisation off. The floor multiplies the instructions of one evaluation, counted by single steps,
 with the shortest time of an independent instruction on this processor (add or multiply, load, divide, root in ns: {peaks}).
-No order of these instructions can be faster than the largest of the three. What lies above it is mostly latency: chains of dependent operations in few packets.
+No order of these instructions can be faster than the largest of the three. Time above this floor is mostly
+latency: chains of dependent operations in few packets.
 """
 
 
@@ -343,8 +344,8 @@ Steps per 10 ms: {taken}.
 
 {table(head, [*rows, whole, measured])}
 
-Counted by single steps of the processor; a part is a source file of the core with what the compiler puts into it from headers. Floors as above: a part's is
-the largest of its three, the whole step's are arithmetic / loads / divisions and roots.
+Instructions are counted by single steps of the processor. A part is a source file of the core, with the functions that the compiler inlines from headers. The
+floor of a part is the largest of its three floors (see above); the floors of the whole step are those of arithmetic / loads / divisions and roots.
 """
 
 
@@ -384,8 +385,8 @@ def scenes(data):
 
 {table(["stress", "RTF", "against off", "end state"], rows)}
 
-Same bits: the trajectory does not know what is observed. Samples at communication points miss, of the largest head stress in each millisecond, in the mean
-{", ".join(missed)}: the error of `sampled`; peaks over every accepted step have none.
+Same bits: observation does not change the trajectory. Samples at communication points miss a part of the largest head stress in each millisecond, in the mean
+{", ".join(missed)}. This is the error of `sampled`; peaks over every accepted step have no such error.
 
 Output groups are computed on first read (µs, median, Python's call included): {by_group}.
 All groups read at every step against none: RTF {reading["all"]["rtf"]:.3f} against {reading["none"]["rtf"]:.3f}, {bits}.
@@ -445,7 +446,7 @@ def scaling(data):
 
 {table(["balls", "RTF", "evaluations per 10 ms", "µs per evaluation", "start, ms"], balls)}
 
-Pitch, masses and load grow with the number of balls, their speed stays. Arrays are padded to whole packets of eight.
+Pitch, masses and load grow with the number of balls; the orbital speed of the balls stays. Arrays are padded to whole packets of eight.
 
 {table(head, steps)}
 

@@ -1,4 +1,4 @@
-"""Records of benchmarks as CSV, one file for each machine and benchmark: benchmarks/results/MACHINE/NAME.csv, tracked, from which the pages are made.
+"""Records of benchmarks as CSV, one file for each machine and benchmark: benchmarks/results/MACHINE/NAME.csv, tracked; the pages are made from these files.
 
     # benchmark = "rtf"
     # short = false
@@ -33,7 +33,7 @@ def folder_of(machine):
 
 
 def write_record(record, folder=RESULTS):
-    """Write a record (members HEADER and what was measured) and return the file's path; ValueError for what a cell or path cannot hold."""
+    """Write a record (members HEADER and what was measured) and return the file's path; ValueError for a name with a slash."""
     path = Path(folder) / folder_of(record["machine"]) / f"{record['benchmark']}.csv"
     path.parent.mkdir(parents=True, exist_ok=True)
     path.write_text(text_of(record), encoding="utf-8", newline="\n")

@@ -47,13 +47,13 @@ def instruction_sets(core):
 
 
 def settled_states(scene, core, count):
-    """States 37 us apart, an odd part of a ball pass, after settling."""
+    """States after settling, 37 us apart (no simple fraction of a ball pass)."""
     instance = scene.start(core, scene_stress=1, scene_statistics=1).step(scene.settle)
     return np.array([instance.step(scene.settle + (i + 1) * 37e-6).y for i in range(count)])
 
 
 def timing(core, model, isa, y, rounds):
-    """Least over several repeats: whole evaluation and elements [ns]."""
+    """Least times of several repeats [ns]: the whole evaluation and each element."""
     whole = min(getattr(core.lib, f"rhs_time_{isa}")(model.pointer, len(y), core.array(y), rounds, model.work) for _ in range(7))
     elements, ns = [], np.empty(len(ELEMENT_NAMES))
     for state in y[:: max(1, len(y) // 16)]:

@@ -1,6 +1,6 @@
 """Cost of the rivets' stress from the table, at the loads of settled runs, beside one evaluation of the right-hand side.
 
-Both loop in C over many states, so that neither a call from Python nor a table that one load has warmed up decides; least of several repeats.
+Both are timed in a C loop over many states, so that neither calls from Python nor a table in the cache distort the times; the least of several repeats counts.
 """
 
 import numpy as np

@@ -1,7 +1,7 @@
 """Real-time factor through fmpy: default settings, 1e-4 s communication steps, peak stress of all rivets read at each.
 
-Apart from work_precision.py, which takes the better part of an hour: other users of the machine only add time, so the scenes take turns and the least of
-several rounds counts.
+The scenes take turns, and the least of several rounds counts, because other users of the machine only add time.  (work_precision.py, which takes the better
+part of an hour, cannot repeat its rounds.)
 """
 
 from common import SCENES, options, say, write

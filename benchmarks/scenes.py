@@ -1,8 +1,8 @@
-"""What a scene does not need is not computed: each item with its gain in processor time and its error.
+"""Parts of the model that a scene does not need are not computed: gain in processor time and error of each.
 
-A gain without error is shown to be one: the state at the end is compared bit for bit.  Errors of a simpler model (rigid cage, traction at a point) are
+Where there should be no error, the states at the end are compared bit for bit.  Errors of a simpler model (rigid cage, traction at a point) are
 differences of statistics pooled over seeds, with 95 % half-widths of the seeds' scatter; sampled peaks are compared with peaks over every step.
-Runs that are compared take turns, least time of several, so that other users of the machine weigh on all alike.
+Runs that are compared take turns, and the least time of several counts, so that other users of the machine affect all runs alike.
 """
 
 import math
@@ -95,7 +95,7 @@ def stress_levels(core, scene, length, repeat):
 
 
 def sampled_peaks(core, scene, length):
-    """How much of the largest head stress samples at communication points miss, by their distance."""
+    """Part of the largest head stress that samples at communication points miss, by the distance of these points."""
     instance = scene.start(core, scene_stress=int(Stress.PEAK)).step(scene.settle)
     fine, peaks, samples = 1e-5, [], []
     for i in range(round(length / fine)):
@@ -112,7 +112,7 @@ def sampled_peaks(core, scene, length):
 
 
 def output_groups(core, scene, repeat):
-    """Time to read each group of outputs at a communication point [us], and the future unchanged by reading."""
+    """Time to read each group of outputs at a communication point [us], and whether reading changes the trajectory."""
     instance = scene.start(core, scene_stress=int(Stress.PEAK), scene_statistics=int(Switch.ON), start_settle=0.0)
     costs, rounds = {}, 40 * repeat
     t = 0.0

@@ -1,12 +1,12 @@
-"""Random and extreme scenes, each run to its end: what happened, energy balance, run time against the working point's.
+"""Random and extreme scenes, each run to its end: outcome, energy balance, and run time relative to the working point's.
 
 python benchmarks/stability.py                 the whole matrix, then docs/stability.md
 python benchmarks/stability.py --family tilt   one family, printed
 python benchmarks/stability.py --long          ten million tiny steps, 100 s of simulated time, angles after a million revolutions (minutes)
 python benchmarks/stability.py --page          only the page, from the newest records in benchmarks/results/
 
-A scene is finished, discarded (the solver gave up and said so) or refused (before the run, by name, value and limit).  What must not happen:
-a crash, a hang, a value that is not finite with status OK, a refused scene that is admissible, an impossible one that runs.
+A scene is finished, discarded (the solver gives up with a message) or refused (before the run, by name, value and limit).  A fault is a crash, a hang, a
+value that is not finite with status OK, a refused scene that is admissible, or an impossible scene that runs.
 """
 
 import argparse
@@ -33,7 +33,7 @@ from riveted_bearing.fmu import Instance, Model
 FOLDER = BUILD / "stability"
 HANGS = 600.0  # a scene that takes longer is called hanging [s]
 MOST_STEPS = 2_000_000  # work limit of one communication step
-DEMO_EVERY = 25  # scenes between two runs of the working point, which every run time is compared with
+DEMO_EVERY = 25  # scenes between two runs of the working point, to which run times are related
 OUTPUTS = [name.replace("[j]", f"[{j}]").replace("[k]", f"[{j}]") for name, v in variables.OUTPUTS.items() for j in range(1, v.count + 1)]
 CAGE = {"cage.D_o": 0.0595, "cage.D_i": 0.0497}
 BEARINGS = {  # changes of the 6207: number of balls, parameters
@@ -71,13 +71,13 @@ def build_fmu(bearing):
 
 @cache
 def instance_of(bearing):
-    """One instance per process and bearing, reset before each scene: what an earlier one left behind would show."""
+    """One instance per process and bearing, reset before each scene, so that remains of an earlier scene would show."""
     instance = Instance(Model(fmu_of(bearing)))
     return instance.__enter__()
 
 
 def history(points, hold):
-    """The input at the times it is asked for."""
+    """Values of an input at given times."""
     if not isinstance(points, list):
         return lambda t: points
     times, values = np.array(points).T
@@ -100,7 +100,7 @@ def set_all(instance, scene, inputs):
 
 
 def energy_scale(instance, scene, loss):
-    """What an error of energy is compared with [J]: the energy lost so far, the motion of balls and cage, 10 um of the load's way."""
+    """Scale of energy errors [J]: energy lost so far + kinetic energy of balls and cage + work of the load over 10 um."""
     p = instance.parameters()
     inputs = {name: float(np.max(np.abs(np.array(value)[:, 1]))) if isinstance(value, list) else abs(value) for name, value in scene.inputs.items()}
     speed = 0.25 * inputs.get("shaft.omega", WORKING) * p["bearing.d_m"]
@@ -110,7 +110,7 @@ def energy_scale(instance, scene, loss):
 
 
 def run(scene):
-    """One scene to its end; a record of what happened."""
+    """Run one scene to its end and return its record."""
     instance = instance_of(scene.bearing)
     instance.log.clear()
     instance.fmu.reset()
@@ -209,7 +209,7 @@ def run_all(scenes, workers):
 
 
 def problems(records):
-    """What must not happen, in words."""
+    """Faults of the records, as sentences."""
     bad = {"crashed", "hung", "not finite", "error"}
     for r in records:
         where = f"{r['family']}, {r['name']}: "

@@ -1,4 +1,4 @@
-"""docs/stability.md from what stability.py has measured."""
+"""docs/stability.md from the newest records of stability.py."""
 
 from collections import Counter
 
@@ -54,7 +54,7 @@ def event_rows(records):
 
 
 def write_page(path, problems):
-    """problems: from records to sentences on what must not happen."""
+    """Write the page; problems: function from records to sentences about faults."""
     data = load("stability")
     records = data["records"]
     count = Counter(r["outcome"] for r in records)
@@ -66,15 +66,15 @@ def write_page(path, problems):
 {count["refused"]} refused, {count["crashed"]} crashed, {count["hung"]} hung, {count["not finite"]} with a value that is not finite.
 Measured {data["date"][:10]} at commit {data["commit"]} on {data["machine"]["processor"]}, processor times of one core.
 
-*Energy*: largest `bearing.energy_residual` against the energy lost so far, the kinetic energy of balls and cage and 10 µm of the load's way, at the
-default tolerance and communication steps of 10 µs and more.  *Rejected*: steps that failed the error test, of all steps.  *Run time*: processor time
-per simulated second, times 9/Z, over that of the working point in the same process; the slowest of the family.
+*Energy*: largest `bearing.energy_residual`, relative to the sum of the energy lost so far, the kinetic energy of balls and cage, and the work of the load
+over 10 µm, at the default tolerance and communication steps of 10 µs and more.  *Rejected*: steps that failed the error test, of all steps.
+*Run time*: processor time per simulated second, times 9/Z, relative to the working point in the same process; of the slowest scene of the family.
 
 """
     head = ("family", "scenes", "finished", "discarded", "refused", "energy", "rejected", "run time")
     text += table(head, family_rows(records))
     text += energy_text(records)
-    text += "## What must not happen\n\n" + ("".join(f"- {line}\n" for line in bad) if bad else "Nothing of it happened.\n") + "\n"
+    text += "## What must not happen\n\n" + ("".join(f"- {line}\n" for line in bad) if bad else "None of these happened.\n") + "\n"
     text += f"## The slowest admissible scenes\n\nThe limit is 20 times the working point; the worst has {slow[0]['ratio']:.1f}.\n\n"
     text += table(("scene", "run time", "evaluations per ms", "path"), [slow_row(r) for r in slow[:10]])
     text += "## What happened in the model\n\nScenes with at least one onset, as reported by the logger and by `event.*`:\n\n"
@@ -85,15 +85,15 @@ per simulated second, times 9/Z, over that of the working point in the same proc
 
 
 def energy_text(records):
-    """Where the balance does not close."""
+    """Paragraph about the scenes whose energy balance does not close."""
     open_ = sorted((r for r in records if r.get("balance", 0.0) > 0.01 and r["family"] != "tolerance"), key=lambda r: -r["residual"])
     if not open_:
         return ""
     worst = ", ".join(f"{r['family']}: {r['name']} ({r['residual']:.1g} J)" for r in open_[:4])
     return f"""The balance does not close to 1 % in {len(open_)} scenes, most of them at or near standstill, where all energies are microjoules.
 The largest residuals: {worst}.
-The work integral takes power at predicted velocities, less what these dissipate too much where rates are linear (`verlet.c`); the rest of their difference
-from the corrected ones stays.
+The work integral takes the power at predicted velocities and subtracts their excess dissipation by linear rates (`verlet.c`); the rest of the difference
+between predicted and corrected velocities remains.
 
 """
 

@@ -1,4 +1,4 @@
-"""The scenes of stability.py: what a bearing may meet, at and beyond its limits, family by family, and random ones.
+"""The scenes of stability.py: conditions at and beyond a bearing's limits, family by family, and random ones.
 
 A scene is plain data: parameters and inputs by full variable name in SI, inputs as a number or as points [(t, value), ...] that are joined by
 straight lines or, with hold, by steps.
@@ -170,7 +170,7 @@ def tolerances():
 
 
 def numbers_of_balls():
-    """Loads and speeds scaled to the bearing: of D^2 and 1/d_m."""
+    """Other numbers of balls, with loads and speeds scaled to the bearing by D^2 and 1/d_m."""
     for bearing, size, speed in (("5 balls", 1.0, 1.0), ("16 balls", 0.33, 1.0), ("32 balls", 0.25, 0.67)):
         for mode, parameters in MODES.items():
             for factor, load in ((0.2, 1.0), (1.0, 1.0), (1.0, 5.0), (2.0, 0.1)):
@@ -179,7 +179,7 @@ def numbers_of_balls():
 
 
 def randoms(count=200):
-    """Everything at once, from distributions that cover what an engineer would type in."""
+    """Random values of all variables at once, from distributions that cover what an engineer may enter."""
     rng = np.random.default_rng(7)
 
     def pick(*values):
@@ -226,7 +226,7 @@ def randoms(count=200):
 
 
 def impossible():
-    """What is no bearing, or no simulation."""
+    """Input that describes no bearing or no simulation."""
     cases = {
         "balls overlap": {"bearing.d_m": 0.03},
         "pockets overlap": {"cage.pocket_clearance": 5e-3, "bearing.D": 0.0145},

@@ -1,4 +1,4 @@
-"""Where a step's instructions go, by element, with the processor's floor beside them.
+"""Instructions of a step by element, with the processor's floor beside them.
 
 Communication steps of 1e-4 s with peak stress and statistics are run instruction by instruction in a child process and counted by the source file of their
 function (what the compiler inlines from a header counts where it is used).  Counts are per accepted step, rejected ones included.  For the floor see rhs.py.

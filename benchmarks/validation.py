@@ -1,7 +1,7 @@
-"""Writes docs/validation.md: every number of the model that something outside it knows, beside its source, what is reached, and the difference.
+"""Writes docs/validation.md: numbers from outside the model, each with its source, the model's value and the difference.
 
-Nothing is copied into the page by hand: figures of books and papers are arguments here, the rest is computed, or observed by the tests, which run once
-more and hand over what they saw.  Some minutes, most of them for 0.1 s of the working point in the Python reference; --short takes 0.01 s.
+Nothing is copied into the page by hand: figures of books and papers are arguments here; all others are computed, or recorded by the tests, which run once
+more for this.  Some minutes, most of them for 0.1 s of the working point in the Python reference; --short takes 0.01 s.
 """
 
 import ast
@@ -36,9 +36,9 @@ from riveted_bearing.summary import settled
 PAGE = ROOT / "docs" / "validation.md"
 PICTURES = ROOT / "docs" / "validation"
 RPM = np.pi / 30.0
-MANY = 20  # entries of a record; of more only the largest is shown
+MANY = 20  # entries of a test's record; of longer records only the largest entry is shown
 WORKING_POINT = Load(F_x=515.0, F_y=2994.0, omega=18238.0 * RPM)
-TESTS = {  # file -> those whose observations are shown
+TESTS = {  # file -> tests whose observations are shown
     "tests/test_twin.py": "derivatives or jacobian or start or outputs or power_is_rate or test_ledger or trajectory",
     "tests/test_invariance.py": "turn or mirror or units",
     "tests/test_energy.py": "lossless or balance",
@@ -68,7 +68,7 @@ def main():
 
 HEAD_OF_PAGE = """# Validation
 
-What is known about the model from outside: each number beside its source, what is reached, and the difference. Written by `python benchmarks/validation.py`;
+Numbers from outside the model: each beside its source, the model's value, and the difference. Written by `python benchmarks/validation.py`;
 commit {commit}, {processor}, Python {python}. *Core* is the C code in the FMU, *reference* the Python twin `bearing_model`,
 written apart from it; closed forms and books stand above both.
 """
@@ -194,7 +194,7 @@ def working_point(core, model):
         ("housing force, radial", "N", "radial load", 2994.0, result.data["housing.F_y"][late].mean(), None),
         ("cage speed", "rad/s", "epicyclic", 756.6, result.data["cage.omega"][late].mean(), None),
     ]
-    text = "Means of 0.2 s of the settled scene `demo` through the FMU. What is left is what the equilibrium leaves out: traction and cage."
+    text = "Means of 0.2 s of the settled scene `demo` through the FMU. The differences come from traction and cage, which the equilibrium leaves out."
     return section("Working point", text, against(rows))
 
 
@@ -205,7 +205,7 @@ def clearance(core, model):
         result = run("demo", fmu=FMU, t_end=0.06, parameters={"bearing.P_d": P_d, "start.settle": 0.02})
         reached = 1e6 * result.data["ring.y"][settled(result)].mean()
         rows.append((f"ring, radial, P_d = {1e6 * P_d:g} µm", "µm", "Jones–Harris equilibrium", 1e6 * equilibrium(P_d)[1], reached, None))
-    text = "In another open code the clearance had no effect on the running ring. Here the mean radial displacement in motion follows the equilibrium's."
+    text = "In another open code the clearance had no effect on the running ring. Here the mean radial displacement follows that of the equilibrium."
     return section("Clearance", text, against(rows))
 
 
@@ -254,18 +254,19 @@ def twins(model, long):
     plot_comparison(other, PICTURES / "compare.png", dpi=80)
     worst = []
     for comparison in (found, other):
-        for motion, name in ((True, "places, angles, speeds"), (False, "loads, stresses, powers")):
+        for motion, name in ((True, "positions, angles, speeds"), (False, "loads, stresses, powers")):
             channels = [channel for channel in comparison.channels if is_motion(channel) == motion]
             worst.append((f"`{comparison.scene}`", name, *(f"{value:.1e} (`{channels[i].name}`)" for value, i in largest(channels))))
     columns = ("scene", "largest difference / scale", *(f"FMU at {tolerance:.0e}" for tolerance in found.tolerances))
     text = (
-        "The FMU and the reference (SciPy, DOP853) at the same 20 instants of the first millisecond. Motion in the integrator's error scales, so a number"
-        " compares with the tolerance; loads and stresses in their largest value, at least 1 N and 0.1 MPa. What falls with the tolerance is the integration's."
+        "The FMU and the reference (SciPy, DOP853) at the same 20 instants of the first millisecond. Differences of motion are in the integrator's error"
+        " scales, so that they compare with the tolerance; those of loads and stresses are relative to the largest value, at least 1 N and 0.1 MPa."
+        " A difference that falls with the tolerance is the integration's error."
     )
     first = section("FMU against reference", text, table(columns, worst), f"![compare]({PICTURES.name}/compare.png)")
 
-    text = f"From {found.settle:g} to {found.long:g} s trajectories have parted; the reference's statistics against {found.seeds} seeds of the FMU."
-    text += " Both count the ends of their steps, a few in each pocket pulse; that their steps differ moves mean force and head stress by about 1 %."
+    text = f"From {found.settle:g} to {found.long:g} s trajectories have parted; these are statistics of the reference and of {found.seeds} seeds of the FMU."
+    text += " Both count the ends of their steps, a few in each pocket pulse; mean force and head stress differ by about 1 % because the steps differ."
     columns = ("statistic", "unit", "reference", "FMU, mean", "standard deviation", "difference in these")
     rows = [(f"`{row.name}`", row.unit, row.reference, row.mean, f"{row.scatter:.2g}", f"{row.deviation:+.1f}") for row in found.statistics]
     second = section("Statistics", text, table(columns, rows))

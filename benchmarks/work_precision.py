@@ -36,7 +36,7 @@ TABLES = {
 }
 JACOBIANS = {"dense": 0, "diagonal": 1, "bordered": 2}
 PYTHON_METHODS = ("RK45", "DOP853", "BDF", "Radau", "LSODA")
-SEEDS = {"demo": 48, "slow": 128, "tilt": 48, "impact": 48, "jam": 16}  # of the default and the tight run: what it takes to tell 1 %
+SEEDS = {"demo": 48, "slow": 128, "tilt": 48, "impact": 48, "jam": 16}  # of the default and the tight run: enough to resolve 1 %
 CHANNELS = {"Q_c": "force", "sigma_head": "head", "sigma_mid": "mid"}
 FIGURES = ("mean", "rms", "p999")
 DEFAULT_TOLERANCE = variables.PARAMETERS["solver.tol"].start
@@ -59,7 +59,7 @@ class Bench:
     def __init__(self):
         self.core = core_library()
         self.other = declare(Core.load(build_target("bearing_solvers")), "solvers.h")
-        self.kept = []  # names of tables that C holds on to
+        self.kept = []  # names of tables, kept alive because C keeps pointers to them
 
     def instance(self, scene, setting, **parameters):
         """An instance of a scene with a solver setting."""

@@ -5,37 +5,34 @@
 // The inner ring is outside: its motion does the work -F.v - M.Omega of the contacts.  Outputs only; never in the integration.
 #include "energy.h"
 
+#include "pocket.h"
 #include "rotor.h"
 
-static scalar contact_energy(double K, scalar delta)
-{
-    return scalar_value(delta) > 0.0 ? 0.4 * K * delta * delta * scalar_sqrt(delta) : 0.0;
-}
-
-static scalar ball_energy(const Model *model, const scalar *y, const Work *w, int j)
+static scalar ball_energy(const Model *model, const scalar *y, int j)
 {
     const Derived *d = model->d;
     const scalar v_x = y[Y_BALL_V_X + j], v_r = y[Y_BALL_V_R + j], v_t = y[Y_BALL_R + j] * y[Y_BALL_OMEGA_M + j];
     const scalar o_x = y[Y_BALL_OMEGA_X + j], o_r = y[Y_BALL_OMEGA_R + j], o_t = y[Y_BALL_OMEGA_T + j];
-    return 0.5 * d->m * (v_x * v_x + v_r * v_r + v_t * v_t) + 0.5 * d->J * (o_x * o_x + o_r * o_r + o_t * o_t) +
-           contact_energy(d->inner.hertz.K, w->delta_i[j]) + contact_energy(d->outer.hertz.K, w->delta_e[j]);
+    return 0.5 * d->m * (v_x * v_x + v_r * v_r + v_t * v_t) + 0.5 * d->J * (o_x * o_x + o_r * o_r + o_t * o_t);
 }
 
-// Elastic energy of ball j in the pocket of half h: the share of pocket.c times the Hertz energy.
-static scalar pocket_energy(const Model *model, const Work *w, int j, int h)
+// Elastic energy of the race contacts and the pockets.
+static scalar contact_energy(const Model *model, const Work *w)
 {
-    if (scalar_value(w->delta_c[h][j]) <= 0.0) return 0.0;
-    const Rotor *half = &w->half[h];
-    const scalar ball[3] = {w->x[j], w->r[j] * w->cos_theta[j], w->r[j] * w->sin_theta[j]};
-    scalar share = 1.0;
-    if (model->p->scene.cage == CAGE_MODEL_TWO_HALF) {
-        scalar x = 0.0;
-        for (int i = 0; i < 3; i++) x += (ball[i] - half->x[i]) * half->a[i];
-        const double width = model->p->cage.share_width;
-        const scalar n_x = x / (w->delta_c[h][j] + model->d->pocket_radius - model->d->R[j]);
-        share = 0.5 * (1.0 + (h == 0 ? -1.0 : 1.0) * n_x / scalar_sqrt(n_x * n_x + width * width));
+    const Derived *d = model->d;
+    const bool rigid = model->p->scene.cage == CAGE_MODEL_RIGID;
+    const wide K_i = wide_set(d->inner.hertz.K), K_e = wide_set(d->outer.hertz.K), K = wide_set(d->pocket.K);
+    ball_array stored;
+    for (int j = 0; j < PACKETS * LANE_WIDTH; j += LANE_WIDTH) {
+        wide E = hertz_energy(K_i, wide_load(&w->delta_i[j])) + hertz_energy(K_e, wide_load(&w->delta_e[j]));
+        for (int h = 0; h < (rigid ? 1 : 2); h++) {
+            const PocketPlace at = pocket_place(d, w, &w->half[h], j);
+            const wide whole = hertz_energy(K, at.delta);
+            E += rigid ? whole : pocket_share(d, h, at.n_x, at.delta).energy * whole;
+        }
+        wide_store(&stored[j], E);
     }
-    return share * contact_energy(model->d->pocket.K, w->delta_c[h][j]);
+    return ball_array_sum(stored);
 }
 
 static scalar joint_energy(const Derived *d, const scalar *y, const Work *w, int k)
@@ -50,10 +47,10 @@ scalar energy_total(const Model *model, const scalar *y, const Work *w)
 {
     const Parameters *p = model->p;
     const bool rigid = p->scene.cage == CAGE_MODEL_RIGID;
-    scalar E = w->land_elastic;
+    scalar E = w->land_elastic + contact_energy(model, w);
     for (int j = 0; j < Z; j++) {
-        E += ball_energy(model, y, w, j) + pocket_energy(model, w, j, 0);
-        if (!rigid) E += pocket_energy(model, w, j, 1) + joint_energy(model->d, y, w, j);
+        E += ball_energy(model, y, j);
+        if (!rigid) E += joint_energy(model->d, y, w, j);
     }
     for (int h = 0; h < 2; h++) {
         const Rotor *half = &w->half[h];

@@ -17,6 +17,12 @@ INLINE wide hertz_load(wide K, wide delta)
     return K * delta * wide_sqrt(delta);
 }
 
+// Elastic energy (2/5) K delta^2.5.
+INLINE wide hertz_energy(wide K, wide delta)
+{
+    return 0.4 * hertz_load(K, delta) * wide_max(delta, wide_set(0.0));
+}
+
 // Hunt-Crossley damping: Q (1 + lambda delta_dot), never pulling.  Hunt & Crossley (1975), J. Appl. Mech. 42, 440.
 INLINE wide hertz_damped(wide Q, wide lambda, wide delta_dot)
 {

@@ -9,6 +9,7 @@
 #define drag_force FOR_ISA(drag_force)
 #define drag_cage FOR_ISA(drag_cage)
 #define pocket_force FOR_ISA(pocket_force)
+#define pocket_split FOR_ISA(pocket_split)
 #define land_film_force FOR_ISA(land_film_force)
 #define cage_joint_kinematics FOR_ISA(cage_joint_kinematics)
 #define cage_joint_force FOR_ISA(cage_joint_force)

@@ -4,14 +4,19 @@
 //        |   half 1                 e_t   its tangent at pocket j  (x, t) = (p.a, p.e_t): ball against the pocket's axis
 //     .--+--.                       S = sqrt(x^2 + t^2),  n = (x, t)/S
 //    (   |n->)---- t (e_t)          delta = S - (R_c - R)                                                  Cui et al. (2023)
-//     '--+--'                       V = w(n_x) (2/5) K delta^2.5,  w = (1 +- n_x/sqrt(n_x^2 + width^2))/2  share of this half
-//        |   half 0                 force on the ball: -dV/d(x, t), damping -(K w delta^1.5) lambda delta_dot n, Coulomb friction mu Q
+//     '--+--'                       V = e(xi) (2/5) K delta^2.5,  xi = +- n_x R_c/a, at most 1: split plane against the patch, a = a_delta delta^0.5
+//        |   half 0                 force on the ball: -dV/d(x, t), damping -(w K delta^1.5) lambda delta_dot n, Coulomb friction mu Q
 //
-// Both halves share one contact energy, so the force has a part along the gradient of the share; without it energy is not conserved.
+// A half bears the part of the Hertz pressure on its side of the split plane, which cuts the contact ellipse across its long half axis a:
+//     w = 1/2 + 3/4 xi - 1/4 xi^3,  e = 1/2 + 15/16 xi - 5/8 xi^3 + 3/16 xi^5
+// w: the pressure sqrt(1 - (x/a)^2 - (y/b)^2) summed over y leaves 1 - (x/a)^2 along x.  e: the work of pressing the half in, of w K delta^1.5
+// over delta at its place; so -dV/d(delta) is w K delta^1.5, and both halves together store and bear what one contact does.  The slope of V along
+// the wall is a force across n that pushes the halves apart; without this force energy would not be conserved.
 // Friction P_S at the contact point p + R n with the slip v + omega x R n; the coefficient goes from that of the film to that of the
 // asperities by Lambda (mixed lubrication); P_R and its horizontal counterpart are the inlet's rolling friction as in the races, with the
 // mean speed |slip|/2 and R_x = R.  The half gets the opposite forces at the same points.
-// Smoothness: C1 at touch-down.  The cylinder has no radial end: a ball whose equator leaves the cage's section is reported, not modelled.
+// Smoothness: C1 at touch-down and where the patch leaves a half.  The cylinder has no radial end: a ball whose equator leaves the cage's section is reported,
+// not modelled.
 #include "pocket.h"
 
 #include "hertz.h"
@@ -25,13 +30,6 @@ INLINE wide pocket_mu(const Model *model, wide ln_U, wide ln_Q, bool mixed)
     const wide ln_piezo = traction_ln_film(wide_set(model->d->ln_pocket_piezo), ln_U, ln_Q);
     const wide ln_rigid = model->d->ln_pocket_rigid + 2.0 * (ln_U - ln_Q);
     return film + traction_asperity_share(wide_max(ln_piezo, ln_rigid)) * (model->p->oil.mu_b - film);
-}
-
-// Direction of the pockets: body angle phi_j turned by the half, b = b_y cos phi + b_z sin phi, in the frames of the balls.
-INLINE vec pocket_direction(const Derived *d, const Rotor *half, int j, wide cos_theta, wide sin_theta)
-{
-    const vec b_y = vec_local(half->b_y, cos_theta, sin_theta), b_z = vec_local(half->b_z, cos_theta, sin_theta);
-    return vec_axpy(wide_load(&d->pocket_sin[j]), b_z, vec_scale(wide_load(&d->pocket_cos[j]), b_y));
 }
 
 INLINE void add_vec(vec v, scalar *x, scalar *r, scalar *t)
@@ -48,11 +46,9 @@ INLINE void pocket_contacts(const Model *model, Work *w, int h, int j, bool mixe
     Pockets *pocket = &w->pocket[h];
     const wide cos_theta = wide_load(&w->cos_theta[j]), sin_theta = wide_load(&w->sin_theta[j]), R = wide_load(&d->R[j]);
 
-    const vec a = vec_local(half->a, cos_theta, sin_theta), b = pocket_direction(d, half, j, cos_theta, sin_theta), e_t = vec_cross(a, b);
-    const vec centre = {wide_load(&w->x[j]), wide_load(&w->r[j]), wide_set(0.0)}, arm_p = vec_sub(centre, vec_local(half->x, cos_theta, sin_theta));
-    const wide x = vec_dot(arm_p, a), t = vec_dot(arm_p, e_t);
-    const wide S = wide_sqrt(x * x + t * t + 1e-30), inv_S = 1.0 / S, n_x = x * inv_S, n_t = t * inv_S;
-    const wide delta = S - (d->pocket_radius - R);
+    const PocketPlace at = pocket_place(d, w, half, j);
+    const vec a = at.a, e_t = at.e_t, arm_p = at.p;
+    const wide n_x = at.n_x, n_t = at.n_t;
     const vec n = vec_axpy(n_t, e_t, vec_scale(n_x, a));
 
     const vec omega_b = vec_load(&w->omega_x[j], &w->omega_r[j], &w->omega_t[j]), v_b = vec_load(&w->v_x[j], &w->v_r[j], &w->v_t[j]);
@@ -60,15 +56,10 @@ INLINE void pocket_contacts(const Model *model, Work *w, int h, int j, bool mixe
     const vec v = vec_sub(vec_sub(v_b, vec_local(half->v, cos_theta, sin_theta)), vec_cross(Omega, arm_p));
     const wide delta_dot = vec_dot(n, v);
 
-    // share of the half and its slope; the sign is that of the half's side
-    const double side = h == 0 ? -1.0 : 1.0, width2 = p->cage.share_width * p->cage.share_width;
-    const wide inv_root = 1.0 / wide_sqrt(n_x * n_x + width2);
-    const wide share = whole ? wide_set(1.0) : 0.5 * (1.0 + side * n_x * inv_root);
-    const wide share_slope = whole ? wide_set(0.0) : 0.5 * side * width2 * (inv_root * inv_root * inv_root);
-
-    const wide Q_full = hertz_load(wide_set(d->pocket.K), delta), Q_0 = share * Q_full;
+    const PocketShare share = whole ? (PocketShare){wide_set(1.0), wide_set(1.0), wide_set(0.0)} : pocket_share(d, h, n_x, at.delta);
+    const wide Q_0 = share.load * hertz_load(wide_set(d->pocket.K), at.delta);
     const wide Q = hertz_damped(Q_0, wide_set(p->cage.lambda), delta_dot);
-    const wide F_across = 0.4 * Q_full * wide_max(delta, wide_set(0.0)) * share_slope * n_t * inv_S;  // dV/dn_x grad n_x, grad n_x = (n_t a - n_x e_t) n_t/S
+    const wide F_across = pocket_across(d, &at, share.slope);
     const vec F_n = vec_axpy(-Q, n, vec_axpy(-F_across * n_t, a, vec_scale(F_across * n_x, e_t)));
 
     const vec arm = vec_scale(R, n);
@@ -84,7 +75,7 @@ INLINE void pocket_contacts(const Model *model, Work *w, int h, int j, bool mixe
 
     wide_store(&pocket->Q[j], Q);
     wide_store(&pocket->F_x[j], vec_dot(F_half, a));
-    wide_store(&pocket->F_r[j], vec_dot(F_half, b));
+    wide_store(&pocket->F_r[j], vec_dot(F_half, at.b));
     wide_store(&pocket->F_t[j], vec_dot(F_half, e_t));
     vec_to_global(F_half, cos_theta, sin_theta, &pocket->half_F_x[j], &pocket->half_F_y[j], &pocket->half_F_z[j]);
     vec_to_global(M_half, cos_theta, sin_theta, &pocket->half_M_x[j], &pocket->half_M_y[j], &pocket->half_M_z[j]);
@@ -146,4 +137,33 @@ void pocket_force(const Model *model, Work *w)
 {
     const bool mixed = model->p->scene.lubrication == LUBRICATION_MIXED, rigid = model->p->scene.cage == CAGE_MODEL_RIGID;
     for (int h = 0; h < (rigid ? 1 : 2); h++) pocket_half(model, w, h, mixed, rigid);
+}
+
+void pocket_split(const Model *model, const Work *w, Pockets on[2])
+{
+    const Derived *d = model->d;
+    const Rotor *cage = &w->half[0];
+    const Pockets *whole = &w->pocket[0];
+    const scalar *from[] = {whole->F_x,      whole->F_r,      whole->F_t,      whole->half_F_x, whole->half_F_y,
+                            whole->half_F_z, whole->half_M_x, whole->half_M_y, whole->half_M_z};
+    scalar *to[2][9];
+    for (int h = 0; h < 2; h++) {
+        scalar *rows[] = {on[h].F_x, on[h].F_r, on[h].F_t, on[h].half_F_x, on[h].half_F_y, on[h].half_F_z, on[h].half_M_x, on[h].half_M_y, on[h].half_M_z};
+        memcpy(to[h], rows, sizeof rows);
+    }
+    for (int j = 0; j < PACKETS * LANE_WIDTH; j += LANE_WIDTH) {
+        const wide cos_theta = wide_load(&w->cos_theta[j]), sin_theta = wide_load(&w->sin_theta[j]);
+        const PocketPlace at = pocket_place(d, w, cage, j);
+        const PocketShare share = pocket_share(d, 1, at.n_x, at.delta);
+        const wide F_across = pocket_across(d, &at, share.slope);
+        const vec push = vec_axpy(F_across * at.n_t, at.a, vec_scale(-F_across * at.n_x, at.e_t));
+        vec_store((vec){F_across * at.n_t, wide_set(0.0), -F_across * at.n_x}, &on[1].F_x[j], &on[1].F_r[j], &on[1].F_t[j]);
+        vec_to_global(push, cos_theta, sin_theta, &on[1].half_F_x[j], &on[1].half_F_y[j], &on[1].half_F_z[j]);
+        vec_to_global(vec_cross(at.p, push), cos_theta, sin_theta, &on[1].half_M_x[j], &on[1].half_M_y[j], &on[1].half_M_z[j]);
+        for (int i = 0; i < 9; i++) {
+            const wide both = wide_load(&from[i][j]), part = wide_fma(share.load, both, wide_load(&to[1][i][j]));
+            wide_store(&to[1][i][j], part);
+            wide_store(&to[0][i][j], both - part);
+        }
+    }
 }

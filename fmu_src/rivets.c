@@ -10,6 +10,7 @@
 #include "rivets.h"
 
 #include "load_path.h"
+#include "pocket.h"
 #include "rotor.h"
 
 INLINE wide modulus(wide y, wide z)
@@ -31,22 +32,17 @@ static void two_half_load(const Model *model, const Work *w, RivetLoads *load)
 }
 
 // Wrench of pockets and land on half 1 less that on half 0, halved, about the cage's centre in its body frame.
-static void rigid_wrench(const Model *model, const Work *w, scalar wrench[6])
+static void rigid_wrench(const Work *w, const Pockets *on_1, scalar wrench[6])
 {
     const Rotor *cage = &w->half[0];
-    const double width = model->p->cage.share_width;
     scalar global[6];
     for (int i = 0; i < 3; i++) {
         global[i] = 0.5 * (w->half[1].F[i] - w->half[0].F[i]);
         global[3 + i] = 0.5 * (w->half[1].M[i] - w->half[0].M[i]);
     }
-    const Pockets *pocket = &w->pocket[0];  // half 0 holds the pocket forces: their share of half 1 less that of half 0 instead
-    const scalar *wrenches[6] = {pocket->half_F_x, pocket->half_F_y, pocket->half_F_z, pocket->half_M_x, pocket->half_M_y, pocket->half_M_z};
-    for (int j = 0; j < Z; j++) {
-        const scalar F_x = pocket->F_x[j], F_t = pocket->F_t[j], F_2 = F_x * F_x + F_t * F_t;
-        const scalar share = scalar_value(F_2) > 0.0 ? F_x / scalar_sqrt(F_x * F_x + width * width * F_2) : 0.0;
-        for (int i = 0; i < 6; i++) global[i] += 0.5 * (1.0 + share) * wrenches[i][j];
-    }
+    // half 0 holds the pocket forces: what half 1 gets of them goes over
+    const scalar *pockets[6] = {on_1->half_F_x, on_1->half_F_y, on_1->half_F_z, on_1->half_M_x, on_1->half_M_y, on_1->half_M_z};
+    for (int i = 0; i < 6; i++) global[i] += ball_array_sum(pockets[i]);
     const scalar *axes[3] = {cage->a, cage->b_y, cage->b_z};
     for (int i = 0; i < 3; i++) {
         wrench[i] = dot3(axes[i], global);
@@ -54,12 +50,12 @@ static void rigid_wrench(const Model *model, const Work *w, scalar wrench[6])
     }
 }
 
-static void rigid_load(const Model *model, const Work *w, RivetLoads *load)
+static void rigid_load(const Model *model, const Work *w, const Pockets *on_1, RivetLoads *load)
 {
     const double R = 0.5 * model->p->bearing.d_m, friction = model->p->joint.mu * model->d->P;
     double c[Z], s[Z];
     scalar wrench[6], V_y[Z], V_z[Z];
-    rigid_wrench(model, w, wrench);
+    rigid_wrench(w, on_1, wrench);
     for (int k = 0; k < Z; k++) {
         c[k] = model->d->rivet_y[k] / R;
         s[k] = model->d->rivet_z[k] / R;
@@ -103,17 +99,18 @@ void joint_prying(const JointData *j, RivetLoads *load)
 void rivets_load(const Model *model, const Work *w, RivetLoads *load)
 {
     const bool rigid = model->p->scene.cage == CAGE_MODEL_RIGID, transverse = model->d->hole_gap == 0.0;
+    const Pockets *on = w->pocket;
+    Pockets split[2];
     *load = (RivetLoads){0};
-    if (rigid)
-        rigid_load(model, w, load);
-    else
+    if (rigid) {
+        pocket_split(model, w, split);
+        on = split;
+        rigid_load(model, w, &split[1], load);
+    } else
         two_half_load(model, w, load);
 
     PathLoads path = {0};
-    for (int h = 0; h < (rigid ? 1 : 2); h++) {
-        const Pockets *pocket = &w->pocket[h];
-        load_path_flexible(rivet_table.load_path, h == 0 ? -1 : 1, transverse, pocket->F_x, pocket->F_r, pocket->F_t, &path);
-    }
+    for (int h = 0; h < 2; h++) load_path_flexible(rivet_table.load_path, h == 0 ? -1 : 1, transverse, on[h].F_x, on[h].F_r, on[h].F_t, &path);
     for (int k = 0; k < PACKETS * LANE_WIDTH; k += LANE_WIDTH) wide_store(&load->N[k], wide_load(&load->N[k]) + wide_load(&path.sum[PATH_N][k]));
     if (transverse) add_turned(model, path.sum[PATH_V_R], path.sum[PATH_V_T], load->V_y, load->V_z);
     add_turned(model, path.sum[PATH_M_R], path.sum[PATH_M_T], load->M_y, load->M_z);

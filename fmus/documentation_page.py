@@ -15,7 +15,7 @@ from markdown_it import MarkdownIt
 PROJECT = Path(__file__).resolve().parents[1]
 TEMPLATES = PROJECT / "fmus" / "templates"
 LICENSES = ("LICENSE", "THIRD_PARTY_NOTICES.md")
-FLAGS = {  # capability -> what it lets an importer do
+FLAGS = {  # capability -> its use for an importer
     "canHandleVariableCommunicationStepSize": "communication steps of any size",
     "canInterpolateInputs": "inputs as polynomials within a step",
     "maxOutputDerivativeOrder": "derivatives of outputs up to this order",

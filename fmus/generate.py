@@ -1,4 +1,4 @@
-"""Writes every file that is derived from a table of variables: fmus/variables.toml is the bearing's.
+"""Writes every file that is derived from a table of variables; the bearing's table is fmus/variables.toml.
 
 python fmus/generate.py                                  write the tracked files
 python fmus/generate.py --check                          compare them byte for byte, exit 1 on a difference
@@ -78,7 +78,7 @@ class Variable:
 
     @property
     def path(self):
-        """Place in the C structs: ball[j].Q_i is ball.Q_i, an array."""
+        """Path in the C structs: ball[j].Q_i is ball.Q_i, an array."""
         return re.sub(r"\[\w\]", "", self.name)
 
     @property
@@ -144,7 +144,7 @@ def load_table(bearing=None, path=None):
         states.append(StateBlock(**entry | {"count": count}, offset=offset, of_balls=entry["count"] == "Z"))
         offset += count
     table = Table(Z, raw["model_name"], raw["description"], raw["units"], raw["enumerations"], raw["groups"], tuple(variables), tuple(states))
-    check_table(table, path)
+    check_table(table, path, raw.get("retired", ()))
     return table
 
 
@@ -175,9 +175,9 @@ def set_start(variables, causality, name, value, source):
     variables[places[name]] = replace(v, start=float(start) if v.kind == "Real" else start)
 
 
-def check_table(table, path):
-    """Every variable complete and consistent, every name and value reference given once; else ValueError."""
-    names, references = {"time"}, {0: "time"}
+def check_table(table, path, retired=()):
+    """Every variable complete and consistent, every name and value reference given once and none that is retired; else ValueError."""
+    names, references = {"time"}, {0: "time"} | dict.fromkeys(retired, "a variable that is gone")
     for v in table.variables:
         last = v.vr + (Z_MAX if v.is_array else 1)
         shared = {references[r] for r in range(v.vr, last) if r in references}
@@ -210,7 +210,7 @@ def screaming(name):
 
 
 def struct_members(variables):
-    """The variables by their place: [(struct, [(member, variable), ...]), ...]."""
+    """The variables by C struct: [(struct, [(member, variable), ...]), ...]."""
     structs = {}
     for v in variables:
         struct, member = v.path.split(".")
@@ -362,7 +362,7 @@ def value_attributes(v, indices):
 
 
 def add_structure(root, table, indices):
-    """Outputs and derivatives with what they depend on, and what initialization computes (FMI 2.0.4, section 2.2.8)."""
+    """Outputs and derivatives with their dependencies, and the unknowns of initialization (FMI 2.0.4, section 2.2.8)."""
     structure = etree.SubElement(root, "ModelStructure")
     outputs = etree.SubElement(structure, "Outputs")
     for v in table.of("output"):
@@ -415,7 +415,7 @@ def main(arguments=None):
         sys.exit(f"generate: not what {(options.table or TABLE).name} says: {', '.join(stale)}" if stale else 0)
     for path, content in places.items():
         path.parent.mkdir(parents=True, exist_ok=True)
-        if not path.is_file() or path.read_bytes() != content.encode():  # unchanged files keep their time: nothing is recompiled
+        if not path.is_file() or path.read_bytes() != content.encode():  # unchanged files keep their time stamps, so that nothing is recompiled
             path.write_bytes(content.encode())
 
 

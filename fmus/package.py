@@ -58,7 +58,7 @@ def platform_and_file(text):
 
 
 def package(options):
-    """Write the FMU `options.out`; either it is complete or it is left as it was.
+    """Write the FMU `options.out`: the file is complete or stays as it was.
 
     Raises OSError for a file that cannot be read or written, ValueError for a platform that FMI has no name for and for two sources of one name.
     """

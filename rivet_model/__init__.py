@@ -3,8 +3,8 @@
     from rivet_model import Geometry, make_table, write
     write(make_table(Geometry(fillet_radius=0.1e-3), coarse=True), "rivet.json")
 
-geometry -> elasticity (mesh, weak form) -> load_cases (unilateral contact) -> reduction (homogeneous coordinates) -> splines -> table; cage_half does the same
-for the load path through the cage.  Commands: `python -m rivet_model.build`, `closed_form`, `embed`, `components`, `friction`; docs/rivet.md explains them.
+geometry -> elasticity (mesh, weak form) -> load_cases (unilateral contact) -> reduction (homogeneous coordinates) -> splines -> table; cage_half makes
+the load path through the cage.  Commands: `python -m rivet_model.build`, `closed_form`, `embed`, `components`, `friction`; docs/rivet.md explains them.
 Of bearing_model this package knows the table's format and how a table is evaluated (rivet_table, rivet_rom, rivet_splines) and the bolt group (load_path).
 """
 

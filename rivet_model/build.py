@@ -1,7 +1,7 @@
 """Finite elements to table: python -m rivet_model.build OUT.json [GEOMETRY.toml] [--coarse] [--workers 2]
 
 About 20 minutes on two cores for the shipped fineness, most of it contact solutions; --coarse takes seconds and is for tests and first looks.
-The file is written last and in one piece: no table is left behind by an error.
+The file is written last and in one piece, so that an error leaves no table behind.
 """
 
 import argparse
@@ -31,8 +31,8 @@ def _quiet(stage, done, total):
 def make_table(geometry, coarse=False, workers=2, progress=_quiet, hold_out=320):
     """Table of kind fe.
 
-    progress(stage, done, total) is called as the work goes on; hold_out: number of fresh loads for the error in the header (0 leaves it out;
-    an eighth of it for a coarse table).
+    progress(stage, done, total) is called as the work goes on; hold_out: number of loads at which the error in the header is measured
+    (none if 0; an eighth of the number for a coarse table).
     Raises ValueError for a geometry that cannot be meshed, ArithmeticError if a contact or plasticity solution is not found.
     """
     grid, knots = (COARSE, reduction.COARSE) if coarse else (SHIPPED, reduction.FULL)

@@ -1,9 +1,9 @@
-"""Rivet table from closed forms: what the FMU reads until, and where, no finite-element table exists.
+"""Rivet table from closed forms: the FMU reads such a table where there is none from finite elements.
 
 python -m rivet_model.closed_form OUT.json [GEOMETRY.toml]
 
 Bolted joint with preload shielding, beam bending of the shank under head and hole, notch factors as stated below, interference by Lame.
-Expect tens of per cent of error in the head: K_t and the lever arms are estimates, not results.
+The stress of the head has an error of tens of per cent, because notch factors and lever arms are estimates.
 """
 
 import argparse
@@ -31,7 +31,7 @@ KNOTS = {
 
 
 def load_share(geometry):
-    """Part of an outer tension that reaches the rivet of the closed joint: rivet against pressure cone (Shigley, 30 degrees)."""
+    """Share of an external tension that the rivet of the closed joint takes: stiffness of the rivet beside that of the pressure cone (Shigley, 30 degrees)."""
     g = geometry
     grip = 2 * g.flange_thickness
     k_rivet = g.E_rivet * g.shank_area / (grip + 2 * g.head_height)
@@ -41,7 +41,7 @@ def load_share(geometry):
 
 
 def rivet_tension(geometry, P, N):
-    """P + share N until the joint opens, then N.  Without external tension P exactly."""
+    """Tension P + share N until the joint opens, N after that; exactly P without external tension."""
     return np.maximum(P + load_share(geometry) * N, N)
 
 

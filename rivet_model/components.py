@@ -42,7 +42,7 @@ def joint_fields(joint, forces):
 
 
 def representative(a, b, c, sheet):
-    """Coordinates that stand for all of the same field; unlike a channel, a field turns with M where there is no V."""
+    """One set of coordinates for all those with the same field; unlike a channel, a field turns with M where there is no V."""
     if c == 1.0:
         a = b = 0.0
     return a, 0.0 if a == 1.0 else b, c, "plane" if c == 0.0 else sheet

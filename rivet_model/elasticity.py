@@ -4,7 +4,7 @@
 
     e_rr = U,r   e_tt = (U + n T)/r   e_zz = W,z   g_rz = U,z + W,r   g_rt = T,r - (T + n U)/r   g_tz = T,z - n W/r
 
-The last two go with sin n theta.  Strain is B_0 + n B_1, so three matrices serve all harmonics.  Energies and loads leave out their common
+The last two go with sin n theta.  Strain is B_0 + n B_1, so three matrices serve all harmonics.  Energies and loads leave out the common
 factor pi (2 pi for n = 0) of the integral over theta.  (Zienkiewicz and Taylor, The Finite Element Method, semi-analytical processes.)
 """
 
@@ -39,7 +39,7 @@ def strain_1(u, w):
 
 
 class Body:
-    """One body of revolution: mesh, material, and what is clamped.
+    """One body of revolution: mesh, material, and clamped points.
 
     mesh: skfem MeshQuad in (r, z) [m].  E [Pa], nu.  clamped: function of the points x [2, n] that is True where all displacements vanish;
     without it the body is free, and loads are balanced by body forces proportional to the rigid motions (self-equilibrated loads are not
@@ -118,7 +118,7 @@ class Body:
     def ring_loads(self, nodes, positions, normal, axis):
         """Normal pressure loads of hats over rings [dofs, rings]: G_j = int hat_j (u . normal) r ds.
 
-        nodes: mesh vertices of the contact edge, in order; positions: places of the rings along it (coordinate `axis`), among the nodes.
+        nodes: mesh vertices of the contact edge, in order; positions: coordinates (`axis`) of the rings along the edge, among the nodes.
         A pressure p_j acts as -G_j p_j; G_j^T u is the mean normal displacement times the ring's area (without the factor of theta).
         """
         return self.traction_loads(nodes, positions, (normal[0], 0.0, normal[1]), axis)

@@ -19,7 +19,8 @@ def _array(name, values, kind="double"):
 
 
 def bin_cells(knots):
-    """Cell in which each of BINS equal bins begins; a knot at a bin's start belongs to it, whichever way places in bins are rounded.
+    """Cell in which each of BINS equal bins begins; if a knot lies at the start of a bin, the cell below the
+    knot counts, because rounding may put a point just below the knot into this bin.
 
     >>> bin_cells(np.array([0.0, 0.5, 1.0]))[[0, 127, 128, 129, 256]]
     array([0, 0, 0, 1, 1])

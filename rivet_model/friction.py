@@ -1,13 +1,13 @@
-"""Coulomb friction in the closed joint, offline: slip of the halves against the transverse load, and who carries it.
+"""Coulomb friction in the closed joint, offline: slip of the halves over the transverse load, and the shares of plates and heads.
 
 python -m rivet_model.friction [GEOMETRY.toml]
 
-Heads and plates stick or slip, the bores are open.  Per contact point, with the tangential slip s of a load step and the pressure's force p:
+Heads and plates stick or slip; the bores do not touch.  At each contact point, with the normal force p and the tangential slip s of a load step:
 
     gap >= 0, p >= 0, p gap = 0        |t| <= mu p, t = -mu p s/|s| where it slips
 
-solved for each step by Newton's method on both conditions written with projections (Alart and Curnier 1991).  V and its answer are symmetric about
-the plane of V, so half of the circle is enough.
+solved for each step by Newton's method on both conditions written with projections (Alart and Curnier 1991).  Load and
+solution are symmetric about the plane of V, so half of the circle is enough.
 """
 
 import argparse
@@ -25,12 +25,12 @@ CONTACTS = ("UH", "LH", "PP")
 PLANE = [0, 2, 4, 5, 7, 9]  # rigid motions x, z, rotation y of rivet and upper rim
 ITERATIONS = 60
 TOLERANCE = 1e-9  # of the preload
-FREE = 1e-3  # m: no elastic slip is as large
+FREE = 1e-3  # m: larger than any elastic slip
 
 
 @dataclass(frozen=True)
 class Slip:
-    """Answer to one transverse load V [N]: slip of the halves [m], friction of plates and of each head [N], head's largest principal stress [Pa]."""
+    """Solution for one transverse load V [N]: slip of the halves [m], friction of plates and of each head [N], head's largest principal stress [Pa]."""
 
     V: float
     slip: float
@@ -73,7 +73,7 @@ class Friction:
     def _condense(self):
         joint, t = self.joint, self.joint.geometry.flange_thickness
         upper = self._loads(joint.flange, {"UH": (t, 1.0, -1.0), "PP": (0.0, -1.0, 1.0)})
-        lower = {("n", "LH"): upper["n", "UH"], ("n", "PP"): upper["n", "PP"]}  # the mirrored flange; as second body of the plates it is dragged back
+        lower = {("n", "LH"): upper["n", "UH"], ("n", "PP"): upper["n", "PP"]}  # the mirrored flange, which feels the opposite friction of the plates
         lower |= {(part, "LH"): upper[part, "UH"] for part in "rt"} | {(part, "PP"): -upper[part, "PP"] for part in "rt"}
         self.rivet_loads = self._loads(joint.rivet, {"UH": (t, -1.0, 1.0), "LH": (-t, 1.0, 1.0)})
         self.C, self.stress = np.zeros((self.size, self.size)), []
@@ -96,7 +96,7 @@ class Friction:
                     self.C[self.slices[first], self.slices[second]] += part.reshape(part.shape[0] * part.shape[1], -1)
 
     def _approach(self):
-        """Mean approach (n) and minus the mean slip (r, t) by the rigid motions: what D^T (p, t) = f balances [contacts, 6]."""
+        """Mean approach (n) and minus the mean slip (r, t) by the rigid motions: the matrix D of the balance D^T (p, t) = f [contacts, 6]."""
         joint, t = self.joint, self.joint.geometry.flange_thickness
         D = np.zeros((self.size, 6))
         for name in CONTACTS:
@@ -132,7 +132,7 @@ class Friction:
     def curve(self, P, loads, mu):
         """Slip of each transverse load [N] of an increasing list, from the preload P [N] on.
 
-        Raises ArithmeticError past the joint's capacity, where it slips until a bore carries, and if a step is not found.
+        Raises ArithmeticError beyond the friction's capacity, where the joint slips until a bore carries, and if a load step does not converge.
         """
         gaps = np.zeros(self.size)
         short = self.joint.overclosure(P, -90e-6)
@@ -143,7 +143,7 @@ class Friction:
         x[: self.count] = P / self.count
         answers = []
         for V in (0.0, *loads):
-            x = self._step(x, slip, np.array([0.0, 0.0, 0.0, V, 0.0, 0.0]), mu if V > 0.0 else 0.0, P)  # the preload has settled
+            x = self._step(x, slip, np.array([0.0, 0.0, 0.0, V, 0.0, 0.0]), mu if V > 0.0 else 0.0, P)  # no friction (mu = 0) while the preload alone acts
             slip = self._displacement(x)[self.count :]
             if V > 0.0:
                 answers.append(self._answer(x, V))
@@ -186,7 +186,7 @@ class Friction:
                 J[np.arange(m) + m + i * m, np.arange(m) + m + i * m] += np.where(sticks, 0.0, 1.0)
                 J[np.arange(m) + m + i * m, np.arange(m)] -= np.where(slides, mu * way[i], 0.0)
                 for j in range(2):
-                    turn = share * ((i == j) - way[i] * way[j])  # the direction turns with y_t = t - rho s
+                    turn = share * ((i == j) - way[i] * way[j])  # derivative of the direction of y_t = t - rho s
                     J[rows] += (turn * rho_t)[:, None] * jacobian[m + j * m : 2 * m + j * m]
                     J[np.arange(m) + m + i * m, np.arange(m) + m + j * m] -= turn
             J[3 * m :, : 3 * m] = self.D_half.T

@@ -21,7 +21,7 @@ from pathlib import Path
 
 @dataclass(frozen=True)
 class Geometry:
-    """Rivet joint and cage half; SI units.  Sources: see each line; "assumed" values are estimates, calibrated ones say to what."""
+    """Rivet joint and cage half; SI units.  Each line names its source; "assumed" is an estimate, "calibrated" names the figure that was fitted."""
 
     shank_diameter: float = 1.5e-3  # paper Table 1
     head_diameter: float = 2.6e-3  # assumed
@@ -32,7 +32,7 @@ class Geometry:
     edge_break: float = 0.15e-3  # assumed, chamfer of the hole at the split
     flange_thickness: float = 1.5e-3  # assumed, each half
     patch_radius: float = 2.45e-3  # (59.5 - 49.7)/4 mm, paper Table 1
-    middle_zone: float = 0.1e-3  # |x| up to which the middle's stress is looked at
+    middle_zone: float = 0.1e-3  # half the length of the shank's middle, over which the largest stress counts
     E_rivet: float = 192e9  # paper Table 1
     nu_rivet: float = 0.30  # assumed
     yield_rivet: float = 590e6  # 15CrMn quenched and tempered, from memory of GB/T 3077: unverified
@@ -89,12 +89,12 @@ class Geometry:
 
     @property
     def digest(self):
-        """First 16 digits of the SHA-256 of all values: what a table was made for."""
+        """First 16 digits of the SHA-256 of all values: tells whether a table was made for this geometry."""
         return hashlib.sha256(json.dumps(asdict(self), sort_keys=True).encode()).hexdigest()[:16]
 
     @classmethod
     def from_toml(cls, path, cage=None):
-        """Read a TOML file; what it leaves out keeps its default.
+        """Read a TOML file; values that the file leaves out keep their defaults.
 
         cage: values that a bearing gives (name: value); the file may repeat but not change them, except patch_radius, which is the joint's own.
 

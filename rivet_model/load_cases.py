@@ -1,8 +1,8 @@
-"""The rivet joint condensed to its contacts: loads in, pressures, stresses and displacements out; no mesh is touched any more.
+"""The rivet joint condensed to its contacts: from loads follow pressures, stresses and displacements without solving on the mesh again.
 
 Pressure in each contact is a sum of hats along the edge (rings) times hats over the angle; gaps are means with the same hats, so the compliance
-is symmetric and positive definite whatever the grid.  Fit and preload enter as gaps only.  Contacts: UH, LH under the upper and lower head,
-UB, LB in the bores, PP in the split plane.  Upper = the +x half; loads on its rigid rim, the lower rim is held:
+is symmetric and positive definite on any grid.  Fit and preload change the gaps only.  Contacts: UH, LH under the upper and lower head,
+UB, LB in the bores, PP in the split plane.  Upper = the +x half; loads act on its rigid rim, and the lower rim is held:
 
     rigid motions q = (x, y, z, rotation x, rotation y) of the rivet, then of the upper rim;  V along x, M about x and y, N along z
 
@@ -22,7 +22,7 @@ from .section_mesh import Fineness, edge_nodes
 
 GROUPS = ("UH", "UB", "LB", "LH", "PP")
 SPRINGS = np.array([1e-5, 1e-5, 1e-5, 1e-11, 1e-11])  # N/m, N.m/rad: 1e-12 of the joint's own stiffness
-NO_PRELOAD = 1e-9  # part of s that stands for P = 0: the heads just touch
+NO_PRELOAD = 1e-9  # share of s that replaces P = 0, so that the heads just touch
 
 
 def graded_angles(step, dense=16.0, coarse=15.0):
@@ -70,7 +70,7 @@ class Grid:
             raise ValueError(f"grid: n_max = {self.n_max}: hats of {self.step:g} degrees need {np.ceil(max(180.0 / self.step, self.uniform / 2)):g} harmonics")
 
     def solved_harmonics(self):
-        """Harmonics that are solved; between them n times the compliance is smooth and interpolated."""
+        """Harmonics that are solved; between them n times the compliance is smooth over n and is interpolated."""
         n = [k for k in (*range(9), 10, 12, 14, 16, 20, 24, 32, 40, 48, 64, 80, 96, 128) if k < self.n_max]
         return np.array([*n, self.n_max])
 
@@ -138,7 +138,7 @@ class Joint:
 
         size = {name: len(self.rings[name]) for name in GROUPS}
         half = size["UH"] + size["UB"]
-        heads, bores = np.arange(size["UH"]), np.arange(size["UB"])  # mirror[i]: ring at the mirrored place, in the order UH, UB, LB, LH
+        heads, bores = np.arange(size["UH"]), np.arange(size["UB"])  # mirror[i]: the mirrored ring, in the order UH, UB, LB, LH
         mirror = np.concatenate([half + size["LB"] + heads, half + bores, size["UH"] + bores, heads])
         solved = self.grid.solved_harmonics()
         rivet, flange, stress = [], [], []
@@ -190,7 +190,7 @@ class Joint:
         return S_0[rows], S_1[rows], x[:, order], tangent[:, order]
 
     def surface_response(self, place, n, u):
-        """Surface stress (tt, hoop, shear) of harmonic n at a place for rivet displacements u [dofs, cases]: [3, points, cases]."""
+        """Surface stress (tt, hoop, shear) of harmonic n along an edge (`place`) for rivet displacements u [dofs, cases]: [3, points, cases]."""
         S_0, S_1, x, (tr, tz) = place
         s = ((S_0 + n * S_1) @ u).reshape(6, x.shape[1], -1)
         tr, tz = tr[:, None], tz[:, None]
@@ -199,7 +199,7 @@ class Joint:
     def _stress_response(self, n, u, mirror, half):
         """Surface stress at upper fillet, then middle, per unit pressure amplitude of all rings, from displacements u by the upper rings.
 
-        What a lower ring does at a place, its mirrored ring does at the mirrored place.
+        By symmetry a lower ring causes at a point the stress that the mirrored ring causes at the mirrored point.
         """
         back = mirror[half:]
         upper, lower = (self.surface_response(place, n, u) for place in (self.fillet, self.lower_fillet))
@@ -276,7 +276,7 @@ class Joint:
         return D
 
     def _reduced(self, image):
-        """Problem on the orbits of the symmetry that maps each contact to its image."""
+        """Contact problem of one member of each pair of contacts that the symmetry maps onto each other."""
         representative = np.minimum(np.arange(self.size), image)
         unique, member = np.unique(representative, return_inverse=True)
         E = np.zeros((self.size, len(unique)))
@@ -291,7 +291,7 @@ class Joint:
         return folded
 
     def overclosure(self, P, fit):
-        """Shortening of the rivet between its heads [m] that clamps the plates with P at the fit: the preload after riveting."""
+        """Shortening of the rivet between its heads [m] that gives the clamp force P at this fit: the preload after riveting."""
         if not hasattr(self, "_axial"):
             area = {name: 2 * np.pi * self.moments[name][0] for name in GROUPS}
             uniform = {name: np.repeat(np.eye(len(self.rings[name])), len(self.angles[name]), axis=0) for name in GROUPS}
@@ -358,7 +358,7 @@ class Joint:
         return g
 
     def solve(self, P, N, V, M_plane, M_across, fit, active=None):
-        """Contact forces and rigid motions for one load [N, N.m, m]; symmetry is used where the load has it.
+        """Contact forces and rigid motions for one load [N, N.m, m]; the symmetry of the load is used.
 
         Returns (forces [contacts], q [10], Solution, symmetry).  `active`: active set of a similar case of the same symmetry.
         """

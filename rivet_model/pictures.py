@@ -33,7 +33,7 @@ def table_response(t):
 
 
 def joint_response(joint):
-    """The same by fresh solutions of a Joint, without a table."""
+    """The same two functions by solutions of a Joint, without a table."""
     fitted = plastic_fit.plastic_fit(joint.geometry)
 
     def stress(load, fit):
@@ -93,7 +93,7 @@ def plot_curves(data, title=""):
 def plot_section(joint, load=REFERENCE, fit=FIT, magnified=60.0):
     """Figure: meshes; the joint in the plane of V, deformed, with its largest principal stress; the fillet that carries most.
 
-    Gaps are drawn as much larger than they are as the displacements, so what touches in the picture touches.
+    Gaps and displacements are magnified alike, so that bodies touch in the picture where they touch in the solution.
     """
     from matplotlib.figure import Figure
 
@@ -127,12 +127,12 @@ def plot_section(joint, load=REFERENCE, fit=FIT, magnified=60.0):
 def section(joint, forces, q, theta, P, fit, magnified):
     """Rivet, upper and lower flange in the half plane at theta = 0 or pi.
 
-    forces, q: contact forces and rigid motions of a solution under the preload P.  Returns for each body the moved and the original places of the
-    vertices (along V, x) [2, vertices], triangles, and the largest principal stress [vertices] in Pa.
+    forces, q: contact forces and rigid motions of a solution under the preload P.  Returns for each body the displaced and the original
+    positions of the vertices (along V, x) [2, vertices], triangles, and the largest principal stress [vertices] in Pa.
     """
     g, side = joint.geometry, np.cos(theta)
     mirrored = {"LH": joint.upper["UH"], "LB": joint.upper["UB"], "PP": joint.upper["PP"]}
-    short = np.array([0.5 * fit / (g.shank_diameter / 2), -0.5 * joint.overclosure(P, fit) / g.flange_thickness])  # the rivet's gaps, per length
+    short = np.array([0.5 * fit / (g.shank_diameter / 2), -0.5 * joint.overclosure(P, fit) / g.flange_thickness])  # fit and preload as strains
     still = np.zeros(5)
     bodies = (
         (joint.rivet, joint.rivet_loads, joint.ring_slices, 1.0, q[:5], short),

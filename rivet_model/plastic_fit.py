@@ -1,12 +1,12 @@
-"""Interference with plasticity: how much of the elastic pressure the yielded flange leaves, as an effective elastic fit.
+"""Interference with plasticity: the effective fit is the elastic fit whose bore pressure is that of the yielded flange.
 
 One half of the shank and its flange, axisymmetric, joined without friction along the bore; the shank swells by fit/d in its section (eigenstrain).
 J2 flow with linear isotropic hardening, radial return with consistent tangent (Simo and Hughes, Computational Inelasticity, section 3.3), fully
-converged in steps of at most 1 um: larger steps have been seen to end at wrong states without a word.
+converged in steps of at most 1 um, because larger steps have converged to wrong states without an error.
 
     fit_eff(fit) = fit p_plastic(fit)/p_elastic(fit)       p: mean pressure in the bore
 
-Operating cycles are then elastic about the residual state (shakedown assumed).
+Cycles in operation are taken as elastic about the residual state (shakedown is assumed).
 """
 
 from dataclasses import dataclass
@@ -30,8 +30,8 @@ LAYER = 0.05e-3  # m
 class FitMap:
     """fit_a and fit_eff [m], yield of flange and rivet as an elastic fit [m], mean pressure [Pa], largest plastic strain of the flange.
 
-    Yield means that the mean von Mises stress of the layer of 0.05 mm along the bore reaches the yield stress: the edges of the bore yield first,
-    at a fit that falls with the mesh and says nothing of the joint.
+    Yield means that the mean von Mises stress of the layer of 0.05 mm along the bore reaches the yield stress: at the edges of
+    the bore first yield comes at a fit that falls with the size of the elements, so it cannot serve.
     """
 
     fit_a: np.ndarray
@@ -62,7 +62,7 @@ class _Solid:
         self.hardened = np.zeros(self.B.shape[2:])
 
     def respond(self, u, swelling):
-        """Internal forces, tangent stiffness, and the trial's new plastic state."""
+        """Internal forces, tangent stiffness, new plastic state, and von Mises stress of the elastic trial."""
         strain = np.einsum("bcef,be->cef", self.B, u[self.basis.element_dofs]) - swelling * self.swell - self.plastic
         trial = np.einsum("ij,jef->ief", self.C, strain)
         mean = trial[:3].mean(axis=0)

@@ -1,4 +1,4 @@
-"""From the condensed joint to the table: sample the homogeneous response, fit splines, measure the error on loads that did not build it."""
+"""From the condensed joint to the table: sample the homogeneous response, fit splines, measure the error at loads that the table was not made from."""
 
 from concurrent.futures import ProcessPoolExecutor
 from contextlib import ExitStack
@@ -16,7 +16,7 @@ from .load_cases import Joint
 
 MOMENT_LENGTH = 2e-3  # L: prying opens the default joint near M = P L
 
-# Knots close where contacts open: b = 1/2 (N = P), c = 1/2 (M = P L), xi = 0...12 nm/N (the bore closes all around).
+# Knots are close together where contacts open: b = 1/2 (N = P), c = 1/2 (M = P L), xi = 0...12 nm/N (the bore closes all around).
 FULL = {
     "a": np.array([0.0, 0.1, 0.2, 0.35, 0.5, 0.65, 0.8, 0.9, 1.0]),
     "b": np.array([0.0, 0.2, 0.35, 0.44, 0.5, 0.56, 0.65, 0.77, 0.9, 1.0]),
@@ -36,7 +36,7 @@ def _moments(M, direction):
 
 
 def _row(task):
-    """All xi of one (a, b, c, sheet), from high to low so that contacts open one after the other: what `measure` sees, per newton [xi, ...]."""
+    """Results of `measure` per newton at all xi of one (a, b, c, sheet) [xi, ...]; xi falls, so that contacts open one after the other."""
     a, b, c, sheet, xi, measure = task
     P, N, V, M = loads_of(a, b, c, MOMENT_LENGTH)
     forces, active = [], None
@@ -48,7 +48,7 @@ def _row(task):
 
 
 def representative(a, b, c, sheet):
-    """Coordinates that stand for all equal ones: where a, b or the sheet have no meaning they are 0 and "plane"."""
+    """One set of coordinates for all those with the same response: a, b and the sheet are 0 and "plane" where they have no meaning."""
     if c == 1.0:
         a = b = 0.0
     if a == 1.0:
@@ -75,7 +75,7 @@ def _map(joint, function, tasks, workers, progress):
 def sample(joint, knots, workers=2, progress=None, measure=Joint.channels, representative=representative):
     """T [1/m2] at the sites of all axes: [a, b, c, xi, sheet, channel].
 
-    measure(joint, forces [contacts, cases]) -> [cases, numbers]; representative: which coordinates stand for others.
+    measure(joint, forces [contacts, cases]) -> [cases, numbers]; representative: maps coordinates to those with the same response.
     """
     a, b, c, xi = (splines.sites(knots[name]) for name in rivet_table.AXES)
     points = [(x, y, z, sheet) for x in a for y in b for z in c for sheet in rivet_table.SHEETS]
@@ -100,7 +100,7 @@ class Load:
 
 
 def random_loads(count, seed, largest_fit=9.1e-6, clearance_only=False):
-    """Loads that no table is built from, prying in all directions: P, V <= 60 N, N <= 40 N, M <= 60 N.mm, half of the fits in clearance."""
+    """Random loads that no table is made from, with prying in all directions: P, V <= 60 N, N <= 40 N, M <= 60 N.mm, half of the fits in clearance."""
     rng = np.random.default_rng(seed)
     loads = []
     for i in range(count):

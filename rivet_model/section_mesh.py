@@ -1,6 +1,6 @@
 """Meridian meshes of rivet and flange: structured quadrilaterals whose contact edges have the same nodes on both bodies.
 
-z = 0 is the split plane, the upper (+x of the bearing) half has z > 0.  The gap is a number of the load case: the meshes never change with the fit.
+z = 0 is the split plane, the upper (+x of the bearing) half has z > 0.  The fit is a gap in the contact problem, so the meshes do not depend on it.
 """
 
 from dataclasses import dataclass
@@ -131,7 +131,7 @@ def flange_mesh(g, fine=None):
     blocks = _Blocks()
     blocks.rectangle(R + inner * g.relief_radius, bore)
     blocks.rectangle(outer, _levels([chamfer, bore, relief]))
-    # Between chamfer and plate_radii's nodes on the split plane: the chamfer's levels lead from the split plane to the bore's layers.
+    # Block between the chamfer and the nodes plate_radii on the split plane: its levels follow the chamfer from the split plane to the bore's layers.
     plane = np.linspace(R + g.edge_break, edge, len(inner))
     share = (chamfer / g.edge_break)[None, :]
     start = R + g.edge_break * (1.0 - share)

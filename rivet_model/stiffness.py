@@ -1,7 +1,7 @@
-"""What the dynamics needs of the joint, from the condensed finite elements: stiffnesses, clamp force, and the stress by head friction.
+"""Joint data for the dynamics from the condensed finite elements: stiffnesses, moment at opening, and the stress by head friction.
 
-Friction itself is not solved: with the capacity mu P of the plates and of the heads (2 mu P together) the dynamics carries it as a state.
-Here are the elastic numbers of its branches: the heads stick and drag the rivet while the bores are open; then the bores carry.
+Friction itself is not solved here: the dynamics has friction states with the capacities mu P of the plates and mu P of the heads.  This file gives the
+elastic stiffness of each branch: while the bores do not touch, the sticking heads drag the rivet; after that the bores carry.
 """
 
 import numpy as np
@@ -10,7 +10,7 @@ from .load_cases import surface_stress
 from .section_mesh import edge_nodes
 
 REFERENCE = 20.0  # N, preload at which tangents are taken: the response is homogeneous, so only ratios to it matter
-K_T_PLATE = 1.5e7  # N/m: a regularization; finite elements find the closed plates stiffer than 2e8, which only shortens the dynamics' steps
+K_T_PLATE = 1.5e7  # N/m: a regularization; the closed plates are stiffer than 2e8 by finite elements, which would only shorten the steps of the dynamics
 HOLE_FITS = 1e-6 * np.array([-90, -40, -20, -10, -6, -3, -1, 0, 1, 2, 4, 8])
 
 
@@ -24,7 +24,7 @@ def hole_stiffness(joint, fit, V=20.0):
 
 
 def axial_stiffness(joint):
-    """Open joint (N = 3...4 P), and what the closed plates add at N = P/4...P/2 [N/m]."""
+    """Stiffness of the open joint (N = 3...4 P), and the stiffness that the closed plates add to it at N = P/4...P/2 [N/m]."""
     z = [_rim(joint, 2, N=ratio * REFERENCE) for ratio in (0.25, 0.5, 3.0, 4.0)]
     k_open = REFERENCE / (z[3] - z[2])
     return k_open, 0.25 * REFERENCE / (z[1] - z[0]) - k_open
@@ -46,7 +46,7 @@ def head_friction(joint, P=REFERENCE, F=2.0):
     area = np.pi * (radii[1] ** 2 - radii[0] ** 2)
     up, down = (rivet.shear_load(edge_nodes(rivet.mesh, z=z, between=radii)) for z in (t, -t))
     drag, top = (up - down) / area, flange.shear_load(edge_nodes(flange.mesh, z=t, between=radii)) / area
-    u, v = rivet.solve(1, drag), flange.solve(1, top)  # per newton: of the rivet; of the upper flange, which feels -F (the lower one +F)
+    u, v = rivet.solve(1, drag), flange.solve(1, top)  # per newton, of the rivet and of the upper flange; the upper flange feels -F, the lower one +F
     on_rivet, on_flange = joint.rivet_loads.T @ u, joint.flange_loads.T @ v  # outward displacement amplitudes of the rings
     approach = np.zeros(joint.size)
     for body, rings, sign in ((on_rivet, joint.ring_slices, 1.0), (on_flange, joint.upper, -1.0), (on_flange, joint.lower, 1.0)):
@@ -82,7 +82,7 @@ def head_friction(joint, P=REFERENCE, F=2.0):
 def prying(joint, P=REFERENCE):
     """Moment at which the joint opens per clamp force [m], and rotational stiffness of the joint held open [N.m/rad].
 
-    The branch far past opening is a straight line; it is continued back to zero rotation.
+    Far past opening, the moment over the rotation is a straight line; its intercept at zero rotation is the moment at opening.
     """
     M = np.array([4.0, 5.0]) * P * 2e-3
     rotation = [joint.solve(P, 0.0, 0.0, m, 0.0, -90e-6)[1][9] for m in M]

@@ -1,4 +1,4 @@
-"""Ball bearing with a two-piece riveted cage: the FMU from Python, and what can be asked of it.
+"""Ball bearing with a two-piece riveted cage: build its FMU, run it, and analyse a bearing without a run.
 
     import riveted_bearing as rb
 
@@ -6,7 +6,7 @@
     case.equilibrium().Q_i                                       # load of each ball on the inner race [N]
     result = rb.run("demo", parameters={"joint.preload": "30 N"}, t_end=0.1)
     result.data["rivet.sigma_head_max"].max()                    # largest stress in a rivet's head [Pa]
-    again = rb.read_result("results/demo.parquet")               # what `riveted-bearing run demo` has written
+    again = rb.read_result("results/demo.parquet")               # a file that `riveted-bearing run demo` has written
     path = rb.build("6310")                                      # an FMU for another bearing: needs a C compiler
 
 Numbers are SI; a text carries its unit ("30 N", "18238 rev/min").  Whatever cannot be used raises UserError with one message that names it.
@@ -14,8 +14,8 @@ The command `riveted-bearing` does the same and more; docs/running.md explains b
 the finite elements of the rivet in rivet_model.
 """
 
-# The functions below import what they need when they are called: fmpy, SciPy and matplotlib take a second.  A module of this package has another name
-# than any function here (runner and run, builder and build), because Python puts an imported module of the same name in the function's place.
+# The functions below import what they need when they are called: fmpy, SciPy and matplotlib take a second.  No module of this package has
+# the name of a function here (runner and run, builder and build), because Python would put the imported module in the function's place.
 
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
@@ -48,8 +48,9 @@ def run(
 
     scene: name of a shipped scene (demo, R, F, jam) or path of a TOML file; parameters, inputs: changes by full variable name, values as in the file
     (SI numbers, "30 N", item names; inputs also {"t": [...], "value": [...]}); fmu: path of the FMU, None for the default one;
-    seed: start.seed; t_end, step: s; outputs: names or patterns; progress: called now and then with the simulated time [s].
-    Raises UserError (a ValueError) naming what cannot be used.  A run that the FMU ends early returns what there is, with `stopped` telling why.
+    seed: start.seed; t_end, step: s; outputs: names or patterns; progress: called with the simulated time [s] about twenty times a second.
+    Raises UserError (a ValueError) naming what cannot be used.  If the FMU ends a run early, the Result holds the run up to that time, and its member
+    `stopped` gives the reason.
 
         >>> import riveted_bearing as rb
         >>> result = rb.run("demo", parameters={"joint.preload": "30 N"}, t_end=0.01)
@@ -70,7 +71,7 @@ def run(
 
 
 def info(target: str | Path = "6207", fmu: str | Path | None = None) -> "Case":
-    """What is known of a bearing, or of a scene at its start, without a simulation.
+    """Geometry, masses, loads and quasi-static equilibrium of a bearing, or of a scene at its start, without a simulation.
 
     target: designation of a shipped bearing (6207, 6310), bearing file, name of a shipped scene or scene file; fmu: the FMU whose start values a scene
     begins from, None for the default one.
@@ -99,7 +100,7 @@ def build(
     bearing: bearing file or designation, None for the 6207; rivet: rivet table (JSON), or geometry (TOML) to make one by finite elements in some half an
     hour (coarse: in seconds, roughly), None for the shipped table if it fits the bearing, else closed forms; out: the FMU to write, None for my.fmu in the
     working directory from my.toml, and RivetedBearing.fmu (in a checkout: in fmus/) from the default; platforms: FMI's names, e.g. ["win64"], of the
-    systems to compile for instead of this one (needs ziglang); progress: called with what is being done and, if known, the share done.
+    systems to compile for instead of this one (needs ziglang); progress: called with a description of the present step and, if known, the share done.
     Raises UserError with the reason; `out` is then left as it was.
     """
     from .builder import build_fmu, platform_names

@@ -17,7 +17,7 @@ DRAWN = 0.13  # largest clearance as drawn / ball diameter
 
 
 def needed(Z):
-    """Channels without which nothing can be drawn."""
+    """Channels that the drawing cannot do without."""
     halves = [f"half_{h}.{name}" for h in (0, 1) for name in ("x", "y", "z", "psi")]
     return halves + [f"ball[{j}].{name}" for j in range(1, Z + 1) for name in ("x", "r", "psi")]
 
@@ -28,7 +28,7 @@ def number_of_balls(result):
 
 
 def frames(result):
-    """What animation.js needs, ready for JSON (None if that is not possible), and the list of missing channels.
+    """Data for animation.js, ready for JSON (None if channels are missing), and the list of missing channels.
 
     Azimuths are relative to the mean rotation of the halves, `psi` [rad], so that they fit 16 bits; channels are {first, step, data}: value = first + step n,
     n 16-bit numbers in base64; SI units.
@@ -66,7 +66,7 @@ def frames(result):
 
 
 def thinning(rows, Z):
-    """Every which row fits the budget: 2 bytes a channel in base64."""
+    """Distance of the rows to keep, so that all channels, at 2 bytes a value in base64, fit the budget."""
     channels = len(SCALARS) + 1 + Z * (len(OF_BALLS) + 2)
     return max(1, -(-rows * channels * 8 // (3 * BUDGET)))
 
@@ -88,7 +88,7 @@ def angle(t, omega):
 
 
 def exaggeration(p):
-    """How many times larger than they are displacements and clearances are drawn: 1, 2 or 5 times a power of ten, at most a share of the ball."""
+    """Factor by which displacements and clearances are magnified: 1, 2 or 5 times a power of ten, limited to a share of the ball."""
     largest = DRAWN * p["bearing.D"] / max(0.5 * p["cage.pocket_clearance"], 0.5 * p["cage.guide_clearance"], 1e-5)
     decade = 10.0 ** np.floor(np.log10(largest))
     return float(max(1.0, decade * max(step for step in (1, 2, 5) if step * decade <= largest)))

@@ -1,4 +1,4 @@
-"""Bearing files: what a bearing is, its catalogue data and what follows from them without a simulation.
+"""Bearing files: geometry, materials and catalogue data of a bearing, and the results that need no simulation.
 
     designation = "6310"
     Z = 8
@@ -8,7 +8,7 @@
     [inputs]              # likewise
     shaft.F_y = 6000.0
 
-A number is SI, a text carries its unit; what is left out keeps its start value of the variable table, that of the 6207.
+A number is SI, a text carries its unit; a variable that the file leaves out keeps its start value in the variable table, that of the 6207.
 """
 
 import math
@@ -94,7 +94,7 @@ def is_bearing(source):
 
 
 def bearing_case(source):
-    """The Case of a bearing file: its values over the variable table's; UserError naming file, key, value and what is allowed."""
+    """The Case of a bearing file: its values, and start values of the variable table for all others; UserError naming file, key, value and what is allowed."""
     path = find_bearing(source)
     document = read_toml(path)
     for key in document:
@@ -169,7 +169,7 @@ def case_of(target, fmu=None):
 
 
 def scene_case(source, model):
-    """The Case of a scene at its start, with the FMU's values for all that the scene leaves open."""
+    """The Case of a scene at its start, with the FMU's start values for all variables that the scene does not set."""
     scene = load_scene(source, model)
     values = {name: model.default(variable) for name, variable in (model.parameters | model.inputs).items()}
     values |= scene.parameters | {name: float(history(0.0)) for name, history in scene.inputs.items()}

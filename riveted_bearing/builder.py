@@ -4,7 +4,7 @@
     cmake -S SOURCES -B BUILD -DGENERATED_DIR=BUILD/generated -DRIVET_TABLE=TABLE
     cmake --build BUILD --target fmu
 
-For other platforms each binary is compiled in a build folder of its own with zig (cmake/zig.cmake), and the last step packs them together.
+For other platforms zig compiles each binary in a build folder of its own (cmake/zig.cmake), and the last step packs all binaries into one FMU.
 
 Intermediate files stay in BUILD, so that the next build of the same bearing compiles only what changed.
 """
@@ -41,8 +41,8 @@ def build_fmu(bearing=None, rivet=None, out=None, say=lambda text, share=None: N
 
     bearing: bearing file or designation, None for the default one; rivet: rivet table (JSON), or geometry (TOML) to make one by finite elements,
     None for the tracked table if it fits the bearing, else closed forms; out: the FMU to write, None for my.fmu here from my.toml, RivetedBearing.fmu
-    from the default (in a checkout: in fmus/); say: called with what is being done and the share done; platforms: names of FMI's binary folders to
-    cross-compile for (cmake/zig.cmake), none for this machine's compiler alone; coarse: see table_of.
+    from the default (in a checkout: in fmus/); say: called with a description of the present step and the share done; platforms: names of FMI's binary
+    folders to cross-compile for (cmake/zig.cmake), none for this machine's compiler alone; coarse: see table_of.
     Raises UserError with the reason; `out` is then left as it was.
     """
     sources = source_folder()
@@ -66,7 +66,7 @@ def build_fmu(bearing=None, rivet=None, out=None, say=lambda text, share=None: N
     say("starting it once")
     try_start(finished)
     write_atomically(out, lambda temporary: shutil.copyfile(finished, temporary))
-    if out.resolve() == sources / "fmus" / FMU_NAME and not bearing and (sources / "examples").is_dir():  # the example goes with the checkout's own
+    if out.resolve() == sources / "fmus" / FMU_NAME and not bearing and (sources / "examples").is_dir():  # the example uses the FMU of the checkout
         compile_target(cmake, sources, folder, options, "transmission", say)
         for name in ("Shaft.fmu", "Transmission.ssp"):
             write_atomically(out.with_name(name), lambda temporary, made=folder / name: shutil.copyfile(made, temporary))
@@ -100,7 +100,7 @@ def compile_target(cmake, sources, folder, options, target, say):
 
 
 def find_zig():
-    """Path of zig: the Python package's, else the one on the path."""
+    """Path of zig: that of the Python package, else that on the search path."""
     package = importlib.util.find_spec("ziglang")
     found = (package and shutil.which("zig", path=package.submodule_search_locations[0])) or shutil.which("zig")
     if not found:
@@ -123,7 +123,7 @@ def source_folder():
 
 
 def default_out(sources, source):
-    """Where the FMU goes unless told: my.fmu here for the bearing or rivet my.toml; the default one in fmus/ of a checkout, else here."""
+    """Default path of the FMU: my.fmu in the working directory for the bearing or rivet my.toml; that of the 6207 in fmus/ of a checkout."""
     if source:
         return Path.cwd() / f"{Path(source).stem}.fmu"
     return (sources / "fmus" if sources == PACKAGE.parent else Path.cwd()) / FMU_NAME
@@ -162,7 +162,7 @@ def generator(folder):
 
 
 def given_table(path, case, folder, coarse, say):
-    """Absolute path of the user's rivet table, or of the one made for the user's geometry; UserError if it cannot be had or is for another cage."""
+    """Absolute path of the user's rivet table, or of the one made for the user's geometry; UserError if it cannot be read or made, or is for another cage."""
     path = Path(path)
     if path.suffix != ".toml":
         read_table(path, case.Z)
@@ -171,7 +171,7 @@ def given_table(path, case, folder, coarse, say):
 
 
 def cage(case):
-    """What a bearing says of the geometry of its rivets: sizes of the cage [m] and the number of rivets."""
+    """Values of the rivets' geometry that follow from a bearing: sizes of the cage [m] and the number of rivets."""
     v = case.values
     return {
         "Z": case.Z,
@@ -181,7 +181,7 @@ def cage(case):
         "cage_outer_diameter": v["cage.D_o"],
         "cage_inner_diameter": v["cage.D_i"],
         "cage_half_width": 2.0 * v["cage.x_c"],
-        "patch_radius": round((v["cage.D_o"] - v["cage.D_i"]) / 4.0, 12),  # without the rounding of the difference: the table's digest knows every bit
+        "patch_radius": round((v["cage.D_o"] - v["cage.D_i"]) / 4.0, 12),  # rounded, because the table's digest depends on every bit
     }
 
 
@@ -213,7 +213,7 @@ def execute(command, folder, say):
 
 
 def essence(lines):
-    """The lines that tell what went wrong: those with an error and what follows, else the last ones."""
+    """The lines that tell the cause: the first error and the two lines after it, else the last three lines."""
     lines = [line.strip() for line in lines if line.strip() and not STEP.match(line)]
     first = next((i for i, line in enumerate(lines) if re.search(r"\berror\b|^generate:|^rivet table:", line, re.IGNORECASE)), max(len(lines) - 3, 0))
     return " ".join(lines[first : first + 3])

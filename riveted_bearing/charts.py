@@ -1,4 +1,4 @@
-"""The report's charts: drawn by matplotlib, given back as SVG that takes its colours from the page."""
+"""The report's charts: matplotlib draws them as SVG, whose colours the page sets."""
 
 import html
 import io
@@ -28,12 +28,12 @@ PAGE_COLOURS = {  # of plot.py -> custom properties of style.css
     "#ffffff": "var(--paper)",
 }
 SVG = {"svg.fonttype": "none", "image.composite_image": False, "figure.facecolor": "none", "axes.facecolor": "none"}
-BUCKETS = 600  # over time: as many pairs of largest and smallest value
+BUCKETS = 600  # of time, each with the smallest and the largest value
 AZIMUTHS = 36
 
 
 def svg(draw, size, label):
-    """What draw(figure) makes, as an <svg> element without fixed size; size: inches, at which 9 points are legible on a phone's width."""
+    """The figure of draw(figure) as an <svg> element without fixed size; size: inches, at which 9 points are legible on a phone's width."""
     with plt.rc_context(STYLE | SVG | {"svg.hashsalt": label}):
         figure = plt.figure(figsize=size, layout="constrained")
         draw(figure)
@@ -180,7 +180,7 @@ def rivet_bars(figure, result):
 
 
 def stress_over_azimuth(figure, result):
-    """Mean peak of the head stress, rivet by rivet, over where the rivet is."""
+    """Mean peak of the head stress, rivet by rivet, over the rivet's azimuth."""
     late, names = settled(result), columns(result, "rivet[", "].sigma_head_peak")
     Z, rows = len(names), []
     for k, name in enumerate(names, 1):
@@ -190,7 +190,7 @@ def stress_over_azimuth(figure, result):
 
 
 def stress_over_time(figure, result):
-    """Largest head stress, rivet by rivet, in stretches of time; the colours end at the largest one after settling."""
+    """Largest head stress, rivet by rivet, in stretches of time; the colour scale ends at the largest stress after settling."""
     names, t = columns(result, "rivet[", "].sigma_head_peak"), result.data["time"]
     first = np.unique(np.linspace(0, len(t), 240, endpoint=False).astype(int))
     rows = [1e-6 * np.maximum.reduceat(result.data[name], first) for name in names]

@@ -1,9 +1,9 @@
 """One scene through the FMU and through the Python reference (bearing_model.integrator), which shares no code with it.
 
-Short horizon: outputs at the same instants, at several tolerances.  What falls with the tolerance is the integration's error; what stays is a difference
-of the models.  Motion is measured in the integrator's error scales (10 um, 0.1 m/s, angles by arc length at the pitch circle), so a number there
-compares with the tolerance; loads and stresses in their own largest value.
-Long horizon: trajectories have parted (errors grow e-fold in 1.4 ... 2.7 ms), statistics remain: the reference against the FMU's scatter over seeds.
+Short horizon: outputs at the same instants, at several tolerances.  A difference that falls with the tolerance is the integration's error; a difference that
+stays is one of the models.  Differences of motion are given in the integrator's error scales (10 um, 0.1 m/s, angles by arc length at the pitch circle),
+so that they compare with the tolerance; those of loads and stresses as parts of the largest value.
+Long horizon: trajectories have parted (errors grow e-fold in 1.4 ... 2.7 ms), so statistics are compared: the reference with the FMU's scatter over seeds.
 """
 
 import re
@@ -20,14 +20,14 @@ from .runner import simulate
 
 POINTS = 20  # instants of the short horizon
 FINER = (1.0, 1e-2, 1e-4)  # tolerances of the FMU / the scene's
-REFERENCE_FINER = 1e-6  # the reference's on the short horizon
-LONG_FINER = 1e-2  # on the long one: at 1e-3 RK45's own error moves the mean stress by 0.3 %, more than its scatter over seeds; 1e-5 costs no more
+REFERENCE_FINER = 1e-6  # tolerance of the reference on the short horizon / the scene's
+LONG_FINER = 1e-2  # on the long horizon: at 1e-3 the error of RK45 moves the mean stress by 0.3 %, more than the scatter over seeds; 1e-5 costs no more
 SETTLED = 0.2  # share of the long horizon that its statistics leave out, unless the scene settles earlier
 MOTION = {"m": 1e-5, "m/s": 0.1}
 LEAST = {  # smallest scale of loads, stresses, accelerations, contact angles, ratios
     "N": 1.0, "N.m": 1e-3, "Pa": 1e5, "m/s2": 1.0, "1/s2": 100.0, "W": 1.0, "rad": 1e-3, "1": 1e-3
 }  # fmt: skip
-LEFT_OUT = ("rivet[k].flag", "bearing.contacts", "bearing.energy_residual")  # jump from one whole number to the next; is an integration's own error
+LEFT_OUT = ("rivet[k].flag", "bearing.contacts", "bearing.energy_residual")  # the first two jump between whole numbers, the last one is itself an error
 STEPS_COUNT = ("peak", "event")  # groups that depend on the steps taken
 SEEDS = 8
 
@@ -66,7 +66,7 @@ class Statistic:
 
     @property
     def deviation(self):
-        """The same in standard deviations; nan where all seeds give one value."""
+        """Difference in standard deviations of the FMU over seeds; nan where all seeds give one value."""
         return (self.reference - self.mean) / self.scatter if self.scatter else float("nan")
 
 
@@ -86,11 +86,12 @@ class Comparison:
 
 
 def compare(model, scene, short=1e-3, long=0.1, seeds=SEEDS, method="DOP853", progress=None):
-    """Run a Scene that was checked against the Model through both, see the head of this file; a Comparison.
+    """Run a Scene, checked against the Model, through FMU and reference as the head of this file says; returns a Comparison.
 
-    short, long: horizons [s], long = 0 for none; seeds: runs of the FMU over the long one; method: the reference's over the short one (Radau where
-    films or joints are stiff; RK45 over the long one, whose steps are as dense as the FMU's); progress: called with what runs and the share done.
-    Raises UserError if the FMU is of another bearing than the reference, or one of them refuses or cannot go on.
+    short, long: horizons [s], long = 0 for none; seeds: runs of the FMU over the long horizon; method: the reference's method over the short horizon
+    (Radau where films or joints are stiff; over the long horizon RK45, whose steps are as dense as the FMU's); progress: called with the name of the
+    present run and the share done.
+    Raises UserError if the FMU is of another bearing than the reference, or if FMU or reference refuse or cannot go on.
     """
     progress = progress or (lambda what, share: None)
     check_same_bearing(model)
@@ -125,7 +126,7 @@ def through_fmu(model, scene, tolerance, **parameters):
 
 
 def through_reference(parameters, scene, tolerance, method, progress):
-    """The reference's Results of a scene with the FMU's own parameters; UserError where it refuses or cannot go on."""
+    """The reference's Results of a scene with the FMU's own parameters; UserError if the reference refuses or cannot go on."""
 
     def held(t):
         progress(t / scene.t_end)
@@ -156,7 +157,7 @@ def channels(model, names, reference, runs):
 
 
 def scale_of(variable, values, parameters):
-    """What a difference is measured in: the integrator's error scale for motion, else the largest value."""
+    """Scale of a channel's differences: the integrator's error scale for motion, else the largest value."""
     r = 0.5 * parameters["bearing.d_m"]
     motion = MOTION | {"rad": MOTION["m"] / r, "rad/s": MOTION["m/s"] / r, "1/s": MOTION["m/s"] / r}
     if is_motion(variable):
@@ -165,7 +166,7 @@ def scale_of(variable, values, parameters):
 
 
 def is_motion(channel):
-    """Whether a channel is a place, an angle or a speed of a body, measured in the integrator's error scales."""
+    """Whether a channel is a position, an angle or a speed of a body, whose differences are measured in the integrator's error scales."""
     return channel.unit in ("m", "m/s", "rad", "rad/s", "1/s") and "alpha" not in channel.name
 
 
@@ -221,7 +222,7 @@ def long_table(found):
 
 
 def ledger_table(ledger):
-    """Rich table of where the energy of the reference went."""
+    """Rich table of the energies supplied, stored and lost in the reference."""
     table = Table("", Column("J", justify="right"), box=None, pad_edge=False)
     for title, account in (("supplied", ledger.supplied), ("stored", ledger.stored), ("lost", ledger.lost)):
         for name, value in account.items():

@@ -1,4 +1,4 @@
-"""What the user can put right: reported in one message, without a traceback."""
+"""Errors that the user can put right: one message each, without a traceback."""
 
 from difflib import get_close_matches
 

@@ -1,4 +1,4 @@
-"""The FMU seen from Python: what it offers (Model) and one running instance of it (Instance)."""
+"""The FMU from Python: its variables (Model) and one running instance (Instance)."""
 
 import ctypes
 import functools
@@ -24,7 +24,7 @@ LOGS = {}  # component environment -> log of its instance
 
 @fmi2CallbackLoggerTYPE
 def keep_message(environment, name, status, category, message):
-    """Callback of all FMUs' loggers: fmpy's proxy, which formats the message, knows only one, so the instances differ by their environment."""
+    """Callback of the loggers of all FMUs: fmpy's proxy, which formats messages, takes one callback only, so the environment tells the instances apart."""
     if environment in LOGS:
         LOGS[environment].append((LEVELS[status], message.decode(errors="replace").strip()))
 
@@ -39,7 +39,7 @@ def default_fmu():
 
 
 class Model:
-    """What an FMU offers: its variables by name, with units, limits and enumerations.
+    """An FMU's variables by name, with units, limits and enumerations.
 
     path: the .fmu file, None for the default one.  Raises UserError if it is not a co-simulation FMU of FMI 2.0.
     """
@@ -50,7 +50,7 @@ class Model:
             raise UserError(f"{self.path}: no such FMU")
         try:
             self.description = read_model_description(str(self.path), validate=False)
-        except Exception as problem:  # fmpy raises whatever zip and XML readers raise
+        except Exception as problem:  # fmpy passes on all errors of its readers of zip and XML
             raise UserError(f"{self.path}: not a readable FMU: {problem}") from None
         if self.description.coSimulation is None or not self.description.fmiVersion.startswith("2."):
             raise UserError(f"{self.path}: not a co-simulation FMU of FMI 2.0")
@@ -62,7 +62,7 @@ class Model:
 
     @functools.cached_property
     def folder(self):
-        """The FMU unpacked, for all its instances: removed with the Model."""
+        """Folder of the unpacked FMU, for all its instances; removed with the Model."""
         folder = extract(str(self.path))
         weakref.finalize(self, shutil.rmtree, folder, ignore_errors=True)
         return folder
@@ -156,7 +156,7 @@ class Instance:
         LOGS.pop(id(self), None)
 
     def complaints(self):
-        """What the FMU had to say when it failed, the last messages last."""
+        """The FMU's messages about its failure, oldest first."""
         lines = [message for level, message in self.log if level in ("discard", "error", "fatal")] or [message for _, message in self.log[-3:]]
         return "; ".join(lines) or "the FMU gave no reason"
 
@@ -212,7 +212,7 @@ class Instance:
         return read
 
     def last_successful_time(self, otherwise):
-        """Time up to which a discarded step got [s]."""
+        """Time [s] that a discarded step has reached."""
         value = ctypes.c_double(otherwise)
         try:
             self.fmu.fmi2GetRealStatus(self.fmu.component, fmi2LastSuccessfulTime, ctypes.byref(value))

@@ -15,7 +15,7 @@ CHANNELS = {"head": "sigma_head", "mid": "sigma_mid"}
 
 @dataclass(frozen=True)
 class RivetLife:
-    """Cycles (rows of range [Pa], mean [Pa], count) of one rivet's stress, Miner's sum of the run and time to Miner's sum 1 [s] if it went on like this."""
+    """Cycles (rows of range [Pa], mean [Pa], count) of one rivet's stress, Miner's sum of the run and time [s] to Miner's sum 1 if the run repeated."""
 
     cycles: np.ndarray
     damage: float
@@ -31,7 +31,7 @@ def fatigue_law(parameters):
 def stress_history(result, k, place):
     """Stress of rivet k at "head" or "mid" after settling [Pa]: peak and end of each communication step in turn, None if not recorded.
 
-    The dips between communication points are missing, so ranges are those of the peaks over the samples.
+    Minima between communication points are not recorded, so ranges are those between peaks and samples.
     """
     ends = result.data.get(f"rivet[{k}].{CHANNELS[place]}")
     if ends is None:

@@ -29,7 +29,7 @@ STYLE = {
 
 
 def plot_result(result, path):
-    """Write the picture of a result as PNG, whole or not at all; panels whose channels were not recorded stay out."""
+    """Write the picture of a result as PNG, whole or not at all; panels whose channels were not recorded are left out."""
     panels = [(draw, data) for draw, data in ((draw, wanted(result, names)) for draw, names in OVER_TIME) if data]
     with plt.rc_context(STYLE):
         figure = plt.figure(figsize=(13, 1.2 + 1.65 * max(len(panels), 4)), layout="constrained")
@@ -52,7 +52,7 @@ def plot_result(result, path):
 
 
 def title(result):
-    """What was run and what came out, in a few lines."""
+    """Scene, conditions and main figures in a few lines."""
     about, speed = result.about, result.data.get("shaft.omega")
     facts = [
         f"preload {result.parameters['joint.preload']:g} N",
@@ -67,7 +67,7 @@ def title(result):
 
 
 def wanted(result, names):
-    """The recorded ones of the named channels."""
+    """Those of the named channels that were recorded."""
     return {name: result.data[name] for name in names if name in result.data}
 
 
@@ -79,7 +79,7 @@ def mark_settling(ax, result):
 
 
 def show_settled(ax, result):
-    """Scale a panel by what comes after settling: the first shock may leave it."""
+    """Scale a panel by the values after settling; the first shock may exceed the panel."""
     late = settled(result)
     values = np.concatenate([line.get_ydata()[late] for line in ax.get_lines()])
     low, high = values.min(), values.max()
@@ -134,7 +134,7 @@ def ring(ax, t, data):
 
 
 def slip(ax, t, data):
-    """How much slower than rolling without slip the cage turns."""
+    """Slip of the cage: how much slower it turns than by rolling without slip."""
     ax.plot(t, 100 * data["cage.slip_ratio"], color=RING, lw=0.7)
     ax.set(title="Cage slip against the epicyclic speed", ylabel="%")
 
@@ -169,7 +169,7 @@ def cage_orbit(ax, result):
 
 
 def magnified(ax, y, z, half):
-    """The orbit once more in the middle of the empty circle, magnified: a square of the half width given [um]."""
+    """The orbit magnified in the middle of the empty circle: a square of the given half width [um]."""
     centre = (y.max() + y.min()) / 2, (z.max() + z.min()) / 2
     inset = ax.inset_axes([0.3, 0.3, 0.4, 0.4])
     inset.plot(y, z, color=FORCE, lw=0.35, alpha=0.8)
@@ -201,7 +201,7 @@ OVERLAID = (("ball[j].Q_i", "Contact loads"), ("ball[j].Q_c", "Pocket loads"), (
 
 
 def plot_comparison(found, path, dpi=110):
-    """Write the picture of a Comparison as PNG: outputs over each other, differences over time by tolerance, statistics in standard deviations."""
+    """Write the picture of a Comparison as PNG: outputs of both on top of each other, differences over time by tolerance, statistics in standard deviations."""
     with plt.rc_context(STYLE):
         rows = 3 if found.statistics else 2
         figure, axes = plt.subplots(2, rows, figsize=(4.6 * rows, 7.0), layout="constrained")
@@ -221,7 +221,7 @@ def plot_comparison(found, path, dpi=110):
 
 
 def overlay(ax, t, channel, title):
-    """One output of both: lines the reference, points the FMU at the scene's tolerance."""
+    """One output: the reference as lines, the FMU at the scene's tolerance as points."""
     ax.plot(t, channel.reference, color=FORCE, lw=0.8)[0].set_label("reference")
     ax.plot(t, channel.fmu, ".", color=HEAD, ms=3.5)[0].set_label("FMU")
     ax.set(title=title, xlabel="time [ms]", ylabel=channel.unit)

@@ -1,4 +1,4 @@
-"""A run as one HTML page that needs nothing else: what was run, stress, loads, cage, life, solver, and the motion to play and scrub."""
+"""A run as one self-contained HTML page: settings, stress, loads, cage, life, solver, and the motion to play and scrub."""
 
 import json
 import math
@@ -24,7 +24,7 @@ DISPLAY = {"rad/s": (RPM, "rev/min"), "rad": (DEG, "deg"), "Pa": (1e-6, "MPa"), 
 
 
 def report_files(source):
-    """The result files that a path means: itself, or all of a folder; UserError if there are none."""
+    """The result files of a path: the file itself, or all in the folder; UserError if there are none."""
     source = Path(source)
     if not source.is_dir():
         return [source]
@@ -35,7 +35,7 @@ def report_files(source):
 
 
 def report_pages(source, out=None):
-    """Write a page for each result that a path means, and give back their paths one by one.
+    """Write a page for each result of a path and yield the pages' paths one by one.
 
     out: file, or folder for the pages; None for beside the results.  Raises UserError if there is no result, or if several are to go into one file.
     """
@@ -100,7 +100,7 @@ def named(*names):
 
 
 PANELS = {draw.__name__: charts.over_time((draw, names)) for draw, names in plot.OVER_TIME}
-CHARTS = {  # name: (draw(figure, result), size, label, channels without which there is nothing to draw)
+CHARTS = {  # name: (draw(figure, result), size, label, channels that the chart needs)
     "loads": (PANELS["loads"], LOW, "Loads on the inner ring over time", named("shaft.F_x", "shaft.F_y", "shaft.omega")),
     "stress": (PANELS["stress"], WIDE, "Largest rivet stress over time", named("rivet.sigma_head_max", "rivet.sigma_mid_max")),
     "spectra": (charts.spectra, WIDE, "Spectra of the worst rivet's stress", rivet_channels("sigma_head", "sigma_mid")),
@@ -135,7 +135,7 @@ def chart(result, name, lives):
 
 
 def all_lives(result):
-    """One dict a rivet: k, RivetLife of head and middle, and the FMU's own Miner's sums if it counted."""
+    """One dict a rivet: k, RivetLife of head and middle, and the FMU's own Miner's sums if it has computed them."""
     rows = []
     if result.parameters.get("scene.stress") == "off":
         return rows
@@ -194,7 +194,7 @@ def setting_rows(result):
 
 
 def ball_rows(result):
-    """Smallest, mean and largest of what happens in the race contacts while they carry: (name, unit, three figures)."""
+    """Smallest, mean and largest values in the race contacts while they carry: (name, unit, three figures)."""
     late = settled(result)
     for title, name, factor, unit in (
         ("Load, inner race", "Q_i", 1.0, "N"),
@@ -219,7 +219,7 @@ def ball_rows(result):
 
 
 def solver_rows(result):
-    """Name and value of what the solver did and of its self-checks."""
+    """Name and value of the solver's counters and self-checks."""
     s = result.summary
     for key, text in (("steps", "internal steps"), ("rhs_evals", "evaluations of the equations"), ("error_tests_failed", "steps rejected")):
         if f"solver.{key}" in s:

@@ -23,8 +23,8 @@ KEY = "riveted_bearing"
 
 @dataclass(frozen=True)
 class Result:
-    """What a run gave: data (arrays by channel, "time" [s] first), units by channel, all parameters (SI value or item name),
-    summary (statistics over every internal step, solver counters and run times at the end) and about (scene, FMU, versions, why it stopped)."""
+    """Result of a run: data (arrays by channel, "time" [s] first), units by channel, all parameters (SI value or item name),
+    summary (statistics over every internal step, solver counters and run times at the end) and about (scene, FMU, versions, reason of an early stop)."""
 
     data: dict
     units: dict
@@ -39,11 +39,11 @@ class Result:
 
     @property
     def stopped(self):
-        """Why the run ended before its time, "" if it did not."""
+        """Reason of an early stop, "" if the run reached its end."""
         return self.about.get("stopped", "")
 
     def metadata(self):
-        """All but the numbers over time."""
+        """All members but the data over time, ready for JSON."""
         return {"format": FORMAT_VERSION, "about": self.about, "parameters": self.parameters, "summary": self.summary, "units": self.units}
 
 
@@ -88,7 +88,7 @@ def make_folder(folder):
 
 
 def write_atomically(path, write):
-    """Let write(temporary path) make a file beside `path`, then put it in its place: never half a file.  UserError if folder or disk refuse."""
+    """Let write(temporary path) make a file beside `path`, then rename it to `path`: never half a file.  UserError if folder or disk refuse."""
     make_folder(path.parent)
     temporary = path.with_name(f".{path.stem}.{os.getpid()}{path.suffix}")
     try:
@@ -194,7 +194,7 @@ def read_mat(path):
 
 
 def group_by_place(names):
-    """Names by their place without indices: ("ball", "Q_i") -> ["ball[1].Q_i", "ball[2].Q_i", ...]."""
+    """Names grouped by their path without indices: ("ball", "Q_i") -> ["ball[1].Q_i", "ball[2].Q_i", ...]."""
     places = {}
     for name in names:
         places.setdefault(tuple(re.sub(r"\[\d+\]", "", name).split(".")), []).append(name)

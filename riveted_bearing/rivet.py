@@ -1,4 +1,4 @@
-"""What the rivets of a table or of a geometry carry: curves over preload, fit and transverse load, and pictures of the finite elements."""
+"""Stress of the rivets of a table or of a geometry: curves over preload, fit and transverse load, and pictures of the finite elements."""
 
 from concurrent.futures import BrokenExecutor
 from hashlib import sha256
@@ -17,14 +17,14 @@ from rivet_model.load_cases import Joint
 from .errors import UserError
 from .results import write_atomically
 
-ROWS = {"preload": 10.0, "fit": 10e-6, "transverse load": 10.0}  # distance of the rows printed, SI
+ROWS = {"preload": 10.0, "fit": 10e-6, "transverse load": 10.0}  # distance of the printed rows, SI
 
 
 @threadpool_limits.wrap(limits=1)  # small matrices
 def rivet_curves(source=None):
     """Title, curves (see rivet_model.pictures.curves) and Joint of a rivet.
 
-    source: rivet table (JSON) or geometry (TOML), None for the tracked table; a geometry is solved on the spot, in some 20 s.
+    source: rivet table (JSON) or geometry (TOML), None for the tracked table; for a geometry the finite elements are solved, in some 20 s.
     Raises UserError naming file and fault.
     """
     path = Path(source or rivet_table.DEFAULT_TABLE)
@@ -38,7 +38,7 @@ def rivet_curves(source=None):
 
 
 def read_geometry(path, cage=None):
-    """Geometry of a TOML file; UserError if it cannot be read, has an impossible size, or says otherwise than the bearing's cage."""
+    """Geometry of a TOML file; UserError if it cannot be read, has an impossible size, or contradicts the bearing's cage."""
     try:
         return Geometry.from_toml(path, cage or {})
     except OSError as problem:
@@ -84,7 +84,7 @@ def table_of(path, geometry, folder, coarse=False, say=lambda text, share: None)
 
 
 def sources_digest():
-    """What the files are that make a table, so that a table made by others is not taken for theirs."""
+    """Digest of the source files that make a table, so that a table made by other sources is not taken for theirs."""
     readers = (Path(module.__file__) for module in (load_path, rivet_rom, rivet_splines, rivet_table))
     files = [*sorted(Path(table.__file__).parent.glob("*.py")), *readers]
     return sha256(b"".join(file.read_bytes() for file in files)).hexdigest()[:8]

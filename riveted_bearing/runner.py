@@ -1,4 +1,4 @@
-"""Run a scene through the FMU, step by step, and keep what it did."""
+"""Run a scene through the FMU, step by step, and keep its outputs."""
 
 import itertools
 import platform
@@ -98,12 +98,12 @@ def closing_values(instance, model):
 
 
 def closing_names(model):
-    """Outputs that say how it went in all: statistics, damage, solver counters."""
+    """Outputs over the whole run: statistics, damage, solver counters."""
     return [name for name in model.outputs if name.startswith(("stat.", "solver.")) or ".damage_" in name]
 
 
 def provenance(model, scene):
-    """Where a result comes from."""
+    """Origin of a result: scene, inputs, FMU, versions, machine, date."""
     return {
         "scene": scene.name,
         "description": scene.description,

@@ -1,4 +1,4 @@
-"""Scenes: what to simulate, from TOML, checked against the FMU that is to run it.
+"""Scenes: what to simulate, from TOML files, checked against the FMU that is to run them.
 
     description = "..."
     [simulation]
@@ -42,7 +42,7 @@ LARGEST_RESULT = 4 * 2**30  # bytes
 
 @dataclass(frozen=True)
 class History:
-    """An input over time: straight lines between points or, with hold, steps; constant outside."""
+    """An input over time: straight lines between points or, with hold, steps; constant before the first and after the last point."""
 
     t: np.ndarray
     value: np.ndarray
@@ -90,7 +90,7 @@ def load_scene(source, model, *changes):
 
     source: path of a TOML file or name of a shipped scene; model: the Model to run it;
     changes: pairs (origin for messages, document like the file's), later ones win.
-    scene.statistics is on unless set: communication points alone miss the impacts.
+    scene.statistics is on unless the scene sets it, because communication points alone miss the impacts.
     Returns a Scene; raises UserError naming file, key, value and what is allowed.
     """
     path = find_scene(source)
@@ -188,7 +188,7 @@ def read_simulation(where, section, model):
 
 
 def positive(value, scales):
-    """SI value greater than zero."""
+    """SI value of a number or text, which must be greater than zero."""
     number = to_si(value, scales)
     if number <= 0.0:
         raise UserError("must be greater than 0")
@@ -305,7 +305,7 @@ def is_hold(value):
 
 
 def check_times(scene, where):
-    """Steps must fit the end and each other."""
+    """UserError unless step, output interval and end fit each other and the result fits into memory."""
     if scene.step > scene.t_end:
         raise refusal(where, "simulation.step", scene.step, f"not longer than t_end = {scene.t_end:g} s is allowed")
     if scene.output_interval is not None and (scene.stride < 1 or abs(scene.stride * scene.step / scene.output_interval - 1.0) > 1e-9):

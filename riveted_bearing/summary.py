@@ -1,4 +1,4 @@
-"""The figures of a run that an engineer asks for first, as rows of mean, RMS, p99.9 and largest value."""
+"""The main figures of a run, as rows of mean, RMS, p99.9 and largest value."""
 
 from dataclasses import dataclass
 
@@ -59,7 +59,7 @@ def counted(result, channel, unit, pattern, factor):
 
 
 def stress(result, channel, pattern):
-    """A row of stress; None too where it was not computed at every step, and is 0 there."""
+    """A row of stress; None also if stress was not computed at every step, where the statistics are 0."""
     every_step = result.parameters.get("scene.stress") in ("peak", "fatigue")
     return counted(result, channel, "MPa", pattern, 1e-6) if every_step else None
 
@@ -75,7 +75,7 @@ def sampled(result, channel, unit, factor, names, combine=None):
 
 
 def settled(result):
-    """Which rows lie after start.settle; all of them if none does."""
+    """Mask of the rows after start.settle; of all rows if none is later."""
     late = result.data["time"] >= result.parameters.get("start.settle", 0.0)
     return late if late.any() else np.ones_like(late)
 

@@ -23,10 +23,10 @@
     seed = 1
     between.joint.mu = [0.05, 0.3]       # lowest and highest value
 
-A row holds what was run (all parameters and inputs in SI units), how it ended (status: done, stopped by the FMU, failed), the FMU's statistics over every
+A row holds all parameters and inputs of the run in SI units, its end (status: done, stopped by the FMU, failed), the FMU's statistics over every
 internal step, solver counters, run time (cpu_time of the simulation, whole_cpu_time with its start and end), and of each sampled output mean, rms, min, max
 and the quantiles p001 and p999 (0.1 and 99.9 %) after start.settle, as `mean(ring.y)`.
-Rows are written as they arrive, each file whole or not at all; a rerun does only what is missing or failed.
+Rows are written as they arrive, each file whole or not at all; a second call does only runs that are missing or failed.
 """
 
 import hashlib
@@ -73,7 +73,7 @@ class Sweep:
     name: str
     description: str
     model: Model
-    fmu: bytes = field(repr=False)  # its content, as it was when the design was made
+    fmu: bytes = field(repr=False)  # content of the file when the design was made
     document: dict
     factors: tuple
     scenes: dict = field(repr=False)  # key -> Scene, in the order in which they are run
@@ -88,7 +88,7 @@ def load_sweep(path, model):
 
 
 def plan_sweep(name, document, model, path):
-    """The Sweep of a document like the file's; `path` is where it stands, for messages and for the scene files it names."""
+    """The Sweep of a document like the file's; path: of the file, for messages and to find the scene files that it names."""
     for key in document:
         if key not in SECTIONS:
             raise unknown(path, "key", key, SECTIONS)
@@ -131,7 +131,7 @@ def vary_axis(path, block, model):
 
 
 def known_names(model):
-    """All that can vary."""
+    """Names of everything that can vary."""
     return ["scene", *(f"simulation.{key}" for key in SIMULATION), *model.parameters, *model.inputs]
 
 
@@ -228,7 +228,7 @@ def sections_of(settings, model):
 
 
 def key_of(scene, fingerprint):
-    """What tells one run from another: the FMU's content and everything about the scene."""
+    """Key of a run: a digest of the FMU's content and of everything in the scene."""
     content = vars(scene) | {
         "description": "",
         "inputs": {name: (history.t.tolist(), history.value.tolist(), history.hold) for name, history in scene.inputs.items()},
@@ -242,7 +242,7 @@ def key_of(scene, fingerprint):
 
 
 def perform(scene, fmu):
-    """Run a scene through the FMU given as bytes; the measured part of its row."""
+    """Run a scene through the FMU given as bytes; returns the measured part of the row."""
     started, cpu = datetime.now(UTC).isoformat(timespec="milliseconds"), time.thread_time()
     try:
         result = simulate(unpacked(fmu), scene)
@@ -255,7 +255,7 @@ def perform(scene, fmu):
 
 
 def unpacked(fmu):
-    """The Model of an FMU given as bytes, kept as a file in the worker's own folder; one a process."""
+    """The Model of an FMU given as bytes, kept as a file in the worker's own folder; one Model a process."""
     from distributed import get_worker
 
     path = Path(get_worker().local_directory) / f"{hashlib.sha256(fmu).hexdigest()}.fmu"
@@ -303,10 +303,10 @@ class cluster:
 
 
 def run_sweep(sweep, folder, client, progress=None):
-    """Do what is missing of a sweep and return the rows of all of it.
+    """Do the runs that a sweep's folder lacks and return the rows of the whole sweep.
 
     folder: of the Parquet dataset, made if need be; client: of a Dask cluster whose workers have this package (the FMU travels with the runs);
-    progress: called with the numbers of runs done, failed, and in all.  A worker that dies is replaced by another, its run counts once.
+    progress: called with the numbers of runs done, failed, and in all.  A worker that dies is replaced by another; its run counts once.
     A run that fails is a row with status and message, and is tried again in the next call.
     """
     from distributed import as_completed
@@ -317,7 +317,7 @@ def run_sweep(sweep, folder, client, progress=None):
     finished = compact(folder, schema, keys)
     done, failed = len(finished), 0
     progress(done, failed, len(keys))
-    fmu = client.submit(bytes, sweep.fmu, key=f"fmu-{hashlib.sha256(sweep.fmu).hexdigest()}")  # a task: made again if its workers die
+    fmu = client.submit(bytes, sweep.fmu, key=f"fmu-{hashlib.sha256(sweep.fmu).hexdigest()}")  # as a task, so that Dask makes it again if its workers die
     futures = [client.submit(perform, sweep.scenes[key], fmu, key=f"run-{key}") for key in keys if key not in finished]
     try:
         for future in as_completed(futures):
@@ -334,7 +334,7 @@ def run_sweep(sweep, folder, client, progress=None):
 
 
 def outcome(future):
-    """A worker's part of a row, or why there is none."""
+    """A worker's part of a row, or the reason why there is none."""
     if future.status == "finished":
         return future.result()
     reason = future.exception() if future.status == "error" else "cancelled"
@@ -342,7 +342,7 @@ def outcome(future):
 
 
 def about_run(sweep, key):
-    """The driver's part of a row: what was to be run."""
+    """The driver's part of a row: parameters, inputs and settings of the run."""
     scene, model = sweep.scenes[key], sweep.model
     row = {"key": key, "scene": scene.name, "t_end": scene.t_end, "step": scene.step}
     row |= {name: scene.parameters.get(name, model.default(variable)) for name, variable in model.parameters.items()}
@@ -380,7 +380,7 @@ def schema_of(sweep):
 
 
 def write_row(path, row, schema):
-    """Write a row as a Parquet file, whole or not at all; what it lacks is null."""
+    """Write a row as a Parquet file, whole or not at all; columns without a value are null."""
     import pyarrow as pa
     from pyarrow import parquet
 
@@ -389,10 +389,10 @@ def write_row(path, row, schema):
 
 
 def compact(folder, schema, keys):
-    """Put all rows into one file, in the order of the design, a run once; returns the keys of those that are done.
+    """Put all rows into one file, in the order of the design and each run once; returns the keys of the runs that are done.
 
-    Rows that the design no longer has (it changed, or the FMU did) go to a folder that no reader looks into.
-    The new file stands before the old ones go: a kill in between leaves rows twice, until the next call.
+    If the design or the FMU has changed, the rows that no longer belong to the design go to a folder that readers pass over.  The new file is written
+    before the old ones are removed; a process that is killed in between leaves rows twice, until the next call.
     """
     import pyarrow as pa
     from pyarrow import parquet

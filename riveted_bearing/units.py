@@ -11,7 +11,7 @@ from numbers import Real
 from .errors import UserError
 
 SPELLINGS = {"rpm": "rev/min", "r/min": "rev/min", "1/min": "rev/min", "µm": "um", "μm": "um", "°": "deg", "°C": "degC", "Nm": "N.m", "mPas": "mPa.s"}
-MULTIPLES = {"N": {"kN": (1e-3, 0.0)}, "s": {"us": (1e6, 0.0)}}  # beside the display units of the variable table
+MULTIPLES = {"N": {"kN": (1e-3, 0.0)}, "s": {"us": (1e6, 0.0)}}  # in addition to the display units of the variable table
 NUMBER = re.compile(r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*(.*?)\s*")
 
 

@@ -4,6 +4,7 @@ import numpy as np
 from python_core import Body, PythonWork
 
 from bearing_model import variables
+from bearing_model.hertz_exact import HertzContact, hertz_ellipse
 
 Z = variables.Z
 SLICE = variables.STATE_SLICES
@@ -95,6 +96,14 @@ def pocket_wrench(model, h):
     """Force and moment on half h by each ball, about the half's centre, global frame, (Z, 3) each."""
     row = model.work.pocket[h]
     return tuple(np.array([list(getattr(row, f"half_{kind}_{i}"))[:Z] for i in "xyz"]).T for kind in "FM")
+
+
+def pocket_contact(clearance=2e-4):
+    """Hertz contact of ball and pocket at the default geometry, by the quasi-static model: the long half axis lies around the pocket's axis."""
+    R = 0.5 * 0.0111125
+    curvatures = np.array([1.0 / R, 1.0 / R - 1.0 / (R + 0.5 * clearance)])  # along the pocket's axis the ball alone
+    F_rho = (curvatures[0] - curvatures[1]) / curvatures.sum()
+    return HertzContact(curvatures.sum(), F_rho, 1.0 / ((1.0 - 0.3**2) / 207e9 + (1.0 - 0.33**2) / 110e9), hertz_ellipse(F_rho))
 
 
 def pocket_loads(model):

@@ -8,6 +8,7 @@ import graphlib
 import subprocess
 import sys
 
+import numpy as np
 import pytest
 from library import ROOT
 
@@ -135,3 +136,21 @@ def test_embedding_a_table_needs_numpy_only():
 def test_interface_is_imported_quickly():
     """The interface and the help of the command line come without what takes seconds."""
     assert not {"fmpy", "scipy", "matplotlib", "pyarrow", "dask"} & loaded("import riveted_bearing, riveted_bearing.cli")
+
+
+def test_interface_reads_as_one():
+    """Each function says with types what it takes and gives, and in words what it does; results show themselves in one line."""
+    import inspect
+
+    import riveted_bearing as rb
+
+    functions = [getattr(rb, name) for name in rb.__all__ if inspect.isfunction(getattr(rb, name))]
+    assert {function.__name__ for function in functions} == {"run", "info", "build", "read_result", "write_result"}
+    for function in functions:
+        signature = inspect.signature(function)
+        assert inspect.getdoc(function) and signature.return_annotation is not signature.empty, function
+        assert all(parameter.annotation is not parameter.empty for parameter in signature.parameters.values()), function
+    outputs = {f"ball[{j}].Q_i": np.arange(1000.0) for j in range(400)}
+    result = rb.Result({"time": 1e-4 * np.arange(1000.0)} | outputs, dict.fromkeys(outputs, "N"), {}, about={"scene": "demo", "stopped": ""})
+    assert "demo" in repr(result) and "401 channels" in repr(result) and "0.0999 s" in repr(result) and len(repr(result)) < 1000
+    assert "6207" in repr(rb.info()) and len(repr(rb.info())) < 1000

@@ -301,7 +301,6 @@ COEFFICIENTS = [
     ("cage.E", "pockets closed"),  # pocket contact
     ("cage.lambda", "pockets closed"),
     ("cage.mu", "pockets closed"),
-    ("cage.share_width", "pockets closed"),
     ("oil.eta", "separated"),  # land film
     ("cage.K_land", "dry land"),
     ("cage.mu_land", "dry land"),

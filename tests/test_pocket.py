@@ -2,13 +2,14 @@
 
 import numpy as np
 import pytest
-from mechanics import Z, clear_balls, frames, on_ball, place_balls, pocket_loads, pocket_wrench, pose
+from mechanics import Z, clear_balls, frames, on_ball, place_balls, pocket_contact, pocket_loads, pocket_wrench, pose
+from scipy.integrate import quad
 from scipy.spatial.transform import Rotation
 
 from bearing_model.variables import CageModel, Lubrication
 
 TWINS = True
-R, GAP, WIDTH = 0.0111125 / 2, 1e-4, 0.05
+R, GAP = 0.0111125 / 2, 1e-4
 R_PITCH = 0.02675
 ELASTIC = {"cage.mu": 0.0, "oil.rolling": 0.0, "cage.lambda": 0.0}
 
@@ -48,15 +49,46 @@ def test_cylinder(core):
     assert not pocket_loads(m).any()
 
 
-@pytest.mark.parametrize("angle", [-1.5, -0.3, -0.02, 0.0, 0.04, 0.7, 1.5])
-def test_shares_sum_to_one(core, angle):
-    """Both halves together carry Hertz' load wherever the contact lies; the half on the contact's side carries w = (1 + n_x/sqrt(n_x^2 + width^2))/2."""
-    S = GAP + 3e-6
+def pressure_beyond(chord, a, b):
+    """Part of the pressure sqrt(1 - (x/a)^2 - (y/b)^2) at x > -chord, by quadrature over the ellipse."""
+    across = quad(lambda x: quad(lambda y: np.sqrt(max(1 - (x / a) ** 2 - (y / b) ** 2, 0.0)), 0.0, b * np.sqrt(1 - (x / a) ** 2))[0], -chord, a)[0]
+    return 2.0 * across / (2.0 / 3.0 * np.pi * a * b)
+
+
+@pytest.mark.parametrize("angle", [-1.5, -0.3, -0.1, -0.02, 0.0, 0.04, 0.12, 0.7, 1.5])
+def test_shares_are_those_of_the_pressure(core, angle):
+    """Each half bears the Hertz pressure on its side of the split plane, together Hertz' load wherever the contact lies."""
+    delta = 3e-6
+    S = GAP + delta
     m, _w = one_ball(core, S * np.sin(angle), S * np.cos(angle), **ELASTIC)
     Q = pocket_loads(m)[:, 0]
-    assert Q.sum() == pytest.approx(m.d.pocket.K * 3e-6**1.5, rel=1e-9)
-    n_x = np.sin(angle)
-    assert Q[1] / Q.sum() == pytest.approx(0.5 * (1.0 + n_x / np.hypot(n_x, WIDTH)), rel=1e-9)
+    assert Q.sum() == pytest.approx(m.d.pocket.K * delta**1.5, rel=1e-9)
+    a, b = pocket_contact().semi_axes(Q.sum())
+    chord = np.clip((R + GAP) * np.sin(angle), -a, a)  # of the wall, whose radius is R + GAP
+    assert Q[1] / Q.sum() == pytest.approx(pressure_beyond(chord, a, b), abs=1e-6)  # the quadrature is off by 2e-7 at the rim
+
+
+def test_the_patch_lets_go_smoothly(core):
+    """A half's load goes to 0 with its slope where the patch leaves it: 3/4 (1 - xi)^2 of the whole."""
+    delta = 3e-6
+    m, _w = one_ball(core, 0.0, GAP + delta, **ELASTIC)
+    a, _b = pocket_contact().semi_axes(pocket_loads(m)[:, 0].sum())
+    for rest in (1e-2, 1e-3, -1e-3):
+        angle = np.arcsin((1.0 - rest) * a / (R + GAP))
+        m, _w = one_ball(core, (GAP + delta) * np.sin(angle), (GAP + delta) * np.cos(angle), **ELASTIC)
+        Q = pocket_loads(m)[:, 0]
+        assert Q[0] / Q.sum() == pytest.approx(0.75 * max(rest, 0.0) ** 2, rel=1e-2)  # 1 - rest/3
+
+
+def test_the_split_is_pushed_open(core):
+    """A contact in the split plane pushes the halves apart by 3/8 Q delta R_c/(a S), 1.3 times the pressure's own 3/16 Q a/R_c along the axis."""
+    delta = 3e-6
+    m, _w = one_ball(core, 0.0, GAP + delta, **ELASTIC)
+    F_x = np.array([pocket_wrench(m, h)[0][0, 0] for h in range(2)])
+    Q = pocket_loads(m)[:, 0].sum()
+    a, _b = pocket_contact().semi_axes(Q)
+    assert F_x == pytest.approx(0.375 * Q * delta * (R + GAP) / (a * (GAP + delta)) * np.array([-1.0, 1.0]), rel=1e-5)
+    assert 1.2 < F_x[1] / (3.0 / 16.0 * Q * a / (R + GAP)) < 1.4
 
 
 def test_rigid_cage_carries_all(core):
@@ -98,15 +130,28 @@ def random_scene(core, rng, **changes):
     return m, w, ball, bodies
 
 
+def work(m, chord, delta):
+    """Work of pressing a ball in by delta, where a half bears what lies beyond its chord of the patch: the load over the approach, by Gauss in its root."""
+    K, a_delta = m.d.pocket.K, m.d.pocket.a_delta
+    if delta <= 0.0:
+        return 0.0
+    from_ = min((chord / a_delta) ** 2, delta)  # up to here the patch lies on one side
+    node, weight = np.polynomial.legendre.leggauss(8)
+    root = 0.5 * (np.sqrt(from_) + np.sqrt(delta)) + 0.5 * (np.sqrt(delta) - np.sqrt(from_)) * node
+    xi = chord / (a_delta * root)
+    load = K * root**3 * (0.5 + 0.75 * (xi - xi**3 / 3.0))
+    return (chord > 0.0) * 0.4 * K * from_**2.5 + 0.5 * (np.sqrt(delta) - np.sqrt(from_)) * np.sum(weight * load * 2.0 * root)
+
+
 def energy(m, place, body, j, side):
-    """Elastic energy of one ball and one half from their global places: share (2/5) K delta^2.5.  side 0: the whole rigid cage."""
+    """Elastic energy of one ball and one half from their global places.  side 0: the whole rigid cage."""
     phi = 2.0 * np.pi * j / Z
     a, b_y, b_z = body["frame"].T
     p = place - body["x"]
     x, t = p @ a, p @ np.cross(a, b_y * np.cos(phi) + b_z * np.sin(phi))
     S = np.hypot(x, t)
-    share = 0.5 * (1.0 + side * x / np.hypot(x, WIDTH * S)) if side else 1.0
-    return share * 0.4 * m.d.pocket.K * max(S - GAP, 0.0) ** 2.5
+    delta = max(S - GAP, 0.0)
+    return work(m, side * (R + GAP) * x / S, delta) if side else 0.4 * m.d.pocket.K * delta**2.5
 
 
 def turned(body, rotation):

@@ -205,6 +205,7 @@ def test_incomplete_table_is_refused(monkeypatch, tmp_path):
     text = generate.TABLE.read_text()
     for old, new, message in (
         ("vr = 2,", "vr = 1,", "shaft.F_y: shares value references with shaft.F_x"),
+        ("vr = 1117,", "vr = 1116,", "cage.mu_land: shares value references with a variable that is gone"),
         ('name = "ring.y"', 'name = "ring.x"', "ring.x: given twice"),
         ('unit = "kg.m"', 'unit = "kg m"', "cage.unbalance: unknown unit 'kg m'"),
     ):

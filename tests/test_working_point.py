@@ -10,7 +10,7 @@ from functools import cache
 import fmpy
 import numpy as np
 import pytest
-from mechanics import Instance, View, Z
+from mechanics import Instance, View, Z, pocket_contact
 
 from bearing_model.kinematics import cage_speed
 from bearing_model.quasi_static import Bearing, Load, quasi_static
@@ -144,23 +144,28 @@ def test_ball_positions_carry_the_load(working_point):
 
 
 def test_pocket_forces_follow_from_the_positions(working_point):
-    """A pocket is a cylinder with a radial axis: a ball presses exactly where it is farther from the axis than half the clearance.
+    """A pocket is a cylinder with a radial axis, cut in two: a ball presses exactly where it is farther from the axis of a half than half the clearance
+    and its Hertz patch reaches over the wall of that half.
 
-    Both halves share the contact smoothly, so each counts as a whole cylinder.  Tilts as small angles: 0.2 um are left open; observed 7 nm.
+    Tilts as small angles: 0.2 um are left open, of the patch 5 um; observed 7 nm.
     """
     x, r, psi, pressed = (of_balls(working_point, name) for name in ("x", "r", "psi", "Q_c"))
-    depth = np.full_like(x, -np.inf)
+    touching, clear = np.zeros_like(x, dtype=bool), np.ones_like(x, dtype=bool)
+    contact, R_c = pocket_contact(), 0.5 * 0.0111125 + 1e-4
     for h in (0, 1):
         half = {name: working_point[f"half_{h}.{name}"][:, None] for name in ("x", "y", "z", "tilt_y", "tilt_z", "psi")}
         y, z = r * np.cos(psi) - half["y"], r * np.sin(psi) - half["z"]
         azimuth = half["psi"] + 2.0 * math.pi * np.arange(Z) / Z
         along_axis = x - half["x"] + half["tilt_z"] * y - half["tilt_y"] * z
         across = z * np.cos(azimuth) - y * np.sin(azimuth)
-        depth = np.maximum(depth, np.hypot(along_axis, across) - 1e-4)
-    clear = np.abs(depth) > 2e-7
+        distance = np.hypot(along_axis, across)
+        depth = distance - 1e-4
+        reach = (2 * h - 1) * along_axis / distance * R_c + contact.semi_axes(contact.load(depth))[0]  # of the patch, past the split plane
+        touching |= (depth > 0.0) & (reach > 0.0)
+        clear &= (np.abs(depth) > 2e-7) & ((depth < 0.0) | (np.abs(reach) > 5e-6))
     assert np.mean(clear) > 0.95
     assert np.mean(pressed > 0.0) > 0.02
-    np.testing.assert_array_equal(pressed[clear] > 0.0, depth[clear] > 0.0)
+    np.testing.assert_array_equal(pressed[clear] > 0.0, touching[clear])
 
 
 def test_contact_loads_on_the_ring(core):
@@ -302,13 +307,13 @@ def settings(case, **scene):
 def check_run(simulate, case, t_end, **scene):
     """The run ends, its numbers are finite, its energy balance closes and the ring stays in the bearing.
 
-    The balance is off by the work's integral, of powers at predicted velocities: in proportion to the tolerance, observed 2.4 % of the energy lost
-    at 1e-3 (2,000 r/min, tilted) and 0.18 % at 1e-4.
+    The balance is off by the work's integral, of powers at predicted velocities, which falls at least with the tolerance: observed 7.2 % of the energy
+    lost at 1e-3 (2,000 r/min, tilted, joints without preload that rub at 16 kHz; the loss itself is off by 1 %), 0.7 % at 3e-4 and 0.05 % at 1e-4.
     """
     names = ["bearing.energy_residual", "bearing.power_loss", "bearing.penetration", "ring.x", "ring.y", "cage.eccentricity", "cage.dislocation"]
     result = simulate(t_end, 1e-4, names, settle=0.0, **settings(case, **scene))
     dissipated = np.sum(np.abs(result["bearing.power_loss"])) * 1e-4
-    assert abs(result["bearing.energy_residual"][-1]) < 30.0 * scene.get("solver.tol", PARAMETERS["solver.tol"].start) * dissipated + 1e-4
+    assert abs(result["bearing.energy_residual"][-1]) < 100.0 * scene.get("solver.tol", PARAMETERS["solver.tol"].start) * dissipated + 1e-4
     assert result["bearing.penetration"].max() < 2e-4
     assert np.abs(result["ring.x"]).max() < 5e-4 and np.abs(result["ring.y"]).max() < 5e-4
     assert result["cage.eccentricity"].max() < 1.5

@@ -84,7 +84,6 @@ const Variable VARIABLES[N_VARIABLES] = {
     {"cage.mu", "1", 1113, 1, TYPE_REAL, CAUSALITY_PARAMETER, GROUP_COUNT, -1, offsetof(Parameters, cage.mu), 0.05, 0.0, 1.0},
     {"cage.v_c", "m/s", 1114, 1, TYPE_REAL, CAUSALITY_PARAMETER, GROUP_COUNT, -1, offsetof(Parameters, cage.v_c), 0.2, 0.0001, 10.0},
     {"cage.lambda", "s/m", 1115, 1, TYPE_REAL, CAUSALITY_PARAMETER, GROUP_COUNT, -1, offsetof(Parameters, cage.lambda), 1.0, 0.0, 20.0},
-    {"cage.share_width", "1", 1116, 1, TYPE_REAL, CAUSALITY_PARAMETER, GROUP_COUNT, -1, offsetof(Parameters, cage.share_width), 0.05, 0.001, 1.0},
     {"cage.mu_land", "1", 1117, 1, TYPE_REAL, CAUSALITY_PARAMETER, GROUP_COUNT, -1, offsetof(Parameters, cage.mu_land), 0.08, 0.0, 1.0},
     {"cage.K_land", "N/m1.5", 1118, 1, TYPE_REAL, CAUSALITY_PARAMETER, GROUP_COUNT, -1, offsetof(Parameters, cage.K_land), 2000000000.0, 1000000.0, 1000000000000.0},
     {"cage.g_0", "1", 1119, 1, TYPE_REAL, CAUSALITY_PARAMETER, GROUP_COUNT, -1, offsetof(Parameters, cage.g_0), 0.02, 0.0001, 0.2},

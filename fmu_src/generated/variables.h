@@ -9,7 +9,7 @@
 
 #define FMI2_FUNCTION_PREFIX RivetedBearing_  // of the functions of a source-code FMU
 #define MODEL_IDENTIFIER "RivetedBearing"
-#define MODEL_GUID "{d5a91f25-47b6-15d6-1014-f583fbadd5cd}"  // digest of the table
+#define MODEL_GUID "{2933852d-f80a-f3ab-8e04-ee25385fc11d}"  // digest of the table
 
 enum { Z = 9 };  // number of balls
 
@@ -89,7 +89,6 @@ typedef struct {
         double mu;  // [1] Friction coefficient between ball and pocket with a full film
         double v_c;  // [m/s] Sliding speed at which pocket and land friction are 71 % of Coulomb's
         double lambda;  // [s/m] Hunt-Crossley damping of the pocket contacts
-        double share_width;  // [1] Width of the share between the halves: w = (1 +- n_x/sqrt(n_x^2 + width^2))/2
         double mu_land;  // [1] Dry friction coefficient between land and outer ring
         double K_land;  // [N/m1.5] Dry contact stiffness of the land: F = K_land (e - C)^1.5
         double g_0;  // [1] Floor of 1 - epsilon^2 in the land film
@@ -422,4 +421,4 @@ typedef enum {
 } StateScale;
 
 enum { N_INPUTS = 10 };  // all of them numbers
-enum { N_VARIABLES = 232 };  // time is the first
+enum { N_VARIABLES = 231 };  // time is the first

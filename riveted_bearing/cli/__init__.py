@@ -1,7 +1,7 @@
-"""The command line, `riveted-bearing`: one module a command, which adds itself to the program when it is imported.
+"""The command line, `riveted-bearing`: each command is a module, which adds the command to the program when it is imported.
 
-A further command is a further module and its name in the line below, which is also the order of the help.  What a command computes stands in the package,
-not here; modules of commands import what is slow (fmpy, matplotlib, SciPy) when the command is called.
+For a further command write its module here and add the module's name to the line below, whose order is that of the help.  What the command computes
+belongs into a module of riveted_bearing.  Slow imports (fmpy, matplotlib, SciPy) stand inside the command's function.
 """
 
 from . import build, run, sweep, study, compare, report, info, rivet  # noqa: F401, I001

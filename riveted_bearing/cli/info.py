@@ -1,4 +1,4 @@
-"""riveted-bearing info: what can be said of a bearing before any simulation."""
+"""riveted-bearing info: a bearing without a simulation."""
 
 import math
 from typing import Annotated
@@ -41,7 +41,7 @@ def info_tables(case):
 
 
 def geometry(case):
-    """Name, value and unit of what the bearing is."""
+    """Name, value and unit of the bearing's geometry and masses."""
     bearing, values, catalogue = case.bearing, case.values, case.catalogue
     if all(key in catalogue for key in ("bore", "outside_diameter", "width")):
         yield "bore x outside diameter x width", " x ".join(f"{1e3 * catalogue[key]:g}" for key in ("bore", "outside_diameter", "width")), "mm"
@@ -77,7 +77,7 @@ def load_text(load):
 
 
 def equilibrium(case, state):
-    """Name, value and unit of what the loads do."""
+    """Name, value and unit of displacements, loads and life in the equilibrium."""
     loaded = state.Q_i > 0.0
     yield "ring displacement x, y, z", ", ".join(fixed(1e6 * value, 2) for value in (state.x, state.y, state.z)), "um"
     yield "ring tilt y, z", f"{fixed(DEG * state.tilt_y, 4)}, {fixed(DEG * state.tilt_z, 4)}", "deg"
@@ -124,7 +124,7 @@ def balls(state):
 
 
 def fixed(value, digits):
-    """A number with so many digits after the point, without a minus sign before zero."""
+    """A number with the given digits after the point, and no minus sign before zero."""
     return f"{round(value, digits) + 0.0:.{digits}f}"
 
 

@@ -14,7 +14,7 @@ def report(
     results: Annotated[Path, typer.Argument(help="result file of `run`, or a folder of such files")],
     out: Annotated[Path | None, typer.Option(help="the page to write, a folder for several; default: beside the results")] = None,
 ):
-    """One HTML page per run that needs nothing else: figures, charts, and the motion to play and scrub."""
+    """One self-contained HTML page per run: figures, charts, and the motion to play and scrub."""
     from ..report import report_pages
 
     for path in report_pages(results, out):

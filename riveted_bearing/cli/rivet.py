@@ -1,4 +1,4 @@
-"""riveted-bearing rivet: what the rivet of a table or a geometry carries."""
+"""riveted-bearing rivet: stress of the rivet of a table or a geometry."""
 
 from pathlib import Path
 from typing import Annotated

@@ -20,7 +20,7 @@ def study(
     scheduler: SCHEDULER = None,
     workers: WORKERS = None,
 ):
-    """The paper's figures again and its claims one by one: runs, pictures and paper.md; started again, it does what is missing."""
+    """The paper's figures again and its claims one by one: runs, pictures and paper.md; a second call does only missing runs."""
     from ..fmu import Model
     from ..paper_study.paper import write_paper
     from ..paper_study.study import run_study

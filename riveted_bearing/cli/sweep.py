@@ -19,7 +19,7 @@ def sweep(
     scheduler: SCHEDULER = None,
     workers: WORKERS = None,
 ):
-    """Run a design of experiments on a Dask cluster, one row a run; started again, it does what is missing."""
+    """Run a design of experiments on a Dask cluster, one row a run; a second call does only missing runs."""
     from ..fmu import Model
     from ..sweep import cluster, load_sweep, run_sweep
 

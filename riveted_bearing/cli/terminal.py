@@ -1,4 +1,4 @@
-"""What the commands share: the program itself, its two consoles, how a command is added, options, progress bars."""
+"""Shared by all commands: the program, its two consoles, the decorator `command`, common options, progress bars."""
 
 import functools
 from pathlib import Path
@@ -32,7 +32,7 @@ def main():
 
 
 def command(function):
-    """A command of the program: what the user can put right is one line on stderr and exit code 2."""
+    """Add a function to the program as a command; a UserError becomes one line on stderr and exit code 2."""
 
     @functools.wraps(function)
     def guarded(*arguments, **options):
@@ -46,7 +46,7 @@ def command(function):
 
 
 def changes(model, settings, seed, t_end, step):
-    """The command line's options as a document like a scene file's."""
+    """The options of the command line as a document with the structure of a scene file."""
     document = {"parameters": {}, "inputs": {}, "simulation": {}}
     for setting in settings:
         name, equals, value = setting.partition("=")
@@ -90,7 +90,7 @@ class Remaining(ProgressColumn):
 
 
 class simulation_progress:
-    """A progress bar for a scene on a terminal, nothing in a pipe; as a context manager it gives the function to call with the simulated time [s]."""
+    """Progress bar of a scene on a terminal, nothing in a pipe; a context manager that gives the function to call with the simulated time [s]."""
 
     def __init__(self, scene):
         self.bar = Progress(
@@ -114,8 +114,8 @@ class simulation_progress:
 
 
 class sweep_progress:
-    """Progress bars over runs on a terminal, nothing in a pipe; as a context manager it gives the function to call with the sweep's name and its runs
-    done, failed and in all."""
+    """Progress bars of sweeps on a terminal, nothing in a pipe; a context manager that gives the function to call with a sweep's name and its numbers of
+    runs done, failed and in all."""
 
     def __init__(self):
         columns = (TextColumn("{task.description}"), BarColumn(bar_width=30), MofNCompleteColumn(), TextColumn("{task.fields[failed]}"), TimeRemainingColumn())
@@ -126,7 +126,7 @@ class sweep_progress:
         tasks = {}
 
         def progress(name, done, failed, total):
-            if name not in tasks:  # what an earlier call has done does not count for the speed
+            if name not in tasks:  # runs that an earlier call has done do not count for the speed
                 tasks[name] = self.bar.add_task(name, total=total, completed=done, failed="")
             self.bar.update(tasks[name], completed=done + failed, failed=f"[red]{failed} failed[/]" if failed else "")
 

@@ -1,7 +1,7 @@
-"""What the paper claims in its section 4 and its conclusions, paraphrased, against the runs of the study: figures, verdicts and the physics behind them.
+"""The paper's claims (its section 4 and its conclusions, paraphrased) against the runs of the study: figures, verdicts and the physics behind them.
 
-A claim holds as far as its conditions do, and these look at nothing but the runs.  Where the paper says "stress", they are asked of the mean and of the
-99.9 % quantile of the worst rivet, because it does not say which it means.
+A claim holds as far as its conditions hold, and conditions depend on the runs only.  Where the paper says "stress", conditions are checked for the mean
+and for the 99.9 % quantile of the worst rivet, because the paper does not say which stress it means.
 """
 
 from dataclasses import dataclass
@@ -10,13 +10,13 @@ import numpy as np
 
 from .study import GRIPS, clearance_series, estimate, grip, ratio, rise
 
-PAPER_SECONDS = 1800.0  # of one run of 0.4 s, on 40 cores
+PAPER_SECONDS = 1800.0  # for one run of 0.4 s on 40 cores
 SPEEDS = (4000.0, 8000.0, 12000.0, 16000.0, 20000.0, 24000.0)
 
 
 @dataclass(frozen=True)
 class Claim:
-    """A sentence of the paper: where it stands, what it says, what the runs give, which of its conditions they meet, and why."""
+    """A sentence of the paper: its place, the sentence, the figures of the runs, the conditions that the runs meet, and the reason."""
 
     where: str
     said: str
@@ -31,7 +31,7 @@ class Claim:
 
 
 def all_claims(data):
-    """Claims whose runs are there, in the order of the paper, by the picture (of study.PICTURES, or "cost") that shows them."""
+    """Claims for which there are runs, in the order of the paper, by the picture (of study.PICTURES, or "cost") that shows them."""
     return {picture: claims(data) for picture, (needed, claims) in CLAIMS.items() if needed in data}
 
 
@@ -70,7 +70,8 @@ def preload_claims(data):
             f"without load: head {rest[20]:.1f} MPa at 20 N, {rest[60]:.1f} at 60 N; "
             f"running, p99.9: {at[20].estimate('head_peak')} and {at[60].estimate('head_peak')} MPa",
             (np.isclose(rest[60], 3.0 * rest[20], rtol=1e-3), ratio(at[60], at[20], "head_peak").low > 2.7),
-            "Proportional is only the share of preload; loads by the balls come on top. The fit has no effect while there is play, see Fig. 12.",
+            "Only the preload's share of the stress is proportional to preload; the loads by the balls come on top. "
+            "The fit has no effect while there is play, see Fig. 12.",
         ),
         Claim(
             "4.1 (1), Fig. 10",
@@ -78,7 +79,7 @@ def preload_claims(data):
             f"largest: {largest[0]} µm at 0 N, {largest[20]} at 20 N, {largest[40]} at 40 N, {largest[60]} at 60 N",
             (rise(at[60], at[0], "dislocation_max").high < 0.0, first.high < last.low),
             "Steep at first: without preload only the regularized friction of open joints holds the halves (`joint.F_floor`, here a tenth of its "
-            "default, which would hide it). Beyond, single impacts decide.",
+            "default, which would hide it). At higher preload, single impacts decide.",
         ),
         Claim(
             "4.1 (1), Fig. 10",
@@ -93,7 +94,8 @@ def preload_claims(data):
             "At 40 N the dislocation is 0: the halves do not move against each other",
             f"largest {largest[40]} µm (median {median:.1f}), its range while running {at[40].estimate('slip')} µm",
             (median <= 1.0,),
-            "Zero to the one decimal of a millimetre that the paper prints, but not at rest: friction keeps what single impacts have moved. " + grip_text(data),
+            "The dislocation is zero to the one decimal of a millimetre that the paper prints, but the halves do not come back: "
+            "friction holds them where single impacts have moved them. " + grip_text(data),
         ),
         Claim(
             "4.1 (1), Fig. 11",
@@ -143,19 +145,15 @@ def ratio_within(runs, above, below):
 
 
 def grip_text(data):
-    """What moves the halves and what holds them, from the sweep beside Fig. 10."""
+    """The forces that move the halves and those that hold them, from the sweep beside Fig. 10."""
     if "grip" not in data:
         return ""
-    medians = {(name, P): float(np.median(grip(data["grip"], name).at(preload=P)["dislocation_max"])) for name in GRIPS for P in (20, 40, 160)}
-    at_40 = "; ".join(f"{name}: {medians[name, 40]:.1f}" for name in GRIPS)
+    at_40 = "; ".join(f"{name}: {np.median(grip(data['grip'], name).at(preload=40)['dislocation_max']):.1f}" for name in GRIPS)
     return (
         f"What decides (picture below, medians at 40 N in µm): {at_40}. "
-        "The axial load moves the balls some ten micrometres off the middle of their pockets, so that one half takes an impact alone. "
-        "How much of it depends on the width of the share between the halves, a regularization here. "
-        "As wide as the contact patch that Hertz' theory gives for the 99.9 % pocket force "
-        "(2/3 of its half length over the ball's radius, 0.12; 0.08 at 30 N, 0.16 at 200 N) the halves hardly slip any more: "
-        f"{medians['share by the contact patch', 20]:.1f} µm at 20 N, {medians['share by the contact patch', 40]:.1f} at 40, "
-        f"{medians['share by the contact patch', 160]:.1f} at 160 N, where only the joints' elastic give is left."
+        "The axial load moves the balls some ten micrometres off the middle of their pockets, and the contact patch spans "
+        "the split plane only within 5 to 13 degrees (its half length at 10 to 200 N over the pocket's radius): beyond, one half takes an impact alone. "
+        "The 99.9 % pocket force then asks of the nearest joint about as much as its friction holds."
     )
 
 
@@ -209,7 +207,7 @@ def fit_claims(data):
             f"lowest p99.9 at {min(worst, key=worst.get):+.0f} µm: {min(worst.values()):.0f} MPa; "
             f"at 0 {worst[0.0]:.0f} MPa, at −0.09 mm {worst[-90.0]:.0f} MPa",
             (worst[0.0] < 0.9 * worst[40.0], -20.0 <= min(worst, key=worst.get) <= 0.0 and left.low > 0.0),
-            "Away from interference: yes. Away from clearance: no reason in these runs, as above.",
+            "These runs give a reason to avoid interference, but none to avoid clearance, as above.",
         ),
         Claim(
             "4.1 (2), in brackets",
@@ -238,7 +236,7 @@ def spread(runs, speed, name):
 
 
 def lowest(runs, name):
-    """Speed of the smallest mean, and how many times it the mean at 4,000 r/min is."""
+    """Speed of the smallest mean, and the ratio of the mean at 4,000 r/min to it."""
     speeds, curve = runs.curve("speed", name)
     means = np.array([e.mean for e in curve])
     return speeds[means.argmin()], means[0] / means.min()
@@ -382,7 +380,7 @@ def impact_claims(data):
         ),
         Claim(
             "4.1 (3), Fig. 14",
-            "Above all at the head",
+            "Impacts raise above all the stress of the head",
             f"middle p99.9 rises by {text('mid_peak', 'MPa')}; "
             f"the head's rise is larger by {' and '.join(f'{e} MPa ({width} ms)' for width, e in more.items())}",
             tuple(e.low > 0.0 for e in more.values()),
@@ -390,15 +388,15 @@ def impact_claims(data):
         ),
         Claim(
             "4.1 (3)",
-            "Because impacts raise the total contact force of balls and cage",
+            "The reason is that impacts raise the total contact force of balls and cage",
             f"F: mean force rises by {text('force', 'N')}, RMS by {text('force_rms', 'N')}, p99.9 by {text('force_peak', 'N')}",
             tuple(e.low > 0.0 for name in ("force", "force_rms") for e in rises(name).values()),
-            "The total rises by longer press, not by harder hits: the 99.9 % quantile of the force, pooled over all balls, even falls a little, "
-            "while that of the stress, of the worst rivet at each instant, rises.",
+            "The total rises because balls press longer, not because they hit harder: the 99.9 % quantile of the force, pooled over all balls, even falls "
+            "a little, while that of the stress, of the worst rivet at each instant, rises.",
         ),
         Claim(
             "4.1 (3)",
-            "The halves are dislocated further by it",
+            "Impacts dislocate the halves further",
             f"F: largest dislocation rises by {text('dislocation_max', 'µm')}",
             tuple(e.low > 0.0 for e in rises("dislocation_max").values()),
             "Friction is overcome more often.",
@@ -459,7 +457,7 @@ def tilt_claims(data):
         ),
         Claim(
             "4.1 (4), Fig. 15",
-            "There it is about twenty times that at 0.2°",
+            "Beyond the threshold stress is about twenty times that at 0.2°",
             text(0.5, 0.2, ("force", "head_range", "head_above", "head_peak")),
             (
                 times(-1.0, 0.5, 0.2, "force").low >= 10.0,
@@ -505,7 +503,7 @@ def clearance_claims(data):
         ),
         Claim(
             "4.1 (5), Fig. 16; 5 (3)",
-            "It is lowest near the ratio 1",
+            "Stress is lowest near the ratio 1",
             "lowest at a ratio of, constant sum: "
             + ", ".join(f"{label} {places[name]:g}" for name, label in names.items())
             + ". "
@@ -515,7 +513,7 @@ def clearance_claims(data):
         ),
         Claim(
             "4.1 (5)",
-            "Because there balls and cage move steadily together, with less force between them",
+            "The reason is that balls and cage move steadily together there, with less force between them",
             f"mean force {at[1.0].estimate('force')} N at 1, {at[min(at)].estimate('force')} at {min(at):g}, {at[max(at)].estimate('force')} at {max(at):g}",
             tuple(rise(at[end], at[1.0], "force").low > 0.0 for end in (min(at), max(at))),
             "A shallow minimum at constant sum: tight guides brake the cage, tight pockets press more often.",
@@ -569,7 +567,7 @@ def failure_claims(data):
         ),
         Claim(
             "4.2",
-            "With the circumferential load this makes axial tension and tangential shear in the rivets",
+            "The axial and the circumferential load make axial tension and tangential shear in the rivets",
             f"RMS per joint: tension {loads['tension']} N, shear {loads['shear']} N",
             tuple(e.low > 0.1 for e in loads.values()),
             "Both are there; prying by the local bending of the half loads the head more than either.",

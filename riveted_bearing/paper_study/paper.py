@@ -1,4 +1,4 @@
-"""docs/paper.md: what comes of the paper's study, made from the runs by `riveted-bearing study`."""
+"""docs/paper.md: the page about the paper's study, which `riveted-bearing study` makes from the runs."""
 
 from pathlib import Path
 
@@ -12,21 +12,23 @@ INTRODUCTION = """# The paper's study, again
 
 <!-- Written by `riveted-bearing study --report docs`: do not edit. -->
 
-Cui et al., *Study on Fatigue Characteristics of Rivets in Bearing Cage for an Aeroengine Transmission System*, Machines 2023, 11, 700: Figs. 10 to 18 with this
-model, and each claim of the paper's section 4 and of its conclusions. The paper's clearances, conformities, oil, masses, friction and support of the ring are
-not published; ours are in [parameters.md](parameters.md), each with its source, and none leaves its documented range here. The scenes `demo`, `R` and `F` were
-chosen once, before this model had its load path and head friction, and not again. Preload, fit and load are the paper's; the sweeps stand in
-`riveted_bearing/data/studies/`.
+Cui et al., *Study on Fatigue Characteristics of Rivets in Bearing Cage for an Aeroengine Transmission System*, Machines 2023, 11, 700: Figs. 10 to 18 with
+this model, and each claim of the paper's section 4 and of its conclusions. The paper's clearances, conformities, oil, masses, friction and support of the
+ring are not published; [parameters.md](parameters.md) gives those of this model with their sources, and none leaves its documented range here. The scenes
+`demo`, `R` and `F` were chosen once, before this model had its load path and head friction, and have not been changed since. Preload, fit and load are the
+paper's; the sweeps are in `riveted_bearing/data/studies/`.
 
-- Curves are means over seeds, bands and brackets the 95 % confidence interval of the mean (Student's t). A seed changes the balls' first spacing; the impacts
-  come at twelve phases besides. Where balls press on their pockets all the time (R and F at low speed) all seeds end on one periodic motion: the band closes,
-  and says nothing about other motions.
-- **Stress** is given three ways, because the paper does not say which it means: the mean over time of the worst rivet at each instant, its 99.9 % quantile over
-  every internal step (total stress), and the dynamic range of a single rivet (its 99.9 % quantile minus the 0.1 % quantile of samples every 0.1 ms, of the
-  rivet where that is largest): what fatigue sees, without the preload's share. Head: largest principal stress in the fillet; middle: von Mises at the split.
-- What the paper leaves open and these figures hang on, each shown below: the direction of a tilt against the loads (Fig. 15), the support of the ring (Figs. 13
-  and 14), the local bending of the cage halves (Fig. 13), the clearances (Fig. 16), and how the two halves share a pocket force (beside Fig. 10).
-- Rivets are elastic here: figures beyond yield (590 MPa, assumed) say how far, not what stress.
+- Curves are means over seeds; bands and brackets are the 95 % confidence interval of the mean (Student's t). A seed sets the initial spacing of the balls,
+  and impacts come at twelve phases, one for each seed. Where balls press on their pockets all the time (R and F at low speed) all seeds end
+  on one periodic motion: the band closes then, and says nothing about other motions.
+- **Stress** is given three ways, because the paper does not say which stress it means: the mean over time of the worst rivet at each instant, its 99.9 %
+  quantile over every internal step (total stress), and the dynamic range of a single rivet (its 99.9 % quantile minus the 0.1 % quantile of samples every 0.1
+  ms, of the rivet with the largest range), on which fatigue depends and in which the preload has no share. Head: largest principal stress in the fillet;
+  middle: von Mises stress at the split.
+- These figures depend on conditions that the paper leaves open, each of which is varied below: the direction of a tilt against the loads (Fig. 15), the
+  support of the ring (Figs. 13 and 14), the local bending of the cage halves (Fig. 13), the clearances (Fig. 16), and how the two halves share a pocket force
+  (beside Fig. 10).
+- Rivets are elastic here: a figure beyond yield (590 MPa, assumed) tells how far the load exceeds yield, not the stress.
 - **Verdict**: *reproduced* if all conditions of a claim hold with their confidence, *partly* if some do, *not* if none does. The conditions are in
   `riveted_bearing/paper_study/claims.py`.
 """
@@ -63,7 +65,7 @@ def picture_text(name, path, claims):
 
 
 def details_text(claims):
-    """Each claim with its verdict, what the runs give, and why."""
+    """Each claim with its verdict, the figures of the runs, and the reason."""
     text = "".join(f"- **{claim.said}** ({claim.where}): {claim.verdict}.\n  - Here: {claim.found}\n  - Why: {claim.why}\n" for claim in claims)
     return text.replace("Here: \n", "Here:\n")
 

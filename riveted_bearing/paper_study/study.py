@@ -1,9 +1,9 @@
-"""The paper's study (Cui et al., Machines 2023, 11, 700, section 4): its figures again, and what comes of its claims.
+"""The paper's study (Cui et al., Machines 2023, 11, 700, section 4): its figures again.
 
 Every figure is a sweep in riveted_bearing/data/studies, over at least eight seeds.  Curves are means over the seeds with the 95 % confidence interval of that
-mean (Student's t).  Stress is shown three ways, because the paper does not say which it means: the mean over time of the worst rivet, its 99.9 % quantile over
-every internal step, and the dynamic range of a single rivet (99.9 % quantile - 0.1 % quantile of the samples, of the rivet where it is largest), in which
-the preload has no share.
+mean (Student's t).  Stress is shown three ways, because the paper does not say which stress it means: the mean over time of the worst rivet,
+its 99.9 % quantile over every internal step, and the dynamic range of a single rivet (99.9 % quantile - 0.1 % quantile of the samples,
+of the rivet with the largest difference), in which the preload has no share.
 """
 
 from dataclasses import dataclass, replace
@@ -37,7 +37,7 @@ def shipped_studies():
 
 
 def study_sweep(name, model, repeats=None):
-    """The Sweep of a shipped study; repeats: number of seeds instead of its own, where it counts seeds."""
+    """The Sweep of a shipped study; repeats: number of seeds in the place of the study's own, if the study varies the seed."""
     if name not in shipped_studies():
         raise unknown("study", "study", name, shipped_studies())
     path = SHIPPED / f"{name}.toml"
@@ -48,7 +48,7 @@ def study_sweep(name, model, repeats=None):
 
 
 def run_study(model, folder, client, names=None, repeats=None, progress=None):
-    """Do what is missing of the study and return its Runs by name; progress: called with name and the numbers of runs done, failed, in all."""
+    """Do the runs that the study's folder lacks and return its Runs by name; progress: called with name and the numbers of runs done, failed, in all."""
     sweeps = [study_sweep(name, model, repeats) for name in names or shipped_studies()]
     progress = progress or (lambda *_: None)
     return {
@@ -129,7 +129,7 @@ def rise(after, before, name):
 
 
 def runs_of(rows):
-    """The Runs of a sweep's rows; those that failed are left out."""
+    """The Runs of a sweep's rows; failed runs are left out."""
     done = rows["status"] == "done"
     rows = {name: values[done] for name, values in rows.items()}
     rivets = sum(name.startswith("stat.rivet_head_mean[") for name in rows)
@@ -154,7 +154,6 @@ def runs_of(rows):
         "pocket": np.round(rows["cage.pocket_clearance"] * 1e6, 3),
         "guide": np.round(rows["cage.guide_clearance"] * 1e6, 3),
         "pocket_damping": rows["cage.lambda"],
-        "share_width": rows["cage.share_width"],
         "impact": rows["pulse.F_r"],
         "width": np.round(rows["pulse.duration"] * 1e3, 6),
         "force": rows["stat.Q_c_mean"],
@@ -177,7 +176,7 @@ def runs_of(rows):
                 columns[f"{place}_damage_{k}"] = np.log10(rows[f"rivet[{k}].damage_{place}"] / counted * 3600.0)
             columns[f"{place}_damage"] = np.max([columns[f"{place}_damage_{k}"] for k in range(1, rivets + 1)], axis=0)
     columns["ratio"] = np.round(columns["pocket"] / columns["guide"], 2)
-    if "p999(rivet[1].M)" in rows:  # stress if the worst rivet bore its preload and only one of its loads
+    if "p999(rivet[1].M)" in rows:  # stress of the worst rivet under its preload and only one of its loads
         for name, letter in (("tension", "N"), ("moment", "M_y")):
             load = np.max([rows[f"p999(rivet[{k}].{letter[0]})"] for k in range(1, rivets + 1)], axis=0)
             columns[f"head_by_{name}"] = 1e-6 * stress_by(rows, **{letter: load})[:, 0]
@@ -379,18 +378,17 @@ GRIPS = {  # name: (conditions that differ from the first one, colour)
     "dry joints (μ 0.3)": ({"mu": 0.3}, MUTED),
     "soft impacts (10 s/m)": ({"pocket_damping": 10.0}, MIDDLE),
     "pockets of 0.1 mm": ({"pocket": 100.0}, RING),
-    "share by the contact patch": ({"share_width": 0.12}, HEAD),
     "no axial load": ({"F_a": 0.0}, "#8e5aa8"),
 }
 
 
 def grip(runs, name):
     """Runs of one of the changes."""
-    return runs.at(**{"mu": 0.15, "pocket_damping": 1.0, "pocket": 200.0, "share_width": 0.05, "F_a": 515.0} | GRIPS[name][0])
+    return runs.at(**{"mu": 0.15, "pocket_damping": 1.0, "pocket": 200.0, "F_a": 515.0} | GRIPS[name][0])
 
 
 def grip_picture(data):
-    """What it takes to hold the halves together."""
+    """Conditions that hold the halves together."""
     figure, axes = canvas(1, 2)
     for ax, (column, title) in zip(axes[0], {"dislocation_max": "Largest dislocation", "slip": "Range of the dislocation"}.items(), strict=True):
         for name, (_, colour) in GRIPS.items():
@@ -413,7 +411,7 @@ PICTURES = {
 
 
 def draw(data, folder):
-    """Write the pictures whose sweeps are there; returns {name: path}."""
+    """Write the pictures for which there are runs; returns {name: path}."""
     paths = {}
     with plt.rc_context(STYLE | {"figure.dpi": 110}):
         for name, (needed, _, picture) in PICTURES.items():
