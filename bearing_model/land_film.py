@@ -8,8 +8,10 @@
         '-----------'          with a = eps.V/|V|, b = eps.V_perp/|V|, V_perp = e_x x V, q^2 = 1 - eps^2, S = pi/2 + atan(a/q):
     I_c = int cos^2 phi/(1 - a cos phi - b sin phi)^3 dphi = 3 a/q^4 + S (q^2 + 3 a^2)/q^5                    phi = -pi/2 ... pi/2
     I_s = int sin phi cos phi/(...)^3 dphi               = 2 b/q^4 + a^2 b/(q^4 (1 - b^2)) + 3 a b S/q^5
+    I_t = int sin^2 phi/(...)^3 dphi                     = a/(q^2 (1 - b^2)) + 3 a b^2/(q^4 (1 - b^2)) + 2 a b^2/(q^2 (1 - b^2)^2) + S (q^2 + 3 b^2)/q^5
 
-Steady rotation gives Ocvirk's force (a = 0), pure squeeze that of the pi-film.  The force is regular at e = 0, C0 in V (cavitation) and C1 elsewhere.
+Steady rotation gives Ocvirk's force (a = 0), pure squeeze that of the pi-film.  The force derives from int (V.n)^2/h^3 over the closing half, so that
+-dF/dV = kappa (I_c, I_s; I_s, I_t) exactly: these are the stiff rates of the film.  The force is regular at e = 0, C0 in V (cavitation) and C1 elsewhere.
 At the wall the film stays finite: q^2 is g_0 at the wall and tends to g_0/2 behind it, and eps is capped at 1.2.  Behind the wall the dry contact
 F = K_land (e - C)^1.5 carries.
 """
@@ -26,13 +28,14 @@ EPS_CAP = 1.2
 
 
 def land_film_integrals(a, b, q2):
-    """The integrals I_c and I_s that stand at the head of this file."""
+    """The integrals I_c, I_s and I_t that stand at the head of this file."""
     q = np.sqrt(q2)
     q4, q5, c2 = q2 * q2, q2 * q2 * q, q2 + a * a  # c2 = 1 - b^2
     S = 0.5 * np.pi + np.arctan(a / q)
     I_c = 3.0 * a / q4 + S * (q2 + 3.0 * a * a) / q5
     I_s = 2.0 * b / q4 + a * a * b / (q4 * c2) + 3.0 * a * b * S / q5
-    return I_c, I_s
+    I_t = a / (q2 * c2) + 3.0 * a * b * b / (q4 * c2) + 2.0 * a * b * b / (q2 * c2 * c2) + S * (q2 + 3.0 * b * b) / q5
+    return I_c, I_s, I_t
 
 
 def land_film_gap(eps, g_0):
@@ -42,7 +45,10 @@ def land_film_gap(eps, g_0):
 
 
 def land_film_force(model, w):
-    """Adds film, friction and dry contact of both lands to the halves; sets their elastic energy and dissipated power."""
+    """Adds film, friction and dry contact of both lands to the halves; sets their elastic energy and dissipated power.
+
+    film_yy, film_yz, film_zz, film_spin: -dF/dv [N.s/m] and -dM/domega [N.m.s] of each land, for the integrator's Jacobian.
+    """
     p, d = model.p, model.d
     h0, h1 = w.half
     x_land = np.array([-p.cage.land_x, p.cage.land_x])
@@ -62,7 +68,7 @@ def land_film_force(model, w):
     cap = minimum(1.0, EPS_CAP / eps) / d.C_land
     a, b = (e_y * n_y + e_z * n_z) * cap, (e_z * n_y - e_y * n_z) * cap
     q2 = land_film_gap(eps, p.cage.g_0)
-    I_c, I_s = land_film_integrals(a, b, q2)
+    I_c, I_s, I_t = land_film_integrals(a, b, q2)
     F_y, F_z = -d.kappa * (I_c * V_y - I_s * V_z), -d.kappa * (I_c * V_z + I_s * V_y)
     couette = d.couette / np.sqrt(q2)
 
@@ -77,7 +83,8 @@ def land_film_force(model, w):
         N_mu = N + traction_asperity_share(ln_Lambda) * np.sqrt(F_y * F_y + F_z * F_z)
     R = 0.5 * p.cage.D_o
     slip = v_z * u_y - v_y * u_z + omega * R  # along t = e_x x u
-    F_t = -p.cage.mu_land * N_mu * slip / np.sqrt(slip * slip + p.cage.v_c**2)
+    g = p.cage.mu_land * N_mu / np.sqrt(slip * slip + p.cage.v_c**2)
+    F_t = -g * slip
     F_y = F_y - N * u_y - F_t * u_z
     F_z = F_z - N * u_z + F_t * u_y
     M_x = R * F_t - couette * omega
@@ -85,6 +92,12 @@ def land_film_force(model, w):
     power = F_y * v_y + F_z * v_z + M_x * omega
     w.land_elastic = ball_array_sum(hertz_energy(p.cage.K_land, pen))
     w.land_dissipated = -ball_array_sum(power + N_0 * pen_dot)
+
+    # -dF/dv in the global frame
+    w.film_yy = d.kappa * (I_c * n_y * n_y - 2.0 * I_s * n_y * n_z + I_t * n_z * n_z)
+    w.film_zz = d.kappa * (I_c * n_z * n_z + 2.0 * I_s * n_y * n_z + I_t * n_y * n_y)
+    w.film_yz = d.kappa * ((I_c - I_t) * n_y * n_z + I_s * (n_y * n_y - n_z * n_z))
+    w.film_spin = couette + g * R * R
 
     F = vec(0.0, F_y, F_z)
     M = vec(M_x, 0.0, 0.0) + vec_cross(x_land * axis, F)

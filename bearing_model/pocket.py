@@ -91,6 +91,8 @@ def pocket_half(model, w, h, mixed, whole):
 
     w.F = w.F + F
     w.M = w.M + M
+    w.D = w.D + g / d.m * (1.0 - n * n)
+    w.D_omega = w.D_omega + g * d.R**2 / d.J * (1.0 - n * n)
     w.pocket_dissipated = w.pocket_dissipated + (Q - Q_0) * delta_dot - vec_dot(F_s, slip) - vec_dot(F_c, v)
     w.pocket_F[h] = vec_to_global(-F, w.cos_theta, w.sin_theta)
     w.pocket_M[h] = vec_to_global(-vec_cross(arm_p, F) - M, w.cos_theta, w.sin_theta)
@@ -106,10 +108,12 @@ def pocket_force(model, w):
 
     pocket: force on the half in the pocket's frame (x, r, t), pocket_push: its normal part (x, t); pocket_F, pocket_M: force and moment about the
     half's centre, global.
+    D, D_omega: rates at which friction slows each velocity of a ball by itself, -d(acceleration)/d(velocity) [1/s], for the integrator's Jacobian.
     """
     mixed, rigid = model.p.scene.lubrication == Lubrication.MIXED, model.p.scene.cage == CageModel.RIGID
     w.delta_c, w.Q_c, w.pocket, w.pocket_push, w.pocket_F, w.pocket_M = {}, {}, {}, {}, {}, {}  # by half
     w.pocket_energy, w.pocket_dissipated = 0.0, 0.0
+    w.D, w.D_omega = 0.0 * w.F, 0.0 * w.F
     if rigid:
         pocket_half(model, w, 0, mixed, True)
         w.half[1].F, w.half[1].M = 0.0 * w.half[0].F, 0.0 * w.half[0].M

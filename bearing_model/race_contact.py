@@ -40,7 +40,7 @@ def race_traction(model, race, c, mixed, sliced):
     c: the contact, normal n, rolling direction t_1, long axis t_2, slip Delta u, mean speed roll = U, spin = omega_ball - Omega of the race,
     approach = velocity of the ball's centre against the race there, load Q, sqrt_delta, ball radius R.
     Returns U with its floor [m/s], F_s at the contact point, F_c through the ball's centre [N], M of F_s about the ball's centre with spin [N.m],
-    dissipated power [W].
+    dissipated power [W]; for the integrator's Jacobian (verlet.py) the secant coefficients g = |traction|/|slip| [N.s/m] and g_spin = moment/spin [N.m.s].
     """
     p = model.p
     U = np.sqrt(vec_dot(c.roll, c.roll) + p.oil.U_0**2)
@@ -48,7 +48,7 @@ def race_traction(model, race, c, mixed, sliced):
     f_a = traction_asperity_share(traction_ln_film(race.ln_Lambda, ln_U, ln_Q)) if mixed else 0.0
     F_R = traction_inlet(race.rolling, ln_U, c.Q, ln_Q)
 
-    out = SimpleNamespace(U=U, F_s=0.0, M=0.0, dissipated=0.0)
+    out = SimpleNamespace(U=U, F_s=0.0, M=0.0, dissipated=0.0, g=0.0, g_spin=0.0)
     a = race.hertz.a_delta * c.sqrt_delta
     for s, share in zip(SLICE, SHARE, strict=True) if sliced else [(0.0, 1.0)]:
         xi = a * s
@@ -56,7 +56,10 @@ def race_traction(model, race, c, mixed, sliced):
         lever = (c.R - sagitta) * c.n + xi * c.t_2
         slip_i = vec_across(c.slip + vec_cross(c.spin, lever - c.R * c.n), c.n)
         slip = np.sqrt(vec_dot(slip_i, slip_i) + p.oil.v_0**2)
-        F = -share * traction_mu(p, slip / U, f_a, mixed) * c.Q * slip_i / slip
+        g = share * traction_mu(p, slip / U, f_a, mixed) * c.Q / slip
+        F = -g * slip_i
+        out.g = out.g + g
+        out.g_spin = out.g_spin + g * xi * xi
         out.F_s = out.F_s + F
         out.M = out.M + vec_cross(lever, F)
         out.dissipated = out.dissipated - vec_dot(F, slip_i)
@@ -125,3 +128,4 @@ def race_contact_force(model, w):
 
     w.delta_i, w.delta_e, w.Q_i, w.Q_e, w.n_i, w.n_e = inner.delta, outer.delta, inner.Q, outer.Q, inner.n, outer.n
     w.U_i, w.U_e = T_i.U, T_e.U
+    w.g_i, w.g_e, w.g_spin_i, w.g_spin_e = T_i.g, T_e.g, T_i.g_spin, T_e.g_spin

@@ -1,10 +1,17 @@
-// Two one-step methods on the same state, with the same control of the error:
+// Steps from communication point to communication point, by one of two one-step methods with the same error
+// weights:
 //
-//   verlet     velocity Verlet, linearly implicit in what is stiff (verlet.c): second order, one evaluation a step, the default
-//   explicit   classical Runge-Kutta 4(3), stepped by ARKODE; its last stage is the next step's first.  For tolerances below about 2e-5, and as a check
+//   verlet     the default: a linearly implicit trapezoidal rule, order two, one evaluation a step (verlet.c)
+//   explicit   classical Runge-Kutta 4(3), stepped by ARKODE: for tolerances below 2e-5, and as a check
 //
-// Each advance is a pure function of IntegratorState: rollback and a fresh instance continue bit for bit (ARKODE is reset with the remembered
-// step size).  Error weights are absolute, 1/(tolerance scale): angles are unbounded.
+// Order, error estimate and step-size control are derived in docs/method.md; bearing_model/verlet.py has the
+// control again.  SUNDIALS steps the explicit method, carries its vectors and reports its errors; the default
+// method needs none of it.
+//
+// Determinism: an advance is a function of IntegratorState, model and t_stop alone, bit for bit, so that a
+// restored state and another instance go on alike.  For this ARKODE is reset at the start of every advance,
+// with the remembered step size.  Error weights are absolute, 1/(tolerance scale): angles are unbounded, so
+// that relative ones would fade.
 #include "integrator.h"
 
 #include "aligned.h"
@@ -29,12 +36,13 @@ struct Integrator {
     double weight[N_STATES];
     VerletState trial;
     const double *latest;       // where ARKODE keeps the latest evaluation
-    bool starting;              // the next evaluation is the one at (s->t, s->y)
-    bool warming_up;            // dy/dt = 0
-    unsigned nonfinite_stages;  // trial states without a derivative in this advance
+    bool starting;              // the next evaluation is at (s->t, s->now.y), where s->now.f is known
+    bool warming_up;            // dy/dt = 0, see warm_up
+    unsigned nonfinite_stages;  // stages of this advance whose derivative is not a number
 };
 
-// ---- vectors of fixed length with the operations of this processor ---------------------------------------------------------------------------
+// ---- vectors of ARKODE: fixed length, operations of this processor's instruction set ----------------------
+
 typedef struct {
     const VectorOps *ops;
     double value[N_STATES];
@@ -106,7 +114,9 @@ static void vector_const(sunrealtype c, N_Vector z)
 {
     for (int i = 0; i < N_STATES; i++) data(z)[i] = c;
 }
-// ARKODE wants these to exist; it calls them only to choose a first step, which is always given.
+
+// ARKODE checks that these operations exist.  It calls them only to choose a first step, which is always
+// given.
 static void vector_div(N_Vector x, N_Vector y, N_Vector z)
 {
     for (int i = 0; i < N_STATES; i++) data(z)[i] = data(x)[i] / data(y)[i];
@@ -159,9 +169,11 @@ static N_Vector vector_new(SUNContext sun, const VectorOps *vector_operations)
     return v;
 }
 
-// ---- what ARKODE calls ---------------------------------------------------------------------------------------------------------------------
-// dy/dt; at a step's start the known one.  ERKStep has no retry for a trial state without a derivative, so such a state gets an enormous one,
-// of alternating sign: the error test fails and the step is tried again with a smaller size.
+// ---- what ARKODE calls ------------------------------------------------------------------------------------
+
+// dy/dt; at a step's start the one that is already known.  ERKStep has no recoverable failure for a stage
+// without a finite derivative: such a stage returns a huge one, so that the error test fails and the step is
+// repeated smaller.  Its sign alternates, so that two such stages do not cancel.
 static void evaluate(Integrator *in, double t, const double *y, double *f)
 {
     if (in->warming_up) {
@@ -194,7 +206,9 @@ static int weights(N_Vector y, N_Vector ewt, void *user)
     return 0;
 }
 
-// ---- creation ---------------------------------------------------------------------------------------------------------------------------------
+// ---- creation ---------------------------------------------------------------------------------------------
+
+// An error message of SUNDIALS, to the log.
 static void report(int line, const char *function, const char *file, const char *message, SUNErrCode code, void *user, SUNContext sun)
 {
     (void)file, (void)sun;
@@ -204,6 +218,7 @@ static void report(int line, const char *function, const char *file, const char 
     in->log(in->context, text);
 }
 
+// No interpolation (steps end at t_stop), no warnings of small steps (they are legitimate in an impact).
 static int set_up(void *arkode, Integrator *in)
 {
     if (ARKodeSetUserData(arkode, in) != ARK_SUCCESS) return -1;
@@ -213,7 +228,9 @@ static int set_up(void *arkode, Integrator *in)
     return ARKodeSetMaxHnilWarns(arkode, -1) == ARK_SUCCESS ? 0 : -1;
 }
 
-// Classical fourth order; theta h (k_5 - k_4) with k_5 the next step's first stage is the difference to an embedded third order.
+// Classical Runge-Kutta of order four with an embedded order three.  The fifth stage is the next step's first
+// (FSAL); the difference of the two solutions, theta h (k_4 - k_5), estimates the error.  theta scales the
+// estimate and nothing else.
 static int explicit_table(void *arkode)
 {
     enum { STAGES = 5 };
@@ -231,7 +248,8 @@ static int explicit_table(void *arkode)
     return status;
 }
 
-// One step of dy/dt = 0: ARKODE allocates in its first step, which is to happen here and not in fmi2DoStep.
+// Takes one step of dy/dt = 0: ARKODE allocates memory in its first step, which must not happen in
+// fmi2DoStep.
 static bool warm_up(Integrator *in)
 {
     double t;
@@ -252,7 +270,7 @@ Integrator *integrator_create(const Kernels *kernels, const Model *model, Work *
         SUNContext_ClearErrHandlers(in->sun);
         fine = SUNContext_PushErrHandler(in->sun, report, in) == SUN_SUCCESS && (in->y = vector_new(in->sun, kernels->ops)) != NULL;
     }
-    if (fine) {
+    if (fine) {  // error weights of 1 for the warm-up, until integrator_tolerance
         in->arkode = ERKStepCreate(explicit_rhs, 0.0, in->y, in->sun);
         fine = in->arkode != NULL && set_up(in->arkode, in) == 0 && explicit_table(in->arkode) == ARK_SUCCESS;
         for (int i = 0; i < N_STATES; i++) in->weight[i] = 1.0;
@@ -280,7 +298,8 @@ void integrator_tolerance(Integrator *in, double tolerance)
         for (int i = 0; i < STATE_BLOCKS[b].count; i++) in->weight[STATE_BLOCKS[b].offset + i] = 1.0 / (tolerance * in->model->d->scale[STATE_BLOCKS[b].scale]);
 }
 
-// ---- stepping -----------------------------------------------------------------------------------------------------------------------------------
+// ---- stepping ---------------------------------------------------------------------------------------------
+
 void integrator_evaluate(Integrator *in)
 {
     IntegratorState *s = in->s;
@@ -290,6 +309,16 @@ void integrator_evaluate(Integrator *in)
     s->f_is_current = 1;
 }
 
+// Control of the step size.  The estimated error of a step is proportional to h^3 (order two), so the step
+// that would just be accepted is error^(-1/3) times as long; SAFETY keeps the next one below it.  A step is
+// at least MIN_FACTOR and at most MAX_FACTOR times as long as the one before: contacts open and close, and
+// estimates over a kink of the forces mean little.
+static const double SAFETY = 0.8, MIN_FACTOR = 0.2, MAX_FACTOR = 1.5;
+
+// Part of a step by which the last one may be longer than the controller wants, so that none is left for
+// rounding's sake.
+static const double LAST_STEP = 1e-9;
+
 static int step_underflow(const Integrator *in, double h)
 {
     char text[128];
@@ -298,45 +327,68 @@ static int step_underflow(const Integrator *in, double h)
     return ARK_ERR_FAILURE;
 }
 
-// Step sizes follow the error estimate, an h^3 of a step; the last two steps before t_stop are equal.  States take turns in two places.
+// Factor between a step and the next one of the same quality.  Without error it has no bound but MAX_FACTOR;
+// a NaN as error means that the step has left the range of the model, and gives the smallest factor.
+static double step_factor(double error)
+{
+    if (error > 0.0) return SAFETY * approx_inv_cbrt(error);
+    return error == 0.0 ? MAX_FACTOR : 0.0;
+}
+
+// Length of the next step: the controller's goal, or what is left to t_stop, or half of that if two steps are
+// needed.
+static double step_length(double goal, double left)
+{
+    if (goal >= left * (1.0 - LAST_STEP)) return left;
+    return left < 2.0 * goal ? 0.5 * left : goal;
+}
+
 static int verlet_advance(Integrator *in, double t_stop, long max_steps)
 {
     IntegratorState *s = in->s;
-    VerletState *now = &s->now, *next = &in->trial;
-    double h_goal = s->h;
+    VerletState *now = &s->now, *next = &in->trial;  // they change places at every accepted step
+    double goal = s->h;
     int status = 0;
     while (status == 0 && s->t < t_stop) {
         if (max_steps-- <= 0) {
             status = ARK_TOO_MUCH_WORK;
             break;
         }
-        const double left = t_stop - s->t;
-        const bool last = h_goal >= left * (1.0 - 1e-9);
-        const double h = last ? left : left < 2.0 * h_goal ? 0.5 * left : h_goal;
+        const double left = t_stop - s->t, h = step_length(goal, left);
         const double error = in->kernels->verlet(in->model, s->t, h, in->weight, now, next, in->w);
-        const double factor = error > 0.0 ? 0.8 * approx_inv_cbrt(error) : error == 0.0 ? 2.0 : 0.0;  // NaN: the least
+        const double factor = step_factor(error);
         s->rhs_evals += 1.0;
-        if (!(error <= 1.0)) {  // NaN fails too
+
+        // Refused, also if the error is not a number: the same step again, shorter.
+        if (!(error <= 1.0)) {
             s->error_tests_failed += 1.0;
-            h_goal = h * fmax(factor, 0.2);
-            if (s->t + h_goal == s->t) status = step_underflow(in, h);
+            goal = h * fmax(factor, MIN_FACTOR);
+            if (s->t + goal == s->t) status = step_underflow(in, h);
             continue;
         }
+
+        // Accepted.  A step that was cut short to meet t_stop says nothing against the goal before it.
         VerletState *const before = now;
         now = next, next = before;
-        s->t = last ? t_stop : s->t + h;
+        s->t = h == left ? t_stop : s->t + h;
         s->steps += 1.0;
-        if (h == h_goal || factor < 1.0) h_goal = h * fmin(factor, 1.5);
+        if (h == goal || factor < 1.0) goal = h * fmin(factor, MAX_FACTOR);
         in->hook(in->context, h, in->w);
     }
     if (now != &s->now) s->now = *now;
-    s->h = h_goal;
+    s->h = goal;
     return status;
 }
+
+// Part of the step size before an advance that the next one begins with at least: ARKODE's own proposal is
+// too small after a step that was cut short to meet t_stop.
+static const double KEPT_STEP = 0.9;
 
 static int explicit_advance(Integrator *in, double t_stop, long max_steps)
 {
     IntegratorState *s = in->s;
+
+    // ARKODE forgets what it knows of the steps before and begins at the state with the remembered step size.
     in->nonfinite_stages = 0;
     memcpy(data(in->y), s->now.y, sizeof s->now.y);
     if (ARKodeReset(in->arkode, s->t, in->y) != ARK_SUCCESS) return -1;
@@ -345,6 +397,7 @@ static int explicit_advance(Integrator *in, double t_stop, long max_steps)
     long failed_before = 0, failed = 0;
     ARKodeGetNumErrTestFails(in->arkode, &failed_before);
 
+    // One step at a time: each is counted and shown to the hook.
     double h_next = 0.0, t = s->t;
     int status = ARK_SUCCESS;
     while (status >= 0 && status != ARK_TSTOP_RETURN) {
@@ -363,13 +416,15 @@ static int explicit_advance(Integrator *in, double t_stop, long max_steps)
         ARKodeGetCurrentStep(in->arkode, &h_next);
         in->hook(in->context, h, in->w);
     }
+
+    // What the next advance needs.  The last stage was at the new state: its derivative is known.
     in->starting = false;
     ARKodeGetNumErrTestFails(in->arkode, &failed);
     s->error_tests_failed += (double)(failed - failed_before);
-    s->h = fmax(h_next, 0.9 * s->h);
+    s->h = fmax(h_next, KEPT_STEP * s->h);
     if (status < 0) return status;
     s->t = t_stop;
-    memcpy(s->now.f, in->latest, sizeof s->now.f);  // the last stage was at the new state
+    memcpy(s->now.f, in->latest, sizeof s->now.f);
     s->f_is_current = 1;
     return 0;
 }

@@ -1,92 +1,130 @@
-// A second-order one-step method that costs one evaluation: velocity Verlet, linearly implicit in what is stiff.
+// One step of the default method: a linearly implicit trapezoidal rule with velocity Verlet's positions, one
+// evaluation of the right-hand side a step.  Derivation, the reason of every constant and literature:
+// docs/method.md.  The same step with dense matrices, to be read beside this file: bearing_model/verlet.py.
 //
-//   v_m = v_n + gamma a_n,  gamma = h/2
-//   q_{n+1} = q_n + h q'(q_m, v_m),  q_m = q_n + gamma v_m           friction states: implicit midpoint (cage_joint_advance)
-//   v^ = v_n + h a_n,  a^ = a(q_{n+1}, v^)                           of cage halves less what their films hold back (predictor_limiter)
-//   (1 + gamma A + gamma^2 K) delta = v_n - v^ + gamma (a_n + a^)    rates A, stiffnesses K of stiff local contacts (implicit.c)
-//   v_{n+1} = v^ + delta = v_n + gamma (a_n + a_{n+1})
-//   q_{n+1} += gamma (v_{n+1} - v_n - h a_n)                         where K acts: there positions follow the trapezoidal rule too
+//   gamma = h/2,  v_m = v_n + gamma a_n
+//   q_{n+1} = q_n + h q'(q_m, v_m),  q_m = q_n + gamma v_m         friction states z: implicit midpoint rule
+//   v^ = v_n + h a_n - limiter                                     predictor; the limiter is the cage's
+//   a^ = a(t_{n+1}, q_{n+1}, v^)                                   the evaluation
+//   (1 + gamma A + gamma^2 K) delta = v_n - v^ + gamma (a_n + a^)  one Newton iteration
+//   v_{n+1} = v^ + delta,  a_{n+1} = (v_{n+1} - v_n)/gamma - a_n   v_{n+1} = v_n + gamma (a_n + a_{n+1})
+//   q_{n+1} += gamma (v_{n+1} - v_n - h a_n)                       where K acts: trapezoidal rule too
+//   a_{n+1} -= SMOOTHING H (a_{n+1} - 2 a_n + a_{n-1})             stiff rates: H = 1 - (1 + gamma A)^-1
 //
-// Any A and K keep the second order; the exact ones make the step stable for every h, K = 0 for frequencies up to 2/h (Swope et al. 1982).
-// Rates above 1/h would ring, by the trapezoidal factor (1 - gamma A)/(1 + gamma A): a_{n+1} gives up 0.15 H (a_{n+1} - 2 a_n + a_{n-1}), of
-// second order itself, H = gamma A/(1 + gamma A) (implicit_stiff_part).  The factor of a fast rate is then between 0.38 and 0.46 for gamma A > 2.
-// Error of a step: h^3/12 a'' of the trapezoidal rule and h^3/24 q''' of the midpoint rule (friction states), from differences of two steps.
+// A = -da/dv and K = -da/dq are blocks of the Jacobian, approximate (implicit.c).  The method is a W-method
+// (Steihaug and Wolfbrandt 1979): its order is two whatever A and K are.  Exact A and K make it the
+// trapezoidal rule, stable for every h; without K it is velocity Verlet, stable for frequencies up to 2/h
+// (Swope et al. 1982).
 #include "verlet.h"
 
 #include "implicit.h"
 #include "rhs.h"
 #include "vector_ops.h"
 
-enum { PAIRED = Y_JOINT_PLATE_Y, VELOCITY = Y_BALL_V_X, FRICTIONS = Y_WORK };  // rows: positions 0...PAIRED - 1, frictions, work, velocities
-_Static_assert(Y_CAGE_V_X - Y_CAGE_X == VELOCITY && Y_RING_V_X - Y_RING_X == VELOCITY && Y_BALL_OMEGA_X - VELOCITY == PAIRED,
-               "velocities are in the order of their positions");
+// Rows of the state: positions from 0 on, friction states from FRICTION on, the work, velocities from
+// VELOCITY on.  The velocity of position i < FRICTION is in row VELOCITY + i; the balls' spins come last and
+// have no position.  Rows CAGE to CAGE_END are the velocities of the cage halves.
+enum { FRICTION = Y_JOINT_PLATE_Y, VELOCITY = Y_BALL_V_X, CAGE = Y_CAGE_V_X, CAGE_END = Y_RING_V_X };
+_Static_assert(Y_CAGE_V_X - Y_CAGE_X == VELOCITY && Y_RING_V_X - Y_RING_X == VELOCITY, "order of velocities");
+_Static_assert(Y_BALL_OMEGA_X - VELOCITY == FRICTION, "velocities are in the order of their positions");
+
+// Part of the second difference of stiff accelerations that is taken away.  The amplification factor of a
+// rate A, which for the trapezoidal rule tends to -1, then has a modulus below 0.46 for gamma A > 2; A may be
+// 13 % too small (docs/method.md).
 static const double SMOOTHING = 0.15;
 
-// y: positions and frictions of the next step, velocities of the middle.
+// Sum in eight partial sums: the same bits for every instruction set.
+static double sum_of(const double *x, int count)
+{
+    const int whole = count / 8 * 8;
+    double part[8] = {0};
+    for (int i = 0; i < whole; i += 8)
+        for (int k = 0; k < 8; k++) part[k] += x[i + k];
+    for (int i = whole; i < count; i++) part[i - whole] += x[i];
+    return ((part[0] + part[1]) + (part[2] + part[3])) + ((part[4] + part[5]) + (part[6] + part[7]));
+}
+
+// Writes positions and friction states of the step's end and the velocities v_m of its middle into y.
 static void advance_positions(const Model *model, double h, const VerletState *from, double *y, Work *w)
 {
     const double gamma = 0.5 * h;
-    double middle[N_STATES];  // of cage and ring
+    double middle[N_STATES];  // the state in the middle of the step, of cage and ring
+
+    // Velocity Verlet: positions move with the velocities of the middle.
     for (int i = VELOCITY; i < N_STATES; i++) middle[i] = y[i] = from->y[i] + gamma * from->f[i];
-    for (int i = 0; i < PAIRED; i++) y[i] = from->y[i] + h * y[VELOCITY + i];
-    for (int i = PAIRED; i < VELOCITY; i++) y[i] = from->y[i];
+    for (int i = 0; i < FRICTION; i++) y[i] = from->y[i] + h * y[VELOCITY + i];
+    for (int i = FRICTION; i < VELOCITY; i++) y[i] = from->y[i];
+
+    // The cage's rotations psi and the friction states have rates that depend on the pose: midpoint rule.
     for (int i = Y_CAGE_X; i < Y_RING_X; i++) middle[i] = from->y[i] + gamma * y[VELOCITY + i];
-    for (int i = Y_RING_X; i < PAIRED; i++) middle[i] = from->y[i];
+    for (int i = Y_RING_X; i < FRICTION; i++) middle[i] = from->y[i];
     memcpy(&y[Y_CAGE_PSI], &from->y[Y_CAGE_PSI], 2 * sizeof *y);
     rhs_cage_advance(model, middle, h, y, w);
 }
 
+// Limits the predictor of the cage velocities: writes what is taken from h a_n into `removed`.  A land film
+// is stiff when closing and almost free when opening, so extrapolating with a_n would throw a half off the
+// film that it rests on.  The part of h a_n that is new since the last step, h (a_n - minmod(a_n, a_{n-1})),
+// is therefore damped implicitly with the film matrix at the step's start; the part that both accelerations
+// share is steady and stays.
+static void predictor_limiter(const Model *model, double h, const VerletState *from, Work *w, double *removed)
+{
+    // What is new: minmod is the smaller of two accelerations of the same sign, else 0.
+    double kept[N_STATES];
+    for (int i = CAGE; i < CAGE_END; i++) {
+        const double now = from->f[i], before = now - from->h * from->jerk[i];
+        const double minmod = now * before <= 0.0 ? 0.0 : fabs(now) < fabs(before) ? now : before;
+        removed[i] = kept[i] = h * (now - minmod);
+    }
+
+    // What the films leave of it, (1 + h A)^-1 of the films alone, without their spin.
+    for (int land = 0; land < 2; land++) {
+        const double *film = from->film[land];
+        w->film_yy[land] = film[0], w->film_yz[land] = film[1], w->film_zz[land] = film[2];
+        w->film_spin[land] = 0.0;
+    }
+    implicit_films(model, w, h, kept);
+    for (int i = CAGE; i < CAGE_END; i++) removed[i] -= kept[i];
+}
+
+// Power that the right-hand side dissipates because it was evaluated at v^ and not at v_{n+1}, as far as it
+// has one sign: delta.M (A + gamma K) delta of balls and cage, M their inertia.  Against a film that holds
+// the cage this term would be most of the work.  The terms linear in delta = O(h^2) change sign from step to
+// step and are of the method's order.
+static double dissipation_correction(const Model *model, const double *y, double gamma, const double *residual, const double *delta)
+{
+    enum { COUNT = N_STATES - VELOCITY };
+    const double *inertia = &model->d->inertia[VELOCITY], inv_gamma = 1.0 / gamma;
+    double power[COUNT];
+    for (int i = 0; i < COUNT; i++) {
+        const double change = delta[VELOCITY + i];
+        const double damping = inv_gamma * (residual[VELOCITY + i] - change);  // (A + gamma K) delta
+        power[i] = inertia[i] * change * damping;
+    }
+    for (int j = 0; j < Z; j++) power[Y_BALL_OMEGA_M - VELOCITY + j] *= y[Y_BALL_R + j] * y[Y_BALL_R + j];
+    return sum_of(power, COUNT);
+}
+
+// Where a stiffness acts, positions follow the trapezoidal rule too: q_{n+1} += gamma delta with
+// delta = v_{n+1} - v_n - h a_n.  These are the balls' axial and radial positions, the tilts of a supported
+// or prescribed ring, and the axial motion of one cage half against the other.
 static void correct_positions(const Model *model, double gamma, const double *delta, double *y)
 {
     for (int i = 0; i < 2 * Z; i++) y[Y_BALL_X + i] += gamma * delta[VELOCITY + Y_BALL_X + i];
     if (model->p->ring.tilt_mode != TILT_MODE_FREE)
         for (int i = Y_RING_BETA; i <= Y_RING_GAMMA; i++) y[i] += gamma * delta[VELOCITY + i];
     if (model->p->scene.cage == CAGE_MODEL_RIGID) return;
-    static const int axial[3] = {Y_CAGE_X, Y_CAGE_BETA, Y_CAGE_GAMMA};  // the motion of one half against the other
+    static const int axial[3] = {Y_CAGE_X, Y_CAGE_BETA, Y_CAGE_GAMMA};
     for (int i = 0; i < 3; i++) {
-        const double share = 0.5 * gamma * (delta[VELOCITY + axial[i] + 1] - delta[VELOCITY + axial[i]]);
-        y[axial[i]] -= share;
-        y[axial[i] + 1] += share;
+        const int half_0 = axial[i], half_1 = half_0 + 1;
+        const double share = 0.5 * gamma * (delta[VELOCITY + half_1] - delta[VELOCITY + half_0]);
+        y[half_0] -= share;
+        y[half_1] += share;
     }
 }
 
-// delta.A delta: power that v^ loses beyond v_{n+1}, of one sign: against the film that holds a cage it would be most of the work.  What is linear in
-// delta = gamma (a_{n+1} - a_n) alternates and leaves h^2 a.A a, which is of the method's order.
-static double dissipation_correction(const Model *model, const double *y, const double *residual, double gamma, const double *delta)
-{
-    enum { COUNT = N_STATES - VELOCITY, WHOLE = COUNT / 8 * 8 };
-    const double *inertia = &model->d->inertia[VELOCITY], inv_gamma = 1.0 / gamma;
-    double power[COUNT], part[8] = {0};
-    for (int i = 0; i < COUNT; i++) {
-        const double damping = inv_gamma * (residual[VELOCITY + i] - delta[VELOCITY + i]);  // (A + gamma K) delta: where rates are stiff, A delta
-        power[i] = inertia[i] * delta[VELOCITY + i] * damping;
-    }
-    for (int j = 0; j < Z; j++) power[Y_BALL_OMEGA_M - VELOCITY + j] *= y[Y_BALL_R + j] * y[Y_BALL_R + j];
-    for (int i = 0; i < WHOLE; i += 8)
-        for (int k = 0; k < 8; k++) part[k] += power[i + k];
-    for (int i = WHOLE; i < COUNT; i++) part[i - WHOLE] += power[i];
-    return ((part[0] + part[1]) + (part[2] + part[3])) + ((part[4] + part[5]) + (part[6] + part[7]));
-}
-
-// A land film holds back where it closes and hardly where it opens: a land that rests against it would be thrown off by a prediction from a_n alone.
-// Of what is new in h a_n of the cage halves, beyond the part that a_n and a_{n-1} share: what the films at the step's start hold back.
-static void predictor_limiter(const Model *model, double h, const VerletState *from, Work *w, double *removed)
-{
-    double kept[N_STATES];
-    for (int i = Y_CAGE_V_X; i < Y_RING_V_X; i++) {
-        const double now = from->f[i], before = now - from->h * from->jerk[i];
-        const double steady = now * before <= 0.0 ? 0.0 : fabs(now) < fabs(before) ? now : before;
-        removed[i] = kept[i] = h * (now - steady);
-    }
-    for (int land = 0; land < 2; land++) {
-        w->film_yy[land] = from->film[land][0], w->film_yz[land] = from->film[land][1], w->film_zz[land] = from->film[land][2];
-        w->film_spin[land] = 0.0;
-    }
-    implicit_films(model, w, h, kept);
-    for (int i = Y_CAGE_V_X; i < Y_RING_V_X; i++) removed[i] -= kept[i];
-}
-
-static void keep_films(const Work *w, VerletState *to)
+// The films at the step's end, for the next step's predictor.
+static void remember_films(const Work *w, VerletState *to)
 {
     for (int land = 0; land < 2; land++) {
         const double film[3] = {w->film_yy[land], w->film_yz[land], w->film_zz[land]};
@@ -94,47 +132,78 @@ static void keep_films(const Work *w, VerletState *to)
     }
 }
 
-double verlet_step(const Model *model, double t, double h, const double *weight, const VerletState *from, VerletState *to, Work *w)
+// Accelerations, jerks and errors of the velocities.  The trapezoidal rule's own leading error is h^3 a''/12,
+// and h^2 a'' is the second difference of the accelerations over this step and the last.
+static void remember_velocities(const Model *model, const Work *w, double h, const VerletState *from, const double *delta, VerletState *to, double *error)
 {
-    const double gamma = 0.5 * h, *f = from->f;
-    double removed[N_STATES], residual[N_STATES], delta[N_STATES], second_difference[N_STATES], *y = to->y;
-    advance_positions(model, h, from, y, w);
-    predictor_limiter(model, h, from, w, removed);
-    for (int i = VELOCITY; i < N_STATES; i++) y[i] += gamma * f[i];
-    for (int i = Y_CAGE_V_X; i < Y_RING_V_X; i++) y[i] -= removed[i];
-    rhs(model, t + h, y, to->f, w);
-    keep_films(w, to);
-    for (int i = VELOCITY; i < N_STATES; i++) residual[i] = gamma * (to->f[i] - f[i]);
-    for (int i = Y_CAGE_V_X; i < Y_RING_V_X; i++) residual[i] += removed[i];
-    for (int i = VELOCITY; i < N_STATES; i++) delta[i] = residual[i];
-    implicit_solve(model, w, gamma, delta);
-    to->f[Y_WORK] += dissipation_correction(model, y, residual, gamma, delta);
-    for (int i = Y_CAGE_V_X; i < Y_RING_V_X; i++) {  // from here on against v_n + h a_n
-        y[i] += removed[i];
-        delta[i] -= removed[i];
-    }
-    correct_positions(model, gamma, delta, y);
-    y[Y_WORK] += gamma * (f[Y_WORK] + to->f[Y_WORK]);
+    const double gamma = 0.5 * h, inv_gamma = 1.0 / gamma, inv_h = 1.0 / h, inv_span = 2.0 / (h + from->h);
+    const double second = h * h * inv_span, *f = from->f;
+    double second_difference[N_STATES];
 
-    const double inv_gamma = 1.0 / gamma, inv_h = 1.0 / h, inv_span = 2.0 / (h + from->h), second = h * h * inv_span;
-    double error[N_STATES];
-    for (int i = 0; i < PAIRED; i++) error[i] = 0.0;
-    error[Y_WORK] = 0.0;
+    // h^2 a'' over two steps that may differ in length, and the error.
     for (int i = VELOCITY; i < N_STATES; i++) {
-        y[i] += delta[i];
-        second_difference[i] = second * (delta[i] * (inv_gamma * inv_h) - from->jerk[i]);  // h^2 a''
+        second_difference[i] = second * (delta[i] * (inv_gamma * inv_h) - from->jerk[i]);
         error[i] = (h / 12.0) * second_difference[i];
     }
+
+    // Stiff accelerations give up a part of their second difference, which is of the order of the method's
+    // own error.
     implicit_stiff_part(model, w, gamma, second_difference);
     for (int i = VELOCITY; i < N_STATES; i++) {
         to->f[i] = f[i] + delta[i] * inv_gamma - SMOOTHING * second_difference[i];
         to->jerk[i] = (to->f[i] - f[i]) * inv_h;
     }
-    for (int i = PAIRED; i < FRICTIONS; i++) {
-        to->f[i] = (y[i] - from->y[i]) * inv_h;
-        to->jerk[i] = (to->f[i] - f[i]) * inv_span;
+}
+
+// Mean rates of the friction states over the step, their changes and errors.  The midpoint rule's own leading
+// error is h^3 z'''/24.  The mean rates belong to the middles of the steps, so that their differences give
+// z'' and the differences of z'' give z'''.
+static void remember_friction(double h, const VerletState *from, VerletState *to, double *error)
+{
+    const double inv_h = 1.0 / h, inv_span = 2.0 / (h + from->h), second = h * h * inv_span;
+    for (int i = FRICTION; i < Y_WORK; i++) {
+        to->f[i] = (to->y[i] - from->y[i]) * inv_h;
+        to->jerk[i] = (to->f[i] - from->f[i]) * inv_span;
         error[i] = (h * second / 24.0) * (to->jerk[i] - from->jerk[i]);
     }
+}
+
+double verlet_step(const Model *model, double t, double h, const double *weight, const VerletState *from, VerletState *to, Work *w)
+{
+    const double gamma = 0.5 * h, *f = from->f;
+    double removed[N_STATES], residual[N_STATES], delta[N_STATES], error[N_STATES], *y = to->y;
+
+    // Positions of the step's end; predicted velocities v^ there; the evaluation.
+    advance_positions(model, h, from, y, w);
+    predictor_limiter(model, h, from, w, removed);
+    for (int i = VELOCITY; i < N_STATES; i++) y[i] += gamma * f[i];
+    for (int i = CAGE; i < CAGE_END; i++) y[i] -= removed[i];
+    rhs(model, t + h, y, to->f, w);
+    remember_films(w, to);
+
+    // The residual of the trapezoidal rule at v^, and the linear solve that corrects v^.
+    for (int i = VELOCITY; i < N_STATES; i++) residual[i] = gamma * (to->f[i] - f[i]);
+    for (int i = CAGE; i < CAGE_END; i++) residual[i] += removed[i];
+    for (int i = VELOCITY; i < N_STATES; i++) delta[i] = residual[i];
+    implicit_solve(model, w, gamma, delta);
+    to->f[Y_WORK] += dissipation_correction(model, y, gamma, residual, delta);
+
+    // The limiter is given back: from here on delta is v_{n+1} - v_n - h a_n.
+    for (int i = CAGE; i < CAGE_END; i++) {
+        y[i] += removed[i];
+        delta[i] -= removed[i];
+    }
+    for (int i = VELOCITY; i < N_STATES; i++) y[i] += delta[i];
+    correct_positions(model, gamma, delta, y);
+
+    // The work by the trapezoidal rule.
+    y[Y_WORK] += gamma * (f[Y_WORK] + to->f[Y_WORK]);
+
+    // History for the next step, and the error: positions and the work have none of their own.
+    for (int i = 0; i < FRICTION; i++) error[i] = 0.0;
+    error[Y_WORK] = 0.0;
+    remember_velocities(model, w, h, from, delta, to, error);
+    remember_friction(h, from, to, error);
     to->h = h;
     return vector_ops.wrms_norm(error, weight);
 }

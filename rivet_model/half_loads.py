@@ -21,11 +21,7 @@ from .joint_contact import rivet_compliance
 from .lcp import Contact
 
 CHI = np.deg2rad([0.0, 6.0, 12.0, 20.0, 30.0, 42.0, 56.0, 72.0, 90.0])
-KNOTS = {
-    "tau": np.array([0.0, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0]),
-    "q": np.array([-1.0, -0.75, -0.5, -0.25, 0.0, 0.2, 0.4, 0.6, 0.8, 1.0]),
-    "psi": np.array([-1.0, -0.8, -0.6, -0.4, -0.2, 0.0, 0.2, 0.4, 0.6, 0.8, 1.0]),
-}
+KNOTS = {"tau": np.linspace(0.0, 1.0, 11), "q": np.linspace(-1.0, 1.0, 11), "psi": np.linspace(-1.0, 1.0, 11)}  # equal steps: readers need no search
 COARSE_KNOTS = {name: knots[:: 1 if name == "tau" else 2] for name, knots in KNOTS.items()}
 LENGTH = 1.5e-3  # l of the law: about the distance of the pad's edge from the rivet
 

@@ -5,8 +5,9 @@ Find pressures p >= 0 and rigid motions q with
     gap = C p + g - D q >= 0,   p gap = 0,   D^T p + e q = f
 
 C symmetric positive definite (elastic compliance), D q the approach by rigid motions, f the outer loads, e springs: tiny ones hold motions which no
-contact resists.  Block principal pivoting (Judice and Pires 1994): all wrong signs change sides at once; when their number has not fallen for a
-while, only the last wrong one does (Murty), until it falls again.  For such matrices this always ends.
+contact resists.  Block principal pivoting (Judice and Pires 1994): all points of wrong sign change between touching and open at once; when the number
+of wrong signs has not fallen for PATIENCE steps, only the last such point changes (Murty), until the number falls again.  For positive definite C
+this always ends.
 """
 
 from dataclasses import dataclass
@@ -31,7 +32,7 @@ class Solution:
 
 
 class Contact:
-    """C [n, n], D [n, m], springs e [m] or [m, m]: the part that loads and gaps share."""
+    """C [n, n], D [n, m], springs e [m] or [m, m]: the part of the problem that does not depend on loads and gaps."""
 
     def __init__(self, C, D, springs):
         self.C, self.D, self.springs = C, D, np.diag(springs) if np.ndim(springs) == 1 else springs

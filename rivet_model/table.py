@@ -14,9 +14,9 @@ from .geometry import Geometry
 UNITS = {"T": "MPa/N", "xi": "m/N", "fit": "m", "stiffness": "N/m", "length": "m", "stress": "Pa", "expansion": "1/K", "load_path": "1 and m"}
 
 
-def rounded(numbers):
-    """The numbers as the file keeps them: five digits, a hundredth of the table's own error."""
-    return np.array([float(f"{value:.5g}") for value in np.ravel(numbers)]).reshape(np.shape(numbers))
+def rounded(numbers, digits=5):
+    """The numbers as the file keeps them: five digits, a hundredth of the table's own error; four where that error is 1 %."""
+    return np.array([float(f"{value:.{digits}g}") for value in np.ravel(numbers)]).reshape(np.shape(numbers))
 
 
 def write(table, path):
@@ -46,7 +46,7 @@ def write(table, path):
         sections["shank"] = {
             "length": table.shank.length,
             "knots": {name: [float(v) for v in table.shank.knots[name]] for name in SHANK_AXES},
-            "coefficients": rounded(table.shank.coefficients / MPA_PER_N).ravel().tolist(),
+            "coefficients": rounded(table.shank.coefficients / MPA_PER_N, 4).ravel().tolist(),
         }
     if table.half:
         sections["half"] = _half_section(table.half)
@@ -70,22 +70,22 @@ def _half_section(half):
     return {
         **{name: float(f"{getattr(half, name):.9g}") for name in ("m", "x_c", "J_p", "J_t", "k_closed", "k_open")},
         "chi": [float(v) for v in half.chi],
-        "path": rounded(tidy(half.path)).tolist(),
+        "path": rounded(tidy(half.path), 4).tolist(),
         "spin": rounded(tidy(half.spin)).tolist(),
         "stiffness": rounded(tidy(law.stiffness)).tolist(),
         "slip_stiffness": rounded(tidy(law.slip_stiffness)).tolist(),
         "law": {
             "length": law.length,
             "knots": {name: [float(v) for v in law.knots[name]] for name in law.knots},
-            "coefficients": rounded(tidy(law.coefficients)).ravel().tolist(),
+            "coefficients": rounded(tidy(law.coefficients), 4).ravel().tolist(),
         },
-        "start": {"x": [float(v) for v in law.start[0]], "move": rounded(law.start[1]).tolist()},
+        "start": {"x": [float(v) for v in law.start[0]], "move": rounded(tidy(law.start[1]), 4).tolist()},
     }
 
 
 def tidy(array):
-    """The array with 0 where a number is only rounding beside the others of its kind (last axis: kinds; 1e-9 of the largest)."""
-    return np.where(np.abs(array) < 1e-9 * np.abs(array).max(), 0.0, array)
+    """The array with 0 where a number is only rounding: below 1e-9 of the largest one with its last index (arrays whose last axis is of different kinds)."""
+    return np.where(np.abs(array) < 1e-9 * np.abs(array).max(axis=tuple(range(array.ndim - 1)) or None), 0.0, array)
 
 
 def monotone_slopes(x, y):
@@ -99,7 +99,7 @@ def monotone_slopes(x, y):
 
 def make_shank(length, knots, samples_mpa):
     """ShankTable from samples of T [1/mm2] at the sites of its axes, in the order SHANK_AXES, then sheets, channels last."""
-    return ShankTable(length, knots, as_embedded(rounded(splines.interpolate([knots[name] for name in SHANK_AXES], samples_mpa))))
+    return ShankTable(length, knots, as_embedded(rounded(splines.interpolate([knots[name] for name in SHANK_AXES], samples_mpa), 4)))
 
 
 def make(geometry: Geometry, kind, knots, samples_mpa, fit_map, joint, load_path, **scalars):

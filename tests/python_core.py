@@ -26,7 +26,8 @@ PLACES = ("x", "r", "theta", "cos_theta", "sin_theta", "v_x", "v_r", "v_t", "ome
 VECTORS = {f"{kind}_{axis}": (kind, i) for kind in "FM" for i, axis in enumerate("xrt")}
 WRENCH = {f"ring_{kind}_{axis}": (f"ring_{kind}", i) for kind in "FM" for i, axis in enumerate("xyz")}
 NORMALS = {f"n_{race}{axis}": (f"n_{race}", i) for race in "ie" for i, axis in enumerate("xrt")}
-COMPONENTS = VECTORS | WRENCH | NORMALS
+RATES = {f"{kind}_{axis}": (kind, i) for kind in ("D", "D_omega") for i, axis in enumerate("xrt")}
+COMPONENTS = VECTORS | WRENCH | NORMALS | RATES
 NOTHING = SimpleNamespace(Q=np.zeros(Z), **{f"half_{kind}_{i}": np.zeros(Z) for kind in "FM" for i in "xyz"})  # the rigid cage has one set of pockets
 DISSIPATED = ("race_dissipated", "pocket_dissipated", "drag_dissipated")
 
@@ -51,7 +52,7 @@ class PythonWork:
 
     def __init__(self):
         zero = {name: np.zeros(Z) for name in PLACES}
-        w = Work(**zero, F=np.zeros((3, Z)), M=np.zeros((3, Z)), ring=Rotor(), half=[Rotor(), Rotor()])
+        w = Work(**zero, F=np.zeros((3, Z)), M=np.zeros((3, Z)), D=np.zeros((3, Z)), D_omega=np.zeros((3, Z)), ring=Rotor(), half=[Rotor(), Rotor()])
         object.__setattr__(self, "w", w)
         for body in (self.ring, *self.half):
             body.F = body.M = 0.0
@@ -91,8 +92,6 @@ class PythonWork:
         if name in COMPONENTS:
             array, i = COMPONENTS[name]
             return getattr(self.w, array)[i]
-        if name.startswith("D_"):  # rates for the C integrator: the reference has none
-            return np.zeros(Z)
         value = getattr(self.w, name)
         return float(value[0]) if np.shape(value) == (1,) else value
 
