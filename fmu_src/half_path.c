@@ -1,7 +1,8 @@
 // Loads of bonded joints: see half_path.h for the equations.
 #include "half_path.h"
 
-void bolt_group(double d_m, const scalar wrench[6], const double c[Z], const double s[Z], scalar N[Z], scalar V_y[Z], scalar V_z[Z])
+void bolt_group(double d_m, const scalar wrench[6], const double c[Z], const double s[Z], scalar N[Z],
+                scalar V_y[Z], scalar V_z[Z])
 {
     const double R = 0.5 * d_m;
     const scalar shear = wrench[3] / (Z * R);
@@ -29,7 +30,8 @@ static Touch touch(const HalfPath *path, int side, const PathForces *on, int j)
     while (i < path->nodes - 2 && scalar_value(chi) >= path->chi[i + 1]) i++;
     const double h = path->chi[i + 1] - path->chi[i];
     const scalar u = (chi - path->chi[i]) / h, v = 1.0 - u;
-    const scalar value[2] = {v * v * (1.0 + 2.0 * u), u * u * (1.0 + 2.0 * v)}, slope[2] = {h * u * v * v, -h * u * u * v};
+    const scalar value[2] = {v * v * (1.0 + 2.0 * u), u * u * (1.0 + 2.0 * v)},
+                 slope[2] = {h * u * v * v, -h * u * u * v};
     const scalar force[3] = {side * on->F_x[j], on->F_r[j], back ? -on->F_t[j] : on->F_t[j]};
     Touch t = {.column = path->rows + (back * path->nodes + i) * NODE + Z - 1 - j};
     for (int n = 0; n < 2; n++)
@@ -45,7 +47,8 @@ bool half_path_add(const HalfPath *path, int side, const PathForces *on, PathRow
     Touch touches[Z];
     int count = 0;
     for (int j = 0; j < Z; j++) {
-        if (on->F_x[j] == 0.0 && on->F_r[j] == 0.0 && on->F_t[j] == 0.0) continue;  // most pockets are not touched
+        if (on->F_x[j] == 0.0 && on->F_r[j] == 0.0 && on->F_t[j] == 0.0)
+            continue;  // most pockets are not touched
         touches[count++] = touch(path, side, on, j);
     }
     if (count == 0) return false;

@@ -22,7 +22,10 @@
 #include "isa.h"
 
 enum { ROW_N, ROW_V_R, ROW_V_T, ROW_M_R, ROW_M_T, ROW_DP, ROW_DM_R, ROW_DM_T, ROWS };
-enum { PATH_WIDTH = LANES + Z - 1 };  // one row for pocket 0, continued so that those of all pockets are parts of it: rivet k and pocket j at k - j + Z - 1
+
+enum {
+    PATH_WIDTH = LANES + Z - 1
+};  // one row for pocket 0, continued so that those of all pockets are parts of it: rivet k and pocket j at k - j + Z - 1
 
 typedef struct {
     int nodes;
@@ -45,4 +48,5 @@ bool half_path_add(const HalfPath *path, int side, const PathForces *on, PathRow
 
 // Wrench (F_x, F_y, F_z, M_x, M_y, M_z) that the rivets must carry from outside onto the +x half, taken at the centre of the circle;
 // c[k], s[k]: cosine and sine of the rivets' angles in the frame of the wrench.  Returns N, V_y, V_z at each rivet [N].
-void bolt_group(double d_m, const scalar wrench[6], const double c[Z], const double s[Z], scalar N[Z], scalar V_y[Z], scalar V_z[Z]);
+void bolt_group(double d_m, const scalar wrench[6], const double c[Z], const double s[Z], scalar N[Z],
+                scalar V_y[Z], scalar V_z[Z]);

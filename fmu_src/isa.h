@@ -1,4 +1,5 @@
-// The functions of the kernel files that other files call: each instruction set has its own copy under its own name.
+// Functions of the kernel files that other files call: each instruction set has its own copy, under a name of
+// its own.
 #pragma once
 
 #include "lanes.h"
@@ -26,4 +27,4 @@
 #define joints_open FOR_ISA(joints_open)
 #define joints_slip FOR_ISA(joints_slip)
 #define rivets_load FOR_ISA(rivets_load)
-#define rivet_primary FOR_ISA(rivet_primary)
+#define rivet_rom_stress FOR_ISA(rivet_rom_stress)

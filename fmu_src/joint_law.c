@@ -4,6 +4,7 @@
 #include "octet.h"
 
 enum { SWEEPS = 6, SLIP_SWEEPS = 3 };
+
 static const double NEAR = 0.05, CHANGE = 0.01;
 
 INLINE wide ratio(wide part, wide whole)
@@ -20,7 +21,8 @@ typedef struct {
 // Cell of u cells from the axis' start, and the weights of its three splines.
 INLINE wide axis_weights(wide u, int cells, int k, ball_array w[3])
 {
-    const wide cell = wide_max(wide_min(wide_floor(u), wide_set(cells - 1.0)), wide_set(0.0)), up = u - cell, down = 1.0 - up;
+    const wide cell = wide_max(wide_min(wide_floor(u), wide_set(cells - 1.0)), wide_set(0.0)), up = u - cell,
+               down = 1.0 - up;
     const wide w_0 = 0.5 * (down * down), w_2 = 0.5 * (up * up);
     wide_store(&w[0][k], w_0);
     wide_store(&w[1][k], 1.0 - w_0 - w_2);
@@ -30,14 +32,18 @@ INLINE wide axis_weights(wide u, int cells, int k, ball_array w[3])
 
 INLINE void find_points(const JointLaw *law, ball_array load[3], const ball_array P, int k, LawPoints *at)
 {
-    const double inv_length = 1.0 / law->length, cells[LAW_AXES] = {law->cells[0], law->cells[1], law->cells[2]};
+    const double inv_length = 1.0 / law->length,
+                 cells[LAW_AXES] = {law->cells[0], law->cells[1], law->cells[2]};
     const wide N = wide_load(&load[0][k]), M_r = wide_load(&load[1][k]), M_t = wide_load(&load[2][k]);
     const wide M = wide_hypot(M_r, M_t) * inv_length, W = wide_hypot(N, M), s = wide_load(&P[k]) + W;
     const wide q = ratio(N, wide_abs(N) + M), psi = ratio(M_t, wide_abs(M_t) + wide_abs(M_r));
-    const wide tau_cell = axis_weights(ratio(W, s) * cells[AXIS_TAU], law->cells[AXIS_TAU], k, at->w[AXIS_TAU]);
+    const wide tau_cell =
+        axis_weights(ratio(W, s) * cells[AXIS_TAU], law->cells[AXIS_TAU], k, at->w[AXIS_TAU]);
     const wide q_cell = axis_weights((q + 1.0) * (0.5 * cells[AXIS_Q]), law->cells[AXIS_Q], k, at->w[AXIS_Q]);
-    const wide psi_cell = axis_weights((psi + 1.0) * (0.5 * cells[AXIS_PSI]), law->cells[AXIS_PSI], k, at->w[AXIS_PSI]);
-    wide_store(&at->place[k], (tau_cell * (cells[AXIS_Q] + 2.0) + q_cell) * (cells[AXIS_PSI] + 2.0) + psi_cell);
+    const wide psi_cell =
+        axis_weights((psi + 1.0) * (0.5 * cells[AXIS_PSI]), law->cells[AXIS_PSI], k, at->w[AXIS_PSI]);
+    wide_store(&at->place[k],
+               (tau_cell * (cells[AXIS_Q] + 2.0) + q_cell) * (cells[AXIS_PSI] + 2.0) + psi_cell);
     wide_store(&at->s[k], s);
     wide_store(&at->side[k], wide_select(wide_above(-M_r, 0.0), wide_set(-1.0), wide_set(1.0)));
 }
@@ -52,7 +58,8 @@ INLINE void joint_law(const JointLaw *law, const LawPoints *at, int k, scalar mo
         octet by_q = {{0}};
         for (int b = 0; b < 3; b++) {
             octet by_psi = {{0}};
-            for (int c = 0; c < 3; c++) octet_add_from(at->w[AXIS_PSI][c][k], from + a * sheet + b * row + c * LAW_WIDTH, &by_psi);
+            for (int c = 0; c < 3; c++)
+                octet_add_from(at->w[AXIS_PSI][c][k], from + a * sheet + b * row + c * LAW_WIDTH, &by_psi);
             octet_add(at->w[AXIS_Q][b][k], &by_psi, &by_q);
         }
         octet_add(at->w[AXIS_TAU][a][k], &by_q, &sum);
@@ -102,11 +109,13 @@ static void find_alike(const JointLaw *law, scalar c, scalar P, scalar at[ALIKE_
 }
 
 // First sweep by the tangent at the state where all joints are alike; those too far from it are wanted.
-static void sweep_near(const JointLaw *law, ball_array bonded[3], const ball_array P, scalar c, scalar spin_P, Opening *o, Wanted *wanted)
+static void sweep_near(const JointLaw *law, ball_array bonded[3], const ball_array P, scalar c, scalar spin_P,
+                       Opening *o, Wanted *wanted)
 {
     scalar at[ALIKE_WIDTH], relieved[3];
     find_alike(law, c, spin_P, at);
-    for (int i = 0; i < 3; i++) relieved[i] = law->K_others[i][0] * at[ALIKE_U] + law->K_others[i][2] * at[ALIKE_PHI_T];
+    for (int i = 0; i < 3; i++)
+        relieved[i] = law->K_others[i][0] * at[ALIKE_U] + law->K_others[i][2] * at[ALIKE_PHI_T];
     ball_array move[3];
     wanted->count = 0;
     for (int p = 0; p < PACKETS; p++) {
@@ -116,11 +125,14 @@ static void sweep_near(const JointLaw *law, ball_array bonded[3], const ball_arr
             load[i] = wide_load(&bonded[i][k]) - wide_set(relieved[i]);
             wide_store(&o->alone[i][k], load[i]);
         }
-        const wide N = load[0] - at[ALIKE_N], M_r = load[1], M_t = load[2] - at[ALIKE_M_T], more_P = wide_load(&P[k]) - spin_P;
+        const wide N = load[0] - at[ALIKE_N], M_r = load[1], M_t = load[2] - at[ALIKE_M_T],
+                   more_P = wide_load(&P[k]) - spin_P;
         wide value[4];  // u, phi_t, T, m_t
         for (int n = 0; n < 4; n++) {
             const scalar *slope = &at[ALIKE_SLOPES + 3 * n];
-            value[n] = wide_fma(wide_set(slope[2]), more_P, wide_fma(wide_set(slope[1]), M_t, wide_fma(wide_set(slope[0]), N, wide_set(at[ALIKE_U + n]))));
+            value[n] = wide_fma(wide_set(slope[2]), more_P,
+                                wide_fma(wide_set(slope[1]), M_t,
+                                         wide_fma(wide_set(slope[0]), N, wide_set(at[ALIKE_U + n]))));
         }
         wide_store(&move[0][k], value[0]);
         wide_store(&move[1][k], at[ALIKE_PHI_R] * M_r);
@@ -128,7 +140,8 @@ static void sweep_near(const JointLaw *law, ball_array bonded[3], const ball_arr
         wide_store(&o->rivet[0][k], value[2]);
         wide_store(&o->rivet[1][k], at[ALIKE_M_R_RIVET] * M_r);
         wide_store(&o->rivet[2][k], value[3]);
-        const wide s = wide_load(&P[k]) + size(law, wide_load(&bonded[0][k]), wide_load(&bonded[1][k]), wide_load(&bonded[2][k]));
+        const wide s = wide_load(&P[k]) + size(law, wide_load(&bonded[0][k]), wide_load(&bonded[1][k]),
+                                               wide_load(&bonded[2][k]));
         wide_store(&o->s[k], s);
         want(wanted, p, wide_above(size(law, N, M_r, M_t) + wide_abs(more_P) - NEAR * s, 0.0));
     }
@@ -150,7 +163,8 @@ static void sweep_neighbours(const JointLaw *law, ball_array bonded[3], Opening 
             const scalar *move = &o->move[m][Z - law->neighbour[n]];
             for (int i = 0; i < 3; i++) {
                 const wide K = wide_set(law->K[n][i][m]);
-                for (int p = 0; p < PACKETS; p++) load[p][i] = wide_fma(-K, wide_load(move + p * LANE_WIDTH), load[p][i]);
+                for (int p = 0; p < PACKETS; p++)
+                    load[p][i] = wide_fma(-K, wide_load(move + p * LANE_WIDTH), load[p][i]);
             }
         }
     wanted->count = 0;
@@ -165,7 +179,8 @@ static void sweep_neighbours(const JointLaw *law, ball_array bonded[3], Opening 
     }
 }
 
-void joints_open(const JointLaw *law, ball_array bonded[3], const ball_array P, scalar spin_M, scalar spin_P, ball_array load[3], ball_array rivet[3])
+void joints_open(const JointLaw *law, ball_array bonded[3], const ball_array P, scalar spin_M, scalar spin_P,
+                 ball_array load[3], ball_array rivet[3])
 {
     const scalar c = (scalar_value(spin_M) < 0.0 ? -spin_M : spin_M) / law->length;
     Opening o;
@@ -201,11 +216,13 @@ void joints_open(const JointLaw *law, ball_array bonded[3], const ball_array P, 
 // Slip of joints that would carry V bonded, and what heads and hole then carry, all along V.  K: slip stiffness of the halves around a joint.  Plates
 // hold up to `plate`, then the heads drag the rivet (k_head) up to `head`, then the halves slip freely to `gap`, then the hole bears (k_hole):
 //     V - K slip = plate + min(k_head slip, head) + k_hole max(0, slip - gap).
-INLINE wide joint_slip(wide V, wide K, wide gap, wide plate, wide head, double k_head, double k_hole, wide *heads, wide *hole)
+INLINE wide joint_slip(wide V, wide K, wide gap, wide plate, wide head, double k_head, double k_hole,
+                       wide *heads, wide *hole)
 {
     const wide zero = wide_set(0.0), beyond = V - plate;
     const wide free = wide_max(beyond / (K + k_head), (beyond - head) / K);
-    const wide bears = wide_max((beyond + k_hole * gap) / (K + (k_head + k_hole)), (beyond - head + k_hole * gap) / (K + k_hole));
+    const wide bears = wide_max((beyond + k_hole * gap) / (K + (k_head + k_hole)),
+                                (beyond - head + k_hole * gap) / (K + k_hole));
     const wide slip = wide_max(wide_select(wide_above(free - gap, 0.0), bears, free), zero);
     *heads = wide_min(k_head * slip, head);
     *hole = k_hole * wide_max(slip - gap, zero);
@@ -218,14 +235,16 @@ static void add_vector(ball_array sum[2], int k, wide r, wide t)
     wide_store(&sum[1][k], wide_load(&sum[1][k]) + t);
 }
 
-void joints_slip(const JointLaw *law, const ball_array V_r, const ball_array V_t, const SlipLimits *limits, ball_array plates[2], ball_array heads[2],
-                 ball_array shank[2])
+void joints_slip(const JointLaw *law, const ball_array V_r, const ball_array V_t, const SlipLimits *limits,
+                 ball_array plates[2], ball_array heads[2], ball_array shank[2])
 {
     bool slips = false;
     for (int k = 0; k < PACKETS * LANE_WIDTH; k += LANE_WIDTH)
-        slips |= wide_any(wide_above(wide_hypot(wide_load(&V_r[k]), wide_load(&V_t[k])) - wide_load(&limits->plates[k]), 0.0));
+        slips |= wide_any(wide_above(
+            wide_hypot(wide_load(&V_r[k]), wide_load(&V_t[k])) - wide_load(&limits->plates[k]), 0.0));
     if (!slips) {
-        for (int k = 0; k < PACKETS * LANE_WIDTH; k += LANE_WIDTH) add_vector(plates, k, wide_load(&V_r[k]), wide_load(&V_t[k]));
+        for (int k = 0; k < PACKETS * LANE_WIDTH; k += LANE_WIDTH)
+            add_vector(plates, k, wide_load(&V_r[k]), wide_load(&V_t[k]));
         return;
     }
     const double (*K)[2] = law->K_slip[0];
@@ -241,7 +260,9 @@ void joints_slip(const JointLaw *law, const ball_array V_r, const ball_array V_t
             for (int m = 0; m < 2; m++)
                 for (int i = 0; i < 2; i++) {
                     const wide K_d = wide_set(law->K_slip[d][i][m]);
-                    for (int p = 0; p < PACKETS; p++) alone[p][i] = wide_fma(-K_d, wide_load(&slip[m][Z - d + p * LANE_WIDTH]), alone[p][i]);
+                    for (int p = 0; p < PACKETS; p++)
+                        alone[p][i] =
+                            wide_fma(-K_d, wide_load(&slip[m][Z - d + p * LANE_WIDTH]), alone[p][i]);
                 }
         for (int p = 0; p < PACKETS; p++) {
             const int k = p * LANE_WIDTH;
@@ -250,13 +271,16 @@ void joints_slip(const JointLaw *law, const ball_array V_r, const ball_array V_t
             const wide along = e_r * (K[0][0] * e_r + (K[0][1] + K[1][0]) * e_t) + K[1][1] * (e_t * e_t);
             const wide stiffness = wide_select(wide_above(V_rt, 0.0), along, wide_set(K[0][0]));
             wide head, hole;
-            const wide gap = wide_load(&limits->gap[k]), plate = wide_load(&limits->plates[k]), rest = wide_load(&limits->heads[k]);
-            const wide moved = joint_slip(V_rt, stiffness, gap, plate, rest, limits->k_head, limits->k_hole, &head, &hole);
+            const wide gap = wide_load(&limits->gap[k]), plate = wide_load(&limits->plates[k]),
+                       rest = wide_load(&limits->heads[k]);
+            const wide moved =
+                joint_slip(V_rt, stiffness, gap, plate, rest, limits->k_head, limits->k_hole, &head, &hole);
             const wide s_r = moved * e_r, s_t = moved * e_t;
             wide_store(&next[0][k], s_r);
             wide_store(&next[1][k], s_t);
             if (sweep < SLIP_SWEEPS - 1) continue;
-            const wide left_r = r - (K[0][0] * s_r + K[0][1] * s_t), left_t = t - (K[1][0] * s_r + K[1][1] * s_t), rivet = head + hole;
+            const wide left_r = r - (K[0][0] * s_r + K[0][1] * s_t),
+                       left_t = t - (K[1][0] * s_r + K[1][1] * s_t), rivet = head + hole;
             add_vector(plates, k, left_r - rivet * e_r, left_t - rivet * e_t);
             add_vector(heads, k, head * e_r, head * e_t);
             add_vector(shank, k, hole * e_r, hole * e_t);

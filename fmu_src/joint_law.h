@@ -27,18 +27,31 @@
 #include "isa.h"
 
 enum { AXIS_TAU, AXIS_Q, AXIS_PSI, LAW_AXES };
+
 enum { LAW_WIDTH = 8 };  // u, phi_r, phi_t, -, T, m_r, m_t, -
 
 // Joints that are all alike: L* and what pad and rivet do, per newton of s; how one of them answers to a change of its N, M_t, P (rows u, phi_t, T, m_t)
 // and of its M_r.
-enum { ALIKE_N, ALIKE_M_T, ALIKE_U, ALIKE_PHI_T, ALIKE_T, ALIKE_M_T_RIVET, ALIKE_SLOPES, ALIKE_PHI_R = ALIKE_SLOPES + 12, ALIKE_M_R_RIVET, ALIKE_WIDTH };
+enum {
+    ALIKE_N,
+    ALIKE_M_T,
+    ALIKE_U,
+    ALIKE_PHI_T,
+    ALIKE_T,
+    ALIKE_M_T_RIVET,
+    ALIKE_SLOPES,
+    ALIKE_PHI_R = ALIKE_SLOPES + 12,
+    ALIKE_M_R_RIVET,
+    ALIKE_WIDTH
+};
 
 typedef struct {
-    double length;               // l [m]
-    int cells[LAW_AXES];         // equal cells over 0...1, -1...1, -1...1
-    const double *coefficients;  // [tau][q][psi][LAW_WIDTH] of uniform splines, cells + 2 on each axis, per newton
-    double K_0[3][3];            // N/m, N/rad, N.m/rad
-    double K_others[3][3];       // sum of the blocks below
+    double length;        // l [m]
+    int cells[LAW_AXES];  // equal cells over 0...1, -1...1, -1...1
+    const double
+        *coefficients;      // [tau][q][psi][LAW_WIDTH] of uniform splines, cells + 2 on each axis, per newton
+    double K_0[3][3];       // N/m, N/rad, N.m/rad
+    double K_others[3][3];  // sum of the blocks below
     int neighbours;
     const int *neighbour;          // k - j mod Z of the other joints that are felt
     const double (*K)[3][3];       // their blocks
@@ -49,7 +62,8 @@ typedef struct {
 
 // Loads (N, M_r, M_t) of the joints and (T, m_r, m_t) of the rivets [N, N.m], from bonded loads and preloads P >= 0.  spin_M, spin_P: bonded M_t under
 // the centrifugal load alone, and the preload with it.
-void joints_open(const JointLaw *law, ball_array bonded[3], const ball_array P, scalar spin_M, scalar spin_P, ball_array load[3], ball_array rivet[3]);
+void joints_open(const JointLaw *law, ball_array bonded[3], const ball_array P, scalar spin_M, scalar spin_P,
+                 ball_array load[3], ball_array rivet[3]);
 
 // What joints have for the transverse loads: friction of plates and heads [N], play [m]; stiffness of heads and hole [N/m].
 typedef struct {
@@ -58,5 +72,5 @@ typedef struct {
 } SlipLimits;
 
 // Adds what plates, heads and shanks carry (r, t) of the bonded loads V_r, V_t [N].
-void joints_slip(const JointLaw *law, const ball_array V_r, const ball_array V_t, const SlipLimits *limits, ball_array plates[2], ball_array heads[2],
-                 ball_array shank[2]);
+void joints_slip(const JointLaw *law, const ball_array V_r, const ball_array V_t, const SlipLimits *limits,
+                 ball_array plates[2], ball_array heads[2], ball_array shank[2]);

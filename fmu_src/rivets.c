@@ -36,8 +36,10 @@ static void two_half_share(const Model *model, const Work *w, RigidShare *share)
     const double mu = model->p->joint.mu;
     const wide zero = wide_set(0.0);
     for (int k = 0; k < PACKETS * LANE_WIDTH; k += LANE_WIDTH) {
-        const wide T = wide_load(&w->T[k]), N_plate = wide_load(&w->N_plate[k]), u = wide_hypot(wide_load(&w->u_y[k]), wide_load(&w->u_z[k]));
-        const wide S_y = wide_load(&w->S_y[k]), S_z = wide_load(&w->S_z[k]), H_y = wide_load(&w->H_y[k]), H_z = wide_load(&w->H_z[k]);
+        const wide T = wide_load(&w->T[k]), N_plate = wide_load(&w->N_plate[k]),
+                   u = wide_hypot(wide_load(&w->u_y[k]), wide_load(&w->u_z[k]));
+        const wide S_y = wide_load(&w->S_y[k]), S_z = wide_load(&w->S_z[k]), H_y = wide_load(&w->H_y[k]),
+                   H_z = wide_load(&w->H_z[k]);
         wide_store(&share->N[k], T - N_plate);
         store_turned(model, -S_y, -S_z, k, share->plates);
         store_turned(model, -H_y, -H_z, k, share->heads);
@@ -48,7 +50,8 @@ static void two_half_share(const Model *model, const Work *w, RigidShare *share)
     }
 }
 
-// Wrench of pockets and land on half 1 less that on half 0, halved, about the cage's centre in its body frame.
+// Wrench of pockets and land on half 1 less that on half 0, halved, about the cage's centre in its body
+// frame.
 static void rigid_wrench(const Work *w, const Pockets *on_1, scalar wrench[6])
 {
     const Rotor *cage = &w->half[0];
@@ -57,9 +60,13 @@ static void rigid_wrench(const Work *w, const Pockets *on_1, scalar wrench[6])
         global[i] = 0.5 * (w->half[1].F[i] - w->half[0].F[i]);
         global[3 + i] = 0.5 * (w->half[1].M[i] - w->half[0].M[i]);
     }
-    // a rigid cage keeps all pocket forces on half 0: the part of half 1 goes over
-    const scalar *pockets[6] = {on_1->half_F_x, on_1->half_F_y, on_1->half_F_z, on_1->half_M_x, on_1->half_M_y, on_1->half_M_z};
+
+    // half 0 holds all pocket forces: those of half 1 go over to it
+    const scalar *pockets[6] = {on_1->half_F_x, on_1->half_F_y, on_1->half_F_z,
+                                on_1->half_M_x, on_1->half_M_y, on_1->half_M_z};
     for (int i = 0; i < 6; i++) global[i] += ball_array_sum(pockets[i]);
+
+    // into the body frame
     const scalar *axes[3] = {cage->a, cage->b_y, cage->b_z};
     for (int i = 0; i < 3; i++) {
         wrench[i] = dot3(axes[i], global);
@@ -83,8 +90,10 @@ static void rigid_share(const Model *model, const Work *w, const Pockets *on_1, 
     const wide zero = wide_set(0.0), limit = wide_set(friction);
     for (int k = 0; k < PACKETS * LANE_WIDTH; k += LANE_WIDTH) {
         const wide y = wide_load(&V_y[k]), z = wide_load(&V_z[k]), V = wide_hypot(y, z);
-        const wide inv_V = wide_select(wide_above(V, 0.0), 1.0 / wide_max(V, wide_set(1e-300)), zero), e_y = y * inv_V, e_z = z * inv_V;
-        const wide plates = wide_min(V, limit), heads = wide_max(wide_min(V - limit, limit), zero), shank = wide_max(V - 2.0 * limit, zero);
+        const wide inv_V = wide_select(wide_above(V, 0.0), 1.0 / wide_max(V, wide_set(1e-300)), zero),
+                   e_y = y * inv_V, e_z = z * inv_V;
+        const wide plates = wide_min(V, limit), heads = wide_max(wide_min(V - limit, limit), zero),
+                   shank = wide_max(V - 2.0 * limit, zero);
         store_turned(model, plates * e_y, plates * e_z, k, share->plates);
         store_turned(model, heads * e_y, heads * e_z, k, share->heads);
         store_turned(model, shank * e_y, shank * e_z, k, share->shank);
@@ -117,7 +126,9 @@ void rivets_load(const Model *model, const Work *w, JointLoads *load)
     }
     bool touched = false;
     for (int h = 0; h < 2; h++)
-        touched |= half_path_add(&half->path, h == 0 ? -1 : 1, &(PathForces){on[h].F_x, on[h].F_r, on[h].F_t, on[h].push_x, on[h].push_t}, &rows);
+        touched |=
+            half_path_add(&half->path, h == 0 ? -1 : 1,
+                          &(PathForces){on[h].F_x, on[h].F_r, on[h].F_t, on[h].push_x, on[h].push_t}, &rows);
 
     // joints that open
     ball_array bonded[3], P, open[3], rivet[3];
@@ -127,10 +138,13 @@ void rivets_load(const Model *model, const Work *w, JointLoads *load)
         wide_store(&bonded[2][k], wide_load(&rows.row[ROW_M_T][k]));
         wide_store(&P[k], wide_max(d->P + wide_load(&rows.row[ROW_DP][k]), wide_set(0.0)));
     }
-    joints_open(&half->law, bonded, P, omega2 * d->spin[ROW_M_T], scalar_max(d->P + omega2 * d->spin[ROW_DP], 0.0), open, rivet);
+    joints_open(&half->law, bonded, P, omega2 * d->spin[ROW_M_T],
+                scalar_max(d->P + omega2 * d->spin[ROW_DP], 0.0), open, rivet);
 
     // joints that slip: under the centrifugal load alone none does
-    if (touched) joints_slip(&half->law, rows.row[ROW_V_R], rows.row[ROW_V_T], &share.left, share.plates, share.heads, share.shank);
+    if (touched)
+        joints_slip(&half->law, rows.row[ROW_V_R], rows.row[ROW_V_T], &share.left, share.plates, share.heads,
+                    share.shank);
 
     for (int k = 0; k < PACKETS * LANE_WIDTH; k += LANE_WIDTH) {
         const wide heads_r = wide_load(&share.heads[0][k]), heads_t = wide_load(&share.heads[1][k]);
@@ -138,7 +152,8 @@ void rivets_load(const Model *model, const Work *w, JointLoads *load)
         wide_store(&load->N[k], wide_load(&open[0][k]));
         wide_store(&load->M_r[k], wide_load(&open[1][k]));
         wide_store(&load->M_t[k], wide_load(&open[2][k]));
-        wide_store(&load->V[k], wide_hypot(wide_load(&share.plates[0][k]) + heads_r + V_r, wide_load(&share.plates[1][k]) + heads_t + V_t));
+        wide_store(&load->V[k], wide_hypot(wide_load(&share.plates[0][k]) + heads_r + V_r,
+                                           wide_load(&share.plates[1][k]) + heads_t + V_t));
         wide_store(&load->T[k], wide_load(&rivet[0][k]));
         wide_store(&load->m_r[k], wide_load(&rivet[1][k]) + wide_load(&rows.row[ROW_DM_R][k]));
         wide_store(&load->m_t[k], wide_load(&rivet[2][k]) + wide_load(&rows.row[ROW_DM_T][k]));

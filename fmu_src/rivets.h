@@ -5,7 +5,7 @@
 #include "model.h"
 #include "rivet_rom.h"
 
-// Loads of all joints at the state of w.
+// Loads of all joints from the results w of the right-hand side.
 typedef void RivetsLoad(const Model *model, const Work *w, JointLoads *load);
 RivetsLoad rivets_load;
 
@@ -13,5 +13,6 @@ RivetsLoad rivets_load;
 INLINE void rivets_slip(const Model *model, const Work *w, scalar slip[Z])
 {
     const bool rigid = model->p->scene.cage == CAGE_MODEL_RIGID;
-    for (int k = 0; k < Z; k++) slip[k] = rigid ? 0.0 : scalar_sqrt(w->u_y[k] * w->u_y[k] + w->u_z[k] * w->u_z[k]);
+    for (int k = 0; k < Z; k++)
+        slip[k] = rigid ? 0.0 : scalar_sqrt(w->u_y[k] * w->u_y[k] + w->u_z[k] * w->u_z[k]);
 }
