@@ -34,7 +34,7 @@ build: build/build.ninja  ## the FMU and the tests' library; seconds after an ed
 	$(BIN)/cmake --build build
 
 fmu-all: $(VENV)/installed  ## the FMU with binaries for Linux, Windows and macOS, cross-compiled here
-	$(BIN)/pip --disable-pip-version-check --quiet install ziglang
+	$(BIN)/pip --disable-pip-version-check --quiet install --no-build-isolation --editable ".[cross]"
 	$(BIN)/riveted-bearing build --platforms all
 
 lint: $(VENV)/installed  ## formatters and linters, changing nothing

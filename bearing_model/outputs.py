@@ -15,6 +15,8 @@ from bearing_model.traction import Q_FLOOR
 from bearing_model.variables import BALL_THETA, CAGE_PSI, RING_BETA_DOT, RING_GAMMA_DOT, RING_V_X, RING_V_Y, RING_V_Z, WORK, CageModel, Stress, Z
 from bearing_model.vec import vec, vec_cross, vec_dot, vec_local, vec_to_global
 
+STANDSTILL = 1e-9  # rad/s: up to it a speed is none that others are compared with
+
 
 def housing_reaction(w):
     """Force and moment about the bearing's centre that balls and cage put on the housing (outer ring, oil)."""
@@ -91,7 +93,7 @@ def cage_outputs(model, w):
     omega, centre = 0.5 * (h0.s + h1.s)[..., 0], 0.5 * (h0.x + h1.x)[..., 0]
     return {
         "cage.omega": omega,
-        "cage.slip_ratio": 1.0 - omega / epicyclic if epicyclic != 0.0 else 0.0 * omega,
+        "cage.slip_ratio": 1.0 - omega / epicyclic if abs(epicyclic) > STANDSTILL else 0.0 * omega,
         "cage.y": centre[1],
         "cage.z": centre[2],
         "cage.eccentricity": np.hypot(centre[1], centre[2]) / model.d.C_land,
@@ -115,6 +117,7 @@ def rivet_outputs(model, w):
         "rivet[k].F_head": load.F_head,
         "rivet[k].slip": slip,
         "cage.dislocation": np.max(slip, axis=-1),
+        "rivet.table_kind": np.full(V.shape[:-1], float(model.d.table.kind_number)),
     }
 
 

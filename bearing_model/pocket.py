@@ -48,7 +48,7 @@ def pocket_share(d, h, n_x, delta):
     return w, e, 15.0 / 16.0 * (1.0 - xi_2) * (1.0 - xi_2) * xi_n
 
 
-def pocket_place(model, w, h):
+def pocket_gap(model, w, h):
     """Axes a, b, e_t of the pockets of half h in the balls' frames, p, and S, n_x, n_t, delta of the balls in them."""
     d, half = model.d, w.half[h]
     # direction of pocket j: body angle phi_j turned by the half, b = b_y cos phi + b_z sin phi, e_t = a x b
@@ -64,7 +64,7 @@ def pocket_place(model, w, h):
 def pocket_half(model, w, h, mixed, whole):
     """The contact with one half (or the whole rigid cage), added to F, M of the balls."""
     p, d, half = model.p, model.d, w.half[h]
-    a, b, e_t, arm_p, S, n_x, n_t, delta = pocket_place(model, w, h)
+    a, b, e_t, arm_p, S, n_x, n_t, delta = pocket_gap(model, w, h)
     v_h, Omega = (vec_local(v, w.cos_theta, w.sin_theta) for v in (half.v, half.Omega))
 
     omega_b, v_b = vec(w.omega_x, w.omega_r, w.omega_t), vec(w.v_x, w.v_r, w.v_t)
@@ -124,7 +124,7 @@ def pocket_force(model, w):
 def pocket_split(model, w):
     """pocket, pocket_F, pocket_M on each half of a rigid cage, lists; pocket_force has them all on half 0."""
     d = model.d
-    a, _, e_t, arm_p, S, n_x, n_t, delta = pocket_place(model, w, 0)
+    a, _, e_t, arm_p, S, n_x, n_t, delta = pocket_gap(model, w, 0)
     w_1, _, slope = pocket_share(d, 1, n_x, delta)
     F_across = hertz_energy(d.pocket.K, delta) * slope * n_t / S
     push = F_across * (n_t * a - n_x * e_t)

@@ -1,6 +1,6 @@
 """The rivet table: its file format and its reader.  rivet_model writes the file; the FMU's build and the Python reference read it here.
 
-The file is JSON text.  Sections: `header` {format, kind closed_form|fe, note, geometry, geometry_hash, Z, units, errors, digest}, `stress` (knots and spline
+The file is JSON text.  Sections: `header` {format, kind (one of KINDS), note, geometry, geometry_hash, Z, units, errors, digest}, `stress` (knots and spline
 coefficients of T, see fmu_src/rivet_rom.h), `fit_eff` (interference with plasticity), `joint` (stiffnesses for the dynamics), `load_path`
 (see fmu_src/load_path.h), `shank` (stress over the shank's own loads), `half` (the elastic cage half and the law of its joints).
 Units in the file are SI except T, which is in MPa/N = 1/mm2 to keep it readable.
@@ -17,6 +17,7 @@ from bearing_model import half_path, joint_law
 
 DEFAULT_TABLE = Path(__file__).resolve().parents[1] / "rivet_model" / "tables" / "6207.json"
 FORMAT = "rivet-table-2"
+KINDS = {"fe": "finite elements", "fe_coarse": "coarse finite elements", "closed_form": "closed forms"}  # numbered from 1: the output rivet.table_kind
 CHANNELS = ("head_p1", "head_vm", "mid_vm", "mid_p1")
 AXES = ("a", "b", "c", "xi")
 SHEETS = ("plane", "oblique", "across")  # chi, |cos| of the direction of M, is 1, 1/2, 0
@@ -74,7 +75,7 @@ class HalfData:
 class RivetTable:
     """Everything the FMU knows of one rivet joint.  Arrays are those of the file; `coefficients` in 1/m2, rounded to five digits."""
 
-    kind: str  # "closed_form" or "fe"
+    kind: str  # one of KINDS
     geometry: dict
     geometry_hash: str
     Z: int
@@ -94,6 +95,11 @@ class RivetTable:
     half: HalfData | None = None
     note: str = ""
     errors: dict = field(default_factory=dict)
+
+    @property
+    def kind_number(self):
+        """1 finite elements, 2 coarse, 3 closed forms."""
+        return list(KINDS).index(self.kind) + 1
 
 
 def as_embedded(coefficients):
@@ -236,6 +242,8 @@ def read(path, Z=None):
     header, stress, fit, joint, load_path, shank, half = _sections(path)
     made_for = header.member("Z", int)
     _need(Z is None or made_for == Z, path, f"made for Z = {made_for} rivets; Z = {Z} is needed")
+    kind = header.member("kind", str)
+    _need(kind in KINDS, path, f"kind is {kind!r}; one of {', '.join(KINDS)} is needed")
     knots, coefficients = _read_coefficients(path, stress)
     load_path = _numbers(path, "load_path", load_path)
     _need(load_path.shape == (made_for, 5, 3), path, f"load_path has shape {load_path.shape}; {(made_for, 5, 3)} is needed")
@@ -246,7 +254,7 @@ def read(path, Z=None):
     length = stress.number("moment_length")
     _need(length > 0.0, path, f"stress.moment_length = {length} m: more than 0 is needed")
     return RivetTable(
-        kind=header.member("kind", str),
+        kind=kind,
         geometry=header.member("geometry", dict),
         geometry_hash=header.member("geometry_hash", str),
         Z=made_for,

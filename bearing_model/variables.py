@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from enum import IntEnum
 
 MODEL_IDENTIFIER = "RivetedBearing"
-MODEL_GUID = "{2933852d-f80a-f3ab-8e04-ee25385fc11d}"
+MODEL_GUID = "{c434e8c7-3da7-8a06-7e6b-f475e05f9812}"
 Z = 9
 
 
@@ -78,6 +78,15 @@ class Method(IntEnum):
     VERLET = 1
     EXPLICIT = 2
 
+
+# Assumed parameters that move the rivets' stress most, strongest first: smallest and largest usual value over the value, and the source.
+ASSUMPTIONS = {
+    "cage.pocket_clearance": (0.5, 2.0, "0.1 to 0.4 mm are usual in a 6207"),
+    "cage.guide_clearance": (0.5, 2.0, "0.1 to 0.4 mm are usual in a 6207"),
+    "oil.eta": (0.4, 2.1, "5 mm2/s aviation oils (MIL-PRF-23699) from 150 down to 60 degC"),
+    "oil.rho_mix": (0.25, 1.3, "1 to 5 % oil between the rings (Parker, NASA TP-2275, 1984)"),
+    "cage.x_c": (0.95, 1.13, "webs of 0.8 to 2 mm in a 6207, whose half is 2 x_c wide"),
+}
 
 # Scales of each unit: symbol -> (factor, offset), value in that symbol = factor * SI value + offset.
 UNITS = {
@@ -293,6 +302,7 @@ OUTPUTS = {
         Variable("rivet[k].sigma_mid_peak", 3200, "Real", "Pa", "MPa", None, None, None, Z, "peak", "Largest sigma_mid since the last communication point", None),
         Variable("rivet.sigma_head_max", 3240, "Real", "Pa", "MPa", None, None, None, 1, "peak", "Largest sigma_head_peak of all rivets", None),
         Variable("rivet.sigma_mid_max", 3241, "Real", "Pa", "MPa", None, None, None, 1, "peak", "Largest sigma_mid_peak of all rivets", None),
+        Variable("rivet.table_kind", 3242, "Real", "1", None, None, None, None, 1, "rivet", "What the rivets' stress table rests on: 1 finite elements, 2 coarse finite elements, 3 closed forms", None),
         Variable("rivet[k].damage_head", 3250, "Real", "1", None, None, None, None, Z, "fatigue", "Miner's sum of sigma_head since start.settle", None),
         Variable("rivet[k].damage_mid", 3290, "Real", "1", None, None, None, None, Z, "fatigue", "Miner's sum of sigma_mid since start.settle", None),
         Variable("rivet[k].N", 3330, "Real", "N", None, None, None, None, Z, "rivet", "External tension of the joint, before preload shielding", None),
@@ -341,7 +351,6 @@ OUTPUTS = {
         Variable("solver.rhs_evals", 6002, "Real", "1", None, None, None, None, 1, "solver", "Evaluations of the right-hand side", None),
         Variable("solver.step_size", 6003, "Real", "s", None, None, None, None, 1, "solver", "Internal step size that the next step starts with", None),
         Variable("solver.error_tests_failed", 6004, "Real", "1", None, None, None, None, 1, "solver", "Internal steps rejected by the error test", None),
-        Variable("solver.cpu_time", 6005, "Real", "s", None, None, None, None, 1, "solver", "Processor time of this instance inside fmi2DoStep (not part of the saved state)", None),
         Variable("solver.tolerance", 6006, "Real", "1", None, None, None, None, 1, "solver", "Tolerance in force", None),
         Variable("event.land_contact", 7001, "Real", "1", None, None, None, None, 1, "event", "Cage halves whose land touches the outer ring", None),
         Variable("event.pocket_exit", 7002, "Real", "1", None, None, None, None, 1, "event", "Balls whose centre has left the section of the cage: a real pocket ends there", None),
@@ -356,6 +365,13 @@ OUTPUTS = {
         Variable("event.joint_open_onsets", 7015, "Real", "1", None, None, None, None, 1, "event", "Onsets of an open joint since the start", None),
         Variable("event.rivet_yield_onsets", 7016, "Real", "1", None, None, None, None, 1, "event", "Onsets of yield of a rivet since the start", None),
         Variable("solver.method_used", 6007, "Real", "1", None, None, None, None, 1, "solver", "Integration method in use: 1 velocity Verlet, 2 Runge-Kutta", None),
+    )
+}
+
+LOCALS = {
+    v.name: v
+    for v in (
+        Variable("solver.cpu_time", 6005, "Real", "s", None, None, None, None, 1, "solver", "Processor time of this instance inside fmi2DoStep, from its creation on (not part of the saved state)", None),
     )
 }
 

@@ -91,13 +91,13 @@ def declare(core, header):
 def set_state(instance, y, h=4e-6):
     """Put an instance into state y with the step size h [s] to start with."""
     core = instance.core
-    saved = core.new("Saved")
+    saved = core.new("InstanceState")
     core.lib.part_save(instance.bearing, saved)
     saved.integrator.now.y = list(y)
     saved.integrator.now.jerk = [0.0] * len(y)  # no memory of another trajectory
     saved.integrator.now.h = 0.0
     saved.integrator.h = h
-    saved.integrator.known = 0
+    saved.integrator.f_is_current = 0
     core.lib.part_restore(instance.bearing, saved)
 
 

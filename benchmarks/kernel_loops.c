@@ -35,7 +35,8 @@ double rhs_time(const Model *model, int n, const double *y, int rounds, Work *w)
     }                                                             \
     ns[index] = (now() - begin) / rounds
 
-// In the order of rhs.c and of ELEMENT_NAMES in rhs.py.  Forces that are added pile up: times do not depend on them.
+// In the order of rhs.c and of ELEMENT_NAMES in rhs.py.  Forces that are added pile up: times do not depend
+// on them.
 void element_times(const Model *model, const double *y, int rounds, Work *w, double ns[ELEMENTS])
 {
     double y_dot[N_STATES], begin;
@@ -70,6 +71,7 @@ typedef wide chain;
 
 // `CHAINS` independent instructions in each round.
 enum { CHAINS = 12 };
+
 #define PEAK(index, count, operation)                                        \
     begin = now();                                                           \
     for (long round = 0; round < rounds; round++) {                          \

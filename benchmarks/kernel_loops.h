@@ -4,6 +4,7 @@
 #include "rhs.h"
 
 enum { ELEMENTS = 10 };
+
 typedef enum { PEAK_ARITHMETIC, PEAK_LOAD, PEAK_DIVIDE, PEAK_ROOT, PEAKS } Peak;
 
 // Processor time [ns] of one evaluation, states y[0...n-1] in turn, mean over `rounds` rounds.

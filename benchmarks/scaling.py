@@ -1,6 +1,6 @@
 """Scaling of the cost with balls, communication step, outputs read, parallel processes, horizon and inputs; and the time that fmpy itself takes.
 
-All runs go through the FMU and fmpy, as users run them.  The FMU's own share is its output solver.cpu_time, the time inside fmi2DoStep; the rest is fmpy's:
+All runs go through the FMU and fmpy, as users run them.  The FMU's own share is its variable solver.cpu_time, the time inside fmi2DoStep; the rest is fmpy's:
 ctypes calls, and Python's loop around them.
 """
 

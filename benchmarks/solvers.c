@@ -1,7 +1,9 @@
-// The core with another integrator: explicit Runge-Kutta methods of ARKODE, Adams and BDF of CVODE behind the core's integrator.h, so that model,
-// inputs, edges of pulses, statistics and error weights are those of the FMU and only the stepping differs.
+// The core with another integrator: explicit Runge-Kutta methods of ARKODE, Adams and BDF of CVODE behind the
+// core's integrator.h, so that model, inputs, edges of pulses, statistics and error weights are those of the
+// FMU and only the stepping differs.
 //
-// Vectors are SUNDIALS' own serial ones.  BDF solves its Newton systems (1 - gamma J) x = b in one of three ways:
+// Vectors are SUNDIALS' own serial ones.  BDF solves its Newton systems (1 - gamma J) x = b in one of three
+// ways:
 //
 //   dense      SUNDIALS' dense matrix and its own difference quotients: what a general multibody solver does
 //   diagonal   J = -D, the damping rates that the core computes, each state for itself: no factorization
@@ -12,11 +14,12 @@
 //                  |           ...  ... |
 //                  | E_1  E_2  ...  D   |        J by differences, one evaluation a column as in the dense case
 //
-// A statistics hook needs the right-hand side at accepted states.  Multistep methods do not evaluate there: those evaluations are made only where a
-// scene wants stress or statistics.
+// A statistics hook needs the right-hand side at accepted states.  Multistep methods do not evaluate there:
+// those evaluations are made only where a scene wants stress or statistics.
 #include "solvers.h"
 
 #include "instance.h"
+#include "stepping.h"
 
 #include <arkode/arkode_erkstep.h>
 #include <cvode/cvode.h>
@@ -72,7 +75,7 @@ struct Integrator {
     double t_output;
 };
 
-// ---- right-hand side ----------------------------------------------------------------------------------------------------------------------------
+// ---- right-hand side --------------------------------------------------------------------------------------
 // f(t, y); nothing is computed if w belongs to (t, y) already.
 static const double *evaluate(Integrator *in, double t, const double *y, double *counter)
 {
@@ -88,11 +91,12 @@ static const double *evaluate(Integrator *in, double t, const double *y, double 
 static int right_hand_side(sunrealtype t, N_Vector y, N_Vector f, void *user)
 {
     Integrator *in = user;
-    memcpy(N_VGetArrayPointer(f), evaluate(in, t, N_VGetArrayPointer(y), &in->s->rhs_evals), sizeof in->f_latest);
+    memcpy(N_VGetArrayPointer(f), evaluate(in, t, N_VGetArrayPointer(y), &in->s->rhs_evals),
+           sizeof in->f_latest);
     if (in->kernels->ops->finite(in->f_latest)) return 0;
-    if (in->choice.method != SOLVER_ERK) return 1;  // CVODE tries a smaller step; ERKStep cannot, so its error test is made to fail
-    const double enormous = in->nonfinite_stages++ % 2 == 0 ? 1e15 : -1e15;
-    for (int i = 0; i < N_STATES; i++) N_VGetArrayPointer(f)[i] = enormous / in->weight[i];
+    if (in->choice.method != SOLVER_ERK)
+        return 1;  // CVODE tries a smaller step; ERKStep cannot, so its error test is made to fail
+    stepping_refuse(in->weight, in->nonfinite_stages++, N_VGetArrayPointer(f));
     return 0;
 }
 
@@ -103,19 +107,23 @@ static int weights(N_Vector y, N_Vector ewt, void *user)
     return 0;
 }
 
-// ---- diagonal Jacobian ----------------------------------------------------------------------------------------------------------------------------
+// ---- diagonal Jacobian ------------------------------------------------------------------------------------
 // By traction, pockets, land films and bristles, each state for itself.
 static void diagonal_rates(Integrator *in)
 {
     enum { AXES = 3 };
-    static const int V[AXES] = {Y_BALL_V_X, Y_BALL_V_R, Y_BALL_OMEGA_M}, OMEGA[AXES] = {Y_BALL_OMEGA_X, Y_BALL_OMEGA_R, Y_BALL_OMEGA_T};
+
+    static const int V[AXES] = {Y_BALL_V_X, Y_BALL_V_R, Y_BALL_OMEGA_M};
+    static const int OMEGA[AXES] = {Y_BALL_OMEGA_X, Y_BALL_OMEGA_R, Y_BALL_OMEGA_T};
     const Work *w = in->w;
     const Derived *d = in->model->d;
     const Parameters *p = in->model->p;
-    const double *v_pocket[AXES] = {w->D_x, w->D_r, w->D_t}, *omega_pocket[AXES] = {w->D_omega_x, w->D_omega_r, w->D_omega_t};
+    const double *v_pocket[AXES] = {w->D_x, w->D_r, w->D_t};
+    const double *omega_pocket[AXES] = {w->D_omega_x, w->D_omega_r, w->D_omega_t};
     memset(in->rates, 0, sizeof in->rates);
     for (int j = 0; j < Z; j++) {
-        const double n_i[AXES] = {w->n_ix[j], w->n_ir[j], w->n_it[j]}, n_e[AXES] = {w->n_ex[j], w->n_er[j], 0.0};
+        const double n_i[AXES] = {w->n_ix[j], w->n_ir[j], w->n_it[j]};
+        const double n_e[AXES] = {w->n_ex[j], w->n_er[j], 0.0};
         for (int i = 0; i < AXES; i++) {
             const double g = w->g_i[j] * (1.0 - n_i[i] * n_i[i]) + w->g_e[j] * (1.0 - n_e[i] * n_e[i]);
             in->rates[V[i] + j] = v_pocket[i][j] + g / d->m;
@@ -131,8 +139,12 @@ static void diagonal_rates(Integrator *in)
         in->rates[Y_CAGE_S + h] = w->film_spin[h] / p->cage.J_p;
     }
     for (int k = 0; k < Z; k++) {
-        in->rates[Y_JOINT_PLATE_Y + k] = in->rates[Y_JOINT_PLATE_Z + k] = w->D_plate[k];
-        in->rates[Y_JOINT_HEAD_Y + k] = in->rates[Y_JOINT_HEAD_Z + k] = w->D_head[k];
+        const double speed = sqrt(w->v_jy[k] * w->v_jy[k] + w->v_jz[k] * w->v_jz[k]), mu = p->joint.mu;
+        const double floor = p->joint.F_floor;
+        in->rates[Y_JOINT_PLATE_Y + k] = in->rates[Y_JOINT_PLATE_Z + k] =
+            speed * d->k_plate_t / (mu * w->N_plate[k] + floor);
+        in->rates[Y_JOINT_HEAD_Y + k] = in->rates[Y_JOINT_HEAD_Z + k] =
+            speed * d->k_head / (mu * w->T[k] + floor);
     }
 }
 
@@ -142,7 +154,8 @@ static SUNLinearSolver_Type embedded(SUNLinearSolver solver)
     return SUNLINEARSOLVER_MATRIX_EMBEDDED;
 }
 
-static int diagonal_solve(SUNLinearSolver solver, SUNMatrix none, N_Vector x, N_Vector b, sunrealtype tolerance)
+static int diagonal_solve(SUNLinearSolver solver, SUNMatrix none, N_Vector x, N_Vector b,
+                          sunrealtype tolerance)
 {
     (void)none, (void)tolerance;
     Integrator *in = solver->content;
@@ -150,17 +163,25 @@ static int diagonal_solve(SUNLinearSolver solver, SUNMatrix none, N_Vector x, N_
     if (CVodeGetCurrentGamma(in->solver, &gamma) != CV_SUCCESS) return -1;
     if (!in->rates_known) diagonal_rates(in);
     in->rates_known = true;
-    for (int i = 0; i < N_STATES; i++) N_VGetArrayPointer(x)[i] = N_VGetArrayPointer(b)[i] / (1.0 + gamma * in->rates[i]);
+    for (int i = 0; i < N_STATES; i++)
+        N_VGetArrayPointer(x)[i] = N_VGetArrayPointer(b)[i] / (1.0 + gamma * in->rates[i]);
     return 0;
 }
 
-// ---- bordered block-diagonal Jacobian ---------------------------------------------------------------------------------------------------------
-enum { BALL_STATES = 9, JOINT_STATES = 4, GROUPS = 2 * Z, BORDER = N_STATES - (BALL_STATES + JOINT_STATES) * Z };
+// ---- bordered block-diagonal Jacobian ---------------------------------------------------------------------
+enum {
+    BALL_STATES = 9,
+    JOINT_STATES = 4,
+    GROUPS = 2 * Z,
+    BORDER = N_STATES - (BALL_STATES + JOINT_STATES) * Z
+};
 
 typedef struct {
-    int size[GROUPS], at[GROUPS][BALL_STATES], border_at[BORDER];  // the states of each group and of the border
-    double J[N_STATES][N_STATES];                                  // by columns; only the pattern is used
-    double block[GROUPS][BALL_STATES][BALL_STATES], across[GROUPS][BORDER][BALL_STATES], below[GROUPS][BALL_STATES][BORDER], border[BORDER][BORDER];
+    int size[GROUPS], at[GROUPS][BALL_STATES];
+    int border_at[BORDER];         // the states of each group and of the border
+    double J[N_STATES][N_STATES];  // by columns; only the pattern is used
+    double block[GROUPS][BALL_STATES][BALL_STATES], across[GROUPS][BORDER][BALL_STATES];
+    double below[GROUPS][BALL_STATES][BORDER], border[BORDER][BORDER];
     sunindextype pivot[GROUPS][BALL_STATES], border_pivot[BORDER];
 } Bordered;
 
@@ -171,8 +192,9 @@ typedef struct {
 
 static void bordered_pattern(Bordered *m)
 {
-    static const int BALL[BALL_STATES] = {Y_BALL_X,       Y_BALL_R,       Y_BALL_THETA,   Y_BALL_V_X,    Y_BALL_V_R,
-                                          Y_BALL_OMEGA_M, Y_BALL_OMEGA_X, Y_BALL_OMEGA_R, Y_BALL_OMEGA_T};
+    static const int BALL[BALL_STATES] = {Y_BALL_X,       Y_BALL_R,       Y_BALL_THETA,
+                                          Y_BALL_V_X,     Y_BALL_V_R,     Y_BALL_OMEGA_M,
+                                          Y_BALL_OMEGA_X, Y_BALL_OMEGA_R, Y_BALL_OMEGA_T};
     static const int JOINT[JOINT_STATES] = {Y_JOINT_PLATE_Y, Y_JOINT_PLATE_Z, Y_JOINT_HEAD_Y, Y_JOINT_HEAD_Z};
     bool inside[N_STATES] = {false};
     for (int g = 0; g < GROUPS; g++) {
@@ -188,7 +210,8 @@ static void bordered_pattern(Bordered *m)
         if (!inside[i]) m->border_at[n++] = i;
 }
 
-static void difference_jacobian(Integrator *in, double t, const double *y, double J[N_STATES][N_STATES], double *counter)
+static void difference_jacobian(Integrator *in, double t, const double *y, double J[N_STATES][N_STATES],
+                                double *counter)
 {
     double f[N_STATES], moved[N_STATES];
     memcpy(f, evaluate(in, t, y, counter), sizeof f);
@@ -206,8 +229,9 @@ static void difference_jacobian(Integrator *in, double t, const double *y, doubl
     }
 }
 
-static int bordered_system(sunrealtype t, N_Vector y, N_Vector fy, SUNMatrix M, sunbooleantype still_good, sunbooleantype *renewed, sunrealtype gamma,
-                           void *user, N_Vector a, N_Vector b, N_Vector c)
+static int bordered_system(sunrealtype t, N_Vector y, N_Vector fy, SUNMatrix M, sunbooleantype still_good,
+                           sunbooleantype *renewed, sunrealtype gamma, void *user, N_Vector a, N_Vector b,
+                           N_Vector c)
 {
     (void)fy, (void)a, (void)b, (void)c;
     Bordered *m = M->content;
@@ -220,10 +244,12 @@ static int bordered_system(sunrealtype t, N_Vector y, N_Vector fy, SUNMatrix M, 
             for (int k = 0; k < BORDER; k++) m->below[g][i][k] = -gamma * column[m->border_at[k]];
         }
         for (int i = 0; i < BORDER; i++)
-            for (int k = 0; k < m->size[g]; k++) m->across[g][i][k] = -gamma * m->J[m->border_at[i]][m->at[g][k]];
+            for (int k = 0; k < m->size[g]; k++)
+                m->across[g][i][k] = -gamma * m->J[m->border_at[i]][m->at[g][k]];
     }
     for (int i = 0; i < BORDER; i++)
-        for (int k = 0; k < BORDER; k++) m->border[i][k] = (i == k) - gamma * m->J[m->border_at[i]][m->border_at[k]];
+        for (int k = 0; k < BORDER; k++)
+            m->border[i][k] = (i == k) - gamma * m->J[m->border_at[i]][m->border_at[k]];
     return 0;
 }
 
@@ -242,7 +268,8 @@ static int bordered_factor(SUNLinearSolver solver, SUNMatrix M)
         COLUMNS(block, m->block[g], m->size[g]);
         if (SUNDlsMat_denseGETRF(block, m->size[g], m->size[g], m->pivot[g]) != 0) return 1;
         for (int i = 0; i < BORDER; i++) {
-            SUNDlsMat_denseGETRS(block, m->size[g], m->pivot[g], m->across[g][i]);  // B_g^-1 C_g takes the place of C_g
+            SUNDlsMat_denseGETRS(block, m->size[g], m->pivot[g],
+                                 m->across[g][i]);  // B_g^-1 C_g takes the place of C_g
             subtract_below(m, g, m->across[g][i], m->border[i]);
         }
     }
@@ -278,21 +305,25 @@ static SUNLinearSolver_Type direct(SUNLinearSolver solver)
     (void)solver;
     return SUNLINEARSOLVER_DIRECT;
 }
+
 static SUNErrCode linear_free(SUNLinearSolver solver)
 {
     SUNLinSolFreeEmpty(solver);
     return SUN_SUCCESS;
 }
+
 static SUNMatrix_ID matrix_id(SUNMatrix M)
 {
     (void)M;
     return SUNMATRIX_CUSTOM;
 }
+
 static SUNErrCode matrix_zero(SUNMatrix M)
 {
     (void)M;  // bordered_system writes every entry
     return SUN_SUCCESS;
 }
+
 static void matrix_destroy(SUNMatrix M)
 {
     free(M->content);
@@ -322,23 +353,25 @@ double solver_outside_pattern(struct Part *b)
     return outside / largest;
 }
 
-// ---- creation -----------------------------------------------------------------------------------------------------------------------------------
-static void report(int line, const char *function, const char *file, const char *message, SUNErrCode code, void *user, SUNContext sun)
+// ---- creation ---------------------------------------------------------------------------------------------
+static void report(int line, const char *function, const char *file, const char *message, SUNErrCode code,
+                   void *user, SUNContext sun)
 {
     (void)file, (void)sun;
     const Integrator *in = user;
-    char text[512];
-    snprintf(text, sizeof text, "t = %.9g s: SUNDIALS %s, line %d: %s (code %d)", in->s->t, function, line, message, (int)code);
-    in->log(in->context, text);
+    stepping_report(in->s->t, function, line, message, (int)code, in->log, in->context);
 }
 
 static bool set_up_erk(Integrator *in)
 {
     in->solver = ERKStepCreate(right_hand_side, 0.0, in->y, in->sun);
-    return in->solver != NULL && ARKodeSetUserData(in->solver, in) == ARK_SUCCESS && ARKodeWFtolerances(in->solver, weights) == ARK_SUCCESS &&
-           ERKStepSetTableName(in->solver, in->choice.table) == ARK_SUCCESS && ARKodeSetMaxErrTestFails(in->solver, 30) == ARK_SUCCESS &&
+    return in->solver != NULL && ARKodeSetUserData(in->solver, in) == ARK_SUCCESS &&
+           ARKodeWFtolerances(in->solver, weights) == ARK_SUCCESS &&
+           ERKStepSetTableName(in->solver, in->choice.table) == ARK_SUCCESS &&
+           ARKodeSetMaxErrTestFails(in->solver, 30) == ARK_SUCCESS &&
            ARKodeSetMaxHnilWarns(in->solver, -1) == ARK_SUCCESS &&
-           (in->choice.output_interval > 0.0 || ARKodeSetInterpolantType(in->solver, ARK_INTERP_NONE) == ARK_SUCCESS);
+           (in->choice.output_interval > 0.0 ||
+            ARKodeSetInterpolantType(in->solver, ARK_INTERP_NONE) == ARK_SUCCESS);
 }
 
 static bool set_up_dense(Integrator *in)
@@ -374,28 +407,43 @@ static bool set_up_bordered(Integrator *in)
     in->linear->ops->setup = bordered_factor;
     in->linear->ops->solve = bordered_solve;
     in->linear->ops->free = linear_free;
-    return CVodeSetLinearSolver(in->solver, in->linear, in->matrix) == CV_SUCCESS && CVodeSetLinSysFn(in->solver, bordered_system) == CV_SUCCESS;
+    return CVodeSetLinearSolver(in->solver, in->linear, in->matrix) == CV_SUCCESS &&
+           CVodeSetLinSysFn(in->solver, bordered_system) == CV_SUCCESS;
 }
 
 static bool set_up_cvode(Integrator *in)
 {
     in->solver = CVodeCreate(in->choice.method == SOLVER_ADAMS ? CV_ADAMS : CV_BDF, in->sun);
-    if (in->solver == NULL || CVodeInit(in->solver, right_hand_side, 0.0, in->y) != CV_SUCCESS || CVodeSetUserData(in->solver, in) != CV_SUCCESS ||
-        CVodeWFtolerances(in->solver, weights) != CV_SUCCESS || CVodeSetMaxErrTestFails(in->solver, 30) != CV_SUCCESS ||
-        CVodeSetMaxConvFails(in->solver, 30) != CV_SUCCESS || CVodeSetMaxHnilWarns(in->solver, -1) != CV_SUCCESS)
+    if (in->solver == NULL || CVodeInit(in->solver, right_hand_side, 0.0, in->y) != CV_SUCCESS ||
+        CVodeSetUserData(in->solver, in) != CV_SUCCESS ||
+        CVodeWFtolerances(in->solver, weights) != CV_SUCCESS ||
+        CVodeSetMaxErrTestFails(in->solver, 30) != CV_SUCCESS ||
+        CVodeSetMaxConvFails(in->solver, 30) != CV_SUCCESS ||
+        CVodeSetMaxHnilWarns(in->solver, -1) != CV_SUCCESS)
         return false;
     if (in->choice.method == SOLVER_ADAMS) {
         in->nonlinear = SUNNonlinSol_FixedPoint(in->y, 0, in->sun);
         return in->nonlinear != NULL && CVodeSetNonlinearSolver(in->solver, in->nonlinear) == CV_SUCCESS;
     }
-    return in->choice.jacobian == JACOBIAN_DENSE ? set_up_dense(in) : in->choice.jacobian == JACOBIAN_DIAGONAL ? set_up_diagonal(in) : set_up_bordered(in);
+    return in->choice.jacobian == JACOBIAN_DENSE      ? set_up_dense(in)
+           : in->choice.jacobian == JACOBIAN_DIAGONAL ? set_up_diagonal(in)
+                                                      : set_up_bordered(in);
 }
 
-Integrator *integrator_create(const Kernels *kernels, const Model *model, Work *w, IntegratorState *state, StepHook *hook, IntegratorLog *log, void *context)
+Integrator *integrator_create(const Kernels *kernels, const Model *model, Work *w, IntegratorState *state,
+                              StepHook *hook, IntegratorLog *log, void *context)
 {
     Integrator *in = calloc(1, sizeof *in);
     if (in == NULL) return NULL;
-    *in = (Integrator){.choice = chosen, .kernels = kernels, .model = model, .w = w, .s = state, .hook = hook, .log = log, .context = context, .t_latest = NAN};
+    *in = (Integrator){.choice = chosen,
+                       .kernels = kernels,
+                       .model = model,
+                       .w = w,
+                       .s = state,
+                       .hook = hook,
+                       .log = log,
+                       .context = context,
+                       .t_latest = NAN};
     bool fine = SUNContext_Create(SUN_COMM_NULL, &in->sun) == SUN_SUCCESS;
     if (fine) {
         SUNContext_ClearErrHandlers(in->sun);
@@ -403,7 +451,8 @@ Integrator *integrator_create(const Kernels *kernels, const Model *model, Work *
         in->y = N_VNew_Serial(N_STATES, in->sun);
         in->between = N_VNew_Serial(N_STATES, in->sun);
     }
-    fine = fine && in->y != NULL && in->between != NULL && (in->choice.method == SOLVER_ERK ? set_up_erk(in) : set_up_cvode(in));
+    fine = fine && in->y != NULL && in->between != NULL &&
+           (in->choice.method == SOLVER_ERK ? set_up_erk(in) : set_up_cvode(in));
     if (fine) return in;
     integrator_destroy(in);
     return NULL;
@@ -425,11 +474,10 @@ void integrator_destroy(Integrator *in)
 
 void integrator_tolerance(Integrator *in, double tolerance)
 {
-    for (int b = 0; b < N_STATE_BLOCKS; b++)
-        for (int i = 0; i < STATE_BLOCKS[b].count; i++) in->weight[STATE_BLOCKS[b].offset + i] = 1.0 / (tolerance * in->model->d->scale[STATE_BLOCKS[b].scale]);
+    stepping_weights(in->model->d, tolerance, in->weight);
 }
 
-// ---- stepping -----------------------------------------------------------------------------------------------------------------------------------
+// ---- stepping ---------------------------------------------------------------------------------------------
 void integrator_evaluate(Integrator *in)
 {
     if (in->s->f_is_current) return;
@@ -444,8 +492,10 @@ static int start(Integrator *in, double t_stop)
     memcpy(N_VGetArrayPointer(in->y), in->s->now.y, sizeof in->s->now.y);
     in->rates_known = false;
     if (in->choice.method == SOLVER_ERK)
-        return ARKodeReset(in->solver, in->s->t, in->y) | ARKodeSetInitStep(in->solver, h) | ARKodeSetStopTime(in->solver, t_stop);
-    return CVodeReInit(in->solver, in->s->t, in->y) | CVodeSetInitStep(in->solver, h) | CVodeSetStopTime(in->solver, t_stop);
+        return ARKodeReset(in->solver, in->s->t, in->y) | ARKodeSetInitStep(in->solver, h) |
+               ARKodeSetStopTime(in->solver, t_stop);
+    return CVodeReInit(in->solver, in->s->t, in->y) | CVodeSetInitStep(in->solver, h) |
+           CVodeSetStopTime(in->solver, t_stop);
 }
 
 static int one_step(Integrator *in, double t_stop, double *t)
@@ -471,7 +521,8 @@ static void interpolate(Integrator *in, double t)
 int integrator_advance(Integrator *in, double t_stop, long max_steps)
 {
     IntegratorState *s = in->s;
-    const bool observed = in->model->p->scene.stress >= STRESS_PEAK || in->model->p->scene.statistics == SWITCH_ON;
+    const bool observed =
+        in->model->p->scene.stress >= STRESS_PEAK || in->model->p->scene.statistics == SWITCH_ON;
     long failed_before = 0, failed = 0, dense_evals = 0;
     double t = s->t;
     integrator_evaluate(in);
@@ -482,11 +533,7 @@ int integrator_advance(Integrator *in, double t_stop, long max_steps)
         if (step >= max_steps) return CV_TOO_MUCH_WORK;
         if ((status = one_step(in, t_stop, &t)) < 0) break;
         interpolate(in, t);
-        const double h = t - s->t;
-        memcpy(s->now.y, N_VGetArrayPointer(in->y), sizeof s->now.y);
-        s->t = t;
-        s->steps += 1.0;
-        s->f_is_current = 0;
+        const double h = stepping_accept(s, t, N_VGetArrayPointer(in->y));
         in->rates_known = false;
         if (observed) evaluate(in, s->t, s->now.y, &s->rhs_evals);
         in->hook(in->context, h, in->w);
@@ -497,7 +544,8 @@ int integrator_advance(Integrator *in, double t_stop, long max_steps)
     } else {  // counters start anew with CVodeReInit
         CVodeGetNumErrTestFails(in->solver, &failed);
         CVodeGetLastStep(in->solver, &s->h);
-        if (in->choice.method == SOLVER_BDF && in->choice.jacobian == JACOBIAN_DENSE) CVodeGetNumLinRhsEvals(in->solver, &dense_evals);
+        if (in->choice.method == SOLVER_BDF && in->choice.jacobian == JACOBIAN_DENSE)
+            CVodeGetNumLinRhsEvals(in->solver, &dense_evals);
         jacobian_evals_made += (double)dense_evals;
     }
     s->error_tests_failed += (double)(failed - failed_before);

@@ -2,6 +2,7 @@
 #pragma once
 
 typedef enum { SOLVER_ERK, SOLVER_ADAMS, SOLVER_BDF } SolverMethod;
+
 typedef enum { JACOBIAN_DENSE, JACOBIAN_DIAGONAL, JACOBIAN_BORDERED } SolverJacobian;
 
 // Solver of all instances created from now on.
@@ -10,7 +11,8 @@ typedef enum { JACOBIAN_DENSE, JACOBIAN_DIAGONAL, JACOBIAN_BORDERED } SolverJaco
 //   output_interval  time between values taken from the solver's interpolant [s], 0: none
 void solver_choose(SolverMethod method, const char *table, SolverJacobian jacobian, double output_interval);
 
-// Evaluations of the right-hand side for Jacobians by differences, and values taken from interpolants, since solver_choose.
+// Evaluations of the right-hand side for Jacobians by differences, and values taken from interpolants, since
+// solver_choose.
 void solver_counts(double *jacobian_evals, double *outputs);
 
 // Largest entry of the Jacobian outside the bordered pattern / largest entry, at state y.

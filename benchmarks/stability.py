@@ -34,7 +34,7 @@ FOLDER = BUILD / "stability"
 HANGS = 600.0  # a scene that takes longer is called hanging [s]
 MOST_STEPS = 2_000_000  # work limit of one communication step
 DEMO_EVERY = 25  # scenes between two runs of the working point, to which run times are related
-OUTPUTS = [name.replace("[j]", f"[{j}]").replace("[k]", f"[{j}]") for name, v in variables.OUTPUTS.items() for j in range(1, v.count + 1)]
+OUTPUTS = [name.replace("[j]", f"[{j}]").replace("[k]", f"[{j}]") for name, v in (variables.OUTPUTS | variables.LOCALS).items() for j in range(1, v.count + 1)]
 CAGE = {"cage.D_o": 0.0595, "cage.D_i": 0.0497}
 BEARINGS = {  # changes of the 6207: number of balls, parameters
     "5 balls": (5, {}),
@@ -119,7 +119,7 @@ def run(scene):
         set_all(instance, scene, inputs)
     except FMICallException:
         return {"outcome": "refused", "message": instance.complaints(), "t": 0.0}
-    names = [name for name in OUTPUTS if name in instance.model.outputs]
+    names = [name for name in OUTPUTS if name in instance.model.outputs | instance.model.locals]
     read = instance.reader(names)
     at = {name: i for i, name in enumerate(names)}
     references = [instance.model.inputs[name].valueReference for name in inputs]

@@ -30,10 +30,9 @@ PARTS = {  # source file -> part
     "vector_ops": "error norm",
     "load_path": "rivet loads",
     "rivets": "rivet loads",
-    "rivet_primary": "rivet table",
     "rivet_rom": "rivet table",
     "bearing": "peaks and statistics",
-    "records": "peaks and statistics",
+    "outputs_recorded": "peaks and statistics",
     "statistics": "peaks and statistics",
 }
 REST, OUTSIDE = "control of steps, inputs", "memcpy, memset, clock"

@@ -51,7 +51,8 @@ static void call_rhs(void *context)
     e->function(e->model, 0.0, e->y, y_dot, e->w);
 }
 
-long trace_rhs(Rhs *function, const Model *model, const double *y, Work *w, unsigned long *address, long max_count)
+long trace_rhs(Rhs *function, const Model *model, const double *y, Work *w, unsigned long *address,
+               long max_count)
 {
     Evaluation e = {function, model, y, w};
     call_rhs(&e);  // symbols bound, memory touched

@@ -174,11 +174,11 @@ def geometric(values):
 def moments(instance):
     """The running statistics' numbers by channel: time, sums, histogram."""
     core = instance.core
-    saved = core.new("Saved")
+    saved = core.new("InstanceState")
     core.lib.part_save(instance.bearing, saved)
     worst = variables.Z
-    places = {"Q_c": saved.force, "sigma_head": saved.head[worst], "sigma_mid": saved.mid[worst]}
-    return {name: np.array([place.time, place.first, place.second, *place.weight]) for name, place in places.items()}
+    channels = {"Q_c": saved.force, "sigma_head": saved.head[worst], "sigma_mid": saved.mid[worst]}
+    return {name: np.array([channel.time, channel.first, channel.second, *channel.weight]) for name, channel in channels.items()}
 
 
 def figures(blocks):
@@ -188,7 +188,7 @@ def figures(blocks):
     for name in CHANNELS:
         total = np.sum([block[name] for block in blocks], axis=0)
         channel = StatisticsChannel(floors.get(name, reference_implementation.STRESS_FLOOR))
-        (channel.time, channel.first, channel.second), channel.weight, channel.most = total[:3], total[3:], math.inf
+        (channel.time, channel.first, channel.second), channel.weight, channel.max = total[:3], total[3:], math.inf
         values |= {f"{name}_mean": channel.mean, f"{name}_rms": channel.rms, f"{name}_p999": channel.quantile(0.999)}
     return values
 

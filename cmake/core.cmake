@@ -5,7 +5,7 @@ include(CheckCCompilerFlag)
 # Files that work on packets of balls: compiled once for each instruction set, chosen at run time.
 set(kernel_files rhs.c ball.c race_contact.c drag.c pocket.c cage_joint.c land_film.c ring.c  # the right-hand side
     vector_ops.c implicit.c verlet.c                                                              # what the integrator does with it
-    rivets.c load_path.c rivet_primary.c)                                                         # stress after each step
+    rivets.c load_path.c rivet_rom.c)                                                             # stress after each step
 
 set(warnings -Wall -Wextra -Wpedantic)
 set(arithmetic -ffp-contract=off -fno-math-errno -fno-trapping-math)  # IEEE results, the same ones on every instruction set
@@ -92,7 +92,7 @@ endif()
 # And once in dual numbers: derivatives.  Complex products need no care for infinities here.
 check_c_compiler_flag("-Werror -fcx-limited-range" limited_range)
 if(limited_range)
-    set_source_files_properties(${fmu_src}/tangent.c PROPERTIES COMPILE_OPTIONS -fcx-limited-range)
+    set_source_files_properties(${fmu_src}/jacobian.c PROPERTIES COMPILE_OPTIONS -fcx-limited-range)
 endif()
 
 # For the tests only: each element's functions, callable from Python.

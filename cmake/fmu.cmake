@@ -11,17 +11,27 @@ function(add_fmu_binary name)
         target_link_options(${name} PRIVATE -Wl,--version-script=${PROJECT_SOURCE_DIR}/cmake/exports.map -Wl,--gc-sections)
         set_target_properties(${name} PROPERTIES LINK_DEPENDS ${PROJECT_SOURCE_DIR}/cmake/exports.map)
         if(NOT SANITIZE)
-            target_link_options(${name} PRIVATE -Wl,--no-undefined -Wl,-s)
+            target_link_options(${name} PRIVATE -Wl,--no-undefined)
         endif()
     elseif(APPLE AND NOT CMAKE_CROSSCOMPILING)
-        target_link_options(${name} PRIVATE -Wl,-exported_symbol,_fmi2*)  # cross-compiled, all others are hidden
+        target_link_options(${name} PRIVATE -Wl,-exported_symbol,_fmi2* -Wl,-S -Wl,-x)  # cross-compiled, all others are hidden
+    endif()
+    if(WIN32 AND CMAKE_C_COMPILER_ID STREQUAL "GNU")
+        target_link_options(${name} PRIVATE -Wl,--no-insert-timestamp)
+    endif()
+    if(NOT SANITIZE AND (CMAKE_CROSSCOMPILING OR NOT APPLE))
+        target_link_options(${name} PRIVATE -Wl,-s)  # symbols name files and folders
     endif()
     if(CMAKE_C_COMPILER_ID STREQUAL "GNU")
         target_link_options(${name} PRIVATE -static-libgcc)
     endif()
 endfunction()
 
-add_fmu_binary(RivetedBearing ${core_objects} ${fmu_src}/fmi2_wrapper.c)
+set(source_files ${core_files} ${kernel_files} ${fmu_src}/fmi2_wrapper.c ${rivet_table} ${sundials_files})
+set(source_folders ${core_includes} ${sundials_folders})
+set(build_info ${PROJECT_BINARY_DIR}/build_info.c)
+add_build_info(${build_info} "${source_files}" "${source_folders}")
+add_fmu_binary(RivetedBearing ${core_objects} ${fmu_src}/fmi2_wrapper.c ${build_info})
 target_link_libraries(RivetedBearing PRIVATE core)
 add_custom_target(binaries DEPENDS RivetedBearing)  # all there are for this platform
 
@@ -29,8 +39,14 @@ add_custom_target(binaries DEPENDS RivetedBearing)  # all there are for this pla
 #
 #   FMU        file to write (default: RivetedBearing.fmu in the build folder)
 #   BINARIES   binaries to pack as PLATFORM=FILE, separated by semicolons, instead of this build's (cmake/zig.cmake makes them)
+#   COMPILER   what compiled them, for the bill of materials
 set(FMU ${PROJECT_BINARY_DIR}/RivetedBearing.fmu CACHE FILEPATH "The FMU to write")
 set(BINARIES "" CACHE STRING "Binaries to pack: PLATFORM=FILE;...")
+set(COMPILER "" CACHE STRING "What compiled BINARIES: name and version")
+set(compiler ${COMPILER})
+if(NOT BINARIES)
+    set(compiler "${CMAKE_C_COMPILER_ID} ${CMAKE_C_COMPILER_VERSION}")
+endif()
 set(description ${PROJECT_SOURCE_DIR}/fmus/modelDescription.xml)
 set(parameters ${PROJECT_SOURCE_DIR}/docs/parameters.md)
 if(GENERATED_DIR)
@@ -47,12 +63,11 @@ add_custom_command(OUTPUT ${parts}/icons/icon.png ${parts}/bearing.svg
     DEPENDS ${description} ${tools}/picture.py VERBATIM)
 file(GLOB texts CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/docs/*.md)
 if(sundials_files)
-    set(source_files ${core_files} ${kernel_files} ${fmu_src}/fmi2_wrapper.c ${rivet_table} ${sundials_files})
     set(with_sources --sources)
 endif()
 add_custom_command(OUTPUT ${parts}/index.html
     COMMAND ${run}/documentation_page.py --description ${description} --parameters ${parameters} --drawing ${parts}/bearing.svg --out ${parts}/index.html ${with_sources}
-    DEPENDS ${description} ${parameters} ${parts}/bearing.svg ${tools}/documentation_page.py ${tools}/templates/index.html ${PROJECT_SOURCE_DIR}/README.md ${texts} VERBATIM)
+    DEPENDS ${description} ${parameters} ${parts}/bearing.svg ${tools}/documentation_page.py ${tools}/templates/page.html ${tools}/templates/bearing.html ${PROJECT_SOURCE_DIR}/README.md ${texts} VERBATIM)
 
 set(binaries ${BINARIES})
 set(binary_files RivetedBearing)
@@ -64,12 +79,14 @@ endif()
 foreach(binary IN LISTS binaries)
     list(APPEND binary_arguments --binary ${binary})
 endforeach()
-set(arguments ${binary_arguments} --description ${description} --page ${parts}/index.html --pictures ${parts}/icons --out ${FMU})
+set(origin --version ${package_version} --author ${package_author} --compiler ${compiler} --build-info)  # then the file
+set(arguments ${binary_arguments} ${origin} ${build_info} --description ${description} --page ${parts}/index.html --pictures ${parts}/icons
+    --terminals ${tools}/terminalsAndIcons.xml --material "data rivet_table ${RIVET_TABLE}" --out ${FMU})
 if(sundials_files)
+    list(APPEND arguments --material "library sundials ${sundials_version}")
     list(TRANSFORM source_files PREPEND "--source\n" OUTPUT_VARIABLE sources)
-    set(source_folders ${core_includes} ${sundials_folders})
     list(TRANSFORM source_folders PREPEND "--include\n" OUTPUT_VARIABLE folders)
-    list(APPEND arguments ${sources} ${folders})
+    list(APPEND arguments ${sources} --source ${build_info} ${folders})
 endif()
 if(NOT SANITIZE)  # runs the binary in a Python without the sanitizers' library
     add_custom_command(OUTPUT ${parts}/reference.csv
@@ -83,11 +100,11 @@ file(GENERATE OUTPUT ${parts}/arguments.txt CONTENT "${arguments}\n")
 add_custom_command(OUTPUT ${FMU}
     COMMAND ${run}/package.py @${parts}/arguments.txt
     DEPENDS ${parts}/arguments.txt ${binary_files} ${source_files} ${description} ${parts}/index.html ${parts}/icons/icon.png ${reference}
-        ${tools}/package.py ${tools}/sources.py ${tools}/terminalsAndIcons.xml ${PROJECT_SOURCE_DIR}/LICENSE ${PROJECT_SOURCE_DIR}/THIRD_PARTY_NOTICES.md VERBATIM)
+        ${build_info} ${tools}/package.py ${tools}/materials.py ${tools}/sources.py ${tools}/terminalsAndIcons.xml ${PROJECT_SOURCE_DIR}/LICENSE ${PROJECT_SOURCE_DIR}/THIRD_PARTY_NOTICES.md VERBATIM)
 add_custom_target(fmu ALL DEPENDS ${FMU})
 
 # In the wheel: the FMU, and what `riveted-bearing build` compiles, laid out as in the checkout.
 install(FILES ${FMU} DESTINATION riveted_bearing COMPONENT python)
 set(source_dir riveted_bearing/_source)
-install(FILES CMakeLists.txt LICENSE THIRD_PARTY_NOTICES.md README.md DESTINATION ${source_dir} COMPONENT python)
+install(FILES CMakeLists.txt pyproject.toml LICENSE THIRD_PARTY_NOTICES.md README.md DESTINATION ${source_dir} COMPONENT python)
 install(DIRECTORY cmake fmu_src fmus docs DESTINATION ${source_dir} COMPONENT python PATTERN __pycache__ EXCLUDE PATTERN *.fmu EXCLUDE)

@@ -14,8 +14,10 @@ add_custom_command(OUTPUT ${generated}
     COMMAND ${run}/generate.py --table ${transmission}/shaft.toml --out ${shaft}
     COMMAND ${CMAKE_COMMAND} -E touch ${generated}
     DEPENDS ${transmission}/shaft.toml ${tools}/generate.py ${templates} VERBATIM)
-set(shaft_sources ${transmission}/shaft.c ${fmu_src}/fmi2_wrapper.c ${fmu_src}/variable_table.c ${shaft}/variables.c)
-add_fmu_binary(Shaft ${shaft_sources} ${shaft}/variables.h)
+set(shaft_core ${transmission}/shaft.c ${fmu_src}/variable_table.c ${shaft}/variables.c)
+set(shaft_sources ${shaft_core} ${fmu_src}/fmi2_wrapper.c)
+add_build_info(${shaft}/build_info.c "${shaft_sources}" "${fmu_src};${shaft}")
+add_fmu_binary(Shaft ${shaft_sources} ${shaft}/build_info.c ${shaft}/variables.h)
 target_include_directories(Shaft PRIVATE ${fmu_src} ${shaft})
 target_link_libraries(Shaft PRIVATE m)
 add_dependencies(binaries Shaft)
@@ -32,11 +34,20 @@ if(BINARIES)
 endif()
 list(TRANSFORM shaft_binaries PREPEND "--binary=")
 get_filename_component(fmu_dir ${FMU} DIRECTORY)
+add_custom_command(OUTPUT ${shaft}/shaft.svg ${shaft}/icons/icon.png
+    COMMAND ${CMAKE_COMMAND} -E env PYTHONPATH=${tools} ${Python_EXECUTABLE} ${transmission}/shaft_picture.py
+        --description ${shaft}/modelDescription.xml --drawing ${shaft}/shaft.svg --icons ${shaft}/icons
+    DEPENDS ${generated} ${transmission}/shaft_picture.py ${tools}/picture.py VERBATIM)
+add_custom_command(OUTPUT ${shaft}/index.html
+    COMMAND ${run}/documentation_page.py --description ${shaft}/modelDescription.xml --parameters ${shaft}/parameters.md --drawing ${shaft}/shaft.svg
+        --text ${transmission}/shaft.md --sources --out ${shaft}/index.html
+    DEPENDS ${generated} ${shaft}/shaft.svg ${transmission}/shaft.md ${tools}/documentation_page.py ${tools}/templates/page.html VERBATIM)
 list(TRANSFORM shaft_sources PREPEND "--source=" OUTPUT_VARIABLE sources)
 add_custom_command(OUTPUT ${fmu_dir}/Shaft.fmu
-    COMMAND ${run}/package.py --description ${shaft}/modelDescription.xml ${shaft_binaries} ${sources}
-        --include ${fmu_src} --include ${shaft} --out ${fmu_dir}/Shaft.fmu
-    DEPENDS ${shaft_files} ${generated} ${tools}/package.py ${tools}/sources.py VERBATIM)
+    COMMAND ${run}/package.py ${origin} ${shaft}/build_info.c --description ${shaft}/modelDescription.xml ${shaft_binaries} ${sources}
+        --source ${shaft}/build_info.c --include ${fmu_src} --include ${shaft} --page ${shaft}/index.html --pictures ${shaft}/icons --out ${fmu_dir}/Shaft.fmu
+    DEPENDS ${shaft_files} ${generated} ${shaft}/build_info.c ${shaft}/index.html ${shaft}/icons/icon.png ${tools}/package.py ${tools}/materials.py
+        ${tools}/sources.py VERBATIM)
 set(system ${fmu_dir}/Transmission.ssp)
 add_custom_command(OUTPUT ${system}
     COMMAND ${run}/system.py --description ${transmission}/transmission.ssd --out ${system}

@@ -1,4 +1,5 @@
-// Memory aligned for any lane width: C17's aligned_alloc, which Windows' C library has not.
+// Memory aligned for any lane width: C17's aligned_alloc; Windows' C library lacks this function and has its
+// own.
 #pragma once
 
 #include <stdlib.h>
@@ -10,6 +11,7 @@ static inline void *aligned_new(size_t size)
 {
     return _aligned_malloc(size, 64);
 }
+
 static inline void aligned_delete(void *memory)
 {
     _aligned_free(memory);
@@ -19,6 +21,7 @@ static inline void *aligned_new(size_t size)
 {
     return aligned_alloc(64, (size + 63) / 64 * 64);
 }
+
 static inline void aligned_delete(void *memory)
 {
     free(memory);

@@ -1,17 +1,20 @@
-// A ball in its cylindrical frame (x, r, t), azimuth theta, orbital speed omega_m = theta_dot, angular velocity omega:
+// A ball in its cylindrical frame (x, r, t), azimuth theta, orbital speed omega_m = theta_dot, angular
+// velocity omega:
 //
 //   m x''                       = F_x            J omega_x' = M_x
 //   m (r'' - r omega_m^2)       = F_r            J omega_r' = M_r + J omega_m omega_t
 //   m (r omega_m' + 2 r' omega_m) = F_t          J omega_t' = M_t - J omega_m omega_r
 //
-// Gupta (1979), J. Lubr. Technol. 101, 293.  The last terms are the gyroscopic moments: the frame turns, the sphere has no axis of its own.
+// Gupta (1979), J. Lubr. Technol. 101, 293.  The last terms on the right are the gyroscopic moments: they
+// arise because the frame turns with the orbit; the sphere itself needs no orientation.
 #include "ball.h"
 
 #include "vec.h"
 
 void ball_kinematics(const scalar *y, Work *w)
 {
-    scalar *positions[] = {w->x, w->r, w->theta}, *velocities[] = {w->v_x, w->v_r, w->omega_m}, *spins[] = {w->omega_x, w->omega_r, w->omega_t};
+    scalar *positions[] = {w->x, w->r, w->theta}, *velocities[] = {w->v_x, w->v_r, w->omega_m};
+    scalar *spins[] = {w->omega_x, w->omega_r, w->omega_t};
     for (int i = 0; i < 3; i++) {
         memcpy(positions[i], &y[Y_BALL_X + i * Z], Z * sizeof *y);
         memcpy(velocities[i], &y[Y_BALL_V_X + i * Z], Z * sizeof *y);
@@ -38,12 +41,16 @@ void ball_acceleration(const Model *model, const Work *w, scalar *y_dot)
         const wide cosine = wide_load(&w->cos_theta[j]), sine = wide_load(&w->sin_theta[j]);
         const wide omega_r = wide_load(&w->omega_r[j]), omega_t = wide_load(&w->omega_t[j]);
         wide_store(&rows[0][j], wide_load(&w->F_x[j]) * inv_mass);
-        wide_store(&rows[1][j], wide_load(&w->F_r[j]) * inv_mass + g_y * cosine + g_z * sine + r * omega_m * omega_m);
-        wide_store(&rows[2][j], (wide_load(&w->F_t[j]) * inv_mass + g_z * cosine - g_y * sine - 2.0 * v_r * omega_m) / r);
+        wide_store(&rows[1][j],
+                   wide_load(&w->F_r[j]) * inv_mass + g_y * cosine + g_z * sine + r * omega_m * omega_m);
+        wide_store(&rows[2][j],
+                   (wide_load(&w->F_t[j]) * inv_mass + g_z * cosine - g_y * sine - 2.0 * v_r * omega_m) / r);
         wide_store(&rows[3][j], wide_load(&w->M_x[j]) * inv_inertia);
         wide_store(&rows[4][j], wide_load(&w->M_r[j]) * inv_inertia + omega_m * omega_t);
         wide_store(&rows[5][j], wide_load(&w->M_t[j]) * inv_inertia - omega_m * omega_r);
     }
+
+    // into the rows of the state vector
     memcpy(&y_dot[Y_BALL_X], w->v_x, Z * sizeof *y_dot);
     memcpy(&y_dot[Y_BALL_R], w->v_r, Z * sizeof *y_dot);
     memcpy(&y_dot[Y_BALL_THETA], w->omega_m, Z * sizeof *y_dot);

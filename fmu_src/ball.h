@@ -4,5 +4,8 @@
 #include "isa.h"
 #include "model.h"
 
-void ball_kinematics(const scalar *y, Work *w);                            // copies of the state, azimuth's cosine and sine
-void ball_acceleration(const Model *model, const Work *w, scalar *y_dot);  // from the total forces and moments
+// Copies the balls' states into w and computes cosine and sine of their azimuths.
+void ball_kinematics(const scalar *y, Work *w);
+
+// Equations of motion under the total forces and moments.
+void ball_acceleration(const Model *model, const Work *w, scalar *y_dot);

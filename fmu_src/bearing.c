@@ -1,4 +1,4 @@
-// One instance: life cycle, stepping, peaks and statistics over accepted steps, saved state.
+// One instance of the bearing: life cycle, stepping, peaks and statistics over accepted steps, saved state.
 #include "aligned.h"
 #include "cpu_clock.h"
 #include "energy.h"
@@ -8,7 +8,21 @@
 #include "rivets.h"
 #include "start.h"
 
-// ---- accepted steps ---------------------------------------------------------------------------------------------------------------------------
+#include <stdarg.h>
+#include <stdio.h>
+
+void bearing_log(Bearing *b, LogCategory category, const char *format, ...)
+{
+    if (b->host.log == NULL) return;
+    char message[1024];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(message, sizeof message, format, arguments);
+    va_end(arguments);
+    b->host.log(b->host.environment, category, message);
+}
+
+// ---- accepted steps ---------------------------------------------------------------------------------------
 static void add_force(InstanceState *s, const Work *w, bool counts, double h)
 {
     for (int j = 0; j < Z; j++) {
@@ -25,11 +39,16 @@ static void add_stress(Bearing *b, bool counts, double h)
     InstanceState *s = &b->s;
     FatigueLaw law;
     RivetLoads load;
-    double head[Z], mid[Z], head_max = 0.0, mid_max = 0.0;
+    double sigma[RIVET_CHANNELS][Z], head_max = 0.0, mid_max = 0.0;
     const bool fatigue = s->p.scene.stress == STRESS_FATIGUE && s->integrator.t >= s->p.start.settle;
     memcpy(&law, &s->p.fatigue, sizeof law);
+
+    // stress of all rivets
     b->kernels.rivets_load(&b->model, &b->w, &load);
-    b->kernels.rivet_primary(&rivet_table, &load, b->d.fit_eff, head, mid);
+    b->kernels.rivet_rom_stress(&rivet_table, &load, b->d.fit_eff, false, sigma);
+    const double *head = sigma[HEAD_P1], *mid = sigma[MID_VM];
+
+    // peaks, statistics and fatigue of each rivet, statistics of the worst one
     for (int k = 0; k < Z; k++) {
         s->head_peak[k] = scalar_max(s->head_peak[k], head[k]);
         s->mid_peak[k] = scalar_max(s->mid_peak[k], mid[k]);
@@ -62,7 +81,7 @@ static void add_cage(Bearing *b, double h)
     s->eccentricity_time += h * sqrt(y * y + z * z) / b->d.C_land;
 }
 
-// Peaks, statistics and fatigue from the state just reached.
+// Adds the state just reached, after a step of length h, to peaks, statistics and fatigue.
 static void accepted_step(void *context, double h, const Work *w)
 {
     Bearing *b = context;
@@ -78,7 +97,7 @@ static void solver_message(void *context, const char *message)
     bearing_log(context, LOG_SOLVER, "%s", message);
 }
 
-// Onsets at the state just reached, which w belongs to.
+// Reports the events that begin at the state just reached; w holds the results there.
 static void report_events(Bearing *b)
 {
     InstanceState *s = &b->s;
@@ -89,11 +108,12 @@ static void report_events(Bearing *b)
         char text[256];
         event_text(kind, &now[kind], text, sizeof text);
         const bool warning = kind == EVENT_OVERPRESSURE && s->event.onsets[kind] == 1.0;
-        bearing_log(b, warning ? LOG_WARNING : LOG_EVENT, "t = %.9g s: %s (onset %.0f)", s->integrator.t, text, s->event.onsets[kind]);
+        bearing_log(b, warning ? LOG_WARNING : LOG_EVENT, "t = %.9g s: %s (onset %.0f)", s->integrator.t,
+                    text, s->event.onsets[kind]);
     }
 }
 
-// ---- life cycle ---------------------------------------------------------------------------------------------------------------------------------
+// ---- life cycle -------------------------------------------------------------------------------------------
 Bearing *part_create(const PartHost *host)
 {
     Bearing *b = aligned_new(sizeof *b);
@@ -102,7 +122,8 @@ Bearing *part_create(const PartHost *host)
     b->host = *host;
     b->kernels = kernels_select();
     b->model = (Model){.p = &b->s.p, .d = &b->d, .ring_load = &b->ring_load};
-    b->integrator = integrator_create(&b->kernels, &b->model, &b->w, &b->s.integrator, accepted_step, solver_message, b);
+    b->integrator =
+        integrator_create(&b->kernels, &b->model, &b->w, &b->s.integrator, accepted_step, solver_message, b);
     if (b->integrator == NULL) {
         aligned_delete(b);
         return NULL;
@@ -125,38 +146,41 @@ void part_reset(Bearing *b)
     variables_set_start(&b->s.p, &b->s.u[0]);
     b->current = 0;
     b->evaluated = false;
-    b->cpu_time = 0.0;
 }
 
 Parameters *part_parameters(Bearing *b)
 {
     return &b->s.p;
 }
+
 Inputs *part_inputs(Bearing *b, int order)
 {
     return &b->s.u[order];
 }
+
 const Outputs *part_outputs(const Bearing *b)
 {
     return &b->out;
 }
+
 double *part_state(Bearing *b)
 {
     return b->s.integrator.now.y;
 }
+
 double part_time(const Bearing *b)
 {
     return b->s.integrator.t;
 }
 
-// The drive that the present state has seen last.
+// Puts the load of the present inputs u_now on the ring and holds it: there is no trajectory to follow.
 static void hold_ring_load(Bearing *b)
 {
     b->model.trajectory = NULL;
     ring_load_update(&b->s.p, &b->s.u_now, b->s.integrator.t, &b->ring_load);
 }
 
-// What follows from parameters and inputs; nothing of it is saved.
+// Computes all that follows from parameters and inputs and is therefore not saved.
 static void derive(Bearing *b)
 {
     model_derive(&b->s.p, &b->d);
@@ -167,7 +191,7 @@ static void derive(Bearing *b)
     b->evaluated = false;
 }
 
-// Makes w and y_dot belong to the present state and inputs.
+// Evaluates the right-hand side if w and y_dot do not belong to the present state and inputs yet.
 static void evaluate(Bearing *b)
 {
     if (b->evaluated) return;
@@ -187,13 +211,19 @@ PartStatus part_initialize(Bearing *b, double t_start, double tolerance)
     s->integrator.t = t_start;
     s->integrator.h = 1e-6;
     derive(b);
+
+    // quasi-static start
     const double residual = start_state(&b->kernels, &b->model, &b->w, s->integrator.now.y);
     const double load = fabs(b->ring_load.F[0]) + fabs(b->ring_load.F[1]) + fabs(b->ring_load.F[2]);
     PartStatus status = PART_OK;
     if (!(residual < 1e-6 * (load + 1.0))) {
-        bearing_log(b, LOG_WARNING, "t = %g s: the start is not in equilibrium, residual %g N of a load of %g N", t_start, residual, load);
+        bearing_log(b, LOG_WARNING,
+                    "t = %g s: the start is not in equilibrium, residual %g N of a load of %g N", t_start,
+                    residual, load);
         status = PART_WARNING;
     }
+
+    // first evaluation; the start counts as an accepted step of length 0
     integrator_evaluate(b->integrator);
     if (!check_start(b)) return PART_ERROR;
     s->energy_start = energy_total(&b->model, s->integrator.now.y, &b->w);
@@ -203,8 +233,10 @@ PartStatus part_initialize(Bearing *b, double t_start, double tolerance)
     return status;
 }
 
-// ---- stepping -----------------------------------------------------------------------------------------------------------------------------------
-// The inputs' course from here to the next edge of a pulse, in a step that began at t_0.  Where the drive jumps, the known derivative is obsolete.
+// ---- stepping ---------------------------------------------------------------------------------------------
+// Sets the trajectory of the inputs from the present time to the next edge of a pulse, in a communication
+// step that began at t_0.  Where the load on the ring jumps, the derivative at the present state is no longer
+// current.
 static void begin_trajectory(Bearing *b, double t_0)
 {
     InstanceState *s = &b->s;
@@ -216,6 +248,7 @@ static void begin_trajectory(Bearing *b, double t_0)
     s->integrator.f_is_current = 0;
 }
 
+// Ends the trajectory at the present time: the inputs reached are held from there on.
 static void end_trajectory(Bearing *b)
 {
     input_trajectory_rates_at(&b->trajectory, b->s.integrator.t, &b->s.u_now, &b->s.u_now_dot);
@@ -233,15 +266,17 @@ PartStatus part_step(Bearing *b, double t_end)
     b->current = 0;
     b->evaluated = false;
 
+    // one advance for each stretch between edges of pulses
     int status = 0;
-    begin_trajectory(b, t_begin);
     while (status == 0 && s->integrator.t < t_end) {
-        begin_trajectory(b, t_begin);  // at the edges of pulses
+        begin_trajectory(b, t_begin);
         const double edge = pulse_next_edge(&s->p, s->integrator.t);
         const long left = s->p.solver.max_steps - (long)(s->integrator.steps - steps_before);
         status = integrator_advance(b->integrator, fmin(edge, t_end), left);
         end_trajectory(b);
     }
+
+    // the inputs stay where they are now
     s->u[0] = s->u_now;
     memset(&s->u[1], 0, INPUT_ORDERS * sizeof *s->u);
     b->cpu_time += cpu_clock() - before;
@@ -251,11 +286,15 @@ PartStatus part_step(Bearing *b, double t_end)
     }
     const double steps = s->integrator.steps - steps_before;
     if (steps >= s->p.solver.max_steps)
-        bearing_log(b, LOG_ERROR, "t = %.9g s: the work limit is reached, solver.max_steps = %d steps since %.9g s; step size %g s", s->integrator.t,
-                    s->p.solver.max_steps, t_begin, s->integrator.h);
+        bearing_log(
+            b, LOG_ERROR,
+            "t = %.9g s: the work limit is reached, solver.max_steps = %d steps since %.9g s; step size %g s",
+            s->integrator.t, s->p.solver.max_steps, t_begin, s->integrator.h);
     else
-        bearing_log(b, LOG_ERROR, "t = %.9g s: the solver cannot go on (code %d) after %g steps since %.9g s; step size %g s", s->integrator.t, status, steps,
-                    t_begin, s->integrator.h);
+        bearing_log(
+            b, LOG_ERROR,
+            "t = %.9g s: the solver cannot go on (code %d) after %g steps since %.9g s; step size %g s",
+            s->integrator.t, status, steps, t_begin, s->integrator.h);
     return PART_DISCARD;
 }
 
@@ -267,14 +306,16 @@ void part_update(Bearing *b, OutputGroup group)
     b->current |= 1u << group;
 }
 
-// ---- derivatives --------------------------------------------------------------------------------------------------------------------------------
+// ---- derivatives ------------------------------------------------------------------------------------------
+// Derivatives of all outputs at the present state along dt of time, du of the inputs and dy of the states.
 static void differentiate(Bearing *b, double dt, const Inputs *du, const double *dy, Outputs *derivatives)
 {
     const InstanceState *s = &b->s;
     const Inputs u[INPUT_ORDERS + 1] = {s->u_now, s->u_now_dot};
     InputTrajectory trajectory;
     input_trajectory_update(&s->p, u, s->integrator.t, s->integrator.t, &trajectory);
-    jacobian_outputs(&b->model, &trajectory, s->integrator.t, dt, du, s->integrator.now.y, dy, derivatives);
+    jacobian_outputs(&b->model, (const double *)&trajectory, s->integrator.t, dt, (const double *)du,
+                     s->integrator.now.y, dy, (double *)derivatives);
 }
 
 void part_time_derivatives(Bearing *b, Outputs *derivatives)
@@ -283,12 +324,13 @@ void part_time_derivatives(Bearing *b, Outputs *derivatives)
     differentiate(b, 1.0, NULL, b->y_dot, derivatives);
 }
 
-void part_directional_derivatives(Bearing *b, const Inputs *inputs, const double state[N_STATES], Outputs *derivatives)
+void part_directional_derivatives(Bearing *b, const Inputs *inputs, const double state[N_STATES],
+                                  Outputs *derivatives)
 {
     differentiate(b, 0.0, inputs, state, derivatives);
 }
 
-// ---- saved state --------------------------------------------------------------------------------------------------------------------------------
+// ---- saved state ------------------------------------------------------------------------------------------
 size_t part_saved_size(void)
 {
     return sizeof(InstanceState);
@@ -303,6 +345,34 @@ void part_restore(Bearing *b, const void *saved)
 {
     memcpy(&b->s, saved, sizeof b->s);
     derive(b);
+}
+
+// All outputs at the restored state, and its derivative.
+static bool outputs_are_numbers(Bearing *b)
+{
+    evaluate(b);
+    bool fine = b->kernels.ops->finite(b->y_dot);
+    for (int group = 0; group < GROUP_COUNT; group++) part_update(b, (OutputGroup)group);
+    for (const Variable *v = VARIABLES; v < VARIABLES + N_VARIABLES; v++) {
+        if (v->causality != CAUSALITY_OUTPUT) continue;
+        const double *value = (const double *)((const char *)&b->out + v->offset);
+        for (int i = 0; i < v->count; i++) fine &= isfinite(value[i]) != 0;
+    }
+    if (!fine) bearing_log(b, LOG_ERROR, "the outputs there are no numbers");
+    return fine;
+}
+
+bool part_restore_unknown(Bearing *b, const void *saved)
+{
+    memcpy(&b->s, saved, sizeof b->s);
+    if (!check_saved(b)) return false;
+    derive(b);
+    return !b->s.initialized || outputs_are_numbers(b);
+}
+
+bool part_is_initialized(const Bearing *b)
+{
+    return b->s.initialized;
 }
 
 const char *part_data_digest(void)

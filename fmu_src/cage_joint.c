@@ -1,14 +1,20 @@
-// Riveted joint k: plates pressed together by the rivet, friction of plates and heads, the rivet's shank in its holes.
+// Riveted joint k: plates pressed together by the rivet, friction of plates and heads, the rivet's shank in
+// its holes.
 //
-//      |  T  |          u    hole of half 1 - hole of half 0 at rivet k, in the body frame of half 0 (turns with the cage), v its rate
+//      |  T  |          u    hole of half 1 - hole of half 0 at rivet k, in the body frame of half 0, v its rate
 //   ---+-   -+---       rivet tension   T = max(0, P + k_rivet u_x)
 //   half 1     | u_x    plate force     N_plate = max(0, P - k_plate u_x), damped by c v_x N_plate/(N_plate + F_floor)
-//   ===+=====+===       plate friction  S = -k_t z,  z' = v - |v| k_t z/(mu N_plate + F_floor)        Dahl (1968): a friction state, no creep
+//   ===+=====+===       plate friction  S = -k_t z,  z' = v - |v| k_t z/(mu N_plate + F_floor)
 //   half 0     |        head friction   H = -k_h z_h, likewise with mu T + F_floor
 //   ---+-   -+---       hole contact    B = -k_hole max(0, |u| - gap) u/|u|,  gap = max(0, -fit_a): the diametral play
 //      |     |
-// After the plates (mu P) the heads drag the rivet (mu P more), then the halves slip freely by the gap, then the shank bears.
-// Force and reaction act at the same point, so momentum and energy are exact.  External tension of the joint: N = T - N_plate.
+//
+// The friction law is that of Dahl (1968): its force is a state, so that a held joint does not creep.  Under
+// a growing transverse load the plates slip first (at mu P), then the heads slip on the rivet (at mu P more),
+// then the halves move freely across the gap, and at last the shank bears against its holes.
+//
+// Force and reaction act at the same point, so momentum and energy are exact.  The external tension of the
+// joint is N = T - N_plate.
 // Smoothness: C0 at opening and bearing (a spring of finite stiffness begins), C0 at v = 0.
 #include "cage_joint.h"
 
@@ -19,6 +25,8 @@ void cage_joint_kinematics(const Model *model, Work *w)
 {
     const Rotor *h0 = &w->half[0], *h1 = &w->half[1];
     const scalar *axes_0[3] = {h0->a, h0->b_y, h0->b_z}, *axes_1[2] = {h1->b_y, h1->b_z};
+
+    // offset and velocity of the centre of half 1 in the turning frame of half 0
     scalar g[3], v[3], omega[3], drift[3];
     for (int i = 0; i < 3; i++) {
         g[i] = h1->x[i] - h0->x[i];
@@ -30,7 +38,8 @@ void cage_joint_kinematics(const Model *model, Work *w)
     scalar spin[2][3];
     for (int c = 0; c < 2; c++) cross3(omega, axes_1[c], spin[c]);
 
-    // u = offset + (A - 1) s with A = axes of half 1 in half 0, s = (0, rivet_y, rivet_z); v likewise with the rates
+    // u = offset + (A - 1) s, with A the axes of half 1 in half 0 and s = (0, rivet_y, rivet_z); v likewise
+    // with the rates of these axes
     scalar *u_out[3] = {w->u_x, w->u_y, w->u_z}, *v_out[3] = {w->v_jx, w->v_jy, w->v_jz};
     for (int i = 0; i < 3; i++) {
         const scalar u_0 = dot3(axes_0[i], g), v_0 = dot3(axes_0[i], v);
@@ -45,19 +54,21 @@ void cage_joint_kinematics(const Model *model, Work *w)
     }
 }
 
-// Dahl's friction: force -k z, rate of z, stiff rate of z; returns the dissipated power.
-INLINE wide cage_joint_friction(wide k, wide capacity, wide z_y, wide z_z, wide v_y, wide v_z, wide speed, scalar *dot_y, scalar *dot_z, scalar *D)
+// Dahl's friction with force -k z: sets the rate of z, returns the dissipated power.
+INLINE wide cage_joint_friction(wide k, wide capacity, wide z_y, wide z_z, wide v_y, wide v_z, wide speed,
+                                scalar *dot_y, scalar *dot_z)
 {
     const wide rate = speed * k / capacity;
     wide_store(dot_y, v_y - rate * z_y);
     wide_store(dot_z, v_z - rate * z_z);
-    wide_store(D, rate);
     return k * rate * (z_y * z_y + z_z * z_z);
 }
 
 #ifndef DUAL
-// z += h z'/(1 + h D/2), D = speed k/capacity: the implicit midpoint rule.
-static void advance(const Work *w, double h, double k, const double *capacity, int row_y, int row_z, double *y)
+// Friction states z at rows row_y, row_z of y over a step h by the implicit midpoint rule:
+// z += h z'/(1 + h D/2), D = speed k/capacity.
+static void advance(const Work *w, double h, double k, const double *capacity, int row_y, int row_z,
+                    double *y)
 {
     ball_array z_y = {0}, z_z = {0};
     memcpy(z_y, &y[row_y], Z * sizeof *y);
@@ -65,7 +76,8 @@ static void advance(const Work *w, double h, double k, const double *capacity, i
     for (int b = 0; b < PACKETS; b++) {
         const int i = b * LANE_WIDTH;
         const wide v_y = wide_load(&w->v_jy[i]), v_z = wide_load(&w->v_jz[i]);
-        const wide rate = wide_sqrt(v_y * v_y + v_z * v_z) * k / wide_load(&capacity[i]), inv = h / (1.0 + (0.5 * h) * rate);
+        const wide rate = wide_sqrt(v_y * v_y + v_z * v_z) * k / wide_load(&capacity[i]);
+        const wide inv = h / (1.0 + (0.5 * h) * rate);
         const wide a = wide_load(&z_y[i]), c = wide_load(&z_z[i]);
         wide_store(&z_y[i], a + (v_y - rate * a) * inv);
         wide_store(&z_z[i], c + (v_z - rate * c) * inv);
@@ -91,59 +103,11 @@ void cage_joint_advance(const Model *model, const Work *w, double h, double *y)
 }
 #endif
 
-void cage_joint_force(const Model *model, const scalar *y, Work *w)
+// Adds the joints' wrench (F, M) on half 1, taken about the centre of half 0 in its frame, to half 1 about
+// its own centre, and the opposite to half 0.
+static void add_wrench(Work *w, const scalar F[3], const scalar M[3])
 {
-    const Parameters *p = model->p;
-    const Derived *d = model->d;
-    ball_array z_y, z_z, h_y, h_z;  // friction states with padding lanes
-    ball_array F_x, F_y, F_z, M_x, M_y, M_z;
-    for (int k = 0; k < LANES; k++) z_y[k] = z_z[k] = h_y[k] = h_z[k] = 0.0;
-    memcpy(z_y, &y[Y_JOINT_PLATE_Y], Z * sizeof *y);
-    memcpy(z_z, &y[Y_JOINT_PLATE_Z], Z * sizeof *y);
-    memcpy(h_y, &y[Y_JOINT_HEAD_Y], Z * sizeof *y);
-    memcpy(h_z, &y[Y_JOINT_HEAD_Z], Z * sizeof *y);
-
-    const wide zero = wide_set(0.0), P = wide_set(d->P), floor = wide_set(p->joint.F_floor), mu = wide_set(p->joint.mu);
-    const wide k_t = wide_set(d->k_plate_t), k_h = wide_set(d->k_head);
-    for (int b = 0; b < PACKETS; b++) {
-        const int k = b * LANE_WIDTH;
-        const wide u_x = wide_load(&w->u_x[k]), u_y = wide_load(&w->u_y[k]), u_z = wide_load(&w->u_z[k]);
-        const wide v_x = wide_load(&w->v_jx[k]), v_y = wide_load(&w->v_jy[k]), v_z = wide_load(&w->v_jz[k]);
-
-        const wide T = wide_max(P + d->k_rivet * u_x, zero), N_plate = wide_max(P - d->k_plate * u_x, zero);
-        const wide damping = d->c_joint * N_plate / (N_plate + floor);
-        const wide speed = wide_sqrt(v_y * v_y + v_z * v_z);
-        const wide zp_y = wide_load(&z_y[k]), zp_z = wide_load(&z_z[k]), zh_y = wide_load(&h_y[k]), zh_z = wide_load(&h_z[k]);
-        wide lost = cage_joint_friction(k_t, mu * N_plate + floor, zp_y, zp_z, v_y, v_z, speed, &w->plate_y_dot[k], &w->plate_z_dot[k], &w->D_plate[k]);
-        lost += cage_joint_friction(k_h, mu * T + floor, zh_y, zh_z, v_y, v_z, speed, &w->head_y_dot[k], &w->head_z_dot[k], &w->D_head[k]);
-
-        const wide slip = wide_sqrt(u_y * u_y + u_z * u_z + 1e-30);
-        const wide bearing = d->k_hole * wide_max(slip - d->hole_gap, zero) / slip;
-
-        wide_store(&w->T[k], T);
-        wide_store(&w->N_plate[k], N_plate);
-        wide_store(&w->S_y[k], -k_t * zp_y);
-        wide_store(&w->S_z[k], -k_t * zp_z);
-        wide_store(&w->H_y[k], -k_h * zh_y);
-        wide_store(&w->H_z[k], -k_h * zh_z);
-        wide_store(&w->B_y[k], -bearing * u_y);
-        wide_store(&w->B_z[k], -bearing * u_z);
-        wide_store(&w->joint_dissipated[k], lost + damping * v_x * v_x);
-
-        // on half 1 at its hole: s + u from the centre of half 0, in the frame of half 0
-        const wide f_x = N_plate - T - damping * v_x, f_y = -k_t * zp_y - k_h * zh_y - bearing * u_y, f_z = -k_t * zp_z - k_h * zh_z - bearing * u_z;
-        const wide r_y = wide_load(&d->rivet_y[k]) + u_y, r_z = wide_load(&d->rivet_z[k]) + u_z;
-        wide_store(&F_x[k], f_x);
-        wide_store(&F_y[k], f_y);
-        wide_store(&F_z[k], f_z);
-        wide_store(&M_x[k], r_y * f_z - r_z * f_y);
-        wide_store(&M_y[k], r_z * f_x - u_x * f_z);
-        wide_store(&M_z[k], u_x * f_y - r_y * f_x);
-    }
-
-    // wrench in the global frame: -F, -M on half 0; on half 1 the same about its own centre
     Rotor *h0 = &w->half[0], *h1 = &w->half[1];
-    const scalar F[3] = {ball_array_sum(F_x), ball_array_sum(F_y), ball_array_sum(F_z)}, M[3] = {ball_array_sum(M_x), ball_array_sum(M_y), ball_array_sum(M_z)};
     scalar force[3], moment[3], shift[3], arm[3];
     for (int i = 0; i < 3; i++) {
         force[i] = h0->a[i] * F[0] + h0->b_y[i] * F[1] + h0->b_z[i] * F[2];
@@ -157,4 +121,65 @@ void cage_joint_force(const Model *model, const scalar *y, Work *w)
         h1->F[i] += force[i];
         h1->M[i] += moment[i] - shift[i];
     }
+}
+
+void cage_joint_force(const Model *model, const scalar *y, Work *w)
+{
+    const Parameters *p = model->p;
+    const Derived *d = model->d;
+    ball_array z_y, z_z, h_y, h_z;  // friction states of plates and heads, padded
+    ball_array F_x, F_y, F_z, M_x, M_y, M_z;
+    for (int k = 0; k < LANES; k++) z_y[k] = z_z[k] = h_y[k] = h_z[k] = 0.0;
+    memcpy(z_y, &y[Y_JOINT_PLATE_Y], Z * sizeof *y);
+    memcpy(z_z, &y[Y_JOINT_PLATE_Z], Z * sizeof *y);
+    memcpy(h_y, &y[Y_JOINT_HEAD_Y], Z * sizeof *y);
+    memcpy(h_z, &y[Y_JOINT_HEAD_Z], Z * sizeof *y);
+
+    const wide zero = wide_set(0.0), P = wide_set(d->P), floor = wide_set(p->joint.F_floor);
+    const wide mu = wide_set(p->joint.mu);
+    const wide k_t = wide_set(d->k_plate_t), k_h = wide_set(d->k_head);
+    for (int b = 0; b < PACKETS; b++) {
+        const int k = b * LANE_WIDTH;
+        const wide u_x = wide_load(&w->u_x[k]), u_y = wide_load(&w->u_y[k]), u_z = wide_load(&w->u_z[k]);
+        const wide v_x = wide_load(&w->v_jx[k]), v_y = wide_load(&w->v_jy[k]), v_z = wide_load(&w->v_jz[k]);
+
+        // tension, plate force, friction
+        const wide T = wide_max(P + d->k_rivet * u_x, zero), N_plate = wide_max(P - d->k_plate * u_x, zero);
+        const wide damping = d->c_joint * N_plate / (N_plate + floor);
+        const wide speed = wide_sqrt(v_y * v_y + v_z * v_z);
+        const wide zp_y = wide_load(&z_y[k]), zp_z = wide_load(&z_z[k]);
+        const wide zh_y = wide_load(&h_y[k]), zh_z = wide_load(&h_z[k]);
+        wide lost = cage_joint_friction(k_t, mu * N_plate + floor, zp_y, zp_z, v_y, v_z, speed,
+                                        &w->plate_y_dot[k], &w->plate_z_dot[k]);
+        lost += cage_joint_friction(k_h, mu * T + floor, zh_y, zh_z, v_y, v_z, speed, &w->head_y_dot[k],
+                                    &w->head_z_dot[k]);
+
+        // hole contact
+        const wide slip = wide_sqrt(u_y * u_y + u_z * u_z + 1e-30);
+        const wide bearing = d->k_hole * wide_max(slip - d->hole_gap, zero) / slip;
+
+        wide_store(&w->T[k], T);
+        wide_store(&w->N_plate[k], N_plate);
+        wide_store(&w->S_y[k], -k_t * zp_y);
+        wide_store(&w->S_z[k], -k_t * zp_z);
+        wide_store(&w->H_y[k], -k_h * zh_y);
+        wide_store(&w->H_z[k], -k_h * zh_z);
+        wide_store(&w->B_y[k], -bearing * u_y);
+        wide_store(&w->B_z[k], -bearing * u_z);
+        wide_store(&w->joint_dissipated[k], lost + damping * v_x * v_x);
+
+        // wrench on half 1 at its hole, which is at s + u from the centre of half 0, in the frame of half 0
+        const wide f_x = N_plate - T - damping * v_x, f_y = -k_t * zp_y - k_h * zh_y - bearing * u_y;
+        const wide f_z = -k_t * zp_z - k_h * zh_z - bearing * u_z;
+        const wide r_y = wide_load(&d->rivet_y[k]) + u_y, r_z = wide_load(&d->rivet_z[k]) + u_z;
+        wide_store(&F_x[k], f_x);
+        wide_store(&F_y[k], f_y);
+        wide_store(&F_z[k], f_z);
+        wide_store(&M_x[k], r_y * f_z - r_z * f_y);
+        wide_store(&M_y[k], r_z * f_x - u_x * f_z);
+        wide_store(&M_z[k], u_x * f_y - r_y * f_x);
+    }
+    const scalar F[3] = {ball_array_sum(F_x), ball_array_sum(F_y), ball_array_sum(F_z)};
+    const scalar M[3] = {ball_array_sum(M_x), ball_array_sum(M_y), ball_array_sum(M_z)};
+    add_wrench(w, F, M);
 }

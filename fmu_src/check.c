@@ -1,39 +1,26 @@
-// What is refused before a run: values outside their limits, parameters that make no bearing, a rivet table for another one.
+// Refusals before a run or a step: values outside their limits, parameters that make no bearing, a rivet
+// table that belongs to another bearing.
+#include "saved_numbers.h"
+
 #include "instance.h"
 #include "ring_load.h"
+#include "rivet_rom.h"
 
-#include <stdarg.h>
-#include <stdio.h>
+#include <float.h>
 
-void bearing_log(Bearing *b, LogCategory category, const char *format, ...)
+static void report_error(void *bearing, const char *message)
 {
-    if (b->host.log == NULL) return;
-    char message[1024];
-    va_list arguments;
-    va_start(arguments, format);
-    vsnprintf(message, sizeof message, format, arguments);
-    va_end(arguments);
-    b->host.log(b->host.environment, category, message);
+    bearing_log(bearing, LOG_ERROR, "%s", message);
 }
 
+// Checks all values of one causality (Parameters or Inputs) against the limits of the variable table.
 static bool check_variables(Bearing *b, Causality causality, const void *values)
 {
-    bool fine = true;
-    for (int v = 0; v < N_VARIABLES && VARIABLES[v].causality <= causality; v++) {  // they are in the order of causality
-        if (VARIABLES[v].causality != causality) continue;
-        for (int i = 0; i < VARIABLES[v].count; i++) {
-            const char *at = (const char *)values + VARIABLES[v].offset;
-            const double value = VARIABLES[v].type == TYPE_REAL ? ((const double *)at)[i] : ((const int *)at)[i];
-            char message[512];
-            if (variable_allows(&VARIABLES[v], i, value, message, sizeof message)) continue;
-            bearing_log(b, LOG_ERROR, "%s", message);
-            fine = false;
-        }
-    }
-    return fine;
+    return variables_allow(causality, values, report_error, b);
 }
 
-// Polynomials of second order are extreme at the ends or where their slope vanishes.
+// Inputs are polynomials of second order: their extremes are at the ends of the step or where their slope
+// vanishes.
 bool check_inputs(Bearing *b, double h)
 {
     const double *u_1 = (const double *)&b->s.u[1], *u_2 = (const double *)&b->s.u[2];
@@ -45,55 +32,74 @@ bool check_inputs(Bearing *b, double h)
         const double tau = -u_1[i] / u_2[i];
         if (tau > 0.0 && tau < h) ((double *)&turning)[i] += 0.5 * tau * u_1[i];
     }
-    return check_variables(b, CAUSALITY_INPUT, &b->s.u[0]) && check_variables(b, CAUSALITY_INPUT, &u) && check_variables(b, CAUSALITY_INPUT, &turning);
+    return check_variables(b, CAUSALITY_INPUT, &b->s.u[0]) && check_variables(b, CAUSALITY_INPUT, &u) &&
+           check_variables(b, CAUSALITY_INPUT, &turning);
 }
 
+// Logs value and limit unless the condition holds.
 static bool require(Bearing *b, bool condition, const char *format, double value, double limit)
 {
     if (!condition) bearing_log(b, LOG_ERROR, format, value, limit);
     return condition;
 }
 
-// Parameters against each other.
+// Checks parameters against each other.
 static bool check_geometry(Bearing *b)
 {
     const Parameters *p = &b->s.p;
-    const double PI = 3.14159265358979323846, D = p->bearing.D, d_m = p->bearing.d_m;
+    const double D = p->bearing.D, d_m = p->bearing.d_m;
     const double chord = d_m * sin(PI / Z), play = 4.0 * (fmin(p->bearing.f_i, p->bearing.f_e) - 0.5) * D;
     bool fine = true;
-    fine &= require(b, D < chord, "bearing.D = %g m: the balls overlap; less than bearing.d_m sin(pi/Z) = %g m is allowed", D, chord);
+    fine &= require(b, D < chord,
+                    "bearing.D = %g m: the balls overlap; less than bearing.d_m sin(pi/Z) = %g m is allowed",
+                    D, chord);
     fine &= require(b, D + p->cage.pocket_clearance < chord,
-                    "cage.pocket_clearance = %g m: the pockets overlap; less than bearing.d_m sin(pi/Z) - bearing.D = %g m is allowed",
+                    "cage.pocket_clearance = %g m: the pockets overlap; less than bearing.d_m sin(pi/Z) - "
+                    "bearing.D = %g m is allowed",
                     p->cage.pocket_clearance, chord - D);
     fine &= require(b, p->bearing.P_d < play,
-                    "bearing.P_d = %g m: a ball on one race would reach the other groove's far side; less than 4 (min(f_i, f_e) - 1/2) D = %g m is allowed",
+                    "bearing.P_d = %g m: a ball on one race would reach the other groove's far side; less "
+                    "than 4 (min(f_i, f_e) - 1/2) D = %g m is allowed",
                     p->bearing.P_d, play);
-    fine &= require(b, -p->bearing.P_d < 0.01 * D, "bearing.P_d = %g m: the interference exceeds 1 %% of bearing.D; at least %g m is allowed", p->bearing.P_d,
-                    -0.01 * D);
-    fine &= require(b, p->cage.D_i < p->cage.D_o, "cage.D_i = %g m: less than cage.D_o = %g m is allowed", p->cage.D_i, p->cage.D_o);
-    fine &= require(b, p->cage.D_i < d_m, "cage.D_i = %g m: less than bearing.d_m = %g m is allowed", p->cage.D_i, d_m);
-    fine &= require(b, d_m < p->cage.D_o, "cage.D_o = %g m: more than bearing.d_m = %g m is allowed", p->cage.D_o, d_m);
-    fine &= require(b, p->cage.land_width <= 0.5 * p->cage.width, "cage.land_width = %g m: at most half of cage.width, %g m, is allowed", p->cage.land_width,
-                    0.5 * p->cage.width);
-    fine &= require(b, p->fatigue.k_2 >= p->fatigue.k_1, "fatigue.k_2 = %g: at least fatigue.k_1 = %g is allowed", p->fatigue.k_2, p->fatigue.k_1);
-    fine &= require(b, p->pulse.count < 2 || p->pulse.interval >= p->pulse.duration, "pulse.interval = %g s: at least pulse.duration = %g s is allowed",
-                    p->pulse.interval, p->pulse.duration);
+    fine &=
+        require(b, -p->bearing.P_d < 0.01 * D,
+                "bearing.P_d = %g m: the interference exceeds 1 %% of bearing.D; at least %g m is allowed",
+                p->bearing.P_d, -0.01 * D);
+    fine &= require(b, p->cage.D_i < p->cage.D_o, "cage.D_i = %g m: less than cage.D_o = %g m is allowed",
+                    p->cage.D_i, p->cage.D_o);
+    fine &= require(b, p->cage.D_i < d_m, "cage.D_i = %g m: less than bearing.d_m = %g m is allowed",
+                    p->cage.D_i, d_m);
+    fine &= require(b, d_m < p->cage.D_o, "cage.D_o = %g m: more than bearing.d_m = %g m is allowed",
+                    p->cage.D_o, d_m);
+    fine &= require(b, p->cage.land_width <= 0.5 * p->cage.width,
+                    "cage.land_width = %g m: at most half of cage.width, %g m, is allowed",
+                    p->cage.land_width, 0.5 * p->cage.width);
+    fine &= require(b, p->fatigue.k_2 >= p->fatigue.k_1,
+                    "fatigue.k_2 = %g: at least fatigue.k_1 = %g is allowed", p->fatigue.k_2, p->fatigue.k_1);
+    fine &= require(b, p->pulse.count < 2 || p->pulse.interval >= p->pulse.duration,
+                    "pulse.interval = %g s: at least pulse.duration = %g s is allowed", p->pulse.interval,
+                    p->pulse.duration);
     for (int j = 0; j < Z; j++) {
         if (p->ball.dD[j] < p->cage.pocket_clearance || p->ball.dD[j] <= 0.0) continue;
-        bearing_log(b, LOG_ERROR, "ball[%d].dD = %g m: less than cage.pocket_clearance = %g m is allowed", j + 1, p->ball.dD[j], p->cage.pocket_clearance);
+        bearing_log(b, LOG_ERROR, "ball[%d].dD = %g m: less than cage.pocket_clearance = %g m is allowed",
+                    j + 1, p->ball.dD[j], p->cage.pocket_clearance);
         fine = false;
     }
     return fine;
 }
 
-// The embedded rivet table belongs to one number of rivets and one pitch circle.
+// Checks the embedded rivet table, which belongs to one number of rivets and one pitch circle.
 static bool check_table(Bearing *b)
 {
     const double d_m = b->s.p.bearing.d_m, table = rivet_table.joint.d_m;
-    bool fine =
-        require(b, rivet_table.Z == Z, "the embedded rivet table is for Z = %g; this FMU has Z = %g: build it with a table for this bearing", rivet_table.Z, Z);
-    fine &= require(b, fabs(d_m - table) <= 1e-3 * table, "bearing.d_m = %g m: the embedded load path is for %g m +- 0.1 %%; build an FMU for this bearing",
-                    d_m, table);
+    bool fine = require(
+        b, rivet_table.Z == Z,
+        "the embedded rivet table is for Z = %g; this FMU has Z = %g: build it with a table for this bearing",
+        rivet_table.Z, Z);
+    fine &= require(
+        b, fabs(d_m - table) <= 1e-3 * table,
+        "bearing.d_m = %g m: the embedded load path is for %g m +- 0.1 %%; build an FMU for this bearing",
+        d_m, table);
     return fine;
 }
 
@@ -106,16 +112,81 @@ bool check_all(Bearing *b)
 
 bool check_start(Bearing *b)
 {
-    const double HALF_PI = 1.57079632679489662;
     for (int i = 0; i < 2 * Z; i++) {
         const double reach = ellipse_reach(&b->model, &b->w, i % 2 == 1, i / 2);
-        if (reach < HALF_PI) continue;
-        bearing_log(b, LOG_ERROR,
-                    "ball[%d] is pressed out of the %s race's groove at the start: its contact reaches to %g rad, less than pi/2 is allowed; shaft.F_x = %g N, "
-                    "shaft.F_y = %g N, shaft.F_z = %g N, shaft.tilt_y = %g rad, shaft.tilt_z = %g rad are too much",
-                    i / 2 + 1, i % 2 == 1 ? "outer" : "inner", reach, b->s.u[0].shaft.F_x, b->s.u[0].shaft.F_y, b->s.u[0].shaft.F_z, b->s.u[0].shaft.tilt_y,
-                    b->s.u[0].shaft.tilt_z);
+        if (reach < 0.5 * PI) continue;
+        bearing_log(
+            b, LOG_ERROR,
+            "ball[%d] is pressed out of the %s race's groove at the start: its contact reaches to %g rad, "
+            "less than pi/2 is allowed; shaft.F_x = %g N, "
+            "shaft.F_y = %g N, shaft.F_z = %g N, shaft.tilt_y = %g rad, shaft.tilt_z = %g rad are too much",
+            i / 2 + 1, i % 2 == 1 ? "outer" : "inner", reach, b->s.u[0].shaft.F_x, b->s.u[0].shaft.F_y,
+            b->s.u[0].shaft.F_z, b->s.u[0].shaft.tilt_y, b->s.u[0].shaft.tilt_z);
         return false;
     }
     return true;
+}
+
+static bool is_zero(const void *memory, size_t size)
+{
+    const unsigned char *byte = memory;
+    for (size_t i = 0; i < size; i++)
+        if (byte[i] != 0) return false;
+    return true;
+}
+
+static bool saved_is(Bearing *b, bool condition, const char *what)
+{
+    if (!condition) bearing_log(b, LOG_ERROR, "%s: not what a run can have left there", what);
+    return condition;
+}
+
+// Of each rivet and of all balls together, over the time since the start; every ball adds its own time to the pocket forces.
+static bool check_recorded(Bearing *b, double time)
+{
+    const InstanceState *s = &b->s;
+    const double amounts[] = {s->force_peak, s->dislocation_max, s->duty_time, s->eccentricity_time};
+    const double sums[] = {s->energy_start, s->omega_time};
+    bool fine = values_are_amounts(amounts, sizeof amounts / sizeof amounts[0]) &&
+                values_are_sane(sums, sizeof sums / sizeof sums[0]);
+    fine &= values_are_amounts(s->head_peak, Z) && values_are_amounts(s->mid_peak, Z);
+    fine = saved_is(b, fine, "peaks and sums") &&
+           saved_is(b, event_state_is_valid(&s->event), "counts of events");
+    fine = fine && saved_is(b, statistics_is_valid(&s->force, Z * time), "statistics of the pocket forces");
+    for (int k = 0; fine && k < STRESS_CHANNELS; k++)
+        fine = saved_is(b, statistics_is_valid(&s->head[k], time) && statistics_is_valid(&s->mid[k], time),
+                        "statistics of the stress");
+    for (int k = 0; fine && k < Z; k++)
+        fine = saved_is(b, fatigue_is_valid(&s->fatigue_head[k]) && fatigue_is_valid(&s->fatigue_mid[k]),
+                        "turning points of the stress");
+    return fine;
+}
+
+bool check_saved(Bearing *b)
+{
+    const InstanceState *s = &b->s;
+    const Variable *tolerance = variable_named("solver.tol");
+    if (!saved_is(b, s->initialized == 0 || s->initialized == 1, "the mark of a started run")) return false;
+    if (!s->initialized) {
+        const size_t first = offsetof(InstanceState, u_now), end = offsetof(InstanceState, initialized);
+        if (!saved_is(b, is_zero((const char *)s + first, end - first), "a run that has not been started"))
+            return false;
+        return check_variables(b, CAUSALITY_PARAMETER, &s->p) &&
+               check_variables(b, CAUSALITY_INPUT, &s->u[0]) &&
+               saved_is(b, values_are_sane((const double *)&s->u[1], (size_t)INPUT_ORDERS * N_INPUTS),
+                        "derivatives of inputs");
+    }
+    char message[256];
+    bool fine = check_all(b) && check_variables(b, CAUSALITY_INPUT, &s->u_now);
+    fine = fine && saved_is(b, values_are_sane((const double *)&s->u[1], (size_t)INPUT_ORDERS * N_INPUTS),
+                            "derivatives of inputs");
+    fine = fine && saved_is(b, values_are_sane((const double *)&s->u_now_dot, N_INPUTS), "rates of inputs");
+    fine = fine &&
+           saved_is(b, variable_allows(tolerance, 0, s->tolerance, message, sizeof message), "the tolerance");
+    fine = fine && saved_is(b, integrator_state_is_valid(&s->integrator), "states and steps");
+    fine = fine && saved_is(b, values_are_sane(&s->t_start, 1) && s->integrator.t >= s->t_start, "time");
+    const double rounding =
+        s->integrator.steps * DBL_EPSILON *
+        fabs(s->integrator.t);  // of the time, not of the lengths of the steps that are summed
+    return fine && check_recorded(b, s->integrator.t - s->t_start + rounding);
 }

@@ -1,4 +1,5 @@
-// Processor time: by POSIX, or by Windows, which counts in ticks of some milliseconds: right in the mean over many steps.
+// Processor time by POSIX or by Windows.  Windows counts in ticks of some milliseconds, so that only the mean
+// over many steps is right.
 #define _POSIX_C_SOURCE 199309L
 #include "cpu_clock.h"
 

@@ -1,5 +1,5 @@
 // Processor time.
 #pragma once
 
-// Processor time of this thread [s]: what other threads do meanwhile does not count.
+// Processor time of this thread [s]; the time of other threads does not count.
 double cpu_clock(void);

@@ -1,26 +1,28 @@
 // Constants derived once from the parameters, element by element; equations stand in the elements' files.
 #include "elementary.h"
 #include "hertz.h"
+#include "rivet_rom.h"
 #include "traction.h"
 
-static const double PI = 3.14159265358979323846;
-
-// ln of 2.69 G^0.53 (1 - 0.61 portable_exp(-0.73 k)) R_x (eta/(E' R_x))^0.67 (1/(E' R_x^2))^-0.067 / sigma: ln Lambda at U = 1 m/s, Q = 1 N.
+// ln Lambda at U = 1 m/s, Q = 1 N:
+// ln of 2.69 G^0.53 (1 - 0.61 exp(-0.73 k)) R_x (eta/(E' R_x))^0.67 (1/(E' R_x^2))^-0.067 / sigma.
 static double ln_film(double E_prime, double R_x, double k, const Parameters *p, double sigma)
 {
     const double G = p->oil.alpha * E_prime;
-    return portable_log(2.69 * (1.0 - 0.61 * portable_exp(-0.73 * k)) * R_x / sigma) + 0.53 * portable_log(G) +
-           0.67 * portable_log(p->oil.eta / (E_prime * R_x)) + 0.067 * portable_log(E_prime * R_x * R_x);
+    return portable_log(2.69 * (1.0 - 0.61 * portable_exp(-0.73 * k)) * R_x / sigma) +
+           0.53 * portable_log(G) + 0.67 * portable_log(p->oil.eta / (E_prime * R_x)) +
+           0.067 * portable_log(E_prime * R_x * R_x);
 }
 
-// 2.86 E' R_x^2 (R_y/R_x)^0.348 G^0.022 (eta/(E' R_x))^0.66 (1/(E' R_x^2))^0.47: F_R at U = 1 m/s, Q = 1 N.
+// F_R at U = 1 m/s, Q = 1 N: 2.86 E' R_x^2 (R_y/R_x)^0.348 G^0.022 (eta/(E' R_x))^0.66 (1/(E' R_x^2))^0.47.
 static double inlet(double E_prime, double R_x, double R_y, const Parameters *p)
 {
-    return p->oil.rolling * 2.86 * E_prime * R_x * R_x * portable_pow(R_y / R_x, 0.348) * portable_pow(p->oil.alpha * E_prime, 0.022) *
-           portable_pow(p->oil.eta / (E_prime * R_x), 0.66) * portable_pow(E_prime * R_x * R_x, -0.47);
+    return p->oil.rolling * 2.86 * E_prime * R_x * R_x * portable_pow(R_y / R_x, 0.348) *
+           portable_pow(p->oil.alpha * E_prime, 0.022) * portable_pow(p->oil.eta / (E_prime * R_x), 0.66) *
+           portable_pow(E_prime * R_x * R_x, -0.47);
 }
 
-// inner: side = -1, outer: side = +1.
+// Constants of the contacts with one race; side: -1 for the inner race, +1 for the outer one.
 static void derive_race(const Parameters *p, double f, double side, Race *race)
 {
     const double D = p->bearing.D, R = 0.5 * D, gamma = D / p->bearing.d_m;
@@ -38,7 +40,8 @@ static void derive_race(const Parameters *p, double f, double side, Race *race)
 static void derive_balls(const Parameters *p, Derived *d)
 {
     const double D = p->bearing.D, area = 0.25 * PI * D * D;
-    for (int j = 0; j < LANES; j++) d->R[j] = j < Z ? 0.5 * (D + p->ball.dD[j]) : 0.0;  // padding lanes touch nothing
+    for (int j = 0; j < LANES; j++)
+        d->R[j] = j < Z ? 0.5 * (D + p->ball.dD[j]) : 0.0;  // padding lanes touch nothing
     d->m = p->bearing.rho * PI / 6.0 * D * D * D;
     d->J = 0.1 * d->m * D * D;
     d->drag = 0.5 * p->oil.C_d * p->oil.rho_mix * area;
@@ -50,15 +53,22 @@ static void derive_pockets(const Parameters *p, Derived *d)
 {
     const double R = 0.5 * p->bearing.D;
     d->pocket_radius = R + 0.5 * p->cage.pocket_clearance;
-    const double E_star = 1.0 / ((1.0 - p->bearing.nu * p->bearing.nu) / p->bearing.E + (1.0 - p->cage.nu * p->cage.nu) / p->cage.E);
-    const double rho_y = fmax(1.0 / R - 1.0 / d->pocket_radius, 1e-3 / R);  // conformity has a limit: R_y <= 1000 R
+    const double E_star = 1.0 / ((1.0 - p->bearing.nu * p->bearing.nu) / p->bearing.E +
+                                 (1.0 - p->cage.nu * p->cage.nu) / p->cage.E);
+    // the closest conformity is R_y = 1000 R
+    const double rho_y = fmax(1.0 / R - 1.0 / d->pocket_radius, 1e-3 / R);
     d->pocket = hertz_contact(1.0 / R, rho_y, E_star);
     d->pocket_rolling = inlet(2.0 * E_star, R, 1.0 / rho_y, p);
     d->ln_pocket_piezo = ln_film(2.0 * E_star, R, d->pocket.k, p, p->oil.sigma_pocket);
-    // isoviscous-rigid: h/R = 128 alpha_r lambda_b^2 (0.131 portable_atan(alpha_r/2) + 1.683)^2 (U/W)^2, alpha_r = R_y/R.  Hamrock & Dowson (1979), Brewe
+
+    // isoviscous-rigid film: h/R = 128 alpha_r lambda_b^2 (0.131 atan(alpha_r/2) + 1.683)^2 (U/W)^2, alpha_r
+    // = R_y/R.  Hamrock & Dowson (1979), Brewe
     const double alpha_r = 1.0 / (rho_y * R), lambda_b = 1.0 / (1.0 + 0.698 / alpha_r);
-    const double shape = 128.0 * alpha_r * lambda_b * lambda_b * portable_pow(0.131 * portable_atan(0.5 * alpha_r) + 1.683, 2.0);
+    const double shape = 128.0 * alpha_r * lambda_b * lambda_b *
+                         portable_pow(0.131 * portable_atan(0.5 * alpha_r) + 1.683, 2.0);
     d->ln_pocket_rigid = portable_log(shape * R / p->oil.sigma_pocket) + 2.0 * portable_log(p->oil.eta * R);
+
+    // positions of pockets and rivets
     for (int j = 0; j < LANES; j++) {
         const double phi = 2.0 * PI * (j % Z) / Z, phi_r = 2.0 * PI * (j % Z + 0.5) / Z;
         d->pocket_cos[j] = j < Z ? portable_cos(phi) : 0.0;
@@ -70,7 +80,8 @@ static void derive_pockets(const Parameters *p, Derived *d)
 
 static void derive_cage(const Parameters *p, Derived *d)
 {
-    const double R = 0.5 * p->cage.D_o, L = p->cage.land_width, nu = p->oil.eta / p->oil.rho, r_i = 0.5 * p->cage.D_i;
+    const double R = 0.5 * p->cage.D_o, L = p->cage.land_width, nu = p->oil.eta / p->oil.rho;
+    const double r_i = 0.5 * p->cage.D_i;
     d->com_x[0] = -p->cage.x_c;
     d->com_x[1] = p->cage.x_c;
     d->com_e = p->cage.unbalance / (2.0 * p->cage.m);
@@ -78,15 +89,20 @@ static void derive_cage(const Parameters *p, Derived *d)
     d->kappa = p->oil.eta * R * L * L * L / (d->C_land * d->C_land * d->C_land);
     d->couette = 2.0 * PI * p->oil.eta * R * R * R * L / d->C_land;
     d->ln_land = portable_log(d->C_land / p->oil.sigma_land);
+
     // end face: (1/2) rho omega^2 (r_o^5 - r_i^5) C_n/2, given per omega (drag_cage multiplies by omega)
-    const double face = 0.25 * p->oil.rho_mix * (portable_pow(R, 5.0) - portable_pow(r_i, 5.0)), Re = R * R / nu;
+    const double face = 0.25 * p->oil.rho_mix * (portable_pow(R, 5.0) - portable_pow(r_i, 5.0));
+    const double Re = R * R / nu;
     d->disk_laminar = face * 3.87 / sqrt(Re);
     d->disk_turbulent = face * 0.146 * portable_pow(Re, -0.2);
+
     // cylinder outside the land, at the same gap
     const double width = fmax(0.5 * p->cage.width - L, 0.0), Ta = R * d->C_land / nu * sqrt(d->C_land / R);
     d->cylinder_laminar = p->oil.rho_mix * nu * R / d->C_land * (2.0 * PI * R * width) * R;
     d->cylinder_vortex = d->cylinder_laminar * 1.3 * portable_pow(Ta / 41.0, 0.539);
-    // the turbulent laws overtake at k_t omega^0.8 = k_l omega^0.5 and 1.3 (Ta/41)^0.539 = 1; just below, so that max() decides
+
+    // the turbulent laws overtake at k_t omega^0.8 = k_l omega^0.5 and 1.3 (Ta/41)^0.539 = 1; the limits are
+    // just below these speeds, so that the larger moment decides there
     d->disk_laminar_omega = 0.999 * portable_pow(d->disk_laminar / d->disk_turbulent, 1.0 / 0.3);
     d->cylinder_laminar_omega = 0.999 * portable_pow(d->cylinder_laminar / d->cylinder_vortex, 1.0 / 0.539);
 }
@@ -115,7 +131,8 @@ static void derive_scales(const Parameters *p, Derived *d)
     d->scale[SCALE_ANGLE] = d->scale[SCALE_TILT] = length / r;
     d->scale[SCALE_RATE] = velocity / r;
     d->scale[SCALE_SPIN] = velocity / (0.5 * p->bearing.D);
-    const double friction = fmax(p->joint.mu * d->P, 3.0);  // a loose joint is not held to a finer force than the default one
+    const double friction =
+        fmax(p->joint.mu * d->P, 3.0);  // a loose joint is not held to a finer force than the default one
     d->scale[SCALE_PLATE] = friction / d->k_plate_t;
     d->scale[SCALE_HEAD] = friction / d->k_head;
     d->scale[SCALE_ENERGY] = 1e30;

@@ -1,4 +1,5 @@
-// Choice of the kernels for this processor, at run time.  The build names the sets that it compiled: KERNELS_X86, KERNELS_NEON; without, the one of lanes.h.
+// Choice of the kernels for this processor, at run time.  The build names the instruction sets that it
+// compiled by KERNELS_X86 or KERNELS_NEON; without such a name there is only the one of lanes.h.
 #include "kernels.h"
 
 #undef rhs
@@ -7,17 +8,18 @@
 #undef verlet_step
 #undef race_contact_force
 #undef rivets_load
-#undef rivet_primary
+#undef rivet_rom_stress
 #define DECLARE_2(isa)                         \
     Rhs rhs_##isa;                             \
     RaceContactForce race_contact_force_##isa; \
     VerletStep verlet_step_##isa;              \
     ImplicitSolve implicit_solve_##isa;        \
     RivetsLoad rivets_load_##isa;              \
-    RivetPrimary rivet_primary_##isa;          \
+    RivetRomStress rivet_rom_stress_##isa;     \
     extern const VectorOps vector_ops_##isa
-#define KERNELS_2(isa) \
-    ((Kernels){#isa, rhs_##isa, race_contact_force_##isa, &vector_ops_##isa, verlet_step_##isa, implicit_solve_##isa, rivets_load_##isa, rivet_primary_##isa})
+#define KERNELS_2(isa)                                                                          \
+    ((Kernels){#isa, rhs_##isa, race_contact_force_##isa, &vector_ops_##isa, verlet_step_##isa, \
+               implicit_solve_##isa, rivets_load_##isa, rivet_rom_stress_##isa})
 #define DECLARE(isa) DECLARE_2(isa)
 #define KERNELS(isa) KERNELS_2(isa)
 
@@ -28,7 +30,7 @@ DECLARE(sse2);
 DECLARE(avx2);
 DECLARE(avx512);
 
-// Registers that the operating system keeps (XCR0): 2 SSE, 4 AVX, 0xe0 AVX-512.
+// Bits of the registers that the operating system keeps for a process (XCR0): 2 SSE, 4 AVX, 0xe0 AVX-512.
 static unsigned registers_kept(void)
 {
     unsigned a, b, c, d;
@@ -38,10 +40,12 @@ static unsigned registers_kept(void)
     return a;
 }
 
-// By cpuid itself: the compilers' __builtin_cpu_supports needs a runtime library that not every tool chain has.
+// Asks the processor by cpuid, because the compilers' __builtin_cpu_supports needs a runtime library that not
+// every tool chain has.
 Kernels kernels_select(void)
 {
     enum { YMM = 0x6, ZMM = 0xe6 };
+
     const unsigned AVX2 = 1u << 5, AVX512 = 1u << 16 | 1u << 17 | 1u << 31;  // F, DQ, VL
     const unsigned FMA = 1u << 12;
     unsigned a, b, c, d;

@@ -5,7 +5,8 @@
 
 enum { RING_DOF = 5 };
 
-// x = A^-1 x, A is overwritten.  No pivoting: A is symmetric positive definite, or is so where forces move the ring and diagonal elsewhere.
+// x = A^-1 x; A is overwritten.  No pivoting is needed: A is symmetric positive definite in the coordinates
+// that forces move, and diagonal in the others.
 INLINE void eliminate(double A[RING_DOF][RING_DOF], double x[RING_DOF])
 {
     for (int i = 0; i < RING_DOF; i++)

@@ -1,19 +1,25 @@
 // Energy of balls, cage halves and everything elastic between them and the rings.
 //
-//   contacts (2/5) K delta^2.5, shared between the halves as in pocket.c;  joint T^2/(2 k_rivet) + N_plate^2/(2 k_plate) + k z^2/2 + hole contact
+//   contacts  (2/5) K delta^2.5, shared between the halves as in pocket.c
+//   joint     T^2/(2 k_rivet) + N_plate^2/(2 k_plate) + k z^2/2 + hole contact
 //
-// The inner ring is outside: its motion does the work -F.v - M.Omega of the contacts.  Outputs only; never in the integration.
+// The inner ring is outside this balance: its motion puts the power -F.v - M.Omega into balls and cage, with
+// F and M of the contacts on the ring.  The energy is for outputs only; the integration does not use it.
 #include "energy.h"
 
+#include "hertz.h"
 #include "pocket.h"
 #include "rotor.h"
 
+// Kinetic energy of ball j.
 static scalar ball_energy(const Model *model, const scalar *y, int j)
 {
     const Derived *d = model->d;
-    const scalar v_x = y[Y_BALL_V_X + j], v_r = y[Y_BALL_V_R + j], v_t = y[Y_BALL_R + j] * y[Y_BALL_OMEGA_M + j];
+    const scalar v_x = y[Y_BALL_V_X + j], v_r = y[Y_BALL_V_R + j];
+    const scalar v_t = y[Y_BALL_R + j] * y[Y_BALL_OMEGA_M + j];
     const scalar o_x = y[Y_BALL_OMEGA_X + j], o_r = y[Y_BALL_OMEGA_R + j], o_t = y[Y_BALL_OMEGA_T + j];
-    return 0.5 * d->m * (v_x * v_x + v_r * v_r + v_t * v_t) + 0.5 * d->J * (o_x * o_x + o_r * o_r + o_t * o_t);
+    return 0.5 * d->m * (v_x * v_x + v_r * v_r + v_t * v_t) +
+           0.5 * d->J * (o_x * o_x + o_r * o_r + o_t * o_t);
 }
 
 // Elastic energy of the race contacts and the pockets.
@@ -26,21 +32,25 @@ static scalar contact_energy(const Model *model, const Work *w)
     for (int j = 0; j < PACKETS * LANE_WIDTH; j += LANE_WIDTH) {
         wide E = hertz_energy(K_i, wide_load(&w->delta_i[j])) + hertz_energy(K_e, wide_load(&w->delta_e[j]));
         for (int h = 0; h < (rigid ? 1 : 2); h++) {
-            const PocketPlace at = pocket_place(d, w, &w->half[h], j);
-            const wide whole = hertz_energy(K, at.delta);
-            E += rigid ? whole : pocket_share(d, h, at.n_x, at.delta).energy * whole;
+            const PocketGap gap = pocket_gap(d, w, &w->half[h], j);
+            const wide whole = hertz_energy(K, gap.delta);
+            E += rigid ? whole : pocket_share(d, h, gap.n_x, gap.delta).energy * whole;
         }
         wide_store(&stored[j], E);
     }
     return ball_array_sum(stored);
 }
 
+// Elastic energy of joint k: rivet, plates, friction states, hole contact.
 static scalar joint_energy(const Derived *d, const scalar *y, const Work *w, int k)
 {
-    const scalar z_y = y[Y_JOINT_PLATE_Y + k], z_z = y[Y_JOINT_PLATE_Z + k], h_y = y[Y_JOINT_HEAD_Y + k], h_z = y[Y_JOINT_HEAD_Z + k];
-    const scalar bearing = scalar_max(0.0, scalar_sqrt(w->u_y[k] * w->u_y[k] + w->u_z[k] * w->u_z[k]) - d->hole_gap);
-    return 0.5 * (w->T[k] * w->T[k] / d->k_rivet + w->N_plate[k] * w->N_plate[k] / d->k_plate + d->k_plate_t * (z_y * z_y + z_z * z_z) +
-                  d->k_head * (h_y * h_y + h_z * h_z) + d->k_hole * bearing * bearing);
+    const scalar z_y = y[Y_JOINT_PLATE_Y + k], z_z = y[Y_JOINT_PLATE_Z + k], h_y = y[Y_JOINT_HEAD_Y + k];
+    const scalar h_z = y[Y_JOINT_HEAD_Z + k];
+    const scalar bearing =
+        scalar_max(0.0, scalar_sqrt(w->u_y[k] * w->u_y[k] + w->u_z[k] * w->u_z[k]) - d->hole_gap);
+    return 0.5 * (w->T[k] * w->T[k] / d->k_rivet + w->N_plate[k] * w->N_plate[k] / d->k_plate +
+                  d->k_plate_t * (z_y * z_y + z_z * z_z) + d->k_head * (h_y * h_y + h_z * h_z) +
+                  d->k_hole * bearing * bearing);
 }
 
 scalar energy_total(const Model *model, const scalar *y, const Work *w)
@@ -57,7 +67,8 @@ scalar energy_total(const Model *model, const scalar *y, const Work *w)
         scalar v[3];
         cross3(half->Omega, half->c, v);
         for (int i = 0; i < 3; i++) v[i] += half->v[i];  // of the centre of mass
-        E += 0.5 * (p->cage.m * dot3(v, v) + p->cage.J_t * dot3(half->a_dot, half->a_dot) + p->cage.J_p * half->s * half->s);
+        E += 0.5 * (p->cage.m * dot3(v, v) + p->cage.J_t * dot3(half->a_dot, half->a_dot) +
+                    p->cage.J_p * half->s * half->s);
     }
     return E;
 }

@@ -3,5 +3,5 @@
 
 #include "model.h"
 
-// From the state y and the results of the right-hand side there [J].
+// Total energy [J] at the state y, whose results are w.
 scalar energy_total(const Model *model, const scalar *y, const Work *w);

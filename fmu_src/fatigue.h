@@ -1,17 +1,22 @@
 // Fatigue of one stress channel: streaming rainflow counting (ASTM E1049-85, 5.4.4) and Miner's sum.
 //
-// Turning points go onto a stack; whenever the last range is not smaller than the one before, that one is counted: as a whole cycle, or as
-// half a cycle if it holds the history's first point.  What remains on the stack counts as half cycles when damage is read.
+// Turning points go onto a stack.  Whenever the last range is not smaller than the range before it, the range
+// before it is counted: as a whole cycle, or as half a cycle if it holds the history's first point.  The
+// ranges that remain on the stack count as half cycles when damage is read.
 //
 //     N(sigma_ar) = N_D (sigma_ar/sigma_D)^-k,   k = k_1 above the knee sigma_D, k_2 below (k_2 = 2 k_1 - 1: Haibach)
 //
-// sigma_ar: amplitude at zero mean that damages as much as amplitude sigma_a about mean sigma_mean (Dowling, Mechanical Behavior of Materials):
+// sigma_ar is the amplitude at zero mean that does the same damage as the amplitude sigma_a about the mean
+// sigma_mean (Dowling, Mechanical Behavior of Materials):
 //     none     sigma_a
 //     Goodman  sigma_a/(1 - sigma_mean/sigma_m), no credit for compression (sigma_mean < 0 counts as 0)
 //     SWT      sqrt(sigma_max sigma_a), 0 if sigma_max <= 0
 //     Morrow   sigma_a/(1 - sigma_mean/sigma_f)
-// A cycle whose mean reaches sigma_m or sigma_f, or whose life is below one cycle, uses up the part: damage 1.
+// A cycle whose mean reaches sigma_m or sigma_f, or whose life is below one cycle, breaks the part: its
+// damage is 1.
 #pragma once
+
+#include <stdbool.h>
 
 // Material: p->fatigue of the variable table, in its order [Pa, 1].
 typedef struct {
@@ -19,10 +24,11 @@ typedef struct {
     int mean_stress;  // MEAN_STRESS_* of variables.h
 } FatigueLaw;
 
-// The residue's ranges shrink, so its length grows with the logarithm of the signal's resolution: 26 points seen on 2e5 random samples.
+// Capacity of the stack.  The ranges on the stack shrink toward its end, so its length grows with the
+// logarithm of the signal's resolution: 2e5 random samples took 26 points.
 enum { FATIGUE_DEPTH = 128 };
 
-// Plain bytes: copying it saves it.  All zeros is a channel without history.
+// Plain bytes: a copy of them is a saved channel.  All zeros is a channel without history.
 typedef struct {
     double stack[FATIGUE_DEPTH];  // turning points not yet counted [Pa]
     double last;                  // newest sample, not yet known to be a turning point [Pa]
@@ -33,6 +39,14 @@ typedef struct {
     int dropped;                  // first points dropped, counted as half cycles, because the stack was full
 } FatigueChannel;
 
-double fatigue_cycle(const FatigueLaw *law, double range, double mean);     // damage of one cycle
-void fatigue_push(FatigueChannel *c, const FatigueLaw *law, double sigma);  // next sample of the history
-double fatigue_damage(const FatigueChannel *c, const FatigueLaw *law);      // sum with the residue at half weight; leaves the channel as it is
+// Damage of one cycle.
+double fatigue_cycle(const FatigueLaw *law, double range, double mean);
+
+// Adds the next sample of the history.
+void fatigue_push(FatigueChannel *c, const FatigueLaw *law, double sigma);
+
+// Miner's sum with the ranges that remain on the stack as half cycles; the channel does not change.
+double fatigue_damage(const FatigueChannel *c, const FatigueLaw *law);
+
+// Whether pushing samples can have made the channel.
+bool fatigue_is_valid(const FatigueChannel *c);

@@ -40,6 +40,7 @@ static const double APPROACH_FLOOR = 1e-12;
 // A symmetric 6 x 6 matrix of the velocities (v, omega) of a packet's balls is stored as its lower triangle.
 // AT: place of row i, column k <= i.
 enum { BLOCK = 6, TERMS = BLOCK * (BLOCK + 1) / 2 };
+
 #define AT(i, k) ((i) * ((i) + 1) / 2 + (k))
 
 // Adds B^T (g (1 - n n^T) + normal n n^T) B, where B = (1, -R [n]x) gives the velocity v + omega x R n of the
@@ -117,7 +118,8 @@ INLINE wide normal_term(const Model *model, double gamma, wide Q, wide delta)
 
 // W of a packet of balls.  normal_forces: with damping and stiffness of the race contacts' normal forces, or
 // friction alone.
-INLINE void packet_matrix(const Model *model, const Work *w, int j, double gamma, bool normal_forces, wide W[TERMS])
+INLINE void packet_matrix(const Model *model, const Work *w, int j, double gamma, bool normal_forces,
+                          wide W[TERMS])
 {
     const Derived *d = model->d;
     const double *pocket[BLOCK] = {w->D_x, w->D_r, w->D_t, w->D_omega_x, w->D_omega_r, w->D_omega_t};
@@ -159,7 +161,8 @@ INLINE wide packet_rate(const Model *model, const Work *w, int j, double gamma)
 }
 
 // The balls' velocities out of the rows of the state and back; padding lanes are 0.
-static const int BALL_ROW[BLOCK] = {Y_BALL_V_X, Y_BALL_V_R, Y_BALL_OMEGA_M, Y_BALL_OMEGA_X, Y_BALL_OMEGA_R, Y_BALL_OMEGA_T};
+static const int BALL_ROW[BLOCK] = {Y_BALL_V_X,     Y_BALL_V_R,     Y_BALL_OMEGA_M,
+                                    Y_BALL_OMEGA_X, Y_BALL_OMEGA_R, Y_BALL_OMEGA_T};
 
 static void load_balls(const double *v, ball_array rows[BLOCK])
 {
@@ -176,7 +179,8 @@ static void store_balls(ball_array rows[BLOCK], double *v)
 
 // x = W^-1 M v of one packet, v in rows; on entry W is in f, on return its factors.  The state's third
 // velocity is the orbital speed, the matrix has v_t = r omega_m.
-INLINE void solve_packet(const Model *model, const Work *w, int j, Factors *f, ball_array rows[BLOCK], wide x[BLOCK])
+INLINE void solve_packet(const Model *model, const Work *w, int j, Factors *f, ball_array rows[BLOCK],
+                         wide x[BLOCK])
 {
     const double m = model->d->m, J = model->d->J;
     const wide r = wide_load(&w->r[j]);
@@ -197,14 +201,16 @@ typedef struct {
 } Coupling;
 
 // x: W^-1 M v of the packet.
-INLINE void couple_packet(const Model *model, const Work *w, int j, double gamma, const Factors *f, const wide x[BLOCK], Coupling *c)
+INLINE void couple_packet(const Model *model, const Work *w, int j, double gamma, const Factors *f,
+                          const wide x[BLOCK], Coupling *c)
 {
     const wide n[3] = {wide_load(&w->n_ix[j]), wide_load(&w->n_ir[j]), wide_load(&w->n_it[j])};
     const wide g = gamma * wide_load(&w->g_i[j]), g_R = g * wide_load(&model->d->R[j]);
     const wide r = wide_load(&w->r[j]), zero = wide_set(0.0);
 
     // Columns of G: force gamma g (1 - n n^T) e_k and moment gamma g R n x e_k.
-    const wide moment[3][3] = {{zero, g_R * n[2], -g_R * n[1]}, {-g_R * n[2], zero, g_R * n[0]}, {g_R * n[1], -g_R * n[0], zero}};
+    const wide moment[3][3] = {
+        {zero, g_R * n[2], -g_R * n[1]}, {-g_R * n[2], zero, g_R * n[0]}, {g_R * n[1], -g_R * n[0], zero}};
     wide G[3][BLOCK];
     for (int k = 0; k < 3; k++)
         for (int i = 0; i < 3; i++) {
@@ -532,7 +538,8 @@ static void race_motion(const Model *model, const Work *w, int j, double D[3][RI
 }
 
 // Solves the ring's velocities V with the Schur complement of all balls, then gives each ball its part.
-static void solve_coupled_ring(const Model *model, const Work *w, const double support[RING], const Coupling *c, ball_array rows[BLOCK], double V[RING])
+static void solve_coupled_ring(const Model *model, const Work *w, const double support[RING],
+                               const Coupling *c, ball_array rows[BLOCK], double V[RING])
 {
     // A prescribed tilt moves the balls, but no force moves it: its rows keep the support alone.
     const int moved = model->p->ring.tilt_mode == TILT_MODE_PRESCRIBED ? 3 : RING;

@@ -1,35 +1,41 @@
-// One instance of the model: what is saved, and what can be computed from it.  Inside the core only.
+// One instance of the bearing: its saved state, and all that is computed from this state.  For the core's own
+// files only.
 #pragma once
 
 #include "events.h"
 #include "fatigue.h"
 #include "integrator.h"
+#include "part.h"
 #include "statistics.h"
 
-// Floors of the statistics' bins: the smallest value told apart.
+// Floors of the statistics' bins: smaller values are not resolved.
 static const double FORCE_FLOOR = 1e-3;  // [N]
 static const double STRESS_FLOOR = 1e3;  // [Pa]
 
-enum { WORST_RIVET = Z, STRESS_CHANNELS = Z + 1 };  // channels of stress statistics: each rivet, the worst one at each instant
+// Channels of the stress statistics: each rivet, and the worst rivet at each instant.
+enum { WORST_RIVET = Z, STRESS_CHANNELS = Z + 1 };
 
-// Everything that the future depends on: plain bytes.
+// The saved state: all that the instance's future depends on, in plain bytes.
 typedef struct {
     Parameters p;
-    Inputs u[INPUT_ORDERS + 1];  // of the next step: at its start, with their derivatives
-    Inputs u_now, u_now_dot;     // that the present state has seen last, and their rates
+    Inputs u[INPUT_ORDERS + 1];  // inputs of the next step: their values at its start and their derivatives
+    Inputs u_now, u_now_dot;     // inputs under which the present state was reached, and their rates
     IntegratorState integrator;
     double t_start, tolerance;
-    double energy_start;
-    double force_peak;  // since the last communication point
-    double head_peak[Z], mid_peak[Z];
-    double dislocation_max, duty_time, omega_time, eccentricity_time;  // integrals over time since settle
+    double energy_start;  // total energy at the start [J]
+    // since the last communication point: largest pocket force [N], largest stresses of each rivet [Pa]
+    double force_peak, head_peak[Z], mid_peak[Z];
+    // since start.settle: largest slip of a joint [m]; integrals over time of pocket contact, cage speed,
+    // eccentricity
+    double dislocation_max;
+    double duty_time, omega_time, eccentricity_time;
     StatisticsChannel force, head[STRESS_CHANNELS], mid[STRESS_CHANNELS];
     FatigueChannel fatigue_head[Z], fatigue_mid[Z];
     EventState event;
     int initialized;
 } InstanceState;
 
-typedef struct Part Bearing;  // the part that this FMU is
+typedef struct Part Bearing;  // this FMU's part (part.h)
 
 struct Part {
     PartHost host;
@@ -42,22 +48,28 @@ struct Part {
     Outputs out;
     Kernels kernels;
     Integrator *integrator;
-    unsigned current;        // bit per output group: up to date
+    unsigned current;        // one bit for each output group: set while the group is up to date
     double y_dot[N_STATES];  // dy/dt at the present state
-    bool evaluated;          // w and y_dot belong to it
-    double cpu_time;
+    bool evaluated;          // w and y_dot belong to the present state and inputs
+    double cpu_time;         // processor time of all steps [s]
 };
 
-// Fills one group of outputs from w and the saved state.
+// Fills one group of outputs from the last evaluation and the saved state.
 void outputs_fill(Bearing *b, OutputGroup group);
 
-// Whether parameters and inputs make a bearing; messages go to the log.
+// Whether parameters and inputs make a bearing; refusals go to the log.
 bool check_all(Bearing *b);
 
-// Whether the balls of the start, which w belongs to, lie in their grooves.
+// Whether all balls lie in their grooves at the start; w holds the results there.
 bool check_start(Bearing *b);
 
-// Whether inputs stay within their limits over a step of length h (they may change at every step).
+// Whether the inputs stay within their limits over a step of length h; inputs may change at every step.
 bool check_inputs(Bearing *b, double h);
 
-void bearing_log(Bearing *b, LogCategory category, const char *format, ...) __attribute__((format(printf, 3, 4)));
+// Whether b->s, copied from bytes of unknown origin, is what a run can have left there, as far as single
+// values tell.
+bool check_saved(Bearing *b);
+
+// Sends a message to the host, formatted as by printf.
+void bearing_log(Bearing *b, LogCategory category, const char *format, ...)
+    __attribute__((format(printf, 3, 4)));

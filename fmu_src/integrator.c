@@ -16,13 +16,22 @@
 
 #include "aligned.h"
 #include "elementary.h"
+#include "reserved_memory.h"
+#include "saved_numbers.h"
+#include "stepping.h"
 
 #include <arkode/arkode_erkstep.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <sundials/sundials_nvector.h>
 
+// Size of the block in which SUNDIALS allocates: its 15 vectors of the states, and what does not grow with them.
+// A test sees that the block is large enough.
+enum { SUNDIALS_MEMORY = 20 * N_STATES * sizeof(double) + 32768 };
+
 struct Integrator {
+    _Alignas(64) unsigned char block[SUNDIALS_MEMORY];
+    ReservedMemory memory;
     const Kernels *kernels;
     const Model *model;
     Work *w;
@@ -52,20 +61,24 @@ static double *data(N_Vector v)
 {
     return ((Content *)v->content)->value;
 }
+
 static const VectorOps *ops(N_Vector v)
 {
     return ((const Content *)v->content)->ops;
 }
+
 static N_Vector_ID vector_id(N_Vector v)
 {
     (void)v;
     return SUNDIALS_NVEC_CUSTOM;
 }
+
 static sunindextype vector_length(N_Vector v)
 {
     (void)v;
     return N_STATES;
 }
+
 static N_Vector vector_clone(N_Vector like)
 {
     N_Vector v = N_VNewEmpty(like->sunctx);
@@ -79,29 +92,35 @@ static N_Vector vector_clone(N_Vector like)
     ((Content *)v->content)->ops = ops(like);
     return v;
 }
+
 static void vector_destroy(N_Vector v)
 {
     if (v == NULL) return;
     free(v->content);
     N_VFreeEmpty(v);
 }
+
 static void vector_linear_sum(sunrealtype a, N_Vector x, sunrealtype b, N_Vector y, N_Vector z)
 {
     ops(z)->linear_sum(a, data(x), b, data(y), data(z));
 }
+
 static SUNErrCode vector_linear_combination(int n, sunrealtype *c, N_Vector *x, N_Vector z)
 {
     enum { MAX_VECTORS = 8 };  // more than the stages and the state
+
     double *values[MAX_VECTORS];
     if (n > MAX_VECTORS) return SUN_ERR_ARG_OUTOFRANGE;
     for (int i = 0; i < n; i++) values[i] = data(x[i]);
     ops(z)->linear_combination(n, c, values, data(z));
     return SUN_SUCCESS;
 }
+
 static double vector_wrms_norm(N_Vector x, N_Vector w)
 {
     return ops(x)->wrms_norm(data(x), data(w));
 }
+
 static void vector_scale(sunrealtype c, N_Vector x, N_Vector z)
 {
     if (c == 1.0) {
@@ -110,6 +129,7 @@ static void vector_scale(sunrealtype c, N_Vector x, N_Vector z)
         for (int i = 0; i < N_STATES; i++) data(z)[i] = c * data(x)[i];
     }
 }
+
 static void vector_const(sunrealtype c, N_Vector z)
 {
     for (int i = 0; i < N_STATES; i++) data(z)[i] = c;
@@ -121,18 +141,22 @@ static void vector_div(N_Vector x, N_Vector y, N_Vector z)
 {
     for (int i = 0; i < N_STATES; i++) data(z)[i] = data(x)[i] / data(y)[i];
 }
+
 static void vector_abs(N_Vector x, N_Vector z)
 {
     for (int i = 0; i < N_STATES; i++) data(z)[i] = fabs(data(x)[i]);
 }
+
 static void vector_inv(N_Vector x, N_Vector z)
 {
     for (int i = 0; i < N_STATES; i++) data(z)[i] = 1.0 / data(x)[i];
 }
+
 static void vector_add_const(N_Vector x, sunrealtype b, N_Vector z)
 {
     for (int i = 0; i < N_STATES; i++) data(z)[i] = data(x)[i] + b;
 }
+
 static double vector_max_norm(N_Vector x)
 {
     double max = 0.0;
@@ -171,9 +195,7 @@ static N_Vector vector_new(SUNContext sun, const VectorOps *vector_operations)
 
 // ---- what ARKODE calls ------------------------------------------------------------------------------------
 
-// dy/dt; at a step's start the one that is already known.  ERKStep has no recoverable failure for a stage
-// without a finite derivative: such a stage returns a huge one, so that the error test fails and the step is
-// repeated smaller.  Its sign alternates, so that two such stages do not cancel.
+// dy/dt; at a step's start the one that is already known.
 static void evaluate(Integrator *in, double t, const double *y, double *f)
 {
     if (in->warming_up) {
@@ -189,8 +211,7 @@ static void evaluate(Integrator *in, double t, const double *y, double *f)
     in->s->rhs_evals += 1.0;
     in->latest = f;
     if (in->kernels->ops->finite(f)) return;
-    const double enormous = in->nonfinite_stages++ % 2 == 0 ? 1e15 : -1e15;  // [1/s] in units of the tolerance
-    for (int i = 0; i < N_STATES; i++) f[i] = enormous / in->weight[i];
+    stepping_refuse(in->weight, in->nonfinite_stages++, f);
 }
 
 static int explicit_rhs(sunrealtype t, N_Vector y, N_Vector f, void *user)
@@ -209,13 +230,12 @@ static int weights(N_Vector y, N_Vector ewt, void *user)
 // ---- creation ---------------------------------------------------------------------------------------------
 
 // An error message of SUNDIALS, to the log.
-static void report(int line, const char *function, const char *file, const char *message, SUNErrCode code, void *user, SUNContext sun)
+static void report(int line, const char *function, const char *file, const char *message, SUNErrCode code,
+                   void *user, SUNContext sun)
 {
     (void)file, (void)sun;
     const Integrator *in = user;
-    char text[512];
-    snprintf(text, sizeof text, "t = %.9g s: SUNDIALS %s, line %d: %s (code %d)", in->s->t, function, line, message, (int)code);
-    in->log(in->context, text);
+    stepping_report(in->s->t, function, line, message, (int)code, in->log, in->context);
 }
 
 // No interpolation (steps end at t_stop), no warnings of small steps (they are legitimate in an impact).
@@ -234,8 +254,10 @@ static int set_up(void *arkode, Integrator *in)
 static int explicit_table(void *arkode)
 {
     enum { STAGES = 5 };
+
     const double theta = 0.05;
-    double c[STAGES] = {0.0, 0.5, 0.5, 1.0, 1.0}, b[STAGES] = {1.0 / 6.0, 1.0 / 3.0, 1.0 / 3.0, 1.0 / 6.0, 0.0};
+    double c[STAGES] = {0.0, 0.5, 0.5, 1.0, 1.0},
+           b[STAGES] = {1.0 / 6.0, 1.0 / 3.0, 1.0 / 3.0, 1.0 / 6.0, 0.0};
     double d[STAGES] = {1.0 / 6.0, 1.0 / 3.0, 1.0 / 3.0, 1.0 / 6.0 - theta, theta};
     double A[STAGES * STAGES] = {0.0,       0.0,       0.0,       0.0,       0.0,  //
                                  0.5,       0.0,       0.0,       0.0,       0.0,  //
@@ -254,21 +276,28 @@ static bool warm_up(Integrator *in)
 {
     double t;
     in->warming_up = true;
-    const bool fine = ARKodeSetInitStep(in->arkode, 1.0) == ARK_SUCCESS && ARKodeSetStopTime(in->arkode, 1.0) == ARK_SUCCESS &&
+    const bool fine = ARKodeSetInitStep(in->arkode, 1.0) == ARK_SUCCESS &&
+                      ARKodeSetStopTime(in->arkode, 1.0) == ARK_SUCCESS &&
                       ARKodeEvolve(in->arkode, 1.0, in->y, &t, ARK_ONE_STEP) >= 0;
     in->warming_up = false;
     return fine;
 }
 
-Integrator *integrator_create(const Kernels *kernels, const Model *model, Work *w, IntegratorState *state, StepHook *hook, IntegratorLog *log, void *context)
+Integrator *integrator_create(const Kernels *kernels, const Model *model, Work *w, IntegratorState *state,
+                              StepHook *hook, IntegratorLog *log, void *context)
 {
     Integrator *in = aligned_new(sizeof *in);
     if (in == NULL) return NULL;
-    *in = (Integrator){.kernels = kernels, .model = model, .w = w, .s = state, .hook = hook, .log = log, .context = context};
+    memset(in, 0, sizeof *in);
+    in->kernels = kernels, in->model = model, in->w = w, in->s = state;
+    in->hook = hook, in->log = log, in->context = context;
+    in->memory = (ReservedMemory){in->block, sizeof in->block, 0};
+    reserved_memory_use(&in->memory);
     bool fine = SUNContext_Create(SUN_COMM_NULL, &in->sun) == SUN_SUCCESS;
     if (fine) {
         SUNContext_ClearErrHandlers(in->sun);
-        fine = SUNContext_PushErrHandler(in->sun, report, in) == SUN_SUCCESS && (in->y = vector_new(in->sun, kernels->ops)) != NULL;
+        fine = SUNContext_PushErrHandler(in->sun, report, in) == SUN_SUCCESS &&
+               (in->y = vector_new(in->sun, kernels->ops)) != NULL;
     }
     if (fine) {  // error weights of 1 for the warm-up, until integrator_tolerance
         in->arkode = ERKStepCreate(explicit_rhs, 0.0, in->y, in->sun);
@@ -276,6 +305,7 @@ Integrator *integrator_create(const Kernels *kernels, const Model *model, Work *
         for (int i = 0; i < N_STATES; i++) in->weight[i] = 1.0;
         fine = fine && warm_up(in);
     }
+    reserved_memory_use(NULL);
     if (!fine) {
         integrator_destroy(in);
         return NULL;
@@ -286,16 +316,17 @@ Integrator *integrator_create(const Kernels *kernels, const Model *model, Work *
 void integrator_destroy(Integrator *in)
 {
     if (in == NULL) return;
+    reserved_memory_use(&in->memory);
     if (in->arkode != NULL) ARKodeFree(&in->arkode);
     if (in->y != NULL) N_VDestroy(in->y);
     if (in->sun != NULL) SUNContext_Free(&in->sun);
+    reserved_memory_use(NULL);
     aligned_delete(in);
 }
 
 void integrator_tolerance(Integrator *in, double tolerance)
 {
-    for (int b = 0; b < N_STATE_BLOCKS; b++)
-        for (int i = 0; i < STATE_BLOCKS[b].count; i++) in->weight[STATE_BLOCKS[b].offset + i] = 1.0 / (tolerance * in->model->d->scale[STATE_BLOCKS[b].scale]);
+    stepping_weights(in->model->d, tolerance, in->weight);
 }
 
 // ---- stepping ---------------------------------------------------------------------------------------------
@@ -319,10 +350,10 @@ static const double SAFETY = 0.8, MIN_FACTOR = 0.2, MAX_FACTOR = 1.5;
 // rounding's sake.
 static const double LAST_STEP = 1e-9;
 
-static int step_underflow(const Integrator *in, double h)
+static int step_underflow(const Integrator *in, const char *method, double h)
 {
     char text[128];
-    snprintf(text, sizeof text, "t = %.9g s: Verlet: the error test fails with the smallest step, %g s", in->s->t, h);
+    snprintf(text, sizeof text, "t = %.9g s: %s: a step of %g s is lost in the rounding of time", in->s->t, method, h);
     in->log(in->context, text);
     return ARK_ERR_FAILURE;
 }
@@ -355,6 +386,10 @@ static int verlet_advance(Integrator *in, double t_stop, long max_steps)
             break;
         }
         const double left = t_stop - s->t, h = step_length(goal, left);
+        if (s->t + h == s->t) {
+            status = step_underflow(in, "Verlet", h);
+            break;
+        }
         const double error = in->kernels->verlet(in->model, s->t, h, in->weight, now, next, in->w);
         const double factor = step_factor(error);
         s->rhs_evals += 1.0;
@@ -363,7 +398,6 @@ static int verlet_advance(Integrator *in, double t_stop, long max_steps)
         if (!(error <= 1.0)) {
             s->error_tests_failed += 1.0;
             goal = h * fmax(factor, MIN_FACTOR);
-            if (s->t + goal == s->t) status = step_underflow(in, h);
             continue;
         }
 
@@ -408,11 +442,13 @@ static int explicit_advance(Integrator *in, double t_stop, long max_steps)
         in->starting = s->f_is_current;
         status = ARKodeEvolve(in->arkode, t_stop, in->y, &t, ARK_ONE_STEP);
         if (status < 0) break;
-        const double h = t - s->t;
-        memcpy(s->now.y, data(in->y), sizeof s->now.y);
-        s->t = t;
-        s->steps += 1.0;
-        s->f_is_current = 0;
+        if (t == s->t) {
+            double h_last = 0.0;
+            ARKodeGetLastStep(in->arkode, &h_last);
+            status = step_underflow(in, "Runge-Kutta", h_last);
+            break;
+        }
+        const double h = stepping_accept(s, t, data(in->y));
         ARKodeGetCurrentStep(in->arkode, &h_next);
         in->hook(in->context, h, in->w);
     }
@@ -431,7 +467,57 @@ static int explicit_advance(Integrator *in, double t_stop, long max_steps)
 
 int integrator_advance(Integrator *in, double t_stop, long max_steps)
 {
+    // Without a derivative at the start there is no step.
     integrator_evaluate(in);
-    if (!in->kernels->ops->finite(in->s->now.f)) return ARK_RHSFUNC_FAIL;
-    return in->model->p->solver.method == METHOD_EXPLICIT ? explicit_advance(in, t_stop, max_steps) : verlet_advance(in, t_stop, max_steps);
+    if (!in->kernels->ops->finite(in->s->now.f)) {
+        memset(in->s->now.f, 0, sizeof in->s->now.f);
+        in->s->f_is_current = 0;
+        return ARK_RHSFUNC_FAIL;
+    }
+    if (in->model->p->solver.method != METHOD_EXPLICIT) return verlet_advance(in, t_stop, max_steps);
+
+    // SUNDIALS allocates memory for its error messages; in the reserved block.
+    reserved_memory_use(&in->memory);
+    const int status = explicit_advance(in, t_stop, max_steps);
+    reserved_memory_use(NULL);
+    return status;
+}
+
+// Bound of a state of each class [SI]: far beyond all that a bearing does, and so small that the error of a step
+// can still be told from the rounding of the state.
+static double largest_of(StateScale scale)
+{
+    switch (scale) {
+    case SCALE_LENGTH:
+    case SCALE_VELOCITY: return 1e6;
+    case SCALE_ANGLE: return 1e15;
+    case SCALE_TILT:
+    case SCALE_PLATE:
+    case SCALE_HEAD: return 1.0;
+    case SCALE_RATE:
+    case SCALE_SPIN: return 1e9;
+    case SCALE_ENERGY: return 1e30;
+    case SCALE_COUNT: break;
+    }
+    return 0.0;
+}
+
+bool integrator_state_is_valid(const IntegratorState *s)
+{
+    const double RATE = 1e6,
+                 LARGEST_FILM = 1e30;  // a state crosses its range in no less than a microsecond [1/s]
+    bool fine = values_are_within(&s->t, 1, LARGEST_TIME) && values_are_amounts(&s->now.h, 1) &&
+                values_are_amounts(&s->h, 1) && s->h > 0.0;
+    for (const StateBlock *b = STATE_BLOCKS; b < STATE_BLOCKS + N_STATE_BLOCKS; b++) {
+        const size_t n = (size_t)b->count;
+        const double largest = largest_of(b->scale);
+        fine &= values_are_within(s->now.y + b->offset, n, largest) &&
+                values_are_within(s->now.f + b->offset, n, RATE * largest);
+        fine &= values_are_within(s->now.jerk + b->offset, n, RATE * RATE * RATE * largest);
+    }
+    fine &=
+        values_are_within(&s->now.film[0][0], sizeof s->now.film / sizeof s->now.film[0][0], LARGEST_FILM);
+    fine &= s->f_is_current == 0 || s->f_is_current == 1;
+    return fine && value_is_count(s->steps) && value_is_count(s->rhs_evals) &&
+           value_is_count(s->error_tests_failed);
 }

@@ -8,8 +8,8 @@
 typedef struct {
     double t;
     VerletState now;
-    double h;                                     // step size to go on with [s]
-    int f_is_current;                             // now.f is dy/dt at now.y under the present load of the ring
+    double h;          // step size to go on with [s]
+    int f_is_current;  // now.f is dy/dt at now.y under the present load of the ring
     double steps, rhs_evals, error_tests_failed;  // counts since the start
 } IntegratorState;
 
@@ -22,8 +22,12 @@ typedef void StepHook(void *context, double h, const Work *w);
 typedef void IntegratorLog(void *context, const char *message);
 
 // All memory is taken here; NULL if there is none.
-Integrator *integrator_create(const Kernels *kernels, const Model *model, Work *w, IntegratorState *state, StepHook *hook, IntegratorLog *log, void *context);
+Integrator *integrator_create(const Kernels *kernels, const Model *model, Work *w, IntegratorState *state,
+                              StepHook *hook, IntegratorLog *log, void *context);
 void integrator_destroy(Integrator *integrator);
+
+// Whether steps can have made the state.
+bool integrator_state_is_valid(const IntegratorState *state);
 
 // Error weights 1/(tolerance scale), the scale of each class of states in model->d.
 void integrator_tolerance(Integrator *integrator, double tolerance);

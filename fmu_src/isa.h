@@ -1,4 +1,5 @@
-// The functions of the kernel files that other files call: each instruction set has its own copy under its own name.
+// Functions of the kernel files that other files call: each instruction set has its own copy, under a name of
+// its own.
 #pragma once
 
 #include "lanes.h"
@@ -25,4 +26,4 @@
 #define load_path_flexible FOR_ISA(load_path_flexible)
 #define rivets_load FOR_ISA(rivets_load)
 #define joint_prying FOR_ISA(joint_prying)
-#define rivet_primary FOR_ISA(rivet_primary)
+#define rivet_rom_stress FOR_ISA(rivet_rom_stress)

@@ -1,10 +1,10 @@
-// The functions that exist once per instruction set, and the choice among them at run time.
+// Functions that exist once for each instruction set, and the choice among them at run time.
 #pragma once
 
 #include "implicit.h"
 #include "race_contact.h"
 #include "rhs.h"
-#include "rivet_primary.h"
+#include "rivet_rom.h"
 #include "rivets.h"
 #include "vector_ops.h"
 #include "verlet.h"
@@ -18,8 +18,8 @@ typedef struct {
     VerletStep *verlet;
     ImplicitSolve *implicit;
     RivetsLoad *rivets_load;
-    RivetPrimary *rivet_primary;
+    RivetRomStress *rivet_rom_stress;
 } Kernels;
 
-// Those of the best instruction set of this processor.
+// The kernels of the best instruction set that this processor and its operating system support.
 Kernels kernels_select(void);

@@ -1,18 +1,24 @@
 // Land and outer ring: short journal bearing whose film carries where the gap closes, dry contact behind it.
 //
-//          outer ring          e    land's centre from the ring's axis, eps = e/C, gap h = C - e.n(phi)
-//       .-----------.          V    pure squeeze velocity e_dot - (omega/2) e_x x e: the land turns, the ring stands
-//      /   .-----.   \         film pressure over the width L: p = 6 eta (V.n)/h^3 (L^2/4 - z^2) where V.n > 0, else cavitated
-//     |   (   o e |   |        F = -eta R L^3 int n (V.n)/h^3 dphi = -kappa (I_c V + I_s V_perp),  kappa = eta R L^3/C^3
-//      \   '-----'   /
-//       '-----------'          with a = eps.V/|V|, b = eps.V_perp/|V|, V_perp = e_x x V, q^2 = 1 - eps^2, S = pi/2 + atan(a/q):
-//   I_c = int cos^2 phi/(1 - a cos phi - b sin phi)^3 dphi = 3 a/q^4 + S (q^2 + 3 a^2)/q^5                    phi = -pi/2 ... pi/2
-//   I_s = int sin phi cos phi/(...)^3 dphi               = 2 b/q^4 + a^2 b/(q^4 (1 - b^2)) + 3 a b S/q^5
-//   I_t = int sin^2 phi/(...)^3 dphi                     = a/(q^2 (1 - b^2)) + 3 a b^2/(q^4 (1 - b^2)) + 2 a b^2/(q^2 (1 - b^2)^2) + S (q^2 + 3 b^2)/q^5
+//         outer ring       e    land's centre from the ring's axis, eps = e/C, gap h = C - e.n(phi)
+//      .-----------.       V    pure squeeze velocity e_dot - (omega/2) e_x x e: the land turns, the ring stands
+//     /   .-----.   \      p = 6 eta (V.n)/h^3 (L^2/4 - z^2) over the width L where V.n > 0, else cavitated
+//    |   (   o e |   |     F = -eta R L^3 int n (V.n)/h^3 dphi = -kappa (I_c V + I_s V_perp)
+//     \   '-----'   /      kappa = eta R L^3/C^3,  V_perp = e_x x V
+//      '-----------'
+//   with a = eps.V/|V|, b = eps.V_perp/|V|, q^2 = 1 - eps^2, S = pi/2 + atan(a/q), phi = -pi/2 ... pi/2:
+//   I_c = int cos^2 phi/(1 - a cos phi - b sin phi)^3 dphi = 3 a/q^4 + S (q^2 + 3 a^2)/q^5
+//   I_s = int sin phi cos phi/(...)^3 dphi = 2 b/q^4 + a^2 b/(q^4 (1 - b^2)) + 3 a b S/q^5
+//   I_t = int sin^2 phi/(...)^3 dphi = a/(q^2 (1 - b^2)) + 3 a b^2/(q^4 (1 - b^2)) + 2 a b^2/(q^2 (1 - b^2)^2)
+//                                      + S (q^2 + 3 b^2)/q^5
 //
-// Steady rotation gives Ocvirk's force (a = 0), pure squeeze the pi-film's.  F derives from int (V.n)^2/h^3 over the closing half, so
-// -dF/dV = kappa (I_c, I_s; I_s, I_t) exactly: these are the stiff rates.  Regular at e = 0; C0 in V (cavitation), C1 elsewhere.
-// q^2 is g_0 at the wall and g_0/2 behind it, eps has the cap 1.2; the dry contact F = K_land (e - C)^1.5 takes over there.
+// Steady rotation gives Ocvirk's force (a = 0), pure squeeze that of the pi-film.  F is the gradient of an
+// integral of (V.n)^2/h^3 over the closing half, so that -dF/dV = kappa (I_c, I_s; I_s, I_t) exactly: these
+// are the stiff rates.
+//
+// The force is regular at e = 0, C0 in V (cavitation) and C1 elsewhere.  At the wall the film stays finite:
+// q^2 is g_0 at the wall and tends to g_0/2 behind it, and eps is capped at 1.2.  Behind the wall the dry
+// contact F = K_land (e - C)^1.5 carries.
 #include "land_film.h"
 
 #include "hertz.h"
@@ -20,22 +26,43 @@
 
 static const double EPS_CAP = 1.2;
 
-// Of HALVES halves, side by side.
-INLINE void land_film_bundle(const Model *model, Work *w, int first)
+// q^2: 1 - eps^2 inside, g_0 at the wall, and g_0/2 far behind the wall.
+INLINE wide land_film_gap(wide eps, double g_0)
+{
+    const double floor = 0.5 * g_0;
+    const wide above = 1.0 - eps * eps - floor;
+    return floor + 0.5 * (above + wide_sqrt(above * above + 8.0 * floor * floor));
+}
+
+// The integrals at the head of this file, times q^4.
+typedef struct {
+    wide I_c, I_s, I_t;
+} FilmIntegrals;
+
+INLINE FilmIntegrals land_film_integrals(wide a, wide b, wide q2, wide inv_q)
+{
+    const wide inv_c2 = 1.0 / (q2 + a * a);                    // c^2 = 1 - b^2
+    const wide S = inv_q * (0.5 * PI + wide_atan(a * inv_q));  // S/q
+    return (FilmIntegrals){3.0 * a + S * (q2 + 3.0 * a * a), 2.0 * b + a * a * b * inv_c2 + 3.0 * a * b * S,
+                           a * inv_c2 * (q2 + b * b * (3.0 + 2.0 * q2 * inv_c2)) + S * (q2 + 3.0 * b * b)};
+}
+
+// The lands of HALVES halves side by side, beginning with half `first`.
+INLINE void land_film_packet(const Model *model, Work *w, int first)
 {
     const Parameters *p = model->p;
     const Derived *d = model->d;
     Rotor *h0 = &w->half[first], *h1 = &w->half[first + HALVES - 1];
     const wide x_land = wide_pair(first == 0 ? -p->cage.land_x : p->cage.land_x, p->cage.land_x);
 
-    // place and velocity of the lands' middles: x + a x_land, v + Omega x a x_land = v + a_dot x_land
+    // position and velocity of the lands' middles: x + a x_land, v + Omega x a x_land = v + a_dot x_land
     const wide e_y = wide_pair(h0->x[1], h1->x[1]) + x_land * wide_pair(h0->a[1], h1->a[1]);
     const wide e_z = wide_pair(h0->x[2], h1->x[2]) + x_land * wide_pair(h0->a[2], h1->a[2]);
     const wide v_y = wide_pair(h0->v[1], h1->v[1]) + x_land * wide_pair(h0->a_dot[1], h1->a_dot[1]);
     const wide v_z = wide_pair(h0->v[2], h1->v[2]) + x_land * wide_pair(h0->a_dot[2], h1->a_dot[2]);
     const wide omega = wide_pair(h0->Omega[0], h1->Omega[0]);
 
-    // film
+    // film: direction n of V, eccentricity (a, b) along and across V, gap function q^2
     const wide V_y = v_y + 0.5 * omega * e_z, V_z = v_z - 0.5 * omega * e_y;
     const wide inv_V = 1.0 / wide_sqrt(V_y * V_y + V_z * V_z + 1e-30);
     const wide n_y = V_y * inv_V, n_z = V_z * inv_V;
@@ -43,51 +70,57 @@ INLINE void land_film_bundle(const Model *model, Work *w, int first)
     const double inv_C = 1.0 / d->C_land;
     const wide eps = e * inv_C, cap = wide_min(wide_set(inv_C), EPS_CAP * inv_e);
     const wide a = (e_y * n_y + e_z * n_z) * cap, b = (e_z * n_y - e_y * n_z) * cap;
-    const double floor = 0.5 * p->cage.g_0;
-    const wide above = 1.0 - eps * eps - floor, q2 = floor + 0.5 * (above + wide_sqrt(above * above + 8.0 * floor * floor));
-    const wide inv_q = 1.0 / wide_sqrt(q2), inv_q2 = inv_q * inv_q, inv_c2 = 1.0 / (q2 + a * a);  // c^2 = 1 - b^2
-    const wide S = inv_q * (1.5707963267948966 + wide_atan(a * inv_q));                           // S/q, and all integrals times q^4
-    const wide I_c = 3.0 * a + S * (q2 + 3.0 * a * a);
-    const wide I_s = 2.0 * b + a * a * b * inv_c2 + 3.0 * a * b * S;
-    const wide I_t = a * inv_c2 * (q2 + b * b * (3.0 + 2.0 * q2 * inv_c2)) + S * (q2 + 3.0 * b * b);
+    const wide q2 = land_film_gap(eps, p->cage.g_0), inv_q = 1.0 / wide_sqrt(q2), inv_q2 = inv_q * inv_q;
+    const FilmIntegrals film = land_film_integrals(a, b, q2, inv_q);
+    const wide I_c = film.I_c, I_s = film.I_s, I_t = film.I_t;
     const wide kappa = d->kappa * inv_q2 * inv_q2;
     wide F_y = -kappa * (I_c * V_y - I_s * V_z), F_z = -kappa * (I_c * V_z + I_s * V_y);
     const wide couette = d->couette * inv_q;
 
-    // dry contact and friction at the place of the smallest gap; with mixed lubrication asperities carry their share of the film force too
+    // dry contact and friction where the gap is smallest; in mixed lubrication asperities also carry their
+    // share of the film force
     const wide u_y = e_y * inv_e, u_z = e_z * inv_e;
     const wide pen = e - d->C_land, pen_dot = v_y * u_y + v_z * u_z;
-    const wide N_0 = hertz_load(wide_set(p->cage.K_land), pen), N = hertz_damped(N_0, wide_set(p->cage.lambda), pen_dot);
+    const wide N_0 = hertz_load(wide_set(p->cage.K_land), pen);
+    const wide N = hertz_damped(N_0, wide_set(p->cage.lambda), pen_dot);
     wide N_mu = N;
     if (p->scene.lubrication == LUBRICATION_MIXED) {
         const wide ln_Lambda = d->ln_land + wide_log(q2 / (1.0 + eps));
         N_mu += traction_asperity_share(ln_Lambda) * wide_sqrt(F_y * F_y + F_z * F_z);
     }
-    const wide R = wide_set(0.5 * p->cage.D_o), slip = v_z * u_y - v_y * u_z + omega * R;  // along t = e_x x u
+
+    // friction along t = e_x x u
+    const wide R = wide_set(0.5 * p->cage.D_o);
+    const wide slip = v_z * u_y - v_y * u_z + omega * R;
     const wide g = p->cage.mu_land * N_mu / wide_sqrt(slip * slip + p->cage.v_c * p->cage.v_c);
     const wide F_t = -g * slip;
     F_y += -N * u_y - F_t * u_z;
     F_z += -N * u_z + F_t * u_y;
     const wide M_x = R * F_t - couette * omega;
 
+    // power of the forces, of which the dry contact stores a part
     const wide power = F_y * v_y + F_z * v_z + M_x * omega;
-    const wide elastic = 0.4 * N_0 * wide_max(pen, wide_set(0.0)), elastic_rate = N_0 * pen_dot;
+    const wide elastic = hertz_energy(wide_set(p->cage.K_land), pen), elastic_rate = N_0 * pen_dot;
 
     // -dF/dv in the global frame
     const wide K_yy = kappa * (I_c * n_y * n_y - 2.0 * I_s * n_y * n_z + I_t * n_z * n_z);
     const wide K_zz = kappa * (I_c * n_z * n_z + 2.0 * I_s * n_y * n_z + I_t * n_y * n_y);
     const wide K_yz = kappa * ((I_c - I_t) * n_y * n_z + I_s * (n_y * n_y - n_z * n_z));
+
+    // wrench on each half about its geometric centre
     for (int i = 0; i < HALVES; i++) {
         const int h = first + i;
         Rotor *half = &w->half[h];
-        const scalar x = wide_lane(x_land, i), R_h = wide_lane(R, i), F[3] = {0.0, wide_lane(F_y, i), wide_lane(F_z, i)};
+        const scalar x = wide_lane(x_land, i), R_h = wide_lane(R, i);
+        const scalar F[3] = {0.0, wide_lane(F_y, i), wide_lane(F_z, i)};
         const scalar arm[3] = {half->a[0] * x, half->a[1] * x, half->a[2] * x};
         half->F[1] += F[1];
         half->F[2] += F[2];
         half->M[0] += wide_lane(M_x, i) + arm[1] * F[2] - arm[2] * F[1];
         half->M[1] += -arm[0] * F[2];
         half->M[2] += arm[0] * F[1];
-        w->film_yy[h] = wide_lane(K_yy, i), w->film_yz[h] = wide_lane(K_yz, i), w->film_zz[h] = wide_lane(K_zz, i);
+        w->film_yy[h] = wide_lane(K_yy, i), w->film_yz[h] = wide_lane(K_yz, i),
+        w->film_zz[h] = wide_lane(K_zz, i);
         w->film_spin[h] = wide_lane(couette, i) + wide_lane(g, i) * R_h * R_h;
         w->land_elastic += wide_lane(elastic, i);
         w->land_dissipated -= wide_lane(power, i) + wide_lane(elastic_rate, i);
@@ -97,5 +130,5 @@ INLINE void land_film_bundle(const Model *model, Work *w, int first)
 void land_film_force(const Model *model, Work *w)
 {
     w->land_elastic = w->land_dissipated = 0.0;
-    for (int first = 0; first < 2; first += HALVES) land_film_bundle(model, w, first);
+    for (int first = 0; first < 2; first += HALVES) land_film_packet(model, w, first);
 }

@@ -4,5 +4,6 @@
 #include "isa.h"
 #include "model.h"
 
-// Adds force and moment to both halves (Rotor F, M); sets their film rates, the dissipated power and the elastic energy.
+// Adds force and moment to both halves (Rotor F, M); sets their film rates, the dissipated power and the
+// elastic energy.
 void land_film_force(const Model *model, Work *w);

@@ -1,11 +1,17 @@
-// Arithmetic on packets of doubles: the balls (or joints, or cage halves) of one packet are computed side by side.
+// Arithmetic on packets of doubles: the balls (or joints, or cage halves) of one packet are computed side by
+// side.
 //
-// `wide` holds LANE_WIDTH doubles and has C's operators; a packet's code reads like the code for one ball.  The kernel files are compiled
-// once per instruction set, and every function that another file calls gets that set's name as a suffix (FOR_ISA).
-// Each lane does the same IEEE operations in the same order whatever the width, and sums run over balls in a fixed order (ball_array_sum), so all
-// instruction sets with a fused multiply-add (FUSED: AVX2, AVX-512, NEON) give the same bits, and all without one.  It stands where it is
-// written, wide_fma; compilers contract nothing into it.
-// `scalar` is one of a packet's numbers, for whatever depends on the state; dual.h makes both dual numbers, which carry a derivative.
+// A `wide` holds LANE_WIDTH doubles and has C's operators, so that the code for a packet reads like the code
+// for one ball.  The kernel files are compiled once for each instruction set, and every function that another
+// file calls gets the set's name as a suffix (FOR_ISA).
+//
+// Each lane does the same IEEE operations in the same order whatever the width, and sums run over the balls
+// in a fixed order (ball_array_sum).  Therefore all instruction sets with a fused multiply-add (FUSED: AVX2,
+// AVX-512, NEON) give the same bits, and so do all sets without one.  A fused multiply-add is computed where
+// wide_fma is written and nowhere else; compilers must not contract other expressions into one.
+//
+// A `scalar` is a single number that depends on the state.  dual.h makes both types dual numbers, which carry
+// a derivative.
 #pragma once
 
 #include "variables.h"
@@ -31,7 +37,8 @@
 #include <arm_neon.h>
 #endif
 
-// Arrays over balls are padded to LANES; packets cover the first PACKETS * LANE_WIDTH of them.  Lanes past Z are padding with harmless numbers.
+// Arrays over balls are padded to LANES elements; packets cover the first PACKETS * LANE_WIDTH of these.  The
+// elements from Z on are padding and hold harmless numbers.
 enum { LANES = (Z + 7) / 8 * 8, PACKETS = (Z + LANE_WIDTH - 1) / LANE_WIDTH };
 
 #define INLINE static inline __attribute__((always_inline))
@@ -42,51 +49,61 @@ enum { LANES = (Z + 7) / 8 * 8, PACKETS = (Z + LANE_WIDTH - 1) / LANE_WIDTH };
 #if LANE_WIDTH == 1
 enum { HALVES = 1 };
 #else
-enum { HALVES = 2 };  // cage halves are lanes too, this many side by side (wide_pair)
+enum { HALVES = 2 };  // cage halves that are computed side by side in one packet (wide_pair)
 #endif
 
 typedef double wide __attribute__((vector_size(8 * LANE_WIDTH)));
-typedef int64_t bits __attribute__((vector_size(8 * LANE_WIDTH)));  // a comparison's result: all ones where true
+typedef int64_t bits
+    __attribute__((vector_size(8 * LANE_WIDTH)));  // a comparison's result: all ones where true
 typedef uint64_t words __attribute__((vector_size(8 * LANE_WIDTH)));
 
 INLINE double scalar_value(scalar x)
 {
     return x;
 }
+
 INLINE scalar scalar_sqrt(scalar x)
 {
     return sqrt(x);
 }
+
 INLINE scalar scalar_max(scalar x, scalar y)
 {
     return x > y ? x : y;
 }
+
 INLINE scalar scalar_min(scalar x, scalar y)
 {
     return x < y ? x : y;
 }
+
 INLINE wide wide_set(double value)
 {
     return value - (wide){0};
 }
-// Numbers of the first and the last of HALVES cage halves: half 0 in lane 0, half 1 in the others.
+
+// A packet of the numbers of two cage halves: the first half's in lane 0, the last half's in all others.
 INLINE wide wide_pair(double first, double last)
 {
     wide value = wide_set(last);
     value[0] = first;
     return value;
 }
-#define wide_lane(x, i) ((x)[i])  // a function would copy the packet
+
+#define wide_lane(x, i) ((x)[i])  // a macro, because a function would copy the packet
+
 INLINE wide wide_load(const double *from)
 {
     wide value;
     memcpy(&value, from, sizeof value);
     return value;
 }
+
 INLINE void wide_store(double *to, wide value)
 {
     memcpy(to, &value, sizeof value);
 }
+
 INLINE wide wide_select(bits condition, wide yes, wide no)
 {
 #if defined(__AVX512F__) && LANE_WIDTH == 8
@@ -97,10 +114,12 @@ INLINE wide wide_select(bits condition, wide yes, wide no)
     return (wide)((condition & (bits)yes) | (~condition & (bits)no));
 #endif
 }
+
 INLINE bits wide_above(wide x, double limit)
 {
     return x > limit;
 }
+
 INLINE bool wide_any(bits condition)
 {
 #if defined(__AVX512F__) && LANE_WIDTH == 8
@@ -115,6 +134,7 @@ INLINE bool wide_any(bits condition)
     return any != 0;
 #endif
 }
+
 INLINE wide wide_sqrt(wide x)
 {
 #if defined(__AVX512F__) && LANE_WIDTH == 8
@@ -130,7 +150,8 @@ INLINE wide wide_sqrt(wide x)
     return x;
 #endif
 }
-// x y + z with one rounding where the kernels' instruction set has it.
+
+// x y + z, with one rounding where the kernels' instruction set has a fused multiply-add.
 INLINE wide wide_fma(wide x, wide y, wide z)
 {
 #if defined(FUSED) && defined(__AVX512F__) && LANE_WIDTH == 8
@@ -143,7 +164,9 @@ INLINE wide wide_fma(wide x, wide y, wide z)
     return x * y + z;
 #endif
 }
-INLINE wide wide_max(wide x, wide y)  // y where x is NaN, like the x86 instruction
+
+// The larger one; y where x is NaN, like the x86 instruction.
+INLINE wide wide_max(wide x, wide y)
 {
 #if defined(__AVX512F__) && LANE_WIDTH == 8
     return (wide)_mm512_max_pd((__m512d)x, (__m512d)y);
@@ -155,16 +178,19 @@ INLINE wide wide_max(wide x, wide y)  // y where x is NaN, like the x86 instruct
     return wide_select(x > y, x, y);
 #endif
 }
+
 INLINE wide wide_min(wide x, wide y)
 {
     return -wide_max(-x, -y);
 }
+
 INLINE wide wide_abs(wide x)
 {
     return (wide)((bits)x & INT64_MAX);
 }
 
-// Nearest integer of |x| < 2^51 as a double and as an integer, by the rounding of x + 1.5 * 2^52.
+// Nearest integer to x, |x| < 2^51, as a double and as the integer n: the sum x + 1.5 * 2^52 rounds to an
+// integer.
 INLINE wide wide_round(wide x, bits *n)
 {
     const wide shift = wide_set(6755399441055744.0);
@@ -173,7 +199,8 @@ INLINE wide wide_round(wide x, bits *n)
     return shifted - shift;
 }
 
-// The polynomials below are Chebyshev fits over the reduced ranges; the errors are those of tests/test_lanes.py.
+// The polynomials below are Chebyshev fits over the reduced ranges; tests/test_lanes.py measures the errors
+// stated.
 
 // e^x, relative error < 3e-15; 0 below -700, e^700 above 700.
 INLINE wide wide_exp(wide x)
@@ -182,7 +209,8 @@ INLINE wide wide_exp(wide x)
     x = wide_max(wide_min(x, wide_set(700.0)), wide_set(-700.0));
     bits n;
     const wide k = wide_round(x * 1.4426950408889634, &n);
-    const wide r = wide_fma(k, wide_set(-1.6465949582897082e-12), wide_fma(k, wide_set(-0.6931471805582987), x));  // ln 2 in two parts
+    const wide r = wide_fma(k, wide_set(-1.6465949582897082e-12),
+                            wide_fma(k, wide_set(-0.6931471805582987), x));  // ln 2 in two parts
     wide p = wide_set(2.761380686153829e-07);
     p = wide_fma(p, r, wide_set(2.762511557828763e-06));
     p = wide_fma(p, r, wide_set(2.4801536388690766e-05));
@@ -199,11 +227,13 @@ INLINE wide wide_exp(wide x)
 // x = 2^k m with sqrt(1/2) <= m < sqrt(2).
 INLINE wide wide_split(wide x, wide *m)
 {
-    const uint64_t one = 0x3ff0000000000000, sqrt_half = 0x3fe6a09e667f3bcd, two_52 = 0x4330000000000000;  // the bits of these numbers
-    const words exponent = ((words)x + (one - sqrt_half)) >> 52;                                           // k + 1023
+    const uint64_t one = 0x3ff0000000000000, sqrt_half = 0x3fe6a09e667f3bcd;
+    const uint64_t two_52 = 0x4330000000000000;                   // the bits of these numbers
+    const words exponent = ((words)x + (one - sqrt_half)) >> 52;  // k + 1023
     *m = (wide)((words)x - (exponent << 52) + one);
     return (wide)(exponent | two_52) - (4503599627370496.0 + 1023.0);
 }
+
 // k ln 2 + 2 atanh t
 INLINE wide wide_log_of(wide k, wide t)
 {
@@ -214,8 +244,10 @@ INLINE wide wide_log_of(wide k, wide t)
     p = wide_fma(p, z, wide_set(0.2857142413651635));
     p = wide_fma(p, z, wide_set(0.400000000112122));
     p = wide_fma(p, z, wide_set(0.6666666666666208));
-    return wide_fma(k, wide_set(0.6931471805582987), wide_fma(k, wide_set(1.6465949582897082e-12), wide_fma(t * z, p, 2.0 * t)));
+    return wide_fma(k, wide_set(0.6931471805582987),
+                    wide_fma(k, wide_set(1.6465949582897082e-12), wide_fma(t * z, p, 2.0 * t)));
 }
+
 // ln x of a normal x > 0, relative error < 3e-15.
 INLINE wide wide_log(wide x)
 {
@@ -223,7 +255,8 @@ INLINE wide wide_log(wide x)
     const wide k = wide_split(x, &m);
     return wide_log_of(k, (m - 1.0) / (m + 1.0));
 }
-// Two logarithms for one division.
+
+// ln x and ln y for the price of one division.
 INLINE void wide_log2(wide x, wide y, wide *ln_x, wide *ln_y)
 {
     wide m, n;
@@ -237,7 +270,8 @@ INLINE void wide_sincos(wide x, wide *sine, wide *cosine)
 {
     bits n;
     const wide k = wide_round(x * 0.6366197723675814, &n);
-    const wide near = wide_fma(k, wide_set(-9.920935791635221e-10), wide_fma(k, wide_set(-1.570796325802803), x));
+    const wide near =
+        wide_fma(k, wide_set(-9.920935791635221e-10), wide_fma(k, wide_set(-1.570796325802803), x));
     const wide r = wide_fma(k, wide_set(-5.170182981794105e-19), near);  // pi/2 in three parts
     const wide z = r * r;
     wide p = wide_set(1.591810123027412e-10), q = wide_set(-1.1382614868556325e-11);
@@ -266,7 +300,8 @@ INLINE wide wide_atan(wide x)
     const bits large = u > 2.414213562373095, middle = u > 0.41421356237309503;  // tan 3 pi/8, tan pi/8
     const wide top = wide_select(large, wide_set(-1.0), wide_select(middle, u - 1.0, u));
     const wide bottom = wide_select(large, u, wide_select(middle, u + 1.0, wide_set(1.0)));
-    const wide offset = wide_select(large, wide_set(1.5707963267948966), wide_select(middle, wide_set(0.7853981633974483), wide_set(0.0)));
+    const wide offset =
+        wide_select(large, wide_set(0.5 * PI), wide_select(middle, wide_set(0.25 * PI), wide_set(0.0)));
     const wide r = top / bottom, z = r * r;
     wide p = wide_set(-0.027229493655218973);
     p = wide_fma(p, z, wide_set(0.051686162502498884));
@@ -284,7 +319,8 @@ INLINE wide wide_atan(wide x)
 #endif
 
 typedef scalar ball_array[LANES] __attribute__((aligned(8 * sizeof(scalar))));  // one number per ball
-typedef double constants[LANES] __attribute__((aligned(8 * sizeof(double))));   // the same, independent of the state
+typedef double constants[LANES]
+    __attribute__((aligned(8 * sizeof(double))));  // the same, independent of the state
 
 // Sum over the balls in one order for every lane width: four partial sums, then (0 + 1) + (2 + 3).
 INLINE scalar ball_array_sum(const scalar *v)

@@ -1,7 +1,8 @@
 // Load path of the cage: see load_path.h for the equations.
 #include "load_path.h"
 
-void load_path_rigid(double d_m, const scalar wrench[6], const double c[Z], const double s[Z], scalar N[Z], scalar V_y[Z], scalar V_z[Z])
+void load_path_rigid(double d_m, const scalar wrench[6], const double c[Z], const double s[Z], scalar N[Z],
+                     scalar V_y[Z], scalar V_z[Z])
 {
     const double R = 0.5 * d_m;
     const scalar shear = wrench[3] / (Z * R);
@@ -12,21 +13,27 @@ void load_path_rigid(double d_m, const scalar wrench[6], const double c[Z], cons
     }
 }
 
-// A touched pocket: its place in the matrix, the forces that count there.
+// A touched pocket: its column of the matrix, and its forces as on the +x half with the ball pushing toward
+// +t.
 typedef struct {
     const double *column;
     scalar F_x, F_r, abs_F_t;
 } Touch;
 
-void load_path_flexible(const double *matrix, int side, bool transverse, const scalar F_x[Z], const scalar F_r[Z], const scalar F_t[Z], PathLoads *loads)
+void load_path_flexible(const double *matrix, int side, bool transverse, const scalar F_x[Z],
+                        const scalar F_r[Z], const scalar F_t[Z], PathLoads *loads)
 {
+    // touched pockets
     Touch touch[Z];
     int count = 0;
     for (int j = 0; j < Z; j++) {
-        if (F_x[j] == 0.0 && F_r[j] == 0.0 && F_t[j] == 0.0) continue;  // most pockets are not touched
+        if (F_x[j] == 0.0 && F_r[j] == 0.0 && F_t[j] == 0.0) continue;  // as for most pockets
         const bool back = scalar_value(F_t[j]) < 0.0;
-        touch[count++] = (Touch){matrix + back * PATH_LOADS * 3 * PATH_WIDTH + Z - 1 - j, side * F_x[j], F_r[j], back ? -F_t[j] : F_t[j]};  // as on the +x half
+        const double *column = matrix + back * PATH_LOADS * 3 * PATH_WIDTH + Z - 1 - j;
+        touch[count++] = (Touch){column, side * F_x[j], F_r[j], back ? -F_t[j] : F_t[j]};
     }
+
+    // loads of all rivets by all touched pockets
     for (int i = 0; i < PATH_LOADS; i++) {
         const bool V = i == PATH_V_R || i == PATH_V_T;
         if (V && !transverse) continue;

@@ -1,4 +1,5 @@
-// Outputs that follow from one evaluation of the right-hand side, group by group.  Compiled for their values and, in dual numbers, for their derivatives.
+// Outputs that follow from one evaluation of the right-hand side, group by group.  The file is compiled for
+// values and, with dual numbers, for derivatives.
 #include "outputs.h"
 
 #include "energy.h"
@@ -8,9 +9,10 @@
 #include "rivets.h"
 #include "traction.h"
 
-static const double PI = 3.14159265358979323846;
+// Speed [rad/s] up to which no slip ratio is formed: a bearing at standstill has none.
+static const double STANDSTILL = 1e-9;
 
-// The states that are outputs as they are: copied by name.
+// States that are outputs themselves.
 static void fill_state(const Evaluation *at, Outputs *out)
 {
     out->ring.x = at->y[Y_RING_X];
@@ -44,23 +46,22 @@ static void fill_ring(const Evaluation *at, Outputs *out)
     out->bearing.friction_torque = -dot3(w->ring.M, w->ring.a);
 }
 
-// p_max = 3 Q/(2 pi a b).
-static scalar pressure(const Hertz *hertz, scalar Q)
-{
-    return scalar_value(Q) > 0.0 ? 1.5 * scalar_cbrt(Q) / (PI * hertz->a * hertz->b) : 0.0;
-}
-
+// Film thickness / roughness at mean speed U and load Q, 0 without contact.
 static scalar film_ratio(const Race *race, scalar U, scalar Q)
 {
-    return scalar_value(Q) > 0.0 ? scalar_exp(race->ln_Lambda + 0.67 * scalar_log(U) - 0.067 * scalar_log(Q + Q_FLOOR)) : 0.0;
+    return scalar_value(Q) > 0.0
+               ? scalar_exp(race->ln_Lambda + 0.67 * scalar_log(U) - 0.067 * scalar_log(Q + Q_FLOOR))
+               : 0.0;
 }
 
 // Spin of the ball against the inner ring about the contact normal / rolling speed across it.
 static scalar spin_roll(const Work *w, int j)
 {
     const scalar *Omega = w->ring.Omega, c = w->cos_theta[j], s = w->sin_theta[j];
-    const scalar rel[3] = {w->omega_x[j] - Omega[0], w->omega_r[j] - (Omega[1] * c + Omega[2] * s), w->omega_t[j] - (Omega[2] * c - Omega[1] * s)};
-    const scalar n[3] = {w->n_ix[j], w->n_ir[j], w->n_it[j]}, spin = dot3(rel, n), across = dot3(rel, rel) - spin * spin;
+    const scalar rel[3] = {w->omega_x[j] - Omega[0], w->omega_r[j] - (Omega[1] * c + Omega[2] * s),
+                           w->omega_t[j] - (Omega[2] * c - Omega[1] * s)};
+    const scalar n[3] = {w->n_ix[j], w->n_ir[j], w->n_it[j]}, spin = dot3(rel, n);
+    const scalar across = dot3(rel, rel) - spin * spin;
     return scalar_value(w->Q_i[j]) > 0.0 && scalar_value(across) > 0.0 ? spin / scalar_sqrt(across) : 0.0;
 }
 
@@ -73,19 +74,24 @@ static void fill_ball(const Evaluation *at, Outputs *out)
     scalar penetration = 0.0, force_max = 0.0;
     for (int j = 0; j < Z; j++) {
         const scalar Q_i = w->Q_i[j], Q_e = w->Q_e[j], Q_c = w->pocket[0].Q[j] + w->pocket[1].Q[j];
-        const scalar delta[3] = {w->delta_i[j], w->delta_e[j], rigid ? w->delta_c[0][j] : scalar_max(w->delta_c[0][j], w->delta_c[1][j])};
+        const scalar delta[3] = {w->delta_i[j], w->delta_e[j],
+                                 rigid ? w->delta_c[0][j] : scalar_max(w->delta_c[0][j], w->delta_c[1][j])};
         out->ball.Q_i[j] = Q_i;
         out->ball.Q_e[j] = Q_e;
         out->ball.Q_c[j] = Q_c;
         out->ball.Q_cx[j] = w->pocket[0].F_x[j] + w->pocket[1].F_x[j];
         out->ball.omega_m[j] = w->omega_m[j];
+
+        // angles, pressures, films, spin
         out->ball.alpha_i[j] = scalar_value(Q_i) > 0.0 ? scalar_atan2(-w->n_ix[j], -w->n_ir[j]) : 0.0;
         out->ball.alpha_e[j] = scalar_value(Q_e) > 0.0 ? scalar_atan2(w->n_ex[j], w->n_er[j]) : 0.0;
-        out->ball.p_i[j] = pressure(&d->inner.hertz, Q_i);
-        out->ball.p_e[j] = pressure(&d->outer.hertz, Q_e);
+        out->ball.p_i[j] = hertz_pressure(&d->inner.hertz, Q_i);
+        out->ball.p_e[j] = hertz_pressure(&d->outer.hertz, Q_e);
         out->ball.Lambda_i[j] = film_ratio(&d->inner, w->U_i[j], Q_i);
         out->ball.Lambda_e[j] = film_ratio(&d->outer, w->U_e[j], Q_e);
         out->ball.spin_roll[j] = spin_roll(w, j);
+
+        // over all balls
         for (int i = 0; i < 3; i++) {
             contacts += scalar_value(delta[i]) > 0.0;
             penetration = scalar_max(penetration, delta[i]);
@@ -106,8 +112,10 @@ static void fill_pose(const Evaluation *at, Outputs *out)
         out->ball.psi[j] = at->y[Y_BALL_THETA + j];
     }
     const Rotor *h0 = &w->half[0], *h1 = &w->half[1];
-    out->half_0.x = h0->x[0], out->half_0.y = h0->x[1], out->half_0.z = h0->x[2], out->half_0.psi = at->y[Y_CAGE_PSI];
-    out->half_1.x = h1->x[0], out->half_1.y = h1->x[1], out->half_1.z = h1->x[2], out->half_1.psi = at->y[Y_CAGE_PSI + 1];
+    out->half_0.x = h0->x[0], out->half_0.y = h0->x[1], out->half_0.z = h0->x[2],
+    out->half_0.psi = at->y[Y_CAGE_PSI];
+    out->half_1.x = h1->x[0], out->half_1.y = h1->x[1], out->half_1.z = h1->x[2],
+    out->half_1.psi = at->y[Y_CAGE_PSI + 1];
     ring_tilts(-h0->a[2], h0->a[1], &out->half_0.tilt_y, &out->half_0.tilt_z);
     ring_tilts(-h1->a[2], h1->a[1], &out->half_1.tilt_y, &out->half_1.tilt_z);
 }
@@ -118,10 +126,12 @@ static void fill_cage(const Evaluation *at, Outputs *out)
     const Parameters *p = at->model->p;
     const scalar epicyclic = 0.5 * at->model->ring_load->omega * (1.0 - p->bearing.D / p->bearing.d_m);
     out->cage.omega = 0.5 * (h0->s + h1->s);
-    out->cage.slip_ratio = scalar_value(epicyclic) != 0.0 ? 1.0 - out->cage.omega / epicyclic : 0.0;
+    out->cage.slip_ratio =
+        fabs(scalar_value(epicyclic)) > STANDSTILL ? 1.0 - out->cage.omega / epicyclic : 0.0;
     out->cage.y = 0.5 * (h0->x[1] + h1->x[1]);
     out->cage.z = 0.5 * (h0->x[2] + h1->x[2]);
-    out->cage.eccentricity = scalar_sqrt(out->cage.y * out->cage.y + out->cage.z * out->cage.z) / at->model->d->C_land;
+    out->cage.eccentricity =
+        scalar_sqrt(out->cage.y * out->cage.y + out->cage.z * out->cage.z) / at->model->d->C_land;
 }
 
 static void fill_rivet(const Evaluation *at, Outputs *out)
@@ -146,43 +156,55 @@ static void fill_rivet(const Evaluation *at, Outputs *out)
         max = scalar_max(max, slip[k]);
     }
     out->cage.dislocation = max;
+    out->rivet.table_kind = rivet_table.kind;
 }
 
 static void fill_stress(const Evaluation *at, Outputs *out)
 {
     RivetLoads load;
-    scalar sigma[RIVET_CHANNELS] = {0.0};
+    scalar sigma[RIVET_CHANNELS][Z] = {{0.0}};
     const bool off = at->model->p->scene.stress == STRESS_OFF;
-    if (!off) at->loads(at->model, at->w, &load);
+    if (!off) {
+        at->loads(at->model, at->w, &load);
+        at->stress(&rivet_table, &load, at->model->d->fit_eff, true, sigma);
+    }
     for (int k = 0; k < Z; k++) {
-        unsigned flags = 0;
-        if (!off) {
-            const RivetLoad one = rivet_load_of(&load, k);
-            flags = at->model->d->fit_flags | rivet_rom_stress(&rivet_table, &one, at->model->d->fit_eff, sigma);
-        }
-        out->rivet.sigma_head[k] = sigma[HEAD_P1];
-        out->rivet.sigma_head_vm[k] = sigma[HEAD_VM];
-        out->rivet.sigma_mid[k] = sigma[MID_VM];
-        out->rivet.sigma_mid_p1[k] = sigma[MID_P1];
-        out->rivet.flag[k] = flags;
+        out->rivet.sigma_head[k] = sigma[HEAD_P1][k];
+        out->rivet.sigma_head_vm[k] = sigma[HEAD_VM][k];
+        out->rivet.sigma_mid[k] = sigma[MID_VM][k];
+        out->rivet.sigma_mid_p1[k] = sigma[MID_P1][k];
+        out->rivet.flag[k] =
+            off ? 0.0 : at->model->d->fit_flags | rivet_rom_load_flags(&rivet_table, &load, sigma, k);
     }
 }
 
-// The residual counts from energy 0: whoever knows the energy at the start takes it off.
+// The energy at the start is not known here: outputs_fill subtracts it from the residual.
 static void fill_energy(const Evaluation *at, Outputs *out)
 {
     const Work *w = at->w;
     out->bearing.power_loss = ball_array_sum(w->dissipated) + w->land_dissipated;
-    if (at->model->p->scene.cage == CAGE_MODEL_TWO_HALF) out->bearing.power_loss += ball_array_sum(w->joint_dissipated);
+    if (at->model->p->scene.cage == CAGE_MODEL_TWO_HALF)
+        out->bearing.power_loss += ball_array_sum(w->joint_dissipated);
     out->bearing.energy_residual = energy_total(at->model, at->y, w) - at->y[Y_WORK];
 }
 
-bool outputs_evaluate(const Evaluation *at, OutputGroup group, Outputs *out)
+void outputs_evaluate(const Evaluation *at, OutputGroup group, Outputs *out)
 {
-    static void (*const fill[GROUP_COUNT])(const Evaluation *, Outputs *) = {
-        [GROUP_STATE] = fill_state, [GROUP_RING] = fill_ring,   [GROUP_POSE] = fill_pose,     [GROUP_BALL] = fill_ball,
-        [GROUP_CAGE] = fill_cage,   [GROUP_RIVET] = fill_rivet, [GROUP_STRESS] = fill_stress, [GROUP_ENERGY] = fill_energy};
-    if (!fill[group]) return false;
-    fill[group](at, out);
-    return true;
+    switch (group) {
+    case GROUP_STATE: fill_state(at, out); return;
+    case GROUP_RING: fill_ring(at, out); return;
+    case GROUP_POSE: fill_pose(at, out); return;
+    case GROUP_BALL: fill_ball(at, out); return;
+    case GROUP_CAGE: fill_cage(at, out); return;
+    case GROUP_RIVET: fill_rivet(at, out); return;
+    case GROUP_STRESS: fill_stress(at, out); return;
+    case GROUP_ENERGY: fill_energy(at, out); return;
+    case GROUP_CONSTANT:
+    case GROUP_PEAK:
+    case GROUP_FATIGUE:
+    case GROUP_STAT:
+    case GROUP_SOLVER:
+    case GROUP_EVENT:
+    case GROUP_COUNT: return;  // outputs_recorded.c
+    }
 }

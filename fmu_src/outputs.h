@@ -3,13 +3,16 @@
 
 #include "rivets.h"
 
-// Where an evaluation stands: the state y, y_dot and all other results of the right-hand side there.
+// One evaluation of the right-hand side: the state y, its y_dot and all other results, and the kernels that
+// outputs need.
 typedef struct {
     const Model *model;
     const scalar *y, *y_dot;
     const Work *w;
     RivetsLoad *loads;
+    RivetRomStress *stress;
 } Evaluation;
 
-// Fills one group of outputs that follow from an evaluation; false: this group is of another kind.
-bool outputs_evaluate(const Evaluation *at, OutputGroup group, Outputs *out);
+// Fills one group of outputs that follow from an evaluation; the recorded groups (outputs_recorded.c) are
+// left as they are.
+void outputs_evaluate(const Evaluation *at, OutputGroup group, Outputs *out);

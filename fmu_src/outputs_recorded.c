@@ -1,4 +1,4 @@
-// Outputs that follow from what has been recorded over accepted steps, and from the integrator.
+// Outputs that follow from the records of accepted steps and from the integrator.
 #include "instance.h"
 #include "outputs.h"
 #include "rivets.h"
@@ -28,8 +28,10 @@ static void fill_fatigue(Bearing *b)
 static void fill_stat(Bearing *b)
 {
     const InstanceState *s = &b->s;
-    const double time = s->force.time / Z, p = 0.999;  // every ball adds its own time
+    const double time = s->force.time / Z, p = 0.999;  // every ball has added the same time
     const StatisticsChannel *head = &s->head[WORST_RIVET], *mid = &s->mid[WORST_RIVET];
+
+    // pocket force and cage
     b->out.stat.time = time;
     b->out.stat.Q_c_mean = statistics_mean(&s->force);
     b->out.stat.Q_c_rms = statistics_rms(&s->force);
@@ -39,6 +41,8 @@ static void fill_stat(Bearing *b)
     b->out.stat.cage_omega = time > 0.0 ? s->omega_time / time : 0.0;
     b->out.stat.eccentricity = time > 0.0 ? s->eccentricity_time / time : 0.0;
     b->out.stat.dislocation_max = s->dislocation_max;
+
+    // worst rivet at each instant
     b->out.stat.sigma_head_mean = statistics_mean(head);
     b->out.stat.sigma_head_rms = statistics_rms(head);
     b->out.stat.sigma_head_p999 = statistics_quantile(head, STRESS_FLOOR, p);
@@ -47,6 +51,8 @@ static void fill_stat(Bearing *b)
     b->out.stat.sigma_mid_rms = statistics_rms(mid);
     b->out.stat.sigma_mid_p999 = statistics_quantile(mid, STRESS_FLOOR, p);
     b->out.stat.sigma_mid_max = mid->max;
+
+    // each rivet
     for (int k = 0; k < Z; k++) {
         b->out.stat.rivet_head_mean[k] = statistics_mean(&s->head[k]);
         b->out.stat.rivet_head_rms[k] = statistics_rms(&s->head[k]);
@@ -97,9 +103,26 @@ static void fill_constant(Bearing *b)
 
 void outputs_fill(Bearing *b, OutputGroup group)
 {
-    static void (*const fill[GROUP_COUNT])(Bearing *) = {[GROUP_CONSTANT] = fill_constant, [GROUP_PEAK] = fill_peak,     [GROUP_FATIGUE] = fill_fatigue,
-                                                         [GROUP_STAT] = fill_stat,         [GROUP_SOLVER] = fill_solver, [GROUP_EVENT] = fill_event};
-    const Evaluation now = {&b->model, b->s.integrator.now.y, b->y_dot, &b->w, b->kernels.rivets_load};
-    if (!outputs_evaluate(&now, group, &b->out)) fill[group](b);
-    if (group == GROUP_ENERGY) b->out.bearing.energy_residual -= b->s.energy_start;
+    const Evaluation now = {&b->model, b->s.integrator.now.y,  b->y_dot,
+                            &b->w,     b->kernels.rivets_load, b->kernels.rivet_rom_stress};
+    switch (group) {
+    case GROUP_CONSTANT: fill_constant(b); return;
+    case GROUP_PEAK: fill_peak(b); return;
+    case GROUP_FATIGUE: fill_fatigue(b); return;
+    case GROUP_STAT: fill_stat(b); return;
+    case GROUP_SOLVER: fill_solver(b); return;
+    case GROUP_EVENT: fill_event(b); return;
+    case GROUP_ENERGY:
+        outputs_evaluate(&now, group, &b->out);
+        b->out.bearing.energy_residual -= b->s.energy_start;
+        return;
+    case GROUP_STATE:
+    case GROUP_RING:
+    case GROUP_POSE:
+    case GROUP_BALL:
+    case GROUP_CAGE:
+    case GROUP_RIVET:
+    case GROUP_STRESS: outputs_evaluate(&now, group, &b->out); return;
+    case GROUP_COUNT: return;
+    }
 }

@@ -1,19 +1,23 @@
 // Ball and race: Hertz' contact under a groove that may be displaced and tilted, with traction.
 //
-//            groove-curvature circle, radius R_g about the ring's axis a           p   ball centre - ring centre
-//                  o ________                                                       e   unit vector from the axis to the ball: radial part of p
-//                 /  L       \                                                      L = (p.a) a + (|p - (p.a) a| - R_g) e
-//                /            \         n = L/|L|: out of the groove's centre       delta = |L| - (r_g - R)
-//        race   (    ball      )        through the ball's centre to the contact    delta_dot = n.(v_ball - v_ring - Omega x p)
-//                \            /                                                     Q = K delta^1.5 max(0, 1 + lambda delta_dot)
-//                 \__________/                                                      force on the ball -Q n
+//         circle of groove centres,              p = ball centre - ring centre
+//         radius R_g about the ring's axis a     e   unit vector from the axis to the ball: radial part of p
+//               o ________                       L = (p.a) a + (|p - (p.a) a| - R_g) e
+//              /  L       \                      n = L/|L|: from the groove's centre through the ball's to the contact
+//             /            \                     delta = |L| - (r_g - R)
+//     race   (    ball      )                    delta_dot = n.(v_ball - v_ring - Omega x p)
+//             \            /                     Q = K delta^1.5 max(0, 1 + lambda delta_dot)
+//              \__________/                      force on the ball -Q n
 //
-// Nothing is small here: any offset and tilt is exact, so that the normal forces derive from a potential.
+// No offset or tilt is taken as small: the geometry is exact, so that the normal forces derive from a
+// potential.
+//
 // Slip and mean speed at the contact point p + R n, seen from the frame that orbits with the ball:
 //   u_ball = (omega_ball - omega_m e_x) x R n,   u_race = v_ring + Omega x (p + R n) - v_ball - omega_m e_x x R n
 //   Delta u = u_ball - u_race,   U = (u_ball + u_race)/2     (their parts in the tangent plane)
-// The ring gets the opposite forces at the same points: force -F, moment -(p x F) - M about its centre.
-// Friction angle, spin: `sliced` integrates the traction over the long axis of the ellipse, where slip varies by spin and curvature:
+// The ring gets the opposite forces at the same points: force -F, moment -(p x F) - M about its centre.  Spin
+// and curvature let the slip vary along the long axis of the ellipse; `sliced` integrates the traction over
+// this axis:
 //   Delta u(xi) = Delta u + Delta omega x (xi t_2 - xi^2/(2 R_m) n),  pressure (3/4)(1 - xi^2/a^2) per length
 // Smoothness: C1 at touch-down.  Hertz' ellipse is not cut at the shoulder.
 #include "race_contact.h"
@@ -23,12 +27,14 @@
 
 // Gauss-Jacobi points and weights for the weight (3/4)(1 - s^2) on [-1, 1]: exact to degree 13.
 enum { SLICES = 7 };
+
 static const double SLICE[SLICES] = {-0.8997579954114603, -0.6771862795107377, -0.36311746382617816, 0.0,
                                      0.36311746382617816, 0.6771862795107377,  0.8997579954114603};
-static const double SHARE[SLICES] = {0.02363715011287406, 0.11148030343755763, 0.22556281855841187, 0.27863945578231275,
-                                     0.22556281855841187, 0.11148030343755763, 0.02363715011287406};
+static const double SHARE[SLICES] = {0.02363715011287406, 0.11148030343755763, 0.22556281855841187,
+                                     0.27863945578231275, 0.22556281855841187, 0.11148030343755763,
+                                     0.02363715011287406};
 
-static const double TINY = 1e-30;  // padding lanes and balls at a groove's centre: no division by 0
+static const double TINY = 1e-30;  // keeps padding lanes and balls at a groove's centre from dividing by 0
 
 // One ball, in its own frame (x, r, t).
 typedef struct {
@@ -45,7 +51,8 @@ typedef struct {
     wide R, delta, sqrt_delta, Q, dissipated;
 } Contact;
 
-// Load of a contact approaching by delta, at the rate n.approach, and what its damping dissipates.
+// Load of a contact with approach delta, which grows at the rate delta_dot, and the power that its damping
+// dissipates.
 INLINE void load_contact(const Model *model, const Race *race, wide delta, wide delta_dot, Contact *c)
 {
     const wide Q_0 = hertz_load(wide_set(race->hertz.K), delta);
@@ -55,7 +62,8 @@ INLINE void load_contact(const Model *model, const Race *race, wide delta, wide 
     c->dissipated = (c->Q - Q_0) * delta_dot;
 }
 
-// Inner race.  p: from the centre of the ring to that of the ball; a, v, Omega: axis, velocity and angular velocity of the ring; all in the frame of the ball.
+// Inner race.  p: from the centre of the ring to that of the ball; a, v, Omega: axis, velocity and angular
+// velocity of the ring.  All vectors are in the frames of the balls.
 INLINE Contact inner_contact(const Model *model, const BallMotion *ball, vec p, vec a, vec v, vec Omega)
 {
     const Race *race = &model->d->inner;
@@ -64,44 +72,52 @@ INLINE Contact inner_contact(const Model *model, const BallMotion *ball, vec p, 
     const wide r = wide_sqrt(vec_dot(radial, radial) + tiny);
     const vec e = vec_scale(1.0 / r, radial);
     const wide across = r - race->R_g, L = wide_sqrt(along * along + across * across + tiny), inv_L = 1.0 / L;
-    Contact c = {.R = ball->R, .n = vec_axpy(across * inv_L, e, vec_scale(along * inv_L, a)), .t_1 = vec_cross(a, e)};
+    Contact c = {
+        .R = ball->R, .n = vec_axpy(across * inv_L, e, vec_scale(along * inv_L, a)), .t_1 = vec_cross(a, e)};
     c.t_2 = vec_cross(c.n, c.t_1);
     c.approach = vec_sub(vec_sub(ball->v, v), vec_cross(Omega, p));
     c.spin = vec_sub(ball->omega, Omega);
     load_contact(model, race, L - (race->r_g - ball->R), vec_dot(c.n, c.approach), &c);
 
+    // velocities at the contact point against the ball's centre, seen from the orbiting frame
     const vec arm = vec_scale(ball->R, c.n), axis = {ball->omega_m, wide_set(0.0), wide_set(0.0)};
     const vec u_ball = vec_cross(ball->omega, arm), orbit = vec_cross(axis, arm);
     const vec u_race = vec_sub(vec_cross(Omega, arm), c.approach);  // v + Omega x (p + arm) - v_ball
     c.slip = vec_across(vec_sub(u_ball, u_race), c.n);
-    c.roll = vec_across(vec_axpy(wide_set(-1.0), orbit, vec_scale(wide_set(0.5), vec_add(u_ball, u_race))), c.n);
+    c.roll =
+        vec_across(vec_axpy(wide_set(-1.0), orbit, vec_scale(wide_set(0.5), vec_add(u_ball, u_race))), c.n);
     return c;
 }
 
-// Outer race: the same for a ring at rest whose axis is X, with what vanishes left out.
+// Outer race: the same for a ring at rest whose axis is X; terms that vanish for this ring are left out.
 INLINE Contact outer_contact(const Model *model, const BallMotion *ball)
 {
     const Race *race = &model->d->outer;
     const vec v = ball->v, omega = ball->omega;
     const wide R = ball->R, across = ball->x.r - race->R_g;
     const wide L = wide_sqrt(ball->x.x * ball->x.x + across * across + wide_set(TINY)), inv_L = 1.0 / L;
-    Contact c = {.R = R, .n = {ball->x.x * inv_L, across * inv_L, wide_set(0.0)}, .t_1 = {wide_set(0.0), wide_set(0.0), wide_set(1.0)}};
+    Contact c = {.R = R,
+                 .n = {ball->x.x * inv_L, across * inv_L, wide_set(0.0)},
+                 .t_1 = {wide_set(0.0), wide_set(0.0), wide_set(1.0)}};
     c.t_2 = (vec){c.n.r, -c.n.x, wide_set(0.0)};
     c.approach = v;
     c.spin = omega;
     load_contact(model, race, L - (race->r_g - R), c.n.x * v.x + c.n.r * v.r, &c);
 
+    // velocities at the contact point, likewise; orbit is along t
     const vec u_ball = {-omega.t * R * c.n.r, omega.t * R * c.n.x, R * (omega.x * c.n.r - omega.r * c.n.x)};
-    const wide orbit = ball->omega_m * R * c.n.r;  // along t
+    const wide orbit = ball->omega_m * R * c.n.r;
     c.slip = vec_across(vec_add(u_ball, v), c.n);
-    c.roll = vec_across((vec){0.5 * (u_ball.x - v.x), 0.5 * (u_ball.r - v.r), 0.5 * (u_ball.t - v.t) - orbit}, c.n);
+    c.roll = vec_across((vec){0.5 * (u_ball.x - v.x), 0.5 * (u_ball.r - v.r), 0.5 * (u_ball.t - v.t) - orbit},
+                        c.n);
     return c;
 }
 
-// Traction at the contact's middle.
+// Traction with the slip at the contact's middle.
 INLINE Tangential point_traction(const Parameters *p, const Contact *c, wide inv_U, wide f_a, bool mixed)
 {
-    const wide slip_2 = vec_dot(c->slip, c->slip) + p->oil.v_0 * p->oil.v_0, inv_slip = 1.0 / wide_sqrt(slip_2);
+    const wide slip_2 = vec_dot(c->slip, c->slip) + p->oil.v_0 * p->oil.v_0;
+    const wide inv_slip = 1.0 / wide_sqrt(slip_2);
     Tangential out = {0};
     out.g = traction_mu(p, slip_2 * inv_slip * inv_U, f_a, mixed) * c->Q * inv_slip;
     out.F_s = vec_scale(-out.g, c->slip);
@@ -110,16 +126,18 @@ INLINE Tangential point_traction(const Parameters *p, const Contact *c, wide inv
     return out;
 }
 
-// Traction over the long axis of the ellipse.
-INLINE Tangential sliced_traction(const Parameters *p, const Race *race, const Contact *c, wide inv_U, wide f_a, bool mixed)
+// Traction over the long axis of the ellipse, slice by slice.
+INLINE Tangential sliced_traction(const Parameters *p, const Race *race, const Contact *c, wide inv_U,
+                                  wide f_a, bool mixed)
 {
     const wide a = race->hertz.a_delta * c->sqrt_delta, spin_n = vec_dot(c->spin, c->n);
-    const vec bend = vec_cross(c->spin, c->n);  // its part along t_1 and t_2 only
+    const vec bend = vec_cross(c->spin, c->n);  // has parts along t_1 and t_2 only
     Tangential out = {0};
     for (int i = 0; i < SLICES; i++) {
         const wide xi = a * SLICE[i], sagitta = xi * xi * (0.5 / race->R_m);
         const vec slip_i = vec_axpy(-sagitta, bend, vec_axpy(-xi * spin_n, c->t_1, c->slip));
-        const wide slip_2 = vec_dot(slip_i, slip_i) + p->oil.v_0 * p->oil.v_0, inv_slip = 1.0 / wide_sqrt(slip_2);
+        const wide slip_2 = vec_dot(slip_i, slip_i) + p->oil.v_0 * p->oil.v_0;
+        const wide inv_slip = 1.0 / wide_sqrt(slip_2);
         const wide g = SHARE[i] * traction_mu(p, slip_2 * inv_slip * inv_U, f_a, mixed) * c->Q * inv_slip;
         const vec F = vec_scale(-g, slip_i);
         out.g += g;
@@ -131,18 +149,22 @@ INLINE Tangential sliced_traction(const Parameters *p, const Race *race, const C
     return out;
 }
 
-// Traction and the inlet's rolling friction: -F_R U/|U| at the surface, the film's horizontal pressure force +F_H U/|U| through the ball's centre.
-INLINE Tangential race_traction(const Model *model, const Race *race, const Contact *c, bool mixed, bool sliced)
+// Traction and the inlet's rolling friction: -F_R U/|U| at the surface, and the film's horizontal pressure
+// force +F_H U/|U| through the ball's centre.
+INLINE Tangential race_traction(const Model *model, const Race *race, const Contact *c, bool mixed,
+                                bool sliced)
 {
     const Parameters *p = model->p;
     const wide U_2 = vec_dot(c->roll, c->roll) + p->oil.U_0 * p->oil.U_0, inv_U = 1.0 / wide_sqrt(U_2);
     wide ln_U, ln_Q;
     wide_log2(U_2 * inv_U, c->Q + Q_FLOOR, &ln_U, &ln_Q);
-    const wide f_a = mixed ? traction_asperity_share(traction_ln_film(wide_set(race->ln_Lambda), ln_U, ln_Q)) : wide_set(0.0);
+    const wide f_a = mixed ? traction_asperity_share(traction_ln_film(wide_set(race->ln_Lambda), ln_U, ln_Q))
+                           : wide_set(0.0);
     const wide F_R = traction_inlet(wide_set(race->rolling), ln_U, c->Q, ln_Q);
     const vec rolling = vec_scale(F_R * inv_U, c->roll);
 
-    Tangential out = sliced ? sliced_traction(p, race, c, inv_U, f_a, mixed) : point_traction(p, c, inv_U, f_a, mixed);
+    Tangential out =
+        sliced ? sliced_traction(p, race, c, inv_U, f_a, mixed) : point_traction(p, c, inv_U, f_a, mixed);
     out.F_s = vec_sub(out.F_s, rolling);
     out.M = vec_sub(out.M, vec_cross(vec_scale(c->R, c->n), rolling));
     out.F_c = vec_scale(wide_set(race->horizontal), rolling);
@@ -151,7 +173,9 @@ INLINE Tangential race_traction(const Model *model, const Race *race, const Cont
     return out;
 }
 
-INLINE void store_contacts(Work *w, int j, const Contact *inner, const Contact *outer, const Tangential *T_i, const Tangential *T_e)
+// Contact results that other elements and outputs read.
+INLINE void store_contacts(Work *w, int j, const Contact *inner, const Contact *outer, const Tangential *T_i,
+                           const Tangential *T_e)
 {
     wide_store(&w->delta_i[j], inner->delta);
     wide_store(&w->delta_e[j], outer->delta);
@@ -169,40 +193,51 @@ INLINE void store_contacts(Work *w, int j, const Contact *inner, const Contact *
     wide_store(&w->dissipated[j], T_i->dissipated + T_e->dissipated + inner->dissipated + outer->dissipated);
 }
 
-INLINE void race_contact_bundle(const Model *model, Work *w, int j, bool mixed, bool sliced)
+// Both race contacts of a packet of balls.
+INLINE void race_contact_packet(const Model *model, Work *w, int j, bool mixed, bool sliced)
 {
     const Derived *d = model->d;
-    const wide cos_theta = wide_load(&w->cos_theta[j]), sin_theta = wide_load(&w->sin_theta[j]), minus = wide_set(-1.0);
+    const wide cos_theta = wide_load(&w->cos_theta[j]), sin_theta = wide_load(&w->sin_theta[j]);
+    const wide minus = wide_set(-1.0);
     const BallMotion ball = {.x = {wide_load(&w->x[j]), wide_load(&w->r[j]), wide_set(0.0)},
                              .v = vec_load(&w->v_x[j], &w->v_r[j], &w->v_t[j]),
                              .omega = vec_load(&w->omega_x[j], &w->omega_r[j], &w->omega_t[j]),
                              .omega_m = wide_load(&w->omega_m[j]),
                              .R = wide_load(&d->R[j])};
     const vec p_i = vec_sub(ball.x, vec_local(w->ring.x, cos_theta, sin_theta));
-    const Contact inner = inner_contact(model, &ball, p_i, vec_local(w->ring.a, cos_theta, sin_theta), vec_local(w->ring.v, cos_theta, sin_theta),
+    const Contact inner = inner_contact(model, &ball, p_i, vec_local(w->ring.a, cos_theta, sin_theta),
+                                        vec_local(w->ring.v, cos_theta, sin_theta),
                                         vec_local(w->ring.Omega, cos_theta, sin_theta));
     const Contact outer = outer_contact(model, &ball);
-    const Tangential T_i = race_traction(model, &d->inner, &inner, mixed, sliced), T_e = race_traction(model, &d->outer, &outer, mixed, sliced);
+    const Tangential T_i = race_traction(model, &d->inner, &inner, mixed, sliced);
+    const Tangential T_e = race_traction(model, &d->outer, &outer, mixed, sliced);
     store_contacts(w, j, &inner, &outer, &T_i, &T_e);
 
-    const vec none = {0}, F_i = vec_axpy(-inner.Q, inner.n, vec_add(T_i.F_s, T_i.F_c)), F_e = vec_axpy(-outer.Q, outer.n, vec_add(T_e.F_s, T_e.F_c));
+    // forces and moments on the balls, cleared rates of the pockets, wrench on the ring about its centre
+    const vec none = {0};
+    const vec F_i = vec_axpy(-inner.Q, inner.n, vec_add(T_i.F_s, T_i.F_c));
+    const vec F_e = vec_axpy(-outer.Q, outer.n, vec_add(T_e.F_s, T_e.F_c));
     const vec M_ring = vec_sub(vec_scale(minus, vec_cross(p_i, F_i)), T_i.M);
     vec_store(vec_add(F_i, F_e), &w->F_x[j], &w->F_r[j], &w->F_t[j]);
     vec_store(vec_add(T_i.M, T_e.M), &w->M_x[j], &w->M_r[j], &w->M_t[j]);
     vec_store(none, &w->D_x[j], &w->D_r[j], &w->D_t[j]);
     vec_store(none, &w->D_omega_x[j], &w->D_omega_r[j], &w->D_omega_t[j]);
-    vec_to_global(vec_scale(minus, F_i), cos_theta, sin_theta, &w->ring_F_x[j], &w->ring_F_y[j], &w->ring_F_z[j]);
+    vec_to_global(vec_scale(minus, F_i), cos_theta, sin_theta, &w->ring_F_x[j], &w->ring_F_y[j],
+                  &w->ring_F_z[j]);
     vec_to_global(M_ring, cos_theta, sin_theta, &w->ring_M_x[j], &w->ring_M_y[j], &w->ring_M_z[j]);
 }
 
 void race_contact_force(const Model *model, Work *w)
 {
-    const bool mixed = model->p->scene.lubrication == LUBRICATION_MIXED, sliced = model->p->scene.traction == TRACTION_SLICED;
+    const bool mixed = model->p->scene.lubrication == LUBRICATION_MIXED;
+    const bool sliced = model->p->scene.traction == TRACTION_SLICED;
     for (int b = 0; b < PACKETS; b++) {
         const int j = b * LANE_WIDTH;
         if (sliced)
-            mixed ? race_contact_bundle(model, w, j, true, true) : race_contact_bundle(model, w, j, false, true);
+            mixed ? race_contact_packet(model, w, j, true, true)
+                  : race_contact_packet(model, w, j, false, true);
         else
-            mixed ? race_contact_bundle(model, w, j, true, false) : race_contact_bundle(model, w, j, false, false);
+            mixed ? race_contact_packet(model, w, j, true, false)
+                  : race_contact_packet(model, w, j, false, false);
     }
 }

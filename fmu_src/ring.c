@@ -4,9 +4,9 @@
 //   tilt: prescribed  beta'' = (beta_shaft - beta)/tau^2 - 2 beta'/tau, gamma likewise: critically damped
 //         supported   M = k_tilt (shaft - ring) - c_tilt rates + shaft.M
 //         free        M = shaft.M only
-//         both with the gyroscopic moment of the spin (rotor.h)
+//         supported and free include the gyroscopic moment of the spin (rotor.h)
 //
-// The vectors of force are in the global frame.
+// Forces and moments are in the global frame.
 #include "ring.h"
 
 #include "rotor.h"
@@ -17,11 +17,17 @@ void ring_acceleration(const Model *model, const Work *w, scalar *y_dot)
     const RingLoad *ring_load = model->ring_load;
     const Rotor *ring = &w->ring;
     const double gravity[3] = {0.0, p->gravity.y, p->gravity.z};
-    const scalar beta = -ring->a[2], gamma = ring->a[1], beta_dot = -ring->a_dot[2], gamma_dot = ring->a_dot[1];
+    const scalar beta = -ring->a[2], gamma = ring->a[1];
+    const scalar beta_dot = -ring->a_dot[2], gamma_dot = ring->a_dot[1];
+
+    // translation
     for (int i = 0; i < 3; i++) {
         y_dot[Y_RING_X + i] = ring->v[i];
-        y_dot[Y_RING_V_X + i] = (ring_load->F[i] + ring->F[i] - p->ring.c * ring->v[i]) / p->ring.m + gravity[i];
+        y_dot[Y_RING_V_X + i] =
+            (ring_load->F[i] + ring->F[i] - p->ring.c * ring->v[i]) / p->ring.m + gravity[i];
     }
+
+    // tilt
     y_dot[Y_RING_BETA] = beta_dot;
     y_dot[Y_RING_GAMMA] = gamma_dot;
     if (p->ring.tilt_mode == TILT_MODE_PRESCRIBED) {
@@ -30,12 +36,13 @@ void ring_acceleration(const Model *model, const Work *w, scalar *y_dot)
         y_dot[Y_RING_GAMMA_DOT] = ((ring_load->gamma - gamma) * rate - 2.0 * gamma_dot) * rate;
         return;
     }
-    scalar M[3] = {ring->M[0], ring->M[1] + ring_load->M[0], ring->M[2] + ring_load->M[1]}, a_ddot[3], s_dot;
+    scalar M[3] = {ring->M[0], ring->M[1] + ring_load->M[0], ring->M[2] + ring_load->M[1]};
+    scalar a_ddot[3], s_dot;  // s_dot is not used: the speed is given
     if (p->ring.tilt_mode == TILT_MODE_SUPPORTED) {
         M[1] += p->ring.k_tilt * (ring_load->beta - beta) - p->ring.c_tilt * beta_dot;
         M[2] += p->ring.k_tilt * (ring_load->gamma - gamma) - p->ring.c_tilt * gamma_dot;
     }
-    rotor_acceleration(ring, p->ring.J_p, p->ring.J_t, M, a_ddot, &s_dot);  // s_dot: the drive holds the speed
+    rotor_acceleration(ring, p->ring.J_p, p->ring.J_t, M, a_ddot, &s_dot);
     y_dot[Y_RING_BETA_DOT] = -a_ddot[2];
     y_dot[Y_RING_GAMMA_DOT] = a_ddot[1];
 }

@@ -1,7 +1,5 @@
-// InputTrajectory of the inputs from point to point, built-in pulses.  Equations in ring_load.h.
+// Trajectory of the inputs over a communication step, and the built-in pulses.  Equations in ring_load.h.
 #include "ring_load.h"
-
-static const double PI = 3.14159265358979323846;
 
 static double pulse_start(const Parameters *p, int n)
 {
@@ -14,7 +12,7 @@ static int pulse_index(const Parameters *p, double t)
     if (p->pulse.count == 0 || t < p->pulse.t_start) return -1;
     const double n = floor((t - p->pulse.t_start) / p->pulse.interval);
     int i = n < p->pulse.count ? (int)n : p->pulse.count - 1;
-    while (i + 1 < p->pulse.count && pulse_start(p, i + 1) <= t) i++;  // the division may round either way
+    while (i + 1 < p->pulse.count && pulse_start(p, i + 1) <= t) i++;  // the division may round up or down
     while (i > 0 && pulse_start(p, i) > t) i--;
     return i;
 }
@@ -27,7 +25,8 @@ double pulse_next_edge(const Parameters *p, double t)
     return i + 1 < p->pulse.count ? pulse_start(p, i + 1) : INFINITY;
 }
 
-void input_trajectory_update(const Parameters *p, const Inputs u[INPUT_ORDERS + 1], double t_0, double t, InputTrajectory *trajectory)
+void input_trajectory_update(const Parameters *p, const Inputs u[INPUT_ORDERS + 1], double t_0, double t,
+                             InputTrajectory *trajectory)
 {
     const int i = pulse_index(p, t);
     const bool active = i >= 0 && t < pulse_start(p, i) + p->pulse.duration;

@@ -1,27 +1,30 @@
-// The inputs as the ring sees them.
+// The inputs over a communication step, and the load and motion that they impose on the ring at one time.
 //
 //   inputs:  u(t) = u_0 + u_0' (t - t_0) + u_0'' (t - t_0)^2/2 from the communication point t_0 on
-//   pulses:  F_r sin(pi (t - t_n)/duration) along the radial load (+Y without one) and F_a along +X, t_n = t_start + n interval
+//   pulses:  F_r sin(pi (t - t_n)/duration) along the radial load (+Y without one) and F_a along +X,
+//            t_n = t_start + n interval
 //
-// The vectors of force are in the global frame.  Shaft tilt is a rotation about (0, tilt_y, tilt_z): a = (cos, tilt_z sinc, -tilt_y sinc).
+// Forces and moments are in the global frame.  Shaft tilt is a rotation about (0, tilt_y, tilt_z): a = (cos,
+// tilt_z sinc, -tilt_y sinc).
 #pragma once
 
 #include "elementary.h"
 #include "model.h"
 
-// The course of the inputs u (value and derivatives at t_0) from time t up to the next edge of a pulse.
-void input_trajectory_update(const Parameters *p, const Inputs u[INPUT_ORDERS + 1], double t_0, double t, InputTrajectory *trajectory);
+// The trajectory of the inputs u (values and derivatives at t_0) from time t up to the next edge of a pulse.
+void input_trajectory_update(const Parameters *p, const Inputs u[INPUT_ORDERS + 1], double t_0, double t,
+                             InputTrajectory *trajectory);
 
-// Whether the drive changes along it.
+// Whether load or motion changes along the trajectory.
 bool input_trajectory_varies(const InputTrajectory *trajectory);
 
 // Inputs and their rates at time t.
 void input_trajectory_rates_at(const InputTrajectory *trajectory, double t, Inputs *u, Inputs *u_dot);
 
-// The drive at time t, inputs u held.
+// The load at time t under inputs u that are held.
 void ring_load_update(const Parameters *p, const Inputs *u, double t, RingLoad *ring_load);
 
-// First edge of the built-in pulses later than t (infinite if none).
+// Next start or end of a built-in pulse after t, infinity after the last one.
 double pulse_next_edge(const Parameters *p, double t);
 
 // Angles of the rotation with the direction cosines beta, gamma.
@@ -40,15 +43,16 @@ INLINE scalar scalar_sin(scalar x)
     return wide_lane(sine, 0);
 }
 
-// Taylor's polynomial of every input.
+// The inputs at time t: Taylor's polynomial of each.
 INLINE void input_trajectory_at(const InputTrajectory *trajectory, scalar t, Inputs *u)
 {
     const scalar tau = t - trajectory->t_0;
-    const scalar *u_0 = (const scalar *)&trajectory->u[0], *u_1 = (const scalar *)&trajectory->u[1], *u_2 = (const scalar *)&trajectory->u[2];
+    const scalar *u_0 = (const scalar *)&trajectory->u[0], *u_1 = (const scalar *)&trajectory->u[1];
+    const scalar *u_2 = (const scalar *)&trajectory->u[2];
     for (int i = 0; i < N_INPUTS; i++) ((scalar *)u)[i] = u_0[i] + tau * (u_1[i] + 0.5 * tau * u_2[i]);
 }
 
-// The drive at time t.
+// The load at time t.
 INLINE void ring_load_at(const InputTrajectory *trajectory, scalar t, RingLoad *ring_load)
 {
     Inputs u;

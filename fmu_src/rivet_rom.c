@@ -1,88 +1,66 @@
 // Rivet stress from the reduced model: see rivet_rom.h for the equations.
+//
+// The points of the loads in the table are computed for a packet of rivets at once.  Then the splines of each
+// rivet are summed for a pair of channels and two sheets side by side.
 #include "rivet_rom.h"
 
 #include "rivet_splines.h"
 
-#include <math.h>
+typedef struct {
+    ball_array u[RIVET_AXES];  // a, b, c, xi
+    ball_array s;              // P + N + V + |M|/L [N]
+    ball_array first[2];       // weight of the first of two sheets in head and middle
+    ball_array two_chi;        // 2 chi
+} TablePoints;
 
-// The point of a load in the table: see the head of rivet_rom.h.
-static TablePoint table_point(const RivetTable *t, const RivetLoad *load, double fit_eff)
+// part/whole; 0 where whole is so small that 1/whole is not finite.
+INLINE wide ratio(wide part, wide whole)
 {
-    scalar P = scalar_max(load->P, 0.0), N = scalar_max(load->N, 0.0);
-    scalar V = scalar_sqrt(load->V_y * load->V_y + load->V_z * load->V_z), M = scalar_sqrt(load->M_y * load->M_y + load->M_z * load->M_z);
-    scalar axial = P + N, force = axial + V, moment = M / t->moment_length, s = force + moment, VM = V * M;
-    scalar across = load->V_y * load->M_z - load->V_z * load->M_y;
-    TablePoint point;
-    scalar w = scalar_value(VM) > 0.0 ? 2.0 * scalar_min(scalar_max(across, -across) / VM, 1.0) : 0.0;
-    point.sheet = scalar_value(w) >= 1.0 ? RIVET_PLANE : RIVET_OBLIQUE;
-    if (point.sheet == RIVET_PLANE) w -= 1.0;
-    point.first[0] = w;
-    point.first[1] = point.sheet == RIVET_PLANE ? w : w * scalar_sqrt(w);
-    const scalar a = scalar_value(force) > 0.0 ? V / force : 0.0, b = scalar_value(axial) > 0.0 ? N / axial : 0.0;
-    const scalar c = scalar_value(s) > 0.0 ? moment / s : 0.0, xi = scalar_value(s) > 0.0 ? fit_eff / s : 0.0;
-    point.at[RIVET_A] = axis_splines(&t->axis[RIVET_A], a);
-    point.at[RIVET_B] = axis_splines(&t->axis[RIVET_B], b);
-    point.at[RIVET_C] = axis_splines(&t->axis[RIVET_C], c);
-    point.at[RIVET_XI] = axis_splines_xi(&t->axis[RIVET_XI], xi, s, fit_eff);
-    return point;
+    return wide_select(wide_above(whole, 1e-300), part / whole, wide_set(0.0));
 }
 
-unsigned rivet_rom_stress(const RivetTable *t, const RivetLoad *load, double fit_eff, scalar sigma[RIVET_CHANNELS])
+// Points of the loads of all rivets in the table.
+static void find_points(const RivetTable *t, const RivetLoads *load, double fit_eff, TablePoints *points)
 {
-    TablePoint point = table_point(t, load, fit_eff);
-    scalar primary[2], secondary[2];
-    contract(t, t->primary, &point, primary);
-    contract(t, t->secondary, &point, secondary);
-    sigma[HEAD_P1] = primary[0] + t->head_friction * load->F_head;
-    sigma[MID_VM] = primary[1];
-    sigma[HEAD_VM] = secondary[0] + t->head_friction_vm * load->F_head;
-    sigma[MID_P1] = secondary[1];
-
-    unsigned flags = 0;
-    if (fmax(scalar_value(sigma[HEAD_VM]), scalar_value(sigma[MID_VM])) > t->yield_rivet) flags |= RIVET_YIELDS;
-    if (scalar_value(load->N) < 0.0) flags |= JOINT_COMPRESSED;
-    if (!isfinite(scalar_value(sigma[HEAD_P1]))) flags |= RIVET_OUTSIDE;
-    return flags;
+    const wide zero = wide_set(0.0), one = wide_set(1.0), inv_length = wide_set(1.0 / t->moment_length);
+    for (int j = 0; j < PACKETS * LANE_WIDTH; j += LANE_WIDTH) {
+        const wide v_y = wide_load(&load->V_y[j]), v_z = wide_load(&load->V_z[j]);
+        const wide m_y = wide_load(&load->M_y[j]), m_z = wide_load(&load->M_z[j]);
+        const wide p = wide_max(wide_load(&load->P[j]), zero), n = wide_max(wide_load(&load->N[j]), zero);
+        const wide V = wide_sqrt(v_y * v_y + v_z * v_z), M = wide_sqrt(m_y * m_y + m_z * m_z);
+        const wide axial = p + n, force = axial + V, moment = M * inv_length, s = force + moment;
+        const wide inv_s = ratio(one, s), across = v_y * m_z - v_z * m_y;
+        const wide w = 2.0 * wide_min(ratio(wide_max(across, -across), V * M), one);
+        const bits plane = wide_above(w, 1.0);
+        wide_store(&points->u[RIVET_A][j], ratio(V, force));
+        wide_store(&points->u[RIVET_B][j], ratio(n, axial));
+        wide_store(&points->u[RIVET_C][j], moment * inv_s);
+        wide_store(&points->u[RIVET_XI][j], fit_eff * inv_s);
+        wide_store(&points->s[j], s);
+        wide_store(&points->first[0][j], wide_select(plane, w - 1.0, w));
+        wide_store(&points->first[1][j], wide_select(plane, w - 1.0, w * wide_sqrt(w)));
+        wide_store(&points->two_chi[j], w);
+    }
 }
 
-unsigned rivet_rom_fit_flags(const RivetTable *t, double fit_a)
+void rivet_rom_stress(const RivetTable *t, const RivetLoads *load, double fit_eff, bool all,
+                      scalar sigma[RIVET_CHANNELS][Z])
 {
-    unsigned flags = 0;
-    if (fit_a > t->fit_flange_yield) flags |= FLANGE_YIELDS;
-    if (fit_a > t->j2.fit_a[t->j2.count - 1]) flags |= RIVET_OUTSIDE;
-    return flags;
-}
-
-double rivet_rom_fit_eff(const RivetTable *t, double fit_a, bool j2)
-{
-    const FitMap *map = &t->j2;
-    int last = map->count - 1;
-    if (!j2 || fit_a <= map->fit_a[0]) return fit_a;
-    if (fit_a >= map->fit_a[last]) return map->fit_eff[last] + map->slope[last] * (fit_a - map->fit_a[last]);
-    int i = 0;
-    while (fit_a >= map->fit_a[i + 1]) i++;
-    double h = map->fit_a[i + 1] - map->fit_a[i], u = (fit_a - map->fit_a[i]) / h, v = 1.0 - u;
-    return map->fit_eff[i] * v * v * (1.0 + 2.0 * u) + map->fit_eff[i + 1] * u * u * (1.0 + 2.0 * v) + h * u * v * (map->slope[i] * v - map->slope[i + 1] * u);
-}
-
-// The flanges outgrow the rivet: k_stack (alpha_flange - alpha_rivet) grip per kelvin.
-double joint_preload(const JointData *j, double preload, double T)
-{
-    return fmax(0.0, preload + j->k_stack * (j->alpha_flange - j->alpha_rivet) * j->grip * (T - j->T_0));
-}
-
-double joint_fit(const JointData *j, double fit, double T)
-{
-    return fit - (j->alpha_flange - j->alpha_rivet) * j->d * (T - j->T_0);
-}
-
-double joint_hole_stiffness(const JointData *j, double fit_a)
-{
-    int last = j->hole_count - 1;
-    if (fit_a <= j->hole_fit[0]) return j->k_hole[0];
-    if (fit_a >= j->hole_fit[last]) return j->k_hole[last];
-    int i = 0;
-    while (fit_a >= j->hole_fit[i + 1]) i++;
-    double u = (fit_a - j->hole_fit[i]) / (j->hole_fit[i + 1] - j->hole_fit[i]);
-    return j->k_hole[i] + u * (j->k_hole[i + 1] - j->k_hole[i]);
+    TablePoints points;
+    find_points(t, load, fit_eff, &points);
+    for (int k = 0; k < Z; k++) {
+        TablePoint point;  // no initialiser: it would clear the whole struct first
+        point.sheet = scalar_value(points.two_chi[k]) > 1.0 ? RIVET_PLANE : RIVET_OBLIQUE;
+        for (int i = 0; i < 2; i++) point.first[i] = points.first[i][k];
+        for (int i = RIVET_A; i <= RIVET_C; i++) point.at[i] = axis_splines(&t->axis[i], points.u[i][k]);
+        point.at[RIVET_XI] = axis_splines_xi(&t->axis[RIVET_XI], points.u[RIVET_XI][k], points.s[k], fit_eff);
+        scalar pair[2];
+        contract(t, t->primary, &point, pair);
+        sigma[HEAD_P1][k] = pair[0] + t->head_friction * load->F_head[k];
+        sigma[MID_VM][k] = pair[1];
+        if (!all) continue;
+        contract(t, t->secondary, &point, pair);
+        sigma[HEAD_VM][k] = pair[0] + t->head_friction_vm * load->F_head[k];
+        sigma[MID_P1][k] = pair[1];
+    }
 }

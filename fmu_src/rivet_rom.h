@@ -1,4 +1,5 @@
-// Rivet stress and joint data from the reduced rivet model: one table, read here and in bearing_model/rivet_rom.py.
+// Rivet stress and joint data from the table of the reduced rivet model; bearing_model/rivet_rom.py reads the
+// same table.
 //
 //      N ^  | M        +x half: force V, moment M, pull N from outside,
 //     ___|__|_____     -x half: the opposite
@@ -7,58 +8,55 @@
 //    |-- | -------|    split plane, x = 0, where V and M are taken
 //    |___|________|
 //
-// The frictionless joint (elastic bodies, unilateral contacts, gaps proportional to the fit) answers homogeneously of degree 1 in
-// (P, N, V, M, fit), so one argument divides out:
+// The stress of a frictionless joint (elastic bodies, unilateral contacts, gaps proportional to the fit) is
+// homogeneous of degree 1 in (P, N, V, M, fit), so that one argument divides out:
 //
-//     sigma = s (w T_i(a, b, c, xi) + (1 - w) T_(i+1)(a, b, c, xi)),      s = P + N + V + |M|/L,   L = moment_length of the table
+//     sigma = s (w T_i(a, b, c, xi) + (1 - w) T_(i+1)(a, b, c, xi)),   s = P + N + V + |M|/L,   L = moment_length
 //     a = V/(P + N + V),  b = N/(P + N),  c = |M|/(L s),  xi = fit_eff/s
 //     chi = |V_y M_z - V_z M_y|/(V |M|): 1 if M bends in the plane of V, 0 if across it
-//     i: sheets T of chi = 1 (plane), 1/2 (oblique), 0 (across), the two around chi;  w = 2 chi - 1 above 1/2, below it 2 chi in the head,
-//     (2 chi)^1.5 in the middle: the measured rule between the sheets, within 0.4 % and 1.3 % of the largest clearance stress
+//     T_i, T_(i+1): the two sheets around chi, of those for chi = 1 (plane), 1/2 (oblique) and 0 (across)
+//     w = 2 chi - 1 above chi = 1/2;  below it 2 chi in the head and (2 chi)^1.5 in the middle
 //
-// The channels are the largest stress over both heads and all angles.  A half turn and the mirror of the halves change the sign of M against
-// V, so the sign only says which head carries more, and the channel does not depend on it.
-// a, b, c lie in [0, 1] for every load, so no load lies outside the table.  xi: constant below its axis (contact in the hole is
-// saturated: the size of the gap no longer matters), linear above (every contact of the hole closed).  T is a tensor product of
-// quadratic B-splines, C1 in each argument; sigma is C0 where V, N + P or M passes through 0
-// and where chi passes through 0 or 1/2.  Head friction adds head_friction F_head to
-// the head channels and nothing in the middle.
+// The rule between the sheets was found by finite elements and is within 0.4 % (head) and 1.3 % (middle) of
+// the largest stress in clearance.
+//
+// The channels are the largest stress over both heads and all angles.  A half turn and the mirror of the
+// halves change the sign of M against V: the sign decides which head carries more, and the channels do not
+// depend on it.
+//
+// a, b, c lie in [0, 1] for every load, so that no load lies outside the table.  Below the axis of xi the
+// stress does not depend on xi (the gap is so large that its size does not matter any more); above it the
+// stress is linear in xi (every contact of the hole is closed).  T is a tensor product of quadratic
+// B-splines, C1 in each argument; sigma is C0 where V, N + P or M passes through 0 and where chi passes
+// through 0 or 1/2.  Head friction adds head_friction F_head to the head channels and nothing in the middle.
 #pragma once
 
-#include "lanes.h"
+#include "isa.h"
 
-#include <stdbool.h>
-
-// Loads of one rivet [N, N.m]; y, z: two perpendicular directions in the plane of the joint, x, y, z right-handed.
+// Loads of all rivets [N, N.m]; y, z: two perpendicular directions in the plane of the joint, x, y, z
+// right-handed.
 typedef struct {
-    scalar P;         // preload
-    scalar N;         // external tension of the joint, before preload shielding; negative (compression) counts as 0
-    scalar V_y, V_z;  // transverse load that the rivet carries, on the +x half
-    scalar M_y, M_z;  // prying moment about the rivet's place in the split plane, on the +x half
-    scalar F_head;    // modulus of the friction force at the heads
-} RivetLoad;
-
-// The loads of all rivets side by side.
-typedef struct {
-    ball_array P, N, V_y, V_z, M_y, M_z, F_head;
-    ball_array V;  // modulus of the joint's whole transverse load, of which the rivet carries V_y, V_z [N]
+    ball_array P;         // preload
+    ball_array N;         // external tension of the joint before preload shielding; compression counts as 0
+    ball_array V_y, V_z;  // transverse load that the rivet carries, on the +x half
+    ball_array M_y, M_z;  // prying moment about the rivet's position in the split plane, on the +x half
+    ball_array F_head;    // modulus of the friction force at the heads
+    ball_array V;         // modulus of the joint's whole transverse load, of which the rivet carries V_y, V_z
 } RivetLoads;
 
-INLINE RivetLoad rivet_load_of(const RivetLoads *all, int k)
-{
-    return (RivetLoad){all->P[k], all->N[k], all->V_y[k], all->V_z[k], all->M_y[k], all->M_z[k], all->F_head[k]};
-}
-
-enum { HEAD_P1, HEAD_VM, MID_VM, MID_P1, RIVET_CHANNELS };  // largest principal (P1) and von Mises (VM) stress in head fillet and middle
+// Channels: largest principal (P1) and von Mises (VM) stress in the head fillet and in the middle of the
+// shank.
+enum { HEAD_P1, HEAD_VM, MID_VM, MID_P1, RIVET_CHANNELS };
 
 enum {
     RIVET_YIELDS = 1,      // a von Mises channel exceeds the rivet's yield stress
     FLANGE_YIELDS = 2,     // the fit exceeds the one at which the flange begins to yield
-    JOINT_COMPRESSED = 4,  // N < 0 counted as 0
+    JOINT_COMPRESSED = 4,  // N < 0, which counts as 0
     RIVET_OUTSIDE = 8      // the fit exceeds the largest one of fit_eff's map, or a load is not finite
 };
 
 enum { RIVET_A, RIVET_B, RIVET_C, RIVET_XI, RIVET_AXES };
+
 enum { RIVET_PLANE, RIVET_OBLIQUE, RIVET_ACROSS, RIVET_SHEETS };
 
 // One cell between knots t_i and t_(i+1), with the constants of its three splines
@@ -67,13 +65,15 @@ typedef struct {
     double start, end, rise, fall;
 } RivetCell;
 
-// One axis with clamped knots: `cells` cells, `cells` + 2 coefficients.  In RIVET_BINS equal bins: the cell in which each begins.
+// One axis with clamped knots: `cells` cells, `cells` + 2 coefficients.  For a quick search the axis is
+// divided into RIVET_BINS equal bins, and `bin` holds the cell in which each of these begins.
 enum { RIVET_BINS = 256 };
+
 typedef struct {
     int cells;
     double start, end, inv_bin;  // inv_bin = RIVET_BINS/(end - start)
     const RivetCell *cell;
-    const unsigned char *bin;  // RIVET_BINS + 1
+    const unsigned char *bin;  // [RIVET_BINS + 1]
 } RivetAxis;
 
 // Monotone map fit_a -> fit_eff: piecewise cubic Hermite with given slopes, continued linearly.
@@ -88,9 +88,9 @@ typedef struct {
     double d_m;           // diameter of the circle of rivets [m]
     double grip;          // clamped length [m]
     double k_rivet;       // axial stiffness of the open joint: rivet, heads and flanges in series [N/m]
-    double k_plate;       // what the closed split plane adds to it [N/m]
+    double k_plate;       // axial stiffness that the closed split plane adds [N/m]
     double k_t_plate;     // tangential stiffness of the split plane before it slips [N/m]
-    double k_t_head;      // of the two heads in series, through the rivet [N/m]
+    double k_t_head;      // tangential stiffness of the two heads in series, through the rivet [N/m]
     double k_stack;       // preload per change of length of the rivet against the flanges [N/m]
     double alpha_rivet;   // thermal expansion [1/K]
     double alpha_flange;  // [1/K]
@@ -98,39 +98,57 @@ typedef struct {
     double T_0;           // temperature at which preload and fit are given [K]
     double prying_lever;  // moment at which the joint opens per clamp force P - N [m]
     double prying_share;  // part of a further moment that the open joint still takes, 0...1
-    int hole_count;       // hole contact: tangent stiffness k_hole [N/m] of both holes in series over fit_a [m]
+    // hole contact: tangent stiffness k_hole [N/m] of both holes in series at hole_count fits [m]
+    int hole_count;
     const double *hole_fit, *k_hole;
 } JointData;
 
 typedef struct {
-    const char *kind;           // "closed_form" or "fe"
+    int kind;                   // 1 finite elements, 2 coarse finite elements, 3 closed forms
     const char *geometry_hash;  // of the rivet, flanges and cage that it was computed for
-    const char *digest;         // of this table (SHA-256): its numbers decide over results
+    const char *digest;         // SHA-256 of this table
     int Z;
     double moment_length;  // L [m]
     RivetAxis axis[RIVET_AXES];
     const float *primary;     // spline coefficients [a][b][c][xi][sheet][HEAD_P1, MID_VM], in 1/m2
-    const float *secondary;   // the same of [HEAD_VM, MID_P1], which only outputs ask for
+    const float *secondary;   // the same of [HEAD_VM, MID_P1], which only outputs need
     double head_friction;     // [1/m2]
     double head_friction_vm;  // [1/m2]
     double yield_rivet;       // [Pa]
     double fit_flange_yield;  // fit at which the flange begins to yield [m]
     FitMap j2;                // interference with plasticity
     JointData joint;
-    const double *load_path;  // see load_path_flexible
+    const double *load_path;  // matrix of load_path_flexible
 } RivetTable;
 
 extern const RivetTable rivet_table;  // rivet_table.c, written by rivet_model/embed.py
 
-// Effective fit [m]: fit_a itself, or with j2 the elastic fit that leaves the pressure of the yielded flange.
+// Effective fit [m]: fit_a itself, or with j2 the elastic fit that gives the same pressure as the yielded
+// flange.
 double rivet_rom_fit_eff(const RivetTable *t, double fit_a, bool j2);
 
-// Flags of the fit alone.
+// Flags that follow from the fit alone: FLANGE_YIELDS, RIVET_OUTSIDE.
 unsigned rivet_rom_fit_flags(const RivetTable *t, double fit_a);
 
-// All channels sigma [Pa]; returns the load's flags.  Never NaN for finite loads.
-unsigned rivet_rom_stress(const RivetTable *t, const RivetLoad *load, double fit_eff, scalar sigma[RIVET_CHANNELS]);
+// Sets the channels sigma of all rivets [Pa]: HEAD_P1 and MID_VM, and with `all` the other two as well.
+// Finite loads give finite stresses.
+typedef void RivetRomStress(const RivetTable *t, const RivetLoads *load, double fit_eff, bool all,
+                            scalar sigma[RIVET_CHANNELS][Z]);
+RivetRomStress rivet_rom_stress;
 
-double joint_preload(const JointData *j, double preload, double T);  // preload at temperature T [N], not below 0
-double joint_fit(const JointData *j, double fit, double T);          // fit at temperature T [m]
-double joint_hole_stiffness(const JointData *j, double fit_a);       // [N/m], constant outside its table
+// Flags that follow from the load of rivet k and its channels sigma.
+INLINE unsigned rivet_rom_load_flags(const RivetTable *t, const RivetLoads *load,
+                                     scalar sigma[RIVET_CHANNELS][Z], int k)
+{
+    const double head = scalar_value(sigma[HEAD_VM][k]), mid = scalar_value(sigma[MID_VM][k]);
+    unsigned flags = 0;
+    if (head > t->yield_rivet || mid > t->yield_rivet) flags |= RIVET_YIELDS;
+    if (scalar_value(load->N[k]) < 0.0) flags |= JOINT_COMPRESSED;
+    if (!isfinite(scalar_value(sigma[HEAD_P1][k]))) flags |= RIVET_OUTSIDE;
+    return flags;
+}
+
+// Preload [N], not below 0, and fit [m] at temperature T; hole stiffness [N/m], constant outside its table.
+double joint_preload(const JointData *j, double preload, double T);
+double joint_fit(const JointData *j, double fit, double T);
+double joint_hole_stiffness(const JointData *j, double fit_a);

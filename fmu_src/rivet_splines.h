@@ -3,22 +3,24 @@
 
 #include "rivet_rom.h"
 
-// Active splines of one axis: index of the first coefficient, their weights, and how many there are: one at the axis' start, where idle loads are.
+// Splines of one axis that are not 0 at a point: index of the first coefficient, number of splines, their
+// weights.  At the axis' start, where idle loads are, there is only one.
 typedef struct {
     int first, count;
     scalar w[3];
 } Splines;
 
-// Cell of u: the one in which its bin begins, or one of the next few.
+// Cell of u: the cell in which the bin of u begins, or one of the next few.
 INLINE const RivetCell *axis_cell(const RivetAxis *axis, double u)
 {
-    const double bin = scalar_min(scalar_max((u - axis->start) * axis->inv_bin, 0.0), RIVET_BINS);  // 0 of NaN
+    const double bin =
+        scalar_min(scalar_max((u - axis->start) * axis->inv_bin, 0.0), RIVET_BINS);  // a NaN gives bin 0
     const RivetCell *cell = &axis->cell[axis->bin[(int)bin]], *last = &axis->cell[axis->cells - 1];
     while (u >= cell->end && cell < last) cell++;
     return cell;
 }
 
-// Quadratic B-splines (de Boor), u inside the axis.  Their sum is 1; C1 at the knots.
+// Quadratic B-splines (de Boor) at u inside the axis.  Their sum is 1, and they are C1 at the knots.
 INLINE Splines axis_splines(const RivetAxis *axis, scalar u)
 {
 #ifndef DUAL
@@ -33,12 +35,14 @@ INLINE Splines axis_splines(const RivetAxis *axis, scalar u)
     return s;
 }
 
-// s times the splines of xi = fit/s; outside the axis without xi, as s may vanish.
+// s times the splines of xi = fit/s.  Outside the axis they are computed without xi, because s may vanish
+// there.
 INLINE Splines axis_splines_xi(const RivetAxis *axis, scalar xi, scalar s, double fit)
 {
     if (fit <= scalar_value(s) * axis->start) return (Splines){.count = 3, .w = {s, 0.0, 0.0}};
     const scalar beyond = fit - s * axis->end;
-    if (scalar_value(beyond) >= 0.0) {  // end value and end slope, which is 2 h rise of the last spline
+    if (scalar_value(beyond) >=
+        0.0) {  // value and slope at the axis' end; the slope is 2 h rise of the last spline
         const RivetCell *last = &axis->cell[axis->cells - 1];
         const scalar w = 2.0 * (last->end - last->start) * last->rise * beyond;
         return (Splines){.first = axis->cells - 1, .count = 3, .w = {0.0, -w, s + w}};
@@ -51,29 +55,35 @@ INLINE Splines axis_splines_xi(const RivetAxis *axis, scalar xi, scalar s, doubl
 // The point of a load in the table; the splines of xi carry the factor s.
 typedef struct {
     Splines at[RIVET_AXES];
-    int sheet;        // the first of the two sheets around chi
-    scalar first[2];  // its weight in head and middle
+    int sheet;        // first of the two sheets around chi
+    scalar first[2];  // weight of this sheet in head and middle
 } TablePoint;
 
-// Tensor product over 3^4 coefficients of two sheets for a pair of channels.  Order of sums: c, b, a, xi, chi.
+// Stress of a pair of channels: tensor product of the splines over 3^4 coefficients of two sheets.  The sums
+// run over c, b, a, xi and chi in this order.
 #ifdef DUAL
 INLINE void contract(const RivetTable *t, const float *coefficients, const TablePoint *point, scalar sigma[2])
 {
-    const Splines *A = &point->at[RIVET_A], *B = &point->at[RIVET_B], *C = &point->at[RIVET_C], *X = &point->at[RIVET_XI];
-    int n_b = t->axis[RIVET_B].cells + 2, n_c = t->axis[RIVET_C].cells + 2, n_xi = t->axis[RIVET_XI].cells + 2;
+    const Splines *A = &point->at[RIVET_A], *B = &point->at[RIVET_B], *C = &point->at[RIVET_C],
+                  *X = &point->at[RIVET_XI];
+    int n_b = t->axis[RIVET_B].cells + 2, n_c = t->axis[RIVET_C].cells + 2;
+    int n_xi = t->axis[RIVET_XI].cells + 2;
     sigma[0] = sigma[1] = 0.0;
     for (int i = 0; i < 81; i++) {
         int a = i / 27, b = i / 9 % 3, c = i / 3 % 3, x = i % 3;
         int index = (((A->first + a) * n_b + B->first + b) * n_c + C->first + c) * n_xi + X->first + x;
         const float *T = coefficients + 2 * (RIVET_SHEETS * index + point->sheet);
         scalar weight = A->w[a] * B->w[b] * C->w[c] * X->w[x];
-        for (int k = 0; k < 2; k++) sigma[k] += weight * (point->first[k] * T[k] + (1.0 - point->first[k]) * T[2 + k]);
+        for (int k = 0; k < 2; k++)
+            sigma[k] += weight * (point->first[k] * T[k] + (1.0 - point->first[k]) * T[2 + k]);
     }
 }
 #else
-// Two channels of two neighbouring sheets side by side, as they lie in the table.  By pointer: values would want registers that the baseline has not.
+// Two channels of two neighbouring sheets side by side, as they lie in the table.  Functions take this type
+// by pointer: by value it would need AVX registers, which the baseline instruction set lacks.
 typedef double quad __attribute__((vector_size(32)));
 
+// Four coefficients as doubles.
 INLINE void fetch(const float *from, quad *to)
 {
 #if defined(__AVX__)
@@ -98,11 +108,15 @@ INLINE void add_part(double w, const quad *x, quad *sum)
 
 INLINE void contract(const RivetTable *t, const float *coefficients, const TablePoint *point, double sigma[2])
 {
-    const Splines *A = &point->at[RIVET_A], *B = &point->at[RIVET_B], *C = &point->at[RIVET_C], *X = &point->at[RIVET_XI];
-    const int n_b = t->axis[RIVET_B].cells + 2, n_c = t->axis[RIVET_C].cells + 2, n_xi = t->axis[RIVET_XI].cells + 2;
-    const int xi = 2 * RIVET_SHEETS, row = n_xi * xi;  // coefficients from one xi, one c to the next
+    const Splines *A = &point->at[RIVET_A], *B = &point->at[RIVET_B];
+    const Splines *C = &point->at[RIVET_C], *X = &point->at[RIVET_XI];
+    const int n_b = t->axis[RIVET_B].cells + 2, n_c = t->axis[RIVET_C].cells + 2;
+    const int n_xi = t->axis[RIVET_XI].cells + 2;
+    const int xi = 2 * RIVET_SHEETS, row = n_xi * xi;  // coefficients between neighbours in xi, in c
     const float *origin = coefficients + xi * X->first + 2 * point->sheet;
-    quad sum[3] = {{0}, {0}, {0}}, all = {0};  // by xi
+
+    // sums over c, b and a for each spline of xi
+    quad sum[3] = {{0}, {0}, {0}}, all = {0};
     for (int a = 0; a < A->count; a++) {
         quad sum_a[3] = {{0}, {0}, {0}};
         for (int b = 0; b < B->count; b++) {
@@ -119,6 +133,8 @@ INLINE void contract(const RivetTable *t, const float *coefficients, const Table
         }
         for (int x = 0; x < 3; x++) add_part(A->w[a], &sum_a[x], &sum[x]);
     }
+
+    // sums over xi and over the two sheets
     for (int x = 0; x < 3; x++) add_part(X->w[x], &sum[x], &all);
     const double *first = point->first;
     sigma[0] = first[0] * all[0] + (1.0 - first[0]) * all[2];

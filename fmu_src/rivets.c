@@ -1,37 +1,44 @@
 // Loads of the rivets.
 //
-//   two halves   N = T - N_plate; the shank carries the hole force B, the heads the friction H; plate friction S bypasses the rivet;
-//                the flexible cage half adds what a pocket force pries at the joints beside it (load_path.h)
-//   rigid cage   the wrench between the halves, (half 1 - half 0)/2 as both have the same inertia, on the circle of rivets; its transverse
-//                part loads plates (up to mu P), then heads (mu P), then the shank
+//   two halves   N = T - N_plate; the shank carries the hole force B, the heads the friction H; plate friction S
+//                bypasses the rivet; the flexible cage half adds the loads by which a pocket force pries the joints
+//                beside it open (load_path.h)
+//   rigid cage   the wrench between the halves, (half 1 - half 0)/2 as both have the same inertia, on the circle of
+//                rivets; its transverse part loads plates (up to mu P), then heads (mu P), then the shank
 //
-// The path's transverse part reaches the shank only in a hole without play: elsewhere a slip far below the play relieves it.  Its moment is
-// limited where it opens the joint.  Everything is in the body frame of half 0: rivets at angles 2 pi (k + 1/2)/Z.
+// The transverse part of the load path reaches the shank only in a hole without play: in a hole with play the
+// joint relieves this part by slipping, by much less than the play.  The prying moment is limited where it
+// opens the joint.  All loads are in the body frame of half 0; the rivets are at angles 2 pi (k + 1/2)/Z.
 #include "rivets.h"
 
 #include "load_path.h"
 #include "pocket.h"
 #include "rotor.h"
 
+// Length of the vector (y, z).
 INLINE wide modulus(wide y, wide z)
 {
     return wide_sqrt(y * y + z * z);
 }
 
+// Loads of the joints between two halves, without the flexible share.
 static void two_half_load(const Model *model, const Work *w, RivetLoads *load)
 {
     for (int k = 0; k < PACKETS * LANE_WIDTH; k += LANE_WIDTH) {
-        const wide H_y = wide_load(&w->H_y[k]), H_z = wide_load(&w->H_z[k]), B_y = wide_load(&w->B_y[k]), B_z = wide_load(&w->B_z[k]);
+        const wide H_y = wide_load(&w->H_y[k]), H_z = wide_load(&w->H_z[k]), B_y = wide_load(&w->B_y[k]);
+        const wide B_z = wide_load(&w->B_z[k]);
         wide_store(&load->P[k], wide_set(model->d->P));
         wide_store(&load->N[k], wide_load(&w->T[k]) - wide_load(&w->N_plate[k]));
         wide_store(&load->V_y[k], -B_y);
         wide_store(&load->V_z[k], -B_z);
         wide_store(&load->F_head[k], modulus(H_y, H_z));
-        wide_store(&load->V[k], modulus(wide_load(&w->S_y[k]) + H_y + B_y, wide_load(&w->S_z[k]) + H_z + B_z));
+        wide_store(&load->V[k],
+                   modulus(wide_load(&w->S_y[k]) + H_y + B_y, wide_load(&w->S_z[k]) + H_z + B_z));
     }
 }
 
-// Wrench of pockets and land on half 1 less that on half 0, halved, about the cage's centre in its body frame.
+// Wrench of pockets and land on half 1 less that on half 0, halved, about the cage's centre in its body
+// frame.
 static void rigid_wrench(const Work *w, const Pockets *on_1, scalar wrench[6])
 {
     const Rotor *cage = &w->half[0];
@@ -40,9 +47,13 @@ static void rigid_wrench(const Work *w, const Pockets *on_1, scalar wrench[6])
         global[i] = 0.5 * (w->half[1].F[i] - w->half[0].F[i]);
         global[3 + i] = 0.5 * (w->half[1].M[i] - w->half[0].M[i]);
     }
-    // half 0 holds the pocket forces: what half 1 gets of them goes over
-    const scalar *pockets[6] = {on_1->half_F_x, on_1->half_F_y, on_1->half_F_z, on_1->half_M_x, on_1->half_M_y, on_1->half_M_z};
+
+    // half 0 holds all pocket forces: those of half 1 go over to it
+    const scalar *pockets[6] = {on_1->half_F_x, on_1->half_F_y, on_1->half_F_z,
+                                on_1->half_M_x, on_1->half_M_y, on_1->half_M_z};
     for (int i = 0; i < 6; i++) global[i] += ball_array_sum(pockets[i]);
+
+    // into the body frame
     const scalar *axes[3] = {cage->a, cage->b_y, cage->b_z};
     for (int i = 0; i < 3; i++) {
         wrench[i] = dot3(axes[i], global);
@@ -50,6 +61,7 @@ static void rigid_wrench(const Work *w, const Pockets *on_1, scalar wrench[6])
     }
 }
 
+// Loads of the joints of a rigid cage, without the flexible share.
 static void rigid_load(const Model *model, const Work *w, const Pockets *on_1, RivetLoads *load)
 {
     const double R = 0.5 * model->p->bearing.d_m, friction = model->p->joint.mu * model->d->P;
@@ -72,7 +84,8 @@ static void rigid_load(const Model *model, const Work *w, const Pockets *on_1, R
     }
 }
 
-// Adds a vector (r, t) at every rivet, given radially and along the circle, to one along y and z.
+// Adds a vector at every rivet, given by its radial and tangential parts (r, t), to a vector given along y
+// and z.
 INLINE void add_turned(const Model *model, const ball_array r, const ball_array t, scalar *y, scalar *z)
 {
     const double inv_R = 2.0 / model->p->bearing.d_m;
@@ -89,7 +102,8 @@ void joint_prying(const JointData *j, RivetLoads *load)
     const wide zero = wide_set(0.0), one = wide_set(1.0);
     for (int k = 0; k < PACKETS * LANE_WIDTH; k += LANE_WIDTH) {
         const wide M_y = wide_load(&load->M_y[k]), M_z = wide_load(&load->M_z[k]), M = modulus(M_y, M_z);
-        const wide M_0 = j->prying_lever * wide_max(wide_load(&load->P[k]) - wide_max(wide_load(&load->N[k]), zero), zero);
+        const wide M_0 =
+            j->prying_lever * wide_max(wide_load(&load->P[k]) - wide_max(wide_load(&load->N[k]), zero), zero);
         const wide part = wide_select(wide_above(M - M_0, 0.0), (M_0 + j->prying_share * (M - M_0)) / M, one);
         wide_store(&load->M_y[k], M_y * part);
         wide_store(&load->M_z[k], M_z * part);
@@ -109,9 +123,13 @@ void rivets_load(const Model *model, const Work *w, RivetLoads *load)
     } else
         two_half_load(model, w, load);
 
+    // flexible share
     PathLoads path = {0};
-    for (int h = 0; h < 2; h++) load_path_flexible(rivet_table.load_path, h == 0 ? -1 : 1, transverse, on[h].F_x, on[h].F_r, on[h].F_t, &path);
-    for (int k = 0; k < PACKETS * LANE_WIDTH; k += LANE_WIDTH) wide_store(&load->N[k], wide_load(&load->N[k]) + wide_load(&path.sum[PATH_N][k]));
+    for (int h = 0; h < 2; h++)
+        load_path_flexible(rivet_table.load_path, h == 0 ? -1 : 1, transverse, on[h].F_x, on[h].F_r,
+                           on[h].F_t, &path);
+    for (int k = 0; k < PACKETS * LANE_WIDTH; k += LANE_WIDTH)
+        wide_store(&load->N[k], wide_load(&load->N[k]) + wide_load(&path.sum[PATH_N][k]));
     if (transverse) add_turned(model, path.sum[PATH_V_R], path.sum[PATH_V_T], load->V_y, load->V_z);
     add_turned(model, path.sum[PATH_M_R], path.sum[PATH_M_T], load->M_y, load->M_z);
     joint_prying(&rivet_table.joint, load);

@@ -1,56 +1,65 @@
 // Quasi-static equilibrium, as the minimum of a potential in two nested Newton iterations:
 //
-//   ball j, ring given:   phi_j(x, r) = (2/5)(K_i delta_i^2.5 + K_e delta_e^2.5) - F_c r + k_0 x^2/2 -> min,  F_c = m r_0 omega_m^2 + F_0
-//   ring q = (x, y, z, beta, gamma):   Pi = sum phi_j - F.q - M.(beta, gamma) + support + k_0 q^2/2 -> min
+//   ball j, ring given               phi_j(x, r) = (2/5)(K_i delta_i^2.5 + K_e delta_e^2.5) - F_c r + k_0 x^2/2 -> min
+//                                    F_c = m r_0 omega_m^2 + F_0
+//   ring q = (x, y, z, beta, gamma)  Pi = sum phi_j - F.q - M.(beta, gamma) + support + k_0 q^2/2 -> min
 //
-// Forces and contact results come from race_contact_force at rest, stiffnesses from k = Q' n n^T + (Q/L)(1 - n n^T).  F_0 presses unloaded
-// balls outward where nothing else does (standstill), k_0 holds what no load holds (no axial load, no load): 0.01 N over 10 um.
-// Then all parts run at kinematic speeds without slip; the cage is centred on the balls - their mean and the first harmonic of their axial
-// places, else a tilted ring's balls would start inside the cage - and turns with them.
+// Forces and contact results come from race_contact_force at rest, stiffnesses from k = Q' n n^T + (Q/L)(1 -
+// n n^T).  Two small forces make the equilibrium unique: F_0 presses unloaded balls outward at standstill,
+// and the springs k_0 (0.01 N over 10 um) hold the coordinates on which no load acts, as the axial one
+// without axial load.
+//
+// Then all parts get kinematic speeds without slip.  The cage takes the mean and the first harmonic of the
+// balls' axial positions, because the balls of a tilted ring would otherwise start inside its walls, and
+// turns with the balls.
 #include "start.h"
 
 #include "elementary.h"
 #include "elimination.h"
-
 #include "rotor.h"
 
-enum { DOF = RING_DOF, TILT = 3 };  // x, y, z | beta, gamma
-static const double PI = 3.14159265358979323846;
-static const double K_0 = 1e3;    // [N/m]
-static const double F_0 = 1e-3;   // [N]
+enum { DOF = RING_DOF, TILT = 3 };  // of the ring: x, y, z, then from TILT on beta, gamma
+
+static const double K_0 = 1e3;    // spring on each coordinate [N/m]
+static const double F_0 = 1e-3;   // force that presses each ball outward [N]
 static const double STEP = 2e-5;  // longest Newton step [m]
 
 typedef struct {
     const Kernels *kernels;
     const Model *model;
     Work *w;
-    double F_c;   // centrifugal force [N]
-    bool tilts;   // beta, gamma are unknowns
-    double F[3];  // load
+    double F_c;   // centrifugal force on a ball, with F_0 [N]
+    bool tilts;   // whether beta, gamma are unknowns
+    double F[3];  // load [N]
 } Equilibrium;
 
-// Symmetric 2 x 2 matrices (xx, xr, rr).
+// A symmetric 2 x 2 matrix in the directions x and r [N/m].
 typedef struct {
     double xx, xr, rr;
 } Stiffness;
 
+// Stiffness of a contact whose normal is n and whose ball is L from the groove's centre.
 static Stiffness contact_stiffness(double K, double delta, double L, double n_x, double n_r)
 {
     if (delta <= 0.0) return (Stiffness){0.0, 0.0, 0.0};
     const double root = sqrt(delta), along = 1.5 * K * root, across = K * delta * root / L;
-    return (Stiffness){across + (along - across) * n_x * n_x, (along - across) * n_x * n_r, across + (along - across) * n_r * n_r};
+    return (Stiffness){across + (along - across) * n_x * n_x, (along - across) * n_x * n_r,
+                       across + (along - across) * n_r * n_r};
 }
 
+// Elastic energy of a race contact.
 static double elastic(double K, double delta)
 {
     return delta > 0.0 ? 0.4 * K * delta * delta * sqrt(delta) : 0.0;
 }
 
+// phi of ball j.
 static double ball_potential(const Equilibrium *eq, int j)
 {
     const Derived *d = eq->model->d;
     const Work *w = eq->w;
-    return elastic(d->inner.hertz.K, w->delta_i[j]) + elastic(d->outer.hertz.K, w->delta_e[j]) - eq->F_c * w->r[j] + 0.5 * K_0 * w->x[j] * w->x[j];
+    return elastic(d->inner.hertz.K, w->delta_i[j]) + elastic(d->outer.hertz.K, w->delta_e[j]) -
+           eq->F_c * w->r[j] + 0.5 * K_0 * w->x[j] * w->x[j];
 }
 
 // Minimises the potential of every ball for the ring's present pose; returns the sum.
@@ -62,12 +71,17 @@ static double balls_settle(const Equilibrium *eq)
     eq->kernels->race_contact_force(eq->model, w);
     for (int j = 0; j < Z; j++) phi[j] = ball_potential(eq, j);
     for (int iteration = 0; iteration < 60; iteration++) {
+        // Newton step of every ball, at most STEP long
         double moved = 0.0;
         for (int j = 0; j < Z; j++) {
-            const double L_i = w->delta_i[j] + d->inner.r_g - d->R[j], L_e = w->delta_e[j] + d->outer.r_g - d->R[j];
-            const Stiffness k_i = contact_stiffness(d->inner.hertz.K, w->delta_i[j], L_i, w->n_ix[j], w->n_ir[j]);
-            const Stiffness k_e = contact_stiffness(d->outer.hertz.K, w->delta_e[j], L_e, w->n_ex[j], w->n_er[j]);
-            const double xx = k_i.xx + k_e.xx + K_0, xr = k_i.xr + k_e.xr, rr = k_i.rr + k_e.rr + K_0, det = xx * rr - xr * xr;
+            const double L_i = w->delta_i[j] + d->inner.r_g - d->R[j];
+            const double L_e = w->delta_e[j] + d->outer.r_g - d->R[j];
+            const Stiffness k_i =
+                contact_stiffness(d->inner.hertz.K, w->delta_i[j], L_i, w->n_ix[j], w->n_ir[j]);
+            const Stiffness k_e =
+                contact_stiffness(d->outer.hertz.K, w->delta_e[j], L_e, w->n_ex[j], w->n_er[j]);
+            const double xx = k_i.xx + k_e.xx + K_0, xr = k_i.xr + k_e.xr, rr = k_i.rr + k_e.rr + K_0;
+            const double det = xx * rr - xr * xr;
             const double F_x = w->F_x[j] - K_0 * w->x[j], F_r = w->F_r[j] + eq->F_c;
             x[j] = w->x[j], r[j] = w->r[j], part[j] = 1.0;
             dx[j] = (rr * F_x - xr * F_r) / det, dr[j] = (xx * F_r - xr * F_x) / det;
@@ -76,7 +90,9 @@ static double balls_settle(const Equilibrium *eq)
             moved = fmax(moved, length);
         }
         if (moved < 1e-16) break;
-        for (int trial = 0; trial < 30; trial++) {  // every ball halves its own step until its potential falls
+
+        // every ball halves its own step until its potential falls
+        for (int trial = 0; trial < 30; trial++) {
             bool again = false;
             for (int j = 0; j < Z; j++) {
                 w->x[j] = x[j] + part[j] * dx[j];
@@ -98,18 +114,20 @@ static double balls_settle(const Equilibrium *eq)
     return sum;
 }
 
+// Puts the ring into the pose q, at rest.
 static void ring_pose(const Equilibrium *eq, const double q[DOF])
 {
     for (int i = 0; i < 3; i++) eq->w->ring.x[i] = q[i];
     rotor_axis(&eq->w->ring, q[3], q[4], 0.0, 0.0, 0.0);
 }
 
-// Pi without the balls, and its negative gradient without their forces.
+// Pi without the balls' phi_j; sets `force` to minus its gradient.
 static double ring_potential(const Equilibrium *eq, const double q[DOF], double force[DOF])
 {
     const Parameters *p = eq->model->p;
     const RingLoad *ring_load = eq->model->ring_load;
-    const double target[2] = {ring_load->beta, ring_load->gamma}, k = p->ring.tilt_mode == TILT_MODE_SUPPORTED ? p->ring.k_tilt : 0.0;
+    const double target[2] = {ring_load->beta, ring_load->gamma};
+    const double k = p->ring.tilt_mode == TILT_MODE_SUPPORTED ? p->ring.k_tilt : 0.0;
     const double r2 = 0.25 * p->bearing.d_m * p->bearing.d_m;  // k_0 acts at the pitch radius
     double Pi = 0.0;
     for (int i = 0; i < 3; i++) {
@@ -119,37 +137,49 @@ static double ring_potential(const Equilibrium *eq, const double q[DOF], double 
     for (int i = 0; i < 2; i++) {
         const double angle = q[TILT + i] - target[i];
         force[TILT + i] = eq->tilts ? ring_load->M[i] - k * angle - K_0 * r2 * q[TILT + i] : 0.0;
-        if (eq->tilts) Pi += 0.5 * k * angle * angle + 0.5 * K_0 * r2 * q[TILT + i] * q[TILT + i] - ring_load->M[i] * q[TILT + i];
+        if (eq->tilts)
+            Pi += 0.5 * k * angle * angle + 0.5 * K_0 * r2 * q[TILT + i] * q[TILT + i] -
+                  ring_load->M[i] * q[TILT + i];
     }
     return Pi;
 }
 
-// Adds the balls' forces on the ring and their condensed stiffness k_i - k_i (k_i + k_e)^-1 k_i.
+// Adds the balls' forces on the ring to `force`, and to H their stiffness with the balls' own displacements
+// eliminated: k_i - k_i (k_i + k_e)^-1 k_i.
 static void ring_balls(const Equilibrium *eq, double force[DOF], double H[DOF][DOF])
 {
     const Derived *d = eq->model->d;
     const Work *w = eq->w;
-    const double F[DOF] = {ball_array_sum(w->ring_F_x), ball_array_sum(w->ring_F_y), ball_array_sum(w->ring_F_z), ball_array_sum(w->ring_M_y),
+    const double F[DOF] = {ball_array_sum(w->ring_F_x), ball_array_sum(w->ring_F_y),
+                           ball_array_sum(w->ring_F_z), ball_array_sum(w->ring_M_y),
                            ball_array_sum(w->ring_M_z)};
     for (int i = 0; i < DOF; i++)
         if (i < TILT || eq->tilts) force[i] += F[i];
+
     for (int j = 0; j < Z; j++) {
-        const double L_i = w->delta_i[j] + d->inner.r_g - d->R[j], L_e = w->delta_e[j] + d->outer.r_g - d->R[j];
+        const double L_i = w->delta_i[j] + d->inner.r_g - d->R[j];
+        const double L_e = w->delta_e[j] + d->outer.r_g - d->R[j];
         const Stiffness a = contact_stiffness(d->inner.hertz.K, w->delta_i[j], L_i, w->n_ix[j], w->n_ir[j]);
         const Stiffness b = contact_stiffness(d->outer.hertz.K, w->delta_e[j], L_e, w->n_ex[j], w->n_er[j]);
-        const double xx = a.xx + b.xx + K_0, xr = a.xr + b.xr, rr = a.rr + b.rr + K_0, det = xx * rr - xr * xr;
-        // k = a - a (a + b)^-1 a
+        const double xx = a.xx + b.xx + K_0, xr = a.xr + b.xr, rr = a.rr + b.rr + K_0;
+        const double det = xx * rr - xr * xr;
+        // k = a - a (a + b)^-1 a, with i the inverse of a + b and m = a (a + b)^-1
         const double i_xx = rr / det, i_xr = -xr / det, i_rr = xx / det;
-        const double m_xx = a.xx * i_xx + a.xr * i_xr, m_xr = a.xx * i_xr + a.xr * i_rr, m_rx = a.xr * i_xx + a.rr * i_xr, m_rr = a.xr * i_xr + a.rr * i_rr;
-        const double k_xx = a.xx - m_xx * a.xx - m_xr * a.xr, k_xr = a.xr - m_xx * a.xr - m_xr * a.rr, k_rr = a.rr - m_rx * a.xr - m_rr * a.rr;
+        const double m_xx = a.xx * i_xx + a.xr * i_xr, m_xr = a.xx * i_xr + a.xr * i_rr;
+        const double m_rx = a.xr * i_xx + a.rr * i_xr, m_rr = a.xr * i_xr + a.rr * i_rr;
+        const double k_xx = a.xx - m_xx * a.xx - m_xr * a.xr, k_xr = a.xr - m_xx * a.xr - m_xr * a.rr;
+        const double k_rr = a.rr - m_rx * a.xr - m_rr * a.rr;
         const double c = w->cos_theta[j], s = w->sin_theta[j], R = d->inner.R_g;
         const double G_x[DOF] = {1.0, 0.0, 0.0, R * s, -R * c}, G_r[DOF] = {0.0, c, s, 0.0, 0.0};
         for (int m = 0; m < DOF; m++)
-            for (int n = 0; n < DOF; n++) H[m][n] += k_xx * G_x[m] * G_x[n] + k_xr * (G_x[m] * G_r[n] + G_r[m] * G_x[n]) + k_rr * G_r[m] * G_r[n];
+            for (int n = 0; n < DOF; n++)
+                H[m][n] += k_xx * G_x[m] * G_x[n] + k_xr * (G_x[m] * G_r[n] + G_r[m] * G_x[n]) +
+                           k_rr * G_r[m] * G_r[n];
     }
 }
 
-// Finds ring pose q and ball positions (in w); returns the largest residual force.
+// Finds the ring's pose q and the balls' positions (in w) by Newton's method; returns the largest residual
+// force.
 static double equilibrium(const Equilibrium *eq, double q[DOF])
 {
     const Parameters *p = eq->model->p;
@@ -158,21 +188,27 @@ static double equilibrium(const Equilibrium *eq, double q[DOF])
     ring_pose(eq, q);
     double Pi = balls_settle(eq) + ring_potential(eq, q, force);
     for (int iteration = 0; iteration < 100; iteration++) {
+        // gradient and stiffness; rows of fixed tilts are the identity
         double H[DOF][DOF] = {{0}};
         ring_balls(eq, force, H);
         residual = 0.0;
         for (int i = 0; i < DOF; i++) {
             residual = fmax(residual, fabs(force[i]) / (i < TILT ? 1.0 : r));
-            H[i][i] += i < TILT ? K_0 : K_0 * r2 + (p->ring.tilt_mode == TILT_MODE_SUPPORTED ? p->ring.k_tilt : 0.0);
+            H[i][i] +=
+                i < TILT ? K_0 : K_0 * r2 + (p->ring.tilt_mode == TILT_MODE_SUPPORTED ? p->ring.k_tilt : 0.0);
             if (i >= TILT && !eq->tilts)
                 for (int n = 0; n < DOF; n++) H[i][n] = H[n][i] = n == i ? 1.0 : 0.0;
         }
         if (residual < 1e-9) break;
-        eliminate(H, force);  // rows of fixed tilts are the identity
+
+        // Newton step, at most STEP long
+        eliminate(H, force);
         double length = 0.0, step[DOF], trial[DOF];
         for (int i = 0; i < DOF; i++) length = fmax(length, fabs(force[i]) * (i < TILT ? 1.0 : r));
         for (int i = 0; i < DOF; i++) step[i] = force[i] * fmin(1.0, STEP / fmax(length, 1e-300));
         if (length < 1e-16) break;
+
+        // the step is halved until the potential does not rise
         double Pi_new = Pi, part = 1.0;
         for (int halving = 0; halving < 30; halving++, part *= 0.5) {
             for (int i = 0; i < DOF; i++) trial[i] = q[i] + part * step[i];
@@ -186,7 +222,8 @@ static double equilibrium(const Equilibrium *eq, double q[DOF])
     return residual;
 }
 
-// splitmix64: the same numbers in both twins.  Steele, Lea & Flood (2014).
+// Next random number in [0, 1) by splitmix64, which gives the same numbers in both twins.  Steele, Lea &
+// Flood (2014).
 static double uniform(uint64_t *state)
 {
     uint64_t z = (*state += 0x9e3779b97f4a7c15u);
@@ -195,7 +232,8 @@ static double uniform(uint64_t *state)
     return (double)((z ^ (z >> 31)) >> 11) * 0x1p-53;
 }
 
-// Orbital speed without slip at both races: tangential speed of the balls' centres is half that of the inner contact points.
+// Orbital speed without slip at both races: the balls' centres move half as fast as the inner contact points.
+// Mean over the balls, weighted by their load.
 static double orbital_speed(const Model *model, const Work *w)
 {
     double weight = 0.0, sum = 0.0;
@@ -207,7 +245,8 @@ static double orbital_speed(const Model *model, const Work *w)
     return model->ring_load->omega * sum / weight;
 }
 
-// Both halves at x_0 + (beta sin theta - gamma cos theta) r, the balls' axial places but for higher harmonics, turning steadily about that axis.
+// Sets both halves into the plane x_0 + (beta sin theta - gamma cos theta) r, which fits the balls' axial
+// positions, turning steadily about its normal.
 static void cage_pose(const Model *model, const Work *w, double omega_m, double *y)
 {
     const Derived *d = model->d;
@@ -237,12 +276,14 @@ double start_state(const Kernels *kernels, const Model *model, Work *w, double *
 {
     const Parameters *p = model->p;
     const Derived *d = model->d;
-    Equilibrium eq = {.kernels = kernels, .model = model, .w = w, .tilts = p->ring.tilt_mode != TILT_MODE_PRESCRIBED};
+    Equilibrium eq = {
+        .kernels = kernels, .model = model, .w = w, .tilts = p->ring.tilt_mode != TILT_MODE_PRESCRIBED};
     work_init(d, w);
     memcpy(eq.F, model->ring_load->F, sizeof eq.F);
     const double omega_0 = 0.5 * model->ring_load->omega * (1.0 - p->bearing.D / p->bearing.d_m);
     eq.F_c = d->m * 0.5 * p->bearing.d_m * omega_0 * omega_0 + F_0;
 
+    // balls at rest on the pitch circle, equally spaced but for the random part
     uint64_t random = (uint64_t)p->start.seed;
     const double spread = p->start.spacing * p->cage.pocket_clearance / (0.5 * p->bearing.d_m);
     for (int j = 0; j < Z; j++) {
@@ -251,9 +292,11 @@ double start_state(const Kernels *kernels, const Model *model, Work *w, double *
         w->sin_theta[j] = portable_sin(w->theta[j]);
         w->r[j] = 0.5 * p->bearing.d_m + 0.25 * p->bearing.P_d;
     }
+    // equilibrium of ring and balls, from the ring centred with the shaft's tilt
     double q[DOF] = {0.0, 0.0, 0.0, model->ring_load->beta, model->ring_load->gamma};
     const double residual = equilibrium(&eq, q);
 
+    // kinematic speeds
     memset(y, 0, N_STATES * sizeof *y);
     const double omega_m = orbital_speed(model, w);
     for (int j = 0; j < Z; j++) {
@@ -261,11 +304,14 @@ double start_state(const Kernels *kernels, const Model *model, Work *w, double *
         y[Y_BALL_R + j] = w->r[j];
         y[Y_BALL_THETA + j] = w->theta[j];
         y[Y_BALL_OMEGA_M + j] = omega_m;
-        // rolls on the outer race about the axis across its contact normal: v_t + R (omega_x n_r - omega_r n_x) = 0
+        // the ball rolls on the outer race about the axis across its contact normal:
+        // v_t + R (omega_x n_r - omega_r n_x) = 0
         const double rolling = -w->r[j] * omega_m / d->R[j];
         y[Y_BALL_OMEGA_X + j] = rolling * w->n_er[j];
         y[Y_BALL_OMEGA_R + j] = -rolling * w->n_ex[j];
     }
+
+    // cage and ring
     cage_pose(model, w, omega_m, y);
     for (int i = 0; i < 3; i++) y[Y_RING_X + i] = q[i];
     y[Y_RING_BETA] = q[3];

@@ -1,11 +1,14 @@
-// Running statistics.  The bin is read off the number's exponent and the first five bits of its mantissa: no logarithm.
+// Running statistics.  The exponent of a number and the first five bits of its mantissa give its bin, without
+// a logarithm.
 #include "statistics.h"
+
+#include "saved_numbers.h"
 
 #include <math.h>
 #include <stdint.h>
 #include <string.h>
 
-// value/floor in [1, 2^24) -> bin
+// Bin of the ratio value/floor >= 1.
 static int bin_of(double ratio)
 {
     uint64_t word;
@@ -17,7 +20,8 @@ static int bin_of(double ratio)
 // Lower edge of a bin as a multiple of the floor.
 static double edge_of(int bin)
 {
-    return ldexp(1.0 + (bin % STATISTICS_PER_OCTAVE) / (double)STATISTICS_PER_OCTAVE, bin / STATISTICS_PER_OCTAVE);
+    return ldexp(1.0 + (bin % STATISTICS_PER_OCTAVE) / (double)STATISTICS_PER_OCTAVE,
+                 bin / STATISTICS_PER_OCTAVE);
 }
 
 void statistics_add(StatisticsChannel *channel, double floor, double weight, double value)
@@ -44,7 +48,7 @@ double statistics_rms(const StatisticsChannel *channel)
 
 double statistics_quantile(const StatisticsChannel *channel, double floor, double p)
 {
-    double above = (1.0 - p) * channel->time;  // weight that lies above the quantile: summed from the top
+    double above = (1.0 - p) * channel->time;  // weight above the quantile; the bins are summed from the top
     if (channel->time <= 0.0) return 0.0;
     for (int bin = STATISTICS_BINS - 1; bin >= 0; bin--) {
         const double weight = channel->weight[bin];
@@ -55,4 +59,15 @@ double statistics_quantile(const StatisticsChannel *channel, double floor, doubl
         above -= weight;
     }
     return 0.0;
+}
+
+bool statistics_is_valid(const StatisticsChannel *channel, double time)
+{
+    const double most = time * (1.0 + 1e-6);  // rounding of the sums
+    bool fine = channel->time <= most && channel->below <= most;
+    for (int bin = 0; bin < STATISTICS_BINS; bin++) fine &= channel->weight[bin] <= most;
+    fine &= values_are_amounts(&channel->time, 1) && values_are_amounts(&channel->below, 1) &&
+            values_are_amounts(channel->weight, STATISTICS_BINS);
+    return fine && values_are_sane(&channel->first, 1) && values_are_amounts(&channel->second, 1) &&
+           values_are_amounts(&channel->max, 1);
 }

@@ -1,13 +1,21 @@
-// Running statistics over time, weighted by the length of the steps: mean, RMS, largest value and quantiles of positive quantities.
+// Running statistics over time, weighted by the length of the steps: mean, RMS, largest value and quantiles
+// of positive quantities.
 #pragma once
 
-// 32 bins in each octave, 106 a decade: a bin is 1.6...3.1 % wide; 24 octaves above the channel's floor.  Smaller values count as below.
-enum { STATISTICS_OCTAVES = 24, STATISTICS_PER_OCTAVE = 32, STATISTICS_BINS = STATISTICS_OCTAVES * STATISTICS_PER_OCTAVE };
+#include <stdbool.h>
+
+// 32 bins in each octave, 106 in each decade: a bin is 1.6...3.1 % wide.  There are 24 octaves above the
+// channel's floor; smaller values count as below the floor.
+enum {
+    STATISTICS_OCTAVES = 24,
+    STATISTICS_PER_OCTAVE = 32,
+    STATISTICS_BINS = STATISTICS_OCTAVES * STATISTICS_PER_OCTAVE
+};
 
 // Plain bytes; all zeros is an empty channel.
 typedef struct {
     double time, first, second, max;  // sums of weight, weight x, weight x^2; largest x
-    double below;                     // weight of values under the floor
+    double below;                     // weight of values below the floor
     double weight[STATISTICS_BINS];
 } StatisticsChannel;
 
@@ -15,5 +23,9 @@ void statistics_add(StatisticsChannel *channel, double floor, double weight, dou
 double statistics_mean(const StatisticsChannel *channel);
 double statistics_rms(const StatisticsChannel *channel);
 
-// Value that the part p of the time is not above; linear inside a bin, 0 below the floor.
+// Quantile: the value that is not exceeded for the part p of the time.  Linear inside a bin, 0 below the
+// floor.
 double statistics_quantile(const StatisticsChannel *channel, double floor, double p);
+
+// Whether adding values for `time` at most can have made it.
+bool statistics_is_valid(const StatisticsChannel *channel, double time);

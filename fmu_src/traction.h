@@ -1,13 +1,17 @@
-// Tangential forces of a lubricated contact: traction of the film, friction of the asperities, rolling friction of the inlet.
+// Tangential forces of a lubricated contact: traction of the film, friction of the asperities, rolling
+// friction of the inlet.
 //
-//   film        mu(s) = (A + B s) exp(-C s) - A,  s = |Delta u| / U            four-parameter law of aviation oils; mu(0) = 0
+//   film        mu(s) = (A + B s) exp(-C s) - A,  s = |Delta u| / U; four-parameter law of aviation oils, mu(0) = 0
 //   asperities  mu_b s / sqrt(s^2 + s_0^2)        on their share of the load
-//   share       f_a = exp(-1.8 Lambda^1.2)                                     Aihara (1987), J. Tribol. 109, 471, eq. 13
-//   Lambda      film / roughness, h/R_x = 2.69 U^0.67 G^0.53 W^-0.067 (1 - 0.61 exp(-0.73 k))    Hamrock & Dowson (1977), central film
-//   inlet       F_R = 2.86 E' R_x^2 (R_y/R_x)^0.348 G^0.022 U^0.66 W^0.47      Houpert (1987), as in Balan et al., Lubricants 3 (2015), 222
+//   share       f_a = exp(-1.8 Lambda^1.2);  Aihara (1987), J. Tribol. 109, 471, eq. 13
+//   Lambda      film / roughness, h/R_x = 2.69 U^0.67 G^0.53 W^-0.067 (1 - 0.61 exp(-0.73 k));  Hamrock & Dowson
+//               (1977), central film
+//   inlet       F_R = 2.86 E' R_x^2 (R_y/R_x)^0.348 G^0.022 U^0.66 W^0.47;  Houpert (1987), as in Balan et al.,
+//               Lubricants 3 (2015), 222
 //
-// with U = eta u/(E' R_x), W = Q/(E' R_x^2), G = alpha E', E' = 2 E_star, u the mean surface speed.  Powers are taken as exp(p ln): ln U and
-// ln Q are shared.  Load and speed have floors, so that all of it is C1 in approach and speed.
+// with U = eta u/(E' R_x), W = Q/(E' R_x^2), G = alpha E', E' = 2 E_star, u the mean surface speed.  Powers
+// are computed as exp(p ln), so that all of them share ln U and ln Q.  Load and speed have floors, so that
+// these forces are C1 in approach and speed.
 #pragma once
 
 #include "vec.h"
@@ -19,7 +23,7 @@ typedef struct {
     vec F_s, F_c;     // on the ball: at the contact point, through the ball's centre [N]
     vec M;            // moment of F_s about the ball's centre (with spin) [N.m]
     wide g;           // |traction| / |slip|: the stiff rate of the contact [N.s/m]
-    wide g_spin;      // moment / spin about the normal of what slips beside the centre [N.m.s]
+    wide g_spin;      // moment / spin about the normal, by the slices beside the centre [N.m.s]
     wide U;           // mean surface speed with its floor [m/s]
     wide dissipated;  // [W]
 } Tangential;
@@ -30,13 +34,13 @@ INLINE wide traction_ln_film(wide ln_Lambda_1, wide ln_U, wide ln_Q)
     return ln_Lambda_1 + 0.67 * ln_U - 0.067 * ln_Q;
 }
 
-// Part of the load that asperities carry.
+// Share of the load that asperities carry.
 INLINE wide traction_asperity_share(wide ln_Lambda)
 {
     return wide_exp(-1.8 * wide_exp(1.2 * ln_Lambda));
 }
 
-// Traction coefficient of the film.
+// Traction coefficient of the film at the slide-roll ratio s.
 INLINE wide traction_film(const Parameters *p, wide s)
 {
     return (p->oil.A + p->oil.B * s) * wide_exp(-p->oil.C * s) - p->oil.A;
@@ -51,7 +55,8 @@ INLINE wide traction_mu(const Parameters *p, wide s, wide f_a, bool mixed)
     return film + f_a * (boundary - film);
 }
 
-// F_R; rolling at U = 1 m/s, Q = 1 N.  W^0.47 is taken as W (W + W_floor)^-0.53.
+// Rolling friction F_R of the inlet; rolling: F_R at U = 1 m/s, Q = 1 N.  W^0.47 is taken as W (W +
+// W_floor)^-0.53, linear at small loads.
 INLINE wide traction_inlet(wide rolling, wide ln_U, wide Q, wide ln_Q)
 {
     return rolling * Q * wide_exp(0.66 * ln_U - 0.53 * ln_Q);

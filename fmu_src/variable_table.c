@@ -7,7 +7,8 @@
 
 const Variable *variable_find(unsigned value_reference, int *element)
 {
-    int low = 0, high = N_VARIABLES;  // VARIABLES[low] starts at or below the reference, VARIABLES[high] above
+    int low = 0;
+    int high = N_VARIABLES;  // VARIABLES[low] starts at or below the reference, VARIABLES[high] above
     while (high - low > 1) {
         const int middle = (low + high) / 2;
         if (VARIABLES[middle].value_reference <= value_reference)
@@ -36,7 +37,8 @@ void variable_element_name(const Variable *variable, int element, char *name, si
         snprintf(name, size, "%s", variable->name);
         return;
     }
-    snprintf(name, size, "%.*s[%d]%s", (int)(bracket - variable->name), variable->name, element + 1, bracket + 3);
+    snprintf(name, size, "%.*s[%d]%s", (int)(bracket - variable->name), variable->name, element + 1,
+             bracket + 3);
 }
 
 int variable_allows(const Variable *variable, int element, double value, char *message, size_t size)
@@ -45,16 +47,37 @@ int variable_allows(const Variable *variable, int element, double value, char *m
     char name[64];
     variable_element_name(variable, element, name, sizeof name);
     const int bare = strcmp(variable->unit, "1") == 0;
-    snprintf(message, size, "%s = %.10g%s%s is not allowed: it must lie in [%.10g, %.10g]", name, value, bare ? "" : " ", bare ? "" : variable->unit,
-             variable->min, variable->max);
+    snprintf(message, size, "%s = %.10g%s%s is not allowed: it must lie in [%.10g, %.10g]", name, value,
+             bare ? "" : " ", bare ? "" : variable->unit, variable->min, variable->max);
     return 0;
+}
+
+bool variables_allow(Causality causality, const void *values,
+                     void (*report)(void *context, const char *message), void *context)
+{
+    bool fine = true;
+    for (int v = 0; v < N_VARIABLES && VARIABLES[v].causality <= causality;
+         v++) {  // they are in the order of causality
+        if (VARIABLES[v].causality != causality) continue;
+        for (int i = 0; i < VARIABLES[v].count; i++) {
+            const char *at = (const char *)values + VARIABLES[v].offset;
+            const double value =
+                VARIABLES[v].type == TYPE_REAL ? ((const double *)at)[i] : ((const int *)at)[i];
+            char message[512];
+            if (variable_allows(&VARIABLES[v], i, value, message, sizeof message)) continue;
+            report(context, message);
+            fine = false;
+        }
+    }
+    return fine;
 }
 
 void variables_set_start(Parameters *parameters, Inputs *inputs)
 {
     for (const Variable *v = VARIABLES; v < VARIABLES + N_VARIABLES; v++) {
         if (v->causality != CAUSALITY_PARAMETER && v->causality != CAUSALITY_INPUT) continue;
-        char *storage = (v->causality == CAUSALITY_PARAMETER ? (char *)parameters : (char *)inputs) + v->offset;
+        char *storage =
+            (v->causality == CAUSALITY_PARAMETER ? (char *)parameters : (char *)inputs) + v->offset;
         for (int element = 0; element < v->count; element++) {
             if (v->type == TYPE_REAL)
                 ((double *)storage)[element] = v->start;

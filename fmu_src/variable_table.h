@@ -1,9 +1,12 @@
-// The table of all variables (rows are written by fmus/generate.py into variables.c) and what can be asked of it.
+// The table of all variables, whose rows fmus/generate.py writes into variables.c, and the functions on it.
 #pragma once
 
 #include "variables.h"
 
+#include <stdbool.h>
 #include <stddef.h>
+
+enum { INPUT_ORDERS = 2 };  // inside a step inputs are polynomials of time of up to this order
 
 typedef struct {
     int offset, count;
@@ -13,22 +16,29 @@ typedef struct {
 
 extern const StateBlock STATE_BLOCKS[N_STATE_BLOCKS];
 
-typedef enum { TYPE_REAL, TYPE_INTEGER, TYPE_ENUMERATION } VariableType;  // double; int; int
-typedef enum { CAUSALITY_INDEPENDENT, CAUSALITY_INPUT, CAUSALITY_PARAMETER, CAUSALITY_OUTPUT } Causality;
+typedef enum { TYPE_REAL, TYPE_INTEGER, TYPE_ENUMERATION } VariableType;  // stored as double, int, int
+
+typedef enum {
+    CAUSALITY_INDEPENDENT,
+    CAUSALITY_INPUT,
+    CAUSALITY_PARAMETER,
+    CAUSALITY_OUTPUT,
+    CAUSALITY_LOCAL
+} Causality;
 
 typedef struct {
     const char *name, *unit;
-    unsigned value_reference;  // of the first element
-    int count;                 // of elements
+    unsigned value_reference;  // that of the first element
+    int count;                 // number of elements
     VariableType type;
     Causality causality;
-    OutputGroup group;  // of an output
-    int state;          // its place in y if it is one, else -1
-    size_t offset;      // of the first element in Inputs, Parameters or Outputs
+    OutputGroup group;  // group of an output
+    int state;          // index in y of an output that is a state, else -1
+    size_t offset;      // offset of the first element in Inputs, Parameters or Outputs
     double start, min, max;
 } Variable;
 
-extern const Variable VARIABLES[N_VARIABLES];  // by rising value reference
+extern const Variable VARIABLES[N_VARIABLES];  // in the order of value references
 
 // The variable of a value reference and the index of its element; NULL if there is none.
 const Variable *variable_find(unsigned value_reference, int *element);
@@ -36,11 +46,15 @@ const Variable *variable_find(unsigned value_reference, int *element);
 // The variable of a name of the table; NULL if there is none.
 const Variable *variable_named(const char *name);
 
-// Whether the variable may have this value; if not, a message with its name, value, unit and allowed range.
+// Whether the variable may have this value; if not, sets a message with name, value, unit and allowed range.
 int variable_allows(const Variable *variable, int element, double value, char *message, size_t size);
+
+// Whether all variables of one causality may have the values in a Parameters or an Inputs; each that may not is reported with its message.
+bool variables_allow(Causality causality, const void *values,
+                     void (*report)(void *context, const char *message), void *context);
 
 // The name of one element, numbered from 1 as FMI does: "ball[3].Q_i".
 void variable_element_name(const Variable *variable, int element, char *name, size_t size);
 
-// All start values.
+// Sets all start values.
 void variables_set_start(Parameters *parameters, Inputs *inputs);

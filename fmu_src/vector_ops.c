@@ -1,4 +1,5 @@
-// Operations on the state vector.  Elementwise, or summed in eight partial sums: the same bits for every instruction set.
+// Operations on the state vector.  They run element by element, or sum in eight partial sums, so that every
+// instruction set gives the same bits.
 #include "vector_ops.h"
 
 #define ALL(i) for (int i = 0; i < N_STATES; i++)
@@ -8,7 +9,8 @@ static void linear_sum(double a, const double *x, double b, const double *y, dou
     ALL(i) z[i] = a * x[i] + b * y[i];
 }
 
-// One pass for a number n of vectors that the compiler knows; z may be one of them.
+// Linear combination of n vectors in one pass; the compiler knows n where it inlines this function.  z may be
+// one of the vectors.
 INLINE void combine(int n, const double *c, double *const *x, double *z)
 {
     ALL(i)
@@ -22,18 +24,15 @@ INLINE void combine(int n, const double *c, double *const *x, double *z)
 static void linear_combination(int n, const double *c, double *const *x, double *z)
 {
     switch (n) {
-#define CASE(n)              \
-    case n:                  \
-        combine(n, c, x, z); \
-        return
+#define CASE(n) \
+    case n: combine(n, c, x, z); return
         CASE(1);
         CASE(2);
         CASE(3);
         CASE(4);
         CASE(5);
         CASE(6);
-    default:
-        combine(n, c, x, z);
+    default: combine(n, c, x, z);
     }
 #undef CASE
 }
@@ -41,18 +40,23 @@ static void linear_combination(int n, const double *c, double *const *x, double 
 static double wrms_norm(const double *x, const double *w)
 {
     double part[8] = {0};
+
     enum { WHOLE = N_STATES / 8 * 8 };
+
     for (int i = 0; i < WHOLE; i += 8)
         for (int k = 0; k < 8; k++) part[k] += (x[i + k] * w[i + k]) * (x[i + k] * w[i + k]);
     for (int i = WHOLE; i < N_STATES; i++) part[i - WHOLE] += (x[i] * w[i]) * (x[i] * w[i]);
-    const double sum = ((part[0] + part[1]) + (part[2] + part[3])) + ((part[4] + part[5]) + (part[6] + part[7]));
+    const double sum =
+        ((part[0] + part[1]) + (part[2] + part[3])) + ((part[4] + part[5]) + (part[6] + part[7]));
     return sqrt(sum / N_STATES);
 }
 
 static bool all_finite(const double *x)
 {
-    double part[8] = {0};  // x - x is 0, or NaN where x is not finite
+    double part[8] = {0};  // sums of x - x, which is 0 for a finite x and NaN otherwise
+
     enum { WHOLE = N_STATES / 8 * 8 };
+
     for (int i = 0; i < WHOLE; i += 8)
         for (int k = 0; k < 8; k++) part[k] += x[i + k] - x[i + k];
     for (int i = WHOLE; i < N_STATES; i++) part[0] += x[i] - x[i];

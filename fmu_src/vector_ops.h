@@ -1,4 +1,5 @@
-// Operations on the state vector, for ARKODE and the error norm of Verlet steps: fixed length, one pass each, in the instruction set of the right-hand side.
+// Operations on the state vector for ARKODE and for the error norm of Verlet steps: fixed length, one pass
+// each, in the instruction set of the right-hand side.
 #pragma once
 
 #include "isa.h"
@@ -6,7 +7,7 @@
 typedef struct {
     void (*linear_sum)(double a, const double *x, double b, const double *y, double *z);  // z = a x + b y
     void (*linear_combination)(int n, const double *c, double *const *x, double *z);      // z = sum c_i x_i
-    double (*wrms_norm)(const double *x, const double *w);                                // sqrt(mean (x w)^2)
+    double (*wrms_norm)(const double *x, const double *w);  // sqrt(mean (x w)^2)
     bool (*finite)(const double *x);
 } VectorOps;
 

@@ -25,6 +25,7 @@
 // VELOCITY on.  The velocity of position i < FRICTION is in row VELOCITY + i; the balls' spins come last and
 // have no position.  Rows CAGE to CAGE_END are the velocities of the cage halves.
 enum { FRICTION = Y_JOINT_PLATE_Y, VELOCITY = Y_BALL_V_X, CAGE = Y_CAGE_V_X, CAGE_END = Y_RING_V_X };
+
 _Static_assert(Y_CAGE_V_X - Y_CAGE_X == VELOCITY && Y_RING_V_X - Y_RING_X == VELOCITY, "order of velocities");
 _Static_assert(Y_BALL_OMEGA_X - VELOCITY == FRICTION, "velocities are in the order of their positions");
 
@@ -91,9 +92,11 @@ static void predictor_limiter(const Model *model, double h, const VerletState *f
 // has one sign: delta.M (A + gamma K) delta of balls and cage, M their inertia.  Against a film that holds
 // the cage this term would be most of the work.  The terms linear in delta = O(h^2) change sign from step to
 // step and are of the method's order.
-static double dissipation_correction(const Model *model, const double *y, double gamma, const double *residual, const double *delta)
+static double dissipation_correction(const Model *model, const double *y, double gamma,
+                                     const double *residual, const double *delta)
 {
     enum { COUNT = N_STATES - VELOCITY };
+
     const double *inertia = &model->d->inertia[VELOCITY], inv_gamma = 1.0 / gamma;
     double power[COUNT];
     for (int i = 0; i < COUNT; i++) {
@@ -134,7 +137,8 @@ static void remember_films(const Work *w, VerletState *to)
 
 // Accelerations, jerks and errors of the velocities.  The trapezoidal rule's own leading error is h^3 a''/12,
 // and h^2 a'' is the second difference of the accelerations over this step and the last.
-static void remember_velocities(const Model *model, const Work *w, double h, const VerletState *from, const double *delta, VerletState *to, double *error)
+static void remember_velocities(const Model *model, const Work *w, double h, const VerletState *from,
+                                const double *delta, VerletState *to, double *error)
 {
     const double gamma = 0.5 * h, inv_gamma = 1.0 / gamma, inv_h = 1.0 / h, inv_span = 2.0 / (h + from->h);
     const double second = h * h * inv_span, *f = from->f;
@@ -168,7 +172,8 @@ static void remember_friction(double h, const VerletState *from, VerletState *to
     }
 }
 
-double verlet_step(const Model *model, double t, double h, const double *weight, const VerletState *from, VerletState *to, Work *w)
+double verlet_step(const Model *model, double t, double h, const double *weight, const VerletState *from,
+                   VerletState *to, Work *w)
 {
     const double gamma = 0.5 * h, *f = from->f;
     double removed[N_STATES], residual[N_STATES], delta[N_STATES], error[N_STATES], *y = to->y;

@@ -17,5 +17,6 @@ typedef struct {
 // Takes the step of length h [s] from the state `from` at time t to the state `to` and returns the weighted
 // norm of the step's error: the step is acceptable up to 1.  weight: 1/(tolerance scale) of each state.  w:
 // evaluation at the new positions.
-typedef double VerletStep(const Model *model, double t, double h, const double *weight, const VerletState *from, VerletState *to, Work *w);
+typedef double VerletStep(const Model *model, double t, double h, const double *weight,
+                          const VerletState *from, VerletState *to, Work *w);
 VerletStep verlet_step;

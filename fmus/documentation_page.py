@@ -1,6 +1,7 @@
 """The FMU's documentation/index.html: one readable page that needs no other file, from modelDescription.xml and the project's own texts.
 
 python fmus/documentation_page.py --description modelDescription.xml --parameters parameters.md --drawing bearing.svg --sources --out index.html
+python fmus/documentation_page.py --description modelDescription.xml --parameters parameters.md --drawing shaft.svg --text shaft.md --sources --out index.html
 """
 
 import argparse
@@ -45,23 +46,35 @@ def without_links(markdown):
     return re.sub(r"!?\[([^]]*)\]\((?!http)[^)]*\)", r"\1", markdown)
 
 
-def page(description, parameters, drawing, with_sources):
-    """The page as text; raises OSError for a file that cannot be read, ValueError for a section that a text no longer has."""
+def bearing_texts():
+    """What the project's own texts say about the bearing."""
+    readme = (PROJECT / "README.md").read_text()
+    return {
+        "conventions": html(sections(readme, "What goes in, what comes out")),
+        "physics": html(sections(readme, "The physics in equations")),
+        "rivet": html(without_links(re.sub(r"\A# .*\n", "", (PROJECT / "docs" / "rivet.md").read_text()))),
+    }
+
+
+def page(description, parameters, drawing, text, with_sources):
+    """The page as text: with the words of the file `text`, or about the bearing if there is none.
+
+    Raises OSError for a file that cannot be read, ValueError for a section that a text no longer has.
+    """
     root = ElementTree.parse(description).getroot()
     variables = parameters.read_text()
-    readme = (PROJECT / "README.md").read_text()
-    environment = jinja2.Environment(trim_blocks=True, lstrip_blocks=True, autoescape=True, undefined=jinja2.StrictUndefined)
-    template = environment.from_string((TEMPLATES / "index.html").read_text())
+    loader = jinja2.FileSystemLoader(TEMPLATES)
+    environment = jinja2.Environment(loader=loader, trim_blocks=True, lstrip_blocks=True, autoescape=True, undefined=jinja2.StrictUndefined)
+    template = environment.get_template("page.html" if text else "bearing.html")
+    texts = {"text": html(text.read_text())} if text else bearing_texts()
     simulation = root.find("CoSimulation")
     return template.render(
         model=root.attrib,
         experiment=root.find("DefaultExperiment").attrib,
         flags=[(name, simulation.get(name), meaning) for name, meaning in FLAGS.items() if simulation.get(name, "false") not in ("false", "0")],
         drawing=re.search(r"<svg.*</svg>", drawing.read_text(), re.DOTALL)[0],
-        conventions=html(sections(readme, "What goes in, what comes out")),
-        physics=html(sections(readme, "The physics in equations")),
-        rivet=html(without_links(re.sub(r"\A# .*\n", "", (PROJECT / "docs" / "rivet.md").read_text()))),
-        variables={title: html(sections(variables, title)) for title in ("Inputs", "Parameters", "Outputs")},
+        **texts,
+        variables={title: html(sections(variables, title)) for title in ("Inputs", "Parameters", "Outputs", "Locals") if f"\n## {title}\n" in variables},
         with_sources=with_sources,
         licenses=LICENSES,
     )
@@ -72,10 +85,11 @@ def main(arguments=None):
     parser.add_argument("--description", type=Path, required=True, help="modelDescription.xml")
     parser.add_argument("--parameters", type=Path, required=True, help="parameters.md of the same bearing")
     parser.add_argument("--drawing", type=Path, required=True, help="picture (SVG)")
+    parser.add_argument("--text", type=Path, help="Markdown about the model; default: the project's own about the bearing")
     parser.add_argument("--sources", action="store_true", help="the FMU holds its sources")
     parser.add_argument("--out", type=Path, required=True, help="the page to write")
     options = parser.parse_args(arguments)
-    options.out.write_text(page(options.description, options.parameters, options.drawing, options.sources))
+    options.out.write_text(page(options.description, options.parameters, options.drawing, options.text, options.sources))
 
 
 if __name__ == "__main__":

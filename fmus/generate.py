@@ -2,7 +2,7 @@
 
 python fmus/generate.py                                  write the tracked files
 python fmus/generate.py --check                          compare them byte for byte, exit 1 on a difference
-python fmus/generate.py --bearing FILE --out DIR         another bearing (number of balls, start values), all files into one folder
+python fmus/generate.py --bearing FILE --out DIR         another bearing (balls, start values, description), all files into one folder
 python fmus/generate.py --table FILE --out DIR           another part of a machine behind the same wrapper, all files into one folder
 """
 
@@ -25,7 +25,8 @@ TABLE = ROOT / "fmus" / "variables.toml"
 OUTPUTS = ("fmu_src/generated/variables.h", "fmu_src/generated/variables.c", "fmus/modelDescription.xml", "bearing_model/variables.py", "docs/parameters.md")
 TEMPLATES = ROOT / "fmus" / "templates"
 Z_MIN, Z_MAX = 5, 32
-CAUSALITIES = {"inputs": "input", "parameters": "parameter", "outputs": "output"}
+CAUSALITIES = {"inputs": "input", "parameters": "parameter", "outputs": "output", "locals": "local"}
+CALCULATED = ("output", "local")
 BASE_UNITS = ("kg", "m", "s", "A", "K", "mol", "cd", "rad")
 LABELS = {"m": "m", "um": "µm", "m/s2": "m/s²", "rad/s2": "rad/s²", "N/m1.5": "N/m^1.5", "kg.m2": "kg.m²", "kg/m3": "kg/m³", "degC": "°C"}
 LOG_CATEGORIES = {  # in the order of LogCategory in part.h
@@ -110,9 +111,11 @@ class Table:
     groups: dict
     variables: tuple
     states: tuple
+    assumptions: dict  # by parameter: usual range as factors of its value, and the source
+    origin: dict  # where the values of another bearing come from, by name
 
-    def of(self, causality):
-        return [v for v in self.variables if v.causality == causality]
+    def of(self, *causalities):
+        return [v for v in self.variables if v.causality in causalities]
 
     @property
     def guid(self):
@@ -131,7 +134,7 @@ def load_table(bearing=None, path=None):
         raise ValueError(f"{bearing or path}: Z = {Z!r}: allowed is an integer from {Z_MIN} to {Z_MAX}")
     variables = []
     for section, causality in CAUSALITIES.items():
-        for entry in raw[section]["list"]:
+        for entry in raw.get(section, {}).get("list", ()):
             v = Variable(causality=causality, **entry | {"count": number_of(entry.get("count", 1), Z)})
             v = replace(v, choices=tuple(raw["enumerations"].get(v.type, ())))
             variables.append(replace(v, start=Z) if v.group == "constant" else v)
@@ -143,7 +146,9 @@ def load_table(bearing=None, path=None):
         count = number_of(entry["count"], Z)
         states.append(StateBlock(**entry | {"count": count}, offset=offset, of_balls=entry["count"] == "Z"))
         offset += count
-    table = Table(Z, raw["model_name"], raw["description"], raw["units"], raw["enumerations"], raw["groups"], tuple(variables), tuple(states))
+    description = ". ".join(filter(None, (raw["description"], changes.get("description", raw.get("case")))))
+    layout = raw["units"], raw["enumerations"], raw["groups"], tuple(variables), tuple(states)
+    table = Table(Z, raw["model_name"], description, *layout, raw.get("assumptions", {}), changes.get("origin", {}))
     check_table(table, path, raw.get("retired", ()))
     return table
 
@@ -188,9 +193,9 @@ def check_table(table, path, retired=()):
             f"type {v.type!r} is not Real, Integer or an enumeration": v.type not in ("Real", "Integer", *table.enumerations),
             f"unknown unit {v.unit!r}": v.unit not in table.units,
             f"unknown display unit {v.display!r}": v.display and v.display not in table.units.get(v.unit, {}).get("display", {}),
-            f"unknown group {v.group!r}": v.causality == "output" and v.group not in table.groups,
-            "no source": v.causality != "output" and not v.source,
-            f"start {v.start!r} outside {v.limits}": v.causality != "output" and (v.start is None or not v.limits[0] <= v.start <= v.limits[1]),
+            f"unknown group {v.group!r}": v.causality in CALCULATED and v.group not in table.groups,
+            "no source": v.causality not in CALCULATED and not v.source,
+            f"start {v.start!r} outside {v.limits}": v.causality not in CALCULATED and (v.start is None or not v.limits[0] <= v.start <= v.limits[1]),
         }
         names.add(v.name)
         for problem, found in problems.items():
@@ -292,6 +297,8 @@ def write_description(table):
         add_types(root, table)
     add_log_categories(root)
     etree.SubElement(root, "DefaultExperiment", startTime="0", stopTime="0.4", stepSize="1e-4")  # a tolerance here would overrule solver.tol
+    if table.origin:
+        add_origin(root, table)
     indices = add_variables(root, table)
     add_structure(root, table, indices)
     return etree.tostring(root, encoding="UTF-8", xml_declaration=True, pretty_print=True).decode()
@@ -322,6 +329,13 @@ def add_log_categories(root):
         etree.SubElement(categories, "Category", name=name, description=description)
 
 
+def add_origin(root, table):
+    """Where start values come from, for `riveted-bearing run`: an annotation that other tools pass over."""
+    tool = etree.SubElement(etree.SubElement(root, "VendorAnnotations"), "Tool", name="riveted-bearing")
+    for name, origin in table.origin.items():
+        etree.SubElement(tool, "Value", name=name, origin=origin)
+
+
 def add_variables(root, table):
     """ModelVariables; returns the index of each scalar variable, from 1."""
     variables = etree.SubElement(root, "ModelVariables")
@@ -346,7 +360,7 @@ def variability(v):
         return {"variability": "fixed", "initial": "exact"}
     if v.group == "constant":
         return {"variability": "constant", "initial": "exact"}
-    return {"variability": "continuous"} | ({"initial": "calculated"} if v.causality == "output" else {})
+    return {"variability": "continuous"} | ({"initial": "calculated"} if v.causality in CALCULATED else {})
 
 
 def value_attributes(v, indices):

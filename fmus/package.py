@@ -9,17 +9,18 @@ The same inputs give the same bytes.
 import argparse
 import os
 import platform
+import re
 import sys
 import tempfile
 import zipfile
 from pathlib import Path
 
 from lxml import etree
+from materials import PLACE, bill_of_materials
 from sources import collect
 
 PROJECT = Path(__file__).resolve().parents[1]
 LICENSES = ("LICENSE", "THIRD_PARTY_NOTICES.md")
-TERMINALS = PROJECT / "fmus" / "terminalsAndIcons.xml"
 SUFFIXES = {"linux64": ".so", "aarch64-linux": ".so", "darwin64": ".dylib", "aarch64-darwin": ".dylib", "win64": ".dll"}
 HOSTS = {  # (system, machine) -> platform as FMI 2.0 names its folder; others as FMI 3.0 does
     ("Linux", "x86_64"): "linux64",
@@ -63,7 +64,8 @@ def package(options):
     Raises OSError for a file that cannot be read or written, ValueError for a platform that FMI has no name for and for two sources of one name.
     """
     description = etree.parse(str(options.description), etree.XMLParser(remove_blank_text=True))
-    simulation = description.getroot().find("CoSimulation")
+    root = description.getroot()
+    simulation = root.find("CoSimulation")
     identifier = simulation.get("modelIdentifier")
     binaries = dict(map(platform_and_file, options.binary))
     sources, units = collect(options.source, options.include)
@@ -72,22 +74,31 @@ def package(options):
         for name in units:
             etree.SubElement(files, "File", name=name)
         simulation.insert(0, files)
+    build = re.search(r'BUILD_DIGEST\[\] = "([0-9a-f]{64})"', options.build_info.read_text())[1]
+    root.set("version", options.version)
+    root.set("author", options.author)
+    root.set("generationTool", f"riveted-bearing {options.version}, build {build[:12]}")
     members = {"modelDescription.xml": etree.tostring(description, encoding="UTF-8", xml_declaration=True, pretty_print=True)}
     members |= {f"binaries/{name}/{identifier}{SUFFIXES[name]}": file.read_bytes() for name, file in binaries.items()}
     members |= {f"sources/{name}": content for name, content in sources.items()}
     members |= {f"documentation/licenses/{name}": (PROJECT / name).read_bytes() for name in LICENSES}
     members |= {"documentation/index.html": options.page.read_bytes()} if options.page else {}
-    members |= icons(options.pictures) if options.pictures else {}
+    members |= icons(options.pictures, options.terminals) if options.pictures else {}
     if options.reference:
         name = f"{identifier}_out.csv"
         members |= {f"{REFERENCE}/fmi-ls-manifest.xml": MANIFEST.format(name=name).encode(), f"{REFERENCE}/{name}": options.reference.read_bytes()}
+    materials = [material.split(maxsplit=2) for material in options.material]
+    members[PLACE] = bill_of_materials(root.attrib, options.version, options.author, build, options.compiler.split(), materials, members)
     write_archive(members, options.out)
 
 
-def icons(folder):
-    """The picture of the FMU, its terminals and their pictures."""
-    members = {f"terminalsAndIcons/{file.name}": file.read_bytes() for file in sorted(folder.glob("*.png"))}
-    return members | {"model.png": (folder / "icon.png").read_bytes(), "terminalsAndIcons/terminalsAndIcons.xml": TERMINALS.read_bytes()}
+def icons(folder, terminals):
+    """The picture of the FMU; its terminals, if there are any, and their pictures."""
+    members = {"model.png": (folder / "icon.png").read_bytes()}
+    if terminals:
+        members |= {f"terminalsAndIcons/{file.name}": file.read_bytes() for file in sorted(folder.glob("*.png"))}
+        members["terminalsAndIcons/terminalsAndIcons.xml"] = terminals.read_bytes()
+    return members
 
 
 def write_archive(members, out):
@@ -118,8 +129,14 @@ def main(arguments=None):
     parser.add_argument("--binary", action="append", default=[], metavar="[PLATFORM=]FILE", help="a shared library; repeatable")
     parser.add_argument("--source", action="append", type=Path, default=[], help="a C file to compile; repeatable")
     parser.add_argument("--include", action="append", type=Path, default=[], help="a folder of headers that go with the sources; repeatable")
+    parser.add_argument("--version", required=True, help="of the package")
+    parser.add_argument("--author", required=True)
+    parser.add_argument("--build-info", type=Path, required=True, help="C file with the digest of the sources (build_info.py)")
+    parser.add_argument("--compiler", required=True, help="name and version of what compiled the binaries")
+    parser.add_argument("--material", action="append", default=[], metavar="KIND NAME ORIGIN", help="library NAME VERSION or data NAME FILE; repeatable")
     parser.add_argument("--page", type=Path, help="documentation (page.py)")
     parser.add_argument("--pictures", type=Path, help="folder of the icons (picture.py)")
+    parser.add_argument("--terminals", type=Path, help="terminalsAndIcons.xml")
     parser.add_argument("--reference", type=Path, help="reference results (reference.py)")
     try:
         package(parser.parse_args(arguments))

@@ -100,11 +100,11 @@ def save(figure, path, **options):
     plt.close(figure)
 
 
-def icon(path, paint, extent):
-    """A square transparent picture of what `paint` draws within +-extent."""
+def icon(path, paint, extent, centre=0.0):
+    """A square transparent picture of what `paint` draws within +-extent about a point of the x-axis."""
     figure = plt.figure(figsize=(1, 1), dpi=ICON_PIXELS)
     ax = figure.add_axes((0, 0, 1, 1))
-    ax.set(xlim=(-extent, extent), ylim=(-extent, extent), aspect="equal")
+    ax.set(xlim=(centre - extent, centre + extent), ylim=(-extent, extent), aspect="equal")
     ax.axis("off")
     paint(ax)
     save(figure, path, dpi=ICON_PIXELS, transparent=True)
@@ -124,8 +124,13 @@ def write_icons(mm, folder):
     )
 
 
+def use_style(settings):
+    """Fonts, and names inside SVG files that do not change from run to run."""
+    settings |= {"svg.hashsalt": "riveted-bearing", "svg.fonttype": "none", "font.family": "sans-serif"}
+
+
 def main(arguments=None):
-    matplotlib.rcParams |= {"svg.hashsalt": "riveted-bearing", "svg.fonttype": "none", "font.family": "sans-serif"}
+    use_style(matplotlib.rcParams)
     parser = argparse.ArgumentParser(description="Draw a bearing.")
     parser.add_argument("--description", type=Path, required=True, help="modelDescription.xml, whose start values are drawn")
     parser.add_argument("--drawing", type=Path, help="file for both views with letters")

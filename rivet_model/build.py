@@ -29,10 +29,10 @@ def _quiet(stage, done, total):
 
 @threadpool_limits.wrap(limits=1)
 def make_table(geometry, coarse=False, workers=2, progress=_quiet, hold_out=320):
-    """Table of kind fe.
+    """Table of kind fe, or fe_coarse.
 
-    progress(stage, done, total) is called as the work goes on; hold_out: number of loads at which the error in the header is measured
-    (none if 0; an eighth of the number for a coarse table).
+    progress(stage, done, total) is called as the work goes on; hold_out: number of fresh loads for the error in the header (0 leaves it out), solved on a
+    finer grid of angles, of a coarse table on its own: there it is the interpolation that errs.
     Raises ValueError for a geometry that cannot be meshed, ArithmeticError if a contact or plasticity solution is not found.
     """
     grid, knots = (COARSE, reduction.COARSE) if coarse else (SHIPPED, reduction.FULL)
@@ -45,22 +45,22 @@ def make_table(geometry, coarse=False, workers=2, progress=_quiet, hold_out=320)
     fine = Fineness(0.5) if coarse else Fineness()
     fit = plastic_fit.plastic_fit(geometry, fine=fine, progress=stage("interference"))
     cage = half_loads.make_half(geometry, half.COARSE if coarse else None, half_loads.COARSE_KNOTS if coarse else None, stage("cage half"))
-    result = assemble(joint, knots, samples, fit, cage)
+    result = assemble("fe_coarse" if coarse else "fe", joint, knots, samples, fit, cage)
     shank_knots = reduction.SHANK_COARSE if coarse else reduction.SHANK_FULL
     shank_samples = reduction.shank_sample(joint, shank_knots, workers, stage("shank"))
     result.shank = table.make_shank(reduction.SHANK_LENGTH, shank_knots, shank_samples / rivet_table.MPA_PER_N)
     if hold_out:
-        result.errors = measured_errors(result, joint if coarse else Joint(geometry, TRUTH), hold_out // 8 if coarse else hold_out, workers, stage("hold-out"))
+        result.errors = measured_errors(result, joint if coarse else Joint(geometry, TRUTH), hold_out, workers, stage("hold-out"))
     return result
 
 
-def assemble(joint, knots, samples, fit, cage):
+def assemble(kind, joint, knots, samples, fit, cage):
     """The table from its parts, without its stress over the shank's loads."""
     geometry = joint.geometry
     _, head, head_vm = stiffness.head_friction(joint)
     return table.make(
         geometry,
-        "fe",
+        kind,
         knots,
         samples / rivet_table.MPA_PER_N,
         (fit.fit_a, fit.fit_eff),

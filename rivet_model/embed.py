@@ -70,7 +70,7 @@ def c_source(t):
     joint = ", ".join(f".{key} = {float(t.joint[key])!r}" for key in rivet_table.JOINT_KEYS)
     parts.append(f"""
 const RivetTable rivet_table = {{
-    .kind = "{t.kind}", .geometry_hash = "{t.geometry_hash}", .digest = "@digest@", .Z = {t.Z}, .moment_length = {float(t.moment_length)!r},
+    .kind = {t.kind_number}, .geometry_hash = "{t.geometry_hash}", .digest = "@digest@", .Z = {t.Z}, .moment_length = {float(t.moment_length)!r},
     .axis = {{{", ".join(axes)}}},
     .primary = primary, .secondary = secondary, .head_friction = {float(t.head_friction)!r}, .head_friction_vm = {float(t.head_friction_vm)!r},
     .yield_rivet = {float(t.yield_rivet)!r}, .fit_flange_yield = {float(t.fit_flange_yield)!r},

@@ -73,7 +73,7 @@ def run(
 def info(target: str | Path = "6207", fmu: str | Path | None = None) -> "Case":
     """Geometry, masses, loads and quasi-static equilibrium of a bearing, or of a scene at its start, without a simulation.
 
-    target: designation of a shipped bearing (6207, 6310), bearing file, name of a shipped scene or scene file; fmu: the FMU whose start values a scene
+    target: designation (6207, 6008, ...), bearing file, name of a shipped scene or scene file; fmu: the FMU whose start values a scene
     begins from, None for the default one.
     Returns a Case: .bearing and .load of the quasi-static model, .values by variable name, .equilibrium() with loads, contact angles, pressures,
     stiffness, life and frequencies.  Raises UserError naming what cannot be used.
@@ -92,17 +92,18 @@ def build(
     out: str | Path | None = None,
     *,
     platforms: Sequence[str] = (),
-    coarse: bool = False,
+    table: str | None = None,
     progress: Callable[..., None] | None = None,
 ) -> Path:
-    """Build an FMU for a bearing and return its path: needs a C compiler and takes about half a minute.
+    """Build an FMU for a bearing and return its path: needs a C compiler and takes a minute or two.
 
-    bearing: bearing file or designation, None for the 6207; rivet: rivet table (JSON), or geometry (TOML) to make one by finite elements in some half an
-    hour (coarse: in seconds, roughly), None for the shipped table if it fits the bearing, else closed forms; out: the FMU to write, None for my.fmu in the
-    working directory from my.toml, and RivetedBearing.fmu (in a checkout: in fmus/) from the default; platforms: FMI's names, e.g. ["win64"], of the
-    systems to compile for instead of this one (needs ziglang); progress: called with a description of the present step and, if known, the share done.
+    bearing: bearing file or designation (6008, 6308, ...), None for the 6207; rivet: rivet table (JSON) or geometry of the rivet (TOML), None for the
+    bearing's own rivet; out: the FMU to write, None for my.fmu in the working directory from my.toml, and RivetedBearing.fmu (in a checkout: in fmus/) from
+    the default; platforms: FMI's names, e.g. ["win64"], of the systems to compile for instead of this one (needs ziglang); table: "coarse" finite elements,
+    "full" ones in some half an hour, or "closed-form", None for the shipped table if it was made for this rivet, else coarse; progress: called with what is
+    being done and, if known, the share done.
     Raises UserError with the reason; `out` is then left as it was.
     """
     from .builder import build_fmu, platform_names
 
-    return build_fmu(bearing, rivet, out, progress or (lambda text, share=None: None), platform_names(",".join(platforms)), coarse)
+    return build_fmu(bearing, rivet, out, progress or (lambda text, share=None: None), platform_names(",".join(platforms)), table)

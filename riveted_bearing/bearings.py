@@ -1,14 +1,17 @@
-"""Bearing files: geometry, materials and catalogue data of a bearing, and the results that need no simulation.
+"""Bearings: by designation or file, what is given, what the catalogue says, what follows by rule, and what can be said without a simulation.
 
-    designation = "6310"
+    designation = "6310"  # one of the catalogue's fills in what is not given below
     Z = 8
     [catalogue]           # optional: bore, outside_diameter, width [m], C, C_0 [N]
     [parameters]          # start values of the FMU made from this file
     bearing.D = "19.05 mm"
-    [inputs]              # likewise
+    [rivet]               # optional: dimensions and materials by the names of rivet_model.geometry
+    shank_diameter = "2 mm"
+    [inputs]              # start values too
     shaft.F_y = 6000.0
 
-A number is SI, a text carries its unit; a variable that the file leaves out keeps its start value in the variable table, that of the 6207.
+A number is SI, a text carries its unit.  What is left out comes from the catalogue (catalogue.py) if it knows the designation, by rule from balls and pitch
+diameter (scaling.py) if these differ from the 6207's, else from the variable table; Case.origin says which.
 """
 
 import math
@@ -18,25 +21,41 @@ from pathlib import Path
 
 from bearing_model import variables
 from bearing_model.quasi_static import Bearing, Load, quasi_static
+from rivet_model.geometry import Geometry
 
+from . import catalogue, limits, scaling
 from .errors import UserError, unknown
 from .scene import load_scene, positive, read_toml, refusal, section_of, shipped_scenes
-from .units import MULTIPLES, suffix, to_si
+from .units import MULTIPLES, SPELLINGS, suffix, to_si
 
 SHIPPED = files("riveted_bearing") / "data" / "bearings"
-KEYS = ("designation", "description", "Z", "catalogue", "parameters", "inputs")
+KEYS = ("designation", "description", "Z", "catalogue", "parameters", "rivet", "inputs")
 CATALOGUE = ("bore", "outside_diameter", "width", "C", "C_0")
+CAGE_SIZES = ("Z", "d_m", "ball_diameter", "pocket_clearance", "cage_outer_diameter", "cage_inner_diameter", "cage_half_width")  # a bearing's own
+RIVET = {f.name: f.default for f in fields(Geometry) if f.name not in CAGE_SIZES}  # the rivet's own, with the defaults
+CAGE_MEANT = (
+    "Meant with a machined two-piece riveted cage, guided by the outer ring; the pressed ribbon cage with spherical pockets "
+    "that many bearings of this designation carry is not modelled"
+)
+SHAPE = ("bearing.D", "bearing.d_m", "cage.D_o", "cage.D_i", "cage.x_c")  # what the rules follow from
 
 
 @dataclass(frozen=True)
 class Case:
-    """A bearing at work: catalogue data and SI values or item names by the FMU's full variable names."""
+    """A bearing at work: catalogue data, SI values or item names by the FMU's full variable names, dimensions of the rivet.
+
+    origin: "catalogue", "rule", "yours" (a file's) or "shipped" (a shipped file's) by name; what is not in it has the variable table's default.
+    bare: whether only a designation was given, which says nothing of the cage.
+    """
 
     designation: str
     description: str
     Z: int
     values: dict
     catalogue: dict = field(default_factory=dict)
+    rivet: dict = field(default_factory=dict)
+    origin: dict = field(default_factory=dict)
+    bare: bool = False
 
     def __repr__(self):
         return f"<Case {self.designation}: {self.description or 'no description'}; Z = {self.Z}, {len(self.values)} values>"
@@ -56,6 +75,21 @@ class Case:
             return Load(**given | {"M_y": 0.0, "M_z": 0.0})
         return Load(**given, k_tilt=self.values["ring.k_tilt"] if mode == "supported" else 0.0)
 
+    @property
+    def joint(self):
+        """Dimensions of rivet and cage for rivet_model.geometry.Geometry."""
+        v = self.values
+        return {
+            "Z": self.Z,
+            "d_m": v["bearing.d_m"],
+            "ball_diameter": v["bearing.D"],
+            "pocket_clearance": v["cage.pocket_clearance"],
+            "cage_outer_diameter": v["cage.D_o"],
+            "cage_inner_diameter": v["cage.D_i"],
+            "cage_half_width": 2.0 * v["cage.x_c"],
+            "patch_radius": round((v["cage.D_o"] - v["cage.D_i"]) / 4.0, 12),  # without the rounding of the difference: the table's digest knows every bit
+        } | self.rivet
+
     def equilibrium(self):
         """The QuasiStatic of ring and balls; UserError if there is none."""
         return self.solved(self.load, "exact")
@@ -71,10 +105,37 @@ class Case:
         except (ValueError, ArithmeticError) as problem:
             raise UserError(f"{self.designation}: {problem}") from None
 
+    def of_origin(self, origin):
+        """Names of the values of one origin."""
+        return [name for name, found in self.origin.items() if found == origin]
+
+
+def not_given(origin):
+    """What was not given, by what stands for it: {"by rule": names, ...}; nothing for a shipped file, which gives all that its bearing needs."""
+    if "shipped" in origin.values():
+        return {}
+    sources = {"catalogue": f"from {catalogue.SOURCE}", "rule": "by rule"}
+    found = {source: [name for name, of in origin.items() if of == key] for key, source in sources.items()}
+    return {source: grouped(names) for source, names in found.items() if names}
+
+
+def grouped(names):
+    """Dotted names with each prefix once: Z, bearing (D, d_m), cage (m)."""
+    groups = {}
+    for name in names:
+        prefix, _, last = name.rpartition(".")
+        groups.setdefault(prefix, []).append(last)
+    return ", ".join(f"{prefix} ({', '.join(lasts)})" if prefix else ", ".join(lasts) for prefix, lasts in groups.items())
+
 
 def shipped_bearings():
-    """Designations of the bearings that come with the program."""
+    """Designations of the bearings that come as files with the program."""
     return sorted(path.name.removesuffix(".toml") for path in SHIPPED.iterdir() if path.name.endswith(".toml"))
+
+
+def known_bearings():
+    """Designations that need no file: shipped ones and the catalogue's."""
+    return [*shipped_bearings(), *(name for name in catalogue.entries() if name not in shipped_bearings())]
 
 
 def find_bearing(source):
@@ -83,32 +144,166 @@ def find_bearing(source):
         return SHIPPED / f"{source}.toml"
     if Path(source).is_file():
         return Path(source)
-    raise unknown("bearing", "name or file", source, shipped_bearings())
+    raise unknown("bearing", "name or file", source, known_bearings())
 
 
 def is_bearing(source):
     """Whether a name or file means a bearing, not a scene."""
-    if str(source) in shipped_bearings() or str(source) in shipped_scenes():
-        return str(source) in shipped_bearings()
-    return Path(source).is_file() and "Z" in read_toml(Path(source))
+    if str(source) in known_bearings() or str(source) in shipped_scenes():
+        return str(source) in known_bearings()
+    return Path(source).is_file() and {"Z", "designation", "catalogue", "rivet"} & set(read_toml(Path(source))) != set()
 
 
 def bearing_case(source):
-    """The Case of a bearing file: its values, and start values of the variable table for all others; UserError naming file, key, value and what is allowed."""
+    """The Case of a designation or a bearing file; UserError naming file, key, value and what is allowed."""
+    designation = str(source)
+    if designation in catalogue.entries() and designation not in shipped_bearings():
+        description = f"Deep-groove ball bearing {designation} with a machined two-piece riveted cage"
+        return read_case(f"catalogue bearing {designation}", {"designation": designation, "description": description}, "yours", bare=True)
     path = find_bearing(source)
-    document = read_toml(path)
+    shipped = designation in shipped_bearings()
+    return read_case(path, {"designation": path.name.removesuffix(".toml")} | read_toml(path), "shipped" if shipped else "yours", bare=shipped)
+
+
+def read_case(path, document, own, bare=False):
+    """The Case of a document; own: how the origin of its values is called."""
     for key in document:
         if key not in KEYS:
             raise unknown(path, "key", key, KEYS)
-    Z = document.get("Z", variables.Z)
-    if isinstance(Z, bool) or not isinstance(Z, int) or not 5 <= Z <= 32:
+    designation = str(document["designation"])
+    entry = catalogue.entries().get(designation) if own != "shipped" else None
+    data = dict(catalogue_values(path, section_of(path, document, "catalogue")))
+    given = dict(start_values(path, "parameters", section_of(path, document, "parameters"), variables.PARAMETERS))
+    inputs = dict(start_values(path, "inputs", section_of(path, document, "inputs"), variables.INPUTS))
+    rivet = dict(rivet_values(path, section_of(path, document, "rivet")))
+    Z = document.get("Z")
+    if Z is not None and (isinstance(Z, bool) or not isinstance(Z, int) or not 5 <= Z <= 32):
         raise refusal(path, "Z", Z, "allowed: an integer from 5 to 32")
-    catalogue = dict(catalogue_values(path, section_of(path, document, "catalogue")))
-    values = {}
-    for section, known in (("parameters", variables.PARAMETERS), ("inputs", variables.INPUTS)):
-        values |= {name: named(variable, variable.start) for name, variable in known.items()}
-        values |= dict(start_values(path, section, section_of(path, document, section), known))
-    return Case(str(document.get("designation", Path(path.name).stem)), str(document.get("description", "")), Z, values, catalogue)
+    origin = dict.fromkeys([*(["Z"] if Z else []), *data, *given, *(f"rivet.{name}" for name in rivet), *inputs], own)
+
+    by_catalogue = {key: value for key, value in (entry.data if entry else {}).items() if key not in data}
+    data |= by_catalogue
+    all_Z, by_rule, rivet_by_rule, inputs_by_rule = rules(Z, given, rivet, inputs, data, entry)
+    origin |= dict.fromkeys(by_catalogue, "catalogue")
+    origin |= dict.fromkeys([name for name in ("Z", *by_rule, *(f"rivet.{name}" for name in rivet_by_rule), *inputs_by_rule) if name not in origin], "rule")
+    values = defaults() | by_rule | inputs_by_rule | given | inputs
+    check_limits(path, document, (Z, given, rivet, inputs, data, entry))
+    return Case(designation, str(document.get("description", "")), all_Z, values, data, rivet_by_rule | rivet, origin, bare)
+
+
+def defaults():
+    """Start values of the variable table, by item name where they belong to an enumeration."""
+    return {name: named(variable, variable.start) for name, variable in (variables.PARAMETERS | variables.INPUTS).items()}
+
+
+def rules(Z, given, rivet, inputs, data, entry):
+    """What is not given, by rule: number of balls, parameters, dimensions of the rivet, inputs."""
+    shape = {name: given.get(name, scaling.start(name)) for name in SHAPE}
+    if entry:
+        rule_Z, rule_D = catalogue.balls(entry)
+        Z, shape["bearing.D"], shape["bearing.d_m"] = Z or rule_Z, given.get("bearing.D", rule_D), given.get("bearing.d_m", entry.d_m)
+    Z = Z or variables.Z
+    if not entry and all(shape[name] == scaling.start(name) for name in SHAPE):
+        return Z, {}, {}, {}
+    D, d_m = shape["bearing.D"], shape["bearing.d_m"]
+    parameters = scaling.scaled_parameters(D, d_m, given, data.get("bore"), data.get("width"))
+    if "bore" in data and (P_d := catalogue.clearance(data["bore"])) is not None:
+        parameters["bearing.P_d"] = P_d
+    loads = {} if inputs else scaling.scaled_inputs(Z, D, d_m, data.get("C"))
+    return (
+        Z,
+        {name: value for name, value in parameters.items() if name not in given},
+        {name: value for name, value in scaling.scaled_rivet(D).items() if name not in rivet},
+        loads,
+    )
+
+
+def limited_values(Z, given, rivet, inputs, data, entry):
+    """All numbers that limits.LIMITS are about, given or by rule, by the names that it uses."""
+    all_Z, by_rule, rivet_by_rule, _ = rules(Z, given, rivet, inputs, data, entry)
+    numbers = {name: value for name, value in (defaults() | by_rule | given).items() if is_number(value)} | {"Z": all_Z}
+    rivet = RIVET | rivet_by_rule | rivet
+    return numbers | {f"rivet.{name}": value for name, value in rivet.items()} | {f"catalogue.{key}": value for key, value in data.items()}
+
+
+def check_limits(path, document, parts):
+    """UserError for a bearing that cannot be built, by the first limit that does not hold and a key that the user gave.
+
+    parts: Z, given parameters, rivet, inputs and catalogue data, and the catalogue's Entry.
+    """
+    values = limited_values(*parts)
+    broken = next((limit for limit in limits.LIMITS if not limits.holds(limit, values)), None)
+    if broken is None:
+        return
+    written = {name: value for section in ("catalogue", "rivet") for name, value in flat(document.get(section, {}), f"{section}.")}
+    written |= dict(flat(document.get("parameters", {}))) | {key: document[key] for key in ("Z",) if key in document}
+    own = [name for name in written if name in values and name not in broken.keys]
+    keys = [*(key for key in broken.keys if key in written), *own, *(key for key in broken.keys if key not in written)]
+    for key in keys:
+        allowed = limits.bound(broken, values[key], lambda value, key=key: limited_values(*changed(parts, key, value)))
+        if allowed:
+            words, number = allowed
+            others = ", ".join(f"{name} = {shown(name, values[name], written.get(name))}" for name in broken.keys if name != key)
+            reason = f"{words} {shown(key, number, written.get(key), words)} is allowed for {broken.reason}{f', with {others}' if others else ''}"
+            raise refusal(path, key, written.get(key, values[key]), reason)
+    raise refusal(path, keys[0], written.get(keys[0], values[keys[0]]), f"impossible: {broken.reason}")
+
+
+def changed(parts, key, value):
+    """The parts of a bearing file with one value given."""
+    Z, given, rivet, inputs, data, entry = parts
+    group, _, name = key.partition(".")
+    if key == "Z":
+        Z = value
+    elif group == "rivet":
+        rivet = rivet | {name: value}
+    elif group == "catalogue":
+        data = data | {name: value}
+    else:
+        given = given | {key: value}
+    return Z, given, rivet, inputs, data, entry
+
+
+def shown(name, value, written, words=""):
+    """A value in the unit in which the user wrote it, else in SI; a bound is rounded to the allowed side."""
+    if name == "Z":
+        return f"{value}"
+    unit = unit_of(name)
+    text = written.strip().lstrip("+-0123456789.eE ") if isinstance(written, str) else ""
+    factor, offset = unit_scales(unit).get(SPELLINGS.get(text, text), (1.0, 0.0)) if text else (1.0, 0.0)
+    number = factor * value + offset
+    if words:
+        digits = 3 - math.floor(math.log10(abs(number) or 1.0))
+        number = (math.floor if words == "at most" else math.ceil)(number * 10.0**digits + (1e-9 if words == "at most" else -1e-9)) / 10.0**digits
+    return f"{number:.4g}{suffix(text or unit)}"
+
+
+def unit_of(name):
+    """SI unit of a parameter, a rivet's dimension or a catalogue value."""
+    if name in variables.PARAMETERS:
+        return variables.PARAMETERS[name].unit
+    group, _, key = name.partition(".")
+    if group == "rivet":
+        return rivet_unit(key)
+    return "N" if key in ("C", "C_0") else "m"
+
+
+def rivet_unit(key):
+    """SI unit of a dimension or material constant of the rivet."""
+    if key.startswith(("E_", "yield_", "hardening_")):
+        return "Pa"
+    return {"nu": "1", "alpha": "1", "T": "K"}.get(key.partition("_")[0], "m")  # alpha: 1/K, without a symbol of its own
+
+
+def rivet_values(path, section, where="rivet."):
+    """Dimensions and materials of a rivet in SI, each checked."""
+    for key, value in section.items():
+        if key not in RIVET:
+            raise unknown(path, "rivet key", key, RIVET)
+        try:
+            yield key, positive(value, unit_scales(rivet_unit(key)))
+        except UserError as problem:
+            raise refusal(path, f"{where}{key}", value, problem) from None
 
 
 def catalogue_values(path, section):
@@ -158,7 +353,7 @@ def is_number(value):
 
 def case_of(target, fmu=None):
     """The Case of a bearing (file or designation) or of a scene at its start (file or name); fmu: path of the FMU that a scene is for."""
-    names = [*shipped_bearings(), *shipped_scenes()]
+    names = [*known_bearings(), *shipped_scenes()]
     if str(target) not in names and not Path(target).is_file():
         raise unknown("info", "bearing, scene or file", target, names)
     if is_bearing(target):

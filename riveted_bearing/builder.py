@@ -19,15 +19,12 @@ import sysconfig
 from pathlib import Path
 
 from bearing_model import variables
-from bearing_model.rivet_table import DEFAULT_TABLE
-from rivet_model import closed_form, table
-from rivet_model.geometry import Geometry
 
-from .bearings import bearing_case
+from .bearings import CAGE_MEANT, bearing_case
 from .errors import UserError, unknown
 from .fmu import FMU_NAME, PACKAGE, Instance, Model
 from .results import make_folder, to_toml, write_atomically
-from .rivet import read_geometry, read_table, table_of
+from .rivet import TABLES, cache_folder, geometry_of, read_geometry, read_table, table_of, table_text
 from .scene import Scene
 
 SOURCES = (PACKAGE.parent, PACKAGE / "_source")  # a checkout, an installed package
@@ -36,13 +33,13 @@ LIBRARIES = ("RivetedBearing.so", "RivetedBearing.dll", "RivetedBearing.dylib")
 STEP = re.compile(r"\[\s*(?:(\d+)/(\d+)|(\d+)%)\s*\]")  # Ninja's [3/40], make's [ 7%]
 
 
-def build_fmu(bearing=None, rivet=None, out=None, say=lambda text, share=None: None, platforms=(), coarse=False):
+def build_fmu(bearing=None, rivet=None, out=None, say=lambda text, share=None: None, platforms=(), kind=None):
     """Build an FMU and return its path.
 
-    bearing: bearing file or designation, None for the default one; rivet: rivet table (JSON), or geometry (TOML) to make one by finite elements,
-    None for the tracked table if it fits the bearing, else closed forms; out: the FMU to write, None for my.fmu here from my.toml, RivetedBearing.fmu
-    from the default (in a checkout: in fmus/); say: called with a description of the present step and the share done; platforms: names of FMI's binary
-    folders to cross-compile for (cmake/zig.cmake), none for this machine's compiler alone; coarse: see table_of.
+    bearing: bearing file or designation, None for the default one; rivet: rivet table (JSON) or geometry of the rivet (TOML), None for the bearing's own
+    rivet; out: the FMU to write, None for my.fmu here from my.toml, RivetedBearing.fmu from the default (in a checkout: in fmus/); say: called with what
+    is being done and the share done; platforms: names of FMI's binary folders to cross-compile for (cmake/zig.cmake), none for this machine's compiler
+    alone; kind: of the rivet table, see table_of.
     Raises UserError with the reason; `out` is then left as it was.
     """
     sources = source_folder()
@@ -50,13 +47,13 @@ def build_fmu(bearing=None, rivet=None, out=None, say=lambda text, share=None: N
     case, folder = bearing_case(bearing or "6207"), build_folder(sources, bearing)
     cmake = find_tools()
     make_folder(out.parent)
-    rivet = given_table(rivet, case, folder, coarse, say) if rivet else rivet_table(case, folder)
-    options = [f"-DRIVET_TABLE={rivet}", f"-DPython_EXECUTABLE={sys.executable}"]
-    if bearing:
+    table = kept(given_table(rivet, case, kind, say), folder / "rivet_table.json")
+    options = [f"-DRIVET_TABLE={table}", f"-DPython_EXECUTABLE={sys.executable}"]
+    if bearing or rivet or kind:
         say("variables")
         generated = folder / "generated"
         resolved = folder / "bearing.toml"
-        resolved.write_text("\n".join(to_toml(start_document(case))), encoding="utf-8")
+        resolved.write_text("\n".join(to_toml(start_document(case, table))), encoding="utf-8")
         execute([sys.executable, sources / "fmus" / "generate.py", "--bearing", resolved, "--out", generated], folder, say)
         options.append(f"-DGENERATED_DIR={generated}")
     binaries = [f"{platform}={cross_compile(cmake, sources, folder / platform, options, platform, say)}" for platform in platforms]
@@ -108,10 +105,19 @@ def find_zig():
     return found
 
 
-def start_document(case):
-    """A case as fmus/generate.py reads it: all start values in SI."""
+def start_document(case, table):
+    """A case with its rivet table as fmus/generate.py reads it: all start values in SI, and what an importer shows of the FMU."""
     sections = {"parameters": variables.PARAMETERS, "inputs": variables.INPUTS}
-    return {"Z": case.Z} | {section: {name: case.values[name] for name in known} for section, known in sections.items()}
+    start = {section: {name: case.values[name] for name in known} for section, known in sections.items()}
+    return {"Z": case.Z, "description": fmu_description(case, read_table(table, case.Z)), "origin": case.origin} | start
+
+
+def fmu_description(case, table):
+    """Which bearing an FMU is, and what its stress table rests on."""
+    parts = [f"{case.designation}: {case.description}" if case.description else case.designation]
+    parts += [CAGE_MEANT] if case.bare else []
+    parts += [f"Stress table of the rivets: {table_text(table)}"]
+    return ". ".join(parts)
 
 
 def source_folder():
@@ -131,8 +137,8 @@ def default_out(sources, source):
 
 def build_folder(sources, bearing):
     """Folder for intermediate files, one per bearing: in the checkout's build/, else in the user's cache."""
-    cache = Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache") / "riveted-bearing"
-    folder = (sources / "build" if sources == PACKAGE.parent else cache) / "bearings" / (Path(str(bearing)).stem if bearing else "default")
+    base = sources / "build" / "bearings" if sources == PACKAGE.parent else cache_folder("bearings")
+    folder = base / (Path(str(bearing)).stem if bearing else "default")
     folder.mkdir(parents=True, exist_ok=True)
     return folder
 
@@ -161,41 +167,26 @@ def generator(folder):
     return ["-G", "Ninja", f"-DCMAKE_MAKE_PROGRAM={ninja}"] if ninja and not (folder / "Makefile").is_file() else []
 
 
-def given_table(path, case, folder, coarse, say):
-    """Absolute path of the user's rivet table, or of the one made for the user's geometry; UserError if it cannot be read or made, or is for another cage."""
-    path = Path(path)
-    if path.suffix != ".toml":
-        read_table(path, case.Z)
-        return path.resolve()
-    return table_of(path, read_geometry(path, cage(case)), folder, coarse, say)
+def given_table(rivet, case, kind, say):
+    """Absolute path of the rivet table: the user's, or one for the user's or the bearing's geometry; UserError if it cannot be had or is for another cage."""
+    if kind is not None and kind not in TABLES:
+        raise unknown("--table", "kind", kind, TABLES)
+    if rivet is None:
+        return table_of(case.designation, geometry_of(case), kind, say)
+    path = Path(rivet)
+    if path.suffix == ".toml":
+        return table_of(path, read_geometry(path, case), kind, say)
+    if kind is not None:
+        raise UserError(f"--table {kind}: {path} is a table already")
+    read_table(path, case.Z)
+    return path.resolve()
 
 
-def cage(case):
-    """Values of the rivets' geometry that follow from a bearing: sizes of the cage [m] and the number of rivets."""
-    v = case.values
-    return {
-        "Z": case.Z,
-        "d_m": v["bearing.d_m"],
-        "ball_diameter": v["bearing.D"],
-        "pocket_clearance": v["cage.pocket_clearance"],
-        "cage_outer_diameter": v["cage.D_o"],
-        "cage_inner_diameter": v["cage.D_i"],
-        "cage_half_width": 2.0 * v["cage.x_c"],
-        "patch_radius": round((v["cage.D_o"] - v["cage.D_i"]) / 4.0, 12),  # rounded, because the table's digest depends on every bit
-    }
-
-
-def rivet_table(case, folder):
-    """The tracked rivet table if it was made for this bearing's cage, else a new one from closed forms; UserError if the cage has no room for rivets."""
-    try:
-        geometry = Geometry(**cage(case))
-    except ValueError as problem:
-        raise UserError(f"{case.designation}: {problem}") from None
-    if geometry.digest == Geometry().digest:
-        return DEFAULT_TABLE
-    path = folder / "rivet_table.json"
-    table.write(closed_form.make_table(geometry), path)
-    return path
+def kept(source, copy):
+    """A copy that is only written when the file has changed, so that nothing is compiled again without need; its path."""
+    if not copy.is_file() or copy.read_bytes() != source.read_bytes():
+        write_atomically(copy, lambda temporary: shutil.copyfile(source, temporary))
+    return copy
 
 
 def execute(command, folder, say):

@@ -4,8 +4,10 @@ import ctypes
 import functools
 import shutil
 import weakref
+import zipfile
 from numbers import Integral
 from pathlib import Path
+from xml.etree import ElementTree
 
 import numpy as np
 from fmpy import extract, read_model_description
@@ -59,6 +61,14 @@ class Model:
         self.parameters = {v.name: v for v in variables if v.causality == "parameter"}
         self.inputs = {v.name: v for v in variables if v.causality == "input"}
         self.outputs = {v.name: v for v in variables if v.causality == "output"}
+        self.locals = {v.name: v for v in variables if v.causality == "local"}
+
+    @functools.cached_property
+    def origin(self):
+        """Where start values come from, by name: "yours", "catalogue", "rule", "shipped"; empty for the default FMU."""
+        with zipfile.ZipFile(self.path) as archive:
+            root = ElementTree.fromstring(archive.read("modelDescription.xml"))
+        return {value.get("name"): value.get("origin") for value in root.iterfind("VendorAnnotations/Tool[@name='riveted-bearing']/Value")}
 
     @functools.cached_property
     def folder(self):
@@ -199,7 +209,7 @@ class Instance:
 
     def reader(self, names):
         """A function that reads the named variables, with one call of the FMU, into an array that its next call overwrites."""
-        variables = self.model.inputs | self.model.outputs
+        variables = self.model.inputs | self.model.outputs | self.model.locals
         references = (fmi2ValueReference * len(names))(*(variables[name].valueReference for name in names))
         buffer = (ctypes.c_double * len(names))()
         values = np.frombuffer(buffer)

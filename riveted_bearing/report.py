@@ -16,7 +16,7 @@ from .animation import frames, number_of_balls
 from .errors import UserError
 from .life import rivet_life
 from .results import FORMATS, read_result, write_atomically
-from .summary import DEG, RPM, columns, settled, summary_rows
+from .summary import DEG, RPM, assumed_rows, columns, life_is_known, settled, summary_rows, table_note
 
 PARTS = files("riveted_bearing") / "data" / "report"
 WIDE, LOW, SQUARE, HIGH = (4.9, 2.7), (4.9, 1.9), (4.9, 4.2), (4.9, 3.0)  # inches
@@ -77,6 +77,9 @@ def render(result):
         lives=lives,
         worst=charts.worst_rivet(result),
         fatigue=result.parameters.get("scene.stress") == "fatigue",
+        table_note=table_note(result),
+        assumed=list(assumed_rows(result)),
+        life_is_known=life_is_known(result),
         solver=list(solver_rows(result)),
         charts={name: chart(result, name, lives) for name in CHARTS},
         figure=figure,
@@ -127,6 +130,8 @@ def chart(result, name, lives):
         return f'<p class="missing">{label}: {lack}</p>'
     if name in ("spectra", "rainflow") and not np.any(np.diff(result.data[f"rivet[{charts.worst_rivet(result)}].sigma_head"][settled(result)])):
         return f'<p class="missing">{label}: the stress does not change</p>'
+    if name == "rainflow" and not lives:
+        return f'<p class="missing">{label}: {table_note(result) or "the stress of the rivets was not recorded"}</p>'
     if name == "rainflow":
         k = charts.worst_rivet(result)
         cycles = next(life["head"].cycles for life in lives if str(life["k"]) == k) * np.array([1e-6, 1e-6, 1.0])
@@ -135,9 +140,9 @@ def chart(result, name, lives):
 
 
 def all_lives(result):
-    """One dict a rivet: k, RivetLife of head and middle, and the FMU's own Miner's sums if it has computed them."""
+    """One dict a rivet: k, RivetLife of head and middle, and the FMU's own Miner's sums if it counted; none from closed forms."""
     rows = []
-    if result.parameters.get("scene.stress") == "off":
+    if result.parameters.get("scene.stress") == "off" or not life_is_known(result):
         return rows
     for k in range(1, number_of_balls(result) + 1):
         head, mid = (rivet_life(result, k, place) for place in ("head", "mid"))

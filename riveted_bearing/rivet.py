@@ -1,5 +1,6 @@
 """Stress of the rivets of a table or of a geometry: curves over preload, fit and transverse load, and pictures of the finite elements."""
 
+import os
 from concurrent.futures import BrokenExecutor
 from hashlib import sha256
 from pathlib import Path
@@ -9,14 +10,17 @@ from rich.table import Column, Table
 from threadpoolctl import threadpool_limits
 
 from bearing_model import load_path, rivet_rom, rivet_splines, rivet_table
-from rivet_model import pictures, table
+from rivet_model import closed_form, pictures, table
 from rivet_model.build import make_table
 from rivet_model.geometry import Geometry
 from rivet_model.load_cases import Joint
 
+from .bearings import CAGE_SIZES, bearing_case, rivet_values
 from .errors import UserError
-from .results import write_atomically
+from .results import make_folder, write_atomically
+from .scene import read_toml, refusal
 
+TABLES = ("coarse", "full", "closed-form")  # kinds that a user can ask for
 ROWS = {"preload": 10.0, "fit": 10e-6, "transverse load": 10.0}  # distance of the printed rows, SI
 
 
@@ -32,19 +36,33 @@ def rivet_curves(source=None):
         joint = condensed(read_geometry(path), path)
         return f"{path.name}: finite elements", pictures.curves(*pictures.joint_response(joint)), joint
     t = read_table(path)
-    errors = t.errors.get("clearance", {}).get("maximum", {})
-    within = f", within {100 * max(errors.values()):.1f} % of the largest stress in clearance" if errors else ""
-    return f"{path.name}: {t.kind}{within}", pictures.curves(*pictures.table_response(t)), condensed(Geometry(**t.geometry), path)
+    return f"{path.name}: {table_text(t)}", pictures.curves(*pictures.table_response(t)), condensed(Geometry(**t.geometry), path)
 
 
-def read_geometry(path, cage=None):
-    """Geometry of a TOML file; UserError if it cannot be read, has an impossible size, or contradicts the bearing's cage."""
+def read_geometry(path, case=None):
+    """Geometry of a TOML file over that of a Case, the 6207's without one; UserError if the file cannot be used or its rivet cannot be made.
+
+    Values are SI numbers or texts with a unit; the file may repeat but not change what the bearing says of the cage.
+    """
+    joint = (case or bearing_case("6207")).joint
+    section = read_toml(Path(path))
+    for name in CAGE_SIZES:
+        if name in section and case and section[name] != joint[name]:
+            raise refusal(path, name, section[name], f"the bearing has {joint[name]!r}")
+    own = {name: section[name] for name in CAGE_SIZES if name in section}
+    rivet = dict(rivet_values(path, {name: value for name, value in section.items() if name not in own}, where=""))
     try:
-        return Geometry.from_toml(path, cage or {})
-    except OSError as problem:
-        raise UserError(f"{path}: {problem.strerror}") from None
+        return Geometry(**(joint | own | rivet))
     except ValueError as problem:
-        raise UserError(str(problem)) from None
+        raise UserError(f"{path}: {problem}") from None
+
+
+def geometry_of(case):
+    """Geometry of a Case; UserError if it cannot be made."""
+    try:
+        return Geometry(**case.joint)
+    except ValueError as problem:
+        raise UserError(f"{case.designation}: {problem}") from None
 
 
 def read_table(path, Z=None):
@@ -65,22 +83,47 @@ def condensed(geometry, path):
         raise UserError(f"{path}: {problem}") from None
 
 
-def table_of(path, geometry, folder, coarse=False, say=lambda text, share: None):
-    """Path of the rivet table of a geometry by finite elements: made in `folder`, or found there from an earlier build.
+def table_of(where, geometry, kind=None, say=lambda text, share=None: None):
+    """Path of the rivet table of a geometry: the shipped one, or one made in the user's cache folder, or found there from an earlier time.
 
-    path: the geometry's file, for messages; coarse: few loads and elements, seconds instead of some half an hour; say: called with stage and share done.
-    Raises UserError if the geometry cannot be meshed or solved; then there is no new file.
+    where: whose geometry it is, for messages; kind: one of TABLES, None for the shipped table if it was made for this geometry, else a coarse one;
+    say: called with stage and share done.  Raises UserError if the geometry cannot be meshed or solved; then there is no new file.
     """
-    kind = "coarse" if coarse else "full"
-    target = folder / f"rivet-{kind}-{geometry.digest}-{sources_digest()}.json"
+    if kind in (None, "full") and geometry.digest == Geometry().digest:
+        return rivet_table.DEFAULT_TABLE
+    kind = kind or "coarse"
+    target = cache_folder("tables") / f"{kind}-{geometry.digest}-{sources_digest()}.json"
     if target.is_file():
         return target
     try:
-        made = make_table(geometry, coarse, progress=lambda stage, done, total: say(f"rivet: {stage}", done / total))
+        made = (
+            closed_form.make_table(geometry)
+            if kind == "closed-form"
+            else make_table(geometry, kind == "coarse", progress=lambda stage, done, total: say(f"rivet: {stage}", done / total))
+        )
     except (ValueError, ArithmeticError, np.linalg.LinAlgError, BrokenExecutor) as problem:
-        raise UserError(f"{path}: {problem}") from None
+        raise UserError(f"{where}: {problem}") from None
     write_atomically(target, lambda temporary: table.write(made, temporary))
     return target
+
+
+def cache_folder(name):
+    """A folder of the user's cache, made if it is not there."""
+    folder = Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache") / "riveted-bearing" / name
+    make_folder(folder)
+    return folder
+
+
+def table_text(t):
+    """What a rivet table rests on and how far it is off, in words."""
+    text = rivet_table.KINDS[t.kind]
+    if t.kind == "closed_form":
+        return f"{text}, tens of per cent off in the head and not on the safe side"
+    errors = t.errors.get("all")
+    if not errors:
+        return f"{text}, error not measured"
+    largest, rms = (100.0 * max(errors[key].values()) for key in ("maximum", "rms"))
+    return f"{text}, error at {errors['loads']} loads that did not make it: RMS {rms:.2g} %, largest {largest:.2g} % of the largest stress"
 
 
 def sources_digest():

@@ -10,6 +10,7 @@ from fmpy import __version__ as fmpy_version
 from fmpy.fmi1 import FMICallException
 from fmpy.fmi2 import fmi2Discard
 
+from .bearings import not_given
 from .fmu import Instance
 from .results import Result
 from .version import __version__
@@ -98,8 +99,9 @@ def closing_values(instance, model):
 
 
 def closing_names(model):
-    """Outputs over the whole run: statistics, damage, solver counters."""
-    return [name for name in model.outputs if name.startswith(("stat.", "solver.")) or ".damage_" in name]
+    """Variables that say how it went over the whole run: statistics, damage, solver counters, processor time, and what the rivets' stress rests on."""
+    names = [*model.outputs, *model.locals]
+    return [name for name in names if name.startswith(("stat.", "solver.")) or ".damage_" in name or name == "rivet.table_kind"]
 
 
 def provenance(model, scene):
@@ -115,6 +117,8 @@ def provenance(model, scene):
             if len(history.t) <= 1000
         },
         "fmu": str(model.path),
+        "given": [*scene.parameters, *(name for name, origin in model.origin.items() if origin == "yours" and name not in scene.parameters)],
+        "not_given": not_given(model.origin),
         "guid": model.description.instantiationToken,
         "model": model.description.description or model.description.modelName,
         "generated": f"{model.description.generationTool or ''} {model.description.generationDateAndTime or ''}".strip(),

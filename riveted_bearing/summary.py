@@ -4,6 +4,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from bearing_model import variables
+
 RPM = 30.0 / np.pi  # rev/min per rad/s
 DEG = 180.0 / np.pi
 
@@ -41,6 +43,32 @@ def summary_rows(result):
         sampled(result, "power loss", "W", 1.0, ["bearing.power_loss"]),
     ]
     return [row for row in rows if row]
+
+
+TABLE_NOTES = {  # by rivet.table_kind
+    2: "the rivets' stress rests on coarse finite elements: RMS error some 2 %, at single loads up to 10 % of the largest stress",
+    3: "the rivets' stress rests on closed forms: tens of per cent off in the head, not on the safe side; build --table coarse makes a better table",
+}
+
+
+def table_note(result):
+    """What limits the rivets' stress beside the model: "" for a full table by finite elements, or if it is not known."""
+    return TABLE_NOTES.get(int(result.summary.get("rivet.table_kind", 0)), "")
+
+
+def assumed_rows(result):
+    """Assumed parameters that move the rivets' stress most and that neither scene nor bearing file gives: (name, value, low, high, unit, source)."""
+    for name, (low, high, source) in variables.ASSUMPTIONS.items():
+        if name in result.parameters and name not in result.about.get("given", ()):
+            unit = variables.PARAMETERS[name].display or variables.PARAMETERS[name].unit
+            factor, _ = variables.UNITS[variables.PARAMETERS[name].unit][unit]
+            value = factor * result.parameters[name]
+            yield name, value, low * value, high * value, unit, source
+
+
+def life_is_known(result):
+    """Whether the stress is good enough to speak of a life: not from closed forms."""
+    return int(result.summary.get("rivet.table_kind", 0)) != 3
 
 
 def rivet_rows(result):

@@ -358,7 +358,7 @@ def schema_of(sweep):
     import pyarrow as pa
 
     model = sweep.model
-    units = {name: v.unit or "1" for name, v in (model.parameters | model.inputs | model.outputs).items()}
+    units = {name: v.unit or "1" for name, v in (model.parameters | model.inputs | model.outputs | model.locals).items()}
     kinds = {"Real": pa.float64(), "Integer": pa.int64(), "Enumeration": pa.string()}
     outputs = dict.fromkeys(name for scene in sweep.scenes.values() for name in scene.outputs)
     fields = [pa.field(name, pa.string()) for name in ("key", "scene", "status", "message", "date")]

@@ -1,6 +1,8 @@
-// Counts what an FMU's binary takes of memory: allocations inside fmi2DoStep, fmi2GetReal and the derivative functions, growth of the process.
+// Counts what an FMU's binary takes of memory: allocations inside fmi2DoStep, fmi2GetReal and the derivative
+// functions, growth of the process.
 //     allocations BINARY GUID STEPS STEP_SIZE REFERENCE...
-// prints: allocations, bytes grown in the second half of the steps; blocks left and bytes grown by 500 lives of an instance after 500 others
+// prints: allocations, bytes grown in the second half of the steps; blocks left and bytes grown by 500 lives
+// of an instance after 500 others
 #define _GNU_SOURCE
 #include "fmi2Functions.h"
 
@@ -30,24 +32,29 @@ void *malloc(size_t size)
 {
     return counted(__libc_malloc(size));
 }
+
 void *calloc(size_t n, size_t size)
 {
     return counted(__libc_calloc(n, size));
 }
+
 void *realloc(void *memory, size_t size)
 {
     blocks -= memory != NULL;
     return counted(__libc_realloc(memory, size));
 }
+
 void *aligned_alloc(size_t alignment, size_t size)
 {
     return counted(__libc_memalign(alignment, size));
 }
+
 int posix_memalign(void **memory, size_t alignment, size_t size)
 {
     *memory = counted(__libc_memalign(alignment, size));
     return *memory ? 0 : 12;
 }
+
 void free(void *memory)
 {
     blocks -= memory != NULL;

@@ -1,5 +1,5 @@
-// A host in the plainest C: loads the FMU's Windows binary, simulates and prints all values as hexadecimal floats.
-// Usage: fmu_host LIBRARY GUID STEPS STEP_SIZE < value references
+// A host in the plainest C: loads the FMU's Windows binary, simulates and prints all values as hexadecimal
+// floats.  Usage: fmu_host LIBRARY GUID STEPS STEP_SIZE < value references
 #include <stdio.h>
 #include <stdlib.h>
 #include <windows.h>
@@ -8,7 +8,8 @@
 
 enum { MAX_VALUES = 4096 };
 
-static void forward(fmi2ComponentEnvironment environment, fmi2String instance, fmi2Status status, fmi2String category, fmi2String message, ...)
+static void forward(fmi2ComponentEnvironment environment, fmi2String instance, fmi2Status status,
+                    fmi2String category, fmi2String message, ...)
 {
     (void)environment;
     fprintf(stderr, "%s %d %s: %s\n", instance, (int)status, category, message);
@@ -22,6 +23,7 @@ static void *function(const char *name)
         FARPROC found;
         void *pointer;
     } address = {GetProcAddress(library, name)};
+
     if (!address.found) {
         fprintf(stderr, "no function %s\n", name);
         exit(1);
@@ -61,7 +63,8 @@ int main(int count, char **argument)
     fmi2FreeInstanceTYPE *delete = function("fmi2FreeInstance");
 
     const fmi2CallbackFunctions callbacks = {.logger = forward, .allocateMemory = calloc, .freeMemory = free};
-    fmi2Component bearing = instantiate("bearing", fmi2CoSimulation, argument[2], "", &callbacks, fmi2False, fmi2False);
+    fmi2Component bearing =
+        instantiate("bearing", fmi2CoSimulation, argument[2], "", &callbacks, fmi2False, fmi2False);
     if (!bearing) return 1;
     check(set_up(bearing, fmi2False, 0.0, 0.0, fmi2False, 0.0), "fmi2SetupExperiment");
     check(enter(bearing), "fmi2EnterInitializationMode");

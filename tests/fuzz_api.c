@@ -1,12 +1,14 @@
-// Calls the FMI functions in any order with any arguments, as a byte string says, and holds what must hold whatever the calls were:
+// Calls the FMI functions in any order with any arguments, as a byte string says, and holds what must hold
+// whatever the calls were:
 //
 //   a status of the standard, never fmi2Fatal;  no NaN with fmi2OK;  an error comes with a message
 //   fmi2Discard of a step: fmi2Terminated is true, the time reached lies inside the step, all outputs are finite
 //   a reset instance runs as a new one: its state after one step is the same byte for byte
 //   floating-point environment and arguments beyond the given sizes are left alone (the sanitizers see the latter)
 //
-// LLVMFuzzerTestOneInput is what coverage-guided fuzzers call.  With -DSTANDALONE:  fuzz_api CALLS [SEED [THREADS]]  feeds pseudo-random
-// strings until each thread has made that many calls and prints what came back.  A violation aborts.
+// LLVMFuzzerTestOneInput is what coverage-guided fuzzers call.  With -DSTANDALONE:  fuzz_api CALLS [SEED
+// [THREADS]]  feeds pseudo-random strings until each thread has made that many calls and prints what came
+// back.  A violation aborts.
 #include "part.h"
 
 #include "fmi2Functions.h"
@@ -23,7 +25,7 @@
 
 enum { INSTANCES = 2, STATES = 3, MAX_VALUES = 24, N_STATUS = 6 };
 
-// ---- the string that decides -----------------------------------------------------------------------------------------------------------------
+// ---- the string that decides ------------------------------------------------------------------------------
 typedef struct {
     const uint8_t *next, *end;
 } Bytes;
@@ -52,7 +54,8 @@ static double uniform(Bytes *bytes)
 
 static double any_double(Bytes *bytes)
 {
-    static const double odd[] = {0.0, -0.0, 1.0, -1.0, NAN, INFINITY, -INFINITY, 5e-324, -2.2e-308, 1.7e308, -1.7e308, 1e-9, 0.1, 1e15};
+    static const double odd[] = {0.0,    -0.0,      1.0,     -1.0,     NAN,  INFINITY, -INFINITY,
+                                 5e-324, -2.2e-308, 1.7e308, -1.7e308, 1e-9, 0.1,      1e15};
     if (chance(bytes, 192)) return odd[choose(bytes, sizeof odd / sizeof odd[0])];
     const uint64_t word = take(bytes, 8);
     double value;
@@ -60,7 +63,7 @@ static double any_double(Bytes *bytes)
     return value;
 }
 
-// ---- bookkeeping -----------------------------------------------------------------------------------------------------------------------------
+// ---- bookkeeping ------------------------------------------------------------------------------------------
 static _Thread_local long calls, counts[N_STATUS], runs_compared;
 static _Thread_local const char *last_call = "nothing";
 
@@ -84,7 +87,8 @@ typedef struct {
     fmi2FMUstate states[STATES];
 } Fuzz;
 
-static void logger(fmi2ComponentEnvironment environment, fmi2String instance, fmi2Status status, fmi2String category, fmi2String message, ...)
+static void logger(fmi2ComponentEnvironment environment, fmi2String instance, fmi2Status status,
+                   fmi2String category, fmi2String message, ...)
 {
     Host *host = environment;
     host->messages++;
@@ -104,16 +108,21 @@ static fmi2Status seen(Host *host, const char *name, fmi2Status status)
 }
 
 // CALL(host, DoStep, ...) calls fmi2DoStep(host->component, ...).
-#define CALL(host, function, ...) ((host)->messages_before = (host)->messages, seen(host, "fmi2" #function, fmi2##function(__VA_ARGS__)))
+#define CALL(host, function, ...) \
+    ((host)->messages_before = (host)->messages, seen(host, "fmi2" #function, fmi2##function(__VA_ARGS__)))
 
 // `wrong`: with something that must be refused.
 static void new_instance(Host *host, Bytes *bytes, bool wrong)
 {
     const fmi2CallbackFunctions functions = {.logger = logger, .componentEnvironment = host};
-    fmi2Component component =
-        wrong ? fmi2Instantiate(chance(bytes, 128) ? NULL : "", chance(bytes, 128) ? fmi2CoSimulation : fmi2ModelExchange, chance(bytes, 128) ? NULL : "{0}",
-                                NULL, chance(bytes, 64) ? NULL : &functions, 1, 1)
-              : fmi2Instantiate("fuzz", fmi2CoSimulation, MODEL_GUID, chance(bytes, 128) ? NULL : "file:///nowhere", &functions, 0, chance(bytes, 128));
+    fmi2Component component = wrong
+                                  ? fmi2Instantiate(chance(bytes, 128) ? NULL : "",
+                                                    chance(bytes, 128) ? fmi2CoSimulation : fmi2ModelExchange,
+                                                    chance(bytes, 128) ? NULL : "{0}", NULL,
+                                                    chance(bytes, 64) ? NULL : &functions, 1, 1)
+                                  : fmi2Instantiate("fuzz", fmi2CoSimulation, MODEL_GUID,
+                                                    chance(bytes, 128) ? NULL : "file:///nowhere", &functions,
+                                                    0, chance(bytes, 128));
     calls++;
     REQUIRE(wrong == (component == NULL));
     host->component = component;
@@ -122,7 +131,7 @@ static void new_instance(Host *host, Bytes *bytes, bool wrong)
     host->stop = INFINITY;
 }
 
-// ---- arguments -------------------------------------------------------------------------------------------------------------------------------
+// ---- arguments --------------------------------------------------------------------------------------------
 // Mostly references of the table.
 static fmi2ValueReference any_reference(Bytes *bytes)
 {
@@ -148,14 +157,10 @@ static double value_for(fmi2ValueReference reference, Bytes *bytes)
     const Variable *v = variable_find(reference, &element);
     if (v == NULL || chance(bytes, 10)) return any_double(bytes);
     switch (choose(bytes, 6)) {
-    case 0:
-        return v->min;
-    case 1:
-        return v->max;
-    case 2:
-        return v->min + uniform(bytes) * (v->max - v->min);
-    default:
-        return v->start * (0.9 + 0.2 * uniform(bytes));
+    case 0: return v->min;
+    case 1: return v->max;
+    case 2: return v->min + uniform(bytes) * (v->max - v->min);
+    default: return v->start * (0.9 + 0.2 * uniform(bytes));
     }
 }
 
@@ -164,7 +169,7 @@ static size_t some(Bytes *bytes)
     return chance(bytes, 230) ? choose(bytes, 4) : choose(bytes, MAX_VALUES + 1);
 }
 
-// ---- actions ---------------------------------------------------------------------------------------------------------------------------------
+// ---- actions ----------------------------------------------------------------------------------------------
 static void check_outputs(Host *host)
 {
     for (const Variable *v = VARIABLES; v < VARIABLES + N_VARIABLES; v++) {
@@ -182,7 +187,8 @@ static void get_real(Fuzz *f, Host *host)
 {
     fmi2ValueReference references[MAX_VALUES];
     const size_t n = some(&f->bytes);
-    double *values = malloc((n + 1) * sizeof *values);  // exactly as large as told: the address sanitizer watches
+    double *values =
+        malloc((n + 1) * sizeof *values);  // exactly as large as told: the address sanitizer watches
     for (size_t i = 0; i < n; i++) references[i] = any_reference(&f->bytes);
     const bool null = chance(&f->bytes, 4);
     const fmi2Status status = CALL(host, GetReal, host->component, null ? NULL : references, n, values);
@@ -259,7 +265,8 @@ static void set_up(Fuzz *f, Host *host)
     const double tolerance = odd ? any_double(&f->bytes) : pow(10.0, -1.5 - 6.0 * uniform(&f->bytes));
     const double start = odd ? any_double(&f->bytes) : 0.0, stop = odd ? any_double(&f->bytes) : 1.0;
     const bool has_stop = chance(&f->bytes, 128);
-    if (CALL(host, SetupExperiment, host->component, chance(&f->bytes, 128), tolerance, start, has_stop, stop) == fmi2OK) {
+    if (CALL(host, SetupExperiment, host->component, chance(&f->bytes, 128), tolerance, start, has_stop,
+             stop) == fmi2OK) {
         host->time = start;
         host->stop = has_stop ? stop : INFINITY;
     }
@@ -355,11 +362,13 @@ static void reset(Fuzz *f, Host *host)
 
 static void debug_logging(Fuzz *f, Host *host)
 {
-    static const fmi2String names[] = {"logEvents", "logSolver", "logStatusError", "logAll", "nonsense %s%n #r1#", NULL};
+    static const fmi2String names[] = {"logEvents", "logSolver",          "logStatusError",
+                                       "logAll",    "nonsense %s%n #r1#", NULL};
     fmi2String categories[3];
     const size_t n = choose(&f->bytes, 4);
     for (size_t i = 0; i < n; i++) categories[i] = names[choose(&f->bytes, 6)];
-    CALL(host, SetDebugLogging, host->component, chance(&f->bytes, 128), n, chance(&f->bytes, 16) ? NULL : categories);
+    CALL(host, SetDebugLogging, host->component, chance(&f->bytes, 128), n,
+         chance(&f->bytes, 16) ? NULL : categories);
 }
 
 static void get_state(Fuzz *f, Host *host)
@@ -418,7 +427,8 @@ static void garbage_state(Fuzz *f, Host *host)
     fmi2FMUstate state = NULL;
     const size_t n = choose(&f->bytes, sizeof bytes);
     for (size_t i = 0; i < n; i++) bytes[i] = (fmi2Byte)take(&f->bytes, 1);
-    REQUIRE(CALL(host, DeSerializeFMUstate, host->component, chance(&f->bytes, 16) ? NULL : bytes, n, &state) == fmi2Error);
+    REQUIRE(CALL(host, DeSerializeFMUstate, host->component, chance(&f->bytes, 16) ? NULL : bytes, n,
+                 &state) == fmi2Error);
     REQUIRE(state == NULL);
 }
 
@@ -432,20 +442,13 @@ static void get_status(Fuzz *f, Host *host)
     fmi2Boolean boolean;
     fmi2String text = NULL;
     switch (choose(&f->bytes, 5)) {
-    case 0:
-        CALL(host, GetStatus, host->component, kind, null ? NULL : &status);
-        break;
-    case 1:
-        CALL(host, GetRealStatus, host->component, kind, null ? NULL : &real);
-        break;
-    case 2:
-        CALL(host, GetIntegerStatus, host->component, kind, null ? NULL : &integer);
-        break;
-    case 3:
-        CALL(host, GetBooleanStatus, host->component, kind, null ? NULL : &boolean);
-        break;
+    case 0: CALL(host, GetStatus, host->component, kind, null ? NULL : &status); break;
+    case 1: CALL(host, GetRealStatus, host->component, kind, null ? NULL : &real); break;
+    case 2: CALL(host, GetIntegerStatus, host->component, kind, null ? NULL : &integer); break;
+    case 3: CALL(host, GetBooleanStatus, host->component, kind, null ? NULL : &boolean); break;
     default:
-        if (CALL(host, GetStringStatus, host->component, kind, null ? NULL : &text) == fmi2OK) REQUIRE(text && strlen(text) < 2048);
+        if (CALL(host, GetStringStatus, host->component, kind, null ? NULL : &text) == fmi2OK)
+            REQUIRE(text && strlen(text) < 2048);
     }
 }
 
@@ -455,7 +458,9 @@ static void derivatives(Fuzz *f, Host *host)
     fmi2Integer orders[MAX_VALUES] = {0};
     fmi2Real values[MAX_VALUES] = {0}, seeds[MAX_VALUES];
     const size_t n = some(&f->bytes), m = some(&f->bytes);
-    for (size_t i = 0; i < n; i++) unknowns[i] = any_reference(&f->bytes), orders[i] = (fmi2Integer)choose(&f->bytes, 4), values[i] = any_double(&f->bytes);
+    for (size_t i = 0; i < n; i++)
+        unknowns[i] = any_reference(&f->bytes), orders[i] = (fmi2Integer)choose(&f->bytes, 4),
+        values[i] = any_double(&f->bytes);
     for (size_t i = 0; i < m; i++) {
         knowns[i] = chance(&f->bytes, 128) ? 1 + choose(&f->bytes, 10) : any_reference(&f->bytes);
         seeds[i] = chance(&f->bytes, 200) ? 1.0 : any_double(&f->bytes);
@@ -469,7 +474,8 @@ static void derivatives(Fuzz *f, Host *host)
         CALL(host, GetRealOutputDerivatives, host->component, unknowns, n, null ? NULL : orders, values);
         break;
     default:
-        CALL(host, GetDirectionalDerivative, host->component, unknowns, n, knowns, m, seeds, null ? NULL : values);
+        CALL(host, GetDirectionalDerivative, host->component, unknowns, n, knowns, m, seeds,
+             null ? NULL : values);
     }
 }
 
@@ -480,38 +486,17 @@ static void model_exchange(Fuzz *f, Host *host)
     fmi2EventInfo info;
     fmi2Component c = host->component;
     switch (choose(&f->bytes, 11)) {
-    case 0:
-        CALL(host, EnterEventMode, c);
-        break;
-    case 1:
-        CALL(host, NewDiscreteStates, c, &info);
-        break;
-    case 2:
-        CALL(host, EnterContinuousTimeMode, c);
-        break;
-    case 3:
-        CALL(host, CompletedIntegratorStep, c, 1, &b[0], &b[1]);
-        break;
-    case 4:
-        CALL(host, SetTime, c, any_double(&f->bytes));
-        break;
-    case 5:
-        CALL(host, SetContinuousStates, c, x, 4);
-        break;
-    case 6:
-        CALL(host, GetDerivatives, c, x, 4);
-        break;
-    case 7:
-        CALL(host, GetEventIndicators, c, x, 4);
-        break;
-    case 8:
-        CALL(host, GetContinuousStates, c, x, 4);
-        break;
-    case 9:
-        CALL(host, GetNominalsOfContinuousStates, c, x, 4);
-        break;
-    default:
-        CALL(host, CancelStep, c);
+    case 0: CALL(host, EnterEventMode, c); break;
+    case 1: CALL(host, NewDiscreteStates, c, &info); break;
+    case 2: CALL(host, EnterContinuousTimeMode, c); break;
+    case 3: CALL(host, CompletedIntegratorStep, c, 1, &b[0], &b[1]); break;
+    case 4: CALL(host, SetTime, c, any_double(&f->bytes)); break;
+    case 5: CALL(host, SetContinuousStates, c, x, 4); break;
+    case 6: CALL(host, GetDerivatives, c, x, 4); break;
+    case 7: CALL(host, GetEventIndicators, c, x, 4); break;
+    case 8: CALL(host, GetContinuousStates, c, x, 4); break;
+    case 9: CALL(host, GetNominalsOfContinuousStates, c, x, 4); break;
+    default: CALL(host, CancelStep, c);
     }
 }
 
@@ -537,7 +522,7 @@ static void renew(Fuzz *f, Host *host)
     new_instance(host, &f->bytes, false);
 }
 
-// ---- a reset instance is as a new one --------------------------------------------------------------------------------------------------------
+// ---- a reset instance is as a new one ---------------------------------------------------------------------
 static unsigned char *run_state(Host *host, size_t *size)
 {
     fmi2FMUstate state = NULL;
@@ -577,14 +562,21 @@ static void compare_run(Fuzz *f, Host *host)
     runs_compared++;
 }
 
-// ---- one string ------------------------------------------------------------------------------------------------------------------------------
+// ---- one string -------------------------------------------------------------------------------------------
 typedef void Action(Fuzz *, Host *);
 static Action *const ACTIONS[] = {
-    get_real,    get_real,    get_real,       get_integer,       get_integer, get_other,   set_real,      set_real,      set_real,   set_input,
-    set_input,   set_input,   set_input,      set_integer,       set_other,   set_up,      start,         start,         start,      enter,
-    leave,       do_step,     do_step,        do_step,           do_step,     steps,       steps,         outputs,       terminate,  reset,
-    reset,       reset,       get_state,      set_state,         free_state,  serialize,   garbage_state, debug_logging, get_status, get_status,
-    derivatives, derivatives, model_exchange, without_component, renew,       compare_run,
+    get_real,      get_real,      get_real,       get_integer,
+    get_integer,   get_other,     set_real,       set_real,
+    set_real,      set_input,     set_input,      set_input,
+    set_input,     set_integer,   set_other,      set_up,
+    start,         start,         start,          enter,
+    leave,         do_step,       do_step,        do_step,
+    do_step,       steps,         steps,          outputs,
+    terminate,     reset,         reset,          reset,
+    get_state,     set_state,     free_state,     serialize,
+    garbage_state, debug_logging, get_status,     get_status,
+    derivatives,   derivatives,   model_exchange, without_component,
+    renew,         compare_run,
 };
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
@@ -598,7 +590,8 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
         ACTIONS[choose(&f.bytes, sizeof ACTIONS / sizeof ACTIONS[0])](&f, host);
     }
     for (int s = 0; s < STATES; s++) {
-        if (CALL(&f.hosts[0], Reset, f.hosts[0].component) == fmi2OK) fmi2FreeFMUstate(f.hosts[0].component, &f.states[s]);
+        if (CALL(&f.hosts[0], Reset, f.hosts[0].component) == fmi2OK)
+            fmi2FreeFMUstate(f.hosts[0].component, &f.states[s]);
     }
     for (int i = 0; i < INSTANCES; i++) fmi2FreeInstance(f.hosts[i].component);
     return 0;
@@ -637,6 +630,7 @@ static void *run_share(void *argument)
 int main(int argc, char **argv)
 {
     enum { MAX_THREADS = 16 };
+
     const long wanted = argc > 1 ? atol(argv[1]) : 100000, seed = argc > 2 ? atol(argv[2]) : 1;
     const int threads = argc > 3 ? atoi(argv[3]) : 1;
     Share share[MAX_THREADS] = {{0}}, all = {0};
@@ -649,12 +643,15 @@ int main(int argc, char **argv)
     }
     for (int i = 0; i < threads; i++) {
         pthread_join(thread[i], NULL);
-        all.calls += share[i].calls, all.strings += share[i].strings, all.runs_compared += share[i].runs_compared;
+        all.calls += share[i].calls, all.strings += share[i].strings,
+            all.runs_compared += share[i].runs_compared;
         for (int status = 0; status < N_STATUS; status++) all.counts[status] += share[i].counts[status];
     }
     free(new_run_state);
-    printf("%ld calls in %ld strings: %ld OK, %ld warning, %ld discard, %ld error; %ld reset runs equal to a fresh one\n", all.calls, all.strings,
-           all.counts[fmi2OK], all.counts[fmi2Warning], all.counts[fmi2Discard], all.counts[fmi2Error], all.runs_compared);
+    printf("%ld calls in %ld strings: %ld OK, %ld warning, %ld discard, %ld error; %ld reset runs equal to a "
+           "fresh one\n",
+           all.calls, all.strings, all.counts[fmi2OK], all.counts[fmi2Warning], all.counts[fmi2Discard],
+           all.counts[fmi2Error], all.runs_compared);
     return 0;
 }
 #endif

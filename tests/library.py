@@ -25,6 +25,7 @@ GENERATED = other_bearing.BUILD / "generated" if other_bearing.BUILD else SOURCE
 LIBRARY = (other_bearing.BUILD or ROOT / "build") / "libbearing_test.so"
 INSTRUCTION_SETS = ("generic", "neon", "sse2", "avx2", "avx512")
 LANE_TYPES = {"wide", "bits", "words", "vec"}  # depend on the lane width: no place outside the kernels
+AROUND_THE_CORE = {"float_environment.h", "fmi2_calls.h", "reserved_memory.h"}  # of the wrapper and of SUNDIALS: macros and instructions, no physics
 SYSTEM_TYPES = "typedef _Bool bool; typedef unsigned long size_t; typedef long int64_t; typedef unsigned long uint64_t; typedef unsigned uint32_t;"
 
 
@@ -122,7 +123,7 @@ class Model:
         return v
 
     def rates(self):
-        """Rates [1/s] by which velocities and friction states hold themselves back in implicit.c, at the state of the last evaluation."""
+        """Rates [1/s] by which velocities (implicit.c) and friction states (cage_joint_advance) hold themselves back at the state of the last evaluation."""
         gamma, D = 1e-12, np.zeros(variables.N_STATES)  # small: A_ii beside its coupling to others; rounding 1e-4 1/s
         stiffness = self.d.k_plate, self.d.k_rivet
         self.d.k_plate = self.d.k_rivet = 0.0
@@ -131,10 +132,21 @@ class Model:
             unit[i] = 1.0
             D[i] = (1.0 / self.implicit("implicit_solve", gamma, unit)[i] - 1.0) / gamma
         self.d.k_plate, self.d.k_rivet = stiffness
-        for name in ("plate", "head"):
-            for axis in "yz":
-                D[block("joint", f"{name}_{axis}")] = list(getattr(self.work, f"D_{name}"))[: variables.Z]
+        for name in ("plate_y", "plate_z", "head_y", "head_z"):
+            rows = block("joint", name)
+            rough = self.friction_rates(1e-3)[rows]
+            D[rows] = [self.friction_rates(1.0 / max(rate, 1.0))[rows][k] for k, rate in enumerate(rough)]
         return D
+
+    def friction_rates(self, h):
+        """Rates of the friction states by what a step h leaves of one: the midpoint rule's (1 - h D/2)/(1 + h D/2).  Exact to rounding for h D near 1."""
+        left = []
+        for start in (0.0, 1.0):
+            y = np.full(variables.N_STATES, start)
+            self.kernel("cage_joint_advance")(self.pointer, self.work, h, self.core.array(y))
+            left.append(y)
+        left = left[1] - left[0]
+        return 2.0 * (1.0 - left) / (h * (1.0 + left))
 
     def verlet(self, t, h, start, weight):
         """One Verlet step of length h from `start` (VerletState) at t; returns the VerletState reached and the error's norm in units of 1/weight."""
@@ -177,7 +189,7 @@ def parse(sources, isa):
 
 
 def headers(sources):
-    return [path for folder in sources for path in sorted(folder.glob("*.h"))]
+    return [path for folder in sources for path in sorted(folder.glob("*.h")) if path.name not in AROUND_THE_CORE]
 
 
 def preprocess(files, *options, before=""):

@@ -12,12 +12,15 @@ import numpy as np
 import pytest
 
 from bearing_model.rivet_table import DEFAULT_TABLE
+from rivet_model import closed_form, table
+from rivet_model.geometry import Geometry
 from riveted_bearing import Result, UserError, read_result, run, write_result
 from riveted_bearing.bearings import bearing_case, find_bearing, flat, shipped_bearings
 from riveted_bearing.builder import start_document
 from riveted_bearing.fmu import Instance, Model
+from riveted_bearing.report import render
 from riveted_bearing.results import FORMATS, write_atomically
-from riveted_bearing.summary import rivet_rows, summary_rows
+from riveted_bearing.summary import rivet_rows, summary_rows, table_note
 
 ROOT = Path(__file__).resolve().parents[1]
 
@@ -224,10 +227,12 @@ def test_run_in_a_pipe(tmp_path):
         (["run", "demo", "--set", "bearing.f_i=0.4"], ["bearing.f_i = 0.4: 0.4 is out of range, allowed: 0.5005 ... 0.6\n"]),
         (["run", "demo", "--out", "bad.json"], ["bad.json: no folder to write to", "File exists"]),
         (["run", "demo", "--t-end", "1 ms", "--step", "2 ms"], ["demo.toml with the command line", "step = 0.002", "t_end = 0.001 s"]),
-        (["info", "6208"], ['"6208"', '"6207"']),
+        (["info", "6299"], ['"6299"', "did you mean"]),
         (["info", "bad.toml"], ["bad.toml", "Z = 3", "5 to 32"]),
         (["build", "--bearing", "bad.toml"], ["bad.toml", "Z = 3", "5 to 32"]),
-        (["build", "--bearing", "6309"], ['"6309"', '"6310"']),
+        (["build", "--bearing", "6399"], ['"6399"', "did you mean"]),
+        (["build", "--table", "medium"], ["--table", '"medium"', "coarse, full, closed-form"]),
+        (["build", "--table", "full", "--rivet", "nine.json"], ["--table full", "nine.json is a table already"]),
         (["build", "--rivet", "none.json"], ["none.json", "No such file"]),
         (["build", "--rivet", "bad.json"], ["bad.json", "not a rivet table"]),
         (["build", "--rivet", "half.json"], ["half.json", "not a rivet table"]),
@@ -322,8 +327,16 @@ shaft.omega = "6000 rev/min"
     assert with_texts.catalogue == pytest.approx(with_numbers.catalogue, rel=1e-12)
     changed = {name: value for name, value in with_texts.values.items() if isinstance(value, float)}
     assert changed == pytest.approx({name: with_numbers.values[name] for name in changed}, rel=1e-12)
-    document = start_document(with_texts)
+    document = start_document(with_texts, closed_form_table(with_texts, tmp_path))
+    assert "closed forms" in document["description"] and document["origin"]["bearing.D"] == "yours" and document["origin"]["cage.D_o"] == "rule"
     assert document["parameters"]["bearing.D"] == 0.005 and document["parameters"]["ring.tilt_mode"] == "free" and document["Z"] == 12
+
+
+def closed_form_table(case, folder):
+    """A rivet table for a case, in a moment."""
+    path = folder / "table.json"
+    table.write(closed_form.make_table(Geometry(**case.joint)), path)
+    return path
 
 
 @pytest.mark.parametrize(
@@ -353,12 +366,16 @@ def test_a_run_shorter_than_settling_says_that_there_are_no_statistics(tmp_path)
 
 def test_an_fmu_of_the_second_bearing(tmp_path):
     """Built from its file, started at its own working point: ring and ball loads near the quasi-static equilibrium."""
-    done = command("build", "--bearing", "6310", folder=tmp_path)
+    done = command("build", "--bearing", "6310", "--table", "closed-form", folder=tmp_path)
     assert done.returncode == 0, done.stderr
+    assert "Meant with a machined two-piece riveted cage" in done.stdout and "Stress table of the rivets: closed forms" in done.stdout
     out = tmp_path / "6310.fmu"
     scene = tmp_path / "own.toml"
     scene.write_text("[simulation]\nt_end = 0.02\nstep = 1e-4\n[parameters]\nstart.settle = 0.01")
     result, state = run(scene, fmu=out), bearing_case("6310").equilibrium()
+    assert result.summary["rivet.table_kind"] == 3.0 and "closed forms" in table_note(result) and "closed forms" in result.about["model"]
+    page = render(result)
+    assert "Life: not given, for the rivets&#39; stress rests on closed forms" in page and "Life of the weakest rivet" not in page
     assert result.stopped == "" and "ball[8].Q_i" in result.data and "ball[9].Q_i" not in result.data
     assert result.parameters["bearing.D"] == 0.01905 and result.data["shaft.F_y"][-1] == 6000.0
     late = result.data["time"] > 0.01
@@ -373,7 +390,7 @@ def test_a_bearing_that_cannot_be_built_leaves_the_old_fmu(tmp_path):
     out.write_bytes(b"the old one")
     (tmp_path / "crowded.toml").write_text("Z = 20")
     (tmp_path / "tight.toml").write_text("[parameters]\ncage.D_o = 0.05")  # no room for a rivet's head
-    for name, fragments in (("crowded", ["ball_diameter", "pi d_m"]), ("tight", ["patch_radius"])):
+    for name, fragments in (("crowded", ["Z = 20", "at most 15"]), ("tight", ["cage.D_o = 0.05", "0.0565"])):
         done = command("build", "--bearing", f"{name}.toml", "--out", out, folder=tmp_path)
         assert done.returncode == 2 and "Traceback" not in done.stderr and all(fragment in done.stderr for fragment in [name, *fragments])
     assert out.read_bytes() == b"the old one" and len(list(tmp_path.iterdir())) == 3

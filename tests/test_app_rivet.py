@@ -72,9 +72,13 @@ def test_a_table_for_another_rivet(tmp_path, monkeypatch):
         assert stages.get(stage, 0.0) < share <= 1.0
         stages[stage] = share
 
-    path = given_table(source, case, tmp_path, True, say)
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
+    path = given_table(source, case, None, say)
+    assert path.is_relative_to(tmp_path / "cache")
     t = rivet_table.read(path, Z=8)
-    assert t.kind == "fe" and t.geometry["shank_diameter"] == 1.3e-3 and t.geometry["d_m"] == case.values["bearing.d_m"]
+    assert (
+        t.kind == "fe_coarse" and t.errors["all"]["loads"] == 320 and t.geometry["shank_diameter"] == 1.3e-3 and t.geometry["d_m"] == case.values["bearing.d_m"]
+    )
     assert list(stages) == [f"rivet: {name}" for name in ("elements", "contacts", "interference", "load path", "hold-out")]
     assert set(stages.values()) == {1.0}
     sigma, _ = rivet_rom.rivet_rom_stress(t, rivet_rom.RivetLoad(P=20.0), -90e-6)
@@ -84,19 +88,28 @@ def test_a_table_for_another_rivet(tmp_path, monkeypatch):
         raise ArithmeticError("contact not found")
 
     monkeypatch.setattr(rivet, "make_table", broken)
-    assert given_table(source, case, tmp_path, True, say) == path  # not made again
-    source.write_text("shank_diameter = 1.2e-3")
-    files = sorted(tmp_path.iterdir())
+    assert given_table(source, case, "coarse", say) == path  # not made again
+    source.write_text('shank_diameter = "1.2 mm"')
+    files = sorted(path.parent.iterdir())
     with pytest.raises(UserError, match=r"stout.toml: contact not found"):
-        given_table(source, case, tmp_path, True, say)
-    assert sorted(tmp_path.iterdir()) == files
+        given_table(source, case, None, say)
+    assert sorted(path.parent.iterdir()) == files
+    closed = rivet_table.read(given_table(source, case, "closed-form", say))
+    assert (closed.kind, closed.kind_number, closed.geometry["shank_diameter"]) == ("closed_form", 3, 1.2e-3)
+
+
+def test_the_default_rivet_takes_the_shipped_table(tmp_path):
+    """Whether asked for the full one or not asked; a coarse or closed one is made."""
+    case = bearing_case("6207")
+    assert given_table(None, case, None, None) == given_table(None, case, "full", None) == rivet_table.DEFAULT_TABLE
+    assert TABLE.kind_number == 1
 
 
 @pytest.mark.slow
 def test_an_fmu_for_another_rivet(tmp_path):
     """Built and run: stress of the preload before anything moves = that of the new table, not of the shipped one."""
     (tmp_path / "long_head.toml").write_text("head_height = 0.6e-3")
-    done = command("build", "--rivet", "long_head.toml", "--coarse", folder=tmp_path)
+    done = command("build", "--rivet", "long_head.toml", folder=tmp_path)
     assert done.returncode == 0, done.stderr
     result = run("demo", fmu=tmp_path / "long_head.fmu", t_end=1e-4, outputs=["rivet[1].sigma_mid", "rivet[1].sigma_head", "rivet[1].N"])
     ratio = result.data["rivet[1].sigma_head"][0] / result.data["rivet[1].sigma_mid"][0]

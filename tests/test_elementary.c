@@ -1,4 +1,5 @@
-// The elementary functions of the packets, callable over arrays: compiled once per instruction set, like the kernels, and once for the core.
+// The elementary functions of the packets, callable over arrays: compiled once per instruction set, like the
+// kernels, and once for the core.
 #include "lanes.h"
 
 void FOR_ISA(test_exp)(int n, const double *x, double *y);

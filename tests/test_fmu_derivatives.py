@@ -254,7 +254,8 @@ def test_directional_derivatives_are_those_of_the_core(core, folder, scene):
             state[SLICE[name.replace(".", "_")]] = 1.0
         core.lib.part_directional_derivatives(bearing.bearing, direction, core.array(state), out)
         expected = np.frombuffer(core.ffi.buffer(out))
-        assert np.array_equal(np.sort(column), np.sort(expected)), name
+        held = np.zeros(len(expected) - len(column))  # local variables have no derivative
+        assert np.array_equal(np.sort(np.append(column, held)), np.sort(expected)), name
     together = directional(slave, names, known, np.arange(1.0, len(known) + 1.0))
     np.testing.assert_allclose(together, J @ np.arange(1.0, len(known) + 1.0), rtol=0.0, atol=1e-13 * np.abs(J).max() * len(known))
 

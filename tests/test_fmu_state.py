@@ -226,18 +226,19 @@ def test_state_holds_parameters_inputs_and_phase(slave):
 
 def corrupted(data):
     """What must be refused, and why."""
-    header = 144  # magic 8, version 8, GUID 40, digest of data built in 72, size 8, checksum 8
+    header = 216  # magic 8, version 8, GUID 40, digest of the sources 72, of data built in 72, size 8, checksum 8
     for position in (header, header + 100, len(data) // 2, len(data) - 1, *np.random.default_rng(3).integers(header, len(data), 50)):
         yield data[:position] + bytes([data[position] ^ 1]) + data[position + 1 :], "corrupted"
-    yield data[:136] + struct.pack("<Q", struct.unpack_from("<Q", data, 136)[0] ^ 1) + data[header:], "corrupted"
+    yield data[:208] + struct.pack("<Q", struct.unpack_from("<Q", data, 208)[0] ^ 1) + data[header:], "corrupted"
     for length in (0, 10, header, len(data) - 1):
         yield data[:length], "truncated"
     yield data + b"\0", "too long"
     yield bytes(len(data)), "not a saved state"
     yield data[:8] + struct.pack("<Q", 99) + data[16:], "another version"
     yield data[:17] + b"0123" + data[21:], "another model"
-    yield data[:56] + b"0123" + data[60:], "other data built in"
-    yield data[:128] + struct.pack("<Q", len(data) - 8) + data[136:-8], "another build"
+    yield data[:56] + b"wxyz" + data[60:], "built from other sources"
+    yield data[:128] + b"wxyz" + data[132:], "other data built in"
+    yield data[:200] + struct.pack("<Q", len(data) - 8) + data[208:-8], "another size"
 
 
 def test_corrupted_and_foreign_states_are_refused_with_the_reason(running):

@@ -106,8 +106,9 @@ def matrix(model, y):
 
 def product(model, y, dy, d_ring_load=None, t=0.0):
     out, dw = np.empty(N_STATES), model.core.new("Work")
-    lib, array = model.core.lib, model.core.array
-    lib.jacobian_product(model.pointer, t, array(y), array(dy), d_ring_load or model.core.ffi.NULL, array(out), dw)
+    lib, array, ffi = model.core.lib, model.core.array, model.core.ffi
+    d_ring_load = ffi.cast("double *", d_ring_load or ffi.NULL)
+    lib.jacobian_product(model.pointer, t, array(y), array(dy), d_ring_load, array(out), ffi.cast("double *", dw))
     return out, dw
 
 
@@ -222,7 +223,8 @@ def test_products_with_drive_and_results(core, scene):
         results(0.0)
         dy_dot, dw = product(model, y, dy, d_ring_load, t)
         dF, dM = np.empty(3), np.empty(3)
-        core.lib.jacobian_housing(model.work, dw, core.array(dF), core.array(dM))
+        w, dw_array = (core.ffi.cast("double *", struct) for struct in (model.work, dw))
+        core.lib.jacobian_housing(w, dw_array, core.array(dF), core.array(dM))
         exact = np.concatenate([dy_dot] + [value.ravel() for value in members(core, dw[0]).values()] + [dF, dM])
 
         largest = np.zeros(names[-1] + 1)
@@ -256,17 +258,24 @@ class Trajectory:
         lib.input_trajectory_update(self.model.p, self.u, self.t, self.t, self.trajectory)
         lib.test_ring_load_at(self.trajectory, self.t + dt, self.model.ring_load)
         y_dot = rhs(self.model, y)
-        members = {"model": self.model.pointer, "y": array(y), "y_dot": array(y_dot), "w": self.model.work, "loads": self.model.kernel("rivets_load")}
+        members = {
+            "model": self.model.pointer,
+            "y": array(y),
+            "y_dot": array(y_dot),
+            "w": self.model.work,
+            "loads": self.model.kernel("rivets_load"),
+            "stress": self.model.kernel("rivet_rom_stress"),
+        }
         at = self.core.ffi.new("Evaluation *", members)
         for group in EVALUATED:
-            assert lib.outputs_evaluate(at, getattr(lib, f"GROUP_{group}"), self.out)
+            lib.outputs_evaluate(at, getattr(lib, f"GROUP_{group}"), self.out)
         return np.frombuffer(self.core.ffi.buffer(self.out)).copy()
 
     def derivatives(self, dt, du, y, dy):
         self.outputs(0.0, 0.0, y)
         array, out = self.core.array, self.core.new("Outputs")
-        inputs = self.core.ffi.cast("Inputs *", array(du))
-        self.core.lib.jacobian_outputs(self.model.pointer, self.trajectory, self.t, dt, inputs, array(y), array(dy), out)
+        trajectory, d_out = (self.core.ffi.cast("double *", struct) for struct in (self.trajectory, out))
+        self.core.lib.jacobian_outputs(self.model.pointer, trajectory, self.t, dt, array(du), array(y), array(dy), d_out)
         return np.frombuffer(self.core.ffi.buffer(out)).copy()
 
 

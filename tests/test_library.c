@@ -1,4 +1,5 @@
-// What the tests' library adds to the core's objects: the inline functions, callable over arrays, and memory as the kernels want it.
+// What the tests' library adds to the core's objects: the inline functions, callable over arrays, and memory
+// as the kernels want it.
 #include "elementary.h"
 #include "hertz.h"
 #include "kernels.h"
@@ -23,7 +24,8 @@ void test_traction_mu(int n, const Parameters *p, double f_a, bool mixed, const 
 void test_traction_asperity_share(int n, const double *ln_Lambda, double *f_a);
 void test_traction_ln_film(int n, double ln_Lambda_1, double Q, const double *U, double *ln_Lambda);
 void test_traction_inlet(int n, double rolling, double Q, const double *U, double *F_R);
-void test_rivet_primary(int n, const RivetLoads *load, double fit_eff, double *head_p1, double *mid_vm);
+void test_rivet_rom_stress(int n, const RivetLoads *load, double fit_eff, bool all, double *sigma);
+unsigned test_rivet_rom_load_flags(const RivetLoads *load, double *sigma, int k);
 
 // Zeroed, aligned for any lane width; free() releases it.
 void *test_allocate(size_t size)
@@ -70,7 +72,8 @@ void test_hertz_load(int n, double K, const double *delta, double *Q)
 
 void test_hertz_damped(int n, double Q, double lambda, const double *delta_dot, double *damped)
 {
-    for (int i = 0; i < n; i++) damped[i] = hertz_damped(wide_set(Q), wide_set(lambda), wide_set(delta_dot[i]))[0];
+    for (int i = 0; i < n; i++)
+        damped[i] = hertz_damped(wide_set(Q), wide_set(lambda), wide_set(delta_dot[i]))[0];
 }
 
 void test_traction_mu(int n, const Parameters *p, double f_a, bool mixed, const double *s, double *mu)
@@ -85,17 +88,27 @@ void test_traction_asperity_share(int n, const double *ln_Lambda, double *f_a)
 
 void test_traction_ln_film(int n, double ln_Lambda_1, double Q, const double *U, double *ln_Lambda)
 {
-    for (int i = 0; i < n; i++) ln_Lambda[i] = traction_ln_film(wide_set(ln_Lambda_1), wide_log(wide_set(U[i])), wide_log(wide_set(Q)))[0];
+    for (int i = 0; i < n; i++)
+        ln_Lambda[i] =
+            traction_ln_film(wide_set(ln_Lambda_1), wide_log(wide_set(U[i])), wide_log(wide_set(Q)))[0];
 }
 
 void test_traction_inlet(int n, double rolling, double Q, const double *U, double *F_R)
 {
     const wide ln_Q = wide_log(wide_set(Q + Q_FLOOR));
-    for (int i = 0; i < n; i++) F_R[i] = traction_inlet(wide_set(rolling), wide_log(wide_set(U[i])), wide_set(Q), ln_Q)[0];
+    for (int i = 0; i < n; i++)
+        F_R[i] = traction_inlet(wide_set(rolling), wide_log(wide_set(U[i])), wide_set(Q), ln_Q)[0];
 }
 
-void test_rivet_primary(int n, const RivetLoads *load, double fit_eff, double *head_p1, double *mid_vm)
+// sigma: [RIVET_CHANNELS][Z] of the last load.
+void test_rivet_rom_stress(int n, const RivetLoads *load, double fit_eff, bool all, double *sigma)
 {
     const Kernels kernels = kernels_select();
-    for (int i = 0; i < n; i++) kernels.rivet_primary(&rivet_table, &load[i], fit_eff, &head_p1[Z * i], &mid_vm[Z * i]);
+    for (int i = 0; i < n; i++)
+        kernels.rivet_rom_stress(&rivet_table, &load[i], fit_eff, all, (double (*)[Z])sigma);
+}
+
+unsigned test_rivet_rom_load_flags(const RivetLoads *load, double *sigma, int k)
+{
+    return rivet_rom_load_flags(&rivet_table, load, (double (*)[Z])sigma, k);
 }

@@ -235,11 +235,20 @@ def test_elastic_pressure_of_contact_and_plasticity_agree(joint, fit_map):
 
 
 def test_coarse_table_end_to_end(tmp_path):
-    """A coarse table in seconds: written, read, and equal to its own finite elements where it was sampled."""
+    """A coarse table in seconds: written, read, and equal to its own finite elements where it was sampled.
+
+    The error that it states is the one that is found against the full table at 4,000 other loads: to half of it, observed 0.90 to 1.21 times.
+    """
     path = tmp_path / "coarse.json"
     assert build.main([str(path), "--coarse", "--workers", "1"]) == 0
     t = rivet_table.read(path, Z=9)
-    assert t.kind == "fe" and t.geometry_hash == G.digest and np.any(t.load_path)
+    assert t.kind == "fe_coarse" and t.kind_number == 2 and t.geometry_hash == G.digest and np.any(t.load_path)
+    loads = reduction.random_loads(4000, 77)
+    found = reduction.hold_out_errors(reduction.table_stress(t, loads), loads, reduction.table_stress(rivet_table.read(TABLE), loads))
+    for region in ("all", "clearance"):
+        for measure in ("maximum", "rms"):
+            for name in rivet_table.CHANNELS:
+                assert t.errors[region][measure][name] == pytest.approx(found[region][measure][name], rel=0.5), (region, measure, name)
     joint = Joint(G, load_cases.COARSE)
     sampled = reduction.solve_loads(joint, [reduction.Load(20.0, 0.0, 0.0, 0.0, 0.0, -30e-6)], 1)
     got, _ = rivet_rom.rivet_rom_stress(t, rivet_rom.RivetLoad(P=20.0), -30e-6)
@@ -287,7 +296,7 @@ def test_table_against_fresh_solutions():
     t = rivet_table.read(TABLE)
     joint = Joint(G, load_cases.TRUTH)
     loads = reduction.random_loads(40, seed=77)
-    errors = reduction.hold_out_errors(t, loads, reduction.solve_loads(joint, loads, 2))
+    errors = reduction.hold_out_errors(reduction.table_stress(t, loads), loads, reduction.solve_loads(joint, loads, 2))
     print(errors)
     assert max(errors["all"]["maximum"].values()) <= 0.025  # relative to the maximum of only 40 loads
 

@@ -25,14 +25,14 @@ def stress(request, core, rivets):
     """(load, fit_eff) -> (channels, flags)."""
     if request.param == "Python":
         return lambda load, fit: rivet_rom.rivet_rom_stress(rivets, load, fit)
-    ffi, lib = core.ffi, core.lib
-    return lambda load, fit: c_stress(ffi, lib, load, fit)
+    return lambda load, fit: c_stress(core, [load], fit, 0)
 
 
-def c_stress(ffi, lib, load, fit):
-    sigma = ffi.new("double[4]")
-    flags = lib.rivet_rom_stress(ffi.addressof(lib.rivet_table), ffi.new("RivetLoad *", vars(load)), float(fit), sigma)
-    return np.array(list(sigma)), flags
+def c_stress(core, loads, fit, k):
+    """Channels and flags of rivet k under one load for each of the first rivets, the others idle."""
+    together, sigma = side_by_side(core, loads), np.full((4, Z), np.nan)
+    core.lib.test_rivet_rom_stress(1, together, float(fit), True, core.array(sigma))
+    return sigma[:, k], core.lib.test_rivet_rom_load_flags(together, core.array(sigma), k)
 
 
 def side_by_side(core, loads):
@@ -103,17 +103,15 @@ def test_direction_of_the_moment(stress):
 
 def test_twins_agree(core, rivets):
     """C and Python at random loads: to rounding (observed 1e-14 relative to the largest channel), flags equal."""
-    ffi, lib = core.ffi, core.lib
     for load, fit in zip(*random_loads(500, seed=2), strict=True):
         sigma, flags = rivet_rom.rivet_rom_stress(rivets, load, fit)
-        c_sigma, c_flags = c_stress(ffi, lib, load, fit)
+        c_sigma, c_flags = c_stress(core, [load], fit, 0)
         np.testing.assert_allclose(c_sigma, sigma, rtol=1e-12, atol=1e-12 * np.abs(sigma).max())
         assert c_flags == flags
 
 
-def test_peak_channels_equal_all_channels(core):
-    """All rivets at once against one by one, idle ones among them: the same bits but for the order in which compilers sum (observed none)."""
-    ffi, lib = core.ffi, core.lib
+def test_rivets_beside_each_other(core):
+    """All rivets at once against each alone, idle ones among them, and the peak channels alone against all channels: the same bits."""
     loads, fits = random_loads(90 * Z, seed=3)
     for k, load in enumerate(loads):
         if k % 4 == 0:
@@ -124,13 +122,15 @@ def test_peak_channels_equal_all_channels(core):
             load.N = 0.0
         if k % 60 == 0:
             load.P = 0.0
-    head, mid = ffi.new("double[]", Z), ffi.new("double[]", Z)
+    peaks = np.full((4, Z), np.nan)
     for first in range(0, len(loads), Z):
-        fit = float(fits[first])
-        lib.test_rivet_primary(1, side_by_side(core, loads[first : first + Z]), fit, head, mid)
-        for k, load in enumerate(loads[first : first + Z]):
-            sigma, _ = c_stress(ffi, lib, load, fit)
-            np.testing.assert_allclose([head[k], mid[k]], sigma[[0, 2]], rtol=1e-12, atol=1e-12 * sigma.max(), err_msg=str(load))
+        fit, together = float(fits[first]), loads[first : first + Z]
+        core.lib.test_rivet_rom_stress(1, side_by_side(core, together), fit, False, core.array(peaks))
+        assert np.isnan(peaks[[1, 3]]).all()
+        for k, load in enumerate(together):
+            sigma, _ = c_stress(core, together, fit, k)
+            np.testing.assert_array_equal(sigma, c_stress(core, [load], fit, 0)[0], err_msg=str(load))
+            np.testing.assert_array_equal(sigma[[0, 2]], peaks[[0, 2], k])
 
 
 def test_continuously_differentiable(rivets):

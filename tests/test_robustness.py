@@ -18,7 +18,7 @@ from bearing_model import parameters, variables
 
 H = 1e-4  # communication step [s]
 TYPES = parameters.TYPES
-QUICK = settings(deadline=None, max_examples=60, derandomize=True, suppress_health_check=[HealthCheck.function_scoped_fixture])
+QUICK = settings(deadline=None, max_examples=60, derandomize=True, suppress_health_check=[HealthCheck.function_scoped_fixture, HealthCheck.too_slow])
 
 
 @pytest.fixture(scope="module")

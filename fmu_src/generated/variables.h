@@ -9,7 +9,7 @@
 
 #define FMI2_FUNCTION_PREFIX RivetedBearing_  // of the functions of a source-code FMU
 #define MODEL_IDENTIFIER "RivetedBearing"
-#define MODEL_GUID "{2933852d-f80a-f3ab-8e04-ee25385fc11d}"  // digest of the table
+#define MODEL_GUID "{c434e8c7-3da7-8a06-7e6b-f475e05f9812}"  // digest of the table
 
 enum { Z = 9 };  // number of balls
 
@@ -279,6 +279,7 @@ typedef struct {
         scalar sigma_mid_peak[Z];  // [Pa] Largest sigma_mid since the last communication point
         scalar sigma_head_max;  // [Pa] Largest sigma_head_peak of all rivets
         scalar sigma_mid_max;  // [Pa] Largest sigma_mid_peak of all rivets
+        scalar table_kind;  // [1] What the rivets' stress table rests on: 1 finite elements, 2 coarse finite elements, 3 closed forms
         scalar damage_head[Z];  // [1] Miner's sum of sigma_head since start.settle
         scalar damage_mid[Z];  // [1] Miner's sum of sigma_mid since start.settle
         scalar N[Z];  // [N] External tension of the joint, before preload shielding
@@ -326,9 +327,9 @@ typedef struct {
         scalar rhs_evals;  // [1] Evaluations of the right-hand side
         scalar step_size;  // [s] Internal step size that the next step starts with
         scalar error_tests_failed;  // [1] Internal steps rejected by the error test
-        scalar cpu_time;  // [s] Processor time of this instance inside fmi2DoStep (not part of the saved state)
         scalar tolerance;  // [1] Tolerance in force
         scalar method_used;  // [1] Integration method in use: 1 velocity Verlet, 2 Runge-Kutta
+        scalar cpu_time;  // [s] Processor time of this instance inside fmi2DoStep, from its creation on (not part of the saved state)
     } solver;
     struct {
         scalar land_contact;  // [1] Cage halves whose land touches the outer ring
@@ -421,4 +422,4 @@ typedef enum {
 } StateScale;
 
 enum { N_INPUTS = 10 };  // all of them numbers
-enum { N_VARIABLES = 231 };  // time is the first
+enum { N_VARIABLES = 232 };  // time is the first

@@ -16,7 +16,7 @@ const Variable VARIABLES[N_VARIABLES] = {
 {% for v in table.variables | sort(attribute="vr") %}
     {"{{ v.name }}", "{{ v.unit }}", {{ v.vr }}, {{ "Z" if v.is_array else 1 }}, TYPE_{{ v.kind | upper -}}
      , CAUSALITY_{{ v.causality | upper }}, GROUP_{{ v.group | screaming if v.group else "COUNT" }}, {{ "Y_" ~ v.state | screaming if v.state else -1 -}}
-     , offsetof({{ v.causality | capitalize }}s, {{ v.path }}), {{ (v.start or 0) | c_number -}}
+     , offsetof({{ "Outputs" if v.causality == "local" else v.causality | capitalize ~ "s" }}, {{ v.path }}), {{ (v.start or 0) | c_number -}}
      , {{ v.limits[0] | c_number }}, {{ v.limits[1] | c_number }}},
 {% endfor %}
 };

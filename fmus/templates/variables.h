@@ -23,9 +23,9 @@ enum {  // {{ name }}
 };
 {% endfor %}
 
-{% macro struct(name, causality, real_type) %}
+{% macro struct(name, causalities, real_type) %}
 typedef struct {
-{% for group, members in table.of(causality) | struct_members %}
+{% for group, members in table.of(*causalities) | struct_members %}
     struct {
 {% for member, v in members %}
         {{ real_type if v.type == "Real" else "int" }} {{ member }}{{ "[Z]" if v.is_array }};  // {{ "[%s] " % v.unit if v.type == "Real" -}}
@@ -35,9 +35,9 @@ typedef struct {
 {% endfor %}
 } {{ name }};
 {% endmacro %}
-{{ struct("Parameters", "parameter", "double") }}
-{{ struct("Inputs", "input", "scalar") }}
-{{ struct("Outputs", "output", "scalar") }}
+{{ struct("Parameters", ["parameter"], "double") }}
+{{ struct("Inputs", ["input"], "scalar") }}
+{{ struct("Outputs", ["output", "local"], "scalar") }}
 // What is evaluated together on first read after a step.
 typedef enum {
 {% for group, entry in table.groups.items() %}

@@ -37,6 +37,13 @@ class {{ name }}(IntEnum):
 
 {% endfor %}
 
+# Assumed parameters that move the rivets' stress most, strongest first: smallest and largest usual value over the value, and the source.
+ASSUMPTIONS = {
+{% for name, entry in table.assumptions.items() %}
+    {{ name | quoted }}: ({{ entry.low }}, {{ entry.high }}, {{ entry.source | quoted }}),
+{% endfor %}
+}
+
 # Scales of each unit: symbol -> (factor, offset), value in that symbol = factor * SI value + offset.
 UNITS = {
 {% for unit, entry in table.units.items() %}
@@ -46,7 +53,7 @@ UNITS = {
 }
 
 # name, vr, type, unit, display, start, min, max, count, group, description, source
-{% for causality, title in (("parameter", "PARAMETERS"), ("input", "INPUTS"), ("output", "OUTPUTS")) %}
+{% for causality, title in (("parameter", "PARAMETERS"), ("input", "INPUTS"), ("output", "OUTPUTS"), ("local", "LOCALS")) %}
 {{ title }} = {
     v.name: v
     for v in (

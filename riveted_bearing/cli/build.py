@@ -4,29 +4,34 @@ from pathlib import Path
 from typing import Annotated
 
 import typer
+from rich.markup import escape
 from rich.progress import BarColumn, Progress, SpinnerColumn, TextColumn, TimeElapsedColumn
 
 from .terminal import command, console, messages
+
+TABLES = ("coarse", "full", "closed-form")  # of rivet.py, whose import takes a second
 
 
 @command
 def build(
     bearing: Annotated[str | None, typer.Option(help="bearing file (TOML) or designation; default: the 6207")] = None,
-    rivet: Annotated[
-        Path | None,
+    rivet: Annotated[Path | None, typer.Option(help="rivet table (JSON) or geometry of the rivet (TOML); default: the bearing's own rivet")] = None,
+    table: Annotated[
+        str | None,
         typer.Option(
-            help="rivet table (JSON), or geometry (TOML) to make one by finite elements; default: the one shipped if it fits the bearing, else closed forms"
+            help="coarse, full (half an hour) or closed-form: how the rivets' stress table is made; default: the shipped one if it fits, else coarse",
+            metavar="|".join(TABLES),
         ),
     ] = None,
-    coarse: Annotated[bool, typer.Option("--coarse", help="with a geometry: a rough table in seconds instead of some half an hour")] = False,
     out: Annotated[
         Path | None,
         typer.Option(help="the FMU to write; default: my.fmu here for the bearing or rivet my.toml, else RivetedBearing.fmu, in a checkout in fmus/"),
     ] = None,
     platforms: Annotated[str | None, typer.Option(help="all, or names such as linux64,win64: cross-compiled; default: this machine's compiler")] = None,
 ):
-    """Make an FMU for a bearing: needs a C compiler, takes about half a minute; with a rivet's geometry also half an hour for its table."""
+    """Make an FMU for a bearing: needs a C compiler, takes a minute or two; with --table full half an hour more."""
     from ..builder import build_fmu, platform_names
+    from ..fmu import Model
 
     columns = SpinnerColumn(), TextColumn("{task.description}"), BarColumn(bar_width=30), TimeElapsedColumn()
     with Progress(*columns, console=messages, disable=not messages.is_terminal) as bar:
@@ -35,5 +40,6 @@ def build(
         def say(text, share=None):
             bar.update(task, description=text, total=1.0 if share else None, completed=share or 0.0)
 
-        path = build_fmu(bearing, rivet, out, say, platform_names(platforms), coarse)
+        path = build_fmu(bearing, rivet, out, say, platform_names(platforms), table)
+    console.print(escape(Model(path).description.description), style="dim", soft_wrap=True)
     console.print(str(path), style="cyan", soft_wrap=True)

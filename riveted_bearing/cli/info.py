@@ -9,9 +9,13 @@ from rich.markup import escape
 from rich.table import Column, Table
 
 from bearing_model.kinematics import fault_frequencies
+from rivet_model.geometry import Geometry
 
 from ..summary import DEG, RPM
 from .terminal import FMU, command, console
+
+BOUNDARY = ("bore", "outside_diameter", "width")
+RIVET = ("shank_diameter", "head_diameter", "head_height", "fillet_radius")
 
 
 @command
@@ -20,10 +24,12 @@ def info(
     fmu: FMU = None,
 ):
     """Geometry, masses, kinematic and fault frequencies, quasi-static loads and life."""
-    from ..bearings import case_of
+    from ..bearings import CAGE_MEANT, case_of
 
     case = case_of(target, fmu)
     console.print(f"[bold]{escape(case.designation)}[/]  {escape(case.description)}", soft_wrap=True)
+    if case.bare:
+        console.print(escape(CAGE_MEANT), soft_wrap=True)
     for title, table in info_tables(case):
         console.print(f"\n[bold]{title}[/]", soft_wrap=True)
         console.print(table)
@@ -31,9 +37,12 @@ def info(
 
 def info_tables(case):
     """Tables for the terminal: (title, rich table) for geometry, frequencies, equilibrium and the single balls."""
+    from ..bearings import not_given
+
     state = case.equilibrium()
     return [
         ("Geometry and masses", pairs(geometry(case))),
+        *([("Not given", sources(missing))] if (missing := not_given(case.origin)) else []),
         (f"Frequencies at {RPM * case.load.omega:,.0f} r/min", frequencies(case, state)),
         (f"Quasi-static equilibrium, {load_text(case.load)}", pairs(equilibrium(case, state))),
         ("Balls", balls(state)),
@@ -41,20 +50,40 @@ def info_tables(case):
 
 
 def geometry(case):
-    """Name, value and unit of the bearing's geometry and masses."""
+    """Name, value, unit and origin of what the bearing is."""
     bearing, values, catalogue = case.bearing, case.values, case.catalogue
-    if all(key in catalogue for key in ("bore", "outside_diameter", "width")):
-        yield "bore x outside diameter x width", " x ".join(f"{1e3 * catalogue[key]:g}" for key in ("bore", "outside_diameter", "width")), "mm"
+    if all(key in catalogue for key in BOUNDARY):
+        yield "bore x outside diameter x width", " x ".join(f"{1e3 * catalogue[key]:g}" for key in BOUNDARY), "mm", origins(case, *BOUNDARY)
     if "C" in catalogue and "C_0" in catalogue:
-        yield "load ratings C, C_0", f"{1e-3 * catalogue['C']:g}, {1e-3 * catalogue['C_0']:g}", "kN"
-    yield "balls", f"{case.Z} x {1e3 * bearing.D:g}", "mm"
-    yield "pitch diameter", f"{1e3 * bearing.d_m:g}", "mm"
-    yield "groove radius / ball diameter, inner, outer", f"{bearing.f_i:g}, {bearing.f_e:g}", ""
-    yield "diametral clearance", f"{1e6 * bearing.clearance:g}", "um"
-    yield "free contact angle", f"{DEG * bearing.free_contact_angle:.2f}", "deg"
-    yield "pocket, guide clearance (diametral)", f"{1e3 * values['cage.pocket_clearance']:g}, {1e3 * values['cage.guide_clearance']:g}", "mm"
-    yield "mass of a ball, a cage half", f"{1e3 * bearing.ball_mass:.3g}, {1e3 * values['cage.m']:.3g}", "g"
-    yield "mass of the inner ring and its share of shaft", f"{values['ring.m']:g}", "kg"
+        yield "load ratings C, C_0", f"{1e-3 * catalogue['C']:g}, {1e-3 * catalogue['C_0']:g}", "kN", origins(case, "C", "C_0")
+    yield "balls", f"{case.Z} x {1e3 * bearing.D:g}", "mm", origins(case, "Z", "bearing.D")
+    yield "pitch diameter", f"{1e3 * bearing.d_m:g}", "mm", origins(case, "bearing.d_m")
+    yield "groove radius / ball diameter, inner, outer", f"{bearing.f_i:g}, {bearing.f_e:g}", "", origins(case, "bearing.f_i", "bearing.f_e")
+    yield "diametral clearance", f"{1e6 * bearing.clearance:g}", "um", origins(case, "bearing.P_d")
+    yield "free contact angle", f"{DEG * bearing.free_contact_angle:.2f}", "deg", ""
+    for label, names in (
+        ("cage: outer diameter, bore, width", ("cage.D_o", "cage.D_i", "cage.width")),
+        ("pocket, guide clearance (diametral)", ("cage.pocket_clearance", "cage.guide_clearance")),
+    ):
+        yield label, ", ".join(f"{1e3 * values[name]:.4g}" for name in names), "mm", origins(case, *names)
+    rivet = [f"{1e3 * case.rivet.get(name, getattr(Geometry, name)):.3g}" for name in RIVET]
+    yield "rivet: shank, head, head height, fillet", ", ".join(rivet), "mm", origins(case, *(f"rivet.{name}" for name in RIVET))
+    yield "mass of a ball, a cage half", f"{1e3 * bearing.ball_mass:.3g}, {1e3 * values['cage.m']:.3g}", "g", origins(case, "cage.m")
+    yield "mass of the inner ring and its share of shaft", f"{values['ring.m']:.3g}", "kg", origins(case, "ring.m")
+
+
+def origins(case, *names):
+    """Where these values come from, in a word or two."""
+    return ", ".join(dict.fromkeys(case.origin.get(name, "default") for name in names)) if case.origin else ""
+
+
+def sources(missing):
+    """Names of what was not given, by what stands for it."""
+    table = Table("", "", box=None, pad_edge=False, show_header=False)
+    for source, names in missing.items():
+        table.add_row(source, names)
+    table.add_row("default", "all other parameters: docs/parameters.md has each with its source")
+    return table
 
 
 def frequencies(case, state):
@@ -130,7 +159,7 @@ def fixed(value, digits):
 
 def pairs(rows):
     """A table of names, values and units."""
-    table = Table("", Column("", justify="right"), "", box=None, pad_edge=False, show_header=False)
+    table = Table("", Column("", justify="right"), "", Column("", style="dim"), box=None, pad_edge=False, show_header=False)
     for row in rows:
         table.add_row(*row)
     return table

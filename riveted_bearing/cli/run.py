@@ -64,7 +64,7 @@ def result_path(scene, out, kind):
 
 def print_summary(result):
     """The figures of a run on the terminal."""
-    from ..summary import rivet_rows, summary_rows
+    from ..summary import assumed_rows, rivet_rows, summary_rows, table_note
 
     about, summary = result.about, result.summary
     console.print(f"[bold]{escape(about['scene'])}[/]  {escape(about['description'])}", soft_wrap=True)
@@ -90,6 +90,13 @@ def print_summary(result):
         f"[bold]real-time factor {summary['real_time_factor']:.2f}[/] (CPU time / simulated time)",
         soft_wrap=True,
     )
+    assumed = [f"{name} {value:.3g} {unit} ({low:.2g} to {high:.2g})" for name, value, low, high, unit, _ in assumed_rows(result)]
+    if assumed:
+        console.print(f"[dim]assumed, and the stress moves with it (usual range): {escape(', '.join(assumed))}[/]", soft_wrap=True)
+    for source, names in about.get("not_given", {}).items():
+        console.print(f"[dim]not given, {escape(source)}: {escape(names)}[/]", soft_wrap=True)
+    if table_note(result):
+        messages.print(f"[yellow]note:[/] {escape(table_note(result))}", soft_wrap=True)
     for text in dict.fromkeys(about.get("messages", [])):
         if not result.stopped or text not in result.stopped:
             messages.print(f"[yellow]note:[/] {escape(text)}", soft_wrap=True)

@@ -1,0 +1,101 @@
+"""Bearings by designation: boundary dimensions and load ratings from a maker's catalogue, the balls from the ratings by a rule.
+
+A catalogue tells neither balls nor cage.  Rule for the balls: of all numbers and usual sizes of balls that can be filled in, those whose ratings by ISO 281
+and ISO 76 come nearest to C and C_0 (the larger of both logarithmic deviations is smallest), on the pitch circle (bore + outside diameter)/2.
+How good the rule is: 69 of the 85 bearings have ball sizes within 2 % (RMS 2.4 %) of those that follow from another maker's factors f_0 (NSK), the numbers of
+balls known from measurements agree; makers differ in some bearings by a ball size or a ball (6305: 7 balls of 11.5 mm here).
+"""
+
+import csv
+import math
+from dataclasses import dataclass
+from functools import cache
+from importlib.resources import files
+
+from bearing_model.load_ratings import dynamic_rating, static_rating
+
+TABLE = files("riveted_bearing") / "data" / "catalogue.csv"
+SOURCE = "NKE General Catalogue 2018/10"
+INCH = 25.4e-3
+BALL_SIZES = sorted(  # [m] usual with ball makers: 1/32 inch up to 1 1/2 inch, then 1/16 inch; two of 1/64 inch; millimetres up to 25 mm
+    [n * INCH / 32 for n in range(4, 49)]
+    + [n * INCH / 16 for n in range(25, 41)]
+    + [15 * INCH / 64, 17 * INCH / 64]
+    + [0.5e-3 * n for n in (10, 11, 12, 13, 14, 15, 16, 17, 18, 20, 22, 23, *range(24, 51, 2))]
+)
+LARGEST_FILL = math.radians(205.0)  # angle of the arc that the balls take when they are filled in: usual 180 to 200 degrees
+THICKEST_BALL = 0.325  # ball diameter over the difference of the bearing's diameters: usual 0.28 to 0.32
+CLEARANCE_CN = (  # bore up to [mm], least and largest radial internal clearance of class CN [um]: ISO 5753-1:2009
+    (10, 2, 13),
+    (18, 3, 18),
+    (24, 5, 20),
+    (30, 5, 20),
+    (40, 6, 20),
+    (50, 6, 23),
+    (65, 8, 28),
+    (80, 10, 30),
+    (100, 12, 36),
+    (120, 15, 41),
+)
+
+
+@dataclass(frozen=True)
+class Entry:
+    """A line of the catalogue, in SI: designation, bore, outside_diameter, width [m], C, C_0 [N]."""
+
+    designation: str
+    bore: float
+    outside_diameter: float
+    width: float
+    C: float
+    C_0: float
+
+    @property
+    def data(self):
+        """What a bearing file calls its catalogue data."""
+        return {key: value for key, value in vars(self).items() if key != "designation"}
+
+    @property
+    def d_m(self):
+        """Pitch diameter by rule: the mean of bore and outside diameter [m]."""
+        return round(0.5 * (self.bore + self.outside_diameter), 9)
+
+
+@cache
+def entries():
+    """All bearings of the catalogue by designation."""
+    lines = (line for line in TABLE.read_text(encoding="utf-8").splitlines() if not line.startswith("#"))
+    table = {}
+    for row in csv.DictReader(lines):
+        designation = row.pop("designation")
+        lengths = {key: round(1e-3 * float(row[key]), 9) for key in ("bore", "outside_diameter", "width")}
+        table[designation] = Entry(designation, **lengths, **{key: round(1e3 * float(row[key]), 6) for key in ("C", "C_0")})
+    return table
+
+
+@cache
+def balls(entry):
+    """Number and diameter [m] of the balls of an Entry, by the rule above.
+
+    >>> Z, D = balls(entries()["6308"])
+    >>> print(Z, f"{1e3 * D:.3f}")
+    8 15.081
+    """
+    candidates = []
+    for D in BALL_SIZES:
+        if D > THICKEST_BALL * (entry.outside_diameter - entry.bore):
+            break
+        most = 1 + int(0.5 * LARGEST_FILL / math.asin(D / entry.d_m))
+        for Z in range(5, most + 1):
+            deviations = (math.log(dynamic_rating(Z, D, entry.d_m) / entry.C), math.log(static_rating(Z, D, entry.d_m) / entry.C_0))
+            candidates.append((max(map(abs, deviations)), Z, D))
+    _, Z, D = min(candidates)
+    return Z, round(D, 9)
+
+
+def clearance(bore):
+    """Radial internal clearance by rule [m]: the middle of class CN for the bore [m]; None beyond the table."""
+    for largest, low, high in CLEARANCE_CN:
+        if bore <= 1e-3 * largest + 1e-9:
+            return round(0.5e-6 * (low + high), 9)
+    return None

@@ -1,0 +1,156 @@
+"""Which bearings can be built: limits between dimensions, each refused by the user's own key, value and unit with what is allowed.
+
+A limit is a margin, a length (or another quantity) that must not be negative, over the named values; the bound of one of them comes from the margin itself,
+by bisection.  Names are those of a bearing file: parameters by their full names, Z, catalogue.*, rivet.*.
+"""
+
+import math
+from collections.abc import Callable
+from typing import NamedTuple
+
+LEAST_WALL = 0.2e-3  # m of metal: the least that is machined
+DENSEST = 2.3e4  # kg/m3: no metal is heavier
+
+
+class Limit(NamedTuple):
+    """margin(values) >= 0 must hold; keys: the values that it is about, the one to blame first if all are given or none; reason: what would be impossible."""
+
+    keys: tuple
+    margin: Callable
+    reason: str
+
+
+def pocket_radius(v):
+    """Radius of the pocket's cylinder [m]."""
+    return 0.5 * (v["bearing.D"] + v["cage.pocket_clearance"])
+
+
+def narrowest_half_bar(v):
+    """Least distance from the rivet's radial plane to the pocket's wall, in the split plane at the cage's bore [m]; negative if the pockets overlap."""
+    r, pocket = 0.5 * v["cage.D_i"], pocket_radius(v)
+    return r * math.sin(math.pi / v["Z"] - math.asin(pocket / r)) if r > pocket else -pocket
+
+
+def groove_bottom(v, side):
+    """Diameter of the groove's bottom, outer (side = 1) or inner (-1) [m]."""
+    return v["bearing.d_m"] + side * (v["bearing.D"] + 0.5 * v["bearing.P_d"])
+
+
+def ring_mass(v, density):
+    """Mass of a full ring of the half's diameters and width [kg]."""
+    return density * 0.25 * math.pi * (v["cage.D_o"] ** 2 - v["cage.D_i"] ** 2) * 2.0 * v["cage.x_c"]
+
+
+CAGE, RIVET = ("bearing.D", "bearing.d_m", "Z", "cage.pocket_clearance"), "rivet.head_diameter"
+LIMITS = (
+    Limit(CAGE[:3], lambda v: v["bearing.d_m"] * math.sin(math.pi / v["Z"]) - v["bearing.D"], "balls that do not overlap"),
+    Limit(
+        ("bearing.P_d", "bearing.D", "bearing.f_i", "bearing.f_e"),
+        lambda v: 4.0 * (min(v["bearing.f_i"], v["bearing.f_e"]) - 0.5) * v["bearing.D"] - v["bearing.P_d"],
+        "balls that stay on their side of the grooves",
+    ),
+    Limit(("bearing.P_d", "bearing.D"), lambda v: 0.01 * v["bearing.D"] + v["bearing.P_d"], "an interference of at most 1 % of the ball"),
+    Limit(("cage.D_i", "cage.D_o"), lambda v: v["cage.D_o"] - v["cage.D_i"], "a cage with a wall"),
+    Limit(
+        ("cage.D_o", "bearing.d_m", "bearing.D", "cage.guide_clearance"),
+        lambda v: groove_bottom(v, 1) - v["cage.D_o"] - v["cage.guide_clearance"],
+        "a cage that, with its guide clearance, fits inside the outer groove's bottom",
+    ),
+    Limit(
+        ("cage.D_i", "bearing.d_m", "bearing.D", "bearing.h_i"),
+        lambda v: v["cage.D_i"] - groove_bottom(v, -1) - 2.0 * v["bearing.h_i"] * v["bearing.D"],
+        "a cage that passes over the inner ring's shoulder",
+    ),
+    Limit(("cage.D_i", *CAGE), lambda v: v["cage.D_i"] - 2.0 * pocket_radius(v), "a pocket smaller than the cage's bore"),
+    Limit(
+        (RIVET, *CAGE, "cage.D_i"),
+        lambda v: 2.0 * (narrowest_half_bar(v) - LEAST_WALL) - v[RIVET],
+        "a bridge between pockets that holds the rivet's head",
+    ),
+    Limit(
+        ("cage.D_i", "bearing.d_m", RIVET),
+        lambda v: v["bearing.d_m"] - v[RIVET] - 2.0 * LEAST_WALL - v["cage.D_i"],
+        "a cage with metal inside the rivet's head",
+    ),
+    Limit(
+        ("cage.D_o", "bearing.d_m", RIVET),
+        lambda v: v["cage.D_o"] - v["bearing.d_m"] - v[RIVET] - 2.0 * LEAST_WALL,
+        "a cage with metal outside the rivet's head",
+    ),
+    Limit(
+        ("cage.x_c", "bearing.D", "cage.pocket_clearance"),
+        lambda v: 2.0 * v["cage.x_c"] - 1.05 * pocket_radius(v),
+        "a half (2 x_c wide) whose web closes the pocket",
+    ),
+    Limit(
+        ("cage.x_c", "rivet.flange_thickness", "rivet.head_height"),
+        lambda v: 2.0 * v["cage.x_c"] - v["rivet.flange_thickness"] - v["rivet.head_height"],
+        "a half (2 x_c wide) with a seat that takes the rivet's head",
+    ),
+    Limit(("cage.land_width", "cage.width"), lambda v: 0.5 * v["cage.width"] - v["cage.land_width"] + 1e-12, "a land on its half of the cage"),
+    Limit(
+        ("cage.land_x", "cage.land_width", "cage.width"),
+        lambda v: 0.5 * (v["cage.width"] - v["cage.land_width"]) - v["cage.land_x"] + 1e-6,
+        "a land that does not reach over the cage's edge",
+    ),
+    Limit(
+        ("cage.m", "cage.D_o", "cage.D_i", "cage.x_c"), lambda v: ring_mass(v, DENSEST) - v["cage.m"], "a half lighter than a full ring of the heaviest metal"
+    ),
+    Limit(("cage.J_p", "cage.m", "cage.D_o"), lambda v: 0.25 * v["cage.m"] * v["cage.D_o"] ** 2 - v["cage.J_p"], "a half with its mass inside cage.D_o"),
+    Limit(("cage.J_p", "cage.m", "cage.D_i"), lambda v: v["cage.J_p"] - 0.25 * v["cage.m"] * v["cage.D_i"] ** 2, "a half with its mass outside cage.D_i"),
+    Limit(("cage.J_t", "cage.J_p"), lambda v: v["cage.J_t"] - 0.499 * v["cage.J_p"], "moments of inertia of a body"),
+    Limit(("ring.J_t", "ring.J_p"), lambda v: v["ring.J_t"] - 0.499 * v["ring.J_p"], "moments of inertia of a body"),
+    Limit(
+        (RIVET, "rivet.shank_diameter", "rivet.relief_radius"),
+        lambda v: v[RIVET] - v["rivet.shank_diameter"] - 2.0 * v["rivet.relief_radius"],
+        "a head wider than the relieved hole",
+    ),
+    Limit(("rivet.head_height", "rivet.fillet_radius"), lambda v: v["rivet.head_height"] - v["rivet.fillet_radius"], "a fillet below the head"),
+    Limit(("rivet.fillet_radius", "rivet.relief_radius"), lambda v: v["rivet.relief_radius"] - v["rivet.fillet_radius"], "a fillet inside the relief"),
+    Limit(("rivet.fillet_radius", "rivet.relief_depth"), lambda v: v["rivet.relief_depth"] - v["rivet.fillet_radius"], "a fillet inside the relief"),
+    Limit(
+        ("rivet.flange_thickness", "rivet.relief_depth", "rivet.edge_break"),
+        lambda v: v["rivet.flange_thickness"] - v["rivet.relief_depth"] - v["rivet.edge_break"],
+        "a flange that bears the shank",
+    ),
+    Limit(("rivet.edge_break", "rivet.relief_radius"), lambda v: v["rivet.relief_radius"] - v["rivet.edge_break"], "a chamfer smaller than the relief"),
+    Limit(("rivet.middle_zone", "rivet.edge_break"), lambda v: v["rivet.edge_break"] - v["rivet.middle_zone"], "a middle zone inside the chamfer"),
+    Limit(
+        ("catalogue.bore", "bearing.d_m", "bearing.D"),
+        lambda v: groove_bottom(v, -1) - 2.0 * LEAST_WALL - v["catalogue.bore"],
+        "an inner ring below its groove",
+    ),
+    Limit(
+        ("catalogue.outside_diameter", "bearing.d_m", "bearing.D"),
+        lambda v: v["catalogue.outside_diameter"] - groove_bottom(v, 1) - 2.0 * LEAST_WALL,
+        "an outer ring above its groove",
+    ),
+    Limit(("catalogue.width", "cage.width"), lambda v: v["catalogue.width"] - v["cage.width"], "a cage inside the bearing's width"),
+    Limit(("catalogue.width", "bearing.D"), lambda v: v["catalogue.width"] - v["bearing.D"], "balls inside the bearing's width"),
+)
+
+
+def holds(limit, values):
+    """Whether a limit holds, to a millionth of its first value; one about values that are not known does."""
+    return not all(key in values for key in limit.keys) or limit.margin(values) >= -1e-6 * abs(values[limit.keys[0]])
+
+
+def bound(limit, value, values_with):
+    """What is allowed for one value: ("at most" or "at least", bound); None if nothing between a thousandth and a thousand times the value would do.
+
+    value: as it is, which the limit refuses; values_with: a function of it that gives all values, those that follow from it too.
+    """
+    if isinstance(value, int):
+        fitting = [number for number in range(5, 33) if holds(limit, values_with(number))]
+        return ("at most" if fitting[-1] < value else "at least", fitting[-1]) if fitting else None
+    value = value or 1e-6
+    for growth in (0.98, 1.0 / 0.98):  # away from the value by 2 % at a time until the limit holds, then halve
+        for step in range(1, 350):
+            good, bad = growth**step, growth ** (step - 1)
+            if not holds(limit, values_with(good * value)):
+                continue
+            for _ in range(50):
+                middle = 0.5 * (good + bad)
+                good, bad = (middle, bad) if holds(limit, values_with(middle * value)) else (good, middle)
+            return "at most" if good * value < value else "at least", good * value
+    return None

@@ -1,0 +1,132 @@
+"""Bearings that cannot be built are refused by the user's own key, value and unit with what is allowed; possible ones pass."""
+
+import re
+
+import pytest
+
+from riveted_bearing import UserError
+from riveted_bearing.bearings import bearing_case, unit_of, unit_scales
+from riveted_bearing.catalogue import entries
+from riveted_bearing.units import to_si
+
+BASE = {"designation": '"6308"'}  # what a file leaves out follows by catalogue and rule
+
+IMPOSSIBLE = [  # what the file says, the key that is refused; the value must be the file's own text
+    ({"bearing.D": '"18 mm"'}, "bearing.D"),
+    ({"bearing.D": "0.018"}, "bearing.D"),
+    ({"bearing.D": '"30 mm"'}, "bearing.D"),
+    ({"bearing.D": '"18000 um"'}, "bearing.D"),
+    ({"bearing.d_m": '"40 mm"'}, "bearing.d_m"),
+    ({"bearing.d_m": '"50 mm"'}, "bearing.d_m"),
+    ({"bearing.d_m": '"75 mm"', "cage.D_o": '"83 mm"', "cage.D_i": '"70 mm"'}, "bearing.d_m"),
+    ({"Z": "11"}, "Z"),
+    ({"Z": "10"}, "Z"),
+    ({"Z": "32"}, "Z"),
+    ({"cage.pocket_clearance": '"4 mm"'}, "cage.pocket_clearance"),
+    ({"cage.D_o": '"85 mm"'}, "cage.D_o"),
+    ({"cage.D_o": "0.0802"}, "cage.D_o"),
+    ({"cage.D_o": '"68 mm"'}, "cage.D_o"),
+    ({"cage.D_o": '"59 mm"'}, "cage.D_o"),
+    ({"cage.D_i": '"50 mm"'}, "cage.D_i"),
+    ({"cage.D_i": '"62 mm"'}, "cage.D_i"),
+    ({"cage.D_i": '"74 mm"'}, "cage.D_i"),
+    ({"cage.x_c": '"3 mm"'}, "cage.x_c"),
+    ({"cage.x_c": '"1.5 mm"'}, "cage.x_c"),
+    ({"cage.width": '"24 mm"'}, "cage.width"),
+    ({"cage.land_width": '"12 mm"'}, "cage.land_width"),
+    ({"cage.land_x": '"9 mm"'}, "cage.land_x"),
+    ({"cage.guide_clearance": '"4.9 mm"', "cage.D_o": '"76 mm"'}, "cage.D_o"),
+    ({"cage.m": '"500 g"'}, "cage.m"),
+    ({"cage.J_p": "1e-3"}, "cage.J_p"),
+    ({"cage.J_p": "1e-5"}, "cage.J_p"),
+    ({"cage.J_t": "1e-5"}, "cage.J_t"),
+    ({"ring.J_t": "1e-4"}, "ring.J_t"),
+    ({"bearing.P_d": '"0.9 mm"', "bearing.f_i": "0.505"}, "bearing.P_d"),
+    ({"bearing.P_d": "-4.5e-5", "bearing.D": '"4 mm"', "bearing.d_m": '"20 mm"', "designation": '"mine"', "Z": "9"}, "bearing.P_d"),
+    ({"rivet.head_diameter": '"8 mm"'}, "rivet.head_diameter"),
+    ({"rivet.head_diameter": '"2.5 mm"'}, "rivet.head_diameter"),
+    ({"rivet.head_height": '"8 mm"'}, "rivet.head_height"),
+    ({"rivet.shank_diameter": '"3 mm"'}, "rivet.shank_diameter"),
+    ({"rivet.fillet_radius": '"0.5 mm"'}, "rivet.fillet_radius"),
+    ({"rivet.relief_depth": '"2 mm"'}, "rivet.relief_depth"),
+    ({"rivet.edge_break": '"0.4 mm"'}, "rivet.edge_break"),
+    ({"rivet.flange_thickness": '"0.8 mm"'}, "rivet.flange_thickness"),
+    ({"rivet.middle_zone": '"0.3 mm"'}, "rivet.middle_zone"),
+    ({"catalogue.bore": '"55 mm"'}, "catalogue.bore"),
+    ({"catalogue.outside_diameter": '"79 mm"'}, "catalogue.outside_diameter"),
+    ({"catalogue.width": '"14 mm"'}, "catalogue.width"),
+]
+POSSIBLE = [{"designation": f'"{name}"'} for name in list(entries())[::4]] + [
+    {"bearing.D": '"14 mm"'},
+    {"bearing.D": '"16 mm"'},
+    {"bearing.d_m": '"66 mm"'},
+    {"Z": "7"},
+    {"Z": "9"},
+    {"cage.D_o": '"75 mm"'},
+    {"cage.D_i": '"58.5 mm"'},
+    {"cage.pocket_clearance": '"0.1 mm"'},
+    {"cage.guide_clearance": '"0.5 mm"'},
+    {"cage.m": '"80 g"'},
+    {"cage.x_c": '"4.8 mm"'},
+    {"cage.width": '"20 mm"'},
+    {"bearing.P_d": '"60 um"'},
+    {"bearing.P_d": '"-20 um"'},
+    {"rivet.shank_diameter": '"2.5 mm"'},
+    {"rivet.head_diameter": '"4 mm"'},
+    {"rivet.head_diameter": "3.0e-3"},
+    {"rivet.E_rivet": '"200 GPa"'},
+    {"catalogue.bore": '"42 mm"'},
+    {"designation": '"mine"', "Z": "8", "bearing.D": '"15.081 mm"', "bearing.d_m": '"65 mm"'},
+    {"designation": '"mine"', "Z": "12", "bearing.D": '"7.938 mm"', "bearing.d_m": '"54 mm"'},
+]
+
+
+def write(tmp_path, settings):
+    """A bearing file with these settings over BASE."""
+    lines = {"": [], "parameters": [], "catalogue": [], "rivet": []}
+    for name, value in (BASE | settings).items():
+        section = name.partition(".")[0] if name.startswith(("catalogue.", "rivet.")) else "parameters" if "." in name else ""
+        lines[section].append(f"{name.removeprefix(f'{section}.')} = {value}")
+    path = tmp_path / "mine.toml"
+    path.write_text("\n".join([*lines[""], *(line for name in list(lines)[1:] for line in (f"[{name}]", *lines[name]))]))
+    return path
+
+
+def complaint(path):
+    """What is said against a bearing file, "" if it is accepted."""
+    try:
+        bearing_case(path)
+    except UserError as problem:
+        return str(problem)
+    return ""
+
+
+@pytest.mark.parametrize(("settings", "key"), IMPOSSIBLE, ids=lambda value: str(value))
+def test_impossible_bearings_are_refused_by_the_users_own_key(settings, key, tmp_path):
+    """The message names file, key, the value as written and a bound in its unit; a value just inside that bound is not refused by the same words."""
+    path = write(tmp_path, settings)
+    with pytest.raises(UserError) as refused:
+        bearing_case(path)
+    text = str(refused.value)
+    written = settings[key]
+    value = re.escape(written.replace('"', "'")) if '"' in written else r"[-\d.e]+"
+    match = re.match(rf"{re.escape(str(path))}: {re.escape(key)} = {value}: (at most|at least) ([-\d.e+]+)(?: (\S+))? is allowed for ([^,]+)", text)
+    assert match, text
+    words, number, unit, reason = match.groups()
+    if key == "Z":
+        return
+    if '"' in written:
+        assert unit == written.strip('"').split()[1]
+    bound = to_si(f"{number} {unit}" if unit else float(number), unit_scales(unit_of(key)))
+    assert (bound < to_si(written.strip('"'), unit_scales(unit_of(key))) if '"' in written else bound < float(written)) == (words == "at most")
+    assert reason not in complaint(write(tmp_path, settings | {key: repr(bound)}))
+
+
+@pytest.mark.parametrize("settings", POSSIBLE, ids=lambda value: str(value))
+def test_possible_bearings_are_accepted(settings, tmp_path):
+    case = bearing_case(write(tmp_path, settings))
+    assert case.equilibrium().Q_i.max() > 0.0
+
+
+def test_there_are_forty_of_each():
+    assert len(IMPOSSIBLE) >= 40 and len(POSSIBLE) >= 40
