@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from enum import IntEnum
 
 MODEL_IDENTIFIER = "RivetedBearing"
-MODEL_GUID = "{c434e8c7-3da7-8a06-7e6b-f475e05f9812}"
+MODEL_GUID = "{633c5f92-cd1a-cb53-faee-c260090ca0ff}"
 Z = 9
 
 

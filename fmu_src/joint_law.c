@@ -7,11 +7,6 @@ enum { SWEEPS = 6, SLIP_SWEEPS = 3 };
 
 static const double NEAR = 0.05, CHANGE = 0.01;
 
-INLINE wide ratio(wide part, wide whole)
-{
-    return wide_select(wide_above(whole, 0.0), part / wide_max(whole, wide_set(1e-300)), wide_set(0.0));
-}
-
 // ---- opening --------------------------------------------------------------------------------------------------------------------------------------
 // Joints in the law's table: first coefficient, weights of the splines, s, sign of M_r.
 typedef struct {
@@ -30,15 +25,15 @@ INLINE wide axis_weights(wide u, int cells, int k, ball_array w[3])
     return cell;
 }
 
-INLINE void find_points(const JointLaw *law, ball_array load[3], const ball_array P, int k, LawPoints *at)
+INLINE void find_law_points(const JointLaw *law, ball_array load[3], const ball_array P, int k, LawPoints *at)
 {
     const double inv_length = 1.0 / law->length,
                  cells[LAW_AXES] = {law->cells[0], law->cells[1], law->cells[2]};
     const wide N = wide_load(&load[0][k]), M_r = wide_load(&load[1][k]), M_t = wide_load(&load[2][k]);
     const wide M = wide_hypot(M_r, M_t) * inv_length, W = wide_hypot(N, M), s = wide_load(&P[k]) + W;
-    const wide q = ratio(N, wide_abs(N) + M), psi = ratio(M_t, wide_abs(M_t) + wide_abs(M_r));
+    const wide q = wide_ratio(N, wide_abs(N) + M), psi = wide_ratio(M_t, wide_abs(M_t) + wide_abs(M_r));
     const wide tau_cell =
-        axis_weights(ratio(W, s) * cells[AXIS_TAU], law->cells[AXIS_TAU], k, at->w[AXIS_TAU]);
+        axis_weights(wide_ratio(W, s) * cells[AXIS_TAU], law->cells[AXIS_TAU], k, at->w[AXIS_TAU]);
     const wide q_cell = axis_weights((q + 1.0) * (0.5 * cells[AXIS_Q]), law->cells[AXIS_Q], k, at->w[AXIS_Q]);
     const wide psi_cell =
         axis_weights((psi + 1.0) * (0.5 * cells[AXIS_PSI]), law->cells[AXIS_PSI], k, at->w[AXIS_PSI]);
@@ -191,7 +186,7 @@ void joints_open(const JointLaw *law, ball_array bonded[3], const ball_array P, 
     for (int sweep = 0; sweep < SWEEPS && wanted.count > 0; sweep++) {
         if (sweep > 0) sweep_neighbours(law, bonded, &o, &wanted);
         for (int p = 0; p < PACKETS; p++)
-            if (wanted.packet[p]) find_points(law, o.alone, P, p * LANE_WIDTH, &at);
+            if (wanted.packet[p]) find_law_points(law, o.alone, P, p * LANE_WIDTH, &at);
         for (int n = 0; n < wanted.count; n++) {
             const int k = wanted.joint[n];
             scalar move[3], carried[3];
@@ -267,7 +262,7 @@ void joints_slip(const JointLaw *law, const ball_array V_r, const ball_array V_t
         for (int p = 0; p < PACKETS; p++) {
             const int k = p * LANE_WIDTH;
             const wide r = alone[p][0], t = alone[p][1];
-            const wide V_rt = wide_hypot(r, t), e_r = ratio(r, V_rt), e_t = ratio(t, V_rt);
+            const wide V_rt = wide_hypot(r, t), e_r = wide_ratio(r, V_rt), e_t = wide_ratio(t, V_rt);
             const wide along = e_r * (K[0][0] * e_r + (K[0][1] + K[1][0]) * e_t) + K[1][1] * (e_t * e_t);
             const wide stiffness = wide_select(wide_above(V_rt, 0.0), along, wide_set(K[0][0]));
             wide head, hole;

@@ -329,10 +329,16 @@ typedef scalar ball_array[LANES] __attribute__((aligned(8 * sizeof(scalar))));  
 typedef double constants[LANES]
     __attribute__((aligned(8 * sizeof(double))));  // the same, independent of the state
 
-// Length of a vector across.
+// Length of the vector (y, z).
 INLINE wide wide_hypot(wide y, wide z)
 {
     return wide_sqrt(y * y + z * z);
+}
+
+// part/whole; 0 where whole is so small that 1/whole is not finite.
+INLINE wide wide_ratio(wide part, wide whole)
+{
+    return wide_select(wide_above(whole, 1e-300), part / whole, wide_set(0.0));
 }
 
 // Sum over the balls in one order for every lane width: four partial sums, then (0 + 1) + (2 + 3).

@@ -8,6 +8,7 @@
 // n unit normal from race or pocket surface into it, seen from the ball (the ball is pushed along -n).
 #pragma once
 
+#include "half_path.h"
 #include "lanes.h"
 #include "variable_table.h"
 

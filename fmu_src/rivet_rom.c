@@ -13,12 +13,6 @@ typedef struct {
     ball_array two_chi;        // 2 chi
 } TablePoints;
 
-// part/whole; 0 where whole is so small that 1/whole is not finite.
-INLINE wide ratio(wide part, wide whole)
-{
-    return wide_select(wide_above(whole, 1e-300), part / whole, wide_set(0.0));
-}
-
 // Points of the loads of all rivets in the table.
 static void find_points(const RivetTable *t, const JointLoads *load, double fit_eff, TablePoints *points)
 {
@@ -28,11 +22,11 @@ static void find_points(const RivetTable *t, const JointLoads *load, double fit_
         const wide m_r = wide_load(&load->m_r[j]), m_t = wide_load(&load->m_t[j]);
         const wide T = wide_max(wide_load(&load->T[j]), zero), V = wide_hypot(v_r, v_t),
                    m = wide_hypot(m_r, m_t);
-        const wide s = T + V, inv_s = ratio(one, s), across = v_r * m_t - v_t * m_r;
-        const wide w = 2.0 * wide_min(ratio(wide_max(across, -across), V * m), one);
+        const wide s = T + V, inv_s = wide_ratio(one, s), across = v_r * m_t - v_t * m_r;
+        const wide w = 2.0 * wide_min(wide_ratio(wide_max(across, -across), V * m), one);
         const bits plane = wide_above(w, 1.0);
         wide_store(&points->u[RIVET_A][j], V * inv_s);
-        wide_store(&points->u[RIVET_C][j], wide_min(ratio(m, t->moment_length * T), one));
+        wide_store(&points->u[RIVET_C][j], wide_min(wide_ratio(m, t->moment_length * T), one));
         wide_store(&points->u[RIVET_XI][j], fit_eff * inv_s);
         wide_store(&points->s[j], s);
         wide_store(&points->first[0][j], wide_select(plane, w - 1.0, w));
