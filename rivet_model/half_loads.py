@@ -12,7 +12,7 @@ A force on one half is half a mirrored pair of forces, which gives N, M, dP, dm,
 import numpy as np
 
 from bearing_model.joint_law import AXES, NUMBERS, JointLaw, joint_law, law_load
-from bearing_model.load_path import load_path_rigid
+from bearing_model.half_path import bolt_group
 from bearing_model.rivet_table import HalfData
 
 from . import half, splines
@@ -102,7 +102,7 @@ def rigid_rows(elastic, place):
         wrench = np.zeros(6)
         for held, free in (([0, 4, 5], [1, 2, 3]), ([1, 2, 3], [0, 4, 5])):
             wrench[held] = load[held] - I[np.ix_(held, free)] @ np.linalg.solve(I[np.ix_(free, free)], load[free])
-        N, V_y, V_z = load_path_rigid(elastic.g.d_m, 0.5 * wrench, c, s)
+        N, V_y, V_z = bolt_group(elastic.g.d_m, 0.5 * wrench, c, s)
         result.append(np.stack([N, c * V_y + s * V_z, c * V_z - s * V_y], axis=1))
     return np.stack(result)
 
