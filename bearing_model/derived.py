@@ -9,7 +9,7 @@ import numpy as np
 from bearing_model import rivet_table
 from bearing_model.hertz import Hertz, hertz_contact
 from bearing_model.rivet_rom import joint_fit, joint_hole_stiffness, joint_preload, rivet_rom_fit_eff, rivet_rom_fit_flags
-from bearing_model.variables import N_STATES, STATE_SCALES, STATE_SLICES, FitModel, Z
+from bearing_model.variables import N_STATES, STATE_SCALES, STATE_SLICES, FitModel, Switch, Z
 
 
 class Race(NamedTuple):
@@ -109,12 +109,13 @@ def derive_joint(p, d, table):
     d.fit_a = joint_fit(table, p.joint.fit + p.joint.swell, p.rivet.temperature)
     d.fit_eff = rivet_rom_fit_eff(table, d.fit_a, p.rivet.fit_model == FitModel.J2)
     d.fit_flags = rivet_rom_fit_flags(table, d.fit_a)
-    d.k_rivet = joint["k_rivet"]
-    d.k_plate = joint["k_plate"]
+    d.k_rivet = table.half.k_open
+    d.k_plate = table.half.k_closed - table.half.k_open
     d.k_plate_t = joint["k_t_plate"]
     d.k_head = joint["k_t_head"]
     d.k_hole = joint_hole_stiffness(table, d.fit_a)
     d.hole_gap = max(0.0, -d.fit_a)
+    d.spin = (p.cage.centrifugal == Switch.ON) * (p.cage.m / table.half.m) * table.half.spin
     d.c_joint = 2.0 * p.joint.zeta * np.sqrt((d.k_rivet + d.k_plate) * 0.5 * p.cage.m / Z)
 
 

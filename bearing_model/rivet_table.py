@@ -208,17 +208,15 @@ def _read_half(path, section, Z):
         _need(values.shape == shape, path, f"{section.name}.{key} has shape {values.shape}; {shape} is needed")
         return values
 
-    law, start = (_Section(path, f"{section.name}.{name}", section.member(name, dict)) for name in ("law", "start"))
+    law = _Section(path, f"{section.name}.law", section.member("law", dict))
     knots, coefficients = _spline(path, law, joint_law.AXES, (len(joint_law.NUMBERS),))
-    chi, x = section.numbers("chi"), start.numbers("x")
-    moves = _numbers(path, "half.start.move", start.member("move", list))
-    _need(moves.shape == (len(x), 3), path, f"half.start.move has shape {moves.shape}; {(len(x), 3)} is needed")
+    chi = section.numbers("chi")
     return HalfData(
         **{key: section.number(key) for key in ("m", "x_c", "J_p", "J_t", "k_closed", "k_open")},
         chi=chi,
         path=array("path", (len(chi), Z, 8, 3)),
         spin=array("spin", (8,)),
-        law=joint_law.JointLaw(law.number("length"), knots, coefficients, array("stiffness", (Z, 3, 3)), array("slip_stiffness", (Z, 2, 2)), (x, moves)),
+        law=joint_law.JointLaw(law.number("length"), knots, coefficients, array("stiffness", (Z, 3, 3)), array("slip_stiffness", (Z, 2, 2)), np.sign(array("spin", (8,))[4])),
     )
 
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from enum import IntEnum
 
 MODEL_IDENTIFIER = "RivetedBearing"
-MODEL_GUID = "{c434e8c7-3da7-8a06-7e6b-f475e05f9812}"
+MODEL_GUID = "{633c5f92-cd1a-cb53-faee-c260090ca0ff}"
 Z = 9
 
 
@@ -156,6 +156,7 @@ PARAMETERS = {
         Variable("cage.g_0", 1119, "Real", "1", None, 0.02, 0.0001, 0.2, 1, None, "Floor of 1 - epsilon^2 in the land film", "regularization: 0.005...0.05 change RMS force by less than 2 % at 0.5 deg tilt"),
         Variable("cage.unbalance", 1120, "Real", "kg.m", "g.mm", 0.0, 0.0, 0.01, 1, None, "Static unbalance of the whole cage, in the direction of pocket 1", "balanced cage"),
         Variable("cage.width", 1121, "Real", "m", "mm", 0.0135, 0.001, 0.5, 1, None, "Axial width of the whole cage", "assumed: ball diameter and two walls of 1.2 mm"),
+        Variable("cage.centrifugal", 1122, "Switch", "1", None, 2, None, None, 1, None, "Centrifugal load of the cage halves at the rivets", "physics; off: for comparison with figures that leave it out"),
         Variable("joint.preload", 1201, "Real", "N", None, 20.0, 0.0, 1000.0, 1, None, "Preload of each rivet at 293.15 K", "paper section 4.1 (3)"),
         Variable("joint.fit", 1202, "Real", "m", "um", -1e-05, -0.0005, 0.0001, 1, None, "Rivet diameter - hole diameter, negative = clearance", "paper section 4.1 (3)"),
         Variable("joint.swell", 1203, "Real", "m", "um", 4e-06, 0.0, 5e-05, 1, None, "Growth of the rivet's diameter by riveting, added to the fit", "calibrated to the paper's crossover of head and middle stress in -0.02...0 mm"),
@@ -305,18 +306,21 @@ OUTPUTS = {
         Variable("rivet.table_kind", 3242, "Real", "1", None, None, None, None, 1, "rivet", "What the rivets' stress table rests on: 1 finite elements, 2 coarse finite elements, 3 closed forms", None),
         Variable("rivet[k].damage_head", 3250, "Real", "1", None, None, None, None, Z, "fatigue", "Miner's sum of sigma_head since start.settle", None),
         Variable("rivet[k].damage_mid", 3290, "Real", "1", None, None, None, None, Z, "fatigue", "Miner's sum of sigma_mid since start.settle", None),
-        Variable("rivet[k].N", 3330, "Real", "N", None, None, None, None, Z, "rivet", "External tension of the joint, before preload shielding", None),
+        Variable("rivet[k].N", 3330, "Real", "N", None, None, None, None, Z, "rivet", "External tension of the joint", None),
         Variable("rivet[k].V", 3370, "Real", "N", None, None, None, None, Z, "rivet", "Transverse load of the joint", None),
-        Variable("rivet[k].T", 3410, "Real", "N", None, None, None, None, Z, "rivet", "Tension of the rivet", None),
-        Variable("rivet[k].M", 3450, "Real", "N.m", None, None, None, None, Z, "rivet", "Prying moment of the joint", None),
+        Variable("rivet[k].T", 3410, "Real", "N", None, None, None, None, Z, "rivet", "Tension of the rivet, with preload and prying", None),
+        Variable("rivet[k].M", 3450, "Real", "N.m", None, None, None, None, Z, "rivet", "Moment that the joint transmits", None),
         Variable("rivet[k].P", 3490, "Real", "N", None, None, None, None, Z, "rivet", "Preload at the present temperature", None),
         Variable("rivet[k].slip", 3530, "Real", "m", "um", None, None, None, Z, "rivet", "Slip of one half against the other at the joint, in the plane", None),
-        Variable("rivet[k].flag", 3570, "Real", "1", None, None, None, None, Z, "stress", "Sum of 1 rivet yields, 2 flange yields, 4 compressed joint (N counted as 0), 8 fit beyond the stress table", None),
+        Variable("rivet[k].flag", 3570, "Real", "1", None, None, None, None, Z, "stress", "Sum of 1 rivet yields, 2 flange yields, 8 fit beyond the stress table", None),
         Variable("rivet[k].V_y", 3610, "Real", "N", None, None, None, None, Z, "rivet", "Transverse load that the shank carries, on the +X half, along y of the cage's frame", None),
         Variable("rivet[k].V_z", 3650, "Real", "N", None, None, None, None, Z, "rivet", "Transverse load that the shank carries, on the +X half, along z of the cage's frame", None),
-        Variable("rivet[k].M_y", 3690, "Real", "N.m", None, None, None, None, Z, "rivet", "Prying moment on the +X half about y of the cage's frame", None),
-        Variable("rivet[k].M_z", 3730, "Real", "N.m", None, None, None, None, Z, "rivet", "Prying moment on the +X half about z of the cage's frame", None),
+        Variable("rivet[k].M_y", 3690, "Real", "N.m", None, None, None, None, Z, "rivet", "Moment that the joint transmits, on the +X half about y of the cage's frame", None),
+        Variable("rivet[k].M_z", 3730, "Real", "N.m", None, None, None, None, Z, "rivet", "Moment that the joint transmits, on the +X half about z of the cage's frame", None),
         Variable("rivet[k].F_head", 3770, "Real", "N", None, None, None, None, Z, "rivet", "Friction force at the heads", None),
+        Variable("rivet[k].M_shank", 3810, "Real", "N.m", None, None, None, None, Z, "rivet", "Bending moment of the rivet's shank at the split", None),
+        Variable("rivet[k].M_shank_y", 3850, "Real", "N.m", None, None, None, None, Z, "rivet", "Bending moment of the rivet's shank on the +X half about y of the cage's frame", None),
+        Variable("rivet[k].M_shank_z", 3890, "Real", "N.m", None, None, None, None, Z, "rivet", "Bending moment of the rivet's shank on the +X half about z of the cage's frame", None),
         Variable("bearing.friction_torque", 4001, "Real", "N.m", None, None, None, None, 1, "ring", "Torque that the shaft must supply about X", None),
         Variable("bearing.power_loss", 4002, "Real", "W", None, None, None, None, 1, "energy", "Power dissipated in contacts, films, drag and joints", None),
         Variable("bearing.energy_residual", 4003, "Real", "J", None, None, None, None, 1, "energy", "Energy now - energy at start - net work since: 0 but for the errors of the integration and of the work's own integral", None),

@@ -120,6 +120,9 @@ static void derive_joint(const Parameters *p, Derived *d)
     d->k_head = joint->k_t_head;
     d->k_hole = joint_hole_stiffness(joint, d->fit_a);
     d->hole_gap = fmax(0.0, -d->fit_a);
+    const CageHalfData *half = &rivet_table.half;
+    for (int i = 0; i < ROWS; i++)
+        d->spin[i] = p->cage.centrifugal == SWITCH_ON ? p->cage.m / half->m * half->spin[i] : 0.0;
     d->c_joint = 2.0 * p->joint.zeta * sqrt((d->k_rivet + d->k_plate) * 0.5 * p->cage.m / Z);
 }
 

@@ -99,6 +99,11 @@ INLINE wide wide_abs(wide x)
     return signbit(creal(x)) ? -x : x;
 }
 
+INLINE wide wide_floor(wide x)
+{
+    return floor(creal(x));
+}
+
 // The root of 0 gets the derivative 0: where kernels take the root of 0, a factor of 0 stands before the
 // root, or the direction has no slope.
 INLINE wide wide_sqrt(wide x)

@@ -353,7 +353,8 @@ static const double LAST_STEP = 1e-9;
 static int step_underflow(const Integrator *in, const char *method, double h)
 {
     char text[128];
-    snprintf(text, sizeof text, "t = %.9g s: %s: a step of %g s is lost in the rounding of time", in->s->t, method, h);
+    snprintf(text, sizeof text, "t = %.9g s: %s: a step of %g s is lost in the rounding of time", in->s->t,
+             method, h);
     in->log(in->context, text);
     return ARK_ERR_FAILURE;
 }

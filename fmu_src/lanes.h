@@ -199,6 +199,13 @@ INLINE wide wide_round(wide x, bits *n)
     return shifted - shift;
 }
 
+// Largest integer of |x| < 2^51 that is not above x; of an integer, it or the one below.
+INLINE wide wide_floor(wide x)
+{
+    bits n;
+    return wide_round(x - 0.5, &n);
+}
+
 // The polynomials below are Chebyshev fits over the reduced ranges; tests/test_lanes.py measures the errors
 // stated.
 
@@ -321,6 +328,18 @@ INLINE wide wide_atan(wide x)
 typedef scalar ball_array[LANES] __attribute__((aligned(8 * sizeof(scalar))));  // one number per ball
 typedef double constants[LANES]
     __attribute__((aligned(8 * sizeof(double))));  // the same, independent of the state
+
+// Length of the vector (y, z).
+INLINE wide wide_hypot(wide y, wide z)
+{
+    return wide_sqrt(y * y + z * z);
+}
+
+// part/whole; 0 where whole is so small that 1/whole is not finite.
+INLINE wide wide_ratio(wide part, wide whole)
+{
+    return wide_select(wide_above(whole, 1e-300), part / whole, wide_set(0.0));
+}
 
 // Sum over the balls in one order for every lane width: four partial sums, then (0 + 1) + (2 + 3).
 INLINE scalar ball_array_sum(const scalar *v)

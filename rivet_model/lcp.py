@@ -38,7 +38,7 @@ class Contact:
         self.C, self.D, self.springs = C, D, np.diag(springs) if np.ndim(springs) == 1 else springs
 
     def solve_active(self, active, g, f):
-        """p and q if exactly the active points touch."""
+        """p and q when exactly the active points touch."""
         A = np.flatnonzero(active)
         p = np.zeros(len(g))
         if len(A) == 0:
