@@ -17,7 +17,7 @@ from bearing_model.rivet_table import HalfData
 
 from . import half, splines
 from .cage_half import BODY, SPIN, CageHalf
-from .joint_contact import rivet_compliance
+from .joint_contact import JointContact, rivet_compliance
 from .lcp import Contact
 
 CHI = np.deg2rad([0.0, 6.0, 12.0, 20.0, 30.0, 42.0, 56.0, 72.0, 90.0])
@@ -42,9 +42,8 @@ class JointAlone:
         B = np.linalg.inv(own)  # of the pad's hats alone
         B = 0.5 * (B + B.T)
         self.B_ph = B @ to_head  # hats by the head: what the held pad gives back undoes it
-        self.clamped = 0.5 * (clamped + clamped.T) + np.diag(
-            np.array(rivet or rivet_compliance(elastic.g))[[0, 1, 1]]
-        )  # of the head with its rivet, the pad held
+        c_rivet = np.diag(np.array(rivet or rivet_compliance(elastic.g))[[0, 1, 1]])
+        self.clamped = 0.5 * (clamped + clamped.T) + c_rivet  # of the head with its rivet, the pad held
         self.K_0 = self.lever.T @ own @ self.lever
         A = np.linalg.inv(self.clamped + self.B_ph.T @ own @ self.B_ph)
         self.A, self.pull, self.own = A, self.B_ph @ A, own
@@ -169,38 +168,33 @@ def make_start(law, sign, count=33):
     return x, moves
 
 
-def pair_stiffness(elastic, alone, law, P=20.0):
+def pair_stiffness(contact, P=20.0):
     """Force per separation of the two halves' bodies, all joints alike [N/m for each joint]: closed (N = -P/4...P/4) and open (N = 3 P...4 P).
 
-    The body of a half is its mean over the mass.  It moves by what the half gives between bonded pads and by the joints' moves.
+    contact: JointContact of joints that are all alike.  The body of a half is its mean over the mass.
     """
+    elastic = contact.half
     column = np.zeros(elastic.loads.shape[1])
     column[0] = 1.0 / elastic.resultants[0, 0]  # a unit force on each pitch, spread like its mass
-    rows, wave_0 = alike_rows(elastic, alone, column), law.stiffness.sum(axis=0)
-    bonded = (column @ elastic.mirrored[2][0] @ column).real
 
     def separation(N):
-        move = np.zeros(3)
-        for _ in range(200):
-            before, move = move, alone.solve(N * rows[[0, 3, 4]] - (wave_0 - law.stiffness[0]) @ move, P + N * rows[5])[0]
-            if np.abs(move - before).max() < 1e-14:
-                break
-        return 2.0 * (bonded * N + rows[[0, 3, 4]] @ move)
+        load = contact.loads(column=N * column)[0], np.array([N])
+        return 2.0 * contact.displacement(column, 0, load, contact.solve(P, load))
 
     return tuple(float((b - a) * P / (separation(b * P) - separation(a * P))) for a, b in ((-0.25, 0.25), (3.0, 4.0)))
 
 
 def make_half(g, size=None, knots=None, progress=lambda done, total: None):
     """HalfData of a geometry by finite elements of the size `size` and contact solutions at the sites of `knots`."""
-    elastic = elastic_half(g, size)
-    alone = JointAlone(elastic)
+    elastic, rivet = elastic_half(g, size), rivet_compliance(g)
+    alone = JointAlone(elastic, rivet)
     progress(1, 3)
     law = make_law(elastic, alone, knots)
     progress(2, 3)
     spin = alike_rows(elastic, alone, centrifugal(elastic))
     law.start = make_start(law, np.sign(spin[4]))
     path = np.stack([path_at(elastic, alone, i) for i in range(len(CHI))])
-    k_closed, k_open = pair_stiffness(elastic, alone, law)
+    k_closed, k_open = pair_stiffness(JointContact(elastic, rivet, alike=True))
     progress(3, 3)
     return HalfData(**half.half_inertia(g, size=half.HalfMesh())._asdict(), chi=CHI, path=path, spin=spin, law=law, k_closed=k_closed, k_open=k_open)
 

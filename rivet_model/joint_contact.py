@@ -30,7 +30,7 @@ class JointState:
     rivet: np.ndarray  # [Z, 3]
     motion: np.ndarray  # [Z, 3]
     pressure: np.ndarray  # [Z, hats] forces [N]
-    closing: np.ndarray  # [3] motion along x, rotations about y and z of the whole half
+    closing: np.ndarray  # [3] motion along x, rotations about y and z of the whole half; along x alone [1] of joints that are all alike
 
 
 def rivet_compliance(g, fine=None):
@@ -50,16 +50,20 @@ def rivet_compliance(g, fine=None):
 
 
 class JointContact:
-    """The contact problem of a half whose patterns (cage_half.CageHalf) and whose rivet's compliance are given."""
+    """The contact problem of a half whose patterns (cage_half.CageHalf) and whose rivet's compliance are given.
 
-    def __init__(self, elastic, rivet=None):
+    alike: all joints carry the same, so that one stands for all of them (Z = 1) and the half moves along x only.
+    """
+
+    def __init__(self, elastic, rivet=None, alike=False):
         self.half, g, p = elastic, elastic.g, elastic.patterns
-        self.Z, self.hats = g.Z, len(elastic.pad_area)
+        self.Z, self.hats = 1 if alike else g.Z, len(elastic.pad_area)
         self.c_rivet = np.diag(np.array(rivet or rivet_compliance(g))[[0, 1, 1]])
         self.head = slice(p.head.start, p.head.start + 3)
         r, t = elastic.pad_place
         self.lever = np.stack([np.ones(self.hats), t, -r], axis=1)  # of hats by (u, phi_r, phi_t)
-        C = elastic.circulant(elastic.waves)  # [k, patterns, patterns]: displacement on pitch k by loads on pitch 0
+        # [k, patterns, patterns]: displacement on pitch k by loads on pitch 0
+        C = elastic.waves[:1].real if alike else elastic.circulant(elastic.waves)
         self.C = C
         Z = self.Z
         relative = (np.arange(Z)[:, None] - np.arange(Z)) % Z
@@ -70,7 +74,7 @@ class JointContact:
 
         C_pp, C_ph, C_hh = spread(p.pad, p.pad), spread(p.pad, self.head), spread(self.head, self.head)
         D = self.rigid = self._rigid()
-        D_p, D_h = D[:, p.pad].reshape(-1, 3), D[:, self.head].reshape(-1, 3)
+        D_p, D_h = (D[:, part].reshape(-1, D.shape[-1]) for part in (p.pad, self.head))
         self.A = np.linalg.inv(C_hh + np.kron(np.eye(Z), self.c_rivet))
         self.C_ph, self.D_h = C_ph, D_h
         pull = C_ph @ self.A
@@ -81,9 +85,14 @@ class JointContact:
         self.e = self._shortening()
 
     def _rigid(self):
-        """Work of the patterns on (motion along x, rotations about y, z of the whole half) [Z, patterns, 3], what inertia takes of it left out."""
+        """Work of the patterns on (motion along x, rotations about y, z of the whole half) [Z, patterns, 3], what inertia takes of it left out.
+
+        Joints that are all alike: on the motion along x alone [1, patterns, 1].
+        """
         e = self.half
         x, tilt = e.prevented(0, MIRRORED)[:, 0].real, e.prevented(1, MIRRORED)[:, 0]  # tilt: about y, and i times about z
+        if self.Z == 1:
+            return (e.resultants @ x)[None, :, None]
         D = np.zeros((self.Z, len(e.resultants), 3))
         for k in range(self.Z):
             about = np.exp(2j * np.pi * k / self.Z) * (e.resultants @ tilt)
@@ -93,7 +102,7 @@ class JointContact:
     def _shortening(self):
         """e of the heads per newton of preload [Z, 3]: along x only, the same everywhere."""
         e = np.tile([1.0, 0.0, 0.0], self.Z)
-        T = -self._solve(np.zeros(self.Z * self.hats), e, np.zeros(3))[1].reshape(self.Z, 3)[:, 0].mean()
+        T = -self._solve(np.zeros(self.Z * self.hats), e, np.zeros(self.D_c.shape[1]))[1].reshape(self.Z, 3)[:, 0].mean()
         return e / T
 
     def _solve(self, free, e, resultant, active=None):
