@@ -125,7 +125,7 @@ def rivet_outputs(model, w):
         "rivet[k].F_head": load.F_head,
         "rivet[k].slip": slip,
         "cage.dislocation": np.max(slip, axis=-1),
-        "rivet.table_kind": np.full(V.shape[:-1], float(model.d.table.kind_number)),
+        "rivet.table_kind": np.full(load.N.shape[:-1], float(model.d.table.kind_number)),
     }
 
 

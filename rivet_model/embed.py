@@ -134,7 +134,7 @@ def c_source(t):
         *half_arrays,
     ]
     joint = {key: float(t.joint[key]) for key in rivet_table.JOINT_KEYS} | {"k_rivet": t.half.k_open, "k_plate": t.half.k_closed - t.half.k_open}
-    joint = ", ".join(f".{key} = {float(value)!r}" for key, value in joint.items() if not key.startswith("prying"))
+    joint = ", ".join(f".{key} = {float(value)!r}" for key, value in joint.items())
     parts.append(f"""
 const RivetTable rivet_table = {{
     .kind = {t.kind_number}, .geometry_hash = "{t.geometry_hash}", .digest = "@digest@", .Z = {t.Z}, .moment_length = {float(shank.length)!r},

@@ -11,8 +11,8 @@ A force on one half is half a mirrored pair of forces, which gives N, M, dP, dm,
 
 import numpy as np
 
-from bearing_model.joint_law import AXES, NUMBERS, JointLaw, law_load
 from bearing_model.half_path import bolt_group
+from bearing_model.joint_law import AXES, NUMBERS, JointLaw, law_load
 from bearing_model.rivet_table import HalfData
 
 from . import half, splines
