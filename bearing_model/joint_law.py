@@ -194,6 +194,12 @@ def joints_open(law, bonded, P, spin_M, spin_P, sweeps=SWEEPS):
     return alone - moves @ law.stiffness[0].T, rivet, moves
 
 
+def single_joint(law, P, N=0.0, M_r=0.0, M_t=0.0):
+    """(T, m_r, m_t) of the rivet of a joint under loads of its own, its neighbours bonded: arrays of one shape, in N and N.m."""
+    P, *load = np.broadcast_arrays(*(np.asarray(v, dtype=float) for v in (P, N, M_r, M_t)))
+    return tuple(np.moveaxis(joint_law(law, np.stack(load, axis=-1), P)[1], -1, 0))
+
+
 def joint_slip(V, K, gap, plate, head, k_head, k_hole):
     """Slip [m] of a joint that would carry V [N] bonded, and what heads and hole then carry [N]; all along V.
 

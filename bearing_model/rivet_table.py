@@ -16,7 +16,7 @@ import numpy as np
 from bearing_model import half_path, joint_law
 
 DEFAULT_TABLE = Path(__file__).resolve().parents[1] / "rivet_model" / "tables" / "6207.json"
-FORMAT = "rivet-table-2"
+FORMAT = "rivet-table-3"
 KINDS = {"fe": "finite elements", "fe_coarse": "coarse finite elements", "closed_form": "closed forms"}  # numbered from 1: the output rivet.table_kind
 SECTIONS = ("header", "shank", "fit_eff", "joint", "half")
 CHANNELS = ("head_p1", "head_vm", "mid_vm", "mid_p1")
@@ -144,8 +144,6 @@ def _sections(path):
         data = json.loads(Path(path).read_text(encoding="utf-8"))
         known_format, digest = data["header"]["format"], data["header"]["digest"]
         sections = {name: data[name] for name in SECTIONS}
-        if "stress" in data:  # FALLBACK: until the writer puts these numbers beside the splines
-            sections["shank"] = {key: data["stress"][key] for key in ("head_friction", "head_friction_vm", "yield_rivet")} | sections["shank"]
     except (json.JSONDecodeError, UnicodeDecodeError, RecursionError) as error:
         raise ValueError(f"{path}: not a rivet table (JSON text): {error}") from error
     except (KeyError, TypeError) as error:

@@ -46,28 +46,24 @@ def make_table(geometry, coarse=False, workers=2, progress=_quiet, hold_out=320)
     fit = plastic_fit.plastic_fit(geometry, fine=fine, progress=stage("interference"))
     cage = half_loads.make_half(geometry, half.COARSE if coarse else None, half_loads.COARSE_KNOTS if coarse else None, stage("cage half"))
     result = assemble("fe_coarse" if coarse else "fe", joint, knots, samples, fit, cage)
-    shank_knots = reduction.SHANK_COARSE if coarse else reduction.SHANK_FULL
-    shank_samples = reduction.shank_sample(joint, shank_knots, workers, stage("shank"))
-    result.shank = table.make_shank(reduction.SHANK_LENGTH, shank_knots, shank_samples / rivet_table.MPA_PER_N)
     if hold_out:
         result.errors = measured_errors(result, joint if coarse else Joint(geometry, TRUTH), hold_out, workers, stage("hold-out"))
     return result
 
 
 def assemble(kind, joint, knots, samples, fit, cage):
-    """The table from its parts, without its stress over the shank's loads."""
+    """The table from its parts; cage: HalfData."""
     geometry = joint.geometry
     _, head, head_vm = stiffness.head_friction(joint)
     return table.make(
         geometry,
         kind,
+        reduction.LENGTH,
         knots,
         samples / rivet_table.MPA_PER_N,
         (fit.fit_a, fit.fit_eff),
-        stiffness.joint_data(joint, cage.law.stiffness[0, 1, 1]),
-        half_loads.two_walls(cage),
-        half=cage,
-        moment_length=reduction.MOMENT_LENGTH,
+        stiffness.joint_data(joint),
+        cage,
         head_friction=float(head),
         head_friction_vm=float(head_vm),
         fit_flange_yield=fit.flange_yield,
@@ -78,11 +74,8 @@ def assemble(kind, joint, knots, samples, fit, cage):
 
 def measured_errors(result, joint, count, workers, progress, seed=2026):
     """Errors of the table against fresh solutions on another, finer grid of angles; as fractions of the channels' maxima."""
-    loads, shank_loads = reduction.random_loads(count, seed), reduction.random_shank_loads(count, seed)
-    errors = reduction.hold_out_errors(reduction.table_stress(result, loads), loads, reduction.solve_loads(joint, loads, workers, progress))
-    fresh = reduction.solve_shank_loads(joint, shank_loads, workers, progress)
-    shank = reduction.hold_out_errors(reduction.shank_table_stress(result.shank, shank_loads), shank_loads, fresh)
-    errors |= {f"shank_{name}": report for name, report in shank.items()}
+    loads = reduction.random_loads(count, seed)
+    errors = reduction.hold_out_errors(result, loads, reduction.solve_loads(joint, loads, workers, progress))
     return errors | {"seed": seed, "angles": len(joint.angles["UB"]), "harmonics": joint.grid.n_max, "rule": RULE}
 
 

@@ -11,8 +11,8 @@ A force on one half is half a mirrored pair of forces, which gives N, M, dP, dm,
 
 import numpy as np
 
-from bearing_model.joint_law import AXES, NUMBERS, JointLaw, joint_law, law_load
 from bearing_model.half_path import bolt_group
+from bearing_model.joint_law import AXES, NUMBERS, JointLaw, law_load
 from bearing_model.rivet_table import HalfData
 
 from . import half, splines
@@ -153,21 +153,6 @@ def make_law(elastic, alone, knots=None, progress=lambda done, total: None):
     return JointLaw(LENGTH, knots, splines.interpolate([knots[name] for name in AXES], values), K, slip)
 
 
-def make_start(law, sign, count=33):
-    """Moves of joints that are all alike under a bonded M_t of this sign, per newton of s = P + |M_t|/l: (knots of |M_t|/(l s), moves [knots, 3])."""
-    wave_0 = law.stiffness.sum(axis=0)
-    x, moves = np.linspace(0.0, 1.0, count), np.zeros((count, 3))
-    for i in range(1, count):
-        move, load = moves[i - 1], np.array([0.0, 0.0, sign * x[i] * law.length])
-        for _ in range(200):
-            new = joint_law(law, load - (wave_0 - law.stiffness[0]) @ move, 1.0 - x[i])[0]
-            if np.abs(new - move).max() < 1e-13 * np.abs(new).max():
-                break
-            move = new
-        moves[i] = move
-    return x, moves
-
-
 def pair_stiffness(contact, P=20.0):
     """Force per separation of the two halves' bodies, all joints alike [N/m for each joint]: closed (N = -P/4...P/4) and open (N = 3 P...4 P).
 
@@ -192,16 +177,11 @@ def make_half(g, size=None, knots=None, progress=lambda done, total: None):
     law = make_law(elastic, alone, knots)
     progress(2, 3)
     spin = alike_rows(elastic, alone, centrifugal(elastic))
-    law.start = make_start(law, np.sign(spin[4]))
+    law.sign = np.sign(spin[4])
     path = np.stack([path_at(elastic, alone, i) for i in range(len(CHI))])
     k_closed, k_open = pair_stiffness(JointContact(elastic, rivet, alike=True))
     progress(3, 3)
     return HalfData(**half.half_inertia(g, size=half.HalfMesh())._asdict(), chi=CHI, path=path, spin=spin, law=law, k_closed=k_closed, k_open=k_open)
-
-
-def two_walls(cage):
-    """The path at two angles alone, [Z, 5, 3]: forces along x and r at the pocket's bottom, along t at the split."""
-    return np.concatenate([cage.path[-1][:, :5, :2], cage.path[0][:, :5, 2:]], axis=2)
 
 
 def elastic_half(g, size=None, points=()):
