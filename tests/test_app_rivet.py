@@ -35,13 +35,14 @@ def test_curves_of_the_paper():
 
 
 def test_curves_of_a_geometry_are_its_finite_elements(joint):
-    """Without a table: solutions of the joint itself, and the map of its own plasticity; the table's within 5 % (coarse angles; observed 1.6 %)."""
+    """Without a table: solutions of the joint itself, and the map of its own plasticity; its curves within 2 % of the table's (coarse angles; observed 0.5 %)."""
     stress, fit_eff = pictures.joint_response(joint)
     forces = joint.solve_shank(20.0, 10.0, 0.0, 0.0, -6e-6)[0]
     preloaded = pictures.JointLoad(20.0, 0.0, 10.0)
     np.testing.assert_allclose(stress(preloaded, np.array([-6e-6]))[0], joint.channels(forces[:, None])[0], rtol=0.01)  # the pad's own m at rest
-    got, expected = (response(pictures.REFERENCE, np.array([-6e-6]))[0] for response in (stress, pictures.table_response(TABLE)[0]))
-    np.testing.assert_allclose(got, expected, rtol=0.05)
+    shown = [rivet_rom.HEAD_P1, rivet_rom.MID_VM]
+    got, expected = (response(pictures.REFERENCE, np.array([-6e-6]))[0, shown] for response in (stress, pictures.table_response(TABLE)[0]))
+    np.testing.assert_allclose(got, expected, rtol=0.02)
     assert fit_eff(-5e-6) == -5e-6 and 0.0 < fit_eff(30e-6) < 15e-6
 
 
