@@ -94,7 +94,7 @@ def _half_source(half):
     ]
     cells = [uniform_cells(name, law.knots[name]) for name in joint_law.AXES]
     text = f"""{{
-        .m = {float(half.m)!r}, .path = {{{len(half.chi)}, path_chi, path_rows}}, .spin = {_braces(half.spin)},
+        .m = {float(half.m)!r}, .x_c = {float(half.x_c)!r}, .path = {{{len(half.chi)}, path_chi, path_rows}}, .spin = {_braces(half.spin)},
         .law = {{.length = {float(law.length)!r}, .cells = {_braces(cells)}, .coefficients = law_coefficients,
                 .K_0 = {_braces(law.stiffness[0])}, .K_others = {_braces(law.others.sum(axis=0))},
                 .neighbours = {len(felt)}, .neighbour = law_neighbour, .K = law_K, .K_slip = law_K_slip,
