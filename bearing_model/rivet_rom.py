@@ -47,7 +47,7 @@ def load_splines(shank, load, fit_eff):
     s, Vm = T + V, V * m
 
     def ratio(top, bottom):
-        return np.divide(top, bottom, out=np.zeros_like(bottom), where=bottom > 0.0)
+        return np.divide(top, bottom, out=np.zeros_like(bottom), where=bottom > 1e-300)
 
     chi = np.minimum(ratio(np.abs(load.V_y * load.m_z - load.V_z * load.m_y), Vm), 1.0)
     values = {"a": ratio(V, s), "c": np.minimum(ratio(m, shank.length * T), 1.0)}

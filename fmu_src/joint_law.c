@@ -7,7 +7,7 @@ enum { SWEEPS = 6, SLIP_SWEEPS = 3 };
 
 static const double NEAR = 0.05, CHANGE = 0.01;
 
-// ---- opening --------------------------------------------------------------------------------------------------------------------------------------
+// ---- opening --------------------------------------------------------------------------------------------------------
 // Joints in the law's table: first coefficient, weights of the splines, s, sign of M_r.
 typedef struct {
     ball_array place, w[LAW_AXES][3], s, side;
@@ -64,7 +64,8 @@ INLINE void joint_law(const JointLaw *law, const LawPoints *at, int k, scalar mo
     rivet[0] = s * sum.x[4], rivet[1] = across * sum.x[5], rivet[2] = s * sum.x[6];
 }
 
-// What is sought: moves of all joints, once more behind the last one, so that those of neighbours lie side by side; L*; s; loads of the rivets.
+// What is sought: moves of all joints, once more behind the last one, so that those of neighbours lie side by
+// side; L*; s; loads of the rivets.
 typedef struct {
     scalar move[3][2 * Z + LANES];
     ball_array alone[3], s, *rivet;
@@ -207,18 +208,28 @@ void joints_open(const JointLaw *law, ball_array bonded[3], const ball_array P, 
     }
 }
 
-// ---- slip -----------------------------------------------------------------------------------------------------------------------------------------
-// Slip of joints that would carry V bonded, and what heads and hole then carry, all along V.  K: slip stiffness of the halves around a joint.  Plates
-// hold up to `plate`, then the heads drag the rivet (k_head) up to `head`, then the halves slip freely to `gap`, then the hole bears (k_hole):
+// ---- slip -----------------------------------------------------------------------------------------------------------
+// Slip of joints that would carry V bonded, and what heads and hole then carry, all along V.  K: slip stiffness
+// of the halves around a joint.  Plates hold up to `plate`, then the heads drag the rivet (k_head) up to `head`,
+// then the halves slip freely to `gap`, then the hole bears (k_hole):
 //     V - K slip = plate + min(k_head slip, head) + k_hole max(0, slip - gap).
 INLINE wide joint_slip(wide V, wide K, wide gap, wide plate, wide head, double k_head, double k_hole,
                        wide *heads, wide *hole)
 {
-    const wide zero = wide_set(0.0), beyond = V - plate;
-    const wide free = wide_max(beyond / (K + k_head), (beyond - head) / K);
-    const wide bears = wide_max((beyond + k_hole * gap) / (K + (k_head + k_hole)),
-                                (beyond - head + k_hole * gap) / (K + k_hole));
-    const wide slip = wide_max(wide_select(wide_above(free - gap, 0.0), bears, free), zero);
+    // Each of the two branches of the heads is the larger slip where it holds; of two fractions with positive
+    // denominators the larger one is chosen before the division.
+    const wide zero = wide_set(0.0), beyond = V - plate, past = beyond - head, borne = k_hole * gap;
+    const bits slides = wide_above(past * (K + k_head) - beyond * K, 0.0);
+    const wide free = wide_select(slides, past, beyond) / wide_select(slides, K, K + k_head);
+    const bits bears = wide_above(free - gap, 0.0);
+    wide slip = wide_max(free, zero);
+    if (wide_any(bears)) {
+        const wide held = K + (k_head + k_hole), loose = K + k_hole;
+        const bits pushes = wide_above((past + borne) * held - (beyond + borne) * loose, 0.0);
+        const wide borne_slip =
+            (wide_select(pushes, past, beyond) + borne) / wide_select(pushes, loose, held);
+        slip = wide_select(bears, wide_max(borne_slip, zero), slip);
+    }
     *heads = wide_min(k_head * slip, head);
     *hole = k_hole * wide_max(slip - gap, zero);
     return slip;
@@ -262,7 +273,8 @@ void joints_slip(const JointLaw *law, const ball_array V_r, const ball_array V_t
         for (int p = 0; p < PACKETS; p++) {
             const int k = p * LANE_WIDTH;
             const wide r = alone[p][0], t = alone[p][1];
-            const wide V_rt = wide_hypot(r, t), e_r = wide_ratio(r, V_rt), e_t = wide_ratio(t, V_rt);
+            const wide V_rt = wide_hypot(r, t), inv_V = wide_ratio(wide_set(1.0), V_rt), e_r = r * inv_V,
+                       e_t = t * inv_V;
             const wide along = e_r * (K[0][0] * e_r + (K[0][1] + K[1][0]) * e_t) + K[1][1] * (e_t * e_t);
             const wide stiffness = wide_select(wide_above(V_rt, 0.0), along, wide_set(K[0][0]));
             wide head, hole;

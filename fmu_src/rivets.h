@@ -1,4 +1,5 @@
-// From the dynamics to the rivets: loads of all joints, of which the stress table takes the rivets'.  Equations in rivets.c.
+// From the dynamics to the rivets: loads of all joints, of which the stress table takes those of the rivets.
+// Equations in rivets.c.
 #pragma once
 
 #include "isa.h"

@@ -7,7 +7,7 @@ from mechanics import Z, clear_balls, on_ball, place_balls, pose
 TWINS = True
 RHO_MIX, NU = 35.0, 6e-3 / 900.0  # [kg/m3], [m2/s]: mixture's density, oil's kinematic viscosity
 R_O, R_I, C = 0.02975, 0.02485, 1e-4  # cage radii, radial guide clearance [m]
-WIDTH = 0.5 * 13.6e-3 - 2.5e-3  # of the cylinder beside the land of one half [m]
+WIDTH = 0.5 * 13.5e-3 - 2.5e-3  # of the cylinder beside the land of one half [m]
 
 
 def test_balls(core):
@@ -25,7 +25,7 @@ def test_balls(core):
 
 
 def cage_moments(core, omega):
-    m = core.model()
+    m = core.model(parameters={"cage.width": 13.5e-3})
     for half, speed in zip(m.work.half, omega, strict=True):
         pose(core, half, Omega=(speed, 0.0, 0.0))
     m.work.land_dissipated = 0.0

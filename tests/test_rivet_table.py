@@ -299,9 +299,9 @@ def test_closed_form_against_hand_calculation():
     g = geometry.Geometry()
     hand = 10e-6 / 1.5e-3 / ((1 - 0.3) / 192e9 + ((2.45**2 + 0.75**2) / (2.45**2 - 0.75**2) + 0.33) / 110e9)
     assert closed_form.lame_pressure(g, 10e-6) == pytest.approx(hand, rel=1e-12)
-    share = closed_form.load_share(g)
-    assert closed_form.rivet_tension(g, 20.0, 20.0 / (1 - share)) == pytest.approx(20.0 / (1 - share), rel=1e-12)
-    assert closed_form.stress(g, 0.0, 50.0, 0.0, 0.0, 0.0, -1e-5)[2] == pytest.approx(50.0 / g.shank_area, rel=1e-12)
+    assert closed_form.stress(g, 50.0, 0.0, 0.0, 0.0, -1e-5)[2] == pytest.approx(50.0 / (np.pi / 4 * 1.5e-3**2), rel=1e-12)
+    bending = 32 * 5e-3 / (np.pi * 1.5e-3**3)  # of 5 N.mm: 15.09 MPa
+    assert closed_form.stress(g, 0.0, 0.0, 5e-3, 1.0, -1e-5)[0] == pytest.approx(2.25 * bending, rel=1e-12)
 
 
 def test_closed_form_table_follows_its_closed_forms():
@@ -309,10 +309,10 @@ def test_closed_form_table_follows_its_closed_forms():
     g = geometry.Geometry()
     t = closed_form.make_table(g)
     rng = np.random.default_rng(8)
-    P, N, V = rng.uniform(0, 60, (3, 2000))
-    M, direction, fit = rng.uniform(0, 0.06, 2000), rng.uniform(0, np.pi, 2000), rng.uniform(-40e-6, 9e-6, 2000)
-    exact = closed_form.stress(g, P, N, V, M, np.cos(direction), fit)
-    got, _ = rivet_rom.rivet_rom_stress(t, RivetLoad(P, N, V, 0 * V, M * np.sin(direction), M * np.cos(direction)), fit)
+    T, V = rng.uniform(0, 100, 2000), rng.uniform(0, 60, 2000)
+    m, direction, fit = t.shank.length * T * rng.uniform(0, 1, 2000), rng.uniform(0, np.pi, 2000), rng.uniform(-40e-6, 9e-6, 2000)
+    exact = closed_form.stress(g, T, V, m, np.cos(direction), fit)
+    got, _ = rivet_rom.rivet_rom_stress(t, RivetLoad(T, V, 0 * V, m * np.sin(direction), m * np.cos(direction)), fit)
     error = np.abs(got - exact) / exact.max(axis=0)
     assert error.max() < 0.05, error.max(axis=0)
     assert np.sqrt((error**2).mean(axis=0)).max() < 0.008  # observed 0.0056
