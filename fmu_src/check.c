@@ -71,6 +71,17 @@ static bool check_geometry(Bearing *b)
                     p->cage.D_i, d_m);
     fine &= require(b, d_m < p->cage.D_o, "cage.D_o = %g m: more than bearing.d_m = %g m is allowed",
                     p->cage.D_o, d_m);
+    const double groove = d_m + D + 0.5 * p->bearing.P_d - p->cage.guide_clearance;
+    fine &= require(b, p->cage.D_o <= groove,
+                    "cage.D_o = %g m: with its guide clearance the cage must fit inside the outer groove's "
+                    "bottom; at most bearing.d_m + bearing.D + bearing.P_d/2 - cage.guide_clearance = %g m "
+                    "is allowed",
+                    p->cage.D_o, groove);
+    const double web = 1.05 * 0.5 * (D + p->cage.pocket_clearance);
+    fine &= require(b, 0.5 * p->cage.width >= web,
+                    "cage.width = %g m: no web closes the pockets; at least 1.05 (bearing.D + "
+                    "cage.pocket_clearance) = %g m is allowed",
+                    p->cage.width, 2.0 * web);
     fine &= require(b, p->cage.land_width <= 0.5 * p->cage.width,
                     "cage.land_width = %g m: at most half of cage.width, %g m, is allowed",
                     p->cage.land_width, 0.5 * p->cage.width);
