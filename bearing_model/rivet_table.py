@@ -51,7 +51,8 @@ class HalfData:
     k_open: float
 
     def __post_init__(self):
-        self.path_slope = half_path.path_slopes(self.chi, self.path)
+        self.path = single(self.path)
+        self.path_slope = single(half_path.path_slopes(self.chi, self.path))
 
 
 @dataclass
@@ -81,9 +82,14 @@ class RivetTable:
         return list(KINDS).index(self.kind) + 1
 
 
+def single(numbers):
+    """Numbers in the precision in which both readers use them."""
+    return numbers.astype(np.float32).astype(float)
+
+
 def as_embedded(coefficients):
-    """The coefficients that both readers use: single precision."""
-    return (MPA_PER_N * coefficients).astype(np.float32).astype(float)
+    """Stress coefficients of the file in 1/m2, as both readers use them."""
+    return single(MPA_PER_N * coefficients)
 
 
 def digest_of(sections):

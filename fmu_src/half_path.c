@@ -1,6 +1,8 @@
 // Loads of bonded joints: see half_path.h for the equations.
 #include "half_path.h"
 
+#include "octet.h"
+
 void bolt_group(double d_m, const scalar wrench[6], const double c[Z], const double s[Z], scalar N[Z],
                 scalar V_y[Z], scalar V_z[Z])
 {
@@ -13,15 +15,17 @@ void bolt_group(double d_m, const scalar wrench[6], const double c[Z], const dou
     }
 }
 
-enum { TERMS = 6, ROW = TERMS * PATH_WIDTH, NODE = ROWS * ROW };  // numbers of a joint's row by one node
+enum { TERMS = 6, NODE = TERMS * Z * ROWS };  // of a node: terms, numbers of all terms
 
-// A touched pocket: its place in the table, and what multiplies values and slopes along x, r, t at the two nodes around it.
+_Static_assert(ROWS == 8, "the rows of a joint are an octet");
+
+// A touched pocket: its node in the table, and the weights of the terms of this node and of the next one.
 typedef struct {
-    const double *column;
-    scalar weight[2][TERMS];
+    const float *node;
+    scalar weight[2 * TERMS];
 } Touch;
 
-static Touch touch(const HalfPath *path, int side, const PathForces *on, int j)
+static Touch touch_of(const HalfPath *path, int side, const PathForces *on, int j)
 {
     const bool back = scalar_value(on->push_t[j]) < 0.0;
     const wide push_x = wide_abs(wide_set(on->push_x[j])), push_t = wide_abs(wide_set(on->push_t[j]));
@@ -30,45 +34,48 @@ static Touch touch(const HalfPath *path, int side, const PathForces *on, int j)
     while (i < path->nodes - 2 && scalar_value(chi) >= path->chi[i + 1]) i++;
     const double h = path->chi[i + 1] - path->chi[i];
     const scalar u = (chi - path->chi[i]) / h, v = 1.0 - u;
-    const scalar value[2] = {v * v * (1.0 + 2.0 * u), u * u * (1.0 + 2.0 * v)},
-                 slope[2] = {h * u * v * v, -h * u * u * v};
+    const scalar spline[4] = {v * v * (1.0 + 2.0 * u), h * u * v * v, u * u * (1.0 + 2.0 * v),
+                              -h * u * u * v};
     const scalar force[3] = {side * on->F_x[j], on->F_r[j], back ? -on->F_t[j] : on->F_t[j]};
-    Touch t = {.column = path->rows + (back * path->nodes + i) * NODE + Z - 1 - j};
-    for (int n = 0; n < 2; n++)
-        for (int f = 0; f < 3; f++) {
-            t.weight[n][f] = value[n] * force[f];
-            t.weight[n][3 + f] = slope[n] * force[f];
-        }
-    return t;
+    Touch touch = {.node = path->rows + (back * path->nodes + i) * NODE};
+    for (int n = 0; n < 4; n++)
+        for (int f = 0; f < 3; f++) touch.weight[3 * n + f] = spline[n] * force[f];
+    return touch;
 }
 
-bool half_path_add(const HalfPath *path, int side, const PathForces *on, PathRows *rows)
+// Adds the rows of all joints by the touched pocket j.
+static void add_touch(const Touch *touch, int j, octet joint[Z])
 {
-    Touch touches[Z];
-    int count = 0;
-    for (int j = 0; j < Z; j++) {
-        if (on->F_x[j] == 0.0 && on->F_r[j] == 0.0 && on->F_t[j] == 0.0)
-            continue;  // most pockets are not touched
-        touches[count++] = touch(path, side, on, j);
+    for (int k = 0; k < Z; k++) {
+        octet rows = joint[(j + k) % Z];
+        for (int t = 0; t < 2 * TERMS; t++)
+            octet_add_floats(touch->weight[t], touch->node + (t * Z + k) * ROWS, &rows);
+        joint[(j + k) % Z] = rows;
     }
-    if (count == 0) return false;
-    for (int n = 0; n < count; n++) {
-        wide weight[2][TERMS];
-        for (int m = 0; m < TERMS; m++) {
-            weight[0][m] = wide_set(touches[n].weight[0][m]);
-            weight[1][m] = wide_set(touches[n].weight[1][m]);
+}
+
+bool half_path_rows(const HalfPath *path, const PathForces on[2], PathRows *rows)
+{
+    octet joint[Z];
+    bool touched = false;
+    for (int h = 0; h < 2; h++) {
+        for (int j = 0; j < Z; j++) {
+            if (on[h].F_x[j] == 0.0 && on[h].F_r[j] == 0.0 && on[h].F_t[j] == 0.0) continue;  // most pockets
+            if (!touched) memset(joint, 0, sizeof joint);
+            touched = true;
+            const Touch touch = touch_of(path, h == 0 ? -1 : 1, &on[h], j);
+            add_touch(&touch, j, joint);
         }
-        for (int i = 0; i < ROWS; i++) {
-            const double sign = i == ROW_V_R || i == ROW_V_T ? side : 1.0, *row = touches[n].column + i * ROW;
-            for (int k = 0; k < PACKETS * LANE_WIDTH; k += LANE_WIDTH) {
-                wide near = weight[0][0] * wide_load(row + k), far = weight[1][0] * wide_load(row + NODE + k);
-                for (int m = 1; m < TERMS; m++) {
-                    near = wide_fma(weight[0][m], wide_load(row + m * PATH_WIDTH + k), near);
-                    far = wide_fma(weight[1][m], wide_load(row + NODE + m * PATH_WIDTH + k), far);
-                }
-                wide_store(&rows->row[i][k], wide_load(&rows->row[i][k]) + sign * (near + far));
+        if (h == 0 && touched)  // of the mirrored forces
+            for (int k = 0; k < Z; k++) {
+                joint[k].x[ROW_V_R] = -joint[k].x[ROW_V_R];
+                joint[k].x[ROW_V_T] = -joint[k].x[ROW_V_T];
             }
-        }
+    }
+    if (!touched) return false;
+    for (int i = 0; i < ROWS; i++) {
+        for (int k = 0; k < Z; k++) rows->row[i][k] = joint[k].x[i];
+        for (int k = Z; k < LANES; k++) rows->row[i][k] = 0.0;  // padding
     }
     return true;
 }

@@ -23,7 +23,7 @@
 #define implicit_stiff_part FOR_ISA(implicit_stiff_part)
 #define implicit_films FOR_ISA(implicit_films)
 #define bolt_group FOR_ISA(bolt_group)
-#define half_path_add FOR_ISA(half_path_add)
+#define half_path_rows FOR_ISA(half_path_rows)
 #define joints_open FOR_ISA(joints_open)
 #define joints_slip FOR_ISA(joints_slip)
 #define rivets_load FOR_ISA(rivets_load)

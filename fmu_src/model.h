@@ -52,6 +52,7 @@ typedef struct {
     constants pocket_cos, pocket_sin;  // of the body angle 2 pi j / Z of pocket j
 
     // cage half
+    double J_p, J_t;         // moments of inertia: polar, transverse about the centre of mass [kg.m2]
     double com_x[2], com_e;  // centre of mass from the geometric centre: axial, toward pocket 1 [m]
     double C_land;           // radial guide clearance [m]
     double kappa;            // eta R L^3 / C^3 [N.s/m]

@@ -1,4 +1,5 @@
-// Eight numbers side by side, for sums over the coefficients of several channels.  By pointer: values would want registers that not every set has.
+// Eight numbers side by side, for sums over the coefficients of tables.  Functions take them by pointer: by value
+// they would need registers that not every instruction set has.
 #pragma once
 
 #include "lanes.h"
@@ -14,6 +15,11 @@ INLINE void octet_add(scalar w, const octet *x, octet *sum)
 }
 
 INLINE void octet_add_from(scalar w, const double *x, octet *sum)
+{
+    for (int i = 0; i < 8; i++) sum->x[i] += w * x[i];
+}
+
+INLINE void octet_add_floats(scalar w, const float *x, octet *sum)
 {
     for (int i = 0; i < 8; i++) sum->x[i] += w * x[i];
 }
@@ -35,6 +41,21 @@ INLINE void octet_add_from(double w, const double *x, octet *sum)
 #elif defined(FUSED) && defined(__FMA__)
     for (int i = 0; i < 2; i++)
         sum->part[i] = _mm256_fmadd_pd(_mm256_set1_pd(w), _mm256_loadu_pd(x + 4 * i), sum->part[i]);
+#elif defined(FUSED) && defined(__ARM_NEON)
+    for (int i = 0; i < 8; i++) sum->x[i] = fma(w, x[i], sum->x[i]);
+#else
+    for (int i = 0; i < 8; i++) sum->x[i] += w * x[i];
+#endif
+}
+
+INLINE void octet_add_floats(double w, const float *x, octet *sum)
+{
+#if defined(FUSED) && defined(__AVX512F__)
+    sum->part[0] = _mm512_fmadd_pd(_mm512_set1_pd(w), _mm512_cvtps_pd(_mm256_loadu_ps(x)), sum->part[0]);
+#elif defined(FUSED) && defined(__FMA__)
+    for (int i = 0; i < 2; i++)
+        sum->part[i] =
+            _mm256_fmadd_pd(_mm256_set1_pd(w), _mm256_cvtps_pd(_mm_loadu_ps(x + 4 * i)), sum->part[i]);
 #elif defined(FUSED) && defined(__ARM_NEON)
     for (int i = 0; i < 8; i++) sum->x[i] = fma(w, x[i], sum->x[i]);
 #else

@@ -105,7 +105,8 @@ typedef struct {
 
 // One half of the cage, with its half of the rivets, in SI.
 typedef struct {
-    double m;  // mass [kg]
+    double m;    // mass [kg]
+    double x_c;  // axial distance of the centre of mass from the split [m]
     HalfPath path;
     double spin[ROWS];  // rows of all joints under the centrifugal load, per (rad/s)^2, at this mass
     JointLaw law;

@@ -118,17 +118,18 @@ void rivets_load(const Model *model, const Work *w, JointLoads *load)
     } else
         two_half_share(model, w, &share);
 
-    const scalar omega2 = 0.5 * (w->half[0].s * w->half[0].s + w->half[1].s * w->half[1].s);
+    // what bonded joints of elastic halves would carry
     PathRows rows;
+    PathForces forces[2];
+    for (int h = 0; h < 2; h++)
+        forces[h] = (PathForces){on[h].F_x, on[h].F_r, on[h].F_t, on[h].push_x, on[h].push_t};
+    const bool touched = half_path_rows(&half->path, forces, &rows);
+    const scalar omega2 = 0.5 * (w->half[0].s * w->half[0].s + w->half[1].s * w->half[1].s);
     for (int i = 0; i < ROWS; i++) {
         const wide spin = wide_set(omega2 * d->spin[i]);
-        for (int k = 0; k < PACKETS * LANE_WIDTH; k += LANE_WIDTH) wide_store(&rows.row[i][k], spin);
+        for (int k = 0; k < PACKETS * LANE_WIDTH; k += LANE_WIDTH)
+            wide_store(&rows.row[i][k], touched ? wide_load(&rows.row[i][k]) + spin : spin);
     }
-    bool touched = false;
-    for (int h = 0; h < 2; h++)
-        touched |=
-            half_path_add(&half->path, h == 0 ? -1 : 1,
-                          &(PathForces){on[h].F_x, on[h].F_r, on[h].F_t, on[h].push_x, on[h].push_t}, &rows);
 
     // joints that open
     ball_array bonded[3], P, open[3], rivet[3];

@@ -31,14 +31,11 @@ def bin_cells(knots):
     return np.searchsorted(knots[1:-1], starts, side="right")
 
 
-def path_columns(half):
-    """The path over the wall's angle as the C reader wants it, [push_t >= 0 and < 0, node, ROWS, value and slope x 3 forces, PATH_WIDTH]."""
-    both = np.concatenate([half.path, half.path_slope], axis=-1)  # [node, Z, ROWS, 6]
-    columns = np.moveaxis(both, 1, -1)
-    back = columns[..., ::-1] * half_path.PATH_MIRROR[:, None, None]  # rivet -1 - i for i
-    Z = columns.shape[-1]
-    lanes = -(-Z // 8) * 8  # as in fmu_src/lanes.h
-    return np.stack([columns, back])[..., (np.arange(lanes + Z - 1) - (Z - 1)) % Z]
+def path_rows(half):
+    """The path over the wall's angle as the C reader wants it: [push_t >= 0 and < 0, node, value and slope, 3 forces, Z, ROWS]."""
+    front = np.moveaxis(np.stack([half.path, half.path_slope], axis=1), 4, 2)  # from [node, value and slope, Z, ROWS, 3]
+    back = front[..., ::-1, :] * half_path.PATH_MIRROR  # rivet -1 - i for i
+    return np.stack([front, back])
 
 
 def uniform_cells(name, knots):
@@ -86,9 +83,9 @@ def _half_source(half):
     felt = [k for k in range(1, law.Z) if np.any(law.others[k])]
     arrays = [
         _array("path_chi", half.chi),
-        _array("path_rows", path_columns(half)),
-        "_Static_assert(sizeof path_rows == 2 * sizeof path_chi / sizeof *path_chi * ROWS * 6 * PATH_WIDTH * sizeof *path_rows, "
-        '"the path has another width");\n',
+        _array("path_rows", path_rows(half), "float"),
+        "_Static_assert(sizeof path_rows == 2 * sizeof path_chi / sizeof *path_chi * 6 * ROWS * Z * sizeof *path_rows, "
+        '"the path has another shape");\n',
         _array("law_coefficients", uniform_coefficients(law)),
         f"static const int law_neighbour[{len(felt)}] = {_braces(felt)};\n",
         f"static const double law_K[{len(felt)}][3][3] = {_braces(law.others[felt])};\n",
@@ -97,7 +94,7 @@ def _half_source(half):
     ]
     cells = [uniform_cells(name, law.knots[name]) for name in joint_law.AXES]
     text = f"""{{
-        .m = {float(half.m)!r}, .path = {{{len(half.chi)}, path_chi, path_rows}}, .spin = {_braces(half.spin)},
+        .m = {float(half.m)!r}, .x_c = {float(half.x_c)!r}, .path = {{{len(half.chi)}, path_chi, path_rows}}, .spin = {_braces(half.spin)},
         .law = {{.length = {float(law.length)!r}, .cells = {_braces(cells)}, .coefficients = law_coefficients,
                 .K_0 = {_braces(law.stiffness[0])}, .K_others = {_braces(law.others.sum(axis=0))},
                 .neighbours = {len(felt)}, .neighbour = law_neighbour, .K = law_K, .K_slip = law_K_slip,

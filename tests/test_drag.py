@@ -7,7 +7,7 @@ from mechanics import Z, clear_balls, on_ball, place_balls, pose
 TWINS = True
 RHO_MIX, NU = 35.0, 6e-3 / 900.0  # [kg/m3], [m2/s]: mixture's density, oil's kinematic viscosity
 R_O, R_I, C = 0.02975, 0.02485, 1e-4  # cage radii, radial guide clearance [m]
-WIDTH = 0.5 * 13.5e-3 - 2.5e-3  # of the cylinder beside the land of one half [m]
+WIDTH = 0.5 * 13.6e-3 - 2.5e-3  # of the cylinder beside the land of one half [m]
 
 
 def test_balls(core):
