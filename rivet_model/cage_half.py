@@ -20,7 +20,7 @@ from scipy.sparse.linalg import splu
 from scipy.spatial import cKDTree
 from skfem import BilinearForm, ElementHex1, ElementHex2, ElementVector, FacetBasis, LinearForm
 
-from . import half
+from . import half, half_shape
 from .half import HalfMesh
 
 SYMMETRIC = {"permc_spec": "MMD_AT_PLUS_A", "diag_pivot_thresh": 0.0, "options": {"SymmetricMode": True}}  # for splu
@@ -216,7 +216,7 @@ class CageHalf(CyclicSolid):
 
     def _pad_loads(self):
         """Unit forces spread by hats over the pad's vertices, without those at the edge of the hole: loads; places and areas of the hats stay here."""
-        pad = half.pad_half_length(self.g)
+        pad = half_shape.pad_half_length(self.g)
         facets = self._facets(0.0, lambda r, t: np.abs(t) < pad)
         vector, scalar = self._facet_basis(facets, self.basis.elem), self._facet_basis(facets, ElementHex1())
         vertices = np.unique(self.basis.mesh.facets[:, facets])
@@ -269,7 +269,7 @@ class CageHalf(CyclicSolid):
     def _wall_nodes(self, end):
         """Dofs [angles, radii, 3] of the wall of pocket 0 (end 0) or of pocket 1 (end 1)."""
         g, phi, r = self.g, half.wall_angles(self.g, self.size)[:, None], half.radii(self.g, self.size)
-        p = half.pocket_radius(g)
+        p = half_shape.pocket_radius(g)
         theta = np.arcsin(p * np.cos(phi) / r)
         theta = 2 * np.pi / g.Z - theta if end else theta
         place = np.stack(np.broadcast_arrays(p * np.sin(phi), r * np.cos(theta), r * np.sin(theta)), axis=-1)
@@ -281,8 +281,8 @@ class CageHalf(CyclicSolid):
     def point_places(self):
         """Where the points lie [n, 3] in the frame (x, r, t) of pocket 0."""
         angle, radius = self.points.T
-        z = half.pocket_radius(self.g) * np.cos(angle)
-        return np.stack([half.pocket_radius(self.g) * np.sin(angle), np.sqrt(radius**2 - z**2), z], axis=1)
+        z = half_shape.pocket_radius(self.g) * np.cos(angle)
+        return np.stack([half_shape.pocket_radius(self.g) * np.sin(angle), np.sqrt(radius**2 - z**2), z], axis=1)
 
     @cached_property
     def mirrored(self):

@@ -15,7 +15,7 @@ import numpy as np
 from bearing_model import rivet_table
 from bearing_model.joint_law import AXES, JointLaw, law_load
 
-from . import half, half_loads, reduction, splines, table
+from . import half_loads, half_shape, reduction, splines, table
 from .geometry import Geometry
 
 K_T = 4.25  # tension, fillet under a loaded head: converged finite elements, default geometry
@@ -76,7 +76,7 @@ def joint_law_samples(geometry, load, P):
     edges from the rivet; the shank bends by the rotation of the hinge, m = (T - P) I/(A e) = (T - P) d^2/(16 e).
     """
     N, M_r, M_t = load
-    e_t, e_r = half.pad_half_length(geometry), (geometry.cage_outer_diameter - geometry.cage_inner_diameter) / 4
+    e_t, e_r = half_shape.pad_half_length(geometry), (geometry.cage_outer_diameter - geometry.cage_inner_diameter) / 4
     T = max(P, N + abs(M_r) / e_t + abs(M_t) / e_r)
     M = np.hypot(M_r, M_t)
     m = (T - P) * geometry.shank_diameter**2 / 16 * np.array([M_r / e_t, M_t / e_r]) / M if M > 0.0 else np.zeros(2)
@@ -86,12 +86,12 @@ def joint_law_samples(geometry, load, P):
 def half_data(geometry):
     """HalfData of rigid halves: no elastic share of the load path; the centrifugal load as the pull of a pitch beside the web that holds it."""
     g, Z = geometry, geometry.Z
-    inertia = half.half_inertia(g)
-    lever = 0.5 * (g.cage_half_width + half.pocket_radius(g)) - inertia.x_c
+    inertia = half_shape.half_inertia(g)
+    lever = 0.5 * (g.cage_half_width + half_shape.pocket_radius(g)) - inertia.x_c
     spin = np.zeros(8)
     spin[4] = -lever * np.sqrt(inertia.m * inertia.J_p) / Z  # m r/Z with r the radius of gyration
     # the web as a beam from bar to bar: only its order of size matters, as joints do not move
-    width, height = (g.cage_outer_diameter - g.cage_inner_diameter) / 2, g.cage_half_width - half.pocket_radius(g)
+    width, height = (g.cage_outer_diameter - g.cage_inner_diameter) / 2, g.cage_half_width - half_shape.pocket_radius(g)
     k = 2.0 * g.E_flange * width * height**3 / (np.pi * g.d_m / Z) ** 3
     chain = np.zeros((Z, 1, 1))
     chain[[0, 1, -1], 0, 0] = 1.0, -0.5, -0.5

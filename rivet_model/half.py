@@ -1,4 +1,4 @@
-"""One cage half as a solid: what everything else about the half is made from (mesh, mass, inertia, limits of what can be built).
+"""One cage half as a solid: its mesh; half_shape.py has its mass, its inertia and the limits of what can be built.
 
     x ^   pocket 0            bar, rivet             pocket 1         A pitch of the half, from pocket to pocket, seen from outside.
       |   ______________________________________________
@@ -15,61 +15,13 @@ t toward growing angle (right-handed x, r, t).
 
 from dataclasses import dataclass
 from itertools import pairwise
-from typing import NamedTuple
 
 import numpy as np
 from scipy.spatial import cKDTree
-from skfem import Basis, ElementHex1, MeshHex, MeshHex2
+from skfem import Basis, MeshHex, MeshHex2
 from skfem.mapping import MappingIsoparametric
 
-DENSITY = 8800.0  # kg/m3, bronze CuSn8 (UNS C52100: 8.80 g/cm3)
-DENSITY_RIVET = 7850.0  # kg/m3, steel
-LEAST_WALL = 0.2e-3  # m of metal around the seat: assumed, the least that is machined
-
-
-class Limit(NamedTuple):
-    """One limit of what can be built: `value` of `key` must be above or below `allowed` [m]."""
-
-    key: str
-    value: float
-    sign: str  # ">" or "<"
-    allowed: float
-    reason: str
-
-    @property
-    def holds(self):
-        return self.value > self.allowed if self.sign == ">" else self.value < self.allowed
-
-
-def pocket_radius(g):
-    """Radius of the pocket's cylinder [m]."""
-    return 0.5 * (g.ball_diameter + g.pocket_clearance)
-
-
-def narrowest_half_bar(g):
-    """Least distance from the rivet's radial plane to the pocket's wall, in the split plane at the cage's bore [m]."""
-    r = g.cage_inner_diameter / 2
-    return r * np.sin(np.pi / g.Z - np.arcsin(min(pocket_radius(g) / r, 1.0)))
-
-
-def pad_half_length(g):
-    """Half length of a pad along the circle [m]: patch_radius, or what the bar has room for."""
-    return min(g.patch_radius, 0.9 * narrowest_half_bar(g))
-
-
-def half_limits(g, guide_clearance=0.0):
-    """Limits of what can be built, each with key, value, sign, allowed value and reason; guide_clearance: of the cage in the outer ring's lands [m]."""
-    R, seat = g.d_m / 2, g.seat_diameter / 2 + LEAST_WALL
-    return [
-        Limit("cage_half_width", g.cage_half_width, ">", g.flange_thickness + g.head_height, "a seat that takes the rivet's head above the flange"),
-        Limit("cage_half_width", g.cage_half_width, ">", pocket_radius(g) + 0.02 * g.ball_diameter, "a web that closes the pocket"),
-        Limit("seat_diameter", g.seat_diameter, ">", g.head_diameter, "a seat that takes the rivet's head"),
-        Limit("seat_diameter", g.seat_diameter, "<", 2 * (narrowest_half_bar(g) - LEAST_WALL), "a bridge between pockets that holds the rivet's head"),
-        Limit("cage_inner_diameter", g.cage_inner_diameter, "<", 2 * (R - seat), "metal between the rivet's seat and the cage's bore"),
-        Limit("cage_outer_diameter", g.cage_outer_diameter, ">", 2 * (R + seat), "metal between the rivet's seat and the cage's outside"),
-        Limit("cage_outer_diameter", g.cage_outer_diameter, "<", g.d_m + g.ball_diameter - guide_clearance, "a cage that the outer groove allows"),
-        Limit("cage_inner_diameter", g.cage_inner_diameter, ">", g.d_m - g.ball_diameter, "a cage that the inner groove allows"),
-    ]
+from .half_shape import check_half, pad_half_length, pocket_radius
 
 
 @dataclass(frozen=True)
@@ -212,43 +164,3 @@ class Mapping(MappingIsoparametric):
 def solid_basis(mesh, element, order=5):
     """Basis on the mesh with its curved cells."""
     return Basis(mesh, element, mapping=Mapping(mesh, mesh.elem(), mesh.bndelem), intorder=order)
-
-
-class Inertia(NamedTuple):
-    """Of one half with its half of the rivets: mass [kg], place x_c of its centre of mass [m], moments of inertia about it [kg m2]."""
-
-    m: float
-    x_c: float
-    J_p: float
-    J_t: float
-
-
-def half_inertia(g, density=DENSITY, density_rivet=DENSITY_RIVET, size=None):
-    """Mass, centre of mass and moments of inertia of one half with its part of the rivets (head and half of the shank)."""
-    basis = solid_basis(pitch_mesh(g, size or COARSE), ElementHex1())
-    x, y, z = np.asarray(basis.global_coordinates())
-    bodies = [(g.Z * density * basis.dx, x, y**2 + z**2)]
-    R, shank, head = g.d_m / 2, g.shank_diameter / 2, g.head_diameter / 2
-    for radius, low, high in ((shank, 0.0, g.flange_thickness), (head, g.flange_thickness, g.flange_thickness + g.head_height)):
-        # three Gauss points along x are exact; about the bearing's axis r2 = R2 + radius2/2
-        nodes, weights = np.polynomial.legendre.leggauss(3)
-        dm = g.Z * density_rivet * np.pi * radius**2 * 0.5 * (high - low) * weights
-        bodies.append((dm, 0.5 * (low + high) + 0.5 * (high - low) * nodes, R**2 + 0.5 * radius**2))
-    m = sum(dm.sum() for dm, _, _ in bodies)
-    x_c = sum((dm * x).sum() for dm, x, _ in bodies) / m
-    J_p = sum((dm * r2).sum() for dm, _, r2 in bodies)
-    J_t = 0.5 * J_p + sum((dm * x**2).sum() for dm, x, _ in bodies) - m * x_c**2
-    return Inertia(float(m), float(x_c), float(J_p), float(J_t))
-
-
-def rivet_mass(g, density=DENSITY_RIVET):
-    """Mass of half a rivet [kg]: one head and the shank up to the split."""
-    return density * np.pi / 4 * (g.shank_diameter**2 * g.flange_thickness + g.head_diameter**2 * g.head_height)
-
-
-def check_half(g):
-    """Raises ValueError naming the first limit that does not hold."""
-    for limit in half_limits(g):
-        if not limit.holds:
-            word = "above" if limit.sign == ">" else "below"
-            raise ValueError(f"geometry: {limit.key} = {limit.value:g} must be {word} {limit.allowed:g}: {limit.reason}")

@@ -15,7 +15,7 @@ from bearing_model.half_path import bolt_group
 from bearing_model.joint_law import AXES, NUMBERS, JointLaw, law_load
 from bearing_model.rivet_table import HalfData
 
-from . import half, splines
+from . import half_shape, splines
 from .cage_half import BODY, SPIN, CageHalf
 from .joint_contact import JointContact, rivet_compliance
 from .lcp import Contact
@@ -119,11 +119,11 @@ def path_at(elastic, alone, point):
     return result
 
 
-def centrifugal(elastic, density=half.DENSITY, density_rivet=half.DENSITY_RIVET):
+def centrifugal(elastic, density=half_shape.DENSITY, density_rivet=half_shape.DENSITY_RIVET):
     """Patterns [patterns] of each pitch per (rad/s)^2: its own body force, and that of half a rivet, which the head's friction gives to the seat's bottom."""
     column = np.zeros(elastic.loads.shape[1])
     column[SPIN] = density
-    column[elastic.patterns.head.start + 3] = half.rivet_mass(elastic.g, density_rivet) * 0.5 * elastic.g.d_m
+    column[elastic.patterns.head.start + 3] = half_shape.rivet_mass(elastic.g, density_rivet) * 0.5 * elastic.g.d_m
     return column
 
 
@@ -181,7 +181,7 @@ def make_half(g, size=None, knots=None, progress=lambda done, total: None):
     path = np.stack([path_at(elastic, alone, i) for i in range(len(CHI))])
     k_closed, k_open = pair_stiffness(JointContact(elastic, rivet, alike=True))
     progress(3, 3)
-    return HalfData(**half.half_inertia(g, size=half.HalfMesh())._asdict(), chi=CHI, path=path, spin=spin, law=law, k_closed=k_closed, k_open=k_open)
+    return HalfData(**half_shape.half_inertia(g)._asdict(), chi=CHI, path=path, spin=spin, law=law, k_closed=k_closed, k_open=k_open)
 
 
 def elastic_half(g, size=None, points=()):

@@ -35,7 +35,7 @@ def test_curves_of_the_paper():
 
 
 def test_curves_of_a_geometry_are_its_finite_elements(joint):
-    """Without a table: solutions of the joint itself, and the map of its own plasticity; its curves within 2 % of the table's (coarse angles; observed 0.5 %)."""
+    """Without a table: solutions of the joint itself, and the map of its own plasticity; within 2 % of the table (coarse angles; observed 0.5 %)."""
     stress, fit_eff = pictures.joint_response(joint)
     forces = joint.solve_shank(20.0, 10.0, 0.0, 0.0, -6e-6)[0]
     preloaded = pictures.JointLoad(20.0, 0.0, 10.0)

@@ -1,15 +1,15 @@
 """The cage half: its mass and limits, its elastic answer against closed forms, other formulations and finer elements."""
 
-from itertools import pairwise
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 import scipy.sparse as sp
-from scipy.integrate import quad
 from scipy.sparse.linalg import splu
+from skfem import ElementHex1
 
-from bearing_model import half_path
-from rivet_model import cage_half, half, half_loads
+from bearing_model import half_path, rivet_table
+from rivet_model import cage_half, half, half_loads, half_shape
 from rivet_model.geometry import Geometry
 
 G = Geometry()
@@ -35,44 +35,47 @@ def hertz_patch(angle, a=0.9e-3, b=0.16e-3, count=5):
     nodes, weights = np.polynomial.legendre.leggauss(count)
     u, v = np.meshgrid(nodes, nodes, indexing="ij")
     pressure = np.sqrt(np.clip(1.0 - u**2 - v**2, 0.0, None)) * np.outer(weights, weights)
-    points = np.stack([angle + a / half.pocket_radius(G) * u.ravel(), G.d_m / 2 + b * v.ravel()], axis=1)
+    points = np.stack([angle + a / half_shape.pocket_radius(G) * u.ravel(), G.d_m / 2 + b * v.ravel()], axis=1)
     return points, pressure.ravel() / pressure.sum()
 
 
 # Geometry -----------------------------------------------------------------------------------------------------------------------------
 
 
-def solid_integral(f_of_x):
-    """Integral of f(x) over the volume of one pitch of the bronze half, slice by slice of the drawing's bodies."""
-    w, r_i, r_o, p = G.cage_half_width, G.cage_inner_diameter / 2, G.cage_outer_diameter / 2, half.pocket_radius(G)
-
-    def area(x):
-        pocket = quad(lambda r: 2.0 * r * np.arcsin(np.sqrt(p**2 - x**2) / r), r_i, r_o)[0] if x < p else 0.0
-        bore = [G.shank_diameter, G.shank_diameter + 2 * G.relief_radius, G.seat_diameter]
-        hole = bore[int(np.searchsorted([G.flange_thickness - G.relief_depth, G.flange_thickness], x, side="right"))]
-        return np.pi * (r_o**2 - r_i**2) / G.Z - pocket - np.pi / 4 * hole**2
-
-    steps = [0.0, G.flange_thickness - G.relief_depth, G.flange_thickness, p, w]
-    return sum(quad(lambda x: f_of_x(x) * area(x), a, b, epsrel=1e-9)[0] for a, b in pairwise(steps))
+def mesh_inertia(size, density):
+    """Mass, centre of mass and moments of inertia of the bronze half by its mesh."""
+    basis = half.solid_basis(half.pitch_mesh(G, size), ElementHex1())
+    x, y, z = np.asarray(basis.global_coordinates())
+    dm = G.Z * density * basis.dx
+    m, x_c, J_p = dm.sum(), (dm * x).sum() / dm.sum(), (dm * (y**2 + z**2)).sum()
+    return half_shape.Inertia(m, x_c, J_p, 0.5 * J_p + (dm * x**2).sum() - m * x_c**2)
 
 
-def test_mass_and_middle_of_the_mesh():
-    """Mesh against the drawing's volume: mass to 0.1 % (observed 3e-5), centre of mass (2e-6)."""
-    bronze = half.half_inertia(G, density_rivet=1e-12, size=half.HalfMesh())
-    m = G.Z * half.DENSITY * solid_integral(lambda x: 1.0)
-    assert bronze.m == pytest.approx(m, rel=1e-4)
-    assert bronze.x_c == pytest.approx(solid_integral(lambda x: x) / solid_integral(lambda x: 1.0), rel=1e-5)
+def test_mass_and_inertia_of_the_mesh():
+    """Bronze by the mesh and by the drawing's integrals: within 0.1 % on coarse cells, too (observed 1.4e-4; the shipped mesh 3e-5)."""
+    bronze = half_shape.half_inertia(G, density_rivet=0.0)
+    for size in (half.COARSE, half.HalfMesh()):
+        np.testing.assert_allclose(mesh_inertia(size, half_shape.DENSITY), bronze, rtol=1e-3)
 
 
 def test_inertia_of_the_whole():
     """Bronze and rivets together: masses add; the polar moment exceeds m d_m2/4 as the ring's section and the rivets say (to 2 %: the pockets)."""
-    both, bronze = half.half_inertia(G), half.half_inertia(G, density_rivet=1e-12)
-    assert both.m - bronze.m == pytest.approx(G.Z * half.rivet_mass(G), rel=1e-9)
+    both, bronze = half_shape.half_inertia(G), half_shape.half_inertia(G, density_rivet=0.0)
+    assert both.m - bronze.m == pytest.approx(G.Z * half_shape.rivet_mass(G), rel=1e-9)
     mean_square = (G.cage_outer_diameter**2 + G.cage_inner_diameter**2) / 8
     assert both.J_p == pytest.approx(both.m * mean_square, rel=0.02)
     assert both.J_p < 2.0 * both.J_t  # a body of finite width: J_t = J_p/2 + m <(x - x_c)^2>
-    finer = half.half_inertia(G, size=half.FINE)
-    np.testing.assert_allclose(both, finer, rtol=1e-4)
+
+
+def test_inertia_of_a_plain_ring():
+    """Tiny pockets, holes and rivets leave a ring: m = rho pi (r_o^2 - r_i^2) w, x_c = w/2, J_t = m ((r_o^2 + r_i^2)/4 + w^2/12) (to 1e-6)."""
+    names = ("ball_diameter", "pocket_clearance", "shank_diameter", "head_diameter", "head_height", "seat_diameter", "relief_radius")
+    tiny = dict.fromkeys(names, 1e-9)
+    g = SimpleNamespace(**(vars(G) | tiny))
+    r_i, r_o, w = g.cage_inner_diameter / 2, g.cage_outer_diameter / 2, g.cage_half_width
+    m = half_shape.DENSITY * np.pi * (r_o**2 - r_i**2) * w
+    expected = m, w / 2, m * (r_o**2 + r_i**2) / 2, m * ((r_o**2 + r_i**2) / 4 + w**2 / 12)
+    np.testing.assert_allclose(half_shape.half_inertia(g), expected, rtol=1e-6)
 
 
 @pytest.mark.parametrize(
@@ -80,19 +83,18 @@ def test_inertia_of_the_whole():
     [
         ({"cage_half_width": 2.2e-3}, "cage_half_width"),
         ({"cage_half_width": 5.7e-3}, "cage_half_width"),
-        ({"seat_diameter": 2.5e-3}, "seat_diameter"),
+        ({"seat_diameter": 2.5e-3}, "head_diameter"),
         ({"Z": 13}, "seat_diameter"),
         ({"cage_inner_diameter": 51e-3}, "cage_inner_diameter"),
         ({"cage_outer_diameter": 56e-3}, "cage_outer_diameter"),
-        ({"cage_outer_diameter": 65e-3}, "cage_outer_diameter"),
-        ({"cage_inner_diameter": 44e-3, "ball_diameter": 9.3e-3}, "cage_inner_diameter"),
     ],
 )
 def test_limits_name_what_cannot_be_built(change, key):
-    """A bridge too narrow for the head, no seat, no web, a cage larger than the grooves: named with value and limit; the default passes."""
-    assert all(limit.holds for limit in half.half_limits(G))
-    with pytest.raises(ValueError, match=key):
-        half.check_half(Geometry(**change))
+    """A bridge too narrow for the head, no seat, no web: named with its value; the default passes."""
+    half_shape.check_half(G)
+    g = Geometry(**change)
+    with pytest.raises(ValueError, match=f"geometry: {key} = {getattr(g, key):g}: no "):
+        half_shape.check_half(g)
 
 
 # Elasticity ---------------------------------------------------------------------------------------------------------------------------
@@ -209,6 +211,25 @@ def test_path_between_its_nodes(coarse):
     assert error[:, :, 3:5].max() > 1e-3 * np.abs(direct[:, :, 3:5]).max(), "the angles are not the nodes"
 
 
+@pytest.mark.slow
+def test_shipped_path_on_finer_elements():
+    """Path and centrifugal load of the shipped table beside direct solutions on finer elements, at angles of 0...90 degrees in steps of 5.
+
+    Within 3 % of the largest of their kind (moments, tensions, transverse loads); the centrifugal moment within 1 %.
+    """
+    t = rivet_table.read(rivet_table.DEFAULT_TABLE).half
+    elastic = half_loads.elastic_half(G, half.FINE, wall_points(STEPS))
+    alone, nodes = half_loads.JointAlone(elastic), len(half_loads.CHI)
+    direct = np.stack([half_loads.path_at(elastic, alone, nodes + i) for i in range(len(STEPS))])
+    error = np.abs(np.stack([half_path.path_rows(t.chi, t.path, t.path_slope, at) for at in STEPS]) - direct)
+    for rows in ([0], [1, 2], [3, 4]):
+        print(rows, error[:, :, rows].max() / np.abs(direct[:, :, rows]).max())
+        assert error[:, :, rows].max() < 0.03 * np.abs(direct[:, :, rows]).max()
+    spin = half_loads.alike_rows(elastic, alone, half_loads.centrifugal(elastic))
+    print("spin", t.spin[4] / spin[4], t.spin[5] / spin[5])
+    assert t.spin[4] == pytest.approx(spin[4], rel=0.01)
+
+
 def test_patch_and_radial_place_do_not_matter(coarse):
     """The path of Hertz's patch of 200 N within 1 % of the largest moment of the point's (observed 0.4 %), and of a contact 0.1 mm nearer to the axis or
     farther, as far as the guide clearance lets the cage go: within 3 % (observed 2.6 %: the lever of a force along x)."""
@@ -232,9 +253,9 @@ def test_centrifugal_load_beside_statics(coarse):
     elastic, alone = coarse
     spin = half_loads.alike_rows(elastic, alone, half_loads.centrifugal(elastic))
     assert np.abs(spin[[0, 3]]).max() < 1e-6 * abs(spin[4])
-    inertia = half.half_inertia(G)
+    inertia = half_shape.half_inertia(G)
     pull = inertia.m / G.Z * np.sqrt(inertia.J_p / inertia.m)  # per pitch and (rad/s)2
-    lever = 0.5 * (G.cage_half_width + half.pocket_radius(G)) - inertia.x_c
+    lever = 0.5 * (G.cage_half_width + half_shape.pocket_radius(G)) - inertia.x_c
     assert -pull * lever < spin[4] < -0.5 * pull * lever
     bare = half_loads.alike_rows(elastic, alone, half_loads.centrifugal(elastic, density_rivet=0.0))
     assert bare[4] * 754.0**2 == pytest.approx(-93.2e-3, rel=0.01)  # guards against change; finer elements: -93.28
