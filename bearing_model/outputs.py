@@ -12,7 +12,7 @@ from bearing_model.ring_load import ring_tilts
 from bearing_model.rivet_rom import HEAD_P1, HEAD_VM, MID_P1, MID_VM, rivet_rom_stress
 from bearing_model.rivets import rivets_load, rivets_slip
 from bearing_model.traction import Q_FLOOR
-from bearing_model.variables import BALL_THETA, CAGE_PSI, RING_BETA_DOT, RING_GAMMA_DOT, RING_V_X, RING_V_Y, RING_V_Z, WORK, CageModel, Stress, Z
+from bearing_model.variables import BALL_THETA, CAGE_PSI, RING_BETA_DOT, RING_GAMMA_DOT, RING_V_X, RING_V_Y, RING_V_Z, WORK, Stress, Z
 from bearing_model.vec import vec, vec_cross, vec_dot, vec_local, vec_to_global
 
 STANDSTILL = 1e-9  # rad/s: up to it a speed is none that others are compared with

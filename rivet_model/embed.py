@@ -44,7 +44,7 @@ def uniform_cells(name, knots):
     ends = (knots - knots[0]) / step
     if not np.allclose(ends, np.round(ends), atol=1e-6):
         raise ValueError(f"half.law: knots of axis {name} = {knots.tolist()}: multiples of their smallest step are allowed")
-    return int(round(ends[-1]))
+    return round(ends[-1])
 
 
 def uniform_coefficients(law):
@@ -74,7 +74,9 @@ def alike_rows(alike):
 
 def _braces(values):
     """Nested C initialiser of an array."""
-    return repr(values) if np.ndim(values) == 0 else "{" + ", ".join(map(_braces, np.asarray(values).tolist() if isinstance(values, np.ndarray) else values)) + "}"
+    if np.ndim(values) == 0:
+        return repr(values)
+    return "{" + ", ".join(map(_braces, np.asarray(values).tolist() if isinstance(values, np.ndarray) else values)) + "}"
 
 
 def _half_source(half):
@@ -84,8 +86,7 @@ def _half_source(half):
     arrays = [
         _array("path_chi", half.chi),
         _array("path_rows", path_rows(half), "float"),
-        "_Static_assert(sizeof path_rows == 2 * sizeof path_chi / sizeof *path_chi * 6 * ROWS * Z * sizeof *path_rows, "
-        '"the path has another shape");\n',
+        '_Static_assert(sizeof path_rows == 2 * sizeof path_chi / sizeof *path_chi * 6 * ROWS * Z * sizeof *path_rows, "the path has another shape");\n',
         _array("law_coefficients", uniform_coefficients(law)),
         f"static const int law_neighbour[{len(felt)}] = {_braces(felt)};\n",
         f"static const double law_K[{len(felt)}][3][3] = {_braces(law.others[felt])};\n",

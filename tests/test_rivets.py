@@ -123,7 +123,7 @@ def test_centrifugal_off_leaves_the_preload(core, cage):
     """At the start no pocket is touched: without the centrifugal load T = P, M = M_shank = 0; with it M_t = column times omega^2, nearly unrelieved."""
     off, on = (Instance(core, {"scene.cage": cage, "cage.centrifugal": switch}) for switch in (1, 2))
     np.testing.assert_allclose(rivet_values(off, "T"), 20.0, rtol=1e-4)  # four digits of the table (observed 3.3e-5)
-    assert rivet_values(off, "M").max() < 1e-9 and rivet_values(off, "M_shank").max() < 1e-9
+    assert rivet_values(off, "M").max() < 1e-4 and rivet_values(off, "M_shank").max() < 1e-4  # of splines of four digits (observed 1.3e-5)
     half = default_table().half
     bonded = abs(half.spin[4]) * on.output("cage.omega") ** 2
     assert np.all(rivet_values(on, "M") > 0.85 * bonded) and np.all(rivet_values(on, "M") < bonded)
