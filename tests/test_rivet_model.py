@@ -264,7 +264,7 @@ def test_hold_out_of_the_shipped_table():
     """What the shipped table says of itself, measured on 320 loads that neither built it nor chose its knots.
 
     Reach: 2 % and RMS 0.5 % of each channel's maximum, over all loads and in clearance alone.  There the middle, which carries little, misses the 2 % at
-    one load of 160, where the shank just comes to touch the bore's edge (observed 3.2 %; RMS 0.36 %).
+    one load of 160 (observed von Mises 3.2 %, p1 2.2 %; RMS 0.36 %).
     """
     t = rivet_table.read(TABLE)
     assert t.kind == "fe" and t.geometry_hash == G.digest
