@@ -69,6 +69,11 @@ INLINE bits wide_above(wide x, double limit)
     return creal(x) > limit;
 }
 
+INLINE int wide_mask(bits condition)
+{
+    return condition != 0;
+}
+
 INLINE bool wide_any(bits condition)
 {
     return condition;
@@ -97,11 +102,6 @@ INLINE wide wide_min(wide x, wide y)
 INLINE wide wide_abs(wide x)
 {
     return signbit(creal(x)) ? -x : x;
-}
-
-INLINE wide wide_floor(wide x)
-{
-    return floor(creal(x));
 }
 
 // The root of 0 gets the derivative 0: where kernels take the root of 0, a factor of 0 stands before the

@@ -8,58 +8,57 @@ enum { SWEEPS = 6, SLIP_SWEEPS = 3 };
 static const double NEAR = 0.05, CHANGE = 0.01;
 
 // ---- opening --------------------------------------------------------------------------------------------------------
-// Joints in the law's table: first coefficient, weights of the splines, s, sign of M_r.
-typedef struct {
-    ball_array place, w[LAW_AXES][3], s, side;
-} LawPoints;
-
-// Cell of u cells from the axis' start, and the weights of its three splines.
-INLINE wide axis_weights(wide u, int cells, int k, ball_array w[3])
+// A coordinate u of the law in cells from the start of its axis: its cell, and the weights of the three splines.
+INLINE int axis_weights(scalar u, int cells, scalar w[3])
 {
-    const wide cell = wide_max(wide_min(wide_floor(u), wide_set(cells - 1.0)), wide_set(0.0)), up = u - cell,
-               down = 1.0 - up;
-    const wide w_0 = 0.5 * (down * down), w_2 = 0.5 * (up * up);
-    wide_store(&w[0][k], w_0);
-    wide_store(&w[1][k], 1.0 - w_0 - w_2);
-    wide_store(&w[2][k], w_2);
+    const int cell = (int)fmin(fmax(scalar_value(u), 0.0), cells - 1.0);
+    const scalar up = u - cell, down = 1.0 - up;
+    w[0] = 0.5 * (down * down);
+    w[2] = 0.5 * (up * up);
+    w[1] = 1.0 - w[0] - w[2];
     return cell;
 }
 
-INLINE void find_law_points(const JointLaw *law, ball_array load[3], const ball_array P, int k, LawPoints *at)
+// part/whole; 0 where whole is so small that 1/whole is not finite.
+INLINE scalar share(scalar part, scalar whole)
 {
-    const double inv_length = 1.0 / law->length,
-                 cells[LAW_AXES] = {law->cells[0], law->cells[1], law->cells[2]};
-    const wide N = wide_load(&load[0][k]), M_r = wide_load(&load[1][k]), M_t = wide_load(&load[2][k]);
-    const wide M = wide_hypot(M_r, M_t) * inv_length, W = wide_hypot(N, M), s = wide_load(&P[k]) + W;
-    const wide q = wide_ratio(N, wide_abs(N) + M), psi = wide_ratio(M_t, wide_abs(M_t) + wide_abs(M_r));
-    const wide tau_cell =
-        axis_weights(wide_ratio(W, s) * cells[AXIS_TAU], law->cells[AXIS_TAU], k, at->w[AXIS_TAU]);
-    const wide q_cell = axis_weights((q + 1.0) * (0.5 * cells[AXIS_Q]), law->cells[AXIS_Q], k, at->w[AXIS_Q]);
-    const wide psi_cell =
-        axis_weights((psi + 1.0) * (0.5 * cells[AXIS_PSI]), law->cells[AXIS_PSI], k, at->w[AXIS_PSI]);
-    wide_store(&at->place[k],
-               (tau_cell * (cells[AXIS_Q] + 2.0) + q_cell) * (cells[AXIS_PSI] + 2.0) + psi_cell);
-    wide_store(&at->s[k], s);
-    wide_store(&at->side[k], wide_select(wide_above(-M_r, 0.0), wide_set(-1.0), wide_set(1.0)));
+    return scalar_value(whole) > 1e-300 ? part / whole : 0.0;
 }
 
-// Moves of a joint's pad and loads of its rivet.
-INLINE void joint_law(const JointLaw *law, const LawPoints *at, int k, scalar move[3], scalar rivet[3])
+INLINE scalar magnitude(scalar x)
 {
+    return scalar_value(x) < 0.0 ? -x : x;
+}
+
+// Moves of a joint's pad and loads of its rivet under L* = (N, M_r, M_t) and P.
+INLINE void joint_law(const JointLaw *law, const scalar load[3], scalar P, scalar move[3], scalar rivet[3])
+{
+    const double inv_length = 1.0 / law->length;
+    const scalar N = load[0], M_r = magnitude(load[1]), M_t = load[2];
+    const scalar M = scalar_sqrt(M_r * M_r + M_t * M_t) * inv_length, W = scalar_sqrt(N * N + M * M),
+                 s = P + W;
+    const scalar q = share(N, magnitude(N) + M), psi = share(M_t, magnitude(M_t) + M_r);
+    scalar w[LAW_AXES][3];
+    int place = axis_weights(share(W, s) * law->cells[AXIS_TAU], law->cells[AXIS_TAU], w[AXIS_TAU]);
+    place = place * (law->cells[AXIS_Q] + 2) +
+            axis_weights((q + 1.0) * (0.5 * law->cells[AXIS_Q]), law->cells[AXIS_Q], w[AXIS_Q]);
+    place = place * (law->cells[AXIS_PSI] + 2) +
+            axis_weights((psi + 1.0) * (0.5 * law->cells[AXIS_PSI]), law->cells[AXIS_PSI], w[AXIS_PSI]);
+
     const int row = LAW_WIDTH * (law->cells[AXIS_PSI] + 2), sheet = row * (law->cells[AXIS_Q] + 2);
-    const double *from = law->coefficients + LAW_WIDTH * (int)scalar_value(at->place[k]);
+    const double *from = law->coefficients + LAW_WIDTH * place;
     octet sum = {{0}};
     for (int a = 0; a < 3; a++) {
         octet by_q = {{0}};
         for (int b = 0; b < 3; b++) {
             octet by_psi = {{0}};
             for (int c = 0; c < 3; c++)
-                octet_add_from(at->w[AXIS_PSI][c][k], from + a * sheet + b * row + c * LAW_WIDTH, &by_psi);
-            octet_add(at->w[AXIS_Q][b][k], &by_psi, &by_q);
+                octet_add_from(w[AXIS_PSI][c], from + a * sheet + b * row + c * LAW_WIDTH, &by_psi);
+            octet_add(w[AXIS_Q][b], &by_psi, &by_q);
         }
-        octet_add(at->w[AXIS_TAU][a][k], &by_q, &sum);
+        octet_add(w[AXIS_TAU][a], &by_q, &sum);
     }
-    const scalar s = at->s[k], across = s * at->side[k];
+    const scalar across = scalar_value(load[1]) < 0.0 ? -s : s;
     move[0] = s * sum.x[0], move[1] = across * sum.x[1], move[2] = s * sum.x[2];
     rivet[0] = s * sum.x[4], rivet[1] = across * sum.x[5], rivet[2] = s * sum.x[6];
 }
@@ -71,20 +70,16 @@ typedef struct {
     ball_array alone[3], s, *rivet;
 } Opening;
 
-// The joints to be found by the law, and the packets that they are in.
+// The joints to be found by the law.
 typedef struct {
     int count, joint[Z];
-    bool packet[PACKETS];
 } Wanted;
 
 INLINE void want(Wanted *wanted, int p, bits which)
 {
-    ball_array flag;
-    wanted->packet[p] = wide_any(which);
-    if (!wanted->packet[p]) return;
-    wide_store(&flag[p * LANE_WIDTH], wide_select(which, wide_set(1.0), wide_set(0.0)));
-    for (int k = p * LANE_WIDTH; k < (p + 1) * LANE_WIDTH && k < Z; k++)
-        if (scalar_value(flag[k]) > 0.0) wanted->joint[wanted->count++] = k;
+    const int mask = wide_mask(which);
+    for (int k = 0; k < LANE_WIDTH && p * LANE_WIDTH + k < Z; k++)
+        if (mask & 1 << k) wanted->joint[wanted->count++] = p * LANE_WIDTH + k;
 }
 
 // |N| + (|M_r| + |M_t|)/l.
@@ -169,8 +164,8 @@ static void sweep_neighbours(const JointLaw *law, ball_array bonded[3], Opening 
         for (int i = 0; i < 3; i++) before[i] = wide_load(&o->alone[i][k]);
         const wide change = size(law, load[p][0] - before[0], load[p][1] - before[1], load[p][2] - before[2]);
         const bits changed = wide_above(change - CHANGE * wide_load(&o->s[k]), 0.0);
+        if (!wide_any(changed)) continue;
         want(wanted, p, changed);
-        if (!wanted->packet[p]) continue;
         for (int i = 0; i < 3; i++) wide_store(&o->alone[i][k], wide_select(changed, load[p][i], before[i]));
     }
 }
@@ -181,17 +176,15 @@ void joints_open(const JointLaw *law, ball_array bonded[3], const ball_array P, 
     const scalar c = (scalar_value(spin_M) < 0.0 ? -spin_M : spin_M) / law->length;
     Opening o;
     Wanted wanted;
-    LawPoints at;
     o.rivet = rivet;
     sweep_near(law, bonded, P, c, spin_P, &o, &wanted);
     for (int sweep = 0; sweep < SWEEPS && wanted.count > 0; sweep++) {
         if (sweep > 0) sweep_neighbours(law, bonded, &o, &wanted);
-        for (int p = 0; p < PACKETS; p++)
-            if (wanted.packet[p]) find_law_points(law, o.alone, P, p * LANE_WIDTH, &at);
         for (int n = 0; n < wanted.count; n++) {
             const int k = wanted.joint[n];
+            const scalar alone[3] = {o.alone[0][k], o.alone[1][k], o.alone[2][k]};
             scalar move[3], carried[3];
-            joint_law(law, &at, k, move, carried);
+            joint_law(law, alone, P[k], move, carried);
             for (int i = 0; i < 3; i++) {
                 o.move[i][k] = o.move[i][Z + k] = move[i];
                 rivet[i][k] = carried[i];

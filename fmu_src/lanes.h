@@ -120,19 +120,25 @@ INLINE bits wide_above(wide x, double limit)
     return x > limit;
 }
 
-INLINE bool wide_any(bits condition)
+// Bit k: the condition in lane k.
+INLINE int wide_mask(bits condition)
 {
 #if defined(__AVX512F__) && LANE_WIDTH == 8
-    return _mm512_movepi64_mask((__m512i)condition) != 0;
+    return _mm512_movepi64_mask((__m512i)condition);
 #elif defined(__AVX__) && LANE_WIDTH == 4
-    return _mm256_movemask_pd((__m256d)condition) != 0;
+    return _mm256_movemask_pd((__m256d)condition);
 #elif defined(__SSE2__) && LANE_WIDTH == 2
-    return _mm_movemask_pd((__m128d)condition) != 0;
+    return _mm_movemask_pd((__m128d)condition);
 #else
-    int64_t any = 0;
-    for (int i = 0; i < LANE_WIDTH; i++) any |= condition[i];
-    return any != 0;
+    int mask = 0;
+    for (int i = 0; i < LANE_WIDTH; i++) mask |= (condition[i] != 0) << i;
+    return mask;
 #endif
+}
+
+INLINE bool wide_any(bits condition)
+{
+    return wide_mask(condition) != 0;
 }
 
 INLINE wide wide_sqrt(wide x)
@@ -197,13 +203,6 @@ INLINE wide wide_round(wide x, bits *n)
     const wide shifted = x + shift;
     *n = (bits)shifted - (bits)shift;
     return shifted - shift;
-}
-
-// Largest integer of |x| < 2^51 that is not above x; of an integer, it or the one below.
-INLINE wide wide_floor(wide x)
-{
-    bits n;
-    return wide_round(x - 0.5, &n);
 }
 
 // The polynomials below are Chebyshev fits over the reduced ranges; tests/test_lanes.py measures the errors
