@@ -23,7 +23,7 @@ CHANNELS = ("head_p1", "head_vm", "mid_vm", "mid_p1")
 SHANK_AXES = ("a", "c", "xi")
 SHEETS = ("plane", "oblique", "across")  # chi, |cos| of the direction of M, is 1, 1/2, 0
 MPA_PER_N = 1e6  # 1/mm2 in 1/m2
-JOINT_KEYS = ("A", "d_m", "d", "grip", "k_t_plate", "k_t_head", "k_stack", "alpha_rivet", "alpha_flange", "T_0")
+JOINT_KEYS = ("A", "d_m", "d", "grip", "seat", "k_t_plate", "k_t_head", "k_stack", "alpha_rivet", "alpha_flange", "T_0")
 
 
 @dataclass

@@ -89,6 +89,7 @@ typedef struct {
     double A;             // shank section [m2]
     double d_m;           // diameter of the circle of rivets [m]
     double grip;          // clamped length [m]
+    double seat;          // diameter of the seat of the rivet's head [m]
     double k_rivet;       // force per separation of the halves' bodies, joint open [N/m]
     double k_plate;       // axial stiffness that the closed split plane adds [N/m]
     double k_t_plate;     // tangential stiffness of the split plane before it slips [N/m]

@@ -58,6 +58,7 @@ def joint_data(geometry):
         "d_m": g.d_m,
         "d": g.shank_diameter,
         "grip": 2 * g.flange_thickness,
+        "seat": g.seat_diameter,
         "k_t_plate": 1.5e7,
         "k_t_head": 6.5e6,
         "k_stack": 5.05e7,

@@ -81,6 +81,7 @@ def joint_data(joint):
         "d_m": g.d_m,
         "d": g.shank_diameter,
         "grip": 2 * g.flange_thickness,
+        "seat": g.seat_diameter,
         "k_t_plate": K_T_PLATE,
         "k_t_head": float(k_head),
         "k_stack": float(stack_stiffness(joint)),

@@ -9,7 +9,7 @@ from scipy.sparse.linalg import splu
 from skfem import ElementHex1
 
 from bearing_model import half_path, rivet_table
-from rivet_model import cage_half, half, half_loads, half_shape
+from rivet_model import cage_half, half, half_loads, half_shape, joint_contact
 from rivet_model.geometry import Geometry
 
 G = Geometry()
@@ -177,6 +177,36 @@ def test_cyclic_half_equals_the_whole_half():
             assert np.all(np.abs(found[..., load] - expected) < 1e-4 * np.abs(expected).max(axis=0) + 1e-12)
 
 
+@pytest.mark.slow
+def test_pair_stiffness_of_the_whole_half():
+    """Separation of the halves' bodies, closed and open: waves, condensation and contact beside one sparse solution of all pitches with pads and rivets.
+
+    The pads' hats that touch are held by stiff springs, the heads by springs of half a rivet that are too short by the preload.  No compliance is in one
+    of the two and not in the other: within 0.1 %.
+    """
+    rivet = joint_contact.rivet_compliance(SMALL)
+    elastic = cage_half.CageHalf(SMALL, half.COARSE)
+    contact, p, to_whole = joint_contact.JointContact(elastic, rivet, alike=True), elastic.patterns, whole(elastic)
+    K = sum(T @ (elastic.K + 1e5 * elastic.M) @ T.T for T in to_whole)
+    springs, column, P = 1.0 / np.array(rivet)[[0, 1, 1]], np.zeros(elastic.loads.shape[1]), 20.0
+    column[0] = 1.0 / elastic.resultants[0, 0]
+    body, heads = sum(T @ (elastic.loads @ column) for T in to_whole), elastic.loads[:, contact.head]
+    H = sp.hstack([sp.csr_matrix(T @ heads) for T in to_whole]).tocsc()
+    held = H @ sp.diags(np.tile(springs, SMALL.Z)) @ H.T
+    for first, last, expected in zip((-5.0, 60.0), (5.0, 80.0), half_loads.pair_stiffness(contact, P), strict=True):
+        separation = []
+        for N in (first, last):
+            touching = contact.solve(P, (contact.loads(column=N * column)[0], np.array([N]))).pressure[0] > 0.0
+            pads = elastic.loads[:, p.pad][:, touching]
+            B = sp.hstack([sp.csr_matrix(T @ pads) for T in to_whole]).tocsc()
+            load = N * body - H @ np.tile(springs * contact.e * P, SMALL.Z)
+            u = splu((K + held + 1e13 * (B @ B.T)).tocsc(), **cage_half.SYMMETRIC).solve(load)
+            separation.append(2.0 * (body @ u) / SMALL.Z)
+        found = (last - first) / (separation[1] - separation[0])
+        print(found, expected)
+        assert found == pytest.approx(expected, rel=1e-3)
+
+
 def test_bonded_rows_balance(coarse):
     """Joints carry the force and the moments of a pocket force less what inertia takes, whatever the angle.
 
@@ -215,7 +245,7 @@ def test_path_between_its_nodes(coarse):
 def test_shipped_path_on_finer_elements():
     """Path and centrifugal load of the shipped table beside direct solutions on finer elements, at angles of 0...90 degrees in steps of 5.
 
-    Within 3 % of the largest of their kind (moments, tensions, transverse loads); the centrifugal moment within 1 %.
+    Within 1 % of the largest of their kind (observed: tension 0.88, transverse loads 0.23, moments 0.93 %); the centrifugal moment 0.2 % (0.04 %).
     """
     t = rivet_table.read(rivet_table.DEFAULT_TABLE).half
     elastic = half_loads.elastic_half(G, half.FINE, wall_points(STEPS))
@@ -223,11 +253,9 @@ def test_shipped_path_on_finer_elements():
     direct = np.stack([half_loads.path_at(elastic, alone, nodes + i) for i in range(len(STEPS))])
     error = np.abs(np.stack([half_path.path_rows(t.chi, t.path, t.path_slope, at) for at in STEPS]) - direct)
     for rows in ([0], [1, 2], [3, 4]):
-        print(rows, error[:, :, rows].max() / np.abs(direct[:, :, rows]).max())
-        assert error[:, :, rows].max() < 0.03 * np.abs(direct[:, :, rows]).max()
+        assert error[:, :, rows].max() < 0.01 * np.abs(direct[:, :, rows]).max()
     spin = half_loads.alike_rows(elastic, alone, half_loads.centrifugal(elastic))
-    print("spin", t.spin[4] / spin[4], t.spin[5] / spin[5])
-    assert t.spin[4] == pytest.approx(spin[4], rel=0.01)
+    assert t.spin[4] == pytest.approx(spin[4], rel=0.002)
 
 
 def test_patch_and_radial_place_do_not_matter(coarse):

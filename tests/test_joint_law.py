@@ -168,13 +168,13 @@ def compare(chain, scenes, seed):
 
 
 def test_scheme_against_direct_contact(chain):
-    """Twenty scenes on coarse elements, law and direct contact on the same: T, M_t below 4 %, M_r below 8 % of the largest; RMS below 1.5 %.
+    """Twenty scenes on coarse elements, law and direct contact on the same: T, M_t below 4 %, M_r below 5 % of the largest; RMS below 1.5 %.
 
-    Observed T 3.7, M_t 1.5, M_r 5.3 %; RMS 0.6, 0.3, 1.2 %: pads that pocket forces bend, and joints near the state under spin by its tangent.
+    Observed T 2.9, M_t 0.7, M_r 4.0 %; RMS 0.5, 0.2, 0.9 %: pads that pocket forces bend, and joints near the state under spin by its tangent.
     """
     largest, rms = compare(chain, 20, 1)
     print(largest, rms)
-    assert largest[3] < 0.04 and largest[2] < 0.04 and largest[1] < 0.08
+    assert largest[3] < 0.04 and largest[2] < 0.04 and largest[1] < 0.05
     assert rms[1:4].max() < 0.015
 
 
