@@ -32,7 +32,7 @@ __all__ = ["Result", "UserError", "__version__", "build", "info", "read_result",
 
 
 def run(
-    scene: str | Path = "demo",
+    scene: str | Path | None = "demo",
     *,
     parameters: Mapping | None = None,
     inputs: Mapping | None = None,
@@ -46,7 +46,7 @@ def run(
 ) -> Result:
     """Simulate a scene and return its Result.
 
-    scene: name of a shipped scene (demo, R, F, jam) or path of a TOML file; parameters, inputs: changes by full variable name, values as in the file
+    scene: name of a shipped scene (demo, R, F, jam) or path of a TOML file, None for the FMU's own working point; parameters, inputs: changes by full variable name, values as in the file
     (SI numbers, "30 N", item names; inputs also {"t": [...], "value": [...]}); fmu: path of the FMU, None for the default one;
     seed: start.seed; t_end, step: s; outputs: names or patterns; progress: called with the simulated time [s] about twenty times a second.
     Raises UserError (a ValueError) naming what cannot be used.  If the FMU ends a run early, the Result holds the run up to that time, and its member

@@ -1,5 +1,6 @@
 """Stress of the rivets of a table or of a geometry: curves over preload, fit and transverse load, and pictures of the finite elements."""
 
+import math
 import os
 from concurrent.futures import BrokenExecutor
 from hashlib import sha256
@@ -15,12 +16,20 @@ from rivet_model.build import make_table
 from rivet_model.geometry import Geometry
 from rivet_model.load_cases import Joint
 
-from .bearings import CAGE_SIZES, bearing_case, rivet_values
+from .bearings import CAGE_SIZES, RIVET, bearing_case, check_limits, is_number, rivet_values, unit_scales
 from .errors import UserError
 from .results import make_folder, write_atomically
-from .scene import read_toml, refusal
+from .scene import positive, read_toml, refusal
 
 TABLES = ("coarse", "full", "closed-form")  # kinds that a user can ask for
+CAGE_NAMES = {  # key of a geometry file -> of a bearing file
+    "Z": "Z",
+    "d_m": "bearing.d_m",
+    "ball_diameter": "bearing.D",
+    "pocket_clearance": "cage.pocket_clearance",
+    "cage_outer_diameter": "cage.D_o",
+    "cage_inner_diameter": "cage.D_i",
+}
 ROWS = {"preload": 10.0, "fit": 10e-6, "transverse load": 10.0}  # distance of the printed rows, SI
 
 
@@ -44,17 +53,41 @@ def read_geometry(path, case=None):
 
     Values are SI numbers or texts with a unit; the file may repeat but not change what the bearing says of the cage.
     """
-    joint = (case or bearing_case("6207")).joint
-    section = read_toml(Path(path))
-    for name in CAGE_SIZES:
-        if name in section and case and section[name] != joint[name]:
-            raise refusal(path, name, section[name], f"the bearing has {joint[name]!r}")
-    own = {name: section[name] for name in CAGE_SIZES if name in section}
-    rivet = dict(rivet_values(path, {name: value for name, value in section.items() if name not in own}, where=""))
+    base, section = case or bearing_case("6207"), read_toml(Path(path))
+    own = dict(cage_sizes(path, {name: value for name, value in section.items() if name in CAGE_SIZES}))
+    for name, value in own.items():
+        if case and not math.isclose(value, case.joint[name], rel_tol=1e-9):
+            raise refusal(path, name, section[name], f"the bearing has {case.joint[name]!r}")
+    rivet = dict(rivet_values(path, {name: value for name, value in section.items() if name not in own}, where="", known=[*RIVET, *CAGE_SIZES]))
+    numbers = {name: value for name, value in base.values.items() if is_number(value)}
+    given = numbers | {CAGE_NAMES[name]: value for name, value in own.items() if name in CAGE_NAMES}
+    written = {"rivet": {name: section[name] for name in rivet}, "parameters": {CAGE_NAMES[name]: section[name] for name in own if name in CAGE_NAMES}}
+    check_limits(path, written, (own.get("Z", base.Z), given, base.rivet | rivet, {}, {}, None), called)
     try:
-        return Geometry(**(joint | own | rivet))
+        return Geometry(**(base.joint | own | rivet))
     except ValueError as problem:
         raise UserError(f"{path}: {problem}") from None
+
+
+def cage_sizes(path, section):
+    """Sizes of the cage from a geometry file: SI values and the number of rivets."""
+    for name, value in section.items():
+        try:
+            yield name, whole(value) if name == "Z" else positive(value, unit_scales("m"))
+        except UserError as problem:
+            raise refusal(path, name, value, problem) from None
+
+
+def whole(value):
+    """The number of rivets, which is that of the balls."""
+    if isinstance(value, bool) or not isinstance(value, int) or not 5 <= value <= 32:
+        raise UserError("allowed: an integer from 5 to 32")
+    return value
+
+
+def called(name):
+    """What a geometry file calls a value of a bearing file."""
+    return next((key for key, of in CAGE_NAMES.items() if of == name), name.removeprefix("rivet."))
 
 
 def geometry_of(case):

@@ -119,6 +119,7 @@ def provenance(model, scene):
         "fmu": str(model.path),
         "given": [*scene.parameters, *(name for name, origin in model.origin.items() if origin == "yours" and name not in scene.parameters)],
         "not_given": not_given(model.origin),
+        "replaced": list(scene.replaced),
         "guid": model.description.instantiationToken,
         "model": model.description.description or model.description.modelName,
         "generated": f"{model.description.generationTool or ''} {model.description.generationDateAndTime or ''}".strip(),

@@ -43,9 +43,9 @@ from .errors import UserError, unknown
 from .fmu import Model
 from .results import KEY, write_atomically
 from .runner import closing_names, simulate
-from .scene import SECONDS, SIMULATION, leaves, load_scene, read_toml, refusal, section_of, shipped_scenes
+from .scene import SIMULATION, leaves, load_scene, read_toml, refusal, section_of, shipped_scenes
 from .summary import settled
-from .units import to_si
+from .units import SECONDS, to_si
 from .version import __version__
 
 SECTIONS = ("description", "scene", "repeats", "simulation", "parameters", "inputs", "vary", "sample")

@@ -1,5 +1,6 @@
 """riveted-bearing run: one scene through the FMU."""
 
+import re
 from pathlib import Path
 from typing import Annotated
 
@@ -7,7 +8,7 @@ import typer
 from rich.markup import escape
 from rich.table import Column, Table
 
-from ..errors import UserError, unknown
+from ..errors import UserError, shortlist, unknown
 from ..results import FORMATS, make_folder, write_result
 from ..scene import load_scene, shipped_scenes
 from .terminal import FMU, SETTINGS, STOPPED, changes, command, console, messages, simulation_progress
@@ -15,7 +16,9 @@ from .terminal import FMU, SETTINGS, STOPPED, changes, command, console, message
 
 @command
 def run(
-    scene: Annotated[str, typer.Argument(help=f"scene file (TOML) or one of the shipped scenes: {', '.join(shipped_scenes())}")],
+    scene: Annotated[
+        str | None, typer.Argument(help=f"scene file (TOML) or one of the shipped scenes: {', '.join(shipped_scenes())}; default: the FMU's own working point")
+    ] = None,
     fmu: FMU = None,
     out: Annotated[Path, typer.Option(help="folder, or file whose suffix is the format")] = Path("results"),
     format: Annotated[str | None, typer.Option(help=f"{', '.join(FORMATS)} (default: the suffix of --out, else {FORMATS[0]})")] = None,
@@ -29,8 +32,8 @@ def run(
     from ..fmu import Model
     from ..runner import simulate
 
-    target = result_path(scene, out, format)
     model = Model(fmu)
+    target = result_path(scene or model.path, out, format)
     plan = load_scene(scene, model, ("the command line", changes(model, settings or [], seed, t_end, step)))
     make_folder(target.parent)
     with simulation_progress(plan) as progress:
@@ -55,11 +58,18 @@ def result_path(scene, out, kind):
     suffix = out.suffix.removeprefix(".")
     if kind is not None and kind not in FORMATS:
         raise unknown("--format", "format", kind, FORMATS)
+    if suffix not in FORMATS and looks_like_a_file(out):
+        raise UserError(f'--out {out}: unknown format "{suffix}"; allowed: {", ".join(FORMATS)}, or a folder')
     if suffix not in FORMATS:
         return out / f"{Path(scene).stem}.{kind or FORMATS[0]}"
     if kind not in (None, suffix):
         raise UserError(f"--out {out}: does not go with --format {kind}")
     return out
+
+
+def looks_like_a_file(path):
+    """Whether a path ends like a file of some format, xlsx or json, and is no folder."""
+    return re.fullmatch(r"\.[A-Za-z]\w{1,5}", path.suffix) is not None and not path.is_dir()
 
 
 def print_summary(result):
@@ -93,6 +103,8 @@ def print_summary(result):
     assumed = [f"{name} {value:.3g} {unit} ({low:.2g} to {high:.2g})" for name, value, low, high, unit, _ in assumed_rows(result)]
     if assumed:
         console.print(f"[dim]assumed, and the stress moves with it (usual range): {escape(', '.join(assumed))}[/]", soft_wrap=True)
+    if about.get("replaced"):
+        messages.print(f"[yellow]note:[/] the scene replaces values of the bearing: {escape(shortlist(about['replaced']))}", soft_wrap=True)
     for source, names in about.get("not_given", {}).items():
         console.print(f"[dim]not given, {escape(source)}: {escape(names)}[/]", soft_wrap=True)
     if table_note(result):

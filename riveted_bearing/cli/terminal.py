@@ -1,6 +1,7 @@
 """Shared by all commands: the program, its two consoles, the decorator `command`, common options, progress bars."""
 
 import functools
+import platform
 from pathlib import Path
 from typing import Annotated
 
@@ -11,6 +12,7 @@ from rich.progress import BarColumn, MofNCompleteColumn, Progress, ProgressColum
 from rich.text import Text
 
 from ..errors import UserError, unknown
+from ..version import __version__
 
 BAD_INPUT, STOPPED = 2, 3  # exit codes
 program = typer.Typer(no_args_is_help=True, add_completion=False, pretty_exceptions_enable=False)
@@ -26,8 +28,15 @@ SCHEDULER = Annotated[str | None, typer.Option("--scheduler", help="address of a
 WORKERS = Annotated[int | None, typer.Option("--workers", min=1, help="number of local processes; default: one for each core")]
 
 
+def print_version(wanted: bool):
+    """Print version, Python and platform, then end."""
+    if wanted:
+        console.print(f"riveted-bearing {__version__}, Python {platform.python_version()}, {platform.system()} {platform.machine()}")
+        raise typer.Exit
+
+
 @program.callback()
-def main():
+def main(version: Annotated[bool, typer.Option("--version", callback=print_version, is_eager=True, help="print the version and end")] = False):
     """riveted-bearing: dynamics of a ball bearing with a two-piece riveted cage, as an FMU."""
 
 
