@@ -12,6 +12,7 @@ from fmpy.fmi2 import fmi2Discard
 
 from .bearings import not_given
 from .fmu import Instance
+from .interrupts import held_interrupts
 from .results import Result
 from .version import __version__
 
@@ -19,12 +20,12 @@ PROGRESS_INTERVAL = 0.05  # s of wall time between calls of progress
 
 
 def simulate(model, scene, progress=None):
-    """Run a Scene that was checked against the Model; returns its Result, see riveted_bearing.run."""
-    with Instance(model) as instance:
+    """Run a Scene that was checked against the Model; returns its Result, see riveted_bearing.run.  Ctrl-C ends the run after the step under way."""
+    with held_interrupts() as interrupts, Instance(model) as instance:
         instance.initialize(scene)
         parameters = instance.parameters()
         wall, cpu = time.perf_counter(), time.thread_time()
-        times, rows, stopped = march(instance, scene, progress or (lambda t: None))
+        times, rows, stopped = march(instance, scene, progress or (lambda t: None), interrupts)
         wall, cpu = time.perf_counter() - wall, time.thread_time() - cpu
         summary = closing_values(instance, model)
     simulated = float(times[-1])
@@ -40,8 +41,8 @@ def simulate(model, scene, progress=None):
     )
 
 
-def march(instance, scene, progress):
-    """All communication steps of a scene.
+def march(instance, scene, progress, interrupts):
+    """All communication steps of a scene, until interrupts.pending.
 
     Returns the times [s] and rows of outputs up to the end or to the point where the FMU gave up, and the reason for that ("" at the end).
     """
@@ -57,6 +58,9 @@ def march(instance, scene, progress):
     rows[0] = read()
     row, due, stopped = 0, 0.0, ""
     for i, (now, then) in enumerate(itertools.pairwise(times.tolist())):
+        if interrupts.pending:
+            stopped = f"interrupted after t = {now:.9g} s"
+            break
         try:
             if changed[i]:
                 instance.fmu.setReal(references, inputs[i].tolist())
@@ -68,9 +72,6 @@ def march(instance, scene, progress):
                 row += 1
                 rows[row] = read()
                 row_times[row] = reached
-            break
-        except KeyboardInterrupt:
-            stopped = f"interrupted after t = {now:.9g} s"
             break
         row = i // stride + 1
         held = rows[row, peaks] if i % stride else -np.inf  # a copy

@@ -9,7 +9,7 @@
 
 #define FMI2_FUNCTION_PREFIX RivetedBearing_  // of the functions of a source-code FMU
 #define MODEL_IDENTIFIER "RivetedBearing"
-#define MODEL_GUID "{c434e8c7-3da7-8a06-7e6b-f475e05f9812}"  // digest of the table
+#define MODEL_GUID "{adad59f4-c589-6d86-a010-753c2c6da3e6}"  // digest of the table
 
 enum { Z = 9 };  // number of balls
 

@@ -9,9 +9,12 @@ from rich.markup import escape
 from rich.table import Column, Table
 
 from ..errors import UserError, shortlist, unknown
+from ..interrupts import held_interrupts
 from ..results import FORMATS, make_folder, write_result
 from ..scene import load_scene, shipped_scenes
 from .terminal import FMU, SETTINGS, STOPPED, changes, command, console, messages, simulation_progress
+
+ROUNDING = 1e-9  # in the units shown: what is smaller stands as 0
 
 
 @command
@@ -36,14 +39,15 @@ def run(
     target = result_path(scene or model.path, out, format)
     plan = load_scene(scene, model, ("the command line", changes(model, settings or [], seed, t_end, step)))
     make_folder(target.parent)
-    with simulation_progress(plan) as progress:
-        result = simulate(model, plan, progress)
-    print_summary(result)
-    paths = [write_result(result, target)]
-    if plot:
-        from ..plot import plot_result
+    with held_interrupts():  # from the first step until its results are written
+        with simulation_progress(plan) as progress:
+            result = simulate(model, plan, progress)
+        print_summary(result)
+        paths = [write_result(result, target)]
+        if plot:
+            from ..plot import plot_result
 
-        paths.append(plot_result(result, target.with_suffix(".png")))
+            paths.append(plot_result(result, target.with_suffix(".png")))
     for label, path in zip(("results", "picture"), paths, strict=False):
         console.print(f"{label}  [cyan]{escape(str(path))}[/]", soft_wrap=True)
     console.print(f"FMU      [cyan]{escape(str(model.path))}[/]", soft_wrap=True)
@@ -78,10 +82,10 @@ def print_summary(result):
 
     about, summary = result.about, result.summary
     console.print(f"[bold]{escape(about['scene'])}[/]  {escape(about['description'])}", soft_wrap=True)
-    table = Table("", "unit", *(Column(text, justify="right") for text in ("mean", "RMS", "p99.9", "max")), box=None, pad_edge=False)
+    table = Table(Column("", no_wrap=True), "unit", *(Column(text, justify="right") for text in ("mean", "RMS", "p99.9", "max")), box=None, pad_edge=False)
     for row in summary_rows(result):
         mark = "" if row.every_step else " *"
-        table.add_row(row.channel + mark, row.unit, *(f"{value:.4g}" for value in (row.mean, row.rms, row.p999, row.largest)))
+        table.add_row(row.channel + mark, row.unit, *(f"{value if abs(value) > ROUNDING else 0.0:.4g}" for value in (row.mean, row.rms, row.p999, row.largest)))
     console.print(table)
     rivets = rivet_rows(result)
     if rivets:
@@ -91,7 +95,7 @@ def print_summary(result):
     if summary["simulated_time"] > settle:
         console.print(f"[dim]after the first {settle:g} s; every internal step, * at communication points only[/]")
     else:
-        messages.print(f"[yellow]note:[/] no statistics: they begin at start.settle = {settle:g} s, and the run ended at {summary['simulated_time']:g} s")
+        messages.print(f"[yellow]note:[/] no statistics: they begin at start.settle = {settle:g} s, and the run ended at {summary['simulated_time']:g} s", soft_wrap=True)
     counters = {name: f"{summary[f'solver.{name}']:,.0f}" for name in ("steps", "rhs_evals", "error_tests_failed") if f"solver.{name}" in summary}
     if counters:
         console.print(f"{counters['steps']} steps, {counters['rhs_evals']} evaluations of the equations, {counters['error_tests_failed']} steps rejected")

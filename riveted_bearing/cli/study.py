@@ -7,7 +7,7 @@ import typer
 from rich.markup import escape
 
 from ..results import make_folder
-from .terminal import FMU, SCHEDULER, WORKERS, command, console, sweep_progress
+from .terminal import FMU, SCHEDULER, WORKERS, command, console, resumable, sweep_progress
 
 
 @command
@@ -27,7 +27,7 @@ def study(
     from ..sweep import cluster
 
     make_folder(report or out)
-    with cluster(scheduler, workers) as client, sweep_progress() as progress:
+    with resumable(out), cluster(scheduler, workers) as client, sweep_progress() as progress:
         data = run_study(Model(fmu), out, client, names, seeds, progress)
     path = write_paper(data, report or out)
     console.print(f"report   [cyan]{escape(str(path))}[/]", soft_wrap=True)
