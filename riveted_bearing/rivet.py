@@ -179,8 +179,36 @@ def curve_tables(curves):
 
 @threadpool_limits.wrap(limits=1)
 def write_pictures(folder, title, curves, joint):
-    """Write rivet_curves.png and rivet_section.png into a folder; returns their paths."""
+    """Write rivet_drawing.png, rivet_curves.png and rivet_section.png into a folder; returns their paths."""
     figures = {"rivet_curves.png": pictures.plot_curves(curves, title), "rivet_section.png": pictures.plot_section(joint)}
     for name, figure in figures.items():
-        write_atomically(folder / name, lambda temporary, figure=figure: figure.savefig(temporary, dpi=120, format="png"))
-    return [folder / name for name in figures]
+        write_figure(figure, folder / name)
+    return [write_drawing(joint.geometry, folder / "rivet_drawing.png"), *(folder / name for name in figures)]
+
+
+def write_figure(figure, path):
+    """Write a figure as PNG, whole or not at all."""
+    write_atomically(path, lambda temporary: figure.savefig(temporary, dpi=120, format="png"))
+
+
+def write_drawing(geometry, path):
+    """Write the drawing of a rivet with its dimensions; returns the path."""
+    write_figure(pictures.plot_geometry(geometry), path)
+    return path
+
+
+def given_geometry(rivet, bearing=None):
+    """Geometry of a rivet given as table (JSON) or geometry (TOML), in the cage of a bearing."""
+    path = Path(rivet)
+    return read_geometry(path, bearing_case(bearing or "6207")) if path.suffix == ".toml" else Geometry(**read_table(path).geometry)
+
+
+def seat_note(geometry):
+    """A warning where the seat under the head is smaller than the shank's section, so that the head presses harder than the shank is pulled; else ""."""
+    if geometry.seat_share >= 1.0:
+        return ""
+    return (
+        f"the seat under the head is a ring {1e3 * geometry.seat_width:.2g} mm wide, {100.0 * geometry.seat_share:.0f} % of the shank's section: the head presses on it "
+        f"with {1.0 / geometry.seat_share:.1f} times the shank's tension stress; head_diameter = {1e3 * geometry.head_diameter:g} mm is small for "
+        f"shank_diameter = {1e3 * geometry.shank_diameter:g} mm"
+    )
