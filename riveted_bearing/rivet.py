@@ -197,10 +197,10 @@ def write_drawing(geometry, path):
     return path
 
 
-def given_geometry(rivet, bearing=None):
-    """Geometry of a rivet given as table (JSON) or geometry (TOML), in the cage of a bearing."""
+def given_geometry(rivet, case=None):
+    """Geometry of a rivet given as table (JSON) or geometry (TOML), in the cage of a Case."""
     path = Path(rivet)
-    return read_geometry(path, bearing_case(bearing or "6207")) if path.suffix == ".toml" else Geometry(**read_table(path).geometry)
+    return read_geometry(path, case) if path.suffix == ".toml" else Geometry(**read_table(path).geometry)
 
 
 def seat_note(geometry):

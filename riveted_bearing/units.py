@@ -42,7 +42,7 @@ MULTIPLES = {  # in addition to the display units of the variable table: value i
     "1": {"%": (1e2, 0.0)},
 }
 SECONDS = {"s": (1.0, 0.0), "ms": (1e3, 0.0)} | MULTIPLES["s"]
-NUMBER = re.compile(r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*(.*?)\s*")
+NUMBER = re.compile(r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*((?:1/|[^\d.,\s]).*?)?\s*")
 
 
 def unit_table(unit_definitions):
@@ -65,7 +65,7 @@ def canonical(symbol):
 def symbol_of(value):
     """The unit that the user wrote: its canonical symbol, None for a number."""
     match = NUMBER.fullmatch(value) if isinstance(value, str) else None
-    return canonical(match[2]) if match else None
+    return canonical(match[2] or "") if match else None
 
 
 def suffix(symbol):
@@ -91,7 +91,7 @@ def to_si(value, scales):
         match = NUMBER.fullmatch(value)
         if not match:
             raise UserError("not a number" if "1" in scales else f'not a number with a unit such as "1.5 {list(scales)[min(1, len(scales) - 1)]}"')
-        factor, offset = scale(match[2], scales)
+        factor, offset = scale(match[2] or "", scales)
         value = (float(match[1]) - offset) / factor
     if isinstance(value, bool) or not isinstance(value, Real) or not math.isfinite(value):
         raise UserError("not a finite number")

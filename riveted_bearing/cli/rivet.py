@@ -16,8 +16,10 @@ def rivet(
     out: Annotated[Path, typer.Option(help="folder for the pictures")] = Path("results"),
 ):
     """Stress of the rivet over preload, fit and transverse load; a drawing with dimensions, pictures of curves, mesh, deformed section and stress."""
-    from ..rivet import curve_tables, rivet_curves, seat_note, write_pictures
+    from ..rivet import curve_tables, given_geometry, rivet_curves, seat_note, write_pictures
 
+    if source:
+        given_geometry(source)  # a wrong file leaves no folder
     make_folder(out)
     with messages.status("finite elements"):
         title, curves, joint = rivet_curves(source)
