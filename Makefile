@@ -15,7 +15,7 @@ ASAN    = detect_leaks=0:new_delete_type_mismatch=0
 export PATH := $(CURDIR)/$(BIN):$(PATH)  # cmake finds ninja
 export MPLBACKEND = Agg
 
-.PHONY: demo test test-slow bench build fmu-all generate lint format sanitize analyze fuzz bare clean help
+.PHONY: demo test test-slow bench build site fmu-all generate lint format sanitize analyze fuzz bare clean help
 
 demo: build  ## build, then run the paper's working point: stress, cage and run-time figures
 	$(BIN)/riveted-bearing run demo
@@ -32,6 +32,10 @@ bench: build  ## measure what the README claims and write docs/performance.md, i
 
 build: build/build.ninja  ## the FMU and the tests' library; seconds after an edit
 	$(BIN)/cmake --build build
+
+site: $(VENV)/installed  ## the pages of docs/ as a site with search, in build/site: open index.html, no network needed
+	$(BIN)/pip --disable-pip-version-check --quiet install --no-build-isolation --editable ".[docs]"
+	NO_MKDOCS_2_WARNING=1 $(BIN)/mkdocs build --strict --quiet
 
 fmu-all: $(VENV)/installed  ## the FMU with binaries for Linux, Windows and macOS, cross-compiled here
 	$(BIN)/pip --disable-pip-version-check --quiet install --no-build-isolation --editable ".[cross]"
