@@ -141,6 +141,7 @@ def test_the_site_has_formulas_search_and_the_interface(site):
     source = without_code((ROOT / "docs" / "method.md").read_text(encoding="utf-8"))
     assert method.formulas == len(re.findall(r"\$\$.+?\$\$|\$[^$\n]+\$", source, re.S)) > 100
     assert "$" not in re.sub(r"<(script|code|annotation)\b.*?</\1>", "", site["method.html"].read_text(encoding="utf-8"), flags=re.S)
+    assert re.search(r"with\s*<span><math", site["method.html"].read_text(encoding="utf-8")), "a formula at a line's start stays in its sentence"
     index = site["search/search_index.json"].read_text(encoding="utf-8")
     assert "joint.preload" in index and "Own bearing" in index
     api = site["api.html"].read_text(encoding="utf-8")

@@ -29,7 +29,7 @@ def on_page_markdown(markdown, page, config, files):
 def formulas(text):
     """$LaTeX$ and $$LaTeX$$ as MathML."""
     text = re.sub(r"\$\$(.+?)\$\$", lambda formula: convert(formula[1].replace("\n", " "), display="block"), text, flags=re.DOTALL)
-    return re.sub(r"\$([^$\n]+)\$", lambda formula: convert(formula[1]), text)
+    return re.sub(r"\$([^$\n]+)\$", lambda formula: f"<span>{convert(formula[1])}</span>", text)  # a bare <math> at a line's start would end the paragraph
 
 
 def links(text, folder, files):
