@@ -119,8 +119,20 @@ def plot_geometry(geometry, title=""):
         ("fillet_radius", (-a - 0.3 * g["fillet_radius"], -g["flange_thickness"] + 0.3 * g["fillet_radius"]), -0.5),
     )
     for name, place, height in notes:
-        ax.annotate(f"{name} {g[name]:.4g}", place, (-out - gap, height * (top + gap)), ha="right", va="center", arrowprops={"arrowstyle": "-|>", "color": HEAD, "lw": 0.8})
-    ax.set(title=title or "Rivet joint to scale; dimensions in mm", aspect="equal", xlim=(-2.3 * out - gap, 2.3 * out + gap), ylim=(-top - 3.0 * gap, top + 2.0 * gap))
+        ax.annotate(
+            f"{name} {g[name]:.4g}",
+            place,
+            (-out - gap, height * (top + gap)),
+            ha="right",
+            va="center",
+            arrowprops={"arrowstyle": "-|>", "color": HEAD, "lw": 0.8},
+        )
+    ax.set(
+        title=title or "Rivet joint to scale; dimensions in mm",
+        aspect="equal",
+        xlim=(-2.3 * out - gap, 2.3 * out + gap),
+        ylim=(-top - 3.0 * gap, top + 2.0 * gap),
+    )
     ax.set_xlabel(f"seat under the head: {1e3 * geometry.seat_width:.3g} mm wide, {100.0 * geometry.seat_share:.0f} % of the shank's section")
     ax.set(xticks=[], yticks=[])
     ax.spines[:].set_visible(False)
@@ -154,7 +166,15 @@ def across(ax, start, end, height, text, foot):
     ax.annotate("", (start, height), (end, height), arrowprops={"arrowstyle": "<|-|>", "color": MIDDLE, "lw": 1.0, "shrinkA": 0, "shrinkB": 0})
     for r in (start, end):
         ax.plot((r, r), (foot, height), color=MIDDLE, linewidth=0.5)
-    ax.text(0.5 * (start + end), height + 0.03 * abs(height), text, ha="center", va="bottom", color=MIDDLE, bbox={"facecolor": "white", "edgecolor": "none", "pad": 1.0})
+    ax.text(
+        0.5 * (start + end),
+        height + 0.03 * abs(height),
+        text,
+        ha="center",
+        va="bottom",
+        color=MIDDLE,
+        bbox={"facecolor": "white", "edgecolor": "none", "pad": 1.0},
+    )
 
 
 def along(ax, start, end, radius, text, foot):

@@ -40,6 +40,10 @@ def __getattr__(name):
     raise AttributeError(f"module {__name__} has no attribute {name}")
 
 
+def __dir__():
+    return [*globals(), *__all__]
+
+
 def run(
     scene: str | Path | None = "demo",
     *,
@@ -55,8 +59,9 @@ def run(
 ) -> "Result":
     """Simulate a scene and return its Result.
 
-    scene: name of a shipped scene (demo, R, F, jam) or path of a TOML file, None for the FMU's own working point; parameters, inputs: changes by full variable name, values as in the file
-    (SI numbers, "30 N", item names; inputs also {"t": [...], "value": [...]}); fmu: path of the FMU, None for the default one;
+    scene: name of a shipped scene (demo, R, F, jam) or path of a TOML file, None for the FMU's own working point; parameters, inputs: changes by full
+    variable name, values as in the file (SI numbers, "30 N", item names; inputs also {"t": [...], "value": [...]}); fmu: path of the FMU, None for the
+    default one;
     seed: start.seed; t_end, step: s; outputs: names or patterns; progress: called with the simulated time [s] about twenty times a second.
     Raises UserError (a ValueError) naming what cannot be used.  If the FMU ends a run early, the Result holds the run up to that time, and its member
     `stopped` gives the reason.

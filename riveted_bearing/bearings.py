@@ -266,7 +266,7 @@ def changed(parts, key, value):
 
 
 def shown(name, value, written, words=""):
-    """A value in the unit in which the user wrote it, SI for a bare number, else in the unit in which people read it; a bound is rounded to the allowed side."""
+    """A value in the unit in which the user wrote it, SI for a bare number, else in the one in which people read it; a bound is rounded to the allowed side."""
     if name == "Z":
         return f"{value}"
     unit = unit_of(name)

@@ -47,7 +47,6 @@ class Result:
         """All members but the data over time, ready for JSON."""
         return {"format": FORMAT_VERSION, "about": self.about, "parameters": self.parameters, "summary": self.summary, "units": self.units}
 
-
     def to_pandas(self):
         """The data as a pandas.DataFrame over time [s]; its attrs hold units, parameters, summary and origin.  Needs pandas (the extra "tables")."""
         pandas = needed("pandas")

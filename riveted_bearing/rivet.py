@@ -207,8 +207,6 @@ def seat_note(geometry):
     """A warning where the seat under the head is smaller than the shank's section, so that the head presses harder than the shank is pulled; else ""."""
     if geometry.seat_share >= 1.0:
         return ""
-    return (
-        f"the seat under the head is a ring {1e3 * geometry.seat_width:.2g} mm wide, {100.0 * geometry.seat_share:.0f} % of the shank's section: the head presses on it "
-        f"with {1.0 / geometry.seat_share:.1f} times the shank's tension stress; head_diameter = {1e3 * geometry.head_diameter:g} mm is small for "
-        f"shank_diameter = {1e3 * geometry.shank_diameter:g} mm"
-    )
+    ring = f"{1e3 * geometry.seat_width:.2g} mm wide, {100.0 * geometry.seat_share:.0f} % of the shank's section"
+    sizes = f"head_diameter = {1e3 * geometry.head_diameter:g} mm is small for shank_diameter = {1e3 * geometry.shank_diameter:g} mm"
+    return f"the seat under the head is a ring {ring}: the head presses on it with {1.0 / geometry.seat_share:.1f} times the shank's tension stress; {sizes}"

@@ -7,8 +7,8 @@ from pathlib import Path
 
 import fmpy
 import pytest
-from matplotlib.figure import Figure
 from library import LIBRARY, ROOT, Core
+from matplotlib.figure import Figure
 from pictures import faults
 from python_core import python_core
 from slave import Slave

@@ -95,7 +95,9 @@ def print_summary(result):
     if summary["simulated_time"] > settle:
         console.print(f"[dim]after the first {settle:g} s; every internal step, * at communication points only[/]")
     else:
-        messages.print(f"[yellow]note:[/] no statistics: they begin at start.settle = {settle:g} s, and the run ended at {summary['simulated_time']:g} s", soft_wrap=True)
+        messages.print(
+            f"[yellow]note:[/] no statistics: they begin at start.settle = {settle:g} s, and the run ended at {summary['simulated_time']:g} s", soft_wrap=True
+        )
     counters = {name: f"{summary[f'solver.{name}']:,.0f}" for name in ("steps", "rhs_evals", "error_tests_failed") if f"solver.{name}" in summary}
     if counters:
         console.print(f"{counters['steps']} steps, {counters['rhs_evals']} evaluations of the equations, {counters['error_tests_failed']} steps rejected")

@@ -27,4 +27,7 @@ def variables(
             table.add_row(*map(escape, row(variable, model)))
     console.print(table)
     if pattern is None:
-        console.print("[dim]riveted-bearing variables PATTERN finds others, e.g. oil, ball[3].*, slip; docs/parameters.md has them all with their sources[/]", soft_wrap=True)
+        console.print(
+            "[dim]riveted-bearing variables PATTERN finds others, e.g. oil, ball[3].*, slip; docs/parameters.md has them all with their sources[/]",
+            soft_wrap=True,
+        )
