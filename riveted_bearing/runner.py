@@ -13,6 +13,7 @@ from fmpy.fmi2 import fmi2Discard
 from .bearings import not_given
 from .fmu import Instance
 from .interrupts import held_interrupts
+from .record import Record
 from .results import Result
 from .version import __version__
 
@@ -25,7 +26,7 @@ def simulate(model, scene, progress=None):
         instance.initialize(scene)
         parameters = instance.parameters()
         wall, cpu = time.perf_counter(), time.thread_time()
-        times, rows, stopped = march(instance, scene, progress or (lambda t: None), interrupts)
+        times, columns, stopped = march(instance, scene, progress or (lambda t: None), interrupts)
         wall, cpu = time.perf_counter() - wall, time.thread_time() - cpu
         summary = closing_values(instance, model)
     simulated = float(times[-1])
@@ -33,7 +34,7 @@ def simulate(model, scene, progress=None):
     names = ["time", *scene.outputs]
     variables = model.inputs | model.outputs
     return Result(
-        data=dict(zip(names, [times, *rows.T], strict=True)),
+        data=dict(zip(names, [times, *columns], strict=True)),
         units={"time": "s"} | {name: variables[name].unit or "1" for name in scene.outputs},
         parameters=parameters,
         summary=summary,
@@ -44,18 +45,19 @@ def simulate(model, scene, progress=None):
 def march(instance, scene, progress, interrupts):
     """All communication steps of a scene, until interrupts.pending.
 
-    Returns the times [s] and rows of outputs up to the end or to the point where the FMU gave up, and the reason for that ("" at the end).
+    Returns the times [s] and columns of outputs up to the end or to the point where the FMU gave up, and the reason for that ("" at the end).
     """
     times = scene.communication_points()
-    references = [instance.model.inputs[name].valueReference for name in scene.inputs]
-    inputs = np.column_stack([history(times) for history in scene.inputs.values()] or [np.zeros((len(times), 0))])
+    varying = {name: history for name, history in scene.inputs.items() if len(history.t) > 1}
+    references = [instance.model.inputs[name].valueReference for name in varying]
+    inputs = np.column_stack([history(times) for history in varying.values()] or [np.zeros((len(times), 0))])
     changed = [False, *np.any(np.diff(inputs, axis=0), axis=1)]
     stride = scene.stride
     peaks = [i for i, name in enumerate(scene.outputs) if is_peak(name)] if stride > 1 else []
-    rows = np.empty((-(-(len(times) - 1) // stride) + 2, len(scene.outputs)))
-    row_times = np.zeros(len(rows))
+    count = -(-(len(times) - 1) // stride) + 2
+    record, row_times = Record(count, len(scene.outputs)), np.zeros(count)
     read = instance.reader(scene.outputs)
-    rows[0] = read()
+    record.write(0, read())
     row, due, stopped = 0, 0.0, ""
     for i, (now, then) in enumerate(itertools.pairwise(times.tolist())):
         if interrupts.pending:
@@ -70,20 +72,20 @@ def march(instance, scene, progress, interrupts):
             reached = instance.last_successful_time(now) if failure.status == fmi2Discard else now
             if reached > row_times[row]:
                 row += 1
-                rows[row] = read()
+                record.write(row, read())
                 row_times[row] = reached
             break
         row = i // stride + 1
-        held = rows[row, peaks] if i % stride else -np.inf  # a copy
-        rows[row] = read()
-        if peaks:
-            rows[row, peaks] = np.maximum(rows[row, peaks], held)
+        values = read()
+        if peaks and i % stride:
+            values[peaks] = np.maximum(values[peaks], record.last(peaks))
+        record.write(row, values)
         row_times[row] = then
         if (clock := time.perf_counter()) >= due:
             progress(then)
             due = clock + PROGRESS_INTERVAL
     progress(row_times[row])
-    return row_times[: row + 1], rows[: row + 1], stopped
+    return row_times[: row + 1], record.columns(), stopped
 
 
 def is_peak(name):

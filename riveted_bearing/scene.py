@@ -36,7 +36,7 @@ SECTIONS = ("description", "simulation", "parameters", "inputs")
 SIMULATION = ("t_end", "step", "output_interval", "tolerance", "outputs")
 HISTORY = ("t", "value", "unit", "interpolation")
 COLUMN = ("file", "column", "time", "unit", "interpolation")
-LARGEST_RESULT = 4 * 2**30  # bytes
+LARGEST_RESULT = 16 * 2**30  # bytes, on disk
 
 
 @dataclass(frozen=True)
@@ -336,7 +336,7 @@ def is_hold(value):
 
 
 def check_times(scene, where):
-    """UserError unless step, output interval and end fit each other and the result fits into memory."""
+    """UserError unless step, output interval and end fit each other and the result is no larger than LARGEST_RESULT."""
     if scene.step > scene.t_end:
         raise refusal(where, "simulation.step", scene.step, f"not longer than t_end = {scene.t_end:g} s is allowed")
     if scene.output_interval is not None and (scene.stride < 1 or abs(scene.stride * scene.step / scene.output_interval - 1.0) > 1e-9):
