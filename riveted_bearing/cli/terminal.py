@@ -45,7 +45,7 @@ def main(version: Annotated[bool, typer.Option("--version", callback=print_versi
 
 
 def command(function):
-    """Add a function to the program as a command; a UserError becomes one line on stderr and exit code 2, Ctrl-C one line and exit code 130."""
+    """Add a function to the program as a command; a UserError, and what the system refuses, becomes one line on stderr and exit code 2, Ctrl-C one and 130."""
 
     @functools.wraps(function)
     def guarded(*arguments, **options):
@@ -57,6 +57,14 @@ def command(function):
         except KeyboardInterrupt:
             messages.print("interrupted: no file has changed")
             raise typer.Exit(INTERRUPTED) from None
+        except BrokenPipeError:  # nobody reads the output any more: the interpreter ends in silence
+            raise
+        except OSError as problem:  # disk full, no permission, no more files or memory
+            if problem.strerror is None:
+                raise
+            place = f"{problem.filename}: " if problem.filename else ""
+            messages.print(f"[bold red]error:[/] {escape(place + problem.strerror)}", soft_wrap=True)
+            raise typer.Exit(BAD_INPUT) from None
 
     return program.command()(guarded)
 
