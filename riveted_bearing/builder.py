@@ -65,7 +65,7 @@ def build_fmu(bearing=None, rivet=None, out=None, say=lambda text, share=None: N
         execute([sys.executable, sources / "fmus" / "generate.py", "--bearing", resolved, "--out", generated], folder, say)
         options.append(f"-DGENERATED_DIR={generated}")
     binaries = [f"{platform}={cross_compile(cmake, sources, folder / platform, options, platform, say)}" for platform in platforms]
-    options.append(f"-DBINARIES={';'.join(binaries)}")
+    options += [f"-DBINARIES={';'.join(binaries)}", f"-DCOMPILER={zig_version() if platforms else ''}"]
     if not has_compiler():  # the archive's project wants some compiler too
         folder = folder / "archive"
         folder.mkdir(exist_ok=True)
@@ -109,6 +109,11 @@ def compile_target(cmake, sources, folder, options, target, say):
     execute([cmake, "-S", sources, "-B", folder, *generator(folder), *options], folder, say)
     say("compiling")
     execute([cmake, "--build", folder, "--target", target, "--parallel", str(min(os.cpu_count() or 1, 8))], folder, say)
+
+
+def zig_version():
+    """Name and version of zig, for the FMU's bill of materials."""
+    return f"zig {subprocess.run([find_zig(), 'version'], capture_output=True, text=True, check=True).stdout.strip()}"
 
 
 def find_zig(needed=True):
