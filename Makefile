@@ -15,7 +15,7 @@ ASAN    = detect_leaks=0:new_delete_type_mismatch=0
 export PATH := $(CURDIR)/$(BIN):$(PATH)  # cmake finds ninja
 export MPLBACKEND = Agg
 
-.PHONY: demo test test-slow bench build fmu-all generate lint format sanitize sanitize-threads analyze fuzz bare clean help
+.PHONY: demo test test-slow bench build site dist fmu-all generate lint format sanitize sanitize-threads analyze fuzz bare clean help
 
 demo: build  ## build, then run the paper's working point: stress, cage and run-time figures
 	$(BIN)/riveted-bearing run demo
@@ -33,9 +33,22 @@ bench: build  ## measure what the README claims and write docs/performance.md, i
 build: build/build.ninja  ## the FMU and the tests' library; seconds after an edit
 	$(BIN)/cmake --build build
 
+site: $(VENV)/installed  ## the pages of docs/ as a site with search, in build/site: open index.html, no network needed
+	$(BIN)/pip --disable-pip-version-check --quiet install --no-build-isolation --editable ".[docs]"
+	NO_MKDOCS_2_WARNING=1 $(BIN)/mkdocs build --strict --quiet
+
 fmu-all: $(VENV)/installed  ## the FMU with binaries for Linux, Windows and macOS, cross-compiled here
 	$(BIN)/pip --disable-pip-version-check --quiet install --no-build-isolation --editable ".[cross]"
 	$(BIN)/riveted-bearing build --platforms all
+
+dist: $(VENV)/installed  ## in dist/: a wheel for every platform with the ready FMU, the sources, checksums
+	$(BIN)/pip --disable-pip-version-check --quiet install --no-build-isolation --editable ".[cross]" build wheel
+	rm -rf dist && mkdir -p build/dist
+	$(BIN)/riveted-bearing build --platforms all --out build/dist/RivetedBearing.fmu
+	$(PYTHON) -m build --no-isolation --sdist
+	$(PYTHON) -m build --no-isolation --wheel -Ccmake.define.READY_FMU=$(CURDIR)/build/dist/RivetedBearing.fmu
+	$(BIN)/wheel tags --remove --python-tag py3 --abi-tag none --platform-tag any dist/*.whl
+	cp build/dist/RivetedBearing.fmu dist/ && cd dist && sha256sum * >SHA256SUMS
 
 lint: $(VENV)/installed  ## formatters and linters, changing nothing
 	$(BIN)/ruff check .

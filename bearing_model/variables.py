@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from enum import IntEnum
 
 MODEL_IDENTIFIER = "RivetedBearing"
-MODEL_GUID = "{cb59a90b-98ed-e270-7898-db5681aae53b}"
+MODEL_GUID = "{0901f8cd-5a10-c404-281a-c396683794c3}"
 Z = 9
 
 
@@ -86,6 +86,17 @@ ASSUMPTIONS = {
     "oil.eta": (0.4, 2.1, "5 mm2/s aviation oils (MIL-PRF-23699) from 150 down to 60 degC"),
     "oil.rho_mix": (0.25, 1.3, "1 to 5 % oil between the rings (Parker, NASA TP-2275, 1984)"),
     "cage.x_c": (0.95, 1.13, "webs of 0.8 to 2 mm in a 6207"),
+}
+
+# What to look at first: names by question.
+ESSENTIALS = {
+    "Loads and speed in": ("shaft.F_x", "shaft.F_y", "shaft.F_z", "shaft.omega", "shaft.tilt_y", "shaft.tilt_z", "impact.F_r", "impact.F_a", ),
+    "Settings of the rivets": ("joint.preload", "joint.fit", ),
+    "Motion and reaction": ("ring.x", "ring.y", "ring.z", "housing.F_x", "housing.F_y", "housing.F_z", "bearing.friction_torque", "bearing.power_loss", ),
+    "Cage": ("cage.omega", "cage.slip_ratio", "cage.eccentricity", "cage.dislocation", "cage.F_pocket_peak", ),
+    "Stress of the worst rivet": ("rivet.sigma_head_max", "rivet.sigma_mid_max", "stat.sigma_head_mean", "stat.sigma_head_p999", "stat.sigma_mid_mean", "stat.sigma_mid_p999", ),
+    "Stress and damage of each rivet": ("rivet[k].sigma_head_peak", "rivet[k].sigma_mid_peak", "rivet[k].damage_head", "rivet[k].damage_mid", ),
+    "Health of bearing and run": ("rivet.table_kind", "event.overpressure_onsets", "event.joint_open_onsets", "event.rivet_yield_onsets", "bearing.energy_residual", "solver.steps", "solver.error_tests_failed", ),
 }
 
 # Scales of each unit: symbol -> (factor, offset), value in that symbol = factor * SI value + offset.

@@ -38,6 +38,7 @@ add_custom_target(binaries DEPENDS RivetedBearing)  # all there are for this pla
 # The archive: each part made only when what it follows from has changed.
 #
 #   FMU        file to write (default: RivetedBearing.fmu in the build folder)
+#   READY_FMU  FMU to put into the wheel in place of a compiled one (make dist)
 #   BINARIES   binaries to pack as PLATFORM=FILE, separated by semicolons, instead of this build's (cmake/zig.cmake makes them)
 #   COMPILER   what compiled them, for the bill of materials
 set(FMU ${PROJECT_BINARY_DIR}/RivetedBearing.fmu CACHE FILEPATH "The FMU to write")
@@ -101,10 +102,14 @@ add_custom_command(OUTPUT ${FMU}
     COMMAND ${run}/package.py @${parts}/arguments.txt
     DEPENDS ${parts}/arguments.txt ${binary_files} ${source_files} ${description} ${parts}/index.html ${parts}/icons/icon.png ${reference}
         ${build_info} ${tools}/package.py ${tools}/materials.py ${tools}/sources.py ${tools}/terminalsAndIcons.xml ${PROJECT_SOURCE_DIR}/LICENSE ${PROJECT_SOURCE_DIR}/THIRD_PARTY_NOTICES.md VERBATIM)
-add_custom_target(fmu ALL DEPENDS ${FMU})
+set(installed_fmu ${FMU})
+if(READY_FMU)
+    set(installed_fmu ${READY_FMU})
+endif()
+add_custom_target(fmu ALL DEPENDS ${installed_fmu})
 
 # In the wheel: the FMU, and what `riveted-bearing build` compiles, laid out as in the checkout.
-install(FILES ${FMU} DESTINATION riveted_bearing COMPONENT python)
+install(FILES ${installed_fmu} DESTINATION riveted_bearing RENAME RivetedBearing.fmu COMPONENT python)
 set(source_dir riveted_bearing/_source)
 install(FILES CMakeLists.txt pyproject.toml LICENSE THIRD_PARTY_NOTICES.md README.md DESTINATION ${source_dir} COMPONENT python)
 install(DIRECTORY cmake fmu_src fmus docs DESTINATION ${source_dir} COMPONENT python PATTERN __pycache__ EXCLUDE PATTERN *.fmu EXCLUDE)

@@ -20,3 +20,8 @@ set(CMAKE_TRY_COMPILE_TARGET_TYPE STATIC_LIBRARY)
 
 find_program(ZIG zig REQUIRED)
 set(CMAKE_C_COMPILER ${ZIG} cc -target ${target})
+# A machine without a compiler has no ar either: zig brings that along too.
+set(CMAKE_AR ${ZIG} CACHE FILEPATH "Archiver")
+set(CMAKE_C_ARCHIVE_CREATE "<CMAKE_AR> ar qc <TARGET> <LINK_FLAGS> <OBJECTS>")
+set(CMAKE_C_ARCHIVE_APPEND "<CMAKE_AR> ar q <TARGET> <LINK_FLAGS> <OBJECTS>")
+set(CMAKE_C_ARCHIVE_FINISH "<CMAKE_AR> ranlib <TARGET>")

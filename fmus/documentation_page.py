@@ -74,6 +74,7 @@ def page(description, parameters, drawing, text, with_sources):
         flags=[(name, simulation.get(name), meaning) for name, meaning in FLAGS.items() if simulation.get(name, "false") not in ("false", "0")],
         drawing=re.search(r"<svg.*</svg>", drawing.read_text(), re.DOTALL)[0],
         **texts,
+        essentials=html(sections(variables, "Essentials")) if "\n## Essentials\n" in variables else "",
         variables={title: html(sections(variables, title)) for title in ("Inputs", "Parameters", "Outputs", "Locals") if f"\n## {title}\n" in variables},
         with_sources=with_sources,
         licenses=LICENSES,

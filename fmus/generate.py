@@ -113,6 +113,11 @@ class Table:
     states: tuple
     assumptions: dict  # by parameter: usual range as factors of its value, and the source
     origin: dict  # where the values of another bearing come from, by name
+    essentials: dict  # names by question
+
+    def named(self, name):
+        """The variable of this name."""
+        return next(v for v in self.variables if v.name == name)
 
     def of(self, *causalities):
         return [v for v in self.variables if v.causality in causalities]
@@ -148,7 +153,7 @@ def load_table(bearing=None, path=None):
         offset += count
     description = ". ".join(filter(None, (raw["description"], changes.get("description", raw.get("case")))))
     layout = raw["units"], raw["enumerations"], raw["groups"], tuple(variables), tuple(states)
-    table = Table(Z, raw["model_name"], description, *layout, raw.get("assumptions", {}), changes.get("origin", {}))
+    table = Table(Z, raw["model_name"], description, *layout, raw.get("assumptions", {}), changes.get("origin", {}), raw.get("essentials", {}))
     check_table(table, path, raw.get("retired", ()))
     return table
 
@@ -201,6 +206,9 @@ def check_table(table, path, retired=()):
         for problem, found in problems.items():
             if found:
                 raise ValueError(f"{path}: {v.name}: {problem}")
+    for name in (name for group in table.essentials.values() for name in group):
+        if name not in names:
+            raise ValueError(f"{path}: essentials: unknown variable {name}")
     for s in table.states:
         if s.unit not in table.units:
             raise ValueError(f"{path}: {s.name}: unknown unit {s.unit!r}")
@@ -232,6 +240,10 @@ def quoted(value):
     return None if value is None else json.dumps(value, ensure_ascii=False)
 
 
+def named_in(name, table):
+    return table.named(name)
+
+
 def label(unit):
     return LABELS.get(unit, unit)
 
@@ -259,7 +271,7 @@ def allowed(v, table):
 def render(template, table, source):
     """A template of fmus/templates filled in."""
     environment = jinja2.Environment(trim_blocks=True, lstrip_blocks=True, keep_trailing_newline=True, undefined=jinja2.StrictUndefined)
-    environment.filters |= {f.__name__: f for f in (screaming, struct_members, c_number, quoted, label)}
+    environment.filters |= {f.__name__: f for f in (screaming, struct_members, c_number, quoted, label, named_in)}
     scales = list(dict.fromkeys(s.scale for s in table.states))
     return environment.from_string((TEMPLATES / template).read_text()).render(table=table, source=source, scales=scales, shown=shown, allowed=allowed)
 

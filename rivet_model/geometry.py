@@ -87,6 +87,17 @@ class Geometry:
         return math.pi / 4 * self.shank_diameter**2
 
     @property
+    def seat_width(self):
+        """Radial width of the ring on which the head sits [m]: outside the relieved hole."""
+        return 0.5 * (self.head_diameter - self.shank_diameter) - self.relief_radius
+
+    @property
+    def seat_share(self):
+        """Area on which the head sits over the shank's section: the head presses on its seat with the shank's tension stress divided by this."""
+        hole = self.shank_diameter + 2.0 * self.relief_radius
+        return (self.head_diameter**2 - hole**2) / self.shank_diameter**2
+
+    @property
     def digest(self):
         """First 16 digits of the SHA-256 of all values: tells whether a table was made for this geometry."""
         return hashlib.sha256(json.dumps(asdict(self), sort_keys=True).encode()).hexdigest()[:16]

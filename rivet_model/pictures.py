@@ -110,6 +110,104 @@ def plot_curves(data, title=""):
     return figure
 
 
+# The drawing -------------------------------------------------------------------------------------------------------------------------------
+
+
+def plot_geometry(geometry, title=""):
+    """Figure: the rivet in its two flanges, to scale, with the dimensions by their names in mm."""
+    from matplotlib.figure import Figure
+
+    g = {name: 1e3 * getattr(geometry, name) for name in LENGTHS}
+    a, top, out = 0.5 * g["shank_diameter"], g["flange_thickness"] + g["head_height"], g["patch_radius"]
+    figure = Figure(figsize=(10.5, 8), layout="constrained")
+    ax = figure.subplots()
+    for side in (-1.0, 1.0):
+        for up in (-1.0, 1.0):
+            r, x = np.array(flange_outline(g)).T
+            ax.fill(side * r, up * x, facecolor="#efe2c8", edgecolor="0.35", hatch="//", linewidth=0.8)
+    ax.fill(*np.array(rivet_outline(g)).T, facecolor="#d3dbe3", edgecolor="0.15", linewidth=1.0)
+    ax.axhline(0.0, color="0.5", linewidth=0.7, linestyle="-.")
+    ax.axvline(0.0, color="0.5", linewidth=0.7, linestyle="-.")
+    gap = 0.16 * (out + top)
+    across(ax, -0.5 * g["head_diameter"], 0.5 * g["head_diameter"], top + gap, f"head_diameter {g['head_diameter']:.4g}", g["flange_thickness"])
+    across(ax, -a, a, -top - gap, f"shank_diameter {g['shank_diameter']:.4g}", -top)
+    across(ax, 0.0, out, -top - 2.2 * gap, f"patch_radius {out:.4g}", -g["flange_thickness"])
+    along(ax, g["flange_thickness"], top, out + gap, f"head_height {g['head_height']:.4g}", 0.5 * g["head_diameter"])
+    along(ax, 0.0, g["flange_thickness"], out + gap, f"flange_thickness {g['flange_thickness']:.4g}", out)
+    notes = (
+        ("relief_depth", (-a - g["relief_radius"], g["flange_thickness"] - 0.5 * g["relief_depth"]), 0.7),
+        ("relief_radius", (-a - 0.5 * g["relief_radius"], g["flange_thickness"] - g["relief_depth"]), 0.45),
+        ("edge_break", (-a - 0.5 * g["edge_break"], 0.5 * g["edge_break"]), 0.2),
+        ("middle_zone", (-a, -g["middle_zone"]), -0.05),
+        ("fillet_radius", (-a - 0.3 * g["fillet_radius"], -g["flange_thickness"] + 0.3 * g["fillet_radius"]), -0.5),
+    )
+    for name, place, height in notes:
+        ax.annotate(
+            f"{name} {g[name]:.4g}",
+            place,
+            (-out - gap, height * (top + gap)),
+            ha="right",
+            va="center",
+            arrowprops={"arrowstyle": "-|>", "color": HEAD, "lw": 0.8},
+        )
+    ax.set(
+        title=title or "Rivet joint to scale; dimensions in mm",
+        aspect="equal",
+        xlim=(-2.3 * out - gap, 2.3 * out + gap),
+        ylim=(-top - 3.0 * gap, top + 2.0 * gap),
+    )
+    ax.set_xlabel(f"seat under the head: {1e3 * geometry.seat_width:.3g} mm wide, {100.0 * geometry.seat_share:.0f} % of the shank's section")
+    ax.set(xticks=[], yticks=[])
+    ax.spines[:].set_visible(False)
+    return figure
+
+
+LENGTHS = (
+    *("shank_diameter", "head_diameter", "head_height", "fillet_radius", "relief_radius", "relief_depth", "edge_break"),
+    *("flange_thickness", "patch_radius", "middle_zone"),
+)
+
+
+def flange_outline(g):
+    """Corners (r, x) of the upper flange's section [mm], from the chamfer at the split plane around."""
+    a, t, e, c = 0.5 * g["shank_diameter"], g["flange_thickness"], g["edge_break"], g["relief_radius"]
+    return [(a + e, 0.0), (a, e), (a, t - g["relief_depth"]), (a + c, t - g["relief_depth"]), (a + c, t), (g["patch_radius"], t), (g["patch_radius"], 0.0)]
+
+
+def rivet_outline(g):
+    """Corners (r, x) of the rivet's section [mm] with rounded fillets."""
+    a, h, t, top, f = 0.5 * g["shank_diameter"], 0.5 * g["head_diameter"], g["flange_thickness"], g["flange_thickness"] + g["head_height"], g["fillet_radius"]
+    turn = np.linspace(0.0, 0.5 * np.pi, 9)
+    fillet = [(a + f * (1.0 - np.cos(s)), t - f * (1.0 - np.sin(s))) for s in turn]
+    quarter = [*fillet, (h, t), (h, top)]
+    right = [*((r, -x) for r, x in reversed(quarter)), *quarter]
+    return [*right, *((-r, x) for r, x in reversed(right))]
+
+
+def across(ax, start, end, height, text, foot):
+    """A dimension across the axis, its lines from `foot` on."""
+    ax.annotate("", (start, height), (end, height), arrowprops={"arrowstyle": "<|-|>", "color": MIDDLE, "lw": 1.0, "shrinkA": 0, "shrinkB": 0})
+    for r in (start, end):
+        ax.plot((r, r), (foot, height), color=MIDDLE, linewidth=0.5)
+    ax.text(
+        0.5 * (start + end),
+        height + 0.03 * abs(height),
+        text,
+        ha="center",
+        va="bottom",
+        color=MIDDLE,
+        bbox={"facecolor": "white", "edgecolor": "none", "pad": 1.0},
+    )
+
+
+def along(ax, start, end, radius, text, foot):
+    """A dimension along the axis, its lines from `foot` on."""
+    ax.annotate("", (radius, start), (radius, end), arrowprops={"arrowstyle": "<|-|>", "color": MIDDLE, "lw": 1.0, "shrinkA": 0, "shrinkB": 0})
+    for x in (start, end):
+        ax.plot((foot, radius), (x, x), color=MIDDLE, linewidth=0.5)
+    ax.text(1.04 * radius, 0.5 * (start + end), text, ha="left", va="center", color=MIDDLE)
+
+
 # The section -------------------------------------------------------------------------------------------------------------------------------
 
 

@@ -1,5 +1,6 @@
 """From the condensed joint to the table: sample the homogeneous response, fit splines, measure the error at loads that the table was not made from."""
 
+import signal
 from concurrent.futures import ProcessPoolExecutor
 from contextlib import ExitStack
 from dataclasses import dataclass
@@ -62,7 +63,8 @@ def _map(joint, function, tasks, workers, progress):
     _joint = joint
     results = []
     with ExitStack() as stack:
-        pool = stack.enter_context(ProcessPoolExecutor(workers, mp_context=get_context("fork"))) if workers > 1 else None
+        quiet = {"initializer": signal.signal, "initargs": (signal.SIGINT, signal.SIG_IGN)}  # a terminal sends Ctrl-C to the workers too
+        pool = stack.enter_context(ProcessPoolExecutor(workers, mp_context=get_context("fork"), **quiet)) if workers > 1 else None
         for result in pool.map(function, tasks, chunksize=4) if pool else map(function, tasks):
             results.append(result)
             progress(len(results), len(tasks))

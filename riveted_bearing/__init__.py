@@ -14,7 +14,7 @@ The command `riveted-bearing` does the same and more; docs/running.md explains b
 the finite elements of the rivet in rivet_model.
 """
 
-# The functions below import what they need when they are called: fmpy, SciPy and matplotlib take a second.  No module of this package has
+# The functions below import what they need when they are called: NumPy, fmpy, SciPy and matplotlib take a second.  No module of this package has
 # the name of a function here (runner and run, builder and build), because Python would put the imported module in the function's place.
 
 from collections.abc import Callable, Mapping, Sequence
@@ -22,17 +22,30 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from .errors import UserError
-from .results import Result, read_result, write_result
 from .version import __version__
 
 if TYPE_CHECKING:
     from .bearings import Case
+    from .results import Result, read_result, write_result
 
 __all__ = ["Result", "UserError", "__version__", "build", "info", "read_result", "run", "write_result"]
 
 
+def __getattr__(name):
+    """Result, read_result and write_result, when they are first asked for."""
+    if name in ("Result", "read_result", "write_result"):
+        from . import results
+
+        return getattr(results, name)
+    raise AttributeError(f"module {__name__} has no attribute {name}")
+
+
+def __dir__():
+    return [*globals(), *__all__]
+
+
 def run(
-    scene: str | Path = "demo",
+    scene: str | Path | None = "demo",
     *,
     parameters: Mapping | None = None,
     inputs: Mapping | None = None,
@@ -43,11 +56,12 @@ def run(
     outputs: Sequence[str] | None = None,
     tolerance: float | None = None,
     progress: Callable[[float], None] | None = None,
-) -> Result:
+) -> "Result":
     """Simulate a scene and return its Result.
 
-    scene: name of a shipped scene (demo, R, F, jam) or path of a TOML file; parameters, inputs: changes by full variable name, values as in the file
-    (SI numbers, "30 N", item names; inputs also {"t": [...], "value": [...]}); fmu: path of the FMU, None for the default one;
+    scene: name of a shipped scene (demo, R, F, jam) or path of a TOML file, None for the FMU's own working point; parameters, inputs: changes by full
+    variable name, values as in the file (SI numbers, "30 N", item names; inputs also {"t": [...], "value": [...]}); fmu: path of the FMU, None for the
+    default one;
     seed: start.seed; t_end, step: s; outputs: names or patterns; progress: called with the simulated time [s] about twenty times a second.
     Raises UserError (a ValueError) naming what cannot be used.  If the FMU ends a run early, the Result holds the run up to that time, and its member
     `stopped` gives the reason.

@@ -26,7 +26,7 @@ from rivet_model.geometry import Geometry
 from . import catalogue, limits, scaling
 from .errors import UserError, unknown
 from .scene import load_scene, positive, read_toml, refusal, section_of, shipped_scenes
-from .units import MULTIPLES, SPELLINGS, suffix, to_si
+from .units import scales_of, suffix, symbol_of, to_si
 
 SHIPPED = files("riveted_bearing") / "data" / "bearings"
 KEYS = ("designation", "description", "Z", "catalogue", "parameters", "rivet", "inputs")
@@ -229,10 +229,11 @@ def limited_values(Z, given, rivet, inputs, data, entry):
     return numbers | {f"rivet.{name}": value for name, value in rivet.items()} | {f"catalogue.{key}": value for key, value in data.items()}
 
 
-def check_limits(path, document, parts):
+def check_limits(path, document, parts, called=lambda name: name):
     """UserError for a bearing that cannot be built, by the first limit that does not hold and a key that the user gave.
 
-    parts: Z, given parameters, rivet, inputs and catalogue data, and the catalogue's Entry.
+    parts: Z, given parameters, rivet, inputs and catalogue data, and the catalogue's Entry; called: how the file calls a value, if otherwise than a bearing
+    file does.
     """
     values = limited_values(*parts)
     broken = next((limit for limit in limits.LIMITS if not limits.holds(limit, values)), None)
@@ -246,10 +247,10 @@ def check_limits(path, document, parts):
         allowed = limits.bound(broken, values[key], lambda value, key=key: limited_values(*changed(parts, key, value)))
         if allowed:
             words, number = allowed
-            others = ", ".join(f"{name} = {shown(name, values[name], written.get(name))}" for name in broken.keys if name != key)
+            others = ", ".join(f"{called(name)} = {shown(name, values[name], written.get(name))}" for name in broken.keys if name != key)
             reason = f"{words} {shown(key, number, written.get(key), words)} is allowed for {broken.reason}{f', with {others}' if others else ''}"
-            raise refusal(path, key, written.get(key, values[key]), reason)
-    raise refusal(path, keys[0], written.get(keys[0], values[keys[0]]), f"impossible: {broken.reason}")
+            raise refusal(path, called(key), written.get(key, values[key]), reason)
+    raise refusal(path, called(keys[0]), written.get(keys[0], values[keys[0]]), f"impossible: {broken.reason}")
 
 
 def changed(parts, key, value):
@@ -268,17 +269,17 @@ def changed(parts, key, value):
 
 
 def shown(name, value, written, words=""):
-    """A value in the unit in which the user wrote it, else in SI; a bound is rounded to the allowed side."""
+    """A value in the unit in which the user wrote it, SI for a bare number, else in the one in which people read it; a bound is rounded to the allowed side."""
     if name == "Z":
         return f"{value}"
     unit = unit_of(name)
-    text = written.strip().lstrip("+-0123456789.eE ") if isinstance(written, str) else ""
-    factor, offset = unit_scales(unit).get(SPELLINGS.get(text, text), (1.0, 0.0)) if text else (1.0, 0.0)
+    symbol = (symbol_of(written) or unit) if written is not None else [*variables.UNITS[unit], *variables.UNITS[unit]][1]
+    factor, offset = unit_scales(unit).get(symbol, (1.0, 0.0))
     number = factor * value + offset
     if words:
         digits = 3 - math.floor(math.log10(abs(number) or 1.0))
         number = (math.floor if words == "at most" else math.ceil)(number * 10.0**digits + (1e-9 if words == "at most" else -1e-9)) / 10.0**digits
-    return f"{number:.4g}{suffix(text or unit)}"
+    return f"{number:.4g}{suffix(symbol)}"
 
 
 def unit_of(name):
@@ -298,11 +299,11 @@ def rivet_unit(key):
     return {"nu": "1", "alpha": "1", "T": "K"}.get(key.partition("_")[0], "m")  # alpha: 1/K, without a symbol of its own
 
 
-def rivet_values(path, section, where="rivet."):
-    """Dimensions and materials of a rivet in SI, each checked."""
+def rivet_values(path, section, where="rivet.", known=tuple(RIVET)):
+    """Dimensions and materials of a rivet in SI, each checked; known: the keys that are allowed."""
     for key, value in section.items():
-        if key not in RIVET:
-            raise unknown(path, "rivet key", key, RIVET)
+        if key not in known:
+            raise unknown(path, "rivet key", key, known)
         try:
             yield key, positive(value, unit_scales(rivet_unit(key)))
         except UserError as problem:
@@ -322,7 +323,7 @@ def catalogue_values(path, section):
 
 def unit_scales(unit):
     """Symbols that a text may carry for an SI unit, with their (factor, offset)."""
-    return variables.UNITS[unit] | MULTIPLES.get(unit, {})
+    return scales_of(unit, variables.UNITS[unit])
 
 
 def start_values(path, section, tree, known):
@@ -334,14 +335,22 @@ def start_values(path, section, tree, known):
         items = [] if variable.type in ("Real", "Integer") else [item.name.lower() for item in getattr(variables, variable.type)]
         if items and value not in items:
             raise refusal(path, f"{section}.{name}", value, f"allowed: {', '.join(items)}")
+        written = value
         try:
             value = to_si(value, unit_scales(variable.unit)) if isinstance(value, str) and not items else value
         except UserError as problem:
             raise refusal(path, f"{section}.{name}", value, problem) from None
         low, high = (-math.inf if variable.min is None else variable.min), (math.inf if variable.max is None else variable.max)
         if not items and not (is_number(value) and low <= value <= high):
-            raise refusal(path, f"{section}.{name}", value, f"not a number in {low:g} ... {high:g}{suffix(variable.unit)}, or a text with its unit")
+            raise refusal(path, f"{section}.{name}", written, f"not a number in {span(low, high, variable.unit, symbol_of(written))}, or a text with its unit")
         yield name, value
+
+
+def span(low, high, unit, symbol):
+    """The limits of a value in the unit that the user wrote, else in SI."""
+    symbol = symbol or unit
+    factor, offset = unit_scales(unit)[symbol]
+    return f"{factor * low + offset:.4g} ... {factor * high + offset:.4g}{suffix(symbol)}"
 
 
 def named(variable, value):

@@ -11,6 +11,7 @@ Intermediate files stay in BUILD, so that the next build of the same bearing com
 
 import importlib.util
 import os
+import platform as machine
 import re
 import shutil
 import subprocess
@@ -29,6 +30,13 @@ from .scene import Scene
 
 SOURCES = (PACKAGE.parent, PACKAGE / "_source")  # a checkout, an installed package
 PLATFORMS = ("linux64", "win64", "darwin64", "aarch64-darwin")  # "all"
+PLATFORM_OF = {  # (system, machine) -> FMI's folder of binaries
+    ("Linux", "x86_64"): "linux64",
+    ("Linux", "aarch64"): "aarch64-linux",
+    ("Windows", "AMD64"): "win64",
+    ("Darwin", "x86_64"): "darwin64",
+    ("Darwin", "arm64"): "aarch64-darwin",
+}
 LIBRARIES = ("RivetedBearing.so", "RivetedBearing.dll", "RivetedBearing.dylib")
 STEP = re.compile(r"\[\s*(?:(\d+)/(\d+)|(\d+)%)\s*\]")  # Ninja's [3/40], make's [ 7%]
 
@@ -45,7 +53,7 @@ def build_fmu(bearing=None, rivet=None, out=None, say=lambda text, share=None: N
     sources = source_folder()
     out = Path(out) if out else default_out(sources, bearing or rivet)
     case, folder = bearing_case(bearing or "6207"), build_folder(sources, bearing)
-    cmake = find_tools()
+    cmake, platforms = tool("cmake") or no_tool("cmake"), platforms or compiler_platforms()
     make_folder(out.parent)
     table = kept(given_table(rivet, case, kind, say), folder / "rivet_table.json")
     options = [f"-DRIVET_TABLE={table}", f"-DPython_EXECUTABLE={sys.executable}"]
@@ -57,7 +65,11 @@ def build_fmu(bearing=None, rivet=None, out=None, say=lambda text, share=None: N
         execute([sys.executable, sources / "fmus" / "generate.py", "--bearing", resolved, "--out", generated], folder, say)
         options.append(f"-DGENERATED_DIR={generated}")
     binaries = [f"{platform}={cross_compile(cmake, sources, folder / platform, options, platform, say)}" for platform in platforms]
-    options.append(f"-DBINARIES={';'.join(binaries)}")
+    options += [f"-DBINARIES={';'.join(binaries)}", f"-DCOMPILER={zig_version() if platforms else ''}"]
+    if not has_compiler():  # the archive's project wants some compiler too
+        folder = folder / "archive"
+        folder.mkdir(exist_ok=True)
+        options += toolchain(sources, platforms[0])
     compile_target(cmake, sources, folder, options, "fmu", say)
     finished = folder / FMU_NAME
     say("starting it once")
@@ -81,11 +93,14 @@ def platform_names(text):
 
 def cross_compile(cmake, sources, folder, options, platform, say):
     """The binary for another platform, compiled with zig in its own build folder."""
-    zig = find_zig()
     folder.mkdir(exist_ok=True)
-    chain = [f"-DCMAKE_TOOLCHAIN_FILE={sources / 'cmake' / 'zig.cmake'}", f"-DPLATFORM={platform}", f"-DZIG={zig}"]
-    compile_target(cmake, sources, folder, [*options, *chain], "binaries", lambda text, share=None: say(f"{platform}: {text}", share))
+    compile_target(cmake, sources, folder, [*options, *toolchain(sources, platform)], "binaries", lambda text, share=None: say(f"{platform}: {text}", share))
     return next(path for name in LIBRARIES if (path := folder / name).is_file())
+
+
+def toolchain(sources, platform):
+    """Options of CMake to compile for a platform with zig."""
+    return [f"-DCMAKE_TOOLCHAIN_FILE={sources / 'cmake' / 'zig.cmake'}", f"-DPLATFORM={platform}", f"-DZIG={find_zig()}"]
 
 
 def compile_target(cmake, sources, folder, options, target, say):
@@ -96,12 +111,17 @@ def compile_target(cmake, sources, folder, options, target, say):
     execute([cmake, "--build", folder, "--target", target, "--parallel", str(min(os.cpu_count() or 1, 8))], folder, say)
 
 
-def find_zig():
-    """Path of zig: that of the Python package, else that on the search path."""
+def zig_version():
+    """Name and version of zig, for the FMU's bill of materials."""
+    return f"zig {subprocess.run([find_zig(), 'version'], capture_output=True, text=True, check=True).stdout.strip()}"
+
+
+def find_zig(needed=True):
+    """Path of zig: that of the Python package, else that on the search path; without it UserError, or None if it is not needed."""
     package = importlib.util.find_spec("ziglang")
     found = (package and shutil.which("zig", path=package.submodule_search_locations[0])) or shutil.which("zig")
-    if not found:
-        raise UserError("zig not found, which compiles for other platforms: `pip install ziglang`")
+    if not found and needed:
+        raise UserError('zig not found, which compiles for other platforms: `pip install "riveted-bearing[cross]"`')
     return found
 
 
@@ -143,12 +163,23 @@ def build_folder(sources, bearing):
     return folder
 
 
-def find_tools():
-    """Path of cmake, after checking that there is a C compiler."""
-    compilers = [os.environ["CC"].split()[0]] if os.environ.get("CC") else ["cc", "gcc", "clang"]
-    if not any(map(shutil.which, compilers)):
-        raise UserError(f"no C compiler ({', '.join(compilers)}) found: install one, e.g. `apt-get install gcc`, or set CC")
-    return tool("cmake") or no_tool("cmake")
+def compilers():
+    """Names by which a C compiler is looked for."""
+    return [os.environ["CC"].split()[0]] if os.environ.get("CC") else ["cc", "gcc", "clang"]
+
+
+def has_compiler():
+    """Whether this machine has a C compiler of its own."""
+    return any(map(shutil.which, compilers()))
+
+
+def compiler_platforms():
+    """Platforms to compile for if the user names none: () with a C compiler of this machine, this machine's platform with zig; UserError without either."""
+    if has_compiler():
+        return ()
+    if find_zig(needed=False):
+        return (PLATFORM_OF[machine.system(), machine.machine()],)
+    raise UserError(f'no C compiler ({", ".join(compilers())}) found: install one, or `pip install "riveted-bearing[cross]"`, which brings one along')
 
 
 def tool(name):

@@ -15,8 +15,10 @@ from fmpy.fmi1 import FMICallException
 from fmpy.fmi2 import FMU2Slave, defaultCallbacks, fmi2CallbackFunctions, fmi2CallbackLoggerTYPE, fmi2LastSuccessfulTime, fmi2ValueReference
 from fmpy.logging import addLoggerProxy
 
+from bearing_model.variables import MODEL_IDENTIFIER
+
 from .errors import UserError
-from .units import suffix, to_si, unit_table
+from .units import suffix, symbol_of, to_si, unit_table
 
 FMU_NAME = "RivetedBearing.fmu"
 PACKAGE = Path(__file__).resolve().parent
@@ -56,6 +58,8 @@ class Model:
             raise UserError(f"{self.path}: not a readable FMU: {problem}") from None
         if self.description.coSimulation is None or not self.description.fmiVersion.startswith("2."):
             raise UserError(f"{self.path}: not a co-simulation FMU of FMI 2.0")
+        if self.description.modelName != MODEL_IDENTIFIER:
+            raise UserError(f"{self.path}: the FMU of {self.description.modelName}, not of a bearing ({MODEL_IDENTIFIER})")
         self.units = {"1": {"1": (1.0, 0.0)}, None: {"1": (1.0, 0.0)}} | unit_table(self.description.unitDefinitions)
         variables = self.description.modelVariables
         self.parameters = {v.name: v for v in variables if v.causality == "parameter"}
@@ -89,15 +93,16 @@ class Model:
             number = int(value)
         else:
             number = to_si(value, self.units[variable.unit])
-        self.check_range(number, variable)
+        self.check_range(number, variable, symbol_of(value))
         return number
 
-    def check_range(self, number, variable):
-        """UserError if an SI value is outside the limits of its variable."""
+    def check_range(self, number, variable, symbol=None):
+        """UserError, in the unit `symbol` or else in the one in which people read the variable, if an SI value is outside the variable's limits."""
         low = -np.inf if variable.min is None else float(variable.min)
         high = np.inf if variable.max is None else float(variable.max)
         if not low <= number <= high:
-            symbol, (factor, offset) = self.display(variable)
+            symbol = symbol if symbol in self.units[variable.unit] else self.display(variable)[0]
+            factor, offset = self.units[variable.unit][symbol]
             value, low, high = (f"{factor * limit + offset:.6g}" for limit in (number, low, high))
             raise UserError(f"{value}{suffix(symbol)} is out of range, allowed: {low} ... {high}{suffix(symbol)}")
 

@@ -61,7 +61,7 @@ def title(result):
     ]
     if speed is not None:
         facts.insert(0, f"{RPM * speed[-1]:,.0f} rev/min")
-    lines = [f"{about.get('scene', '')}: {about.get('description', '')}", " · ".join(facts)]
+    lines = [": ".join(filter(None, (about.get("scene"), about.get("description")))), " · ".join(facts)]
     figures = [f"{row.channel}: mean {row.mean:.3g}, p99.9 {row.p999:.3g} {row.unit}" for row in summary_rows(result) if row.every_step]
     return "\n".join([*lines, *([" · ".join(figures)] if figures else []), *([f"STOPPED: {result.stopped}"] if result.stopped else [])])
 
@@ -151,18 +151,17 @@ HEIGHTS = {loads: 0.6, stress: 1.4}
 
 def cage_orbit(ax, result):
     """Path of the cage's centre within its guide clearance."""
-    ax.set(title="Orbit of the cage's centre, seen from +X", xlabel="y [µm]", ylabel="z [µm]", aspect="equal")
+    ax.set(title="Orbit of the cage's centre, seen from +X", xlabel="y [µm]; dashed: guide clearance", ylabel="z [µm]", aspect="equal")
     if not wanted(result, ["cage.y", "cage.z"]):
         ax.text(0.5, 0.5, "cage.y and cage.z were not recorded", ha="center", transform=ax.transAxes)
         return
     late = settled(result)
     y, z = 1e6 * result.data["cage.y"][late], 1e6 * result.data["cage.z"][late]
     clearance = 1e6 * result.parameters["cage.guide_clearance"] / 2
-    ax.add_patch(Circle((0, 0), clearance, fill=False, color=MUTED, ls="--", lw=1, label="guide clearance"))
+    ax.add_patch(Circle((0, 0), clearance, fill=False, color=MUTED, ls="--", lw=1))
     ax.plot(y, z, color=FORCE, lw=0.35, alpha=0.7)
     limit = 1.08 * max(clearance, np.abs(y).max(), np.abs(z).max())
     ax.set(xlim=(-limit, limit), ylim=(-limit, limit))
-    ax.legend(loc="lower right", bbox_to_anchor=(1.0, 1.0))
     size = max(np.ptp(y), np.ptp(z))
     if 0.0 < size < 0.5 * clearance:
         magnified(ax, y, z, 0.6 * size)

@@ -7,6 +7,7 @@ All hold a digest of what was written, by which a damaged file is known.
 """
 
 import hashlib
+import importlib
 import json
 import os
 import re
@@ -50,6 +51,42 @@ class Result:
     def metadata(self):
         """All members but the data over time, ready for JSON."""
         return {"format": FORMAT_VERSION, "about": self.about, "parameters": self.parameters, "summary": self.summary, "units": self.units}
+
+    def to_pandas(self):
+        """The data as a pandas.DataFrame over time [s]; its attrs hold units, parameters, summary and origin.  Needs pandas (the extra "tables")."""
+        pandas = needed("pandas")
+        frame = pandas.DataFrame({name: values for name, values in self.data.items() if name != "time"}, index=pandas.Index(self.data["time"], name="time"))
+        frame.attrs = self.metadata()
+        return frame
+
+    def to_xarray(self):
+        """The data as an xarray.Dataset: ball[1].Q_i ... ball[Z].Q_i are one array ball.Q_i over (time, ball), units in attrs.
+
+        Needs xarray (the extra "tables").
+        """
+        xarray = needed("xarray")
+        variables = {}
+        for place, names in group_by_place(self.data).items():
+            numbers = [re.findall(r"\[(\d+)\]", name) for name in names]
+            attrs = {"units": self.units.get(names[0], "1")}
+            if all(len(found) == 1 for found in numbers):
+                kind = "ball" if place[0] == "ball" else "rivet"
+                values = xarray.DataArray(
+                    np.column_stack([self.data[name] for name in names]), dims=("time", kind), coords={kind: [int(found[0]) for found in numbers]}, attrs=attrs
+                )
+            else:
+                values = ("time", self.data[names[0]], attrs)
+            variables[".".join(place)] = values
+        about = {"about": json.dumps(self.about), "parameters": json.dumps(self.parameters), "summary": json.dumps(self.summary)}
+        return xarray.Dataset(variables, attrs=about | {"title": self.about.get("scene", "")})
+
+
+def needed(name):
+    """A package that only this needs; UserError naming the extra that brings it."""
+    try:
+        return importlib.import_module(name)
+    except ImportError:
+        raise UserError(f'{name} is not installed: pip install "riveted-bearing[tables]"') from None
 
 
 def write_result(result: Result, path: str | Path) -> Path:

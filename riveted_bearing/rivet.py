@@ -1,5 +1,6 @@
 """Stress of the rivets of a table or of a geometry: curves over preload, fit and transverse load, and pictures of the finite elements."""
 
+import math
 import os
 from concurrent.futures import BrokenExecutor
 from hashlib import sha256
@@ -15,12 +16,20 @@ from rivet_model.build import make_table
 from rivet_model.geometry import Geometry
 from rivet_model.load_cases import Joint
 
-from .bearings import CAGE_SIZES, bearing_case, rivet_values
+from .bearings import CAGE_SIZES, RIVET, bearing_case, check_limits, is_number, rivet_values, unit_scales
 from .errors import UserError
 from .results import make_folder, write_atomically
-from .scene import read_toml, refusal
+from .scene import positive, read_toml, refusal
 
 TABLES = ("coarse", "full", "closed-form")  # kinds that a user can ask for
+CAGE_NAMES = {  # key of a geometry file -> of a bearing file
+    "Z": "Z",
+    "d_m": "bearing.d_m",
+    "ball_diameter": "bearing.D",
+    "pocket_clearance": "cage.pocket_clearance",
+    "cage_outer_diameter": "cage.D_o",
+    "cage_inner_diameter": "cage.D_i",
+}
 ROWS = {"preload": 10.0, "fit": 10e-6, "transverse load": 10.0}  # distance of the printed rows, SI
 
 
@@ -44,17 +53,41 @@ def read_geometry(path, case=None):
 
     Values are SI numbers or texts with a unit; the file may repeat but not change what the bearing says of the cage.
     """
-    joint = (case or bearing_case("6207")).joint
-    section = read_toml(Path(path))
-    for name in CAGE_SIZES:
-        if name in section and case and section[name] != joint[name]:
-            raise refusal(path, name, section[name], f"the bearing has {joint[name]!r}")
-    own = {name: section[name] for name in CAGE_SIZES if name in section}
-    rivet = dict(rivet_values(path, {name: value for name, value in section.items() if name not in own}, where=""))
+    base, section = case or bearing_case("6207"), read_toml(Path(path))
+    own = dict(cage_sizes(path, {name: value for name, value in section.items() if name in CAGE_SIZES}))
+    for name, value in own.items():
+        if case and not math.isclose(value, case.joint[name], rel_tol=1e-9):
+            raise refusal(path, name, section[name], f"the bearing has {case.joint[name]!r}")
+    rivet = dict(rivet_values(path, {name: value for name, value in section.items() if name not in own}, where="", known=[*RIVET, *CAGE_SIZES]))
+    numbers = {name: value for name, value in base.values.items() if is_number(value)}
+    given = numbers | {CAGE_NAMES[name]: value for name, value in own.items() if name in CAGE_NAMES}
+    written = {"rivet": {name: section[name] for name in rivet}, "parameters": {CAGE_NAMES[name]: section[name] for name in own if name in CAGE_NAMES}}
+    check_limits(path, written, (own.get("Z", base.Z), given, base.rivet | rivet, {}, {}, None), called)
     try:
-        return Geometry(**(joint | own | rivet))
+        return Geometry(**(base.joint | own | rivet))
     except ValueError as problem:
         raise UserError(f"{path}: {problem}") from None
+
+
+def cage_sizes(path, section):
+    """Sizes of the cage from a geometry file: SI values and the number of rivets."""
+    for name, value in section.items():
+        try:
+            yield name, whole(value) if name == "Z" else positive(value, unit_scales("m"))
+        except UserError as problem:
+            raise refusal(path, name, value, problem) from None
+
+
+def whole(value):
+    """The number of rivets, which is that of the balls."""
+    if isinstance(value, bool) or not isinstance(value, int) or not 5 <= value <= 32:
+        raise UserError("allowed: an integer from 5 to 32")
+    return value
+
+
+def called(name):
+    """What a geometry file calls a value of a bearing file."""
+    return next((key for key, of in CAGE_NAMES.items() if of == name), name.removeprefix("rivet."))
 
 
 def geometry_of(case):
@@ -155,8 +188,34 @@ def curve_tables(curves):
 
 @threadpool_limits.wrap(limits=1)
 def write_pictures(folder, title, curves, joint):
-    """Write rivet_curves.png and rivet_section.png into a folder; returns their paths."""
+    """Write rivet_drawing.png, rivet_curves.png and rivet_section.png into a folder; returns their paths."""
     figures = {"rivet_curves.png": pictures.plot_curves(curves, title), "rivet_section.png": pictures.plot_section(joint)}
     for name, figure in figures.items():
-        write_atomically(folder / name, lambda temporary, figure=figure: figure.savefig(temporary, dpi=120, format="png"))
-    return [folder / name for name in figures]
+        write_figure(figure, folder / name)
+    return [write_drawing(joint.geometry, folder / "rivet_drawing.png"), *(folder / name for name in figures)]
+
+
+def write_figure(figure, path):
+    """Write a figure as PNG, whole or not at all."""
+    write_atomically(path, lambda temporary: figure.savefig(temporary, dpi=120, format="png"))
+
+
+def write_drawing(geometry, path):
+    """Write the drawing of a rivet with its dimensions; returns the path."""
+    write_figure(pictures.plot_geometry(geometry), path)
+    return path
+
+
+def given_geometry(rivet, case=None):
+    """Geometry of a rivet given as table (JSON) or geometry (TOML), in the cage of a Case."""
+    path = Path(rivet)
+    return read_geometry(path, case) if path.suffix == ".toml" else Geometry(**read_table(path).geometry)
+
+
+def seat_note(geometry):
+    """A warning where the seat under the head is smaller than the shank's section, so that the head presses harder than the shank is pulled; else ""."""
+    if geometry.seat_share >= 1.0:
+        return ""
+    ring = f"{1e3 * geometry.seat_width:.2g} mm wide, {100.0 * geometry.seat_share:.0f} % of the shank's section"
+    sizes = f"head_diameter = {1e3 * geometry.head_diameter:g} mm is small for shank_diameter = {1e3 * geometry.shank_diameter:g} mm"
+    return f"the seat under the head is a ring {ring}: the head presses on it with {1.0 / geometry.seat_share:.1f} times the shank's tension stress; {sizes}"

@@ -12,6 +12,8 @@ from fmpy.fmi2 import fmi2Discard
 
 from .bearings import not_given
 from .fmu import Instance
+from .interrupts import held_interrupts
+from .record import Record
 from .results import Result
 from .version import __version__
 
@@ -19,12 +21,12 @@ PROGRESS_INTERVAL = 0.05  # s of wall time between calls of progress
 
 
 def simulate(model, scene, progress=None):
-    """Run a Scene that was checked against the Model; returns its Result, see riveted_bearing.run."""
-    with Instance(model) as instance:
+    """Run a Scene that was checked against the Model; returns its Result, see riveted_bearing.run.  Ctrl-C ends the run after the step under way."""
+    with held_interrupts() as interrupts, Instance(model) as instance:
         instance.initialize(scene)
         parameters = instance.parameters()
         wall, cpu = time.perf_counter(), time.thread_time()
-        times, rows, stopped = march(instance, scene, progress or (lambda t: None))
+        times, columns, stopped = march(instance, scene, progress or (lambda t: None), interrupts)
         wall, cpu = time.perf_counter() - wall, time.thread_time() - cpu
         summary = closing_values(instance, model)
     simulated = float(times[-1])
@@ -32,7 +34,7 @@ def simulate(model, scene, progress=None):
     names = ["time", *scene.outputs]
     variables = model.inputs | model.outputs
     return Result(
-        data=dict(zip(names, [times, *rows.T], strict=True)),
+        data=dict(zip(names, [times, *columns], strict=True)),
         units={"time": "s"} | {name: variables[name].unit or "1" for name in scene.outputs},
         parameters=parameters,
         summary=summary,
@@ -40,23 +42,27 @@ def simulate(model, scene, progress=None):
     )
 
 
-def march(instance, scene, progress):
-    """All communication steps of a scene.
+def march(instance, scene, progress, interrupts):
+    """All communication steps of a scene, until interrupts.pending.
 
-    Returns the times [s] and rows of outputs up to the end or to the point where the FMU gave up, and the reason for that ("" at the end).
+    Returns the times [s] and columns of outputs up to the end or to the point where the FMU gave up, and the reason for that ("" at the end).
     """
     times = scene.communication_points()
-    references = [instance.model.inputs[name].valueReference for name in scene.inputs]
-    inputs = np.column_stack([history(times) for history in scene.inputs.values()] or [np.zeros((len(times), 0))])
+    varying = {name: history for name, history in scene.inputs.items() if len(history.t) > 1}
+    references = [instance.model.inputs[name].valueReference for name in varying]
+    inputs = np.column_stack([history(times) for history in varying.values()] or [np.zeros((len(times), 0))])
     changed = [False, *np.any(np.diff(inputs, axis=0), axis=1)]
     stride = scene.stride
     peaks = [i for i, name in enumerate(scene.outputs) if is_peak(name)] if stride > 1 else []
-    rows = np.empty((-(-(len(times) - 1) // stride) + 2, len(scene.outputs)))
-    row_times = np.zeros(len(rows))
+    count = -(-(len(times) - 1) // stride) + 2
+    record, row_times = Record(count, len(scene.outputs)), np.zeros(count)
     read = instance.reader(scene.outputs)
-    rows[0] = read()
+    record.write(0, read())
     row, due, stopped = 0, 0.0, ""
     for i, (now, then) in enumerate(itertools.pairwise(times.tolist())):
+        if interrupts.pending:
+            stopped = f"interrupted after t = {now:.9g} s"
+            break
         try:
             if changed[i]:
                 instance.fmu.setReal(references, inputs[i].tolist())
@@ -66,23 +72,20 @@ def march(instance, scene, progress):
             reached = instance.last_successful_time(now) if failure.status == fmi2Discard else now
             if reached > row_times[row]:
                 row += 1
-                rows[row] = read()
+                record.write(row, read())
                 row_times[row] = reached
             break
-        except KeyboardInterrupt:
-            stopped = f"interrupted after t = {now:.9g} s"
-            break
         row = i // stride + 1
-        held = rows[row, peaks] if i % stride else -np.inf  # a copy
-        rows[row] = read()
-        if peaks:
-            rows[row, peaks] = np.maximum(rows[row, peaks], held)
+        values = read()
+        if peaks and i % stride:
+            values[peaks] = np.maximum(values[peaks], record.last(peaks))
+        record.write(row, values)
         row_times[row] = then
         if (clock := time.perf_counter()) >= due:
             progress(then)
             due = clock + PROGRESS_INTERVAL
     progress(row_times[row])
-    return row_times[: row + 1], rows[: row + 1], stopped
+    return row_times[: row + 1], record.columns(), stopped
 
 
 def is_peak(name):
@@ -119,6 +122,7 @@ def provenance(model, scene):
         "fmu": str(model.path),
         "given": [*scene.parameters, *(name for name, origin in model.origin.items() if origin == "yours" and name not in scene.parameters)],
         "not_given": not_given(model.origin),
+        "replaced": list(scene.replaced),
         "guid": model.description.instantiationToken,
         "model": model.description.description or model.description.modelName,
         "generated": f"{model.description.generationTool or ''} {model.description.generationDateAndTime or ''}".strip(),

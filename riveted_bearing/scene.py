@@ -29,15 +29,14 @@ from pathlib import Path
 import numpy as np
 
 from .errors import UserError, shortlist, unknown
-from .units import scale, to_si
+from .units import SECONDS, canonical, scale, suffix, symbol_of, to_si
 
 SHIPPED = files("riveted_bearing") / "data" / "scenes"
 SECTIONS = ("description", "simulation", "parameters", "inputs")
 SIMULATION = ("t_end", "step", "output_interval", "tolerance", "outputs")
-SECONDS = {"s": (1.0, 0.0), "ms": (1e3, 0.0), "us": (1e6, 0.0)}
 HISTORY = ("t", "value", "unit", "interpolation")
 COLUMN = ("file", "column", "time", "unit", "interpolation")
-LARGEST_RESULT = 4 * 2**30  # bytes
+LARGEST_RESULT = 16 * 2**30  # bytes, on disk
 
 
 @dataclass(frozen=True)
@@ -68,6 +67,7 @@ class Scene:
     outputs: tuple = ()
     parameters: dict = field(default_factory=dict)
     inputs: dict = field(default_factory=dict)
+    replaced: tuple = ()  # what the scene's file puts in the place of another bearing's own values, in words
 
     @property
     def stride(self):
@@ -88,17 +88,47 @@ def shipped_scenes():
 def load_scene(source, model, *changes):
     """Read a scene and apply changes to it.
 
-    source: path of a TOML file or name of a shipped scene; model: the Model to run it;
+    source: path of a TOML file or name of a shipped scene, None for the FMU's own working point, its start values; model: the Model to run it;
     changes: pairs (origin for messages, document like the file's), later ones win.
     scene.statistics is on unless the scene sets it, because communication points alone miss the impacts.
     Returns a Scene; raises UserError naming file, key, value and what is allowed.
     """
-    path = find_scene(source)
-    scene = Scene(name=Path(path.name).stem, parameters={"scene.statistics": "on"})
-    for where, document in [(str(path), read_toml(path)), *changes]:
-        scene = apply(scene, where, document, model, Path(str(path)).parent)
-    check_times(scene, " with ".join([str(path), *(where for where, _ in changes)]))
+    scene, path = Scene(parameters={"scene.statistics": "on"}), None
+    if source is None:
+        scene = replace(scene, name=model.path.stem, description=working_point(model))
+    else:
+        path = find_scene(source)
+        scene = replace(scene, name=Path(path.name).stem)
+        scene = apply(scene, str(path), read_toml(path), model, Path(str(path)).parent)
+        scene = replace(scene, replaced=tuple(replacements(scene, model)))
+    for where, document in changes:
+        scene = apply(scene, where, document, model, Path(str(path)).parent if path else Path())
+    check_times(scene, " with ".join([*([str(path)] if path else []), *(where for where, _ in changes)]))
     return replace(scene, outputs=scene.outputs or default_outputs(model))
+
+
+def working_point(model):
+    """The FMU's own loads and speed in words."""
+    shown = [f"{name.removeprefix('shaft.')} {in_words(model, name)}" for name in ("shaft.F_y", "shaft.F_x", "shaft.omega")]
+    return f"own working point of {model.path.name}, {', '.join(shown)}"
+
+
+def in_words(model, name, value=None):
+    """A start value of the FMU, or a value of the scene, in the unit in which people read it."""
+    variable = (model.parameters | model.inputs)[name]
+    value = model.default(variable) if value is None else value
+    if variable.type != "Real":
+        return str(value)
+    symbol, (factor, offset) = model.display(variable)
+    return f"{factor * value + offset:.5g}{suffix(symbol)}"
+
+
+def replacements(scene, model):
+    """For the FMU of another bearing, what the scene puts in the place of the bearing's own values: "shaft.F_y 2994 N for 4100 N"."""
+    for name, value in (scene.parameters | {name: history.value[0] for name, history in scene.inputs.items() if len(history.value) == 1}).items():
+        own = model.default((model.parameters | model.inputs)[name])
+        if name in model.origin and value != own:
+            yield f"{name} {in_words(model, name, value)} for {in_words(model, name)}"
 
 
 def find_scene(source):
@@ -240,8 +270,9 @@ def input_history(value, variable, model, folder):
         raise UserError("not all times and values are finite numbers")
     if not np.all(np.diff(history.t) > 0.0):
         raise UserError("the times do not increase")
+    symbol = canonical(value["unit"]) if isinstance(value, dict) and "unit" in value else symbol_of(value)
     for extreme in (history.value.min(), history.value.max()):
-        model.check_range(extreme, variable)
+        model.check_range(extreme, variable, symbol)
     return history
 
 
@@ -305,7 +336,7 @@ def is_hold(value):
 
 
 def check_times(scene, where):
-    """UserError unless step, output interval and end fit each other and the result fits into memory."""
+    """UserError unless step, output interval and end fit each other and the result is no larger than LARGEST_RESULT."""
     if scene.step > scene.t_end:
         raise refusal(where, "simulation.step", scene.step, f"not longer than t_end = {scene.t_end:g} s is allowed")
     if scene.output_interval is not None and (scene.stride < 1 or abs(scene.stride * scene.step / scene.output_interval - 1.0) > 1e-9):

@@ -29,6 +29,7 @@ and the quantiles p001 and p999 (0.1 and 99.9 %) after start.settle, as `mean(ri
 Rows are written as they arrive, each file whole or not at all; a second call does only runs that are missing or failed.
 """
 
+import contextlib
 import hashlib
 import itertools
 import json
@@ -39,14 +40,16 @@ from datetime import UTC, datetime
 from pathlib import Path
 
 import numpy as np
+from filelock import FileLock, Timeout
 
 from .errors import UserError, unknown
 from .fmu import Model
-from .results import KEY, one_line, read_table, write_atomically, write_table
+from .interrupts import held_interrupts, ignored_interrupts
+from .results import KEY, make_folder, one_line, read_table, write_atomically, write_table
 from .runner import closing_names, simulate
-from .scene import SECONDS, SIMULATION, leaves, load_scene, read_toml, refusal, section_of, shipped_scenes
+from .scene import SIMULATION, leaves, load_scene, read_toml, refusal, section_of, shipped_scenes
 from .summary import settled
-from .units import to_si
+from .units import SECONDS, to_si
 from .version import __version__
 
 SECTIONS = ("description", "scene", "repeats", "simulation", "parameters", "inputs", "vary", "sample")
@@ -294,15 +297,17 @@ class cluster:
             except (OSError, ValueError) as problem:
                 raise UserError(f"--scheduler {self.address}: {problem}") from None
         else:
-            here = {"host": "127.0.0.1", "dashboard_address": "127.0.0.1:0"}
-            self.local = LocalCluster(n_workers=self.workers, threads_per_worker=1, processes=True, silence_logs=logging.CRITICAL, **here)
-            self.client = Client(self.local)
+            here = {"host": "127.0.0.1", "dashboard_address": "127.0.0.1:0", "silence_logs": logging.CRITICAL + 1}  # what matters is in the rows
+            with ignored_interrupts():  # a terminal sends Ctrl-C to the workers too
+                self.local = LocalCluster(n_workers=self.workers, threads_per_worker=1, processes=True, **here)
+                self.client = Client(self.local)
         return self.client
 
     def __exit__(self, *_):
-        self.client.close()
-        if self.local:
-            self.local.close()
+        with ignored_interrupts():
+            self.client.close()
+            if self.local:
+                self.local.close()
 
 
 def run_sweep(sweep, folder, client, progress=None):
@@ -312,10 +317,26 @@ def run_sweep(sweep, folder, client, progress=None):
     progress: called with the numbers of runs done, failed, and in all.  A worker that dies is replaced by another; its run counts once.
     A run that fails is a row with status and message, and is tried again in the next call.
     """
+    folder = Path(folder)
+    with alone_in(folder):
+        return run_missing(sweep, folder, client, progress or (lambda *_: None))
+
+
+@contextlib.contextmanager
+def alone_in(folder):
+    """No second sweep writes to the folder meanwhile; UserError if one does already."""
+    make_folder(folder)
+    try:
+        with FileLock(folder / ".lock", timeout=0):
+            yield
+    except Timeout:
+        raise UserError(f"{folder}: another sweep is writing to this folder: wait until it has ended, or name another folder with --out") from None
+
+
+def run_missing(sweep, folder, client, progress):
+    """run_sweep without a second one in the same folder."""
     from distributed import as_completed
 
-    folder = Path(folder)
-    progress = progress or (lambda *_: None)
     schema, keys = schema_of(sweep), list(sweep.scenes)
     finished = compact(folder, schema, keys)
     done, failed = len(finished), 0
@@ -329,11 +350,15 @@ def run_sweep(sweep, folder, client, progress=None):
             key = future.key.removeprefix("run-")
             row = about_run(sweep, key) | outcome(future)
             future.release()
-            write_row(folder / f"run-{key}.parquet", row, schema)
+            with held_interrupts() as interrupts:
+                write_row(folder / f"run-{key}.parquet", row, schema)
+            if interrupts.pending:
+                raise KeyboardInterrupt
             done, failed = (done + 1, failed) if row["status"] == "done" else (done, failed + 1)
             progress(done, failed, len(keys))
     finally:
-        client.cancel(futures)
+        with ignored_interrupts():
+            client.cancel(futures)
     compact(folder, schema, keys)
     return columns_of(folder)
 

@@ -13,6 +13,8 @@ import fmpy
 import pytest
 from fmpy.validation import validate_fmu
 from library import LIBRARY, ROOT, Core
+from matplotlib.figure import Figure
+from pictures import faults
 from python_core import python_core
 from slave import Slave
 from threadpoolctl import threadpool_limits
@@ -30,6 +32,23 @@ def pytest_generate_tests(metafunc):
 def one_thread():
     """Small matrices: on a shared machine the threads of the linear algebra wait for each other longer than they compute."""
     with threadpool_limits(1):
+        yield
+
+
+@pytest.fixture(scope="session", autouse=True)
+def pictures_are_in_order():
+    """Every picture that a test of this process saves shows its texts whole and side by side (pictures.py)."""
+    save = Figure.savefig
+
+    def inspected(figure, *arguments, **options):
+        canvas = figure.canvas
+        found = list(faults(figure))
+        figure.set_canvas(canvas)
+        assert not found, found
+        return save(figure, *arguments, **options)
+
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(Figure, "savefig", inspected)
         yield
 
 

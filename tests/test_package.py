@@ -20,6 +20,8 @@ from lxml import etree
 from reference_results import SAME
 from slave import Slave, describe
 
+from bearing_model import variables
+from riveted_bearing import UserError, builder
 from riveted_bearing.builder import build_folder
 
 FMI_HEADERS = Path(fmpy.__file__).parent / "c-code"
@@ -78,6 +80,8 @@ def test_terminals_are_valid_and_name_variables(folder):
     etree.XMLSchema(etree.parse(SCHEMA / "fmi3TerminalsAndIcons.xsd")).assertValid(terminals)
     known = {v.name for v in describe(folder).modelVariables if v.causality in ("input", "output")}
     members = [m.get("variableName") for m in terminals.iter("TerminalMemberVariable")]
+    at_a_glance = {name for title in ("Cage", "Stress of the worst rivet", "Health of bearing and run") for name in variables.ESSENTIALS[title]}
+    assert at_a_glance <= set(members)
     assert len(set(members)) == len(members) > 20
     assert set(members) <= known
     inputs = {v.name for v in describe(folder).modelVariables if v.causality == "input"}
@@ -294,3 +298,17 @@ def test_windows_binary_under_wine(everywhere, wine, folder, tmp_path):
     assert result.returncode == 0, result.stderr
     rows = np.array([[float.fromhex(value) for value in line.split()] for line in result.stdout.splitlines()])
     assert difference(rows, folder) <= SAME
+
+
+def test_without_a_compiler_zig_is_taken_or_named(monkeypatch):
+    """`build` without --platforms: this machine's compiler, else zig for this machine, else one line that names both ways out."""
+    monkeypatch.delenv("CC", raising=False)
+    monkeypatch.setattr(builder.shutil, "which", lambda name, path=None: f"/bin/{name}" if name == "gcc" else None)
+    assert builder.compiler_platforms() == ()
+    monkeypatch.setattr(builder.shutil, "which", lambda name, path=None: f"/bin/{name}" if name == "zig" else None)
+    monkeypatch.setattr(builder.machine, "system", lambda: "Windows")
+    monkeypatch.setattr(builder.machine, "machine", lambda: "AMD64")
+    assert builder.compiler_platforms() == ("win64",)
+    monkeypatch.setattr(builder.shutil, "which", lambda name, path=None: None)
+    with pytest.raises(UserError, match=r"no C compiler \(cc, gcc, clang\) found: .*riveted-bearing\[cross\]"):
+        builder.compiler_platforms()

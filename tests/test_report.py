@@ -298,3 +298,18 @@ def test_printed_page_is_light_and_has_the_picture(opened):
     assert tab.evaluate("getComputedStyle(document.body).backgroundColor") != "rgb(255, 255, 255)"
     assert complaints == []
     tab.close()
+
+
+@pytest.mark.parametrize(("width", "columns"), [(1400, 2), (800, 1), (390, 1)])
+def test_tables_use_the_width_of_the_page(opened, width, columns):
+    """Nothing sticks out, no row is a tower of single words, and the long table of parameters stands in as many columns as fit."""
+    tab, complaints = opened(width, 900)
+    tab.evaluate("document.querySelectorAll('details').forEach(part => part.open = true)")
+    assert tab.evaluate("document.documentElement.scrollWidth") == width
+    assert tab.evaluate("Math.max(...[...document.querySelectorAll('tr')].map(row => row.getBoundingClientRect().height))") < 170  # six lines
+    places = tab.evaluate("[...document.querySelectorAll('details tr')].map(row => Math.round(row.getBoundingClientRect().x))")
+    assert len(places) > 90 and len(set(places)) == columns
+    table = tab.evaluate("document.querySelector('details table').getBoundingClientRect().width")
+    assert table > 0.8 * min(width, 1150)
+    assert complaints == []
+    tab.close()

@@ -9,7 +9,7 @@
 
 #define FMI2_FUNCTION_PREFIX RivetedBearing_  // of the functions of a source-code FMU
 #define MODEL_IDENTIFIER "RivetedBearing"
-#define MODEL_GUID "{cb59a90b-98ed-e270-7898-db5681aae53b}"  // digest of the table
+#define MODEL_GUID "{0901f8cd-5a10-c404-281a-c396683794c3}"  // digest of the table
 
 enum { Z = 9 };  // number of balls
 

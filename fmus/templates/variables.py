@@ -44,6 +44,13 @@ ASSUMPTIONS = {
 {% endfor %}
 }
 
+# What to look at first: names by question.
+ESSENTIALS = {
+{% for question, names in table.essentials.items() %}
+    {{ question | quoted }}: ({% for name in names %}{{ name | quoted }}, {% endfor %}),
+{% endfor %}
+}
+
 # Scales of each unit: symbol -> (factor, offset), value in that symbol = factor * SI value + offset.
 UNITS = {
 {% for unit, entry in table.units.items() %}

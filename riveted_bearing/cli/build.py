@@ -43,3 +43,12 @@ def build(
         path = build_fmu(bearing, rivet, out, say, platform_names(platforms), table)
     console.print(escape(Model(path).description.description), style="dim", soft_wrap=True)
     console.print(str(path), style="cyan", soft_wrap=True)
+    if rivet:
+        from ..bearings import bearing_case
+        from ..rivet import given_geometry, seat_note, write_drawing
+
+        geometry = given_geometry(rivet, bearing_case(bearing or "6207"))
+        drawing = write_drawing(geometry, path.with_name(f"{path.stem}_rivet.png"))
+        console.print(f"drawing  [cyan]{escape(str(drawing))}[/]", soft_wrap=True)
+        if note := seat_note(geometry):
+            messages.print(f"[yellow]note:[/] {escape(note)}", soft_wrap=True)

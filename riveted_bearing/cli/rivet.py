@@ -15,9 +15,11 @@ def rivet(
     source: Annotated[Path | None, typer.Argument(metavar="TABLE|GEOMETRY", help="rivet table (JSON) or geometry (TOML); default: the table shipped")] = None,
     out: Annotated[Path, typer.Option(help="folder for the pictures")] = Path("results"),
 ):
-    """Stress of the rivet over preload, fit and transverse load; pictures of curves, mesh, deformed section and stress."""
-    from ..rivet import curve_tables, rivet_curves, write_pictures
+    """Stress of the rivet over preload, fit and transverse load; a drawing with dimensions, pictures of curves, mesh, deformed section and stress."""
+    from ..rivet import curve_tables, given_geometry, rivet_curves, seat_note, write_pictures
 
+    if source:
+        given_geometry(source)  # a wrong file leaves no folder
     make_folder(out)
     with messages.status("finite elements"):
         title, curves, joint = rivet_curves(source)
@@ -26,5 +28,7 @@ def rivet(
     for name, rows in curve_tables(curves):
         console.print(f"\n[bold]{name}[/]", soft_wrap=True)
         console.print(rows)
+    if note := seat_note(joint.geometry):
+        messages.print(f"[yellow]note:[/] {escape(note)}", soft_wrap=True)
     for path in paths:
         console.print(f"picture  [cyan]{escape(str(path))}[/]", soft_wrap=True)

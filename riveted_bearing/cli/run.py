@@ -1,5 +1,6 @@
 """riveted-bearing run: one scene through the FMU."""
 
+import re
 from pathlib import Path
 from typing import Annotated
 
@@ -7,15 +8,20 @@ import typer
 from rich.markup import escape
 from rich.table import Column, Table
 
-from ..errors import UserError, unknown
+from ..errors import UserError, shortlist, unknown
+from ..interrupts import held_interrupts
 from ..results import FORMATS, make_folder, write_result
 from ..scene import load_scene, shipped_scenes
 from .terminal import FMU, SETTINGS, STOPPED, changes, command, console, messages, simulation_progress
 
+ROUNDING = 1e-9  # in the units shown: what is smaller stands as 0
+
 
 @command
 def run(
-    scene: Annotated[str, typer.Argument(help=f"scene file (TOML) or one of the shipped scenes: {', '.join(shipped_scenes())}")],
+    scene: Annotated[
+        str | None, typer.Argument(help=f"scene file (TOML) or one of the shipped scenes: {', '.join(shipped_scenes())}; default: the FMU's own working point")
+    ] = None,
     fmu: FMU = None,
     out: Annotated[Path, typer.Option(help="folder, or file whose suffix is the format")] = Path("results"),
     format: Annotated[str | None, typer.Option(help=f"{', '.join(FORMATS)} (default: the suffix of --out, else {FORMATS[0]})")] = None,
@@ -29,18 +35,19 @@ def run(
     from ..fmu import Model
     from ..runner import simulate
 
-    target = result_path(scene, out, format)
     model = Model(fmu)
+    target = result_path(scene or model.path, out, format)
     plan = load_scene(scene, model, ("the command line", changes(model, settings or [], seed, t_end, step)))
     make_folder(target.parent)
-    with simulation_progress(plan) as progress:
-        result = simulate(model, plan, progress)
-    print_summary(result)
-    paths = [write_result(result, target)]
-    if plot:
-        from ..plot import plot_result
+    with held_interrupts():  # from the first step until its results are written
+        with simulation_progress(plan) as progress:
+            result = simulate(model, plan, progress)
+        print_summary(result)
+        paths = [write_result(result, target)]
+        if plot:
+            from ..plot import plot_result
 
-        paths.append(plot_result(result, target.with_suffix(".png")))
+            paths.append(plot_result(result, target.with_suffix(".png")))
     for label, path in zip(("results", "picture"), paths, strict=False):
         console.print(f"{label}  [cyan]{escape(str(path))}[/]", soft_wrap=True)
     console.print(f"FMU      [cyan]{escape(str(model.path))}[/]", soft_wrap=True)
@@ -55,11 +62,18 @@ def result_path(scene, out, kind):
     suffix = out.suffix.removeprefix(".")
     if kind is not None and kind not in FORMATS:
         raise unknown("--format", "format", kind, FORMATS)
+    if suffix not in FORMATS and looks_like_a_file(out):
+        raise UserError(f'--out {out}: unknown format "{suffix}"; allowed: {", ".join(FORMATS)}, or a folder')
     if suffix not in FORMATS:
         return out / f"{Path(scene).stem}.{kind or FORMATS[0]}"
     if kind not in (None, suffix):
         raise UserError(f"--out {out}: does not go with --format {kind}")
     return out
+
+
+def looks_like_a_file(path):
+    """Whether a path ends like a file of some format, xlsx or json, and is no folder."""
+    return re.fullmatch(r"\.[A-Za-z]\w{1,5}", path.suffix) is not None and not path.is_dir()
 
 
 def print_summary(result):
@@ -68,10 +82,10 @@ def print_summary(result):
 
     about, summary = result.about, result.summary
     console.print(f"[bold]{escape(about['scene'])}[/]  {escape(about['description'])}", soft_wrap=True)
-    table = Table("", "unit", *(Column(text, justify="right") for text in ("mean", "RMS", "p99.9", "max")), box=None, pad_edge=False)
+    table = Table(Column("", no_wrap=True), "unit", *(Column(text, justify="right") for text in ("mean", "RMS", "p99.9", "max")), box=None, pad_edge=False)
     for row in summary_rows(result):
         mark = "" if row.every_step else " *"
-        table.add_row(row.channel + mark, row.unit, *(f"{value:.4g}" for value in (row.mean, row.rms, row.p999, row.largest)))
+        table.add_row(row.channel + mark, row.unit, *(f"{value if abs(value) > ROUNDING else 0.0:.4g}" for value in (row.mean, row.rms, row.p999, row.largest)))
     console.print(table)
     rivets = rivet_rows(result)
     if rivets:
@@ -81,7 +95,9 @@ def print_summary(result):
     if summary["simulated_time"] > settle:
         console.print(f"[dim]after the first {settle:g} s; every internal step, * at communication points only[/]")
     else:
-        messages.print(f"[yellow]note:[/] no statistics: they begin at start.settle = {settle:g} s, and the run ended at {summary['simulated_time']:g} s")
+        messages.print(
+            f"[yellow]note:[/] no statistics: they begin at start.settle = {settle:g} s, and the run ended at {summary['simulated_time']:g} s", soft_wrap=True
+        )
     counters = {name: f"{summary[f'solver.{name}']:,.0f}" for name in ("steps", "rhs_evals", "error_tests_failed") if f"solver.{name}" in summary}
     if counters:
         console.print(f"{counters['steps']} steps, {counters['rhs_evals']} evaluations of the equations, {counters['error_tests_failed']} steps rejected")
@@ -93,6 +109,8 @@ def print_summary(result):
     assumed = [f"{name} {value:.3g} {unit} ({low:.2g} to {high:.2g})" for name, value, low, high, unit, _ in assumed_rows(result)]
     if assumed:
         console.print(f"[dim]assumed, and the stress moves with it (usual range): {escape(', '.join(assumed))}[/]", soft_wrap=True)
+    if about.get("replaced"):
+        messages.print(f"[yellow]note:[/] the scene replaces values of the bearing: {escape(shortlist(about['replaced']))}", soft_wrap=True)
     for source, names in about.get("not_given", {}).items():
         console.print(f"[dim]not given, {escape(source)}: {escape(names)}[/]", soft_wrap=True)
     if table_note(result):

@@ -7,7 +7,7 @@ import typer
 from rich.markup import escape
 
 from ..results import make_folder
-from .terminal import FMU, SCHEDULER, WORKERS, command, console, sweep_progress
+from .terminal import FMU, SCHEDULER, WORKERS, command, console, resumable, sweep_progress
 
 
 @command
@@ -23,11 +23,13 @@ def study(
     """The paper's figures again and its claims one by one: runs, pictures and paper.md; a second call does only missing runs."""
     from ..fmu import Model
     from ..paper_study.paper import write_paper
-    from ..paper_study.study import run_study
+    from ..paper_study.study import check_names, run_study
     from ..sweep import cluster
 
+    model = Model(fmu)
+    check_names(names or [])
     make_folder(report or out)
-    with cluster(scheduler, workers) as client, sweep_progress() as progress:
-        data = run_study(Model(fmu), out, client, names, seeds, progress)
+    with resumable(out), cluster(scheduler, workers) as client, sweep_progress() as progress:
+        data = run_study(model, out, client, names, seeds, progress)
     path = write_paper(data, report or out)
     console.print(f"report   [cyan]{escape(str(path))}[/]", soft_wrap=True)

@@ -8,7 +8,7 @@ import typer
 from rich.markup import escape
 
 from ..results import make_folder
-from .terminal import FMU, SCHEDULER, STOPPED, WORKERS, command, console, messages, sweep_progress
+from .terminal import FMU, SCHEDULER, STOPPED, WORKERS, command, console, messages, resumable, sweep_progress
 
 
 @command
@@ -26,7 +26,7 @@ def sweep(
     plan = load_sweep(study, Model(fmu))
     folder = out or Path("results") / plan.name
     make_folder(folder)
-    with cluster(scheduler, workers) as client, sweep_progress() as progress:
+    with resumable(folder), cluster(scheduler, workers) as client, sweep_progress() as progress:
         rows = run_sweep(plan, folder, client, functools.partial(progress, plan.name))
     failures = rows["message"][rows["status"] != "done"]
     spent = rows["cpu_time"][rows["status"] == "done"].sum()

@@ -1,6 +1,10 @@
 """Shared by all commands: the program, its two consoles, the decorator `command`, common options, progress bars."""
 
+import contextlib
 import functools
+import os
+import platform
+import sys
 from pathlib import Path
 from typing import Annotated
 
@@ -11,10 +15,12 @@ from rich.progress import BarColumn, MofNCompleteColumn, Progress, ProgressColum
 from rich.text import Text
 
 from ..errors import UserError, unknown
+from ..version import __version__
 
-BAD_INPUT, STOPPED = 2, 3  # exit codes
+BAD_INPUT, STOPPED, INTERRUPTED = 2, 3, 130  # exit codes; 130: shells' own for Ctrl-C
 program = typer.Typer(no_args_is_help=True, add_completion=False, pretty_exceptions_enable=False)
-console = Console(highlight=False)
+PIPE_WIDTH = 160  # characters, where there is no terminal to ask
+console = Console(highlight=False, width=None if sys.stdout.isatty() or "COLUMNS" in os.environ else PIPE_WIDTH)
 messages = Console(stderr=True, highlight=False)
 
 # Options that several commands have.
@@ -26,13 +32,20 @@ SCHEDULER = Annotated[str | None, typer.Option("--scheduler", help="address of a
 WORKERS = Annotated[int | None, typer.Option("--workers", min=1, help="number of local processes; default: one for each core")]
 
 
+def print_version(wanted: bool):
+    """Print version, Python and platform, then end."""
+    if wanted:
+        console.print(f"riveted-bearing {__version__}, Python {platform.python_version()}, {platform.system()} {platform.machine()}")
+        raise typer.Exit
+
+
 @program.callback()
-def main():
+def main(version: Annotated[bool, typer.Option("--version", callback=print_version, is_eager=True, help="print the version and end")] = False):
     """riveted-bearing: dynamics of a ball bearing with a two-piece riveted cage, as an FMU."""
 
 
 def command(function):
-    """Add a function to the program as a command; a UserError, and what the system refuses, becomes one line on stderr and exit code 2."""
+    """Add a function to the program as a command; a UserError, and what the system refuses, becomes one line on stderr and exit code 2, Ctrl-C one and 130."""
 
     @functools.wraps(function)
     def guarded(*arguments, **options):
@@ -41,6 +54,9 @@ def command(function):
         except UserError as problem:
             messages.print(f"[bold red]error:[/] {escape(str(problem))}", soft_wrap=True)
             raise typer.Exit(BAD_INPUT) from None
+        except KeyboardInterrupt:
+            messages.print("interrupted: no file has changed")
+            raise typer.Exit(INTERRUPTED) from None
         except BrokenPipeError:  # nobody reads the output any more: the interpreter ends in silence
             raise
         except OSError as problem:  # disk full, no permission, no more files or memory
@@ -51,6 +67,16 @@ def command(function):
             raise typer.Exit(BAD_INPUT) from None
 
     return program.command()(guarded)
+
+
+@contextlib.contextmanager
+def resumable(folder):
+    """For work whose parts are kept in a folder one by one: Ctrl-C becomes one line that says so."""
+    try:
+        yield
+    except KeyboardInterrupt:
+        messages.print(f"interrupted: finished runs are kept in {escape(str(folder))}; the same command does the others", soft_wrap=True)
+        raise typer.Exit(INTERRUPTED) from None
 
 
 def changes(model, settings, seed, t_end, step):

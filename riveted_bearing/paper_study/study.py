@@ -36,10 +36,16 @@ def shipped_studies():
     return sorted(path.name.removesuffix(".toml") for path in SHIPPED.iterdir() if path.name.endswith(".toml"))
 
 
+def check_names(names):
+    """UserError for a name that is no sweep of the study."""
+    for name in names:
+        if name not in shipped_studies():
+            raise unknown("study", "study", name, shipped_studies())
+
+
 def study_sweep(name, model, repeats=None):
     """The Sweep of a shipped study; repeats: number of seeds in the place of the study's own, if the study varies the seed."""
-    if name not in shipped_studies():
-        raise unknown("study", "study", name, shipped_studies())
+    check_names([name])
     path = SHIPPED / f"{name}.toml"
     sweep = load_sweep(path, model)
     if repeats is None or "repeats" not in sweep.document:

@@ -1,0 +1,49 @@
+"""Makes the site of the same Markdown that the repository shows: formulas as MathML, pages from outside docs/, links to files that the site does not hold."""
+
+import re
+from pathlib import Path
+
+from latex2mathml.converter import convert
+from mkdocs.structure.files import File
+
+ROOT = Path(__file__).resolve().parents[2]
+OUTSIDE = {"README.md": "index.md", "CONTRIBUTING.md": "CONTRIBUTING.md", "VERSIONING.md": "VERSIONING.md"}  # file of the repository -> page
+CODE = re.compile(r"(^```.*?^```|`[^`\n]+`)", re.MULTILINE | re.DOTALL)
+
+
+def on_files(files, config):
+    """Add the pages that stand outside docs/."""
+    for name, page in OUTSIDE.items():
+        files.append(File.generated(config, page, content=(ROOT / name).read_text(encoding="utf-8")))
+    return files
+
+
+def on_page_markdown(markdown, page, config, files):
+    """Formulas and links of one page, its code left as it is."""
+    folder = "" if page.file.src_uri in OUTSIDE.values() else "docs/"
+    parts = CODE.split(markdown)
+    parts[::2] = [links(formulas(text), folder, files) for text in parts[::2]]
+    return "".join(parts)
+
+
+def formulas(text):
+    """$LaTeX$ and $$LaTeX$$ as MathML."""
+    text = re.sub(r"\$\$(.+?)\$\$", lambda formula: convert(formula[1].replace("\n", " "), display="block"), text, flags=re.DOTALL)
+    return re.sub(r"\$([^$\n]+)\$", lambda formula: f"<span>{convert(formula[1])}</span>", text)  # a bare <math> at a line's start would end the paragraph
+
+
+def links(text, folder, files):
+    """Links from a file of `folder` in the repository as links between pages; what the site does not hold becomes its name."""
+
+    def rewritten(link):
+        label, target = link[1], link[2]
+        path, _, anchor = target.partition("#")
+        if target.startswith(("http", "#", "mailto:")):
+            return link[0]
+        place = Path(ROOT / folder / path).resolve().relative_to(ROOT).as_posix()
+        page = OUTSIDE.get(place, place.removeprefix("docs/"))
+        if files.get_file_from_path(page) is None:
+            return f"{label} (`{place}`)" if label.strip("`") != place else f"`{place}`"
+        return f"[{label}]({page}{'#' + anchor if anchor else ''})"
+
+    return re.sub(r"(?<!!)\[([^]]*)\]\(([^)]+)\)", rewritten, re.sub(r"!\[([^]]*)\]\(docs/", r"![\1](", text) if not folder else text)

@@ -1,0 +1,33 @@
+"""riveted-bearing variables: what can be set and read."""
+
+from typing import Annotated
+
+import typer
+from rich.markup import escape
+from rich.table import Column, Table
+
+from .terminal import FMU, command, console
+
+
+@command
+def variables(
+    pattern: Annotated[str | None, typer.Argument(help="part of a name, a name with * or a word of the description; default: the essential ones")] = None,
+    fmu: FMU = None,
+):
+    """Inputs, parameters and outputs with unit, start value and limits: the essential ones, or those that match."""
+    from ..fmu import Model
+    from ..variable_list import essentials, matching, row
+
+    model = Model(fmu) if fmu else None
+    groups = essentials() if pattern is None else matching(pattern)
+    table = Table(*(Column(title, no_wrap=i < 4) for i, title in enumerate(("name", "", "unit", "start", "allowed", "description"))), box=None, pad_edge=False)
+    for title, variables in groups.items():
+        table.add_row(f"[bold]{escape(title)}[/]")
+        for variable in variables:
+            table.add_row(*map(escape, row(variable, model)))
+    console.print(table)
+    if pattern is None:
+        console.print(
+            "[dim]riveted-bearing variables PATTERN finds others, e.g. oil, ball[3].*, slip; docs/parameters.md has them all with their sources[/]",
+            soft_wrap=True,
+        )

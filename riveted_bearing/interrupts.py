@@ -1,0 +1,40 @@
+"""Ctrl-C: kept back while something must not be cut in two."""
+
+import signal
+import threading
+
+
+class held_interrupts:
+    """While this context lasts, Ctrl-C only sets `pending`.
+
+    Python's handler would raise KeyboardInterrupt between any two instructions, also between a finished step and its place in the result, or in a callback
+    of the FMU, where an exception is lost.  Only a program's main thread receives Ctrl-C: in any other nothing changes.
+    """
+
+    def __enter__(self):
+        self.pending = False
+        self.main = threading.current_thread() is threading.main_thread()
+        if self.main:
+            self.before = signal.signal(signal.SIGINT, self.note)
+        return self
+
+    def __exit__(self, *_):
+        if self.main:
+            signal.signal(signal.SIGINT, self.before)
+
+    def note(self, *_):
+        """Handler of the signal."""
+        self.pending = True
+
+
+class ignored_interrupts:
+    """While this context lasts, Ctrl-C does nothing, here and in the processes that are started meanwhile, for as long as these live."""
+
+    def __enter__(self):
+        self.main = threading.current_thread() is threading.main_thread()
+        if self.main:
+            self.before = signal.signal(signal.SIGINT, signal.SIG_IGN)
+
+    def __exit__(self, *_):
+        if self.main:
+            signal.signal(signal.SIGINT, self.before)

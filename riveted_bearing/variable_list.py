@@ -1,0 +1,52 @@
+"""The FMU's variables for readers: the essential ones, and those that match a pattern."""
+
+import math
+import re
+
+from bearing_model import variables
+from bearing_model.variables import ESSENTIALS, INPUTS, LOCALS, OUTPUTS, PARAMETERS
+
+from .errors import unknown
+from .units import suffix
+
+KINDS = {"Inputs": INPUTS, "Parameters": PARAMETERS, "Outputs": OUTPUTS, "Locals": LOCALS}
+KNOWN = INPUTS | PARAMETERS | OUTPUTS | LOCALS
+
+
+def essentials():
+    """The essential variables by question."""
+    return {title: [KNOWN[name] for name in names] for title, names in ESSENTIALS.items()}
+
+
+def matching(pattern):
+    """Variables by kind whose name matches a pattern with *, or whose name or description contains it; UserError if there are none."""
+    general = re.sub(r"\[\d+\]", "[*]", pattern)  # ball[3].Q_i is one of ball[j].Q_i
+    expression = re.compile(re.escape(general).replace(r"\*", ".*"), re.IGNORECASE)
+    fits = expression.fullmatch if "*" in general else lambda text: expression.search(text)
+    found = {title: [v for v in known.values() if fits(v.name) or ("*" not in general and fits(v.description))] for title, known in KINDS.items()}
+    if not any(found.values()):
+        raise unknown("variables", "name or word", pattern, KNOWN)
+    return {title: listed for title, listed in found.items() if listed}
+
+
+def row(variable, model=None):
+    """Name, kind, unit, start, limits and description in the unit in which people read the variable; the start value is that of `model`, if given."""
+    kind = next(title for title, known in KINDS.items() if variable.name in known).removesuffix("s").lower()
+    symbol = variable.display or variable.unit
+    start = allowed = ""
+    if variable.name in INPUTS | PARAMETERS:
+        if variable.type in ("Real", "Integer"):
+            value = variable.start if model is None else model.default((model.parameters | model.inputs)[variable.name.replace("[j]", "[1]")])
+            start = shown(value, variable)
+            allowed = f"{shown(variable.min, variable, -math.inf)} ... {shown(variable.max, variable, math.inf)}"
+        else:
+            items = [item.name.lower() for item in getattr(variables, variable.type)]
+            start = items[variable.start - 1] if model is None else model.default(model.parameters[variable.name])
+            allowed = ", ".join(items)
+    return variable.name, kind, suffix(symbol).strip(), start, allowed, variable.description
+
+
+def shown(value, variable, otherwise=0.0):
+    """A value in the variable's display unit, without its symbol."""
+    factor, offset = variables.UNITS[variable.unit][variable.display or variable.unit]
+    return f"{factor * (otherwise if value is None else value) + offset:.6g}"

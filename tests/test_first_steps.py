@@ -1,0 +1,86 @@
+"""What a new user does first: an own FMU without a scene, a scene of another bearing, names of variables, the version."""
+
+import re
+import zipfile
+
+import pytest
+from typer.testing import CliRunner
+
+from bearing_model.variables import ESSENTIALS
+from riveted_bearing import __version__, run
+from riveted_bearing.cli import program
+from riveted_bearing.fmu import Model
+from riveted_bearing.scene import load_scene
+from riveted_bearing.variable_list import essentials, matching
+
+ORIGIN = """<VendorAnnotations><Tool name="riveted-bearing"><Value name="shaft.F_y" origin="yours"/><Value name="shaft.omega" origin="rule"/>
+<Value name="bearing.D" origin="yours"/></Tool></VendorAnnotations>"""
+
+
+@pytest.fixture(scope="module")
+def own(fmu, tmp_path_factory):
+    """The FMU described as that of another bearing: a load of its own, the 6207's balls, a speed by rule."""
+    path = tmp_path_factory.mktemp("own") / "mine.fmu"
+    with zipfile.ZipFile(fmu) as old, zipfile.ZipFile(path, "w") as new:
+        for member in old.infolist():
+            data = old.read(member)
+            if member.filename == "modelDescription.xml":
+                text = data.decode().replace("<ModelVariables>", f"{ORIGIN}<ModelVariables>")
+                text, count = re.subn(r'(name="shaft.F_y".*?start=")2994.0', r"\g<1>4100.0", text, count=1, flags=re.S)
+                assert count == 1
+                data = text.encode()
+            new.writestr(member, data)
+    return path
+
+
+def test_without_a_scene_the_fmu_has_its_own_working_point(own):
+    model = Model(own)
+    scene = load_scene(None, model, ("the command line", {"simulation": {"t_end": "1 ms"}}))
+    assert scene.name == "mine" and scene.inputs == {} and scene.parameters == {"scene.statistics": "on"} and scene.t_end == 1e-3
+    assert scene.description == "own working point of mine.fmu, F_y 4100 N, F_x 515 N, omega 18238 rev/min" and scene.replaced == ()
+
+
+def test_a_run_without_a_scene(fmu):
+    result = run(None, fmu=fmu, t_end=2e-4)
+    assert result.data["shaft.F_y"][-1] == 2994.0 and result.about["scene"] == "RivetedBearing"
+
+
+def test_a_scene_says_what_it_replaces(own, fmu):
+    """The scene demo sets load and speed; its speed is the FMU's own, and of the default FMU nothing is somebody's own."""
+    assert load_scene("demo", Model(own)).replaced == ("shaft.F_y 2994 N for 4100 N",)
+    assert load_scene("demo", Model(own), ("the command line", {"inputs": {"shaft.F_y": 1000.0}})).replaced == ("shaft.F_y 2994 N for 4100 N",)
+    assert load_scene("demo", Model(fmu)).replaced == ()
+
+
+def test_the_essential_variables(fmu):
+    listed = [variable.name for group in essentials().values() for variable in group]
+    assert listed == [name for names in ESSENTIALS.values() for name in names] and 35 <= len(listed) <= 45
+    done = CliRunner().invoke(program, ["variables"])
+    assert done.exit_code == 0 and all(name in done.stdout for name in listed)
+    with zipfile.ZipFile(fmu) as archive:
+        page = archive.read("documentation/index.html").decode()
+    assert page.index('<h2 id="essentials">') < page.index('<h2 id="use">') and all(f"<code>{name}</code>" in page.split('<h2 id="use">')[0] for name in listed)
+
+
+@pytest.mark.parametrize(
+    ("pattern", "some"),
+    [
+        ("slip", {"cage.slip_ratio", "rivet[k].slip"}),
+        ("ball[3].Q_i", {"ball[j].Q_i"}),
+        ("rivet[*].sigma_*", {"rivet[k].sigma_head", "rivet[k].sigma_mid_peak"}),
+        ("VISCOSITY", {"oil.eta"}),
+    ],
+)
+def test_variables_by_pattern(pattern, some):
+    found = {variable.name for group in matching(pattern).values() for variable in group}
+    assert some <= found and len(found) < 12
+
+
+def test_variables_have_unit_and_limits(own):
+    line = next(line for line in CliRunner().invoke(program, ["variables", "shaft.F_y", "--fmu", str(own)]).stdout.splitlines() if line.startswith("shaft.F_y"))
+    assert re.split(r"\s{1,}", line)[:7] == ["shaft.F_y", "input", "N", "4100", "-100000", "...", "100000"]
+
+
+def test_the_version():
+    done = CliRunner().invoke(program, ["--version"])
+    assert done.exit_code == 0 and done.stdout.startswith(f"riveted-bearing {__version__}, Python 3")

@@ -1,0 +1,31 @@
+"""The example notebook runs from top to bottom, and its figures are those of the interface."""
+
+import os
+import re
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parents[1]
+NOTEBOOK = ROOT / "examples" / "from_fmu_to_life.ipynb"
+
+
+def test_the_notebook_runs(fmu, tmp_path, monkeypatch):
+    nbformat = pytest.importorskip("nbformat", reason='pip install "riveted-bearing[notebook]"')
+    nbclient = pytest.importorskip("nbclient", reason='pip install "riveted-bearing[notebook]"')
+    pytest.importorskip("ipykernel", reason='pip install "riveted-bearing[notebook]"')
+    pytest.importorskip("xarray", reason='pip install "riveted-bearing[notebook]"')
+    monkeypatch.setenv("PYTHONPATH", f"{ROOT}{os.pathsep}{os.environ.get('PYTHONPATH', '')}")
+    notebook = nbformat.read(NOTEBOOK, as_version=4)
+    assert all(not cell.get("outputs") for cell in notebook.cells), "stored without outputs"
+    nbclient.NotebookClient(notebook, timeout=300, resources={"metadata": {"path": str(tmp_path)}}).execute()
+    text = "\n".join(
+        output.get("text", "") or output.get("data", {}).get("text/plain", "") for cell in notebook.cells if cell.cell_type == "code" for output in cell.outputs
+    )
+    assert "<Result of scene demo" in text and "<Figure" in text
+    carrying = re.search(r"inner race carries (\d) of 9 balls, at most (\d+) N", text)
+    assert int(carrying[1]) in (3, 4, 5) and int(carrying[2]) > 2994 / 3  # fewer than half of the balls share the load
+    samples, steps = map(float, re.search(r"Miner's sum (\S+) from samples, (\S+) at every step", text).groups())
+    assert 0.0 < samples <= 1.1 * steps  # samples miss dips: never more damage than counted at every step
+    means = [float(mean) for mean in re.findall(r"\d+ N mean (\d+) MPa", text)]
+    assert means[1] - means[0] == pytest.approx(30.0 * 49.0 / 20.0, rel=0.05)  # 49 MPa for 20 N (README), impacts alike: observed 74

@@ -1,0 +1,150 @@
+"""What a user can get wrong: one line on stderr that names it, exit code 2, nothing left behind."""
+
+import shutil
+from pathlib import Path
+
+import pytest
+from typer.testing import CliRunner
+
+from riveted_bearing.cli import program
+
+ROOT = Path(__file__).resolve().parents[1]
+FILES = {
+    "bad.toml": "not TOML at all",
+    "seven.toml": "Z = 7\nbearing = 3",
+    "unit.toml": '[parameters]\nbearing.D = "8 N"',
+    "three.toml": "Z = 3",
+    "crowded.toml": "Z = 20",
+    "text.toml": 'fillet_radius = "0.3 mm"',
+    "thick.toml": 'head_height = "1 parsec"',
+    "nothing.toml": 'shank = "1.5 mm"',
+    "count.toml": "Z = 9.5",
+    "narrow.toml": 'cage_outer_diameter = "2.1 inch"',
+    "scene.toml": '[inputs]\nshaft.F_y = "3 tons"',
+    "key.toml": "[simulatoin]\nt_end = 1",
+    "late.toml": "[simulation]\nt_end = -1",
+    "times.toml": "[inputs]\nshaft.F_y = { t = [0, 0], value = [1, 2] }",
+    "lengths.toml": "[inputs]\nshaft.F_y = { t = [0, 1], value = [1] }",
+    "csv.toml": '[inputs]\nshaft.F_y = { file = "none.csv", column = "F" }',
+    "column.toml": '[inputs]\nshaft.F_y = { file = "loads.csv", column = "G" }',
+    "words.toml": '[inputs]\nshaft.F_y = { file = "loads.csv", column = "word" }',
+    "place.toml": "[inputs]\njoint.preload = 20",
+    "choice.toml": '[parameters]\nring.tilt_mode = "fixed"',
+    "whole.toml": "[parameters]\nstart.seed = 1.5",
+    "outputs.toml": '[simulation]\noutputs = ["rivets.*"]',
+    "interval.toml": "[simulation]\nstep = 1e-4\noutput_interval = 1.5e-4",
+    "large.toml": "[simulation]\nt_end = 1e6",
+    "hold.toml": '[inputs]\nshaft.F_y = { t = [0, 1], value = [1, 2], interpolation = "spline" }',
+    "vary.toml": "[[vary]]\njoint.preload = []",
+    "repeats.toml": "repeats = 0",
+    "twice.toml": "[[vary]]\njoint.preload = [1]\n[[vary]]\njoint.preload = [2]",
+    "range.toml": '[[vary]]\njoint.preload = { from = "0 N", to = "60 N", count = 3, spacing = "log" }',
+    "sample.toml": '[sample]\nmethod = "random"\ncount = 4\nbetween.joint.mu = [0.1, 0.2]',
+    "loads.csv": "time,F,word\n0,1,a\n1,2,b\n",
+    "bad.json": "{}",
+    "broken.fmu": "PK no archive",
+    "half.parquet": "PAR1",
+    "empty.csv": "",
+}
+
+# arguments: what the message must name
+WRONG = {
+    "run dmeo": ['"dmeo"', 'did you mean "demo"'],
+    "run none.toml": ["none.toml", "no such scene file"],
+    "run bad.toml": ["bad.toml", "not valid TOML"],
+    "run seven.toml": ["seven.toml", "a bearing file, not a scene"],
+    "run scene.toml": ["inputs.shaft.F_y = '3 tons'", '"tons" does not fit', "N, kN, kgf, lbf"],
+    "run key.toml": ['"simulatoin"', 'did you mean "simulation"'],
+    "run late.toml": ["simulation.t_end = -1", "greater than 0"],
+    "run times.toml": ["inputs.shaft.F_y", "the times do not increase"],
+    "run lengths.toml": ["inputs.shaft.F_y", "got 2 and 1"],
+    "run csv.toml": ["none.csv", "no such file"],
+    "run column.toml": ["loads.csv", '"G"', "allowed: time, F, word"],
+    "run words.toml": ["loads.csv", '"word"', "no numbers"],
+    "run place.toml": ["inputs.joint.preload", "into [parameters]"],
+    "run choice.toml": ["parameters.ring.tilt_mode = 'fixed'", "prescribed, supported, free"],
+    "run whole.toml": ["parameters.start.seed = 1.5", "not an integer"],
+    "run outputs.toml": ["simulation.outputs", '"rivets.*"'],
+    "run interval.toml": ["simulation.output_interval = 0.00015", "multiples of step"],
+    "run large.toml": ["simulation.output_interval", "GiB"],
+    "run hold.toml": ['interpolation "spline"', "linear, hold"],
+    "run demo --fmu none.fmu": ["none.fmu", "no such FMU"],
+    "run demo --fmu broken.fmu": ["broken.fmu", "not a readable FMU"],
+    "run demo --fmu shaft.fmu": ["shaft.fmu: the FMU of Shaft, not of a bearing"],
+    "run --fmu broken.fmu": ["broken.fmu", "not a readable FMU"],
+    "run demo --set joint.preload": ["--set joint.preload", "NAME=VALUE"],
+    "run demo --set joint.preloat=3": ['"joint.preloat"', 'did you mean "joint.preload"'],
+    "run demo --set joint.preload=3mm": ["joint.preload = '3mm'", '"mm" does not fit', "allowed: N"],
+    "run demo --set joint.preload=300kgf": ["joint.preload = '300kgf'", "300 kgf is out of range", "0 ... 101.972 kgf"],
+    "run demo --set joint.preload=": ["joint.preload = ''", "not a number with a unit"],
+    "run demo --set joint.preload=1,5": ["joint.preload = '1,5'", "not a number with a unit"],
+    "run demo --set shaft.F_y=1e9": ["shaft.F_y", "-100000 ... 100000 N"],
+    "run demo --set shaft.omega=60krpm": ["shaft.omega = '60krpm'", "-47.7465 ... 47.7465 krpm"],
+    "run demo --set shaft.omega=nan": ["shaft.omega", "finite"],
+    "run demo --seed -1": ["start.seed = -1", "0 ..."],
+    "run demo --t-end 1m": ["t_end = '1m'", "s, ms, us, min, h"],
+    "run demo --t-end soon": ["t_end = 'soon'", "not a number with a unit"],
+    "run demo --step 0": ["step = 0", "greater than 0"],
+    "run demo --t-end 1ms --step 2ms": ["step = 0.002", "t_end = 0.001 s"],
+    "run demo --format xls": ['"xls"', "parquet, csv, mat"],
+    "run demo --out res.xlsx": ['--out res.xlsx: unknown format "xlsx"', "or a folder"],
+    "run demo --format csv --out a.mat": ["a.mat", "csv"],
+    "run demo --out loads.csv/x --t-end 1ms": ["loads.csv/x", "no folder to write to"],
+    "info 6299": ['"6299"', "did you mean"],
+    "info three.toml": ["three.toml", "Z = 3", "5 to 32"],
+    "info unit.toml": ["parameters.bearing.D = '8 N'", "m, mm, um, cm, in"],
+    "info crowded.toml": ["crowded.toml", "Z = 20", "at most 15"],
+    "info bad.toml": ["bad.toml", "not valid TOML"],
+    "build --bearing none.toml": ['"none.toml"'],
+    "build --bearing crowded.toml": ["Z = 20", "at most 15"],
+    "build --table medium": ['"medium"', "coarse, full, closed-form"],
+    "build --platforms beos": ["--platforms", '"beos"', "linux64"],
+    "build --rivet bad.json": ["bad.json", "not a rivet table"],
+    "build --rivet text.toml": ["text.toml: fillet_radius = '0.3 mm': at most 0.25 mm is allowed"],
+    "rivet thick.toml": ["thick.toml: head_height = '1 parsec'", '"parsec" does not fit', "m, mm, um"],
+    "rivet nothing.toml": ['unknown rivet key "shank"', "shank_diameter"],
+    "rivet count.toml": ["count.toml: Z = 9.5", "an integer from 5 to 32"],
+    "rivet narrow.toml": ["cage_outer_diameter = '2.1 inch'", "at least 2.225 in is allowed"],
+    "rivet none.json": ["none.json", "No such file"],
+    "report none.parquet": ["none.parquet", "no such file"],
+    "report half.parquet": ["half.parquet", "not a result"],
+    "report empty.csv": ["empty.csv", "not a result"],
+    "report loads.csv": ["loads.csv", "not a result"],
+    "variables friction_of_the_moon": ['"friction_of_the_moon"'],
+    "variables oil --fmu shaft.fmu": ["the FMU of Shaft"],
+    "sweep none.toml": ["none.toml", "no such sweep file"],
+    "sweep vary.toml": ["vary.joint.preload = []", "a list or"],
+    "sweep repeats.toml": ["repeats = 0", "from 1 on"],
+    "sweep twice.toml": ["joint.preload varies in more than one place"],
+    "sweep range.toml": ["vary.joint.preload", "two ends of one sign"],
+    "sweep sample.toml": ["sample.method = 'random'", "latin_hypercube, sobol"],
+    "study nonsense": ['"nonsense"'],
+    "compare demo --short 1m": ["--short = '1m'", "s, ms, us, min, h"],
+}
+
+
+@pytest.fixture(scope="module")
+def folder(fmu, tmp_path_factory):
+    """The user's files, and the FMU of the example's shaft."""
+    folder = tmp_path_factory.mktemp("wrong")
+    for name, text in FILES.items():
+        (folder / name).write_text(text)
+    shutil.copyfile(ROOT / "fmus" / "Shaft.fmu", folder / "shaft.fmu")
+    shutil.copyfile(fmu, folder / fmu.name)
+    return folder
+
+
+def test_there_are_sixty():
+    assert len(WRONG) >= 60 and {words.split()[0] for words in WRONG} == {command.name or command.callback.__name__ for command in program.registered_commands}
+
+
+@pytest.mark.parametrize("arguments", WRONG)
+def test_wrong_input_is_one_line(folder, monkeypatch, arguments):
+    monkeypatch.chdir(folder)
+    before = sorted(folder.rglob("*"))
+    done = CliRunner().invoke(program, arguments.split())
+    assert done.exit_code == 2, (done.output, done.exception)
+    assert done.stdout == "" and done.stderr.startswith("error: ") and done.stderr.count("\n") == 1, done.stderr
+    for words in WRONG[arguments]:
+        assert words in done.stderr
+    assert sorted(folder.rglob("*")) == before
