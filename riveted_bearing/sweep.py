@@ -77,6 +77,7 @@ class Sweep:
     document: dict
     factors: tuple
     scenes: dict = field(repr=False)  # key -> Scene, in the order in which they are run
+    further: tuple = ()  # further columns of a row: function of a run's Result that gives them by name, and function that gives their fields
 
 
 def load_sweep(path, model):
@@ -241,8 +242,8 @@ def key_of(scene, fingerprint):
 # What a worker does --------------------------------------------------------------------------------------------------------------------------
 
 
-def perform(scene, fmu):
-    """Run a scene through the FMU given as bytes; returns the measured part of the row."""
+def perform(scene, fmu, measure=None):
+    """Run a scene through the FMU given as bytes; returns the measured part of the row, with what measure(result) finds if it is given."""
     started, cpu = datetime.now(UTC).isoformat(timespec="milliseconds"), time.thread_time()
     try:
         result = simulate(unpacked(fmu), scene)
@@ -251,7 +252,7 @@ def perform(scene, fmu):
     late = settled(result)
     sampled = {f"{kind}({name})": float(of(result.data[name][late])) for name in scene.outputs for kind, of in KINDS.items()}
     about = {"status": "stopped" if result.stopped else "done", "message": result.stopped, "date": started, "whole_cpu_time": time.thread_time() - cpu}
-    return about | result.summary | sampled
+    return about | result.summary | sampled | (measure(result) if measure else {})
 
 
 def unpacked(fmu):
@@ -302,23 +303,24 @@ class cluster:
             self.local.close()
 
 
-def run_sweep(sweep, folder, client, progress=None):
-    """Do the runs that a sweep's folder lacks and return the rows of the whole sweep.
+def run_sweep(sweep, folder, client, progress=None, keys=None):
+    """Do the runs that a sweep's folder lacks and return the rows that it then has.
 
     folder: of the Parquet dataset, made if need be; client: of a Dask cluster whose workers have this package (the FMU travels with the runs);
-    progress: called with the numbers of runs done, failed, and in all.  A worker that dies is replaced by another; its run counts once.
+    progress: called with the numbers of runs done, failed, and in all; keys: of the runs that are wanted, None for all.
+    A worker that dies is replaced by another; its run counts once.
     A run that fails is a row with status and message, and is tried again in the next call.
     """
     from distributed import as_completed
 
     folder = Path(folder)
     progress = progress or (lambda *_: None)
-    schema, keys = schema_of(sweep), list(sweep.scenes)
-    finished = compact(folder, schema, keys)
+    schema, design, keys = schema_of(sweep), list(sweep.scenes), list(keys or sweep.scenes)
+    finished = compact(folder, schema, design) & set(keys)
     done, failed = len(finished), 0
     progress(done, failed, len(keys))
     fmu = client.submit(bytes, sweep.fmu, key=f"fmu-{hashlib.sha256(sweep.fmu).hexdigest()}")  # as a task, so that Dask makes it again if its workers die
-    futures = [client.submit(perform, sweep.scenes[key], fmu, key=f"run-{key}") for key in keys if key not in finished]
+    futures = [client.submit(perform, sweep.scenes[key], fmu, *sweep.further[:1], key=f"run-{key}") for key in keys if key not in finished]
     try:
         for future in as_completed(futures):
             key = future.key.removeprefix("run-")
@@ -329,7 +331,7 @@ def run_sweep(sweep, folder, client, progress=None):
             progress(done, failed, len(keys))
     finally:
         client.cancel(futures)
-    compact(folder, schema, keys)
+    compact(folder, schema, design)
     return columns_of(folder)
 
 
@@ -367,6 +369,7 @@ def schema_of(sweep):
     fields += [pa.field(name, kinds[v.type], metadata={"unit": units[name]}) for name, v in (model.parameters | model.inputs).items()]
     fields += [pa.field(name, pa.float64(), metadata={"unit": units[name]}) for name in closing_names(model)]
     fields += [pa.field(f"{kind}({name})", pa.float64(), metadata={"unit": units[name]}) for name in outputs for kind in KINDS]
+    fields += [further for give in sweep.further[1:] for further in give()]
     about = {
         "format": ROW_VERSION,
         "sweep": sweep.name,

@@ -1,0 +1,92 @@
+"""riveted-bearing life: from a mission's hours and events to the life of the rivets."""
+
+from contextlib import ExitStack
+from pathlib import Path
+from typing import Annotated
+
+import typer
+from rich.markup import escape
+from rich.table import Column, Table
+
+from ..results import make_folder
+from .terminal import FMU, SCHEDULER, STOPPED, WORKERS, command, console, messages, sweep_progress
+
+
+@command
+def life(
+    mission: Annotated[Path, typer.Argument(help="mission file (TOML): operating points, hours, events; see docs/life.md", metavar="MISSION.toml")],
+    fmu: FMU = None,
+    out: Annotated[Path | None, typer.Option(help="folder of runs, life.json, page and picture; default: results/MISSION")] = None,
+    scheduler: SCHEDULER = None,
+    workers: WORKERS = None,
+):
+    """Life of the rivets under a mission, with confidence: runs as many seeds as that needs; a second call does only missing runs."""
+    from ..duty.assess import Runs, assess, write_record
+    from ..duty.mission import load_mission
+    from ..duty.notes import notes
+    from ..duty.page import percent, write_page, write_picture
+    from ..fmu import Model
+    from ..sweep import cluster
+
+    model = Model(fmu)
+    plan = load_mission(mission, model)
+    folder = out or Path("results") / plan.name
+    make_folder(folder)
+    reached = []
+
+    def say(found, target):
+        reached.append(found)
+        if messages.is_terminal:
+            messages.print(f"[dim]round {len(reached)}: half-width {percent(found.half_width)} of life, wanted {percent(target)}[/]")
+
+    with ExitStack() as stack:
+        progress = stack.enter_context(sweep_progress())
+        runs = Runs(plan, model, folder, started_once(stack, lambda: cluster(scheduler, workers)), lambda *numbers: progress(plan.name, *numbers))
+        try:
+            found = assess(plan, runs, say)
+        except KeyboardInterrupt:
+            stack.close()
+            messages.print(f"[yellow]interrupted:[/] finished runs are kept in {escape(str(folder))}; the same command goes on from there", soft_wrap=True)
+            raise typer.Exit(STOPPED) from None
+    remarks = notes(found, runs)
+    print_life(found, remarks)
+    for label, path in (
+        ("results", write_record(found, folder)),
+        ("page", write_page(found, folder / "life.html", remarks)),
+        ("picture", write_picture(found, folder / "life.png")),
+    ):
+        console.print(f"{label:8} [cyan]{escape(str(path))}[/]", soft_wrap=True)
+
+
+def started_once(stack, start):
+    """Function that starts a cluster when it is called for the first time and gives its client; the cluster ends with the stack."""
+    client = []
+
+    def get():
+        if not client:
+            client.append(stack.enter_context(start()))
+        return client[0]
+
+    return get
+
+
+def print_life(found, remarks):
+    """Life, interval, points and rivets on the terminal."""
+    from ..duty.page import cards, part_rows
+
+    console.print(f"[bold]{escape(found.mission.name)}[/]  {escape(found.mission.description)}", soft_wrap=True)
+    for title, value, remark in cards(found):
+        console.print(f"{title:14} [bold]{escape(value)}[/]  [dim]{escape(remark)}[/]", soft_wrap=True)
+    table = Table(
+        "",
+        *(Column(text, justify="right") for text in ("in the mission", "simulated", "damage")),
+        "per",
+        Column("share", justify="right"),
+        box=None,
+        pad_edge=False,
+    )
+    for row in part_rows(found):
+        table.add_row(*map(escape, row))
+    console.print(table)
+    for remark in remarks:
+        console.print(f"[dim]{escape(remark)}[/]", soft_wrap=True)
