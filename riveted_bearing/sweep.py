@@ -29,9 +29,12 @@ and the quantiles p001 and p999 (0.1 and 99.9 %) after start.settle, as `mean(ri
 Rows are written as they arrive, each file whole or not at all; a second call does only runs that are missing or failed.
 """
 
+import contextlib
 import hashlib
 import itertools
 import json
+import signal
+import threading
 import time
 from dataclasses import dataclass, field
 from datetime import UTC, datetime
@@ -78,6 +81,7 @@ class Sweep:
     factors: tuple
     scenes: dict = field(repr=False)  # key -> Scene, in the order in which they are run
     further: tuple = ()  # further columns of a row: function of a run's Result that gives them by name, and function that gives their fields
+    grows: bool = False  # whether further runs may join the design: rows that do not belong to it are kept
 
 
 def load_sweep(path, model):
@@ -293,7 +297,8 @@ class cluster:
             except (OSError, ValueError) as problem:
                 raise UserError(f"--scheduler {self.address}: {problem}") from None
         else:
-            self.local = LocalCluster(n_workers=self.workers, threads_per_worker=1, processes=True, dashboard_address=":0", silence_logs=logging.CRITICAL)
+            with deaf_children():
+                self.local = LocalCluster(n_workers=self.workers, threads_per_worker=1, processes=True, dashboard_address=":0", silence_logs=logging.CRITICAL)
             self.client = Client(self.local)
         return self.client
 
@@ -301,6 +306,19 @@ class cluster:
         self.client.close()
         if self.local:
             self.local.close()
+
+
+@contextlib.contextmanager
+def deaf_children():
+    """Processes started inside do not hear Ctrl-C, which a terminal sends to all of them: this program alone answers, once it has kept what is done."""
+    if threading.current_thread() is not threading.main_thread():
+        yield
+        return
+    before = signal.signal(signal.SIGINT, signal.SIG_IGN)
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGINT, before)
 
 
 def run_sweep(sweep, folder, client, progress=None, keys=None):
@@ -316,7 +334,7 @@ def run_sweep(sweep, folder, client, progress=None, keys=None):
     folder = Path(folder)
     progress = progress or (lambda *_: None)
     schema, design, keys = schema_of(sweep), list(sweep.scenes), list(keys or sweep.scenes)
-    finished = compact(folder, schema, design) & set(keys)
+    finished = compact(folder, schema, design, sweep.grows) & set(keys)
     done, failed = len(finished), 0
     progress(done, failed, len(keys))
     fmu = client.submit(bytes, sweep.fmu, key=f"fmu-{hashlib.sha256(sweep.fmu).hexdigest()}")  # as a task, so that Dask makes it again if its workers die
@@ -331,7 +349,7 @@ def run_sweep(sweep, folder, client, progress=None, keys=None):
             progress(done, failed, len(keys))
     finally:
         client.cancel(futures)
-    compact(folder, schema, design)
+    compact(folder, schema, design, sweep.grows)
     return columns_of(folder)
 
 
@@ -391,10 +409,11 @@ def write_row(path, row, schema):
     write_atomically(path, lambda temporary: parquet.write_table(table, temporary))
 
 
-def compact(folder, schema, keys):
+def compact(folder, schema, keys, grows=False):
     """Put all rows into one file, in the order of the design and each run once; returns the keys of the runs that are done.
 
-    If the design or the FMU has changed, the rows that no longer belong to the design go to a folder that readers pass over.  The new file is written
+    If the design or the FMU has changed, the rows that no longer belong to the design go to a folder that readers pass over, or behind the others if the
+    design grows.  The new file is written
     before the old ones are removed; a process that is killed in between leaves rows twice, until the next call.
     """
     import pyarrow as pa
@@ -407,6 +426,8 @@ def compact(folder, schema, keys):
     table = pa.concat_tables([schema.empty_table(), *(parquet.read_table(path) for path in files)], promote_options="default")
     facts = zip(*(table[name].to_pylist() for name in ("key", "status", "date")), strict=True)
     latest = {key: i for _, _, key, i in sorted((status == "done", date, key, i) for i, (key, status, date) in enumerate(facts))}
+    if grows:
+        keys = list(dict.fromkeys([*keys, *latest]))
     if foreign := [i for key, i in latest.items() if key not in set(keys)]:
         path = folder / SUPERSEDED / f"{datetime.now(UTC):%Y%m%d-%H%M%S-%f}.parquet"
         write_atomically(path, lambda temporary: parquet.write_table(table.take(foreign), temporary, compression="zstd"))

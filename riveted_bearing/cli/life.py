@@ -1,6 +1,5 @@
 """riveted-bearing life: from a mission's hours and events to the life of the rivets."""
 
-from contextlib import ExitStack
 from pathlib import Path
 from typing import Annotated
 
@@ -9,7 +8,7 @@ from rich.markup import escape
 from rich.table import Column, Table
 
 from ..results import make_folder
-from .terminal import FMU, SCHEDULER, STOPPED, WORKERS, command, console, messages, sweep_progress
+from .terminal import FMU, SCHEDULER, WORKERS, command, console, design_runs, messages
 
 
 @command
@@ -26,7 +25,6 @@ def life(
     from ..duty.notes import notes
     from ..duty.page import percent, write_page, write_picture
     from ..fmu import Model
-    from ..sweep import cluster
 
     model = Model(fmu)
     plan = load_mission(mission, model)
@@ -39,15 +37,9 @@ def life(
         if messages.is_terminal:
             messages.print(f"[dim]round {len(reached)}: half-width {percent(found.half_width)} of life, wanted {percent(target)}[/]")
 
-    with ExitStack() as stack:
-        progress = stack.enter_context(sweep_progress())
-        runs = Runs(plan, model, folder, started_once(stack, lambda: cluster(scheduler, workers)), lambda *numbers: progress(plan.name, *numbers))
-        try:
-            found = assess(plan, runs, say)
-        except KeyboardInterrupt:
-            stack.close()
-            messages.print(f"[yellow]interrupted:[/] finished runs are kept in {escape(str(folder))}; the same command goes on from there", soft_wrap=True)
-            raise typer.Exit(STOPPED) from None
+    with design_runs(plan.name, folder, scheduler, workers) as (client, progress):
+        runs = Runs(plan, model, folder, client, progress)
+        found = assess(plan, runs, say)
     remarks = notes(found, runs)
     print_life(found, remarks)
     for label, path in (
@@ -56,18 +48,6 @@ def life(
         ("picture", write_picture(found, folder / "life.png")),
     ):
         console.print(f"{label:8} [cyan]{escape(str(path))}[/]", soft_wrap=True)
-
-
-def started_once(stack, start):
-    """Function that starts a cluster when it is called for the first time and gives its client; the cluster ends with the stack."""
-    client = []
-
-    def get():
-        if not client:
-            client.append(stack.enter_context(start()))
-        return client[0]
-
-    return get
 
 
 def print_life(found, remarks):

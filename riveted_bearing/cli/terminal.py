@@ -1,6 +1,7 @@
 """Shared by all commands: the program, its two consoles, the decorator `command`, common options, progress bars."""
 
 import functools
+from contextlib import ExitStack
 from pathlib import Path
 from typing import Annotated
 
@@ -72,6 +73,33 @@ def number_or_text(value):
     return value
 
 
+class design_runs:
+    """Context of a study that simulates as it goes: gives a function that starts the cluster when it is first called, and a function for progress; Ctrl-C ends
+    the program with one line that says what is kept."""
+
+    def __init__(self, name, folder, scheduler, workers):
+        self.name, self.folder, self.scheduler, self.workers = name, folder, scheduler, workers
+        self.stack, self.running = ExitStack(), None
+
+    def client(self):
+        """The client of the cluster, which is started once."""
+        from ..sweep import cluster
+
+        if self.running is None:
+            self.running = self.stack.enter_context(cluster(self.scheduler, self.workers))
+        return self.running
+
+    def __enter__(self):
+        progress = self.stack.enter_context(sweep_progress())
+        return self.client, lambda *numbers: progress(self.name, *numbers)
+
+    def __exit__(self, kind, *_):
+        self.stack.close()
+        if kind is KeyboardInterrupt:
+            messages.print(f"[yellow]interrupted:[/] finished runs are kept in {escape(str(self.folder))}; the same command goes on from there", soft_wrap=True)
+            raise typer.Exit(STOPPED) from None
+
+
 class RealTimeFactor(ProgressColumn):
     """Wall time per simulated time so far."""
 
@@ -128,7 +156,7 @@ class sweep_progress:
         def progress(name, done, failed, total):
             if name not in tasks:  # runs that an earlier call has done do not count for the speed
                 tasks[name] = self.bar.add_task(name, total=total, completed=done, failed="")
-            self.bar.update(tasks[name], completed=done + failed, failed=f"[red]{failed} failed[/]" if failed else "")
+            self.bar.update(tasks[name], total=total, completed=done + failed, failed=f"[red]{failed} failed[/]" if failed else "")
 
         return progress
 
