@@ -24,10 +24,12 @@ def life(
     from ..duty.mission import load_mission
     from ..duty.notes import notes
     from ..duty.page import percent, write_page, write_picture
+    from ..duty.tolerances import RECORD, read_tolerances, scatter, write_scatter
     from ..fmu import Model
 
     model = Model(fmu)
     plan = load_mission(mission, model)
+    tolerances = read_tolerances(plan, model)
     folder = out or Path("results") / plan.name
     make_folder(folder)
     reached = []
@@ -40,13 +42,20 @@ def life(
     with design_runs(plan.name, folder, scheduler, workers) as (client, progress):
         runs = Runs(plan, model, folder, client, progress)
         found = assess(plan, runs, say)
-    remarks = notes(found, runs)
+        of_bearings = scatter(found, tolerances, model, folder, client, progress) if tolerances else None
+    remarks = notes(found, runs, of_bearings)
     print_life(found, remarks)
-    for label, path in (
+    files = [
         ("results", write_record(found, folder)),
         ("page", write_page(found, folder / "life.html", remarks)),
         ("picture", write_picture(found, folder / "life.png")),
-    ):
+    ]
+    if of_bearings:
+        from ..design.weibull import write_weibull_plot
+
+        files.append(("results", write_scatter(of_bearings, folder / RECORD)))
+        files.append(("picture", write_weibull_plot(of_bearings.law, f"{plan.name}: {tolerances.bearings} bearings", folder / "weibull.png")))
+    for label, path in files:
         console.print(f"{label:8} [cyan]{escape(str(path))}[/]", soft_wrap=True)
 
 

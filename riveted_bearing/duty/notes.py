@@ -5,8 +5,8 @@ import math
 from .page import percent
 
 
-def notes(life, runs):
-    """Sentences on a Life and its Runs."""
+def notes(life, runs, scatter=None):
+    """Sentences on a Life, its Runs and, if there are tolerances, the Scatter of bearings."""
     mission, found = life.mission, life.estimate
     settings = mission.settings
     reached = f"{percent(found.half_width)}, wanted {100 * settings['half_width']:g} %"
@@ -30,6 +30,14 @@ def notes(life, runs):
         sentences.append(
             f"Damage by the S-N curve of [sn] from rainflow matrices of the communication points; with the FMU's own law these matrices find "
             f"{100 * runs.counted():.3g} % of the damage that the FMU counts at every internal step."
+        )
+    if scatter:
+        law = scatter.law
+        low, high = law.b10_interval
+        noise = "" if math.isnan(scatter.noise) else f" The seeds have {100 * min(scatter.noise, 1.0):.2g} % of the scatter."
+        sentences.append(
+            f"Over {len(scatter.lives)} bearings within their tolerances: B10 {law.b10:.3g} h ({low:.3g} to {high:.3g} h at {100 * law.confidence:g} %), "
+            f"Weibull shape {law.beta:.3g}, characteristic life {law.eta:.3g} h.{noise}"
         )
     sentences.append(f"Processor time of the runs: {sum(runs.cost.values()):.0f} s in {len(runs.cost)} runs.")
     return sentences
