@@ -6,6 +6,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from scipy import stats
 
 from bearing_model.fatigue import FatigueLaw, fatigue_cycle
 from bearing_model.variables import MeanStress
