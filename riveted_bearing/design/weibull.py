@@ -73,7 +73,8 @@ def write_weibull_plot(law, title, path):
     """Weibull paper: lives at their median ranks, the law as a straight line, B10 with its interval; returns the path."""
     with plt.rc_context(STYLE):
         figure, ax = plt.subplots(figsize=(6.4, 4.8), layout="constrained")
-        low, high = 0.5 * min(law.lives.min(), law.b10_interval[0]), 1.6 * max(law.lives.max(), law.eta)
+        first, last = (law.eta * (-np.log1p(-share)) ** (1.0 / law.beta) for share in (0.01, 0.99))
+        low, high = 0.97 * min(law.lives.min(), law.b10_interval[0], first), 1.03 * max(law.lives.max(), law.b10_interval[1], last)
         t = np.geomspace(low, high, 100)
         ax.plot(t, (t / law.eta) ** law.beta, color=MIDDLE, lw=1.4, label=f"β {law.beta:.3g}, η {law.eta:.3g} h")
         ax.plot(law.lives, -np.log1p(-law.ranks), "o", color=FORCE, ms=4, label="lives, median ranks")
@@ -82,6 +83,7 @@ def write_weibull_plot(law, title, path):
         shares = np.array([0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 0.8, 0.95, 0.99])
         ax.set(xscale="log", yscale="log", xlabel="life [h]", ylabel="failed", xlim=(low, high), ylim=(0.6 * -np.log1p(-min(0.02, law.ranks.min())), 5.0))
         ax.set_yticks(-np.log1p(-shares), [f"{100 * share:g} %" for share in shares])
+        ax.set_xticks(ticks := np.unique([float(f"{x:.2g}") for x in np.geomspace(1.02 * low, 0.98 * high, 5)]), [f"{tick:,.4g}" for tick in ticks])
         ax.minorticks_off()
         ax.legend(loc="upper left")
         figure.suptitle(title, x=0.01, ha="left", fontsize=11)

@@ -147,14 +147,17 @@ def load_and_speed_chart(fig, life):
         x, colour, labels = speed, load, ("speed [rev/min]", "radial load [kN]")
     else:
         x, colour, labels = load, speed, ("radial load [kN]", "speed [rev/min]")
-    dots = ax.scatter(x, np.maximum(rate, 1e-300), s=18 + 130 * hours / hours.max(), c=colour, cmap="viridis", edgecolor=FORCE, lw=0.5, alpha=0.9)
+    varies = np.ptp(colour) > 0.0
+    look = {"c": colour, "cmap": "viridis"} if varies else {"color": MIDDLE}
+    dots = ax.scatter(x, np.maximum(rate, 1e-300), s=18 + 130 * hours / hours.max(), edgecolor=FORCE, lw=0.5, alpha=0.9, **look)
     ax.set(xlabel=labels[0], ylabel="damage per hour")
     if np.any(rate > 1e-299):
         ax.set_yscale("log")
         low, high = np.log10([rate[rate > 1e-299].min(), rate.max()])
         ax.set_ylim(10 ** (low - 0.12 * (high - low) - 0.3), 10 ** (high + 0.12 * (high - low) + 0.3))
     ax.margins(x=0.12)
-    fig.colorbar(dots, ax=ax, label=labels[1], pad=0.02).outline.set_visible(False)
+    if varies:
+        fig.colorbar(dots, ax=ax, label=labels[1], pad=0.02).outline.set_visible(False)
 
 
 def condition(values):
