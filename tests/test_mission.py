@@ -287,6 +287,7 @@ def test_page_and_picture_show_every_part(tmp_path, model):
 MISSION = """
 [simulation]
 t_end = 0.004
+step = "0.02 ms"
 [parameters]
 start.settle = "1 ms"
 [[point]]
@@ -351,7 +352,7 @@ def test_a_mission_stopped_by_the_keyboard_goes_on_to_the_same_life(tmp_path):
 
     runs = Runs(mission, model, tmp_path / "calm", no_cluster)
     longer = record(assess(mission, runs))
-    assert 0.9 < runs.counted() < 1.05  # matrices of the communication points against the FMU's count: observed 0.98 to 1.00
+    assert 0.95 < runs.counted() < 1.02  # matrices of the communication points against the FMU's count: 0.994 in runs of 0.15 s at this step
     assert longer["life_h"] == pytest.approx(2 * found["life_h"] / runs.counted(), rel=0.03)  # twice the cycles at the knee, twice the life
     assert (tmp_path / "calm" / "runs.parquet").stat().st_size == pytest.approx(before, rel=0.2)
 
