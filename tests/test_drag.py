@@ -25,7 +25,7 @@ def test_balls(core):
 
 
 def cage_moments(core, omega):
-    m = core.model()
+    m = core.model(parameters={"cage.width": 13.5e-3})
     for half, speed in zip(m.work.half, omega, strict=True):
         pose(core, half, Omega=(speed, 0.0, 0.0))
     m.work.land_dissipated = 0.0
