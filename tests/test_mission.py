@@ -193,6 +193,15 @@ def test_a_rare_point_is_left_out_only_if_it_cannot_matter(model):
             assert 1 / life.low == pytest.approx(1 / life.estimate.low + life.bounds[1])
 
 
+def test_the_bound_of_a_rare_point_is_the_largest_of_all(model):
+    """A quiet point bounds nothing: stress may grow from nearly nothing.  Loads of 1000 and 4000 N with 1e-30 and 1e-4 per hour; one second at 2000 N."""
+    mission = mission_of(model, [(500, {"shaft.F_y": 1000.0}), (500, {"shaft.F_y": 4000.0}), ("1 s", {"shaft.F_y": 2000.0})], life={"rivets": "alike"})
+    life = assess(mission, surrogate(np.array([1e-30, 1e-4, 1e-5])[:, None, None] * np.ones((3, Z, 2)), 0.0, np.random.default_rng(1)))
+    bound = 10 * 1e-4 * 2.0**15 / 3600 / 1000  # per hour of the mission, by the loud point
+    assert bound > 0.01 * 0.5 * 1e-4  # more than may be left out
+    assert not life.bounds and life.counts[2] == LIFE["min_seeds"]
+
+
 def test_preload_that_falls_is_simulated_at_each_factor(model):
     mission = mission_of(model, [(10, {})], preload_loss={"hours": [0, 100], "factor": [1, 0.5]}, life={"rivets": "alike"})
     assert [case.scene.parameters["joint.preload"] if "joint.preload" in case.scene.parameters else 20.0 for case in mission.cases] == [20.0, 10.0]

@@ -215,11 +215,13 @@ def bounded(mission, found, kept, rare):
 
     The damage of a point is at most that of a simulated point q times the ratio of their loads and of the square of their speeds, the larger over the
     smaller, to the power of the steeper slope of the S-N curve, times a safety of 10.  It rests on the assumption that stress changes no faster than loads and
-    centrifugal forces; less load may well do more damage, because the balls skid.
+    centrifugal forces; less load may well do more damage, because the balls skid.  Points that hardly do damage break the assumption (their cycles grow from
+    nearly nothing), so that the largest of the bounds by all simulated points counts.
     """
     duty, total = mission.duty, 1.0 / found.life if found.life > 0.0 else math.inf
     rate_of = dict(zip(kept, found.shares * total / np.maximum(duty.weights[list(kept)], 1e-300), strict=True))
-    bounds = {i: duty.weights[i] * min((bound(mission, rate_of[q], q, i) for q in kept), default=math.inf) for i in rare}
+    comparable = {i: [b for q in kept if math.isfinite(b := bound(mission, rate_of[q], q, i))] for i in rare}
+    bounds = {i: duty.weights[i] * max(comparable[i], default=math.inf) for i in rare}
     chosen, left = {}, mission.settings["skip"] * total
     for i in sorted(bounds, key=bounds.get):
         left -= bounds[i]
