@@ -121,3 +121,12 @@ def largest_of(values):
 def length_of(values):
     """Length of the vector of the columns at each time."""
     return np.sqrt((values**2).sum(axis=1))
+
+
+def assumed_ranges(model):
+    """Documented ranges of the assumed parameters that the bearing's file does not give: {name: (lowest, highest)} in SI."""
+    return {
+        name: (low * model.default(model.parameters[name]), high * model.default(model.parameters[name]))
+        for name, (low, high, _) in variables.ASSUMPTIONS.items()
+        if name in model.parameters and model.origin.get(name) != "yours"
+    }

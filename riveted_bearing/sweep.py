@@ -81,6 +81,8 @@ class Sweep:
     document: dict
     factors: tuple
     scenes: dict = field(repr=False)  # key -> Scene, in the order in which they are run
+    further: tuple = ()  # further columns of a row: function of a run's Result that gives them by name, and function that gives their fields
+    grows: bool = False  # whether further runs may join the design: rows that do not belong to it are kept
 
 
 def load_sweep(path, model):
@@ -245,8 +247,8 @@ def key_of(scene, fingerprint):
 # What a worker does --------------------------------------------------------------------------------------------------------------------------
 
 
-def perform(scene, fmu):
-    """Run a scene through the FMU given as bytes; returns the measured part of the row."""
+def perform(scene, fmu, measure=None):
+    """Run a scene through the FMU given as bytes; returns the measured part of the row, with what measure(result) finds if it is given."""
     started, cpu = datetime.now(UTC).isoformat(timespec="milliseconds"), time.thread_time()
     try:
         result = simulate(unpacked(fmu), scene)
@@ -255,7 +257,7 @@ def perform(scene, fmu):
     late = settled(result)
     sampled = {f"{kind}({name})": float(of(result.data[name][late])) for name in scene.outputs for kind, of in KINDS.items()}
     about = {"status": "stopped" if result.stopped else "done", "message": result.stopped, "date": started, "whole_cpu_time": time.thread_time() - cpu}
-    return about | result.summary | sampled
+    return about | result.summary | sampled | (measure(result) if measure else {})
 
 
 def unpacked(fmu):
@@ -310,16 +312,17 @@ class cluster:
                 self.local.close()
 
 
-def run_sweep(sweep, folder, client, progress=None):
-    """Do the runs that a sweep's folder lacks and return the rows of the whole sweep.
+def run_sweep(sweep, folder, client, progress=None, keys=None):
+    """Do the runs that a sweep's folder lacks and return the rows that it then has.
 
     folder: of the Parquet dataset, made if need be; client: of a Dask cluster whose workers have this package (the FMU travels with the runs);
-    progress: called with the numbers of runs done, failed, and in all.  A worker that dies is replaced by another; its run counts once.
+    progress: called with the numbers of runs done, failed, and in all; keys: of the runs that are wanted, None for all.
+    A worker that dies is replaced by another; its run counts once.
     A run that fails is a row with status and message, and is tried again in the next call.
     """
     folder = Path(folder)
     with alone_in(folder):
-        return run_missing(sweep, folder, client, progress or (lambda *_: None))
+        return run_missing(sweep, folder, client, progress or (lambda *_: None), keys)
 
 
 @contextlib.contextmanager
@@ -333,16 +336,16 @@ def alone_in(folder):
         raise UserError(f"{folder}: another sweep is writing to this folder: wait until it has ended, or name another folder with --out") from None
 
 
-def run_missing(sweep, folder, client, progress):
+def run_missing(sweep, folder, client, progress, keys):
     """run_sweep without a second one in the same folder."""
     from distributed import as_completed
 
-    schema, keys = schema_of(sweep), list(sweep.scenes)
-    finished = compact(folder, schema, keys)
+    schema, design, keys = schema_of(sweep), list(sweep.scenes), list(keys or sweep.scenes)
+    finished = compact(folder, schema, design, sweep.grows) & set(keys)
     done, failed = len(finished), 0
     progress(done, failed, len(keys))
     fmu = client.submit(bytes, sweep.fmu, key=f"fmu-{hashlib.sha256(sweep.fmu).hexdigest()}")  # as a task, so that Dask makes it again if its workers die
-    futures = [client.submit(perform, sweep.scenes[key], fmu, key=f"run-{key}") for key in keys if key not in finished]
+    futures = [client.submit(perform, sweep.scenes[key], fmu, *sweep.further[:1], key=f"run-{key}") for key in keys if key not in finished]
     try:
         for future in as_completed(futures):
             if future.status in ("cancelled", "lost"):
@@ -359,7 +362,7 @@ def run_missing(sweep, folder, client, progress):
     finally:
         with ignored_interrupts():
             client.cancel(futures)
-    compact(folder, schema, keys)
+    compact(folder, schema, design, sweep.grows)
     return columns_of(folder)
 
 
@@ -396,6 +399,7 @@ def schema_of(sweep):
     fields += [pa.field(name, kinds[v.type], metadata={"unit": units[name]}) for name, v in (model.parameters | model.inputs).items()]
     fields += [pa.field(name, pa.float64(), metadata={"unit": units[name]}) for name in closing_names(model)]
     fields += [pa.field(f"{kind}({name})", pa.float64(), metadata={"unit": units[name]}) for name in outputs for kind in KINDS]
+    fields += [further for give in sweep.further[1:] for further in give()]
     about = {
         "format": ROW_VERSION,
         "sweep": sweep.name,
@@ -427,11 +431,11 @@ def read_rows(path):
         raise UserError(f"{path}: not a result of a sweep, or damaged: {one_line(problem)}; without this file its runs are done again") from None
 
 
-def compact(folder, schema, keys):
+def compact(folder, schema, keys, grows=False):
     """Put all rows into one file, in the order of the design and each run once; returns the keys of the runs that are done.
 
-    If the design or the FMU has changed, the rows that no longer belong to the design go to a folder that readers pass over.  The new file is written
-    before the old ones are removed; a process that is killed in between leaves rows twice, until the next call.
+    If the design or the FMU has changed, the rows that no longer belong to the design go to a folder that readers pass over, or behind the others if the
+    design grows.  The new file is written before the old ones are removed; a process that is killed in between leaves rows twice, until the next call.
     """
     import pyarrow as pa
 
@@ -442,6 +446,8 @@ def compact(folder, schema, keys):
     table = pa.concat_tables([schema.empty_table(), *(read_rows(path) for path in files)], promote_options="default")
     facts = zip(*(table[name].to_pylist() for name in ("key", "status")), strict=True)
     latest = {key: i for _, i, key in sorted((status == "done", i, key) for i, (key, status) in enumerate(facts))}  # whatever the clocks say
+    if grows:
+        keys = list(dict.fromkeys([*keys, *latest]))
     if foreign := [i for key, i in latest.items() if key not in set(keys)]:
         path = folder / SUPERSEDED / f"{datetime.now(UTC):%Y%m%d-%H%M%S}-{uuid.uuid4().hex[:8]}.parquet"
         write_atomically(path, lambda temporary: write_table(table.take(foreign), temporary))

@@ -16,6 +16,7 @@ from riveted_bearing import UserError, run
 from riveted_bearing import sweep as engine
 from riveted_bearing.fmu import Model
 from riveted_bearing.sweep import SUPERSEDED, cluster, columns_of, load_sweep, outcome, run_sweep
+from riveted_bearing.sweep_table import lines, sweep_table, write_page, write_picture
 
 ROOT = Path(__file__).resolve().parents[1]
 SHORT = '[simulation]\nt_end = 2e-3\n[parameters]\nstart.settle = "0.5 ms"\n'  # 4 ms of processor time a run
@@ -249,3 +250,20 @@ def test_the_command_shows_failures_and_says_where_the_rows_are(tmp_path):
     )
     assert done.returncode == 3 and "2 runs, 1 of them failed" in done.stdout and "refuses to start" in done.stderr and "Traceback" not in done.stderr
     assert (tmp_path / "results" / "mine" / "runs.parquet").is_file() and "results/mine" in done.stdout
+
+
+def test_a_sweep_ends_with_a_table_a_picture_and_a_page(tmp_path, model, client):
+    """Means and intervals by hand from the rows: Student's t with two degrees of freedom, 4.3027."""
+    sweep = plan(tmp_path, model, "repeats = 3\n" + SHORT + '[[vary]]\njoint.preload = [10, 30]\n[[vary]]\nscene.stress = ["fatigue"]')
+    rows = run_sweep(sweep, tmp_path / "out", client)
+    table = sweep_table(sweep, rows)
+    assert table.factors == ("joint.preload", "scene.stress") and table.points == [(10.0, "fatigue"), (30.0, "fatigue")] and table.seeds.tolist() == [3, 3]
+    stress = rows["stat.sigma_head_p999"][rows["joint.preload"] == 30.0] / 1e6
+    first = table.responses[0]
+    assert first.mean[1] == pytest.approx(stress.mean(), rel=1e-12)
+    assert first.half[1] == pytest.approx(4.302653 * stress.std(ddof=1) / np.sqrt(3), rel=1e-6, abs=1e-12)
+    heads, cells = lines(table)
+    assert heads[:3] == ["joint.preload", "scene.stress", "seeds"] and len(cells) == 2 and "log10 damage per hour" in heads
+    assert write_picture(table, tmp_path / "sweep.png").stat().st_size > 20000
+    page = write_page(table, "<mine>", tmp_path / "sweep.html").read_text()
+    assert "&lt;mine&gt;" in page and page.count("<svg") == len(table.responses) and cells[1][3] in page

@@ -1,14 +1,14 @@
 """riveted-bearing sweep: many runs, one row each."""
 
-import functools
 from pathlib import Path
 from typing import Annotated
 
 import typer
 from rich.markup import escape
+from rich.table import Column, Table
 
 from ..results import make_folder
-from .terminal import FMU, SCHEDULER, STOPPED, WORKERS, command, console, messages, resumable, sweep_progress
+from .terminal import FMU, SCHEDULER, STOPPED, WORKERS, command, console, design_runs, messages
 
 
 @command
@@ -18,21 +18,45 @@ def sweep(
     out: Annotated[Path | None, typer.Option(help="folder of the Parquet dataset; default: results/STUDY")] = None,
     scheduler: SCHEDULER = None,
     workers: WORKERS = None,
+    report: Annotated[bool, typer.Option("--report", help="write a page with table and charts, sweep.html")] = False,
 ):
     """Run a design of experiments on a Dask cluster, one row a run; a second call does only missing runs."""
     from ..fmu import Model
-    from ..sweep import cluster, load_sweep, run_sweep
+    from ..sweep import load_sweep, run_sweep
+    from ..sweep_table import sweep_table, write_page, write_picture
 
     plan = load_sweep(study, Model(fmu))
     folder = out or Path("results") / plan.name
     make_folder(folder)
-    with resumable(folder), cluster(scheduler, workers) as client, sweep_progress() as progress:
-        rows = run_sweep(plan, folder, client, functools.partial(progress, plan.name))
+    with design_runs(plan.name, folder, scheduler, workers) as (client, progress):
+        rows = run_sweep(plan, folder, client(), progress)
     failures = rows["message"][rows["status"] != "done"]
     spent = rows["cpu_time"][rows["status"] == "done"].sum()
+    table = sweep_table(plan, rows)
+    if table.responses:
+        print_table(table)
     console.print(f"{len(rows['key'])} runs, {len(failures)} of them failed, CPU time {spent:.1f} s")
     console.print(f"results  [cyan]{escape(str(folder))}[/]", soft_wrap=True)
+    if table.responses:
+        console.print(f"picture  [cyan]{escape(str(write_picture(table, folder / 'sweep.png')))}[/]", soft_wrap=True)
+    if table.responses and report:
+        console.print(f"page     [cyan]{escape(str(write_page(table, plan.description, folder / 'sweep.html')))}[/]", soft_wrap=True)
     for text in dict.fromkeys(failures):
         messages.print(f"[bold red]failed:[/] {escape(text)}", soft_wrap=True)
     if len(failures):
         raise typer.Exit(STOPPED)
+
+
+def print_table(table):
+    """Means over seeds with their confidence, the first lines of the design."""
+    from ..sweep_table import CONFIDENCE, LARGEST, lines
+
+    heads, cells = lines(table)
+    shown = Table(*(Column(escape(head), justify="right") for head in heads), box=None, pad_edge=False)
+    for row in cells[:LARGEST]:
+        shown.add_row(*map(escape, row))
+    console.print(shown)
+    if len(cells) > LARGEST:
+        console.print(f"... {len(cells) - LARGEST} more points: --report has them all")
+    if any(table.seeds > 1):
+        console.print(f"[dim]means over seeds ± half-width of the {100 * CONFIDENCE:g} % interval; factors in SI units[/]")

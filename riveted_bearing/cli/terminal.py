@@ -106,6 +106,17 @@ def number_or_text(value):
     return value
 
 
+@contextlib.contextmanager
+def design_runs(name, folder, scheduler, workers):
+    """For a study that simulates as it goes: gives a function that starts the cluster when it is first called, and a function for progress."""
+    from ..sweep import cluster
+
+    with resumable(folder), contextlib.ExitStack() as stack:
+        progress = stack.enter_context(sweep_progress())
+        client = functools.cache(lambda: stack.enter_context(cluster(scheduler, workers)))
+        yield client, functools.partial(progress, name)
+
+
 class RealTimeFactor(ProgressColumn):
     """Wall time per simulated time so far."""
 
@@ -162,7 +173,7 @@ class sweep_progress:
         def progress(name, done, failed, total):
             if name not in tasks:  # runs that an earlier call has done do not count for the speed
                 tasks[name] = self.bar.add_task(name, total=total, completed=done, failed="")
-            self.bar.update(tasks[name], completed=done + failed, failed=f"[red]{failed} failed[/]" if failed else "")
+            self.bar.update(tasks[name], total=total, completed=done + failed, failed=f"[red]{failed} failed[/]" if failed else "")
 
         return progress
 

@@ -1,0 +1,54 @@
+"""riveted-bearing optimize: which values to choose."""
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+from rich.markup import escape
+from rich.table import Column, Table
+
+from ..results import make_folder
+from ..scene import read_toml
+from .terminal import FMU, SCHEDULER, WORKERS, command, console, design_runs
+
+
+@command
+def optimize(
+    study: Annotated[Path, typer.Argument(help="study file (TOML): variables, limits, objectives; see docs/life.md", metavar="STUDY.toml")],
+    fmu: FMU = None,
+    out: Annotated[Path | None, typer.Option(help="folder of runs, optimize.json and picture; default: results/STUDY")] = None,
+    scheduler: SCHEDULER = None,
+    workers: WORKERS = None,
+):
+    """Which values to choose: a search under the noise of the seeds, its best points again with fresh seeds; a second call does only missing runs."""
+    from ..design.bench import Bench
+    from ..design.optimize import plan_optimize, search, write_optimum, write_picture
+    from ..errors import UserError
+    from ..fmu import Model
+
+    if not study.is_file():
+        raise UserError(f"{study}: no such study file")
+    model, document = Model(fmu), read_toml(study)
+    plan = plan_optimize(study, document, model)
+    folder = out or Path("results") / study.stem
+    make_folder(folder)
+    with design_runs(study.stem, folder, scheduler, workers) as (client, progress):
+        found = search(plan, Bench(study, document, model, folder, client, progress))
+    print_optimum(found)
+    for label, path in (("results", write_optimum(found, folder / "optimize.json")), ("picture", write_picture(found, folder / "optimize.png"))):
+        console.print(f"{label:8} [cyan]{escape(str(path))}[/]", soft_wrap=True)
+
+
+def print_optimum(found):
+    """The points simulated again, the recommended one marked."""
+    from ..design.optimize import label
+
+    study = found.study
+    heads = [*study.box.names, *map(label, study.responses)]
+    table = Table("", *(Column(escape(text), justify="right") for text in heads), box=None, pad_edge=False)
+    for place, (i, mean, error) in enumerate(zip(found.candidates, found.means, found.errors, strict=True)):
+        cells = [f"{value:.4g}" for value in found.points[i]] + [f"{m:.4g} ± {e:.2g}" for m, e in zip(mean, error, strict=True)]
+        table.add_row("recommended" if place == found.best else "", *cells, style="bold" if place == found.best else None)
+    console.print(table)
+    text = f"{len(found.points)} points searched; means ± standard error over {study.check_seeds} seeds that the search has not seen"
+    console.print(f"[dim]{text}{'' if found.best is not None else '; none of them keeps the limits'}[/]", soft_wrap=True)

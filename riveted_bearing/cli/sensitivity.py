@@ -1,0 +1,60 @@
+"""riveted-bearing sensitivity: which parameters decide."""
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+from rich.markup import escape
+from rich.table import Column, Table
+
+from ..results import make_folder
+from ..scene import read_toml
+from .terminal import FMU, SCHEDULER, WORKERS, command, console, design_runs
+
+
+@command
+def sensitivity(
+    study: Annotated[Path, typer.Argument(help="study file (TOML): factors with ranges, responses; see docs/life.md", metavar="STUDY.toml")],
+    fmu: FMU = None,
+    out: Annotated[Path | None, typer.Option(help="folder of runs, sensitivity.json and picture; default: results/STUDY")] = None,
+    scheduler: SCHEDULER = None,
+    workers: WORKERS = None,
+):
+    """What decides life and stress: screening of all factors (Morris), then shares of the variance (Sobol); a second call does only missing runs."""
+    from ..design.bench import Bench
+    from ..design.sensitivity import analyse, plan_sensitivity, write_indices, write_picture
+    from ..errors import UserError
+    from ..fmu import Model
+    from ..summary import assumed_ranges
+
+    if not study.is_file():
+        raise UserError(f"{study}: no such study file")
+    model, document = Model(fmu), read_toml(study)
+    plan = plan_sensitivity(study, document, model, assumed_ranges(model))
+    folder = out or Path("results") / study.stem
+    make_folder(folder)
+    with design_runs(study.stem, folder, scheduler, workers) as (client, progress):
+        found = analyse(plan, Bench(study, document, model, folder, client, progress))
+    print_indices(found)
+    for label, path in (("results", write_indices(found, folder / "sensitivity.json")), ("picture", write_picture(found, folder / "sensitivity.png"))):
+        console.print(f"{label:8} [cyan]{escape(str(path))}[/]", soft_wrap=True)
+
+
+def print_indices(found):
+    """One table for each response."""
+    from ..design.sensitivity import order
+
+    for name in found.responses:
+        morris, sobol = found.morris[name], found.sobol.get(name)
+        noise = "" if morris["noise"] is None else f", seeds alone {morris['noise']:.3g}"
+        share = "" if sobol is None or sobol["noise"] is None else f", seeds have {100 * sobol['noise']:.2g} % of the variance"
+        console.print(f"\n[bold]{escape(name)}[/]  [dim]mu* of Morris{noise}{share}[/]", soft_wrap=True)
+        heads = ("mu*", "±", "sigma", "S1", "±", "ST", "±")
+        table = Table("factor", *(Column(text, justify="right") for text in heads), box=None, pad_edge=False)
+        for k in order(found, name):
+            cells = [f"{morris[key][k]:.3g}" for key in ("mu_star", "mu_star_conf", "sigma")]
+            if found.factors[k] in found.chosen and sobol:
+                place = found.chosen.index(found.factors[k])
+                cells += [f"{sobol[key][place]:.2f}" for key in ("S1", "S1_conf", "ST", "ST_conf")]
+            table.add_row(escape(found.factors[k]), *cells)
+        console.print(table)

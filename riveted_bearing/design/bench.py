@@ -1,0 +1,139 @@
+"""The bench of a study: points of a box of parameters, simulated with common seeds, and the responses that the study asks for.
+
+    scene = "demo"                       # as in a sweep, and so are [simulation], [parameters], [inputs]
+    seeds = 3                            # runs of each point, the same start.seed for all points
+    seed = 1                             # first start.seed, and seed of the study's own choices
+    [between]                            # lowest and highest value
+    joint.preload = ["5 N", "60 N"]
+
+Responses: damage (log10 of Miner's sum per hour at the worst place), stress (99.9 % quantile of the worst head [Pa]), dislocation (largest between the
+halves [m]), friction (mean torque [N.m]), pocket_force (RMS [N]), or the name of any column of a sweep's rows.
+"""
+
+import hashlib
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+
+from ..errors import UserError, unknown
+from ..scene import leaves, load_scene, refusal, section_of
+from ..sweep import Sweep, beside, bounds, columns_of, compact, count_of, key_of, known_names, run_sweep, schema_of, sections_of
+
+COMMON = ("description", "scene", "simulation", "parameters", "inputs", "between", "seeds", "seed")
+OUTPUTS = ["cage.dislocation", "bearing.friction_torque"]
+COLUMNS = {
+    "stress": "stat.sigma_head_p999",
+    "dislocation": "max(cage.dislocation)",
+    "friction": "mean(bearing.friction_torque)",
+    "pocket_force": "stat.Q_c_rms",
+}
+UNITS = {"damage": "log10 per hour", "stress": "Pa", "dislocation": "m", "friction": "N.m", "pocket_force": "N"}
+NO_DAMAGE = 1e-300
+
+
+class Box:
+    """Names of what varies with the lowest and highest SI values [d]."""
+
+    def __init__(self, path, section, model, default=None):
+        found = dict(leaves(section, known_names(model))) or dict(default or {})
+        if not found:
+            raise UserError(f"{path}: between: name at least one parameter or input with its lowest and highest value")
+        pairs = []
+        for name, pair in found.items():
+            if name not in known_names(model) or name == "scene":
+                raise unknown(path, "parameter or input", name, known_names(model))
+            if not isinstance(pair, (list, tuple)) or len(pair) != 2:
+                raise refusal(path, f"between.{name}", pair, "[lowest, highest] is needed")
+            low, high = bounds(path, name, pair, model)
+            if not low < high:
+                raise refusal(path, f"between.{name}", list(pair), "the lowest value must be below the highest")
+            pairs.append((low, high))
+        self.names, self.low, self.high = list(found), *np.array(pairs).T
+
+    def problem(self):
+        """The box as SALib has it."""
+        return {"num_vars": len(self.names), "names": self.names, "bounds": np.column_stack([self.low, self.high]).tolist()}
+
+    def chosen(self, names):
+        """The box of some of its names."""
+        other = object.__new__(Box)
+        places = [self.names.index(name) for name in names]
+        other.names, other.low, other.high = list(names), self.low[places], self.high[places]
+        return other
+
+
+class Bench:
+    """Simulates points of a box and returns responses; a call again for the same points reads them from the folder.
+
+    client: function that gives the Dask client, called once something has to be simulated; progress: as of run_sweep.
+    """
+
+    def __init__(self, path, document, model, folder, client, progress=None):
+        self.path, self.document, self.model, self.folder, self.client, self.progress = Path(path), document, model, Path(folder), client, progress
+        common = {section: section_of(path, document, section) for section in ("simulation", "parameters", "inputs")}
+        common["simulation"] = {"outputs": OUTPUTS} | common["simulation"]
+        common["parameters"] = {"scene.stress": "fatigue"} | common["parameters"]
+        self.scene = load_scene(beside(path, document.get("scene", "demo")), model, (str(path), common))
+        self.common, self.source = common, beside(path, document.get("scene", "demo"))
+        self.seeds = count_of(path, "seeds", document.get("seeds", 2))
+        self.first = count_of(path, "seed", document.get("seed", 1))
+        self.fmu = model.path.read_bytes()
+        self.fingerprint = hashlib.sha256(self.fmu).hexdigest()
+        self.scenes = {}
+
+    def scene_at(self, names, point):
+        """The scene of one point."""
+        settings = dict(zip(names, map(float, point), strict=True))
+        return load_scene(self.source, self.model, (str(self.path), self.common), (str(self.path), sections_of(settings, self.model)))
+
+    def __call__(self, names, points, responses, seeds=None):
+        """Responses of the points [n, d] with each seed, [n, seeds, m]; seeds: start.seed of the runs, None for those of the study."""
+        seeds = list(range(self.first, self.first + self.seeds)) if seeds is None else list(seeds)
+        keys = []
+        for point in points:
+            scene = self.scene_at(names, point)
+            for seed in seeds:
+                run = replace(scene, parameters=scene.parameters | {"start.seed": seed})
+                keys.append(key_of(run, self.fingerprint))
+                self.scenes[keys[-1]] = run
+        sweep = Sweep(self.path.stem, str(self.document.get("description", "")), self.model, self.fmu, self.document, tuple(names), self.scenes, (), True)
+        stored = compact(self.folder, schema_of(sweep), list(self.scenes), True)
+        wanted = list(dict.fromkeys(keys))
+        rows = run_sweep(sweep, self.folder, self.client(), self.progress, wanted) if set(wanted) - stored else columns_of(self.folder)
+        places = {key: i for i, key in enumerate(rows["key"])}
+        chosen = np.array([places[key] for key in keys])
+        for i in chosen:
+            if rows["status"][i] == "failed":
+                raise UserError(f"{self.path}: {self.point_text(names, rows, i)}: the run failed: {rows['message'][i]}")
+        values = np.column_stack([response(self.path, rows, name)[chosen] for name in responses])
+        values[rows["status"][chosen] == "stopped"] = np.nan
+        return values.reshape(len(points), len(seeds), len(responses))
+
+    def point_text(self, names, rows, i):
+        """A point in words."""
+        return ", ".join(f"{name} = {rows[name][i]:g}" for name in names if name in rows)
+
+
+def response(path, rows, name):
+    """A response of all rows."""
+    if name == "damage":
+        damage = np.column_stack([rows[column] for column in rows if column.startswith("rivet[") and ".damage_" in column])
+        hours = (rows["simulated_time"] - rows["start.settle"]) / 3600.0
+        return np.log10(np.maximum(np.nanmax(np.nan_to_num(damage), axis=1) / np.maximum(hours, 1e-12), NO_DAMAGE))
+    column = COLUMNS.get(name, name)
+    if column not in rows or not np.issubdtype(np.asarray(rows[column]).dtype, np.number):
+        raise unknown(path, "response", name, ["damage", *COLUMNS, *(key for key in rows if np.issubdtype(np.asarray(rows[key]).dtype, np.number))])
+    return np.asarray(rows[column], float)
+
+
+def response_names(path, key, value):
+    """A list of names of responses."""
+    if not isinstance(value, list) or not value or not all(isinstance(name, str) for name in value) or len(set(value)) != len(value):
+        raise refusal(path, key, value, f"a list of different responses is needed, such as {', '.join(['damage', *COLUMNS])}")
+    return value
+
+
+def noise_variance(values):
+    """Variance that the seeds leave in the mean of a point, for each response [m]; values [n, seeds, m]; nan with one seed."""
+    return values.var(axis=1, ddof=1).mean(axis=0) / values.shape[1] if values.shape[1] > 1 else np.full(values.shape[2], np.nan)

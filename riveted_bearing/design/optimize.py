@@ -1,0 +1,242 @@
+"""What to choose: the point of a box at which responses are smallest, found by Optuna under the noise of the seeds.
+
+    objectives = ["damage", "friction"]  # to be small; "-name" to be large
+    trials = 60
+    batch = 4                            # points simulated side by side
+    check_seeds = 8                      # fresh seeds of the points that look best
+    candidates = 5                       # how many of them
+    [limits]                             # responses that may not exceed a value
+    stress = "150 MPa"
+
+The search sees each point as a mean over common seeds (tree-structured Parzen estimator).  What looks best under noise is partly luck, so that the candidates,
+one of several objectives the ones of the Pareto front, are simulated again with fresh seeds, and the answer and its confidence come from these alone.
+The search repeats itself bit by bit from its seed, so that a call after a stop reads the runs that are done and goes on from there.
+"""
+
+import json
+import math
+import warnings
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from ..errors import UserError, unknown
+from ..plot import FORCE, HEAD, MIDDLE, MUTED, STYLE, plt
+from ..results import write_atomically
+from ..scene import refusal, section_of
+from ..sweep import count_of
+from ..units import to_si
+from .bench import COLUMNS, COMMON, UNITS, Box, response_names
+
+KEYS = (*COMMON, "objectives", "limits", "trials", "batch", "check_seeds", "candidates")
+COUNTS = {"trials": 40, "batch": 4, "check_seeds": 8, "candidates": 5}
+FRESH = 1000  # added to start.seed: seeds that the search has not seen
+BAD = 1e30  # of an objective whose run was stopped
+
+
+@dataclass(frozen=True)
+class Study:
+    """An optimization that was checked; signs: 1 to make an objective small, -1 to make it large; limits: {response: largest value}."""
+
+    path: Path
+    description: str
+    box: Box
+    objectives: list
+    signs: np.ndarray
+    limits: dict
+    trials: int
+    batch: int
+    check_seeds: int
+    candidates: int
+    seed: int
+
+    @property
+    def responses(self):
+        """Objectives, then what limits alone ask for."""
+        return [*self.objectives, *(name for name in self.limits if name not in self.objectives)]
+
+
+@dataclass(frozen=True)
+class Optimum:
+    """points [n, d] of the search in its order with their means over seeds [n, m]; candidates: numbers of those simulated again, their means [c, m] and
+    standard errors over fresh seeds; best: place among the candidates, None if none keeps the limits."""
+
+    study: Study
+    points: np.ndarray
+    values: np.ndarray
+    candidates: list
+    means: np.ndarray
+    errors: np.ndarray
+    best: int | None
+
+
+def plan_optimize(path, document, model):
+    """The Study of a document; raises UserError naming what cannot be used."""
+    for key in document:
+        if key not in KEYS:
+            raise unknown(path, "key", key, KEYS)
+    counts = {key: count_of(path, key, document.get(key, default)) for key, default in COUNTS.items()}
+    if counts["check_seeds"] < 2:
+        raise refusal(path, "check_seeds", counts["check_seeds"], "from 2 on, which show scatter, is allowed")
+    objectives = response_names(path, "objectives", document.get("objectives", ["damage"]))
+    signs = np.array([-1.0 if name.startswith("-") else 1.0 for name in objectives])
+    limits = {}
+    for name, value in section_of(path, document, "limits").items():
+        column = COLUMNS.get(name, name)
+        variable = model.outputs.get(column) or model.outputs.get(column.split("(")[-1].removesuffix(")"))
+        try:
+            limits[name] = to_si(value, model.units[variable.unit] if variable else {"1": (1.0, 0.0)})
+        except UserError as problem:
+            raise refusal(path, f"limits.{name}", value, problem) from None
+    box = Box(path, section_of(path, document, "between"), model)
+    names = [name.removeprefix("-") for name in objectives]
+    seed = count_of(path, "seed", document.get("seed", 1))
+    return Study(Path(path), str(document.get("description", "")), box, names, signs, limits, **counts, seed=seed)
+
+
+def optuna_library():
+    """Optuna; UserError if it is missing."""
+    try:
+        import optuna
+    except ImportError:
+        raise UserError('optimize: needs the library Optuna: pip install "riveted-bearing[design]"') from None
+    optuna.logging.set_verbosity(optuna.logging.ERROR)
+    return optuna
+
+
+def search(study, evaluate):
+    """The Optimum; evaluate(names, points [n, d], responses, seeds=None) returns [n, seeds, m]."""
+    points, values = explore(study, evaluate)
+    candidates = most_promising(study, values)
+    fresh = range(study.seed + FRESH, study.seed + FRESH + study.check_seeds)
+    again = evaluate(study.box.names, points[candidates], study.responses, seeds=fresh)
+    means, errors = again.mean(axis=1), again.std(axis=1, ddof=1) / math.sqrt(study.check_seeds)
+    allowed = np.all(excess(study, means) <= 0.0, axis=1) & np.isfinite(means).all(axis=1)
+    best = min(np.flatnonzero(allowed), key=lambda i: distance(study, means, allowed)[i]) if allowed.any() else None
+    return Optimum(study, points, values, candidates, means, errors, None if best is None else int(best))
+
+
+def explore(study, evaluate):
+    """Points of the search [n, d] and their means over seeds [n, m]."""
+    optuna = optuna_library()
+    sampler = optuna.samplers.TPESampler(seed=study.seed, n_startup_trials=max(8, study.trials // 5), **quiet(optuna))
+    found = optuna.create_study(directions=["minimize"] * len(study.objectives), sampler=sampler)
+    points, values = [], []
+    while len(points) < study.trials:
+        trials = [found.ask() for _ in range(min(study.batch, study.trials - len(points)))]
+        batch = [
+            [trial.suggest_float(name, low, high) for name, low, high in zip(study.box.names, study.box.low, study.box.high, strict=True)] for trial in trials
+        ]
+        means = evaluate(study.box.names, np.array(batch), study.responses).mean(axis=1)
+        for trial, mean in zip(trials, means, strict=True):
+            for name, over in zip(study.limits, excess(study, mean[None])[0], strict=True):
+                trial.set_constraint(name, over)
+            found.tell(trial, np.nan_to_num(study.signs * mean[: len(study.objectives)], nan=BAD).tolist())
+        points, values = [*points, *batch], [*values, *means]
+    return np.array(points), np.array(values)
+
+
+def quiet(optuna):
+    """Options of the sampler that Optuna calls experimental: variables together, and points of one batch apart from each other."""
+    warnings.filterwarnings("ignore", category=optuna.exceptions.ExperimentalWarning)
+    return {"multivariate": True, "constant_liar": True}
+
+
+def excess(study, values):
+    """By how much the responses [n, m] exceed their limits [n, limits]; stopped runs exceed them by far."""
+    over = [values[:, study.responses.index(name)] - limit for name, limit in study.limits.items()]
+    return np.nan_to_num(np.column_stack(over), nan=BAD) if over else np.zeros((len(values), 0))
+
+
+def front(study, values):
+    """Mask of the points that keep the limits and that no other such point beats in all objectives [n]."""
+    costs = study.signs * values[:, : len(study.objectives)]
+    allowed = np.all(excess(study, values) <= 0.0, axis=1) & np.isfinite(costs).all(axis=1)
+    beaten = [any(np.all(costs[j] <= costs[i]) and np.any(costs[j] < costs[i]) for j in np.flatnonzero(allowed)) for i in range(len(costs))]
+    return allowed & ~np.array(beaten)
+
+
+def distance(study, values, allowed):
+    """Distance of points from the best of all objectives at once, each scaled by its range among the allowed points [n]; the value itself for one objective."""
+    costs = study.signs * values[:, : len(study.objectives)]
+    low = costs[allowed].min(axis=0)
+    width = np.ptp(costs[allowed], axis=0)
+    return np.linalg.norm((costs - low) / np.where(width > 0.0, width, 1.0), axis=1)
+
+
+def most_promising(study, values):
+    """Numbers of the points to simulate again: the front's nearest to the best of all objectives, then the next ones."""
+    allowed = np.all(excess(study, values) <= 0.0, axis=1) & np.isfinite(values).all(axis=1)
+    if not allowed.any():
+        raise UserError(f"{study.path}: none of {len(values)} points keeps the limits: widen the box or the limits")
+    away, best = distance(study, values, allowed), front(study, values)
+    ranked = sorted(np.flatnonzero(allowed), key=lambda i: (len(study.objectives) > 1 and not best[i], away[i]))
+    return [int(i) for i in ranked[: study.candidates]]
+
+
+def write_optimum(found, path):
+    """Write the answer as JSON, whole or not at all; returns the path."""
+    study = found.study
+    rows = [
+        {
+            "at": dict(zip(study.box.names, found.points[i].tolist(), strict=True)),
+            "mean": dict(zip(study.responses, mean.tolist(), strict=True)),
+            "standard_error": dict(zip(study.responses, error.tolist(), strict=True)),
+        }
+        for i, mean, error in zip(found.candidates, found.means, found.errors, strict=True)
+    ]
+    document = {
+        "recommended": None if found.best is None else rows[found.best],
+        "fresh_seeds": study.check_seeds,
+        "candidates": rows,
+        "trials": len(found.points),
+    }
+    write_atomically(path, lambda temporary: temporary.write_text(json.dumps(document, indent=1) + "\n", encoding="utf-8"))
+    return path
+
+
+def write_picture(found, path):
+    """Write the picture: two objectives against each other with the Pareto front, or the one objective over the first two variables; returns the path."""
+    with plt.rc_context(STYLE):
+        figure, ax = plt.subplots(figsize=(6.6, 5.0), layout="constrained")
+        (pareto_panel if len(found.study.objectives) > 1 else single_panel)(ax, found)
+        figure.suptitle(f"{found.study.path.stem}: {len(found.points)} points searched", x=0.01, ha="left", fontsize=11)
+        write_atomically(path, lambda temporary: figure.savefig(temporary, dpi=110))
+        plt.close(figure)
+    return path
+
+
+def pareto_panel(ax, found):
+    """The first two objectives: all points, the front, the candidates with their standard errors, the recommendation."""
+    study = found.study
+    keeps = np.all(excess(study, found.values) <= 0.0, axis=1)
+    ax.plot(*found.values[~keeps, :2].T, "x", color=MUTED, ms=5, label="beyond a limit") if not keeps.all() else None
+    ax.plot(*found.values[keeps, :2].T, ".", color=MUTED, ms=7, label="searched")
+    edge = found.values[front(study, found.values)][:, :2]
+    edge = edge[edge[:, 0].argsort()]
+    ax.step(edge[:, 0], edge[:, 1], where="post", color=MIDDLE, lw=1.2, label="Pareto front of the search")
+    candidates(ax, found, found.means[:, 0], found.means[:, 1], found.errors[:, 0], found.errors[:, 1])
+    ax.set(xlabel=label(study.objectives[0]), ylabel=label(study.objectives[1]))
+    ax.legend(fontsize=8)
+
+
+def single_panel(ax, found):
+    """One objective over the first variable."""
+    study = found.study
+    ax.plot(found.points[:, 0], found.values[:, 0], ".", color=MUTED, ms=7, label="searched")
+    candidates(ax, found, found.points[found.candidates, 0], found.means[:, 0], None, found.errors[:, 0])
+    ax.set(xlabel=study.box.names[0], ylabel=label(study.objectives[0]))
+    ax.legend(fontsize=8)
+
+
+def candidates(ax, found, x, y, x_error, y_error):
+    """Candidates with their standard errors over fresh seeds; the recommendation filled."""
+    ax.errorbar(x, y, xerr=x_error, yerr=y_error, fmt="o", mfc="white", color=FORCE, ms=5, lw=0.9, label="again, fresh seeds")
+    if found.best is not None:
+        ax.plot(x[found.best], y[found.best], "o", color=HEAD, ms=8, label="recommended")
+
+
+def label(name):
+    """A response with its unit."""
+    return f"{name} [{UNITS[name]}]" if name in UNITS else name

@@ -1,0 +1,192 @@
+"""What decides: Morris' screening of all factors, then Sobol indices of those that are left, by SALib.
+
+    responses = ["damage", "stress"]
+    [morris]
+    trajectories = 8                     # (factors + 1) points each
+    levels = 4
+    [sobol]
+    factors = 3                          # the first of the screening, by their largest effect on any response; 0: no Sobol indices
+    count = 64                           # power of 2; (factors + 2) count points
+
+Without [between] the factors are the parameters that were assumed, each over its documented range.
+
+Morris: mu_star is the mean size of the change of a response when a factor crosses its range (elementary effects), sigma their scatter: interactions and
+curvature.  Sobol: S1 is the share of the variance that goes with a factor alone, ST that with all its interactions.  Seeds are noise: a factor without any
+effect has mu_star = 2 s/sqrt(pi)/delta, s^2 the variance that the seeds leave in a point's mean, delta the step of a trajectory; in Sobol's variances the
+noise has the share s^2/V.  Both stand beside the indices.
+"""
+
+import json
+import math
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import numpy as np
+
+from ..errors import UserError, unknown
+from ..plot import FORCE, HEAD, MIDDLE, MUTED, STYLE, plt
+from ..results import write_atomically
+from ..scene import refusal, section_of
+from ..sweep import count_of
+from .bench import COMMON, Box, noise_variance, response_names
+
+KEYS = (*COMMON, "responses", "morris", "sobol")
+METHODS = {"morris": ("trajectories", "levels"), "sobol": ("factors", "count")}
+
+
+@dataclass(frozen=True)
+class Sensitivity:
+    """For each response: factors with mu_star, its confidence, sigma and the mu_star of noise; those of Sobol with S1, ST, their confidence (95 %), and the
+    noise's share of the variance."""
+
+    name: str
+    description: str
+    seeds: int
+    responses: tuple
+    factors: tuple
+    morris: dict
+    chosen: tuple
+    sobol: dict = field(default_factory=dict)
+
+
+@dataclass(frozen=True)
+class Study:
+    """A sensitivity study that was checked."""
+
+    path: Path
+    description: str
+    box: Box
+    responses: list
+    trajectories: int
+    levels: int
+    factors: int
+    count: int
+    seed: int
+
+
+def plan_sensitivity(path, document, model, assumed=None):
+    """The Study of a document; assumed: {name: (low, high)} if it names no factors.  Raises UserError naming what cannot be used."""
+    for key in document:
+        if key not in KEYS:
+            raise unknown(path, "key", key, KEYS)
+    settings = {"trajectories": 8, "levels": 4, "factors": 3, "count": 64}
+    for name, keys in METHODS.items():
+        for key, value in section_of(path, document, name).items():
+            if key not in keys:
+                raise unknown(path, "key", f"{name}.{key}", [f"{name}.{key}" for key in keys])
+            settings[key] = value if key == "factors" and value == 0 and not isinstance(value, bool) else count_of(path, f"{name}.{key}", value)
+    if settings["levels"] < 2 or settings["levels"] % 2:
+        raise refusal(path, "morris.levels", settings["levels"], "an even number is needed")
+    if settings["count"] & (settings["count"] - 1):
+        raise refusal(path, "sobol.count", settings["count"], "a Sobol sequence is balanced only for powers of 2")
+    box = Box(path, section_of(path, document, "between"), model, assumed)
+    responses = response_names(path, "responses", document.get("responses", ["damage", "stress"]))
+    seed = count_of(path, "seed", document.get("seed", 1))
+    return Study(Path(path), str(document.get("description", "")), box, responses, **settings, seed=seed)
+
+
+def salib():
+    """SALib's modules (sample.morris, analyze.morris, sample.sobol, analyze.sobol); UserError if the library is missing."""
+    try:
+        from SALib.analyze import morris as analyze_morris
+        from SALib.analyze import sobol as analyze_sobol
+        from SALib.sample import morris as sample_morris
+        from SALib.sample import sobol as sample_sobol
+    except ImportError:
+        raise UserError('sensitivity: needs the library SALib: pip install "riveted-bearing[design]"') from None
+    return sample_morris, analyze_morris, sample_sobol, analyze_sobol
+
+
+def analyse(study, evaluate):
+    """The Sensitivity of a Study; evaluate(names, points [n, d], responses) returns [n, seeds, m]."""
+    sample_morris, analyze_morris, sample_sobol, analyze_sobol = salib()
+    problem = study.box.problem()
+    points = sample_morris.sample(problem, study.trajectories, num_levels=study.levels, seed=study.seed)
+    values = complete(study, evaluate(study.box.names, points, study.responses))
+    noise, step = noise_variance(values), study.levels / (2.0 * (study.levels - 1))
+    morris = {}
+    for i, name in enumerate(study.responses):
+        found = analyze_morris.analyze(problem, points, values.mean(axis=1)[:, i], num_levels=study.levels, seed=study.seed)
+        morris[name] = {key: [float(x) for x in found[key]] for key in ("mu_star", "mu_star_conf", "sigma")}
+        morris[name]["noise"] = float(2.0 * math.sqrt(noise[i] / math.pi) / step) if np.isfinite(noise[i]) else None
+    scale = [max(max(morris[name]["mu_star"]), 1e-300) for name in study.responses]
+    strength = np.max([np.array(morris[name]["mu_star"]) / size for name, size in zip(study.responses, scale, strict=True)], axis=0)
+    chosen = [study.box.names[k] for k in np.argsort(-strength, kind="stable")[: study.factors]]
+    sobol, seeds = {}, values.shape[1]
+    if chosen:
+        box = study.box.chosen(chosen)
+        points = sample_sobol.sample(box.problem(), study.count, calc_second_order=False, seed=study.seed)
+        values = complete(study, evaluate(box.names, points, study.responses))
+        noise = noise_variance(values)
+        for i, name in enumerate(study.responses):
+            means = values.mean(axis=1)[:, i]
+            if np.ptp(means) == 0.0:
+                raise UserError(f"{study.path}: response {name} is {means[0]:g} everywhere: no variance to share out")
+            found = analyze_sobol.analyze(box.problem(), means, calc_second_order=False, seed=study.seed)
+            sobol[name] = {key: [float(x) for x in found[key]] for key in ("S1", "S1_conf", "ST", "ST_conf")}
+            sobol[name]["noise"] = float(noise[i] / means.var()) if np.isfinite(noise[i]) else None
+    return Sensitivity(study.path.stem, study.description, seeds, tuple(study.responses), tuple(study.box.names), morris, tuple(chosen), sobol)
+
+
+def complete(study, values):
+    """The values, if all runs have reached their end; UserError otherwise, because indices need every point."""
+    if bad := np.argwhere(np.isnan(values).any(axis=(1, 2))).ravel().tolist():
+        raise UserError(f"{study.path}: {len(bad)} points were stopped by the FMU: narrow the ranges (the rows in the folder say why)")
+    return values
+
+
+def order(found, name):
+    """Factors of the screening by their effect on a response, the largest first."""
+    return sorted(range(len(found.factors)), key=lambda k: -found.morris[name]["mu_star"][k])
+
+
+def write_indices(found, path):
+    """Write all indices as JSON, whole or not at all; returns the path."""
+    write_atomically(path, lambda temporary: temporary.write_text(json.dumps(vars(found), indent=1) + "\n", encoding="utf-8"))
+    return path
+
+
+def write_picture(found, path):
+    """Write the picture: mu_star of each factor with its confidence and the noise, and Sobol indices; returns the path."""
+    columns = 2 if found.sobol else 1
+    with plt.rc_context(STYLE):
+        height = 1.2 + max(2.2, 0.34 * len(found.factors) + 0.9) * len(found.responses)
+        figure, axes = plt.subplots(len(found.responses), columns, figsize=(5.6 * columns, height), layout="constrained", squeeze=False)
+        figure.suptitle(f"{found.name}: what decides, {found.seeds} seeds a point", x=0.01, ha="left", fontsize=11)
+        for row, name in zip(axes, found.responses, strict=True):
+            screening_panel(row[0], found, name)
+            if found.sobol:
+                sobol_panel(row[1], found, name)
+        write_atomically(path, lambda temporary: figure.savefig(temporary, dpi=110))
+        plt.close(figure)
+    return path
+
+
+def screening_panel(ax, found, name):
+    """Bars of mu_star with their confidence; the effect of noise alone as a line."""
+    indices, ranked = found.morris[name], order(found, name)
+    size, error = (np.array([indices[key][k] for k in ranked]) for key in ("mu_star", "mu_star_conf"))
+    ax.barh(range(len(ranked)), size, xerr=error, color=MIDDLE, height=0.6, error_kw={"ecolor": FORCE, "lw": 1.0})
+    ax.set_yticks(range(len(ranked)), [found.factors[k] for k in ranked])
+    ax.invert_yaxis()
+    ax.grid(axis="y", visible=False)
+    if indices["noise"] is not None:
+        ax.axvline(indices["noise"], color=HEAD, lw=1.2, ls="--", label="seeds alone")
+        ax.legend(loc="lower right")
+    ax.set(title=f"{name}: effect over the range (Morris)", xlabel="mu* (change of the response)")
+    ax.set_xlim(left=0.0)
+
+
+def sobol_panel(ax, found, name):
+    """Bars of S1 and ST with their confidence; the share of the noise as a line."""
+    indices, k = found.sobol[name], np.arange(len(found.chosen))
+    for key, shift, colour in (("S1", -0.19, MIDDLE), ("ST", 0.19, MUTED)):
+        ax.barh(k + shift, indices[key], xerr=indices[f"{key}_conf"], color=colour, height=0.34, label=key, error_kw={"ecolor": FORCE, "lw": 1.0})
+    ax.set_yticks(k, found.chosen)
+    ax.invert_yaxis()
+    ax.grid(axis="y", visible=False)
+    if indices["noise"] is not None:
+        ax.axvline(indices["noise"], color=HEAD, lw=1.2, ls="--", label="seeds")
+    ax.set(title=f"{name}: share of the variance (Sobol)", xlabel="alone S1, with interactions ST")
+    ax.set_xlim(left=min(0.0, ax.get_xlim()[0]))
+    ax.legend(ncols=3, loc="lower right", bbox_to_anchor=(1.0, 1.0))

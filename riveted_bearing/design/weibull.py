@@ -1,0 +1,92 @@
+"""Weibull law of lives, with suspensions, by surpyval: maximum likelihood, intervals by the Fisher matrix.
+
+R(t) = exp(-(t/eta)^beta)        B10: life that 10 % do not reach, eta (-ln 0.9)^(1/beta)
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..errors import UserError
+from ..plot import FORCE, HEAD, MIDDLE, STYLE, plt
+from ..results import write_atomically
+
+
+@dataclass(frozen=True)
+class Weibull:
+    """beta, eta [h], b10 [h], each with its interval (low, high) at `confidence`; failures: lives [h] with their median ranks."""
+
+    beta: float
+    eta: float
+    b10: float
+    beta_interval: tuple
+    eta_interval: tuple
+    b10_interval: tuple
+    confidence: float
+    lives: np.ndarray
+    ranks: np.ndarray
+
+    def record(self):
+        """As a document for JSON."""
+        names = ("beta", "eta", "b10")
+        units = {"beta": "beta", "eta": "eta_h", "b10": "b10_h"}
+        return {units[name]: getattr(self, name) for name in names} | {f"{units[name]}_interval": list(getattr(self, f"{name}_interval")) for name in names}
+
+
+def fit_weibull(lives, suspended=(), counts=None, confidence=0.9):
+    """The Weibull law of lives [h] and of running times of those that have not failed [h]; counts: units at each time, lives first, None for one each.
+
+    Raises UserError with fewer than three failures, times that are not positive, or if surpyval is missing.
+    """
+    try:
+        import surpyval
+    except ImportError:
+        raise UserError('a Weibull law needs the library surpyval: pip install "riveted-bearing[design]"') from None
+    lives, suspended = np.asarray(lives, float), np.asarray(suspended, float)
+    times = np.concatenate([lives, suspended])
+    if len(lives) < 3 or np.ptp(lives) == 0.0:
+        raise UserError(f"a Weibull law needs at least three different lives, got {len(lives)}")
+    if not np.all(np.isfinite(times)) or times.min() <= 0.0:
+        raise UserError("a Weibull law needs times that are finite and greater than 0")
+    unit = np.exp(np.log(lives).mean())  # the optimizer starts near 1
+    counts = np.ones(len(times), int) if counts is None else np.asarray(counts)
+    censored = np.repeat([0, 1], [len(lives), len(suspended)])
+    found = surpyval.Weibull.fit(x=times / unit, c=censored, n=counts)
+    alpha = 1.0 - confidence
+    eta, beta = found.params
+    drawn = found.get_plot_data(heuristic="Median")
+    failed = drawn["failed"]
+    return Weibull(
+        float(beta),
+        float(unit * eta),
+        float(unit * found.qf(0.1)),
+        tuple(map(float, found.param_cb("beta", alpha_ci=alpha))),
+        tuple(map(float, unit * found.param_cb("alpha", alpha_ci=alpha))),
+        tuple(map(float, unit * np.ravel(found.quantile_cb(0.1, alpha_ci=alpha)))),
+        confidence,
+        unit * drawn["x_"][failed],
+        drawn["F"][failed],
+    )
+
+
+def write_weibull_plot(law, title, path):
+    """Weibull paper: lives at their median ranks, the law as a straight line, B10 with its interval; returns the path."""
+    with plt.rc_context(STYLE):
+        figure, ax = plt.subplots(figsize=(6.4, 4.8), layout="constrained")
+        first, last = (law.eta * (-np.log1p(-share)) ** (1.0 / law.beta) for share in (0.01, 0.99))
+        low, high = 0.97 * min(law.lives.min(), law.b10_interval[0], first), 1.03 * max(law.lives.max(), law.b10_interval[1], last)
+        t = np.geomspace(low, high, 100)
+        ax.plot(t, (t / law.eta) ** law.beta, color=MIDDLE, lw=1.4, label=f"β {law.beta:.3g}, η {law.eta:.3g} h")
+        ax.plot(law.lives, -np.log1p(-law.ranks), "o", color=FORCE, ms=4, label="lives, median ranks")
+        ax.plot(law.b10_interval, [-np.log(0.9)] * 2, color=HEAD, lw=2.0, solid_capstyle="butt")
+        ax.plot(law.b10, -np.log(0.9), "o", color=HEAD, ms=7, label=f"B10 {law.b10:.3g} h, {100 * law.confidence:g} % interval")
+        shares = np.array([0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 0.8, 0.95, 0.99])
+        ax.set(xscale="log", yscale="log", xlabel="life [h]", ylabel="failed", xlim=(low, high), ylim=(0.6 * -np.log1p(-min(0.02, law.ranks.min())), 5.0))
+        ax.set_yticks(-np.log1p(-shares), [f"{100 * share:g} %" for share in shares])
+        ax.set_xticks(ticks := np.unique([float(f"{x:.2g}") for x in np.geomspace(1.02 * low, 0.98 * high, 5)]), [f"{tick:,.4g}" for tick in ticks])
+        ax.minorticks_off()
+        ax.legend(loc="upper left")
+        figure.suptitle(title, x=0.01, ha="left", fontsize=11)
+        write_atomically(path, lambda temporary: figure.savefig(temporary, dpi=110))
+        plt.close(figure)
+    return path

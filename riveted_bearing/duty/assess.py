@@ -1,0 +1,287 @@
+"""The life of a mission: runs on a cluster round by round, points left out by a bound, and what is written: runs.parquet and life.json."""
+
+import hashlib
+import json
+import math
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+
+from ..errors import UserError
+from ..life import fatigue_law
+from ..results import write_atomically
+from ..sweep import Sweep, columns_of, compact, key_of, run_sweep, schema_of
+from .confidence import Estimate, until_sure
+from .cycles import OUTPUTS, rainflow_columns, rainflow_fields, stored_cycles
+from .miner import Duty, part_rates
+from .mission import Mission
+from .sn import damage_of_matrix, read_strength
+
+PLACES = ("head", "mid")
+SAFETY = 10.0  # of the bound on the damage of points that are not simulated
+SPEED_SQUARED = ("shaft.omega",)  # centrifugal loads
+RECORD = "life.json"
+
+
+@dataclass(frozen=True)
+class Life:
+    """What was found: estimate of the parts kept; kept: their numbers; bounds: upper bound of the damage per hour of each part left out, by number; counts:
+    runs of each part; samples: damages of each part's runs [n, Z, 2], None for a part left out or interpolated; rates: mean damages of the parts at the start
+    of the mission, per hour (point) or per event [I, Z, 2]."""
+
+    mission: Mission
+    estimate: Estimate
+    kept: tuple
+    bounds: dict
+    counts: tuple
+    samples: tuple = field(repr=False)
+    rates: np.ndarray = field(repr=False)
+
+    @property
+    def place(self):
+        """What fails first, in words."""
+        k, place = divmod(self.estimate.place, 2)
+        where = ("head", "middle")[place]
+        return f"rivet {k + 1}, {where}" if self.mission.settings["rivets"] == "each" else f"{where}s of the rivets"
+
+    @property
+    def low(self):
+        """Lower end of the interval [h], with the damage of the points left out at its bound."""
+        return 1.0 / (1.0 / self.estimate.low + sum(self.bounds.values()))
+
+
+class Runs:
+    """The runs of a mission in a folder: damages by case and seed, simulated when they are asked for."""
+
+    def __init__(self, mission, model, folder, client, progress=None):
+        """client: function that gives the Dask client, called once something has to be simulated; progress: as of run_sweep."""
+        self.mission, self.folder, self.client, self.progress = mission, folder, client, progress
+        fmu = model.path.read_bytes()
+        fingerprint, first = hashlib.sha256(fmu).hexdigest(), mission.settings["seed"]
+        self.keys, scenes = {}, {}
+        outputs = tuple(name for name in model.outputs if any(matches(name, pattern) for pattern in OUTPUTS))
+        for c, case in enumerate(mission.cases):
+            for s in range(mission.settings["max_seeds"]):
+                scene = replace(case.scene, outputs=outputs, parameters=case.scene.parameters | {"start.seed": first + s})
+                self.keys[c, s] = key_of(scene, fingerprint)
+                scenes[self.keys[c, s]] = scene
+        self.sweep = Sweep(mission.name, mission.description, model, fmu, mission.document, ("start.seed",), scenes, (rainflow_columns, rainflow_fields))
+        self.strengths, self.damages, self.matrices, self.cost = {}, {}, {}, {}
+
+    def __call__(self, counts):
+        """Damages per hour (point) or per event of the first counts[c] runs of each case, [n, Z, 2] each; no case without runs is asked for."""
+        wanted = [(c, s) for c, n in enumerate(counts) for s in range(n)]
+        missing = {self.keys[place] for place in wanted} - self.damages.keys()
+        if missing:
+            keys = list(dict.fromkeys(self.keys[place] for place in wanted))
+            stored = compact(self.folder, schema_of(self.sweep), list(self.sweep.scenes))
+            simulated = set(keys) - stored
+            rows = run_sweep(self.sweep, self.folder, self.client(), self.progress, keys) if simulated else columns_of(self.folder)
+            places = {key: i for i, key in enumerate(rows["key"])}
+            for c, s in wanted:
+                if (key := self.keys[c, s]) not in self.damages:
+                    self.take(c, s, key, rows, places[key])
+        return [np.array([self.damages[self.keys[c, s]] for s in range(n)]) for c, n in enumerate(counts)]
+
+    def take(self, c, s, key, rows, i):
+        """Read the damage of one run, row i."""
+        part = self.mission.parts[self.mission.cases[c].part]
+        where = f"{self.mission.path}: {'event' if part.event else 'point'} {part.name}, seed {self.mission.settings['seed'] + s}"
+        if rows["status"][i] != "done":
+            raise UserError(f"{where}: the run {rows['status'][i]}: {rows['message'][i]}")
+        if rows["rivet.table_kind"][i] == 3.0:
+            raise UserError(f"{where}: the rivets' stress rests on closed forms, which are no base of a life: build --table coarse makes finite elements")
+        own = np.array([[rows[f"rivet[{k}].damage_{place}"][i] for place in PLACES] for k in range(1, number_of_rivets(rows) + 1)])
+        law = fatigue_law({name: rows[name][i] for name in rows if name.startswith("fatigue.")})
+        matrix = stored_cycles(rows, i)
+        damage = own
+        if "sn" in self.mission.document:
+            if law not in self.strengths:
+                self.strengths[law] = read_strength(self.mission.path, self.mission.document["sn"], law)
+            damage = damage_of_matrix(self.strengths[law], matrix, own.size).reshape(own.shape)
+        seconds = rows["simulated_time"][i] - rows["start.settle"][i]
+        self.damages[key] = damage if part.event else damage * 3600.0 / seconds
+        self.matrices[key] = (matrix, law, own)
+        self.cost[key] = float(rows["whole_cpu_time"][i])
+
+    def counted(self):
+        """Damage of all matrices over the FMU's own count, with the FMU's law, at the place with the most damage."""
+        from .sn import Strength, damage_of_cycles
+
+        found, own = 0.0, 0.0
+        for matrix, law, total in self.matrices.values():
+            channel = total.argmax()
+            chosen = matrix[0] == channel
+            found += damage_of_cycles(Strength(law), *(column[chosen] for column in matrix[1:])).sum() / max(total.max(), 1e-300)
+            own += 1.0
+        return found / own
+
+
+def number_of_rivets(rows):
+    """Number of rivets that a sweep's rows have."""
+    return sum(name.startswith("rivet[") and name.endswith("].damage_head") for name in rows)
+
+
+def matches(name, pattern):
+    """Whether an output has the name pattern with one star for a number."""
+    head, tail = pattern.split("*")
+    return name.startswith(head) and name.endswith(tail) and name[len(head) : len(name) - len(tail)].isdigit()
+
+
+def assess(mission, runs, progress=lambda found, target: None):
+    """The Life of a mission from runs(counts), which returns for each case its damages [n, Z, 2].
+
+    Points that are rare are not simulated if a bound on their damage shows that they cannot matter.
+    """
+    settings, duty = mission.settings, mission.duty
+    target = math.log1p(settings["half_width"])
+    rare = rare_parts(mission)
+    kept = [i for i in range(len(mission.parts)) if i not in rare]
+    found, samples, counts = solve(duty, kept, runs, settings, lambda found: progress(found, target))
+    bounds = bounded(mission, found, kept, rare)
+    if len(bounds) < len(rare):
+        kept = [i for i in range(len(mission.parts)) if i not in bounds]
+        found, samples, counts = solve(duty, kept, runs, settings, lambda found: progress(found, target))
+    used = used_cases(duty, kept).tolist()
+    means = np.array([damages.mean(axis=0) for damages in samples])
+    rates = np.zeros((len(mission.parts), *means.shape[1:]))
+    rates[kept] = part_rates(part_duty(duty, kept), means.reshape(len(means), -1))[0].reshape(len(kept), *means.shape[1:])
+    own = [[used.index(c) for c in own_cases(mission, i) if c in used] for i in range(len(mission.parts))]
+    return Life(
+        mission,
+        found,
+        tuple(kept),
+        bounds,
+        tuple(int(sum(counts[place] for place in places)) for places in own),
+        tuple(samples[places[0]] if places else None for places in own),
+        rates,
+    )
+
+
+def own_cases(mission, i):
+    """Numbers of the cases that are part i itself, at all factors of preload; none if it is interpolated."""
+    return [] if mission.parts[i].scene is None else np.flatnonzero(mission.duty.blends[:, i].any(axis=0)).tolist()
+
+
+def used_cases(duty, kept):
+    """Numbers of the cases on which the parts kept rest."""
+    return np.flatnonzero(duty.blends[:, kept].any(axis=(0, 1)))
+
+
+def part_duty(duty, kept):
+    """The Duty of the parts kept alone."""
+    return Duty(duty.weights[kept], duty.blends[:, kept][:, :, used_cases(duty, kept)], duty.hours)
+
+
+def solve(duty, kept, runs, settings, progress):
+    """until_sure() for the parts kept: (Estimate, damages [n, Z, 2] of the cases used, numbers of their runs)."""
+    used, part, whole = used_cases(duty, kept), part_duty(duty, kept), {}
+
+    def run(counts):
+        asked = np.zeros(duty.blends.shape[2], int)
+        asked[used] = counts
+        whole["samples"] = [damages for c, damages in enumerate(runs(asked)) if c in used]
+        return [places(damages, settings["rivets"]) for damages in whole["samples"]]
+
+    found, _, counts = until_sure(part, run, settings, settings["max_seeds"], progress)
+    return found, whole["samples"], counts
+
+
+def places(damages, rivets):
+    """Damages [n, K] at the places that can fail: each rivet's head and middle, or, if all rivets take all places in turn, their means."""
+    return damages.reshape(len(damages), -1) if rivets == "each" else damages.mean(axis=1)
+
+
+# Points that cannot matter --------------------------------------------------------------------------------------------------------------------
+
+
+def rare_parts(mission):
+    """Numbers of the rarest points, which together have less than the share `skip` of the hours and no interpolation rests on."""
+    needed = {
+        mission.cases[c].part for i, part in enumerate(mission.parts) if part.scene is None for c in np.flatnonzero(mission.duty.blends[:, i].any(axis=0))
+    }
+    free = [i for i, part in enumerate(mission.parts) if not part.event and part.scene is not None and i not in needed]
+    rare, left = [], mission.settings["skip"] * mission.hours
+    for i in sorted(free, key=lambda i: mission.parts[i].weight):
+        left -= mission.parts[i].weight
+        if left < 0.0:
+            break
+        rare.append(i)
+    return rare if len(rare) < len(mission.parts) else []
+
+
+def bounded(mission, found, kept, rare):
+    """Bounds of the damage per hour of the mission of those rare points that all together cannot have more than the share `skip` of it.
+
+    The damage of a point is at most that of a simulated point q times the ratio of their loads and of the square of their speeds, the larger over the
+    smaller, to the power of the steeper slope of the S-N curve, times a safety of 10.  It rests on the assumption that stress changes no faster than loads and
+    centrifugal forces; less load may well do more damage, because the balls skid.  Points that hardly do damage break the assumption (their cycles grow from
+    nearly nothing), so that the largest of the bounds by all simulated points counts.
+    """
+    duty, total = mission.duty, 1.0 / found.life if found.life > 0.0 else math.inf
+    rate_of = dict(zip(kept, found.shares * total / np.maximum(duty.weights[list(kept)], 1e-300), strict=True))
+    comparable = {i: [b for q in kept if math.isfinite(b := bound(mission, rate_of[q], q, i))] for i in rare}
+    bounds = {i: duty.weights[i] * max(comparable[i], default=math.inf) for i in rare}
+    chosen, left = {}, mission.settings["skip"] * total
+    for i in sorted(bounds, key=bounds.get):
+        left -= bounds[i]
+        if left < 0.0:
+            break
+        chosen[i] = bounds[i]
+    return chosen
+
+
+def bound(mission, rate, q, i):
+    """Bound of the damage per hour of point i by that of point q; infinite if they differ in more than loads and speed."""
+    known, rare = mission.parts[q], mission.parts[i]
+    if known.event or known.factor != rare.factor or known.values.keys() != rare.values.keys() or mission.duty.weights[q] == 0.0:
+        return math.inf
+    ratio = 1.0
+    for name, value in rare.values.items():
+        if value == known.values[name] and value is not None:
+            continue
+        if known.scene is None or name not in known.scene.inputs or value is None or not known.values[name]:
+            return math.inf
+        change = abs(value / known.values[name])
+        ratio *= max(change, 1.0 / change if change else math.inf) ** (2.0 if name in SPEED_SQUARED else 1.0)
+    slope = max(known.values.get(f"fatigue.{k}", default) for k, default in (("k_1", 8.0), ("k_2", 15.0)))
+    return SAFETY * rate * ratio**slope
+
+
+# What is written ------------------------------------------------------------------------------------------------------------------------------
+
+
+def record(life):
+    """life.json's content: hours, damages per hour, shares; None where nothing is known (a point left out) or never (no damage)."""
+    mission, found = life.mission, life.estimate
+    share = dict(zip(life.kept, found.shares, strict=True))
+    k, place = divmod(found.place, 2) if mission.settings["rivets"] == "each" else (slice(None), found.place)
+    rivets = np.einsum("i,ikp->kp", mission.duty.weights, life.rates)
+    return {
+        "life_h": finite(found.life),
+        "low_h": finite(life.low),
+        "high_h": finite(found.high),
+        "confidence": mission.settings["confidence"],
+        "points": [
+            {
+                "share": float(share.get(i, 0.0)),
+                "damage_per_h": None if i in life.bounds else float(np.mean(life.rates[i, k, place])),
+                "seeds": life.counts[i],
+            }
+            for i, part in enumerate(mission.parts)
+            if not part.event
+        ],
+        "rivets": [{"head_per_h": float(head), "middle_per_h": float(middle)} for head, middle in rivets],
+    }
+
+
+def finite(hours):
+    """A number of hours, None for infinity."""
+    return float(hours) if math.isfinite(hours) else None
+
+
+def write_record(life, folder):
+    """Write life.json, whole or not at all; returns its path."""
+    path = folder / RECORD
+    write_atomically(path, lambda temporary: temporary.write_text(json.dumps(record(life), indent=1) + "\n", encoding="utf-8"))
+    return path

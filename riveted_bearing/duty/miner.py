@@ -1,0 +1,92 @@
+"""Miner's sum over a mission.
+
+A mission repeats a set of parts, operating points and events.  Part i adds in each hour of the mission the damage
+
+    w_i r_i        w_i = share of the hours, r_i damage per hour         operating point
+                   w_i = events per hour,    r_i damage per event        event
+
+and the mission lasts until the sum is 1 at the first place of a rivet.  Rates are simulated for *cases*; the rate of a part follows from them
+logarithmically, ln r_i = sum over c of b_ic ln r_c, with b = 1 for a part that is simulated itself and the weights of an interpolation for one that is not.
+If the preload falls over the hours, there is one such blend for each hour at which the law of its loss is given, and ln r_i is linear in between.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+NO_DAMAGE = 1e-300  # per hour; a smaller rate counts as none
+FOR_EVER = 1e290  # h; a longer life counts as without end
+BISECTIONS = 60  # halve the interval to the last digit
+
+
+@dataclass(frozen=True)
+class Duty:
+    """weights: of the parts [I]; blends: of the logarithms of the cases' rates [J, I, C]; hours: at which the blends hold [J], the first 0."""
+
+    weights: np.ndarray
+    blends: np.ndarray
+    hours: np.ndarray
+
+
+def simple_duty(weights):
+    """The Duty whose parts are simulated one by one and do not change over the hours."""
+    return Duty(np.asarray(weights, float), np.eye(len(weights))[None], np.zeros(1))
+
+
+def part_rates(duty, rates):
+    """Rates of the parts at the hours of the duty [..., J, I, K] from those of the cases [..., C, K] at K places."""
+    return np.exp(np.einsum("jic,...ck->...jik", duty.blends, np.log(np.maximum(rates, NO_DAMAGE))))
+
+
+def lives(duty, rates):
+    """Life at each place [h], inf without damage [..., K]: the time at which Miner's sum is 1, and the damage of each part by then [..., J, I, K], each
+    stretch of hours counted half to either of its ends."""
+    parts = duty.weights[:, None] * part_rates(duty, rates)
+    if len(duty.hours) == 1:
+        total = parts.sum(axis=-2)[..., 0, :]
+        return endless(1.0 / np.maximum(total, NO_DAMAGE)), parts / np.maximum(total, NO_DAMAGE)[..., None, None, :]
+    return changing_lives(duty.hours, parts)
+
+
+def changing_lives(hours, parts):
+    """lives() where the rates change over the hours; after the last hour they stay."""
+    stretches = np.diff(hours)
+    done = np.zeros(parts.shape[:-3] + parts.shape[-1:])
+    life, damage = np.full_like(done, np.inf), np.zeros_like(parts)
+    for j in range(len(hours)):
+        first, last = parts[..., j, :, :], parts[..., min(j + 1, len(hours) - 1), :, :]
+        length = stretches[j] if j < len(stretches) else 1.0 / np.maximum(first.sum(axis=-2), NO_DAMAGE)
+        grows = np.log(np.maximum(last, NO_DAMAGE) / np.maximum(first, NO_DAMAGE))
+        share = reached(first, grows, length, 1.0 - done)
+        alive = np.isinf(life)
+        ends = alive & (share < 1.0) if j < len(stretches) else alive
+        share = np.where(ends, share, 1.0)
+        added = np.where(alive[..., None, :], stretch_damage(first, grows, length, share[..., None, :]), 0.0)
+        damage[..., j, :, :] += 0.5 * added
+        damage[..., min(j + 1, len(hours) - 1), :, :] += 0.5 * added
+        life = np.where(ends, hours[j] + share * length, life)
+        done += added.sum(axis=-2)
+    return endless(life), damage
+
+
+def endless(life):
+    """The life [h], inf if it is that of no damage."""
+    return np.where(life < FOR_EVER, life, np.inf)
+
+
+def stretch_damage(first, grows, length, share):
+    """Damage over a share of a stretch in which a rate starts at `first` and grows by the factor exp(grows): integral of first exp(grows x) length dx."""
+    x = grows * share
+    small = np.abs(x) < 1e-9
+    mean = np.where(small, 1.0 + 0.5 * x, np.expm1(x) / np.where(small, 1.0, x))
+    return first * np.broadcast_to(length, first.shape[:-2] + first.shape[-1:])[..., None, :] * share * mean
+
+
+def reached(first, grows, length, missing):
+    """Share of the stretch after which its damage is what is missing, by bisection; 1 if it is not reached."""
+    low, high = np.zeros_like(missing), np.ones_like(missing)
+    for _ in range(BISECTIONS):
+        middle = 0.5 * (low + high)
+        below = stretch_damage(first, grows, length, middle[..., None, :]).sum(axis=-2) < missing
+        low, high = np.where(below, middle, low), np.where(below, high, middle)
+    return high

@@ -1,0 +1,394 @@
+"""Missions: operating points with their hours and events with their counts, from TOML files, checked against the FMU.
+
+description = "..."
+scene = "demo"                       # shipped name or file; points and events may name another one
+[simulation]                         # as in a scene file, for all points and events; so are:
+t_end = 0.2
+[parameters]
+[inputs]
+
+[[point]]
+name = "climb"                       # default: its number
+hours = 20                           # or "90 min", or share = 0.02 of the whole in every point
+preload_factor = 0.9                 # of joint.preload at this point; default 1
+interpolate = true                   # not simulated: from the points around it; default false
+inputs.shaft.F_y = "3 kN"            # [point.inputs], [point.parameters], [point.simulation]
+[[event]]
+name = "landing"
+count = 12                           # per pass of the mission; damage of its whole run after start.settle
+inputs.impact.F_r = { t = [0.05, 0.051, 0.052], value = [0, 4000, 0] }
+
+[table]                              # further points from a CSV table
+file = "duty.csv"
+hours = "h"                          # column
+inputs.shaft.omega = { column = "n", unit = "rev/min" }
+[history]                            # further points: a measured record, binned
+file = "flight.csv"
+time = "t"                           # column [s]
+hours = 1000                         # what the record stands for; default: its own length
+inputs.shaft.F_y = { column = "load", unit = "kN", bins = 6 }
+
+[preload_loss]                       # straight lines between; constant after the last hour
+hours = [0, 100, 2000]
+factor = [1, 0.9, 0.7]
+[life]
+confidence = 0.9                     # of the interval
+half_width = 0.25                    # of life: simulate until the interval is at most life/1.25 ... 1.25 life wide
+min_seeds = 6
+max_seeds = 32
+seed = 1                             # first start.seed, common to all points, and seed of the bootstrap
+skip = 0.01                          # share of the damage that rare points may have and yet be left out by a bound; 0: none left out
+rivets = "each"                      # or "alike": every rivet takes every place in turn, so that rates are means over the rivets
+[sn]                                 # see sn.py; default: the FMU's law and its own count
+[tolerance]                          # see tolerances.py
+"""
+
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+
+import numpy as np
+
+from ..errors import UserError, unknown
+from ..scene import Scene, leaves, load_scene, read_toml, refusal, section_of
+from ..sweep import beside, count_of, key_of
+from ..units import scale, to_si
+from .history import binned, read_columns
+from .miner import Duty
+
+SECTIONS = ("description", "scene", "simulation", "parameters", "inputs", "point", "event", "table", "history", "preload_loss", "life", "sn", "tolerance")
+POINT = ("name", "hours", "share", "preload_factor", "interpolate", "scene", "simulation", "parameters", "inputs")
+EVENT = ("name", "count", "preload_factor", "scene", "simulation", "parameters", "inputs")
+TABLE = ("file", "hours", "inputs", "parameters")
+HISTORY = ("file", "time", "hours", "inputs", "parameters")
+LOSS = ("hours", "factor")
+LIFE = {"confidence": 0.9, "half_width": 0.25, "min_seeds": 6, "max_seeds": 32, "seed": 1, "skip": 0.01, "rivets": "each"}
+HOURS = {"h": (1.0, 0.0), "min": (60.0, 0.0), "s": (3600.0, 0.0)}
+SHARES = {"1": (1.0, 0.0), "%": (100.0, 0.0)}
+RIVETS = ("each", "alike")
+PRELOAD = "joint.preload"
+FORCED = {"scene.stress": "fatigue", "scene.statistics": "on"}
+
+
+@dataclass(frozen=True)
+class Part:
+    """An operating point (weight: hours) or an event (weight: count); scene: None if it is interpolated; values: of its constant inputs and numeric
+    parameters, SI."""
+
+    name: str
+    event: bool
+    weight: float
+    scene: Scene | None = field(repr=False)
+    factor: float = 1.0
+    values: dict = field(default_factory=dict, repr=False)
+
+
+@dataclass(frozen=True)
+class Case:
+    """What is simulated with several seeds: part number i with the factor of preload at hour number j."""
+
+    part: int
+    scene: Scene = field(repr=False)
+
+
+@dataclass(frozen=True)
+class Mission:
+    """A mission checked against its Model; hours: of all points together."""
+
+    name: str
+    description: str
+    path: Path
+    document: dict = field(repr=False)
+    parts: tuple
+    cases: tuple = field(repr=False)
+    duty: Duty = field(repr=False)
+    hours: float
+    settings: dict
+
+
+def load_mission(path, model):
+    """Read a mission's TOML file; raises UserError naming file, key, value and what is allowed."""
+    path = Path(path)
+    if not path.is_file():
+        raise UserError(f"{path}: no such mission file")
+    return plan_mission(path.stem, read_toml(path), model, path)
+
+
+def plan_mission(name, document, model, path):
+    """The Mission of a document like the file's."""
+    for key in document:
+        if key not in SECTIONS:
+            raise unknown(path, "key", key, SECTIONS)
+    settings = life_settings(path, section_of(path, document, "life"))
+    parts = [*points(path, document, model), *events(path, document, model)]
+    if not any(not part.event for part in parts):
+        raise UserError(f"{path}: no operating points: write [[point]] with hours, or [table] or [history] with a file")
+    hours = sum(part.weight for part in parts if not part.event)
+    if hours <= 0.0:
+        raise UserError(f"{path}: the hours of all points are 0")
+    loss = preload_loss(path, section_of(path, document, "preload_loss"))
+    cases, blends = cases_of(path, parts, loss[1], model)
+    duty = Duty(np.array([part.weight / hours for part in parts]), blends, loss[0])
+    return Mission(name, str(document.get("description", "")), path, document, tuple(parts), tuple(cases), duty, hours, settings)
+
+
+def life_settings(path, section):
+    """The settings of [life] with their defaults."""
+    for key in section:
+        if key not in LIFE:
+            raise unknown(path, "key", f"life.{key}", [f"life.{name}" for name in LIFE])
+    settings = LIFE | section
+    for key, low, high in (("confidence", 0.5, 1.0), ("half_width", 1e-3, 100.0), ("skip", 0.0, 0.5)):
+        value = number(path, f"life.{key}", settings[key], SHARES)
+        if not low <= value < high:
+            raise refusal(path, f"life.{key}", settings[key], f"from {low:g} to below {high:g} is allowed")
+        settings[key] = value
+    for key in ("min_seeds", "max_seeds", "seed"):
+        count_of(path, f"life.{key}", settings[key])
+    if not 3 <= settings["min_seeds"] <= settings["max_seeds"]:
+        raise refusal(path, "life.min_seeds", settings["min_seeds"], f"from 3, which show scatter, to max_seeds = {settings['max_seeds']} is allowed")
+    if settings["rivets"] not in RIVETS:
+        raise refusal(path, "life.rivets", settings["rivets"], f"allowed: {', '.join(RIVETS)}")
+    return settings
+
+
+def number(path, key, value, scales):
+    """SI value, hours for times; UserError naming the key."""
+    try:
+        return to_si(value, scales)
+    except UserError as problem:
+        raise refusal(path, key, value, problem) from None
+
+
+def amount(path, key, value, scales):
+    """A number that is not negative."""
+    found = number(path, key, value, scales)
+    if found < 0.0:
+        raise refusal(path, key, value, "must not be negative")
+    return found
+
+
+def tables(path, document, name):
+    """The list of tables [[name]]."""
+    blocks = document.get(name, [])
+    if not isinstance(blocks, list) or not all(isinstance(block, dict) for block in blocks):
+        raise UserError(f"{path}: {name}: write [[{name}]] with its keys below it")
+    return blocks
+
+
+def points(path, document, model):
+    """The Parts of [[point]], [table] and [history]."""
+    blocks = tables(path, document, "point")
+    found = []
+    for i, block in enumerate(blocks, 1):
+        label = f"point {block.get('name', i)}"
+        for key in block:
+            if key not in POINT:
+                raise unknown(f"{path}: {label}", "key", key, POINT)
+        given = [key for key in ("hours", "share") if key in block]
+        if len(given) != 1:
+            raise UserError(f"{path}: {label}: hours or share is needed" + (", not both" if given else ""))
+        if given[0] != next(key for key in ("hours", "share") if key in blocks[0]):
+            raise UserError(f"{path}: {label}: has {given[0]}, but the first point has not: hours in every point or share in every point is allowed")
+        weight = amount(path, f"{label}: {given[0]}", block[given[0]], HOURS if given[0] == "hours" else SHARES)
+        if not isinstance(block.get("interpolate", False), bool):
+            raise refusal(path, f"{label}: interpolate", block["interpolate"], "allowed: true, false")
+        found.append(part_of(path, document, model, label, str(block.get("name", i)), block, weight))
+    if found and "share" in blocks[0] and ("table" in document or "history" in document):
+        raise UserError(f"{path}: share: points of a table or a history have hours, so that the other points need hours too")
+    return [*found, *table_points(path, document, model), *history_points(path, document, model)]
+
+
+def events(path, document, model):
+    """The Parts of [[event]]."""
+    for i, block in enumerate(tables(path, document, "event"), 1):
+        label = f"event {block.get('name', i)}"
+        for key in block:
+            if key not in EVENT:
+                raise unknown(f"{path}: {label}", "key", key, EVENT)
+        if "count" not in block:
+            raise UserError(f"{path}: {label}: count is needed: how often it happens in one pass of the mission")
+        weight = amount(path, f"{label}: count", block["count"], {"1": (1.0, 0.0)})
+        yield part_of(path, document, model, label, str(block.get("name", f"event {i}")), block, weight, event=True)
+
+
+def part_of(path, document, model, label, name, block, weight, event=False):
+    """The Part of one block, its scene checked."""
+    factor = amount(path, f"{label}: preload_factor", block.get("preload_factor", 1.0), SHARES)
+    common = {section: section_of(path, document, section) for section in ("simulation", "parameters", "inputs")}
+    own = {section: section_of(f"{path}: {label}", block, section) for section in ("simulation", "parameters", "inputs")}
+    for changes in (common, own):
+        if any(key in FORCED for key, _ in leaves(changes["parameters"], model.parameters)):
+            raise UserError(f"{path}: {label}: {' and '.join(FORCED)} are not free here: a life needs the count of stress cycles")
+    source = block.get("scene", document.get("scene", "demo"))
+    scene = load_scene(beside(path, source), model, (str(path), common), (f"{path}: {label}", own), ("a mission", {"parameters": FORCED}))
+    if scene.t_end <= scene.parameters.get("start.settle", model.default(model.parameters["start.settle"])):
+        raise refusal(f"{path}: {label}", "simulation.t_end", scene.t_end, "longer than start.settle is needed, before which damage does not count")
+    return Part(name, event, weight, None if block.get("interpolate", False) else scene, factor, values_of(scene))
+
+
+def values_of(scene):
+    """What of a scene can be compared and interpolated: its constant inputs and numeric parameters, SI; None for inputs that vary."""
+    inputs = {name: float(history.value[0]) if len(history.t) == 1 else None for name, history in scene.inputs.items()}
+    return inputs | {name: value for name, value in scene.parameters.items() if not isinstance(value, bool)}
+
+
+def columns_of(path, where, section, model, further=()):
+    """The columns that a table or a history gives: {full name: (column, factor, offset, further entries)}."""
+    found = {}
+    known = {"inputs": model.inputs, "parameters": model.parameters}
+    for kind, variables in known.items():
+        for name, value in leaves(section_of(f"{path}: {where}", section, kind), variables):
+            if name not in variables:
+                raise unknown(f"{path}: {where}", kind.removesuffix("s"), name, variables)
+            if not isinstance(value, dict) or "column" not in value or not set(value) <= {"column", "unit", *further}:
+                raise refusal(path, f"{where}.{name}", value, f"{{ column = ..., unit = ...{''.join(f', {key} = ...' for key in further)} }} is needed")
+            scales = model.units[variables[name].unit]
+            try:
+                factor, offset = scale(value["unit"], scales) if "unit" in value else (1.0, 0.0)
+            except UserError as problem:
+                raise refusal(path, f"{where}.{name}.unit", value["unit"], problem) from None
+            found[name] = (kind, str(value["column"]), factor, offset, value)
+    if not found:
+        raise UserError(f"{path}: {where}: inputs or parameters are needed, each with its column")
+    return found
+
+
+def file_of(path, where, section, keys, needed):
+    """The file of a section, whose keys are checked."""
+    for key in section:
+        if key not in keys:
+            raise unknown(path, "key", f"{where}.{key}", [f"{where}.{name}" for name in keys])
+    for key in needed:
+        if not isinstance(section.get(key), str):
+            raise refusal(path, f"{where}.{key}", section.get(key), "a text is needed")
+    return Path(path).parent / section["file"]
+
+
+def table_points(path, document, model):
+    """The Parts of [table], one for each line of the file."""
+    section = section_of(path, document, "table")
+    if not section:
+        return
+    file = file_of(path, "table", section, TABLE, ("file", "hours"))
+    columns = columns_of(path, "table", section, model)
+    hours, *values = read_columns(file, (section["hours"], *(column for _, column, *_ in columns.values())))
+    for i, row in enumerate(np.column_stack([hours, *values]), 1):
+        label = f"{file.name} line {i}"
+        weight = amount(path, f"{label}: {section['hours']}", float(row[0]), HOURS)
+        yield part_of(path, document, model, label, label, block_of(columns, row[1:]), weight)
+
+
+def history_points(path, document, model):
+    """The Parts of [history]: the classes of a measured record."""
+    section = section_of(path, document, "history")
+    if not section:
+        return
+    file = file_of(path, "history", section, HISTORY, ("file", "time"))
+    columns = columns_of(path, "history", section, model, ("bins",))
+    bins = [count_of(path, f"history.{name}.bins", entry.get("bins", 5)) for name, (*_, entry) in columns.items()]
+    spent, means = binned(file, section["time"], [column for _, column, *_ in columns.values()], bins)
+    hours = amount(path, "history.hours", section.get("hours", spent.sum() / 3600.0), HOURS)
+    for i, (seconds, row) in enumerate(zip(spent, means, strict=True), 1):
+        label = f"{file.name} class {i}"
+        yield part_of(path, document, model, label, label, block_of(columns, row), hours * seconds / spent.sum())
+
+
+def block_of(columns, row):
+    """A point's block from values of columns."""
+    block = {"inputs": {}, "parameters": {}}
+    for (name, (kind, _, factor, offset, _)), value in zip(columns.items(), row.tolist(), strict=True):
+        block[kind][name] = (value - offset) / factor
+    return block
+
+
+def preload_loss(path, section):
+    """Hours and factors of the law of preload loss."""
+    if not section:
+        return np.zeros(1), np.ones(1)
+    for key in section:
+        if key not in LOSS:
+            raise unknown(path, "key", f"preload_loss.{key}", [f"preload_loss.{name}" for name in LOSS])
+    if not all(isinstance(section.get(key), list) and section[key] for key in LOSS) or len(section["hours"]) != len(section["factor"]):
+        raise UserError(f"{path}: preload_loss: hours and factor are needed, lists of one length")
+    hours = np.array([amount(path, "preload_loss.hours", value, HOURS) for value in section["hours"]])
+    factor = np.array([amount(path, "preload_loss.factor", value, SHARES) for value in section["factor"]])
+    if hours[0] != 0.0 or np.any(np.diff(hours) <= 0.0):
+        raise refusal(path, "preload_loss.hours", section["hours"], "they must begin with 0 and increase")
+    return hours, factor
+
+
+def cases_of(path, parts, factors, model):
+    """The Cases of all parts at all factors of preload, equal ones once, and the blends of Duty."""
+    simulated = [i for i, part in enumerate(parts) if part.scene is not None]
+    mixtures = {i: mixture(path, parts, i, simulated) for i, part in enumerate(parts) if part.scene is None}
+    cases, places = [], {}
+    for j, factor in enumerate(factors):
+        for i in simulated:
+            scene = loosened(parts[i].scene, factor * parts[i].factor, model)
+            key = (parts[i].event, key_of(scene, ""))
+            if key not in places:
+                places[key] = len(cases)
+                cases.append(Case(i, scene))
+            places[i, j, "at"] = places[key]
+    blends = np.zeros((len(factors), len(parts), len(cases)))
+    for j in range(len(factors)):
+        for i in range(len(parts)):
+            for source, share in mixtures.get(i, {i: 1.0}).items():
+                blends[j, i, places[source, j, "at"]] += share
+    return cases, blends
+
+
+def loosened(scene, factor, model):
+    """The scene with its preload times the factor."""
+    if factor == 1.0:
+        return scene
+    preload = scene.parameters.get(PRELOAD, model.default(model.parameters[PRELOAD]))
+    return replace(scene, parameters=scene.parameters | {PRELOAD: factor * preload})
+
+
+def mixture(path, parts, i, simulated):
+    """Shares {part: weight} with which the logarithms of the rates of simulated points make that of point i: linear between the points around it.
+
+    The points that count differ from point i in numbers alone; raises UserError if point i is not between them.
+    """
+    from scipy.spatial import Delaunay, QhullError
+
+    own = parts[i].values
+    comparable = [
+        q for q in simulated if not parts[q].event and parts[q].values.keys() == own.keys() and all(is_close_kind(parts[q].values[n], own[n]) for n in own)
+    ]
+    axes = [n for n in own if len({parts[q].values[n] for q in comparable} | {own[n]}) > 1]
+    outside = UserError(f"{path}: point {parts[i].name}: interpolate: not between the simulated points ({', '.join(axes) or 'none like it'}): simulate it")
+    if not axes or len(comparable) <= len(axes):
+        raise outside
+    grid = np.array([[parts[q].values[n] for n in axes] for q in comparable])
+    low, width = grid.min(axis=0), np.ptp(grid, axis=0)
+    if not np.all(width > 0.0):
+        raise outside
+    grid, target = (grid - low) / width, (np.array([own[n] for n in axes]) - low) / width
+    if len(axes) == 1:
+        order = np.argsort(grid[:, 0])
+        place = np.searchsorted(grid[order, 0], target[0])
+        if not grid[order[0], 0] <= target[0] <= grid[order[-1], 0]:
+            raise outside
+        corners = order[[max(place - 1, 0), max(place, 1)]]
+        near, far = grid[corners, 0]
+        shares = np.array([far - target[0], target[0] - near]) / (far - near)
+    else:
+        try:
+            net = Delaunay(grid)
+        except QhullError:
+            raise outside from None
+        simplex = int(net.find_simplex(target))
+        if simplex < 0:
+            raise outside
+        corners = net.simplices[simplex]
+        shares = net.transform[simplex, :-1] @ (target - net.transform[simplex, -1])
+        shares = np.append(shares, 1.0 - shares.sum())
+    return {comparable[c]: float(share) for c, share in zip(corners, shares, strict=True) if share > 0.0}
+
+
+def is_close_kind(one, other):
+    """Whether two values may differ and yet be interpolated: numbers; texts and histories must be equal."""
+    numbers = all(isinstance(value, (int, float)) for value in (one, other))
+    return numbers or (one is not None and one == other)

@@ -1,0 +1,43 @@
+"""What a reader of a mission's life has to know: what was simulated, what was left out and why, what the figure does not hold."""
+
+import math
+
+from .page import percent
+
+
+def notes(life, runs, scatter=None):
+    """Sentences on a Life, its Runs and, if there are tolerances, the Scatter of bearings."""
+    mission, found = life.mission, life.estimate
+    settings = mission.settings
+    reached = f"{percent(found.half_width)}, wanted {100 * settings['half_width']:g} %"
+    if found.half_width > math.log1p(settings["half_width"]):
+        sentences = [f"The interval is wider than asked for ({reached} of life): max_seeds = {settings['max_seeds']} was reached."]
+    else:
+        sentences = [f"The interval is as narrow as asked for: {reached} of life."]
+    if life.bounds:
+        names = ", ".join(mission.parts[i].name for i in life.bounds)
+        total = 100.0 * sum(life.bounds.values()) * found.life
+        sentences.append(
+            f"Not simulated, because they have less than {total:.2g} % of the damage by the bound that stress changes no faster than loads and "
+            f"the square of speed, with ten times the damage on top: {names}. The lower end of the interval holds this bound."
+        )
+    if settings["rivets"] == "each":
+        sentences.append(
+            "Each rivet is taken to keep its place: in a run the balls and the cage stay as the start has arranged them. "
+            'With rivets = "alike" in [life], all rivets take all places in turn.'
+        )
+    if "sn" in mission.document:
+        sentences.append(
+            f"Damage by the S-N curve of [sn] from rainflow matrices of the communication points; with the FMU's own law these matrices find "
+            f"{100 * runs.counted():.3g} % of the damage that the FMU counts at every internal step."
+        )
+    if scatter:
+        law = scatter.law
+        low, high = law.b10_interval
+        noise = "" if math.isnan(scatter.noise) else f" The seeds have {100 * min(scatter.noise, 1.0):.2g} % of the scatter."
+        sentences.append(
+            f"Over {len(scatter.lives)} bearings within their tolerances: B10 {law.b10:.3g} h ({low:.3g} to {high:.3g} h at {100 * law.confidence:g} %), "
+            f"Weibull shape {law.beta:.3g}, characteristic life {law.eta:.3g} h.{noise}"
+        )
+    sentences.append(f"Processor time of the runs: {sum(runs.cost.values()):.0f} s in {len(runs.cost)} runs.")
+    return sentences

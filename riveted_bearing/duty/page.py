@@ -1,0 +1,189 @@
+"""The page of a mission: life with its confidence, who contributes, rivet by rivet, damage against load and speed."""
+
+import math
+
+import jinja2
+import matplotlib
+import numpy as np
+
+from .. import charts
+from ..plot import FORCE, HEAD, MIDDLE, MUTED, RING, plt
+from ..report import PARTS, figure
+from ..results import write_atomically
+from ..summary import RPM
+
+MOST_BARS = 14
+WIDE, TALL = (4.9, 2.9), (4.9, 3.6)  # inches
+
+
+def write_page(life, path, notes):
+    """Write the page of a Life, whole or not at all; notes: sentences on what was simulated and left out.  Returns the path."""
+    environment = jinja2.Environment(autoescape=True, trim_blocks=True, lstrip_blocks=True, undefined=jinja2.StrictUndefined)
+    template = environment.from_string((PARTS / "life.html").read_text(encoding="utf-8"))
+    text = template.render(
+        mission=life.mission,
+        style=(PARTS / "style.css").read_text(encoding="utf-8"),
+        cards=list(cards(life)),
+        rows=list(part_rows(life)),
+        notes=notes,
+        charts={name: charts.svg(lambda fig, draw=draw: draw(fig, life), size, label) for name, (draw, size, label) in CHARTS.items()},
+    )
+    write_atomically(path, lambda temporary: temporary.write_text(text, encoding="utf-8"))
+    return path
+
+
+def hours_text(hours):
+    """A life in hours with three digits."""
+    if not math.isfinite(hours):
+        return "no damage"
+    return f"{hours:.3g} h" if hours >= 1e7 or hours < 1e3 else f"{round(hours, 2 - math.floor(math.log10(hours))):,.0f} h"
+
+
+def share_text(share):
+    """A share of the damage in per cent."""
+    return f"{100 * share:.3g} %" if share < 0.9995 and share >= 1e-3 else "100 %" if share > 0.5 else "< 0.1 %"
+
+
+def cards(life):
+    """The figures to see first: (title, value, remark)."""
+    found, settings = life.estimate, life.mission.settings
+    yield "Life", hours_text(found.life), f"{life.place} · Miner's sum 1"
+    yield (
+        f"{100 * settings['confidence']:g} % interval",
+        f"{hours_text(life.low)} – {hours_text(found.high)}",
+        f"half-width {percent(found.half_width)} of life",
+    )
+    yield "Mission", f"{figure(life.mission.hours)} h", f"{figure(found.life / life.mission.hours)} passes" if math.isfinite(found.life) else "no damage"
+    yield "Runs", f"{sum(life.counts)}", f"{sum(part.scene is not None for part in life.mission.parts) - len(life.bounds)} points and events simulated"
+
+
+def percent(half_width):
+    """A half-width of ln life as a share of life."""
+    return f"{100 * math.expm1(half_width):.3g} %"
+
+
+def part_rows(life):
+    """Name, kind, weight, seeds, damage per hour or event, standard error, share of each part."""
+    share = dict(zip(life.kept, life.estimate.shares, strict=True))
+    for i, part in enumerate(life.mission.parts):
+        weight = f"{figure(part.weight)} {'times' if part.event else 'h'}"
+        if i in life.bounds:
+            how, rate, text = "left out", "", f"< {100 * life.bounds[i] * life.estimate.life:.2g} %"
+        else:
+            how = "interpolated" if part.scene is None else f"{life.counts[i]} seeds"
+            rate, text = f"{rate_at_place(life, i):.3g}", share_text(share[i])
+        yield part.name, weight, how, rate, "event" if part.event else "h", text
+
+
+def rate_at_place(life, i):
+    """Damage of part i per hour or event at the place that fails first."""
+    place = life.estimate.place
+    return life.rates[i].reshape(-1)[place] if life.mission.settings["rivets"] == "each" else life.rates[i, :, place].mean()
+
+
+def life_chart(fig, life):
+    """Bootstrap distribution of life, the interval shaded."""
+    ax, found = fig.subplots(), life.estimate
+    if not math.isfinite(found.life):
+        ax.text(0.5, 0.5, "no damage", ha="center", transform=ax.transAxes)
+        return
+    draws = np.log10(found.draws)
+    low, high = min(draws.min(), math.log10(life.low)), max(draws.max(), math.log10(found.high))
+    margin = 0.05 * (high - low) or 0.1
+    ax.axvspan(life.low, found.high, color="#f3f4f6", zorder=0, label=f"{100 * life.mission.settings['confidence']:g} % interval")
+    ax.hist(found.draws, bins=np.logspace(low - margin, high + margin, 41), color=MIDDLE, alpha=0.8, label="bootstrap")
+    ax.axvline(found.life, color=HEAD, lw=1.8, label="life")
+    ax.set_xscale("log")
+    ax.set(xlabel="life [h]", ylabel="draws", xlim=(10 ** (low - margin), 10 ** (high + margin)))
+    if high - low < 1.0:
+        ticks = np.unique([float(f"{10**x:.2g}") for x in np.linspace(low, high, 5)])
+        ax.set_xticks(ticks, [hours_text(tick).removesuffix(" h") for tick in ticks])
+        ax.xaxis.set_minor_formatter(matplotlib.ticker.NullFormatter())
+    ax.legend(ncols=3, loc="lower right", bbox_to_anchor=(1.0, 1.0))
+
+
+def share_chart(fig, life):
+    """Share of each part in the damage, the largest first."""
+    ax = fig.subplots()
+    parts = [(life.mission.parts[i], share) for i, share in zip(life.kept, life.estimate.shares, strict=True)]
+    parts.sort(key=lambda pair: -pair[1])
+    shown = parts[:MOST_BARS] if len(parts) <= MOST_BARS else parts[: MOST_BARS - 1]
+    names = [part.name for part, _ in shown] + ([f"{len(parts) - len(shown)} others"] if len(shown) < len(parts) else [])
+    shares = [share for _, share in shown] + ([sum(share for _, share in parts[len(shown) :])] if len(shown) < len(parts) else [])
+    colours = [RING if part.event else MIDDLE for part, _ in shown] + [MUTED] * (len(names) - len(shown))
+    bars = ax.barh(range(len(names)), 100 * np.array(shares), color=colours, height=0.66)
+    ax.bar_label(bars, [share_text(share) for share in shares], padding=3, fontsize=8)
+    ax.set_yticks(range(len(names)), names)
+    ax.invert_yaxis()
+    ax.grid(axis="y", visible=False)
+    ax.set(xlabel="share of the damage [%]", xlim=(0, 115 * max(shares, default=1.0) or 1.0))
+
+
+def rivet_chart(fig, life):
+    """Damage per hour of the mission of each rivet's head and middle."""
+    ax = fig.subplots()
+    damage = np.einsum("i,ikp->kp", life.mission.duty.weights, life.rates)
+    k = np.arange(1, len(damage) + 1)
+    for place, colour, label in ((0, HEAD, "head fillet"), (1, MIDDLE, "middle of the shank")):
+        ax.bar(k + 0.4 * place - 0.2, np.maximum(damage[:, place], 1e-300), width=0.36, color=colour, alpha=0.85, label=label)
+    seen = damage[damage > 1e-299]
+    if len(seen):
+        ax.set_yscale("log")
+        ax.set_ylim(10 ** math.floor(math.log10(seen.min()) - 0.3), 10 ** (math.log10(seen.max()) + 0.3))
+    ax.set(xlabel="rivet", ylabel="damage per hour")
+    ax.set_xticks(k)
+    ax.grid(axis="x", visible=False)
+    ax.legend(ncols=2, loc="lower right", bbox_to_anchor=(1.0, 1.0))
+
+
+def load_and_speed_chart(fig, life):
+    """Damage per hour of the points over their radial load, coloured by speed; the area grows with the hours."""
+    ax = fig.subplots()
+    points = [i for i in life.kept if not life.mission.parts[i].event]
+    load, speed = np.array([condition(life.mission.parts[i].values) for i in points]).T
+    rate = np.array([rate_at_place(life, i) for i in points])
+    hours = np.array([life.mission.parts[i].weight for i in points])
+    if np.ptp(load) == 0.0 and np.ptp(speed) > 0.0:
+        x, colour, labels = speed, load, ("speed [rev/min]", "radial load [kN]")
+    else:
+        x, colour, labels = load, speed, ("radial load [kN]", "speed [rev/min]")
+    varies = np.ptp(colour) > 0.0
+    look = {"c": colour, "cmap": "viridis"} if varies else {"color": MIDDLE}
+    dots = ax.scatter(x, np.maximum(rate, 1e-300), s=18 + 130 * hours / hours.max(), edgecolor=FORCE, lw=0.5, alpha=0.9, **look)
+    ax.set(xlabel=labels[0], ylabel="damage per hour")
+    if np.any(rate > 1e-299):
+        ax.set_yscale("log")
+        low, high = np.log10([rate[rate > 1e-299].min(), rate.max()])
+        ax.set_ylim(10 ** (low - 0.12 * (high - low) - 0.3), 10 ** (high + 0.12 * (high - low) + 0.3))
+    ax.margins(x=0.12)
+    if varies:
+        fig.colorbar(dots, ax=ax, label=labels[1], pad=0.02).outline.set_visible(False)
+
+
+def condition(values):
+    """Radial load [kN] and speed [rev/min] of a point."""
+    loads = [values.get(name) or 0.0 for name in ("shaft.F_y", "shaft.F_z")]
+    return 1e-3 * math.hypot(*loads), RPM * (values.get("shaft.omega") or 0.0)
+
+
+CHARTS = {
+    "life": (life_chart, WIDE, "Life and its confidence"),
+    "shares": (share_chart, TALL, "Share of each point and event in the damage"),
+    "rivets": (rivet_chart, WIDE, "Damage of each rivet"),
+    "conditions": (load_and_speed_chart, TALL, "Damage against load and speed"),
+}
+
+
+def write_picture(life, path):
+    """The four charts as one PNG, whole or not at all; returns the path."""
+    from ..plot import STYLE
+
+    with plt.rc_context(STYLE):
+        whole = plt.figure(figsize=(11, 7.4), layout="constrained")
+        whole.suptitle(f"{life.mission.name}: life {hours_text(life.estimate.life)}, {life.place}", x=0.01, ha="left", fontsize=11)
+        for part, (draw, _, label) in zip(whole.subfigures(2, 2).ravel(), CHARTS.values(), strict=True):
+            draw(part, life)
+            part.suptitle(label, x=0.02, ha="left", fontsize=10, fontweight="bold")
+        write_atomically(path, lambda temporary: whole.savefig(temporary, dpi=110))
+        plt.close(whole)
+    return path

@@ -1,0 +1,195 @@
+"""Strength of the rivets' steel as users have it: S-N curves from a file, scatter and survival, surface and size.
+
+    [sn]
+    file = "steel.toml"            # optional: these keys in a file, or a CSV table with the columns amplitude [Pa, or `unit`] and cycles
+    sigma_D = "250 MPa"            # amplitude at the knee, R = -1; what is not given comes from the run's fatigue.* parameters
+    N_D = 2e6                      # cycles at the knee
+    k_1 = 8                        # slope above the knee, and k_2 below
+    rule = "haibach"               # k_2 = 2 k_1 - 1; "elementary": k_2 = k_1; "original": no damage below; "knee": k_2 as given
+    mean_stress = "goodman"        # none, goodman, swt, morrow, with sigma_m and sigma_f
+    T_S = 1.25                     # scatter: strength of 90 % over strength of 10 %; or T_N, of the cycles
+    survival = 0.975               # the curve that this share survives; the curve as given holds for 0.5
+    R_z = "6.3 um"                 # roughness: factor of the FKM guideline
+    A_90 = 12.0                    # mm^2 at 90 % of the largest stress or more: statistical size factor of the FKM guideline
+    A_90_specimen = 500.0          # mm^2, of the specimens of the curve; default: the guideline's 500
+
+pylife holds curves, rules, scatter and the guideline's constants.
+"""
+
+import math
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from bearing_model.fatigue import FatigueLaw, fully_reversed
+from bearing_model.variables import MeanStress
+
+from ..errors import UserError, unknown
+from ..scene import read_toml, refusal
+from ..units import to_si
+
+PASCAL = {"Pa": (1.0, 0.0), "MPa": (1e-6, 0.0)}
+METRE = {"m": (1.0, 0.0), "um": (1e6, 0.0)}
+PLAIN = {"1": (1.0, 0.0)}
+NUMBERS = {"sigma_D": PASCAL, "N_D": PLAIN, "k_1": PLAIN, "k_2": PLAIN, "sigma_m": PASCAL, "sigma_f": PASCAL}
+SCATTER = {"T_S": PLAIN, "T_N": PLAIN, "survival": PLAIN}
+FKM = {"R_z": METRE, "A_90": PLAIN, "A_90_specimen": PLAIN}
+RULES = ("knee", "haibach", "elementary", "original")
+KEYS = ("file", "unit", "rule", "mean_stress", *NUMBERS, *SCATTER, *FKM)
+FKM_STEEL = "Steel"
+
+
+@dataclass(frozen=True)
+class Strength:
+    """law: of the mean-stress correction and the curve before scatter and factors; rule: below the knee; T_S: scatter of strength; survival; factor: of
+    strength by surface and size; table: (amplitude [Pa], cycles) instead of the curve, or None."""
+
+    law: FatigueLaw
+    rule: str = "knee"
+    T_S: float = 1.0
+    survival: float = 0.5
+    factor: float = 1.0
+    table: tuple | None = None
+
+
+def read_strength(path, section, law):
+    """The Strength of a mission's section [sn]; law: FatigueLaw that stands for what is not given.  Raises UserError naming key and value."""
+    where = f"{path}: sn"
+    section, table = with_file(path, where, dict(section))
+    for key in section:
+        if key not in KEYS:
+            raise unknown(where, "key", key, KEYS)
+    numbers = {key: positive(where, key, section[key], scales) for key, scales in (NUMBERS | SCATTER | FKM).items() if key in section}
+    rule = section.get("rule", "knee")
+    if rule not in RULES:
+        raise refusal(where, "rule", rule, f"allowed: {', '.join(RULES)}")
+    mean_stress = section.get("mean_stress", MeanStress(law.mean_stress).name.lower())
+    if not isinstance(mean_stress, str) or mean_stress.upper() not in MeanStress.__members__:
+        raise refusal(where, "mean_stress", mean_stress, f"allowed: {', '.join(name.lower() for name in MeanStress.__members__)}")
+    law = FatigueLaw(**vars(law) | {key: numbers[key] for key in NUMBERS if key in numbers} | {"mean_stress": int(MeanStress[mean_stress.upper()])})
+    survival = numbers.get("survival", 0.5)
+    if not survival < 1.0:
+        raise refusal(where, "survival", survival, "a share below 1 is needed")
+    if "T_S" in numbers and "T_N" in numbers:
+        raise UserError(f"{where}: T_S and T_N: one follows from the other, so give one of them")
+    T_S = numbers.get("T_S", numbers.get("T_N", 1.0) ** (1.0 / law.k_1))
+    if T_S < 1.0:
+        raise refusal(where, "T_S" if "T_S" in numbers else "T_N", numbers.get("T_S", numbers.get("T_N")), "from 1 on is allowed")
+    return Strength(law, rule, T_S, survival, surface_factor(numbers, law.sigma_m) * size_factor(numbers), table)
+
+
+def with_file(path, where, section):
+    """The section with the keys of its file below its own, and the table of the file if it is one."""
+    name = section.pop("file", None)
+    unit = section.get("unit", "Pa")
+    if unit not in PASCAL:
+        raise refusal(where, "unit", unit, f"allowed: {', '.join(PASCAL)}")
+    if name is None:
+        return section, None
+    if not isinstance(name, str):
+        raise refusal(where, "file", name, "a file's name is needed")
+    file = Path(path).parent / name
+    if not file.is_file():
+        raise UserError(f"{where}: file: {file}: no such file")
+    if file.suffix == ".toml":
+        return read_toml(file) | section, None
+    from .history import read_columns
+
+    amplitude, cycles = read_columns(file, ("amplitude", "cycles"))
+    amplitude = amplitude / PASCAL[unit][0]
+    order = np.argsort(amplitude)
+    amplitude, cycles = amplitude[order], cycles[order]
+    if len(amplitude) < 2 or amplitude[0] <= 0.0 or cycles.min() <= 0.0 or np.any(np.diff(amplitude) <= 0.0) or np.any(np.diff(cycles) > 0.0):
+        raise UserError(f"{file}: at least two positive amplitudes are needed, all different, with cycles that fall while the amplitude grows")
+    return section, (amplitude, cycles)
+
+
+def positive(where, key, value, scales):
+    """SI value of a number greater than zero."""
+    try:
+        number = to_si(value, scales)
+    except UserError as problem:
+        raise refusal(where, key, value, problem) from None
+    if number <= 0.0:
+        raise refusal(where, key, value, "must be greater than 0")
+    return number
+
+
+def library():
+    """The class of pylife's S-N curves; UserError if the library is missing."""
+    try:
+        import pandas as pd
+        from pylife.materiallaws import WoehlerCurve
+    except ImportError:
+        raise UserError('sn: needs the library pylife: pip install "riveted-bearing[design]"') from None
+    return lambda **values: WoehlerCurve(pd.Series(values))
+
+
+def fkm():
+    """The FKM guideline's constants for steel, and its support factor, from pylife."""
+    library()
+    from pylife.strength.fkm_linear.fkm_functions import FkmLinearFunctions
+
+    functions = FkmLinearFunctions()
+    return functions, functions.get_material_constants(FKM_STEEL, "normal")[0]
+
+
+def surface_factor(numbers, sigma_m):
+    """K_R = 1 - a_R lg(R_z/um) lg(2 R_m/R_m_N_min), 1 for smooth surfaces.  FKM guideline (2012), 4.3.1.4."""
+    if "R_z" not in numbers:
+        return 1.0
+    _, steel = fkm()
+    return 1.0 - steel["aR_s"] * math.log10(max(1e6 * numbers["R_z"], 1.0)) * math.log10(max(2e-6 * sigma_m / steel["RmNmin"], 1.0))
+
+
+def size_factor(numbers):
+    """n_st = (A_90_specimen/A_90)^(1/k_st): the larger the stressed surface, the weaker its weakest place.  FKM guideline (2012), 4.3.1.3.2."""
+    if "A_90" not in numbers:
+        return 1.0
+    functions, steel = fkm()
+    specimen = numbers.get("A_90_specimen", functions.A90_0)
+    return float(functions.stat_support_surf(numbers["A_90"], steel["k_st"]) / functions.stat_support_surf(specimen, steel["k_st"]))
+
+
+def curve(strength):
+    """pylife's S-N curve of a Strength: rule, survival and factors applied."""
+    law = strength.law
+    plain = library()(SD=law.sigma_D * strength.factor, ND=law.N_D, k_1=law.k_1, k_2=law.k_2, TS=strength.T_S)
+    if strength.rule != "knee":
+        plain = getattr(plain, f"miner_{strength.rule}")()
+    return plain.transform_to_failure_probability(1.0 - strength.survival)
+
+
+def cycles_to_failure(strength, amplitude):
+    """Cycles that each amplitude at zero mean stress [Pa] is borne; a table is a straight line between its points in logarithms, and beyond its ends."""
+    if strength.table is None:
+        return curve(strength).cycles(amplitude)
+    from scipy.interpolate import make_interp_spline
+
+    knots, cycles = strength.table
+    stronger = strength.factor * 10.0 ** (quantile(strength) * math.log10(strength.T_S) / 2.5631)
+    return np.exp(make_interp_spline(np.log(knots * stronger), np.log(cycles), k=1)(np.log(amplitude)))
+
+
+def quantile(strength):
+    """Standard deviations by which the curve of the survival asked for lies above that of 50 %."""
+    from scipy.stats import norm
+
+    return float(norm.ppf(1.0 - strength.survival))
+
+
+def damage_of_cycles(strength, span, mean, count):
+    """Miner's sum of the cycles of each range and mean [Pa]; a cycle breaks a part at most once."""
+    law = strength.law
+    amplitude = np.array([fully_reversed(law, 0.5 * s, m) for s, m in zip(span.tolist(), mean.tolist(), strict=True)])
+    damage = np.where(np.isinf(amplitude), 1.0, 0.0)
+    counts = np.isfinite(amplitude) & (amplitude > 0.0)
+    damage[counts] = np.minimum(1.0 / cycles_to_failure(strength, amplitude[counts]), 1.0)
+    return damage * count
+
+
+def damage_of_matrix(strength, matrix, channels):
+    """Miner's sum of each channel of a run's rainflow matrix."""
+    channel, span, mean, count = matrix
+    return np.bincount(channel, damage_of_cycles(strength, span, mean, count), minlength=channels) if len(channel) else np.zeros(channels)

@@ -1,0 +1,192 @@
+"""No two bearings alike: tolerances as distributions, and the scatter of life over bearings that are drawn from them.
+
+[tolerance]
+bearings = 30                        # how many are drawn
+seeds = 2                            # runs of each bearing at each point
+share = 0.95                         # simulate the points and events that have this share of the damage; the rest keeps its damage
+[tolerance.parameters]
+joint.preload = { distribution = "normal", mean = "20 N", sd = "2 N" }
+joint.fit = { distribution = "uniform", low = "-20 um", high = "0 um" }
+cage.guide_clearance = { distribution = "triangular", low = "0.15 mm", mode = "0.2 mm", high = "0.3 mm" }
+joint.mu = { distribution = "lognormal", median = 0.15, factor = 1.2 }      # 68 % within median/factor ... median factor
+"""
+
+import json
+import math
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+
+from ..design.weibull import Weibull, fit_weibull
+from ..errors import UserError, unknown
+from ..results import write_atomically
+from ..scene import leaves, refusal, section_of
+from ..sweep import count_of
+from ..units import to_si
+from .assess import Runs, places
+from .confidence import relative_error
+from .mission import SHARES, Case, loosened, number
+
+KEYS = ("bearings", "seeds", "share", "parameters")
+DISTRIBUTIONS = {
+    "normal": ("mean", "sd"),
+    "lognormal": ("median", "factor"),
+    "uniform": ("low", "high"),
+    "triangular": ("low", "mode", "high"),
+}
+RECORD = "bearings.json"
+
+
+@dataclass(frozen=True)
+class Tolerances:
+    """How many bearings with how many seeds at which share of the damage, and the frozen distributions of scipy.stats by parameter (SI)."""
+
+    bearings: int
+    seeds: int
+    share: float
+    distributions: dict
+
+
+@dataclass(frozen=True)
+class Scatter:
+    """lives of the bearings [h]; draws: {parameter: values}; noise: share of the variance of ln life that the seeds have; law: of Weibull."""
+
+    lives: np.ndarray
+    draws: dict = field(repr=False)
+    noise: float
+    law: Weibull
+
+
+def read_tolerances(mission, model):
+    """The Tolerances of a mission, None if it has none; raises UserError naming parameter and distribution."""
+    path, section = mission.path, section_of(mission.path, mission.document, "tolerance")
+    if not section:
+        return None
+    for key in section:
+        if key not in KEYS:
+            raise unknown(path, "key", f"tolerance.{key}", [f"tolerance.{name}" for name in KEYS])
+    bearings = count_of(path, "tolerance.bearings", section.get("bearings", 30))
+    seeds = count_of(path, "tolerance.seeds", section.get("seeds", 2))
+    share = number(path, "tolerance.share", section.get("share", 0.95), SHARES)
+    if bearings < 3:
+        raise refusal(path, "tolerance.bearings", bearings, "from 3, which show scatter")
+    if not 0.0 < share <= 1.0:
+        raise refusal(path, "tolerance.share", share, "above 0 and up to 1 is allowed")
+    given = dict(leaves(section_of(f"{path}: tolerance", section, "parameters"), model.parameters))
+    if not given:
+        raise UserError(f"{path}: tolerance.parameters: name at least one parameter with its distribution")
+    return Tolerances(bearings, seeds, share, {name: distribution(path, name, entry, model) for name, entry in given.items()})
+
+
+def distribution(path, name, entry, model):
+    """The frozen distribution of one parameter."""
+    from scipy import stats
+
+    where = f"tolerance.{name}"
+    if name not in model.parameters:
+        raise unknown(path, "parameter", name, model.parameters)
+    variable = model.parameters[name]
+    if variable.type != "Real":
+        raise refusal(path, where, entry, "only real numbers have distributions")
+    kind = entry.get("distribution") if isinstance(entry, dict) else None
+    if kind not in DISTRIBUTIONS:
+        raise refusal(path, f"{where}.distribution", kind, f"allowed: {', '.join(DISTRIBUTIONS)}")
+    if set(entry) != {"distribution", *DISTRIBUTIONS[kind]}:
+        raise refusal(path, where, entry, f"{kind} needs {', '.join(DISTRIBUTIONS[kind])}, and nothing else")
+    scales, values = model.units[variable.unit], []
+    for key in DISTRIBUTIONS[kind]:
+        allowed = {"1": (1.0, 0.0)} if key == "factor" else differences(scales) if key == "sd" else scales
+        try:
+            values.append(to_si(entry[key], allowed))
+        except UserError as problem:
+            raise refusal(path, f"{where}.{key}", entry[key], problem) from None
+    first, *rest = values
+    if kind == "normal" and rest[0] > 0.0:
+        return stats.norm(first, rest[0])
+    if kind == "lognormal" and first > 0.0 and rest[0] > 1.0:
+        return stats.lognorm(math.log(rest[0]), scale=first)
+    if kind == "uniform" and first < rest[0]:
+        return stats.uniform(first, rest[0] - first)
+    if kind == "triangular" and first < rest[1] and first <= rest[0] <= rest[1]:
+        return stats.triang((rest[0] - first) / (rest[1] - first), loc=first, scale=rest[1] - first)
+    raise refusal(path, where, entry, "sd above 0, median above 0, factor above 1, low below high and mode between them are allowed")
+
+
+def differences(scales):
+    """Scales of a difference: without the offset of degrees Celsius."""
+    return {symbol: (factor, 0.0) for symbol, (factor, _) in scales.items()}
+
+
+def drawn(tolerances, seed):
+    """Values of the parameters of all bearings: {name: [bearings]}."""
+    rng = np.random.default_rng(seed)
+    return {name: law.rvs(tolerances.bearings, random_state=rng) for name, law in tolerances.distributions.items()}
+
+
+def scatter(life, tolerances, model, folder, client, progress=None, runs_of=None):
+    """The Scatter of life over bearings drawn from the tolerances, for the mission of a Life.
+
+    Points and events that have the share asked for are simulated for each bearing with common seeds, at the preload of the mission's start.
+    runs_of: function of the mission of bearings that gives its runs(counts), None for the FMU's in a folder of their own.
+    """
+    mission, settings = life.mission, life.mission.settings
+    draws = drawn(tolerances, settings["seed"])
+    chosen = decisive_parts(life, tolerances.share)
+    cases = [
+        Case(i, changed(mission, model, i, {name: float(values[b]) for name, values in draws.items()})) for b in range(tolerances.bearings) for i in chosen
+    ]
+    of_bearings = replace(mission, cases=tuple(cases), settings=settings | {"max_seeds": tolerances.seeds})
+    runs = runs_of(of_bearings) if runs_of else Runs(of_bearings, model, folder / "bearings", client, progress)
+    samples = runs([tolerances.seeds] * len(cases))
+    weights = mission.duty.weights
+    rest = sum(weights[i] * life.rates[i] for i in range(len(mission.parts)) if i not in chosen)
+    lives, noise = [], []
+    for b in range(tolerances.bearings):
+        own = samples[b * len(chosen) : (b + 1) * len(chosen)]
+        damage = places((rest + sum(weights[i] * runs.mean(axis=0) for i, runs in zip(chosen, own, strict=True)))[None], settings["rivets"])[0]
+        place = int(damage.argmax())
+        lives.append(1.0 / damage[place])
+        at_place = [weights[i] * places(runs, settings["rivets"])[:, place] for i, runs in zip(chosen, own, strict=True)]
+        if tolerances.seeds > 1:
+            spread = np.array([np.log(np.maximum(runs, 1e-300)).std(ddof=1) for runs in at_place])
+            noise.append(np.sum((np.array([runs.mean() for runs in at_place]) / damage[place] * relative_error(spread, tolerances.seeds)) ** 2))
+    lives = np.array(lives)
+    share = float(np.mean(noise) / np.log(lives).var(ddof=1)) if noise else math.nan
+    return Scatter(lives, draws, share, fit_weibull(lives, confidence=settings["confidence"]))
+
+
+def decisive_parts(life, share):
+    """Numbers of the simulated parts that together have the share of the damage, the largest first."""
+    chosen, reached = [], 0.0
+    for i, part in sorted(zip(life.kept, life.estimate.shares, strict=True), key=lambda pair: -pair[1]):
+        if reached >= share:
+            break
+        reached += part
+        if life.mission.parts[i].scene is not None:
+            chosen.append(i)
+    return chosen
+
+
+def changed(mission, model, i, values):
+    """The scene of part i for a bearing with these parameters; preload times the part's own factor."""
+    part = mission.parts[i]
+    scene = part.scene
+    for name, value in values.items():
+        try:
+            model.check_range(value, model.parameters[name])
+        except UserError as problem:
+            raise refusal(mission.path, f"tolerance.{name}", value, f"a bearing drawn from the distribution is impossible: {problem}") from None
+    scene = replace(scene, parameters=scene.parameters | values)
+    return loosened(scene, part.factor, model)
+
+
+def write_scatter(found, path):
+    """Write bearings.json: the Weibull law, the seeds' share of the scatter, lives and what was drawn; returns the path."""
+    document = found.law.record() | {
+        "confidence": found.law.confidence,
+        "seeds_share": found.noise if math.isfinite(found.noise) else None,
+        "lives_h": found.lives.tolist(),
+        "drawn": {name: values.tolist() for name, values in found.draws.items()},
+    }
+    write_atomically(path, lambda temporary: temporary.write_text(json.dumps(document, indent=1) + "\n", encoding="utf-8"))
+    return path

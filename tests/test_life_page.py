@@ -1,0 +1,83 @@
+"""docs/life.md: its files and commands do what the page says."""
+
+import json
+import re
+import shlex
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+import typer
+from typer.main import get_command
+
+from riveted_bearing.cli import program
+from riveted_bearing.design.optimize import plan_optimize
+from riveted_bearing.design.sensitivity import plan_sensitivity
+from riveted_bearing.duty.mission import load_mission
+from riveted_bearing.duty.tolerances import read_tolerances
+from riveted_bearing.fmu import Model
+from riveted_bearing.scene import read_toml
+
+ROOT = Path(__file__).parents[1]
+PAGE = (ROOT / "docs" / "life.md").read_text(encoding="utf-8")
+BLOCKS = re.findall(r"^```(\w+)\n(.*?)^```", PAGE, re.S | re.M)
+FILES = {re.match(r"# (\S+)", text)[1]: text for language, text in BLOCKS if language in ("toml", "csv")}
+COMMANDS = [line for language, text in BLOCKS if language == "sh" for line in text.splitlines()]
+
+
+@pytest.fixture
+def folder(tmp_path, monkeypatch):
+    """A folder with the page's files."""
+    for name, text in FILES.items():
+        (tmp_path / name).write_text(text, encoding="utf-8")
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setenv("PYTHONPATH", str(ROOT))
+    return tmp_path
+
+
+def test_files_can_be_read(folder):
+    """Every file of the page by the reader of its command."""
+    model = Model()
+    readers = {
+        "life": lambda path: read_tolerances(load_mission(path, model), model),
+        "sensitivity": lambda path: plan_sensitivity(path, read_toml(path), model),
+        "optimize": lambda path: plan_optimize(path, read_toml(path), model),
+    }
+    for line in COMMANDS:
+        _, name, path = shlex.split(line)
+        readers[name](Path(path))
+    assert {line.split()[2] for line in COMMANDS} == {name for name in FILES if name.endswith(".toml")}
+
+
+@pytest.mark.parametrize("line", COMMANDS)
+def test_commands_parse(line):
+    _, name, *arguments = shlex.split(line)
+    command = get_command(program)
+    with typer.Context(command) as context:
+        command.get_command(context, name).make_context(name, arguments, parent=context)
+
+
+def test_links_lead_somewhere():
+    for path in re.findall(r"\]\(([^)#]+)(?:#[^)]*)?\)", PAGE):
+        assert (ROOT / "docs" / path).exists(), path
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("line", COMMANDS)
+def test_commands_do_what_the_page_says(folder, line):
+    """Each command in its own folder: the files that the page names are there.  A quarter of a minute each."""
+    _, name, path = shlex.split(line)
+    done = subprocess.run([sys.executable, "-m", "riveted_bearing", name, path], capture_output=True, text=True, timeout=1800, check=False)
+    assert done.returncode == 0, f"{line}\n{done.stdout}\n{done.stderr}"
+    made = folder / "results" / Path(path).stem
+    expected = {
+        "life": ("life.json", "life.html", "life.png", "runs.parquet"),
+        "sensitivity": ("sensitivity.json",),
+        "optimize": ("optimize.json", "optimize.png"),
+    }
+    for file in expected[name] + (("bearings.json", "weibull.png") if path == "tolerance.toml" else ()):
+        assert (made / file).is_file(), file
+    if name == "life":
+        found = json.loads((made / "life.json").read_text())
+        assert 0.0 < found["low_h"] <= found["life_h"] <= found["high_h"]

@@ -1,0 +1,378 @@
+"""Missions: Miner's sum against hand calculation, what the interval covers, what is left out, and what a file may say."""
+
+import json
+import math
+import os
+import signal
+import subprocess
+import sys
+import time
+import tomllib
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from riveted_bearing import UserError
+from riveted_bearing.duty.assess import Runs, assess, record
+from riveted_bearing.duty.confidence import estimate, until_sure
+from riveted_bearing.duty.history import binned
+from riveted_bearing.duty.miner import Duty, lives, simple_duty
+from riveted_bearing.duty.mission import LIFE, plan_mission
+from riveted_bearing.duty.page import write_page, write_picture
+from riveted_bearing.fmu import Model
+
+ROOT = Path(__file__).resolve().parents[1]
+SHORT = {"simulation": {"t_end": 0.01}, "parameters": {"start.settle": 0.002}}
+Z = 9
+
+
+@pytest.fixture(scope="module")
+def model():
+    return Model()
+
+
+def surrogate(rates, spread, rng):
+    """runs(counts) of a bearing whose damage is log-normal: rates of the cases at the places [C, Z, 2], standard deviation of the logarithm."""
+    drawn = [rate * np.exp(spread * rng.normal(size=(64, *rate.shape)) - 0.5 * spread**2) for rate in np.asarray(rates)]
+    return lambda counts: [runs[:n] for runs, n in zip(drawn, counts, strict=True)]
+
+
+def mission_of(model, points, **document):
+    """A Mission of points (hours, inputs) with the document's other keys."""
+    blocks = [{"hours": hours, "inputs": inputs} for hours, inputs in points]
+    return plan_mission("trial", SHORT | {"point": blocks} | document, model, Path("trial.toml"))
+
+
+# Miner's sum ----------------------------------------------------------------------------------------------------------------------------------
+
+
+def test_constant_amplitude_lives_as_long_as_its_cycles():
+    """Cycles of 300 MPa at 50 Hz on the default curve: N = 2e6 (300/250)^-8."""
+    per_hour = 50 * 3600 / (2e6 * (300 / 250) ** -8)
+    life, _ = lives(simple_duty([1.0]), np.array([[per_hour]]))
+    assert life[0] == pytest.approx(1 / per_hour, rel=1e-14)
+
+
+def test_two_levels_add_up_by_hours():
+    """Miner by hand: 900 h of 1e-5 and 100 h of 3e-4 per hour, and 5 events of 2e-3 in these 1000 h."""
+    duty = simple_duty([0.9, 0.1, 5 / 1000])
+    life, damage = lives(duty, np.array([[1e-5], [3e-4], [2e-3]]))
+    total = 0.9 * 1e-5 + 0.1 * 3e-4 + 5e-3 * 2e-3
+    assert life[0] == pytest.approx(1 / total, rel=1e-13)
+    np.testing.assert_allclose(damage[0, :, 0], np.array([0.9e-5, 3e-5, 1e-5]) / total, rtol=1e-13)
+
+
+def test_a_part_between_two_others_has_the_geometric_mean():
+    duty = Duty(np.array([0.0, 0.0, 1.0]), np.array([[[1, 0], [0, 1], [0.25, 0.75]]]), np.zeros(1))
+    assert lives(duty, np.array([[1e-6], [1e-2]]))[0][0] == pytest.approx(1 / 1e-3, rel=1e-12)
+
+
+@pytest.mark.parametrize("first", [1e-2, 1e-4, 1e-3])
+def test_a_rate_that_grows_exponentially_lives_as_its_integral_says(first):
+    """r = a exp(g t) until 100 h, then constant: closed form of the time at which the integral is 1; for 1e-2 and 1e-3 before 100 h, for 1e-4 after."""
+    g = math.log(50.0) / 100.0
+    duty = Duty(np.ones(1), np.array([[[1.0, 0.0]], [[0.0, 1.0]]]), np.array([0.0, 100.0]))
+    life, damage = lives(duty, np.array([[first], [50 * first]]))
+    by_then = first * (50 - 1) / g
+    expected = math.log1p(g / first) / g if by_then > 1 else 100 + (1 - by_then) / (50 * first)
+    assert (expected < 100) == (first > 5e-4)
+    assert life[0] == pytest.approx(expected, rel=1e-12) and damage.sum() == pytest.approx(1.0, rel=1e-12)
+
+
+def test_equal_rates_at_all_hours_are_no_loss():
+    duty = Duty(np.ones(2), np.stack([np.eye(2)] * 3), np.array([0.0, 10.0, 50.0]))
+    assert lives(duty, np.array([[1e-4], [2e-4]]))[0][0] == pytest.approx(1 / 3e-4, rel=1e-12)
+
+
+def test_no_damage_lasts_for_ever():
+    assert np.isinf(lives(simple_duty([1.0]), np.zeros((1, 1)))[0][0])
+    assert np.isinf(lives(Duty(np.ones(1), np.ones((2, 1, 1)), np.array([0.0, 5.0])), np.zeros((1, 1)))[0][0])
+
+
+# Confidence -----------------------------------------------------------------------------------------------------------------------------------
+
+
+def coverage(missions, rng, spread=0.35, parts=6, **settings):
+    """Share of missions of log-normal cases whose interval holds the true life, mean half-width, mean number of runs."""
+    hits, widths, runs = 0, [], []
+    for _ in range(missions):
+        duty = simple_duty(rng.dirichlet(np.ones(parts)))
+        rates = np.exp(rng.normal(-9.0, 1.0, (parts, 2)))
+        rates[:, 1] *= 0.3
+        drawn = [rate * np.exp(spread * rng.normal(size=(64, 2)) - 0.5 * spread**2) for rate in rates]
+        found, _, counts = until_sure(duty, lambda counts, drawn=drawn: [d[:n] for d, n in zip(drawn, counts, strict=True)], LIFE | settings, 64)
+        hits += found.low <= lives(duty, rates)[0].min() <= found.high
+        widths.append(found.half_width)
+        runs.append(counts.sum())
+    return hits / missions, np.mean(widths), np.mean(runs)
+
+
+@pytest.mark.slow
+def test_the_interval_covers_what_it_says():
+    """240 missions of six points, log-normal damage with a standard deviation of 35 %; two standard deviations of a share of 0.9 in 240 are 0.04."""
+    share, width, _ = coverage(240, np.random.default_rng(3), half_width=0.15)
+    assert 0.85 <= share <= 0.95 and width <= math.log(1.15)
+
+
+def test_the_interval_is_neither_empty_nor_everything():
+    share, width, runs = coverage(25, np.random.default_rng(5), half_width=0.15)
+    assert share >= 0.7 and 0.05 < width <= math.log(1.15) and runs > 6 * 6
+
+
+def test_runs_go_where_the_damage_scatters():
+    """Of two points with equal damage the one with more scatter gets more runs; a point without damage gets the fewest."""
+    rng = np.random.default_rng(1)
+    drawn = [np.exp(spread * rng.normal(size=(64, 1))) * rate for spread, rate in ((0.1, 1e-4), (0.6, 1e-4), (0.6, 1e-9))]
+    _, _, counts = until_sure(simple_duty([0.4, 0.4, 0.2]), lambda counts: [d[:n] for d, n in zip(drawn, counts, strict=True)], LIFE | {"half_width": 0.1}, 64)
+    assert counts[1] > 2 * counts[0] and counts[2] == LIFE["min_seeds"]
+
+
+def test_runs_without_scatter_need_no_interval():
+    found = estimate(simple_duty([1.0]), [np.full((6, 1), 1e-3)], 0.9, 1)
+    assert found.life == found.low == found.high == pytest.approx(1000.0)
+
+
+# Missions -------------------------------------------------------------------------------------------------------------------------------------
+
+
+def test_a_mission_of_one_point_lives_as_this_point(model):
+    runs = surrogate(np.full((1, Z, 2), 1e-4), 0.3, np.random.default_rng(2))
+    mission = mission_of(model, [(250, {})], life={"rivets": "each"})
+    damage = runs([mission.settings["max_seeds"]])[0]
+    found = record(assess(mission, runs))
+    n = found["points"][0]["seeds"]
+    mean = damage[:n].mean(axis=0)
+    assert found["life_h"] == pytest.approx(1 / mean.max(), rel=1e-12)
+    assert found["points"][0] == {"share": pytest.approx(1.0), "damage_per_h": pytest.approx(mean.max(), rel=1e-12), "seeds": n}
+    assert [row["head_per_h"] for row in found["rivets"]] == pytest.approx(mean[:, 0].tolist(), rel=1e-12)
+    assert set(found) == {"life_h", "low_h", "high_h", "confidence", "points", "rivets"} and found["confidence"] == 0.9
+    assert found["low_h"] < found["life_h"] < found["high_h"]
+
+
+def test_two_points_and_an_event_as_by_hand(model):
+    document = {"event": [{"name": "landing", "count": 20}], "life": {"rivets": "alike"}}
+    mission = mission_of(model, [("60 min", {"shaft.omega": 700.0}), (3, {"shaft.omega": 900.0})], **document)
+    assert mission.hours == pytest.approx(4.0)
+    rates = np.array([1e-5, 4e-5, 1e-6])[:, None, None] * np.array([1.0, 0.01]) * np.ones((3, Z, 2))
+    found = record(assess(mission, surrogate(rates, 0.0, np.random.default_rng(1))))
+    total = (1 * 1e-5 + 3 * 4e-5 + 20 * 1e-6) / 4
+    assert found["life_h"] == pytest.approx(1 / total, rel=1e-12)
+    assert [point["share"] for point in found["points"]] == pytest.approx([0.25e-5 / total, 3e-5 / total], rel=1e-12)
+    assert all(row["head_per_h"] == pytest.approx(total, rel=1e-12) for row in found["rivets"])
+
+
+def test_a_point_between_others_is_interpolated(model):
+    blocks = [
+        {"hours": 1, "inputs": {"shaft.omega": 600.0}},
+        {"hours": 1, "inputs": {"shaft.omega": 1000.0}},
+        {"name": "middle", "hours": 8, "inputs": {"shaft.omega": 900.0}, "interpolate": True},
+    ]
+    mission = plan_mission("trial", SHORT | {"point": blocks, "life": {"rivets": "alike"}}, model, Path("trial.toml"))
+    assert len(mission.cases) == 2
+    rates = np.array([1e-8, 1e-4])[:, None, None] * np.ones((2, Z, 2))
+    found = record(assess(mission, surrogate(rates, 0.0, np.random.default_rng(1))))
+    assert found["points"][2]["damage_per_h"] == pytest.approx(1e-5, rel=1e-9) and found["points"][2]["seeds"] == 0
+    blocks[2]["inputs"]["shaft.omega"] = 1100.0
+    with pytest.raises(UserError, match="point middle: interpolate: not between"):
+        plan_mission("trial", SHORT | {"point": blocks}, model, Path("trial.toml"))
+
+
+def test_a_rare_point_is_left_out_only_if_it_cannot_matter(model):
+    """One second of 1,000 h at nearly the same load cannot matter; the same second at ten times the load is simulated."""
+    for load, left_out in ((3000.0, True), (30000.0, False)):
+        mission = mission_of(model, [(1000, {"shaft.F_y": 2994.0}), ("1 s", {"shaft.F_y": load})], life={"rivets": "alike", "skip": 0.01})
+        asked = []
+        runs = surrogate(np.full((2, Z, 2), 1e-4), 0.1, np.random.default_rng(1))
+        life = assess(mission, lambda counts, runs=runs, asked=asked: asked.append(counts) or runs(counts))
+        assert (1 in life.bounds) == left_out == (max(counts[1] for counts in asked) == 0)
+        assert record(life)["points"][1]["seeds"] == (0 if left_out else LIFE["min_seeds"])
+        if left_out:
+            share = life.bounds[1] * life.estimate.life
+            assert 10 / 3600 / 1000 < share < 0.01  # ten times as much damage, and somewhat more for the load
+            assert 1 / life.low == pytest.approx(1 / life.estimate.low + life.bounds[1])
+
+
+def test_the_bound_of_a_rare_point_is_the_largest_of_all(model):
+    """A quiet point bounds nothing: stress may grow from nearly nothing.  Loads of 1000 and 4000 N with 1e-30 and 1e-4 per hour; one second at 2000 N."""
+    mission = mission_of(model, [(500, {"shaft.F_y": 1000.0}), (500, {"shaft.F_y": 4000.0}), ("1 s", {"shaft.F_y": 2000.0})], life={"rivets": "alike"})
+    life = assess(mission, surrogate(np.array([1e-30, 1e-4, 1e-5])[:, None, None] * np.ones((3, Z, 2)), 0.0, np.random.default_rng(1)))
+    bound = 10 * 1e-4 * 2.0**15 / 3600 / 1000  # per hour of the mission, by the loud point
+    assert bound > 0.01 * 0.5 * 1e-4  # more than may be left out
+    assert not life.bounds and life.counts[2] == LIFE["min_seeds"]
+
+
+def test_preload_that_falls_is_simulated_at_each_factor(model):
+    mission = mission_of(model, [(10, {})], preload_loss={"hours": [0, 100], "factor": [1, 0.5]}, life={"rivets": "alike"})
+    assert [case.scene.parameters["joint.preload"] if "joint.preload" in case.scene.parameters else 20.0 for case in mission.cases] == [20.0, 10.0]
+    rates = np.array([1e-4, 1e-3])[:, None, None] * np.ones((2, Z, 2))
+    g = math.log(10.0) / 100.0
+    expected = 100 + (1 - 9e-4 / g) / 1e-3
+    assert record(assess(mission, surrogate(rates, 0.0, np.random.default_rng(1))))["life_h"] == pytest.approx(expected, rel=1e-9)
+
+
+def test_a_measured_record_is_binned_by_the_time_it_spends(tmp_path):
+    """Three levels of known duration in a record that is longer than one of pyarrow's pieces (1 MB)."""
+    t = np.arange(120000) * 0.5
+    level = np.select([t < 12000, t < 42000], [1.0, 3.0], 9.0)
+    path = tmp_path / "record.csv"
+    path.write_text("# measured\ntime,load\n" + "".join(f"{a:.1f},{b:.6f}\n" for a, b in zip(t, level, strict=True)))
+    assert path.stat().st_size > 1 << 20
+    spent, means = binned(path, "time", ["load"], [4])
+    assert spent.tolist() == [12000.0, 30000.0, 60000.0 - 42000.0 - 0.5] and means[:, 0] == pytest.approx([1.0, 3.0, 9.0], rel=1e-12)
+
+
+def test_tables_and_records_become_points(tmp_path, model):
+    (tmp_path / "duty.csv").write_text("h,n\n10,8000\n20,12000\n")
+    (tmp_path / "flight.csv").write_text("t,kN\n0,1\n3600,2\n7200,2\n")
+    document = SHORT | {
+        "table": {"file": "duty.csv", "hours": "h", "inputs": {"shaft": {"omega": {"column": "n", "unit": "rev/min"}}}},
+        "history": {"file": "flight.csv", "time": "t", "hours": 30, "inputs": {"shaft.F_y": {"column": "kN", "unit": "kN", "bins": 2}}},
+    }
+    mission = plan_mission("trial", document, model, tmp_path / "trial.toml")
+    assert [part.weight for part in mission.parts] == pytest.approx([10, 20, 15, 15])
+    assert mission.parts[1].values["shaft.omega"] == pytest.approx(12000 * math.pi / 30)
+    assert [part.values["shaft.F_y"] for part in mission.parts[2:]] == pytest.approx([1000, 2000])
+
+
+@pytest.mark.parametrize(
+    ("change", "fragments"),
+    [
+        ({"point": []}, ["no operating points"]),
+        ({"points": []}, ['"points"', 'did you mean "point"']),
+        ({"point": [{"inputs": {}}]}, ["point 1", "hours or share is needed"]),
+        ({"point": [{"hours": -3}]}, ["point 1: hours = -3", "must not be negative"]),
+        ({"point": [{"hours": "3 days"}]}, ["hours = '3 days'", "allowed: h, min, s"]),
+        ({"point": [{"hours": 1, "share": 0.1}]}, ["not both"]),
+        ({"point": [{"hours": 1}, {"share": 0.1}]}, ["point 2", "every point"]),
+        ({"point": [{"hours": 1, "horses": 3}]}, ['"horses"']),
+        ({"point": [{"hours": 0}]}, ["the hours of all points are 0"]),
+        ({"point": [{"hours": 1, "inputs": {"shaft.F_q": 1}}]}, ["shaft.F_q"]),
+        ({"point": [{"hours": 1, "parameters": {"scene.stress": "off"}}]}, ["scene.stress", "not free here"]),
+        ({"point": [{"hours": 1, "simulation": {"t_end": 1e-3}}]}, ["t_end = 0.001", "longer than start.settle"]),
+        ({"event": [{"inputs": {}}]}, ["event 1", "count is needed"]),
+        ({"event": [{"count": -1}]}, ["count = -1", "negative"]),
+        ({"life": {"confidence": 2}}, ["life.confidence = 2"]),
+        ({"life": {"half_width": 0}}, ["life.half_width = 0", "from 0.001"]),
+        ({"life": {"min_seeds": 2}}, ["life.min_seeds = 2", "from 3"]),
+        ({"life": {"seeds": 2}}, ['"life.seeds"']),
+        ({"life": {"rivets": "some"}}, ["life.rivets = 'some'", "each, alike"]),
+        ({"preload_loss": {"hours": [1, 2], "factor": [1, 1]}}, ["begin with 0"]),
+        ({"preload_loss": {"hours": [0], "factor": [1, 1]}}, ["lists of one length"]),
+        ({"table": {"file": "no.csv", "hours": "h", "inputs": {"shaft.omega": {"column": "n"}}}}, ["no.csv", "no such file"]),
+        ({"table": {"file": "duty.csv", "hours": "hh", "inputs": {"shaft.omega": {"column": "n"}}}}, ["duty.csv", '"hh"', "column"]),
+        ({"table": {"file": "duty.csv", "hours": "h", "inputs": {"shaft.omega": {"column": "text"}}}}, ['"text"', "no numbers"]),
+        ({"table": {"file": "duty.csv", "hours": "h", "inputs": {"shaft.omega": {"column": "n", "unit": "N"}}}}, ["shaft.omega.unit = 'N'", "rev/min"]),
+        ({"table": {"file": "duty.csv", "hours": "minus", "inputs": {"shaft.omega": {"column": "n"}}}}, ["minus = -1", "negative"]),
+        ({"history": {"file": "duty.csv", "time": "minus", "inputs": {"shaft.omega": {"column": "n"}}}}, ["do not increase"]),
+        ({"history": {"file": "duty.csv", "time": "n", "inputs": {"shaft.omega": {"column": "n", "bins": 0}}}}, ["bins = 0"]),
+    ],
+)
+def test_what_a_mission_cannot_say_is_refused(tmp_path, model, change, fragments):
+    (tmp_path / "duty.csv").write_text("h,n,minus,text\n10,8000,-1,a\n20,12000,-2,b\n")
+    with pytest.raises(UserError) as refused:
+        plan_mission("trial", SHORT | {"point": [{"hours": 1}]} | change, model, tmp_path / "trial.toml")
+    assert any(name in str(refused.value) for name in ("trial.toml", "duty.csv", "no.csv"))
+    for fragment in fragments:
+        assert fragment in str(refused.value)
+
+
+def test_page_and_picture_show_every_part(tmp_path, model):
+    names = ["cruise", "climb", "landing"]
+    document = SHORT | {
+        "point": [{"name": "cruise", "hours": 9}, {"name": "climb", "hours": 1, "inputs": {"shaft.omega": 900.0}}],
+        "event": [{"name": "landing", "count": 2}],
+    }
+    mission = plan_mission("trial", document, model, Path("trial.toml"))
+    rates = np.array([1e-6, 1e-5, 1e-6])[:, None, None] * np.ones((3, Z, 2))
+    life = assess(mission, surrogate(rates, 0.3, np.random.default_rng(1)))
+    page = write_page(life, tmp_path / "life.html", ["note <1>"]).read_text()
+    assert all(name in page for name in names) and page.count("<svg") == 4 and "note &lt;1&gt;" in page and "nan" not in page.lower().replace("nano", "")
+    assert write_picture(life, tmp_path / "life.png").stat().st_size > 20000
+
+
+# The command ----------------------------------------------------------------------------------------------------------------------------------
+
+MISSION = """
+[simulation]
+t_end = 0.004
+step = "0.02 ms"
+[parameters]
+start.settle = "1 ms"
+[[point]]
+name = "one"
+hours = 2
+[[point]]
+name = "two"
+hours = 1
+inputs.shaft.F_y = "1 kN"
+[life]
+min_seeds = 3
+max_seeds = 5
+half_width = 0.001
+"""
+
+
+def start(folder, *arguments):
+    """The command as a process."""
+    return subprocess.Popen(
+        [sys.executable, "-m", "riveted_bearing", "life", "trial.toml", *arguments],
+        cwd=folder,
+        env=os.environ | {"PYTHONPATH": str(ROOT)},
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+        start_new_session=True,
+    )
+
+
+def finished(process):
+    """Output, messages and exit code."""
+    out, err = process.communicate(timeout=600)
+    return out, err, process.returncode
+
+
+def test_a_mission_stopped_by_the_keyboard_goes_on_to_the_same_life(tmp_path):
+    """Ctrl-C after the second run: what is done is kept and one line says so; afterwards life.json is that of a run without a stop.  Then an S-N curve is
+    given: the same runs, another life."""
+    (tmp_path / "trial.toml").write_text(MISSION)
+    process = start(tmp_path, "--workers", "1")
+    patience = time.monotonic() + 300
+    while len(list((tmp_path / "results" / "trial").glob("run-*.parquet"))) < 2 and time.monotonic() < patience:
+        time.sleep(0.02)
+    os.killpg(process.pid, signal.SIGINT)
+    _, err, code = finished(process)
+    assert code == 3 and "kept in results/trial" in err and "Traceback" not in err
+    out, err, code = finished(start(tmp_path, "--workers", "1"))
+    assert code == 0 and "max_seeds = 5 was reached" in out, err
+    found = json.loads((tmp_path / "results" / "trial" / "life.json").read_text())
+    _, err, code = finished(start(tmp_path, "--workers", "1", "--out", "calm"))
+    assert code == 0 and json.loads((tmp_path / "calm" / "life.json").read_text()) == found, err
+    for name in ("life.html", "life.png", "runs.parquet"):
+        assert (tmp_path / "calm" / name).is_file()
+
+    (tmp_path / "trial.toml").write_text(MISSION + "[sn]\nN_D = 4e6\n")
+    before = (tmp_path / "calm" / "runs.parquet").stat().st_size
+    model = Model()
+    mission = plan_mission("trial", tomllib.loads(MISSION + "[sn]\nN_D = 4e6\n"), model, tmp_path / "trial.toml")
+
+    def no_cluster():
+        raise AssertionError("nothing is to be simulated")
+
+    runs = Runs(mission, model, tmp_path / "calm", no_cluster)
+    longer = record(assess(mission, runs))
+    assert 0.95 < runs.counted() < 1.02  # matrices of the communication points against the FMU's count: 0.994 in runs of 0.15 s at this step
+    assert longer["life_h"] == pytest.approx(2 * found["life_h"] / runs.counted(), rel=0.03)  # twice the cycles at the knee, twice the life
+    assert (tmp_path / "calm" / "runs.parquet").stat().st_size == pytest.approx(before, rel=0.2)
+
+
+@pytest.mark.parametrize(
+    ("text", "fragments"),
+    [("[[point]]\nhours = -1", ["trial.toml", "hours = -1"]), ("[[point]\n", ["not valid TOML"]), ("[life]\nskipp = 1\n[[point]]\nhours = 1", ["life.skipp"])],
+)
+def test_a_bad_mission_ends_with_one_line_and_exit_code_2(tmp_path, text, fragments):
+    (tmp_path / "trial.toml").write_text(text)
+    out, err, code = finished(start(tmp_path))
+    assert code == 2 and not out and err.count("\n") == 1
+    for fragment in fragments:
+        assert fragment in err
