@@ -342,7 +342,7 @@ def test_a_mission_stopped_by_the_keyboard_goes_on_to_the_same_life(tmp_path):
         time.sleep(0.02)
     os.killpg(process.pid, signal.SIGINT)
     _, err, code = finished(process)
-    assert code == 3 and "kept in results/trial" in err and "Traceback" not in err
+    assert code == 130 and "kept in results/trial" in err and "Traceback" not in err
     out, err, code = finished(start(tmp_path, "--workers", "1"))
     assert code == 0 and "max_seeds = 5 was reached" in out, err
     found = json.loads((tmp_path / "results" / "trial" / "life.json").read_text())
