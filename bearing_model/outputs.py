@@ -8,6 +8,7 @@ import numpy as np
 from bearing_model.energy import energy_total, power_loss
 from bearing_model.events import event_outputs
 from bearing_model.hertz import hertz_pressure
+from bearing_model.lanes import ball_array_sum
 from bearing_model.ring_load import ring_tilts
 from bearing_model.rivet_rom import HEAD_P1, HEAD_VM, MID_P1, MID_VM, rivet_rom_stress
 from bearing_model.rivets import rivets_load, rivets_slip
@@ -138,7 +139,12 @@ def stress_outputs(model, w):
 
 def energy_outputs(model, w, work, energy_start):
     residual = energy_total(model, w) - energy_start - work
-    return {"bearing.power_loss": power_loss(model, w)[..., 0], "bearing.energy_residual": residual}
+    parts = {"races": w.race_dissipated, "inlet": w.inlet_dissipated, "spin": w.spin_dissipated, "ball_drag": w.drag_dissipated, "pockets": w.pocket_dissipated}
+    values = {f"loss.{name}": ball_array_sum(power) for name, power in parts.items()}
+    values |= {"loss.cage_drag": w.cage_drag_dissipated, "loss.land": w.land_dissipated}
+    values["loss.joints"] = ball_array_sum(w.joint_dissipated) if model.p.scene.cage == CageModel.TWO_HALF else 0.0 * values["loss.races"]
+    values["bearing.power_loss"] = power_loss(model, w)
+    return {name: value[..., 0] for name, value in values.items()} | {"bearing.energy_residual": residual}
 
 
 def outputs(model, w, y, y_dot, energy_start):

@@ -40,7 +40,8 @@ def race_traction(model, race, c, mixed, sliced):
     c: the contact, normal n, rolling direction t_1, long axis t_2, slip Delta u, mean speed roll = U, spin = omega_ball - Omega of the race,
     approach = velocity of the ball's centre against the race there, load Q, sqrt_delta, ball radius R.
     Returns U with its floor [m/s], F_s at the contact point, F_c through the ball's centre [N], M of F_s about the ball's centre with spin [N.m],
-    dissipated power [W]; for the integrator's Jacobian (verlet.py) the secant coefficients g = |traction|/|slip| [N.s/m] and g_spin = moment/spin [N.m.s].
+    dissipated power, of it by the inlet and by spin about the normal [W]; for the integrator's Jacobian (verlet.py) the secant coefficients
+    g = |traction|/|slip| [N.s/m] and g_spin = moment/spin [N.m.s].
     """
     p = model.p
     U = np.sqrt(vec_dot(c.roll, c.roll) + p.oil.U_0**2)
@@ -48,7 +49,7 @@ def race_traction(model, race, c, mixed, sliced):
     f_a = traction_asperity_share(traction_ln_film(race.ln_Lambda, ln_U, ln_Q)) if mixed else 0.0
     F_R = traction_inlet(race.rolling, ln_U, c.Q, ln_Q)
 
-    out = SimpleNamespace(U=U, F_s=0.0, M=0.0, dissipated=0.0, g=0.0, g_spin=0.0)
+    out = SimpleNamespace(U=U, F_s=0.0, M=0.0, dissipated=0.0, spin_dissipated=0.0, g=0.0, g_spin=0.0)
     a = race.hertz.a_delta * c.sqrt_delta
     for s, share in zip(SLICE, SHARE, strict=True) if sliced else [(0.0, 1.0)]:
         xi = a * s
@@ -63,12 +64,15 @@ def race_traction(model, race, c, mixed, sliced):
         out.F_s = out.F_s + F
         out.M = out.M + vec_cross(lever, F)
         out.dissipated = out.dissipated - vec_dot(F, slip_i)
+    if sliced:
+        out.spin_dissipated = -vec_dot(out.M, c.n) * vec_dot(c.spin, c.n)
     # Inlet: -F_R U/|U| at the surface, the film's horizontal pressure force +F_H U/|U| through the ball's centre.
     rolling = F_R / U * c.roll
     out.F_s = out.F_s - rolling
     out.M = out.M - vec_cross(c.R * c.n, rolling)
     out.F_c = race.horizontal * rolling
-    out.dissipated = out.dissipated + vec_dot(rolling, c.slip) - vec_dot(out.F_c, c.approach)
+    out.inlet_dissipated = vec_dot(rolling, c.slip) - vec_dot(out.F_c, c.approach)
+    out.dissipated = out.dissipated + out.inlet_dissipated
     return out
 
 
@@ -122,6 +126,8 @@ def race_contact_force(model, w):
     w.F = F_i + F_e
     w.M = T_i.M + T_e.M
     w.race_dissipated = T_i.dissipated + T_e.dissipated + (inner.Q - inner.Q_0) * inner.delta_dot + (outer.Q - outer.Q_0) * outer.delta_dot
+    w.inlet_dissipated = T_i.inlet_dissipated + T_e.inlet_dissipated
+    w.spin_dissipated = T_i.spin_dissipated + T_e.spin_dissipated + 0.0 * w.x
     w.ring_F = vec_to_global(-F_i, w.cos_theta, w.sin_theta)  # by each ball, about the ring's centre
     w.ring_M = vec_to_global(-vec_cross(p_i, F_i) - T_i.M, w.cos_theta, w.sin_theta)
     w.ring.F, w.ring.M = ball_array_sum(w.ring_F), ball_array_sum(w.ring_M)

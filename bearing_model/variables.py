@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from enum import IntEnum
 
 MODEL_IDENTIFIER = "RivetedBearing"
-MODEL_GUID = "{c434e8c7-3da7-8a06-7e6b-f475e05f9812}"
+MODEL_GUID = "{76153239-61b5-d330-c0ba-93e66d12d475}"
 Z = 9
 
 
@@ -322,6 +322,14 @@ OUTPUTS = {
         Variable("bearing.energy_residual", 4003, "Real", "J", None, None, None, None, 1, "energy", "Energy now - energy at start - net work since: 0 but for the errors of the integration and of the work's own integral", None),
         Variable("bearing.contacts", 4004, "Real", "1", None, None, None, None, 1, "ball", "Number of closed contacts (races and pockets)", None),
         Variable("bearing.penetration", 4005, "Real", "m", "um", None, None, None, 1, "ball", "Largest elastic approach of all contacts", None),
+        Variable("loss.races", 8101, "Real", "W", None, None, None, None, 1, "energy", "Power dissipated in the race contacts", None),
+        Variable("loss.inlet", 8102, "Real", "W", None, None, None, None, 1, "energy", "Part of loss.races: rolling friction of the inlets", None),
+        Variable("loss.spin", 8103, "Real", "W", None, None, None, None, 1, "energy", "Part of loss.races: spin of the balls about the contact normals (sliced traction)", None),
+        Variable("loss.ball_drag", 8104, "Real", "W", None, None, None, None, 1, "energy", "Power dissipated by the drag of the balls in the mixture", None),
+        Variable("loss.cage_drag", 8105, "Real", "W", None, None, None, None, 1, "energy", "Power dissipated by the drag of the cage in the mixture", None),
+        Variable("loss.land", 8106, "Real", "W", None, None, None, None, 1, "energy", "Power dissipated between the lands and the outer ring", None),
+        Variable("loss.pockets", 8107, "Real", "W", None, None, None, None, 1, "energy", "Power dissipated in the pockets", None),
+        Variable("loss.joints", 8108, "Real", "W", None, None, None, None, 1, "energy", "Power dissipated in the joints of the cage", None),
         Variable("stat.time", 5001, "Real", "s", None, None, None, None, 1, "stat", "Time that the statistics cover", None),
         Variable("stat.Q_c_mean", 5002, "Real", "N", None, None, None, None, 1, "stat", "Pocket force of all balls pooled: mean, zeros included", None),
         Variable("stat.Q_c_rms", 5003, "Real", "N", None, None, None, None, 1, "stat", "Pocket force of all balls pooled: RMS", None),

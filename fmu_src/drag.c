@@ -19,12 +19,14 @@ void drag_force(const Model *model, Work *w)
         const wide v_t = wide_load(&w->v_t[j]), F = -k * v_t * wide_abs(v_t);
         wide_store(&w->F_t[j], wide_load(&w->F_t[j]) + F);
         wide_store(&w->dissipated[j], wide_load(&w->dissipated[j]) - F * v_t);
+        wide_store(&w->drag_dissipated[j], -(F * v_t));
     }
 }
 
 void drag_cage(const Model *model, Work *w)
 {
     const Derived *d = model->d;
+    w->cage_drag_dissipated = 0.0;
     for (int first = 0; first < 2; first += HALVES) {
         Rotor *half = &w->half[first];
         const wide omega = wide_pair(half[0].Omega[0], half[HALVES - 1].Omega[0]);
@@ -37,7 +39,8 @@ void drag_cage(const Model *model, Work *w)
         for (int h = 0; h < HALVES; h++) {
             const scalar M = -(wide_lane(disk, h) + wide_lane(cylinder, h)) * wide_lane(omega, h);
             half[h].M[0] += M;
-            w->land_dissipated -= M * wide_lane(omega, h);
+            w->cage_dissipated -= M * wide_lane(omega, h);
+            w->cage_drag_dissipated -= M * wide_lane(omega, h);
         }
     }
 }

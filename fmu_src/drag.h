@@ -7,5 +7,5 @@
 // Adds the drag of the balls to their tangential force and dissipation.
 void drag_force(const Model *model, Work *w);
 
-// Adds the drag moments of cylinder and end faces to both halves, and their power to land_dissipated.
+// Adds the drag moments of cylinder and end faces to both halves, and their power to what the cage dissipates.
 void drag_cage(const Model *model, Work *w);

@@ -123,12 +123,13 @@ INLINE void land_film_packet(const Model *model, Work *w, int first)
         w->film_zz[h] = wide_lane(K_zz, i);
         w->film_spin[h] = wide_lane(couette, i) + wide_lane(g, i) * R_h * R_h;
         w->land_elastic += wide_lane(elastic, i);
-        w->land_dissipated -= wide_lane(power, i) + wide_lane(elastic_rate, i);
+        w->cage_dissipated -= wide_lane(power, i) + wide_lane(elastic_rate, i);
     }
 }
 
 void land_film_force(const Model *model, Work *w)
 {
-    w->land_elastic = w->land_dissipated = 0.0;
+    w->land_elastic = w->cage_dissipated = 0.0;
     for (int first = 0; first < 2; first += HALVES) land_film_packet(model, w, first);
+    w->land_dissipated = w->cage_dissipated;  // drag_cage adds to what the cage dissipates
 }

@@ -122,6 +122,10 @@ typedef struct {
     ball_array F_x, F_r, F_t, M_x, M_r, M_t;
     ball_array dissipated;
 
+    // its parts [W]: races, of it the inlet's rolling friction and the spin about the normal
+    // (race_contact_force), pockets (cleared there, added by pocket_force), drag (drag_force)
+    ball_array race_dissipated, inlet_dissipated, spin_dissipated, pocket_dissipated, drag_dissipated;
+
     // stiff rates of the race contacts (race_contact_force): |traction|/|slip| [N.s/m], moment/spin about the
     // normal [N.m.s]
     ball_array g_i, g_e, g_spin_i, g_spin_e;
@@ -146,8 +150,11 @@ typedef struct {
     ball_array plate_y_dot, plate_z_dot, head_y_dot, head_z_dot;
     ball_array joint_dissipated;
 
-    // lands (land_film_force): power [W], elastic energy [J], film rates -dF/dv and -dM/domega of each land
-    scalar land_dissipated, land_elastic;
+    // cage (land_film_force, drag_cage): power of lands and drag together, of the lands, of the drag [W]
+    scalar cage_dissipated, land_dissipated, cage_drag_dissipated;
+
+    // lands (land_film_force): elastic energy [J], film rates -dF/dv and -dM/domega of each land
+    scalar land_elastic;
     scalar film_yy[2], film_yz[2], film_zz[2], film_spin[2];
 } Work;
 

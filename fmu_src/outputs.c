@@ -182,9 +182,17 @@ static void fill_stress(const Evaluation *at, Outputs *out)
 static void fill_energy(const Evaluation *at, Outputs *out)
 {
     const Work *w = at->w;
-    out->bearing.power_loss = ball_array_sum(w->dissipated) + w->land_dissipated;
-    if (at->model->p->scene.cage == CAGE_MODEL_TWO_HALF)
-        out->bearing.power_loss += ball_array_sum(w->joint_dissipated);
+    const bool joints = at->model->p->scene.cage == CAGE_MODEL_TWO_HALF;
+    out->loss.joints = joints ? ball_array_sum(w->joint_dissipated) : 0.0;
+    out->bearing.power_loss = ball_array_sum(w->dissipated) + w->cage_dissipated;
+    if (joints) out->bearing.power_loss += out->loss.joints;
+    out->loss.races = ball_array_sum(w->race_dissipated);
+    out->loss.inlet = ball_array_sum(w->inlet_dissipated);
+    out->loss.spin = ball_array_sum(w->spin_dissipated);
+    out->loss.ball_drag = ball_array_sum(w->drag_dissipated);
+    out->loss.cage_drag = w->cage_drag_dissipated;
+    out->loss.land = w->land_dissipated;
+    out->loss.pockets = ball_array_sum(w->pocket_dissipated);
     out->bearing.energy_residual = energy_total(at->model, at->y, w) - at->y[Y_WORK];
 }
 

@@ -146,6 +146,7 @@ INLINE Tangential sliced_traction(const Parameters *p, const Race *race, const C
         out.M = vec_add(out.M, vec_cross(vec_axpy(xi, c->t_2, vec_scale(c->R - sagitta, c->n)), F));
         out.dissipated -= vec_dot(F, slip_i);
     }
+    out.spin_dissipated = -(vec_dot(out.M, c->n) * spin_n);
     return out;
 }
 
@@ -169,7 +170,8 @@ INLINE Tangential race_traction(const Model *model, const Race *race, const Cont
     out.M = vec_sub(out.M, vec_cross(vec_scale(c->R, c->n), rolling));
     out.F_c = vec_scale(wide_set(race->horizontal), rolling);
     out.U = U_2 * inv_U;
-    out.dissipated += vec_dot(rolling, c->slip) - vec_dot(out.F_c, c->approach);
+    out.inlet_dissipated = vec_dot(rolling, c->slip) - vec_dot(out.F_c, c->approach);
+    out.dissipated += out.inlet_dissipated;
     return out;
 }
 
@@ -190,7 +192,11 @@ INLINE void store_contacts(Work *w, int j, const Contact *inner, const Contact *
     wide_store(&w->g_e[j], T_e->g);
     wide_store(&w->g_spin_i[j], T_i->g_spin);
     wide_store(&w->g_spin_e[j], T_e->g_spin);
-    wide_store(&w->dissipated[j], T_i->dissipated + T_e->dissipated + inner->dissipated + outer->dissipated);
+    const wide dissipated = T_i->dissipated + T_e->dissipated + inner->dissipated + outer->dissipated;
+    wide_store(&w->dissipated[j], dissipated);
+    wide_store(&w->race_dissipated[j], dissipated);
+    wide_store(&w->inlet_dissipated[j], T_i->inlet_dissipated + T_e->inlet_dissipated);
+    wide_store(&w->spin_dissipated[j], T_i->spin_dissipated + T_e->spin_dissipated);
 }
 
 // Both race contacts of a packet of balls.
@@ -213,7 +219,7 @@ INLINE void race_contact_packet(const Model *model, Work *w, int j, bool mixed, 
     const Tangential T_e = race_traction(model, &d->outer, &outer, mixed, sliced);
     store_contacts(w, j, &inner, &outer, &T_i, &T_e);
 
-    // forces and moments on the balls, cleared rates of the pockets, wrench on the ring about its centre
+    // forces and moments on the balls, what the pockets add to, wrench on the ring about its centre
     const vec none = {0};
     const vec F_i = vec_axpy(-inner.Q, inner.n, vec_add(T_i.F_s, T_i.F_c));
     const vec F_e = vec_axpy(-outer.Q, outer.n, vec_add(T_e.F_s, T_e.F_c));
@@ -222,6 +228,7 @@ INLINE void race_contact_packet(const Model *model, Work *w, int j, bool mixed, 
     vec_store(vec_add(T_i.M, T_e.M), &w->M_x[j], &w->M_r[j], &w->M_t[j]);
     vec_store(none, &w->D_x[j], &w->D_r[j], &w->D_t[j]);
     vec_store(none, &w->D_omega_x[j], &w->D_omega_r[j], &w->D_omega_t[j]);
+    wide_store(&w->pocket_dissipated[j], wide_set(0.0));
     vec_to_global(vec_scale(minus, F_i), cos_theta, sin_theta, &w->ring_F_x[j], &w->ring_F_y[j],
                   &w->ring_F_z[j]);
     vec_to_global(M_ring, cos_theta, sin_theta, &w->ring_M_x[j], &w->ring_M_y[j], &w->ring_M_z[j]);

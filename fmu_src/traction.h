@@ -25,7 +25,8 @@ typedef struct {
     wide g;           // |traction| / |slip|: the stiff rate of the contact [N.s/m]
     wide g_spin;      // moment / spin about the normal, by the slices beside the centre [N.m.s]
     wide U;           // mean surface speed with its floor [m/s]
-    wide dissipated;  // [W]
+    wide dissipated;  // all of it, by the inlet's rolling friction, by spin about the normal [W]
+    wide inlet_dissipated, spin_dissipated;
 } Tangential;
 
 // ln Lambda at mean speed U and load Q; ln_Lambda_1 at U = 1 m/s, Q = 1 N.

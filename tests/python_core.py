@@ -84,10 +84,6 @@ class PythonWork:
 
         return [of_half(h) if h in w.Q_c else NOTHING for h in range(2)]
 
-    @property
-    def land_dissipated(self):
-        return sum(float(np.sum(getattr(self.w, name, 0.0))) for name in ("land_dissipated", "cage_drag_dissipated"))
-
     def __getattr__(self, name):
         if name in COMPONENTS:
             array, i = COMPONENTS[name]

@@ -261,6 +261,7 @@ def test_spin_moment_of_viscous_friction(core):
     m, w = spinning_ball(core, 200.0, **{"oil.A": 0.0, "oil.B": 0.01, "oil.C": 0.0})
     a = m.d.outer.hertz.a * np.cbrt(w.Q_e[0])
     assert -on_ball(w)[1][0, 1] == pytest.approx(0.01 * w.Q_e[0] * 200.0 * a**2 / (5.0 * 0.01), rel=1e-12)
+    assert w.spin_dissipated[0] == pytest.approx(0.01 * w.Q_e[0] * 200.0**2 * a**2 / (5.0 * 0.01), rel=1e-12)
 
 
 @pytest.mark.parametrize(("spin", "slip"), [(300.0, 1.5), (-800.0, 2.0), (50.0, -0.4)])

@@ -277,4 +277,12 @@ const Variable VARIABLES[N_VARIABLES] = {
     {"event.overpressure_onsets", "1", 7014, 1, TYPE_REAL, CAUSALITY_OUTPUT, GROUP_EVENT, -1, offsetof(Outputs, event.overpressure_onsets), 0.0, -INFINITY, INFINITY},
     {"event.joint_open_onsets", "1", 7015, 1, TYPE_REAL, CAUSALITY_OUTPUT, GROUP_EVENT, -1, offsetof(Outputs, event.joint_open_onsets), 0.0, -INFINITY, INFINITY},
     {"event.rivet_yield_onsets", "1", 7016, 1, TYPE_REAL, CAUSALITY_OUTPUT, GROUP_EVENT, -1, offsetof(Outputs, event.rivet_yield_onsets), 0.0, -INFINITY, INFINITY},
+    {"loss.races", "W", 8101, 1, TYPE_REAL, CAUSALITY_OUTPUT, GROUP_ENERGY, -1, offsetof(Outputs, loss.races), 0.0, -INFINITY, INFINITY},
+    {"loss.inlet", "W", 8102, 1, TYPE_REAL, CAUSALITY_OUTPUT, GROUP_ENERGY, -1, offsetof(Outputs, loss.inlet), 0.0, -INFINITY, INFINITY},
+    {"loss.spin", "W", 8103, 1, TYPE_REAL, CAUSALITY_OUTPUT, GROUP_ENERGY, -1, offsetof(Outputs, loss.spin), 0.0, -INFINITY, INFINITY},
+    {"loss.ball_drag", "W", 8104, 1, TYPE_REAL, CAUSALITY_OUTPUT, GROUP_ENERGY, -1, offsetof(Outputs, loss.ball_drag), 0.0, -INFINITY, INFINITY},
+    {"loss.cage_drag", "W", 8105, 1, TYPE_REAL, CAUSALITY_OUTPUT, GROUP_ENERGY, -1, offsetof(Outputs, loss.cage_drag), 0.0, -INFINITY, INFINITY},
+    {"loss.land", "W", 8106, 1, TYPE_REAL, CAUSALITY_OUTPUT, GROUP_ENERGY, -1, offsetof(Outputs, loss.land), 0.0, -INFINITY, INFINITY},
+    {"loss.pockets", "W", 8107, 1, TYPE_REAL, CAUSALITY_OUTPUT, GROUP_ENERGY, -1, offsetof(Outputs, loss.pockets), 0.0, -INFINITY, INFINITY},
+    {"loss.joints", "W", 8108, 1, TYPE_REAL, CAUSALITY_OUTPUT, GROUP_ENERGY, -1, offsetof(Outputs, loss.joints), 0.0, -INFINITY, INFINITY},
 };

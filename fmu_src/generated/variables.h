@@ -9,7 +9,7 @@
 
 #define FMI2_FUNCTION_PREFIX RivetedBearing_  // of the functions of a source-code FMU
 #define MODEL_IDENTIFIER "RivetedBearing"
-#define MODEL_GUID "{c434e8c7-3da7-8a06-7e6b-f475e05f9812}"  // digest of the table
+#define MODEL_GUID "{76153239-61b5-d330-c0ba-93e66d12d475}"  // digest of the table
 
 enum { Z = 9 };  // number of balls
 
@@ -296,6 +296,16 @@ typedef struct {
         scalar F_head[Z];  // [N] Friction force at the heads
     } rivet;
     struct {
+        scalar races;  // [W] Power dissipated in the race contacts
+        scalar inlet;  // [W] Part of loss.races: rolling friction of the inlets
+        scalar spin;  // [W] Part of loss.races: spin of the balls about the contact normals (sliced traction)
+        scalar ball_drag;  // [W] Power dissipated by the drag of the balls in the mixture
+        scalar cage_drag;  // [W] Power dissipated by the drag of the cage in the mixture
+        scalar land;  // [W] Power dissipated between the lands and the outer ring
+        scalar pockets;  // [W] Power dissipated in the pockets
+        scalar joints;  // [W] Power dissipated in the joints of the cage
+    } loss;
+    struct {
         scalar time;  // [s] Time that the statistics cover
         scalar Q_c_mean;  // [N] Pocket force of all balls pooled: mean, zeros included
         scalar Q_c_rms;  // [N] Pocket force of all balls pooled: RMS
@@ -422,4 +432,4 @@ typedef enum {
 } StateScale;
 
 enum { N_INPUTS = 10 };  // all of them numbers
-enum { N_VARIABLES = 232 };  // time is the first
+enum { N_VARIABLES = 240 };  // time is the first
