@@ -25,7 +25,7 @@ from scipy.special import roots_jacobi
 
 from bearing_model.hertz import hertz_damped, hertz_load
 from bearing_model.lanes import ball_array_sum, maximum
-from bearing_model.traction import Q_FLOOR, traction_asperity_share, traction_inlet, traction_ln_film, traction_mu
+from bearing_model.traction import Q_FLOOR, traction_asperity_share, traction_ln_film, traction_ln_thermal, traction_mu, traction_race_inlet
 from bearing_model.variables import Lubrication, Traction
 from bearing_model.vec import vec, vec_across, vec_cross, vec_dot, vec_local, vec_to_global
 
@@ -46,8 +46,8 @@ def race_traction(model, race, c, mixed, sliced):
     p = model.p
     U = np.sqrt(vec_dot(c.roll, c.roll) + p.oil.U_0**2)
     ln_U, ln_Q = np.log(U), np.log(c.Q + Q_FLOOR)
-    f_a = traction_asperity_share(traction_ln_film(race.ln_Lambda, ln_U, ln_Q)) if mixed else 0.0
-    F_R = traction_inlet(race.rolling, ln_U, c.Q, ln_Q)
+    f_a = traction_asperity_share(traction_ln_film(race.ln_Lambda, ln_U, ln_Q) + traction_ln_thermal(model.d.ln_thermal, ln_U)) if mixed else 0.0
+    F_R = traction_race_inlet(model.d, race.rolling, U, ln_U, c.Q, ln_Q)
 
     out = SimpleNamespace(U=U, F_s=0.0, M=0.0, dissipated=0.0, spin_dissipated=0.0, g=0.0, g_spin=0.0)
     a = race.hertz.a_delta * c.sqrt_delta

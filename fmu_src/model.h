@@ -40,7 +40,15 @@ typedef struct {
     constants R;  // ball radius [m]
     double m, J;  // ball mass [kg], moment of inertia [kg.m2]
     Race inner, outer;
-    double drag;  // ball drag / v^2 [N.s2/m2]
+    double starvation, ln_heating;  // of the inlets: exponent / U [s/m], ln of the heating term at U = 1 m/s
+    double ln_thermal;              // ln of the thermal loading L of the race films at U = 1 m/s
+
+    // mixture; densities in proportion to that of the mixture, or of the oil where the flow gives the filling
+    double flooded_omega, air;  // shaft speed up to which oil fills the space [rad/s], density air / oil
+    double sigma;               // shaft speed / orbital speed without slip
+    double ball_area, inner_wall, outer_wall, fresh;    // B [m2], I and E / |omega|^-0.25, N |omega|
+    double drag, churning_viscous, churning_boundary;   // of a ball / v^2 [N.s2/m2], / omega, / omega^1.5
+    double ring_drag;  // moment on the ring / (omega - stream)^2 |omega|^-0.25
 
     // pockets
     double ln_pocket_piezo;  // ln Lambda of the pocket film at U = 1 m/s, Q = 1 N: piezoviscous,
@@ -55,6 +63,7 @@ typedef struct {
     double C_land;           // radial guide clearance [m]
     double kappa;            // eta R L^3 / C^3 [N.s/m]
     double couette;          // Couette torque / speed of a land [N.m.s]
+    double nahme;            // (Na/8) / omega^2 of a land's film, 0 without heating [s2]
     double ln_land;          // ln Lambda of a land film of thickness C
     double disk_laminar, disk_turbulent;                // end-face drag moment / |omega|^1.5, |omega|^1.8
     double cylinder_laminar, cylinder_vortex;           // cylinder drag moment / |omega|, |omega|^1.539
@@ -149,6 +158,11 @@ typedef struct {
     ball_array T, N_plate, S_y, S_z, H_y, H_z, B_y, B_z;
     ball_array plate_y_dot, plate_z_dot, head_y_dot, head_z_dot;
     ball_array joint_dissipated;
+
+    // mixture (drag_mixture): density / that of the derived constants, angular speed about X [rad/s],
+    // |shaft speed|^-0.25; power of its friction on the ring [W] (drag_ring)
+    scalar filling, stream, wall;
+    scalar ring_drag_dissipated;
 
     // cage (land_film_force, drag_cage): power of lands and drag together, of the lands, of the drag [W]
     scalar cage_dissipated, land_dissipated, cage_drag_dissipated;

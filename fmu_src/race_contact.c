@@ -159,9 +159,12 @@ INLINE Tangential race_traction(const Model *model, const Race *race, const Cont
     const wide U_2 = vec_dot(c->roll, c->roll) + p->oil.U_0 * p->oil.U_0, inv_U = 1.0 / wide_sqrt(U_2);
     wide ln_U, ln_Q;
     wide_log2(U_2 * inv_U, c->Q + Q_FLOOR, &ln_U, &ln_Q);
-    const wide f_a = mixed ? traction_asperity_share(traction_ln_film(wide_set(race->ln_Lambda), ln_U, ln_Q))
-                           : wide_set(0.0);
-    const wide F_R = traction_inlet(wide_set(race->rolling), ln_U, c->Q, ln_Q);
+    wide f_a = wide_set(0.0);
+    if (mixed)
+        f_a = traction_asperity_share(traction_ln_film(wide_set(race->ln_Lambda), ln_U, ln_Q) +
+                                      traction_ln_thermal(wide_set(model->d->ln_thermal), ln_U));
+    const wide F_R =
+        traction_race_inlet(model->d, wide_set(race->rolling), U_2 * inv_U, ln_U, c->Q, ln_Q);
     const vec rolling = vec_scale(F_R * inv_U, c->roll);
 
     Tangential out =

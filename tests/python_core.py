@@ -21,7 +21,8 @@ from bearing_model.rotor import Rotor
 from bearing_model.start import start_state
 
 Z = variables.Z
-KERNELS = {f.__name__: f for f in (race_contact.race_contact_force, pocket.pocket_force, drag.drag_force, drag.drag_cage, land_film.land_film_force)}
+ELEMENTS = (race_contact.race_contact_force, pocket.pocket_force, drag.drag_mixture, drag.drag_force, drag.drag_cage, drag.drag_ring, land_film.land_film_force)
+KERNELS = {f.__name__: f for f in ELEMENTS}
 PLACES = ("x", "r", "theta", "cos_theta", "sin_theta", "v_x", "v_r", "v_t", "omega_m", "omega_x", "omega_r", "omega_t")
 VECTORS = {f"{kind}_{axis}": (kind, i) for kind in "FM" for i, axis in enumerate("xrt")}
 WRENCH = {f"ring_{kind}_{axis}": (f"ring_{kind}", i) for kind in "FM" for i, axis in enumerate("xyz")}
@@ -154,6 +155,8 @@ class PythonCore:
             test_traction_asperity_share=traction.traction_asperity_share,
             test_traction_ln_film=lambda u, ln_1, Q: traction.traction_ln_film(ln_1, np.log(u), np.log(Q)),
             test_traction_inlet=lambda u, rolling, Q: traction.traction_inlet(rolling, np.log(u), Q, np.log(Q + traction.Q_FLOOR)),
+            test_traction_race_inlet=lambda u, d, rolling, Q: traction.traction_race_inlet(d, rolling, u, np.log(u), Q, np.log(Q + traction.Q_FLOOR)),
+            test_traction_ln_thermal=lambda u, ln_thermal: traction.traction_ln_thermal(ln_thermal, np.log(u)),
             model_derive=derive,
         )
 

@@ -9,7 +9,7 @@
 
 #define FMI2_FUNCTION_PREFIX RivetedBearing_  // of the functions of a source-code FMU
 #define MODEL_IDENTIFIER "RivetedBearing"
-#define MODEL_GUID "{76153239-61b5-d330-c0ba-93e66d12d475}"  // digest of the table
+#define MODEL_GUID "{6da85fc9-8f75-9e38-4f09-6c2855f9ffc1}"  // digest of the table
 
 enum { Z = 9 };  // number of balls
 
@@ -49,6 +49,10 @@ enum {  // MeanStress
     MEAN_STRESS_GOODMAN = 2,  // Goodman
     MEAN_STRESS_SWT = 3,  // Smith-Watson-Topper
     MEAN_STRESS_MORROW = 4,  // Morrow
+};
+enum {  // Drag
+    DRAG_ISOLATED = 1,  // each ball by itself in a mixture at rest
+    DRAG_ROW = 2,  // balls in a row that carry the mixture along
 };
 enum {  // Method
     METHOD_VERLET = 1,  // velocity Verlet, linearly implicit in what is stiff
@@ -124,6 +128,11 @@ typedef struct {
         double sigma_pocket;  // [m] Composite RMS roughness of ball and pocket
         double sigma_land;  // [m] Composite RMS roughness of cage and outer ring lands
         double rho;  // [kg/m3] Density of the oil
+        double flow;  // [m3/s] Flow of oil through the bearing, from which the density of the mixture follows (Parker, NASA TP-2275)
+        double beta;  // [1/K] Fall of the viscosity's logarithm with temperature
+        double k;  // [W/(m.K)] Thermal conductivity of the oil
+        double K_rs;  // [1] Starvation of the race inlets
+        double K_Z;  // [1] Starvation of the race inlets: factor of the bearing type
     } oil;
     struct {
         double m;  // [kg] Mass of the inner ring with its share of the shaft
@@ -162,6 +171,9 @@ typedef struct {
         int lubrication;  // Lubrication: Full film or mixed lubrication
         int stress;  // Stress: When the rivet stress is computed
         int statistics;  // Switch: Running mean, RMS and histogram behind stat.*
+        int drag;  // Drag: Drag of the balls in the mixture between the rings
+        int churning;  // Switch: Drag moment of the mixture on the spinning balls
+        int heating;  // Switch: Shear heating in the inlets of the races, in their films and in the films of the lands
     } scene;
     struct {
         double tol;  // [1] Tolerance: local error / scale of each state class; a tolerance of fmi2SetupExperiment takes its place
@@ -299,8 +311,9 @@ typedef struct {
         scalar races;  // [W] Power dissipated in the race contacts
         scalar inlet;  // [W] Part of loss.races: rolling friction of the inlets
         scalar spin;  // [W] Part of loss.races: spin of the balls about the contact normals (sliced traction)
-        scalar ball_drag;  // [W] Power dissipated by the drag of the balls in the mixture
+        scalar ball_drag;  // [W] Power dissipated by drag and churning of the balls in the mixture
         scalar cage_drag;  // [W] Power dissipated by the drag of the cage in the mixture
+        scalar ring_drag;  // [W] Power that the inner ring dissipates by its friction on the mixture
         scalar land;  // [W] Power dissipated between the lands and the outer ring
         scalar pockets;  // [W] Power dissipated in the pockets
         scalar joints;  // [W] Power dissipated in the joints of the cage
@@ -432,4 +445,4 @@ typedef enum {
 } StateScale;
 
 enum { N_INPUTS = 10 };  // all of them numbers
-enum { N_VARIABLES = 240 };  // time is the first
+enum { N_VARIABLES = 249 };  // time is the first
