@@ -94,4 +94,4 @@ def drag_ring(model, w):
     slip = w.ring.s - w.stream
     M = -model.d.ring_drag * w.filling * w.wall * slip * absolute(slip)
     w.ring.M = w.ring.M + M * w.ring.a
-    w.ring_drag_dissipated = -M * vec_dot(w.ring.a, w.ring.Omega)
+    w.ring_drag_dissipated = -M * w.ring.s

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from enum import IntEnum
 
 MODEL_IDENTIFIER = "RivetedBearing"
-MODEL_GUID = "{6da85fc9-8f75-9e38-4f09-6c2855f9ffc1}"
+MODEL_GUID = "{a79e6673-23d6-963b-66b4-9c04000d8e16}"
 Z = 9
 
 
@@ -117,7 +117,7 @@ UNITS = {
     "kg/m3": {"kg/m3": (1.0, 0.0)},
     "m3/s": {"m3/s": (1.0, 0.0), "L/min": (60000.0, 0.0)},
     "1/K": {"1/K": (1.0, 0.0)},
-    "W/(m.K)": {"W/(m.K)": (1.0, 0.0)},
+    "W/m.K": {"W/m.K": (1.0, 0.0)},
     "1/s": {"1/s": (1.0, 0.0)},
     "1/s2": {"1/s2": (1.0, 0.0)},
     "s": {"s": (1.0, 0.0), "ms": (1000.0, 0.0)},
@@ -190,7 +190,7 @@ PARAMETERS = {
         Variable("oil.rho", 1316, "Real", "kg/m3", None, 900.0, 100.0, 2000.0, 1, None, "Density of the oil", "aviation oil, hot"),
         Variable("oil.flow", 8201, "Real", "m3/s", "L/min", 0.0, 0.0, 0.1, 1, None, "Flow of oil through the bearing, from which the density of the mixture follows (Parker, NASA TP-2275)", "0: not known, the mixture has the density oil.rho_mix"),
         Variable("oil.beta", 8202, "Real", "1/K", None, 0.022, 0.0, 0.2, 1, None, "Fall of the viscosity's logarithm with temperature", "MIL-PRF-23699 oil of 25 and 5 mm2/s at 40 and 100 degC, ASTM D341, at 6 mPa.s"),
-        Variable("oil.k", 8203, "Real", "W/(m.K)", None, 0.14, 0.01, 1.0, 1, None, "Thermal conductivity of the oil", "assumed (ester and mineral oils: 0.12...0.15)"),
+        Variable("oil.k", 8203, "Real", "W/m.K", None, 0.14, 0.01, 1.0, 1, None, "Thermal conductivity of the oil", "assumed (ester and mineral oils: 0.12...0.15)"),
         Variable("oil.K_rs", 8204, "Real", "1", None, 3e-08, 0.0, 1e-06, 1, None, "Starvation of the race inlets", "SKF: 3e-8 for oil jet and low oil bath, 6e-8 for grease and oil-air; 0: fully flooded"),
         Variable("oil.K_Z", 8205, "Real", "1", None, 3.1, 0.0, 10.0, 1, None, "Starvation of the race inlets: factor of the bearing type", "SKF: deep-groove ball bearings 3.1, angular-contact ball bearings 4.4"),
         Variable("ring.m", 1401, "Real", "kg", None, 0.6, 0.001, 1000.0, 1, None, "Mass of the inner ring with its share of the shaft", "assumed: inner ring and its share of the shaft"),

@@ -28,8 +28,6 @@
 // isolated balls the mixture stands.  Neglected: the cage's bore, which holds the mixture too.
 #include "drag.h"
 
-#include "elementary.h"
-#include "rotor.h"
 #include "vec.h"
 
 static const double TINY_SPEED = 1e-30;  // [rad/s]: keeps roots and quotients finite at standstill
@@ -125,5 +123,5 @@ void drag_ring(const Model *model, Work *w)
     const scalar slip = w->ring.s - w->stream;
     const scalar M = -(model->d->ring_drag * w->filling * w->wall) * slip * positive(slip);
     for (int i = 0; i < 3; i++) w->ring.M[i] += M * w->ring.a[i];
-    w->ring_drag_dissipated = -M * dot3(w->ring.a, w->ring.Omega);
+    w->ring_drag_dissipated = -M * w->ring.s;
 }

@@ -110,9 +110,9 @@ def test_loss_outputs_add_up(core, cage):
     bearing = Instance(core, {"scene.cage": cage})
     for i in range(1, 6):
         bearing.step(2e-4 * i)
-        parts = [bearing.output(f"loss.{part}") for part in ("races", "ball_drag", "cage_drag", "land", "pockets", "joints")]
+        parts = [bearing.output(f"loss.{part}") for part in ("races", "ball_drag", "cage_drag", "ring_drag", "land", "pockets", "joints")]
         assert sum(parts) == pytest.approx(bearing.output("bearing.power_loss"), rel=1e-13)  # observed 3e-16
-        assert min(parts[:4]) > 0.0
+        assert min(parts[:5]) > 0.0
         assert 0.0 < bearing.output("loss.inlet") + bearing.output("loss.spin") <= parts[0]
 
 
@@ -153,19 +153,21 @@ def test_lossless_energy_stays(core, record_property):
 
 
 @pytest.mark.c_only
-@pytest.mark.parametrize(("method", "order_of_error", "largest"), [(Method.EXPLICIT, 1.0, 1e-5), (Method.VERLET, 2.0 / 3.0, 1e-4)])
+@pytest.mark.parametrize(("method", "order_of_error", "largest"), [(Method.EXPLICIT, 1.0, 1e-5), (Method.VERLET, 2.0 / 3.0, 2.5e-4)])
 @pytest.mark.parametrize("cage", CageModel)
 def test_energy_balance_of_a_run(core, cage, method, order_of_error, largest, record_property):
-    """The working point for 10 ms dissipates 2.6 J; the balance closes to 1e-5 of it at 1e-4 (observed 0.03...1e-6), by Verlet to 1e-4 (6e-5).
+    """The working point for 10 ms dissipates 1.6 J; the balance closes to 1e-5 of it at 1e-4 (observed 0.03...1e-6), by Verlet to 2.5e-4.
+
+    Observed by Verlet 1.8e-4 over twelve seeds, of which the first millisecond, in which the start settles, makes 1.1e-4.
 
     Error by tolerance over the first 2 ms: slope 1 (Runge-Kutta), 2/3 (Verlet: order 2, steps by an estimate of order 3).  Later the motions at two
     tolerances have parted, and so have their residuals, which have a sign and pass through zero.
     """
     parameters = {"scene.cage": cage, "solver.method": method}
     error, loss, _ = residual(core, 1e-4, parameters, 1e-2)
-    assert 150.0 < loss < 500.0
-    record_property("residual", {"of what is dissipated": float(error / 2.6)})
-    assert error < largest * 2.6
+    assert 100.0 < loss < 500.0
+    record_property("residual", {"of what is dissipated": float(error / 1.6)})
+    assert error < largest * 1.6
     slope, _ = order(core, [1e-4, 1e-5, 1e-6], parameters, 2e-3)
     assert slope == pytest.approx(order_of_error, abs=0.1)  # observed 0.94, 0.98; 0.63
 

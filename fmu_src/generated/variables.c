@@ -288,7 +288,7 @@ const Variable VARIABLES[N_VARIABLES] = {
     {"loss.ring_drag", "W", 8109, 1, TYPE_REAL, CAUSALITY_OUTPUT, GROUP_ENERGY, -1, offsetof(Outputs, loss.ring_drag), 0.0, -INFINITY, INFINITY},
     {"oil.flow", "m3/s", 8201, 1, TYPE_REAL, CAUSALITY_PARAMETER, GROUP_COUNT, -1, offsetof(Parameters, oil.flow), 0.0, 0.0, 0.1},
     {"oil.beta", "1/K", 8202, 1, TYPE_REAL, CAUSALITY_PARAMETER, GROUP_COUNT, -1, offsetof(Parameters, oil.beta), 0.022, 0.0, 0.2},
-    {"oil.k", "W/(m.K)", 8203, 1, TYPE_REAL, CAUSALITY_PARAMETER, GROUP_COUNT, -1, offsetof(Parameters, oil.k), 0.14, 0.01, 1.0},
+    {"oil.k", "W/m.K", 8203, 1, TYPE_REAL, CAUSALITY_PARAMETER, GROUP_COUNT, -1, offsetof(Parameters, oil.k), 0.14, 0.01, 1.0},
     {"oil.K_rs", "1", 8204, 1, TYPE_REAL, CAUSALITY_PARAMETER, GROUP_COUNT, -1, offsetof(Parameters, oil.K_rs), 3e-08, 0.0, 1e-06},
     {"oil.K_Z", "1", 8205, 1, TYPE_REAL, CAUSALITY_PARAMETER, GROUP_COUNT, -1, offsetof(Parameters, oil.K_Z), 3.1, 0.0, 10.0},
     {"scene.drag", "1", 8211, 1, TYPE_ENUMERATION, CAUSALITY_PARAMETER, GROUP_COUNT, -1, offsetof(Parameters, scene.drag), 2.0, 1.0, 2.0},

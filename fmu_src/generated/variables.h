@@ -9,7 +9,7 @@
 
 #define FMI2_FUNCTION_PREFIX RivetedBearing_  // of the functions of a source-code FMU
 #define MODEL_IDENTIFIER "RivetedBearing"
-#define MODEL_GUID "{6da85fc9-8f75-9e38-4f09-6c2855f9ffc1}"  // digest of the table
+#define MODEL_GUID "{a79e6673-23d6-963b-66b4-9c04000d8e16}"  // digest of the table
 
 enum { Z = 9 };  // number of balls
 
@@ -130,7 +130,7 @@ typedef struct {
         double rho;  // [kg/m3] Density of the oil
         double flow;  // [m3/s] Flow of oil through the bearing, from which the density of the mixture follows (Parker, NASA TP-2275)
         double beta;  // [1/K] Fall of the viscosity's logarithm with temperature
-        double k;  // [W/(m.K)] Thermal conductivity of the oil
+        double k;  // [W/m.K] Thermal conductivity of the oil
         double K_rs;  // [1] Starvation of the race inlets
         double K_Z;  // [1] Starvation of the race inlets: factor of the bearing type
     } oil;
