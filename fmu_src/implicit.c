@@ -148,8 +148,8 @@ INLINE void packet_matrix(const Model *model, const Work *w, int j, double gamma
     }
 }
 
-// gamma A of a packet of balls as one number each: half the trace, because the two tangents of a contact
-// share it.
+// gamma A of each ball of a packet as one number: half the trace of A, because each contact acts along two
+// tangents.
 INLINE wide packet_rate(const Model *model, const Work *w, int j, double gamma)
 {
     const Derived *d = model->d;
@@ -247,7 +247,8 @@ INLINE void couple_packet(const Model *model, const Work *w, int j, double gamma
     }
 }
 
-// rows = W^-1 M rows of all balls; where the ring is coupled (c not NULL), what it needs of them.
+// Solves W x = M v for all balls; rows holds v, then x.  Where the ring is coupled (c is not NULL), c receives
+// what the equations of the ring need of the balls.
 static void solve_balls(const Model *model, const Work *w, double gamma, ball_array rows[BLOCK], Coupling *c)
 {
     for (int j = 0; j < PACKETS * LANE_WIDTH; j += LANE_WIDTH) {
@@ -438,7 +439,7 @@ static void solve_joints(const Model *model, const Work *w, double gamma, const 
     }
     solve_3(B, x);
 
-    // What they change in each half, under its film.
+    // The impulses change the velocities of each half, which its own film holds back again.
     for (int h = 0; h < 2; h++) {
         const double sign = h == 0 ? 1.0 : -1.0;
         const double dx = sign * x[0] / f[h].m;
@@ -571,7 +572,8 @@ static void solve_coupled_ring(const Model *model, const Work *w, const double s
         }
 }
 
-// Only the dampers of the support; a prescribed tilt follows its filter, which is not damped further.
+// The ring's stiff rates are those of its support's dampers.  A prescribed tilt follows its filter, whose
+// acceleration is not damped further.
 static void stiff_part_of_ring(const Model *model, double gamma, double *v)
 {
     const Parameters *p = model->p;

@@ -346,14 +346,15 @@ void integrator_evaluate(Integrator *in)
 // estimates over a kink of the forces mean little.
 static const double SAFETY = 0.8, MIN_FACTOR = 0.2, MAX_FACTOR = 1.5;
 
-// Part of a step by which the last one may be longer than the controller wants, so that none is left for
-// rounding's sake.
+// Part of a step by which the last step before t_stop may be longer than the controller wants: the rounding
+// of time must not leave a last step of no length.
 static const double LAST_STEP = 1e-9;
 
 static int step_underflow(const Integrator *in, const char *method, double h)
 {
     char text[128];
-    snprintf(text, sizeof text, "t = %.9g s: %s: a step of %g s is lost in the rounding of time", in->s->t, method, h);
+    snprintf(text, sizeof text, "t = %.9g s: %s: a step of %g s is lost in the rounding of time", in->s->t,
+             method, h);
     in->log(in->context, text);
     return ARK_ERR_FAILURE;
 }
@@ -504,10 +505,14 @@ static double largest_of(StateScale scale)
 
 bool integrator_state_is_valid(const IntegratorState *s)
 {
-    const double RATE = 1e6,
-                 LARGEST_FILM = 1e30;  // a state crosses its range in no less than a microsecond [1/s]
+    // A state crosses its range in no less than a microsecond [1/s]; largest film rate [N.s/m].
+    const double RATE = 1e6, LARGEST_FILM = 1e30;
+
+    // Time and step sizes.
     bool fine = values_are_within(&s->t, 1, LARGEST_TIME) && values_are_amounts(&s->now.h, 1) &&
                 values_are_amounts(&s->h, 1) && s->h > 0.0;
+
+    // States, their rates and the differences of their rates.
     for (const StateBlock *b = STATE_BLOCKS; b < STATE_BLOCKS + N_STATE_BLOCKS; b++) {
         const size_t n = (size_t)b->count;
         const double largest = largest_of(b->scale);
@@ -515,6 +520,8 @@ bool integrator_state_is_valid(const IntegratorState *s)
                 values_are_within(s->now.f + b->offset, n, RATE * largest);
         fine &= values_are_within(s->now.jerk + b->offset, n, RATE * RATE * RATE * largest);
     }
+
+    // Films, switch and counters.
     fine &=
         values_are_within(&s->now.film[0][0], sizeof s->now.film / sizeof s->now.film[0][0], LARGEST_FILM);
     fine &= s->f_is_current == 0 || s->f_is_current == 1;

@@ -5,7 +5,8 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-static const double LARGEST_TIME = 1e10;  // [s] doubles are 2 us apart there, as far as internal steps are long
+static const double LARGEST_TIME =
+    1e10;  // [s] doubles are 2 us apart there, as far as internal steps are long
 
 // Whether all of them are numbers between -largest and largest.
 static inline bool values_are_within(const double *value, size_t n, double largest)

@@ -34,7 +34,7 @@ _Static_assert(Y_BALL_OMEGA_X - VELOCITY == FRICTION, "velocities are in the ord
 // 13 % too small (docs/method.md).
 static const double SMOOTHING = 0.15;
 
-// Sum in eight partial sums: the same bits for every instruction set.
+// Adds up eight partial sums, so that every instruction set rounds alike.
 static double sum_of(const double *x, int count)
 {
     const int whole = count / 8 * 8;
@@ -65,7 +65,7 @@ static void advance_positions(const Model *model, double h, const VerletState *f
 
 // Limits the predictor of the cage velocities: writes what is taken from h a_n into `removed`.  A land film
 // is stiff when closing and almost free when opening, so extrapolating with a_n would throw a half off the
-// film that it rests on.  The part of h a_n that is new since the last step, h (a_n - minmod(a_n, a_{n-1})),
+// film on which the half rests.  The part of h a_n that is new since the last step, h (a_n - minmod(a_n, a_{n-1})),
 // is therefore damped implicitly with the film matrix at the step's start; the part that both accelerations
 // share is steady and stays.
 static void predictor_limiter(const Model *model, double h, const VerletState *from, Work *w, double *removed)

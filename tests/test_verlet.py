@@ -12,7 +12,7 @@ from test_jacobian import KINDS, SCENES, make_model, make_state
 from bearing_model import verlet
 from bearing_model.model import Model, Work
 from bearing_model.rhs import jacobian, rhs
-from bearing_model.variables import N_STATES, RING_BETA_DOT, RING_GAMMA_DOT, RING_V_X, STATE_SLICES, WORK, CageModel, Lubrication, TiltMode, Traction
+from bearing_model.variables import N_STATES, RING_BETA_DOT, RING_GAMMA_DOT, RING_V_X, STATE_SLICES, WORK, CageModel, Lubrication, Method, TiltMode, Traction
 from bearing_model.verlet import FRICTION, N_V, POSITIONS, RING, V, VerletState
 
 TWIN = SimpleNamespace(model=Model.of)  # what make_model builds models with
@@ -421,3 +421,13 @@ def test_no_derivative(core):
     taken, refused = verlet.verlet_advance(None, 0.0, 1e-2, 1e-2, None, None, lambda *_: (None, next(errors)))[2:]
     np.testing.assert_allclose(taken, [2e-3, 3e-3, 2.5e-3, 2.5e-3], rtol=1e-12)  # 0.2 times; 1.5 times where there is no error; two halves
     assert refused == 1
+
+
+# ------------------------------------------------------------------------------------------------- control of the explicit method
+
+
+def test_explicit_step_cut_short(core):
+    """Where the end of a communication step cuts the first step short, nine tenths of the remembered step size stay."""
+    h, y = 2e-6, Instance(core).step(5e-3).y
+    integrator = CoreIntegrator(core, core.model({"solver.method": Method.EXPLICIT}), y, 1e-3)
+    assert integrator.advance(h, 1e-3 * h)[1] == pytest.approx(0.9 * h, rel=1e-12)
