@@ -49,7 +49,8 @@ static double reference_density(const Parameters *p)
 // Constants of drag.c.
 static void derive_mixture(const Parameters *p, Derived *d)
 {
-    const double D = p->bearing.D, d_m = p->bearing.d_m, R = 0.5 * D, gamma = D / d_m, nu = p->oil.eta / p->oil.rho;
+    const double D = p->bearing.D, d_m = p->bearing.d_m, R = 0.5 * D, gamma = D / d_m,
+                 nu = p->oil.eta / p->oil.rho;
     const double rho = reference_density(p), kappa = 0.5 * (1.0 - gamma);
 
     // Parker's fraction is 1 at this speed: 10^5 W^0.37/(n d_m^1.7), cm3/min, r/min, mm
@@ -85,7 +86,8 @@ static void derive_inlets(const Parameters *p, Derived *d)
     d->starvation = p->oil.K_rs * nu * 2.0 * speed * sqrt(0.5 * p->oil.K_Z / section);
     d->ln_heating =
         heating ? portable_log(1.84e-9) + 1.28 * portable_log(speed) + 0.64 * portable_log(nu) : -INFINITY;
-    d->ln_thermal = heating && p->oil.beta > 0.0 ? portable_log(p->oil.eta * p->oil.beta / p->oil.k) : -INFINITY;
+    d->ln_thermal =
+        heating && p->oil.beta > 0.0 ? portable_log(p->oil.eta * p->oil.beta / p->oil.k) : -INFINITY;
 }
 
 static void derive_balls(const Parameters *p, Derived *d)

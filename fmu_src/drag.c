@@ -110,7 +110,8 @@ void drag_cage(const Model *model, Work *w)
         if (wide_any(wide_above(speed, d->cylinder_laminar_omega)))
             cylinder = wide_max(cylinder, d->cylinder_vortex * wide_exp(0.539 * wide_log(speed)));
         for (int h = 0; h < HALVES; h++) {
-            const scalar M = -(wide_lane(disk, h) + wide_lane(cylinder, h)) * w->filling * wide_lane(omega, h);
+            const scalar M =
+                -(wide_lane(disk, h) + wide_lane(cylinder, h)) * w->filling * wide_lane(omega, h);
             half[h].M[0] += M;
             w->cage_dissipated -= M * wide_lane(omega, h);
             w->cage_drag_dissipated -= M * wide_lane(omega, h);

@@ -46,8 +46,8 @@ typedef struct {
     // mixture; densities in proportion to that of the mixture, or of the oil where the flow gives the filling
     double flooded_omega, air;  // shaft speed up to which oil fills the space [rad/s], density air / oil
     double sigma;               // shaft speed / orbital speed without slip
-    double ball_area, inner_wall, outer_wall, fresh;    // B [m2], I and E / |omega|^-0.25, N |omega|
-    double drag, churning_viscous, churning_boundary;   // of a ball / v^2 [N.s2/m2], / omega, / omega^1.5
+    double ball_area, inner_wall, outer_wall, fresh;   // B [m2], I and E / |omega|^-0.25, N |omega|
+    double drag, churning_viscous, churning_boundary;  // of a ball / v^2 [N.s2/m2], / omega, / omega^1.5
     double ring_drag;  // moment on the ring / (omega - stream)^2 |omega|^-0.25
 
     // pockets

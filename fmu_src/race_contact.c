@@ -163,8 +163,7 @@ INLINE Tangential race_traction(const Model *model, const Race *race, const Cont
     if (mixed)
         f_a = traction_asperity_share(traction_ln_film(wide_set(race->ln_Lambda), ln_U, ln_Q) +
                                       traction_ln_thermal(wide_set(model->d->ln_thermal), ln_U));
-    const wide F_R =
-        traction_race_inlet(model->d, wide_set(race->rolling), U_2 * inv_U, ln_U, c->Q, ln_Q);
+    const wide F_R = traction_race_inlet(model->d, wide_set(race->rolling), U_2 * inv_U, ln_U, c->Q, ln_Q);
     const vec rolling = vec_scale(F_R * inv_U, c->roll);
 
     Tangential out =

@@ -24,7 +24,8 @@ void test_traction_mu(int n, const Parameters *p, double f_a, bool mixed, const 
 void test_traction_asperity_share(int n, const double *ln_Lambda, double *f_a);
 void test_traction_ln_film(int n, double ln_Lambda_1, double Q, const double *U, double *ln_Lambda);
 void test_traction_inlet(int n, double rolling, double Q, const double *U, double *F_R);
-void test_traction_race_inlet(int n, const Derived *d, double rolling, double Q, const double *U, double *F_R);
+void test_traction_race_inlet(int n, const Derived *d, double rolling, double Q, const double *U,
+                              double *F_R);
 void test_traction_ln_thermal(int n, double ln_thermal, const double *U, double *ln_factor);
 void test_rivet_rom_stress(int n, const RivetLoads *load, double fit_eff, bool all, double *sigma);
 unsigned test_rivet_rom_load_flags(const RivetLoads *load, double *sigma, int k);

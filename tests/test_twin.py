@@ -18,6 +18,7 @@ from bearing_model.statistics import StatisticsChannel
 # A hybrid bearing: smaller ceramic-like balls of unequal size, other conformities, clearances, cage, oil and joints (d_m and Z are the rivet table's).
 OTHER = {
     "bearing.D": 0.0095,
+    "oil.flow": 2e-5,
     "bearing.f_i": 0.52,
     "bearing.f_e": 0.53,
     "bearing.P_d": 30e-6,
