@@ -74,6 +74,7 @@ def ball_outputs(model, w):
         "ball[j].Lambda_i": film_ratio(d, d.inner, w.U_i, w.Q_i),
         "ball[j].Lambda_e": film_ratio(d, d.outer, w.U_e, w.Q_e),
         "ball[j].spin_roll": spin_roll(w),
+        "bearing.clearance": model.p.bearing.P_d - 2.0 * d.growth * model.ring_load.omega**2 + 0.0 * w.Q_pocket[..., 0],
         "bearing.contacts": np.sum(deltas > 0.0, axis=(0, -1)),
         "bearing.penetration": np.maximum(np.max(deltas, axis=(0, -1)), 0.0),
         "cage.F_pocket_max": np.max(w.Q_pocket, axis=-1),

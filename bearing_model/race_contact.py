@@ -8,6 +8,9 @@
                  \\            /                                                     Q = K delta^1.5 max(0, 1 + lambda delta_dot)
                   \\__________/                                                      force on the ball -Q n
 
+The inner ring grows by its rotation: R_g + growth omega^2 (derived.py).  The work of this growth while the speed changes is left out of the energy
+balance.
+
 No offset or tilt is taken as small: the geometry is exact, so that the normal forces derive from a potential.
 Slip and mean speed at the contact point p + R n, seen from the frame that orbits with the ball:
     u_ball = (omega_ball - omega_m e_x) x R n,   u_race = v_ring + Omega x (p + R n) - v_ball - omega_m e_x x R n
@@ -76,16 +79,17 @@ def race_traction(model, race, c, mixed, sliced):
     return out
 
 
-def race_contact(race, R, lambda_, p, a, Omega, approach, omega_b, omega_m):
+def race_contact(race, R_g, R, lambda_, p, a, Omega, approach, omega_b, omega_m):
     """Normal contact and kinematics of the balls with one race.
 
-    p: ball centres - ring centre, a: axis, Omega: angular velocity of the ring, approach: v_ball - v_ring - Omega x p, all in the balls' frames.
+    R_g: present radius of the circle of groove centres, p: ball centres - ring centre, a: axis, Omega: angular velocity of the ring,
+    approach: v_ball - v_ring - Omega x p, all in the balls' frames.
     """
     along = vec_dot(p, a)
     radial = p - along * a
     r = np.sqrt(vec_dot(radial, radial))
     e = radial / r
-    L = along * a + (r - race.R_g) * e
+    L = along * a + (r - R_g) * e
     L_abs = np.sqrt(vec_dot(L, L))
     c = SimpleNamespace(R=R, n=L / L_abs, t_1=vec_cross(a, e), approach=approach, spin=omega_b - Omega)
     c.t_2 = vec_cross(c.n, c.t_1)
@@ -112,13 +116,14 @@ def race_contact_force(model, w):
     # inner race: the ring's centre, axis, velocity in the balls' frames
     a, Omega, v_i, x_i = (vec_local(v, w.cos_theta, w.sin_theta) for v in (w.ring.a, w.ring.Omega, w.ring.v, w.ring.x))
     p_i = position - x_i
-    inner = race_contact(d.inner, d.R, p.bearing.lambda_, p_i, a, Omega, v_b - v_i - vec_cross(Omega, p_i), omega_b, w.omega_m)
+    R_g = d.inner.R_g + d.growth * model.ring_load.omega**2
+    inner = race_contact(d.inner, R_g, d.R, p.bearing.lambda_, p_i, a, Omega, v_b - v_i - vec_cross(Omega, p_i), omega_b, w.omega_m)
     T_i = race_traction(model, d.inner, inner, mixed, sliced)
     F_i = -inner.Q * inner.n + T_i.F_s + T_i.F_c
 
     # outer race: fixed, its axis is X
     e_x, rest = vec(1.0, 0.0 * w.x, 0.0), 0.0 * position
-    outer = race_contact(d.outer, d.R, p.bearing.lambda_, position, e_x, rest, v_b, omega_b, w.omega_m)
+    outer = race_contact(d.outer, d.outer.R_g, d.R, p.bearing.lambda_, position, e_x, rest, v_b, omega_b, w.omega_m)
     T_e = race_traction(model, d.outer, outer, mixed, sliced)
     F_e = -outer.Q * outer.n + T_e.F_s + T_e.F_c
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from enum import IntEnum
 
 MODEL_IDENTIFIER = "RivetedBearing"
-MODEL_GUID = "{a79e6673-23d6-963b-66b4-9c04000d8e16}"
+MODEL_GUID = "{f6e97c5f-1051-2ee2-e984-2be2557bf1b0}"
 Z = 9
 
 
@@ -201,6 +201,8 @@ PARAMETERS = {
         Variable("ring.tilt_time", 1406, "Real", "s", None, 0.0001, 1e-06, 1.0, 1, None, "Time constant of the critically damped filter of the prescribed tilt", "assumed: shorter than any pocket period"),
         Variable("ring.k_tilt", 1407, "Real", "N.m/rad", None, 20000.0, 0.0, 100000000.0, 1, None, "Angular stiffness of the ring's support (supported tilt)", "assumed: a second bearing nearby"),
         Variable("ring.c_tilt", 1408, "Real", "N.m.s/rad", None, 1.0, 0.0, 10000.0, 1, None, "Angular damping of the ring's support (supported tilt)", "assumed: damping ratio 0.3 with the default stiffness and inertia"),
+        Variable("ring.bore", 8221, "Real", "m", "mm", 0.0, 0.0, 1.0, 1, None, "Bore of the inner ring: its growth by rotation", "0: d_m - D/0.6, as usual cross-sections have it (6207: 35 mm)"),
+        Variable("ring.rho", 8222, "Real", "kg/m3", None, 7800.0, 1000.0, 20000.0, 1, None, "Density of the inner ring", "bearing steel, Harris"),
         Variable("gravity.y", 1501, "Real", "m/s2", None, 0.0, -1000.0, 1000.0, 1, None, "Gravity along Y", "off"),
         Variable("gravity.z", 1502, "Real", "m/s2", None, 0.0, -1000.0, 1000.0, 1, None, "Gravity along Z", "off"),
         Variable("pulse.F_r", 1601, "Real", "N", None, 0.0, -100000.0, 100000.0, 1, None, "Amplitude of the built-in half-sine impacts along the radial load", "no impact (paper section 4.1 (3): 1401 N)"),
@@ -224,6 +226,7 @@ PARAMETERS = {
         Variable("scene.drag", 8211, "Drag", "1", None, 2, None, None, 1, None, "Drag of the balls in the mixture between the rings", "default"),
         Variable("scene.churning", 8212, "Switch", "1", None, 2, None, None, 1, None, "Drag moment of the mixture on the spinning balls", "default"),
         Variable("scene.heating", 8213, "Switch", "1", None, 2, None, None, 1, None, "Shear heating in the inlets of the races, in their films and in the films of the lands", "default"),
+        Variable("scene.growth", 8214, "Switch", "1", None, 1, None, None, 1, None, "Growth of the inner ring by its own rotation, which takes clearance (a free ring)", "default"),
         Variable("solver.tol", 1901, "Real", "1", None, 0.001, 1e-10, 0.1, 1, None, "Tolerance: local error / scale of each state class; a tolerance of fmi2SetupExperiment takes its place", "measured: forces and stress within 1 % of the limit, the mean stress of one jam within 2 %"),
         Variable("solver.method", 1902, "Method", "1", None, 1, None, None, 1, None, "Integration method", "measured: fewest processor seconds at every tolerance down to 2e-5"),
         Variable("solver.max_steps", 1903, "Integer", "1", None, 10000000, 10, 2000000000, 1, None, "Largest number of internal steps in one communication step", "work limit instead of a hung host"),
@@ -338,6 +341,7 @@ OUTPUTS = {
         Variable("bearing.energy_residual", 4003, "Real", "J", None, None, None, None, 1, "energy", "Energy now - energy at start - net work since: 0 but for the errors of the integration and of the work's own integral", None),
         Variable("bearing.contacts", 4004, "Real", "1", None, None, None, None, 1, "ball", "Number of closed contacts (races and pockets)", None),
         Variable("bearing.penetration", 4005, "Real", "m", "um", None, None, None, 1, "ball", "Largest elastic approach of all contacts", None),
+        Variable("bearing.clearance", 8110, "Real", "m", "um", None, None, None, 1, "ball", "Diametral clearance at the present speed", None),
         Variable("loss.races", 8101, "Real", "W", None, None, None, None, 1, "energy", "Power dissipated in the race contacts", None),
         Variable("loss.inlet", 8102, "Real", "W", None, None, None, None, 1, "energy", "Part of loss.races: rolling friction of the inlets", None),
         Variable("loss.spin", 8103, "Real", "W", None, None, None, None, 1, "energy", "Part of loss.races: spin of the balls about the contact normals (sliced traction)", None),

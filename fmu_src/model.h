@@ -40,6 +40,7 @@ typedef struct {
     constants R;  // ball radius [m]
     double m, J;  // ball mass [kg], moment of inertia [kg.m2]
     Race inner, outer;
+    double growth;                  // of the inner groove's radius / omega^2 [m.s2]
     double starvation, ln_heating;  // of the inlets: exponent / U [s/m], ln of the heating term at U = 1 m/s
     double ln_thermal;              // ln of the thermal loading L of the race films at U = 1 m/s
 

@@ -9,6 +9,9 @@
 //             \            /                     Q = K delta^1.5 max(0, 1 + lambda delta_dot)
 //              \__________/                      force on the ball -Q n
 //
+// The inner ring grows by its rotation: R_g + growth omega^2 (derived.c).  The work of this growth while the speed
+// changes is left out of the energy balance.
+//
 // No offset or tilt is taken as small: the geometry is exact, so that the normal forces derive from a
 // potential.
 //
@@ -62,16 +65,17 @@ INLINE void load_contact(const Model *model, const Race *race, wide delta, wide 
     c->dissipated = (c->Q - Q_0) * delta_dot;
 }
 
-// Inner race.  p: from the centre of the ring to that of the ball; a, v, Omega: axis, velocity and angular
+// Inner race.  R_g: present radius of the circle of groove centres; p: from the centre of the ring to that of the ball; a, v, Omega: axis, velocity and angular
 // velocity of the ring.  All vectors are in the frames of the balls.
-INLINE Contact inner_contact(const Model *model, const BallMotion *ball, vec p, vec a, vec v, vec Omega)
+INLINE Contact inner_contact(const Model *model, const BallMotion *ball, wide R_g, vec p, vec a, vec v,
+                             vec Omega)
 {
     const Race *race = &model->d->inner;
     const wide along = vec_dot(p, a), tiny = wide_set(TINY);
     const vec radial = vec_axpy(-along, a, p);
     const wide r = wide_sqrt(vec_dot(radial, radial) + tiny);
     const vec e = vec_scale(1.0 / r, radial);
-    const wide across = r - race->R_g, L = wide_sqrt(along * along + across * across + tiny), inv_L = 1.0 / L;
+    const wide across = r - R_g, L = wide_sqrt(along * along + across * across + tiny), inv_L = 1.0 / L;
     Contact c = {
         .R = ball->R, .n = vec_axpy(across * inv_L, e, vec_scale(along * inv_L, a)), .t_1 = vec_cross(a, e)};
     c.t_2 = vec_cross(c.n, c.t_1);
@@ -213,7 +217,9 @@ INLINE void race_contact_packet(const Model *model, Work *w, int j, bool mixed, 
                              .omega_m = wide_load(&w->omega_m[j]),
                              .R = wide_load(&d->R[j])};
     const vec p_i = vec_sub(ball.x, vec_local(w->ring.x, cos_theta, sin_theta));
-    const Contact inner = inner_contact(model, &ball, p_i, vec_local(w->ring.a, cos_theta, sin_theta),
+    const scalar omega = model->ring_load->omega;
+    const wide R_g = wide_set(d->inner.R_g + d->growth * omega * omega);
+    const Contact inner = inner_contact(model, &ball, R_g, p_i, vec_local(w->ring.a, cos_theta, sin_theta),
                                         vec_local(w->ring.v, cos_theta, sin_theta),
                                         vec_local(w->ring.Omega, cos_theta, sin_theta));
     const Contact outer = outer_contact(model, &ball);

@@ -19,6 +19,8 @@ from bearing_model.statistics import StatisticsChannel
 OTHER = {
     "bearing.D": 0.0095,
     "oil.flow": 2e-5,
+    "scene.growth": 2,
+    "ring.bore": 0.03,
     "bearing.f_i": 0.52,
     "bearing.f_e": 0.53,
     "bearing.P_d": 30e-6,

@@ -286,6 +286,7 @@ const Variable VARIABLES[N_VARIABLES] = {
     {"loss.pockets", "W", 8107, 1, TYPE_REAL, CAUSALITY_OUTPUT, GROUP_ENERGY, -1, offsetof(Outputs, loss.pockets), 0.0, -INFINITY, INFINITY},
     {"loss.joints", "W", 8108, 1, TYPE_REAL, CAUSALITY_OUTPUT, GROUP_ENERGY, -1, offsetof(Outputs, loss.joints), 0.0, -INFINITY, INFINITY},
     {"loss.ring_drag", "W", 8109, 1, TYPE_REAL, CAUSALITY_OUTPUT, GROUP_ENERGY, -1, offsetof(Outputs, loss.ring_drag), 0.0, -INFINITY, INFINITY},
+    {"bearing.clearance", "m", 8110, 1, TYPE_REAL, CAUSALITY_OUTPUT, GROUP_BALL, -1, offsetof(Outputs, bearing.clearance), 0.0, -INFINITY, INFINITY},
     {"oil.flow", "m3/s", 8201, 1, TYPE_REAL, CAUSALITY_PARAMETER, GROUP_COUNT, -1, offsetof(Parameters, oil.flow), 0.0, 0.0, 0.1},
     {"oil.beta", "1/K", 8202, 1, TYPE_REAL, CAUSALITY_PARAMETER, GROUP_COUNT, -1, offsetof(Parameters, oil.beta), 0.022, 0.0, 0.2},
     {"oil.k", "W/m.K", 8203, 1, TYPE_REAL, CAUSALITY_PARAMETER, GROUP_COUNT, -1, offsetof(Parameters, oil.k), 0.14, 0.01, 1.0},
@@ -294,4 +295,7 @@ const Variable VARIABLES[N_VARIABLES] = {
     {"scene.drag", "1", 8211, 1, TYPE_ENUMERATION, CAUSALITY_PARAMETER, GROUP_COUNT, -1, offsetof(Parameters, scene.drag), 2.0, 1.0, 2.0},
     {"scene.churning", "1", 8212, 1, TYPE_ENUMERATION, CAUSALITY_PARAMETER, GROUP_COUNT, -1, offsetof(Parameters, scene.churning), 2.0, 1.0, 2.0},
     {"scene.heating", "1", 8213, 1, TYPE_ENUMERATION, CAUSALITY_PARAMETER, GROUP_COUNT, -1, offsetof(Parameters, scene.heating), 2.0, 1.0, 2.0},
+    {"scene.growth", "1", 8214, 1, TYPE_ENUMERATION, CAUSALITY_PARAMETER, GROUP_COUNT, -1, offsetof(Parameters, scene.growth), 1.0, 1.0, 2.0},
+    {"ring.bore", "m", 8221, 1, TYPE_REAL, CAUSALITY_PARAMETER, GROUP_COUNT, -1, offsetof(Parameters, ring.bore), 0.0, 0.0, 1.0},
+    {"ring.rho", "kg/m3", 8222, 1, TYPE_REAL, CAUSALITY_PARAMETER, GROUP_COUNT, -1, offsetof(Parameters, ring.rho), 7800.0, 1000.0, 20000.0},
 };

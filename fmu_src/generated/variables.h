@@ -9,7 +9,7 @@
 
 #define FMI2_FUNCTION_PREFIX RivetedBearing_  // of the functions of a source-code FMU
 #define MODEL_IDENTIFIER "RivetedBearing"
-#define MODEL_GUID "{a79e6673-23d6-963b-66b4-9c04000d8e16}"  // digest of the table
+#define MODEL_GUID "{f6e97c5f-1051-2ee2-e984-2be2557bf1b0}"  // digest of the table
 
 enum { Z = 9 };  // number of balls
 
@@ -143,6 +143,8 @@ typedef struct {
         double tilt_time;  // [s] Time constant of the critically damped filter of the prescribed tilt
         double k_tilt;  // [N.m/rad] Angular stiffness of the ring's support (supported tilt)
         double c_tilt;  // [N.m.s/rad] Angular damping of the ring's support (supported tilt)
+        double bore;  // [m] Bore of the inner ring: its growth by rotation
+        double rho;  // [kg/m3] Density of the inner ring
     } ring;
     struct {
         double y;  // [m/s2] Gravity along Y
@@ -174,6 +176,7 @@ typedef struct {
         int drag;  // Drag: Drag of the balls in the mixture between the rings
         int churning;  // Switch: Drag moment of the mixture on the spinning balls
         int heating;  // Switch: Shear heating in the inlets of the races, in their films and in the films of the lands
+        int growth;  // Switch: Growth of the inner ring by its own rotation, which takes clearance (a free ring)
     } scene;
     struct {
         double tol;  // [1] Tolerance: local error / scale of each state class; a tolerance of fmi2SetupExperiment takes its place
@@ -212,6 +215,7 @@ typedef struct {
         scalar energy_residual;  // [J] Energy now - energy at start - net work since: 0 but for the errors of the integration and of the work's own integral
         scalar contacts;  // [1] Number of closed contacts (races and pockets)
         scalar penetration;  // [m] Largest elastic approach of all contacts
+        scalar clearance;  // [m] Diametral clearance at the present speed
     } bearing;
     struct {
         scalar x;  // [m] Displacement of the inner ring along X
@@ -445,4 +449,4 @@ typedef enum {
 } StateScale;
 
 enum { N_INPUTS = 10 };  // all of them numbers
-enum { N_VARIABLES = 249 };  // time is the first
+enum { N_VARIABLES = 253 };  // time is the first
