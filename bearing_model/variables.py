@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from enum import IntEnum
 
 MODEL_IDENTIFIER = "RivetedBearing"
-MODEL_GUID = "{f6e97c5f-1051-2ee2-e984-2be2557bf1b0}"
+MODEL_GUID = "{81a89056-a469-3dc2-a930-0f64d9f68c1d}"
 Z = 9
 
 

@@ -9,7 +9,7 @@
 
 #define FMI2_FUNCTION_PREFIX RivetedBearing_  // of the functions of a source-code FMU
 #define MODEL_IDENTIFIER "RivetedBearing"
-#define MODEL_GUID "{f6e97c5f-1051-2ee2-e984-2be2557bf1b0}"  // digest of the table
+#define MODEL_GUID "{81a89056-a469-3dc2-a930-0f64d9f68c1d}"  // digest of the table
 
 enum { Z = 9 };  // number of balls
 
