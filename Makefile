@@ -15,7 +15,7 @@ ASAN    = detect_leaks=0:new_delete_type_mismatch=0
 export PATH := $(CURDIR)/$(BIN):$(PATH)  # cmake finds ninja
 export MPLBACKEND = Agg
 
-.PHONY: demo test test-slow bench build fmu-all generate lint format sanitize analyze fuzz bare clean help
+.PHONY: demo test test-slow bench build fmu-all generate lint format sanitize sanitize-threads analyze fuzz bare clean help
 
 demo: build  ## build, then run the paper's working point: stress, cage and run-time figures
 	$(BIN)/riveted-bearing run demo
@@ -50,11 +50,16 @@ format: $(VENV)/installed  ## format and fix what can be fixed
 	$(BIN)/ruff format .
 	$(BIN)/clang-format -i $(C_FILES)
 
-sanitize: $(VENV)/installed  ## the fast tests on a copy compiled with the address and undefined-behaviour sanitizers
+sanitize: $(VENV)/installed  ## the fast tests on a copy compiled with the sanitizers of addresses, undefined behaviour and casts of numbers
 	mkdir -p $(COPY) && git ls-files -co --exclude-standard | tar -c -T - | tar -x -C $(COPY)
-	$(BIN)/cmake -S $(COPY) -B $(COPY)/build -G Ninja -DSANITIZE=address,undefined -DFMU=$(COPY)/$(FMU) -DPython_EXECUTABLE=$(CURDIR)/$(PYTHON)
+	$(BIN)/cmake -S $(COPY) -B $(COPY)/build -G Ninja -DSANITIZE=address,undefined,float-cast-overflow -DFMU=$(COPY)/$(FMU) -DPython_EXECUTABLE=$(CURDIR)/$(PYTHON)
 	$(BIN)/cmake --build $(COPY)/build
 	cd $(COPY) && PYTHONPATH=$(COPY) PYTHONMALLOC=malloc ASAN_OPTIONS=$(ASAN) LD_PRELOAD="$$(cc -print-file-name=libasan.so) libstdc++.so.6" $(CURDIR)/$(PYTEST) -n 2
+
+sanitize-threads: $(VENV)/installed  ## random calls in eight threads with the sanitizer of data races
+	$(BIN)/cmake -S . -B build/threads -G Ninja -DSANITIZE=thread -DFMU=$(CURDIR)/build/threads/threads.fmu -DPython_EXECUTABLE=$(CURDIR)/$(PYTHON)
+	$(BIN)/cmake --build build/threads --target fuzz_api
+	setarch --addr-no-randomize build/threads/fuzz_api 10000 1 8
 
 analyze: build  ## static analysis without findings: the compiler's analyzer and clang-tidy
 	$(BIN)/pip --disable-pip-version-check --quiet install clang-tidy
@@ -64,7 +69,7 @@ analyze: build  ## static analysis without findings: the compiler's analyzer and
 
 FUZZ_SECONDS = 120
 fuzz: $(VENV)/installed  ## coverage-guided fuzzing of the FMI functions with sanitizers (clang) for FUZZ_SECONDS
-	$(BIN)/cmake -S . -B build/fuzz -G Ninja -DCMAKE_C_COMPILER=clang -DSANITIZE=fuzzer-no-link,address,undefined -DFMU=$(CURDIR)/build/fuzz/fuzzed.fmu -DPython_EXECUTABLE=$(CURDIR)/$(PYTHON)
+	$(BIN)/cmake -S . -B build/fuzz -G Ninja -DCMAKE_C_COMPILER=clang -DSANITIZE=fuzzer-no-link,address,undefined,float-cast-overflow -DFMU=$(CURDIR)/build/fuzz/fuzzed.fmu -DPython_EXECUTABLE=$(CURDIR)/$(PYTHON)
 	$(BIN)/cmake --build build/fuzz --target fuzz_api
 	mkdir -p build/corpus
 	build/fuzz/fuzz_api build/corpus -max_len=2048 -len_control=0 -timeout=20 -max_total_time=$(FUZZ_SECONDS)

@@ -10,7 +10,6 @@ tau_a: shear amplitude on the plane (half the largest extent of the shear vector
 """
 
 from dataclasses import dataclass
-from dataclasses import fields as dataclass_fields
 
 import numpy as np
 
@@ -90,6 +89,9 @@ def worst_point(fields, k=0.3, step=5.0):
     return worst
 
 
+LOGGED = {"T": "T", "V_y": "V_y", "V_z": "V_z", "m_y": "M_shank_y", "m_z": "M_shank_z", "F_head": "F_head"}
+
+
 def logged_load(data, k):
-    """RivetLoad of rivet k over time from the outputs rivet[k].P ... rivet[k].F_head of a run; data: arrays by name of the output."""
-    return RivetLoad(*(np.asarray(data[f"rivet[{k}].{field.name}"]) for field in dataclass_fields(RivetLoad)))
+    """RivetLoad of rivet k over time from the outputs rivet[k].T, V_y, V_z, M_shank_y, M_shank_z, F_head of a run; data: arrays by name of the output."""
+    return RivetLoad(**{name: np.asarray(data[f"rivet[{k}].{output}"]) for name, output in LOGGED.items()})

@@ -9,7 +9,7 @@ import numpy as np
 from bearing_model import rivet_table
 from bearing_model.hertz import Hertz, hertz_contact
 from bearing_model.rivet_rom import joint_fit, joint_hole_stiffness, joint_preload, rivet_rom_fit_eff, rivet_rom_fit_flags
-from bearing_model.variables import N_STATES, STATE_SCALES, STATE_SLICES, Drag, FitModel, Switch, Z
+from bearing_model.variables import N_STATES, PARAMETERS, STATE_SCALES, STATE_SLICES, Drag, FitModel, Switch, Z
 
 AIR_DENSITY = 1.19  # [kg/m3] at 293 K and 10^5 Pa
 
@@ -142,8 +142,15 @@ def derive_pockets(p, d):
     d.rivet_y, d.rivet_z = 0.5 * p.bearing.d_m * np.cos(phi_r), 0.5 * p.bearing.d_m * np.sin(phi_r)
 
 
+def follows_mass(p, name):
+    """A moment of inertia of the half: left at its start value it follows the mass, which scales the density."""
+    J, mass_ratio = getattr(p.cage, name), p.cage.m / PARAMETERS["cage.m"].start
+    return mass_ratio * J if PARAMETERS[f"cage.{name}"].start == J else J
+
+
 def derive_cage(p, d):
     R, L, nu, r_i = 0.5 * p.cage.D_o, p.cage.land_width, p.oil.eta / p.oil.rho, 0.5 * p.cage.D_i
+    d.J_p, d.J_t = (follows_mass(p, name) for name in ("J_p", "J_t"))
     d.com_x = (-p.cage.x_c, p.cage.x_c)
     d.com_e = p.cage.unbalance / (2.0 * p.cage.m)
     d.C_land = 0.5 * p.cage.guide_clearance
@@ -167,12 +174,13 @@ def derive_joint(p, d, table):
     d.fit_a = joint_fit(table, p.joint.fit + p.joint.swell, p.rivet.temperature)
     d.fit_eff = rivet_rom_fit_eff(table, d.fit_a, p.rivet.fit_model == FitModel.J2)
     d.fit_flags = rivet_rom_fit_flags(table, d.fit_a)
-    d.k_rivet = joint["k_rivet"]
-    d.k_plate = joint["k_plate"]
+    d.k_rivet = table.half.k_open
+    d.k_plate = table.half.k_closed - table.half.k_open
     d.k_plate_t = joint["k_t_plate"]
     d.k_head = joint["k_t_head"]
     d.k_hole = joint_hole_stiffness(table, d.fit_a)
     d.hole_gap = max(0.0, -d.fit_a)
+    d.spin = (p.cage.centrifugal == Switch.ON) * (p.cage.m / table.half.m) * table.half.spin
     d.c_joint = 2.0 * p.joint.zeta * np.sqrt((d.k_rivet + d.k_plate) * 0.5 * p.cage.m / Z)
 
 
@@ -211,6 +219,9 @@ def model_derive(p, table=None):
         raise ValueError(f"the rivet table is for Z = {table.Z}; the model has Z = {Z}")
     if abs(p.bearing.d_m - table.joint["d_m"]) > 1e-3 * table.joint["d_m"]:
         raise ValueError(f"bearing.d_m = {p.bearing.d_m} m: the rivet table's load path is for {table.joint['d_m']} m +- 0.1 %")
+    x_c = table.half.x_c
+    if abs(p.cage.x_c - x_c) > 0.02 * x_c:
+        raise ValueError(f"cage.x_c = {p.cage.x_c} m: the cage half of the rivet table has its centre of mass at {x_c} m +- 2 %")
     d = Derived(table=table)
     derive_balls(p, d)
     derive_pockets(p, d)

@@ -26,7 +26,7 @@ def energy_terms(model, w):
         terms["joints, elastic"] = ball_array_sum(w.joint_energy)
     for half in w.half:
         v = half.v + vec_cross(half.Omega, half.c)  # of the centre of mass
-        motion = 0.5 * (p.cage.m * vec_dot(v, v) + p.cage.J_t * vec_dot(half.a_dot, half.a_dot) + p.cage.J_p * half.s**2)
+        motion = 0.5 * (p.cage.m * vec_dot(v, v) + d.J_t * vec_dot(half.a_dot, half.a_dot) + d.J_p * half.s**2)
         terms["motion of the cage"] = terms["motion of the cage"] + motion
     return terms
 

@@ -99,7 +99,7 @@ class Record:
         return peaks
 
     def add_stress(self, model, t, h, counts, w):
-        sigma, _ = rivet_rom_stress(model.d.table, rivets_load(model, w)[0], model.d.fit_eff)
+        sigma, _ = rivet_rom_stress(model.d.table, rivets_load(model, w).rivet, model.d.fit_eff)
         peaks = {}
         channels = (("head", HEAD_P1, self.head, self.fatigue_head), ("mid", MID_VM, self.mid, self.fatigue_mid))
         for name, channel, statistics, fatigue in channels:

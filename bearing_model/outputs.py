@@ -104,23 +104,31 @@ def cage_outputs(model, w):
 
 
 def rivet_outputs(model, w):
-    rigid = model.p.scene.cage == CageModel.RIGID
-    load, V = rivets_load(model, w)
-    slip, P = rivets_slip(model, w), np.full(V.shape, model.d.P)
+    load = rivets_load(model, w)
+    slip, R = rivets_slip(model, w), 0.5 * model.p.bearing.d_m
+    c, s = model.d.rivet_y / R, model.d.rivet_z / R
+
+    def along_y_z(r, t):
+        return r * c - t * s, r * s + t * c
+
+    (V_y, V_z), (M_y, M_z), (m_y, m_z) = (along_y_z(*v) for v in ((load.V_r, load.V_t), (load.M_r, load.M_t), (load.m_r, load.m_t)))
     return {
         "rivet[k].N": load.N,
-        "rivet[k].V": V,
-        "rivet[k].T": P if rigid else w.T,
-        "rivet[k].M": np.hypot(load.M_y, load.M_z),
-        "rivet[k].P": P,
-        "rivet[k].V_y": load.V_y,
-        "rivet[k].V_z": load.V_z,
-        "rivet[k].M_y": load.M_y,
-        "rivet[k].M_z": load.M_z,
+        "rivet[k].V": load.V,
+        "rivet[k].T": load.T,
+        "rivet[k].M": np.hypot(load.M_r, load.M_t),
+        "rivet[k].M_shank": np.hypot(load.m_r, load.m_t),
+        "rivet[k].P": np.full(load.N.shape, model.d.P),
+        "rivet[k].V_y": V_y,
+        "rivet[k].V_z": V_z,
+        "rivet[k].M_y": M_y,
+        "rivet[k].M_z": M_z,
+        "rivet[k].M_shank_y": m_y,
+        "rivet[k].M_shank_z": m_z,
         "rivet[k].F_head": load.F_head,
         "rivet[k].slip": slip,
         "cage.dislocation": np.max(slip, axis=-1),
-        "rivet.table_kind": np.full(V.shape[:-1], float(model.d.table.kind_number)),
+        "rivet.table_kind": np.full(load.N.shape[:-1], float(model.d.table.kind_number)),
     }
 
 
@@ -128,7 +136,7 @@ def stress_outputs(model, w):
     shape = w.x.shape
     sigma, flags = np.zeros((*shape, 4)), np.zeros(shape)
     if model.p.scene.stress != Stress.OFF:
-        sigma, flags = rivet_rom_stress(model.d.table, rivets_load(model, w)[0], model.d.fit_eff)
+        sigma, flags = rivet_rom_stress(model.d.table, rivets_load(model, w).rivet, model.d.fit_eff)
         flags = flags | model.d.fit_flags
     return {
         "rivet[k].sigma_head": sigma[..., HEAD_P1],

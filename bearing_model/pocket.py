@@ -97,6 +97,7 @@ def pocket_half(model, w, h, mixed, whole):
     w.pocket_F[h] = vec_to_global(-F, w.cos_theta, w.sin_theta)
     w.pocket_M[h] = vec_to_global(-vec_cross(arm_p, F) - M, w.cos_theta, w.sin_theta)
     w.pocket[h] = np.array([-vec_dot(F, a), -vec_dot(F, b), -vec_dot(F, e_t)])
+    w.pocket_push[h] = np.array([Q * n_x + F_across * n_t, Q * n_t - F_across * n_x])
     half.F, half.M = ball_array_sum(w.pocket_F[h]), ball_array_sum(w.pocket_M[h])
     w.delta_c[h], w.Q_c[h] = delta, Q
     w.pocket_energy = w.pocket_energy + e_h * hertz_energy(d.pocket.K, delta)
@@ -105,11 +106,12 @@ def pocket_half(model, w, h, mixed, whole):
 def pocket_force(model, w):
     """Adds the pocket contacts to the balls; sets their results and wrench on the halves.
 
-    pocket: force on the half in the pocket's frame (x, r, t); pocket_F, pocket_M: force and moment about the half's centre, global.
+    pocket: force on the half in the pocket's frame (x, r, t), pocket_push: its normal part (x, t); pocket_F, pocket_M: force and moment about the
+    half's centre, global.
     D, D_omega: rates at which friction slows each velocity of a ball by itself, -d(acceleration)/d(velocity) [1/s], for the integrator's Jacobian.
     """
     mixed, rigid = model.p.scene.lubrication == Lubrication.MIXED, model.p.scene.cage == CageModel.RIGID
-    w.delta_c, w.Q_c, w.pocket, w.pocket_F, w.pocket_M = {}, {}, {}, {}, {}  # by half
+    w.delta_c, w.Q_c, w.pocket, w.pocket_push, w.pocket_F, w.pocket_M = {}, {}, {}, {}, {}, {}  # by half
     w.pocket_energy, w.pocket_dissipated = 0.0, 0.0
     w.D, w.D_omega = 0.0 * w.F, 0.0 * w.F
     if rigid:
@@ -122,7 +124,7 @@ def pocket_force(model, w):
 
 
 def pocket_split(model, w):
-    """pocket, pocket_F, pocket_M on each half of a rigid cage, lists; pocket_force has them all on half 0."""
+    """pocket, pocket_push, pocket_F, pocket_M on each half of a rigid cage, lists; pocket_force has them all on half 0."""
     d = model.d
     a, _, e_t, arm_p, S, n_x, n_t, delta = pocket_gap(model, w, 0)
     w_1, _, slope = pocket_share(d, 1, n_x, delta)
@@ -131,8 +133,9 @@ def pocket_split(model, w):
     push_moment = vec_cross(arm_p, push)
     on_1 = (
         w_1 * w.pocket[0] + np.array([F_across * n_t, 0.0 * n_t, -F_across * n_x]),
+        w_1 * w.pocket_push[0] + np.array([F_across * n_t, -F_across * n_x]),
         w_1 * w.pocket_F[0] + vec_to_global(push, w.cos_theta, w.sin_theta),
         w_1 * w.pocket_M[0] + vec_to_global(push_moment, w.cos_theta, w.sin_theta),
     )
-    whole = w.pocket[0], w.pocket_F[0], w.pocket_M[0]
+    whole = w.pocket[0], w.pocket_push[0], w.pocket_F[0], w.pocket_M[0]
     return tuple([both - part, part] for both, part in zip(whole, on_1, strict=True))

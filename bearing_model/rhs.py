@@ -95,14 +95,14 @@ def cage_acceleration(model, y, w, y_dot):
     if p.scene.cage == CageModel.TWO_HALF:
         for h, half in enumerate(w.half):
             M = half.M - vec_cross(half.c, half.F)
-            a_ddot, s_dot = rotor_acceleration(half, p.cage.J_p, p.cage.J_t, M)
+            a_ddot, s_dot = rotor_acceleration(half, d.J_p, d.J_t, M)
             half_rates(y, half, h, half.F / p.cage.m + gravity, a_ddot, s_dot, y_dot)
         return
     cage = w.half[0]
-    J_t = 2.0 * (p.cage.J_t + p.cage.m * d.com_x[1] ** 2)
+    J_t = 2.0 * (d.J_t + p.cage.m * d.com_x[1] ** 2)
     F = w.half[0].F + w.half[1].F
     M = w.half[0].M + w.half[1].M - vec_cross(d.com_e * cage.b_y, F)
-    a_ddot, s_dot = rotor_acceleration(cage, 2.0 * p.cage.J_p, J_t, M)
+    a_ddot, s_dot = rotor_acceleration(cage, 2.0 * d.J_p, J_t, M)
     spin_up = vec_cross(cage.a, a_ddot) + s_dot * cage.a + cage.s * cage.a_dot  # rate of Omega
     for h in range(2):
         c = d.com_x[h] * cage.a

@@ -1,29 +1,28 @@
 """Rivet stress from the reduced model: twin of fmu_src/rivet_rom.c, where the equations stand.
 
-sigma = s (w T_i + (1 - w) T_(i+1))(a, b, c, xi), sheets i around chi, homogeneous of degree 1 in loads and fit; T: tensor products of quadratic B-splines.
+sigma = s (w S_i + (1 - w) S_(i+1))(a, c, xi), sheets i around chi, homogeneous of degree 1 in loads and fit; S: tensor products of quadratic B-splines.
 Loads are arrays of one shape; `table` is a bearing_model.rivet_table.RivetTable (read one with rivet_table.read).
 """
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
 from bearing_model.rivet_splines import cell_weights, constants
 
 HEAD_P1, HEAD_VM, MID_VM, MID_P1 = range(4)
-RIVET_YIELDS, FLANGE_YIELDS, JOINT_COMPRESSED, RIVET_OUTSIDE = 1, 2, 4, 8
+RIVET_YIELDS, FLANGE_YIELDS, RIVET_OUTSIDE = 1, 2, 8  # 4 meant a compressed joint
 
 
 @dataclass
 class RivetLoad:
-    """Loads of rivets [N, N.m]: preload, external tension, transverse load, prying moment, head friction.  On the +x half."""
+    """What rivets carry [N, N.m]: tension, transverse load and bending moment of the shank at the split (on the +x half), head friction."""
 
-    P: float = 0.0
-    N: float = 0.0
+    T: float = 0.0
     V_y: float = 0.0
     V_z: float = 0.0
-    M_y: float = 0.0
-    M_z: float = 0.0
+    m_y: float = 0.0
+    m_z: float = 0.0
     F_head: float = 0.0
 
 
@@ -42,21 +41,18 @@ def axis_splines_xi(knots, s, fit):
     return first, w
 
 
-def load_splines(table, load, fit_eff):
+def load_splines(shank, load, fit_eff):
     """Place of the loads in the table: chi, and for each axis the first coefficient and three weights; those of xi carry the factor s."""
-    P, N = np.maximum(load.P, 0.0), np.maximum(load.N, 0.0)
-    V, M = np.sqrt(load.V_y**2 + load.V_z**2), np.sqrt(load.M_y**2 + load.M_z**2)
-    axial = P + N
-    force, moment = axial + V, M / table.moment_length
-    s, VM = force + moment, V * M
+    T, V, m = np.maximum(load.T, 0.0), np.sqrt(load.V_y**2 + load.V_z**2), np.sqrt(load.m_y**2 + load.m_z**2)
+    s, Vm = T + V, V * m
 
     def ratio(top, bottom):
-        return np.divide(top, bottom, out=np.zeros_like(bottom), where=bottom > 0.0)
+        return np.divide(top, bottom, out=np.zeros_like(bottom), where=bottom > 1e-300)
 
-    chi = np.minimum(ratio(np.abs(load.V_y * load.M_z - load.V_z * load.M_y), VM), 1.0)
-    values = {"a": ratio(V, force), "b": ratio(N, axial), "c": ratio(moment, s)}
-    at = {name: cell_weights(table.knots[name], value) for name, value in values.items()}
-    at["xi"] = axis_splines_xi(table.knots["xi"], s, fit_eff)
+    chi = np.minimum(ratio(np.abs(load.V_y * load.m_z - load.V_z * load.m_y), Vm), 1.0)
+    values = {"a": ratio(V, s), "c": np.minimum(ratio(m, shank.length * T), 1.0)}
+    at = {name: cell_weights(shank.knots[name], value) for name, value in values.items()}
+    at["xi"] = axis_splines_xi(shank.knots["xi"], s, fit_eff)
     return chi, at
 
 
@@ -64,34 +60,28 @@ def rivet_rom_stress(table, load, fit_eff):
     """Stress of all channels [..., 4] in Pa and the load's flags.
 
     Channels: HEAD_P1 largest principal stress in the head fillet, HEAD_VM von Mises there, MID_VM and MID_P1 in the middle of the shank.
-    Flags: sum of RIVET_YIELDS, JOINT_COMPRESSED (N < 0 counted as 0), RIVET_OUTSIDE (a load is not finite).
+    Flags: sum of RIVET_YIELDS, RIVET_OUTSIDE (a load is not finite).
     """
     arrays = np.broadcast_arrays(*(np.asarray(v, dtype=float) for v in (*vars(load).values(), fit_eff)))
     shape = arrays[0].shape
     flat = [np.atleast_1d(a).ravel() for a in arrays]
     load, fit_eff = RivetLoad(*flat[:-1]), flat[-1]
-    chi, at = load_splines(table, load, fit_eff)
+    chi, at = load_splines(table.shank, load, fit_eff)
     sheet = np.where(chi >= 0.5, 0, 1)  # the first of the two sheets around chi, and its weight in head and middle
     head = 2.0 * chi - (1 - sheet)
     mid = np.where(sheet == 0, head, head * np.sqrt(head))
     first = np.stack([head, head, mid, mid], axis=-1)
     sigma = np.zeros((len(fit_eff), 4))
-    (A, wa), (B, wb), (C, wc), (xi, wxi) = (at[name] for name in ("a", "b", "c", "xi"))
+    (A, wa), (C, wc), (xi, wxi) = (at[name] for name in ("a", "c", "xi"))
     for a in range(3):
-        for b in range(3):
-            for c in range(3):
-                w = (wa[:, a] * wb[:, b] * wc[:, c])[:, None]
-                for i in range(3):
-                    index = A + a, B + b, C + c, xi + i
-                    T, U = table.coefficients[*index, sheet], table.coefficients[*index, sheet + 1]
-                    sigma += w * wxi[:, i : i + 1] * (first * T + (1.0 - first) * U)
+        for c in range(3):
+            for i in range(3):
+                index = A + a, C + c, xi + i
+                S, S_next = table.shank.coefficients[*index, sheet], table.shank.coefficients[*index, sheet + 1]
+                sigma += (wa[:, a] * wc[:, c] * wxi[:, i])[:, None] * (first * S + (1.0 - first) * S_next)
     sigma[:, HEAD_P1] += table.head_friction * load.F_head
     sigma[:, HEAD_VM] += table.head_friction_vm * load.F_head
-    flags = (
-        RIVET_YIELDS * (np.maximum(sigma[:, HEAD_VM], sigma[:, MID_VM]) > table.yield_rivet)
-        + JOINT_COMPRESSED * (load.N < 0.0)
-        + RIVET_OUTSIDE * ~np.isfinite(sigma[:, HEAD_P1])
-    )
+    flags = RIVET_YIELDS * (np.maximum(sigma[:, HEAD_VM], sigma[:, MID_VM]) > table.yield_rivet) + RIVET_OUTSIDE * ~np.isfinite(sigma[:, HEAD_P1])
     return sigma.reshape(*shape, 4), flags.reshape(shape)
 
 
@@ -124,18 +114,6 @@ def joint_fit(table, fit, T):
     """Fit at temperature T [m]."""
     j = table.joint
     return fit - (j["alpha_flange"] - j["alpha_rivet"]) * j["d"] * (T - j["T_0"])
-
-
-def joint_prying(table, load):
-    """The load with its prying moment limited: M up to M_0 = prying_lever (P - N), beyond it only prying_share of what exceeds M_0.
-
-    Where the moment opens the joint, the joint turns, and the cage half carries the rest to its neighbours.
-    """
-    M = np.hypot(load.M_y, load.M_z)
-    M_0 = table.joint["prying_lever"] * np.maximum(load.P - np.maximum(load.N, 0.0), 0.0)
-    limited = np.minimum(M, M_0 + table.joint["prying_share"] * (M - M_0))
-    part = np.divide(limited, M, out=np.ones_like(M), where=M > M_0)
-    return replace(load, M_y=part * load.M_y, M_z=part * load.M_z)
 
 
 def joint_hole_stiffness(table, fit_a):

@@ -1,8 +1,9 @@
 """The rivet table: its file format and its reader.  rivet_model writes the file; the FMU's build and the Python reference read it here.
 
-The file is JSON text.  Sections: `header` {format, kind (one of KINDS), note, geometry, geometry_hash, Z, units, errors, digest}, `stress` (knots and spline
-coefficients of T, see fmu_src/rivet_rom.h), `fit_eff` (interference with plasticity), `joint` (stiffnesses for the dynamics), `load_path`
-(see fmu_src/load_path.h).  Units in the file are SI except T, which is in MPa/N = 1/mm2 to keep it readable.
+The file is JSON text.  Sections: `header` {format, kind (one of KINDS), note, geometry, geometry_hash, Z, units, errors, digest}, `shank` (knots and spline
+coefficients of the stress over what the shank carries, see fmu_src/rivet_rom.h; constants of head friction and yield), `fit_eff` (interference with
+plasticity), `joint` (stiffnesses for the dynamics), `half` (the cage half: masses, load path and law of its joints, see half_path.py and joint_law.py).
+Units in the file are SI except stress per force, which is in MPa/N = 1/mm2 to keep it readable.
 """
 
 import hashlib
@@ -12,42 +13,56 @@ from pathlib import Path
 
 import numpy as np
 
+from bearing_model import half_path, joint_law
+
 DEFAULT_TABLE = Path(__file__).resolve().parents[1] / "rivet_model" / "tables" / "6207.json"
-FORMAT = "rivet-table-2"
+FORMAT = "rivet-table-3"
 KINDS = {"fe": "finite elements", "fe_coarse": "coarse finite elements", "closed_form": "closed forms"}  # numbered from 1: the output rivet.table_kind
+SECTIONS = ("header", "shank", "fit_eff", "joint", "half")
 CHANNELS = ("head_p1", "head_vm", "mid_vm", "mid_p1")
-AXES = ("a", "b", "c", "xi")
+SHANK_AXES = ("a", "c", "xi")
 SHEETS = ("plane", "oblique", "across")  # chi, |cos| of the direction of M, is 1, 1/2, 0
 MPA_PER_N = 1e6  # 1/mm2 in 1/m2
-JOINT_KEYS = (
-    "A",
-    "d_m",
-    "grip",
-    "k_rivet",
-    "k_plate",
-    "k_t_plate",
-    "k_t_head",
-    "k_stack",
-    "alpha_rivet",
-    "alpha_flange",
-    "d",
-    "T_0",
-    "prying_lever",
-    "prying_share",
-)
+JOINT_KEYS = ("A", "d_m", "d", "grip", "seat", "k_t_plate", "k_t_head", "k_stack", "alpha_rivet", "alpha_flange", "T_0")
+
+
+@dataclass
+class ShankTable:
+    """Stress of the rivet over what its shank carries: sigma = s T(a, c, xi), s = tension + V, a = V/s, c = |m|/(length tension), xi = fit_eff/s."""
+
+    length: float  # of c = 1: largest moment of the shank per tension [m]
+    knots: dict  # SHANK_AXES -> knots
+    coefficients: np.ndarray  # [a, c, xi, sheet, channel] [1/m2]
+
+
+@dataclass
+class HalfData:
+    """What the table holds of the elastic cage half: see half_path.py and joint_law.py."""
+
+    m: float  # mass of one half with its half of the rivets [kg]
+    x_c: float  # place of its centre of mass [m]
+    J_p: float  # moments of inertia about it [kg m2]
+    J_t: float
+    chi: np.ndarray  # nodes of the wall's angle [rad]
+    path: np.ndarray  # [chi, Z, 8, 3]
+    spin: np.ndarray  # [8] per (rad/s)^2 at mass m
+    law: joint_law.JointLaw
+    k_closed: float  # force per separation of the halves' bodies, for each joint: plates closed, plates open [N/m]
+    k_open: float
+
+    def __post_init__(self):
+        self.path = single(self.path)
+        self.path_slope = single(half_path.path_slopes(self.chi, self.path))
 
 
 @dataclass
 class RivetTable:
-    """Everything the FMU knows of one rivet joint.  Arrays are those of the file; `coefficients` in 1/m2, rounded to five digits."""
+    """Everything the FMU knows of one rivet joint and its cage half.  Arrays are those of the file; coefficients in 1/m2, rounded to five digits."""
 
     kind: str  # one of KINDS
     geometry: dict
     geometry_hash: str
     Z: int
-    moment_length: float  # L [m]
-    knots: dict  # axis name -> knots
-    coefficients: np.ndarray  # [a, b, c, xi, sheet, channel] [1/m2]
     head_friction: float  # [1/m2]
     head_friction_vm: float  # [1/m2]
     yield_rivet: float  # [Pa]
@@ -56,7 +71,8 @@ class RivetTable:
     fit_eff: np.ndarray
     fit_slope: np.ndarray
     joint: dict  # JOINT_KEYS and hole_fit, k_hole
-    load_path: np.ndarray  # [Z, 5, 3]
+    shank: ShankTable
+    half: HalfData
     note: str = ""
     errors: dict = field(default_factory=dict)
 
@@ -66,9 +82,14 @@ class RivetTable:
         return list(KINDS).index(self.kind) + 1
 
 
+def single(numbers):
+    """Numbers in the precision in which both readers use them."""
+    return numbers.astype(np.float32).astype(float)
+
+
 def as_embedded(coefficients):
-    """The coefficients that both readers use: single precision."""
-    return (MPA_PER_N * coefficients).astype(np.float32).astype(float)
+    """Stress coefficients of the file in 1/m2, as both readers use them."""
+    return single(MPA_PER_N * coefficients)
 
 
 def digest_of(sections):
@@ -122,28 +143,57 @@ def _sections(path):
     try:
         data = json.loads(Path(path).read_text(encoding="utf-8"))
         known_format, digest = data["header"]["format"], data["header"]["digest"]
-        sections = {name: data[name] for name in ("header", "stress", "fit_eff", "joint", "load_path")}
+        sections = {name: data[name] for name in SECTIONS}
     except (json.JSONDecodeError, UnicodeDecodeError, RecursionError) as error:
         raise ValueError(f"{path}: not a rivet table (JSON text): {error}") from error
     except (KeyError, TypeError) as error:
         raise ValueError(f"{path}: not a rivet table: {error} is missing") from error
     _need(known_format == FORMAT, path, f"format is {known_format!r}; {FORMAT!r} is needed")
     _need(digest_of({k: data[k] for k in data if k != "header"}) == digest, path, "damaged: the digest in the header does not fit its sections")
-    load_path = sections.pop("load_path")
-    return *(_Section(path, name, members) for name, members in sections.items()), load_path
+    return (_Section(path, name, members) for name, members in sections.items())
 
 
-def _read_coefficients(path, stress):
-    """Knots by axis and the array of coefficients."""
-    channels, axes = stress.member("channels", list), _Section(path, "stress.knots", stress.member("knots", dict))
-    _need(channels == list(CHANNELS), path, f"channels are {channels}; {list(CHANNELS)} are needed")
-    knots = {name: axes.numbers(name) for name in AXES}
+def _spline(path, section, axes, shape):
+    """Knots by axis and coefficients [axes ..., *shape] of a tensor product of splines."""
+    at = _Section(path, f"{section.name}.knots", section.member("knots", dict))
+    knots = {name: at.numbers(name) for name in axes}
     for name, values in knots.items():
-        _need(np.all(np.diff(values) > 0), path, f"knots of axis {name} do not increase")
-    shape = (*(len(knots[name]) + 1 for name in AXES), len(SHEETS), len(CHANNELS))
-    coefficients = stress.numbers("coefficients")
-    _need(len(coefficients) == np.prod(shape), path, f"{len(coefficients)} coefficients; {np.prod(shape)} are needed")
-    return knots, as_embedded(coefficients.reshape(shape))
+        _need(np.all(np.diff(values) > 0), path, f"{section.name}: knots of axis {name} do not increase")
+    shape = (*(len(knots[name]) + 1 for name in axes), *shape)
+    coefficients = section.numbers("coefficients")
+    _need(len(coefficients) == np.prod(shape), path, f"{section.name}: {len(coefficients)} coefficients; {np.prod(shape)} are needed")
+    return knots, coefficients.reshape(shape)
+
+
+def _read_shank(path, section):
+    knots, coefficients = _spline(path, section, SHANK_AXES, (len(SHEETS), len(CHANNELS)))
+    length = section.number("length")
+    _need(length > 0.0, path, f"shank.length = {length} m: more than 0 is needed")
+    return ShankTable(length, knots, as_embedded(coefficients))
+
+
+def _read_half(path, section, Z):
+    """The section of the cage half, its arrays checked for their shapes."""
+
+    def array(key, shape):
+        values = _numbers(path, f"{section.name}.{key}", section.member(key, list))
+        _need(values.shape == shape, path, f"{section.name}.{key} has shape {values.shape}; {shape} is needed")
+        return values
+
+    law = _Section(path, f"{section.name}.law", section.member("law", dict))
+    knots, coefficients = _spline(path, law, joint_law.AXES, (len(joint_law.NUMBERS),))
+    chi, spin = section.numbers("chi"), array("spin", (8,))
+    for key in ("m", "J_p", "J_t", "k_open"):
+        _need(section.number(key) > 0.0, path, f"half.{key} = {section.number(key)}: more than 0 is needed")
+    _need(section.number("k_closed") > section.number("k_open"), path, f"half.k_closed = {section.number('k_closed')}: more than k_open is needed")
+    stiffness, slip_stiffness = array("stiffness", (Z, 3, 3)), array("slip_stiffness", (Z, 2, 2))
+    return HalfData(
+        **{key: section.number(key) for key in ("m", "x_c", "J_p", "J_t", "k_closed", "k_open")},
+        chi=chi,
+        path=array("path", (len(chi), Z, 8, 3)),
+        spin=spin,
+        law=joint_law.JointLaw(law.number("length"), knots, coefficients, stiffness, slip_stiffness, np.sign(spin[4])),
+    )
 
 
 def _check_joint(path, joint):
@@ -163,37 +213,30 @@ def read(path, Z=None):
     Z: number of rivets that is needed, if given.  Raises ValueError naming file and fault (not JSON, another format, a damaged section, a wrong
     type or size, a number that is not finite, a table for another Z), OSError if it cannot be read.
     """
-    header, stress, fit, joint, load_path = _sections(path)
+    header, shank, fit, joint, half = _sections(path)
     made_for = header.member("Z", int)
     _need(Z is None or made_for == Z, path, f"made for Z = {made_for} rivets; Z = {Z} is needed")
     kind = header.member("kind", str)
     _need(kind in KINDS, path, f"kind is {kind!r}; one of {', '.join(KINDS)} is needed")
-    knots, coefficients = _read_coefficients(path, stress)
-    load_path = _numbers(path, "load_path", load_path)
-    _need(load_path.shape == (made_for, 5, 3), path, f"load_path has shape {load_path.shape}; {(made_for, 5, 3)} is needed")
     _check_joint(path, joint)
     fits = {name: fit.numbers(name) for name in ("fit_a", "j2", "slope")}
     _need(len({len(values) for values in fits.values()}) == 1, path, "fit_eff: fit_a, j2 and slope have different lengths")
     _need(np.all(np.diff(fits["fit_a"]) > 0), path, "fit_eff.fit_a does not increase")
-    length = stress.number("moment_length")
-    _need(length > 0.0, path, f"stress.moment_length = {length} m: more than 0 is needed")
     return RivetTable(
         kind=kind,
         geometry=header.member("geometry", dict),
         geometry_hash=header.member("geometry_hash", str),
         Z=made_for,
-        moment_length=length,
-        knots=knots,
-        coefficients=coefficients,
-        head_friction=stress.number("head_friction") * MPA_PER_N,
-        head_friction_vm=stress.number("head_friction_vm") * MPA_PER_N,
-        yield_rivet=stress.number("yield_rivet"),
+        head_friction=shank.number("head_friction") * MPA_PER_N,
+        head_friction_vm=shank.number("head_friction_vm") * MPA_PER_N,
+        yield_rivet=shank.number("yield_rivet"),
         fit_flange_yield=fit.number("fit_flange_yield"),
         fit_a=fits["fit_a"],
         fit_eff=fits["j2"],
         fit_slope=fits["slope"],
         joint=joint.members,
-        load_path=load_path,
+        shank=_read_shank(path, shank),
+        half=_read_half(path, half, made_for),
         note=header.member("note", str),
         errors=header.member("errors", dict),
     )

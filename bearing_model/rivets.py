@@ -1,23 +1,66 @@
 """Loads of the rivets.
 
-    two halves   N = T - N_plate; the shank carries the hole force B, the heads the friction H; plate friction S bypasses the rivet;
-                 the flexible cage half adds the loads by which a pocket force pries the joints beside it open (load_path.py)
+    two halves   N = T - N_plate of the dynamics' joints, whose plates S, heads H and hole B carry the transverse load
     rigid cage   the wrench between the halves, (half 1 - half 0)/2 as both have the same inertia, on the circle of rivets; its transverse
-                 part loads plates (up to mu P), then heads (mu P), then the shank
+                 part loads plates (up to mu P), then heads (mu P more), then the shank
 
-The transverse part of the load path reaches the shank only in a hole without play: in a hole with play the joint relieves this part by slipping,
-by much less than the play.  The prying moment is limited where it opens the joint.  All loads are in the body frame of half 0; the rivets are at
-angles 2 pi (k + 1/2)/Z.
+To this rigid share the elastic halves add what bonded joints would carry of pocket forces and of the cage's own centrifugal load (half_path.py).  Joints
+that open and slip relieve it (joint_law.py); in the plane they have for it what the rigid share leaves of friction and play.  The work of the added
+loads is that of the halves' elastic deformation, which the dynamics of rigid halves does not have: on rigid halves the centrifugal loads of all parts
+balance, so that they do no work and the energy balance has no term for them.
+
+The tangential inertia load of a cage whose speed changes (Euler's) is to the centrifugal one as omega_dot to omega^2: 1.3 % in a run-up to 18,238 r/min
+within 0.1 s, 0.013 % within 10 s, so it is left out.  What a pocket force accelerates is in the load path: its finite elements balance the force
+by the half's inertia.
+
+All loads are on the +x half, in the frames (x, r, t) of the rivets, at body angles 2 pi (k + 1/2)/Z of half 0.
 """
+
+from dataclasses import dataclass
 
 import numpy as np
 
+from bearing_model.half_path import bolt_group, path_load
+from bearing_model.joint_law import joints_open, joints_slip
 from bearing_model.lanes import ball_array_sum
-from bearing_model.load_path import PATH_M_R, PATH_M_T, PATH_N, PATH_V_R, PATH_V_T, load_path_flexible, load_path_rigid
 from bearing_model.pocket import pocket_split
-from bearing_model.rivet_rom import RivetLoad, joint_prying
+from bearing_model.rivet_rom import RivetLoad
 from bearing_model.variables import CageModel
 from bearing_model.vec import vec_dot
+
+
+@dataclass
+class JointLoads:
+    """Loads of all joints [..., Z] in N and N.m."""
+
+    N: np.ndarray  # external tension of the joint
+    M_r: np.ndarray  # moment that the joint transmits
+    M_t: np.ndarray
+    V: np.ndarray  # modulus of its transverse load
+    T: np.ndarray  # tension of the rivet, with preload and prying
+    m_r: np.ndarray  # bending moment of its shank at the split
+    m_t: np.ndarray
+    V_r: np.ndarray  # transverse load of its shank
+    V_t: np.ndarray
+    F_head: np.ndarray  # modulus of the friction force at its heads
+
+    @property
+    def rivet(self):
+        """What the stress table takes."""
+        return RivetLoad(T=self.T, V_y=self.V_r, V_z=self.V_t, m_y=self.m_r, m_z=self.m_t, F_head=self.F_head)
+
+
+@dataclass
+class RigidShare:
+    """What rigid halves do to the joints: external tension, transverse loads (r, t) [2, ..., Z] of plates, heads and shank, and what they leave."""
+
+    N: np.ndarray
+    plates: np.ndarray
+    heads: np.ndarray
+    shank: np.ndarray
+    plates_left: np.ndarray  # friction that plates and heads still have [N]
+    heads_left: np.ndarray
+    gap_left: np.ndarray  # play [m]
 
 
 def rivets_slip(model, w):
@@ -25,10 +68,26 @@ def rivets_slip(model, w):
     return 0.0 * w.x if model.p.scene.cage == CageModel.RIGID else np.hypot(w.u[1], w.u[2])
 
 
-def two_half_load(model, w):
-    V_y, V_z = w.S + w.H + w.B
-    load = RivetLoad(P=model.d.P, N=w.T - w.N_plate, V_y=-w.B[0], V_z=-w.B[1], M_y=0.0, M_z=0.0, F_head=np.hypot(*w.H))
-    return load, np.hypot(V_y, V_z)
+def turned(model, v):
+    """A vector (y, z) [2, ..., Z] at every rivet, radially and along the circle."""
+    R = 0.5 * model.p.bearing.d_m
+    c, s = model.d.rivet_y / R, model.d.rivet_z / R
+    return np.array([v[0] * c + v[1] * s, v[1] * c - v[0] * s])
+
+
+def two_half_share(model, w):
+    """RigidShare of the dynamics' joints."""
+    mu = model.p.joint.mu
+    plates, heads, shank = (-turned(model, force) for force in (w.S, w.H, w.B))
+    return RigidShare(
+        N=w.T - w.N_plate,
+        plates=plates,
+        heads=heads,
+        shank=shank,
+        plates_left=np.maximum(mu * w.N_plate - np.hypot(*plates), 0.0),
+        heads_left=np.maximum(mu * w.T - np.hypot(*heads), 0.0),
+        gap_left=np.maximum(model.d.hole_gap - np.hypot(w.u[1], w.u[2]), 0.0),
+    )
 
 
 def rigid_wrench(model, w, pocket_F, pocket_M):
@@ -41,39 +100,63 @@ def rigid_wrench(model, w, pocket_F, pocket_M):
     return [vec_dot(e, F) for e in axes] + [vec_dot(e, M) for e in axes]
 
 
-def rigid_load(model, w, pocket_F, pocket_M):
+def rigid_share(model, w, pocket_F, pocket_M):
+    """RigidShare of a rigid cage."""
     R, friction = 0.5 * model.p.bearing.d_m, model.p.joint.mu * model.d.P
-    N, V_y, V_z = load_path_rigid(2.0 * R, rigid_wrench(model, w, pocket_F, pocket_M), model.d.rivet_y / R, model.d.rivet_z / R)
-    V = np.hypot(V_y, V_z)
-    shank = np.divide(V - 2.0 * friction, V, out=np.zeros_like(V), where=V > 2.0 * friction)
-    F_head = np.clip(V - friction, 0.0, friction)
-    return RivetLoad(P=model.d.P, N=N, V_y=shank * V_y, V_z=shank * V_z, M_y=0.0, M_z=0.0, F_head=F_head), V
+    N, V_y, V_z = bolt_group(2.0 * R, rigid_wrench(model, w, pocket_F, pocket_M), model.d.rivet_y / R, model.d.rivet_z / R)
+    force = turned(model, np.array([V_y, V_z]))
+    V = np.hypot(*force)
+    along = np.divide(force, V, out=np.zeros_like(force), where=V > 0.0)
+    plates, heads = np.minimum(V, friction), np.clip(V - friction, 0.0, friction)
+    return RigidShare(
+        N=N,
+        plates=plates * along,
+        heads=heads * along,
+        shank=np.maximum(V - 2.0 * friction, 0.0) * along,
+        plates_left=friction - plates,
+        heads_left=friction - heads,
+        gap_left=model.d.hole_gap + 0.0 * V,
+    )
 
 
-def pocket_path(model, pocket, h):
-    """Loads (N, V_r, V_t, M_r, M_t) of the rivets by prying of the forces on the pockets of half h [..., Z, 5]."""
-    matrix, side = model.d.table.load_path, 2 * h - 1
-    forces = np.moveaxis(pocket, 0, -2)  # [..., 3, Z]
-    flat = forces.reshape(-1, *forces.shape[-2:])
-    loads = np.array([load_path_flexible(matrix, side, *F) for F in flat])
-    return loads.reshape(*forces.shape[:-2], *loads.shape[-2:])
+def pocket_rows(model, pocket, push, h):
+    """Rows [..., Z, 8] of half_path.py by the forces on the pockets of half h."""
+    half, side = model.d.table.half, 2 * h - 1
+    force, push = np.moveaxis(pocket, 0, -2), np.moveaxis(push, 0, -2)  # [..., 3, Z], [..., 2, Z]
+    flat = [path_load(half, side, *at) for at in zip(push.reshape(-1, *push.shape[-2:]), force.reshape(-1, *force.shape[-2:]), strict=True)]
+    return np.array(flat).reshape(*force.shape[:-2], *np.shape(flat)[1:])
 
 
 def rivets_load(model, w):
-    """RivetLoad of all rivets and the transverse load V of the joints [N], arrays [..., Z]."""
+    """JointLoads of all joints."""
+    d, law = model.d, model.d.table.half.law
     if model.p.scene.cage == CageModel.RIGID:
-        pocket, pocket_F, pocket_M = pocket_split(model, w)
-        load, V = rigid_load(model, w, pocket_F, pocket_M)
+        pocket, push, pocket_F, pocket_M = pocket_split(model, w)
+        share = rigid_share(model, w, pocket_F, pocket_M)
     else:
-        pocket = w.pocket
-        load, V = two_half_load(model, w)
-    path = sum(pocket_path(model, pocket[h], h) for h in range(2))
-    R = 0.5 * model.p.bearing.d_m
-    c, s = model.d.rivet_y / R, model.d.rivet_z / R
-    load.N = load.N + path[..., PATH_N]
-    if model.d.hole_gap == 0.0:  # in a hole with play, slip relieves the transverse part of the load path
-        load.V_y = load.V_y + path[..., PATH_V_R] * c - path[..., PATH_V_T] * s
-        load.V_z = load.V_z + path[..., PATH_V_R] * s + path[..., PATH_V_T] * c
-    load.M_y = load.M_y + path[..., PATH_M_R] * c - path[..., PATH_M_T] * s
-    load.M_z = load.M_z + path[..., PATH_M_R] * s + path[..., PATH_M_T] * c
-    return joint_prying(model.d.table, load), V
+        pocket, push = w.pocket, w.pocket_push
+        share = two_half_share(model, w)
+    spin = 0.5 * (w.half[0].s ** 2 + w.half[1].s ** 2)[..., None] * d.spin
+    rows = sum(pocket_rows(model, pocket[h], push[h], h) for h in range(2)) + spin
+    N, V_r, V_t, M_r, M_t, dP, dm_r, dm_t = np.moveaxis(rows, -1, 0)
+
+    # joints that open
+    bonded, P = np.stack([share.N + N, M_r, M_t], axis=-1), np.maximum(d.P + dP, 0.0)
+    load, rivet, _ = joints_open(law, bonded, P, spin[..., 0, 4], np.maximum(d.P + spin[..., 0, 5], 0.0))
+
+    # joints that slip
+    args = share.gap_left, share.plates_left, share.heads_left, d.k_head, d.k_hole
+    carried = joints_slip(law, np.stack([V_r, V_t], axis=-1), *args)[:3]
+    plates, heads, shank = (rigid + np.moveaxis(more, -1, 0) for rigid, more in zip((share.plates, share.heads, share.shank), carried, strict=True))
+    return JointLoads(
+        N=load[..., 0],
+        M_r=load[..., 1],
+        M_t=load[..., 2],
+        V=np.hypot(*(plates + heads + shank)),
+        T=rivet[..., 0],
+        m_r=rivet[..., 1] + dm_r,
+        m_t=rivet[..., 2] + dm_t,
+        V_r=shank[0],
+        V_t=shank[1],
+        F_head=np.hypot(*heads),
+    )

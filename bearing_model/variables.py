@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from enum import IntEnum
 
 MODEL_IDENTIFIER = "RivetedBearing"
-MODEL_GUID = "{81a89056-a469-3dc2-a930-0f64d9f68c1d}"
+MODEL_GUID = "{ca77f363-3033-cd3c-d8b8-13cdf1868626}"
 Z = 9
 
 
@@ -90,7 +90,7 @@ ASSUMPTIONS = {
     "cage.guide_clearance": (0.5, 2.0, "0.1 to 0.4 mm are usual in a 6207"),
     "oil.eta": (0.4, 2.1, "5 mm2/s aviation oils (MIL-PRF-23699) from 150 down to 60 degC"),
     "oil.rho_mix": (0.25, 1.3, "1 to 5 % oil between the rings (Parker, NASA TP-2275, 1984)"),
-    "cage.x_c": (0.95, 1.13, "webs of 0.8 to 2 mm in a 6207, whose half is 2 x_c wide"),
+    "cage.x_c": (0.95, 1.13, "webs of 0.8 to 2 mm in a 6207"),
 }
 
 # Scales of each unit: symbol -> (factor, offset), value in that symbol = factor * SI value + offset.
@@ -148,10 +148,10 @@ PARAMETERS = {
         Variable("cage.guide_clearance", 1102, "Real", "m", "mm", 0.0002, 1e-05, 0.005, 1, None, "Outer ring land diameter - cage outer diameter", "assumed (0.1...0.4 mm usual); least: six roughnesses a side, below it the lands brake the cage like plain bearings, with kilowatts"),
         Variable("cage.D_o", 1103, "Real", "m", "mm", 0.0595, 0.005, 2.0, 1, None, "Cage outer diameter (guided by the outer ring)", "paper Table 1"),
         Variable("cage.D_i", 1104, "Real", "m", "mm", 0.0497, 0.005, 2.0, 1, None, "Cage bore diameter", "paper Table 1"),
-        Variable("cage.m", 1105, "Real", "kg", "g", 0.0276, 1e-05, 10.0, 1, None, "Mass of one cage half", "assumed: bronze half from the paper's diameters"),
-        Variable("cage.J_p", 1106, "Real", "kg.m2", None, 2.07e-05, 1e-10, 1.0, 1, None, "Polar moment of inertia of one cage half", "assumed: bronze half from the paper's diameters"),
-        Variable("cage.J_t", 1107, "Real", "kg.m2", None, 1.06e-05, 1e-10, 1.0, 1, None, "Transverse moment of inertia of one cage half about its own centre of mass", "assumed: bronze half from the paper's diameters"),
-        Variable("cage.x_c", 1108, "Real", "m", "mm", 0.0034, 0.0, 0.1, 1, None, "Axial distance of a half's centre of mass from the split plane", "assumed: half width of a half"),
+        Variable("cage.m", 1105, "Real", "kg", "g", 0.0279789, 1e-05, 10.0, 1, None, "Mass of one cage half", "rivet_model/half_shape.py: bronze, 8800 kg/m3, with its half of the steel rivets"),
+        Variable("cage.J_p", 1106, "Real", "kg.m2", None, 2.11933e-05, 1e-10, 1.0, 1, None, "Polar moment of inertia of one cage half", "rivet_model/half_shape.py, with cage.m"),
+        Variable("cage.J_t", 1107, "Real", "kg.m2", None, 1.07082e-05, 1e-10, 1.0, 1, None, "Transverse moment of inertia of one cage half about its own centre of mass", "rivet_model/half_shape.py, with cage.m"),
+        Variable("cage.x_c", 1108, "Real", "m", "mm", 0.00401163, 0.0, 0.1, 1, None, "Axial distance of a half's centre of mass from the split plane", "rivet_model/half_shape.py: a web of 1.14 mm, bars from pocket to pocket"),
         Variable("cage.land_width", 1109, "Real", "m", "mm", 0.0025, 1e-05, 0.2, 1, None, "Width of the guiding land of one half", "assumed"),
         Variable("cage.land_x", 1110, "Real", "m", "mm", 0.0055, 0.0, 0.2, 1, None, "Axial distance of the land's middle from the split plane", "assumed"),
         Variable("cage.E", 1111, "Real", "Pa", "GPa", 110000000000.0, 100000000.0, 1000000000000.0, 1, None, "Young's modulus of the cage", "bronze"),
@@ -163,7 +163,8 @@ PARAMETERS = {
         Variable("cage.K_land", 1118, "Real", "N/m1.5", None, 2000000000.0, 1000000.0, 1000000000000.0, 1, None, "Dry contact stiffness of the land: F = K_land (e - C)^1.5", "assumed"),
         Variable("cage.g_0", 1119, "Real", "1", None, 0.02, 0.0001, 0.2, 1, None, "Floor of 1 - epsilon^2 in the land film", "regularization: 0.005...0.05 change RMS force by less than 2 % at 0.5 deg tilt"),
         Variable("cage.unbalance", 1120, "Real", "kg.m", "g.mm", 0.0, 0.0, 0.01, 1, None, "Static unbalance of the whole cage, in the direction of pocket 1", "balanced cage"),
-        Variable("cage.width", 1121, "Real", "m", "mm", 0.0135, 0.001, 0.5, 1, None, "Axial width of the whole cage", "assumed: ball diameter and two walls of 1.2 mm"),
+        Variable("cage.width", 1121, "Real", "m", "mm", 0.0136, 0.001, 0.5, 1, None, "Axial width of the whole cage", "assumed: pocket and two webs of 1.14 mm"),
+        Variable("cage.centrifugal", 1122, "Switch", "1", None, 2, None, None, 1, None, "Centrifugal load of the cage halves at the rivets", "physics; off: for comparison with figures that leave it out"),
         Variable("joint.preload", 1201, "Real", "N", None, 20.0, 0.0, 1000.0, 1, None, "Preload of each rivet at 293.15 K", "paper section 4.1 (3)"),
         Variable("joint.fit", 1202, "Real", "m", "um", -1e-05, -0.0005, 0.0001, 1, None, "Rivet diameter - hole diameter, negative = clearance", "paper section 4.1 (3)"),
         Variable("joint.swell", 1203, "Real", "m", "um", 4e-06, 0.0, 5e-05, 1, None, "Growth of the rivet's diameter by riveting, added to the fit", "calibrated to the paper's crossover of head and middle stress in -0.02...0 mm"),
@@ -324,18 +325,21 @@ OUTPUTS = {
         Variable("rivet.table_kind", 3242, "Real", "1", None, None, None, None, 1, "rivet", "What the rivets' stress table rests on: 1 finite elements, 2 coarse finite elements, 3 closed forms", None),
         Variable("rivet[k].damage_head", 3250, "Real", "1", None, None, None, None, Z, "fatigue", "Miner's sum of sigma_head since start.settle", None),
         Variable("rivet[k].damage_mid", 3290, "Real", "1", None, None, None, None, Z, "fatigue", "Miner's sum of sigma_mid since start.settle", None),
-        Variable("rivet[k].N", 3330, "Real", "N", None, None, None, None, Z, "rivet", "External tension of the joint, before preload shielding", None),
+        Variable("rivet[k].N", 3330, "Real", "N", None, None, None, None, Z, "rivet", "External tension of the joint", None),
         Variable("rivet[k].V", 3370, "Real", "N", None, None, None, None, Z, "rivet", "Transverse load of the joint", None),
-        Variable("rivet[k].T", 3410, "Real", "N", None, None, None, None, Z, "rivet", "Tension of the rivet", None),
-        Variable("rivet[k].M", 3450, "Real", "N.m", None, None, None, None, Z, "rivet", "Prying moment of the joint", None),
+        Variable("rivet[k].T", 3410, "Real", "N", None, None, None, None, Z, "rivet", "Tension of the rivet, with preload and prying", None),
+        Variable("rivet[k].M", 3450, "Real", "N.m", None, None, None, None, Z, "rivet", "Moment that the joint transmits", None),
         Variable("rivet[k].P", 3490, "Real", "N", None, None, None, None, Z, "rivet", "Preload at the present temperature", None),
         Variable("rivet[k].slip", 3530, "Real", "m", "um", None, None, None, Z, "rivet", "Slip of one half against the other at the joint, in the plane", None),
-        Variable("rivet[k].flag", 3570, "Real", "1", None, None, None, None, Z, "stress", "Sum of 1 rivet yields, 2 flange yields, 4 compressed joint (N counted as 0), 8 fit beyond the stress table", None),
+        Variable("rivet[k].flag", 3570, "Real", "1", None, None, None, None, Z, "stress", "Sum of 1 rivet yields, 2 flange yields, 8 fit beyond the stress table", None),
         Variable("rivet[k].V_y", 3610, "Real", "N", None, None, None, None, Z, "rivet", "Transverse load that the shank carries, on the +X half, along y of the cage's frame", None),
         Variable("rivet[k].V_z", 3650, "Real", "N", None, None, None, None, Z, "rivet", "Transverse load that the shank carries, on the +X half, along z of the cage's frame", None),
-        Variable("rivet[k].M_y", 3690, "Real", "N.m", None, None, None, None, Z, "rivet", "Prying moment on the +X half about y of the cage's frame", None),
-        Variable("rivet[k].M_z", 3730, "Real", "N.m", None, None, None, None, Z, "rivet", "Prying moment on the +X half about z of the cage's frame", None),
+        Variable("rivet[k].M_y", 3690, "Real", "N.m", None, None, None, None, Z, "rivet", "Moment that the joint transmits, on the +X half about y of the cage's frame", None),
+        Variable("rivet[k].M_z", 3730, "Real", "N.m", None, None, None, None, Z, "rivet", "Moment that the joint transmits, on the +X half about z of the cage's frame", None),
         Variable("rivet[k].F_head", 3770, "Real", "N", None, None, None, None, Z, "rivet", "Friction force at the heads", None),
+        Variable("rivet[k].M_shank", 3810, "Real", "N.m", None, None, None, None, Z, "rivet", "Bending moment of the rivet's shank at the split", None),
+        Variable("rivet[k].M_shank_y", 3850, "Real", "N.m", None, None, None, None, Z, "rivet", "Bending moment of the rivet's shank on the +X half about y of the cage's frame", None),
+        Variable("rivet[k].M_shank_z", 3890, "Real", "N.m", None, None, None, None, Z, "rivet", "Bending moment of the rivet's shank on the +X half about z of the cage's frame", None),
         Variable("bearing.friction_torque", 4001, "Real", "N.m", None, None, None, None, 1, "ring", "Torque that the shaft must supply about X", None),
         Variable("bearing.power_loss", 4002, "Real", "W", None, None, None, None, 1, "energy", "Power dissipated in contacts, films, drag and joints", None),
         Variable("bearing.energy_residual", 4003, "Real", "J", None, None, None, None, 1, "energy", "Energy now - energy at start - net work since: 0 but for the errors of the integration and of the work's own integral", None),

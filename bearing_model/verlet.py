@@ -95,7 +95,7 @@ def inertia(model, w):
     """Mass or moment of inertia of each velocity [N_V]; of orbital speeds m r^2."""
     p, d, M = model.p, model.d, np.empty(N_V)
     M[BALL[:2]], M[BALL[2]], M[BALL[3:]] = d.m, d.m * w.r**2, d.J
-    M[HALF[:3]], M[HALF[3:5]], M[HALF[5]] = p.cage.m, p.cage.J_t, p.cage.J_p
+    M[HALF[:3]], M[HALF[3:5]], M[HALF[5]] = p.cage.m, d.J_t, d.J_p
     M[RING[:3]], M[RING[3:]] = p.ring.m, p.ring.J_t
     return M
 
@@ -159,8 +159,8 @@ def land_rates(model, film, spin):
 
     On a rigid cage both lands hold both halves, each with the inertia of the whole.
     """
-    cage, rigid = model.p.cage, model.p.scene.cage == CageModel.RIGID
-    m, J_p, J_t = (2.0 * cage.m, 2.0 * cage.J_p, 2.0 * (cage.J_t + cage.m * cage.x_c**2)) if rigid else (cage.m, cage.J_p, cage.J_t)
+    cage, d, rigid = model.p.cage, model.d, model.p.scene.cage == CageModel.RIGID
+    m, J_p, J_t = (2.0 * cage.m, 2.0 * d.J_p, 2.0 * (d.J_t + cage.m * cage.x_c**2)) if rigid else (cage.m, d.J_p, d.J_t)
     A = np.zeros((2, N_V, N_V))
     for land in range(2):
         x = (2 * land - 1) * cage.land_x - (0.0 if rigid else model.d.com_x[land])

@@ -14,8 +14,8 @@ CALLS = 20_000  # evaluations of Z rivets in one timing
 
 
 def rivet_loads(core, model, y):
-    """RivetLoads of all states, as a C array."""
-    loads = core.new("RivetLoads", len(y))
+    """JointLoads of all states, as a C array."""
+    loads = core.new("JointLoads", len(y))
     for i, state in enumerate(y):
         model.rhs(0.0, state)
         model.kernel("rivets_load")(model.pointer, model.work, loads + i)

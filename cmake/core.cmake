@@ -5,7 +5,7 @@ include(CheckCCompilerFlag)
 # Files that work on packets of balls: compiled once for each instruction set, chosen at run time.
 set(kernel_files rhs.c ball.c race_contact.c drag.c pocket.c cage_joint.c land_film.c ring.c  # the right-hand side
     vector_ops.c implicit.c verlet.c                                                              # what the integrator does with it
-    rivets.c load_path.c rivet_rom.c)                                                             # stress after each step
+    rivets.c half_path.c joint_law.c rivet_rom.c)                                                 # stress after each step
 
 set(warnings -Wall -Wextra -Wpedantic)
 set(arithmetic -ffp-contract=off -fno-math-errno -fno-trapping-math)  # IEEE results, the same ones on every instruction set
@@ -39,7 +39,7 @@ set(rivet_table ${PROJECT_BINARY_DIR}/rivet_table.c)
 if(GENERATED_DIR AND EXISTS ${GENERATED_DIR}/rivet_table.c)
     set(rivet_table ${GENERATED_DIR}/rivet_table.c)
 else()
-    file(GLOB embed_sources CONFIGURE_DEPENDS ${rivet_model_dir}/*.py ${bearing_model_dir}/rivet_*.py)
+    file(GLOB embed_sources CONFIGURE_DEPENDS ${rivet_model_dir}/*.py ${bearing_model_dir}/rivet_*.py ${bearing_model_dir}/joint_law.py ${bearing_model_dir}/half_path.py)
     add_custom_command(OUTPUT ${rivet_table}
         COMMAND ${Python_EXECUTABLE} -m rivet_model.embed ${RIVET_TABLE} ${rivet_table}
         DEPENDS ${RIVET_TABLE} ${embed_sources} WORKING_DIRECTORY ${PROJECT_SOURCE_DIR} VERBATIM)

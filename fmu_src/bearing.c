@@ -38,7 +38,7 @@ static void add_stress(Bearing *b, bool counts, double h)
 {
     InstanceState *s = &b->s;
     FatigueLaw law;
-    RivetLoads load;
+    JointLoads load;
     double sigma[RIVET_CHANNELS][Z], head_max = 0.0, mid_max = 0.0;
     const bool fatigue = s->p.scene.stress == STRESS_FATIGUE && s->integrator.t >= s->p.start.settle;
     memcpy(&law, &s->p.fatigue, sizeof law);

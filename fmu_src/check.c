@@ -74,6 +74,17 @@ static bool check_geometry(Bearing *b)
                     p->cage.D_i, d_m);
     fine &= require(b, d_m < p->cage.D_o, "cage.D_o = %g m: more than bearing.d_m = %g m is allowed",
                     p->cage.D_o, d_m);
+    const double groove = d_m + D + 0.5 * p->bearing.P_d - p->cage.guide_clearance;
+    fine &= require(b, p->cage.D_o <= groove,
+                    "cage.D_o = %g m: with its guide clearance the cage must fit inside the outer groove's "
+                    "bottom; at most bearing.d_m + bearing.D + bearing.P_d/2 - cage.guide_clearance = %g m "
+                    "is allowed",
+                    p->cage.D_o, groove);
+    const double web = 1.05 * 0.5 * (D + p->cage.pocket_clearance);
+    fine &= require(b, 0.5 * p->cage.width >= web,
+                    "cage.width = %g m: no web closes the pockets; at least 1.05 (bearing.D + "
+                    "cage.pocket_clearance) = %g m is allowed",
+                    p->cage.width, 2.0 * web);
     fine &= require(b, p->cage.land_width <= 0.5 * p->cage.width,
                     "cage.land_width = %g m: at most half of cage.width, %g m, is allowed",
                     p->cage.land_width, 0.5 * p->cage.width);
@@ -91,6 +102,31 @@ static bool check_geometry(Bearing *b)
     return fine;
 }
 
+// Checks that the halves have room for the seat of the rivet's head: metal inside and outside of it, a
+// bridge between the pockets around it.  The least wall is that of rivet_model/half_shape.py.
+static bool check_seat(Bearing *b)
+{
+    const Parameters *p = &b->s.p;
+    const double wall = 0.2e-3, seat = rivet_table.joint.seat + 2.0 * wall, r = 0.5 * p->cage.D_i;
+    const double inside = p->bearing.d_m - seat, outside = p->bearing.d_m + seat;
+    const double tolerance = 1e-6 * p->bearing.d_m;
+    bool fine =
+        require(b, p->cage.D_i <= inside + tolerance,
+                "cage.D_i = %g m: no metal inside the seat of the rivet's head; at most %g m is allowed",
+                p->cage.D_i, inside);
+    fine &=
+        require(b, p->cage.D_o >= outside - tolerance,
+                "cage.D_o = %g m: no metal outside the seat of the rivet's head; at least %g m is allowed",
+                p->cage.D_o, outside);
+    const double pocket = 2.0 * r * sin(PI / Z - asin(fmin(0.5 * seat / r, 1.0)));
+    fine &=
+        require(b, p->bearing.D + p->cage.pocket_clearance <= pocket + tolerance,
+                "cage.pocket_clearance = %g m: the bridges between the pockets do not hold the seat of the "
+                "rivet's head; at most %g m is allowed",
+                p->cage.pocket_clearance, pocket - p->bearing.D);
+    return fine;
+}
+
 // Checks the embedded rivet table, which belongs to one number of rivets and one pitch circle.
 static bool check_table(Bearing *b)
 {
@@ -103,6 +139,11 @@ static bool check_table(Bearing *b)
         b, fabs(d_m - table) <= 1e-3 * table,
         "bearing.d_m = %g m: the embedded load path is for %g m +- 0.1 %%; build an FMU for this bearing",
         d_m, table);
+    fine &=
+        require(b, fabs(b->s.p.cage.x_c - rivet_table.half.x_c) <= 0.02 * rivet_table.half.x_c,
+                "cage.x_c = %g m: the cage half of the embedded rivet table has its centre of mass at %g m "
+                "+- 2 %%; build an FMU for this cage",
+                b->s.p.cage.x_c, rivet_table.half.x_c);
     return fine;
 }
 
@@ -110,7 +151,7 @@ bool check_all(Bearing *b)
 {
     bool fine = check_variables(b, CAUSALITY_PARAMETER, &b->s.p);
     fine &= check_inputs(b, 0.0);
-    return fine && check_geometry(b) && check_table(b);
+    return fine && check_geometry(b) && check_table(b) && check_seat(b);
 }
 
 bool check_start(Bearing *b)
@@ -176,12 +217,16 @@ bool check_saved(Bearing *b)
             return false;
         return check_variables(b, CAUSALITY_PARAMETER, &s->p) &&
                check_variables(b, CAUSALITY_INPUT, &s->u[0]) &&
-               saved_is(b, values_are_sane((const double *)&s->u[1], (size_t)INPUT_ORDERS * N_INPUTS),
+               saved_is(b,
+                        values_are_within((const double *)&s->u[1], (size_t)INPUT_ORDERS * N_INPUTS,
+                                          LARGEST_DERIVATIVE),
                         "derivatives of inputs");
     }
     char message[256];
     bool fine = check_all(b) && check_variables(b, CAUSALITY_INPUT, &s->u_now);
-    fine = fine && saved_is(b, values_are_sane((const double *)&s->u[1], (size_t)INPUT_ORDERS * N_INPUTS),
+    fine = fine && saved_is(b,
+                            values_are_within((const double *)&s->u[1], (size_t)INPUT_ORDERS * N_INPUTS,
+                                              LARGEST_DERIVATIVE),
                             "derivatives of inputs");
     fine = fine && saved_is(b, values_are_sane((const double *)&s->u_now_dot, N_INPUTS), "rates of inputs");
     fine = fine &&

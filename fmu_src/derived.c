@@ -147,8 +147,19 @@ static void derive_pockets(const Parameters *p, Derived *d)
     }
 }
 
+// A moment of inertia that is left at its start value follows the mass, which scales the density.
+static double follows_mass(double J, double J_start, double mass_ratio)
+{
+    return J == J_start ? mass_ratio * J : J;
+}
+
 static void derive_cage(const Parameters *p, Derived *d)
 {
+    Parameters start;
+    Inputs input;
+    variables_set_start(&start, &input);
+    d->J_p = follows_mass(p->cage.J_p, start.cage.J_p, p->cage.m / start.cage.m);
+    d->J_t = follows_mass(p->cage.J_t, start.cage.J_t, p->cage.m / start.cage.m);
     const double R = 0.5 * p->cage.D_o, L = p->cage.land_width, nu = p->oil.eta / p->oil.rho;
     const double r_i = 0.5 * p->cage.D_i;
     d->com_x[0] = -p->cage.x_c;
@@ -190,6 +201,9 @@ static void derive_joint(const Parameters *p, Derived *d)
     d->k_head = joint->k_t_head;
     d->k_hole = joint_hole_stiffness(joint, d->fit_a);
     d->hole_gap = fmax(0.0, -d->fit_a);
+    const CageHalfData *half = &rivet_table.half;
+    for (int i = 0; i < ROWS; i++)
+        d->spin[i] = p->cage.centrifugal == SWITCH_ON ? p->cage.m / half->m * half->spin[i] : 0.0;
     d->c_joint = 2.0 * p->joint.zeta * sqrt((d->k_rivet + d->k_plate) * 0.5 * p->cage.m / Z);
 }
 
@@ -218,8 +232,8 @@ static void derive_inertia(const Parameters *p, Derived *d)
     fill(&d->inertia[Y_BALL_V_X], 3 * Z, d->m);
     fill(&d->inertia[Y_BALL_OMEGA_X], 3 * Z, d->J);
     fill(&d->inertia[Y_CAGE_V_X], 6, p->cage.m);
-    fill(&d->inertia[Y_CAGE_BETA_DOT], 4, p->cage.J_t);
-    fill(&d->inertia[Y_CAGE_S], 2, p->cage.J_p);
+    fill(&d->inertia[Y_CAGE_BETA_DOT], 4, d->J_t);
+    fill(&d->inertia[Y_CAGE_S], 2, d->J_p);
 }
 
 void model_derive(const Parameters *p, Derived *d)

@@ -69,6 +69,11 @@ INLINE bits wide_above(wide x, double limit)
     return creal(x) > limit;
 }
 
+INLINE int wide_mask(bits condition)
+{
+    return condition != 0;
+}
+
 INLINE bool wide_any(bits condition)
 {
     return condition;

@@ -67,8 +67,8 @@ scalar energy_total(const Model *model, const scalar *y, const Work *w)
         scalar v[3];
         cross3(half->Omega, half->c, v);
         for (int i = 0; i < 3; i++) v[i] += half->v[i];  // of the centre of mass
-        E += 0.5 * (p->cage.m * dot3(v, v) + p->cage.J_t * dot3(half->a_dot, half->a_dot) +
-                    p->cage.J_p * half->s * half->s);
+        E += 0.5 * (p->cage.m * dot3(v, v) + model->d->J_t * dot3(half->a_dot, half->a_dot) +
+                    model->d->J_p * half->s * half->s);
     }
     return E;
 }

@@ -514,9 +514,10 @@ static const Variable *differentiable_input(Instance *m, fmi2ValueReference refe
     } else if (order < 1 || order > INPUT_ORDERS) {
         refuse(m, CALL_SetRealInputDerivatives, "order = %d of %s is not allowed: it must lie in [1, %d]",
                order, v->name, INPUT_ORDERS);
-    } else if (!isfinite(value)) {
+    } else if (!values_are_within(&value, 1, LARGEST_DERIVATIVE)) {
         refuse(m, CALL_SetRealInputDerivatives,
-               "%s: derivative of order %d = %g is not allowed: it must be finite", v->name, order, value);
+               "%s: derivative of order %d = %g is not allowed: it must lie within +-%g", v->name, order,
+               value, LARGEST_DERIVATIVE);
     } else {
         return v;
     }
@@ -644,22 +645,33 @@ static uint64_t blob_checksum(const unsigned char *blob)
     return hash;
 }
 
+// The header of this model's states, the checksum left out.
+static BlobHeader blob_header(void)
+{
+    BlobHeader header = {.version = BLOB_VERSION, .guid = MODEL_GUID, .size = blob_size()};
+    memcpy(header.magic, BLOB_MAGIC, sizeof header.magic);
+    snprintf(header.build, sizeof header.build, "%s", BUILD_DIGEST);
+    snprintf(header.data, sizeof header.data, "%s", part_data_digest());
+    return header;
+}
+
 // Why a block is not a state of this model; NULL if it is.
 static const char *blob_problem(const unsigned char *blob, size_t size, bool checked)
 {
+    const BlobHeader ours = blob_header();
     BlobHeader header;
     if (size < sizeof header) return "the saved state is truncated";
     memcpy(&header, blob, sizeof header);
     if (memcmp(header.magic, BLOB_MAGIC, sizeof header.magic) != 0)
         return "this is not a saved state of a " MODEL_IDENTIFIER;
     if (header.version != BLOB_VERSION) return "the saved state is of another version of this FMU";
-    if (strncmp(header.guid, MODEL_GUID, sizeof header.guid) != 0)
+    if (memcmp(header.guid, ours.guid, sizeof header.guid) != 0)
         return "the saved state is of another model (its GUID is not " MODEL_GUID ")";
-    if (strncmp(header.data, part_data_digest(), sizeof header.data) != 0)
+    if (memcmp(header.data, ours.data, sizeof header.data) != 0)
         return "the saved state is of an FMU with other data built in (of a bearing: another rivet table)";
-    if (strncmp(header.build, BUILD_DIGEST, sizeof header.build) != 0)
+    if (memcmp(header.build, ours.build, sizeof header.build) != 0)
         return "the saved state is of an FMU that was built from other sources";
-    if (header.size != blob_size()) return "the saved state has another size than this FMU's";
+    if (header.size != ours.size) return "the saved state has another size than this FMU's";
     if (size != header.size) return "the saved state is truncated or too long";
     if (checked && header.checksum != blob_checksum(blob))
         return "the saved state is corrupted (its checksum is wrong)";
@@ -727,10 +739,7 @@ static fmi2Status GetFMUstate(fmi2Component c, fmi2FMUstate *state)
     if (!state) return refuse(m, CALL_GetFMUstate, "a null pointer for the state");
     unsigned char *blob = *state ? *state : calloc(1, blob_size());
     if (!blob) return refuse(m, CALL_GetFMUstate, "out of memory");
-    BlobHeader header = {.version = BLOB_VERSION, .guid = MODEL_GUID, .size = blob_size()};
-    memcpy(header.magic, BLOB_MAGIC, sizeof header.magic);
-    snprintf(header.build, sizeof header.build, "%s", BUILD_DIGEST);
-    snprintf(header.data, sizeof header.data, "%s", part_data_digest());
+    const BlobHeader header = blob_header();
     memcpy(blob, &header, sizeof header);
     memcpy(blob + sizeof header, &m->session, sizeof m->session);
     part_save(m->part, blob + sizeof header + sizeof m->session);

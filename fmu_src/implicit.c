@@ -332,7 +332,7 @@ static void film_solve(const Film *f, Half *v)
 static int films(const Model *model, const Work *w, int h, double gamma, Film f[2])
 {
     const Parameters *p = model->p;
-    const double m = p->cage.m, J_p = p->cage.J_p, J_t = p->cage.J_t, x_c = p->cage.x_c;
+    const double m = p->cage.m, J_p = model->d->J_p, J_t = model->d->J_t, x_c = p->cage.x_c;
     if (p->scene.cage == CAGE_MODEL_TWO_HALF) {
         const double x_land = h == 0 ? -p->cage.land_x : p->cage.land_x;
         f[0] = film(w, h, m, J_p, J_t, x_land - model->d->com_x[h], gamma);

@@ -120,19 +120,25 @@ INLINE bits wide_above(wide x, double limit)
     return x > limit;
 }
 
-INLINE bool wide_any(bits condition)
+// Bit k: the condition in lane k.
+INLINE int wide_mask(bits condition)
 {
 #if defined(__AVX512F__) && LANE_WIDTH == 8
-    return _mm512_movepi64_mask((__m512i)condition) != 0;
+    return _mm512_movepi64_mask((__m512i)condition);
 #elif defined(__AVX__) && LANE_WIDTH == 4
-    return _mm256_movemask_pd((__m256d)condition) != 0;
+    return _mm256_movemask_pd((__m256d)condition);
 #elif defined(__SSE2__) && LANE_WIDTH == 2
-    return _mm_movemask_pd((__m128d)condition) != 0;
+    return _mm_movemask_pd((__m128d)condition);
 #else
-    int64_t any = 0;
-    for (int i = 0; i < LANE_WIDTH; i++) any |= condition[i];
-    return any != 0;
+    int mask = 0;
+    for (int i = 0; i < LANE_WIDTH; i++) mask |= (condition[i] != 0) << i;
+    return mask;
 #endif
+}
+
+INLINE bool wide_any(bits condition)
+{
+    return wide_mask(condition) != 0;
 }
 
 INLINE wide wide_sqrt(wide x)
@@ -321,6 +327,18 @@ INLINE wide wide_atan(wide x)
 typedef scalar ball_array[LANES] __attribute__((aligned(8 * sizeof(scalar))));  // one number per ball
 typedef double constants[LANES]
     __attribute__((aligned(8 * sizeof(double))));  // the same, independent of the state
+
+// Length of the vector (y, z).
+INLINE wide wide_hypot(wide y, wide z)
+{
+    return wide_sqrt(y * y + z * z);
+}
+
+// part/whole; 0 where whole is so small that 1/whole is not finite.
+INLINE wide wide_ratio(wide part, wide whole)
+{
+    return wide_select(wide_above(whole, 1e-300), part / whole, wide_set(0.0));
+}
 
 // Sum over the balls in one order for every lane width: four partial sums, then (0 + 1) + (2 + 3).
 INLINE scalar ball_array_sum(const scalar *v)

@@ -8,6 +8,7 @@
 // n unit normal from race or pocket surface into it, seen from the ball (the ball is pushed along -n).
 #pragma once
 
+#include "half_path.h"
 #include "lanes.h"
 #include "variable_table.h"
 
@@ -60,6 +61,7 @@ typedef struct {
     constants pocket_cos, pocket_sin;  // of the body angle 2 pi j / Z of pocket j
 
     // cage half
+    double J_p, J_t;         // moments of inertia: polar, transverse about the centre of mass [kg.m2]
     double com_x[2], com_e;  // centre of mass from the geometric centre: axial, toward pocket 1 [m]
     double C_land;           // radial guide clearance [m]
     double kappa;            // eta R L^3 / C^3 [N.s/m]
@@ -78,6 +80,7 @@ typedef struct {
     double k_rivet, k_plate, k_plate_t, k_head, k_hole;  // stiffnesses [N/m]
     double hole_gap;                                     // diametral play of the shank [m]
     double c_joint;                                      // axial damping of one closed joint [N.s/m]
+    double spin[ROWS];  // rows of bonded joints (half_path.h) under the centrifugal load, per (rad/s)^2
 
     // whole state
     double scale[SCALE_COUNT];  // error that tolerance 1 allows, by class of state
@@ -116,6 +119,7 @@ typedef struct {
 typedef struct {
     ball_array Q;                             // contact load [N]
     ball_array F_x, F_r, F_t;                 // force on the half in the pocket's frame [N]
+    ball_array push_x, push_t;                // its normal part
     ball_array half_F_x, half_F_y, half_F_z;  // force on the half, global frame
     ball_array half_M_x, half_M_y, half_M_z;  // moment on the half about its geometric centre, global frame
 } Pockets;

@@ -137,34 +137,45 @@ static void fill_cage(const Evaluation *at, Outputs *out)
         scalar_sqrt(out->cage.y * out->cage.y + out->cage.z * out->cage.z) / at->model->d->C_land;
 }
 
+// Components of vectors (r, t) at the rivets along y and z of the cage's body frame.
+static void fill_vectors(const Derived *d, const scalar *r, const scalar *t, scalar y[Z], scalar z[Z])
+{
+    for (int k = 0; k < Z; k++) {
+        const double R = sqrt(d->rivet_y[k] * d->rivet_y[k] + d->rivet_z[k] * d->rivet_z[k]),
+                     c = d->rivet_y[k] / R, s = d->rivet_z[k] / R;
+        y[k] = r[k] * c - t[k] * s;
+        z[k] = r[k] * s + t[k] * c;
+    }
+}
+
 static void fill_rivet(const Evaluation *at, Outputs *out)
 {
-    const bool rigid = at->model->p->scene.cage == CAGE_MODEL_RIGID;
-    RivetLoads load;
+    const Derived *d = at->model->d;
+    JointLoads load;
     scalar slip[Z], max = 0.0;
     at->loads(at->model, at->w, &load);
     rivets_slip(at->model, at->w, slip);
     for (int k = 0; k < Z; k++) {
         out->rivet.N[k] = load.N[k];
-        out->rivet.T[k] = rigid ? at->model->d->P : at->w->T[k];
-        out->rivet.M[k] = scalar_sqrt(load.M_y[k] * load.M_y[k] + load.M_z[k] * load.M_z[k]);
+        out->rivet.T[k] = load.T[k];
+        out->rivet.M[k] = scalar_sqrt(load.M_r[k] * load.M_r[k] + load.M_t[k] * load.M_t[k]);
+        out->rivet.M_shank[k] = scalar_sqrt(load.m_r[k] * load.m_r[k] + load.m_t[k] * load.m_t[k]);
         out->rivet.V[k] = load.V[k];
-        out->rivet.P[k] = at->model->d->P;
-        out->rivet.V_y[k] = load.V_y[k];
-        out->rivet.V_z[k] = load.V_z[k];
-        out->rivet.M_y[k] = load.M_y[k];
-        out->rivet.M_z[k] = load.M_z[k];
+        out->rivet.P[k] = d->P;
         out->rivet.F_head[k] = load.F_head[k];
         out->rivet.slip[k] = slip[k];
         max = scalar_max(max, slip[k]);
     }
+    fill_vectors(d, load.V_r, load.V_t, out->rivet.V_y, out->rivet.V_z);
+    fill_vectors(d, load.M_r, load.M_t, out->rivet.M_y, out->rivet.M_z);
+    fill_vectors(d, load.m_r, load.m_t, out->rivet.M_shank_y, out->rivet.M_shank_z);
     out->cage.dislocation = max;
     out->rivet.table_kind = rivet_table.kind;
 }
 
 static void fill_stress(const Evaluation *at, Outputs *out)
 {
-    RivetLoads load;
+    JointLoads load;
     scalar sigma[RIVET_CHANNELS][Z] = {{0.0}};
     const bool off = at->model->p->scene.stress == STRESS_OFF;
     if (!off) {
@@ -177,7 +188,7 @@ static void fill_stress(const Evaluation *at, Outputs *out)
         out->rivet.sigma_mid[k] = sigma[MID_VM][k];
         out->rivet.sigma_mid_p1[k] = sigma[MID_P1][k];
         out->rivet.flag[k] =
-            off ? 0.0 : at->model->d->fit_flags | rivet_rom_load_flags(&rivet_table, &load, sigma, k);
+            off ? 0.0 : at->model->d->fit_flags | rivet_rom_load_flags(&rivet_table, sigma, k);
     }
 }
 

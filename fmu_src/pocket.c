@@ -96,6 +96,8 @@ INLINE void pocket_contacts(const Model *model, Work *w, int h, int j, const Poc
     wide_store(&pocket->F_x[j], vec_dot(F_half, a));
     wide_store(&pocket->F_r[j], vec_dot(F_half, gap->b));
     wide_store(&pocket->F_t[j], vec_dot(F_half, e_t));
+    wide_store(&pocket->push_x[j], wide_fma(F_across, n_t, Q * n_x));
+    wide_store(&pocket->push_t[j], wide_fma(-F_across, n_x, Q * n_t));
     vec_to_global(F_half, cos_theta, sin_theta, &pocket->half_F_x[j], &pocket->half_F_y[j],
                   &pocket->half_F_z[j]);
     vec_to_global(M_half, cos_theta, sin_theta, &pocket->half_M_x[j], &pocket->half_M_y[j],
@@ -158,13 +160,18 @@ void pocket_split(const Model *model, const Work *w, Pockets on[2])
     const Derived *d = model->d;
     const Rotor *cage = &w->half[0];
     const Pockets *whole = &w->pocket[0];
-    const scalar *from[] = {whole->F_x,      whole->F_r,      whole->F_t,
-                            whole->half_F_x, whole->half_F_y, whole->half_F_z,
-                            whole->half_M_x, whole->half_M_y, whole->half_M_z};
-    scalar *to[2][9];
+
+    enum { COUNT = 11 };
+
+    const scalar *from[COUNT] = {whole->F_x,      whole->F_r,      whole->F_t,      whole->push_x,
+                                 whole->push_t,   whole->half_F_x, whole->half_F_y, whole->half_F_z,
+                                 whole->half_M_x, whole->half_M_y, whole->half_M_z};
+    scalar *to[2][COUNT];
     for (int h = 0; h < 2; h++) {
-        scalar *rows[] = {on[h].F_x,      on[h].F_r,      on[h].F_t,      on[h].half_F_x, on[h].half_F_y,
-                          on[h].half_F_z, on[h].half_M_x, on[h].half_M_y, on[h].half_M_z};
+        Pockets *half = &on[h];
+        scalar *rows[COUNT] = {half->F_x,      half->F_r,      half->F_t,      half->push_x,
+                               half->push_t,   half->half_F_x, half->half_F_y, half->half_F_z,
+                               half->half_M_x, half->half_M_y, half->half_M_z};
         memcpy(to[h], rows, sizeof rows);
     }
     for (int j = 0; j < PACKETS * LANE_WIDTH; j += LANE_WIDTH) {
@@ -172,13 +179,15 @@ void pocket_split(const Model *model, const Work *w, Pockets on[2])
         const PocketGap gap = pocket_gap(d, w, cage, j);
         const PocketShare share = pocket_share(d, 1, gap.n_x, gap.delta);
         const wide F_across = pocket_across(d, &gap, share.slope);
-        const vec push = vec_axpy(F_across * gap.n_t, gap.a, vec_scale(-F_across * gap.n_x, gap.e_t));
-        vec_store((vec){F_across * gap.n_t, wide_set(0.0), -F_across * gap.n_x}, &on[1].F_x[j], &on[1].F_r[j],
-                  &on[1].F_t[j]);
+        const wide push_x = F_across * gap.n_t, push_t = -F_across * gap.n_x;
+        const vec push = vec_axpy(push_x, gap.a, vec_scale(push_t, gap.e_t));
+        vec_store((vec){push_x, wide_set(0.0), push_t}, &on[1].F_x[j], &on[1].F_r[j], &on[1].F_t[j]);
+        wide_store(&on[1].push_x[j], push_x);
+        wide_store(&on[1].push_t[j], push_t);
         vec_to_global(push, cos_theta, sin_theta, &on[1].half_F_x[j], &on[1].half_F_y[j], &on[1].half_F_z[j]);
         vec_to_global(vec_cross(gap.p, push), cos_theta, sin_theta, &on[1].half_M_x[j], &on[1].half_M_y[j],
                       &on[1].half_M_z[j]);
-        for (int i = 0; i < 9; i++) {
+        for (int i = 0; i < COUNT; i++) {
             const wide both = wide_load(&from[i][j]),
                        part = wide_fma(share.load, both, wide_load(&to[1][i][j]));
             wide_store(&to[1][i][j], part);

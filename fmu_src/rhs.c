@@ -96,7 +96,7 @@ static void halves_acceleration(const Model *model, const scalar *y, const Work 
             M[i] = half->M[i] - lever[i];
             acc[i] = half->F[i] / p->cage.m + gravity[i];
         }
-        rotor_acceleration(half, p->cage.J_p, p->cage.J_t, M, a_ddot, &s_dot);
+        rotor_acceleration(half, model->d->J_p, model->d->J_t, M, a_ddot, &s_dot);
         half_rates(y, half, h, acc, a_ddot, s_dot, y_dot);
     }
 }
@@ -107,7 +107,7 @@ static void rigid_cage_acceleration(const Model *model, const scalar *y, const W
     const Parameters *p = model->p;
     const Rotor *cage = &w->half[0];
     const double gravity[3] = {0.0, p->gravity.y, p->gravity.z};
-    const double J_t = 2.0 * (p->cage.J_t + p->cage.m * model->d->com_x[1] * model->d->com_x[1]);
+    const double J_t = 2.0 * (model->d->J_t + p->cage.m * model->d->com_x[1] * model->d->com_x[1]);
     scalar M[3], lever[3], a_ddot[3], acc[3], s_dot;
     scalar F[3], c[3], spin_up[3], carried[3], around[3], inward[3];
 
@@ -118,7 +118,7 @@ static void rigid_cage_acceleration(const Model *model, const scalar *y, const W
     }
     cross3(c, F, lever);
     for (int i = 0; i < 3; i++) M[i] = w->half[0].M[i] + w->half[1].M[i] - lever[i];
-    rotor_acceleration(cage, 2.0 * p->cage.J_p, J_t, M, a_ddot, &s_dot);
+    rotor_acceleration(cage, 2.0 * model->d->J_p, J_t, M, a_ddot, &s_dot);
 
     // rate of Omega, which carries each half's centre of mass along
     cross3(cage->a, a_ddot, spin_up);

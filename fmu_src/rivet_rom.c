@@ -7,34 +7,26 @@
 #include "rivet_splines.h"
 
 typedef struct {
-    ball_array u[RIVET_AXES];  // a, b, c, xi
-    ball_array s;              // P + N + V + |M|/L [N]
+    ball_array u[RIVET_AXES];  // a, c, xi
+    ball_array s;              // T + V [N]
     ball_array first[2];       // weight of the first of two sheets in head and middle
     ball_array two_chi;        // 2 chi
 } TablePoints;
 
-// part/whole; 0 where whole is so small that 1/whole is not finite.
-INLINE wide ratio(wide part, wide whole)
-{
-    return wide_select(wide_above(whole, 1e-300), part / whole, wide_set(0.0));
-}
-
 // Points of the loads of all rivets in the table.
-static void find_points(const RivetTable *t, const RivetLoads *load, double fit_eff, TablePoints *points)
+static void find_points(const RivetTable *t, const JointLoads *load, double fit_eff, TablePoints *points)
 {
-    const wide zero = wide_set(0.0), one = wide_set(1.0), inv_length = wide_set(1.0 / t->moment_length);
+    const wide zero = wide_set(0.0), one = wide_set(1.0);
     for (int j = 0; j < PACKETS * LANE_WIDTH; j += LANE_WIDTH) {
-        const wide v_y = wide_load(&load->V_y[j]), v_z = wide_load(&load->V_z[j]);
-        const wide m_y = wide_load(&load->M_y[j]), m_z = wide_load(&load->M_z[j]);
-        const wide p = wide_max(wide_load(&load->P[j]), zero), n = wide_max(wide_load(&load->N[j]), zero);
-        const wide V = wide_sqrt(v_y * v_y + v_z * v_z), M = wide_sqrt(m_y * m_y + m_z * m_z);
-        const wide axial = p + n, force = axial + V, moment = M * inv_length, s = force + moment;
-        const wide inv_s = ratio(one, s), across = v_y * m_z - v_z * m_y;
-        const wide w = 2.0 * wide_min(ratio(wide_max(across, -across), V * M), one);
+        const wide v_r = wide_load(&load->V_r[j]), v_t = wide_load(&load->V_t[j]);
+        const wide m_r = wide_load(&load->m_r[j]), m_t = wide_load(&load->m_t[j]);
+        const wide T = wide_max(wide_load(&load->T[j]), zero), V = wide_hypot(v_r, v_t),
+                   m = wide_hypot(m_r, m_t);
+        const wide s = T + V, inv_s = wide_ratio(one, s), across = v_r * m_t - v_t * m_r;
+        const wide w = 2.0 * wide_min(wide_ratio(wide_max(across, -across), V * m), one);
         const bits plane = wide_above(w, 1.0);
-        wide_store(&points->u[RIVET_A][j], ratio(V, force));
-        wide_store(&points->u[RIVET_B][j], ratio(n, axial));
-        wide_store(&points->u[RIVET_C][j], moment * inv_s);
+        wide_store(&points->u[RIVET_A][j], V * inv_s);
+        wide_store(&points->u[RIVET_C][j], wide_min(wide_ratio(m, t->moment_length * T), one));
         wide_store(&points->u[RIVET_XI][j], fit_eff * inv_s);
         wide_store(&points->s[j], s);
         wide_store(&points->first[0][j], wide_select(plane, w - 1.0, w));
@@ -43,7 +35,7 @@ static void find_points(const RivetTable *t, const RivetLoads *load, double fit_
     }
 }
 
-void rivet_rom_stress(const RivetTable *t, const RivetLoads *load, double fit_eff, bool all,
+void rivet_rom_stress(const RivetTable *t, const JointLoads *load, double fit_eff, bool all,
                       scalar sigma[RIVET_CHANNELS][Z])
 {
     TablePoints points;

@@ -1,61 +1,63 @@
 // Rivet stress and joint data from the table of the reduced rivet model; bearing_model/rivet_rom.py reads the
 // same table.
 //
-//      N ^  | M        +x half: force V, moment M, pull N from outside,
+//      T ^  | m        +x half: the shank carries tension T, transverse load V, bending moment m
 //     ___|__|_____     -x half: the opposite
 //    |   |     ___|--> V
 //    |   |rivet   |
-//    |-- | -------|    split plane, x = 0, where V and M are taken
+//    |-- | -------|    split plane, x = 0, where V and m are taken
 //    |___|________|
 //
-// The stress of a frictionless joint (elastic bodies, unilateral contacts, gaps proportional to the fit) is
-// homogeneous of degree 1 in (P, N, V, M, fit), so that one argument divides out:
+// The stress of a frictionless rivet in its holes (elastic bodies, unilateral contacts, gaps proportional to the
+// fit) is homogeneous of degree 1 in (T, V, m, fit), so that one argument divides out:
 //
-//     sigma = s (w T_i(a, b, c, xi) + (1 - w) T_(i+1)(a, b, c, xi)),   s = P + N + V + |M|/L,   L = moment_length
-//     a = V/(P + N + V),  b = N/(P + N),  c = |M|/(L s),  xi = fit_eff/s
-//     chi = |V_y M_z - V_z M_y|/(V |M|): 1 if M bends in the plane of V, 0 if across it
-//     T_i, T_(i+1): the two sheets around chi, of those for chi = 1 (plane), 1/2 (oblique) and 0 (across)
+//     sigma = s (w S_i(a, c, xi) + (1 - w) S_(i+1)(a, c, xi)),      s = T + V
+//     a = V/s,  c = |m|/(L T), at most 1,  xi = fit_eff/s,  L = moment_length
+//     chi = |V_r m_t - V_t m_r|/(V |m|): 1 if m bends in the plane of V, 0 if across it
+//     S_i, S_(i+1): the two sheets around chi, of those for chi = 1 (plane), 1/2 (oblique) and 0 (across)
 //     w = 2 chi - 1 above chi = 1/2;  below it 2 chi in the head and (2 chi)^1.5 in the middle
 //
 // The rule between the sheets was found by finite elements and is within 0.4 % (head) and 1.3 % (middle) of
 // the largest stress in clearance.
 //
 // The channels are the largest stress over both heads and all angles.  A half turn and the mirror of the
-// halves change the sign of M against V: the sign decides which head carries more, and the channels do not
+// halves change the sign of m against V: the sign decides which head carries more, and the channels do not
 // depend on it.
 //
-// a, b, c lie in [0, 1] for every load, so that no load lies outside the table.  Below the axis of xi the
-// stress does not depend on xi (the gap is so large that its size does not matter any more); above it the
-// stress is linear in xi (every contact of the hole is closed).  T is a tensor product of quadratic
-// B-splines, C1 in each argument; sigma is C0 where V, N + P or M passes through 0 and where chi passes
-// through 0 or 1/2.  Head friction adds head_friction F_head to the head channels and nothing in the middle.
+// a and c lie in [0, 1] for every load.  Below the axis of xi the stress does not depend on xi (the gap is so
+// large that its size does not matter any more); above it the stress is linear in xi (every contact of the
+// hole is closed).  S is a tensor product of quadratic B-splines, C1 in each argument; sigma is C0 where V, T
+// or m passes through 0, where c reaches 1 and where chi passes through 0 or 1/2.  Head friction adds
+// head_friction F_head to the head channels and nothing in the middle.
 #pragma once
 
+#include "half_path.h"
 #include "isa.h"
+#include "joint_law.h"
 
-// Loads of all rivets [N, N.m]; y, z: two perpendicular directions in the plane of the joint, x, y, z
-// right-handed.
+// Loads of all joints and of their rivets [N, N.m], on the +x half in the frames (x, r, t) of the rivets.
 typedef struct {
-    ball_array P;         // preload
-    ball_array N;         // external tension of the joint before preload shielding; compression counts as 0
-    ball_array V_y, V_z;  // transverse load that the rivet carries, on the +x half
-    ball_array M_y, M_z;  // prying moment about the rivet's position in the split plane, on the +x half
+    ball_array N;         // external tension of the joint
+    ball_array M_r, M_t;  // moment that the joint transmits
+    ball_array V;         // modulus of the joint's whole transverse load
+    ball_array T;         // tension of the rivet, with preload and prying
+    ball_array m_r, m_t;  // bending moment of the rivet's shank at the split
+    ball_array V_r, V_t;  // transverse load of the shank
     ball_array F_head;    // modulus of the friction force at the heads
-    ball_array V;         // modulus of the joint's whole transverse load, of which the rivet carries V_y, V_z
-} RivetLoads;
+} JointLoads;
 
 // Channels: largest principal (P1) and von Mises (VM) stress in the head fillet and in the middle of the
 // shank.
 enum { HEAD_P1, HEAD_VM, MID_VM, MID_P1, RIVET_CHANNELS };
 
+// 4 is retired.
 enum {
-    RIVET_YIELDS = 1,      // a von Mises channel exceeds the rivet's yield stress
-    FLANGE_YIELDS = 2,     // the fit exceeds the one at which the flange begins to yield
-    JOINT_COMPRESSED = 4,  // N < 0, which counts as 0
-    RIVET_OUTSIDE = 8      // the fit exceeds the largest one of fit_eff's map, or a load is not finite
+    RIVET_YIELDS = 1,   // a von Mises channel exceeds the rivet's yield stress
+    FLANGE_YIELDS = 2,  // the fit exceeds the one at which the flange begins to yield
+    RIVET_OUTSIDE = 8   // the fit exceeds the largest one of fit_eff's map, or a load is not finite
 };
 
-enum { RIVET_A, RIVET_B, RIVET_C, RIVET_XI, RIVET_AXES };
+enum { RIVET_A, RIVET_C, RIVET_XI, RIVET_AXES };
 
 enum { RIVET_PLANE, RIVET_OBLIQUE, RIVET_ACROSS, RIVET_SHEETS };
 
@@ -87,7 +89,8 @@ typedef struct {
     double A;             // shank section [m2]
     double d_m;           // diameter of the circle of rivets [m]
     double grip;          // clamped length [m]
-    double k_rivet;       // axial stiffness of the open joint: rivet, heads and flanges in series [N/m]
+    double seat;          // diameter of the seat of the rivet's head [m]
+    double k_rivet;       // force per separation of the halves' bodies, joint open [N/m]
     double k_plate;       // axial stiffness that the closed split plane adds [N/m]
     double k_t_plate;     // tangential stiffness of the split plane before it slips [N/m]
     double k_t_head;      // tangential stiffness of the two heads in series, through the rivet [N/m]
@@ -96,12 +99,19 @@ typedef struct {
     double alpha_flange;  // [1/K]
     double d;             // shank diameter [m]
     double T_0;           // temperature at which preload and fit are given [K]
-    double prying_lever;  // moment at which the joint opens per clamp force P - N [m]
-    double prying_share;  // part of a further moment that the open joint still takes, 0...1
     // hole contact: tangent stiffness k_hole [N/m] of both holes in series at hole_count fits [m]
     int hole_count;
     const double *hole_fit, *k_hole;
 } JointData;
+
+// One half of the cage, with its half of the rivets, in SI.
+typedef struct {
+    double m;    // mass [kg]
+    double x_c;  // axial distance of the centre of mass from the split [m]
+    HalfPath path;
+    double spin[ROWS];  // rows of all joints under the centrifugal load, per (rad/s)^2, at this mass
+    JointLaw law;
+} CageHalfData;
 
 typedef struct {
     int kind;                   // 1 finite elements, 2 coarse finite elements, 3 closed forms
@@ -110,7 +120,7 @@ typedef struct {
     int Z;
     double moment_length;  // L [m]
     RivetAxis axis[RIVET_AXES];
-    const float *primary;     // spline coefficients [a][b][c][xi][sheet][HEAD_P1, MID_VM], in 1/m2
+    const float *primary;     // spline coefficients [a][c][xi][sheet][HEAD_P1, MID_VM], in 1/m2
     const float *secondary;   // the same of [HEAD_VM, MID_P1], which only outputs need
     double head_friction;     // [1/m2]
     double head_friction_vm;  // [1/m2]
@@ -118,7 +128,7 @@ typedef struct {
     double fit_flange_yield;  // fit at which the flange begins to yield [m]
     FitMap j2;                // interference with plasticity
     JointData joint;
-    const double *load_path;  // matrix of load_path_flexible
+    CageHalfData half;
 } RivetTable;
 
 extern const RivetTable rivet_table;  // rivet_table.c, written by rivet_model/embed.py
@@ -132,18 +142,16 @@ unsigned rivet_rom_fit_flags(const RivetTable *t, double fit_a);
 
 // Sets the channels sigma of all rivets [Pa]: HEAD_P1 and MID_VM, and with `all` the other two as well.
 // Finite loads give finite stresses.
-typedef void RivetRomStress(const RivetTable *t, const RivetLoads *load, double fit_eff, bool all,
+typedef void RivetRomStress(const RivetTable *t, const JointLoads *load, double fit_eff, bool all,
                             scalar sigma[RIVET_CHANNELS][Z]);
 RivetRomStress rivet_rom_stress;
 
 // Flags that follow from the load of rivet k and its channels sigma.
-INLINE unsigned rivet_rom_load_flags(const RivetTable *t, const RivetLoads *load,
-                                     scalar sigma[RIVET_CHANNELS][Z], int k)
+INLINE unsigned rivet_rom_load_flags(const RivetTable *t, scalar sigma[RIVET_CHANNELS][Z], int k)
 {
     const double head = scalar_value(sigma[HEAD_VM][k]), mid = scalar_value(sigma[MID_VM][k]);
     unsigned flags = 0;
     if (head > t->yield_rivet || mid > t->yield_rivet) flags |= RIVET_YIELDS;
-    if (scalar_value(load->N[k]) < 0.0) flags |= JOINT_COMPRESSED;
     if (!isfinite(scalar_value(sigma[HEAD_P1][k]))) flags |= RIVET_OUTSIDE;
     return flags;
 }

@@ -10,12 +10,18 @@ typedef struct {
     scalar w[3];
 } Splines;
 
-// Cell of u: the cell in which the bin of u begins, or one of the next few.
+// Cell of u: the cell in which the bin of u begins, or one of the next few.  A short axis is searched from its
+// start.
 INLINE const RivetCell *axis_cell(const RivetAxis *axis, double u)
 {
-    const double bin =
-        scalar_min(scalar_max((u - axis->start) * axis->inv_bin, 0.0), RIVET_BINS);  // a NaN gives bin 0
-    const RivetCell *cell = &axis->cell[axis->bin[(int)bin]], *last = &axis->cell[axis->cells - 1];
+    enum { SHORT = 8 };
+
+    const RivetCell *cell = axis->cell, *last = &axis->cell[axis->cells - 1];
+    if (axis->cells > SHORT) {
+        const double bin =
+            scalar_min(scalar_max((u - axis->start) * axis->inv_bin, 0.0), RIVET_BINS);  // a NaN gives bin 0
+        cell = &axis->cell[axis->bin[(int)bin]];
+    }
     while (u >= cell->end && cell < last) cell++;
     return cell;
 }
@@ -59,21 +65,19 @@ typedef struct {
     scalar first[2];  // weight of this sheet in head and middle
 } TablePoint;
 
-// Stress of a pair of channels: tensor product of the splines over 3^4 coefficients of two sheets.  The sums
-// run over c, b, a, xi and chi in this order.
+// Stress of a pair of channels: tensor product of the splines over 3^3 coefficients of two sheets.  The sums
+// run over c, a, xi and chi in this order.
 #ifdef DUAL
 INLINE void contract(const RivetTable *t, const float *coefficients, const TablePoint *point, scalar sigma[2])
 {
-    const Splines *A = &point->at[RIVET_A], *B = &point->at[RIVET_B], *C = &point->at[RIVET_C],
-                  *X = &point->at[RIVET_XI];
-    int n_b = t->axis[RIVET_B].cells + 2, n_c = t->axis[RIVET_C].cells + 2;
-    int n_xi = t->axis[RIVET_XI].cells + 2;
+    const Splines *A = &point->at[RIVET_A], *C = &point->at[RIVET_C], *X = &point->at[RIVET_XI];
+    int n_c = t->axis[RIVET_C].cells + 2, n_xi = t->axis[RIVET_XI].cells + 2;
     sigma[0] = sigma[1] = 0.0;
-    for (int i = 0; i < 81; i++) {
-        int a = i / 27, b = i / 9 % 3, c = i / 3 % 3, x = i % 3;
-        int index = (((A->first + a) * n_b + B->first + b) * n_c + C->first + c) * n_xi + X->first + x;
+    for (int i = 0; i < 27; i++) {
+        int a = i / 9, c = i / 3 % 3, x = i % 3;
+        int index = ((A->first + a) * n_c + C->first + c) * n_xi + X->first + x;
         const float *T = coefficients + 2 * (RIVET_SHEETS * index + point->sheet);
-        scalar weight = A->w[a] * B->w[b] * C->w[c] * X->w[x];
+        scalar weight = A->w[a] * C->w[c] * X->w[x];
         for (int k = 0; k < 2; k++)
             sigma[k] += weight * (point->first[k] * T[k] + (1.0 - point->first[k]) * T[2 + k]);
     }
@@ -108,28 +112,22 @@ INLINE void add_part(double w, const quad *x, quad *sum)
 
 INLINE void contract(const RivetTable *t, const float *coefficients, const TablePoint *point, double sigma[2])
 {
-    const Splines *A = &point->at[RIVET_A], *B = &point->at[RIVET_B];
-    const Splines *C = &point->at[RIVET_C], *X = &point->at[RIVET_XI];
-    const int n_b = t->axis[RIVET_B].cells + 2, n_c = t->axis[RIVET_C].cells + 2;
-    const int n_xi = t->axis[RIVET_XI].cells + 2;
+    const Splines *A = &point->at[RIVET_A], *C = &point->at[RIVET_C], *X = &point->at[RIVET_XI];
+    const int n_c = t->axis[RIVET_C].cells + 2, n_xi = t->axis[RIVET_XI].cells + 2;
     const int xi = 2 * RIVET_SHEETS, row = n_xi * xi;  // coefficients between neighbours in xi, in c
     const float *origin = coefficients + xi * X->first + 2 * point->sheet;
 
     // sums over c, b and a for each spline of xi
     quad sum[3] = {{0}, {0}, {0}}, all = {0};
     for (int a = 0; a < A->count; a++) {
+        const float *T = origin + row * ((A->first + a) * n_c + C->first);
         quad sum_a[3] = {{0}, {0}, {0}};
-        for (int b = 0; b < B->count; b++) {
-            const float *T = origin + row * (((A->first + a) * n_b + B->first + b) * n_c + C->first);
-            quad sum_b[3] = {{0}, {0}, {0}};
-            for (int c = 0; c < C->count; c++, T += row) {
-                for (int x = 0; x < 3; x++) {
-                    quad value;
-                    fetch(T + x * xi, &value);
-                    add_part(C->w[c], &value, &sum_b[x]);
-                }
+        for (int c = 0; c < C->count; c++, T += row) {
+            for (int x = 0; x < 3; x++) {
+                quad value;
+                fetch(T + x * xi, &value);
+                add_part(C->w[c], &value, &sum_a[x]);
             }
-            for (int x = 0; x < 3; x++) add_part(B->w[b], &sum_b[x], &sum_a[x]);
         }
         for (int x = 0; x < 3; x++) add_part(A->w[a], &sum_a[x], &sum[x]);
     }

@@ -1,39 +1,59 @@
 // Loads of the rivets.
 //
-//   two halves   N = T - N_plate; the shank carries the hole force B, the heads the friction H; plate friction S
-//                bypasses the rivet; the flexible cage half adds the loads by which a pocket force pries the joints
-//                beside it open (load_path.h)
-//   rigid cage   the wrench between the halves, (half 1 - half 0)/2 as both have the same inertia, on the circle of
-//                rivets; its transverse part loads plates (up to mu P), then heads (mu P), then the shank
+//   two halves   N = T - N_plate of the dynamics' joints; plates S, heads H and hole B carry the transverse load
+//   rigid cage   the wrench between the halves, (half 1 - half 0)/2 as both have the same inertia, on the circle
+//                of rivets; its transverse part loads plates (up to mu P), then heads (mu P more), then the shank
 //
-// The transverse part of the load path reaches the shank only in a hole without play: in a hole with play the
-// joint relieves this part by slipping, by much less than the play.  The prying moment is limited where it
-// opens the joint.  All loads are in the body frame of half 0; the rivets are at angles 2 pi (k + 1/2)/Z.
+// To this rigid share the elastic halves add what bonded joints would carry of pocket forces and of the cage's
+// own centrifugal load (half_path.h).  Joints that open and slip relieve it (joint_law.h); in the plane they have
+// for it what the rigid share leaves of friction and play.  The work of the added loads is that of the halves'
+// elastic deformation, which the dynamics of rigid halves does not have: on rigid halves the centrifugal loads
+// of all parts balance, so that they do no work and the energy balance has no term for them.
+//
+// The tangential inertia load of a cage whose speed changes (Euler's) is to the centrifugal one as omega_dot to
+// omega^2: 1.3 % in a run-up to 18,238 r/min within 0.1 s, 0.013 % within 10 s, so it is left out.  What a
+// pocket force accelerates is in the load path: its finite elements balance the force by the half's inertia.
+//
+// All loads are on the +x half, in the frames (x, r, t) of the rivets, at body angles 2 pi (k + 1/2)/Z of half 0.
 #include "rivets.h"
 
-#include "load_path.h"
 #include "pocket.h"
 #include "rotor.h"
 
-// Length of the vector (y, z).
-INLINE wide modulus(wide y, wide z)
+// What rigid halves do to the joints: external tension, transverse loads (r, t) of plates, heads and shank, and
+// what these leave for more.
+typedef struct {
+    ball_array N, plates[2], heads[2], shank[2];
+    SlipLimits left;
+} RigidShare;
+
+// A vector (y, z) at a packet of rivets, radially and along the circle.
+INLINE void store_turned(const Model *model, wide y, wide z, int k, ball_array to[2])
 {
-    return wide_sqrt(y * y + z * z);
+    const double inv_R = 2.0 / model->p->bearing.d_m;
+    const wide c = wide_load(&model->d->rivet_y[k]) * inv_R, s = wide_load(&model->d->rivet_z[k]) * inv_R;
+    wide_store(&to[0][k], y * c + z * s);
+    wide_store(&to[1][k], z * c - y * s);
 }
 
-// Loads of the joints between two halves, without the flexible share.
-static void two_half_load(const Model *model, const Work *w, RivetLoads *load)
+// The dynamics' joints.
+static void two_half_share(const Model *model, const Work *w, RigidShare *share)
 {
+    const Derived *d = model->d;
+    const double mu = model->p->joint.mu;
+    const wide zero = wide_set(0.0);
     for (int k = 0; k < PACKETS * LANE_WIDTH; k += LANE_WIDTH) {
-        const wide H_y = wide_load(&w->H_y[k]), H_z = wide_load(&w->H_z[k]), B_y = wide_load(&w->B_y[k]);
-        const wide B_z = wide_load(&w->B_z[k]);
-        wide_store(&load->P[k], wide_set(model->d->P));
-        wide_store(&load->N[k], wide_load(&w->T[k]) - wide_load(&w->N_plate[k]));
-        wide_store(&load->V_y[k], -B_y);
-        wide_store(&load->V_z[k], -B_z);
-        wide_store(&load->F_head[k], modulus(H_y, H_z));
-        wide_store(&load->V[k],
-                   modulus(wide_load(&w->S_y[k]) + H_y + B_y, wide_load(&w->S_z[k]) + H_z + B_z));
+        const wide T = wide_load(&w->T[k]), N_plate = wide_load(&w->N_plate[k]),
+                   u = wide_hypot(wide_load(&w->u_y[k]), wide_load(&w->u_z[k]));
+        const wide S_y = wide_load(&w->S_y[k]), S_z = wide_load(&w->S_z[k]), H_y = wide_load(&w->H_y[k]),
+                   H_z = wide_load(&w->H_z[k]);
+        wide_store(&share->N[k], T - N_plate);
+        store_turned(model, -S_y, -S_z, k, share->plates);
+        store_turned(model, -H_y, -H_z, k, share->heads);
+        store_turned(model, -wide_load(&w->B_y[k]), -wide_load(&w->B_z[k]), k, share->shank);
+        wide_store(&share->left.plates[k], wide_max(mu * N_plate - wide_hypot(S_y, S_z), zero));
+        wide_store(&share->left.heads[k], wide_max(mu * T - wide_hypot(H_y, H_z), zero));
+        wide_store(&share->left.gap[k], wide_max(d->hole_gap - u, zero));
     }
 }
 
@@ -61,76 +81,92 @@ static void rigid_wrench(const Work *w, const Pockets *on_1, scalar wrench[6])
     }
 }
 
-// Loads of the joints of a rigid cage, without the flexible share.
-static void rigid_load(const Model *model, const Work *w, const Pockets *on_1, RivetLoads *load)
+static void rigid_share(const Model *model, const Work *w, const Pockets *on_1, RigidShare *share)
 {
     const double R = 0.5 * model->p->bearing.d_m, friction = model->p->joint.mu * model->d->P;
     double c[Z], s[Z];
-    scalar wrench[6], V_y[Z], V_z[Z];
+    scalar wrench[6];
+    ball_array V_y = {0}, V_z = {0};
     rigid_wrench(w, on_1, wrench);
     for (int k = 0; k < Z; k++) {
         c[k] = model->d->rivet_y[k] / R;
         s[k] = model->d->rivet_z[k] / R;
     }
-    load_path_rigid(2.0 * R, wrench, c, s, load->N, V_y, V_z);
-    for (int k = 0; k < Z; k++) {
-        const scalar V = scalar_sqrt(V_y[k] * V_y[k] + V_z[k] * V_z[k]);
-        const scalar shank = scalar_value(V) > 2.0 * friction ? (V - 2.0 * friction) / V : 0.0;
-        load->P[k] = model->d->P;
-        load->V_y[k] = shank * V_y[k];
-        load->V_z[k] = shank * V_z[k];
-        load->F_head[k] = scalar_min(scalar_max(V - friction, 0.0), friction);
-        load->V[k] = V;
-    }
-}
-
-// Adds a vector at every rivet, given by its radial and tangential parts (r, t), to a vector given along y
-// and z.
-INLINE void add_turned(const Model *model, const ball_array r, const ball_array t, scalar *y, scalar *z)
-{
-    const double inv_R = 2.0 / model->p->bearing.d_m;
+    for (int k = Z; k < LANES; k++) share->N[k] = 0.0;  // padding
+    bolt_group(2.0 * R, wrench, c, s, share->N, V_y, V_z);
+    const wide zero = wide_set(0.0), limit = wide_set(friction);
     for (int k = 0; k < PACKETS * LANE_WIDTH; k += LANE_WIDTH) {
-        const wide c = wide_load(&model->d->rivet_y[k]) * inv_R, s = wide_load(&model->d->rivet_z[k]) * inv_R;
-        const wide v_r = wide_load(&r[k]), v_t = wide_load(&t[k]);
-        wide_store(&y[k], wide_load(&y[k]) + v_r * c - v_t * s);
-        wide_store(&z[k], wide_load(&z[k]) + v_r * s + v_t * c);
+        const wide y = wide_load(&V_y[k]), z = wide_load(&V_z[k]), V = wide_hypot(y, z);
+        const wide inv_V = wide_select(wide_above(V, 0.0), 1.0 / wide_max(V, wide_set(1e-300)), zero),
+                   e_y = y * inv_V, e_z = z * inv_V;
+        const wide plates = wide_min(V, limit), heads = wide_max(wide_min(V - limit, limit), zero),
+                   shank = wide_max(V - 2.0 * limit, zero);
+        store_turned(model, plates * e_y, plates * e_z, k, share->plates);
+        store_turned(model, heads * e_y, heads * e_z, k, share->heads);
+        store_turned(model, shank * e_y, shank * e_z, k, share->shank);
+        wide_store(&share->left.plates[k], limit - plates);
+        wide_store(&share->left.heads[k], limit - heads);
+        wide_store(&share->left.gap[k], wide_set(model->d->hole_gap));
     }
 }
 
-void joint_prying(const JointData *j, RivetLoads *load)
+void rivets_load(const Model *model, const Work *w, JointLoads *load)
 {
-    const wide zero = wide_set(0.0), one = wide_set(1.0);
-    for (int k = 0; k < PACKETS * LANE_WIDTH; k += LANE_WIDTH) {
-        const wide M_y = wide_load(&load->M_y[k]), M_z = wide_load(&load->M_z[k]), M = modulus(M_y, M_z);
-        const wide M_0 =
-            j->prying_lever * wide_max(wide_load(&load->P[k]) - wide_max(wide_load(&load->N[k]), zero), zero);
-        const wide part = wide_select(wide_above(M - M_0, 0.0), (M_0 + j->prying_share * (M - M_0)) / M, one);
-        wide_store(&load->M_y[k], M_y * part);
-        wide_store(&load->M_z[k], M_z * part);
-    }
-}
-
-void rivets_load(const Model *model, const Work *w, RivetLoads *load)
-{
-    const bool rigid = model->p->scene.cage == CAGE_MODEL_RIGID, transverse = model->d->hole_gap == 0.0;
+    const Derived *d = model->d;
+    const CageHalfData *half = &rivet_table.half;
     const Pockets *on = w->pocket;
     Pockets split[2];
-    *load = (RivetLoads){0};
-    if (rigid) {
+    RigidShare share;
+    share.left.k_head = d->k_head, share.left.k_hole = d->k_hole;
+    if (model->p->scene.cage == CAGE_MODEL_RIGID) {
         pocket_split(model, w, split);
         on = split;
-        rigid_load(model, w, &split[1], load);
+        rigid_share(model, w, &split[1], &share);
     } else
-        two_half_load(model, w, load);
+        two_half_share(model, w, &share);
 
-    // flexible share
-    PathLoads path = {0};
+    // what bonded joints of elastic halves would carry
+    PathRows rows;
+    PathForces forces[2];
     for (int h = 0; h < 2; h++)
-        load_path_flexible(rivet_table.load_path, h == 0 ? -1 : 1, transverse, on[h].F_x, on[h].F_r,
-                           on[h].F_t, &path);
-    for (int k = 0; k < PACKETS * LANE_WIDTH; k += LANE_WIDTH)
-        wide_store(&load->N[k], wide_load(&load->N[k]) + wide_load(&path.sum[PATH_N][k]));
-    if (transverse) add_turned(model, path.sum[PATH_V_R], path.sum[PATH_V_T], load->V_y, load->V_z);
-    add_turned(model, path.sum[PATH_M_R], path.sum[PATH_M_T], load->M_y, load->M_z);
-    joint_prying(&rivet_table.joint, load);
+        forces[h] = (PathForces){on[h].F_x, on[h].F_r, on[h].F_t, on[h].push_x, on[h].push_t};
+    const bool touched = half_path_rows(&half->path, forces, &rows);
+    const scalar omega2 = 0.5 * (w->half[0].s * w->half[0].s + w->half[1].s * w->half[1].s);
+    for (int i = 0; i < ROWS; i++) {
+        const wide spin = wide_set(omega2 * d->spin[i]);
+        for (int k = 0; k < PACKETS * LANE_WIDTH; k += LANE_WIDTH)
+            wide_store(&rows.row[i][k], touched ? wide_load(&rows.row[i][k]) + spin : spin);
+    }
+
+    // joints that open
+    ball_array bonded[3], P, open[3], rivet[3];
+    for (int k = 0; k < PACKETS * LANE_WIDTH; k += LANE_WIDTH) {
+        wide_store(&bonded[0][k], wide_load(&share.N[k]) + wide_load(&rows.row[ROW_N][k]));
+        wide_store(&bonded[1][k], wide_load(&rows.row[ROW_M_R][k]));
+        wide_store(&bonded[2][k], wide_load(&rows.row[ROW_M_T][k]));
+        wide_store(&P[k], wide_max(d->P + wide_load(&rows.row[ROW_DP][k]), wide_set(0.0)));
+    }
+    joints_open(&half->law, bonded, P, omega2 * d->spin[ROW_M_T],
+                scalar_max(d->P + omega2 * d->spin[ROW_DP], 0.0), open, rivet);
+
+    // joints that slip: under the centrifugal load alone none does
+    if (touched)
+        joints_slip(&half->law, rows.row[ROW_V_R], rows.row[ROW_V_T], &share.left, share.plates, share.heads,
+                    share.shank);
+
+    for (int k = 0; k < PACKETS * LANE_WIDTH; k += LANE_WIDTH) {
+        const wide heads_r = wide_load(&share.heads[0][k]), heads_t = wide_load(&share.heads[1][k]);
+        const wide V_r = wide_load(&share.shank[0][k]), V_t = wide_load(&share.shank[1][k]);
+        wide_store(&load->N[k], wide_load(&open[0][k]));
+        wide_store(&load->M_r[k], wide_load(&open[1][k]));
+        wide_store(&load->M_t[k], wide_load(&open[2][k]));
+        wide_store(&load->V[k], wide_hypot(wide_load(&share.plates[0][k]) + heads_r + V_r,
+                                           wide_load(&share.plates[1][k]) + heads_t + V_t));
+        wide_store(&load->T[k], wide_load(&rivet[0][k]));
+        wide_store(&load->m_r[k], wide_load(&rivet[1][k]) + wide_load(&rows.row[ROW_DM_R][k]));
+        wide_store(&load->m_t[k], wide_load(&rivet[2][k]) + wide_load(&rows.row[ROW_DM_T][k]));
+        wide_store(&load->V_r[k], V_r);
+        wide_store(&load->V_t[k], V_t);
+        wide_store(&load->F_head[k], wide_hypot(heads_r, heads_t));
+    }
 }

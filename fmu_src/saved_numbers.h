@@ -5,8 +5,10 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-static const double LARGEST_TIME =
-    1e10;  // [s] doubles are 2 us apart there, as far as internal steps are long
+// [s] Doubles are 2 us apart there, as far as internal steps are long.
+static const double LARGEST_TIME = 1e10;
+// Of an input by time, as a host may set it: far from overflow.
+static const double LARGEST_DERIVATIVE = 1e50;
 
 // Whether all of them are numbers between -largest and largest.
 static inline bool values_are_within(const double *value, size_t n, double largest)

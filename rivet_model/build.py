@@ -15,7 +15,7 @@ from threadpoolctl import threadpool_limits
 
 from bearing_model import rivet_table
 
-from . import cage_half, plastic_fit, reduction, stiffness, table
+from . import half, half_loads, plastic_fit, reduction, stiffness, table
 from .geometry import Geometry
 from .load_cases import COARSE, SHIPPED, TRUTH, Joint
 from .section_mesh import Fineness
@@ -44,27 +44,26 @@ def make_table(geometry, coarse=False, workers=2, progress=_quiet, hold_out=320)
     samples = reduction.sample(joint, knots, workers, stage("contacts"))
     fine = Fineness(0.5) if coarse else Fineness()
     fit = plastic_fit.plastic_fit(geometry, fine=fine, progress=stage("interference"))
-    path, k_half = cage_half.load_path(geometry, cage_half.HalfMesh(2, 2, 1) if coarse else cage_half.HalfMesh())
-    progress("load path", 1, 1)
-    result = assemble("fe_coarse" if coarse else "fe", joint, knots, samples, fit, path, k_half)
+    cage = half_loads.make_half(geometry, half.COARSE if coarse else None, half_loads.COARSE_KNOTS if coarse else None, stage("cage half"))
+    result = assemble("fe_coarse" if coarse else "fe", joint, knots, samples, fit, cage)
     if hold_out:
         result.errors = measured_errors(result, joint if coarse else Joint(geometry, TRUTH), hold_out, workers, stage("hold-out"))
     return result
 
 
-def assemble(kind, joint, knots, samples, fit, path, k_half):
-    """The table from its parts."""
+def assemble(kind, joint, knots, samples, fit, cage):
+    """The table from its parts; cage: HalfData."""
     geometry = joint.geometry
     _, head, head_vm = stiffness.head_friction(joint)
     return table.make(
         geometry,
         kind,
+        reduction.LENGTH,
         knots,
         samples / rivet_table.MPA_PER_N,
         (fit.fit_a, fit.fit_eff),
-        stiffness.joint_data(joint, k_half),
-        path,
-        moment_length=reduction.MOMENT_LENGTH,
+        stiffness.joint_data(joint),
+        cage,
         head_friction=float(head),
         head_friction_vm=float(head_vm),
         fit_flange_yield=fit.flange_yield,

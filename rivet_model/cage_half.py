@@ -1,302 +1,322 @@
-"""Load path of a cage half: loads of the rivets by a pocket force beyond those of a rigid half, by solid finite elements.
+"""Elastic cage half: one pitch by solid finite elements, condensed to what loads it, repeated Z times (cyclic symmetry, waves m = 0...Z-1).
 
-The mesh is one pitch of the half, from pocket to pocket around its rivet; cyclic symmetry with waves m = 0...Z - 1 gives the whole half.
+A load pattern is a set of nodal loads on one pitch; what the half does under it is measured by the patterns themselves (work), so the compliance
+between patterns is symmetric.  In the frames of the pitches a load on pitch 0 is the sum of all waves exp(2 pi i m k/Z)/Z, and each wave meets
+itself at the cuts through the webs: u(far) = turn(2 pi/Z) exp(2 pi i m/Z) u(near).  Inside, the pitch is eliminated once:
 
-         x ^   ____________________
-           |  |                    |      s: arc length on the circle d_m, 0 at the rivet; pockets (cylinders with radial
-           |  \\   strip            /      axis) at both ends; solid from cage_inner_diameter to cage_outer_diameter
-           |   `.                .'
-           |     |  bar, pad    |         pad: |s| < patch_radius at x = 0, where the halves are clamped
-           +-----+---=======----+---> s
+    compliance of wave m    H_m = A_FF + A_FB T_m (T_m^H S T_m)^-1 T_m^H A_FB^T,      S = K_BB - K_BI K_II^-1 K_IB,  T_m: near -> near, far
 
-The joint is closed and does not slip, and the other half mirrors this one, so a force is half a symmetric pair (the pad cannot move along x:
-tension N, prying M) and half an antisymmetric one (the pad cannot move in the plane: V).  Inertia balances the free motions, as in the
-dynamics.  The bolt group of fmu_src/load_path.h gives the share of rigid halves, without prying; the matrix holds the difference.
-
-A force on the ball's side acts where the ball touches: F_t > 0 on the wall at growing angle, near the split; F_x and F_r at the pocket's bottom.
-A force F_t < 0 acts on the opposite wall: its matrix is the mirror image.
+Rigid motions of the half (waves 0, 1, Z-1) are balanced by inertia, as in the dynamics: loads are freed of their resultants by body forces
+proportional to the rigid motions, and displacements are measured without them.
 """
 
 from dataclasses import dataclass
+from functools import cached_property
+from itertools import pairwise
 
 import numpy as np
 import scipy.sparse as sp
 from scipy.sparse.linalg import splu
-from skfem import Basis, BilinearForm, ElementHex2, ElementVector, FacetBasis, LinearForm, MeshHex
+from scipy.spatial import cKDTree
+from skfem import BilinearForm, ElementHex1, ElementHex2, ElementVector, FacetBasis, LinearForm
 
-from bearing_model.load_path import load_path_rigid
+from . import half, half_shape
+from .half import HalfMesh
 
-INERTIA = 1e-6  # times the softest elastic rate: inertia balances free motions and is negligible otherwise
-
-
-@dataclass(frozen=True)
-class HalfMesh:
-    """Cells along a quarter of the pocket's arc over 2, through the strip, and radially."""
-
-    arc: int = 4
-    strip: int = 3
-    radial: int = 2
+SYMMETRIC = {"permc_spec": "MMD_AT_PLUS_A", "diag_pivot_thresh": 0.0, "options": {"SymmetricMode": True}}  # for splu
+BODY = 6  # the first patterns: body forces that rigid motions x, y, z and rotations about x, y, z would need, per unit density
+MIRRORED, OPPOSED = {0: [0], 1: [1]}, {0: [1], 1: [0]}  # wave -> rigid motion (see _rigid) that joints prevent if the halves' loads mirror or oppose each other
+SPIN = 6  # the next one: centrifugal body force per (rad/s)^2 and unit density
 
 
-def sector_mesh(g, size=None, sectors=1):
-    """Mesh of one pitch (or several) in cylinder coordinates (x, r, theta) turned to (x, y, z); rivet k at theta = 2 pi (k + 1/2)/Z."""
-    size = size or HalfMesh()
-    R, w, pitch = g.d_m / 2, g.cage_half_width, np.pi * g.d_m / g.Z
-    pocket = 0.5 * (g.ball_diameter + g.pocket_clearance)
-    pad, end = min(g.patch_radius, 0.7 * (0.5 * pitch - pocket)), 0.5 * pitch
+class CyclicSolid:
+    """An elastic solid of Z equal pitches, condensed to the load patterns of one of them (which lies between theta = 0 and 2 pi/Z)."""
 
-    def block(corner_curves):
-        """Transfinite block from bottom(u), top(u): points [nu, nv, 2] on straight lines from bottom to top."""
-        bottom, top, count = corner_curves
-        v = np.linspace(0.0, 1.0, count + 1)[None, :, None]
-        return bottom[:, None] * (1.0 - v) + top[:, None] * v
-
-    def arc(start, stop):
-        phi = np.deg2rad(np.linspace(start, stop, size.arc + 1))
-        return np.stack([end - pocket * np.cos(phi), pocket * np.sin(phi)], axis=1)
-
-    def line(start, stop, count):
-        return np.linspace(start, stop, count + 1)
-
-    side = line((pad, 0.0), (pad, w), size.arc)
-    beside = block((side, arc(0.0, 45.0), size.strip))
-    above = block((line((pad, w), (end, w), size.arc), arc(45.0, 90.0), size.strip))
-    core = block((line((-pad, 0.0), (-pad, w), size.arc), side, 4))
-    blocks = [core]
-    for patch in (beside, above):
-        blocks += [patch, patch * np.array([-1.0, 1.0])]
-    points, quads, count = [], [], 0
-    for patch in blocks:
-        n, m = patch.shape[:2]
-        index = np.arange(count, count + n * m).reshape(n, m)
-        points.append(patch.reshape(-1, 2))
-        quads.append(np.stack([index[:-1, :-1], index[1:, :-1], index[1:, 1:], index[:-1, 1:]]).reshape(4, -1))
-        count += n * m
-    flat, quads = np.concatenate(points), np.concatenate(quads, axis=1)
-    radii = np.linspace(g.cage_inner_diameter / 2, g.cage_outer_diameter / 2, size.radial + 1)
-    nodes, cells = [], []
-    for q in range(sectors):
-        for radius in radii:
-            nodes.append(np.stack([flat[:, 1], np.full(len(flat), radius), flat[:, 0] / R + 2 * np.pi * (q + 0.5) / g.Z]))
-        base = q * len(radii) * len(flat)
-        for i in range(size.radial):
-            lower, upper = quads + base + i * len(flat), quads + base + (i + 1) * len(flat)
-            cells.append(np.concatenate([lower, upper]))
-    x, r, theta = np.concatenate(nodes, axis=1)
-    p, t = np.stack([x, r * np.cos(theta), r * np.sin(theta)]), np.concatenate(cells, axis=1)
-    _, first, inverse = np.unique(np.round(p * 1e9).astype(np.int64), axis=1, return_index=True, return_inverse=True)
-    p, t = p[:, first], inverse.ravel()[t]
-    return hexahedra(p, t)
-
-
-def hexahedra(p, corners):
-    """MeshHex from points [3, n] and corners [8, cells]: a quadrilateral in order, then the opposite one."""
-    a, b, c, d, e, f, h, i = corners  # skfem: 0 a corner, 1-3 its neighbours, 4-6 across its faces, 7 opposite
-    t = np.stack([a, e, d, b, i, f, c, h])
-    volume = np.linalg.det(np.stack([p[:, t[k]] - p[:, t[0]] for k in (1, 2, 3)], axis=-1).transpose(1, 0, 2))
-    flip = volume < 0.0
-    t[:, flip] = t[:, flip][[0, 1, 3, 2, 5, 4, 6, 7]]
-    return MeshHex(np.ascontiguousarray(p), np.ascontiguousarray(t))
-
-
-class CageHalf:
-    """Elastic half: stiffness and mass of one pitch, or of the whole half (`sectors` = Z) as a check."""
-
-    def __init__(self, g, size=None, sectors=1):
-        self.g, self.sectors = g, sectors
-        mesh = sector_mesh(g, size, sectors)
-        self.basis = Basis(mesh, ElementVector(ElementHex2()), intorder=4)
-        lam, mu = g.E_flange * g.nu_flange / ((1 + g.nu_flange) * (1 - 2 * g.nu_flange)), g.E_flange / (2 * (1 + g.nu_flange))
-
-        @BilinearForm
-        def hooke(u, v, w):
-            e, f = u.grad + np.swapaxes(u.grad, 0, 1), v.grad + np.swapaxes(v.grad, 0, 1)
-            return lam * np.trace(u.grad) * np.trace(v.grad) + 0.5 * mu * np.einsum("ij...,ij...->...", e, f)
-
-        self.K = hooke.assemble(self.basis).tocsr()
-        self.M = BilinearForm(lambda u, v, w: np.einsum("i...,i...->...", u, v)).assemble(self.basis).tocsr()
+    def __init__(self, mesh, Z, E, nu):
+        self.Z = Z
+        self.basis = half.solid_basis(mesh, ElementVector(ElementHex2()))
+        self.K, self.M = _matrices(self.basis, E, nu)
         self.x = self.basis.doflocs
         self.component = np.zeros(self.basis.N, dtype=int)
         b = self.basis
         for dofs in (b.nodal_dofs, b.edge_dofs, b.facet_dofs, b.interior_dofs):
             for i, row in enumerate(dofs):
                 self.component[row] = i % 3
-        self.shift = INERTIA * self._softest()
+        self.motions = self.rigid_motions()
 
-    def _softest(self):
-        """Rayleigh quotient [1/s2 per unit density] of the half bent twice around: a scale for the inertia's share."""
-        theta = np.arctan2(self.x[2], self.x[1])
-        u = np.where(self.component == 0, np.cos(2 * theta) * 1e-3, 0.0)
-        return float(u @ self.K @ u / (u @ self.M @ u))
+    def rigid_motions(self):
+        """Displacements [dofs, 6] by unit rigid motions about the centre of the circle in the split plane."""
+        x = self.x
+        zero = np.zeros_like(x[0])
+        fields = [(1 + zero, zero, zero), (zero, 1 + zero, zero), (zero, zero, 1 + zero), (zero, -x[2], x[1]), (x[2], zero, -x[0]), (-x[1], x[0], zero)]
+        return np.stack([np.choose(self.component, field) for field in fields], axis=1)
 
-    def pad_dofs(self, sector):
-        """Dofs in the split plane at the rivet of a sector."""
-        theta = np.arctan2(self.x[2], self.x[1]) - 2 * np.pi * (sector + 0.5) / self.g.Z
-        s = self.g.d_m / 2 * np.angle(np.exp(1j * theta))
-        pad = min(self.g.patch_radius, 0.7 * (np.pi * self.g.d_m / self.g.Z / 2 - 0.5 * (self.g.ball_diameter + self.g.pocket_clearance)))
-        return np.flatnonzero((self.x[0] < 1e-9) & (np.abs(s) < pad * 1.001))
+    def body_loads(self):
+        """The patterns of body forces at unit density [dofs, 7]: BODY rigid motions, then SPIN."""
+        outward = np.choose(self.component, [0.0 * self.x[0], self.x[1], self.x[2]])
+        return self.M @ np.column_stack([self.motions, outward])
 
-    def pocket_loads(self):
-        """Nodal loads [dofs, 3] of unit forces (x, r, t > 0) on pocket 0, and the points at which they act [3, 3], as columns."""
-        g, loads, places = self.g, [], []
-        half_pitch, pocket = np.pi / g.Z, 0.5 * (g.ball_diameter + g.pocket_clearance)
-        mesh, R = self.basis.mesh, g.d_m / 2
+    # Condensation ----------------------------------------------------------------------------------------------------------------------
+
+    def condense(self, loads, back=None):
+        """Take the patterns [dofs, patterns], the first of them from body_loads; back: which of them stand one pitch back (on its far end)."""
+        self.loads = loads
+        self.back = np.zeros(loads.shape[1], dtype=bool) if back is None else back
+        theta, r = np.arctan2(self.x[2], self.x[1]), np.hypot(self.x[1], self.x[2])
+        near, far = np.flatnonzero(np.abs(theta) < 1e-9), np.flatnonzero(np.abs(theta - 2 * np.pi / self.Z) < 1e-9)
+
+        def ordered(dofs):
+            return dofs[np.lexsort((self.component[dofs], np.round(r[dofs] * 1e9), np.round(self.x[0][dofs] * 1e9)))]
+
+        near, far = ordered(near), ordered(far)
+        self.near = near
+        edge = np.concatenate([near, far])
+        inside = np.setdiff1d(np.arange(self.basis.N), edge)
+        F_I, F_B = self.loads[inside], self.loads[edge]
+        K_IB = self.K[inside][:, edge].toarray()
+        right = np.column_stack([F_I, K_IB])
+        X, filled = np.zeros_like(right), np.any(right, axis=0)
+        X[:, filled] = splu(self.K[inside][:, inside], **SYMMETRIC).solve(right[:, filled])
+        X_F, X_B = X[:, : F_I.shape[1]], X[:, F_I.shape[1] :]
+        self.A_FF, self.A_FB = F_I.T @ X_F, F_B.T - F_I.T @ X_B
+        S = self.K[edge][:, edge].toarray() - K_IB.T @ X_B
+        self.A_FF, self.S = 0.5 * (self.A_FF + self.A_FF.T), 0.5 * (S + S.T)
+        self.resultants = self.loads.T @ self.motions  # [patterns, 6]: work of the patterns on rigid motions
+
+    def _phase(self, m):
+        """Factor by which patterns count in wave m [patterns]."""
+        return np.where(self.back, np.exp(2j * np.pi * m / self.Z), 1.0)
+
+    def _rigid(self, m):
+        """Rigid motions of wave m as combinations of the six [6, 2]: displacement u = motions @ column, turned on from pitch to pitch."""
+        e = np.eye(6, dtype=complex)
+        if m == 0:
+            return e[:, [0, 3]]
+        if m == 1:
+            return np.stack([e[:, 1] + 1j * e[:, 2], e[:, 4] + 1j * e[:, 5]], axis=1)
+        return np.zeros((6, 0))
+
+    def wave(self, m):
+        """Compliance [patterns, patterns] of wave m, 0...Z/2; that of Z - m is its conjugate.  Rigid motions are balanced by inertia."""
+        n = len(self.near)
+        alpha = 2 * np.pi / self.Z
+        c, s = np.cos(alpha), np.sin(alpha)
+        turn = np.kron(np.eye(n // 3), np.array([[1, 0, 0], [0, c, -s], [0, s, c]]))
+        T = np.vstack([np.eye(n), np.exp(1j * m * alpha) * turn])
+        phase = self._phase(m)
+        S, L = T.conj().T @ self.S @ T, (phase.conj()[:, None] * self.A_FB) @ T  # work of patterns on boundary motions: conj(load) . u
+        rigid = self._rigid(m)
+        boundary = self.motions[self.near] @ rigid
+        Q, _ = np.linalg.qr(boundary)
+        S = S + np.abs(S).max() * (Q @ Q.conj().T)  # holds the rigid motions, which the balanced loads do not excite
+        H = phase.conj()[:, None] * self.A_FF * phase + L @ np.linalg.solve(S, L.conj().T)
+        if rigid.shape[1]:
+            balance = self.balance(m)
+            H = balance.conj().T @ H @ balance
+        return 0.5 * (H + H.conj().T)
+
+    def balance(self, m):
+        """Matrix [patterns, patterns] that adds the body forces of inertia to the patterns: balanced = loads @ balance."""
+        rigid, phase = self._rigid(m), self._phase(m)
+        E = np.zeros((self.loads.shape[1], rigid.shape[1]), dtype=complex)
+        E[:BODY] = rigid
+        work = rigid.conj().T @ self.resultants.T  # of patterns on the rigid motions, pitch 0
+        gram = work @ E
+        return np.eye(self.loads.shape[1]) - E @ np.linalg.solve(gram, work * phase)
+
+    @cached_property
+    def waves(self):
+        """Compliances of the waves 0...Z/2: [waves, patterns, patterns]."""
+        return np.stack([self.wave(m) for m in range(self.Z // 2 + 1)])
+
+    def circulant(self, waves):
+        """Real blocks [Z, ...] of relative pitch k from the waves 0...Z/2 [waves, ...]."""
+        return np.fft.irfft(waves, self.Z, axis=0)
+
+    def prevented(self, m, motions):
+        """Rigid motions of wave m that held patterns prevent, freed of those that stay free (orthogonal to them over the mass): [6, count].
+
+        A load does work on them with what inertia takes of it along the free ones already counted.
+        """
+        rigid, chosen = self._rigid(m), motions.get(m, [])
+        held, free = rigid[:, chosen], np.delete(rigid, chosen, axis=1)
+        if not chosen:
+            return held
+        mass = self.resultants[:BODY]
+        return held - free @ np.linalg.solve(free.conj().T @ mass @ free, free.conj().T @ mass @ held)
+
+    def held(self, rows, motions):
+        """The half with some patterns held everywhere: those of `rows` do not move.
+
+        motions: wave -> which of its two rigid motions they prevent; inertia balances the other, which does not move them.
+        Returns by waves: stiffness of the held patterns [waves, rows, rows]; their reactions to all patterns [waves, rows, patterns], as loads that the
+        half gives to what holds it; compliance of all patterns [waves, patterns, patterns].
+        """
+        K, R, G = [], [], []
+        for m, C in enumerate(self.waves):
+            rigid = self.prevented(m, motions)
+            D = (self.resultants @ rigid) * self._phase(m).conj()[:, None] * np.abs(C[rows, rows]).max()
+            n = rows.stop - rows.start
+            A = np.block([[C[rows, rows], D[rows]], [D[rows].conj().T, np.zeros(2 * (rigid.shape[1],))]])
+            load = np.vstack([C[rows], D.conj().T])
+            solution = np.linalg.solve(A, np.column_stack([np.eye(len(A))[:, :n], load]))
+            K.append(solution[:n, :n])
+            R.append(solution[:n, n:])
+            G.append(C - load.conj().T @ solution[:, n:])
+        return np.stack(K), np.stack(R), np.stack(G)
+
+
+@dataclass(frozen=True)
+class Patterns:
+    """Where the groups of patterns stand among the columns."""
+
+    body: slice  # rigid motions, then centrifugal: see body_loads
+    pad: slice  # hats on the pad, along x
+    plane: slice  # forces along r and t that friction gives to the pad, below the cone under the rivet's head
+    head: slice  # at the seat's bottom, under the rivet's head: force along x, moments about r and t; then forces along r and t
+    pocket: slice  # unit forces (x, r, t) at points of pocket 0's wall: near parts, then parts on the far end of the pitch before
+
+
+class CageHalf(CyclicSolid):
+    """Condensed half of a geometry.
+
+    points: places of unit forces on the pocket's wall [n, 2]: angle from the split toward growing x [rad, 0...pi: pi/2 the bottom] and radius [m].
+    """
+
+    def __init__(self, g, size=None, points=()):
+        self.g, self.size = g, size or HalfMesh()
+        super().__init__(half.pitch_mesh(g, self.size), g.Z, g.E_flange, g.nu_flange)
+        self.points = np.reshape(points, (-1, 2))
+        groups = {"body": self.body_loads(), **self._pad_loads(), "head": self._head_loads(), "pocket": self._pocket_loads()}
+        ends = np.cumsum([0] + [loads.shape[1] for loads in groups.values()])
+        self.patterns = Patterns(*(slice(a, b) for a, b in pairwise(ends.tolist())))
+        back = np.zeros(ends[-1], dtype=bool)
+        back[self.patterns.pocket.start + 3 * len(self.points) :] = True
+        self.condense(np.column_stack(list(groups.values())), back)
+
+    def _axes(self):
+        """Unit vectors (x, r, t) at the rivet."""
+        c, s = np.cos(np.pi / self.g.Z), np.sin(np.pi / self.g.Z)
+        return np.array([[1.0, 0.0, 0.0], [0.0, c, s], [0.0, -s, c]])
+
+    def rivet_place(self, x):
+        """(radial, tangential) distance from the rivet's axis of points x [3, ...]."""
+        _, e_r, e_t = self._axes()
+        return np.tensordot(e_r, x, 1) - self.g.d_m / 2, np.tensordot(e_t, x, 1)
+
+    def _facets(self, level, within):
+        mesh = self.basis.mesh
         facets = mesh.boundary_facets()
-        middle = mesh.p[:, mesh.facets[:, facets]].mean(axis=1)
-        s = R * np.angle(np.exp(1j * np.arctan2(middle[2], middle[1])))  # from pocket 0
-        if self.sectors == 1:
-            s = np.where(s > R * half_pitch, s - 2 * np.pi * R / g.Z, s)  # the sector's far end is the other half of pocket 1
-        distance = np.hypot(s, middle[0])
-        on_wall = np.abs(distance - pocket) < 0.06 * pocket
-        wall = on_wall & (s > 0.0) & (middle[0] < 0.4 * pocket)
-        bottom = on_wall & (np.abs(s) < 0.4 * pocket)
-        for chosen, direction in ((bottom, "x"), (bottom, "r"), (wall, "t")):
-            basis = FacetBasis(mesh, self.basis.elem, facets=facets[chosen], intorder=4)
-            x = np.asarray(basis.global_coordinates())
-            # at the far end of the sector the same force points along that pocket's axes
-            theta = np.where(np.arctan2(x[2], x[1]) > half_pitch, 2 * half_pitch, 0.0) if self.sectors == 1 else np.zeros_like(x[0])
-            e = {
-                "x": (np.ones_like(theta), 0 * theta, 0 * theta),
-                "r": (0 * theta, np.cos(theta), np.sin(theta)),
-                "t": (0 * theta, -np.sin(theta), np.cos(theta)),
-            }[direction]
-            area = basis.dx.sum()
-            form = LinearForm(lambda v, w, e=e: sum(v[i] * e[i] for i in range(3)))
-            loads.append(form.assemble(basis) / area)
-            turned = np.stack([x[0], np.cos(theta) * x[1] + np.sin(theta) * x[2], -np.sin(theta) * x[1] + np.cos(theta) * x[2]])
-            places.append((turned * basis.dx).sum(axis=(1, 2)) / area)
-        return np.stack(loads, axis=1), np.stack(places, axis=1)
+        corners = mesh.p[:, mesh.facets[:, facets]]
+        flat = np.all(np.abs(corners[0] - level) < 1e-9, axis=0)
+        return facets[flat & within(*self.rivet_place(corners.mean(axis=1)))]
 
-    def rigid_inertia(self):
-        """Mass matrix [6, 6] per unit density of the whole half for motions (x, y, z, rotations about x, y, z) at the circle's centre."""
-        w = self.M @ np.where(self.component == 0, 1.0, 0.0)  # consistent mass: weights of the nodes
-        part = self.component == 0
-        x, y, z, w = *self.x[:, part], w[part] * self.g.Z / self.sectors
-        m, first = w.sum(), w @ x
-        polar, axial = w @ (y**2 + z**2), w @ x**2
-        I = np.diag([m, m, m, polar, axial + 0.5 * polar, axial + 0.5 * polar])
-        I[1, 5] = I[5, 1] = first
-        I[2, 4] = I[4, 2] = -first
-        return I
+    def _facet_basis(self, facets, element):
+        return FacetBasis(self.basis.mesh, element, mapping=self.basis.mapping, facets=facets, intorder=4)
 
-    def _reactions(self, f, dofs, sector):
-        """Loads (N, V_r, V_t, M_r, M_t) on the joint from the nodal forces f that the pad exerts on the half."""
-        angle = 2 * np.pi * (sector + 0.5) / self.g.Z
-        e_r, e_t = np.array([0, np.cos(angle), np.sin(angle)]), np.array([0, -np.sin(angle), np.cos(angle)])
-        unit = np.eye(3)[self.component[dofs]]
-        forces = -f[dofs, None] * unit
-        lever = self.x[:, dofs].T - self.g.d_m / 2 * e_r
-        total, moment = forces.sum(axis=0), np.cross(lever, forces).sum(axis=0)
-        return np.array([total[0], total @ e_r, total @ e_t, moment @ e_r, moment @ e_t])
+    def _pad_loads(self):
+        """Unit forces spread by hats over the pad's vertices, without those at the edge of the hole: loads; places and areas of the hats stay here."""
+        pad = half_shape.pad_half_length(self.g)
+        facets = self._facets(0.0, lambda r, t: np.abs(t) < pad)
+        vector, scalar = self._facet_basis(facets, self.basis.elem), self._facet_basis(facets, ElementHex1())
+        vertices = np.unique(self.basis.mesh.facets[:, facets])
+        r, t = self.rivet_place(self.basis.mesh.doflocs[:, vertices])
+        kept = np.hypot(r, t) > self.g.shank_diameter / 2 + 1e-6  # the edge break has no contact
+        vertices, dofs = vertices[kept], scalar.nodal_dofs[0, vertices[kept]]
+        self.pad_area = LinearForm(lambda v, w: v).assemble(scalar)[dofs]
+        # the hat's own middle: forces and moments of the patterns are exact with it
+        moments = [LinearForm(lambda v, w, i=i: v * self.rivet_place(np.asarray(w.x))[i]).assemble(scalar)[dofs] for i in range(2)]
+        self.pad_place = np.array(moments) / self.pad_area
+        e_x, e_r, e_t = self._axes()
 
-    def _wave_basis(self, m):
-        """Dofs of one pitch from the free ones, when the next pitch moves with the phase exp(2 pi i m/Z): complex sparse matrix."""
+        def hats(e):
+            form = BilinearForm(lambda p, v, w: p * sum(e[i] * v[i] for i in range(3)))
+            return form.assemble(scalar, vector).tocsc()[:, dofs].toarray() / self.pad_area
+
+        # friction acts where the head presses: pressure falls from the head's edge to nothing one flange thickness farther out
+        cone = np.clip((0.5 * self.g.head_diameter + self.g.flange_thickness - np.hypot(*self.pad_place)) / self.g.flange_thickness, 0.0, 1.0) * self.pad_area
+        return {"pad": hats(e_x), "plane": np.stack([hats(e) @ cone for e in (e_r, e_t)], axis=1) / cone.sum()}
+
+    def _head_loads(self):
+        """Uniform and linear pressures under the head: unit force along x, unit moments about r and t; unit forces along r and t."""
         g = self.g
-        alpha = 2 * np.pi / g.Z
-        theta = np.arctan2(self.x[2], self.x[1])
-        near, far = np.flatnonzero(np.abs(theta) < 1e-9), np.flatnonzero(np.abs(theta - alpha) < 1e-9)
-        r = np.hypot(self.x[1], self.x[2])
+        inner, outer = g.shank_diameter / 2 + g.relief_radius, g.head_diameter / 2
+        facets = self._facets(g.flange_thickness, lambda r, t: (np.hypot(r, t) > inner) & (np.hypot(r, t) < outer))
+        basis, (e_x, e_r, e_t) = self._facet_basis(facets, self.basis.elem), self._axes()
 
-        def key(dofs):
-            return np.lexsort((self.component[dofs], np.round(r[dofs] * 1e9), np.round(self.x[0][dofs] * 1e9)))
+        def load(e, weight=lambda r, t: 1.0 + 0.0 * r):
+            form = LinearForm(lambda v, w: weight(*self.rivet_place(np.asarray(w.x))) * sum(e[i] * v[i] for i in range(3)))
+            return form.assemble(basis)
 
-        near, far = near[key(near)], far[key(far)]
-        N = self.basis.N
-        keep = np.setdiff1d(np.arange(N), far)
-        column = np.full(N, -1)
-        column[keep] = np.arange(len(keep))
-        rows, columns, values = [keep], [column[keep]], [np.ones(len(keep), dtype=complex)]
-        phase, c, s = np.exp(1j * m * alpha), np.cos(alpha), np.sin(alpha)
-        groups = near.reshape(-1, 3), far.reshape(-1, 3)
-        turn = np.array([[1, 0, 0], [0, c, -s], [0, s, c]])
-        for i in range(3):
-            for j in range(3):
-                rows.append(groups[1][:, i])
-                columns.append(column[groups[0][:, j]])
-                values.append(np.full(len(groups[0]), turn[i, j] * phase))
-        return sp.csr_matrix((np.concatenate(values), (np.concatenate(rows), np.concatenate(columns))), shape=(N, len(keep)))
+        r, t = self.rivet_place(np.asarray(basis.global_coordinates()))
+        area, square = basis.dx.sum(), 0.5 * ((r**2 + t**2) * basis.dx).sum()
+        # a rotation phi moves the head by u_x = phi_r t - phi_t r
+        return np.stack([load(e_x) / area, load(e_x, lambda r, t: t) / square, -load(e_x, lambda r, t: r) / square, load(e_r) / area, load(e_t) / area], axis=1)
 
-    def reactions(self):
-        """Loads of the closed joints [rivet, 5, 3] per unit force on pocket 0 of this half: elastic, with the rigid share included."""
-        loads, _ = self.pocket_loads()
-        return self._cyclic(loads) if self.sectors == 1 else self._whole(loads)
+    def _pocket_loads(self):
+        """Unit forces along (x, r, t) of pocket 0 at the points: those on this pitch, then those on the far end of the pitch before it."""
+        near, far = np.zeros((2, self.basis.N, len(self.points), 3))
+        at = {end: self._wall_nodes(end) for end in (0, 1)}
+        for i, (angle, radius) in enumerate(self.points):
+            end = int(angle > np.pi / 2)
+            phi = np.pi - angle if end else angle
+            weights = np.outer(_lagrange(half.wall_angles(self.g, self.size), phi), _lagrange(half.radii(self.g, self.size), radius))
+            turn = 2 * np.pi / self.g.Z * end
+            axes = np.array([[1.0, 0.0, 0.0], [0.0, np.cos(turn), np.sin(turn)], [0.0, -np.sin(turn), np.cos(turn)]])
+            (far if end else near)[at[end], i] = (weights[..., None, None] * axes.T).reshape(weights.shape + (3, 3))
+        return np.concatenate([near, far], axis=1).reshape(self.basis.N, -1)
 
-    def _cyclic(self, loads):
-        Z, result = self.g.Z, np.zeros((self.g.Z, 5, 3))
-        pad = self.pad_dofs(0)
-        A = self.K + self.shift * self.M
-        # In the sector's load, facets at its far end belong to pocket 0 of the wave's neighbour: their phase is that of one pitch back.
-        theta = np.arctan2(self.x[2], self.x[1])
-        for m in range(Z):
-            T = self._wave_basis(m)
-            waves = loads * np.where(theta > np.pi / Z, np.exp(1j * m * 2 * np.pi / Z), 1.0)[:, None]
-            for held, rows in (((0,), (0, 3, 4)), ((1, 2), (1, 2))):
-                fixed = pad[np.isin(self.component[pad], held)]
-                columns = np.unique(T[fixed].indices)
-                free = np.setdiff1d(np.arange(T.shape[1]), columns)
-                reduced = (T.conj().T @ A @ T).tocsc()
-                u = np.zeros((T.shape[1], 3), dtype=complex)
-                u[free] = splu(reduced[free][:, free]).solve(np.ascontiguousarray((T.conj().T @ waves)[free]))
-                force = A @ (T @ u) - waves
-                for f in range(3):
-                    at_0 = self._reactions(force[:, f], fixed, 0)
-                    for k in range(Z):
-                        result[k, rows, f] += 0.5 * np.real(at_0[list(rows)] * np.exp(2j * np.pi * m * k / Z)) / Z
-        return result
+    def _wall_nodes(self, end):
+        """Dofs [angles, radii, 3] of the wall of pocket 0 (end 0) or of pocket 1 (end 1)."""
+        g, phi, r = self.g, half.wall_angles(self.g, self.size)[:, None], half.radii(self.g, self.size)
+        p = half_shape.pocket_radius(g)
+        theta = np.arcsin(p * np.cos(phi) / r)
+        theta = 2 * np.pi / g.Z - theta if end else theta
+        place = np.stack(np.broadcast_arrays(p * np.sin(phi), r * np.cos(theta), r * np.sin(theta)), axis=-1)
+        first = np.flatnonzero(self.component == 0)
+        distance, nearest = cKDTree(self.x[:, first].T).query(place.reshape(-1, 3))
+        assert distance.max() < 1e-8, "the wall's nodes are not where the mesh has them"
+        return first[nearest].reshape(place.shape[:2])[..., None] + np.arange(3)
 
-    def pad_stiffness(self):
-        """Moment about the radial axis per rotation of one pad, all others held, the halves mirrored [N.m/rad]."""
-        Z, total = self.g.Z, 0.0
-        pad = self.pad_dofs(0)
-        fixed = pad[self.component[pad] == 0]
-        angle = np.pi / Z
-        s = -np.sin(angle) * self.x[1][fixed] + np.cos(angle) * self.x[2][fixed]  # along t
-        A = self.K + self.shift * self.M
-        for m in range(Z):
-            T = self._wave_basis(m)
-            columns = np.array([T[row].indices[0] for row in fixed])
-            free = np.setdiff1d(np.arange(T.shape[1]), columns)
-            reduced = (T.conj().T @ A @ T).tocsc()
-            u = np.zeros(T.shape[1], dtype=complex)
-            u[columns] = -s  # a unit rotation about r: u_x = -s
-            u[free] = -splu(reduced[free][:, free]).solve(reduced[free][:, columns] @ u[columns])
-            total += np.real((reduced @ u)[columns] @ -s) / Z
-        return float(total)
+    def point_places(self):
+        """Where the points lie [n, 3] in the frame (x, r, t) of pocket 0."""
+        angle, radius = self.points.T
+        z = half_shape.pocket_radius(self.g) * np.cos(angle)
+        return np.stack([half_shape.pocket_radius(self.g) * np.sin(angle), np.sqrt(radius**2 - z**2), z], axis=1)
 
-    def _whole(self, loads):
-        Z, result = self.g.Z, np.zeros((self.g.Z, 5, 3))
-        A = (self.K + self.shift * self.M).tocsc()
-        pads = [self.pad_dofs(k) for k in range(Z)]
-        for held, rows in (((0,), (0, 3, 4)), ((1, 2), (1, 2))):
-            fixed = np.concatenate([pad[np.isin(self.component[pad], held)] for pad in pads])
-            free = np.setdiff1d(np.arange(self.basis.N), fixed)
-            u = np.zeros((self.basis.N, 3))
-            u[free] = splu(A[free][:, free]).solve(np.ascontiguousarray(loads[free]))
-            force = A @ u - loads
-            for k, pad in enumerate(pads):
-                chosen = pad[np.isin(self.component[pad], held)]
-                for f in range(3):
-                    result[k, rows, f] += 0.5 * self._reactions(force[:, f], chosen, k)[list(rows)]
-        return result
+    @cached_property
+    def mirrored(self):
+        """`held` by the pads along x: of loads that push both halves alike.  Pads balance forces along x and tilting moments."""
+        return self.held(self.patterns.pad, MIRRORED)
 
-    def rigid_share(self):
-        """Loads of the joints [rivet, 5, 3] for a rigid half: the bolt group, with inertia balancing the free motions."""
-        g = self.g
-        _, places = self.pocket_loads()
-        angle = 2 * np.pi * (np.arange(g.Z) + 0.5) / g.Z
-        c, s, I = np.cos(angle), np.sin(angle), self.rigid_inertia()
-        result = np.zeros((g.Z, 5, 3))
-        for f, force in enumerate(np.eye(3)):  # at pocket 0: e_r = y, e_t = z
-            load = np.concatenate([force, np.cross(places[:, f], force)])
-            wrench = np.zeros(6)
-            for held, free in (([0, 4, 5], [1, 2, 3]), ([1, 2, 3], [0, 4, 5])):
-                wrench[held] = load[held] - I[np.ix_(held, free)] @ np.linalg.solve(I[np.ix_(free, free)], load[free])
-            N, V_y, V_z = load_path_rigid(g.d_m, 0.5 * wrench, c, s)
-            result[:, 0, f], result[:, 1, f], result[:, 2, f] = N, c * V_y + s * V_z, c * V_z - s * V_y
-        return result
+    @cached_property
+    def opposed(self):
+        """`held` by friction in the split plane: of loads that push the halves against each other.  It balances transverse forces and the torque."""
+        return self.held(self.patterns.plane, OPPOSED)
 
 
-def load_path(g, size=None):
-    """Matrix [Z, 5, 3] of fmu_src/load_path.h: elastic minus rigid, for F_t > 0, index = (rivet - pocket) mod Z; and the half's pad_stiffness."""
-    half = CageHalf(g, size)
-    return half.reactions() - half.rigid_share(), half.pad_stiffness()
+def _matrices(basis, E, nu):
+    """Stiffness, and mass at unit density, of an elastic solid with quadratic hexahedra; the same as by skfem's forms, by matrix products."""
+    lam, mu = E * nu / ((1 + nu) * (1 - 2 * nu)), E / (2 * (1 + nu))
+    scalar = basis.with_element(ElementHex2())
+    value = np.stack([np.broadcast_to(field[0].value, basis.dx.shape) for field in scalar.basis])  # [27, cells, points]
+    grad = np.stack([field[0].grad for field in scalar.basis])  # [27, 3, cells, points]
+    n, cells = len(value), basis.dx.shape[0]
+    flat = grad.transpose(2, 0, 1, 3).reshape(cells, 3 * n, -1)
+    G = ((flat * basis.dx[:, None]) @ flat.transpose(0, 2, 1)).reshape(cells, n, 3, n, 3)
+    unit = np.eye(3)
+    K = lam * G + mu * G.transpose(0, 1, 4, 3, 2) + mu * np.einsum("cakbk->cab", G)[:, :, None, :, None] * unit[:, None]
+    flat = value.transpose(1, 0, 2)
+    M = ((flat * basis.dx[:, None]) @ flat.transpose(0, 2, 1))[:, :, None, :, None] * unit[:, None]
+    dofs = basis.element_dofs.T  # [cells, 81]: node by node, component inside
+    rows, columns = np.repeat(dofs, 3 * n, axis=1).ravel(), np.tile(dofs, 3 * n).ravel()
+    return tuple(sp.csc_matrix((A.ravel(), (rows, columns)), shape=(basis.N, basis.N)) for A in (K, M))
+
+
+def _lagrange(levels, at):
+    """Values at a place of the quadratic shape functions on cells of two levels each [levels]."""
+    first = 2 * min(max((np.searchsorted(levels, at) - 1) // 2, 0), (len(levels) - 1) // 2 - 1)
+    a, b, c = levels[first : first + 3]
+    weights = np.zeros(len(levels))
+    weights[first : first + 3] = (at - b) * (at - c) / ((a - b) * (a - c)), (at - a) * (at - c) / ((b - a) * (b - c)), (at - a) * (at - b) / ((c - a) * (c - b))
+    return weights

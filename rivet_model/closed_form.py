@@ -2,7 +2,8 @@
 
 python -m rivet_model.closed_form OUT.json [GEOMETRY.toml]
 
-Bolted joint with preload shielding, beam bending of the shank under head and hole, notch factors as stated below, interference by Lame.
+Beam bending of the shank under head and hole, notch factors as stated below, interference by Lame; halves and
+pads are rigid, joints hinge at the edges of their pads.
 The stress of the head has an error of tens of per cent, because notch factors and lever arms are estimates.
 """
 
@@ -12,36 +13,21 @@ import sys
 import numpy as np
 
 from bearing_model import rivet_table
+from bearing_model.joint_law import AXES, JointLaw, law_load
 
-from . import splines, table
+from . import half_loads, half_shape, reduction, splines, table
 from .geometry import Geometry
 
 K_T = 4.25  # tension, fillet under a loaded head: converged finite elements, default geometry
 K_B = 2.25  # bending, shoulder fillet D/d = 1.733, r/d = 0.0533: Peterson 2.18, finite elements 2.25
 K_PRESSURE = 0.5  # head stress per interference pressure: finite elements, default relief depth
 HEAD_FRICTION = 11.7e6  # head stress per friction force at the heads [1/m2]: finite elements
-MOMENT_LENGTH = 2e-3  # L: prying opens the default joint near M = P L
+K_CLOSED, K_OPEN = 2.35e8, 2.8e7  # N/m: finite elements of the default geometry, rounded
 KNOTS = {
     "a": np.linspace(0.0, 1.0, 9),
-    "b": np.array([0.0, 0.2, 0.35, 0.45, 0.5, 0.55, 0.6, 0.7, 0.85, 1.0]),
-    "c": np.array([0.0, 0.15, 0.3, 0.4, 0.5, 0.65, 0.8, 1.0]),
+    "c": np.array([0.0, 0.5, 1.0]),
     "xi": np.array([-5e-9, 0.0, 5e-9, 2e-8, 6e-8, 1.5e-7, 4e-7]),
 }
-
-
-def load_share(geometry):
-    """Share of an external tension that the rivet of the closed joint takes: stiffness of the rivet beside that of the pressure cone (Shigley, 30 degrees)."""
-    g = geometry
-    grip = 2 * g.flange_thickness
-    k_rivet = g.E_rivet * g.shank_area / (grip + 2 * g.head_height)
-    cone = np.log(5 * (0.5774 * grip + 0.5 * g.shank_diameter) / (0.5774 * grip + 2.5 * g.shank_diameter))
-    k_cone = 0.5774 * np.pi * g.E_flange * g.shank_diameter / (2 * cone)
-    return k_rivet / (k_rivet + k_cone)
-
-
-def rivet_tension(geometry, P, N):
-    """Tension P + share N until the joint opens, N after that; exactly P without external tension."""
-    return np.maximum(P + load_share(geometry) * N, N)
 
 
 def lame_pressure(geometry, fit):
@@ -52,28 +38,16 @@ def lame_pressure(geometry, fit):
     return np.maximum(fit, 0.0) / g.shank_diameter / flexibility
 
 
-def stress(geometry, P, N, V, M, chi, fit):
-    """Channels [..., 4] in Pa for loads in N and N.m and an elastic fit in m; chi as in fmu_src/rivet_rom.h."""
+def stress(geometry, T, V, m, chi, fit):
+    """Channels [..., 4] in Pa of a shank that carries tension T, transverse load V and moment m, elastic fit [m]; chi as in fmu_src/rivet_rom.h."""
     g = geometry
-    prying = load_share(geometry) * M
-    T = rivet_tension(geometry, P, N + M / MOMENT_LENGTH)
-    # Cantilever: the hole bears at the end of the relief; M bends in the plane of V (|chi| = 1) or across it.
     lever = V * g.relief_depth
-    bending = np.sqrt((lever + prying * np.abs(chi)) ** 2 + (prying**2) * (1 - chi**2)) / (np.pi * g.shank_diameter**3 / 32)
-    p = lame_pressure(geometry, fit)
+    bending = np.sqrt((lever + m * np.abs(chi)) ** 2 + m**2 * (1 - chi**2)) / (np.pi * g.shank_diameter**3 / 32)
+    p = lame_pressure(g, fit)
     head = K_T * T / g.shank_area + K_B * bending + K_PRESSURE * p
-    head_vm = np.sqrt(1 - g.nu_rivet + g.nu_rivet**2) * head  # plane strain at the notch: second principal = nu first
-    axial, shear = T / g.shank_area, 4 / 3 * V / g.shank_area
-    mid_vm = np.sqrt((axial + p) ** 2 + 3 * shear**2)  # radial and hoop stress -p; 3 tau^2
-    mid_p1 = axial / 2 + np.sqrt((axial / 2) ** 2 + shear**2)
-    return np.stack([head, head_vm, mid_vm, mid_p1], axis=-1)
-
-
-def loads_of(a, b, c, moment_length):
-    """Loads (P, N, V, M) of s = 1 N at the table's coordinates: the inverse of the formulas in fmu_src/rivet_rom.h."""
-    force = 1.0 - c
-    axial = (1.0 - a) * force
-    return (1.0 - b) * axial, b * axial, a * force, c * moment_length
+    axial, shear = T / g.shank_area + m / (np.pi * g.shank_diameter**3 / 32), 4 / 3 * V / g.shank_area
+    mid_vm, mid_p1 = np.sqrt((axial + p) ** 2 + 3 * shear**2), axial / 2 + np.sqrt((axial / 2) ** 2 + shear**2)
+    return np.stack([head, np.sqrt(1 - g.nu_rivet + g.nu_rivet**2) * head, mid_vm, mid_p1], axis=-1)
 
 
 def joint_data(geometry):
@@ -84,26 +58,65 @@ def joint_data(geometry):
         "d_m": g.d_m,
         "d": g.shank_diameter,
         "grip": 2 * g.flange_thickness,
-        "k_rivet": 3.4e7,
-        "k_plate": 6e7,
+        "seat": g.seat_diameter,
         "k_t_plate": 1.5e7,
         "k_t_head": 6.5e6,
         "k_stack": 5.05e7,
         "alpha_rivet": g.alpha_rivet,
         "alpha_flange": g.alpha_flange,
         "T_0": g.T_0,
-        "prying_lever": MOMENT_LENGTH,
-        "prying_share": 0.1,
         "hole_fit": [-20e-6, -10e-6, 0.0, 5e-6],
         "k_hole": [1.5e7, 2.0e7, 2.8e7, 4.65e7],
     }
 
 
+def joint_law_samples(geometry, load, P):
+    """(u, phi_r, phi_t, T, m_r, m_t) of a joint under (N, M_r, M_t) and P: rigid pads that hinge at their edges, the head turning with them.
+
+    Joints do not move, so loads are carried as bonded joints would: on the safe side.  T = max(P, N + |M_r|/e_t + |M_t|/e_r), e: distances of the pad's
+    edges from the rivet; the shank bends by the rotation of the hinge, m = (T - P) I/(A e) = (T - P) d^2/(16 e).
+    """
+    N, M_r, M_t = load
+    e_t, e_r = half_shape.pad_half_length(geometry), (geometry.cage_outer_diameter - geometry.cage_inner_diameter) / 4
+    T = max(P, N + abs(M_r) / e_t + abs(M_t) / e_r)
+    M = np.hypot(M_r, M_t)
+    m = (T - P) * geometry.shank_diameter**2 / 16 * np.array([M_r / e_t, M_t / e_r]) / M if M > 0.0 else np.zeros(2)
+    return np.array([0.0, 0.0, 0.0, T, *m])
+
+
+def half_data(geometry):
+    """HalfData of rigid halves: no elastic share of the load path; the centrifugal load as the pull of a pitch beside the web that holds it."""
+    g, Z = geometry, geometry.Z
+    inertia = half_shape.half_inertia(g)
+    lever = 0.5 * (g.cage_half_width + half_shape.pocket_radius(g)) - inertia.x_c
+    spin = np.zeros(8)
+    spin[4] = -lever * np.sqrt(inertia.m * inertia.J_p) / Z  # m r/Z with r the radius of gyration
+    # the web as a beam from bar to bar: only its order of size matters, as joints do not move
+    width, height = (g.cage_outer_diameter - g.cage_inner_diameter) / 2, g.cage_half_width - half_shape.pocket_radius(g)
+    k = 2.0 * g.E_flange * width * height**3 / (np.pi * g.d_m / Z) ** 3
+    chain = np.zeros((Z, 1, 1))
+    chain[[0, 1, -1], 0, 0] = 1.0, -0.5, -0.5
+    knots = half_loads.COARSE_KNOTS
+    tau, q, psi = (splines.sites(knots[name]) for name in AXES)
+    values = np.array([[[joint_law_samples(g, *law_load(half_loads.LENGTH, a, b, c)) for c in psi] for b in q] for a in tau])
+    law = JointLaw(
+        half_loads.LENGTH,
+        knots,
+        splines.interpolate([knots[name] for name in AXES], values),
+        k * chain * np.diag([1.0, width**2, width**2]),
+        k * chain * np.eye(2),
+        np.sign(spin[4]),
+    )
+    chi = np.array([0.0, np.pi / 4, np.pi / 2])
+    return rivet_table.HalfData(**inertia._asdict(), chi=chi, path=np.zeros((3, Z, 8, 3)), spin=spin, law=law, k_closed=K_CLOSED, k_open=K_OPEN)
+
+
 def make_table(geometry=None):
     """Table of kind closed_form for the geometry (default: that of Geometry)."""
     geometry = geometry or Geometry()
-    a, b, c, xi = np.meshgrid(*(splines.sites(KNOTS[name]) for name in rivet_table.AXES), indexing="ij")
-    sheets = [stress(geometry, *loads_of(a, b, c, MOMENT_LENGTH), chi, xi) / rivet_table.MPA_PER_N for chi in (1.0, 0.5, 0.0)]
+    a, c, xi = np.meshgrid(*(splines.sites(KNOTS[name]) for name in rivet_table.SHANK_AXES), indexing="ij")
+    loads = reduction.shank_loads(a, c, reduction.LENGTH)
+    sheets = [stress(geometry, *loads, chi, xi) / rivet_table.MPA_PER_N for chi in (1.0, 0.5, 0.0)]
     yield_pressure = geometry.yield_flange / np.sqrt(3)  # first yield at the bore: 2 tau = p + hoop tension, taken as pure shear 2 p
     fit_yield = yield_pressure / lame_pressure(geometry, 1.0)
     full = 2 / np.sqrt(3) * geometry.yield_flange * np.log(2 * geometry.patch_radius / geometry.shank_diameter)  # fully plastic ring
@@ -113,16 +126,16 @@ def make_table(geometry=None):
     return table.make(
         geometry,
         "closed_form",
+        reduction.LENGTH,
         KNOTS,
         np.stack(sheets, axis=-2),
         (fit_a, fit_eff),
         joint_data(geometry),
-        np.zeros((geometry.Z, 5, 3)),
-        moment_length=MOMENT_LENGTH,
+        half_data(geometry),
         head_friction=HEAD_FRICTION,
         head_friction_vm=HEAD_FRICTION * float(np.sqrt(1 - geometry.nu_rivet + geometry.nu_rivet**2)),
         fit_flange_yield=float(fit_yield),
-        note="closed forms with stated notch factors, not finite elements; load path: rigid share only",
+        note="closed forms with stated notch factors, not finite elements",
     )
 
 

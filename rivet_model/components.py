@@ -2,10 +2,10 @@
 
 python -m rivet_model.components OUT.npz [GEOMETRY.toml] [--coarse] [--workers 2]
 
-    field = s sum_i C_i(a, b, c, xi, direction of M) mode_i        coordinates as in fmu_src/rivet_rom.h
+    field = s sum_i C_i(a, c, xi, direction of m) mode_i        coordinates as in fmu_src/rivet_rom.h
 
 The fields of sampled loads are reduced to their first singular vectors; the amplitudes C_i are splines, as the channels of the table are.
-Over the direction phi of M against V, C = A + B cos phi + D sin phi through the three sheets: exact as long as no contact opens or closes.
+Over the direction phi of the moment m against V, C = A + B cos phi + D sin phi through the three sheets: exact as long as no contact opens or closes.
 A mirror and a half turn of the joint give the other three quadrants of phi.  Angles run from the direction of V.
 """
 
@@ -28,8 +28,7 @@ MODES = 24
 COARSE_KNOTS = reduction.COARSE
 KNOTS = {
     "a": np.array([0.0, 0.2, 0.5, 0.8, 1.0]),
-    "b": np.array([0.0, 0.35, 0.5, 0.65, 1.0]),
-    "c": np.array([0.0, 0.15, 0.42, 0.7, 1.0]),
+    "c": np.array([0.0, 0.35, 0.7, 1.0]),
     "xi": 1e-9 * np.array([-1500, -400, -110, -20, 0.5, 5, 18, 60, 400]),
 }
 PHI = np.array([reduction.DIRECTION[sheet] for sheet in rivet_table.SHEETS])
@@ -41,19 +40,21 @@ def joint_fields(joint, forces):
     return np.concatenate([field.reshape(-1, field.shape[-1]) for field in joint.fields(forces, ANGLES)]).T
 
 
-def representative(a, b, c, sheet):
-    """One set of coordinates for all those with the same field; unlike a channel, a field turns with M where there is no V."""
-    if c == 1.0:
-        a = b = 0.0
-    return a, 0.0 if a == 1.0 else b, c, "plane" if c == 0.0 else sheet
+def representative(a, c, sheet):
+    """One set of coordinates for all those with the same field; unlike a channel, a field turns with m where there is no V."""
+    c = 0.0 if a == 1.0 else c
+    return a, c, "plane" if c == 0.0 else sheet
 
 
 @dataclass
 class Components:
-    """Modes and amplitudes of one geometry.  coefficients [a, b, c, xi, sheet, mode] in 1/m2; modes [mode, numbers]; points: of each of the PLACES."""
+    """Modes and amplitudes of one geometry.
+
+    coefficients [a, c, xi, sheet, mode] in 1/m2; length: of c = 1 [m]; modes [mode, numbers]; points: of each of the PLACES.
+    """
 
     geometry_hash: str
-    moment_length: float
+    length: float
     knots: dict
     coefficients: np.ndarray
     modes: np.ndarray
@@ -69,7 +70,7 @@ class Components:
         load, fit = rivet_rom.RivetLoad(*arrays[:-1]), arrays[-1]
         azimuth = np.arctan2(load.V_z, load.V_y)
         c, s = np.cos(azimuth), np.sin(azimuth)
-        across, plane = c * load.M_y + s * load.M_z, c * load.M_z - s * load.M_y  # M about V's own direction, and about the one 90 degrees ahead
+        across, plane = c * load.m_y + s * load.m_z, c * load.m_z - s * load.m_y  # m about V's own direction, and about the one 90 degrees ahead
         _, at = rivet_rom.load_splines(self, load, fit)
         amplitude = self._amplitudes(at, np.arctan2(np.abs(across), np.abs(plane)))
         fields = self._split(amplitude @ self.modes)
@@ -79,14 +80,14 @@ class Components:
         return tuple(_turned(field, azimuth) for field in fields)
 
     def _amplitudes(self, at, phi):
-        """Amplitudes of the modes [times, mode] at the splines' places and directions phi of M in the first quadrant."""
+        """Amplitudes of the modes [times, mode] at the splines' places and directions phi of m in the first quadrant."""
         basis = np.stack([np.ones(3), np.cos(PHI), np.sin(PHI)], axis=-1)
         weight = np.linalg.solve(basis.T, np.stack([np.ones_like(phi), np.cos(phi), np.sin(phi)])).T  # [times, sheet]
-        (A, wa), (B, wb), (C, wc), (X, wx) = (at[name] for name in rivet_table.AXES)
+        (A, wa), (C, wc), (X, wx) = (at[name] for name in rivet_table.SHANK_AXES)
         total = np.zeros((len(phi), self.coefficients.shape[-1]))
-        for i, j, k, m in np.ndindex(3, 3, 3, 3):
-            w = (wa[:, i] * wb[:, j] * wc[:, k] * wx[:, m])[:, None] * weight
-            total += np.einsum("ts,tsm->tm", w, self.coefficients[A + i, B + j, C + k, X + m])
+        for i, j, k in np.ndindex(3, 3, 3):
+            w = (wa[:, i] * wc[:, j] * wx[:, k])[:, None] * weight
+            total += np.einsum("ts,tsm->tm", w, self.coefficients[A + i, C + j, X + k])
         return total
 
     def _split(self, rows):
@@ -95,12 +96,12 @@ class Components:
 
 
 def mirrored(fields):
-    """Fields of the load mirrored at the plane of V: M across it changes sign."""
+    """Fields of the load mirrored at the plane of V: m across it changes sign."""
     return [_reflected(field, 0) * _SHEAR for field in fields]
 
 
 def half_turn(fields):
-    """Fields of the load after half a turn about the axis across V: M in the plane of V changes sign, the heads change places."""
+    """Fields of the load after half a turn about the axis across V: m in the plane of V changes sign, the heads change places."""
     upper, lower, middle = (_reflected(field, ANGLES // 2) for field in fields)
     return [lower * _SHEAR, upper * _SHEAR, middle[:, ::-1]]
 
@@ -135,9 +136,9 @@ def make(geometry, coarse=False, workers=2, progress=None, hold_out=60):
     rows = samples.reshape(-1, samples.shape[-1])
     scale, vectors = np.linalg.eigh(rows.T @ rows) if rows.shape[1] < len(rows) else _row_space(rows)
     modes = vectors[:, np.argsort(scale)[::-1][:MODES]].T
-    coefficients = splines.interpolate([knots[name] for name in rivet_table.AXES], samples @ modes.T)
+    coefficients = splines.interpolate([knots[name] for name in rivet_table.SHANK_AXES], samples @ modes.T)
     points = tuple(place[2].shape[1] for place in (joint.fillet, joint.fillet, joint.middle))
-    made = Components(geometry.digest, reduction.MOMENT_LENGTH, knots, coefficients, modes, points, {})
+    made = Components(geometry.digest, reduction.LENGTH, knots, coefficients, modes, points, {})
     made.errors = hold_out_errors(made, joint, reduction.random_loads(hold_out, 2027)) if hold_out else {}
     return made
 
@@ -147,15 +148,9 @@ def _row_space(rows):
     return scale, rows.T @ left / np.sqrt(np.maximum(scale, 1e-300))
 
 
-def rivet_load(loads):
-    """RivetLoad of reduction.Load's, V along y."""
-    P, N, V, M, direction = (np.array([getattr(load, name) for load in loads]) for name in ("P", "N", "V", "M", "direction"))
-    return rivet_rom.RivetLoad(P, N, V, 0.0 * V, M * np.sin(direction), M * np.cos(direction))
-
-
 def hold_out_errors(components, joint, loads):
     """Largest and RMS error of the components of each place, relative to the place's largest component in all loads."""
-    got = components.fields(rivet_load(loads), np.array([load.fit for load in loads]))
+    got = components.fields(reduction.rivet_load(loads), np.array([load.fit for load in loads]))
     report = {}
     for i, place in enumerate(PLACES):
         fresh = np.stack([joint.fields(reduction.load_forces(joint, load)[:, None], ANGLES)[i][..., 0] for load in loads], axis=-1)
@@ -170,7 +165,7 @@ def write(components, path):
     arrays = {name: data.pop(name).astype(np.float32) for name in ("coefficients", "modes")}
     knots = {f"knots_{name}": values for name, values in data.pop("knots").items()}
     with Path(path).open("wb") as file:
-        np.savez_compressed(file, header=json.dumps({"format": "rivet-components-1"} | data), **arrays, **knots)
+        np.savez_compressed(file, header=json.dumps({"format": "rivet-components-2"} | data), **arrays, **knots)
 
 
 def read(path, geometry_hash=None):
@@ -178,13 +173,13 @@ def read(path, geometry_hash=None):
     try:
         with np.load(path, allow_pickle=False) as file:
             header = json.loads(str(file["header"]))
-            knots = {name: file[f"knots_{name}"] for name in rivet_table.AXES}
+            knots = {name: file[f"knots_{name}"] for name in rivet_table.SHANK_AXES}
             arrays = {name: file[name].astype(float) for name in ("coefficients", "modes")}
     except (ValueError, KeyError, EOFError) as error:
         raise ValueError(f"{path}: not a file of rivet components: {error}") from error
     if geometry_hash not in (None, header["geometry_hash"]):
         raise ValueError(f"{path}: made for geometry {header['geometry_hash']}; {geometry_hash} is needed")
-    return Components(header["geometry_hash"], header["moment_length"], knots, points=tuple(header["points"]), errors=header["errors"], **arrays)
+    return Components(header["geometry_hash"], header["length"], knots, points=tuple(header["points"]), errors=header["errors"], **arrays)
 
 
 def main(arguments=None):

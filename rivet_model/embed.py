@@ -7,7 +7,9 @@ from pathlib import Path
 
 import numpy as np
 
-from bearing_model import rivet_splines, rivet_table
+from bearing_model import half_path, joint_law, rivet_splines, rivet_table
+
+from . import splines
 
 BINS = 256  # RIVET_BINS in fmu_src/rivet_rom.h
 
@@ -29,26 +31,88 @@ def bin_cells(knots):
     return np.searchsorted(knots[1:-1], starts, side="right")
 
 
-def path_columns(load_path):
-    """The load path's matrix [Z, 5, 3] as the C reader wants it, [F_t > 0 and < 0, 5, 3, PATH_WIDTH]: F_t < 0 is the mirror image about the pocket."""
-    columns = np.moveaxis(load_path, 0, -1)
-    back = columns.copy()
-    back[:, 2] = columns[:, 2, ::-1] * np.array([1.0, 1.0, -1.0, -1.0, 1.0])[:, None]  # rivet -1 - i for i; V_t and M_r change sign
-    Z = columns.shape[-1]
-    lanes = -(-Z // 8) * 8  # as in fmu_src/lanes.h
-    return np.stack([columns, back])[..., (np.arange(lanes + Z - 1) - (Z - 1)) % Z]
+def path_rows(half):
+    """The path over the wall's angle as the C reader wants it: [push_t >= 0 and < 0, node, value and slope, 3 forces, Z, ROWS]."""
+    front = np.moveaxis(np.stack([half.path, half.path_slope], axis=1), 4, 2)  # from [node, value and slope, Z, ROWS, 3]
+    back = front[..., ::-1, :] * half_path.PATH_MIRROR  # rivet -1 - i for i
+    return np.stack([front, back])
+
+
+def uniform_cells(name, knots):
+    """Number of equal cells whose ends hold all knots; ValueError if there are none."""
+    step = np.diff(knots).min()
+    ends = (knots - knots[0]) / step
+    if not np.allclose(ends, np.round(ends), atol=1e-6):
+        raise ValueError(f"half.law: knots of axis {name} = {knots.tolist()}: multiples of their smallest step are allowed")
+    return round(ends[-1])
+
+
+def uniform_coefficients(law):
+    """Coefficients of the law [tau, q, psi, LAW_WIDTH] for uniform splines without clamped ends, on equal cells: the same function."""
+    values = law.coefficients
+    for axis, name in enumerate(joint_law.AXES):
+        knots = law.knots[name]
+        cells = uniform_cells(name, knots)
+        at = splines.sites(np.arange(cells + 1.0))
+        cell = np.minimum(at.astype(int), cells - 1)
+        up = at - cell
+        uniform = np.zeros((len(at), len(at)))
+        for k, weight in enumerate((0.5 * (1 - up) ** 2, 0.5 + up - up**2, 0.5 * up**2)):
+            uniform[np.arange(len(at)), cell + k] = weight
+        clamped = splines.collocation(knots, knots[0] + (knots[-1] - knots[0]) * at / cells)
+        values = np.moveaxis(np.tensordot(np.linalg.solve(uniform, clamped), values, axes=(1, axis)), 0, axis)
+    zero = np.zeros((*values.shape[:-1], 1))
+    return np.concatenate([values[..., :3], zero, values[..., 3:], zero], axis=-1)
+
+
+def alike_rows(alike):
+    """Rows of fmu_src/joint_law.h's ALIKE_WIDTH."""
+    even = [0, 2, 3, 5]  # u, phi_t, T, m_t, over N, M_t, P
+    slopes = alike.slopes[:, even][:, :, [0, 2, 3]].reshape(len(alike.x), -1)
+    return np.column_stack([alike.load[:, [0, 2]], alike.values[:, even], slopes, alike.slopes[:, 1, 1], alike.slopes[:, 4, 1]])
+
+
+def _braces(values):
+    """Nested C initialiser of an array."""
+    if np.ndim(values) == 0:
+        return repr(values)
+    return "{" + ", ".join(map(_braces, np.asarray(values).tolist() if isinstance(values, np.ndarray) else values)) + "}"
+
+
+def _half_source(half):
+    """C text of the arrays of the cage half, and the initialiser of its CageHalfData."""
+    law = half.law
+    felt = [k for k in range(1, law.Z) if np.any(law.others[k])]
+    arrays = [
+        _array("path_chi", half.chi),
+        _array("path_rows", path_rows(half), "float"),
+        '_Static_assert(sizeof path_rows == 2 * sizeof path_chi / sizeof *path_chi * 6 * ROWS * Z * sizeof *path_rows, "the path has another shape");\n',
+        _array("law_coefficients", uniform_coefficients(law)),
+        f"static const int law_neighbour[{len(felt)}] = {_braces(felt)};\n",
+        f"static const double law_K[{len(felt)}][3][3] = {_braces(law.others[felt])};\n",
+        f"static const double law_K_slip[{law.Z}][2][2] = {_braces(law.slip_stiffness)};\n",
+        f"static const double law_alike[{len(law.alike.x)}][ALIKE_WIDTH] = {_braces(alike_rows(law.alike))};\n",
+    ]
+    cells = [uniform_cells(name, law.knots[name]) for name in joint_law.AXES]
+    text = f"""{{
+        .m = {float(half.m)!r}, .x_c = {float(half.x_c)!r}, .path = {{{len(half.chi)}, path_chi, path_rows}}, .spin = {_braces(half.spin)},
+        .law = {{.length = {float(law.length)!r}, .cells = {_braces(cells)}, .coefficients = law_coefficients,
+                .K_0 = {_braces(law.stiffness[0])}, .K_others = {_braces(law.others.sum(axis=0))},
+                .neighbours = {len(felt)}, .neighbour = law_neighbour, .K = law_K, .K_slip = law_K_slip,
+                .alike_count = {len(law.alike.x)}, .alike = law_alike}}}}"""
+    return arrays, text
 
 
 def c_source(t):
     """The C text of rivet_table.c."""
     parts = [
         f"// The rivet table, kind {t.kind}, geometry {t.geometry_hash}: written by rivet_model/embed.py, not to be edited.\n",
-        '#include "load_path.h"\n#include "rivet_rom.h"\n\n',
+        '#include "rivet_rom.h"\n\n',
         f'_Static_assert(Z == {t.Z}, "the rivet table was made for Z = {t.Z}");\n\n// clang-format off\n',
     ]
-    axes = []
-    for name in rivet_table.AXES:
-        knots = t.knots[name]
+    axes, shank = [], t.shank
+    for name in rivet_table.SHANK_AXES:
+        knots = shank.knots[name]
         rows = np.column_stack([knots[:-1], knots[1:], *rivet_splines.constants(knots)])
         cells = ",\n".join(f"    {{{', '.join(map(repr, row))}}}" for row in rows.tolist())
         parts.append(f"static const RivetCell {name}_cell[{len(rows)}] = {{\n{cells}}};\n")
@@ -56,28 +120,29 @@ def c_source(t):
         start, end = float(knots[0]), float(knots[-1])
         axes.append(f"{{{len(rows)}, {start!r}, {end!r}, {BINS / (end - start)!r}, {name}_cell, {name}_bin}}")
     channel = rivet_table.CHANNELS.index
+    half_arrays, half = _half_source(t.half)
     parts += [
-        _array("primary", t.coefficients[..., [channel("head_p1"), channel("mid_vm")]], "float"),
-        _array("secondary", t.coefficients[..., [channel("head_vm"), channel("mid_p1")]], "float"),
+        _array("primary", shank.coefficients[..., [channel("head_p1"), channel("mid_vm")]], "float"),
+        _array("secondary", shank.coefficients[..., [channel("head_vm"), channel("mid_p1")]], "float"),
         _array("j2_fit_a", t.fit_a),
         _array("j2_fit_eff", t.fit_eff),
         _array("j2_slope", t.fit_slope),
         _array("hole_fit", t.joint["hole_fit"]),
         _array("k_hole", t.joint["k_hole"]),
-        _array("load_path", path_columns(t.load_path)),
-        '_Static_assert(sizeof load_path == 2 * PATH_LOADS * 3 * PATH_WIDTH * sizeof *load_path, "the load path has another width");\n',
+        *half_arrays,
     ]
-    joint = ", ".join(f".{key} = {float(t.joint[key])!r}" for key in rivet_table.JOINT_KEYS)
+    joint = {key: float(t.joint[key]) for key in rivet_table.JOINT_KEYS} | {"k_rivet": t.half.k_open, "k_plate": t.half.k_closed - t.half.k_open}
+    joint = ", ".join(f".{key} = {float(value)!r}" for key, value in joint.items())
     parts.append(f"""
 const RivetTable rivet_table = {{
-    .kind = {t.kind_number}, .geometry_hash = "{t.geometry_hash}", .digest = "@digest@", .Z = {t.Z}, .moment_length = {float(t.moment_length)!r},
+    .kind = {t.kind_number}, .geometry_hash = "{t.geometry_hash}", .digest = "@digest@", .Z = {t.Z}, .moment_length = {float(shank.length)!r},
     .axis = {{{", ".join(axes)}}},
     .primary = primary, .secondary = secondary, .head_friction = {float(t.head_friction)!r}, .head_friction_vm = {float(t.head_friction_vm)!r},
     .yield_rivet = {float(t.yield_rivet)!r}, .fit_flange_yield = {float(t.fit_flange_yield)!r},
     .j2 = {{{len(t.fit_a)}, j2_fit_a, j2_fit_eff, j2_slope}},
     .joint = {{{joint},
               .hole_count = {len(t.joint["hole_fit"])}, .hole_fit = hole_fit, .k_hole = k_hole}},
-    .load_path = load_path}};
+    .half = {half}}};
 // clang-format on
 """)
     text = "".join(parts)

@@ -50,7 +50,8 @@ class Geometry:
     cage_inner_diameter: float = 49.7e-3  # paper Table 1
     ball_diameter: float = 11.1125e-3  # paper Table 1
     pocket_clearance: float = 0.2e-3  # assumed, diametral
-    cage_half_width: float = 6.8e-3  # assumed: twice the distance of a half's centre of mass from the split
+    seat_diameter: float = 3.0e-3  # assumed: counterbore in the bar, room for the riveting tool around the head
+    cage_half_width: float = 6.8e-3  # assumed: pocket radius and a web of 1.14 mm
 
     def __post_init__(self):
         for field in fields(self):
@@ -72,7 +73,6 @@ class Geometry:
             ("relief_depth + edge_break", self.relief_depth + self.edge_break, "<", "flange_thickness", self.flange_thickness),
             ("middle_zone", self.middle_zone, "<", "edge_break", self.edge_break),
             ("edge_break", self.edge_break, "<", "relief_radius", self.relief_radius),
-            ("cage_half_width", self.cage_half_width, ">", "1.05 pocket radii", 0.525 * (self.ball_diameter + self.pocket_clearance)),
             ("cage_inner_diameter", self.cage_inner_diameter, "<", "d_m", self.d_m),
             ("d_m", self.d_m, "<", "cage_outer_diameter", self.cage_outer_diameter),
             ("Z (ball_diameter + pocket_clearance)", self.Z * (self.ball_diameter + self.pocket_clearance), "<", "pi d_m", math.pi * self.d_m),

@@ -4,7 +4,7 @@ Find pressures p >= 0 and rigid motions q with
 
     gap = C p + g - D q >= 0,   p gap = 0,   D^T p + e q = f
 
-C symmetric positive definite (elastic compliance), D q the approach by rigid motions, f the outer loads, e tiny springs that hold motions which no
+C symmetric positive definite (elastic compliance), D q the approach by rigid motions, f the outer loads, e springs: tiny ones hold motions which no
 contact resists.  Block principal pivoting (Judice and Pires 1994): all points of wrong sign change between touching and open at once; when the number
 of wrong signs has not fallen for PATIENCE steps, only the last such point changes (Murty), until the number falls again.  For positive definite C
 this always ends.
@@ -32,13 +32,13 @@ class Solution:
 
 
 class Contact:
-    """C [n, n], D [n, m], springs e [m]: the part of the problem that does not depend on loads and gaps."""
+    """C [n, n], D [n, m], springs e [m] or [m, m]: the part of the problem that does not depend on loads and gaps."""
 
     def __init__(self, C, D, springs):
-        self.C, self.D, self.springs = C, D, np.diag(springs)
+        self.C, self.D, self.springs = C, D, np.diag(springs) if np.ndim(springs) == 1 else springs
 
     def solve_active(self, active, g, f):
-        """p and q if exactly the active points touch."""
+        """p and q when exactly the active points touch."""
         A = np.flatnonzero(active)
         p = np.zeros(len(g))
         if len(A) == 0:

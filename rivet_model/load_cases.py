@@ -308,6 +308,47 @@ class Joint:
         contact, bores = self._axial
         return contact.solve(-0.5 * fit * bores, np.array([0.0, 0.0, P])).q[2]
 
+    def shank(self, T, m, fit):
+        """Shortening of the rivet between its heads [m] and tilt of one head against the other [rad] that give the shank the tension T and the moment m.
+
+        The plates stay closed and carry the rest, so this is the rivet of any joint: what opens the plates is not asked.
+        """
+        if not hasattr(self, "_shank"):
+            contact, member = self.problems["plane"]
+            heads = np.concatenate([np.full(self.slices[n].stop - self.slices[n].start, 0.5 if n.endswith("H") else 0.0) for n in GROUPS])
+            columns = np.column_stack([heads, self._head_tilt()[:, 1]])
+            D = np.hstack([contact.D, self._fold(columns, member, contact.C.shape[0])])
+            bores = np.concatenate([np.full(self.slices[n].stop - self.slices[n].start, 1.0 if n.endswith("B") else 0.0) for n in GROUPS])
+            self._shank = Contact(contact.C, D, np.concatenate([np.tile(SPRINGS, 2), SPRINGS[[2, 4]]])), np.bincount(member, weights=bores)
+        contact, bores = self._shank
+        f = np.zeros(12)
+        f[10:] = T, m
+        return contact.solve(-0.5 * fit * bores, f).q[10:]
+
+    def _head_tilt(self):
+        """Approach of the contacts by a unit tilt of the upper head's seat against the lower one's, half of it each, about x and y [contacts, 2]."""
+        tilt = np.zeros((self.size, 2))
+        for name, side in (("UH", 0.5), ("LH", -0.5)):
+            tilt[self.slices[name]] = side * self.D[self.slices[name], 3:5]
+        return tilt
+
+    def solve_shank(self, T, V, m_plane, m_across, fit, active=None):
+        """Contact forces and Solution of a rivet whose shank would carry tension T and moments m without V, then bears V [N, N.m, m]."""
+        symmetry = "plane" if m_across == 0.0 else "across" if m_plane == 0.0 else "full"
+        contact, member = self.problems[symmetry]
+        m = np.hypot(m_plane, m_across)
+        short, tilt = self.shank(max(T, NO_PRELOAD * (T + V)), m, fit)
+        g = np.zeros(self.size)
+        for name in GROUPS:
+            g[self.slices[name]] = {"B": -0.5 * fit, "H": -0.5 * short, "P": 0.0}[name[-1]]
+        if m > 0.0:
+            g -= self._head_tilt() @ (tilt * np.array([m_across, m_plane]) / m)
+        folded = np.bincount(member, weights=g, minlength=contact.C.shape[0])
+        f = np.zeros(10)
+        f[5] = V
+        solution = contact.solve(folded, f, active)
+        return solution.p[member], solution
+
     def gaps(self, P, fit):
         """Gaps of all contacts before loading [m]."""
         g = np.zeros(self.size)

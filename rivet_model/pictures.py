@@ -4,15 +4,28 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from bearing_model.joint_law import single_joint
 from bearing_model.rivet_rom import HEAD_P1, MID_VM, RivetLoad, rivet_rom_fit_eff, rivet_rom_stress
 
-from . import plastic_fit
+from . import half, half_loads, plastic_fit
+from .cage_half import CageHalf
 from .load_cases import GROUPS
 
 SWELL = 4e-6  # m, default of joint.swell
 FIT = -10e-6 + SWELL  # m, of the default joint
-REFERENCE = RivetLoad(P=20.0, N=10.0, V_y=10.0)  # P: preload of the paper's section 4.1 (3); N, V: large enough to be seen
 HEAD, MIDDLE = "#c8442b", "#2a6f97"
+
+
+@dataclass(frozen=True)
+class JointLoad:
+    """Preload, external tension and transverse load of a single joint [N]; its neighbours stay closed."""
+
+    P: float
+    N: float = 0.0
+    V: float = 0.0
+
+
+REFERENCE = JointLoad(P=20.0, N=10.0, V=10.0)  # P: preload of the paper's section 4.1 (3); N, V: large enough to be seen
 
 
 @dataclass(frozen=True)
@@ -28,17 +41,27 @@ class Curve:
 
 
 def table_response(t):
-    """stress(load, fit_eff) -> channels [..., 4] in Pa, fit_eff(fit_a) [m]: of a table."""
-    return lambda load, fit: rivet_rom_stress(t, load, fit)[0], lambda fit_a: rivet_rom_fit_eff(t, fit_a, True)
+    """stress(load, fit_eff) -> channels [..., 4] in Pa, fit_eff(fit_a) [m]: of a table; load: JointLoad."""
+
+    def stress(load, fit):
+        T, m_r, m_t = single_joint(t.half.law, load.P, load.N)
+        return rivet_rom_stress(t, RivetLoad(T=T, V_y=load.V, m_y=m_r, m_z=m_t), fit)[0]
+
+    return stress, lambda fit_a: rivet_rom_fit_eff(t, fit_a, True)
 
 
 def joint_response(joint):
-    """The same two functions by solutions of a Joint, without a table."""
+    """The same two functions by solutions of a Joint and of its pad on coarse elements of the half, without a table."""
     fitted = plastic_fit.plastic_fit(joint.geometry)
+    alone = half_loads.JointAlone(CageHalf(joint.geometry, half.COARSE))
 
     def stress(load, fit):
-        P, N, V, fit = np.broadcast_arrays(load.P, load.N, load.V_y, fit)
-        forces = [joint.solve(*case[:3], 0.0, 0.0, case[3])[0] for case in zip(P.flat, N.flat, V.flat, fit.flat, strict=True)]
+        P, N, V, fit = np.broadcast_arrays(load.P, load.N, load.V, fit)
+        forces = []
+        for p, n, v, x in zip(P.flat, N.flat, V.flat, fit.flat, strict=True):
+            T, m_r, m_t = alone.solve(np.array([n, 0.0, 0.0]), p)[1] if p + n > 0.0 else np.zeros(3)
+            m_r = 0.0 if abs(m_r) < 1e-6 * abs(m_t) else m_r  # symmetry, but for rounding
+            forces.append(joint.solve_shank(T, v, m_t, m_r, x)[0])
         return joint.channels(np.stack(forces, axis=1))
 
     return stress, lambda fit_a: np.where(fit_a > 0.0, np.interp(fit_a, fitted.fit_a, fitted.fit_eff), fit_a)
@@ -53,10 +76,10 @@ def curves(stress, fit_eff, swell=SWELL):
         return Curve(label, unit, scale, x, sigma[..., HEAD_P1], sigma[..., MID_VM])
 
     return {
-        "Fig. 11": curve("preload", "N", 1.0, preload, RivetLoad(P=preload), -90e-6),
+        "Fig. 11": curve("preload", "N", 1.0, preload, JointLoad(P=preload), -90e-6),
         "Fig. 12, elastic": curve("fit", "µm", 1e6, fit, REFERENCE, fit + swell),
         "Fig. 12, with yield": curve("fit", "µm", 1e6, fit, REFERENCE, fit_eff(fit + swell)),
-        "transverse load": curve("transverse load", "N", 1.0, V, replace(REFERENCE, N=0.0, V_y=V), FIT),
+        "transverse load": curve("transverse load", "N", 1.0, V, replace(REFERENCE, N=0.0, V=V), FIT),
     }
 
 
@@ -74,7 +97,7 @@ def plot_curves(data, title=""):
         panel[c.label].set(xlabel=f"{c.label} [{c.unit}]", ylabel="stress [MPa]", ylim=(0.0, None))
     r, yielded = REFERENCE, data["Fig. 12, with yield"]
     axes[0].set_title("Fig. 11: preload alone, fit −90 µm")
-    axes[1].set_title(f"Fig. 12: P {r.P:g} N, N {r.N:g} N, V {r.V_y:g} N")
+    axes[1].set_title(f"Fig. 12: P {r.P:g} N, N {r.N:g} N, V {r.V:g} N")
     axes[2].set_title(f"P {r.P:g} N, fit {1e6 * (FIT - SWELL):g} µm")
     axes[1].set_ylim(0.0, 1.5e-6 * max(yielded.head.max(), yielded.mid.max()))
     axes[1].axvspan(-20.0, 0.0, color="0.93", zorder=0)
@@ -104,7 +127,7 @@ def plot_section(joint, load=REFERENCE, fit=FIT, magnified=60.0):
             _draw_mesh(ax, mesh)
     left.set(title="mesh (lower flange: mirrored)", xlabel="r [mm]", ylabel="x [mm]", aspect="equal")
 
-    forces, q, *_ = joint.solve(load.P, load.N, load.V_y, 0.0, 0.0, fit)
+    forces, q, *_ = joint.solve(load.P, load.N, load.V, 0.0, 0.0, fit)
     parts = [part for theta in (0.0, np.pi) for part in section(joint, forces, q, theta, load.P, fit, magnified)]
     limit = max(stress.max() for _, _, _, stress in parts) / 1e6
     shade = {"shading": "gouraud", "cmap": "viridis", "vmin": 0.0, "vmax": limit}
@@ -120,7 +143,7 @@ def plot_section(joint, load=REFERENCE, fit=FIT, magnified=60.0):
     right.set(xlim=(centre[0] - 1.5 * size, centre[0] + size), ylim=(centre[1] - size, centre[1] + 1.5 * size), xlabel="r [mm]", aspect="equal")
     right.set_title("the fillet with the largest stress")
     figure.colorbar(filled, ax=right, label="largest principal stress [MPa]")
-    figure.suptitle(f"P {load.P:g} N, N {load.N:g} N, V {load.V_y:g} N, hole contact at fit {1e6 * fit:g} µm", x=0.01, ha="left")
+    figure.suptitle(f"P {load.P:g} N, N {load.N:g} N, V {load.V:g} N, hole contact at fit {1e6 * fit:g} µm", x=0.01, ha="left")
     return figure
 
 

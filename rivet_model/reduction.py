@@ -11,51 +11,48 @@ from threadpoolctl import threadpool_limits
 from bearing_model import rivet_rom, rivet_table
 
 from . import splines
-from .closed_form import loads_of
 from .load_cases import Joint
 
-MOMENT_LENGTH = 2e-3  # L: prying opens the default joint near M = P L
+LENGTH = 0.3e-3  # m, of the axis c: opening joints reach |m|/T = 0.2 mm; heads would lift off at 0.5 mm
 
-# Knots are close together where contacts open: b = 1/2 (N = P), c = 1/2 (M = P L), xi = 0...12 nm/N (the bore closes all around).
+# Knots are close together where contacts open: xi = 0...12 nm/N (the bore closes all around).
 FULL = {
     "a": np.array([0.0, 0.1, 0.2, 0.35, 0.5, 0.65, 0.8, 0.9, 1.0]),
-    "b": np.array([0.0, 0.2, 0.35, 0.44, 0.5, 0.56, 0.65, 0.77, 0.9, 1.0]),
-    "c": np.array([0.0, 0.07, 0.15, 0.3, 0.42, 0.54, 0.7, 1.0]),
+    "c": np.array([0.0, 0.2, 0.45, 0.7, 1.0]),
     "xi": 1e-9 * np.array([-2800, -1500, -800, -400, -200, -110, -50, -20, -5, 0.5, 1.5, 3, 5, 8, 12, 18, 30, 60, 150, 400]),
 }
-COARSE = {"a": np.array([0.0, 0.5, 1.0]), "b": np.array([0.0, 0.5, 1.0]), "c": np.array([0.0, 0.5, 1.0]), "xi": 1e-9 * np.array([-1000, -100, 0, 30, 400])}
+COARSE = {"a": np.array([0.0, 0.5, 1.0]), "c": np.array([0.0, 1.0]), "xi": 1e-9 * np.array([-1000, -100, 0, 30, 400])}
 
-DIRECTION = {"plane": 0.0, "oblique": np.pi / 3, "across": np.pi / 2}  # of M, to the axis across V: chi = cos
+DIRECTION = {"plane": 0.0, "oblique": np.pi / 3, "across": np.pi / 2}  # of m, to the axis across V: chi = cos
 
 _joint = None  # of the worker processes, inherited by fork
 
 
-def _moments(M, direction):
+def shank_loads(a, c, length):
+    """Loads (T, V, m) of s = 1 N at the table's coordinates: the inverse of the formulas in fmu_src/rivet_rom.h."""
+    return 1.0 - a, a, c * length * (1.0 - a)
+
+
+def _moments(m, direction):
     """Parts of a moment in the plane of V and across it; exactly 0 where symmetry says so."""
-    return 0.0 if direction == np.pi / 2 else M * np.cos(direction), M * np.sin(direction)
+    return 0.0 if direction == np.pi / 2 else m * np.cos(direction), m * np.sin(direction)
 
 
 def _row(task):
-    """Results of `measure` per newton at all xi of one (a, b, c, sheet) [xi, ...]; xi falls, so that contacts open one after the other."""
-    a, b, c, sheet, xi, measure = task
-    P, N, V, M = loads_of(a, b, c, MOMENT_LENGTH)
+    """Results of `measure` per newton at all xi of one (a, c, sheet) [xi, ...]; xi falls, so that contacts open one after the other."""
+    a, c, sheet, xi, measure = task
+    T, V, m = shank_loads(a, c, LENGTH)
     forces, active = [], None
     for value in xi[::-1]:
-        force, _, solution, _ = _joint.solve(P, N, V, *_moments(M, DIRECTION[sheet]), value, active)
+        force, solution = _joint.solve_shank(T, V, *_moments(m, DIRECTION[sheet]), value, active)
         active = solution.active
         forces.append(force)
     return measure(_joint, np.stack(forces[::-1], axis=1))
 
 
-def representative(a, b, c, sheet):
-    """One set of coordinates for all those with the same response: a, b and the sheet are 0 and "plane" where they have no meaning."""
-    if c == 1.0:
-        a = b = 0.0
-    if a == 1.0:
-        b = 0.0
-    if c in (0.0, 1.0) or a == 0.0:
-        sheet = "plane"
-    return a, b, c, sheet
+def representative(a, c, sheet):
+    """One set of coordinates for all those with the same response: c and the sheet are 0 and "plane" where they have no meaning."""
+    return a, 0.0 if a == 1.0 else c, "plane" if a in (0.0, 1.0) or c == 0.0 else sheet
 
 
 @threadpool_limits.wrap(limits=1)
@@ -73,47 +70,51 @@ def _map(joint, function, tasks, workers, progress):
 
 
 def sample(joint, knots, workers=2, progress=None, measure=Joint.channels, representative=representative):
-    """T [1/m2] at the sites of all axes: [a, b, c, xi, sheet, channel].
+    """S [1/m2] at the sites of all axes: [a, c, xi, sheet, channel].
 
     measure(joint, forces [contacts, cases]) -> [cases, numbers]; representative: maps coordinates to those with the same response.
     """
-    a, b, c, xi = (splines.sites(knots[name]) for name in rivet_table.AXES)
-    points = [(x, y, z, sheet) for x in a for y in b for z in c for sheet in rivet_table.SHEETS]
-    names = [representative(*point) for point in points]
+    a, c, xi = (splines.sites(knots[name]) for name in rivet_table.SHANK_AXES)
+    names = [representative(x, y, sheet) for x in a for y in c for sheet in rivet_table.SHEETS]
     unique = list(dict.fromkeys(names))
     rows = _map(joint, _row, [(*name, xi, measure) for name in unique], workers, progress or (lambda done, total: None))
     found = dict(zip(unique, rows, strict=True))
-    values = np.stack([found[name] for name in names]).reshape(len(a), len(b), len(c), len(rivet_table.SHEETS), len(xi), -1)
-    return np.moveaxis(values, 3, 4)
+    values = np.stack([found[name] for name in names]).reshape(len(a), len(c), len(rivet_table.SHEETS), len(xi), -1)
+    return np.moveaxis(values, 2, 3)
 
 
 @dataclass(frozen=True)
 class Load:
-    """One load of the hold-out set [N, N.m, m]; direction: angle of M to the axis across V [rad], 0 bends in the plane of V."""
+    """What the shank carries at one load of the hold-out set [N, N.m, m]; direction: angle of m to the axis across V [rad], 0 bends in the plane of V."""
 
-    P: float
-    N: float
+    T: float
     V: float
-    M: float
+    m: float
     direction: float
     fit: float
 
 
-def random_loads(count, seed, largest_fit=9.1e-6, clearance_only=False):
-    """Random loads that no table is made from, with prying in all directions: P, V <= 60 N, N <= 40 N, M <= 60 N.mm, half of the fits in clearance."""
+def random_loads(count, seed, largest_fit=9.1e-6):
+    """Random loads that no table is made from: T <= 120 N, V <= 60 N, m up to 0.2 mm T in all directions, half of the fits in clearance."""
     rng = np.random.default_rng(seed)
     loads = []
     for i in range(count):
-        clear = clearance_only or i % 2 == 0
         direction = rng.choice([0.0, np.pi / 2, rng.uniform(0.0, np.pi / 2)])
-        fit = -90e-6 * rng.uniform() ** 2 if clear else largest_fit * rng.uniform()
-        loads.append(Load(rng.uniform(0, 60), rng.uniform(0, 40), rng.uniform(0, 60), rng.uniform(0, 0.06), direction, fit))
+        fit = -90e-6 * rng.uniform() ** 2 if i % 2 == 0 else largest_fit * rng.uniform()
+        T = rng.uniform(2, 120)
+        loads.append(Load(T, rng.uniform(0, 60), 0.2e-3 * T * rng.uniform(), direction, fit))
     return loads
+
+
+def rivet_load(loads):
+    """RivetLoad of Load's, V along y."""
+    T, V, m, direction = (np.array([getattr(load, name) for load in loads]) for name in ("T", "V", "m", "direction"))
+    return rivet_rom.RivetLoad(T, V, 0.0 * V, m * np.sin(direction), m * np.cos(direction))
 
 
 def load_forces(joint, load):
     """Contact forces [contacts] of a fresh solution."""
-    return joint.solve(load.P, load.N, load.V, *_moments(load.M, load.direction), load.fit)[0]
+    return joint.solve_shank(load.T, load.V, *_moments(load.m, load.direction), load.fit)[0]
 
 
 def _fresh(load):
@@ -127,9 +128,7 @@ def solve_loads(joint, loads, workers=2, progress=None):
 
 def table_stress(t, loads):
     """Channels [loads, 4] in Pa by the table at effective fit = fit."""
-    P, N, V, M, direction, fit = (np.array([getattr(load, name) for load in loads]) for name in ("P", "N", "V", "M", "direction", "fit"))
-    rivet_load = rivet_rom.RivetLoad(P, N, V, 0.0 * V, M * np.sin(direction), M * np.cos(direction))
-    return rivet_rom.rivet_rom_stress(t, rivet_load, fit)[0]
+    return rivet_rom.rivet_rom_stress(t, rivet_load(loads), np.array([load.fit for load in loads]))[0]
 
 
 def hold_out_errors(t, loads, fresh):

@@ -1,4 +1,4 @@
-"""Joint data for the dynamics from the condensed finite elements: stiffnesses, moment at opening, and the stress by head friction.
+"""Joint data for the dynamics from the condensed finite elements: stiffnesses, and the stress by head friction.
 
 Friction itself is not solved here: the dynamics has friction states with the capacities mu P of the plates and mu P of the heads.  This file gives the
 elastic stiffness of each branch: while the bores do not touch, the sticking heads drag the rivet; after that the bores carry.
@@ -21,13 +21,6 @@ def _rim(joint, motion, P=REFERENCE, N=0.0, V=0.0, fit=-90e-6):
 def hole_stiffness(joint, fit, V=20.0):
     """Tangent dV/dx of both bores in series at V [N/m], preload 20 N, frictionless."""
     return 0.2 * V / (_rim(joint, 0, V=1.1 * V, fit=fit) - _rim(joint, 0, V=0.9 * V, fit=fit))
-
-
-def axial_stiffness(joint):
-    """Stiffness of the open joint (N = 3...4 P), and the stiffness that the closed plates add to it at N = P/4...P/2 [N/m]."""
-    z = [_rim(joint, 2, N=ratio * REFERENCE) for ratio in (0.25, 0.5, 3.0, 4.0)]
-    k_open = REFERENCE / (z[3] - z[2])
-    return k_open, 0.25 * REFERENCE / (z[1] - z[0]) - k_open
 
 
 def stack_stiffness(joint):
@@ -79,38 +72,22 @@ def head_friction(joint, P=REFERENCE, F=2.0):
     return F / (slip - rest), *growth
 
 
-def prying(joint, P=REFERENCE):
-    """Moment at which the joint opens per clamp force [m], and rotational stiffness of the joint held open [N.m/rad].
-
-    Far past opening, the moment over the rotation is a straight line; its intercept at zero rotation is the moment at opening.
-    """
-    M = np.array([4.0, 5.0]) * P * 2e-3
-    rotation = [joint.solve(P, 0.0, 0.0, m, 0.0, -90e-6)[1][9] for m in M]
-    k_open = (M[1] - M[0]) / (rotation[1] - rotation[0])
-    return (M[1] - k_open * rotation[1]) / P, k_open
-
-
-def joint_data(joint, k_half):
-    """The joint section of the table.  k_half: rotational stiffness of a cage half at one rivet [N.m/rad] (cage_half.py)."""
+def joint_data(joint):
+    """The joint section of the table."""
     g = joint.geometry
-    k_rivet, k_plate = axial_stiffness(joint)
     k_head, *_ = head_friction(joint)
-    lever, k_open = prying(joint)
     return {
         "A": g.shank_area,
         "d_m": g.d_m,
         "d": g.shank_diameter,
         "grip": 2 * g.flange_thickness,
-        "k_rivet": float(k_rivet),
-        "k_plate": float(k_plate),
+        "seat": g.seat_diameter,
         "k_t_plate": K_T_PLATE,
         "k_t_head": float(k_head),
         "k_stack": float(stack_stiffness(joint)),
         "alpha_rivet": g.alpha_rivet,
         "alpha_flange": g.alpha_flange,
         "T_0": g.T_0,
-        "prying_lever": float(lever),
-        "prying_share": float(k_open / (k_open + 0.5 * k_half)),  # both halves turn, by half the joint's rotation each
         "hole_fit": HOLE_FITS,
         "k_hole": [float(hole_stiffness(joint, fit)) for fit in HOLE_FITS],
     }

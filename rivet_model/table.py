@@ -6,32 +6,33 @@ from pathlib import Path
 
 import numpy as np
 
-from bearing_model.rivet_table import AXES, CHANNELS, FORMAT, MPA_PER_N, SHEETS, RivetTable, as_embedded, digest_of
+from bearing_model.rivet_table import CHANNELS, FORMAT, MPA_PER_N, SHANK_AXES, SHEETS, RivetTable, ShankTable, as_embedded, digest_of
 
 from . import splines
 from .geometry import Geometry
 
-UNITS = {"T": "MPa/N", "xi": "m/N", "fit": "m", "stiffness": "N/m", "length": "m", "stress": "Pa", "expansion": "1/K", "load_path": "1 and m"}
+UNITS = {"T": "MPa/N", "xi": "m/N", "fit": "m", "stiffness": "N/m", "length": "m", "stress": "Pa", "expansion": "1/K", "half": "SI"}
 
 
-def rounded(numbers):
-    """The numbers as the file keeps them: five digits, a hundredth of the table's own error."""
-    return np.array([float(f"{value:.5g}") for value in np.ravel(numbers)]).reshape(np.shape(numbers))
+def rounded(numbers, digits=5):
+    """The numbers as the file keeps them: five digits, a hundredth of the table's own error; four where the error is 1 %."""
+    return np.array([float(f"{value:.{digits}g}") for value in np.ravel(numbers)]).reshape(np.shape(numbers))
 
 
 def write(table, path):
     """Write the table as JSON text; the same table gives the same bytes."""
+    shank = table.shank
     sections = {
-        "stress": {
-            "moment_length": table.moment_length,
-            "knots": {name: [float(v) for v in table.knots[name]] for name in AXES},
-            "order": [*AXES, "sheet", "channel"],
+        "shank": {
+            "length": shank.length,
+            "knots": {name: [float(v) for v in shank.knots[name]] for name in SHANK_AXES},
+            "order": [*SHANK_AXES, "sheet", "channel"],
             "sheets": list(SHEETS),
             "channels": list(CHANNELS),
             "head_friction": table.head_friction / MPA_PER_N,
             "head_friction_vm": table.head_friction_vm / MPA_PER_N,
             "yield_rivet": table.yield_rivet,
-            "coefficients": rounded(table.coefficients / MPA_PER_N).ravel().tolist(),
+            "coefficients": rounded(shank.coefficients / MPA_PER_N).ravel().tolist(),
         },
         "fit_eff": {
             "fit_a": [float(v) for v in table.fit_a],
@@ -40,7 +41,7 @@ def write(table, path):
             "fit_flange_yield": table.fit_flange_yield,
         },
         "joint": {key: (value if np.isscalar(value) else [float(v) for v in value]) for key, value in table.joint.items()},
-        "load_path": np.asarray(table.load_path, dtype=float).tolist(),
+        "half": _half_section(table.half),
     }
     header = {
         "format": FORMAT,
@@ -57,6 +58,28 @@ def write(table, path):
     Path(path).write_text("{\n" + ",\n".join(blocks) + "\n}\n", encoding="utf-8")
 
 
+def _half_section(half):
+    law = half.law
+    return {
+        **{name: float(f"{getattr(half, name):.9g}") for name in ("m", "x_c", "J_p", "J_t", "k_closed", "k_open")},
+        "chi": [float(v) for v in half.chi],
+        "path": rounded(tidy(half.path), 4).tolist(),
+        "spin": rounded(tidy(half.spin)).tolist(),
+        "stiffness": rounded(tidy(law.stiffness)).tolist(),
+        "slip_stiffness": rounded(tidy(law.slip_stiffness)).tolist(),
+        "law": {
+            "length": law.length,
+            "knots": {name: [float(v) for v in law.knots[name]] for name in law.knots},
+            "coefficients": rounded(tidy(law.coefficients), 4).ravel().tolist(),
+        },
+    }
+
+
+def tidy(array):
+    """The array with 0 where a number is only rounding: below 1e-9 of the largest one with its last index (arrays whose last axis is of different kinds)."""
+    return np.where(np.abs(array) < 1e-9 * np.abs(array).max(axis=tuple(range(array.ndim - 1)) or None), 0.0, array)
+
+
 def monotone_slopes(x, y):
     """Slopes of a C1, monotone piecewise cubic through the points (Fritsch and Butland 1984), one-sided at the ends."""
     h, d = np.diff(x), np.diff(y) / np.diff(x)
@@ -66,12 +89,12 @@ def monotone_slopes(x, y):
     return np.concatenate([d[:1], inner, d[-1:]])
 
 
-def make(geometry: Geometry, kind, knots, samples_mpa, fit_map, joint, load_path, **scalars):
-    """A table from samples of T [1/mm2] at the sites of the axes (splines.sites), in the order AXES, then sheets, channels last.
+def make(geometry: Geometry, kind, length, knots, samples_mpa, fit_map, joint, half, **scalars):
+    """A table from samples of the shank's stress [1/mm2] at the sites of the axes (splines.sites), in the order SHANK_AXES, then sheets, channels last.
 
-    fit_map: (fit_a, fit_eff) of the plastic map.  scalars: the remaining members of RivetTable.
+    length: of the axis c [m]; fit_map: (fit_a, fit_eff) of the plastic map; half: HalfData.  scalars: the remaining members of RivetTable.
     """
-    coefficients = as_embedded(rounded(splines.interpolate([knots[name] for name in AXES], samples_mpa)))
+    coefficients = as_embedded(rounded(splines.interpolate([knots[name] for name in SHANK_AXES], samples_mpa)))
     fit_a, fit_eff = map(np.asarray, fit_map)
     fit_slope = np.where(fit_eff == fit_a, 1.0, monotone_slopes(fit_a, fit_eff))  # elastic until yield
     return RivetTable(
@@ -79,13 +102,12 @@ def make(geometry: Geometry, kind, knots, samples_mpa, fit_map, joint, load_path
         geometry=asdict(geometry),
         geometry_hash=geometry.digest,
         Z=geometry.Z,
-        knots=knots,
-        coefficients=coefficients,
         fit_a=fit_a,
         fit_eff=fit_eff,
         fit_slope=fit_slope,
         joint=joint,
-        load_path=load_path,
+        shank=ShankTable(length, knots, coefficients),
+        half=half,
         yield_rivet=geometry.yield_rivet,
         **scalars,
     )

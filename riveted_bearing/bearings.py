@@ -37,7 +37,7 @@ CAGE_MEANT = (
     "Meant with a machined two-piece riveted cage, guided by the outer ring; the pressed ribbon cage with spherical pockets "
     "that many bearings of this designation carry is not modelled"
 )
-SHAPE = ("bearing.D", "bearing.d_m", "cage.D_o", "cage.D_i", "cage.x_c")  # what the rules follow from
+SHAPE = ("bearing.D", "bearing.d_m", "cage.D_o", "cage.D_i", "cage.width")  # what the rules follow from
 
 
 @dataclass(frozen=True)
@@ -86,7 +86,7 @@ class Case:
             "pocket_clearance": v["cage.pocket_clearance"],
             "cage_outer_diameter": v["cage.D_o"],
             "cage_inner_diameter": v["cage.D_i"],
-            "cage_half_width": 2.0 * v["cage.x_c"],
+            "cage_half_width": round(0.5 * v["cage.width"], 12),
             "patch_radius": round((v["cage.D_o"] - v["cage.D_i"]) / 4.0, 12),  # without the rounding of the difference: the table's digest knows every bit
         } | self.rivet
 
@@ -204,16 +204,19 @@ def rules(Z, given, rivet, inputs, data, entry):
         Z, shape["bearing.D"], shape["bearing.d_m"] = Z or rule_Z, given.get("bearing.D", rule_D), given.get("bearing.d_m", entry.d_m)
     Z = Z or variables.Z
     if not entry and all(shape[name] == scaling.start(name) for name in SHAPE):
-        return Z, {}, {}, {}
+        known = {name: value for name, value in defaults().items() if name != "cage.m"} | given
+        follows = scaling.half_inertia({"Z": Z} | known, rivet)
+        return Z, {name: value for name, value in follows.items() if name not in given and value != scaling.start(name)}, {}, {}
     D, d_m = shape["bearing.D"], shape["bearing.d_m"]
-    parameters = scaling.scaled_parameters(D, d_m, given, data.get("bore"), data.get("width"))
+    rivet_by_rule = scaling.scaled_rivet(Z, D, d_m, given, rivet)
+    parameters = scaling.scaled_parameters(Z, D, d_m, given, rivet_by_rule | rivet, data.get("bore"), data.get("width"))
     if "bore" in data and (P_d := catalogue.clearance(data["bore"])) is not None:
         parameters["bearing.P_d"] = P_d
     loads = {} if inputs else scaling.scaled_inputs(Z, D, d_m, data.get("C"))
     return (
         Z,
         {name: value for name, value in parameters.items() if name not in given},
-        {name: value for name, value in scaling.scaled_rivet(D).items() if name not in rivet},
+        rivet_by_rule,
         loads,
     )
 

@@ -5,30 +5,30 @@ by bisection.  Names are those of a bearing file: parameters by their full names
 """
 
 import math
-from collections.abc import Callable
-from typing import NamedTuple
 
-LEAST_WALL = 0.2e-3  # m of metal: the least that is machined
+from rivet_model import half_shape
+from rivet_model.half_shape import LEAST_WALL, Limit
+
+from . import scaling
+
 DENSEST = 2.3e4  # kg/m3: no metal is heavier
 
 
-class Limit(NamedTuple):
-    """margin(values) >= 0 must hold; keys: the values that it is about, the one to blame first if all are given or none; reason: what would be impossible."""
-
-    keys: tuple
-    margin: Callable
-    reason: str
+def shape_of(v):
+    """What half_shape.py needs of the cage half."""
+    return scaling.shape_of(v, {name.removeprefix("rivet."): value for name, value in v.items() if name.startswith("rivet.")})
 
 
-def pocket_radius(v):
-    """Radius of the pocket's cylinder [m]."""
-    return 0.5 * (v["bearing.D"] + v["cage.pocket_clearance"])
+def of_half(limit):
+    """A limit of half_shape.py over the names of a bearing file."""
+    keys = tuple(scaling.SHAPE.get(key, f"rivet.{key}") for key in limit.keys)
+    return Limit(keys, lambda v: limit.margin(shape_of(v)), limit.reason)
 
 
-def narrowest_half_bar(v):
-    """Least distance from the rivet's radial plane to the pocket's wall, in the split plane at the cage's bore [m]; negative if the pockets overlap."""
-    r, pocket = 0.5 * v["cage.D_i"], pocket_radius(v)
-    return r * math.sin(math.pi / v["Z"] - math.asin(pocket / r)) if r > pocket else -pocket
+def centre_of_mass_beside_shape(v):
+    """How far cage.x_c is from the half's own, and what is allowed for rounding: 2 %."""
+    own = scaling.half_inertia(v, vars(shape_of(v))).get("cage.x_c", v["cage.x_c"])
+    return 0.02 * own - abs(v["cage.x_c"] - own)
 
 
 def groove_bottom(v, side):
@@ -38,7 +38,7 @@ def groove_bottom(v, side):
 
 def ring_mass(v, density):
     """Mass of a full ring of the half's diameters and width [kg]."""
-    return density * 0.25 * math.pi * (v["cage.D_o"] ** 2 - v["cage.D_i"] ** 2) * 2.0 * v["cage.x_c"]
+    return density * 0.25 * math.pi * (v["cage.D_o"] ** 2 - v["cage.D_i"] ** 2) * 0.5 * v["cage.width"]
 
 
 CAGE, RIVET = ("bearing.D", "bearing.d_m", "Z", "cage.pocket_clearance"), "rivet.head_diameter"
@@ -61,31 +61,11 @@ LIMITS = (
         lambda v: v["cage.D_i"] - groove_bottom(v, -1) - 2.0 * v["bearing.h_i"] * v["bearing.D"],
         "a cage that passes over the inner ring's shoulder",
     ),
-    Limit(("cage.D_i", *CAGE), lambda v: v["cage.D_i"] - 2.0 * pocket_radius(v), "a pocket smaller than the cage's bore"),
+    *(of_half(limit) for limit in half_shape.LIMITS),
     Limit(
-        (RIVET, *CAGE, "cage.D_i"),
-        lambda v: 2.0 * (narrowest_half_bar(v) - LEAST_WALL) - v[RIVET],
-        "a bridge between pockets that holds the rivet's head",
-    ),
-    Limit(
-        ("cage.D_i", "bearing.d_m", RIVET),
-        lambda v: v["bearing.d_m"] - v[RIVET] - 2.0 * LEAST_WALL - v["cage.D_i"],
-        "a cage with metal inside the rivet's head",
-    ),
-    Limit(
-        ("cage.D_o", "bearing.d_m", RIVET),
-        lambda v: v["cage.D_o"] - v["bearing.d_m"] - v[RIVET] - 2.0 * LEAST_WALL,
-        "a cage with metal outside the rivet's head",
-    ),
-    Limit(
-        ("cage.x_c", "bearing.D", "cage.pocket_clearance"),
-        lambda v: 2.0 * v["cage.x_c"] - 1.05 * pocket_radius(v),
-        "a half (2 x_c wide) whose web closes the pocket",
-    ),
-    Limit(
-        ("cage.x_c", "rivet.flange_thickness", "rivet.head_height"),
-        lambda v: 2.0 * v["cage.x_c"] - v["rivet.flange_thickness"] - v["rivet.head_height"],
-        "a half (2 x_c wide) with a seat that takes the rivet's head",
+        ("cage.x_c", "cage.width", "cage.D_o", "cage.D_i"),
+        centre_of_mass_beside_shape,
+        "a centre of mass (2 % for rounding) of the half's own shape; without cage.x_c it follows",
     ),
     Limit(("cage.land_width", "cage.width"), lambda v: 0.5 * v["cage.width"] - v["cage.land_width"] + 1e-12, "a land on its half of the cage"),
     Limit(
@@ -94,7 +74,7 @@ LIMITS = (
         "a land that does not reach over the cage's edge",
     ),
     Limit(
-        ("cage.m", "cage.D_o", "cage.D_i", "cage.x_c"), lambda v: ring_mass(v, DENSEST) - v["cage.m"], "a half lighter than a full ring of the heaviest metal"
+        ("cage.m", "cage.D_o", "cage.D_i", "cage.width"), lambda v: ring_mass(v, DENSEST) - v["cage.m"], "a half lighter than a full ring of the heaviest metal"
     ),
     Limit(("cage.J_p", "cage.m", "cage.D_o"), lambda v: 0.25 * v["cage.m"] * v["cage.D_o"] ** 2 - v["cage.J_p"], "a half with its mass inside cage.D_o"),
     Limit(("cage.J_p", "cage.m", "cage.D_i"), lambda v: v["cage.J_p"] - 0.25 * v["cage.m"] * v["cage.D_i"] ** 2, "a half with its mass outside cage.D_i"),

@@ -1,6 +1,5 @@
 """A run as one self-contained HTML page: settings, stress, loads, cage, life, solver, and the motion to play and scrub."""
 
-import json
 import math
 from dataclasses import replace
 from importlib.resources import files
@@ -20,6 +19,7 @@ from .summary import DEG, RPM, assumed_rows, columns, life_is_known, settled, su
 
 PARTS = files("riveted_bearing") / "data" / "report"
 WIDE, LOW, SQUARE, HIGH = (4.9, 2.7), (4.9, 1.9), (4.9, 4.2), (4.9, 3.0)  # inches
+NOT_SAID = dict.fromkeys(("scene", "description", "model", "date", "guid"), "") | {"versions": {}, "not_given": {}, "messages": []}
 DISPLAY = {"rad/s": (RPM, "rev/min"), "rad": (DEG, "deg"), "Pa": (1e-6, "MPa"), "m": (1e3, "mm")}
 
 
@@ -61,11 +61,11 @@ def render(result):
     film, missing = frames(result)
     lives = all_lives(result)
     return environment.from_string((PARTS / "page.html").read_text(encoding="utf-8")).render(
-        about=result.about,
+        about=NOT_SAID | result.about,
         stopped=result.stopped,
         style=(PARTS / "style.css").read_text(encoding="utf-8"),
         script=(PARTS / "animation.js").read_text(encoding="utf-8"),
-        film=json.dumps(film) if film else "",
+        film=film,
         missing=missing,
         scale=film["scale"] if film else 1,
         cards=cards(result, lives),

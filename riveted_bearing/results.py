@@ -3,8 +3,10 @@
 Parquet: one column per channel; the schema's metadata holds the key "riveted_bearing" (JSON), each field its unit.
 CSV:     a header of TOML behind "# ", then a line of names and the numbers.
 MAT:     a struct `result` nested like the names, ball[3].Q_i in column 3 of result.ball.Q_i; result.metadata is the same JSON.
+All hold a digest of what was written, by which a damaged file is known.
 """
 
+import hashlib
 import json
 import os
 import re
@@ -13,6 +15,9 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 import numpy as np
+
+from bearing_model.parameters import TYPES
+from bearing_model.variables import PARAMETERS
 
 from .errors import UserError
 
@@ -50,7 +55,7 @@ class Result:
 def write_result(result: Result, path: str | Path) -> Path:
     """Write a result whole or not at all; the suffix of `path` (.parquet, .csv, .mat) is the format."""
     path = Path(path)
-    write_atomically(path, lambda temporary: WRITERS[format_of(path)](result, temporary))
+    write_atomically(path, lambda temporary: WRITERS[format_of(path)](result, result.metadata() | {"digest": digest_of(result)}, temporary))
     return path
 
 
@@ -61,11 +66,80 @@ def read_result(path: str | Path) -> Result:
         raise UserError(f"{path}: no such file")
     try:
         data, metadata = READERS[format_of(path)](path)
-        return Result(data=data, units=metadata["units"], parameters=metadata["parameters"], summary=metadata["summary"], about=metadata["about"])
+        result = Result(data=data, units=metadata["units"], parameters=metadata["parameters"], summary=metadata["summary"], about=metadata["about"])
+        check_result(result, path)
+        if metadata.get("digest", "") not in ("", digest_of(result)):
+            raise UserError(f"{path}: damaged or changed: its digest is not that of what was written")
+        return result
     except UserError:
         raise
     except Exception as problem:  # each library has its own errors for a damaged file
-        raise UserError(f"{path}: not a result of riveted-bearing, or damaged: {problem!r}") from None
+        raise UserError(f"{path}: not a result of riveted-bearing, or damaged: {one_line(problem)}") from None
+
+
+def one_line(problem):
+    """An error of a library in words for a message of one line."""
+    return " ".join(repr(problem).split())[:300]
+
+
+def digest_of(result):
+    """SHA-256 of all that is stored; any two values that are no numbers count as equal."""
+    digest = hashlib.sha256(json.dumps(result.metadata(), sort_keys=True).encode())
+    for name, values in result.data.items():
+        digest.update(name.encode() + np.where(np.isnan(values), np.nan, values).astype("<f8").tobytes())
+    return digest.hexdigest()
+
+
+def check_result(result, path):
+    """Refuse values that no run writes, by name: what a reader of results may rely on.  UserError for the first one."""
+    for part in ("data", "units", "parameters", "summary", "about"):
+        if not isinstance(getattr(result, part), dict):
+            raise UserError(f"{path}: {part}: not a table")
+    times = result.data.get("time")
+    if times is None or times.ndim != 1 or not len(times) or not np.all(np.isfinite(times)):
+        raise UserError(f"{path}: time: not a column of finite numbers")
+    for name, values in result.data.items():
+        if values.shape != times.shape or values.dtype.kind != "f":
+            raise UserError(f"{path}: {name}: not a column of as many numbers as there are times")
+        if not isinstance(result.units.get(name), str):
+            raise UserError(f"{path}: {name}: no unit")
+    for name, value in result.parameters.items():
+        if problem := parameter_problem(name, value):
+            raise UserError(f"{path}: {name} = {value!r}: {problem}")
+    for name, value in result.summary.items():
+        if not is_number(value):
+            raise UserError(f"{path}: {name} = {value!r}: not a number")
+    for name, value in result.about.items():
+        if problem := origin_problem(name, value):
+            raise UserError(f"{path}: {name} = {value!r}: {problem}")
+
+
+def origin_problem(name, value):
+    """What is wrong with a fact about the origin of a result, nothing if it may stand there or has no meaning here."""
+    if name in ("scene", "description", "fmu", "guid", "model", "generated", "machine", "date", "stopped"):
+        return "" if isinstance(value, str) else "not a text"
+    if name in ("given", "messages"):
+        return "" if isinstance(value, list) and all(isinstance(one, str) for one in value) else "not a list of texts"
+    if name in ("versions", "not_given"):
+        return "" if isinstance(value, dict) and all(isinstance(one, str) for one in value.values()) else "not a table of texts"
+    if name in ("t_end", "step"):
+        return "" if is_number(value) else "not a number"
+    return ""
+
+
+def parameter_problem(name, value):
+    """What is wrong with the value of a parameter in a result, nothing if it may stand there."""
+    known = PARAMETERS.get(re.sub(r"\[\d+\]", "[j]", name))
+    if known is not None and known.type in TYPES:
+        items = [item.name.lower() for item in TYPES[known.type]]
+        return "" if value in items else f"allowed: {', '.join(items)}"
+    if known is None and isinstance(value, str):  # an enumeration of another version
+        return ""
+    return "" if is_number(value) else "not a number"
+
+
+def is_number(value):
+    return isinstance(value, int | float) and not isinstance(value, bool)
 
 
 def format_of(path):
@@ -93,6 +167,8 @@ def write_atomically(path, write):
     temporary = path.with_name(f".{path.stem}.{os.getpid()}{path.suffix}")
     try:
         write(temporary)
+        with temporary.open("rb+") as file:  # some file systems say only now that they are full
+            os.fsync(file.fileno())
         os.replace(temporary, path)
     except OSError as problem:
         raise UserError(f"{path}: cannot be written: {problem.strerror or problem}") from None
@@ -100,28 +176,39 @@ def write_atomically(path, write):
         temporary.unlink(missing_ok=True)
 
 
-def write_parquet(result, path):
-    """Columns with units, metadata in the schema."""
-    import pyarrow as pa
+def write_table(table, path):
+    """Write an Arrow table as Parquet with a checksum for each page."""
     from pyarrow import parquet
 
+    parquet.write_table(table, path, compression="zstd", write_page_checksum=True)
+
+
+def read_table(path):
+    """The Arrow table of a Parquet file, its checksums compared; errors of pyarrow."""
+    from pyarrow import parquet
+
+    return parquet.read_table(path, page_checksum_verification=True, partitioning=None)
+
+
+def write_parquet(result, metadata, path):
+    """Columns with units, metadata in the schema."""
+    import pyarrow as pa
+
     fields = [pa.field(name, pa.float64(), metadata={"unit": result.units[name]}) for name in result.data]
-    schema = pa.schema(fields, metadata={KEY: json.dumps(result.metadata())})
-    parquet.write_table(pa.table(list(result.data.values()), schema=schema), path, compression="zstd")
+    schema = pa.schema(fields, metadata={KEY: json.dumps(metadata)})
+    write_table(pa.table(list(result.data.values()), schema=schema), path)
 
 
 def read_parquet(path):
     """Data and metadata of write_parquet."""
-    from pyarrow import parquet
-
-    table = parquet.read_table(path)
+    table = read_table(path)
     return {name: table[name].to_numpy() for name in table.column_names}, json.loads(table.schema.metadata[KEY.encode()])
 
 
-def write_csv(result, path):
+def write_csv(result, metadata, path):
     """TOML behind "# ", names, numbers with all their digits."""
     with path.open("w", encoding="utf-8") as file:
-        file.writelines(f"# {line}\n" for line in to_toml(result.metadata()))
+        file.writelines(f"# {line}\n" for line in to_toml(metadata))
         file.write(",".join(result.data) + "\n")
         np.savetxt(file, np.column_stack(list(result.data.values())), fmt="%.17g", delimiter=",")
 
@@ -164,11 +251,11 @@ def toml_value(value):
     return repr(value) if isinstance(value, float) else json.dumps(value, ensure_ascii=False)
 
 
-def write_mat(result, path):
+def write_mat(result, metadata, path):
     """Nested structs; the elements of ball[...] and rivet[...] as columns."""
     from scipy.io import savemat
 
-    tree = {"metadata": json.dumps(result.metadata()), "names": np.array(list(result.data), dtype=object)}
+    tree = {"metadata": json.dumps(metadata), "names": np.array(list(result.data), dtype=object)}
     for place, columns in group_by_place(result.data).items():
         *branches, leaf = place
         node = tree

@@ -9,7 +9,7 @@ import numpy as np
 from rich.table import Column, Table
 from threadpoolctl import threadpool_limits
 
-from bearing_model import load_path, rivet_rom, rivet_splines, rivet_table
+from bearing_model import half_path, joint_law, rivet_rom, rivet_splines, rivet_table
 from rivet_model import closed_form, pictures, table
 from rivet_model.build import make_table
 from rivet_model.geometry import Geometry
@@ -75,6 +75,15 @@ def read_table(path, Z=None):
         raise UserError(str(problem)) from None
 
 
+def is_table(path):
+    """Whether there is a table that is not damaged."""
+    try:
+        rivet_table.read(path)
+    except (OSError, ValueError):
+        return False
+    return True
+
+
 def condensed(geometry, path):
     """The Joint of a geometry; UserError if it cannot be meshed."""
     try:
@@ -93,7 +102,7 @@ def table_of(where, geometry, kind=None, say=lambda text, share=None: None):
         return rivet_table.DEFAULT_TABLE
     kind = kind or "coarse"
     target = cache_folder("tables") / f"{kind}-{geometry.digest}-{sources_digest()}.json"
-    if target.is_file():
+    if is_table(target):
         return target
     try:
         made = (
@@ -128,7 +137,7 @@ def table_text(t):
 
 def sources_digest():
     """Digest of the source files that make a table, so that a table made by other sources is not taken for theirs."""
-    readers = (Path(module.__file__) for module in (load_path, rivet_rom, rivet_splines, rivet_table))
+    readers = (Path(module.__file__) for module in (half_path, joint_law, rivet_rom, rivet_splines, rivet_table))
     files = [*sorted(Path(table.__file__).parent.glob("*.py")), *readers]
     return sha256(b"".join(file.read_bytes() for file in files)).hexdigest()[:8]
 

@@ -1,20 +1,23 @@
 """What is not known of a bearing, by rule from the 6207 of the paper: the defaults of the variable table, scaled.
 
 Cage, clearances and rivets are geometrically similar: lengths grow with the ball's diameter, the cage's diameters keep their distances from the pitch circle
-in ball diameters, the rivets' preload grows with the section (equal stress).  A half's mass and inertia follow from its diameters and width, the inner ring's
-(with its share of the shaft) from bore and width; its damping keeps damping per mass and damping ratio.  Loads: a tenth of C radially, a sixth of that
-axially; speed: n d_m = 480,000 mm/min, 70 % of the usual limit with grease.
+in ball diameters, the rivets' preload grows with the section (equal stress).  A half's mass, centre of mass and inertia follow from its shape
+(rivet_model/half_shape.py), the inner ring's (with its share of the shaft) from bore and width; its damping keeps damping per mass and damping ratio.
+Loads: a tenth of C radially, a sixth of that axially; speed: n d_m = 480,000 mm/min, 70 % of the usual limit with grease.
 """
 
 import math
+from dataclasses import asdict
+from types import SimpleNamespace
 
 from bearing_model import variables
 from bearing_model.load_ratings import dynamic_rating
+from rivet_model import half_shape
 from rivet_model.geometry import Geometry
 
 BORE, WIDTH = 0.035, 0.017  # of the 6207 [m]
-BY_BALL = ("cage.pocket_clearance", "cage.guide_clearance", "joint.fit", "joint.swell")
-AXIAL = ("cage.x_c", "cage.width", "cage.land_width", "cage.land_x")  # by the ball too, as far as the bearing is wide enough
+BY_BALL = ("cage.guide_clearance", "joint.fit", "joint.swell")
+AXIAL = ("cage.width", "cage.land_width", "cage.land_x")  # by the ball too, as far as the bearing is wide enough
 WIDEST_CAGE = 0.97  # of the bearing's width
 RIVET_LENGTHS = (
     "shank_diameter",
@@ -26,9 +29,19 @@ RIVET_LENGTHS = (
     "edge_break",
     "flange_thickness",
     "middle_zone",
+    "seat_diameter",
 )
-DENSITY = 8800.0  # bronze [kg/m3]
-FILL = 0.55  # part of the full ring that pockets leave
+SHAPE = {  # names of half_shape.py by those of a bearing file; half the cage's width apart
+    "Z": "Z",
+    "d_m": "bearing.d_m",
+    "ball_diameter": "bearing.D",
+    "pocket_clearance": "cage.pocket_clearance",
+    "cage_outer_diameter": "cage.D_o",
+    "cage_inner_diameter": "cage.D_i",
+    "cage_half_width": "cage.width",
+}
+INERTIA = ("cage.m", "cage.x_c", "cage.J_p", "cage.J_t")  # of one half, in the order of half_shape.Inertia
+RIVET = asdict(Geometry())
 SPEED = 8.0  # n d_m, 480,000 mm/min [m/s]
 
 
@@ -42,31 +55,38 @@ def rounded(value):
     return float(f"{value:.6g}")
 
 
-def scaled_parameters(D, d_m, given, bore=None, width=None):
-    """Parameters by rule for balls of the diameter D on the pitch diameter d_m [m]; what `given` holds stands, and others that follow from it do.
+def scaled_parameters(Z, D, d_m, given, rivet, bore=None, width=None):
+    """Parameters by rule for Z balls of the diameter D on the pitch diameter d_m [m]; what `given` holds stands, and others that follow from it do.
 
-    bore, width [m]: the 6207's in ball diameters, if not known.
+    rivet: dimensions by the names of rivet_model.geometry; bore, width [m]: the 6207's in ball diameters, if not known.
     """
     r = D / start("bearing.D")
     values = {"bearing.D": D, "bearing.d_m": d_m}
     axial = r if width is None else min(r, WIDEST_CAGE * width / start("cage.width"))
     values |= {name: rounded(r * start(name)) for name in BY_BALL} | {name: rounded(axial * start(name)) for name in AXIAL}
-    values |= {name: rounded(d_m + r * (start(name) - start("bearing.d_m"))) for name in ("cage.D_o", "cage.D_i")}
+    values |= {name: value for name, value in cage_sizes(D, d_m).items() if name != "cage.width"}
     values["joint.preload"] = rounded(r**2 * start("joint.preload"))
     values |= given
-    m, J_p, J_t = half_of_ring(values["cage.D_o"], values["cage.D_i"], 2.0 * values["cage.x_c"])
-    share = values.get("cage.m", m) / m  # a given mass scales the density
-    values |= {"cage.m": rounded(share * m), "cage.J_p": rounded(share * J_p), "cage.J_t": rounded(share * J_t)} | given
+    values |= half_inertia({"Z": Z} | values, rivet) | given
     bore = (d_m - (start("bearing.d_m") - BORE) * r) if bore is None else bore
     width = WIDTH * r if width is None else width
     return inner_ring(bore / BORE, width / WIDTH) | values
 
 
-def half_of_ring(D_o, D_i, width):
-    """Mass and moments of inertia of a cage half: a bronze ring without its pockets [kg, kg m2]."""
-    m = FILL * DENSITY * 0.25 * math.pi * (D_o**2 - D_i**2) * width
-    J_p = m * (D_o**2 + D_i**2) / 8.0
-    return m, J_p, 0.5 * J_p + m * width**2 / 12.0
+def shape_of(values, rivet):
+    """What half_shape.py needs of a cage half: values by the names of a bearing file, the rivet's by those of rivet_model.geometry."""
+    cage = {name: values[parameter] for name, parameter in SHAPE.items()}
+    return SimpleNamespace(**RIVET | rivet | cage | {"cage_half_width": 0.5 * cage["cage_half_width"]})
+
+
+def half_inertia(values, rivet):
+    """INERTIA of the half that follows from the shape; a mass among the values scales the density.  Without those of a shape that has none."""
+    shape = shape_of(values, rivet)
+    if half_shape.narrowest_half_bar(shape) <= 0.0:
+        return {}
+    m, x_c, J_p, J_t = half_shape.half_inertia(shape)
+    share = values["cage.m"] / m if "cage.m" in values else 1.0
+    return dict(zip(INERTIA, (rounded(value) for value in (share * m, x_c, share * J_p, share * J_t)), strict=True))
 
 
 def inner_ring(bore, width):
@@ -78,10 +98,22 @@ def inner_ring(bore, width):
     return {name: rounded(value) for name, value in values.items()}
 
 
-def scaled_rivet(D):
-    """Lengths of the rivet and its seat by rule [m]."""
+def cage_sizes(D, d_m):
+    """Diameters, width and pocket clearance of a cage by rule [m], its width as far as the bearing's is not known."""
     r = D / start("bearing.D")
-    return {name: rounded(r * getattr(Geometry, name)) for name in RIVET_LENGTHS}
+    values = {name: rounded(r * start(name)) for name in ("cage.width", "cage.pocket_clearance")}
+    return values | {name: rounded(d_m + r * (start(name) - start("bearing.d_m"))) for name in ("cage.D_o", "cage.D_i")}
+
+
+def scaled_rivet(Z, D, d_m, given, rivet):
+    """Lengths of the rivet and its seat by rule [m]; the seat's counterbore leaves metal around it, as far as the head has room at all."""
+    r = D / start("bearing.D")
+    values = {name: rounded(r * RIVET[name]) for name in RIVET_LENGTHS} | rivet
+    shape = shape_of({"Z": Z, "bearing.D": D, "bearing.d_m": d_m} | cage_sizes(D, d_m) | given, values)
+    across = min(d_m - shape.cage_inner_diameter, shape.cage_outer_diameter - d_m, 2.0 * half_shape.narrowest_half_bar(shape))
+    if "seat_diameter" not in rivet:
+        values["seat_diameter"] = rounded(max(values["head_diameter"], min(values["seat_diameter"], across - 2.0 * half_shape.LEAST_WALL)))
+    return {name: value for name, value in values.items() if name not in rivet}
 
 
 def scaled_inputs(Z, D, d_m, C=None):

@@ -33,6 +33,7 @@ import hashlib
 import itertools
 import json
 import time
+import uuid
 from dataclasses import dataclass, field
 from datetime import UTC, datetime
 from pathlib import Path
@@ -41,7 +42,7 @@ import numpy as np
 
 from .errors import UserError, unknown
 from .fmu import Model
-from .results import KEY, write_atomically
+from .results import KEY, one_line, read_table, write_atomically, write_table
 from .runner import closing_names, simulate
 from .scene import SECONDS, SIMULATION, leaves, load_scene, read_toml, refusal, section_of, shipped_scenes
 from .summary import settled
@@ -285,6 +286,7 @@ class cluster:
         from distributed import Client, LocalCluster
 
         dask.config.set({"distributed.admin.large-graph-warning-threshold": "64MB"})  # the FMU travels inside the graph
+        logging.getLogger("distributed.client").setLevel(logging.CRITICAL)  # run_sweep says in one line what a lost scheduler means
         if self.address:
             self.local = None
             try:
@@ -292,7 +294,8 @@ class cluster:
             except (OSError, ValueError) as problem:
                 raise UserError(f"--scheduler {self.address}: {problem}") from None
         else:
-            self.local = LocalCluster(n_workers=self.workers, threads_per_worker=1, processes=True, dashboard_address=":0", silence_logs=logging.CRITICAL)
+            here = {"host": "127.0.0.1", "dashboard_address": "127.0.0.1:0"}
+            self.local = LocalCluster(n_workers=self.workers, threads_per_worker=1, processes=True, silence_logs=logging.CRITICAL, **here)
             self.client = Client(self.local)
         return self.client
 
@@ -321,6 +324,8 @@ def run_sweep(sweep, folder, client, progress=None):
     futures = [client.submit(perform, sweep.scenes[key], fmu, key=f"run-{key}") for key in keys if key not in finished]
     try:
         for future in as_completed(futures):
+            if future.status in ("cancelled", "lost"):
+                raise UserError(f"the Dask scheduler is gone after {done + failed} of {len(keys)} runs; they are in {folder}, the same command does the others")
             key = future.key.removeprefix("run-")
             row = about_run(sweep, key) | outcome(future)
             future.release()
@@ -337,8 +342,7 @@ def outcome(future):
     """A worker's part of a row, or the reason why there is none."""
     if future.status == "finished":
         return future.result()
-    reason = future.exception() if future.status == "error" else "cancelled"
-    return {"status": "failed", "message": f"no result: {reason!r}", "date": datetime.now(UTC).isoformat(timespec="milliseconds")}
+    return {"status": "failed", "message": f"no result: {future.exception()!r}", "date": datetime.now(UTC).isoformat(timespec="milliseconds")}
 
 
 def about_run(sweep, key):
@@ -382,10 +386,20 @@ def schema_of(sweep):
 def write_row(path, row, schema):
     """Write a row as a Parquet file, whole or not at all; columns without a value are null."""
     import pyarrow as pa
-    from pyarrow import parquet
 
     table = pa.Table.from_pylist([row], schema=schema)
-    write_atomically(path, lambda temporary: parquet.write_table(table, temporary))
+    write_atomically(path, lambda temporary: write_table(table, temporary))
+
+
+def read_rows(path):
+    """The Arrow table of a file of rows; UserError if it is damaged or something else."""
+    try:
+        table = read_table(path)
+        if KEY.encode() not in (table.schema.metadata or {}) or not {"key", "status", "run"} <= set(table.column_names):
+            raise ValueError("no table of runs")
+        return table
+    except Exception as problem:  # pyarrow has many
+        raise UserError(f"{path}: not a result of a sweep, or damaged: {one_line(problem)}; without this file its runs are done again") from None
 
 
 def compact(folder, schema, keys):
@@ -395,22 +409,21 @@ def compact(folder, schema, keys):
     before the old ones are removed; a process that is killed in between leaves rows twice, until the next call.
     """
     import pyarrow as pa
-    from pyarrow import parquet
 
-    files = sorted(folder.glob("[!._]*.parquet"))
     whole = folder / ROWS
+    files = sorted(folder.glob("[!._]*.parquet"), key=lambda path: (path != whole, path))  # what an earlier call has put together, then what came after
     if not files:
         return set()
-    table = pa.concat_tables([schema.empty_table(), *(parquet.read_table(path) for path in files)], promote_options="default")
-    facts = zip(*(table[name].to_pylist() for name in ("key", "status", "date")), strict=True)
-    latest = {key: i for _, _, key, i in sorted((status == "done", date, key, i) for i, (key, status, date) in enumerate(facts))}
+    table = pa.concat_tables([schema.empty_table(), *(read_rows(path) for path in files)], promote_options="default")
+    facts = zip(*(table[name].to_pylist() for name in ("key", "status")), strict=True)
+    latest = {key: i for _, i, key in sorted((status == "done", i, key) for i, (key, status) in enumerate(facts))}  # whatever the clocks say
     if foreign := [i for key, i in latest.items() if key not in set(keys)]:
-        path = folder / SUPERSEDED / f"{datetime.now(UTC):%Y%m%d-%H%M%S-%f}.parquet"
-        write_atomically(path, lambda temporary: parquet.write_table(table.take(foreign), temporary, compression="zstd"))
+        path = folder / SUPERSEDED / f"{datetime.now(UTC):%Y%m%d-%H%M%S}-{uuid.uuid4().hex[:8]}.parquet"
+        write_atomically(path, lambda temporary: write_table(table.take(foreign), temporary))
     places = {key: place for place, key in enumerate(keys) if key in latest}
     kept = table.take(pa.array([latest[key] for key in places], pa.int64())).select(schema.names).cast(schema)
     kept = kept.set_column(schema.get_field_index("run"), schema.field("run"), pa.array(list(places.values()), pa.int64()))
-    write_atomically(whole, lambda temporary: parquet.write_table(kept.replace_schema_metadata(schema.metadata), temporary, compression="zstd"))
+    write_atomically(whole, lambda temporary: write_table(kept.replace_schema_metadata(schema.metadata), temporary))
     for path in files:
         if path != whole:
             path.unlink()
@@ -419,10 +432,8 @@ def compact(folder, schema, keys):
 
 def columns_of(folder):
     """The rows of a sweep's folder by column name, as numpy arrays; raises UserError if there are none."""
-    from pyarrow import parquet
-
     path = Path(folder) / ROWS
     if not path.is_file():
         raise UserError(f"{path}: no such sweep result")
-    table = parquet.read_table(path)
+    table = read_rows(path)
     return {name: table[name].to_numpy() for name in table.column_names}

@@ -1,16 +1,23 @@
 """What the tests share: the built FMU and the C core, or in files that say TWINS = True each of the twins in turn."""
 
 import ctypes
+import importlib.util
 import os
+import shutil
+import subprocess
 import sys
 from pathlib import Path
+from types import SimpleNamespace
 
 import fmpy
 import pytest
+from fmpy.validation import validate_fmu
 from library import LIBRARY, ROOT, Core
 from python_core import python_core
 from slave import Slave
 from threadpoolctl import threadpool_limits
+
+from riveted_bearing.builder import PLATFORMS, build_folder
 
 
 def pytest_generate_tests(metafunc):
@@ -57,6 +64,33 @@ def slave(folder):
 @pytest.fixture
 def running(slave):
     return slave.initialize()
+
+
+@pytest.fixture(scope="session")
+def everywhere(tmp_path_factory):
+    """Folders of both FMUs with binaries for all platforms, by name; two minutes of compilation."""
+    if not importlib.util.find_spec("ziglang"):
+        pytest.skip("needs the package ziglang: pip install ziglang")
+    made = tmp_path_factory.mktemp("all")
+    subprocess.run([sys.executable, "-m", "riveted_bearing", "build", "--platforms", "all", "--out", str(made / "RivetedBearing.fmu")], check=True)
+    assert validate_fmu(str(made / "RivetedBearing.fmu")) == []
+    bearing, built = Path(fmpy.extract(str(made / "RivetedBearing.fmu"), str(made / "bearing"))), build_folder(ROOT, None)
+    shaft = Path(fmpy.extract(str(ROOT / "fmus" / "Shaft.fmu"), str(made / "shaft")))
+    for platform in PLATFORMS:
+        (binary,) = (built / platform).glob("Shaft.*")
+        (shaft / "binaries" / platform).mkdir(parents=True, exist_ok=True)
+        shutil.copy(binary, shaft / "binaries" / platform)
+    return {"RivetedBearing": bearing, "Shaft": shaft}
+
+
+@pytest.fixture(scope="session")
+def wine(tmp_path_factory):
+    """The command that runs Windows programs, and its environment."""
+    program = next(filter(None, map(shutil.which, ("wine64", "wine", "/usr/lib/wine/wine64"))), None)
+    if not program:
+        pytest.skip("needs wine, which runs Windows programs: apt-get install wine64")
+    environment = os.environ | {"WINEPREFIX": str(tmp_path_factory.mktemp("wine")), "WINEDEBUG": "-all", "WINEDLLOVERRIDES": "mscoree,mshtml="}
+    return SimpleNamespace(command=[program], environment=environment)
 
 
 UNZIP = """#!/bin/sh

@@ -35,18 +35,21 @@ def test_curves_of_the_paper():
 
 
 def test_curves_of_a_geometry_are_its_finite_elements(joint):
-    """Without a table: solutions of the joint itself, and the map of its own plasticity."""
+    """Without a table: solutions of the joint itself, and the map of its own plasticity; within 2 % of the table (coarse angles; observed 0.5 %)."""
     stress, fit_eff = pictures.joint_response(joint)
-    load = pictures.REFERENCE
-    forces = joint.solve(load.P, load.N, load.V_y, 0.0, 0.0, -6e-6)[0]
-    np.testing.assert_allclose(stress(load, np.array([-6e-6]))[0], joint.channels(forces[:, None])[0], rtol=1e-12)
+    forces = joint.solve_shank(20.0, 10.0, 0.0, 0.0, -6e-6)[0]
+    preloaded = pictures.JointLoad(20.0, 0.0, 10.0)
+    np.testing.assert_allclose(stress(preloaded, np.array([-6e-6]))[0], joint.channels(forces[:, None])[0], rtol=0.01)  # the pad's own m at rest
+    shown = [rivet_rom.HEAD_P1, rivet_rom.MID_VM]
+    got, expected = (response(pictures.REFERENCE, np.array([-6e-6]))[0, shown] for response in (stress, pictures.table_response(TABLE)[0]))
+    np.testing.assert_allclose(got, expected, rtol=0.02)
     assert fit_eff(-5e-6) == -5e-6 and 0.0 < fit_eff(30e-6) < 15e-6
 
 
 def test_pictures_draw_contact_as_contact(joint):
     """Displacements and gaps magnified alike: where pressure acts, both bodies are in the same place (to the unevenness along a hat: 5 % of the gap)."""
     load, fit, magnified = pictures.REFERENCE, -6e-6, 60.0
-    forces, q, *_ = joint.solve(load.P, load.N, load.V_y, 0.0, 0.0, fit)
+    forces, q, *_ = joint.solve(load.P, load.N, load.V, 0.0, 0.0, fit)
     radius = joint.geometry.shank_diameter / 2
 
     def bore(moved, place):
@@ -79,9 +82,9 @@ def test_a_table_for_another_rivet(tmp_path, monkeypatch):
     assert (
         t.kind == "fe_coarse" and t.errors["all"]["loads"] == 320 and t.geometry["shank_diameter"] == 1.3e-3 and t.geometry["d_m"] == case.values["bearing.d_m"]
     )
-    assert list(stages) == [f"rivet: {name}" for name in ("elements", "contacts", "interference", "load path", "hold-out")]
+    assert list(stages) == [f"rivet: {name}" for name in ("elements", "contacts", "interference", "cage half", "hold-out")]
     assert set(stages.values()) == {1.0}
-    sigma, _ = rivet_rom.rivet_rom_stress(t, rivet_rom.RivetLoad(P=20.0), -90e-6)
+    sigma, _ = rivet_rom.rivet_rom_stress(t, rivet_rom.RivetLoad(T=20.0), -90e-6)
     assert sigma[rivet_rom.MID_VM] == pytest.approx(20.0 / (np.pi / 4 * 1.3e-3**2), rel=0.01)  # F/A, heads more than two diameters away
 
     def broken(*arguments, **options):
@@ -113,7 +116,7 @@ def test_an_fmu_for_another_rivet(tmp_path):
     assert done.returncode == 0, done.stderr
     result = run("demo", fmu=tmp_path / "long_head.fmu", t_end=1e-4, outputs=["rivet[1].sigma_mid", "rivet[1].sigma_head", "rivet[1].N"])
     ratio = result.data["rivet[1].sigma_head"][0] / result.data["rivet[1].sigma_mid"][0]
-    sigma, _ = rivet_rom.rivet_rom_stress(TABLE, rivet_rom.RivetLoad(P=20.0), -6e-6)
+    sigma, _ = rivet_rom.rivet_rom_stress(TABLE, rivet_rom.RivetLoad(T=20.0), -6e-6)
     assert ratio > 1.2 * sigma[rivet_rom.HEAD_P1] / sigma[rivet_rom.MID_VM]  # a prototype: 145 MPa at 0.9 mm, some 200 at 0.6
 
 

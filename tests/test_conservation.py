@@ -4,12 +4,13 @@ import numpy as np
 import pytest
 from mechanics import SLICE, Instance, Z, axis, pocket_loads, running_state
 
-from bearing_model.variables import CageModel, Lubrication, Method, Switch, TiltMode, Traction
+from bearing_model.variables import PARAMETERS, CageModel, Lubrication, Method, Switch, TiltMode, Traction
 
 TWINS = True
 BALL_MASS = 7800.0 * np.pi / 6.0 * 0.0111125**3
 BALL_J = 0.1 * BALL_MASS * 0.0111125**2
-M, J_P, J_T, RING = 0.0276, 2.07e-5, 1.06e-5, 0.6
+M, J_P, J_T = (PARAMETERS[f"cage.{name}"].start for name in ("m", "J_p", "J_t"))
+RING = 0.6
 
 
 def momenta(y):

@@ -74,23 +74,23 @@ def rivet(joint):
 
 def fresh(joint, load, fit):
     """Fields of one load, V along y, by a fresh solution."""
-    return [f[..., 0] for f in joint.fields(joint.solve(load.P, load.N, load.V_y, load.M_z, load.M_y, fit)[0][:, None], components.ANGLES)]
+    return [f[..., 0] for f in joint.fields(joint.solve_shank(load.T, load.V_y, load.m_z, load.m_y, fit)[0][:, None], components.ANGLES)]
 
 
 def test_components_follow_the_finite_elements(rivet, joint):
-    """At the sites of the axes and the sheets' directions they are the finite elements' fields, in all quadrants of M (24 modes: observed 0.5 %)."""
-    P, N, V, M = reduction.loads_of(0.25, 0.25, 0.25, reduction.MOMENT_LENGTH)
+    """At the sites of the axes and the sheets' directions they are the finite elements' fields, in all quadrants of m (24 modes: observed 0.5 %)."""
+    T, V, m = reduction.shank_loads(0.25, 0.5, reduction.LENGTH)
     for sign_plane, sign_across in ((1, 1), (-1, 1), (1, -1), (-1, -1)):
-        load = RivetLoad(P, N, V, 0.0, sign_across * M * np.sin(np.pi / 3), sign_plane * M * np.cos(np.pi / 3))
+        load = RivetLoad(T, V, 0.0, sign_across * m * np.sin(np.pi / 3), sign_plane * m * np.cos(np.pi / 3))
         for got, expected in zip(rivet.fields(load, -550e-9), fresh(joint, load, -550e-9), strict=True):
             np.testing.assert_allclose(got[..., 0], expected, atol=0.02 * np.abs(expected).max())
 
 
 def test_components_turn_with_the_load(rivet):
     """The load turned by two of the sixteen angles: the fields move on by two (rounding)."""
-    one = RivetLoad(20.0, 5.0, 12.0, 0.0, 0.01, 0.02)
+    one = RivetLoad(25.0, 12.0, 0.0, 0.002, 0.004)
     c, s = np.cos(np.pi / 4), np.sin(np.pi / 4)
-    other = RivetLoad(20.0, 5.0, c * 12.0, s * 12.0, c * 0.01 - s * 0.02, s * 0.01 + c * 0.02)
+    other = RivetLoad(25.0, c * 12.0, s * 12.0, c * 0.002 - s * 0.004, s * 0.002 + c * 0.004)
     for a, b in zip(rivet.fields(one, -6e-6), rivet.fields(other, -6e-6), strict=True):
         np.testing.assert_allclose(np.roll(a, 2, axis=2), b, atol=1e-9 * np.abs(a).max())
 
@@ -100,7 +100,7 @@ def test_components_of_a_logged_history(rivet, tmp_path):
     components.write(rivet, tmp_path / "components.npz")
     again = components.read(tmp_path / "components.npz", Geometry().digest)
     turn, one = np.linspace(0.0, 2 * np.pi, 24), np.ones(24)
-    values = {"P": 20 * one, "N": 5 * one, "V_y": 12 * np.cos(turn), "V_z": 12 * np.sin(turn), "M_y": 0 * one, "M_z": 0 * one, "F_head": 0 * one}
+    values = {"T": 25 * one, "V_y": 12 * np.cos(turn), "V_z": 12 * np.sin(turn), "M_shank_y": 0 * one, "M_shank_z": 0 * one, "F_head": 0 * one}
     load = logged_load({f"rivet[3].{name}": value for name, value in values.items()}, 3)
     fields = again.fields(load, -6e-6)
     for a, b in zip(fields, rivet.fields(load, -6e-6), strict=True):

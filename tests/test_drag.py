@@ -19,7 +19,7 @@ ALONE = {"scene.drag": Drag.ISOLATED, "scene.churning": Switch.OFF}
 
 def mixture(core, speed=1909.879, cage=757.0, inputs=None, **changes):
     """A model with both halves at `cage` [rad/s] and the mixture set."""
-    m = core.model(parameters=changes, inputs={"shaft.omega": speed} | (inputs or {}))
+    m = core.model(parameters={"cage.width": 13.5e-3} | changes, inputs={"shaft.omega": speed} | (inputs or {}))
     for half in m.work.half:
         pose(core, half, Omega=(cage, 0.0, 0.0))
     pose(core, m.work.ring, Omega=(speed, 0.0, 0.0))

@@ -134,11 +134,12 @@ def test_lossless_energy_stays(core, record_property):
     """Friction, damping, drag and films off, a heavy ring: balls rattle in their pockets with 60 N (4e-5 J a pulse) and 26.5 J stay.
 
     Runge-Kutta's global error of order 4, with steps by an estimate of order 4, is proportional to the tolerance: slope 1, observed 0.96 from 1e-5
-    to 1e-7; 7.6e-9 J at 1e-7.
+    to 1e-7; 7.6e-9 J at 1e-7.  Medians of three clearances: the error has a sign, and where it passes through zero the slope is another one.
     """
     parameters = LOSSLESS | {"solver.method": Method.EXPLICIT, "ring.m": 1000.0, "cage.pocket_clearance": 7e-5}
-    slope, last = order(core, [1e-5, 1e-6, 1e-7], parameters, 2e-3)
-    record_property("drift", {"slope": float(slope), "J at 1e-7": float(last)})
+    orders = [order(core, [1e-5, 1e-6, 1e-7], parameters | {"cage.pocket_clearance": clearance}, 2e-3) for clearance in (6e-5, 7e-5, 8e-5)]
+    record_property("drift", [{"slope": float(slope), "J at 1e-7": float(last)} for slope, last in orders])
+    slope, last = np.median(orders, axis=0)
     assert slope == pytest.approx(1.0, abs=0.2)
     assert last < 2e-8
     _, loss, bearing = residual(core, 1e-5, parameters, 2e-3)

@@ -50,7 +50,7 @@ def test_ball_leaves_the_cages_section(resting):
 def test_joint_opens_where_the_preload_is_used_up(resting):
     """u_x = P/k_plate: 20 N over the plates' stiffness; half 1 alone is moved, so all joints open together."""
     preload = variables.PARAMETERS["joint.preload"].start
-    limit = preload / TABLE.joint["k_plate"]
+    limit = preload / (TABLE.half.k_closed - TABLE.half.k_open)
     for factor, joints in ((1.0 - 1e-4, 0), (1.0 + 1e-4, variables.Z)):
         assert resting({"CAGE_X": [0.0, factor * limit]}).output("event.joint_open") == joints
 

@@ -2,6 +2,7 @@
 
 import math
 import os
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -287,6 +288,29 @@ def test_inconsistent_parameters_are_refused_at_initialization(slave):
     assert "cage.D_i" in slave.messages[-1][2]
     slave.check("Reset")
     slave.initialize().step(H)
+
+
+@pytest.mark.parametrize(
+    ("name", "value", "allowed"),
+    [
+        ("cage.D_i", 0.0502, 0.0501),  # d_m - seat - two walls: 53.5 - 3.0 - 0.4 mm
+        ("cage.D_o", 0.0568, 0.0569),
+        ("cage.D_o", 0.0645, 0.06442),  # d_m + D + P_d/2 - guide clearance
+        ("cage.width", 0.0118, 1.05 * 0.0113125),
+        ("cage.pocket_clearance", 0.003, 0.00265112),
+        ("cage.x_c", 0.0034, 0.00401163),
+    ],
+)
+def test_cages_that_cannot_be_built_are_refused(slave, name, value, allowed):
+    """Name, value and what is allowed (the bridge: 2 r sin(pi/9 - asin(1.7 mm/r)) - D, r = 24.85 mm, by hand)."""
+    slave.set(name, value)
+    if name == "cage.pocket_clearance":
+        slave.set("cage.width", 15e-3)  # webs over wider pockets
+    slave.check("EnterInitializationMode")
+    assert slave.call("ExitInitializationMode") == ERROR
+    message = next(text for _, _, text in slave.messages if f"{name} = " in text)
+    numbers = [float(number) for number in re.findall(r"= (\d[\d.e+-]*) m|(?:most|least|at) (\d[\d.e+-]*) m", message) for number in number if number]
+    assert numbers[0] == pytest.approx(value, rel=1e-5) and min(abs(number / allowed - 1.0) for number in numbers[1:]) < 1e-3, message
 
 
 # ------------------------------------------------------------------------------------------------------------------------ time

@@ -84,7 +84,7 @@ def test_scene_of_the_guide_and_python_examples_run(folder, capsys):
     printed = capsys.readouterr().out
     assert len(printed.splitlines()) == 3
     stresses = [int(text) for text in re.findall(r"(\d+) MPa", printed)]
-    assert len(stresses) == 5 and all(40 < stress < 400 for stress in stresses)
+    assert len(stresses) == 5 and all(40 < stress < 900 for stress in stresses)  # 730 MPa the largest, with the centrifugal load
 
 
 @pytest.mark.slow

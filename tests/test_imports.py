@@ -13,7 +13,8 @@ import pytest
 from library import ROOT
 
 PACKAGES = ("bearing_model", "rivet_model", "riveted_bearing")
-READERS = {f"bearing_model.{name}" for name in ("rivet_table", "rivet_rom", "rivet_splines", "load_path")}  # all that rivet_model may know of bearing_model
+# All that rivet_model may know of bearing_model.
+READERS = {f"bearing_model.{name}" for name in ("rivet_table", "rivet_rom", "rivet_splines", "joint_law", "half_path")}
 
 
 def name_of(path):

@@ -8,11 +8,12 @@ from library import block
 from mechanics import pose
 from scipy.integrate import quad, solve_bvp
 
-from bearing_model.variables import Lubrication, Switch
+from bearing_model.variables import PARAMETERS, Lubrication, Switch
 
 TWINS = True
 ETA, R, L, C = 6e-3, 0.02975, 2.5e-3, 1e-4
 X_LAND = 5.5e-3
+M, J_T, X_C = (PARAMETERS[f"cage.{name}"].start for name in ("m", "J_t", "x_c"))
 KAPPA = ETA * R * L**3 / C**3  # 0.0028 N.s/m
 SHARP = {"cage.g_0": 1e-12, "scene.heating": Switch.OFF}  # without the floor of 1 - eps^2, at the oil's temperature
 DRY = {"oil.eta": 1e-300, "cage.g_0": 0.02}
@@ -123,8 +124,8 @@ def test_rates_are_derivatives(core):
             rate, tilt = D[block("cage", across)][1], D[block("cage", tilting)][1]
             step = h * np.eye(2)[i]
             slope = (film(core, e, v + step, omega, **{"cage.g_0": 0.02})[1] - film(core, e, v - step, omega, **{"cage.g_0": 0.02})[1])[i] / (2 * h)
-            assert rate == pytest.approx(-slope / 0.0276, rel=1e-5, abs=1e-3)
-            assert tilt == pytest.approx(-slope * (X_LAND - 0.0034) ** 2 / 1.06e-5, rel=1e-5, abs=1e-3)
+            assert rate == pytest.approx(-slope / M, rel=1e-5, abs=1e-3)
+            assert tilt == pytest.approx(-slope * (X_LAND - X_C) ** 2 / J_T, rel=1e-5, abs=1e-3)
 
 
 def test_film_never_gives_energy(core):

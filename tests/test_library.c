@@ -27,8 +27,8 @@ void test_traction_inlet(int n, double rolling, double Q, const double *U, doubl
 void test_traction_race_inlet(int n, const Derived *d, double rolling, double Q, const double *U,
                               double *F_R);
 void test_traction_ln_thermal(int n, double ln_thermal, const double *U, double *ln_factor);
-void test_rivet_rom_stress(int n, const RivetLoads *load, double fit_eff, bool all, double *sigma);
-unsigned test_rivet_rom_load_flags(const RivetLoads *load, double *sigma, int k);
+void test_rivet_rom_stress(int n, const JointLoads *load, double fit_eff, bool all, double *sigma);
+unsigned test_rivet_rom_load_flags(double *sigma, int k);
 
 // Zeroed, aligned for any lane width; free() releases it.
 void *test_allocate(size_t size)
@@ -118,14 +118,14 @@ void test_traction_inlet(int n, double rolling, double Q, const double *U, doubl
 }
 
 // sigma: [RIVET_CHANNELS][Z] of the last load.
-void test_rivet_rom_stress(int n, const RivetLoads *load, double fit_eff, bool all, double *sigma)
+void test_rivet_rom_stress(int n, const JointLoads *load, double fit_eff, bool all, double *sigma)
 {
     const Kernels kernels = kernels_select();
     for (int i = 0; i < n; i++)
         kernels.rivet_rom_stress(&rivet_table, &load[i], fit_eff, all, (double (*)[Z])sigma);
 }
 
-unsigned test_rivet_rom_load_flags(const RivetLoads *load, double *sigma, int k)
+unsigned test_rivet_rom_load_flags(double *sigma, int k)
 {
-    return rivet_rom_load_flags(&rivet_table, load, (double (*)[Z])sigma, k);
+    return rivet_rom_load_flags(&rivet_table, (double (*)[Z])sigma, k);
 }

@@ -5,7 +5,9 @@ import pytest
 from mechanics import SLICE, axis
 from scipy.integrate import solve_ivp
 
-M, J_P, J_T = 0.0276, 2.07e-5, 1.06e-5
+from bearing_model import variables
+
+M, J_P, J_T, X_C = (variables.PARAMETERS[f"cage.{name}"].start for name in ("m", "J_p", "J_t", "x_c"))
 NAMES = [f"cage_{name}" for name in ("x", "y", "z", "beta", "gamma", "psi", "v_x", "v_y", "v_z", "beta_dot", "gamma_dot", "s")]
 
 
@@ -107,7 +109,7 @@ def test_geometric_centre_follows_the_body(core):
     rates(0.0, state)
     for h, half in enumerate(model.work.half):
         b_y, Omega = np.array(list(half.b_y)), angular_velocity(state, h)[1]
-        lever = (-1.0, 1.0)[h] * 3.4e-3 * angular_velocity(state, h)[0] + unbalance / (2 * M) * b_y
+        lever = (-1.0, 1.0)[h] * X_C * angular_velocity(state, h)[0] + unbalance / (2 * M) * b_y
         assert list(half.x) == pytest.approx(state[h:6:2] - lever, abs=1e-16)
         assert list(half.v) == pytest.approx(state[12 + h : 18 : 2] - np.cross(Omega, lever), abs=1e-12)
 

@@ -8,7 +8,7 @@ from mechanics import SLICE, Instance, View, Z, pocket_loads
 
 from bearing_model.kinematics import cage_speed
 from bearing_model.quasi_static import Bearing, Load, quasi_static
-from bearing_model.variables import TiltMode
+from bearing_model.variables import PARAMETERS, TiltMode
 
 TWINS = True
 RPM = math.pi / 30.0
@@ -148,7 +148,7 @@ def test_no_shock_at_the_start(core, parameters, inputs):
 def test_unbalance_turns_about_the_centre(core):
     """The centre of mass of the cage stands at unbalance/mass from the axis toward pocket 1 and moves with the cage."""
     model, y, _ = start(core, {"cage.unbalance": 2e-6}, CASES["pure axial"][1])
-    e = 2e-6 / (2 * 0.0276)
+    e = 2e-6 / (2 * PARAMETERS["cage.m"].start)
     assert y[SLICE["cage_y"]] == pytest.approx([e, e], rel=1e-9)
     assert y[SLICE["cage_v_z"]] == pytest.approx(e * y[SLICE["cage_s"]], rel=1e-9)
     model.rhs(0.0, y)

@@ -32,7 +32,6 @@ OTHER = {
     "cage.pocket_clearance": 0.3e-3,
     "cage.guide_clearance": 0.15e-3,
     "cage.m": 0.02,
-    "cage.x_c": 4e-3,
     "cage.E": 80e9,
     "cage.lambda": 3.0,
     "cage.mu": 0.1,

@@ -259,16 +259,9 @@ def expected_error(model, y, h, blocks):
     return history, after, error, estimate
 
 
-def test_local_error(core, record_property):
-    """The error of one step in a run is what docs/method.md derives, and its estimate too.  Per h^3, with J = da/dv, g the rates of the friction states z:
-
-        velocities        a"/12 - (A + J) a'/2                                estimate a"/12
-        positions         -a'/6, where a stiffness acts + a'/12
-        friction states   (dg/dq a - dg/dv a' + dg/dz z")/8 - z"'/24          estimate z"'/24
-
-    Derivatives of the trajectory by complex steps and differences of Runge-Kutta steps; everything is extrapolated to h = 0.
-    """
-    model, y = running(core, "working point")
+def local_error(core, t):
+    """Deviation of the error of a step at time t from the derived one, by state, relative to its largest; that of the norms of the estimates."""
+    model, y = running(core, "working point", t)
     w, scale, found = Work(), model.d.scale, []
     rhs(model, 0.0, y, w)
     kinds = [np.where(np.isin(np.arange(N_STATES), np.arange(N_STATES)[rows]), 1.0 / scale, 0.0) for rows in (V, FRICTION)]
@@ -285,10 +278,26 @@ def test_local_error(core, record_property):
         if name != "work" and np.any(expected[rows]):
             rounding = 8.0 * np.finfo(float).eps * np.max(np.abs(y[rows])) / h**3
             deviation[name] = np.max(np.abs(error - expected)[rows]) / (np.max(np.abs(expected)[rows]) + 50.0 * rounding)
-    record_property("deviation", {name: float(value) for name, value in deviation.items()})
-    print({name: f"{value:.1e}" for name, value in deviation.items()}, norms / expected_norms - 1.0)
-    np.testing.assert_allclose(norms, expected_norms, rtol=1e-3)
-    assert len(deviation) == 31 and max(deviation.values()) < 0.02  # observed 1e-2, plates against rivets, whose frequency is 4e5 rad/s
+    return deviation, norms / expected_norms - 1.0
+
+
+def test_local_error(core, record_property):
+    """The error of one step in a run is what docs/method.md derives, and its estimate too.  Per h^3, with J = da/dv, g the rates of the friction states z:
+
+        velocities        a"/12 - (A + J) a'/2                                estimate a"/12
+        positions         -a'/6, where a stiffness acts + a'/12
+        friction states   (dg/dq a - dg/dv a' + dg/dz z")/8 - z"'/24          estimate z"'/24
+
+    Derivatives of the trajectory by complex steps and differences of Runge-Kutta steps; everything is extrapolated to h = 0.
+
+    Median of seven states: a contact that opens or closes near the step (C1) has another error.
+    """
+    found = [local_error(core, t) for t in np.arange(3e-3, 6.1e-3, 0.5e-3)]
+    record_property("deviation", [{name: float(value) for name, value in deviation.items()} for deviation, _ in found])
+    print([max(deviation.values()) for deviation, _ in found], [share for _, share in found])
+    assert all(len(deviation) == 31 for deviation, _ in found)
+    assert np.median([max(deviation.values()) for deviation, _ in found]) < 0.02  # observed 1.3e-2, plates against rivets, whose frequency is 4e5 rad/s
+    assert np.median([np.max(np.abs(share)) for _, share in found]) < 1e-3
 
 
 # ----------------------------------------------------------------------------------------------------------------- damping
@@ -431,3 +440,16 @@ def test_explicit_step_cut_short(core):
     h, y = 2e-6, Instance(core).step(5e-3).y
     integrator = CoreIntegrator(core, core.model({"solver.method": Method.EXPLICIT}), y, 1e-3)
     assert integrator.advance(h, 1e-3 * h)[1] == pytest.approx(0.9 * h, rel=1e-12)
+
+
+def test_explicit_error_estimate(core):
+    """A step is accepted where theta h (k_4 - k_5), theta = 0.05, has a norm of 1 in units of the tolerance: a thousandth less tolerance, and it is refused."""
+    h, y, c = 1e-6, Instance(core).step(5e-3).y, core.model({"solver.method": Method.EXPLICIT})
+    slope = [np.array(c.rhs(0.0, y))]
+    for before in (0.5 * h, 0.5 * h, h):
+        slope.append(np.array(c.rhs(0.0, y + before * slope[-1])))
+    last = np.array(c.rhs(0.0, y + h / 6.0 * (slope[0] + 2.0 * slope[1] + 2.0 * slope[2] + slope[3])))
+    error = 0.05 * h * (slope[3] - last) / Model.of({}).d.scale
+    norm = np.sqrt(np.mean(error**2))
+    for tolerance, refused in ((1.001 * norm, False), (0.999 * norm, True)):
+        assert (CoreIntegrator(core, c, y, tolerance).advance(h, h)[2] > 0) == refused

@@ -276,7 +276,8 @@ bool part_restore_unknown(Part *part, const void *saved)
     State *s = &part->s;
     memcpy(s, saved, sizeof *s);
     bool fine = values_are_within(&s->t, 1, LARGEST_TIME) && values_are_sane(s->y, N_STATES);
-    fine = fine && values_are_sane((const double *)&s->u[1], (size_t)INPUT_ORDERS * N_INPUTS) &&
+    fine = fine &&
+           values_are_within((const double *)&s->u[1], (size_t)INPUT_ORDERS * N_INPUTS, LARGEST_DERIVATIVE) &&
            values_are_sane((const double *)&s->u_now_dot, N_INPUTS);
     if (!fine) report_error(part, "time, states or rates of inputs: not what a run can have left there");
     return fine && variables_allow(CAUSALITY_PARAMETER, &s->p, report_error, part) &&

@@ -9,7 +9,7 @@
 
 #define FMI2_FUNCTION_PREFIX RivetedBearing_  // of the functions of a source-code FMU
 #define MODEL_IDENTIFIER "RivetedBearing"
-#define MODEL_GUID "{81a89056-a469-3dc2-a930-0f64d9f68c1d}"  // digest of the table
+#define MODEL_GUID "{ca77f363-3033-cd3c-d8b8-13cdf1868626}"  // digest of the table
 
 enum { Z = 9 };  // number of balls
 
@@ -98,6 +98,7 @@ typedef struct {
         double g_0;  // [1] Floor of 1 - epsilon^2 in the land film
         double unbalance;  // [kg.m] Static unbalance of the whole cage, in the direction of pocket 1
         double width;  // [m] Axial width of the whole cage
+        int centrifugal;  // Switch: Centrifugal load of the cage halves at the rivets
     } cage;
     struct {
         double preload;  // [N] Preload of each rivet at 293.15 K
@@ -298,18 +299,21 @@ typedef struct {
         scalar table_kind;  // [1] What the rivets' stress table rests on: 1 finite elements, 2 coarse finite elements, 3 closed forms
         scalar damage_head[Z];  // [1] Miner's sum of sigma_head since start.settle
         scalar damage_mid[Z];  // [1] Miner's sum of sigma_mid since start.settle
-        scalar N[Z];  // [N] External tension of the joint, before preload shielding
+        scalar N[Z];  // [N] External tension of the joint
         scalar V[Z];  // [N] Transverse load of the joint
-        scalar T[Z];  // [N] Tension of the rivet
-        scalar M[Z];  // [N.m] Prying moment of the joint
+        scalar T[Z];  // [N] Tension of the rivet, with preload and prying
+        scalar M[Z];  // [N.m] Moment that the joint transmits
         scalar P[Z];  // [N] Preload at the present temperature
         scalar slip[Z];  // [m] Slip of one half against the other at the joint, in the plane
-        scalar flag[Z];  // [1] Sum of 1 rivet yields, 2 flange yields, 4 compressed joint (N counted as 0), 8 fit beyond the stress table
+        scalar flag[Z];  // [1] Sum of 1 rivet yields, 2 flange yields, 8 fit beyond the stress table
         scalar V_y[Z];  // [N] Transverse load that the shank carries, on the +X half, along y of the cage's frame
         scalar V_z[Z];  // [N] Transverse load that the shank carries, on the +X half, along z of the cage's frame
-        scalar M_y[Z];  // [N.m] Prying moment on the +X half about y of the cage's frame
-        scalar M_z[Z];  // [N.m] Prying moment on the +X half about z of the cage's frame
+        scalar M_y[Z];  // [N.m] Moment that the joint transmits, on the +X half about y of the cage's frame
+        scalar M_z[Z];  // [N.m] Moment that the joint transmits, on the +X half about z of the cage's frame
         scalar F_head[Z];  // [N] Friction force at the heads
+        scalar M_shank[Z];  // [N.m] Bending moment of the rivet's shank at the split
+        scalar M_shank_y[Z];  // [N.m] Bending moment of the rivet's shank on the +X half about y of the cage's frame
+        scalar M_shank_z[Z];  // [N.m] Bending moment of the rivet's shank on the +X half about z of the cage's frame
     } rivet;
     struct {
         scalar races;  // [W] Power dissipated in the race contacts
@@ -449,4 +453,4 @@ typedef enum {
 } StateScale;
 
 enum { N_INPUTS = 10 };  // all of them numbers
-enum { N_VARIABLES = 253 };  // time is the first
+enum { N_VARIABLES = 257 };  // time is the first

@@ -32,7 +32,7 @@ def main():
 
 
 def command(function):
-    """Add a function to the program as a command; a UserError becomes one line on stderr and exit code 2."""
+    """Add a function to the program as a command; a UserError, and what the system refuses, becomes one line on stderr and exit code 2."""
 
     @functools.wraps(function)
     def guarded(*arguments, **options):
@@ -40,6 +40,14 @@ def command(function):
             return function(*arguments, **options)
         except UserError as problem:
             messages.print(f"[bold red]error:[/] {escape(str(problem))}", soft_wrap=True)
+            raise typer.Exit(BAD_INPUT) from None
+        except BrokenPipeError:  # nobody reads the output any more: the interpreter ends in silence
+            raise
+        except OSError as problem:  # disk full, no permission, no more files or memory
+            if problem.strerror is None:
+                raise
+            place = f"{problem.filename}: " if problem.filename else ""
+            messages.print(f"[bold red]error:[/] {escape(place + problem.strerror)}", soft_wrap=True)
             raise typer.Exit(BAD_INPUT) from None
 
     return program.command()(guarded)

@@ -18,7 +18,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 from scipy.stats import t as student
 
-from bearing_model import rivet_rom
+from bearing_model import joint_law, rivet_rom
 from bearing_model.derived import default_table
 
 from ..errors import unknown
@@ -177,9 +177,9 @@ def runs_of(rows):
             columns[f"{place}_damage"] = np.max([columns[f"{place}_damage_{k}"] for k in range(1, rivets + 1)], axis=0)
     columns["ratio"] = np.round(columns["pocket"] / columns["guide"], 2)
     if "p999(rivet[1].M)" in rows:  # stress of the worst rivet under its preload and only one of its loads
-        for name, letter in (("tension", "N"), ("moment", "M_y")):
+        for name, letter, sign in (("tension", "N", 1.0), ("moment", "M_t", -1.0)):  # the moment's sign: as the centrifugal load has it
             load = np.max([rows[f"p999(rivet[{k}].{letter[0]})"] for k in range(1, rivets + 1)], axis=0)
-            columns[f"head_by_{name}"] = 1e-6 * stress_by(rows, **{letter: load})[:, 0]
+            columns[f"head_by_{name}"] = 1e-6 * stress_by(rows, **{letter: sign * load})[:, 0]
     if "rms(ball[1].Q_cx)" in rows:
         axial, whole = (np.sqrt(sum(rows[f"rms(ball[{j}].{name})"] ** 2 for j in range(1, rivets + 1))) for name in ("Q_cx", "Q_c"))
         columns["axial_share"] = 100.0 * axial / whole
@@ -189,11 +189,12 @@ def runs_of(rows):
 
 
 def stress_by(rows, **loads):
-    """Stress of head and middle by preload, fit and loads on one rivet [Pa], one line a run."""
+    """Stress of head and middle by preload, fit and loads (N, M_r, M_t) of a single joint [Pa], one line a run."""
     table = default_table()
     fits = rows["joint.fit"] + rows["joint.swell"]
     effective = [rivet_rom.rivet_rom_fit_eff(table, fit, model == "j2") for fit, model in zip(fits, rows["rivet.fit_model"], strict=True)]
-    stress, _ = rivet_rom.rivet_rom_stress(table, rivet_rom.RivetLoad(P=rows["joint.preload"], **loads), np.array(effective))
+    T, m_r, m_t = joint_law.single_joint(table.half.law, rows["joint.preload"], **loads)
+    stress, _ = rivet_rom.rivet_rom_stress(table, rivet_rom.RivetLoad(T=T, m_y=m_r, m_z=m_t), np.array(effective))
     return stress[:, [rivet_rom.HEAD_P1, rivet_rom.MID_VM]]
 
 

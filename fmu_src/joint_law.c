@@ -1,0 +1,291 @@
+// Joints that open and slip: see joint_law.h for the equations.
+#include "joint_law.h"
+
+#include "octet.h"
+
+enum { SWEEPS = 6, SLIP_SWEEPS = 3 };
+
+static const double NEAR = 0.05, CHANGE = 0.01;
+
+// ---- opening --------------------------------------------------------------------------------------------------------
+// A coordinate u of the law in cells from the start of its axis: its cell, and the weights of the three splines.
+INLINE int axis_weights(scalar u, int cells, scalar w[3])
+{
+    const int cell = (int)fmin(fmax(scalar_value(u), 0.0), cells - 1.0);
+    const scalar up = u - cell, down = 1.0 - up;
+    w[0] = 0.5 * (down * down);
+    w[2] = 0.5 * (up * up);
+    w[1] = 1.0 - w[0] - w[2];
+    return cell;
+}
+
+// part/whole; 0 where whole is so small that 1/whole is not finite.
+INLINE scalar share(scalar part, scalar whole)
+{
+    return scalar_value(whole) > 1e-300 ? part / whole : 0.0;
+}
+
+INLINE scalar magnitude(scalar x)
+{
+    return scalar_value(x) < 0.0 ? -x : x;
+}
+
+// Moves of a joint's pad and loads of its rivet under L* = (N, M_r, M_t) and P.
+INLINE void joint_law(const JointLaw *law, const scalar load[3], scalar P, scalar move[3], scalar rivet[3])
+{
+    const double inv_length = 1.0 / law->length;
+    const scalar N = load[0], M_r = magnitude(load[1]), M_t = load[2];
+    const scalar M = scalar_sqrt(M_r * M_r + M_t * M_t) * inv_length, W = scalar_sqrt(N * N + M * M),
+                 s = P + W;
+    const scalar q = share(N, magnitude(N) + M), psi = share(M_t, magnitude(M_t) + M_r);
+    scalar w[LAW_AXES][3];
+    int place = axis_weights(share(W, s) * law->cells[AXIS_TAU], law->cells[AXIS_TAU], w[AXIS_TAU]);
+    place = place * (law->cells[AXIS_Q] + 2) +
+            axis_weights((q + 1.0) * (0.5 * law->cells[AXIS_Q]), law->cells[AXIS_Q], w[AXIS_Q]);
+    place = place * (law->cells[AXIS_PSI] + 2) +
+            axis_weights((psi + 1.0) * (0.5 * law->cells[AXIS_PSI]), law->cells[AXIS_PSI], w[AXIS_PSI]);
+
+    const int row = LAW_WIDTH * (law->cells[AXIS_PSI] + 2), sheet = row * (law->cells[AXIS_Q] + 2);
+    const double *from = law->coefficients + LAW_WIDTH * place;
+    octet sum = {{0}};
+    for (int a = 0; a < 3; a++) {
+        octet by_q = {{0}};
+        for (int b = 0; b < 3; b++) {
+            octet by_psi = {{0}};
+            for (int c = 0; c < 3; c++)
+                octet_add_from(w[AXIS_PSI][c], from + a * sheet + b * row + c * LAW_WIDTH, &by_psi);
+            octet_add(w[AXIS_Q][b], &by_psi, &by_q);
+        }
+        octet_add(w[AXIS_TAU][a], &by_q, &sum);
+    }
+    const scalar across = scalar_value(load[1]) < 0.0 ? -s : s;
+    move[0] = s * sum.x[0], move[1] = across * sum.x[1], move[2] = s * sum.x[2];
+    rivet[0] = s * sum.x[4], rivet[1] = across * sum.x[5], rivet[2] = s * sum.x[6];
+}
+
+// What is sought: moves of all joints, once more behind the last one, so that those of neighbours lie side by
+// side; L*; s; loads of the rivets.
+typedef struct {
+    scalar move[3][2 * Z + LANES];
+    ball_array alone[3], s, *rivet;
+} Opening;
+
+// The joints to be found by the law.
+typedef struct {
+    int count, joint[Z];
+} Wanted;
+
+INLINE void want(Wanted *wanted, int p, bits which)
+{
+    const int mask = wide_mask(which);
+    for (int k = 0; k < LANE_WIDTH && p * LANE_WIDTH + k < Z; k++)
+        if (mask & 1 << k) wanted->joint[wanted->count++] = p * LANE_WIDTH + k;
+}
+
+// |N| + (|M_r| + |M_t|)/l.
+INLINE wide size(const JointLaw *law, wide N, wide M_r, wide M_t)
+{
+    return wide_abs(N) + (wide_abs(M_r) + wide_abs(M_t)) * (1.0 / law->length);
+}
+
+// What all joints have in common, of the table's `alike` for c and P, in newtons.
+static void find_alike(const JointLaw *law, scalar c, scalar P, scalar at[ALIKE_WIDTH])
+{
+    const scalar s = c + P, x = scalar_value(s) > 0.0 ? c / s * (law->alike_count - 1.0) : 0.0;
+    const int i = (int)fmin(fmax(scalar_value(x), 0.0), law->alike_count - 2.0);
+    const double *from = law->alike[i], *to = law->alike[i + 1];
+    const scalar up = x - i;
+    for (int n = 0; n < ALIKE_WIDTH; n++) at[n] = from[n] + up * (to[n] - from[n]);
+    for (int n = 0; n < ALIKE_SLOPES; n++) at[n] *= s;
+}
+
+// First sweep by the tangent at the state where all joints are alike; those too far from it are wanted.
+static void sweep_near(const JointLaw *law, ball_array bonded[3], const ball_array P, scalar c, scalar spin_P,
+                       Opening *o, Wanted *wanted)
+{
+    scalar at[ALIKE_WIDTH], relieved[3];
+    find_alike(law, c, spin_P, at);
+    for (int i = 0; i < 3; i++)
+        relieved[i] = law->K_others[i][0] * at[ALIKE_U] + law->K_others[i][2] * at[ALIKE_PHI_T];
+    ball_array move[3];
+    wanted->count = 0;
+    for (int p = 0; p < PACKETS; p++) {
+        const int k = p * LANE_WIDTH;
+        wide load[3];
+        for (int i = 0; i < 3; i++) {
+            load[i] = wide_load(&bonded[i][k]) - wide_set(relieved[i]);
+            wide_store(&o->alone[i][k], load[i]);
+        }
+        const wide N = load[0] - at[ALIKE_N], M_r = load[1], M_t = load[2] - at[ALIKE_M_T],
+                   more_P = wide_load(&P[k]) - spin_P;
+        wide value[4];  // u, phi_t, T, m_t
+        for (int n = 0; n < 4; n++) {
+            const scalar *slope = &at[ALIKE_SLOPES + 3 * n];
+            value[n] = wide_fma(wide_set(slope[2]), more_P,
+                                wide_fma(wide_set(slope[1]), M_t,
+                                         wide_fma(wide_set(slope[0]), N, wide_set(at[ALIKE_U + n]))));
+        }
+        wide_store(&move[0][k], value[0]);
+        wide_store(&move[1][k], at[ALIKE_PHI_R] * M_r);
+        wide_store(&move[2][k], value[1]);
+        wide_store(&o->rivet[0][k], value[2]);
+        wide_store(&o->rivet[1][k], at[ALIKE_M_R_RIVET] * M_r);
+        wide_store(&o->rivet[2][k], value[3]);
+        const wide s = wide_load(&P[k]) + size(law, wide_load(&bonded[0][k]), wide_load(&bonded[1][k]),
+                                               wide_load(&bonded[2][k]));
+        wide_store(&o->s[k], s);
+        want(wanted, p, wide_above(size(law, N, M_r, M_t) + wide_abs(more_P) - NEAR * s, 0.0));
+    }
+    for (int i = 0; i < 3; i++) {
+        memcpy(&o->move[i][0], move[i], Z * sizeof(scalar));
+        memcpy(&o->move[i][Z], move[i], Z * sizeof(scalar));
+        for (int k = 2 * Z; k < 2 * Z + LANES; k++) o->move[i][k] = 0.0;  // padding
+    }
+}
+
+// L* by the neighbours' moves; joints where it has changed by more than CHANGE s take it over and are wanted.
+static void sweep_neighbours(const JointLaw *law, ball_array bonded[3], Opening *o, Wanted *wanted)
+{
+    wide load[PACKETS][3], before[3];
+    for (int p = 0; p < PACKETS; p++)
+        for (int i = 0; i < 3; i++) load[p][i] = wide_load(&bonded[i][p * LANE_WIDTH]);
+    for (int n = 0; n < law->neighbours; n++)
+        for (int m = 0; m < 3; m++) {
+            const scalar *move = &o->move[m][Z - law->neighbour[n]];
+            for (int i = 0; i < 3; i++) {
+                const wide K = wide_set(law->K[n][i][m]);
+                for (int p = 0; p < PACKETS; p++)
+                    load[p][i] = wide_fma(-K, wide_load(move + p * LANE_WIDTH), load[p][i]);
+            }
+        }
+    wanted->count = 0;
+    for (int p = 0; p < PACKETS; p++) {
+        const int k = p * LANE_WIDTH;
+        for (int i = 0; i < 3; i++) before[i] = wide_load(&o->alone[i][k]);
+        const wide change = size(law, load[p][0] - before[0], load[p][1] - before[1], load[p][2] - before[2]);
+        const bits changed = wide_above(change - CHANGE * wide_load(&o->s[k]), 0.0);
+        if (!wide_any(changed)) continue;
+        want(wanted, p, changed);
+        for (int i = 0; i < 3; i++) wide_store(&o->alone[i][k], wide_select(changed, load[p][i], before[i]));
+    }
+}
+
+void joints_open(const JointLaw *law, ball_array bonded[3], const ball_array P, scalar spin_M, scalar spin_P,
+                 ball_array load[3], ball_array rivet[3])
+{
+    const scalar c = (scalar_value(spin_M) < 0.0 ? -spin_M : spin_M) / law->length;
+    Opening o;
+    Wanted wanted;
+    o.rivet = rivet;
+    sweep_near(law, bonded, P, c, spin_P, &o, &wanted);
+    for (int sweep = 0; sweep < SWEEPS && wanted.count > 0; sweep++) {
+        if (sweep > 0) sweep_neighbours(law, bonded, &o, &wanted);
+        for (int n = 0; n < wanted.count; n++) {
+            const int k = wanted.joint[n];
+            const scalar alone[3] = {o.alone[0][k], o.alone[1][k], o.alone[2][k]};
+            scalar move[3], carried[3];
+            joint_law(law, alone, P[k], move, carried);
+            for (int i = 0; i < 3; i++) {
+                o.move[i][k] = o.move[i][Z + k] = move[i];
+                rivet[i][k] = carried[i];
+            }
+        }
+    }
+    for (int i = 0; i < 3; i++) {
+        const wide K[3] = {wide_set(law->K_0[i][0]), wide_set(law->K_0[i][1]), wide_set(law->K_0[i][2])};
+        for (int k = 0; k < PACKETS * LANE_WIDTH; k += LANE_WIDTH) {
+            wide left = wide_load(&o.alone[i][k]);
+            for (int m = 0; m < 3; m++) left = wide_fma(-K[m], wide_load(&o.move[m][Z + k]), left);
+            wide_store(&load[i][k], left);
+        }
+    }
+}
+
+// ---- slip -----------------------------------------------------------------------------------------------------------
+// Slip of joints that would carry V bonded, and what heads and hole then carry, all along V.  K: slip stiffness
+// of the halves around a joint.  Plates hold up to `plate`, then the heads drag the rivet (k_head) up to `head`,
+// then the halves slip freely to `gap`, then the hole bears (k_hole):
+//     V - K slip = plate + min(k_head slip, head) + k_hole max(0, slip - gap).
+INLINE wide joint_slip(wide V, wide K, wide gap, wide plate, wide head, double k_head, double k_hole,
+                       wide *heads, wide *hole)
+{
+    // Each of the two branches of the heads is the larger slip where it holds; of two fractions with positive
+    // denominators the larger one is chosen before the division.
+    const wide zero = wide_set(0.0), beyond = V - plate, past = beyond - head, borne = k_hole * gap;
+    const bits slides = wide_above(past * (K + k_head) - beyond * K, 0.0);
+    const wide free = wide_select(slides, past, beyond) / wide_select(slides, K, K + k_head);
+    const bits bears = wide_above(free - gap, 0.0);
+    wide slip = wide_max(free, zero);
+    if (wide_any(bears)) {
+        const wide held = K + (k_head + k_hole), loose = K + k_hole;
+        const bits pushes = wide_above((past + borne) * held - (beyond + borne) * loose, 0.0);
+        const wide borne_slip =
+            (wide_select(pushes, past, beyond) + borne) / wide_select(pushes, loose, held);
+        slip = wide_select(bears, wide_max(borne_slip, zero), slip);
+    }
+    *heads = wide_min(k_head * slip, head);
+    *hole = k_hole * wide_max(slip - gap, zero);
+    return slip;
+}
+
+static void add_vector(ball_array sum[2], int k, wide r, wide t)
+{
+    wide_store(&sum[0][k], wide_load(&sum[0][k]) + r);
+    wide_store(&sum[1][k], wide_load(&sum[1][k]) + t);
+}
+
+void joints_slip(const JointLaw *law, const ball_array V_r, const ball_array V_t, const SlipLimits *limits,
+                 ball_array plates[2], ball_array heads[2], ball_array shank[2])
+{
+    bool slips = false;
+    for (int k = 0; k < PACKETS * LANE_WIDTH; k += LANE_WIDTH)
+        slips |= wide_any(wide_above(
+            wide_hypot(wide_load(&V_r[k]), wide_load(&V_t[k])) - wide_load(&limits->plates[k]), 0.0));
+    if (!slips) {
+        for (int k = 0; k < PACKETS * LANE_WIDTH; k += LANE_WIDTH)
+            add_vector(plates, k, wide_load(&V_r[k]), wide_load(&V_t[k]));
+        return;
+    }
+    const double (*K)[2] = law->K_slip[0];
+    scalar slip[2][2 * Z + LANES] = {{0.0}};  // once more behind the last one
+    for (int sweep = 0; sweep < SLIP_SWEEPS; sweep++) {
+        ball_array next[2];
+        wide alone[PACKETS][2];
+        for (int p = 0; p < PACKETS; p++) {
+            alone[p][0] = wide_load(&V_r[p * LANE_WIDTH]);
+            alone[p][1] = wide_load(&V_t[p * LANE_WIDTH]);
+        }
+        for (int d = 1; sweep > 0 && d < Z; d++)
+            for (int m = 0; m < 2; m++)
+                for (int i = 0; i < 2; i++) {
+                    const wide K_d = wide_set(law->K_slip[d][i][m]);
+                    for (int p = 0; p < PACKETS; p++)
+                        alone[p][i] =
+                            wide_fma(-K_d, wide_load(&slip[m][Z - d + p * LANE_WIDTH]), alone[p][i]);
+                }
+        for (int p = 0; p < PACKETS; p++) {
+            const int k = p * LANE_WIDTH;
+            const wide r = alone[p][0], t = alone[p][1];
+            const wide V_rt = wide_hypot(r, t), inv_V = wide_ratio(wide_set(1.0), V_rt), e_r = r * inv_V,
+                       e_t = t * inv_V;
+            const wide along = e_r * (K[0][0] * e_r + (K[0][1] + K[1][0]) * e_t) + K[1][1] * (e_t * e_t);
+            const wide stiffness = wide_select(wide_above(V_rt, 0.0), along, wide_set(K[0][0]));
+            wide head, hole;
+            const wide gap = wide_load(&limits->gap[k]), plate = wide_load(&limits->plates[k]),
+                       rest = wide_load(&limits->heads[k]);
+            const wide moved =
+                joint_slip(V_rt, stiffness, gap, plate, rest, limits->k_head, limits->k_hole, &head, &hole);
+            const wide s_r = moved * e_r, s_t = moved * e_t;
+            wide_store(&next[0][k], s_r);
+            wide_store(&next[1][k], s_t);
+            if (sweep < SLIP_SWEEPS - 1) continue;
+            const wide left_r = r - (K[0][0] * s_r + K[0][1] * s_t),
+                       left_t = t - (K[1][0] * s_r + K[1][1] * s_t), rivet = head + hole;
+            add_vector(plates, k, left_r - rivet * e_r, left_t - rivet * e_t);
+            add_vector(heads, k, head * e_r, head * e_t);
+            add_vector(shank, k, hole * e_r, hole * e_t);
+        }
+        for (int i = 0; i < 2; i++)
+            for (int k = 0; k < Z; k++) slip[i][k] = slip[i][Z + k] = next[i][k];
+    }
+}

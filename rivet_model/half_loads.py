@@ -1,0 +1,190 @@
+"""What bonded joints carry, by the elastic half: pocket forces over the wall's angle, centrifugal load; and the numbers of the joint's law.
+
+Rows of a joint's loads (on the +x half, frame (x, r, t) at the rivet):
+
+    N, V_r, V_t, M_r, M_t   of the joint whose pads do not move: N, M of what holds the pads along x, V of what holds them in the plane
+    dP, dm_r, dm_t          of its rivet: the seat's bottom gives under a load nearby, though the pad does not move; dP is the change of preload that
+                            would shift the head as much, dm the bending moment of the shank
+
+A force on one half is half a mirrored pair of forces, which gives N, M, dP, dm, and half an opposed pair, which gives V.
+"""
+
+import numpy as np
+
+from bearing_model.half_path import bolt_group
+from bearing_model.joint_law import AXES, NUMBERS, JointLaw, law_load
+from bearing_model.rivet_table import HalfData
+
+from . import half_shape, splines
+from .cage_half import BODY, SPIN, CageHalf
+from .joint_contact import JointContact, rivet_compliance
+from .lcp import Contact
+
+CHI = np.deg2rad([0.0, 6.0, 12.0, 20.0, 30.0, 42.0, 56.0, 72.0, 90.0])
+KNOTS = {"tau": np.linspace(0.0, 1.0, 11), "q": np.linspace(-1.0, 1.0, 11), "psi": np.linspace(-1.0, 1.0, 11)}  # equal steps: readers need no search
+COARSE_KNOTS = {name: knots[:: 1 if name == "tau" else 2] for name, knots in KNOTS.items()}
+LENGTH = 1.5e-3  # l of the law: about the distance of the pad's edge from the rivet
+
+
+class JointAlone:
+    """Contact of one pad with its rivet while all other pads are held: exact, from the condensed half."""
+
+    def __init__(self, elastic, rivet=None):
+        self.elastic, p = elastic, elastic.patterns
+        self.n = p.pad.stop - p.pad.start
+        r, t = elastic.pad_place
+        self.lever = np.stack([np.ones(self.n), t, -r], axis=1)
+        head = slice(p.head.start, p.head.start + 3)
+        self.head = head
+        stiffness, reactions, held = elastic.mirrored
+        self.K_waves = self.lever.T @ stiffness @ self.lever
+        own, to_head, clamped = (elastic.circulant(wave)[0] for wave in (stiffness, reactions[:, :, head], held[:, head, head]))
+        B = np.linalg.inv(own)  # of the pad's hats alone
+        B = 0.5 * (B + B.T)
+        self.B_ph = B @ to_head  # hats by the head: what the held pad gives back undoes it
+        c_rivet = np.diag(np.array(rivet or rivet_compliance(elastic.g))[[0, 1, 1]])
+        self.clamped = 0.5 * (clamped + clamped.T) + c_rivet  # of the head with its rivet, the pad held
+        self.K_0 = self.lever.T @ own @ self.lever
+        A = np.linalg.inv(self.clamped + self.B_ph.T @ own @ self.B_ph)
+        self.A, self.pull, self.own = A, self.B_ph @ A, own
+        C = B - self.pull @ self.B_ph.T
+        self.contact = Contact(0.5 * (C + C.T), np.zeros((self.n, 1)), np.ones(1))
+        self.follows = np.eye(3) - self.B_ph.T @ own @ self.lever  # move of the head per move of the pad's surroundings, the pad held
+        self.shortening = 1.0
+        self.shortening = 1.0 / self.solve(np.zeros(3), 1.0)[1][0]
+
+    def solve(self, load, P, active=None):
+        """Move [3], rivet's loads (T, m_r, m_t), active set under L* = load and preload P."""
+        a = np.linalg.solve(self.K_0, load)
+        free_head = a + [self.shortening * P, 0.0, 0.0]
+        solution = self.contact.solve(self.lever @ a - self.pull @ free_head, np.zeros(1), active)
+        rivet = self.A @ (self.B_ph.T @ solution.p + free_head)
+        carried = rivet - solution.p @ self.lever
+        return np.linalg.solve(self.K_0, load - carried), rivet, solution.active
+
+    def rivet_rows(self, waves, loads):
+        """dP, dm_r, dm_t [waves, 3] for free motions of the heads with all pads held `waves` [waves, 3] and the bonded loads [waves, 3]."""
+        shift = waves - loads @ np.linalg.inv(self.K_0).T @ self.follows.T
+        moment = np.linalg.solve(self.clamped, shift.T).T
+        return np.concatenate([shift[:, :1] / self.shortening, moment[:, 1:]], axis=1)
+
+
+def bonded_rows(elastic, alone, column):
+    """Rows [Z, 8] of all joints under a unit of the patterns `column` [patterns] on both halves (mirrored) and against each other (opposed)."""
+    _, reactions, held = elastic.mirrored
+    M = (reactions @ column) @ alone.lever  # [waves, 3]
+    rivet = alone.rivet_rows((held @ column)[:, alone.head], M)
+    V = elastic.opposed[1] @ column
+    rows = np.concatenate([M[:, :1], V, M[:, 1:], rivet], axis=1)
+    return elastic.circulant(rows)
+
+
+def rigid_inertia(elastic):
+    """Mass matrix [6, 6] per unit density of the whole half for its rigid motions about the centre of the circle in the split plane."""
+    pitch = elastic.resultants[:BODY]
+    I = np.zeros((6, 6))
+    for k in range(elastic.Z):
+        c, s = np.cos(2 * np.pi * k / elastic.Z), np.sin(2 * np.pi * k / elastic.Z)
+        turn = np.kron(np.eye(2), np.array([[1.0, 0.0, 0.0], [0.0, c, -s], [0.0, s, c]]))
+        I += turn @ pitch @ turn.T
+    return I
+
+
+def rigid_rows(elastic, place):
+    """N, V_r, V_t [3, Z, 3] of rigid halves per unit force (x, r, t) at a place (x, r, t) of pocket 0; inertia balances what joints leave free."""
+    Z, I = elastic.Z, rigid_inertia(elastic)
+    angle = 2 * np.pi * (np.arange(Z) + 0.5) / Z
+    c, s = np.cos(angle), np.sin(angle)
+    result = []
+    for force in np.eye(3):
+        load = np.concatenate([force, np.cross(place, force)])
+        wrench = np.zeros(6)
+        for held, free in (([0, 4, 5], [1, 2, 3]), ([1, 2, 3], [0, 4, 5])):
+            wrench[held] = load[held] - I[np.ix_(held, free)] @ np.linalg.solve(I[np.ix_(free, free)], load[free])
+        N, V_y, V_z = bolt_group(elastic.g.d_m, 0.5 * wrench, c, s)
+        result.append(np.stack([N, c * V_y + s * V_z, c * V_z - s * V_y], axis=1))
+    return np.stack(result)
+
+
+def path_at(elastic, alone, point):
+    """Rows [Z, 8, 3] by unit forces (x, r, t) at a point of the half: elastic less the rigid share (N and V)."""
+    p, n = elastic.patterns, len(elastic.points)
+    rigid = rigid_rows(elastic, elastic.point_places()[point])
+    result = np.zeros((elastic.Z, 8, 3))
+    for f in range(3):
+        column = np.zeros(elastic.loads.shape[1])
+        column[p.pocket.start + 3 * point + f] = column[p.pocket.start + 3 * (n + point) + f] = 0.5
+        result[:, :, f] = bonded_rows(elastic, alone, column)
+        result[:, :3, f] -= rigid[f]
+    return result
+
+
+def centrifugal(elastic, density=half_shape.DENSITY, density_rivet=half_shape.DENSITY_RIVET):
+    """Patterns [patterns] of each pitch per (rad/s)^2: its own body force, and that of half a rivet, which the head's friction gives to the seat's bottom."""
+    column = np.zeros(elastic.loads.shape[1])
+    column[SPIN] = density
+    column[elastic.patterns.head.start + 3] = half_shape.rivet_mass(elastic.g, density_rivet) * 0.5 * elastic.g.d_m
+    return column
+
+
+def alike_rows(elastic, alone, column):
+    """Rows [8] of any joint if every pitch has the mirrored patterns `column`."""
+    _, reactions, held = elastic.mirrored
+    M = (reactions[:1] @ column).real @ alone.lever
+    rivet = alone.rivet_rows((held[:1] @ column).real[:, alone.head], M)
+    return np.concatenate([M[0, :1], [0.0, 0.0], M[0, 1:], rivet[0]])
+
+
+def make_law(elastic, alone, knots=None, progress=lambda done, total: None):
+    """The joint's law of the geometry, from contact solutions of one pad at the sites of the knots."""
+    knots = knots or KNOTS
+    sites = [splines.sites(knots[name]) for name in AXES]
+    values = np.zeros((*(len(s) for s in sites), len(NUMBERS)))
+    for j, q in enumerate(sites[1]):
+        for k, psi in enumerate(sites[2]):
+            active = None
+            for i, tau in enumerate(sites[0]):
+                load, P = law_load(LENGTH, tau, q, psi)
+                move, rivet, active = alone.solve(load, P, active)
+                values[i, j, k] = np.concatenate([move, rivet])
+        progress(j + 1, len(sites[1]))
+    K = elastic.circulant(alone.K_waves)
+    slip = 0.5 * elastic.circulant(elastic.opposed[0])
+    return JointLaw(LENGTH, knots, splines.interpolate([knots[name] for name in AXES], values), K, slip)
+
+
+def pair_stiffness(contact, P=20.0):
+    """Force per separation of the two halves' bodies, all joints alike [N/m for each joint]: closed (N = -P/4...P/4) and open (N = 3 P...4 P).
+
+    contact: JointContact of joints that are all alike.  The body of a half is its mean over the mass.
+    """
+    elastic = contact.half
+    column = np.zeros(elastic.loads.shape[1])
+    column[0] = 1.0 / elastic.resultants[0, 0]  # a unit force on each pitch, spread like its mass
+
+    def separation(N):
+        load = contact.loads(column=N * column)[0], np.array([N])
+        return 2.0 * contact.displacement(column, 0, load, contact.solve(P, load))
+
+    return tuple(float((b - a) * P / (separation(b * P) - separation(a * P))) for a, b in ((-0.25, 0.25), (3.0, 4.0)))
+
+
+def make_half(g, size=None, knots=None, progress=lambda done, total: None):
+    """HalfData of a geometry by finite elements of the size `size` and contact solutions at the sites of `knots`."""
+    elastic, rivet = elastic_half(g, size), rivet_compliance(g)
+    alone = JointAlone(elastic, rivet)
+    progress(1, 3)
+    law = make_law(elastic, alone, knots)
+    progress(2, 3)
+    spin = alike_rows(elastic, alone, centrifugal(elastic))
+    law.sign = np.sign(spin[4])
+    path = np.stack([path_at(elastic, alone, i) for i in range(len(CHI))])
+    k_closed, k_open = pair_stiffness(JointContact(elastic, rivet, alike=True))
+    progress(3, 3)
+    return HalfData(**half_shape.half_inertia(g)._asdict(), chi=CHI, path=path, spin=spin, law=law, k_closed=k_closed, k_open=k_open)
+
+
+def elastic_half(g, size=None, points=()):
+    """CageHalf with the nodes of the wall's angle as points, then further ones [n, 2]."""
+    nodes = np.stack([CHI, np.full(len(CHI), g.d_m / 2)], axis=1)
+    return CageHalf(g, size, np.concatenate([nodes, np.reshape(points, (-1, 2))]))

@@ -1,0 +1,128 @@
+"""Shape of one cage half in closed form: what can be built, mass, place of the centre of mass, moments of inertia.  half.py has sketch and mesh.
+
+Lengths in m, names as in geometry.py; g: a Geometry, or anything with its members.
+"""
+
+import math
+from collections.abc import Callable
+from typing import NamedTuple
+
+import numpy as np
+
+DENSITY = 8800.0  # kg/m3, bronze CuSn8 (UNS C52100: 8.80 g/cm3)
+DENSITY_RIVET = 7850.0  # kg/m3, steel
+LEAST_WALL = 0.2e-3  # m of metal around the seat: assumed, the least that is machined
+LEAST_WEB = 0.05  # of the pocket's radius, between pocket and end face: assumed
+
+
+class Limit(NamedTuple):
+    """margin(g) >= 0 must hold [m]; keys: the values that it is about, the one to blame first; reason: what would be impossible."""
+
+    keys: tuple
+    margin: Callable
+    reason: str
+
+
+def pocket_radius(g):
+    """Radius of the pocket's cylinder [m]."""
+    return 0.5 * (g.ball_diameter + g.pocket_clearance)
+
+
+def narrowest_half_bar(g):
+    """Least distance from the rivet's radial plane to the pocket's wall, in the split plane at the cage's bore [m]; negative if the pockets overlap."""
+    r, pocket = 0.5 * g.cage_inner_diameter, pocket_radius(g)
+    return r * math.sin(math.pi / g.Z - math.asin(pocket / r)) if r > pocket else -pocket
+
+
+def pad_half_length(g):
+    """Half length of a pad along the circle [m]: patch_radius, or what the bar has room for."""
+    return min(g.patch_radius, narrowest_half_bar(g) - 0.5 * LEAST_WALL)
+
+
+POCKET = ("ball_diameter", "d_m", "Z", "pocket_clearance")
+LIMITS = (
+    Limit(("cage_inner_diameter", *POCKET), lambda g: g.cage_inner_diameter - 2.0 * pocket_radius(g), "a pocket smaller than the cage's bore"),
+    Limit(("head_diameter", "seat_diameter"), lambda g: g.seat_diameter - g.head_diameter, "a seat that takes the rivet's head"),
+    Limit(
+        ("seat_diameter", "head_diameter", *POCKET, "cage_inner_diameter"),
+        lambda g: 2.0 * (narrowest_half_bar(g) - LEAST_WALL) - g.seat_diameter,
+        "a bridge between pockets that holds the seat of the rivet's head",
+    ),
+    Limit(
+        ("cage_inner_diameter", "d_m", "seat_diameter", "head_diameter"),
+        lambda g: g.d_m - g.seat_diameter - 2.0 * LEAST_WALL - g.cage_inner_diameter,
+        "a cage with metal inside the rivet's seat",
+    ),
+    Limit(
+        ("cage_outer_diameter", "d_m", "seat_diameter", "head_diameter"),
+        lambda g: g.cage_outer_diameter - g.d_m - g.seat_diameter - 2.0 * LEAST_WALL,
+        "a cage with metal outside the rivet's seat",
+    ),
+    Limit(
+        ("cage_half_width", "ball_diameter", "pocket_clearance"),
+        lambda g: g.cage_half_width - (1.0 + LEAST_WEB) * pocket_radius(g),
+        "a half (half the cage's width) whose web closes the pocket",
+    ),
+    Limit(
+        ("cage_half_width", "flange_thickness", "head_height"),
+        lambda g: g.cage_half_width - g.flange_thickness - g.head_height,
+        "a half (half the cage's width) with a seat that takes the rivet's head",
+    ),
+)
+
+
+def check_half(g):
+    """Raises ValueError naming the first limit that does not hold."""
+    for limit in LIMITS:
+        if limit.margin(g) < -1e-9:  # rounding
+            key, *others = limit.keys
+            beside = ", ".join(f"{name} = {getattr(g, name):g}" for name in others)
+            raise ValueError(f"geometry: {key} = {getattr(g, key):g}: no {limit.reason} with {beside}")
+
+
+class Inertia(NamedTuple):
+    """Of one half with its half of the rivets: mass [kg], place x_c of its centre of mass [m], moments of inertia about it [kg m2]."""
+
+    m: float
+    x_c: float
+    J_p: float
+    J_t: float
+
+
+_NODES, _WEIGHTS = np.polynomial.legendre.leggauss(16)
+
+
+def half_inertia(g, density=DENSITY, density_rivet=DENSITY_RIVET):
+    """Inertia of one half with its part of the rivets (head and half of the shank), by integrals over the drawing's bodies."""
+    Z, w, p, R = g.Z, g.cage_half_width, pocket_radius(g), 0.5 * g.d_m
+    r_i, r_o = 0.5 * g.cage_inner_diameter, 0.5 * g.cage_outer_diameter
+    bodies = [(density * math.pi * (r_o**2 - r_i**2) * w, 0.5 * w, w * w / 3.0, 0.5 * (r_i**2 + r_o**2))]  # mass, means of x, x^2, r^2
+
+    def cylinder(density, radius, low, high):
+        mass = Z * density * math.pi * radius**2 * (high - low)
+        bodies.append((mass, 0.5 * (low + high), (low * low + low * high + high * high) / 3.0, R**2 + 0.5 * radius**2))
+
+    # pockets: at x = p sin(phi) a radius r is cut over the angle 2 asin(p cos(phi)/r)
+    phi, r = 0.25 * math.pi * (1.0 + _NODES)[:, None], 0.5 * (r_i + r_o) + 0.5 * (r_o - r_i) * _NODES
+    x = p * np.sin(phi)
+    dm = -Z * density * 2.0 * np.arcsin(np.minimum(p * np.cos(phi) / r, 1.0)) * r * p * np.cos(phi)
+    dm *= 0.25 * math.pi * _WEIGHTS[:, None] * 0.5 * (r_o - r_i) * _WEIGHTS
+    bodies.append((dm.sum(), (dm * x).sum() / dm.sum(), (dm * x * x).sum() / dm.sum(), (dm * r * r).sum() / dm.sum()))
+
+    # hole, relieved hole and seat are empty; shank and head fill a part of them
+    shank, relieved, top = 0.5 * g.shank_diameter, g.flange_thickness - g.relief_depth, g.flange_thickness
+    cylinder(-density, shank, 0.0, relieved)
+    cylinder(-density, shank + g.relief_radius, relieved, top)
+    cylinder(-density, 0.5 * g.seat_diameter, top, w)
+    cylinder(density_rivet, shank, 0.0, top)
+    cylinder(density_rivet, 0.5 * g.head_diameter, top, top + g.head_height)
+
+    mass, mean_x, mean_xx, mean_rr = np.transpose(bodies)
+    m = mass.sum()
+    x_c, J_p = mass @ mean_x / m, mass @ mean_rr
+    return Inertia(float(m), float(x_c), float(J_p), float(0.5 * J_p + mass @ mean_xx - m * x_c**2))
+
+
+def rivet_mass(g, density=DENSITY_RIVET):
+    """Mass of half a rivet [kg]: one head and the shank up to the split."""
+    return density * math.pi / 4 * (g.shank_diameter**2 * g.flange_thickness + g.head_diameter**2 * g.head_height)

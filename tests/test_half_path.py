@@ -1,0 +1,145 @@
+"""From pocket forces to bonded joints: equilibrium of the rigid share, symmetry and smoothness of the half's; both twins alike."""
+
+import numpy as np
+import pytest
+
+from bearing_model import half_path
+from bearing_model.derived import default_table
+from bearing_model.variables import Z
+
+D_M = 53.5e-3
+ANGLE = 2 * np.pi * (np.arange(Z) + 0.5) / Z
+MIRROR, SIDE = half_path.PATH_MIRROR, half_path.PATH_SIDE
+
+
+def doubles(ffi, values):
+    return ffi.new("double[]", [float(v) for v in np.ravel(values)])
+
+
+@pytest.fixture(params=["C", "Python"])
+def rigid(request, core):
+    if request.param == "Python":
+        return half_path.bolt_group
+    ffi = core.ffi
+
+    def call(d_m, wrench, c, s):
+        out = [ffi.new("double[]", Z) for _ in range(3)]
+        core.model().kernel("bolt_group")(d_m, doubles(ffi, wrench), doubles(ffi, c), doubles(ffi, s), *out)
+        return tuple(np.array(list(v)) for v in out)
+
+    return call
+
+
+@pytest.fixture(params=["C", "Python"])
+def rows(request, core):
+    """(side, push [2, Z], force [3, Z]) -> rows [Z, 8] of the shipped table."""
+    if request.param == "Python":
+        return lambda side, push, force: half_path.path_load(default_table().half, side, push, force)
+    ffi, lib = core.ffi, core.lib
+
+    def call(side, push, force):
+        both, kept, found = core.new("PathForces", 2), [], core.new("PathRows")
+        for h in range(2):
+            acts = 1.0 if 2 * h - 1 == side else 0.0
+            for name, values in zip(("F_x", "F_r", "F_t", "push_x", "push_t"), (*force, *push), strict=True):
+                kept.append(doubles(ffi, acts * values))
+                setattr(both[h], name, kept[-1])
+        touched = core.model().kernel("half_path_rows")(ffi.addressof(lib.rivet_table.half, "path"), both, found)
+        assert touched == bool(np.any(force))
+        return np.array([list(row)[:Z] for row in found.row]).T if touched else np.zeros((Z, 8))
+
+    return call
+
+
+def random_forces(rng, touched=Z):
+    """Forces on some pockets, most of them along the wall's normal."""
+    push, force = rng.normal(size=(2, Z)) * 50.0, rng.normal(size=(3, Z)) * 5.0
+    force[0] += push[0]
+    force[2] += push[1]
+    idle = rng.permutation(Z)[touched:]
+    push[:, idle] = force[:, idle] = 0.0
+    return push, force
+
+
+def test_rigid_share_carries_the_wrench(rigid):
+    """Resultant of all rivets = the wrench, at any rotation of the circle (rounding; observed 1e-15)."""
+    rng = np.random.default_rng(1)
+    for psi in (0.0, 0.3, 2.0):
+        wrench = rng.normal(size=6) * [100, 100, 100, 1, 1, 1]
+        c, s = np.cos(ANGLE + psi), np.sin(ANGLE + psi)
+        N, V_y, V_z = rigid(D_M, wrench, c, s)
+        R = D_M / 2
+        resultant = [N.sum(), V_y.sum(), V_z.sum(), (R * (c * V_z - s * V_y)).sum(), (R * s * N).sum(), (-R * c * N).sum()]
+        np.testing.assert_allclose(resultant, wrench, rtol=1e-12, atol=1e-12)
+
+
+def test_rigid_share_of_a_moment_is_linear_in_the_lever(rigid):
+    """M_y alone: N = M_y r_z / sum r_z^2 (plane stays plane)."""
+    N, V_y, V_z = rigid(D_M, [0, 0, 0, 0, 1.5, 0], np.cos(ANGLE), np.sin(ANGLE))
+    r_z = D_M / 2 * np.sin(ANGLE)
+    np.testing.assert_allclose(N, 1.5 * r_z / (r_z**2).sum(), atol=1e-12)
+    assert not np.any(V_y) and not np.any(V_z)
+
+
+def test_rows_at_the_nodes_are_those_of_the_finite_elements(rows):
+    """A unit force at pocket 2 that pushes the wall at a node's angle shows the matrix at relative index (k - 2) mod Z (float32 of four digits)."""
+    half = default_table().half
+    for node, chi in enumerate(half.chi):
+        for f in range(3):
+            push, force = np.zeros((2, Z)), np.zeros((3, Z))
+            push[:, 2] = np.sin(chi), np.cos(chi)
+            force[f, 2] = 1.0
+            np.testing.assert_allclose(rows(1, push, force), np.roll(half.path[node, :, :, f], 2, axis=0), rtol=1e-9, atol=1e-9)
+
+
+def test_rows_are_circulant_linear_and_homogeneous(rows):
+    """A force moved on by one pocket moves the answer on by one rivet; pockets add; twice the force is twice the load (order of sums: 1e-12)."""
+    rng = np.random.default_rng(2)
+    push, force = random_forces(rng)
+    found = rows(1, push, force)
+    tolerance = {"rtol": 1e-12, "atol": 1e-12}
+    np.testing.assert_allclose(rows(1, np.roll(push, 1, axis=1), np.roll(force, 1, axis=1)), np.roll(found, 1, axis=0), **tolerance)
+    np.testing.assert_allclose(rows(1, 2.0 * push, 2.0 * force), 2.0 * found, **tolerance)
+    each = [rows(1, push * (np.arange(Z) == j), force * (np.arange(Z) == j)) for j in range(Z)]
+    np.testing.assert_allclose(sum(each), found, **tolerance)
+
+
+def test_opposite_walls_are_mirror_images(rows):
+    """Forces on pocket 0 mirrored at its plane: rivet i answers like rivet -1 - i, V_t, M_r and dm_r with the other sign."""
+    push, force = (v * (np.arange(Z) == 0) for v in random_forces(np.random.default_rng(5)))
+    push[1] = np.abs(push[1])
+    front, back = rows(1, push, force), rows(1, push * [[1], [-1]], force * [[1], [1], [-1]])
+    np.testing.assert_allclose(back, front[::-1] * MIRROR, rtol=1e-12, atol=1e-12)
+
+
+def test_mirrored_halves(rows):
+    """Mirrored forces on the other half: the same rows but for V, which is opposite, so equal forces on both leave no V."""
+    push, force = random_forces(np.random.default_rng(3))
+    front, back = rows(1, push, force), rows(-1, push * [[-1], [1]], force * [[-1], [1], [1]])
+    np.testing.assert_allclose(back, front * SIDE, rtol=1e-12, atol=1e-12)
+
+
+def test_rows_are_smooth_over_the_angle(rows):
+    """No jump of value or slope at a node, at the split (push_x = 0) and at the bottom (push_t = 0): differences over 1e-5 rad beside the curvature's share."""
+    half, h = default_table().half, 1e-5
+
+    def at(chi):
+        push, force = np.zeros((2, Z)), np.zeros((3, Z))
+        push[:, 0] = np.sin(chi), np.cos(chi)
+        force[:, 0] = np.sin(chi), 0.3, np.cos(chi)
+        return rows(1, push, force)
+
+    for chi in half.chi[1:-1]:
+        jump = at(chi + h) - 2.0 * at(chi) + at(chi - h)
+        assert np.abs(jump).max() < 1e-3 * np.abs(at(chi + h) - at(chi - h)).max()
+    np.testing.assert_allclose(at(np.pi / 2 + h), at(np.pi / 2 - h), atol=5e-4 * np.abs(at(np.pi / 2)).max())
+
+
+def test_twins(core, rows):
+    """C and Python agree to the order of their sums, with some and with all pockets touched (observed 3e-15 of the largest)."""
+    rng = np.random.default_rng(4)
+    for touched in (0, 1, 2, 5, Z):
+        for side in (-1, 1):
+            push, force = random_forces(rng, touched)
+            expected = half_path.path_load(default_table().half, side, push, force)
+            np.testing.assert_allclose(rows(side, push, force), expected, rtol=1e-12, atol=1e-12 * max(np.abs(expected).max(), 1e-9))
