@@ -9,7 +9,9 @@ import numpy as np
 from bearing_model import rivet_table
 from bearing_model.hertz import Hertz, hertz_contact
 from bearing_model.rivet_rom import joint_fit, joint_hole_stiffness, joint_preload, rivet_rom_fit_eff, rivet_rom_fit_flags
-from bearing_model.variables import N_STATES, PARAMETERS, STATE_SCALES, STATE_SLICES, FitModel, Switch, Z
+from bearing_model.variables import N_STATES, PARAMETERS, STATE_SCALES, STATE_SLICES, Drag, FitModel, Switch, Z
+
+AIR_DENSITY = 1.19  # [kg/m3] at 293 K and 10^5 Pa
 
 
 class Race(NamedTuple):
@@ -57,14 +59,69 @@ def derive_race(p, f, side):
     )
 
 
+def reference_density(p):
+    """Density of the mixture; of the oil, where the flow gives the filling [kg/m3]."""
+    return p.oil.rho if p.oil.flow > 0.0 else p.oil.rho_mix
+
+
+def derive_mixture(p, d):
+    """Constants of drag.py."""
+    D, d_m, R, gamma, nu = p.bearing.D, p.bearing.d_m, 0.5 * p.bearing.D, p.bearing.D / p.bearing.d_m, p.oil.eta / p.oil.rho
+    rho, kappa = reference_density(p), 0.5 * (1.0 - gamma)
+    # Parker's fraction is 1 at this speed: 10^5 W^0.37/(n d_m^1.7), cm3/min, r/min, mm
+    d.flooded_omega = np.pi / 30.0 * 1e5 * (6e7 * p.oil.flow) ** 0.37 / (1e3 * d_m) ** 1.7
+    d.air = AIR_DENSITY / p.oil.rho
+    # balance of the mixture
+    r_m = 0.5 * d_m
+    r_i, r_e = r_m - R, r_m + R
+    height = D * max(1.0 - p.bearing.h_i - p.bearing.h_e, 0.1)
+    width_e = max(p.cage.width - 2.0 * p.cage.land_width, 0.0)
+    f_i, f_e = 0.066 * ((1.0 - kappa) * r_i * height / nu) ** -0.25, 0.066 * (kappa * r_e * height / nu) ** -0.25
+    d.sigma = 1.0 / kappa
+    d.ball_area = Z * p.oil.C_d * np.pi * R**2
+    d.inner_wall = f_i * 2.0 * np.pi * r_i * p.cage.width * (r_i / r_m) ** 3
+    d.outer_wall = f_e * 2.0 * np.pi * r_e * width_e * (r_e / r_m) ** 3
+    d.fresh = 2.0 * p.oil.flow / (kappa * r_m)
+    d.ring_drag = 0.5 * rho * d.inner_wall * r_m**3 if p.scene.drag == Drag.ROW else 0.0
+    # churning: (1/2) rho R^5 (6.45 sqrt(nu/(R^2 omega)) + 32.1 nu/(R^2 omega)) omega^2
+    d.churning_boundary = 0.5 * rho * 6.45 * np.sqrt(nu) * R**4
+    d.churning_viscous = 0.5 * rho * 32.1 * nu * R**3
+
+
+def derive_inlets(p, d):
+    """Shear heating and starvation of the race inlets (traction.py)."""
+    D, gamma, nu = p.bearing.D, p.bearing.D / p.bearing.d_m, 1e6 * p.oil.eta / p.oil.rho
+    heating = p.scene.heating == Switch.ON
+    # n d_m [r/min mm] at U = 1 m/s: U = omega d_m (1 - gamma^2)/4; cross-section of the bearing D/0.3
+    speed, section = 30.0 / np.pi * 4e3 / (1.0 - gamma**2), 1e3 * D / 0.3
+    d.starvation = p.oil.K_rs * nu * 2.0 * speed * np.sqrt(0.5 * p.oil.K_Z / section)
+    d.ln_heating = np.log(1.84e-9) + 1.28 * np.log(speed) + 0.64 * np.log(nu) if heating else -np.inf
+    d.ln_thermal = np.log(p.oil.eta * p.oil.beta / p.oil.k) if heating and p.oil.beta > 0.0 else -np.inf
+
+
+def ring_growth(p):
+    """Growth of the inner ring at the groove's bottom r by its own rotation / omega^2 [m s2]: a free ring from the bore a to the shoulder b, plane stress.
+
+    u = rho omega^2 r/(8 E) ((3 + nu)(1 - nu)(a^2 + b^2) + (3 + nu)(1 + nu) a^2 b^2/r^2 - (1 - nu^2) r^2).  Timoshenko & Goodier, Theory of Elasticity,
+    section 32
+    """
+    nu, r = p.bearing.nu, 0.5 * (p.bearing.d_m - p.bearing.D)
+    bore = p.ring.bore if p.ring.bore > 0.0 else p.bearing.d_m - p.bearing.D / 0.6
+    a_2, b_2 = 0.25 * bore**2, (r + p.bearing.h_i * p.bearing.D) ** 2
+    return p.ring.rho * r / (8.0 * p.bearing.E) * ((3 + nu) * (1 - nu) * (a_2 + b_2) + (3 + nu) * (1 + nu) * a_2 * b_2 / r**2 - (1 - nu**2) * r**2)
+
+
 def derive_balls(p, d):
     D = p.bearing.D
     d.R = 0.5 * (D + p.ball.dD)
     d.m = p.bearing.rho * np.pi / 6.0 * D**3
     d.J = 0.1 * d.m * D**2
-    d.drag = 0.5 * p.oil.C_d * p.oil.rho_mix * 0.25 * np.pi * D**2
+    d.drag = 0.5 * p.oil.C_d * reference_density(p) * 0.25 * np.pi * D**2
     d.inner = derive_race(p, p.bearing.f_i, -1.0)
     d.outer = derive_race(p, p.bearing.f_e, 1.0)
+    d.growth = ring_growth(p) if p.scene.growth == Switch.ON else 0.0
+    derive_inlets(p, d)
+    derive_mixture(p, d)
 
 
 def derive_pockets(p, d):
@@ -99,14 +156,15 @@ def derive_cage(p, d):
     d.C_land = 0.5 * p.cage.guide_clearance
     d.kappa = p.oil.eta * R * L**3 / d.C_land**3
     d.couette = 2.0 * np.pi * p.oil.eta * R**3 * L / d.C_land
+    d.nahme = 0.125 * p.oil.beta * p.oil.eta * R**2 / p.oil.k if p.scene.heating == Switch.ON else 0.0
     d.ln_land = np.log(d.C_land / p.oil.sigma_land)
     # end face: (1/2) rho omega^2 (r_o^5 - r_i^5) C_n/2, given per omega (drag_cage multiplies by omega)
-    face, Re = 0.25 * p.oil.rho_mix * (R**5 - r_i**5), R * R / nu
+    face, Re = 0.25 * reference_density(p) * (R**5 - r_i**5), R * R / nu
     d.disk_laminar = face * 3.87 / np.sqrt(Re)
     d.disk_turbulent = face * 0.146 * Re**-0.2
     # cylinder outside the land, at the same gap
     width, Ta = max(0.5 * p.cage.width - L, 0.0), R * d.C_land / nu * np.sqrt(d.C_land / R)
-    d.cylinder_laminar = p.oil.rho_mix * nu * R / d.C_land * (2.0 * np.pi * R * width) * R
+    d.cylinder_laminar = reference_density(p) * nu * R / d.C_land * (2.0 * np.pi * R * width) * R
     d.cylinder_vortex = d.cylinder_laminar * 1.3 * (Ta / 41.0) ** 0.539
 
 

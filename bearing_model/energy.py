@@ -43,6 +43,7 @@ def loss_terms(model, w):
         "pockets": ball_array_sum(w.pocket_dissipated),
         "drag of the balls": ball_array_sum(w.drag_dissipated),
         "drag of the cage": w.cage_drag_dissipated,
+        "drag of the ring": w.ring_drag_dissipated,
         "land": w.land_dissipated,
     }
     if model.p.scene.cage == CageModel.TWO_HALF:

@@ -10,6 +10,10 @@
     I_s = int sin phi cos phi/(...)^3 dphi               = 2 b/q^4 + a^2 b/(q^4 (1 - b^2)) + 3 a b S/q^5
     I_t = int sin^2 phi/(...)^3 dphi                     = a/(q^2 (1 - b^2)) + 3 a b^2/(q^4 (1 - b^2)) + 2 a b^2/(q^2 (1 - b^2)^2) + S (q^2 + 3 b^2)/q^5
 
+Shear heats the film between walls at the oil's temperature; viscosity exp(-beta (T - T_wall)).  In plane Couette flow the shear stress then is
+asinh(s)/(s sqrt(1 + s^2)) times the isothermal one, s^2 = Na/8, Na = beta eta U^2/k, whatever the gap (Nahme (1940), Ing.-Archiv 11, 191); the
+film's viscosity is lower by this factor.
+
 Steady rotation gives Ocvirk's force (a = 0), pure squeeze that of the pi-film.  The force derives from int (V.n)^2/h^3 over the closing half, so that
 -dF/dV = kappa (I_c, I_s; I_s, I_t) exactly: these are the stiff rates of the film.  The force is regular at e = 0, C0 in V (cavitation) and C1 elsewhere.
 At the wall the film stays finite: q^2 is g_0 at the wall and tends to g_0/2 behind it, and eps is capped at 1.2.  Behind the wall the dry contact
@@ -19,7 +23,7 @@ F = K_land (e - C)^1.5 carries.
 import numpy as np
 
 from bearing_model.hertz import hertz_damped, hertz_energy, hertz_load
-from bearing_model.lanes import ball_array_sum, minimum, wide_pair
+from bearing_model.lanes import ball_array_sum, maximum, minimum, wide_pair
 from bearing_model.traction import traction_asperity_share
 from bearing_model.variables import Lubrication
 from bearing_model.vec import vec, vec_cross
@@ -42,6 +46,12 @@ def land_film_gap(eps, g_0):
     """q^2: 1 - eps^2 inside, g_0 at the wall, and g_0/2 far behind the wall."""
     above = 1.0 - eps * eps - 0.5 * g_0
     return 0.5 * g_0 + 0.5 * (above + np.sqrt(above * above + 2.0 * g_0 * g_0))
+
+
+def land_film_heating(s_2):
+    """Viscosity of the heated film / eta; s_2: Na/8."""
+    s, root = np.sqrt(s_2), np.sqrt(1.0 + s_2)
+    return np.where(np.real(s) > 1e-3, np.log(s + root) / (maximum(s, 1e-3) * root), 1.0 - 2.0 / 3.0 * s_2)
 
 
 def land_film_force(model, w):
@@ -69,8 +79,10 @@ def land_film_force(model, w):
     a, b = (e_y * n_y + e_z * n_z) * cap, (e_z * n_y - e_y * n_z) * cap
     q2 = land_film_gap(eps, p.cage.g_0)
     I_c, I_s, I_t = land_film_integrals(a, b, q2)
-    F_y, F_z = -d.kappa * (I_c * V_y - I_s * V_z), -d.kappa * (I_c * V_z + I_s * V_y)
-    couette = d.couette / np.sqrt(q2)
+    heated = land_film_heating(d.nahme * omega * omega) if d.nahme > 0.0 else 1.0
+    kappa = d.kappa * heated
+    F_y, F_z = -kappa * (I_c * V_y - I_s * V_z), -kappa * (I_c * V_z + I_s * V_y)
+    couette = d.couette * heated / np.sqrt(q2)
 
     # dry contact and friction where the gap is smallest; with mixed lubrication the asperities carry their share of the film force too
     u_y, u_z = e_y / e, e_z / e
@@ -94,9 +106,9 @@ def land_film_force(model, w):
     w.land_dissipated = -ball_array_sum(power + N_0 * pen_dot)
 
     # -dF/dv in the global frame
-    w.film_yy = d.kappa * (I_c * n_y * n_y - 2.0 * I_s * n_y * n_z + I_t * n_z * n_z)
-    w.film_zz = d.kappa * (I_c * n_z * n_z + 2.0 * I_s * n_y * n_z + I_t * n_y * n_y)
-    w.film_yz = d.kappa * ((I_c - I_t) * n_y * n_z + I_s * (n_y * n_y - n_z * n_z))
+    w.film_yy = kappa * (I_c * n_y * n_y - 2.0 * I_s * n_y * n_z + I_t * n_z * n_z)
+    w.film_zz = kappa * (I_c * n_z * n_z + 2.0 * I_s * n_y * n_z + I_t * n_y * n_y)
+    w.film_yz = kappa * ((I_c - I_t) * n_y * n_z + I_s * (n_y * n_y - n_z * n_z))
     w.film_spin = couette + g * R * R
 
     F = vec(0.0, F_y, F_z)

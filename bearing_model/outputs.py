@@ -8,11 +8,12 @@ import numpy as np
 from bearing_model.energy import energy_total, power_loss
 from bearing_model.events import event_outputs
 from bearing_model.hertz import hertz_pressure
+from bearing_model.lanes import ball_array_sum
 from bearing_model.ring_load import ring_tilts
 from bearing_model.rivet_rom import HEAD_P1, HEAD_VM, MID_P1, MID_VM, rivet_rom_stress
 from bearing_model.rivets import rivets_load, rivets_slip
-from bearing_model.traction import Q_FLOOR
-from bearing_model.variables import BALL_THETA, CAGE_PSI, RING_BETA_DOT, RING_GAMMA_DOT, RING_V_X, RING_V_Y, RING_V_Z, WORK, Stress, Z
+from bearing_model.traction import Q_FLOOR, traction_ln_film, traction_ln_thermal
+from bearing_model.variables import BALL_THETA, CAGE_PSI, RING_BETA_DOT, RING_GAMMA_DOT, RING_V_X, RING_V_Y, RING_V_Z, WORK, CageModel, Stress, Z
 from bearing_model.vec import vec, vec_cross, vec_dot, vec_local, vec_to_global
 
 STANDSTILL = 1e-9  # rad/s: up to it a speed is none that others are compared with
@@ -43,9 +44,10 @@ def ring_outputs(model, w, y_dot):
     return {name: value[..., 0] for name, value in values.items()}
 
 
-def film_ratio(race, U, Q):
+def film_ratio(d, race, U, Q):
     """Film thickness / roughness Lambda at mean speed U and load Q, 0 without contact."""
-    return np.where(Q > 0.0, np.exp(race.ln_Lambda + 0.67 * np.log(U) - 0.067 * np.log(Q + Q_FLOOR)), 0.0)
+    ln_U = np.log(U)
+    return np.where(Q > 0.0, np.exp(traction_ln_film(race.ln_Lambda, ln_U, np.log(Q + Q_FLOOR)) + traction_ln_thermal(d.ln_thermal, ln_U)), 0.0)
 
 
 def spin_roll(w):
@@ -69,9 +71,10 @@ def ball_outputs(model, w):
         "ball[j].alpha_e": np.where(w.Q_e > 0.0, np.arctan2(w.n_e[0], w.n_e[1]), 0.0),
         "ball[j].p_i": hertz_pressure(d.inner.hertz, w.Q_i),
         "ball[j].p_e": hertz_pressure(d.outer.hertz, w.Q_e),
-        "ball[j].Lambda_i": film_ratio(d.inner, w.U_i, w.Q_i),
-        "ball[j].Lambda_e": film_ratio(d.outer, w.U_e, w.Q_e),
+        "ball[j].Lambda_i": film_ratio(d, d.inner, w.U_i, w.Q_i),
+        "ball[j].Lambda_e": film_ratio(d, d.outer, w.U_e, w.Q_e),
         "ball[j].spin_roll": spin_roll(w),
+        "bearing.clearance": model.p.bearing.P_d - 2.0 * d.growth * model.ring_load.omega**2 + 0.0 * w.Q_pocket[..., 0],
         "bearing.contacts": np.sum(deltas > 0.0, axis=(0, -1)),
         "bearing.penetration": np.maximum(np.max(deltas, axis=(0, -1)), 0.0),
         "cage.F_pocket_max": np.max(w.Q_pocket, axis=-1),
@@ -146,7 +149,12 @@ def stress_outputs(model, w):
 
 def energy_outputs(model, w, work, energy_start):
     residual = energy_total(model, w) - energy_start - work
-    return {"bearing.power_loss": power_loss(model, w)[..., 0], "bearing.energy_residual": residual}
+    parts = {"races": w.race_dissipated, "inlet": w.inlet_dissipated, "spin": w.spin_dissipated, "ball_drag": w.drag_dissipated, "pockets": w.pocket_dissipated}
+    values = {f"loss.{name}": ball_array_sum(power) for name, power in parts.items()}
+    values |= {"loss.cage_drag": w.cage_drag_dissipated, "loss.ring_drag": w.ring_drag_dissipated, "loss.land": w.land_dissipated}
+    values["loss.joints"] = ball_array_sum(w.joint_dissipated) if model.p.scene.cage == CageModel.TWO_HALF else 0.0 * values["loss.races"]
+    values["bearing.power_loss"] = power_loss(model, w)
+    return {name: value[..., 0] for name, value in values.items()} | {"bearing.energy_residual": residual}
 
 
 def outputs(model, w, y, y_dot, energy_start):

@@ -17,6 +17,7 @@ ENUMERATIONS = (
     variables.TiltMode,
     variables.CageModel,
     variables.Traction,
+    variables.Drag,
     variables.Lubrication,
     variables.Stress,
     variables.Switch,

@@ -8,6 +8,9 @@
                  \\            /                                                     Q = K delta^1.5 max(0, 1 + lambda delta_dot)
                   \\__________/                                                      force on the ball -Q n
 
+The inner ring grows by its rotation: R_g + growth omega^2 (derived.py).  The work of this growth while the speed changes is left out of the energy
+balance.
+
 No offset or tilt is taken as small: the geometry is exact, so that the normal forces derive from a potential.
 Slip and mean speed at the contact point p + R n, seen from the frame that orbits with the ball:
     u_ball = (omega_ball - omega_m e_x) x R n,   u_race = v_ring + Omega x (p + R n) - v_ball - omega_m e_x x R n
@@ -25,7 +28,7 @@ from scipy.special import roots_jacobi
 
 from bearing_model.hertz import hertz_damped, hertz_load
 from bearing_model.lanes import ball_array_sum, maximum
-from bearing_model.traction import Q_FLOOR, traction_asperity_share, traction_inlet, traction_ln_film, traction_mu
+from bearing_model.traction import Q_FLOOR, traction_asperity_share, traction_ln_film, traction_ln_thermal, traction_mu, traction_race_inlet
 from bearing_model.variables import Lubrication, Traction
 from bearing_model.vec import vec, vec_across, vec_cross, vec_dot, vec_local, vec_to_global
 
@@ -40,15 +43,16 @@ def race_traction(model, race, c, mixed, sliced):
     c: the contact, normal n, rolling direction t_1, long axis t_2, slip Delta u, mean speed roll = U, spin = omega_ball - Omega of the race,
     approach = velocity of the ball's centre against the race there, load Q, sqrt_delta, ball radius R.
     Returns U with its floor [m/s], F_s at the contact point, F_c through the ball's centre [N], M of F_s about the ball's centre with spin [N.m],
-    dissipated power [W]; for the integrator's Jacobian (verlet.py) the secant coefficients g = |traction|/|slip| [N.s/m] and g_spin = moment/spin [N.m.s].
+    dissipated power, of it by the inlet and by spin about the normal [W]; for the integrator's Jacobian (verlet.py) the secant coefficients
+    g = |traction|/|slip| [N.s/m] and g_spin = moment/spin [N.m.s].
     """
     p = model.p
     U = np.sqrt(vec_dot(c.roll, c.roll) + p.oil.U_0**2)
     ln_U, ln_Q = np.log(U), np.log(c.Q + Q_FLOOR)
-    f_a = traction_asperity_share(traction_ln_film(race.ln_Lambda, ln_U, ln_Q)) if mixed else 0.0
-    F_R = traction_inlet(race.rolling, ln_U, c.Q, ln_Q)
+    f_a = traction_asperity_share(traction_ln_film(race.ln_Lambda, ln_U, ln_Q) + traction_ln_thermal(model.d.ln_thermal, ln_U)) if mixed else 0.0
+    F_R = traction_race_inlet(model.d, race.rolling, U, ln_U, c.Q, ln_Q)
 
-    out = SimpleNamespace(U=U, F_s=0.0, M=0.0, dissipated=0.0, g=0.0, g_spin=0.0)
+    out = SimpleNamespace(U=U, F_s=0.0, M=0.0, dissipated=0.0, spin_dissipated=0.0, g=0.0, g_spin=0.0)
     a = race.hertz.a_delta * c.sqrt_delta
     for s, share in zip(SLICE, SHARE, strict=True) if sliced else [(0.0, 1.0)]:
         xi = a * s
@@ -63,25 +67,29 @@ def race_traction(model, race, c, mixed, sliced):
         out.F_s = out.F_s + F
         out.M = out.M + vec_cross(lever, F)
         out.dissipated = out.dissipated - vec_dot(F, slip_i)
+    if sliced:
+        out.spin_dissipated = -vec_dot(out.M, c.n) * vec_dot(c.spin, c.n)
     # Inlet: -F_R U/|U| at the surface, the film's horizontal pressure force +F_H U/|U| through the ball's centre.
     rolling = F_R / U * c.roll
     out.F_s = out.F_s - rolling
     out.M = out.M - vec_cross(c.R * c.n, rolling)
     out.F_c = race.horizontal * rolling
-    out.dissipated = out.dissipated + vec_dot(rolling, c.slip) - vec_dot(out.F_c, c.approach)
+    out.inlet_dissipated = vec_dot(rolling, c.slip) - vec_dot(out.F_c, c.approach)
+    out.dissipated = out.dissipated + out.inlet_dissipated
     return out
 
 
-def race_contact(race, R, lambda_, p, a, Omega, approach, omega_b, omega_m):
+def race_contact(race, R_g, R, lambda_, p, a, Omega, approach, omega_b, omega_m):
     """Normal contact and kinematics of the balls with one race.
 
-    p: ball centres - ring centre, a: axis, Omega: angular velocity of the ring, approach: v_ball - v_ring - Omega x p, all in the balls' frames.
+    R_g: present radius of the circle of groove centres, p: ball centres - ring centre, a: axis, Omega: angular velocity of the ring,
+    approach: v_ball - v_ring - Omega x p, all in the balls' frames.
     """
     along = vec_dot(p, a)
     radial = p - along * a
     r = np.sqrt(vec_dot(radial, radial))
     e = radial / r
-    L = along * a + (r - race.R_g) * e
+    L = along * a + (r - R_g) * e
     L_abs = np.sqrt(vec_dot(L, L))
     c = SimpleNamespace(R=R, n=L / L_abs, t_1=vec_cross(a, e), approach=approach, spin=omega_b - Omega)
     c.t_2 = vec_cross(c.n, c.t_1)
@@ -108,13 +116,14 @@ def race_contact_force(model, w):
     # inner race: the ring's centre, axis, velocity in the balls' frames
     a, Omega, v_i, x_i = (vec_local(v, w.cos_theta, w.sin_theta) for v in (w.ring.a, w.ring.Omega, w.ring.v, w.ring.x))
     p_i = position - x_i
-    inner = race_contact(d.inner, d.R, p.bearing.lambda_, p_i, a, Omega, v_b - v_i - vec_cross(Omega, p_i), omega_b, w.omega_m)
+    R_g = d.inner.R_g + d.growth * model.ring_load.omega**2
+    inner = race_contact(d.inner, R_g, d.R, p.bearing.lambda_, p_i, a, Omega, v_b - v_i - vec_cross(Omega, p_i), omega_b, w.omega_m)
     T_i = race_traction(model, d.inner, inner, mixed, sliced)
     F_i = -inner.Q * inner.n + T_i.F_s + T_i.F_c
 
     # outer race: fixed, its axis is X
     e_x, rest = vec(1.0, 0.0 * w.x, 0.0), 0.0 * position
-    outer = race_contact(d.outer, d.R, p.bearing.lambda_, position, e_x, rest, v_b, omega_b, w.omega_m)
+    outer = race_contact(d.outer, d.outer.R_g, d.R, p.bearing.lambda_, position, e_x, rest, v_b, omega_b, w.omega_m)
     T_e = race_traction(model, d.outer, outer, mixed, sliced)
     F_e = -outer.Q * outer.n + T_e.F_s + T_e.F_c
 
@@ -122,6 +131,8 @@ def race_contact_force(model, w):
     w.F = F_i + F_e
     w.M = T_i.M + T_e.M
     w.race_dissipated = T_i.dissipated + T_e.dissipated + (inner.Q - inner.Q_0) * inner.delta_dot + (outer.Q - outer.Q_0) * outer.delta_dot
+    w.inlet_dissipated = T_i.inlet_dissipated + T_e.inlet_dissipated
+    w.spin_dissipated = T_i.spin_dissipated + T_e.spin_dissipated + 0.0 * w.x
     w.ring_F = vec_to_global(-F_i, w.cos_theta, w.sin_theta)  # by each ball, about the ring's centre
     w.ring_M = vec_to_global(-vec_cross(p_i, F_i) - T_i.M, w.cos_theta, w.sin_theta)
     w.ring.F, w.ring.M = ball_array_sum(w.ring_F), ball_array_sum(w.ring_M)

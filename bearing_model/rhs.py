@@ -6,7 +6,7 @@ import numpy as np
 
 from bearing_model.ball import ball_acceleration, ball_kinematics
 from bearing_model.cage_joint import cage_joint_force, cage_joint_kinematics
-from bearing_model.drag import drag_cage, drag_force
+from bearing_model.drag import drag_cage, drag_force, drag_mixture, drag_ring
 from bearing_model.energy import net_power
 from bearing_model.land_film import land_film_force
 from bearing_model.model import Work
@@ -126,7 +126,9 @@ def rhs(model, t, y, w=None):
     rotor_kinematics(model, y, w)
     race_contact_force(model, w)
     pocket_force(model, w)
+    drag_mixture(model, w)
     drag_force(model, w)
+    drag_ring(model, w)
     land_film_force(model, w)
     drag_cage(model, w)
     if not rigid:

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from enum import IntEnum
 
 MODEL_IDENTIFIER = "RivetedBearing"
-MODEL_GUID = "{0901f8cd-5a10-c404-281a-c396683794c3}"
+MODEL_GUID = "{5f98d0d5-9835-c96f-23d7-bc48b99eb98a}"
 Z = 9
 
 
@@ -74,6 +74,11 @@ class MeanStress(IntEnum):
     MORROW = 4
 
 
+class Drag(IntEnum):
+    ISOLATED = 1
+    ROW = 2
+
+
 class Method(IntEnum):
     VERLET = 1
     EXPLICIT = 2
@@ -121,6 +126,9 @@ UNITS = {
     "kg.m": {"kg.m": (1.0, 0.0), "g.mm": (1000000.0, 0.0)},
     "kg.m2": {"kg.m2": (1.0, 0.0)},
     "kg/m3": {"kg/m3": (1.0, 0.0)},
+    "m3/s": {"m3/s": (1.0, 0.0), "L/min": (60000.0, 0.0)},
+    "1/K": {"1/K": (1.0, 0.0)},
+    "W/m.K": {"W/m.K": (1.0, 0.0)},
     "1/s": {"1/s": (1.0, 0.0)},
     "1/s2": {"1/s2": (1.0, 0.0)},
     "s": {"s": (1.0, 0.0), "ms": (1000.0, 0.0)},
@@ -192,6 +200,11 @@ PARAMETERS = {
         Variable("oil.sigma_pocket", 1314, "Real", "m", "um", 6e-07, 1e-09, 1e-05, 1, None, "Composite RMS roughness of ball and pocket", "assumed (mild set L)"),
         Variable("oil.sigma_land", 1315, "Real", "m", "um", 8e-07, 1e-09, 1e-05, 1, None, "Composite RMS roughness of cage and outer ring lands", "assumed (turned and ground lands)"),
         Variable("oil.rho", 1316, "Real", "kg/m3", None, 900.0, 100.0, 2000.0, 1, None, "Density of the oil", "aviation oil, hot"),
+        Variable("oil.flow", 8201, "Real", "m3/s", "L/min", 0.0, 0.0, 0.1, 1, None, "Flow of oil through the bearing, from which the density of the mixture follows (Parker, NASA TP-2275)", "0: not known, the mixture has the density oil.rho_mix"),
+        Variable("oil.beta", 8202, "Real", "1/K", None, 0.022, 0.0, 0.2, 1, None, "Fall of the viscosity's logarithm with temperature", "MIL-PRF-23699 oil of 25 and 5 mm2/s at 40 and 100 degC, ASTM D341, at 6 mPa.s"),
+        Variable("oil.k", 8203, "Real", "W/m.K", None, 0.14, 0.01, 1.0, 1, None, "Thermal conductivity of the oil", "assumed (ester and mineral oils: 0.12...0.15)"),
+        Variable("oil.K_rs", 8204, "Real", "1", None, 3e-08, 0.0, 1e-06, 1, None, "Starvation of the race inlets", "SKF: 3e-8 for oil jet and low oil bath, 6e-8 for grease and oil-air; 0: fully flooded"),
+        Variable("oil.K_Z", 8205, "Real", "1", None, 3.1, 0.0, 10.0, 1, None, "Starvation of the race inlets: factor of the bearing type", "SKF: deep-groove ball bearings 3.1, angular-contact ball bearings 4.4"),
         Variable("ring.m", 1401, "Real", "kg", None, 0.6, 0.001, 1000.0, 1, None, "Mass of the inner ring with its share of the shaft", "assumed: inner ring and its share of the shaft"),
         Variable("ring.J_p", 1402, "Real", "kg.m2", None, 0.00018, 1e-09, 100.0, 1, None, "Polar moment of inertia of the inner ring", "assumed: inner ring and its share of the shaft"),
         Variable("ring.J_t", 1403, "Real", "kg.m2", None, 0.00012, 1e-09, 100.0, 1, None, "Transverse moment of inertia of the inner ring", "assumed: inner ring and its share of the shaft"),
@@ -200,6 +213,8 @@ PARAMETERS = {
         Variable("ring.tilt_time", 1406, "Real", "s", None, 0.0001, 1e-06, 1.0, 1, None, "Time constant of the critically damped filter of the prescribed tilt", "assumed: shorter than any pocket period"),
         Variable("ring.k_tilt", 1407, "Real", "N.m/rad", None, 20000.0, 0.0, 100000000.0, 1, None, "Angular stiffness of the ring's support (supported tilt)", "assumed: a second bearing nearby"),
         Variable("ring.c_tilt", 1408, "Real", "N.m.s/rad", None, 1.0, 0.0, 10000.0, 1, None, "Angular damping of the ring's support (supported tilt)", "assumed: damping ratio 0.3 with the default stiffness and inertia"),
+        Variable("ring.bore", 8221, "Real", "m", "mm", 0.0, 0.0, 1.0, 1, None, "Bore of the inner ring: its growth by rotation", "0: d_m - D/0.6, as usual cross-sections have it (6207: 35 mm)"),
+        Variable("ring.rho", 8222, "Real", "kg/m3", None, 7800.0, 1000.0, 20000.0, 1, None, "Density of the inner ring", "bearing steel, Harris"),
         Variable("gravity.y", 1501, "Real", "m/s2", None, 0.0, -1000.0, 1000.0, 1, None, "Gravity along Y", "off"),
         Variable("gravity.z", 1502, "Real", "m/s2", None, 0.0, -1000.0, 1000.0, 1, None, "Gravity along Z", "off"),
         Variable("pulse.F_r", 1601, "Real", "N", None, 0.0, -100000.0, 100000.0, 1, None, "Amplitude of the built-in half-sine impacts along the radial load", "no impact (paper section 4.1 (3): 1401 N)"),
@@ -220,6 +235,10 @@ PARAMETERS = {
         Variable("scene.lubrication", 1803, "Lubrication", "1", None, 1, None, None, 1, None, "Full film or mixed lubrication", "default"),
         Variable("scene.stress", 1804, "Stress", "1", None, 3, None, None, 1, None, "When the rivet stress is computed", "default"),
         Variable("scene.statistics", 1805, "Switch", "1", None, 1, None, None, 1, None, "Running mean, RMS and histogram behind stat.*", "default"),
+        Variable("scene.drag", 8211, "Drag", "1", None, 2, None, None, 1, None, "Drag of the balls in the mixture between the rings", "default"),
+        Variable("scene.churning", 8212, "Switch", "1", None, 2, None, None, 1, None, "Drag moment of the mixture on the spinning balls", "default"),
+        Variable("scene.heating", 8213, "Switch", "1", None, 2, None, None, 1, None, "Shear heating in the inlets of the races, in their films and in the films of the lands", "default"),
+        Variable("scene.growth", 8214, "Switch", "1", None, 1, None, None, 1, None, "Growth of the inner ring by its own rotation, which takes clearance (a free ring)", "default"),
         Variable("solver.tol", 1901, "Real", "1", None, 0.001, 1e-10, 0.1, 1, None, "Tolerance: local error / scale of each state class; a tolerance of fmi2SetupExperiment takes its place", "measured: forces and stress within 1 % of the limit, the mean stress of one jam within 2 %"),
         Variable("solver.method", 1902, "Method", "1", None, 1, None, None, 1, None, "Integration method", "measured: fewest processor seconds at every tolerance down to 2e-5"),
         Variable("solver.max_steps", 1903, "Integer", "1", None, 10000000, 10, 2000000000, 1, None, "Largest number of internal steps in one communication step", "work limit instead of a hung host"),
@@ -237,7 +256,7 @@ INPUTS = {
         Variable("shaft.F_z", 3, "Real", "N", None, 0.0, -100000.0, 100000.0, 1, None, "Radial load on the inner ring along Z", "paper Table 2"),
         Variable("shaft.M_y", 4, "Real", "N.m", None, 0.0, -10000.0, 10000.0, 1, None, "Moment about Y on the inner ring (supported or free tilt)", "paper Table 2"),
         Variable("shaft.M_z", 5, "Real", "N.m", None, 0.0, -10000.0, 10000.0, 1, None, "Moment about Z on the inner ring (supported or free tilt)", "paper Table 2"),
-        Variable("shaft.omega", 6, "Real", "rad/s", "rev/min", 1909.8788938723549, -5000.0, 5000.0, 1, None, "Speed of the inner ring about X", "paper Table 2 (18238 r/min)"),
+        Variable("shaft.omega", 6, "Real", "rad/s", "rev/min", 1909.8788938723549, -15000.0, 15000.0, 1, None, "Speed of the inner ring about X", "paper Table 2 (18238 r/min)"),
         Variable("shaft.tilt_y", 7, "Real", "rad", "deg", 0.0, -0.035, 0.035, 1, None, "Tilt of the shaft about Y (+X turns toward -Z)", "paper section 4.1 (4), base case"),
         Variable("shaft.tilt_z", 8, "Real", "rad", "deg", 0.0, -0.035, 0.035, 1, None, "Tilt of the shaft about Z (+X turns toward +Y)", "paper section 4.1 (4), base case"),
         Variable("impact.F_r", 9, "Real", "N", None, 0.0, -100000.0, 100000.0, 1, None, "Impact load added along the present radial load (+Y if there is none)", "no impact"),
@@ -337,6 +356,16 @@ OUTPUTS = {
         Variable("bearing.energy_residual", 4003, "Real", "J", None, None, None, None, 1, "energy", "Energy now - energy at start - net work since: 0 but for the errors of the integration and of the work's own integral", None),
         Variable("bearing.contacts", 4004, "Real", "1", None, None, None, None, 1, "ball", "Number of closed contacts (races and pockets)", None),
         Variable("bearing.penetration", 4005, "Real", "m", "um", None, None, None, 1, "ball", "Largest elastic approach of all contacts", None),
+        Variable("bearing.clearance", 8110, "Real", "m", "um", None, None, None, 1, "ball", "Diametral clearance at the present speed", None),
+        Variable("loss.races", 8101, "Real", "W", None, None, None, None, 1, "energy", "Power dissipated in the race contacts", None),
+        Variable("loss.inlet", 8102, "Real", "W", None, None, None, None, 1, "energy", "Part of loss.races: rolling friction of the inlets", None),
+        Variable("loss.spin", 8103, "Real", "W", None, None, None, None, 1, "energy", "Part of loss.races: spin of the balls about the contact normals (sliced traction)", None),
+        Variable("loss.ball_drag", 8104, "Real", "W", None, None, None, None, 1, "energy", "Power dissipated by drag and churning of the balls in the mixture", None),
+        Variable("loss.cage_drag", 8105, "Real", "W", None, None, None, None, 1, "energy", "Power dissipated by the drag of the cage in the mixture", None),
+        Variable("loss.ring_drag", 8109, "Real", "W", None, None, None, None, 1, "energy", "Power that the inner ring dissipates by its friction on the mixture", None),
+        Variable("loss.land", 8106, "Real", "W", None, None, None, None, 1, "energy", "Power dissipated between the lands and the outer ring", None),
+        Variable("loss.pockets", 8107, "Real", "W", None, None, None, None, 1, "energy", "Power dissipated in the pockets", None),
+        Variable("loss.joints", 8108, "Real", "W", None, None, None, None, 1, "energy", "Power dissipated in the joints of the cage", None),
         Variable("stat.time", 5001, "Real", "s", None, None, None, None, 1, "stat", "Time that the statistics cover", None),
         Variable("stat.Q_c_mean", 5002, "Real", "N", None, None, None, None, 1, "stat", "Pocket force of all balls pooled: mean, zeros included", None),
         Variable("stat.Q_c_rms", 5003, "Real", "N", None, None, None, None, 1, "stat", "Pocket force of all balls pooled: RMS", None),

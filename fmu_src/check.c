@@ -65,6 +65,9 @@ static bool check_geometry(Bearing *b)
         require(b, -p->bearing.P_d < 0.01 * D,
                 "bearing.P_d = %g m: the interference exceeds 1 %% of bearing.D; at least %g m is allowed",
                 p->bearing.P_d, -0.01 * D);
+    fine &= require(b, p->ring.bore < d_m - D,
+                    "ring.bore = %g m: less than the diameter of the inner groove's bottom, %g m, is allowed",
+                    p->ring.bore, d_m - D);
     fine &= require(b, p->cage.D_i < p->cage.D_o, "cage.D_i = %g m: less than cage.D_o = %g m is allowed",
                     p->cage.D_i, p->cage.D_o);
     fine &= require(b, p->cage.D_i < d_m, "cage.D_i = %g m: less than bearing.d_m = %g m is allowed",

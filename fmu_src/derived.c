@@ -4,6 +4,9 @@
 #include "rivet_rom.h"
 #include "traction.h"
 
+// Density of air [kg/m3] at 293 K and 10^5 Pa.
+static const double AIR_DENSITY = 1.19;
+
 // ln Lambda at U = 1 m/s, Q = 1 N:
 // ln of 2.69 G^0.53 (1 - 0.61 exp(-0.73 k)) R_x (eta/(E' R_x))^0.67 (1/(E' R_x^2))^-0.067 / sigma.
 static double ln_film(double E_prime, double R_x, double k, const Parameters *p, double sigma)
@@ -37,6 +40,69 @@ static void derive_race(const Parameters *p, double f, double side, Race *race)
     race->ln_Lambda = ln_film(2.0 * E_star, 1.0 / rho_x, race->hertz.k, p, p->oil.sigma_race);
 }
 
+// Density of the mixture; of the oil, where the flow gives the filling.
+static double reference_density(const Parameters *p)
+{
+    return p->oil.flow > 0.0 ? p->oil.rho : p->oil.rho_mix;
+}
+
+// Constants of drag.c.
+static void derive_mixture(const Parameters *p, Derived *d)
+{
+    const double D = p->bearing.D, d_m = p->bearing.d_m, R = 0.5 * D, gamma = D / d_m,
+                 nu = p->oil.eta / p->oil.rho;
+    const double rho = reference_density(p), kappa = 0.5 * (1.0 - gamma);
+
+    // Parker's fraction is 1 at this speed: 10^5 W^0.37/(n d_m^1.7), cm3/min, r/min, mm
+    d->flooded_omega = PI / 30.0 * 1e5 * portable_pow(6e7 * p->oil.flow, 0.37) / portable_pow(1e3 * d_m, 1.7);
+    d->air = AIR_DENSITY / p->oil.rho;
+
+    // balance of the mixture
+    const double r_m = 0.5 * d_m, r_i = r_m - R, r_e = r_m + R;
+    const double height = D * fmax(1.0 - p->bearing.h_i - p->bearing.h_e, 0.1);
+    const double width_e = fmax(p->cage.width - 2.0 * p->cage.land_width, 0.0);
+    const double f_i = 0.066 * portable_pow((1.0 - kappa) * r_i * height / nu, -0.25);
+    const double f_e = 0.066 * portable_pow(kappa * r_e * height / nu, -0.25);
+    d->sigma = 1.0 / kappa;
+    d->ball_area = Z * p->oil.C_d * PI * R * R;
+    d->inner_wall = f_i * 2.0 * PI * r_i * p->cage.width * portable_pow(r_i / r_m, 3.0);
+    d->outer_wall = f_e * 2.0 * PI * r_e * width_e * portable_pow(r_e / r_m, 3.0);
+    d->fresh = 2.0 * p->oil.flow / (kappa * r_m);
+    d->ring_drag = p->scene.drag == DRAG_ROW ? 0.5 * rho * d->inner_wall * portable_pow(r_m, 3.0) : 0.0;
+
+    // churning: (1/2) rho R^5 (6.45 sqrt(nu/(R^2 omega)) + 32.1 nu/(R^2 omega)) omega^2
+    d->churning_boundary = 0.5 * rho * 6.45 * sqrt(nu) * portable_pow(R, 4.0);
+    d->churning_viscous = 0.5 * rho * 32.1 * nu * R * R * R;
+}
+
+// Shear heating and starvation of the race inlets (traction.h).
+static void derive_inlets(const Parameters *p, Derived *d)
+{
+    const double D = p->bearing.D, d_m = p->bearing.d_m, gamma = D / d_m, nu = 1e6 * p->oil.eta / p->oil.rho;
+    const bool heating = p->scene.heating == SWITCH_ON;
+
+    // n d_m [r/min mm] at U = 1 m/s: U = omega d_m (1 - gamma^2)/4; cross-section of the bearing D/0.3
+    const double speed = 30.0 / PI * 4e3 / (1.0 - gamma * gamma), section = 1e3 * D / 0.3;
+    d->starvation = p->oil.K_rs * nu * 2.0 * speed * sqrt(0.5 * p->oil.K_Z / section);
+    d->ln_heating =
+        heating ? portable_log(1.84e-9) + 1.28 * portable_log(speed) + 0.64 * portable_log(nu) : -INFINITY;
+    d->ln_thermal =
+        heating && p->oil.beta > 0.0 ? portable_log(p->oil.eta * p->oil.beta / p->oil.k) : -INFINITY;
+}
+
+// Growth of the inner ring at the groove's bottom r by its own rotation / omega^2: a free ring from the bore a
+// to the shoulder b, in plane stress.  Timoshenko & Goodier, Theory of Elasticity, section 32
+//   u = rho omega^2 r/(8 E) ((3 + nu)(1 - nu)(a^2 + b^2) + (3 + nu)(1 + nu) a^2 b^2/r^2 - (1 - nu^2) r^2)
+static double ring_growth(const Parameters *p)
+{
+    const double nu = p->bearing.nu, r = 0.5 * (p->bearing.d_m - p->bearing.D);
+    const double bore = p->ring.bore > 0.0 ? p->ring.bore : p->bearing.d_m - p->bearing.D / 0.6;
+    const double a_2 = 0.25 * bore * bore, b = r + p->bearing.h_i * p->bearing.D, b_2 = b * b;
+    return p->ring.rho * r / (8.0 * p->bearing.E) *
+           ((3.0 + nu) * (1.0 - nu) * (a_2 + b_2) + (3.0 + nu) * (1.0 + nu) * a_2 * b_2 / (r * r) -
+            (1.0 - nu * nu) * r * r);
+}
+
 static void derive_balls(const Parameters *p, Derived *d)
 {
     const double D = p->bearing.D, area = 0.25 * PI * D * D;
@@ -44,9 +110,12 @@ static void derive_balls(const Parameters *p, Derived *d)
         d->R[j] = j < Z ? 0.5 * (D + p->ball.dD[j]) : 0.0;  // padding lanes touch nothing
     d->m = p->bearing.rho * PI / 6.0 * D * D * D;
     d->J = 0.1 * d->m * D * D;
-    d->drag = 0.5 * p->oil.C_d * p->oil.rho_mix * area;
+    d->drag = 0.5 * p->oil.C_d * reference_density(p) * area;
     derive_race(p, p->bearing.f_i, -1.0, &d->inner);
     derive_race(p, p->bearing.f_e, 1.0, &d->outer);
+    d->growth = p->scene.growth == SWITCH_ON ? ring_growth(p) : 0.0;
+    derive_inlets(p, d);
+    derive_mixture(p, d);
 }
 
 static void derive_pockets(const Parameters *p, Derived *d)
@@ -99,17 +168,18 @@ static void derive_cage(const Parameters *p, Derived *d)
     d->C_land = 0.5 * p->cage.guide_clearance;
     d->kappa = p->oil.eta * R * L * L * L / (d->C_land * d->C_land * d->C_land);
     d->couette = 2.0 * PI * p->oil.eta * R * R * R * L / d->C_land;
+    d->nahme = p->scene.heating == SWITCH_ON ? 0.125 * p->oil.beta * p->oil.eta * R * R / p->oil.k : 0.0;
     d->ln_land = portable_log(d->C_land / p->oil.sigma_land);
 
     // end face: (1/2) rho omega^2 (r_o^5 - r_i^5) C_n/2, given per omega (drag_cage multiplies by omega)
-    const double face = 0.25 * p->oil.rho_mix * (portable_pow(R, 5.0) - portable_pow(r_i, 5.0));
+    const double face = 0.25 * reference_density(p) * (portable_pow(R, 5.0) - portable_pow(r_i, 5.0));
     const double Re = R * R / nu;
     d->disk_laminar = face * 3.87 / sqrt(Re);
     d->disk_turbulent = face * 0.146 * portable_pow(Re, -0.2);
 
     // cylinder outside the land, at the same gap
     const double width = fmax(0.5 * p->cage.width - L, 0.0), Ta = R * d->C_land / nu * sqrt(d->C_land / R);
-    d->cylinder_laminar = p->oil.rho_mix * nu * R / d->C_land * (2.0 * PI * R * width) * R;
+    d->cylinder_laminar = reference_density(p) * nu * R / d->C_land * (2.0 * PI * R * width) * R;
     d->cylinder_vortex = d->cylinder_laminar * 1.3 * portable_pow(Ta / 41.0, 0.539);
 
     // the turbulent laws overtake at k_t omega^0.8 = k_l omega^0.5 and 1.3 (Ta/41)^0.539 = 1; the limits are

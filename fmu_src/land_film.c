@@ -16,6 +16,10 @@
 // integral of (V.n)^2/h^3 over the closing half, so that -dF/dV = kappa (I_c, I_s; I_s, I_t) exactly: these
 // are the stiff rates.
 //
+// Shear heats the film between walls at the oil's temperature; viscosity exp(-beta (T - T_wall)).  In plane Couette
+// flow the shear stress then is asinh(s)/(s sqrt(1 + s^2)) times the isothermal one, s^2 = Na/8, Na = beta eta
+// U^2/k, whatever the gap (Nahme (1940), Ing.-Archiv 11, 191); the film's viscosity is lower by this factor.
+//
 // The force is regular at e = 0, C0 in V (cavitation) and C1 elsewhere.  At the wall the film stays finite:
 // q^2 is g_0 at the wall and tends to g_0/2 behind it, and eps is capped at 1.2.  Behind the wall the dry
 // contact F = K_land (e - C)^1.5 carries.
@@ -47,6 +51,14 @@ INLINE FilmIntegrals land_film_integrals(wide a, wide b, wide q2, wide inv_q)
                            a * inv_c2 * (q2 + b * b * (3.0 + 2.0 * q2 * inv_c2)) + S * (q2 + 3.0 * b * b)};
 }
 
+// Viscosity of the heated film / eta; s_2: Na/8.
+INLINE wide land_film_heating(wide s_2)
+{
+    const wide s = wide_sqrt(s_2), root = wide_sqrt(1.0 + s_2);
+    const wide heated = wide_log(s + root) / (wide_max(s, wide_set(1e-3)) * root);
+    return wide_select(wide_above(s, 1e-3), heated, 1.0 - (2.0 / 3.0) * s_2);
+}
+
 // The lands of HALVES halves side by side, beginning with half `first`.
 INLINE void land_film_packet(const Model *model, Work *w, int first)
 {
@@ -73,9 +85,10 @@ INLINE void land_film_packet(const Model *model, Work *w, int first)
     const wide q2 = land_film_gap(eps, p->cage.g_0), inv_q = 1.0 / wide_sqrt(q2), inv_q2 = inv_q * inv_q;
     const FilmIntegrals film = land_film_integrals(a, b, q2, inv_q);
     const wide I_c = film.I_c, I_s = film.I_s, I_t = film.I_t;
-    const wide kappa = d->kappa * inv_q2 * inv_q2;
+    const wide heated = d->nahme > 0.0 ? land_film_heating(d->nahme * omega * omega) : wide_set(1.0);
+    const wide kappa = d->kappa * heated * inv_q2 * inv_q2;
     wide F_y = -kappa * (I_c * V_y - I_s * V_z), F_z = -kappa * (I_c * V_z + I_s * V_y);
-    const wide couette = d->couette * inv_q;
+    const wide couette = d->couette * heated * inv_q;
 
     // dry contact and friction where the gap is smallest; in mixed lubrication asperities also carry their
     // share of the film force
@@ -123,12 +136,13 @@ INLINE void land_film_packet(const Model *model, Work *w, int first)
         w->film_zz[h] = wide_lane(K_zz, i);
         w->film_spin[h] = wide_lane(couette, i) + wide_lane(g, i) * R_h * R_h;
         w->land_elastic += wide_lane(elastic, i);
-        w->land_dissipated -= wide_lane(power, i) + wide_lane(elastic_rate, i);
+        w->cage_dissipated -= wide_lane(power, i) + wide_lane(elastic_rate, i);
     }
 }
 
 void land_film_force(const Model *model, Work *w)
 {
-    w->land_elastic = w->land_dissipated = 0.0;
+    w->land_elastic = w->cage_dissipated = 0.0;
     for (int first = 0; first < 2; first += HALVES) land_film_packet(model, w, first);
+    w->land_dissipated = w->cage_dissipated;  // drag_cage adds to what the cage dissipates
 }

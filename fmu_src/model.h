@@ -41,7 +41,16 @@ typedef struct {
     constants R;  // ball radius [m]
     double m, J;  // ball mass [kg], moment of inertia [kg.m2]
     Race inner, outer;
-    double drag;  // ball drag / v^2 [N.s2/m2]
+    double growth;                  // of the inner groove's radius / omega^2 [m.s2]
+    double starvation, ln_heating;  // of the inlets: exponent / U [s/m], ln of the heating term at U = 1 m/s
+    double ln_thermal;              // ln of the thermal loading L of the race films at U = 1 m/s
+
+    // mixture; densities in proportion to that of the mixture, or of the oil where the flow gives the filling
+    double flooded_omega, air;  // shaft speed up to which oil fills the space [rad/s], density air / oil
+    double sigma;               // shaft speed / orbital speed without slip
+    double ball_area, inner_wall, outer_wall, fresh;   // B [m2], I and E / |omega|^-0.25, N |omega|
+    double drag, churning_viscous, churning_boundary;  // of a ball / v^2 [N.s2/m2], / omega, / omega^1.5
+    double ring_drag;  // moment on the ring / (omega - stream)^2 |omega|^-0.25
 
     // pockets
     double ln_pocket_piezo;  // ln Lambda of the pocket film at U = 1 m/s, Q = 1 N: piezoviscous,
@@ -57,6 +66,7 @@ typedef struct {
     double C_land;           // radial guide clearance [m]
     double kappa;            // eta R L^3 / C^3 [N.s/m]
     double couette;          // Couette torque / speed of a land [N.m.s]
+    double nahme;            // (Na/8) / omega^2 of a land's film, 0 without heating [s2]
     double ln_land;          // ln Lambda of a land film of thickness C
     double disk_laminar, disk_turbulent;                // end-face drag moment / |omega|^1.5, |omega|^1.8
     double cylinder_laminar, cylinder_vortex;           // cylinder drag moment / |omega|, |omega|^1.539
@@ -126,6 +136,10 @@ typedef struct {
     ball_array F_x, F_r, F_t, M_x, M_r, M_t;
     ball_array dissipated;
 
+    // its parts [W]: races, of it the inlet's rolling friction and the spin about the normal
+    // (race_contact_force), pockets (cleared there, added by pocket_force), drag (drag_force)
+    ball_array race_dissipated, inlet_dissipated, spin_dissipated, pocket_dissipated, drag_dissipated;
+
     // stiff rates of the race contacts (race_contact_force): |traction|/|slip| [N.s/m], moment/spin about the
     // normal [N.m.s]
     ball_array g_i, g_e, g_spin_i, g_spin_e;
@@ -150,8 +164,16 @@ typedef struct {
     ball_array plate_y_dot, plate_z_dot, head_y_dot, head_z_dot;
     ball_array joint_dissipated;
 
-    // lands (land_film_force): power [W], elastic energy [J], film rates -dF/dv and -dM/domega of each land
-    scalar land_dissipated, land_elastic;
+    // mixture (drag_mixture): density / that of the derived constants, angular speed about X [rad/s],
+    // |shaft speed|^-0.25; power of its friction on the ring [W] (drag_ring)
+    scalar filling, stream, wall;
+    scalar ring_drag_dissipated;
+
+    // cage (land_film_force, drag_cage): power of lands and drag together, of the lands, of the drag [W]
+    scalar cage_dissipated, land_dissipated, cage_drag_dissipated;
+
+    // lands (land_film_force): elastic energy [J], film rates -dF/dv and -dM/domega of each land
+    scalar land_elastic;
     scalar film_yy[2], film_yz[2], film_zz[2], film_spin[2];
 } Work;
 

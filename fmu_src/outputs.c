@@ -47,11 +47,12 @@ static void fill_ring(const Evaluation *at, Outputs *out)
 }
 
 // Film thickness / roughness at mean speed U and load Q, 0 without contact.
-static scalar film_ratio(const Race *race, scalar U, scalar Q)
+static scalar film_ratio(const Derived *d, const Race *race, scalar U, scalar Q)
 {
-    return scalar_value(Q) > 0.0
-               ? scalar_exp(race->ln_Lambda + 0.67 * scalar_log(U) - 0.067 * scalar_log(Q + Q_FLOOR))
-               : 0.0;
+    if (scalar_value(Q) <= 0.0) return 0.0;
+    const scalar ln_U = scalar_log(U);
+    const scalar thermal = 1.0 + scalar_exp(0.62 * (d->ln_thermal + 2.0 * ln_U)) / 3.94;
+    return scalar_exp(race->ln_Lambda + 0.67 * ln_U - 0.067 * scalar_log(Q + Q_FLOOR) - scalar_log(thermal));
 }
 
 // Spin of the ball against the inner ring about the contact normal / rolling speed across it.
@@ -87,8 +88,8 @@ static void fill_ball(const Evaluation *at, Outputs *out)
         out->ball.alpha_e[j] = scalar_value(Q_e) > 0.0 ? scalar_atan2(w->n_ex[j], w->n_er[j]) : 0.0;
         out->ball.p_i[j] = hertz_pressure(&d->inner.hertz, Q_i);
         out->ball.p_e[j] = hertz_pressure(&d->outer.hertz, Q_e);
-        out->ball.Lambda_i[j] = film_ratio(&d->inner, w->U_i[j], Q_i);
-        out->ball.Lambda_e[j] = film_ratio(&d->outer, w->U_e[j], Q_e);
+        out->ball.Lambda_i[j] = film_ratio(d, &d->inner, w->U_i[j], Q_i);
+        out->ball.Lambda_e[j] = film_ratio(d, &d->outer, w->U_e[j], Q_e);
         out->ball.spin_roll[j] = spin_roll(w, j);
 
         // over all balls
@@ -98,6 +99,8 @@ static void fill_ball(const Evaluation *at, Outputs *out)
         }
         force_max = scalar_max(force_max, Q_c);
     }
+    const scalar omega = at->model->ring_load->omega;
+    out->bearing.clearance = at->model->p->bearing.P_d - 2.0 * d->growth * omega * omega;
     out->bearing.contacts = contacts;
     out->bearing.penetration = penetration;
     out->cage.F_pocket_max = force_max;
@@ -193,9 +196,18 @@ static void fill_stress(const Evaluation *at, Outputs *out)
 static void fill_energy(const Evaluation *at, Outputs *out)
 {
     const Work *w = at->w;
-    out->bearing.power_loss = ball_array_sum(w->dissipated) + w->land_dissipated;
-    if (at->model->p->scene.cage == CAGE_MODEL_TWO_HALF)
-        out->bearing.power_loss += ball_array_sum(w->joint_dissipated);
+    const bool joints = at->model->p->scene.cage == CAGE_MODEL_TWO_HALF;
+    out->loss.joints = joints ? ball_array_sum(w->joint_dissipated) : 0.0;
+    out->bearing.power_loss = ball_array_sum(w->dissipated) + w->cage_dissipated + w->ring_drag_dissipated;
+    if (joints) out->bearing.power_loss += out->loss.joints;
+    out->loss.races = ball_array_sum(w->race_dissipated);
+    out->loss.inlet = ball_array_sum(w->inlet_dissipated);
+    out->loss.spin = ball_array_sum(w->spin_dissipated);
+    out->loss.ball_drag = ball_array_sum(w->drag_dissipated);
+    out->loss.cage_drag = w->cage_drag_dissipated;
+    out->loss.ring_drag = w->ring_drag_dissipated;
+    out->loss.land = w->land_dissipated;
+    out->loss.pockets = ball_array_sum(w->pocket_dissipated);
     out->bearing.energy_residual = energy_total(at->model, at->y, w) - at->y[Y_WORK];
 }
 

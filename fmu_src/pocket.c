@@ -109,8 +109,9 @@ INLINE void pocket_contacts(const Model *model, Work *w, int h, int j, const Poc
     add_vec(M, &w->M_x[j], &w->M_r[j], &w->M_t[j]);
     add_vec(vec_scale(g / d->m, tangent), &w->D_x[j], &w->D_r[j], &w->D_t[j]);
     add_vec(vec_scale(g * (R * R / d->J), tangent), &w->D_omega_x[j], &w->D_omega_r[j], &w->D_omega_t[j]);
-    wide_store(&w->dissipated[j],
-               wide_load(&w->dissipated[j]) + ((Q - Q_0) * delta_dot - vec_dot(F_s, slip) - vec_dot(F_c, v)));
+    const wide dissipated = (Q - Q_0) * delta_dot - vec_dot(F_s, slip) - vec_dot(F_c, v);
+    wide_store(&w->dissipated[j], wide_load(&w->dissipated[j]) + dissipated);
+    wide_store(&w->pocket_dissipated[j], wide_load(&w->pocket_dissipated[j]) + dissipated);
 }
 
 // Forces of a packet in which no ball touches its pocket.

@@ -9,6 +9,9 @@
 //             \            /                     Q = K delta^1.5 max(0, 1 + lambda delta_dot)
 //              \__________/                      force on the ball -Q n
 //
+// The inner ring grows by its rotation: R_g + growth omega^2 (derived.c).  The work of this growth while the speed
+// changes is left out of the energy balance.
+//
 // No offset or tilt is taken as small: the geometry is exact, so that the normal forces derive from a
 // potential.
 //
@@ -62,16 +65,17 @@ INLINE void load_contact(const Model *model, const Race *race, wide delta, wide 
     c->dissipated = (c->Q - Q_0) * delta_dot;
 }
 
-// Inner race.  p: from the centre of the ring to that of the ball; a, v, Omega: axis, velocity and angular
+// Inner race.  R_g: present radius of the circle of groove centres; p: from the centre of the ring to that of the ball; a, v, Omega: axis, velocity and angular
 // velocity of the ring.  All vectors are in the frames of the balls.
-INLINE Contact inner_contact(const Model *model, const BallMotion *ball, vec p, vec a, vec v, vec Omega)
+INLINE Contact inner_contact(const Model *model, const BallMotion *ball, wide R_g, vec p, vec a, vec v,
+                             vec Omega)
 {
     const Race *race = &model->d->inner;
     const wide along = vec_dot(p, a), tiny = wide_set(TINY);
     const vec radial = vec_axpy(-along, a, p);
     const wide r = wide_sqrt(vec_dot(radial, radial) + tiny);
     const vec e = vec_scale(1.0 / r, radial);
-    const wide across = r - race->R_g, L = wide_sqrt(along * along + across * across + tiny), inv_L = 1.0 / L;
+    const wide across = r - R_g, L = wide_sqrt(along * along + across * across + tiny), inv_L = 1.0 / L;
     Contact c = {
         .R = ball->R, .n = vec_axpy(across * inv_L, e, vec_scale(along * inv_L, a)), .t_1 = vec_cross(a, e)};
     c.t_2 = vec_cross(c.n, c.t_1);
@@ -146,6 +150,7 @@ INLINE Tangential sliced_traction(const Parameters *p, const Race *race, const C
         out.M = vec_add(out.M, vec_cross(vec_axpy(xi, c->t_2, vec_scale(c->R - sagitta, c->n)), F));
         out.dissipated -= vec_dot(F, slip_i);
     }
+    out.spin_dissipated = -(vec_dot(out.M, c->n) * spin_n);
     return out;
 }
 
@@ -158,9 +163,11 @@ INLINE Tangential race_traction(const Model *model, const Race *race, const Cont
     const wide U_2 = vec_dot(c->roll, c->roll) + p->oil.U_0 * p->oil.U_0, inv_U = 1.0 / wide_sqrt(U_2);
     wide ln_U, ln_Q;
     wide_log2(U_2 * inv_U, c->Q + Q_FLOOR, &ln_U, &ln_Q);
-    const wide f_a = mixed ? traction_asperity_share(traction_ln_film(wide_set(race->ln_Lambda), ln_U, ln_Q))
-                           : wide_set(0.0);
-    const wide F_R = traction_inlet(wide_set(race->rolling), ln_U, c->Q, ln_Q);
+    wide f_a = wide_set(0.0);
+    if (mixed)
+        f_a = traction_asperity_share(traction_ln_film(wide_set(race->ln_Lambda), ln_U, ln_Q) +
+                                      traction_ln_thermal(wide_set(model->d->ln_thermal), ln_U));
+    const wide F_R = traction_race_inlet(model->d, wide_set(race->rolling), U_2 * inv_U, ln_U, c->Q, ln_Q);
     const vec rolling = vec_scale(F_R * inv_U, c->roll);
 
     Tangential out =
@@ -169,7 +176,8 @@ INLINE Tangential race_traction(const Model *model, const Race *race, const Cont
     out.M = vec_sub(out.M, vec_cross(vec_scale(c->R, c->n), rolling));
     out.F_c = vec_scale(wide_set(race->horizontal), rolling);
     out.U = U_2 * inv_U;
-    out.dissipated += vec_dot(rolling, c->slip) - vec_dot(out.F_c, c->approach);
+    out.inlet_dissipated = vec_dot(rolling, c->slip) - vec_dot(out.F_c, c->approach);
+    out.dissipated += out.inlet_dissipated;
     return out;
 }
 
@@ -190,7 +198,11 @@ INLINE void store_contacts(Work *w, int j, const Contact *inner, const Contact *
     wide_store(&w->g_e[j], T_e->g);
     wide_store(&w->g_spin_i[j], T_i->g_spin);
     wide_store(&w->g_spin_e[j], T_e->g_spin);
-    wide_store(&w->dissipated[j], T_i->dissipated + T_e->dissipated + inner->dissipated + outer->dissipated);
+    const wide dissipated = T_i->dissipated + T_e->dissipated + inner->dissipated + outer->dissipated;
+    wide_store(&w->dissipated[j], dissipated);
+    wide_store(&w->race_dissipated[j], dissipated);
+    wide_store(&w->inlet_dissipated[j], T_i->inlet_dissipated + T_e->inlet_dissipated);
+    wide_store(&w->spin_dissipated[j], T_i->spin_dissipated + T_e->spin_dissipated);
 }
 
 // Both race contacts of a packet of balls.
@@ -205,7 +217,9 @@ INLINE void race_contact_packet(const Model *model, Work *w, int j, bool mixed, 
                              .omega_m = wide_load(&w->omega_m[j]),
                              .R = wide_load(&d->R[j])};
     const vec p_i = vec_sub(ball.x, vec_local(w->ring.x, cos_theta, sin_theta));
-    const Contact inner = inner_contact(model, &ball, p_i, vec_local(w->ring.a, cos_theta, sin_theta),
+    const scalar omega = model->ring_load->omega;
+    const wide R_g = wide_set(d->inner.R_g + d->growth * omega * omega);
+    const Contact inner = inner_contact(model, &ball, R_g, p_i, vec_local(w->ring.a, cos_theta, sin_theta),
                                         vec_local(w->ring.v, cos_theta, sin_theta),
                                         vec_local(w->ring.Omega, cos_theta, sin_theta));
     const Contact outer = outer_contact(model, &ball);
@@ -213,7 +227,7 @@ INLINE void race_contact_packet(const Model *model, Work *w, int j, bool mixed, 
     const Tangential T_e = race_traction(model, &d->outer, &outer, mixed, sliced);
     store_contacts(w, j, &inner, &outer, &T_i, &T_e);
 
-    // forces and moments on the balls, cleared rates of the pockets, wrench on the ring about its centre
+    // forces and moments on the balls, what the pockets add to, wrench on the ring about its centre
     const vec none = {0};
     const vec F_i = vec_axpy(-inner.Q, inner.n, vec_add(T_i.F_s, T_i.F_c));
     const vec F_e = vec_axpy(-outer.Q, outer.n, vec_add(T_e.F_s, T_e.F_c));
@@ -222,6 +236,7 @@ INLINE void race_contact_packet(const Model *model, Work *w, int j, bool mixed, 
     vec_store(vec_add(T_i.M, T_e.M), &w->M_x[j], &w->M_r[j], &w->M_t[j]);
     vec_store(none, &w->D_x[j], &w->D_r[j], &w->D_t[j]);
     vec_store(none, &w->D_omega_x[j], &w->D_omega_r[j], &w->D_omega_t[j]);
+    wide_store(&w->pocket_dissipated[j], wide_set(0.0));
     vec_to_global(vec_scale(minus, F_i), cos_theta, sin_theta, &w->ring_F_x[j], &w->ring_F_y[j],
                   &w->ring_F_z[j]);
     vec_to_global(M_ring, cos_theta, sin_theta, &w->ring_M_x[j], &w->ring_M_y[j], &w->ring_M_z[j]);

@@ -138,7 +138,7 @@ static void rigid_cage_acceleration(const Model *model, const scalar *y, const W
 static scalar net_power(const Model *model, const Work *w)
 {
     scalar power = -dot3(w->ring.F, w->ring.v) - dot3(w->ring.M, w->ring.Omega) -
-                   ball_array_sum(w->dissipated) - w->land_dissipated;
+                   ball_array_sum(w->dissipated) - w->cage_dissipated - w->ring_drag_dissipated;
     if (model->p->scene.cage == CAGE_MODEL_TWO_HALF) power -= ball_array_sum(w->joint_dissipated);
     const double g_y = model->p->gravity.y, g_z = model->p->gravity.z;
     if (g_y != 0.0 || g_z != 0.0) {
@@ -176,8 +176,10 @@ static void evaluate(const Model *model, const scalar *y, scalar *y_dot, Work *w
     rotor_kinematics(model, y, w);
     race_contact_force(model, w);
     pocket_force(model, w);
+    drag_mixture(model, w);
     drag_force(model, w);
     ring_sum(w);
+    drag_ring(model, w);
     land_film_force(model, w);
     drag_cage(model, w);
     if (!rigid) {

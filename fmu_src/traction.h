@@ -8,6 +8,11 @@
 //               (1977), central film
 //   inlet       F_R = 2.86 E' R_x^2 (R_y/R_x)^0.348 G^0.022 U^0.66 W^0.47;  Houpert (1987), as in Balan et al.,
 //               Lubricants 3 (2015), 222
+//   heating     by shear in the inlet: of the races F_R is 1/(1 + 1.84e-9 (n d_m)^1.28 nu^0.64) times as large, and
+//   starvation  exp(-K_rs nu n (d + D) sqrt(K_Z/(2 (D - d)))) times;       SKF, Rolling Bearings (catalogue, 2018)
+//               n d_m [r/min mm] from U = n d_m (1 - gamma^2)/4, D - d = ball diameter/0.3, nu [mm2/s]
+//   thermal     the race films are 3.94/(3.94 + L^0.62) times as thick, L = eta beta u^2/k;
+//               Murch & Wilson (1975), J. Lubr. Technol. 97, 212
 //
 // with U = eta u/(E' R_x), W = Q/(E' R_x^2), G = alpha E', E' = 2 E_star, u the mean surface speed.  Powers
 // are computed as exp(p ln), so that all of them share ln U and ln Q.  Load and speed have floors, so that
@@ -25,13 +30,20 @@ typedef struct {
     wide g;           // |traction| / |slip|: the stiff rate of the contact [N.s/m]
     wide g_spin;      // moment / spin about the normal, by the slices beside the centre [N.m.s]
     wide U;           // mean surface speed with its floor [m/s]
-    wide dissipated;  // [W]
+    wide dissipated;  // all of it, by the inlet's rolling friction, by spin about the normal [W]
+    wide inlet_dissipated, spin_dissipated;
 } Tangential;
 
 // ln Lambda at mean speed U and load Q; ln_Lambda_1 at U = 1 m/s, Q = 1 N.
 INLINE wide traction_ln_film(wide ln_Lambda_1, wide ln_U, wide ln_Q)
 {
     return ln_Lambda_1 + 0.67 * ln_U - 0.067 * ln_Q;
+}
+
+// ln of the thermal factor on a film; ln_thermal: ln L at U = 1 m/s.
+INLINE wide traction_ln_thermal(wide ln_thermal, wide ln_U)
+{
+    return -wide_log(1.0 + wide_exp(0.62 * (ln_thermal + 2.0 * ln_U)) / 3.94);
 }
 
 // Share of the load that asperities carry.
@@ -60,4 +72,11 @@ INLINE wide traction_mu(const Parameters *p, wide s, wide f_a, bool mixed)
 INLINE wide traction_inlet(wide rolling, wide ln_U, wide Q, wide ln_Q)
 {
     return rolling * Q * wide_exp(0.66 * ln_U - 0.53 * ln_Q);
+}
+
+// F_R of a race, with shear heating and starvation of its inlet.
+INLINE wide traction_race_inlet(const Derived *d, wide rolling, wide U, wide ln_U, wide Q, wide ln_Q)
+{
+    const wide F_R = rolling * Q * wide_exp(0.66 * ln_U - 0.53 * ln_Q - d->starvation * U);
+    return F_R / (1.0 + wide_exp(d->ln_heating + 1.28 * ln_U));
 }

@@ -87,6 +87,7 @@ class Model:
         core.set_values(self.u, variables.INPUTS, inputs)
         core.lib.model_derive(self.p, self.d)
         core.lib.work_init(self.d, self.work)
+        core.lib.ring_load_update(self.p, self.u, 0.0, self.ring_load)
         self.pointer = core.new("Model")
         self.pointer.p, self.pointer.d, self.pointer.ring_load = self.p, self.d, self.ring_load
         self.isa = isa or core.ffi.string(core.lib.kernels_select().name).decode()
@@ -98,7 +99,6 @@ class Model:
     def solve_start(self):
         """State of the quasi-static start at t = 0 and its residual force [N]; the work struct keeps its contacts."""
         y = np.zeros(variables.N_STATES)
-        self.core.lib.ring_load_update(self.p, self.u, 0.0, self.ring_load)
         kernels = self.core.ffi.new("Kernels *", self.core.lib.kernels_select())
         return y, self.core.lib.start_state(kernels, self.pointer, self.work, self.core.array(y))
 

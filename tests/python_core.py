@@ -21,7 +21,8 @@ from bearing_model.rotor import Rotor
 from bearing_model.start import start_state
 
 Z = variables.Z
-KERNELS = {f.__name__: f for f in (race_contact.race_contact_force, pocket.pocket_force, drag.drag_force, drag.drag_cage, land_film.land_film_force)}
+ELEMENTS = (race_contact.race_contact_force, pocket.pocket_force, drag.drag_mixture, drag.drag_force, drag.drag_cage, drag.drag_ring, land_film.land_film_force)
+KERNELS = {f.__name__: f for f in ELEMENTS}
 PLACES = ("x", "r", "theta", "cos_theta", "sin_theta", "v_x", "v_r", "v_t", "omega_m", "omega_x", "omega_r", "omega_t")
 VECTORS = {f"{kind}_{axis}": (kind, i) for kind in "FM" for i, axis in enumerate("xrt")}
 WRENCH = {f"ring_{kind}_{axis}": (f"ring_{kind}", i) for kind in "FM" for i, axis in enumerate("xyz")}
@@ -83,10 +84,6 @@ class PythonWork:
             return SimpleNamespace(Q=w.Q_c[h], **{f"half_{kind}_{i}": row for kind, rows in wrench.items() for i, row in zip("xyz", rows, strict=True)})
 
         return [of_half(h) if h in w.Q_c else NOTHING for h in range(2)]
-
-    @property
-    def land_dissipated(self):
-        return sum(float(np.sum(getattr(self.w, name, 0.0))) for name in ("land_dissipated", "cage_drag_dissipated"))
 
     def __getattr__(self, name):
         if name in COMPONENTS:
@@ -158,6 +155,8 @@ class PythonCore:
             test_traction_asperity_share=traction.traction_asperity_share,
             test_traction_ln_film=lambda u, ln_1, Q: traction.traction_ln_film(ln_1, np.log(u), np.log(Q)),
             test_traction_inlet=lambda u, rolling, Q: traction.traction_inlet(rolling, np.log(u), Q, np.log(Q + traction.Q_FLOOR)),
+            test_traction_race_inlet=lambda u, d, rolling, Q: traction.traction_race_inlet(d, rolling, u, np.log(u), Q, np.log(Q + traction.Q_FLOOR)),
+            test_traction_ln_thermal=lambda u, ln_thermal: traction.traction_ln_thermal(ln_thermal, np.log(u)),
             model_derive=derive,
         )
 

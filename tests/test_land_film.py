@@ -6,16 +6,16 @@ import numpy as np
 import pytest
 from library import block
 from mechanics import pose
-from scipy.integrate import quad
+from scipy.integrate import quad, solve_bvp
 
-from bearing_model.variables import PARAMETERS, Lubrication
+from bearing_model.variables import PARAMETERS, Lubrication, Switch
 
 TWINS = True
 ETA, R, L, C = 6e-3, 0.02975, 2.5e-3, 1e-4
 X_LAND = 5.5e-3
 M, J_T, X_C = (PARAMETERS[f"cage.{name}"].start for name in ("m", "J_t", "x_c"))
 KAPPA = ETA * R * L**3 / C**3  # 0.0028 N.s/m
-SHARP = {"cage.g_0": 1e-12}  # without the floor of 1 - eps^2
+SHARP = {"cage.g_0": 1e-12, "scene.heating": Switch.OFF}  # without the floor of 1 - eps^2, at the oil's temperature
 DRY = {"oil.eta": 1e-300, "cage.g_0": 0.02}
 
 
@@ -180,3 +180,50 @@ def test_mixed_friction(core, eps):
     T = 0.08 * N * speed * R / np.hypot(speed * R, 0.2)
     assert F - F_film == pytest.approx([0.0, -T], abs=1e-9 * np.hypot(*F_film))
     assert M[0] - M_film[0] == pytest.approx(-T * R, abs=1e-9 * abs(M_film[0]))
+
+
+# ------------------------------------------------------------------------------------------------------------------------- heating
+
+
+def couette(Na):
+    """Shear stress of plane Couette flow between walls at one temperature over the isothermal stress, by its boundary value problem.
+
+    Velocity u and temperature T over the gap, both 0...1 wide: tau = e^-T u', T'' = -Na tau u', T = 0 at both walls.
+    """
+
+    def equations(_, y, p):
+        slope = p[0] * np.exp(y[1])  # u'
+        return np.array([slope, y[2], -Na * p[0] * slope])
+
+    def ends(at_0, at_1, _):
+        return np.array([at_0[0], at_1[0] - 1.0, at_0[1], at_1[1]])
+
+    z = np.linspace(0.0, 1.0, 50)
+    solution = solve_bvp(equations, ends, z, np.stack([z, 0.0 * z, 0.0 * z]), p=[1.0], tol=1e-10, max_nodes=20000)
+    assert solution.success
+    return solution.p[0]
+
+
+@pytest.mark.parametrize("omega", [30.0, 757.0, 3000.0])
+def test_film_heats_itself(core, omega):
+    """The moment of a centred land falls as the shear stress of Couette flow with a viscosity exp(-beta (T - T_wall)), solved numerically.
+
+    Na = 7e-4, 0.5, 7.5.
+    """
+    Na = 0.022 * ETA * (omega * R) ** 2 / 0.14
+    _, _, cold = film(core, (0.0, 0.0), (0.0, 0.0), omega)
+    _, _, warm = film(core, (0.0, 0.0), (0.0, 0.0), omega, **{"scene.heating": Switch.ON})
+    assert warm[0] / cold[0] == pytest.approx(couette(Na), rel=1e-8)
+    _, F_cold, _ = film(core, (0.5 * C, 0.0), (0.0, 0.0), omega)
+    _, F_warm, _ = film(core, (0.5 * C, 0.0), (0.0, 0.0), omega, **{"scene.heating": Switch.ON})
+    assert F_warm / F_cold == pytest.approx(np.full(2, couette(Na)), rel=1e-8)
+
+
+def test_heating_is_continuous(core):
+    """Below s = 1e-3 a series takes the place of the closed form: no step of more than 1e-12."""
+    speed = np.sqrt(8.0 * 0.14 / (0.022 * ETA)) * 1e-3 / R
+    around = []
+    for omega in (speed * (1.0 - 1e-9), speed * (1.0 + 1e-9)):
+        _, _, M = film(core, (0.0, 0.0), (0.0, 0.0), omega, **{"scene.heating": Switch.ON})
+        around.append(M[0] / omega)
+    assert around[1] == pytest.approx(around[0], rel=2e-12)

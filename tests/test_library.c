@@ -24,6 +24,9 @@ void test_traction_mu(int n, const Parameters *p, double f_a, bool mixed, const 
 void test_traction_asperity_share(int n, const double *ln_Lambda, double *f_a);
 void test_traction_ln_film(int n, double ln_Lambda_1, double Q, const double *U, double *ln_Lambda);
 void test_traction_inlet(int n, double rolling, double Q, const double *U, double *F_R);
+void test_traction_race_inlet(int n, const Derived *d, double rolling, double Q, const double *U,
+                              double *F_R);
+void test_traction_ln_thermal(int n, double ln_thermal, const double *U, double *ln_factor);
 void test_rivet_rom_stress(int n, const JointLoads *load, double fit_eff, bool all, double *sigma);
 unsigned test_rivet_rom_load_flags(double *sigma, int k);
 
@@ -91,6 +94,20 @@ void test_traction_ln_film(int n, double ln_Lambda_1, double Q, const double *U,
     for (int i = 0; i < n; i++)
         ln_Lambda[i] =
             traction_ln_film(wide_set(ln_Lambda_1), wide_log(wide_set(U[i])), wide_log(wide_set(Q)))[0];
+}
+
+void test_traction_race_inlet(int n, const Derived *d, double rolling, double Q, const double *U, double *F_R)
+{
+    const wide ln_Q = wide_log(wide_set(Q + Q_FLOOR));
+    for (int i = 0; i < n; i++)
+        F_R[i] = traction_race_inlet(d, wide_set(rolling), wide_set(U[i]), wide_log(wide_set(U[i])),
+                                     wide_set(Q), ln_Q)[0];
+}
+
+void test_traction_ln_thermal(int n, double ln_thermal, const double *U, double *ln_factor)
+{
+    for (int i = 0; i < n; i++)
+        ln_factor[i] = traction_ln_thermal(wide_set(ln_thermal), wide_log(wide_set(U[i])))[0];
 }
 
 void test_traction_inlet(int n, double rolling, double Q, const double *U, double *F_R)

@@ -98,12 +98,14 @@ def test_peak_is_the_largest_since_the_last_point(core):
     t, largest = 0.0, 0.0
     for _ in range(20):
         coarse.step(t + 1e-4)
-        peak = 0.0
+        peak, before = 0.0, fine.output("cage.F_pocket_max")
         for n in range(1, 101):
             fine.step(t + n * 1e-6)
             peak = max(peak, fine.output("cage.F_pocket_max"))
         t += 1e-4
         largest = max(largest, peak)
-        assert coarse.output("cage.F_pocket_peak") == pytest.approx(peak, rel=0.02, abs=0.05)  # other steps, the same 2 ms: before chaos parts them
+        # Other steps, the same 2 ms: before chaos parts them.  A force that falls from the last point on has its largest value between that point and the
+        # first step, whose lengths differ.
+        assert 0.98 * peak - 0.05 <= coarse.output("cage.F_pocket_peak") <= 1.02 * max(peak, before) + 0.05
         assert coarse.output("cage.F_pocket_peak") >= coarse.output("cage.F_pocket_max")
     assert largest > 10.0

@@ -3,6 +3,8 @@
 import numpy as np
 import pytest
 
+from bearing_model.variables import Switch
+
 TWINS = True
 # the 6207's inner race and its oil, by hand
 D, d_m, f_i = 0.0111125, 0.0535, 0.515
@@ -92,3 +94,34 @@ def test_factor_on_rolling_friction(core):
     assert half.inner.rolling == pytest.approx(0.5 * one.inner.rolling, rel=1e-14)
     assert half.pocket_rolling == pytest.approx(0.5 * one.pocket_rolling, rel=1e-14)
     assert core.model(parameters={"oil.rolling": 0.0}).d.outer.rolling == 0.0
+
+
+@pytest.mark.parametrize(("speed_rpm", "heating", "starvation"), [(4000.0, 0.96042, 0.98263), (18238.0, 0.77677, 0.92322), (40000.0, 0.56012, 0.83929)])
+def test_inlet_heating_and_starvation(core, speed_rpm, heating, starvation):
+    """SKF's factors on the rolling friction at the speed of the 6207's races, by hand: d = 35 mm, D = 72 mm, 6.667 mm2/s, K_rs = 3e-8, K_Z = 3.1.
+
+    The model takes D - d = 37 mm from the ball's diameter: 37.04 mm, 5e-4 of the starvation's exponent.
+    """
+    d = core.model().d
+    n_d_m, nu = speed_rpm * 53.5, ETA / 900.0 * 1e6
+    assert 1.0 / (1.0 + 1.84e-9 * n_d_m**1.28 * nu**0.64) == pytest.approx(heating, rel=1e-4)
+    assert np.exp(-3e-8 * nu * speed_rpm * (35.0 + 72.0) * np.sqrt(3.1 / (2.0 * (72.0 - 35.0)))) == pytest.approx(starvation, rel=1e-4)
+    U = speed_rpm * np.pi / 30.0 * d_m * (1.0 - (D / d_m) ** 2) / 4.0  # mean surface speed at both races
+    cold = core.map(core.lib.test_traction_inlet, [U], d.inner.rolling, 1500.0)[0]
+    computed = core.map(core.lib.test_traction_race_inlet, [U], d, d.inner.rolling, 1500.0)[0]
+    assert computed / cold == pytest.approx(heating * starvation, rel=2e-4)
+
+
+def test_inlet_without_heating_and_starvation(core):
+    d = core.model(parameters={"scene.heating": Switch.OFF, "oil.K_rs": 0.0}).d
+    cold = core.map(core.lib.test_traction_inlet, [20.0], d.outer.rolling, 1500.0)[0]
+    assert core.map(core.lib.test_traction_race_inlet, [20.0], d, d.outer.rolling, 1500.0)[0] == cold
+
+
+def test_thermal_film(core):
+    """Murch & Wilson's 3.94/(3.94 + L^0.62), L = eta beta u^2/k = 0.94286 at 31.623 m/s: 0.80340; without heating 1."""
+    d = core.model().d
+    factor = np.exp(core.map(core.lib.test_traction_ln_thermal, [np.sqrt(1000.0)], d.ln_thermal)[0])
+    assert factor == pytest.approx(3.94 / (3.94 + (ETA * 0.022 * 1000.0 / 0.14) ** 0.62), rel=1e-13)
+    assert factor == pytest.approx(0.80340, rel=1e-4)
+    assert core.map(core.lib.test_traction_ln_thermal, [30.0], core.model(parameters={"scene.heating": Switch.OFF}).d.ln_thermal)[0] == 0.0

@@ -14,7 +14,7 @@ from mechanics import Instance, View, Z, pocket_contact
 
 from bearing_model.kinematics import cage_speed
 from bearing_model.quasi_static import Bearing, Load, quasi_static
-from bearing_model.variables import PARAMETERS, CageModel, Lubrication, Method, Stress, Switch, TiltMode
+from bearing_model.variables import PARAMETERS, CageModel, Drag, Lubrication, Method, Stress, Switch, TiltMode
 
 RPM = math.pi / 30.0
 OMEGA = 18238 * RPM
@@ -195,6 +195,8 @@ def test_no_friction_no_sideways_drift(simulate):
 
 # ---------------------------------------------------------------------------------------------------------------------- statistics
 
+# what the prototype has: isolated balls in a mixture at rest, no churning, no shear heating, flooded inlets, no inlet friction
+FRICTION = {"scene.drag": int(Drag.ISOLATED), "scene.churning": int(Switch.OFF), "scene.heating": int(Switch.OFF), "oil.K_rs": 0.0, "oil.rolling": 0.0}
 PROTOTYPE = {"Q_c_mean": 0.655, "Q_c_rms": 4.73, "contact_duty": 0.087, "eccentricity": 0.88}  # mean and RMS of the pocket force [N]
 
 
@@ -202,7 +204,7 @@ PROTOTYPE = {"Q_c_mean": 0.655, "Q_c_rms": 4.73, "contact_duty": 0.087, "eccentr
 def statistics(simulate):
     """stat.* of the prototype's setting: no horizontal film force and the ellipse's ratio in F_R there, so without inlet friction here."""
     names = [f"stat.{name}" for name in (*PROTOTYPE, "Q_c_p999", "Q_c_max", "cage_omega", "time")]
-    runs = [simulate(0.4, 1e-3, names, settle=0.4, **STATISTICS, **{"oil.rolling": 0.0, "start.seed": seed}) for seed in (1, 2)]
+    runs = [simulate(0.4, 1e-3, names, settle=0.4, **STATISTICS, **FRICTION, **{"start.seed": seed}) for seed in (1, 2)]
     return {name.removeprefix("stat."): np.mean([run[name][-1] for run in runs]) for name in names}
 
 
@@ -223,7 +225,7 @@ def test_statistics_near_the_prototype(statistics, name):
 def test_frozen_or_free_cage_would_be_seen(simulate, what, changes):
     """The bands above are narrow enough: mean force 1.5 N with a cage too heavy to move, duty 2 % with one that is hardly touched."""
     names = [f"stat.{name}" for name in PROTOTYPE]
-    run = simulate(0.2, 1e-3, names, settle=0.2, **STATISTICS, **{"oil.rolling": 0.0}, **changes)
+    run = simulate(0.2, 1e-3, names, settle=0.2, **STATISTICS, **FRICTION, **changes)
     outside = [name for name in PROTOTYPE if abs(run[f"stat.{name}"][-1] / PROTOTYPE[name] - 1.0) > 0.25]
     assert {"frozen": "Q_c_mean", "free": "contact_duty"}[what] in outside
 
@@ -234,7 +236,7 @@ def test_extremes_near_the_prototype(core):
     (pocket damping 0 gives 110 N, a rigid cage 117 N)."""
     pooled, largest = [], []
     for seed in (1, 2):
-        bearing = Instance(core, STATISTICS | {"oil.rolling": 0.0, "start.seed": seed})
+        bearing = Instance(core, STATISTICS | FRICTION | {"start.seed": seed})
         bearing.step(SETTLE)
         loads = []
         for i in range(50_000):

@@ -9,7 +9,7 @@
 
 #define FMI2_FUNCTION_PREFIX RivetedBearing_  // of the functions of a source-code FMU
 #define MODEL_IDENTIFIER "RivetedBearing"
-#define MODEL_GUID "{0901f8cd-5a10-c404-281a-c396683794c3}"  // digest of the table
+#define MODEL_GUID "{5f98d0d5-9835-c96f-23d7-bc48b99eb98a}"  // digest of the table
 
 enum { Z = 9 };  // number of balls
 
@@ -49,6 +49,10 @@ enum {  // MeanStress
     MEAN_STRESS_GOODMAN = 2,  // Goodman
     MEAN_STRESS_SWT = 3,  // Smith-Watson-Topper
     MEAN_STRESS_MORROW = 4,  // Morrow
+};
+enum {  // Drag
+    DRAG_ISOLATED = 1,  // each ball by itself in a mixture at rest
+    DRAG_ROW = 2,  // balls in a row that carry the mixture along
 };
 enum {  // Method
     METHOD_VERLET = 1,  // velocity Verlet, linearly implicit in what is stiff
@@ -125,6 +129,11 @@ typedef struct {
         double sigma_pocket;  // [m] Composite RMS roughness of ball and pocket
         double sigma_land;  // [m] Composite RMS roughness of cage and outer ring lands
         double rho;  // [kg/m3] Density of the oil
+        double flow;  // [m3/s] Flow of oil through the bearing, from which the density of the mixture follows (Parker, NASA TP-2275)
+        double beta;  // [1/K] Fall of the viscosity's logarithm with temperature
+        double k;  // [W/m.K] Thermal conductivity of the oil
+        double K_rs;  // [1] Starvation of the race inlets
+        double K_Z;  // [1] Starvation of the race inlets: factor of the bearing type
     } oil;
     struct {
         double m;  // [kg] Mass of the inner ring with its share of the shaft
@@ -135,6 +144,8 @@ typedef struct {
         double tilt_time;  // [s] Time constant of the critically damped filter of the prescribed tilt
         double k_tilt;  // [N.m/rad] Angular stiffness of the ring's support (supported tilt)
         double c_tilt;  // [N.m.s/rad] Angular damping of the ring's support (supported tilt)
+        double bore;  // [m] Bore of the inner ring: its growth by rotation
+        double rho;  // [kg/m3] Density of the inner ring
     } ring;
     struct {
         double y;  // [m/s2] Gravity along Y
@@ -163,6 +174,10 @@ typedef struct {
         int lubrication;  // Lubrication: Full film or mixed lubrication
         int stress;  // Stress: When the rivet stress is computed
         int statistics;  // Switch: Running mean, RMS and histogram behind stat.*
+        int drag;  // Drag: Drag of the balls in the mixture between the rings
+        int churning;  // Switch: Drag moment of the mixture on the spinning balls
+        int heating;  // Switch: Shear heating in the inlets of the races, in their films and in the films of the lands
+        int growth;  // Switch: Growth of the inner ring by its own rotation, which takes clearance (a free ring)
     } scene;
     struct {
         double tol;  // [1] Tolerance: local error / scale of each state class; a tolerance of fmi2SetupExperiment takes its place
@@ -201,6 +216,7 @@ typedef struct {
         scalar energy_residual;  // [J] Energy now - energy at start - net work since: 0 but for the errors of the integration and of the work's own integral
         scalar contacts;  // [1] Number of closed contacts (races and pockets)
         scalar penetration;  // [m] Largest elastic approach of all contacts
+        scalar clearance;  // [m] Diametral clearance at the present speed
     } bearing;
     struct {
         scalar x;  // [m] Displacement of the inner ring along X
@@ -299,6 +315,17 @@ typedef struct {
         scalar M_shank_y[Z];  // [N.m] Bending moment of the rivet's shank on the +X half about y of the cage's frame
         scalar M_shank_z[Z];  // [N.m] Bending moment of the rivet's shank on the +X half about z of the cage's frame
     } rivet;
+    struct {
+        scalar races;  // [W] Power dissipated in the race contacts
+        scalar inlet;  // [W] Part of loss.races: rolling friction of the inlets
+        scalar spin;  // [W] Part of loss.races: spin of the balls about the contact normals (sliced traction)
+        scalar ball_drag;  // [W] Power dissipated by drag and churning of the balls in the mixture
+        scalar cage_drag;  // [W] Power dissipated by the drag of the cage in the mixture
+        scalar ring_drag;  // [W] Power that the inner ring dissipates by its friction on the mixture
+        scalar land;  // [W] Power dissipated between the lands and the outer ring
+        scalar pockets;  // [W] Power dissipated in the pockets
+        scalar joints;  // [W] Power dissipated in the joints of the cage
+    } loss;
     struct {
         scalar time;  // [s] Time that the statistics cover
         scalar Q_c_mean;  // [N] Pocket force of all balls pooled: mean, zeros included
@@ -426,4 +453,4 @@ typedef enum {
 } StateScale;
 
 enum { N_INPUTS = 10 };  // all of them numbers
-enum { N_VARIABLES = 236 };  // time is the first
+enum { N_VARIABLES = 257 };  // time is the first
