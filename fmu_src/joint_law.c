@@ -121,7 +121,8 @@ static void find_alone_alike(const JointLaw *law, ball_array bonded[3], const sc
 {
     for (int i = 0; i < 3; i++) {
         const scalar relieved = law->K_others[i][0] * at[ALIKE_U] + law->K_others[i][2] * at[ALIKE_PHI_T];
-        for (int p = 0; p < PACKETS; p++) alone[p][i] = wide_load(&bonded[i][p * LANE_WIDTH]) - wide_set(relieved);
+        for (int p = 0; p < PACKETS; p++)
+            alone[p][i] = wide_load(&bonded[i][p * LANE_WIDTH]) - wide_set(relieved);
     }
 }
 
@@ -145,8 +146,15 @@ static void answer_near(const JointLaw *law, ball_array bonded[3], const ball_ar
                                 wide_fma(wide_set(slope[1]), M_t,
                                          wide_fma(wide_set(slope[0]), N, wide_set(at[ALIKE_U + n]))));
         }
-        wide near[9] = {value[0], at[ALIKE_PHI_R] * M_r,     value[1], value[2],
-                        at[ALIKE_M_R_RIVET] * M_r, value[3], L[0], L[1], L[2]};  // moves, rivet, L*
+        wide near[9] = {value[0],
+                        at[ALIKE_PHI_R] * M_r,
+                        value[1],
+                        value[2],
+                        at[ALIKE_M_R_RIVET] * M_r,
+                        value[3],
+                        L[0],
+                        L[1],
+                        L[2]};  // moves, rivet, L*
         const wide s = wide_load(&P[k]) + size(law, wide_load(&bonded[0][k]), wide_load(&bonded[1][k]),
                                                wide_load(&bonded[2][k]));
         const bits far = wide_above(size(law, N, M_r, M_t) + wide_abs(more_P) - NEAR * s, 0.0);
@@ -159,8 +167,8 @@ static void answer_near(const JointLaw *law, ball_array bonded[3], const ball_ar
                 before[3 + i] = wide_load(&o->rivet[i][k]);
                 before[6 + i] = wide_load(&o->alone[i][k]);
             }
-            const bits changed = wide_above(
-                size(law, L[0] - before[6], L[1] - before[7], L[2] - before[8]) - CHANGE * s, 0.0);
+            const bits changed =
+                wide_above(size(law, L[0] - before[6], L[1] - before[7], L[2] - before[8]) - CHANGE * s, 0.0);
             want(wanted, k, wide_mask(far & changed));
             for (int i = 0; i < 6; i++) near[i] = wide_select(far, before[i], near[i]);
             for (int i = 6; i < 9; i++)
