@@ -17,8 +17,8 @@ Fixed point: plain sweeps over all joints, from the state under the centrifugal 
 
     delta = s d(c/s),   c: bonded M_t of the centrifugal load / l,  s = P + |c|            (alike_states; linear between its knots)
 
-In the first sweep joints whose L* and P are within NEAR s of that state answer by its tangent; in the following ones only joints are found again whose
-L* has changed by more than CHANGE s.  A joint is hardly felt beyond its second neighbour.
+Joints whose L* and P are within NEAR s of that state answer by its tangent, the others by the law if their L* has changed by more than CHANGE s since they
+were last found; the sweeps end when there are none.  A joint is hardly felt beyond its second neighbour.
 
 In the plane, joints slip instead: V_b relieved through the slip stiffness, joint_slip below.
 """
@@ -171,26 +171,31 @@ def joints_open(law, bonded, P, spin_M, spin_P, sweeps=SWEEPS):
     bonded [..., Z, 3] = (N, M_r, M_t), P [..., Z] >= 0; spin_M, spin_P [...]: bonded M_t and preload of all joints under the centrifugal load alone.
     Returns (N, M_r, M_t), (T, m_r, m_t), moves, each [..., Z, 3].
     """
-    # as all joints alike would, and near to it by its tangent
     load, values, slopes = law.alike.at(np.abs(spin_M) / law.length, spin_P)
-    alone = bonded - (values[..., :3] @ law.others.sum(axis=0).T)[..., None, :]
-    change, change_P = alone - load[..., None, :], P - np.asarray(spin_P)[..., None]
-    far = (np.abs(change) @ law.unit + np.abs(change_P) > NEAR * (P + np.abs(bonded) @ law.unit))[..., None]
-    near = values[..., None, :] + np.einsum("...ij,...kj->...ki", slopes, np.concatenate([change, change_P[..., None]], axis=-1))
-    found = joint_law(law, alone, P)
-    moves, rivet = np.where(far, found[0], near[..., :3]), np.where(far, found[1], near[..., 3:])
+    change_P, size = P - np.asarray(spin_P)[..., None], P + np.abs(bonded) @ law.unit
 
-    limit = CHANGE * (P + np.abs(bonded) @ law.unit)
-    going = np.any(far, axis=-2, keepdims=True)
-    for _ in range(1, sweeps):
-        load = bonded - relief(law.others, moves)
-        changed = going & (np.abs(load - alone) @ law.unit > limit)[..., None]
-        going = np.any(changed, axis=-2, keepdims=True)
-        if not np.any(going):
-            break
-        alone = np.where(changed, load, alone)
+    def near(at):
+        """Moves and loads of rivets by the tangent at the state where all joints are alike, and which joints are too far from it."""
+        change = at - load[..., None, :]
+        found = values[..., None, :] + np.einsum("...ij,...kj->...ki", slopes, np.concatenate([change, change_P[..., None]], axis=-1))
+        far = np.abs(change) @ law.unit + np.abs(change_P) > NEAR * size
+        return found[..., :3], found[..., 3:], far[..., None]
+
+    alone = bonded - (values[..., :3] @ law.others.sum(axis=0).T)[..., None, :]
+    moves, rivet, wanted = near(alone)
+    going = np.any(wanted, axis=-2, keepdims=True)
+    for sweep in range(sweeps):
         found = joint_law(law, alone, P)
-        moves, rivet = np.where(changed, found[0], moves), np.where(changed, found[1], rivet)
+        moves, rivet = np.where(wanted, found[0], moves), np.where(wanted, found[1], rivet)
+        if sweep == sweeps - 1 or not np.any(going):
+            break
+        at = bonded - relief(law.others, moves)
+        *found, far = near(at)
+        wanted = going & far & (np.abs(at - alone) @ law.unit > CHANGE * size)[..., None]
+        changed = going & (wanted | ~far)
+        alone, going = np.where(changed, at, alone), np.any(wanted, axis=-2, keepdims=True)
+        answered = changed & ~wanted
+        moves, rivet = np.where(answered, found[0], moves), np.where(answered, found[1], rivet)
     return alone - moves @ law.stiffness[0].T, rivet, moves
 
 

@@ -54,17 +54,28 @@ static void add_touch(const Touch *touch, int j, octet joint[Z])
     }
 }
 
+// Bit k: pocket j + k is touched.
+INLINE int touched_pockets(const PathForces *on, int j)
+{
+    return wide_mask(wide_above(wide_abs(wide_load(&on->F_x[j])) + wide_abs(wide_load(&on->F_r[j])) +
+                                    wide_abs(wide_load(&on->F_t[j])),
+                                0.0));
+}
+
 bool half_path_rows(const HalfPath *path, const PathForces on[2], PathRows *rows)
 {
     octet joint[Z];
     bool touched = false;
     for (int h = 0; h < 2; h++) {
-        for (int j = 0; j < Z; j++) {
-            if (on[h].F_x[j] == 0.0 && on[h].F_r[j] == 0.0 && on[h].F_t[j] == 0.0) continue;  // most pockets
-            if (!touched) memset(joint, 0, sizeof joint);
-            touched = true;
-            const Touch touch = touch_of(path, h == 0 ? -1 : 1, &on[h], j);
-            add_touch(&touch, j, joint);
+        for (int p = 0; p < PACKETS; p++) {
+            int mask = touched_pockets(&on[h], p * LANE_WIDTH);
+            for (int j = p * LANE_WIDTH; mask != 0 && j < Z; mask >>= 1, j++) {
+                if (!(mask & 1)) continue;
+                if (!touched) memset(joint, 0, sizeof joint);
+                touched = true;
+                const Touch touch = touch_of(path, h == 0 ? -1 : 1, &on[h], j);
+                add_touch(&touch, j, joint);
+            }
         }
         if (h == 0 && touched)  // of the mirrored forces
             for (int k = 0; k < Z; k++) {

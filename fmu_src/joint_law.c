@@ -11,7 +11,7 @@ static const double NEAR = 0.05, CHANGE = 0.01;
 // A coordinate u of the law in cells from the start of its axis: its cell, and the weights of the three splines.
 INLINE int axis_weights(scalar u, int cells, scalar w[3])
 {
-    const int cell = (int)fmin(fmax(scalar_value(u), 0.0), cells - 1.0);
+    const int cell = (int)scalar_min(scalar_max(scalar_value(u), 0.0), cells - 1.0);  // a NaN gives cell 0
     const scalar up = u - cell, down = 1.0 - up;
     w[0] = 0.5 * (down * down);
     w[2] = 0.5 * (up * up);
@@ -64,10 +64,10 @@ INLINE void joint_law(const JointLaw *law, const scalar load[3], scalar P, scala
 }
 
 // What is sought: moves of all joints, once more behind the last one, so that those of neighbours lie side by
-// side; L*; s; loads of the rivets.
+// side; L* that the joints have answered to; loads of the rivets.
 typedef struct {
     scalar move[3][2 * Z + LANES];
-    ball_array alone[3], s, *rivet;
+    ball_array alone[3], *rivet;
 } Opening;
 
 // The joints to be found by the law.
@@ -75,11 +75,11 @@ typedef struct {
     int count, joint[Z];
 } Wanted;
 
-INLINE void want(Wanted *wanted, int p, bits which)
+// Wants the joints k, k + 1, ... whose bit of the mask is set.
+INLINE void want(Wanted *wanted, int k, int mask)
 {
-    const int mask = wide_mask(which);
-    for (int k = 0; k < LANE_WIDTH && p * LANE_WIDTH + k < Z; k++)
-        if (mask & 1 << k) wanted->joint[wanted->count++] = p * LANE_WIDTH + k;
+    for (; mask != 0; mask >>= 1, k++)
+        if (mask & 1 && k < Z) wanted->joint[wanted->count++] = k;
 }
 
 // |N| + (|M_r| + |M_t|)/l.
@@ -92,31 +92,52 @@ INLINE wide size(const JointLaw *law, wide N, wide M_r, wide M_t)
 static void find_alike(const JointLaw *law, scalar c, scalar P, scalar at[ALIKE_WIDTH])
 {
     const scalar s = c + P, x = scalar_value(s) > 0.0 ? c / s * (law->alike_count - 1.0) : 0.0;
-    const int i = (int)fmin(fmax(scalar_value(x), 0.0), law->alike_count - 2.0);
+    const int i = (int)scalar_min(scalar_max(scalar_value(x), 0.0), law->alike_count - 2.0);
     const double *from = law->alike[i], *to = law->alike[i + 1];
     const scalar up = x - i;
     for (int n = 0; n < ALIKE_WIDTH; n++) at[n] = from[n] + up * (to[n] - from[n]);
     for (int n = 0; n < ALIKE_SLOPES; n++) at[n] *= s;
 }
 
-// First sweep by the tangent at the state where all joints are alike; those too far from it are wanted.
-static void sweep_near(const JointLaw *law, ball_array bonded[3], const ball_array P, scalar c, scalar spin_P,
-                       Opening *o, Wanted *wanted)
+// L* of all joints by the moves of their neighbours.
+static void find_alone(const JointLaw *law, ball_array bonded[3], const Opening *o, wide alone[PACKETS][3])
 {
-    scalar at[ALIKE_WIDTH], relieved[3];
-    find_alike(law, c, spin_P, at);
-    for (int i = 0; i < 3; i++)
-        relieved[i] = law->K_others[i][0] * at[ALIKE_U] + law->K_others[i][2] * at[ALIKE_PHI_T];
-    ball_array move[3];
+    for (int p = 0; p < PACKETS; p++)
+        for (int i = 0; i < 3; i++) alone[p][i] = wide_load(&bonded[i][p * LANE_WIDTH]);
+    for (int n = 0; n < law->neighbours; n++)
+        for (int m = 0; m < 3; m++) {
+            const scalar *move = &o->move[m][Z - law->neighbour[n]];
+            for (int i = 0; i < 3; i++) {
+                const wide K = wide_set(-law->K[n][i][m]);
+                for (int p = 0; p < PACKETS; p++)
+                    alone[p][i] = wide_fma(K, wide_load(move + p * LANE_WIDTH), alone[p][i]);
+            }
+        }
+}
+
+// The same where all joints move alike.
+static void find_alone_alike(const JointLaw *law, ball_array bonded[3], const scalar at[ALIKE_WIDTH],
+                             wide alone[PACKETS][3])
+{
+    for (int i = 0; i < 3; i++) {
+        const scalar relieved = law->K_others[i][0] * at[ALIKE_U] + law->K_others[i][2] * at[ALIKE_PHI_T];
+        for (int p = 0; p < PACKETS; p++)
+            alone[p][i] = wide_load(&bonded[i][p * LANE_WIDTH]) - wide_set(relieved);
+    }
+}
+
+// Joints near the state where all are alike answer to L* by their tangent there.  The others keep their last
+// answer, and those of them are wanted whose L* has changed since; in the first sweep all others are.
+static void answer_near(const JointLaw *law, ball_array bonded[3], const ball_array P, scalar spin_P,
+                        const scalar at[ALIKE_WIDTH], bool first, wide alone[PACKETS][3], Opening *o,
+                        Wanted *wanted)
+{
+    wide move[PACKETS][3];
     wanted->count = 0;
     for (int p = 0; p < PACKETS; p++) {
         const int k = p * LANE_WIDTH;
-        wide load[3];
-        for (int i = 0; i < 3; i++) {
-            load[i] = wide_load(&bonded[i][k]) - wide_set(relieved[i]);
-            wide_store(&o->alone[i][k], load[i]);
-        }
-        const wide N = load[0] - at[ALIKE_N], M_r = load[1], M_t = load[2] - at[ALIKE_M_T],
+        const wide *L = alone[p];
+        const wide N = L[0] - at[ALIKE_N], M_r = L[1], M_t = L[2] - at[ALIKE_M_T],
                    more_P = wide_load(&P[k]) - spin_P;
         wide value[4];  // u, phi_t, T, m_t
         for (int n = 0; n < 4; n++) {
@@ -125,61 +146,61 @@ static void sweep_near(const JointLaw *law, ball_array bonded[3], const ball_arr
                                 wide_fma(wide_set(slope[1]), M_t,
                                          wide_fma(wide_set(slope[0]), N, wide_set(at[ALIKE_U + n]))));
         }
-        wide_store(&move[0][k], value[0]);
-        wide_store(&move[1][k], at[ALIKE_PHI_R] * M_r);
-        wide_store(&move[2][k], value[1]);
-        wide_store(&o->rivet[0][k], value[2]);
-        wide_store(&o->rivet[1][k], at[ALIKE_M_R_RIVET] * M_r);
-        wide_store(&o->rivet[2][k], value[3]);
+        wide near[9] = {value[0],
+                        at[ALIKE_PHI_R] * M_r,
+                        value[1],
+                        value[2],
+                        at[ALIKE_M_R_RIVET] * M_r,
+                        value[3],
+                        L[0],
+                        L[1],
+                        L[2]};  // moves, rivet, L*
         const wide s = wide_load(&P[k]) + size(law, wide_load(&bonded[0][k]), wide_load(&bonded[1][k]),
                                                wide_load(&bonded[2][k]));
-        wide_store(&o->s[k], s);
-        want(wanted, p, wide_above(size(law, N, M_r, M_t) + wide_abs(more_P) - NEAR * s, 0.0));
-    }
-    for (int i = 0; i < 3; i++) {
-        memcpy(&o->move[i][0], move[i], Z * sizeof(scalar));
-        memcpy(&o->move[i][Z], move[i], Z * sizeof(scalar));
-        for (int k = 2 * Z; k < 2 * Z + LANES; k++) o->move[i][k] = 0.0;  // padding
-    }
-}
-
-// L* by the neighbours' moves; joints where it has changed by more than CHANGE s take it over and are wanted.
-static void sweep_neighbours(const JointLaw *law, ball_array bonded[3], Opening *o, Wanted *wanted)
-{
-    wide load[PACKETS][3], before[3];
-    for (int p = 0; p < PACKETS; p++)
-        for (int i = 0; i < 3; i++) load[p][i] = wide_load(&bonded[i][p * LANE_WIDTH]);
-    for (int n = 0; n < law->neighbours; n++)
-        for (int m = 0; m < 3; m++) {
-            const scalar *move = &o->move[m][Z - law->neighbour[n]];
+        const bits far = wide_above(size(law, N, M_r, M_t) + wide_abs(more_P) - NEAR * s, 0.0);
+        if (first)
+            want(wanted, k, wide_mask(far));
+        else if (wide_any(far)) {
+            wide before[9];
             for (int i = 0; i < 3; i++) {
-                const wide K = wide_set(law->K[n][i][m]);
-                for (int p = 0; p < PACKETS; p++)
-                    load[p][i] = wide_fma(-K, wide_load(move + p * LANE_WIDTH), load[p][i]);
+                before[i] = wide_load(&o->move[i][k]);
+                before[3 + i] = wide_load(&o->rivet[i][k]);
+                before[6 + i] = wide_load(&o->alone[i][k]);
             }
+            const bits changed =
+                wide_above(size(law, L[0] - before[6], L[1] - before[7], L[2] - before[8]) - CHANGE * s, 0.0);
+            want(wanted, k, wide_mask(far & changed));
+            for (int i = 0; i < 6; i++) near[i] = wide_select(far, before[i], near[i]);
+            for (int i = 6; i < 9; i++)
+                near[i] = wide_select(far, wide_select(changed, near[i], before[i]), near[i]);
         }
-    wanted->count = 0;
-    for (int p = 0; p < PACKETS; p++) {
-        const int k = p * LANE_WIDTH;
-        for (int i = 0; i < 3; i++) before[i] = wide_load(&o->alone[i][k]);
-        const wide change = size(law, load[p][0] - before[0], load[p][1] - before[1], load[p][2] - before[2]);
-        const bits changed = wide_above(change - CHANGE * wide_load(&o->s[k]), 0.0);
-        if (!wide_any(changed)) continue;
-        want(wanted, p, changed);
-        for (int i = 0; i < 3; i++) wide_store(&o->alone[i][k], wide_select(changed, load[p][i], before[i]));
+        for (int i = 0; i < 3; i++) {
+            move[p][i] = near[i];
+            wide_store(&o->rivet[i][k], near[3 + i]);
+            wide_store(&o->alone[i][k], near[6 + i]);
+        }
     }
+    for (int turn = 0; turn < 2; turn++)
+        for (int p = 0; p < PACKETS; p++)
+            for (int i = 0; i < 3; i++) wide_store(&o->move[i][turn * Z + p * LANE_WIDTH], move[p][i]);
 }
 
 void joints_open(const JointLaw *law, ball_array bonded[3], const ball_array P, scalar spin_M, scalar spin_P,
                  ball_array load[3], ball_array rivet[3])
 {
-    const scalar c = (scalar_value(spin_M) < 0.0 ? -spin_M : spin_M) / law->length;
+    scalar at[ALIKE_WIDTH];
+    wide L[PACKETS][3];
     Opening o;
     Wanted wanted;
     o.rivet = rivet;
-    sweep_near(law, bonded, P, c, spin_P, &o, &wanted);
+    find_alike(law, (scalar_value(spin_M) < 0.0 ? -spin_M : spin_M) / law->length, spin_P, at);
+    find_alone_alike(law, bonded, at, L);
+    answer_near(law, bonded, P, spin_P, at, true, L, &o, &wanted);
     for (int sweep = 0; sweep < SWEEPS && wanted.count > 0; sweep++) {
-        if (sweep > 0) sweep_neighbours(law, bonded, &o, &wanted);
+        if (sweep > 0) {
+            find_alone(law, bonded, &o, L);
+            answer_near(law, bonded, P, spin_P, at, false, L, &o, &wanted);
+        }
         for (int n = 0; n < wanted.count; n++) {
             const int k = wanted.joint[n];
             const scalar alone[3] = {o.alone[0][k], o.alone[1][k], o.alone[2][k]};
@@ -192,10 +213,10 @@ void joints_open(const JointLaw *law, ball_array bonded[3], const ball_array P, 
         }
     }
     for (int i = 0; i < 3; i++) {
-        const wide K[3] = {wide_set(law->K_0[i][0]), wide_set(law->K_0[i][1]), wide_set(law->K_0[i][2])};
+        const wide K[3] = {wide_set(-law->K_0[i][0]), wide_set(-law->K_0[i][1]), wide_set(-law->K_0[i][2])};
         for (int k = 0; k < PACKETS * LANE_WIDTH; k += LANE_WIDTH) {
             wide left = wide_load(&o.alone[i][k]);
-            for (int m = 0; m < 3; m++) left = wide_fma(-K[m], wide_load(&o.move[m][Z + k]), left);
+            for (int m = 0; m < 3; m++) left = wide_fma(K[m], wide_load(&o.move[m][Z + k]), left);
             wide_store(&load[i][k], left);
         }
     }

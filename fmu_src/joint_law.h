@@ -21,11 +21,11 @@
 // S is a tensor product of uniform quadratic B-splines, C1 in each argument.
 //
 // The equations of all joints are solved by sweeps (Jacobi's iteration).
-//   Sweep 1  starts where all joints are under the same load, the centrifugal one: there L* and the moves depend
-//            on one ratio only, c/(P + c) with c = |bonded M_t|/l, and are tabulated (`alike`).  A joint whose L*
-//            and P differ from that state by less than NEAR s answers by its tangent there, others by the law.
-//   Later    sweeps find L* with the moves of the sweep before.  Only joints whose L* has changed by more than
-//            CHANGE s since their last answer are found again, by the law; the iteration ends when there are none.
+//   Start    all joints move as they do under the same load, the centrifugal one: there L* and the moves depend on
+//            one ratio only, c/(P + c) with c = |bonded M_t|/l, and are tabulated (`alike`).
+//   A sweep  finds L* by the neighbours' moves.  A joint whose L* and P differ from the start by less than NEAR s
+//            answers by its tangent there; another one by the law if its L* has changed by more than CHANGE s since
+//            its last answer.  The iteration ends when the law is not asked any more.
 // Most joints are near the centrifugal state at most instants, so that this takes a few evaluations of the law
 // instead of several for each joint.  The results are within 2.5 % of the converged ones (tests/test_rivets.py),
 // and jump by less where a joint enters or leaves a sweep.

@@ -44,8 +44,8 @@ void rivet_rom_stress(const RivetTable *t, const JointLoads *load, double fit_ef
         TablePoint point;  // no initialiser: it would clear the whole struct first
         point.sheet = scalar_value(points.two_chi[k]) > 1.0 ? RIVET_PLANE : RIVET_OBLIQUE;
         for (int i = 0; i < 2; i++) point.first[i] = points.first[i][k];
-        for (int i = RIVET_A; i <= RIVET_C; i++) point.at[i] = axis_splines(&t->axis[i], points.u[i][k]);
-        point.at[RIVET_XI] = axis_splines_xi(&t->axis[RIVET_XI], points.u[RIVET_XI][k], points.s[k], fit_eff);
+        for (int i = RIVET_A; i <= RIVET_C; i++) axis_splines(&t->axis[i], points.u[i][k], &point.at[i]);
+        axis_splines_xi(&t->axis[RIVET_XI], points.u[RIVET_XI][k], points.s[k], fit_eff, &point.at[RIVET_XI]);
         scalar pair[2];
         contract(t, t->primary, &point, pair);
         sigma[HEAD_P1][k] = pair[0] + t->head_friction * load->F_head[k];

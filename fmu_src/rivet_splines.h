@@ -3,10 +3,9 @@
 
 #include "rivet_rom.h"
 
-// Splines of one axis that are not 0 at a point: index of the first coefficient, number of splines, their
-// weights.  At the axis' start, where idle loads are, there is only one.
+// Splines of one axis that are not 0 at a point: index of the first coefficient, and three weights.
 typedef struct {
-    int first, count;
+    int first;
     scalar w[3];
 } Splines;
 
@@ -27,35 +26,33 @@ INLINE const RivetCell *axis_cell(const RivetAxis *axis, double u)
 }
 
 // Quadratic B-splines (de Boor) at u inside the axis.  Their sum is 1, and they are C1 at the knots.
-INLINE Splines axis_splines(const RivetAxis *axis, scalar u)
+INLINE void axis_splines(const RivetAxis *axis, scalar u, Splines *splines)
 {
-#ifndef DUAL
-    if (u == axis->start) return (Splines){.count = 1, .w = {1.0, 0.0, 0.0}};
-#endif
     const RivetCell *cell = axis_cell(axis, scalar_value(u));
-    const scalar up = u - cell->start, down = cell->end - u;
-    Splines s = {.first = (int)(cell - axis->cell), .count = 3};
-    s.w[0] = down * down * cell->fall;
-    s.w[2] = up * up * cell->rise;
-    s.w[1] = 1.0 - s.w[0] - s.w[2];
-    return s;
+    const scalar up = u - cell->start, down = cell->end - u, w_0 = down * down * cell->fall,
+                 w_2 = up * up * cell->rise;
+    splines->first = (int)(cell - axis->cell);
+    splines->w[0] = w_0;
+    splines->w[1] = 1.0 - w_0 - w_2;
+    splines->w[2] = w_2;
 }
 
 // s times the splines of xi = fit/s.  Outside the axis they are computed without xi, because s may vanish
 // there.
-INLINE Splines axis_splines_xi(const RivetAxis *axis, scalar xi, scalar s, double fit)
+INLINE void axis_splines_xi(const RivetAxis *axis, scalar xi, scalar s, double fit, Splines *splines)
 {
-    if (fit <= scalar_value(s) * axis->start) return (Splines){.count = 3, .w = {s, 0.0, 0.0}};
     const scalar beyond = fit - s * axis->end;
-    if (scalar_value(beyond) >=
-        0.0) {  // value and slope at the axis' end; the slope is 2 h rise of the last spline
+    if (fit <= scalar_value(s) * axis->start)
+        *splines = (Splines){0, {s, 0.0, 0.0}};
+    else if (scalar_value(beyond) >= 0.0) {
+        // value and slope at the axis' end; the slope is 2 h rise of the last spline
         const RivetCell *last = &axis->cell[axis->cells - 1];
         const scalar w = 2.0 * (last->end - last->start) * last->rise * beyond;
-        return (Splines){.first = axis->cells - 1, .count = 3, .w = {0.0, -w, s + w}};
+        *splines = (Splines){axis->cells - 1, {0.0, -w, s + w}};
+    } else {
+        axis_splines(axis, xi, splines);
+        for (int i = 0; i < 3; i++) splines->w[i] *= s;
     }
-    Splines splines = axis_splines(axis, xi);
-    for (int i = 0; i < 3; i++) splines.w[i] *= s;
-    return splines;
 }
 
 // The point of a load in the table; the splines of xi carry the factor s.
@@ -66,7 +63,8 @@ typedef struct {
 } TablePoint;
 
 // Stress of a pair of channels: tensor product of the splines over 3^3 coefficients of two sheets.  The sums
-// run over c, a, xi and chi in this order.
+// run over xi, c, a and chi in this order.  At the start of the axis a, where idle rivets are, there is only one
+// spline of a.
 #ifdef DUAL
 INLINE void contract(const RivetTable *t, const float *coefficients, const TablePoint *point, scalar sigma[2])
 {
@@ -115,27 +113,24 @@ INLINE void contract(const RivetTable *t, const float *coefficients, const Table
     const Splines *A = &point->at[RIVET_A], *C = &point->at[RIVET_C], *X = &point->at[RIVET_XI];
     const int n_c = t->axis[RIVET_C].cells + 2, n_xi = t->axis[RIVET_XI].cells + 2;
     const int xi = 2 * RIVET_SHEETS, row = n_xi * xi;  // coefficients between neighbours in xi, in c
-    const float *origin = coefficients + xi * X->first + 2 * point->sheet;
-
-    // sums over c, b and a for each spline of xi
-    quad sum[3] = {{0}, {0}, {0}}, all = {0};
-    for (int a = 0; a < A->count; a++) {
-        const float *T = origin + row * ((A->first + a) * n_c + C->first);
-        quad sum_a[3] = {{0}, {0}, {0}};
-        for (int c = 0; c < C->count; c++, T += row) {
+    const float *T = coefficients + row * (A->first * n_c + C->first) + xi * X->first + 2 * point->sheet;
+    const int splines_a = A->first == 0 && A->w[2] == 0.0 ? 1 : 3;
+    quad all = {0};
+    for (int a = 0; a < splines_a; a++, T += n_c * row) {
+        quad sum_a = {0};
+        for (int c = 0; c < 3; c++) {
+            quad sum_c = {0};
             for (int x = 0; x < 3; x++) {
                 quad value;
-                fetch(T + x * xi, &value);
-                add_part(C->w[c], &value, &sum_a[x]);
+                fetch(T + c * row + x * xi, &value);
+                add_part(X->w[x], &value, &sum_c);
             }
+            add_part(C->w[c], &sum_c, &sum_a);
         }
-        for (int x = 0; x < 3; x++) add_part(A->w[a], &sum_a[x], &sum[x]);
+        add_part(A->w[a], &sum_a, &all);
     }
-
-    // sums over xi and over the two sheets
-    for (int x = 0; x < 3; x++) add_part(X->w[x], &sum[x], &all);
     const double *first = point->first;
-    sigma[0] = first[0] * all[0] + (1.0 - first[0]) * all[2];
-    sigma[1] = first[1] * all[1] + (1.0 - first[1]) * all[3];
+    sigma[0] = all[2] + first[0] * (all[0] - all[2]);
+    sigma[1] = all[3] + first[1] * (all[1] - all[3]);
 }
 #endif

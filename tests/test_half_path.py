@@ -13,7 +13,9 @@ MIRROR, SIDE = half_path.PATH_MIRROR, half_path.PATH_SIDE
 
 
 def doubles(ffi, values):
-    return ffi.new("double[]", [float(v) for v in np.ravel(values)])
+    """A C array, with zeros behind it as packets of pockets need them."""
+    values = np.ravel(values)
+    return ffi.new(f"double[{len(values) + 8}]", values.tolist())
 
 
 @pytest.fixture(params=["C", "Python"])
