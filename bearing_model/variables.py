@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from enum import IntEnum
 
 MODEL_IDENTIFIER = "RivetedBearing"
-MODEL_GUID = "{a04f04ce-eca6-2fd1-f088-0d1424f85883}"
+MODEL_GUID = "{3c13d19b-b908-f461-25a9-fabf8ce52b55}"
 Z = 9
 
 
@@ -85,7 +85,6 @@ ASSUMPTIONS = {
     "cage.guide_clearance": (0.5, 2.0, "0.1 to 0.4 mm are usual in a 6207"),
     "oil.eta": (0.4, 2.1, "5 mm2/s aviation oils (MIL-PRF-23699) from 150 down to 60 degC"),
     "oil.rho_mix": (0.25, 1.3, "1 to 5 % oil between the rings (Parker, NASA TP-2275, 1984)"),
-    "cage.x_c": (0.95, 1.13, "webs of 0.8 to 2 mm in a 6207"),
 }
 
 # Scales of each unit: symbol -> (factor, offset), value in that symbol = factor * SI value + offset.

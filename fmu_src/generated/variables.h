@@ -9,7 +9,7 @@
 
 #define FMI2_FUNCTION_PREFIX RivetedBearing_  // of the functions of a source-code FMU
 #define MODEL_IDENTIFIER "RivetedBearing"
-#define MODEL_GUID "{a04f04ce-eca6-2fd1-f088-0d1424f85883}"  // digest of the table
+#define MODEL_GUID "{3c13d19b-b908-f461-25a9-fabf8ce52b55}"  // digest of the table
 
 enum { Z = 9 };  // number of balls
 
