@@ -86,8 +86,7 @@ static void rigid_wrench(const Work *w, const Pockets *on_1, scalar wrench[6])
 static void rigid_share(const Model *model, const Work *w, const Pockets *on_1, RigidShare *share)
 {
     const double R = 0.5 * model->p->bearing.d_m;
-    const scalar friction =
-        model->p->joint.mu * scalar_max(model->d->P + cage_joint_prying(model, w), 0.0);
+    const scalar friction = model->p->joint.mu * scalar_max(model->d->P + cage_joint_prying(model, w), 0.0);
     double c[Z], s[Z];
     scalar wrench[6];
     ball_array V_y = {0}, V_z = {0};
