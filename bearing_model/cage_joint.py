@@ -3,12 +3,14 @@
        |  T  |          u    hole of half 1 - hole of half 0 at rivet k, in the body frame of half 0 (turns with the cage), v its rate
     ---+-   -+---       rivet tension   T = max(0, P + k_rivet u_x)
     half 1     | u_x    plate force     N_plate = max(0, P - k_plate u_x), damped by c v_x N_plate/(N_plate + F_floor)
-    ===+=====+===       plate friction  S = -k_t z,  z' = v - |v| k_t z/(mu N_plate + F_floor)        Dahl (1968): a friction state, no creep
-    half 0     |        head friction   H = -k_h z_h, likewise with mu T + F_floor
+    ===+=====+===       plate friction  S = -k_t z,  z' = v - |v| k_t z/(mu (N_plate + dT) + F_floor)    Dahl (1968): a friction state, no creep
+    half 0     |        head friction   H = -k_h z_h, likewise with mu (T + dT) + F_floor
     ---+-   -+---       hole contact    B = -k_hole max(0, |u| - gap) u/|u|,  gap = max(0, -fit_a): the diametral play
        |     |
-Under a growing transverse load the plates slip first (at mu P), then the heads slip on the rivet (at mu P more), then the halves move freely
+Under a growing transverse load the plates slip first (at mu (P + dT)), then the heads slip on the rivet (at as much more), then the halves move freely
 across the gap, and at last the shank bears against its holes.
+dT (cage_joint_prying): the cage's centrifugal load pries at every joint, so that the rivet pulls and the edges of the pads press with dT more.  Both
+forces are in one joint and balance: they move no half, but friction has them.
 Force and reaction act at the same point, so momentum and energy are exact.  External tension of the joint: N = T - N_plate.
 Smoothness: C0 at opening and bearing (a spring of finite stiffness begins), C0 at v = 0.
 """
@@ -34,6 +36,29 @@ def cage_joint_kinematics(model, w):
     w.v_j = np.array([vec_dot(e, v) + vec_dot(e, spin_y) * s_y + vec_dot(e, spin_z) * s_z for e in axes])
 
 
+def cage_joint_prying(model, w):
+    """Prying force dT [..., 1] in N: what the cage's centrifugal load adds to the rivet's tension and to the plates' contact force.
+
+    T_rest - P of joints that are all alike (joint_law.py).  C1 in the cage's speed: the cubic through the states of the table, which are at equal steps
+    of x = c/(c + P), with slopes by central differences.
+    """
+    d, law = model.d, model.d.table.half.law
+    omega_2 = 0.5 * (w.half[0].s ** 2 + w.half[1].s ** 2)
+    c = np.abs(d.spin[4]) / law.length * omega_2
+    P = maximum(d.P + d.spin[5] * omega_2, 0.0)
+    s = c + P
+    tension = law.alike.values[:, 3]
+    last = len(tension) - 1
+    x = c / np.where(np.real(s) > 0.0, s, 1.0) * last
+    i = np.minimum(np.real(x), last - 1.0).astype(int)
+    slopes = np.gradient(tension)
+    start, rise = tension[i], tension[i + 1] - tension[i]
+    u = x - i
+    v = 1.0 - u
+    T = start + u * rise + u * v * (v * (slopes[i] - rise) + u * (rise - slopes[i + 1]))
+    return np.where(np.real(c) > 0.0, s * T - d.P * tension[0], 0.0)
+
+
 def cage_joint_friction(k, capacity, z_y, z_z, v_y, v_z):
     """Dahl's friction with force -k z: rates of z and the dissipated power."""
     # |v| has no derivative at v = 0; the complex step of |v| is taken as 0 there
@@ -50,7 +75,8 @@ def cage_joint_advance(model, w, h, y):
     """
     p, d = model.p, model.d
     u_x, (_, v_y, v_z) = w.u[0], w.v_j
-    plates, heads = maximum(d.P - d.k_plate * u_x, 0.0), maximum(d.P + d.k_rivet * u_x, 0.0)
+    dT = cage_joint_prying(model, w)
+    plates, heads = (maximum(maximum(d.P + k * u_x, 0.0) + dT, 0.0) for k in (-d.k_plate, d.k_rivet))
     for k, load, blocks in ((d.k_plate_t, plates, (JOINT_PLATE_Y, JOINT_PLATE_Z)), (d.k_head, heads, (JOINT_HEAD_Y, JOINT_HEAD_Z))):
         rate = np.hypot(v_y, v_z) * k / (p.joint.mu * load + p.joint.F_floor)
         for v, z in zip((v_y, v_z), blocks, strict=True):
@@ -66,8 +92,10 @@ def cage_joint_force(model, y, w):
 
     w.T, w.N_plate = maximum(d.P + d.k_rivet * u_x, 0.0), maximum(d.P - d.k_plate * u_x, 0.0)
     damping = d.c_joint * w.N_plate / (w.N_plate + p.joint.F_floor)
-    w.plate_y_dot, w.plate_z_dot, lost_plate = cage_joint_friction(d.k_plate_t, p.joint.mu * w.N_plate + p.joint.F_floor, zp_y, zp_z, v_y, v_z)
-    w.head_y_dot, w.head_z_dot, lost_head = cage_joint_friction(d.k_head, p.joint.mu * w.T + p.joint.F_floor, zh_y, zh_z, v_y, v_z)
+    dT = cage_joint_prying(model, w)
+    plates, heads = (p.joint.mu * maximum(force + dT, 0.0) + p.joint.F_floor for force in (w.N_plate, w.T))
+    w.plate_y_dot, w.plate_z_dot, lost_plate = cage_joint_friction(d.k_plate_t, plates, zp_y, zp_z, v_y, v_z)
+    w.head_y_dot, w.head_z_dot, lost_head = cage_joint_friction(d.k_head, heads, zh_y, zh_z, v_y, v_z)
     w.joint_dissipated = lost_plate + lost_head + damping * v_x * v_x
 
     slip = np.sqrt(u_y * u_y + u_z * u_z + 1e-30)

@@ -2,7 +2,7 @@
 
     two halves   N = T - N_plate of the dynamics' joints, whose plates S, heads H and hole B carry the transverse load
     rigid cage   the wrench between the halves, (half 1 - half 0)/2 as both have the same inertia, on the circle of rivets; its transverse
-                 part loads plates (up to mu P), then heads (mu P more), then the shank
+                 part loads plates (up to mu T), then heads (mu T more), then the shank, T = P + dT (cage_joint_prying)
 
 To this rigid share the elastic halves add what bonded joints would carry of pocket forces and of the cage's own centrifugal load (half_path.py).  Joints
 that open and slip relieve it (joint_law.py); in the plane they have for it what the rigid share leaves of friction and play.  The work of the added
@@ -20,6 +20,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from bearing_model.cage_joint import cage_joint_prying
 from bearing_model.half_path import bolt_group, path_load
 from bearing_model.joint_law import joints_open, joints_slip
 from bearing_model.lanes import ball_array_sum
@@ -77,15 +78,15 @@ def turned(model, v):
 
 def two_half_share(model, w):
     """RigidShare of the dynamics' joints."""
-    mu = model.p.joint.mu
+    mu, dT = model.p.joint.mu, cage_joint_prying(model, w)
     plates, heads, shank = (-turned(model, force) for force in (w.S, w.H, w.B))
     return RigidShare(
         N=w.T - w.N_plate,
         plates=plates,
         heads=heads,
         shank=shank,
-        plates_left=np.maximum(mu * w.N_plate - np.hypot(*plates), 0.0),
-        heads_left=np.maximum(mu * w.T - np.hypot(*heads), 0.0),
+        plates_left=np.maximum(mu * (w.N_plate + dT) - np.hypot(*plates), 0.0),
+        heads_left=np.maximum(mu * (w.T + dT) - np.hypot(*heads), 0.0),
         gap_left=np.maximum(model.d.hole_gap - np.hypot(w.u[1], w.u[2]), 0.0),
     )
 
@@ -102,7 +103,7 @@ def rigid_wrench(model, w, pocket_F, pocket_M):
 
 def rigid_share(model, w, pocket_F, pocket_M):
     """RigidShare of a rigid cage."""
-    R, friction = 0.5 * model.p.bearing.d_m, model.p.joint.mu * model.d.P
+    R, friction = 0.5 * model.p.bearing.d_m, model.p.joint.mu * np.maximum(model.d.P + cage_joint_prying(model, w), 0.0)
     N, V_y, V_z = bolt_group(2.0 * R, rigid_wrench(model, w, pocket_F, pocket_M), model.d.rivet_y / R, model.d.rivet_z / R)
     force = turned(model, np.array([V_y, V_z]))
     V = np.hypot(*force)

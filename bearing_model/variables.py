@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from enum import IntEnum
 
 MODEL_IDENTIFIER = "RivetedBearing"
-MODEL_GUID = "{5f98d0d5-9835-c96f-23d7-bc48b99eb98a}"
+MODEL_GUID = "{ae90d931-2552-60c4-e165-eb69ae509731}"
 Z = 9
 
 
@@ -90,7 +90,6 @@ ASSUMPTIONS = {
     "cage.guide_clearance": (0.5, 2.0, "0.1 to 0.4 mm are usual in a 6207"),
     "oil.eta": (0.4, 2.1, "5 mm2/s aviation oils (MIL-PRF-23699) from 150 down to 60 degC"),
     "oil.rho_mix": (0.25, 1.3, "1 to 5 % oil between the rings (Parker, NASA TP-2275, 1984)"),
-    "cage.x_c": (0.95, 1.13, "webs of 0.8 to 2 mm in a 6207"),
 }
 
 # What to look at first: names by question.

@@ -138,13 +138,14 @@ static void diagonal_rates(Integrator *in)
         in->rates[Y_CAGE_GAMMA_DOT + h] = xx * w->film_yy[h] / p->cage.J_t;
         in->rates[Y_CAGE_S + h] = w->film_spin[h] / p->cage.J_p;
     }
+    const double dT = cage_joint_prying(in->model, w);
     for (int k = 0; k < Z; k++) {
         const double speed = sqrt(w->v_jy[k] * w->v_jy[k] + w->v_jz[k] * w->v_jz[k]), mu = p->joint.mu;
         const double floor = p->joint.F_floor;
         in->rates[Y_JOINT_PLATE_Y + k] = in->rates[Y_JOINT_PLATE_Z + k] =
-            speed * d->k_plate_t / (mu * w->N_plate[k] + floor);
+            speed * d->k_plate_t / (mu * (w->N_plate[k] + dT) + floor);
         in->rates[Y_JOINT_HEAD_Y + k] = in->rates[Y_JOINT_HEAD_Z + k] =
-            speed * d->k_head / (mu * w->T[k] + floor);
+            speed * d->k_head / (mu * (w->T[k] + dT) + floor);
     }
 }
 

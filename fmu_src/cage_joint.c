@@ -4,14 +4,18 @@
 //      |  T  |          u    hole of half 1 - hole of half 0 at rivet k, in the body frame of half 0, v its rate
 //   ---+-   -+---       rivet tension   T = max(0, P + k_rivet u_x)
 //   half 1     | u_x    plate force     N_plate = max(0, P - k_plate u_x), damped by c v_x N_plate/(N_plate + F_floor)
-//   ===+=====+===       plate friction  S = -k_t z,  z' = v - |v| k_t z/(mu N_plate + F_floor)
-//   half 0     |        head friction   H = -k_h z_h, likewise with mu T + F_floor
+//   ===+=====+===       plate friction  S = -k_t z,  z' = v - |v| k_t z/(mu (N_plate + dT) + F_floor)
+//   half 0     |        head friction   H = -k_h z_h, likewise with mu (T + dT) + F_floor
 //   ---+-   -+---       hole contact    B = -k_hole max(0, |u| - gap) u/|u|,  gap = max(0, -fit_a): the diametral play
 //      |     |
 //
 // The friction law is that of Dahl (1968): its force is a state, so that a held joint does not creep.  Under
-// a growing transverse load the plates slip first (at mu P), then the heads slip on the rivet (at mu P more),
-// then the halves move freely across the gap, and at last the shank bears against its holes.
+// a growing transverse load the plates slip first (at mu (P + dT)), then the heads slip on the rivet (at as much
+// more), then the halves move freely across the gap, and at last the shank bears against its holes.
+//
+// dT (cage_joint_prying): the cage's centrifugal load pries at every joint, so that the rivet pulls and the edges
+// of the pads press with dT more.  Both forces are in one joint and balance: they move no half, but friction
+// has them.
 //
 // Force and reaction act at the same point, so momentum and energy are exact.  The external tension of the
 // joint is N = T - N_plate.
@@ -89,14 +93,14 @@ static void advance(const Work *w, double h, double k, const double *capacity, i
 void cage_joint_advance(const Model *model, const Work *w, double h, double *y)
 {
     const Derived *d = model->d;
-    const double mu = model->p->joint.mu, floor = model->p->joint.F_floor;
+    const double mu = model->p->joint.mu, floor = model->p->joint.F_floor, dT = cage_joint_prying(model, w);
     const wide zero = wide_set(0.0);
     ball_array plates, heads;
     for (int b = 0; b < PACKETS; b++) {
         const int k = b * LANE_WIDTH;
         const wide u_x = wide_load(&w->u_x[k]);
-        wide_store(&plates[k], mu * wide_max(d->P - d->k_plate * u_x, zero) + floor);
-        wide_store(&heads[k], mu * wide_max(d->P + d->k_rivet * u_x, zero) + floor);
+        wide_store(&plates[k], mu * wide_max(wide_max(d->P - d->k_plate * u_x, zero) + dT, zero) + floor);
+        wide_store(&heads[k], mu * wide_max(wide_max(d->P + d->k_rivet * u_x, zero) + dT, zero) + floor);
     }
     advance(w, h, d->k_plate_t, plates, Y_JOINT_PLATE_Y, Y_JOINT_PLATE_Z, y);
     advance(w, h, d->k_head, heads, Y_JOINT_HEAD_Y, Y_JOINT_HEAD_Z, y);
@@ -136,7 +140,7 @@ void cage_joint_force(const Model *model, const scalar *y, Work *w)
     memcpy(h_z, &y[Y_JOINT_HEAD_Z], Z * sizeof *y);
 
     const wide zero = wide_set(0.0), P = wide_set(d->P), floor = wide_set(p->joint.F_floor);
-    const wide mu = wide_set(p->joint.mu);
+    const wide mu = wide_set(p->joint.mu), dT = wide_set(cage_joint_prying(model, w));
     const wide k_t = wide_set(d->k_plate_t), k_h = wide_set(d->k_head);
     for (int b = 0; b < PACKETS; b++) {
         const int k = b * LANE_WIDTH;
@@ -149,10 +153,10 @@ void cage_joint_force(const Model *model, const scalar *y, Work *w)
         const wide speed = wide_sqrt(v_y * v_y + v_z * v_z);
         const wide zp_y = wide_load(&z_y[k]), zp_z = wide_load(&z_z[k]);
         const wide zh_y = wide_load(&h_y[k]), zh_z = wide_load(&h_z[k]);
-        wide lost = cage_joint_friction(k_t, mu * N_plate + floor, zp_y, zp_z, v_y, v_z, speed,
-                                        &w->plate_y_dot[k], &w->plate_z_dot[k]);
-        lost += cage_joint_friction(k_h, mu * T + floor, zh_y, zh_z, v_y, v_z, speed, &w->head_y_dot[k],
-                                    &w->head_z_dot[k]);
+        wide lost = cage_joint_friction(k_t, mu * wide_max(N_plate + dT, zero) + floor, zp_y, zp_z, v_y, v_z,
+                                        speed, &w->plate_y_dot[k], &w->plate_z_dot[k]);
+        lost += cage_joint_friction(k_h, mu * wide_max(T + dT, zero) + floor, zh_y, zh_z, v_y, v_z, speed,
+                                    &w->head_y_dot[k], &w->head_z_dot[k]);
 
         // hole contact
         const wide slip = wide_sqrt(u_y * u_y + u_z * u_z + 1e-30);

@@ -3,6 +3,28 @@
 
 #include "isa.h"
 #include "model.h"
+#include "rivet_rom.h"
+
+// Prying force dT [N]: what the cage's centrifugal load adds to the rivet's tension and to the plates' contact
+// force, T_rest - P of joints that are all alike (joint_law.h).  C1 in the cage's speed: the cubic through the
+// states of the table, which are at equal steps of x = c/(c + P), with slopes by central differences.
+INLINE scalar cage_joint_prying(const Model *model, const Work *w)
+{
+    const Derived *d = model->d;
+    const JointLaw *law = &rivet_table.half.law;
+    const scalar omega_2 = 0.5 * (w->half[0].s * w->half[0].s + w->half[1].s * w->half[1].s);
+    const scalar c = fabs(d->spin[ROW_M_T]) / law->length * omega_2;
+    const scalar P = scalar_max(d->P + d->spin[ROW_DP] * omega_2, 0.0), s = c + P;
+    if (!(scalar_value(c) > 0.0)) return 0.0;
+    const scalar x = c / s * (law->alike_count - 1.0);
+    const int last = law->alike_count - 1, i = (int)fmin(scalar_value(x), last - 1.0);
+    const double from = law->alike[i][ALIKE_T], to = law->alike[i + 1][ALIKE_T], rise = to - from;
+    const double slope_from = i > 0 ? 0.5 * (to - law->alike[i - 1][ALIKE_T]) : rise;
+    const double slope_to = i + 1 < last ? 0.5 * (law->alike[i + 2][ALIKE_T] - from) : rise;
+    const scalar u = x - i, v = 1.0 - u;
+    const scalar T = from + u * rise + u * v * (v * (slope_from - rise) + u * (rise - slope_to));
+    return s * T - d->P * law->alike[0][ALIKE_T];
+}
 
 // Offset and velocity of half 1 against half 0 at each rivet, in the frame of half 0.
 void cage_joint_kinematics(const Model *model, Work *w);

@@ -2,7 +2,8 @@
 //
 //   two halves   N = T - N_plate of the dynamics' joints; plates S, heads H and hole B carry the transverse load
 //   rigid cage   the wrench between the halves, (half 1 - half 0)/2 as both have the same inertia, on the circle
-//                of rivets; its transverse part loads plates (up to mu P), then heads (mu P more), then the shank
+//                of rivets; its transverse part loads plates (up to mu T), then heads (mu T more), then the shank,
+//                T = P + dT (cage_joint_prying)
 //
 // To this rigid share the elastic halves add what bonded joints would carry of pocket forces and of the cage's
 // own centrifugal load (half_path.h).  Joints that open and slip relieve it (joint_law.h); in the plane they have
@@ -17,6 +18,7 @@
 // All loads are on the +x half, in the frames (x, r, t) of the rivets, at body angles 2 pi (k + 1/2)/Z of half 0.
 #include "rivets.h"
 
+#include "cage_joint.h"
 #include "pocket.h"
 #include "rotor.h"
 
@@ -41,7 +43,7 @@ static void two_half_share(const Model *model, const Work *w, RigidShare *share)
 {
     const Derived *d = model->d;
     const double mu = model->p->joint.mu;
-    const wide zero = wide_set(0.0);
+    const wide zero = wide_set(0.0), dT = wide_set(cage_joint_prying(model, w));
     for (int k = 0; k < PACKETS * LANE_WIDTH; k += LANE_WIDTH) {
         const wide T = wide_load(&w->T[k]), N_plate = wide_load(&w->N_plate[k]),
                    u = wide_hypot(wide_load(&w->u_y[k]), wide_load(&w->u_z[k]));
@@ -51,8 +53,8 @@ static void two_half_share(const Model *model, const Work *w, RigidShare *share)
         store_turned(model, -S_y, -S_z, k, share->plates);
         store_turned(model, -H_y, -H_z, k, share->heads);
         store_turned(model, -wide_load(&w->B_y[k]), -wide_load(&w->B_z[k]), k, share->shank);
-        wide_store(&share->left.plates[k], wide_max(mu * N_plate - wide_hypot(S_y, S_z), zero));
-        wide_store(&share->left.heads[k], wide_max(mu * T - wide_hypot(H_y, H_z), zero));
+        wide_store(&share->left.plates[k], wide_max(mu * (N_plate + dT) - wide_hypot(S_y, S_z), zero));
+        wide_store(&share->left.heads[k], wide_max(mu * (T + dT) - wide_hypot(H_y, H_z), zero));
         wide_store(&share->left.gap[k], wide_max(d->hole_gap - u, zero));
     }
 }
@@ -83,7 +85,8 @@ static void rigid_wrench(const Work *w, const Pockets *on_1, scalar wrench[6])
 
 static void rigid_share(const Model *model, const Work *w, const Pockets *on_1, RigidShare *share)
 {
-    const double R = 0.5 * model->p->bearing.d_m, friction = model->p->joint.mu * model->d->P;
+    const double R = 0.5 * model->p->bearing.d_m;
+    const scalar friction = model->p->joint.mu * scalar_max(model->d->P + cage_joint_prying(model, w), 0.0);
     double c[Z], s[Z];
     scalar wrench[6];
     ball_array V_y = {0}, V_z = {0};

@@ -10,6 +10,8 @@ from mechanics import SLICE, Z, pose, running_state
 from scipy.spatial.transform import Rotation
 
 from bearing_model import variables
+from rivet_model import half_loads, joint_contact
+from rivet_model.geometry import Geometry
 
 MU, PRELOAD = 0.15, 20.0
 TABLE = json.loads((ROOT / "rivet_model" / "tables" / "6207.json").read_text(encoding="utf-8"))  # the table that is embedded
@@ -35,9 +37,10 @@ class Joints:
             pose(core, half)
 
     def move(self, place, velocity=(0.0, 0.0, 0.0)):
-        """Half 1 shifted against half 0 at rest; returns the total force on half 1."""
+        """Half 1 shifted against half 0 and moving in its frame; returns the total force on half 1."""
         half = self.w.half[1]
-        half.x, half.v, half.F, half.M = place, velocity, (0.0, 0.0, 0.0), (0.0, 0.0, 0.0)
+        drift = np.cross(list(self.w.half[0].Omega), place)
+        half.x, half.v, half.F, half.M = place, tuple(velocity + drift), (0.0, 0.0, 0.0), (0.0, 0.0, 0.0)
         return self.evaluate()
 
     def evaluate(self):
@@ -140,6 +143,48 @@ def test_clamp_force_sets_the_friction(core):
             joints.advance(2e-6)
         joints.move((u_x, 1e-6, 0.0))
         assert -(joints.w.S_y[0] + joints.w.H_y[0]) == pytest.approx(capacity + 2 * 0.5, abs=3e-3)
+
+
+@pytest.fixture(scope="module")
+def joints_alike():
+    """Unilateral contact of joints that are all alike, and the centrifugal load per (rad/s)^2."""
+    elastic = half_loads.elastic_half(Geometry())
+    return joint_contact.JointContact(elastic, alike=True), half_loads.centrifugal(elastic)
+
+
+@pytest.mark.parametrize(("omega", "preload"), [(754.0, 20.0), (754.0, 40.0), (1500.0, 20.0), (200.0, 60.0)])
+def test_spin_sets_the_friction(core, joints_alike, omega, preload):
+    """Breakaway force of a joint in a cage that turns: 2 mu T, T the rivet's tension by direct contact of the halves under their centrifugal load.
+
+    The table's law is within 2 % of the contact (tests/test_joint_law.py).  Without the centrifugal load: 2 mu P.
+    """
+    contact, column = joints_alike
+    T = contact.solve(preload, (contact.loads(column=omega**2 * column)[0], np.zeros(1))).rivet[0, 0]
+    for switch, expected in ((1, preload), (2, T)):
+        joints = Joints(core, **{"joint.preload": preload, "joint.fit": -60e-6, "cage.centrifugal": switch})
+        for turning in joints.w.half:
+            pose(core, turning, Omega=(omega, 0.0, 0.0))
+        force, _ = joints.pull(np.linspace(0.0, 40e-6, 1201))
+        print(omega, preload, T, force[-1])
+        assert force[-1] == pytest.approx(2.0 * MU * expected, rel=0.02 if switch == 2 else 1e-3)
+
+
+def test_friction_is_smooth_in_the_speed(core):
+    """The slope of the capacity over the cage's speed has no jump: in steps of 0.1 rad/s it changes by less than 0.5 % of its largest value.
+
+    The table's states are 7 rad/s apart; joined by straight lines they would give jumps of some 3 %.
+    """
+    joints = Joints(core, **{"joint.fit": -60e-6})
+    joints.y[SLICE["joint_plate_y"]] = 1e-7
+    rate = []
+    for omega in np.arange(300.0, 600.0, 0.1):
+        for turning in joints.w.half:
+            pose(core, turning, Omega=(omega, 0.0, 0.0))
+        joints.move((0.0, 0.0, 0.0), (0.0, 1e-3, 0.0))
+        rate.append(1.0 / (1e-3 - joints.w.plate_y_dot[0]))  # in proportion to the capacity
+    slope, curvature = np.diff(rate), np.diff(rate, n=2)
+    print(np.abs(curvature).max() / np.abs(slope).max())
+    assert np.abs(curvature).max() < 5e-3 * np.abs(slope).max()
 
 
 def test_axial_natural_frequency(core):

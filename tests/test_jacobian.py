@@ -291,9 +291,9 @@ def test_outputs_by_time_inputs_and_states(core, scene):
         differences, error = extrapolated(lambda h, c=trajectory, dt=dt, du=du, y=y, dy=dy: c.outputs(h * dt, h * du, y + h * dy), 1.0, noise)
         exact = trajectory.derivatives(dt, du, y, dy)
         size = np.maximum(abs(exact), abs(differences))
-        smooth = (error <= 1e-6 * size) & (size > 0.0)
+        smooth = (error <= 3e-7 * size) & (size > 0.0)  # differences that are known better than they are asked for
         judged += np.sum(smooth)
-        wrong = smooth & (abs(exact - differences) > 1e-6 * size + error)  # observed 1.6e-6 where the differences are as uncertain
+        wrong = smooth & (abs(exact - differences) > 1e-6 * size)
         assert not wrong.any(), (kind, np.nonzero(wrong)[0], exact[wrong], differences[wrong])
     assert judged > 900
 

@@ -8,7 +8,7 @@ from library import ROOT
 
 from bearing_model import rivet_rom, rivet_table
 from bearing_model.rivet_rom import FLANGE_YIELDS, RIVET_OUTSIDE, RIVET_YIELDS, RivetLoad
-from bearing_model.variables import FitModel, Z
+from bearing_model.variables import PARAMETERS, FitModel, Z
 from rivet_model import build, closed_form, components, embed, friction, geometry, splines, table
 
 TABLE = ROOT / "rivet_model" / "tables" / "6207.json"
@@ -230,6 +230,26 @@ def test_sizes(rivets, tmp_path):
     half = rivets.half
     doubles = 3 * sum(len(k) for k in rivets.shank.knots.values()) + 4 * len(rivets.fit_a) + half.law.stiffness.size + 26 * len(half.law.alike.x)
     assert 4 * rivets.shank.coefficients.size + 4 * embed.path_rows(half).size + 8 * (doubles + embed.uniform_coefficients(half.law).size) <= 2**20
+
+
+def test_defaults_are_those_of_the_table(rivets):
+    """Defaults of bearing and cage beside the half of the shipped table (six digits) and beside the geometry that it was made for."""
+    g, half = geometry.Geometry(), rivets.half
+    assert rivets.geometry_hash == g.digest
+    expected = {f"cage.{name}": getattr(half, name) for name in ("m", "x_c", "J_p", "J_t")} | {
+        "cage.width": 2.0 * g.cage_half_width,
+        "cage.D_o": g.cage_outer_diameter,
+        "cage.D_i": g.cage_inner_diameter,
+        "cage.pocket_clearance": g.pocket_clearance,
+        "cage.E": g.E_flange,
+        "cage.nu": g.nu_flange,
+        "bearing.D": g.ball_diameter,
+        "bearing.d_m": g.d_m,
+        "rivet.temperature": rivets.joint["T_0"],
+    }
+    for name, value in expected.items():
+        assert PARAMETERS[name].start == pytest.approx(value, rel=2e-6), name
+    assert rivets.joint["d_m"] == g.d_m
 
 
 def test_write_and_read_are_inverse(rivets, tmp_path):

@@ -9,7 +9,7 @@
 
 #define FMI2_FUNCTION_PREFIX RivetedBearing_  // of the functions of a source-code FMU
 #define MODEL_IDENTIFIER "RivetedBearing"
-#define MODEL_GUID "{5f98d0d5-9835-c96f-23d7-bc48b99eb98a}"  // digest of the table
+#define MODEL_GUID "{ae90d931-2552-60c4-e165-eb69ae509731}"  // digest of the table
 
 enum { Z = 9 };  // number of balls
 
