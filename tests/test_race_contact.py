@@ -44,7 +44,7 @@ def closest_on_circle(point, centre, frame, radius):
 
 def scene(core, rng, ring_offset=20e-6, tilt=9e-3, **changes):
     """Random balls, all pressed between both races, under a ring with offset and tilt, everything moving."""
-    m = core.model(parameters={"bearing.P_d": -30e-6} | changes)
+    m = core.model(parameters={"bearing.P_d": -30e-6, "scene.traction": Traction.POINT} | changes)
     theta = 2.0 * np.pi * np.arange(Z) / Z + rng.uniform(-0.1, 0.1, Z)
     frame = tilted(*rng.uniform(-tilt, tilt, 2), spin=rng.uniform(0.0, 6.0))
     centre = rng.uniform(-ring_offset, ring_offset, 3)
@@ -200,7 +200,7 @@ def test_traction_in_the_global_frame(core):
 
 def test_no_slip_no_traction(core):
     """A ball that rolls at omega_m = omega (1 - gamma)/2 has no slip at either race: traction vanishes, only inlet forces remain."""
-    m = core.model(parameters={"oil.rolling": 0.0})
+    m = core.model(parameters={"oil.rolling": 0.0, "scene.traction": Traction.POINT})
     r, omega = 0.02675, 1900.0
     theta = 2.0 * np.pi * np.arange(Z) / Z
     R_eff_i, R_eff_e = r - R, r + R
