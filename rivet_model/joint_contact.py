@@ -127,10 +127,10 @@ class JointContact:
         for pocket, point, force in forces:
             for part, shift in ((0, 0), (1, -1)):
                 columns = p.pocket.start + part * count + 3 * point + np.arange(3)
-                pitch = (pocket + shift) % Z
                 f = 0.5 * np.asarray(force)
-                u += np.roll(self.C[:, :, columns] @ f, pitch, axis=0)
-                resultant += f @ self.rigid[pitch, columns]
+                # the waves count both parts at their pocket (CyclicSolid._phase), the rigid motions count them at the pitch that they stand on
+                u += np.roll(self.C[:, :, columns] @ f, pocket, axis=0)
+                resultant += f @ self.rigid[(pocket + shift) % Z, columns]
         return u, resultant
 
     def solve(self, P, load, active=None):

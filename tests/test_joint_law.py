@@ -17,7 +17,8 @@ class Chain:
     """What the table holds of a half, made on one mesh, and the direct contact of both halves on the same or on another one."""
 
     def __init__(self, size, direct_size, knots=None):
-        points = np.stack([ANGLES, np.full(len(ANGLES), G.d_m / 2)], axis=1)
+        angles = [*ANGLES, np.pi - ANGLES[1]]  # the last one on the pocket's other side
+        points = np.stack([angles, np.full(len(angles), G.d_m / 2)], axis=1)
         self.elastic, self.rivet = half_loads.elastic_half(G, size, points), joint_contact.rivet_compliance(G)
         self.alone = half_loads.JointAlone(self.elastic, self.rivet)
         self.direct_half = self.elastic if direct_size == size else half_loads.elastic_half(G, direct_size, points)
@@ -176,6 +177,16 @@ def test_scheme_against_direct_contact(chain):
     print(largest, rms)
     assert largest[3] < 0.04 and largest[2] < 0.04 and largest[1] < 0.05
     assert rms[1:4].max() < 0.015
+
+
+def test_push_on_the_other_side_of_a_pocket(chain):
+    """The mirror image of a push loads the mirrored joints: rivet -1 - k as rivet k before, M_r and m_r of the other sign (1 % of the largest)."""
+    sign = np.array([1.0, -1.0, 1.0])
+    one, _ = chain.direct(20.0, 500.0, [(0, 1, 60.0 * np.array([0.2, 0.05, 1.0]))])
+    other, _ = chain.direct(20.0, 500.0, [(0, len(ANGLES), 60.0 * np.array([0.2, 0.05, -1.0]))])
+    assert one.rivet[:, 0].max() > 30.0
+    for a, b in ((one.load, other.load), (one.rivet, other.rivet)):
+        np.testing.assert_allclose(b[::-1] * sign, a, atol=0.01 * np.abs(a).max(axis=0).min(), rtol=0.01)
 
 
 def test_centrifugal_load_is_not_relieved(chain):
