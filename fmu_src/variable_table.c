@@ -56,8 +56,7 @@ bool variables_allow(Causality causality, const void *values,
                      void (*report)(void *context, const char *message), void *context)
 {
     bool fine = true;
-    for (int v = 0; v < N_VARIABLES && VARIABLES[v].causality <= causality;
-         v++) {  // they are in the order of causality
+    for (int v = 0; v < N_VARIABLES; v++) {
         if (VARIABLES[v].causality != causality) continue;
         for (int i = 0; i < VARIABLES[v].count; i++) {
             const char *at = (const char *)values + VARIABLES[v].offset;

@@ -37,7 +37,7 @@ def __getattr__(name):
         from . import results
 
         return getattr(results, name)
-    raise AttributeError(f"module {__name__} has no attribute {name}")
+    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
 
 
 def __dir__():

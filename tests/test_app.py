@@ -321,7 +321,7 @@ def test_shipped_bearings_are_consistent(designation):
     assert v["cage.J_p"] == pytest.approx(v["cage.m"] * (v["cage.D_o"] ** 2 + v["cage.D_i"] ** 2) / 8, rel=0.02)
     width = v["cage.width"] / 2
     ring_volume = np.pi / 4 * (v["cage.D_o"] ** 2 - v["cage.D_i"] ** 2) * width
-    assert v["cage.m"] == pytest.approx(0.55 * 8800 * ring_volume, rel=0.03)  # bronze, about 45 % taken by the pockets (observed 1.3, 2.2 %)
+    assert 0.5 < v["cage.m"] / (8800 * ring_volume) < 0.6  # bronze, of which the pockets take 40 to 50 %
     assert 0.5 * width < v["cage.x_c"] < 0.62 * width  # the pockets take from the split's side
     assert v["cage.land_x"] + v["cage.land_width"] / 2 <= width
     assert case.equilibrium().F[1] == pytest.approx(v["shaft.F_y"], rel=1e-6)

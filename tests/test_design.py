@@ -180,7 +180,7 @@ def test_a_response_that_does_not_exist_is_refused():
 def test_the_bench_simulates_what_it_is_asked_and_nothing_twice(tmp_path, model, monkeypatch):
     """Two points, two seeds: responses are those of rows read again; a third point later keeps the first ones."""
     monkeypatch.setenv("PYTHONPATH", str(ROOT))
-    document = {"simulation": {"t_end": 4e-3}, "parameters": {"start.settle": 1e-3}}
+    document = {"simulation": {"t_end": 4e-3}, "parameters": {"start.settle": 1e-3, "cage.centrifugal": "off"}}
     with cluster(workers=1) as client:
         bench = Bench(tmp_path / "b.toml", document, model, tmp_path / "out", lambda: client)
         first = bench(["joint.preload"], [[10.0], [30.0]], ["damage", "stress"])

@@ -181,7 +181,7 @@ def test_versions(slave):
     ("name", "value", "allowed"),
     [
         ("shaft.F_x", math.nan, "[-100000, 100000]"),
-        ("shaft.omega", math.inf, "[-5000, 5000]"),
+        ("shaft.omega", math.inf, "[-15000, 15000]"),
         ("shaft.tilt_z", 0.1, "[-0.035, 0.035]"),
         ("bearing.D", 0.0, "[0.001, 0.1]"),
         ("ball[3].dD", 1.0, "[-0.001, 5e-05]"),

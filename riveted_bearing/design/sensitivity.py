@@ -189,4 +189,4 @@ def sobol_panel(ax, found, name):
         ax.axvline(indices["noise"], color=HEAD, lw=1.2, ls="--", label="seeds")
     ax.set(title=f"{name}: share of the variance (Sobol)", xlabel="alone S1, with interactions ST")
     ax.set_xlim(left=min(0.0, ax.get_xlim()[0]))
-    ax.legend(ncols=3, loc="lower right", bbox_to_anchor=(1.0, 1.0))
+    ax.legend(loc="best")
