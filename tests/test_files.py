@@ -440,7 +440,7 @@ def hostile(result, text):
 
 
 def drawn(short):
-    """The run with the channels of the drawing only: a page with film and two charts of the fourteen, each of which takes 0.3 s."""
+    """The run with the channels of the drawing only: a page with the film and few of the fourteen charts, which take 0.3 s each."""
     return replace(short, data={name: values for name, values in short.data.items() if name == "time" or name in needed(number_of_balls(short))})
 
 
