@@ -9,6 +9,8 @@ PYTEST  = $(PYTHON) -m pytest
 C_FILES = $(wildcard fmu_src/*.[ch] tests/*.[ch] benchmarks/*.[ch] examples/*/*.c)
 BENCHMARKS = rtf rhs step scenes scaling work_precision
 FORM    = --short
+# Test files that reach the C code, by what they name; the others (finite elements, quasi-statics and the like) show a sanitizer nothing.
+C_TESTS = $(shell grep -lE '\b(core|fmu|slave|said)\b|Slave|import run|"riveted_bearing"' tests/test_*.py)
 # Leaks are Python's, mismatches those of libecosc.
 ASAN    = detect_leaks=0:new_delete_type_mismatch=0
 
@@ -63,11 +65,11 @@ format: $(VENV)/installed  ## format and fix what can be fixed
 	$(BIN)/ruff format .
 	$(BIN)/clang-format -i $(C_FILES)
 
-sanitize: $(VENV)/installed  ## the fast tests on a copy compiled with the sanitizers of addresses, undefined behaviour and casts of numbers
+sanitize: $(VENV)/installed  ## the fast tests that reach C on a copy compiled with the sanitizers of addresses, undefined behaviour and casts of numbers
 	mkdir -p $(COPY) && git ls-files -co --exclude-standard | tar -c -T - | tar -x -C $(COPY)
 	$(BIN)/cmake -S $(COPY) -B $(COPY)/build -G Ninja -DSANITIZE=address,undefined,float-cast-overflow -DFMU=$(COPY)/$(FMU) -DPython_EXECUTABLE=$(CURDIR)/$(PYTHON)
 	$(BIN)/cmake --build $(COPY)/build
-	cd $(COPY) && PYTHONPATH=$(COPY) PYTHONMALLOC=malloc ASAN_OPTIONS=$(ASAN) LD_PRELOAD="$$(cc -print-file-name=libasan.so) libstdc++.so.6" $(CURDIR)/$(PYTEST) -n 2
+	cd $(COPY) && PYTHONPATH=$(COPY) PYTHONMALLOC=malloc ASAN_OPTIONS=$(ASAN) LD_PRELOAD="$$(cc -print-file-name=libasan.so) libstdc++.so.6" $(CURDIR)/$(PYTEST) -n 2 $(C_TESTS)
 
 sanitize-threads: $(VENV)/installed  ## random calls in eight threads with the sanitizer of data races
 	$(BIN)/cmake -S . -B build/threads -G Ninja -DSANITIZE=thread -DFMU=$(CURDIR)/build/threads/threads.fmu -DPython_EXECUTABLE=$(CURDIR)/$(PYTHON)
@@ -81,10 +83,10 @@ analyze: build  ## static analysis without findings: the compiler's analyzer and
 	$(BIN)/clang-tidy -p build --quiet fmu_src/*.c
 
 FUZZ_SECONDS = 120
-fuzz: $(VENV)/installed  ## coverage-guided fuzzing of the FMI functions with sanitizers (clang) for FUZZ_SECONDS
+fuzz: $(VENV)/installed  ## coverage-guided fuzzing of the FMI functions with sanitizers (clang) for FUZZ_SECONDS, from tests/corpus on
 	$(BIN)/cmake -S . -B build/fuzz -G Ninja -DCMAKE_C_COMPILER=clang -DSANITIZE=fuzzer-no-link,address,undefined,float-cast-overflow -DFMU=$(CURDIR)/build/fuzz/fuzzed.fmu -DPython_EXECUTABLE=$(CURDIR)/$(PYTHON)
 	$(BIN)/cmake --build build/fuzz --target fuzz_api
-	mkdir -p build/corpus
+	$(PYTHON) tests/fuzz_corpus.py unpack tests/corpus/fuzz_api.txt build/corpus
 	build/fuzz/fuzz_api build/corpus -max_len=2048 -len_control=0 -timeout=20 -max_total_time=$(FUZZ_SECONDS)
 
 DEBIAN = 12

@@ -1,6 +1,6 @@
 """Damaged bearing files, scene files and rivet tables: each is read or refused by name, never anything else.
 
-python tests/fuzz_readers.py [SECONDS]     coverage-guided (needs atheris: `pip install .[fuzz]`)
+python tests/fuzz_readers.py [SECONDS]     coverage-guided from tests/corpus/ on (needs atheris: `pip install .[fuzz]`)
 
 A string of bytes decides what becomes of a good file: bytes of its text are changed, or one of its values is replaced by an odd one, with the rivet
 table's digest made to fit, so that the checks behind it are reached.
@@ -13,6 +13,8 @@ import sys
 import tempfile
 from functools import cache
 from pathlib import Path
+
+from fuzz_corpus import CORPUS, unpack
 
 from bearing_model import rivet_table
 from riveted_bearing import bearings, errors, fmu, scene, units
@@ -178,7 +180,9 @@ def main():
         for name, function in vars(module).copy().items():
             if inspect.isfunction(function) and function.__module__ == module.__name__:
                 setattr(module, name, atheris.instrument_func(function))
-    atheris.Setup([sys.argv[0], f"-max_total_time={sys.argv[1] if len(sys.argv) > 1 else 60}", "-max_len=64", "-len_control=0"], try_one)
+    found = ROOT / "build" / "corpus_readers"
+    unpack(CORPUS / "fuzz_readers.txt", found)
+    atheris.Setup([sys.argv[0], str(found), f"-max_total_time={sys.argv[1] if len(sys.argv) > 1 else 60}", "-max_len=64", "-len_control=0"], try_one)
     atheris.Fuzz()
 
 

@@ -9,6 +9,7 @@ import subprocess
 import sys
 
 import pytest
+from fuzz_corpus import CORPUS, read
 from fuzz_readers import try_one
 from library import ROOT
 
@@ -88,3 +89,10 @@ def test_damaged_files_are_read_or_refused_by_name(strings):
     bytes_of = random.Random(strings).randbytes
     read = sum(try_one(bytes_of(64)) for _ in range(strings))
     assert 0.02 * strings < read < 0.5 * strings
+
+
+@pytest.mark.filterwarnings("ignore:overflow")  # 1e308 MPa/N
+def test_damaged_files_of_the_corpus_are_read_or_refused_by_name():
+    """One for each kind of refusal that random damage met."""
+    done = [try_one(string) for string in read(CORPUS / "fuzz_readers.txt")]
+    assert any(done) and not all(done)

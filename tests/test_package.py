@@ -8,6 +8,7 @@ import sys
 import zipfile
 from html.parser import HTMLParser
 from pathlib import Path
+from types import SimpleNamespace
 
 import fmpy
 import lief
@@ -63,6 +64,54 @@ def difference(rows, folder):
 def test_same_bytes_again(fmu, tmp_path):
     subprocess.run([sys.executable, ROOT / "fmus" / "package.py", f"@{ROOT / 'build' / 'fmu' / 'arguments.txt'}", "--out", tmp_path / "again.fmu"], check=True)
     assert (tmp_path / "again.fmu").read_bytes() == fmu.read_bytes()
+
+
+@pytest.fixture(scope="module")
+def elsewhere(tmp_path_factory):
+    """A copy of the checkout in a folder of another name and length, with what runs a program of the Python environment that lies there, too."""
+    copy = tmp_path_factory.mktemp("elsewhere") / "of-another-length" / "checkout"
+    shutil.copytree(ROOT, copy, ignore=shutil.ignore_patterns(".git", ".venv", "build", "results", "__pycache__", ".*_cache", ".hypothesis", "*.fmu", "*.ssp"))
+    (copy / ".venv").symlink_to(sys.prefix, target_is_directory=True)
+    python = copy / ".venv" / "bin" / Path(sys.executable).name
+    environment = os.environ | {"PYTHONPATH": str(copy), "PATH": f"{python.parent}{os.pathsep}{os.environ['PATH']}"}
+
+    def run(*command):
+        subprocess.run(list(map(str, command)), cwd=copy, env=environment, check=True)
+
+    return SimpleNamespace(folder=copy, python=python, run=run)
+
+
+@pytest.mark.slow  # two minutes of compilation
+@pytest.mark.skipif(not LINUX or SANITIZED, reason="lays the Python environment as a symbolic link; binaries with sanitizers are not stripped")
+def test_another_folder_gives_the_same_bytes(fmu, elsewhere):
+    """Both FMUs and the system of both, compiled from nothing as `make build` does, against those that lie in this checkout."""
+    made = elsewhere.folder / "fmus"
+    options = ["-G", "Ninja", f"-DPython_EXECUTABLE={elsewhere.python}", f"-DFMU={made / fmu.name}"]
+    elsewhere.run("cmake", "-S", elsewhere.folder, "-B", elsewhere.folder / "build", *options)
+    elsewhere.run("cmake", "--build", elsewhere.folder / "build", "--target", "transmission")
+    assert differing_members(made / fmu.name, fmu) == set()
+    for name in (fmu.name, "Shaft.fmu", "Transmission.ssp"):
+        assert (made / name).read_bytes() == fmu.with_name(name).read_bytes(), name
+
+
+@pytest.mark.slow  # four minutes of compilation, two of them shared with other tests
+@pytest.mark.skipif(not LINUX, reason="lays the Python environment as a symbolic link")
+def test_another_folder_gives_the_same_bytes_for_all_platforms(everywhere, elsewhere):
+    """The bearing's FMU with four binaries, and the shaft's binaries."""
+    here, there = everywhere["RivetedBearing"].parent / "RivetedBearing.fmu", elsewhere.folder / "all.fmu"
+    elsewhere.run(elsewhere.python, "-m", "riveted_bearing", "build", "--platforms", "all", "--out", there)
+    assert differing_members(there, here) == set()
+    assert there.read_bytes() == here.read_bytes()
+    for platform, suffix in PLATFORMS.items():
+        shaft = elsewhere.folder / "build" / "bearings" / "default" / platform / f"Shaft{suffix}"
+        assert shaft.read_bytes() == (everywhere["Shaft"] / "binaries" / platform / shaft.name).read_bytes(), platform
+
+
+def differing_members(one, other):
+    """Names of the members that are in one archive only or differ."""
+    with zipfile.ZipFile(one) as a, zipfile.ZipFile(other) as b:
+        common = set(a.namelist()) & set(b.namelist())
+        return set(a.namelist()) ^ set(b.namelist()) | {name for name in common if a.read(name) != b.read(name)}
 
 
 def test_archive_as_the_standard_wants_it(fmu):
