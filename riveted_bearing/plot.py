@@ -224,6 +224,7 @@ def overlay(ax, t, channel, title):
     ax.plot(t, channel.reference, color=FORCE, lw=0.8)[0].set_label("reference")
     ax.plot(t, channel.fmu, ".", color=HEAD, ms=3.5)[0].set_label("FMU")
     ax.set(title=title, xlabel="time [ms]", ylabel=channel.unit)
+    ax.locator_params(axis="x", nbins=5)
     ax.legend(ncols=2, loc="lower right", bbox_to_anchor=(1.0, 1.0))
 
 
@@ -235,6 +236,7 @@ def differences(ax, found):
         for motion, style in ((True, "-"), (False, "--")):
             worst = np.max([channel.error[i] for channel in found.channels if is_motion(channel) == motion], axis=0)
             ax.semilogy(1e3 * found.t[1:], worst[1:], style, color=colour, lw=1.0, label=f"{tolerance:.0e}" if motion else None)
+    ax.locator_params(axis="x", nbins=5)
     ax.set(title="By tolerance", xlabel="time [ms]", ylabel="largest difference / scale: motion, - - loads")
     ax.legend(ncols=3, loc="lower right", bbox_to_anchor=(1.0, 1.0))
 
@@ -244,6 +246,7 @@ def deviations(ax, found):
     rows = [row for row in found.statistics if np.isfinite(row.deviation)][::-1]
     ax.barh(range(len(rows)), [row.deviation for row in rows], color=[MIDDLE if abs(row.deviation) < 3.0 else HEAD for row in rows], height=0.6)
     ax.set_yticks(range(len(rows)), [row.name.removeprefix("stat.") for row in rows])
+    ax.locator_params(axis="x", nbins=4)
     limit = max(3.5, 1.1 * max((abs(row.deviation) for row in rows), default=0.0))
     ax.set(title=f"Statistics of {found.long - found.settle:g} s: reference - FMU", xlabel="standard deviations over seeds", xlim=(-limit, limit))
     ax.axvline(0.0, color=MUTED, lw=0.8)

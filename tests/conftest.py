@@ -4,6 +4,7 @@ import ctypes
 import importlib.util
 import os
 import shutil
+import signal
 import subprocess
 import sys
 from pathlib import Path
@@ -26,6 +27,10 @@ def pytest_generate_tests(metafunc):
     """In files with TWINS = True, tests of `core` run on the C core and on the Python reference, unless they are marked c_only."""
     if "core" in metafunc.fixturenames and getattr(metafunc.module, "TWINS", False) and not metafunc.definition.get_closest_marker("c_only"):
         metafunc.parametrize("core", ["C", "Python"], indirect=True)
+
+
+if signal.getsignal(signal.SIGINT) == signal.SIG_IGN:  # a shell's background job ignores Ctrl-C, and so would the programs that tests start and interrupt
+    signal.signal(signal.SIGINT, signal.default_int_handler)
 
 
 @pytest.fixture(scope="session", autouse=True)
