@@ -347,7 +347,11 @@ def run_missing(sweep, folder, client, progress, keys):
     fmu = client.submit(bytes, sweep.fmu, key=f"fmu-{hashlib.sha256(sweep.fmu).hexdigest()}")  # as a task, so that Dask makes it again if its workers die
     futures = [client.submit(perform, sweep.scenes[key], fmu, *sweep.further[:1], key=f"run-{key}") for key in keys if key not in finished]
     try:
-        for future in as_completed(futures):
+        completed = as_completed(futures)
+        for future in completed:
+            if future.status == "lost" and client.status == "running":  # with its worker: the scheduler has it done again
+                completed.add(future)
+                continue
             if future.status in ("cancelled", "lost"):
                 raise UserError(f"the Dask scheduler is gone after {done + failed} of {len(keys)} runs; they are in {folder}, the same command does the others")
             key = future.key.removeprefix("run-")
