@@ -8,7 +8,7 @@
 // Prying force dT [N]: what the cage's centrifugal load adds to the rivet's tension and to the plates' contact
 // force, T_rest - P of joints that are all alike (joint_law.h).  C1 in the cage's speed: the cubic through the
 // states of the table, which are at equal steps of x = c/(c + P), with slopes by central differences.
-INLINE scalar cage_joint_prying(const Model *model, const Work *w)
+ONCE scalar cage_joint_prying(const Model *model, const Work *w)
 {
     const Derived *d = model->d;
     const JointLaw *law = &rivet_table.half.law;

@@ -141,8 +141,8 @@ static bool check_table(Bearing *b)
         d_m, table);
     fine &=
         require(b, fabs(b->s.p.cage.x_c - rivet_table.half.x_c) <= 0.02 * rivet_table.half.x_c,
-                "cage.x_c = %g m: the cage half of the embedded rivet table has its centre of mass at %g m "
-                "+- 2 %%; build an FMU for this cage",
+                "cage.x_c = %g m: allowed is %g m +- 2 %%, the centre of mass of the cage half in the embedded rivet "
+                "table; build an FMU for this cage",
                 b->s.p.cage.x_c, rivet_table.half.x_c);
     return fine;
 }

@@ -42,6 +42,7 @@
 enum { LANES = (Z + 7) / 8 * 8, PACKETS = (Z + LANE_WIDTH - 1) / LANE_WIDTH };
 
 #define INLINE static inline __attribute__((always_inline))
+#define ONCE static __attribute__((noinline, unused))  // in a header: one copy for each file that calls it
 
 #ifdef DUAL
 #include "dual.h"

@@ -236,11 +236,14 @@ def struct_layout(sources, tree):
         for name, members in structs.items()
     )
     includes = "".join(f'#include "{path.name}"\n' for path in headers(sources))
-    with tempfile.TemporaryDirectory() as folder:
+    with tempfile.TemporaryDirectory() as folder:  # optimised, so that functions in headers that nothing calls need no library
         program = Path(folder) / "layout"
         text = f"#include <stdio.h>\n{includes}int main(void) {{\n{prints}return 0; }}\n"
         subprocess.run(
-            [compiler(), "-std=c17", *(f"-I{folder}" for folder in sources), "-x", "c", "-", "-o", str(program), "-lm"], input=text, text=True, check=True
+            [compiler(), "-std=c17", "-O1", *(f"-I{folder}" for folder in sources), "-x", "c", "-", "-o", str(program), "-lm"],
+            input=text,
+            text=True,
+            check=True,
         )
         output = subprocess.run([str(program)], capture_output=True, text=True, check=True).stdout
     layout = {}

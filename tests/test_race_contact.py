@@ -44,7 +44,7 @@ def closest_on_circle(point, centre, frame, radius):
 
 def scene(core, rng, ring_offset=20e-6, tilt=9e-3, **changes):
     """Random balls, all pressed between both races, under a ring with offset and tilt, everything moving."""
-    m = core.model(parameters={"bearing.P_d": -30e-6, "scene.traction": Traction.POINT} | changes)
+    m = core.model(parameters={"bearing.P_d": -30e-6, "scene.traction": Traction.POINT, "scene.heating": Switch.OFF, "oil.K_rs": 0.0} | changes)
     theta = 2.0 * np.pi * np.arange(Z) / Z + rng.uniform(-0.1, 0.1, Z)
     frame = tilted(*rng.uniform(-tilt, tilt, 2), spin=rng.uniform(0.0, 6.0))
     centre = rng.uniform(-ring_offset, ring_offset, 3)

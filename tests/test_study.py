@@ -98,7 +98,12 @@ def test_ratios_and_rises_are_paired_by_seed():
 
 
 def test_the_stress_at_rest_is_what_the_fmu_starts_with():
-    result = run("demo", t_end=1e-4, parameters={"joint.preload": 35.0, "joint.fit": "5 um", "cage.centrifugal": "off"}, outputs=["rivet[1].sigma_head", "rivet[1].sigma_mid"])
+    result = run(
+        "demo",
+        t_end=1e-4,
+        parameters={"joint.preload": 35.0, "joint.fit": "5 um", "cage.centrifugal": "off"},
+        outputs=["rivet[1].sigma_head", "rivet[1].sigma_mid"],
+    )
     columns = ("joint.preload", "joint.fit", "joint.swell", "rivet.fit_model")
     rows = {name: np.array([result.parameters[name]]) for name in columns}
     start = [result.data[f"rivet[1].{name}"][0] for name in ("sigma_head", "sigma_mid")]

@@ -14,7 +14,7 @@ from mechanics import Instance, View, Z, pocket_contact
 
 from bearing_model.kinematics import cage_speed
 from bearing_model.quasi_static import Bearing, Load, quasi_static
-from bearing_model.variables import PARAMETERS, CageModel, Drag, Lubrication, Method, Stress, Switch, TiltMode
+from bearing_model.variables import PARAMETERS, CageModel, Drag, Lubrication, Method, Stress, Switch, TiltMode, Traction
 
 RPM = math.pi / 30.0
 OMEGA = 18238 * RPM
@@ -55,11 +55,11 @@ def equilibrium():
 
 @pytest.fixture(scope="module")
 def working_point(simulate):
-    """0.25 s at the working point, 1e-4 s communication steps, from settled motion on."""
+    """0.25 s at the working point, steps of 1e-4 s, from settled motion on.  Traction at a point: spin in the contacts takes 7 N of the axial load."""
     balls = [f"ball[{j}].{name}" for j in range(1, Z + 1) for name in ("Q_i", "alpha_i", "Q_c", "x", "r", "psi", "omega_m")]
     names = ["ring.x", "ring.y", "ring.z", "cage.omega", "cage.eccentricity", "housing.F_x", "housing.F_y", "housing.F_z", *balls]
     names += [f"half_{h}.{name}" for h in (0, 1) for name in ("x", "y", "z", "tilt_y", "tilt_z", "psi")]
-    return simulate(0.25, 1e-4, names)
+    return simulate(0.25, 1e-4, names, **{"scene.traction": int(Traction.POINT)})
 
 
 def test_reference_numbers():
@@ -195,8 +195,15 @@ def test_no_friction_no_sideways_drift(simulate):
 
 # ---------------------------------------------------------------------------------------------------------------------- statistics
 
-# what the prototype has: isolated balls in a mixture at rest, no churning, no shear heating, flooded inlets, no inlet friction
-FRICTION = {"scene.drag": int(Drag.ISOLATED), "scene.churning": int(Switch.OFF), "scene.heating": int(Switch.OFF), "oil.K_rs": 0.0, "oil.rolling": 0.0}
+# what the prototype has: traction at a point, isolated balls in a mixture at rest, no churning, no shear heating, flooded inlets, no inlet friction
+FRICTION = {
+    "scene.traction": int(Traction.POINT),
+    "scene.drag": int(Drag.ISOLATED),
+    "scene.churning": int(Switch.OFF),
+    "scene.heating": int(Switch.OFF),
+    "oil.K_rs": 0.0,
+    "oil.rolling": 0.0,
+}
 PROTOTYPE = {"Q_c_mean": 0.655, "Q_c_rms": 4.73, "contact_duty": 0.087, "eccentricity": 0.88}  # mean and RMS of the pocket force [N]
 
 
