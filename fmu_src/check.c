@@ -139,11 +139,11 @@ static bool check_table(Bearing *b)
         b, fabs(d_m - table) <= 1e-3 * table,
         "bearing.d_m = %g m: the embedded load path is for %g m +- 0.1 %%; build an FMU for this bearing",
         d_m, table);
-    fine &=
-        require(b, fabs(b->s.p.cage.x_c - rivet_table.half.x_c) <= 0.02 * rivet_table.half.x_c,
-                "cage.x_c = %g m: allowed is %g m +- 2 %%, the centre of mass of the cage half in the embedded rivet "
-                "table; build an FMU for this cage",
-                b->s.p.cage.x_c, rivet_table.half.x_c);
+    fine &= require(
+        b, fabs(b->s.p.cage.x_c - rivet_table.half.x_c) <= 0.02 * rivet_table.half.x_c,
+        "cage.x_c = %g m: allowed is %g m +- 2 %%, the centre of mass of the cage half in the embedded rivet "
+        "table; build an FMU for this cage",
+        b->s.p.cage.x_c, rivet_table.half.x_c);
     return fine;
 }
 
