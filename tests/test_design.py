@@ -183,13 +183,13 @@ def test_the_bench_simulates_what_it_is_asked_and_nothing_twice(tmp_path, model,
     document = {"simulation": {"t_end": 4e-3}, "parameters": {"start.settle": 1e-3, "cage.centrifugal": "off"}}
     with cluster(workers=1) as client:
         bench = Bench(tmp_path / "b.toml", document, model, tmp_path / "out", lambda: client)
-        first = bench(["joint.preload"], [[10.0], [30.0]], ["damage", "stress"])
+        first = bench(["joint.preload"], [[10.0], [60.0]], ["damage", "stress"])
         more = bench(["joint.preload"], [[20.0]], ["stress"], seeds=[7])
     assert first.shape == (2, 2, 2) and more.shape == (1, 1, 1) and np.isfinite(first).all()
-    assert np.all(first[1, :, 1] > 1.5 * first[0, :, 1])  # three times the preload
+    assert np.all(first[1, :, 1] > 1.5 * first[0, :, 1])  # six times the preload, and impacts
 
     def no_cluster():
         raise AssertionError("nothing is to be simulated")
 
-    again = Bench(tmp_path / "b.toml", document, model, tmp_path / "out", no_cluster)(["joint.preload"], [[10.0], [30.0]], ["damage", "stress"])
+    again = Bench(tmp_path / "b.toml", document, model, tmp_path / "out", no_cluster)(["joint.preload"], [[10.0], [60.0]], ["damage", "stress"])
     np.testing.assert_array_equal(again, first)

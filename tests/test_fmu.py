@@ -309,7 +309,7 @@ def test_cages_that_cannot_be_built_are_refused(slave, name, value, allowed):
     slave.check("EnterInitializationMode")
     assert slave.call("ExitInitializationMode") == ERROR
     message = next(text for _, _, text in slave.messages if f"{name} = " in text)
-    numbers = [float(number) for number in re.findall(r"= (\d[\d.e+-]*) m|(?:most|least|at) (\d[\d.e+-]*) m", message) for number in number if number]
+    numbers = [float(number) for number in re.findall(r"= (\d[\d.e+-]*) m|(?:most|least|at|is) (\d[\d.e+-]*) m", message) for number in number if number]
     assert numbers[0] == pytest.approx(value, rel=1e-5) and min(abs(number / allowed - 1.0) for number in numbers[1:]) < 1e-3, message
 
 
