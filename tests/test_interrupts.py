@@ -97,11 +97,13 @@ def test_in_the_middle_of_a_run(tmp_path):
     os.killpg(process.pid, signal.SIGINT)
     _, errors = process.communicate(timeout=60)
     assert "Traceback" not in errors
-    if process.returncode == 130:  # on a busy machine still starting
+    if process.returncode in (130, -signal.SIGINT):  # on a busy machine still starting; shells show both as 130
         assert errors == "interrupted: no file has changed\n" and list(tmp_path.iterdir()) == []
         return
-    reached = float(re.search(r"stopped: interrupted after t = (\S+) s", errors)[1])
-    assert process.returncode == 3 and read_result(tmp_path / "demo.parquet").data["time"][-1] == pytest.approx(reached, rel=1e-9)
+    said = re.search(r"stopped: interrupted after t = (\S+) s", errors)
+    assert process.returncode == 3 and said, errors
+    reached = float(said[1])
+    assert read_result(tmp_path / "demo.parquet").data["time"][-1] == pytest.approx(reached, rel=1e-9)
 
 
 def test_from_python_a_run_returns_what_there_is():

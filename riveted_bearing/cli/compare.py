@@ -32,8 +32,8 @@ def compare(
 
     model = Model(fmu)
     plan = load_scene(scene, model, ("the command line", changes(model, settings or [], None, None, None)))
-    make_folder(out)
     horizons = {name: seconds(f"--{name}", number_or_text(text)) for name, text in (("short", short), ("long", long))}
+    make_folder(out)
     with Progress(SpinnerColumn(), TextColumn("{task.description}"), BarColumn(bar_width=30), console=messages, disable=not messages.is_terminal) as bar:
         task = bar.add_task("FMU, short horizon", total=1.0)
         found = compare_scene(
