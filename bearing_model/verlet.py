@@ -28,7 +28,12 @@ from bearing_model.variables import (
     CAGE_GAMMA,
     CAGE_PSI,
     CAGE_X,
+    CAGE_Y,
+    CAGE_Z,
+    JOINT_HEAD_Y,
+    JOINT_HEAD_Z,
     JOINT_PLATE_Y,
+    JOINT_PLATE_Z,
     N_STATES,
     RING_BETA,
     RING_GAMMA,
@@ -183,6 +188,21 @@ def joint_blocks(model, w):
     return B.T * c @ B, B.T * k @ B
 
 
+def shear_blocks(model, w, gamma):
+    """Force per offset [N_V, N_V] of the joints across the axis: of half 1 against half 0 at a rivet, (v_y - s z, v_z + s y).
+
+    The lever of the split from the centres of mass is left out.  A friction state that decays with D follows the velocity by gamma/(1 + gamma D) within a step.
+    """
+    d, h0 = model.d, w.half[0]
+    y, z = (d.rivet_y * h0.b_y[i] + d.rivet_z * h0.b_z[i] for i in (1, 2))
+    k = d.k_plate_t / (1.0 + gamma * w.plate_rate) + d.k_head / (1.0 + gamma * w.head_rate) + w.k_bearing
+    B = np.zeros((2, Z, N_V))
+    B[0][:, HALF[[1, 2, 5], 1]] = np.array([np.ones(Z), np.zeros(Z), -z]).T
+    B[1][:, HALF[[1, 2, 5], 1]] = np.array([np.zeros(Z), np.ones(Z), y]).T
+    B[:, :, HALF[:, 0]] = -B[:, :, HALF[:, 1]]
+    return sum(b.T * k @ b for b in B)
+
+
 def ring_support(model):
     """Rates and stiffnesses [N_V] of the ring's own velocities by its support, and the rates that damp its accelerations."""
     ring, (A, K, A_stiff) = model.p.ring, np.zeros((3, N_V))
@@ -202,7 +222,8 @@ def jacobian_blocks(model, t, y, w, gamma):
     K_stiff = A_0 @ A_1  # the lands of a rigid cage one after the other: (1 + gamma A_0)(1 + gamma A_1); 0 for two halves
     if model.p.scene.cage == CageModel.TWO_HALF:
         A_joint, K_joint = joint_blocks(model, w)
-        A, K = A + A_joint / M, K + K_joint / M
+        A_cage, K_cage, K_shear = A_0 + A_1 + A_joint / M, K_joint / M, shear_blocks(model, w, gamma) / M
+        A, K = A + A_joint / M, K + K_cage + K_shear + gamma * A_cage @ K_shear + gamma**2 * K_cage @ K_shear  # shear after films and axial motion
     return Blocks(A + A_0 + A_1, K + K_stiff, A_stiff + A_0 + A_1, K_stiff)
 
 
@@ -263,9 +284,22 @@ def correct_positions(model, gamma, delta, y):
     y[BALL_R] += gamma * delta[BALL[1]]
     if model.p.ring.tilt_mode != TiltMode.FREE:
         y[RING_BETA.start : RING_GAMMA.stop] += gamma * delta[RING[3:]]
-    if model.p.scene.cage == CageModel.TWO_HALF:  # the axial motion of one half against the other
-        for q, rows in ((CAGE_X, HALF[0]), (CAGE_BETA, HALF[3]), (CAGE_GAMMA, HALF[4])):
+    if model.p.scene.cage == CageModel.TWO_HALF:  # the motion of one half against the other
+        for q, rows in zip((CAGE_X, CAGE_Y, CAGE_Z, CAGE_BETA, CAGE_GAMMA, CAGE_PSI), HALF, strict=True):
             y[q] += 0.5 * gamma * (delta[rows[1]] - delta[rows[0]]) * np.array([-1.0, 1.0])
+
+
+def correct_friction(model, w, gamma, delta, y):
+    """The friction states are deflections of springs and follow likewise: z_{n+1} += gamma u/(1 + gamma D), u the change of the velocity at the joint."""
+    if model.p.scene.cage != CageModel.TWO_HALF:
+        return
+    d, h0 = model.d, w.half[0]
+    _, dv_y, dv_z, _, _, ds = delta[HALF[:, 1]] - delta[HALF[:, 0]]
+    u_y, u_z = (axis[1] * dv_y + axis[2] * dv_z for axis in (h0.b_y, h0.b_z))
+    u = u_y - ds * d.rivet_z, u_z + ds * d.rivet_y
+    for rate, blocks in ((w.plate_rate, (JOINT_PLATE_Y, JOINT_PLATE_Z)), (w.head_rate, (JOINT_HEAD_Y, JOINT_HEAD_Z))):
+        for u_i, z in zip(u, blocks, strict=True):
+            y[z] += gamma * u_i / (1.0 + gamma * rate)
 
 
 def verlet_step(model, t, h, weight, start, blocks=jacobian_blocks):
@@ -285,6 +319,7 @@ def verlet_step(model, t, h, weight, start, blocks=jacobian_blocks):
     end.f[WORK] += dissipation_correction(model, w, gamma, residual, delta)
     delta -= held  # from here on delta = v_{n+1} - v_n - h a_n
     correct_positions(model, gamma, delta, y)
+    correct_friction(model, w, gamma, delta, y)
     y[V] = v + h * a + delta
     y[WORK] += gamma * (f[WORK] + end.f[WORK])
 

@@ -12,6 +12,7 @@
 //   land, film              v_y + gamma_dot x, v_z - beta_dot x          2 x 2; x: lever of the land
 //   land, Couette and dry   spin s                                       film_spin
 //   rivets and plates       v_x + z beta_dot - y gamma_dot, half 1 - 0   c; stiffness of what is in touch
+//   sticking, hole contact  v_y - s z, v_z + s y, half 1 - 0             stiffness k/(1 + gamma D), k_hole
 //   ring support            each velocity of the ring by itself          c; tilts: c_tilt, k_tilt or filter
 //
 // C is symmetric and not negative, so every block is symmetric positive definite and needs no pivoting.
@@ -21,7 +22,7 @@
 // of ball and cage.
 //
 // Order of elimination: balls, 6 x 6 each; by their Schur complement the ring, 5 x 5; the halves by
-// themselves, their films first, then the joints between them.  Rolling couples the velocities of a ball as
+// themselves, their films first, then the joints between them along the axis, then those across it.  Rolling couples the velocities of a ball as
 // strongly as it holds each one back: a diagonal matrix would leave stiff terms outside.
 #include "implicit.h"
 
@@ -451,6 +452,54 @@ static void solve_joints(const Model *model, const Work *w, double gamma, const 
     }
 }
 
+// Stiffness [N/m] across the axis of a packet's joints from k on, as a step of length 2 gamma meets it: sticking plates
+// and heads, d(z)/d(v) = gamma/(1 + gamma D) of friction states that decay with D, and holes in which a shank bears.
+static wide shear_stiffness(const Model *model, const Work *w, double gamma, int k)
+{
+    const wide plate = model->d->k_plate_t / (1.0 + gamma * wide_load(&w->plate_rate[k]));
+    const wide head = model->d->k_head / (1.0 + gamma * wide_load(&w->head_rate[k]));
+    return plate + head + wide_load(&w->k_bearing[k]);
+}
+
+// Holds back the motion of half 1 against half 0 across the axis and about it, (v_y, v_z, s): at a rivet at (y, z) its
+// velocity is (v_y - s z, v_z + s y).  The impulses are x = C (dv - G x) again, C the sum of gamma^2 k over the joints
+// and G = 2 diag(1/m, 1/m, 1/J_p): the films, which have been solved before, are left out, and so is the lever x_c of
+// the joints from the centres of mass, 0.2 % of the halves' response.
+static void solve_shear(const Model *model, const Work *w, double gamma, Half half[2])
+{
+    const Derived *d = model->d;
+    const Rotor *h0 = &w->half[0];
+
+    // C = (c, 0, -c_z; 0, c, c_y; -c_z, c_y, c_rr).
+    ball_array rate, rate_y, rate_z, rate_rr;
+    for (int k = 0; k < PACKETS * LANE_WIDTH; k += LANE_WIDTH) {
+        const wide s_y = wide_load(&d->rivet_y[k]), s_z = wide_load(&d->rivet_z[k]);
+        const wide y = s_y * h0->b_y[1] + s_z * h0->b_z[1], z = s_y * h0->b_y[2] + s_z * h0->b_z[2];
+        const wide rate_k = gamma * gamma * shear_stiffness(model, w, gamma, k);
+        wide_store(&rate[k], rate_k);
+        wide_store(&rate_y[k], rate_k * y);
+        wide_store(&rate_z[k], rate_k * z);
+        wide_store(&rate_rr[k], rate_k * (y * y + z * z));
+    }
+    const double c = ball_array_sum(rate), c_y = ball_array_sum(rate_y), c_z = ball_array_sum(rate_z);
+    const double c_rr = ball_array_sum(rate_rr);
+
+    // (1 + C G) x = C dv.
+    const double m = model->p->cage.m, J_p = d->J_p, G_m = 2.0 / m, G_J = 2.0 / J_p;
+    const double dv_y = half[1].y - half[0].y, dv_z = half[1].z - half[0].z, ds = half[1].s - half[0].s;
+    double B[3][3] = {{1.0 + c * G_m, 0.0, -c_z * G_J},  //
+                      {0.0, 1.0 + c * G_m, c_y * G_J},   //
+                      {-c_z * G_m, c_y * G_m, 1.0 + c_rr * G_J}};
+    double x[3] = {c * dv_y - c_z * ds, c * dv_z + c_y * ds, c_y * dv_z - c_z * dv_y + c_rr * ds};
+    solve_3(B, x);
+    for (int h = 0; h < 2; h++) {
+        const double sign = h == 0 ? 1.0 : -1.0;
+        half[h].y += sign * x[0] / m;
+        half[h].z += sign * x[1] / m;
+        half[h].s += sign * x[2] / J_p;
+    }
+}
+
 // (1 + gamma A + gamma^2 K)^-1 of both halves.  The lands of a rigid cage are solved one after the other,
 // which differs from both together by gamma^2 A_0 A_1, a choice of K.
 static void solve_halves(const Model *model, const Work *w, double gamma, double *v)
@@ -463,7 +512,10 @@ static void solve_halves(const Model *model, const Work *w, double gamma, double
         for (int land = 0; land < count; land++) film_solve(&f[h][land], &half[h]);
     }
     const Film own[2] = {f[0][0], f[1][0]};
-    if (model->p->scene.cage == CAGE_MODEL_TWO_HALF) solve_joints(model, w, gamma, own, half);
+    if (model->p->scene.cage == CAGE_MODEL_TWO_HALF) {
+        solve_joints(model, w, gamma, own, half);
+        solve_shear(model, w, gamma, half);
+    }
     for (int h = 0; h < 2; h++) half_store(&half[h], v, h);
 }
 

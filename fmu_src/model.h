@@ -162,6 +162,8 @@ typedef struct {
     ball_array u_x, u_y, u_z, v_jx, v_jy, v_jz;
     ball_array T, N_plate, S_y, S_z, H_y, H_z, B_y, B_z;
     ball_array plate_y_dot, plate_z_dot, head_y_dot, head_z_dot;
+    ball_array plate_rate, head_rate;  // decay D of the friction states, z' = v - D z [1/s]
+    ball_array k_bearing;              // stiffness of the hole where the shank bears, else 0 [N/m]
     ball_array joint_dissipated;
 
     // mixture (drag_mixture): density / that of the derived constants, angular speed about X [rad/s],

@@ -8,7 +8,7 @@
 //   a^ = a(t_{n+1}, q_{n+1}, v^)                                   the evaluation
 //   (1 + gamma A + gamma^2 K) delta = v_n - v^ + gamma (a_n + a^)  one Newton iteration
 //   v_{n+1} = v^ + delta,  a_{n+1} = (v_{n+1} - v_n)/gamma - a_n   v_{n+1} = v_n + gamma (a_n + a_{n+1})
-//   q_{n+1} += gamma (v_{n+1} - v_n - h a_n)                       where K acts: trapezoidal rule too
+//   q_{n+1} += gamma (v_{n+1} - v_n - h a_n)                       where K acts, z too: trapezoidal rule
 //   a_{n+1} -= SMOOTHING H (a_{n+1} - 2 a_n + a_{n-1})             stiff rates: H = 1 - (1 + gamma A)^-1
 //
 // A = -da/dv and K = -da/dq are blocks of the Jacobian, approximate (implicit.c).  The method is a W-method
@@ -110,19 +110,39 @@ static double dissipation_correction(const Model *model, const double *y, double
 
 // Where a stiffness acts, positions follow the trapezoidal rule too: q_{n+1} += gamma delta with
 // delta = v_{n+1} - v_n - h a_n.  These are the balls' axial and radial positions, the tilts of a supported
-// or prescribed ring, and the axial motion of one cage half against the other.
+// or prescribed ring, and the motion of one cage half against the other.
 static void correct_positions(const Model *model, double gamma, const double *delta, double *y)
 {
     for (int i = 0; i < 2 * Z; i++) y[Y_BALL_X + i] += gamma * delta[VELOCITY + Y_BALL_X + i];
     if (model->p->ring.tilt_mode != TILT_MODE_FREE)
         for (int i = Y_RING_BETA; i <= Y_RING_GAMMA; i++) y[i] += gamma * delta[VELOCITY + i];
     if (model->p->scene.cage == CAGE_MODEL_RIGID) return;
-    static const int axial[3] = {Y_CAGE_X, Y_CAGE_BETA, Y_CAGE_GAMMA};
-    for (int i = 0; i < 3; i++) {
-        const int half_0 = axial[i], half_1 = half_0 + 1;
+    for (int half_0 = Y_CAGE_X; half_0 < Y_RING_X; half_0 += 2) {
+        const int half_1 = half_0 + 1;
         const double share = 0.5 * gamma * (delta[VELOCITY + half_1] - delta[VELOCITY + half_0]);
         y[half_0] -= share;
         y[half_1] += share;
+    }
+}
+
+// The friction states are the deflections of springs and follow likewise: z_{n+1} += gamma u/(1 + gamma D) with the
+// change u of the velocity of half 1 against half 0 at the joint, in the frame of half 0, and the decay D of z.
+static void correct_friction(const Model *model, const Work *w, double gamma, const double *delta, double *y)
+{
+    if (model->p->scene.cage == CAGE_MODEL_RIGID) return;
+    const Derived *d = model->d;
+    const Rotor *h0 = &w->half[0];
+    const double dv_y = delta[Y_CAGE_V_Y + 1] - delta[Y_CAGE_V_Y];
+    const double dv_z = delta[Y_CAGE_V_Z + 1] - delta[Y_CAGE_V_Z], ds = delta[Y_CAGE_S + 1] - delta[Y_CAGE_S];
+    const double u_0y = h0->b_y[1] * dv_y + h0->b_y[2] * dv_z, u_0z = h0->b_z[1] * dv_y + h0->b_z[2] * dv_z;
+    for (int k = 0; k < Z; k++) {
+        const double u_y = u_0y - ds * d->rivet_z[k], u_z = u_0z + ds * d->rivet_y[k];
+        const double plate = gamma / (1.0 + gamma * w->plate_rate[k]);
+        const double head = gamma / (1.0 + gamma * w->head_rate[k]);
+        y[Y_JOINT_PLATE_Y + k] += plate * u_y;
+        y[Y_JOINT_PLATE_Z + k] += plate * u_z;
+        y[Y_JOINT_HEAD_Y + k] += head * u_y;
+        y[Y_JOINT_HEAD_Z + k] += head * u_z;
     }
 }
 
@@ -200,6 +220,7 @@ double verlet_step(const Model *model, double t, double h, const double *weight,
     }
     for (int i = VELOCITY; i < N_STATES; i++) y[i] += delta[i];
     correct_positions(model, gamma, delta, y);
+    correct_friction(model, w, gamma, delta, y);
 
     // The work by the trapezoidal rule.
     y[Y_WORK] += gamma * (f[Y_WORK] + to->f[Y_WORK]);

@@ -10,8 +10,9 @@ from mechanics import Instance
 from test_jacobian import KINDS, SCENES, make_model, make_state
 
 from bearing_model import verlet
+from bearing_model.cage_joint import cage_joint_kinematics
 from bearing_model.model import Model, Work
-from bearing_model.rhs import jacobian, rhs
+from bearing_model.rhs import jacobian, rhs, rotor_kinematics
 from bearing_model.variables import N_STATES, RING_BETA_DOT, RING_GAMMA_DOT, RING_V_X, STATE_SLICES, WORK, CageModel, Lubrication, Method, TiltMode, Traction
 from bearing_model.verlet import FRICTION, N_V, POSITIONS, RING, V, VerletState
 
@@ -228,6 +229,15 @@ def extrapolated(coarse, middle, fine):
     return (8.0 * fine - 6.0 * middle + coarse) / 3.0
 
 
+def joint_motion(model, y, change, rows):
+    """Changes [2, Z] of the velocities of half 1 against half 0 across the axis, in the frame of half 0, by changes of some rows of the velocities."""
+    direction, w = np.zeros(N_STATES), Work()
+    direction[V][rows] = change[rows]
+    rotor_kinematics(model, y + 1e-30j * direction, w)
+    cage_joint_kinematics(model, w)
+    return np.imag(w.v_j[1:]) / 1e-30
+
+
 def expected_error(model, y, h, blocks):
     """Start of a step at y, the state that it should reach, its leading error per h^3 [N_STATES] and what its estimate shows of it: see test_local_error."""
     f = rhs(model, 0.0, y)
@@ -244,7 +254,7 @@ def expected_error(model, y, h, blocks):
     by_stiffness = np.zeros(N_V)
     for rows in (*verlet.BALL[:2], RING[3:]):
         by_stiffness[rows] = jerk[rows]
-    for rows in verlet.HALF[[0, 3, 4]]:  # half 1 against half 0
+    for rows in verlet.HALF:  # half 1 against half 0
         by_stiffness[rows] = 0.5 * (jerk[rows[1]] - jerk[rows[0]]) * np.array([-1.0, 1.0])
     middle = f.copy()  # what the state in the middle of the step is wrong by, per h^2/8
     middle[POSITIONS], middle[V], middle[FRICTION] = f[V][POSITIONS], -jerk, second[FRICTION]
@@ -252,7 +262,8 @@ def expected_error(model, y, h, blocks):
     error, estimate = np.zeros((2, N_STATES))
     error[V], estimate[V] = snap / 12.0 - wrong / 2.0, snap / 12.0
     error[POSITIONS] = (-jerk / 6.0 + by_stiffness / 4.0)[POSITIONS]
-    error[FRICTION], estimate[FRICTION] = (along(middle) / 8.0 - third / 24.0)[FRICTION], third[FRICTION] / 24.0
+    across = joint_motion(model, y, jerk, verlet.HALF[[1, 2, 5]])
+    error[FRICTION], estimate[FRICTION] = (along(middle) / 8.0 - third / 24.0)[FRICTION] + np.concatenate([*across, *across]) / 4.0, third[FRICTION] / 24.0
     history = VerletState(y, f.copy(), (f - rhs(model, 0.0, before)) / h, h=h)
     history.f[V] -= h**2 / 2.0 * wrong  # as the steps before have left it
     history.f[FRICTION], history.jerk[FRICTION] = (y - before)[FRICTION] / h + h**2 * error[FRICTION], (y - 2.0 * before + before_2)[FRICTION] / h**2
@@ -286,7 +297,7 @@ def test_local_error(core, record_property):
 
         velocities        a"/12 - (A + J) a'/2                                estimate a"/12
         positions         -a'/6, where a stiffness acts + a'/12
-        friction states   (dg/dq a - dg/dv a' + dg/dz z")/8 - z"'/24          estimate z"'/24
+        friction states   (dg/dq a - dg/dv a' + dg/dz z")/8 + u"/4 - z"'/24   estimate z"'/24;  u": of the joint's velocity, by a' of (v_y, v_z, s)
 
     Derivatives of the trajectory by complex steps and differences of Runge-Kutta steps; everything is extrapolated to h = 0.
 
