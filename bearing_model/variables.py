@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from enum import IntEnum
 
 MODEL_IDENTIFIER = "RivetedBearing"
-MODEL_GUID = "{ae90d931-2552-60c4-e165-eb69ae509731}"
+MODEL_GUID = "{ad71f07a-49a6-5e98-1702-845a12692532}"
 Z = 9
 
 
@@ -515,7 +515,7 @@ STATE_SCALES = {
     "joint_head_z": "head",
     "work": "energy",
     "ball_v_x": "velocity",
-    "ball_v_r": "velocity",
+    "ball_v_r": "normal",
     "ball_omega_m": "rate",
     "cage_v_x": "velocity",
     "cage_v_y": "velocity",

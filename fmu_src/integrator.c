@@ -490,6 +490,7 @@ static double largest_of(StateScale scale)
 {
     switch (scale) {
     case SCALE_LENGTH:
+    case SCALE_NORMAL:
     case SCALE_VELOCITY: return 1e6;
     case SCALE_ANGLE: return 1e15;
     case SCALE_TILT:

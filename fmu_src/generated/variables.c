@@ -25,7 +25,7 @@ const StateBlock STATE_BLOCKS[N_STATE_BLOCKS] = {
     {Y_JOINT_HEAD_Z, Z, SCALE_HEAD, "joint_head_z"},
     {Y_WORK, 1, SCALE_ENERGY, "work"},
     {Y_BALL_V_X, Z, SCALE_VELOCITY, "ball_v_x"},
-    {Y_BALL_V_R, Z, SCALE_VELOCITY, "ball_v_r"},
+    {Y_BALL_V_R, Z, SCALE_NORMAL, "ball_v_r"},
     {Y_BALL_OMEGA_M, Z, SCALE_RATE, "ball_omega_m"},
     {Y_CAGE_V_X, 2, SCALE_VELOCITY, "cage_v_x"},
     {Y_CAGE_V_Y, 2, SCALE_VELOCITY, "cage_v_y"},

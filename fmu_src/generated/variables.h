@@ -9,7 +9,7 @@
 
 #define FMI2_FUNCTION_PREFIX RivetedBearing_  // of the functions of a source-code FMU
 #define MODEL_IDENTIFIER "RivetedBearing"
-#define MODEL_GUID "{ae90d931-2552-60c4-e165-eb69ae509731}"  // digest of the table
+#define MODEL_GUID "{ad71f07a-49a6-5e98-1702-845a12692532}"  // digest of the table
 
 enum { Z = 9 };  // number of balls
 
@@ -447,6 +447,7 @@ typedef enum {
     SCALE_HEAD,
     SCALE_ENERGY,
     SCALE_VELOCITY,
+    SCALE_NORMAL,
     SCALE_RATE,
     SCALE_SPIN,
     SCALE_COUNT
