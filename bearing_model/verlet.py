@@ -85,6 +85,8 @@ class Blocks:
     K: np.ndarray
     A_stiff: np.ndarray
     K_stiff: np.ndarray
+    axial: float = 0.0  # weights of the position correction of one half against the other: along the axis, across it
+    shear: float = 0.0
 
     def matrix(self, gamma):
         return np.eye(N_V) + gamma * self.A + gamma**2 * self.K
@@ -220,11 +222,21 @@ def jacobian_blocks(model, t, y, w, gamma):
     A, K, A_stiff = (force / M + np.diag(support) for force, support in zip(ball_blocks(model, w, gamma), ring_support(model), strict=True))
     A_0, A_1 = land_rates(model, land_films(w), w.film_spin)
     K_stiff = A_0 @ A_1  # the lands of a rigid cage one after the other: (1 + gamma A_0)(1 + gamma A_1); 0 for two halves
+    axial = shear = 0.0
     if model.p.scene.cage == CageModel.TWO_HALF:
-        A_joint, K_joint = joint_blocks(model, w)
-        A_cage, K_cage, K_shear = A_0 + A_1 + A_joint / M, K_joint / M, shear_blocks(model, w, gamma) / M
-        A, K = A + A_joint / M, K + K_cage + K_shear + gamma * A_cage @ K_shear + gamma**2 * K_cage @ K_shear  # shear after films and axial motion
-    return Blocks(A + A_0 + A_1, K + K_stiff, A_stiff + A_0 + A_1, K_stiff)
+        (A_joint, K_joint), K_shear = (force / M for force in joint_blocks(model, w)), shear_blocks(model, w, gamma) / M
+        weight, axial = vibration_weights(8.0 * np.max(np.diag(gamma * A_joint + gamma**2 * K_joint)[HALF[[0, 3, 4], 0]]))
+        weight_shear, shear = vibration_weights(8.0 * gamma**2 * np.max(np.diag(K_shear)[HALF[[1, 5], 0]]))
+        A_joint, K_joint, K_shear = weight * A_joint, weight * K_joint, weight_shear * K_shear
+        A_cage = A_0 + A_1 + A_joint
+        A, K = A + A_joint, K + K_joint + K_shear + gamma * A_cage @ K_shear + gamma**2 * K_joint @ K_shear  # shear after films and axial motion
+    return Blocks(A + A_0 + A_1, K + K_stiff, A_stiff + A_0 + A_1, K_stiff, axial, shear)
+
+
+def vibration_weights(x_2):
+    """Weights of a vibration between the halves that turns by x = omega h a step, given x^2: of K in the matrix, of the position correction."""
+    part = x_2**2 / (x_2**2 + 16.0)
+    return 1.0 / 3.0 + part * (1.5 - 1.0 / 3.0), 1.0 / 3.0 + part * (1.7 - 1.0 / 3.0)
 
 
 def masked_jacobian(model, t, y, w, gamma):
@@ -232,7 +244,7 @@ def masked_jacobian(model, t, y, w, gamma):
     kept, J = jacobian_blocks(model, t, y, w, gamma), jacobian(model, t, y)
     by_position = np.zeros((N_V, N_V))
     by_position[:, POSITIONS] = J[V, POSITIONS]  # velocities are in the order of their positions
-    return Blocks(np.where(kept.A != 0.0, -J[V, V], 0.0), np.where(kept.K != 0.0, -by_position, 0.0), kept.A_stiff, kept.K_stiff)
+    return Blocks(np.where(kept.A != 0.0, -J[V, V], 0.0), np.where(kept.K != 0.0, -by_position, 0.0), kept.A_stiff, kept.K_stiff, kept.axial, kept.shear)
 
 
 # ------------------------------------------------------------------------------------------------------------------------ step
@@ -278,19 +290,20 @@ def dissipation_correction(model, w, gamma, residual, delta):
     return np.sum(power)
 
 
-def correct_positions(model, gamma, delta, y):
-    """Where a stiffness acts, positions follow the trapezoidal rule too: q_{n+1} += gamma (v_{n+1} - v_n - h a_n)."""
+def correct_positions(model, gamma, delta, b, y):
+    """Where a stiffness acts, positions follow the trapezoidal rule too, q_{n+1} += gamma (v_{n+1} - v_n - h a_n); one half against the other with its weights."""
     y[BALL_X] += gamma * delta[BALL[0]]
     y[BALL_R] += gamma * delta[BALL[1]]
     if model.p.ring.tilt_mode != TiltMode.FREE:
         y[RING_BETA.start : RING_GAMMA.stop] += gamma * delta[RING[3:]]
     if model.p.scene.cage == CageModel.TWO_HALF:  # the motion of one half against the other
-        for q, rows in zip((CAGE_X, CAGE_Y, CAGE_Z, CAGE_BETA, CAGE_GAMMA, CAGE_PSI), HALF, strict=True):
-            y[q] += 0.5 * gamma * (delta[rows[1]] - delta[rows[0]]) * np.array([-1.0, 1.0])
+        weights = (b.axial, b.shear, b.shear, b.axial, b.axial, b.shear)
+        for q, rows, c in zip((CAGE_X, CAGE_Y, CAGE_Z, CAGE_BETA, CAGE_GAMMA, CAGE_PSI), HALF, weights, strict=True):
+            y[q] += 0.5 * c * gamma * (delta[rows[1]] - delta[rows[0]]) * np.array([-1.0, 1.0])
 
 
-def correct_friction(model, w, gamma, delta, y):
-    """The friction states are deflections of springs and follow likewise: z_{n+1} += gamma u/(1 + gamma D), u the change of the velocity at the joint."""
+def correct_friction(model, w, gamma, delta, c, y):
+    """The friction states are deflections of springs and follow likewise: z_{n+1} += c gamma u/(1 + gamma D), u the change of the joint's velocity."""
     if model.p.scene.cage != CageModel.TWO_HALF:
         return
     d, h0 = model.d, w.half[0]
@@ -299,7 +312,7 @@ def correct_friction(model, w, gamma, delta, y):
     u = u_y - ds * d.rivet_z, u_z + ds * d.rivet_y
     for rate, blocks in ((w.plate_rate, (JOINT_PLATE_Y, JOINT_PLATE_Z)), (w.head_rate, (JOINT_HEAD_Y, JOINT_HEAD_Z))):
         for u_i, z in zip(u, blocks, strict=True):
-            y[z] += gamma * u_i / (1.0 + gamma * rate)
+            y[z] += c * gamma * u_i / (1.0 + gamma * rate)
 
 
 def verlet_step(model, t, h, weight, start, blocks=jacobian_blocks):
@@ -318,8 +331,8 @@ def verlet_step(model, t, h, weight, start, blocks=jacobian_blocks):
     delta = np.linalg.solve(b.matrix(gamma), residual)
     end.f[WORK] += dissipation_correction(model, w, gamma, residual, delta)
     delta -= held  # from here on delta = v_{n+1} - v_n - h a_n
-    correct_positions(model, gamma, delta, y)
-    correct_friction(model, w, gamma, delta, y)
+    correct_positions(model, gamma, delta, b, y)
+    correct_friction(model, w, gamma, delta, b.shear, y)
     y[V] = v + h * a + delta
     y[WORK] += gamma * (f[WORK] + end.f[WORK])
 

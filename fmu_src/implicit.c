@@ -362,6 +362,17 @@ static void half_store(const Half *half, double *v, int h)
     v[Y_CAGE_BETA_DOT + h] = half->beta, v[Y_CAGE_GAMMA_DOT + h] = half->gamma, v[Y_CAGE_S + h] = half->s;
 }
 
+// Weights of a vibration between the halves that turns by x = omega h a step, given x^2: `matrix` multiplies K in the
+// matrix, the return value c the position correction.  Both are 1/3 for small x, which makes the frequency exact to
+// order four (Fox and Goodwin); for large x they tend to 1.5 and 1.7, which takes 22 % of the amplitude a step:
+// what the step cannot resolve dies out (docs/method.md).
+static double vibration_weights(double x_2, double *matrix)
+{
+    const double part = x_2 * x_2 / (x_2 * x_2 + 16.0);
+    *matrix = 1.0 / 3.0 + part * (1.5 - 1.0 / 3.0);
+    return 1.0 / 3.0 + part * (1.7 - 1.0 / 3.0);
+}
+
 // C = sum over the rivets of (gamma c + gamma^2 k) b b^T, b = (1, z, -y): what holds back the axial motion of
 // half 1 against half 0, (v_x, beta_dot, gamma_dot).  y, z: place of the rivet, turned with half 0.
 static void joint_matrix(const Model *model, const Work *w, double gamma, double C[3][3])
@@ -415,11 +426,15 @@ static void solve_3(double B[3][3], double x[3])
 // Holds back the axial motion of half 1 against half 0, both already held back by their films f.  With dv
 // their relative velocity (v_x, beta_dot, gamma_dot) and G its change by unit impulses, again under the
 // films, the impulses of the joints are x = C (dv - G x): three equations (1 + C G) x = C dv, the form of
-// Woodbury again.
-static void solve_joints(const Model *model, const Work *w, double gamma, const Film f[2], Half half[2])
+// Woodbury again.  C is multiplied by the weight of the fastest of the three vibrations; returns the position
+// correction's weight.
+static double solve_joints(const Model *model, const Work *w, double gamma, const Film f[2], Half half[2])
 {
-    double C[3][3], B[3][3], x[3], G_xx = 0.0, G_bb = 0.0, G_bg = 0.0, G_gg = 0.0;
+    double C[3][3], B[3][3], x[3], weight, G_xx = 0.0, G_bb = 0.0, G_bg = 0.0, G_gg = 0.0;
     joint_matrix(model, w, gamma, C);
+    const double tilt = fmax(C[1][1], C[2][2]) / model->d->J_t;
+    const double correction = vibration_weights(8.0 * fmax(C[0][0] / model->p->cage.m, tilt), &weight);
+    for (int i = 0; i < 9; i++) C[i / 3][i % 3] *= weight;
 
     // G of both halves; indices b, g: beta, gamma.  A film knows no axial motion.
     for (int h = 0; h < 2; h++) {
@@ -450,6 +465,7 @@ static void solve_joints(const Model *model, const Work *w, double gamma, const 
         half[h].x += change.x, half[h].y += change.y, half[h].z += change.z;
         half[h].beta += change.beta, half[h].gamma += change.gamma;
     }
+    return correction;
 }
 
 // Stiffness [N/m] across the axis of a packet's joints from k on, as a step of length 2 gamma meets it: sticking plates
@@ -462,10 +478,10 @@ static wide shear_stiffness(const Model *model, const Work *w, double gamma, int
 }
 
 // Holds back the motion of half 1 against half 0 across the axis and about it, (v_y, v_z, s): at a rivet at (y, z) its
-// velocity is (v_y - s z, v_z + s y).  The impulses are x = C (dv - G x) again, C the sum of gamma^2 k over the joints
+// velocity is (v_y - s z, v_z + s y).  Weights and result as along the axis.  The impulses are x = C (dv - G x) again, C the sum of gamma^2 k over the joints
 // and G = 2 diag(1/m, 1/m, 1/J_p): the films, which have been solved before, are left out, and so is the lever x_c of
 // the joints from the centres of mass, 0.2 % of the halves' response.
-static void solve_shear(const Model *model, const Work *w, double gamma, Half half[2])
+static double solve_shear(const Model *model, const Work *w, double gamma, Half half[2])
 {
     const Derived *d = model->d;
     const Rotor *h0 = &w->half[0];
@@ -481,11 +497,13 @@ static void solve_shear(const Model *model, const Work *w, double gamma, Half ha
         wide_store(&rate_z[k], rate_k * z);
         wide_store(&rate_rr[k], rate_k * (y * y + z * z));
     }
-    const double c = ball_array_sum(rate), c_y = ball_array_sum(rate_y), c_z = ball_array_sum(rate_z);
-    const double c_rr = ball_array_sum(rate_rr);
+    const double m = model->p->cage.m, J_p = d->J_p, G_m = 2.0 / m, G_J = 2.0 / J_p;
+    double c = ball_array_sum(rate), c_y = ball_array_sum(rate_y), c_z = ball_array_sum(rate_z);
+    double c_rr = ball_array_sum(rate_rr), weight;
+    const double correction = vibration_weights(4.0 * fmax(c * G_m, c_rr * G_J), &weight);
+    c *= weight, c_y *= weight, c_z *= weight, c_rr *= weight;
 
     // (1 + C G) x = C dv.
-    const double m = model->p->cage.m, J_p = d->J_p, G_m = 2.0 / m, G_J = 2.0 / J_p;
     const double dv_y = half[1].y - half[0].y, dv_z = half[1].z - half[0].z, ds = half[1].s - half[0].s;
     double B[3][3] = {{1.0 + c * G_m, 0.0, -c_z * G_J},  //
                       {0.0, 1.0 + c * G_m, c_y * G_J},   //
@@ -498,11 +516,13 @@ static void solve_shear(const Model *model, const Work *w, double gamma, Half ha
         half[h].z += sign * x[1] / m;
         half[h].s += sign * x[2] / J_p;
     }
+    return correction;
 }
 
 // (1 + gamma A + gamma^2 K)^-1 of both halves.  The lands of a rigid cage are solved one after the other,
 // which differs from both together by gamma^2 A_0 A_1, a choice of K.
-static void solve_halves(const Model *model, const Work *w, double gamma, double *v)
+static void solve_halves(const Model *model, const Work *w, double gamma, double *v,
+                         HalfCorrection *correction)
 {
     Film f[2][2];
     Half half[2];
@@ -513,8 +533,8 @@ static void solve_halves(const Model *model, const Work *w, double gamma, double
     }
     const Film own[2] = {f[0][0], f[1][0]};
     if (model->p->scene.cage == CAGE_MODEL_TWO_HALF) {
-        solve_joints(model, w, gamma, own, half);
-        solve_shear(model, w, gamma, half);
+        correction->axial = solve_joints(model, w, gamma, own, half);
+        correction->shear = solve_shear(model, w, gamma, half);
     }
     for (int h = 0; h < 2; h++) half_store(&half[h], v, h);
 }
@@ -638,7 +658,7 @@ static void stiff_part_of_ring(const Model *model, double gamma, double *v)
 
 // ---- all --------------------------------------------------------------------------------------------------
 
-void implicit_solve(const Model *model, const Work *w, double gamma, double *v)
+void implicit_solve(const Model *model, const Work *w, double gamma, double *v, HalfCorrection *correction)
 {
     ball_array rows[BLOCK];
     Coupling coupling;
@@ -656,7 +676,7 @@ void implicit_solve(const Model *model, const Work *w, double gamma, double *v)
     store_balls(rows, v);
 
     // The cage, which A and K do not couple with the rest.
-    solve_halves(model, w, gamma, v);
+    solve_halves(model, w, gamma, v, correction);
 }
 
 void implicit_stiff_part(const Model *model, const Work *w, double gamma, double *v)

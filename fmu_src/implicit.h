@@ -6,9 +6,15 @@
 #include "isa.h"
 #include "model.h"
 
+// Factors c of the position correction c gamma delta of half 1 against half 0: along the axis, across it.
+typedef struct {
+    double axial, shear;
+} HalfCorrection;
+
 // v = (1 + gamma A + gamma^2 K)^-1 v, A and K at the evaluation w.  v has the rows of the state vector; only
-// velocities are read and written.
-typedef void ImplicitSolve(const Model *model, const Work *w, double gamma, double *v);
+// velocities are read and written.  Sets the position correction that belongs to K.
+typedef void ImplicitSolve(const Model *model, const Work *w, double gamma, double *v,
+                           HalfCorrection *correction);
 ImplicitSolve implicit_solve;
 
 // v = (1 + gamma A)^-1 v of the cage halves' velocities, A of the lands' films alone.

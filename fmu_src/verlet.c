@@ -109,9 +109,10 @@ static double dissipation_correction(const Model *model, const double *y, double
 }
 
 // Where a stiffness acts, positions follow the trapezoidal rule too: q_{n+1} += gamma delta with
-// delta = v_{n+1} - v_n - h a_n.  These are the balls' axial and radial positions, the tilts of a supported
-// or prescribed ring, and the motion of one cage half against the other.
-static void correct_positions(const Model *model, double gamma, const double *delta, double *y)
+// delta = v_{n+1} - v_n - h a_n.  These are the balls' axial and radial positions and the tilts of a supported or
+// prescribed ring.  The motion of one cage half against the other has weights of its own (implicit.c).
+static void correct_positions(const Model *model, double gamma, const double *delta, HalfCorrection c,
+                              double *y)
 {
     for (int i = 0; i < 2 * Z; i++) y[Y_BALL_X + i] += gamma * delta[VELOCITY + Y_BALL_X + i];
     if (model->p->ring.tilt_mode != TILT_MODE_FREE)
@@ -119,15 +120,19 @@ static void correct_positions(const Model *model, double gamma, const double *de
     if (model->p->scene.cage == CAGE_MODEL_RIGID) return;
     for (int half_0 = Y_CAGE_X; half_0 < Y_RING_X; half_0 += 2) {
         const int half_1 = half_0 + 1;
-        const double share = 0.5 * gamma * (delta[VELOCITY + half_1] - delta[VELOCITY + half_0]);
+        const bool axial = half_0 == Y_CAGE_X || half_0 == Y_CAGE_BETA || half_0 == Y_CAGE_GAMMA;
+        const double weight = 0.5 * gamma * (axial ? c.axial : c.shear);
+        const double share = weight * (delta[VELOCITY + half_1] - delta[VELOCITY + half_0]);
         y[half_0] -= share;
         y[half_1] += share;
     }
 }
 
-// The friction states are the deflections of springs and follow likewise: z_{n+1} += gamma u/(1 + gamma D) with the
-// change u of the velocity of half 1 against half 0 at the joint, in the frame of half 0, and the decay D of z.
-static void correct_friction(const Model *model, const Work *w, double gamma, const double *delta, double *y)
+// The friction states are the deflections of springs and follow likewise: z_{n+1} += c gamma u/(1 + gamma D) with the
+// change u of the velocity of half 1 against half 0 at the joint, in the frame of half 0, the decay D of z and the
+// weight c of the motion across the axis.
+static void correct_friction(const Model *model, const Work *w, double gamma, const double *delta, double c,
+                             double *y)
 {
     if (model->p->scene.cage == CAGE_MODEL_RIGID) return;
     const Derived *d = model->d;
@@ -137,8 +142,8 @@ static void correct_friction(const Model *model, const Work *w, double gamma, co
     const double u_0y = h0->b_y[1] * dv_y + h0->b_y[2] * dv_z, u_0z = h0->b_z[1] * dv_y + h0->b_z[2] * dv_z;
     for (int k = 0; k < Z; k++) {
         const double u_y = u_0y - ds * d->rivet_z[k], u_z = u_0z + ds * d->rivet_y[k];
-        const double plate = gamma / (1.0 + gamma * w->plate_rate[k]);
-        const double head = gamma / (1.0 + gamma * w->head_rate[k]);
+        const double plate = c * gamma / (1.0 + gamma * w->plate_rate[k]);
+        const double head = c * gamma / (1.0 + gamma * w->head_rate[k]);
         y[Y_JOINT_PLATE_Y + k] += plate * u_y;
         y[Y_JOINT_PLATE_Z + k] += plate * u_z;
         y[Y_JOINT_HEAD_Y + k] += head * u_y;
@@ -197,6 +202,7 @@ double verlet_step(const Model *model, double t, double h, const double *weight,
 {
     const double gamma = 0.5 * h, *f = from->f;
     double removed[N_STATES], residual[N_STATES], delta[N_STATES], error[N_STATES], *y = to->y;
+    HalfCorrection correction;
 
     // Positions of the step's end; predicted velocities v^ there; the evaluation.
     advance_positions(model, h, from, y, w);
@@ -210,7 +216,7 @@ double verlet_step(const Model *model, double t, double h, const double *weight,
     for (int i = VELOCITY; i < N_STATES; i++) residual[i] = gamma * (to->f[i] - f[i]);
     for (int i = CAGE; i < CAGE_END; i++) residual[i] += removed[i];
     for (int i = VELOCITY; i < N_STATES; i++) delta[i] = residual[i];
-    implicit_solve(model, w, gamma, delta);
+    implicit_solve(model, w, gamma, delta, &correction);
     to->f[Y_WORK] += dissipation_correction(model, y, gamma, residual, delta);
 
     // The limiter is given back: from here on delta is v_{n+1} - v_n - h a_n.
@@ -219,8 +225,8 @@ double verlet_step(const Model *model, double t, double h, const double *weight,
         delta[i] -= removed[i];
     }
     for (int i = VELOCITY; i < N_STATES; i++) y[i] += delta[i];
-    correct_positions(model, gamma, delta, y);
-    correct_friction(model, w, gamma, delta, y);
+    correct_positions(model, gamma, delta, correction, y);
+    correct_friction(model, w, gamma, delta, correction.shear, y);
 
     // The work by the trapezoidal rule.
     y[Y_WORK] += gamma * (f[Y_WORK] + to->f[Y_WORK]);
