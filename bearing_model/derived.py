@@ -185,23 +185,25 @@ def derive_joint(p, d, table):
 
 
 def derive_scales(p, d):
-    """Errors that tolerance 1 allows.  Two of them are wider than the others because nothing follows from them (docs/method.md):
+    """Errors that tolerance 1 allows (docs/method.md).
 
-    a ball's velocity along the contact normals, where a step's error moves the ball by a nanometre, and the friction states, whose error is a force that
-    hardly changes the velocity of a half within a step.
+    A ball's velocity along its orbit decides how it meets its pocket and is finer than the others.  Two are wider because little follows from them: a ball's
+    velocity along the contact normals, where a step's error moves the ball by nanometres, and the friction states, whose error is a force that hardly changes
+    the velocity of a half within a step.
     """
-    length, velocity, r = 1e-5, 0.1, 0.5 * p.bearing.d_m
+    length, velocity, r = 1e-5, 0.2, 0.5 * p.bearing.d_m
     slip = max(p.joint.mu * d.P, 3.0)  # force at which plates slip; of a loose joint the default's
     by_class = {
         "length": length,
         "velocity": velocity,
         "normal": 3.0 * velocity,
+        "orbit": velocity / 6.0 / r,
         "angle": length / r,
         "tilt": length / r,
         "rate": velocity / r,
         "spin": velocity / (0.5 * p.bearing.D),
-        "plate": 10.0 * slip / d.k_plate_t,
-        "head": 10.0 * slip / d.k_head,
+        "plate": 20.0 * slip / d.k_plate_t,
+        "head": 20.0 * slip / d.k_head,
         "energy": 1e30,
     }
     d.scale = np.empty(N_STATES)

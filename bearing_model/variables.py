@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from enum import IntEnum
 
 MODEL_IDENTIFIER = "RivetedBearing"
-MODEL_GUID = "{ad71f07a-49a6-5e98-1702-845a12692532}"
+MODEL_GUID = "{a388ccb8-d77c-c1b9-c3f0-6b45e3f1abb2}"
 Z = 9
 
 
@@ -516,7 +516,7 @@ STATE_SCALES = {
     "work": "energy",
     "ball_v_x": "velocity",
     "ball_v_r": "normal",
-    "ball_omega_m": "rate",
+    "ball_omega_m": "orbit",
     "cage_v_x": "velocity",
     "cage_v_y": "velocity",
     "cage_v_z": "velocity",

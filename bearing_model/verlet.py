@@ -85,6 +85,7 @@ class Blocks:
     K: np.ndarray
     A_stiff: np.ndarray
     K_stiff: np.ndarray
+    K_shear: np.ndarray = field(default_factory=lambda: np.zeros((N_V, N_V)))  # of the joints across the axis: a factor of its own
     axial: float = 0.0  # weights of the position correction of one half against the other: along the axis, across it
     shear: float = 0.0
 
@@ -222,20 +223,18 @@ def jacobian_blocks(model, t, y, w, gamma):
     A, K, A_stiff = (force / M + np.diag(support) for force, support in zip(ball_blocks(model, w, gamma), ring_support(model), strict=True))
     A_0, A_1 = land_rates(model, land_films(w), w.film_spin)
     K_stiff = A_0 @ A_1  # the lands of a rigid cage one after the other: (1 + gamma A_0)(1 + gamma A_1); 0 for two halves
-    axial = shear = 0.0
+    K_shear, axial, shear = np.zeros((N_V, N_V)), 0.0, 0.0
     if model.p.scene.cage == CageModel.TWO_HALF:
         (A_joint, K_joint), K_shear = (force / M for force in joint_blocks(model, w)), shear_blocks(model, w, gamma) / M
         weight, axial = vibration_weights(8.0 * np.max(np.diag(gamma * A_joint + gamma**2 * K_joint)[HALF[[0, 3, 4], 0]]))
         weight_shear, shear = vibration_weights(8.0 * gamma**2 * np.max(np.diag(K_shear)[HALF[[1, 5], 0]]))
-        A_joint, K_joint, K_shear = weight * A_joint, weight * K_joint, weight_shear * K_shear
-        A_cage = A_0 + A_1 + A_joint
-        A, K = A + A_joint, K + K_joint + K_shear + gamma * A_cage @ K_shear + gamma**2 * K_joint @ K_shear  # shear after films and axial motion
-    return Blocks(A + A_0 + A_1, K + K_stiff, A_stiff + A_0 + A_1, K_stiff, axial, shear)
+        A, K, K_shear = A + weight * A_joint, K + weight * K_joint, weight_shear * K_shear
+    return Blocks(A + A_0 + A_1, K + K_stiff, A_stiff + A_0 + A_1, K_stiff, K_shear, axial, shear)
 
 
 def vibration_weights(x_2):
     """Weights of a vibration between the halves that turns by x = omega h a step, given x^2: of K in the matrix, of the position correction."""
-    part = x_2**2 / (x_2**2 + 16.0)
+    part = x_2**2 / (x_2**2 + 1.0)
     return 1.0 / 3.0 + part * (1.5 - 1.0 / 3.0), 1.0 / 3.0 + part * (1.7 - 1.0 / 3.0)
 
 
@@ -244,7 +243,9 @@ def masked_jacobian(model, t, y, w, gamma):
     kept, J = jacobian_blocks(model, t, y, w, gamma), jacobian(model, t, y)
     by_position = np.zeros((N_V, N_V))
     by_position[:, POSITIONS] = J[V, POSITIONS]  # velocities are in the order of their positions
-    return Blocks(np.where(kept.A != 0.0, -J[V, V], 0.0), np.where(kept.K != 0.0, -by_position, 0.0), kept.A_stiff, kept.K_stiff, kept.axial, kept.shear)
+    return Blocks(
+        np.where(kept.A != 0.0, -J[V, V], 0.0), np.where(kept.K != 0.0, -by_position, 0.0), kept.A_stiff, kept.K_stiff, kept.K_shear, kept.axial, kept.shear
+    )
 
 
 # ------------------------------------------------------------------------------------------------------------------------ step
@@ -328,6 +329,7 @@ def verlet_step(model, t, h, weight, start, blocks=jacobian_blocks):
 
     # One linear solve takes the predicted velocities to those of the trapezoidal rule.
     b, residual = blocks(model, t + h, y, w, gamma), held + gamma * (end.f[V] - a)
+    residual = np.linalg.solve(np.eye(N_V) + gamma**2 * b.K_shear, residual)
     delta = np.linalg.solve(b.matrix(gamma), residual)
     end.f[WORK] += dissipation_correction(model, w, gamma, residual, delta)
     delta -= held  # from here on delta = v_{n+1} - v_n - h a_n

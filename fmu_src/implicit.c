@@ -22,7 +22,8 @@
 // of ball and cage.
 //
 // Order of elimination: balls, 6 x 6 each; by their Schur complement the ring, 5 x 5; the halves by
-// themselves, their films first, then the joints between them along the axis, then those across it.  Rolling couples the velocities of a ball as
+// themselves, their films first, then the joints between them.  The joints' stiffness across the axis is a
+// factor of its own, solved before (implicit_shear).  Rolling couples the velocities of a ball as
 // strongly as it holds each one back: a diagonal matrix would leave stiff terms outside.
 #include "implicit.h"
 
@@ -368,7 +369,7 @@ static void half_store(const Half *half, double *v, int h)
 // what the step cannot resolve dies out (docs/method.md).
 static double vibration_weights(double x_2, double *matrix)
 {
-    const double part = x_2 * x_2 / (x_2 * x_2 + 16.0);
+    const double part = x_2 * x_2 / (x_2 * x_2 + 1.0);
     *matrix = 1.0 / 3.0 + part * (1.5 - 1.0 / 3.0);
     return 1.0 / 3.0 + part * (1.7 - 1.0 / 3.0);
 }
@@ -478,11 +479,12 @@ static wide shear_stiffness(const Model *model, const Work *w, double gamma, int
 }
 
 // Holds back the motion of half 1 against half 0 across the axis and about it, (v_y, v_z, s): at a rivet at (y, z) its
-// velocity is (v_y - s z, v_z + s y).  Weights and result as along the axis.  The impulses are x = C (dv - G x) again, C the sum of gamma^2 k over the joints
-// and G = 2 diag(1/m, 1/m, 1/J_p): the films, which have been solved before, are left out, and so is the lever x_c of
-// the joints from the centres of mass, 0.2 % of the halves' response.
-static double solve_shear(const Model *model, const Work *w, double gamma, Half half[2])
+// velocity is (v_y - s z, v_z + s y).  Weights and result as along the axis.  The impulses are x = C (dv - G x) again,
+// C the sum of gamma^2 k over the joints and G = 2 diag(1/m, 1/m, 1/J_p).  Left out is the lever x_c of the joints
+// from the centres of mass, 0.2 % of the halves' response.
+double implicit_shear(const Model *model, const Work *w, double gamma, double *v)
 {
+    if (model->p->scene.cage == CAGE_MODEL_RIGID) return 0.0;
     const Derived *d = model->d;
     const Rotor *h0 = &w->half[0];
 
@@ -504,7 +506,8 @@ static double solve_shear(const Model *model, const Work *w, double gamma, Half 
     c *= weight, c_y *= weight, c_z *= weight, c_rr *= weight;
 
     // (1 + C G) x = C dv.
-    const double dv_y = half[1].y - half[0].y, dv_z = half[1].z - half[0].z, ds = half[1].s - half[0].s;
+    const double dv_y = v[Y_CAGE_V_Y + 1] - v[Y_CAGE_V_Y], dv_z = v[Y_CAGE_V_Z + 1] - v[Y_CAGE_V_Z];
+    const double ds = v[Y_CAGE_S + 1] - v[Y_CAGE_S];
     double B[3][3] = {{1.0 + c * G_m, 0.0, -c_z * G_J},  //
                       {0.0, 1.0 + c * G_m, c_y * G_J},   //
                       {-c_z * G_m, c_y * G_m, 1.0 + c_rr * G_J}};
@@ -512,17 +515,16 @@ static double solve_shear(const Model *model, const Work *w, double gamma, Half 
     solve_3(B, x);
     for (int h = 0; h < 2; h++) {
         const double sign = h == 0 ? 1.0 : -1.0;
-        half[h].y += sign * x[0] / m;
-        half[h].z += sign * x[1] / m;
-        half[h].s += sign * x[2] / J_p;
+        v[Y_CAGE_V_Y + h] += sign * x[0] / m;
+        v[Y_CAGE_V_Z + h] += sign * x[1] / m;
+        v[Y_CAGE_S + h] += sign * x[2] / J_p;
     }
     return correction;
 }
 
 // (1 + gamma A + gamma^2 K)^-1 of both halves.  The lands of a rigid cage are solved one after the other,
-// which differs from both together by gamma^2 A_0 A_1, a choice of K.
-static void solve_halves(const Model *model, const Work *w, double gamma, double *v,
-                         HalfCorrection *correction)
+// which differs from both together by gamma^2 A_0 A_1, a choice of K.  Returns what solve_joints does.
+static double solve_halves(const Model *model, const Work *w, double gamma, double *v)
 {
     Film f[2][2];
     Half half[2];
@@ -532,11 +534,10 @@ static void solve_halves(const Model *model, const Work *w, double gamma, double
         for (int land = 0; land < count; land++) film_solve(&f[h][land], &half[h]);
     }
     const Film own[2] = {f[0][0], f[1][0]};
-    if (model->p->scene.cage == CAGE_MODEL_TWO_HALF) {
-        correction->axial = solve_joints(model, w, gamma, own, half);
-        correction->shear = solve_shear(model, w, gamma, half);
-    }
+    double correction = 0.0;
+    if (model->p->scene.cage == CAGE_MODEL_TWO_HALF) correction = solve_joints(model, w, gamma, own, half);
     for (int h = 0; h < 2; h++) half_store(&half[h], v, h);
+    return correction;
 }
 
 void implicit_films(const Model *model, const Work *w, double gamma, double *v)
@@ -658,7 +659,7 @@ static void stiff_part_of_ring(const Model *model, double gamma, double *v)
 
 // ---- all --------------------------------------------------------------------------------------------------
 
-void implicit_solve(const Model *model, const Work *w, double gamma, double *v, HalfCorrection *correction)
+double implicit_solve(const Model *model, const Work *w, double gamma, double *v)
 {
     ball_array rows[BLOCK];
     Coupling coupling;
@@ -676,7 +677,7 @@ void implicit_solve(const Model *model, const Work *w, double gamma, double *v, 
     store_balls(rows, v);
 
     // The cage, which A and K do not couple with the rest.
-    solve_halves(model, w, gamma, v, correction);
+    return solve_halves(model, w, gamma, v);
 }
 
 void implicit_stiff_part(const Model *model, const Work *w, double gamma, double *v)

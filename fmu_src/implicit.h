@@ -6,16 +6,15 @@
 #include "isa.h"
 #include "model.h"
 
-// Factors c of the position correction c gamma delta of half 1 against half 0: along the axis, across it.
-typedef struct {
-    double axial, shear;
-} HalfCorrection;
-
 // v = (1 + gamma A + gamma^2 K)^-1 v, A and K at the evaluation w.  v has the rows of the state vector; only
-// velocities are read and written.  Sets the position correction that belongs to K.
-typedef void ImplicitSolve(const Model *model, const Work *w, double gamma, double *v,
-                           HalfCorrection *correction);
+// velocities are read and written.  Returns the weight c of the position correction c gamma delta of half 1 against
+// half 0 along the axis.
+typedef double ImplicitSolve(const Model *model, const Work *w, double gamma, double *v);
 ImplicitSolve implicit_solve;
+
+// v = (1 + gamma^2 K)^-1 v with the joints' stiffness across the axis, a factor of the matrix of its own.  Returns
+// the weight of the position correction across the axis.
+double implicit_shear(const Model *model, const Work *w, double gamma, double *v);
 
 // v = (1 + gamma A)^-1 v of the cage halves' velocities, A of the lands' films alone.
 void implicit_films(const Model *model, const Work *w, double gamma, double *v);

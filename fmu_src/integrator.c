@@ -497,6 +497,7 @@ static double largest_of(StateScale scale)
     case SCALE_PLATE:
     case SCALE_HEAD: return 1.0;
     case SCALE_RATE:
+    case SCALE_ORBIT:
     case SCALE_SPIN: return 1e9;
     case SCALE_ENERGY: return 1e30;
     case SCALE_COUNT: break;

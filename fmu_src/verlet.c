@@ -6,7 +6,7 @@
 //   q_{n+1} = q_n + h q'(q_m, v_m),  q_m = q_n + gamma v_m         friction states z: implicit midpoint rule
 //   v^ = v_n + h a_n - limiter                                     predictor; the limiter is the cage's
 //   a^ = a(t_{n+1}, q_{n+1}, v^)                                   the evaluation
-//   (1 + gamma A + gamma^2 K) delta = v_n - v^ + gamma (a_n + a^)  one Newton iteration
+//   S (1 + gamma A + gamma^2 K) delta = v_n - v^ + gamma (a_n + a^)  one Newton iteration; S: implicit_shear
 //   v_{n+1} = v^ + delta,  a_{n+1} = (v_{n+1} - v_n)/gamma - a_n   v_{n+1} = v_n + gamma (a_n + a_{n+1})
 //   q_{n+1} += gamma (v_{n+1} - v_n - h a_n)                       where K acts, z too: trapezoidal rule
 //   a_{n+1} -= SMOOTHING H (a_{n+1} - 2 a_n + a_{n-1})             stiff rates: H = 1 - (1 + gamma A)^-1
@@ -111,8 +111,8 @@ static double dissipation_correction(const Model *model, const double *y, double
 // Where a stiffness acts, positions follow the trapezoidal rule too: q_{n+1} += gamma delta with
 // delta = v_{n+1} - v_n - h a_n.  These are the balls' axial and radial positions and the tilts of a supported or
 // prescribed ring.  The motion of one cage half against the other has weights of its own (implicit.c).
-static void correct_positions(const Model *model, double gamma, const double *delta, HalfCorrection c,
-                              double *y)
+static void correct_positions(const Model *model, double gamma, const double *delta, double axial,
+                              double shear, double *y)
 {
     for (int i = 0; i < 2 * Z; i++) y[Y_BALL_X + i] += gamma * delta[VELOCITY + Y_BALL_X + i];
     if (model->p->ring.tilt_mode != TILT_MODE_FREE)
@@ -120,8 +120,8 @@ static void correct_positions(const Model *model, double gamma, const double *de
     if (model->p->scene.cage == CAGE_MODEL_RIGID) return;
     for (int half_0 = Y_CAGE_X; half_0 < Y_RING_X; half_0 += 2) {
         const int half_1 = half_0 + 1;
-        const bool axial = half_0 == Y_CAGE_X || half_0 == Y_CAGE_BETA || half_0 == Y_CAGE_GAMMA;
-        const double weight = 0.5 * gamma * (axial ? c.axial : c.shear);
+        const bool along = half_0 == Y_CAGE_X || half_0 == Y_CAGE_BETA || half_0 == Y_CAGE_GAMMA;
+        const double weight = 0.5 * gamma * (along ? axial : shear);
         const double share = weight * (delta[VELOCITY + half_1] - delta[VELOCITY + half_0]);
         y[half_0] -= share;
         y[half_1] += share;
@@ -202,7 +202,6 @@ double verlet_step(const Model *model, double t, double h, const double *weight,
 {
     const double gamma = 0.5 * h, *f = from->f;
     double removed[N_STATES], residual[N_STATES], delta[N_STATES], error[N_STATES], *y = to->y;
-    HalfCorrection correction;
 
     // Positions of the step's end; predicted velocities v^ there; the evaluation.
     advance_positions(model, h, from, y, w);
@@ -215,8 +214,9 @@ double verlet_step(const Model *model, double t, double h, const double *weight,
     // The residual of the trapezoidal rule at v^, and the linear solve that corrects v^.
     for (int i = VELOCITY; i < N_STATES; i++) residual[i] = gamma * (to->f[i] - f[i]);
     for (int i = CAGE; i < CAGE_END; i++) residual[i] += removed[i];
+    const double shear = implicit_shear(model, w, gamma, residual);
     for (int i = VELOCITY; i < N_STATES; i++) delta[i] = residual[i];
-    implicit_solve(model, w, gamma, delta, &correction);
+    const double axial = implicit_solve(model, w, gamma, delta);
     to->f[Y_WORK] += dissipation_correction(model, y, gamma, residual, delta);
 
     // The limiter is given back: from here on delta is v_{n+1} - v_n - h a_n.
@@ -225,8 +225,8 @@ double verlet_step(const Model *model, double t, double h, const double *weight,
         delta[i] -= removed[i];
     }
     for (int i = VELOCITY; i < N_STATES; i++) y[i] += delta[i];
-    correct_positions(model, gamma, delta, correction, y);
-    correct_friction(model, w, gamma, delta, correction.shear, y);
+    correct_positions(model, gamma, delta, axial, shear, y);
+    correct_friction(model, w, gamma, delta, shear, y);
 
     // The work by the trapezoidal rule.
     y[Y_WORK] += gamma * (f[Y_WORK] + to->f[Y_WORK]);

@@ -254,8 +254,8 @@ def expected_error(model, y, h, blocks):
     by_stiffness = np.zeros(N_V)
     for rows in (*verlet.BALL[:2], RING[3:]):
         by_stiffness[rows] = jerk[rows]
-    for rows in verlet.HALF:  # half 1 against half 0
-        by_stiffness[rows] = 0.5 * (jerk[rows[1]] - jerk[rows[0]]) * np.array([-1.0, 1.0])
+    for rows in verlet.HALF:  # half 1 against half 0: a third of the correction as h -> 0
+        by_stiffness[rows] = 1.0 / 3.0 * 0.5 * (jerk[rows[1]] - jerk[rows[0]]) * np.array([-1.0, 1.0])
     middle = f.copy()  # what the state in the middle of the step is wrong by, per h^2/8
     middle[POSITIONS], middle[V], middle[FRICTION] = f[V][POSITIONS], -jerk, second[FRICTION]
 
@@ -263,7 +263,7 @@ def expected_error(model, y, h, blocks):
     error[V], estimate[V] = snap / 12.0 - wrong / 2.0, snap / 12.0
     error[POSITIONS] = (-jerk / 6.0 + by_stiffness / 4.0)[POSITIONS]
     across = joint_motion(model, y, jerk, verlet.HALF[[1, 2, 5]])
-    error[FRICTION], estimate[FRICTION] = (along(middle) / 8.0 - third / 24.0)[FRICTION] + np.concatenate([*across, *across]) / 4.0, third[FRICTION] / 24.0
+    error[FRICTION], estimate[FRICTION] = (along(middle) / 8.0 - third / 24.0)[FRICTION] + np.concatenate([*across, *across]) / 12.0, third[FRICTION] / 24.0
     history = VerletState(y, f.copy(), (f - rhs(model, 0.0, before)) / h, h=h)
     history.f[V] -= h**2 / 2.0 * wrong  # as the steps before have left it
     history.f[FRICTION], history.jerk[FRICTION] = (y - before)[FRICTION] / h + h**2 * error[FRICTION], (y - 2.0 * before + before_2)[FRICTION] / h**2
@@ -296,8 +296,8 @@ def test_local_error(core, record_property):
     """The error of one step in a run is what docs/method.md derives, and its estimate too.  Per h^3, with J = da/dv, g the rates of the friction states z:
 
         velocities        a"/12 - (A + J) a'/2                                estimate a"/12
-        positions         -a'/6, where a stiffness acts + a'/12
-        friction states   (dg/dq a - dg/dv a' + dg/dz z")/8 + u"/4 - z"'/24   estimate z"'/24;  u": of the joint's velocity, by a' of (v_y, v_z, s)
+        positions         -a'/6, where a stiffness acts + a'/12, half 1 against half 0 -a'/12
+        friction states   (dg/dq a - dg/dv a' + dg/dz z")/8 + u"/12 - z"'/24   estimate z"'/24;  u": of the joint's velocity, by a' of (v_y, v_z, s)
 
     Derivatives of the trajectory by complex steps and differences of Runge-Kutta steps; everything is extrapolated to h = 0.
 
@@ -389,7 +389,7 @@ def same(by_core, by_twin):
 @pytest.mark.parametrize(("h", "lubrication"), [(1e-8, 1), (1e-4, 2)])
 def test_control(core, h, lubrication):
     """Steps that grow from far too small, 1.5 times each, or shrink from far too large, to 0.2 times; then they follow 0.8 error^(-1/3)."""
-    by_core, by_twin = both(core, h, 1.2e-4, 1e-3, **{"scene.lubrication": lubrication})
+    by_core, by_twin = both(core, h, 1.2e-4, 3e-4, **{"scene.lubrication": lubrication})
     taken = same(by_core, by_twin)
     if h == 1e-8:
         np.testing.assert_allclose(taken[1:10] / taken[:9], 1.5, rtol=1e-9)

@@ -26,7 +26,7 @@ const StateBlock STATE_BLOCKS[N_STATE_BLOCKS] = {
     {Y_WORK, 1, SCALE_ENERGY, "work"},
     {Y_BALL_V_X, Z, SCALE_VELOCITY, "ball_v_x"},
     {Y_BALL_V_R, Z, SCALE_NORMAL, "ball_v_r"},
-    {Y_BALL_OMEGA_M, Z, SCALE_RATE, "ball_omega_m"},
+    {Y_BALL_OMEGA_M, Z, SCALE_ORBIT, "ball_omega_m"},
     {Y_CAGE_V_X, 2, SCALE_VELOCITY, "cage_v_x"},
     {Y_CAGE_V_Y, 2, SCALE_VELOCITY, "cage_v_y"},
     {Y_CAGE_V_Z, 2, SCALE_VELOCITY, "cage_v_z"},

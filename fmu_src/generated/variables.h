@@ -9,7 +9,7 @@
 
 #define FMI2_FUNCTION_PREFIX RivetedBearing_  // of the functions of a source-code FMU
 #define MODEL_IDENTIFIER "RivetedBearing"
-#define MODEL_GUID "{ad71f07a-49a6-5e98-1702-845a12692532}"  // digest of the table
+#define MODEL_GUID "{a388ccb8-d77c-c1b9-c3f0-6b45e3f1abb2}"  // digest of the table
 
 enum { Z = 9 };  // number of balls
 
@@ -448,6 +448,7 @@ typedef enum {
     SCALE_ENERGY,
     SCALE_VELOCITY,
     SCALE_NORMAL,
+    SCALE_ORBIT,
     SCALE_RATE,
     SCALE_SPIN,
     SCALE_COUNT
