@@ -9,7 +9,7 @@ import numpy as np
 from bearing_model import rivet_table
 from bearing_model.hertz import Hertz, hertz_contact
 from bearing_model.rivet_rom import joint_fit, joint_hole_stiffness, joint_preload, rivet_rom_fit_eff, rivet_rom_fit_flags
-from bearing_model.variables import N_STATES, PARAMETERS, STATE_SCALES, STATE_SLICES, Drag, FitModel, Switch, Z
+from bearing_model.variables import N_STATES, PARAMETERS, STATE_SCALES, STATE_SLICES, Drag, FitModel, Method, Switch, Z
 
 AIR_DENSITY = 1.19  # [kg/m3] at 293 K and 10^5 Pa
 
@@ -185,25 +185,27 @@ def derive_joint(p, d, table):
 
 
 def derive_scales(p, d):
-    """Errors that tolerance 1 allows (docs/method.md).
+    """Errors that tolerance 1 allows: lengths and velocities, angles as arcs, friction states as parts of the deflection at which the plates slip.
 
-    A ball's velocity along its orbit decides how it meets its pocket and is finer than the others.  Two are wider because little follows from them: a ball's
-    velocity along the contact normals, where a step's error moves the ball by nanometres, and the friction states, whose error is a force that hardly changes
-    the velocity of a half within a step.
+    The default method has scales by consequence (docs/method.md): a ball's velocity along its orbit decides how it meets its pocket and is finer; its
+    velocity along the contact normals, where a step's error moves it by nanometres, and the friction states, whose error hardly changes a half's velocity
+    within a step, are wider.
     """
-    length, velocity, r = 1e-5, 0.2, 0.5 * p.bearing.d_m
+    equal = p.solver.method == Method.EXPLICIT
+    length, velocity, r = 1e-5, 0.1 if equal else 0.2, 0.5 * p.bearing.d_m
     slip = max(p.joint.mu * d.P, 3.0)  # force at which plates slip; of a loose joint the default's
+    friction = slip if equal else 20.0 * slip
     by_class = {
         "length": length,
         "velocity": velocity,
-        "normal": 3.0 * velocity,
-        "orbit": velocity / 6.0 / r,
+        "normal": velocity if equal else 1.5 * velocity,
+        "rate": velocity / r,
+        "orbit": (velocity if equal else velocity / 6.0) / r,
+        "spin": velocity / (0.5 * p.bearing.D),
         "angle": length / r,
         "tilt": length / r,
-        "rate": velocity / r,
-        "spin": velocity / (0.5 * p.bearing.D),
-        "plate": 20.0 * slip / d.k_plate_t,
-        "head": 20.0 * slip / d.k_head,
+        "plate": friction / d.k_plate_t,
+        "head": friction / d.k_head,
         "energy": 1e30,
     }
     d.scale = np.empty(N_STATES)

@@ -285,14 +285,20 @@ def predictor_limiter(model, h, start):
 
 
 def dissipation_correction(model, w, gamma, residual, delta):
-    """delta.M (A + gamma K) delta [W] of balls and cage: the power that v^ dissipates beyond what v_{n+1} does, of one sign, where rates are linear."""
+    """delta.M A delta [W] of balls and cage: the power that v^ dissipates beyond what v_{n+1} does, of one sign, where rates are linear.
+
+    The residual gives delta.M (A + gamma K) delta; the part of the races' springs, which dissipate nothing, is taken off.
+    """
     power = inertia(model, w) * delta * (residual - delta) / gamma
     power[RING] = 0.0  # the ring's energy is not in the balance
-    return np.sum(power)
+    v = delta[BALL[:3]] * np.array([np.ones(Z), np.ones(Z), w.r])
+    springs = ((w.n_i, w.Q_i, w.delta_i), (w.n_e, w.Q_e, w.delta_e))
+    elastic = sum(1.5 * Q / np.maximum(approach, APPROACH_FLOOR) * (approach > 0.0) * np.sum(n * v, axis=0) ** 2 for n, Q, approach in springs)
+    return np.sum(power) - gamma * np.sum(elastic)
 
 
 def correct_positions(model, gamma, delta, b, y):
-    """Where a stiffness acts, positions follow the trapezoidal rule too, q_{n+1} += gamma (v_{n+1} - v_n - h a_n); one half against the other with its weights."""
+    """Where a stiffness acts, positions follow the trapezoidal rule too: q_{n+1} += gamma (v_{n+1} - v_n - h a_n), one half against the other with weights."""
     y[BALL_X] += gamma * delta[BALL[0]]
     y[BALL_R] += gamma * delta[BALL[1]]
     if model.p.ring.tilt_mode != TiltMode.FREE:

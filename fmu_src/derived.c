@@ -207,24 +207,26 @@ static void derive_joint(const Parameters *p, Derived *d)
     d->c_joint = 2.0 * p->joint.zeta * sqrt((d->k_rivet + d->k_plate) * 0.5 * p->cage.m / Z);
 }
 
-// Errors that tolerance 1 allows (docs/method.md).  A ball's velocity along its orbit decides how it meets its
-// pocket and is finer than the others.  Two are wider because little follows from them: a ball's velocity along the
-// contact normals, where a step's error moves the ball by nanometres, and the friction states, whose error is a force
-// that hardly changes the velocity of a half within a step.
+// Errors that tolerance 1 allows: lengths and velocities, angles as arcs, friction states as parts of the deflection at
+// which the plates slip.  The default method has scales by consequence (docs/method.md): a ball's velocity along its
+// orbit decides how it meets its pocket and is finer; its velocity along the contact normals, where a step's error
+// moves it by nanometres, and the friction states, whose error hardly changes a half's velocity within a step, are wider.
 static void derive_scales(const Parameters *p, Derived *d)
 {
-    const double length = 1e-5, velocity = 0.2, r = 0.5 * p->bearing.d_m;
+    const bool equal = p->solver.method == METHOD_EXPLICIT;
+    const double length = 1e-5, velocity = equal ? 0.1 : 0.2, r = 0.5 * p->bearing.d_m;
     const double slip =
         fmax(p->joint.mu * d->P, 3.0);  // force at which plates slip; of a loose joint the default's
+    const double friction = equal ? slip : 20.0 * slip;
     d->scale[SCALE_LENGTH] = length;
     d->scale[SCALE_VELOCITY] = velocity;
-    d->scale[SCALE_NORMAL] = 3.0 * velocity;
-    d->scale[SCALE_ORBIT] = velocity / 6.0 / r;
-    d->scale[SCALE_ANGLE] = d->scale[SCALE_TILT] = length / r;
+    d->scale[SCALE_NORMAL] = equal ? velocity : 1.5 * velocity;
     d->scale[SCALE_RATE] = velocity / r;
+    d->scale[SCALE_ORBIT] = (equal ? velocity : velocity / 6.0) / r;
     d->scale[SCALE_SPIN] = velocity / (0.5 * p->bearing.D);
-    d->scale[SCALE_PLATE] = 20.0 * slip / d->k_plate_t;
-    d->scale[SCALE_HEAD] = 20.0 * slip / d->k_head;
+    d->scale[SCALE_ANGLE] = d->scale[SCALE_TILT] = length / r;
+    d->scale[SCALE_PLATE] = friction / d->k_plate_t;
+    d->scale[SCALE_HEAD] = friction / d->k_head;
     d->scale[SCALE_ENERGY] = 1e30;
 }
 

@@ -110,12 +110,17 @@ INLINE void solve_block(const Factors *f, wide x[BLOCK])
     }
 }
 
+// Stiffness 3 Q/(2 delta) of a race contact.
+INLINE wide normal_stiffness(wide Q, wide delta)
+{
+    const wide stiffness = 1.5 * Q / wide_max(delta, wide_set(APPROACH_FLOOR));
+    return wide_select(wide_above(delta, 0.0), stiffness, wide_set(0.0));
+}
+
 // gamma lambda Q + gamma^2 3 Q/(2 delta) of a race contact: damping and stiffness of its normal force.
 INLINE wide normal_term(const Model *model, double gamma, wide Q, wide delta)
 {
-    const wide stiffness = 1.5 * Q / wide_max(delta, wide_set(APPROACH_FLOOR));
-    const wide k = wide_select(wide_above(delta, 0.0), stiffness, wide_set(0.0));
-    return gamma * (model->p->bearing.lambda * Q + gamma * k);
+    return gamma * (model->p->bearing.lambda * Q + gamma * normal_stiffness(Q, delta));
 }
 
 // W of a packet of balls.  normal_forces: with damping and stiffness of the race contacts' normal forces, or
@@ -284,6 +289,22 @@ static void stiff_part_of_balls(const Model *model, const Work *w, double gamma,
         }
     }
     store_balls(rows, v);
+}
+
+double implicit_elastic(const Work *w, double gamma, const double *v)
+{
+    ball_array rows[BLOCK], power;
+    load_balls(v, rows);
+    for (int j = 0; j < PACKETS * LANE_WIDTH; j += LANE_WIDTH) {
+        const wide x = wide_load(&rows[0][j]), r = wide_load(&rows[1][j]);
+        const wide t = wide_load(&rows[2][j]) * wide_load(&w->r[j]);
+        const wide in = wide_load(&w->n_ix[j]) * x + wide_load(&w->n_ir[j]) * r + wide_load(&w->n_it[j]) * t;
+        const wide out = wide_load(&w->n_ex[j]) * x + wide_load(&w->n_er[j]) * r;
+        const wide k_i = normal_stiffness(wide_load(&w->Q_i[j]), wide_load(&w->delta_i[j]));
+        const wide k_e = normal_stiffness(wide_load(&w->Q_e[j]), wide_load(&w->delta_e[j]));
+        wide_store(&power[j], gamma * (k_i * in * in + k_e * out * out));
+    }
+    return ball_array_sum(power);
 }
 
 // ---- cage halves ------------------------------------------------------------------------------------------

@@ -16,6 +16,9 @@ ImplicitSolve implicit_solve;
 // the weight of the position correction across the axis.
 double implicit_shear(const Model *model, const Work *w, double gamma, double *v);
 
+// gamma v.M K v of the balls [W] with the stiffness K of the races' normal forces.
+double implicit_elastic(const Work *w, double gamma, const double *v);
+
 // v = (1 + gamma A)^-1 v of the cage halves' velocities, A of the lands' films alone.
 void implicit_films(const Model *model, const Work *w, double gamma, double *v);
 

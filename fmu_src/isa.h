@@ -19,6 +19,7 @@
 #define ring_acceleration FOR_ISA(ring_acceleration)
 #define rhs FOR_ISA(rhs)
 #define verlet_step FOR_ISA(verlet_step)
+#define implicit_elastic FOR_ISA(implicit_elastic)
 #define implicit_shear FOR_ISA(implicit_shear)
 #define implicit_solve FOR_ISA(implicit_solve)
 #define cage_joint_advance FOR_ISA(cage_joint_advance)

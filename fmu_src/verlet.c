@@ -89,10 +89,10 @@ static void predictor_limiter(const Model *model, double h, const VerletState *f
 }
 
 // Power that the right-hand side dissipates because it was evaluated at v^ and not at v_{n+1}, as far as it
-// has one sign: delta.M (A + gamma K) delta of balls and cage, M their inertia.  Against a film that holds
-// the cage this term would be most of the work.  The terms linear in delta = O(h^2) change sign from step to
-// step and are of the method's order.
-static double dissipation_correction(const Model *model, const double *y, double gamma,
+// has one sign: delta.M A delta of balls and cage, M their inertia.  Against a film that holds the cage this
+// term would be most of the work.  The terms linear in delta = O(h^2) change sign from step to step and are of the
+// method's order.  Springs dissipate nothing: the races' part of delta.M K delta is left out again.
+static double dissipation_correction(const Model *model, const Work *w, const double *y, double gamma,
                                      const double *residual, const double *delta)
 {
     enum { COUNT = N_STATES - VELOCITY };
@@ -101,11 +101,11 @@ static double dissipation_correction(const Model *model, const double *y, double
     double power[COUNT];
     for (int i = 0; i < COUNT; i++) {
         const double change = delta[VELOCITY + i];
-        const double damping = inv_gamma * (residual[VELOCITY + i] - change);  // (A + gamma K) delta
-        power[i] = inertia[i] * change * damping;
+        const double force = inv_gamma * (residual[VELOCITY + i] - change);  // (A + gamma K) delta
+        power[i] = inertia[i] * change * force;
     }
     for (int j = 0; j < Z; j++) power[Y_BALL_OMEGA_M - VELOCITY + j] *= y[Y_BALL_R + j] * y[Y_BALL_R + j];
-    return sum_of(power, COUNT);
+    return sum_of(power, COUNT) - implicit_elastic(w, gamma, delta);
 }
 
 // Where a stiffness acts, positions follow the trapezoidal rule too: q_{n+1} += gamma delta with
@@ -217,7 +217,7 @@ double verlet_step(const Model *model, double t, double h, const double *weight,
     const double shear = implicit_shear(model, w, gamma, residual);
     for (int i = VELOCITY; i < N_STATES; i++) delta[i] = residual[i];
     const double axial = implicit_solve(model, w, gamma, delta);
-    to->f[Y_WORK] += dissipation_correction(model, y, gamma, residual, delta);
+    to->f[Y_WORK] += dissipation_correction(model, w, y, gamma, residual, delta);
 
     // The limiter is given back: from here on delta is v_{n+1} - v_n - h a_n.
     for (int i = CAGE; i < CAGE_END; i++) {

@@ -169,7 +169,8 @@ def test_mirror_x(core, scene, record_property):
 LENGTH, TIME = 1.7, 0.6  # the new units; the unit of force stays, as one load of 1 N is a constant of the model
 DIMENSION = {"m": (1, 0, 0), "kg": (0, 1, 0), "s": (0, 0, 1), "N": (1, 1, -2), "Pa": (-1, 1, -2), "W": (2, 1, -3)}
 DIMENSION |= dict.fromkeys(("rad", "1", "K"), (0, 0, 0))
-STATE_UNITS = {"length": "m", "angle": "rad", "velocity": "m/s", "rate": "rad/s", "spin": "rad/s", "plate": "m", "head": "m", "tilt": "1", "energy": "N.m"}
+STATE_UNITS = {"length": "m", "angle": "rad", "velocity": "m/s", "normal": "m/s", "orbit": "rad/s", "rate": "rad/s", "spin": "rad/s"}
+STATE_UNITS |= {"plate": "m", "head": "m", "tilt": "1", "energy": "N.m"}
 
 
 def factor(unit):
