@@ -11,7 +11,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from slave import ERROR, OK, Slave
+from slave import DISCARD, ERROR, OK, Slave
 
 H = 1e-4  # communication step [s]
 LINUX = sys.platform.startswith("linux")
@@ -250,6 +250,17 @@ def test_corrupted_and_foreign_states_are_refused_with_the_reason(running):
         assert state[0] == running.ffi.NULL
         running.check("Reset")
     assert running.try_load(data)[0] == OK
+
+
+@pytest.mark.parametrize("step", [5e-324, 1e-310, 3e-308])
+def test_a_step_too_short_for_arithmetic_leaves_a_state_that_can_be_restored(folder, step):
+    """1/h of a subnormal step overflows.  At time zero such a step is not lost in the rounding of time; its step size must not stay behind."""
+    slave = Slave(folder).initialize()
+    assert slave.call("DoStep", 0.0, step, 1) == DISCARD
+    status, state = slave.try_load(slave.bytes(slave.save()))
+    assert status == OK, slave.messages
+    slave.restore(state, 0.0)
+    assert slave.call("SetFMUstate", state[0]) == OK
 
 
 def test_serialization_needs_the_whole_room(running):
