@@ -1,4 +1,4 @@
-"""Constants derived once from the parameters, element by element; equations stand in the elements' files."""
+"""Constants derived from the parameters at their temperatures (temperature.py), element by element; equations stand in the elements' files."""
 
 import functools
 from types import SimpleNamespace
@@ -8,7 +8,7 @@ import numpy as np
 
 from bearing_model import rivet_table
 from bearing_model.hertz import Hertz, hertz_contact
-from bearing_model.rivet_rom import joint_fit, joint_hole_stiffness, joint_preload, rivet_rom_fit_eff, rivet_rom_fit_flags
+from bearing_model.rivet_rom import joint_hole_stiffness, rivet_rom_fit_eff, rivet_rom_fit_flags
 from bearing_model.variables import N_STATES, PARAMETERS, STATE_SCALES, STATE_SLICES, Drag, FitModel, Switch, Z
 
 AIR_DENSITY = 1.19  # [kg/m3] at 293 K and 10^5 Pa
@@ -170,8 +170,8 @@ def derive_cage(p, d):
 
 def derive_joint(p, d, table):
     joint = table.joint
-    d.P = joint_preload(table, p.joint.preload, p.rivet.temperature)
-    d.fit_a = joint_fit(table, p.joint.fit + p.joint.swell, p.rivet.temperature)
+    d.P = p.joint.preload
+    d.fit_a = p.joint.fit + p.joint.swell
     d.fit_eff = rivet_rom_fit_eff(table, d.fit_a, p.rivet.fit_model == FitModel.J2)
     d.fit_flags = rivet_rom_fit_flags(table, d.fit_a)
     d.k_rivet = table.half.k_open
@@ -209,12 +209,8 @@ def default_table():
     return rivet_table.read(rivet_table.DEFAULT_TABLE)
 
 
-def model_derive(p, table=None):
-    """Derived constants of all elements.
-
-    p: Parameters.  table: rivet_table.RivetTable, default that of the 6207.  ValueError if it belongs to another bearing.
-    """
-    table = table or default_table()
+def check_table(p, table):
+    """ValueError if a rivet_table.RivetTable belongs to another bearing than the Parameters p."""
     if table.Z != Z:
         raise ValueError(f"the rivet table is for Z = {table.Z}; the model has Z = {Z}")
     if abs(p.bearing.d_m - table.joint["d_m"]) > 1e-3 * table.joint["d_m"]:
@@ -222,6 +218,14 @@ def model_derive(p, table=None):
     x_c = table.half.x_c
     if abs(p.cage.x_c - x_c) > 0.02 * x_c:
         raise ValueError(f"cage.x_c = {p.cage.x_c} m: the cage half of the rivet table has its centre of mass at {x_c} m +- 2 %")
+
+
+def model_derive(p, table=None):
+    """Derived constants of all elements.
+
+    p: Parameters at their present temperatures.  table: rivet_table.RivetTable, default that of the 6207.
+    """
+    table = table or default_table()
     d = Derived(table=table)
     derive_balls(p, d)
     derive_pockets(p, d)

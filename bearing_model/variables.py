@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from enum import IntEnum
 
 MODEL_IDENTIFIER = "RivetedBearing"
-MODEL_GUID = "{ae90d931-2552-60c4-e165-eb69ae509731}"
+MODEL_GUID = "{c8aafd6d-9e10-2828-ceff-314af64f54a2}"
 Z = 9
 
 
@@ -125,6 +125,7 @@ UNITS = {
     "kg.m": {"kg.m": (1.0, 0.0), "g.mm": (1000000.0, 0.0)},
     "kg.m2": {"kg.m2": (1.0, 0.0)},
     "kg/m3": {"kg/m3": (1.0, 0.0)},
+    "m2/s": {"m2/s": (1.0, 0.0), "mm2/s": (1000000.0, 0.0)},
     "m3/s": {"m3/s": (1.0, 0.0), "L/min": (60000.0, 0.0)},
     "1/K": {"1/K": (1.0, 0.0)},
     "W/m.K": {"W/m.K": (1.0, 0.0)},
@@ -153,6 +154,7 @@ PARAMETERS = {
         Variable("bearing.h_i", 1010, "Real", "1", None, 0.2, 0.01, 0.5, 1, None, "Height of the inner ring's shoulder above the groove's bottom / ball diameter: reported when the contact ellipse reaches over it", "assumed (usual 0.17...0.25)"),
         Variable("bearing.h_e", 1011, "Real", "1", None, 0.2, 0.01, 0.5, 1, None, "Height of the outer ring's shoulder above the groove's bottom / ball diameter: reported when the contact ellipse reaches over it", "assumed (usual 0.17...0.25)"),
         Variable("bearing.p_limit", 1012, "Real", "Pa", "MPa", 4200000000.0, 1000000.0, 1000000000000.0, 1, None, "Contact pressure of the races beyond which a warning is given", "ISO 76: permanent deformation of 1e-4 D"),
+        Variable("bearing.expansion", 8231, "Real", "1/K", None, 1.17e-05, 0.0, 0.0001, 1, None, "Thermal expansion of balls and rings; dimensions are those at assembly temperature", "bearing steel, Harris"),
         Variable("ball[j].dD", 1020, "Real", "m", "um", 0.0, -0.001, 5e-05, Z, None, "Excess of the ball's diameter over bearing.D", "perfect set of balls"),
         Variable("cage.pocket_clearance", 1101, "Real", "m", "mm", 0.0002, 0.0, 0.005, 1, None, "Pocket diameter - ball diameter", "assumed (0.1...0.4 mm usual)"),
         Variable("cage.guide_clearance", 1102, "Real", "m", "mm", 0.0002, 1e-05, 0.005, 1, None, "Outer ring land diameter - cage outer diameter", "assumed (0.1...0.4 mm usual); least: six roughnesses a side, below it the lands brake the cage like plain bearings, with kilowatts"),
@@ -181,10 +183,9 @@ PARAMETERS = {
         Variable("joint.mu", 1204, "Real", "1", None, 0.15, 0.0, 1.0, 1, None, "Friction coefficient of plates and rivet heads", "assumed (steel and bronze, little oil)"),
         Variable("joint.zeta", 1205, "Real", "1", None, 0.02, 0.0, 1.0, 1, None, "Damping ratio of the closed joints in the axial direction", "assumed (structural damping)"),
         Variable("joint.F_floor", 1206, "Real", "N", None, 0.5, 0.001, 10.0, 1, None, "Friction capacity that remains in an open joint", "regularization of the friction state as the clamp force vanishes"),
-        Variable("rivet.temperature", 1207, "Real", "K", "degC", 293.15, 150.0, 700.0, 1, None, "Temperature of cage and rivets: changes preload and fit by their expansion", "assembly temperature"),
         Variable("rivet.fit_model", 1208, "FitModel", "1", None, 2, None, None, 1, None, "Interference: elastic, or with yield of the flange", "flange yields between +2 and +5 um of interference"),
-        Variable("oil.eta", 1301, "Real", "Pa.s", "mPa.s", 0.006, 1e-05, 10.0, 1, None, "Dynamic viscosity of the oil", "assumed (aviation oil, hot)"),
-        Variable("oil.alpha", 1302, "Real", "1/Pa", "1/GPa", 1.3e-08, 1e-10, 1e-07, 1, None, "Pressure-viscosity coefficient", "assumed (synthetic aviation oil, hot)"),
+        Variable("oil.eta", 1301, "Real", "Pa.s", "mPa.s", 0.006, 1e-05, 10.0, 1, None, "Dynamic viscosity of the oil at the temperature oil.T_0; left at its start value it is that of the two points (oil.nu_1, oil.nu_2)", "assumed (aviation oil, hot)"),
+        Variable("oil.alpha", 1302, "Real", "1/Pa", "1/GPa", 1.3e-08, 1e-10, 1e-07, 1, None, "Pressure-viscosity coefficient at the temperature oil.T_0", "assumed (synthetic aviation oil, hot)"),
         Variable("oil.A", 1303, "Real", "1", None, -0.04, -1.0, 0.0, 1, None, "Traction law mu(s) = (A + B s) exp(-C s) - A", "assumed in the range of fits for 4109 aviation oil; D = -A"),
         Variable("oil.B", 1304, "Real", "1", None, 2.2, 0.0, 100.0, 1, None, "Traction law: linear term", "assumed in the range of fits for 4109 aviation oil"),
         Variable("oil.C", 1305, "Real", "1", None, 45.0, 0.0, 1000.0, 1, None, "Traction law: decay", "assumed in the range of fits for 4109 aviation oil"),
@@ -198,9 +199,16 @@ PARAMETERS = {
         Variable("oil.sigma_race", 1313, "Real", "m", "um", 2e-07, 1e-09, 1e-05, 1, None, "Composite RMS roughness of ball and race", "assumed (mild set L)"),
         Variable("oil.sigma_pocket", 1314, "Real", "m", "um", 6e-07, 1e-09, 1e-05, 1, None, "Composite RMS roughness of ball and pocket", "assumed (mild set L)"),
         Variable("oil.sigma_land", 1315, "Real", "m", "um", 8e-07, 1e-09, 1e-05, 1, None, "Composite RMS roughness of cage and outer ring lands", "assumed (turned and ground lands)"),
-        Variable("oil.rho", 1316, "Real", "kg/m3", None, 900.0, 100.0, 2000.0, 1, None, "Density of the oil", "aviation oil, hot"),
+        Variable("oil.rho", 1316, "Real", "kg/m3", None, 900.0, 100.0, 2000.0, 1, None, "Density of the oil at the temperature oil.T_0", "aviation oil, hot"),
         Variable("oil.flow", 8201, "Real", "m3/s", "L/min", 0.0, 0.0, 0.1, 1, None, "Flow of oil through the bearing, from which the density of the mixture follows (Parker, NASA TP-2275)", "0: not known, the mixture has the density oil.rho_mix"),
-        Variable("oil.beta", 8202, "Real", "1/K", None, 0.022, 0.0, 0.2, 1, None, "Fall of the viscosity's logarithm with temperature", "MIL-PRF-23699 oil of 25 and 5 mm2/s at 40 and 100 degC, ASTM D341, at 6 mPa.s"),
+        Variable("oil.beta", 8202, "Real", "1/K", None, 0.022, 0.0, 0.2, 1, None, "Fall of the viscosity's logarithm with temperature at the temperature oil.T_0; left at its start value it is that of the two points", "MIL-PRF-23699 oil of 25 and 5 mm2/s at 40 and 100 degC, ASTM D341, at 6 mPa.s"),
+        Variable("oil.T_0", 8206, "Real", "K", "degC", 359.0006, 200.0, 600.0, 1, None, "Temperature at which oil.eta, oil.alpha, oil.rho and oil.beta are given", "where MIL-PRF-23699 oil has 6 mPa.s"),
+        Variable("oil.nu_1", 8207, "Real", "m2/s", "mm2/s", 2.5e-05, 1e-06, 1.0, 1, None, "Kinematic viscosity of the oil at the lower temperature oil.T_1", "MIL-PRF-23699"),
+        Variable("oil.T_1", 8208, "Real", "K", "degC", 313.15, 200.0, 600.0, 1, None, "Lower temperature of the viscosity's two points", "MIL-PRF-23699"),
+        Variable("oil.nu_2", 8209, "Real", "m2/s", "mm2/s", 5e-06, 1e-06, 1.0, 1, None, "Kinematic viscosity of the oil at the higher temperature oil.T_2", "MIL-PRF-23699"),
+        Variable("oil.T_2", 8215, "Real", "K", "degC", 373.15, 200.0, 600.0, 1, None, "Higher temperature of the viscosity's two points", "MIL-PRF-23699"),
+        Variable("oil.expansion", 8216, "Real", "1/K", None, 0.00075, 0.0, 0.0015, 1, None, "Fall of the oil's density with temperature / oil.rho", "assumed (ester and mineral oils: 6.5e-4...8e-4)"),
+        Variable("oil.alpha_T", 8217, "Real", "1/K", None, 0.0037, 0.0, 0.05, 1, None, "Fall of the pressure-viscosity coefficient's logarithm with temperature", "ester aviation oil at 38 and 149 degC: 12.8 and 8.51 1/GPa (Jones et al., 1975)"),
         Variable("oil.k", 8203, "Real", "W/m.K", None, 0.14, 0.01, 1.0, 1, None, "Thermal conductivity of the oil", "assumed (ester and mineral oils: 0.12...0.15)"),
         Variable("oil.K_rs", 8204, "Real", "1", None, 3e-08, 0.0, 1e-06, 1, None, "Starvation of the race inlets", "SKF: 3e-8 for oil jet and low oil bath, 6e-8 for grease and oil-air; 0: fully flooded"),
         Variable("oil.K_Z", 8205, "Real", "1", None, 3.1, 0.0, 10.0, 1, None, "Starvation of the race inlets: factor of the bearing type", "SKF: deep-groove ball bearings 3.1, angular-contact ball bearings 4.4"),
@@ -260,6 +268,11 @@ INPUTS = {
         Variable("shaft.tilt_z", 8, "Real", "rad", "deg", 0.0, -0.035, 0.035, 1, None, "Tilt of the shaft about Z (+X turns toward +Y)", "paper section 4.1 (4), base case"),
         Variable("impact.F_r", 9, "Real", "N", None, 0.0, -100000.0, 100000.0, 1, None, "Impact load added along the present radial load (+Y if there is none)", "no impact"),
         Variable("impact.F_a", 10, "Real", "N", None, 0.0, -100000.0, 100000.0, 1, None, "Impact load added along +X", "no impact"),
+        Variable("oil.T", 8301, "Real", "K", "degC", 359.0006, 200.0, 600.0, 1, None, "Temperature of the oil", "where MIL-PRF-23699 oil has 6 mPa.s"),
+        Variable("ring.T_i", 8302, "Real", "K", "degC", 293.15, 150.0, 700.0, 1, None, "Temperature of the inner ring", "assembly temperature"),
+        Variable("ring.T_e", 8303, "Real", "K", "degC", 293.15, 150.0, 700.0, 1, None, "Temperature of the outer ring", "assembly temperature"),
+        Variable("ball.T", 8304, "Real", "K", "degC", 293.15, 150.0, 700.0, 1, None, "Temperature of the balls", "assembly temperature"),
+        Variable("cage.T", 8305, "Real", "K", "degC", 293.15, 150.0, 700.0, 1, None, "Temperature of cage and rivets", "assembly temperature"),
     )
 }
 

@@ -1,4 +1,5 @@
-// Constants derived once from the parameters, element by element; equations stand in the elements' files.
+// Constants derived from the parameters at their temperatures (temperature.h), element by element; equations stand in
+// the elements' files.
 #include "elementary.h"
 #include "hertz.h"
 #include "rivet_rom.h"
@@ -191,8 +192,8 @@ static void derive_cage(const Parameters *p, Derived *d)
 static void derive_joint(const Parameters *p, Derived *d)
 {
     const JointData *joint = &rivet_table.joint;
-    d->P = joint_preload(joint, p->joint.preload, p->rivet.temperature);
-    d->fit_a = joint_fit(joint, p->joint.fit + p->joint.swell, p->rivet.temperature);
+    d->P = p->joint.preload;
+    d->fit_a = p->joint.fit + p->joint.swell;
     d->fit_eff = rivet_rom_fit_eff(&rivet_table, d->fit_a, p->rivet.fit_model == FIT_MODEL_J2);
     d->fit_flags = rivet_rom_fit_flags(&rivet_table, d->fit_a);
     d->k_rivet = joint->k_rivet;

@@ -17,7 +17,7 @@ typedef struct {
     wide x, r, t;
 } vec;
 
-// ---- constants, written once by model_derive --------------------------------------------------------------
+// ---- constants, written by model_derive at the start and where a temperature changes ----------------------
 typedef struct {
     double K;        // Q = K delta^1.5 [N/m^1.5]
     double a, b;     // semi-axes of the contact ellipse / Q^(1/3), a >= b [m/N^(1/3)]
@@ -72,7 +72,7 @@ typedef struct {
     double cylinder_laminar, cylinder_vortex;           // cylinder drag moment / |omega|, |omega|^1.539
     double disk_laminar_omega, cylinder_laminar_omega;  // cage speeds below which each is laminar [rad/s]
 
-    // joint at the present temperature
+    // joint
     constants rivet_y, rivet_z;  // position of rivet k in a half [m]: angle 2 pi (k + 1/2) / Z, pitch circle
     double P;                    // preload [N]
     double fit_a, fit_eff;       // fit, and elastic fit of the same pressure [m]
@@ -179,13 +179,13 @@ typedef struct {
 
 // All that the right-hand side needs beside time and state.
 typedef struct {
-    const Parameters *p;
+    const Parameters *p;                // at the present temperatures (temperature.h)
     const Derived *d;
     const RingLoad *ring_load;          // load at present; used while there is no trajectory
     const InputTrajectory *trajectory;  // from which the load at any time follows; NULL: the load is held
 } Model;
 
-// Derived constants of all elements; the parameters have been checked.
+// Derived constants of all elements; the parameters have been checked and have their present temperatures.
 void model_derive(const Parameters *p, Derived *d);
 
 // A Work whose padding lanes are harmless.

@@ -9,7 +9,7 @@
 
 #define FMI2_FUNCTION_PREFIX RivetedBearing_  // of the functions of a source-code FMU
 #define MODEL_IDENTIFIER "RivetedBearing"
-#define MODEL_GUID "{ae90d931-2552-60c4-e165-eb69ae509731}"  // digest of the table
+#define MODEL_GUID "{c8aafd6d-9e10-2828-ceff-314af64f54a2}"  // digest of the table
 
 enum { Z = 9 };  // number of balls
 
@@ -73,6 +73,7 @@ typedef struct {
         double h_i;  // [1] Height of the inner ring's shoulder above the groove's bottom / ball diameter: reported when the contact ellipse reaches over it
         double h_e;  // [1] Height of the outer ring's shoulder above the groove's bottom / ball diameter: reported when the contact ellipse reaches over it
         double p_limit;  // [Pa] Contact pressure of the races beyond which a warning is given
+        double expansion;  // [1/K] Thermal expansion of balls and rings; dimensions are those at assembly temperature
     } bearing;
     struct {
         double dD[Z];  // [m] Excess of the ball's diameter over bearing.D
@@ -109,12 +110,11 @@ typedef struct {
         double F_floor;  // [N] Friction capacity that remains in an open joint
     } joint;
     struct {
-        double temperature;  // [K] Temperature of cage and rivets: changes preload and fit by their expansion
         int fit_model;  // FitModel: Interference: elastic, or with yield of the flange
     } rivet;
     struct {
-        double eta;  // [Pa.s] Dynamic viscosity of the oil
-        double alpha;  // [1/Pa] Pressure-viscosity coefficient
+        double eta;  // [Pa.s] Dynamic viscosity of the oil at the temperature oil.T_0; left at its start value it is that of the two points (oil.nu_1, oil.nu_2)
+        double alpha;  // [1/Pa] Pressure-viscosity coefficient at the temperature oil.T_0
         double A;  // [1] Traction law mu(s) = (A + B s) exp(-C s) - A
         double B;  // [1] Traction law: linear term
         double C;  // [1] Traction law: decay
@@ -128,9 +128,16 @@ typedef struct {
         double sigma_race;  // [m] Composite RMS roughness of ball and race
         double sigma_pocket;  // [m] Composite RMS roughness of ball and pocket
         double sigma_land;  // [m] Composite RMS roughness of cage and outer ring lands
-        double rho;  // [kg/m3] Density of the oil
+        double rho;  // [kg/m3] Density of the oil at the temperature oil.T_0
         double flow;  // [m3/s] Flow of oil through the bearing, from which the density of the mixture follows (Parker, NASA TP-2275)
-        double beta;  // [1/K] Fall of the viscosity's logarithm with temperature
+        double beta;  // [1/K] Fall of the viscosity's logarithm with temperature at the temperature oil.T_0; left at its start value it is that of the two points
+        double T_0;  // [K] Temperature at which oil.eta, oil.alpha, oil.rho and oil.beta are given
+        double nu_1;  // [m2/s] Kinematic viscosity of the oil at the lower temperature oil.T_1
+        double T_1;  // [K] Lower temperature of the viscosity's two points
+        double nu_2;  // [m2/s] Kinematic viscosity of the oil at the higher temperature oil.T_2
+        double T_2;  // [K] Higher temperature of the viscosity's two points
+        double expansion;  // [1/K] Fall of the oil's density with temperature / oil.rho
+        double alpha_T;  // [1/K] Fall of the pressure-viscosity coefficient's logarithm with temperature
         double k;  // [W/m.K] Thermal conductivity of the oil
         double K_rs;  // [1] Starvation of the race inlets
         double K_Z;  // [1] Starvation of the race inlets: factor of the bearing type
@@ -206,6 +213,19 @@ typedef struct {
         scalar F_r;  // [N] Impact load added along the present radial load (+Y if there is none)
         scalar F_a;  // [N] Impact load added along +X
     } impact;
+    struct {
+        scalar T;  // [K] Temperature of the oil
+    } oil;
+    struct {
+        scalar T_i;  // [K] Temperature of the inner ring
+        scalar T_e;  // [K] Temperature of the outer ring
+    } ring;
+    struct {
+        scalar T;  // [K] Temperature of the balls
+    } ball;
+    struct {
+        scalar T;  // [K] Temperature of cage and rivets
+    } cage;
 } Inputs;
 
 typedef struct {
@@ -452,5 +472,5 @@ typedef enum {
     SCALE_COUNT
 } StateScale;
 
-enum { N_INPUTS = 10 };  // all of them numbers
-enum { N_VARIABLES = 257 };  // time is the first
+enum { N_INPUTS = 15 };  // all of them numbers
+enum { N_VARIABLES = 269 };  // time is the first
