@@ -139,7 +139,7 @@ def derive_pockets(p, d):
     d.ln_pocket_rigid = np.log(shape * R / p.oil.sigma_pocket) + 2.0 * np.log(p.oil.eta * R)
     phi, phi_r = 2.0 * np.pi * np.arange(Z) / Z, 2.0 * np.pi * (np.arange(Z) + 0.5) / Z
     d.pocket_cos, d.pocket_sin = np.cos(phi), np.sin(phi)
-    d.rivet_y, d.rivet_z = 0.5 * p.bearing.d_m * np.cos(phi_r), 0.5 * p.bearing.d_m * np.sin(phi_r)
+    d.rivet_y, d.rivet_z = 0.5 * d.table.joint["d_m"] * np.cos(phi_r), 0.5 * d.table.joint["d_m"] * np.sin(phi_r)
 
 
 def follows_mass(p, name):

@@ -105,7 +105,7 @@ def cage_outputs(model, w):
 
 def rivet_outputs(model, w):
     load = rivets_load(model, w)
-    slip, R = rivets_slip(model, w), 0.5 * model.p.bearing.d_m
+    slip, R = rivets_slip(model, w), 0.5 * model.d.table.joint["d_m"]
     c, s = model.d.rivet_y / R, model.d.rivet_z / R
 
     def along_y_z(r, t):

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from enum import IntEnum
 
 MODEL_IDENTIFIER = "RivetedBearing"
-MODEL_GUID = "{c8aafd6d-9e10-2828-ceff-314af64f54a2}"
+MODEL_GUID = "{a23e68dd-6c52-3f67-f58a-2ca52e58f906}"
 Z = 9
 
 

@@ -143,8 +143,8 @@ static void derive_pockets(const Parameters *p, Derived *d)
         const double phi = 2.0 * PI * (j % Z) / Z, phi_r = 2.0 * PI * (j % Z + 0.5) / Z;
         d->pocket_cos[j] = j < Z ? portable_cos(phi) : 0.0;
         d->pocket_sin[j] = j < Z ? portable_sin(phi) : 0.0;
-        d->rivet_y[j] = 0.5 * p->bearing.d_m * portable_cos(phi_r);
-        d->rivet_z[j] = 0.5 * p->bearing.d_m * portable_sin(phi_r);
+        d->rivet_y[j] = 0.5 * rivet_table.joint.d_m * portable_cos(phi_r);
+        d->rivet_z[j] = 0.5 * rivet_table.joint.d_m * portable_sin(phi_r);
     }
 }
 

@@ -49,6 +49,7 @@ MIXED, SLICED, RIGID = {"scene.lubrication": 2}, {"scene.traction": 2}, {"scene.
 UNBALANCE = {"cage.unbalance": 2e-6, "gravity.y": -9.81, "gravity.z": 3.0}
 PULSE = {"pulse.F_r": 1401.0, "pulse.F_a": 241.0, "pulse.t_start": 0.0}
 LOADS = {"shaft.F_x": 800.0, "shaft.F_y": 2000.0, "shaft.F_z": -1500.0, "shaft.M_y": 3.0, "shaft.M_z": -2.0, "shaft.tilt_y": 1e-3, "shaft.tilt_z": 2.6e-3}
+HOT = {"oil.T": 330.0, "ring.T_i": 345.0, "ring.T_e": 330.0, "ball.T": 350.0, "cage.T": 340.0}
 SLOW, BACKWARD = {"shaft.omega": 418.9}, {"shaft.omega": -1500.0}
 SCENES = {
     "demo": ({}, {}),
@@ -58,8 +59,8 @@ SCENES = {
     "sliced_mixed": (SLICED | MIXED | PULSE, BACKWARD),
     "rigid": (RIGID | UNBALANCE, {}),
     "rigid_mixed_sliced": (RIGID | MIXED | SLICED | SUPPORTED | UNBALANCE, LOADS),
-    "other": (OTHER, {}),
-    "other_mixed_sliced": (OTHER | MIXED | SLICED | SUPPORTED | UNBALANCE, LOADS),
+    "other": (OTHER, HOT),
+    "other_mixed_sliced": (OTHER | MIXED | SLICED | SUPPORTED | UNBALANCE, LOADS | HOT),
     "other_rigid": (OTHER | RIGID | FREE | MIXED, SLOW),
 }
 PER_SCENE = 120  # 1200 states in all
