@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from enum import IntEnum
 
 MODEL_IDENTIFIER = "RivetedBearing"
-MODEL_GUID = "{a23e68dd-6c52-3f67-f58a-2ca52e58f906}"
+MODEL_GUID = "{3dd9c38b-d592-d282-e216-826a80b9b91c}"
 Z = 9
 
 

@@ -332,46 +332,44 @@ void part_update(Bearing *b, OutputGroup group)
 }
 
 // ---- derivatives ------------------------------------------------------------------------------------------
-// All outputs that follow from one evaluation at the present state, with temperatures along du by `step` away.
-static void outputs_beside(const Bearing *b, const Inputs *du, double step, Outputs *out)
+// All outputs that follow from one evaluation at the present state, with the inputs u in the place of their temperatures.
+static void outputs_beside(const Bearing *b, const Inputs *u, Outputs *out)
 {
     const InstanceState *s = &b->s;
     Parameters hot;
     Derived d;
     Work w;
-    Inputs u = s->u_now;
     double y_dot[N_STATES];
-    u.oil.T += step * du->oil.T;
-    u.ring.T_i += step * du->ring.T_i;
-    u.ring.T_e += step * du->ring.T_e;
-    u.ball.T += step * du->ball.T;
-    u.cage.T += step * du->cage.T;
-    temperature_apply(&s->p, &u, &hot);
+    temperature_apply(&s->p, u, &hot);
     model_derive(&hot, &d);
     work_init(&d, &w);
     const Model model = {&hot, &d, &b->ring_load, NULL};
     b->kernels.rhs(&model, s->integrator.t, s->integrator.now.y, y_dot, &w);
-    const Evaluation at = {&model, s->integrator.now.y,  y_dot,
+    const Evaluation at = {&model, s->integrator.now.y,    y_dot,
                            &w,     b->kernels.rivets_load, b->kernels.rivet_rom_stress};
     memset(out, 0, sizeof *out);
     for (int group = 0; group < GROUP_COUNT; group++) outputs_evaluate(&at, group, out);
     out->bearing.energy_residual = 0.0;  // the work of expansion is no part of the balance
 }
 
-// Adds the derivatives of all outputs along the temperatures of du: central differences over +-1 mK, for the derived
-// constants know no dual numbers.  Their relative error is 1e-7.
+// Adds the derivatives of all outputs along the temperatures of du: central differences over +-1 mK, because the derived
+// constants have no dual numbers.  Their relative error is 1e-7.
 static void add_thermal_derivatives(const Bearing *b, const Inputs *du, Outputs *derivatives)
 {
-    const Inputs none = {0};
-    if (temperature_same(du, &none)) return;
-    const double largest = fmax(fmax(fmax(fabs(du->oil.T), fabs(du->ring.T_i)), fmax(fabs(du->ring.T_e), fabs(du->ball.T))), fabs(du->cage.T));
-    const double step = 1e-3 / largest;
-    Outputs below, above;
-    outputs_beside(b, du, -step, &below);
-    outputs_beside(b, du, step, &above);
-    const double *from = (const double *)&below, *to = (const double *)&above;
-    double *sum = (double *)derivatives;
-    for (size_t i = 0; i < sizeof below / sizeof *from; i++) sum[i] += (to[i] - from[i]) / (2.0 * step);
+    const double step = 1e-3;
+    for (int i = 0; i < TEMPERATURES; i++) {
+        const double along = *temperature_of((Inputs *)du, i);
+        if (along == 0.0) continue;
+        Inputs below = b->s.u_now, above = below;
+        Outputs from, to;
+        *temperature_of(&below, i) -= step;
+        *temperature_of(&above, i) += step;
+        outputs_beside(b, &below, &from);
+        outputs_beside(b, &above, &to);
+        const double *x = (const double *)&from, *y = (const double *)&to;
+        double *sum = (double *)derivatives;
+        for (size_t k = 0; k < sizeof from / sizeof *x; k++) sum[k] += along * ((y[k] - x[k]) / (2.0 * step));
+    }
 }
 
 // Derivatives of all outputs at the present state along dt of time, du of the inputs and dy of the states.

@@ -40,24 +40,27 @@ static bool check_temperatures(Bearing *b, const Inputs *u)
         fine = false;
     }
     if (!(hot.cage.guide_clearance >= guide->min)) {
-        bearing_log(b, LOG_ERROR,
-                    "cage.T = %g K, ring.T_e = %g K: the cage's guide clearance is %g m there; at least %g m is "
-                    "allowed",
-                    u->cage.T, u->ring.T_e, hot.cage.guide_clearance, guide->min);
+        bearing_log(
+            b, LOG_ERROR,
+            "cage.T = %g K, ring.T_e = %g K: the cage's guide clearance is %g m there; at least %g m is "
+            "allowed",
+            u->cage.T, u->ring.T_e, hot.cage.guide_clearance, guide->min);
         fine = false;
     }
     if (!(hot.cage.pocket_clearance >= 0.0)) {
-        bearing_log(b, LOG_ERROR,
-                    "cage.T = %g K, ball.T = %g K: the pockets' clearance is %g m there; at least 0 m is allowed",
-                    u->cage.T, u->ball.T, hot.cage.pocket_clearance);
+        bearing_log(
+            b, LOG_ERROR,
+            "cage.T = %g K, ball.T = %g K: the pockets' clearance is %g m there; at least 0 m is allowed",
+            u->cage.T, u->ball.T, hot.cage.pocket_clearance);
         fine = false;
     }
     const double least = -0.01 * hot.bearing.D, most = largest_clearance(&hot);
     if (!(hot.bearing.P_d > least && hot.bearing.P_d < most)) {
-        bearing_log(b, LOG_ERROR,
-                    "ring.T_i = %g K, ring.T_e = %g K, ball.T = %g K: the bearing's clearance is %g m there; %g ... "
-                    "%g m is allowed",
-                    u->ring.T_i, u->ring.T_e, u->ball.T, hot.bearing.P_d, least, most);
+        bearing_log(
+            b, LOG_ERROR,
+            "ring.T_i = %g K, ring.T_e = %g K, ball.T = %g K: the bearing's clearance is %g m there; %g ... "
+            "%g m is allowed",
+            u->ring.T_i, u->ring.T_e, u->ball.T, hot.bearing.P_d, least, most);
         fine = false;
     }
     return fine;
@@ -137,10 +140,11 @@ static bool check_geometry(Bearing *b)
                     p->cage.land_width, 0.5 * p->cage.width);
     fine &= require(b, p->oil.T_1 < p->oil.T_2, "oil.T_1 = %g K: less than oil.T_2 = %g K is allowed",
                     p->oil.T_1, p->oil.T_2);
-    fine &= require(b, p->oil.nu_1 > p->oil.nu_2,
-                    "oil.nu_1 = %g m2/s: more than oil.nu_2 = %g m2/s is allowed, for the viscosity falls with "
-                    "temperature",
-                    p->oil.nu_1, p->oil.nu_2);
+    fine &=
+        require(b, p->oil.nu_1 > p->oil.nu_2,
+                "oil.nu_1 = %g m2/s: more than oil.nu_2 = %g m2/s is allowed, for the viscosity falls with "
+                "temperature",
+                p->oil.nu_1, p->oil.nu_2);
     fine &= require(b, p->fatigue.k_2 >= p->fatigue.k_1,
                     "fatigue.k_2 = %g: at least fatigue.k_1 = %g is allowed", p->fatigue.k_2, p->fatigue.k_1);
     fine &= require(b, p->pulse.count < 2 || p->pulse.interval >= p->pulse.duration,
@@ -276,7 +280,8 @@ bool check_saved(Bearing *b)
                         "derivatives of inputs");
     }
     char message[256];
-    bool fine = check_all(b) && check_variables(b, CAUSALITY_INPUT, &s->u_now) && check_temperatures(b, &s->u_now);
+    bool fine =
+        check_all(b) && check_variables(b, CAUSALITY_INPUT, &s->u_now) && check_temperatures(b, &s->u_now);
     fine = fine && saved_is(b,
                             values_are_within((const double *)&s->u[1], (size_t)INPUT_ORDERS * N_INPUTS,
                                               LARGEST_DERIVATIVE),

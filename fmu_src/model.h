@@ -179,7 +179,7 @@ typedef struct {
 
 // All that the right-hand side needs beside time and state.
 typedef struct {
-    const Parameters *p;                // at the present temperatures (temperature.h)
+    const Parameters *p;  // at the present temperatures (temperature.h)
     const Derived *d;
     const RingLoad *ring_load;          // load at present; used while there is no trajectory
     const InputTrajectory *trajectory;  // from which the load at any time follows; NULL: the load is held

@@ -4,10 +4,17 @@
 #include "rivet_rom.h"
 #include "viscosity.h"
 
+double *temperature_of(Inputs *u, int i)
+{
+    double *const all[TEMPERATURES] = {&u->oil.T, &u->ring.T_i, &u->ring.T_e, &u->ball.T, &u->cage.T};
+    return all[i];
+}
+
 bool temperature_same(const Inputs *u, const Inputs *v)
 {
-    return u->oil.T == v->oil.T && u->ring.T_i == v->ring.T_i && u->ring.T_e == v->ring.T_e &&
-           u->ball.T == v->ball.T && u->cage.T == v->cage.T;
+    for (int i = 0; i < TEMPERATURES; i++)
+        if (*temperature_of((Inputs *)u, i) != *temperature_of((Inputs *)v, i)) return false;
+    return true;
 }
 
 // Density of the oil at T.

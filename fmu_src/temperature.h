@@ -18,6 +18,11 @@
 
 #ifndef DUAL
 
+enum { TEMPERATURES = 5 };
+
+// The i-th temperature of the inputs: oil, inner ring, outer ring, balls, cage.
+double *temperature_of(Inputs *u, int i);
+
 // Whether oil and parts have the same temperatures in both.
 bool temperature_same(const Inputs *u, const Inputs *v);
 

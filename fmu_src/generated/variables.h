@@ -9,7 +9,7 @@
 
 #define FMI2_FUNCTION_PREFIX RivetedBearing_  // of the functions of a source-code FMU
 #define MODEL_IDENTIFIER "RivetedBearing"
-#define MODEL_GUID "{a23e68dd-6c52-3f67-f58a-2ca52e58f906}"  // digest of the table
+#define MODEL_GUID "{3dd9c38b-d592-d282-e216-826a80b9b91c}"  // digest of the table
 
 enum { Z = 9 };  // number of balls
 
