@@ -148,7 +148,8 @@ class Integration:
 
     def segment(self, model, t_end):
         """Accepted steps from here to t_end under one ring load: their times and states, without the start."""
-        options = {"rtol": 100.0 * np.finfo(float).eps, "atol": self.tolerance * model.d.scale}  # the smallest rtol that SciPy accepts: in effect only atol counts
+        rtol = 100.0 * np.finfo(float).eps  # the smallest that SciPy accepts: in effect only atol counts
+        options = {"rtol": rtol, "atol": self.tolerance * model.d.scale}
         if self.method in IMPLICIT:
             options["jac"] = lambda t, y: jacobian(model, t, y)
         first = min(self.step_size, t_end - self.t)
