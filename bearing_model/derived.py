@@ -8,6 +8,7 @@ import numpy as np
 
 from bearing_model import rivet_table
 from bearing_model.hertz import Hertz, hertz_contact
+from bearing_model.ring_fit import ring_fit_of
 from bearing_model.rivet_rom import joint_hole_stiffness, rivet_rom_fit_eff, rivet_rom_fit_flags
 from bearing_model.variables import N_STATES, PARAMETERS, STATE_SCALES, STATE_SLICES, Drag, FitModel, Switch, Z
 
@@ -99,18 +100,6 @@ def derive_inlets(p, d):
     d.ln_thermal = np.log(p.oil.eta * p.oil.beta / p.oil.k) if heating and p.oil.beta > 0.0 else -np.inf
 
 
-def ring_growth(p):
-    """Growth of the inner ring at the groove's bottom r by its own rotation / omega^2 [m s2]: a free ring from the bore a to the shoulder b, plane stress.
-
-    u = rho omega^2 r/(8 E) ((3 + nu)(1 - nu)(a^2 + b^2) + (3 + nu)(1 + nu) a^2 b^2/r^2 - (1 - nu^2) r^2).  Timoshenko & Goodier, Theory of Elasticity,
-    section 32
-    """
-    nu, r = p.bearing.nu, 0.5 * (p.bearing.d_m - p.bearing.D)
-    bore = p.ring.bore if p.ring.bore > 0.0 else p.bearing.d_m - p.bearing.D / 0.6
-    a_2, b_2 = 0.25 * bore**2, (r + p.bearing.h_i * p.bearing.D) ** 2
-    return p.ring.rho * r / (8.0 * p.bearing.E) * ((3 + nu) * (1 - nu) * (a_2 + b_2) + (3 + nu) * (1 + nu) * a_2 * b_2 / r**2 - (1 - nu**2) * r**2)
-
-
 def derive_balls(p, d):
     D = p.bearing.D
     d.R = 0.5 * (D + p.ball.dD)
@@ -119,7 +108,7 @@ def derive_balls(p, d):
     d.drag = 0.5 * p.oil.C_d * reference_density(p) * 0.25 * np.pi * D**2
     d.inner = derive_race(p, p.bearing.f_i, -1.0)
     d.outer = derive_race(p, p.bearing.f_e, 1.0)
-    d.growth = ring_growth(p) if p.scene.growth == Switch.ON else 0.0
+    d.fit = ring_fit_of(p)
     derive_inlets(p, d)
     derive_mixture(p, d)
 

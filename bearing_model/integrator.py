@@ -8,18 +8,20 @@ states of error/(tolerance scale); derived.py sets the scales, and no tolerance 
 """
 
 import functools
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from scipy.integrate import BDF, DOP853, LSODA, RK23, RK45, Radau
 
 from bearing_model.energy import energy_total
 from bearing_model.fatigue import FatigueChannel, FatigueLaw
+from bearing_model.hertz import hertz_energy
 from bearing_model.ledger import Ledger
 from bearing_model.model import Model, Work, derived_at
 from bearing_model.outputs import outputs
 from bearing_model.parameters import InputDerivatives, Inputs, Parameters
 from bearing_model.rhs import jacobian, rhs
+from bearing_model.ring_fit import ring_fit_growth
 from bearing_model.ring_load import input_trajectory_at, input_trajectory_update, input_trajectory_varies, pulse_next_edge, ring_load_at, ring_load_update
 from bearing_model.rivet_rom import HEAD_P1, MID_VM, rivet_rom_stress
 from bearing_model.rivets import rivets_load, rivets_slip
@@ -209,6 +211,7 @@ def simulate(parameters=None, inputs=None, t_end=1e-3, *, derivatives=None, step
     for point in points[1:]:
         u, peaks, t_0 = [Inputs(held(run.t)), *map(InputDerivatives, slopes(run.t))], [], run.t
         model, expansion = at_temperature(p, model, reached, u[0], run, table)
+        expansion += at_speed(model, u[0], run)
         while run.t < point:
             trajectory, begin, y_begin = input_trajectory_update(p, u, t_0, run.t), run.t, run.y
             model = Model(model.p, model.d, ring_load_at(trajectory, run.t), trajectory if input_trajectory_varies(trajectory) else None)
@@ -237,6 +240,19 @@ def at_temperature(p, model, from_, u, run, table):
         rhs(each, run.t, run.y, w)
         energies.append(energy_total(each, w))
     return hot, energies[1] - energies[0]
+
+
+def at_speed(model, u, run):
+    """What a jump to the speed in the Inputs u adds to the elastic energy [J], because the inner ring grows at once."""
+    load = model.ring_load
+    if ring_fit_growth(model.d.fit, load.omega) == ring_fit_growth(model.d.fit, u.shaft.omega):
+        return 0.0
+    energies = []
+    for omega in (load.omega, u.shaft.omega):
+        w = Work()
+        rhs(Model(model.p, model.d, replace(load, omega=omega)), run.t, run.y, w)
+        energies.append(np.sum(hertz_energy(model.d.inner.hertz.K, w.delta_i)))
+    return energies[1] - energies[0]
 
 
 def observe(model, t, y, energy_start):

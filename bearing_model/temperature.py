@@ -1,10 +1,12 @@
-"""Parameters at the temperatures of oil, rings, balls and cage.
+"""Parameters at the temperatures of oil, rings, balls and cage, and in their housing.
 
 steel    d_i (1 + e_i), d_e (1 + e_e), D (1 + e_b)   diameters of groove bottoms and balls, e = expansion (T - T_a)
          f_i D (1 + e_i), f_e D (1 + e_e)            groove radii
          d_i = d_m - D - P_d/2, d_e = d_m + D + P_d/2; from these follow d_m, P_d, f_i, f_e at temperature
 cage     (D + pocket clearance)(1 + e_c), D_o (1 + e_c), D_i (1 + e_c), land diameter of the outer ring (1 + e_e)
 rivet    preload and fit: the flanges expand more than the rivet (rivet_rom.py)
+fits     the seats' interference changes by the difference of the expansions; the outer ring in its housing loses groove diameter and land diameter
+         (ring_fit.py)
 oil      eta = eta_0 rho(T) nu(T)/(rho(T_0) nu(T_0)), nu by Walther's law (viscosity.py), rho = rho_0 (1 - a (T - T_0)),
          alpha = alpha_0 exp(-c (T - T_0)), beta = beta_0 beta(T)/beta(T_0)
 
@@ -19,6 +21,7 @@ from types import SimpleNamespace
 import numpy as np
 
 from bearing_model.parameters import largest_clearance, require
+from bearing_model.ring_fit import ring_fit_bore, ring_fit_housing, ring_fit_outside
 from bearing_model.rivet_rom import joint_fit, joint_preload
 from bearing_model.variables import PARAMETERS
 from bearing_model.viscosity import Oil
@@ -72,6 +75,18 @@ def heat_cage(p, e_c, e_e, e_b, hot):
     hot.cage.D_i = p.cage.D_i + e_c * p.cage.D_i
 
 
+def heat_fits(p, u, T_a, hot):
+    """Fits at temperature; what the housing takes from groove and land of the outer ring."""
+    expansion = p.bearing.expansion
+    hot.shaft.interference = p.shaft.interference + (p.shaft.expansion - expansion) * (u.ring.T_i - T_a) * ring_fit_bore(p)
+    hot.housing.interference = p.housing.interference + (expansion - p.housing.expansion) * (u.ring.T_e - T_a) * ring_fit_outside(p)
+    groove = ring_fit_housing(hot, 0.5 * (p.bearing.d_m + p.bearing.D))
+    land = ring_fit_housing(hot, 0.5 * (p.cage.D_o + p.cage.guide_clearance))
+    hot.bearing.P_d -= 2.0 * groove
+    hot.bearing.d_m -= groove
+    hot.cage.guide_clearance -= 2.0 * land
+
+
 def temperature_apply(p, u, table):
     """The Parameters p at the temperatures in the Inputs u, with the joint of a RivetTable."""
     hot, T_a, expansion = copy.deepcopy(p), table.joint["T_0"], p.bearing.expansion
@@ -80,6 +95,7 @@ def temperature_apply(p, u, table):
     heat_oil(p, u.oil.T, hot)
     heat_steel(p, e_i, e_e, e_b, hot)
     heat_cage(p, e_c, e_e, e_b, hot)
+    heat_fits(p, u, T_a, hot)
     hot.joint.preload = joint_preload(table, p.joint.preload, u.cage.T)
     hot.joint.fit = joint_fit(table, p.joint.fit, u.cage.T)
     return hot

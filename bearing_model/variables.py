@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from enum import IntEnum
 
 MODEL_IDENTIFIER = "RivetedBearing"
-MODEL_GUID = "{3dd9c38b-d592-d282-e216-826a80b9b91c}"
+MODEL_GUID = "{19fe00fa-00e4-945b-b22a-cb2dd1d0b9e1}"
 Z = 9
 
 
@@ -220,8 +220,22 @@ PARAMETERS = {
         Variable("ring.tilt_time", 1406, "Real", "s", None, 0.0001, 1e-06, 1.0, 1, None, "Time constant of the critically damped filter of the prescribed tilt", "assumed: shorter than any pocket period"),
         Variable("ring.k_tilt", 1407, "Real", "N.m/rad", None, 20000.0, 0.0, 100000000.0, 1, None, "Angular stiffness of the ring's support (supported tilt)", "assumed: a second bearing nearby"),
         Variable("ring.c_tilt", 1408, "Real", "N.m.s/rad", None, 1.0, 0.0, 10000.0, 1, None, "Angular damping of the ring's support (supported tilt)", "assumed: damping ratio 0.3 with the default stiffness and inertia"),
-        Variable("ring.bore", 8221, "Real", "m", "mm", 0.0, 0.0, 1.0, 1, None, "Bore of the inner ring: its growth by rotation", "0: d_m - D/0.6, as usual cross-sections have it (6207: 35 mm)"),
+        Variable("ring.bore", 8221, "Real", "m", "mm", 0.0, 0.0, 1.0, 1, None, "Bore of the inner ring: its growth by rotation and fit", "0: d_m - D/0.6, as usual cross-sections have it (6207: 35 mm)"),
         Variable("ring.rho", 8222, "Real", "kg/m3", None, 7800.0, 1000.0, 20000.0, 1, None, "Density of the inner ring", "bearing steel, Harris"),
+        Variable("ring.outside", 8223, "Real", "m", "mm", 0.0, 0.0, 2.0, 1, None, "Outside diameter of the outer ring: its fit in the housing", "0: d_m + D/0.6, as usual cross-sections have it (6207: 72 mm)"),
+        Variable("ring.effective_i", 8224, "Real", "m", "mm", 0.0, 0.0, 2.0, 1, None, "Outside diameter of the cylinder that the inner ring is for growth and fit", "0: over the shoulders"),
+        Variable("ring.effective_e", 8225, "Real", "m", "mm", 0.0, 0.0, 2.0, 1, None, "Inside diameter of the cylinder that the outer ring is for its fit", "0: over the shoulders"),
+        Variable("shaft.interference", 8226, "Real", "m", "um", 0.0, -0.001, 0.001, 1, None, "Shaft diameter - bore of the inner ring before mounting, at assembly temperature; negative = clearance", "no fit"),
+        Variable("shaft.bore", 8227, "Real", "m", "mm", 0.0, 0.0, 1.0, 1, None, "Bore of the shaft", "0: solid shaft"),
+        Variable("shaft.E", 8228, "Real", "Pa", "GPa", 207000000000.0, 1000000000.0, 1000000000000.0, 1, None, "Young's modulus of the shaft", "steel"),
+        Variable("shaft.nu", 8229, "Real", "1", None, 0.3, 0.0, 0.49, 1, None, "Poisson's ratio of the shaft", "steel"),
+        Variable("shaft.rho", 8230, "Real", "kg/m3", None, 7800.0, 1000.0, 20000.0, 1, None, "Density of the shaft", "steel"),
+        Variable("shaft.expansion", 8232, "Real", "1/K", None, 1.17e-05, 0.0, 0.0001, 1, None, "Thermal expansion of the shaft, whose seat has the inner ring's temperature", "steel"),
+        Variable("housing.interference", 8233, "Real", "m", "um", 0.0, -0.001, 0.001, 1, None, "Outside diameter of the outer ring - bore of the housing before mounting, at assembly temperature; negative = clearance", "no fit"),
+        Variable("housing.outside", 8234, "Real", "m", "mm", 0.0, 0.0, 10.0, 1, None, "Outside diameter of the housing", "0: much larger than the bearing"),
+        Variable("housing.E", 8235, "Real", "Pa", "GPa", 207000000000.0, 1000000000.0, 1000000000000.0, 1, None, "Young's modulus of the housing", "steel"),
+        Variable("housing.nu", 8236, "Real", "1", None, 0.3, 0.0, 0.49, 1, None, "Poisson's ratio of the housing", "steel"),
+        Variable("housing.expansion", 8237, "Real", "1/K", None, 1.17e-05, 0.0, 0.0001, 1, None, "Thermal expansion of the housing, whose seat has the outer ring's temperature", "steel"),
         Variable("gravity.y", 1501, "Real", "m/s2", None, 0.0, -1000.0, 1000.0, 1, None, "Gravity along Y", "off"),
         Variable("gravity.z", 1502, "Real", "m/s2", None, 0.0, -1000.0, 1000.0, 1, None, "Gravity along Z", "off"),
         Variable("pulse.F_r", 1601, "Real", "N", None, 0.0, -100000.0, 100000.0, 1, None, "Amplitude of the built-in half-sine impacts along the radial load", "no impact (paper section 4.1 (3): 1401 N)"),
@@ -245,7 +259,7 @@ PARAMETERS = {
         Variable("scene.drag", 8211, "Drag", "1", None, 2, None, None, 1, None, "Drag of the balls in the mixture between the rings", "default"),
         Variable("scene.churning", 8212, "Switch", "1", None, 2, None, None, 1, None, "Drag moment of the mixture on the spinning balls", "default"),
         Variable("scene.heating", 8213, "Switch", "1", None, 2, None, None, 1, None, "Shear heating in the inlets of the races, in their films and in the films of the lands", "default"),
-        Variable("scene.growth", 8214, "Switch", "1", None, 1, None, None, 1, None, "Growth of the inner ring by its own rotation, which takes clearance (a free ring)", "default"),
+        Variable("scene.growth", 8214, "Switch", "1", None, 2, None, None, 1, None, "Growth of the inner ring by its rotation, which takes clearance", "physics; off: for comparison with figures that leave it out"),
         Variable("solver.tol", 1901, "Real", "1", None, 0.001, 1e-10, 0.1, 1, None, "Tolerance: local error / scale of each state class; a tolerance of fmi2SetupExperiment takes its place", "measured: forces and stress within 1 % of the limit, the mean stress of one jam within 2 %"),
         Variable("solver.method", 1902, "Method", "1", None, 1, None, None, 1, None, "Integration method", "measured: fewest processor seconds at every tolerance down to 2e-5"),
         Variable("solver.max_steps", 1903, "Integer", "1", None, 10000000, 10, 2000000000, 1, None, "Largest number of internal steps in one communication step", "work limit instead of a hung host"),
@@ -368,7 +382,7 @@ OUTPUTS = {
         Variable("bearing.energy_residual", 4003, "Real", "J", None, None, None, None, 1, "energy", "Energy now - energy at start - net work since: 0 but for the errors of the integration and of the work's own integral", None),
         Variable("bearing.contacts", 4004, "Real", "1", None, None, None, None, 1, "ball", "Number of closed contacts (races and pockets)", None),
         Variable("bearing.penetration", 4005, "Real", "m", "um", None, None, None, 1, "ball", "Largest elastic approach of all contacts", None),
-        Variable("bearing.clearance", 8110, "Real", "m", "um", None, None, None, 1, "ball", "Diametral clearance at the present speed", None),
+        Variable("bearing.clearance", 8110, "Real", "m", "um", None, None, None, 1, "ball", "Diametral clearance at the present speed, temperatures and fits", None),
         Variable("loss.races", 8101, "Real", "W", None, None, None, None, 1, "energy", "Power dissipated in the race contacts", None),
         Variable("loss.inlet", 8102, "Real", "W", None, None, None, None, 1, "energy", "Part of loss.races: rolling friction of the inlets", None),
         Variable("loss.spin", 8103, "Real", "W", None, None, None, None, 1, "energy", "Part of loss.races: spin of the balls about the contact normals (sliced traction)", None),
@@ -414,12 +428,14 @@ OUTPUTS = {
         Variable("event.overpressure", 7004, "Real", "1", None, None, None, None, 1, "event", "Race contacts beyond bearing.p_limit", None),
         Variable("event.joint_open", 7005, "Real", "1", None, None, None, None, 1, "event", "Joints whose plates are apart", None),
         Variable("event.rivet_yield", 7006, "Real", "1", None, None, None, None, 1, "event", "Rivets whose sigma_head_peak or sigma_mid_peak exceeds the yield stress", None),
+        Variable("event.no_clearance", 7007, "Real", "1", None, None, None, None, 1, "event", "1 if speed, temperatures and fits leave the bearing no clearance (bearing.clearance < 0)", None),
         Variable("event.land_contact_onsets", 7011, "Real", "1", None, None, None, None, 1, "event", "Onsets of land contact since the start", None),
         Variable("event.pocket_exit_onsets", 7012, "Real", "1", None, None, None, None, 1, "event", "Onsets of a ball leaving its pocket since the start", None),
         Variable("event.ellipse_cut_onsets", 7013, "Real", "1", None, None, None, None, 1, "event", "Onsets of a contact ellipse cut by the shoulder since the start", None),
         Variable("event.overpressure_onsets", 7014, "Real", "1", None, None, None, None, 1, "event", "Onsets of a contact beyond bearing.p_limit since the start", None),
         Variable("event.joint_open_onsets", 7015, "Real", "1", None, None, None, None, 1, "event", "Onsets of an open joint since the start", None),
         Variable("event.rivet_yield_onsets", 7016, "Real", "1", None, None, None, None, 1, "event", "Onsets of yield of a rivet since the start", None),
+        Variable("event.no_clearance_onsets", 7017, "Real", "1", None, None, None, None, 1, "event", "Onsets of a closed clearance since the start", None),
         Variable("solver.method_used", 6007, "Real", "1", None, None, None, None, 1, "solver", "Integration method in use: 1 velocity Verlet, 2 Runge-Kutta", None),
     )
 }

@@ -109,7 +109,8 @@ static void report_events(Bearing *b)
         if (!event_onset(&s->event, kind, &now[kind])) continue;
         char text[256];
         event_text(kind, &now[kind], text, sizeof text);
-        const bool warning = kind == EVENT_OVERPRESSURE && s->event.onsets[kind] == 1.0;
+        const bool warned = kind == EVENT_OVERPRESSURE || kind == EVENT_NO_CLEARANCE;
+        const bool warning = warned && s->event.onsets[kind] == 1.0;
         bearing_log(b, warning ? LOG_WARNING : LOG_EVENT, "t = %.9g s: %s (onset %.0f)", s->integrator.t,
                     text, s->event.onsets[kind]);
     }
@@ -285,6 +286,8 @@ PartStatus part_step(Bearing *b, double t_end)
     if (!check_inputs(b, t_end - t_begin)) return PART_ERROR;
     const double before = cpu_clock();
     change_temperature(b, &s->u_now, &s->u[0]);
+    s->energy_start +=
+        energy_of_speed(&b->model, s->integrator.now.y, s->u_now.shaft.omega, s->u[0].shaft.omega);
     s->force_peak = 0.0;
     for (int k = 0; k < Z; k++) s->head_peak[k] = s->mid_peak[k] = 0.0;
     b->current = 0;

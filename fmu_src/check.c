@@ -3,6 +3,7 @@
 #include "saved_numbers.h"
 
 #include "instance.h"
+#include "ring_fit.h"
 #include "ring_load.h"
 #include "rivet_rom.h"
 #include "temperature.h"
@@ -118,6 +119,25 @@ static bool check_geometry(Bearing *b)
     fine &= require(b, p->ring.bore < d_m - D,
                     "ring.bore = %g m: less than the diameter of the inner groove's bottom, %g m, is allowed",
                     p->ring.bore, d_m - D);
+    fine &= require(
+        b, ring_fit_effective_i(p) >= d_m - D,
+        "ring.effective_i = %g m: at least the diameter of the inner groove's bottom, %g m, is allowed",
+        p->ring.effective_i, d_m - D);
+    fine &= require(
+        b, ring_fit_effective_e(p) <= d_m + D,
+        "ring.effective_e = %g m: at most the diameter of the outer groove's bottom, %g m, is allowed",
+        p->ring.effective_e, d_m + D);
+    fine &=
+        require(b, ring_fit_outside(p) > d_m + D,
+                "ring.outside = %g m: more than the diameter of the outer groove's bottom, %g m, is allowed",
+                p->ring.outside, d_m + D);
+    fine &= require(b, p->shaft.bore < ring_fit_bore(p),
+                    "shaft.bore = %g m: less than the bore of the inner ring, %g m, is allowed",
+                    p->shaft.bore, ring_fit_bore(p));
+    fine &= require(b, p->housing.outside == 0.0 || p->housing.outside > ring_fit_outside(p),
+                    "housing.outside = %g m: 0 or more than the outside diameter of the outer ring, %g m, is "
+                    "allowed",
+                    p->housing.outside, ring_fit_outside(p));
     fine &= require(b, p->cage.D_i < p->cage.D_o, "cage.D_i = %g m: less than cage.D_o = %g m is allowed",
                     p->cage.D_i, p->cage.D_o);
     fine &= require(b, p->cage.D_i < d_m, "cage.D_i = %g m: less than bearing.d_m = %g m is allowed",

@@ -36,12 +36,20 @@ typedef struct {
     Hertz hertz;
 } Race;
 
+// Growth of the inner groove's radius by rotation and fit (ring_fit.h).
+typedef struct {
+    double growth;   // by rotation with a loose shaft / omega^2 [m.s2]
+    double per_fit;  // per radial interference of the tight shaft
+    double fit,
+        loosening;  // radial interference at standstill [m], what the rotation takes of it / omega^2 [m.s2]
+} RingFit;
+
 typedef struct {
     // balls and races
     constants R;  // ball radius [m]
     double m, J;  // ball mass [kg], moment of inertia [kg.m2]
     Race inner, outer;
-    double growth;                  // of the inner groove's radius / omega^2 [m.s2]
+    RingFit fit;
     double starvation, ln_heating;  // of the inlets: exponent / U [s/m], ln of the heating term at U = 1 m/s
     double ln_thermal;              // ln of the thermal loading L of the race films at U = 1 m/s
 
@@ -103,6 +111,7 @@ typedef struct {
     scalar F[3], M[2];   // load [N], moment about Y, Z [N.m]
     scalar omega;        // speed [rad/s]
     scalar beta, gamma;  // direction cosines of the shaft's tilt
+    scalar omega_dot;    // rate of the speed [rad/s2]
 } RingLoad;
 
 // ---- a rigid body with an axis: inner ring or cage half; written by rotor_axis, rotor_body_axes -----------

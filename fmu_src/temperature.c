@@ -1,6 +1,7 @@
 // Parameters at the temperatures of oil, rings, balls and cage: equations in temperature.h.
 #include "temperature.h"
 
+#include "ring_fit.h"
 #include "rivet_rom.h"
 #include "viscosity.h"
 
@@ -69,6 +70,21 @@ static void heat_cage(const Parameters *p, double e_c, double e_e, double e_b, P
     hot->cage.D_i = p->cage.D_i + e_c * p->cage.D_i;
 }
 
+// Fits at temperature; what the housing takes from groove and land of the outer ring.
+static void heat_fits(const Parameters *p, const Inputs *u, double T_a, Parameters *hot)
+{
+    const double expansion = p->bearing.expansion;
+    hot->shaft.interference =
+        p->shaft.interference + (p->shaft.expansion - expansion) * (u->ring.T_i - T_a) * ring_fit_bore(p);
+    hot->housing.interference = p->housing.interference + (expansion - p->housing.expansion) *
+                                                              (u->ring.T_e - T_a) * ring_fit_outside(p);
+    const double groove = ring_fit_housing(hot, 0.5 * (p->bearing.d_m + p->bearing.D));
+    const double land = ring_fit_housing(hot, 0.5 * (p->cage.D_o + p->cage.guide_clearance));
+    hot->bearing.P_d -= 2.0 * groove;
+    hot->bearing.d_m -= groove;
+    hot->cage.guide_clearance -= 2.0 * land;
+}
+
 void temperature_apply(const Parameters *p, const Inputs *u, Parameters *hot)
 {
     const Parameters cold = *p;
@@ -80,6 +96,7 @@ void temperature_apply(const Parameters *p, const Inputs *u, Parameters *hot)
     heat_oil(&cold, u->oil.T, hot);
     heat_steel(&cold, e_i, e_e, e_b, hot);
     heat_cage(&cold, e_c, e_e, e_b, hot);
+    heat_fits(&cold, u, T_a, hot);
     hot->joint.preload = joint_preload(joint, cold.joint.preload, u->cage.T);
     hot->joint.fit = joint_fit(joint, cold.joint.fit, u->cage.T);
 }

@@ -246,7 +246,7 @@ class Trajectory:
 
     def __init__(self, core, model, t, rng):
         self.core, self.model, self.t = core, model, t
-        self.size = np.array([INPUT_STEP[name.split(".")[1].split("_")[0]] for name in INPUTS])
+        self.size = np.array([INPUT_STEP.get(name.split(".")[1].split("_")[0], 0.0) for name in INPUTS])  # temperatures stay: test_temperature.py
         self.u, self.trajectory, self.out = core.ffi.new("Inputs[3]"), core.new("InputTrajectory"), core.new("Outputs")
         self.u[0] = model.u[0]
         self.values = np.frombuffer(core.ffi.buffer(self.u)).reshape(3, -1)

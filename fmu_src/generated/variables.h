@@ -9,7 +9,7 @@
 
 #define FMI2_FUNCTION_PREFIX RivetedBearing_  // of the functions of a source-code FMU
 #define MODEL_IDENTIFIER "RivetedBearing"
-#define MODEL_GUID "{3dd9c38b-d592-d282-e216-826a80b9b91c}"  // digest of the table
+#define MODEL_GUID "{19fe00fa-00e4-945b-b22a-cb2dd1d0b9e1}"  // digest of the table
 
 enum { Z = 9 };  // number of balls
 
@@ -151,9 +151,27 @@ typedef struct {
         double tilt_time;  // [s] Time constant of the critically damped filter of the prescribed tilt
         double k_tilt;  // [N.m/rad] Angular stiffness of the ring's support (supported tilt)
         double c_tilt;  // [N.m.s/rad] Angular damping of the ring's support (supported tilt)
-        double bore;  // [m] Bore of the inner ring: its growth by rotation
+        double bore;  // [m] Bore of the inner ring: its growth by rotation and fit
         double rho;  // [kg/m3] Density of the inner ring
+        double outside;  // [m] Outside diameter of the outer ring: its fit in the housing
+        double effective_i;  // [m] Outside diameter of the cylinder that the inner ring is for growth and fit
+        double effective_e;  // [m] Inside diameter of the cylinder that the outer ring is for its fit
     } ring;
+    struct {
+        double interference;  // [m] Shaft diameter - bore of the inner ring before mounting, at assembly temperature; negative = clearance
+        double bore;  // [m] Bore of the shaft
+        double E;  // [Pa] Young's modulus of the shaft
+        double nu;  // [1] Poisson's ratio of the shaft
+        double rho;  // [kg/m3] Density of the shaft
+        double expansion;  // [1/K] Thermal expansion of the shaft, whose seat has the inner ring's temperature
+    } shaft;
+    struct {
+        double interference;  // [m] Outside diameter of the outer ring - bore of the housing before mounting, at assembly temperature; negative = clearance
+        double outside;  // [m] Outside diameter of the housing
+        double E;  // [Pa] Young's modulus of the housing
+        double nu;  // [1] Poisson's ratio of the housing
+        double expansion;  // [1/K] Thermal expansion of the housing, whose seat has the outer ring's temperature
+    } housing;
     struct {
         double y;  // [m/s2] Gravity along Y
         double z;  // [m/s2] Gravity along Z
@@ -184,7 +202,7 @@ typedef struct {
         int drag;  // Drag: Drag of the balls in the mixture between the rings
         int churning;  // Switch: Drag moment of the mixture on the spinning balls
         int heating;  // Switch: Shear heating in the inlets of the races, in their films and in the films of the lands
-        int growth;  // Switch: Growth of the inner ring by its own rotation, which takes clearance (a free ring)
+        int growth;  // Switch: Growth of the inner ring by its rotation, which takes clearance
     } scene;
     struct {
         double tol;  // [1] Tolerance: local error / scale of each state class; a tolerance of fmi2SetupExperiment takes its place
@@ -236,7 +254,7 @@ typedef struct {
         scalar energy_residual;  // [J] Energy now - energy at start - net work since: 0 but for the errors of the integration and of the work's own integral
         scalar contacts;  // [1] Number of closed contacts (races and pockets)
         scalar penetration;  // [m] Largest elastic approach of all contacts
-        scalar clearance;  // [m] Diametral clearance at the present speed
+        scalar clearance;  // [m] Diametral clearance at the present speed, temperatures and fits
     } bearing;
     struct {
         scalar x;  // [m] Displacement of the inner ring along X
@@ -389,12 +407,14 @@ typedef struct {
         scalar overpressure;  // [1] Race contacts beyond bearing.p_limit
         scalar joint_open;  // [1] Joints whose plates are apart
         scalar rivet_yield;  // [1] Rivets whose sigma_head_peak or sigma_mid_peak exceeds the yield stress
+        scalar no_clearance;  // [1] 1 if speed, temperatures and fits leave the bearing no clearance (bearing.clearance < 0)
         scalar land_contact_onsets;  // [1] Onsets of land contact since the start
         scalar pocket_exit_onsets;  // [1] Onsets of a ball leaving its pocket since the start
         scalar ellipse_cut_onsets;  // [1] Onsets of a contact ellipse cut by the shoulder since the start
         scalar overpressure_onsets;  // [1] Onsets of a contact beyond bearing.p_limit since the start
         scalar joint_open_onsets;  // [1] Onsets of an open joint since the start
         scalar rivet_yield_onsets;  // [1] Onsets of yield of a rivet since the start
+        scalar no_clearance_onsets;  // [1] Onsets of a closed clearance since the start
     } event;
 } Outputs;
 
@@ -473,4 +493,4 @@ typedef enum {
 } StateScale;
 
 enum { N_INPUTS = 15 };  // all of them numbers
-enum { N_VARIABLES = 269 };  // time is the first
+enum { N_VARIABLES = 285 };  // time is the first
