@@ -143,9 +143,9 @@ def race_contact_force(model, w):
 
 
 def race_growth_power(model, w):
-    """Power that the inner ring's growth, where its speed changes, puts into the balls: -Q_i n.e dR_g/dt [W], [..., 1]."""
+    """Power that the inner ring's growth, where its speed changes, puts into the balls: -K delta^1.5 n.e dR_g/dt [W], [..., 1]."""
     load, p = model.ring_load, vec(w.x, w.r, 0.0) - vec_local(w.ring.x, w.cos_theta, w.sin_theta)
     a = vec_local(w.ring.a, w.cos_theta, w.sin_theta)
     radial = p - vec_dot(p, a) * a
-    force = -ball_array_sum(w.Q_i * vec_dot(w.n_i, radial) / np.sqrt(vec_dot(radial, radial)))
+    force = -ball_array_sum(hertz_load(model.d.inner.hertz.K, w.delta_i) * vec_dot(w.n_i, radial) / np.sqrt(vec_dot(radial, radial)))
     return force * ring_fit_rate(model.d.fit, load.omega, load.omega_dot)

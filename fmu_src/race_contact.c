@@ -261,13 +261,16 @@ scalar race_growth_power(const Model *model, const Work *w)
 {
     const RingLoad *load = model->ring_load;
     const Rotor *ring = &w->ring;
-    scalar force = 0.0;  // of the balls against the growing groove
+    const double K = model->d->inner.hertz.K;
+    scalar force = 0.0;  // of the balls against the growing groove, elastic
     for (int j = 0; j < Z; j++) {
         const scalar c = w->cos_theta[j], s = w->sin_theta[j];
         const scalar p[3] = {w->x[j] - ring->x[0], w->r[j] * c - ring->x[1], w->r[j] * s - ring->x[2]};
         const scalar n[3] = {w->n_ix[j], w->n_ir[j] * c - w->n_it[j] * s, w->n_ir[j] * s + w->n_it[j] * c};
         const scalar along = dot3(p, ring->a), radius = scalar_sqrt(dot3(p, p) - along * along);
-        force -= w->Q_i[j] * ((dot3(n, p) - along * dot3(n, ring->a)) / radius);
+        if (!(scalar_value(w->delta_i[j]) > 0.0)) continue;
+        const scalar Q = K * w->delta_i[j] * scalar_sqrt(w->delta_i[j]);
+        force -= Q * ((dot3(n, p) - along * dot3(n, ring->a)) / radius);
     }
     return force * ring_fit_rate(&model->d->fit, load->omega, load->omega_dot);
 }

@@ -8,5 +8,5 @@
 typedef void RaceContactForce(const Model *model, Work *w);
 RaceContactForce race_contact_force;
 
-// Power that the inner ring's growth, where its speed changes, puts into the balls [W]: -Q_i n.e dR_g/dt.
+// Power that the inner ring's growth, where its speed changes, puts into the balls [W]: -K delta^1.5 n.e dR_g/dt.
 scalar race_growth_power(const Model *model, const Work *w);

@@ -217,7 +217,7 @@ def test_both_twins_follow_a_jump(folder):
     rows, twin = np.array(rows), simulate({}, heating, t_end=5 * H, step=H, tolerance=1e-7)
     expected = np.stack([twin[name][1:] for name in names], axis=1)
     np.testing.assert_allclose(rows[:, :5], expected[:, :5], rtol=2e-4)  # observed 5e-5: the integrators' errors
-    assert rows[0, 0] - rows[2, 0] == pytest.approx(11.7e-6 * (42.38e-3 * 20.0 + 22.225e-3 * 10.0), rel=1e-9)
+    assert rows[0, 0] - rows[2, 0] == pytest.approx(11.7e-6 * (42.38e-3 * 20.0 + 22.225e-3 * 10.0), rel=1e-4)  # the growth of a warmer ring
     loss = slave.get("bearing.power_loss")[0] * H
     assert np.abs(rows[:, 5]).max() < 1e-3 * loss and np.abs(expected[:, 5]).max() < 1e-3 * loss
 
@@ -255,12 +255,12 @@ def test_temperatures_that_stay_cost_nothing(folder):
 @pytest.mark.c_only
 def test_a_ramp_acts_from_communication_point_to_communication_point(folder):
     """A temperature with a derivative: the step runs at its first value, the outputs at its end show what it has reached."""
-    slave = started(folder)
+    slave = started(folder, scene__growth=1)
     slave.check("SetRealInputDerivatives", [slave.vr["ring.T_e"]], 1, [1], [1e4])
     slave.step(H)
     assert slave.get("ring.T_e")[0] == pytest.approx(294.15, rel=1e-12)
-    assert slave.get("bearing.clearance")[0] == pytest.approx(15e-6 + 11.7e-6 * 64.62e-3, rel=1e-3 if PARAMETERS["scene.growth"].start == 1 else 1.0)
-    stepwise = started(folder).step(H)
+    assert slave.get("bearing.clearance")[0] == pytest.approx(15e-6 + 11.7e-6 * 64.62e-3, rel=1e-9)
+    stepwise = started(folder, scene__growth=1).step(H)
     stepwise.set("ring.T_e", 294.15)
     for each in (slave, stepwise):
         each.step(H)
