@@ -117,6 +117,33 @@ def test_pressure_coefficient_over_temperature(core):
     assert alpha[2] == pytest.approx(8.51e-9, rel=5e-3)
 
 
+MEASURED = {  # eta [mPa.s] and alpha [1/GPa] of oils at 30, 60 and 100 degC
+    "light machine oil": (45.0, 12.0, 3.9, 28.0, 20.0, 16.0),
+    "heavy machine oil": (153.0, 34.0, 9.1, 23.7, 20.5, 15.8),
+    "heavy machine oil 2": (250.0, 50.5, 12.6, 25.0, 21.3, 17.6),
+    "heavy machine oil 3": (122.0, 26.3, 7.3, 27.0, 21.6, 17.5),
+    "cylinder oil": (810.0, 135.0, 26.8, 34.0, 28.0, 22.0),
+    "spindle oil": (18.6, 6.3, 2.4, 20.0, 16.0, 13.0),
+    "medicinal white oil": (107.0, 23.3, 6.4, 29.6, 22.8, 17.8),
+}
+
+
+@pytest.mark.parametrize("name", MEASURED)
+def test_measured_oils(core, name):
+    """Cameron, Principles of Lubrication, as in Stachowiak & Batchelor, Engineering Tribology, table 2.3: the values at 30 and 100 degC give those at 60.
+
+    Observed: viscosity within 2.5 %, pressure coefficient within 6 %, of the light machine oil 10 %.
+    """
+    eta_1, eta, eta_2, alpha_1, alpha, alpha_2 = MEASURED[name]
+    T_1, T, T_2 = 303.15, 333.15, 373.15
+    rho = 870.0 * (1.0 - 7.5e-4 * (T_2 - T_1))
+    oil = {"oil.T_0": T_1, "oil.rho": 870.0, "oil.nu_1": 1e-3 * eta_1 / 870.0, "oil.T_1": T_1, "oil.nu_2": 1e-3 * eta_2 / rho, "oil.T_2": T_2}
+    oil |= {"oil.alpha": 1e-9 * alpha_1, "oil.alpha_T": np.log(alpha_1 / alpha_2) / (T_2 - T_1)}
+    p = at(core, {"oil.T": T}, oil)
+    assert p.oil.eta == pytest.approx(1e-3 * eta, rel=0.03)
+    assert p.oil.alpha == pytest.approx(1e-9 * alpha, rel=0.11)
+
+
 def test_a_given_viscosity_replaces_the_law_at_its_temperature(core):
     """oil.eta holds at oil.T_0 and follows the law's ratio from there; another oil's points decide alone while oil.eta has its start value."""
 
