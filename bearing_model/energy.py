@@ -2,11 +2,13 @@
 
     contacts (2/5) K delta^2.5, shared between the halves as in pocket.py;  joint T^2/(2 k_rivet) + N_plate^2/(2 k_plate) + k z^2/2 + hole contact
 
-The inner ring is outside this balance: its motion puts the power -F.v - M.Omega into balls and cage, with F and M of the contacts on the ring.
+The inner ring is outside this balance: its motion puts the power -F.v - M.Omega into balls and cage, with F and M of the contacts on the ring, and its
+growth the power -K delta^1.5 n.e dR_g/dt (race_contact.py).
 """
 
 from bearing_model.hertz import hertz_energy
 from bearing_model.lanes import ball_array_sum
+from bearing_model.race_contact import race_growth_power
 from bearing_model.variables import CageModel
 from bearing_model.vec import vec, vec_cross, vec_dot
 
@@ -69,6 +71,7 @@ def supply_terms(model, w):
         "shaft torque": spin,
         "translation of the ring": -vec_dot(ring.F, ring.v),
         "tilting of the ring": -vec_dot(ring.M, ring.Omega) - spin,
+        "growth of the ring": race_growth_power(model, w),
         "gravity": gravity,
     }
 

@@ -35,6 +35,7 @@ class RingLoad:
     omega: float  # speed [rad/s]
     beta: float  # direction cosines of the shaft's tilt
     gamma: float
+    omega_dot: float = 0.0  # rate of the speed [rad/s2]
 
 
 def ring_cosines(tilt_y, tilt_z):
@@ -110,7 +111,8 @@ def ring_load_at(trajectory, t):
     y, z = np.where(loaded, u.shaft.F_y / length, 1.0), np.where(loaded, u.shaft.F_z / length, 0.0)
     beta, gamma = ring_cosines(u.shaft.tilt_y, u.shaft.tilt_z)
     F = (u.shaft.F_x + F_a, u.shaft.F_y + F_r * y, u.shaft.F_z + F_r * z)
-    return RingLoad(F, (u.shaft.M_y, u.shaft.M_z), u.shaft.omega, beta, gamma)
+    omega_dot = trajectory.u[1].shaft.omega + (t - trajectory.t_0) * trajectory.u[2].shaft.omega
+    return RingLoad(F, (u.shaft.M_y, u.shaft.M_z), u.shaft.omega, beta, gamma, omega_dot)
 
 
 def ring_load_update(p, u, t):

@@ -7,6 +7,7 @@
 #define ball_kinematics FOR_ISA(ball_kinematics)
 #define ball_acceleration FOR_ISA(ball_acceleration)
 #define race_contact_force FOR_ISA(race_contact_force)
+#define race_growth_power FOR_ISA(race_growth_power)
 #define drag_mixture FOR_ISA(drag_mixture)
 #define drag_force FOR_ISA(drag_force)
 #define drag_cage FOR_ISA(drag_cage)

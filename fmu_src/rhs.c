@@ -140,6 +140,7 @@ static scalar net_power(const Model *model, const Work *w)
     scalar power = -dot3(w->ring.F, w->ring.v) - dot3(w->ring.M, w->ring.Omega) -
                    ball_array_sum(w->dissipated) - w->cage_dissipated - w->ring_drag_dissipated;
     if (model->p->scene.cage == CAGE_MODEL_TWO_HALF) power -= ball_array_sum(w->joint_dissipated);
+    if (scalar_value(model->ring_load->omega_dot) != 0.0) power += race_growth_power(model, w);
     const double g_y = model->p->gravity.y, g_z = model->p->gravity.z;
     if (g_y != 0.0 || g_z != 0.0) {
         for (int j = 0; j < Z; j++) {

@@ -70,6 +70,8 @@ INLINE void ring_load_at(const InputTrajectory *trajectory, scalar t, RingLoad *
     ring_load->M[0] = u.shaft.M_y;
     ring_load->M[1] = u.shaft.M_z;
     ring_load->omega = u.shaft.omega;
+    ring_load->omega_dot =
+        trajectory->u[1].shaft.omega + (t - trajectory->t_0) * trajectory->u[2].shaft.omega;
     const scalar angle = scalar_sqrt(u.shaft.tilt_y * u.shaft.tilt_y + u.shaft.tilt_z * u.shaft.tilt_z);
     const scalar sinc = scalar_value(angle) > 1e-8 ? scalar_sin(angle) / angle : 1.0;
     ring_load->beta = u.shaft.tilt_y * sinc;
