@@ -28,7 +28,9 @@ from race_control import running as running_with_spin
 from bearing_model.hertz import curvature_difference, hertz_contact
 from bearing_model.hertz_exact import ball_race_contact
 from bearing_model.kinematics import fault_frequencies
+from bearing_model.parameters import Parameters
 from bearing_model.quasi_static import Bearing, Load, quasi_static
+from bearing_model.ring_fit import ring_fit_of
 from riveted_bearing import build, run
 from riveted_bearing.compare import compare, is_motion
 from riveted_bearing.fmu import Model
@@ -335,9 +337,11 @@ def skids(fmu, F_x, speed_rpm, t_end):
 
 
 def load_bearing(name):
-    """Arguments of Bearing from a file of benchmarks/bearings."""
+    """Arguments of Bearing from a file of benchmarks/bearings; its inner ring grows by rotation as the FMU's."""
     data = tomllib.loads((ROOT / "benchmarks" / "bearings" / f"{name}.toml").read_text(encoding="utf-8"))
-    return {"Z": data["Z"]} | {key: data["parameters"]["bearing"][key] for key in ("D", "d_m", "f_i", "f_e", "P_d")}
+    geometry, p = {key: data["parameters"]["bearing"][key] for key in ("D", "d_m", "f_i", "f_e", "P_d")}, Parameters()
+    vars(p.bearing).update(geometry)
+    return {"Z": data["Z"], "fit": ring_fit_of(p)} | geometry
 
 
 def skid(fmu, short):
@@ -360,7 +364,8 @@ def skid(fmu, short):
     text = (
         "NASA TN D-7870 (Bamberger, Zaretsky, Signer, 1975), abstract: a 120-mm angular contact bearing under thrust skids by various amounts, generally"
         " growing with speed at a given load, 6 % at most, at 25,000 r/min. Here: a bearing like theirs (`benchmarks/bearings/120mm.toml`), mean slip of the"
-        f" cage after {0.5 * t_end:g} s against the orbit without slip at the running contact angles (`quasi_static`, outer race control as Jones takes it"
+        f" cage after {0.5 * t_end:g} s against the orbit without slip at the running contact angles of the grown ring (`quasi_static`,"
+        " outer race control as Jones takes it"
         " for fast, lightly loaded bearings; `cage.slip_ratio` is against the epicyclic speed at zero contact angle and no measure of skid here)."
         f" Settled: no mean changes by more than {drift:.2f} % of the speed from the third quarter of the run to the fourth."
         f" Grows with speed: {', '.join(grows)}. Largest {most:.1f} %, {'within' if most <= 6.0 else 'beyond'} the report's 6 %; least {least:.1f} %"

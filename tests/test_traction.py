@@ -129,7 +129,7 @@ def test_thermal_film(core):
 
 @pytest.mark.parametrize("L", [0.1, 1.0, 3.0, 10.0])
 def test_thermal_film_against_another_source(core, L):
-    """Gupta, Cheng, Zhu, Forster & Schrand (1992) solved the inlet anew: 1/(1 + 0.213 L^0.64) in pure rolling at low pressure; within 8 % (observed 1.3...6.3 %)."""
+    """Gupta, Cheng, Zhu, Forster & Schrand (1992) solved the inlet anew: 1/(1 + 0.213 L^0.64) at low pressure; within 8 % (observed 1.3...6.3 %)."""
     d = core.model().d
     speed = np.sqrt(L / (ETA * 0.022 / 0.14))
     factor = np.exp(core.map(core.lib.test_traction_ln_thermal, [speed], d.ln_thermal)[0])
