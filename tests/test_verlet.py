@@ -391,7 +391,7 @@ def same(by_core, by_twin):
 @pytest.mark.parametrize(("h", "lubrication"), [(1e-8, 1), (1e-4, 2)])
 def test_control(core, h, lubrication):
     """Steps that grow from far too small, 1.5 times each, or shrink from far too large, to 0.2 times; then they follow 0.8 error^(-1/3)."""
-    by_core, by_twin = both(core, h, 1.2e-4, 3e-4, **{"scene.lubrication": lubrication})
+    by_core, by_twin = both(core, h, 1.2e-4, 1e-4, **{"scene.lubrication": lubrication})
     taken = same(by_core, by_twin)
     if h == 1e-8:
         np.testing.assert_allclose(taken[1:10] / taken[:9], 1.5, rtol=1e-9)
