@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from mechanics import SLICE, Instance, Z, pocket_loads, running_state
+from mechanics import SLICE, Instance, Z, pocket_loads, running_state, view
 
 from bearing_model import variables
 from bearing_model.model import Model
@@ -217,6 +217,8 @@ def test_other_units(core, scene, record_property):
         setattr(there.d, name, getattr(here.d, name) * factor("N/m"))
     there.d.c_joint = here.d.c_joint * factor("N.s/m")
     there.d.hole_gap = here.d.hole_gap * factor("m")
+    for name in ("rivet_y", "rivet_z"):
+        view(core, getattr(there.d, name))[:] *= factor("m")
     units = np.empty(variables.N_STATES)
     for name, place in SLICE.items():
         units[place] = factor(STATE_UNITS[variables.STATE_SCALES[name]])
