@@ -86,7 +86,7 @@ def centrifugal_text(runs):
         "",
         "The paper does not say whether its model has the centrifugal load of the cage halves (`cage.centrifugal`). Scene `demo`, stress in MPa, dislocation "
         "in µm, damage of the worst head per hour as its power of ten; each field: with / without. The load bends each half outward between its joints and so "
-        "pries at every rivet all the time, in proportion to the speed squared: the mean of the stress has it, and the impacts act on joints that it has loaded.",
+        "pries at every rivet all the time, in proportion to the speed squared: the mean of the stress has it, and impacts act on joints that it has loaded.",
         "",
         "| preload | fit | r/min | tilt | " + " | ".join(names.values()) + " | damage |",
         "|---" * (5 + len(names)) + "|",
