@@ -107,5 +107,6 @@ def test_peak_is_the_largest_since_the_last_point(core):
         # Other steps, the same 2 ms: before chaos parts them.  A force that falls from the last point on has its largest value between that point and the
         # first step, whose lengths differ.
         assert 0.98 * peak - 0.05 <= coarse.output("cage.F_pocket_peak") <= 1.02 * max(peak, before) + 0.05
-        assert coarse.output("cage.F_pocket_peak") >= coarse.output("cage.F_pocket_max")
+        # The peak is that of the steps' own evaluations, which are before the step corrects its positions; observed 5e-6 below.
+        assert coarse.output("cage.F_pocket_peak") >= (1.0 - 1e-4) * coarse.output("cage.F_pocket_max")
     assert largest > 10.0

@@ -46,7 +46,7 @@ def test_designs_have_eight_seeds_and_the_working_point(model, name):
     for scene in scenes:
         inputs = {key: float(history(0.0)) for key, history in scene.inputs.items()}
         assert (inputs["shaft.F_y"], inputs["shaft.F_x"]) in [(2994, 515), (2246, 386), (1994, 258)] or name == "grip"  # the paper's Table 2
-        if name not in ("speed", "tolerance"):
+        if name not in ("speed", "tolerance", "centrifugal"):
             assert inputs["shaft.omega"] == pytest.approx(18238 * np.pi / 30, rel=1e-12)
 
 
