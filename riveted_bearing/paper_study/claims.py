@@ -70,7 +70,8 @@ def preload_claims(data):
             f"without load: head {rest[20]:.1f} MPa at 20 N, {rest[60]:.1f} at 60 N; "
             f"running, p99.9: {at[20].estimate('head_peak')} and {at[60].estimate('head_peak')} MPa",
             (np.isclose(rest[60], 3.0 * rest[20], rtol=1e-3), ratio(at[60], at[20], "head_peak").low > 2.7),
-            "Only the preload's own share is proportional to preload. At speed the cage's centrifugal load pries the joints open and decides the rivets' tension, "
+            "Only the preload's own share is proportional to preload. At speed the cage's centrifugal load pries the joints open and decides the "
+            "rivets' tension, "
             "whatever the preload; the loads by the balls come on top. The fit has no effect while there is play, see Fig. 12.",
         ),
         Claim(
@@ -78,7 +79,8 @@ def preload_claims(data):
             "The halves' dislocation falls with preload like a decaying exponential",
             f"largest: {largest[0]} µm at 0 N, {largest[20]} at 20 N, {largest[40]} at 40 N, {largest[60]} at 60 N",
             (rise(at[60], at[0], "dislocation_max").high < 0.0, first.high < last.low),
-            "The cage's centrifugal load presses the edges of the pads together with as much as it adds to the rivets' tension, so that joints without preload "
+            "The cage's centrifugal load presses the edges of the pads together with as much as it adds to the rivets' tension, so that joints "
+            "without preload "
             "have friction too, and the dislocation hardly depends on preload. Without that load (table below) it falls as the paper says.",
         ),
         Claim(
@@ -103,15 +105,18 @@ def preload_claims(data):
             f"0 to 60 N, p99.9: head by {rise(at[60], at[0], 'head_peak')}, middle by {rise(at[60], at[0], 'mid_peak')} MPa; "
             f"mean: {rise(at[60], at[0], 'head')}, {rise(at[60], at[0], 'mid')} MPa",
             tuple(rise(at[60], at[0], name).low > 0.0 for name in ("head_peak", "mid_peak", "head", "mid")),
-            "At speed equilibrium asks the rivets for more tension than the preload, which then only takes the place of a part of it. A higher preload keeps the "
-            "joints closed for longer, which relieves the shank's bending (middle) and the dynamic range. Without the centrifugal load (table below) stress rises.",
+            "At speed equilibrium asks the rivets for more tension than the preload, which then only takes the place of a part of it. A higher "
+            "preload keeps the "
+            "joints closed for longer, which relieves the shank's bending (middle) and the dynamic range. Without the centrifugal load (table below) "
+            "stress rises.",
         ),
         Claim(
             "4.1 (1), Fig. 11",
             "At 60 N the head stress is above 140 MPa",
             f"mean {at[60].estimate('head')}, p99.9 {at[60].estimate('head_peak')} MPa",
             (at[60].estimate("head").low > 140.0,),
-            f"The share at rest, {rest[60]:.0f} MPa, is calibrated to this sentence by the fillet's radius; what centrifugal load and balls make of it is a result.",
+            f"The share at rest, {rest[60]:.0f} MPa, is calibrated to this sentence by the fillet's radius; what centrifugal load and balls make of "
+            f"it is a result.",
         ),
         Claim(
             "4.1 (1); 5 (1)",
@@ -199,8 +204,10 @@ def fit_claims(data):
             f"equal at {mean:+.1f} µm (mean), {peak:+.1f} µm (p99.9); larger of the two, p99.9, {min(inside):.0f} to {max(inside):.0f} MPa inside, "
             f"{worst[-90.0]:.0f} at −0.09 mm, {worst[40.0]:.0f} at +0.04 mm",
             (-20.0 <= mean <= 0.0, -20.0 <= peak <= 0.0, min(inside) < 0.9 * min(worst[-90.0], worst[40.0])),
-            "The crossing of the means follows the swell of the rivet (4 µm), which was calibrated to this sentence without the cage's centrifugal load (then at "
-            "−3.1 µm). The load raises the head's stress and so moves the crossing toward interference; the swell is not fitted again. Stress is about as low at any "
+            "The crossing of the means follows the swell of the rivet (4 µm), which was calibrated to this sentence without the cage's centrifugal "
+            "load (then at "
+            "−3.1 µm). The load raises the head's stress and so moves the crossing toward interference; the swell is not fitted again. Stress is "
+            "about as low at any "
             "larger clearance.",
         ),
         Claim(
@@ -393,7 +400,8 @@ def impact_claims(data):
             "The reason is that impacts raise the total contact force of balls and cage",
             f"F: mean force rises by {text('force', 'N')}, RMS by {text('force_rms', 'N')}, p99.9 by {text('force_peak', 'N')}",
             tuple(e.low > 0.0 for name in ("force", "force_rms") for e in rises(name).values()),
-            "The total rises because balls press longer more than because they hit harder: the 99.9 % quantile of the force, pooled over all balls, changes by a few "
+            "The total rises because balls press longer more than because they hit harder: the 99.9 % quantile of the force, pooled over all balls, "
+            "changes by a few "
             "newtons either way, while that of the stress, of the worst rivet at each instant, rises.",
         ),
         Claim(
@@ -444,7 +452,8 @@ def tilt_claims(data):
             "Below 0.2° of misalignment stress hardly changes",
             text(0.2, 0.0, ("head", "head_peak", "head_range")),
             tuple(flat.values()),
-            "The sign decides. Radial and axial load tilt a ring by themselves; under a tilt that opposes theirs stress is flat or falls, under one that adds "
+            "The sign decides. Radial and axial load tilt a ring by themselves; under a tilt that opposes theirs stress is flat or falls, under one "
+            "that adds "
             "to it the balls hit harder from 0.1° on (p99.9), while the mean rises less.",
         ),
         Claim(
