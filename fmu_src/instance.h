@@ -20,6 +20,7 @@ typedef struct {
     Parameters p;
     Inputs u[INPUT_ORDERS + 1];  // inputs of the next step: their values at its start and their derivatives
     Inputs u_now, u_now_dot;     // inputs under which the present state was reached, and their rates
+    double frame_angle;          // by which the frame has turned since the start [rad]
     IntegratorState integrator;
     double t_start, tolerance;
     double energy_start;  // total energy at the start [J]
@@ -41,6 +42,7 @@ struct Part {
     PartHost host;
     InstanceState s;
     Derived d;
+    Inputs start;  // start values of the variable table
     InputTrajectory trajectory;
     RingLoad ring_load;
     Model model;
@@ -51,6 +53,7 @@ struct Part {
     unsigned current;        // one bit for each output group: set while the group is up to date
     double y_dot[N_STATES];  // dy/dt at the present state
     bool evaluated;          // w and y_dot belong to the present state and inputs
+    bool reported;           // inputs and parameters without effect have been logged
     double cpu_time;         // processor time of all steps [s]
 };
 
@@ -59,6 +62,9 @@ void outputs_fill(Bearing *b, OutputGroup group);
 
 // Whether parameters and inputs make a bearing; refusals go to the log.
 bool check_all(Bearing *b);
+
+// Logs once which inputs and parameters differ from their start values but have no effect, by ring.motion.
+void report_without_effect(Bearing *b);
 
 // Whether all balls lie in their grooves at the start; w holds the results there.
 bool check_start(Bearing *b);

@@ -1,6 +1,51 @@
 // Trajectory of the inputs over a communication step, and the built-in pulses.  Equations in ring_load.h.
 #include "ring_load.h"
 
+#define PLACE(group, member) (int)(offsetof(Inputs, group.member) / sizeof(double))
+
+const MotionInput MOTION[MOTIONS] = {
+    {PLACE(shaft, x), PLACE(shaft, v_x)},
+    {PLACE(shaft, y), PLACE(shaft, v_y)},
+    {PLACE(shaft, z), PLACE(shaft, v_z)},
+    {PLACE(shaft, tilt_y), PLACE(shaft, tilt_y_dot)},
+    {PLACE(shaft, tilt_z), PLACE(shaft, tilt_z_dot)},
+    {PLACE(housing, x), PLACE(housing, v_x)},
+    {PLACE(housing, y), PLACE(housing, v_y)},
+    {PLACE(housing, z), PLACE(housing, v_z)},
+    {PLACE(housing, tilt_y), PLACE(housing, tilt_y_dot)},
+    {PLACE(housing, tilt_z), PLACE(housing, tilt_z_dot)},
+    {PLACE(frame, omega), PLACE(frame, omega_dot)},
+};
+
+void motion_trajectory(const Parameters *p, const Inputs given[INPUT_ORDERS + 1], const Inputs *now, double h,
+                       Inputs u[INPUT_ORDERS + 1])
+{
+    const bool prescribed = p->ring.motion == RING_MOTION_PRESCRIBED;
+    const double *in[INPUT_ORDERS + 1], *at = (const double *)now;
+    double *out[INPUT_ORDERS + 1];
+    memcpy(u, given, (INPUT_ORDERS + 1) * sizeof *u);
+    for (int order = 0; order <= INPUT_ORDERS; order++) {
+        in[order] = (const double *)&given[order];
+        out[order] = (double *)&u[order];
+    }
+    for (int i = 0; i < MOTIONS; i++) {
+        const int q = MOTION[i].position, v = MOTION[i].velocity;
+        if (i < SHAFT_MOTIONS && !prescribed) {
+            out[1][v] = out[2][v] = 0.0;
+            continue;
+        }
+
+        // the motion reached so far, and that at the end of the step
+        const double x_0 = at[q], v_0 = at[v];
+        const double x_1 = in[0][q] + h * (in[0][v] + 0.5 * h * (in[1][v] + h / 3.0 * in[2][v]));
+        const double v_1 = in[0][v] + h * (in[1][v] + 0.5 * h * in[2][v]);
+        const double mean = (x_1 - x_0) / h;
+        out[0][q] = x_0, out[0][v] = out[1][q] = v_0;
+        out[1][v] = out[2][q] = (6.0 * mean - 4.0 * v_0 - 2.0 * v_1) / h;
+        out[2][v] = (6.0 * (v_0 + v_1) - 12.0 * mean) / (h * h);
+    }
+}
+
 static double pulse_start(const Parameters *p, int n)
 {
     return p->pulse.t_start + n * p->pulse.interval;
@@ -36,6 +81,10 @@ void input_trajectory_update(const Parameters *p, const Inputs u[INPUT_ORDERS + 
     trajectory->pulse_a = active ? p->pulse.F_a : 0.0;
     trajectory->pulse_start = active ? pulse_start(p, i) : 0.0;
     trajectory->pulse_rate = PI / p->pulse.duration;
+    trajectory->gravity[0] = p->gravity.y;
+    trajectory->gravity[1] = p->gravity.z;
+    trajectory->radius = p->frame.radius;
+    trajectory->frame_angle = 0.0;
 }
 
 bool input_trajectory_varies(const InputTrajectory *trajectory)
