@@ -21,12 +21,19 @@ from bearing_model.model import Model, Work
 from bearing_model.outputs import outputs
 from bearing_model.parameters import InputDerivatives, Inputs, Parameters
 from bearing_model.rhs import jacobian, rhs
-from bearing_model.ring_load import input_trajectory_at, input_trajectory_update, input_trajectory_varies, pulse_next_edge, ring_load_at, ring_load_update
+from bearing_model.ring_load import (
+    input_trajectory_here,
+    input_trajectory_update,
+    input_trajectory_varies,
+    motion_trajectory,
+    pulse_next_edge,
+    ring_load_at,
+)
 from bearing_model.rivet_rom import HEAD_P1, MID_VM, rivet_rom_stress
 from bearing_model.rivets import rivets_load, rivets_slip
-from bearing_model.start import start_state
+from bearing_model.start import ring_follow, start_state
 from bearing_model.statistics import StatisticsChannel
-from bearing_model.variables import OUTPUTS, WORK, Stress, Switch, Z
+from bearing_model.variables import OUTPUTS, WORK, RingMotion, Stress, Switch, Z
 
 METHODS = {"DOP853": DOP853, "RK45": RK45, "RK23": RK23, "Radau": Radau, "BDF": BDF, "LSODA": LSODA}
 IMPLICIT = ("Radau", "BDF", "LSODA")
@@ -92,7 +99,7 @@ class Record:
         peaks = {"cage.F_pocket_peak": np.max(w.Q_pocket)}
         peaks |= self.add_stress(model, t, h, counts, w) if p.scene.stress >= Stress.PEAK else no_stress()
         h0, h1 = w.half
-        centre = 0.5 * (h0.x + h1.x)[..., 0]
+        centre = (0.5 * (h0.x + h1.x) - w.outer_x)[..., 0]
         self.omega_time += np.sum((h * 0.5 * (h0.s + h1.s)[..., 0])[counts])
         self.eccentricity_time += np.sum((h * np.hypot(centre[1], centre[2]) / model.d.C_land)[counts])
         self.dislocation_max = max(self.dislocation_max, np.max(rivets_slip(model, w)[counts], initial=0.0))
@@ -193,7 +200,8 @@ def simulate(parameters=None, inputs=None, t_end=1e-3, *, derivatives=None, step
     p, held = Parameters(parameters), inputs if callable(inputs) else lambda t: inputs
     slopes = derivatives or (lambda t: ({}, {}))
     d = model_derive(p, table)
-    model = Model(p, d, ring_load_update(p, Inputs(held(t_start)), t_start))
+    here = input_trajectory_update(p, (Inputs(held(t_start)), *map(InputDerivatives, slopes(t_start))), t_start, t_start)
+    model = Model(p, d, ring_load_at(here, t_start))
     y = start_state(model)[0] if y is None else np.array(y, dtype=float)
     run = Integration(p, d, t_start, y, p.solver.tol if tolerance is None else tolerance, method)
     record, w = Record(p), Work()
@@ -207,14 +215,18 @@ def simulate(parameters=None, inputs=None, t_end=1e-3, *, derivatives=None, step
     first = observe(model, t_start, y, energy_start) | accepted(model, record, np.array([t_start]), np.zeros(1), y[None])
     states, ledgers, rows = [y], [ledger.copy()], [first]
     for point in points[1:]:
-        u, peaks, t_0 = [Inputs(held(run.t)), *map(InputDerivatives, slopes(run.t))], [], run.t
+        u, peaks, t_0, angle = [Inputs(held(run.t)), *map(InputDerivatives, slopes(run.t))], [], run.t, here.frame_angle
+        u = motion_trajectory(p, u, here.u[0], point - t_0)
         while run.t < point:
-            trajectory, begin, y_begin = input_trajectory_update(p, u, t_0, run.t), run.t, run.y
+            trajectory, begin, y_begin = input_trajectory_update(p, u, t_0, run.t, angle), run.t, run.y
             model = Model(p, d, ring_load_at(trajectory, run.t), trajectory if input_trajectory_varies(trajectory) else None)
             times, ys = run.segment(model, min(pulse_next_edge(p, run.t), point))
             peaks.append(accepted(model, record, times, np.diff(times, prepend=begin), ys))
             ledger.add(model, np.append(begin, times), np.vstack([y_begin, ys]))
-        model = Model(p, d, ring_load_update(p, input_trajectory_at(trajectory, run.t), run.t))
+        here = input_trajectory_here(trajectory, run.t)
+        model = Model(p, d, ring_load_at(here, run.t))
+        if p.ring.motion == RingMotion.PRESCRIBED:
+            run.y = ring_follow(model.ring_load, run.y)
         states.append(run.y)
         ledgers.append(ledger.copy())
         rows.append(observe(model, run.t, run.y, energy_start) | {name: np.max([peak[name] for peak in peaks], axis=0) for name in peaks[0]})

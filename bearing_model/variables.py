@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from enum import IntEnum
 
 MODEL_IDENTIFIER = "RivetedBearing"
-MODEL_GUID = "{f43785d8-0f10-dff6-79b4-080ada4cfa81}"
+MODEL_GUID = "{20b95262-ff01-a8d0-f894-afb155c9e850}"
 Z = 9
 
 
@@ -265,8 +265,6 @@ INPUTS = {
         Variable("shaft.omega", 6, "Real", "rad/s", "rev/min", 1909.8788938723549, -15000.0, 15000.0, 1, None, "Speed of the inner ring about X", "paper Table 2 (18238 r/min)"),
         Variable("shaft.tilt_y", 7, "Real", "rad", "deg", 0.0, -0.035, 0.035, 1, None, "Tilt of the shaft about Y (+X turns toward -Z)", "paper section 4.1 (4), base case"),
         Variable("shaft.tilt_z", 8, "Real", "rad", "deg", 0.0, -0.035, 0.035, 1, None, "Tilt of the shaft about Z (+X turns toward +Y)", "paper section 4.1 (4), base case"),
-        Variable("impact.F_r", 9, "Real", "N", None, 0.0, -100000.0, 100000.0, 1, None, "Impact load added along the present radial load (+Y if there is none)", "no impact"),
-        Variable("impact.F_a", 10, "Real", "N", None, 0.0, -100000.0, 100000.0, 1, None, "Impact load added along +X", "no impact"),
         Variable("shaft.x", 21, "Real", "m", "um", 0.0, -0.002, 0.002, 1, None, "Position of the inner ring along X (prescribed motion)", "at rest in the centre"),
         Variable("shaft.y", 22, "Real", "m", "um", 0.0, -0.002, 0.002, 1, None, "Position of the inner ring along Y (prescribed motion)", "at rest in the centre"),
         Variable("shaft.z", 23, "Real", "m", "um", 0.0, -0.002, 0.002, 1, None, "Position of the inner ring along Z (prescribed motion)", "at rest in the centre"),
@@ -275,6 +273,8 @@ INPUTS = {
         Variable("shaft.v_z", 26, "Real", "m/s", None, 0.0, -10.0, 10.0, 1, None, "Velocity of the inner ring along Z (prescribed motion)", "at rest"),
         Variable("shaft.tilt_y_dot", 29, "Real", "rad/s", None, 0.0, -200.0, 200.0, 1, None, "Rate of shaft.tilt_y (prescribed motion)", "at rest"),
         Variable("shaft.tilt_z_dot", 30, "Real", "rad/s", None, 0.0, -200.0, 200.0, 1, None, "Rate of shaft.tilt_z (prescribed motion)", "at rest"),
+        Variable("impact.F_r", 9, "Real", "N", None, 0.0, -100000.0, 100000.0, 1, None, "Impact load added along the present radial load (+Y if there is none)", "no impact"),
+        Variable("impact.F_a", 10, "Real", "N", None, 0.0, -100000.0, 100000.0, 1, None, "Impact load added along +X", "no impact"),
         Variable("housing.x", 31, "Real", "m", "um", 0.0, -0.002, 0.002, 1, None, "Position of the outer ring along X", "at rest in the centre"),
         Variable("housing.y", 32, "Real", "m", "um", 0.0, -0.002, 0.002, 1, None, "Position of the outer ring along Y", "at rest in the centre"),
         Variable("housing.z", 33, "Real", "m", "um", 0.0, -0.002, 0.002, 1, None, "Position of the outer ring along Z", "at rest in the centre"),

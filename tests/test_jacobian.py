@@ -192,7 +192,9 @@ def housing(model, work):
     return np.concatenate([F, M])
 
 
-DRIVE_STEP = {"F": 10.0, "M": 0.1, "omega": 0.1, "beta": 1e-6, "gamma": 1e-6}
+DRIVE_STEP = {"F": 10.0, "M": 0.1, "omega": 0.1, "beta": 1e-6, "gamma": 1e-6, "x": 1e-8, "v": 1e-4, "a": 1.0, "field": 1.0, "frame_omega": 0.1, "frame_omega_dot": 10.0}
+DRIVE_STEP |= {"beta_dot": 1e-3, "gamma_dot": 1e-3, "beta_ddot": 1.0, "gamma_ddot": 1.0, "outer_x": 1e-8, "outer_v": 1e-4, "outer_omega": 0.1}
+DRIVE_STEP |= {"outer_beta": 1e-6, "outer_gamma": 1e-6, "outer_beta_dot": 1e-3, "outer_gamma_dot": 1e-3}
 
 
 @pytest.mark.parametrize("scene", SCENES, ids=lambda scene: "-".join(part.name for part in scene))
@@ -237,7 +239,7 @@ def test_products_with_drive_and_results(core, scene):
 
 
 EVALUATED = ("STATE", "RING", "POSE", "BALL", "CAGE", "RIVET", "STRESS", "ENERGY")
-INPUT_STEP = {"F": 10.0, "M": 0.1, "omega": 0.1, "tilt": 1e-6}
+INPUT_STEP = {"F": 10.0, "M": 0.1, "omega": 0.1, "tilt": 1e-6, "x": 1e-8, "y": 1e-8, "z": 1e-8, "v": 1e-4, "a": 1.0}
 PULSE = {"pulse.F_r": 500.0, "pulse.F_a": 100.0, "pulse.t_start": 0.0, "pulse.duration": 1e-3, "pulse.interval": 1e-2, "pulse.count": 1}
 
 

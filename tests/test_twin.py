@@ -49,6 +49,12 @@ MIXED, SLICED, RIGID = {"scene.lubrication": 2}, {"scene.traction": 2}, {"scene.
 UNBALANCE = {"cage.unbalance": 2e-6, "gravity.y": -9.81, "gravity.z": 3.0}
 PULSE = {"pulse.F_r": 1401.0, "pulse.F_a": 241.0, "pulse.t_start": 0.0}
 LOADS = {"shaft.F_x": 800.0, "shaft.F_y": 2000.0, "shaft.F_z": -1500.0, "shaft.M_y": 3.0, "shaft.M_z": -2.0, "shaft.tilt_y": 1e-3, "shaft.tilt_z": 2.6e-3}
+PRESCRIBED = {"ring.motion": 2}
+MOTION = {"shaft.x": 6e-6, "shaft.y": 25e-6, "shaft.z": -12e-6, "shaft.v_x": 0.02, "shaft.v_y": -0.05, "shaft.v_z": 0.03}
+MOTION |= {"shaft.tilt_y": 1e-3, "shaft.tilt_z": -7e-4, "shaft.tilt_y_dot": 0.7, "shaft.tilt_z_dot": -0.4}
+HOUSING = {"housing.x": 5e-6, "housing.y": -8e-6, "housing.z": 7e-6, "housing.v_x": 0.01, "housing.v_y": 0.04, "housing.v_z": -0.03, "housing.omega": -500.0}
+HOUSING |= {"housing.tilt_y": 4e-4, "housing.tilt_z": -3e-4, "housing.tilt_y_dot": 0.5, "housing.tilt_z_dot": 0.3}
+FRAME = {"frame.a_x": 50.0, "frame.a_y": -300.0, "frame.a_z": 200.0, "frame.omega": 150.0, "frame.omega_dot": 4000.0}
 SLOW, BACKWARD = {"shaft.omega": 418.9}, {"shaft.omega": -1500.0}
 SCENES = {
     "demo": ({}, {}),
@@ -60,9 +66,12 @@ SCENES = {
     "rigid_mixed_sliced": (RIGID | MIXED | SLICED | SUPPORTED | UNBALANCE, LOADS),
     "other": (OTHER, {}),
     "other_mixed_sliced": (OTHER | MIXED | SLICED | SUPPORTED | UNBALANCE, LOADS),
+    "planet": (SUPPORTED | UNBALANCE | {"frame.radius": 0.15}, LOADS | HOUSING | FRAME),
+    "prescribed": (MIXED | PRESCRIBED | {"cage.pocket_clearance": 1e-4}, MOTION | HOUSING),
+    "prescribed_rigid": (RIGID | PRESCRIBED | UNBALANCE | {"frame.radius": 0.15}, MOTION | HOUSING | FRAME),
     "other_rigid": (OTHER | RIGID | FREE | MIXED, SLOW),
 }
-PER_SCENE = 120  # 1200 states in all
+PER_SCENE = 120  # 1560 states in all
 
 
 def plain(numbers):
@@ -190,7 +199,7 @@ def differences(model, w, f, g):
 
 
 def test_derivatives(core, record_property):
-    """dy/dt of both twins at 1200 random states.
+    """dy/dt of both twins at 1560 random states.
 
     Tolerance: a deflection of 0.3 ... 3 um is a difference of lengths of 27 mm, whose rounding (3.5e-18 m) is 1e-12 ... 1e-11 of it.
     """
@@ -208,7 +217,7 @@ def test_derivatives(core, record_property):
             seen[name] = seen.get(name, 0) + int(np.sum(states))
     record_property("worst", plain(worst))
     print(f"relative differences of dy/dt {[f'{k} {v:.1e}' for k, v in worst.items()]}; states by situation {seen}")
-    assert min(seen.values()) >= 40  # of 1,200: every situation occurs; observed 44 for the 6310
+    assert min(seen.values()) >= 40  # of 1,560: every situation occurs; observed 44 for the 6310
     assert max(worst.values()) < 1e-11  # observed 1.7e-12
 
 
@@ -456,7 +465,7 @@ def test_ledger(record_property):
     terms = ledger.supplied | ledger.stored | {f"lost: {name}": value for name, value in ledger.lost.items()}
     turned_over = sum(abs(value[-1]) for value in ledger.supplied.values())
     record_property("J", plain({name: value[-1] for name, value in terms.items()} | {"residual": ledger.residual[-1]}))
-    assert len(terms) == 4 + 6 + 7
+    assert len(terms) == 5 + 6 + 7
     assert np.max(np.abs(ledger.residual)) < 1e-3 * turned_over  # observed 1.2e-5
     for name, value in terms.items():
         assert value.shape == results.t.shape and value[0] == 0.0

@@ -9,7 +9,7 @@
 
 #define FMI2_FUNCTION_PREFIX RivetedBearing_  // of the functions of a source-code FMU
 #define MODEL_IDENTIFIER "RivetedBearing"
-#define MODEL_GUID "{f43785d8-0f10-dff6-79b4-080ada4cfa81}"  // digest of the table
+#define MODEL_GUID "{20b95262-ff01-a8d0-f894-afb155c9e850}"  // digest of the table
 
 enum { Z = 9 };  // number of balls
 
