@@ -143,7 +143,8 @@ def input_trajectory_update(p, u, t_0, t, frame_angle=0.0):
 def input_trajectory_varies(trajectory):
     """Whether load or motion changes along the trajectory."""
     derivatives = [value for u in trajectory.u[1:] for group in vars(u).values() for value in vars(group).values()]
-    return trajectory.pulse_r != 0.0 or trajectory.pulse_a != 0.0 or any(derivatives)
+    gravity_turns = any(trajectory.gravity) and trajectory.u[0].frame.omega != 0.0
+    return trajectory.pulse_r != 0.0 or trajectory.pulse_a != 0.0 or gravity_turns or any(derivatives)
 
 
 def input_trajectory_at(trajectory, t):

@@ -164,14 +164,15 @@ def uniform(state):
     return ((z ^ (z >> 31)) >> 11) * 2.0**-53, state
 
 
-def spacing(p):
-    """Azimuths of the balls [rad]: equal but for the part start.spacing of the pocket clearance."""
+def spacing(p, ring_load):
+    """Azimuths of the balls [rad]: equal about the outer ring's centre but for the part start.spacing of the pocket clearance."""
     random, theta = p.start.seed, np.empty(Z)
     spread = p.start.spacing * p.cage.pocket_clearance / (0.5 * p.bearing.d_m)
     for j in range(Z):
         number, random = uniform(random)
         theta[j] = 2.0 * np.pi * j / Z + spread * (2.0 * number - 1.0)
-    return theta
+    (_, y, z), c, s = ring_load.outer_x, np.cos(theta), np.sin(theta)
+    return theta + np.arctan2(z * c - y * s, 0.5 * p.bearing.d_m + y * c + z * s)
 
 
 def orbital_speed(model, w):
@@ -241,7 +242,7 @@ def join_motion(model, w, y):
 
 def start_state(model):
     """The start state [N_STATES] and the largest residual force of the equilibrium [N]; ValueError if a ball is pressed out of its groove."""
-    d, theta = model.d, spacing(model.p)
+    d, theta = model.d, spacing(model.p, model.ring_load)
     eq = Equilibrium(model, theta)
     z, residual = equilibrium(eq)
     w = eq.contacts(z)

@@ -90,7 +90,9 @@ void input_trajectory_update(const Parameters *p, const Inputs u[INPUT_ORDERS + 
 bool input_trajectory_varies(const InputTrajectory *trajectory)
 {
     const double *derivative = (const double *)&trajectory->u[1];
+    const bool gravity = trajectory->gravity[0] != 0.0 || trajectory->gravity[1] != 0.0;
     bool varies = trajectory->pulse_r != 0.0 || trajectory->pulse_a != 0.0;
+    varies |= gravity && trajectory->u[0].frame.omega != 0.0;  // gravity turns in the frame
     for (int i = 0; i < INPUT_ORDERS * N_INPUTS; i++) varies |= derivative[i] != 0.0;
     return varies;
 }

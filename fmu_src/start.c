@@ -279,6 +279,15 @@ static void cage_pose(const Model *model, const Work *w, double omega_m, double 
     }
 }
 
+// Azimuth of a ball from the origin, less that from the outer ring's centre (phi), at the radius r.
+static double outer_offset(const RingLoad *ring_load, double r, double phi)
+{
+    const double y = ring_load->outer_x[1], z = ring_load->outer_x[2];
+    if (y == 0.0 && z == 0.0) return 0.0;
+    const double c = portable_cos(phi), s = portable_sin(phi);
+    return scalar_atan2(z * c - y * s, r + y * c + z * s);
+}
+
 // The rings at rest where they are.
 static RingLoad resting(const RingLoad *ring_load)
 {
@@ -349,11 +358,12 @@ double start_state(const Kernels *kernels, const Model *model, Work *w, double *
         outer + 0.5 * (given->omega - outer) * (1.0 - p->bearing.D / p->bearing.d_m) + given->frame_omega;
     eq.F_c = d->m * 0.5 * p->bearing.d_m * omega_0 * omega_0 + F_0;
 
-    // balls at rest on the pitch circle, equally spaced but for the random part
+    // balls at rest on the pitch circle about the outer ring's centre, equally spaced but for the random part
     uint64_t random = (uint64_t)p->start.seed;
     const double spread = p->start.spacing * p->cage.pocket_clearance / (0.5 * p->bearing.d_m);
     for (int j = 0; j < Z; j++) {
-        w->theta[j] = 2.0 * PI * j / Z + spread * (2.0 * uniform(&random) - 1.0);
+        const double phi = 2.0 * PI * j / Z + spread * (2.0 * uniform(&random) - 1.0);
+        w->theta[j] = phi + outer_offset(given, 0.5 * p->bearing.d_m, phi);
         w->cos_theta[j] = portable_cos(w->theta[j]);
         w->sin_theta[j] = portable_sin(w->theta[j]);
         w->r[j] = 0.5 * p->bearing.d_m + 0.25 * p->bearing.P_d +

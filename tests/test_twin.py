@@ -7,11 +7,14 @@ import pytest
 from mechanics import SLICE, Instance, Z
 
 from bearing_model import variables
+from bearing_model.derived import model_derive
 from bearing_model.energy import energy_total, power_loss
 from bearing_model.integrator import observe, simulate
 from bearing_model.land_film import land_film_gap
 from bearing_model.model import Model, Work
+from bearing_model.parameters import InputDerivatives, Inputs, Parameters
 from bearing_model.rhs import jacobian, rhs
+from bearing_model.ring_load import input_trajectory_here, input_trajectory_update, motion_trajectory, ring_load_at
 from bearing_model.start import start_state
 from bearing_model.statistics import StatisticsChannel
 
@@ -287,6 +290,14 @@ def test_start_spacing(core, changes):
 # ----------------------------------------------------------------------------------------------------------------------- outputs
 
 
+def after_a_step(parameters, inputs, h):
+    """The model under inputs whose motions have gone on for one communication step."""
+    p, given = Parameters(parameters), Inputs(inputs)
+    u = motion_trajectory(p, (given, InputDerivatives(), InputDerivatives()), given, h)
+    here = input_trajectory_here(input_trajectory_update(p, u, 0.0, h), h)
+    return Model(p, model_derive(p), ring_load_at(here, h))
+
+
 @pytest.mark.parametrize("scene", SCENES)
 def test_outputs(core, scene, record_property):
     """Every output of the FMU at one instant, at random states with loaded joints: put in the place of the state that a step reached."""
@@ -295,6 +306,7 @@ def test_outputs(core, scene, record_property):
     first, w, worst = Instance(core, parameters, inputs), Work(), {}
     rhs(model, 0.0, first.y, w)
     energy_start, t = energy_total(model, w), 3e-4
+    model = after_a_step(parameters, inputs, t)
     for y in random_states(model, y_start, np.random.default_rng(4), 5):
         instance = Instance(core, parameters, inputs).step(t)
         np.frombuffer(core.ffi.buffer(core.lib.part_state(instance.bearing), y.nbytes))[:] = y
