@@ -25,6 +25,7 @@ from bearing_model.ring_load import (
     input_trajectory_here,
     input_trajectory_update,
     input_trajectory_varies,
+    motion_remember,
     motion_trajectory,
     pulse_next_edge,
     ring_load_at,
@@ -210,13 +211,13 @@ def simulate(parameters=None, inputs=None, t_end=1e-3, *, derivatives=None, step
 
     count = int(np.ceil((t_end - t_start) / step * (1.0 - 1e-12)))
     points = np.minimum(t_start + step * np.arange(count + 1), t_end)
-    ledger = Ledger()
+    ledger, history = Ledger(), None
     ledger.add(model, np.array([t_start]), y[None])
     first = observe(model, t_start, y, energy_start) | accepted(model, record, np.array([t_start]), np.zeros(1), y[None])
     states, ledgers, rows = [y], [ledger.copy()], [first]
     for point in points[1:]:
         u, peaks, t_0, angle = [Inputs(held(run.t)), *map(InputDerivatives, slopes(run.t))], [], run.t, here.frame_angle
-        u = motion_trajectory(p, u, here.u[0], point - t_0)
+        u, history = motion_trajectory(p, u, here.u[0], point - t_0, history), motion_remember(u[0], point - t_0, history)
         while run.t < point:
             trajectory, begin, y_begin = input_trajectory_update(p, u, t_0, run.t, angle), run.t, run.y
             model = Model(p, d, ring_load_at(trajectory, run.t), trajectory if input_trajectory_varies(trajectory) else None)

@@ -10,7 +10,8 @@
 
 The outer race is the same with the outer ring's centre, axis and motion (outer_ring.py).
 
-The inner ring grows by its rotation: R_g + growth omega^2 (derived.py), omega in the fixed frame.  The work of this growth while the speed changes is left out of the energy
+The inner ring grows by its rotation: R_g + growth omega^2 (derived.py), omega in the fixed frame.  The work of this growth while the speed changes
+is left out of the energy
 balance.
 
 No offset or tilt is taken as small: the geometry is exact, so that the normal forces derive from a potential.

@@ -98,9 +98,13 @@ def pulse_candidates(p, t):
     return [i for i in (n - 1, n, n + 1, p.pulse.count - 1) if 0 <= i < p.pulse.count]
 
 
+def has_pulses(p):
+    return (p.pulse.F_r != 0.0 or p.pulse.F_a != 0.0) and p.ring.motion == RingMotion.FREE
+
+
 def pulse_next_edge(p, t):
     """Next start or end of a pulse after t [s], infinity after the last one."""
-    if p.pulse.F_r == 0.0 and p.pulse.F_a == 0.0:
+    if not has_pulses(p):
         return np.inf
     i = pulse_index(p, t)
     edges = [pulse_start(p, i) + p.pulse.duration] if i >= 0 else []
@@ -108,22 +112,57 @@ def pulse_next_edge(p, t):
     return min((edge for edge in edges if edge > t), default=np.inf)
 
 
-def motion_trajectory(p, given, now, h):
+@dataclass(frozen=True)
+class MotionHistory:
+    """What was given so far: velocities at the begin of the last communication step, their mean rates over the step before, the length of the last step."""
+
+    v: tuple
+    a: tuple | None  # None: there was one step only
+    h: float
+
+    def rate(self, given):
+        """Mean rates of the velocities over the last step."""
+        return tuple((new - old) / self.h for new, old in zip(velocities(given), self.v, strict=True))
+
+
+def velocities(given):
+    return tuple(getattr(getattr(given, group), v) for group, _, v in MOTION)
+
+
+def motion_remember(given, h, history=None):
+    """The history with what was given at the begin of a step of length h [s]."""
+    return MotionHistory(velocities(given), history and history.rate(given), h)
+
+
+def minmod(x, y):
+    return 0.0 if x * y <= 0.0 else min(x, y, key=abs)
+
+
+def motion_trajectory(p, given, now, h, history=None):
     """Values and derivatives of the inputs over a step of length h [s] from those that the host has given at its begin.
 
-    position and velocity at the end    X = x + v h + a h^2/2 + a' h^3/6,  V = v + a h + a' h^2/2, with the given derivatives a, a' of the velocity
+    position and velocity at the end    X = x + v h + a h^2/2 + a' h^3/6,  V = v + a h + a' h^2/2, with the given derivatives a, a' of the velocity, or if
+                                        they are 0 with a = minmod of the velocity's mean rates over the last two steps: V has an error of order two, and
+                                        a velocity that jumps is not extrapolated
     inside the step                     Hermite's polynomial from where the motion is (`now`, at the end of the last step) to X, V
 
-    Where the motion is not given (the shaft's in free motion) it has no derivatives.
+    Where the motion is not given (the shaft's in free motion) it has no derivatives; where it is, there are no loads.
     """
     u = [copy.deepcopy(values) for values in given]
-    for group, q, v in MOTION:
+    if p.ring.motion == RingMotion.PRESCRIBED:
+        for values in u:
+            vars(values.shaft).update(F_x=0.0, F_y=0.0, F_z=0.0, M_y=0.0, M_z=0.0)
+            vars(values.impact).update(F_r=0.0, F_a=0.0)
+    known = history is not None and history.a is not None
+    estimates = [minmod(*rates) for rates in zip(history.rate(given[0]), history.a, strict=True)] if known else [0.0] * len(MOTION)
+    for (group, q, v), estimate in zip(MOTION, estimates, strict=True):
         out = [vars(getattr(values, group)) for values in u]
         if group == "shaft" and p.ring.motion == RingMotion.FREE:
             out[1][v] = out[2][v] = 0.0
             continue
         at = vars(getattr(now, group))
         x_0, v_0, (v_1, a, jerk) = at[q], at[v], (values[v] for values in out)
+        a = estimate if a == 0.0 and jerk == 0.0 else a
         x_1, v_1 = out[0][q] + h * (v_1 + 0.5 * h * (a + h / 3.0 * jerk)), v_1 + h * (a + 0.5 * h * jerk)
         mean = (x_1 - x_0) / h
         out[0][q], out[0][v], out[1][q] = x_0, v_0, v_0
@@ -135,7 +174,7 @@ def motion_trajectory(p, given, now, h):
 def input_trajectory_update(p, u, t_0, t, frame_angle=0.0):
     """The trajectory of the inputs u (value and derivatives at t_0 [s]) from time t up to the next edge of a pulse; frame_angle: that of the frame at t_0."""
     i = pulse_index(p, t)
-    active = i >= 0 and t < pulse_start(p, i) + p.pulse.duration
+    active = has_pulses(p) and i >= 0 and t < pulse_start(p, i) + p.pulse.duration
     pulse = (p.pulse.F_r, p.pulse.F_a, pulse_start(p, i)) if active else (0.0, 0.0, 0.0)
     return InputTrajectory(t_0, tuple(u), *pulse, np.pi / p.pulse.duration, (p.gravity.y, p.gravity.z), p.frame.radius, frame_angle)
 

@@ -184,7 +184,8 @@ def orbital_speed(model, w):
 
 
 def cage_pose(model, w, omega_m, y):
-    """Set both halves into the plane x_0 + (beta sin theta - gamma cos theta) r, which fits the balls' axial positions, in the middle of the outer ring, turning
+    """Set both halves into the plane x_0 + (beta sin theta - gamma cos theta) r, which fits the balls' axial positions, in the middle of the outer
+    ring, turning
     steadily about its normal."""
     x_0 = np.mean(w.x)
     beta, gamma = 2.0 * np.mean(w.x / w.r * w.sin_theta), -2.0 * np.mean(w.x / w.r * w.cos_theta)
@@ -210,10 +211,11 @@ def check_grooves(model, w):
         ring_load = model.ring_load
         prescribed = model.p.ring.motion == RingMotion.PRESCRIBED
         drive = ring_load.x if prescribed else ring_load.F
+        given = f"the {'position' if prescribed else 'loads'}", "m" if prescribed else "N"
         F, tilt = (", ".join(f"{value:g}" for value in values) for values in (drive, (ring_load.beta, ring_load.gamma)))
         raise ValueError(
             f"ball[{j + 1}] is pressed out of the {('inner', 'outer')[race]} race's groove at the start: its contact reaches to {reach[race, j]:g} rad, "
-            f"less than pi/2 is allowed; the {'position' if prescribed else 'loads'} ({F}) {'m' if prescribed else 'N'} of the ring and the shaft's tilt ({tilt}) rad are too much"
+            f"less than pi/2 is allowed; {given[0]} ({F}) {given[1]} of the ring and the shaft's tilt ({tilt}) rad are too much"
         )
 
 

@@ -224,6 +224,7 @@ PartStatus part_initialize(Bearing *b, double t_start, double tolerance)
     s->u_now = s->u[0];
     s->u_now_dot = s->u[1];
     s->frame_angle = 0.0;
+    s->history = (MotionHistory){.steps = 0};
     s->integrator.t = t_start;
     s->integrator.h = 1e-6;
     derive(b);
@@ -293,7 +294,8 @@ PartStatus part_step(Bearing *b, double t_end)
     const double t_begin = s->integrator.t, steps_before = s->integrator.steps, frame_angle = s->frame_angle;
     Inputs u[INPUT_ORDERS + 1];
     if (!check_inputs(b, t_end - t_begin)) return PART_ERROR;
-    motion_trajectory(&s->p, s->u, &s->u_now, t_end - t_begin, u);
+    motion_trajectory(&s->p, s->u, &s->history, &s->u_now, t_end - t_begin, u);
+    motion_remember(&s->u[0], t_end - t_begin, &s->history);
     report_without_effect(b);
     const double before = cpu_clock();
     s->force_peak = 0.0;

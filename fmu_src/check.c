@@ -27,7 +27,7 @@ static bool check_motions(Bearing *b, double h)
     if (!(h > 0.0)) return true;
     Inputs u[INPUT_ORDERS + 1], end;
     InputTrajectory trajectory = {.t_0 = 0.0};
-    motion_trajectory(&b->s.p, b->s.u, &b->s.u_now, h, u);
+    motion_trajectory(&b->s.p, b->s.u, &b->s.history, &b->s.u_now, h, u);
     if (memcmp(u, b->s.u, sizeof u) == 0) return true;
     memcpy(trajectory.u, u, sizeof u);
     input_trajectory_at(&trajectory, h, &end);
@@ -181,11 +181,13 @@ typedef struct {
 static const InputName OF_PRESCRIBED[] = {
     INPUT(shaft, x),   INPUT(shaft, y),   INPUT(shaft, z),          INPUT(shaft, v_x),
     INPUT(shaft, v_y), INPUT(shaft, v_z), INPUT(shaft, tilt_y_dot), INPUT(shaft, tilt_z_dot)};
-static const InputName OF_FREE[] = {INPUT(shaft, F_x), INPUT(shaft, F_y),  INPUT(shaft, F_z), INPUT(shaft, M_y),
-                                    INPUT(shaft, M_z), INPUT(impact, F_r), INPUT(impact, F_a)};
+static const InputName OF_FREE[] = {INPUT(shaft, F_x), INPUT(shaft, F_y), INPUT(shaft, F_z),
+                                    INPUT(shaft, M_y), INPUT(shaft, M_z), INPUT(impact, F_r),
+                                    INPUT(impact, F_a)};
 static const char *const PARAMETERS_OF_FREE[] = {
-    "pulse.F_r",   "pulse.F_a",      "pulse.t_start", "pulse.duration", "pulse.interval", "pulse.count", "ring.m", "ring.J_p",
-    "ring.J_t",    "ring.c",         "ring.tilt_mode", "ring.k_tilt",   "ring.c_tilt",    "ring.tilt_time"};
+    "pulse.F_r",      "pulse.F_a",   "pulse.t_start", "pulse.duration", "pulse.interval",
+    "pulse.count",    "ring.m",      "ring.J_p",      "ring.J_t",       "ring.c",
+    "ring.tilt_mode", "ring.k_tilt", "ring.c_tilt",   "ring.tilt_time"};
 
 static void add_name(const char *name, char *list, size_t size)
 {
@@ -198,7 +200,8 @@ void report_without_effect(Bearing *b)
     if (b->reported) return;
     const bool prescribed = b->s.p.ring.motion == RING_MOTION_PRESCRIBED;
     const InputName *input = prescribed ? OF_FREE : OF_PRESCRIBED;
-    const size_t count = prescribed ? sizeof OF_FREE / sizeof *OF_FREE : sizeof OF_PRESCRIBED / sizeof *OF_PRESCRIBED;
+    const size_t count =
+        prescribed ? sizeof OF_FREE / sizeof *OF_FREE : sizeof OF_PRESCRIBED / sizeof *OF_PRESCRIBED;
     const char *now = (const char *)&b->s.u[0], *start = (const char *)&b->start;
     char list[512] = "";
     for (size_t i = 0; i < count; i++)
@@ -206,13 +209,15 @@ void report_without_effect(Bearing *b)
             add_name(input[i].name, list, sizeof list);
 
     // parameters cannot change after the start
-    for (size_t i = 0; prescribed && !b->s.initialized && i < sizeof PARAMETERS_OF_FREE / sizeof *PARAMETERS_OF_FREE; i++) {
+    for (size_t i = 0;
+         prescribed && !b->s.initialized && i < sizeof PARAMETERS_OF_FREE / sizeof *PARAMETERS_OF_FREE; i++) {
         const Variable *v = variable_named(PARAMETERS_OF_FREE[i]);
         if (variable_value(v, 0, &b->s.p) != v->start) add_name(v->name, list, sizeof list);
     }
     if (!*list) return;
     b->reported = true;
-    bearing_log(b, LOG_WARNING, "ring.motion is %s: no effect have %s", prescribed ? "prescribed" : "free", list);
+    bearing_log(b, LOG_WARNING, "ring.motion is %s: no effect have %s", prescribed ? "prescribed" : "free",
+                list);
 }
 
 bool check_start(Bearing *b)
@@ -231,8 +236,8 @@ bool check_start(Bearing *b)
             "ball[%d] is pressed out of the %s race's groove at the start: its contact reaches to %g rad, "
             "less than pi/2 is allowed; %sx = %g %s, %sy = %g %s, %sz = %g %s, shaft.tilt_y = %g rad, "
             "shaft.tilt_z = %g rad are too much",
-            i / 2 + 1, i % 2 == 1 ? "outer" : "inner", reach, name, drive[0], unit, name, drive[1], unit, name,
-            drive[2], unit, u->shaft.tilt_y, u->shaft.tilt_z);
+            i / 2 + 1, i % 2 == 1 ? "outer" : "inner", reach, name, drive[0], unit, name, drive[1], unit,
+            name, drive[2], unit, u->shaft.tilt_y, u->shaft.tilt_z);
         return false;
     }
     return true;
@@ -273,6 +278,13 @@ static bool check_recorded(Bearing *b, double time)
     return fine;
 }
 
+static bool history_is_valid(const MotionHistory *history)
+{
+    const int steps = history->steps;
+    return values_are_sane(history->v, MOTIONS) && values_are_sane(history->a, MOTIONS) &&
+           values_are_amounts(&history->h, 1) && steps >= 0 && steps <= 2 && (steps == 0 || history->h > 0.0);
+}
+
 bool check_saved(Bearing *b)
 {
     const InstanceState *s = &b->s;
@@ -297,6 +309,7 @@ bool check_saved(Bearing *b)
                             "derivatives of inputs");
     fine = fine && saved_is(b, values_are_sane((const double *)&s->u_now_dot, N_INPUTS), "rates of inputs");
     fine = fine && saved_is(b, values_are_sane(&s->frame_angle, 1), "the frame's angle");
+    fine = fine && saved_is(b, history_is_valid(&s->history), "the motions given before");
     fine = fine &&
            saved_is(b, variable_allows(tolerance, 0, s->tolerance, message, sizeof message), "the tolerance");
     fine = fine && saved_is(b, integrator_state_is_valid(&s->integrator), "states and steps");

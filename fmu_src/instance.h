@@ -6,6 +6,7 @@
 #include "fatigue.h"
 #include "integrator.h"
 #include "part.h"
+#include "ring_load.h"
 #include "statistics.h"
 
 // Floors of the statistics' bins: smaller values are not resolved.
@@ -20,6 +21,7 @@ typedef struct {
     Parameters p;
     Inputs u[INPUT_ORDERS + 1];  // inputs of the next step: their values at its start and their derivatives
     Inputs u_now, u_now_dot;     // inputs under which the present state was reached, and their rates
+    MotionHistory history;       // of the motions that the host gave
     double frame_angle;          // by which the frame has turned since the start [rad]
     IntegratorState integrator;
     double t_start, tolerance;

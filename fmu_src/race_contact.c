@@ -222,17 +222,16 @@ INLINE void race_contact_packet(const Model *model, Work *w, int j, bool mixed, 
     const vec p_i = vec_sub(ball.x, vec_local(w->ring.x, cos_theta, sin_theta));
     const scalar omega = model->ring_load->omega + model->ring_load->frame_omega;
     const wide R_g = wide_set(d->inner.R_g + d->growth * omega * omega);
-    const Contact inner =
-        race_contact(model, &d->inner, &ball, R_g, p_i, vec_local(w->ring.a, cos_theta, sin_theta),
-                     vec_local(w->ring.v, cos_theta, sin_theta), vec_local(w->ring.Omega, cos_theta, sin_theta));
-    const Contact outer =
-        outer_ring == NULL
-            ? outer_contact_at_rest(model, &ball)
-            : race_contact(model, &d->outer, &ball, wide_set(d->outer.R_g),
-                           vec_sub(ball.x, vec_local(outer_ring->x, cos_theta, sin_theta)),
-                           vec_local(outer_ring->a, cos_theta, sin_theta),
-                           vec_local(outer_ring->v, cos_theta, sin_theta),
-                           vec_local(outer_ring->Omega, cos_theta, sin_theta));
+    const Contact inner = race_contact(
+        model, &d->inner, &ball, R_g, p_i, vec_local(w->ring.a, cos_theta, sin_theta),
+        vec_local(w->ring.v, cos_theta, sin_theta), vec_local(w->ring.Omega, cos_theta, sin_theta));
+    const Contact outer = outer_ring == NULL
+                              ? outer_contact_at_rest(model, &ball)
+                              : race_contact(model, &d->outer, &ball, wide_set(d->outer.R_g),
+                                             vec_sub(ball.x, vec_local(outer_ring->x, cos_theta, sin_theta)),
+                                             vec_local(outer_ring->a, cos_theta, sin_theta),
+                                             vec_local(outer_ring->v, cos_theta, sin_theta),
+                                             vec_local(outer_ring->Omega, cos_theta, sin_theta));
     const Tangential T_i = race_traction(model, &d->inner, &inner, mixed, sliced);
     const Tangential T_e = race_traction(model, &d->outer, &outer, mixed, sliced);
     store_contacts(w, j, &inner, &outer, &T_i, &T_e);
@@ -258,7 +257,8 @@ void race_contact_force(const Model *model, Work *w)
     const bool sliced = model->p->scene.traction == TRACTION_SLICED;
     if (outer_ring_moves(model->ring_load)) {
         const Rotor outer = outer_ring(model->ring_load);
-        for (int b = 0; b < PACKETS; b++) race_contact_packet(model, w, b * LANE_WIDTH, mixed, sliced, &outer);
+        for (int b = 0; b < PACKETS; b++)
+            race_contact_packet(model, w, b * LANE_WIDTH, mixed, sliced, &outer);
         return;
     }
     for (int b = 0; b < PACKETS; b++) {

@@ -27,16 +27,28 @@ enum { SHAFT_MOTIONS = 5, MOTIONS = 11 };  // the shaft's come first
 
 extern const MotionInput MOTION[MOTIONS];
 
+// What the host has given so far: velocities at the begin of the last communication step, their mean rates over the
+// step before, the length of the last step, and how many steps there were (up to 2).
+typedef struct {
+    double v[MOTIONS], a[MOTIONS], h;
+    int steps;
+} MotionHistory;
+
 // The polynomials of a communication step of length h from the inputs that the host has given at its begin.
 //
 //   position and velocity at the end    X = x + v h + a h^2/2 + a' h^3/6,  V = v + a h + a' h^2/2
-//                                       with the given derivatives a, a' of the velocity
+//                                       with the given derivatives a, a' of the velocity, or if they are 0 with
+//                                       a = minmod of the velocity's mean rates over the last two steps: V has an error
+//                                       of order two, and a velocity that jumps is not extrapolated
 //   inside the step                     Hermite's polynomial from where the motion is (`now`, at the end of the
 //                                       last step) to X, V: continuous in position and velocity
 //
-// Where the motion is not given (the shaft's in free motion) it has no derivatives.
-void motion_trajectory(const Parameters *p, const Inputs given[INPUT_ORDERS + 1], const Inputs *now, double h,
-                       Inputs u[INPUT_ORDERS + 1]);
+// Where the motion is not given (the shaft's in free motion) it has no derivatives; where it is, there are no loads.
+void motion_trajectory(const Parameters *p, const Inputs given[INPUT_ORDERS + 1],
+                       const MotionHistory *history, const Inputs *now, double h, Inputs u[INPUT_ORDERS + 1]);
+
+// Adds what was given at the begin of a step of length h.
+void motion_remember(const Inputs *given, double h, MotionHistory *history);
 
 // Whether load or motion changes along the trajectory.
 bool input_trajectory_varies(const InputTrajectory *trajectory);
