@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from enum import IntEnum
 
 MODEL_IDENTIFIER = "RivetedBearing"
-MODEL_GUID = "{20b95262-ff01-a8d0-f894-afb155c9e850}"
+MODEL_GUID = "{97868799-07d3-181b-0d12-ae04839d3e60}"
 Z = 9
 
 

@@ -9,7 +9,7 @@
 
 #define FMI2_FUNCTION_PREFIX RivetedBearing_  // of the functions of a source-code FMU
 #define MODEL_IDENTIFIER "RivetedBearing"
-#define MODEL_GUID "{20b95262-ff01-a8d0-f894-afb155c9e850}"  // digest of the table
+#define MODEL_GUID "{97868799-07d3-181b-0d12-ae04839d3e60}"  // digest of the table
 
 enum { Z = 9 };  // number of balls
 
