@@ -23,7 +23,7 @@ def run(speed, field=True, t_end=0.12, fmu=None, **parameters):
     """The Result at a carrier speed [r/min]; field: whether balls and cage feel the carrier's centrifugal and Coriolis forces."""
     omega_c = speed * np.pi / 30.0
     inputs = {"shaft.omega": 0.0, "housing.omega": -omega_c * (R + R_PLANET) / R_PLANET, "shaft.F_x": 200.0, "shaft.F_z": MESH}
-    inputs["shaft.F_y"] = -omega_c**2 * R * (PLANET + RING * field)  # the pin draws the planet inward; its own mass is on the pin, not in the bearing
+    inputs["shaft.F_y"] = -(omega_c**2) * R * (PLANET + RING * field)  # the pin draws the planet inward; its own mass is on the pin, not in the bearing
     inputs["frame.omega"] = omega_c if field else 0.0
     settings = {"frame.radius": R, "start.settle": 0.04} | parameters
     return rb.run(None, parameters=settings, inputs=inputs, t_end=t_end, outputs=OUTPUTS, fmu=fmu)

@@ -126,7 +126,10 @@ if __name__ == "__main__":
     responses = {unbalance: respond(speeds, unbalance) for unbalance in options.unbalance}
     for unbalance, (linear, fmus) in responses.items():
         for w, a, b in zip(speeds, linear, fmus, strict=True):
-            values = [f"{1e6 * abs(a[d]):8.3f} {1e6 * abs(b[d]):8.3f} {100 * (abs(b[d] / a[d]) - 1):6.2f} % {np.degrees(np.angle(b[d] / a[d])):6.2f} deg" for d in (24, 0)]
+            values = []
+            for d in (6 * DISK, 6 * NODES[0]):
+                ratio = b[d] / a[d]
+                values.append(f"{1e6 * abs(a[d]):8.3f} {1e6 * abs(b[d]):8.3f} {100 * (abs(ratio) - 1):6.2f} % {np.degrees(np.angle(ratio)):6.2f} deg")
             print(f"{unbalance:g} kg.m {w * 30.0 / np.pi:6.0f} r/min, disk, bearing: ROSS um, FMUs um, difference: {' | '.join(values)}")
     if options.picture:
         plot(speeds, responses, options.picture)
