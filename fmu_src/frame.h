@@ -20,7 +20,7 @@ INLINE bool frame_turns(const RingLoad *ring_load)
     (void)ring_load;
     return true;
 #else
-    return ring_load->frame_omega != 0.0 || ring_load->frame_omega_dot != 0.0;
+    return ring_load->frame_turns != 0.0;
 #endif
 }
 

@@ -113,9 +113,11 @@ typedef struct {
     // motion of the outer ring: position, velocity, direction cosines and their rates, speed [rad/s]
     scalar outer_x[3], outer_v[3];
     scalar outer_beta, outer_gamma, outer_beta_dot, outer_gamma_dot, outer_omega;
+    scalar outer_moves;  // not 0 if any of these is not
 
     // the frame: gravity less the acceleration of the bearing's centre [m/s2], speed [rad/s] and its rate
     scalar field[3], frame_omega, frame_omega_dot;
+    scalar frame_turns;  // not 0 if one of the last two is not
 } RingLoad;
 
 // ---- a rigid body with an axis: inner ring or cage half; written by rotor_axis, rotor_body_axes -----------

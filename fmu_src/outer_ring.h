@@ -15,10 +15,7 @@ INLINE bool outer_ring_moves(const RingLoad *ring_load)
     (void)ring_load;
     return true;
 #else
-    const double *first = ring_load->outer_x, *end = &ring_load->outer_omega + 1;
-    bool moves = false;
-    for (const double *value = first; value < end; value++) moves |= *value != 0.0;
-    return moves;
+    return ring_load->outer_moves != 0.0;
 #endif
 }
 

@@ -130,6 +130,10 @@ INLINE void outer_motion(const Inputs *u, RingLoad *ring_load)
     ring_cosines(u->housing.tilt_y, u->housing.tilt_z, u->housing.tilt_y_dot, u->housing.tilt_z_dot,
                  &ring_load->outer_beta, &ring_load->outer_gamma, &ring_load->outer_beta_dot,
                  &ring_load->outer_gamma_dot);
+    bool moves = false;
+    for (const scalar *value = ring_load->outer_x; value <= &ring_load->outer_omega; value++)
+        moves |= scalar_value(*value) != 0.0;
+    ring_load->outer_moves = moves ? 1.0 : 0.0;
 }
 
 // The frame: gravity in the turned frame less the acceleration of the bearing's centre.
@@ -151,6 +155,7 @@ INLINE void frame_motion(const InputTrajectory *trajectory, scalar t, const Inpu
     ring_load->field[2] = down[1] - u->frame.a_z - w_dot * R;
     ring_load->frame_omega = w;
     ring_load->frame_omega_dot = w_dot;
+    ring_load->frame_turns = scalar_value(w) != 0.0 || scalar_value(w_dot) != 0.0 ? 1.0 : 0.0;
 }
 
 // The load at time t.

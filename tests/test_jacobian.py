@@ -193,7 +193,7 @@ def housing(model, work):
 
 
 DRIVE_STEP = {"F": 10.0, "M": 0.1, "omega": 0.1, "beta": 1e-6, "gamma": 1e-6, "x": 1e-8, "v": 1e-4, "a": 1.0, "field": 1.0}
-DRIVE_STEP |= {"frame_omega": 0.1, "frame_omega_dot": 10.0}
+DRIVE_STEP |= {"frame_omega": 0.1, "frame_omega_dot": 10.0, "outer_moves": 1.0, "frame_turns": 1.0}
 DRIVE_STEP |= {"beta_dot": 1e-3, "gamma_dot": 1e-3, "beta_ddot": 1.0, "gamma_ddot": 1.0, "outer_x": 1e-8, "outer_v": 1e-4, "outer_omega": 0.1}
 DRIVE_STEP |= {"outer_beta": 1e-6, "outer_gamma": 1e-6, "outer_beta_dot": 1e-3, "outer_gamma_dot": 1e-3}
 
