@@ -74,43 +74,55 @@ void drag_mixture(const Model *model, Work *w)
     w->stream += outer;
 }
 
-void drag_force(const Model *model, Work *w)
+// Drag and churning of a packet of balls.  outer: the outer ring's motion, NULL if it is at rest in its place.
+INLINE void drag_packet(const Model *model, Work *w, int j, bool churning, const Rotor *outer)
 {
     const Derived *d = model->d;
-    const bool churning = model->p->scene.churning == SWITCH_ON;
-    const bool moves = outer_ring_moves(model->ring_load);
-    const Rotor outer = moves ? outer_ring(model->ring_load) : (Rotor){0};
     const wide k = wide_set(d->drag * w->filling);
     const wide stream = wide_set(w->stream - model->ring_load->outer_omega);
-    const wide viscous = wide_set(d->churning_viscous * w->filling);
-    const wide boundary = wide_set(d->churning_boundary * w->filling);
-    for (int b = 0; b < PACKETS; b++) {
-        const int j = b * LANE_WIDTH;
-        vec turn = {0};  // of the outer ring
-        wide v_t = wide_load(&w->v_t[j]);
-        if (moves) {
-            const wide cosine = wide_load(&w->cos_theta[j]), sine = wide_load(&w->sin_theta[j]);
-            const vec p = {wide_load(&w->x[j]), wide_load(&w->r[j]), wide_set(0.0)};
-            turn = vec_local(outer.Omega, cosine, sine);
-            v_t -= outer_ring_velocity(&outer, p, cosine, sine).t;
-        }
-        const wide v = v_t - stream * wide_load(&w->r[j]);
-        const wide F = -k * v * wide_abs(v);
-        wide lost = -(F * v_t);
-        wide_store(&w->F_t[j], wide_load(&w->F_t[j]) + F);
-        if (churning) {
-            vec omega = vec_load(&w->omega_x[j], &w->omega_r[j], &w->omega_t[j]);
-            if (moves) omega = vec_sub(omega, turn);
-            const vec spin = {omega.x - stream, omega.r, omega.t};
-            const wide speed = wide_sqrt(vec_dot(spin, spin) + TINY_SPEED);
-            const vec M = vec_scale(-(viscous + boundary * wide_sqrt(speed)), spin);
-            const vec sum = vec_add(vec_load(&w->M_x[j], &w->M_r[j], &w->M_t[j]), M);
-            vec_store(sum, &w->M_x[j], &w->M_r[j], &w->M_t[j]);
-            lost -= vec_dot(M, omega);
-        }
-        wide_store(&w->dissipated[j], wide_load(&w->dissipated[j]) + lost);
-        wide_store(&w->drag_dissipated[j], lost);
+    vec turn = {0};  // of the outer ring
+    wide v_t = wide_load(&w->v_t[j]);
+    if (outer != NULL) {
+        const wide cosine = wide_load(&w->cos_theta[j]), sine = wide_load(&w->sin_theta[j]);
+        const vec p = {wide_load(&w->x[j]), wide_load(&w->r[j]), wide_set(0.0)};
+        turn = vec_local(outer->Omega, cosine, sine);
+        v_t -= outer_ring_velocity(outer, p, cosine, sine).t;
     }
+    const wide v = v_t - stream * wide_load(&w->r[j]);
+    const wide F = -k * v * wide_abs(v);
+    wide lost = -(F * v_t);
+    wide_store(&w->F_t[j], wide_load(&w->F_t[j]) + F);
+    if (churning) {
+        const wide viscous = wide_set(d->churning_viscous * w->filling);
+        const wide boundary = wide_set(d->churning_boundary * w->filling);
+        vec omega = vec_load(&w->omega_x[j], &w->omega_r[j], &w->omega_t[j]);
+        if (outer != NULL) omega = vec_sub(omega, turn);
+        const vec spin = {omega.x - stream, omega.r, omega.t};
+        const wide speed = wide_sqrt(vec_dot(spin, spin) + TINY_SPEED);
+        const vec M = vec_scale(-(viscous + boundary * wide_sqrt(speed)), spin);
+        const vec sum = vec_add(vec_load(&w->M_x[j], &w->M_r[j], &w->M_t[j]), M);
+        vec_store(sum, &w->M_x[j], &w->M_r[j], &w->M_t[j]);
+        lost -= vec_dot(M, omega);
+    }
+    wide_store(&w->dissipated[j], wide_load(&w->dissipated[j]) + lost);
+    wide_store(&w->drag_dissipated[j], lost);
+}
+
+// Balls of a bearing whose outer ring moves.
+static __attribute__((noinline)) void drag_force_moving(const Model *model, Work *w, bool churning)
+{
+    const Rotor outer = outer_ring(model->ring_load);
+    for (int b = 0; b < PACKETS; b++) drag_packet(model, w, b * LANE_WIDTH, churning, &outer);
+}
+
+void drag_force(const Model *model, Work *w)
+{
+    const bool churning = model->p->scene.churning == SWITCH_ON;
+    if (outer_ring_moves(model->ring_load)) {
+        drag_force_moving(model, w, churning);
+        return;
+    }
+    for (int b = 0; b < PACKETS; b++) drag_packet(model, w, b * LANE_WIDTH, churning, NULL);
 }
 
 void drag_cage(const Model *model, Work *w)

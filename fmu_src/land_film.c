@@ -200,14 +200,20 @@ INLINE void land_film_packet(const Model *model, Work *w, int first, const Rotor
     }
 }
 
+// Lands of a cage whose outer ring moves.
+static __attribute__((noinline)) void land_film_moving(const Model *model, Work *w)
+{
+    Rotor outer = outer_ring(model->ring_load);
+    rotor_body_axes(&outer, 1.0, 0.0);
+    for (int first = 0; first < 2; first += HALVES) land_film_packet(model, w, first, &outer);
+}
+
 void land_film_force(const Model *model, Work *w)
 {
     w->land_elastic = w->cage_dissipated = 0.0;
-    if (outer_ring_moves(model->ring_load)) {
-        Rotor outer = outer_ring(model->ring_load);
-        rotor_body_axes(&outer, 1.0, 0.0);
-        for (int first = 0; first < 2; first += HALVES) land_film_packet(model, w, first, &outer);
-    } else
+    if (outer_ring_moves(model->ring_load))
+        land_film_moving(model, w);
+    else
         for (int first = 0; first < 2; first += HALVES) land_film_packet(model, w, first, NULL);
     w->land_dissipated = w->cage_dissipated;  // drag_cage adds to what the cage dissipates
 }

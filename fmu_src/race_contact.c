@@ -251,14 +251,20 @@ INLINE void race_contact_packet(const Model *model, Work *w, int j, bool mixed, 
     vec_to_global(M_ring, cos_theta, sin_theta, &w->ring_M_x[j], &w->ring_M_y[j], &w->ring_M_z[j]);
 }
 
+// Balls of a bearing whose outer ring moves.
+static __attribute__((noinline)) void race_contact_force_moving(const Model *model, Work *w, bool mixed,
+                                                                bool sliced)
+{
+    const Rotor outer = outer_ring(model->ring_load);
+    for (int b = 0; b < PACKETS; b++) race_contact_packet(model, w, b * LANE_WIDTH, mixed, sliced, &outer);
+}
+
 void race_contact_force(const Model *model, Work *w)
 {
     const bool mixed = model->p->scene.lubrication == LUBRICATION_MIXED;
     const bool sliced = model->p->scene.traction == TRACTION_SLICED;
     if (outer_ring_moves(model->ring_load)) {
-        const Rotor outer = outer_ring(model->ring_load);
-        for (int b = 0; b < PACKETS; b++)
-            race_contact_packet(model, w, b * LANE_WIDTH, mixed, sliced, &outer);
+        race_contact_force_moving(model, w, mixed, sliced);
         return;
     }
     for (int b = 0; b < PACKETS; b++) {

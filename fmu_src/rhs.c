@@ -161,14 +161,23 @@ static void rigid_cage_acceleration(const Model *model, const scalar *y, const W
     for (int i = 0; i < 4 * Z; i++) y_dot[Y_JOINT_PLATE_Y + i] = 0.0;  // friction states rest
 }
 
+// Power of an outer ring that moves, of gravity and of the frame.
+static __attribute__((noinline)) scalar motion_power(const Model *model, const Work *w)
+{
+    scalar power = 0.0;
+    if (outer_ring_moves(model->ring_load)) power += housing_power(model, w);
+    if (frame_has_power(model->ring_load)) power += frame_power(model, w);
+    return power;
+}
+
 // Net power into balls and cage: by the rings' motions and the frame, less what is dissipated.
 static scalar net_power(const Model *model, const Work *w)
 {
     scalar power =
         shaft_power(w) - ball_array_sum(w->dissipated) - w->cage_dissipated - w->ring_drag_dissipated;
     if (model->p->scene.cage == CAGE_MODEL_TWO_HALF) power -= ball_array_sum(w->joint_dissipated);
-    if (outer_ring_moves(model->ring_load)) power += housing_power(model, w);
-    if (frame_has_power(model->ring_load)) power += frame_power(model, w);
+    if (outer_ring_moves(model->ring_load) || frame_has_power(model->ring_load))
+        power += motion_power(model, w);
     return power;
 }
 
