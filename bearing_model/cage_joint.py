@@ -60,12 +60,12 @@ def cage_joint_prying(model, w):
 
 
 def cage_joint_friction(k, capacity, z_y, z_z, v_y, v_z):
-    """Dahl's friction with force -k z: rates of z and the dissipated power."""
+    """Dahl's friction with force -k z: rates of z, their decay D, the dissipated power."""
     # |v| has no derivative at v = 0; the complex step of |v| is taken as 0 there
     speed_2 = v_y * v_y + v_z * v_z
     speed = np.sqrt(np.where(np.real(speed_2) > 0.0, speed_2, 0.0))
     rate = speed * k / capacity
-    return v_y - rate * z_y, v_z - rate * z_z, k * rate * (z_y * z_y + z_z * z_z)
+    return v_y - rate * z_y, v_z - rate * z_z, rate, k * rate * (z_y * z_y + z_z * z_z)
 
 
 def cage_joint_advance(model, w, h, y):
@@ -94,12 +94,13 @@ def cage_joint_force(model, y, w):
     damping = d.c_joint * w.N_plate / (w.N_plate + p.joint.F_floor)
     dT = cage_joint_prying(model, w)
     plates, heads = (p.joint.mu * maximum(force + dT, 0.0) + p.joint.F_floor for force in (w.N_plate, w.T))
-    w.plate_y_dot, w.plate_z_dot, lost_plate = cage_joint_friction(d.k_plate_t, plates, zp_y, zp_z, v_y, v_z)
-    w.head_y_dot, w.head_z_dot, lost_head = cage_joint_friction(d.k_head, heads, zh_y, zh_z, v_y, v_z)
+    w.plate_y_dot, w.plate_z_dot, w.plate_rate, lost_plate = cage_joint_friction(d.k_plate_t, plates, zp_y, zp_z, v_y, v_z)
+    w.head_y_dot, w.head_z_dot, w.head_rate, lost_head = cage_joint_friction(d.k_head, heads, zh_y, zh_z, v_y, v_z)
     w.joint_dissipated = lost_plate + lost_head + damping * v_x * v_x
 
     slip = np.sqrt(u_y * u_y + u_z * u_z + 1e-30)
     bearing = d.k_hole * maximum(slip - d.hole_gap, 0.0) / slip
+    w.k_bearing = d.k_hole * (np.real(slip) > d.hole_gap)
     w.S, w.H, w.B = np.array([-d.k_plate_t * zp_y, -d.k_plate_t * zp_z]), np.array([-d.k_head * zh_y, -d.k_head * zh_z]), -bearing * w.u[1:]
     w.joint_energy = 0.5 * (
         w.T**2 / d.k_rivet

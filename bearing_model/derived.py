@@ -1,4 +1,4 @@
-"""Constants derived once from the parameters, element by element; equations stand in the elements' files."""
+"""Constants derived from the parameters at their temperatures (temperature.py), element by element; equations stand in the elements' files."""
 
 import functools
 from types import SimpleNamespace
@@ -8,8 +8,9 @@ import numpy as np
 
 from bearing_model import rivet_table
 from bearing_model.hertz import Hertz, hertz_contact
-from bearing_model.rivet_rom import joint_fit, joint_hole_stiffness, joint_preload, rivet_rom_fit_eff, rivet_rom_fit_flags
-from bearing_model.variables import N_STATES, PARAMETERS, STATE_SCALES, STATE_SLICES, Drag, FitModel, Switch, Z
+from bearing_model.ring_fit import ring_fit_of
+from bearing_model.rivet_rom import joint_hole_stiffness, rivet_rom_fit_eff, rivet_rom_fit_flags
+from bearing_model.variables import N_STATES, PARAMETERS, STATE_SCALES, STATE_SLICES, Drag, FitModel, Method, Switch, Z
 
 AIR_DENSITY = 1.19  # [kg/m3] at 293 K and 10^5 Pa
 
@@ -99,18 +100,6 @@ def derive_inlets(p, d):
     d.ln_thermal = np.log(p.oil.eta * p.oil.beta / p.oil.k) if heating and p.oil.beta > 0.0 else -np.inf
 
 
-def ring_growth(p):
-    """Growth of the inner ring at the groove's bottom r by its own rotation / omega^2 [m s2]: a free ring from the bore a to the shoulder b, plane stress.
-
-    u = rho omega^2 r/(8 E) ((3 + nu)(1 - nu)(a^2 + b^2) + (3 + nu)(1 + nu) a^2 b^2/r^2 - (1 - nu^2) r^2).  Timoshenko & Goodier, Theory of Elasticity,
-    section 32
-    """
-    nu, r = p.bearing.nu, 0.5 * (p.bearing.d_m - p.bearing.D)
-    bore = p.ring.bore if p.ring.bore > 0.0 else p.bearing.d_m - p.bearing.D / 0.6
-    a_2, b_2 = 0.25 * bore**2, (r + p.bearing.h_i * p.bearing.D) ** 2
-    return p.ring.rho * r / (8.0 * p.bearing.E) * ((3 + nu) * (1 - nu) * (a_2 + b_2) + (3 + nu) * (1 + nu) * a_2 * b_2 / r**2 - (1 - nu**2) * r**2)
-
-
 def derive_balls(p, d):
     D = p.bearing.D
     d.R = 0.5 * (D + p.ball.dD)
@@ -119,7 +108,7 @@ def derive_balls(p, d):
     d.drag = 0.5 * p.oil.C_d * reference_density(p) * 0.25 * np.pi * D**2
     d.inner = derive_race(p, p.bearing.f_i, -1.0)
     d.outer = derive_race(p, p.bearing.f_e, 1.0)
-    d.growth = ring_growth(p) if p.scene.growth == Switch.ON else 0.0
+    d.fit = ring_fit_of(p)
     derive_inlets(p, d)
     derive_mixture(p, d)
 
@@ -139,7 +128,7 @@ def derive_pockets(p, d):
     d.ln_pocket_rigid = np.log(shape * R / p.oil.sigma_pocket) + 2.0 * np.log(p.oil.eta * R)
     phi, phi_r = 2.0 * np.pi * np.arange(Z) / Z, 2.0 * np.pi * (np.arange(Z) + 0.5) / Z
     d.pocket_cos, d.pocket_sin = np.cos(phi), np.sin(phi)
-    d.rivet_y, d.rivet_z = 0.5 * p.bearing.d_m * np.cos(phi_r), 0.5 * p.bearing.d_m * np.sin(phi_r)
+    d.rivet_y, d.rivet_z = 0.5 * d.table.joint["d_m"] * np.cos(phi_r), 0.5 * d.table.joint["d_m"] * np.sin(phi_r)
 
 
 def follows_mass(p, name):
@@ -170,8 +159,8 @@ def derive_cage(p, d):
 
 def derive_joint(p, d, table):
     joint = table.joint
-    d.P = joint_preload(table, p.joint.preload, p.rivet.temperature)
-    d.fit_a = joint_fit(table, p.joint.fit + p.joint.swell, p.rivet.temperature)
+    d.P = p.joint.preload
+    d.fit_a = p.joint.fit + p.joint.swell
     d.fit_eff = rivet_rom_fit_eff(table, d.fit_a, p.rivet.fit_model == FitModel.J2)
     d.fit_flags = rivet_rom_fit_flags(table, d.fit_a)
     d.k_rivet = table.half.k_open
@@ -185,15 +174,25 @@ def derive_joint(p, d, table):
 
 
 def derive_scales(p, d):
-    length, velocity, r = 1e-5, 0.1, 0.5 * p.bearing.d_m
-    friction = max(p.joint.mu * d.P, 3.0)  # the error scale of a loose joint is no finer than that of the default joint
+    """Errors that tolerance 1 allows: lengths and velocities, angles as arcs, friction states as parts of the deflection at which the plates slip.
+
+    The default method has scales by consequence (docs/method.md): a ball's velocity along its orbit decides how it meets its pocket and is finer; its
+    velocity along the contact normals, where a step's error moves it by nanometres, and the friction states, whose error hardly changes a half's velocity
+    within a step, are wider.
+    """
+    equal = p.solver.method == Method.EXPLICIT
+    length, velocity, r = 1e-5, 0.1 if equal else 0.2, 0.5 * p.bearing.d_m
+    slip = max(p.joint.mu * d.P, 3.0)  # force at which plates slip; of a loose joint the default's
+    friction = slip if equal else 20.0 * slip
     by_class = {
         "length": length,
         "velocity": velocity,
+        "normal": velocity if equal else 1.5 * velocity,
+        "rate": velocity / r,
+        "orbit": (velocity if equal else velocity / 6.0) / r,
+        "spin": velocity / (0.5 * p.bearing.D),
         "angle": length / r,
         "tilt": length / r,
-        "rate": velocity / r,
-        "spin": velocity / (0.5 * p.bearing.D),
         "plate": friction / d.k_plate_t,
         "head": friction / d.k_head,
         "energy": 1e30,
@@ -209,12 +208,8 @@ def default_table():
     return rivet_table.read(rivet_table.DEFAULT_TABLE)
 
 
-def model_derive(p, table=None):
-    """Derived constants of all elements.
-
-    p: Parameters.  table: rivet_table.RivetTable, default that of the 6207.  ValueError if it belongs to another bearing.
-    """
-    table = table or default_table()
+def check_table(p, table):
+    """ValueError if a rivet_table.RivetTable belongs to another bearing than the Parameters p."""
     if table.Z != Z:
         raise ValueError(f"the rivet table is for Z = {table.Z}; the model has Z = {Z}")
     if abs(p.bearing.d_m - table.joint["d_m"]) > 1e-3 * table.joint["d_m"]:
@@ -222,6 +217,14 @@ def model_derive(p, table=None):
     x_c = table.half.x_c
     if abs(p.cage.x_c - x_c) > 0.02 * x_c:
         raise ValueError(f"cage.x_c = {p.cage.x_c} m: the cage half of the rivet table has its centre of mass at {x_c} m +- 2 %")
+
+
+def model_derive(p, table=None):
+    """Derived constants of all elements.
+
+    p: Parameters at their present temperatures.  table: rivet_table.RivetTable, default that of the 6207.
+    """
+    table = table or default_table()
     d = Derived(table=table)
     derive_balls(p, d)
     derive_pockets(p, d)

@@ -2,13 +2,15 @@
 
     contacts (2/5) K delta^2.5, shared between the halves as in pocket.py;  joint T^2/(2 k_rivet) + N_plate^2/(2 k_plate) + k z^2/2 + hole contact
 
-The rings are outside this balance: their motions put the power -F.v - M.Omega into balls and cage, with F and M of contacts and films on the ring.  In a
-frame that moves, motions are relative to it, and its inertia forces do work as gravity does (powers.py).
+The rings are outside this balance: their motions put the power -F.v - M.Omega into balls and cage, with F and M of contacts and films on the ring, and the
+inner ring's growth the power -K delta^1.5 n.e dR_g/dt (race_contact.py).  In a frame that moves, motions are relative to it, and its inertia forces do work as
+gravity does (powers.py).
 """
 
 from bearing_model.hertz import hertz_energy
 from bearing_model.lanes import ball_array_sum
 from bearing_model.powers import frame_power, housing_power, shaft_power
+from bearing_model.race_contact import race_growth_power
 from bearing_model.variables import CageModel
 from bearing_model.vec import vec, vec_cross, vec_dot
 
@@ -66,6 +68,7 @@ def supply_terms(model, w):
         "shaft torque": spin,
         "translation of the ring": translation,
         "tilting of the ring": shaft_power(w) - translation - spin,
+        "growth of the ring": race_growth_power(model, w),
         "housing": housing_power(model, w),
         "gravity and frame": frame_power(model, w),
     }

@@ -8,19 +8,20 @@ states of error/(tolerance scale); derived.py sets the scales, and no tolerance 
 """
 
 import functools
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from scipy.integrate import BDF, DOP853, LSODA, RK23, RK45, Radau
 
-from bearing_model.derived import model_derive
 from bearing_model.energy import energy_total
 from bearing_model.fatigue import FatigueChannel, FatigueLaw
+from bearing_model.hertz import hertz_energy
 from bearing_model.ledger import Ledger
-from bearing_model.model import Model, Work
+from bearing_model.model import Model, Work, derived_at
 from bearing_model.outputs import outputs
 from bearing_model.parameters import InputDerivatives, Inputs, Parameters
 from bearing_model.rhs import jacobian, rhs
+from bearing_model.ring_fit import ring_fit_growth
 from bearing_model.ring_load import (
     input_trajectory_here,
     input_trajectory_update,
@@ -34,6 +35,7 @@ from bearing_model.rivet_rom import HEAD_P1, MID_VM, rivet_rom_stress
 from bearing_model.rivets import rivets_load, rivets_slip
 from bearing_model.start import ring_follow, start_state
 from bearing_model.statistics import StatisticsChannel
+from bearing_model.temperature import temperature_same
 from bearing_model.variables import OUTPUTS, WORK, RingMotion, Stress, Switch, Z
 
 METHODS = {"DOP853": DOP853, "RK45": RK45, "RK23": RK23, "Radau": Radau, "BDF": BDF, "LSODA": LSODA}
@@ -150,14 +152,14 @@ def no_stress():
 class Integration:
     """One run in progress: state, step size and what has been recorded."""
 
-    def __init__(self, p, d, t, y, tolerance, method):
-        self.p, self.d, self.t, self.y, self.method = p, d, t, y, method
-        self.atol = tolerance * d.scale
+    def __init__(self, p, t, y, tolerance, method):
+        self.p, self.t, self.y, self.tolerance, self.method = p, t, y, tolerance, method
         self.step_size, self.steps, self.rhs_evals = FIRST_STEP, 0, 0
 
     def segment(self, model, t_end):
         """Accepted steps from here to t_end under one ring load: their times and states, without the start."""
-        options = {"rtol": 100.0 * np.finfo(float).eps, "atol": self.atol}  # the smallest rtol that SciPy accepts: in effect only atol counts
+        rtol = 100.0 * np.finfo(float).eps  # the smallest that SciPy accepts: in effect only atol counts
+        options = {"rtol": rtol, "atol": self.tolerance * model.d.scale}
         if self.method in IMPLICIT:
             options["jac"] = lambda t, y: jacobian(model, t, y)
         first = min(self.step_size, t_end - self.t)
@@ -200,11 +202,10 @@ def simulate(parameters=None, inputs=None, t_end=1e-3, *, derivatives=None, step
         raise ValueError(f"tolerance = {tolerance}: more than 0 is allowed")
     p, held = Parameters(parameters), inputs if callable(inputs) else lambda t: inputs
     slopes = derivatives or (lambda t: ({}, {}))
-    d = model_derive(p, table)
     here = input_trajectory_update(p, (Inputs(held(t_start)), *map(InputDerivatives, slopes(t_start))), t_start, t_start)
-    model = Model(p, d, ring_load_at(here, t_start))
+    model = Model(*derived_at(p, here.u[0], table), ring_load_at(here, t_start))
     y = start_state(model)[0] if y is None else np.array(y, dtype=float)
-    run = Integration(p, d, t_start, y, p.solver.tol if tolerance is None else tolerance, method)
+    run = Integration(p, t_start, y, p.solver.tol if tolerance is None else tolerance, method)
     record, w = Record(p), Work()
     rhs(model, t_start, y, w)
     energy_start = energy_total(model, w) - y[WORK][0]
@@ -217,22 +218,53 @@ def simulate(parameters=None, inputs=None, t_end=1e-3, *, derivatives=None, step
     states, ledgers, rows = [y], [ledger.copy()], [first]
     for point in points[1:]:
         u, peaks, t_0, angle = [Inputs(held(run.t)), *map(InputDerivatives, slopes(run.t))], [], run.t, here.frame_angle
-        u, history = motion_trajectory(p, u, here.u[0], point - t_0, history), motion_remember(u[0], point - t_0, history)
+        given, reached = u, here.u[0]
+        u, history = motion_trajectory(p, given, reached, point - t_0, history), motion_remember(given[0], point - t_0, history)
+        model, expansion = at_temperature(p, model, reached, given[0], run, table)
+        expansion += at_speed(model, given[0], run)
         while run.t < point:
             trajectory, begin, y_begin = input_trajectory_update(p, u, t_0, run.t, angle), run.t, run.y
-            model = Model(p, d, ring_load_at(trajectory, run.t), trajectory if input_trajectory_varies(trajectory) else None)
+            model = Model(model.p, model.d, ring_load_at(trajectory, run.t), trajectory if input_trajectory_varies(trajectory) else None)
             times, ys = run.segment(model, min(pulse_next_edge(p, run.t), point))
             peaks.append(accepted(model, record, times, np.diff(times, prepend=begin), ys))
             ledger.add(model, np.append(begin, times), np.vstack([y_begin, ys]))
         here = input_trajectory_here(trajectory, run.t)
-        model = Model(p, d, ring_load_at(here, run.t))
+        model = Model(model.p, model.d, ring_load_at(here, run.t))
         if p.ring.motion == RingMotion.PRESCRIBED:
             run.y = ring_follow(model.ring_load, run.y)
+        model, further = at_temperature(p, model, given[0], here.u[0], run, table)
+        energy_start += expansion + further
         states.append(run.y)
         ledgers.append(ledger.copy())
         rows.append(observe(model, run.t, run.y, energy_start) | {name: np.max([peak[name] for peak in peaks], axis=0) for name in peaks[0]})
     table_of = {name: np.array([row[name] for row in rows]) for name in rows[0]}
     return Results(points, np.array(states), table_of, record.statistics(), Ledger.over_time(ledgers), run.steps, run.rhs_evals)
+
+
+def at_temperature(p, model, from_, u, run, table):
+    """The Model at the temperatures in the Inputs u instead of those in from_, and the work of the expansion [J], which is no part of the energy balance."""
+    if temperature_same(from_, u):
+        return model, 0.0
+    hot = Model(*derived_at(p, u, table), model.ring_load)
+    energies = []
+    for each in (model, hot):
+        w = Work()
+        rhs(each, run.t, run.y, w)
+        energies.append(energy_total(each, w))
+    return hot, energies[1] - energies[0]
+
+
+def at_speed(model, u, run):
+    """What a jump to the speed in the Inputs u adds to the elastic energy [J], because the inner ring grows at once."""
+    load = model.ring_load
+    if ring_fit_growth(model.d.fit, load.omega) == ring_fit_growth(model.d.fit, u.shaft.omega):
+        return 0.0
+    energies = []
+    for omega in (load.omega, u.shaft.omega):
+        w = Work()
+        rhs(Model(model.p, model.d, replace(load, omega=omega)), run.t, run.y, w)
+        energies.append(np.sum(hertz_energy(model.d.inner.hertz.K, w.delta_i)))
+    return energies[1] - energies[0]
 
 
 def observe(model, t, y, energy_start):

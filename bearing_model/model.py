@@ -8,9 +8,10 @@ surface into it, seen from the ball (the ball is pushed along -n).
 from dataclasses import dataclass
 from types import SimpleNamespace
 
-from bearing_model.derived import Derived, model_derive
+from bearing_model.derived import Derived, check_table, default_table, model_derive
 from bearing_model.parameters import InputDerivatives, Inputs, Parameters
 from bearing_model.ring_load import InputTrajectory, RingLoad, input_trajectory_update, input_trajectory_varies, ring_load_at
+from bearing_model.temperature import check_temperatures, temperature_apply
 
 
 class Work(SimpleNamespace):
@@ -21,7 +22,7 @@ class Work(SimpleNamespace):
 class Model:
     """What the right-hand side needs beside time and state: parameters, constants derived from them, loads and speed."""
 
-    p: Parameters
+    p: Parameters  # at the present temperatures (temperature.py)
     d: Derived
     ring_load: RingLoad
     trajectory: InputTrajectory | None = None  # where the drive changes with time: takes its place
@@ -37,6 +38,18 @@ class Model:
         3.331e+10 N/m^1.5
         """
         p, u = Parameters(parameters), Inputs(inputs)
-        d = model_derive(p, table)
         trajectory = input_trajectory_update(p, (u, InputDerivatives(), InputDerivatives()), t, t)
-        return cls(p, d, ring_load_at(trajectory, t), trajectory if input_trajectory_varies(trajectory) else None)
+        hot, d = derived_at(p, u, table)
+        return cls(hot, d, ring_load_at(trajectory, t), trajectory if input_trajectory_varies(trajectory) else None)
+
+
+def derived_at(p, u, table=None):
+    """The Parameters p at the temperatures in the Inputs u, and the Derived that follow; table: RivetTable, default that of the 6207.
+
+    ValueError names a temperature that oil or bearing do not bear, or parameters of another bearing than the table's.
+    """
+    table = table or default_table()
+    check_table(p, table)
+    hot = temperature_apply(p, u, table)
+    check_temperatures(u, hot)
+    return hot, model_derive(hot, table)

@@ -11,6 +11,7 @@ from bearing_model.hertz import hertz_pressure
 from bearing_model.lanes import ball_array_sum
 from bearing_model.outer_ring import spread
 from bearing_model.powers import frame_power, housing_power, housing_wrench, shaft_power
+from bearing_model.ring_fit import ring_fit_growth
 from bearing_model.ring_load import ring_tilts
 from bearing_model.rivet_rom import HEAD_P1, HEAD_VM, MID_P1, MID_VM, rivet_rom_stress
 from bearing_model.rivets import rivets_load, rivets_slip
@@ -69,7 +70,7 @@ def ball_outputs(model, w):
         "ball[j].Lambda_i": film_ratio(d, d.inner, w.U_i, w.Q_i),
         "ball[j].Lambda_e": film_ratio(d, d.outer, w.U_e, w.Q_e),
         "ball[j].spin_roll": spin_roll(w),
-        "bearing.clearance": model.p.bearing.P_d - 2.0 * d.growth * (model.ring_load.omega + model.ring_load.frame_omega) ** 2 + 0.0 * w.Q_pocket[..., 0],
+        "bearing.clearance": model.p.bearing.P_d - 2.0 * ring_fit_growth(d.fit, model.ring_load.omega + model.ring_load.frame_omega) + 0.0 * w.Q_pocket[..., 0],
         "bearing.contacts": np.sum(deltas > 0.0, axis=(0, -1)),
         "bearing.penetration": np.maximum(np.max(deltas, axis=(0, -1)), 0.0),
         "cage.F_pocket_max": np.max(w.Q_pocket, axis=-1),
@@ -102,7 +103,7 @@ def cage_outputs(model, w):
 
 def rivet_outputs(model, w):
     load = rivets_load(model, w)
-    slip, R = rivets_slip(model, w), 0.5 * model.p.bearing.d_m
+    slip, R = rivets_slip(model, w), 0.5 * model.d.table.joint["d_m"]
     c, s = model.d.rivet_y / R, model.d.rivet_z / R
 
     def along_y_z(r, t):

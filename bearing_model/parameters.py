@@ -11,6 +11,7 @@ from types import SimpleNamespace
 import numpy as np
 
 from bearing_model import variables
+from bearing_model.ring_fit import ring_fit_bore, ring_fit_effective_e, ring_fit_effective_i, ring_fit_outside
 from bearing_model.variables import INPUTS, PARAMETERS, Z
 
 ENUMERATIONS = (
@@ -98,10 +99,15 @@ def admit(variable, value):
     return int(value) if variable.type == "Integer" else float(value)
 
 
+def largest_clearance(p):
+    """Clearance at which a ball on one race reaches the other groove's far side [m]."""
+    return 4.0 * (min(p.bearing.f_i, p.bearing.f_e) - 0.5) * p.bearing.D
+
+
 def check_geometry(p):
     """Refuse parameters that contradict each other: ValueError naming one of them, its value and what is allowed."""
     D, d_m = p.bearing.D, p.bearing.d_m
-    chord, pocket, play = d_m * math.sin(math.pi / Z), p.cage.pocket_clearance, 4.0 * (min(p.bearing.f_i, p.bearing.f_e) - 0.5) * D
+    chord, pocket, play = d_m * math.sin(math.pi / Z), p.cage.pocket_clearance, largest_clearance(p)
     require(D < chord, f"bearing.D = {D} m: the balls overlap; less than bearing.d_m sin(pi/Z) = {chord:g} m is allowed")
     apart = f"the pockets overlap; less than bearing.d_m sin(pi/Z) - bearing.D = {chord - D:g} m is allowed"
     require(D + pocket < chord, f"cage.pocket_clearance = {pocket} m: {apart}")
@@ -111,8 +117,22 @@ def check_geometry(p):
     require(p.cage.D_i < p.cage.D_o, f"cage.D_i = {p.cage.D_i} m: less than cage.D_o = {p.cage.D_o} m is allowed")
     require(p.cage.D_i < d_m, f"cage.D_i = {p.cage.D_i} m: less than bearing.d_m = {d_m} m is allowed")
     require(d_m < p.cage.D_o, f"cage.D_o = {p.cage.D_o} m: more than bearing.d_m = {d_m} m is allowed")
+    bore = ring_fit_bore(p)
+    require(bore < d_m - D, f"ring.bore = {bore} m: less than the diameter of the inner groove's bottom, {d_m - D:g} m, is allowed")
+    at_least = f"at least the diameter of the inner groove's bottom, {d_m - D:g} m, is allowed"
+    require(ring_fit_effective_i(p) >= d_m - D, f"ring.effective_i = {p.ring.effective_i} m: {at_least}")
+    at_most = f"at most the diameter of the outer groove's bottom, {d_m + D:g} m, is allowed"
+    require(ring_fit_effective_e(p) <= d_m + D, f"ring.effective_e = {p.ring.effective_e} m: {at_most}")
+    outside, housing = ring_fit_outside(p), p.housing.outside
+    require(outside > d_m + D, f"ring.outside = {outside} m: more than the diameter of the outer groove's bottom, {d_m + D:g} m, is allowed")
+    require(p.shaft.bore < bore, f"shaft.bore = {p.shaft.bore} m: less than the bore of the inner ring, {bore:g} m, is allowed")
+    wider = f"0 or more than the outside diameter of the outer ring, {outside:g} m, is allowed"
+    require(housing == 0.0 or housing > outside, f"housing.outside = {housing} m: {wider}")
     half = 0.5 * p.cage.width
     require(p.cage.land_width <= half, f"cage.land_width = {p.cage.land_width} m: at most half of cage.width, {half:g} m, is allowed")
+    require(p.oil.T_1 < p.oil.T_2, f"oil.T_1 = {p.oil.T_1} K: less than oil.T_2 = {p.oil.T_2} K is allowed")
+    falls = f"more than oil.nu_2 = {p.oil.nu_2} m2/s is allowed, for the viscosity falls with temperature"
+    require(p.oil.nu_1 > p.oil.nu_2, f"oil.nu_1 = {p.oil.nu_1} m2/s: {falls}")
     require(p.fatigue.k_2 >= p.fatigue.k_1, f"fatigue.k_2 = {p.fatigue.k_2}: at least fatigue.k_1 = {p.fatigue.k_1} is allowed")
     apart = p.pulse.count < 2 or p.pulse.interval >= p.pulse.duration
     require(apart, f"pulse.interval = {p.pulse.interval} s: at least pulse.duration = {p.pulse.duration} s is allowed")

@@ -1,7 +1,7 @@
 """Quasi-static equilibrium of a single-row groove ball bearing: inner ring and balls at rest in the frame of the cage (Jones-Harris).
 
     outer groove centres: the circle |r| = R_e, x = 0                    R_e = d_m/2 + D/2 + P_d/4 - f_e D
-    inner groove centres: circle of radius R_i about C, axis a           R_i = d_m/2 - D/2 - P_d/4 + f_i D,   a = (a_x, tilt_z, -tilt_y)
+    inner groove centres: circle of radius R_i about C, axis a           R_i = d_m/2 - D/2 - P_d/4 + f_i D + growth,   a = (a_x, tilt_z, -tilt_y)
     ball j at (x_j, r_j) in the half-plane of the azimuth psi_j (from Y toward Z), held there by the cage
 
     delta = |c - ball| - (f - 1/2) D,  c the nearest point of the circle          Q = K delta^1.5
@@ -26,6 +26,7 @@ import numpy as np
 
 from bearing_model.hertz_exact import ball_race_contact
 from bearing_model.kinematics import CONTROLS, FaultFrequencies, ball_motion
+from bearing_model.ring_fit import RingFit, ring_fit_growth
 
 RING = 5  # ring coordinates: x, y, z, tilt_y, tilt_z
 KINEMATICS = ("exact", "linear")
@@ -40,6 +41,7 @@ class Bearing:
     D ball diameter [m], d_m pitch diameter [m] (mean of the groove-bottom diameters), Z balls, f_i, f_e groove radius / D, P_d diametral clearance [m]
     (negative: preload), E [Pa], nu, rho [kg/m3] of balls and rings.  alpha_0 [rad]: free contact angle of an angular contact bearing; it takes the
     place of P_d, and x = 0 is then where balls and races just touch.  C, C_0: dynamic and static load rating [N] for the life and the static safety.
+    fit: growth of the inner groove by rotation and fit (ring_fit.py), which takes clearance at speed; without it the rings keep their size.
     Raises ValueError for a value that is not admissible.
     """
 
@@ -55,6 +57,7 @@ class Bearing:
     alpha_0: float | None = None
     C: float | None = None
     C_0: float | None = None
+    fit: RingFit | None = None
 
     def __post_init__(self):
         if self.alpha_0 is not None and self.P_d is not None:
@@ -266,7 +269,7 @@ class Potential:
     def __init__(self, bearing, load, psi):
         self.bearing, self.load, self.psi = bearing, load, psi
         D, d_m, f_i, f_e, P_d = bearing.D, bearing.d_m, bearing.f_i, bearing.f_e, bearing.clearance
-        self.R_i = 0.5 * (d_m - D) - 0.25 * P_d + f_i * D
+        self.R_i = 0.5 * (d_m - D) - 0.25 * P_d + f_i * D + (ring_fit_growth(bearing.fit, load.omega) if bearing.fit else 0.0)
         self.R_e = 0.5 * (d_m + D) + 0.25 * P_d - f_e * D
         self.l_i, self.l_e = (f_i - 0.5) * D, (f_e - 0.5) * D
         self.x_touch = 0.0 if bearing.alpha_0 is None else bearing.A * math.sin(bearing.alpha_0)

@@ -10,9 +10,7 @@
 
 The outer race is the same with the outer ring's centre, axis and motion (outer_ring.py).
 
-The inner ring grows by its rotation: R_g + growth omega^2 (derived.py), omega in the fixed frame.  The work of this growth while the speed changes
-is left out of the energy
-balance.
+The inner ring grows by its rotation in the fixed frame and its fit: R_g + ring_fit_growth (ring_fit.py).
 
 No offset or tilt is taken as small: the geometry is exact, so that the normal forces derive from a potential.
 Slip and mean speed at the contact point p + R n, seen from the frame that orbits with the ball:
@@ -32,6 +30,7 @@ from scipy.special import roots_jacobi
 from bearing_model.hertz import hertz_damped, hertz_load
 from bearing_model.lanes import ball_array_sum, maximum
 from bearing_model.outer_ring import outer_ring
+from bearing_model.ring_fit import ring_fit_growth, ring_fit_rate
 from bearing_model.traction import Q_FLOOR, traction_asperity_share, traction_ln_film, traction_ln_thermal, traction_mu, traction_race_inlet
 from bearing_model.variables import Lubrication, Traction
 from bearing_model.vec import vec, vec_across, vec_cross, vec_dot, vec_local, vec_to_global
@@ -120,7 +119,7 @@ def race_contact_force(model, w):
     # inner race: the ring's centre, axis, velocity in the balls' frames
     a, Omega, v_i, x_i = (vec_local(v, w.cos_theta, w.sin_theta) for v in (w.ring.a, w.ring.Omega, w.ring.v, w.ring.x))
     p_i = position - x_i
-    R_g = d.inner.R_g + d.growth * (model.ring_load.omega + model.ring_load.frame_omega) ** 2
+    R_g = d.inner.R_g + ring_fit_growth(d.fit, model.ring_load.omega + model.ring_load.frame_omega)
     inner = race_contact(d.inner, R_g, d.R, p.bearing.lambda_, p_i, a, Omega, v_b - v_i - vec_cross(Omega, p_i), omega_b, w.omega_m)
     T_i = race_traction(model, d.inner, inner, mixed, sliced)
     F_i = -inner.Q * inner.n + T_i.F_s + T_i.F_c
@@ -146,3 +145,12 @@ def race_contact_force(model, w):
     w.delta_i, w.delta_e, w.Q_i, w.Q_e, w.n_i, w.n_e = inner.delta, outer.delta, inner.Q, outer.Q, inner.n, outer.n
     w.U_i, w.U_e = T_i.U, T_e.U
     w.g_i, w.g_e, w.g_spin_i, w.g_spin_e = T_i.g, T_e.g, T_i.g_spin, T_e.g_spin
+
+
+def race_growth_power(model, w):
+    """Power that the inner ring's growth, where its speed changes, puts into the balls: -K delta^1.5 n.e dR_g/dt [W], [..., 1]."""
+    load, p = model.ring_load, vec(w.x, w.r, 0.0) - vec_local(w.ring.x, w.cos_theta, w.sin_theta)
+    a = vec_local(w.ring.a, w.cos_theta, w.sin_theta)
+    radial = p - vec_dot(p, a) * a
+    force = -ball_array_sum(hertz_load(model.d.inner.hertz.K, w.delta_i) * vec_dot(w.n_i, radial) / np.sqrt(vec_dot(radial, radial)))
+    return force * ring_fit_rate(model.d.fit, load.omega + load.frame_omega, load.omega_dot + load.frame_omega_dot)

@@ -46,6 +46,7 @@ class RingLoad:
     omega: float  # speed [rad/s]
     beta: float  # direction cosines of the shaft's tilt
     gamma: float
+    omega_dot: float = 0.0  # rate of the speed [rad/s2]
     x: tuple = (0.0, 0.0, 0.0)  # motion of the inner ring where it is prescribed: position, velocity, acceleration; rates of the cosines
     v: tuple = (0.0, 0.0, 0.0)
     a: tuple = (0.0, 0.0, 0.0)
@@ -245,6 +246,7 @@ def ring_load_at(trajectory, t):
         u.shaft.omega,
         beta,
         gamma,
+        rate("omega"),
         x=along_axes(u.shaft, ""),
         v=along_axes(u.shaft, "v_"),
         a=tuple(rate(f"v_{i}") for i in "xyz"),

@@ -74,7 +74,7 @@ def rivets_slip(model, w):
 
 def turned(model, v):
     """A vector (y, z) [2, ..., Z] at every rivet, radially and along the circle."""
-    R = 0.5 * model.p.bearing.d_m
+    R = 0.5 * model.d.table.joint["d_m"]
     c, s = model.d.rivet_y / R, model.d.rivet_z / R
     return np.array([v[0] * c + v[1] * s, v[1] * c - v[0] * s])
 
@@ -106,7 +106,7 @@ def rigid_wrench(model, w, pocket_F, pocket_M):
 
 def rigid_share(model, w, pocket_F, pocket_M):
     """RigidShare of a rigid cage."""
-    R, friction = 0.5 * model.p.bearing.d_m, model.p.joint.mu * np.maximum(model.d.P + cage_joint_prying(model, w), 0.0)
+    R, friction = 0.5 * model.d.table.joint["d_m"], model.p.joint.mu * np.maximum(model.d.P + cage_joint_prying(model, w), 0.0)
     N, V_y, V_z = bolt_group(2.0 * R, rigid_wrench(model, w, pocket_F, pocket_M), model.d.rivet_y / R, model.d.rivet_z / R)
     force = turned(model, np.array([V_y, V_z]))
     V = np.hypot(*force)

@@ -28,7 +28,12 @@ from bearing_model.variables import (
     CAGE_GAMMA,
     CAGE_PSI,
     CAGE_X,
+    CAGE_Y,
+    CAGE_Z,
+    JOINT_HEAD_Y,
+    JOINT_HEAD_Z,
     JOINT_PLATE_Y,
+    JOINT_PLATE_Z,
     N_STATES,
     RING_BETA,
     RING_GAMMA,
@@ -81,6 +86,9 @@ class Blocks:
     K: np.ndarray
     A_stiff: np.ndarray
     K_stiff: np.ndarray
+    K_shear: np.ndarray = field(default_factory=lambda: np.zeros((N_V, N_V)))  # of the joints across the axis: a factor of its own
+    axial: float = 0.0  # weights of the position correction of one half against the other: along the axis, across it
+    shear: float = 0.0
 
     def matrix(self, gamma):
         return np.eye(N_V) + gamma * self.A + gamma**2 * self.K
@@ -186,6 +194,21 @@ def joint_blocks(model, w):
     return B.T * c @ B, B.T * k @ B
 
 
+def shear_blocks(model, w, gamma):
+    """Force per offset [N_V, N_V] of the joints across the axis: of half 1 against half 0 at a rivet, (v_y - s z, v_z + s y).
+
+    The lever of the split from the centres of mass is left out.  A friction state that decays with D follows the velocity by gamma/(1 + gamma D) within a step.
+    """
+    d, h0 = model.d, w.half[0]
+    y, z = (d.rivet_y * h0.b_y[i] + d.rivet_z * h0.b_z[i] for i in (1, 2))
+    k = d.k_plate_t / (1.0 + gamma * w.plate_rate) + d.k_head / (1.0 + gamma * w.head_rate) + w.k_bearing
+    B = np.zeros((2, Z, N_V))
+    B[0][:, HALF[[1, 2, 5], 1]] = np.array([np.ones(Z), np.zeros(Z), -z]).T
+    B[1][:, HALF[[1, 2, 5], 1]] = np.array([np.zeros(Z), np.ones(Z), y]).T
+    B[:, :, HALF[:, 0]] = -B[:, :, HALF[:, 1]]
+    return sum(b.T * k @ b for b in B)
+
+
 def ring_support(model):
     """Rates and stiffnesses [N_V] of the ring's own velocities by its support, and the rates that damp its accelerations."""
     ring, (A, K, A_stiff) = model.p.ring, np.zeros((3, N_V))
@@ -203,10 +226,19 @@ def jacobian_blocks(model, t, y, w, gamma):
     A, K, A_stiff = (force / M + np.diag(support) for force, support in zip(ball_blocks(model, w, gamma), ring_support(model), strict=True))
     A_0, A_1 = land_rates(model, land_films(w), w.film_spin)
     K_stiff = A_0 @ A_1  # the lands of a rigid cage one after the other: (1 + gamma A_0)(1 + gamma A_1); 0 for two halves
+    K_shear, axial, shear = np.zeros((N_V, N_V)), 0.0, 0.0
     if model.p.scene.cage == CageModel.TWO_HALF:
-        A_joint, K_joint = joint_blocks(model, w)
-        A, K = A + A_joint / M, K + K_joint / M
-    return Blocks(A + A_0 + A_1, K + K_stiff, A_stiff + A_0 + A_1, K_stiff)
+        (A_joint, K_joint), K_shear = (force / M for force in joint_blocks(model, w)), shear_blocks(model, w, gamma) / M
+        weight, axial = vibration_weights(8.0 * np.max(np.diag(gamma * A_joint + gamma**2 * K_joint)[HALF[[0, 3, 4], 0]]))
+        weight_shear, shear = vibration_weights(8.0 * gamma**2 * np.max(np.diag(K_shear)[HALF[[1, 5], 0]]))
+        A, K, K_shear = A + weight * A_joint, K + weight * K_joint, weight_shear * K_shear
+    return Blocks(A + A_0 + A_1, K + K_stiff, A_stiff + A_0 + A_1, K_stiff, K_shear, axial, shear)
+
+
+def vibration_weights(x_2):
+    """Weights of a vibration between the halves that turns by x = omega h a step, given x^2: of K in the matrix, of the position correction."""
+    part = x_2**2 / (x_2**2 + 1.0)
+    return 1.0 / 3.0 + part * (1.5 - 1.0 / 3.0), 1.0 / 3.0 + part * (1.7 - 1.0 / 3.0)
 
 
 def masked_jacobian(model, t, y, w, gamma):
@@ -214,7 +246,9 @@ def masked_jacobian(model, t, y, w, gamma):
     kept, J = jacobian_blocks(model, t, y, w, gamma), jacobian(model, t, y)
     by_position = np.zeros((N_V, N_V))
     by_position[:, POSITIONS] = J[V, POSITIONS]  # velocities are in the order of their positions
-    return Blocks(np.where(kept.A != 0.0, -J[V, V], 0.0), np.where(kept.K != 0.0, -by_position, 0.0), kept.A_stiff, kept.K_stiff)
+    return Blocks(
+        np.where(kept.A != 0.0, -J[V, V], 0.0), np.where(kept.K != 0.0, -by_position, 0.0), kept.A_stiff, kept.K_stiff, kept.K_shear, kept.axial, kept.shear
+    )
 
 
 # ------------------------------------------------------------------------------------------------------------------------ step
@@ -254,21 +288,41 @@ def predictor_limiter(model, h, start):
 
 
 def dissipation_correction(model, w, gamma, residual, delta):
-    """delta.M (A + gamma K) delta [W] of balls and cage: the power that v^ dissipates beyond what v_{n+1} does, of one sign, where rates are linear."""
+    """delta.M A delta [W] of balls and cage: the power that v^ dissipates beyond what v_{n+1} does, of one sign, where rates are linear.
+
+    The residual gives delta.M (A + gamma K) delta; the part of the races' springs, which dissipate nothing, is taken off.
+    """
     power = inertia(model, w) * delta * (residual - delta) / gamma
     power[RING] = 0.0  # the ring's energy is not in the balance
-    return np.sum(power)
+    v = delta[BALL[:3]] * np.array([np.ones(Z), np.ones(Z), w.r])
+    springs = ((w.n_i, w.Q_i, w.delta_i), (w.n_e, w.Q_e, w.delta_e))
+    elastic = sum(1.5 * Q / np.maximum(approach, APPROACH_FLOOR) * (approach > 0.0) * np.sum(n * v, axis=0) ** 2 for n, Q, approach in springs)
+    return np.sum(power) - gamma * np.sum(elastic)
 
 
-def correct_positions(model, gamma, delta, y):
-    """Where a stiffness acts, positions follow the trapezoidal rule too: q_{n+1} += gamma (v_{n+1} - v_n - h a_n)."""
+def correct_positions(model, gamma, delta, b, y):
+    """Where a stiffness acts, positions follow the trapezoidal rule too: q_{n+1} += gamma (v_{n+1} - v_n - h a_n), one half against the other with weights."""
     y[BALL_X] += gamma * delta[BALL[0]]
     y[BALL_R] += gamma * delta[BALL[1]]
     if model.p.ring.tilt_mode != TiltMode.FREE:
         y[RING_BETA.start : RING_GAMMA.stop] += gamma * delta[RING[3:]]
-    if model.p.scene.cage == CageModel.TWO_HALF:  # the axial motion of one half against the other
-        for q, rows in ((CAGE_X, HALF[0]), (CAGE_BETA, HALF[3]), (CAGE_GAMMA, HALF[4])):
-            y[q] += 0.5 * gamma * (delta[rows[1]] - delta[rows[0]]) * np.array([-1.0, 1.0])
+    if model.p.scene.cage == CageModel.TWO_HALF:  # the motion of one half against the other
+        weights = (b.axial, b.shear, b.shear, b.axial, b.axial, b.shear)
+        for q, rows, c in zip((CAGE_X, CAGE_Y, CAGE_Z, CAGE_BETA, CAGE_GAMMA, CAGE_PSI), HALF, weights, strict=True):
+            y[q] += 0.5 * c * gamma * (delta[rows[1]] - delta[rows[0]]) * np.array([-1.0, 1.0])
+
+
+def correct_friction(model, w, gamma, delta, c, y):
+    """The friction states are deflections of springs and follow likewise: z_{n+1} += c gamma u/(1 + gamma D), u the change of the joint's velocity."""
+    if model.p.scene.cage != CageModel.TWO_HALF:
+        return
+    d, h0 = model.d, w.half[0]
+    _, dv_y, dv_z, _, _, ds = delta[HALF[:, 1]] - delta[HALF[:, 0]]
+    u_y, u_z = (axis[1] * dv_y + axis[2] * dv_z for axis in (h0.b_y, h0.b_z))
+    u = u_y - ds * d.rivet_z, u_z + ds * d.rivet_y
+    for rate, blocks in ((w.plate_rate, (JOINT_PLATE_Y, JOINT_PLATE_Z)), (w.head_rate, (JOINT_HEAD_Y, JOINT_HEAD_Z))):
+        for u_i, z in zip(u, blocks, strict=True):
+            y[z] += c * gamma * u_i / (1.0 + gamma * rate)
 
 
 def verlet_step(model, t, h, weight, start, blocks=jacobian_blocks):
@@ -284,10 +338,12 @@ def verlet_step(model, t, h, weight, start, blocks=jacobian_blocks):
 
     # One linear solve takes the predicted velocities to those of the trapezoidal rule.
     b, residual = blocks(model, t + h, y, w, gamma), held + gamma * (end.f[V] - a)
+    residual = np.linalg.solve(np.eye(N_V) + gamma**2 * b.K_shear, residual)
     delta = np.linalg.solve(b.matrix(gamma), residual)
     end.f[WORK] += dissipation_correction(model, w, gamma, residual, delta)
     delta -= held  # from here on delta = v_{n+1} - v_n - h a_n
-    correct_positions(model, gamma, delta, y)
+    correct_positions(model, gamma, delta, b, y)
+    correct_friction(model, w, gamma, delta, b.shear, y)
     y[V] = v + h * a + delta
     y[WORK] += gamma * (f[WORK] + end.f[WORK])
 

@@ -117,7 +117,7 @@ def joints():
     for mu, zeta in itertools.product((0.0, 1.0), (0.0, 1.0)):
         yield Scene("joint", f"joint.mu {mu:g}, joint.zeta {zeta:g}", {"joint.mu": mu, "joint.zeta": zeta})
     for T in (150.0, 400.0, 700.0):
-        yield Scene("joint", f"at {T:g} K", {"rivet.temperature": T})
+        yield Scene("joint", f"at {T:g} K", {}, dict.fromkeys(("ring.T_i", "ring.T_e", "ball.T", "cage.T"), T))
     for bearing, preload, speed in itertools.product(("soft rivets", "stiff rivets"), (0.0, 20.0, 200.0), (4000, 18238, 40000)):
         yield Scene("joint", f"{bearing}, preload {preload:g} N, {speed} r/min", {"joint.preload": preload}, {"shaft.omega": speed * RPM}, bearing=bearing)
 

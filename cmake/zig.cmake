@@ -22,6 +22,4 @@ find_program(ZIG zig REQUIRED)
 set(CMAKE_C_COMPILER ${ZIG} cc -target ${target})
 # A machine without a compiler has no ar either: zig brings that along too.
 set(CMAKE_AR ${ZIG} CACHE FILEPATH "Archiver")
-set(CMAKE_C_ARCHIVE_CREATE "<CMAKE_AR> ar qc <TARGET> <LINK_FLAGS> <OBJECTS>")
-set(CMAKE_C_ARCHIVE_APPEND "<CMAKE_AR> ar q <TARGET> <LINK_FLAGS> <OBJECTS>")
-set(CMAKE_C_ARCHIVE_FINISH "<CMAKE_AR> ranlib <TARGET>")
+set(CMAKE_USER_MAKE_RULES_OVERRIDE ${CMAKE_CURRENT_LIST_DIR}/zig_archive.cmake)  # after CMake's own rules for the platform

@@ -4,9 +4,11 @@
 #include "energy.h"
 #include "instance.h"
 #include "jacobian.h"
+#include "outputs.h"
 #include "ring_load.h"
 #include "rivets.h"
 #include "start.h"
+#include "temperature.h"
 
 #include <stdarg.h>
 #include <stdio.h>
@@ -108,7 +110,8 @@ static void report_events(Bearing *b)
         if (!event_onset(&s->event, kind, &now[kind])) continue;
         char text[256];
         event_text(kind, &now[kind], text, sizeof text);
-        const bool warning = kind == EVENT_OVERPRESSURE && s->event.onsets[kind] == 1.0;
+        const bool warned = kind == EVENT_OVERPRESSURE || kind == EVENT_NO_CLEARANCE;
+        const bool warning = warned && s->event.onsets[kind] == 1.0;
         bearing_log(b, warning ? LOG_WARNING : LOG_EVENT, "t = %.9g s: %s (onset %.0f)", s->integrator.t,
                     text, s->event.onsets[kind]);
     }
@@ -122,7 +125,7 @@ Bearing *part_create(const PartHost *host)
     memset(b, 0, sizeof *b);
     b->host = *host;
     b->kernels = kernels_select();
-    b->model = (Model){.p = &b->s.p, .d = &b->d, .ring_load = &b->ring_load};
+    b->model = (Model){.p = &b->hot, .d = &b->d, .ring_load = &b->ring_load};
     b->integrator =
         integrator_create(&b->kernels, &b->model, &b->w, &b->s.integrator, accepted_step, solver_message, b);
     if (b->integrator == NULL) {
@@ -194,15 +197,22 @@ static void hold_ring_load(Bearing *b)
     ring_load_at(&present, b->s.integrator.t, &b->ring_load);
 }
 
-// Computes all that follows from parameters and inputs and is therefore not saved.
-static void derive(Bearing *b)
+// Computes all that follows from the parameters at the temperatures in u.
+static void derive_at(Bearing *b, const Inputs *u)
 {
-    model_derive(&b->s.p, &b->d);
-    hold_ring_load(b);
-    work_init(&b->d, &b->w);
+    temperature_apply(&b->s.p, u, &b->hot);
+    model_derive(&b->hot, &b->d);
     integrator_tolerance(b->integrator, b->s.tolerance);
     b->current = 0;
     b->evaluated = false;
+}
+
+// Computes all that follows from parameters and inputs and is therefore not saved.
+static void derive(Bearing *b)
+{
+    derive_at(b, b->s.initialized ? &b->s.u_now : &b->s.u[0]);
+    hold_ring_load(b);
+    work_init(&b->d, &b->w);
 }
 
 // Evaluates the right-hand side if w and y_dot do not belong to the present state and inputs yet.
@@ -212,6 +222,20 @@ static void evaluate(Bearing *b)
     const IntegratorState *i = &b->s.integrator;
     b->kernels.rhs(&b->model, i->t, i->now.y, b->y_dot, &b->w);
     b->evaluated = true;
+}
+
+// Changes the temperatures of oil and parts from those in `from` to those in u.  The work of the expansion is no part
+// of the energy balance: the energy at the start moves by as much as the elastic energy of the present state.
+static void change_temperature(Bearing *b, const Inputs *from, const Inputs *u)
+{
+    if (temperature_same(from, u)) return;
+    const double *y = b->s.integrator.now.y;
+    evaluate(b);
+    const double before = energy_total(&b->model, y, &b->w);
+    derive_at(b, u);
+    evaluate(b);
+    b->s.energy_start += energy_total(&b->model, y, &b->w) - before;
+    b->s.integrator.f_is_current = 0;
 }
 
 PartStatus part_initialize(Bearing *b, double t_start, double tolerance)
@@ -298,6 +322,9 @@ PartStatus part_step(Bearing *b, double t_end)
     motion_remember(&s->u[0], t_end - t_begin, &s->history);
     report_without_effect(b);
     const double before = cpu_clock();
+    change_temperature(b, &s->u_now, &s->u[0]);
+    s->energy_start +=
+        energy_of_speed(&b->model, s->integrator.now.y, s->u_now.shaft.omega, s->u[0].shaft.omega);
     s->force_peak = 0.0;
     for (int k = 0; k < Z; k++) s->head_peak[k] = s->mid_peak[k] = 0.0;
     b->current = 0;
@@ -313,7 +340,8 @@ PartStatus part_step(Bearing *b, double t_end)
         end_trajectory(b);
     }
 
-    // the inputs stay where they are now
+    // the inputs stay where they are now; temperatures that have moved meanwhile act from here on
+    change_temperature(b, &s->u[0], &s->u_now);
     inputs_reach(&s->p, t_begin, s->integrator.t, s->u);
     b->cpu_time += cpu_clock() - before;
     if (status == 0) {
@@ -343,6 +371,46 @@ void part_update(Bearing *b, OutputGroup group)
 }
 
 // ---- derivatives ------------------------------------------------------------------------------------------
+// All outputs that follow from one evaluation at the present state, with the inputs u in the place of their temperatures.
+static void outputs_beside(const Bearing *b, const Inputs *u, Outputs *out)
+{
+    const InstanceState *s = &b->s;
+    Parameters hot;
+    Derived d;
+    Work w;
+    double y_dot[N_STATES];
+    temperature_apply(&s->p, u, &hot);
+    model_derive(&hot, &d);
+    work_init(&d, &w);
+    const Model model = {&hot, &d, &b->ring_load, NULL};
+    b->kernels.rhs(&model, s->integrator.t, s->integrator.now.y, y_dot, &w);
+    const Evaluation at = {&model, s->integrator.now.y,    y_dot,
+                           &w,     b->kernels.rivets_load, b->kernels.rivet_rom_stress};
+    memset(out, 0, sizeof *out);
+    for (int group = 0; group < GROUP_COUNT; group++) outputs_evaluate(&at, group, out);
+    out->bearing.energy_residual = 0.0;  // the work of expansion is no part of the balance
+}
+
+// Adds the derivatives of all outputs along the temperatures of du: central differences over +-1 mK, because the derived
+// constants have no dual numbers.  Their relative error is 1e-7.
+static void add_thermal_derivatives(const Bearing *b, const Inputs *du, Outputs *derivatives)
+{
+    const double step = 1e-3;
+    for (int i = 0; i < TEMPERATURES; i++) {
+        const double along = *temperature_of((Inputs *)du, i);
+        if (along == 0.0) continue;
+        Inputs below = b->s.u_now, above = below;
+        Outputs from, to;
+        *temperature_of(&below, i) -= step;
+        *temperature_of(&above, i) += step;
+        outputs_beside(b, &below, &from);
+        outputs_beside(b, &above, &to);
+        const double *x = (const double *)&from, *y = (const double *)&to;
+        double *sum = (double *)derivatives;
+        for (size_t k = 0; k < sizeof from / sizeof *x; k++) sum[k] += along * ((y[k] - x[k]) / (2.0 * step));
+    }
+}
+
 // Derivatives of all outputs at the present state along dt of time, du of the inputs and dy of the states.
 static void differentiate(Bearing *b, double dt, const Inputs *du, const double *dy, Outputs *derivatives)
 {
@@ -351,6 +419,7 @@ static void differentiate(Bearing *b, double dt, const Inputs *du, const double 
     present_trajectory(b, &trajectory);
     jacobian_outputs(&b->model, (const double *)&trajectory, s->integrator.t, dt, (const double *)du,
                      s->integrator.now.y, dy, (double *)derivatives);
+    add_thermal_derivatives(b, du ? du : &s->u_now_dot, derivatives);
 }
 
 void part_time_derivatives(Bearing *b, Outputs *derivatives)

@@ -58,11 +58,12 @@ void cage_joint_kinematics(const Model *model, Work *w)
     }
 }
 
-// Dahl's friction with force -k z: sets the rate of z, returns the dissipated power.
+// Dahl's friction with force -k z: sets the rate of z and its decay D, returns the dissipated power.
 INLINE wide cage_joint_friction(wide k, wide capacity, wide z_y, wide z_z, wide v_y, wide v_z, wide speed,
-                                scalar *dot_y, scalar *dot_z)
+                                scalar *dot_y, scalar *dot_z, scalar *D)
 {
     const wide rate = speed * k / capacity;
+    wide_store(D, rate);
     wide_store(dot_y, v_y - rate * z_y);
     wide_store(dot_z, v_z - rate * z_z);
     return k * rate * (z_y * z_y + z_z * z_z);
@@ -154,13 +155,14 @@ void cage_joint_force(const Model *model, const scalar *y, Work *w)
         const wide zp_y = wide_load(&z_y[k]), zp_z = wide_load(&z_z[k]);
         const wide zh_y = wide_load(&h_y[k]), zh_z = wide_load(&h_z[k]);
         wide lost = cage_joint_friction(k_t, mu * wide_max(N_plate + dT, zero) + floor, zp_y, zp_z, v_y, v_z,
-                                        speed, &w->plate_y_dot[k], &w->plate_z_dot[k]);
+                                        speed, &w->plate_y_dot[k], &w->plate_z_dot[k], &w->plate_rate[k]);
         lost += cage_joint_friction(k_h, mu * wide_max(T + dT, zero) + floor, zh_y, zh_z, v_y, v_z, speed,
-                                    &w->head_y_dot[k], &w->head_z_dot[k]);
+                                    &w->head_y_dot[k], &w->head_z_dot[k], &w->head_rate[k]);
 
         // hole contact
         const wide slip = wide_sqrt(u_y * u_y + u_z * u_z + 1e-30);
         const wide bearing = d->k_hole * wide_max(slip - d->hole_gap, zero) / slip;
+        wide_store(&w->k_bearing[k], wide_select(wide_above(slip, d->hole_gap), wide_set(d->k_hole), zero));
 
         wide_store(&w->T[k], T);
         wide_store(&w->N_plate[k], N_plate);

@@ -3,12 +3,20 @@
 #include "saved_numbers.h"
 
 #include "instance.h"
+#include "ring_fit.h"
 #include "ring_load.h"
 #include "rivet_rom.h"
+#include "temperature.h"
 
 #include <float.h>
 #include <stddef.h>
 #include <stdio.h>
+
+// Clearance at which a ball on one race reaches the other groove's far side.
+static double largest_clearance(const Parameters *p)
+{
+    return 4.0 * (fmin(p->bearing.f_i, p->bearing.f_e) - 0.5) * p->bearing.D;
+}
 
 static void report_error(void *bearing, const char *message)
 {
@@ -34,6 +42,46 @@ static bool check_motions(Bearing *b, double h)
     return check_variables(b, CAUSALITY_INPUT, &end);
 }
 
+// Checks that oil and bearing bear the temperatures in u: viscosity within its limits, cage neither on the outer ring nor
+// on the balls, no interference beyond what parameters may have.
+static bool check_temperatures(Bearing *b, const Inputs *u)
+{
+    const Variable *eta = variable_named("oil.eta"), *guide = variable_named("cage.guide_clearance");
+    Parameters hot;
+    temperature_apply(&b->s.p, u, &hot);
+    bool fine = true;
+    if (!(hot.oil.eta >= eta->min && hot.oil.eta <= eta->max)) {
+        bearing_log(b, LOG_ERROR, "oil.T = %g K: the oil's viscosity is %g Pa.s there; %g ... %g is allowed",
+                    u->oil.T, hot.oil.eta, eta->min, eta->max);
+        fine = false;
+    }
+    if (!(hot.cage.guide_clearance >= guide->min)) {
+        bearing_log(
+            b, LOG_ERROR,
+            "cage.T = %g K, ring.T_e = %g K: the cage's guide clearance is %g m there; at least %g m is "
+            "allowed",
+            u->cage.T, u->ring.T_e, hot.cage.guide_clearance, guide->min);
+        fine = false;
+    }
+    if (!(hot.cage.pocket_clearance >= 0.0)) {
+        bearing_log(
+            b, LOG_ERROR,
+            "cage.T = %g K, ball.T = %g K: the pockets' clearance is %g m there; at least 0 m is allowed",
+            u->cage.T, u->ball.T, hot.cage.pocket_clearance);
+        fine = false;
+    }
+    const double least = -0.01 * hot.bearing.D, most = largest_clearance(&hot);
+    if (!(hot.bearing.P_d > least && hot.bearing.P_d < most)) {
+        bearing_log(
+            b, LOG_ERROR,
+            "ring.T_i = %g K, ring.T_e = %g K, ball.T = %g K: the bearing's clearance is %g m there; %g ... "
+            "%g m is allowed",
+            u->ring.T_i, u->ring.T_e, u->ball.T, hot.bearing.P_d, least, most);
+        fine = false;
+    }
+    return fine;
+}
+
 // Inputs are polynomials of second order: their extremes are at the ends of the step or where their slope
 // vanishes.
 bool check_inputs(Bearing *b, double h)
@@ -42,14 +90,17 @@ bool check_inputs(Bearing *b, double h)
     InputTrajectory trajectory = {.t_0 = 0.0, .u = {b->s.u[0], b->s.u[1], b->s.u[2]}};
     Inputs u = b->s.u[0], turning = u;
     if (!check_motions(b, h)) return false;
-    if (!input_trajectory_varies(&trajectory)) return check_variables(b, CAUSALITY_INPUT, &u);
+    if (!input_trajectory_varies(&trajectory))
+        return check_variables(b, CAUSALITY_INPUT, &u) &&
+               (temperature_same(&b->s.u_now, &u) || check_temperatures(b, &u));
     input_trajectory_at(&trajectory, h, &u);
     for (int i = 0; i < N_INPUTS; i++) {
         const double tau = -u_1[i] / u_2[i];
         if (tau > 0.0 && tau < h) ((double *)&turning)[i] += 0.5 * tau * u_1[i];
     }
     return check_variables(b, CAUSALITY_INPUT, &b->s.u[0]) && check_variables(b, CAUSALITY_INPUT, &u) &&
-           check_variables(b, CAUSALITY_INPUT, &turning);
+           check_variables(b, CAUSALITY_INPUT, &turning) && check_temperatures(b, &b->s.u[0]) &&
+           check_temperatures(b, &u);
 }
 
 // Logs value and limit unless the condition holds.
@@ -64,7 +115,7 @@ static bool check_geometry(Bearing *b)
 {
     const Parameters *p = &b->s.p;
     const double D = p->bearing.D, d_m = p->bearing.d_m;
-    const double chord = d_m * sin(PI / Z), play = 4.0 * (fmin(p->bearing.f_i, p->bearing.f_e) - 0.5) * D;
+    const double chord = d_m * sin(PI / Z), play = largest_clearance(p);
     bool fine = true;
     fine &= require(b, D < chord,
                     "bearing.D = %g m: the balls overlap; less than bearing.d_m sin(pi/Z) = %g m is allowed",
@@ -84,6 +135,25 @@ static bool check_geometry(Bearing *b)
     fine &= require(b, p->ring.bore < d_m - D,
                     "ring.bore = %g m: less than the diameter of the inner groove's bottom, %g m, is allowed",
                     p->ring.bore, d_m - D);
+    fine &= require(
+        b, ring_fit_effective_i(p) >= d_m - D,
+        "ring.effective_i = %g m: at least the diameter of the inner groove's bottom, %g m, is allowed",
+        p->ring.effective_i, d_m - D);
+    fine &= require(
+        b, ring_fit_effective_e(p) <= d_m + D,
+        "ring.effective_e = %g m: at most the diameter of the outer groove's bottom, %g m, is allowed",
+        p->ring.effective_e, d_m + D);
+    fine &=
+        require(b, ring_fit_outside(p) > d_m + D,
+                "ring.outside = %g m: more than the diameter of the outer groove's bottom, %g m, is allowed",
+                p->ring.outside, d_m + D);
+    fine &= require(b, p->shaft.bore < ring_fit_bore(p),
+                    "shaft.bore = %g m: less than the bore of the inner ring, %g m, is allowed",
+                    p->shaft.bore, ring_fit_bore(p));
+    fine &= require(b, p->housing.outside == 0.0 || p->housing.outside > ring_fit_outside(p),
+                    "housing.outside = %g m: 0 or more than the outside diameter of the outer ring, %g m, is "
+                    "allowed",
+                    p->housing.outside, ring_fit_outside(p));
     fine &= require(b, p->cage.D_i < p->cage.D_o, "cage.D_i = %g m: less than cage.D_o = %g m is allowed",
                     p->cage.D_i, p->cage.D_o);
     fine &= require(b, p->cage.D_i < d_m, "cage.D_i = %g m: less than bearing.d_m = %g m is allowed",
@@ -104,6 +174,13 @@ static bool check_geometry(Bearing *b)
     fine &= require(b, p->cage.land_width <= 0.5 * p->cage.width,
                     "cage.land_width = %g m: at most half of cage.width, %g m, is allowed",
                     p->cage.land_width, 0.5 * p->cage.width);
+    fine &= require(b, p->oil.T_1 < p->oil.T_2, "oil.T_1 = %g K: less than oil.T_2 = %g K is allowed",
+                    p->oil.T_1, p->oil.T_2);
+    fine &=
+        require(b, p->oil.nu_1 > p->oil.nu_2,
+                "oil.nu_1 = %g m2/s: more than oil.nu_2 = %g m2/s is allowed, for the viscosity falls with "
+                "temperature",
+                p->oil.nu_1, p->oil.nu_2);
     fine &= require(b, p->fatigue.k_2 >= p->fatigue.k_1,
                     "fatigue.k_2 = %g: at least fatigue.k_1 = %g is allowed", p->fatigue.k_2, p->fatigue.k_1);
     fine &= require(b, p->pulse.count < 2 || p->pulse.interval >= p->pulse.duration,
@@ -166,8 +243,8 @@ static bool check_table(Bearing *b)
 bool check_all(Bearing *b)
 {
     bool fine = check_variables(b, CAUSALITY_PARAMETER, &b->s.p);
-    fine &= check_inputs(b, 0.0);
-    return fine && check_geometry(b) && check_table(b) && check_seat(b);
+    fine &= check_variables(b, CAUSALITY_INPUT, &b->s.u[0]);
+    return fine && check_geometry(b) && check_table(b) && check_seat(b) && check_temperatures(b, &b->s.u[0]);
 }
 
 // Inputs that have no effect on a ring whose motion is free, and on one whose motion is prescribed.
@@ -302,7 +379,8 @@ bool check_saved(Bearing *b)
                         "derivatives of inputs");
     }
     char message[256];
-    bool fine = check_all(b) && check_variables(b, CAUSALITY_INPUT, &s->u_now);
+    bool fine =
+        check_all(b) && check_variables(b, CAUSALITY_INPUT, &s->u_now) && check_temperatures(b, &s->u_now);
     fine = fine && saved_is(b,
                             values_are_within((const double *)&s->u[1], (size_t)INPUT_ORDERS * N_INPUTS,
                                               LARGEST_DERIVATIVE),

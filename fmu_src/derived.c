@@ -1,6 +1,8 @@
-// Constants derived once from the parameters, element by element; equations stand in the elements' files.
+// Constants derived from the parameters at their temperatures (temperature.h), element by element; equations stand in
+// the elements' files.
 #include "elementary.h"
 #include "hertz.h"
+#include "ring_fit.h"
 #include "rivet_rom.h"
 #include "traction.h"
 
@@ -90,19 +92,6 @@ static void derive_inlets(const Parameters *p, Derived *d)
         heating && p->oil.beta > 0.0 ? portable_log(p->oil.eta * p->oil.beta / p->oil.k) : -INFINITY;
 }
 
-// Growth of the inner ring at the groove's bottom r by its own rotation / omega^2: a free ring from the bore a
-// to the shoulder b, in plane stress.  Timoshenko & Goodier, Theory of Elasticity, section 32
-//   u = rho omega^2 r/(8 E) ((3 + nu)(1 - nu)(a^2 + b^2) + (3 + nu)(1 + nu) a^2 b^2/r^2 - (1 - nu^2) r^2)
-static double ring_growth(const Parameters *p)
-{
-    const double nu = p->bearing.nu, r = 0.5 * (p->bearing.d_m - p->bearing.D);
-    const double bore = p->ring.bore > 0.0 ? p->ring.bore : p->bearing.d_m - p->bearing.D / 0.6;
-    const double a_2 = 0.25 * bore * bore, b = r + p->bearing.h_i * p->bearing.D, b_2 = b * b;
-    return p->ring.rho * r / (8.0 * p->bearing.E) *
-           ((3.0 + nu) * (1.0 - nu) * (a_2 + b_2) + (3.0 + nu) * (1.0 + nu) * a_2 * b_2 / (r * r) -
-            (1.0 - nu * nu) * r * r);
-}
-
 static void derive_balls(const Parameters *p, Derived *d)
 {
     const double D = p->bearing.D, area = 0.25 * PI * D * D;
@@ -113,7 +102,7 @@ static void derive_balls(const Parameters *p, Derived *d)
     d->drag = 0.5 * p->oil.C_d * reference_density(p) * area;
     derive_race(p, p->bearing.f_i, -1.0, &d->inner);
     derive_race(p, p->bearing.f_e, 1.0, &d->outer);
-    d->growth = p->scene.growth == SWITCH_ON ? ring_growth(p) : 0.0;
+    d->fit = ring_fit_of(p);
     derive_inlets(p, d);
     derive_mixture(p, d);
 }
@@ -142,8 +131,8 @@ static void derive_pockets(const Parameters *p, Derived *d)
         const double phi = 2.0 * PI * (j % Z) / Z, phi_r = 2.0 * PI * (j % Z + 0.5) / Z;
         d->pocket_cos[j] = j < Z ? portable_cos(phi) : 0.0;
         d->pocket_sin[j] = j < Z ? portable_sin(phi) : 0.0;
-        d->rivet_y[j] = 0.5 * p->bearing.d_m * portable_cos(phi_r);
-        d->rivet_z[j] = 0.5 * p->bearing.d_m * portable_sin(phi_r);
+        d->rivet_y[j] = 0.5 * rivet_table.joint.d_m * portable_cos(phi_r);
+        d->rivet_z[j] = 0.5 * rivet_table.joint.d_m * portable_sin(phi_r);
     }
 }
 
@@ -191,8 +180,8 @@ static void derive_cage(const Parameters *p, Derived *d)
 static void derive_joint(const Parameters *p, Derived *d)
 {
     const JointData *joint = &rivet_table.joint;
-    d->P = joint_preload(joint, p->joint.preload, p->rivet.temperature);
-    d->fit_a = joint_fit(joint, p->joint.fit + p->joint.swell, p->rivet.temperature);
+    d->P = p->joint.preload;
+    d->fit_a = p->joint.fit + p->joint.swell;
     d->fit_eff = rivet_rom_fit_eff(&rivet_table, d->fit_a, p->rivet.fit_model == FIT_MODEL_J2);
     d->fit_flags = rivet_rom_fit_flags(&rivet_table, d->fit_a);
     d->k_rivet = joint->k_rivet;
@@ -207,16 +196,24 @@ static void derive_joint(const Parameters *p, Derived *d)
     d->c_joint = 2.0 * p->joint.zeta * sqrt((d->k_rivet + d->k_plate) * 0.5 * p->cage.m / Z);
 }
 
+// Errors that tolerance 1 allows: lengths and velocities, angles as arcs, friction states as parts of the deflection at
+// which the plates slip.  The default method has scales by consequence (docs/method.md): a ball's velocity along its
+// orbit decides how it meets its pocket and is finer; its velocity along the contact normals, where a step's error
+// moves it by nanometres, and the friction states, whose error hardly changes a half's velocity within a step, are wider.
 static void derive_scales(const Parameters *p, Derived *d)
 {
-    const double length = 1e-5, velocity = 0.1, r = 0.5 * p->bearing.d_m;
+    const bool equal = p->solver.method == METHOD_EXPLICIT;
+    const double length = 1e-5, velocity = equal ? 0.1 : 0.2, r = 0.5 * p->bearing.d_m;
+    const double slip =
+        fmax(p->joint.mu * d->P, 3.0);  // force at which plates slip; of a loose joint the default's
+    const double friction = equal ? slip : 20.0 * slip;
     d->scale[SCALE_LENGTH] = length;
     d->scale[SCALE_VELOCITY] = velocity;
-    d->scale[SCALE_ANGLE] = d->scale[SCALE_TILT] = length / r;
+    d->scale[SCALE_NORMAL] = equal ? velocity : 1.5 * velocity;
     d->scale[SCALE_RATE] = velocity / r;
+    d->scale[SCALE_ORBIT] = (equal ? velocity : velocity / 6.0) / r;
     d->scale[SCALE_SPIN] = velocity / (0.5 * p->bearing.D);
-    const double friction =
-        fmax(p->joint.mu * d->P, 3.0);  // a loose joint is not held to a finer force than the default one
+    d->scale[SCALE_ANGLE] = d->scale[SCALE_TILT] = length / r;
     d->scale[SCALE_PLATE] = friction / d->k_plate_t;
     d->scale[SCALE_HEAD] = friction / d->k_head;
     d->scale[SCALE_ENERGY] = 1e30;

@@ -4,11 +4,12 @@
 //   joint     T^2/(2 k_rivet) + N_plate^2/(2 k_plate) + k z^2/2 + hole contact
 //
 // The inner ring is outside this balance: its motion puts the power -F.v - M.Omega into balls and cage, with
-// F and M of the contacts on the ring.  The energy is for outputs only; the integration does not use it.
+// F and M of the contacts on the ring, and its growth the power -K delta^1.5 n.e dR_g/dt, (race_contact.c).  The energy is for outputs only; the integration does not use it.
 #include "energy.h"
 
 #include "hertz.h"
 #include "pocket.h"
+#include "ring_fit.h"
 #include "rotor.h"
 
 // Kinetic energy of ball j.
@@ -72,3 +73,27 @@ scalar energy_total(const Model *model, const scalar *y, const Work *w)
     }
     return E;
 }
+
+#ifndef DUAL
+double energy_of_speed(const Model *model, const double *y, double before, double after)
+{
+    const Derived *d = model->d;
+    const double growth[2] = {ring_fit_growth(&d->fit, before), ring_fit_growth(&d->fit, after)};
+    if (growth[0] == growth[1]) return 0.0;
+    Rotor ring;
+    rotor_axis(&ring, y[Y_RING_BETA], y[Y_RING_GAMMA], 0.0, 0.0, 0.0);
+    double E[2] = {0.0, 0.0};
+    for (int j = 0; j < Z; j++) {
+        const double r = y[Y_BALL_R + j], theta = y[Y_BALL_THETA + j];
+        const double p[3] = {y[Y_BALL_X + j] - y[Y_RING_X], r * portable_cos(theta) - y[Y_RING_Y],
+                             r * portable_sin(theta) - y[Y_RING_Z]};
+        const double along = dot3(p, ring.a), radius = sqrt(dot3(p, p) - along * along);
+        for (int i = 0; i < 2; i++) {
+            const double across = radius - (d->inner.R_g + growth[i]);
+            const double delta = sqrt(along * along + across * across) - (d->inner.r_g - d->R[j]);
+            if (delta > 0.0) E[i] += 0.4 * d->inner.hertz.K * delta * delta * sqrt(delta);
+        }
+    }
+    return E[1] - E[0];
+}
+#endif

@@ -3,6 +3,7 @@
 
 #include "elementary.h"
 #include "hertz.h"
+#include "ring_fit.h"
 #include "rivet_rom.h"
 #include "saved_numbers.h"
 
@@ -102,6 +103,12 @@ static void joints(const Model *model, const Work *w, Event *event)
     for (int k = 0; k < Z; k++) add(event, k, w->u_x[k], model->d->P / model->d->k_plate);
 }
 
+static void clearance(const Model *model, Event *event)
+{
+    const double growth = ring_fit_growth(&model->d->fit, model->ring_load->omega);
+    add(event, 0, 2.0 * growth - model->p->bearing.P_d, 0.0);
+}
+
 static void rivets(const double head_peak[Z], const double mid_peak[Z], Event *event)
 {
     for (int k = 0; k < Z; k++) add(event, k, scalar_max(head_peak[k], mid_peak[k]), rivet_table.yield_rivet);
@@ -116,6 +123,7 @@ void events_now(const Model *model, const Work *w, const double head_peak[Z], co
     races(model, w, &now[EVENT_ELLIPSE_CUT], &now[EVENT_OVERPRESSURE]);
     joints(model, w, &now[EVENT_JOINT_OPEN]);
     rivets(head_peak, mid_peak, &now[EVENT_RIVET_YIELD]);
+    clearance(model, &now[EVENT_NO_CLEARANCE]);
 }
 
 bool event_onset(EventState *state, EventKind kind, const Event *now)
@@ -177,6 +185,12 @@ void event_text(EventKind kind, const Event *now, char *text, size_t size)
                  "rivet[%d] yields: %.4g Pa against a yield stress of %.4g Pa; the stress is that of an "
                  "elastic rivet",
                  k, now->value, now->limit);
+        return;
+    case EVENT_NO_CLEARANCE:
+        snprintf(text, size,
+                 "the bearing has no clearance left: bearing.clearance = %.4g m at the present speed, "
+                 "temperatures and fits",
+                 -now->value);
         return;
     case EVENT_COUNT: break;
     }

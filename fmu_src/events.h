@@ -9,6 +9,7 @@
 //                  race_contact.c does not cut off
 //   overpressure   p_max > bearing.p_limit at a race: permanent deformation, which Hertz' law does not know
 //   joint open     plates of a joint apart: u_x > P/k_plate
+//   no clearance   speed, temperatures and fits leave a diametral clearance below 0: the bearing is preloaded
 //   rivet yield    sigma_head_peak or sigma_mid_peak beyond the yield stress since the last communication point;
 //                  the stress is linear elastic
 #pragma once
@@ -22,6 +23,7 @@ typedef enum {
     EVENT_OVERPRESSURE,
     EVENT_JOINT_OPEN,
     EVENT_RIVET_YIELD,
+    EVENT_NO_CLEARANCE,
     EVENT_COUNT
 } EventKind;
 

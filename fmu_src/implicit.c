@@ -12,6 +12,7 @@
 //   land, film              v_y + gamma_dot x, v_z - beta_dot x          2 x 2; x: lever of the land
 //   land, Couette and dry   spin s                                       film_spin
 //   rivets and plates       v_x + z beta_dot - y gamma_dot, half 1 - 0   c; stiffness of what is in touch
+//   sticking, hole contact  v_y - s z, v_z + s y, half 1 - 0             stiffness k/(1 + gamma D), k_hole
 //   ring support            each velocity of the ring by itself          c; tilts: c_tilt, k_tilt or filter
 //
 // C is symmetric and not negative, so every block is symmetric positive definite and needs no pivoting.
@@ -21,7 +22,8 @@
 // of ball and cage.
 //
 // Order of elimination: balls, 6 x 6 each; by their Schur complement the ring, 5 x 5; the halves by
-// themselves, their films first, then the joints between them.  Rolling couples the velocities of a ball as
+// themselves, their films first, then the joints between them.  The joints' stiffness across the axis is a
+// factor of its own, solved before (implicit_shear).  Rolling couples the velocities of a ball as
 // strongly as it holds each one back: a diagonal matrix would leave stiff terms outside.
 #include "implicit.h"
 
@@ -108,12 +110,17 @@ INLINE void solve_block(const Factors *f, wide x[BLOCK])
     }
 }
 
+// Stiffness 3 Q/(2 delta) of a race contact.
+INLINE wide normal_stiffness(wide Q, wide delta)
+{
+    const wide stiffness = 1.5 * Q / wide_max(delta, wide_set(APPROACH_FLOOR));
+    return wide_select(wide_above(delta, 0.0), stiffness, wide_set(0.0));
+}
+
 // gamma lambda Q + gamma^2 3 Q/(2 delta) of a race contact: damping and stiffness of its normal force.
 INLINE wide normal_term(const Model *model, double gamma, wide Q, wide delta)
 {
-    const wide stiffness = 1.5 * Q / wide_max(delta, wide_set(APPROACH_FLOOR));
-    const wide k = wide_select(wide_above(delta, 0.0), stiffness, wide_set(0.0));
-    return gamma * (model->p->bearing.lambda * Q + gamma * k);
+    return gamma * (model->p->bearing.lambda * Q + gamma * normal_stiffness(Q, delta));
 }
 
 // W of a packet of balls.  normal_forces: with damping and stiffness of the race contacts' normal forces, or
@@ -284,6 +291,22 @@ static void stiff_part_of_balls(const Model *model, const Work *w, double gamma,
     store_balls(rows, v);
 }
 
+double implicit_elastic(const Work *w, double gamma, const double *v)
+{
+    ball_array rows[BLOCK], power;
+    load_balls(v, rows);
+    for (int j = 0; j < PACKETS * LANE_WIDTH; j += LANE_WIDTH) {
+        const wide x = wide_load(&rows[0][j]), r = wide_load(&rows[1][j]);
+        const wide t = wide_load(&rows[2][j]) * wide_load(&w->r[j]);
+        const wide in = wide_load(&w->n_ix[j]) * x + wide_load(&w->n_ir[j]) * r + wide_load(&w->n_it[j]) * t;
+        const wide out = wide_load(&w->n_ex[j]) * x + wide_load(&w->n_er[j]) * r;
+        const wide k_i = normal_stiffness(wide_load(&w->Q_i[j]), wide_load(&w->delta_i[j]));
+        const wide k_e = normal_stiffness(wide_load(&w->Q_e[j]), wide_load(&w->delta_e[j]));
+        wide_store(&power[j], gamma * (k_i * in * in + k_e * out * out));
+    }
+    return ball_array_sum(power);
+}
+
 // ---- cage halves ------------------------------------------------------------------------------------------
 
 // Velocities of one half.
@@ -361,6 +384,17 @@ static void half_store(const Half *half, double *v, int h)
     v[Y_CAGE_BETA_DOT + h] = half->beta, v[Y_CAGE_GAMMA_DOT + h] = half->gamma, v[Y_CAGE_S + h] = half->s;
 }
 
+// Weights of a vibration between the halves that turns by x = omega h a step, given x^2: `matrix` multiplies K in the
+// matrix, the return value c the position correction.  Both are 1/3 for small x, which makes the frequency exact to
+// order four (Fox and Goodwin); for large x they tend to 1.5 and 1.7, which takes 22 % of the amplitude a step:
+// what the step cannot resolve dies out (docs/method.md).
+static double vibration_weights(double x_2, double *matrix)
+{
+    const double part = x_2 * x_2 / (x_2 * x_2 + 1.0);
+    *matrix = 1.0 / 3.0 + part * (1.5 - 1.0 / 3.0);
+    return 1.0 / 3.0 + part * (1.7 - 1.0 / 3.0);
+}
+
 // C = sum over the rivets of (gamma c + gamma^2 k) b b^T, b = (1, z, -y): what holds back the axial motion of
 // half 1 against half 0, (v_x, beta_dot, gamma_dot).  y, z: place of the rivet, turned with half 0.
 static void joint_matrix(const Model *model, const Work *w, double gamma, double C[3][3])
@@ -414,11 +448,15 @@ static void solve_3(double B[3][3], double x[3])
 // Holds back the axial motion of half 1 against half 0, both already held back by their films f.  With dv
 // their relative velocity (v_x, beta_dot, gamma_dot) and G its change by unit impulses, again under the
 // films, the impulses of the joints are x = C (dv - G x): three equations (1 + C G) x = C dv, the form of
-// Woodbury again.
-static void solve_joints(const Model *model, const Work *w, double gamma, const Film f[2], Half half[2])
+// Woodbury again.  C is multiplied by the weight of the fastest of the three vibrations; returns the position
+// correction's weight.
+static double solve_joints(const Model *model, const Work *w, double gamma, const Film f[2], Half half[2])
 {
-    double C[3][3], B[3][3], x[3], G_xx = 0.0, G_bb = 0.0, G_bg = 0.0, G_gg = 0.0;
+    double C[3][3], B[3][3], x[3], weight, G_xx = 0.0, G_bb = 0.0, G_bg = 0.0, G_gg = 0.0;
     joint_matrix(model, w, gamma, C);
+    const double tilt = fmax(C[1][1], C[2][2]) / model->d->J_t;
+    const double correction = vibration_weights(8.0 * fmax(C[0][0] / model->p->cage.m, tilt), &weight);
+    for (int i = 0; i < 9; i++) C[i / 3][i % 3] *= weight;
 
     // G of both halves; indices b, g: beta, gamma.  A film knows no axial motion.
     for (int h = 0; h < 2; h++) {
@@ -449,11 +487,65 @@ static void solve_joints(const Model *model, const Work *w, double gamma, const 
         half[h].x += change.x, half[h].y += change.y, half[h].z += change.z;
         half[h].beta += change.beta, half[h].gamma += change.gamma;
     }
+    return correction;
+}
+
+// Stiffness [N/m] across the axis of a packet's joints from k on, as a step of length 2 gamma meets it: sticking plates
+// and heads, d(z)/d(v) = gamma/(1 + gamma D) of friction states that decay with D, and holes in which a shank bears.
+static wide shear_stiffness(const Model *model, const Work *w, double gamma, int k)
+{
+    const wide plate = model->d->k_plate_t / (1.0 + gamma * wide_load(&w->plate_rate[k]));
+    const wide head = model->d->k_head / (1.0 + gamma * wide_load(&w->head_rate[k]));
+    return plate + head + wide_load(&w->k_bearing[k]);
+}
+
+// Holds back the motion of half 1 against half 0 across the axis and about it, (v_y, v_z, s): at a rivet at (y, z) its
+// velocity is (v_y - s z, v_z + s y).  Weights and result as along the axis.  The impulses are x = C (dv - G x) again,
+// C the sum of gamma^2 k over the joints and G = 2 diag(1/m, 1/m, 1/J_p).  Left out is the lever x_c of the joints
+// from the centres of mass, 0.2 % of the halves' response.
+double implicit_shear(const Model *model, const Work *w, double gamma, double *v)
+{
+    if (model->p->scene.cage == CAGE_MODEL_RIGID) return 0.0;
+    const Derived *d = model->d;
+    const Rotor *h0 = &w->half[0];
+
+    // C = (c, 0, -c_z; 0, c, c_y; -c_z, c_y, c_rr).
+    ball_array rate, rate_y, rate_z, rate_rr;
+    for (int k = 0; k < PACKETS * LANE_WIDTH; k += LANE_WIDTH) {
+        const wide s_y = wide_load(&d->rivet_y[k]), s_z = wide_load(&d->rivet_z[k]);
+        const wide y = s_y * h0->b_y[1] + s_z * h0->b_z[1], z = s_y * h0->b_y[2] + s_z * h0->b_z[2];
+        const wide rate_k = gamma * gamma * shear_stiffness(model, w, gamma, k);
+        wide_store(&rate[k], rate_k);
+        wide_store(&rate_y[k], rate_k * y);
+        wide_store(&rate_z[k], rate_k * z);
+        wide_store(&rate_rr[k], rate_k * (y * y + z * z));
+    }
+    const double m = model->p->cage.m, J_p = d->J_p, G_m = 2.0 / m, G_J = 2.0 / J_p;
+    double c = ball_array_sum(rate), c_y = ball_array_sum(rate_y), c_z = ball_array_sum(rate_z);
+    double c_rr = ball_array_sum(rate_rr), weight;
+    const double correction = vibration_weights(4.0 * fmax(c * G_m, c_rr * G_J), &weight);
+    c *= weight, c_y *= weight, c_z *= weight, c_rr *= weight;
+
+    // (1 + C G) x = C dv.
+    const double dv_y = v[Y_CAGE_V_Y + 1] - v[Y_CAGE_V_Y], dv_z = v[Y_CAGE_V_Z + 1] - v[Y_CAGE_V_Z];
+    const double ds = v[Y_CAGE_S + 1] - v[Y_CAGE_S];
+    double B[3][3] = {{1.0 + c * G_m, 0.0, -c_z * G_J},  //
+                      {0.0, 1.0 + c * G_m, c_y * G_J},   //
+                      {-c_z * G_m, c_y * G_m, 1.0 + c_rr * G_J}};
+    double x[3] = {c * dv_y - c_z * ds, c * dv_z + c_y * ds, c_y * dv_z - c_z * dv_y + c_rr * ds};
+    solve_3(B, x);
+    for (int h = 0; h < 2; h++) {
+        const double sign = h == 0 ? 1.0 : -1.0;
+        v[Y_CAGE_V_Y + h] += sign * x[0] / m;
+        v[Y_CAGE_V_Z + h] += sign * x[1] / m;
+        v[Y_CAGE_S + h] += sign * x[2] / J_p;
+    }
+    return correction;
 }
 
 // (1 + gamma A + gamma^2 K)^-1 of both halves.  The lands of a rigid cage are solved one after the other,
-// which differs from both together by gamma^2 A_0 A_1, a choice of K.
-static void solve_halves(const Model *model, const Work *w, double gamma, double *v)
+// which differs from both together by gamma^2 A_0 A_1, a choice of K.  Returns what solve_joints does.
+static double solve_halves(const Model *model, const Work *w, double gamma, double *v)
 {
     Film f[2][2];
     Half half[2];
@@ -463,8 +555,10 @@ static void solve_halves(const Model *model, const Work *w, double gamma, double
         for (int land = 0; land < count; land++) film_solve(&f[h][land], &half[h]);
     }
     const Film own[2] = {f[0][0], f[1][0]};
-    if (model->p->scene.cage == CAGE_MODEL_TWO_HALF) solve_joints(model, w, gamma, own, half);
+    double correction = 0.0;
+    if (model->p->scene.cage == CAGE_MODEL_TWO_HALF) correction = solve_joints(model, w, gamma, own, half);
     for (int h = 0; h < 2; h++) half_store(&half[h], v, h);
+    return correction;
 }
 
 void implicit_films(const Model *model, const Work *w, double gamma, double *v)
@@ -587,7 +681,7 @@ static void stiff_part_of_ring(const Model *model, double gamma, double *v)
 
 // ---- all --------------------------------------------------------------------------------------------------
 
-void implicit_solve(const Model *model, const Work *w, double gamma, double *v)
+double implicit_solve(const Model *model, const Work *w, double gamma, double *v)
 {
     ball_array rows[BLOCK];
     Coupling coupling;
@@ -605,7 +699,7 @@ void implicit_solve(const Model *model, const Work *w, double gamma, double *v)
     store_balls(rows, v);
 
     // The cage, which A and K do not couple with the rest.
-    solve_halves(model, w, gamma, v);
+    return solve_halves(model, w, gamma, v);
 }
 
 void implicit_stiff_part(const Model *model, const Work *w, double gamma, double *v)

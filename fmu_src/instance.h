@@ -43,6 +43,7 @@ typedef struct Part Bearing;  // this FMU's part (part.h)
 struct Part {
     PartHost host;
     InstanceState s;
+    Parameters hot;  // s.p at the temperatures in s.u_now: what the model sees
     Derived d;
     Inputs start;  // start values of the variable table
     InputTrajectory trajectory;
@@ -71,7 +72,8 @@ void report_without_effect(Bearing *b);
 // Whether all balls lie in their grooves at the start; w holds the results there.
 bool check_start(Bearing *b);
 
-// Whether the inputs stay within their limits over a step of length h; inputs may change at every step.
+// Whether the inputs stay within their limits over a step of length h; inputs may change at every step.  Temperatures
+// must leave the bearing its clearances and the oil a viscosity within its limits.
 bool check_inputs(Bearing *b, double h);
 
 // Whether b->s, copied from bytes of unknown origin, is what a run can have left there, as far as single

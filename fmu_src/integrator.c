@@ -21,6 +21,7 @@
 #include "stepping.h"
 
 #include <arkode/arkode_erkstep.h>
+#include <float.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <sundials/sundials_nvector.h>
@@ -387,7 +388,7 @@ static int verlet_advance(Integrator *in, double t_stop, long max_steps)
             break;
         }
         const double left = t_stop - s->t, h = step_length(goal, left);
-        if (s->t + h == s->t) {
+        if (s->t + h == s->t || h < DBL_MIN) {  // 1/h of a subnormal h overflows
             status = step_underflow(in, "Verlet", h);
             break;
         }
@@ -490,12 +491,14 @@ static double largest_of(StateScale scale)
 {
     switch (scale) {
     case SCALE_LENGTH:
+    case SCALE_NORMAL:
     case SCALE_VELOCITY: return 1e6;
     case SCALE_ANGLE: return 1e15;
     case SCALE_TILT:
     case SCALE_PLATE:
     case SCALE_HEAD: return 1.0;
     case SCALE_RATE:
+    case SCALE_ORBIT:
     case SCALE_SPIN: return 1e9;
     case SCALE_ENERGY: return 1e30;
     case SCALE_COUNT: break;

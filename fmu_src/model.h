@@ -17,7 +17,7 @@ typedef struct {
     wide x, r, t;
 } vec;
 
-// ---- constants, written once by model_derive --------------------------------------------------------------
+// ---- constants, written by model_derive at the start and where a temperature changes ----------------------
 typedef struct {
     double K;        // Q = K delta^1.5 [N/m^1.5]
     double a, b;     // semi-axes of the contact ellipse / Q^(1/3), a >= b [m/N^(1/3)]
@@ -36,12 +36,20 @@ typedef struct {
     Hertz hertz;
 } Race;
 
+// Growth of the inner groove's radius by rotation and fit (ring_fit.h).
+typedef struct {
+    double growth;   // by rotation with a loose shaft / omega^2 [m.s2]
+    double per_fit;  // per radial interference of the tight shaft
+    double fit,
+        loosening;  // radial interference at standstill [m], what the rotation takes of it / omega^2 [m.s2]
+} RingFit;
+
 typedef struct {
     // balls and races
     constants R;  // ball radius [m]
     double m, J;  // ball mass [kg], moment of inertia [kg.m2]
     Race inner, outer;
-    double growth;                  // of the inner groove's radius / omega^2 [m.s2]
+    RingFit fit;
     double starvation, ln_heating;  // of the inlets: exponent / U [s/m], ln of the heating term at U = 1 m/s
     double ln_thermal;              // ln of the thermal loading L of the race films at U = 1 m/s
 
@@ -72,7 +80,7 @@ typedef struct {
     double cylinder_laminar, cylinder_vortex;           // cylinder drag moment / |omega|, |omega|^1.539
     double disk_laminar_omega, cylinder_laminar_omega;  // cage speeds below which each is laminar [rad/s]
 
-    // joint at the present temperature
+    // joint
     constants rivet_y, rivet_z;  // position of rivet k in a half [m]: angle 2 pi (k + 1/2) / Z, pitch circle
     double P;                    // preload [N]
     double fit_a, fit_eff;       // fit, and elastic fit of the same pressure [m]
@@ -105,6 +113,7 @@ typedef struct {
     scalar F[3], M[2];   // load [N], moment about Y, Z [N.m]
     scalar omega;        // speed [rad/s]
     scalar beta, gamma;  // direction cosines of the shaft's tilt
+    scalar omega_dot;    // rate of the speed [rad/s2]
 
     // motion of the inner ring where it is prescribed: position, velocity, acceleration; rates of the cosines
     scalar x[3], v[3], a[3];
@@ -180,6 +189,8 @@ typedef struct {
     ball_array u_x, u_y, u_z, v_jx, v_jy, v_jz;
     ball_array T, N_plate, S_y, S_z, H_y, H_z, B_y, B_z;
     ball_array plate_y_dot, plate_z_dot, head_y_dot, head_z_dot;
+    ball_array plate_rate, head_rate;  // decay D of the friction states, z' = v - D z [1/s]
+    ball_array k_bearing;              // stiffness of the hole where the shank bears, else 0 [N/m]
     ball_array joint_dissipated;
 
     // mixture (drag_mixture): density / that of the derived constants, angular speed about X [rad/s],
@@ -197,13 +208,13 @@ typedef struct {
 
 // All that the right-hand side needs beside time and state.
 typedef struct {
-    const Parameters *p;
+    const Parameters *p;  // at the present temperatures (temperature.h)
     const Derived *d;
     const RingLoad *ring_load;          // load at present; used while there is no trajectory
     const InputTrajectory *trajectory;  // from which the load at any time follows; NULL: the load is held
 } Model;
 
-// Derived constants of all elements; the parameters have been checked.
+// Derived constants of all elements; the parameters have been checked and have their present temperatures.
 void model_derive(const Parameters *p, Derived *d);
 
 // A Work whose padding lanes are harmless.

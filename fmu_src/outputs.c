@@ -5,6 +5,7 @@
 #include "energy.h"
 #include "hertz.h"
 #include "powers.h"
+#include "ring_fit.h"
 #include "ring_load.h"
 #include "rivets.h"
 #include "traction.h"
@@ -115,7 +116,7 @@ static void fill_ball(const Evaluation *at, Outputs *out)
         force_max = scalar_max(force_max, Q_c);
     }
     const scalar omega = at->model->ring_load->omega + at->model->ring_load->frame_omega;
-    out->bearing.clearance = at->model->p->bearing.P_d - 2.0 * d->growth * omega * omega;
+    out->bearing.clearance = at->model->p->bearing.P_d - 2.0 * ring_fit_growth(&d->fit, omega);
     out->bearing.contacts = contacts;
     out->bearing.penetration = penetration;
     out->cage.F_pocket_max = force_max;

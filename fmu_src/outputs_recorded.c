@@ -88,12 +88,14 @@ static void fill_event(Bearing *b)
     b->out.event.overpressure = now[EVENT_OVERPRESSURE].count;
     b->out.event.joint_open = now[EVENT_JOINT_OPEN].count;
     b->out.event.rivet_yield = now[EVENT_RIVET_YIELD].count;
+    b->out.event.no_clearance = now[EVENT_NO_CLEARANCE].count;
     b->out.event.land_contact_onsets = onsets[EVENT_LAND_CONTACT];
     b->out.event.pocket_exit_onsets = onsets[EVENT_POCKET_EXIT];
     b->out.event.ellipse_cut_onsets = onsets[EVENT_ELLIPSE_CUT];
     b->out.event.overpressure_onsets = onsets[EVENT_OVERPRESSURE];
     b->out.event.joint_open_onsets = onsets[EVENT_JOINT_OPEN];
     b->out.event.rivet_yield_onsets = onsets[EVENT_RIVET_YIELD];
+    b->out.event.no_clearance_onsets = onsets[EVENT_NO_CLEARANCE];
 }
 
 static void fill_constant(Bearing *b)

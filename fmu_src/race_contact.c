@@ -11,8 +11,7 @@
 //
 // The outer race is the same with the outer ring's centre, axis and motion (outer_ring.h).
 //
-// The inner ring grows by its rotation: R_g + growth omega^2 (derived.c), omega in the fixed frame.  The work of this growth while the speed
-// changes is left out of the energy balance.
+// The inner ring grows by its rotation in the fixed frame and its fit: R_g + ring_fit_growth (ring_fit.h).
 //
 // No offset or tilt is taken as small: the geometry is exact, so that the normal forces derive from a
 // potential.
@@ -29,6 +28,7 @@
 
 #include "hertz.h"
 #include "outer_ring.h"
+#include "ring_fit.h"
 #include "traction.h"
 
 // Gauss-Jacobi points and weights for the weight (3/4)(1 - s^2) on [-1, 1]: exact to degree 13.
@@ -221,7 +221,7 @@ INLINE void race_contact_packet(const Model *model, Work *w, int j, bool mixed, 
                              .R = wide_load(&d->R[j])};
     const vec p_i = vec_sub(ball.x, vec_local(w->ring.x, cos_theta, sin_theta));
     const scalar omega = model->ring_load->omega + model->ring_load->frame_omega;
-    const wide R_g = wide_set(d->inner.R_g + d->growth * omega * omega);
+    const wide R_g = wide_set(d->inner.R_g + ring_fit_growth(&d->fit, omega));
     const Contact inner = race_contact(
         model, &d->inner, &ball, R_g, p_i, vec_local(w->ring.a, cos_theta, sin_theta),
         vec_local(w->ring.v, cos_theta, sin_theta), vec_local(w->ring.Omega, cos_theta, sin_theta));
@@ -276,4 +276,23 @@ void race_contact_force(const Model *model, Work *w)
             mixed ? race_contact_packet(model, w, j, true, false, NULL)
                   : race_contact_packet(model, w, j, false, false, NULL);
     }
+}
+
+scalar race_growth_power(const Model *model, const Work *w)
+{
+    const RingLoad *load = model->ring_load;
+    const Rotor *ring = &w->ring;
+    const double K = model->d->inner.hertz.K;
+    scalar force = 0.0;  // of the balls against the growing groove, elastic
+    for (int j = 0; j < Z; j++) {
+        const scalar c = w->cos_theta[j], s = w->sin_theta[j];
+        const scalar p[3] = {w->x[j] - ring->x[0], w->r[j] * c - ring->x[1], w->r[j] * s - ring->x[2]};
+        const scalar n[3] = {w->n_ix[j], w->n_ir[j] * c - w->n_it[j] * s, w->n_ir[j] * s + w->n_it[j] * c};
+        const scalar along = dot3(p, ring->a), radius = scalar_sqrt(dot3(p, p) - along * along);
+        if (!(scalar_value(w->delta_i[j]) > 0.0)) continue;
+        const scalar Q = K * w->delta_i[j] * scalar_sqrt(w->delta_i[j]);
+        force -= Q * ((dot3(n, p) - along * dot3(n, ring->a)) / radius);
+    }
+    return force * ring_fit_rate(&model->d->fit, load->omega + load->frame_omega,
+                                 load->omega_dot + load->frame_omega_dot);
 }

@@ -176,8 +176,10 @@ static scalar net_power(const Model *model, const Work *w)
     scalar power =
         shaft_power(w) - ball_array_sum(w->dissipated) - w->cage_dissipated - w->ring_drag_dissipated;
     if (model->p->scene.cage == CAGE_MODEL_TWO_HALF) power -= ball_array_sum(w->joint_dissipated);
-    if (outer_ring_moves(model->ring_load) || frame_has_power(model->ring_load))
-        power += motion_power(model, w);
+    const RingLoad *load = model->ring_load;
+    if (scalar_value(load->omega_dot) != 0.0 || scalar_value(load->frame_omega_dot) != 0.0)
+        power += race_growth_power(model, w);
+    if (outer_ring_moves(load) || frame_has_power(load)) power += motion_power(model, w);
     return power;
 }
 

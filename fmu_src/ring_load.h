@@ -180,6 +180,7 @@ INLINE void ring_load_at(const InputTrajectory *trajectory, scalar t, RingLoad *
     // motion of the inner ring; accelerations of the cosines as for small tilts: they are outputs only
     const scalar tau = t - trajectory->t_0;
     const Inputs *u_1 = &trajectory->u[1], *u_2 = &trajectory->u[2];
+    ring_load->omega_dot = input_rate(tau, u_1->shaft.omega, u_2->shaft.omega);
     ring_load->x[0] = u.shaft.x, ring_load->x[1] = u.shaft.y, ring_load->x[2] = u.shaft.z;
     ring_load->v[0] = u.shaft.v_x, ring_load->v[1] = u.shaft.v_y, ring_load->v[2] = u.shaft.v_z;
     ring_load->a[0] = input_rate(tau, u_1->shaft.v_x, u_2->shaft.v_x);

@@ -35,7 +35,7 @@ typedef struct {
 // A vector (y, z) at a packet of rivets, radially and along the circle.
 INLINE void store_turned(const Model *model, wide y, wide z, int k, ball_array to[2])
 {
-    const double inv_R = 2.0 / model->p->bearing.d_m;
+    const double inv_R = 2.0 / rivet_table.joint.d_m;
     const wide c = wide_load(&model->d->rivet_y[k]) * inv_R, s = wide_load(&model->d->rivet_z[k]) * inv_R;
     wide_store(&to[0][k], y * c + z * s);
     wide_store(&to[1][k], z * c - y * s);
@@ -88,7 +88,7 @@ static void rigid_wrench(const Work *w, const Pockets *on_1, scalar wrench[6])
 
 static void rigid_share(const Model *model, const Work *w, const Pockets *on_1, RigidShare *share)
 {
-    const double R = 0.5 * model->p->bearing.d_m;
+    const double R = 0.5 * rivet_table.joint.d_m;
     const scalar friction = model->p->joint.mu * scalar_max(model->d->P + cage_joint_prying(model, w), 0.0);
     double c[Z], s[Z];
     scalar wrench[6];

@@ -30,7 +30,8 @@ static inline double stepping_accept(IntegratorState *s, double t, const double 
 // smaller size.  The sign alternates with the count of such stages, so that two of them do not cancel.
 static inline void stepping_refuse(const double weight[N_STATES], unsigned count, double *f)
 {
-    const double huge = count % 2 == 0 ? 1e15 : -1e15;  // [1/s] in units of the tolerance
+    // [1/s] in units of the tolerance.  Times any step it is far above 1, and its square does not overflow.
+    const double huge = count % 2 == 0 ? 1e150 : -1e150;
     for (int i = 0; i < N_STATES; i++) f[i] = huge / weight[i];
 }
 

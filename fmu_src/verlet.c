@@ -6,9 +6,9 @@
 //   q_{n+1} = q_n + h q'(q_m, v_m),  q_m = q_n + gamma v_m         friction states z: implicit midpoint rule
 //   v^ = v_n + h a_n - limiter                                     predictor; the limiter is the cage's
 //   a^ = a(t_{n+1}, q_{n+1}, v^)                                   the evaluation
-//   (1 + gamma A + gamma^2 K) delta = v_n - v^ + gamma (a_n + a^)  one Newton iteration
+//   S (1 + gamma A + gamma^2 K) delta = v_n - v^ + gamma (a_n + a^)  one Newton iteration; S: implicit_shear
 //   v_{n+1} = v^ + delta,  a_{n+1} = (v_{n+1} - v_n)/gamma - a_n   v_{n+1} = v_n + gamma (a_n + a_{n+1})
-//   q_{n+1} += gamma (v_{n+1} - v_n - h a_n)                       where K acts: trapezoidal rule too
+//   q_{n+1} += gamma (v_{n+1} - v_n - h a_n)                       where K acts, z too: trapezoidal rule
 //   a_{n+1} -= SMOOTHING H (a_{n+1} - 2 a_n + a_{n-1})             stiff rates: H = 1 - (1 + gamma A)^-1
 //
 // A = -da/dv and K = -da/dq are blocks of the Jacobian, approximate (implicit.c).  The method is a W-method
@@ -89,10 +89,10 @@ static void predictor_limiter(const Model *model, double h, const VerletState *f
 }
 
 // Power that the right-hand side dissipates because it was evaluated at v^ and not at v_{n+1}, as far as it
-// has one sign: delta.M (A + gamma K) delta of balls and cage, M their inertia.  Against a film that holds
-// the cage this term would be most of the work.  The terms linear in delta = O(h^2) change sign from step to
-// step and are of the method's order.
-static double dissipation_correction(const Model *model, const double *y, double gamma,
+// has one sign: delta.M A delta of balls and cage, M their inertia.  Against a film that holds the cage this
+// term would be most of the work.  The terms linear in delta = O(h^2) change sign from step to step and are of the
+// method's order.  Springs dissipate nothing: the races' part of delta.M K delta is left out again.
+static double dissipation_correction(const Model *model, const Work *w, const double *y, double gamma,
                                      const double *residual, const double *delta)
 {
     enum { COUNT = N_STATES - VELOCITY };
@@ -101,28 +101,53 @@ static double dissipation_correction(const Model *model, const double *y, double
     double power[COUNT];
     for (int i = 0; i < COUNT; i++) {
         const double change = delta[VELOCITY + i];
-        const double damping = inv_gamma * (residual[VELOCITY + i] - change);  // (A + gamma K) delta
-        power[i] = inertia[i] * change * damping;
+        const double force = inv_gamma * (residual[VELOCITY + i] - change);  // (A + gamma K) delta
+        power[i] = inertia[i] * change * force;
     }
     for (int j = 0; j < Z; j++) power[Y_BALL_OMEGA_M - VELOCITY + j] *= y[Y_BALL_R + j] * y[Y_BALL_R + j];
-    return sum_of(power, COUNT);
+    return sum_of(power, COUNT) - implicit_elastic(w, gamma, delta);
 }
 
 // Where a stiffness acts, positions follow the trapezoidal rule too: q_{n+1} += gamma delta with
-// delta = v_{n+1} - v_n - h a_n.  These are the balls' axial and radial positions, the tilts of a supported
-// or prescribed ring, and the axial motion of one cage half against the other.
-static void correct_positions(const Model *model, double gamma, const double *delta, double *y)
+// delta = v_{n+1} - v_n - h a_n.  These are the balls' axial and radial positions and the tilts of a supported or
+// prescribed ring.  The motion of one cage half against the other has weights of its own (implicit.c).
+static void correct_positions(const Model *model, double gamma, const double *delta, double axial,
+                              double shear, double *y)
 {
     for (int i = 0; i < 2 * Z; i++) y[Y_BALL_X + i] += gamma * delta[VELOCITY + Y_BALL_X + i];
     if (model->p->ring.tilt_mode != TILT_MODE_FREE)
         for (int i = Y_RING_BETA; i <= Y_RING_GAMMA; i++) y[i] += gamma * delta[VELOCITY + i];
     if (model->p->scene.cage == CAGE_MODEL_RIGID) return;
-    static const int axial[3] = {Y_CAGE_X, Y_CAGE_BETA, Y_CAGE_GAMMA};
-    for (int i = 0; i < 3; i++) {
-        const int half_0 = axial[i], half_1 = half_0 + 1;
-        const double share = 0.5 * gamma * (delta[VELOCITY + half_1] - delta[VELOCITY + half_0]);
+    for (int half_0 = Y_CAGE_X; half_0 < Y_RING_X; half_0 += 2) {
+        const int half_1 = half_0 + 1;
+        const bool along = half_0 == Y_CAGE_X || half_0 == Y_CAGE_BETA || half_0 == Y_CAGE_GAMMA;
+        const double weight = 0.5 * gamma * (along ? axial : shear);
+        const double share = weight * (delta[VELOCITY + half_1] - delta[VELOCITY + half_0]);
         y[half_0] -= share;
         y[half_1] += share;
+    }
+}
+
+// The friction states are the deflections of springs and follow likewise: z_{n+1} += c gamma u/(1 + gamma D) with the
+// change u of the velocity of half 1 against half 0 at the joint, in the frame of half 0, the decay D of z and the
+// weight c of the motion across the axis.
+static void correct_friction(const Model *model, const Work *w, double gamma, const double *delta, double c,
+                             double *y)
+{
+    if (model->p->scene.cage == CAGE_MODEL_RIGID) return;
+    const Derived *d = model->d;
+    const Rotor *h0 = &w->half[0];
+    const double dv_y = delta[Y_CAGE_V_Y + 1] - delta[Y_CAGE_V_Y];
+    const double dv_z = delta[Y_CAGE_V_Z + 1] - delta[Y_CAGE_V_Z], ds = delta[Y_CAGE_S + 1] - delta[Y_CAGE_S];
+    const double u_0y = h0->b_y[1] * dv_y + h0->b_y[2] * dv_z, u_0z = h0->b_z[1] * dv_y + h0->b_z[2] * dv_z;
+    for (int k = 0; k < Z; k++) {
+        const double u_y = u_0y - ds * d->rivet_z[k], u_z = u_0z + ds * d->rivet_y[k];
+        const double plate = c * gamma / (1.0 + gamma * w->plate_rate[k]);
+        const double head = c * gamma / (1.0 + gamma * w->head_rate[k]);
+        y[Y_JOINT_PLATE_Y + k] += plate * u_y;
+        y[Y_JOINT_PLATE_Z + k] += plate * u_z;
+        y[Y_JOINT_HEAD_Y + k] += head * u_y;
+        y[Y_JOINT_HEAD_Z + k] += head * u_z;
     }
 }
 
@@ -189,9 +214,10 @@ double verlet_step(const Model *model, double t, double h, const double *weight,
     // The residual of the trapezoidal rule at v^, and the linear solve that corrects v^.
     for (int i = VELOCITY; i < N_STATES; i++) residual[i] = gamma * (to->f[i] - f[i]);
     for (int i = CAGE; i < CAGE_END; i++) residual[i] += removed[i];
+    const double shear = implicit_shear(model, w, gamma, residual);
     for (int i = VELOCITY; i < N_STATES; i++) delta[i] = residual[i];
-    implicit_solve(model, w, gamma, delta);
-    to->f[Y_WORK] += dissipation_correction(model, y, gamma, residual, delta);
+    const double axial = implicit_solve(model, w, gamma, delta);
+    to->f[Y_WORK] += dissipation_correction(model, w, y, gamma, residual, delta);
 
     // The limiter is given back: from here on delta is v_{n+1} - v_n - h a_n.
     for (int i = CAGE; i < CAGE_END; i++) {
@@ -199,7 +225,8 @@ double verlet_step(const Model *model, double t, double h, const double *weight,
         delta[i] -= removed[i];
     }
     for (int i = VELOCITY; i < N_STATES; i++) y[i] += delta[i];
-    correct_positions(model, gamma, delta, y);
+    correct_positions(model, gamma, delta, axial, shear, y);
+    correct_friction(model, w, gamma, delta, shear, y);
 
     // The work by the trapezoidal rule.
     y[Y_WORK] += gamma * (f[Y_WORK] + to->f[Y_WORK]);

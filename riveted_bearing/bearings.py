@@ -20,7 +20,11 @@ from importlib.resources import files
 from pathlib import Path
 
 from bearing_model import variables
+from bearing_model.derived import default_table
+from bearing_model.parameters import Values
 from bearing_model.quasi_static import Bearing, Load, quasi_static
+from bearing_model.ring_fit import ring_fit_of
+from bearing_model.temperature import temperature_apply
 from rivet_model.geometry import Geometry
 
 from . import catalogue, limits, scaling
@@ -62,9 +66,12 @@ class Case:
 
     @property
     def bearing(self):
-        """Geometry and material for the quasi-static model."""
-        given = {f.name: self.values[f"bearing.{f.name}"] for f in fields(Bearing) if f"bearing.{f.name}" in self.values}
-        return Bearing(**given, Z=self.Z, C=self.catalogue.get("C"), C_0=self.catalogue.get("C_0"))
+        """Geometry and material for the quasi-static model, at the present temperatures and fits."""
+        parameters, inputs = ({name: v for name, v in table.items() if v.count == 1} for table in (variables.PARAMETERS, variables.INPUTS))
+        p, u = (Values(table, {name: self.values[name] for name in table if name in self.values}) for table in (parameters, inputs))
+        hot = temperature_apply(p, u, default_table())
+        at_work = {f.name: getattr(hot.bearing, f.name) for f in fields(Bearing) if hasattr(hot.bearing, f.name)}
+        return Bearing(**at_work, Z=self.Z, C=self.catalogue.get("C"), C_0=self.catalogue.get("C_0"), fit=ring_fit_of(hot))
 
     @property
     def load(self):

@@ -16,9 +16,9 @@
 #include "variable_table.h"
 #endif
 
+#include <inttypes.h>
 #include <limits.h>
 #include <math.h>
-#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -26,11 +26,13 @@
 #define REQUIRE(condition) require(condition, #condition, __LINE__)
 
 static const char *doing = "nothing";
+static uint64_t seed_of_this;  // forged state
 
 static void require(bool condition, const char *text, int line)
 {
     if (condition) return;
-    fprintf(stderr, "forge_states.c:%d: violated at %s: %s\n", line, doing, text);
+    fprintf(stderr, "forge_states.c:%d: violated at %s: %s\nforge_states 1 %" PRIu64 " repeats it\n", line,
+            doing, text, seed_of_this);
     abort();
 }
 
@@ -344,6 +346,7 @@ static void at_random(long count)
     REQUIRE(forged != NULL);
     fmi2Component c = new_instance();
     for (long i = 0; i < count; i++) {
+        seed_of_this = seed;
         forge(forged);
         fates[fate_of(c, forged)]++;
         if (i % 64 == 63) {  // what a forged state leaves behind would meet the next one
@@ -397,9 +400,11 @@ static void int_refused(size_t at, int value, const char *what)
 
 static void range_refused(size_t at, int min, int max, const char *what)
 {
-    const int wrong[] = {min - 1, max + 1, INT_MIN, INT_MAX, min - 1000, max + 1000};
-    for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; i++)
-        if (wrong[i] < min || wrong[i] > max) int_refused(at, wrong[i], what);
+    const long long wrong[] = {min - 1LL, max + 1LL, INT_MIN, INT_MAX, min - 1000LL, max + 1000LL};
+    for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; i++) {
+        const bool is_int = wrong[i] >= INT_MIN && wrong[i] <= INT_MAX;
+        if (is_int && (wrong[i] < min || wrong[i] > max)) int_refused(at, (int)wrong[i], what);
+    }
 }
 
 static void count_refused(size_t at, const char *what)

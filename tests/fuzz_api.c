@@ -14,6 +14,7 @@
 #include "fmi2Functions.h"
 
 #include <fenv.h>
+#include <inttypes.h>
 #include <math.h>
 #include <pthread.h>
 #include <stdint.h>
@@ -64,13 +65,17 @@ static double any_double(Bytes *bytes)
 }
 
 // ---- bookkeeping ------------------------------------------------------------------------------------------
-static _Thread_local long calls, counts[N_STATUS], runs_compared;
+static _Thread_local long calls, counts[N_STATUS], steps_done, runs_compared;
 static _Thread_local const char *last_call = "nothing";
+static _Thread_local char last_message[512];
+static _Thread_local uint64_t string_seed;  // fuzz_api 1 SEED repeats this string
 
 static void require(bool condition, const char *text, int line)
 {
     if (condition) return;
-    fprintf(stderr, "fuzz_api.c:%d: violated after %s: %s\n", line, last_call, text);
+    fprintf(stderr,
+            "fuzz_api.c:%d: violated after %s: %s\nlast message: %s\nseed of the string: %" PRIu64 "\n", line,
+            last_call, text, last_message, string_seed);
     abort();
 }
 
@@ -94,6 +99,7 @@ static void logger(fmi2ComponentEnvironment environment, fmi2String instance, fm
     host->messages++;
     REQUIRE(instance && category && message && strlen(message) > 0 && strlen(message) < 2048);
     REQUIRE(status <= fmi2Fatal);
+    snprintf(last_message, sizeof last_message, "%.500s", message);
 }
 
 static fmi2Status seen(Host *host, const char *name, fmi2Status status)
@@ -102,6 +108,7 @@ static fmi2Status seen(Host *host, const char *name, fmi2Status status)
     calls++;
     REQUIRE(status <= fmi2Error);
     counts[status]++;
+    steps_done += status <= fmi2Warning && strcmp(name, "fmi2DoStep") == 0;
     if (status == fmi2Error && host->component) REQUIRE(host->messages > host->messages_before);
     host->refused |= status == fmi2Error;
     return status;
@@ -608,7 +615,7 @@ static uint64_t random_word(uint64_t *state)
 }
 
 typedef struct {
-    long wanted, strings, calls, counts[N_STATUS], runs_compared;
+    long wanted, strings, calls, counts[N_STATUS], steps_done, runs_compared;
     uint64_t seed;
 } Share;
 
@@ -617,11 +624,13 @@ static void *run_share(void *argument)
     Share *share = argument;
     while (calls < share->wanted) {
         uint64_t words[256];
+        string_seed = share->seed;
         for (int i = 0; i < 256; i++) words[i] = random_word(&share->seed);
         LLVMFuzzerTestOneInput((const uint8_t *)words, sizeof words);
         share->strings++;
     }
     share->calls = calls;
+    share->steps_done = steps_done;
     share->runs_compared = runs_compared;
     memcpy(share->counts, counts, sizeof counts);
     return NULL;
@@ -631,27 +640,28 @@ int main(int argc, char **argv)
 {
     enum { MAX_THREADS = 16 };
 
-    const long wanted = argc > 1 ? atol(argv[1]) : 100000, seed = argc > 2 ? atol(argv[2]) : 1;
+    const long wanted = argc > 1 ? atol(argv[1]) : 100000;
+    const uint64_t seed = argc > 2 ? strtoull(argv[2], NULL, 10) : 1;
     const int threads = argc > 3 ? atoi(argv[3]) : 1;
     Share share[MAX_THREADS] = {{0}}, all = {0};
     pthread_t thread[MAX_THREADS];
     if (threads < 1 || threads > MAX_THREADS) return 2;
     remember_new_run();
     for (int i = 0; i < threads; i++) {
-        share[i] = (Share){.wanted = wanted, .seed = (uint64_t)(seed + i)};
+        share[i] = (Share){.wanted = wanted, .seed = seed + (uint64_t)i};
         if (pthread_create(&thread[i], NULL, run_share, &share[i]) != 0) return 3;
     }
     for (int i = 0; i < threads; i++) {
         pthread_join(thread[i], NULL);
-        all.calls += share[i].calls, all.strings += share[i].strings,
+        all.calls += share[i].calls, all.strings += share[i].strings, all.steps_done += share[i].steps_done,
             all.runs_compared += share[i].runs_compared;
         for (int status = 0; status < N_STATUS; status++) all.counts[status] += share[i].counts[status];
     }
     free(new_run_state);
-    printf("%ld calls in %ld strings: %ld OK, %ld warning, %ld discard, %ld error; %ld reset runs equal to a "
-           "fresh one\n",
+    printf("%ld calls in %ld strings: %ld OK, %ld warning, %ld discard, %ld error; %ld steps done; "
+           "%ld reset runs equal to a fresh one\n",
            all.calls, all.strings, all.counts[fmi2OK], all.counts[fmi2Warning], all.counts[fmi2Discard],
-           all.counts[fmi2Error], all.runs_compared);
+           all.counts[fmi2Error], all.steps_done, all.runs_compared);
     return 0;
 }
 #endif

@@ -85,6 +85,7 @@ class Model:
         core.lib.variables_set_start(self.p, self.u)
         core.set_values(self.p, variables.PARAMETERS, parameters)
         core.set_values(self.u, variables.INPUTS, inputs)
+        core.lib.temperature_apply(self.p, self.u, self.p)
         core.lib.model_derive(self.p, self.d)
         core.lib.work_init(self.d, self.work)
         core.lib.ring_load_update(self.p, self.u, 0.0, self.ring_load)

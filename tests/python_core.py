@@ -19,6 +19,7 @@ from bearing_model.rhs import rhs
 from bearing_model.ring_load import ring_load_update
 from bearing_model.rotor import Rotor
 from bearing_model.start import start_state
+from bearing_model.temperature import temperature_apply
 
 Z = variables.Z
 ELEMENTS = (race_contact.race_contact_force, pocket.pocket_force, drag.drag_mixture, drag.drag_force, drag.drag_cage, drag.drag_ring, land_film.land_film_force)
@@ -106,6 +107,7 @@ class PythonModel:
             for name, value in changes.items():
                 group, member = name.replace("[j]", "").split(".")
                 setattr(getattr(values, group), member + "_" * (member == "lambda"), value)
+        self.p = temperature_apply(self.p, self.u, derived.default_table())
         self.d = derive(self.p, SimpleNamespace())
         self.pointer = self
 

@@ -11,7 +11,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from slave import ERROR, OK, Slave
+from slave import DISCARD, ERROR, OK, Slave
 
 H = 1e-4  # communication step [s]
 LINUX = sys.platform.startswith("linux")
@@ -109,7 +109,7 @@ def test_inputs_set_after_a_step_do_not_change_its_outputs(folder):
 def test_communication_steps_agree_to_the_tolerance(folder):
     """Motion of the ring after 1 ms at tolerance 1e-6: within 10 times the error that the tolerance allows; observed 1.6 times."""
     tolerance = 1e-6
-    allowed = tolerance * np.array([1e-5] * 3 + [0.1] * 3)  # scales of length [m] and velocity [m/s]
+    allowed = tolerance * np.array([1e-5] * 3 + [0.2] * 3)  # scales of length [m] and velocity [m/s]
     names = ("ring.x", "ring.y", "ring.z", "ring.v_x", "ring.v_y", "ring.v_z")
     ends = [Slave(folder).initialize(tolerance=tolerance).step(1e-3 / n, n).get(*names) for n in (1, 10, 100, 1000)]
     for end in ends[1:]:
@@ -250,6 +250,17 @@ def test_corrupted_and_foreign_states_are_refused_with_the_reason(running):
         assert state[0] == running.ffi.NULL
         running.check("Reset")
     assert running.try_load(data)[0] == OK
+
+
+@pytest.mark.parametrize("step", [5e-324, 1e-310, 3e-308])
+def test_a_step_too_short_for_arithmetic_leaves_a_state_that_can_be_restored(folder, step):
+    """1/h of a subnormal step overflows.  At time zero such a step is not lost in the rounding of time; its step size must not stay behind."""
+    slave = Slave(folder).initialize()
+    assert slave.call("DoStep", 0.0, step, 1) == DISCARD
+    status, state = slave.try_load(slave.bytes(slave.save()))
+    assert status == OK, slave.messages
+    slave.restore(state, 0.0)
+    assert slave.call("SetFMUstate", state[0]) == OK
 
 
 def test_serialization_needs_the_whole_room(running):

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from mechanics import SLICE, Instance, Z, pocket_loads, running_state
+from mechanics import SLICE, Instance, Z, pocket_loads, running_state, view
 
 from bearing_model import variables
 from bearing_model.model import Model
@@ -169,7 +169,8 @@ def test_mirror_x(core, scene, record_property):
 LENGTH, TIME = 1.7, 0.6  # the new units; the unit of force stays, as one load of 1 N is a constant of the model
 DIMENSION = {"m": (1, 0, 0), "kg": (0, 1, 0), "s": (0, 0, 1), "N": (1, 1, -2), "Pa": (-1, 1, -2), "W": (2, 1, -3)}
 DIMENSION |= dict.fromkeys(("rad", "1", "K"), (0, 0, 0))
-STATE_UNITS = {"length": "m", "angle": "rad", "velocity": "m/s", "rate": "rad/s", "spin": "rad/s", "plate": "m", "head": "m", "tilt": "1", "energy": "N.m"}
+STATE_UNITS = {"length": "m", "angle": "rad", "velocity": "m/s", "normal": "m/s", "orbit": "rad/s", "rate": "rad/s", "spin": "rad/s"}
+STATE_UNITS |= {"plate": "m", "head": "m", "tilt": "1", "energy": "N.m"}
 
 
 def factor(unit):
@@ -216,6 +217,8 @@ def test_other_units(core, scene, record_property):
         setattr(there.d, name, getattr(here.d, name) * factor("N/m"))
     there.d.c_joint = here.d.c_joint * factor("N.s/m")
     there.d.hole_gap = here.d.hole_gap * factor("m")
+    for name in ("rivet_y", "rivet_z"):
+        view(core, getattr(there.d, name))[:] *= factor("m")
     units = np.empty(variables.N_STATES)
     for name, place in SLICE.items():
         units[place] = factor(STATE_UNITS[variables.STATE_SCALES[name]])

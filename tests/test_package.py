@@ -1,10 +1,14 @@
 """What the FMU carries: sources that compile, pictures, terminals, documentation, reference results, binaries of other platforms."""
 
+import hashlib
+import importlib.util
 import os
 import re
 import shutil
 import subprocess
 import sys
+import sysconfig
+import venv
 import zipfile
 from html.parser import HTMLParser
 from pathlib import Path
@@ -94,16 +98,15 @@ def test_another_folder_gives_the_same_bytes(fmu, elsewhere):
         assert (made / name).read_bytes() == fmu.with_name(name).read_bytes(), name
 
 
-@pytest.mark.slow  # four minutes of compilation, two of them shared with other tests
-@pytest.mark.skipif(not LINUX, reason="lays the Python environment as a symbolic link")
-def test_another_folder_gives_the_same_bytes_for_all_platforms(everywhere, elsewhere):
-    """The bearing's FMU with four binaries, and the shaft's binaries."""
-    here, there = everywhere["RivetedBearing"].parent / "RivetedBearing.fmu", elsewhere.folder / "all.fmu"
-    elsewhere.run(elsewhere.python, "-m", "riveted_bearing", "build", "--platforms", "all", "--out", there)
+@pytest.mark.slow  # four minutes of compilation, shared with other tests
+@pytest.mark.skipif(not LINUX or SANITIZED, reason="for a release on Linux")
+def test_another_folder_gives_the_same_bytes_for_all_platforms(everywhere, dist):
+    """The bearing's FMU with four binaries as `make dist` makes it in another folder, and the shaft's binaries."""
+    here, there = everywhere["RivetedBearing"].parent / "RivetedBearing.fmu", dist / "RivetedBearing.fmu"
     assert differing_members(there, here) == set()
     assert there.read_bytes() == here.read_bytes()
     for platform, suffix in PLATFORMS.items():
-        shaft = elsewhere.folder / "build" / "bearings" / "default" / platform / f"Shaft{suffix}"
+        shaft = dist.parent / "build" / "bearings" / "default" / platform / f"Shaft{suffix}"
         assert shaft.read_bytes() == (everywhere["Shaft"] / "binaries" / platform / shaft.name).read_bytes(), platform
 
 
@@ -347,6 +350,73 @@ def test_windows_binary_under_wine(everywhere, wine, folder, tmp_path):
     assert result.returncode == 0, result.stderr
     rows = np.array([[float.fromhex(value) for value in line.split()] for line in result.stdout.splitlines()])
     assert difference(rows, folder) <= SAME
+
+
+# ------------------------------------------------------------------------------------------------------------------- release
+
+
+def environment_beside(folder):
+    """A Python environment that sees this one's packages, except what stands in it itself; its folder of programs."""
+    venv.create(folder, with_pip=True, symlinks=True)
+    packages = folder / "lib" / f"python{sys.version_info[0]}.{sys.version_info[1]}" / "site-packages"
+    (packages / "beside.pth").write_text(f"{sysconfig.get_path('purelib')}\n")  # the .pth files there, of editable packages, are not read
+    return folder / "bin"
+
+
+@pytest.fixture(scope="session")
+def dist(tmp_path_factory):
+    """The folder that `make dist` writes in a copy of the checkout with an environment of its own; minutes of compilation and downloads."""
+    if not importlib.util.find_spec("ziglang"):
+        pytest.skip("needs the package ziglang: pip install ziglang")
+    copy = tmp_path_factory.mktemp("release") / "of-another-length" / "checkout"
+    shutil.copytree(
+        ROOT, copy, ignore=shutil.ignore_patterns(".git", ".venv", "build", "dist", "results", "__pycache__", ".*_cache", ".hypothesis", "*.fmu", "*.ssp")
+    )
+    environment_beside(copy / ".venv")
+    (copy / ".venv" / "installed").touch()
+    subprocess.run(["make", "dist"], cwd=copy, check=True)
+    return copy / "dist"
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(not LINUX or SANITIZED, reason="for a release on Linux")
+def test_dist_holds_wheel_sources_versions_and_checksums(dist):
+    (wheel,) = dist.glob("riveted_bearing-*-py3-none-any.whl")
+    version = wheel.name.split("-")[1]
+    names = {wheel.name, f"riveted_bearing-{version}.tar.gz", "RivetedBearing.fmu", "requirements.txt"}
+    assert {path.name for path in dist.iterdir()} == names | {"SHA256SUMS"}
+    sums = dict(reversed(line.split("  ")) for line in (dist / "SHA256SUMS").read_text().splitlines())
+    assert sums == {name: hashlib.sha256((dist / name).read_bytes()).hexdigest() for name in names}
+    with zipfile.ZipFile(wheel) as archive:
+        assert archive.read("riveted_bearing/RivetedBearing.fmu") == (dist / "RivetedBearing.fmu").read_bytes()
+        (metadata,) = (name for name in archive.namelist() if name.endswith(".dist-info/METADATA"))
+        wanted = re.findall(r"^Requires-Dist: ([\w-]+)[^;\n]*$", archive.read(metadata).decode(), re.MULTILINE)
+    with zipfile.ZipFile(dist / "RivetedBearing.fmu") as archive:
+        assert {f"binaries/{platform}/RivetedBearing{suffix}" for platform, suffix in PLATFORMS.items()} <= set(archive.namelist())
+    text = (dist / "requirements.txt").read_text()
+    locked = re.findall(r"^([\w.-]+)==\S+ \\\n(?:    --hash=sha256:[0-9a-f]{64}(?: \\)?\n)+", text, re.MULTILINE)
+    assert len(wanted) > 15 and {*wanted, "ziglang", "scikit-build-core"} <= set(locked)
+    assert len(locked) == len(re.findall(r"^[\w.-]+==", text, re.MULTILINE))
+    assert "://" not in text and str(dist.parent) not in text and "--find-links" not in text and "index" not in text.replace("importlib", "")
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(not LINUX or SANITIZED, reason="for a release on Linux")
+def test_the_wheel_simulates_without_a_compiler(dist, tmp_path):
+    """Installed where no program but the environment's own is on the path: nothing is compiled, the working point runs."""
+    programs = environment_beside(tmp_path / "venv")
+    (wheel,) = dist.glob("*.whl")
+    subprocess.run([programs / "python", "-m", "pip", "--quiet", "install", "--no-deps", "--no-index", wheel], check=True)
+    environment = {name: value for name, value in os.environ.items() if name not in ("PYTHONPATH", "CC")} | {"PATH": str(programs)}
+
+    def said(*arguments):
+        command = [programs / "riveted-bearing", *arguments]
+        return subprocess.run(command, cwd=tmp_path, env=environment, capture_output=True, text=True, check=True).stdout
+
+    assert wheel.name.split("-")[1] in said("--version")
+    assert "6308" in said("info", "6308")
+    said("run", "demo")
+    assert list((tmp_path / "results").glob("demo.parquet"))
 
 
 def test_without_a_compiler_zig_is_taken_or_named(monkeypatch):

@@ -210,6 +210,7 @@ def random_trajectory(core, rng):
     size = np.array([SIZE.get(name.split(".")[1].split("_")[0], 1000.0) for name in names])
     values = np.frombuffer(core.ffi.buffer(u)).reshape(3, -1)
     values[...] = rng.uniform(-1.0, 1.0, values.shape) * size * np.array([[1.0], [1e3], [1e6]])
+    values[0, [i for i, name in enumerate(names) if INPUTS[name].unit == "K"]] = 300.0  # limits that no load has
     t_0, t = 0.1001, 0.1004
     model, trajectory = core.model(parameters=PULSES), core.new("InputTrajectory")
     core.lib.input_trajectory_update(model.p, u, t_0, t, trajectory)

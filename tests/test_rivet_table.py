@@ -245,7 +245,6 @@ def test_defaults_are_those_of_the_table(rivets):
         "cage.nu": g.nu_flange,
         "bearing.D": g.ball_diameter,
         "bearing.d_m": g.d_m,
-        "rivet.temperature": rivets.joint["T_0"],
     }
     for name, value in expected.items():
         assert PARAMETERS[name].start == pytest.approx(value, rel=2e-6), name

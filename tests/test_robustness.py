@@ -96,12 +96,14 @@ def test_any_allowed_values_run_or_are_refused_by_name(slave, parameters, inputs
 @QUICK
 @given(inputs=st.lists(some_values(variables.INPUTS, 4), min_size=2, max_size=6), steps=st.lists(st.floats(1e-9, 3e-5), min_size=6, max_size=6))
 def test_any_jump_of_inputs_keeps_values_finite(slave, inputs, steps):
-    """Loads, speed and tilt jump within their limits at every communication point."""
+    """Loads, speed, tilt and temperatures jump within their limits at every communication point; temperatures that the bearing does not bear are refused."""
     assert try_initialize(slave, {}) == OK
     for changes, step in zip(inputs, steps, strict=False):
         for name, value in changes.items():
             slave.set(name, value)
         status = slave.call("DoStep", slave.time, step, 1)
+        if status == ERROR and " K: the " in slave.messages[-1][2]:
+            return
         assert np.isfinite(slave.outputs()).all()
         if status == DISCARD:
             return

@@ -125,3 +125,18 @@ def test_thermal_film(core):
     assert factor == pytest.approx(3.94 / (3.94 + (ETA * 0.022 * 1000.0 / 0.14) ** 0.62), rel=1e-13)
     assert factor == pytest.approx(0.80340, rel=1e-4)
     assert core.map(core.lib.test_traction_ln_thermal, [30.0], core.model(parameters={"scene.heating": Switch.OFF}).d.ln_thermal)[0] == 0.0
+
+
+@pytest.mark.parametrize("L", [0.1, 1.0, 3.0, 10.0])
+def test_thermal_film_against_another_source(core, L):
+    """Gupta, Cheng, Zhu, Forster & Schrand (1992) solved the inlet anew: 1/(1 + 0.213 L^0.64) at low pressure; within 8 % (observed 1.3...6.3 %)."""
+    d = core.model().d
+    speed = np.sqrt(L / (ETA * 0.022 / 0.14))
+    factor = np.exp(core.map(core.lib.test_traction_ln_thermal, [speed], d.ln_thermal)[0])
+    assert factor == pytest.approx(1.0 / (1.0 + 0.213 * L**0.64), rel=0.08)
+
+
+def test_the_film_law_is_its_own_limiting_shear_stress(core):
+    """At no slip does the mean shear stress exceed 0.048 times the mean pressure: tau = gamma p with gamma = 0.048, as a limiting shear stress has it."""
+    s = np.concatenate([np.linspace(0.0, 0.2, 20_001), np.geomspace(0.2, 10.0, 1000)])
+    assert mu(core, s).max() == pytest.approx(0.0479, abs=5e-5)

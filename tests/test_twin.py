@@ -58,6 +58,7 @@ MOTION |= {"shaft.tilt_y": 1e-3, "shaft.tilt_z": -7e-4, "shaft.tilt_y_dot": 0.7,
 HOUSING = {"housing.x": 5e-6, "housing.y": -8e-6, "housing.z": 7e-6, "housing.v_x": 0.01, "housing.v_y": 0.04, "housing.v_z": -0.03, "housing.omega": -500.0}
 HOUSING |= {"housing.tilt_y": 4e-4, "housing.tilt_z": -3e-4, "housing.tilt_y_dot": 0.5, "housing.tilt_z_dot": 0.3}
 FRAME = {"frame.a_x": 50.0, "frame.a_y": -300.0, "frame.a_z": 200.0, "frame.omega": 150.0, "frame.omega_dot": 4000.0}
+HOT = {"oil.T": 330.0, "ring.T_i": 345.0, "ring.T_e": 330.0, "ball.T": 350.0, "cage.T": 340.0}
 SLOW, BACKWARD = {"shaft.omega": 418.9}, {"shaft.omega": -1500.0}
 SCENES = {
     "demo": ({}, {}),
@@ -67,8 +68,8 @@ SCENES = {
     "sliced_mixed": (SLICED | MIXED | PULSE, BACKWARD),
     "rigid": (RIGID | UNBALANCE, {}),
     "rigid_mixed_sliced": (RIGID | MIXED | SLICED | SUPPORTED | UNBALANCE, LOADS),
-    "other": (OTHER, {}),
-    "other_mixed_sliced": (OTHER | MIXED | SLICED | SUPPORTED | UNBALANCE, LOADS),
+    "other": (OTHER, HOT),
+    "other_mixed_sliced": (OTHER | MIXED | SLICED | SUPPORTED | UNBALANCE, LOADS | HOT),
     "planet": (SUPPORTED | UNBALANCE | {"frame.radius": 0.15}, LOADS | HOUSING | FRAME),
     "prescribed": (MIXED | PRESCRIBED | {"cage.pocket_clearance": 1e-4}, MOTION | HOUSING),
     "prescribed_rigid": (RIGID | PRESCRIBED | UNBALANCE | {"frame.radius": 0.15}, MOTION | HOUSING | FRAME),
@@ -481,7 +482,7 @@ def test_ledger(record_property):
     assert np.max(np.abs(ledger.residual)) < 1e-3 * turned_over  # observed 1.2e-5
     for name, value in terms.items():
         assert value.shape == results.t.shape and value[0] == 0.0
-        assert np.max(np.abs(value)) > 1e-9 or name == "land, elastic", name  # the cage does not reach the wall in a millisecond
+        assert np.max(np.abs(value)) > 1e-9 or name in ("land, elastic", "growth of the ring"), name  # no wall is reached in a millisecond, the speed jumps
     for name, value in ledger.lost.items():
         assert np.all(np.diff(value) >= 0.0), name
     energy = sum(value[-1] for value in ledger.stored.values())

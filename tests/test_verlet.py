@@ -10,8 +10,9 @@ from mechanics import Instance
 from test_jacobian import KINDS, SCENES, make_model, make_state
 
 from bearing_model import verlet
+from bearing_model.cage_joint import cage_joint_kinematics
 from bearing_model.model import Model, Work
-from bearing_model.rhs import jacobian, rhs
+from bearing_model.rhs import jacobian, rhs, rotor_kinematics
 from bearing_model.variables import N_STATES, RING_BETA_DOT, RING_GAMMA_DOT, RING_V_X, STATE_SLICES, WORK, CageModel, Lubrication, Method, TiltMode, Traction
 from bearing_model.verlet import FRICTION, N_V, POSITIONS, RING, V, VerletState
 
@@ -228,6 +229,15 @@ def extrapolated(coarse, middle, fine):
     return (8.0 * fine - 6.0 * middle + coarse) / 3.0
 
 
+def joint_motion(model, y, change, rows):
+    """Changes [2, Z] of the velocities of half 1 against half 0 across the axis, in the frame of half 0, by changes of some rows of the velocities."""
+    direction, w = np.zeros(N_STATES), Work()
+    direction[V][rows] = change[rows]
+    rotor_kinematics(model, y + 1e-30j * direction, w)
+    cage_joint_kinematics(model, w)
+    return np.imag(w.v_j[1:]) / 1e-30
+
+
 def expected_error(model, y, h, blocks):
     """Start of a step at y, the state that it should reach, its leading error per h^3 [N_STATES] and what its estimate shows of it: see test_local_error."""
     f = rhs(model, 0.0, y)
@@ -244,15 +254,16 @@ def expected_error(model, y, h, blocks):
     by_stiffness = np.zeros(N_V)
     for rows in (*verlet.BALL[:2], RING[3:]):
         by_stiffness[rows] = jerk[rows]
-    for rows in verlet.HALF[[0, 3, 4]]:  # half 1 against half 0
-        by_stiffness[rows] = 0.5 * (jerk[rows[1]] - jerk[rows[0]]) * np.array([-1.0, 1.0])
+    for rows in verlet.HALF:  # half 1 against half 0: a third of the correction as h -> 0
+        by_stiffness[rows] = 1.0 / 3.0 * 0.5 * (jerk[rows[1]] - jerk[rows[0]]) * np.array([-1.0, 1.0])
     middle = f.copy()  # what the state in the middle of the step is wrong by, per h^2/8
     middle[POSITIONS], middle[V], middle[FRICTION] = f[V][POSITIONS], -jerk, second[FRICTION]
 
     error, estimate = np.zeros((2, N_STATES))
     error[V], estimate[V] = snap / 12.0 - wrong / 2.0, snap / 12.0
     error[POSITIONS] = (-jerk / 6.0 + by_stiffness / 4.0)[POSITIONS]
-    error[FRICTION], estimate[FRICTION] = (along(middle) / 8.0 - third / 24.0)[FRICTION], third[FRICTION] / 24.0
+    across = joint_motion(model, y, jerk, verlet.HALF[[1, 2, 5]])
+    error[FRICTION], estimate[FRICTION] = (along(middle) / 8.0 - third / 24.0)[FRICTION] + np.concatenate([*across, *across]) / 12.0, third[FRICTION] / 24.0
     history = VerletState(y, f.copy(), (f - rhs(model, 0.0, before)) / h, h=h)
     history.f[V] -= h**2 / 2.0 * wrong  # as the steps before have left it
     history.f[FRICTION], history.jerk[FRICTION] = (y - before)[FRICTION] / h + h**2 * error[FRICTION], (y - 2.0 * before + before_2)[FRICTION] / h**2
@@ -285,8 +296,8 @@ def test_local_error(core, record_property):
     """The error of one step in a run is what docs/method.md derives, and its estimate too.  Per h^3, with J = da/dv, g the rates of the friction states z:
 
         velocities        a"/12 - (A + J) a'/2                                estimate a"/12
-        positions         -a'/6, where a stiffness acts + a'/12
-        friction states   (dg/dq a - dg/dv a' + dg/dz z")/8 - z"'/24          estimate z"'/24
+        positions         -a'/6, where a stiffness acts + a'/12, half 1 against half 0 -a'/12
+        friction states   (dg/dq a - dg/dv a' + dg/dz z")/8 + u"/12 - z"'/24   estimate z"'/24;  u": of the joint's velocity, by a' of (v_y, v_z, s)
 
     Derivatives of the trajectory by complex steps and differences of Runge-Kutta steps; everything is extrapolated to h = 0.
 
@@ -296,7 +307,9 @@ def test_local_error(core, record_property):
     record_property("deviation", [{name: float(value) for name, value in deviation.items()} for deviation, _ in found])
     print([max(deviation.values()) for deviation, _ in found], [share for _, share in found])
     assert all(len(deviation) == 31 for deviation, _ in found)
-    assert np.median([max(deviation.values()) for deviation, _ in found]) < 0.02  # observed 1.3e-2, plates against rivets, whose frequency is 4e5 rad/s
+    assert (
+        np.median([max(deviation.values()) for deviation, _ in found]) < 0.03
+    )  # observed 2.3e-2: plates against rivets turn by 0.3 in the longest step, and their weights are 1/3 in the limit only
     assert np.median([np.max(np.abs(share)) for _, share in found]) < 1e-3
 
 
@@ -378,7 +391,7 @@ def same(by_core, by_twin):
 @pytest.mark.parametrize(("h", "lubrication"), [(1e-8, 1), (1e-4, 2)])
 def test_control(core, h, lubrication):
     """Steps that grow from far too small, 1.5 times each, or shrink from far too large, to 0.2 times; then they follow 0.8 error^(-1/3)."""
-    by_core, by_twin = both(core, h, 1.2e-4, 1e-3, **{"scene.lubrication": lubrication})
+    by_core, by_twin = both(core, h, 1.2e-4, 1e-4, **{"scene.lubrication": lubrication})
     taken = same(by_core, by_twin)
     if h == 1e-8:
         np.testing.assert_allclose(taken[1:10] / taken[:9], 1.5, rtol=1e-9)
@@ -449,7 +462,7 @@ def test_explicit_error_estimate(core):
     for before in (0.5 * h, 0.5 * h, h):
         slope.append(np.array(c.rhs(0.0, y + before * slope[-1])))
     last = np.array(c.rhs(0.0, y + h / 6.0 * (slope[0] + 2.0 * slope[1] + 2.0 * slope[2] + slope[3])))
-    error = 0.05 * h * (slope[3] - last) / Model.of({}).d.scale
+    error = 0.05 * h * (slope[3] - last) / Model.of({"solver.method": Method.EXPLICIT}).d.scale
     norm = np.sqrt(np.mean(error**2))
     for tolerance, refused in ((1.001 * norm, False), (0.999 * norm, True)):
         assert (CoreIntegrator(core, c, y, tolerance).advance(h, h)[2] > 0) == refused

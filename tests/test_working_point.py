@@ -281,11 +281,12 @@ def test_communication_step_changes_no_statistics(simulate, step):
 
 
 def test_communication_step_over_a_millisecond(simulate):
-    """Before chaos: ring, cage and ball loads after 1 ms agree to the integrator's error whatever the step."""
+    """Before chaos: ring, cage and ball loads after 1 ms agree to the integrator's error whatever the step: places to tolerance times 10 um, of the cage
+    twice that, loads to what that length is in the stiffest contact (1e8 N/m)."""
     names = ["ring.x", "ring.y", "cage.y", "cage.z", "ball[1].Q_i", "cage.omega"]
     ends = [simulate(1e-3, step, names, settle=0.0)[-1] for step in (1e-6, 1e-5, 1e-4, 1e-3)]
     for end in ends[1:]:
-        for name, bound in zip(names, (2e-9, 2e-9, 2e-8, 2e-8, 0.5, 1e-2), strict=True):
+        for name, bound in zip(names, (1e-8, 1e-8, 2e-8, 2e-8, 1.0, 1e-2), strict=True):
             assert end[name] == pytest.approx(ends[0][name], abs=bound), name
 
 

@@ -1,6 +1,6 @@
 """Temperatures of a running bearing: a thermal network of five nodes around the FMU.
 
-The FMU says where power becomes heat (loss.*), the network where the heat goes, and the temperatures set viscosity and clearance of the next run.
+The FMU says where power becomes heat (loss.*), the network where the heat goes, and the temperatures go back into the FMU: viscosity, clearances, fits.
 Motion settles in milliseconds and heat in minutes, so each run takes 40 ms of motion, whose mean losses hold until the temperatures have moved.
 
     python examples/heat/network.py          # to the steady state; --march for the way there, hours of motion left out
@@ -12,10 +12,8 @@ from pathlib import Path
 import fmpy
 import numpy as np
 
-from bearing_model.viscosity import Oil
-
 FMU = Path(__file__).resolve().parents[2] / "fmus" / "RivetedBearing.fmu"
-NODES = ("inner ring", "outer ring", "balls", "cage", "oil")
+NODES = {"inner ring": "ring.T_i", "outer ring": "ring.T_e", "balls": "ball.T", "cage": "cage.T", "oil": "oil.T"}  # and their inputs
 SHARES = {  # of each loss, on the nodes: films heat both sides alike
     "races": (0.25, 0.25, 0.5, 0.0, 0.0), "ball_drag": (0, 0, 0, 0, 1.0), "cage_drag": (0, 0, 0, 0, 1.0), "ring_drag": (0, 0, 0, 0, 1.0),
     "land": (0.0, 0.5, 0.0, 0.5, 0.0), "pockets": (0, 0, 0.5, 0.5, 0), "joints": (0, 0, 0, 1.0, 0),
@@ -24,8 +22,6 @@ LINKS = {(0, 2): 6.0, (1, 2): 6.0, (0, 4): 4.0, (1, 4): 5.0, (2, 4): 4.0, (3, 4)
 HOUSING, SHAFT, SUPPLY, AROUND = 2.0, 1.0, 353.15, 313.15  # conductances outward [W/K], oil supply and surroundings [K], assumed
 FLOW = 8.3e-6 * 900.0 * 2000.0  # heat capacity of half a litre of oil a minute [W/K]
 CAPACITY = np.array([45.0, 75.0, 25.0, 25.0, 15.0])  # of the nodes [J/K]
-OIL, EXPANSION = Oil(25e-6, 313.15, 5e-6, 373.15), 11.5e-6  # MIL-PRF-23699; steel [1/K]
-D, PITCH, CLEARANCE, ASSEMBLY = 0.0111125, 0.0535, 15e-6, 293.15
 
 G = np.diag([SHAFT, HOUSING, 0.0, 0.0, FLOW])  # G T = losses + INFLOW in the steady state
 for (i, k), conductance in LINKS.items():
@@ -35,10 +31,7 @@ INFLOW = np.array([SHAFT * AROUND, HOUSING * AROUND, 0.0, 0.0, FLOW * SUPPLY])
 
 def heat(T, unzipped):
     """Heat into each node [W] at the temperatures T [K]: means over the last 20 ms of a run."""
-    inner, outer, balls = T[:3] - ASSEMBLY
-    film = T[[0, 1, 2, 4]].mean()
-    start = {"oil.eta": 900.0 * OIL.nu(film), "oil.beta": OIL.beta(film), "oil.flow": 8.3e-6}
-    start["bearing.P_d"] = CLEARANCE + EXPANSION * ((PITCH + D) * outer - (PITCH - D) * inner - 2.0 * D * balls)
+    start = dict(zip(NODES.values(), T, strict=True)) | {"oil.T": T[[0, 1, 2, 4]].mean(), "oil.flow": 8.3e-6}  # films lie between oil and steel
     names = [f"loss.{part}" for part in SHARES]
     run = fmpy.simulate_fmu(unzipped, stop_time=0.04, step_size=1e-4, output_interval=1e-4, start_values=start, output=names)
     return sum(run[name][run["time"] > 0.02].mean() * np.array(share) for name, share in zip(names, SHARES.values(), strict=True))

@@ -9,7 +9,7 @@
 
 #define FMI2_FUNCTION_PREFIX RivetedBearing_  // of the functions of a source-code FMU
 #define MODEL_IDENTIFIER "RivetedBearing"
-#define MODEL_GUID "{97868799-07d3-181b-0d12-ae04839d3e60}"  // digest of the table
+#define MODEL_GUID "{b1a87928-66f6-830a-c706-6ed10840754d}"  // digest of the table
 
 enum { Z = 9 };  // number of balls
 
@@ -77,6 +77,7 @@ typedef struct {
         double h_i;  // [1] Height of the inner ring's shoulder above the groove's bottom / ball diameter: reported when the contact ellipse reaches over it
         double h_e;  // [1] Height of the outer ring's shoulder above the groove's bottom / ball diameter: reported when the contact ellipse reaches over it
         double p_limit;  // [Pa] Contact pressure of the races beyond which a warning is given
+        double expansion;  // [1/K] Thermal expansion of balls and rings; dimensions are those at assembly temperature
     } bearing;
     struct {
         double dD[Z];  // [m] Excess of the ball's diameter over bearing.D
@@ -113,12 +114,11 @@ typedef struct {
         double F_floor;  // [N] Friction capacity that remains in an open joint
     } joint;
     struct {
-        double temperature;  // [K] Temperature of cage and rivets: changes preload and fit by their expansion
         int fit_model;  // FitModel: Interference: elastic, or with yield of the flange
     } rivet;
     struct {
-        double eta;  // [Pa.s] Dynamic viscosity of the oil
-        double alpha;  // [1/Pa] Pressure-viscosity coefficient
+        double eta;  // [Pa.s] Dynamic viscosity of the oil at the temperature oil.T_0; left at its start value it is that of the two points (oil.nu_1, oil.nu_2)
+        double alpha;  // [1/Pa] Pressure-viscosity coefficient at the temperature oil.T_0
         double A;  // [1] Traction law mu(s) = (A + B s) exp(-C s) - A
         double B;  // [1] Traction law: linear term
         double C;  // [1] Traction law: decay
@@ -132,9 +132,16 @@ typedef struct {
         double sigma_race;  // [m] Composite RMS roughness of ball and race
         double sigma_pocket;  // [m] Composite RMS roughness of ball and pocket
         double sigma_land;  // [m] Composite RMS roughness of cage and outer ring lands
-        double rho;  // [kg/m3] Density of the oil
+        double rho;  // [kg/m3] Density of the oil at the temperature oil.T_0
         double flow;  // [m3/s] Flow of oil through the bearing, from which the density of the mixture follows (Parker, NASA TP-2275)
-        double beta;  // [1/K] Fall of the viscosity's logarithm with temperature
+        double beta;  // [1/K] Fall of the viscosity's logarithm with temperature at the temperature oil.T_0; left at its start value it is that of the two points
+        double T_0;  // [K] Temperature at which oil.eta, oil.alpha, oil.rho and oil.beta are given
+        double nu_1;  // [m2/s] Kinematic viscosity of the oil at the lower temperature oil.T_1
+        double T_1;  // [K] Lower temperature of the viscosity's two points
+        double nu_2;  // [m2/s] Kinematic viscosity of the oil at the higher temperature oil.T_2
+        double T_2;  // [K] Higher temperature of the viscosity's two points
+        double expansion;  // [1/K] Fall of the oil's density with temperature / oil.rho
+        double alpha_T;  // [1/K] Fall of the pressure-viscosity coefficient's logarithm with temperature
         double k;  // [W/m.K] Thermal conductivity of the oil
         double K_rs;  // [1] Starvation of the race inlets
         double K_Z;  // [1] Starvation of the race inlets: factor of the bearing type
@@ -148,10 +155,28 @@ typedef struct {
         double tilt_time;  // [s] Time constant of the critically damped filter of the prescribed tilt
         double k_tilt;  // [N.m/rad] Angular stiffness of the ring's support (supported tilt)
         double c_tilt;  // [N.m.s/rad] Angular damping of the ring's support (supported tilt)
-        double bore;  // [m] Bore of the inner ring: its growth by rotation
+        double bore;  // [m] Bore of the inner ring: its growth by rotation and fit
         double rho;  // [kg/m3] Density of the inner ring
         int motion;  // RingMotion: Whether the shaft's loads or its motion are given
+        double outside;  // [m] Outside diameter of the outer ring: its fit in the housing
+        double effective_i;  // [m] Outside diameter of the cylinder that the inner ring is for growth and fit
+        double effective_e;  // [m] Inside diameter of the cylinder that the outer ring is for its fit
     } ring;
+    struct {
+        double interference;  // [m] Shaft diameter - bore of the inner ring before mounting, at assembly temperature; negative = clearance
+        double bore;  // [m] Bore of the shaft
+        double E;  // [Pa] Young's modulus of the shaft
+        double nu;  // [1] Poisson's ratio of the shaft
+        double rho;  // [kg/m3] Density of the shaft
+        double expansion;  // [1/K] Thermal expansion of the shaft, whose seat has the inner ring's temperature
+    } shaft;
+    struct {
+        double interference;  // [m] Outside diameter of the outer ring - bore of the housing before mounting, at assembly temperature; negative = clearance
+        double outside;  // [m] Outside diameter of the housing
+        double E;  // [Pa] Young's modulus of the housing
+        double nu;  // [1] Poisson's ratio of the housing
+        double expansion;  // [1/K] Thermal expansion of the housing, whose seat has the outer ring's temperature
+    } housing;
     struct {
         double y;  // [m/s2] Gravity along Y of the fixed frame, to which the bearing's frame is parallel at the start
         double z;  // [m/s2] Gravity along Z of the fixed frame
@@ -185,7 +210,7 @@ typedef struct {
         int drag;  // Drag: Drag of the balls in the mixture between the rings
         int churning;  // Switch: Drag moment of the mixture on the spinning balls
         int heating;  // Switch: Shear heating in the inlets of the races, in their films and in the films of the lands
-        int growth;  // Switch: Growth of the inner ring by its own rotation, which takes clearance (a free ring)
+        int growth;  // Switch: Growth of the inner ring by its rotation, which takes clearance
     } scene;
     struct {
         double tol;  // [1] Tolerance: local error / scale of each state class; a tolerance of fmi2SetupExperiment takes its place
@@ -242,6 +267,19 @@ typedef struct {
         scalar omega;  // [rad/s] Speed of the frame about an axis parallel to X, frame.radius away on -Y
         scalar omega_dot;  // [rad/s2] Rate of frame.omega
     } frame;
+    struct {
+        scalar T;  // [K] Temperature of the oil
+    } oil;
+    struct {
+        scalar T_i;  // [K] Temperature of the inner ring
+        scalar T_e;  // [K] Temperature of the outer ring
+    } ring;
+    struct {
+        scalar T;  // [K] Temperature of the balls
+    } ball;
+    struct {
+        scalar T;  // [K] Temperature of cage and rivets
+    } cage;
 } Inputs;
 
 typedef struct {
@@ -253,7 +291,7 @@ typedef struct {
         scalar energy_residual;  // [J] Energy now - energy at start - net work since: 0 but for the errors of the integration and of the work's own integral
         scalar contacts;  // [1] Number of closed contacts (races and pockets)
         scalar penetration;  // [m] Largest elastic approach of all contacts
-        scalar clearance;  // [m] Diametral clearance at the present speed
+        scalar clearance;  // [m] Diametral clearance at the present speed, temperatures and fits
     } bearing;
     struct {
         scalar x;  // [m] Displacement of the inner ring along X
@@ -419,12 +457,14 @@ typedef struct {
         scalar overpressure;  // [1] Race contacts beyond bearing.p_limit
         scalar joint_open;  // [1] Joints whose plates are apart
         scalar rivet_yield;  // [1] Rivets whose sigma_head_peak or sigma_mid_peak exceeds the yield stress
+        scalar no_clearance;  // [1] 1 if speed, temperatures and fits leave the bearing no clearance (bearing.clearance < 0)
         scalar land_contact_onsets;  // [1] Onsets of land contact since the start
         scalar pocket_exit_onsets;  // [1] Onsets of a ball leaving its pocket since the start
         scalar ellipse_cut_onsets;  // [1] Onsets of a contact ellipse cut by the shoulder since the start
         scalar overpressure_onsets;  // [1] Onsets of a contact beyond bearing.p_limit since the start
         scalar joint_open_onsets;  // [1] Onsets of an open joint since the start
         scalar rivet_yield_onsets;  // [1] Onsets of yield of a rivet since the start
+        scalar no_clearance_onsets;  // [1] Onsets of a closed clearance since the start
     } event;
 } Outputs;
 
@@ -497,10 +537,12 @@ typedef enum {
     SCALE_HEAD,
     SCALE_ENERGY,
     SCALE_VELOCITY,
+    SCALE_NORMAL,
+    SCALE_ORBIT,
     SCALE_RATE,
     SCALE_SPIN,
     SCALE_COUNT
 } StateScale;
 
-enum { N_INPUTS = 34 };  // all of them numbers
-enum { N_VARIABLES = 293 };  // time is the first
+enum { N_INPUTS = 39 };  // all of them numbers
+enum { N_VARIABLES = 321 };  // time is the first
