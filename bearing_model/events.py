@@ -19,9 +19,10 @@ from bearing_model.vec import vec, vec_dot, vec_local, vec_to_global
 
 
 def lands(model, w):
-    """Distance of the middle of each land from the ring's axis, and the distance at which the land touches the ring [m]; [..., 2]."""
+    """Distance of the middle of each land from the outer ring's axis, and the distance at which the land touches the ring [m]; [..., 2]."""
     x_land = (-model.p.cage.land_x, model.p.cage.land_x)
-    e = [np.hypot(half.x[1] + x * half.a[1], half.x[2] + x * half.a[2]) for half, x in zip(w.half, x_land, strict=True)]
+    arms = [half.x + x * half.a - w.outer_x for half, x in zip(w.half, x_land, strict=True)]
+    e = [np.hypot(arm[1] - arm[0] * w.outer_gamma, arm[2] + arm[0] * w.outer_beta) for arm in arms]
     return np.concatenate(np.broadcast_arrays(*e), axis=-1), model.d.C_land
 
 

@@ -22,7 +22,8 @@ STEP = 1e-30  # of the complex step [s]
 class Ledger:
     """Energies [J] since the start by name: numbers during a simulation, arrays [points] in Results.
 
-    supplied: by the ring's spin (the shaft's torque), translation and tilting, and by gravity; stored: change of kinetic and elastic energies;
+    supplied: by the inner ring's spin (the shaft's torque), translation and tilting, by the housing, by gravity and
+    frame; stored: change of kinetic and elastic energies;
     lost: in races, pockets, drag, land and joints.
     """
 

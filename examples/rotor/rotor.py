@@ -1,0 +1,135 @@
+"""A flexible rotor in ROSS on two bearing FMUs, motion in, force out: unbalance response against ROSS with the FMU's own stiffness and damping.
+
+    pip install "riveted-bearing[rotor]"; python examples/rotor/rotor.py [--unbalance 5e-5 5e-4] [--picture rotor.png]
+
+The bearings' coefficients (bearing_ross.toml) are those of `riveted-bearing matrices examples/rotor/bearing.toml`.  The master integrates the rotor by the
+trapezoidal rule.  Each step the FMUs get position, velocity and acceleration of their nodes and say the force at the step's end; what the rotor then moves
+beside that prediction meets the linear stiffness inside the master's matrix, so that the stiff joint of shaft and bearing stays passive.
+"""
+
+import argparse
+from pathlib import Path
+
+import numpy as np
+import ross as rs
+from fmpy import extract, read_model_description
+from fmpy.fmi2 import FMU2Slave
+from scipy.linalg import lu_factor, lu_solve
+
+HERE, NODES, DISK, H = Path(__file__).resolve().parent, (0, 8), 4, 5e-6  # H: communication step [s]
+FMU = HERE.parents[1] / "fmus" / "RivetedBearing.fmu"
+PRELOAD = 105.6e-6  # axial displacement of each inner ring against the other's [m]: 500 N
+
+
+def rotor(bearings):
+    """A shaft of 35 mm with a disk in the middle; x, y of ROSS are Y, Z of the bearings."""
+    steel = rs.Material("steel", rho=7810.0, E=211e9, G_s=81.2e9)
+    shaft = [rs.ShaftElement(L=0.05, idl=0.0, odl=0.035, material=steel, alpha=40.0) for _ in range(8)]
+    return rs.Rotor(shaft, [rs.DiskElement.from_geometry(n=DISK, material=steel, width=0.04, i_d=0.035, o_d=0.2)], bearings)
+
+
+class Bearing:
+    """One FMU: its inner ring goes where the shaft goes."""
+
+    def __init__(self, description, folder, omega, side, y, v):
+        self.vr = {variable.name: variable.valueReference for variable in description.modelVariables}
+        self.fmu = FMU2Slave(guid=description.guid, unzipDirectory=folder, modelIdentifier=description.coSimulation.modelIdentifier, instanceName="bearing")
+        self.fmu.instantiate()
+        self.fmu.setInteger([self.vr["ring.motion"], self.vr["scene.stress"]], [2, 1])
+        self.fmu.setReal([self.vr["shaft.omega"], self.vr["shaft.x"]], [omega, side * PRELOAD])
+        self.inputs = [self.vr[f"shaft.{name}"] for name in ("y", "z", "v_y", "v_z")]
+        self.fmu.setReal(self.inputs, [*y, *v])
+        self.fmu.setupExperiment(startTime=0.0)
+        self.fmu.enterInitializationMode()
+        self.fmu.exitInitializationMode()
+
+    def force(self):
+        return np.array(self.fmu.getReal([self.vr["shaft.R_y"], self.vr["shaft.R_z"]]))
+
+    def step(self, t, y, v, a):
+        self.fmu.setReal(self.inputs, [*y, *v])
+        self.fmu.setRealInputDerivatives(self.inputs[2:], [1, 1], list(a))
+        self.fmu.doStep(currentCommunicationPoint=t, communicationStepSize=H)
+        return self.force()
+
+
+def coupled(description, folder, omega, unbalance, stiffness, start, settle=0.02, length=0.04):
+    """Synchronous amplitudes [degrees of freedom] of the rotor on the FMUs, as q = Re(amplitude exp(i omega t)); start: those to begin with.
+
+    settle, length [s]: whole revolutions are left out and then counted.
+    """
+    free = rotor([rs.BearingElement(n=n, kxx=0.0, cxx=0.0) for n in NODES])
+    M, K, D = free.M(omega), free.K(omega), free.C(omega) + omega * free.G()
+    at = np.array([6 * n + i for n in NODES for i in range(2)])
+    K_joint = np.zeros_like(K)
+    K_joint[at, at] = stiffness
+    solve, q, v = lu_factor(M + 0.5 * H * D + 0.25 * H * H * (K + K_joint)), start.real.copy(), (1j * omega * start).real
+    bearings = [Bearing(description, folder, omega, side, q[at[2 * i : 2 * i + 2]], v[at[2 * i : 2 * i + 2]]) for i, side in enumerate((1.0, -1.0))]
+
+    def load(t, R):
+        f = np.zeros(len(q))
+        f[6 * DISK : 6 * DISK + 2] = unbalance * omega**2 * np.array([np.cos(omega * t), np.sin(omega * t)])
+        f[at] += R
+        return f
+
+    a = np.linalg.solve(M, load(0.0, np.concatenate([b.force() for b in bearings])) - D @ v - K @ q)
+    revolution, total = 2.0 * np.pi / omega, 0.0
+    skip, steps = (round(np.ceil(time / revolution) * revolution / H) for time in (settle, settle + length))
+    for n in range(steps):
+        ends = q[at] + H * v[at] + 0.5 * H * H * a[at]  # where the FMUs' rings will be
+        R = np.concatenate([b.step(n * H, q[at[s]], v[at[s]], a[at[s]]) for b, s in zip(bearings, (slice(0, 2), slice(2, 4)), strict=True)])
+        q_p, v_p = q + H * v + 0.25 * H * H * a, v + 0.5 * H * a
+        joint = K_joint[:, at] @ (ends - q_p[at])
+        a = lu_solve(solve, load((n + 1) * H, R) + joint - D @ v_p - K @ q_p)
+        q, v = q_p + 0.25 * H * H * a, v_p + 0.5 * H * a
+        if n >= skip:
+            total = total + q * np.exp(-1j * omega * (n + 1) * H) * 2.0 / (steps - skip)
+    for bearing in bearings:
+        bearing.fmu.terminate()
+        bearing.fmu.freeInstance()
+    return total
+
+
+def respond(speeds, unbalance, fmu=FMU):
+    """Amplitudes [speeds, degrees of freedom] by ROSS with the matrices, and by the rotor on the FMUs.  speeds [rad/s], unbalance [kg.m]."""
+    description, folder = read_model_description(str(fmu)), extract(str(fmu))
+    element = rs.BearingElement.load(HERE / "bearing_ross.toml")
+    table = {name: getattr(element, name) for name in ("kxx", "kyy", "kxy", "kyx", "cxx", "cyy", "cxy", "cyx", "frequency")}
+    linear = rotor([rs.BearingElement(n=n, **table) for n in NODES]).run_unbalance_response(DISK, unbalance, 0.0, frequency=speeds).forced_resp.T
+    stiffness = np.interp(speeds, table["frequency"], table["kxx"])
+    return linear, np.array([coupled(description, folder, w, unbalance, k, start) for w, k, start in zip(speeds, stiffness, linear, strict=True)])
+
+
+def plot(speeds, responses, path):
+    """Amplitude and phase of disk and bearing node over speed; lines ROSS, points FMUs."""
+    import matplotlib.pyplot as plt
+
+    figure, axes = plt.subplots(2, 2, figsize=(10, 6), sharex=True, layout="constrained")
+    for column, (name, dof) in enumerate((("disk", 6 * DISK), ("bearing", 6 * NODES[0]))):
+        for unbalance, (linear, fmus) in responses.items():
+            for values, style in ((linear, "-"), (fmus, "o")):
+                label = f"{1e6 * unbalance:g} g mm, {'ROSS' if style == '-' else 'FMUs'}"
+                axes[0, column].semilogy(speeds * 30.0 / np.pi, np.abs(values[:, dof]) / unbalance, style, label=label)
+                axes[1, column].plot(speeds * 30.0 / np.pi, np.degrees(np.angle(values[:, dof])), style)
+        axes[0, column].set(title=name, ylabel="amplitude / unbalance [1/kg]")
+        axes[1, column].set(xlabel="speed [r/min]", ylabel="phase [deg]")
+    axes[0, 0].legend(fontsize=8)
+    figure.savefig(path, dpi=110)
+
+
+if __name__ == "__main__":
+    parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
+    parser.add_argument("--unbalance", type=float, nargs="+", default=[5e-5], help="of the disk [kg.m]")
+    parser.add_argument("--picture", type=Path)
+    options = parser.parse_args()
+    speeds = np.linspace(3000.0, 12000.0, 10) * np.pi / 30.0
+    responses = {unbalance: respond(speeds, unbalance) for unbalance in options.unbalance}
+    for unbalance, (linear, fmus) in responses.items():
+        for w, a, b in zip(speeds, linear, fmus, strict=True):
+            values = []
+            for d in (6 * DISK, 6 * NODES[0]):
+                ratio = b[d] / a[d]
+                values.append(f"{1e6 * abs(a[d]):8.3f} {1e6 * abs(b[d]):8.3f} {100 * (abs(ratio) - 1):6.2f} % {np.degrees(np.angle(ratio)):6.2f} deg")
+            print(f"{unbalance:g} kg.m {w * 30.0 / np.pi:6.0f} r/min, disk, bearing: ROSS um, FMUs um, difference: {' | '.join(values)}")
+    if options.picture:
+        plot(speeds, responses, options.picture)
