@@ -206,8 +206,8 @@ INLINE void store_contacts(Work *w, int j, const Contact *inner, const Contact *
     wide_store(&w->spin_dissipated[j], T_i->spin_dissipated + T_e->spin_dissipated);
 }
 
-// Both race contacts of a packet of balls.
-INLINE void race_contact_packet(const Model *model, Work *w, int j, bool mixed, bool sliced)
+// Both race contacts of a packet of balls.  inner_R_g: radius of the inner groove's circle as the ring has grown.
+INLINE void race_contact_packet(const Model *model, Work *w, int j, scalar inner_R_g, bool mixed, bool sliced)
 {
     const Derived *d = model->d;
     const wide cos_theta = wide_load(&w->cos_theta[j]), sin_theta = wide_load(&w->sin_theta[j]);
@@ -218,7 +218,7 @@ INLINE void race_contact_packet(const Model *model, Work *w, int j, bool mixed, 
                              .omega_m = wide_load(&w->omega_m[j]),
                              .R = wide_load(&d->R[j])};
     const vec p_i = vec_sub(ball.x, vec_local(w->ring.x, cos_theta, sin_theta));
-    const wide R_g = wide_set(d->inner.R_g + ring_fit_growth(&d->fit, model->ring_load->omega));
+    const wide R_g = wide_set(inner_R_g);
     const Contact inner = inner_contact(model, &ball, R_g, p_i, vec_local(w->ring.a, cos_theta, sin_theta),
                                         vec_local(w->ring.v, cos_theta, sin_theta),
                                         vec_local(w->ring.Omega, cos_theta, sin_theta));
@@ -246,14 +246,15 @@ void race_contact_force(const Model *model, Work *w)
 {
     const bool mixed = model->p->scene.lubrication == LUBRICATION_MIXED;
     const bool sliced = model->p->scene.traction == TRACTION_SLICED;
+    const scalar R_g = model->d->inner.R_g + ring_fit_growth(&model->d->fit, model->ring_load->omega);
     for (int b = 0; b < PACKETS; b++) {
         const int j = b * LANE_WIDTH;
         if (sliced)
-            mixed ? race_contact_packet(model, w, j, true, true)
-                  : race_contact_packet(model, w, j, false, true);
+            mixed ? race_contact_packet(model, w, j, R_g, true, true)
+                  : race_contact_packet(model, w, j, R_g, false, true);
         else
-            mixed ? race_contact_packet(model, w, j, true, false)
-                  : race_contact_packet(model, w, j, false, false);
+            mixed ? race_contact_packet(model, w, j, R_g, true, false)
+                  : race_contact_packet(model, w, j, R_g, false, false);
     }
 }
 
