@@ -32,7 +32,7 @@
     curves = [];
     clips.length = 0;
     range.race = range.pocket = range.stress = 0;
-    const values = { ...data.fixed, ...Object.fromEntries(sliders.map((s) => [s.name, si(s)])) };
+    const values = { ...data.fixed, ...data.switches, ...Object.fromEntries(sliders.map((s) => [s.name, si(s)])) };
     const types = Object.fromEntries(sliders.map((s) => [s.name, "Real"]));
     asked = true;
     worker.postMessage({ start: { values, types }, clip: CLIP });
@@ -148,7 +148,7 @@
       find("head").textContent = `${Math.max(...recent.map(KINDS[0][1])).toFixed(0)} MPa`;
       find("pocket").textContent = `${Math.max(...recent.map(KINDS[1][1])).toFixed(1)} N`;
     }
-    find("slip").textContent = `${(100 * value["cage.slip_ratio"]).toFixed(1)} %`;
+    find("slip").textContent = `${(100 * value["cage.slip_ratio"]).toFixed(2)} %`;
     find("time").textContent = `${time.toFixed(3)} s`;
     find("time").dataset.rate = rate;
     find("rate").textContent = `${rate.toPrecision(2)} s in a second of yours`;

@@ -1,6 +1,6 @@
 """Write the page that runs the bearing in a browser: one HTML file with the core as WebAssembly, the worker that runs it and the report's drawing.
 
-    python docs/site/browser/page.py --core build/wasm32/RivetedBearing.wasm --out build/browser/bearing.html
+python docs/site/browser/page.py --core build/wasm32/RivetedBearing.wasm --out build/browser/bearing.html
 """
 
 import argparse
@@ -28,6 +28,7 @@ SLIDERS = (  # variable, label, unit, least, largest, step
     ("pulse.F_r", "Impacts", "N", 0, 4000, 50),
 )
 FIXED = {"pulse.count": 1_000_000}  # impacts go on as long as the page runs
+SWITCHES = {"scene.statistics": int(variables.Switch.ON)}  # as riveted-bearing run does without being told
 CHANNELS = (
     *(f"half_{h}.{name}" for h in (0, 1) for name in ("x", "y", "z", "psi", "tilt_y", "tilt_z")),
     *("ring.x", "ring.y", "ring.z", "shaft.F_y", "shaft.F_z", "cage.F_pocket_peak", "rivet.sigma_head_max"),
@@ -52,7 +53,17 @@ def sliders():
     known = variables.INPUTS | variables.PARAMETERS
     for name, label, unit, low, high, step in SLIDERS:
         value = round(UNITS[unit] * known[name].start / step) * step
-        yield {"name": name, "label": label, "unit": unit, "factor": UNITS[unit], "low": low, "high": high, "step": step, "start": value, "live": name in variables.INPUTS}
+        yield {
+            "name": name,
+            "label": label,
+            "unit": unit,
+            "factor": UNITS[unit],
+            "low": low,
+            "high": high,
+            "step": step,
+            "start": value,
+            "live": name in variables.INPUTS,
+        }
 
 
 def page(core):
@@ -65,6 +76,7 @@ def page(core):
         "settle": start["start.settle"],
         "sliders": list(sliders()),
         "fixed": FIXED,
+        "switches": SWITCHES,
         "channels": CHANNELS,
         "peaks": PEAKS,
         "figures": FIGURES,
