@@ -23,7 +23,8 @@ COMPARED = (
     *("half_0.y", "half_0.psi", "half_1.z", "ring.y", "ball[1].psi", "ball[3].x", "ball[5].Q_e", "ball[2].Q_i"),
     *("rivet[4].sigma_head", "rivet.sigma_head_max", "bearing.power_loss"),
 )
-DIFFERENCE = 1e-9  # of a variable's size; observed 2e-12, and as much from the last bit of the load in the native core
+CLEARANCE = 1e-4  # what the halves' displacements, zero at the start, are measured by [m]
+DIFFERENCE = 1e-9  # of a variable's size; observed 2e-11, and as much from the last bit of the load in the native core
 
 
 def element(name):
@@ -99,7 +100,7 @@ def test_the_figures_are_those_of_the_native_core(tab, core):
     """Over 2 ms, a quarter of a turn of the cage.  Rounding makes DIFFERENCE of it; 1 % more load must not pass."""
     clip = tab[0].evaluate(RUN, [list(COMPARED), STEP, STEPS + 1])
     expected, computed = native(core), np.array(clip["rows"])
-    size = np.abs(expected).max(axis=0)
+    size = np.maximum(np.abs(expected).max(axis=0), [CLEARANCE if re.match(r"half_\d\.[xyz]$", name) else 0.0 for name in COMPARED])
     assert computed.shape == expected.shape
     difference = (np.abs(computed - expected) / size).max(axis=0)
     print({name: f"{value:.1e}" for name, value in zip(COMPARED, difference)})
@@ -112,6 +113,11 @@ def test_the_figures_are_those_of_the_native_core(tab, core):
 def test_the_page_runs(tab, tmp_path):
     """It moves, complains of nothing and asks for nothing; statistics fill up.  Prints how fast it is."""
     tab, complaints, first = tab
+    for _ in range(2):  # the shortest of three: other programs may have the processor
+        start = time.monotonic()
+        tab.reload()
+        tab.wait_for_selector("body[data-ready]")
+        first = min(first, time.monotonic() - start)
     before, picture = tab.inner_text("#readout"), tab.locator("#front").screenshot()
     rates = []
     tab.wait_for_function("document.querySelector('[data-figure]').textContent !== '–'", timeout=120_000)
@@ -123,6 +129,7 @@ def test_the_page_runs(tab, tmp_path):
     head = float(tab.inner_text('[data-figure="stat.sigma_head_mean"]'))
     assert 100.0 < head < float(tab.inner_text('[data-figure="stat.sigma_head_p999"]')) < 1000.0  # MPa
     assert not complaints and not tab.is_visible("#message")
+    assert first < 3.0  # [s]
     assert PAGE.stat().st_size < 4e6
     assert max(rates) > 0.2  # of stretches of 30 ms: one of twenty has the processor for itself even on a busy machine
 
