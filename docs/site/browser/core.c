@@ -12,10 +12,11 @@
 static Part *part;
 static char name[64], messages[4096];
 
-// Adds a message to the text that the worker has not read yet; what does not fit is cut off.
+// Adds an error or a warning to the text that the worker has not read yet; what does not fit is cut off.
 static void add_message(void *environment, LogCategory category, const char *message)
 {
-    (void)environment, (void)category;
+    (void)environment;
+    if (category != LOG_ERROR && category != LOG_WARNING) return;
     const size_t used = strlen(messages);
     snprintf(messages + used, sizeof messages - used, "%s\n", message);
 }
@@ -32,7 +33,7 @@ EXPORT(page_name) char *page_name(void)
     return name;
 }
 
-// Text of all messages since the worker set the first byte to 0.
+// Errors and warnings since the worker set the first byte to 0.
 EXPORT(page_messages) char *page_messages(void)
 {
     return messages;
