@@ -19,9 +19,9 @@ Z = variables.Z
 DRAWN = ("bearing.D", "bearing.d_m", "bearing.P_d", "cage.D_o", "cage.D_i", "cage.width", "cage.pocket_clearance", "cage.guide_clearance")
 UNITS = {"rev/min": 9.549296585513721, "deg": 57.29577951308232, "MPa": 1e-6, "um": 1e6, "N": 1.0, "1": 1.0}  # shown = factor * SI
 SLIDERS = (  # variable, label, unit, least, largest, step
-    ("shaft.F_y", "Radial load", "N", 0, 6000, 50),
-    ("shaft.F_x", "Axial load", "N", 0, 2000, 10),
-    ("shaft.omega", "Speed", "rev/min", 1000, 24000, 100),
+    ("shaft.F_y", "Radial load", "N", 0, 6000, 2),
+    ("shaft.F_x", "Axial load", "N", 0, 2000, 5),
+    ("shaft.omega", "Speed", "rev/min", 1000, 24000, 2),
     ("shaft.tilt_z", "Tilt", "deg", -0.3, 0.3, 0.01),
     ("joint.preload", "Preload of a rivet", "N", 0, 100, 1),
     ("joint.fit", "Fit, rivet minus hole", "um", -40, 20, 1),
