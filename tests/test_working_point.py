@@ -13,11 +13,14 @@ import pytest
 from mechanics import Instance, View, Z, pocket_contact
 
 from bearing_model.kinematics import cage_speed
+from bearing_model.parameters import Parameters
 from bearing_model.quasi_static import Bearing, Load, quasi_static
+from bearing_model.ring_fit import ring_fit_of
 from bearing_model.variables import PARAMETERS, CageModel, Drag, Lubrication, Method, Stress, Switch, TiltMode, Traction
 
 RPM = math.pi / 30.0
 OMEGA = 18238 * RPM
+GROWN = ring_fit_of(Parameters())  # the inner ring's growth
 SETTLE = 0.05
 STATISTICS = {"scene.statistics": int(Switch.ON), "scene.stress": int(Stress.OFF)}
 PASS = 2.0 * math.pi / (Z * 756.6)  # one ball takes the place of the next [s]
@@ -45,7 +48,7 @@ def simulate(fmu, tmp_path_factory):
 def equilibrium():
     """Means over one ball pass of ring displacement and, at its worst azimuth, the largest ball load."""
     load = Load(F_x=515.0, F_y=2994.0, omega=OMEGA)
-    results = [quasi_static(Bearing(), load, psi=psi) for psi in np.arange(12) * 2.0 * np.pi / Z / 12]
+    results = [quasi_static(Bearing(fit=GROWN), load, psi=psi) for psi in np.arange(12) * 2.0 * np.pi / Z / 12]
     return {
         "x": np.mean([r.x for r in results]),
         "y": np.mean([r.y for r in results]),
@@ -84,7 +87,7 @@ def test_clearance_moves_the_ring(simulate):
     for P_d in (5e-6, 15e-6, 40e-6):
         run = simulate(0.05, 1e-4, ["ring.x", "ring.y"], settle=0.02, bearing__P_d=P_d)
         load, angles = Load(F_x=515.0, F_y=2994.0, omega=OMEGA), np.arange(6) * 2.0 * np.pi / Z / 6
-        rest = [quasi_static(Bearing(P_d=P_d), load, psi=psi) for psi in angles]
+        rest = [quasi_static(Bearing(P_d=P_d, fit=GROWN), load, psi=psi) for psi in angles]
         means[P_d] = run["ring.x"].mean(), run["ring.y"].mean()
         assert means[P_d] == pytest.approx((np.mean([r.x for r in rest]), np.mean([r.y for r in rest])), rel=0.03)
     y = [y for _, y in means.values()]

@@ -160,6 +160,7 @@ def runs_of(rows):
         "pocket": np.round(rows["cage.pocket_clearance"] * 1e6, 3),
         "guide": np.round(rows["cage.guide_clearance"] * 1e6, 3),
         "pocket_damping": rows["cage.lambda"],
+        "centrifugal": rows["cage.centrifugal"],
         "impact": rows["pulse.F_r"],
         "width": np.round(rows["pulse.duration"] * 1e3, 6),
         "force": rows["stat.Q_c_mean"],
