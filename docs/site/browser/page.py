@@ -12,9 +12,12 @@ import jinja2
 
 from bearing_model import variables
 from riveted_bearing.animation import exaggeration
+from riveted_bearing.builder import find_zig
 from riveted_bearing.report import PARTS
 
 HERE = Path(__file__).resolve().parent
+LICENCES = ("LICENSE", "THIRD_PARTY_NOTICES.md")  # of the repository
+OF_ZIG = ("musl/COPYRIGHT", "wasi/LICENSE-MIT")  # of the C library that zig links, in its folder libc
 Z = variables.Z
 DRAWN = ("bearing.D", "bearing.d_m", "bearing.P_d", "cage.D_o", "cage.D_i", "cage.width", "cage.pocket_clearance", "cage.guide_clearance")
 UNITS = {"rev/min": 9.549296585513721, "deg": 57.29577951308232, "MPa": 1e-6, "um": 1e6, "N": 1.0, "1": 1.0}  # shown = factor * SI
@@ -66,6 +69,14 @@ def sliders():
         }
 
 
+def licences():
+    """Licences of what is compiled into the page, as one text."""
+    zig = Path(find_zig()).resolve().parent
+    libc = next(folder for folder in (zig / "lib" / "libc", zig.parent / "lib" / "zig" / "libc") if folder.is_dir())
+    files = [*(HERE.parents[2] / name for name in LICENCES), *(libc / name for name in OF_ZIG)]
+    return "\n\n".join(path.read_text(encoding="utf-8") for path in files)
+
+
 def page(core):
     """The page as text; core: bytes of the WebAssembly module."""
     start = {name: variable.start for name, variable in variables.PARAMETERS.items()}
@@ -94,6 +105,7 @@ def page(core):
         kinds=KINDS,
         scale=data["scale"],
         settle=data["settle"],
+        licences=licences(),
     )
 
 
