@@ -6,7 +6,7 @@ PYTHON  = $(BIN)/python
 FMU     = fmus/RivetedBearing.fmu
 COPY    = $(CURDIR)/build/sanitize
 PYTEST  = $(PYTHON) -m pytest
-C_FILES = $(wildcard fmu_src/*.[ch] tests/*.[ch] benchmarks/*.[ch] examples/*/*.c)
+C_FILES = $(wildcard fmu_src/*.[ch] tests/*.[ch] benchmarks/*.[ch] examples/*/*.c docs/site/browser/*.c)
 BENCHMARKS = rtf rhs step scenes scaling work_precision
 FORM    = --short
 # Test files that call the C code themselves: functions of the core, of FMI, programs of cmake/fuzz.cmake.  The command line, reports and sweeps come to
@@ -21,7 +21,7 @@ LOCK    = --generate-hashes --strip-extras --no-header --no-annotate --no-emit-i
 export PATH := $(CURDIR)/$(BIN):$(PATH)  # cmake finds ninja
 export MPLBACKEND = Agg
 
-.PHONY: demo test test-slow bench build site dist fmu-all generate lint format sanitize sanitize-threads analyze fuzz bare clean help
+.PHONY: demo test test-slow bench build browser site dist fmu-all generate lint format sanitize sanitize-threads analyze fuzz bare clean help
 
 demo: build  ## build, then run the paper's working point: stress, cage and run-time figures
 	$(BIN)/riveted-bearing run demo
@@ -39,7 +39,14 @@ bench: build  ## measure what the README claims and write docs/performance.md, i
 build: build/build.ninja  ## the FMU and the tests' library; seconds after an edit
 	$(BIN)/cmake --build build
 
-site: $(VENV)/installed  ## the pages of docs/ as a site with search, in build/site: open index.html, no network needed
+browser: $(VENV)/installed  ## the bearing in a web page, in build/browser/bearing.html: the core as WebAssembly, no network needed
+	$(PYTHON) -c "import ziglang" 2>/dev/null || $(BIN)/pip --disable-pip-version-check --quiet install --no-build-isolation --editable ".[cross]"
+	zig=$$($(PYTHON) -c "from riveted_bearing.builder import find_zig; print(find_zig())") && $(BIN)/cmake -S . -B build/wasm32 -G Ninja \
+		-DCMAKE_TOOLCHAIN_FILE=$(CURDIR)/cmake/zig.cmake -DPLATFORM=wasm32 -DPython_EXECUTABLE=$(CURDIR)/$(PYTHON) -DZIG=$$zig
+	$(BIN)/cmake --build build/wasm32 --target browser
+	$(PYTHON) docs/site/browser/page.py --core build/wasm32/RivetedBearing.wasm --out build/browser/bearing.html
+
+site: browser  ## the pages of docs/ as a site with search, in build/site: open index.html, no network needed
 	$(BIN)/pip --disable-pip-version-check --quiet install --no-build-isolation --editable ".[docs]"
 	NO_MKDOCS_2_WARNING=1 $(BIN)/mkdocs build --strict --quiet
 

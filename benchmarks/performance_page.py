@@ -248,7 +248,7 @@ Errors are of mean, RMS and 99.9 % quantile of pocket force, head stress and mid
 
 Ring: the default, {data["default"]["family"].partition(", ")[2]} at {data["default"]["tolerance"]:g}. All start from the same settled states
 (geometric mean of {first["states"]["starts"]}).
-The error is the RMS over all states of error/(tolerance scale): 1 is 10 µm, 0.1 m/s, a friction state's whole deflection. The
+The error is the RMS over all states of error/(tolerance scale): 1 is the error that tolerance 1 allows that state ([method.md](method.md)). The
 reference is Dormand–Prince at 1e-10; Verner 6(5) at 1e-10 ends within {doubt:.0e} of it. BDF's Jacobian is SUNDIALS' own by differences (*dense*: what
 a general multibody solver does, the stand-in for the paper's GSTIFF with its 10,000 outputs in 0.4 s), the diagonal of damping rates, or bordered block
 diagonal. No stress, no statistics in these runs.

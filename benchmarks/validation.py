@@ -343,8 +343,9 @@ def twins(model, long):
             worst.append((f"`{comparison.scene}`", name, *(f"{value:.1e} (`{channels[i].name}`)" for value, i in largest(channels))))
     columns = ("scene", "largest difference / scale", *(f"FMU at {tolerance:.0e}" for tolerance in found.tolerances))
     text = (
-        "The FMU and the reference (SciPy, DOP853) at the same 20 instants of the first millisecond. Differences of motion are in the integrator's error"
-        " scales, so that they compare with the tolerance; those of loads and stresses are relative to the largest value, at least 1 N and 0.1 MPa."
+        "The FMU and the reference (SciPy, DOP853) at the same 20 instants of the first millisecond. Differences of motion are in parts of 10 µm and 0.1 m/s,"
+        " near the integrator's error scales, so that they compare with the tolerance; those of loads and stresses are relative to the largest value, "
+        "at least 1 N and 0.1 MPa."
         " A difference that falls with the tolerance is the integration's error."
     )
     first = section("FMU against reference", text, table(columns, worst), f"![compare]({PICTURES.name}/compare.png)")

@@ -207,8 +207,9 @@ INLINE void store_contacts(Work *w, int j, const Contact *inner, const Contact *
     wide_store(&w->spin_dissipated[j], T_i->spin_dissipated + T_e->spin_dissipated);
 }
 
-// Both race contacts of a packet of balls.  outer_ring: its motion, NULL for a ring at rest in its place.
-INLINE void race_contact_packet(const Model *model, Work *w, int j, bool mixed, bool sliced,
+// Both race contacts of a packet of balls.  inner_R_g: radius of the inner groove's circle as the ring has grown;
+// outer_ring: its motion, NULL for a ring at rest in its place.
+INLINE void race_contact_packet(const Model *model, Work *w, int j, scalar inner_R_g, bool mixed, bool sliced,
                                 const Rotor *outer_ring)
 {
     const Derived *d = model->d;
@@ -220,10 +221,8 @@ INLINE void race_contact_packet(const Model *model, Work *w, int j, bool mixed, 
                              .omega_m = wide_load(&w->omega_m[j]),
                              .R = wide_load(&d->R[j])};
     const vec p_i = vec_sub(ball.x, vec_local(w->ring.x, cos_theta, sin_theta));
-    const scalar omega = model->ring_load->omega + model->ring_load->frame_omega;
-    const wide R_g = wide_set(d->inner.R_g + ring_fit_growth(&d->fit, omega));
     const Contact inner = race_contact(
-        model, &d->inner, &ball, R_g, p_i, vec_local(w->ring.a, cos_theta, sin_theta),
+        model, &d->inner, &ball, wide_set(inner_R_g), p_i, vec_local(w->ring.a, cos_theta, sin_theta),
         vec_local(w->ring.v, cos_theta, sin_theta), vec_local(w->ring.Omega, cos_theta, sin_theta));
     const Contact outer = outer_ring == NULL
                               ? outer_contact_at_rest(model, &ball)
@@ -252,29 +251,32 @@ INLINE void race_contact_packet(const Model *model, Work *w, int j, bool mixed, 
 }
 
 // Balls of a bearing whose outer ring moves.
-static __attribute__((noinline)) void race_contact_force_moving(const Model *model, Work *w, bool mixed,
-                                                                bool sliced)
+static __attribute__((noinline)) void race_contact_force_moving(const Model *model, Work *w, scalar inner_R_g,
+                                                                bool mixed, bool sliced)
 {
     const Rotor outer = outer_ring(model->ring_load);
-    for (int b = 0; b < PACKETS; b++) race_contact_packet(model, w, b * LANE_WIDTH, mixed, sliced, &outer);
+    for (int b = 0; b < PACKETS; b++)
+        race_contact_packet(model, w, b * LANE_WIDTH, inner_R_g, mixed, sliced, &outer);
 }
 
 void race_contact_force(const Model *model, Work *w)
 {
     const bool mixed = model->p->scene.lubrication == LUBRICATION_MIXED;
     const bool sliced = model->p->scene.traction == TRACTION_SLICED;
+    const scalar omega = model->ring_load->omega + model->ring_load->frame_omega;
+    const scalar R_g = model->d->inner.R_g + ring_fit_growth(&model->d->fit, omega);
     if (outer_ring_moves(model->ring_load)) {
-        race_contact_force_moving(model, w, mixed, sliced);
+        race_contact_force_moving(model, w, R_g, mixed, sliced);
         return;
     }
     for (int b = 0; b < PACKETS; b++) {
         const int j = b * LANE_WIDTH;
         if (sliced)
-            mixed ? race_contact_packet(model, w, j, true, true, NULL)
-                  : race_contact_packet(model, w, j, false, true, NULL);
+            mixed ? race_contact_packet(model, w, j, R_g, true, true, NULL)
+                  : race_contact_packet(model, w, j, R_g, false, true, NULL);
         else
-            mixed ? race_contact_packet(model, w, j, true, false, NULL)
-                  : race_contact_packet(model, w, j, false, false, NULL);
+            mixed ? race_contact_packet(model, w, j, R_g, true, false, NULL)
+                  : race_contact_packet(model, w, j, R_g, false, false, NULL);
     }
 }
 

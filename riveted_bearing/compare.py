@@ -1,8 +1,8 @@
 """One scene through the FMU and through the Python reference (bearing_model.integrator), which shares no code with it.
 
 Short horizon: outputs at the same instants, at several tolerances.  A difference that falls with the tolerance is the integration's error; a difference that
-stays is one of the models.  Differences of motion are given in the integrator's error scales (10 um, 0.1 m/s, angles by arc length at the pitch circle),
-so that they compare with the tolerance; those of loads and stresses as parts of the largest value.
+stays is one of the models.  Differences of motion are given in parts of 10 um and 0.1 m/s (angles by arc length at the pitch circle), which are
+near the integrator's error scales, so that they compare with the tolerance; those of loads and stresses as parts of the largest value.
 Long horizon: trajectories have parted (errors grow e-fold in 1.4 ... 2.7 ms), so statistics are compared: the reference with the FMU's scatter over seeds.
 """
 
@@ -157,7 +157,7 @@ def channels(model, names, reference, runs):
 
 
 def scale_of(variable, values, parameters):
-    """Scale of a channel's differences: the integrator's error scale for motion, else the largest value."""
+    """Scale of a channel's differences: 10 um and 0.1 m/s for motion, else the largest value."""
     r = 0.5 * parameters["bearing.d_m"]
     motion = MOTION | {"rad": MOTION["m"] / r, "rad/s": MOTION["m/s"] / r, "1/s": MOTION["m/s"] / r}
     if is_motion(variable):
@@ -166,7 +166,7 @@ def scale_of(variable, values, parameters):
 
 
 def is_motion(channel):
-    """Whether a channel is a position, an angle or a speed of a body, whose differences are measured in the integrator's error scales."""
+    """Whether a channel is a position, an angle or a speed of a body, whose differences are measured in parts of 10 um and 0.1 m/s."""
     return channel.unit in ("m", "m/s", "rad", "rad/s", "1/s") and "alpha" not in channel.name
 
 

