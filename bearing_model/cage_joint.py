@@ -18,7 +18,7 @@ Smoothness: C0 at opening and bearing (a spring of finite stiffness begins), C0 
 import numpy as np
 
 from bearing_model.lanes import ball_array_sum, maximum
-from bearing_model.variables import JOINT_HEAD_Y, JOINT_HEAD_Z, JOINT_PLATE_Y, JOINT_PLATE_Z
+from bearing_model.variables import JOINT_HEAD_Y, JOINT_HEAD_Z, JOINT_PLATE_Y, JOINT_PLATE_Z, CageModel
 from bearing_model.vec import vec, vec_cross, vec_dot
 
 
@@ -75,12 +75,24 @@ def cage_joint_advance(model, w, h, y):
     """
     p, d = model.p, model.d
     u_x, (_, v_y, v_z) = w.u[0], w.v_j
-    dT = cage_joint_prying(model, w)
-    plates, heads = (maximum(maximum(d.P + k * u_x, 0.0) + dT, 0.0) for k in (-d.k_plate, d.k_rivet))
-    for k, load, blocks in ((d.k_plate_t, plates, (JOINT_PLATE_Y, JOINT_PLATE_Z)), (d.k_head, heads, (JOINT_HEAD_Y, JOINT_HEAD_Z))):
+    if p.scene.cage == CageModel.ELASTIC:
+        plates, heads = w.N_plate, w.T  # of the law of the joint (cage_elastic.py)
+    else:
+        dT = cage_joint_prying(model, w)
+        plates, heads = (maximum(maximum(d.P + k * u_x, 0.0) + dT, 0.0) for k in (-d.k_plate, d.k_rivet))
+    k_t, k_h, _ = joint_stiffness(model)
+    for k, load, blocks in ((k_t, plates, (JOINT_PLATE_Y, JOINT_PLATE_Z)), (k_h, heads, (JOINT_HEAD_Y, JOINT_HEAD_Z))):
         rate = np.hypot(v_y, v_z) * k / (p.joint.mu * load + p.joint.F_floor)
         for v, z in zip((v_y, v_z), blocks, strict=True):
             y[z] += h * (v - rate * y[z]) / (1.0 + 0.5 * h * rate)
+
+
+def joint_stiffness(model):
+    """Stiffnesses of plates, heads and holes in the plane [N/m]; of elastic halves in series with what their modes leave (cage_elastic.py)."""
+    d = model.d
+    if model.p.scene.cage != CageModel.ELASTIC:
+        return d.k_plate_t, d.k_head, d.k_hole
+    return d.elastic.series * d.k_plate_t, d.elastic.series * d.k_head, d.elastic.series_hole * d.k_hole
 
 
 def cage_joint_force(model, y, w):
@@ -90,28 +102,31 @@ def cage_joint_force(model, y, w):
     v_x, v_y, v_z = w.v_j
     zp_y, zp_z, zh_y, zh_z = (y[..., block] for block in (JOINT_PLATE_Y, JOINT_PLATE_Z, JOINT_HEAD_Y, JOINT_HEAD_Z))
 
-    w.T, w.N_plate = maximum(d.P + d.k_rivet * u_x, 0.0), maximum(d.P - d.k_plate * u_x, 0.0)
-    damping = d.c_joint * w.N_plate / (w.N_plate + p.joint.F_floor)
-    dT = cage_joint_prying(model, w)
+    elastic = p.scene.cage == CageModel.ELASTIC
+    k_t, k_h, k_hole = joint_stiffness(model)
+    damping, dT, f_x = 0.0, 0.0, 0.0
+    if elastic:  # the law of the joint (cage_elastic.py) has given T and N_plate
+        f_x = -w.joint_load[0]
+    else:
+        w.T, w.N_plate = maximum(d.P + d.k_rivet * u_x, 0.0), maximum(d.P - d.k_plate * u_x, 0.0)
+        damping = d.c_joint * w.N_plate / (w.N_plate + p.joint.F_floor)
+        dT = cage_joint_prying(model, w)
+        f_x = w.N_plate - w.T - damping * v_x
     plates, heads = (p.joint.mu * maximum(force + dT, 0.0) + p.joint.F_floor for force in (w.N_plate, w.T))
-    w.plate_y_dot, w.plate_z_dot, w.plate_rate, lost_plate = cage_joint_friction(d.k_plate_t, plates, zp_y, zp_z, v_y, v_z)
-    w.head_y_dot, w.head_z_dot, w.head_rate, lost_head = cage_joint_friction(d.k_head, heads, zh_y, zh_z, v_y, v_z)
+    w.plate_y_dot, w.plate_z_dot, w.plate_rate, lost_plate = cage_joint_friction(k_t, plates, zp_y, zp_z, v_y, v_z)
+    w.head_y_dot, w.head_z_dot, w.head_rate, lost_head = cage_joint_friction(k_h, heads, zh_y, zh_z, v_y, v_z)
     w.joint_dissipated = lost_plate + lost_head + damping * v_x * v_x
 
     slip = np.sqrt(u_y * u_y + u_z * u_z + 1e-30)
-    bearing = d.k_hole * maximum(slip - d.hole_gap, 0.0) / slip
-    w.k_bearing = d.k_hole * (np.real(slip) > d.hole_gap)
-    w.S, w.H, w.B = np.array([-d.k_plate_t * zp_y, -d.k_plate_t * zp_z]), np.array([-d.k_head * zh_y, -d.k_head * zh_z]), -bearing * w.u[1:]
-    w.joint_energy = 0.5 * (
-        w.T**2 / d.k_rivet
-        + w.N_plate**2 / d.k_plate
-        + d.k_plate_t * (zp_y**2 + zp_z**2)
-        + d.k_head * (zh_y**2 + zh_z**2)
-        + d.k_hole * maximum(slip - d.hole_gap, 0.0) ** 2
-    )
+    bearing = k_hole * maximum(slip - d.hole_gap, 0.0) / slip
+    w.k_bearing = k_hole * (np.real(slip) > d.hole_gap)
+    w.S, w.H, w.B = np.array([-k_t * zp_y, -k_t * zp_z]), np.array([-k_h * zh_y, -k_h * zh_z]), -bearing * w.u[1:]
+    axial = 2.0 * w.joint_potential if elastic else w.T**2 / d.k_rivet + w.N_plate**2 / d.k_plate
+    w.joint_energy = 0.5 * (axial + k_t * (zp_y**2 + zp_z**2) + k_h * (zh_y**2 + zh_z**2) + k_hole * maximum(slip - d.hole_gap, 0.0) ** 2)
 
     # force on half 1 at its hole, which lies at s + u from the centre of half 0; in the frame of half 0
-    f = vec(w.N_plate - w.T - damping * v_x, *(w.S + w.H + w.B))
+    f = w.joint_force = vec(f_x, *(w.S + w.H + w.B))
+    u_x, u_y, u_z = w.u_rigid if elastic else w.u  # modes move no centre of mass
     r = vec(u_x, d.rivet_y + u_y, d.rivet_z + u_z)
     F, M = ball_array_sum(f), ball_array_sum(vec_cross(r, f))
 

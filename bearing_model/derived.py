@@ -6,11 +6,12 @@ from typing import NamedTuple
 
 import numpy as np
 
-from bearing_model import rivet_table
+from bearing_model import rivet_table, variables
+from bearing_model.cage_elastic import derive_elastic
 from bearing_model.hertz import Hertz, hertz_contact
 from bearing_model.ring_fit import ring_fit_of
 from bearing_model.rivet_rom import joint_hole_stiffness, rivet_rom_fit_eff, rivet_rom_fit_flags
-from bearing_model.variables import N_STATES, PARAMETERS, STATE_SCALES, STATE_SLICES, Drag, FitModel, Method, Switch, Z
+from bearing_model.variables import ELASTIC_SCALES, N_ALL_STATES, N_STATES, PARAMETERS, STATE_SCALES, CageModel, Drag, FitModel, Method, Switch, Z
 
 AIR_DENSITY = 1.19  # [kg/m3] at 293 K and 10^5 Pa
 
@@ -170,6 +171,7 @@ def derive_joint(p, d, table):
     d.k_hole = joint_hole_stiffness(table, d.fit_a)
     d.hole_gap = max(0.0, -d.fit_a)
     d.spin = (p.cage.centrifugal == Switch.ON) * (p.cage.m / table.half.m) * table.half.spin
+    d.centrifugal = float(p.cage.centrifugal == Switch.ON)
     d.c_joint = 2.0 * p.joint.zeta * np.sqrt((d.k_rivet + d.k_plate) * 0.5 * p.cage.m / Z)
 
 
@@ -190,6 +192,7 @@ def derive_scales(p, d):
         "normal": velocity if equal else 1.5 * velocity,
         "rate": velocity / r,
         "orbit": (velocity if equal else velocity / 6.0) / r,
+        "mode": velocity,
         "spin": velocity / (0.5 * p.bearing.D),
         "angle": length / r,
         "tilt": length / r,
@@ -197,9 +200,11 @@ def derive_scales(p, d):
         "head": friction / d.k_head,
         "energy": 1e30,
     }
-    d.scale = np.empty(N_STATES)
-    for name, rows in STATE_SLICES.items():
-        d.scale[rows] = by_class[STATE_SCALES[name]]
+    elastic = p.scene.cage == CageModel.ELASTIC
+    scales = STATE_SCALES | ELASTIC_SCALES if elastic else STATE_SCALES
+    d.scale = np.empty(N_ALL_STATES if elastic else N_STATES)
+    for name, scale in scales.items():
+        d.scale[getattr(variables, name.upper())] = by_class[scale]
 
 
 @functools.lru_cache
@@ -231,4 +236,6 @@ def model_derive(p, table=None):
     derive_cage(p, d)
     derive_joint(p, d, table)
     derive_scales(p, d)
+    if p.scene.cage == CageModel.ELASTIC:
+        d.elastic = derive_elastic(p, d, table)
     return d

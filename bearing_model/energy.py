@@ -26,7 +26,9 @@ def energy_terms(model, w):
         "pockets, elastic": ball_array_sum(w.pocket_energy),
         "land, elastic": w.land_elastic,
     }
-    if p.scene.cage == CageModel.TWO_HALF:
+    if p.scene.cage == CageModel.ELASTIC:
+        terms["modes of the cage"] = w.modes_energy
+    if p.scene.cage != CageModel.RIGID:
         terms["joints, elastic"] = ball_array_sum(w.joint_energy)
     for half in w.half:
         v = half.v + vec_cross(half.Omega, half.c)  # of the centre of mass
@@ -50,8 +52,10 @@ def loss_terms(model, w):
         "drag of the ring": w.ring_drag_dissipated,
         "land": w.land_dissipated,
     }
-    if model.p.scene.cage == CageModel.TWO_HALF:
+    if model.p.scene.cage != CageModel.RIGID:
         terms["joints"] = ball_array_sum(w.joint_dissipated)
+    if model.p.scene.cage == CageModel.ELASTIC:
+        terms["modes"] = w.modes_dissipated
     return terms
 
 

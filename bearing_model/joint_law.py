@@ -28,6 +28,7 @@ from functools import cached_property
 
 import numpy as np
 
+from bearing_model.lanes import absolute
 from bearing_model.rivet_splines import cell_weights
 
 AXES = ("tau", "q", "psi")
@@ -80,16 +81,17 @@ class JointLaw:
 
 def ratio(top, bottom):
     """top/bottom, 0 where bottom is 0."""
-    return np.divide(top, bottom, out=np.zeros(np.broadcast(top, bottom).shape), where=np.asarray(bottom) > 0.0)
+    out = np.zeros(np.broadcast(top, bottom).shape, dtype=np.result_type(top, bottom, float))
+    return np.divide(top, bottom, out=out, where=np.real(bottom) > 0.0)
 
 
 def law_coordinates(length, load, P):
     """s and (tau, q, psi) of loads [..., 3] = (N, M_r, M_t) and preloads [...]."""
     N, M_r, M_t = np.moveaxis(load, -1, 0)
-    M = np.hypot(M_r, M_t) / length
-    W = np.hypot(N, M)
+    M = np.sqrt(M_r * M_r + M_t * M_t) / length
+    W = np.sqrt(N * N + M * M)
     s = P + W
-    return s, (ratio(W, s), ratio(N, np.abs(N) + M), ratio(M_t, np.abs(M_t) + np.abs(M_r)))
+    return s, (ratio(W, s), ratio(N, absolute(N) + M), ratio(M_t, absolute(M_t) + absolute(M_r)))
 
 
 def law_load(length, tau, q, psi):
@@ -102,7 +104,14 @@ def law_load(length, tau, q, psi):
 
 def joint_law(law, load, P):
     """Moves (u, phi_r, phi_t) [..., 3] of the pad and loads (T, m_r, m_t) [..., 3] of the rivet, under loads [..., 3] and preloads [...] >= 0."""
-    load, P = np.asarray(load, dtype=float), np.asarray(P, dtype=float)
+    s, result = law_spline(law, law.coefficients, np.asarray(load), np.asarray(P))
+    result = result * s[..., None]
+    side = np.where(np.real(load)[..., 1] < 0.0, -1.0, 1.0)[..., None] * [0.0, 1.0, 0.0] + [1.0, 0.0, 1.0]
+    return result[..., :3] * side, result[..., 3:] * side
+
+
+def law_spline(law, coefficients, load, P):
+    """s = P + W [N] and the values [..., numbers] of splines with some coefficients [tau, q, psi, numbers] of the law's knots, under loads and preloads."""
     s, at = law_coordinates(law.length, load, P)
     first, weight = zip(*(cell_weights(law.knots[name], value) for name, value in zip(AXES, at, strict=True)), strict=True)
     result = 0.0
@@ -110,10 +119,8 @@ def joint_law(law, load, P):
         for j in range(3):
             for k in range(3):
                 w = weight[0][..., i] * weight[1][..., j] * weight[2][..., k]
-                result = result + w[..., None] * law.coefficients[first[0] + i, first[1] + j, first[2] + k]
-    result = result * s[..., None]
-    side = np.where(load[..., 1] < 0.0, -1.0, 1.0)[..., None] * [0.0, 1.0, 0.0] + [1.0, 0.0, 1.0]
-    return result[..., :3] * side, result[..., 3:] * side
+                result = result + w[..., None] * coefficients[first[0] + i, first[1] + j, first[2] + k]
+    return s, result
 
 
 def relief(stiffness, moves):

@@ -150,7 +150,8 @@ def energy_outputs(model, w, work, energy_start):
     parts = {"races": w.race_dissipated, "inlet": w.inlet_dissipated, "spin": w.spin_dissipated, "ball_drag": w.drag_dissipated, "pockets": w.pocket_dissipated}
     values = {f"loss.{name}": ball_array_sum(power) for name, power in parts.items()}
     values |= {"loss.cage_drag": w.cage_drag_dissipated, "loss.ring_drag": w.ring_drag_dissipated, "loss.land": w.land_dissipated}
-    values["loss.joints"] = ball_array_sum(w.joint_dissipated) if model.p.scene.cage == CageModel.TWO_HALF else 0.0 * values["loss.races"]
+    values["loss.joints"] = ball_array_sum(w.joint_dissipated) if model.p.scene.cage != CageModel.RIGID else 0.0 * values["loss.races"]
+    values["loss.modes"] = w.modes_dissipated if model.p.scene.cage == CageModel.ELASTIC else 0.0 * values["loss.races"]
     values["bearing.power_loss"] = power_loss(model, w)
     values |= {"shaft.power": shaft_power(w), "housing.power": housing_power(model, w), "frame.power": frame_power(model, w)}
     return {name: value[..., 0] for name, value in values.items()} | {"bearing.energy": energy, "bearing.energy_residual": energy - energy_start - work}

@@ -21,6 +21,7 @@ reported, not modelled.
 
 import numpy as np
 
+from bearing_model.cage_elastic import cage_elastic_approach, cage_elastic_walls
 from bearing_model.hertz import hertz_damped, hertz_energy, hertz_load
 from bearing_model.lanes import ball_array_sum, maximum, minimum
 from bearing_model.traction import Q_FLOOR, traction_asperity_share, traction_inlet, traction_ln_film
@@ -72,10 +73,18 @@ def pocket_half(model, w, h, mixed, whole):
     n = n_x * a + n_t * e_t
     delta_dot = vec_dot(n, v)
 
+    elastic, tilt, stored = p.scene.cage == CageModel.ELASTIC, 0.0, 0.0
+    if elastic:  # the wall has moved by u, by its modes and what they leave
+        u, u_dot, tilt, shape = cage_elastic_walls(model, w, h, n_x, n_t, S)
+        wall = delta - n_x * u[0] - n_t * u[2]
+        delta = cage_elastic_approach(d, lambda own: pocket_share(d, h, n_x, own)[0], wall)
+        v = v - (u_dot[0] * a + u_dot[1] * b + u_dot[2] * e_t)
+        delta_dot = vec_dot(n, v)
+        stored = 0.5 * (wall - delta) * hertz_load(d.pocket.K, delta)
     w_h, e_h, slope = (1.0, 1.0, 0.0) if whole else pocket_share(d, h, n_x, delta)
     Q_0 = w_h * hertz_load(d.pocket.K, delta)
     Q = hertz_damped(Q_0, p.cage.lambda_, delta_dot)
-    F_across = hertz_energy(d.pocket.K, delta) * slope * n_t / S  # -dV/dn_x grad n_x, grad n_x = (n_t a - n_x e_t) n_t/S
+    F_across = hertz_energy(d.pocket.K, delta) * slope * n_t / S - Q_0 * tilt  # -dV/dn_x grad n_x, grad n_x = (n_t a - n_x e_t) n_t/S
     F_n = -Q * n - F_across * (n_t * a - n_x * e_t)
 
     arm = d.R * n
@@ -98,9 +107,13 @@ def pocket_half(model, w, h, mixed, whole):
     w.pocket_M[h] = vec_to_global(-vec_cross(arm_p, F) - M, w.cos_theta, w.sin_theta)
     w.pocket[h] = np.array([-vec_dot(F, a), -vec_dot(F, b), -vec_dot(F, e_t)])
     w.pocket_push[h] = np.array([Q * n_x + F_across * n_t, Q * n_t - F_across * n_x])
+    if elastic:
+        on_wall = (Q * n_x - vec_dot(F_s + F_c, a), -vec_dot(F_s + F_c, b), Q * n_t - vec_dot(F_s + F_c, e_t))
+        w.pocket_modal[h] = sum(force[..., None] * motion for force, motion in zip(on_wall, shape, strict=True))
+        stored = stored * w_h
     half.F, half.M = ball_array_sum(w.pocket_F[h]), ball_array_sum(w.pocket_M[h])
     w.delta_c[h], w.Q_c[h] = delta, Q
-    w.pocket_energy = w.pocket_energy + e_h * hertz_energy(d.pocket.K, delta)
+    w.pocket_energy = w.pocket_energy + e_h * hertz_energy(d.pocket.K, delta) + stored
 
 
 def pocket_force(model, w):
@@ -111,7 +124,7 @@ def pocket_force(model, w):
     D, D_omega: rates at which friction slows each velocity of a ball by itself, -d(acceleration)/d(velocity) [1/s], for the integrator's Jacobian.
     """
     mixed, rigid = model.p.scene.lubrication == Lubrication.MIXED, model.p.scene.cage == CageModel.RIGID
-    w.delta_c, w.Q_c, w.pocket, w.pocket_push, w.pocket_F, w.pocket_M = {}, {}, {}, {}, {}, {}  # by half
+    w.delta_c, w.Q_c, w.pocket, w.pocket_push, w.pocket_F, w.pocket_M, w.pocket_modal = {}, {}, {}, {}, {}, {}, {}  # by half
     w.pocket_energy, w.pocket_dissipated = 0.0, 0.0
     w.D, w.D_omega = 0.0 * w.F, 0.0 * w.F
     if rigid:

@@ -5,6 +5,7 @@ from dataclasses import replace
 import numpy as np
 
 from bearing_model.ball import ball_acceleration, ball_kinematics
+from bearing_model.cage_elastic import cage_elastic_acceleration, cage_elastic_coriolis, cage_elastic_energy, cage_elastic_joints, cage_elastic_kinematics, cage_elastic_pads
 from bearing_model.cage_joint import cage_joint_force, cage_joint_kinematics
 from bearing_model.drag import drag_cage, drag_force, drag_mixture, drag_ring
 from bearing_model.energy import net_power
@@ -34,7 +35,6 @@ from bearing_model.variables import (
     JOINT_HEAD_Z,
     JOINT_PLATE_Y,
     JOINT_PLATE_Z,
-    N_STATES,
     RING_BETA,
     RING_BETA_DOT,
     RING_GAMMA,
@@ -102,11 +102,15 @@ def cage_acceleration(model, y, w, y_dot):
     """Both halves under their forces, or as one rigid body about their common centre of mass."""
     p, d = model.p, model.d
     frame = model.ring_load
-    if p.scene.cage == CageModel.TWO_HALF:
+    if p.scene.cage != CageModel.RIGID:
         for h, half in enumerate(w.half):
             s, v = half.x + half.c, half.v + vec_cross(half.Omega, half.c)  # of the centre of mass
             M = half.M - vec_cross(half.c, half.F) + frame_moment(frame, half, d.J_p, d.J_t)
+            if p.scene.cage == CageModel.ELASTIC:  # what widens takes spin
+                M = M - cage_elastic_coriolis(model, w, h) * half.a
             a_ddot, s_dot = rotor_acceleration(half, d.J_p, d.J_t, M)
+            if p.scene.cage == CageModel.ELASTIC:
+                s_dot = s_dot * d.J_p / (d.J_p + w.more_J[h])
             half_rates(y, half, h, half.F / p.cage.m + frame_acceleration(frame, s, v), a_ddot, s_dot, y_dot)
         return
     cage = w.half[0]
@@ -126,18 +130,20 @@ def cage_acceleration(model, y, w, y_dot):
 def rhs(model, t, y, w=None):
     """dy/dt at time t [s], one for all states or one for each.
 
-    y: state [..., N_STATES], offsets in variables.py; leading axes are independent states, complex values carry derivatives.
+    y: state [..., N_STATES], of elastic halves N_ALL_STATES, offsets in variables.py; leading axes are independent states, complex values carry derivatives.
     w: a Work that keeps all results, if given.
     """
-    if y.shape[-1] != N_STATES:
-        raise ValueError(f"y has {y.shape[-1]} states; {N_STATES} are needed")
+    if y.shape[-1] != len(model.d.scale):
+        raise ValueError(f"y has {y.shape[-1]} states; {len(model.d.scale)} are needed")
     w = Work() if w is None else w
     if model.trajectory:
         model = replace(model, ring_load=ring_load_at(model.trajectory, np.expand_dims(t, -1)), trajectory=None)
-    rigid = model.p.scene.cage == CageModel.RIGID
+    rigid, elastic = (model.p.scene.cage == kind for kind in (CageModel.RIGID, CageModel.ELASTIC))
     ball_kinematics(y, w)
     rotor_kinematics(model, y, w)
     race_contact_force(model, w)
+    if elastic:
+        cage_elastic_kinematics(model, y, w)
     pocket_force(model, w)
     drag_mixture(model, w)
     drag_force(model, w)
@@ -146,6 +152,9 @@ def rhs(model, t, y, w=None):
     drag_cage(model, w)
     if not rigid:
         cage_joint_kinematics(model, w)
+        if elastic:
+            cage_elastic_pads(model, w)
+            cage_elastic_joints(model, y, w)
         cage_joint_force(model, y, w)
     y_dot = np.zeros_like(y)
     ball_acceleration(model, w, y_dot)
@@ -156,11 +165,14 @@ def rhs(model, t, y, w=None):
         y_dot[..., JOINT_PLATE_Z] = w.plate_z_dot
         y_dot[..., JOINT_HEAD_Y] = w.head_y_dot
         y_dot[..., JOINT_HEAD_Z] = w.head_z_dot
+    if elastic:
+        cage_elastic_acceleration(model, y, w, y_dot)
+    w.modes_energy = cage_elastic_energy(model, y, w) if elastic else 0.0
     y_dot[..., WORK] = net_power(model, w)
     return y_dot
 
 
 def jacobian(model, t, y):
-    """d(dy/dt)/dy [N_STATES, N_STATES], exact to rounding: complex steps in all directions at once."""
+    """d(dy/dt)/dy [states, states], exact to rounding: complex steps in all directions at once."""
     step = 1e-30
-    return np.imag(rhs(model, t, y + 1j * step * np.eye(N_STATES))).T / step
+    return np.imag(rhs(model, t, y + 1j * step * np.eye(len(y)))).T / step

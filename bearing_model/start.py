@@ -39,7 +39,6 @@ from bearing_model.variables import (
     CAGE_X,
     CAGE_Y,
     CAGE_Z,
-    N_STATES,
     RING_BETA,
     RING_BETA_DOT,
     RING_GAMMA,
@@ -243,14 +242,14 @@ def join_motion(model, w, y):
 
 
 def start_state(model):
-    """The start state [N_STATES] and the largest residual force of the equilibrium [N]; ValueError if a ball is pressed out of its groove."""
+    """The start state [states] and the largest residual force of the equilibrium [N]; ValueError if a ball is pressed out of its groove."""
     d, theta = model.d, spacing(model.p, model.ring_load)
     eq = Equilibrium(model, theta)
     z, residual = equilibrium(eq)
     w = eq.contacts(z)
     check_grooves(model, w)
 
-    y = np.zeros(N_STATES)
+    y = np.zeros(len(model.d.scale))
     omega_m = orbital_speed(model, w)
     y[BALL_X] = w.x
     y[BALL_R] = w.r

@@ -140,6 +140,7 @@ void part_destroy(Bearing *b)
 {
     if (b == NULL) return;
     integrator_destroy(b->integrator);
+    aligned_delete(b->elastic);
     aligned_delete(b);
 }
 
@@ -202,9 +203,23 @@ static void derive_at(Bearing *b, const Inputs *u)
 {
     temperature_apply(&b->s.p, u, &b->hot);
     model_derive(&b->hot, &b->d);
+    b->model.elastic = NULL;
+    if (b->s.p.scene.cage == CAGE_MODEL_ELASTIC && b->elastic != NULL) {
+        elastic_half_derive(&b->hot, &b->d, b->elastic);
+        b->model.elastic = b->elastic;
+    }
     integrator_tolerance(b->integrator, b->s.tolerance);
     b->current = 0;
     b->evaluated = false;
+}
+
+// Memory for the modes of elastic halves, taken when a scene first needs them.  Returns whether there is any.
+static bool room_for_modes(Bearing *b)
+{
+    if (b->s.p.scene.cage != CAGE_MODEL_ELASTIC || b->elastic != NULL) return true;
+    b->elastic = aligned_new(elastic_half_size());
+    if (b->elastic == NULL) bearing_log(b, LOG_ERROR, "scene.cage = elastic: no memory for the modes of the halves");
+    return b->elastic != NULL;
 }
 
 // Computes all that follows from parameters and inputs and is therefore not saved.
@@ -241,7 +256,7 @@ static void change_temperature(Bearing *b, const Inputs *from, const Inputs *u)
 PartStatus part_initialize(Bearing *b, double t_start, double tolerance)
 {
     InstanceState *s = &b->s;
-    if (!check_all(b)) return PART_ERROR;
+    if (!check_all(b) || !room_for_modes(b)) return PART_ERROR;
     report_without_effect(b);
     s->t_start = t_start;
     s->tolerance = tolerance > 0.0 ? tolerance : s->p.solver.tol;
@@ -378,11 +393,11 @@ static void outputs_beside(const Bearing *b, const Inputs *u, Outputs *out)
     Parameters hot;
     Derived d;
     Work w;
-    double y_dot[N_STATES];
+    double y_dot[N_ALL_STATES];
     temperature_apply(&s->p, u, &hot);
     model_derive(&hot, &d);
     work_init(&d, &w);
-    const Model model = {&hot, &d, &b->ring_load, NULL};
+    const Model model = {&hot, &d, &b->ring_load, NULL, b->model.elastic};
     b->kernels.rhs(&model, s->integrator.t, s->integrator.now.y, y_dot, &w);
     const Evaluation at = {&model, s->integrator.now.y,    y_dot,
                            &w,     b->kernels.rivets_load, b->kernels.rivet_rom_stress};
@@ -428,7 +443,7 @@ void part_time_derivatives(Bearing *b, Outputs *derivatives)
     differentiate(b, 1.0, NULL, b->y_dot, derivatives);
 }
 
-void part_directional_derivatives(Bearing *b, const Inputs *inputs, const double state[N_STATES],
+void part_directional_derivatives(Bearing *b, const Inputs *inputs, const double state[N_ALL_STATES],
                                   Outputs *derivatives)
 {
     differentiate(b, 0.0, inputs, state, derivatives);
@@ -448,14 +463,14 @@ void part_save(const Bearing *b, void *saved)
 void part_restore(Bearing *b, const void *saved)
 {
     memcpy(&b->s, saved, sizeof b->s);
-    derive(b);
+    if (room_for_modes(b)) derive(b);
 }
 
 // All outputs at the restored state, and its derivative.
 static bool outputs_are_numbers(Bearing *b)
 {
     evaluate(b);
-    bool fine = b->kernels.ops->finite(b->y_dot);
+    bool fine = (b->model.elastic ? b->kernels.ops_elastic : b->kernels.ops)->finite(b->y_dot);
     for (int group = 0; group < GROUP_COUNT; group++) part_update(b, (OutputGroup)group);
     for (const Variable *v = VARIABLES; v < VARIABLES + N_VARIABLES; v++) {
         if (v->causality != CAUSALITY_OUTPUT) continue;
@@ -469,7 +484,7 @@ static bool outputs_are_numbers(Bearing *b)
 bool part_restore_unknown(Bearing *b, const void *saved)
 {
     memcpy(&b->s, saved, sizeof b->s);
-    if (!check_saved(b)) return false;
+    if (!check_saved(b) || !room_for_modes(b)) return false;
     derive(b);
     return !b->s.initialized || outputs_are_numbers(b);
 }

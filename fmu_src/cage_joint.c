@@ -22,6 +22,7 @@
 // Smoothness: C0 at opening and bearing (a spring of finite stiffness begins), C0 at v = 0.
 #include "cage_joint.h"
 
+#include "elastic_half.h"
 #include "rotor.h"
 #include "vec.h"
 
@@ -56,6 +57,19 @@ void cage_joint_kinematics(const Model *model, Work *w)
             wide_store(&v_out[i][k], v_0 + B_y * s_y + B_z * s_z);
         }
     }
+}
+
+// Stiffnesses in the plane [N/m]: of elastic halves in series with what their modes leave.
+typedef struct {
+    double plate, head, hole;
+} JointStiffness;
+
+static JointStiffness joint_stiffness(const Model *model)
+{
+    const Derived *d = model->d;
+    if (!model->elastic) return (JointStiffness){d->k_plate_t, d->k_head, d->k_hole};
+    const double series = model->elastic->series, hole = model->elastic->series_hole;
+    return (JointStiffness){series * d->k_plate_t, series * d->k_head, hole * d->k_hole};
 }
 
 // Dahl's friction with force -k z: sets the rate of z and its decay D, returns the dissipated power.
@@ -94,17 +108,24 @@ static void advance(const Work *w, double h, double k, const double *capacity, i
 void cage_joint_advance(const Model *model, const Work *w, double h, double *y)
 {
     const Derived *d = model->d;
-    const double mu = model->p->joint.mu, floor = model->p->joint.F_floor, dT = cage_joint_prying(model, w);
+    const double mu = model->p->joint.mu, floor = model->p->joint.F_floor;
+    const double dT = model->elastic ? 0.0 : cage_joint_prying(model, w);
+    const JointStiffness k_in = joint_stiffness(model);
     const wide zero = wide_set(0.0);
     ball_array plates, heads;
     for (int b = 0; b < PACKETS; b++) {
         const int k = b * LANE_WIDTH;
+        if (model->elastic) {
+            wide_store(&plates[k], mu * wide_load(&w->N_plate[k]) + floor);
+            wide_store(&heads[k], mu * wide_load(&w->T[k]) + floor);
+            continue;
+        }
         const wide u_x = wide_load(&w->u_x[k]);
         wide_store(&plates[k], mu * wide_max(wide_max(d->P - d->k_plate * u_x, zero) + dT, zero) + floor);
         wide_store(&heads[k], mu * wide_max(wide_max(d->P + d->k_rivet * u_x, zero) + dT, zero) + floor);
     }
-    advance(w, h, d->k_plate_t, plates, Y_JOINT_PLATE_Y, Y_JOINT_PLATE_Z, y);
-    advance(w, h, d->k_head, heads, Y_JOINT_HEAD_Y, Y_JOINT_HEAD_Z, y);
+    advance(w, h, k_in.plate, plates, Y_JOINT_PLATE_Y, Y_JOINT_PLATE_Z, y);
+    advance(w, h, k_in.head, heads, Y_JOINT_HEAD_Y, Y_JOINT_HEAD_Z, y);
 }
 #endif
 
@@ -141,16 +162,23 @@ void cage_joint_force(const Model *model, const scalar *y, Work *w)
     memcpy(h_z, &y[Y_JOINT_HEAD_Z], Z * sizeof *y);
 
     const wide zero = wide_set(0.0), P = wide_set(d->P), floor = wide_set(p->joint.F_floor);
-    const wide mu = wide_set(p->joint.mu), dT = wide_set(cage_joint_prying(model, w));
-    const wide k_t = wide_set(d->k_plate_t), k_h = wide_set(d->k_head);
+    const wide mu = wide_set(p->joint.mu), dT = wide_set(model->elastic ? 0.0 : cage_joint_prying(model, w));
+    const ElasticHalf *elastic = model->elastic;
+    const JointStiffness k_in = joint_stiffness(model);
+    const wide k_t = wide_set(k_in.plate), k_h = wide_set(k_in.head);
     for (int b = 0; b < PACKETS; b++) {
         const int k = b * LANE_WIDTH;
         const wide u_x = wide_load(&w->u_x[k]), u_y = wide_load(&w->u_y[k]), u_z = wide_load(&w->u_z[k]);
         const wide v_x = wide_load(&w->v_jx[k]), v_y = wide_load(&w->v_jy[k]), v_z = wide_load(&w->v_jz[k]);
 
         // tension, plate force, friction
-        const wide T = wide_max(P + d->k_rivet * u_x, zero), N_plate = wide_max(P - d->k_plate * u_x, zero);
-        const wide damping = d->c_joint * N_plate / (N_plate + floor);
+        wide T, N_plate, damping;
+        if (elastic) {  // the law of the joint has given them (cage_elastic.c)
+            T = wide_load(&w->T[k]), N_plate = wide_load(&w->N_plate[k]), damping = zero;
+        } else {
+            T = wide_max(P + d->k_rivet * u_x, zero), N_plate = wide_max(P - d->k_plate * u_x, zero);
+            damping = d->c_joint * N_plate / (N_plate + floor);
+        }
         const wide speed = wide_sqrt(v_y * v_y + v_z * v_z);
         const wide zp_y = wide_load(&z_y[k]), zp_z = wide_load(&z_z[k]);
         const wide zh_y = wide_load(&h_y[k]), zh_z = wide_load(&h_z[k]);
@@ -161,8 +189,8 @@ void cage_joint_force(const Model *model, const scalar *y, Work *w)
 
         // hole contact
         const wide slip = wide_sqrt(u_y * u_y + u_z * u_z + 1e-30);
-        const wide bearing = d->k_hole * wide_max(slip - d->hole_gap, zero) / slip;
-        wide_store(&w->k_bearing[k], wide_select(wide_above(slip, d->hole_gap), wide_set(d->k_hole), zero));
+        const wide bearing = k_in.hole * wide_max(slip - d->hole_gap, zero) / slip;
+        wide_store(&w->k_bearing[k], wide_select(wide_above(slip, d->hole_gap), wide_set(k_in.hole), zero));
 
         wide_store(&w->T[k], T);
         wide_store(&w->N_plate[k], N_plate);
@@ -175,9 +203,15 @@ void cage_joint_force(const Model *model, const scalar *y, Work *w)
         wide_store(&w->joint_dissipated[k], lost + damping * v_x * v_x);
 
         // wrench on half 1 at its hole, which is at s + u from the centre of half 0, in the frame of half 0
-        const wide f_x = N_plate - T - damping * v_x, f_y = -k_t * zp_y - k_h * zh_y - bearing * u_y;
+        const wide f_x = elastic ? -wide_load(&w->joint_load[0][k]) : N_plate - T - damping * v_x, f_y = -k_t * zp_y - k_h * zh_y - bearing * u_y;
         const wide f_z = -k_t * zp_z - k_h * zh_z - bearing * u_z;
-        const wide r_y = wide_load(&d->rivet_y[k]) + u_y, r_z = wide_load(&d->rivet_z[k]) + u_z;
+        wide r_y = wide_load(&d->rivet_y[k]) + u_y, r_z = wide_load(&d->rivet_z[k]) + u_z;
+        if (elastic) {  // modes move no centre of mass
+            r_y = wide_load(&d->rivet_y[k]) + wide_load(&w->rigid_u_y[k]);
+            r_z = wide_load(&d->rivet_z[k]) + wide_load(&w->rigid_u_z[k]);
+            wide_store(&w->joint_F_y[k], f_y);
+            wide_store(&w->joint_F_z[k], f_z);
+        }
         wide_store(&F_x[k], f_x);
         wide_store(&F_y[k], f_y);
         wide_store(&F_z[k], f_z);

@@ -212,6 +212,7 @@ static void derive_scales(const Parameters *p, Derived *d)
     d->scale[SCALE_NORMAL] = equal ? velocity : 1.5 * velocity;
     d->scale[SCALE_RATE] = velocity / r;
     d->scale[SCALE_ORBIT] = (equal ? velocity : velocity / 6.0) / r;
+    d->scale[SCALE_MODE] = velocity;
     d->scale[SCALE_SPIN] = velocity / (0.5 * p->bearing.D);
     d->scale[SCALE_ANGLE] = d->scale[SCALE_TILT] = length / r;
     d->scale[SCALE_PLATE] = friction / d->k_plate_t;

@@ -7,6 +7,7 @@
 // F and M of the contacts on the ring, and its growth the power -K delta^1.5 n.e dR_g/dt, (race_contact.c).  The energy is for outputs only; the integration does not use it.
 #include "energy.h"
 
+#include "elastic_half.h"
 #include "hertz.h"
 #include "pocket.h"
 #include "ring_fit.h"
@@ -33,9 +34,14 @@ static scalar contact_energy(const Model *model, const Work *w)
     for (int j = 0; j < PACKETS * LANE_WIDTH; j += LANE_WIDTH) {
         wide E = hertz_energy(K_i, wide_load(&w->delta_i[j])) + hertz_energy(K_e, wide_load(&w->delta_e[j]));
         for (int h = 0; h < (rigid ? 1 : 2); h++) {
-            const PocketGap gap = pocket_gap(d, w, &w->half[h], j);
+            PocketGap gap = pocket_gap(d, w, &w->half[h], j);
+            if (model->elastic) gap.delta = wide_load(&w->delta_c[h][j]);
             const wide whole = hertz_energy(K, gap.delta);
             E += rigid ? whole : pocket_share(d, h, gap.n_x, gap.delta).energy * whole;
+            if (model->elastic) {  // in the wall, beside its modes
+                const wide Q = pocket_share(d, h, gap.n_x, gap.delta).load * hertz_load(K, gap.delta);
+                E += (0.5 * model->elastic->compliance) * Q * Q;
+            }
         }
         wide_store(&stored[j], E);
     }
@@ -43,12 +49,18 @@ static scalar contact_energy(const Model *model, const Work *w)
 }
 
 // Elastic energy of joint k: rivet, plates, friction states, hole contact.
-static scalar joint_energy(const Derived *d, const scalar *y, const Work *w, int k)
+static scalar joint_energy(const Model *model, const scalar *y, const Work *w, int k)
 {
+    const Derived *d = model->d;
     const scalar z_y = y[Y_JOINT_PLATE_Y + k], z_z = y[Y_JOINT_PLATE_Z + k], h_y = y[Y_JOINT_HEAD_Y + k];
     const scalar h_z = y[Y_JOINT_HEAD_Z + k];
     const scalar bearing =
         scalar_max(0.0, scalar_sqrt(w->u_y[k] * w->u_y[k] + w->u_z[k] * w->u_z[k]) - d->hole_gap);
+    if (model->elastic) {
+        const double k_in = model->elastic->series, k_hole = model->elastic->series_hole * d->k_hole;
+        return w->joint_potential[k] + 0.5 * (k_in * d->k_plate_t * (z_y * z_y + z_z * z_z) +
+                                              k_in * d->k_head * (h_y * h_y + h_z * h_z) + k_hole * bearing * bearing);
+    }
     return 0.5 * (w->T[k] * w->T[k] / d->k_rivet + w->N_plate[k] * w->N_plate[k] / d->k_plate +
                   d->k_plate_t * (z_y * z_y + z_z * z_z) + d->k_head * (h_y * h_y + h_z * h_z) +
                   d->k_hole * bearing * bearing);
@@ -59,9 +71,10 @@ scalar energy_total(const Model *model, const scalar *y, const Work *w)
     const Parameters *p = model->p;
     const bool rigid = p->scene.cage == CAGE_MODEL_RIGID;
     scalar E = w->land_elastic + contact_energy(model, w);
+    if (model->elastic) E += w->modes_energy;
     for (int j = 0; j < Z; j++) {
         E += ball_energy(model, y, j);
-        if (!rigid) E += joint_energy(model->d, y, w, j);
+        if (!rigid) E += joint_energy(model, y, w, j);
     }
     for (int h = 0; h < 2; h++) {
         const Rotor *half = &w->half[h];

@@ -585,7 +585,7 @@ static fmi2Status GetDirectionalDerivative(fmi2Component c, const fmi2ValueRefer
     if ((n_unknown > 0 && (!unknown || !d_unknown)) || (n_known > 0 && (!known || !d_known)))
         return refuse(m, call, "a null pointer");
     Inputs inputs;
-    double state[N_STATES] = {0.0};
+    double state[N_ALL_STATES] = {0.0};
     memset(&inputs, 0, sizeof inputs);
     for (size_t i = 0; i < n_known; i++) {
         int element;

@@ -356,7 +356,7 @@ static int films(const Model *model, const Work *w, int h, double gamma, Film f[
 {
     const Parameters *p = model->p;
     const double m = p->cage.m, J_p = model->d->J_p, J_t = model->d->J_t, x_c = p->cage.x_c;
-    if (p->scene.cage == CAGE_MODEL_TWO_HALF) {
+    if (p->scene.cage != CAGE_MODEL_RIGID) {
         const double x_land = h == 0 ? -p->cage.land_x : p->cage.land_x;
         f[0] = film(w, h, m, J_p, J_t, x_land - model->d->com_x[h], gamma);
         return 1;
@@ -505,7 +505,7 @@ static wide shear_stiffness(const Model *model, const Work *w, double gamma, int
 // from the centres of mass, 0.2 % of the halves' response.
 double implicit_shear(const Model *model, const Work *w, double gamma, double *v)
 {
-    if (model->p->scene.cage == CAGE_MODEL_RIGID) return 0.0;
+    if (model->p->scene.cage != CAGE_MODEL_TWO_HALF) return 0.0;
     const Derived *d = model->d;
     const Rotor *h0 = &w->half[0];
 

@@ -2,6 +2,7 @@
 // files only.
 #pragma once
 
+#include "elastic_half.h"
 #include "events.h"
 #include "fatigue.h"
 #include "integrator.h"
@@ -49,12 +50,13 @@ struct Part {
     InputTrajectory trajectory;
     RingLoad ring_load;
     Model model;
+    ElasticHalf *elastic;  // of a scene with elastic halves, kept for the next one; else NULL
     Work w;
     Outputs out;
     Kernels kernels;
     Integrator *integrator;
     unsigned current;        // one bit for each output group: set while the group is up to date
-    double y_dot[N_STATES];  // dy/dt at the present state
+    double y_dot[N_ALL_STATES];  // dy/dt at the present state
     bool evaluated;          // w and y_dot belong to the present state and inputs
     bool reported;           // inputs and parameters without effect have been logged
     double cpu_time;         // processor time of all steps [s]

@@ -28,7 +28,7 @@
 
 // Size of the block in which SUNDIALS allocates: its 15 vectors of the states, and what does not grow with them.
 // A test sees that the block is large enough.
-enum { SUNDIALS_MEMORY = 20 * N_STATES * sizeof(double) + 32768 };
+enum { SUNDIALS_MEMORY = 20 * N_ALL_STATES * sizeof(double) + 32768 };
 
 struct Integrator {
     _Alignas(64) unsigned char block[SUNDIALS_MEMORY];
@@ -43,7 +43,8 @@ struct Integrator {
     SUNContext sun;
     N_Vector y;  // the step's result
     void *arkode;
-    double weight[N_STATES];
+    const VectorOps *ops;  // of the scene
+    double weight[N_ALL_STATES];
     VerletState trial;
     const double *latest;       // where ARKODE keeps the latest evaluation
     bool starting;              // the next evaluation is at (s->t, s->now.y), where s->now.f is known
@@ -54,8 +55,8 @@ struct Integrator {
 // ---- vectors of ARKODE: fixed length, operations of this processor's instruction set ----------------------
 
 typedef struct {
-    const VectorOps *ops;
-    double value[N_STATES];
+    const VectorOps *const *ops;  // where the integrator keeps them
+    double value[N_ALL_STATES];
 } Content;
 
 static double *data(N_Vector v)
@@ -65,7 +66,12 @@ static double *data(N_Vector v)
 
 static const VectorOps *ops(N_Vector v)
 {
-    return ((const Content *)v->content)->ops;
+    return *((const Content *)v->content)->ops;
+}
+
+static int states(N_Vector v)
+{
+    return ops(v)->states;
 }
 
 static N_Vector_ID vector_id(N_Vector v)
@@ -76,8 +82,7 @@ static N_Vector_ID vector_id(N_Vector v)
 
 static sunindextype vector_length(N_Vector v)
 {
-    (void)v;
-    return N_STATES;
+    return states(v);
 }
 
 static N_Vector vector_clone(N_Vector like)
@@ -90,7 +95,7 @@ static N_Vector vector_clone(N_Vector like)
         N_VFreeEmpty(v);
         return NULL;
     }
-    ((Content *)v->content)->ops = ops(like);
+    ((Content *)v->content)->ops = ((const Content *)like->content)->ops;
     return v;
 }
 
@@ -125,47 +130,47 @@ static double vector_wrms_norm(N_Vector x, N_Vector w)
 static void vector_scale(sunrealtype c, N_Vector x, N_Vector z)
 {
     if (c == 1.0) {
-        if (x != z) memcpy(data(z), data(x), sizeof(double) * N_STATES);
+        if (x != z) memcpy(data(z), data(x), sizeof(double) * (size_t)states(z));
     } else {
-        for (int i = 0; i < N_STATES; i++) data(z)[i] = c * data(x)[i];
+        for (int i = 0; i < states(z); i++) data(z)[i] = c * data(x)[i];
     }
 }
 
 static void vector_const(sunrealtype c, N_Vector z)
 {
-    for (int i = 0; i < N_STATES; i++) data(z)[i] = c;
+    for (int i = 0; i < states(z); i++) data(z)[i] = c;
 }
 
 // ARKODE checks that these operations exist.  It calls them only to choose a first step, which is always
 // given.
 static void vector_div(N_Vector x, N_Vector y, N_Vector z)
 {
-    for (int i = 0; i < N_STATES; i++) data(z)[i] = data(x)[i] / data(y)[i];
+    for (int i = 0; i < states(z); i++) data(z)[i] = data(x)[i] / data(y)[i];
 }
 
 static void vector_abs(N_Vector x, N_Vector z)
 {
-    for (int i = 0; i < N_STATES; i++) data(z)[i] = fabs(data(x)[i]);
+    for (int i = 0; i < states(z); i++) data(z)[i] = fabs(data(x)[i]);
 }
 
 static void vector_inv(N_Vector x, N_Vector z)
 {
-    for (int i = 0; i < N_STATES; i++) data(z)[i] = 1.0 / data(x)[i];
+    for (int i = 0; i < states(z); i++) data(z)[i] = 1.0 / data(x)[i];
 }
 
 static void vector_add_const(N_Vector x, sunrealtype b, N_Vector z)
 {
-    for (int i = 0; i < N_STATES; i++) data(z)[i] = data(x)[i] + b;
+    for (int i = 0; i < states(z); i++) data(z)[i] = data(x)[i] + b;
 }
 
 static double vector_max_norm(N_Vector x)
 {
     double max = 0.0;
-    for (int i = 0; i < N_STATES; i++) max = fmax(max, fabs(data(x)[i]));
+    for (int i = 0; i < states(x); i++) max = fmax(max, fabs(data(x)[i]));
     return max;
 }
 
-static N_Vector vector_new(SUNContext sun, const VectorOps *vector_operations)
+static N_Vector vector_new(SUNContext sun, const VectorOps *const *vector_operations)
 {
     N_Vector v = N_VNewEmpty(sun);
     if (v == NULL) return NULL;
@@ -211,8 +216,8 @@ static void evaluate(Integrator *in, double t, const double *y, double *f)
     in->kernels->rhs(in->model, t, y, f, in->w);
     in->s->rhs_evals += 1.0;
     in->latest = f;
-    if (in->kernels->ops->finite(f)) return;
-    stepping_refuse(in->weight, in->nonfinite_stages++, f);
+    if (in->ops->finite(f)) return;
+    stepping_refuse(in->weight, in->ops->states, in->nonfinite_stages++, f);
 }
 
 static int explicit_rhs(sunrealtype t, N_Vector y, N_Vector f, void *user)
@@ -224,7 +229,7 @@ static int explicit_rhs(sunrealtype t, N_Vector y, N_Vector f, void *user)
 static int weights(N_Vector y, N_Vector ewt, void *user)
 {
     (void)y;
-    memcpy(data(ewt), ((const Integrator *)user)->weight, sizeof(double) * N_STATES);
+    memcpy(data(ewt), ((const Integrator *)user)->weight, sizeof(double) * (size_t)states(ewt));
     return 0;
 }
 
@@ -290,7 +295,7 @@ Integrator *integrator_create(const Kernels *kernels, const Model *model, Work *
     Integrator *in = aligned_new(sizeof *in);
     if (in == NULL) return NULL;
     memset(in, 0, sizeof *in);
-    in->kernels = kernels, in->model = model, in->w = w, in->s = state;
+    in->kernels = kernels, in->ops = kernels->ops_elastic, in->model = model, in->w = w, in->s = state;
     in->hook = hook, in->log = log, in->context = context;
     in->memory = (ReservedMemory){in->block, sizeof in->block, 0};
     reserved_memory_use(&in->memory);
@@ -298,12 +303,12 @@ Integrator *integrator_create(const Kernels *kernels, const Model *model, Work *
     if (fine) {
         SUNContext_ClearErrHandlers(in->sun);
         fine = SUNContext_PushErrHandler(in->sun, report, in) == SUN_SUCCESS &&
-               (in->y = vector_new(in->sun, kernels->ops)) != NULL;
+               (in->y = vector_new(in->sun, &in->ops)) != NULL;
     }
     if (fine) {  // error weights of 1 for the warm-up, until integrator_tolerance
         in->arkode = ERKStepCreate(explicit_rhs, 0.0, in->y, in->sun);
         fine = in->arkode != NULL && set_up(in->arkode, in) == 0 && explicit_table(in->arkode) == ARK_SUCCESS;
-        for (int i = 0; i < N_STATES; i++) in->weight[i] = 1.0;
+        for (int i = 0; i < N_ALL_STATES; i++) in->weight[i] = 1.0;
         fine = fine && warm_up(in);
     }
     reserved_memory_use(NULL);
@@ -327,6 +332,7 @@ void integrator_destroy(Integrator *in)
 
 void integrator_tolerance(Integrator *in, double tolerance)
 {
+    in->ops = in->model->elastic ? in->kernels->ops_elastic : in->kernels->ops;
     stepping_weights(in->model->d, tolerance, in->weight);
 }
 
@@ -471,7 +477,7 @@ int integrator_advance(Integrator *in, double t_stop, long max_steps)
 {
     // Without a derivative at the start there is no step.
     integrator_evaluate(in);
-    if (!in->kernels->ops->finite(in->s->now.f)) {
+    if (!in->ops->finite(in->s->now.f)) {
         memset(in->s->now.f, 0, sizeof in->s->now.f);
         in->s->f_is_current = 0;
         return ARK_RHSFUNC_FAIL;
@@ -492,6 +498,7 @@ static double largest_of(StateScale scale)
     switch (scale) {
     case SCALE_LENGTH:
     case SCALE_NORMAL:
+    case SCALE_MODE:
     case SCALE_VELOCITY: return 1e6;
     case SCALE_ANGLE: return 1e15;
     case SCALE_TILT:
@@ -506,7 +513,7 @@ static double largest_of(StateScale scale)
     return 0.0;
 }
 
-bool integrator_state_is_valid(const IntegratorState *s)
+bool integrator_state_is_valid(const IntegratorState *s, bool elastic)
 {
     // A state crosses its range in no less than a microsecond [1/s]; largest film rate [N.s/m].
     const double RATE = 1e6, LARGEST_FILM = 1e30;
@@ -516,9 +523,9 @@ bool integrator_state_is_valid(const IntegratorState *s)
                 values_are_amounts(&s->h, 1) && s->h > 0.0;
 
     // States, their rates and the differences of their rates.
-    for (const StateBlock *b = STATE_BLOCKS; b < STATE_BLOCKS + N_STATE_BLOCKS; b++) {
+    for (const StateBlock *b = STATE_BLOCKS; b < STATE_BLOCKS + N_ALL_BLOCKS; b++) {
         const size_t n = (size_t)b->count;
-        const double largest = largest_of(b->scale);
+        const double largest = b->offset < N_STATES || elastic ? largest_of(b->scale) : 0.0;
         fine &= values_are_within(s->now.y + b->offset, n, largest) &&
                 values_are_within(s->now.f + b->offset, n, RATE * largest);
         fine &= values_are_within(s->now.jerk + b->offset, n, RATE * RATE * RATE * largest);

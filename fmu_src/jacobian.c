@@ -6,9 +6,11 @@
 #include "jacobian.h"
 
 #include "ball.c"
+#include "cage_elastic.c"
 #include "cage_joint.c"
 #include "drag.c"
 #include "energy.c"
+#include "elastic_wall.c"
 #include "half_path.c"
 #include "joint_law.c"
 #include "land_film.c"
@@ -44,8 +46,9 @@ void jacobian_product(const Model *model, double t, const double *y, const doubl
     RingLoad ring_load;
     InputTrajectory trajectory;
     Work work = {0};
-    scalar state[N_STATES], rate[N_STATES];
-    const Model dual = {model->p, model->d, &ring_load, NULL};
+    scalar state[N_ALL_STATES] = {0.0}, rate[N_ALL_STATES] = {0.0};
+    const int states = states_of(model);
+    const Model dual = {model->p, model->d, &ring_load, NULL, model->elastic};
     scalars_join(LOAD_SCALARS, (const double *)model->ring_load, NULL, (scalar *)&ring_load);
     if (model->trajectory) {
         scalars_join(TRAJECTORY_SCALARS, (const double *)model->trajectory, NULL, (scalar *)&trajectory);
@@ -53,18 +56,19 @@ void jacobian_product(const Model *model, double t, const double *y, const doubl
     }
     if (d_ring_load)
         for (int i = 0; i < LOAD_SCALARS; i++) ((scalar *)&ring_load)[i] += scalar_dual(0.0, d_ring_load[i]);
-    scalars_join(N_STATES, y, dy, state);
+    scalars_join(states, y, dy, state);
     rhs(&dual, t, state, rate, &work);
-    scalars_derivative(N_STATES, rate, dy_dot);
+    scalars_derivative(states, rate, dy_dot);
     if (dw) scalars_derivative(WORK_SCALARS, (const scalar *)&work, dw);
 }
 
 void jacobian_matrix(const Model *model, double t, const double *y, double *J)
 {
-    for (int j = 0; j < N_STATES; j++) {
-        double dy[N_STATES] = {0.0};
+    const int states = states_of(model);
+    for (int j = 0; j < states; j++) {
+        double dy[N_ALL_STATES] = {0.0};
         dy[j] = 1.0;
-        jacobian_product(model, t, y, dy, NULL, &J[j * N_STATES], NULL);
+        jacobian_product(model, t, y, dy, NULL, &J[j * states], NULL);
     }
 }
 
@@ -75,13 +79,14 @@ void jacobian_outputs(const Model *model, const double *trajectory, double t, do
     RingLoad ring_load;
     Work work = {0};
     Outputs out = {0};
-    scalar state[N_STATES], rate[N_STATES];
-    const Model dual = {model->p, model->d, &ring_load, NULL};
+    scalar state[N_ALL_STATES] = {0.0}, rate[N_ALL_STATES] = {0.0};
+    const int states = states_of(model);
+    const Model dual = {model->p, model->d, &ring_load, NULL, model->elastic};
     scalars_join(TRAJECTORY_SCALARS, trajectory, NULL, (scalar *)&inputs);
     if (du)
         for (int i = 0; i < N_INPUTS; i++) ((scalar *)&inputs.u[0])[i] += scalar_dual(0.0, du[i]);
     ring_load_at(&inputs, scalar_dual(t, dt), &ring_load);
-    scalars_join(N_STATES, y, dy, state);
+    scalars_join(states, y, dy, state);
     rhs(&dual, t, state, rate, &work);
     const Evaluation at = {&dual, state, rate, &work, rivets_load, rivet_rom_stress};
     for (int group = 0; group < GROUP_COUNT; group++) outputs_evaluate(&at, group, &out);

@@ -35,10 +35,11 @@
 #pragma once
 
 #include "isa.h"
+#include "octet.h"
 
 enum { AXIS_TAU, AXIS_Q, AXIS_PSI, LAW_AXES };
 
-enum { LAW_WIDTH = 8 };  // u, phi_r, phi_t, -, T, m_r, m_t, -
+enum { LAW_ENERGY = 3, LAW_WIDTH = 8 };  // u, phi_r, phi_t, energy (elastic_half.h; else 0), T, m_r, m_t, -
 
 // Joints that are all alike: L* and what pad and rivet do, per newton of s = P + c; then how one of them answers
 // to a change of its N, M_t, P (rows u, phi_t, T, m_t) and of its M_r.
@@ -69,6 +70,63 @@ typedef struct {
     int alike_count;
     const double (*alike)[ALIKE_WIDTH];  // joints under the same load, at equal steps of |c|/s from 0 to 1
 } JointLaw;
+
+// A coordinate u of the law in cells from the start of its axis: its cell, and the weights of the three splines.
+INLINE int axis_weights(scalar u, int cells, scalar w[3])
+{
+    const int cell = (int)scalar_min(scalar_max(scalar_value(u), 0.0), cells - 1.0);  // a NaN gives cell 0
+    const scalar up = u - cell, down = 1.0 - up;
+    w[0] = 0.5 * (down * down);
+    w[2] = 0.5 * (up * up);
+    w[1] = 1.0 - w[0] - w[2];
+    return cell;
+}
+
+// part/whole; 0 where whole is so small that 1/whole is not finite.
+INLINE scalar share(scalar part, scalar whole)
+{
+    return scalar_value(whole) > 1e-300 ? part / whole : 0.0;
+}
+
+INLINE scalar magnitude(scalar x)
+{
+    return scalar_value(x) < 0.0 ? -x : x;
+}
+
+// Moves of a joint's pad and loads of its rivet under L* = (N, M_r, M_t) and P; the energy of elastic_half.h if it is asked for.
+INLINE void joint_law(const JointLaw *law, const scalar load[3], scalar P, scalar move[3], scalar rivet[3],
+                      scalar *energy)
+{
+    const double inv_length = 1.0 / law->length;
+    const scalar N = load[0], M_r = magnitude(load[1]), M_t = load[2];
+    const scalar M = scalar_sqrt(M_r * M_r + M_t * M_t) * inv_length, W = scalar_sqrt(N * N + M * M),
+                 s = P + W;
+    const scalar q = share(N, magnitude(N) + M), psi = share(M_t, magnitude(M_t) + M_r);
+    scalar w[LAW_AXES][3];
+    int place = axis_weights(share(W, s) * law->cells[AXIS_TAU], law->cells[AXIS_TAU], w[AXIS_TAU]);
+    place = place * (law->cells[AXIS_Q] + 2) +
+            axis_weights((q + 1.0) * (0.5 * law->cells[AXIS_Q]), law->cells[AXIS_Q], w[AXIS_Q]);
+    place = place * (law->cells[AXIS_PSI] + 2) +
+            axis_weights((psi + 1.0) * (0.5 * law->cells[AXIS_PSI]), law->cells[AXIS_PSI], w[AXIS_PSI]);
+
+    const int row = LAW_WIDTH * (law->cells[AXIS_PSI] + 2), sheet = row * (law->cells[AXIS_Q] + 2);
+    const double *from = law->coefficients + LAW_WIDTH * place;
+    octet sum = {{0}};
+    for (int a = 0; a < 3; a++) {
+        octet by_q = {{0}};
+        for (int b = 0; b < 3; b++) {
+            octet by_psi = {{0}};
+            for (int c = 0; c < 3; c++)
+                octet_add_from(w[AXIS_PSI][c], from + a * sheet + b * row + c * LAW_WIDTH, &by_psi);
+            octet_add(w[AXIS_Q][b], &by_psi, &by_q);
+        }
+        octet_add(w[AXIS_TAU][a], &by_q, &sum);
+    }
+    const scalar across = scalar_value(load[1]) < 0.0 ? -s : s;
+    move[0] = s * sum.x[0], move[1] = across * sum.x[1], move[2] = s * sum.x[2];
+    rivet[0] = s * sum.x[4], rivet[1] = across * sum.x[5], rivet[2] = s * sum.x[6];
+    if (energy) *energy = s * s * sum.x[LAW_ENERGY];
+}
 
 // Loads (N, M_r, M_t) of the joints and (T, m_r, m_t) of the rivets [N, N.m], from bonded loads and preloads
 // P >= 0.  spin_M, spin_P: bonded M_t under the centrifugal load alone, and the preload with it.

@@ -14,7 +14,7 @@ typedef struct {
     const char *name;
     Rhs *rhs;
     RaceContactForce *race_contact_force;
-    const VectorOps *ops;
+    const VectorOps *ops, *ops_elastic;
     VerletStep *verlet;
     ImplicitSolve *implicit;
     RivetsLoad *rivets_load;

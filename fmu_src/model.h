@@ -12,6 +12,10 @@
 #include "lanes.h"
 #include "variable_table.h"
 
+typedef struct ElasticHalf ElasticHalf;  // elastic_half.h
+
+enum { N_MODES = Y_MODE_D - Y_MODE_S };  // room for the modes of a half
+
 // One vector for each ball of a packet, in the balls' own frames.
 typedef struct {
     wide x, r, t;
@@ -204,6 +208,20 @@ typedef struct {
     // lands (land_film_force): elastic energy [J], film rates -dF/dv and -dM/domega of each land
     scalar land_elastic;
     scalar film_yy[2], film_yz[2], film_zz[2], film_spin[2];
+
+    // elastic halves (cage_elastic.c): coordinates of the modes and their rates, by half [m, m/s]; how far a wall can have
+    // moved [m]; moment of inertia that the modes add [kg.m2] and its rate; modal forces on the walls [N] (cleared
+    // by cage_elastic_kinematics, added by pocket_force)
+    scalar q[2][N_MODES], q_dot[2][N_MODES], reach[2], more_J[2], more_J_dot[2], wall_force[2][N_MODES];
+
+    // elastic part of the pads' motions against each other, out of the plane (x, about r, about t) and in it (r, t); e: half
+    // of the whole motion out of the plane; part of the halves' rigid motion in u_y and u_z
+    ball_array pad_out[3], pad_in[2], pad_in_dot[2], e[3], rigid_u_y, rigid_u_z;
+
+    // loads of the joints (N, M_r, M_t), of their rivets (T, m_r, m_t), energy of joints and residual [J]; force on half 1 in
+    // the plane, in the frame of half 0 (cage_joint_force)
+    ball_array joint_load[3], joint_rivet[3], joint_potential, joint_F_y, joint_F_z;
+    scalar modes_energy, modes_dissipated;  // energy of the modes [J] and power that they lose [W]
 } Work;
 
 // All that the right-hand side needs beside time and state.
@@ -212,7 +230,14 @@ typedef struct {
     const Derived *d;
     const RingLoad *ring_load;          // load at present; used while there is no trajectory
     const InputTrajectory *trajectory;  // from which the load at any time follows; NULL: the load is held
+    const ElasticHalf *elastic;          // modes of the halves, where they are elastic, else NULL
 } Model;
+
+// Number of states of the scene.
+static inline int states_of(const Model *model)
+{
+    return model->elastic ? N_ALL_STATES : N_STATES;
+}
 
 // Derived constants of all elements; the parameters have been checked and have their present temperatures.
 void model_derive(const Parameters *p, Derived *d);

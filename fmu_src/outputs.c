@@ -215,10 +215,12 @@ static void fill_stress(const Evaluation *at, Outputs *out)
 static void fill_energy(const Evaluation *at, Outputs *out)
 {
     const Work *w = at->w;
-    const bool joints = at->model->p->scene.cage == CAGE_MODEL_TWO_HALF;
+    const bool joints = at->model->p->scene.cage != CAGE_MODEL_RIGID;
+    out->loss.modes = at->model->elastic ? w->modes_dissipated : 0.0;
     out->loss.joints = joints ? ball_array_sum(w->joint_dissipated) : 0.0;
     out->bearing.power_loss = ball_array_sum(w->dissipated) + w->cage_dissipated + w->ring_drag_dissipated;
     if (joints) out->bearing.power_loss += out->loss.joints;
+    out->bearing.power_loss += out->loss.modes;
     out->loss.races = ball_array_sum(w->race_dissipated);
     out->loss.inlet = ball_array_sum(w->inlet_dissipated);
     out->loss.spin = ball_array_sum(w->spin_dissipated);

@@ -59,7 +59,7 @@ void part_update(Part *part, OutputGroup group);
 // inputs and states (an array as y).  Outputs that are recorded over steps (peaks, statistics, fatigue,
 // solver) do not change between steps: their derivatives are 0.
 void part_time_derivatives(Part *part, Outputs *derivatives);
-void part_directional_derivatives(Part *part, const Inputs *inputs, const double state[N_STATES],
+void part_directional_derivatives(Part *part, const Inputs *inputs, const double state[N_ALL_STATES],
                                   Outputs *derivatives);
 
 // The whole state as one block of plain bytes.  Instances with equal blocks continue alike, bit for bit.

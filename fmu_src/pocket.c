@@ -27,6 +27,7 @@
 // whose equator leaves the cage's section is reported (events.h), not modelled.
 #include "pocket.h"
 
+#include "elastic_half.h"
 #include "hertz.h"
 #include "traction.h"
 
@@ -47,10 +48,25 @@ INLINE void add_vec(vec v, scalar *x, scalar *r, scalar *t)
     vec_store(vec_add(vec_load(x, r, t), v), x, r, t);
 }
 
+// Approach of ball and wall without what the compliance c of the wall takes, delta_h + c w K delta_h^1.5 = delta, by
+// Newton's method.
+INLINE wide pocket_approach(const Model *model, int h, wide n_x, wide delta)
+{
+    const Derived *d = model->d;
+    const wide zero = wide_set(0.0), cK = wide_set(model->elastic->compliance * d->pocket.K);
+    wide own = wide_max(delta, zero);
+    for (int i = 0; i < 4; i++) {
+        const wide root = wide_sqrt(wide_max(own, wide_set(1e-30)));
+        const wide load = cK * pocket_share(d, h, n_x, own).load * root;
+        own = wide_max(own - (own + load * own - delta) / (1.0 + 1.5 * load), zero);
+    }
+    return wide_select(wide_above(delta, 0.0), own, delta);
+}
+
 // Forces in a packet of pockets, stored for the half and added to the balls.  whole: the rigid cage, whose
-// half 0 carries the whole contact.
+// half 0 carries the whole contact.  wall: motion of the walls of an elastic half, or NULL.
 INLINE void pocket_contacts(const Model *model, Work *w, int h, int j, const PocketGap *gap, bool mixed,
-                            bool whole)
+                            bool whole, const WallMotion *wall, ball_array on_wall[3])
 {
     const Parameters *p = model->p;
     const Derived *d = model->d;
@@ -68,7 +84,11 @@ INLINE void pocket_contacts(const Model *model, Work *w, int h, int j, const Poc
     const vec omega_b = vec_load(&w->omega_x[j], &w->omega_r[j], &w->omega_t[j]);
     const vec v_b = vec_load(&w->v_x[j], &w->v_r[j], &w->v_t[j]);
     const vec Omega = vec_local(half->Omega, cos_theta, sin_theta);
-    const vec v = vec_sub(vec_sub(v_b, vec_local(half->v, cos_theta, sin_theta)), vec_cross(Omega, arm_p));
+    vec v = vec_sub(vec_sub(v_b, vec_local(half->v, cos_theta, sin_theta)), vec_cross(Omega, arm_p));
+    if (wall) {
+        const vec along = vec_axpy(wide_load(&wall->u_dot[0][j]), a, vec_scale(wide_load(&wall->u_dot[2][j]), e_t));
+        v = vec_sub(v, vec_axpy(wide_load(&wall->u_dot[1][j]), gap->b, along));
+    }
     const wide delta_dot = vec_dot(n, v);
 
     // share of the half, contact load, and the energy's gradient across n
@@ -76,7 +96,8 @@ INLINE void pocket_contacts(const Model *model, Work *w, int h, int j, const Poc
     const PocketShare share = whole ? all : pocket_share(d, h, n_x, gap->delta);
     const wide Q_0 = share.load * hertz_load(wide_set(d->pocket.K), gap->delta);
     const wide Q = hertz_damped(Q_0, wide_set(p->cage.lambda), delta_dot);
-    const wide F_across = pocket_across(d, gap, share.slope);
+    wide F_across = pocket_across(d, gap, share.slope);
+    if (wall) F_across -= Q_0 * wide_load(&wall->tilt[j]);
     const vec F_n = vec_axpy(-Q, n, vec_axpy(-F_across * n_t, a, vec_scale(F_across * n_x, e_t)));
 
     // friction at the contact point (F_s), film force through the ball's centre (F_c)
@@ -91,6 +112,13 @@ INLINE void pocket_contacts(const Model *model, Work *w, int h, int j, const Poc
     const vec F_s = vec_scale(-(g + g_R), slip), F_c = vec_scale(2.0 * g_R, slip);
     const vec F = vec_add(F_n, vec_add(F_s, F_c)), M = vec_cross(arm, F_s);
     const vec F_half = vec_scale(wide_set(-1.0), F), M_half = vec_sub(vec_cross(arm_p, F_half), M);
+
+    if (wall) {
+        const vec drawn = vec_add(F_s, F_c);
+        wide_store(&on_wall[0][j], Q * n_x - vec_dot(drawn, a));
+        wide_store(&on_wall[1][j], -vec_dot(drawn, gap->b));
+        wide_store(&on_wall[2][j], Q * n_t - vec_dot(drawn, e_t));
+    }
 
     wide_store(&pocket->Q[j], Q);
     wide_store(&pocket->F_x[j], vec_dot(F_half, a));
@@ -134,10 +162,65 @@ INLINE void pocket_half(const Model *model, Work *w, int h, bool mixed, bool who
         const PocketGap gap = pocket_gap(model->d, w, half, j);
         wide_store(&w->delta_c[h][j], gap.delta);
         if (wide_any(wide_above(gap.delta, 0.0))) {
-            pocket_contacts(model, w, h, j, &gap, mixed, whole);
+            pocket_contacts(model, w, h, j, &gap, mixed, whole, NULL, NULL);
             touched = true;
         } else
             pocket_clear(pocket, j);
+    }
+    if (!touched) return;
+    const scalar *F[3] = {pocket->half_F_x, pocket->half_F_y, pocket->half_F_z};
+    const scalar *M[3] = {pocket->half_M_x, pocket->half_M_y, pocket->half_M_z};
+    for (int i = 0; i < 3; i++) {
+        half->F[i] += ball_array_sum(F[i]);
+        half->M[i] += ball_array_sum(M[i]);
+    }
+}
+
+// The pockets of a packet whose walls a ball can have reached: motion of the walls, forces, modal forces.  Returns whether
+// there is a contact.
+static bool pocket_elastic(const Model *model, Work *w, int h, int j, PocketGap *gap, bool mixed, WallMotion *wall)
+{
+    const ElasticHalf *elastic = model->elastic;
+    const int near = wide_mask(wide_above(gap->delta + w->reach[h], 0.0));
+    const wide S = 1.0 / gap->inv_S;
+    WallShape shape[LANE_WIDTH];
+    ball_array on_wall[3];
+    for (int i = 0; i < LANE_WIDTH; i++) {
+        if (near >> i & 1 && j + i < Z) {
+            elastic_wall(elastic, 2 * h - 1, j + i, w->q[h], w->q_dot[h], wide_lane(gap->n_x, i), wide_lane(gap->n_t, i),
+                         wide_lane(S, i), wall, &shape[i]);
+            continue;
+        }
+        for (int c = 0; c < 3; c++) wall->u[c][j + i] = wall->u_dot[c][j + i] = 0.0;
+        wall->tilt[j + i] = 0.0;
+    }
+    gap->delta -= gap->n_x * wide_load(&wall->u[0][j]) + gap->n_t * wide_load(&wall->u[2][j]);
+    if (!wide_any(wide_above(gap->delta, 0.0))) return false;
+    gap->delta = pocket_approach(model, h, gap->n_x, gap->delta);
+    pocket_contacts(model, w, h, j, gap, mixed, false, wall, on_wall);
+    const int touched = near & wide_mask(wide_above(gap->delta, 0.0));
+    for (int i = 0; i < LANE_WIDTH && j + i < Z; i++) {
+        if (!(touched >> i & 1)) continue;
+        const scalar F[3] = {on_wall[0][j + i], on_wall[1][j + i], on_wall[2][j + i]};
+        elastic_wall_force(elastic, &shape[i], F, w->wall_force[h]);
+    }
+    return true;
+}
+
+// All pockets of one elastic half.
+static void pocket_elastic_half(const Model *model, Work *w, int h, bool mixed)
+{
+    Pockets *pocket = &w->pocket[h];
+    Rotor *half = &w->half[h];
+    WallMotion wall;
+    bool touched = false;
+    for (int j = 0; j < PACKETS * LANE_WIDTH; j += LANE_WIDTH) {
+        PocketGap gap = pocket_gap(model->d, w, half, j);
+        bool contact = wide_any(wide_above(gap.delta + w->reach[h], 0.0));
+        if (contact) contact = pocket_elastic(model, w, h, j, &gap, mixed, &wall);
+        if (!contact) pocket_clear(pocket, j);
+        wide_store(&w->delta_c[h][j], gap.delta);
+        touched |= contact;
     }
     if (!touched) return;
     const scalar *F[3] = {pocket->half_F_x, pocket->half_F_y, pocket->half_F_z};
@@ -152,6 +235,10 @@ void pocket_force(const Model *model, Work *w)
 {
     const bool mixed = model->p->scene.lubrication == LUBRICATION_MIXED;
     const bool rigid = model->p->scene.cage == CAGE_MODEL_RIGID;
+    if (model->elastic) {
+        for (int h = 0; h < 2; h++) pocket_elastic_half(model, w, h, mixed);
+        return;
+    }
     for (int h = 0; h < (rigid ? 1 : 2); h++) pocket_half(model, w, h, mixed, rigid);
 }
 

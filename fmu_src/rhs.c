@@ -2,6 +2,7 @@
 #include "rhs.h"
 
 #include "ball.h"
+#include "cage_elastic.h"
 #include "cage_joint.h"
 #include "drag.h"
 #include "frame.h"
@@ -115,7 +116,12 @@ static void halves_acceleration(const Model *model, const scalar *y, const Work 
             M[i] = half->M[i] - lever[i] + M_f[i];
             acc[i] = half->F[i] / p->cage.m + field[i];
         }
+        if (model->elastic) {  // what widens takes spin
+            const scalar moment = cage_elastic_coriolis(model, w, h);
+            for (int i = 0; i < 3; i++) M[i] -= moment * half->a[i];
+        }
         rotor_acceleration(half, model->d->J_p, model->d->J_t, M, a_ddot, &s_dot);
+        if (model->elastic) s_dot *= model->d->J_p / (model->d->J_p + w->more_J[h]);
         half_rates(y, half, h, acc, a_ddot, s_dot, y_dot);
     }
 }
@@ -175,7 +181,8 @@ static scalar net_power(const Model *model, const Work *w)
 {
     scalar power =
         shaft_power(w) - ball_array_sum(w->dissipated) - w->cage_dissipated - w->ring_drag_dissipated;
-    if (model->p->scene.cage == CAGE_MODEL_TWO_HALF) power -= ball_array_sum(w->joint_dissipated);
+    if (model->p->scene.cage != CAGE_MODEL_RIGID) power -= ball_array_sum(w->joint_dissipated);
+    if (model->elastic) power -= w->modes_dissipated;
     const RingLoad *load = model->ring_load;
     if (scalar_value(load->omega_dot) != 0.0 || scalar_value(load->frame_omega_dot) != 0.0)
         power += race_growth_power(model, w);
@@ -190,6 +197,11 @@ void rhs_cage_advance(const Model *model, const double *middle, double h, double
     for (int i = 0; i < 2; i++) y[Y_CAGE_PSI + i] += h * (w->half[i].s - rotor_roll(&w->half[i]));
     if (model->p->scene.cage == CAGE_MODEL_RIGID) return;
     cage_joint_kinematics(model, w);
+    if (model->elastic) {
+        cage_elastic_kinematics(model, middle, w);
+        cage_elastic_pads(model, w);
+        cage_elastic_joints(model, w);
+    }
     cage_joint_advance(model, w, h, y);
 }
 #endif
@@ -204,6 +216,7 @@ static void evaluate(const Model *model, const scalar *y, scalar *y_dot, Work *w
     ball_kinematics(y, w);
     rotor_kinematics(model, y, w);
     race_contact_force(model, w);
+    if (model->elastic) cage_elastic_kinematics(model, y, w);
     pocket_force(model, w);
     drag_mixture(model, w);
     drag_force(model, w);
@@ -213,6 +226,10 @@ static void evaluate(const Model *model, const scalar *y, scalar *y_dot, Work *w
     drag_cage(model, w);
     if (!rigid) {
         cage_joint_kinematics(model, w);
+        if (model->elastic) {
+            cage_elastic_pads(model, w);
+            cage_elastic_joints(model, w);
+        }
         cage_joint_force(model, y, w);
     }
     ball_acceleration(model, w, y_dot);
@@ -224,13 +241,14 @@ static void evaluate(const Model *model, const scalar *y, scalar *y_dot, Work *w
         memcpy(&y_dot[Y_JOINT_HEAD_Y], w->head_y_dot, Z * sizeof *y_dot);
         memcpy(&y_dot[Y_JOINT_HEAD_Z], w->head_z_dot, Z * sizeof *y_dot);
     }
+    if (model->elastic) cage_elastic_acceleration(model, y, w, y_dot);
     y_dot[Y_WORK] = net_power(model, w);
 }
 
 void rhs(const Model *model, double t, const scalar *y, scalar *y_dot, Work *w)
 {
     RingLoad ring_load;
-    const Model now = {model->p, model->d, &ring_load, NULL};
+    const Model now = {model->p, model->d, &ring_load, NULL, model->elastic};
     if (model->trajectory) ring_load_at(model->trajectory, t, &ring_load);
     evaluate(model->trajectory ? &now : model, y, y_dot, w);
 }

@@ -348,7 +348,7 @@ double start_state(const Kernels *kernels, const Model *model, Work *w, double *
     const Parameters *p = model->p;
     const Derived *d = model->d;
     const RingLoad *given = model->ring_load, rest = resting(given);
-    const Model at_rest = {p, d, &rest, NULL};
+    const Model at_rest = {p, d, &rest, NULL, NULL};
     const bool prescribed = p->ring.motion == RING_MOTION_PRESCRIBED;
     Equilibrium eq = {
         .kernels = kernels, .model = &at_rest, .w = w, .tilts = p->ring.tilt_mode != TILT_MODE_PRESCRIBED};
@@ -384,7 +384,7 @@ double start_state(const Kernels *kernels, const Model *model, Work *w, double *
         residual = equilibrium(&eq, q);
 
     // kinematic speeds
-    memset(y, 0, N_STATES * sizeof *y);
+    memset(y, 0, (size_t)states_of(model) * sizeof *y);
     const double omega_m = orbital_speed(model, w);
     for (int j = 0; j < Z; j++) {
         y[Y_BALL_X + j] = w->x[j];

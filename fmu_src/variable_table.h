@@ -14,7 +14,7 @@ typedef struct {
     const char *name;
 } StateBlock;
 
-extern const StateBlock STATE_BLOCKS[N_STATE_BLOCKS];
+extern const StateBlock STATE_BLOCKS[N_ALL_BLOCKS];
 
 typedef enum { TYPE_REAL, TYPE_INTEGER, TYPE_ENUMERATION } VariableType;  // stored as double, int, int
 

@@ -63,4 +63,52 @@ static bool all_finite(const double *x)
     return ((part[0] + part[1]) + (part[2] + part[3])) + ((part[4] + part[5]) + (part[6] + part[7])) == 0.0;
 }
 
-const VectorOps vector_ops = {linear_sum, linear_combination, wrms_norm, all_finite};
+const VectorOps vector_ops = {N_STATES, linear_sum, linear_combination, wrms_norm, all_finite};
+
+// ---- with the states of elastic cage halves -----------------------------------------------------------------
+enum { MORE = N_ALL_STATES - N_STATES };
+
+#define EACH_MORE(i) for (int i = N_STATES; i < N_ALL_STATES; i++)
+
+static void linear_sum_all(double a, const double *x, double b, const double *y, double *z)
+{
+    linear_sum(a, x, b, y, z);
+    EACH_MORE(i) z[i] = a * x[i] + b * y[i];
+}
+
+static void linear_combination_all(int n, const double *c, double *const *x, double *z)
+{
+    EACH_MORE(i)
+    {
+        double sum = c[0] * x[0][i];
+        for (int k = 1; k < n; k++) sum += c[k] * x[k][i];
+        z[i] = sum;
+    }
+    linear_combination(n, c, x, z);
+}
+
+// The divisor stays: more states do not make the tolerance of the others wider.
+static double wrms_norm_all(const double *x, const double *w)
+{
+    double part[8] = {0};
+    const double others = wrms_norm(x, w);
+    for (int i = 0; i < MORE; i += 8)
+        for (int k = 0; k < 8; k++) {
+            const double e = x[N_STATES + i + k] * w[N_STATES + i + k];
+            part[k] += e * e;
+        }
+    const double sum =
+        ((part[0] + part[1]) + (part[2] + part[3])) + ((part[4] + part[5]) + (part[6] + part[7]));
+    return sqrt(others * others + sum / N_STATES);
+}
+
+static bool all_finite_all(const double *x)
+{
+    bool finite = all_finite(x);
+    EACH_MORE(i) finite &= x[i] - x[i] == 0.0;
+    return finite;
+}
+
+_Static_assert(MORE % 8 == 0, "eight partial sums");
+
+const VectorOps vector_ops_elastic = {N_ALL_STATES, linear_sum_all, linear_combination_all, wrms_norm_all, all_finite_all};

@@ -24,6 +24,9 @@
 // Rows of the state: positions from 0 on, friction states from FRICTION on, the work, velocities from
 // VELOCITY on.  The velocity of position i < FRICTION is in row VELOCITY + i; the balls' spins come last and
 // have no position.  Rows CAGE to CAGE_END are the velocities of the cage halves.
+// Modal coordinates of elastic halves are in the rows PLACES to RATES, their rates MODE_RATES rows farther.
+enum { PLACES = Y_MODE_S, RATES = Y_MODE_S_DOT, MODE_RATES = RATES - PLACES };
+
 enum { FRICTION = Y_JOINT_PLATE_Y, VELOCITY = Y_BALL_V_X, CAGE = Y_CAGE_V_X, CAGE_END = Y_RING_V_X };
 
 _Static_assert(Y_CAGE_V_X - Y_CAGE_X == VELOCITY && Y_RING_V_X - Y_RING_X == VELOCITY, "order of velocities");
@@ -49,7 +52,7 @@ static double sum_of(const double *x, int count)
 static void advance_positions(const Model *model, double h, const VerletState *from, double *y, Work *w)
 {
     const double gamma = 0.5 * h;
-    double middle[N_STATES];  // the state in the middle of the step, of cage and ring
+    double middle[N_ALL_STATES];  // the state in the middle of the step, of cage and ring
 
     // Velocity Verlet: positions move with the velocities of the middle.
     for (int i = VELOCITY; i < N_STATES; i++) middle[i] = y[i] = from->y[i] + gamma * from->f[i];
@@ -60,6 +63,12 @@ static void advance_positions(const Model *model, double h, const VerletState *f
     for (int i = Y_CAGE_X; i < Y_RING_X; i++) middle[i] = from->y[i] + gamma * y[VELOCITY + i];
     for (int i = Y_RING_X; i < FRICTION; i++) middle[i] = from->y[i];
     memcpy(&y[Y_CAGE_PSI], &from->y[Y_CAGE_PSI], 2 * sizeof *y);
+    if (model->elastic)
+        for (int i = PLACES; i < RATES; i++) {
+            middle[i + MODE_RATES] = y[i + MODE_RATES] = from->y[i + MODE_RATES] + gamma * from->f[i + MODE_RATES];
+            middle[i] = from->y[i] + gamma * y[i + MODE_RATES];
+            y[i] = from->y[i] + h * y[i + MODE_RATES];
+        }
     rhs_cage_advance(model, middle, h, y, w);
 }
 
@@ -117,7 +126,7 @@ static void correct_positions(const Model *model, double gamma, const double *de
     for (int i = 0; i < 2 * Z; i++) y[Y_BALL_X + i] += gamma * delta[VELOCITY + Y_BALL_X + i];
     if (model->p->ring.tilt_mode != TILT_MODE_FREE)
         for (int i = Y_RING_BETA; i <= Y_RING_GAMMA; i++) y[i] += gamma * delta[VELOCITY + i];
-    if (model->p->scene.cage == CAGE_MODEL_RIGID) return;
+    if (model->p->scene.cage != CAGE_MODEL_TWO_HALF) return;
     for (int half_0 = Y_CAGE_X; half_0 < Y_RING_X; half_0 += 2) {
         const int half_1 = half_0 + 1;
         const bool along = half_0 == Y_CAGE_X || half_0 == Y_CAGE_BETA || half_0 == Y_CAGE_GAMMA;
@@ -134,7 +143,7 @@ static void correct_positions(const Model *model, double gamma, const double *de
 static void correct_friction(const Model *model, const Work *w, double gamma, const double *delta, double c,
                              double *y)
 {
-    if (model->p->scene.cage == CAGE_MODEL_RIGID) return;
+    if (model->p->scene.cage != CAGE_MODEL_TWO_HALF) return;
     const Derived *d = model->d;
     const Rotor *h0 = &w->half[0];
     const double dv_y = delta[Y_CAGE_V_Y + 1] - delta[Y_CAGE_V_Y];
@@ -197,17 +206,32 @@ static void remember_friction(double h, const VerletState *from, VerletState *to
     }
 }
 
+// Rates of the modes of elastic halves: velocity Verlet.
+static void advance_modes(double h, const VerletState *from, VerletState *to, double *error)
+{
+    const double gamma = 0.5 * h, inv_h = 1.0 / h, second = h * h * (2.0 / (h + from->h));
+    for (int i = RATES; i < N_ALL_STATES; i++) {
+        to->y[i] = from->y[i] + gamma * (from->f[i] + to->f[i]);
+        to->jerk[i] = (to->f[i] - from->f[i]) * inv_h;
+        error[i] = (h / 12.0) * (second * (to->jerk[i] - from->jerk[i]));
+        to->f[i - MODE_RATES] = to->y[i];
+        to->jerk[i - MODE_RATES] = error[i - MODE_RATES] = 0.0;
+    }
+}
+
 double verlet_step(const Model *model, double t, double h, const double *weight, const VerletState *from,
                    VerletState *to, Work *w)
 {
     const double gamma = 0.5 * h, *f = from->f;
-    double removed[N_STATES], residual[N_STATES], delta[N_STATES], error[N_STATES], *y = to->y;
+    double removed[N_STATES], residual[N_STATES], delta[N_STATES], error[N_ALL_STATES], *y = to->y;
 
     // Positions of the step's end; predicted velocities v^ there; the evaluation.
     advance_positions(model, h, from, y, w);
     predictor_limiter(model, h, from, w, removed);
     for (int i = VELOCITY; i < N_STATES; i++) y[i] += gamma * f[i];
     for (int i = CAGE; i < CAGE_END; i++) y[i] -= removed[i];
+    if (model->elastic)
+        for (int i = RATES; i < N_ALL_STATES; i++) y[i] += gamma * f[i];
     rhs(model, t + h, y, to->f, w);
     remember_films(w, to);
 
@@ -237,5 +261,9 @@ double verlet_step(const Model *model, double t, double h, const double *weight,
     remember_velocities(model, w, h, from, delta, to, error);
     remember_friction(h, from, to, error);
     to->h = h;
+    if (model->elastic) {
+        advance_modes(h, from, to, error);
+        return vector_ops_elastic.wrms_norm(error, weight);
+    }
     return vector_ops.wrms_norm(error, weight);
 }

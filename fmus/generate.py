@@ -114,6 +114,7 @@ class Table:
     assumptions: dict  # by parameter: usual range as factors of its value, and the source
     origin: dict  # where the values of another bearing come from, by name
     essentials: dict  # names by question
+    elastic_states: tuple = ()  # behind the states, of elastic cage halves only
 
     def named(self, name):
         """The variable of this name."""
@@ -147,13 +148,14 @@ def load_table(bearing=None, path=None):
         for name, value in flatten(changes.get(section, {})):
             set_start(variables, CAUSALITIES[section], name, value, bearing)
     states, offset = [], 0
-    for entry in raw["states"]["list"]:
+    for entry in (*raw["states"]["list"], *raw["states"].get("elastic", ())):
         count = number_of(entry["count"], Z)
         states.append(StateBlock(**entry | {"count": count}, offset=offset, of_balls=entry["count"] == "Z"))
         offset += count
+    n_plain = len(raw["states"]["list"])
     description = ". ".join(filter(None, (raw["description"], changes.get("description", raw.get("case")))))
-    layout = raw["units"], raw["enumerations"], raw["groups"], tuple(variables), tuple(states)
-    table = Table(Z, raw["model_name"], description, *layout, raw.get("assumptions", {}), changes.get("origin", {}), raw.get("essentials", {}))
+    layout = raw["units"], raw["enumerations"], raw["groups"], tuple(variables), tuple(states[:n_plain])
+    table = Table(Z, raw["model_name"], description, *layout, raw.get("assumptions", {}), changes.get("origin", {}), raw.get("essentials", {}), tuple(states[n_plain:]))
     check_table(table, path, raw.get("retired", ()))
     return table
 
@@ -209,7 +211,7 @@ def check_table(table, path, retired=()):
     for name in (name for group in table.essentials.values() for name in group):
         if name not in names:
             raise ValueError(f"{path}: essentials: unknown variable {name}")
-    for s in table.states:
+    for s in (*table.states, *table.elastic_states):
         if s.unit not in table.units:
             raise ValueError(f"{path}: {s.name}: unknown unit {s.unit!r}")
 
@@ -272,7 +274,7 @@ def render(template, table, source):
     """A template of fmus/templates filled in."""
     environment = jinja2.Environment(trim_blocks=True, lstrip_blocks=True, keep_trailing_newline=True, undefined=jinja2.StrictUndefined)
     environment.filters |= {f.__name__: f for f in (screaming, struct_members, c_number, quoted, label, named_in)}
-    scales = list(dict.fromkeys(s.scale for s in table.states))
+    scales = list(dict.fromkeys(s.scale for s in (*table.states, *table.elastic_states)))
     return environment.from_string((TEMPLATES / template).read_text()).render(table=table, source=source, scales=scales, shown=shown, allowed=allowed)
 
 

@@ -243,7 +243,7 @@ void part_time_derivatives(Part *part, Outputs *derivatives)
     differentiate(&part->s.p, &part->s.u_now, part->s.y, &part->s.u_now_dot, y_dot, derivatives);
 }
 
-void part_directional_derivatives(Part *part, const Inputs *inputs, const double state[N_STATES],
+void part_directional_derivatives(Part *part, const Inputs *inputs, const double state[N_ALL_STATES],
                                   Outputs *derivatives)
 {
     differentiate(&part->s.p, &part->s.u_now, part->s.y, inputs, state, derivatives);

@@ -4,7 +4,7 @@
 
 #include <math.h>
 
-const StateBlock STATE_BLOCKS[N_STATE_BLOCKS] = {
+const StateBlock STATE_BLOCKS[N_ALL_BLOCKS] = {
     {Y_BALL_X, Z, SCALE_LENGTH, "ball_x"},
     {Y_BALL_R, Z, SCALE_LENGTH, "ball_r"},
     {Y_BALL_THETA, Z, SCALE_ANGLE, "ball_theta"},
@@ -41,6 +41,10 @@ const StateBlock STATE_BLOCKS[N_STATE_BLOCKS] = {
     {Y_BALL_OMEGA_X, Z, SCALE_SPIN, "ball_omega_x"},
     {Y_BALL_OMEGA_R, Z, SCALE_SPIN, "ball_omega_r"},
     {Y_BALL_OMEGA_T, Z, SCALE_SPIN, "ball_omega_t"},
+    {Y_MODE_S, 64, SCALE_LENGTH, "mode_s"},
+    {Y_MODE_D, 64, SCALE_LENGTH, "mode_d"},
+    {Y_MODE_S_DOT, 64, SCALE_MODE, "mode_s_dot"},
+    {Y_MODE_D_DOT, 64, SCALE_MODE, "mode_d_dot"},
 };
 
 // name, unit, value reference, count, type, causality, group, state, offset, start, min, max
@@ -114,6 +118,7 @@ const Variable VARIABLES[N_VARIABLES] = {
     {"cage.unbalance", "kg.m", 1120, 1, TYPE_REAL, CAUSALITY_PARAMETER, GROUP_COUNT, -1, offsetof(Parameters, cage.unbalance), 0.0, 0.0, 0.01},
     {"cage.width", "m", 1121, 1, TYPE_REAL, CAUSALITY_PARAMETER, GROUP_COUNT, -1, offsetof(Parameters, cage.width), 0.0136, 0.001, 0.5},
     {"cage.centrifugal", "1", 1122, 1, TYPE_ENUMERATION, CAUSALITY_PARAMETER, GROUP_COUNT, -1, offsetof(Parameters, cage.centrifugal), 2.0, 1.0, 2.0},
+    {"cage.modal_damping", "1", 1123, 1, TYPE_REAL, CAUSALITY_PARAMETER, GROUP_COUNT, -1, offsetof(Parameters, cage.modal_damping), 0.01, 0.0, 0.2},
     {"joint.preload", "N", 1201, 1, TYPE_REAL, CAUSALITY_PARAMETER, GROUP_COUNT, -1, offsetof(Parameters, joint.preload), 20.0, 0.0, 1000.0},
     {"joint.fit", "m", 1202, 1, TYPE_REAL, CAUSALITY_PARAMETER, GROUP_COUNT, -1, offsetof(Parameters, joint.fit), -1e-05, -0.0005, 0.0001},
     {"joint.swell", "m", 1203, 1, TYPE_REAL, CAUSALITY_PARAMETER, GROUP_COUNT, -1, offsetof(Parameters, joint.swell), 4e-06, 0.0, 5e-05},
@@ -162,11 +167,12 @@ const Variable VARIABLES[N_VARIABLES] = {
     {"fatigue.sigma_m", "Pa", 1705, 1, TYPE_REAL, CAUSALITY_PARAMETER, GROUP_COUNT, -1, offsetof(Parameters, fatigue.sigma_m), 785000000.0, 1000000.0, 10000000000.0},
     {"fatigue.sigma_f", "Pa", 1706, 1, TYPE_REAL, CAUSALITY_PARAMETER, GROUP_COUNT, -1, offsetof(Parameters, fatigue.sigma_f), 1180000000.0, 1000000.0, 10000000000.0},
     {"fatigue.mean_stress", "1", 1707, 1, TYPE_ENUMERATION, CAUSALITY_PARAMETER, GROUP_COUNT, -1, offsetof(Parameters, fatigue.mean_stress), 2.0, 1.0, 4.0},
-    {"scene.cage", "1", 1801, 1, TYPE_ENUMERATION, CAUSALITY_PARAMETER, GROUP_COUNT, -1, offsetof(Parameters, scene.cage), 1.0, 1.0, 2.0},
+    {"scene.cage", "1", 1801, 1, TYPE_ENUMERATION, CAUSALITY_PARAMETER, GROUP_COUNT, -1, offsetof(Parameters, scene.cage), 1.0, 1.0, 3.0},
     {"scene.traction", "1", 1802, 1, TYPE_ENUMERATION, CAUSALITY_PARAMETER, GROUP_COUNT, -1, offsetof(Parameters, scene.traction), 2.0, 1.0, 2.0},
     {"scene.lubrication", "1", 1803, 1, TYPE_ENUMERATION, CAUSALITY_PARAMETER, GROUP_COUNT, -1, offsetof(Parameters, scene.lubrication), 1.0, 1.0, 2.0},
     {"scene.stress", "1", 1804, 1, TYPE_ENUMERATION, CAUSALITY_PARAMETER, GROUP_COUNT, -1, offsetof(Parameters, scene.stress), 3.0, 1.0, 4.0},
     {"scene.statistics", "1", 1805, 1, TYPE_ENUMERATION, CAUSALITY_PARAMETER, GROUP_COUNT, -1, offsetof(Parameters, scene.statistics), 1.0, 1.0, 2.0},
+    {"scene.modes", "1", 1810, 1, TYPE_INTEGER, CAUSALITY_PARAMETER, GROUP_COUNT, -1, offsetof(Parameters, scene.modes), 40.0, 6.0, 64.0},
     {"solver.tol", "1", 1901, 1, TYPE_REAL, CAUSALITY_PARAMETER, GROUP_COUNT, -1, offsetof(Parameters, solver.tol), 0.001, 1e-10, 0.1},
     {"solver.method", "1", 1902, 1, TYPE_ENUMERATION, CAUSALITY_PARAMETER, GROUP_COUNT, -1, offsetof(Parameters, solver.method), 1.0, 1.0, 2.0},
     {"solver.max_steps", "1", 1903, 1, TYPE_INTEGER, CAUSALITY_PARAMETER, GROUP_COUNT, -1, offsetof(Parameters, solver.max_steps), 10000000.0, 10.0, 2000000000.0},
@@ -328,6 +334,7 @@ const Variable VARIABLES[N_VARIABLES] = {
     {"loss.joints", "W", 8108, 1, TYPE_REAL, CAUSALITY_OUTPUT, GROUP_ENERGY, -1, offsetof(Outputs, loss.joints), 0.0, -INFINITY, INFINITY},
     {"loss.ring_drag", "W", 8109, 1, TYPE_REAL, CAUSALITY_OUTPUT, GROUP_ENERGY, -1, offsetof(Outputs, loss.ring_drag), 0.0, -INFINITY, INFINITY},
     {"bearing.clearance", "m", 8110, 1, TYPE_REAL, CAUSALITY_OUTPUT, GROUP_BALL, -1, offsetof(Outputs, bearing.clearance), 0.0, -INFINITY, INFINITY},
+    {"loss.modes", "W", 8118, 1, TYPE_REAL, CAUSALITY_OUTPUT, GROUP_ENERGY, -1, offsetof(Outputs, loss.modes), 0.0, -INFINITY, INFINITY},
     {"oil.flow", "m3/s", 8201, 1, TYPE_REAL, CAUSALITY_PARAMETER, GROUP_COUNT, -1, offsetof(Parameters, oil.flow), 0.0, 0.0, 0.1},
     {"oil.beta", "1/K", 8202, 1, TYPE_REAL, CAUSALITY_PARAMETER, GROUP_COUNT, -1, offsetof(Parameters, oil.beta), 0.022, 0.0, 0.2},
     {"oil.k", "W/m.K", 8203, 1, TYPE_REAL, CAUSALITY_PARAMETER, GROUP_COUNT, -1, offsetof(Parameters, oil.k), 0.14, 0.01, 1.0},

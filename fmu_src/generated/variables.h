@@ -9,7 +9,7 @@
 
 #define FMI2_FUNCTION_PREFIX RivetedBearing_  // of the functions of a source-code FMU
 #define MODEL_IDENTIFIER "RivetedBearing"
-#define MODEL_GUID "{b1a87928-66f6-830a-c706-6ed10840754d}"  // digest of the table
+#define MODEL_GUID "{a4a348ed-406f-ed0a-0232-22a28dbdf231}"  // digest of the table
 
 enum { Z = 9 };  // number of balls
 
@@ -25,6 +25,7 @@ enum {  // RingMotion
 enum {  // CageModel
     CAGE_MODEL_TWO_HALF = 1,  // two halves held by the rivets
     CAGE_MODEL_RIGID = 2,  // one rigid cage: faster, rivet loads by the rigid-body share
+    CAGE_MODEL_ELASTIC = 3,  // two elastic halves held by the rivets: vibration modes move the pockets' walls and load the joints
 };
 enum {  // Traction
     TRACTION_POINT = 1,  // one slip for the whole contact
@@ -104,6 +105,7 @@ typedef struct {
         double unbalance;  // [kg.m] Static unbalance of the whole cage, in the direction of pocket 1
         double width;  // [m] Axial width of the whole cage
         int centrifugal;  // Switch: Centrifugal load of the cage halves at the rivets
+        double modal_damping;  // [1] Damping ratio of each vibration mode of the halves, scene.cage = elastic
     } cage;
     struct {
         double preload;  // [N] Preload of each rivet at 293.15 K
@@ -203,6 +205,7 @@ typedef struct {
     } fatigue;
     struct {
         int cage;  // CageModel: Cage of two halves or rigid
+        int modes;  // Vibration modes of each half that scene.cage = elastic takes, those of the lowest frequencies
         int traction;  // Traction: Traction at a point or over slices of the contact ellipse
         int lubrication;  // Lubrication: Full film or mixed lubrication
         int stress;  // Stress: When the rivet stress is computed
@@ -413,6 +416,7 @@ typedef struct {
         scalar land;  // [W] Power dissipated between the lands and the outer ring
         scalar pockets;  // [W] Power dissipated in the pockets
         scalar joints;  // [W] Power dissipated in the joints of the cage
+        scalar modes;  // [W] Power dissipated by the vibration of elastic cage halves
     } loss;
     struct {
         scalar time;  // [s] Time that the statistics cover
@@ -526,7 +530,13 @@ enum {
     Y_BALL_OMEGA_R = 134,  // [Z] [rad/s] Angular velocity about the radial direction of the ball
     Y_BALL_OMEGA_T = 143,  // [Z] [rad/s] Angular velocity about the tangential direction of the ball
     N_STATES = 152,
-    N_STATE_BLOCKS = 36
+    N_STATE_BLOCKS = 36,
+    Y_MODE_S = 152,  // [64] [m] Mirrored motion of the halves: modal coordinates
+    Y_MODE_D = 216,  // [64] [m] Opposed motion of the halves: modal coordinates
+    Y_MODE_S_DOT = 280,  // [64] [m/s] Their rates, mirrored
+    Y_MODE_D_DOT = 344,  // [64] [m/s] and opposed
+    N_ALL_STATES = 408,  // with those of elastic cage halves
+    N_ALL_BLOCKS = 40
 };
 
 typedef enum {
@@ -541,8 +551,9 @@ typedef enum {
     SCALE_ORBIT,
     SCALE_RATE,
     SCALE_SPIN,
+    SCALE_MODE,
     SCALE_COUNT
 } StateScale;
 
 enum { N_INPUTS = 39 };  // all of them numbers
-enum { N_VARIABLES = 321 };  // time is the first
+enum { N_VARIABLES = 324 };  // time is the first

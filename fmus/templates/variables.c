@@ -4,8 +4,8 @@
 
 #include <math.h>
 
-const StateBlock STATE_BLOCKS[N_STATE_BLOCKS] = {
-{% for s in table.states %}
+const StateBlock STATE_BLOCKS[N_ALL_BLOCKS] = {
+{% for s in table.states + table.elastic_states %}
     {Y_{{ s.name | screaming }}, {{ "Z" if s.of_balls else s.count }}, SCALE_{{ s.scale | screaming }}, "{{ s.name }}"},
 {% endfor %}
 };

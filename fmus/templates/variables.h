@@ -52,7 +52,13 @@ enum {
     Y_{{ s.name | screaming }} = {{ s.offset }},  // [{{ "Z" if s.of_balls else s.count }}] [{{ s.unit }}] {{ s.description }}
 {% endfor %}
     N_STATES = {{ table.states[-1].offset + table.states[-1].count }},
-    N_STATE_BLOCKS = {{ table.states | length }}
+    N_STATE_BLOCKS = {{ table.states | length }},
+{% for s in table.elastic_states %}
+    Y_{{ s.name | screaming }} = {{ s.offset }},  // [{{ s.count }}] [{{ s.unit }}] {{ s.description }}
+{% endfor %}
+{% set last = (table.states + table.elastic_states)[-1] %}
+    N_ALL_STATES = {{ last.offset + last.count }},  // with those of elastic cage halves
+    N_ALL_BLOCKS = {{ (table.states + table.elastic_states) | length }}
 };
 
 typedef enum {

@@ -73,10 +73,12 @@ UNITS = {
 
 {% endfor %}
 # The state vector y: slices of its blocks and the class of their error scale.
-{% for s in table.states %}
+{% for s in table.states + table.elastic_states %}
 {{ s.name | upper }} = {{ "slice(%d, %d)" % (s.offset, s.offset + s.count) }}  # {{ s.unit }}  {{ s.description }}
 {% endfor %}
 N_STATES = {{ table.states[-1].offset + table.states[-1].count }}
+{% set last = (table.states + table.elastic_states)[-1] %}
+N_ALL_STATES = {{ last.offset + last.count }}  # with those of elastic cage halves
 STATE_SLICES = {
 {% for s in table.states %}
     {{ s.name | quoted }}: {{ s.name | upper }},
@@ -84,6 +86,11 @@ STATE_SLICES = {
 }
 STATE_SCALES = {
 {% for s in table.states %}
+    {{ s.name | quoted }}: {{ s.scale | quoted }},
+{% endfor %}
+}
+ELASTIC_SCALES = {
+{% for s in table.elastic_states %}
     {{ s.name | quoted }}: {{ s.scale | quoted }},
 {% endfor %}
 }

@@ -1,0 +1,331 @@
+"""Elastic cage halves: vibration modes of both halves, the joints between them.
+
+Each half vibrates in the frame that moves with it as a rigid body, by its free modes i with the coordinates q_i and the modal mass m of the half:
+
+    m (q_i'' + 2 zeta omega_i q_i' + omega_i^2 q_i) = sum phi_i . F,       u = sum phi_i q_i
+
+F: forces of balls on the pockets' walls (pocket.py), loads of the joints on the pads, centrifugal load.  Half 0 is the mirror image of half 1, so that
+with S = (q_1 + q_0)/sqrt 2 (mirrored) and D = (q_1 - q_0)/sqrt 2 (opposed) the pads of one joint move against each other by
+
+    x, phi_r, phi_t:  sqrt 2 sum phi_i S_i  (out of the plane: N, M_r, M_t)          r, t:  sqrt 2 sum phi_i D_i  (in the plane: V_r, V_t)
+
+Modes are cyclic: at the angle theta, even components (x, r, phi_t) are a cos(n theta), odd ones (t, phi_x, phi_r) -b sin(n theta) for the first mode of a pair
+and a sin(n theta), b cos(n theta) for the second.
+
+Joint, out of the plane: with e half of the relative motion of its pads (rigid and elastic), the static compliance R that the modes leave, K = R^-1, circulant,
+
+    L_k = sum_j K_(k-j) (e_j - delta_j),    (delta, T, m_r, m_t)_k = law(L^_k, P),    L^_k = L_k + K_0 delta_k
+
+with the joint's law (joint_law.py), in which the stiffness K_0 of the whole half around a joint is replaced by that which the modes leave (law_behind).
+In the plane, friction states and the hole's contact as in cage_joint.py, in series with what the modes leave.  Pads do not hold each other about x.
+
+Left out: Coriolis forces and the softening of modes by spin, of the order 2 omega_c/omega_i and (omega_c/omega_i)^2.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from bearing_model.joint_law import JointLaw, joint_law, law_load, law_spline
+from bearing_model.lanes import absolute, ball_array_sum, maximum
+from bearing_model.rivet_splines import interpolate, sites
+from bearing_model.variables import MODE_D, MODE_D_DOT, MODE_S, MODE_S_DOT, Z
+from bearing_model.vec import vec_cross, vec_dot
+
+OUT, IN = [0, 4, 5], [1, 2]  # of the motions (x, r, t, phi_x, phi_r, phi_t) of a pad: out of the plane, in it
+ROOT = np.sqrt(2.0)
+RAY = 24  # intervals of Simpson's rule along a ray of loads
+
+
+@dataclass
+class ElasticHalf:
+    """A half's modes as a scene takes them; n of them, without dimension, of modal mass m."""
+
+    n: int
+    omega: np.ndarray  # [n] rad/s
+    damping: np.ndarray  # 2 zeta omega [n]
+    pad: np.ndarray  # motions of the pads [n, 6, Z]
+    wave: np.ndarray  # Re and Im of the wave at the pockets [n, 2, Z]
+    chi: np.ndarray  # nodes of the wall's angle
+    pocket: np.ndarray  # (x, r, t) by Re and Im of the wave at the nodes [chi, n, 3, 2]
+    slope: np.ndarray  # its slopes
+    spin: np.ndarray  # modal force per (rad/s)^2 [n]
+    K: np.ndarray  # stiffness of what the modes leave, out of the plane [Z, 3, 3]
+    series: float  # part of the friction states' stiffness that is left in series with it
+    series_hole: float  # and of the hole's
+    wall: float  # compliance that the modes leave at a wall, along its normal [m/N]
+    law: JointLaw  # over L^
+    energy: np.ndarray  # coefficients of U, whose slope is delta [tau, q, psi], per newton squared
+
+
+def circulant_inverse(R):
+    """Inverse of a circulant matrix of blocks [Z, n, n]."""
+    return np.fft.ifft(np.linalg.inv(np.fft.fft(R, axis=0)), axis=0).real
+
+
+def real_modes(modes, most):
+    """Rows (family, part) of the real modes, part 0: cos, 1: sin; as many as `most` without dividing a pair."""
+    rows = []
+    for family, parity in enumerate(modes.parity):
+        parts = {0: (0, 1), 1: (0,), -1: (1,)}[int(parity)]
+        if len(rows) + len(parts) > most:
+            break
+        rows += [(family, part) for part in parts]
+    return np.array(rows)
+
+
+def law_behind(law, K):
+    """The law over L^ = L + K delta in place of L* = L + K_0 delta, on the same knots, and the coefficients of U(L^), whose slope is delta."""
+    knots = [law.knots[name] for name in ("tau", "q", "psi")]
+    places = [sites(k) for k in knots]
+    grid = np.array([[[np.append(*law_load(law.length, a, b, c)) for c in places[2]] for b in places[1]] for a in places[0]])
+    load, P = grid[..., :3], grid[..., 3]
+    values = np.concatenate(joint_law(law, load_before(law, K, load, P), P), axis=-1)
+    behind = JointLaw(law.length, law.knots, interpolate(knots, values), law.stiffness, law.slip_stiffness, law.sign)
+    ray = np.linspace(0.0, 1.0, RAY + 1)
+    simpson = np.tile([2.0, 4.0], RAY // 2 + 1)[: RAY + 1] / (3.0 * RAY)
+    simpson[[0, -1]] /= 2.0
+    U = sum(w * np.sum(joint_law(behind, t * load, P)[0] * load, axis=-1) for w, t in zip(simpson, ray, strict=True))
+    return behind, interpolate(knots, U)
+
+
+def load_before(law, K, behind, P):
+    """L* [..., 3] for L^ = behind [..., 3]: Newton's method on L* + (K - K_0) delta(L*) = L^."""
+    more, unit = K - law.stiffness[0], np.array([1.0, law.length, law.length])
+    load = behind.copy()
+
+    def residual(load):
+        return load + joint_law(law, load, P)[0] @ more.T - behind
+
+    rest = residual(load)
+    for _ in range(40):
+        step = 1e-6 * unit * (P + np.sum(np.abs(load) / unit, axis=-1))[..., None]
+        slope = np.stack([(residual(load + step * axis) - rest) / step[..., i : i + 1] for i, axis in enumerate(np.eye(3))], axis=-1)
+        change = np.linalg.solve(slope, -rest[..., None])[..., 0]
+        part = np.ones_like(P)
+        size = np.sum(np.abs(rest) / unit, axis=-1)
+        for _ in range(12):  # halved until the residual falls
+            trial = residual(load + part[..., None] * change)
+            part = np.where(np.sum(np.abs(trial) / unit, axis=-1) > size, 0.5 * part, part)
+        load = load + part[..., None] * change
+        rest = residual(load)
+        if np.max(np.abs(rest) / unit) < 1e-12:
+            break
+    return load
+
+
+def derive_elastic(p, d, table):
+    """ElasticHalf of the scene; None for other scenes."""
+    modes, m_0 = table.half.modes, table.half.m
+    if modes is None:
+        raise ValueError("scene.cage = elastic: the rivet table has no vibration modes")
+    rows = real_modes(modes, p.scene.modes)
+    family, part = rows.T
+    n, unit = modes.harmonic[family], np.sqrt(m_0)  # the table's modes have unit modal mass
+    theta = 2.0 * np.pi * np.arange(Z) / Z
+
+    def waves(at):
+        """cos and sin parts of the wave at some angles [n, 2, len(at)]: what Re A and Im A of a place are multiplied by."""
+        c, s = np.cos(np.outer(n, at)), np.sin(np.outer(n, at))
+        return np.where(part[:, None, None] == 0, np.stack([c, -s], axis=1), np.stack([s, c], axis=1))
+
+    at_pads = waves(theta + np.pi / Z)
+    odd = np.array([0, 0, 1, 1, 1, 0])  # of x, r, t, phi_x, phi_r, phi_t
+    pad = unit * modes.pad[family][:, :, None] * at_pads[:, odd]
+    at_pockets = waves(theta)
+    pocket = unit * np.moveaxis(modes.pocket[family], 1, 0)
+    omega = modes.omega[family] * np.sqrt(m_0 / p.cage.m)
+    stiffness = m_0 * modes.omega[family] ** 2
+    left = modes.static_pad - np.einsum("ikZ,il,i->Zkl", pad, pad[:, :, 0], 1.0 / stiffness)
+    K = circulant_inverse(left[:, OUT][:, :, OUT])
+    shear = 2.0 * np.mean(np.diag(left[0])[IN])  # of both halves
+    wall = modes.static_pocket[0, 2, 2] - np.sum(np.einsum("ic,ic->i", pocket[0, :, 2], at_pockets[:, :, 0]) ** 2 / stiffness)
+    behind, energy = law_behind(table.half.law, K[0])
+    return ElasticHalf(
+        n=len(rows),
+        omega=omega,
+        damping=2.0 * p.cage.modal_damping * omega,
+        pad=pad,
+        wave=at_pockets,
+        chi=table.half.chi,
+        pocket=pocket,
+        slope=pocket_slopes(table.half.chi, pocket),
+        spin=d.centrifugal * (p.cage.m / m_0) * unit * modes.spin[family] * (part == 0),
+        K=K,
+        series=1.0 / (1.0 + shear * (d.k_plate_t + d.k_head)),
+        series_hole=1.0 / (1.0 + shear * d.k_hole),
+        wall=max(wall, 0.0),
+        law=behind,
+        energy=energy,
+    )
+
+
+def pocket_slopes(chi, pocket):
+    """Slopes over the wall's angle: of the parabolas through three neighbours; beyond the pocket's bottom lies its mirror image."""
+    mirror = np.array([[1.0, -1.0], [1.0, -1.0], [-1.0, 1.0]])
+    x, y = np.append(chi, np.pi - chi[-2]), np.concatenate([pocket, (pocket[-2] * mirror)[None]])
+    h = np.diff(x).reshape(-1, 1, 1, 1)
+    d = np.diff(y, axis=0) / h
+    inner = (h[1:] * d[:-1] + h[:-1] * d[1:]) / (h[1:] + h[:-1])
+    return np.concatenate([(d[0] + (d[0] - inner[0]))[None], inner])
+
+
+# ------------------------------------------------------------------------------------------------------------------ walls of the pockets
+
+
+def cage_elastic_shapes(half, side, n_x, n_t):
+    """Motions (x, r, t) [3, ..., Z, n] of the walls by all modes where the contacts are, and their slopes over the wall's angle."""
+    chi = maximum(np.arctan(side * n_x / maximum(absolute(n_t), 1e-30)), 0.0)
+    i = np.clip(np.searchsorted(half.chi, np.real(chi), side="right") - 1, 0, len(half.chi) - 2)
+    h = half.chi[i + 1] - half.chi[i]
+    u = (chi - half.chi[i]) / h
+    v = 1.0 - u
+    terms = half.pocket[i], half.slope[i], half.pocket[i + 1], half.slope[i + 1]  # [..., Z, n, 3, 2]
+    value = v * v * (1.0 + 2.0 * u), h * u * v * v, u * u * (1.0 + 2.0 * v), -h * u * u * v
+    slope = -6.0 * u * v / h, v * (v - 2.0 * u), 6.0 * u * v / h, u * (u - 2.0 * v)
+    back = np.where(np.real(n_t) < 0.0, -1.0, 1.0)[..., None, None, None] * np.array([[0.0, 1.0], [0.0, 1.0], [1.0, 0.0]]) + [[1.0, 0.0], [1.0, 0.0], [0.0, 1.0]]
+    wave = np.moveaxis(half.wave, 2, 0)[:, :, None, :]  # [Z, n, 1, 2]
+
+    def shapes(weights):
+        A = sum(w[..., None, None, None] * term for w, term in zip(weights, terms, strict=True))
+        return np.moveaxis(np.sum(A * back * wave, axis=-1), -1, 0) * np.array([side, 1.0, 1.0]).reshape(-1, *[1] * (A.ndim - 2))
+
+    on_wall = np.real(side * n_x) > 0.0
+    return shapes(value), shapes(slope) * on_wall[..., None]
+
+
+def cage_elastic_coordinates(model, y, h):
+    """Modal coordinates of half h and their rates [..., 1, n]."""
+    n, sign = model.d.elastic.n, 1.0 if h == 1 else -1.0
+    S, D, S_dot, D_dot = (y[..., None, block][..., :n] for block in (MODE_S, MODE_D, MODE_S_DOT, MODE_D_DOT))
+    return (S + sign * D) / ROOT, (S_dot + sign * D_dot) / ROOT
+
+
+def cage_elastic_walls(model, w, h, n_x, n_t, S):
+    """Motion and velocity (x, r, t) [3, ..., Z] of the walls of half h along the ball's pocket axes; slope of n.u across n; the modes' shapes there."""
+    shape, shape_chi = cage_elastic_shapes(model.d.elastic, 2 * h - 1, n_x, n_t)
+    q, q_dot = w.modes[h]
+    u, u_dot, u_chi = (np.sum(a * b, axis=-1) for a, b in ((shape, q), (shape, q_dot), (shape_chi, q)))
+    turn = (2 * h - 1) * np.where(np.real(n_t) < 0.0, -1.0, 1.0)
+    slope = (n_t * u[0] - n_x * u[2] + turn * (n_x * u_chi[0] + n_t * u_chi[2])) / S
+    return u, u_dot, slope, shape
+
+
+def cage_elastic_approach(d, share, delta):
+    """Approach [..., Z] of ball and wall without what the compliance c of the wall takes: delta_h + c w K delta_h^1.5 = delta, Newton's method.
+
+    share: function of the approach that gives the part w of the load.
+    """
+    c = d.elastic.wall * d.pocket.K
+    own = maximum(delta, 0.0)
+    for _ in range(4):
+        root = np.sqrt(np.where(np.real(own) > 0.0, own, 1e-30))
+        load = c * share(own) * root
+        own = maximum(own - (own + load * own - delta) / (1.0 + 1.5 * load), 0.0)
+    return np.where(np.real(delta) > 0.0, own, delta)
+
+
+# ------------------------------------------------------------------------------------------------------------------------- joints
+
+
+def cage_elastic_kinematics(model, y, w):
+    """Motions of the halves' modes, of the pads against each other: elastic part, out of the plane (x, phi_r, phi_t) and in it (r, t)."""
+    half = model.d.elastic
+    w.modes = [cage_elastic_coordinates(model, y, h) for h in range(2)]
+    w.more_J = [2.0 * np.sum(half.spin * q, axis=-1) for q, _ in w.modes]
+    S, D, S_dot, D_dot = (ROOT * y[..., block][..., : half.n] for block in (MODE_S, MODE_D, MODE_S_DOT, MODE_D_DOT))
+    w.pad_out, w.pad_out_dot = (np.einsum("...i,ikz->k...z", q, half.pad[:, OUT]) for q in (S, S_dot))
+    w.pad_in, w.pad_in_dot = (np.einsum("...i,ikz->k...z", q, half.pad[:, IN]) for q in (D, D_dot))
+
+
+def cage_elastic_pads(model, w):
+    """Adds the modes to offset and velocity of the joints (cage_joint_kinematics); sets e [3, ..., Z], half the relative motion out of the plane."""
+    d, (h0, h1) = model.d, w.half
+    R = 0.5 * d.table.joint["d_m"]
+    c, s = d.rivet_y / R, d.rivet_z / R
+    w.turn_y, w.turn_z = -vec_dot(h0.b_z, h1.a), vec_dot(h0.b_y, h1.a)  # small rotation of half 1 against half 0
+    e = np.array([w.u[0], w.turn_y * c + w.turn_z * s, w.turn_z * c - w.turn_y * s])
+    w.e = 0.5 * (e + w.pad_out)
+    w.u, w.v_j = w.u.copy(), w.v_j.copy()
+    w.u_rigid = w.u.copy()
+    for total, (r, t) in ((w.u, w.pad_in), (w.v_j, w.pad_in_dot)):
+        total[1] += c * r - s * t
+        total[2] += s * r + c * t
+
+
+def cage_elastic_law(model, e, P):
+    """Loads L (N, M_r, M_t) of the joints, moves delta, loads of the rivets (T, m_r, m_t), energy of one half, for motions e; all [3, ..., Z]."""
+    half, law = model.d.elastic, model.d.elastic.law
+    waves = half.K[(np.arange(Z)[:, None] - np.arange(Z)) % Z]  # [k, j, 3, 3]
+    bonded = np.einsum("kjab,b...j->...ka", waves, e)
+    behind, delta = bonded, None
+    for _ in range(2):  # the neighbours' moves relieve a joint
+        if delta is not None:
+            behind = bonded - np.einsum("kjab,...jb->...ka", waves, delta) + delta @ half.K[0].T
+        delta, rivet = joint_law(law, behind, P)
+    load = behind - delta @ half.K[0].T
+    s = P + np.sqrt(behind[..., 0] ** 2 + (behind[..., 1] ** 2 + behind[..., 2] ** 2) / law.length**2)
+    U = s**2 * spline_value(law, half.energy, behind, P)
+    rest = np.moveaxis(e, 0, -1) - delta
+    V = 0.5 * np.sum(rest * np.einsum("kjab,...jb->...ka", waves, rest), axis=-1)
+    V = V + np.sum((behind - 0.5 * delta @ half.K[0].T) * delta, axis=-1) - U
+    return np.moveaxis(load, -1, 0), np.moveaxis(delta, -1, 0), np.moveaxis(rivet, -1, 0), V
+
+
+def spline_value(law, coefficients, load, P):
+    """The tensor product of splines of the law's knots at loads [..., 3] and preloads [...]."""
+    return law_spline(law, coefficients[..., None], load, P)[1][..., 0]
+
+
+def cage_elastic_joints(model, y, w):
+    """Loads of the joints out of the plane; sets what rivets and plates carry, adds the moments to both halves.  cage_joint_force needs T and N_plate."""
+    d, (h0, h1) = model.d, w.half
+    omega_2 = 0.5 * ((h0.s + w.frame_omega) ** 2 + (h1.s + w.frame_omega) ** 2)
+    P = maximum(d.P + d.spin[5] * omega_2, 0.0) + 0.0 * w.e[0]
+    w.joint_load, _, w.joint_rivet, V = cage_elastic_law(model, w.e, P)
+    w.joint_potential = 2.0 * V
+    w.T = maximum(w.joint_rivet[0], 0.0)
+    w.N_plate = maximum(w.T - w.joint_load[0], 0.0)
+
+    # moments on half 1, whose power is that of the rates of turn_y and turn_z
+    R = 0.5 * d.table.joint["d_m"]
+    c, s = d.rivet_y / R, d.rivet_z / R
+    _, M_r, M_t = w.joint_load
+    M_y, M_z = ball_array_sum(M_r * c - M_t * s), ball_array_sum(M_r * s + M_t * c)
+    moment = M_y * vec_cross(h1.a, h0.b_z) - M_z * vec_cross(h1.a, h0.b_y)
+    h0.M, h1.M = h0.M - moment, h1.M + moment
+
+
+def cage_elastic_coriolis(model, w, h):
+    """Moment [N.m] about the axis of half h that its widening needs; w.more_J: moment of inertia that its modes add, 2 spin . q."""
+    q, q_dot = w.modes[h]
+    spin = model.d.elastic.spin
+    return 2.0 * np.sum(spin * q_dot, axis=-1) * (w.half[h].s + w.frame_omega)
+
+
+def cage_elastic_acceleration(model, y, w, y_dot):
+    """Rates of the modal coordinates."""
+    half, d, p = model.d.elastic, model.d, model.p
+    R = 0.5 * d.table.joint["d_m"]
+    c, s = d.rivet_y / R, d.rivet_z / R
+    _, F_y, F_z = w.joint_force  # on half 1, in the frame of half 0
+    across = np.stack([c * F_y + s * F_z, c * F_z - s * F_y])
+    mirrored = -ROOT * np.einsum("k...z,ikz->...i", w.joint_load, half.pad[:, OUT])
+    opposed = ROOT * np.einsum("k...z,ikz->...i", across, half.pad[:, IN])
+    f0, f1 = (np.sum(w.pocket_modal[h], axis=-2) + (w.half[h].s + w.frame_omega) ** 2 * half.spin for h in range(2))
+    w.modes_dissipated = 0.0
+    for q, rate, force in ((MODE_S, MODE_S_DOT, mirrored + (f1 + f0) / ROOT), (MODE_D, MODE_D_DOT, opposed + (f1 - f0) / ROOT)):
+        x, v = y[..., q][..., : half.n], y[..., rate][..., : half.n]
+        y_dot[..., q][..., : half.n] = v
+        y_dot[..., rate][..., : half.n] = force / p.cage.m - half.damping * v - half.omega**2 * x
+        w.modes_dissipated = w.modes_dissipated + p.cage.m * np.sum(half.damping * v * v, axis=-1, keepdims=True)
+
+
+def cage_elastic_energy(model, y, w):
+    """Kinetic and elastic energy of the modes [J], [..., 1], with that of the spin in the moment of inertia that they add."""
+    half = model.d.elastic
+    n = half.n
+    rates = y[..., MODE_S_DOT][..., :n] ** 2 + y[..., MODE_D_DOT][..., :n] ** 2
+    places = half.omega**2 * (y[..., MODE_S][..., :n] ** 2 + y[..., MODE_D][..., :n] ** 2)
+    spin = sum(0.5 * J * (half.s**2 - w.frame_omega**2) for J, half in zip(w.more_J, w.half, strict=True))
+    return 0.5 * model.p.cage.m * np.sum(rates + places, axis=-1, keepdims=True) + spin

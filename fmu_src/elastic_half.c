@@ -1,0 +1,323 @@
+// What a scene takes of a half's vibration modes: see elastic_half.h.
+#include "elastic_half.h"
+
+#include "elementary.h"
+#include "rivet_rom.h"
+
+enum { SYSTEM = PAD_OUT * Z, RAY = 24 };
+
+static const int OUT[PAD_OUT] = {0, 4, 5}, IN[PAD_IN] = {1, 2};  // of the motions (x, r, t, phi_x, phi_r, phi_t) of a pad
+static const bool ODD[6] = {false, false, true, true, true, false};  // of those: mirroring in the rivet's plane changes them
+
+size_t elastic_half_size(void)
+{
+    const int *cells = rivet_table.half.law.cells;
+    size_t count = LAW_WIDTH;
+    for (int a = 0; a < LAW_AXES; a++) count *= (size_t)(cells[a] + 2);
+    return sizeof(ElasticHalf) + count * sizeof(double);
+}
+
+// Value that the real (0) or imaginary (1) part of an amplitude is multiplied by at the angle theta, for the coordinate
+// a (0) or b (1).
+static double wave_at(int n, int coordinate, int part, double theta)
+{
+    const double c = portable_cos(n * theta), s = portable_sin(n * theta);
+    if (coordinate == 0) return part == 0 ? c : -s;
+    return part == 0 ? s : c;
+}
+
+// Slopes over the wall's angle of an amplitude's part: of the parabolas through three neighbours; beyond the pocket's bottom
+// lies its mirror image, times `mirror`.
+static void wall_slopes(const double *chi, int nodes, const double *y, double mirror, double *slope)
+{
+    double x[WALL_NODES + 1], v[WALL_NODES + 1];
+    for (int i = 0; i < nodes; i++) x[i] = chi[i], v[i] = y[i];
+    x[nodes] = PI - chi[nodes - 2], v[nodes] = mirror * y[nodes - 2];
+    for (int i = 1; i < nodes; i++) {
+        const double h_0 = x[i] - x[i - 1], h_1 = x[i + 1] - x[i];
+        const double d_0 = (v[i] - v[i - 1]) / h_0, d_1 = (v[i + 1] - v[i]) / h_1;
+        slope[i] = (h_1 * d_0 + h_0 * d_1) / (h_1 + h_0);
+    }
+    const double d = (v[1] - v[0]) / (x[1] - x[0]);
+    slope[0] = d + (d - slope[1]);
+}
+
+// Mode i: coordinate a or b of an entry of the table.
+static void take_mode(const HalfModes *table, int entry, int coordinate, double unit, ElasticHalf *half, int i)
+{
+    const int n = table->harmonic[entry], nodes = half->nodes;
+    for (int k = 0; k < Z; k++) {
+        const double theta = 2.0 * PI * (k + 0.5) / Z;
+        for (int c = 0; c < PAD_OUT; c++)
+            half->out[i][c][k] = half->out_modes[c][k][i] =
+                unit * table->pad[6 * entry + OUT[c]] * wave_at(n, coordinate, ODD[OUT[c]], theta);
+        for (int c = 0; c < PAD_IN; c++)
+            half->in[i][c][k] = half->in_modes[c][k][i] =
+                unit * table->pad[6 * entry + IN[c]] * wave_at(n, coordinate, ODD[IN[c]], theta);
+        for (int part = 0; part < 2; part++)
+            half->wave[k][part][i] = wave_at(n, coordinate, part, 2.0 * PI * k / Z);
+    }
+    for (int c = 0; c < 3; c++)
+        for (int part = 0; part < 2; part++) {
+            double value[WALL_NODES], slope[WALL_NODES];
+            for (int node = 0; node < nodes; node++)
+                value[node] = unit * table->pocket[((entry * nodes + node) * 3 + c) * 2 + part];
+            wall_slopes(half->chi, nodes, value, (c == 2) == (part == 1) ? 1.0 : -1.0, slope);
+            for (int node = 0; node < nodes; node++) {
+                half->wall[node][0][c][part][i] = value[node];
+                half->wall[node][1][c][part][i] = slope[node];
+            }
+        }
+}
+
+// x = A^-1 x for a few columns x, by elimination with pivots.
+static void solve(double A[SYSTEM][SYSTEM], double x[SYSTEM][PAD_OUT])
+{
+    for (int i = 0; i < SYSTEM; i++) {
+        int pivot = i;
+        for (int k = i + 1; k < SYSTEM; k++)
+            if (fabs(A[k][i]) > fabs(A[pivot][i])) pivot = k;
+        for (int q = 0; q < SYSTEM; q++) {
+            const double swap = A[i][q];
+            A[i][q] = A[pivot][q], A[pivot][q] = swap;
+        }
+        for (int q = 0; q < PAD_OUT; q++) {
+            const double swap = x[i][q];
+            x[i][q] = x[pivot][q], x[pivot][q] = swap;
+        }
+        for (int k = 0; k < SYSTEM; k++) {
+            if (k == i) continue;
+            const double l = A[k][i] / A[i][i];
+            for (int q = i; q < SYSTEM; q++) A[k][q] -= l * A[i][q];
+            for (int q = 0; q < PAD_OUT; q++) x[k][q] -= l * x[i][q];
+        }
+    }
+    for (int i = 0; i < SYSTEM; i++)
+        for (int q = 0; q < PAD_OUT; q++) x[i][q] /= A[i][i];
+}
+
+// The stiffness of what the modes leave between the pads.  R: its compliance [k][motion][load], k pitches farther.
+static void invert_residual(double R[Z][6][6], ElasticHalf *half)
+{
+    static const double unit[PAD_OUT] = {1.0, 1e-3, 1e-3};  // [m] makes the equations alike
+    double A[SYSTEM][SYSTEM], x[SYSTEM][PAD_OUT];
+    memset(x, 0, sizeof x);
+    for (int k = 0; k < Z; k++)
+        for (int j = 0; j < Z; j++)
+            for (int a = 0; a < PAD_OUT; a++)
+                for (int b = 0; b < PAD_OUT; b++)
+                    A[PAD_OUT * k + a][PAD_OUT * j + b] = unit[a] * unit[b] * R[(k - j + Z) % Z][OUT[a]][OUT[b]];
+    for (int a = 0; a < PAD_OUT; a++) x[a][a] = 1.0;
+    solve(A, x);
+    for (int k = 0; k < Z; k++)
+        for (int a = 0; a < PAD_OUT; a++)
+            for (int b = 0; b < PAD_OUT; b++) half->K[k][a][b] = unit[a] * unit[b] * x[PAD_OUT * k + a][b];
+}
+
+// ---- the law over L^ ------------------------------------------------------------------------------------------------
+// L* + (K - K_0) delta(L*) - L^ in newtons.
+static void behind_residual(const JointLaw *law, const double more[3][3], const double load[3], double P, const double behind[3],
+                            double rest[3])
+{
+    double move[3], rivet[3], U;
+    joint_law(law, load, P, move, rivet, &U);
+    for (int i = 0; i < 3; i++) {
+        rest[i] = load[i] - behind[i];
+        for (int k = 0; k < 3; k++) rest[i] += more[i][k] * move[k];
+        if (i > 0) rest[i] /= law->length;
+    }
+}
+
+static double size_of(const double rest[3])
+{
+    return fabs(rest[0]) + fabs(rest[1]) + fabs(rest[2]);
+}
+
+// L* for L^, by Newton's method with differences; a step is halved until the residual falls.
+static void load_before(const JointLaw *law, const double more[3][3], const double behind[3], double P, double load[3])
+{
+    const double unit[3] = {1.0, law->length, law->length};
+    double rest[3];
+    memcpy(load, behind, 3 * sizeof *load);
+    behind_residual(law, more, load, P, behind, rest);
+    for (int iteration = 0; iteration < 60 && size_of(rest) > 1e-13; iteration++) {
+        double slope[3][3], change[3], trial[3], found[3];
+        const double scale = P + fabs(load[0]) + (fabs(load[1]) + fabs(load[2])) / law->length;
+        for (int k = 0; k < 3; k++) {
+            const double step = 1e-6 * scale;
+            memcpy(trial, load, sizeof trial);
+            trial[k] += step * unit[k];
+            behind_residual(law, more, trial, P, behind, found);
+            for (int i = 0; i < 3; i++) slope[i][k] = (found[i] - rest[i]) / step;
+        }
+
+        // Cramer's rule
+        double minor[3][3], det = 0.0;
+        for (int i = 0; i < 3; i++)
+            for (int k = 0; k < 3; k++) {
+                const int a = (i + 1) % 3, b = (i + 2) % 3, c = (k + 1) % 3, e = (k + 2) % 3;
+                minor[i][k] = slope[a][c] * slope[b][e] - slope[a][e] * slope[b][c];
+            }
+        for (int k = 0; k < 3; k++) det += slope[0][k] * minor[0][k];
+        for (int k = 0; k < 3; k++)
+            change[k] = -(minor[0][k] * rest[0] + minor[1][k] * rest[1] + minor[2][k] * rest[2]) / det * unit[k];
+        double part = 1.0;
+        for (int halving = 0; halving < 12; halving++, part *= 0.5) {
+            for (int k = 0; k < 3; k++) trial[k] = load[k] + part * change[k];
+            behind_residual(law, more, trial, P, behind, found);
+            if (size_of(found) < size_of(rest)) break;
+        }
+        memcpy(load, trial, sizeof trial);
+        memcpy(rest, found, sizeof found);
+    }
+}
+
+// (N, M_r, M_t) and P of s = 1 N at the coordinates of the law, M_r >= 0.
+static double law_load(double length, const double at[LAW_AXES], double load[3])
+{
+    const double m = 1.0 - fabs(at[AXIS_Q]), a = 1.0 - fabs(at[AXIS_PSI]), b = at[AXIS_PSI];
+    const double W = at[AXIS_TAU] / sqrt(at[AXIS_Q] * at[AXIS_Q] + m * m), M = length / sqrt(a * a + b * b);
+    load[0] = W * at[AXIS_Q], load[1] = W * m * M * a, load[2] = W * m * M * b;
+    return 1.0 - at[AXIS_TAU];
+}
+
+// Place s of n + 2 on an axis of n cells, in cells: the ends and the middles.
+static double site(int s, int cells)
+{
+    return s == 0 ? 0.0 : s == cells + 1 ? cells : s - 0.5;
+}
+
+// Coefficients of uniform quadratic splines from their values at the sites of one axis, in place: the first and the last
+// equation give the outer coefficients, (c_0 + c_1)/2 = v_0, and the others are (c_i + 6 c_(i+1) + c_(i+2))/8 = v.
+static void interpolate_axis(double *values, int cells, int stride)
+{
+    enum { MOST = 64 };
+    double upper[MOST], right[MOST], c[MOST];
+    const int count = cells + 2;
+    for (int s = 0; s < count; s++) {
+        const bool end = s == 0 || s == count - 1;
+        const double lower = s == 0 ? 0.0 : end ? 0.5 : 0.125, middle = end ? 0.5 : 0.75, above = s == 0 ? 0.5 : end ? 0.0 : 0.125;
+        const double pivot = middle - (s > 0 ? lower * upper[s - 1] : 0.0);
+        upper[s] = above / pivot;
+        right[s] = (values[s * stride] - (s > 0 ? lower * right[s - 1] : 0.0)) / pivot;
+    }
+    for (int s = count - 1; s >= 0; s--) c[s] = right[s] - (s < count - 1 ? upper[s] * c[s + 1] : 0.0);
+    for (int s = 0; s < count; s++) values[s * stride] = c[s];
+}
+
+// The same for one of the numbers of the law, on all three axes.
+static void interpolate(const int cells[LAW_AXES], double *values)
+{
+    const int count[LAW_AXES] = {cells[0] + 2, cells[1] + 2, cells[2] + 2};
+    const int stride[LAW_AXES] = {count[1] * count[2] * LAW_WIDTH, count[2] * LAW_WIDTH, LAW_WIDTH};
+    for (int axis = 0; axis < LAW_AXES; axis++) {
+        const int second = (axis + 1) % LAW_AXES, third = (axis + 2) % LAW_AXES;
+        for (int a = 0; a < count[second]; a++)
+            for (int b = 0; b < count[third]; b++)
+                interpolate_axis(values + a * stride[second] + b * stride[third], cells[axis], stride[axis]);
+    }
+}
+
+// Values at a site of the law: moves of the pad and loads of the rivet under L^ (first pass); U, the work of the moves along
+// the ray from 0 to L^, by Simpson's rule (second pass).
+static void site_values(const ElasticHalf *half, const double more[3][3], const double behind[3], double P, int pass, double *to)
+{
+    double load[3], move[3], rivet[3], U;
+    if (pass == 0) {
+        load_before(&rivet_table.half.law, more, behind, P, load);
+        joint_law(&rivet_table.half.law, load, P, move, rivet, &U);
+        memcpy(to, move, sizeof move);
+        memcpy(to + 4, rivet, sizeof rivet);
+        return;
+    }
+    double sum = 0.0;
+    for (int i = 1; i <= RAY; i++) {
+        const double t = (double)i / RAY, weight = (i == RAY ? 1.0 : i % 2 == 1 ? 4.0 : 2.0) / (3.0 * RAY);
+        for (int k = 0; k < 3; k++) load[k] = t * behind[k];
+        joint_law(&half->law, load, P, move, rivet, &U);
+        for (int k = 0; k < 3; k++) sum += weight * move[k] * behind[k];
+    }
+    to[LAW_ENERGY] = sum;
+}
+
+// The law over L^, on the same cells.
+static void law_behind(ElasticHalf *half)
+{
+    const JointLaw *law = &rivet_table.half.law;
+    const int *cells = law->cells;
+    double more[3][3];
+    for (int i = 0; i < 9; i++) more[i / 3][i % 3] = half->K[0][i / 3][i % 3] - law->K_0[i / 3][i % 3];
+    half->law = *law;
+    half->law.coefficients = half->coefficients;
+    for (int pass = 0; pass < 2; pass++) {
+        double *to = half->coefficients;
+        for (int a = 0; a < cells[0] + 2; a++)
+            for (int b = 0; b < cells[1] + 2; b++)
+                for (int c = 0; c < cells[2] + 2; c++, to += LAW_WIDTH) {
+                    const double at[LAW_AXES] = {site(a, cells[0]) / cells[0], 2.0 * site(b, cells[1]) / cells[1] - 1.0,
+                                                 2.0 * site(c, cells[2]) / cells[2] - 1.0};
+                    double behind[3];
+                    const double P = law_load(law->length, at, behind);
+                    site_values(half, more, behind, P, pass, to);
+                }
+        for (int number = 0; number < LAW_WIDTH; number++)
+            if ((number == LAW_ENERGY) == (pass == 1)) interpolate(cells, half->coefficients + number);
+    }
+}
+
+// ---- all ------------------------------------------------------------------------------------------------------------
+void elastic_half_derive(const Parameters *p, const Derived *d, ElasticHalf *half)
+{
+    const CageHalfData *data = &rivet_table.half;
+    const HalfModes *table = &data->modes;
+    memset(half, 0, elastic_half_size());
+    half->nodes = data->path.nodes;
+    memcpy(half->chi, data->path.chi, (size_t)half->nodes * sizeof *half->chi);
+
+    // the modes of the lowest frequencies; those that are left out belong to the residual
+    const double unit = sqrt(data->m), denser = p->cage.m / data->m;
+    double R[Z][6][6], wall = table->wall[0];
+    memcpy(R, table->pad_residual, sizeof R);
+    bool taken = true;
+    for (int entry = 0; entry < table->entries; entry++) {
+        const int from = table->parity[entry] < 0, to = table->parity[entry] > 0 ? 1 : 2;
+        taken = taken && half->n + (to - from) <= p->scene.modes;
+        const double omega = table->omega[entry];
+        for (int coordinate = from; coordinate < to; coordinate++) {
+            if (taken) {
+                const int i = half->n++;
+                take_mode(table, entry, coordinate, unit, half, i);
+                half->omega_2[i] = omega * omega / denser;
+                half->damping[i] = 2.0 * p->cage.modal_damping * sqrt(half->omega_2[i]);
+                half->spin[i] = p->cage.centrifugal == SWITCH_ON && coordinate == 0 ? denser * unit * table->spin[entry] : 0.0;
+                continue;
+            }
+            const int n = table->harmonic[entry];
+            const double *pad = &table->pad[6 * entry];
+            for (int k = 0; k < Z; k++)
+                for (int a = 0; a < 6; a++)
+                    for (int b = 0; b < 6; b++)
+                        R[k][a][b] += pad[a] * wave_at(n, coordinate, ODD[a], 2.0 * PI * (k + 0.5) / Z) * pad[b] *
+                                      wave_at(n, coordinate, ODD[b], PI / Z) / (omega * omega);
+            const double A = table->pocket[(entry * half->nodes * 3 + 2) * 2 + coordinate];
+            wall += A * A / (omega * omega);
+        }
+    }
+    half->blocks = (half->n + 7) / 8;
+    invert_residual(R, half);
+    const double shear = R[0][1][1] + R[0][2][2];  // mean over r and t, of both halves
+    half->series = 1.0 / (1.0 + shear * (d->k_plate_t + d->k_head));
+    half->series_hole = 1.0 / (1.0 + shear * d->k_hole);
+    half->compliance = fmax(wall, 0.0);
+
+    // largest |u|^2/sum omega^2 q^2 by Cauchy's inequality; between the nodes twice as much at most
+    for (int node = 0; node < half->nodes; node++) {
+        double sum = 0.0;
+        for (int i = 0; i < half->n; i++)
+            for (int c = 0; c < 3; c += 2)
+                for (int part = 0; part < 2; part++)
+                    sum += half->wall[node][0][c][part][i] * half->wall[node][0][c][part][i] / half->omega_2[i];
+        half->reach = fmax(half->reach, 2.0 * sum);
+    }
+    law_behind(half);
+}

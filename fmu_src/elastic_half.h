@@ -1,0 +1,83 @@
+// The vibration modes of a cage half, and what a scene takes of them.
+//
+// The half is a ring of Z equal pitches.  An entry of the table is a mode of harmonic n, for 0 < n < Z/2 a pair of the
+// same frequency with the coordinates a (cos) and b (sin).  A place whose complex amplitude on pitch 0 is A moves by
+//
+//     u_j = Re[(a - i b) A exp(i nu)]      pocket j, side t > 0:  nu = 2 pi n j/Z;  side t < 0: (A_x, A_r, -A_t) conjugate
+//                                          rivet k:  nu = 2 pi n (k + 1/2)/Z;  A real along x, r and about t, else imaginary
+//
+// (rivet_model/half_modes.py, bearing_model/half_modes.py).  A scene takes the modes of the lowest frequencies, without
+// dividing a pair; the statics of all others are the residual.  Here the modes have no dimension and the modal mass is the
+// half's, so that coordinates are lengths.
+#pragma once
+
+#include "half_path.h"
+#include "isa.h"
+#include "joint_law.h"
+#include "model.h"
+
+enum { MODES = N_MODES };
+
+enum { PAD_X, PAD_PHI_R, PAD_PHI_T, PAD_OUT };  // motions of pads against each other out of the plane
+enum { PAD_R, PAD_T, PAD_IN };                  // and in the plane
+
+enum { WALL_NODES = 16 };  // at most
+
+struct ElasticHalf {
+    int n, blocks;                          // modes, blocks of eight of them
+    double omega_2[MODES], damping[MODES];  // omega^2, 2 zeta omega
+    double spin[MODES];                     // modal force per (rad/s)^2
+    double out[MODES][PAD_OUT][LANES];      // motions of the pads, joints side by side
+    double in[MODES][PAD_IN][LANES];
+    double out_modes[PAD_OUT][Z][MODES];  // the same, modes side by side
+    double in_modes[PAD_IN][Z][MODES];
+    double wave[Z][2][MODES];                    // at the pockets, what the real and the imaginary part of A are multiplied by
+    double wall[WALL_NODES][2][3][2][MODES];     // A by node, value and slope, (x, r, t), real and imaginary part
+    int nodes;                                   // of the walls' angle
+    double chi[WALL_NODES];                      // [rad]
+    double reach;                                // largest |u|^2 of a wall / sum omega^2 q^2 [s2]
+    double compliance;                           // of a wall along its normal, by the residual [m/N]
+    double K[Z][PAD_OUT][PAD_OUT];               // inverse of the residual between pads, out of the plane
+    double series, series_hole;                  // parts of the joints' stiffness in the plane, in series with the residual
+    JointLaw law;                                // the joints' law over L^ = L + K_0 delta with the K above
+    double coefficients[];                       // of the law; the fourth number is U, whose slope is delta
+};
+
+// Bytes of an ElasticHalf.
+size_t elastic_half_size(void);
+
+// What the scene takes of the modes in the rivet table.
+void elastic_half_derive(const Parameters *p, const Derived *d, ElasticHalf *half);
+
+// The walls of the pockets of a half where balls meet them.
+typedef struct {
+    ball_array u[3], u_dot[3];  // motion and velocity (x, r, t)
+    ball_array tilt;            // slope of n.u across n: how much the normal turns
+} WallMotion;
+
+// Motions (x, r, t) of one wall by all modes.
+typedef struct {
+    scalar motion[3][MODES];
+} WallShape;
+
+// Sets the motion of pocket j of the half at side (+1 or -1) with the coordinates q and their rates: the contact's normal is
+// (n_x, n_t), S the distance of the ball from the pocket's axis.
+#define elastic_wall FOR_ISA(elastic_wall)
+void elastic_wall(const ElasticHalf *half, int side, int j, const scalar *q, const scalar *q_dot, scalar n_x,
+                  scalar n_t, scalar S, WallMotion *wall, WallShape *shape);
+
+// Adds the modal forces of the force (x, r, t) on a wall.
+INLINE void elastic_wall_force(const ElasticHalf *half, const WallShape *shape, const scalar F[3], scalar *modal)
+{
+    for (int i = 0; i < 8 * half->blocks; i++)
+        modal[i] += F[0] * shape->motion[0][i] + F[1] * shape->motion[1][i] + F[2] * shape->motion[2][i];
+}
+
+// Sum over the modes in one order for every lane width.
+INLINE scalar elastic_sum(const ElasticHalf *half, const scalar *x, const scalar *y)
+{
+    scalar part[8] = {0};
+    for (int i = 0; i < 8 * half->blocks; i += 8)
+        for (int k = 0; k < 8; k++) part[k] += x[i + k] * y[i + k];
+    return ((part[0] + part[1]) + (part[2] + part[3])) + ((part[4] + part[5]) + (part[6] + part[7]));
+}
