@@ -17,8 +17,12 @@ def path_slopes(chi, matrix):
     Beyond the pocket's bottom (chi = pi/2) the path is its mirror image, so the last parabola is through the last two nodes and the mirrored one.
     """
     mirrored = matrix[-2][::-1] * PATH_MIRROR[:, None] * [1.0, 1.0, -1.0]
-    x, y = np.append(chi, np.pi - chi[-2]), np.concatenate([matrix, mirrored[None]])
-    h = np.diff(x).reshape(-1, *[1] * (matrix.ndim - 1))
+    return cubic_slopes(np.append(chi, np.pi - chi[-2]), np.concatenate([matrix, mirrored[None]]))
+
+
+def cubic_slopes(x, y):
+    """Slopes of the parabolas through three neighbouring places x [n] at all values y [n, ...] but the last; the first by its parabola's end."""
+    h = np.diff(x).reshape(-1, *[1] * (y.ndim - 1))
     d = np.diff(y, axis=0) / h
     inner = (h[1:] * d[:-1] + h[:-1] * d[1:]) / (h[1:] + h[:-1])
     return np.concatenate([(d[0] + (d[0] - inner[0]))[None], inner])

@@ -2,7 +2,8 @@
 
 The file is JSON text.  Sections: `header` {format, kind (one of KINDS), note, geometry, geometry_hash, Z, units, errors, digest}, `shank` (knots and spline
 coefficients of the stress over what the shank carries, see fmu_src/rivet_rom.h; constants of head friction and yield), `fit_eff` (interference with
-plasticity), `joint` (stiffnesses for the dynamics), `half` (the cage half: masses, load path and law of its joints, see half_path.py and joint_law.py).
+plasticity), `joint` (stiffnesses for the dynamics), `half` (the cage half: masses, load path and law of its joints, see half_path.py and joint_law.py),
+`modes` (its vibration, see half_modes.py; closed forms have none).
 Units in the file are SI except stress per force, which is in MPa/N = 1/mm2 to keep it readable.
 """
 
@@ -14,11 +15,12 @@ from pathlib import Path
 import numpy as np
 
 from bearing_model import half_path, joint_law
+from bearing_model.half_modes import PAD, RIVET, HalfModes, Residual
 
 DEFAULT_TABLE = Path(__file__).resolve().parents[1] / "rivet_model" / "tables" / "6207.json"
-FORMAT = "rivet-table-3"
+FORMAT = "rivet-table-4"
 KINDS = {"fe": "finite elements", "fe_coarse": "coarse finite elements", "closed_form": "closed forms"}  # numbered from 1: the output rivet.table_kind
-SECTIONS = ("header", "shank", "fit_eff", "joint", "half")
+SECTIONS = ("header", "shank", "fit_eff", "joint", "half", "modes")
 CHANNELS = ("head_p1", "head_vm", "mid_vm", "mid_p1")
 SHANK_AXES = ("a", "c", "xi")
 SHEETS = ("plane", "oblique", "across")  # chi, |cos| of the direction of M, is 1, 1/2, 0
@@ -74,6 +76,7 @@ class RivetTable:
     joint: dict  # JOINT_KEYS and hole_fit, k_hole
     shank: ShankTable
     half: HalfData
+    modes: HalfModes | None = None  # None: closed forms have none
     note: str = ""
     errors: dict = field(default_factory=dict)
 
@@ -138,6 +141,11 @@ class _Section:
         _need(array.ndim == 1 and len(array) > 1, self.path, f"{self.name}.{key} is not a list of numbers")
         return array
 
+    def array(self, key, shape):
+        array = _numbers(self.path, f"{self.name}.{key}", self.member(key, list))
+        _need(array.shape == shape, self.path, f"{self.name}.{key} has shape {array.shape}; {shape} is needed")
+        return array
+
 
 def _sections(path):
     """Header and sections of a file whose format and digest are right."""
@@ -175,26 +183,48 @@ def _read_shank(path, section):
 
 def _read_half(path, section, Z):
     """The section of the cage half, its arrays checked for their shapes."""
-
-    def array(key, shape):
-        values = _numbers(path, f"{section.name}.{key}", section.member(key, list))
-        _need(values.shape == shape, path, f"{section.name}.{key} has shape {values.shape}; {shape} is needed")
-        return values
-
     law = _Section(path, f"{section.name}.law", section.member("law", dict))
     knots, coefficients = _spline(path, law, joint_law.AXES, (len(joint_law.NUMBERS),))
-    chi, spin = section.numbers("chi"), array("spin", (8,))
+    chi, spin = section.numbers("chi"), section.array("spin", (8,))
     for key in ("m", "J_p", "J_t", "k_open"):
         _need(section.number(key) > 0.0, path, f"half.{key} = {section.number(key)}: more than 0 is needed")
     _need(section.number("k_closed") > section.number("k_open"), path, f"half.k_closed = {section.number('k_closed')}: more than k_open is needed")
-    stiffness, slip_stiffness = array("stiffness", (Z, 3, 3)), array("slip_stiffness", (Z, 2, 2))
+    stiffness, slip_stiffness = section.array("stiffness", (Z, 3, 3)), section.array("slip_stiffness", (Z, 2, 2))
     return HalfData(
         **{key: section.number(key) for key in ("m", "x_c", "J_p", "J_t", "k_closed", "k_open")},
         chi=chi,
-        path=array("path", (len(chi), Z, 8, 3)),
+        path=section.array("path", (len(chi), Z, 8, 3)),
         spin=spin,
         law=joint_law.JointLaw(law.number("length"), knots, coefficients, stiffness, slip_stiffness, np.sign(spin[4])),
     )
+
+
+def _read_modes(path, section, Z, chi):
+    """The section of the half's modes, checked; None if it is empty."""
+    if not section.members:
+        return None
+    omega = section.numbers("omega")
+    _need(np.all(np.diff(omega) >= 0.0) and omega[0] > 0.0, path, "modes.omega: positive numbers that do not decrease are needed")
+    harmonic, parity = (section.array(key, omega.shape) for key in ("harmonic", "parity"))
+    _need(np.all(np.isin(harmonic, np.arange(Z // 2 + 1))), path, f"modes.harmonic: whole numbers from 0 to {Z // 2} are needed")
+    single = np.isin(2 * harmonic, (0, Z))
+    _need(np.all(np.isin(parity, (-1, 0, 1)) & ((parity == 0) != single)), path, "modes.parity: 1 or -1 of harmonics 0 and Z/2, 0 of the others is needed")
+    at = _Section(path, "modes.residual", section.member("residual", dict))
+    both = len(PAD) + len(RIVET)
+    residual = Residual(
+        pad=at.array("pad", (Z, len(PAD), len(PAD))),
+        rivet=at.array("rivet", (Z, len(RIVET), len(PAD))),
+        pocket=at.array("pocket", (len(chi), Z, both, 3)),
+        spin=at.array("spin", (both,)),
+        wall=at.array("wall", chi.shape),
+    )
+    unit = np.array([1.0, 1.0, 1.0, 1e3, 1e3, 1e3])  # of moments 1 N.mm
+    waves = np.fft.fft(residual.pad, axis=0) / np.outer(unit, unit)
+    least = np.linalg.eigvalsh(0.5 * (waves + waves.conj().swapaxes(1, 2))).min()
+    _need(least > 0.0, path, f"modes.residual.pad is no flexibility: a load does work {least:g} m/N")
+    shapes = {"pocket": (len(chi), 3, 2), "pad": (len(PAD),), "rivet": (len(RIVET),), "rim": (2,), "spin": ()}
+    arrays = {key: section.array(key, (len(omega), *shape)) for key, shape in shapes.items()}
+    return HalfModes(Z=Z, chi=chi, omega=omega, harmonic=harmonic.astype(int), parity=parity.astype(int), residual=residual, **arrays)
 
 
 def _check_joint(path, joint):
@@ -214,7 +244,7 @@ def read(path, Z=None):
     Z: number of rivets that is needed, if given.  Raises ValueError naming file and fault (not JSON, another format, a damaged section, a wrong
     type or size, a number that is not finite, a table for another Z), OSError if it cannot be read.
     """
-    header, shank, fit, joint, half = _sections(path)
+    header, shank, fit, joint, half, modes = _sections(path)
     made_for = header.member("Z", int)
     _need(Z is None or made_for == Z, path, f"made for Z = {made_for} rivets; Z = {Z} is needed")
     kind = header.member("kind", str)
@@ -223,6 +253,7 @@ def read(path, Z=None):
     fits = {name: fit.numbers(name) for name in ("fit_a", "j2", "slope")}
     _need(len({len(values) for values in fits.values()}) == 1, path, "fit_eff: fit_a, j2 and slope have different lengths")
     _need(np.all(np.diff(fits["fit_a"]) > 0), path, "fit_eff.fit_a does not increase")
+    cage_half = _read_half(path, half, made_for)
     return RivetTable(
         kind=kind,
         geometry=header.member("geometry", dict),
@@ -237,7 +268,8 @@ def read(path, Z=None):
         fit_slope=fits["slope"],
         joint=joint.members,
         shank=_read_shank(path, shank),
-        half=_read_half(path, half, made_for),
+        half=cage_half,
+        modes=_read_modes(path, modes, made_for, cage_half.chi),
         note=header.member("note", str),
         errors=header.member("errors", dict),
     )

@@ -31,6 +31,7 @@
 // head_friction F_head to the head channels and nothing in the middle.
 #pragma once
 
+#include "half_modes.h"
 #include "half_path.h"
 #include "isa.h"
 #include "joint_law.h"
@@ -145,6 +146,7 @@ typedef struct {
     FitMap j2;                // interference with plasticity
     JointData joint;
     CageHalfData half;
+    HalfModes modes;
 } RivetTable;
 
 extern const RivetTable rivet_table;  // rivet_table.c, written by rivet_model/embed.py

@@ -15,7 +15,7 @@ from threadpoolctl import threadpool_limits
 
 from bearing_model import rivet_table
 
-from . import half, half_loads, plastic_fit, reduction, stiffness, table
+from . import half, half_loads, half_modes, plastic_fit, reduction, stiffness, table
 from .geometry import Geometry
 from .load_cases import COARSE, SHIPPED, TRUTH, Joint
 from .section_mesh import Fineness
@@ -28,11 +28,11 @@ def _quiet(stage, done, total):
 
 
 @threadpool_limits.wrap(limits=1)
-def make_table(geometry, coarse=False, workers=2, progress=_quiet, hold_out=320):
+def make_table(geometry, coarse=False, workers=2, progress=_quiet, hold_out=320, modes=half_modes.MODES):
     """Table of kind fe, or fe_coarse.
 
     progress(stage, done, total) is called as the work goes on; hold_out: number of fresh loads for the error in the header (0 leaves it out), solved on a
-    finer grid of angles, of a coarse table on its own: there it is the interpolation that errs.
+    finer grid of angles, of a coarse table on its own: there it is the interpolation that errs.  modes: number of modes of a cage half, pairs counted as two.
     Raises ValueError for a geometry that cannot be meshed, ArithmeticError if a contact or plasticity solution is not found.
     """
     grid, knots = (COARSE, reduction.COARSE) if coarse else (SHIPPED, reduction.FULL)
@@ -44,15 +44,18 @@ def make_table(geometry, coarse=False, workers=2, progress=_quiet, hold_out=320)
     samples = reduction.sample(joint, knots, workers, stage("contacts"))
     fine = Fineness(0.5) if coarse else Fineness()
     fit = plastic_fit.plastic_fit(geometry, fine=fine, progress=stage("interference"))
-    cage = half_loads.make_half(geometry, half.COARSE if coarse else None, half_loads.COARSE_KNOTS if coarse else None, stage("cage half"))
-    result = assemble("fe_coarse" if coarse else "fe", joint, knots, samples, fit, cage)
+    elastic = half_loads.elastic_half(geometry, half.COARSE if coarse else None)
+    alone = half_loads.JointAlone(elastic)
+    cage = half_loads.make_half(elastic, alone, half_loads.COARSE_KNOTS if coarse else None, stage("cage half"))
+    shaken = half_modes.half_modes(elastic, alone, modes, stage("modes"))
+    result = assemble("fe_coarse" if coarse else "fe", joint, knots, samples, fit, cage, shaken)
     if hold_out:
         result.errors = measured_errors(result, joint if coarse else Joint(geometry, TRUTH), hold_out, workers, stage("hold-out"))
     return result
 
 
-def assemble(kind, joint, knots, samples, fit, cage):
-    """The table from its parts; cage: HalfData."""
+def assemble(kind, joint, knots, samples, fit, cage, modes):
+    """The table from its parts; cage: HalfData; modes: HalfModes."""
     geometry = joint.geometry
     _, head, head_vm = stiffness.head_friction(joint)
     return table.make(
@@ -64,6 +67,7 @@ def assemble(kind, joint, knots, samples, fit, cage):
         (fit.fit_a, fit.fit_eff),
         stiffness.joint_data(joint),
         cage,
+        modes=modes,
         head_friction=float(head),
         head_friction_vm=float(head_vm),
         fit_flange_yield=fit.flange_yield,
@@ -85,6 +89,7 @@ def main(arguments=None):
     parser.add_argument("out")
     parser.add_argument("geometry", nargs="?")
     parser.add_argument("--coarse", action="store_true")
+    parser.add_argument("--modes", type=int, default=half_modes.MODES, help="of a cage half, a pair counted as two")
     parser.add_argument("--workers", type=int, default=min(2, os.cpu_count() or 1))
     options = parser.parse_args(arguments)
     if not Path(options.out).resolve().parent.is_dir():
@@ -98,7 +103,7 @@ def main(arguments=None):
 
     try:
         geometry = Geometry.from_toml(options.geometry) if options.geometry else Geometry()
-        result = make_table(geometry, options.coarse, options.workers, progress)
+        result = make_table(geometry, options.coarse, options.workers, progress, modes=options.modes)
         partial = Path(f"{options.out}.part")
         table.write(result, partial)
         partial.replace(options.out)

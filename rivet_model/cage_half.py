@@ -69,7 +69,7 @@ class CyclicSolid:
             return dofs[np.lexsort((self.component[dofs], np.round(r[dofs] * 1e9), np.round(self.x[0][dofs] * 1e9)))]
 
         near, far = ordered(near), ordered(far)
-        self.near = near
+        self.near, self.far = near, far
         edge = np.concatenate([near, far])
         inside = np.setdiff1d(np.arange(self.basis.N), edge)
         F_I, F_B = self.loads[inside], self.loads[edge]
@@ -173,6 +173,7 @@ class Patterns:
     body: slice  # rigid motions, then centrifugal: see body_loads
     pad: slice  # hats on the pad, along x
     plane: slice  # forces along r and t that friction gives to the pad, below the cone under the rivet's head
+    twist: slice  # moment about x that friction gives to the pad there
     head: slice  # at the seat's bottom, under the rivet's head: force along x, moments about r and t; then forces along r and t
     pocket: slice  # unit forces (x, r, t) at points of pocket 0's wall: near parts, then parts on the far end of the pitch before
 
@@ -235,7 +236,14 @@ class CageHalf(CyclicSolid):
 
         # friction acts where the head presses: pressure falls from the head's edge to nothing one flange thickness farther out
         cone = np.clip((0.5 * self.g.head_diameter + self.g.flange_thickness - np.hypot(*self.pad_place)) / self.g.flange_thickness, 0.0, 1.0) * self.pad_area
-        return {"pad": hats(e_x), "plane": np.stack([hats(e) @ cone for e in (e_r, e_t)], axis=1) / cone.sum()}
+        r, t = self.pad_place
+        along_r, along_t = hats(e_r), hats(e_t)
+        twist = along_t @ (cone * r) - along_r @ (cone * t)
+        return {
+            "pad": hats(e_x),
+            "plane": np.stack([along_r @ cone, along_t @ cone], axis=1) / cone.sum(),
+            "twist": twist[:, None] / (cone @ (r**2 + t**2)),
+        }
 
     def _head_loads(self):
         """Uniform and linear pressures under the head: unit force along x, unit moments about r and t; unit forces along r and t."""

@@ -103,6 +103,39 @@ def _half_source(half):
     return arrays, text
 
 
+def _modes_source(t):
+    """C text of the arrays of the half's modes, and the initialiser of its HalfModes."""
+    modes = t.modes
+    if modes is None:
+        return [], "{0}"
+    entries = [
+        f"{{{omega!r}, {n}, {parity}, {count}, {_braces(at)}, {_braces(rim)}, {spin!r}}}"
+        for omega, n, parity, count, at, rim, spin in zip(
+            modes.omega.tolist(),
+            modes.harmonic.tolist(),
+            modes.parity.tolist(),
+            modes.count.tolist(),
+            np.concatenate([modes.pad, modes.rivet], axis=1),
+            modes.rim,
+            modes.spin.tolist(),
+            strict=True,
+        )
+    ]
+    residual = modes.residual
+    arrays = [
+        f"static const HalfMode mode_entry[{len(entries)}] = {{\n    " + ",\n    ".join(entries) + "};\n",
+        _array("mode_pocket", np.stack([modes.pocket, modes.slope], axis=2)),
+        f"static const double residual_pad[{t.Z}][PADS][PADS] = {_braces(residual.pad)};\n",
+        f"static const double residual_rivet[{t.Z}][SEATS - PADS][PADS] = {_braces(residual.rivet)};\n",
+        _array("residual_wall_to", np.stack([residual.pocket, modes.residual_slope], axis=1)),
+        _array("residual_wall", np.stack([residual.wall, modes.wall_slope], axis=1)),
+    ]
+    text = f"""{{
+        .entries = {len(entries)}, .modes = {modes.count.sum()}, .entry = mode_entry, .pocket = mode_pocket, .pad = residual_pad,
+        .rivet = residual_rivet, .wall_to = residual_wall_to, .spin = {_braces(residual.spin)}, .wall = residual_wall}}"""
+    return arrays, text
+
+
 def c_source(t):
     """The C text of rivet_table.c."""
     parts = [
@@ -121,6 +154,7 @@ def c_source(t):
         axes.append(f"{{{len(rows)}, {start!r}, {end!r}, {BINS / (end - start)!r}, {name}_cell, {name}_bin}}")
     channel = rivet_table.CHANNELS.index
     half_arrays, half = _half_source(t.half)
+    mode_arrays, modes = _modes_source(t)
     parts += [
         _array("primary", shank.coefficients[..., [channel("head_p1"), channel("mid_vm")]], "float"),
         _array("secondary", shank.coefficients[..., [channel("head_vm"), channel("mid_p1")]], "float"),
@@ -130,6 +164,7 @@ def c_source(t):
         _array("hole_fit", t.joint["hole_fit"]),
         _array("k_hole", t.joint["k_hole"]),
         *half_arrays,
+        *mode_arrays,
     ]
     joint = {key: float(t.joint[key]) for key in rivet_table.JOINT_KEYS} | {"k_rivet": t.half.k_open, "k_plate": t.half.k_closed - t.half.k_open}
     joint = ", ".join(f".{key} = {float(value)!r}" for key, value in joint.items())
@@ -142,7 +177,8 @@ const RivetTable rivet_table = {{
     .j2 = {{{len(t.fit_a)}, j2_fit_a, j2_fit_eff, j2_slope}},
     .joint = {{{joint},
               .hole_count = {len(t.joint["hole_fit"])}, .hole_fit = hole_fit, .k_hole = k_hole}},
-    .half = {half}}};
+    .half = {half},
+    .modes = {modes}}};
 // clang-format on
 """)
     text = "".join(parts)

@@ -42,7 +42,8 @@ class JointAlone:
         B = np.linalg.inv(own)  # of the pad's hats alone
         B = 0.5 * (B + B.T)
         self.B_ph = B @ to_head  # hats by the head: what the held pad gives back undoes it
-        c_rivet = np.diag(np.array(rivet or rivet_compliance(elastic.g))[[0, 1, 1]])
+        self.rivet = rivet or rivet_compliance(elastic.g)
+        c_rivet = np.diag(np.array(self.rivet)[[0, 1, 1]])
         self.clamped = 0.5 * (clamped + clamped.T) + c_rivet  # of the head with its rivet, the pad held
         self.K_0 = self.lever.T @ own @ self.lever
         A = np.linalg.inv(self.clamped + self.B_ph.T @ own @ self.B_ph)
@@ -169,19 +170,16 @@ def pair_stiffness(contact, P=20.0):
     return tuple(float((b - a) * P / (separation(b * P) - separation(a * P))) for a, b in ((-0.25, 0.25), (3.0, 4.0)))
 
 
-def make_half(g, size=None, knots=None, progress=lambda done, total: None):
-    """HalfData of a geometry by finite elements of the size `size` and contact solutions at the sites of `knots`."""
-    elastic, rivet = elastic_half(g, size), rivet_compliance(g)
-    alone = JointAlone(elastic, rivet)
-    progress(1, 3)
+def make_half(elastic, alone, knots=None, progress=lambda done, total: None):
+    """HalfData of a condensed half (elastic_half) with its pads (JointAlone), by contact solutions at the sites of `knots`."""
     law = make_law(elastic, alone, knots)
-    progress(2, 3)
+    progress(1, 2)
     spin = alike_rows(elastic, alone, centrifugal(elastic))
     law.sign = np.sign(spin[4])
     path = np.stack([path_at(elastic, alone, i) for i in range(len(CHI))])
-    k_closed, k_open = pair_stiffness(JointContact(elastic, rivet, alike=True))
-    progress(3, 3)
-    return HalfData(**half_shape.half_inertia(g)._asdict(), chi=CHI, path=path, spin=spin, law=law, k_closed=k_closed, k_open=k_open)
+    k_closed, k_open = pair_stiffness(JointContact(elastic, alone.rivet, alike=True))
+    progress(2, 2)
+    return HalfData(**half_shape.half_inertia(elastic.g)._asdict(), chi=CHI, path=path, spin=spin, law=law, k_closed=k_closed, k_open=k_open)
 
 
 def elastic_half(g, size=None, points=()):

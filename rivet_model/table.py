@@ -11,7 +11,7 @@ from bearing_model.rivet_table import CHANNELS, FORMAT, MPA_PER_N, SHANK_AXES, S
 from . import splines
 from .geometry import Geometry
 
-UNITS = {"T": "MPa/N", "xi": "m/N", "fit": "m", "stiffness": "N/m", "length": "m", "stress": "Pa", "expansion": "1/K", "half": "SI"}
+UNITS = {"T": "MPa/N", "xi": "m/N", "fit": "m", "stiffness": "N/m", "length": "m", "stress": "Pa", "expansion": "1/K", "half": "SI", "modes": "SI"}
 
 
 def rounded(numbers, digits=5):
@@ -42,6 +42,7 @@ def write(table, path):
         },
         "joint": {key: (value if np.isscalar(value) else [float(v) for v in value]) for key, value in table.joint.items()},
         "half": _half_section(table.half),
+        "modes": _modes_section(table.modes) if table.modes else {},
     }
     header = {
         "format": FORMAT,
@@ -72,6 +73,18 @@ def _half_section(half):
             "knots": {name: [float(v) for v in law.knots[name]] for name in law.knots},
             "coefficients": rounded(tidy(law.coefficients), 4).ravel().tolist(),
         },
+    }
+
+
+def _modes_section(modes):
+    """Shapes to seven digits, as the softest modes' share of the flexibility is some thousand times the residual; the residual to five."""
+    shapes = {name: rounded(tidy(getattr(modes, name)), 7).tolist() for name in ("pocket", "pad", "rivet", "rim", "spin")}
+    return {
+        "omega": rounded(modes.omega, 9).tolist(),
+        "harmonic": modes.harmonic.tolist(),
+        "parity": modes.parity.tolist(),
+        **shapes,
+        "residual": {name: rounded(tidy(values)).tolist() for name, values in vars(modes.residual).items()},
     }
 
 
