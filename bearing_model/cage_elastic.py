@@ -26,6 +26,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from bearing_model.half_modes import PAD, coordinates, denser, fewer, frequencies, phases, rivet_shapes, spin_load
 from bearing_model.joint_law import JointLaw, joint_law, law_load, law_spline
 from bearing_model.lanes import absolute, ball_array_sum, maximum
 from bearing_model.rivet_splines import interpolate, sites
@@ -34,6 +35,7 @@ from bearing_model.vec import vec_cross, vec_dot
 
 OUT, IN = [0, 4, 5], [1, 2]  # of the motions (x, r, t, phi_x, phi_r, phi_t) of a pad: out of the plane, in it
 ROOT = np.sqrt(2.0)
+WALL_NODE = 1  # of the walls' angle: impacts meet the wall at 7 degrees in the median
 RAY = 24  # intervals of Simpson's rule along a ray of loads
 
 
@@ -53,7 +55,8 @@ class ElasticHalf:
     K: np.ndarray  # stiffness of what the modes leave, out of the plane [Z, 3, 3]
     series: float  # part of the friction states' stiffness that is left in series with it
     series_hole: float  # and of the hole's
-    wall: float  # compliance that the modes leave at a wall, along its normal [m/N]
+    reach: float  # largest |u|^2 of a wall / sum omega^2 q^2 [s2]
+    wall: float  # compliance that the modes leave at a wall, along its normal, less that in Hertz's [m/N]
     law: JointLaw  # over L^
     energy: np.ndarray  # coefficients of U, whose slope is delta [tau, q, psi], per newton squared
 
@@ -61,17 +64,6 @@ class ElasticHalf:
 def circulant_inverse(R):
     """Inverse of a circulant matrix of blocks [Z, n, n]."""
     return np.fft.ifft(np.linalg.inv(np.fft.fft(R, axis=0)), axis=0).real
-
-
-def real_modes(modes, most):
-    """Rows (family, part) of the real modes, part 0: cos, 1: sin; as many as `most` without dividing a pair."""
-    rows = []
-    for family, parity in enumerate(modes.parity):
-        parts = {0: (0, 1), 1: (0,), -1: (1,)}[int(parity)]
-        if len(rows) + len(parts) > most:
-            break
-        rows += [(family, part) for part in parts]
-    return np.array(rows)
 
 
 def law_behind(law, K):
@@ -87,6 +79,17 @@ def law_behind(law, K):
     simpson[[0, -1]] /= 2.0
     U = sum(w * np.sum(joint_law(behind, t * load, P)[0] * load, axis=-1) for w, t in zip(simpson, ray, strict=True))
     return behind, interpolate(knots, U)
+
+
+LAWS = {}  # found so far, by the numbers that they follow from
+
+
+def kept_law(law, K):
+    """law_behind, found once for each law and stiffness."""
+    key = law.coefficients.tobytes(), K.tobytes()
+    if key not in LAWS:
+        LAWS[key] = law_behind(law, K)
+    return LAWS[key]
 
 
 def load_before(law, K, behind, P):
@@ -115,59 +118,38 @@ def load_before(law, K, behind, P):
 
 
 def derive_elastic(p, d, table):
-    """ElasticHalf of the scene; None for other scenes."""
-    modes, m_0 = table.half.modes, table.half.m
-    if modes is None:
+    """ElasticHalf of the scene."""
+    if table.modes is None:
         raise ValueError("scene.cage = elastic: the rivet table has no vibration modes")
-    rows = real_modes(modes, p.scene.modes)
-    family, part = rows.T
-    n, unit = modes.harmonic[family], np.sqrt(m_0)  # the table's modes have unit modal mass
-    theta = 2.0 * np.pi * np.arange(Z) / Z
-
-    def waves(at):
-        """cos and sin parts of the wave at some angles [n, 2, len(at)]: what Re A and Im A of a place are multiplied by."""
-        c, s = np.cos(np.outer(n, at)), np.sin(np.outer(n, at))
-        return np.where(part[:, None, None] == 0, np.stack([c, -s], axis=1), np.stack([s, c], axis=1))
-
-    at_pads = waves(theta + np.pi / Z)
-    odd = np.array([0, 0, 1, 1, 1, 0])  # of x, r, t, phi_x, phi_r, phi_t
-    pad = unit * modes.pad[family][:, :, None] * at_pads[:, odd]
-    at_pockets = waves(theta)
-    pocket = unit * np.moveaxis(modes.pocket[family], 1, 0)
-    omega = modes.omega[family] * np.sqrt(m_0 / p.cage.m)
-    stiffness = m_0 * modes.omega[family] ** 2
-    left = modes.static_pad - np.einsum("ikZ,il,i->Zkl", pad, pad[:, :, 0], 1.0 / stiffness)
-    K = circulant_inverse(left[:, OUT][:, :, OUT])
-    shear = 2.0 * np.mean(np.diag(left[0])[IN])  # of both halves
-    wall = modes.static_pocket[0, 2, 2] - np.sum(np.einsum("ic,ic->i", pocket[0, :, 2], at_pockets[:, :, 0]) ** 2 / stiffness)
-    behind, energy = law_behind(table.half.law, K[0])
+    ratio = p.cage.m / table.half.m
+    modes = denser(fewer(table.modes, min(p.scene.modes, int(table.modes.count.sum()))), ratio)
+    unit = np.sqrt(p.cage.m)  # the table's modes have unit modal mass
+    entry, part = np.repeat(np.arange(len(modes.omega)), modes.count), coordinates(modes, 0.0 * modes.omega, 0.0 * modes.omega + 1.0)
+    c, s = (f[entry] for f in phases(modes, 0.0))
+    wave = np.where(part[:, None, None] == 0.0, np.stack([c, -s], axis=1), np.stack([s, c], axis=1))
+    omega, residual = frequencies(modes), modes.residual
+    K = circulant_inverse(residual.pad[:, OUT][:, :, OUT])
+    shear = 2.0 * np.mean(np.diag(residual.pad[0])[IN])  # of both halves
+    behind, energy = kept_law(table.half.law, K[0])
+    pocket = unit * np.moveaxis(modes.pocket[entry], 1, 0)
     return ElasticHalf(
-        n=len(rows),
+        n=len(omega),
         omega=omega,
         damping=2.0 * p.cage.modal_damping * omega,
-        pad=pad,
-        wave=at_pockets,
+        pad=unit * np.moveaxis(rivet_shapes(modes)[:, :, : len(PAD)], 1, 2),
+        wave=wave,
         chi=table.half.chi,
         pocket=pocket,
-        slope=pocket_slopes(table.half.chi, pocket),
-        spin=d.centrifugal * (p.cage.m / m_0) * unit * modes.spin[family] * (part == 0),
+        slope=unit * np.moveaxis(modes.slope[entry], 1, 0),
+        spin=d.centrifugal * unit * spin_load(modes),
+        reach=2.0 * np.max(np.sum(pocket[:, :, [0, 2]] ** 2 / omega[:, None, None] ** 2, axis=(1, 2, 3))),
         K=K,
         series=1.0 / (1.0 + shear * (d.k_plate_t + d.k_head)),
         series_hole=1.0 / (1.0 + shear * d.k_hole),
-        wall=max(wall, 0.0),
+        wall=residual.wall[WALL_NODE],
         law=behind,
         energy=energy,
     )
-
-
-def pocket_slopes(chi, pocket):
-    """Slopes over the wall's angle: of the parabolas through three neighbours; beyond the pocket's bottom lies its mirror image."""
-    mirror = np.array([[1.0, -1.0], [1.0, -1.0], [-1.0, 1.0]])
-    x, y = np.append(chi, np.pi - chi[-2]), np.concatenate([pocket, (pocket[-2] * mirror)[None]])
-    h = np.diff(x).reshape(-1, 1, 1, 1)
-    d = np.diff(y, axis=0) / h
-    inner = (h[1:] * d[:-1] + h[:-1] * d[1:]) / (h[1:] + h[:-1])
-    return np.concatenate([(d[0] + (d[0] - inner[0]))[None], inner])
 
 
 # ------------------------------------------------------------------------------------------------------------------ walls of the pockets
@@ -201,11 +183,12 @@ def cage_elastic_coordinates(model, y, h):
     return (S + sign * D) / ROOT, (S_dot + sign * D_dot) / ROOT
 
 
-def cage_elastic_walls(model, w, h, n_x, n_t, S):
+def cage_elastic_walls(model, w, h, n_x, n_t, S, delta):
     """Motion and velocity (x, r, t) [3, ..., Z] of the walls of half h along the ball's pocket axes; slope of n.u across n; the modes' shapes there."""
     shape, shape_chi = cage_elastic_shapes(model.d.elastic, 2 * h - 1, n_x, n_t)
     q, q_dot = w.modes[h]
-    u, u_dot, u_chi = (np.sum(a * b, axis=-1) for a, b in ((shape, q), (shape, q_dot), (shape_chi, q)))
+    near = np.real(delta) + w.reach[h] > 0.0  # others cannot have been reached
+    u, u_dot, u_chi = (np.sum(a * b, axis=-1) * near for a, b in ((shape, q), (shape, q_dot), (shape_chi, q)))
     turn = (2 * h - 1) * np.where(np.real(n_t) < 0.0, -1.0, 1.0)
     slope = (n_t * u[0] - n_x * u[2] + turn * (n_x * u_chi[0] + n_t * u_chi[2])) / S
     return u, u_dot, slope, shape
@@ -220,7 +203,7 @@ def cage_elastic_approach(d, share, delta):
     own = maximum(delta, 0.0)
     for _ in range(4):
         root = np.sqrt(np.where(np.real(own) > 0.0, own, 1e-30))
-        load = c * share(own) * root
+        load = maximum(c * share(own) * root, -0.3)
         own = maximum(own - (own + load * own - delta) / (1.0 + 1.5 * load), 0.0)
     return np.where(np.real(delta) > 0.0, own, delta)
 
@@ -232,6 +215,7 @@ def cage_elastic_kinematics(model, y, w):
     """Motions of the halves' modes, of the pads against each other: elastic part, out of the plane (x, phi_r, phi_t) and in it (r, t)."""
     half = model.d.elastic
     w.modes = [cage_elastic_coordinates(model, y, h) for h in range(2)]
+    w.reach = [np.sqrt(half.reach * np.sum(np.real(half.omega * q) ** 2, axis=-1)) for q, _ in w.modes]
     w.more_J = [2.0 * np.sum(half.spin * q, axis=-1) for q, _ in w.modes]
     S, D, S_dot, D_dot = (ROOT * y[..., block][..., : half.n] for block in (MODE_S, MODE_D, MODE_S_DOT, MODE_D_DOT))
     w.pad_out, w.pad_out_dot = (np.einsum("...i,ikz->k...z", q, half.pad[:, OUT]) for q in (S, S_dot))

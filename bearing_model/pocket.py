@@ -75,12 +75,11 @@ def pocket_half(model, w, h, mixed, whole):
 
     elastic, tilt, stored = p.scene.cage == CageModel.ELASTIC, 0.0, 0.0
     if elastic:  # the wall has moved by u, by its modes and what they leave
-        u, u_dot, tilt, shape = cage_elastic_walls(model, w, h, n_x, n_t, S)
+        u, u_dot, tilt, shape = cage_elastic_walls(model, w, h, n_x, n_t, S, delta)
         wall = delta - n_x * u[0] - n_t * u[2]
         delta = cage_elastic_approach(d, lambda own: pocket_share(d, h, n_x, own)[0], wall)
         v = v - (u_dot[0] * a + u_dot[1] * b + u_dot[2] * e_t)
         delta_dot = vec_dot(n, v)
-        stored = 0.5 * (wall - delta) * hertz_load(d.pocket.K, delta)
     w_h, e_h, slope = (1.0, 1.0, 0.0) if whole else pocket_share(d, h, n_x, delta)
     Q_0 = w_h * hertz_load(d.pocket.K, delta)
     Q = hertz_damped(Q_0, p.cage.lambda_, delta_dot)
@@ -110,7 +109,7 @@ def pocket_half(model, w, h, mixed, whole):
     if elastic:
         on_wall = (Q * n_x - vec_dot(F_s + F_c, a), -vec_dot(F_s + F_c, b), Q * n_t - vec_dot(F_s + F_c, e_t))
         w.pocket_modal[h] = sum(force[..., None] * motion for force, motion in zip(on_wall, shape, strict=True))
-        stored = stored * w_h
+        stored = 0.5 * d.elastic.wall * Q_0 * Q_0
     half.F, half.M = ball_array_sum(w.pocket_F[h]), ball_array_sum(w.pocket_M[h])
     w.delta_c[h], w.Q_c[h] = delta, Q
     w.pocket_energy = w.pocket_energy + e_h * hertz_energy(d.pocket.K, delta) + stored

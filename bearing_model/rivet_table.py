@@ -51,7 +51,6 @@ class HalfData:
     law: joint_law.JointLaw
     k_closed: float  # force per separation of the halves' bodies, for each joint: plates closed, plates open [N/m]
     k_open: float
-    modes: object = None  # cage_modes.CageModes: vibration modes of the half
 
     def __post_init__(self):
         self.path = single(self.path)

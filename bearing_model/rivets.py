@@ -1,5 +1,6 @@
 """Loads of the rivets.
 
+    elastic      all loads are those of the dynamics' joints, whose halves bend (cage_elastic.py): nothing of what follows is added
     two halves   N = T - N_plate of the dynamics' joints, whose plates S, heads H and hole B carry the transverse load
     rigid cage   the wrench between the halves, (half 1 - half 0)/2 as both have the same inertia, on the circle of rivets; its transverse
                  part loads plates (up to mu T), then heads (mu T more), then the shank, T = P + dT (cage_joint_prying)
@@ -131,8 +132,19 @@ def pocket_rows(model, pocket, push, h):
     return np.array(flat).reshape(*force.shape[:-2], *np.shape(flat)[1:])
 
 
+def elastic_loads(model, w):
+    """JointLoads of the joints between elastic halves: the dynamics has all of them."""
+    plates, heads, shank = (-turned(model, force) for force in (w.S, w.H, w.B))
+    N, M_r, M_t = w.joint_load
+    _, m_r, m_t = w.joint_rivet
+    V = np.hypot(*(plates + heads + shank))
+    return JointLoads(N=N, M_r=M_r, M_t=M_t, V=V, T=w.T, m_r=m_r, m_t=m_t, V_r=shank[0], V_t=shank[1], F_head=np.hypot(*heads))
+
+
 def rivets_load(model, w):
     """JointLoads of all joints."""
+    if model.p.scene.cage == CageModel.ELASTIC:
+        return elastic_loads(model, w)
     d, law = model.d, model.d.table.half.law
     if model.p.scene.cage == CageModel.RIGID:
         pocket, push, pocket_F, pocket_M = pocket_split(model, w)

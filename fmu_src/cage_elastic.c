@@ -29,7 +29,7 @@
 
 static const double ROOT = 1.4142135623730951;  // of 2
 
-enum { SWEEPS = 2 };  // of the joints, whose moves relieve their neighbours
+enum { JOINT_SWEEPS = 2 };  // of the joints, whose moves relieve their neighbours
 
 // Sum of modes times coordinates at a packet of joints.
 INLINE wide at_joints(const ElasticHalf *half, const double *shape, int stride, const scalar *q)
@@ -119,7 +119,7 @@ void cage_elastic_joints(const Model *model, Work *w)
     ball_array bonded[PAD_OUT], delta[PAD_OUT], relief[PAD_OUT];
     scalar behind[Z][3], U[Z];
     stiffness_times(half, w->e, bonded);
-    for (int sweep = 0; sweep < SWEEPS; sweep++) {
+    for (int sweep = 0; sweep < JOINT_SWEEPS; sweep++) {
         if (sweep > 0) stiffness_times(half, delta, relief);
         for (int k = 0; k < Z; k++) {
             scalar move[3], rivet[3];

@@ -5,9 +5,10 @@
 #include "rivet_rom.h"
 
 enum { SYSTEM = PAD_OUT * Z, RAY = 24 };
+enum { WALL_NODE = 1 };  // of the walls' angle: impacts meet the wall at 7 degrees in the median
 
-static const int OUT[PAD_OUT] = {0, 4, 5}, IN[PAD_IN] = {1, 2};  // of the motions (x, r, t, phi_x, phi_r, phi_t) of a pad
-static const bool ODD[6] = {false, false, true, true, true, false};  // of those: mirroring in the rivet's plane changes them
+static const int OUT[PAD_OUT] = {PAD_X, PAD_PHI_R, PAD_PHI_T}, IN[PAD_IN] = {PAD_R, PAD_T};
+static const bool ODD[PADS] = {false, false, true, true, true, false};  // mirroring in the rivet's plane changes them
 
 size_t elastic_half_size(void)
 {
@@ -26,48 +27,26 @@ static double wave_at(int n, int coordinate, int part, double theta)
     return part == 0 ? s : c;
 }
 
-// Slopes over the wall's angle of an amplitude's part: of the parabolas through three neighbours; beyond the pocket's bottom
-// lies its mirror image, times `mirror`.
-static void wall_slopes(const double *chi, int nodes, const double *y, double mirror, double *slope)
-{
-    double x[WALL_NODES + 1], v[WALL_NODES + 1];
-    for (int i = 0; i < nodes; i++) x[i] = chi[i], v[i] = y[i];
-    x[nodes] = PI - chi[nodes - 2], v[nodes] = mirror * y[nodes - 2];
-    for (int i = 1; i < nodes; i++) {
-        const double h_0 = x[i] - x[i - 1], h_1 = x[i + 1] - x[i];
-        const double d_0 = (v[i] - v[i - 1]) / h_0, d_1 = (v[i + 1] - v[i]) / h_1;
-        slope[i] = (h_1 * d_0 + h_0 * d_1) / (h_1 + h_0);
-    }
-    const double d = (v[1] - v[0]) / (x[1] - x[0]);
-    slope[0] = d + (d - slope[1]);
-}
-
-// Mode i: coordinate a or b of an entry of the table.
+// Mode i: coordinate a (0) or b (1) of an entry of the table.
 static void take_mode(const HalfModes *table, int entry, int coordinate, double unit, ElasticHalf *half, int i)
 {
-    const int n = table->harmonic[entry], nodes = half->nodes;
+    const HalfMode *mode = &table->entry[entry];
     for (int k = 0; k < Z; k++) {
         const double theta = 2.0 * PI * (k + 0.5) / Z;
         for (int c = 0; c < PAD_OUT; c++)
             half->out[i][c][k] = half->out_modes[c][k][i] =
-                unit * table->pad[6 * entry + OUT[c]] * wave_at(n, coordinate, ODD[OUT[c]], theta);
+                unit * mode->at[OUT[c]] * wave_at(mode->harmonic, coordinate, ODD[OUT[c]], theta);
         for (int c = 0; c < PAD_IN; c++)
             half->in[i][c][k] = half->in_modes[c][k][i] =
-                unit * table->pad[6 * entry + IN[c]] * wave_at(n, coordinate, ODD[IN[c]], theta);
+                unit * mode->at[IN[c]] * wave_at(mode->harmonic, coordinate, ODD[IN[c]], theta);
         for (int part = 0; part < 2; part++)
-            half->wave[k][part][i] = wave_at(n, coordinate, part, 2.0 * PI * k / Z);
+            half->wave[k][part][i] = wave_at(mode->harmonic, coordinate, part, 2.0 * PI * k / Z);
     }
-    for (int c = 0; c < 3; c++)
-        for (int part = 0; part < 2; part++) {
-            double value[WALL_NODES], slope[WALL_NODES];
-            for (int node = 0; node < nodes; node++)
-                value[node] = unit * table->pocket[((entry * nodes + node) * 3 + c) * 2 + part];
-            wall_slopes(half->chi, nodes, value, (c == 2) == (part == 1) ? 1.0 : -1.0, slope);
-            for (int node = 0; node < nodes; node++) {
-                half->wall[node][0][c][part][i] = value[node];
-                half->wall[node][1][c][part][i] = slope[node];
-            }
-        }
+    const double *from = table->pocket + 12 * entry * half->nodes;
+    for (int node = 0; node < half->nodes; node++)
+        for (int slope = 0; slope < 2; slope++)
+            for (int c = 0; c < 3; c++)
+                for (int part = 0; part < 2; part++) half->wall[node][slope][c][part][i] = unit * *from++;
 }
 
 // x = A^-1 x for a few columns x, by elimination with pivots.
@@ -97,7 +76,7 @@ static void solve(double A[SYSTEM][SYSTEM], double x[SYSTEM][PAD_OUT])
 }
 
 // The stiffness of what the modes leave between the pads.  R: its compliance [k][motion][load], k pitches farther.
-static void invert_residual(double R[Z][6][6], ElasticHalf *half)
+static void invert_residual(double R[Z][PADS][PADS], ElasticHalf *half)
 {
     static const double unit[PAD_OUT] = {1.0, 1e-3, 1e-3};  // [m] makes the equations alike
     double A[SYSTEM][SYSTEM], x[SYSTEM][PAD_OUT];
@@ -116,7 +95,7 @@ static void invert_residual(double R[Z][6][6], ElasticHalf *half)
 
 // ---- the law over L^ ------------------------------------------------------------------------------------------------
 // L* + (K - K_0) delta(L*) - L^ in newtons.
-static void behind_residual(const JointLaw *law, const double more[3][3], const double load[3], double P, const double behind[3],
+static void behind_residual(const JointLaw *law, double more[3][3], const double load[3], double P, const double behind[3],
                             double rest[3])
 {
     double move[3], rivet[3], U;
@@ -134,7 +113,7 @@ static double size_of(const double rest[3])
 }
 
 // L* for L^, by Newton's method with differences; a step is halved until the residual falls.
-static void load_before(const JointLaw *law, const double more[3][3], const double behind[3], double P, double load[3])
+static void load_before(const JointLaw *law, double more[3][3], const double behind[3], double P, double load[3])
 {
     const double unit[3] = {1.0, law->length, law->length};
     double rest[3];
@@ -220,7 +199,7 @@ static void interpolate(const int cells[LAW_AXES], double *values)
 
 // Values at a site of the law: moves of the pad and loads of the rivet under L^ (first pass); U, the work of the moves along
 // the ray from 0 to L^, by Simpson's rule (second pass).
-static void site_values(const ElasticHalf *half, const double more[3][3], const double behind[3], double P, int pass, double *to)
+static void site_values(const ElasticHalf *half, double more[3][3], const double behind[3], double P, int pass, double *to)
 {
     double load[3], move[3], rivet[3], U;
     if (pass == 0) {
@@ -266,49 +245,56 @@ static void law_behind(ElasticHalf *half)
 }
 
 // ---- all ------------------------------------------------------------------------------------------------------------
-void elastic_half_derive(const Parameters *p, const Derived *d, ElasticHalf *half)
+// The modes of the lowest frequencies; the statics of the others go to the residual between pads and at the wall.
+static void take_modes(const Parameters *p, ElasticHalf *half, double R[Z][PADS][PADS])
 {
     const CageHalfData *data = &rivet_table.half;
-    const HalfModes *table = &data->modes;
-    memset(half, 0, elastic_half_size());
-    half->nodes = data->path.nodes;
-    memcpy(half->chi, data->path.chi, (size_t)half->nodes * sizeof *half->chi);
-
-    // the modes of the lowest frequencies; those that are left out belong to the residual
+    const HalfModes *table = &rivet_table.modes;
     const double unit = sqrt(data->m), denser = p->cage.m / data->m;
-    double R[Z][6][6], wall = table->wall[0];
-    memcpy(R, table->pad_residual, sizeof R);
+    const double c = portable_cos(half->chi[WALL_NODE]), s = portable_sin(half->chi[WALL_NODE]);
     bool taken = true;
     for (int entry = 0; entry < table->entries; entry++) {
-        const int from = table->parity[entry] < 0, to = table->parity[entry] > 0 ? 1 : 2;
+        const HalfMode *mode = &table->entry[entry];
+        const double flexibility = 1.0 / (mode->omega * mode->omega), *at = mode->at;
+        const double *wall = table->pocket + 12 * (entry * half->nodes + WALL_NODE);
+        const int from = mode->parity < 0, to = mode->parity > 0 ? 1 : 2;
         taken = taken && half->n + (to - from) <= p->scene.modes;
-        const double omega = table->omega[entry];
         for (int coordinate = from; coordinate < to; coordinate++) {
             if (taken) {
                 const int i = half->n++;
                 take_mode(table, entry, coordinate, unit, half, i);
-                half->omega_2[i] = omega * omega / denser;
+                half->omega_2[i] = mode->omega * mode->omega / denser;
                 half->damping[i] = 2.0 * p->cage.modal_damping * sqrt(half->omega_2[i]);
-                half->spin[i] = p->cage.centrifugal == SWITCH_ON && coordinate == 0 ? denser * unit * table->spin[entry] : 0.0;
+                if (p->cage.centrifugal == SWITCH_ON && coordinate == 0) half->spin[i] = denser * unit * mode->spin;
                 continue;
             }
-            const int n = table->harmonic[entry];
-            const double *pad = &table->pad[6 * entry];
+            const int n = mode->harmonic;
             for (int k = 0; k < Z; k++)
-                for (int a = 0; a < 6; a++)
-                    for (int b = 0; b < 6; b++)
-                        R[k][a][b] += pad[a] * wave_at(n, coordinate, ODD[a], 2.0 * PI * (k + 0.5) / Z) * pad[b] *
-                                      wave_at(n, coordinate, ODD[b], PI / Z) / (omega * omega);
-            const double A = table->pocket[(entry * half->nodes * 3 + 2) * 2 + coordinate];
-            wall += A * A / (omega * omega);
+                for (int a = 0; a < PADS; a++)
+                    for (int b = 0; b < PADS; b++)
+                        R[k][a][b] += at[a] * wave_at(n, coordinate, ODD[a], 2.0 * PI * (k + 0.5) / Z) * at[b] *
+                                      wave_at(n, coordinate, ODD[b], PI / Z) * flexibility;
+            const double u = s * wall[coordinate] + c * wall[4 + coordinate];  // on pocket 0, along the normal
+            half->compliance += u * u * flexibility;
         }
     }
     half->blocks = (half->n + 7) / 8;
+}
+
+void elastic_half_derive(const Parameters *p, const Derived *d, ElasticHalf *half)
+{
+    const HalfPath *path = &rivet_table.half.path;
+    double R[Z][PADS][PADS];
+    memset(half, 0, elastic_half_size());
+    half->nodes = path->nodes;
+    memcpy(half->chi, path->chi, (size_t)half->nodes * sizeof *half->chi);
+    memcpy(R, rivet_table.modes.pad, sizeof R);
+    half->compliance = rivet_table.modes.wall[2 * WALL_NODE];
+    take_modes(p, half, R);
     invert_residual(R, half);
-    const double shear = R[0][1][1] + R[0][2][2];  // mean over r and t, of both halves
+    const double shear = R[0][PAD_R][PAD_R] + R[0][PAD_T][PAD_T];  // mean over r and t, of both halves
     half->series = 1.0 / (1.0 + shear * (d->k_plate_t + d->k_head));
     half->series_hole = 1.0 / (1.0 + shear * d->k_hole);
-    half->compliance = fmax(wall, 0.0);
 
     // largest |u|^2/sum omega^2 q^2 by Cauchy's inequality; between the nodes twice as much at most
     for (int node = 0; node < half->nodes; node++) {

@@ -6,7 +6,7 @@
 //     u_j = Re[(a - i b) A exp(i nu)]      pocket j, side t > 0:  nu = 2 pi n j/Z;  side t < 0: (A_x, A_r, -A_t) conjugate
 //                                          rivet k:  nu = 2 pi n (k + 1/2)/Z;  A real along x, r and about t, else imaginary
 //
-// (rivet_model/half_modes.py, bearing_model/half_modes.py).  A scene takes the modes of the lowest frequencies, without
+// (half_modes.h, bearing_model/half_modes.py).  A scene takes the modes of the lowest frequencies, without
 // dividing a pair; the statics of all others are the residual.  Here the modes have no dimension and the modal mass is the
 // half's, so that coordinates are lengths.
 #pragma once
@@ -18,8 +18,7 @@
 
 enum { MODES = N_MODES };
 
-enum { PAD_X, PAD_PHI_R, PAD_PHI_T, PAD_OUT };  // motions of pads against each other out of the plane
-enum { PAD_R, PAD_T, PAD_IN };                  // and in the plane
+enum { PAD_OUT = 3, PAD_IN = 2 };  // motions of pads against each other out of the plane (x, about r, about t), in it (r, t)
 
 enum { WALL_NODES = 16 };  // at most
 
@@ -36,7 +35,7 @@ struct ElasticHalf {
     int nodes;                                   // of the walls' angle
     double chi[WALL_NODES];                      // [rad]
     double reach;                                // largest |u|^2 of a wall / sum omega^2 q^2 [s2]
-    double compliance;                           // of a wall along its normal, by the residual [m/N]
+    double compliance;                           // of a wall along its normal, by the residual, less that in Hertz's [m/N]
     double K[Z][PAD_OUT][PAD_OUT];               // inverse of the residual between pads, out of the plane
     double series, series_hole;                  // parts of the joints' stiffness in the plane, in series with the residual
     JointLaw law;                                // the joints' law over L^ = L + K_0 delta with the K above

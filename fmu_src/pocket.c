@@ -57,7 +57,7 @@ INLINE wide pocket_approach(const Model *model, int h, wide n_x, wide delta)
     wide own = wide_max(delta, zero);
     for (int i = 0; i < 4; i++) {
         const wide root = wide_sqrt(wide_max(own, wide_set(1e-30)));
-        const wide load = cK * pocket_share(d, h, n_x, own).load * root;
+        const wide load = wide_max(cK * pocket_share(d, h, n_x, own).load * root, wide_set(-0.3));
         own = wide_max(own - (own + load * own - delta) / (1.0 + 1.5 * load), zero);
     }
     return wide_select(wide_above(delta, 0.0), own, delta);

@@ -106,28 +106,12 @@ typedef struct {
 } JointData;
 
 // One half of the cage, with its half of the rivets, in SI.
-// Vibration modes of a free half (elastic_half.h), by rising frequency, in SI, of unit modal mass; displacements (x, r, t), motions of
-// pads (x, r, t, about x, r, t).  None: entries = 0.
-typedef struct {
-    int entries;  // pairs and single modes
-    const double *omega;
-    const int *harmonic, *parity;  // n; 0 pair, 1 a alone, -1 b alone
-    const double *pocket;          // [entry][node of chi][3][real, imaginary]
-    const double *pad;             // [entry][6]
-    const double *rivet;           // [entry][3] dP, dm_r, dm_t
-    const double *spin;            // modal force per (rad/s)^2
-    const double *pad_residual;    // [k][motion][load]: static displacements beyond the modes, k pitches farther
-    const double *pocket_residual; // [node][k][6 motions, dP, dm_r, dm_t][force]
-    const double *wall;            // [node] along the wall's normal, without Hertz's indentation
-} HalfModes;
-
 typedef struct {
     double m;    // mass [kg]
     double x_c;  // axial distance of the centre of mass from the split [m]
     HalfPath path;
     double spin[ROWS];  // rows of all joints under the centrifugal load, per (rad/s)^2, at this mass
     JointLaw law;
-    HalfModes modes;
 } CageHalfData;
 
 typedef struct {

@@ -1,5 +1,6 @@
 // Loads of the rivets.
 //
+//   elastic      all loads are those of the dynamics' joints, whose halves bend (cage_elastic.c): nothing is added
 //   two halves   N = T - N_plate of the dynamics' joints; plates S, heads H and hole B carry the transverse load
 //   rigid cage   the wrench between the halves, (half 1 - half 0)/2 as both have the same inertia, on the circle
 //                of rivets; its transverse part loads plates (up to mu T), then heads (mu T more), then the shank,
@@ -116,8 +117,35 @@ static void rigid_share(const Model *model, const Work *w, const Pockets *on_1, 
     }
 }
 
+// The dynamics has all loads of the joints between elastic halves.
+static void elastic_loads(const Model *model, const Work *w, JointLoads *load)
+{
+    ball_array plates[2], heads[2], shank[2];
+    for (int k = 0; k < PACKETS * LANE_WIDTH; k += LANE_WIDTH) {
+        store_turned(model, -wide_load(&w->S_y[k]), -wide_load(&w->S_z[k]), k, plates);
+        store_turned(model, -wide_load(&w->H_y[k]), -wide_load(&w->H_z[k]), k, heads);
+        store_turned(model, -wide_load(&w->B_y[k]), -wide_load(&w->B_z[k]), k, shank);
+        const wide heads_r = wide_load(&heads[0][k]), heads_t = wide_load(&heads[1][k]);
+        const wide V_r = wide_load(&shank[0][k]), V_t = wide_load(&shank[1][k]);
+        wide_store(&load->N[k], wide_load(&w->joint_load[0][k]));
+        wide_store(&load->M_r[k], wide_load(&w->joint_load[1][k]));
+        wide_store(&load->M_t[k], wide_load(&w->joint_load[2][k]));
+        wide_store(&load->V[k], wide_hypot(wide_load(&plates[0][k]) + heads_r + V_r, wide_load(&plates[1][k]) + heads_t + V_t));
+        wide_store(&load->T[k], wide_load(&w->T[k]));
+        wide_store(&load->m_r[k], wide_load(&w->joint_rivet[1][k]));
+        wide_store(&load->m_t[k], wide_load(&w->joint_rivet[2][k]));
+        wide_store(&load->V_r[k], V_r);
+        wide_store(&load->V_t[k], V_t);
+        wide_store(&load->F_head[k], wide_hypot(heads_r, heads_t));
+    }
+}
+
 void rivets_load(const Model *model, const Work *w, JointLoads *load)
 {
+    if (model->elastic) {
+        elastic_loads(model, w, load);
+        return;
+    }
     const Derived *d = model->d;
     const CageHalfData *half = &rivet_table.half;
     const Pockets *on = w->pocket;

@@ -91,6 +91,12 @@ class Model:
         core.lib.ring_load_update(self.p, self.u, 0.0, self.ring_load)
         self.pointer = core.new("Model")
         self.pointer.p, self.pointer.d, self.pointer.ring_load = self.p, self.d, self.ring_load
+        self.elastic = core.ffi.NULL
+        if self.p.scene.cage == variables.CageModel.ELASTIC:
+            self.elastic = core.ffi.gc(core.ffi.cast("ElasticHalf *", core.lib.test_allocate(core.lib.elastic_half_size())), core.lib.free)
+            core.lib.elastic_half_derive(self.p, self.d, self.elastic)
+        self.pointer.elastic = self.elastic
+        self.states = variables.N_ALL_STATES if self.elastic else variables.N_STATES
         self.isa = isa or core.ffi.string(core.lib.kernels_select().name).decode()
 
     def kernel(self, name):
@@ -99,7 +105,7 @@ class Model:
 
     def solve_start(self):
         """State of the quasi-static start at t = 0 and its residual force [N]; the work struct keeps its contacts."""
-        y = np.zeros(variables.N_STATES)
+        y = np.zeros(self.states)
         kernels = self.core.ffi.new("Kernels *", self.core.lib.kernels_select())
         return y, self.core.lib.start_state(kernels, self.pointer, self.work, self.core.array(y))
 
@@ -110,8 +116,8 @@ class Model:
     def rhs(self, t, y):
         """dy/dt at time t [s]; the work struct keeps all results."""
         y = np.ascontiguousarray(y, dtype=float)
-        if y.shape != (variables.N_STATES,):
-            raise ValueError(f"y has shape {y.shape}: allowed is ({variables.N_STATES},)")
+        if y.shape != (self.states,):
+            raise ValueError(f"y has shape {y.shape}: allowed is ({self.states},)")
         y_dot = np.empty_like(y)
         self.core.lib.ring_load_update(self.p, self.u, t, self.ring_load)
         self.kernel("rhs")(self.pointer, t, self.core.array(y), self.core.array(y_dot), self.work)
