@@ -46,6 +46,7 @@ class ElasticHalf:
     n: int
     omega: np.ndarray  # [n] rad/s
     damping: np.ndarray  # 2 zeta omega [n]
+    alike: np.ndarray  # whether a mode moves all joints alike and does not twist them [n]
     pad: np.ndarray  # motions of the pads [n, 6, Z]
     wave: np.ndarray  # Re and Im of the wave at the pockets [n, 2, Z]
     chi: np.ndarray  # nodes of the wall's angle
@@ -77,7 +78,8 @@ def law_behind(law, K):
     ray = np.linspace(0.0, 1.0, RAY + 1)
     simpson = np.tile([2.0, 4.0], RAY // 2 + 1)[: RAY + 1] / (3.0 * RAY)
     simpson[[0, -1]] /= 2.0
-    U = sum(w * np.sum(joint_law(behind, t * load, P)[0] * load, axis=-1) for w, t in zip(simpson, ray, strict=True))
+    # without the start of the ray, where no load moves a joint
+    U = sum(w * np.sum(joint_law(behind, t * load, P)[0] * load, axis=-1) for w, t in zip(simpson[1:], ray[1:], strict=True))
     return behind, interpolate(knots, U)
 
 
@@ -135,6 +137,7 @@ def derive_elastic(p, d, table):
     return ElasticHalf(
         n=len(omega),
         omega=omega,
+        alike=(modes.harmonic[entry] == 0) & (part == 0.0),
         damping=2.0 * p.cage.modal_damping * omega,
         pad=unit * np.moveaxis(rivet_shapes(modes)[:, :, : len(PAD)], 1, 2),
         wave=wave,
@@ -303,6 +306,31 @@ def cage_elastic_acceleration(model, y, w, y_dot):
         y_dot[..., q][..., : half.n] = v
         y_dot[..., rate][..., : half.n] = force / p.cage.m - half.damping * v - half.omega**2 * x
         w.modes_dissipated = w.modes_dissipated + p.cage.m * np.sum(half.damping * v * v, axis=-1, keepdims=True)
+
+
+def cage_elastic_rest(model, omega):
+    """Coordinates S [n] and axial distance u_x [m] at which modes and joints rest under the centrifugal load of the speed omega [rad/s].
+
+    All joints are alike: N = 0, and their M_t balances S_i = sqrt 2 (spin_i omega^2 - Z phi_t,i M_t)/(m omega_i^2).  Newton's method with differences for
+    (u_x, M_t).
+    """
+    half, d, m = model.d.elastic, model.d, model.p.cage.m
+    P = np.full(Z, max(d.P + d.spin[5] * omega**2, 0.0))
+    at = half.pad[:, OUT, 0]  # x, phi_r, phi_t
+    def rest(x):
+        S = ROOT * (half.spin * omega**2 - np.where(half.alike, Z * at[:, 2] * x[1], 0.0)) / (m * half.omega**2)
+        e = np.array([0.5 * x[0], 0.0, 0.0]) + S @ at / ROOT * [1.0, 0.0, 1.0]
+        load, *_ = cage_elastic_law(model, np.repeat(e[:, None], Z, axis=1), P)
+        return np.array([load[0, 0], (load[2, 0] - x[1]) / d.table.half.law.length]), S
+
+    x, step = np.zeros(2), np.array([1e-10, 1e-7])
+    for _ in range(60):
+        off, S = rest(x)
+        if np.max(np.abs(off)) < 1e-10:
+            break
+        slope = np.stack([(rest(x + s * axis)[0] - off) / s for s, axis in zip(step, np.eye(2), strict=True)], axis=1)
+        x = x - np.linalg.solve(slope, off)
+    return S, x[0]
 
 
 def cage_elastic_energy(model, y, w):

@@ -85,11 +85,16 @@ def ratio(top, bottom):
     return np.divide(top, bottom, out=out, where=np.real(bottom) > 0.0)
 
 
+def modulus(x, y):
+    """sqrt(x^2 + y^2), also of numbers that carry a derivative."""
+    return np.sqrt(x * x + y * y) if np.iscomplexobj(x) or np.iscomplexobj(y) else np.hypot(x, y)
+
+
 def law_coordinates(length, load, P):
     """s and (tau, q, psi) of loads [..., 3] = (N, M_r, M_t) and preloads [...]."""
     N, M_r, M_t = np.moveaxis(load, -1, 0)
-    M = np.sqrt(M_r * M_r + M_t * M_t) / length
-    W = np.sqrt(N * N + M * M)
+    M = modulus(M_r, M_t) / length
+    W = modulus(N, M)
     s = P + W
     return s, (ratio(W, s), ratio(N, absolute(N) + M), ratio(M_t, absolute(M_t) + absolute(M_r)))
 

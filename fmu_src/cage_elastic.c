@@ -29,8 +29,6 @@
 
 static const double ROOT = 1.4142135623730951;  // of 2
 
-enum { JOINT_SWEEPS = 2 };  // of the joints, whose moves relieve their neighbours
-
 // Sum of modes times coordinates at a packet of joints.
 INLINE wide at_joints(const ElasticHalf *half, const double *shape, int stride, const scalar *q)
 {

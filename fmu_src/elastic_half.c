@@ -263,6 +263,7 @@ static void take_modes(const Parameters *p, ElasticHalf *half, double R[Z][PADS]
             if (taken) {
                 const int i = half->n++;
                 take_mode(table, entry, coordinate, unit, half, i);
+                half->alike[i] = mode->harmonic == 0 && coordinate == 0;
                 half->omega_2[i] = mode->omega * mode->omega / denser;
                 half->damping[i] = 2.0 * p->cage.modal_damping * sqrt(half->omega_2[i]);
                 if (p->cage.centrifugal == SWITCH_ON && coordinate == 0) half->spin[i] = denser * unit * mode->spin;
@@ -306,4 +307,58 @@ void elastic_half_derive(const Parameters *p, const Derived *d, ElasticHalf *hal
         half->reach = fmax(half->reach, 2.0 * sum);
     }
     law_behind(half);
+}
+
+// ---- rest under the centrifugal load -----------------------------------------------------------------------------------
+// All joints are alike: N = 0, and their M_t balances S_i = sqrt 2 (spin_i omega^2 - Z phi_t,i M_t)/(m omega_i^2).  Sets S and
+// what is off for the distance x[0] and M_t = x[1]: N, and M_t over the law's length [N].
+static void rest_off(const Parameters *p, const ElasticHalf *half, double omega, double P, const double x[2], double *S,
+                     double off[2])
+{
+    const double root = sqrt(2.0);
+    double e[PAD_OUT] = {0.5 * x[0], 0.0, 0.0}, K[PAD_OUT][PAD_OUT] = {{0.0}}, bonded[PAD_OUT] = {0.0}, behind[PAD_OUT];
+    for (int i = 0; i < half->n; i++) {
+        const double load = half->alike[i] ? Z * half->out[i][2][0] * x[1] : 0.0;
+        S[i] = root * (half->spin[i] * omega * omega - load) / (p->cage.m * half->omega_2[i]);
+        e[0] += S[i] * half->out[i][0][0] / root;
+        e[2] += S[i] * half->out[i][2][0] / root;
+    }
+    for (int k = 0; k < Z; k++)
+        for (int a = 0; a < PAD_OUT; a++)
+            for (int b = 0; b < PAD_OUT; b++) K[a][b] += half->K[k][a][b];
+    for (int a = 0; a < PAD_OUT; a++)
+        for (int b = 0; b < PAD_OUT; b++) bonded[a] += K[a][b] * e[b];
+    double move[3] = {0.0}, rivet[3], U;
+    for (int sweep = 0; sweep < JOINT_SWEEPS; sweep++) {
+        for (int a = 0; a < PAD_OUT; a++) {
+            behind[a] = bonded[a];
+            for (int b = 0; b < PAD_OUT; b++) behind[a] -= (K[a][b] - half->K[0][a][b]) * move[b];
+        }
+        joint_law(&half->law, behind, P, move, rivet, &U);
+    }
+    const double *K_x = half->K[0][0], *K_t = half->K[0][2];
+    off[0] = behind[0] - (K_x[0] * move[0] + K_x[1] * move[1] + K_x[2] * move[2]);
+    off[1] = (behind[2] - (K_t[0] * move[0] + K_t[1] * move[1] + K_t[2] * move[2]) - x[1]) / half->law.length;
+}
+
+// Newton's method with differences.
+double elastic_half_rest(const Parameters *p, const Derived *d, const ElasticHalf *half, double omega, double *S)
+{
+    const double P = fmax(d->P + d->spin[ROW_DP] * omega * omega, 0.0), step[2] = {1e-10, 1e-7};
+    double x[2] = {0.0, 0.0}, off[2], to[2][2], slope[2][2];
+    memset(S, 0, MODES * sizeof *S);
+    rest_off(p, half, omega, P, x, S, off);
+    for (int iteration = 0; iteration < 60 && fmax(fabs(off[0]), fabs(off[1])) > 1e-10; iteration++) {
+        for (int k = 0; k < 2; k++) {
+            double trial[2] = {x[0], x[1]};
+            trial[k] += step[k];
+            rest_off(p, half, omega, P, trial, S, to[k]);
+            for (int i = 0; i < 2; i++) slope[i][k] = (to[k][i] - off[i]) / step[k];
+        }
+        const double det = slope[0][0] * slope[1][1] - slope[0][1] * slope[1][0];
+        x[0] -= (slope[1][1] * off[0] - slope[0][1] * off[1]) / det;
+        x[1] -= (slope[0][0] * off[1] - slope[1][0] * off[0]) / det;
+        rest_off(p, half, omega, P, x, S, off);
+    }
+    return x[0];
 }

@@ -16,6 +16,8 @@
 #include "joint_law.h"
 #include "model.h"
 
+enum { JOINT_SWEEPS = 2 };  // of the joints, whose moves relieve their neighbours
+
 enum { MODES = N_MODES };
 
 enum { PAD_OUT = 3, PAD_IN = 2 };  // motions of pads against each other out of the plane (x, about r, about t), in it (r, t)
@@ -26,6 +28,7 @@ struct ElasticHalf {
     int n, blocks;                          // modes, blocks of eight of them
     double omega_2[MODES], damping[MODES];  // omega^2, 2 zeta omega
     double spin[MODES];                     // modal force per (rad/s)^2
+    bool alike[MODES];                      // moves all joints alike and does not twist them
     double out[MODES][PAD_OUT][LANES];      // motions of the pads, joints side by side
     double in[MODES][PAD_IN][LANES];
     double out_modes[PAD_OUT][Z][MODES];  // the same, modes side by side
@@ -47,6 +50,10 @@ size_t elastic_half_size(void);
 
 // What the scene takes of the modes in the rivet table.
 void elastic_half_derive(const Parameters *p, const Derived *d, ElasticHalf *half);
+
+// Coordinates S [MODES] and axial distance of the halves' bodies [m] at which modes and joints rest under the centrifugal
+// load of the speed omega [rad/s].
+double elastic_half_rest(const Parameters *p, const Derived *d, const ElasticHalf *half, double omega, double *S);
 
 // The walls of the pockets of a half where balls meet them.
 typedef struct {

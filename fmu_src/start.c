@@ -14,6 +14,7 @@
 // turns with the balls.
 #include "start.h"
 
+#include "elastic_half.h"
 #include "elementary.h"
 #include "elimination.h"
 #include "outer_ring.h"
@@ -279,6 +280,17 @@ static void cage_pose(const Model *model, const Work *w, double omega_m, double 
     }
 }
 
+// Elastic halves at rest under the centrifugal load: coordinates of their modes, and the halves as far apart as their bodies
+// are then.
+static void cage_widened(const Model *model, double omega_m, double *y)
+{
+    const double beta = y[Y_CAGE_BETA], gamma = y[Y_CAGE_GAMMA], omega = omega_m + model->ring_load->frame_omega;
+    const double apart = elastic_half_rest(model->p, model->d, model->elastic, omega, &y[Y_MODE_S]);
+    const double along[3] = {sqrt(1.0 - beta * beta - gamma * gamma), gamma, -beta};
+    for (int i = 0; i < 3; i++)
+        for (int h = 0; h < 2; h++) y[Y_CAGE_X + 2 * i + h] += (h == 0 ? -0.5 : 0.5) * apart * along[i];
+}
+
 // Azimuth of a ball from the origin, less that from the outer ring's centre (phi), at the radius r.
 static double outer_offset(const RingLoad *ring_load, double r, double phi)
 {
@@ -400,6 +412,7 @@ double start_state(const Kernels *kernels, const Model *model, Work *w, double *
 
     // cage and ring
     cage_pose(model, w, omega_m, y);
+    if (model->elastic) cage_widened(model, omega_m, y);
     for (int i = 0; i < 3; i++) y[Y_RING_X + i] = q[i];
     y[Y_RING_BETA] = q[3];
     y[Y_RING_GAMMA] = q[4];
