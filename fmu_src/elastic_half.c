@@ -244,6 +244,112 @@ static void law_behind(ElasticHalf *half)
     }
 }
 
+// ---- vibrations of the pair -----------------------------------------------------------------------------------------
+// Eigenvalues and vectors of a symmetric matrix by Jacobi's rotations; A becomes diagonal, Q has the vectors in its columns.
+static void diagonalize(int n, double A[WAVE_SIZE][WAVE_SIZE], double Q[WAVE_SIZE][WAVE_SIZE])
+{
+    for (int i = 0; i < n; i++)
+        for (int k = 0; k < n; k++) Q[i][k] = i == k;
+    for (int sweep = 0; sweep < 30; sweep++)
+        for (int i = 0; i < n; i++)
+            for (int k = i + 1; k < n; k++) {
+                if (fabs(A[i][k]) <= 1e-17 * sqrt(fabs(A[i][i] * A[k][k]))) continue;
+                const double tau = (A[k][k] - A[i][i]) / (2.0 * A[i][k]);
+                const double t = (tau < 0.0 ? -1.0 : 1.0) / (fabs(tau) + sqrt(1.0 + tau * tau));
+                const double c = 1.0 / sqrt(1.0 + t * t), s = t * c;
+                for (int q = 0; q < n; q++) {
+                    const double x = A[q][i], y = A[q][k];
+                    A[q][i] = c * x - s * y, A[q][k] = s * x + c * y;
+                }
+                for (int q = 0; q < n; q++) {
+                    const double x = A[i][q], y = A[k][q], u = Q[q][i], v = Q[q][k];
+                    A[i][q] = c * x - s * y, A[k][q] = s * x + c * y;
+                    Q[q][i] = c * u - s * v, Q[q][k] = s * u + c * v;
+                }
+            }
+}
+
+// Motion c of joint k by unit of a relative rigid motion: out of the plane (x, about r, about t) by v_x and rotations about
+// y and z, in it (r, t) by v_y, v_z and the spin.
+static double rigid_motion(bool out, int motion, int c, double theta)
+{
+    const double R = 0.5 * rivet_table.joint.d_m, cosine = portable_cos(theta), sine = portable_sin(theta);
+    if (out) {
+        const double about_y[PAD_OUT] = {R * sine, cosine, -sine}, about_z[PAD_OUT] = {-R * cosine, sine, cosine};
+        if (motion == 0) return c == 0 ? 1.0 : 0.0;
+        return motion == 1 ? about_y[c] : about_z[c];
+    }
+    if (motion == 2) return c == 1 ? R : 0.0;
+    return motion == 0 ? (c == 0 ? cosine : -sine) : (c == 0 ? sine : cosine);
+}
+
+// One wave.  K: stiffness between joints k - j apart of relative motions [Z][3][3], a share of the joints' motions; inertia
+// of the relative rigid motion.
+static void find_wave(const Parameters *p, const ElasticHalf *half, bool out, int n, int coordinate, double K[Z][PAD_OUT][PAD_OUT],
+                      int motion, double inertia, Wave *wave)
+{
+    const int count = out ? PAD_OUT : PAD_IN, *pads = out ? OUT : IN;
+    double unit[PAD_OUT][Z], A[WAVE_SIZE][WAVE_SIZE] = {{0.0}}, B[WAVE_SIZE][PAD_OUT] = {{0.0}}, K_n[PAD_OUT][PAD_OUT] = {{0.0}};
+    for (int c = 0; c < count; c++) {
+        double sum = 0.0;
+        for (int k = 0; k < Z; k++) {
+            unit[c][k] = wave_at(n, coordinate, ODD[pads[c]], 2.0 * PI * (k + 0.5) / Z);
+            sum += unit[c][k] * unit[c][k];
+        }
+        for (int k = 0; k < Z; k++) unit[c][k] *= sum > 1e-9 ? 1.0 / sqrt(sum) : 0.0;
+    }
+    for (int a = 0; a < count; a++)
+        for (int b = 0; b < count; b++)
+            for (int k = 0; k < Z; k++)
+                for (int j = 0; j < Z; j++) K_n[a][b] += unit[a][k] * K[(k - j + Z) % Z][a][b] * unit[b][j];
+
+    // coordinates, and the joints' motions by them
+    wave->motion = motion;
+    for (int i = 0; i < half->n && wave->count < WAVE_SIZE - 1; i++) {
+        if (half->harmonic[i] != n || half->coordinate[i] != coordinate) continue;
+        const int row = wave->count++;
+        wave->row[row] = i;
+        wave->root[row] = sqrt(p->cage.m);
+        A[row][row] = half->omega_2[i];
+        for (int c = 0; c < count; c++)
+            for (int k = 0; k < Z; k++) B[row][c] += sqrt(2.0) * unit[c][k] * (out ? half->out[i][c][k] : half->in[i][c][k]);
+    }
+    if (motion >= 0) {
+        const int row = wave->count++;
+        wave->row[row] = RIGID_MOTION;
+        wave->root[row] = sqrt(inertia);
+        for (int c = 0; c < count; c++)
+            for (int k = 0; k < Z; k++) B[row][c] += unit[c][k] * rigid_motion(out, motion, c, 2.0 * PI * (k + 0.5) / Z);
+    }
+    for (int i = 0; i < wave->count; i++)
+        for (int k = 0; k < wave->count; k++)
+            for (int a = 0; a < count; a++)
+                for (int b = 0; b < count; b++) A[i][k] += B[i][a] * K_n[a][b] * B[k][b] / (wave->root[i] * wave->root[k]);
+    diagonalize(wave->count, A, wave->Q);
+    for (int i = 0; i < wave->count; i++) wave->lambda[i] = A[i][i];
+    wave->blocks = (wave->count + 7) / 8;
+}
+
+static void find_waves(const Parameters *p, const Derived *d, ElasticHalf *half)
+{
+    double K[Z][PAD_OUT][PAD_OUT], shear[2][Z][PAD_OUT][PAD_OUT] = {{{{0.0}}}};
+    for (int k = 0; k < Z; k++)  // both halves move, and both are loaded: 2 (1/2)^2
+        for (int a = 0; a < 9; a++) K[k][a / 3][a % 3] = 0.5 * half->K[k][a / 3][a % 3];
+    for (int bears = 0; bears < 2; bears++)
+        for (int c = 0; c < PAD_IN; c++)
+            shear[bears][0][c][c] = half->series * (d->k_plate_t + d->k_head) + bears * half->series_hole * d->k_hole;
+    for (int n = 0; n <= Z / 2; n++)
+        for (int coordinate = 0; coordinate < 2; coordinate++) {
+            const int w = 2 * n + coordinate;
+            const int out = n == 0 && coordinate == 0 ? 0 : n == 1 ? 2 - coordinate : -1;
+            const int in = n == 0 && coordinate == 1 ? 2 : n == 1 ? coordinate : -1;
+            find_wave(p, half, true, n, coordinate, K, out, 0.5 * (out == 0 ? p->cage.m : d->J_t), &half->mirrored[w]);
+            for (int bears = 0; bears < 2; bears++)
+                find_wave(p, half, false, n, coordinate, shear[bears], in, 0.5 * (in == 2 ? d->J_p : p->cage.m),
+                          &half->opposed[bears][w]);
+        }
+}
+
 // ---- all ------------------------------------------------------------------------------------------------------------
 // The modes of the lowest frequencies; the statics of the others go to the residual between pads and at the wall.
 static void take_modes(const Parameters *p, ElasticHalf *half, double R[Z][PADS][PADS])
@@ -263,6 +369,7 @@ static void take_modes(const Parameters *p, ElasticHalf *half, double R[Z][PADS]
             if (taken) {
                 const int i = half->n++;
                 take_mode(table, entry, coordinate, unit, half, i);
+                half->harmonic[i] = mode->harmonic, half->coordinate[i] = coordinate;
                 half->alike[i] = mode->harmonic == 0 && coordinate == 0;
                 half->omega_2[i] = mode->omega * mode->omega / denser;
                 half->damping[i] = 2.0 * p->cage.modal_damping * sqrt(half->omega_2[i]);
@@ -307,6 +414,7 @@ void elastic_half_derive(const Parameters *p, const Derived *d, ElasticHalf *hal
         half->reach = fmax(half->reach, 2.0 * sum);
     }
     law_behind(half);
+    find_waves(p, d, half);
 }
 
 // ---- rest under the centrifugal load -----------------------------------------------------------------------------------

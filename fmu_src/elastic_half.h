@@ -24,6 +24,20 @@ enum { PAD_OUT = 3, PAD_IN = 2 };  // motions of pads against each other out of 
 
 enum { WALL_NODES = 16 };  // at most
 
+// The vibrations of both halves and their closed joints, wave by wave: a mode's coordinate a or b of harmonic n meets joints
+// only of the same wave, and so do relative motions of the halves as rigid bodies.  With a the accelerations times the root of
+// their inertia, the stiffness is Q diag(lambda) Q^T.
+enum { WAVES = 2 * (Z / 2 + 1), WAVE_SIZE = 16, RIGID_MOTION = -1 };
+
+typedef struct {
+    int count, blocks;              // coordinates, blocks of eight
+    int row[WAVE_SIZE];             // mode, or RIGID_MOTION: the last one
+    int motion;                     // which rigid motion: v_x, about y, about z; v_y, v_z, spin
+    double root[WAVE_SIZE];         // of the inertia
+    double lambda[WAVE_SIZE];       // [1/s2]
+    double Q[WAVE_SIZE][WAVE_SIZE]; // [coordinate][vibration]
+} Wave;
+
 struct ElasticHalf {
     int n, blocks;                          // modes, blocks of eight of them
     double omega_2[MODES], damping[MODES];  // omega^2, 2 zeta omega
@@ -41,6 +55,9 @@ struct ElasticHalf {
     double compliance;                           // of a wall along its normal, by the residual, less that in Hertz's [m/N]
     double K[Z][PAD_OUT][PAD_OUT];               // inverse of the residual between pads, out of the plane
     double series, series_hole;                  // parts of the joints' stiffness in the plane, in series with the residual
+    int harmonic[MODES], coordinate[MODES];      // n; a 0, b 1
+    Wave mirrored[WAVES];                        // of S and the relative motions out of the plane
+    Wave opposed[2][WAVES];                      // of D and those in the plane; without and with shanks that bear
     JointLaw law;                                // the joints' law over L^ = L + K_0 delta with the K above
     double coefficients[];                       // of the law; the fourth number is U, whose slope is delta
 };

@@ -234,6 +234,7 @@ double verlet_step(const Model *model, double t, double h, const double *weight,
         for (int i = RATES; i < N_ALL_STATES; i++) y[i] += gamma * f[i];
     rhs(model, t + h, y, to->f, w);
     remember_films(w, to);
+    if (model->elastic) implicit_waves(model, w, gamma, to->f);
 
     // The residual of the trapezoidal rule at v^, and the linear solve that corrects v^.
     for (int i = VELOCITY; i < N_STATES; i++) residual[i] = gamma * (to->f[i] - f[i]);

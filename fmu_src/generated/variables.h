@@ -9,7 +9,7 @@
 
 #define FMI2_FUNCTION_PREFIX RivetedBearing_  // of the functions of a source-code FMU
 #define MODEL_IDENTIFIER "RivetedBearing"
-#define MODEL_GUID "{a4a348ed-406f-ed0a-0232-22a28dbdf231}"  // digest of the table
+#define MODEL_GUID "{ced3c1ca-a087-2737-2e1e-16228c3751f6}"  // digest of the table
 
 enum { Z = 9 };  // number of balls
 
