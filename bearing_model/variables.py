@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from enum import IntEnum
 
 MODEL_IDENTIFIER = "RivetedBearing"
-MODEL_GUID = "{ced3c1ca-a087-2737-2e1e-16228c3751f6}"
+MODEL_GUID = "{457334eb-96fe-5827-6c9d-2b4e7a7e515b}"
 Z = 9
 
 
@@ -183,6 +183,8 @@ PARAMETERS = {
         Variable("cage.unbalance", 1120, "Real", "kg.m", "g.mm", 0.0, 0.0, 0.01, 1, None, "Static unbalance of the whole cage, in the direction of pocket 1", "balanced cage"),
         Variable("cage.width", 1121, "Real", "m", "mm", 0.0136, 0.001, 0.5, 1, None, "Axial width of the whole cage", "assumed: pocket and two webs of 1.14 mm"),
         Variable("cage.centrifugal", 1122, "Switch", "1", None, 2, None, None, 1, None, "Centrifugal load of the cage halves at the rivets", "physics; off: for comparison with figures that leave it out"),
+        Variable("pocket[j].dtheta", 8420, "Real", "rad", "deg", 0.0, -0.05, 0.05, Z, None, "Angle of the pocket beyond its place 2 pi (j - 1)/Z, in the sense of rotation", "perfect cage"),
+        Variable("pocket[j].dD", 8460, "Real", "m", "um", 0.0, -0.001, 0.001, Z, None, "Excess of the pocket's diameter", "perfect cage"),
         Variable("cage.modal_damping", 1123, "Real", "1", None, 0.01, 0.0, 0.2, 1, None, "Damping ratio of each vibration mode of the halves, scene.cage = elastic", "assumed: riveted and machined brass parts lose 0.3 to 3 % (structural damping)"),
         Variable("joint.preload", 1201, "Real", "N", None, 20.0, 0.0, 1000.0, 1, None, "Preload of each rivet at 293.15 K", "paper section 4.1 (3)"),
         Variable("joint.fit", 1202, "Real", "m", "um", -1e-05, -0.0005, 0.0001, 1, None, "Rivet diameter - hole diameter, negative = clearance", "paper section 4.1 (3)"),
@@ -190,6 +192,9 @@ PARAMETERS = {
         Variable("joint.mu", 1204, "Real", "1", None, 0.15, 0.0, 1.0, 1, None, "Friction coefficient of plates and rivet heads", "assumed (steel and bronze, little oil)"),
         Variable("joint.zeta", 1205, "Real", "1", None, 0.02, 0.0, 1.0, 1, None, "Damping ratio of the closed joints in the axial direction", "assumed (structural damping)"),
         Variable("joint.F_floor", 1206, "Real", "N", None, 0.5, 0.001, 10.0, 1, None, "Friction capacity that remains in an open joint", "regularization of the friction state as the clamp force vanishes"),
+        Variable("rivet[k].preload_factor", 8520, "Real", "1", None, 1.0, 0.0, 5.0, Z, None, "Preload of this rivet / joint.preload", "rivets all alike"),
+        Variable("rivet[k].dfit", 8560, "Real", "m", "um", 0.0, -0.0002, 5e-05, Z, None, "Fit of this rivet less joint.fit", "rivets all alike"),
+        Variable("rivet[k].intact", 8600, "Integer", "1", None, 1, 0, 1, Z, None, "0: the rivet is broken and carries nothing; the plates still meet under pressure", "whole rivets"),
         Variable("rivet.fit_model", 1208, "FitModel", "1", None, 2, None, None, 1, None, "Interference: elastic, or with yield of the flange", "flange yields between +2 and +5 um of interference"),
         Variable("oil.eta", 1301, "Real", "Pa.s", "mPa.s", 0.006, 1e-05, 10.0, 1, None, "Dynamic viscosity of the oil at the temperature oil.T_0; left at its start value it is that of the two points (oil.nu_1, oil.nu_2)", "assumed (aviation oil, hot)"),
         Variable("oil.alpha", 1302, "Real", "1/Pa", "1/GPa", 1.3e-08, 1e-10, 1e-07, 1, None, "Pressure-viscosity coefficient at the temperature oil.T_0", "assumed (synthetic aviation oil, hot)"),

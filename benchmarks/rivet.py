@@ -29,7 +29,7 @@ def table_time(core, model, loads, count):
 
     def evaluate():
         for _ in range(rounds):
-            core.lib.test_rivet_rom_stress(count, loads, model.d.fit_eff, False, sigma)
+            core.lib.test_rivet_rom_stress(count, loads, model.d.fit_eff[0], False, sigma)
 
     return cpu(evaluate, 9)[0] / (rounds * count)
 

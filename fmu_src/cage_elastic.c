@@ -113,7 +113,7 @@ void cage_elastic_joints(const Model *model, Work *w)
     const Derived *d = model->d;
     const double (*K_0)[PAD_OUT] = half->K[0];
     const scalar s_0 = w->half[0].s + w->frame_omega, s_1 = w->half[1].s + w->frame_omega;
-    const scalar P = scalar_max(d->P + d->spin[ROW_DP] * (0.5 * (s_0 * s_0 + s_1 * s_1)), 0.0);
+    const scalar P = scalar_max(d->P_mean + d->spin[ROW_DP] * (0.5 * (s_0 * s_0 + s_1 * s_1)), 0.0);
     ball_array bonded[PAD_OUT], delta[PAD_OUT], relief[PAD_OUT];
     scalar behind[Z][3], U[Z];
     stiffness_times(half, w->e, bonded);

@@ -59,7 +59,8 @@ void cage_joint_kinematics(const Model *model, Work *w)
     }
 }
 
-// Stiffnesses in the plane [N/m]: of elastic halves in series with what their modes leave.
+// Stiffnesses of plates and head in the plane [N/m], and the factor of the hole's: of elastic halves in series with
+// what their modes leave.
 typedef struct {
     double plate, head, hole;
 } JointStiffness;
@@ -67,9 +68,9 @@ typedef struct {
 static JointStiffness joint_stiffness(const Model *model)
 {
     const Derived *d = model->d;
-    if (!model->elastic) return (JointStiffness){d->k_plate_t, d->k_head, d->k_hole};
+    if (!model->elastic) return (JointStiffness){d->k_plate_t, d->k_head, 1.0};
     const double series = model->elastic->series, hole = model->elastic->series_hole;
-    return (JointStiffness){series * d->k_plate_t, series * d->k_head, hole * d->k_hole};
+    return (JointStiffness){series * d->k_plate_t, series * d->k_head, hole};
 }
 
 // Dahl's friction with force -k z: sets the rate of z and its decay D, returns the dissipated power.
@@ -120,9 +121,10 @@ void cage_joint_advance(const Model *model, const Work *w, double h, double *y)
             wide_store(&heads[k], mu * wide_load(&w->T[k]) + floor);
             continue;
         }
-        const wide u_x = wide_load(&w->u_x[k]);
-        wide_store(&plates[k], mu * wide_max(wide_max(d->P - d->k_plate * u_x, zero) + dT, zero) + floor);
-        wide_store(&heads[k], mu * wide_max(wide_max(d->P + d->k_rivet * u_x, zero) + dT, zero) + floor);
+        const wide u_x = wide_load(&w->u_x[k]), P = wide_load(&d->P[k]), intact = wide_load(&d->intact[k]);
+        const wide T = intact * wide_max(P + d->k_rivet * u_x, zero), more = dT * intact;
+        wide_store(&plates[k], mu * wide_max(wide_max(P - d->k_plate * u_x, zero) + more, zero) + floor);
+        wide_store(&heads[k], mu * wide_max(T + more, zero) + floor);
     }
     advance(w, h, k_in.plate, plates, Y_JOINT_PLATE_Y, Y_JOINT_PLATE_Z, y);
     advance(w, h, k_in.head, heads, Y_JOINT_HEAD_Y, Y_JOINT_HEAD_Z, y);
@@ -161,7 +163,7 @@ void cage_joint_force(const Model *model, const scalar *y, Work *w)
     memcpy(h_y, &y[Y_JOINT_HEAD_Y], Z * sizeof *y);
     memcpy(h_z, &y[Y_JOINT_HEAD_Z], Z * sizeof *y);
 
-    const wide zero = wide_set(0.0), P = wide_set(d->P), floor = wide_set(p->joint.F_floor);
+    const wide zero = wide_set(0.0), floor = wide_set(p->joint.F_floor);
     const wide mu = wide_set(p->joint.mu), dT = wide_set(model->elastic ? 0.0 : cage_joint_prying(model, w));
     const ElasticHalf *elastic = model->elastic;
     const JointStiffness k_in = joint_stiffness(model);
@@ -172,25 +174,28 @@ void cage_joint_force(const Model *model, const scalar *y, Work *w)
         const wide v_x = wide_load(&w->v_jx[k]), v_y = wide_load(&w->v_jy[k]), v_z = wide_load(&w->v_jz[k]);
 
         // tension, plate force, friction
+        const wide intact = wide_load(&d->intact[k]), more = dT * intact;
         wide T, N_plate, damping;
         if (elastic) {  // the law of the joint has given them (cage_elastic.c)
             T = wide_load(&w->T[k]), N_plate = wide_load(&w->N_plate[k]), damping = zero;
         } else {
-            T = wide_max(P + d->k_rivet * u_x, zero), N_plate = wide_max(P - d->k_plate * u_x, zero);
+            const wide P = wide_load(&d->P[k]);
+            T = intact * wide_max(P + d->k_rivet * u_x, zero), N_plate = wide_max(P - d->k_plate * u_x, zero);
             damping = d->c_joint * N_plate / (N_plate + floor);
         }
         const wide speed = wide_sqrt(v_y * v_y + v_z * v_z);
         const wide zp_y = wide_load(&z_y[k]), zp_z = wide_load(&z_z[k]);
         const wide zh_y = wide_load(&h_y[k]), zh_z = wide_load(&h_z[k]);
-        wide lost = cage_joint_friction(k_t, mu * wide_max(N_plate + dT, zero) + floor, zp_y, zp_z, v_y, v_z,
+        wide lost = cage_joint_friction(k_t, mu * wide_max(N_plate + more, zero) + floor, zp_y, zp_z, v_y, v_z,
                                         speed, &w->plate_y_dot[k], &w->plate_z_dot[k], &w->plate_rate[k]);
-        lost += cage_joint_friction(k_h, mu * wide_max(T + dT, zero) + floor, zh_y, zh_z, v_y, v_z, speed,
+        lost += cage_joint_friction(k_h, mu * wide_max(T + more, zero) + floor, zh_y, zh_z, v_y, v_z, speed,
                                     &w->head_y_dot[k], &w->head_z_dot[k], &w->head_rate[k]);
 
         // hole contact
         const wide slip = wide_sqrt(u_y * u_y + u_z * u_z + 1e-30);
-        const wide bearing = k_in.hole * wide_max(slip - d->hole_gap, zero) / slip;
-        wide_store(&w->k_bearing[k], wide_select(wide_above(slip, d->hole_gap), wide_set(k_in.hole), zero));
+        const wide gap = wide_load(&d->hole_gap[k]), k_hole = k_in.hole * wide_load(&d->k_hole[k]);
+        const wide bearing = k_hole * wide_max(slip - gap, zero) / slip;
+        wide_store(&w->k_bearing[k], wide_select(wide_above(slip - gap, 0.0), k_hole, zero));
 
         wide_store(&w->T[k], T);
         wide_store(&w->N_plate[k], N_plate);

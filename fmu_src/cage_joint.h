@@ -6,7 +6,7 @@
 #include "rivet_rom.h"
 
 // Prying force dT [N]: what the cage's centrifugal load adds to the rivet's tension and to the plates' contact
-// force, T_rest - P of joints that are all alike (joint_law.h).  C1 in the cage's speed: the cubic through the
+// force, T_rest - P of joints that are all alike (joint_law.h), at their mean preload.  C1 in the cage's speed: the cubic through the
 // states of the table, which are at equal steps of x = c/(c + P), with slopes by central differences.
 ONCE scalar cage_joint_prying(const Model *model, const Work *w)
 {
@@ -14,7 +14,7 @@ ONCE scalar cage_joint_prying(const Model *model, const Work *w)
     const JointLaw *law = &rivet_table.half.law;
     const scalar omega_2 = 0.5 * (w->half[0].s * w->half[0].s + w->half[1].s * w->half[1].s);
     const scalar c = fabs(d->spin[ROW_M_T]) / law->length * omega_2;
-    const scalar P = scalar_max(d->P + d->spin[ROW_DP] * omega_2, 0.0), s = c + P;
+    const scalar P = scalar_max(d->P_mean + d->spin[ROW_DP] * omega_2, 0.0), s = c + P;
     if (!(scalar_value(c) > 0.0)) return 0.0;
     const scalar x = c / s * (law->alike_count - 1.0);
     const int last = law->alike_count - 1, i = (int)fmin(scalar_value(x), last - 1.0);
@@ -23,7 +23,7 @@ ONCE scalar cage_joint_prying(const Model *model, const Work *w)
     const double slope_to = i + 1 < last ? 0.5 * (law->alike[i + 2][ALIKE_T] - from) : rise;
     const scalar u = x - i, v = 1.0 - u;
     const scalar T = from + u * rise + u * v * (v * (slope_from - rise) + u * (rise - slope_to));
-    return s * T - d->P * law->alike[0][ALIKE_T];
+    return s * T - d->P_mean * law->alike[0][ALIKE_T];
 }
 
 // Offset and velocity of half 1 against half 0 at each rivet, in the frame of half 0.

@@ -110,6 +110,23 @@ static bool require(Bearing *b, bool condition, const char *format, double value
     return condition;
 }
 
+// Checks that rivets which differ are in a scene whose joints know them one by one.
+static bool check_rivets(Bearing *b)
+{
+    const Parameters *p = &b->s.p;
+    if (p->scene.cage == CAGE_MODEL_TWO_HALF) return true;
+    for (int k = 0; k < Z; k++) {
+        const char *name = p->rivet.preload_factor[k] != 1.0 ? "preload_factor"
+                           : p->rivet.dfit[k] != 0.0         ? "dfit"
+                           : p->rivet.intact[k] != 1         ? "intact"
+                                                             : NULL;
+        if (name == NULL) continue;
+        bearing_log(b, LOG_ERROR, "rivet[%d].%s: rivets that differ need scene.cage = two_half", k + 1, name);
+        return false;
+    }
+    return true;
+}
+
 // Checks parameters against each other.
 static bool check_geometry(Bearing *b)
 {
@@ -187,12 +204,20 @@ static bool check_geometry(Bearing *b)
                     "pulse.interval = %g s: at least pulse.duration = %g s is allowed", p->pulse.interval,
                     p->pulse.duration);
     for (int j = 0; j < Z; j++) {
-        if (p->ball.dD[j] < p->cage.pocket_clearance || p->ball.dD[j] <= 0.0) continue;
-        bearing_log(b, LOG_ERROR, "ball[%d].dD = %g m: less than cage.pocket_clearance = %g m is allowed",
-                    j + 1, p->ball.dD[j], p->cage.pocket_clearance);
-        fine = false;
+        const double clearance = p->cage.pocket_clearance + p->pocket.dD[j];
+        if (p->pocket.dD[j] < 0.0 && clearance <= 0.0) {
+            bearing_log(b, LOG_ERROR,
+                        "pocket[%d].dD = %g m: more than -cage.pocket_clearance = %g m is allowed", j + 1,
+                        p->pocket.dD[j], -p->cage.pocket_clearance);
+            fine = false;
+        } else if (p->ball.dD[j] > 0.0 && p->ball.dD[j] >= clearance) {
+            bearing_log(b, LOG_ERROR,
+                        "ball[%d].dD = %g m: less than cage.pocket_clearance + pocket[%d].dD = %g m is allowed",
+                        j + 1, p->ball.dD[j], j + 1, clearance);
+            fine = false;
+        }
     }
-    return fine;
+    return check_rivets(b) && fine;
 }
 
 // Checks that the halves have room for the seat of the rivet's head: metal inside and outside of it, a

@@ -128,7 +128,9 @@ static void derive_pockets(const Parameters *p, Derived *d)
 
     // positions of pockets and rivets
     for (int j = 0; j < LANES; j++) {
-        const double phi = 2.0 * PI * (j % Z) / Z, phi_r = 2.0 * PI * (j % Z + 0.5) / Z;
+        const double phi = 2.0 * PI * (j % Z) / Z + p->pocket.dtheta[j % Z];
+        const double phi_r = 2.0 * PI * (j % Z + 0.5) / Z;
+        d->R_c[j] = d->pocket_radius + 0.5 * p->pocket.dD[j % Z];
         d->pocket_cos[j] = j < Z ? portable_cos(phi) : 0.0;
         d->pocket_sin[j] = j < Z ? portable_sin(phi) : 0.0;
         d->rivet_y[j] = 0.5 * rivet_table.joint.d_m * portable_cos(phi_r);
@@ -177,19 +179,37 @@ static void derive_cage(const Parameters *p, Derived *d)
     d->cylinder_laminar_omega = 0.999 * portable_pow(d->cylinder_laminar / d->cylinder_vortex, 1.0 / 0.539);
 }
 
+static const double BROKEN_PLAY = 1.0;  // of a rivet that is gone [m]
+
+// Rivet k: preload, fit, hole.  A broken one has no preload and a free fit; its hole bears nothing.
+static void derive_rivet(const Parameters *p, Derived *d, int k)
+{
+    const bool intact = p->rivet.intact[k % Z] != 0;
+    const double fit_a = p->joint.fit + p->rivet.dfit[k % Z] + p->joint.swell;
+    d->intact[k] = intact ? 1.0 : 0.0;
+    d->P[k] = d->intact[k] * (p->joint.preload * p->rivet.preload_factor[k % Z]);
+    d->fit_eff[k] =
+        intact ? rivet_rom_fit_eff(&rivet_table, fit_a, p->rivet.fit_model == FIT_MODEL_J2) : -BROKEN_PLAY;
+    d->k_hole[k] = intact ? joint_hole_stiffness(&rivet_table.joint, fit_a) : 0.0;
+    d->hole_gap[k] = intact ? fmax(0.0, -fit_a) : BROKEN_PLAY;
+    if (k < Z) d->fit_flags[k] = intact ? rivet_rom_fit_flags(&rivet_table, fit_a) : 0;
+}
+
 static void derive_joint(const Parameters *p, Derived *d)
 {
     const JointData *joint = &rivet_table.joint;
-    d->P = p->joint.preload;
-    d->fit_a = p->joint.fit + p->joint.swell;
-    d->fit_eff = rivet_rom_fit_eff(&rivet_table, d->fit_a, p->rivet.fit_model == FIT_MODEL_J2);
-    d->fit_flags = rivet_rom_fit_flags(&rivet_table, d->fit_a);
+    double factors = 0.0, standing = 0.0;
+    for (int k = 0; k < LANES; k++) derive_rivet(p, d, k);
+    for (int k = 0; k < Z; k++) {
+        standing += d->intact[k];
+        factors += d->intact[k] * p->rivet.preload_factor[k];
+    }
+    d->any_broken = standing < Z;
+    d->P_mean = p->joint.preload * (standing > 0.0 ? factors / standing : 0.0);
     d->k_rivet = joint->k_rivet;
     d->k_plate = joint->k_plate;
     d->k_plate_t = joint->k_t_plate;
     d->k_head = joint->k_t_head;
-    d->k_hole = joint_hole_stiffness(joint, d->fit_a);
-    d->hole_gap = fmax(0.0, -d->fit_a);
     const CageHalfData *half = &rivet_table.half;
     for (int i = 0; i < ROWS; i++)
         d->spin[i] = p->cage.centrifugal == SWITCH_ON ? p->cage.m / half->m * half->spin[i] : 0.0;
@@ -205,7 +225,7 @@ static void derive_scales(const Parameters *p, Derived *d)
     const bool equal = p->solver.method == METHOD_EXPLICIT;
     const double length = 1e-5, velocity = equal ? 0.1 : 0.2, r = 0.5 * p->bearing.d_m;
     const double slip =
-        fmax(p->joint.mu * d->P, 3.0);  // force at which plates slip; of a loose joint the default's
+        fmax(p->joint.mu * d->P_mean, 3.0);  // force at which plates slip; of a loose joint the default's
     const double friction = equal ? slip : 20.0 * slip;
     d->scale[SCALE_LENGTH] = length;
     d->scale[SCALE_VELOCITY] = velocity;

@@ -337,7 +337,7 @@ static void find_waves(const Parameters *p, const Derived *d, ElasticHalf *half)
         for (int a = 0; a < 9; a++) K[k][a / 3][a % 3] = 0.5 * half->K[k][a / 3][a % 3];
     for (int bears = 0; bears < 2; bears++)
         for (int c = 0; c < PAD_IN; c++)
-            shear[bears][0][c][c] = half->series * (d->k_plate_t + d->k_head) + bears * half->series_hole * d->k_hole;
+            shear[bears][0][c][c] = half->series * (d->k_plate_t + d->k_head) + bears * half->series_hole * d->k_hole[0];
     for (int n = 0; n <= Z / 2; n++)
         for (int coordinate = 0; coordinate < 2; coordinate++) {
             const int w = 2 * n + coordinate;
@@ -402,7 +402,7 @@ void elastic_half_derive(const Parameters *p, const Derived *d, ElasticHalf *hal
     invert_residual(R, half);
     const double shear = R[0][PAD_R][PAD_R] + R[0][PAD_T][PAD_T];  // mean over r and t, of both halves
     half->series = 1.0 / (1.0 + shear * (d->k_plate_t + d->k_head));
-    half->series_hole = 1.0 / (1.0 + shear * d->k_hole);
+    half->series_hole = 1.0 / (1.0 + shear * d->k_hole[0]);
 
     // largest |u|^2/sum omega^2 q^2 by Cauchy's inequality; between the nodes twice as much at most
     for (int node = 0; node < half->nodes; node++) {
@@ -452,7 +452,7 @@ static void rest_off(const Parameters *p, const ElasticHalf *half, double omega,
 // Newton's method with differences.
 double elastic_half_rest(const Parameters *p, const Derived *d, const ElasticHalf *half, double omega, double *S)
 {
-    const double P = fmax(d->P + d->spin[ROW_DP] * omega * omega, 0.0), step[2] = {1e-10, 1e-7};
+    const double P = fmax(d->P_mean + d->spin[ROW_DP] * omega * omega, 0.0), step[2] = {1e-10, 1e-7};
     double x[2] = {0.0, 0.0}, off[2], to[2][2], slope[2][2];
     memset(S, 0, MODES * sizeof *S);
     rest_off(p, half, omega, P, x, S, off);

@@ -55,15 +55,15 @@ static scalar joint_energy(const Model *model, const scalar *y, const Work *w, i
     const scalar z_y = y[Y_JOINT_PLATE_Y + k], z_z = y[Y_JOINT_PLATE_Z + k], h_y = y[Y_JOINT_HEAD_Y + k];
     const scalar h_z = y[Y_JOINT_HEAD_Z + k];
     const scalar bearing =
-        scalar_max(0.0, scalar_sqrt(w->u_y[k] * w->u_y[k] + w->u_z[k] * w->u_z[k]) - d->hole_gap);
+        scalar_max(0.0, scalar_sqrt(w->u_y[k] * w->u_y[k] + w->u_z[k] * w->u_z[k]) - d->hole_gap[k]);
     if (model->elastic) {
-        const double k_in = model->elastic->series, k_hole = model->elastic->series_hole * d->k_hole;
+        const double k_in = model->elastic->series, k_hole = model->elastic->series_hole * d->k_hole[k];
         return w->joint_potential[k] + 0.5 * (k_in * d->k_plate_t * (z_y * z_y + z_z * z_z) +
                                               k_in * d->k_head * (h_y * h_y + h_z * h_z) + k_hole * bearing * bearing);
     }
     return 0.5 * (w->T[k] * w->T[k] / d->k_rivet + w->N_plate[k] * w->N_plate[k] / d->k_plate +
                   d->k_plate_t * (z_y * z_y + z_z * z_z) + d->k_head * (h_y * h_y + h_z * h_z) +
-                  d->k_hole * bearing * bearing);
+                  d->k_hole[k] * bearing * bearing);
 }
 
 scalar energy_total(const Model *model, const scalar *y, const Work *w)

@@ -69,11 +69,11 @@ static void find_alone_alike(const JointLaw *law, ball_array bonded[3], const sc
     }
 }
 
-// Joints near the state where all are alike answer to L* by their tangent there.  The others keep their last
+// Joints near the state where all are alike answer to L* by their tangent there, unless they are broken.  The others keep their last
 // answer, and those of them are wanted whose L* has changed since; in the first sweep all others are.
-static void answer_near(const JointLaw *law, ball_array bonded[3], const ball_array P, scalar spin_P,
-                        const scalar at[ALIKE_WIDTH], bool first, wide alone[PACKETS][3], Opening *o,
-                        Wanted *wanted)
+static void answer_near(const JointLaw *law, ball_array bonded[3], const ball_array P,
+                        const constants intact, scalar spin_P, const scalar at[ALIKE_WIDTH], bool first,
+                        wide alone[PACKETS][3], Opening *o, Wanted *wanted)
 {
     wide move[PACKETS][3];
     wanted->count = 0;
@@ -100,7 +100,8 @@ static void answer_near(const JointLaw *law, ball_array bonded[3], const ball_ar
                         L[2]};  // moves, rivet, L*
         const wide s = wide_load(&P[k]) + size(law, wide_load(&bonded[0][k]), wide_load(&bonded[1][k]),
                                                wide_load(&bonded[2][k]));
-        const bits far = wide_above(size(law, N, M_r, M_t) + wide_abs(more_P) - NEAR * s, 0.0);
+        const wide beyond = size(law, N, M_r, M_t) + wide_abs(more_P) - NEAR * s;
+        const bits far = wide_above(wide_max(beyond, 0.5 - wide_load(&intact[k])), 0.0);
         if (first)
             want(wanted, k, wide_mask(far));
         else if (wide_any(far)) {
@@ -128,8 +129,23 @@ static void answer_near(const JointLaw *law, ball_array bonded[3], const ball_ar
             for (int i = 0; i < 3; i++) wide_store(&o->move[i][turn * Z + p * LANE_WIDTH], move[p][i]);
 }
 
-void joints_open(const JointLaw *law, ball_array bonded[3], const ball_array P, scalar spin_M, scalar spin_P,
-                 ball_array load[3], ball_array rivet[3])
+// The move of a joint that carries nothing: K_0 move = L*, by Cramer's rule.
+static void joint_free(const double K[3][3], const scalar load[3], scalar move[3])
+{
+    double cofactor[3][3], det = 0.0;
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++) {
+            const int a = (i + 1) % 3, b = (i + 2) % 3, c = (j + 1) % 3, e = (j + 2) % 3;
+            cofactor[i][j] = K[a][c] * K[b][e] - K[a][e] * K[b][c];
+        }
+    for (int j = 0; j < 3; j++) det += K[0][j] * cofactor[0][j];
+    for (int j = 0; j < 3; j++)
+        move[j] =
+            (cofactor[0][j] * load[0] + cofactor[1][j] * load[1] + cofactor[2][j] * load[2]) * (1.0 / det);
+}
+
+void joints_open(const JointLaw *law, ball_array bonded[3], const ball_array P, const constants intact,
+                 scalar spin_M, scalar spin_P, ball_array load[3], ball_array rivet[3])
 {
     scalar at[ALIKE_WIDTH];
     wide L[PACKETS][3];
@@ -138,17 +154,22 @@ void joints_open(const JointLaw *law, ball_array bonded[3], const ball_array P, 
     o.rivet = rivet;
     find_alike(law, (scalar_value(spin_M) < 0.0 ? -spin_M : spin_M) / law->length, spin_P, at);
     find_alone_alike(law, bonded, at, L);
-    answer_near(law, bonded, P, spin_P, at, true, L, &o, &wanted);
+    answer_near(law, bonded, P, intact, spin_P, at, true, L, &o, &wanted);
     for (int sweep = 0; sweep < SWEEPS && wanted.count > 0; sweep++) {
         if (sweep > 0) {
             find_alone(law, bonded, &o, L);
-            answer_near(law, bonded, P, spin_P, at, false, L, &o, &wanted);
+            answer_near(law, bonded, P, intact, spin_P, at, false, L, &o, &wanted);
         }
         for (int n = 0; n < wanted.count; n++) {
             const int k = wanted.joint[n];
             const scalar alone[3] = {o.alone[0][k], o.alone[1][k], o.alone[2][k]};
             scalar move[3], carried[3];
-            joint_law(law, alone, P[k], move, carried, NULL);
+            if (intact[k] > 0.0)
+                joint_law(law, alone, P[k], move, carried, NULL);
+            else {
+                joint_free(law->K_0, alone, move);
+                carried[0] = carried[1] = carried[2] = 0.0;
+            }
             for (int i = 0; i < 3; i++) {
                 o.move[i][k] = o.move[i][Z + k] = move[i];
                 rivet[i][k] = carried[i];
@@ -170,7 +191,7 @@ void joints_open(const JointLaw *law, ball_array bonded[3], const ball_array P, 
 // of the halves around a joint.  Plates hold up to `plate`, then the heads drag the rivet (k_head) up to `head`,
 // then the halves slip freely to `gap`, then the hole bears (k_hole):
 //     V - K slip = plate + min(k_head slip, head) + k_hole max(0, slip - gap).
-INLINE wide joint_slip(wide V, wide K, wide gap, wide plate, wide head, double k_head, double k_hole,
+INLINE wide joint_slip(wide V, wide K, wide gap, wide plate, wide head, double k_head, wide k_hole,
                        wide *heads, wide *hole)
 {
     // Each of the two branches of the heads is the larger slip where it holds; of two fractions with positive
@@ -236,9 +257,10 @@ void joints_slip(const JointLaw *law, const ball_array V_r, const ball_array V_t
             const wide stiffness = wide_select(wide_above(V_rt, 0.0), along, wide_set(K[0][0]));
             wide head, hole;
             const wide gap = wide_load(&limits->gap[k]), plate = wide_load(&limits->plates[k]),
-                       rest = wide_load(&limits->heads[k]);
+                       rest = wide_load(&limits->heads[k]),
+                       k_hole = wide_load(&limits->k_hole[k]);
             const wide moved =
-                joint_slip(V_rt, stiffness, gap, plate, rest, limits->k_head, limits->k_hole, &head, &hole);
+                joint_slip(V_rt, stiffness, gap, plate, rest, limits->k_head, k_hole, &head, &hole);
             const wide s_r = moved * e_r, s_t = moved * e_t;
             wide_store(&next[0][k], s_r);
             wide_store(&next[1][k], s_t);

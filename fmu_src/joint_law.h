@@ -129,14 +129,15 @@ INLINE void joint_law(const JointLaw *law, const scalar load[3], scalar P, scala
 }
 
 // Loads (N, M_r, M_t) of the joints and (T, m_r, m_t) of the rivets [N, N.m], from bonded loads and preloads
-// P >= 0.  spin_M, spin_P: bonded M_t under the centrifugal load alone, and the preload with it.
-void joints_open(const JointLaw *law, ball_array bonded[3], const ball_array P, scalar spin_M, scalar spin_P,
-                 ball_array load[3], ball_array rivet[3]);
+// P >= 0.  intact: 1, or 0 for a joint that carries nothing, whose move takes all of L*; spin_M, spin_P: bonded
+// M_t under the centrifugal load alone, and the preload with it.
+void joints_open(const JointLaw *law, ball_array bonded[3], const ball_array P, const constants intact,
+                 scalar spin_M, scalar spin_P, ball_array load[3], ball_array rivet[3]);
 
 // What joints have for the transverse loads: friction of plates and heads [N], play [m]; stiffness of heads and hole [N/m].
 typedef struct {
-    ball_array plates, heads, gap;
-    double k_head, k_hole;
+    ball_array plates, heads, gap, k_hole;
+    double k_head;
 } SlipLimits;
 
 // Adds what plates, heads and shanks carry (r, t) of the bonded loads V_r, V_t [N].

@@ -70,7 +70,8 @@ typedef struct {
     double pocket_rolling;   // F_R = pocket_rolling U^0.66 Q^0.47
     Hertz pocket;
     double pocket_radius;              // [m]
-    constants pocket_cos, pocket_sin;  // of the body angle 2 pi j / Z of pocket j
+    constants R_c;                     // radius of each pocket [m]
+    constants pocket_cos, pocket_sin;  // of the body angle 2 pi j / Z + dtheta of pocket j
 
     // cage half
     double J_p, J_t;         // moments of inertia: polar, transverse about the centre of mass [kg.m2]
@@ -86,11 +87,14 @@ typedef struct {
 
     // joint
     constants rivet_y, rivet_z;  // position of rivet k in a half [m]: angle 2 pi (k + 1/2) / Z, pitch circle
-    double P;                    // preload [N]
-    double fit_a, fit_eff;       // fit, and elastic fit of the same pressure [m]
-    unsigned fit_flags;          // rivet_rom_fit_flags
-    double k_rivet, k_plate, k_plate_t, k_head, k_hole;  // stiffnesses [N/m]
-    double hole_gap;                                     // diametral play of the shank [m]
+    constants intact;            // 1, or 0 for a rivet that is broken
+    constants P;                 // preload [N], 0 of a broken rivet
+    double P_mean;               // preload of the rivets that are not broken, mean [N]
+    constants fit_eff;           // elastic fit of the same pressure [m]
+    unsigned fit_flags[Z];       // rivet_rom_fit_flags
+    double k_rivet, k_plate, k_plate_t, k_head;  // stiffnesses [N/m]
+    constants k_hole, hole_gap;                  // stiffness of the hole [N/m], diametral play of the shank [m]
+    bool any_broken;
     double c_joint;                                      // axial damping of one closed joint [N.s/m]
     double spin[ROWS];  // rows of bonded joints (half_path.h) under the centrifugal load, per (rad/s)^2
 

@@ -180,7 +180,7 @@ static void fill_rivet(const Evaluation *at, Outputs *out)
         out->rivet.M[k] = scalar_sqrt(load.M_r[k] * load.M_r[k] + load.M_t[k] * load.M_t[k]);
         out->rivet.M_shank[k] = scalar_sqrt(load.m_r[k] * load.m_r[k] + load.m_t[k] * load.m_t[k]);
         out->rivet.V[k] = load.V[k];
-        out->rivet.P[k] = d->P;
+        out->rivet.P[k] = d->P[k];
         out->rivet.F_head[k] = load.F_head[k];
         out->rivet.slip[k] = slip[k];
         max = scalar_max(max, slip[k]);
@@ -207,7 +207,7 @@ static void fill_stress(const Evaluation *at, Outputs *out)
         out->rivet.sigma_mid[k] = sigma[MID_VM][k];
         out->rivet.sigma_mid_p1[k] = sigma[MID_P1][k];
         out->rivet.flag[k] =
-            off ? 0.0 : at->model->d->fit_flags | rivet_rom_load_flags(&rivet_table, sigma, k);
+            off ? 0.0 : at->model->d->fit_flags[k] | rivet_rom_load_flags(&rivet_table, sigma, k);
     }
 }
 

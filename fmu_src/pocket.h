@@ -38,7 +38,7 @@ INLINE PocketGap pocket_gap(const Derived *d, const Work *w, const Rotor *half, 
     const wide x = vec_dot(gap.p, gap.a), t = vec_dot(gap.p, gap.e_t);
     const wide S = wide_sqrt(x * x + t * t + 1e-30);
     gap.inv_S = 1.0 / S, gap.n_x = x * gap.inv_S, gap.n_t = t * gap.inv_S;
-    gap.delta = S - (d->pocket_radius - wide_load(&d->R[j]));
+    gap.delta = S - (wide_load(&d->R_c[j]) - wide_load(&d->R[j]));
     return gap;
 }
 

@@ -144,7 +144,7 @@ unsigned rivet_rom_fit_flags(const RivetTable *t, double fit_a);
 
 // Sets the channels sigma of all rivets [Pa]: HEAD_P1 and MID_VM, and with `all` the other two as well.
 // Finite loads give finite stresses.
-typedef void RivetRomStress(const RivetTable *t, const JointLoads *load, double fit_eff, bool all,
+typedef void RivetRomStress(const RivetTable *t, const JointLoads *load, const constants fit_eff, bool all,
                             scalar sigma[RIVET_CHANNELS][Z]);
 RivetRomStress rivet_rom_stress;
 

@@ -57,9 +57,11 @@ static void two_half_share(const Model *model, const Work *w, RigidShare *share)
         store_turned(model, -S_y, -S_z, k, share->plates);
         store_turned(model, -H_y, -H_z, k, share->heads);
         store_turned(model, -wide_load(&w->B_y[k]), -wide_load(&w->B_z[k]), k, share->shank);
-        wide_store(&share->left.plates[k], wide_max(mu * (N_plate + dT) - wide_hypot(S_y, S_z), zero));
-        wide_store(&share->left.heads[k], wide_max(mu * (T + dT) - wide_hypot(H_y, H_z), zero));
-        wide_store(&share->left.gap[k], wide_max(d->hole_gap - u, zero));
+        const wide intact = wide_load(&d->intact[k]), more = dT * intact;
+        wide_store(&share->left.plates[k], wide_max(mu * (N_plate + more) - wide_hypot(S_y, S_z), zero));
+        wide_store(&share->left.heads[k], wide_max(mu * (T + more) - wide_hypot(H_y, H_z), zero));
+        wide_store(&share->left.gap[k], wide_max(wide_load(&d->hole_gap[k]) - u, zero));
+        wide_store(&share->left.k_hole[k], wide_load(&d->k_hole[k]));
     }
 }
 
@@ -90,7 +92,7 @@ static void rigid_wrench(const Work *w, const Pockets *on_1, scalar wrench[6])
 static void rigid_share(const Model *model, const Work *w, const Pockets *on_1, RigidShare *share)
 {
     const double R = 0.5 * rivet_table.joint.d_m;
-    const scalar friction = model->p->joint.mu * scalar_max(model->d->P + cage_joint_prying(model, w), 0.0);
+    const scalar friction = model->p->joint.mu * scalar_max(model->d->P_mean + cage_joint_prying(model, w), 0.0);
     double c[Z], s[Z];
     scalar wrench[6];
     ball_array V_y = {0}, V_z = {0};
@@ -113,7 +115,8 @@ static void rigid_share(const Model *model, const Work *w, const Pockets *on_1, 
         store_turned(model, shank * e_y, shank * e_z, k, share->shank);
         wide_store(&share->left.plates[k], limit - plates);
         wide_store(&share->left.heads[k], limit - heads);
-        wide_store(&share->left.gap[k], wide_set(model->d->hole_gap));
+        wide_store(&share->left.gap[k], wide_load(&model->d->hole_gap[k]));
+        wide_store(&share->left.k_hole[k], wide_load(&model->d->k_hole[k]));
     }
 }
 
@@ -151,7 +154,7 @@ void rivets_load(const Model *model, const Work *w, JointLoads *load)
     const Pockets *on = w->pocket;
     Pockets split[2];
     RigidShare share;
-    share.left.k_head = d->k_head, share.left.k_hole = d->k_hole;
+    share.left.k_head = d->k_head;
     if (model->p->scene.cage == CAGE_MODEL_RIGID) {
         pocket_split(model, w, split);
         on = split;
@@ -179,10 +182,10 @@ void rivets_load(const Model *model, const Work *w, JointLoads *load)
         wide_store(&bonded[0][k], wide_load(&share.N[k]) + wide_load(&rows.row[ROW_N][k]));
         wide_store(&bonded[1][k], wide_load(&rows.row[ROW_M_R][k]));
         wide_store(&bonded[2][k], wide_load(&rows.row[ROW_M_T][k]));
-        wide_store(&P[k], wide_max(d->P + wide_load(&rows.row[ROW_DP][k]), wide_set(0.0)));
+        wide_store(&P[k], wide_load(&d->intact[k]) * wide_max(wide_load(&d->P[k]) + wide_load(&rows.row[ROW_DP][k]), wide_set(0.0)));
     }
-    joints_open(&half->law, bonded, P, omega2 * d->spin[ROW_M_T],
-                scalar_max(d->P + omega2 * d->spin[ROW_DP], 0.0), open, rivet);
+    joints_open(&half->law, bonded, P, d->intact, omega2 * d->spin[ROW_M_T],
+                scalar_max(d->P_mean + omega2 * d->spin[ROW_DP], 0.0), open, rivet);
 
     // joints that slip: under the centrifugal load alone none does
     if (touched)
@@ -197,11 +200,12 @@ void rivets_load(const Model *model, const Work *w, JointLoads *load)
         wide_store(&load->M_t[k], wide_load(&open[2][k]));
         wide_store(&load->V[k], wide_hypot(wide_load(&share.plates[0][k]) + heads_r + V_r,
                                            wide_load(&share.plates[1][k]) + heads_t + V_t));
+        const wide intact = wide_load(&d->intact[k]);
         wide_store(&load->T[k], wide_load(&rivet[0][k]));
-        wide_store(&load->m_r[k], wide_load(&rivet[1][k]) + wide_load(&rows.row[ROW_DM_R][k]));
-        wide_store(&load->m_t[k], wide_load(&rivet[2][k]) + wide_load(&rows.row[ROW_DM_T][k]));
+        wide_store(&load->m_r[k], intact * (wide_load(&rivet[1][k]) + wide_load(&rows.row[ROW_DM_R][k])));
+        wide_store(&load->m_t[k], intact * (wide_load(&rivet[2][k]) + wide_load(&rows.row[ROW_DM_T][k])));
         wide_store(&load->V_r[k], V_r);
         wide_store(&load->V_t[k], V_t);
-        wide_store(&load->F_head[k], wide_hypot(heads_r, heads_t));
+        wide_store(&load->F_head[k], intact * wide_hypot(heads_r, heads_t));
     }
 }

@@ -374,7 +374,7 @@ double start_state(const Kernels *kernels, const Model *model, Work *w, double *
     uint64_t random = (uint64_t)p->start.seed;
     const double spread = p->start.spacing * p->cage.pocket_clearance / (0.5 * p->bearing.d_m);
     for (int j = 0; j < Z; j++) {
-        const double phi = 2.0 * PI * j / Z + spread * (2.0 * uniform(&random) - 1.0);
+        const double phi = 2.0 * PI * j / Z + p->pocket.dtheta[j] + spread * (2.0 * uniform(&random) - 1.0);
         w->theta[j] = phi + outer_offset(given, 0.5 * p->bearing.d_m, phi);
         w->cos_theta[j] = portable_cos(w->theta[j]);
         w->sin_theta[j] = portable_sin(w->theta[j]);

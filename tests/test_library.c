@@ -120,9 +120,11 @@ void test_traction_inlet(int n, double rolling, double Q, const double *U, doubl
 // sigma: [RIVET_CHANNELS][Z] of the last load.
 void test_rivet_rom_stress(int n, const JointLoads *load, double fit_eff, bool all, double *sigma)
 {
+    constants fit;
+    for (int k = 0; k < LANES; k++) fit[k] = fit_eff;
     const Kernels kernels = kernels_select();
     for (int i = 0; i < n; i++)
-        kernels.rivet_rom_stress(&rivet_table, &load[i], fit_eff, all, (double (*)[Z])sigma);
+        kernels.rivet_rom_stress(&rivet_table, &load[i], fit, all, (double (*)[Z])sigma);
 }
 
 unsigned test_rivet_rom_load_flags(double *sigma, int k)

@@ -373,4 +373,9 @@ const Variable VARIABLES[N_VARIABLES] = {
     {"ring.T_e", "K", 8303, 1, TYPE_REAL, CAUSALITY_INPUT, GROUP_COUNT, -1, offsetof(Inputs, ring.T_e), 293.15, 150.0, 700.0},
     {"ball.T", "K", 8304, 1, TYPE_REAL, CAUSALITY_INPUT, GROUP_COUNT, -1, offsetof(Inputs, ball.T), 293.15, 150.0, 700.0},
     {"cage.T", "K", 8305, 1, TYPE_REAL, CAUSALITY_INPUT, GROUP_COUNT, -1, offsetof(Inputs, cage.T), 293.15, 150.0, 700.0},
+    {"pocket[j].dtheta", "rad", 8420, Z, TYPE_REAL, CAUSALITY_PARAMETER, GROUP_COUNT, -1, offsetof(Parameters, pocket.dtheta), 0.0, -0.05, 0.05},
+    {"pocket[j].dD", "m", 8460, Z, TYPE_REAL, CAUSALITY_PARAMETER, GROUP_COUNT, -1, offsetof(Parameters, pocket.dD), 0.0, -0.001, 0.001},
+    {"rivet[k].preload_factor", "1", 8520, Z, TYPE_REAL, CAUSALITY_PARAMETER, GROUP_COUNT, -1, offsetof(Parameters, rivet.preload_factor), 1.0, 0.0, 5.0},
+    {"rivet[k].dfit", "m", 8560, Z, TYPE_REAL, CAUSALITY_PARAMETER, GROUP_COUNT, -1, offsetof(Parameters, rivet.dfit), 0.0, -0.0002, 5e-05},
+    {"rivet[k].intact", "1", 8600, Z, TYPE_INTEGER, CAUSALITY_PARAMETER, GROUP_COUNT, -1, offsetof(Parameters, rivet.intact), 1.0, 0.0, 1.0},
 };

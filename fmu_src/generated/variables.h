@@ -9,7 +9,7 @@
 
 #define FMI2_FUNCTION_PREFIX RivetedBearing_  // of the functions of a source-code FMU
 #define MODEL_IDENTIFIER "RivetedBearing"
-#define MODEL_GUID "{ced3c1ca-a087-2737-2e1e-16228c3751f6}"  // digest of the table
+#define MODEL_GUID "{457334eb-96fe-5827-6c9d-2b4e7a7e515b}"  // digest of the table
 
 enum { Z = 9 };  // number of balls
 
@@ -108,6 +108,10 @@ typedef struct {
         double modal_damping;  // [1] Damping ratio of each vibration mode of the halves, scene.cage = elastic
     } cage;
     struct {
+        double dtheta[Z];  // [rad] Angle of the pocket beyond its place 2 pi (j - 1)/Z, in the sense of rotation
+        double dD[Z];  // [m] Excess of the pocket's diameter
+    } pocket;
+    struct {
         double preload;  // [N] Preload of each rivet at 293.15 K
         double fit;  // [m] Rivet diameter - hole diameter, negative = clearance
         double swell;  // [m] Growth of the rivet's diameter by riveting, added to the fit
@@ -116,6 +120,9 @@ typedef struct {
         double F_floor;  // [N] Friction capacity that remains in an open joint
     } joint;
     struct {
+        double preload_factor[Z];  // [1] Preload of this rivet / joint.preload
+        double dfit[Z];  // [m] Fit of this rivet less joint.fit
+        int intact[Z];  // 0: the rivet is broken and carries nothing; the plates still meet under pressure
         int fit_model;  // FitModel: Interference: elastic, or with yield of the flange
     } rivet;
     struct {
@@ -556,4 +563,4 @@ typedef enum {
 } StateScale;
 
 enum { N_INPUTS = 39 };  // all of them numbers
-enum { N_VARIABLES = 324 };  // time is the first
+enum { N_VARIABLES = 329 };  // time is the first
