@@ -148,7 +148,7 @@ def derive_elastic(p, d, table):
         reach=2.0 * np.max(np.sum(pocket[:, :, [0, 2]] ** 2 / omega[:, None, None] ** 2, axis=(1, 2, 3))),
         K=K,
         series=1.0 / (1.0 + shear * (d.k_plate_t + d.k_head)),
-        series_hole=1.0 / (1.0 + shear * d.k_hole),
+        series_hole=1.0 / (1.0 + shear * d.k_hole[0]),
         wall=residual.wall[WALL_NODE],
         law=behind,
         energy=energy,
@@ -168,7 +168,11 @@ def cage_elastic_shapes(half, side, n_x, n_t):
     terms = half.pocket[i], half.slope[i], half.pocket[i + 1], half.slope[i + 1]  # [..., Z, n, 3, 2]
     value = v * v * (1.0 + 2.0 * u), h * u * v * v, u * u * (1.0 + 2.0 * v), -h * u * u * v
     slope = -6.0 * u * v / h, v * (v - 2.0 * u), 6.0 * u * v / h, u * (u - 2.0 * v)
-    back = np.where(np.real(n_t) < 0.0, -1.0, 1.0)[..., None, None, None] * np.array([[0.0, 1.0], [0.0, 1.0], [1.0, 0.0]]) + [[1.0, 0.0], [1.0, 0.0], [0.0, 1.0]]
+    back = np.where(np.real(n_t) < 0.0, -1.0, 1.0)[..., None, None, None] * np.array([[0.0, 1.0], [0.0, 1.0], [1.0, 0.0]]) + [
+        [1.0, 0.0],
+        [1.0, 0.0],
+        [0.0, 1.0],
+    ]
     wave = np.moveaxis(half.wave, 2, 0)[:, :, None, :]  # [Z, n, 1, 2]
 
     def shapes(weights):
@@ -268,7 +272,7 @@ def cage_elastic_joints(model, y, w):
     """Loads of the joints out of the plane; sets what rivets and plates carry, adds the moments to both halves.  cage_joint_force needs T and N_plate."""
     d, (h0, h1) = model.d, w.half
     omega_2 = 0.5 * ((h0.s + w.frame_omega) ** 2 + (h1.s + w.frame_omega) ** 2)
-    P = maximum(d.P + d.spin[5] * omega_2, 0.0) + 0.0 * w.e[0]
+    P = maximum(d.P_mean + d.spin[5] * omega_2, 0.0) + 0.0 * w.e[0]
     w.joint_load, _, w.joint_rivet, V = cage_elastic_law(model, w.e, P)
     w.joint_potential = 2.0 * V
     w.T = maximum(w.joint_rivet[0], 0.0)
@@ -315,8 +319,9 @@ def cage_elastic_rest(model, omega):
     (u_x, M_t).
     """
     half, d, m = model.d.elastic, model.d, model.p.cage.m
-    P = np.full(Z, max(d.P + d.spin[5] * omega**2, 0.0))
+    P = np.full(Z, max(d.P_mean + d.spin[5] * omega**2, 0.0))
     at = half.pad[:, OUT, 0]  # x, phi_r, phi_t
+
     def rest(x):
         S = ROOT * (half.spin * omega**2 - np.where(half.alike, Z * at[:, 2] * x[1], 0.0)) / (m * half.omega**2)
         e = np.array([0.5 * x[0], 0.0, 0.0]) + S @ at / ROOT * [1.0, 0.0, 1.0]

@@ -39,13 +39,13 @@ def cage_joint_kinematics(model, w):
 def cage_joint_prying(model, w):
     """Prying force dT [..., 1] in N: what the cage's centrifugal load adds to the rivet's tension and to the plates' contact force.
 
-    T_rest - P of joints that are all alike (joint_law.py).  C1 in the cage's speed: the cubic through the states of the table, which are at equal steps
+    T_rest - P of joints that are all alike (joint_law.py), at their mean preload.  C1 in the cage's speed: the cubic through the states of the table, which are at equal steps
     of x = c/(c + P), with slopes by central differences.
     """
     d, law = model.d, model.d.table.half.law
     omega_2 = 0.5 * (w.half[0].s ** 2 + w.half[1].s ** 2)
     c = np.abs(d.spin[4]) / law.length * omega_2
-    P = maximum(d.P + d.spin[5] * omega_2, 0.0)
+    P = maximum(d.P_mean + d.spin[5] * omega_2, 0.0)
     s = c + P
     tension = law.alike.values[:, 3]
     last = len(tension) - 1
@@ -56,7 +56,7 @@ def cage_joint_prying(model, w):
     u = x - i
     v = 1.0 - u
     T = start + u * rise + u * v * (v * (slopes[i] - rise) + u * (rise - slopes[i + 1]))
-    return np.where(np.real(c) > 0.0, s * T - d.P * tension[0], 0.0)
+    return np.where(np.real(c) > 0.0, s * T - d.P_mean * tension[0], 0.0)
 
 
 def cage_joint_friction(k, capacity, z_y, z_z, v_y, v_z):
@@ -79,7 +79,8 @@ def cage_joint_advance(model, w, h, y):
         plates, heads = w.N_plate, w.T  # of the law of the joint (cage_elastic.py)
     else:
         dT = cage_joint_prying(model, w)
-        plates, heads = (maximum(maximum(d.P + k * u_x, 0.0) + dT, 0.0) for k in (-d.k_plate, d.k_rivet))
+        T, N_plate = d.intact * maximum(d.P + d.k_rivet * u_x, 0.0), maximum(d.P - d.k_plate * u_x, 0.0)
+        plates, heads = (maximum(force + d.intact * dT, 0.0) for force in (N_plate, T))
     k_t, k_h, _ = joint_stiffness(model)
     for k, load, blocks in ((k_t, plates, (JOINT_PLATE_Y, JOINT_PLATE_Z)), (k_h, heads, (JOINT_HEAD_Y, JOINT_HEAD_Z))):
         rate = np.hypot(v_y, v_z) * k / (p.joint.mu * load + p.joint.F_floor)
@@ -108,11 +109,11 @@ def cage_joint_force(model, y, w):
     if elastic:  # the law of the joint (cage_elastic.py) has given T and N_plate
         f_x = -w.joint_load[0]
     else:
-        w.T, w.N_plate = maximum(d.P + d.k_rivet * u_x, 0.0), maximum(d.P - d.k_plate * u_x, 0.0)
+        w.T, w.N_plate = d.intact * maximum(d.P + d.k_rivet * u_x, 0.0), maximum(d.P - d.k_plate * u_x, 0.0)
         damping = d.c_joint * w.N_plate / (w.N_plate + p.joint.F_floor)
         dT = cage_joint_prying(model, w)
         f_x = w.N_plate - w.T - damping * v_x
-    plates, heads = (p.joint.mu * maximum(force + dT, 0.0) + p.joint.F_floor for force in (w.N_plate, w.T))
+    plates, heads = (p.joint.mu * maximum(force + d.intact * dT, 0.0) + p.joint.F_floor for force in (w.N_plate, w.T))
     w.plate_y_dot, w.plate_z_dot, w.plate_rate, lost_plate = cage_joint_friction(k_t, plates, zp_y, zp_z, v_y, v_z)
     w.head_y_dot, w.head_z_dot, w.head_rate, lost_head = cage_joint_friction(k_h, heads, zh_y, zh_z, v_y, v_z)
     w.joint_dissipated = lost_plate + lost_head + damping * v_x * v_x

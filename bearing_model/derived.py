@@ -127,7 +127,8 @@ def derive_pockets(p, d):
     lambda_b = 1.0 / (1.0 + 0.698 / alpha_r)
     shape = 128.0 * alpha_r * lambda_b**2 * (0.131 * np.arctan(0.5 * alpha_r) + 1.683) ** 2
     d.ln_pocket_rigid = np.log(shape * R / p.oil.sigma_pocket) + 2.0 * np.log(p.oil.eta * R)
-    phi, phi_r = 2.0 * np.pi * np.arange(Z) / Z, 2.0 * np.pi * (np.arange(Z) + 0.5) / Z
+    d.R_c = d.pocket_radius + 0.5 * p.pocket.dD
+    phi, phi_r = 2.0 * np.pi * np.arange(Z) / Z + p.pocket.dtheta, 2.0 * np.pi * (np.arange(Z) + 0.5) / Z
     d.pocket_cos, d.pocket_sin = np.cos(phi), np.sin(phi)
     d.rivet_y, d.rivet_z = 0.5 * d.table.joint["d_m"] * np.cos(phi_r), 0.5 * d.table.joint["d_m"] * np.sin(phi_r)
 
@@ -158,18 +159,23 @@ def derive_cage(p, d):
     d.cylinder_vortex = d.cylinder_laminar * 1.3 * (Ta / 41.0) ** 0.539
 
 
+BROKEN_PLAY = 1.0  # of a rivet that is gone [m]
+
+
 def derive_joint(p, d, table):
-    joint = table.joint
-    d.P = p.joint.preload
-    d.fit_a = p.joint.fit + p.joint.swell
-    d.fit_eff = rivet_rom_fit_eff(table, d.fit_a, p.rivet.fit_model == FitModel.J2)
-    d.fit_flags = rivet_rom_fit_flags(table, d.fit_a)
+    joint, intact = table.joint, p.rivet.intact != 0
+    d.intact = intact.astype(float)  # 1, or 0 for a rivet that is broken: it has no preload and a free fit, its hole bears nothing
+    d.P = d.intact * (p.joint.preload * p.rivet.preload_factor)
+    d.P_mean = p.joint.preload * (np.sum(d.intact * p.rivet.preload_factor) / np.sum(d.intact) if np.any(intact) else 0.0)
+    fit_a = p.joint.fit + p.rivet.dfit + p.joint.swell
+    d.fit_eff = np.where(intact, rivet_rom_fit_eff(table, fit_a, p.rivet.fit_model == FitModel.J2), -BROKEN_PLAY)
+    d.fit_flags = np.where(intact, rivet_rom_fit_flags(table, fit_a), 0)
     d.k_rivet = table.half.k_open
     d.k_plate = table.half.k_closed - table.half.k_open
     d.k_plate_t = joint["k_t_plate"]
     d.k_head = joint["k_t_head"]
-    d.k_hole = joint_hole_stiffness(table, d.fit_a)
-    d.hole_gap = max(0.0, -d.fit_a)
+    d.k_hole = np.where(intact, joint_hole_stiffness(table, fit_a), 0.0)
+    d.hole_gap = np.where(intact, np.maximum(0.0, -fit_a), BROKEN_PLAY)
     d.spin = (p.cage.centrifugal == Switch.ON) * (p.cage.m / table.half.m) * table.half.spin
     d.centrifugal = float(p.cage.centrifugal == Switch.ON)
     d.c_joint = 2.0 * p.joint.zeta * np.sqrt((d.k_rivet + d.k_plate) * 0.5 * p.cage.m / Z)
@@ -184,7 +190,7 @@ def derive_scales(p, d):
     """
     equal = p.solver.method == Method.EXPLICIT
     length, velocity, r = 1e-5, 0.1 if equal else 0.2, 0.5 * p.bearing.d_m
-    slip = max(p.joint.mu * d.P, 3.0)  # force at which plates slip; of a loose joint the default's
+    slip = max(p.joint.mu * d.P_mean, 3.0)  # force at which plates slip; of a loose joint the default's
     friction = slip if equal else 20.0 * slip
     by_class = {
         "length": length,

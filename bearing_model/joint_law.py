@@ -177,12 +177,14 @@ def alike_states(law, knots=129, sweeps=400):
     return AlikeStates(c, load * in_plane, values(load, P) * both, slopes)
 
 
-def joints_open(law, bonded, P, spin_M, spin_P, sweeps=SWEEPS):
+def joints_open(law, bonded, P, spin_M, spin_P, sweeps=SWEEPS, intact=True):
     """What joints that open leave of the bonded loads.
 
     bonded [..., Z, 3] = (N, M_r, M_t), P [..., Z] >= 0; spin_M, spin_P [...]: bonded M_t and preload of all joints under the centrifugal load alone.
+    intact [Z]: False for a joint that carries nothing, whose move takes all of L*.
     Returns (N, M_r, M_t), (T, m_r, m_t), moves, each [..., Z, 3].
     """
+    standing = np.broadcast_to(intact, law.Z)
     load, values, slopes = law.alike.at(np.abs(spin_M) / law.length, spin_P)
     change_P, size = P - np.asarray(spin_P)[..., None], P + np.abs(bonded) @ law.unit
 
@@ -190,7 +192,7 @@ def joints_open(law, bonded, P, spin_M, spin_P, sweeps=SWEEPS):
         """Moves and loads of rivets by the tangent at the state where all joints are alike, and which joints are too far from it."""
         change = at - load[..., None, :]
         found = values[..., None, :] + np.einsum("...ij,...kj->...ki", slopes, np.concatenate([change, change_P[..., None]], axis=-1))
-        far = np.abs(change) @ law.unit + np.abs(change_P) > NEAR * size
+        far = (np.abs(change) @ law.unit + np.abs(change_P) > NEAR * size) | ~standing
         return found[..., :3], found[..., 3:], far[..., None]
 
     alone = bonded - (values[..., :3] @ law.others.sum(axis=0).T)[..., None, :]
@@ -198,6 +200,9 @@ def joints_open(law, bonded, P, spin_M, spin_P, sweeps=SWEEPS):
     going = np.any(wanted, axis=-2, keepdims=True)
     for sweep in range(sweeps):
         found = joint_law(law, alone, P)
+        if not np.all(standing):
+            free = np.linalg.solve(law.stiffness[0], alone[..., None])[..., 0]
+            found = np.where(standing[:, None], found[0], free), np.where(standing[:, None], found[1], 0.0)
         moves, rivet = np.where(wanted, found[0], moves), np.where(wanted, found[1], rivet)
         if sweep == sweeps - 1 or not np.any(going):
             break

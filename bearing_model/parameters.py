@@ -44,7 +44,7 @@ class Values:
                 value = np.array([admit(variable, v) for v in value])
             else:
                 value = admit(variable, value)
-            group, member = name.replace("[j]", "").split(".")
+            group, member = name.replace("[j]", "").replace("[k]", "").split(".")
             member += "_" * keyword.iskeyword(member)
             if not hasattr(self, group):
                 setattr(self, group, SimpleNamespace())
@@ -136,6 +136,12 @@ def check_geometry(p):
     require(p.fatigue.k_2 >= p.fatigue.k_1, f"fatigue.k_2 = {p.fatigue.k_2}: at least fatigue.k_1 = {p.fatigue.k_1} is allowed")
     apart = p.pulse.count < 2 or p.pulse.interval >= p.pulse.duration
     require(apart, f"pulse.interval = {p.pulse.interval} s: at least pulse.duration = {p.pulse.duration} s is allowed")
-    j = np.argmax(p.ball.dD)
-    dD = p.ball.dD[j]
-    require(dD <= 0.0 or dD < pocket, f"ball[{j + 1}].dD = {dD} m: less than cage.pocket_clearance = {pocket} m is allowed")
+    clearance = pocket + p.pocket.dD
+    for j, (dD, excess) in enumerate(zip(p.ball.dD, p.pocket.dD, strict=True)):
+        less = f"less than cage.pocket_clearance + pocket[{j + 1}].dD = {clearance[j]} m is allowed"
+        require(excess >= 0.0 or clearance[j] > 0.0, f"pocket[{j + 1}].dD = {excess} m: more than -cage.pocket_clearance = {-pocket} m is allowed")
+        require(dD <= 0.0 or dD < clearance[j], f"ball[{j + 1}].dD = {dD} m: {less}")
+    differ = {"preload_factor": p.rivet.preload_factor != 1.0, "dfit": p.rivet.dfit != 0.0, "intact": p.rivet.intact != 1}
+    for name, others in differ.items():
+        where = f"rivet[{np.argmax(others) + 1}].{name}: rivets that differ need scene.cage = two_half"
+        require(p.scene.cage == variables.CageModel.TWO_HALF or not np.any(others), where)

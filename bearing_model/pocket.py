@@ -59,7 +59,7 @@ def pocket_gap(model, w, h):
     arm_p = vec(w.x, w.r, 0.0) - x_h
     x, t = vec_dot(arm_p, a), vec_dot(arm_p, e_t)
     S = np.sqrt(x * x + t * t + 1e-30)  # 1e-30 gives a centred ball a direction
-    return a, b, e_t, arm_p, S, x / S, t / S, S - (d.pocket_radius - d.R)
+    return a, b, e_t, arm_p, S, x / S, t / S, S - (d.R_c - d.R)
 
 
 def pocket_half(model, w, h, mixed, whole):

@@ -89,8 +89,8 @@ def two_half_share(model, w):
         plates=plates,
         heads=heads,
         shank=shank,
-        plates_left=np.maximum(mu * (w.N_plate + dT) - np.hypot(*plates), 0.0),
-        heads_left=np.maximum(mu * (w.T + dT) - np.hypot(*heads), 0.0),
+        plates_left=np.maximum(mu * (w.N_plate + model.d.intact * dT) - np.hypot(*plates), 0.0),
+        heads_left=np.maximum(mu * (w.T + model.d.intact * dT) - np.hypot(*heads), 0.0),
         gap_left=np.maximum(model.d.hole_gap - np.hypot(w.u[1], w.u[2]), 0.0),
     )
 
@@ -107,7 +107,7 @@ def rigid_wrench(model, w, pocket_F, pocket_M):
 
 def rigid_share(model, w, pocket_F, pocket_M):
     """RigidShare of a rigid cage."""
-    R, friction = 0.5 * model.d.table.joint["d_m"], model.p.joint.mu * np.maximum(model.d.P + cage_joint_prying(model, w), 0.0)
+    R, friction = 0.5 * model.d.table.joint["d_m"], model.p.joint.mu * np.maximum(model.d.P_mean + cage_joint_prying(model, w), 0.0)
     N, V_y, V_z = bolt_group(2.0 * R, rigid_wrench(model, w, pocket_F, pocket_M), model.d.rivet_y / R, model.d.rivet_z / R)
     force = turned(model, np.array([V_y, V_z]))
     V = np.hypot(*force)
@@ -157,8 +157,8 @@ def rivets_load(model, w):
     N, V_r, V_t, M_r, M_t, dP, dm_r, dm_t = np.moveaxis(rows, -1, 0)
 
     # joints that open
-    bonded, P = np.stack([share.N + N, M_r, M_t], axis=-1), np.maximum(d.P + dP, 0.0)
-    load, rivet, _ = joints_open(law, bonded, P, spin[..., 0, 4], np.maximum(d.P + spin[..., 0, 5], 0.0))
+    bonded, P = np.stack([share.N + N, M_r, M_t], axis=-1), d.intact * np.maximum(d.P + dP, 0.0)
+    load, rivet, _ = joints_open(law, bonded, P, spin[..., 0, 4], np.maximum(d.P_mean + spin[..., 0, 5], 0.0), intact=d.intact > 0.0)
 
     # joints that slip
     args = share.gap_left, share.plates_left, share.heads_left, d.k_head, d.k_hole
@@ -170,9 +170,9 @@ def rivets_load(model, w):
         M_t=load[..., 2],
         V=np.hypot(*(plates + heads + shank)),
         T=rivet[..., 0],
-        m_r=rivet[..., 1] + dm_r,
-        m_t=rivet[..., 2] + dm_t,
+        m_r=d.intact * (rivet[..., 1] + dm_r),
+        m_t=d.intact * (rivet[..., 2] + dm_t),
         V_r=shank[0],
         V_t=shank[1],
-        F_head=np.hypot(*heads),
+        F_head=d.intact * np.hypot(*heads),
     )

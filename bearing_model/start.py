@@ -172,7 +172,7 @@ def spacing(p, ring_load):
     spread = p.start.spacing * p.cage.pocket_clearance / (0.5 * p.bearing.d_m)
     for j in range(Z):
         number, random = uniform(random)
-        theta[j] = 2.0 * np.pi * j / Z + spread * (2.0 * number - 1.0)
+        theta[j] = 2.0 * np.pi * j / Z + p.pocket.dtheta[j] + spread * (2.0 * number - 1.0)
     (_, y, z), c, s = ring_load.outer_x, np.cos(theta), np.sin(theta)
     return theta + np.arctan2(z * c - y * s, 0.5 * p.bearing.d_m + y * c + z * s)
 

@@ -186,8 +186,9 @@ void cage_joint_force(const Model *model, const scalar *y, Work *w)
         const wide speed = wide_sqrt(v_y * v_y + v_z * v_z);
         const wide zp_y = wide_load(&z_y[k]), zp_z = wide_load(&z_z[k]);
         const wide zh_y = wide_load(&h_y[k]), zh_z = wide_load(&h_z[k]);
-        wide lost = cage_joint_friction(k_t, mu * wide_max(N_plate + more, zero) + floor, zp_y, zp_z, v_y, v_z,
-                                        speed, &w->plate_y_dot[k], &w->plate_z_dot[k], &w->plate_rate[k]);
+        wide lost =
+            cage_joint_friction(k_t, mu * wide_max(N_plate + more, zero) + floor, zp_y, zp_z, v_y, v_z, speed,
+                                &w->plate_y_dot[k], &w->plate_z_dot[k], &w->plate_rate[k]);
         lost += cage_joint_friction(k_h, mu * wide_max(T + more, zero) + floor, zh_y, zh_z, v_y, v_z, speed,
                                     &w->head_y_dot[k], &w->head_z_dot[k], &w->head_rate[k]);
 
@@ -208,7 +209,8 @@ void cage_joint_force(const Model *model, const scalar *y, Work *w)
         wide_store(&w->joint_dissipated[k], lost + damping * v_x * v_x);
 
         // wrench on half 1 at its hole, which is at s + u from the centre of half 0, in the frame of half 0
-        const wide f_x = elastic ? -wide_load(&w->joint_load[0][k]) : N_plate - T - damping * v_x, f_y = -k_t * zp_y - k_h * zh_y - bearing * u_y;
+        const wide f_x = elastic ? -wide_load(&w->joint_load[0][k]) : N_plate - T - damping * v_x,
+                   f_y = -k_t * zp_y - k_h * zh_y - bearing * u_y;
         const wide f_z = -k_t * zp_z - k_h * zh_z - bearing * u_z;
         wide r_y = wide_load(&d->rivet_y[k]) + u_y, r_z = wide_load(&d->rivet_z[k]) + u_z;
         if (elastic) {  // modes move no centre of mass

@@ -211,9 +211,10 @@ static bool check_geometry(Bearing *b)
                         p->pocket.dD[j], -p->cage.pocket_clearance);
             fine = false;
         } else if (p->ball.dD[j] > 0.0 && p->ball.dD[j] >= clearance) {
-            bearing_log(b, LOG_ERROR,
-                        "ball[%d].dD = %g m: less than cage.pocket_clearance + pocket[%d].dD = %g m is allowed",
-                        j + 1, p->ball.dD[j], j + 1, clearance);
+            bearing_log(
+                b, LOG_ERROR,
+                "ball[%d].dD = %g m: less than cage.pocket_clearance + pocket[%d].dD = %g m is allowed",
+                j + 1, p->ball.dD[j], j + 1, clearance);
             fine = false;
         }
     }
@@ -415,7 +416,9 @@ bool check_saved(Bearing *b)
     fine = fine && saved_is(b, history_is_valid(&s->history), "the motions given before");
     fine = fine &&
            saved_is(b, variable_allows(tolerance, 0, s->tolerance, message, sizeof message), "the tolerance");
-    fine = fine && saved_is(b, integrator_state_is_valid(&s->integrator, s->p.scene.cage == CAGE_MODEL_ELASTIC), "states and steps");
+    fine =
+        fine && saved_is(b, integrator_state_is_valid(&s->integrator, s->p.scene.cage == CAGE_MODEL_ELASTIC),
+                         "states and steps");
     fine = fine && saved_is(b, values_are_sane(&s->t_start, 1) && s->integrator.t >= s->t_start, "time");
     const double rounding =
         s->integrator.steps * DBL_EPSILON *

@@ -603,7 +603,8 @@ static void solve_waves(const Wave *waves, double h_2, double *rates, double rig
             double part[8] = {0.0};
             for (int b = 0; b < 8 * wave->blocks; b += 8)
                 for (int k = 0; k < 8; k++) part[k] += wave->Q[i][b + k] * y[b + k];
-            const double sum = ((part[0] + part[1]) + (part[2] + part[3])) + ((part[4] + part[5]) + (part[6] + part[7]));
+            const double sum =
+                ((part[0] + part[1]) + (part[2] + part[3])) + ((part[4] + part[5]) + (part[6] + part[7]));
             const double rate = sum / wave->root[i];
             if (wave->row[i] == RIGID_MOTION)
                 rigid[wave->motion] = rate;
@@ -618,7 +619,8 @@ void implicit_waves(const Model *model, const Work *w, double gamma, double *f)
     const ElasticHalf *half = model->elastic;
     const double *b_y = w->half[0].b_y, *b_z = w->half[0].b_z, h_2 = 4.0 * gamma * gamma;
     double d[6], out[3], in[3];
-    for (int i = 0; i < 6; i++) d[i] = f[Y_CAGE_V_X + 2 * i + 1] - f[Y_CAGE_V_X + 2 * i];  // x, y, z, beta, gamma, s
+    for (int i = 0; i < 6; i++)
+        d[i] = f[Y_CAGE_V_X + 2 * i + 1] - f[Y_CAGE_V_X + 2 * i];  // x, y, z, beta, gamma, s
     const double before[6] = {d[0], d[1], d[2], d[3], d[4], d[5]};
     out[0] = d[0], out[1] = b_y[1] * d[3] + b_y[2] * d[4], out[2] = b_z[1] * d[3] + b_z[2] * d[4];
     in[0] = b_y[1] * d[1] + b_y[2] * d[2], in[1] = b_z[1] * d[1] + b_z[2] * d[2], in[2] = d[5];
@@ -630,9 +632,12 @@ void implicit_waves(const Model *model, const Work *w, double gamma, double *f)
 
     // what has changed, in the global frame, half of it for each half
     const double about_y = out[1] - was[0], about_z = out[2] - was[1], y = in[0] - was[2], z = in[1] - was[3];
-    const double change[6] = {out[0] - before[0],          b_y[1] * y + b_z[1] * z,
-                              b_y[2] * y + b_z[2] * z,      b_y[1] * about_y + b_z[1] * about_z,
-                              b_y[2] * about_y + b_z[2] * about_z, in[2] - before[5]};
+    const double change[6] = {out[0] - before[0],
+                              b_y[1] * y + b_z[1] * z,
+                              b_y[2] * y + b_z[2] * z,
+                              b_y[1] * about_y + b_z[1] * about_z,
+                              b_y[2] * about_y + b_z[2] * about_z,
+                              in[2] - before[5]};
     for (int i = 0; i < 6; i++) {
         f[Y_CAGE_V_X + 2 * i] -= 0.5 * change[i];
         f[Y_CAGE_V_X + 2 * i + 1] += 0.5 * change[i];

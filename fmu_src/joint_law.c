@@ -71,9 +71,9 @@ static void find_alone_alike(const JointLaw *law, ball_array bonded[3], const sc
 
 // Joints near the state where all are alike answer to L* by their tangent there, unless they are broken.  The others keep their last
 // answer, and those of them are wanted whose L* has changed since; in the first sweep all others are.
-static void answer_near(const JointLaw *law, ball_array bonded[3], const ball_array P,
-                        const constants intact, scalar spin_P, const scalar at[ALIKE_WIDTH], bool first,
-                        wide alone[PACKETS][3], Opening *o, Wanted *wanted)
+static void answer_near(const JointLaw *law, ball_array bonded[3], const ball_array P, const constants intact,
+                        scalar spin_P, const scalar at[ALIKE_WIDTH], bool first, wide alone[PACKETS][3],
+                        Opening *o, Wanted *wanted)
 {
     wide move[PACKETS][3];
     wanted->count = 0;
@@ -257,8 +257,7 @@ void joints_slip(const JointLaw *law, const ball_array V_r, const ball_array V_t
             const wide stiffness = wide_select(wide_above(V_rt, 0.0), along, wide_set(K[0][0]));
             wide head, hole;
             const wide gap = wide_load(&limits->gap[k]), plate = wide_load(&limits->plates[k]),
-                       rest = wide_load(&limits->heads[k]),
-                       k_hole = wide_load(&limits->k_hole[k]);
+                       rest = wide_load(&limits->heads[k]), k_hole = wide_load(&limits->k_hole[k]);
             const wide moved =
                 joint_slip(V_rt, stiffness, gap, plate, rest, limits->k_head, k_hole, &head, &hole);
             const wide s_r = moved * e_r, s_t = moved * e_t;

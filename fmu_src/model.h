@@ -93,9 +93,9 @@ typedef struct {
     constants fit_eff;           // elastic fit of the same pressure [m]
     unsigned fit_flags[Z];       // rivet_rom_fit_flags
     double k_rivet, k_plate, k_plate_t, k_head;  // stiffnesses [N/m]
-    constants k_hole, hole_gap;                  // stiffness of the hole [N/m], diametral play of the shank [m]
+    constants k_hole, hole_gap;  // stiffness of the hole [N/m], diametral play of the shank [m]
     bool any_broken;
-    double c_joint;                                      // axial damping of one closed joint [N.s/m]
+    double c_joint;     // axial damping of one closed joint [N.s/m]
     double spin[ROWS];  // rows of bonded joints (half_path.h) under the centrifugal load, per (rad/s)^2
 
     // whole state
@@ -234,7 +234,7 @@ typedef struct {
     const Derived *d;
     const RingLoad *ring_load;          // load at present; used while there is no trajectory
     const InputTrajectory *trajectory;  // from which the load at any time follows; NULL: the load is held
-    const ElasticHalf *elastic;          // modes of the halves, where they are elastic, else NULL
+    const ElasticHalf *elastic;         // modes of the halves, where they are elastic, else NULL
 } Model;
 
 // Number of states of the scene.

@@ -14,7 +14,8 @@ typedef struct {
 } TablePoints;
 
 // Points of the loads of all rivets in the table.
-static void find_points(const RivetTable *t, const JointLoads *load, const constants fit_eff, TablePoints *points)
+static void find_points(const RivetTable *t, const JointLoads *load, const constants fit_eff,
+                        TablePoints *points)
 {
     const wide zero = wide_set(0.0), one = wide_set(1.0);
     for (int j = 0; j < PACKETS * LANE_WIDTH; j += LANE_WIDTH) {
@@ -45,7 +46,8 @@ void rivet_rom_stress(const RivetTable *t, const JointLoads *load, const constan
         point.sheet = scalar_value(points.two_chi[k]) > 1.0 ? RIVET_PLANE : RIVET_OBLIQUE;
         for (int i = 0; i < 2; i++) point.first[i] = points.first[i][k];
         for (int i = RIVET_A; i <= RIVET_C; i++) axis_splines(&t->axis[i], points.u[i][k], &point.at[i]);
-        axis_splines_xi(&t->axis[RIVET_XI], points.u[RIVET_XI][k], points.s[k], fit_eff[k], &point.at[RIVET_XI]);
+        axis_splines_xi(&t->axis[RIVET_XI], points.u[RIVET_XI][k], points.s[k], fit_eff[k],
+                        &point.at[RIVET_XI]);
         scalar pair[2];
         contract(t, t->primary, &point, pair);
         sigma[HEAD_P1][k] = pair[0] + t->head_friction * load->F_head[k];

@@ -92,7 +92,8 @@ static void rigid_wrench(const Work *w, const Pockets *on_1, scalar wrench[6])
 static void rigid_share(const Model *model, const Work *w, const Pockets *on_1, RigidShare *share)
 {
     const double R = 0.5 * rivet_table.joint.d_m;
-    const scalar friction = model->p->joint.mu * scalar_max(model->d->P_mean + cage_joint_prying(model, w), 0.0);
+    const scalar friction =
+        model->p->joint.mu * scalar_max(model->d->P_mean + cage_joint_prying(model, w), 0.0);
     double c[Z], s[Z];
     scalar wrench[6];
     ball_array V_y = {0}, V_z = {0};
@@ -133,7 +134,8 @@ static void elastic_loads(const Model *model, const Work *w, JointLoads *load)
         wide_store(&load->N[k], wide_load(&w->joint_load[0][k]));
         wide_store(&load->M_r[k], wide_load(&w->joint_load[1][k]));
         wide_store(&load->M_t[k], wide_load(&w->joint_load[2][k]));
-        wide_store(&load->V[k], wide_hypot(wide_load(&plates[0][k]) + heads_r + V_r, wide_load(&plates[1][k]) + heads_t + V_t));
+        wide_store(&load->V[k], wide_hypot(wide_load(&plates[0][k]) + heads_r + V_r,
+                                           wide_load(&plates[1][k]) + heads_t + V_t));
         wide_store(&load->T[k], wide_load(&w->T[k]));
         wide_store(&load->m_r[k], wide_load(&w->joint_rivet[1][k]));
         wide_store(&load->m_t[k], wide_load(&w->joint_rivet[2][k]));
@@ -182,7 +184,8 @@ void rivets_load(const Model *model, const Work *w, JointLoads *load)
         wide_store(&bonded[0][k], wide_load(&share.N[k]) + wide_load(&rows.row[ROW_N][k]));
         wide_store(&bonded[1][k], wide_load(&rows.row[ROW_M_R][k]));
         wide_store(&bonded[2][k], wide_load(&rows.row[ROW_M_T][k]));
-        wide_store(&P[k], wide_load(&d->intact[k]) * wide_max(wide_load(&d->P[k]) + wide_load(&rows.row[ROW_DP][k]), wide_set(0.0)));
+        wide_store(&P[k], wide_load(&d->intact[k]) *
+                              wide_max(wide_load(&d->P[k]) + wide_load(&rows.row[ROW_DP][k]), wide_set(0.0)));
     }
     joints_open(&half->law, bonded, P, d->intact, omega2 * d->spin[ROW_M_T],
                 scalar_max(d->P_mean + omega2 * d->spin[ROW_DP], 0.0), open, rivet);

@@ -65,7 +65,8 @@ static void advance_positions(const Model *model, double h, const VerletState *f
     memcpy(&y[Y_CAGE_PSI], &from->y[Y_CAGE_PSI], 2 * sizeof *y);
     if (model->elastic)
         for (int i = PLACES; i < RATES; i++) {
-            middle[i + MODE_RATES] = y[i + MODE_RATES] = from->y[i + MODE_RATES] + gamma * from->f[i + MODE_RATES];
+            middle[i + MODE_RATES] = y[i + MODE_RATES] =
+                from->y[i + MODE_RATES] + gamma * from->f[i + MODE_RATES];
             middle[i] = from->y[i] + gamma * y[i + MODE_RATES];
             y[i] = from->y[i] + h * y[i + MODE_RATES];
         }

@@ -105,7 +105,7 @@ class PythonModel:
         self.p, self.u = Parameters(), Inputs()
         for values, changes in ((self.p, parameters), (self.u, inputs)):  # unchecked, as the C structs are
             for name, value in changes.items():
-                group, member = name.replace("[j]", "").split(".")
+                group, member = name.replace("[j]", "").replace("[k]", "").split(".")
                 setattr(getattr(values, group), member + "_" * (member == "lambda"), value)
         self.p = temperature_apply(self.p, self.u, derived.default_table())
         self.d = derive(self.p, SimpleNamespace())

@@ -95,7 +95,7 @@ def test_play_of_the_hole(core, fit):
     play = max(0.0, -(fit + 4e-6))
     before, after = (-joints.move((0.0, (play + step) * 0.6, -(play + step) * 0.8))[1:] / Z for step in (-1e-8 if play else 0.0, 1e-7))
     assert before == pytest.approx([0.0, 0.0], abs=1e-12)
-    assert np.hypot(*after) == pytest.approx(joints.model.d.k_hole * 1e-7, rel=1e-8)
+    assert np.hypot(*after) == pytest.approx(joints.model.d.k_hole[0] * 1e-7, rel=1e-8)
     assert after / np.hypot(*after) == pytest.approx([0.6, -0.8], rel=1e-8)
 
 

@@ -213,10 +213,11 @@ def test_other_units(core, scene, record_property):
             scaled[name] = parameters.get(name, variable.start) * factor(variable.unit)
     inputs = {name: INPUTS.get(name, variable.start) * factor(variable.unit) for name, variable in variables.INPUTS.items()}
     there = core.model(parameters=parameters | scaled, inputs=inputs)
-    for name in ("k_rivet", "k_plate", "k_plate_t", "k_head", "k_hole"):
+    for name in ("k_rivet", "k_plate", "k_plate_t", "k_head"):
         setattr(there.d, name, getattr(here.d, name) * factor("N/m"))
     there.d.c_joint = here.d.c_joint * factor("N.s/m")
-    there.d.hole_gap = here.d.hole_gap * factor("m")
+    for name, unit in (("k_hole", "N/m"), ("hole_gap", "m")):
+        view(core, getattr(there.d, name))[:] = view(core, getattr(here.d, name)) * factor(unit)
     for name in ("rivet_y", "rivet_z"):
         view(core, getattr(there.d, name))[:] *= factor("m")
     units = np.empty(variables.N_STATES)

@@ -60,6 +60,8 @@ HOUSING |= {"housing.tilt_y": 4e-4, "housing.tilt_z": -3e-4, "housing.tilt_y_dot
 FRAME = {"frame.a_x": 50.0, "frame.a_y": -300.0, "frame.a_z": 200.0, "frame.omega": 150.0, "frame.omega_dot": 4000.0}
 HOT = {"oil.T": 330.0, "ring.T_i": 345.0, "ring.T_e": 330.0, "ball.T": 350.0, "cage.T": 340.0}
 SLOW, BACKWARD = {"shaft.omega": 418.9}, {"shaft.omega": -1500.0}
+DIFFER = {"rivet[k].preload_factor": np.linspace(0.0, 2.0, Z), "rivet[k].dfit": np.linspace(-4e-5, 2e-5, Z), "rivet[k].intact": [int(k != 2) for k in range(Z)]}
+DIFFER |= {"pocket[j].dtheta": np.linspace(-1e-3, 1.5e-3, Z), "pocket[j].dD": np.linspace(-5e-5, 1e-4, Z)}
 SCENES = {
     "demo": ({}, {}),
     "mixed_supported": (MIXED | SUPPORTED | {"cage.pocket_clearance": 1e-4}, LOADS),
@@ -73,6 +75,7 @@ SCENES = {
     "planet": (SUPPORTED | UNBALANCE | {"frame.radius": 0.15}, LOADS | HOUSING | FRAME),
     "prescribed": (MIXED | PRESCRIBED | {"cage.pocket_clearance": 1e-4}, MOTION | HOUSING),
     "prescribed_rigid": (RIGID | PRESCRIBED | UNBALANCE | {"frame.radius": 0.15}, MOTION | HOUSING | FRAME),
+    "differ": (DIFFER | UNBALANCE, LOADS),
     "other_rigid": (OTHER | RIGID | FREE | MIXED, SLOW),
 }
 PER_SCENE = 120  # 1560 states in all
