@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from enum import IntEnum
 
 MODEL_IDENTIFIER = "RivetedBearing"
-MODEL_GUID = "{b1a87928-66f6-830a-c706-6ed10840754d}"
+MODEL_GUID = "{4683fc44-0096-0e4a-4644-aceaec7a1d51}"
 Z = 9
 
 
