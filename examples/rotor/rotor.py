@@ -1,6 +1,6 @@
 """A flexible rotor in ROSS on two bearing FMUs, motion in, force out: unbalance response against ROSS with the FMU's own stiffness and damping.
 
-    pip install "riveted-bearing[rotor]"; python examples/rotor/rotor.py [--unbalance 5e-5 5e-4] [--picture rotor.png]
+    pip install "riveted-bearing[rotor]"; python examples/rotor/rotor.py [--unbalance 5e-5 5e-4] [--run-up 0.4] [--picture rotor.png]
 
 The bearings' coefficients (bearing_ross.toml) are those of `riveted-bearing matrices examples/rotor/bearing.toml`.  The master integrates the rotor by the
 trapezoidal rule.  Each step the FMUs get position, velocity and acceleration of their nodes and say the force at the step's end; what the rotor then moves
@@ -125,9 +125,9 @@ def coefficients():
 
 
 def run_up(omega, duration, unbalance, fmu=FMU):
-    """Displacements in x, y of disk and first bearing [times, 4] while the speed rises evenly: times, by ROSS (Newmark) with the matrices, on the FMUs.
+    """Speeds [times] that rise evenly, and displacements in x, y of disk and first bearing [times, 4] by ROSS (Newmark) with the matrices and on the FMUs.
 
-    omega: first and last speed [rad/s]; unbalance [kg.m] at rest in the rotor.  Both start straight, without deflection.
+    omega: first and last speed [rad/s]; unbalance [kg.m] at rest in the rotor.  Both start straight; ROSS takes every fourth time (20 us).
     """
     table, rate = coefficients(), (omega[1] - omega[0]) / duration
     linear = rotor([rs.BearingElement(n=n, **table) for n in NODES])
@@ -136,7 +136,7 @@ def run_up(omega, duration, unbalance, fmu=FMU):
     places = [6 * DISK, 6 * DISK + 1, 6 * NODES[0], 6 * NODES[0] + 1]
     F = np.zeros((len(t), linear.ndof))
     F[:, places[:2]] = load
-    by_ross = linear.time_response(w, F, t)[1][:, places]
+    by_ross = linear.time_response(w[::4], F[::4], t[::4])[1][:, places]
 
     stiffness, straight = np.interp(np.mean(omega), table["frequency"], table["kxx"]), np.zeros(linear.ndof)
     system = Coupled(read_model_description(str(fmu)), extract(str(fmu)), omega[0], stiffness, straight, straight, load[0])
@@ -149,7 +149,7 @@ def run_up(omega, duration, unbalance, fmu=FMU):
         system.step(load[n])
         on_fmus.append(system.q[places])
     system.free()
-    return t, w, by_ross, np.array(on_fmus)
+    return w[::4], by_ross, np.array(on_fmus)[::4]
 
 
 def respond(speeds, unbalance, fmu=FMU):
@@ -178,11 +178,36 @@ def plot(speeds, responses, path):
     figure.savefig(path, dpi=110)
 
 
+def plot_run_up(w, by_ross, on_fmus, path):
+    """Distance of disk and bearing from the axis over the speed."""
+    import matplotlib.pyplot as plt
+
+    figure, axes = plt.subplots(2, 1, figsize=(9, 5), sharex=True, layout="constrained")
+    for ax, i, name in ((axes[0], 0, "disk"), (axes[1], 2, "bearing")):
+        for values, colour, label in ((by_ross, "#9aa2ad", "ROSS"), (on_fmus, "#c8442b", "FMUs")):
+            ax.plot(w * 30.0 / np.pi, 1e6 * np.hypot(values[:, i], values[:, i + 1]), color=colour, lw=1.0, label=label)
+        ax.set(ylabel=f"{name} [um]")
+    axes[1].set(xlabel="speed [r/min]")
+    axes[0].legend()
+    figure.savefig(path, dpi=110)
+
+
 if __name__ == "__main__":
     parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
     parser.add_argument("--unbalance", type=float, nargs="+", default=[5e-5], help="of the disk [kg.m]")
+    parser.add_argument("--run-up", type=float, metavar="TIME", help="instead of steady speeds, from 3,000 to 12,000 r/min in this time [s]")
     parser.add_argument("--picture", type=Path)
     options = parser.parse_args()
+    if options.run_up:
+        w, by_ross, on_fmus = run_up((100.0 * np.pi, 400.0 * np.pi), options.run_up, options.unbalance[0])
+        for i, name in ((0, "disk"), (2, "bearing")):
+            a, b = (np.hypot(values[:, i], values[:, i + 1]) for values in (by_ross, on_fmus))
+            print(
+                f"{name}: ROSS {1e6 * a.max():.2f} um at {w[a.argmax()] * 30 / np.pi:.0f} r/min, FMUs {1e6 * b.max():.2f} at {w[b.argmax()] * 30 / np.pi:.0f}"
+            )
+        if options.picture:
+            plot_run_up(w, by_ross, on_fmus, options.picture)
+        raise SystemExit
     speeds = np.linspace(3000.0, 12000.0, 10) * np.pi / 30.0
     responses = {unbalance: respond(speeds, unbalance) for unbalance in options.unbalance}
     for unbalance, (linear, fmus) in responses.items():
