@@ -462,7 +462,8 @@ def minimum(potential, v):
 
     Newton's method in the eigenvectors of the Hessian, with a trust region: steps go downhill where the energy is not convex, and the decrease of the
     energy sets the radius.  Where the energy changes by less than its rounding, a step has to reduce the largest force instead.  Coordinates without
-    force (loose balls, a loose ring) keep their values.  From an equilibrium on a ridge (the ring balanced on one ball) the search goes on downhill.  Raises ArithmeticError if there is no equilibrium: the bearing does not carry the load.
+    force (loose balls, a loose ring) keep their values.  From an equilibrium on a ridge (the ring balanced on one ball) the search goes on downhill.
+    Raises ArithmeticError if there is no equilibrium: the bearing does not carry the load.
     """
     # scales: an approach of 10 um counts as one
     length = 1e-5
