@@ -36,7 +36,9 @@ def row(variable, model=None):
     start = allowed = ""
     if variable.name in INPUTS | PARAMETERS:
         if variable.type in ("Real", "Integer"):
-            value = variable.start if model is None else model.default((model.parameters | model.inputs)[variable.name.replace("[j]", "[1]").replace("[k]", "[1]")])
+            value = (
+                variable.start if model is None else model.default((model.parameters | model.inputs)[variable.name.replace("[j]", "[1]").replace("[k]", "[1]")])
+            )
             start = shown(value, variable)
             allowed = f"{shown(variable.min, variable, -math.inf)} ... {shown(variable.max, variable, math.inf)}"
         else:

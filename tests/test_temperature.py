@@ -35,7 +35,7 @@ def values_of(struct):
     def value(name):
         group, member = name.replace("[j]", "").replace("[k]", "").split(".")
         found = getattr(getattr(struct, group), member + "_" if hasattr(getattr(struct, group), member + "_") else member)
-        return list(found) if "[j]" in name else found
+        return list(found) if PARAMETERS[name].count > 1 else found
 
     return {name: value(name) for name in PARAMETERS}
 

@@ -9,7 +9,7 @@
 
 #define FMI2_FUNCTION_PREFIX RivetedBearing_  // of the functions of a source-code FMU
 #define MODEL_IDENTIFIER "RivetedBearing"
-#define MODEL_GUID "{457334eb-96fe-5827-6c9d-2b4e7a7e515b}"  // digest of the table
+#define MODEL_GUID "{e0a34cca-26d0-1e06-752a-08e9d7388725}"  // digest of the table
 
 enum { Z = 9 };  // number of balls
 
