@@ -320,3 +320,45 @@ def test_slip_is_found_with_its_neighbours(chain):
             rest = bonded - joint_law.relief(chain.law.slip_stiffness, slip) - S - H - B
             assert np.abs(rest).max() < tolerance * np.abs(bonded).max()
             assert np.hypot(*H.T).max() <= 2.0 + 1e-12
+
+
+# A broken joint -----------------------------------------------------------------------------------------------------------------------
+
+
+def released(chain, hats, broken):
+    """Loads (N, M_r, M_t) [Z, 3] of all joints, and the mean move [3] of the broken one, if nothing holds its pad: hats [Z, n] are bonded loads."""
+    K = chain.elastic.circulant(chain.elastic.mirrored[0])
+    moved = np.linalg.solve(K[0], hats[broken])
+    left = hats - K[(np.arange(G.Z) - broken) % G.Z] @ moved
+    return left @ chain.alone.lever, np.linalg.lstsq(chain.alone.lever, moved, rcond=None)[0]
+
+
+@pytest.mark.parametrize("place", ["spin", 0, 3, 5])
+def test_with_one_joint_gone_its_neighbours_carry_what_the_finite_elements_say(chain, place, record_property):
+    """Pads of all other joints bonded, by ten times the largest load as preload (three times lets some open, thirty times shows the splines' rounding of P);
+    the broken pad free at every point of its face: within 10 % of the largest load.  Observed 2.0, 5.9, 4.1, 5.8 %, gap 3.3, 4.0, 4.0, 9.7 %.
+
+    Under the centrifugal load, and a push at a wall's angle of pocket 0 beside the broken joint 0 or its neighbours.  The scheme knows three moves of a
+    pad and six sweeps.
+    """
+    broken, reactions = 0, chain.elastic.mirrored[1]
+    if place == "spin":
+        column = half_loads.centrifugal(chain.elastic) * 754.0**2
+        hats = np.tile((reactions[:1] @ column).real, (G.Z, 1))
+    else:
+        column, n = np.zeros(chain.elastic.loads.shape[1]), len(chain.elastic.points)
+        for first in (0, 3 * n):
+            column[chain.elastic.patterns.pocket.start + first + 3 * (chain.nodes + place) + np.arange(3)] = [30.0, 0.0, 50.0]
+        hats = chain.elastic.circulant(reactions @ column)
+    bonded, intact, unit = hats @ chain.alone.lever, np.arange(G.Z) != broken, chain.law.unit
+    P = 10.0 * np.abs(bonded * unit).max()
+    expected, gap = released(chain, hats, broken)
+    got, rivet, moves = joint_law.joints_open(chain.law, bonded, intact * P, 0.0, P, intact=intact)
+    error = np.abs((got - expected) * unit).max() / np.abs(expected * unit).max()
+    error_of_gap = np.abs((moves[broken] - gap) / unit).max() / np.abs(gap / unit).max()
+    record_property("error", [float(error), float(error_of_gap)])
+    print(f"{place}: loads {100 * error:.1f} %, gap {100 * error_of_gap:.1f} %")
+    assert np.abs((expected - bonded)[intact] * unit).max() > 0.1 * np.abs(bonded * unit).max()  # the neighbours feel it
+    assert error < 0.1 and error_of_gap < 0.1
+    np.testing.assert_allclose(got[broken] * unit, 0.0, atol=1e-9 * np.abs(bonded * unit).max())
+    assert np.all(rivet[broken] == 0.0)

@@ -1,0 +1,106 @@
+"""Rivets and pockets that are not all alike: preload, fit, broken or whole; angle and diameter."""
+
+import numpy as np
+import pytest
+from mechanics import Instance, Z
+from test_rivets import c_opens
+
+from bearing_model import joint_law, variables
+from bearing_model.derived import default_table
+from bearing_model.model import Model
+from bearing_model.parameters import Parameters
+from bearing_model.rivet_rom import HEAD_P1, RivetLoad, rivet_rom_stress
+
+STILL = {"shaft.omega": 0.0, "shaft.F_x": 200.0, "shaft.F_y": 500.0}
+
+
+def each(name, values):
+    return {name: list(map(float, values)) if name != "rivet[k].intact" else list(map(int, values))}
+
+
+def test_rivets_at_rest_carry_their_own_preload_at_their_own_fit(core):
+    """The stress of a rivet under its preload alone is the table's at that preload and fit."""
+    factor, dfit = np.linspace(0.5, 3.0, Z), np.linspace(-5e-5, 1.2e-5, Z)
+    parameters = each("rivet[k].preload_factor", factor) | each("rivet[k].dfit", dfit) | {"rivet.fit_model": 1}
+    instance = Instance(core, parameters, STILL)
+    np.testing.assert_allclose(instance.output("rivet.P"), 20.0 * factor, rtol=1e-15)
+    T = instance.output("rivet.T")
+    np.testing.assert_allclose(T, 20.0 * factor, rtol=0.02)  # of a preloaded joint: the law's 1 %
+    fit = -1e-5 + dfit + 4e-6
+    for k in range(Z):
+        expected = rivet_rom_stress(default_table(), RivetLoad(T=float(T[k])), fit[k])[0][HEAD_P1]
+        assert instance.output("rivet.sigma_head")[k] == pytest.approx(expected, rel=0.02)  # a moment of the law at rest
+
+
+def test_a_broken_rivet_carries_nothing_and_its_neighbours_more(core):
+    """At speed, the same motion of the cage: stress, tension, moments and damage of the broken one are 0; the centrifugal load goes to its neighbours."""
+    whole, broken = (Instance(core, each("rivet[k].intact", [int(k != gone) for k in range(Z)])).step(2e-3) for gone in (-1, 4))
+    for name in ("sigma_head", "sigma_mid", "sigma_head_vm", "T", "M_shank", "P", "F_head"):
+        assert broken.output(f"rivet.{name}")[4] == 0.0
+    more = broken.output("rivet.sigma_head") / whole.output("rivet.sigma_head")
+    assert min(more[3], more[5]) > 1.1 and np.all(np.abs(more[[0, 1, 7, 8]] - 1.0) < 0.1)
+    M = [np.abs(instance.output("rivet.M")) for instance in (whole, broken)]
+    assert M[1][4] < 1e-6 * M[0][4]
+
+
+def test_both_twins_relieve_broken_joints_alike(core):
+    """Random loads, one to three joints gone."""
+    rng, half, worst = np.random.default_rng(8), default_table().half, 0.0
+    for _ in range(60):
+        intact = np.ones(Z, bool)
+        intact[rng.choice(Z, rng.integers(1, 4), replace=False)] = False
+        omega_2 = rng.uniform(0.0, 1030.0) ** 2
+        bonded = half.spin[[0, 3, 4]] * omega_2 + rng.normal(size=(Z, 3)) * [20.0, 0.02, 0.02]
+        P, spin_P = intact * np.full(Z, 20.0), 20.0 + half.spin[5] * omega_2
+        got = c_opens(core, bonded, P, half.spin[4] * omega_2, max(spin_P, 0.0), intact=intact)
+        expected = joint_law.joints_open(half.law, bonded, P, half.spin[4] * omega_2, max(spin_P, 0.0), intact=intact)[:2]
+        for found, want in zip(got, expected, strict=True):
+            worst = max(worst, np.max(np.abs((found - want) * half.law.unit)) / np.max(np.abs(bonded * half.law.unit)))
+        assert np.abs(got[0][~intact] * half.law.unit).max() < 1e-9 and not got[1][~intact].any()
+    assert worst < 1e-9  # observed 1e-14: the sweeps choose the same joints
+
+
+def test_a_pocket_that_stands_elsewhere_and_is_wider(core):
+    """A ball at the pocket's nominal place: its approach is r sin(dtheta) less the radial clearance, half of (clearance + dD - dD of the ball)."""
+    dtheta, dD = np.linspace(-4e-3, 4e-3, Z), np.linspace(-1e-4, 1e-4, Z)
+    model = core.model(each("pocket[j].dtheta", dtheta) | each("pocket[j].dD", dD))
+    y = model.start()
+    y[variables.BALL_X] = np.mean(y[variables.CAGE_X])
+    y[variables.BALL_THETA] = 2.0 * np.pi * np.arange(Z) / Z
+    y[variables.CAGE_PSI], y[variables.CAGE_Y], y[variables.CAGE_Z] = 0.0, 0.0, 0.0
+    y[variables.CAGE_BETA], y[variables.CAGE_GAMMA] = 0.0, 0.0
+    model.rhs(0.0, y)
+    r = y[variables.BALL_R]
+    delta = np.abs(r * np.sin(dtheta)) - 0.5 * (2e-4 + dD)
+    Q = 0.5 * model.d.pocket.K * np.maximum(delta, 0.0) ** 1.5  # each half bears a half
+    got = np.array([list(model.work.pocket[h].Q)[:Z] for h in range(2)])
+    assert np.count_nonzero(delta > 0.0) >= 2
+    touched = delta > 0.0
+    np.testing.assert_array_equal(got[:, ~touched], 0.0)
+    np.testing.assert_allclose(got[:, touched], np.tile(Q[touched], (2, 1)), rtol=1e-4)  # the balls drift by 15 um/s against the cage: damping
+
+
+@pytest.mark.parametrize(
+    ("parameters", "words"),
+    [
+        (each("rivet[k].intact", [1] * 8 + [0]) | {"scene.cage": 2}, "rivet[9].intact: rivets that differ need scene.cage = two_half"),
+        (each("rivet[k].dfit", [1e-6] + [0.0] * 8) | {"scene.cage": 2}, "rivet[1].dfit: rivets that differ"),
+        (each("rivet[k].preload_factor", [1.0, 0.5] + [1.0] * 7) | {"scene.cage": 2}, "rivet[2].preload_factor: rivets that differ"),
+        (each("pocket[j].dD", [0.0, -2.1e-4] + [0.0] * 7), "pocket[2].dD = -0.00021 m: more than -cage.pocket_clearance = -0.0002 m is allowed"),
+        (
+            {"ball[j].dD": [3e-5] + [0.0] * 8} | each("pocket[j].dD", [-1.8e-4] + [0.0] * 8),
+            "ball[1].dD = 3e-05 m: less than cage.pocket_clearance + pocket[1].dD",
+        ),
+    ],
+)
+def test_what_cannot_be_is_refused_by_name(core, parameters, words):
+    for make in (lambda: Instance(core, parameters), lambda: Model.of(parameters)):
+        with pytest.raises(ValueError) as refusal:
+            make()
+        assert words in str(refusal.value)
+
+
+def test_out_of_range_is_refused():
+    for name, value in (("rivet[3].preload_factor", -0.1), ("rivet[3].intact", 2), ("pocket[1].dtheta", 0.1), ("rivet[1].dfit", 1e-3)):
+        with pytest.raises(ValueError):
+            Parameters({name: value})
