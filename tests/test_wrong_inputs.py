@@ -82,6 +82,7 @@ WRONG = {
     "run demo --set shaft.omega=200krpm": ["shaft.omega = '200krpm'", "-143.239 ... 143.239 krpm"],
     "life none.toml": ["none.toml", "no such mission file"],
     "sensitivity none.toml": ["none.toml", "no such study file"],
+    "cascade none.toml": ["none.toml", "no such cascade file"],
     "optimize none.toml": ["none.toml", "no such study file"],
     "run demo --set shaft.omega=nan": ["shaft.omega", "finite"],
     "run demo --seed -1": ["start.seed = -1", "0 ..."],

@@ -21,7 +21,7 @@ from ..scene import leaves, load_scene, refusal, section_of
 from ..sweep import Sweep, beside, bounds, columns_of, compact, count_of, key_of, known_names, run_sweep, schema_of, sections_of
 
 COMMON = ("description", "scene", "simulation", "parameters", "inputs", "between", "seeds", "seed")
-OUTPUTS = ["cage.dislocation", "bearing.friction_torque"]
+OUTPUTS = ["cage.dislocation", "bearing.friction_torque", "event.joint_open"]
 COLUMNS = {
     "stress": "stat.sigma_head_p999",
     "dislocation": "max(cage.dislocation)",
@@ -84,8 +84,13 @@ class Bench:
 
     def scene_at(self, names, point):
         """The scene of one point."""
-        settings = dict(zip(names, map(float, point), strict=True))
+        settings = {name: self.plain(name, value) for name, value in zip(names, point, strict=True)}
         return load_scene(self.source, self.model, (str(self.path), self.common), (str(self.path), sections_of(settings, self.model)))
+
+    def plain(self, name, value):
+        """A value as the scene takes it: whole numbers for integer parameters."""
+        variable = self.model.parameters.get(name)
+        return int(value) if variable is not None and variable.type == "Integer" and float(value).is_integer() else float(value)
 
     def __call__(self, names, points, responses, seeds=None):
         """Responses of the points [n, d] with each seed, [n, seeds, m]; seeds: start.seed of the runs, None for those of the study."""

@@ -1,0 +1,103 @@
+"""Rivet after rivet: Miner's sums by hand, what ends a cascade, and one through the FMU."""
+
+import json
+import re
+
+import numpy as np
+import pytest
+
+from riveted_bearing import UserError
+from riveted_bearing.design.cascade import Cascade, State, follow, next_break, run_cascades, write_cascades, write_picture
+from riveted_bearing.fmu import Model
+from riveted_bearing.sweep import cluster
+
+
+def states_by(rates_of, opens=lambda gone: False, seeds=3):
+    """state_at(gone) for rates [Z, 2] per hour that are known."""
+
+    def state_at(gone):
+        rates = np.array(rates_of(gone), float)
+        for k in gone:
+            rates[k - 1] = 0.0
+        return State(tuple(gone), rates, np.full(len(rates), 1e8), 1e-6, opens(gone)), np.tile(rates, (seeds, 1, 1))
+
+    return state_at
+
+
+def test_damage_adds_up_over_the_states_by_hand():
+    """Rates 1, 0.5, 0.25 per 1000 h; after each break the others' rates double.
+
+    Rivet 1 goes after 1000 h.  Rivet 2 has half of its damage then: 0.5/(1/1000) = 500 h more.  Rivet 3 has 0.25 + 500 x 0.5/1000 = 0.5: with 1/1000 500 h.
+    """
+
+    def rates(gone):
+        return [[r * 2.0 ** len(gone) * 1e-3, 0.0] for r in (1.0, 0.5, 0.25)] + [[0.0, 0.0]]
+
+    states = follow(states_by(rates), 3)
+    found = Cascade("hand", tuple(states)).order
+    assert [(rivet, place) for rivet, place, _ in found] == [(1, "head"), (2, "head"), (3, "head")]
+    np.testing.assert_allclose([hours for *_, hours in found], [1000.0, 1500.0, 2000.0], rtol=1e-14)
+    assert [state.gone for state in states] == [(), (1,), (1, 2), (1, 2, 3)] and states[-1].rivet is None
+    assert all(state.sure == 1.0 for state in states[:-1])
+
+
+def test_a_middle_breaks_where_its_damage_is_larger():
+    assert next_break(np.zeros((3, 2)), np.array([[1.0, 0.0], [0.0, 4.0], [2.0, 3.0]])) == (0.25, (1, 1))
+    assert next_break(np.array([[0.9, 0.0], [0.0, 0.0]]), np.array([[1.0, 0.0], [0.0, 4.0]])) == (pytest.approx(0.1), (0, 0))
+
+
+def test_what_ends_a_cascade():
+    """Enough are gone; the cage opens; nothing is damaged."""
+    some = [[1e-3, 0.0]] * 5
+    assert len(follow(states_by(lambda gone: some), 2)) == 3
+    opened = follow(states_by(lambda gone: some, opens=lambda gone: len(gone) == 1), 3)
+    assert len(opened) == 2 and opened[-1].opens and opened[-1].rivet is None
+    calm = follow(states_by(lambda gone: np.zeros((5, 2))), 3)
+    assert len(calm) == 1 and calm[0].hours == np.inf
+
+
+def test_seeds_that_disagree_leave_the_order_unsure():
+    """Two rivets, each worse with one of two seeds by the same factor: the first is the next to break in all resamples but those of the other seed alone."""
+
+    def state_at(gone):
+        rates = np.array([[[3.0, 0.0], [1.0, 0.0], [0.0, 0.0]], [[1.0, 0.0], [2.9, 0.0], [0.0, 0.0]]])
+        return State((), rates.mean(axis=0), np.full(3, 1e8), 0.0, False), rates
+
+    assert follow(state_at, 1)[0].sure == pytest.approx(0.75, abs=0.04)
+
+
+@pytest.mark.parametrize(
+    ("document", "words"),
+    [
+        ({"seed": 0.5}, "seed"),
+        ({"break": 3}, "break"),
+        ({"breaks": 0}, "breaks"),
+        ({"case": [{"name": "a"}, {"name": "a"}]}, "case"),
+        ({"case": {"name": "a"}}, "case"),
+        ({"breaks": 9}, "less than the number of rivets, 9"),
+        ({"parameters": {"scene.cage": "rigid"}}, "rivets that differ need scene.cage = two_half"),
+    ],
+)
+def test_what_cannot_be_is_refused_by_name(tmp_path, fmu, document, words):
+    path = tmp_path / "c.toml"
+    small = {"seeds": 1, "breaks": 1, "simulation": {"t_end": 2e-3}, "parameters": {"start.settle": 1e-3, "fatigue.sigma_D": "20 MPa"}}
+    small |= {"parameters": small["parameters"] | document.get("parameters", {})} | {key: value for key, value in document.items() if key != "parameters"}
+    with pytest.raises(UserError, match=re.escape(words)):
+        run_cascades(path, small, Model(fmu), tmp_path / "runs", lambda: pytest.fail("nothing is simulated"))
+
+
+def test_neighbours_of_a_broken_rivet_are_next(fmu, tmp_path, record_property):
+    """Whichever goes first, one of its neighbours follows: it bears a part of the centrifugal load that the broken one had.  A second call reads the runs."""
+    document = {"scene": "demo", "seeds": 2, "breaks": 2, "simulation": {"t_end": "20 ms"}}
+    document["parameters"] = {"start.settle": "5 ms", "fatigue.sigma_D": "150 MPa"}
+    with cluster(None, 1) as client:
+        found = run_cascades(tmp_path / "c.toml", document, Model(fmu), tmp_path / "runs", lambda: client)
+    again = run_cascades(tmp_path / "c.toml", document, Model(fmu), tmp_path / "runs", lambda: pytest.fail("no run is missing"))
+    first, second = found[0].order
+    record_property("order", json.dumps(found[0].order))
+    assert (second[0] - first[0]) % 9 in (1, 8) and found[0].order == again[0].order
+    states = found[0].states
+    assert np.all(states[1].rates[first[0] - 1] == 0.0) and states[1].stress[second[0] - 1] > 1.1 * np.median(states[1].stress)
+    stored = json.loads(write_cascades(found, tmp_path / "cascade.json").read_text())
+    assert [each["rivet"] for each in stored["c"]["order"]] == [first[0], second[0]]
+    assert write_picture(found, tmp_path / "cascade.png").stat().st_size > 10_000
