@@ -22,13 +22,16 @@ speed,
 per (1/2) rho omega_m^2 r_m^3, with the radii of the pitch circle r_m and the groove bottoms r_i, r_e, the walls' areas A beside the lands, and
 their friction f = 0.066 Re^-0.25, Re = |omega_wall - omega_m| r h/nu over the height h between the shoulders (turbulent bulk flow; Hirs (1973),
 J. Lubr. Technol. 95, 137).  With isolated balls the mixture stands.  Neglected: the cage's bore, which holds the mixture too.
+
+All speeds are against the outer ring (outer_ring.py): oil and air at its walls turn with it.
 """
 
 import numpy as np
 
 from bearing_model.lanes import absolute, maximum
+from bearing_model.outer_ring import outer_ring, outer_ring_velocity
 from bearing_model.variables import Drag, Switch
-from bearing_model.vec import vec, vec_dot
+from bearing_model.vec import vec, vec_dot, vec_local
 
 TINY_SPEED = 1e-30  # [rad/s]: keeps roots and quotients finite at standstill
 
@@ -48,28 +51,30 @@ def carried_share(d, wall, fresh):
 
 def drag_mixture(model, w):
     """Sets density (filling: over that of the derived constants) and angular speed about X [rad/s] (stream) of the mixture."""
-    p, d = model.p, model.d
-    speed = absolute(np.asarray(model.ring_load.omega)) + TINY_SPEED
-    w.filling, w.stream, w.wall = 1.0, 0.0, 0.0
+    p, d, outer = model.p, model.d, model.ring_load.outer_omega
+    speed = absolute(np.asarray(model.ring_load.omega - outer)) + TINY_SPEED
+    w.filling, w.stream, w.wall = 1.0, outer, 0.0
     if p.oil.flow > 0.0:
         X = np.where(np.real(speed) > d.flooded_omega, d.flooded_omega / speed, 1.0)
         w.filling = d.air + (1.0 - d.air) * X
     if p.scene.drag == Drag.ROW:
         w.wall = 1.0 / np.sqrt(np.sqrt(speed))
         x = carried_share(d, w.wall, d.fresh / (w.filling * speed))
-        w.stream = x * 0.5 * (w.half[0].Omega[0] + w.half[1].Omega[0])
+        w.stream = outer + x * (0.5 * (w.half[0].Omega[0] + w.half[1].Omega[0]) - outer)
 
 
 def drag_force(model, w):
     """Adds drag and churning of the balls."""
-    d = model.d
-    v = w.v_t - w.stream * w.r
+    d, outer = model.d, outer_ring(model.ring_load, w.x)
+    stream = w.stream - model.ring_load.outer_omega
+    v_t = w.v_t - outer_ring_velocity(outer, vec(w.x, w.r, 0.0), w.cos_theta, w.sin_theta)[2]
+    v = v_t - stream * w.r
     F = -d.drag * w.filling * v * absolute(v)
     w.F = w.F + vec(0.0, 0.0, F)
-    w.drag_dissipated = -F * w.v_t
+    w.drag_dissipated = -F * v_t
     if model.p.scene.churning == Switch.ON:
-        omega = vec(w.omega_x, w.omega_r, w.omega_t)
-        spin = omega - vec(w.stream + 0.0 * w.omega_x, 0.0, 0.0)
+        omega = vec(w.omega_x, w.omega_r, w.omega_t) - vec_local(outer.Omega, w.cos_theta, w.sin_theta)
+        spin = omega - vec(stream + 0.0 * w.omega_x, 0.0, 0.0)
         speed = np.sqrt(vec_dot(spin, spin) + TINY_SPEED)
         M = -w.filling * (d.churning_viscous + d.churning_boundary * np.sqrt(speed)) * spin
         w.M = w.M + M
@@ -80,7 +85,7 @@ def drag_cage(model, w):
     """Adds the drag moments of the halves' end faces and cylinders."""
     d, w.cage_drag_dissipated = model.d, 0.0
     for half in w.half:
-        omega = half.Omega[0]
+        omega = half.Omega[0] - outer_ring(model.ring_load, half.s).Omega[0]
         speed = absolute(omega) + TINY_SPEED
         disk = maximum(d.disk_laminar * np.sqrt(speed), d.disk_turbulent * speed**0.8)
         cylinder = maximum(d.cylinder_laminar, d.cylinder_vortex * speed**0.539)
@@ -91,7 +96,9 @@ def drag_cage(model, w):
 
 def drag_ring(model, w):
     """Adds the mixture's friction on the inner ring to the ring's moment; sets its power."""
-    slip = w.ring.s - w.stream
+    ring_load = model.ring_load
+    s = w.ring.s - vec_dot(w.ring.a, outer_ring(ring_load, w.ring.x[0]).Omega)
+    slip = s - (w.stream - ring_load.outer_omega)
     M = -model.d.ring_drag * w.filling * w.wall * slip * absolute(slip)
     w.ring.M = w.ring.M + M * w.ring.a
-    w.ring_drag_dissipated = -M * w.ring.s
+    w.ring_drag_dissipated = -M * s

@@ -2,12 +2,14 @@
 
     contacts (2/5) K delta^2.5, shared between the halves as in pocket.py;  joint T^2/(2 k_rivet) + N_plate^2/(2 k_plate) + k z^2/2 + hole contact
 
-The inner ring is outside this balance: its motion puts the power -F.v - M.Omega into balls and cage, with F and M of the contacts on the ring, and its
-growth the power -K delta^1.5 n.e dR_g/dt (race_contact.py).
+The rings are outside this balance: their motions put the power -F.v - M.Omega into balls and cage, with F and M of contacts and films on the ring, and the
+inner ring's growth the power -K delta^1.5 n.e dR_g/dt (race_contact.py).  In a frame that moves, motions are relative to it, and its inertia forces do work as
+gravity does (powers.py).
 """
 
 from bearing_model.hertz import hertz_energy
 from bearing_model.lanes import ball_array_sum
+from bearing_model.powers import frame_power, housing_power, shaft_power
 from bearing_model.race_contact import race_growth_power
 from bearing_model.variables import CageModel
 from bearing_model.vec import vec, vec_cross, vec_dot
@@ -59,23 +61,19 @@ def power_loss(model, w):
 
 
 def supply_terms(model, w):
-    """Powers that the ring and gravity put into balls and cage [W] by name, each [..., 1]: the ring by its spin, its translation and its tilting."""
-    p, d, ring = model.p, model.d, w.ring
-    spin = -ring.s * vec_dot(ring.M, ring.a)
-    v_y, v_z = w.v_r * w.cos_theta - w.v_t * w.sin_theta, w.v_r * w.sin_theta + w.v_t * w.cos_theta
-    gravity = d.m * ball_array_sum(p.gravity.y * v_y + p.gravity.z * v_z)
-    for half in w.half:
-        v = half.v + vec_cross(half.Omega, half.c)
-        gravity = gravity + p.cage.m * (p.gravity.y * v[1] + p.gravity.z * v[2])
+    """Powers that rings, gravity and frame put into balls and cage [W] by name, each [..., 1]: the inner ring by its spin, translation and tilting."""
+    ring = w.ring
+    spin, translation = -ring.s * vec_dot(ring.M, ring.a), -vec_dot(ring.F, ring.v)
     return {
         "shaft torque": spin,
-        "translation of the ring": -vec_dot(ring.F, ring.v),
-        "tilting of the ring": -vec_dot(ring.M, ring.Omega) - spin,
+        "translation of the ring": translation,
+        "tilting of the ring": shaft_power(w) - translation - spin,
         "growth of the ring": race_growth_power(model, w),
-        "gravity": gravity,
+        "housing": housing_power(model, w),
+        "gravity and frame": frame_power(model, w),
     }
 
 
 def net_power(model, w):
-    """Net power into balls and cage [W], [..., 1]: by the ring's motion and gravity, less what is dissipated."""
+    """Net power into balls and cage [W], [..., 1]: by the rings' motions and the frame, less what is dissipated."""
     return sum(supply_terms(model, w).values()) - power_loss(model, w)

@@ -21,14 +21,22 @@ from bearing_model.model import Model, Work, derived_at
 from bearing_model.outputs import outputs
 from bearing_model.parameters import InputDerivatives, Inputs, Parameters
 from bearing_model.rhs import jacobian, rhs
-from bearing_model.ring_fit import ring_fit_growth
-from bearing_model.ring_load import input_trajectory_at, input_trajectory_update, input_trajectory_varies, pulse_next_edge, ring_load_at, ring_load_update
+from bearing_model.ring_fit import ring_fit_growth, ring_fit_speed
+from bearing_model.ring_load import (
+    input_trajectory_here,
+    input_trajectory_update,
+    input_trajectory_varies,
+    motion_remember,
+    motion_trajectory,
+    pulse_next_edge,
+    ring_load_at,
+)
 from bearing_model.rivet_rom import HEAD_P1, MID_VM, rivet_rom_stress
 from bearing_model.rivets import rivets_load, rivets_slip
-from bearing_model.start import start_state
+from bearing_model.start import ring_follow, start_state
 from bearing_model.statistics import StatisticsChannel
 from bearing_model.temperature import temperature_same
-from bearing_model.variables import OUTPUTS, WORK, Stress, Switch, Z
+from bearing_model.variables import OUTPUTS, WORK, RingMotion, Stress, Switch, Z
 
 METHODS = {"DOP853": DOP853, "RK45": RK45, "RK23": RK23, "Radau": Radau, "BDF": BDF, "LSODA": LSODA}
 IMPLICIT = ("Radau", "BDF", "LSODA")
@@ -94,7 +102,7 @@ class Record:
         peaks = {"cage.F_pocket_peak": np.max(w.Q_pocket)}
         peaks |= self.add_stress(model, t, h, counts, w) if p.scene.stress >= Stress.PEAK else no_stress()
         h0, h1 = w.half
-        centre = 0.5 * (h0.x + h1.x)[..., 0]
+        centre = (0.5 * (h0.x + h1.x) - w.outer_x)[..., 0]
         self.omega_time += np.sum((h * 0.5 * (h0.s + h1.s)[..., 0])[counts])
         self.eccentricity_time += np.sum((h * np.hypot(centre[1], centre[2]) / model.d.C_land)[counts])
         self.dislocation_max = max(self.dislocation_max, np.max(rivets_slip(model, w)[counts], initial=0.0))
@@ -194,8 +202,8 @@ def simulate(parameters=None, inputs=None, t_end=1e-3, *, derivatives=None, step
         raise ValueError(f"tolerance = {tolerance}: more than 0 is allowed")
     p, held = Parameters(parameters), inputs if callable(inputs) else lambda t: inputs
     slopes = derivatives or (lambda t: ({}, {}))
-    reached = Inputs(held(t_start))
-    model = Model(*derived_at(p, reached, table), ring_load_update(p, reached, t_start))
+    here = input_trajectory_update(p, (Inputs(held(t_start)), *map(InputDerivatives, slopes(t_start))), t_start, t_start)
+    model = Model(*derived_at(p, here.u[0], table), ring_load_at(here, t_start))
     y = start_state(model)[0] if y is None else np.array(y, dtype=float)
     run = Integration(p, t_start, y, p.solver.tol if tolerance is None else tolerance, method)
     record, w = Record(p), Work()
@@ -204,23 +212,27 @@ def simulate(parameters=None, inputs=None, t_end=1e-3, *, derivatives=None, step
 
     count = int(np.ceil((t_end - t_start) / step * (1.0 - 1e-12)))
     points = np.minimum(t_start + step * np.arange(count + 1), t_end)
-    ledger = Ledger()
+    ledger, history = Ledger(), None
     ledger.add(model, np.array([t_start]), y[None])
     first = observe(model, t_start, y, energy_start) | accepted(model, record, np.array([t_start]), np.zeros(1), y[None])
     states, ledgers, rows = [y], [ledger.copy()], [first]
     for point in points[1:]:
-        u, peaks, t_0 = [Inputs(held(run.t)), *map(InputDerivatives, slopes(run.t))], [], run.t
-        model, expansion = at_temperature(p, model, reached, u[0], run, table)
-        expansion += at_speed(model, u[0], run)
+        u, peaks, t_0, angle = [Inputs(held(run.t)), *map(InputDerivatives, slopes(run.t))], [], run.t, here.frame_angle
+        given, reached = u, here.u[0]
+        u, history = motion_trajectory(p, given, reached, point - t_0, history), motion_remember(given[0], point - t_0, history)
+        model, expansion = at_temperature(p, model, reached, given[0], run, table)
+        expansion += at_speed(model, given[0], run)
         while run.t < point:
-            trajectory, begin, y_begin = input_trajectory_update(p, u, t_0, run.t), run.t, run.y
+            trajectory, begin, y_begin = input_trajectory_update(p, u, t_0, run.t, angle), run.t, run.y
             model = Model(model.p, model.d, ring_load_at(trajectory, run.t), trajectory if input_trajectory_varies(trajectory) else None)
             times, ys = run.segment(model, min(pulse_next_edge(p, run.t), point))
             peaks.append(accepted(model, record, times, np.diff(times, prepend=begin), ys))
             ledger.add(model, np.append(begin, times), np.vstack([y_begin, ys]))
-        reached = input_trajectory_at(trajectory, run.t)
-        model = Model(model.p, model.d, ring_load_update(p, reached, run.t))
-        model, further = at_temperature(p, model, u[0], reached, run, table)
+        here = input_trajectory_here(trajectory, run.t)
+        model = Model(model.p, model.d, ring_load_at(here, run.t))
+        if p.ring.motion == RingMotion.PRESCRIBED:
+            run.y = ring_follow(model.ring_load, run.y)
+        model, further = at_temperature(p, model, given[0], here.u[0], run, table)
         energy_start += expansion + further
         states.append(run.y)
         ledgers.append(ledger.copy())
@@ -244,13 +256,14 @@ def at_temperature(p, model, from_, u, run, table):
 
 def at_speed(model, u, run):
     """What a jump to the speed in the Inputs u adds to the elastic energy [J], because the inner ring grows at once."""
-    load = model.ring_load
-    if ring_fit_growth(model.d.fit, load.omega) == ring_fit_growth(model.d.fit, u.shaft.omega):
+    loads, fit = (model.ring_load, replace(model.ring_load, omega=u.shaft.omega)), model.d.fit
+    before, after = (ring_fit_growth(fit, ring_fit_speed(load)) for load in loads)
+    if before == after:
         return 0.0
     energies = []
-    for omega in (load.omega, u.shaft.omega):
+    for load in loads:
         w = Work()
-        rhs(Model(model.p, model.d, replace(load, omega=omega)), run.t, run.y, w)
+        rhs(Model(model.p, model.d, load), run.t, run.y, w)
         energies.append(np.sum(hertz_energy(model.d.inner.hertz.K, w.delta_i)))
     return energies[1] - energies[0]
 

@@ -14,6 +14,9 @@ Shear heats the film between walls at the oil's temperature; viscosity exp(-beta
 asinh(s)/(s sqrt(1 + s^2)) times the isothermal one, s^2 = Na/8, Na = beta eta U^2/k, whatever the gap (Nahme (1940), Ing.-Archiv 11, 191); the
 film's viscosity is lower by this factor.
 
+An outer ring that moves (outer_ring.py): e, e_dot and omega are those against its material, and the forces are along its axes.  For a ring that turns
+this is Reynolds' equation for two turning surfaces: squeeze e_dot - (omega + omega_e)/2 e_x x e.
+
 Steady rotation gives Ocvirk's force (a = 0), pure squeeze that of the pi-film.  The force derives from int (V.n)^2/h^3 over the closing half, so that
 -dF/dV = kappa (I_c, I_s; I_s, I_t) exactly: these are the stiff rates of the film.  The force is regular at e = 0, C0 in V (cavitation) and C1 elsewhere.
 At the wall the film stays finite: q^2 is g_0 at the wall and tends to g_0/2 behind it, and eps is capped at 1.2.  Behind the wall the dry contact
@@ -24,9 +27,10 @@ import numpy as np
 
 from bearing_model.hertz import hertz_damped, hertz_energy, hertz_load
 from bearing_model.lanes import ball_array_sum, maximum, minimum, wide_pair
+from bearing_model.outer_ring import outer_ring
 from bearing_model.traction import traction_asperity_share
 from bearing_model.variables import Lubrication
-from bearing_model.vec import vec, vec_cross
+from bearing_model.vec import vec_cross, vec_dot
 
 EPS_CAP = 1.2
 
@@ -63,11 +67,12 @@ def land_film_force(model, w):
     h0, h1 = w.half
     x_land = np.array([-p.cage.land_x, p.cage.land_x])
 
-    # position and velocity of the middle of each land: x + a x_land, v + Omega x a x_land = v + a_dot x_land
-    axis, axis_dot = wide_pair(h0.a, h1.a), wide_pair(h0.a_dot, h1.a_dot)
-    _, e_y, e_z = wide_pair(h0.x, h1.x) + x_land * axis
-    _, v_y, v_z = wide_pair(h0.v, h1.v) + x_land * axis_dot
-    omega = wide_pair(h0.Omega[0], h1.Omega[0])
+    # position and velocity of the middle of each land, x + a x_land and v + Omega x a x_land = v + a_dot x_land, against the outer ring along its axes
+    outer, axis, axis_dot = outer_ring(model.ring_load, h0.s), wide_pair(h0.a, h1.a), wide_pair(h0.a_dot, h1.a_dot)
+    arm = wide_pair(h0.x, h1.x) + x_land * axis - outer.x
+    velocity = wide_pair(h0.v, h1.v) + x_land * axis_dot - outer.v - vec_cross(outer.Omega, arm)
+    e_y, e_z, v_y, v_z = (vec_dot(value, axis_of) for value in (arm, velocity) for axis_of in (outer.b_y, outer.b_z))
+    omega = vec_dot(wide_pair(h0.Omega, h1.Omega) - outer.Omega, outer.a)
 
     # film
     V_y, V_z = v_y + 0.5 * omega * e_z, v_z - 0.5 * omega * e_y
@@ -111,8 +116,8 @@ def land_film_force(model, w):
     w.film_yz = kappa * ((I_c - I_t) * n_y * n_z + I_s * (n_y * n_y - n_z * n_z))
     w.film_spin = couette + g * R * R
 
-    F = vec(0.0, F_y, F_z)
-    M = vec(M_x, 0.0, 0.0) + vec_cross(x_land * axis, F)
+    F = F_y * outer.b_y + F_z * outer.b_z
+    M = M_x * outer.a + vec_cross(x_land * axis, F)
     for h, half in enumerate(w.half):
         half.F = half.F + F[..., h : h + 1]
         half.M = half.M + M[..., h : h + 1]

@@ -22,7 +22,8 @@ STEP = 1e-30  # of the complex step [s]
 class Ledger:
     """Energies [J] since the start by name: numbers during a simulation, arrays [points] in Results.
 
-    supplied: by the ring's spin (the shaft's torque), translation and tilting, and by gravity; stored: change of kinetic and elastic energies;
+    supplied: by the inner ring's spin (the shaft's torque), translation and tilting, by the housing, by gravity and
+    frame; stored: change of kinetic and elastic energies;
     lost: in races, pockets, drag, land and joints.
     """
 
@@ -41,7 +42,7 @@ class Ledger:
         y_dot = rhs(model, t, y, w)
         rhs(model, t + 1j * STEP, y + 1j * STEP * y_dot, along)
         for account, terms in ((self.supplied, supply_terms), (self.lost, loss_terms)):
-            for name, rate in terms(model, along).items():
+            for name, rate in terms(model.at(t + 1j * STEP), along).items():
                 P = np.broadcast_to(rate, (len(t), 1))[:, 0]
                 account[name] = account.get(name, 0.0) + integral(np.diff(t), np.real(P), np.imag(P) / STEP)
         for name, energy in energy_terms(model, w).items():

@@ -9,38 +9,33 @@ from bearing_model.energy import energy_total, power_loss
 from bearing_model.events import event_outputs
 from bearing_model.hertz import hertz_pressure
 from bearing_model.lanes import ball_array_sum
-from bearing_model.ring_fit import ring_fit_growth
+from bearing_model.outer_ring import spread
+from bearing_model.powers import frame_power, housing_power, housing_wrench, shaft_power
+from bearing_model.ring_fit import ring_fit_growth, ring_fit_speed
 from bearing_model.ring_load import ring_tilts
 from bearing_model.rivet_rom import HEAD_P1, HEAD_VM, MID_P1, MID_VM, rivet_rom_stress
 from bearing_model.rivets import rivets_load, rivets_slip
 from bearing_model.traction import Q_FLOOR, traction_ln_film, traction_ln_thermal
-from bearing_model.variables import BALL_THETA, CAGE_PSI, RING_BETA_DOT, RING_GAMMA_DOT, RING_V_X, RING_V_Y, RING_V_Z, WORK, CageModel, Stress, Z
-from bearing_model.vec import vec, vec_cross, vec_dot, vec_local, vec_to_global
+from bearing_model.variables import BALL_THETA, CAGE_PSI, RING_BETA_DOT, RING_GAMMA_DOT, RING_V_X, RING_V_Y, RING_V_Z, WORK, CageModel, RingMotion, Stress, Z
+from bearing_model.vec import vec, vec_dot, vec_local
 
 STANDSTILL = 1e-9  # rad/s: up to it a speed is none that others are compared with
 
 
-def housing_reaction(w):
-    """Force and moment about the bearing's centre that balls and cage put on the housing (outer ring, oil)."""
-    F, M = 0.0, 0.0
-    for body in (w.ring, *w.half):
-        F = F - body.F
-        M = M - body.M - vec_cross(body.x, body.F)
-    position, force, moment = (vec_to_global(v, w.cos_theta, w.sin_theta) for v in (vec(w.x, w.r, 0.0), w.F, w.M))
-    return F - np.sum(force, axis=-1, keepdims=True), M - np.sum(moment + vec_cross(position, force), axis=-1, keepdims=True)
-
-
 def ring_outputs(model, w, y_dot):
-    F, M = housing_reaction(w)
+    F, M = housing_wrench(model, w)
+    given, prescribed = model.ring_load, model.p.ring.motion == RingMotion.PRESCRIBED
     beta, gamma = -w.ring.a[2], w.ring.a[1]
     tilt_y, tilt_z = ring_tilts(beta, gamma)
     values = {f"ring.{name}": w.ring.x[i] for i, name in enumerate("xyz")}
     values |= {f"ring.v_{name}": w.ring.v[i] for i, name in enumerate("xyz")}
-    values |= {f"ring.a_{name}": y_dot[..., block] for name, block in zip("xyz", (RING_V_X, RING_V_Y, RING_V_Z), strict=True)}
+    names, blocks = ("a_x", "a_y", "a_z", "beta_ddot", "gamma_ddot"), (RING_V_X, RING_V_Y, RING_V_Z, RING_BETA_DOT, RING_GAMMA_DOT)
+    accelerations = spread((*given.a, given.beta_ddot, given.gamma_ddot), w.x) if prescribed else [y_dot[..., block] for block in blocks]
+    values |= {f"ring.{name}": value for name, value in zip(names, accelerations, strict=True)}
     values |= {"ring.beta": beta, "ring.gamma": gamma, "ring.beta_dot": -w.ring.a_dot[2], "ring.gamma_dot": w.ring.a_dot[1]}
-    values |= {"ring.beta_ddot": y_dot[..., RING_BETA_DOT], "ring.gamma_ddot": y_dot[..., RING_GAMMA_DOT]}
     values |= {"ring.tilt_y": tilt_y, "ring.tilt_z": tilt_z}
-    values |= {f"housing.F_{name}": F[i] for i, name in enumerate("xyz")} | {"housing.M_y": M[1], "housing.M_z": M[2]}
+    values |= {f"housing.F_{name}": F[i] for i, name in enumerate("xyz")} | {f"housing.M_{name}": M[i] for i, name in enumerate("xyz")}
+    values |= {f"shaft.R_{name}": w.ring.F[i] for i, name in enumerate("xyz")} | {"shaft.R_My": w.ring.M[1], "shaft.R_Mz": w.ring.M[2]}
     values["bearing.friction_torque"] = -vec_dot(w.ring.M, w.ring.a)
     return {name: value[..., 0] for name, value in values.items()}
 
@@ -75,7 +70,7 @@ def ball_outputs(model, w):
         "ball[j].Lambda_i": film_ratio(d, d.inner, w.U_i, w.Q_i),
         "ball[j].Lambda_e": film_ratio(d, d.outer, w.U_e, w.Q_e),
         "ball[j].spin_roll": spin_roll(w),
-        "bearing.clearance": model.p.bearing.P_d - 2.0 * ring_fit_growth(d.fit, model.ring_load.omega) + 0.0 * w.Q_pocket[..., 0],
+        "bearing.clearance": model.p.bearing.P_d - 2.0 * ring_fit_growth(d.fit, ring_fit_speed(model.ring_load)) + 0.0 * w.Q_pocket[..., 0],
         "bearing.contacts": np.sum(deltas > 0.0, axis=(0, -1)),
         "bearing.penetration": np.maximum(np.max(deltas, axis=(0, -1)), 0.0),
         "cage.F_pocket_max": np.max(w.Q_pocket, axis=-1),
@@ -93,14 +88,16 @@ def pose_outputs(w, y):
 
 def cage_outputs(model, w):
     h0, h1 = w.half
-    epicyclic = 0.5 * model.ring_load.omega * (1.0 - model.p.bearing.D / model.p.bearing.d_m)
+    outer = model.ring_load.outer_omega
+    epicyclic = outer + 0.5 * (model.ring_load.omega - outer) * (1.0 - model.p.bearing.D / model.p.bearing.d_m)
+    e = (0.5 * (h0.x + h1.x) - w.outer_x)[..., 0]
     omega, centre = 0.5 * (h0.s + h1.s)[..., 0], 0.5 * (h0.x + h1.x)[..., 0]
     return {
         "cage.omega": omega,
         "cage.slip_ratio": 1.0 - omega / epicyclic if abs(epicyclic) > STANDSTILL else 0.0 * omega,
         "cage.y": centre[1],
         "cage.z": centre[2],
-        "cage.eccentricity": np.hypot(centre[1], centre[2]) / model.d.C_land,
+        "cage.eccentricity": np.hypot(e[1], e[2]) / model.d.C_land,
     }
 
 
@@ -149,13 +146,14 @@ def stress_outputs(model, w):
 
 
 def energy_outputs(model, w, work, energy_start):
-    residual = energy_total(model, w) - energy_start - work
+    energy = energy_total(model, w)
     parts = {"races": w.race_dissipated, "inlet": w.inlet_dissipated, "spin": w.spin_dissipated, "ball_drag": w.drag_dissipated, "pockets": w.pocket_dissipated}
     values = {f"loss.{name}": ball_array_sum(power) for name, power in parts.items()}
     values |= {"loss.cage_drag": w.cage_drag_dissipated, "loss.ring_drag": w.ring_drag_dissipated, "loss.land": w.land_dissipated}
     values["loss.joints"] = ball_array_sum(w.joint_dissipated) if model.p.scene.cage == CageModel.TWO_HALF else 0.0 * values["loss.races"]
     values["bearing.power_loss"] = power_loss(model, w)
-    return {name: value[..., 0] for name, value in values.items()} | {"bearing.energy_residual": residual}
+    values |= {"shaft.power": shaft_power(w), "housing.power": housing_power(model, w), "frame.power": frame_power(model, w)}
+    return {name: value[..., 0] for name, value in values.items()} | {"bearing.energy": energy, "bearing.energy_residual": energy - energy_start - work}
 
 
 def outputs(model, w, y, y_dot, energy_start):

@@ -16,6 +16,7 @@ from bearing_model.variables import INPUTS, PARAMETERS, Z
 
 ENUMERATIONS = (
     variables.TiltMode,
+    variables.RingMotion,
     variables.CageModel,
     variables.Traction,
     variables.Drag,

@@ -1,19 +1,18 @@
 """The table of contents of the physics: one evaluation of dy/dt in named steps."""
 
-from dataclasses import replace
-
 import numpy as np
 
 from bearing_model.ball import ball_acceleration, ball_kinematics
 from bearing_model.cage_joint import cage_joint_force, cage_joint_kinematics
 from bearing_model.drag import drag_cage, drag_force, drag_mixture, drag_ring
 from bearing_model.energy import net_power
+from bearing_model.frame import frame_acceleration, frame_moment
 from bearing_model.land_film import land_film_force
 from bearing_model.model import Work
+from bearing_model.outer_ring import spread
 from bearing_model.pocket import pocket_force
 from bearing_model.race_contact import race_contact_force
 from bearing_model.ring import ring_acceleration
-from bearing_model.ring_load import ring_load_at
 from bearing_model.rotor import Rotor, rotor_acceleration, rotor_axis, rotor_body_axes, rotor_roll
 from bearing_model.variables import (
     CAGE_BETA,
@@ -45,6 +44,7 @@ from bearing_model.variables import (
     RING_Z,
     WORK,
     CageModel,
+    RingMotion,
 )
 from bearing_model.vec import vec_cross
 
@@ -59,9 +59,16 @@ def of_half(y, block, h):
 def rotor_kinematics(model, y, w):
     """Pose and velocity of inner ring and cage halves from y.  A half's states are those of its centre of mass."""
     w.ring, w.half = Rotor(), [Rotor(), Rotor()]
-    w.ring.x = np.array([y[..., RING_X], y[..., RING_Y], y[..., RING_Z]])
-    w.ring.v = np.array([y[..., RING_V_X], y[..., RING_V_Y], y[..., RING_V_Z]])
-    rotor_axis(w.ring, y[..., RING_BETA], y[..., RING_GAMMA], y[..., RING_BETA_DOT], y[..., RING_GAMMA_DOT], model.ring_load.omega)
+    given, like = model.ring_load, y[..., RING_X]
+    w.outer_x, w.frame_omega = spread(given.outer_x, like), given.frame_omega  # for what is recorded over steps
+    w.outer_gamma, w.outer_beta = given.outer_gamma, given.outer_beta
+    if model.p.ring.motion == RingMotion.PRESCRIBED:
+        w.ring.x, w.ring.v = spread(given.x, like), spread(given.v, like)
+        rotor_axis(w.ring, *spread((given.beta, given.gamma, given.beta_dot, given.gamma_dot), like), given.omega)
+    else:
+        w.ring.x = np.array([y[..., RING_X], y[..., RING_Y], y[..., RING_Z]])
+        w.ring.v = np.array([y[..., RING_V_X], y[..., RING_V_Y], y[..., RING_V_Z]])
+        rotor_axis(w.ring, y[..., RING_BETA], y[..., RING_GAMMA], y[..., RING_BETA_DOT], y[..., RING_GAMMA_DOT], given.omega)
     for h, half in enumerate(w.half):
         rotor_axis(half, *(of_half(y, block, h) for block in (CAGE_BETA, CAGE_GAMMA, CAGE_BETA_DOT, CAGE_GAMMA_DOT, CAGE_S)))
         psi = of_half(y, CAGE_PSI, h)
@@ -91,22 +98,25 @@ def half_rates(y, half, h, acc, a_ddot, s_dot, y_dot):
 def cage_acceleration(model, y, w, y_dot):
     """Both halves under their forces, or as one rigid body about their common centre of mass."""
     p, d = model.p, model.d
-    gravity = np.reshape([0.0, p.gravity.y, p.gravity.z], (3, *[1] * y.ndim))
+    frame = model.ring_load
     if p.scene.cage == CageModel.TWO_HALF:
         for h, half in enumerate(w.half):
-            M = half.M - vec_cross(half.c, half.F)
+            s, v = half.x + half.c, half.v + vec_cross(half.Omega, half.c)  # of the centre of mass
+            M = half.M - vec_cross(half.c, half.F) + frame_moment(frame, half, d.J_p, d.J_t)
             a_ddot, s_dot = rotor_acceleration(half, d.J_p, d.J_t, M)
-            half_rates(y, half, h, half.F / p.cage.m + gravity, a_ddot, s_dot, y_dot)
+            half_rates(y, half, h, half.F / p.cage.m + frame_acceleration(frame, s, v), a_ddot, s_dot, y_dot)
         return
     cage = w.half[0]
     J_t = 2.0 * (d.J_t + p.cage.m * d.com_x[1] ** 2)
     F = w.half[0].F + w.half[1].F
-    M = w.half[0].M + w.half[1].M - vec_cross(d.com_e * cage.b_y, F)
+    c = d.com_e * cage.b_y  # the common centre of mass, at which gravity and the frame's inertia forces act
+    M = w.half[0].M + w.half[1].M - vec_cross(c, F) + frame_moment(frame, cage, 2.0 * d.J_p, J_t)
+    field = frame_acceleration(frame, cage.x + c, cage.v + vec_cross(cage.Omega, c))
     a_ddot, s_dot = rotor_acceleration(cage, 2.0 * d.J_p, J_t, M)
     spin_up = vec_cross(cage.a, a_ddot) + s_dot * cage.a + cage.s * cage.a_dot  # rate of Omega
     for h in range(2):
         c = d.com_x[h] * cage.a
-        acc = F / (2.0 * p.cage.m) + gravity + vec_cross(spin_up, c) + vec_cross(cage.Omega, vec_cross(cage.Omega, c))
+        acc = F / (2.0 * p.cage.m) + field + vec_cross(spin_up, c) + vec_cross(cage.Omega, vec_cross(cage.Omega, c))
         half_rates(y, cage, h, acc, a_ddot, s_dot, y_dot)
 
 
@@ -119,8 +129,7 @@ def rhs(model, t, y, w=None):
     if y.shape[-1] != N_STATES:
         raise ValueError(f"y has {y.shape[-1]} states; {N_STATES} are needed")
     w = Work() if w is None else w
-    if model.trajectory:
-        model = replace(model, ring_load=ring_load_at(model.trajectory, np.expand_dims(t, -1)), trajectory=None)
+    model = model.at(t)
     rigid = model.p.scene.cage == CageModel.RIGID
     ball_kinematics(y, w)
     rotor_kinematics(model, y, w)

@@ -9,6 +9,9 @@ that open and slip relieve it (joint_law.py); in the plane they have for it what
 loads is that of the halves' elastic deformation, which the dynamics of rigid halves does not have: on rigid halves the centrifugal loads of all parts
 balance, so that they do no work and the energy balance has no term for them.
 
+In a frame that turns, the centrifugal load is that of the speed in the fixed frame; a uniform field of gravity or of the frame's acceleration acts on a
+half as its own acceleration does, and is in the load path's balance of forces.
+
 The tangential inertia load of a cage whose speed changes (Euler's) is to the centrifugal one as omega_dot to omega^2: 1.3 % in a run-up to 18,238 r/min
 within 0.1 s, 0.013 % within 10 s, so it is left out.  What a pocket force accelerates is in the load path: its finite elements balance the force
 by the half's inertia.
@@ -137,7 +140,7 @@ def rivets_load(model, w):
     else:
         pocket, push = w.pocket, w.pocket_push
         share = two_half_share(model, w)
-    spin = 0.5 * (w.half[0].s ** 2 + w.half[1].s ** 2)[..., None] * d.spin
+    spin = 0.5 * ((w.half[0].s + w.frame_omega) ** 2 + (w.half[1].s + w.frame_omega) ** 2)[..., None] * d.spin
     rows = sum(pocket_rows(model, pocket[h], push[h], h) for h in range(2)) + spin
     N, V_r, V_t, M_r, M_t, dP, dm_r, dm_t = np.moveaxis(rows, -1, 0)
 

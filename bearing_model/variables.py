@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from enum import IntEnum
 
 MODEL_IDENTIFIER = "RivetedBearing"
-MODEL_GUID = "{a5c23dc9-690c-2758-8309-c84353b6da84}"
+MODEL_GUID = "{e72dec66-7575-82ea-0425-9c711544306a}"
 Z = 9
 
 
@@ -33,6 +33,11 @@ class TiltMode(IntEnum):
     PRESCRIBED = 1
     SUPPORTED = 2
     FREE = 3
+
+
+class RingMotion(IntEnum):
+    FREE = 1
+    PRESCRIBED = 2
 
 
 class CageModel(IntEnum):
@@ -222,6 +227,7 @@ PARAMETERS = {
         Variable("ring.c_tilt", 1408, "Real", "N.m.s/rad", None, 1.0, 0.0, 10000.0, 1, None, "Angular damping of the ring's support (supported tilt)", "assumed: damping ratio 0.3 with the default stiffness and inertia"),
         Variable("ring.bore", 8221, "Real", "m", "mm", 0.0, 0.0, 1.0, 1, None, "Bore of the inner ring: its growth by rotation and fit", "0: d_m - D/0.6, as usual cross-sections have it (6207: 35 mm)"),
         Variable("ring.rho", 8222, "Real", "kg/m3", None, 7800.0, 1000.0, 20000.0, 1, None, "Density of the inner ring", "bearing steel, Harris"),
+        Variable("ring.motion", 1421, "RingMotion", "1", None, 1, None, None, 1, None, "Whether the shaft's loads or its motion are given", "paper: loads given"),
         Variable("ring.outside", 8223, "Real", "m", "mm", 0.0, 0.0, 2.0, 1, None, "Outside diameter of the outer ring: its fit in the housing", "0: d_m + D/0.6, as usual cross-sections have it (6207: 72 mm)"),
         Variable("ring.effective_i", 8224, "Real", "m", "mm", 0.0, 0.0, 2.0, 1, None, "Outside diameter of the cylinder that the inner ring is for growth and fit", "0: over the shoulders"),
         Variable("ring.effective_e", 8225, "Real", "m", "mm", 0.0, 0.0, 2.0, 1, None, "Inside diameter of the cylinder that the outer ring is for its fit", "0: over the shoulders"),
@@ -236,8 +242,9 @@ PARAMETERS = {
         Variable("housing.E", 8235, "Real", "Pa", "GPa", 207000000000.0, 1000000000.0, 1000000000000.0, 1, None, "Young's modulus of the housing", "steel"),
         Variable("housing.nu", 8236, "Real", "1", None, 0.3, 0.0, 0.49, 1, None, "Poisson's ratio of the housing", "steel"),
         Variable("housing.expansion", 8237, "Real", "1/K", None, 1.17e-05, 0.0, 0.0001, 1, None, "Thermal expansion of the housing, whose seat has the outer ring's temperature", "steel"),
-        Variable("gravity.y", 1501, "Real", "m/s2", None, 0.0, -1000.0, 1000.0, 1, None, "Gravity along Y", "off"),
-        Variable("gravity.z", 1502, "Real", "m/s2", None, 0.0, -1000.0, 1000.0, 1, None, "Gravity along Z", "off"),
+        Variable("gravity.y", 1501, "Real", "m/s2", None, 0.0, -1000.0, 1000.0, 1, None, "Gravity along Y of the fixed frame, to which the bearing's frame is parallel at the start", "off"),
+        Variable("gravity.z", 1502, "Real", "m/s2", None, 0.0, -1000.0, 1000.0, 1, None, "Gravity along Z of the fixed frame", "off"),
+        Variable("frame.radius", 1511, "Real", "m", "mm", 0.0, 0.0, 2.0, 1, None, "Distance of the bearing from the axis of frame.omega, which lies on -Y", "no arm"),
         Variable("pulse.F_r", 1601, "Real", "N", None, 0.0, -100000.0, 100000.0, 1, None, "Amplitude of the built-in half-sine impacts along the radial load", "no impact (paper section 4.1 (3): 1401 N)"),
         Variable("pulse.F_a", 1602, "Real", "N", None, 0.0, -100000.0, 100000.0, 1, None, "Amplitude of the built-in half-sine impacts along +X", "no impact (paper section 4.1 (3): 241 N)"),
         Variable("pulse.t_start", 1603, "Real", "s", None, 0.1, 0.0, 1000000.0, 1, None, "Start of the first impact", "after settling"),
@@ -252,7 +259,7 @@ PARAMETERS = {
         Variable("fatigue.sigma_f", 1706, "Real", "Pa", "MPa", 1180000000.0, 1000000.0, 10000000000.0, 1, None, "Fatigue strength coefficient (Morrow)", "1.5 times the tensile strength (uniform material law)"),
         Variable("fatigue.mean_stress", 1707, "MeanStress", "1", None, 2, None, None, 1, None, "Mean-stress correction", "practice"),
         Variable("scene.cage", 1801, "CageModel", "1", None, 1, None, None, 1, None, "Cage of two halves or rigid", "default"),
-        Variable("scene.traction", 1802, "Traction", "1", None, 2, None, None, 1, None, "Traction at a point or over slices of the contact ellipse", "measured: one point for the whole ellipse leaves out spin, 11 % in the 99.9 % head stress"),
+        Variable("scene.traction", 1802, "Traction", "1", None, 2, None, None, 1, None, "Traction at a point or over slices of the contact ellipse", "measured: one point for the whole ellipse leaves out spin: 99.9 % head stress +32 % in demo, +13 % in R and F, friction torque -30 % and -11 %"),
         Variable("scene.lubrication", 1803, "Lubrication", "1", None, 1, None, None, 1, None, "Full film or mixed lubrication", "default"),
         Variable("scene.stress", 1804, "Stress", "1", None, 3, None, None, 1, None, "When the rivet stress is computed", "default"),
         Variable("scene.statistics", 1805, "Switch", "1", None, 1, None, None, 1, None, "Running mean, RMS and histogram behind stat.*", "default"),
@@ -280,8 +287,32 @@ INPUTS = {
         Variable("shaft.omega", 6, "Real", "rad/s", "rev/min", 1909.8788938723549, -15000.0, 15000.0, 1, None, "Speed of the inner ring about X", "paper Table 2 (18238 r/min)"),
         Variable("shaft.tilt_y", 7, "Real", "rad", "deg", 0.0, -0.035, 0.035, 1, None, "Tilt of the shaft about Y (+X turns toward -Z)", "paper section 4.1 (4), base case"),
         Variable("shaft.tilt_z", 8, "Real", "rad", "deg", 0.0, -0.035, 0.035, 1, None, "Tilt of the shaft about Z (+X turns toward +Y)", "paper section 4.1 (4), base case"),
+        Variable("shaft.x", 21, "Real", "m", "um", 0.0, -0.002, 0.002, 1, None, "Position of the inner ring along X (prescribed motion)", "at rest in the centre"),
+        Variable("shaft.y", 22, "Real", "m", "um", 0.0, -0.002, 0.002, 1, None, "Position of the inner ring along Y (prescribed motion)", "at rest in the centre"),
+        Variable("shaft.z", 23, "Real", "m", "um", 0.0, -0.002, 0.002, 1, None, "Position of the inner ring along Z (prescribed motion)", "at rest in the centre"),
+        Variable("shaft.v_x", 24, "Real", "m/s", None, 0.0, -10.0, 10.0, 1, None, "Velocity of the inner ring along X (prescribed motion)", "at rest"),
+        Variable("shaft.v_y", 25, "Real", "m/s", None, 0.0, -10.0, 10.0, 1, None, "Velocity of the inner ring along Y (prescribed motion)", "at rest"),
+        Variable("shaft.v_z", 26, "Real", "m/s", None, 0.0, -10.0, 10.0, 1, None, "Velocity of the inner ring along Z (prescribed motion)", "at rest"),
+        Variable("shaft.tilt_y_dot", 29, "Real", "rad/s", None, 0.0, -200.0, 200.0, 1, None, "Rate of shaft.tilt_y (prescribed motion)", "at rest"),
+        Variable("shaft.tilt_z_dot", 30, "Real", "rad/s", None, 0.0, -200.0, 200.0, 1, None, "Rate of shaft.tilt_z (prescribed motion)", "at rest"),
         Variable("impact.F_r", 9, "Real", "N", None, 0.0, -100000.0, 100000.0, 1, None, "Impact load added along the present radial load (+Y if there is none)", "no impact"),
         Variable("impact.F_a", 10, "Real", "N", None, 0.0, -100000.0, 100000.0, 1, None, "Impact load added along +X", "no impact"),
+        Variable("housing.x", 31, "Real", "m", "um", 0.0, -0.002, 0.002, 1, None, "Position of the outer ring along X", "at rest in the centre"),
+        Variable("housing.y", 32, "Real", "m", "um", 0.0, -0.002, 0.002, 1, None, "Position of the outer ring along Y", "at rest in the centre"),
+        Variable("housing.z", 33, "Real", "m", "um", 0.0, -0.002, 0.002, 1, None, "Position of the outer ring along Z", "at rest in the centre"),
+        Variable("housing.v_x", 34, "Real", "m/s", None, 0.0, -10.0, 10.0, 1, None, "Velocity of the outer ring along X", "at rest"),
+        Variable("housing.v_y", 35, "Real", "m/s", None, 0.0, -10.0, 10.0, 1, None, "Velocity of the outer ring along Y", "at rest"),
+        Variable("housing.v_z", 36, "Real", "m/s", None, 0.0, -10.0, 10.0, 1, None, "Velocity of the outer ring along Z", "at rest"),
+        Variable("housing.tilt_y", 37, "Real", "rad", "deg", 0.0, -0.035, 0.035, 1, None, "Tilt of the outer ring about Y (+X turns toward -Z)", "straight"),
+        Variable("housing.tilt_z", 38, "Real", "rad", "deg", 0.0, -0.035, 0.035, 1, None, "Tilt of the outer ring about Z (+X turns toward +Y)", "straight"),
+        Variable("housing.tilt_y_dot", 39, "Real", "rad/s", None, 0.0, -200.0, 200.0, 1, None, "Rate of housing.tilt_y", "at rest"),
+        Variable("housing.tilt_z_dot", 40, "Real", "rad/s", None, 0.0, -200.0, 200.0, 1, None, "Rate of housing.tilt_z", "at rest"),
+        Variable("housing.omega", 41, "Real", "rad/s", "rev/min", 0.0, -15000.0, 15000.0, 1, None, "Speed of the outer ring about X", "outer ring at rest"),
+        Variable("frame.a_x", 51, "Real", "m/s2", None, 0.0, -300000.0, 300000.0, 1, None, "Acceleration of the frame's axis of rotation along X of the frame", "frame at rest"),
+        Variable("frame.a_y", 52, "Real", "m/s2", None, 0.0, -300000.0, 300000.0, 1, None, "Acceleration of the frame's axis of rotation along Y of the frame", "frame at rest"),
+        Variable("frame.a_z", 53, "Real", "m/s2", None, 0.0, -300000.0, 300000.0, 1, None, "Acceleration of the frame's axis of rotation along Z of the frame", "frame at rest"),
+        Variable("frame.omega", 54, "Real", "rad/s", "rev/min", 0.0, -15000.0, 15000.0, 1, None, "Speed of the frame about an axis parallel to X, frame.radius away on -Y", "frame at rest"),
+        Variable("frame.omega_dot", 55, "Real", "rad/s2", None, 0.0, -10000000.0, 10000000.0, 1, None, "Rate of frame.omega", "frame at rest"),
         Variable("oil.T", 8301, "Real", "K", "degC", 359.0006, 200.0, 600.0, 1, None, "Temperature of the oil", "where MIL-PRF-23699 oil has 6 mPa.s"),
         Variable("ring.T_i", 8302, "Real", "K", "degC", 293.15, 150.0, 700.0, 1, None, "Temperature of the inner ring", "assembly temperature"),
         Variable("ring.T_e", 8303, "Real", "K", "degC", 293.15, 150.0, 700.0, 1, None, "Temperature of the outer ring", "assembly temperature"),
@@ -314,8 +345,18 @@ OUTPUTS = {
         Variable("housing.F_x", 2151, "Real", "N", None, None, None, None, 1, "ring", "Force on the housing along X (by balls and cage through the outer ring)", None),
         Variable("housing.F_y", 2152, "Real", "N", None, None, None, None, 1, "ring", "Force on the housing along Y", None),
         Variable("housing.F_z", 2153, "Real", "N", None, None, None, None, 1, "ring", "Force on the housing along Z", None),
-        Variable("housing.M_y", 2154, "Real", "N.m", None, None, None, None, 1, "ring", "Moment on the housing about Y", None),
-        Variable("housing.M_z", 2155, "Real", "N.m", None, None, None, None, 1, "ring", "Moment on the housing about Z", None),
+        Variable("housing.M_y", 2154, "Real", "N.m", None, None, None, None, 1, "ring", "Moment on the housing about Y, at the outer ring's centre", None),
+        Variable("housing.M_z", 2155, "Real", "N.m", None, None, None, None, 1, "ring", "Moment on the housing about Z, at the outer ring's centre", None),
+        Variable("housing.M_x", 2156, "Real", "N.m", None, None, None, None, 1, "ring", "Moment on the housing about X, at the outer ring's centre", None),
+        Variable("shaft.R_x", 2161, "Real", "N", None, None, None, None, 1, "ring", "Force of the bearing's contacts and films on the shaft along X", None),
+        Variable("shaft.R_y", 2162, "Real", "N", None, None, None, None, 1, "ring", "Force of the bearing's contacts and films on the shaft along Y", None),
+        Variable("shaft.R_z", 2163, "Real", "N", None, None, None, None, 1, "ring", "Force of the bearing's contacts and films on the shaft along Z", None),
+        Variable("shaft.R_My", 2164, "Real", "N.m", None, None, None, None, 1, "ring", "Moment of the bearing's contacts and films on the shaft about Y, at the inner ring's centre", None),
+        Variable("shaft.R_Mz", 2165, "Real", "N.m", None, None, None, None, 1, "ring", "Moment of the bearing's contacts and films on the shaft about Z, at the inner ring's centre", None),
+        Variable("shaft.power", 2171, "Real", "W", None, None, None, None, 1, "energy", "Power of the shaft into balls and cage: by torque, translation and tilting of the inner ring", None),
+        Variable("housing.power", 2172, "Real", "W", None, None, None, None, 1, "energy", "Power of the housing into balls and cage", None),
+        Variable("frame.power", 2173, "Real", "W", None, None, None, None, 1, "energy", "Power of gravity and of the frame's inertia forces into balls and cage", None),
+        Variable("bearing.energy", 2174, "Real", "J", None, None, None, None, 1, "energy", "Kinetic energy of balls and cage in the frame, and elastic energy of all contacts", None),
         Variable("ball[j].Q_i", 2200, "Real", "N", None, None, None, None, Z, "ball", "Contact load on the inner race", None),
         Variable("ball[j].Q_e", 2240, "Real", "N", None, None, None, None, Z, "ball", "Contact load on the outer race", None),
         Variable("ball[j].alpha_i", 2280, "Real", "rad", "deg", None, None, None, Z, "ball", "Contact angle at the inner race (0 without contact)", None),
@@ -348,7 +389,7 @@ OUTPUTS = {
         Variable("cage.slip_ratio", 2703, "Real", "1", None, None, None, None, 1, "cage", "1 - cage speed / epicyclic speed (0 at standstill)", None),
         Variable("cage.y", 2704, "Real", "m", "um", None, None, None, 1, "cage", "Displacement of the cage's centre along Y (mean of the halves)", None),
         Variable("cage.z", 2705, "Real", "m", "um", None, None, None, 1, "cage", "Displacement of the cage's centre along Z (mean of the halves)", None),
-        Variable("cage.eccentricity", 2706, "Real", "1", None, None, None, None, 1, "cage", "Displacement of the cage's centre / radial guide clearance", None),
+        Variable("cage.eccentricity", 2706, "Real", "1", None, None, None, None, 1, "cage", "Displacement of the cage's centre against the outer ring / radial guide clearance", None),
         Variable("cage.F_pocket_max", 2707, "Real", "N", None, None, None, None, 1, "ball", "Largest pocket contact load of all balls", None),
         Variable("cage.F_pocket_peak", 2708, "Real", "N", None, None, None, None, 1, "peak", "Largest pocket contact load since the last communication point", None),
         Variable("rivet[k].sigma_head", 3000, "Real", "Pa", "MPa", None, None, None, Z, "stress", "Largest principal stress in the head fillet", None),

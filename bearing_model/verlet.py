@@ -39,6 +39,7 @@ from bearing_model.variables import (
     RING_GAMMA,
     WORK,
     CageModel,
+    RingMotion,
     TiltMode,
     Traction,
     Z,
@@ -122,8 +123,10 @@ def race_surface(model, w, j, n):
 
 
 def ring_coupled(model, w, gamma):
-    """Whether traction holds back the ring so much that ring and balls are solved together."""
+    """Whether traction holds back the ring so much that ring and balls are solved together: no force moves a ring whose motion is prescribed."""
     p, rate, r = model.p, gamma * np.sum(w.g_i), 0.5 * model.p.bearing.d_m
+    if p.ring.motion == RingMotion.PRESCRIBED:
+        return False
     tilts = p.ring.tilt_mode != TiltMode.PRESCRIBED and rate * r * r > COUPLING_LIMIT * p.ring.J_t
     return rate > COUPLING_LIMIT * p.ring.m or tilts
 

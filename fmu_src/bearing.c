@@ -75,7 +75,8 @@ static void add_cage(Bearing *b, double h)
 {
     InstanceState *s = &b->s;
     const Rotor *h0 = &b->w.half[0], *h1 = &b->w.half[1];
-    const double y = 0.5 * (h0->x[1] + h1->x[1]), z = 0.5 * (h0->x[2] + h1->x[2]);
+    const double y = 0.5 * (h0->x[1] + h1->x[1]) - b->w.outer_x[1];
+    const double z = 0.5 * (h0->x[2] + h1->x[2]) - b->w.outer_x[2];
     double slip[Z];
     rivets_slip(&b->model, &b->w, slip);
     for (int k = 0; k < Z; k++) s->dislocation_max = scalar_max(s->dislocation_max, slip[k]);
@@ -147,6 +148,8 @@ void part_reset(Bearing *b)
     memset(&b->s, 0, sizeof b->s);
     memset(&b->out, 0, sizeof b->out);
     variables_set_start(&b->s.p, &b->s.u[0]);
+    b->start = b->s.u[0];
+    b->reported = false;
     b->current = 0;
     b->evaluated = false;
 }
@@ -176,11 +179,22 @@ double part_time(const Bearing *b)
     return b->s.integrator.t;
 }
 
-// Puts the load of the present inputs u_now on the ring and holds it: there is no trajectory to follow.
+// The present inputs u_now and their rates, as a trajectory that begins at the present time.
+static void present_trajectory(const Bearing *b, InputTrajectory *trajectory)
+{
+    const InstanceState *s = &b->s;
+    const Inputs u[INPUT_ORDERS + 1] = {s->u_now, s->u_now_dot};
+    input_trajectory_update(&s->p, u, s->integrator.t, s->integrator.t, trajectory);
+    trajectory->frame_angle = s->frame_angle;
+}
+
+// Puts loads and motions of the present inputs u_now on the bearing and holds them: there is no trajectory to follow.
 static void hold_ring_load(Bearing *b)
 {
+    InputTrajectory present;
+    present_trajectory(b, &present);
     b->model.trajectory = NULL;
-    ring_load_update(&b->s.p, &b->s.u_now, b->s.integrator.t, &b->ring_load);
+    ring_load_at(&present, b->s.integrator.t, &b->ring_load);
 }
 
 // Computes all that follows from the parameters at the temperatures in u.
@@ -228,10 +242,13 @@ PartStatus part_initialize(Bearing *b, double t_start, double tolerance)
 {
     InstanceState *s = &b->s;
     if (!check_all(b)) return PART_ERROR;
+    report_without_effect(b);
     s->t_start = t_start;
     s->tolerance = tolerance > 0.0 ? tolerance : s->p.solver.tol;
     s->u_now = s->u[0];
     s->u_now_dot = s->u[1];
+    s->frame_angle = 0.0;
+    s->history = (MotionHistory){.steps = 0};
     s->integrator.t = t_start;
     s->integrator.h = 1e-6;
     derive(b);
@@ -258,14 +275,15 @@ PartStatus part_initialize(Bearing *b, double t_start, double tolerance)
 }
 
 // ---- stepping ---------------------------------------------------------------------------------------------
-// Sets the trajectory of the inputs from the present time to the next edge of a pulse, in a communication
-// step that began at t_0.  Where the load on the ring jumps, the derivative at the present state is no longer
-// current.
-static void begin_trajectory(Bearing *b, double t_0)
+// Sets the trajectory of the inputs u from the present time to the next edge of a pulse, in a communication
+// step that began at t_0 with the frame at frame_angle.  Where the load on the ring jumps, the derivative at the
+// present state is no longer current.
+static void begin_trajectory(Bearing *b, const Inputs u[INPUT_ORDERS + 1], double t_0, double frame_angle)
 {
     InstanceState *s = &b->s;
     const RingLoad before = b->ring_load;
-    input_trajectory_update(&s->p, s->u, t_0, s->integrator.t, &b->trajectory);
+    input_trajectory_update(&s->p, u, t_0, s->integrator.t, &b->trajectory);
+    b->trajectory.frame_angle = frame_angle;
     b->model.trajectory = input_trajectory_varies(&b->trajectory) ? &b->trajectory : NULL;
     ring_load_at(&b->trajectory, s->integrator.t, &b->ring_load);
     if (memcmp(&b->ring_load, &before, sizeof before) == 0) return;
@@ -275,19 +293,39 @@ static void begin_trajectory(Bearing *b, double t_0)
 // Ends the trajectory at the present time: the inputs reached are held from there on.
 static void end_trajectory(Bearing *b)
 {
-    input_trajectory_rates_at(&b->trajectory, b->s.integrator.t, &b->s.u_now, &b->s.u_now_dot);
+    InstanceState *s = &b->s;
+    input_trajectory_rates_at(&b->trajectory, s->integrator.t, &s->u_now, &s->u_now_dot);
+    s->frame_angle = frame_angle_at(&b->trajectory, s->integrator.t);
     hold_ring_load(b);
+    if (s->p.ring.motion == RING_MOTION_PRESCRIBED) ring_follow(&b->ring_load, s->integrator.now.y);
+}
+
+// The values that the inputs' own polynomials have at time t, which the host reads back and which hold from there
+// on; motions that are given without derivatives keep what the host gave.
+static void inputs_reach(const Parameters *p, double t_0, double t, Inputs u[INPUT_ORDERS + 1])
+{
+    InputTrajectory given;
+    Inputs end;
+    input_trajectory_update(p, u, t_0, t, &given);
+    input_trajectory_at(&given, t, &end);
+    u[0] = end;
+    memset(&u[1], 0, INPUT_ORDERS * sizeof *u);
 }
 
 PartStatus part_step(Bearing *b, double t_end)
 {
     InstanceState *s = &b->s;
-    const double t_begin = s->integrator.t, steps_before = s->integrator.steps;
+    const double t_begin = s->integrator.t, steps_before = s->integrator.steps, frame_angle = s->frame_angle;
+    Inputs u[INPUT_ORDERS + 1];
     if (!check_inputs(b, t_end - t_begin)) return PART_ERROR;
+    motion_trajectory(&s->p, s->u, &s->history, &s->u_now, t_end - t_begin, u);
+    motion_remember(&s->u[0], t_end - t_begin, &s->history);
+    report_without_effect(b);
     const double before = cpu_clock();
     change_temperature(b, &s->u_now, &s->u[0]);
-    s->energy_start +=
-        energy_of_speed(&b->model, s->integrator.now.y, s->u_now.shaft.omega, s->u[0].shaft.omega);
+    const double frame_omega = s->u_now.frame.omega;  // which does not jump
+    s->energy_start += energy_of_speed(&b->model, s->integrator.now.y, s->u_now.shaft.omega + frame_omega,
+                                       s->u[0].shaft.omega + frame_omega);
     s->force_peak = 0.0;
     for (int k = 0; k < Z; k++) s->head_peak[k] = s->mid_peak[k] = 0.0;
     b->current = 0;
@@ -296,7 +334,7 @@ PartStatus part_step(Bearing *b, double t_end)
     // one advance for each stretch between edges of pulses
     int status = 0;
     while (status == 0 && s->integrator.t < t_end) {
-        begin_trajectory(b, t_begin);
+        begin_trajectory(b, u, t_begin, frame_angle);
         const double edge = pulse_next_edge(&s->p, s->integrator.t);
         const long left = s->p.solver.max_steps - (long)(s->integrator.steps - steps_before);
         status = integrator_advance(b->integrator, fmin(edge, t_end), left);
@@ -305,8 +343,7 @@ PartStatus part_step(Bearing *b, double t_end)
 
     // the inputs stay where they are now; temperatures that have moved meanwhile act from here on
     change_temperature(b, &s->u[0], &s->u_now);
-    s->u[0] = s->u_now;
-    memset(&s->u[1], 0, INPUT_ORDERS * sizeof *s->u);
+    inputs_reach(&s->p, t_begin, s->integrator.t, s->u);
     b->cpu_time += cpu_clock() - before;
     if (status == 0) {
         report_events(b);
@@ -379,9 +416,8 @@ static void add_thermal_derivatives(const Bearing *b, const Inputs *du, Outputs 
 static void differentiate(Bearing *b, double dt, const Inputs *du, const double *dy, Outputs *derivatives)
 {
     const InstanceState *s = &b->s;
-    const Inputs u[INPUT_ORDERS + 1] = {s->u_now, s->u_now_dot};
     InputTrajectory trajectory;
-    input_trajectory_update(&s->p, u, s->integrator.t, s->integrator.t, &trajectory);
+    present_trajectory(b, &trajectory);
     jacobian_outputs(&b->model, (const double *)&trajectory, s->integrator.t, dt, (const double *)du,
                      s->integrator.now.y, dy, (double *)derivatives);
     add_thermal_derivatives(b, du ? du : &s->u_now_dot, derivatives);

@@ -9,6 +9,8 @@
 #include "temperature.h"
 
 #include <float.h>
+#include <stddef.h>
+#include <stdio.h>
 
 // Clearance at which a ball on one race reaches the other groove's far side.
 static double largest_clearance(const Parameters *p)
@@ -25,6 +27,19 @@ static void report_error(void *bearing, const char *message)
 static bool check_variables(Bearing *b, Causality causality, const void *values)
 {
     return variables_allow(causality, values, report_error, b);
+}
+
+// Where the motions that are given lead within a step of length h.
+static bool check_motions(Bearing *b, double h)
+{
+    if (!(h > 0.0)) return true;
+    Inputs u[INPUT_ORDERS + 1], end;
+    InputTrajectory trajectory = {.t_0 = 0.0};
+    motion_trajectory(&b->s.p, b->s.u, &b->s.history, &b->s.u_now, h, u);
+    if (memcmp(u, b->s.u, sizeof u) == 0) return true;
+    memcpy(trajectory.u, u, sizeof u);
+    input_trajectory_at(&trajectory, h, &end);
+    return check_variables(b, CAUSALITY_INPUT, &end);
 }
 
 // Checks that oil and bearing bear the temperatures in u: viscosity within its limits, cage neither on the outer ring nor
@@ -74,6 +89,7 @@ bool check_inputs(Bearing *b, double h)
     const double *u_1 = (const double *)&b->s.u[1], *u_2 = (const double *)&b->s.u[2];
     InputTrajectory trajectory = {.t_0 = 0.0, .u = {b->s.u[0], b->s.u[1], b->s.u[2]}};
     Inputs u = b->s.u[0], turning = u;
+    if (!check_motions(b, h)) return false;
     if (!input_trajectory_varies(&trajectory))
         return check_variables(b, CAUSALITY_INPUT, &u) &&
                (temperature_same(&b->s.u_now, &u) || check_temperatures(b, &u));
@@ -231,18 +247,74 @@ bool check_all(Bearing *b)
     return fine && check_geometry(b) && check_table(b) && check_seat(b) && check_temperatures(b, &b->s.u[0]);
 }
 
+// Inputs that have no effect on a ring whose motion is free, and on one whose motion is prescribed.
+typedef struct {
+    const char *name;
+    size_t offset;
+} InputName;
+
+#define INPUT(group, member) {#group "." #member, offsetof(Inputs, group.member)}
+
+static const InputName OF_PRESCRIBED[] = {
+    INPUT(shaft, x),   INPUT(shaft, y),   INPUT(shaft, z),          INPUT(shaft, v_x),
+    INPUT(shaft, v_y), INPUT(shaft, v_z), INPUT(shaft, tilt_y_dot), INPUT(shaft, tilt_z_dot)};
+static const InputName OF_FREE[] = {INPUT(shaft, F_x), INPUT(shaft, F_y), INPUT(shaft, F_z),
+                                    INPUT(shaft, M_y), INPUT(shaft, M_z), INPUT(impact, F_r),
+                                    INPUT(impact, F_a)};
+static const char *const PARAMETERS_OF_FREE[] = {
+    "pulse.F_r",      "pulse.F_a",   "pulse.t_start", "pulse.duration", "pulse.interval",
+    "pulse.count",    "ring.m",      "ring.J_p",      "ring.J_t",       "ring.c",
+    "ring.tilt_mode", "ring.k_tilt", "ring.c_tilt",   "ring.tilt_time"};
+
+static void add_name(const char *name, char *list, size_t size)
+{
+    const size_t length = strlen(list);
+    snprintf(list + length, size - length, "%s%s", length > 0 ? ", " : "", name);
+}
+
+void report_without_effect(Bearing *b)
+{
+    if (b->reported) return;
+    const bool prescribed = b->s.p.ring.motion == RING_MOTION_PRESCRIBED;
+    const InputName *input = prescribed ? OF_FREE : OF_PRESCRIBED;
+    const size_t count =
+        prescribed ? sizeof OF_FREE / sizeof *OF_FREE : sizeof OF_PRESCRIBED / sizeof *OF_PRESCRIBED;
+    const char *now = (const char *)&b->s.u[0], *start = (const char *)&b->start;
+    char list[512] = "";
+    for (size_t i = 0; i < count; i++)
+        if (*(const double *)(now + input[i].offset) != *(const double *)(start + input[i].offset))
+            add_name(input[i].name, list, sizeof list);
+
+    // parameters cannot change after the start
+    for (size_t i = 0;
+         prescribed && !b->s.initialized && i < sizeof PARAMETERS_OF_FREE / sizeof *PARAMETERS_OF_FREE; i++) {
+        const Variable *v = variable_named(PARAMETERS_OF_FREE[i]);
+        if (variable_value(v, 0, &b->s.p) != v->start) add_name(v->name, list, sizeof list);
+    }
+    if (!*list) return;
+    b->reported = true;
+    bearing_log(b, LOG_WARNING, "ring.motion is %s: no effect have %s", prescribed ? "prescribed" : "free",
+                list);
+}
+
 bool check_start(Bearing *b)
 {
+    const Inputs *u = &b->s.u[0];
+    const bool prescribed = b->s.p.ring.motion == RING_MOTION_PRESCRIBED;
+    const double load[3] = {u->shaft.F_x, u->shaft.F_y, u->shaft.F_z};
+    const double place[3] = {u->shaft.x, u->shaft.y, u->shaft.z};
+    const double *drive = prescribed ? place : load;
+    const char *name = prescribed ? "shaft." : "shaft.F_", *unit = prescribed ? "m" : "N";
     for (int i = 0; i < 2 * Z; i++) {
         const double reach = ellipse_reach(&b->model, &b->w, i % 2 == 1, i / 2);
         if (reach < 0.5 * PI) continue;
         bearing_log(
             b, LOG_ERROR,
             "ball[%d] is pressed out of the %s race's groove at the start: its contact reaches to %g rad, "
-            "less than pi/2 is allowed; shaft.F_x = %g N, "
-            "shaft.F_y = %g N, shaft.F_z = %g N, shaft.tilt_y = %g rad, shaft.tilt_z = %g rad are too much",
-            i / 2 + 1, i % 2 == 1 ? "outer" : "inner", reach, b->s.u[0].shaft.F_x, b->s.u[0].shaft.F_y,
-            b->s.u[0].shaft.F_z, b->s.u[0].shaft.tilt_y, b->s.u[0].shaft.tilt_z);
+            "less than pi/2 is allowed; %sx = %g %s, %sy = %g %s, %sz = %g %s, shaft.tilt_y = %g rad, "
+            "shaft.tilt_z = %g rad are too much",
+            i / 2 + 1, i % 2 == 1 ? "outer" : "inner", reach, name, drive[0], unit, name, drive[1], unit,
+            name, drive[2], unit, u->shaft.tilt_y, u->shaft.tilt_z);
         return false;
     }
     return true;
@@ -283,6 +355,13 @@ static bool check_recorded(Bearing *b, double time)
     return fine;
 }
 
+static bool history_is_valid(const MotionHistory *history)
+{
+    const int steps = history->steps;
+    return values_are_sane(history->v, MOTIONS) && values_are_sane(history->a, MOTIONS) &&
+           values_are_amounts(&history->h, 1) && steps >= 0 && steps <= 2 && (steps == 0 || history->h > 0.0);
+}
+
 bool check_saved(Bearing *b)
 {
     const InstanceState *s = &b->s;
@@ -307,6 +386,8 @@ bool check_saved(Bearing *b)
                                               LARGEST_DERIVATIVE),
                             "derivatives of inputs");
     fine = fine && saved_is(b, values_are_sane((const double *)&s->u_now_dot, N_INPUTS), "rates of inputs");
+    fine = fine && saved_is(b, values_are_sane(&s->frame_angle, 1), "the frame's angle");
+    fine = fine && saved_is(b, history_is_valid(&s->history), "the motions given before");
     fine = fine &&
            saved_is(b, variable_allows(tolerance, 0, s->tolerance, message, sizeof message), "the tolerance");
     fine = fine && saved_is(b, integrator_state_is_valid(&s->integrator), "states and steps");

@@ -26,8 +26,11 @@
 // walls' areas A beside the lands, and their friction f = 0.066 Re^-0.25, Re = |omega_wall - omega_m| r h/nu
 // over the height h between the shoulders (turbulent bulk flow; Hirs (1973), J. Lubr. Technol. 95, 137).  With
 // isolated balls the mixture stands.  Neglected: the cage's bore, which holds the mixture too.
+//
+// All speeds are against the outer ring (outer_ring.h): oil and air at its walls turn with it.
 #include "drag.h"
 
+#include "outer_ring.h"
 #include "vec.h"
 
 static const double TINY_SPEED = 1e-30;  // [rad/s]: keeps roots and quotients finite at standstill
@@ -55,7 +58,8 @@ void drag_mixture(const Model *model, Work *w)
 {
     const Parameters *p = model->p;
     const Derived *d = model->d;
-    const scalar speed = positive(model->ring_load->omega) + TINY_SPEED;
+    const scalar outer = model->ring_load->outer_omega;
+    const scalar speed = positive(model->ring_load->omega - outer) + TINY_SPEED;
     w->filling = 1.0;
     w->stream = w->wall = 0.0;
     if (p->oil.flow > 0.0) {
@@ -65,44 +69,71 @@ void drag_mixture(const Model *model, Work *w)
     if (p->scene.drag == DRAG_ROW) {
         w->wall = 1.0 / scalar_sqrt(scalar_sqrt(speed));
         const scalar x = carried_share(d, w->wall, d->fresh / (w->filling * speed));
-        w->stream = x * (0.5 * (w->half[0].Omega[0] + w->half[1].Omega[0]));
+        w->stream = x * (0.5 * (w->half[0].Omega[0] + w->half[1].Omega[0]) - outer);
     }
+    w->stream += outer;
+}
+
+// Drag and churning of a packet of balls.  outer: the outer ring's motion, NULL if it is at rest in its place.
+INLINE void drag_packet(const Model *model, Work *w, int j, bool churning, const Rotor *outer)
+{
+    const Derived *d = model->d;
+    const wide k = wide_set(d->drag * w->filling);
+    const wide stream = wide_set(w->stream - model->ring_load->outer_omega);
+    vec turn = {0};  // of the outer ring
+    wide v_t = wide_load(&w->v_t[j]);
+    if (outer != NULL) {
+        const wide cosine = wide_load(&w->cos_theta[j]), sine = wide_load(&w->sin_theta[j]);
+        const vec p = {wide_load(&w->x[j]), wide_load(&w->r[j]), wide_set(0.0)};
+        turn = vec_local(outer->Omega, cosine, sine);
+        v_t -= outer_ring_velocity(outer, p, cosine, sine).t;
+    }
+    const wide v = v_t - stream * wide_load(&w->r[j]);
+    const wide F = -k * v * wide_abs(v);
+    wide lost = -(F * v_t);
+    wide_store(&w->F_t[j], wide_load(&w->F_t[j]) + F);
+    if (churning) {
+        const wide viscous = wide_set(d->churning_viscous * w->filling);
+        const wide boundary = wide_set(d->churning_boundary * w->filling);
+        vec omega = vec_load(&w->omega_x[j], &w->omega_r[j], &w->omega_t[j]);
+        if (outer != NULL) omega = vec_sub(omega, turn);
+        const vec spin = {omega.x - stream, omega.r, omega.t};
+        const wide speed = wide_sqrt(vec_dot(spin, spin) + TINY_SPEED);
+        const vec M = vec_scale(-(viscous + boundary * wide_sqrt(speed)), spin);
+        const vec sum = vec_add(vec_load(&w->M_x[j], &w->M_r[j], &w->M_t[j]), M);
+        vec_store(sum, &w->M_x[j], &w->M_r[j], &w->M_t[j]);
+        lost -= vec_dot(M, omega);
+    }
+    wide_store(&w->dissipated[j], wide_load(&w->dissipated[j]) + lost);
+    wide_store(&w->drag_dissipated[j], lost);
+}
+
+// Balls of a bearing whose outer ring moves.
+static __attribute__((noinline)) void drag_force_moving(const Model *model, Work *w, bool churning)
+{
+    const Rotor outer = outer_ring(model->ring_load);
+    for (int b = 0; b < PACKETS; b++) drag_packet(model, w, b * LANE_WIDTH, churning, &outer);
 }
 
 void drag_force(const Model *model, Work *w)
 {
-    const Derived *d = model->d;
     const bool churning = model->p->scene.churning == SWITCH_ON;
-    const wide k = wide_set(d->drag * w->filling), stream = wide_set(w->stream);
-    const wide viscous = wide_set(d->churning_viscous * w->filling);
-    const wide boundary = wide_set(d->churning_boundary * w->filling);
-    for (int b = 0; b < PACKETS; b++) {
-        const int j = b * LANE_WIDTH;
-        const wide v_t = wide_load(&w->v_t[j]), v = v_t - stream * wide_load(&w->r[j]);
-        const wide F = -k * v * wide_abs(v);
-        wide lost = -(F * v_t);
-        wide_store(&w->F_t[j], wide_load(&w->F_t[j]) + F);
-        if (churning) {
-            const vec omega = vec_load(&w->omega_x[j], &w->omega_r[j], &w->omega_t[j]);
-            const vec spin = {omega.x - stream, omega.r, omega.t};
-            const wide speed = wide_sqrt(vec_dot(spin, spin) + TINY_SPEED);
-            const vec M = vec_scale(-(viscous + boundary * wide_sqrt(speed)), spin);
-            const vec sum = vec_add(vec_load(&w->M_x[j], &w->M_r[j], &w->M_t[j]), M);
-            vec_store(sum, &w->M_x[j], &w->M_r[j], &w->M_t[j]);
-            lost -= vec_dot(M, omega);
-        }
-        wide_store(&w->dissipated[j], wide_load(&w->dissipated[j]) + lost);
-        wide_store(&w->drag_dissipated[j], lost);
+    if (outer_ring_moves(model->ring_load)) {
+        drag_force_moving(model, w, churning);
+        return;
     }
+    for (int b = 0; b < PACKETS; b++) drag_packet(model, w, b * LANE_WIDTH, churning, NULL);
 }
 
 void drag_cage(const Model *model, Work *w)
 {
     const Derived *d = model->d;
+    const bool moves = outer_ring_moves(model->ring_load);
+    const scalar outer = moves ? outer_ring(model->ring_load).Omega[0] : 0.0;
     w->cage_drag_dissipated = 0.0;
     for (int first = 0; first < 2; first += HALVES) {
         Rotor *half = &w->half[first];
-        const wide omega = wide_pair(half[0].Omega[0], half[HALVES - 1].Omega[0]);
+        const wide omega = wide_pair(half[0].Omega[0], half[HALVES - 1].Omega[0]) - outer;
         const wide speed = wide_abs(omega) + TINY_SPEED;
         wide disk = d->disk_laminar * wide_sqrt(speed), cylinder = wide_set(d->cylinder_laminar);
         if (wide_any(wide_above(speed, d->disk_laminar_omega)))
@@ -121,8 +152,11 @@ void drag_cage(const Model *model, Work *w)
 
 void drag_ring(const Model *model, Work *w)
 {
-    const scalar slip = w->ring.s - w->stream;
+    const RingLoad *ring_load = model->ring_load;
+    scalar s = w->ring.s;
+    if (outer_ring_moves(ring_load)) s -= dot3(w->ring.a, outer_ring(ring_load).Omega);
+    const scalar slip = s - (w->stream - ring_load->outer_omega);
     const scalar M = -(model->d->ring_drag * w->filling * w->wall) * slip * positive(slip);
     for (int i = 0; i < 3; i++) w->ring.M[i] += M * w->ring.a[i];
-    w->ring_drag_dissipated = -M * w->ring.s;
+    w->ring_drag_dissipated = -M * s;
 }

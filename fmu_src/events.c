@@ -24,7 +24,9 @@ static void lands(const Model *model, const Work *w, Event *event)
     for (int h = 0; h < 2; h++) {
         const Rotor *half = &w->half[h];
         const double x_land = h == 0 ? -model->p->cage.land_x : model->p->cage.land_x;
-        const double e_y = half->x[1] + x_land * half->a[1], e_z = half->x[2] + x_land * half->a[2];
+        const double along = half->x[0] + x_land * half->a[0] - w->outer_x[0];
+        const double e_y = half->x[1] + x_land * half->a[1] - (w->outer_x[1] + along * w->outer_gamma);
+        const double e_z = half->x[2] + x_land * half->a[2] - (w->outer_x[2] - along * w->outer_beta);
         add(event, h, sqrt(e_y * e_y + e_z * e_z), model->d->C_land);
     }
 }
@@ -103,7 +105,7 @@ static void joints(const Model *model, const Work *w, Event *event)
 
 static void clearance(const Model *model, Event *event)
 {
-    const double growth = ring_fit_growth(&model->d->fit, model->ring_load->omega);
+    const double growth = ring_fit_growth(&model->d->fit, ring_fit_speed(model->ring_load));
     add(event, 0, 2.0 * growth - model->p->bearing.P_d, 0.0);
 }
 

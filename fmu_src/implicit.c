@@ -604,10 +604,11 @@ static void ring_support(const Model *model, double gamma, double support[RING])
 }
 
 // Whether the traction of all inner contacts is much for the ring's mass, or for its tilts at the pitch
-// radius r.
+// radius r.  A ring whose motion is prescribed moves the balls, but no force moves it.
 static bool ring_coupled(const Model *model, const Work *w, double gamma)
 {
     const Parameters *p = model->p;
+    if (p->ring.motion == RING_MOTION_PRESCRIBED) return false;
     const double rate = gamma * ball_array_sum(w->g_i), r = 0.5 * p->bearing.d_m;
     const bool tilts = p->ring.tilt_mode != TILT_MODE_PRESCRIBED;
     return rate > COUPLING_LIMIT * p->ring.m || (tilts && rate * r * r > COUPLING_LIMIT * p->ring.J_t);

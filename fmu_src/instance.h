@@ -6,6 +6,7 @@
 #include "fatigue.h"
 #include "integrator.h"
 #include "part.h"
+#include "ring_load.h"
 #include "statistics.h"
 
 // Floors of the statistics' bins: smaller values are not resolved.
@@ -20,6 +21,8 @@ typedef struct {
     Parameters p;
     Inputs u[INPUT_ORDERS + 1];  // inputs of the next step: their values at its start and their derivatives
     Inputs u_now, u_now_dot;     // inputs under which the present state was reached, and their rates
+    MotionHistory history;       // of the motions that the host gave
+    double frame_angle;          // by which the frame has turned since the start [rad]
     IntegratorState integrator;
     double t_start, tolerance;
     double energy_start;  // total energy at the start [J]
@@ -42,6 +45,7 @@ struct Part {
     InstanceState s;
     Parameters hot;  // s.p at the temperatures in s.u_now: what the model sees
     Derived d;
+    Inputs start;  // start values of the variable table
     InputTrajectory trajectory;
     RingLoad ring_load;
     Model model;
@@ -52,6 +56,7 @@ struct Part {
     unsigned current;        // one bit for each output group: set while the group is up to date
     double y_dot[N_STATES];  // dy/dt at the present state
     bool evaluated;          // w and y_dot belong to the present state and inputs
+    bool reported;           // inputs and parameters without effect have been logged
     double cpu_time;         // processor time of all steps [s]
 };
 
@@ -60,6 +65,9 @@ void outputs_fill(Bearing *b, OutputGroup group);
 
 // Whether parameters and inputs make a bearing; refusals go to the log.
 bool check_all(Bearing *b);
+
+// Logs once which inputs and parameters differ from their start values but have no effect, by ring.motion.
+void report_without_effect(Bearing *b);
 
 // Whether all balls lie in their grooves at the start; w holds the results there.
 bool check_start(Bearing *b);

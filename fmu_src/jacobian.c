@@ -10,7 +10,6 @@
 #include "drag.c"
 #include "energy.c"
 #include "half_path.c"
-#include "housing.h"
 #include "joint_law.c"
 #include "land_film.c"
 #include "outputs.c"

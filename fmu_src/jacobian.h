@@ -26,5 +26,5 @@ void jacobian_matrix(const Model *model, double t, const double *y, double *J);
 void jacobian_outputs(const Model *model, const double *trajectory, double t, double dt, const double *du,
                       const double *y, const double *dy, double *d_out);
 
-// Derivative of the housing's reaction (housing.h) from results and their derivative (Work).
+// Derivative of the housing's reaction (powers.h) from results and their derivative (Work).
 void jacobian_housing(const double *w, const double *dw, double dF[3], double dM[3]);

@@ -12,6 +12,10 @@
 //   I_t = int sin^2 phi/(...)^3 dphi = a/(q^2 (1 - b^2)) + 3 a b^2/(q^4 (1 - b^2)) + 2 a b^2/(q^2 (1 - b^2)^2)
 //                                      + S (q^2 + 3 b^2)/q^5
 //
+// An outer ring that moves (outer_ring.h): e, e_dot and omega are those against its material, and the forces are along
+// its axes.  For a ring that turns this is Reynolds' equation for two turning surfaces: squeeze e_dot - (omega + omega_e)/2
+// e_x x e.
+//
 // Steady rotation gives Ocvirk's force (a = 0), pure squeeze that of the pi-film.  F is the gradient of an
 // integral of (V.n)^2/h^3 over the closing half, so that -dF/dV = kappa (I_c, I_s; I_s, I_t) exactly: these
 // are the stiff rates.
@@ -26,6 +30,7 @@
 #include "land_film.h"
 
 #include "hertz.h"
+#include "outer_ring.h"
 #include "traction.h"
 
 static const double EPS_CAP = 1.2;
@@ -59,20 +64,72 @@ INLINE wide land_film_heating(wide s_2)
     return wide_select(wide_above(s, 1e-3), heated, 1.0 - (2.0 / 3.0) * s_2);
 }
 
-// The lands of HALVES halves side by side, beginning with half `first`.
-INLINE void land_film_packet(const Model *model, Work *w, int first)
+// A land's middle and its motion against the outer ring, in the plane across the outer ring's axis.
+typedef struct {
+    wide e_y, e_z, v_y, v_z, omega;
+} LandMotion;
+
+// Position and velocity of the lands' middles, x + a x_land and v + Omega x a x_land = v + a_dot x_land; the outer
+// ring is at rest in its place.
+INLINE LandMotion land_motion(const Rotor *h0, const Rotor *h1, wide x_land)
+{
+    return (LandMotion){wide_pair(h0->x[1], h1->x[1]) + x_land * wide_pair(h0->a[1], h1->a[1]),
+                        wide_pair(h0->x[2], h1->x[2]) + x_land * wide_pair(h0->a[2], h1->a[2]),
+                        wide_pair(h0->v[1], h1->v[1]) + x_land * wide_pair(h0->a_dot[1], h1->a_dot[1]),
+                        wide_pair(h0->v[2], h1->v[2]) + x_land * wide_pair(h0->a_dot[2], h1->a_dot[2]),
+                        wide_pair(h0->Omega[0], h1->Omega[0])};
+}
+
+// The same against the outer ring's material, along its axes.
+INLINE LandMotion land_motion_against(const Rotor *outer, const Rotor *h0, const Rotor *h1, wide x_land)
+{
+    const Rotor *half[2] = {h0, h1};
+    scalar motion[5][2];
+    for (int h = 0; h < 2; h++) {
+        const scalar x = wide_lane(x_land, h % HALVES);
+        scalar p[3], v[3], turn[3], carried[3];
+        for (int i = 0; i < 3; i++) {
+            p[i] = half[h]->x[i] + x * half[h]->a[i] - outer->x[i];
+            turn[i] = half[h]->Omega[i] - outer->Omega[i];
+        }
+        cross3(outer->Omega, p, carried);
+        for (int i = 0; i < 3; i++) v[i] = half[h]->v[i] + x * half[h]->a_dot[i] - outer->v[i] - carried[i];
+        motion[0][h] = dot3(p, outer->b_y), motion[1][h] = dot3(p, outer->b_z);
+        motion[2][h] = dot3(v, outer->b_y), motion[3][h] = dot3(v, outer->b_z);
+        motion[4][h] = dot3(turn, outer->a);
+    }
+    return (LandMotion){wide_pair(motion[0][0], motion[0][1]), wide_pair(motion[1][0], motion[1][1]),
+                        wide_pair(motion[2][0], motion[2][1]), wide_pair(motion[3][0], motion[3][1]),
+                        wide_pair(motion[4][0], motion[4][1])};
+}
+
+// Adds force (F_y, F_z) and moment M_x along the outer ring's axes, at the land x from the half's centre, to its wrench.
+INLINE void add_wrench_along(const Rotor *outer, scalar x, scalar F_y, scalar F_z, scalar M_x, Rotor *half)
+{
+    scalar F[3], arm[3], lever[3];
+    for (int i = 0; i < 3; i++) {
+        F[i] = F_y * outer->b_y[i] + F_z * outer->b_z[i];
+        arm[i] = half->a[i] * x;
+    }
+    cross3(arm, F, lever);
+    for (int i = 0; i < 3; i++) {
+        half->F[i] += F[i];
+        half->M[i] += M_x * outer->a[i] + lever[i];
+    }
+}
+
+// The lands of HALVES halves side by side, beginning with half `first`.  outer: the outer ring, NULL if it is at rest in
+// its place.
+INLINE void land_film_packet(const Model *model, Work *w, int first, const Rotor *outer)
 {
     const Parameters *p = model->p;
     const Derived *d = model->d;
     Rotor *h0 = &w->half[first], *h1 = &w->half[first + HALVES - 1];
     const wide x_land = wide_pair(first == 0 ? -p->cage.land_x : p->cage.land_x, p->cage.land_x);
 
-    // position and velocity of the lands' middles: x + a x_land, v + Omega x a x_land = v + a_dot x_land
-    const wide e_y = wide_pair(h0->x[1], h1->x[1]) + x_land * wide_pair(h0->a[1], h1->a[1]);
-    const wide e_z = wide_pair(h0->x[2], h1->x[2]) + x_land * wide_pair(h0->a[2], h1->a[2]);
-    const wide v_y = wide_pair(h0->v[1], h1->v[1]) + x_land * wide_pair(h0->a_dot[1], h1->a_dot[1]);
-    const wide v_z = wide_pair(h0->v[2], h1->v[2]) + x_land * wide_pair(h0->a_dot[2], h1->a_dot[2]);
-    const wide omega = wide_pair(h0->Omega[0], h1->Omega[0]);
+    const LandMotion land =
+        outer == NULL ? land_motion(h0, h1, x_land) : land_motion_against(outer, h0, h1, x_land);
+    const wide e_y = land.e_y, e_z = land.e_z, v_y = land.v_y, v_z = land.v_z, omega = land.omega;
 
     // film: direction n of V, eccentricity (a, b) along and across V, gap function q^2
     const wide V_y = v_y + 0.5 * omega * e_z, V_z = v_z - 0.5 * omega * e_y;
@@ -127,11 +184,14 @@ INLINE void land_film_packet(const Model *model, Work *w, int first)
         const scalar x = wide_lane(x_land, i), R_h = wide_lane(R, i);
         const scalar F[3] = {0.0, wide_lane(F_y, i), wide_lane(F_z, i)};
         const scalar arm[3] = {half->a[0] * x, half->a[1] * x, half->a[2] * x};
-        half->F[1] += F[1];
-        half->F[2] += F[2];
-        half->M[0] += wide_lane(M_x, i) + arm[1] * F[2] - arm[2] * F[1];
-        half->M[1] += -arm[0] * F[2];
-        half->M[2] += arm[0] * F[1];
+        if (outer == NULL) {
+            half->F[1] += F[1];
+            half->F[2] += F[2];
+            half->M[0] += wide_lane(M_x, i) + arm[1] * F[2] - arm[2] * F[1];
+            half->M[1] += -arm[0] * F[2];
+            half->M[2] += arm[0] * F[1];
+        } else
+            add_wrench_along(outer, x, F[1], F[2], wide_lane(M_x, i), half);
         w->film_yy[h] = wide_lane(K_yy, i), w->film_yz[h] = wide_lane(K_yz, i),
         w->film_zz[h] = wide_lane(K_zz, i);
         w->film_spin[h] = wide_lane(couette, i) + wide_lane(g, i) * R_h * R_h;
@@ -140,9 +200,20 @@ INLINE void land_film_packet(const Model *model, Work *w, int first)
     }
 }
 
+// Lands of a cage whose outer ring moves.
+static __attribute__((noinline)) void land_film_moving(const Model *model, Work *w)
+{
+    Rotor outer = outer_ring(model->ring_load);
+    rotor_body_axes(&outer, 1.0, 0.0);
+    for (int first = 0; first < 2; first += HALVES) land_film_packet(model, w, first, &outer);
+}
+
 void land_film_force(const Model *model, Work *w)
 {
     w->land_elastic = w->cage_dissipated = 0.0;
-    for (int first = 0; first < 2; first += HALVES) land_film_packet(model, w, first);
+    if (outer_ring_moves(model->ring_load))
+        land_film_moving(model, w);
+    else
+        for (int first = 0; first < 2; first += HALVES) land_film_packet(model, w, first, NULL);
     w->land_dissipated = w->cage_dissipated;  // drag_cage adds to what the cage dissipates
 }

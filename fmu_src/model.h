@@ -104,14 +104,29 @@ typedef struct {
     Inputs u[INPUT_ORDERS + 1];  // inputs there, and their derivatives
     scalar pulse_r, pulse_a;     // radial and axial amplitude of the half-sine in progress [N]; 0 if none is
     scalar pulse_start, pulse_rate;  // its start [s], pi / duration [1/s]
+    scalar gravity[2], radius;       // parameters gravity.y, gravity.z [m/s2] and frame.radius [m]
+    scalar frame_angle;              // by which the frame has turned since the start, at t_0 [rad]
 } InputTrajectory;
 
-// ---- load and motion that the inputs impose on the ring at one time; written by ring_load_at --------------
+// ---- loads and motions that the inputs impose on the bearing at one time; written by ring_load_at ---------
 typedef struct {
     scalar F[3], M[2];   // load [N], moment about Y, Z [N.m]
     scalar omega;        // speed [rad/s]
     scalar beta, gamma;  // direction cosines of the shaft's tilt
     scalar omega_dot;    // rate of the speed [rad/s2]
+
+    // motion of the inner ring where it is prescribed: position, velocity, acceleration; rates of the cosines
+    scalar x[3], v[3], a[3];
+    scalar beta_dot, gamma_dot, beta_ddot, gamma_ddot;
+
+    // motion of the outer ring: position, velocity, direction cosines and their rates, speed [rad/s]
+    scalar outer_x[3], outer_v[3];
+    scalar outer_beta, outer_gamma, outer_beta_dot, outer_gamma_dot, outer_omega;
+    scalar outer_moves;  // not 0 if any of these is not
+
+    // the frame: gravity less the acceleration of the bearing's centre [m/s2], speed [rad/s] and its rate
+    scalar field[3], frame_omega, frame_omega_dot;
+    scalar frame_turns;  // not 0 if one of the last two is not
 } RingLoad;
 
 // ---- a rigid body with an axis: inner ring or cage half; written by rotor_axis, rotor_body_axes -----------
@@ -139,6 +154,9 @@ typedef struct {
     ball_array x, r, theta, v_x, v_r, omega_m, omega_x, omega_r, omega_t;
     ball_array cos_theta, sin_theta, v_t;
     Rotor ring, half[2];
+
+    // of the outer ring and of the frame, for what is recorded over steps (evaluate in rhs.c)
+    scalar outer_x[3], outer_gamma, outer_beta, frame_omega;
 
     // total force and moment on the ball about its centre (set by race_contact_force, then pocket_force and
     // drag_force add theirs), power dissipated by contacts and drag [W]

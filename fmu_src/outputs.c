@@ -4,7 +4,7 @@
 
 #include "energy.h"
 #include "hertz.h"
-#include "housing.h"
+#include "powers.h"
 #include "ring_fit.h"
 #include "ring_load.h"
 #include "rivets.h"
@@ -16,29 +16,44 @@ static const double STANDSTILL = 1e-9;
 // States that are outputs themselves.
 static void fill_state(const Evaluation *at, Outputs *out)
 {
-    out->ring.x = at->y[Y_RING_X];
-    out->ring.y = at->y[Y_RING_Y];
-    out->ring.z = at->y[Y_RING_Z];
-    out->ring.beta = at->y[Y_RING_BETA];
-    out->ring.gamma = at->y[Y_RING_GAMMA];
-    out->ring.v_x = at->y[Y_RING_V_X];
-    out->ring.v_y = at->y[Y_RING_V_Y];
-    out->ring.v_z = at->y[Y_RING_V_Z];
-    out->ring.beta_dot = at->y[Y_RING_BETA_DOT];
-    out->ring.gamma_dot = at->y[Y_RING_GAMMA_DOT];
+    const Rotor *ring = &at->w->ring;
+    out->ring.x = ring->x[0];
+    out->ring.y = ring->x[1];
+    out->ring.z = ring->x[2];
+    out->ring.beta = -ring->a[2];
+    out->ring.gamma = ring->a[1];
+    out->ring.v_x = ring->v[0];
+    out->ring.v_y = ring->v[1];
+    out->ring.v_z = ring->v[2];
+    out->ring.beta_dot = -ring->a_dot[2];
+    out->ring.gamma_dot = ring->a_dot[1];
+}
+
+static void fill_acceleration(const Evaluation *at, Outputs *out)
+{
+    const RingLoad *given = at->model->ring_load;
+    const bool prescribed = at->model->p->ring.motion == RING_MOTION_PRESCRIBED;
+    const scalar *y_dot = at->y_dot;
+    out->ring.a_x = prescribed ? given->a[0] : y_dot[Y_RING_V_X];
+    out->ring.a_y = prescribed ? given->a[1] : y_dot[Y_RING_V_Y];
+    out->ring.a_z = prescribed ? given->a[2] : y_dot[Y_RING_V_Z];
+    out->ring.beta_ddot = prescribed ? given->beta_ddot : y_dot[Y_RING_BETA_DOT];
+    out->ring.gamma_ddot = prescribed ? given->gamma_ddot : y_dot[Y_RING_GAMMA_DOT];
 }
 
 static void fill_ring(const Evaluation *at, Outputs *out)
 {
     const Work *w = at->w;
     scalar F[3], M[3];
-    out->ring.a_x = at->y_dot[Y_RING_V_X];
-    out->ring.a_y = at->y_dot[Y_RING_V_Y];
-    out->ring.a_z = at->y_dot[Y_RING_V_Z];
-    out->ring.beta_ddot = at->y_dot[Y_RING_BETA_DOT];
-    out->ring.gamma_ddot = at->y_dot[Y_RING_GAMMA_DOT];
-    ring_tilts(at->y[Y_RING_BETA], at->y[Y_RING_GAMMA], &out->ring.tilt_y, &out->ring.tilt_z);
-    housing_reaction(w, F, M);
+    fill_acceleration(at, out);
+    ring_tilts(-w->ring.a[2], w->ring.a[1], &out->ring.tilt_y, &out->ring.tilt_z);
+    out->shaft.R_x = w->ring.F[0];
+    out->shaft.R_y = w->ring.F[1];
+    out->shaft.R_z = w->ring.F[2];
+    out->shaft.R_My = w->ring.M[1];
+    out->shaft.R_Mz = w->ring.M[2];
+    housing_wrench(at->model, w, F, M);
+    out->housing.M_x = M[0];
     out->housing.F_x = F[0];
     out->housing.F_y = F[1];
     out->housing.F_z = F[2];
@@ -100,8 +115,8 @@ static void fill_ball(const Evaluation *at, Outputs *out)
         }
         force_max = scalar_max(force_max, Q_c);
     }
-    out->bearing.clearance =
-        at->model->p->bearing.P_d - 2.0 * ring_fit_growth(&d->fit, at->model->ring_load->omega);
+    const scalar growth = ring_fit_growth(&d->fit, ring_fit_speed(at->model->ring_load));
+    out->bearing.clearance = at->model->p->bearing.P_d - 2.0 * growth;
     out->bearing.contacts = contacts;
     out->bearing.penetration = penetration;
     out->cage.F_pocket_max = force_max;
@@ -128,14 +143,17 @@ static void fill_cage(const Evaluation *at, Outputs *out)
 {
     const Rotor *h0 = &at->w->half[0], *h1 = &at->w->half[1];
     const Parameters *p = at->model->p;
-    const scalar epicyclic = 0.5 * at->model->ring_load->omega * (1.0 - p->bearing.D / p->bearing.d_m);
+    const scalar outer = at->model->ring_load->outer_omega;
+    const scalar epicyclic =
+        outer + 0.5 * (at->model->ring_load->omega - outer) * (1.0 - p->bearing.D / p->bearing.d_m);
+    const scalar e_y = 0.5 * (h0->x[1] + h1->x[1]) - at->model->ring_load->outer_x[1];
+    const scalar e_z = 0.5 * (h0->x[2] + h1->x[2]) - at->model->ring_load->outer_x[2];
     out->cage.omega = 0.5 * (h0->s + h1->s);
     out->cage.slip_ratio =
         fabs(scalar_value(epicyclic)) > STANDSTILL ? 1.0 - out->cage.omega / epicyclic : 0.0;
     out->cage.y = 0.5 * (h0->x[1] + h1->x[1]);
     out->cage.z = 0.5 * (h0->x[2] + h1->x[2]);
-    out->cage.eccentricity =
-        scalar_sqrt(out->cage.y * out->cage.y + out->cage.z * out->cage.z) / at->model->d->C_land;
+    out->cage.eccentricity = scalar_sqrt(e_y * e_y + e_z * e_z) / at->model->d->C_land;
 }
 
 // Components of vectors (r, t) at the rivets along y and z of the cage's body frame.
@@ -209,7 +227,11 @@ static void fill_energy(const Evaluation *at, Outputs *out)
     out->loss.ring_drag = w->ring_drag_dissipated;
     out->loss.land = w->land_dissipated;
     out->loss.pockets = ball_array_sum(w->pocket_dissipated);
-    out->bearing.energy_residual = energy_total(at->model, at->y, w) - at->y[Y_WORK];
+    out->shaft.power = shaft_power(w);
+    out->housing.power = housing_power(at->model, w);
+    out->frame.power = frame_power(at->model, w);
+    out->bearing.energy = energy_total(at->model, at->y, w);
+    out->bearing.energy_residual = out->bearing.energy - at->y[Y_WORK];
 }
 
 void outputs_evaluate(const Evaluation *at, OutputGroup group, Outputs *out)

@@ -9,7 +9,9 @@
 //             \            /                     Q = K delta^1.5 max(0, 1 + lambda delta_dot)
 //              \__________/                      force on the ball -Q n
 //
-// The inner ring grows by its rotation and its fit: R_g + ring_fit_growth (ring_fit.h).
+// The outer race is the same with the outer ring's centre, axis and motion (outer_ring.h).
+//
+// The inner ring grows by its rotation in the fixed frame and its fit: R_g + ring_fit_growth (ring_fit.h).
 //
 // No offset or tilt is taken as small: the geometry is exact, so that the normal forces derive from a
 // potential.
@@ -25,8 +27,8 @@
 #include "race_contact.h"
 
 #include "hertz.h"
+#include "outer_ring.h"
 #include "ring_fit.h"
-#include "rotor.h"
 #include "traction.h"
 
 // Gauss-Jacobi points and weights for the weight (3/4)(1 - s^2) on [-1, 1]: exact to degree 13.
@@ -66,12 +68,11 @@ INLINE void load_contact(const Model *model, const Race *race, wide delta, wide 
     c->dissipated = (c->Q - Q_0) * delta_dot;
 }
 
-// Inner race.  R_g: present radius of the circle of groove centres; p: from the centre of the ring to that of the ball; a, v, Omega: axis, velocity and angular
+// One race.  R_g: present radius of the circle of groove centres; p: from the centre of the ring to that of the ball; a, v, Omega: axis, velocity and angular
 // velocity of the ring.  All vectors are in the frames of the balls.
-INLINE Contact inner_contact(const Model *model, const BallMotion *ball, wide R_g, vec p, vec a, vec v,
-                             vec Omega)
+INLINE Contact race_contact(const Model *model, const Race *race, const BallMotion *ball, wide R_g, vec p,
+                            vec a, vec v, vec Omega)
 {
-    const Race *race = &model->d->inner;
     const wide along = vec_dot(p, a), tiny = wide_set(TINY);
     const vec radial = vec_axpy(-along, a, p);
     const wide r = wide_sqrt(vec_dot(radial, radial) + tiny);
@@ -94,8 +95,8 @@ INLINE Contact inner_contact(const Model *model, const BallMotion *ball, wide R_
     return c;
 }
 
-// Outer race: the same for a ring at rest whose axis is X; terms that vanish for this ring are left out.
-INLINE Contact outer_contact(const Model *model, const BallMotion *ball)
+// Outer race of a ring at rest in its place: the same, without the terms that vanish there.
+INLINE Contact outer_contact_at_rest(const Model *model, const BallMotion *ball)
 {
     const Race *race = &model->d->outer;
     const vec v = ball->v, omega = ball->omega;
@@ -206,8 +207,10 @@ INLINE void store_contacts(Work *w, int j, const Contact *inner, const Contact *
     wide_store(&w->spin_dissipated[j], T_i->spin_dissipated + T_e->spin_dissipated);
 }
 
-// Both race contacts of a packet of balls.  inner_R_g: radius of the inner groove's circle as the ring has grown.
-INLINE void race_contact_packet(const Model *model, Work *w, int j, scalar inner_R_g, bool mixed, bool sliced)
+// Both race contacts of a packet of balls.  inner_R_g: radius of the inner groove's circle as the ring has grown;
+// outer_ring: its motion, NULL for a ring at rest in its place.
+INLINE void race_contact_packet(const Model *model, Work *w, int j, scalar inner_R_g, bool mixed, bool sliced,
+                                const Rotor *outer_ring)
 {
     const Derived *d = model->d;
     const wide cos_theta = wide_load(&w->cos_theta[j]), sin_theta = wide_load(&w->sin_theta[j]);
@@ -218,11 +221,16 @@ INLINE void race_contact_packet(const Model *model, Work *w, int j, scalar inner
                              .omega_m = wide_load(&w->omega_m[j]),
                              .R = wide_load(&d->R[j])};
     const vec p_i = vec_sub(ball.x, vec_local(w->ring.x, cos_theta, sin_theta));
-    const wide R_g = wide_set(inner_R_g);
-    const Contact inner = inner_contact(model, &ball, R_g, p_i, vec_local(w->ring.a, cos_theta, sin_theta),
-                                        vec_local(w->ring.v, cos_theta, sin_theta),
-                                        vec_local(w->ring.Omega, cos_theta, sin_theta));
-    const Contact outer = outer_contact(model, &ball);
+    const Contact inner = race_contact(
+        model, &d->inner, &ball, wide_set(inner_R_g), p_i, vec_local(w->ring.a, cos_theta, sin_theta),
+        vec_local(w->ring.v, cos_theta, sin_theta), vec_local(w->ring.Omega, cos_theta, sin_theta));
+    const Contact outer = outer_ring == NULL
+                              ? outer_contact_at_rest(model, &ball)
+                              : race_contact(model, &d->outer, &ball, wide_set(d->outer.R_g),
+                                             vec_sub(ball.x, vec_local(outer_ring->x, cos_theta, sin_theta)),
+                                             vec_local(outer_ring->a, cos_theta, sin_theta),
+                                             vec_local(outer_ring->v, cos_theta, sin_theta),
+                                             vec_local(outer_ring->Omega, cos_theta, sin_theta));
     const Tangential T_i = race_traction(model, &d->inner, &inner, mixed, sliced);
     const Tangential T_e = race_traction(model, &d->outer, &outer, mixed, sliced);
     store_contacts(w, j, &inner, &outer, &T_i, &T_e);
@@ -242,19 +250,33 @@ INLINE void race_contact_packet(const Model *model, Work *w, int j, scalar inner
     vec_to_global(M_ring, cos_theta, sin_theta, &w->ring_M_x[j], &w->ring_M_y[j], &w->ring_M_z[j]);
 }
 
+// Balls of a bearing whose outer ring moves.
+static __attribute__((noinline)) void race_contact_force_moving(const Model *model, Work *w, scalar inner_R_g,
+                                                                bool mixed, bool sliced)
+{
+    const Rotor outer = outer_ring(model->ring_load);
+    for (int b = 0; b < PACKETS; b++)
+        race_contact_packet(model, w, b * LANE_WIDTH, inner_R_g, mixed, sliced, &outer);
+}
+
 void race_contact_force(const Model *model, Work *w)
 {
     const bool mixed = model->p->scene.lubrication == LUBRICATION_MIXED;
     const bool sliced = model->p->scene.traction == TRACTION_SLICED;
-    const scalar R_g = model->d->inner.R_g + ring_fit_growth(&model->d->fit, model->ring_load->omega);
+    const scalar growth = ring_fit_growth(&model->d->fit, ring_fit_speed(model->ring_load));
+    const scalar R_g = model->d->inner.R_g + growth;
+    if (outer_ring_moves(model->ring_load)) {
+        race_contact_force_moving(model, w, R_g, mixed, sliced);
+        return;
+    }
     for (int b = 0; b < PACKETS; b++) {
         const int j = b * LANE_WIDTH;
         if (sliced)
-            mixed ? race_contact_packet(model, w, j, R_g, true, true)
-                  : race_contact_packet(model, w, j, R_g, false, true);
+            mixed ? race_contact_packet(model, w, j, R_g, true, true, NULL)
+                  : race_contact_packet(model, w, j, R_g, false, true, NULL);
         else
-            mixed ? race_contact_packet(model, w, j, R_g, true, false)
-                  : race_contact_packet(model, w, j, R_g, false, false);
+            mixed ? race_contact_packet(model, w, j, R_g, true, false, NULL)
+                  : race_contact_packet(model, w, j, R_g, false, false, NULL);
     }
 }
 
@@ -273,5 +295,6 @@ scalar race_growth_power(const Model *model, const Work *w)
         const scalar Q = K * w->delta_i[j] * scalar_sqrt(w->delta_i[j]);
         force -= Q * ((dot3(n, p) - along * dot3(n, ring->a)) / radius);
     }
-    return force * ring_fit_rate(&model->d->fit, load->omega, load->omega_dot);
+    return force *
+           ring_fit_rate(&model->d->fit, ring_fit_speed(load), load->omega_dot + load->frame_omega_dot);
 }

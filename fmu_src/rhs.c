@@ -4,8 +4,11 @@
 #include "ball.h"
 #include "cage_joint.h"
 #include "drag.h"
+#include "frame.h"
 #include "land_film.h"
+#include "outer_ring.h"
 #include "pocket.h"
+#include "powers.h"
 #include "race_contact.h"
 #include "ring.h"
 #include "ring_load.h"
@@ -15,12 +18,17 @@
 static void rotor_kinematics(const Model *model, const scalar *y, Work *w)
 {
     Rotor *ring = &w->ring;
+    const RingLoad *given = model->ring_load;
+    const bool prescribed = model->p->ring.motion == RING_MOTION_PRESCRIBED;
     for (int i = 0; i < 3; i++) {
-        ring->x[i] = y[Y_RING_X + i];
-        ring->v[i] = y[Y_RING_V_X + i];
+        ring->x[i] = prescribed ? given->x[i] : y[Y_RING_X + i];
+        ring->v[i] = prescribed ? given->v[i] : y[Y_RING_V_X + i];
     }
-    rotor_axis(ring, y[Y_RING_BETA], y[Y_RING_GAMMA], y[Y_RING_BETA_DOT], y[Y_RING_GAMMA_DOT],
-               model->ring_load->omega);
+    if (prescribed)
+        rotor_axis(ring, given->beta, given->gamma, given->beta_dot, given->gamma_dot, given->omega);
+    else
+        rotor_axis(ring, y[Y_RING_BETA], y[Y_RING_GAMMA], y[Y_RING_BETA_DOT], y[Y_RING_GAMMA_DOT],
+                   given->omega);
 
     // cosine and sine of the halves' rotations, side by side
     scalar cos_psi[2], sin_psi[2];
@@ -83,18 +91,29 @@ static void half_rates(const scalar *y, const Rotor *half, int h, const scalar a
     y_dot[Y_CAGE_S + h] = s_dot;
 }
 
+// Centre of mass of half h: place and velocity.
+static void half_place(const scalar *y, int h, scalar s[3], scalar v[3])
+{
+    for (int i = 0; i < 3; i++) {
+        s[i] = y[Y_CAGE_X + 2 * i + h];
+        v[i] = y[Y_CAGE_V_X + 2 * i + h];
+    }
+}
+
 // Both halves under their forces.
 static void halves_acceleration(const Model *model, const scalar *y, const Work *w, scalar *y_dot)
 {
     const Parameters *p = model->p;
-    const double gravity[3] = {0.0, p->gravity.y, p->gravity.z};
     for (int h = 0; h < 2; h++) {
         const Rotor *half = &w->half[h];
-        scalar M[3], lever[3], a_ddot[3], acc[3], s_dot;
+        scalar M[3], lever[3], a_ddot[3], acc[3], s_dot, s[3], v[3], field[3], M_f[3];
+        half_place(y, h, s, v);
+        frame_acceleration(model->ring_load, s, v, field);
+        frame_moment(model->ring_load, half, model->d->J_p, model->d->J_t, M_f);
         cross3(half->c, half->F, lever);
         for (int i = 0; i < 3; i++) {
-            M[i] = half->M[i] - lever[i];
-            acc[i] = half->F[i] / p->cage.m + gravity[i];
+            M[i] = half->M[i] - lever[i] + M_f[i];
+            acc[i] = half->F[i] / p->cage.m + field[i];
         }
         rotor_acceleration(half, model->d->J_p, model->d->J_t, M, a_ddot, &s_dot);
         half_rates(y, half, h, acc, a_ddot, s_dot, y_dot);
@@ -106,10 +125,9 @@ static void rigid_cage_acceleration(const Model *model, const scalar *y, const W
 {
     const Parameters *p = model->p;
     const Rotor *cage = &w->half[0];
-    const double gravity[3] = {0.0, p->gravity.y, p->gravity.z};
     const double J_t = 2.0 * (model->d->J_t + p->cage.m * model->d->com_x[1] * model->d->com_x[1]);
     scalar M[3], lever[3], a_ddot[3], acc[3], s_dot;
-    scalar F[3], c[3], spin_up[3], carried[3], around[3], inward[3];
+    scalar F[3], c[3], spin_up[3], carried[3], around[3], inward[3], centre[2][3], field[3], M_f[3];
 
     // force, and moment about the common centre of mass
     for (int i = 0; i < 3; i++) {
@@ -117,7 +135,16 @@ static void rigid_cage_acceleration(const Model *model, const scalar *y, const W
         c[i] = model->d->com_e * cage->b_y[i];
     }
     cross3(c, F, lever);
-    for (int i = 0; i < 3; i++) M[i] = w->half[0].M[i] + w->half[1].M[i] - lever[i];
+    frame_moment(model->ring_load, cage, 2.0 * model->d->J_p, J_t, M_f);
+    for (int i = 0; i < 3; i++) M[i] = w->half[0].M[i] + w->half[1].M[i] - lever[i] + M_f[i];
+
+    // gravity and the frame's inertia forces act at the common centre of mass, c off the geometric centre
+    cross3(cage->Omega, c, centre[1]);
+    for (int i = 0; i < 3; i++) {
+        centre[0][i] = cage->x[i] + c[i];
+        centre[1][i] += cage->v[i];
+    }
+    frame_acceleration(model->ring_load, centre[0], centre[1], field);
     rotor_acceleration(cage, 2.0 * model->d->J_p, J_t, M, a_ddot, &s_dot);
 
     // rate of Omega, which carries each half's centre of mass along
@@ -128,33 +155,31 @@ static void rigid_cage_acceleration(const Model *model, const scalar *y, const W
         cross3(spin_up, c, carried);
         cross3(cage->Omega, c, around);
         cross3(cage->Omega, around, inward);
-        for (int i = 0; i < 3; i++) acc[i] = F[i] / (2.0 * p->cage.m) + gravity[i] + carried[i] + inward[i];
+        for (int i = 0; i < 3; i++) acc[i] = F[i] / (2.0 * p->cage.m) + field[i] + carried[i] + inward[i];
         half_rates(y, cage, h, acc, a_ddot, s_dot, y_dot);
     }
     for (int i = 0; i < 4 * Z; i++) y_dot[Y_JOINT_PLATE_Y + i] = 0.0;  // friction states rest
 }
 
-// Net power into balls and cage: by the ring's motion and gravity, less what is dissipated.
+// Power of an outer ring that moves, of gravity and of the frame.
+static __attribute__((noinline)) scalar motion_power(const Model *model, const Work *w)
+{
+    scalar power = 0.0;
+    if (outer_ring_moves(model->ring_load)) power += housing_power(model, w);
+    if (frame_has_power(model->ring_load)) power += frame_power(model, w);
+    return power;
+}
+
+// Net power into balls and cage: by the rings' motions and the frame, less what is dissipated.
 static scalar net_power(const Model *model, const Work *w)
 {
-    scalar power = -dot3(w->ring.F, w->ring.v) - dot3(w->ring.M, w->ring.Omega) -
-                   ball_array_sum(w->dissipated) - w->cage_dissipated - w->ring_drag_dissipated;
+    scalar power =
+        shaft_power(w) - ball_array_sum(w->dissipated) - w->cage_dissipated - w->ring_drag_dissipated;
     if (model->p->scene.cage == CAGE_MODEL_TWO_HALF) power -= ball_array_sum(w->joint_dissipated);
-    if (scalar_value(model->ring_load->omega_dot) != 0.0) power += race_growth_power(model, w);
-    const double g_y = model->p->gravity.y, g_z = model->p->gravity.z;
-    if (g_y != 0.0 || g_z != 0.0) {
-        for (int j = 0; j < Z; j++) {
-            const scalar v_y = w->v_r[j] * w->cos_theta[j] - w->v_t[j] * w->sin_theta[j];
-            const scalar v_z = w->v_r[j] * w->sin_theta[j] + w->v_t[j] * w->cos_theta[j];
-            power += model->d->m * (g_y * v_y + g_z * v_z);
-        }
-        for (int h = 0; h < 2; h++) {
-            scalar drift[3];
-            cross3(w->half[h].Omega, w->half[h].c, drift);
-            power +=
-                model->p->cage.m * (g_y * (w->half[h].v[1] + drift[1]) + g_z * (w->half[h].v[2] + drift[2]));
-        }
-    }
+    const RingLoad *load = model->ring_load;
+    if (scalar_value(load->omega_dot) != 0.0 || scalar_value(load->frame_omega_dot) != 0.0)
+        power += race_growth_power(model, w);
+    if (outer_ring_moves(load) || frame_has_power(load)) power += motion_power(model, w);
     return power;
 }
 
@@ -173,6 +198,9 @@ void rhs_cage_advance(const Model *model, const double *middle, double h, double
 static void evaluate(const Model *model, const scalar *y, scalar *y_dot, Work *w)
 {
     const bool rigid = model->p->scene.cage == CAGE_MODEL_RIGID;
+    for (int i = 0; i < 3; i++) w->outer_x[i] = model->ring_load->outer_x[i];
+    w->outer_beta = model->ring_load->outer_beta, w->outer_gamma = model->ring_load->outer_gamma;
+    w->frame_omega = model->ring_load->frame_omega;
     ball_kinematics(y, w);
     rotor_kinematics(model, y, w);
     race_contact_force(model, w);

@@ -11,6 +11,9 @@
 // elastic deformation, which the dynamics of rigid halves does not have: on rigid halves the centrifugal loads
 // of all parts balance, so that they do no work and the energy balance has no term for them.
 //
+// In a frame that turns, the centrifugal load is that of the speed in the fixed frame; a uniform field of gravity or of
+// the frame's acceleration acts on a half as its own acceleration does, and is in the load path's balance of forces.
+//
 // The tangential inertia load of a cage whose speed changes (Euler's) is to the centrifugal one as omega_dot to
 // omega^2: 1.3 % in a run-up to 18,238 r/min within 0.1 s, 0.013 % within 10 s, so it is left out.  What a
 // pocket force accelerates is in the load path: its finite elements balance the force by the half's inertia.
@@ -134,7 +137,8 @@ void rivets_load(const Model *model, const Work *w, JointLoads *load)
     for (int h = 0; h < 2; h++)
         forces[h] = (PathForces){on[h].F_x, on[h].F_r, on[h].F_t, on[h].push_x, on[h].push_t};
     const bool touched = half_path_rows(&half->path, forces, &rows);
-    const scalar omega2 = 0.5 * (w->half[0].s * w->half[0].s + w->half[1].s * w->half[1].s);
+    const scalar s_0 = w->half[0].s + w->frame_omega, s_1 = w->half[1].s + w->frame_omega;
+    const scalar omega2 = 0.5 * (s_0 * s_0 + s_1 * s_1);
     for (int i = 0; i < ROWS; i++) {
         const wide spin = wide_set(omega2 * d->spin[i]);
         for (int k = 0; k < PACKETS * LANE_WIDTH; k += LANE_WIDTH)

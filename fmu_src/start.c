@@ -16,7 +16,8 @@
 
 #include "elementary.h"
 #include "elimination.h"
-#include "rotor.h"
+#include "outer_ring.h"
+#include "ring_load.h"
 
 enum { DOF = RING_DOF, TILT = 3 };  // of the ring: x, y, z, then from TILT on beta, gamma
 
@@ -28,9 +29,11 @@ typedef struct {
     const Kernels *kernels;
     const Model *model;
     Work *w;
-    double F_c;   // centrifugal force on a ball, with F_0 [N]
-    bool tilts;   // whether beta, gamma are unknowns
-    double F[3];  // load [N]
+    double F_c;             // centrifugal force on a ball, with F_0 [N]
+    double F_x[Z], F_r[Z];  // of the frame's field on each ball [N]
+    double x_0[Z];          // axial place of the outer ring at each ball [m]
+    bool tilts;             // whether beta, gamma are unknowns
+    double F[3];            // load [N]
 } Equilibrium;
 
 // A symmetric 2 x 2 matrix in the directions x and r [N/m].
@@ -59,7 +62,8 @@ static double ball_potential(const Equilibrium *eq, int j)
     const Derived *d = eq->model->d;
     const Work *w = eq->w;
     return elastic(d->inner.hertz.K, w->delta_i[j]) + elastic(d->outer.hertz.K, w->delta_e[j]) -
-           eq->F_c * w->r[j] + 0.5 * K_0 * w->x[j] * w->x[j];
+           (eq->F_c + eq->F_r[j]) * w->r[j] - eq->F_x[j] * w->x[j] +
+           0.5 * K_0 * (w->x[j] - eq->x_0[j]) * (w->x[j] - eq->x_0[j]);
 }
 
 // Minimises the potential of every ball for the ring's present pose; returns the sum.
@@ -82,7 +86,8 @@ static double balls_settle(const Equilibrium *eq)
                 contact_stiffness(d->outer.hertz.K, w->delta_e[j], L_e, w->n_ex[j], w->n_er[j]);
             const double xx = k_i.xx + k_e.xx + K_0, xr = k_i.xr + k_e.xr, rr = k_i.rr + k_e.rr + K_0;
             const double det = xx * rr - xr * xr;
-            const double F_x = w->F_x[j] - K_0 * w->x[j], F_r = w->F_r[j] + eq->F_c;
+            const double F_x = w->F_x[j] + eq->F_x[j] - K_0 * (w->x[j] - eq->x_0[j]);
+            const double F_r = w->F_r[j] + (eq->F_c + eq->F_r[j]);
             x[j] = w->x[j], r[j] = w->r[j], part[j] = 1.0;
             dx[j] = (rr * F_x - xr * F_r) / det, dr[j] = (xx * F_r - xr * F_x) / det;
             const double length = sqrt(dx[j] * dx[j] + dr[j] * dr[j]);
@@ -131,8 +136,9 @@ static double ring_potential(const Equilibrium *eq, const double q[DOF], double 
     const double r2 = 0.25 * p->bearing.d_m * p->bearing.d_m;  // k_0 acts at the pitch radius
     double Pi = 0.0;
     for (int i = 0; i < 3; i++) {
-        Pi += 0.5 * K_0 * q[i] * q[i] - eq->F[i] * q[i];
-        force[i] = eq->F[i] - K_0 * q[i];
+        const double off = q[i] - ring_load->outer_x[i];
+        Pi += 0.5 * K_0 * off * off - eq->F[i] * q[i];
+        force[i] = eq->F[i] - K_0 * off;
     }
     for (int i = 0; i < 2; i++) {
         const double angle = q[TILT + i] - target[i];
@@ -232,8 +238,8 @@ static double uniform(uint64_t *state)
     return (double)((z ^ (z >> 31)) >> 11) * 0x1p-53;
 }
 
-// Orbital speed without slip at both races: the balls' centres move half as fast as the inner contact points.
-// Mean over the balls, weighted by their load.
+// Orbital speed without slip at both races: against the outer ring, the balls' centres move half as fast as the inner
+// contact points.  Mean over the balls, weighted by their load.
 static double orbital_speed(const Model *model, const Work *w)
 {
     double weight = 0.0, sum = 0.0;
@@ -242,11 +248,12 @@ static double orbital_speed(const Model *model, const Work *w)
         sum += load * 0.5 * (1.0 - 2.0 * model->d->R[j] * cosine / model->p->bearing.d_m);
         weight += load;
     }
-    return model->ring_load->omega * sum / weight;
+    const double outer = model->ring_load->outer_omega;
+    return outer + (model->ring_load->omega - outer) * sum / weight;
 }
 
 // Sets both halves into the plane x_0 + (beta sin theta - gamma cos theta) r, which fits the balls' axial
-// positions, turning steadily about its normal.
+// positions, in the middle of the outer ring, turning steadily about its normal.
 static void cage_pose(const Model *model, const Work *w, double omega_m, double *y)
 {
     const Derived *d = model->d;
@@ -263,7 +270,7 @@ static void cage_pose(const Model *model, const Work *w, double omega_m, double 
         for (int i = 0; i < 3; i++) half.c[i] = d->com_x[h] * half.a[i] + d->com_e * half.b_y[i];
         cross3(half.Omega, half.c, drift);
         for (int i = 0; i < 3; i++) {
-            y[Y_CAGE_X + 2 * i + h] = (i == 0 ? x_0 : 0.0) + half.c[i];
+            y[Y_CAGE_X + 2 * i + h] = (i == 0 ? x_0 : model->ring_load->outer_x[i]) + half.c[i];
             y[Y_CAGE_V_X + 2 * i + h] = drift[i];
         }
         y[Y_CAGE_BETA + h] = beta;
@@ -272,29 +279,109 @@ static void cage_pose(const Model *model, const Work *w, double omega_m, double 
     }
 }
 
+// Azimuth of a ball from the origin, less that from the outer ring's centre (phi), at the radius r.
+static double outer_offset(const RingLoad *ring_load, double r, double phi)
+{
+    const double y = ring_load->outer_x[1], z = ring_load->outer_x[2];
+    if (y == 0.0 && z == 0.0) return 0.0;
+    const double c = portable_cos(phi), s = portable_sin(phi);
+    return scalar_atan2(z * c - y * s, r + y * c + z * s);
+}
+
+// The rings at rest where they are.
+static RingLoad resting(const RingLoad *ring_load)
+{
+    RingLoad rest = *ring_load;
+    for (int i = 0; i < 3; i++) rest.v[i] = rest.outer_v[i] = 0.0;
+    rest.outer_beta_dot = rest.outer_gamma_dot = rest.outer_omega = 0.0;
+    return rest;
+}
+
+// What the field of the frame does to ring and balls at rest, and where the outer ring is at each ball.
+static void place_in_frame(const Model *model, const Work *w, Equilibrium *eq)
+{
+    const RingLoad *frame = model->ring_load;
+    const double r = 0.5 * model->p->bearing.d_m;
+    for (int i = 0; i < 3; i++) eq->F[i] = frame->F[i] + model->p->ring.m * frame->field[i];
+    for (int j = 0; j < Z; j++) {
+        const double c = w->cos_theta[j], s = w->sin_theta[j];
+        eq->F_x[j] = model->d->m * frame->field[0];
+        eq->F_r[j] = model->d->m * (frame->field[1] * c + frame->field[2] * s);
+        eq->x_0[j] = frame->outer_x[0] + (frame->outer_beta * s - frame->outer_gamma * c) * r;
+    }
+}
+
+// Balls and cage start with the mean velocity of the rings, the ring with its own or with that of the outer ring.
+static void join_motion(const Model *model, const Work *w, double *y)
+{
+    const RingLoad *given = model->ring_load;
+    const bool prescribed = model->p->ring.motion == RING_MOTION_PRESCRIBED;
+    double v[3];
+    for (int i = 0; i < 3; i++) {
+        y[Y_RING_V_X + i] = given->outer_v[i];
+        v[i] = prescribed ? 0.5 * (given->v[i] + given->outer_v[i]) : given->outer_v[i];
+        for (int h = 0; h < 2; h++) y[Y_CAGE_V_X + 2 * i + h] += v[i];
+    }
+    for (int j = 0; j < Z; j++) {
+        const double c = w->cos_theta[j], s = w->sin_theta[j];
+        y[Y_BALL_V_X + j] = v[0];
+        y[Y_BALL_V_R + j] = v[1] * c + v[2] * s;
+        y[Y_BALL_OMEGA_M + j] += (v[2] * c - v[1] * s) / w->r[j];
+    }
+    if (prescribed) ring_follow(given, y);
+}
+
+// Largest force that is left on a ball.
+static double balls_residual(const Equilibrium *eq)
+{
+    const Work *w = eq->w;
+    double residual = 0.0;
+    for (int j = 0; j < Z; j++) {
+        const double F_x = w->F_x[j] + eq->F_x[j] - K_0 * (w->x[j] - eq->x_0[j]);
+        residual = fmax(residual, fmax(fabs(F_x), fabs(w->F_r[j] + eq->F_c + eq->F_r[j])));
+    }
+    return residual;
+}
+
 double start_state(const Kernels *kernels, const Model *model, Work *w, double *y)
 {
     const Parameters *p = model->p;
     const Derived *d = model->d;
+    const RingLoad *given = model->ring_load, rest = resting(given);
+    const Model at_rest = {p, d, &rest, NULL};
+    const bool prescribed = p->ring.motion == RING_MOTION_PRESCRIBED;
     Equilibrium eq = {
-        .kernels = kernels, .model = model, .w = w, .tilts = p->ring.tilt_mode != TILT_MODE_PRESCRIBED};
+        .kernels = kernels, .model = &at_rest, .w = w, .tilts = p->ring.tilt_mode != TILT_MODE_PRESCRIBED};
     work_init(d, w);
-    memcpy(eq.F, model->ring_load->F, sizeof eq.F);
-    const double omega_0 = 0.5 * model->ring_load->omega * (1.0 - p->bearing.D / p->bearing.d_m);
+    const double outer = given->outer_omega;
+    const double omega_0 =
+        outer + 0.5 * (given->omega - outer) * (1.0 - p->bearing.D / p->bearing.d_m) + given->frame_omega;
     eq.F_c = d->m * 0.5 * p->bearing.d_m * omega_0 * omega_0 + F_0;
 
-    // balls at rest on the pitch circle, equally spaced but for the random part
+    // balls at rest on the pitch circle about the outer ring's centre, equally spaced but for the random part
     uint64_t random = (uint64_t)p->start.seed;
     const double spread = p->start.spacing * p->cage.pocket_clearance / (0.5 * p->bearing.d_m);
     for (int j = 0; j < Z; j++) {
-        w->theta[j] = 2.0 * PI * j / Z + spread * (2.0 * uniform(&random) - 1.0);
+        const double phi = 2.0 * PI * j / Z + spread * (2.0 * uniform(&random) - 1.0);
+        w->theta[j] = phi + outer_offset(given, 0.5 * p->bearing.d_m, phi);
         w->cos_theta[j] = portable_cos(w->theta[j]);
         w->sin_theta[j] = portable_sin(w->theta[j]);
-        w->r[j] = 0.5 * p->bearing.d_m + 0.25 * p->bearing.P_d;
+        w->r[j] = 0.5 * p->bearing.d_m + 0.25 * p->bearing.P_d +
+                  (given->outer_x[1] * w->cos_theta[j] + given->outer_x[2] * w->sin_theta[j]);
     }
-    // equilibrium of ring and balls, from the ring centred with the shaft's tilt
-    double q[DOF] = {0.0, 0.0, 0.0, model->ring_load->beta, model->ring_load->gamma};
-    const double residual = equilibrium(&eq, q);
+    place_in_frame(model, w, &eq);
+    for (int j = 0; j < Z; j++) w->x[j] = eq.x_0[j];
+
+    // equilibrium of ring and balls, from the ring in the middle of the outer ring with the shaft's tilt; of the balls
+    // alone where the ring's place is given
+    const double *centre = prescribed ? given->x : given->outer_x;
+    double q[DOF] = {centre[0], centre[1], centre[2], given->beta, given->gamma}, residual;
+    if (prescribed) {
+        ring_pose(&eq, q);
+        balls_settle(&eq);
+        residual = balls_residual(&eq);
+    } else
+        residual = equilibrium(&eq, q);
 
     // kinematic speeds
     memset(y, 0, N_STATES * sizeof *y);
@@ -304,10 +391,10 @@ double start_state(const Kernels *kernels, const Model *model, Work *w, double *
         y[Y_BALL_R + j] = w->r[j];
         y[Y_BALL_THETA + j] = w->theta[j];
         y[Y_BALL_OMEGA_M + j] = omega_m;
-        // the ball rolls on the outer race about the axis across its contact normal:
+        // against the outer ring, the ball rolls on its race about the axis across its contact normal:
         // v_t + R (omega_x n_r - omega_r n_x) = 0
-        const double rolling = -w->r[j] * omega_m / d->R[j];
-        y[Y_BALL_OMEGA_X + j] = rolling * w->n_er[j];
+        const double rolling = -w->r[j] * (omega_m - outer) / d->R[j];
+        y[Y_BALL_OMEGA_X + j] = rolling * w->n_er[j] + outer;
         y[Y_BALL_OMEGA_R + j] = -rolling * w->n_ex[j];
     }
 
@@ -316,5 +403,6 @@ double start_state(const Kernels *kernels, const Model *model, Work *w, double *
     for (int i = 0; i < 3; i++) y[Y_RING_X + i] = q[i];
     y[Y_RING_BETA] = q[3];
     y[Y_RING_GAMMA] = q[4];
+    if (outer_ring_moves(given) || prescribed) join_motion(model, w, y);
     return residual;
 }

@@ -52,6 +52,12 @@ int variable_allows(const Variable *variable, int element, double value, char *m
     return 0;
 }
 
+double variable_value(const Variable *variable, int element, const void *values)
+{
+    const char *at = (const char *)values + variable->offset;
+    return variable->type == TYPE_REAL ? ((const double *)at)[element] : ((const int *)at)[element];
+}
+
 bool variables_allow(Causality causality, const void *values,
                      void (*report)(void *context, const char *message), void *context)
 {
@@ -59,9 +65,7 @@ bool variables_allow(Causality causality, const void *values,
     for (int v = 0; v < N_VARIABLES; v++) {
         if (VARIABLES[v].causality != causality) continue;
         for (int i = 0; i < VARIABLES[v].count; i++) {
-            const char *at = (const char *)values + VARIABLES[v].offset;
-            const double value =
-                VARIABLES[v].type == TYPE_REAL ? ((const double *)at)[i] : ((const int *)at)[i];
+            const double value = variable_value(&VARIABLES[v], i, values);
             char message[512];
             if (variable_allows(&VARIABLES[v], i, value, message, sizeof message)) continue;
             report(context, message);

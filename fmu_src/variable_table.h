@@ -56,5 +56,8 @@ bool variables_allow(Causality causality, const void *values,
 // The name of one element, numbered from 1 as FMI does: "ball[3].Q_i".
 void variable_element_name(const Variable *variable, int element, char *name, size_t size);
 
+// Value of an element in the Parameters, Inputs or Outputs that hold it.
+double variable_value(const Variable *variable, int element, const void *values);
+
 // Sets all start values.
 void variables_set_start(Parameters *parameters, Inputs *inputs);

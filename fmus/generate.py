@@ -407,7 +407,7 @@ def add_structure(root, table, indices):
 
 def dependencies(v, table, indices):
     """Indices of the inputs and states that an output depends on directly."""
-    patterns = [v.name] if v.state else table.groups[v.group]["depends"] if v.depends is None else v.depends
+    patterns = [v.name, *(v.depends or ())] if v.state else table.groups[v.group]["depends"] if v.depends is None else v.depends
     known = [k.name for k in table.variables if k.causality == "input" or k.state]
     return " ".join(str(indices[name]) for name in known if any(fnmatch.fnmatchcase(name, pattern) for pattern in patterns))
 

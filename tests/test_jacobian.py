@@ -84,7 +84,7 @@ def extrapolated(f, h, noise):
             row.append(fine + (fine - coarse) / (4.0 ** (m + 1) - 1.0))
             guess = np.maximum(abs(row[-1] - fine), abs(row[-1] - coarse)) + noise / h
             best, level, error = np.where(guess < error, row[-1], best), np.where(guess < error, k, level), np.minimum(guess, error)
-        finest.append((row[min(k, 1)], 4.0 * noise / h))
+        finest.append((row[min(k, 1)], 1.5 * noise / h))  # of rounding: 4/3 of this step and 1/3 of the one before
         h /= 2.0
     for k, (value, blur) in enumerate(finest):
         error = np.where(k > level, np.maximum(error, abs(value - best) - blur), error)
@@ -192,7 +192,10 @@ def housing(model, work):
     return np.concatenate([F, M])
 
 
-DRIVE_STEP = {"omega_dot": 1e4, "F": 10.0, "M": 0.1, "omega": 0.1, "beta": 1e-6, "gamma": 1e-6}
+DRIVE_STEP = {"omega_dot": 1e4, "F": 10.0, "M": 0.1, "omega": 0.1, "beta": 1e-6, "gamma": 1e-6, "x": 1e-8, "v": 1e-4, "a": 1.0, "field": 1.0}
+DRIVE_STEP |= {"frame_omega": 0.1, "frame_omega_dot": 10.0, "outer_moves": 1.0, "frame_turns": 1.0}
+DRIVE_STEP |= {"beta_dot": 1e-3, "gamma_dot": 1e-3, "beta_ddot": 1.0, "gamma_ddot": 1.0, "outer_x": 1e-8, "outer_v": 1e-4, "outer_omega": 0.1}
+DRIVE_STEP |= {"outer_beta": 1e-6, "outer_gamma": 1e-6, "outer_beta_dot": 1e-3, "outer_gamma_dot": 1e-3}
 
 
 @pytest.mark.parametrize("scene", SCENES, ids=lambda scene: "-".join(part.name for part in scene))
@@ -238,8 +241,19 @@ def test_products_with_drive_and_results(core, scene):
 
 
 EVALUATED = ("STATE", "RING", "POSE", "BALL", "CAGE", "RIVET", "STRESS", "ENERGY")
-INPUT_STEP = {"F": 10.0, "M": 0.1, "omega": 0.1, "tilt": 1e-6}
+INPUT_STEP = {"F": 10.0, "M": 0.1, "omega": 0.1, "tilt": 1e-6, "x": 1e-9, "y": 1e-9, "z": 1e-9, "v": 1e-5, "a": 0.1}
 PULSE = {"pulse.F_r": 500.0, "pulse.F_a": 100.0, "pulse.t_start": 0.0, "pulse.duration": 1e-3, "pulse.interval": 1e-2, "pulse.count": 1}
+
+
+def drawn(rng, low):
+    """A number in (low, 1) for each input: those of the motions from their own generator, so that the states stay those of the loads' tests.
+
+    Where a joint is about to open, differences of the relieved rivet loads are known to 4e-6 only, and other states may lie there.
+    """
+    loads = np.array([name.startswith(("shaft.F", "shaft.M", "shaft.omega", "shaft.tilt", "impact")) and not name.endswith("_dot") for name in INPUTS])
+    values = np.random.default_rng(99).uniform(low, 1.0, len(INPUTS))
+    values[loads] = rng.uniform(low, 1.0, np.sum(loads))
+    return values
 
 
 class Trajectory:
@@ -251,7 +265,7 @@ class Trajectory:
         self.u, self.trajectory, self.out = core.ffi.new("Inputs[3]"), core.new("InputTrajectory"), core.new("Outputs")
         self.u[0] = model.u[0]
         self.values = np.frombuffer(core.ffi.buffer(self.u)).reshape(3, -1)
-        self.start, self.values[1] = self.values[0].copy(), 1e5 * self.size * rng.uniform(-1.0, 1.0, len(INPUTS))
+        self.start, self.values[1] = self.values[0].copy(), 1e5 * self.size * drawn(rng, -1.0)
 
     def outputs(self, dt, du, y):
         lib, array = self.core.lib, self.core.array
@@ -287,7 +301,7 @@ def test_outputs_by_time_inputs_and_states(core, scene):
     for kind in KINDS:
         model, y = prepared(core, kind, scene, rng, **PULSE)
         trajectory = Trajectory(core, model, 3e-4, rng)
-        dt, du, dy = 1e-6, trajectory.size * rng.uniform(0.5, 1.0, len(INPUTS)), 0.1 * STEP * rng.uniform(-1.0, 1.0, N_STATES)
+        dt, du, dy = 1e-6, trajectory.size * drawn(rng, 0.5), 0.1 * STEP * rng.uniform(-1.0, 1.0, N_STATES)
         noise = rounding(lambda y, trajectory=trajectory: trajectory.outputs(0.0, 0.0, y), y, rng)
         differences, error = extrapolated(lambda h, c=trajectory, dt=dt, du=du, y=y, dy=dy: c.outputs(h * dt, h * du, y + h * dy), 1.0, noise)
         exact = trajectory.derivatives(dt, du, y, dy)

@@ -202,10 +202,13 @@ def test_impact_inputs(core):
 # ----------------------------------------------------------------------------------------------------------------- inputs by time
 
 
+SIZE = {"omega": 1000.0, "tilt": 0.01, "x": 1e-4, "y": 1e-4, "z": 1e-4, "v": 0.1}  # of inputs by the first part of their names; others 1000
+
+
 def random_trajectory(core, rng):
     """The same polynomials of all inputs in both twins, at a time in the middle of a pulse."""
     names, u = list(INPUTS), core.ffi.new("Inputs[3]")
-    size = np.array([{"omega": 1000.0, "tilt": 0.01}.get(name.split(".")[1].split("_")[0], 1000.0) for name in names])
+    size = np.array([SIZE.get(name.split(".")[1].split("_")[0], 1000.0) for name in names])
     values = np.frombuffer(core.ffi.buffer(u)).reshape(3, -1)
     values[...] = rng.uniform(-1.0, 1.0, values.shape) * size * np.array([[1.0], [1e3], [1e6]])
     values[0, [i for i, name in enumerate(names) if INPUTS[name].unit == "K"]] = 300.0  # limits that no load has

@@ -10,8 +10,10 @@ from bearing_model import variables
 from bearing_model.energy import energy_total, power_loss
 from bearing_model.integrator import observe, simulate
 from bearing_model.land_film import land_film_gap
-from bearing_model.model import Model, Work
+from bearing_model.model import Model, Work, derived_at
+from bearing_model.parameters import InputDerivatives, Inputs, Parameters
 from bearing_model.rhs import jacobian, rhs
+from bearing_model.ring_load import input_trajectory_here, input_trajectory_update, motion_trajectory, ring_load_at
 from bearing_model.start import start_state
 from bearing_model.statistics import StatisticsChannel
 
@@ -49,6 +51,12 @@ MIXED, SLICED, RIGID = {"scene.lubrication": 2}, {"scene.traction": 2}, {"scene.
 UNBALANCE = {"cage.unbalance": 2e-6, "gravity.y": -9.81, "gravity.z": 3.0}
 PULSE = {"pulse.F_r": 1401.0, "pulse.F_a": 241.0, "pulse.t_start": 0.0}
 LOADS = {"shaft.F_x": 800.0, "shaft.F_y": 2000.0, "shaft.F_z": -1500.0, "shaft.M_y": 3.0, "shaft.M_z": -2.0, "shaft.tilt_y": 1e-3, "shaft.tilt_z": 2.6e-3}
+PRESCRIBED = {"ring.motion": 2}
+MOTION = {"shaft.x": 6e-6, "shaft.y": 25e-6, "shaft.z": -12e-6, "shaft.v_x": 0.02, "shaft.v_y": -0.05, "shaft.v_z": 0.03}
+MOTION |= {"shaft.tilt_y": 1e-3, "shaft.tilt_z": -7e-4, "shaft.tilt_y_dot": 0.7, "shaft.tilt_z_dot": -0.4}
+HOUSING = {"housing.x": 5e-6, "housing.y": -8e-6, "housing.z": 7e-6, "housing.v_x": 0.01, "housing.v_y": 0.04, "housing.v_z": -0.03, "housing.omega": -500.0}
+HOUSING |= {"housing.tilt_y": 4e-4, "housing.tilt_z": -3e-4, "housing.tilt_y_dot": 0.5, "housing.tilt_z_dot": 0.3}
+FRAME = {"frame.a_x": 50.0, "frame.a_y": -300.0, "frame.a_z": 200.0, "frame.omega": 150.0, "frame.omega_dot": 4000.0}
 HOT = {"oil.T": 330.0, "ring.T_i": 345.0, "ring.T_e": 330.0, "ball.T": 350.0, "cage.T": 340.0}
 SLOW, BACKWARD = {"shaft.omega": 418.9}, {"shaft.omega": -1500.0}
 SCENES = {
@@ -61,9 +69,12 @@ SCENES = {
     "rigid_mixed_sliced": (RIGID | MIXED | SLICED | SUPPORTED | UNBALANCE, LOADS),
     "other": (OTHER, HOT),
     "other_mixed_sliced": (OTHER | MIXED | SLICED | SUPPORTED | UNBALANCE, LOADS | HOT),
+    "planet": (SUPPORTED | UNBALANCE | {"frame.radius": 0.15}, LOADS | HOUSING | FRAME),
+    "prescribed": (MIXED | PRESCRIBED | {"cage.pocket_clearance": 1e-4}, MOTION | HOUSING),
+    "prescribed_rigid": (RIGID | PRESCRIBED | UNBALANCE | {"frame.radius": 0.15}, MOTION | HOUSING | FRAME),
     "other_rigid": (OTHER | RIGID | FREE | MIXED, SLOW),
 }
-PER_SCENE = 120  # 1200 states in all
+PER_SCENE = 120  # 1560 states in all
 
 
 def plain(numbers):
@@ -191,16 +202,15 @@ def differences(model, w, f, g):
 
 
 def test_derivatives(core, record_property):
-    """dy/dt of both twins at 1200 random states.
+    """dy/dt of both twins at 1560 random states.
 
     Tolerance: a deflection of 0.3 ... 3 um is a difference of lengths of 27 mm, whose rounding (3.5e-18 m) is 1e-12 ... 1e-11 of it.
     """
     rng, worst, seen = np.random.default_rng(1), {}, {}
     for scene, (parameters, inputs) in SCENES.items():
-        model, y, _ = start_of(scene)
-        c = core.model(parameters, inputs)
         t, w = 2e-4, Work()
-        ys = random_states(model, y, rng, PER_SCENE)
+        model, c = Model.of(parameters, inputs, t), core.model(parameters, inputs)
+        ys = random_states(model, start_of(scene)[1], rng, PER_SCENE)
         g = rhs(model, t, ys, w)
         f = np.array([c.rhs(t, y) for y in ys])
         for name, difference in differences(model, w, f, g).items():
@@ -209,7 +219,7 @@ def test_derivatives(core, record_property):
             seen[name] = seen.get(name, 0) + int(np.sum(states))
     record_property("worst", plain(worst))
     print(f"relative differences of dy/dt {[f'{k} {v:.1e}' for k, v in worst.items()]}; states by situation {seen}")
-    assert min(seen.values()) >= 40  # of 1,200: every situation occurs; observed 44 for the 6310
+    assert min(seen.values()) >= 40  # of 1,560: every situation occurs; observed 44 for the 6310
     assert max(worst.values()) < 1e-11  # observed 1.7e-12
 
 
@@ -279,6 +289,21 @@ def test_start_spacing(core, changes):
 # ----------------------------------------------------------------------------------------------------------------------- outputs
 
 
+def under_way(parameters, inputs, h):
+    """The model along inputs whose motions go on with their velocities for a communication step of length h [s], from time 0 on."""
+    p, given = Parameters(parameters), Inputs(inputs)
+    u = motion_trajectory(p, (given, InputDerivatives(), InputDerivatives()), given, h)
+    trajectory = input_trajectory_update(p, u, 0.0, 0.0)
+    return Model(*derived_at(p, given), ring_load_at(trajectory, 0.0), trajectory)
+
+
+def after_a_step(parameters, inputs, h):
+    """The model under inputs whose motions have gone on for one communication step, and are held there."""
+    model = under_way(parameters, inputs, h)
+    model.ring_load, model.trajectory = ring_load_at(input_trajectory_here(model.trajectory, h), h), None
+    return model
+
+
 @pytest.mark.parametrize("scene", SCENES)
 def test_outputs(core, scene, record_property):
     """Every output of the FMU at one instant, at random states with loaded joints: put in the place of the state that a step reached."""
@@ -287,6 +312,7 @@ def test_outputs(core, scene, record_property):
     first, w, worst = Instance(core, parameters, inputs), Work(), {}
     rhs(model, 0.0, first.y, w)
     energy_start, t = energy_total(model, w), 3e-4
+    model = after_a_step(parameters, inputs, t)
     for y in random_states(model, y_start, np.random.default_rng(4), 5):
         instance = Instance(core, parameters, inputs).step(t)
         np.frombuffer(core.ffi.buffer(core.lib.part_state(instance.bearing), y.nbytes))[:] = y
@@ -430,15 +456,15 @@ def test_energy(scene, record_property):
 def test_power_is_rate_of_energy(record_property):
     """dE/dt by the chain rule - a complex step of the energy along dy/dt - equals the net power at random states: each element keeps its account.
 
-    Tolerance: rounding of sums of some hundred terms.
+    Motions that are given go on with their velocities.  Tolerance: rounding of sums of some hundred terms.
     """
     worst = 0.0
-    for scene in SCENES:
-        model, y, _ = start_of(scene)
-        ys = random_states(model, y, np.random.default_rng(5), 40)
+    for scene, (parameters, inputs) in SCENES.items():
+        model = under_way(parameters, inputs, 1e-3)
+        ys = random_states(model, start_of(scene)[1], np.random.default_rng(5), 40)
         w, moved = Work(), Work()
         y_dot = rhs(model, 0.0, ys, w)
-        rhs(model, 0.0, ys + 1e-30j * y_dot, moved)
+        rhs(model, 1e-30j, ys + 1e-30j * y_dot, moved)
         rate, power = np.imag(energy_total(model, moved)) / 1e-30, y_dot[:, variables.WORK][:, 0]
         worst = max(worst, np.max(np.abs(rate - power) / np.maximum(np.abs(power), power_loss(model, w)[:, 0])))
     record_property("worst", plain(worst))
@@ -447,17 +473,24 @@ def test_power_is_rate_of_energy(record_property):
 
 
 def test_ledger(record_property):
-    """Supplied = change of energy + lost, term by term: everything moves, loads jump at communication points, a pulse hits between them.
+    """Supplied = change of energy + lost, term by term: everything moves, the housing swings, the frame turns, loads jump at communication points, a pulse
+    hits between them.
 
     Quadrature of the powers over steps of 5 us: (h omega)^4/720 = 1 % of their fluctuation at 2.5e5 rad/s, whose mean is nothing.
     """
-    parameters = UNBALANCE | SUPPORTED | PULSE | {"cage.pocket_clearance": 5e-5, "pulse.duration": 5e-4}
-    results = simulate(parameters, lambda t: LOADS if t < 3e-4 else LOADS | {"shaft.omega": 1500.0}, 1e-3, tolerance=1e-4, method="RK45")
+    parameters = UNBALANCE | SUPPORTED | PULSE | {"cage.pocket_clearance": 5e-5, "pulse.duration": 5e-4, "frame.radius": 0.15}
+
+    def inputs(t):
+        swing, angle = 2.0 * np.pi * 500.0, 2.0 * np.pi * 500.0 * t
+        housing = {"housing.y": 1e-5 * np.sin(angle), "housing.v_y": 1e-5 * swing * np.cos(angle)}
+        return LOADS | housing | {"frame.omega": 150.0} | ({} if t < 3e-4 else {"shaft.omega": 1500.0})
+
+    results = simulate(parameters, inputs, 1e-3, tolerance=1e-4, method="RK45")
     ledger = results.ledger
     terms = ledger.supplied | ledger.stored | {f"lost: {name}": value for name, value in ledger.lost.items()}
     turned_over = sum(abs(value[-1]) for value in ledger.supplied.values())
     record_property("J", plain({name: value[-1] for name, value in terms.items()} | {"residual": ledger.residual[-1]}))
-    assert len(terms) == 5 + 6 + 7
+    assert len(terms) == 5 + 6 + 8
     assert np.max(np.abs(ledger.residual)) < 1e-3 * turned_over  # observed 1.2e-5
     for name, value in terms.items():
         assert value.shape == results.t.shape and value[0] == 0.0

@@ -119,8 +119,8 @@ def test_structure(description):
     assert derivatives == motion | turning
     by_name = {u.variable.name: u for u in description.outputs}
     assert by_name["stat.Q_c_mean"].dependencies == []
-    assert [v.name for v in by_name["ring.x"].dependencies] == ["ring.x"]
-    assert [v.name for v in by_name["ring.tilt_y"].dependencies] == ["ring.beta", "ring.gamma"]
+    assert [v.name for v in by_name["ring.x"].dependencies] == ["shaft.x", "ring.x"]
+    assert [v.name for v in by_name["ring.tilt_y"].dependencies] == ["shaft.tilt_y", "shaft.tilt_z", "ring.beta", "ring.gamma"]
     assert {"shaft.F_x", "shaft.omega", "ring.v_z"} <= {v.name for v in by_name["ring.a_x"].dependencies}
 
 

@@ -9,7 +9,7 @@
 
 #define FMI2_FUNCTION_PREFIX RivetedBearing_  // of the functions of a source-code FMU
 #define MODEL_IDENTIFIER "RivetedBearing"
-#define MODEL_GUID "{a5c23dc9-690c-2758-8309-c84353b6da84}"  // digest of the table
+#define MODEL_GUID "{e72dec66-7575-82ea-0425-9c711544306a}"  // digest of the table
 
 enum { Z = 9 };  // number of balls
 
@@ -17,6 +17,10 @@ enum {  // TiltMode
     TILT_MODE_PRESCRIBED = 1,  // tilt follows shaft.tilt through a critically damped filter
     TILT_MODE_SUPPORTED = 2,  // elastic support: k_tilt (shaft.tilt - ring.tilt) + c_tilt (rates) + shaft.M
     TILT_MODE_FREE = 3,  // external moments shaft.M only
+};
+enum {  // RingMotion
+    RING_MOTION_FREE = 1,  // loads move the inner ring: shaft.F, shaft.M, impacts
+    RING_MOTION_PRESCRIBED = 2,  // the inner ring moves as shaft.x, y, z, tilt_y, tilt_z and their rates say
 };
 enum {  // CageModel
     CAGE_MODEL_TWO_HALF = 1,  // two halves held by the rivets
@@ -153,6 +157,7 @@ typedef struct {
         double c_tilt;  // [N.m.s/rad] Angular damping of the ring's support (supported tilt)
         double bore;  // [m] Bore of the inner ring: its growth by rotation and fit
         double rho;  // [kg/m3] Density of the inner ring
+        int motion;  // RingMotion: Whether the shaft's loads or its motion are given
         double outside;  // [m] Outside diameter of the outer ring: its fit in the housing
         double effective_i;  // [m] Outside diameter of the cylinder that the inner ring is for growth and fit
         double effective_e;  // [m] Inside diameter of the cylinder that the outer ring is for its fit
@@ -173,9 +178,12 @@ typedef struct {
         double expansion;  // [1/K] Thermal expansion of the housing, whose seat has the outer ring's temperature
     } housing;
     struct {
-        double y;  // [m/s2] Gravity along Y
-        double z;  // [m/s2] Gravity along Z
+        double y;  // [m/s2] Gravity along Y of the fixed frame, to which the bearing's frame is parallel at the start
+        double z;  // [m/s2] Gravity along Z of the fixed frame
     } gravity;
+    struct {
+        double radius;  // [m] Distance of the bearing from the axis of frame.omega, which lies on -Y
+    } frame;
     struct {
         double F_r;  // [N] Amplitude of the built-in half-sine impacts along the radial load
         double F_a;  // [N] Amplitude of the built-in half-sine impacts along +X
@@ -226,11 +234,39 @@ typedef struct {
         scalar omega;  // [rad/s] Speed of the inner ring about X
         scalar tilt_y;  // [rad] Tilt of the shaft about Y (+X turns toward -Z)
         scalar tilt_z;  // [rad] Tilt of the shaft about Z (+X turns toward +Y)
+        scalar x;  // [m] Position of the inner ring along X (prescribed motion)
+        scalar y;  // [m] Position of the inner ring along Y (prescribed motion)
+        scalar z;  // [m] Position of the inner ring along Z (prescribed motion)
+        scalar v_x;  // [m/s] Velocity of the inner ring along X (prescribed motion)
+        scalar v_y;  // [m/s] Velocity of the inner ring along Y (prescribed motion)
+        scalar v_z;  // [m/s] Velocity of the inner ring along Z (prescribed motion)
+        scalar tilt_y_dot;  // [rad/s] Rate of shaft.tilt_y (prescribed motion)
+        scalar tilt_z_dot;  // [rad/s] Rate of shaft.tilt_z (prescribed motion)
     } shaft;
     struct {
         scalar F_r;  // [N] Impact load added along the present radial load (+Y if there is none)
         scalar F_a;  // [N] Impact load added along +X
     } impact;
+    struct {
+        scalar x;  // [m] Position of the outer ring along X
+        scalar y;  // [m] Position of the outer ring along Y
+        scalar z;  // [m] Position of the outer ring along Z
+        scalar v_x;  // [m/s] Velocity of the outer ring along X
+        scalar v_y;  // [m/s] Velocity of the outer ring along Y
+        scalar v_z;  // [m/s] Velocity of the outer ring along Z
+        scalar tilt_y;  // [rad] Tilt of the outer ring about Y (+X turns toward -Z)
+        scalar tilt_z;  // [rad] Tilt of the outer ring about Z (+X turns toward +Y)
+        scalar tilt_y_dot;  // [rad/s] Rate of housing.tilt_y
+        scalar tilt_z_dot;  // [rad/s] Rate of housing.tilt_z
+        scalar omega;  // [rad/s] Speed of the outer ring about X
+    } housing;
+    struct {
+        scalar a_x;  // [m/s2] Acceleration of the frame's axis of rotation along X of the frame
+        scalar a_y;  // [m/s2] Acceleration of the frame's axis of rotation along Y of the frame
+        scalar a_z;  // [m/s2] Acceleration of the frame's axis of rotation along Z of the frame
+        scalar omega;  // [rad/s] Speed of the frame about an axis parallel to X, frame.radius away on -Y
+        scalar omega_dot;  // [rad/s2] Rate of frame.omega
+    } frame;
     struct {
         scalar T;  // [K] Temperature of the oil
     } oil;
@@ -249,6 +285,7 @@ typedef struct {
 typedef struct {
     struct {
         scalar Z;  // [1] Number of balls (build-time constant)
+        scalar energy;  // [J] Kinetic energy of balls and cage in the frame, and elastic energy of all contacts
         scalar friction_torque;  // [N.m] Torque that the shaft must supply about X
         scalar power_loss;  // [W] Power dissipated in contacts, films, drag and joints
         scalar energy_residual;  // [J] Energy now - energy at start - net work since: 0 but for the errors of the integration and of the work's own integral
@@ -279,9 +316,22 @@ typedef struct {
         scalar F_x;  // [N] Force on the housing along X (by balls and cage through the outer ring)
         scalar F_y;  // [N] Force on the housing along Y
         scalar F_z;  // [N] Force on the housing along Z
-        scalar M_y;  // [N.m] Moment on the housing about Y
-        scalar M_z;  // [N.m] Moment on the housing about Z
+        scalar M_y;  // [N.m] Moment on the housing about Y, at the outer ring's centre
+        scalar M_z;  // [N.m] Moment on the housing about Z, at the outer ring's centre
+        scalar M_x;  // [N.m] Moment on the housing about X, at the outer ring's centre
+        scalar power;  // [W] Power of the housing into balls and cage
     } housing;
+    struct {
+        scalar R_x;  // [N] Force of the bearing's contacts and films on the shaft along X
+        scalar R_y;  // [N] Force of the bearing's contacts and films on the shaft along Y
+        scalar R_z;  // [N] Force of the bearing's contacts and films on the shaft along Z
+        scalar R_My;  // [N.m] Moment of the bearing's contacts and films on the shaft about Y, at the inner ring's centre
+        scalar R_Mz;  // [N.m] Moment of the bearing's contacts and films on the shaft about Z, at the inner ring's centre
+        scalar power;  // [W] Power of the shaft into balls and cage: by torque, translation and tilting of the inner ring
+    } shaft;
+    struct {
+        scalar power;  // [W] Power of gravity and of the frame's inertia forces into balls and cage
+    } frame;
     struct {
         scalar Q_i[Z];  // [N] Contact load on the inner race
         scalar Q_e[Z];  // [N] Contact load on the outer race
@@ -321,7 +371,7 @@ typedef struct {
         scalar slip_ratio;  // [1] 1 - cage speed / epicyclic speed (0 at standstill)
         scalar y;  // [m] Displacement of the cage's centre along Y (mean of the halves)
         scalar z;  // [m] Displacement of the cage's centre along Z (mean of the halves)
-        scalar eccentricity;  // [1] Displacement of the cage's centre / radial guide clearance
+        scalar eccentricity;  // [1] Displacement of the cage's centre against the outer ring / radial guide clearance
         scalar F_pocket_max;  // [N] Largest pocket contact load of all balls
         scalar F_pocket_peak;  // [N] Largest pocket contact load since the last communication point
     } cage;
@@ -494,5 +544,5 @@ typedef enum {
     SCALE_COUNT
 } StateScale;
 
-enum { N_INPUTS = 15 };  // all of them numbers
-enum { N_VARIABLES = 285 };  // time is the first
+enum { N_INPUTS = 39 };  // all of them numbers
+enum { N_VARIABLES = 321 };  // time is the first

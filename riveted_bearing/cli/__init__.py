@@ -4,7 +4,7 @@ For a further command write its module here and add the module's name to the lin
 belongs into a module of riveted_bearing.  Slow imports (fmpy, matplotlib, SciPy) stand inside the command's function.
 """
 
-from . import build, run, sweep, life, sensitivity, optimize, study, compare, report, info, variables, rivet  # noqa: F401, I001
+from . import build, run, sweep, life, sensitivity, optimize, study, compare, report, info, matrices, variables, rivet  # noqa: F401, I001
 from .terminal import program
 
 __all__ = ["program"]

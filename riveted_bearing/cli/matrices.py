@@ -1,0 +1,78 @@
+"""riveted-bearing matrices: stiffness and damping over speed and load."""
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+from rich.markup import escape
+from rich.progress import BarColumn, Progress, TextColumn
+from rich.table import Column, Table
+
+from ..results import make_folder
+from .terminal import FMU, command, console, messages, number_or_text
+
+SPEEDS = 6  # up to that of the scene, if none is given
+
+
+@command
+def matrices(
+    scene: Annotated[str, typer.Argument(help="scene file (TOML) or one of the shipped scenes: bearing, loads and speed")] = "demo",
+    fmu: FMU = None,
+    out: Annotated[Path, typer.Option(help="folder for the files")] = Path("results"),
+    speeds: Annotated[list[str] | None, typer.Option("--speed", help='speed, e.g. --speed "6000 rev/min"; repeatable; default: six up to the scene\'s')] = None,
+    loads: Annotated[list[float] | None, typer.Option("--load", help="factor of the scene's loads; repeatable; default: 1")] = None,
+    frequency: Annotated[float | None, typer.Option(min=1.0, help="frequency of the shakes in Hz; default: the speed's own")] = None,
+    static: Annotated[bool, typer.Option("--static", help="the quasi-static stiffness alone, without the FMU's response")] = False,
+):
+    """Stiffness and damping (5 x 5, shaft against housing) over speed and load, as CSV, as a ROSS bearing and as a picture."""
+    import math
+
+    from ..bearings import scene_case
+    from ..fmu import Model
+    from ..matrices import dynamic_matrices, plot_matrices, quasi_static_matrices, write_ross, write_table
+    from ..scene import load_scene
+    from ..units import to_si
+
+    model = Model(fmu)
+    plan = load_scene(scene, model)
+    case = scene_case(scene, model)
+    variable = model.inputs["shaft.omega"]
+    omegas = [speed_of(text, variable, model, to_si) for text in speeds or ()] or [case.load.omega * (i + 1) / SPEEDS for i in range(SPEEDS)]
+    balanced = quasi_static_matrices(case, sorted(omegas), loads or [1.0])  # refuses before anything is written
+    make_folder(out)
+    with Progress(TextColumn("matrices"), BarColumn(bar_width=30), console=messages, disable=not messages.is_terminal) as bar:
+        task, w = bar.add_task("matrices", total=1.0), frequency and 2.0 * math.pi * frequency
+        found = balanced if static else dynamic_matrices(model, case, plan, balanced, w, progress=lambda share: bar.update(task, completed=share))
+    console.print(table(found))
+    stem = Path(scene).stem
+    paths = [write_table(found, out / f"{stem}_matrices.csv"), plot_matrices(found, out / f"{stem}_matrices.png")]
+    for load in dict.fromkeys(point.load for point in found):
+        name = f"{stem}_ross.toml" if len(loads or [1.0]) == 1 else f"{stem}_ross_{load:g}.toml"
+        paths.append(write_ross([point for point in found if point.load == load], out / name, tag=stem))
+    for path in paths:
+        console.print(f"written  [cyan]{escape(str(path))}[/]", soft_wrap=True)
+
+
+def speed_of(text, variable, model, to_si):
+    """A speed [rad/s] from a text with its unit; UserError names what is allowed."""
+    from ..errors import UserError
+
+    try:
+        value = to_si(number_or_text(text), model.units[variable.unit])
+        model.check_range(value, variable)
+    except UserError as problem:
+        raise UserError(f"--speed {text}: {problem}") from None
+    return value
+
+
+def table(found):
+    """Diagonals of stiffness and damping for the terminal."""
+    heads = ("speed r/min", "load", *(f"K {i}{i} N/um" for i in "xyz"), *(f"K FMU {i}{i}" for i in "xyz"), *(f"C {i}{i} N s/m" for i in "xyz"))
+    shown = heads if found[0].K is not None else heads[:5]
+    rows = Table(*(Column(head, justify="right") for head in shown), box=None)
+    for p in found:
+        values = [f"{p.omega * 9.549296585513721:,.0f}", f"{p.load:g}", *(f"{1e-6 * p.K_static[i, i]:.1f}" for i in range(3))]
+        if p.K is not None:
+            values += [f"{1e-6 * p.K[i, i]:.1f}" for i in range(3)] + [f"{p.C[i, i]:.0f}" for i in range(3)]
+        rows.add_row(*values)
+    return rows

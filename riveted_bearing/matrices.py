@@ -1,0 +1,205 @@
+"""Stiffness and damping of the bearing, shaft against housing, over speed and load.
+
+    R = R_0 - K q - C q_dot,   q = (x, y, z, tilt_y, tilt_z) of the inner ring,   R = (F_x, F_y, F_z, M_y, M_z) on the shaft
+
+K by the quasi-static equilibrium: balls follow, their inertia loads stay; mean over the azimuths that the balls pass.  K and C by the FMU: the inner
+ring is prescribed at the equilibrium and shaken
+along one direction after the other, q_i = A sin(w t); the first harmonic of R over whole periods gives column i of K + i w C.  Each shake runs with +A and with
+-A: half the difference leaves out what balls that pass do of themselves.
+"""
+
+import math
+from dataclasses import dataclass, replace
+
+import numpy as np
+from fmpy.fmi1 import FMICallException
+
+from bearing_model.quasi_static import quasi_static
+
+from .errors import UserError
+from .fmu import Instance
+from .results import write_atomically
+
+DIRECTIONS = ("x", "y", "z", "tilt_y", "tilt_z")
+RATES = ("v_x", "v_y", "v_z", "tilt_y_dot", "tilt_z_dot")
+REACTIONS = ("shaft.R_x", "shaft.R_y", "shaft.R_z", "shaft.R_My", "shaft.R_Mz")
+AMPLITUDE = 0.5e-6  # of the shake at the pitch radius [m]
+AZIMUTHS = 8  # of the balls within a pitch, over which the equilibrium is averaged
+LONGEST_STEP = 1e-5  # between the points of a shake [s]
+SETTLE, LENGTH = 0.006, 0.02  # of a shake [s]; its periods are whole
+ROSS = {"x": "y", "y": "z", "z": "x"}  # its axes, z axial, by ours, x axial
+
+
+@dataclass(frozen=True)
+class Matrices:
+    """The bearing at one speed and load: place and matrices [5], [5, 5] in m, rad, N, N.m and s.
+
+    omega [rad/s], load: factor of the loads, frequency of the shake [rad/s]; q: equilibrium; K_static: quasi-static stiffness; K, C: of the FMU,
+    None without it.
+    """
+
+    omega: float
+    load: float
+    frequency: float
+    q: np.ndarray
+    K_static: np.ndarray
+    K: np.ndarray | None = None
+    C: np.ndarray | None = None
+
+
+def quasi_static_matrices(case, speeds, loads=(1.0,)):
+    """The Matrices of a bearing without the FMU's K and C at each load factor and speed [rad/s]; UserError if there is no equilibrium.
+
+    case: bearings.scene_case of a scene.
+    """
+    return [Matrices(omega, load, abs(omega), *equilibrium(case, load, omega)) for load in loads for omega in speeds]
+
+
+def dynamic_matrices(model, case, scene, points, frequency=None, amplitude=AMPLITUDE, progress=lambda share: None):
+    """The quasi_static_matrices `points` with K and C of the FMU `model` under the scene's parameters; UserError if the FMU refuses.
+
+    frequency [rad/s]: of the shakes, None for the speed itself (at standstill 100 Hz); amplitude [m]: at the pitch radius for tilts.
+    """
+    found = []
+    for i, point in enumerate(points):
+        w = frequency or point.frequency or 2.0 * math.pi * 100.0
+        size = np.array([1.0, 1.0, 1.0, *[2.0 / case.bearing.d_m] * 2]) * amplitude
+        H = np.array([response(model, scene, point.omega, point.q, k, size[k], w) for k in range(5)]).T
+        found.append(replace(point, frequency=w, K=H.real, C=H.imag / w))
+        progress((i + 1) / len(points))
+    return found
+
+
+def equilibrium(case, load, omega):
+    """Place of the ring [5] and stiffness [5, 5] under the case's loads times a factor at a speed [rad/s]."""
+    given = case.load
+    scaled = {name: load * getattr(given, name) for name in ("F_x", "F_y", "F_z", "M_y", "M_z")}
+    try:
+        azimuths = 2.0 * math.pi / case.bearing.Z * np.arange(AZIMUTHS) / AZIMUTHS
+        states = [quasi_static(case.bearing, replace(given, omega=omega, **scaled), psi) for psi in azimuths]
+    except (ValueError, ArithmeticError) as problem:
+        raise UserError(f"{case.designation} at {omega:g} rad/s, load factor {load:g}: {problem}") from None
+    places = [[state.x, state.y, state.z, state.tilt_y, state.tilt_z] for state in states]
+    return np.mean(places, axis=0), np.mean([state.K for state in states], axis=0)
+
+
+def response(model, scene, omega, q, direction, amplitude, w):
+    """-dR/dq_i at the frequency w [rad/s], complex [5]: half the difference of the responses to both signs of the amplitude."""
+    there, back = (shaken(model, scene, omega, q, direction, sign * amplitude, w) for sign in (1.0, -1.0))
+    return -(there - back) / (2.0 * amplitude)
+
+
+def shaken(model, scene, omega, q, direction, amplitude, w):
+    """First harmonic of the reactions [5], as the factor of sin(w t) + i times that of cos(w t), while the ring shakes with amplitude sin(w t)."""
+    period = 2.0 * math.pi / w
+    count = math.ceil(period / LONGEST_STEP)
+    h, settle, periods = period / count, math.ceil(SETTLE / period), math.ceil(LENGTH / period)
+    names = [f"shaft.{name}" for name in (*DIRECTIONS, *RATES)]
+    references = [model.inputs[name].valueReference for name in names]
+    rates = references[5:]
+
+    def motion(t):
+        place, velocity = q.copy(), np.zeros(5)
+        place[direction] += amplitude * math.sin(w * t)
+        velocity[direction] = amplitude * w * math.cos(w * t)
+        return [*place, *velocity]
+
+    with Instance(model) as instance:
+        fmu, parameters = instance.fmu, scene.parameters | {"ring.motion": "prescribed", "scene.stress": "off", "scene.statistics": "off"}
+        try:
+            for name, value in parameters.items():
+                instance.set_parameter(model.parameters[name], value)
+            fmu.setReal([model.inputs["shaft.omega"].valueReference], [omega])
+            fmu.setReal(references, motion(0.0))
+            fmu.setupExperiment(startTime=0.0)
+            fmu.enterInitializationMode()
+            fmu.exitInitializationMode()
+            read, sums = instance.reader(REACTIONS), np.zeros(5, complex)
+            for n in range((settle + periods) * count):
+                fmu.setReal(references, motion(n * h))
+                acceleration = [0.0] * 5
+                acceleration[direction] = -amplitude * w * w * math.sin(w * n * h)
+                fmu.setRealInputDerivatives(rates, [1] * 5, acceleration)
+                fmu.doStep(currentCommunicationPoint=n * h, communicationStepSize=h)
+                if n >= settle * count:
+                    angle = w * (n + 1) * h
+                    sums += read() * complex(math.sin(angle), math.cos(angle))
+        except FMICallException:
+            raise UserError(f"{scene.name} at {omega:g} rad/s: the FMU refuses: {instance.complaints()}") from None
+    return sums * 2.0 / (periods * count)
+
+
+# ------------------------------------------------------------------------------------------------------------------------- files
+
+
+def write_table(found, path):
+    """A CSV with a row for each Matrices: speed, load factor, frequency, place, then K_static, K and C entry by entry, SI."""
+    entries = [f"{a}.{b}" for a in DIRECTIONS for b in DIRECTIONS]
+    kinds = ["K_static", *(("K", "C") if found[0].K is not None else ())]
+    header = ["omega [rad/s]", "load", "frequency [rad/s]", *(f"{name} [{'rad' if 'tilt' in name else 'm'}]" for name in DIRECTIONS)]
+    header += [f"{kind}[{entry}]" for kind in kinds for entry in entries]
+    rows = [[p.omega, p.load, p.frequency, *p.q, *np.concatenate([getattr(p, kind).ravel() for kind in kinds])] for p in found]
+    text = "\n".join([",".join(header), *(",".join(f"{value:.9g}" for value in row) for row in rows)]) + "\n"
+    write_atomically(path, lambda file: file.write_text(text))
+    return path
+
+
+def ross_coefficients(found):
+    """Coefficients of ROSS' BearingElement over speed: {kxx, kxy ... czz, frequency}, its axes (x, y lateral, z axial) for our (Y, Z, X).
+
+    K and C of the FMU where they are known, else the quasi-static K and no damping.
+    """
+    table = {"frequency": [p.omega for p in found]}
+    for kind in "KC":
+        for a, ours_a in ROSS.items():
+            for b, ours_b in ROSS.items():
+                if "z" in (a, b) and a != b:
+                    continue  # ROSS couples no axial motion
+                i, k = DIRECTIONS.index(ours_a), DIRECTIONS.index(ours_b)
+                table[f"{kind.lower()}{a}{b}"] = [float(entry(p, kind)[i, k]) for p in found]
+    return table
+
+
+def entry(point, kind):
+    if kind == "K":
+        return point.K_static if point.K is None else point.K
+    return np.zeros((5, 5)) if point.C is None else point.C
+
+
+def write_ross(found, path, node=0, tag="bearing"):
+    """A TOML file that ross.BearingElement.load reads: one load factor, speeds rising."""
+    lines = [f"[BearingElement_{tag}]", f"n = {node}", f'tag = "{tag}"']
+    lines += [f"{name} = [{', '.join(repr(float(value)) for value in values)}]" for name, values in ross_coefficients(found).items()]
+    write_atomically(path, lambda file: file.write_text("\n".join(lines) + "\n"))
+    return path
+
+
+def plot_matrices(found, path):
+    """A picture: direct and cross stiffness and damping of the translations over speed, one line style for each load factor."""
+    import matplotlib
+
+    matplotlib.use("Agg")
+    import matplotlib.pyplot as plt
+
+    from .plot import STYLE
+
+    loads = list(dict.fromkeys(p.load for p in found))
+    with plt.rc_context(STYLE):
+        figure, (left, right) = plt.subplots(1, 2, figsize=(11, 4.2), layout="constrained")
+        for load, dash in zip(loads, ("-", "--", ":", "-.") * len(loads), strict=False):
+            points = [p for p in found if p.load == load]
+            speed = np.array([p.omega for p in points]) * 30.0 / math.pi
+            for i, (name, colour) in enumerate(zip("xyz", ("#40495a", "#c8442b", "#2a6f97"), strict=True)):
+                suffix = "" if len(loads) == 1 else f", load x {load:g}"
+                left.plot(speed, [1e-6 * p.K_static[i, i] for p in points], dash, color=colour, alpha=0.45)
+                if points[0].K is not None:
+                    left.plot(speed, [1e-6 * p.K[i, i] for p in points], "o", color=colour, markersize=4, label=f"K {name}{name}{suffix}")
+                    right.plot(speed, [p.C[i, i] for p in points], "o" + dash, color=colour, markersize=4, label=f"C {name}{name}{suffix}")
+        left.set(xlabel="speed [r/min]", ylabel="stiffness [N/um]", title="Stiffness: lines quasi-static, points FMU")
+        right.set(xlabel="speed [r/min]", ylabel="damping [N s/m]", title="Damping, FMU")
+        for ax in (left, right):
+            if ax.has_data() and ax.get_legend_handles_labels()[0]:
+                ax.legend()
+        write_atomically(path, lambda file: figure.savefig(file, format="png", dpi=110))
+        plt.close(figure)
+    return path
