@@ -422,6 +422,11 @@ static int verlet_advance(Integrator *in, double t_stop, long max_steps)
     return status;
 }
 
+// The shortest step that ARKODE begins with [s].  It multiplies the time to t_stop by the step size of the run
+// before, which it keeps over a reset, and takes a product that underflows for a t_stop in the past; thirty
+// failed error tests may shorten a step by 1e-30.
+static const double SHORTEST_EXPLICIT = 1e-100;
+
 // Part of the step size before an advance that the next one begins with at least: ARKODE's own proposal is
 // too small after a step that was cut short to meet t_stop.
 static const double KEPT_STEP = 0.9;
@@ -429,12 +434,15 @@ static const double KEPT_STEP = 0.9;
 static int explicit_advance(Integrator *in, double t_stop, long max_steps)
 {
     IntegratorState *s = in->s;
+    const double h_first = fmin(s->h, t_stop - s->t);
+    if (s->t + h_first == s->t || h_first < SHORTEST_EXPLICIT)
+        return step_underflow(in, "Runge-Kutta", h_first);
 
     // ARKODE forgets what it knows of the steps before and begins at the state with the remembered step size.
     in->nonfinite_stages = 0;
     memcpy(data(in->y), s->now.y, sizeof s->now.y);
     if (ARKodeReset(in->arkode, s->t, in->y) != ARK_SUCCESS) return -1;
-    if (ARKodeSetInitStep(in->arkode, fmin(s->h, t_stop - s->t)) != ARK_SUCCESS) return -1;
+    if (ARKodeSetInitStep(in->arkode, h_first) != ARK_SUCCESS) return -1;
     if (ARKodeSetStopTime(in->arkode, t_stop) != ARK_SUCCESS) return -1;
     long failed_before = 0, failed = 0;
     ARKodeGetNumErrTestFails(in->arkode, &failed_before);

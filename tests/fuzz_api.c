@@ -246,11 +246,28 @@ static void set_input(Fuzz *f, Host *host)
     CALL(host, SetReal, host->component, &reference, 1, &value);
 }
 
+enum { MOST_STEPS = 1000 };  // internal ones in one communication step: a host may allow 2e9, which are hours
+
+static fmi2ValueReference work_limit(void)
+{
+    return variable_named("solver.max_steps")->value_reference;
+}
+
+// A bounded number of internal steps keeps the sequences short.
+static void limit_work(Host *host, fmi2Integer steps)
+{
+    const fmi2ValueReference reference = work_limit();
+    CALL(host, SetInteger, host->component, &reference, 1, &steps);
+}
+
 static void set_integer(Fuzz *f, Host *host)
 {
     const fmi2ValueReference reference = settable_reference(&f->bytes);
     const double wanted = value_for(reference, &f->bytes);
-    const fmi2Integer value = fabs(wanted) < 1e9 ? (fmi2Integer)wanted : (fmi2Integer)take(&f->bytes, 4);
+    fmi2Integer value = fabs(wanted) < 1e9 ? (fmi2Integer)wanted : (fmi2Integer)take(&f->bytes, 4);
+    if (reference == work_limit() && value > MOST_STEPS &&
+        value <= (fmi2Integer)variable_named("solver.max_steps")->max)
+        value = MOST_STEPS;
     CALL(host, SetInteger, host->component, &reference, 1, chance(&f->bytes, 4) ? NULL : &value);
 }
 
@@ -279,13 +296,6 @@ static void set_up(Fuzz *f, Host *host)
     }
 }
 
-// A bounded number of internal steps keeps the sequences short.
-static void limit_work(Host *host, fmi2Integer steps)
-{
-    const fmi2ValueReference reference = variable_named("solver.max_steps")->value_reference;
-    CALL(host, SetInteger, host->component, &reference, 1, &steps);
-}
-
 static void start(Fuzz *f, Host *host)
 {
     limit_work(host, 10 + (fmi2Integer)choose(&f->bytes, 60));
@@ -296,6 +306,7 @@ static void start(Fuzz *f, Host *host)
 static void enter(Fuzz *f, Host *host)
 {
     (void)f;
+    limit_work(host, MOST_STEPS);
     CALL(host, EnterInitializationMode, host->component);
 }
 
@@ -533,7 +544,7 @@ static void renew(Fuzz *f, Host *host)
 static unsigned char *run_state(Host *host, size_t *size)
 {
     fmi2FMUstate state = NULL;
-    limit_work(host, 1000);
+    limit_work(host, MOST_STEPS);
     REQUIRE(CALL(host, SetupExperiment, host->component, 0, 0.0, 0.0, 0, 0.0) == fmi2OK);
     REQUIRE(CALL(host, EnterInitializationMode, host->component) == fmi2OK);
     REQUIRE(CALL(host, ExitInitializationMode, host->component) == fmi2OK);

@@ -41,8 +41,9 @@ def difference(rows, expected, units):
 
 def native_binary(folder):
     """Puts the binary for macOS on Arm where fmpy looks for it: FMI 2.0.4 calls its folder aarch64-darwin, fmpy darwin64."""
-    if sys.platform == "darwin" and platform.machine() == "arm64":
-        shutil.copytree(folder / "binaries" / "aarch64-darwin", folder / "binaries" / "darwin64", dirs_exist_ok=True)
+    binary = folder / "binaries" / "aarch64-darwin"
+    if sys.platform == "darwin" and platform.machine() == "arm64" and binary.is_dir():
+        shutil.copytree(binary, folder / "binaries" / "darwin64", dirs_exist_ok=True)
 
 
 def main(path):

@@ -10,6 +10,7 @@ import fmpy
 import lief
 import pytest
 from library import ROOT
+from reference_results import native_binary
 from slave import describe
 
 HEADERS = Path(fmpy.__file__).parent / "c-code"
@@ -68,7 +69,9 @@ def exported_functions(library):
 def unpacked(name, tmp_path_factory):
     path = ROOT / "fmus" / f"{name}.fmu"
     assert path.is_file(), f"{path} is missing: make build"
-    return Path(fmpy.extract(str(path), str(tmp_path_factory.mktemp(name))))
+    folder = Path(fmpy.extract(str(path), str(tmp_path_factory.mktemp(name))))
+    native_binary(folder)
+    return folder
 
 
 @pytest.fixture(scope="module")

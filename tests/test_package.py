@@ -2,12 +2,14 @@
 
 import hashlib
 import importlib.util
+import json
 import os
 import re
 import shutil
 import subprocess
 import sys
 import sysconfig
+import tomllib
 import venv
 import zipfile
 from html.parser import HTMLParser
@@ -20,12 +22,15 @@ import matplotlib.image
 import numpy as np
 import pytest
 import reference_results
+from cyclonedx.schema import SchemaVersion
+from cyclonedx.validation.json import JsonStrictValidator
 from library import ROOT
 from lxml import etree
 from reference_results import SAME
 from slave import Slave, describe
 
 from bearing_model import variables
+from bearing_model.rivet_table import DEFAULT_TABLE
 from riveted_bearing import UserError, builder
 from riveted_bearing.builder import build_folder
 
@@ -124,6 +129,38 @@ def test_archive_as_the_standard_wants_it(fmu):
     assert all(m.compress_type in (zipfile.ZIP_DEFLATED, zipfile.ZIP_STORED) and m.extract_version <= 20 for m in members)
     assert not any(m.external_attr >> 16 & 0o170000 == 0o120000 for m in members)
     assert not any(m.filename.startswith("resources/") for m in members)
+
+
+@pytest.mark.parametrize("name", ["RivetedBearing", "Shaft"])
+def test_description_and_bill_of_materials_say_what_is_inside(fmu, tmp_path, name):
+    """Version, author and build as in project, binary and saved states; a valid bill (CycloneDX 1.6) of each binary, library and table, with checksums."""
+    path = fmu.with_name(f"{name}.fmu")
+    folder = Path(fmpy.extract(str(path), str(tmp_path)))
+    text = (folder / "extra" / "org.cyclonedx" / "bom.json").read_text(encoding="utf-8")
+    assert JsonStrictValidator(SchemaVersion.V1_6).validate_str(text) is None
+    bill, root = json.loads(text), etree.parse(folder / "modelDescription.xml").getroot()
+    whole, project = bill["metadata"]["component"], tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
+
+    assert whole["name"] == root.get("modelName") == name
+    assert whole["version"] == root.get("version") == project["version"]
+    assert [author["name"] for author in whole["authors"]] == [root.get("author")] == [author["name"] for author in project["authors"]]
+    about = {one["name"]: one["value"] for one in whole["properties"]}
+    assert about["fmi:guid"] == root.get("guid") and re.fullmatch("[0-9a-f]{64}", about["build"])
+    assert root.get("generationTool") == f"{project['name']} {project['version']}, build {about['build'][:12]}"
+    slave = Slave(folder).initialize()
+    state = slave.bytes(slave.save())
+    assert state[56:128].rstrip(b"\0").decode() == about["build"]  # so the builds that exchange states are those of which description and bill say so
+
+    parts = {one["bom-ref"]: one for one in bill["components"]}
+    (dependencies,) = bill["dependencies"]
+    assert dependencies["ref"] == "fmu" and sorted(dependencies["dependsOn"]) == sorted(parts)
+    sums = {ref: one["hashes"] for ref, one in parts.items() if "hashes" in one}
+    files = {member.relative_to(folder).as_posix(): member for member in (folder / "binaries").rglob("*.*")}
+    files |= {"rivet_table": DEFAULT_TABLE} if name == "RivetedBearing" else {}
+    assert sums == {ref: [{"alg": "SHA-256", "content": hashlib.sha256(file.read_bytes()).hexdigest()}] for ref, file in files.items()}
+    versions = {ref: one["version"] for ref, one in parts.items() if one["type"] == "library"}
+    compiled = re.findall(r'#define SUNDIALS_VERSION "(.*)"', "".join(file.read_text() for file in (folder / "sources").glob("sundials_config.h")))
+    assert versions == {"fmpy": fmpy.__version__} | ({"sundials": compiled[0]} if name == "RivetedBearing" else {})
 
 
 def test_terminals_are_valid_and_name_variables(folder):
