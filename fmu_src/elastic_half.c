@@ -4,6 +4,9 @@
 #include "elementary.h"
 #include "rivet_rom.h"
 
+static const double LONGEST = 8e-6;  // step at tolerance 1e-3 [s]
+static const double MARGIN = 1.3;     // of joints that are stiffer than the closed ones by rounding of the law
+
 enum { SYSTEM = PAD_OUT * Z, RAY = 24 };
 enum { WALL_NODE = 1 };  // of the walls' angle: impacts meet the wall at 7 degrees in the median
 
@@ -326,7 +329,10 @@ static void find_wave(const Parameters *p, const ElasticHalf *half, bool out, in
             for (int a = 0; a < count; a++)
                 for (int b = 0; b < count; b++) A[i][k] += B[i][a] * K_n[a][b] * B[k][b] / (wave->root[i] * wave->root[k]);
     diagonalize(wave->count, A, wave->Q);
-    for (int i = 0; i < wave->count; i++) wave->lambda[i] = A[i][i];
+    for (int i = 0; i < wave->count; i++) {
+        wave->lambda[i] = A[i][i];
+        wave->slowed[i] = 1.0 / fmax(1.0, MARGIN * 0.25 * A[i][i] * half->longest * half->longest);
+    }
     wave->blocks = (wave->count + 7) / 8;
 }
 
@@ -389,12 +395,13 @@ static void take_modes(const Parameters *p, ElasticHalf *half, double R[Z][PADS]
     half->blocks = (half->n + 7) / 8;
 }
 
-void elastic_half_derive(const Parameters *p, const Derived *d, ElasticHalf *half)
+void elastic_half_derive(const Parameters *p, const Derived *d, double tolerance, ElasticHalf *half)
 {
     const HalfPath *path = &rivet_table.half.path;
     double R[Z][PADS][PADS];
     memset(half, 0, elastic_half_size());
     half->nodes = path->nodes;
+    half->longest = LONGEST * portable_pow(tolerance / 1e-3, 1.0 / 3.0);
     memcpy(half->chi, path->chi, (size_t)half->nodes * sizeof *half->chi);
     memcpy(R, rivet_table.modes.pad, sizeof R);
     half->compliance = rivet_table.modes.wall[2 * WALL_NODE];

@@ -35,6 +35,7 @@ typedef struct {
     int motion;                     // which rigid motion: v_x, about y, about z; v_y, v_z, spin
     double root[WAVE_SIZE];         // of the inertia
     double lambda[WAVE_SIZE];       // [1/s2]
+    double slowed[WAVE_SIZE];       // 1/inertia that the longest step needs
     double Q[WAVE_SIZE][WAVE_SIZE]; // [coordinate][vibration]
 } Wave;
 
@@ -55,6 +56,7 @@ struct ElasticHalf {
     double compliance;                           // of a wall along its normal, by the residual, less that in Hertz's [m/N]
     double K[Z][PAD_OUT][PAD_OUT];               // inverse of the residual between pads, out of the plane
     double series, series_hole;                  // parts of the joints' stiffness in the plane, in series with the residual
+    double longest;                              // step of the default method [s]
     int harmonic[MODES], coordinate[MODES];      // n; a 0, b 1
     Wave mirrored[WAVES];                        // of S and the relative motions out of the plane
     Wave opposed[2][WAVES];                      // of D and those in the plane; without and with shanks that bear
@@ -66,7 +68,7 @@ struct ElasticHalf {
 size_t elastic_half_size(void);
 
 // What the scene takes of the modes in the rivet table.
-void elastic_half_derive(const Parameters *p, const Derived *d, ElasticHalf *half);
+void elastic_half_derive(const Parameters *p, const Derived *d, double tolerance, ElasticHalf *half);
 
 // Coordinates S [MODES] and axial distance of the halves' bodies [m] at which modes and joints rest under the centrifugal
 // load of the speed omega [rad/s].

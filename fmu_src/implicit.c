@@ -582,15 +582,9 @@ static void stiff_part_of_halves(const Model *model, const Work *w, double gamma
 }
 
 // ---- vibrations of elastic halves ---------------------------------------------------------------------------
-// Inertia of a vibration that turns by x = omega h a step, over its own: 1 + W x^2/4.  W = 1/3 makes its frequency exact to
-// order four (Fox and Goodwin); a larger one keeps vibrations stable that the step cannot resolve.
-INLINE double wave_inertia(double x_2)
-{
-    const double weight = x_2 > 4.5 ? 1.0 - 3.0 / x_2 : 1.0 / 3.0;
-    return 1.0 + 0.25 * weight * x_2;
-}
-
-static void solve_waves(const Wave *waves, double h_2, double *rates, double rigid[3])
+// Each vibration of elastic halves that is faster than the longest step can follow gets the inertia that slows it down
+// to what the step can (elastic_half.h).
+static void solve_waves(const Wave *waves, double *rates, double rigid[3])
 {
     for (const Wave *wave = waves; wave < waves + WAVES; wave++) {
         double x[WAVE_SIZE] = {0.0}, y[WAVE_SIZE] = {0.0};
@@ -598,7 +592,7 @@ static void solve_waves(const Wave *waves, double h_2, double *rates, double rig
             x[i] = wave->root[i] * (wave->row[i] == RIGID_MOTION ? rigid[wave->motion] : rates[wave->row[i]]);
         for (int i = 0; i < wave->count; i++)
             for (int k = 0; k < 8 * wave->blocks; k++) y[k] += x[i] * wave->Q[i][k];
-        for (int k = 0; k < 8 * wave->blocks; k++) y[k] /= wave_inertia(h_2 * wave->lambda[k]);
+        for (int k = 0; k < 8 * wave->blocks; k++) y[k] *= wave->slowed[k];
         for (int i = 0; i < wave->count; i++) {
             double part[8] = {0.0};
             for (int b = 0; b < 8 * wave->blocks; b += 8)
@@ -613,10 +607,10 @@ static void solve_waves(const Wave *waves, double h_2, double *rates, double rig
     }
 }
 
-void implicit_waves(const Model *model, const Work *w, double gamma, double *f)
+void implicit_waves(const Model *model, const Work *w, double *f)
 {
     const ElasticHalf *half = model->elastic;
-    const double *b_y = w->half[0].b_y, *b_z = w->half[0].b_z, h_2 = 4.0 * gamma * gamma;
+    const double *b_y = w->half[0].b_y, *b_z = w->half[0].b_z;
     double d[6], out[3], in[3];
     for (int i = 0; i < 6; i++) d[i] = f[Y_CAGE_V_X + 2 * i + 1] - f[Y_CAGE_V_X + 2 * i];  // x, y, z, beta, gamma, s
     const double before[6] = {d[0], d[1], d[2], d[3], d[4], d[5]};
@@ -625,8 +619,8 @@ void implicit_waves(const Model *model, const Work *w, double gamma, double *f)
     bool bears = false;
     for (int k = 0; k < Z; k++) bears |= w->k_bearing[k] > 0.0;
     const double was[4] = {out[1], out[2], in[0], in[1]};
-    solve_waves(half->mirrored, h_2, &f[Y_MODE_S_DOT], out);
-    solve_waves(half->opposed[bears], h_2, &f[Y_MODE_D_DOT], in);
+    solve_waves(half->mirrored, &f[Y_MODE_S_DOT], out);
+    solve_waves(half->opposed[bears], &f[Y_MODE_D_DOT], in);
 
     // what has changed, in the global frame, half of it for each half
     const double about_y = out[1] - was[0], about_z = out[2] - was[1], y = in[0] - was[2], z = in[1] - was[3];

@@ -17,6 +17,7 @@
 // (Swope et al. 1982).
 #include "verlet.h"
 
+#include "elastic_half.h"
 #include "implicit.h"
 #include "rhs.h"
 #include "vector_ops.h"
@@ -206,11 +207,14 @@ static void remember_friction(double h, const VerletState *from, VerletState *to
     }
 }
 
-// Rates of the modes of elastic halves: velocity Verlet.
-static void advance_modes(double h, const VerletState *from, VerletState *to, double *error)
+// Rates of the modes of elastic halves: velocity Verlet, linearly implicit in their damping.
+static void advance_modes(const Model *model, double h, const VerletState *from, VerletState *to, double *error)
 {
     const double gamma = 0.5 * h, inv_h = 1.0 / h, second = h * h * (2.0 / (h + from->h));
     for (int i = RATES; i < N_ALL_STATES; i++) {
+        const double rate = model->elastic->damping[(i - RATES) % N_MODES];
+        const double delta = (gamma * (to->f[i] - from->f[i])) / (1.0 + gamma * rate);
+        to->f[i] = from->f[i] + delta / gamma;
         to->y[i] = from->y[i] + gamma * (from->f[i] + to->f[i]);
         to->jerk[i] = (to->f[i] - from->f[i]) * inv_h;
         error[i] = (h / 12.0) * (second * (to->jerk[i] - from->jerk[i]));
@@ -234,7 +238,7 @@ double verlet_step(const Model *model, double t, double h, const double *weight,
         for (int i = RATES; i < N_ALL_STATES; i++) y[i] += gamma * f[i];
     rhs(model, t + h, y, to->f, w);
     remember_films(w, to);
-    if (model->elastic) implicit_waves(model, w, gamma, to->f);
+    if (model->elastic) implicit_waves(model, w, to->f);
 
     // The residual of the trapezoidal rule at v^, and the linear solve that corrects v^.
     for (int i = VELOCITY; i < N_STATES; i++) residual[i] = gamma * (to->f[i] - f[i]);
@@ -263,7 +267,7 @@ double verlet_step(const Model *model, double t, double h, const double *weight,
     remember_friction(h, from, to, error);
     to->h = h;
     if (model->elastic) {
-        advance_modes(h, from, to, error);
+        advance_modes(model, h, from, to, error);
         return vector_ops_elastic.wrms_norm(error, weight);
     }
     return vector_ops.wrms_norm(error, weight);
