@@ -582,9 +582,11 @@ static void stiff_part_of_halves(const Model *model, const Work *w, double gamma
 }
 
 // ---- vibrations of elastic halves ---------------------------------------------------------------------------
+static const double WAVE_DAMPING = 0.003;
+
 // Each vibration of elastic halves that is faster than the longest step can follow gets the inertia that slows it down
 // to what the step can (elastic_half.h).
-static void solve_waves(const Wave *waves, double *rates, double rigid[3])
+static void solve_waves(const Wave *waves, double h_2, double *rates, double rigid[3])
 {
     for (const Wave *wave = waves; wave < waves + WAVES; wave++) {
         double x[WAVE_SIZE] = {0.0}, y[WAVE_SIZE] = {0.0};
@@ -592,7 +594,10 @@ static void solve_waves(const Wave *waves, double *rates, double rigid[3])
             x[i] = wave->root[i] * (wave->row[i] == RIGID_MOTION ? rigid[wave->motion] : rates[wave->row[i]]);
         for (int i = 0; i < wave->count; i++)
             for (int k = 0; k < 8 * wave->blocks; k++) y[k] += x[i] * wave->Q[i][k];
-        for (int k = 0; k < 8 * wave->blocks; k++) y[k] *= wave->slowed[k];
+        for (int k = 0; k < 8 * wave->blocks; k++) {
+            const double x_2 = h_2 * (wave->lambda[k] * wave->slowed[k]);
+            y[k] *= h_2 > 0.0 ? 1.0 - fmin(0.2, WAVE_DAMPING * x_2 * x_2) : wave->slowed[k];
+        }
         for (int i = 0; i < wave->count; i++) {
             double part[8] = {0.0};
             for (int b = 0; b < 8 * wave->blocks; b += 8)
@@ -607,7 +612,7 @@ static void solve_waves(const Wave *waves, double *rates, double rigid[3])
     }
 }
 
-void implicit_waves(const Model *model, const Work *w, double *f)
+static void all_waves(const Model *model, const Work *w, double h_2, double *f)
 {
     const ElasticHalf *half = model->elastic;
     const double *b_y = w->half[0].b_y, *b_z = w->half[0].b_z;
@@ -619,8 +624,8 @@ void implicit_waves(const Model *model, const Work *w, double *f)
     bool bears = false;
     for (int k = 0; k < Z; k++) bears |= w->k_bearing[k] > 0.0;
     const double was[4] = {out[1], out[2], in[0], in[1]};
-    solve_waves(half->mirrored, &f[Y_MODE_S_DOT], out);
-    solve_waves(half->opposed[bears], &f[Y_MODE_D_DOT], in);
+    solve_waves(half->mirrored, h_2, &f[Y_MODE_S_DOT], out);
+    solve_waves(half->opposed[bears], h_2, &f[Y_MODE_D_DOT], in);
 
     // what has changed, in the global frame, half of it for each half
     const double about_y = out[1] - was[0], about_z = out[2] - was[1], y = in[0] - was[2], z = in[1] - was[3];
@@ -631,6 +636,16 @@ void implicit_waves(const Model *model, const Work *w, double *f)
         f[Y_CAGE_V_X + 2 * i] -= 0.5 * change[i];
         f[Y_CAGE_V_X + 2 * i + 1] += 0.5 * change[i];
     }
+}
+
+void implicit_waves(const Model *model, const Work *w, double *f)
+{
+    all_waves(model, w, 0.0, f);
+}
+
+void implicit_wave_damping(const Model *model, const Work *w, double h, double *y)
+{
+    all_waves(model, w, h * h, y);
 }
 
 // ---- ring -------------------------------------------------------------------------------------------------

@@ -268,6 +268,7 @@ double verlet_step(const Model *model, double t, double h, const double *weight,
     to->h = h;
     if (model->elastic) {
         advance_modes(model, h, from, to, error);
+        implicit_wave_damping(model, w, h, y);
         return vector_ops_elastic.wrms_norm(error, weight);
     }
     return vector_ops.wrms_norm(error, weight);
