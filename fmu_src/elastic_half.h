@@ -98,6 +98,26 @@ INLINE void elastic_wall_force(const ElasticHalf *half, const WallShape *shape, 
         modal[i] += F[0] * shape->motion[0][i] + F[1] * shape->motion[1][i] + F[2] * shape->motion[2][i];
 }
 
+// Energy of all joints between the halves, and of what the modes leave of the halves around them, from e, L^, delta and U.
+INLINE scalar elastic_potential(const ElasticHalf *half, const Work *w)
+{
+    scalar V = 0.0, rest[PAD_OUT][Z];
+    for (int a = 0; a < PAD_OUT; a++)
+        for (int k = 0; k < Z; k++) rest[a][k] = w->e[a][k] - w->joint_move[a][k];
+    for (int k = 0; k < Z; k++) {
+        for (int a = 0; a < PAD_OUT; a++) {
+            scalar held = 0.0, own = 0.0;
+            for (int b = 0; b < PAD_OUT; b++) {
+                own += half->K[0][a][b] * w->joint_move[b][k];
+                for (int j = 0; j < Z; j++) held += half->K[(k - j + Z) % Z][a][b] * rest[b][j];
+            }
+            V += 0.5 * rest[a][k] * held + (w->joint_behind[a][k] - 0.5 * own) * w->joint_move[a][k];
+        }
+        V -= w->joint_U[k];
+    }
+    return 2.0 * V;
+}
+
 // Sum over the modes in one order for every lane width.
 INLINE scalar elastic_sum(const ElasticHalf *half, const scalar *x, const scalar *y)
 {

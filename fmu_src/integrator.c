@@ -533,6 +533,10 @@ bool integrator_state_is_valid(const IntegratorState *s, bool elastic)
         fine &= values_are_within(s->now.jerk + b->offset, n, RATE * RATE * RATE * largest);
     }
 
+    // Loads of elastic halves' joints, up to that of anything that holds.
+    const double most = elastic ? 1e9 : 0.0;
+    fine &= values_are_within(s->now.rivet, LANES, most) && values_are_within(s->now.plate, LANES, most);
+
     // Films, switch and counters.
     fine &=
         values_are_within(&s->now.film[0][0], sizeof s->now.film / sizeof s->now.film[0][0], LARGEST_FILM);

@@ -70,6 +70,10 @@ static void advance_positions(const Model *model, double h, const VerletState *f
             middle[i] = from->y[i] + gamma * y[i + MODE_RATES];
             y[i] = from->y[i] + h * y[i + MODE_RATES];
         }
+    if (model->elastic) {
+        memcpy(w->T, from->rivet, sizeof w->T);
+        memcpy(w->N_plate, from->plate, sizeof w->N_plate);
+    }
     rhs_cage_advance(model, middle, h, y, w);
 }
 
@@ -238,7 +242,11 @@ double verlet_step(const Model *model, double t, double h, const double *weight,
         for (int i = RATES; i < N_ALL_STATES; i++) y[i] += gamma * f[i];
     rhs(model, t + h, y, to->f, w);
     remember_films(w, to);
-    if (model->elastic) implicit_waves(model, w, to->f);
+    if (model->elastic) {
+        implicit_waves(model, w, to->f);
+        memcpy(to->rivet, w->T, sizeof to->rivet);
+        memcpy(to->plate, w->N_plate, sizeof to->plate);
+    }
 
     // The residual of the trapezoidal rule at v^, and the linear solve that corrects v^.
     for (int i = VELOCITY; i < N_STATES; i++) residual[i] = gamma * (to->f[i] - f[i]);
