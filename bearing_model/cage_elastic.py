@@ -56,7 +56,8 @@ class ElasticHalf:
     K: np.ndarray  # stiffness of what the modes leave, out of the plane [Z, 3, 3]
     series: float  # part of the friction states' stiffness that is left in series with it
     series_hole: float  # and of the hole's
-    reach: float  # largest |u|^2 of a wall / sum omega^2 q^2 [s2]
+    reach_2: float  # largest |u|^2 of a wall / sum omega^2 q^2 [s2] by modes that do not move all pockets alike
+    widest: np.ndarray  # largest |u|/|q| by the others, else 0 [n]
     wall: float  # compliance that the modes leave at a wall, along its normal, less that in Hertz's [m/N]
     law: JointLaw  # over L^
     energy: np.ndarray  # coefficients of U, whose slope is delta [tau, q, psi], per newton squared
@@ -134,10 +135,12 @@ def derive_elastic(p, d, table):
     shear = 2.0 * np.mean(np.diag(residual.pad[0])[IN])  # of both halves
     behind, energy = kept_law(table.half.law, K[0])
     pocket = unit * np.moveaxis(modes.pocket[entry], 1, 0)
+    alike = (modes.harmonic[entry] == 0) & (part == 0.0)
+    u_2 = np.sum(pocket[:, :, [0, 2]] ** 2, axis=(2, 3))  # [chi, n], at the nodes; between them a quarter farther at most
     return ElasticHalf(
         n=len(omega),
         omega=omega,
-        alike=(modes.harmonic[entry] == 0) & (part == 0.0),
+        alike=alike,
         damping=2.0 * p.cage.modal_damping * omega,
         pad=unit * np.moveaxis(rivet_shapes(modes)[:, :, : len(PAD)], 1, 2),
         wave=wave,
@@ -145,7 +148,8 @@ def derive_elastic(p, d, table):
         pocket=pocket,
         slope=unit * np.moveaxis(modes.slope[entry], 1, 0),
         spin=d.centrifugal * unit * spin_load(modes),
-        reach=2.0 * np.max(np.sum(pocket[:, :, [0, 2]] ** 2 / omega[:, None, None] ** 2, axis=(1, 2, 3))),
+        reach_2=1.5625 * np.max(np.sum(np.where(alike, 0.0, u_2 / omega**2), axis=1)),
+        widest=np.where(alike, 1.25 * np.sqrt(np.max(u_2, axis=0)), 0.0),
         K=K,
         series=1.0 / (1.0 + shear * (d.k_plate_t + d.k_head)),
         series_hole=1.0 / (1.0 + shear * d.k_hole),
@@ -218,7 +222,9 @@ def cage_elastic_kinematics(model, y, w):
     """Motions of the halves' modes, of the pads against each other: elastic part, out of the plane (x, phi_r, phi_t) and in it (r, t)."""
     half = model.d.elastic
     w.modes = [cage_elastic_coordinates(model, y, h) for h in range(2)]
-    w.reach = [np.sqrt(half.reach * np.sum(np.real(half.omega * q) ** 2, axis=-1)) for q, _ in w.modes]
+    others = np.where(half.alike, 0.0, half.omega)
+    places = [np.real(q) for q, _ in w.modes]
+    w.reach = [np.sqrt(half.reach_2 * np.sum((others * q) ** 2, axis=-1)) + np.sum(half.widest * np.abs(q), axis=-1) for q in places]
     w.more_J = [2.0 * np.sum(half.spin * q, axis=-1) for q, _ in w.modes]
     S, D, S_dot, D_dot = (ROOT * y[..., block][..., : half.n] for block in (MODE_S, MODE_D, MODE_S_DOT, MODE_D_DOT))
     w.pad_out, w.pad_out_dot = (np.einsum("...i,ikz->k...z", q, half.pad[:, OUT]) for q in (S, S_dot))

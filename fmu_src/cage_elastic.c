@@ -86,9 +86,13 @@ void cage_elastic_kinematics(const Model *model, const scalar *y, Work *w)
     motion_out_of_plane(half, S, w);
     motion_in_plane(half, D, D_dot, w);
     for (int h = 0; h < 2; h++) {
-        scalar stored[MODES];
-        for (int i = 0; i < 8 * half->blocks; i++) stored[i] = half->omega_2[i] * w->q[h][i];
-        w->reach[h] = scalar_sqrt(half->reach * elastic_sum(half, stored, w->q[h]));
+        scalar stored[MODES], moved[MODES];
+        for (int i = 0; i < 8 * half->blocks; i++) {
+            stored[i] = half->weight[i] * w->q[h][i];
+            moved[i] = fabs(scalar_value(w->q[h][i]));
+        }
+        w->reach[h] = sqrt(half->reach_2 * scalar_value(elastic_sum(half, stored, w->q[h]))) +
+                      elastic_dot(half, half->widest, moved);
         w->more_J[h] = 2.0 * elastic_dot(half, half->spin, w->q[h]);
         w->more_J_dot[h] = 2.0 * elastic_dot(half, half->spin, w->q_dot[h]);
     }

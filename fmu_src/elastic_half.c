@@ -292,6 +292,7 @@ static void find_wave(const Parameters *p, const ElasticHalf *half, bool out, in
                       int motion, double inertia, Wave *wave)
 {
     const int count = out ? PAD_OUT : PAD_IN, *pads = out ? OUT : IN;
+    double root[WAVE_SIZE], Q[WAVE_SIZE][WAVE_SIZE];
     double unit[PAD_OUT][Z], A[WAVE_SIZE][WAVE_SIZE] = {{0.0}}, B[WAVE_SIZE][PAD_OUT] = {{0.0}}, K_n[PAD_OUT][PAD_OUT] = {{0.0}};
     for (int c = 0; c < count; c++) {
         double sum = 0.0;
@@ -312,7 +313,7 @@ static void find_wave(const Parameters *p, const ElasticHalf *half, bool out, in
         if (half->harmonic[i] != n || half->coordinate[i] != coordinate) continue;
         const int row = wave->count++;
         wave->row[row] = i;
-        wave->root[row] = sqrt(p->cage.m);
+        root[row] = sqrt(p->cage.m);
         A[row][row] = half->omega_2[i];
         for (int c = 0; c < count; c++)
             for (int k = 0; k < Z; k++) B[row][c] += sqrt(2.0) * unit[c][k] * (out ? half->out[i][c][k] : half->in[i][c][k]);
@@ -320,18 +321,20 @@ static void find_wave(const Parameters *p, const ElasticHalf *half, bool out, in
     if (motion >= 0) {
         const int row = wave->count++;
         wave->row[row] = RIGID_MOTION;
-        wave->root[row] = sqrt(inertia);
+        root[row] = sqrt(inertia);
         for (int c = 0; c < count; c++)
             for (int k = 0; k < Z; k++) B[row][c] += unit[c][k] * rigid_motion(out, motion, c, 2.0 * PI * (k + 0.5) / Z);
     }
     for (int i = 0; i < wave->count; i++)
         for (int k = 0; k < wave->count; k++)
             for (int a = 0; a < count; a++)
-                for (int b = 0; b < count; b++) A[i][k] += B[i][a] * K_n[a][b] * B[k][b] / (wave->root[i] * wave->root[k]);
-    diagonalize(wave->count, A, wave->Q);
+                for (int b = 0; b < count; b++) A[i][k] += B[i][a] * K_n[a][b] * B[k][b] / (root[i] * root[k]);
+    diagonalize(wave->count, A, Q);
+    for (int i = 0; i < wave->count; i++)
+        for (int k = 0; k < wave->count; k++) wave->to[i][k] = root[i] * Q[i][k], wave->back[k][i] = Q[i][k] / root[i];
     for (int i = 0; i < wave->count; i++) {
-        wave->lambda[i] = A[i][i];
         wave->slowed[i] = 1.0 / fmax(1.0, MARGIN * 0.25 * A[i][i] * half->longest * half->longest);
+        wave->lambda[i] = wave->slowed[i] * A[i][i];
     }
     wave->blocks = (wave->count + 7) / 8;
 }
@@ -411,14 +414,21 @@ void elastic_half_derive(const Parameters *p, const Derived *d, double tolerance
     half->series = 1.0 / (1.0 + shear * (d->k_plate_t + d->k_head));
     half->series_hole = 1.0 / (1.0 + shear * d->k_hole);
 
-    // largest |u|^2/sum omega^2 q^2 by Cauchy's inequality; between the nodes twice as much at most
+    // how far a wall can move; between the nodes a quarter farther at most
     for (int node = 0; node < half->nodes; node++) {
         double sum = 0.0;
-        for (int i = 0; i < half->n; i++)
+        for (int i = 0; i < half->n; i++) {
+            double u_2 = 0.0;
             for (int c = 0; c < 3; c += 2)
                 for (int part = 0; part < 2; part++)
-                    sum += half->wall[node][0][c][part][i] * half->wall[node][0][c][part][i] / half->omega_2[i];
-        half->reach = fmax(half->reach, 2.0 * sum);
+                    u_2 += half->wall[node][0][c][part][i] * half->wall[node][0][c][part][i];
+            if (half->alike[i])
+                half->widest[i] = fmax(half->widest[i], 1.25 * sqrt(u_2));
+            else
+                sum += u_2 / half->omega_2[i];
+            half->weight[i] = half->alike[i] ? 0.0 : half->omega_2[i];
+        }
+        half->reach_2 = fmax(half->reach_2, 1.5625 * sum);
     }
     law_behind(half);
     find_waves(p, d, half);

@@ -33,10 +33,10 @@ typedef struct {
     int count, blocks;              // coordinates, blocks of eight
     int row[WAVE_SIZE];             // mode, or RIGID_MOTION: the last one
     int motion;                     // which rigid motion: v_x, about y, about z; v_y, v_z, spin
-    double root[WAVE_SIZE];         // of the inertia
-    double lambda[WAVE_SIZE];       // [1/s2]
+    double lambda[WAVE_SIZE];       // with that inertia [1/s2]
     double slowed[WAVE_SIZE];       // 1/inertia that the longest step needs
-    double Q[WAVE_SIZE][WAVE_SIZE]; // [coordinate][vibration]
+    double to[WAVE_SIZE][WAVE_SIZE];    // root of the inertia times Q [coordinate][vibration]
+    double back[WAVE_SIZE][WAVE_SIZE];  // its inverse [vibration][coordinate]
 } Wave;
 
 struct ElasticHalf {
@@ -52,7 +52,10 @@ struct ElasticHalf {
     double wall[WALL_NODES][2][3][2][MODES];     // A by node, value and slope, (x, r, t), real and imaginary part
     int nodes;                                   // of the walls' angle
     double chi[WALL_NODES];                      // [rad]
-    double reach;                                // largest |u|^2 of a wall / sum omega^2 q^2 [s2]
+    // how far a wall can move: modes that move all pockets alike by themselves, all others by Cauchy's inequality
+    double reach_2;       // largest |u|^2 / sum omega^2 q^2 of the others [s2]
+    double weight[MODES]; // omega^2 of the others, 0 of those
+    double widest[MODES]; // largest |u|/|q| of those, 0 of the others
     double compliance;                           // of a wall along its normal, by the residual, less that in Hertz's [m/N]
     double K[Z][PAD_OUT][PAD_OUT];               // inverse of the residual between pads, out of the plane
     double series, series_hole;                  // parts of the joints' stiffness in the plane, in series with the residual

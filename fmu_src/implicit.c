@@ -29,6 +29,7 @@
 
 #include "elastic_half.h"
 #include "elimination.h"
+#include "octet.h"
 #include "rotor.h"
 
 // ---- balls ------------------------------------------------------------------------------------------------
@@ -589,21 +590,19 @@ static const double WAVE_DAMPING = 0.003;
 static void solve_waves(const Wave *waves, double h_2, double *rates, double rigid[3])
 {
     for (const Wave *wave = waves; wave < waves + WAVES; wave++) {
-        double x[WAVE_SIZE] = {0.0}, y[WAVE_SIZE] = {0.0};
-        for (int i = 0; i < wave->count; i++)
-            x[i] = wave->root[i] * (wave->row[i] == RIGID_MOTION ? rigid[wave->motion] : rates[wave->row[i]]);
-        for (int i = 0; i < wave->count; i++)
-            for (int k = 0; k < 8 * wave->blocks; k++) y[k] += x[i] * wave->Q[i][k];
-        for (int k = 0; k < 8 * wave->blocks; k++) {
-            const double x_2 = h_2 * (wave->lambda[k] * wave->slowed[k]);
-            y[k] *= h_2 > 0.0 ? 1.0 - fmin(0.2, WAVE_DAMPING * x_2 * x_2) : wave->slowed[k];
-        }
+        octet y[2] = {{{0.0}}}, x[2] = {{{0.0}}};
         for (int i = 0; i < wave->count; i++) {
-            double part[8] = {0.0};
-            for (int b = 0; b < 8 * wave->blocks; b += 8)
-                for (int k = 0; k < 8; k++) part[k] += wave->Q[i][b + k] * y[b + k];
-            const double sum = ((part[0] + part[1]) + (part[2] + part[3])) + ((part[4] + part[5]) + (part[6] + part[7]));
-            const double rate = sum / wave->root[i];
+            const double rate = wave->row[i] == RIGID_MOTION ? rigid[wave->motion] : rates[wave->row[i]];
+            for (int b = 0; b < wave->blocks; b++) octet_add_from(rate, &wave->to[i][8 * b], &y[b]);
+        }
+        for (int k = 0; k < 8 * wave->blocks; k++) {
+            const double x_2 = h_2 * wave->lambda[k], taken = WAVE_DAMPING * x_2 * x_2;
+            y[k / 8].x[k % 8] *= h_2 > 0.0 ? 1.0 - (taken < 0.2 ? taken : 0.2) : wave->slowed[k];
+        }
+        for (int k = 0; k < wave->count; k++)
+            for (int b = 0; b < wave->blocks; b++) octet_add_from(y[k / 8].x[k % 8], &wave->back[k][8 * b], &x[b]);
+        for (int i = 0; i < wave->count; i++) {
+            const double rate = x[i / 8].x[i % 8];
             if (wave->row[i] == RIGID_MOTION)
                 rigid[wave->motion] = rate;
             else
