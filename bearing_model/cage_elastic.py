@@ -30,11 +30,15 @@ from bearing_model.half_modes import PAD, coordinates, denser, fewer, frequencie
 from bearing_model.joint_law import JointLaw, joint_law, law_load, law_spline
 from bearing_model.lanes import absolute, ball_array_sum, maximum
 from bearing_model.rivet_splines import interpolate, sites
-from bearing_model.variables import MODE_D, MODE_D_DOT, MODE_S, MODE_S_DOT, Z
+from bearing_model.variables import CAGE_BETA_DOT, CAGE_GAMMA_DOT, CAGE_S, CAGE_V_X, CAGE_V_Y, CAGE_V_Z, MODE_D, MODE_D_DOT, MODE_S, MODE_S_DOT, Z
 from bearing_model.vec import vec_cross, vec_dot
 
 OUT, IN = [0, 4, 5], [1, 2]  # of the motions (x, r, t, phi_x, phi_r, phi_t) of a pad: out of the plane, in it
 ROOT = np.sqrt(2.0)
+CAGE_RATES = CAGE_V_X, CAGE_V_Y, CAGE_V_Z, CAGE_BETA_DOT, CAGE_GAMMA_DOT, CAGE_S
+LONGEST = 8e-6  # step of the default method at tolerance 1e-3 [s]
+MARGIN = 1.3  # of joints that are stiffer than the closed ones by rounding of the law
+WAVE_DAMPING = 0.003  # a step takes this part times x^4 of a vibration that turns by x = omega h
 WALL_NODE = 1  # of the walls' angle: impacts meet the wall at 7 degrees in the median
 RAY = 24  # intervals of Simpson's rule along a ray of loads
 
@@ -59,6 +63,9 @@ class ElasticHalf:
     reach_2: float  # largest |u|^2 of a wall / sum omega^2 q^2 [s2] by modes that do not move all pockets alike
     widest: np.ndarray  # largest |u|/|q| by the others, else 0 [n]
     wall: float  # compliance that the modes leave at a wall, along its normal, less that in Hertz's [m/N]
+    longest: float  # step of the default method [s]
+    mirrored: tuple  # vibrations of S and the relative rigid motions out of the plane (Vibrations)
+    opposed: tuple  # of D and those in the plane, without and with shanks that bear
     law: JointLaw  # over L^
     energy: np.ndarray  # coefficients of U, whose slope is delta [tau, q, psi], per newton squared
 
@@ -135,6 +142,10 @@ def derive_elastic(p, d, table):
     shear = 2.0 * np.mean(np.diag(residual.pad[0])[IN])  # of both halves
     behind, energy = kept_law(table.half.law, K[0])
     pocket = unit * np.moveaxis(modes.pocket[entry], 1, 0)
+    pad = unit * np.moveaxis(rivet_shapes(modes)[:, :, : len(PAD)], 1, 2)
+    series, series_hole = 1.0 / (1.0 + shear * (d.k_plate_t + d.k_head)), 1.0 / (1.0 + shear * d.k_hole)
+    held, longest = series * (d.k_plate_t + d.k_head), LONGEST * (p.solver.tol / 1e-3) ** (1.0 / 3.0)
+    big = K[(np.arange(Z)[:, None] - np.arange(Z)) % Z].transpose(0, 2, 1, 3).reshape(3 * Z, 3 * Z)
     alike = (modes.harmonic[entry] == 0) & (part == 0.0)
     u_2 = np.sum(pocket[:, :, [0, 2]] ** 2, axis=(2, 3))  # [chi, n], at the nodes; between them a quarter farther at most
     return ElasticHalf(
@@ -142,7 +153,7 @@ def derive_elastic(p, d, table):
         omega=omega,
         alike=alike,
         damping=2.0 * p.cage.modal_damping * omega,
-        pad=unit * np.moveaxis(rivet_shapes(modes)[:, :, : len(PAD)], 1, 2),
+        pad=pad,
         wave=wave,
         chi=table.half.chi,
         pocket=pocket,
@@ -151,12 +162,78 @@ def derive_elastic(p, d, table):
         reach_2=1.5625 * np.max(np.sum(np.where(alike, 0.0, u_2 / omega**2), axis=1)),
         widest=np.where(alike, 1.25 * np.sqrt(np.max(u_2, axis=0)), 0.0),
         K=K,
-        series=1.0 / (1.0 + shear * (d.k_plate_t + d.k_head)),
-        series_hole=1.0 / (1.0 + shear * d.k_hole),
+        series=series,
+        series_hole=series_hole,
         wall=residual.wall[WALL_NODE],
+        longest=longest,
+        mirrored=vibrations(p.cage.m, omega, joints_out(d, pad), 0.5 * big, (0.5 * p.cage.m, 0.5 * d.J_t, 0.5 * d.J_t), longest),
+        opposed=tuple(
+            vibrations(p.cage.m, omega, joints_in(d, pad), np.eye(2 * Z) * k, (0.5 * p.cage.m, 0.5 * p.cage.m, 0.5 * d.J_p), longest)
+            for k in (held, held + series_hole * d.k_hole)
+        ),
         law=behind,
         energy=energy,
     )
+
+
+@dataclass
+class Vibrations:
+    """Vibrations of modes and relative rigid motions with closed joints: x = shape q, with the inertia M each of unit modal mass."""
+
+    inertia: np.ndarray  # M [n + 3]
+    shape: np.ndarray  # [n + 3, n + 3]
+    slowed: np.ndarray  # 1/inertia that the longest step needs
+    lambda_: np.ndarray  # omega^2 with that inertia
+
+
+def vibrations(m, omega, motions, stiffness, rigid, longest):
+    """Vibrations; motions [joints' motions, n + 3] by unit coordinates, stiffness between the joints' motions, rigid: inertia of the three rigid motions."""
+    M = np.append(np.full(len(omega), m), rigid)
+    K = motions.T @ stiffness @ motions + np.diag(np.append(m * omega**2, np.zeros(3)))
+    root = np.sqrt(M)
+    values, Q = np.linalg.eigh(K / np.outer(root, root))
+    slowed = 1.0 / np.maximum(1.0, MARGIN * 0.25 * values * longest**2)
+    return Vibrations(M, Q / root[:, None], slowed, slowed * values)
+
+
+def circle(d):
+    """Pitch radius of the rivets, cosine and sine of their angles."""
+    R = 0.5 * d.table.joint["d_m"]
+    return R, d.rivet_y / R, d.rivet_z / R
+
+
+def joints_out(d, pad):
+    """Relative motions (x, about r, about t) of all joints [3 Z, n + 3] by S, v_x and rotations about y and z."""
+    R, c, s = circle(d)
+    rigid = np.array([[1.0 + 0.0 * c, 0.0 * c, 0.0 * c], [R * s, c, -s], [-R * c, s, c]])
+    return np.concatenate([ROOT * pad[:, OUT], rigid]).transpose(2, 1, 0).reshape(3 * Z, -1)
+
+
+def joints_in(d, pad):
+    """Relative motions (r, t) of all joints [2 Z, n + 3] by D, v_y, v_z and the spin."""
+    R, c, s = circle(d)
+    rigid = np.array([[c, -s], [s, c], [0.0 * c, R + 0.0 * c]])
+    return np.concatenate([ROOT * pad[:, IN], rigid]).transpose(2, 1, 0).reshape(2 * Z, -1)
+
+
+def cage_elastic_vibrations(model, w, y, h=None):
+    """Accelerations in y [states] with the inertia that the longest step needs; or, of velocities, what a step h leaves of each vibration.  Changes y."""
+    half, h0 = model.d.elastic, w.half[0]
+    b_y, b_z = h0.b_y[1:, 0], h0.b_z[1:, 0]
+    axes = np.array([b_y, b_z])
+    before = np.array([y[block][1] - y[block][0] for block in CAGE_RATES])
+    out = np.concatenate([before[:1], axes @ before[3:5]])
+    inside = np.concatenate([axes @ before[1:3], before[5:]])
+    results = []
+    for v, block, rigid in ((half.mirrored, MODE_S_DOT, out), (half.opposed[int(np.any(w.k_bearing > 0.0))], MODE_D_DOT, inside)):
+        factor = v.slowed if h is None else 1.0 - np.minimum(0.2, WAVE_DAMPING * (h * h * v.lambda_) ** 2)
+        found = v.shape @ (factor * (v.shape.T @ (v.inertia * np.append(y[block][: half.n], rigid))))
+        y[block][: half.n] = found[: half.n]
+        results.append(found[half.n :])
+    out, inside = results
+    after = np.concatenate([out[:1], inside[:2] @ axes, out[1:] @ axes, inside[2:]])
+    for block, change in zip(CAGE_RATES, after - before, strict=True):
+        y[block] += 0.5 * change * np.array([-1.0, 1.0])
 
 
 # ------------------------------------------------------------------------------------------------------------------ walls of the pockets
@@ -244,6 +321,15 @@ def cage_elastic_pads(model, w):
     for total, (r, t) in ((w.u, w.pad_in), (w.v_j, w.pad_in_dot)):
         total[1] += c * r - s * t
         total[2] += s * r + c * t
+
+
+def cage_elastic_slip(model, y, w):
+    """Adds the modes to the joints' offsets and velocities in the plane (cage_joint_kinematics before), for the friction states."""
+    half = model.d.elastic
+    D, D_dot = (ROOT * y[..., block][..., : half.n] for block in (MODE_D, MODE_D_DOT))
+    w.pad_in, w.pad_in_dot = (np.einsum("...i,ikz->k...z", q, half.pad[:, IN]) for q in (D, D_dot))
+    w.pad_out = 0.0
+    cage_elastic_pads(model, w)
 
 
 def cage_elastic_law(model, e, P):
