@@ -14,9 +14,11 @@ and a sin(n theta), b cos(n theta) for the second.
 
 Joint, out of the plane: with e half of the relative motion of its pads (rigid and elastic), the static compliance R that the modes leave, K = R^-1, circulant,
 
-    L_k = sum_j K_(k-j) (e_j - delta_j),    (delta, T, m_r, m_t)_k = law(L^_k, P),    L^_k = L_k + K_0 delta_k
+    L_k = sum_j K_(k-j) (e_j - delta_j),    (delta, T, m_r, m_t)_k = law(L^_k, P),    L^_k = sum_j K_(k-j) e_j - sum_(j != k) K_(k-j) delta_rest
 
 with the joint's law (joint_law.py), in which the stiffness K_0 of the whole half around a joint is replaced by that which the modes leave (law_behind).
+delta_rest: moves of all joints at rest under the centrifugal load; that a neighbour moves otherwise is in the loads, and left out in the argument of the
+law.  So loads and moves follow from one energy, sum over the joints of e.K e/2 - U(L^), delta = dU/dL^, as far as the table of the law has one.
 In the plane, friction states and the hole's contact as in cage_joint.py, in series with what the modes leave.  Pads do not hold each other about x.
 
 Left out: Coriolis forces and the softening of modes by spin, of the order 2 omega_c/omega_i and (omega_c/omega_i)^2.
@@ -27,7 +29,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from bearing_model.half_modes import PAD, coordinates, denser, fewer, frequencies, phases, rivet_shapes, spin_load
-from bearing_model.joint_law import JointLaw, joint_law, law_load, law_spline
+from bearing_model.joint_law import JointLaw, joint_law, law_load, law_spline, ratio
 from bearing_model.lanes import absolute, ball_array_sum, maximum
 from bearing_model.rivet_splines import interpolate, sites
 from bearing_model.variables import CAGE_BETA_DOT, CAGE_GAMMA_DOT, CAGE_S, CAGE_V_X, CAGE_V_Y, CAGE_V_Z, MODE_D, MODE_D_DOT, MODE_S, MODE_S_DOT, Z
@@ -40,6 +42,8 @@ LONGEST = 8e-6  # step of the default method at tolerance 1e-3 [s]
 MARGIN = 1.3  # of joints that are stiffer than the closed ones by rounding of the law
 WAVE_DAMPING = 0.003  # a step takes this part times x^4 of a vibration that turns by x = omega h
 WALL_NODE = 1  # of the walls' angle: impacts meet the wall at 7 degrees in the median
+RESTS = 65  # states of rest
+REST_SWEEPS = 12  # of all joints at once
 RAY = 24  # intervals of Simpson's rule along a ray of loads
 
 
@@ -67,6 +71,8 @@ class ElasticHalf:
     mirrored: tuple  # vibrations of S and the relative rigid motions out of the plane (Vibrations)
     opposed: tuple  # of D and those in the plane, without and with shanks that bear
     law: JointLaw  # over L^
+    prying: float  # |bonded M_t| of the centrifugal load over the law's length, per (rad/s)^2 [N s2]
+    relief: np.ndarray  # of a joint by the others at rest [RESTS, 3], per newton
     energy: np.ndarray  # coefficients of U, whose slope is delta [tau, q, psi], per newton squared
 
 
@@ -148,7 +154,7 @@ def derive_elastic(p, d, table):
     big = K[(np.arange(Z)[:, None] - np.arange(Z)) % Z].transpose(0, 2, 1, 3).reshape(3 * Z, 3 * Z)
     alike = (modes.harmonic[entry] == 0) & (part == 0.0)
     u_2 = np.sum(pocket[:, :, [0, 2]] ** 2, axis=(2, 3))  # [chi, n], at the nodes; between them a quarter farther at most
-    return ElasticHalf(
+    half = ElasticHalf(
         n=len(omega),
         omega=omega,
         alike=alike,
@@ -172,8 +178,12 @@ def derive_elastic(p, d, table):
             for k in (held, held + series_hole * d.k_hole)
         ),
         law=behind,
+        prying=np.abs(d.spin[4]) / behind.length,
+        relief=None,
         energy=energy,
     )
+    half.relief = find_relief(half, p.cage.m)
+    return half
 
 
 @dataclass
@@ -332,23 +342,26 @@ def cage_elastic_slip(model, y, w):
     cage_elastic_pads(model, w)
 
 
-def cage_elastic_law(model, e, P):
-    """Loads L (N, M_r, M_t) of the joints, moves delta, loads of the rivets (T, m_r, m_t), energy of one half, for motions e; all [3, ..., Z]."""
+def cage_elastic_law(model, e, P, omega_2):
+    """Loads L (N, M_r, M_t) of the joints, loads of the rivets (T, m_r, m_t), [3, ..., Z], energy of one half [..., Z], for motions e [3, ..., Z]."""
     half, law = model.d.elastic, model.d.elastic.law
     waves = half.K[(np.arange(Z)[:, None] - np.arange(Z)) % Z]  # [k, j, 3, 3]
     bonded = np.einsum("kjab,b...j->...ka", waves, e)
-    behind, delta = bonded, None
-    for _ in range(2):  # the neighbours' moves relieve a joint
-        if delta is not None:
-            behind = bonded - np.einsum("kjab,...jb->...ka", waves, delta) + delta @ half.K[0].T
-        delta, rivet = joint_law(law, behind, P)
-    load = behind - delta @ half.K[0].T
+    behind = bonded - cage_elastic_relief(half, P, omega_2)
+    delta, rivet = joint_law(law, behind, P)
+    load = bonded - np.einsum("kjab,...jb->...ka", waves, delta)
     s = P + np.sqrt(behind[..., 0] ** 2 + (behind[..., 1] ** 2 + behind[..., 2] ** 2) / law.length**2)
-    U = s**2 * spline_value(law, half.energy, behind, P)
-    rest = np.moveaxis(e, 0, -1) - delta
-    V = 0.5 * np.sum(rest * np.einsum("kjab,...jb->...ka", waves, rest), axis=-1)
-    V = V + np.sum((behind - 0.5 * delta @ half.K[0].T) * delta, axis=-1) - U
-    return np.moveaxis(load, -1, 0), np.moveaxis(delta, -1, 0), np.moveaxis(rivet, -1, 0), V
+    V = 0.5 * np.sum(np.moveaxis(e, 0, -1) * bonded, axis=-1) - s**2 * spline_value(law, half.energy, behind, P)
+    return np.moveaxis(load, -1, 0), np.moveaxis(rivet, -1, 0), V
+
+
+def cage_elastic_relief(half, P, omega_2):
+    """What the moves of all other joints relieve a joint of at rest under the centrifugal load [..., Z, 3]: linear between the states of rest."""
+    load = half.prying * omega_2
+    s = P + load
+    x = ratio(load + 0.0 * s, s) * (RESTS - 1.0)
+    i = np.minimum(np.real(x), RESTS - 2.0).astype(int)
+    return s[..., None] * (half.relief[i] + (x - i)[..., None] * (half.relief[i + 1] - half.relief[i]))
 
 
 def spline_value(law, coefficients, load, P):
@@ -361,7 +374,7 @@ def cage_elastic_joints(model, y, w):
     d, (h0, h1) = model.d, w.half
     omega_2 = 0.5 * ((h0.s + w.frame_omega) ** 2 + (h1.s + w.frame_omega) ** 2)
     P = maximum(d.P + d.spin[5] * omega_2, 0.0) + 0.0 * w.e[0]
-    w.joint_load, _, w.joint_rivet, V = cage_elastic_law(model, w.e, P)
+    w.joint_load, w.joint_rivet, V = cage_elastic_law(model, w.e, P, omega_2)
     w.joint_potential = 2.0 * V
     w.T = maximum(w.joint_rivet[0], 0.0)
     w.N_plate = maximum(w.T - w.joint_load[0], 0.0)
@@ -400,28 +413,48 @@ def cage_elastic_acceleration(model, y, w, y_dot):
         w.modes_dissipated = w.modes_dissipated + p.cage.m * np.sum(half.damping * v * v, axis=-1, keepdims=True)
 
 
-def cage_elastic_rest(model, omega):
-    """Coordinates S [n] and axial distance u_x [m] at which modes and joints rest under the centrifugal load of the speed omega [rad/s].
+def find_rest(half, m, omega_2, P, x=(0.0, 0.0), move=0.0):
+    """Rest under the centrifugal load of the speed's square omega_2 [rad2/s2]: coordinates S [n], (u_x, M_t), moves of the joints [3].
 
     All joints are alike: N = 0, and their M_t balances S_i = sqrt 2 (spin_i omega^2 - Z phi_t,i M_t)/(m omega_i^2).  Newton's method with differences for
-    (u_x, M_t).
+    the halves' distance u_x and M_t, from x; the joints' moves by sweeps, from `move`.
     """
-    half, d, m = model.d.elastic, model.d, model.p.cage.m
-    P = np.full(Z, max(d.P + d.spin[5] * omega**2, 0.0))
-    at = half.pad[:, OUT, 0]  # x, phi_r, phi_t
-    def rest(x):
-        S = ROOT * (half.spin * omega**2 - np.where(half.alike, Z * at[:, 2] * x[1], 0.0)) / (m * half.omega**2)
-        e = np.array([0.5 * x[0], 0.0, 0.0]) + S @ at / ROOT * [1.0, 0.0, 1.0]
-        load, *_ = cage_elastic_law(model, np.repeat(e[:, None], Z, axis=1), P)
-        return np.array([load[0, 0], (load[2, 0] - x[1]) / d.table.half.law.length]), S
+    at, K = half.pad[:, OUT, 0], half.K.sum(axis=0)  # x, phi_r, phi_t
 
-    x, step = np.zeros(2), np.array([1e-10, 1e-7])
+    def off(x, move):
+        S = ROOT * (half.spin * omega_2 - np.where(half.alike, Z * at[:, 2] * x[1], 0.0)) / (m * half.omega**2)
+        e = np.array([0.5 * x[0], 0.0, 0.0]) + S @ at / ROOT * [1.0, 0.0, 1.0]
+        for _ in range(REST_SWEEPS):
+            move = joint_law(half.law, K @ e - (K - half.K[0]) @ move, P)[0]
+        N, _, M_t = K @ (e - move)
+        return np.array([N, (M_t - x[1]) / half.law.length]), S, move
+
+    x, step, move = np.array(x), np.array([1e-10, 1e-7]), np.zeros(3) + move
     for _ in range(60):
-        off, S = rest(x)
-        if np.max(np.abs(off)) < 1e-10:
+        rest, S, move = off(x, move)
+        if np.max(np.abs(rest)) < 1e-11:
             break
-        slope = np.stack([(rest(x + s * axis)[0] - off) / s for s, axis in zip(step, np.eye(2), strict=True)], axis=1)
-        x = x - np.linalg.solve(slope, off)
+        slope = np.stack([(off(x + s * axis, move)[0] - rest) / s for s, axis in zip(step, np.eye(2), strict=True)], axis=1)
+        x = x - np.linalg.solve(slope, rest)
+    return S, x, move
+
+
+def find_relief(half, m):
+    """What the moves of all other joints relieve a joint of at rest [RESTS, 3], at equal steps of load/(load + P), per newton of load + P."""
+    relief, x, move = np.zeros((RESTS, 3)), (0.0, 0.0), 0.0
+    if half.prying > 0.0:
+        for i in range(RESTS - 1):
+            part = i / (RESTS - 1.0)
+            _, x, move = find_rest(half, m, part / half.prying, 1.0 - part, x, move)
+            relief[i] = half.K[1:].sum(axis=0) @ move
+        relief[-1] = relief[-2]
+    return relief
+
+
+def cage_elastic_rest(model, omega):
+    """Coordinates S [n] and distance of the halves' bodies [m] at which modes and joints rest under the centrifugal load of the speed omega [rad/s]."""
+    d = model.d
+    S, x, _ = find_rest(d.elastic, model.p.cage.m, omega**2, max(d.P + d.spin[5] * omega**2, 0.0))
     return S, x[0]
 
 

@@ -13,10 +13,13 @@
 // Joint, out of the plane: with e half of the relative motion of its pads (rigid and elastic), the static compliance that
 // the modes leave between pads and its inverse K, circulant,
 //
-//     L_k = sum_j K_(k-j) (e_j - delta_j),     (delta, T, m_r, m_t)_k = law(L^_k, P),     L^_k = L_k + K_0 delta_k
+//     L_k = sum_j K_(k-j) (e_j - delta_j),     (delta, T, m_r, m_t)_k = law(L^_k, P),
+//     L^_k = sum_j K_(k-j) e_j - sum_(j != k) K_(k-j) delta_rest
 //
 // with the joint's law (joint_law.h), in which the stiffness of the whole half around a joint is replaced by that which the
-// modes leave (elastic_half.c).  In the plane, friction states and the hole's contact are those of cage_joint.c, in series
+// modes leave (elastic_half.c).  delta_rest: moves of all joints at rest under the centrifugal load; that a neighbour moves
+// otherwise is in the loads, and left out in the argument of the law.  So loads and moves follow from one energy, sum over
+// the joints of e.K e/2 - U(L^), delta = dU/dL^, as far as the table of the law has one.  In the plane, friction states and the hole's contact are those of cage_joint.c, in series
 // with what the modes leave.  Pads do not hold each other about x.
 //
 // The centrifugal load widens a half, which takes spin from it: its moment of inertia is J_p + 2 sum spin_i q_i.  Coriolis
@@ -141,46 +144,30 @@ static void stiffness_times(const ElasticHalf *half, ball_array x[PAD_OUT], ball
         }
 }
 
-// All joints answer to L^ by the moves of their neighbours in the last sweep (relief: K times all moves).
-static void sweep_joints(const ElasticHalf *half, scalar P, bool first, ball_array bonded[PAD_OUT], ball_array relief[PAD_OUT], Work *w)
-{
-    const double (*K_0)[PAD_OUT] = half->K[0];
-    for (int k = 0; k < Z; k++) {
-        scalar behind[3], move[3], rivet[3], U;
-        for (int a = 0; a < 3; a++) {
-            behind[a] = bonded[a][k];
-            if (first) continue;
-            behind[a] -= relief[a][k];
-            for (int b = 0; b < 3; b++) behind[a] += K_0[a][b] * w->joint_move[b][k];
-        }
-        joint_law(&half->law, behind, P, move, rivet, &U);
-        for (int a = 0; a < 3; a++)
-            w->joint_behind[a][k] = behind[a], w->joint_move[a][k] = move[a], w->joint_rivet[a][k] = rivet[a];
-        w->joint_U[k] = U;
-    }
-}
-
 void cage_elastic_joints(const Model *model, Work *w)
 {
     const ElasticHalf *half = model->elastic;
     const Derived *d = model->d;
-    const double (*K_0)[PAD_OUT] = half->K[0];
     const scalar s_0 = w->half[0].s + w->frame_omega, s_1 = w->half[1].s + w->frame_omega;
     const scalar P = scalar_max(d->P + d->spin[ROW_DP] * (0.5 * (s_0 * s_0 + s_1 * s_1)), 0.0);
-    ball_array bonded[PAD_OUT], relief[PAD_OUT];
-    stiffness_times(half, w->e, bonded);
-    for (int sweep = 0; sweep < JOINT_SWEEPS; sweep++) {
-        if (sweep > 0) stiffness_times(half, w->joint_move, relief);
-        sweep_joints(half, P, sweep == 0, bonded, relief, w);
+    ball_array relief[PAD_OUT];
+    scalar rest[PAD_OUT];
+    elastic_relief(half, P, 0.5 * (s_0 * s_0 + s_1 * s_1), rest);
+    stiffness_times(half, w->e, w->joint_bonded);
+    for (int k = 0; k < Z; k++) {
+        for (int a = 0; a < 3; a++) w->joint_behind[a][k] = w->joint_bonded[a][k] - rest[a];
+        const scalar behind[3] = {w->joint_behind[0][k], w->joint_behind[1][k], w->joint_behind[2][k]};
+        scalar move[3], rivet[3];
+        joint_law(&half->law, behind, P, move, rivet, &w->joint_U[k]);
+        for (int a = 0; a < 3; a++) w->joint_move[a][k] = move[a], w->joint_rivet[a][k] = rivet[a];
     }
+    stiffness_times(half, w->joint_move, relief);
 
     // loads; what rivets and plates carry
     ball_array M_y, M_z;
     const double inv_R = 2.0 / rivet_table.joint.d_m;
     for (int k = 0; k < Z; k++) {
-        for (int a = 0; a < 3; a++)
-            w->joint_load[a][k] = w->joint_behind[a][k] - (K_0[a][0] * w->joint_move[0][k] + K_0[a][1] * w->joint_move[1][k] +
-                                                           K_0[a][2] * w->joint_move[2][k]);
+        for (int a = 0; a < 3; a++) w->joint_load[a][k] = w->joint_bonded[a][k] - relief[a][k];
         w->T[k] = scalar_max(w->joint_rivet[0][k], 0.0);
         w->N_plate[k] = scalar_max(w->T[k] - w->joint_load[0][k], 0.0);
         const double c = d->rivet_y[k] * inv_R, s = d->rivet_z[k] * inv_R;

@@ -16,13 +16,13 @@
 #include "joint_law.h"
 #include "model.h"
 
-enum { JOINT_SWEEPS = 2 };  // of the joints, whose moves relieve their neighbours
-
 enum { MODES = N_MODES };
 
 enum { PAD_OUT = 3, PAD_IN = 2 };  // motions of pads against each other out of the plane (x, about r, about t), in it (r, t)
 
 enum { WALL_NODES = 16 };  // at most
+
+enum { RESTS = 65 };  // states of rest under the centrifugal load, at equal steps of load/(load + P)
 
 // The vibrations of both halves and their closed joints, wave by wave: a mode's coordinate a or b of harmonic n meets joints
 // only of the same wave, and so do relative motions of the halves as rigid bodies.  With a the accelerations times the root of
@@ -58,6 +58,8 @@ struct ElasticHalf {
     double widest[MODES]; // largest |u|/|q| of those, 0 of the others
     double compliance;                           // of a wall along its normal, by the residual, less that in Hertz's [m/N]
     double K[Z][PAD_OUT][PAD_OUT];               // inverse of the residual between pads, out of the plane
+    double prying;                               // |bonded M_t| of the centrifugal load over the law's length, per (rad/s)^2
+    double relief[RESTS][PAD_OUT];               // what other joints relieve a joint of at rest, per newton of load + P
     double series, series_hole;                  // parts of the joints' stiffness in the plane, in series with the residual
     double longest;                              // step of the default method [s]
     int harmonic[MODES], coordinate[MODES];      // n; a 0, b 1
@@ -101,22 +103,22 @@ INLINE void elastic_wall_force(const ElasticHalf *half, const WallShape *shape, 
         modal[i] += F[0] * shape->motion[0][i] + F[1] * shape->motion[1][i] + F[2] * shape->motion[2][i];
 }
 
-// Energy of all joints between the halves, and of what the modes leave of the halves around them, from e, L^, delta and U.
-INLINE scalar elastic_potential(const ElasticHalf *half, const Work *w)
+// What the moves of all other joints relieve a joint of at rest under the centrifugal load, at the speed's square.
+INLINE void elastic_relief(const ElasticHalf *half, scalar P, scalar omega_2, scalar relief[PAD_OUT])
 {
-    scalar V = 0.0, rest[PAD_OUT][Z];
-    for (int a = 0; a < PAD_OUT; a++)
-        for (int k = 0; k < Z; k++) rest[a][k] = w->e[a][k] - w->joint_move[a][k];
+    const scalar load = half->prying * omega_2, s = P + load;
+    const scalar x = scalar_value(s) > 0.0 ? load / s * (RESTS - 1.0) : 0.0;
+    const int i = (int)fmin(scalar_value(x), RESTS - 2.0);
+    for (int a = 0; a < PAD_OUT; a++) relief[a] = s * (half->relief[i][a] + (x - i) * (half->relief[i + 1][a] - half->relief[i][a]));
+}
+
+// Energy of all joints between the halves, and of what the modes leave of the halves around them.
+INLINE scalar elastic_potential(const Work *w)
+{
+    scalar V = 0.0;
     for (int k = 0; k < Z; k++) {
-        for (int a = 0; a < PAD_OUT; a++) {
-            scalar held = 0.0, own = 0.0;
-            for (int b = 0; b < PAD_OUT; b++) {
-                own += half->K[0][a][b] * w->joint_move[b][k];
-                for (int j = 0; j < Z; j++) held += half->K[(k - j + Z) % Z][a][b] * rest[b][j];
-            }
-            V += 0.5 * rest[a][k] * held + (w->joint_behind[a][k] - 0.5 * own) * w->joint_move[a][k];
-        }
         V -= w->joint_U[k];
+        for (int a = 0; a < PAD_OUT; a++) V += 0.5 * w->e[a][k] * w->joint_bonded[a][k];
     }
     return 2.0 * V;
 }
