@@ -14,11 +14,10 @@ and a sin(n theta), b cos(n theta) for the second.
 
 Joint, out of the plane: with e half of the relative motion of its pads (rigid and elastic), the static compliance R that the modes leave, K = R^-1, circulant,
 
-    L_k = sum_j K_(k-j) (e_j - delta_j),    (delta, T, m_r, m_t)_k = law(L^_k, P),    L^_k = sum_j K_(k-j) e_j - sum_(j != k) K_(k-j) delta_rest
+    L_k = sum_j K_(k-j) (e_j - delta_j),    (delta, T, m_r, m_t)_k = law(L^_k, P),    L^_k = L_k + K_0 delta_k
 
 with the joint's law (joint_law.py), in which the stiffness K_0 of the whole half around a joint is replaced by that which the modes leave (law_behind).
-delta_rest: moves of all joints at rest under the centrifugal load; that a neighbour moves otherwise is in the loads, and left out in the argument of the
-law.  So loads and moves follow from one energy, sum over the joints of e.K e/2 - U(L^), delta = dU/dL^, as far as the table of the law has one.
+The moves of the neighbours in L^ are found by sweeps that begin with those at rest under the centrifugal load.
 In the plane, friction states and the hole's contact as in cage_joint.py, in series with what the modes leave.  Pads do not hold each other about x.
 
 Left out: Coriolis forces and the softening of modes by spin, of the order 2 omega_c/omega_i and (omega_c/omega_i)^2.
@@ -42,6 +41,7 @@ LONGEST = 8e-6  # step of the default method at tolerance 1e-3 [s]
 MARGIN = 1.3  # of joints that are stiffer than the closed ones by rounding of the law
 WAVE_DAMPING = 0.003  # a step takes this part times x^4 of a vibration that turns by x = omega h
 WALL_NODE = 1  # of the walls' angle: impacts meet the wall at 7 degrees in the median
+JOINT_SWEEPS = 1  # of the joints beside their first answer
 RESTS = 65  # states of rest
 REST_SWEEPS = 12  # of all joints at once
 RAY = 24  # intervals of Simpson's rule along a ray of loads
@@ -349,9 +349,14 @@ def cage_elastic_law(model, e, P, omega_2):
     bonded = np.einsum("kjab,b...j->...ka", waves, e)
     behind = bonded - cage_elastic_relief(half, P, omega_2)
     delta, rivet = joint_law(law, behind, P)
-    load = bonded - np.einsum("kjab,...jb->...ka", waves, delta)
+    for _ in range(JOINT_SWEEPS):
+        behind = bonded - np.einsum("kjab,...jb->...ka", waves, delta) + delta @ half.K[0].T
+        delta, rivet = joint_law(law, behind, P)
+    load = behind - delta @ half.K[0].T
     s = P + np.sqrt(behind[..., 0] ** 2 + (behind[..., 1] ** 2 + behind[..., 2] ** 2) / law.length**2)
-    V = 0.5 * np.sum(np.moveaxis(e, 0, -1) * bonded, axis=-1) - s**2 * spline_value(law, half.energy, behind, P)
+    rest = np.moveaxis(e, 0, -1) - delta
+    V = 0.5 * np.sum(rest * np.einsum("kjab,...jb->...ka", waves, rest), axis=-1)
+    V = V + np.sum((behind - 0.5 * delta @ half.K[0].T) * delta, axis=-1) - s**2 * spline_value(law, half.energy, behind, P)
     return np.moveaxis(load, -1, 0), np.moveaxis(rivet, -1, 0), V
 
 

@@ -13,13 +13,11 @@
 // Joint, out of the plane: with e half of the relative motion of its pads (rigid and elastic), the static compliance that
 // the modes leave between pads and its inverse K, circulant,
 //
-//     L_k = sum_j K_(k-j) (e_j - delta_j),     (delta, T, m_r, m_t)_k = law(L^_k, P),
-//     L^_k = sum_j K_(k-j) e_j - sum_(j != k) K_(k-j) delta_rest
+//     L_k = sum_j K_(k-j) (e_j - delta_j),     (delta, T, m_r, m_t)_k = law(L^_k, P),     L^_k = L_k + K_0 delta_k
 //
 // with the joint's law (joint_law.h), in which the stiffness of the whole half around a joint is replaced by that which the
-// modes leave (elastic_half.c).  delta_rest: moves of all joints at rest under the centrifugal load; that a neighbour moves
-// otherwise is in the loads, and left out in the argument of the law.  So loads and moves follow from one energy, sum over
-// the joints of e.K e/2 - U(L^), delta = dU/dL^, as far as the table of the law has one.  In the plane, friction states and the hole's contact are those of cage_joint.c, in series
+// modes leave (elastic_half.c).  The moves of the neighbours in L^ are found by sweeps that begin with those at rest under the
+// centrifugal load.  In the plane, friction states and the hole's contact are those of cage_joint.c, in series
 // with what the modes leave.  Pads do not hold each other about x.
 //
 // The centrifugal load widens a half, which takes spin from it: its moment of inertia is J_p + 2 sum spin_i q_i.  Coriolis
@@ -29,6 +27,8 @@
 #include "elastic_half.h"
 #include "rivet_rom.h"
 #include "rotor.h"
+
+enum { JOINT_SWEEPS = 1 };  // beside the first answer
 
 static const double ROOT = 1.4142135623730951;  // of 2
 
@@ -144,30 +144,49 @@ static void stiffness_times(const ElasticHalf *half, ball_array x[PAD_OUT], ball
         }
 }
 
-void cage_elastic_joints(const Model *model, Work *w)
+// All joints answer to L^; behind: L^ without what a joint's own move relieves.
+static void joints_answer(const ElasticHalf *half, scalar P, Work *w)
 {
-    const ElasticHalf *half = model->elastic;
-    const Derived *d = model->d;
-    const scalar s_0 = w->half[0].s + w->frame_omega, s_1 = w->half[1].s + w->frame_omega;
-    const scalar P = scalar_max(d->P + d->spin[ROW_DP] * (0.5 * (s_0 * s_0 + s_1 * s_1)), 0.0);
-    ball_array relief[PAD_OUT];
-    scalar rest[PAD_OUT];
-    elastic_relief(half, P, 0.5 * (s_0 * s_0 + s_1 * s_1), rest);
-    stiffness_times(half, w->e, w->joint_bonded);
     for (int k = 0; k < Z; k++) {
-        for (int a = 0; a < 3; a++) w->joint_behind[a][k] = w->joint_bonded[a][k] - rest[a];
         const scalar behind[3] = {w->joint_behind[0][k], w->joint_behind[1][k], w->joint_behind[2][k]};
         scalar move[3], rivet[3];
         joint_law(&half->law, behind, P, move, rivet, &w->joint_U[k]);
         for (int a = 0; a < 3; a++) w->joint_move[a][k] = move[a], w->joint_rivet[a][k] = rivet[a];
     }
-    stiffness_times(half, w->joint_move, relief);
+}
+
+// K_0 times the move of joint k.
+INLINE scalar own_relief(const ElasticHalf *half, const Work *w, int a, int k)
+{
+    const double *K = half->K[0][a];
+    return K[0] * w->joint_move[0][k] + K[1] * w->joint_move[1][k] + K[2] * w->joint_move[2][k];
+}
+
+void cage_elastic_joints(const Model *model, Work *w)
+{
+    const ElasticHalf *half = model->elastic;
+    const Derived *d = model->d;
+    const scalar s_0 = w->half[0].s + w->frame_omega, s_1 = w->half[1].s + w->frame_omega;
+    const scalar omega_2 = 0.5 * (s_0 * s_0 + s_1 * s_1), P = scalar_max(d->P + d->spin[ROW_DP] * omega_2, 0.0);
+    ball_array bonded[PAD_OUT], relief[PAD_OUT];
+    scalar rest[PAD_OUT];
+    stiffness_times(half, w->e, bonded);
+    elastic_relief(half, P, omega_2, rest);
+    for (int a = 0; a < 3; a++)
+        for (int k = 0; k < Z; k++) w->joint_behind[a][k] = bonded[a][k] - rest[a];
+    joints_answer(half, P, w);
+    for (int sweep = 0; sweep < JOINT_SWEEPS; sweep++) {
+        stiffness_times(half, w->joint_move, relief);
+        for (int a = 0; a < 3; a++)
+            for (int k = 0; k < Z; k++) w->joint_behind[a][k] = bonded[a][k] - relief[a][k] + own_relief(half, w, a, k);
+        joints_answer(half, P, w);
+    }
 
     // loads; what rivets and plates carry
     ball_array M_y, M_z;
     const double inv_R = 2.0 / rivet_table.joint.d_m;
     for (int k = 0; k < Z; k++) {
-        for (int a = 0; a < 3; a++) w->joint_load[a][k] = w->joint_bonded[a][k] - relief[a][k];
+        for (int a = 0; a < 3; a++) w->joint_load[a][k] = w->joint_behind[a][k] - own_relief(half, w, a, k);
         w->T[k] = scalar_max(w->joint_rivet[0][k], 0.0);
         w->N_plate[k] = scalar_max(w->T[k] - w->joint_load[0][k], 0.0);
         const double c = d->rivet_y[k] * inv_R, s = d->rivet_z[k] * inv_R;

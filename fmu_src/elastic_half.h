@@ -112,13 +112,22 @@ INLINE void elastic_relief(const ElasticHalf *half, scalar P, scalar omega_2, sc
     for (int a = 0; a < PAD_OUT; a++) relief[a] = s * (half->relief[i][a] + (x - i) * (half->relief[i + 1][a] - half->relief[i][a]));
 }
 
-// Energy of all joints between the halves, and of what the modes leave of the halves around them.
-INLINE scalar elastic_potential(const Work *w)
+// Energy of all joints between the halves, and of what the modes leave of the halves around them, from e, L^, delta and U.
+INLINE scalar elastic_potential(const ElasticHalf *half, const Work *w)
 {
-    scalar V = 0.0;
+    scalar V = 0.0, rest[PAD_OUT][Z];
+    for (int a = 0; a < PAD_OUT; a++)
+        for (int k = 0; k < Z; k++) rest[a][k] = w->e[a][k] - w->joint_move[a][k];
     for (int k = 0; k < Z; k++) {
+        for (int a = 0; a < PAD_OUT; a++) {
+            scalar held = 0.0, own = 0.0;
+            for (int b = 0; b < PAD_OUT; b++) {
+                own += half->K[0][a][b] * w->joint_move[b][k];
+                for (int j = 0; j < Z; j++) held += half->K[(k - j + Z) % Z][a][b] * rest[b][j];
+            }
+            V += 0.5 * rest[a][k] * held + (w->joint_behind[a][k] - 0.5 * own) * w->joint_move[a][k];
+        }
         V -= w->joint_U[k];
-        for (int a = 0; a < PAD_OUT; a++) V += 0.5 * w->e[a][k] * w->joint_bonded[a][k];
     }
     return 2.0 * V;
 }
