@@ -89,7 +89,7 @@ void cage_elastic_kinematics(const Model *model, const scalar *y, Work *w)
     motion_out_of_plane(half, S, w);
     motion_in_plane(half, D, D_dot, w);
     for (int h = 0; h < 2; h++) {
-        scalar stored[MODES], moved[MODES];
+        scalar stored[MODES] = {0.0}, moved[MODES] = {0.0};
         for (int i = 0; i < 8 * half->blocks; i++) {
             stored[i] = half->weight[i] * w->q[h][i];
             moved[i] = fabs(scalar_value(w->q[h][i]));
@@ -221,7 +221,7 @@ void cage_elastic_acceleration(const Model *model, const scalar *y, Work *w, sca
 {
     const ElasticHalf *half = model->elastic;
     const double inv_root = 1.0 / ROOT, m = model->p->cage.m, inv_m = 1.0 / m, inv_R = 2.0 / rivet_table.joint.d_m;
-    scalar mirrored[MODES], opposed[MODES], spin[2];
+    scalar mirrored[MODES] = {0.0}, opposed[MODES] = {0.0}, spin[2];
     for (int h = 0; h < 2; h++) {
         const scalar s = w->half[h].s + w->frame_omega;
         spin[h] = s * s;
@@ -246,7 +246,7 @@ void cage_elastic_acceleration(const Model *model, const scalar *y, Work *w, sca
     }
 
     // rates, energy and dissipation
-    scalar rates[MODES], lost[MODES], one[MODES];
+    scalar rates[MODES] = {0.0}, lost[MODES] = {0.0}, one[MODES] = {0.0};
     for (int i = 0; i < 8 * half->blocks; i++) {
         const scalar S = y[Y_MODE_S + i], D = y[Y_MODE_D + i], S_dot = y[Y_MODE_S_DOT + i], D_dot = y[Y_MODE_D_DOT + i];
         y_dot[Y_MODE_S + i] = S_dot;
