@@ -259,7 +259,11 @@ def cage_elastic_shapes(half, side, n_x, n_t):
     terms = half.pocket[i], half.slope[i], half.pocket[i + 1], half.slope[i + 1]  # [..., Z, n, 3, 2]
     value = v * v * (1.0 + 2.0 * u), h * u * v * v, u * u * (1.0 + 2.0 * v), -h * u * u * v
     slope = -6.0 * u * v / h, v * (v - 2.0 * u), 6.0 * u * v / h, u * (u - 2.0 * v)
-    back = np.where(np.real(n_t) < 0.0, -1.0, 1.0)[..., None, None, None] * np.array([[0.0, 1.0], [0.0, 1.0], [1.0, 0.0]]) + [[1.0, 0.0], [1.0, 0.0], [0.0, 1.0]]
+    back = np.where(np.real(n_t) < 0.0, -1.0, 1.0)[..., None, None, None] * np.array([[0.0, 1.0], [0.0, 1.0], [1.0, 0.0]]) + [
+        [1.0, 0.0],
+        [1.0, 0.0],
+        [0.0, 1.0],
+    ]
     wave = np.moveaxis(half.wave, 2, 0)[:, :, None, :]  # [Z, n, 1, 2]
 
     def shapes(weights):
@@ -395,7 +399,7 @@ def cage_elastic_joints(model, y, w):
 
 def cage_elastic_coriolis(model, w, h):
     """Moment [N.m] about the axis of half h that its widening needs; w.more_J: moment of inertia that its modes add, 2 spin . q."""
-    q, q_dot = w.modes[h]
+    _, q_dot = w.modes[h]
     spin = model.d.elastic.spin
     return 2.0 * np.sum(spin * q_dot, axis=-1) * (w.half[h].s + w.frame_omega)
 

@@ -5,7 +5,14 @@ from dataclasses import replace
 import numpy as np
 
 from bearing_model.ball import ball_acceleration, ball_kinematics
-from bearing_model.cage_elastic import cage_elastic_acceleration, cage_elastic_coriolis, cage_elastic_energy, cage_elastic_joints, cage_elastic_kinematics, cage_elastic_pads
+from bearing_model.cage_elastic import (
+    cage_elastic_acceleration,
+    cage_elastic_coriolis,
+    cage_elastic_energy,
+    cage_elastic_joints,
+    cage_elastic_kinematics,
+    cage_elastic_pads,
+)
 from bearing_model.cage_joint import cage_joint_force, cage_joint_kinematics
 from bearing_model.drag import drag_cage, drag_force, drag_mixture, drag_ring
 from bearing_model.energy import net_power

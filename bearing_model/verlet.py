@@ -85,7 +85,6 @@ class VerletState:
     rivet: np.ndarray = field(default_factory=lambda: np.zeros(Z))  # T and N_plate of the joints between elastic halves there [N]
     plate: np.ndarray = field(default_factory=lambda: np.zeros(Z))
 
-
     def __post_init__(self):
         self.jerk = np.zeros(len(self.y)) if self.jerk is None else self.jerk
 

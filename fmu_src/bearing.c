@@ -218,7 +218,8 @@ static bool room_for_modes(Bearing *b)
 {
     if (b->s.p.scene.cage != CAGE_MODEL_ELASTIC || b->elastic != NULL) return true;
     b->elastic = aligned_new(elastic_half_size());
-    if (b->elastic == NULL) bearing_log(b, LOG_ERROR, "scene.cage = elastic: no memory for the modes of the halves");
+    if (b->elastic == NULL)
+        bearing_log(b, LOG_ERROR, "scene.cage = elastic: no memory for the modes of the halves");
     return b->elastic != NULL;
 }
 

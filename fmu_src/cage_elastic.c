@@ -112,11 +112,13 @@ void cage_elastic_pads(const Model *model, Work *w)
 {
     const Rotor *h0 = &w->half[0], *h1 = &w->half[1];
     const double inv_R = 2.0 / rivet_table.joint.d_m;
-    const scalar turn_y = -dot3(h0->b_z, h1->a), turn_z = dot3(h0->b_y, h1->a);  // small rotation of half 1 against half 0
+    const scalar turn_y = -dot3(h0->b_z, h1->a),
+                 turn_z = dot3(h0->b_y, h1->a);  // small rotation of half 1 against half 0
     for (int k = 0; k < PACKETS * LANE_WIDTH; k += LANE_WIDTH) {
         const wide c = wide_load(&model->d->rivet_y[k]) * inv_R, s = wide_load(&model->d->rivet_z[k]) * inv_R;
         const wide rigid[PAD_OUT] = {wide_load(&w->u_x[k]), turn_y * c + turn_z * s, turn_z * c - turn_y * s};
-        for (int i = 0; i < PAD_OUT; i++) wide_store(&w->e[i][k], 0.5 * (rigid[i] + wide_load(&w->pad_out[i][k])));
+        for (int i = 0; i < PAD_OUT; i++)
+            wide_store(&w->e[i][k], 0.5 * (rigid[i] + wide_load(&w->pad_out[i][k])));
         const wide r = wide_load(&w->pad_in[0][k]), t = wide_load(&w->pad_in[1][k]);
         const wide r_dot = wide_load(&w->pad_in_dot[0][k]), t_dot = wide_load(&w->pad_in_dot[1][k]);
         wide_store(&w->rigid_u_y[k], wide_load(&w->u_y[k]));
@@ -131,7 +133,8 @@ void cage_elastic_pads(const Model *model, Work *w)
 // Sum over the joints j of K_(k-j) x_j for all joints k.
 static void stiffness_times(const ElasticHalf *half, ball_array x[PAD_OUT], ball_array out[PAD_OUT])
 {
-    scalar twice[PAD_OUT][2 * Z + LANES];  // once more behind the last one, so that neighbours lie side by side
+    scalar twice[PAD_OUT]
+                [2 * Z + LANES];  // once more behind the last one, so that neighbours lie side by side
     for (int b = 0; b < PAD_OUT; b++)
         for (int k = 0; k < 2 * Z + LANES; k++) twice[b][k] = x[b][k % Z];
     for (int k = 0; k < PACKETS * LANE_WIDTH; k += LANE_WIDTH)
@@ -167,7 +170,8 @@ void cage_elastic_joints(const Model *model, Work *w)
     const ElasticHalf *half = model->elastic;
     const Derived *d = model->d;
     const scalar s_0 = w->half[0].s + w->frame_omega, s_1 = w->half[1].s + w->frame_omega;
-    const scalar omega_2 = 0.5 * (s_0 * s_0 + s_1 * s_1), P = scalar_max(d->P + d->spin[ROW_DP] * omega_2, 0.0);
+    const scalar omega_2 = 0.5 * (s_0 * s_0 + s_1 * s_1),
+                 P = scalar_max(d->P + d->spin[ROW_DP] * omega_2, 0.0);
     ball_array bonded[PAD_OUT], relief[PAD_OUT];
     scalar rest[PAD_OUT];
     stiffness_times(half, w->e, bonded);
@@ -178,7 +182,8 @@ void cage_elastic_joints(const Model *model, Work *w)
     for (int sweep = 0; sweep < JOINT_SWEEPS; sweep++) {
         stiffness_times(half, w->joint_move, relief);
         for (int a = 0; a < 3; a++)
-            for (int k = 0; k < Z; k++) w->joint_behind[a][k] = bonded[a][k] - relief[a][k] + own_relief(half, w, a, k);
+            for (int k = 0; k < Z; k++)
+                w->joint_behind[a][k] = bonded[a][k] - relief[a][k] + own_relief(half, w, a, k);
         joints_answer(half, P, w);
     }
 
@@ -220,7 +225,8 @@ scalar cage_elastic_coriolis(const Model *model, const Work *w, int h)
 void cage_elastic_acceleration(const Model *model, const scalar *y, Work *w, scalar *y_dot)
 {
     const ElasticHalf *half = model->elastic;
-    const double inv_root = 1.0 / ROOT, m = model->p->cage.m, inv_m = 1.0 / m, inv_R = 2.0 / rivet_table.joint.d_m;
+    const double inv_root = 1.0 / ROOT, m = model->p->cage.m, inv_m = 1.0 / m,
+                 inv_R = 2.0 / rivet_table.joint.d_m;
     scalar mirrored[MODES] = {0.0}, opposed[MODES] = {0.0}, spin[2];
     for (int h = 0; h < 2; h++) {
         const scalar s = w->half[h].s + w->frame_omega;
@@ -236,7 +242,8 @@ void cage_elastic_acceleration(const Model *model, const scalar *y, Work *w, sca
     for (int k = 0; k < Z; k++) {
         const double c = model->d->rivet_y[k] * inv_R, s = model->d->rivet_z[k] * inv_R;
         const scalar F_y = w->joint_F_y[k], F_z = w->joint_F_z[k];
-        const scalar out[PAD_OUT] = {-ROOT * w->joint_load[0][k], -ROOT * w->joint_load[1][k], -ROOT * w->joint_load[2][k]};
+        const scalar out[PAD_OUT] = {-ROOT * w->joint_load[0][k], -ROOT * w->joint_load[1][k],
+                                     -ROOT * w->joint_load[2][k]};
         const scalar in[PAD_IN] = {ROOT * (c * F_y + s * F_z), ROOT * (c * F_z - s * F_y)};
         for (int i = 0; i < 8 * half->blocks; i++) {
             mirrored[i] += out[0] * half->out_modes[0][k][i] + out[1] * half->out_modes[1][k][i] +
@@ -248,7 +255,8 @@ void cage_elastic_acceleration(const Model *model, const scalar *y, Work *w, sca
     // rates, energy and dissipation
     scalar rates[MODES] = {0.0}, lost[MODES] = {0.0}, one[MODES] = {0.0};
     for (int i = 0; i < 8 * half->blocks; i++) {
-        const scalar S = y[Y_MODE_S + i], D = y[Y_MODE_D + i], S_dot = y[Y_MODE_S_DOT + i], D_dot = y[Y_MODE_D_DOT + i];
+        const scalar S = y[Y_MODE_S + i], D = y[Y_MODE_D + i], S_dot = y[Y_MODE_S_DOT + i],
+                     D_dot = y[Y_MODE_D_DOT + i];
         y_dot[Y_MODE_S + i] = S_dot;
         y_dot[Y_MODE_D + i] = D_dot;
         y_dot[Y_MODE_S_DOT + i] = inv_m * mirrored[i] - half->damping[i] * S_dot - half->omega_2[i] * S;
@@ -263,5 +271,6 @@ void cage_elastic_acceleration(const Model *model, const scalar *y, Work *w, sca
     w->modes_energy = 0.5 * m * elastic_sum(half, rates, one);
     w->modes_dissipated = m * elastic_sum(half, lost, one);
     for (int h = 0; h < 2; h++)
-        w->modes_energy += 0.5 * w->more_J[h] * (w->half[h].s * w->half[h].s - w->frame_omega * w->frame_omega);
+        w->modes_energy +=
+            0.5 * w->more_J[h] * (w->half[h].s * w->half[h].s - w->frame_omega * w->frame_omega);
 }

@@ -203,7 +203,8 @@ void cage_joint_force(const Model *model, const scalar *y, Work *w)
         wide_store(&w->joint_dissipated[k], lost + damping * v_x * v_x);
 
         // wrench on half 1 at its hole, which is at s + u from the centre of half 0, in the frame of half 0
-        const wide f_x = elastic ? -wide_load(&w->joint_load[0][k]) : N_plate - T - damping * v_x, f_y = -k_t * zp_y - k_h * zh_y - bearing * u_y;
+        const wide f_x = elastic ? -wide_load(&w->joint_load[0][k]) : N_plate - T - damping * v_x,
+                   f_y = -k_t * zp_y - k_h * zh_y - bearing * u_y;
         const wide f_z = -k_t * zp_z - k_h * zh_z - bearing * u_z;
         wide r_y = wide_load(&d->rivet_y[k]) + u_y, r_z = wide_load(&d->rivet_z[k]) + u_z;
         if (elastic) {  // modes move no centre of mass

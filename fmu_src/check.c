@@ -237,10 +237,12 @@ static bool check_table(Bearing *b)
         "cage.x_c = %g m: allowed is %g m +- 2 %%, the centre of mass of the cage half in the embedded rivet "
         "table; build an FMU for this cage",
         b->s.p.cage.x_c, rivet_table.half.x_c);
-    fine &= require(b, b->s.p.scene.cage != CAGE_MODEL_ELASTIC || rivet_table.modes.modes >= b->s.p.scene.modes,
-                    "scene.cage = elastic with scene.modes = %g: the embedded rivet table has %g vibration modes; build an FMU "
-                    "with a table by finite elements",
-                    b->s.p.scene.modes, rivet_table.modes.modes);
+    fine &=
+        require(b, b->s.p.scene.cage != CAGE_MODEL_ELASTIC || rivet_table.modes.modes >= b->s.p.scene.modes,
+                "scene.cage = elastic with scene.modes = %g: the embedded rivet table has %g vibration "
+                "modes; build an FMU "
+                "with a table by finite elements",
+                b->s.p.scene.modes, rivet_table.modes.modes);
     return fine;
 }
 
@@ -394,7 +396,9 @@ bool check_saved(Bearing *b)
     fine = fine && saved_is(b, history_is_valid(&s->history), "the motions given before");
     fine = fine &&
            saved_is(b, variable_allows(tolerance, 0, s->tolerance, message, sizeof message), "the tolerance");
-    fine = fine && saved_is(b, integrator_state_is_valid(&s->integrator, s->p.scene.cage == CAGE_MODEL_ELASTIC), "states and steps");
+    fine =
+        fine && saved_is(b, integrator_state_is_valid(&s->integrator, s->p.scene.cage == CAGE_MODEL_ELASTIC),
+                         "states and steps");
     fine = fine && saved_is(b, values_are_sane(&s->t_start, 1) && s->integrator.t >= s->t_start, "time");
     const double rounding =
         s->integrator.steps * DBL_EPSILON *

@@ -18,7 +18,7 @@
     RivetsLoad rivets_load_##isa;              \
     RivetRomStress rivet_rom_stress_##isa;     \
     extern const VectorOps vector_ops_##isa, vector_ops_elastic_##isa
-#define KERNELS_2(isa)                                                                          \
+#define KERNELS_2(isa)                                                                                  \
     ((Kernels){#isa, rhs_##isa, race_contact_force_##isa, &vector_ops_##isa, &vector_ops_elastic_##isa, \
                verlet_step_##isa, implicit_solve_##isa, rivets_load_##isa, rivet_rom_stress_##isa})
 #define DECLARE(isa) DECLARE_2(isa)

@@ -5,13 +5,15 @@
 #include "rivet_rom.h"
 
 static const double LONGEST = 8e-6;  // step at tolerance 1e-3 [s]
-static const double MARGIN = 1.3;     // of joints that are stiffer than the closed ones by rounding of the law
+static const double MARGIN = 1.3;    // of joints that are stiffer than the closed ones by rounding of the law
 
 enum { SYSTEM = PAD_OUT * Z, RAY = 24, REST_SWEEPS = 12 };
+
 enum { WALL_NODE = 1 };  // of the walls' angle: impacts meet the wall at 7 degrees in the median
 
 static const int OUT[PAD_OUT] = {PAD_X, PAD_PHI_R, PAD_PHI_T}, IN[PAD_IN] = {PAD_R, PAD_T};
-static const bool ODD[PADS] = {false, false, true, true, true, false};  // mirroring in the rivet's plane changes them
+static const bool ODD[PADS] = {false, false, true,
+                               true,  true,  false};  // mirroring in the rivet's plane changes them
 
 size_t elastic_half_size(void)
 {
@@ -31,7 +33,8 @@ static double wave_at(int n, int coordinate, int part, double theta)
 }
 
 // Mode i: coordinate a (0) or b (1) of an entry of the table.
-static void take_mode(const HalfModes *table, int entry, int coordinate, double unit, ElasticHalf *half, int i)
+static void take_mode(const HalfModes *table, int entry, int coordinate, double unit, ElasticHalf *half,
+                      int i)
 {
     const HalfMode *mode = &table->entry[entry];
     for (int k = 0; k < Z; k++) {
@@ -88,7 +91,8 @@ static void invert_residual(double R[Z][PADS][PADS], ElasticHalf *half)
         for (int j = 0; j < Z; j++)
             for (int a = 0; a < PAD_OUT; a++)
                 for (int b = 0; b < PAD_OUT; b++)
-                    A[PAD_OUT * k + a][PAD_OUT * j + b] = unit[a] * unit[b] * R[(k - j + Z) % Z][OUT[a]][OUT[b]];
+                    A[PAD_OUT * k + a][PAD_OUT * j + b] =
+                        unit[a] * unit[b] * R[(k - j + Z) % Z][OUT[a]][OUT[b]];
     for (int a = 0; a < PAD_OUT; a++) x[a][a] = 1.0;
     solve(A, x);
     for (int k = 0; k < Z; k++)
@@ -98,8 +102,8 @@ static void invert_residual(double R[Z][PADS][PADS], ElasticHalf *half)
 
 // ---- the law over L^ ------------------------------------------------------------------------------------------------
 // L* + (K - K_0) delta(L*) - L^ in newtons.
-static void behind_residual(const JointLaw *law, double more[3][3], const double load[3], double P, const double behind[3],
-                            double rest[3])
+static void behind_residual(const JointLaw *law, double more[3][3], const double load[3], double P,
+                            const double behind[3], double rest[3])
 {
     double move[3], rivet[3], U;
     joint_law(law, load, P, move, rivet, &U);
@@ -116,7 +120,8 @@ static double size_of(const double rest[3])
 }
 
 // L* for L^, by Newton's method with differences; a step is halved until the residual falls.
-static void load_before(const JointLaw *law, double more[3][3], const double behind[3], double P, double load[3])
+static void load_before(const JointLaw *law, double more[3][3], const double behind[3], double P,
+                        double load[3])
 {
     const double unit[3] = {1.0, law->length, law->length};
     double rest[3];
@@ -142,7 +147,8 @@ static void load_before(const JointLaw *law, double more[3][3], const double beh
             }
         for (int k = 0; k < 3; k++) det += slope[0][k] * minor[0][k];
         for (int k = 0; k < 3; k++)
-            change[k] = -(minor[0][k] * rest[0] + minor[1][k] * rest[1] + minor[2][k] * rest[2]) / det * unit[k];
+            change[k] =
+                -(minor[0][k] * rest[0] + minor[1][k] * rest[1] + minor[2][k] * rest[2]) / det * unit[k];
         double part = 1.0;
         for (int halving = 0; halving < 12; halving++, part *= 0.5) {
             for (int k = 0; k < 3; k++) trial[k] = load[k] + part * change[k];
@@ -174,11 +180,18 @@ static double site(int s, int cells)
 static void interpolate_axis(double *values, int cells, int stride)
 {
     enum { MOST = 64 };
+
     double upper[MOST], right[MOST], c[MOST];
     const int count = cells + 2;
     for (int s = 0; s < count; s++) {
         const bool end = s == 0 || s == count - 1;
-        const double lower = s == 0 ? 0.0 : end ? 0.5 : 0.125, middle = end ? 0.5 : 0.75, above = s == 0 ? 0.5 : end ? 0.0 : 0.125;
+        const double lower = s == 0 ? 0.0
+                             : end  ? 0.5
+                                    : 0.125,
+                     middle = end ? 0.5 : 0.75,
+                     above = s == 0 ? 0.5
+                             : end  ? 0.0
+                                    : 0.125;
         const double pivot = middle - (s > 0 ? lower * upper[s - 1] : 0.0);
         upper[s] = above / pivot;
         right[s] = (values[s * stride] - (s > 0 ? lower * right[s - 1] : 0.0)) / pivot;
@@ -202,7 +215,8 @@ static void interpolate(const int cells[LAW_AXES], double *values)
 
 // Values at a site of the law: moves of the pad and loads of the rivet under L^ (first pass); U, the work of the moves along
 // the ray from 0 to L^, by Simpson's rule (second pass).
-static void site_values(const ElasticHalf *half, double more[3][3], const double behind[3], double P, int pass, double *to)
+static void site_values(const ElasticHalf *half, double more[3][3], const double behind[3], double P,
+                        int pass, double *to)
 {
     double load[3], move[3], rivet[3], U;
     if (pass == 0) {
@@ -236,7 +250,8 @@ static void law_behind(ElasticHalf *half)
         for (int a = 0; a < cells[0] + 2; a++)
             for (int b = 0; b < cells[1] + 2; b++)
                 for (int c = 0; c < cells[2] + 2; c++, to += LAW_WIDTH) {
-                    const double at[LAW_AXES] = {site(a, cells[0]) / cells[0], 2.0 * site(b, cells[1]) / cells[1] - 1.0,
+                    const double at[LAW_AXES] = {site(a, cells[0]) / cells[0],
+                                                 2.0 * site(b, cells[1]) / cells[1] - 1.0,
                                                  2.0 * site(c, cells[2]) / cells[2] - 1.0};
                     double behind[3];
                     const double P = law_load(law->length, at, behind);
@@ -278,7 +293,8 @@ static double rigid_motion(bool out, int motion, int c, double theta)
 {
     const double R = 0.5 * rivet_table.joint.d_m, cosine = portable_cos(theta), sine = portable_sin(theta);
     if (out) {
-        const double about_y[PAD_OUT] = {R * sine, cosine, -sine}, about_z[PAD_OUT] = {-R * cosine, sine, cosine};
+        const double about_y[PAD_OUT] = {R * sine, cosine, -sine},
+                     about_z[PAD_OUT] = {-R * cosine, sine, cosine};
         if (motion == 0) return c == 0 ? 1.0 : 0.0;
         return motion == 1 ? about_y[c] : about_z[c];
     }
@@ -288,12 +304,13 @@ static double rigid_motion(bool out, int motion, int c, double theta)
 
 // One wave.  K: stiffness between joints k - j apart of relative motions [Z][3][3], a share of the joints' motions; inertia
 // of the relative rigid motion.
-static void find_wave(const Parameters *p, const ElasticHalf *half, bool out, int n, int coordinate, double K[Z][PAD_OUT][PAD_OUT],
-                      int motion, double inertia, Wave *wave)
+static void find_wave(const Parameters *p, const ElasticHalf *half, bool out, int n, int coordinate,
+                      double K[Z][PAD_OUT][PAD_OUT], int motion, double inertia, Wave *wave)
 {
     const int count = out ? PAD_OUT : PAD_IN, *pads = out ? OUT : IN;
     double root[WAVE_SIZE], Q[WAVE_SIZE][WAVE_SIZE];
-    double unit[PAD_OUT][Z], A[WAVE_SIZE][WAVE_SIZE] = {{0.0}}, B[WAVE_SIZE][PAD_OUT] = {{0.0}}, K_n[PAD_OUT][PAD_OUT] = {{0.0}};
+    double unit[PAD_OUT][Z], A[WAVE_SIZE][WAVE_SIZE] = {{0.0}}, B[WAVE_SIZE][PAD_OUT] = {{0.0}},
+                             K_n[PAD_OUT][PAD_OUT] = {{0.0}};
     for (int c = 0; c < count; c++) {
         double sum = 0.0;
         for (int k = 0; k < Z; k++) {
@@ -316,22 +333,26 @@ static void find_wave(const Parameters *p, const ElasticHalf *half, bool out, in
         root[row] = sqrt(p->cage.m);
         A[row][row] = half->omega_2[i];
         for (int c = 0; c < count; c++)
-            for (int k = 0; k < Z; k++) B[row][c] += sqrt(2.0) * unit[c][k] * (out ? half->out[i][c][k] : half->in[i][c][k]);
+            for (int k = 0; k < Z; k++)
+                B[row][c] += sqrt(2.0) * unit[c][k] * (out ? half->out[i][c][k] : half->in[i][c][k]);
     }
     if (motion >= 0) {
         const int row = wave->count++;
         wave->row[row] = RIGID_MOTION;
         root[row] = sqrt(inertia);
         for (int c = 0; c < count; c++)
-            for (int k = 0; k < Z; k++) B[row][c] += unit[c][k] * rigid_motion(out, motion, c, 2.0 * PI * (k + 0.5) / Z);
+            for (int k = 0; k < Z; k++)
+                B[row][c] += unit[c][k] * rigid_motion(out, motion, c, 2.0 * PI * (k + 0.5) / Z);
     }
     for (int i = 0; i < wave->count; i++)
         for (int k = 0; k < wave->count; k++)
             for (int a = 0; a < count; a++)
-                for (int b = 0; b < count; b++) A[i][k] += B[i][a] * K_n[a][b] * B[k][b] / (root[i] * root[k]);
+                for (int b = 0; b < count; b++)
+                    A[i][k] += B[i][a] * K_n[a][b] * B[k][b] / (root[i] * root[k]);
     diagonalize(wave->count, A, Q);
     for (int i = 0; i < wave->count; i++)
-        for (int k = 0; k < wave->count; k++) wave->to[i][k] = root[i] * Q[i][k], wave->back[k][i] = Q[i][k] / root[i];
+        for (int k = 0; k < wave->count; k++)
+            wave->to[i][k] = root[i] * Q[i][k], wave->back[k][i] = Q[i][k] / root[i];
     for (int i = 0; i < wave->count; i++) {
         wave->slowed[i] = 1.0 / fmax(1.0, MARGIN * 0.25 * A[i][i] * half->longest * half->longest);
         wave->lambda[i] = wave->slowed[i] * A[i][i];
@@ -346,16 +367,18 @@ static void find_waves(const Parameters *p, const Derived *d, ElasticHalf *half)
         for (int a = 0; a < 9; a++) K[k][a / 3][a % 3] = 0.5 * half->K[k][a / 3][a % 3];
     for (int bears = 0; bears < 2; bears++)
         for (int c = 0; c < PAD_IN; c++)
-            shear[bears][0][c][c] = half->series * (d->k_plate_t + d->k_head) + bears * half->series_hole * d->k_hole;
+            shear[bears][0][c][c] =
+                half->series * (d->k_plate_t + d->k_head) + bears * half->series_hole * d->k_hole;
     for (int n = 0; n <= Z / 2; n++)
         for (int coordinate = 0; coordinate < 2; coordinate++) {
             const int w = 2 * n + coordinate;
             const int out = n == 0 && coordinate == 0 ? 0 : n == 1 ? 2 - coordinate : -1;
             const int in = n == 0 && coordinate == 1 ? 2 : n == 1 ? coordinate : -1;
-            find_wave(p, half, true, n, coordinate, K, out, 0.5 * (out == 0 ? p->cage.m : d->J_t), &half->mirrored[w]);
+            find_wave(p, half, true, n, coordinate, K, out, 0.5 * (out == 0 ? p->cage.m : d->J_t),
+                      &half->mirrored[w]);
             for (int bears = 0; bears < 2; bears++)
-                find_wave(p, half, false, n, coordinate, shear[bears], in, 0.5 * (in == 2 ? d->J_p : p->cage.m),
-                          &half->opposed[bears][w]);
+                find_wave(p, half, false, n, coordinate, shear[bears], in,
+                          0.5 * (in == 2 ? d->J_p : p->cage.m), &half->opposed[bears][w]);
         }
 }
 
@@ -382,16 +405,18 @@ static void take_modes(const Parameters *p, ElasticHalf *half, double R[Z][PADS]
                 half->alike[i] = mode->harmonic == 0 && coordinate == 0;
                 half->omega_2[i] = mode->omega * mode->omega / denser;
                 half->damping[i] = 2.0 * p->cage.modal_damping * sqrt(half->omega_2[i]);
-                if (p->cage.centrifugal == SWITCH_ON && coordinate == 0) half->spin[i] = denser * unit * mode->spin;
+                if (p->cage.centrifugal == SWITCH_ON && coordinate == 0)
+                    half->spin[i] = denser * unit * mode->spin;
                 continue;
             }
             const int n = mode->harmonic;
             for (int k = 0; k < Z; k++)
                 for (int a = 0; a < PADS; a++)
                     for (int b = 0; b < PADS; b++)
-                        R[k][a][b] += at[a] * wave_at(n, coordinate, ODD[a], 2.0 * PI * (k + 0.5) / Z) * at[b] *
-                                      wave_at(n, coordinate, ODD[b], PI / Z) * flexibility;
-            const double u = s * wall[coordinate] + c * wall[4 + coordinate];  // on pocket 0, along the normal
+                        R[k][a][b] += at[a] * wave_at(n, coordinate, ODD[a], 2.0 * PI * (k + 0.5) / Z) *
+                                      at[b] * wave_at(n, coordinate, ODD[b], PI / Z) * flexibility;
+            const double u =
+                s * wall[coordinate] + c * wall[4 + coordinate];  // on pocket 0, along the normal
             half->compliance += u * u * flexibility;
         }
     }
@@ -402,11 +427,12 @@ static void take_modes(const Parameters *p, ElasticHalf *half, double R[Z][PADS]
 // All joints are alike: N = 0, and their M_t balances S_i = sqrt 2 (spin_i omega^2 - Z phi_t,i M_t)/(m omega_i^2).  Sets S and
 // what is off for the distance x[0] and M_t = x[1]: N, and M_t over the law's length [N].  move: of the joints, to begin with
 // and as found.
-static void rest_off(const Parameters *p, const ElasticHalf *half, double omega_2, double P, const double x[2], double *S,
-                     double off[2], double move[PAD_OUT])
+static void rest_off(const Parameters *p, const ElasticHalf *half, double omega_2, double P,
+                     const double x[2], double *S, double off[2], double move[PAD_OUT])
 {
     const double root = sqrt(2.0);
-    double e[PAD_OUT] = {0.5 * x[0], 0.0, 0.0}, K[PAD_OUT][PAD_OUT] = {{0.0}}, bonded[PAD_OUT] = {0.0}, behind[PAD_OUT];
+    double e[PAD_OUT] = {0.5 * x[0], 0.0, 0.0}, K[PAD_OUT][PAD_OUT] = {{0.0}}, bonded[PAD_OUT] = {0.0},
+           behind[PAD_OUT];
     for (int i = 0; i < half->n; i++) {
         const double load = half->alike[i] ? Z * half->out[i][2][0] * x[1] : 0.0;
         S[i] = root * (half->spin[i] * omega_2 - load) / (p->cage.m * half->omega_2[i]);
@@ -427,12 +453,13 @@ static void rest_off(const Parameters *p, const ElasticHalf *half, double omega_
         joint_law(&half->law, behind, P, move, rivet, &U);
     }
     off[0] = bonded[0] - (K[0][0] * move[0] + K[0][1] * move[1] + K[0][2] * move[2]);
-    off[1] = (bonded[2] - (K[2][0] * move[0] + K[2][1] * move[1] + K[2][2] * move[2]) - x[1]) / half->law.length;
+    off[1] =
+        (bonded[2] - (K[2][0] * move[0] + K[2][1] * move[1] + K[2][2] * move[2]) - x[1]) / half->law.length;
 }
 
 // Newton's method with differences; x: distance and M_t to begin with and as found.
-static void find_rest(const Parameters *p, const ElasticHalf *half, double omega_2, double P, double x[2], double *S,
-                      double move[PAD_OUT])
+static void find_rest(const Parameters *p, const ElasticHalf *half, double omega_2, double P, double x[2],
+                      double *S, double move[PAD_OUT])
 {
     const double step[2] = {1e-10, 1e-7};
     double off[2], to[2], slope[2][2], other[PAD_OUT];
@@ -470,7 +497,8 @@ static void find_relief(const Parameters *p, const Derived *d, ElasticHalf *half
     memcpy(half->relief[RESTS - 1], half->relief[RESTS - 2], sizeof half->relief[0]);
 }
 
-double elastic_half_rest(const Parameters *p, const Derived *d, const ElasticHalf *half, double omega, double *S)
+double elastic_half_rest(const Parameters *p, const Derived *d, const ElasticHalf *half, double omega,
+                         double *S)
 {
     double x[2] = {0.0, 0.0}, move[PAD_OUT] = {0.0};
     find_rest(p, half, omega * omega, fmax(d->P + d->spin[ROW_DP] * omega * omega, 0.0), x, S, move);

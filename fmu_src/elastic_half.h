@@ -18,7 +18,10 @@
 
 enum { MODES = N_MODES };
 
-enum { PAD_OUT = 3, PAD_IN = 2 };  // motions of pads against each other out of the plane (x, about r, about t), in it (r, t)
+enum {
+    PAD_OUT = 3,
+    PAD_IN = 2
+};  // motions of pads against each other out of the plane (x, about r, about t), in it (r, t)
 
 enum { WALL_NODES = 16 };  // at most
 
@@ -30,11 +33,11 @@ enum { RESTS = 65 };  // states of rest under the centrifugal load, at equal ste
 enum { WAVES = 2 * (Z / 2 + 1), WAVE_SIZE = 16, RIGID_MOTION = -1 };
 
 typedef struct {
-    int count, blocks;              // coordinates, blocks of eight
-    int row[WAVE_SIZE];             // mode, or RIGID_MOTION: the last one
-    int motion;                     // which rigid motion: v_x, about y, about z; v_y, v_z, spin
-    double lambda[WAVE_SIZE];       // with that inertia [1/s2]
-    double slowed[WAVE_SIZE];       // 1/inertia that the longest step needs
+    int count, blocks;                  // coordinates, blocks of eight
+    int row[WAVE_SIZE];                 // mode, or RIGID_MOTION: the last one
+    int motion;                         // which rigid motion: v_x, about y, about z; v_y, v_z, spin
+    double lambda[WAVE_SIZE];           // with that inertia [1/s2]
+    double slowed[WAVE_SIZE];           // 1/inertia that the longest step needs
     double to[WAVE_SIZE][WAVE_SIZE];    // root of the inertia times Q [coordinate][vibration]
     double back[WAVE_SIZE][WAVE_SIZE];  // its inverse [vibration][coordinate]
 } Wave;
@@ -48,25 +51,26 @@ struct ElasticHalf {
     double in[MODES][PAD_IN][LANES];
     double out_modes[PAD_OUT][Z][MODES];  // the same, modes side by side
     double in_modes[PAD_IN][Z][MODES];
-    double wave[Z][2][MODES];                    // at the pockets, what the real and the imaginary part of A are multiplied by
-    double wall[WALL_NODES][2][3][2][MODES];     // A by node, value and slope, (x, r, t), real and imaginary part
-    int nodes;                                   // of the walls' angle
-    double chi[WALL_NODES];                      // [rad]
+    double wave[Z][2][MODES];  // at the pockets, what the real and the imaginary part of A are multiplied by
+    double wall[WALL_NODES][2][3][2]
+               [MODES];      // A by node, value and slope, (x, r, t), real and imaginary part
+    int nodes;               // of the walls' angle
+    double chi[WALL_NODES];  // [rad]
     // how far a wall can move: modes that move all pockets alike by themselves, all others by Cauchy's inequality
-    double reach_2;       // largest |u|^2 / sum omega^2 q^2 of the others [s2]
-    double weight[MODES]; // omega^2 of the others, 0 of those
-    double widest[MODES]; // largest |u|/|q| of those, 0 of the others
-    double compliance;                           // of a wall along its normal, by the residual, less that in Hertz's [m/N]
-    double K[Z][PAD_OUT][PAD_OUT];               // inverse of the residual between pads, out of the plane
-    double prying;                               // |bonded M_t| of the centrifugal load over the law's length, per (rad/s)^2
-    double relief[RESTS][PAD_OUT];               // what other joints relieve a joint of at rest, per newton of load + P
-    double series, series_hole;                  // parts of the joints' stiffness in the plane, in series with the residual
-    double longest;                              // step of the default method [s]
-    int harmonic[MODES], coordinate[MODES];      // n; a 0, b 1
-    Wave mirrored[WAVES];                        // of S and the relative motions out of the plane
-    Wave opposed[2][WAVES];                      // of D and those in the plane; without and with shanks that bear
-    JointLaw law;                                // the joints' law over L^ = L + K_0 delta with the K above
-    double coefficients[];                       // of the law; the fourth number is U, whose slope is delta
+    double reach_2;                 // largest |u|^2 / sum omega^2 q^2 of the others [s2]
+    double weight[MODES];           // omega^2 of the others, 0 of those
+    double widest[MODES];           // largest |u|/|q| of those, 0 of the others
+    double compliance;              // of a wall along its normal, by the residual, less that in Hertz's [m/N]
+    double K[Z][PAD_OUT][PAD_OUT];  // inverse of the residual between pads, out of the plane
+    double prying;  // |bonded M_t| of the centrifugal load over the law's length, per (rad/s)^2
+    double relief[RESTS][PAD_OUT];  // what other joints relieve a joint of at rest, per newton of load + P
+    double series, series_hole;  // parts of the joints' stiffness in the plane, in series with the residual
+    double longest;              // step of the default method [s]
+    int harmonic[MODES], coordinate[MODES];  // n; a 0, b 1
+    Wave mirrored[WAVES];                    // of S and the relative motions out of the plane
+    Wave opposed[2][WAVES];                  // of D and those in the plane; without and with shanks that bear
+    JointLaw law;                            // the joints' law over L^ = L + K_0 delta with the K above
+    double coefficients[];                   // of the law; the fourth number is U, whose slope is delta
 };
 
 // Bytes of an ElasticHalf.
@@ -77,7 +81,8 @@ void elastic_half_derive(const Parameters *p, const Derived *d, double tolerance
 
 // Coordinates S [MODES] and axial distance of the halves' bodies [m] at which modes and joints rest under the centrifugal
 // load of the speed omega [rad/s].
-double elastic_half_rest(const Parameters *p, const Derived *d, const ElasticHalf *half, double omega, double *S);
+double elastic_half_rest(const Parameters *p, const Derived *d, const ElasticHalf *half, double omega,
+                         double *S);
 
 // The walls of the pockets of a half where balls meet them.
 typedef struct {
@@ -97,7 +102,8 @@ void elastic_wall(const ElasticHalf *half, int side, int j, const scalar *q, con
                   scalar n_t, scalar S, WallMotion *wall, WallShape *shape);
 
 // Adds the modal forces of the force (x, r, t) on a wall.
-INLINE void elastic_wall_force(const ElasticHalf *half, const WallShape *shape, const scalar F[3], scalar *modal)
+INLINE void elastic_wall_force(const ElasticHalf *half, const WallShape *shape, const scalar F[3],
+                               scalar *modal)
 {
     for (int i = 0; i < 8 * half->blocks; i++)
         modal[i] += F[0] * shape->motion[0][i] + F[1] * shape->motion[1][i] + F[2] * shape->motion[2][i];
@@ -109,7 +115,8 @@ INLINE void elastic_relief(const ElasticHalf *half, scalar P, scalar omega_2, sc
     const scalar load = half->prying * omega_2, s = P + load;
     const scalar x = scalar_value(s) > 0.0 ? load / s * (RESTS - 1.0) : 0.0;
     const int i = (int)fmin(scalar_value(x), RESTS - 2.0);
-    for (int a = 0; a < PAD_OUT; a++) relief[a] = s * (half->relief[i][a] + (x - i) * (half->relief[i + 1][a] - half->relief[i][a]));
+    for (int a = 0; a < PAD_OUT; a++)
+        relief[a] = s * (half->relief[i][a] + (x - i) * (half->relief[i + 1][a] - half->relief[i][a]));
 }
 
 // Energy of all joints between the halves, and of what the modes leave of the halves around them, from e, L^, delta and U.

@@ -17,7 +17,8 @@ void elastic_wall(const ElasticHalf *half, int side, int j, const scalar *q, con
     const scalar slope[4] = {-6.0 * u * v / h, v * (v - 2.0 * u), 6.0 * u * v / h, u * (u - 2.0 * v)};
 
     // motions of all modes there, and their slopes over the angle
-    const double mirror[3][2] = {{1.0, back ? -1.0 : 1.0}, {1.0, back ? -1.0 : 1.0}, {back ? -1.0 : 1.0, 1.0}};
+    const double mirror[3][2] = {
+        {1.0, back ? -1.0 : 1.0}, {1.0, back ? -1.0 : 1.0}, {back ? -1.0 : 1.0, 1.0}};
     scalar turned[3][MODES];
     for (int c = 0; c < 3; c++) {
         const double sign = c == 0 ? side : 1.0, re = sign * mirror[c][0], im = sign * mirror[c][1];

@@ -59,7 +59,7 @@ static scalar joint_energy(const Model *model, const scalar *y, const Work *w, i
     if (model->elastic) {
         const double k_in = model->elastic->series, k_hole = model->elastic->series_hole * d->k_hole;
         return 0.5 * (k_in * d->k_plate_t * (z_y * z_y + z_z * z_z) +
-                                              k_in * d->k_head * (h_y * h_y + h_z * h_z) + k_hole * bearing * bearing);
+                      k_in * d->k_head * (h_y * h_y + h_z * h_z) + k_hole * bearing * bearing);
     }
     return 0.5 * (w->T[k] * w->T[k] / d->k_rivet + w->N_plate[k] * w->N_plate[k] / d->k_plate +
                   d->k_plate_t * (z_y * z_y + z_z * z_z) + d->k_head * (h_y * h_y + h_z * h_z) +

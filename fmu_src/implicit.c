@@ -600,7 +600,8 @@ static void solve_waves(const Wave *waves, double h_2, double *rates, double rig
             y[k / 8].x[k % 8] *= h_2 > 0.0 ? 1.0 - (taken < 0.2 ? taken : 0.2) : wave->slowed[k];
         }
         for (int k = 0; k < wave->count; k++)
-            for (int b = 0; b < wave->blocks; b++) octet_add_from(y[k / 8].x[k % 8], &wave->back[k][8 * b], &x[b]);
+            for (int b = 0; b < wave->blocks; b++)
+                octet_add_from(y[k / 8].x[k % 8], &wave->back[k][8 * b], &x[b]);
         for (int i = 0; i < wave->count; i++) {
             const double rate = x[i / 8].x[i % 8];
             if (wave->row[i] == RIGID_MOTION)
@@ -616,7 +617,8 @@ static void all_waves(const Model *model, const Work *w, double h_2, double *f)
     const ElasticHalf *half = model->elastic;
     const double *b_y = w->half[0].b_y, *b_z = w->half[0].b_z;
     double d[6], out[3], in[3];
-    for (int i = 0; i < 6; i++) d[i] = f[Y_CAGE_V_X + 2 * i + 1] - f[Y_CAGE_V_X + 2 * i];  // x, y, z, beta, gamma, s
+    for (int i = 0; i < 6; i++)
+        d[i] = f[Y_CAGE_V_X + 2 * i + 1] - f[Y_CAGE_V_X + 2 * i];  // x, y, z, beta, gamma, s
     const double before[6] = {d[0], d[1], d[2], d[3], d[4], d[5]};
     out[0] = d[0], out[1] = b_y[1] * d[3] + b_y[2] * d[4], out[2] = b_z[1] * d[3] + b_z[2] * d[4];
     in[0] = b_y[1] * d[1] + b_y[2] * d[2], in[1] = b_z[1] * d[1] + b_z[2] * d[2], in[2] = d[5];
@@ -628,9 +630,12 @@ static void all_waves(const Model *model, const Work *w, double h_2, double *f)
 
     // what has changed, in the global frame, half of it for each half
     const double about_y = out[1] - was[0], about_z = out[2] - was[1], y = in[0] - was[2], z = in[1] - was[3];
-    const double change[6] = {out[0] - before[0],          b_y[1] * y + b_z[1] * z,
-                              b_y[2] * y + b_z[2] * z,      b_y[1] * about_y + b_z[1] * about_z,
-                              b_y[2] * about_y + b_z[2] * about_z, in[2] - before[5]};
+    const double change[6] = {out[0] - before[0],
+                              b_y[1] * y + b_z[1] * z,
+                              b_y[2] * y + b_z[2] * z,
+                              b_y[1] * about_y + b_z[1] * about_z,
+                              b_y[2] * about_y + b_z[2] * about_z,
+                              in[2] - before[5]};
     for (int i = 0; i < 6; i++) {
         f[Y_CAGE_V_X + 2 * i] -= 0.5 * change[i];
         f[Y_CAGE_V_X + 2 * i + 1] += 0.5 * change[i];

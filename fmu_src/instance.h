@@ -55,11 +55,11 @@ struct Part {
     Outputs out;
     Kernels kernels;
     Integrator *integrator;
-    unsigned current;        // one bit for each output group: set while the group is up to date
+    unsigned current;            // one bit for each output group: set while the group is up to date
     double y_dot[N_ALL_STATES];  // dy/dt at the present state
-    bool evaluated;          // w and y_dot belong to the present state and inputs
-    bool reported;           // inputs and parameters without effect have been logged
-    double cpu_time;         // processor time of all steps [s]
+    bool evaluated;              // w and y_dot belong to the present state and inputs
+    bool reported;               // inputs and parameters without effect have been logged
+    double cpu_time;             // processor time of all steps [s]
 };
 
 // Fills one group of outputs from the last evaluation and the saved state.

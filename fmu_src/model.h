@@ -230,7 +230,7 @@ typedef struct {
     const Derived *d;
     const RingLoad *ring_load;          // load at present; used while there is no trajectory
     const InputTrajectory *trajectory;  // from which the load at any time follows; NULL: the load is held
-    const ElasticHalf *elastic;          // modes of the halves, where they are elastic, else NULL
+    const ElasticHalf *elastic;         // modes of the halves, where they are elastic, else NULL
 } Model;
 
 // Number of states of the scene.

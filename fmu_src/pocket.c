@@ -86,7 +86,8 @@ INLINE void pocket_contacts(const Model *model, Work *w, int h, int j, const Poc
     const vec Omega = vec_local(half->Omega, cos_theta, sin_theta);
     vec v = vec_sub(vec_sub(v_b, vec_local(half->v, cos_theta, sin_theta)), vec_cross(Omega, arm_p));
     if (wall) {
-        const vec along = vec_axpy(wide_load(&wall->u_dot[0][j]), a, vec_scale(wide_load(&wall->u_dot[2][j]), e_t));
+        const vec along =
+            vec_axpy(wide_load(&wall->u_dot[0][j]), a, vec_scale(wide_load(&wall->u_dot[2][j]), e_t));
         v = vec_sub(v, vec_axpy(wide_load(&wall->u_dot[1][j]), gap->b, along));
     }
     const wide delta_dot = vec_dot(n, v);
@@ -178,7 +179,8 @@ INLINE void pocket_half(const Model *model, Work *w, int h, bool mixed, bool who
 
 // The pockets of a packet whose walls a ball can have reached: motion of the walls, forces, modal forces.  Returns whether
 // there is a contact.
-static bool pocket_elastic(const Model *model, Work *w, int h, int j, PocketGap *gap, bool mixed, WallMotion *wall)
+static bool pocket_elastic(const Model *model, Work *w, int h, int j, PocketGap *gap, bool mixed,
+                           WallMotion *wall)
 {
     const ElasticHalf *elastic = model->elastic;
     const int near = wide_mask(wide_above(gap->delta + w->reach[h], 0.0));
@@ -187,8 +189,8 @@ static bool pocket_elastic(const Model *model, Work *w, int h, int j, PocketGap 
     ball_array on_wall[3];
     for (int i = 0; i < LANE_WIDTH; i++) {
         if (near >> i & 1 && j + i < Z) {
-            elastic_wall(elastic, 2 * h - 1, j + i, w->q[h], w->q_dot[h], wide_lane(gap->n_x, i), wide_lane(gap->n_t, i),
-                         wide_lane(S, i), wall, &shape[i]);
+            elastic_wall(elastic, 2 * h - 1, j + i, w->q[h], w->q_dot[h], wide_lane(gap->n_x, i),
+                         wide_lane(gap->n_t, i), wide_lane(S, i), wall, &shape[i]);
             continue;
         }
         for (int c = 0; c < 3; c++) wall->u[c][j + i] = wall->u_dot[c][j + i] = 0.0;

@@ -130,7 +130,8 @@ static void elastic_loads(const Model *model, const Work *w, JointLoads *load)
         wide_store(&load->N[k], wide_load(&w->joint_load[0][k]));
         wide_store(&load->M_r[k], wide_load(&w->joint_load[1][k]));
         wide_store(&load->M_t[k], wide_load(&w->joint_load[2][k]));
-        wide_store(&load->V[k], wide_hypot(wide_load(&plates[0][k]) + heads_r + V_r, wide_load(&plates[1][k]) + heads_t + V_t));
+        wide_store(&load->V[k], wide_hypot(wide_load(&plates[0][k]) + heads_r + V_r,
+                                           wide_load(&plates[1][k]) + heads_t + V_t));
         wide_store(&load->T[k], wide_load(&w->T[k]));
         wide_store(&load->m_r[k], wide_load(&w->joint_rivet[1][k]));
         wide_store(&load->m_t[k], wide_load(&w->joint_rivet[2][k]));

@@ -284,7 +284,8 @@ static void cage_pose(const Model *model, const Work *w, double omega_m, double 
 // are then.
 static void cage_widened(const Model *model, double omega_m, double *y)
 {
-    const double beta = y[Y_CAGE_BETA], gamma = y[Y_CAGE_GAMMA], omega = omega_m + model->ring_load->frame_omega;
+    const double beta = y[Y_CAGE_BETA], gamma = y[Y_CAGE_GAMMA],
+                 omega = omega_m + model->ring_load->frame_omega;
     const double apart = elastic_half_rest(model->p, model->d, model->elastic, omega, &y[Y_MODE_S]);
     const double along[3] = {sqrt(1.0 - beta * beta - gamma * gamma), gamma, -beta};
     for (int i = 0; i < 3; i++)

@@ -111,4 +111,5 @@ static bool all_finite_all(const double *x)
 
 _Static_assert(MORE % 8 == 0, "eight partial sums");
 
-const VectorOps vector_ops_elastic = {N_ALL_STATES, linear_sum_all, linear_combination_all, wrms_norm_all, all_finite_all};
+const VectorOps vector_ops_elastic = {N_ALL_STATES, linear_sum_all, linear_combination_all, wrms_norm_all,
+                                      all_finite_all};

@@ -213,11 +213,13 @@ static void remember_friction(double h, const VerletState *from, VerletState *to
 }
 
 // Rates of the modes of elastic halves: velocity Verlet, linearly implicit in their damping.
-static void advance_modes(const Model *model, double h, const VerletState *from, VerletState *to, double *error)
+static void advance_modes(const Model *model, double h, const VerletState *from, VerletState *to,
+                          double *error)
 {
     const double gamma = 0.5 * h, inv_h = 1.0 / h, second = h * h * (2.0 / (h + from->h));
     for (int first = RATES; first < N_ALL_STATES; first += N_MODES) {
-        const double *damping = model->elastic->damping, *y = &from->y[first], *f = &from->f[first], *jerk = &from->jerk[first];
+        const double *damping = model->elastic->damping, *y = &from->y[first], *f = &from->f[first],
+                     *jerk = &from->jerk[first];
         double *y_1 = &to->y[first], *f_1 = &to->f[first], *jerk_1 = &to->jerk[first], *e = &error[first];
         for (int i = 0; i < N_MODES; i++) {
             const double change = (f_1[i] - f[i]) / (1.0 + gamma * damping[i]);

@@ -155,7 +155,9 @@ def load_table(bearing=None, path=None):
     n_plain = len(raw["states"]["list"])
     description = ". ".join(filter(None, (raw["description"], changes.get("description", raw.get("case")))))
     layout = raw["units"], raw["enumerations"], raw["groups"], tuple(variables), tuple(states[:n_plain])
-    table = Table(Z, raw["model_name"], description, *layout, raw.get("assumptions", {}), changes.get("origin", {}), raw.get("essentials", {}), tuple(states[n_plain:]))
+    table = Table(
+        Z, raw["model_name"], description, *layout, raw.get("assumptions", {}), changes.get("origin", {}), raw.get("essentials", {}), tuple(states[n_plain:])
+    )
     check_table(table, path, raw.get("retired", ()))
     return table
 
