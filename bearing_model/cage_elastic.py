@@ -17,6 +17,7 @@ Joint, out of the plane: with e half of the relative motion of its pads (rigid a
     L_k = sum_j K_(k-j) (e_j - delta_j),    (delta, T, m_r, m_t)_k = law(L^_k, P),    L^_k = L_k + K_0 delta_k
 
 with the joint's law (joint_law.py), in which the stiffness K_0 of the whole half around a joint is replaced by that which the modes leave (law_behind).
+The moves of the neighbours in L^ are found by sweeps that begin with those at rest under the centrifugal load.
 In the plane, friction states and the hole's contact as in cage_joint.py, in series with what the modes leave.  Pads do not hold each other about x.
 
 Left out: Coriolis forces and the softening of modes by spin, of the order 2 omega_c/omega_i and (omega_c/omega_i)^2.
@@ -27,15 +28,22 @@ from dataclasses import dataclass
 import numpy as np
 
 from bearing_model.half_modes import PAD, coordinates, denser, fewer, frequencies, phases, rivet_shapes, spin_load
-from bearing_model.joint_law import JointLaw, joint_law, law_load, law_spline
+from bearing_model.joint_law import JointLaw, joint_law, law_load, law_spline, ratio
 from bearing_model.lanes import absolute, ball_array_sum, maximum
 from bearing_model.rivet_splines import interpolate, sites
-from bearing_model.variables import MODE_D, MODE_D_DOT, MODE_S, MODE_S_DOT, Z
+from bearing_model.variables import CAGE_BETA_DOT, CAGE_GAMMA_DOT, CAGE_S, CAGE_V_X, CAGE_V_Y, CAGE_V_Z, MODE_D, MODE_D_DOT, MODE_S, MODE_S_DOT, Z
 from bearing_model.vec import vec_cross, vec_dot
 
 OUT, IN = [0, 4, 5], [1, 2]  # of the motions (x, r, t, phi_x, phi_r, phi_t) of a pad: out of the plane, in it
 ROOT = np.sqrt(2.0)
+CAGE_RATES = CAGE_V_X, CAGE_V_Y, CAGE_V_Z, CAGE_BETA_DOT, CAGE_GAMMA_DOT, CAGE_S
+LONGEST = 8e-6  # step of the default method at tolerance 1e-3 [s]
+MARGIN = 1.3  # of joints that are stiffer than the closed ones by rounding of the law
+WAVE_DAMPING = 0.003  # a step takes this part times x^4 of a vibration that turns by x = omega h
 WALL_NODE = 1  # of the walls' angle: impacts meet the wall at 7 degrees in the median
+JOINT_SWEEPS = 1  # of the joints beside their first answer
+RESTS = 65  # states of rest
+REST_SWEEPS = 12  # of all joints at once
 RAY = 24  # intervals of Simpson's rule along a ray of loads
 
 
@@ -56,9 +64,15 @@ class ElasticHalf:
     K: np.ndarray  # stiffness of what the modes leave, out of the plane [Z, 3, 3]
     series: float  # part of the friction states' stiffness that is left in series with it
     series_hole: float  # and of the hole's
-    reach: float  # largest |u|^2 of a wall / sum omega^2 q^2 [s2]
+    reach_2: float  # largest |u|^2 of a wall / sum omega^2 q^2 [s2] by modes that do not move all pockets alike
+    widest: np.ndarray  # largest |u|/|q| by the others, else 0 [n]
     wall: float  # compliance that the modes leave at a wall, along its normal, less that in Hertz's [m/N]
+    longest: float  # step of the default method [s]
+    mirrored: tuple  # vibrations of S and the relative rigid motions out of the plane (Vibrations)
+    opposed: tuple  # of D and those in the plane, without and with shanks that bear
     law: JointLaw  # over L^
+    prying: float  # |bonded M_t| of the centrifugal load over the law's length, per (rad/s)^2 [N s2]
+    relief: np.ndarray  # of a joint by the others at rest [RESTS, 3], per newton
     energy: np.ndarray  # coefficients of U, whose slope is delta [tau, q, psi], per newton squared
 
 
@@ -134,25 +148,102 @@ def derive_elastic(p, d, table):
     shear = 2.0 * np.mean(np.diag(residual.pad[0])[IN])  # of both halves
     behind, energy = kept_law(table.half.law, K[0])
     pocket = unit * np.moveaxis(modes.pocket[entry], 1, 0)
-    return ElasticHalf(
+    pad = unit * np.moveaxis(rivet_shapes(modes)[:, :, : len(PAD)], 1, 2)
+    series, series_hole = 1.0 / (1.0 + shear * (d.k_plate_t + d.k_head)), 1.0 / (1.0 + shear * d.k_hole[0])
+    held, longest = series * (d.k_plate_t + d.k_head), LONGEST * (p.solver.tol / 1e-3) ** (1.0 / 3.0)
+    big = K[(np.arange(Z)[:, None] - np.arange(Z)) % Z].transpose(0, 2, 1, 3).reshape(3 * Z, 3 * Z)
+    alike = (modes.harmonic[entry] == 0) & (part == 0.0)
+    u_2 = np.sum(pocket[:, :, [0, 2]] ** 2, axis=(2, 3))  # [chi, n], at the nodes; between them a quarter farther at most
+    half = ElasticHalf(
         n=len(omega),
         omega=omega,
-        alike=(modes.harmonic[entry] == 0) & (part == 0.0),
+        alike=alike,
         damping=2.0 * p.cage.modal_damping * omega,
-        pad=unit * np.moveaxis(rivet_shapes(modes)[:, :, : len(PAD)], 1, 2),
+        pad=pad,
         wave=wave,
         chi=table.half.chi,
         pocket=pocket,
         slope=unit * np.moveaxis(modes.slope[entry], 1, 0),
         spin=d.centrifugal * unit * spin_load(modes),
-        reach=2.0 * np.max(np.sum(pocket[:, :, [0, 2]] ** 2 / omega[:, None, None] ** 2, axis=(1, 2, 3))),
+        reach_2=1.5625 * np.max(np.sum(np.where(alike, 0.0, u_2 / omega**2), axis=1)),
+        widest=np.where(alike, 1.25 * np.sqrt(np.max(u_2, axis=0)), 0.0),
         K=K,
-        series=1.0 / (1.0 + shear * (d.k_plate_t + d.k_head)),
-        series_hole=1.0 / (1.0 + shear * d.k_hole[0]),
+        series=series,
+        series_hole=series_hole,
         wall=residual.wall[WALL_NODE],
+        longest=longest,
+        mirrored=vibrations(p.cage.m, omega, joints_out(d, pad), 0.5 * big, (0.5 * p.cage.m, 0.5 * d.J_t, 0.5 * d.J_t), longest),
+        opposed=tuple(
+            vibrations(p.cage.m, omega, joints_in(d, pad), np.eye(2 * Z) * k, (0.5 * p.cage.m, 0.5 * p.cage.m, 0.5 * d.J_p), longest)
+            for k in (held, held + series_hole * d.k_hole[0])
+        ),
         law=behind,
+        prying=np.abs(d.spin[4]) / behind.length,
+        relief=None,
         energy=energy,
     )
+    half.relief = find_relief(half, p.cage.m)
+    return half
+
+
+@dataclass
+class Vibrations:
+    """Vibrations of modes and relative rigid motions with closed joints: x = shape q, with the inertia M each of unit modal mass."""
+
+    inertia: np.ndarray  # M [n + 3]
+    shape: np.ndarray  # [n + 3, n + 3]
+    slowed: np.ndarray  # 1/inertia that the longest step needs
+    lambda_: np.ndarray  # omega^2 with that inertia
+
+
+def vibrations(m, omega, motions, stiffness, rigid, longest):
+    """Vibrations; motions [joints' motions, n + 3] by unit coordinates, stiffness between the joints' motions, rigid: inertia of the three rigid motions."""
+    M = np.append(np.full(len(omega), m), rigid)
+    K = motions.T @ stiffness @ motions + np.diag(np.append(m * omega**2, np.zeros(3)))
+    root = np.sqrt(M)
+    values, Q = np.linalg.eigh(K / np.outer(root, root))
+    slowed = 1.0 / np.maximum(1.0, MARGIN * 0.25 * values * longest**2)
+    return Vibrations(M, Q / root[:, None], slowed, slowed * values)
+
+
+def circle(d):
+    """Pitch radius of the rivets, cosine and sine of their angles."""
+    R = 0.5 * d.table.joint["d_m"]
+    return R, d.rivet_y / R, d.rivet_z / R
+
+
+def joints_out(d, pad):
+    """Relative motions (x, about r, about t) of all joints [3 Z, n + 3] by S, v_x and rotations about y and z."""
+    R, c, s = circle(d)
+    rigid = np.array([[1.0 + 0.0 * c, 0.0 * c, 0.0 * c], [R * s, c, -s], [-R * c, s, c]])
+    return np.concatenate([ROOT * pad[:, OUT], rigid]).transpose(2, 1, 0).reshape(3 * Z, -1)
+
+
+def joints_in(d, pad):
+    """Relative motions (r, t) of all joints [2 Z, n + 3] by D, v_y, v_z and the spin."""
+    R, c, s = circle(d)
+    rigid = np.array([[c, -s], [s, c], [0.0 * c, R + 0.0 * c]])
+    return np.concatenate([ROOT * pad[:, IN], rigid]).transpose(2, 1, 0).reshape(2 * Z, -1)
+
+
+def cage_elastic_vibrations(model, w, y, h=None):
+    """Accelerations in y [states] with the inertia that the longest step needs; or, of velocities, what a step h leaves of each vibration.  Changes y."""
+    half, h0 = model.d.elastic, w.half[0]
+    b_y, b_z = h0.b_y[1:, 0], h0.b_z[1:, 0]
+    axes = np.array([b_y, b_z])
+    before = np.array([y[block][1] - y[block][0] for block in CAGE_RATES])
+    out = np.concatenate([before[:1], axes @ before[3:5]])
+    inside = np.concatenate([axes @ before[1:3], before[5:]])
+    results = []
+    for v, block, rigid in ((half.mirrored, MODE_S_DOT, out), (half.opposed[int(np.any(w.k_bearing > 0.0))], MODE_D_DOT, inside)):
+        factor = v.slowed if h is None else 1.0 - np.minimum(0.2, WAVE_DAMPING * (h * h * v.lambda_) ** 2)
+        found = v.shape @ (factor * (v.shape.T @ (v.inertia * np.append(y[block][: half.n], rigid))))
+        y[block][: half.n] = found[: half.n]
+        results.append(found[half.n :])
+    out, inside = results
+    after = np.concatenate([out[:1], inside[:2] @ axes, out[1:] @ axes, inside[2:]])
+    for block, change in zip(CAGE_RATES, after - before, strict=True):
+        y[block] += 0.5 * change * np.array([-1.0, 1.0])
 
 
 # ------------------------------------------------------------------------------------------------------------------ walls of the pockets
@@ -222,7 +313,9 @@ def cage_elastic_kinematics(model, y, w):
     """Motions of the halves' modes, of the pads against each other: elastic part, out of the plane (x, phi_r, phi_t) and in it (r, t)."""
     half = model.d.elastic
     w.modes = [cage_elastic_coordinates(model, y, h) for h in range(2)]
-    w.reach = [np.sqrt(half.reach * np.sum(np.real(half.omega * q) ** 2, axis=-1)) for q, _ in w.modes]
+    others = np.where(half.alike, 0.0, half.omega)
+    places = [np.real(q) for q, _ in w.modes]
+    w.reach = [np.sqrt(half.reach_2 * np.sum((others * q) ** 2, axis=-1)) + np.sum(half.widest * np.abs(q), axis=-1) for q in places]
     w.more_J = [2.0 * np.sum(half.spin * q, axis=-1) for q, _ in w.modes]
     S, D, S_dot, D_dot = (ROOT * y[..., block][..., : half.n] for block in (MODE_S, MODE_D, MODE_S_DOT, MODE_D_DOT))
     w.pad_out, w.pad_out_dot = (np.einsum("...i,ikz->k...z", q, half.pad[:, OUT]) for q in (S, S_dot))
@@ -244,23 +337,40 @@ def cage_elastic_pads(model, w):
         total[2] += s * r + c * t
 
 
-def cage_elastic_law(model, e, P):
-    """Loads L (N, M_r, M_t) of the joints, moves delta, loads of the rivets (T, m_r, m_t), energy of one half, for motions e; all [3, ..., Z]."""
+def cage_elastic_slip(model, y, w):
+    """Adds the modes to the joints' offsets and velocities in the plane (cage_joint_kinematics before), for the friction states."""
+    half = model.d.elastic
+    D, D_dot = (ROOT * y[..., block][..., : half.n] for block in (MODE_D, MODE_D_DOT))
+    w.pad_in, w.pad_in_dot = (np.einsum("...i,ikz->k...z", q, half.pad[:, IN]) for q in (D, D_dot))
+    w.pad_out = 0.0
+    cage_elastic_pads(model, w)
+
+
+def cage_elastic_law(model, e, P, omega_2):
+    """Loads L (N, M_r, M_t) of the joints, loads of the rivets (T, m_r, m_t), [3, ..., Z], energy of one half [..., Z], for motions e [3, ..., Z]."""
     half, law = model.d.elastic, model.d.elastic.law
     waves = half.K[(np.arange(Z)[:, None] - np.arange(Z)) % Z]  # [k, j, 3, 3]
     bonded = np.einsum("kjab,b...j->...ka", waves, e)
-    behind, delta = bonded, None
-    for _ in range(2):  # the neighbours' moves relieve a joint
-        if delta is not None:
-            behind = bonded - np.einsum("kjab,...jb->...ka", waves, delta) + delta @ half.K[0].T
+    behind = bonded - cage_elastic_relief(half, P, omega_2)
+    delta, rivet = joint_law(law, behind, P)
+    for _ in range(JOINT_SWEEPS):
+        behind = bonded - np.einsum("kjab,...jb->...ka", waves, delta) + delta @ half.K[0].T
         delta, rivet = joint_law(law, behind, P)
     load = behind - delta @ half.K[0].T
     s = P + np.sqrt(behind[..., 0] ** 2 + (behind[..., 1] ** 2 + behind[..., 2] ** 2) / law.length**2)
-    U = s**2 * spline_value(law, half.energy, behind, P)
     rest = np.moveaxis(e, 0, -1) - delta
     V = 0.5 * np.sum(rest * np.einsum("kjab,...jb->...ka", waves, rest), axis=-1)
-    V = V + np.sum((behind - 0.5 * delta @ half.K[0].T) * delta, axis=-1) - U
-    return np.moveaxis(load, -1, 0), np.moveaxis(delta, -1, 0), np.moveaxis(rivet, -1, 0), V
+    V = V + np.sum((behind - 0.5 * delta @ half.K[0].T) * delta, axis=-1) - s**2 * spline_value(law, half.energy, behind, P)
+    return np.moveaxis(load, -1, 0), np.moveaxis(rivet, -1, 0), V
+
+
+def cage_elastic_relief(half, P, omega_2):
+    """What the moves of all other joints relieve a joint of at rest under the centrifugal load [..., Z, 3]: linear between the states of rest."""
+    load = half.prying * omega_2
+    s = P + load
+    x = ratio(load + 0.0 * s, s) * (RESTS - 1.0)
+    i = np.minimum(np.real(x), RESTS - 2.0).astype(int)
+    return s[..., None] * (half.relief[i] + (x - i)[..., None] * (half.relief[i + 1] - half.relief[i]))
 
 
 def spline_value(law, coefficients, load, P):
@@ -273,7 +383,7 @@ def cage_elastic_joints(model, y, w):
     d, (h0, h1) = model.d, w.half
     omega_2 = 0.5 * ((h0.s + w.frame_omega) ** 2 + (h1.s + w.frame_omega) ** 2)
     P = maximum(d.P_mean + d.spin[5] * omega_2, 0.0) + 0.0 * w.e[0]
-    w.joint_load, _, w.joint_rivet, V = cage_elastic_law(model, w.e, P)
+    w.joint_load, w.joint_rivet, V = cage_elastic_law(model, w.e, P, omega_2)
     w.joint_potential = 2.0 * V
     w.T = maximum(w.joint_rivet[0], 0.0)
     w.N_plate = maximum(w.T - w.joint_load[0], 0.0)
@@ -289,7 +399,7 @@ def cage_elastic_joints(model, y, w):
 
 def cage_elastic_coriolis(model, w, h):
     """Moment [N.m] about the axis of half h that its widening needs; w.more_J: moment of inertia that its modes add, 2 spin . q."""
-    q, q_dot = w.modes[h]
+    _, q_dot = w.modes[h]
     spin = model.d.elastic.spin
     return 2.0 * np.sum(spin * q_dot, axis=-1) * (w.half[h].s + w.frame_omega)
 
@@ -312,29 +422,48 @@ def cage_elastic_acceleration(model, y, w, y_dot):
         w.modes_dissipated = w.modes_dissipated + p.cage.m * np.sum(half.damping * v * v, axis=-1, keepdims=True)
 
 
-def cage_elastic_rest(model, omega):
-    """Coordinates S [n] and axial distance u_x [m] at which modes and joints rest under the centrifugal load of the speed omega [rad/s].
+def find_rest(half, m, omega_2, P, x=(0.0, 0.0), move=0.0):
+    """Rest under the centrifugal load of the speed's square omega_2 [rad2/s2]: coordinates S [n], (u_x, M_t), moves of the joints [3].
 
     All joints are alike: N = 0, and their M_t balances S_i = sqrt 2 (spin_i omega^2 - Z phi_t,i M_t)/(m omega_i^2).  Newton's method with differences for
-    (u_x, M_t).
+    the halves' distance u_x and M_t, from x; the joints' moves by sweeps, from `move`.
     """
-    half, d, m = model.d.elastic, model.d, model.p.cage.m
-    P = np.full(Z, max(d.P_mean + d.spin[5] * omega**2, 0.0))
-    at = half.pad[:, OUT, 0]  # x, phi_r, phi_t
+    at, K = half.pad[:, OUT, 0], half.K.sum(axis=0)  # x, phi_r, phi_t
 
-    def rest(x):
-        S = ROOT * (half.spin * omega**2 - np.where(half.alike, Z * at[:, 2] * x[1], 0.0)) / (m * half.omega**2)
+    def off(x, move):
+        S = ROOT * (half.spin * omega_2 - np.where(half.alike, Z * at[:, 2] * x[1], 0.0)) / (m * half.omega**2)
         e = np.array([0.5 * x[0], 0.0, 0.0]) + S @ at / ROOT * [1.0, 0.0, 1.0]
-        load, *_ = cage_elastic_law(model, np.repeat(e[:, None], Z, axis=1), P)
-        return np.array([load[0, 0], (load[2, 0] - x[1]) / d.table.half.law.length]), S
+        for _ in range(REST_SWEEPS):
+            move = joint_law(half.law, K @ e - (K - half.K[0]) @ move, P)[0]
+        N, _, M_t = K @ (e - move)
+        return np.array([N, (M_t - x[1]) / half.law.length]), S, move
 
-    x, step = np.zeros(2), np.array([1e-10, 1e-7])
+    x, step, move = np.array(x), np.array([1e-10, 1e-7]), np.zeros(3) + move
     for _ in range(60):
-        off, S = rest(x)
-        if np.max(np.abs(off)) < 1e-10:
+        rest, S, move = off(x, move)
+        if np.max(np.abs(rest)) < 1e-11:
             break
-        slope = np.stack([(rest(x + s * axis)[0] - off) / s for s, axis in zip(step, np.eye(2), strict=True)], axis=1)
-        x = x - np.linalg.solve(slope, off)
+        slope = np.stack([(off(x + s * axis, move)[0] - rest) / s for s, axis in zip(step, np.eye(2), strict=True)], axis=1)
+        x = x - np.linalg.solve(slope, rest)
+    return S, x, move
+
+
+def find_relief(half, m):
+    """What the moves of all other joints relieve a joint of at rest [RESTS, 3], at equal steps of load/(load + P), per newton of load + P."""
+    relief, x, move = np.zeros((RESTS, 3)), (0.0, 0.0), 0.0
+    if half.prying > 0.0:
+        for i in range(RESTS - 1):
+            part = i / (RESTS - 1.0)
+            _, x, move = find_rest(half, m, part / half.prying, 1.0 - part, x, move)
+            relief[i] = half.K[1:].sum(axis=0) @ move
+        relief[-1] = relief[-2]
+    return relief
+
+
+def cage_elastic_rest(model, omega):
+    """Coordinates S [n] and distance of the halves' bodies [m] at which modes and joints rest under the centrifugal load of the speed omega [rad/s]."""
+    d = model.d
+    S, x, _ = find_rest(d.elastic, model.p.cage.m, omega**2, max(d.P_mean + d.spin[5] * omega**2, 0.0))
     return S, x[0]
 
 

@@ -16,15 +16,13 @@ from dataclasses import replace
 import numpy as np
 from scipy.optimize import minimize
 
+from bearing_model.cage_elastic import cage_elastic_rest
 from bearing_model.events import ellipse_reach
 from bearing_model.hertz import hertz_energy
 from bearing_model.model import Work
-from bearing_model.cage_elastic import cage_elastic_rest
 from bearing_model.race_contact import race_contact_force
 from bearing_model.rotor import Rotor, rotor_axis, rotor_body_axes
 from bearing_model.variables import (
-    MODE_S,
-    CageModel,
     BALL_OMEGA_M,
     BALL_OMEGA_R,
     BALL_OMEGA_X,
@@ -42,6 +40,7 @@ from bearing_model.variables import (
     CAGE_X,
     CAGE_Y,
     CAGE_Z,
+    MODE_S,
     RING_BETA,
     RING_BETA_DOT,
     RING_GAMMA,
@@ -52,6 +51,7 @@ from bearing_model.variables import (
     RING_X,
     RING_Y,
     RING_Z,
+    CageModel,
     RingMotion,
     TiltMode,
     Z,

@@ -16,6 +16,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from bearing_model import variables
+from bearing_model.cage_elastic import cage_elastic_slip, cage_elastic_vibrations
 from bearing_model.cage_joint import cage_joint_advance, cage_joint_kinematics
 from bearing_model.model import Work
 from bearing_model.rhs import jacobian, rhs, rotor_kinematics
@@ -34,6 +35,10 @@ from bearing_model.variables import (
     JOINT_HEAD_Z,
     JOINT_PLATE_Y,
     JOINT_PLATE_Z,
+    MODE_D,
+    MODE_D_DOT,
+    MODE_S,
+    MODE_S_DOT,
     N_STATES,
     RING_BETA,
     RING_GAMMA,
@@ -54,6 +59,7 @@ LAST_STEP = 1e-9  # part of a step by which the last one may be longer
 
 POSITIONS, FRICTION, V = slice(0, JOINT_PLATE_Y.start), slice(JOINT_PLATE_Y.start, WORK.start), slice(BALL_V_X.start, N_STATES)
 N_V = N_STATES - V.start
+PLACES, RATES = slice(MODE_S.start, MODE_D.stop), slice(MODE_S_DOT.start, MODE_D_DOT.stop)  # of the modes of elastic halves
 
 
 def velocities(*names):
@@ -73,9 +79,14 @@ class VerletState:
 
     y: np.ndarray  # state [N_STATES]
     f: np.ndarray  # its dy/dt; after a step: accelerations, mean rates of the friction states over the step, power
-    jerk: np.ndarray = field(default_factory=lambda: np.zeros(N_STATES))  # change of f over the last step / its length
+    jerk: np.ndarray = None  # change of f over the last step / its length
     film: np.ndarray = field(default_factory=lambda: np.zeros((2, 2, 2)))  # -dF/dv of each land's film there [N.s/m]
     h: float = 0.0  # length of that step [s], 0: none yet
+    rivet: np.ndarray = field(default_factory=lambda: np.zeros(Z))  # T and N_plate of the joints between elastic halves there [N]
+    plate: np.ndarray = field(default_factory=lambda: np.zeros(Z))
+
+    def __post_init__(self):
+        self.jerk = np.zeros(len(self.y)) if self.jerk is None else self.jerk
 
 
 @dataclass
@@ -266,9 +277,17 @@ def advance_positions(model, h, start):
     middle[POSITIONS] += 0.5 * h * y[V][POSITIONS]
     y[POSITIONS] += h * y[V][POSITIONS]
     rotor_kinematics(model, middle, w)
+    elastic = model.p.scene.cage == CageModel.ELASTIC
+    if elastic:
+        middle[RATES] = y[RATES] = start.y[RATES] + 0.5 * h * start.f[RATES]
+        middle[PLACES] += 0.5 * h * y[RATES]
+        y[PLACES] += h * y[RATES]
+        w.T, w.N_plate = start.rivet, start.plate
     y[CAGE_PSI] = start.y[CAGE_PSI] + h * np.concatenate([half.s - rotor_roll(half) for half in w.half])
-    if model.p.scene.cage == CageModel.TWO_HALF:
+    if model.p.scene.cage != CageModel.RIGID:
         cage_joint_kinematics(model, w)
+        if elastic:
+            cage_elastic_slip(model, middle, w)
         cage_joint_advance(model, w, h, y)
     return y
 
@@ -333,8 +352,14 @@ def verlet_step(model, t, h, weight, start, blocks=jacobian_blocks):
     gamma, f, v, a, w = 0.5 * h, start.f, start.y[V], start.f[V], Work()
     y, held = advance_positions(model, h, start), predictor_limiter(model, h, start)
     y[V] = v + h * a - held
+    elastic = model.p.scene.cage == CageModel.ELASTIC
+    if elastic:
+        y[RATES] += 0.5 * h * f[RATES]
     end = VerletState(y, rhs(model, t + h, y, w), h=h)
     end.film = land_films(w)
+    if elastic:
+        cage_elastic_vibrations(model, w, end.f)
+        end.rivet, end.plate = w.T, w.N_plate
 
     # One linear solve takes the predicted velocities to those of the trapezoidal rule.
     b, residual = blocks(model, t + h, y, w, gamma), held + gamma * (end.f[V] - a)
@@ -348,7 +373,7 @@ def verlet_step(model, t, h, weight, start, blocks=jacobian_blocks):
     y[WORK] += gamma * (f[WORK] + end.f[WORK])
 
     # Velocities: error h^3/12 a'' of the trapezoidal rule; stiff accelerations give up a part of their second difference h^2 a''.
-    error, second = np.zeros(N_STATES), 2.0 * h * h / (h + start.h)
+    error, second = np.zeros(len(y)), 2.0 * h * h / (h + start.h)
     second_difference = second * (delta / (gamma * h) - start.jerk[V])
     error[V] = h / 12.0 * second_difference
     damped = second_difference - np.linalg.solve(b.matrix_stiff(gamma), second_difference)
@@ -359,7 +384,23 @@ def verlet_step(model, t, h, weight, start, blocks=jacobian_blocks):
     end.f[FRICTION] = (y - start.y)[FRICTION] / h
     end.jerk[FRICTION] = 2.0 / (h + start.h) * (end.f - f)[FRICTION]
     error[FRICTION] = h / 24.0 * second * (end.jerk - start.jerk)[FRICTION]
-    return end, np.sqrt(np.mean((error * weight) ** 2))
+    if elastic:
+        advance_modes(model, h, second, start, end, error)
+        cage_elastic_vibrations(model, w, y, h)
+    return end, np.sqrt(np.sum((error * weight) ** 2) / N_STATES)  # modes do not make the tolerance of the others wider
+
+
+def advance_modes(model, h, second, start, end, error):
+    """Rates of the modes of elastic halves: velocity Verlet, linearly implicit in their damping."""
+    damping = np.zeros(RATES.stop - RATES.start)
+    for block in (MODE_S_DOT, MODE_D_DOT):
+        damping[block.start - RATES.start :][: model.d.elastic.n] = model.d.elastic.damping
+    change = (end.f - start.f)[RATES] / (1.0 + 0.5 * h * damping)
+    end.f[RATES] = start.f[RATES] + change
+    end.y[RATES] = start.y[RATES] + 0.5 * h * (start.f + end.f)[RATES]
+    end.jerk[RATES] = change / h
+    error[RATES] = h / 12.0 * second * (end.jerk - start.jerk)[RATES]
+    end.f[PLACES], end.jerk[PLACES] = end.y[RATES], 0.0
 
 
 def verlet_advance(model, t, t_stop, h, weight, state, step=verlet_step):

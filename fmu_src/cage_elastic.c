@@ -16,7 +16,8 @@
 //     L_k = sum_j K_(k-j) (e_j - delta_j),     (delta, T, m_r, m_t)_k = law(L^_k, P),     L^_k = L_k + K_0 delta_k
 //
 // with the joint's law (joint_law.h), in which the stiffness of the whole half around a joint is replaced by that which the
-// modes leave (elastic_half.c).  In the plane, friction states and the hole's contact are those of cage_joint.c, in series
+// modes leave (elastic_half.c).  The moves of the neighbours in L^ are found by sweeps that begin with those at rest under the
+// centrifugal load.  In the plane, friction states and the hole's contact are those of cage_joint.c, in series
 // with what the modes leave.  Pads do not hold each other about x.
 //
 // The centrifugal load widens a half, which takes spin from it: its moment of inertia is J_p + 2 sum spin_i q_i.  Coriolis
@@ -27,48 +28,84 @@
 #include "rivet_rom.h"
 #include "rotor.h"
 
+enum { JOINT_SWEEPS = 1 };  // beside the first answer
+
 static const double ROOT = 1.4142135623730951;  // of 2
 
-// Sum of modes times coordinates at a packet of joints.
-INLINE wide at_joints(const ElasticHalf *half, const double *shape, int stride, const scalar *q)
+// The pads' motions against each other in the plane, and their rates, from D and its rates.
+static void motion_in_plane(const ElasticHalf *half, const scalar *D, const scalar *D_dot, Work *w)
 {
-    wide sum = wide_set(0.0);
-    for (int i = 0; i < half->n; i++) sum = wide_fma(wide_set(q[i]), wide_load(shape + i * stride), sum);
-    return sum;
+    for (int k = 0; k < PACKETS * LANE_WIDTH; k += LANE_WIDTH) {
+        wide sum[PAD_IN], rate[PAD_IN];
+        for (int c = 0; c < PAD_IN; c++) sum[c] = rate[c] = wide_set(0.0);
+        for (int i = 0; i < half->n; i++) {
+            const wide d = wide_set(D[i]), d_dot = wide_set(D_dot[i]);
+            for (int c = 0; c < PAD_IN; c++) {
+                const wide shape = wide_load(&half->in[i][c][k]);
+                sum[c] = wide_fma(shape, d, sum[c]);
+                rate[c] = wide_fma(shape, d_dot, rate[c]);
+            }
+        }
+        for (int c = 0; c < PAD_IN; c++) {
+            wide_store(&w->pad_in[c][k], ROOT * sum[c]);
+            wide_store(&w->pad_in_dot[c][k], ROOT * rate[c]);
+        }
+    }
+}
+
+// Out of the plane, from S.
+static void motion_out_of_plane(const ElasticHalf *half, const scalar *S, Work *w)
+{
+    for (int k = 0; k < PACKETS * LANE_WIDTH; k += LANE_WIDTH) {
+        wide sum[PAD_OUT];
+        for (int c = 0; c < PAD_OUT; c++) sum[c] = wide_set(0.0);
+        for (int i = 0; i < half->n; i++) {
+            const wide s = wide_set(S[i]);
+            for (int c = 0; c < PAD_OUT; c++) sum[c] = wide_fma(wide_load(&half->out[i][c][k]), s, sum[c]);
+        }
+        for (int c = 0; c < PAD_OUT; c++) wide_store(&w->pad_out[c][k], ROOT * sum[c]);
+    }
+}
+
+// Sum over the modes in one order for every lane width.
+static scalar elastic_dot(const ElasticHalf *half, const double *x, const scalar *y)
+{
+    scalar part[8] = {0};
+    for (int i = 0; i < 8 * half->blocks; i += 8)
+        for (int k = 0; k < 8; k++) part[k] += x[i + k] * y[i + k];
+    return ((part[0] + part[1]) + (part[2] + part[3])) + ((part[4] + part[5]) + (part[6] + part[7]));
 }
 
 void cage_elastic_kinematics(const Model *model, const scalar *y, Work *w)
 {
     const ElasticHalf *half = model->elastic;
     const double inv_root = 1.0 / ROOT;
-    scalar S[MODES], D[MODES], D_dot[MODES];
+    const scalar *S = &y[Y_MODE_S], *D = &y[Y_MODE_D], *S_dot = &y[Y_MODE_S_DOT], *D_dot = &y[Y_MODE_D_DOT];
     for (int i = 0; i < 8 * half->blocks; i++) {
-        const scalar s = y[Y_MODE_S + i], d = y[Y_MODE_D + i], s_dot = y[Y_MODE_S_DOT + i],
-                     d_dot = y[Y_MODE_D_DOT + i];
-        w->q[0][i] = inv_root * (s - d), w->q[1][i] = inv_root * (s + d);
-        w->q_dot[0][i] = inv_root * (s_dot - d_dot), w->q_dot[1][i] = inv_root * (s_dot + d_dot);
-        S[i] = ROOT * s, D[i] = ROOT * d, D_dot[i] = ROOT * d_dot;
+        w->q[0][i] = inv_root * (S[i] - D[i]), w->q[1][i] = inv_root * (S[i] + D[i]);
+        w->q_dot[0][i] = inv_root * (S_dot[i] - D_dot[i]), w->q_dot[1][i] = inv_root * (S_dot[i] + D_dot[i]);
+        w->wall_force[0][i] = w->wall_force[1][i] = 0.0;
     }
-    for (int k = 0; k < PACKETS * LANE_WIDTH; k += LANE_WIDTH) {
-        for (int c = 0; c < PAD_OUT; c++)
-            wide_store(&w->pad_out[c][k], at_joints(half, &half->out[0][c][k], PAD_OUT * LANES, S));
-        for (int c = 0; c < PAD_IN; c++) {
-            wide_store(&w->pad_in[c][k], at_joints(half, &half->in[0][c][k], PAD_IN * LANES, D));
-            wide_store(&w->pad_in_dot[c][k], at_joints(half, &half->in[0][c][k], PAD_IN * LANES, D_dot));
-        }
-    }
+    motion_out_of_plane(half, S, w);
+    motion_in_plane(half, D, D_dot, w);
     for (int h = 0; h < 2; h++) {
-        scalar stored[MODES], all = 0.0;
+        scalar stored[MODES] = {0.0}, moved[MODES] = {0.0};
         for (int i = 0; i < 8 * half->blocks; i++) {
-            stored[i] = half->omega_2[i] * w->q[h][i];
-            w->wall_force[h][i] = 0.0;
+            stored[i] = half->weight[i] * w->q[h][i];
+            moved[i] = fabs(scalar_value(w->q[h][i]));
         }
-        all = elastic_sum(half, stored, w->q[h]);
-        w->reach[h] = scalar_sqrt(half->reach * all);
-        for (int i = 0; i < 8 * half->blocks; i++) stored[i] = half->spin[i];
-        w->more_J[h] = 2.0 * elastic_sum(half, stored, w->q[h]);
-        w->more_J_dot[h] = 2.0 * elastic_sum(half, stored, w->q_dot[h]);
+        w->reach[h] = sqrt(half->reach_2 * scalar_value(elastic_sum(half, stored, w->q[h]))) +
+                      elastic_dot(half, half->widest, moved);
+        w->more_J[h] = 2.0 * elastic_dot(half, half->spin, w->q[h]);
+        w->more_J_dot[h] = 2.0 * elastic_dot(half, half->spin, w->q_dot[h]);
     }
+}
+
+void cage_elastic_slip(const Model *model, const scalar *y, Work *w)
+{
+    motion_in_plane(model->elastic, &y[Y_MODE_D], &y[Y_MODE_D_DOT], w);
+    for (int c = 0; c < PAD_OUT; c++) memset(w->pad_out[c], 0, sizeof w->pad_out[c]);
+    cage_elastic_pads(model, w);
 }
 
 void cage_elastic_pads(const Model *model, Work *w)
@@ -110,56 +147,61 @@ static void stiffness_times(const ElasticHalf *half, ball_array x[PAD_OUT], ball
         }
 }
 
+// All joints answer to L^; behind: L^ without what a joint's own move relieves.
+static void joints_answer(const ElasticHalf *half, scalar P, Work *w)
+{
+    for (int k = 0; k < Z; k++) {
+        const scalar behind[3] = {w->joint_behind[0][k], w->joint_behind[1][k], w->joint_behind[2][k]};
+        scalar move[3], rivet[3];
+        joint_law(&half->law, behind, P, move, rivet, &w->joint_U[k]);
+        for (int a = 0; a < 3; a++) w->joint_move[a][k] = move[a], w->joint_rivet[a][k] = rivet[a];
+    }
+}
+
+// K_0 times the move of joint k.
+INLINE scalar own_relief(const ElasticHalf *half, const Work *w, int a, int k)
+{
+    const double *K = half->K[0][a];
+    return K[0] * w->joint_move[0][k] + K[1] * w->joint_move[1][k] + K[2] * w->joint_move[2][k];
+}
+
 void cage_elastic_joints(const Model *model, Work *w)
 {
     const ElasticHalf *half = model->elastic;
     const Derived *d = model->d;
-    const double (*K_0)[PAD_OUT] = half->K[0];
     const scalar s_0 = w->half[0].s + w->frame_omega, s_1 = w->half[1].s + w->frame_omega;
-    const scalar P = scalar_max(d->P_mean + d->spin[ROW_DP] * (0.5 * (s_0 * s_0 + s_1 * s_1)), 0.0);
-    ball_array bonded[PAD_OUT], delta[PAD_OUT], relief[PAD_OUT];
-    scalar behind[Z][3], U[Z];
+    const scalar omega_2 = 0.5 * (s_0 * s_0 + s_1 * s_1),
+                 P = scalar_max(d->P_mean + d->spin[ROW_DP] * omega_2, 0.0);
+    ball_array bonded[PAD_OUT], relief[PAD_OUT];
+    scalar rest[PAD_OUT];
     stiffness_times(half, w->e, bonded);
+    elastic_relief(half, P, omega_2, rest);
+    for (int a = 0; a < 3; a++)
+        for (int k = 0; k < Z; k++) w->joint_behind[a][k] = bonded[a][k] - rest[a];
+    joints_answer(half, P, w);
     for (int sweep = 0; sweep < JOINT_SWEEPS; sweep++) {
-        if (sweep > 0) stiffness_times(half, delta, relief);
-        for (int k = 0; k < Z; k++) {
-            scalar move[3], rivet[3];
-            for (int a = 0; a < 3; a++) {
-                behind[k][a] = bonded[a][k];
-                if (sweep > 0) {
-                    behind[k][a] -= relief[a][k];
-                    for (int b = 0; b < 3; b++) behind[k][a] += K_0[a][b] * delta[b][k];
-                }
-            }
-            joint_law(&half->law, behind[k], P, move, rivet, &U[k]);
-            for (int a = 0; a < 3; a++) w->joint_rivet[a][k] = rivet[a], relief[a][k] = move[a];
-        }
-        for (int a = 0; a < 3; a++) memcpy(delta[a], relief[a], sizeof delta[a]);
+        stiffness_times(half, w->joint_move, relief);
+        for (int a = 0; a < 3; a++)
+            for (int k = 0; k < Z; k++)
+                w->joint_behind[a][k] = bonded[a][k] - relief[a][k] + own_relief(half, w, a, k);
+        joints_answer(half, P, w);
     }
 
-    // loads, and the energy of both halves
-    ball_array M_y, M_z, rest[PAD_OUT], held[PAD_OUT];
+    // loads; what rivets and plates carry
+    ball_array M_y, M_z;
     const double inv_R = 2.0 / rivet_table.joint.d_m;
-    for (int a = 0; a < 3; a++)
-        for (int k = 0; k < Z; k++) rest[a][k] = w->e[a][k] - delta[a][k];
-    stiffness_times(half, rest, held);
     for (int k = 0; k < Z; k++) {
-        scalar own[3], V = -U[k];
-        for (int a = 0; a < 3; a++) {
-            own[a] = K_0[a][0] * delta[0][k] + K_0[a][1] * delta[1][k] + K_0[a][2] * delta[2][k];
-            w->joint_load[a][k] = behind[k][a] - own[a];
-            V += 0.5 * rest[a][k] * held[a][k] + (behind[k][a] - 0.5 * own[a]) * delta[a][k];
-        }
-        w->joint_potential[k] = 2.0 * V;
+        for (int a = 0; a < 3; a++) w->joint_load[a][k] = w->joint_behind[a][k] - own_relief(half, w, a, k);
         w->T[k] = scalar_max(w->joint_rivet[0][k], 0.0);
         w->N_plate[k] = scalar_max(w->T[k] - w->joint_load[0][k], 0.0);
         const double c = d->rivet_y[k] * inv_R, s = d->rivet_z[k] * inv_R;
         M_y[k] = w->joint_load[1][k] * c - w->joint_load[2][k] * s;
         M_z[k] = w->joint_load[1][k] * s + w->joint_load[2][k] * c;
     }
-    for (int a = 0; a < 3; a++)
-        for (int k = Z; k < LANES; k++) w->joint_load[a][k] = 0.0;
-    for (int k = Z; k < LANES; k++) w->T[k] = w->N_plate[k] = 0.0;
+    for (int k = Z; k < LANES; k++) {
+        w->T[k] = w->N_plate[k] = 0.0;
+        for (int a = 0; a < 3; a++) w->joint_load[a][k] = 0.0;
+    }
 
     // moments on half 1, whose power is that of the rates of turn_y and turn_z
     Rotor *h0 = &w->half[0], *h1 = &w->half[1];
@@ -185,7 +227,7 @@ void cage_elastic_acceleration(const Model *model, const scalar *y, Work *w, sca
     const ElasticHalf *half = model->elastic;
     const double inv_root = 1.0 / ROOT, m = model->p->cage.m, inv_m = 1.0 / m,
                  inv_R = 2.0 / rivet_table.joint.d_m;
-    scalar mirrored[MODES], opposed[MODES], spin[2];
+    scalar mirrored[MODES] = {0.0}, opposed[MODES] = {0.0}, spin[2];
     for (int h = 0; h < 2; h++) {
         const scalar s = w->half[h].s + w->frame_omega;
         spin[h] = s * s;
@@ -211,7 +253,7 @@ void cage_elastic_acceleration(const Model *model, const scalar *y, Work *w, sca
     }
 
     // rates, energy and dissipation
-    scalar rates[MODES], lost[MODES], one[MODES];
+    scalar rates[MODES] = {0.0}, lost[MODES] = {0.0}, one[MODES] = {0.0};
     for (int i = 0; i < 8 * half->blocks; i++) {
         const scalar S = y[Y_MODE_S + i], D = y[Y_MODE_D + i], S_dot = y[Y_MODE_S_DOT + i],
                      D_dot = y[Y_MODE_D_DOT + i];
@@ -224,7 +266,7 @@ void cage_elastic_acceleration(const Model *model, const scalar *y, Work *w, sca
         lost[i] = half->damping[i] * v_2;
         one[i] = 1.0;
     }
-    for (int i = 8 * half->blocks; i < MODES; i++)
+    for (int i = half->n; i < MODES; i++)
         y_dot[Y_MODE_S + i] = y_dot[Y_MODE_D + i] = y_dot[Y_MODE_S_DOT + i] = y_dot[Y_MODE_D_DOT + i] = 0.0;
     w->modes_energy = 0.5 * m * elastic_sum(half, rates, one);
     w->modes_dissipated = m * elastic_sum(half, lost, one);

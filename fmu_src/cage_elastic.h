@@ -8,6 +8,10 @@
 #define cage_elastic_kinematics FOR_ISA(cage_elastic_kinematics)
 void cage_elastic_kinematics(const Model *model, const scalar *y, Work *w);
 
+// Adds the modes to the joints' offsets and velocities in the plane (cage_joint_kinematics before), for the friction states.
+#define cage_elastic_slip FOR_ISA(cage_elastic_slip)
+void cage_elastic_slip(const Model *model, const scalar *y, Work *w);
+
 // Adds the modes to offset and velocity of the joints (cage_joint_kinematics before), sets e.
 #define cage_elastic_pads FOR_ISA(cage_elastic_pads)
 void cage_elastic_pads(const Model *model, Work *w);

@@ -263,6 +263,12 @@ static bool check_table(Bearing *b)
         "cage.x_c = %g m: allowed is %g m +- 2 %%, the centre of mass of the cage half in the embedded rivet "
         "table; build an FMU for this cage",
         b->s.p.cage.x_c, rivet_table.half.x_c);
+    fine &=
+        require(b, b->s.p.scene.cage != CAGE_MODEL_ELASTIC || rivet_table.modes.modes >= b->s.p.scene.modes,
+                "scene.cage = elastic with scene.modes = %g: the embedded rivet table has %g vibration "
+                "modes; build an FMU "
+                "with a table by finite elements",
+                b->s.p.scene.modes, rivet_table.modes.modes);
     return fine;
 }
 

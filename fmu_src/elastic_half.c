@@ -4,7 +4,10 @@
 #include "elementary.h"
 #include "rivet_rom.h"
 
-enum { SYSTEM = PAD_OUT * Z, RAY = 24 };
+static const double LONGEST = 8e-6;  // step at tolerance 1e-3 [s]
+static const double MARGIN = 1.3;    // of joints that are stiffer than the closed ones by rounding of the law
+
+enum { SYSTEM = PAD_OUT * Z, RAY = 24, REST_SWEEPS = 12 };
 
 enum { WALL_NODE = 1 };  // of the walls' angle: impacts meet the wall at 7 degrees in the median
 
@@ -305,6 +308,7 @@ static void find_wave(const Parameters *p, const ElasticHalf *half, bool out, in
                       double K[Z][PAD_OUT][PAD_OUT], int motion, double inertia, Wave *wave)
 {
     const int count = out ? PAD_OUT : PAD_IN, *pads = out ? OUT : IN;
+    double root[WAVE_SIZE], Q[WAVE_SIZE][WAVE_SIZE];
     double unit[PAD_OUT][Z], A[WAVE_SIZE][WAVE_SIZE] = {{0.0}}, B[WAVE_SIZE][PAD_OUT] = {{0.0}},
                              K_n[PAD_OUT][PAD_OUT] = {{0.0}};
     for (int c = 0; c < count; c++) {
@@ -326,7 +330,7 @@ static void find_wave(const Parameters *p, const ElasticHalf *half, bool out, in
         if (half->harmonic[i] != n || half->coordinate[i] != coordinate) continue;
         const int row = wave->count++;
         wave->row[row] = i;
-        wave->root[row] = sqrt(p->cage.m);
+        root[row] = sqrt(p->cage.m);
         A[row][row] = half->omega_2[i];
         for (int c = 0; c < count; c++)
             for (int k = 0; k < Z; k++)
@@ -335,7 +339,7 @@ static void find_wave(const Parameters *p, const ElasticHalf *half, bool out, in
     if (motion >= 0) {
         const int row = wave->count++;
         wave->row[row] = RIGID_MOTION;
-        wave->root[row] = sqrt(inertia);
+        root[row] = sqrt(inertia);
         for (int c = 0; c < count; c++)
             for (int k = 0; k < Z; k++)
                 B[row][c] += unit[c][k] * rigid_motion(out, motion, c, 2.0 * PI * (k + 0.5) / Z);
@@ -344,9 +348,15 @@ static void find_wave(const Parameters *p, const ElasticHalf *half, bool out, in
         for (int k = 0; k < wave->count; k++)
             for (int a = 0; a < count; a++)
                 for (int b = 0; b < count; b++)
-                    A[i][k] += B[i][a] * K_n[a][b] * B[k][b] / (wave->root[i] * wave->root[k]);
-    diagonalize(wave->count, A, wave->Q);
-    for (int i = 0; i < wave->count; i++) wave->lambda[i] = A[i][i];
+                    A[i][k] += B[i][a] * K_n[a][b] * B[k][b] / (root[i] * root[k]);
+    diagonalize(wave->count, A, Q);
+    for (int i = 0; i < wave->count; i++)
+        for (int k = 0; k < wave->count; k++)
+            wave->to[i][k] = root[i] * Q[i][k], wave->back[k][i] = Q[i][k] / root[i];
+    for (int i = 0; i < wave->count; i++) {
+        wave->slowed[i] = 1.0 / fmax(1.0, MARGIN * 0.25 * A[i][i] * half->longest * half->longest);
+        wave->lambda[i] = wave->slowed[i] * A[i][i];
+    }
     wave->blocks = (wave->count + 7) / 8;
 }
 
@@ -413,12 +423,95 @@ static void take_modes(const Parameters *p, ElasticHalf *half, double R[Z][PADS]
     half->blocks = (half->n + 7) / 8;
 }
 
-void elastic_half_derive(const Parameters *p, const Derived *d, ElasticHalf *half)
+// ---- rest under the centrifugal load -----------------------------------------------------------------------------------
+// All joints are alike: N = 0, and their M_t balances S_i = sqrt 2 (spin_i omega^2 - Z phi_t,i M_t)/(m omega_i^2).  Sets S and
+// what is off for the distance x[0] and M_t = x[1]: N, and M_t over the law's length [N].  move: of the joints, to begin with
+// and as found.
+static void rest_off(const Parameters *p, const ElasticHalf *half, double omega_2, double P,
+                     const double x[2], double *S, double off[2], double move[PAD_OUT])
+{
+    const double root = sqrt(2.0);
+    double e[PAD_OUT] = {0.5 * x[0], 0.0, 0.0}, K[PAD_OUT][PAD_OUT] = {{0.0}}, bonded[PAD_OUT] = {0.0},
+           behind[PAD_OUT];
+    for (int i = 0; i < half->n; i++) {
+        const double load = half->alike[i] ? Z * half->out[i][2][0] * x[1] : 0.0;
+        S[i] = root * (half->spin[i] * omega_2 - load) / (p->cage.m * half->omega_2[i]);
+        e[0] += S[i] * half->out[i][0][0] / root;
+        e[2] += S[i] * half->out[i][2][0] / root;
+    }
+    for (int k = 0; k < Z; k++)
+        for (int a = 0; a < PAD_OUT; a++)
+            for (int b = 0; b < PAD_OUT; b++) K[a][b] += half->K[k][a][b];
+    for (int a = 0; a < PAD_OUT; a++)
+        for (int b = 0; b < PAD_OUT; b++) bonded[a] += K[a][b] * e[b];
+    double rivet[3], U;
+    for (int sweep = 0; sweep < REST_SWEEPS; sweep++) {
+        for (int a = 0; a < PAD_OUT; a++) {
+            behind[a] = bonded[a];
+            for (int b = 0; b < PAD_OUT; b++) behind[a] -= (K[a][b] - half->K[0][a][b]) * move[b];
+        }
+        joint_law(&half->law, behind, P, move, rivet, &U);
+    }
+    off[0] = bonded[0] - (K[0][0] * move[0] + K[0][1] * move[1] + K[0][2] * move[2]);
+    off[1] =
+        (bonded[2] - (K[2][0] * move[0] + K[2][1] * move[1] + K[2][2] * move[2]) - x[1]) / half->law.length;
+}
+
+// Newton's method with differences; x: distance and M_t to begin with and as found.
+static void find_rest(const Parameters *p, const ElasticHalf *half, double omega_2, double P, double x[2],
+                      double *S, double move[PAD_OUT])
+{
+    const double step[2] = {1e-10, 1e-7};
+    double off[2], to[2], slope[2][2], other[PAD_OUT];
+    memset(S, 0, MODES * sizeof *S);
+    rest_off(p, half, omega_2, P, x, S, off, move);
+    for (int iteration = 0; iteration < 60 && fmax(fabs(off[0]), fabs(off[1])) > 1e-11; iteration++) {
+        for (int k = 0; k < 2; k++) {
+            double trial[2] = {x[0], x[1]};
+            trial[k] += step[k];
+            memcpy(other, move, sizeof other);
+            rest_off(p, half, omega_2, P, trial, S, to, other);
+            for (int i = 0; i < 2; i++) slope[i][k] = (to[i] - off[i]) / step[k];
+        }
+        const double det = slope[0][0] * slope[1][1] - slope[0][1] * slope[1][0];
+        x[0] -= (slope[1][1] * off[0] - slope[0][1] * off[1]) / det;
+        x[1] -= (slope[0][0] * off[1] - slope[1][0] * off[0]) / det;
+        rest_off(p, half, omega_2, P, x, S, off, move);
+    }
+}
+
+// The states of rest at equal steps of load/(load + P); law and modes are homogeneous.  The last one, without preload, is that
+// before it.
+static void find_relief(const Parameters *p, const Derived *d, ElasticHalf *half)
+{
+    double x[2] = {0.0, 0.0}, move[PAD_OUT] = {0.0}, S[MODES];
+    half->prying = fabs(d->spin[ROW_M_T]) / half->law.length;
+    if (half->prying == 0.0) return;
+    for (int i = 0; i < RESTS - 1; i++) {
+        const double part = (double)i / (RESTS - 1);
+        find_rest(p, half, part / half->prying, 1.0 - part, x, S, move);
+        for (int a = 0; a < PAD_OUT; a++)
+            for (int b = 0; b < PAD_OUT; b++)
+                for (int k = 1; k < Z; k++) half->relief[i][a] += half->K[k][a][b] * move[b];
+    }
+    memcpy(half->relief[RESTS - 1], half->relief[RESTS - 2], sizeof half->relief[0]);
+}
+
+double elastic_half_rest(const Parameters *p, const Derived *d, const ElasticHalf *half, double omega,
+                         double *S)
+{
+    double x[2] = {0.0, 0.0}, move[PAD_OUT] = {0.0};
+    find_rest(p, half, omega * omega, fmax(d->P_mean + d->spin[ROW_DP] * omega * omega, 0.0), x, S, move);
+    return x[0];
+}
+
+void elastic_half_derive(const Parameters *p, const Derived *d, double tolerance, ElasticHalf *half)
 {
     const HalfPath *path = &rivet_table.half.path;
     double R[Z][PADS][PADS];
     memset(half, 0, elastic_half_size());
     half->nodes = path->nodes;
+    half->longest = LONGEST * portable_pow(tolerance / 1e-3, 1.0 / 3.0);
     memcpy(half->chi, path->chi, (size_t)half->nodes * sizeof *half->chi);
     memcpy(R, rivet_table.modes.pad, sizeof R);
     half->compliance = rivet_table.modes.wall[2 * WALL_NODE];
@@ -428,72 +521,23 @@ void elastic_half_derive(const Parameters *p, const Derived *d, ElasticHalf *hal
     half->series = 1.0 / (1.0 + shear * (d->k_plate_t + d->k_head));
     half->series_hole = 1.0 / (1.0 + shear * d->k_hole[0]);
 
-    // largest |u|^2/sum omega^2 q^2 by Cauchy's inequality; between the nodes twice as much at most
+    // how far a wall can move; between the nodes a quarter farther at most
     for (int node = 0; node < half->nodes; node++) {
         double sum = 0.0;
-        for (int i = 0; i < half->n; i++)
+        for (int i = 0; i < half->n; i++) {
+            double u_2 = 0.0;
             for (int c = 0; c < 3; c += 2)
                 for (int part = 0; part < 2; part++)
-                    sum +=
-                        half->wall[node][0][c][part][i] * half->wall[node][0][c][part][i] / half->omega_2[i];
-        half->reach = fmax(half->reach, 2.0 * sum);
+                    u_2 += half->wall[node][0][c][part][i] * half->wall[node][0][c][part][i];
+            if (half->alike[i])
+                half->widest[i] = fmax(half->widest[i], 1.25 * sqrt(u_2));
+            else
+                sum += u_2 / half->omega_2[i];
+            half->weight[i] = half->alike[i] ? 0.0 : half->omega_2[i];
+        }
+        half->reach_2 = fmax(half->reach_2, 1.5625 * sum);
     }
     law_behind(half);
+    find_relief(p, d, half);
     find_waves(p, d, half);
-}
-
-// ---- rest under the centrifugal load -----------------------------------------------------------------------------------
-// All joints are alike: N = 0, and their M_t balances S_i = sqrt 2 (spin_i omega^2 - Z phi_t,i M_t)/(m omega_i^2).  Sets S and
-// what is off for the distance x[0] and M_t = x[1]: N, and M_t over the law's length [N].
-static void rest_off(const Parameters *p, const ElasticHalf *half, double omega, double P, const double x[2],
-                     double *S, double off[2])
-{
-    const double root = sqrt(2.0);
-    double e[PAD_OUT] = {0.5 * x[0], 0.0, 0.0}, K[PAD_OUT][PAD_OUT] = {{0.0}}, bonded[PAD_OUT] = {0.0},
-           behind[PAD_OUT];
-    for (int i = 0; i < half->n; i++) {
-        const double load = half->alike[i] ? Z * half->out[i][2][0] * x[1] : 0.0;
-        S[i] = root * (half->spin[i] * omega * omega - load) / (p->cage.m * half->omega_2[i]);
-        e[0] += S[i] * half->out[i][0][0] / root;
-        e[2] += S[i] * half->out[i][2][0] / root;
-    }
-    for (int k = 0; k < Z; k++)
-        for (int a = 0; a < PAD_OUT; a++)
-            for (int b = 0; b < PAD_OUT; b++) K[a][b] += half->K[k][a][b];
-    for (int a = 0; a < PAD_OUT; a++)
-        for (int b = 0; b < PAD_OUT; b++) bonded[a] += K[a][b] * e[b];
-    double move[3] = {0.0}, rivet[3], U;
-    for (int sweep = 0; sweep < JOINT_SWEEPS; sweep++) {
-        for (int a = 0; a < PAD_OUT; a++) {
-            behind[a] = bonded[a];
-            for (int b = 0; b < PAD_OUT; b++) behind[a] -= (K[a][b] - half->K[0][a][b]) * move[b];
-        }
-        joint_law(&half->law, behind, P, move, rivet, &U);
-    }
-    const double *K_x = half->K[0][0], *K_t = half->K[0][2];
-    off[0] = behind[0] - (K_x[0] * move[0] + K_x[1] * move[1] + K_x[2] * move[2]);
-    off[1] = (behind[2] - (K_t[0] * move[0] + K_t[1] * move[1] + K_t[2] * move[2]) - x[1]) / half->law.length;
-}
-
-// Newton's method with differences.
-double elastic_half_rest(const Parameters *p, const Derived *d, const ElasticHalf *half, double omega,
-                         double *S)
-{
-    const double P = fmax(d->P_mean + d->spin[ROW_DP] * omega * omega, 0.0), step[2] = {1e-10, 1e-7};
-    double x[2] = {0.0, 0.0}, off[2], to[2][2], slope[2][2];
-    memset(S, 0, MODES * sizeof *S);
-    rest_off(p, half, omega, P, x, S, off);
-    for (int iteration = 0; iteration < 60 && fmax(fabs(off[0]), fabs(off[1])) > 1e-10; iteration++) {
-        for (int k = 0; k < 2; k++) {
-            double trial[2] = {x[0], x[1]};
-            trial[k] += step[k];
-            rest_off(p, half, omega, P, trial, S, to[k]);
-            for (int i = 0; i < 2; i++) slope[i][k] = (to[k][i] - off[i]) / step[k];
-        }
-        const double det = slope[0][0] * slope[1][1] - slope[0][1] * slope[1][0];
-        x[0] -= (slope[1][1] * off[0] - slope[0][1] * off[1]) / det;
-        x[1] -= (slope[0][0] * off[1] - slope[1][0] * off[0]) / det;
-        rest_off(p, half, omega, P, x, S, off);
-    }
-    return x[0];
 }

@@ -16,8 +16,6 @@
 #include "joint_law.h"
 #include "model.h"
 
-enum { JOINT_SWEEPS = 2 };  // of the joints, whose moves relieve their neighbours
-
 enum { MODES = N_MODES };
 
 enum {
@@ -27,18 +25,21 @@ enum {
 
 enum { WALL_NODES = 16 };  // at most
 
+enum { RESTS = 65 };  // states of rest under the centrifugal load, at equal steps of load/(load + P)
+
 // The vibrations of both halves and their closed joints, wave by wave: a mode's coordinate a or b of harmonic n meets joints
 // only of the same wave, and so do relative motions of the halves as rigid bodies.  With a the accelerations times the root of
 // their inertia, the stiffness is Q diag(lambda) Q^T.
 enum { WAVES = 2 * (Z / 2 + 1), WAVE_SIZE = 16, RIGID_MOTION = -1 };
 
 typedef struct {
-    int count, blocks;               // coordinates, blocks of eight
-    int row[WAVE_SIZE];              // mode, or RIGID_MOTION: the last one
-    int motion;                      // which rigid motion: v_x, about y, about z; v_y, v_z, spin
-    double root[WAVE_SIZE];          // of the inertia
-    double lambda[WAVE_SIZE];        // [1/s2]
-    double Q[WAVE_SIZE][WAVE_SIZE];  // [coordinate][vibration]
+    int count, blocks;                  // coordinates, blocks of eight
+    int row[WAVE_SIZE];                 // mode, or RIGID_MOTION: the last one
+    int motion;                         // which rigid motion: v_x, about y, about z; v_y, v_z, spin
+    double lambda[WAVE_SIZE];           // with that inertia [1/s2]
+    double slowed[WAVE_SIZE];           // 1/inertia that the longest step needs
+    double to[WAVE_SIZE][WAVE_SIZE];    // root of the inertia times Q [coordinate][vibration]
+    double back[WAVE_SIZE][WAVE_SIZE];  // its inverse [vibration][coordinate]
 } Wave;
 
 struct ElasticHalf {
@@ -52,13 +53,19 @@ struct ElasticHalf {
     double in_modes[PAD_IN][Z][MODES];
     double wave[Z][2][MODES];  // at the pockets, what the real and the imaginary part of A are multiplied by
     double wall[WALL_NODES][2][3][2]
-               [MODES];             // A by node, value and slope, (x, r, t), real and imaginary part
-    int nodes;                      // of the walls' angle
-    double chi[WALL_NODES];         // [rad]
-    double reach;                   // largest |u|^2 of a wall / sum omega^2 q^2 [s2]
+               [MODES];      // A by node, value and slope, (x, r, t), real and imaginary part
+    int nodes;               // of the walls' angle
+    double chi[WALL_NODES];  // [rad]
+    // how far a wall can move: modes that move all pockets alike by themselves, all others by Cauchy's inequality
+    double reach_2;                 // largest |u|^2 / sum omega^2 q^2 of the others [s2]
+    double weight[MODES];           // omega^2 of the others, 0 of those
+    double widest[MODES];           // largest |u|/|q| of those, 0 of the others
     double compliance;              // of a wall along its normal, by the residual, less that in Hertz's [m/N]
     double K[Z][PAD_OUT][PAD_OUT];  // inverse of the residual between pads, out of the plane
+    double prying;  // |bonded M_t| of the centrifugal load over the law's length, per (rad/s)^2
+    double relief[RESTS][PAD_OUT];  // what other joints relieve a joint of at rest, per newton of load + P
     double series, series_hole;  // parts of the joints' stiffness in the plane, in series with the residual
+    double longest;              // step of the default method [s]
     int harmonic[MODES], coordinate[MODES];  // n; a 0, b 1
     Wave mirrored[WAVES];                    // of S and the relative motions out of the plane
     Wave opposed[2][WAVES];                  // of D and those in the plane; without and with shanks that bear
@@ -70,7 +77,7 @@ struct ElasticHalf {
 size_t elastic_half_size(void);
 
 // What the scene takes of the modes in the rivet table.
-void elastic_half_derive(const Parameters *p, const Derived *d, ElasticHalf *half);
+void elastic_half_derive(const Parameters *p, const Derived *d, double tolerance, ElasticHalf *half);
 
 // Coordinates S [MODES] and axial distance of the halves' bodies [m] at which modes and joints rest under the centrifugal
 // load of the speed omega [rad/s].
@@ -100,6 +107,36 @@ INLINE void elastic_wall_force(const ElasticHalf *half, const WallShape *shape, 
 {
     for (int i = 0; i < 8 * half->blocks; i++)
         modal[i] += F[0] * shape->motion[0][i] + F[1] * shape->motion[1][i] + F[2] * shape->motion[2][i];
+}
+
+// What the moves of all other joints relieve a joint of at rest under the centrifugal load, at the speed's square.
+INLINE void elastic_relief(const ElasticHalf *half, scalar P, scalar omega_2, scalar relief[PAD_OUT])
+{
+    const scalar load = half->prying * omega_2, s = P + load;
+    const scalar x = scalar_value(s) > 0.0 ? load / s * (RESTS - 1.0) : 0.0;
+    const int i = (int)fmin(scalar_value(x), RESTS - 2.0);
+    for (int a = 0; a < PAD_OUT; a++)
+        relief[a] = s * (half->relief[i][a] + (x - i) * (half->relief[i + 1][a] - half->relief[i][a]));
+}
+
+// Energy of all joints between the halves, and of what the modes leave of the halves around them, from e, L^, delta and U.
+INLINE scalar elastic_potential(const ElasticHalf *half, const Work *w)
+{
+    scalar V = 0.0, rest[PAD_OUT][Z];
+    for (int a = 0; a < PAD_OUT; a++)
+        for (int k = 0; k < Z; k++) rest[a][k] = w->e[a][k] - w->joint_move[a][k];
+    for (int k = 0; k < Z; k++) {
+        for (int a = 0; a < PAD_OUT; a++) {
+            scalar held = 0.0, own = 0.0;
+            for (int b = 0; b < PAD_OUT; b++) {
+                own += half->K[0][a][b] * w->joint_move[b][k];
+                for (int j = 0; j < Z; j++) held += half->K[(k - j + Z) % Z][a][b] * rest[b][j];
+            }
+            V += 0.5 * rest[a][k] * held + (w->joint_behind[a][k] - 0.5 * own) * w->joint_move[a][k];
+        }
+        V -= w->joint_U[k];
+    }
+    return 2.0 * V;
 }
 
 // Sum over the modes in one order for every lane width.

@@ -23,19 +23,21 @@ void elastic_wall(const ElasticHalf *half, int side, int j, const scalar *q, con
     for (int c = 0; c < 3; c++) {
         const double sign = c == 0 ? side : 1.0, re = sign * mirror[c][0], im = sign * mirror[c][1];
         const double *w_re = half->wave[j][0], *w_im = half->wave[j][1];
-        const double *A[4][2];
-        for (int t = 0; t < 4; t++)
-            for (int k = 0; k < 2; k++) A[t][k] = half->wall[node + t / 2][t % 2][c][k];
-        for (int m = 0; m < 8 * half->blocks; m++) {
-            const double e = re * w_re[m], o = im * w_im[m];
-            scalar at = 0.0, more = 0.0;
-            for (int t = 0; t < 4; t++) {
-                const double term = A[t][0][m] * e + A[t][1][m] * o;
-                at += value[t] * term;
-                more += slope[t] * term;
+        const double (*from)[3][2][MODES] = half->wall[node], (*to)[3][2][MODES] = half->wall[node + 1];
+        for (int m = 0; m < 8 * half->blocks; m += LANE_WIDTH) {
+            wide at[2], more[2];
+            for (int part = 0; part < 2; part++) {
+                const wide A[4] = {wide_load(&from[0][c][part][m]), wide_load(&from[1][c][part][m]),
+                                   wide_load(&to[0][c][part][m]), wide_load(&to[1][c][part][m])};
+                at[part] = more[part] = wide_set(0.0);
+                for (int t = 0; t < 4; t++) {
+                    at[part] = wide_fma(wide_set(value[t]), A[t], at[part]);
+                    more[part] = wide_fma(wide_set(slope[t]), A[t], more[part]);
+                }
             }
-            shape->motion[c][m] = at;
-            turned[c][m] = more;
+            const wide e = re * wide_load(&w_re[m]), o = im * wide_load(&w_im[m]);
+            wide_store(&shape->motion[c][m], wide_fma(at[0], e, at[1] * o));
+            wide_store(&turned[c][m], wide_fma(more[0], e, more[1] * o));
         }
     }
 

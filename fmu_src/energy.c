@@ -58,8 +58,7 @@ static scalar joint_energy(const Model *model, const scalar *y, const Work *w, i
         scalar_max(0.0, scalar_sqrt(w->u_y[k] * w->u_y[k] + w->u_z[k] * w->u_z[k]) - d->hole_gap[k]);
     if (model->elastic) {
         const double k_in = model->elastic->series, k_hole = model->elastic->series_hole * d->k_hole[k];
-        return w->joint_potential[k] +
-               0.5 * (k_in * d->k_plate_t * (z_y * z_y + z_z * z_z) +
+        return 0.5 * (k_in * d->k_plate_t * (z_y * z_y + z_z * z_z) +
                       k_in * d->k_head * (h_y * h_y + h_z * h_z) + k_hole * bearing * bearing);
     }
     return 0.5 * (w->T[k] * w->T[k] / d->k_rivet + w->N_plate[k] * w->N_plate[k] / d->k_plate +
@@ -72,7 +71,7 @@ scalar energy_total(const Model *model, const scalar *y, const Work *w)
     const Parameters *p = model->p;
     const bool rigid = p->scene.cage == CAGE_MODEL_RIGID;
     scalar E = w->land_elastic + contact_energy(model, w);
-    if (model->elastic) E += w->modes_energy;
+    if (model->elastic) E += w->modes_energy + elastic_potential(model->elastic, w);
     for (int j = 0; j < Z; j++) {
         E += ball_energy(model, y, j);
         if (!rigid) E += joint_energy(model, y, w, j);

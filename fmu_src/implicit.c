@@ -29,6 +29,7 @@
 
 #include "elastic_half.h"
 #include "elimination.h"
+#include "octet.h"
 #include "rotor.h"
 
 // ---- balls ------------------------------------------------------------------------------------------------
@@ -582,30 +583,27 @@ static void stiff_part_of_halves(const Model *model, const Work *w, double gamma
 }
 
 // ---- vibrations of elastic halves ---------------------------------------------------------------------------
-// Inertia of a vibration that turns by x = omega h a step, over its own: 1 + W x^2/4.  W = 1/3 makes its frequency exact to
-// order four (Fox and Goodwin); a larger one keeps vibrations stable that the step cannot resolve.
-INLINE double wave_inertia(double x_2)
-{
-    const double weight = x_2 > 4.5 ? 1.0 - 3.0 / x_2 : 1.0 / 3.0;
-    return 1.0 + 0.25 * weight * x_2;
-}
+static const double WAVE_DAMPING = 0.003;
 
+// Each vibration of elastic halves that is faster than the longest step can follow gets the inertia that slows it down
+// to what the step can (elastic_half.h).
 static void solve_waves(const Wave *waves, double h_2, double *rates, double rigid[3])
 {
     for (const Wave *wave = waves; wave < waves + WAVES; wave++) {
-        double x[WAVE_SIZE] = {0.0}, y[WAVE_SIZE] = {0.0};
-        for (int i = 0; i < wave->count; i++)
-            x[i] = wave->root[i] * (wave->row[i] == RIGID_MOTION ? rigid[wave->motion] : rates[wave->row[i]]);
-        for (int i = 0; i < wave->count; i++)
-            for (int k = 0; k < 8 * wave->blocks; k++) y[k] += x[i] * wave->Q[i][k];
-        for (int k = 0; k < 8 * wave->blocks; k++) y[k] /= wave_inertia(h_2 * wave->lambda[k]);
+        octet y[2] = {{{0.0}}}, x[2] = {{{0.0}}};
         for (int i = 0; i < wave->count; i++) {
-            double part[8] = {0.0};
-            for (int b = 0; b < 8 * wave->blocks; b += 8)
-                for (int k = 0; k < 8; k++) part[k] += wave->Q[i][b + k] * y[b + k];
-            const double sum =
-                ((part[0] + part[1]) + (part[2] + part[3])) + ((part[4] + part[5]) + (part[6] + part[7]));
-            const double rate = sum / wave->root[i];
+            const double rate = wave->row[i] == RIGID_MOTION ? rigid[wave->motion] : rates[wave->row[i]];
+            for (int b = 0; b < wave->blocks; b++) octet_add_from(rate, &wave->to[i][8 * b], &y[b]);
+        }
+        for (int k = 0; k < 8 * wave->blocks; k++) {
+            const double x_2 = h_2 * wave->lambda[k], taken = WAVE_DAMPING * x_2 * x_2;
+            y[k / 8].x[k % 8] *= h_2 > 0.0 ? 1.0 - (taken < 0.2 ? taken : 0.2) : wave->slowed[k];
+        }
+        for (int k = 0; k < wave->count; k++)
+            for (int b = 0; b < wave->blocks; b++)
+                octet_add_from(y[k / 8].x[k % 8], &wave->back[k][8 * b], &x[b]);
+        for (int i = 0; i < wave->count; i++) {
+            const double rate = x[i / 8].x[i % 8];
             if (wave->row[i] == RIGID_MOTION)
                 rigid[wave->motion] = rate;
             else
@@ -614,10 +612,10 @@ static void solve_waves(const Wave *waves, double h_2, double *rates, double rig
     }
 }
 
-void implicit_waves(const Model *model, const Work *w, double gamma, double *f)
+static void all_waves(const Model *model, const Work *w, double h_2, double *f)
 {
     const ElasticHalf *half = model->elastic;
-    const double *b_y = w->half[0].b_y, *b_z = w->half[0].b_z, h_2 = 4.0 * gamma * gamma;
+    const double *b_y = w->half[0].b_y, *b_z = w->half[0].b_z;
     double d[6], out[3], in[3];
     for (int i = 0; i < 6; i++)
         d[i] = f[Y_CAGE_V_X + 2 * i + 1] - f[Y_CAGE_V_X + 2 * i];  // x, y, z, beta, gamma, s
@@ -642,6 +640,16 @@ void implicit_waves(const Model *model, const Work *w, double gamma, double *f)
         f[Y_CAGE_V_X + 2 * i] -= 0.5 * change[i];
         f[Y_CAGE_V_X + 2 * i + 1] += 0.5 * change[i];
     }
+}
+
+void implicit_waves(const Model *model, const Work *w, double *f)
+{
+    all_waves(model, w, 0.0, f);
+}
+
+void implicit_wave_damping(const Model *model, const Work *w, double h, double *y)
+{
+    all_waves(model, w, h * h, y);
 }
 
 // ---- ring -------------------------------------------------------------------------------------------------

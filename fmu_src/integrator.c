@@ -15,6 +15,7 @@
 #include "integrator.h"
 
 #include "aligned.h"
+#include "elastic_half.h"
 #include "elementary.h"
 #include "reserved_memory.h"
 #include "saved_numbers.h"
@@ -393,6 +394,7 @@ static int verlet_advance(Integrator *in, double t_stop, long max_steps)
             status = ARK_TOO_MUCH_WORK;
             break;
         }
+        if (in->model->elastic) goal = fmin(goal, in->model->elastic->longest);
         const double left = t_stop - s->t, h = step_length(goal, left);
         if (s->t + h == s->t || h < DBL_MIN) {  // 1/h of a subnormal h overflows
             status = step_underflow(in, "Verlet", h);
@@ -538,6 +540,10 @@ bool integrator_state_is_valid(const IntegratorState *s, bool elastic)
                 values_are_within(s->now.f + b->offset, n, RATE * largest);
         fine &= values_are_within(s->now.jerk + b->offset, n, RATE * RATE * RATE * largest);
     }
+
+    // Loads of elastic halves' joints, up to that of anything that holds.
+    const double most = elastic ? 1e9 : 0.0;
+    fine &= values_are_within(s->now.rivet, LANES, most) && values_are_within(s->now.plate, LANES, most);
 
     // Films, switch and counters.
     fine &=

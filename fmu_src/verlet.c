@@ -17,6 +17,7 @@
 // (Swope et al. 1982).
 #include "verlet.h"
 
+#include "elastic_half.h"
 #include "implicit.h"
 #include "rhs.h"
 #include "vector_ops.h"
@@ -64,12 +65,16 @@ static void advance_positions(const Model *model, double h, const VerletState *f
     for (int i = Y_RING_X; i < FRICTION; i++) middle[i] = from->y[i];
     memcpy(&y[Y_CAGE_PSI], &from->y[Y_CAGE_PSI], 2 * sizeof *y);
     if (model->elastic)
-        for (int i = PLACES; i < RATES; i++) {
-            middle[i + MODE_RATES] = y[i + MODE_RATES] =
-                from->y[i + MODE_RATES] + gamma * from->f[i + MODE_RATES];
-            middle[i] = from->y[i] + gamma * y[i + MODE_RATES];
-            y[i] = from->y[i] + h * y[i + MODE_RATES];
+        for (int q = PLACES; q < RATES; q++) {
+            const double v_m = from->y[q + MODE_RATES] + gamma * from->f[q + MODE_RATES];
+            middle[q + MODE_RATES] = y[q + MODE_RATES] = v_m;
+            middle[q] = from->y[q] + gamma * v_m;
+            y[q] = from->y[q] + h * v_m;
         }
+    if (model->elastic) {
+        memcpy(w->T, from->rivet, sizeof w->T);
+        memcpy(w->N_plate, from->plate, sizeof w->N_plate);
+    }
     rhs_cage_advance(model, middle, h, y, w);
 }
 
@@ -207,17 +212,26 @@ static void remember_friction(double h, const VerletState *from, VerletState *to
     }
 }
 
-// Rates of the modes of elastic halves: velocity Verlet.
-static void advance_modes(double h, const VerletState *from, VerletState *to, double *error)
+// Rates of the modes of elastic halves: velocity Verlet, linearly implicit in their damping.
+static void advance_modes(const Model *model, double h, const VerletState *from, VerletState *to,
+                          double *error)
 {
     const double gamma = 0.5 * h, inv_h = 1.0 / h, second = h * h * (2.0 / (h + from->h));
-    for (int i = RATES; i < N_ALL_STATES; i++) {
-        to->y[i] = from->y[i] + gamma * (from->f[i] + to->f[i]);
-        to->jerk[i] = (to->f[i] - from->f[i]) * inv_h;
-        error[i] = (h / 12.0) * (second * (to->jerk[i] - from->jerk[i]));
-        to->f[i - MODE_RATES] = to->y[i];
-        to->jerk[i - MODE_RATES] = error[i - MODE_RATES] = 0.0;
+    for (int first = RATES; first < N_ALL_STATES; first += N_MODES) {
+        const double *damping = model->elastic->damping, *y = &from->y[first], *f = &from->f[first],
+                     *jerk = &from->jerk[first];
+        double *y_1 = &to->y[first], *f_1 = &to->f[first], *jerk_1 = &to->jerk[first], *e = &error[first];
+        for (int i = 0; i < N_MODES; i++) {
+            const double change = (f_1[i] - f[i]) / (1.0 + gamma * damping[i]);
+            f_1[i] = f[i] + change;
+            y_1[i] = y[i] + gamma * (f[i] + f_1[i]);
+            jerk_1[i] = change * inv_h;
+            e[i] = (h / 12.0) * (second * (jerk_1[i] - jerk[i]));
+        }
     }
+    memcpy(&to->f[PLACES], &to->y[RATES], MODE_RATES * sizeof *error);
+    memset(&to->jerk[PLACES], 0, MODE_RATES * sizeof *error);
+    memset(&error[PLACES], 0, MODE_RATES * sizeof *error);
 }
 
 double verlet_step(const Model *model, double t, double h, const double *weight, const VerletState *from,
@@ -235,7 +249,11 @@ double verlet_step(const Model *model, double t, double h, const double *weight,
         for (int i = RATES; i < N_ALL_STATES; i++) y[i] += gamma * f[i];
     rhs(model, t + h, y, to->f, w);
     remember_films(w, to);
-    if (model->elastic) implicit_waves(model, w, gamma, to->f);
+    if (model->elastic) {
+        implicit_waves(model, w, to->f);
+        memcpy(to->rivet, w->T, sizeof to->rivet);
+        memcpy(to->plate, w->N_plate, sizeof to->plate);
+    }
 
     // The residual of the trapezoidal rule at v^, and the linear solve that corrects v^.
     for (int i = VELOCITY; i < N_STATES; i++) residual[i] = gamma * (to->f[i] - f[i]);
@@ -264,7 +282,8 @@ double verlet_step(const Model *model, double t, double h, const double *weight,
     remember_friction(h, from, to, error);
     to->h = h;
     if (model->elastic) {
-        advance_modes(h, from, to, error);
+        advance_modes(model, h, from, to, error);
+        implicit_wave_damping(model, w, h, y);
         return vector_ops_elastic.wrms_norm(error, weight);
     }
     return vector_ops.wrms_norm(error, weight);

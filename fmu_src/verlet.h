@@ -11,7 +11,9 @@ typedef struct {
     double f[N_ALL_STATES];  // dy/dt; after a step: accelerations, mean rates of the friction states, power
     double jerk[N_ALL_STATES];  // change of f over the last step / its length: history for the error estimate
     double film[2][3];          // -dF/dv of each land's film there: yy, yz, zz [N.s/m]
-    double h;                   // length of that step [s]; 0 before the first one
+    double rivet[LANES],
+        plate[LANES];  // T and N_plate of the joints between elastic halves there [N]; of others 0
+    double h;          // length of that step [s]; 0 before the first one
 } VerletState;
 
 // Takes the step of length h [s] from the state `from` at time t to the state `to` and returns the weighted

@@ -9,7 +9,7 @@
 
 #define FMI2_FUNCTION_PREFIX RivetedBearing_  // of the functions of a source-code FMU
 #define MODEL_IDENTIFIER "RivetedBearing"
-#define MODEL_GUID "{e0a34cca-26d0-1e06-752a-08e9d7388725}"  // digest of the table
+#define MODEL_GUID "{00ec8976-0ecb-ece9-dc75-b7c5b964177f}"  // digest of the table
 
 enum { Z = 9 };  // number of balls
 
@@ -538,11 +538,11 @@ enum {
     Y_BALL_OMEGA_T = 143,  // [Z] [rad/s] Angular velocity about the tangential direction of the ball
     N_STATES = 152,
     N_STATE_BLOCKS = 36,
-    Y_MODE_S = 152,  // [64] [m] Mirrored motion of the halves: modal coordinates
-    Y_MODE_D = 216,  // [64] [m] Opposed motion of the halves: modal coordinates
-    Y_MODE_S_DOT = 280,  // [64] [m/s] Their rates, mirrored
-    Y_MODE_D_DOT = 344,  // [64] [m/s] and opposed
-    N_ALL_STATES = 408,  // with those of elastic cage halves
+    Y_MODE_S = 152,  // [48] [m] Mirrored motion of the halves: modal coordinates
+    Y_MODE_D = 200,  // [48] [m] Opposed motion of the halves: modal coordinates
+    Y_MODE_S_DOT = 248,  // [48] [m/s] Their rates, mirrored
+    Y_MODE_D_DOT = 296,  // [48] [m/s] and opposed
+    N_ALL_STATES = 344,  // with those of elastic cage halves
     N_ALL_BLOCKS = 40
 };
 
