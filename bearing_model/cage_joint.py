@@ -39,8 +39,8 @@ def cage_joint_kinematics(model, w):
 def cage_joint_prying(model, w):
     """Prying force dT [..., 1] in N: what the cage's centrifugal load adds to the rivet's tension and to the plates' contact force.
 
-    T_rest - P of joints that are all alike (joint_law.py), at their mean preload.  C1 in the cage's speed: the cubic through the states of the table, which are at equal steps
-    of x = c/(c + P), with slopes by central differences.
+    T_rest - P of joints that are all alike (joint_law.py), at their mean preload.  C1 in the cage's speed: the cubic through the states of the table,
+    which are at equal steps of x = c/(c + P), with slopes by central differences.
     """
     d, law = model.d, model.d.table.half.law
     omega_2 = 0.5 * (w.half[0].s ** 2 + w.half[1].s ** 2)
