@@ -87,24 +87,31 @@ class MassiveHalf:
 
     def wave(self, n, count):
         """The first `count` elastic modes of wave n: Wave.  Raises ArithmeticError if they are not found or not symmetric."""
-        e = self.elastic
-        T = cut(e, n)
-        K, M = (T.conj().T @ A @ T for A in (e.K, self.M))
-        single = 2 * n in (0, e.Z)
-        if single:
-            K, M = K.real, M.real
-        factor = splu((K - SHIFT * M).tocsc(), **SYMMETRIC)
-        inverse = LinearOperator(K.shape, factor.solve, dtype=K.dtype)
-        start = np.random.default_rng(0).standard_normal(K.shape[0])  # of its own, so that the same half gives the same bits
-        rigid = e._rigid(n).shape[1]
-        square, v = eigsh(K, count + rigid, M.tocsc(), sigma=SHIFT, OPinv=inverse, which="LM", v0=start)
-        order = np.argsort(square)[rigid:]
-        if not np.all(square[order] > -0.01 * SHIFT):
-            raise ArithmeticError(f"modes of the cage half: wave {n} has the square of a frequency {square[order].min():g} (rad/s)^2 above its rigid motions")
-        shape = T @ v[:, order].astype(complex)
-        shape /= np.sqrt(np.einsum("di,di->i", shape.conj(), self.M @ shape).real * (e.Z if single else 0.5 * e.Z))
-        shape, parity = symmetric(e, n, shape)
-        return Wave(n, np.sqrt(square[order]), parity if single else 0 * parity, shape)
+        Z, (square, shape) = self.elastic.Z, wave_modes(self.elastic, self.M, n, count)
+        single = 2 * n in (0, Z)
+        shape /= np.sqrt(Z if single else 0.5 * Z)
+        shape, parity = symmetric(self.elastic, n, shape)
+        return Wave(n, np.sqrt(square), parity if single else 0 * parity, shape)
+
+
+def wave_modes(solid, M, n, count):
+    """Squares of the first `count` elastic frequencies of wave n of a CyclicSolid, and shapes [dofs, count] of one pitch with conj(shape) M shape = 1.
+
+    Raises ArithmeticError if there is another number of rigid motions.
+    """
+    T, rigid = cut(solid, n), solid._rigid(n).shape[1]
+    K_n, M_n = (T.conj().T @ A @ T for A in (solid.K, M))
+    if 2 * n in (0, solid.Z):
+        K_n, M_n = K_n.real, M_n.real
+    factor = splu((K_n - SHIFT * M_n).tocsc(), **SYMMETRIC)
+    inverse = LinearOperator(K_n.shape, factor.solve, dtype=K_n.dtype)
+    start = np.random.default_rng(0).standard_normal(K_n.shape[0])  # of its own, so that the same half gives the same bits
+    square, v = eigsh(K_n, count + rigid, M_n.tocsc(), sigma=SHIFT, OPinv=inverse, which="LM", v0=start)
+    order = np.argsort(square)
+    if not (np.all(np.abs(square[order[:rigid]]) < -1e-3 * SHIFT) and square[order[rigid]] > -1e-3 * SHIFT):
+        raise ArithmeticError(f"modes of the cage half: the squares of the lowest frequencies of wave {n} are {square[order[: rigid + 1]]} (rad/s)^2")
+    shape = T @ v[:, order[rigid:]].astype(complex)
+    return square[order[rigid:]], shape / np.sqrt(np.einsum("di,di->i", shape.conj(), M @ shape).real)
 
 
 def cut(elastic, n):
