@@ -188,8 +188,12 @@ def curve_tables(curves):
 
 @threadpool_limits.wrap(limits=1)
 def write_pictures(folder, title, curves, joint):
-    """Write rivet_drawing.png, rivet_curves.png and rivet_section.png into a folder; returns their paths."""
-    figures = {"rivet_curves.png": pictures.plot_curves(curves, title), "rivet_section.png": pictures.plot_section(joint)}
+    """Write rivet_drawing.png, rivet_curves.png, rivet_section.png and cage_modes.png into a folder; returns their paths."""
+    figures = {
+        "rivet_curves.png": pictures.plot_curves(curves, title),
+        "rivet_section.png": pictures.plot_section(joint),
+        "cage_modes.png": pictures.plot_modes(joint.geometry),
+    }
     for name, figure in figures.items():
         write_figure(figure, folder / name)
     return [write_drawing(joint.geometry, folder / "rivet_drawing.png"), *(folder / name for name in figures)]
