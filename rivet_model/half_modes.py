@@ -12,12 +12,12 @@ import numpy as np
 import scipy.sparse as sp
 from scipy.sparse.linalg import LinearOperator, eigsh, splu
 
-from bearing_model.half_modes import EVEN, PAD, HalfModes, Residual
+from bearing_model.half_modes import EVEN, PAD, HalfModes, Residual, fewer
 
 from . import half_loads, half_shape
 from .cage_half import BODY, SYMMETRIC
 
-MODES = 60  # of a half, a pair counted as two
+MODES_PER_PITCH = 20 / 3  # of a half, a pair counted as two: 60 of nine pitches; docs/elastic.md has the error over the number
 SHIFT = -((2.0 * np.pi * 500.0) ** 2)  # (rad/s)^2 below the rigid motions, whose frequency is 0
 TOLERANCE = 1e-6  # of symmetry: shapes whose real or imaginary part should be 0 (observed 1e-9)
 APART = 1.1e-3  # m between two places of the wall beyond which point loads need no finer cells than those of the half
@@ -149,11 +149,21 @@ def symmetric(elastic, n, shape):
     return shape, np.where(np.linalg.norm(shape.real, axis=0) > np.linalg.norm(shape.imag, axis=0), 1, -1)
 
 
+def default_count(Z):
+    """Modes of a half with Z pitches: as many for each pitch as the 6207 has."""
+    return round(MODES_PER_PITCH * Z)
+
+
+def check_count(count, Z):
+    """Raises ValueError for a number of modes that cannot be made."""
+    if isinstance(count, bool) or not isinstance(count, int) or not Z <= count <= 20 * Z:
+        raise ValueError(f"modes = {count!r}: a whole number from Z = {Z} to 20 Z = {20 * Z} is needed")
+
+
 def waves(massive, count, progress=lambda done, total: None):
-    """Waves 0...Z//2 with at least the first `count` modes of the half, pairs counted as two."""
+    """Waves 0...Z//2 with the first `count` modes of the half and about as many again, pairs counted as two."""
     Z = massive.elastic.Z
-    each = np.full(Z // 2 + 1, 2 + -(-2 * count // (2 * Z)))
-    found = [None] * len(each)
+    each, found = np.full(Z // 2 + 1, 4 + -(-4 * count // (3 * Z))), [None] * (Z // 2 + 1)
     while True:
         for n in range(len(each)):
             if found[n] is None:
@@ -168,13 +178,13 @@ def waves(massive, count, progress=lambda done, total: None):
             found[n] = None
 
 
-def half_modes(elastic, alone, count=MODES, progress=lambda done, total: None):
-    """HalfModes of a condensed half (half_loads.elastic_half) with its pads (JointAlone): `count` modes or one less.
+def half_modes(elastic, alone, count, progress=lambda done, total: None):
+    """HalfModes of a condensed half (half_loads.elastic_half) with its pads (JointAlone): the first `count` modes or one less, and all that were found.
 
-    Raises ArithmeticError if they cannot be found.
+    Raises ValueError for an impossible number, ArithmeticError if they cannot be found.
     """
     Z, massive, places = elastic.Z, MassiveHalf(elastic), Places(elastic, alone)
-    nodes = len(half_loads.CHI)
+    check_count(count, Z)
     everything = np.column_stack([places.rivet, places.pocket, places.spin])
     rims, rows, static = rim_means(elastic), [], []
     for wave in waves(massive, count, progress):
@@ -184,19 +194,18 @@ def half_modes(elastic, alone, count=MODES, progress=lambda done, total: None):
         static.append(everything.T @ massive.compliance(wave.n) @ everything)
     static = np.stack(static)
     rows.sort(key=lambda row: row[0])
-    pairs = np.array([2 if row[2] == 0 else 1 for row in rows])
-    rows = rows[: int(np.searchsorted(np.cumsum(pairs), count, side="right"))]
     for omega, n, parity, u, _ in rows:
         static[n] -= (1.0 if parity else 0.5) * Z / omega**2 * np.outer(u, u.conj())
-    return HalfModes(
+    found = HalfModes(
         Z=Z,
         chi=half_loads.CHI,
         omega=np.array([row[0] for row in rows]),
         harmonic=np.array([row[1] for row in rows]),
         parity=np.array([row[2] for row in rows]),
         residual=residual(elastic, places, elastic.circulant(static)),
-        **amplitudes(Z, nodes, rows),
+        **amplitudes(Z, len(half_loads.CHI), rows),
     )
+    return fewer(found, count), found
 
 
 def amplitudes(Z, nodes, rows):

@@ -319,7 +319,7 @@ def plot_modes(g, count=8, largest=2.5e-3):
         ax.add_collection3d(skin)
         R = 0.62e3 * g.cage_outer_diameter / 1.15
         ax.set(xlim=(-R, R), ylim=(-R, R), zlim=(-0.5 * R, 0.5 * R))
-        ax.set_box_aspect((1, 1, 0.5), zoom=1.55)
+        ax.set_box_aspect((1, 1, 0.5), zoom=1.4)
         ax.set_axis_off()
         ax.view_init(elev=38, azim=-60)
         ax.set_title(f"{frequency / 1e3:.2f} kHz, {n} wave{'s' * (n != 1)}", y=0.96)

@@ -1,112 +1,21 @@
-"""Both halves of a cage under impacts in their pockets: what bonded joints carry over time, by the full finite elements and by modes of the halves.
+"""Both halves of a cage under impacts in their pockets by all finite elements, nothing left out: what modes are held against.
 
-Impacts are those of Hertz's law, F = peak sin(pi t/duration)^1.5, along the normal of the wall at an angle from the split (0...180 degrees; beyond 90 on
-the side t < 0) in the frame of their own half (x away from the split).  The sum of the loads of both halves, each half of it, moves the halves as
-mirror images, which gives N, M_r, M_t of the joints; the difference moves them against each other, which gives V_r, V_t.
-
-Full finite elements, nothing left out: at each complex frequency s one pitch with the stiffness (1 + b s) K + s^2 M is condensed to its loads and its
-cuts, the waves of the ring follow from them, and the pads are held: transfer functions from the pockets to the joints.  Laplace's inversion by FFT on
-the line s = sigma + i omega, sigma PERIOD = 6: what the next period would add is e^-6 of it.  Frequencies end smoothly between BAND[0] and BAND[1].
+At each complex frequency s one pitch with the stiffness (1 + b s) K + s^2 M is condensed to its loads and its cuts, the waves of the ring follow from
+them, and the pads are held: transfer functions from the pockets to the joints, as rivet_model/impacts.py has them from modes.
 """
 
-from dataclasses import dataclass
 from functools import cached_property
 from itertools import pairwise
 
 import numpy as np
+from scipy.linalg import expm
 from scipy.sparse.linalg import splu
 
 from bearing_model import half_modes as modes_of
-from bearing_model.half_path import path_rows
-from rivet_model import half_loads, half_modes, half_shape
+from bearing_model.joint_law import joint_law, joints_open, relief
+from rivet_model import half_loads, half_modes
 from rivet_model.cage_half import SYMMETRIC
-
-ANGLES = np.deg2rad([3.0, 8.0, 14.0, 22.0, 35.0, 60.0, 88.0, 118.0, 140.0, 156.0, 165.0, 171.0, 178.0])  # medians and tails of recorded impacts: 7 and 14
-PERIOD, SAMPLES = 1.024e-3, 2048  # s, and in steps of 0.5 us
-SIGMA = 6.0 / PERIOD
-BAND = (110e3, 160e3)  # Hz
-DAMPING = 0.02 / (2.0 * np.pi * 10e3)  # b [s]: 1 % of critical at 10 kHz
-LOADS = ("N", "V_r", "V_t", "M_r", "M_t")
-TIME = PERIOD / SAMPLES * np.arange(SAMPLES)
-SHOWN = TIME < 0.75 * PERIOD
-FREQUENCY = np.arange(int(BAND[1] * PERIOD) + 1) / PERIOD
-S = SIGMA + 2j * np.pi * FREQUENCY
-TAPER = np.where(FREQUENCY < BAND[0], 1.0, 0.5 + 0.5 * np.cos(np.pi * (FREQUENCY - BAND[0]) / (BAND[1] - BAND[0])))
-
-
-@dataclass
-class Impacts:
-    """Impacts on both halves, arrays of one length."""
-
-    start: np.ndarray  # [s]
-    duration: np.ndarray  # [s]
-    peak: np.ndarray  # [N]
-    half: np.ndarray  # 1: +x, 0: -x
-    pocket: np.ndarray
-    place: np.ndarray  # index of ANGLES
-
-
-def synthetic(seed, Z=9, count=8):
-    """Impacts of 35-100 us and 20-120 N within the first 0.5 ms; a third of them hit both halves at the same time, as near the split they do."""
-    rng = np.random.default_rng(seed)
-    half, twice = rng.integers(2, size=count), rng.random(count) < 1 / 3
-    weight = np.where(np.minimum(ANGLES, np.pi - ANGLES) < 0.45, 1.0, 0.35)  # most are near the split
-    first = Impacts(
-        start=np.sort(rng.uniform(0.0, 0.5e-3, count)),
-        duration=rng.uniform(35e-6, 100e-6, count),
-        peak=rng.uniform(20.0, 120.0, count),
-        half=half,
-        pocket=rng.integers(Z, size=count),
-        place=rng.choice(len(ANGLES), count, p=weight / weight.sum()),
-    )
-    share = rng.uniform(0.3, 1.0, count)
-    other = {name: values[twice] for name, values in vars(first).items()}
-    other |= {"half": 1 - half[twice], "peak": (share * first.peak)[twice]}
-    return Impacts(**{name: np.concatenate([values, other[name]]) for name, values in vars(first).items()})
-
-
-def pulses(impacts, Z=9):
-    """Forces [half, Z, ANGLES, SAMPLES] over TIME."""
-    result = np.zeros((2, Z, len(ANGLES), SAMPLES))
-    for i in range(len(impacts.start)):
-        phase = np.clip((TIME - impacts.start[i]) / impacts.duration[i], 0.0, 1.0)
-        result[impacts.half[i], impacts.pocket[i], impacts.place[i]] += impacts.peak[i] * np.sin(np.pi * phase).clip(0.0) ** 1.5
-    return result
-
-
-def transformed(signal):
-    """Laplace transforms [..., FREQUENCY] of signals [..., SAMPLES], band-limited."""
-    return PERIOD / SAMPLES * np.fft.rfft(signal * np.exp(-SIGMA * TIME))[..., : len(S)] * TAPER
-
-
-def over_time(transform):
-    """Signals [..., SAMPLES] of transforms [..., FREQUENCY]."""
-    full = np.zeros((*transform.shape[:-1], SAMPLES // 2 + 1), dtype=complex)
-    full[..., : len(S)] = transform
-    return SAMPLES / PERIOD * np.fft.irfft(full, SAMPLES) * np.exp(SIGMA * TIME)
-
-
-@dataclass
-class Transfer:
-    """From forces normal to the wall to the loads of bonded joints, and from moves of pads to their loads.
-
-    N, M and rivets' rows are those of mirrored forces, V those of opposed forces, each on one half.
-    """
-
-    pocket: np.ndarray  # [FREQUENCY, Z, 8 (LOADS, then dP, dm_r, dm_t), ANGLES] of the rivets behind pocket 0
-    pad: np.ndarray  # [FREQUENCY, Z, 3, 3] (N, M_r, M_t) k pitches farther per move (u, phi_r, phi_t)
-
-    def loads(self, force):
-        """Loads of all joints [Z, 8, SAMPLES] under forces [half, Z, ANGLES, SAMPLES]."""
-        spectrum = np.fft.fft(transformed(force), axis=1)  # waves over the pockets
-        waves = np.fft.fft(self.pocket, axis=1)  # waves over the rivets
-        mirrored, opposed = 0.5 * (spectrum[1] + spectrum[0]), 0.5 * (spectrum[1] - spectrum[0])
-        found = np.einsum("fmla,maf->mlf", waves, mirrored)
-        found[:, 1:3] = np.einsum("fmla,maf->mlf", waves[:, :, 1:3], opposed)
-        return over_time(np.fft.ifft(found, axis=0))
-
-
-# Full finite elements ----------------------------------------------------------------------------------------------------------------------
+from rivet_model.impacts import ANGLES, DAMPING, SAMPLES, TIME, S, Transfer, at_angles, mass_motions
 
 
 class FullHalf:
@@ -180,74 +89,73 @@ class FullHalf:
         return Transfer(*(np.stack(part) for part in zip(*found, strict=True)))
 
 
-# Modes -----------------------------------------------------------------------------------------------------------------------------------
+# Joints that open --------------------------------------------------------------------------------------------------------------------------
 
 
-def mass_motions(g, inertia):
-    """Displacements PAD of all pads [Z, 6, 6] and of pocket 0 at ANGLES along the normal [ANGLES, 6] by the rigid motions of unit mass."""
-    scale = 1.0 / np.sqrt([inertia.m] * 3 + [inertia.J_p, inertia.J_t, inertia.J_t])
-
-    def moved(place):
-        return np.hstack([np.eye(3), np.cross(np.eye(3), np.asarray(place) - [inertia.x_c, 0.0, 0.0]).T])
-
-    pads = []
-    for angle in 2.0 * np.pi * (np.arange(g.Z) + 0.5) / g.Z:
-        axes = np.array([[1.0, 0.0, 0.0], [0.0, np.cos(angle), np.sin(angle)], [0.0, -np.sin(angle), np.cos(angle)]])
-        pads.append(np.vstack([axes @ moved(0.5 * g.d_m * axes[1]), np.hstack([np.zeros((3, 3)), axes])]) * scale)
-    walls = []
-    for angle in ANGLES:
-        z = half_shape.pocket_radius(g) * np.cos(angle)
-        place = [half_shape.pocket_radius(g) * np.sin(angle), np.sqrt(0.25 * g.d_m**2 - z**2), z]
-        walls.append([np.sin(angle), 0.0, np.cos(angle)] @ moved(place) * scale)
-    return np.stack(pads), np.stack(walls)
+def first_order_hold(omega, h):
+    """Exact step of q'' + DAMPING omega^2 q' + omega^2 q = f for f linear in time: (q, v) by (q, v) [2, 2, n], and by f before and after it [2, 2, n]."""
+    A = np.zeros((len(omega), 4, 4))  # of q, v, f, h f'
+    A[:, 0, 1] = A[:, 1, 2] = h
+    A[:, 1, 0], A[:, 1, 1], A[:, 2, 3] = -h * omega**2, -h * DAMPING * omega**2, 1.0
+    E = np.moveaxis(expm(A), 0, -1)
+    return E[:2, :2], np.stack([E[:2, 2] - E[:2, 3], E[:2, 3]], axis=1)
 
 
-def at_angles(modes):
-    """Displacements along the normal of pocket 0 by all coordinates [n, ANGLES], and residual rows [Z, 9, ANGLES] by unit forces, between the nodes."""
-    shapes, slopes = modes_of.pocket_shapes(modes)[:, 0], modes_of.pocket_shapes(modes, modes.slope)[:, 0]
-    wall, rows = [], []
-    for angle in ANGLES:
-        side, chi = int(angle > np.pi / 2), min(angle, np.pi - angle)
-        force = np.array([np.sin(chi), 0.0, np.cos(chi)])
-        u = path_rows(modes.chi, np.moveaxis(shapes[:, :, side], 1, 0), np.moveaxis(slopes[:, :, side], 1, 0), chi)
-        wall.append(u @ (force * [1.0, 1.0, -1.0 if side else 1.0]))
-        row = path_rows(modes.chi, modes.residual.pocket, modes.residual_slope, chi) @ force
-        rows.append(row[::-1] * modes_of.EVEN if side else row)
-    return np.stack(wall, axis=1), np.stack(rows, axis=-1)
+def opened(g, inertia, modes, force, law, P, spin, lever):
+    """Loads (N, M_r, M_t) of joints and (T, m_r, m_t) of rivets, each [Z, 3, SAMPLES], over time, of mirrored halves whose joints open by `law`.
 
-
-def modal_transfer(g, inertia, modes, with_residual=True):
-    """Transfer by the modes of HalfModes and the residual (or, without it, by the residual's resistance of pads alone, which must not be rigid)."""
-    Z, omega = g.Z, modes_of.frequencies(modes)
-    at, (wall, rows) = modes_of.rivet_shapes(modes), at_angles(modes)
-    rigid_pad, rigid_wall = mass_motions(g, inertia)
-    pads, walls = np.concatenate([at[:, :, :6], np.moveaxis(rigid_pad, 2, 0)]), np.concatenate([wall, rigid_wall.T])
-    rivets = np.concatenate([at[:, :, 6:], np.zeros((6, Z, 3))])
+    force [half, Z, ANGLES, SAMPLES]; spin: (M_t, dP) of bonded joints under the centrifugal load; P: preload without it [N], or None: bonded.
+    Modes go exactly from step to step, what damps the residual by the implicit Euler method; in each step, Newton's iteration finds moves =
+    law(L + K_0 moves) of all joints at once.
+    """
+    Z, h, omega = g.Z, TIME[1], np.concatenate([modes_of.frequencies(modes), np.zeros(6)])
+    pads, at = mass_motions(g, inertia, lever)[0], modes_of.rivet_shapes(modes)
+    A = np.concatenate([at[:, :, :6], np.moveaxis(pads, 2, 0)])[:, :, [0, 4, 5]].reshape(len(omega), -1)
+    free, forced = first_order_hold(omega, h)
     relative = (np.arange(Z)[:, None] - np.arange(Z)) % Z
-    C_pad, C_rivet = modes.residual.pad[relative], modes.residual.rivet[relative]
-    rows = rows if with_residual else 0.0 * rows
-    pocket, pad = np.zeros((len(S), Z, 8, len(ANGLES)), dtype=complex), np.zeros((len(S), Z, 3, 3), dtype=complex)
-    for f, s in enumerate(S):
-        stiff = 1.0 + DAMPING * s
-        answer = 1.0 / (s * s + np.concatenate([omega**2 * stiff, np.zeros(6)]))
-        for chosen, out in (([0, 4, 5], [0, 3, 4]), ([1, 2], [1, 2])):
-            n = len(chosen)
-            A = pads[:, :, chosen].reshape(len(answer), -1)
-            C = A.T @ (answer[:, None] * A) + 1.0 / stiff * C_pad[:, :, chosen][..., chosen].transpose(0, 2, 1, 3).reshape(Z * n, Z * n)
-            free = A.T @ (answer[:, None] * walls) + 1.0 / stiff * rows[:, chosen].reshape(Z * n, -1)
-            L = np.linalg.solve(C, np.column_stack([free, np.eye(Z * n, n)]))
-            held = L[:, : len(ANGLES)]
-            pocket[f][:, out] = held.reshape(Z, n, -1)
-            if n == 3:
-                pad[f] = L[:, len(ANGLES) :].reshape(Z, n, n)
-                q = answer[:, None] * (walls - A @ held)
-                pocket[f][:, 5:] = np.einsum("ika,il->kal", rivets, q) + 1.0 / stiff * rows[:, 6:]
-                pocket[f][:, 5:] -= 1.0 / stiff * np.einsum("kjab,jbl->kal", C_rivet[..., chosen], held.reshape(Z, n, -1))
-    return Transfer(pocket, pad)
+    R = modes.residual.pad[relative][..., [0, 4, 5], :][..., [0, 4, 5]].transpose(0, 2, 1, 3).reshape(3 * Z, -1)
+    lag = DAMPING / h / (1.0 + DAMPING / h)  # d + DAMPING d' = R L for the residual's move d
+    K, K_0, angle = np.linalg.inv((1.0 - lag) * R + A.T @ (forced[0, 1][:, None] * A)), law.stiffness[0], np.tile([1.0, 1.0 / law.length, 1.0 / law.length], Z)
+    mirrored = 0.5 * (force[0] + force[1])
+    modal, shift = np.zeros((len(omega), SAMPLES)), np.zeros((Z * 3, SAMPLES))
+    for j in range(Z):
+        wall, rows = at_angles(modes, j)
+        rigid = mass_motions(g, inertia, lever, j)[1]
+        modal += np.concatenate([wall, rigid.T]) @ mirrored[j]
+        shift += rows[:, [0, 4, 5]].reshape(3 * Z, -1) @ mirrored[j]
+    rest, preload = np.zeros((Z, 3)), np.full(Z, 0.0 if P is None else P + spin[1])
+    rest[:, 2] = spin[0]
+    moves_0 = np.zeros((Z, 3)) if P is None else joints_open(law, rest, preload, spin[0], P + spin[1], sweeps=400)[2]
+    alone_0 = rest - relief(law.others, moves_0)
+    q, v, before = np.zeros(len(omega)), np.zeros(len(omega)), np.zeros(len(omega))
+    delta, lagging, loads, rivets = np.zeros(3 * Z), np.zeros(3 * Z), np.zeros((Z, 3, SAMPLES)), np.zeros((Z, 3, SAMPLES))
 
+    def law_moves(load):
+        moves, rivet = joint_law(law, load, preload)
+        return moves - moves_0, rivet
 
-def errors(found, expected):
-    """RMS of the difference over the RMS [8], and the error of the 99.9 % quantile of the modulus [8], of loads [sequences, Z, 8, SAMPLES]."""
-    a, b = (np.moveaxis(loads[..., SHOWN], 2, 0).reshape(8, -1) for loads in (found, expected))
-    p = np.quantile(np.abs(a), 0.999, axis=1) / np.quantile(np.abs(b), 0.999, axis=1)
-    return np.sqrt(((a - b) ** 2).mean(axis=1) / (b**2).mean(axis=1)), p - 1.0
+    for step in range(SAMPLES):
+        q_free = free[0, 0] * q + free[0, 1] * v + forced[0, 0] * before + forced[0, 1] * modal[:, step]
+        at_pads = A.T @ q_free + (1.0 - lag) * shift[:, step] - lag * lagging
+        for sweep in range(60 if P is not None else 0):
+            alone = alone_0 + (K @ (at_pads - delta)).reshape(Z, 3) + delta.reshape(Z, 3) @ K_0.T
+            moves, rivet = law_moves(alone)
+            wrong = delta - moves.ravel()
+            if np.abs(K @ wrong * angle).max() < (1e-3 if sweep < 12 else 0.05):
+                break
+            D = np.zeros((3 * Z, 3 * Z))
+            for i in range(3):
+                changed = law_moves(alone + 1e-3 / angle[i] * np.eye(3)[i])[0] - moves
+                D[np.arange(3 * Z), np.repeat(3 * np.arange(Z) + i, 3)] = changed.ravel() * 1e3 * angle[i]
+            delta = delta - (1.0 if sweep < 6 else 0.5) * np.linalg.solve(np.eye(3 * Z) + D @ (K - np.kron(np.eye(Z), K_0)), wrong)
+        else:
+            if P is not None:
+                raise ArithmeticError(f"joints at {TIME[step]:g} s: no moves found")
+        change = K @ (at_pads - delta)
+        after = modal[:, step] - A @ change
+        q_new = q_free - forced[0, 1] * (A @ change)
+        v = free[1, 0] * q + free[1, 1] * v + forced[1, 0] * before + forced[1, 1] * after
+        q, before, lagging = q_new, after, A.T @ q_new - delta
+        loads[..., step] = change.reshape(Z, 3) + (rest - relief(law.stiffness, moves_0) if P is not None else 0.0)
+        rivets[..., step] = rivet if P is not None else 0.0
+    return loads, rivets

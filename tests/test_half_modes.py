@@ -27,7 +27,7 @@ def coarse():
     """Coarse half, its pads, its first 30 modes."""
     elastic = half_loads.elastic_half(G, half.COARSE)
     alone = half_loads.JointAlone(elastic)
-    return elastic, alone, half_modes.half_modes(elastic, alone, 30)
+    return elastic, alone, half_modes.half_modes(elastic, alone, 30)[0]
 
 
 # Rings -----------------------------------------------------------------------------------------------------------------------------------
@@ -80,7 +80,7 @@ def test_cyclic_modes_equal_those_of_the_whole_half():
     elastic = half_loads.elastic_half(SMALL, half.COARSE)
     alone, p, Z = half_loads.JointAlone(elastic), elastic.patterns, SMALL.Z
     massive, places = half_modes.MassiveHalf(elastic), half_modes.Places(elastic, alone)
-    modes = half_modes.half_modes(elastic, alone, 24)
+    modes = half_modes.half_modes(elastic, alone, 24)[0]
     to_whole = whole(elastic)
     K, M = (sum(T @ A @ T.T for T in to_whole).tocsc() for A in (elastic.K, massive.M))
     factor = splu((K - half_modes.SHIFT * M).tocsc(), **cage_half.SYMMETRIC)
