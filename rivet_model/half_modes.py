@@ -17,7 +17,7 @@ from bearing_model.half_modes import EVEN, PAD, HalfModes, Residual, fewer
 from . import half_loads, half_shape
 from .cage_half import BODY, SYMMETRIC
 
-MODES_PER_PITCH = 20 / 3  # of a half, a pair counted as two: 60 of nine pitches; docs/elastic.md has the error over the number
+MODES_PER_PITCH = 20 / 3  # of a half, a pair counted as two: 60 of nine pitches; docs/rivet.md has the error over the number
 SHIFT = -((2.0 * np.pi * 500.0) ** 2)  # (rad/s)^2 below the rigid motions, whose frequency is 0
 TOLERANCE = 1e-6  # of symmetry: shapes whose real or imaginary part should be 0 (observed 1e-9)
 APART = 1.1e-3  # m between two places of the wall beyond which point loads need no finer cells than those of the half

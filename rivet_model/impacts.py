@@ -142,8 +142,11 @@ def at_angles(modes, pocket=0):
     return np.stack(wall, axis=1), np.stack(rows, axis=-1)
 
 
-def modal_transfer(g, inertia, modes, with_residual=True, lever=None):
-    """Transfer by the modes of HalfModes and the residual (or, without it, by the residual's resistance of pads alone, which must not be rigid)."""
+def modal_transfer(g, inertia, modes, lever=None, at_s=S):
+    """Transfer by the modes of HalfModes and the residual, whose move d follows the load as d + DAMPING d' does.
+
+    inertia: half_shape.Inertia; lever: see mass_motions, None: the circle of rivets; at_s: frequencies [1/s].
+    """
     Z, omega = g.Z, modes_of.frequencies(modes)
     at, (wall, rows) = modes_of.rivet_shapes(modes), at_angles(modes)
     rigid_pad, rigid_wall = mass_motions(g, inertia, lever or 0.5 * g.d_m)
@@ -151,9 +154,8 @@ def modal_transfer(g, inertia, modes, with_residual=True, lever=None):
     rivets = np.concatenate([at[:, :, 6:], np.zeros((6, Z, 3))])
     relative = (np.arange(Z)[:, None] - np.arange(Z)) % Z
     C_pad, C_rivet = modes.residual.pad[relative], modes.residual.rivet[relative]
-    rows = rows if with_residual else 0.0 * rows
-    pocket, pad = np.zeros((len(S), Z, 8, len(ANGLES)), dtype=complex), np.zeros((len(S), Z, 3, 3), dtype=complex)
-    for f, s in enumerate(S):
+    pocket, pad = np.zeros((len(at_s), Z, 8, len(ANGLES)), dtype=complex), np.zeros((len(at_s), Z, 3, 3), dtype=complex)
+    for f, s in enumerate(at_s):
         stiff = 1.0 + DAMPING * s
         answer = 1.0 / (s * s + np.concatenate([omega**2 * stiff, np.zeros(6)]))
         for chosen, out in (([0, 4, 5], [0, 3, 4]), ([1, 2], [1, 2])):

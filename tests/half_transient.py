@@ -13,8 +13,8 @@ from scipy.sparse.linalg import splu
 
 from bearing_model import half_modes as modes_of
 from bearing_model.joint_law import joint_law, joints_open, relief
-from rivet_model import half_loads, half_modes
-from rivet_model.cage_half import SYMMETRIC
+from rivet_model import half_loads, half_modes, half_shape
+from rivet_model.cage_half import BODY, SYMMETRIC
 from rivet_model.impacts import ANGLES, DAMPING, SAMPLES, TIME, S, Transfer, at_angles, mass_motions
 
 
@@ -80,13 +80,22 @@ class FullHalf:
             pocket[m] = np.concatenate([M[:1], V, M[1:], shift[:1] / a.shortening, (gain @ shift)[1:]])
         return np.fft.ifft(pocket, axis=0), np.fft.ifft(pads, axis=0)
 
-    def transfer(self, progress=lambda done, total: None):
-        """Transfer by full finite elements."""
-        found = []
-        for i, s in enumerate(S):
-            found.append(self.bonded(s))
-            progress(i + 1, len(S))
+    def transfer(self, at_s=S):
+        """Transfer by full finite elements at the frequencies at_s [1/s]: 2 s of one core each."""
+        found = [self.bonded(s) for s in at_s]
         return Transfer(*(np.stack(part) for part in zip(*found, strict=True)))
+
+    def inertia(self):
+        """half_shape.Inertia of the elements with the rivets' masses at their seats, and the radius at which the pads' friction acts along t [m]."""
+        e, m = self.elastic, self.massive
+        pitch = m.density * e.resultants[:BODY] + m.rivet * e.resultants[m.seat].T @ e.resultants[m.seat]
+        total = np.zeros((BODY, BODY))
+        for k in range(e.Z):
+            c, s = np.cos(2 * np.pi * k / e.Z), np.sin(2 * np.pi * k / e.Z)
+            turn = np.kron(np.eye(2), np.array([[1.0, 0.0, 0.0], [0.0, c, -s], [0.0, s, c]]))
+            total += turn @ pitch @ turn.T
+        mass, x_c = total[0, 0], total[1, 5] / total[0, 0]
+        return half_shape.Inertia(mass, x_c, total[3, 3], total[4, 4] - mass * x_c**2), float(e.resultants[e.patterns.plane][1, 3])
 
 
 # Joints that open --------------------------------------------------------------------------------------------------------------------------
