@@ -143,34 +143,45 @@ def opened(g, inertia, modes, force, law, P, spin, lever):
     q, v, before = np.zeros(len(omega)), np.zeros(len(omega)), np.zeros(len(omega))
     delta, lagging, loads, rivets = np.zeros(3 * Z), np.zeros(3 * Z), np.zeros((Z, 3, SAMPLES)), np.zeros((Z, 3, SAMPLES))
 
-    def law_moves(load):
-        moves, rivet = joint_law(law, load, preload)
-        return moves - moves_0, rivet
+    def tried(delta, at_pads):
+        """Load that a joint would carry alone, its moves by the law, the rivet's loads, what is wrong with the moves, and how much load that is [N]."""
+        alone = alone_0 + (K @ (at_pads - delta)).reshape(Z, 3) + delta.reshape(Z, 3) @ K_0.T
+        moves, rivet = joint_law(law, alone, preload)
+        wrong = delta - (moves - moves_0).ravel()
+        return alone, moves, rivet, wrong, np.abs(K @ wrong * angle).max()
+
+    def newton(delta, at_pads, time):
+        """Moves [3 Z] and loads of the rivets [Z, 3]: Newton's iteration with halved steps where a joint closes or opens."""
+        now = tried(delta, at_pads)
+        for _ in range(60):
+            alone, moves, rivet, wrong, size = now
+            if size < 1e-3:
+                return delta, rivet
+            D = np.zeros((3 * Z, 3 * Z))
+            for i in range(3):
+                changed = joint_law(law, alone + 1e-3 / angle[i] * np.eye(3)[i], preload)[0] - moves
+                D[np.arange(3 * Z), np.repeat(3 * np.arange(Z) + i, 3)] = changed.ravel() * 1e3 * angle[i]
+            step = np.linalg.solve(np.eye(3 * Z) + D @ (K - np.kron(np.eye(Z), K_0)), wrong)
+            for share in 0.5 ** np.arange(6):
+                now = tried(delta - share * step, at_pads)
+                if now[4] < size:
+                    break
+            delta = delta - share * step
+        if now[4] < 0.05:
+            return delta, now[2]
+        raise ArithmeticError(f"joints at {time:g} s: no moves found, {now[4]:g} N are left")
 
     for step in range(SAMPLES):
         q_free = free[0, 0] * q + free[0, 1] * v + forced[0, 0] * before + forced[0, 1] * modal[:, step]
         at_pads = A.T @ q_free + (1.0 - lag) * shift[:, step] - lag * lagging
-        for sweep in range(60 if P is not None else 0):
-            alone = alone_0 + (K @ (at_pads - delta)).reshape(Z, 3) + delta.reshape(Z, 3) @ K_0.T
-            moves, rivet = law_moves(alone)
-            wrong = delta - moves.ravel()
-            if np.abs(K @ wrong * angle).max() < (1e-3 if sweep < 12 else 0.05):
-                break
-            D = np.zeros((3 * Z, 3 * Z))
-            for i in range(3):
-                changed = law_moves(alone + 1e-3 / angle[i] * np.eye(3)[i])[0] - moves
-                D[np.arange(3 * Z), np.repeat(3 * np.arange(Z) + i, 3)] = changed.ravel() * 1e3 * angle[i]
-            delta = delta - (1.0 if sweep < 6 else 0.5) * np.linalg.solve(np.eye(3 * Z) + D @ (K - np.kron(np.eye(Z), K_0)), wrong)
-        else:
-            if P is not None:
-                raise ArithmeticError(f"joints at {TIME[step]:g} s: no moves found")
+        if P is not None:
+            delta, rivets[..., step] = newton(delta, at_pads, TIME[step])
         change = K @ (at_pads - delta)
         after = modal[:, step] - A @ change
         q_new = q_free - forced[0, 1] * (A @ change)
         v = free[1, 0] * q + free[1, 1] * v + forced[1, 0] * before + forced[1, 1] * after
         q, before, lagging = q_new, after, A.T @ q_new - delta
         loads[..., step] = change.reshape(Z, 3) + (rest - relief(law.stiffness, moves_0) if P is not None else 0.0)
-        rivets[..., step] = rivet if P is not None else 0.0
     return loads, rivets
 
 

@@ -137,6 +137,21 @@ def test_density(coarse):
     np.testing.assert_allclose(np.stack([at_wall.real, at_wall.imag], axis=-1), expected.pocket[same][:3], atol=1e-7 * np.abs(expected.pocket).max())
 
 
+@pytest.mark.slow
+def test_finer_elements():
+    """Five frequencies of wave 0 on coarse, standard and 1.5 times finer elements: too high, and the less so the finer.
+
+    Observed 1.6 to 3.2 % and 0.3 to 0.5 % above the finest.
+    """
+    found = []
+    for size in (half.COARSE, half.HalfMesh(), half.HalfMesh().finer(1.5)):
+        solid = cage_half.CyclicSolid(half.pitch_mesh(G, size), G.Z, G.E_flange, G.nu_flange)
+        found.append(np.sqrt(half_modes.wave_modes(solid, (half_shape.DENSITY * solid.M).tocsc(), 0, 5)[0]))
+    coarse, standard = (frequencies / found[2] - 1.0 for frequencies in found[:2])
+    assert np.all((standard > 0.0) & (standard < 6e-3))
+    assert np.all((coarse > 3.0 * standard) & (coarse < 0.04))
+
+
 # Statics ---------------------------------------------------------------------------------------------------------------------------------
 
 
@@ -314,7 +329,7 @@ def test_steps_in_time_and_the_inverse_transform(full):
 def test_rivets_of_opening_joints_under_impacts(full):
     """Joints that open by their law, under centrifugal load and one sequence, by 60 modes beside 117: the rivet's tension and bending.
 
-    Observed 99.9 % quantiles within 0.3 %; RMS of what changes 3 to 5 %.
+    Observed: RMS of what changes T 1.0, m_t 0.8 %, 99.9 % quantiles within 0.2 %.
     """
     _, inertia, lever, found = full
     half_data, force = rivet_table.read(rivet_table.DEFAULT_TABLE).half, impacts.pulses(impacts.synthetic(0))
@@ -324,4 +339,4 @@ def test_rivets_of_opening_joints_under_impacts(full):
     )
     for i in (0, 2):  # T, m_t
         assert np.quantile(np.abs(few[:, i]), 0.999) == pytest.approx(np.quantile(np.abs(many[:, i]), 0.999), rel=0.01)
-        assert np.sqrt(((few - many)[:, i] ** 2).mean() / many[:, i].var()) < 0.06
+        assert np.sqrt(((few - many)[:, i] ** 2).mean() / many[:, i].var()) < 0.02
