@@ -39,7 +39,7 @@ set(rivet_table ${PROJECT_BINARY_DIR}/rivet_table.c)
 if(GENERATED_DIR AND EXISTS ${GENERATED_DIR}/rivet_table.c)
     set(rivet_table ${GENERATED_DIR}/rivet_table.c)
 else()
-    file(GLOB embed_sources CONFIGURE_DEPENDS ${rivet_model_dir}/*.py ${bearing_model_dir}/rivet_*.py ${bearing_model_dir}/joint_law.py ${bearing_model_dir}/half_path.py)
+    file(GLOB embed_sources CONFIGURE_DEPENDS ${rivet_model_dir}/*.py ${bearing_model_dir}/rivet_*.py ${bearing_model_dir}/joint_law.py ${bearing_model_dir}/half_path.py ${bearing_model_dir}/half_modes.py)
     add_custom_command(OUTPUT ${rivet_table}
         COMMAND ${Python_EXECUTABLE} -m rivet_model.embed ${RIVET_TABLE} ${rivet_table}
         DEPENDS ${RIVET_TABLE} ${embed_sources} WORKING_DIRECTORY ${PROJECT_SOURCE_DIR} VERBATIM)

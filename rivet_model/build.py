@@ -8,6 +8,7 @@ import argparse
 import os
 import sys
 import time
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -15,7 +16,7 @@ from threadpoolctl import threadpool_limits
 
 from bearing_model import rivet_table
 
-from . import half, half_loads, half_modes, plastic_fit, reduction, stiffness, table
+from . import half, half_loads, half_modes, half_shape, impacts, plastic_fit, reduction, stiffness, table
 from .geometry import Geometry
 from .load_cases import COARSE, SHIPPED, TRUTH, Joint
 from .section_mesh import Fineness
@@ -28,11 +29,12 @@ def _quiet(stage, done, total):
 
 
 @threadpool_limits.wrap(limits=1)
-def make_table(geometry, coarse=False, workers=2, progress=_quiet, hold_out=320, modes=half_modes.MODES):
+def make_table(geometry, coarse=False, workers=2, progress=_quiet, hold_out=320, modes=None):
     """Table of kind fe, or fe_coarse.
 
     progress(stage, done, total) is called as the work goes on; hold_out: number of fresh loads for the error in the header (0 leaves it out), solved on a
-    finer grid of angles, of a coarse table on its own: there it is the interpolation that errs.  modes: number of modes of a cage half, pairs counted as two.
+    finer grid of angles, of a coarse table on its own: there it is the interpolation that errs; modes: of a cage half, pairs counted as two, None: as many
+    as half_modes.default_count.
     Raises ValueError for a geometry that cannot be meshed, ArithmeticError if a contact or plasticity solution is not found.
     """
     grid, knots = (COARSE, reduction.COARSE) if coarse else (SHIPPED, reduction.FULL)
@@ -47,11 +49,26 @@ def make_table(geometry, coarse=False, workers=2, progress=_quiet, hold_out=320,
     elastic = half_loads.elastic_half(geometry, half.COARSE if coarse else None)
     alone = half_loads.JointAlone(elastic)
     cage = half_loads.make_half(elastic, alone, half_loads.COARSE_KNOTS if coarse else None, stage("cage half"))
-    shaken = half_modes.half_modes(elastic, alone, modes, stage("modes"))
-    result = assemble("fe_coarse" if coarse else "fe", joint, knots, samples, fit, cage, shaken)
+    vibration, report = made_modes(elastic, alone, cage, modes, stage("modes"))
+    result = assemble("fe_coarse" if coarse else "fe", joint, knots, samples, fit, cage, vibration)
     if hold_out:
-        result.errors = measured_errors(result, joint if coarse else Joint(geometry, TRUTH), hold_out, workers, stage("hold-out"))
+        result.errors |= measured_errors(result, joint if coarse else Joint(geometry, TRUTH), hold_out, workers, stage("hold-out"))
+    result.errors["modes"] = report
     return result
+
+
+def made_modes(elastic, alone, cage, count=None, progress=lambda done, total: None):
+    """HalfModes of a condensed half and what the header says of their error; cage: HalfData."""
+    modes, found = half_modes.half_modes(elastic, alone, count or half_modes.default_count(elastic.Z), progress)
+    inertia = half_shape.Inertia(cage.m, cage.x_c, cage.J_p, cage.J_t)
+    return modes, impacts.modes_error(elastic.g, inertia, modes, found)
+
+
+def other_modes(table, count=None, progress=_quiet):
+    """A table of full finite elements with another number of modes."""
+    elastic = half_loads.elastic_half(Geometry(**table.geometry))
+    modes, report = made_modes(elastic, half_loads.JointAlone(elastic), table.half, count, lambda done, total: progress("modes", done, total))
+    return replace(table, modes=modes, errors=table.errors | {"modes": report})
 
 
 def assemble(kind, joint, knots, samples, fit, cage, modes):
@@ -89,7 +106,7 @@ def main(arguments=None):
     parser.add_argument("out")
     parser.add_argument("geometry", nargs="?")
     parser.add_argument("--coarse", action="store_true")
-    parser.add_argument("--modes", type=int, default=half_modes.MODES, help="of a cage half, a pair counted as two")
+    parser.add_argument("--modes", type=int, help="modes of a cage half, a pair counted as two (default: 20 for three rivets)")
     parser.add_argument("--workers", type=int, default=min(2, os.cpu_count() or 1))
     options = parser.parse_args(arguments)
     if not Path(options.out).resolve().parent.is_dir():
@@ -110,8 +127,11 @@ def main(arguments=None):
     except (OSError, ValueError, ArithmeticError, np.linalg.LinAlgError) as error:
         print(f"rivet table: {error}", file=sys.stderr)
         return 2
-    for region, report in ((k, v) for k, v in result.errors.items() if isinstance(v, dict)):
+    for region, report in ((k, v) for k, v in result.errors.items() if isinstance(v, dict) and "maximum" in v):
         print(region, *(f"{name} max {100 * report['maximum'][name]:.2f} % rms {100 * report['rms'][name]:.2f} %" for name in rivet_table.CHANNELS), sep="  ")
+    report = result.errors["modes"]
+    shares = (f"{name} RMS {100 * report['rms'][name]:.2g} % p99.9 {100 * report['p999'][name]:.2g} %" for name in report["rms"])
+    print(f"{report['modes']} modes", *shares, sep="  ")
     return 0
 
 

@@ -43,6 +43,13 @@ class CyclicSolid:
             for i, row in enumerate(dofs):
                 self.component[row] = i % 3
         self.motions = self.rigid_motions()
+        self.near, self.far = self._cuts()
+
+    def _cuts(self):
+        """Dofs at theta = 0 and those at 2 pi/Z that continue them."""
+        theta, r = np.arctan2(self.x[2], self.x[1]), np.hypot(self.x[1], self.x[2])
+        near, far = (np.flatnonzero(np.abs(theta - cut) < 1e-9) for cut in (0.0, 2 * np.pi / self.Z))
+        return tuple(dofs[np.lexsort((self.component[dofs], np.round(r[dofs] * 1e9), np.round(self.x[0][dofs] * 1e9)))] for dofs in (near, far))
 
     def rigid_motions(self):
         """Displacements [dofs, 6] by unit rigid motions about the centre of the circle in the split plane."""
@@ -62,14 +69,7 @@ class CyclicSolid:
         """Take the patterns [dofs, patterns], the first of them from body_loads; back: which of them stand one pitch back (on its far end)."""
         self.loads = loads
         self.back = np.zeros(loads.shape[1], dtype=bool) if back is None else back
-        theta, r = np.arctan2(self.x[2], self.x[1]), np.hypot(self.x[1], self.x[2])
-        near, far = np.flatnonzero(np.abs(theta) < 1e-9), np.flatnonzero(np.abs(theta - 2 * np.pi / self.Z) < 1e-9)
-
-        def ordered(dofs):
-            return dofs[np.lexsort((self.component[dofs], np.round(r[dofs] * 1e9), np.round(self.x[0][dofs] * 1e9)))]
-
-        near, far = ordered(near), ordered(far)
-        self.near, self.far = near, far
+        near, far = self.near, self.far
         edge = np.concatenate([near, far])
         inside = np.setdiff1d(np.arange(self.basis.N), edge)
         F_I, F_B = self.loads[inside], self.loads[edge]

@@ -12,12 +12,12 @@ import numpy as np
 import scipy.sparse as sp
 from scipy.sparse.linalg import LinearOperator, eigsh, splu
 
-from bearing_model.half_modes import EVEN, PAD, HalfModes, Residual
+from bearing_model.half_modes import EVEN, PAD, HalfModes, Residual, fewer
 
 from . import half_loads, half_shape
 from .cage_half import BODY, SYMMETRIC
 
-MODES = 60  # of a half, a pair counted as two
+MODES_PER_PITCH = 20 / 3  # of a half, a pair counted as two: 60 of nine pitches; docs/rivet.md has the error over the number
 SHIFT = -((2.0 * np.pi * 500.0) ** 2)  # (rad/s)^2 below the rigid motions, whose frequency is 0
 TOLERANCE = 1e-6  # of symmetry: shapes whose real or imaginary part should be 0 (observed 1e-9)
 APART = 1.1e-3  # m between two places of the wall beyond which point loads need no finer cells than those of the half
@@ -87,24 +87,31 @@ class MassiveHalf:
 
     def wave(self, n, count):
         """The first `count` elastic modes of wave n: Wave.  Raises ArithmeticError if they are not found or not symmetric."""
-        e = self.elastic
-        T = cut(e, n)
-        K, M = (T.conj().T @ A @ T for A in (e.K, self.M))
-        single = 2 * n in (0, e.Z)
-        if single:
-            K, M = K.real, M.real
-        factor = splu((K - SHIFT * M).tocsc(), **SYMMETRIC)
-        inverse = LinearOperator(K.shape, factor.solve, dtype=K.dtype)
-        start = np.random.default_rng(0).standard_normal(K.shape[0])  # of its own, so that the same half gives the same bits
-        rigid = e._rigid(n).shape[1]
-        square, v = eigsh(K, count + rigid, M.tocsc(), sigma=SHIFT, OPinv=inverse, which="LM", v0=start)
-        order = np.argsort(square)[rigid:]
-        if not np.all(square[order] > -0.01 * SHIFT):
-            raise ArithmeticError(f"modes of the cage half: wave {n} has the square of a frequency {square[order].min():g} (rad/s)^2 above its rigid motions")
-        shape = T @ v[:, order].astype(complex)
-        shape /= np.sqrt(np.einsum("di,di->i", shape.conj(), self.M @ shape).real * (e.Z if single else 0.5 * e.Z))
-        shape, parity = symmetric(e, n, shape)
-        return Wave(n, np.sqrt(square[order]), parity if single else 0 * parity, shape)
+        Z, (square, shape) = self.elastic.Z, wave_modes(self.elastic, self.M, n, count)
+        single = 2 * n in (0, Z)
+        shape /= np.sqrt(Z if single else 0.5 * Z)
+        shape, parity = symmetric(self.elastic, n, shape)
+        return Wave(n, np.sqrt(square), parity if single else 0 * parity, shape)
+
+
+def wave_modes(solid, M, n, count):
+    """Squares of the first `count` elastic frequencies of wave n of a CyclicSolid, and shapes [dofs, count] of one pitch with conj(shape) M shape = 1.
+
+    Raises ArithmeticError if there is another number of rigid motions.
+    """
+    T, rigid = cut(solid, n), solid._rigid(n).shape[1]
+    K_n, M_n = (T.conj().T @ A @ T for A in (solid.K, M))
+    if 2 * n in (0, solid.Z):
+        K_n, M_n = K_n.real, M_n.real
+    factor = splu((K_n - SHIFT * M_n).tocsc(), **SYMMETRIC)
+    inverse = LinearOperator(K_n.shape, factor.solve, dtype=K_n.dtype)
+    start = np.random.default_rng(0).standard_normal(K_n.shape[0])  # of its own, so that the same half gives the same bits
+    square, v = eigsh(K_n, count + rigid, M_n.tocsc(), sigma=SHIFT, OPinv=inverse, which="LM", v0=start)
+    order = np.argsort(square)
+    if not (np.all(np.abs(square[order[:rigid]]) < -1e-3 * SHIFT) and square[order[rigid]] > -1e-3 * SHIFT):
+        raise ArithmeticError(f"modes of the cage half: the squares of the lowest frequencies of wave {n} are {square[order[: rigid + 1]]} (rad/s)^2")
+    shape = T @ v[:, order[rigid:]].astype(complex)
+    return square[order[rigid:]], shape / np.sqrt(np.einsum("di,di->i", shape.conj(), M @ shape).real)
 
 
 def cut(elastic, n):
@@ -142,11 +149,21 @@ def symmetric(elastic, n, shape):
     return shape, np.where(np.linalg.norm(shape.real, axis=0) > np.linalg.norm(shape.imag, axis=0), 1, -1)
 
 
+def default_count(Z):
+    """Modes of a half with Z pitches: as many for each pitch as the 6207 has."""
+    return round(MODES_PER_PITCH * Z)
+
+
+def check_count(count, Z):
+    """Raises ValueError for a number of modes that cannot be made."""
+    if isinstance(count, bool) or not isinstance(count, int) or not Z <= count <= 20 * Z:
+        raise ValueError(f"modes = {count!r}: a whole number from Z = {Z} to 20 Z = {20 * Z} is needed")
+
+
 def waves(massive, count, progress=lambda done, total: None):
-    """Waves 0...Z//2 with at least the first `count` modes of the half, pairs counted as two."""
+    """Waves 0...Z//2 with the first `count` modes of the half and about as many again, pairs counted as two."""
     Z = massive.elastic.Z
-    each = np.full(Z // 2 + 1, 2 + -(-2 * count // (2 * Z)))
-    found = [None] * len(each)
+    each, found = np.full(Z // 2 + 1, 4 + -(-4 * count // (3 * Z))), [None] * (Z // 2 + 1)
     while True:
         for n in range(len(each)):
             if found[n] is None:
@@ -161,13 +178,13 @@ def waves(massive, count, progress=lambda done, total: None):
             found[n] = None
 
 
-def half_modes(elastic, alone, count=MODES, progress=lambda done, total: None):
-    """HalfModes of a condensed half (half_loads.elastic_half) with its pads (JointAlone): `count` modes or one less.
+def half_modes(elastic, alone, count, progress=lambda done, total: None):
+    """HalfModes of a condensed half (half_loads.elastic_half) with its pads (JointAlone): the first `count` modes or one less, and all that were found.
 
-    Raises ArithmeticError if they cannot be found.
+    Raises ValueError for an impossible number, ArithmeticError if they cannot be found.
     """
     Z, massive, places = elastic.Z, MassiveHalf(elastic), Places(elastic, alone)
-    nodes = len(half_loads.CHI)
+    check_count(count, Z)
     everything = np.column_stack([places.rivet, places.pocket, places.spin])
     rims, rows, static = rim_means(elastic), [], []
     for wave in waves(massive, count, progress):
@@ -177,19 +194,18 @@ def half_modes(elastic, alone, count=MODES, progress=lambda done, total: None):
         static.append(everything.T @ massive.compliance(wave.n) @ everything)
     static = np.stack(static)
     rows.sort(key=lambda row: row[0])
-    pairs = np.array([2 if row[2] == 0 else 1 for row in rows])
-    rows = rows[: int(np.searchsorted(np.cumsum(pairs), count, side="right"))]
     for omega, n, parity, u, _ in rows:
         static[n] -= (1.0 if parity else 0.5) * Z / omega**2 * np.outer(u, u.conj())
-    return HalfModes(
+    found = HalfModes(
         Z=Z,
         chi=half_loads.CHI,
         omega=np.array([row[0] for row in rows]),
         harmonic=np.array([row[1] for row in rows]),
         parity=np.array([row[2] for row in rows]),
         residual=residual(elastic, places, elastic.circulant(static)),
-        **amplitudes(Z, nodes, rows),
+        **amplitudes(Z, len(half_loads.CHI), rows),
     )
+    return fewer(found, count), found
 
 
 def amplitudes(Z, nodes, rows):

@@ -7,8 +7,8 @@ import numpy as np
 from bearing_model.joint_law import single_joint
 from bearing_model.rivet_rom import HEAD_P1, MID_VM, RivetLoad, rivet_rom_fit_eff, rivet_rom_stress
 
-from . import half, half_loads, plastic_fit
-from .cage_half import CageHalf
+from . import half, half_loads, half_modes, half_shape, plastic_fit
+from .cage_half import CageHalf, CyclicSolid
 from .load_cases import GROUPS
 
 SWELL = 4e-6  # m, default of joint.swell
@@ -291,3 +291,55 @@ def _triangles(quads):
 def _draw_mesh(ax, mesh):
     x, y = 1e3 * mesh.p[:, np.concatenate([mesh.t, mesh.t[:1]])]
     ax.plot(x, y, color="0.4", linewidth=0.3)
+
+
+def plot_modes(g, count=8, largest=2.5e-3):
+    """Figure: the first shapes in which a free cage half vibrates, one of each pair, by coarse elements without the rivets' mass (2 % off in frequency).
+
+    largest: what the largest displacement of each shape is drawn as [m].
+    """
+    from matplotlib.figure import Figure
+    from mpl_toolkits.mplot3d.art3d import Poly3DCollection
+
+    solid = CyclicSolid(half.pitch_mesh(g, half.COARSE), g.Z, g.E_flange, g.nu_flange)
+    M = (half_shape.DENSITY * solid.M).tocsc()
+    found = []
+    for n in range(min(g.Z // 2, count) + 1):
+        square, shapes = half_modes.wave_modes(solid, M, n, 4)
+        found += [(np.sqrt(w) / (2.0 * np.pi), n, shape) for w, shape in zip(square, shapes.T, strict=True)]
+    found.sort(key=lambda mode: mode[0])
+    figure = Figure(figsize=(13, 7), layout="constrained")
+    rows = 2
+    for i, (frequency, n, shape) in enumerate(found[:count]):
+        ax = figure.add_subplot(rows, -(-count // rows), i + 1, projection="3d")
+        quads, moved = half_surface(solid, n, shape)
+        size = np.linalg.norm(moved, axis=-1)
+        skin = Poly3DCollection(1e3 * (quads + largest / size.max() * moved)[..., [1, 2, 0]], cmap="viridis", edgecolor="0.3", linewidth=0.1)
+        skin.set_array(size.mean(axis=1))
+        ax.add_collection3d(skin)
+        R = 0.62e3 * g.cage_outer_diameter / 1.15
+        ax.set(xlim=(-R, R), ylim=(-R, R), zlim=(-0.5 * R, 0.5 * R))
+        ax.set_box_aspect((1, 1, 0.5), zoom=1.4)
+        ax.set_axis_off()
+        ax.view_init(elev=38, azim=-60)
+        ax.set_title(f"{frequency / 1e3:.2f} kHz, {n} wave{'s' * (n != 1)}", y=0.96)
+    figure.suptitle(f"shapes of a free cage half, displacements drawn up to {1e3 * largest:g} mm", x=0.01, ha="left")
+    return figure
+
+
+def half_surface(solid, n, shape):
+    """Corners of all facets of the half's skin [facets, 4, 3] and their displacements by wave n with the amplitudes shape [dofs]."""
+    mesh, step = solid.basis.mesh, 2.0 * np.pi / solid.Z
+    facets = mesh.boundary_facets()
+    theta = np.arctan2(*mesh.p[[2, 1]][:, mesh.facets[:, facets]])
+    inner = ~(np.all(np.abs(theta) < 1e-9, axis=0) | np.all(np.abs(theta - step) < 1e-9, axis=0))
+    corners = mesh.facets[:, facets[inner]].T
+    place, u = mesh.p[:, corners].transpose(1, 2, 0), shape[solid.basis.nodal_dofs[:3][:, corners]].transpose(1, 2, 0)
+    u = u * np.exp(-0.5j * np.angle((u**2).sum()))  # the phase in which pitch 0 moves most
+    quads, moved = [], []
+    for j in range(solid.Z):
+        c, s = np.cos(j * step), np.sin(j * step)
+        turn = np.array([[1.0, 0.0, 0.0], [0.0, c, -s], [0.0, s, c]])
+        quads.append(place @ turn.T)
+        moved.append((u * np.exp(1j * n * j * step)).real @ turn.T)
+    return np.concatenate(quads), np.concatenate(moved)

@@ -41,13 +41,13 @@ LIBRARIES = ("RivetedBearing.so", "RivetedBearing.dll", "RivetedBearing.dylib")
 STEP = re.compile(r"\[\s*(?:(\d+)/(\d+)|(\d+)%)\s*\]")  # Ninja's [3/40], make's [ 7%]
 
 
-def build_fmu(bearing=None, rivet=None, out=None, say=lambda text, share=None: None, platforms=(), kind=None):
+def build_fmu(bearing=None, rivet=None, out=None, say=lambda text, share=None: None, platforms=(), kind=None, modes=None):
     """Build an FMU and return its path.
 
     bearing: bearing file or designation, None for the default one; rivet: rivet table (JSON) or geometry of the rivet (TOML), None for the bearing's own
     rivet; out: the FMU to write, None for my.fmu here from my.toml, RivetedBearing.fmu from the default (in a checkout: in fmus/); say: called with what
     is being done and the share done; platforms: names of FMI's binary folders to cross-compile for (cmake/zig.cmake), none for this machine's compiler
-    alone; kind: of the rivet table, see table_of.
+    alone; kind, modes: of the rivet table, see table_of.
     Raises UserError with the reason; `out` is then left as it was.
     """
     sources = source_folder()
@@ -55,9 +55,9 @@ def build_fmu(bearing=None, rivet=None, out=None, say=lambda text, share=None: N
     case, folder = bearing_case(bearing or "6207"), build_folder(sources, bearing)
     cmake, platforms = tool("cmake") or no_tool("cmake"), platforms or compiler_platforms()
     make_folder(out.parent)
-    table = kept(given_table(rivet, case, kind, say), folder / "rivet_table.json")
+    table = kept(given_table(rivet, case, kind, say, modes), folder / "rivet_table.json")
     options = [f"-DRIVET_TABLE={table}", f"-DPython_EXECUTABLE={sys.executable}"]
-    if bearing or rivet or kind:
+    if bearing or rivet or kind or modes:
         say("variables")
         generated = folder / "generated"
         resolved = folder / "bearing.toml"
@@ -198,17 +198,18 @@ def generator(folder):
     return ["-G", "Ninja", f"-DCMAKE_MAKE_PROGRAM={ninja}"] if ninja and not (folder / "Makefile").is_file() else []
 
 
-def given_table(rivet, case, kind, say):
+def given_table(rivet, case, kind, say, modes):
     """Absolute path of the rivet table: the user's, or one for the user's or the bearing's geometry; UserError if it cannot be had or is for another cage."""
     if kind is not None and kind not in TABLES:
         raise unknown("--table", "kind", kind, TABLES)
     if rivet is None:
-        return table_of(case.designation, geometry_of(case), kind, say)
+        return table_of(case.designation, geometry_of(case), kind, say, modes)
     path = Path(rivet)
     if path.suffix == ".toml":
-        return table_of(path, read_geometry(path, case), kind, say)
-    if kind is not None:
-        raise UserError(f"--table {kind}: {path} is a table already")
+        return table_of(path, read_geometry(path, case), kind, say, modes)
+    for option, value in (("--table", kind), ("--modes", modes)):
+        if value is not None:
+            raise UserError(f"{option} {value}: {path} is a table already")
     read_table(path, case.Z)
     return path.resolve()
 

@@ -10,10 +10,11 @@ import numpy as np
 from rich.table import Column, Table
 from threadpoolctl import threadpool_limits
 
-from bearing_model import half_path, joint_law, rivet_rom, rivet_splines, rivet_table
+from bearing_model import half_modes, half_path, joint_law, rivet_rom, rivet_splines, rivet_table
 from rivet_model import closed_form, pictures, table
-from rivet_model.build import make_table
+from rivet_model.build import make_table, other_modes
 from rivet_model.geometry import Geometry
+from rivet_model.half_modes import check_count
 from rivet_model.load_cases import Joint
 
 from .bearings import CAGE_SIZES, RIVET, bearing_case, check_limits, is_number, rivet_values, unit_scales
@@ -125,24 +126,34 @@ def condensed(geometry, path):
         raise UserError(f"{path}: {problem}") from None
 
 
-def table_of(where, geometry, kind=None, say=lambda text, share=None: None):
+def table_of(where, geometry, kind=None, say=lambda text, share=None: None, modes=None):
     """Path of the rivet table of a geometry: the shipped one, or one made in the user's cache folder, or found there from an earlier time.
 
     where: whose geometry it is, for messages; kind: one of TABLES, None for the shipped table if it was made for this geometry, else a coarse one;
-    say: called with stage and share done.  Raises UserError if the geometry cannot be meshed or solved; then there is no new file.
+    say: called with stage and share done; modes: of a cage half, None: as many as usual.  Raises UserError if the geometry cannot be meshed or solved, or
+    for an impossible number of modes; then there is no new file.
     """
-    if kind in (None, "full") and geometry.digest == Geometry().digest:
+    shipped = kind in (None, "full") and geometry.digest == Geometry().digest
+    if shipped and modes is None:
         return rivet_table.DEFAULT_TABLE
-    kind = kind or "coarse"
-    target = cache_folder("tables") / f"{kind}-{geometry.digest}-{sources_digest()}.json"
+    kind = kind or ("full" if shipped else "coarse")
+    name = f"{kind}-{geometry.digest}-{sources_digest()}" + (f"-{modes}" if modes else "")
+    target = cache_folder("tables") / f"{name}.json"
     if is_table(target):
         return target
+
+    def progress(stage, done, total):
+        say(f"rivet: {stage}", done / total)
+
     try:
-        made = (
-            closed_form.make_table(geometry)
-            if kind == "closed-form"
-            else make_table(geometry, kind == "coarse", progress=lambda stage, done, total: say(f"rivet: {stage}", done / total))
-        )
+        if modes is not None:
+            check_count(modes, geometry.Z)
+        if kind == "closed-form":
+            made = closed_form.make_table(geometry)
+        elif shipped:
+            made = other_modes(rivet_table.read(rivet_table.DEFAULT_TABLE), modes, progress)
+        else:
+            made = make_table(geometry, kind == "coarse", progress=progress, modes=modes)
     except (ValueError, ArithmeticError, np.linalg.LinAlgError, BrokenExecutor) as problem:
         raise UserError(f"{where}: {problem}") from None
     write_atomically(target, lambda temporary: table.write(made, temporary))
@@ -170,7 +181,7 @@ def table_text(t):
 
 def sources_digest():
     """Digest of the source files that make a table, so that a table made by other sources is not taken for theirs."""
-    readers = (Path(module.__file__) for module in (half_path, joint_law, rivet_rom, rivet_splines, rivet_table))
+    readers = (Path(module.__file__) for module in (half_modes, half_path, joint_law, rivet_rom, rivet_splines, rivet_table))
     files = [*sorted(Path(table.__file__).parent.glob("*.py")), *readers]
     return sha256(b"".join(file.read_bytes() for file in files)).hexdigest()[:8]
 
@@ -188,8 +199,12 @@ def curve_tables(curves):
 
 @threadpool_limits.wrap(limits=1)
 def write_pictures(folder, title, curves, joint):
-    """Write rivet_drawing.png, rivet_curves.png and rivet_section.png into a folder; returns their paths."""
-    figures = {"rivet_curves.png": pictures.plot_curves(curves, title), "rivet_section.png": pictures.plot_section(joint)}
+    """Write rivet_drawing.png, rivet_curves.png, rivet_section.png and cage_modes.png into a folder; returns their paths."""
+    figures = {
+        "rivet_curves.png": pictures.plot_curves(curves, title),
+        "rivet_section.png": pictures.plot_section(joint),
+        "cage_modes.png": pictures.plot_modes(joint.geometry),
+    }
     for name, figure in figures.items():
         write_figure(figure, folder / name)
     return [write_drawing(joint.geometry, folder / "rivet_drawing.png"), *(folder / name for name in figures)]

@@ -50,7 +50,12 @@ def test_the_pictures_of_a_rivet(tmp_path, monkeypatch, grid):
     """The command's own pictures; the finite elements of the section fine or coarse."""
     monkeypatch.setattr(rivet, "Joint", lambda geometry: load_cases.Joint(geometry, grid))
     title, curves, joint = rivet_curves()
-    assert {path.name for path in write_pictures(tmp_path, title, curves, joint)} == {"rivet_drawing.png", "rivet_curves.png", "rivet_section.png"}
+    assert {path.name for path in write_pictures(tmp_path, title, curves, joint)} == {
+        "rivet_drawing.png",
+        "rivet_curves.png",
+        "rivet_section.png",
+        "cage_modes.png",
+    }
 
 
 @pytest.mark.parametrize("changes", [{}, {"shank_diameter": 2e-3}, {"head_diameter": 4.5e-3, "patch_radius": 5e-3}, {"flange_thickness": 4e-3}], ids=str)

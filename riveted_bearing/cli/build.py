@@ -27,6 +27,7 @@ def build(
         Path | None,
         typer.Option(help="the FMU to write; default: my.fmu here for the bearing or rivet my.toml, else RivetedBearing.fmu, in a checkout in fmus/"),
     ] = None,
+    modes: Annotated[int | None, typer.Option(help="vibration modes of a cage half, a pair counted as two; default: 20 for three rivets")] = None,
     platforms: Annotated[str | None, typer.Option(help="all, or names such as linux64,win64: cross-compiled; default: this machine's compiler")] = None,
 ):
     """Make an FMU for a bearing: needs a C compiler, takes a minute or two; with --table full half an hour more."""
@@ -40,7 +41,7 @@ def build(
         def say(text, share=None):
             bar.update(task, description=text, total=1.0 if share else None, completed=share or 0.0)
 
-        path = build_fmu(bearing, rivet, out, say, platform_names(platforms), table)
+        path = build_fmu(bearing, rivet, out, say, platform_names(platforms), table, modes)
     console.print(escape(Model(path).description.description), style="dim", soft_wrap=True)
     console.print(str(path), style="cyan", soft_wrap=True)
     if rivet:
