@@ -10,6 +10,7 @@ from bearing_model.hertz_exact import HertzContact, hertz_ellipse
 
 Z = variables.Z
 SLICE = variables.STATE_SLICES
+RIGID_HALVES = variables.CageModel.TWO_HALF, variables.CageModel.RIGID  # elastic ones have tests of their own: test_cage_elastic.py
 OUTPUTS = {name.replace("[j]", "").replace("[k]", ""): variable for name, variable in variables.OUTPUTS.items()}
 
 
