@@ -211,7 +211,9 @@ class Instance:
     @property
     def y(self):
         """A copy of the state."""
-        return np.frombuffer(self.core.ffi.buffer(self.lib.part_state(self.bearing), 8 * variables.N_STATES)).copy()
+        elastic = self.lib.part_parameters(self.bearing).scene.cage == variables.CageModel.ELASTIC
+        count = variables.N_ALL_STATES if elastic else variables.N_STATES
+        return np.frombuffer(self.core.ffi.buffer(self.lib.part_state(self.bearing), 8 * count)).copy()
 
     def output(self, name):
         """One output now; an array for ball[j] and rivet[k]."""

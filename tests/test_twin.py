@@ -48,7 +48,7 @@ OTHER = {
     "ring.J_p": 3e-4,
 }
 SUPPORTED, FREE = {"ring.tilt_mode": 2}, {"ring.tilt_mode": 3}
-MIXED, SLICED, RIGID = {"scene.lubrication": 2}, {"scene.traction": 2}, {"scene.cage": 2}
+MIXED, SLICED, RIGID, ELASTIC = {"scene.lubrication": 2}, {"scene.traction": 2}, {"scene.cage": 2}, {"scene.cage": 3}
 UNBALANCE = {"cage.unbalance": 2e-6, "gravity.y": -9.81, "gravity.z": 3.0}
 PULSE = {"pulse.F_r": 1401.0, "pulse.F_a": 241.0, "pulse.t_start": 0.0}
 LOADS = {"shaft.F_x": 800.0, "shaft.F_y": 2000.0, "shaft.F_z": -1500.0, "shaft.M_y": 3.0, "shaft.M_z": -2.0, "shaft.tilt_y": 1e-3, "shaft.tilt_z": 2.6e-3}
@@ -73,6 +73,7 @@ SCENES = {
     "planet": (SUPPORTED | UNBALANCE | {"frame.radius": 0.15}, LOADS | HOUSING | FRAME),
     "prescribed": (MIXED | PRESCRIBED | {"cage.pocket_clearance": 1e-4}, MOTION | HOUSING),
     "prescribed_rigid": (RIGID | PRESCRIBED | UNBALANCE | {"frame.radius": 0.15}, MOTION | HOUSING | FRAME),
+    "elastic": (ELASTIC | UNBALANCE | {"joint.fit": -3e-6}, {}),
     "other_rigid": (OTHER | RIGID | FREE | MIXED, SLOW),
 }
 PER_SCENE = 120  # 1560 states in all
