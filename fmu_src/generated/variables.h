@@ -9,7 +9,7 @@
 
 #define FMI2_FUNCTION_PREFIX RivetedBearing_  // of the functions of a source-code FMU
 #define MODEL_IDENTIFIER "RivetedBearing"
-#define MODEL_GUID "{fedecf81-87df-584f-35ec-5f4cb2551559}"  // digest of the table
+#define MODEL_GUID "{5045a4f8-1db9-53d8-5a77-6f9d6c31eddd}"  // digest of the table
 
 enum { Z = 9 };  // number of balls
 
