@@ -165,7 +165,7 @@ def derive_elastic(p, d, table):
         pocket=pocket,
         slope=unit * np.moveaxis(modes.slope[entry], 1, 0),
         spin=d.centrifugal * unit * spin_load(modes),
-        reach_2=1.5625 * np.max(np.sum(np.where(alike, 0.0, u_2 / omega**2), axis=1)),
+        reach_2=1.5625 * np.max(np.sum(np.where(alike, 0.0, np.where(modes.parity[entry] == 0, 0.5, 1.0) * u_2 / omega**2), axis=1)),
         widest=np.where(alike, 1.25 * np.sqrt(np.max(u_2, axis=0)), 0.0),
         K=K,
         series=series,

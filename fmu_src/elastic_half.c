@@ -402,6 +402,7 @@ static void take_modes(const Parameters *p, ElasticHalf *half, double R[Z][PADS]
                 const int i = half->n++;
                 take_mode(table, entry, coordinate, unit, half, i);
                 half->harmonic[i] = mode->harmonic, half->coordinate[i] = coordinate;
+                half->pair[i] = mode->parity == 0;
                 half->alike[i] = mode->harmonic == 0 && coordinate == 0;
                 half->omega_2[i] = mode->omega * mode->omega / denser;
                 half->damping[i] = 2.0 * p->cage.modal_damping * sqrt(half->omega_2[i]);
@@ -532,7 +533,7 @@ void elastic_half_derive(const Parameters *p, const Derived *d, double tolerance
             if (half->alike[i])
                 half->widest[i] = fmax(half->widest[i], 1.25 * sqrt(u_2));
             else
-                sum += u_2 / half->omega_2[i];
+                sum += (half->pair[i] ? 0.5 : 1.0) * u_2 / half->omega_2[i];
             half->weight[i] = half->alike[i] ? 0.0 : half->omega_2[i];
         }
         half->reach_2 = fmax(half->reach_2, 1.5625 * sum);

@@ -47,6 +47,7 @@ struct ElasticHalf {
     double omega_2[MODES], damping[MODES];  // omega^2, 2 zeta omega
     double spin[MODES];                     // modal force per (rad/s)^2
     bool alike[MODES];                      // moves all joints alike and does not twist them
+    bool pair[MODES];                       // one of two modes of the same frequency
     double out[MODES][PAD_OUT][LANES];      // motions of the pads, joints side by side
     double in[MODES][PAD_IN][LANES];
     double out_modes[PAD_OUT][Z][MODES];  // the same, modes side by side
@@ -86,8 +87,8 @@ double elastic_half_rest(const Parameters *p, const Derived *d, const ElasticHal
 
 // The walls of the pockets of a half where balls meet them.
 typedef struct {
-    ball_array u[3], u_dot[3];  // motion and velocity (x, r, t)
-    ball_array tilt;            // slope of n.u across n: how much the normal turns
+    ball_array u_dot[3];  // velocity (x, r, t)
+    ball_array tilt;      // slope of n.u across n, u the motion: how much the normal turns
 } WallMotion;
 
 // Motions (x, r, t) of one wall by all modes.
@@ -95,8 +96,11 @@ typedef struct {
     scalar motion[3][MODES];
 } WallShape;
 
-// Sets the motion of pocket j of the half at side (+1 or -1) with the coordinates q and their rates: the contact's normal is
-// (n_x, n_t), S the distance of the ball from the pocket's axis.
+// Motion along the contact's normal (n_x, n_t) of pocket j of the half at side (+1 or -1), with the coordinates q.
+#define elastic_wall_normal FOR_ISA(elastic_wall_normal)
+scalar elastic_wall_normal(const ElasticHalf *half, int side, int j, const scalar *q, scalar n_x, scalar n_t);
+
+// Sets all of its motion.  S: distance of the ball from the pocket's axis.
 #define elastic_wall FOR_ISA(elastic_wall)
 void elastic_wall(const ElasticHalf *half, int side, int j, const scalar *q, const scalar *q_dot, scalar n_x,
                   scalar n_t, scalar S, WallMotion *wall, WallShape *shape);

@@ -333,6 +333,7 @@ void integrator_destroy(Integrator *in)
 
 void integrator_tolerance(Integrator *in, double tolerance)
 {
+    memset(&in->trial, 0, sizeof in->trial);  // no modes of a scene before this one
     in->ops = in->model->elastic ? in->kernels->ops_elastic : in->kernels->ops;
     stepping_weights(in->model->d, tolerance, in->weight);
 }

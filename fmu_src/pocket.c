@@ -183,24 +183,26 @@ static bool pocket_elastic(const Model *model, Work *w, int h, int j, PocketGap 
                            WallMotion *wall)
 {
     const ElasticHalf *elastic = model->elastic;
-    const int near = wide_mask(wide_above(gap->delta + w->reach[h], 0.0));
-    const wide S = 1.0 / gap->inv_S;
+    const int near = wide_mask(wide_above(gap->delta + w->reach[h], 0.0)), side = 2 * h - 1;
+    ball_array on_wall[3], moved;
     WallShape shape[LANE_WIDTH];
-    ball_array on_wall[3];
     for (int i = 0; i < LANE_WIDTH; i++) {
-        if (near >> i & 1 && j + i < Z) {
-            elastic_wall(elastic, 2 * h - 1, j + i, w->q[h], w->q_dot[h], wide_lane(gap->n_x, i),
-                         wide_lane(gap->n_t, i), wide_lane(S, i), wall, &shape[i]);
-            continue;
-        }
-        for (int c = 0; c < 3; c++) wall->u[c][j + i] = wall->u_dot[c][j + i] = 0.0;
+        const scalar n_x = wide_lane(gap->n_x, i), n_t = wide_lane(gap->n_t, i);
+        const bool reached = near >> i & 1 && j + i < Z;
+        moved[j + i] = reached ? elastic_wall_normal(elastic, side, j + i, w->q[h], n_x, n_t) : 0.0;
+        for (int c = 0; c < 3; c++) wall->u_dot[c][j + i] = 0.0;
         wall->tilt[j + i] = 0.0;
     }
-    gap->delta -= gap->n_x * wide_load(&wall->u[0][j]) + gap->n_t * wide_load(&wall->u[2][j]);
-    if (!wide_any(wide_above(gap->delta, 0.0))) return false;
+    gap->delta -= wide_load(&moved[j]);
+    const int touched = near & wide_mask(wide_above(gap->delta, 0.0));
+    if (touched == 0) return false;
+    const wide S = 1.0 / gap->inv_S;
+    for (int i = 0; i < LANE_WIDTH && j + i < Z; i++)
+        if (touched >> i & 1)
+            elastic_wall(elastic, side, j + i, w->q[h], w->q_dot[h], wide_lane(gap->n_x, i),
+                         wide_lane(gap->n_t, i), wide_lane(S, i), wall, &shape[i]);
     gap->delta = pocket_approach(model, h, gap->n_x, gap->delta);
     pocket_contacts(model, w, h, j, gap, mixed, false, wall, on_wall);
-    const int touched = near & wide_mask(wide_above(gap->delta, 0.0));
     for (int i = 0; i < LANE_WIDTH && j + i < Z; i++) {
         if (!(touched >> i & 1)) continue;
         const scalar F[3] = {on_wall[0][j + i], on_wall[1][j + i], on_wall[2][j + i]};

@@ -10,6 +10,7 @@ from bearing_model.hertz_exact import HertzContact, hertz_ellipse
 
 Z = variables.Z
 SLICE = variables.STATE_SLICES
+RIGID_HALVES = variables.CageModel.TWO_HALF, variables.CageModel.RIGID  # elastic ones have tests of their own: test_cage_elastic.py
 OUTPUTS = {name.replace("[j]", "").replace("[k]", ""): variable for name, variable in variables.OUTPUTS.items()}
 
 
@@ -210,7 +211,9 @@ class Instance:
     @property
     def y(self):
         """A copy of the state."""
-        return np.frombuffer(self.core.ffi.buffer(self.lib.part_state(self.bearing), 8 * variables.N_STATES)).copy()
+        elastic = self.lib.part_parameters(self.bearing).scene.cage == variables.CageModel.ELASTIC
+        count = variables.N_ALL_STATES if elastic else variables.N_STATES
+        return np.frombuffer(self.core.ffi.buffer(self.lib.part_state(self.bearing), 8 * count)).copy()
 
     def output(self, name):
         """One output now; an array for ball[j] and rivet[k]."""

@@ -8,13 +8,12 @@ import itertools
 
 import numpy as np
 import pytest
-from mechanics import SLICE, View, Z, running_state, view
+from mechanics import RIGID_HALVES, SLICE, View, Z, running_state, view
 
 from bearing_model.variables import INPUTS, N_STATES, CageModel, Lubrication, TiltMode, Traction
 
 KINDS = ("pockets closed", "pockets open", "rolling", "separated", "dry land", "high tilt", "unloaded", "joints apart", "slow")
-CAGES = CageModel.TWO_HALF, CageModel.RIGID  # elastic halves: test_cage_elastic.py
-SCENES = list(itertools.product(CAGES, Traction, Lubrication, TiltMode))  # 24 of them: 216 states
+SCENES = list(itertools.product(RIGID_HALVES, Traction, Lubrication, TiltMode))  # 24 of them: 216 states
 FULL = (CageModel.TWO_HALF, Traction.SLICED, Lubrication.MIXED, TiltMode.SUPPORTED)
 
 # First step of the differences: a hundredth of what changes contact forces, slip, film and friction; the last one is 1/256 of it.

@@ -7,7 +7,7 @@ import pytest
 from library import INSTRUCTION_SETS
 from mechanics import pocket_loads, running_state
 
-from bearing_model.variables import N_STATES, STATE_SLICES, CageModel, Lubrication, Traction
+from bearing_model.variables import STATE_SLICES, CageModel, Lubrication, Traction
 
 extended = pytest.mark.skipif(np.finfo(np.longdouble).eps > 2e-19, reason="this machine's long double is no better than double")
 N = 100_000
@@ -111,8 +111,8 @@ def test_inverse_functions(core, function):
 def verlet_step(core, m, y):
     """All bits of a step of 8 us from y."""
     start = core.new("VerletState")
-    start.y, start.f = list(y), list(m.rhs(0.0, y))
-    end, error = m.verlet(0.0, 8e-6, start, np.ones(N_STATES))
+    start.y[0 : m.states], start.f[0 : m.states] = list(y), list(m.rhs(0.0, y))
+    end, error = m.verlet(0.0, 8e-6, start, np.ones(m.states))
     return np.concatenate([list(end.y), list(end.f), list(end.jerk), [error]])
 
 
@@ -142,8 +142,9 @@ def test_instruction_sets(core, cage, traction, lubrication):
         for (isa, mine), (other, its) in itertools.pairwise(zip(sets, results, strict=True)):
             if (isa in FUSED) == (other in FUSED):
                 assert mine.tobytes() == its.tobytes(), (isa, other, np.flatnonzero(mine != its))
-        first, last = results[0][:N_STATES], results[-1][:N_STATES]
-        nearby = [models[0].rhs(0.0, y * (1.0 + np.finfo(float).eps * rng.integers(-1, 2, N_STATES))) for _ in range(6)]
+        states = models[0].states
+        first, last = results[0][:states], results[-1][:states]
+        nearby = [models[0].rhs(0.0, y * (1.0 + np.finfo(float).eps * rng.integers(-1, 2, states))) for _ in range(6)]
         rounding = np.max(np.abs(np.array(nearby) - first), axis=0)
         for name, rows in STATE_SLICES.items():
             assert np.max(np.abs(last[rows] - first[rows])) <= 2.0 * np.max(rounding[rows]), (sets, name)

@@ -26,21 +26,21 @@ POINT_FILM = (CageModel.TWO_HALF, Traction.POINT, Lubrication.FILM, TiltMode.SUP
 def started(core, c, y):
     """VerletState of the C core at y, without a history."""
     state = core.new("VerletState")
-    state.y, state.f = list(y), list(c.rhs(0.0, y))
+    state.y[0:N_STATES], state.f[0:N_STATES] = list(y), list(c.rhs(0.0, y))
     return state
 
 
 def copied(state):
     """The same as the twin's."""
     film = [[[yy, yz], [yz, zz]] for yy, yz, zz in state.film]
-    return VerletState(np.array(list(state.y)), np.array(list(state.f)), np.array(list(state.jerk)), np.array(film), state.h)
+    return VerletState(*(np.array(list(rows))[:N_STATES] for rows in (state.y, state.f, state.jerk)), np.array(film), state.h)
 
 
 def differences(c, start, end, h, scale):
     """Largest difference of each kind of result between the C core's VerletState and the twin's, relative to 1 + the largest change of that kind."""
     found = {}
     for name, unit in (("y", scale), ("f", scale / h), ("jerk", scale / h**2)):
-        by_core, by_twin = np.array(list(getattr(c, name))) / unit, getattr(end, name) / unit
+        by_core, by_twin = np.array(list(getattr(c, name)))[:N_STATES] / unit, getattr(end, name) / unit
         change = by_twin - start.y / scale if name == "y" else by_twin
         for part, rows in (("positions", POSITIONS), ("friction states", FRICTION), ("velocities", V)):
             if name == "y" or rows != POSITIONS:
