@@ -13,7 +13,7 @@ The core also counts the onsets of events and reports them to the log, and finds
 import numpy as np
 
 from bearing_model.hertz import hertz_pressure
-from bearing_model.ring_fit import ring_fit_growth
+from bearing_model.ring_fit import ring_fit_growth, ring_fit_speed
 from bearing_model.variables import CageModel
 from bearing_model.vec import vec, vec_dot, vec_local, vec_to_global
 
@@ -58,6 +58,6 @@ def event_outputs(model, w):
         "event.pocket_exit": count(*pockets(model, w)),
         "event.ellipse_cut": sum(count(reach, edge) for reach, edge in zip(ellipse_reach(model, w), edges, strict=True)),
         "event.overpressure": sum(count(value, p.bearing.p_limit) for value in pressures),
-        "event.no_clearance": count(2.0 * ring_fit_growth(d.fit, model.ring_load.omega) - p.bearing.P_d + 0.0 * w.x[..., :1], 0.0),
+        "event.no_clearance": count(2.0 * ring_fit_growth(d.fit, ring_fit_speed(model.ring_load)) - p.bearing.P_d + 0.0 * w.x[..., :1], 0.0),
         "event.joint_open": 0.0 * count(w.x, np.inf) if rigid else count(w.u[0], d.P / d.k_plate),
     }

@@ -21,7 +21,7 @@ from bearing_model.model import Model, Work, derived_at
 from bearing_model.outputs import outputs
 from bearing_model.parameters import InputDerivatives, Inputs, Parameters
 from bearing_model.rhs import jacobian, rhs
-from bearing_model.ring_fit import ring_fit_growth
+from bearing_model.ring_fit import ring_fit_growth, ring_fit_speed
 from bearing_model.ring_load import (
     input_trajectory_here,
     input_trajectory_update,
@@ -256,13 +256,14 @@ def at_temperature(p, model, from_, u, run, table):
 
 def at_speed(model, u, run):
     """What a jump to the speed in the Inputs u adds to the elastic energy [J], because the inner ring grows at once."""
-    load = model.ring_load
-    if ring_fit_growth(model.d.fit, load.omega) == ring_fit_growth(model.d.fit, u.shaft.omega):
+    loads, fit = (model.ring_load, replace(model.ring_load, omega=u.shaft.omega)), model.d.fit
+    before, after = (ring_fit_growth(fit, ring_fit_speed(load)) for load in loads)
+    if before == after:
         return 0.0
     energies = []
-    for omega in (load.omega, u.shaft.omega):
+    for load in loads:
         w = Work()
-        rhs(Model(model.p, model.d, replace(load, omega=omega)), run.t, run.y, w)
+        rhs(Model(model.p, model.d, load), run.t, run.y, w)
         energies.append(np.sum(hertz_energy(model.d.inner.hertz.K, w.delta_i)))
     return energies[1] - energies[0]
 

@@ -42,7 +42,7 @@ class Ledger:
         y_dot = rhs(model, t, y, w)
         rhs(model, t + 1j * STEP, y + 1j * STEP * y_dot, along)
         for account, terms in ((self.supplied, supply_terms), (self.lost, loss_terms)):
-            for name, rate in terms(model, along).items():
+            for name, rate in terms(model.at(t + 1j * STEP), along).items():
                 P = np.broadcast_to(rate, (len(t), 1))[:, 0]
                 account[name] = account.get(name, 0.0) + integral(np.diff(t), np.real(P), np.imag(P) / STEP)
         for name, energy in energy_terms(model, w).items():

@@ -5,8 +5,10 @@ Letters: i inner, e outer race, c cage, half h = 0 on the side of -X, h = 1 on +
 surface into it, seen from the ball (the ball is pushed along -n).
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from types import SimpleNamespace
+
+import numpy as np
 
 from bearing_model.derived import Derived, check_table, default_table, model_derive
 from bearing_model.parameters import InputDerivatives, Inputs, Parameters
@@ -41,6 +43,12 @@ class Model:
         trajectory = input_trajectory_update(p, (u, InputDerivatives(), InputDerivatives()), t, t)
         hot, d = derived_at(p, u, table)
         return cls(hot, d, ring_load_at(trajectory, t), trajectory if input_trajectory_varies(trajectory) else None)
+
+    def at(self, t):
+        """The Model whose load and motions are those at time t [s], held; arrays of times [...] give loads [..., 1], complex times carry derivatives."""
+        if self.trajectory is None:
+            return self
+        return replace(self, ring_load=ring_load_at(self.trajectory, np.expand_dims(t, -1)), trajectory=None)
 
 
 def derived_at(p, u, table=None):

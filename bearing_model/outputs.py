@@ -11,7 +11,7 @@ from bearing_model.hertz import hertz_pressure
 from bearing_model.lanes import ball_array_sum
 from bearing_model.outer_ring import spread
 from bearing_model.powers import frame_power, housing_power, housing_wrench, shaft_power
-from bearing_model.ring_fit import ring_fit_growth
+from bearing_model.ring_fit import ring_fit_growth, ring_fit_speed
 from bearing_model.ring_load import ring_tilts
 from bearing_model.rivet_rom import HEAD_P1, HEAD_VM, MID_P1, MID_VM, rivet_rom_stress
 from bearing_model.rivets import rivets_load, rivets_slip
@@ -70,7 +70,7 @@ def ball_outputs(model, w):
         "ball[j].Lambda_i": film_ratio(d, d.inner, w.U_i, w.Q_i),
         "ball[j].Lambda_e": film_ratio(d, d.outer, w.U_e, w.Q_e),
         "ball[j].spin_roll": spin_roll(w),
-        "bearing.clearance": model.p.bearing.P_d - 2.0 * ring_fit_growth(d.fit, model.ring_load.omega + model.ring_load.frame_omega) + 0.0 * w.Q_pocket[..., 0],
+        "bearing.clearance": model.p.bearing.P_d - 2.0 * ring_fit_growth(d.fit, ring_fit_speed(model.ring_load)) + 0.0 * w.Q_pocket[..., 0],
         "bearing.contacts": np.sum(deltas > 0.0, axis=(0, -1)),
         "bearing.penetration": np.maximum(np.max(deltas, axis=(0, -1)), 0.0),
         "cage.F_pocket_max": np.max(w.Q_pocket, axis=-1),

@@ -317,6 +317,13 @@ class Potential:
         V -= self.inertia.ball[:, 0] @ x_b + self.inertia.ball[:, 1] @ r_b
         return V + 0.5 * self.support() * ((q[3] - self.load.tilt_y) ** 2 + (q[4] - self.load.tilt_z) ** 2)
 
+    def rounding(self, v):
+        """Bound of the rounding error of value(v) [J]: approaches are differences of lengths R_e, and the centrifugal part is one large number."""
+        _, _, r_b = self.split(v)
+        delta_i, delta_e = self.approaches(v)
+        loads = self.inner.load(delta_i).sum() + self.outer.load(delta_e).sum()
+        return np.finfo(float).eps * (loads * self.R_e + 0.5 * self.inertia.m_omega2 * (r_b @ r_b))
+
     def applied(self):
         """Loads on the ring's coordinates: shaft and friction [N, N.m]."""
         load = self.load
@@ -454,8 +461,9 @@ def minimum(potential, v):
     """Coordinates of the stable equilibrium, searched from v.
 
     Newton's method in the eigenvectors of the Hessian, with a trust region: steps go downhill where the energy is not convex, and the decrease of the
-    energy sets the radius.  Coordinates without force (loose balls, a loose ring) keep their values.  From an equilibrium on a ridge (the ring balanced
-    on one ball) the search goes on downhill.  Raises ArithmeticError if there is no equilibrium: the bearing does not carry the load.
+    energy sets the radius.  Where the energy changes by less than its rounding, a step has to reduce the largest force instead.  Coordinates without
+    force (loose balls, a loose ring) keep their values.  From an equilibrium on a ridge (the ring balanced on one ball) the search goes on downhill.
+    Raises ArithmeticError if there is no equilibrium: the bearing does not carry the load.
     """
     # scales: an approach of 10 um counts as one
     length = 1e-5
@@ -495,8 +503,9 @@ def minimum(potential, v):
             continue
         V_trial, g_trial, H_trial = local(trial)
         fall = V - V_trial
-        if fall > 0.0 or (fall > -1e-12 * (1.0 + abs(V)) and np.abs(g_trial).max() < np.abs(g).max()):
-            radius = min(100.0, 2.0 * radius) if fall > -0.25 * (g @ step) else radius
+        certain = abs(fall) > potential.rounding(v) / unit
+        if fall > 0.0 if certain else np.abs(g_trial).max() < np.abs(g).max():
+            radius = min(100.0, 2.0 * radius) if fall > -0.25 * (g @ step) or not certain else radius
             v, V, g, H = trial, V_trial, g_trial, H_trial
         else:
             radius = 0.25 * min(radius, np.abs(step).max())

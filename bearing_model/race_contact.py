@@ -30,7 +30,7 @@ from scipy.special import roots_jacobi
 from bearing_model.hertz import hertz_damped, hertz_load
 from bearing_model.lanes import ball_array_sum, maximum
 from bearing_model.outer_ring import outer_ring
-from bearing_model.ring_fit import ring_fit_growth, ring_fit_rate
+from bearing_model.ring_fit import ring_fit_growth, ring_fit_rate, ring_fit_speed
 from bearing_model.traction import Q_FLOOR, traction_asperity_share, traction_ln_film, traction_ln_thermal, traction_mu, traction_race_inlet
 from bearing_model.variables import Lubrication, Traction
 from bearing_model.vec import vec, vec_across, vec_cross, vec_dot, vec_local, vec_to_global
@@ -119,7 +119,7 @@ def race_contact_force(model, w):
     # inner race: the ring's centre, axis, velocity in the balls' frames
     a, Omega, v_i, x_i = (vec_local(v, w.cos_theta, w.sin_theta) for v in (w.ring.a, w.ring.Omega, w.ring.v, w.ring.x))
     p_i = position - x_i
-    R_g = d.inner.R_g + ring_fit_growth(d.fit, model.ring_load.omega + model.ring_load.frame_omega)
+    R_g = d.inner.R_g + ring_fit_growth(d.fit, ring_fit_speed(model.ring_load))
     inner = race_contact(d.inner, R_g, d.R, p.bearing.lambda_, p_i, a, Omega, v_b - v_i - vec_cross(Omega, p_i), omega_b, w.omega_m)
     T_i = race_traction(model, d.inner, inner, mixed, sliced)
     F_i = -inner.Q * inner.n + T_i.F_s + T_i.F_c
@@ -153,4 +153,4 @@ def race_growth_power(model, w):
     a = vec_local(w.ring.a, w.cos_theta, w.sin_theta)
     radial = p - vec_dot(p, a) * a
     force = -ball_array_sum(hertz_load(model.d.inner.hertz.K, w.delta_i) * vec_dot(w.n_i, radial) / np.sqrt(vec_dot(radial, radial)))
-    return force * ring_fit_rate(model.d.fit, load.omega + load.frame_omega, load.omega_dot + load.frame_omega_dot)
+    return force * ring_fit_rate(model.d.fit, ring_fit_speed(load), load.omega_dot + load.frame_omega_dot)

@@ -1,7 +1,5 @@
 """The table of contents of the physics: one evaluation of dy/dt in named steps."""
 
-from dataclasses import replace
-
 import numpy as np
 
 from bearing_model.ball import ball_acceleration, ball_kinematics
@@ -15,7 +13,6 @@ from bearing_model.outer_ring import spread
 from bearing_model.pocket import pocket_force
 from bearing_model.race_contact import race_contact_force
 from bearing_model.ring import ring_acceleration
-from bearing_model.ring_load import ring_load_at
 from bearing_model.rotor import Rotor, rotor_acceleration, rotor_axis, rotor_body_axes, rotor_roll
 from bearing_model.variables import (
     CAGE_BETA,
@@ -132,8 +129,7 @@ def rhs(model, t, y, w=None):
     if y.shape[-1] != N_STATES:
         raise ValueError(f"y has {y.shape[-1]} states; {N_STATES} are needed")
     w = Work() if w is None else w
-    if model.trajectory:
-        model = replace(model, ring_load=ring_load_at(model.trajectory, np.expand_dims(t, -1)), trajectory=None)
+    model = model.at(t)
     rigid = model.p.scene.cage == CageModel.RIGID
     ball_kinematics(y, w)
     rotor_kinematics(model, y, w)

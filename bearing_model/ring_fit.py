@@ -61,6 +61,11 @@ class Cylinder:
         return self.rho * r / (8.0 * self.E) * square
 
 
+def ring_fit_speed(load):
+    """Speed of the inner ring in the fixed frame, by which it grows [rad/s]; load: RingLoad."""
+    return load.omega + load.frame_omega
+
+
 def ring_fit_growth(fit, omega):
     """Growth of the inner groove's radius at the speed omega [m]."""
     left = fit.fit - fit.loosening * omega**2

@@ -20,6 +20,7 @@ from bearing_model.variables import RingMotion
 # Inputs that are a position and its velocity: group, position, velocity; the shaft's come first.
 MOTION = tuple((side, q, v) for side in ("shaft", "housing") for q, v in [(i, f"v_{i}") for i in "xyz"] + [(f"tilt_{i}", f"tilt_{i}_dot") for i in "yz"])
 MOTION += (("frame", "omega", "omega_dot"),)
+SHORTEST_MOTION = 1e-12  # step whose rates of motion are known [s]
 
 
 @dataclass(frozen=True)
@@ -132,7 +133,7 @@ def velocities(given):
 
 def motion_remember(given, h, history=None):
     """The history with what was given at the begin of a step of length h [s]."""
-    return MotionHistory(velocities(given), history and history.rate(given), h)
+    return MotionHistory(velocities(given), history and history.rate(given), max(h, SHORTEST_MOTION))
 
 
 def minmod(x, y):
@@ -147,7 +148,8 @@ def motion_trajectory(p, given, now, h, history=None):
                                         a velocity that jumps is not extrapolated
     inside the step                     Hermite's polynomial from where the motion is (`now`, at the end of the last step) to X, V
 
-    Where the motion is not given (the shaft's in free motion) it has no derivatives; where it is, there are no loads.
+    In steps shorter than SHORTEST_MOTION the motion goes on with the velocity that it has, because the rates above could overflow.  Where the motion is not
+    given (the shaft's in free motion) it has no derivatives; where it is, there are no loads.
     """
     u = [copy.deepcopy(values) for values in given]
     if p.ring.motion == RingMotion.PRESCRIBED:
@@ -163,10 +165,13 @@ def motion_trajectory(p, given, now, h, history=None):
             continue
         at = vars(getattr(now, group))
         x_0, v_0, (v_1, a, jerk) = at[q], at[v], (values[v] for values in out)
+        given_x, out[0][q], out[0][v], out[1][q] = out[0][q], x_0, v_0, v_0
+        out[1][v] = out[2][q] = out[2][v] = 0.0
+        if h < SHORTEST_MOTION:
+            continue
         a = estimate if a == 0.0 and jerk == 0.0 else a
-        x_1, v_1 = out[0][q] + h * (v_1 + 0.5 * h * (a + h / 3.0 * jerk)), v_1 + h * (a + 0.5 * h * jerk)
+        x_1, v_1 = given_x + h * (v_1 + 0.5 * h * (a + h / 3.0 * jerk)), v_1 + h * (a + 0.5 * h * jerk)
         mean = (x_1 - x_0) / h
-        out[0][q], out[0][v], out[1][q] = x_0, v_0, v_0
         out[1][v] = out[2][q] = (6.0 * mean - 4.0 * v_0 - 2.0 * v_1) / h
         out[2][v] = (6.0 * (v_0 + v_1) - 12.0 * mean) / h**2
     return u

@@ -323,8 +323,9 @@ PartStatus part_step(Bearing *b, double t_end)
     report_without_effect(b);
     const double before = cpu_clock();
     change_temperature(b, &s->u_now, &s->u[0]);
-    s->energy_start +=
-        energy_of_speed(&b->model, s->integrator.now.y, s->u_now.shaft.omega, s->u[0].shaft.omega);
+    const double frame_omega = s->u_now.frame.omega;  // which does not jump
+    s->energy_start += energy_of_speed(&b->model, s->integrator.now.y, s->u_now.shaft.omega + frame_omega,
+                                       s->u[0].shaft.omega + frame_omega);
     s->force_peak = 0.0;
     for (int k = 0; k < Z; k++) s->head_peak[k] = s->mid_peak[k] = 0.0;
     b->current = 0;

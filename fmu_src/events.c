@@ -105,7 +105,7 @@ static void joints(const Model *model, const Work *w, Event *event)
 
 static void clearance(const Model *model, Event *event)
 {
-    const double growth = ring_fit_growth(&model->d->fit, model->ring_load->omega);
+    const double growth = ring_fit_growth(&model->d->fit, ring_fit_speed(model->ring_load));
     add(event, 0, 2.0 * growth - model->p->bearing.P_d, 0.0);
 }
 

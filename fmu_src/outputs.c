@@ -115,8 +115,8 @@ static void fill_ball(const Evaluation *at, Outputs *out)
         }
         force_max = scalar_max(force_max, Q_c);
     }
-    const scalar omega = at->model->ring_load->omega + at->model->ring_load->frame_omega;
-    out->bearing.clearance = at->model->p->bearing.P_d - 2.0 * ring_fit_growth(&d->fit, omega);
+    const scalar growth = ring_fit_growth(&d->fit, ring_fit_speed(at->model->ring_load));
+    out->bearing.clearance = at->model->p->bearing.P_d - 2.0 * growth;
     out->bearing.contacts = contacts;
     out->bearing.penetration = penetration;
     out->cage.F_pocket_max = force_max;

@@ -263,8 +263,8 @@ void race_contact_force(const Model *model, Work *w)
 {
     const bool mixed = model->p->scene.lubrication == LUBRICATION_MIXED;
     const bool sliced = model->p->scene.traction == TRACTION_SLICED;
-    const scalar omega = model->ring_load->omega + model->ring_load->frame_omega;
-    const scalar R_g = model->d->inner.R_g + ring_fit_growth(&model->d->fit, omega);
+    const scalar growth = ring_fit_growth(&model->d->fit, ring_fit_speed(model->ring_load));
+    const scalar R_g = model->d->inner.R_g + growth;
     if (outer_ring_moves(model->ring_load)) {
         race_contact_force_moving(model, w, R_g, mixed, sliced);
         return;
@@ -295,6 +295,6 @@ scalar race_growth_power(const Model *model, const Work *w)
         const scalar Q = K * w->delta_i[j] * scalar_sqrt(w->delta_i[j]);
         force -= Q * ((dot3(n, p) - along * dot3(n, ring->a)) / radius);
     }
-    return force * ring_fit_rate(&model->d->fit, load->omega + load->frame_omega,
-                                 load->omega_dot + load->frame_omega_dot);
+    return force *
+           ring_fit_rate(&model->d->fit, ring_fit_speed(load), load->omega_dot + load->frame_omega_dot);
 }

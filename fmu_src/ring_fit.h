@@ -19,7 +19,13 @@
 
 #include "model.h"
 
-// Growth of the inner groove's radius at the speed omega.
+// Speed of the inner ring in the fixed frame, by which it grows.
+INLINE scalar ring_fit_speed(const RingLoad *load)
+{
+    return load->omega + load->frame_omega;
+}
+
+// Growth of the inner groove's radius at the speed omega in the fixed frame.
 INLINE scalar ring_fit_growth(const RingFit *fit, scalar omega)
 {
     const scalar square = omega * omega;

@@ -42,7 +42,7 @@ void motion_remember(const Inputs *given, double h, MotionHistory *history)
         history->a[i] = mean_rate(history, given, i);
         history->v[i] = ((const double *)given)[MOTION[i].velocity];
     }
-    history->h = h;
+    history->h = fmax(h, SHORTEST_MOTION);
     if (history->steps < 2) history->steps++;
 }
 
@@ -67,13 +67,15 @@ void motion_trajectory(const Parameters *p, const Inputs given[INPUT_ORDERS + 1]
 
         // the motion reached so far, and that at the end of the step
         const double x_0 = at[q], v_0 = at[v], jerk = in[2][v];
+        out[0][q] = x_0, out[0][v] = out[1][q] = v_0;
+        out[1][v] = out[2][q] = out[2][v] = 0.0;
+        if (h < SHORTEST_MOTION) continue;
         double a = in[1][v];
         if (a == 0.0 && jerk == 0.0 && history->steps == 2)
             a = minmod(mean_rate(history, given, i), history->a[i]);
         const double x_1 = in[0][q] + h * (in[0][v] + 0.5 * h * (a + h / 3.0 * jerk));
         const double v_1 = in[0][v] + h * (a + 0.5 * h * jerk);
         const double mean = (x_1 - x_0) / h;
-        out[0][q] = x_0, out[0][v] = out[1][q] = v_0;
         out[1][v] = out[2][q] = (6.0 * mean - 4.0 * v_0 - 2.0 * v_1) / h;
         out[2][v] = (6.0 * (v_0 + v_1) - 12.0 * mean) / (h * h);
     }

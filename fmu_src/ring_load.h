@@ -25,6 +25,8 @@ typedef struct {
 
 enum { SHAFT_MOTIONS = 5, MOTIONS = 11 };  // the shaft's come first
 
+static const double SHORTEST_MOTION = 1e-12;  // step whose rates of motion are known [s]
+
 extern const MotionInput MOTION[MOTIONS];
 
 // What the host has given so far: velocities at the begin of the last communication step, their mean rates over the
@@ -43,7 +45,8 @@ typedef struct {
 //   inside the step                     Hermite's polynomial from where the motion is (`now`, at the end of the
 //                                       last step) to X, V: continuous in position and velocity
 //
-// Where the motion is not given (the shaft's in free motion) it has no derivatives; where it is, there are no loads.
+// In steps shorter than SHORTEST_MOTION the motion goes on with the velocity that it has, because the rates above
+// could overflow.  Where the motion is not given (the shaft's in free motion) it has no derivatives; where it is, there are no loads.
 void motion_trajectory(const Parameters *p, const Inputs given[INPUT_ORDERS + 1],
                        const MotionHistory *history, const Inputs *now, double h, Inputs u[INPUT_ORDERS + 1]);
 

@@ -7,6 +7,7 @@ The same inputs give the same bytes.
 """
 
 import argparse
+import contextlib
 import os
 import platform
 import re
@@ -117,7 +118,8 @@ def write_archive(members, out):
             os.chmod(file.name, 0o644)
             os.replace(file.name, out)
         except BaseException:
-            file.close()
+            with contextlib.suppress(OSError):  # a full disk refuses the rest of the buffer again
+                file.close()
             os.unlink(file.name)
             raise
 

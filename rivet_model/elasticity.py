@@ -53,7 +53,7 @@ class Body:
         C = self.C
 
         def energy(first, second):
-            form = BilinearForm(lambda u, v, w: np.einsum("i...,ij,j...,...->...", second(v, w), C, first(u, w), w.x[0]))
+            form = BilinearForm(lambda u, v, w: np.einsum("i...,i...,...->...", second(v, w), np.tensordot(C, first(u, w), axes=1), w.x[0]))
             return form.assemble(self.basis)
 
         mixed = energy(strain_0, strain_1)

@@ -47,24 +47,25 @@ class Matrices:
     C: np.ndarray | None = None
 
 
-def matrices(model, case, scene, speeds, loads=(1.0,), frequency=None, amplitude=AMPLITUDE, dynamic=True, progress=lambda share: None):
-    """The Matrices of a scene's bearing at each load factor and speed [rad/s]; UserError if there is no equilibrium or the FMU refuses.
+def quasi_static_matrices(case, speeds, loads=(1.0,)):
+    """The Matrices of a bearing without the FMU's K and C at each load factor and speed [rad/s]; UserError if there is no equilibrium.
 
-    case: bearings.scene_case of the scene; frequency [rad/s]: of the shakes, None for the speed itself (at standstill 100 Hz); amplitude [m]: at the pitch
-    radius for tilts; dynamic: with the FMU's response.
+    case: bearings.scene_case of a scene.
     """
-    points = [(load, omega) for load in loads for omega in speeds]
+    return [Matrices(omega, load, abs(omega), *equilibrium(case, load, omega)) for load in loads for omega in speeds]
+
+
+def dynamic_matrices(model, case, scene, points, frequency=None, amplitude=AMPLITUDE, progress=lambda share: None):
+    """The quasi_static_matrices `points` with K and C of the FMU `model` under the scene's parameters; UserError if the FMU refuses.
+
+    frequency [rad/s]: of the shakes, None for the speed itself (at standstill 100 Hz); amplitude [m]: at the pitch radius for tilts.
+    """
     found = []
-    for i, (load, omega) in enumerate(points):
-        q, K_static = equilibrium(case, load, omega)
-        w = frequency or abs(omega) or 2.0 * math.pi * 100.0
-        point = Matrices(omega, load, w, q, K_static)
-        if dynamic:
-            size = np.array([1.0, 1.0, 1.0, *[2.0 / case.bearing.d_m] * 2]) * amplitude
-            columns = [response(model, scene, omega, q, k, size[k], w) for k in range(5)]
-            H = np.array(columns).T
-            point = replace(point, K=H.real, C=H.imag / w)
-        found.append(point)
+    for i, point in enumerate(points):
+        w = frequency or point.frequency or 2.0 * math.pi * 100.0
+        size = np.array([1.0, 1.0, 1.0, *[2.0 / case.bearing.d_m] * 2]) * amplitude
+        H = np.array([response(model, scene, point.omega, point.q, k, size[k], w) for k in range(5)]).T
+        found.append(replace(point, frequency=w, K=H.real, C=H.imag / w))
         progress((i + 1) / len(points))
     return found
 

@@ -477,6 +477,8 @@ static void steps_and_times(void)
     double_refused(AT(tolerance), 0.0, "tolerance in force");
     double_refused(AT(tolerance), 0.2, "tolerance in force");
     range_refused(AT(initialized), 1, 1, "initialized");
+    range_refused(AT(history.steps), 0, 2, "steps of the given motion");
+    amount_refused(AT(history.h), "length of the step before");
 }
 
 static void records(void)
@@ -516,9 +518,11 @@ static bool holds_int(size_t at)
         if (v->causality == CAUSALITY_PARAMETER && v->type != TYPE_REAL && at + 8 > first && at < end)
             return true;
     }
-    if (at == offsetof(InstanceState, integrator.f_is_current) / 8 * 8 ||
-        at == offsetof(InstanceState, initialized) / 8 * 8)
-        return true;
+    static const size_t ints[] = {offsetof(InstanceState, integrator.f_is_current),
+                                  offsetof(InstanceState, initialized),
+                                  offsetof(InstanceState, history.steps)};
+    for (size_t i = 0; i < sizeof ints / sizeof ints[0]; i++)
+        if (at == ints[i] / 8 * 8) return true;
     for (size_t k = 0; k < 2 * Z; k++) {
         const size_t channel = offsetof(InstanceState, fatigue_head) + k * sizeof(FatigueChannel);
         if (at >= channel + offsetof(FatigueChannel, depth) && at < channel + sizeof(FatigueChannel))

@@ -6,8 +6,10 @@ import re
 import subprocess
 import sys
 import tomllib
+from dataclasses import replace
 from pathlib import Path
 
+import fmpy
 import numpy as np
 import pytest
 
@@ -19,7 +21,7 @@ from riveted_bearing.bearings import bearing_case, find_bearing, flat, shipped_b
 from riveted_bearing.builder import start_document
 from riveted_bearing.fmu import Instance, Model
 from riveted_bearing.report import render
-from riveted_bearing.results import FORMATS, write_atomically
+from riveted_bearing.results import FORMATS, to_toml, write_atomically
 from riveted_bearing.summary import rivet_rows, summary_rows, table_note
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -385,6 +387,27 @@ def test_a_run_shorter_than_settling_says_that_there_are_no_statistics(tmp_path)
     assert read_result(tmp_path / "demo.parquet").parameters["joint.preload"] == 30.0
 
 
+def test_the_variables_of_the_second_bearing(tmp_path):
+    """The files from which its FMU is compiled: eight balls, its own sizes and working point, the kind of its table."""
+    case, resolved = bearing_case("6310"), tmp_path / "bearing.toml"
+    resolved.write_text("\n".join(to_toml(start_document(case, closed_form_table(case, tmp_path)))), encoding="utf-8")
+    subprocess.run([sys.executable, ROOT / "fmus" / "generate.py", "--bearing", resolved, "--out", tmp_path], check=True)
+    description = fmpy.read_model_description(str(tmp_path / "modelDescription.xml"), validate=False)
+    start = {v.name: v.start for v in description.modelVariables}
+    assert "ball[8].Q_i" in start and "ball[9].Q_i" not in start and "rivet[8].N" in start and "rivet[9].N" not in start
+    assert (float(start["bearing.D"]), float(start["shaft.F_y"])) == (0.01905, 6000.0)
+    assert "closed forms" in description.description
+
+
+def test_closed_forms_are_no_ground_for_a_life(short):
+    rough = replace(short, summary=short.summary | {"rivet.table_kind": 3.0})
+    assert table_note(short) == "" and "closed forms" in table_note(rough)
+    known, unknown = render(short), render(rough)
+    assert "Life: not given, for the rivets&#39; stress rests on closed forms" in unknown and "Life of the weakest rivet" not in unknown
+    assert "Life: not given" not in known and "Life of the weakest rivet" in known
+
+
+@pytest.mark.slow
 def test_an_fmu_of_the_second_bearing(tmp_path):
     """Built from its file, started at its own working point: ring and ball loads near the quasi-static equilibrium."""
     done = command("build", "--bearing", "6310", "--table", "closed-form", folder=tmp_path)

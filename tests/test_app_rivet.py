@@ -1,5 +1,7 @@
 """Rivets from the command line: curves and pictures, a table and an FMU for another rivet, and nothing left behind by what cannot be built."""
 
+from functools import partial
+
 import numpy as np
 import pytest
 from library import ROOT
@@ -76,11 +78,12 @@ def test_a_table_for_another_rivet(tmp_path, monkeypatch):
         stages[stage] = share
 
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
+    monkeypatch.setattr(rivet, "make_table", partial(rivet.make_table, hold_out=24))  # the loads of its error are the longest part
     path = given_table(source, case, None, say)
     assert path.is_relative_to(tmp_path / "cache")
     t = rivet_table.read(path, Z=8)
     assert (
-        t.kind == "fe_coarse" and t.errors["all"]["loads"] == 320 and t.geometry["shank_diameter"] == 1.3e-3 and t.geometry["d_m"] == case.values["bearing.d_m"]
+        t.kind == "fe_coarse" and t.errors["all"]["loads"] == 24 and t.geometry["shank_diameter"] == 1.3e-3 and t.geometry["d_m"] == case.values["bearing.d_m"]
     )
     assert list(stages) == [f"rivet: {name}" for name in ("elements", "contacts", "interference", "cage half", "modes", "hold-out")]
     assert set(stages.values()) == {1.0}

@@ -134,11 +134,12 @@ def test_ring(core):
 def test_ring_and_balls_together(core, tilt_mode):
     """Traction of the inner contacts couples ring and balls where it is much for the ring: the inverse of 1 - gamma dv'/dv over all their velocities.
 
-    Left out: Coriolis' and gyroscopic terms, gamma omega = 0.8 %.   Observed 1.0 %; up to half of the ring's motion
-    passes on to a ball.
+    Left out: Coriolis' and gyroscopic terms, gamma omega = 0.8 %, and that traction falls with the rolling speed, which is as much as slip is of rolling:
+    so a state in which every ball touches its outer race, because one that flies there slips inside.  Observed 1.0 %; up to half
+    of the ring's motion passes on to a ball.
     """
     scene = (*SCENE[:3], tilt_mode)
-    model, y = prepared(core, "rolling", scene, np.random.default_rng(23), **LINEAR | {"oil.B": 300.0, "bearing.lambda": 0.0})
+    model, y = prepared(core, "rolling", scene, np.random.default_rng(19), **LINEAR | {"oil.B": 300.0, "bearing.lambda": 0.0})
     model.d.pocket.K = 0.0
     J = matrix(model, y)
     rhs(model, y)

@@ -84,7 +84,7 @@ def extrapolated(f, h, noise):
             row.append(fine + (fine - coarse) / (4.0 ** (m + 1) - 1.0))
             guess = np.maximum(abs(row[-1] - fine), abs(row[-1] - coarse)) + noise / h
             best, level, error = np.where(guess < error, row[-1], best), np.where(guess < error, k, level), np.minimum(guess, error)
-        finest.append((row[min(k, 1)], 4.0 * noise / h))
+        finest.append((row[min(k, 1)], 1.5 * noise / h))  # of rounding: 4/3 of this step and 1/3 of the one before
         h /= 2.0
     for k, (value, blur) in enumerate(finest):
         error = np.where(k > level, np.maximum(error, abs(value - best) - blur), error)

@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 from pictures import faults
 
-from rivet_model import pictures
+from rivet_model import load_cases, pictures
 from rivet_model.geometry import Geometry
-from riveted_bearing import charts, report, run
+from riveted_bearing import charts, report, rivet, run
 from riveted_bearing.life import rivet_life
 from riveted_bearing.plot import STYLE, plot_result
 from riveted_bearing.rivet import rivet_curves, seat_note, write_pictures
@@ -45,7 +45,10 @@ def test_the_charts_of_a_report(results, case):
     assert drawn >= {"steady": 14, "varied": 14, "without stress": 8, "one row": 0, "few channels": 1}[case]
 
 
-def test_the_pictures_of_a_rivet(tmp_path):
+@pytest.mark.parametrize("grid", [load_cases.COARSE, pytest.param(load_cases.SHIPPED, marks=pytest.mark.slow)], ids=["coarse", "shipped"])
+def test_the_pictures_of_a_rivet(tmp_path, monkeypatch, grid):
+    """The command's own pictures; the finite elements of the section fine or coarse."""
+    monkeypatch.setattr(rivet, "Joint", lambda geometry: load_cases.Joint(geometry, grid))
     title, curves, joint = rivet_curves()
     assert {path.name for path in write_pictures(tmp_path, title, curves, joint)} == {
         "rivet_drawing.png",

@@ -177,16 +177,17 @@ def test_power_of_growth(core):
 def test_a_jump_of_speed_keeps_the_balance(folder):
     """The speed rises by 100 rad/s at every communication point, growth by 0.12 um and elastic energy by 1.5 mJ: the residual stays below 1e-3 of the loss.
 
-    FMU and reference alike.
+    FMU and reference alike; the loss of 0.1 ms is 0.11 J.  Observed 1.6e-4 and 4e-9.
     """
+    step = 2e-5
     slave = Slave(folder).initialize(tolerance=1e-6)
     residuals, clearances = [], []
     for i in range(5):
         slave.set("shaft.omega", OMEGA + 100.0 * i)
-        residual, clearance = slave.step(H).get("bearing.energy_residual", "bearing.clearance")
+        residual, clearance = slave.step(step).get("bearing.energy_residual", "bearing.clearance")
         residuals.append(residual), clearances.append(clearance)
-    twin = simulate({}, lambda t: {"shaft.omega": OMEGA + 100.0 * round(t / H)}, t_end=5 * H, step=H, tolerance=1e-6)
-    loss = slave.get("bearing.power_loss")[0] * 5 * H
+    twin = simulate({}, lambda t: {"shaft.omega": OMEGA + 100.0 * round(t / step)}, t_end=5 * step, step=step, tolerance=1e-6)
+    loss = slave.get("bearing.power_loss")[0] * 5 * step
     assert np.abs(residuals).max() < 1e-3 * loss and np.abs(twin["bearing.energy_residual"]).max() < 1e-3 * loss
     np.testing.assert_allclose(clearances, twin["bearing.clearance"][1:], rtol=1e-12)
 

@@ -71,6 +71,23 @@ def test_vibrating_housing(tmp_path, record_property):
     vibrating.plot(quiet, shaken, tmp_path / "vibrating.png")
 
 
+# ------------------------------------------------------------------------------------------------------------------ delay line
+
+
+def test_delay_line(fmu, record_property):
+    """A passive connection: bounded where a held spring diverges, and of order 2; both meet the same motion as the step shrinks."""
+    delay_line = example("delay_line", "delay_line.py")
+
+    steps = [5e-5, 1e-5, 5e-6]
+    rows, size = delay_line.errors(steps, fmu=fmu)
+    record_property("um", (1e6 * np.array(rows)).tolist())
+    line, spring = np.array(rows).T
+    assert line[0] < size < 0.2 * spring[0]
+    assert 1.7 < np.log2(line[1] / line[2]) < 2.3  # observed 2.0
+    assert line[2] < 0.01 * size  # observed 0.7 %
+    assert spring[2] < 0.02 * size  # observed 1.1 %
+
+
 # ----------------------------------------------------------------------------------------------------------------------- rotor
 
 PROGRAM = """
@@ -91,6 +108,10 @@ for speed, unbalance in ((6000.0, 5e-5), (9000.0, 5e-5), (11000.0, 5e-5), (9000.
     found = example.coupled(description, folder, w, unbalance, float(np.interp(w, table["frequency"], table["kxx"])), linear, settle=0.35, length=0.05)
     rows.append([[complex(q[d]).real for q in (linear, found)] + [complex(q[d]).imag for q in (linear, found)] for d in (24, 0)])
 print("ROWS", json.dumps(rows))
+w, by_ross, on_fmus = example.run_up((8000 * np.pi / 30, 12000 * np.pi / 30), 0.15, 5e-5, sys.argv[2])
+sizes = [[np.hypot(a[:, i], a[:, i + 1]) for i in (0, 2)] for a in (by_ross, on_fmus)]
+apart = [float(np.sqrt(np.mean((by_ross[:, i] - on_fmus[:, i]) ** 2) / np.mean(by_ross[:, i] ** 2))) for i in (0, 2)]
+print("RUN_UP", json.dumps([[float(size.max()) for size in pair] + [float(w[size.argmax()]) for size in pair] for pair in sizes] + [apart]))
 """
 
 
@@ -116,3 +137,10 @@ def test_rotor_in_ross(fmu, tmp_path, record_property):
     assert np.abs(np.abs(ratios[:3]) - 1.0).max() < 0.02
     assert np.degrees(np.abs(np.angle(ratios[:3]))).max() < 2.0
     assert abs(abs(ratios[3, 1]) - 1.0) > 0.05  # the bearing's node at the large unbalance
+
+    # while the speed rises through the critical one: largest motions of disk and bearing, where they are, RMS of the difference
+    by_ross, on_fmus, apart = (np.array(row) for row in json.loads(next(line for line in run.stdout.splitlines() if line.startswith("RUN_UP"))[6:]))
+    record_property("run_up", [by_ross.tolist(), on_fmus.tolist(), apart.tolist()])
+    assert np.abs(on_fmus[:2] / by_ross[:2] - 1.0).max() < 0.02
+    assert np.abs(on_fmus[2:] / by_ross[2:] - 1.0).max() < 0.01
+    assert apart.max() < 0.05  # 2 % and 2 degrees make 4 %

@@ -7,11 +7,10 @@ import pytest
 from mechanics import SLICE, Instance, Z
 
 from bearing_model import variables
-from bearing_model.derived import model_derive
 from bearing_model.energy import energy_total, power_loss
 from bearing_model.integrator import observe, simulate
 from bearing_model.land_film import land_film_gap
-from bearing_model.model import Model, Work
+from bearing_model.model import Model, Work, derived_at
 from bearing_model.parameters import InputDerivatives, Inputs, Parameters
 from bearing_model.rhs import jacobian, rhs
 from bearing_model.ring_load import input_trajectory_here, input_trajectory_update, motion_trajectory, ring_load_at
@@ -209,10 +208,9 @@ def test_derivatives(core, record_property):
     """
     rng, worst, seen = np.random.default_rng(1), {}, {}
     for scene, (parameters, inputs) in SCENES.items():
-        model, y, _ = start_of(scene)
-        c = core.model(parameters, inputs)
         t, w = 2e-4, Work()
-        ys = random_states(model, y, rng, PER_SCENE)
+        model, c = Model.of(parameters, inputs, t), core.model(parameters, inputs)
+        ys = random_states(model, start_of(scene)[1], rng, PER_SCENE)
         g = rhs(model, t, ys, w)
         f = np.array([c.rhs(t, y) for y in ys])
         for name, difference in differences(model, w, f, g).items():
@@ -291,12 +289,19 @@ def test_start_spacing(core, changes):
 # ----------------------------------------------------------------------------------------------------------------------- outputs
 
 
-def after_a_step(parameters, inputs, h):
-    """The model under inputs whose motions have gone on for one communication step."""
+def under_way(parameters, inputs, h):
+    """The model along inputs whose motions go on with their velocities for a communication step of length h [s], from time 0 on."""
     p, given = Parameters(parameters), Inputs(inputs)
     u = motion_trajectory(p, (given, InputDerivatives(), InputDerivatives()), given, h)
-    here = input_trajectory_here(input_trajectory_update(p, u, 0.0, h), h)
-    return Model(p, model_derive(p), ring_load_at(here, h))
+    trajectory = input_trajectory_update(p, u, 0.0, 0.0)
+    return Model(*derived_at(p, given), ring_load_at(trajectory, 0.0), trajectory)
+
+
+def after_a_step(parameters, inputs, h):
+    """The model under inputs whose motions have gone on for one communication step, and are held there."""
+    model = under_way(parameters, inputs, h)
+    model.ring_load, model.trajectory = ring_load_at(input_trajectory_here(model.trajectory, h), h), None
+    return model
 
 
 @pytest.mark.parametrize("scene", SCENES)
@@ -451,15 +456,15 @@ def test_energy(scene, record_property):
 def test_power_is_rate_of_energy(record_property):
     """dE/dt by the chain rule - a complex step of the energy along dy/dt - equals the net power at random states: each element keeps its account.
 
-    Tolerance: rounding of sums of some hundred terms.
+    Motions that are given go on with their velocities.  Tolerance: rounding of sums of some hundred terms.
     """
     worst = 0.0
-    for scene in SCENES:
-        model, y, _ = start_of(scene)
-        ys = random_states(model, y, np.random.default_rng(5), 40)
+    for scene, (parameters, inputs) in SCENES.items():
+        model = under_way(parameters, inputs, 1e-3)
+        ys = random_states(model, start_of(scene)[1], np.random.default_rng(5), 40)
         w, moved = Work(), Work()
         y_dot = rhs(model, 0.0, ys, w)
-        rhs(model, 0.0, ys + 1e-30j * y_dot, moved)
+        rhs(model, 1e-30j, ys + 1e-30j * y_dot, moved)
         rate, power = np.imag(energy_total(model, moved)) / 1e-30, y_dot[:, variables.WORK][:, 0]
         worst = max(worst, np.max(np.abs(rate - power) / np.maximum(np.abs(power), power_loss(model, w)[:, 0])))
     record_property("worst", plain(worst))
@@ -468,17 +473,24 @@ def test_power_is_rate_of_energy(record_property):
 
 
 def test_ledger(record_property):
-    """Supplied = change of energy + lost, term by term: everything moves, loads jump at communication points, a pulse hits between them.
+    """Supplied = change of energy + lost, term by term: everything moves, the housing swings, the frame turns, loads jump at communication points, a pulse
+    hits between them.
 
     Quadrature of the powers over steps of 5 us: (h omega)^4/720 = 1 % of their fluctuation at 2.5e5 rad/s, whose mean is nothing.
     """
-    parameters = UNBALANCE | SUPPORTED | PULSE | {"cage.pocket_clearance": 5e-5, "pulse.duration": 5e-4}
-    results = simulate(parameters, lambda t: LOADS if t < 3e-4 else LOADS | {"shaft.omega": 1500.0}, 1e-3, tolerance=1e-4, method="RK45")
+    parameters = UNBALANCE | SUPPORTED | PULSE | {"cage.pocket_clearance": 5e-5, "pulse.duration": 5e-4, "frame.radius": 0.15}
+
+    def inputs(t):
+        swing, angle = 2.0 * np.pi * 500.0, 2.0 * np.pi * 500.0 * t
+        housing = {"housing.y": 1e-5 * np.sin(angle), "housing.v_y": 1e-5 * swing * np.cos(angle)}
+        return LOADS | housing | {"frame.omega": 150.0} | ({} if t < 3e-4 else {"shaft.omega": 1500.0})
+
+    results = simulate(parameters, inputs, 1e-3, tolerance=1e-4, method="RK45")
     ledger = results.ledger
     terms = ledger.supplied | ledger.stored | {f"lost: {name}": value for name, value in ledger.lost.items()}
     turned_over = sum(abs(value[-1]) for value in ledger.supplied.values())
     record_property("J", plain({name: value[-1] for name, value in terms.items()} | {"residual": ledger.residual[-1]}))
-    assert len(terms) == 5 + 6 + 7
+    assert len(terms) == 5 + 6 + 8
     assert np.max(np.abs(ledger.residual)) < 1e-3 * turned_over  # observed 1.2e-5
     for name, value in terms.items():
         assert value.shape == results.t.shape and value[0] == 0.0

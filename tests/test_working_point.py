@@ -11,6 +11,7 @@ import fmpy
 import numpy as np
 import pytest
 from mechanics import Instance, View, Z, pocket_contact
+from scipy.spatial.transform import Rotation
 
 from bearing_model.kinematics import cage_speed
 from bearing_model.parameters import Parameters
@@ -150,25 +151,37 @@ def test_pocket_forces_follow_from_the_positions(working_point):
     """A pocket is a cylinder with a radial axis, cut in two: a ball presses exactly where it is farther from the axis of a half than half the clearance
     and its Hertz patch reaches over the wall of that half.
 
-    Tilts as small angles: 0.2 um are left open, of the patch 5 um; observed 7 nm.
+    A half is turned by psi about its axis e_x, then tilted from e_x to (a_x, tilt_z, -tilt_y) on the shortest way.  The split plane needs the exact tilt:
+    the square of a tilt of 2e-3 moves a ball by 0.1 um, and the point on the wall by R_c/S = 57 times that.  Left open is the rounding only; observed at
+    four seeds: no ball of 72,036 differs.
     """
     x, r, psi, pressed = (of_balls(working_point, name) for name in ("x", "r", "psi", "Q_c"))
     touching, clear = np.zeros_like(x, dtype=bool), np.ones_like(x, dtype=bool)
     contact, R_c = pocket_contact(), 0.5 * 0.0111125 + 1e-4
     for h in (0, 1):
-        half = {name: working_point[f"half_{h}.{name}"][:, None] for name in ("x", "y", "z", "tilt_y", "tilt_z", "psi")}
-        y, z = r * np.cos(psi) - half["y"], r * np.sin(psi) - half["z"]
-        azimuth = half["psi"] + 2.0 * math.pi * np.arange(Z) / Z
-        along_axis = x - half["x"] + half["tilt_z"] * y - half["tilt_y"] * z
-        across = z * np.cos(azimuth) - y * np.sin(azimuth)
-        distance = np.hypot(along_axis, across)
-        depth = distance - 1e-4
-        reach = (2 * h - 1) * along_axis / distance * R_c + contact.semi_axes(contact.load(depth))[0]  # of the patch, past the split plane
-        touching |= (depth > 0.0) & (reach > 0.0)
-        clear &= (np.abs(depth) > 2e-7) & ((depth < 0.0) | (np.abs(reach) > 5e-6))
-    assert np.mean(clear) > 0.95
+        half = {name: working_point[f"half_{h}.{name}"] for name in ("x", "y", "z", "tilt_y", "tilt_z", "psi")}
+        tilt = Rotation.from_rotvec(turning_e_x_to(half["tilt_z"], -half["tilt_y"]))
+        for j in range(Z):
+            azimuth = half["psi"] + 2.0 * math.pi * j / Z
+            axis = tilt.apply([1.0, 0.0, 0.0])
+            tangent = tilt.apply(np.column_stack([np.zeros_like(azimuth), -np.sin(azimuth), np.cos(azimuth)]))
+            ball = np.column_stack([x[:, j] - half["x"], r[:, j] * np.cos(psi[:, j]) - half["y"], r[:, j] * np.sin(psi[:, j]) - half["z"]])
+            along_axis, across = np.sum(ball * axis, axis=1), np.sum(ball * tangent, axis=1)
+            distance = np.hypot(along_axis, across)
+            depth = distance - 1e-4
+            reach = (2 * h - 1) * along_axis / distance * R_c + contact.semi_axes(contact.load(depth))[0]  # of the patch, past the split plane
+            touching[:, j] |= (depth > 0.0) & (reach > 0.0)
+            clear[:, j] &= (np.abs(depth) > 1e-12) & ((depth < 0.0) | (np.abs(reach) > 1e-9))
+    assert np.mean(clear) > 0.999
     assert np.mean(pressed > 0.0) > 0.02
     np.testing.assert_array_equal(pressed[clear] > 0.0, touching[clear])
+
+
+def turning_e_x_to(a_y, a_z):
+    """Rotation vectors of the shortest turn of e_x to the unit vector with these components across it (n x 3) [rad]."""
+    sine = np.hypot(a_y, a_z)
+    angle = np.arcsin(sine) / np.maximum(sine, 1e-300)
+    return np.column_stack([np.zeros_like(sine), -a_z * angle, a_y * angle])
 
 
 def test_contact_loads_on_the_ring(core):

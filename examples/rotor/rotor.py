@@ -1,6 +1,6 @@
 """A flexible rotor in ROSS on two bearing FMUs, motion in, force out: unbalance response against ROSS with the FMU's own stiffness and damping.
 
-    pip install "riveted-bearing[rotor]"; python examples/rotor/rotor.py [--unbalance 5e-5 5e-4] [--picture rotor.png]
+    pip install "riveted-bearing[rotor]"; python examples/rotor/rotor.py [--unbalance 5e-5 5e-4] [--run-up 0.4] [--picture rotor.png]
 
 The bearings' coefficients (bearing_ross.toml) are those of `riveted-bearing matrices examples/rotor/bearing.toml`.  The master integrates the rotor by the
 trapezoidal rule.  Each step the FMUs get position, velocity and acceleration of their nodes and say the force at the step's end; what the rotor then moves
@@ -53,48 +53,109 @@ class Bearing:
         return self.force()
 
 
+class Coupled:
+    """The rotor on its two FMUs: displacements q, velocities v and accelerations a [degrees of freedom] at the time t [s]."""
+
+    def __init__(self, description, folder, omega, stiffness, q, v, load):
+        self.rotor = rotor([rs.BearingElement(n=n, kxx=0.0, cxx=0.0) for n in NODES])
+        self.at = np.array([6 * n + i for n in NODES for i in range(2)])
+        self.K_joint = np.zeros((len(q), len(q)))
+        self.K_joint[self.at, self.at] = stiffness
+        self.bearings = [Bearing(description, folder, omega, side, q[at], v[at]) for side, at in zip((1.0, -1.0), (self.at[:2], self.at[2:]), strict=True)]
+        self.M, self.q, self.v, self.n = self.rotor.M(omega), q, v, 0
+        self.turn_at(omega)
+        R = np.concatenate([bearing.force() for bearing in self.bearings])
+        self.a = np.linalg.solve(self.M, self.force(load, R) - self.D @ v - self.K @ q)
+
+    def turn_at(self, omega):
+        """Gyroscopic moments of the speed omega [rad/s]."""
+        self.K, self.D = self.rotor.K(omega), self.rotor.C(omega) + omega * self.rotor.G()
+        self.solve = lu_factor(self.M + 0.5 * H * self.D + 0.25 * H * H * (self.K + self.K_joint))
+
+    def force(self, load, R):
+        """load: of the disk in x, y [N]; R: of the bearings' nodes."""
+        f = np.zeros(len(self.q))
+        f[6 * DISK : 6 * DISK + 2] = load
+        f[self.at] += R
+        return f
+
+    def step(self, load):
+        """One communication step; load: of the disk at its end."""
+        at, q, v, a = self.at, self.q, self.v, self.a
+        ends = q[at] + H * v[at] + 0.5 * H * H * a[at]  # where the FMUs' rings will be
+        R = np.concatenate([b.step(self.n * H, q[s], v[s], a[s]) for b, s in zip(self.bearings, (at[:2], at[2:]), strict=True)])
+        q_p, v_p = q + H * v + 0.25 * H * H * a, v + 0.5 * H * a
+        joint = self.K_joint[:, at] @ (ends - q_p[at])
+        self.a = lu_solve(self.solve, self.force(load, R) + joint - self.D @ v_p - self.K @ q_p)
+        self.q, self.v, self.n = q_p + 0.25 * H * H * self.a, v_p + 0.5 * H * self.a, self.n + 1
+
+    def free(self):
+        for bearing in self.bearings:
+            bearing.fmu.terminate()
+            bearing.fmu.freeInstance()
+
+
+def unbalance_load(unbalance, phi, omega, omega_dot=0.0):
+    """Force [..., 2] of an unbalance [kg.m] at the angle phi [rad] that turns at omega [rad/s] and speeds up by omega_dot."""
+    c, s = np.cos(phi), np.sin(phi)
+    return unbalance * np.stack([omega**2 * c + omega_dot * s, omega**2 * s - omega_dot * c], axis=-1)
+
+
 def coupled(description, folder, omega, unbalance, stiffness, start, settle=0.02, length=0.04):
     """Synchronous amplitudes [degrees of freedom] of the rotor on the FMUs, as q = Re(amplitude exp(i omega t)); start: those to begin with.
 
     settle, length [s]: whole revolutions are left out and then counted.
     """
-    free = rotor([rs.BearingElement(n=n, kxx=0.0, cxx=0.0) for n in NODES])
-    M, K, D = free.M(omega), free.K(omega), free.C(omega) + omega * free.G()
-    at = np.array([6 * n + i for n in NODES for i in range(2)])
-    K_joint = np.zeros_like(K)
-    K_joint[at, at] = stiffness
-    solve, q, v = lu_factor(M + 0.5 * H * D + 0.25 * H * H * (K + K_joint)), start.real.copy(), (1j * omega * start).real
-    bearings = [Bearing(description, folder, omega, side, q[at[2 * i : 2 * i + 2]], v[at[2 * i : 2 * i + 2]]) for i, side in enumerate((1.0, -1.0))]
-
-    def load(t, R):
-        f = np.zeros(len(q))
-        f[6 * DISK : 6 * DISK + 2] = unbalance * omega**2 * np.array([np.cos(omega * t), np.sin(omega * t)])
-        f[at] += R
-        return f
-
-    a = np.linalg.solve(M, load(0.0, np.concatenate([b.force() for b in bearings])) - D @ v - K @ q)
+    system = Coupled(description, folder, omega, stiffness, start.real.copy(), (1j * omega * start).real, unbalance_load(unbalance, 0.0, omega))
     revolution, total = 2.0 * np.pi / omega, 0.0
     skip, steps = (round(np.ceil(time / revolution) * revolution / H) for time in (settle, settle + length))
     for n in range(steps):
-        ends = q[at] + H * v[at] + 0.5 * H * H * a[at]  # where the FMUs' rings will be
-        R = np.concatenate([b.step(n * H, q[at[s]], v[at[s]], a[at[s]]) for b, s in zip(bearings, (slice(0, 2), slice(2, 4)), strict=True)])
-        q_p, v_p = q + H * v + 0.25 * H * H * a, v + 0.5 * H * a
-        joint = K_joint[:, at] @ (ends - q_p[at])
-        a = lu_solve(solve, load((n + 1) * H, R) + joint - D @ v_p - K @ q_p)
-        q, v = q_p + 0.25 * H * H * a, v_p + 0.5 * H * a
+        phi = omega * (n + 1) * H
+        system.step(unbalance_load(unbalance, phi, omega))
         if n >= skip:
-            total = total + q * np.exp(-1j * omega * (n + 1) * H) * 2.0 / (steps - skip)
-    for bearing in bearings:
-        bearing.fmu.terminate()
-        bearing.fmu.freeInstance()
+            total = total + system.q * np.exp(-1j * phi) * 2.0 / (steps - skip)
+    system.free()
     return total
+
+
+def coefficients():
+    """Those of the bearing over speed, as arguments of ross.BearingElement."""
+    element = rs.BearingElement.load(HERE / "bearing_ross.toml")
+    return {name: getattr(element, name) for name in ("kxx", "kyy", "kxy", "kyx", "cxx", "cyy", "cxy", "cyx", "frequency")}
+
+
+def run_up(omega, duration, unbalance, fmu=FMU):
+    """Speeds [times] that rise evenly, and displacements in x, y of disk and first bearing [times, 4] by ROSS (Newmark) with the matrices and on the FMUs.
+
+    omega: first and last speed [rad/s]; unbalance [kg.m] at rest in the rotor.  Both start straight; ROSS takes every fourth time (20 us).
+    """
+    table, rate = coefficients(), (omega[1] - omega[0]) / duration
+    linear = rotor([rs.BearingElement(n=n, **table) for n in NODES])
+    t = H * np.arange(round(duration / H) + 1)
+    w, load = omega[0] + rate * t, unbalance_load(unbalance, omega[0] * t + 0.5 * rate * t**2, omega[0] + rate * t, rate)
+    places = [6 * DISK, 6 * DISK + 1, 6 * NODES[0], 6 * NODES[0] + 1]
+    F = np.zeros((len(t), linear.ndof))
+    F[:, places[:2]] = load
+    by_ross = linear.time_response(w[::4], F[::4], t[::4])[1][:, places]
+
+    stiffness, straight = np.interp(np.mean(omega), table["frequency"], table["kxx"]), np.zeros(linear.ndof)
+    system = Coupled(read_model_description(str(fmu)), extract(str(fmu)), omega[0], stiffness, straight, straight, load[0])
+    on_fmus = [system.q[places]]
+    for n in range(1, len(t)):
+        if n % 100 == 0:
+            system.turn_at(w[n])
+            for bearing in system.bearings:
+                bearing.fmu.setReal([bearing.vr["shaft.omega"]], [w[n]])
+        system.step(load[n])
+        on_fmus.append(system.q[places])
+    system.free()
+    return w[::4], by_ross, np.array(on_fmus)[::4]
 
 
 def respond(speeds, unbalance, fmu=FMU):
     """Amplitudes [speeds, degrees of freedom] by ROSS with the matrices, and by the rotor on the FMUs.  speeds [rad/s], unbalance [kg.m]."""
     description, folder = read_model_description(str(fmu)), extract(str(fmu))
-    element = rs.BearingElement.load(HERE / "bearing_ross.toml")
-    table = {name: getattr(element, name) for name in ("kxx", "kyy", "kxy", "kyx", "cxx", "cyy", "cxy", "cyx", "frequency")}
+    table = coefficients()
     linear = rotor([rs.BearingElement(n=n, **table) for n in NODES]).run_unbalance_response(DISK, unbalance, 0.0, frequency=speeds).forced_resp.T
     stiffness = np.interp(speeds, table["frequency"], table["kxx"])
     return linear, np.array([coupled(description, folder, w, unbalance, k, start) for w, k, start in zip(speeds, stiffness, linear, strict=True)])
@@ -117,11 +178,36 @@ def plot(speeds, responses, path):
     figure.savefig(path, dpi=110)
 
 
+def plot_run_up(w, by_ross, on_fmus, path):
+    """Distance of disk and bearing from the axis over the speed."""
+    import matplotlib.pyplot as plt
+
+    figure, axes = plt.subplots(2, 1, figsize=(9, 5), sharex=True, layout="constrained")
+    for ax, i, name in ((axes[0], 0, "disk"), (axes[1], 2, "bearing")):
+        for values, colour, label in ((by_ross, "#9aa2ad", "ROSS"), (on_fmus, "#c8442b", "FMUs")):
+            ax.plot(w * 30.0 / np.pi, 1e6 * np.hypot(values[:, i], values[:, i + 1]), color=colour, lw=1.0, label=label)
+        ax.set(ylabel=f"{name} [um]")
+    axes[1].set(xlabel="speed [r/min]")
+    axes[0].legend()
+    figure.savefig(path, dpi=110)
+
+
 if __name__ == "__main__":
     parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
     parser.add_argument("--unbalance", type=float, nargs="+", default=[5e-5], help="of the disk [kg.m]")
+    parser.add_argument("--run-up", type=float, metavar="TIME", help="instead of steady speeds, from 3,000 to 12,000 r/min in this time [s]")
     parser.add_argument("--picture", type=Path)
     options = parser.parse_args()
+    if options.run_up:
+        w, by_ross, on_fmus = run_up((100.0 * np.pi, 400.0 * np.pi), options.run_up, options.unbalance[0])
+        for i, name in ((0, "disk"), (2, "bearing")):
+            a, b = (np.hypot(values[:, i], values[:, i + 1]) for values in (by_ross, on_fmus))
+            print(
+                f"{name}: ROSS {1e6 * a.max():.2f} um at {w[a.argmax()] * 30 / np.pi:.0f} r/min, FMUs {1e6 * b.max():.2f} at {w[b.argmax()] * 30 / np.pi:.0f}"
+            )
+        if options.picture:
+            plot_run_up(w, by_ross, on_fmus, options.picture)
+        raise SystemExit
     speeds = np.linspace(3000.0, 12000.0, 10) * np.pi / 30.0
     responses = {unbalance: respond(speeds, unbalance) for unbalance in options.unbalance}
     for unbalance, (linear, fmus) in responses.items():

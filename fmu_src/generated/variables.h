@@ -9,7 +9,7 @@
 
 #define FMI2_FUNCTION_PREFIX RivetedBearing_  // of the functions of a source-code FMU
 #define MODEL_IDENTIFIER "RivetedBearing"
-#define MODEL_GUID "{b1a87928-66f6-830a-c706-6ed10840754d}"  // digest of the table
+#define MODEL_GUID "{e72dec66-7575-82ea-0425-9c711544306a}"  // digest of the table
 
 enum { Z = 9 };  // number of balls
 

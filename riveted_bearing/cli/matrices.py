@@ -29,8 +29,7 @@ def matrices(
 
     from ..bearings import scene_case
     from ..fmu import Model
-    from ..matrices import matrices as all_matrices
-    from ..matrices import plot_matrices, write_ross, write_table
+    from ..matrices import dynamic_matrices, plot_matrices, quasi_static_matrices, write_ross, write_table
     from ..scene import load_scene
     from ..units import to_si
 
@@ -39,10 +38,11 @@ def matrices(
     case = scene_case(scene, model)
     variable = model.inputs["shaft.omega"]
     omegas = [speed_of(text, variable, model, to_si) for text in speeds or ()] or [case.load.omega * (i + 1) / SPEEDS for i in range(SPEEDS)]
+    balanced = quasi_static_matrices(case, sorted(omegas), loads or [1.0])  # refuses before anything is written
     make_folder(out)
     with Progress(TextColumn("matrices"), BarColumn(bar_width=30), console=messages, disable=not messages.is_terminal) as bar:
         task, w = bar.add_task("matrices", total=1.0), frequency and 2.0 * math.pi * frequency
-        found = all_matrices(model, case, plan, sorted(omegas), loads or [1.0], w, dynamic=not static, progress=lambda share: bar.update(task, completed=share))
+        found = balanced if static else dynamic_matrices(model, case, plan, balanced, w, progress=lambda share: bar.update(task, completed=share))
     console.print(table(found))
     stem = Path(scene).stem
     paths = [write_table(found, out / f"{stem}_matrices.csv"), plot_matrices(found, out / f"{stem}_matrices.png")]
