@@ -198,7 +198,7 @@ def generator(folder):
     return ["-G", "Ninja", f"-DCMAKE_MAKE_PROGRAM={ninja}"] if ninja and not (folder / "Makefile").is_file() else []
 
 
-def given_table(rivet, case, kind, say, modes):
+def given_table(rivet, case, kind, say, modes=None):
     """Absolute path of the rivet table: the user's, or one for the user's or the bearing's geometry; UserError if it cannot be had or is for another cage."""
     if kind is not None and kind not in TABLES:
         raise unknown("--table", "kind", kind, TABLES)

@@ -133,6 +133,8 @@ def table_of(where, geometry, kind=None, say=lambda text, share=None: None, mode
     say: called with stage and share done; modes: of a cage half, None: as many as usual.  Raises UserError if the geometry cannot be meshed or solved, or
     for an impossible number of modes; then there is no new file.
     """
+    if modes is not None and kind == "closed-form":
+        raise UserError(f"--modes {modes}: a table of closed forms has none; allowed: coarse or full")
     shipped = kind in (None, "full") and geometry.digest == Geometry().digest
     if shipped and modes is None:
         return rivet_table.DEFAULT_TABLE

@@ -85,7 +85,7 @@ def test_a_table_for_another_rivet(tmp_path, monkeypatch):
     assert (
         t.kind == "fe_coarse" and t.errors["all"]["loads"] == 24 and t.geometry["shank_diameter"] == 1.3e-3 and t.geometry["d_m"] == case.values["bearing.d_m"]
     )
-    assert list(stages) == [f"rivet: {name}" for name in ("elements", "contacts", "interference", "cage half", "hold-out")]
+    assert list(stages) == [f"rivet: {name}" for name in ("elements", "contacts", "interference", "cage half", "modes", "hold-out")]
     assert set(stages.values()) == {1.0}
     sigma, _ = rivet_rom.rivet_rom_stress(t, rivet_rom.RivetLoad(T=20.0), -90e-6)
     assert sigma[rivet_rom.MID_VM] == pytest.approx(20.0 / (np.pi / 4 * 1.3e-3**2), rel=0.01)  # F/A, heads more than two diameters away
@@ -108,6 +108,12 @@ def test_the_default_rivet_takes_the_shipped_table(tmp_path):
     """Whether asked for the full one or not asked; a coarse or closed one is made."""
     case = bearing_case("6207")
     assert given_table(None, case, None, None) == given_table(None, case, "full", None) == rivet_table.DEFAULT_TABLE
+    with pytest.raises(UserError, match="6207: modes = 8: a whole number from Z = 9 to 20 Z = 180 is needed"):
+        given_table(None, case, None, None, 8)
+    with pytest.raises(UserError, match="--modes 40: a table of closed forms has none; allowed: coarse or full"):
+        given_table(None, case, "closed-form", None, 40)
+    with pytest.raises(UserError, match="--modes 40: .*6207.json is a table already"):
+        given_table(rivet_table.DEFAULT_TABLE, case, None, None, 40)
     assert TABLE.kind_number == 1
 
 

@@ -1,5 +1,6 @@
 """Modes and residual flexibility of a cage half: against rings, all elements of the whole half, the static load path and the full elements in time."""
 
+import json
 from types import SimpleNamespace
 
 import half_transient
@@ -10,7 +11,7 @@ from test_half import SMALL, whole
 
 from bearing_model import half_modes as modes_of
 from bearing_model import rivet_table
-from rivet_model import cage_half, half, half_loads, half_modes, half_shape, impacts
+from rivet_model import cage_half, closed_form, embed, half, half_loads, half_modes, half_shape, impacts, table
 from rivet_model.geometry import Geometry
 
 G = Geometry()
@@ -340,3 +341,43 @@ def test_rivets_of_opening_joints_under_impacts(full):
     for i in (0, 2):  # T, m_t
         assert np.quantile(np.abs(few[:, i]), 0.999) == pytest.approx(np.quantile(np.abs(many[:, i]), 0.999), rel=0.01)
         assert np.sqrt(((few - many)[:, i] ** 2).mean() / many[:, i].var()) < 0.02
+
+
+# The file --------------------------------------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("key", "change", "message"),
+    [
+        ("omega", lambda values: values[::-1], "modes.omega: positive numbers that do not decrease are needed"),
+        ("harmonic", lambda values: [5, *values[1:]], "modes.harmonic: whole numbers from 0 to 4 are needed"),
+        ("parity", lambda values: [1, *values[1:]], "modes.parity: 1 or -1 of harmonics 0 and Z/2, 0 of the others is needed"),
+        ("pad", lambda values: values[1:], r"modes.pad has shape \(32, 6\); \(33, 6\) is needed"),
+        ("residual", lambda values: values | {"pad": (-np.array(values["pad"])).tolist()}, "modes.residual.pad is no flexibility"),
+    ],
+)
+def test_a_wrong_section_is_refused(tmp_path, key, change, message):
+    """Sections whose numbers cannot be modes, their digest right: refused by name."""
+    data = json.loads(rivet_table.DEFAULT_TABLE.read_text())
+    data["modes"][key] = change(data["modes"][key])
+    data["header"]["digest"] = rivet_table.digest_of({name: data[name] for name in data if name != "header"})
+    (tmp_path / "wrong.json").write_text(json.dumps(data))
+    with pytest.raises(ValueError, match=message):
+        rivet_table.read(tmp_path / "wrong.json")
+
+
+def test_numbers_of_modes(coarse):
+    """As many for each pitch as the 6207 has; too few and too many are refused by the value."""
+    elastic, alone, _ = coarse
+    assert [half_modes.default_count(Z) for Z in (5, 9, 32)] == [33, 60, 213]
+    for count in (8, 181, 30.0):
+        with pytest.raises(ValueError, match=f"modes = {count}: a whole number from Z = 9 to 20 Z = 180 is needed"):
+            half_modes.half_modes(elastic, alone, count)
+
+
+def test_closed_forms_have_no_modes(tmp_path):
+    """Their table says so to both readers."""
+    t = closed_form.make_table()
+    table.write(t, tmp_path / "closed.json")
+    assert rivet_table.read(tmp_path / "closed.json").modes is None
+    assert ".modes = {0}" in embed.c_source(t)
