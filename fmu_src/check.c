@@ -152,6 +152,9 @@ static bool check_geometry(Bearing *b)
     fine &= require(b, p->ring.bore < d_m - D,
                     "ring.bore = %g m: less than the diameter of the inner groove's bottom, %g m, is allowed",
                     p->ring.bore, d_m - D);
+    const double least = 1e-6;  // [m], far below any ring's: squares of bores do not underflow
+    fine &= require(b, p->ring.bore == 0.0 || p->ring.bore >= least,
+                    "ring.bore = %g m: 0 or at least %g m is allowed", p->ring.bore, least);
     fine &= require(
         b, ring_fit_effective_i(p) >= d_m - D,
         "ring.effective_i = %g m: at least the diameter of the inner groove's bottom, %g m, is allowed",

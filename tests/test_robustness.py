@@ -93,6 +93,25 @@ def test_any_allowed_values_run_or_are_refused_by_name(slave, parameters, inputs
     assert 0.0 <= slave.get("time")[0] <= 2e-5 * (1 + 1e-12)
 
 
+TINY = (5e-324, 1e-160, -1e-160)  # whose reciprocal is infinite, whose square is zero
+
+
+@pytest.mark.parametrize("tiny", TINY)
+def test_any_value_next_to_zero_runs_or_is_refused_by_name(slave, tiny):
+    """Each parameter and input that may be zero or of either sign: what divides by it, or by its square, says so."""
+    known = (variables.PARAMETERS | variables.INPUTS).values()
+    allowed = [re.sub(r"\[\w\]", "[1]", v.name) for v in known if isinstance(v.start, float) and v.min <= tiny <= v.max]
+    assert len(allowed) > 30
+    for name in allowed:
+        status = try_initialize(slave, {name: tiny})
+        if status == ERROR:
+            assert name in slave.messages[-1][2] and names_value_and_limit(slave.messages[-1][2]), slave.messages
+            continue
+        assert np.isfinite(slave.outputs()).all(), name
+        assert slave.call("DoStep", 0.0, 1e-5, 1) in (OK, WARNING), (name, slave.messages)
+        assert np.isfinite(slave.outputs()).all(), name
+
+
 @QUICK
 @given(inputs=st.lists(some_values(variables.INPUTS, 4), min_size=2, max_size=6), steps=st.lists(st.floats(1e-9, 3e-5), min_size=6, max_size=6))
 def test_any_jump_of_inputs_keeps_values_finite(slave, inputs, steps):
