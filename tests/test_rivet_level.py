@@ -65,7 +65,7 @@ def test_rivets_of_a_run_against_finer_contact(core):
 
     found = []
     for model, forces, omega_2, chain in cases:
-        state = contact.solve(model.d.P, contact.loads([(j, nodes + i, force) for j, i, force in forces], omega_2 * column))
+        state = contact.solve(model.d.P_mean, contact.loads([(j, nodes + i, force) for j, i, force in forces], omega_2 * column))
         T, m_r, m_t = state.rivet.T
         direct = RivetLoad(T, chain.V_y, chain.V_z, m_r, m_t, chain.F_head)
         (head, m), (head_direct, m_direct) = head_and_moment(model, chain), head_and_moment(model, direct)
