@@ -14,7 +14,7 @@ from library import ROOT
 
 PACKAGES = ("bearing_model", "rivet_model", "riveted_bearing")
 # All that rivet_model may know of bearing_model.
-READERS = {f"bearing_model.{name}" for name in ("rivet_table", "rivet_rom", "rivet_splines", "joint_law", "half_path", "half_modes")}
+READERS = {f"bearing_model.{name}" for name in ("rivet_table", "rivet_rom", "rivet_splines", "joint_law", "half_path", "half_modes", "lanes")}
 
 
 def name_of(path):
