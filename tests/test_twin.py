@@ -457,8 +457,8 @@ def test_energy(scene, record_property):
 def test_power_is_rate_of_energy(record_property):
     """dE/dt by the chain rule - a complex step of the energy along dy/dt - equals the net power at random states: each element keeps its account.
 
-    Motions that are given go on with their velocities.  Tolerance: rounding of sums of some hundred terms; of joints between elastic halves, whose law is a table
-    of moves over loads, the table's error (observed 2.6e-3, test_cage_elastic.py).
+    Motions that are given go on with their velocities.  Tolerance: rounding of sums of some hundred terms; of joints between elastic halves, whose law is a
+    table of moves over loads, the table's error (observed 2.6e-3, test_cage_elastic.py).
     """
     worst = elastic = 0.0
     for scene, (parameters, inputs) in SCENES.items():
