@@ -220,6 +220,7 @@ static bool room_for_modes(Bearing *b)
     b->elastic = aligned_new(elastic_half_size());
     if (b->elastic == NULL)
         bearing_log(b, LOG_ERROR, "scene.cage = elastic: no memory for the modes of the halves");
+    if (b->elastic != NULL) b->elastic->law_modes = 0;
     return b->elastic != NULL;
 }
 

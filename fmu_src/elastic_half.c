@@ -236,6 +236,12 @@ static void site_values(const ElasticHalf *half, double more[3][3], const double
     to[LAW_ENERGY] = sum;
 }
 
+static void law_of(ElasticHalf *half)
+{
+    half->law = rivet_table.half.law;
+    half->law.coefficients = half->coefficients;
+}
+
 // The law over L^, on the same cells.
 static void law_behind(ElasticHalf *half)
 {
@@ -243,8 +249,7 @@ static void law_behind(ElasticHalf *half)
     const int *cells = law->cells;
     double more[3][3];
     for (int i = 0; i < 9; i++) more[i / 3][i % 3] = half->K[0][i / 3][i % 3] - law->K_0[i / 3][i % 3];
-    half->law = *law;
-    half->law.coefficients = half->coefficients;
+    memset(half->coefficients, 0, elastic_half_size() - sizeof *half);
     for (int pass = 0; pass < 2; pass++) {
         double *to = half->coefficients;
         for (int a = 0; a < cells[0] + 2; a++)
@@ -510,7 +515,8 @@ void elastic_half_derive(const Parameters *p, const Derived *d, double tolerance
 {
     const HalfPath *path = &rivet_table.half.path;
     double R[Z][PADS][PADS];
-    memset(half, 0, elastic_half_size());
+    const int before = half->law_modes;  // the law over L^ follows from the number of modes alone and is kept
+    memset(half, 0, sizeof *half);
     half->nodes = path->nodes;
     half->longest = LONGEST * portable_pow(tolerance / 1e-3, 1.0 / 3.0);
     memcpy(half->chi, path->chi, (size_t)half->nodes * sizeof *half->chi);
@@ -538,7 +544,9 @@ void elastic_half_derive(const Parameters *p, const Derived *d, double tolerance
         }
         half->reach_2 = fmax(half->reach_2, 1.5625 * sum);
     }
-    law_behind(half);
+    law_of(half);
+    if (before != p->scene.modes) law_behind(half);
+    half->law_modes = p->scene.modes;
     find_relief(p, d, half);
     find_waves(p, d, half);
 }

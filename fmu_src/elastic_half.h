@@ -43,6 +43,7 @@ typedef struct {
 } Wave;
 
 struct ElasticHalf {
+    int law_modes;                          // scene.modes of the coefficients below; 0: none yet
     int n, blocks;                          // modes, blocks of eight of them
     double omega_2[MODES], damping[MODES];  // omega^2, 2 zeta omega
     double spin[MODES];                     // modal force per (rad/s)^2

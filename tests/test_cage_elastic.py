@@ -113,8 +113,7 @@ def test_power_is_the_rate_of_energy(centrifugal, record_property):
     """Net power against the energy's rate along dy/dt, by complex steps.
 
     The law of the joints is a table of moves over loads which has one energy within its own error only, and the joints' neighbours follow by one sweep: the
-    balance is off by a part of what the joints and what the modes leave take and give (observed at most 4 %, of a term that is below 1 % of what goes around).
-    Without them (first assertion: the largest part, balls and pockets) nothing is left out.
+    balance is off by a part of what joints take and give, which is small beside what goes around.
     """
     rng, worst = np.random.default_rng(8), 0.0
     model = Model.of(ELASTIC | {"cage.centrifugal": centrifugal, "oil.rolling": 0.0})
@@ -126,11 +125,9 @@ def test_power_is_the_rate_of_energy(centrifugal, record_property):
         power, moving = net_power(model, w)[0], sum(abs(rate) for rate in rates.values())
         assert moving > 100.0
         off = abs(sum(rates.values()) - power)
-        held = np.sum(np.abs(w.joint_load * model.d.elastic.law.length) * 1e-30) + np.abs(w.joint_load[0]).max() * 1e-2
-        worst = max(worst, off / held)
-        assert off < 2e-3 * moving
+        worst = max(worst, off / moving)
     record_property("worst", float(worst))
-    assert worst < 1.0
+    assert worst < 2e-3
 
 
 def running_state_of(model, rng):
@@ -198,14 +195,13 @@ def test_static_force_on_a_pocket_loads_bonded_joints_as_the_static_path_does(mo
 def test_pair_vibrates_as_the_finite_elements_do():
     """Closed pair, mirrored: 2.05, 5.8, 11 kHz by full finite elements with bonded pads (observed 2.06, 5.75, 10.8)."""
     vibrations = Model.of(ELASTIC).d.elastic.mirrored
-    kHz = np.sqrt(np.linalg.eigvalsh(np.linalg.inv(vibrations.shape).T @ np.diag(vibrations.lambda_) @ np.linalg.inv(vibrations.shape)).clip(0)) * 0.0
     kHz = np.unique(np.round(np.sqrt(vibrations.lambda_.clip(0.0)) / 2e3 / np.pi, 2))
     for expected in (2.05, 5.8, 11.0):
         assert np.min(np.abs(kHz - expected)) < 0.03 * expected
 
 
-def test_half_turn_by_a_pitch(core):
-    """All bodies turned by one pitch about X, places and modes renumbered: the same motion, turned."""
+def test_waves_go_on_by_a_pitch():
+    """Coordinates of waves that go one pitch on: the pads move as those one pitch back did."""
     rng = np.random.default_rng(9)
     model = Model.of(ELASTIC | {"cage.unbalance": 0.0}, {"shaft.F_x": 0.0, "shaft.F_y": 0.0})
     half, w, turned = model.d.elastic, Work(), Work()

@@ -464,9 +464,10 @@ def test_energy(scene, record_property):
 def test_power_is_rate_of_energy(record_property):
     """dE/dt by the chain rule - a complex step of the energy along dy/dt - equals the net power at random states: each element keeps its account.
 
-    Motions that are given go on with their velocities.  Tolerance: rounding of sums of some hundred terms.
+    Motions that are given go on with their velocities.  Tolerance: rounding of sums of some hundred terms; of joints between elastic halves, whose law is a
+    table of moves over loads, the table's error (observed 2.6e-3, test_cage_elastic.py).
     """
-    worst = 0.0
+    worst = elastic = 0.0
     for scene, (parameters, inputs) in SCENES.items():
         model = under_way(parameters, inputs, 1e-3)
         ys = random_states(model, start_of(scene)[1], np.random.default_rng(5), 40)
@@ -474,10 +475,15 @@ def test_power_is_rate_of_energy(record_property):
         y_dot = rhs(model, 0.0, ys, w)
         rhs(model, 1e-30j, ys + 1e-30j * y_dot, moved)
         rate, power = np.imag(energy_total(model, moved)) / 1e-30, y_dot[:, variables.WORK][:, 0]
-        worst = max(worst, np.max(np.abs(rate - power) / np.maximum(np.abs(power), power_loss(model, w)[:, 0])))
+        off = np.max(np.abs(rate - power) / np.maximum(np.abs(power), power_loss(model, w)[:, 0]))
+        if scene == "elastic":
+            elastic = off
+        else:
+            worst = max(worst, off)
     record_property("worst", plain(worst))
     print(f"dE/dt against net power: {worst:.1e}")
     assert worst < 1e-12  # observed 7e-15
+    assert elastic < 1e-2
 
 
 def test_ledger(record_property):
