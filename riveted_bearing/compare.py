@@ -172,7 +172,7 @@ def is_motion(channel):
 
 def family(name):
     """Name in the variable table: ball[3].Q_i is one of ball[j].Q_i."""
-    return re.sub(r"^(ball|rivet)\[\d+\]", lambda match: f"{match[1]}[{'j' if match[1] == 'ball' else 'k'}]", name)
+    return re.sub(r"^(ball|pocket|rivet)\[\d+\]", lambda match: f"{match[1]}[{'k' if match[1] == 'rivet' else 'j'}]", name)
 
 
 # -------------------------------------------------------------------------------------------------------------------- long horizon

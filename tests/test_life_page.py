@@ -12,6 +12,7 @@ import typer
 from typer.main import get_command
 
 from riveted_bearing.cli import program
+from riveted_bearing.design.cascade import plan_cascade
 from riveted_bearing.design.optimize import plan_optimize
 from riveted_bearing.design.sensitivity import plan_sensitivity
 from riveted_bearing.duty.mission import load_mission
@@ -42,6 +43,7 @@ def test_files_can_be_read(folder):
     readers = {
         "life": lambda path: read_tolerances(load_mission(path, model), model),
         "sensitivity": lambda path: plan_sensitivity(path, read_toml(path), model),
+        "cascade": lambda path: plan_cascade(path, read_toml(path)),
         "optimize": lambda path: plan_optimize(path, read_toml(path), model),
     }
     for line in COMMANDS:

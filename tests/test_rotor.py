@@ -15,8 +15,9 @@ def free_halves(core, **parameters):
     """Model, y and the derivative of the 24 states of two halves that nothing touches."""
     alone = {"oil.eta": 1e-300, "oil.rho_mix": 0.0, "cage.K_land": 0.0, "joint.preload": 0.0, "joint.mu": 0.0, "joint.zeta": 0.0}
     model = core.model(parameters=alone | parameters)
-    for name in ("k_rivet", "k_plate", "k_plate_t", "k_head", "k_hole"):
+    for name in ("k_rivet", "k_plate", "k_plate_t", "k_head"):
         setattr(model.d, name, 0.0)
+    model.d.k_hole = [0.0] * len(model.d.k_hole)
     y = model.start()
     model.d.pocket.K = 0.0
     index = np.concatenate([np.arange(SLICE[name].start, SLICE[name].stop) for name in NAMES])
