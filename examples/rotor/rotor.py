@@ -18,7 +18,12 @@ from scipy.linalg import lu_factor, lu_solve
 
 HERE, NODES, DISK, H = Path(__file__).resolve().parent, (0, 8), 4, 5e-6  # H: communication step [s]
 FMU = HERE.parents[1] / "fmus" / "RivetedBearing.fmu"
-PRELOAD = 105.6e-6  # axial displacement of each inner ring against the other's [m]: 500 N
+AXIAL = np.array([105.611e-6, 105.273e-6, 104.667e-6, 103.733e-6])  # place of an inner ring under 500 N [m] at the speeds of bearing_ross.toml
+
+
+def axial_place(omega):
+    """Axial place of an inner ring [m], which springs press with 500 N: the ring that grows with its speed gives way."""
+    return np.interp(omega, coefficients()["frequency"], AXIAL)
 
 
 def rotor(bearings):
@@ -36,7 +41,7 @@ class Bearing:
         self.fmu = FMU2Slave(guid=description.guid, unzipDirectory=folder, modelIdentifier=description.coSimulation.modelIdentifier, instanceName="bearing")
         self.fmu.instantiate()
         self.fmu.setInteger([self.vr["ring.motion"], self.vr["scene.stress"]], [2, 1])
-        self.fmu.setReal([self.vr["shaft.omega"], self.vr["shaft.x"]], [omega, side * PRELOAD])
+        self.fmu.setReal([self.vr["shaft.omega"], self.vr["shaft.x"]], [omega, side * axial_place(omega)])
         self.inputs = [self.vr[f"shaft.{name}"] for name in ("y", "z", "v_y", "v_z")]
         self.fmu.setReal(self.inputs, [*y, *v])
         self.fmu.setupExperiment(startTime=0.0)
@@ -138,14 +143,15 @@ def run_up(omega, duration, unbalance, fmu=FMU):
     F[:, places[:2]] = load
     by_ross = linear.time_response(w[::4], F[::4], t[::4])[1][:, places]
 
+    places_x = axial_place(w)
     stiffness, straight = np.interp(np.mean(omega), table["frequency"], table["kxx"]), np.zeros(linear.ndof)
     system = Coupled(read_model_description(str(fmu)), extract(str(fmu)), omega[0], stiffness, straight, straight, load[0])
     on_fmus = [system.q[places]]
     for n in range(1, len(t)):
         if n % 100 == 0:
             system.turn_at(w[n])
-            for bearing in system.bearings:
-                bearing.fmu.setReal([bearing.vr["shaft.omega"]], [w[n]])
+            for bearing, side in zip(system.bearings, (1.0, -1.0), strict=True):
+                bearing.fmu.setReal([bearing.vr["shaft.omega"], bearing.vr["shaft.x"]], [w[n], side * places_x[n]])
         system.step(load[n])
         on_fmus.append(system.q[places])
     system.free()
