@@ -205,6 +205,19 @@ def test_saved_state_continues_in_another_process(folder, tmp_path):
     assert result.stdout == slave.step(H, 3).outputs().tobytes().hex()
 
 
+def test_inputs_that_the_next_step_would_refuse_can_be_saved(folder):
+    """A cage of 700 K does not fit its guide: the step says so, not the restoring of a state in which the host has set it."""
+    slave = Slave(folder).initialize().step(H)
+    slave.set("cage.T", 700.0)
+    status, state = slave.try_load(slave.bytes(slave.save()))
+    assert status == OK, slave.messages
+    slave.restore(state, H)
+    assert slave.call("DoStep", H, H, 1) == ERROR and "cage.T = 700 K" in slave.messages[-1][2]
+    slave.restore(state, H).set("cage.T", 293.15)
+    plain = Slave(folder).initialize().step(H, 2)
+    assert same_bits(slave.step(H).outputs(), plain.outputs())
+
+
 def test_state_is_reused_and_freed(running):
     state = running.save()
     address = state[0]
