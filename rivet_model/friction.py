@@ -24,6 +24,7 @@ GRID = Grid(Fineness(0.6), 11.25, 24, 16)
 CONTACTS = ("UH", "LH", "PP")
 PLANE = [0, 2, 4, 5, 7, 9]  # rigid motions x, z, rotation y of rivet and upper rim
 ITERATIONS = 60
+HALVINGS = 4  # of a load step
 TOLERANCE = 1e-9  # of the preload
 FREE = 1e-3  # m: larger than any elastic slip
 
@@ -141,15 +142,26 @@ class Friction:
         self.gap_0 = self.E.T @ gaps
         x, slip = np.zeros(3 * self.count + 6), np.zeros(2 * self.count)
         x[: self.count] = P / self.count
-        answers = []
+        answers, before = [], 0.0
         for V in (0.0, *loads):
-            x = self._step(x, slip, np.array([0.0, 0.0, 0.0, V, 0.0, 0.0]), mu if V > 0.0 else 0.0, P)  # no friction (mu = 0) while the preload alone acts
+            x, before = self._to(x, slip, before, V, mu if V > 0.0 else 0.0, P), V  # no friction (mu = 0) while the preload alone acts
             slip = self._displacement(x)[self.count :]
             if V > 0.0:
                 answers.append(self._answer(x, V))
                 if answers[-1].slip > FREE:
                     raise ArithmeticError(f"V = {V:g} N: heads and plates hold {answers[-1].plates + answers[-1].heads:.4g} N, then they slip freely")
         return answers
+
+    def _to(self, x, slip, before, V, mu, P, halvings=HALVINGS):
+        """Solution at V from the one at the load `before`; a step that Newton's method does not find is taken in two halves."""
+        try:
+            return self._step(x, slip, np.array([0.0, 0.0, 0.0, V, 0.0, 0.0]), mu, P)
+        except ArithmeticError:
+            if halvings == 0:
+                raise
+        middle = 0.5 * (before + V)
+        x = self._to(x, slip, before, middle, mu, P, halvings - 1)
+        return self._to(x, self._displacement(x)[self.count :], middle, V, mu, P, halvings - 1)
 
     def _displacement(self, x):
         """Gaps, then slips, per point of the half circle."""
