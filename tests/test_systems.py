@@ -108,7 +108,7 @@ for speed, unbalance in ((6000.0, 5e-5), (9000.0, 5e-5), (11000.0, 5e-5), (9000.
     found = example.coupled(description, folder, w, unbalance, float(np.interp(w, table["frequency"], table["kxx"])), linear, settle=0.35, length=0.05)
     rows.append([[complex(q[d]).real for q in (linear, found)] + [complex(q[d]).imag for q in (linear, found)] for d in (24, 0)])
 print("ROWS", json.dumps(rows))
-w, by_ross, on_fmus = example.run_up((8000 * np.pi / 30, 12000 * np.pi / 30), 0.15, 5e-5, sys.argv[2])
+w, by_ross, on_fmus = example.run_up((8000 * np.pi / 30, 12000 * np.pi / 30), 0.15, 2e-5, sys.argv[2])
 sizes = [[np.hypot(a[:, i], a[:, i + 1]) for i in (0, 2)] for a in (by_ross, on_fmus)]
 apart = [float(np.sqrt(np.mean((by_ross[:, i] - on_fmus[:, i]) ** 2) / np.mean(by_ross[:, i] ** 2))) for i in (0, 2)]
 print("RUN_UP", json.dumps([[float(size.max()) for size in pair] + [float(w[size.argmax()]) for size in pair] for pair in sizes] + [apart]))
@@ -138,9 +138,10 @@ def test_rotor_in_ross(fmu, tmp_path, record_property):
     assert np.degrees(np.abs(np.angle(ratios[:3]))).max() < 2.0
     assert abs(abs(ratios[3, 1]) - 1.0) > 0.05  # the bearing's node at the large unbalance
 
-    # while the speed rises through the critical one: largest motions of disk and bearing, where they are, RMS of the difference
+    # while the speed rises through the critical one: largest motions of disk and bearing (1.4 um; the stiffness falls with the square of the amplitude, and
+    # at 3.6 um the bearing moves 2.4 % farther than ROSS says), where they are, RMS of the difference; observed 0.01, 0.7 % and 0.07, 0.7 %
     by_ross, on_fmus, apart = (np.array(row) for row in json.loads(next(line for line in run.stdout.splitlines() if line.startswith("RUN_UP"))[6:]))
     record_property("run_up", [by_ross.tolist(), on_fmus.tolist(), apart.tolist()])
     assert np.abs(on_fmus[:2] / by_ross[:2] - 1.0).max() < 0.02
     assert np.abs(on_fmus[2:] / by_ross[2:] - 1.0).max() < 0.01
-    assert apart.max() < 0.05  # 2 % and 2 degrees make 4 %
+    assert apart.max() < 0.02
