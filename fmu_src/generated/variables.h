@@ -9,7 +9,7 @@
 
 #define FMI2_FUNCTION_PREFIX RivetedBearing_  // of the functions of a source-code FMU
 #define MODEL_IDENTIFIER "RivetedBearing"
-#define MODEL_GUID "{00ec8976-0ecb-ece9-dc75-b7c5b964177f}"  // digest of the table
+#define MODEL_GUID "{c1d3af84-f602-aa8c-78a6-21e5da83fb76}"  // digest of the table
 
 enum { Z = 9 };  // number of balls
 
@@ -211,7 +211,7 @@ typedef struct {
         int mean_stress;  // MeanStress: Mean-stress correction
     } fatigue;
     struct {
-        int cage;  // CageModel: Cage of two halves or rigid
+        int cage;  // CageModel: Cage of two rigid halves, one rigid body, or two elastic halves
         int modes;  // Vibration modes of each half that scene.cage = elastic takes, those of the lowest frequencies
         int traction;  // Traction: Traction at a point or over slices of the contact ellipse
         int lubrication;  // Lubrication: Full film or mixed lubrication
