@@ -58,14 +58,22 @@ double variable_value(const Variable *variable, int element, const void *values)
     return variable->type == TYPE_REAL ? ((const double *)at)[element] : ((const int *)at)[element];
 }
 
-bool variables_allow(Causality causality, const void *values,
+// A value that rounding alone has taken beyond a limit counts as the limit.
+static double without_rounding(const Variable *variable, double value, double rounding)
+{
+    const double nearest = fmax(variable->min, fmin(variable->max, value));
+    return fabs(value - nearest) <= rounding * fabs(nearest) ? nearest : value;
+}
+
+bool variables_allow(Causality causality, const void *values, double rounding,
                      void (*report)(void *context, const char *message), void *context)
 {
     bool fine = true;
     for (int v = 0; v < N_VARIABLES; v++) {
         if (VARIABLES[v].causality != causality) continue;
         for (int i = 0; i < VARIABLES[v].count; i++) {
-            const double value = variable_value(&VARIABLES[v], i, values);
+            const double exact = variable_value(&VARIABLES[v], i, values);
+            const double value = without_rounding(&VARIABLES[v], exact, rounding);
             char message[512];
             if (variable_allows(&VARIABLES[v], i, value, message, sizeof message)) continue;
             report(context, message);

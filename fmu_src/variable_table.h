@@ -50,7 +50,8 @@ const Variable *variable_named(const char *name);
 int variable_allows(const Variable *variable, int element, double value, char *message, size_t size);
 
 // Whether all variables of one causality may have the values in a Parameters or an Inputs; each that may not is reported with its message.
-bool variables_allow(Causality causality, const void *values,
+// rounding: the relative share of a limit by which a value may lie beyond the limit.
+bool variables_allow(Causality causality, const void *values, double rounding,
                      void (*report)(void *context, const char *message), void *context);
 
 // The name of one element, numbered from 1 as FMI does: "ball[3].Q_i".

@@ -304,6 +304,23 @@ def test_limits_of_motions(core):
 
 
 @pytest.mark.c_only
+def test_a_motion_may_end_on_its_limit(core):
+    """A limit is allowed although the polynomial that leads to it rounds: after steps of any length, and in the state saved there."""
+    saved = core.ffi.new("char[]", core.lib.part_saved_size())
+    limit = INPUTS["housing.tilt_y"].max
+    for length in np.random.default_rng(1).uniform(1e-6, 3e-5, 40):
+        bearing = Instance(core, {}, {})
+        bearing.step(2e-5)
+        bearing.set(**{"housing.tilt_y": limit})
+        bearing.step(2e-5 + length)
+        core.lib.part_save(bearing.bearing, saved)
+        assert core.lib.part_restore_unknown(Instance(core, {}, {}).bearing, saved)
+    bearing.set(**{"housing.tilt_y": np.nextafter(limit, 1.0)})
+    with pytest.raises(ArithmeticError, match="housing.tilt_y"):
+        bearing.step(1e-4)
+
+
+@pytest.mark.c_only
 def test_saved_state_in_motion(core):
     """A state saved in the middle of a motion goes on to the bit."""
     parameters = PRESCRIBED | {"frame.radius": 0.1, "gravity.y": -9.81}

@@ -280,9 +280,9 @@ bool part_restore_unknown(Part *part, const void *saved)
            values_are_within((const double *)&s->u[1], (size_t)INPUT_ORDERS * N_INPUTS, LARGEST_DERIVATIVE) &&
            values_are_sane((const double *)&s->u_now_dot, N_INPUTS);
     if (!fine) report_error(part, "time, states or rates of inputs: not what a run can have left there");
-    return fine && variables_allow(CAUSALITY_PARAMETER, &s->p, report_error, part) &&
-           variables_allow(CAUSALITY_INPUT, &s->u[0], report_error, part) &&
-           variables_allow(CAUSALITY_INPUT, &s->u_now, report_error, part);
+    return fine && variables_allow(CAUSALITY_PARAMETER, &s->p, 0.0, report_error, part) &&
+           variables_allow(CAUSALITY_INPUT, &s->u[0], 0.0, report_error, part) &&
+           variables_allow(CAUSALITY_INPUT, &s->u_now, 0.0, report_error, part);
 }
 
 bool part_is_initialized(const Part *part)
