@@ -26,7 +26,8 @@
 A row holds all parameters and inputs of the run in SI units, its end (status: done, stopped by the FMU, failed), the FMU's statistics over every
 internal step, solver counters, run time (cpu_time of the simulation, whole_cpu_time with its start and end), and of each sampled output mean, rms, min, max
 and the quantiles p001 and p999 (0.1 and 99.9 %) after start.settle, as `mean(ring.y)`.
-Rows are written as they arrive, each file whole or not at all; a second call does only runs that are missing or failed.
+Rows are written as they arrive, a few in a file where they arrive fast, each file whole or not at all; a second call does only runs that are missing or
+failed.
 """
 
 import contextlib
@@ -66,6 +67,7 @@ KINDS = {
     "p999": lambda x: np.quantile(x, 0.999),
 }
 ROW_VERSION = 1
+WRITING = 0.05  # of the time at most goes into files of rows
 ROWS = "runs.parquet"
 SUPERSEDED = "_superseded"  # readers of Parquet datasets pass over names that begin so
 
@@ -341,6 +343,7 @@ def run_missing(sweep, folder, client, progress, keys):
     from distributed import as_completed
 
     schema, design, keys = schema_of(sweep), list(sweep.scenes), list(keys or sweep.scenes)
+    store = RowStore(folder, schema)
     finished = compact(folder, schema, design, sweep.grows) & set(keys)
     done, failed = len(finished), 0
     progress(done, failed, len(keys))
@@ -357,14 +360,12 @@ def run_missing(sweep, folder, client, progress, keys):
             key = future.key.removeprefix("run-")
             row = about_run(sweep, key) | outcome(future)
             future.release()
-            with held_interrupts() as interrupts:
-                write_row(folder / f"run-{key}.parquet", row, schema)
-            if interrupts.pending:
-                raise KeyboardInterrupt
+            store.add(row)
             done, failed = (done + 1, failed) if row["status"] == "done" else (done, failed + 1)
             progress(done, failed, len(keys))
     finally:
         with ignored_interrupts():
+            store.write()
             client.cancel(futures)
     compact(folder, schema, design, sweep.grows)
     return columns_of(folder)
@@ -416,11 +417,35 @@ def schema_of(sweep):
     return pa.schema(fields, metadata={KEY: json.dumps(about)})
 
 
-def write_row(path, row, schema):
-    """Write a row as a Parquet file, whole or not at all; columns without a value are null."""
+class RowStore:
+    """Writes rows as they arrive: one file a row, or several rows a file where single ones would take more than WRITING of the time."""
+
+    def __init__(self, folder, schema):
+        self.folder, self.schema, self.rows, self.due = folder, schema, [], 0.0
+
+    def add(self, row):
+        """Take a row, which an interrupt leaves in a file; KeyboardInterrupt once it is there."""
+        self.rows.append(row)
+        if time.monotonic() < self.due:
+            return
+        with held_interrupts() as interrupts:
+            self.write()
+        if interrupts.pending:
+            raise KeyboardInterrupt
+
+    def write(self):
+        """Write what has been taken."""
+        if self.rows:
+            begin = time.monotonic()
+            write_rows(self.folder / f"run-{self.rows[0]['key']}.parquet", self.rows, self.schema)
+            self.rows, self.due = [], time.monotonic() + (time.monotonic() - begin) / WRITING
+
+
+def write_rows(path, rows, schema):
+    """Write rows as a Parquet file, whole or not at all; columns without a value are null."""
     import pyarrow as pa
 
-    table = pa.Table.from_pylist([row], schema=schema)
+    table = pa.Table.from_pylist(rows, schema=schema)
     write_atomically(path, lambda temporary: write_table(table, temporary))
 
 
@@ -452,7 +477,8 @@ def compact(folder, schema, keys, grows=False):
     latest = {key: i for _, i, key in sorted((status == "done", i, key) for i, (key, status) in enumerate(facts))}  # whatever the clocks say
     if grows:
         keys = list(dict.fromkeys([*keys, *latest]))
-    if foreign := [i for key, i in latest.items() if key not in set(keys)]:
+    wanted = set(keys)
+    if foreign := [i for key, i in latest.items() if key not in wanted]:
         path = folder / SUPERSEDED / f"{datetime.now(UTC):%Y%m%d-%H%M%S}-{uuid.uuid4().hex[:8]}.parquet"
         write_atomically(path, lambda temporary: write_table(table.take(foreign), temporary))
     places = {key: place for place, key in enumerate(keys) if key in latest}

@@ -21,7 +21,7 @@ from riveted_bearing.animation import needed, number_of_balls
 from riveted_bearing.fmu import Model
 from riveted_bearing.report import render
 from riveted_bearing.results import FORMATS
-from riveted_bearing.sweep import SUPERSEDED, cluster, columns_of, compact, load_sweep, read_rows, schema_of, write_row
+from riveted_bearing.sweep import SUPERSEDED, cluster, columns_of, compact, load_sweep, read_rows, schema_of, write_rows
 
 ROOT = Path(__file__).resolve().parents[1]
 ENVIRONMENT = os.environ | {"PYTHONPATH": str(ROOT)}
@@ -277,7 +277,7 @@ def row(plan, number, status, message, date):
 
 def add(plan, folder, number, *words):
     """Write the row of a run as a file of its own."""
-    write_row(folder / f"run-{list(plan.scenes)[number]}.parquet", row(plan, number, *words), schema_of(plan))
+    write_rows(folder / f"run-{list(plan.scenes)[number]}.parquet", [row(plan, number, *words)], schema_of(plan))
 
 
 @pytest.mark.parametrize("name", ["runs.parquet", "run-x.parquet"])
@@ -373,7 +373,7 @@ def test_a_lost_scheduler_is_one_message_and_loses_no_row(tmp_path):
             working.kill()
     assert driver.returncode == 2 and said.count("\n") == 1, said
     done = int(re.fullmatch(r"error: the Dask scheduler is gone after (\d+) of 24 runs; they are in out, the same command does the others\n", said)[1])
-    assert 2 <= done < 24 and len(list((tmp_path / "out").glob("run-*.parquet"))) == done
+    assert 2 <= done < 24 and sum(read_rows(path).num_rows for path in (tmp_path / "out").glob("run-*.parquet")) == done
     again = command("sweep", "study.toml", "--out", "out", "--workers", "1", folder=tmp_path)
     assert again.returncode == 0 and "24 runs, 0 of them failed" in again.stdout
 
