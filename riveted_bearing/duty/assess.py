@@ -170,7 +170,13 @@ def used_cases(duty, kept):
 
 def part_duty(duty, kept):
     """The Duty of the parts kept alone."""
-    return Duty(duty.weights[kept], duty.blends[:, kept][:, :, used_cases(duty, kept)], duty.hours)
+    used = used_cases(duty, kept)
+    slopes = duty.slopes
+    if slopes is not None:
+        slopes = slopes[:, :, kept]
+        alone = np.delete(slopes, used, axis=-1).any(axis=-1)  # one of the neighbours is left out
+        slopes = np.where(alone[..., None], 0.0, slopes[..., used])
+    return Duty(duty.weights[kept], duty.blends[:, kept][:, :, used], duty.hours, slopes)
 
 
 def solve(duty, kept, runs, settings, progress):

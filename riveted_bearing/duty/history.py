@@ -46,7 +46,8 @@ def binned(path, time, columns, bins):
     """Operating points of a measured record: each sample holds until the next one, and each class of values with samples becomes a point.
 
     time: name of the column of times [s]; columns: names; bins: of each column the number of equal classes between its extremes.
-    Returns the time spent in the classes [P] in s and the mean values in them [P, columns].  The file is read twice, in pieces.
+    Returns the time spent in the classes [P] in s, their numbers along each column [P, columns], and the means and standard deviations of the values in
+    them [P, columns].  The file is read twice, in pieces.
     """
     low, high, last = np.full(len(columns), np.inf), np.full(len(columns), -np.inf), -np.inf
     for block in blocks(path, (time, *columns)):
@@ -56,7 +57,7 @@ def binned(path, time, columns, bins):
     if not np.all(high >= low):
         raise UserError(f"{path}: no samples")
     width = np.where(high > low, high - low, 1.0)
-    spent, sums = np.zeros(np.prod(bins)), np.zeros((np.prod(bins), len(columns)))
+    spent, sums, squares = np.zeros(np.prod(bins)), np.zeros((np.prod(bins), len(columns))), np.zeros((np.prod(bins), len(columns)))
     before = None
     for block in blocks(path, (time, *columns)):
         whole = block if before is None else np.vstack([before, block])
@@ -65,9 +66,13 @@ def binned(path, time, columns, bins):
         place = np.ravel_multi_index(classes.T, bins)
         spent += np.bincount(place, seconds, minlength=len(spent))
         for i in range(len(columns)):
-            sums[:, i] += np.bincount(place, seconds * values[:, i], minlength=len(spent))
+            shifted = (values[:, i] - low[i]) / width[i]  # squares of values that hardly differ would lose their digits
+            sums[:, i] += np.bincount(place, seconds * shifted, minlength=len(spent))
+            squares[:, i] += np.bincount(place, seconds * shifted**2, minlength=len(spent))
         before = block[-1:]
     seen = spent > 0.0
     if not seen.any():
         raise UserError(f"{path}: at least two samples are needed")
-    return spent[seen], sums[seen] / spent[seen, None]
+    means, squares = sums[seen] / spent[seen, None], squares[seen] / spent[seen, None]
+    spread = np.sqrt(np.maximum(squares - means**2, 0.0))
+    return spent[seen], np.column_stack(np.unravel_index(np.flatnonzero(seen), bins)), low + width * means, width * spread

@@ -72,7 +72,7 @@ FORCED = {"scene.stress": "fatigue", "scene.statistics": "on"}
 @dataclass(frozen=True)
 class Part:
     """An operating point (weight: hours) or an event (weight: count); scene: None if it is interpolated; values: of its constant inputs and numeric
-    parameters, SI."""
+    parameters, SI.  Of a class of a record: cell, its number along each axis; means and spreads, of the record's values in it."""
 
     name: str
     event: bool
@@ -80,6 +80,9 @@ class Part:
     scene: Scene | None = field(repr=False)
     factor: float = 1.0
     values: dict = field(default_factory=dict, repr=False)
+    cell: tuple = ()
+    means: tuple = ()
+    spreads: tuple = ()
 
 
 @dataclass(frozen=True)
@@ -127,7 +130,7 @@ def plan_mission(name, document, model, path):
         raise UserError(f"{path}: the hours of all points are 0")
     loss = preload_loss(path, section_of(path, document, "preload_loss"))
     cases, blends = cases_of(path, parts, loss[1], model)
-    duty = Duty(np.array([part.weight / hours for part in parts]), blends, loss[0])
+    duty = Duty(np.array([part.weight / hours for part in parts]), blends, loss[0], slopes_of(parts, blends))
     return Mission(name, str(document.get("description", "")), path, document, tuple(parts), tuple(cases), duty, hours, settings)
 
 
@@ -286,11 +289,12 @@ def history_points(path, document, model):
     file = file_of(path, "history", section, HISTORY, ("file", "time"))
     columns = columns_of(path, "history", section, model, ("bins",))
     bins = [count_of(path, f"history.{name}.bins", entry.get("bins", 5)) for name, (*_, entry) in columns.items()]
-    spent, means = binned(file, section["time"], [column for _, column, *_ in columns.values()], bins)
+    spent, cells, means, spreads = binned(file, section["time"], [column for _, column, *_ in columns.values()], bins)
     hours = amount(path, "history.hours", section.get("hours", spent.sum() / 3600.0), HOURS)
-    for i, (seconds, row) in enumerate(zip(spent, means, strict=True), 1):
+    for i, (seconds, cell, row, spread) in enumerate(zip(spent, cells, means, spreads, strict=True), 1):
         label = f"{file.name} class {i}"
-        yield part_of(path, document, model, label, label, block_of(columns, row), hours * seconds / spent.sum())
+        part = part_of(path, document, model, label, label, block_of(columns, row), hours * seconds / spent.sum())
+        yield replace(part, cell=tuple(cell.tolist()), means=tuple(row.tolist()), spreads=tuple(spread.tolist()))
 
 
 def block_of(columns, row):
@@ -336,6 +340,24 @@ def cases_of(path, parts, factors, model):
             for source, share in mixtures.get(i, {i: 1.0}).items():
                 blends[j, i, places[source, j, "at"]] += share
     return cases, blends
+
+
+def slopes_of(parts, blends):
+    """Duty.slopes: difference quotients between the neighbours of a class along each axis, times the spread of its values; None without a record."""
+    classes = {part.cell: i for i, part in enumerate(parts) if part.cell}
+    if not classes:
+        return None
+    axes = len(next(iter(classes)))
+    slopes = np.zeros((axes, *blends.shape))
+    for cell, i in classes.items():
+        for axis in range(axes):
+            line = sorted(other for other in classes if other[:axis] + other[axis + 1 :] == cell[:axis] + cell[axis + 1 :])
+            place = line.index(cell)
+            low, high = classes[line[max(place - 1, 0)]], classes[line[min(place + 1, len(line) - 1)]]
+            if low != high:
+                apart = parts[high].means[axis] - parts[low].means[axis]
+                slopes[axis, :, i] = (blends[:, high] - blends[:, low]) * parts[i].spreads[axis] / apart
+    return slopes
 
 
 def loosened(scene, factor, model):

@@ -2,7 +2,21 @@
 
 import math
 
+import numpy as np
+
+from .assess import part_duty
+from .miner import NO_DAMAGE, class_factors
 from .page import percent
+
+WIDE, MATTERS = 1.3, 0.05  # factor of a class, and share in the damage from which it is named
+
+
+def wide_classes(life):
+    """Names of the classes of a record whose width matters."""
+    duty, found = part_duty(life.mission.duty, list(life.kept)), life.estimate
+    logs = np.log(np.maximum(found.rates, NO_DAMAGE))
+    factors = np.broadcast_to(class_factors(duty, logs), (len(duty.hours), len(life.kept), logs.shape[-1]))[0, :, found.place]
+    return [life.mission.parts[i].name for i, factor, share in zip(life.kept, factors, found.shares, strict=True) if factor > WIDE and share > MATTERS]
 
 
 def notes(life, runs, scatter=None):
@@ -25,6 +39,11 @@ def notes(life, runs, scatter=None):
         sentences.append(
             "Each rivet is taken to keep its place: in a run the balls and the cage stay as the start has arranged them. "
             'With rivets = "alike" in [life], all rivets take all places in turn.'
+        )
+    if wide := wide_classes(life):
+        sentences.append(
+            f"The classes of the record are wide: inside {', '.join(wide)} the damage rate changes so much that its mean is taken as more than "
+            f"{WIDE:g} times that at the mean values. Compare with twice the bins."
         )
     if "sn" in mission.document:
         sentences.append(
