@@ -111,7 +111,7 @@ class Table:
     groups: dict
     variables: tuple
     states: tuple
-    assumptions: dict  # by parameter: usual range as factors of its value, and the source
+    assumptions: dict  # by parameter: usual range as factors of its value, share of the stress that goes with it, and the source
     origin: dict  # where the values of another bearing come from, by name
     essentials: dict  # names by question
     elastic_states: tuple = ()  # behind the states, of elastic cage halves only

@@ -34,10 +34,11 @@ def report_files(source):
     return found
 
 
-def report_pages(source, out=None):
+def report_pages(source, out=None, decides=None):
     """Write a page for each result of a path and yield the pages' paths one by one.
 
-    out: file, or folder for the pages; None for beside the results.  Raises UserError if there is no result, or if several are to go into one file.
+    out: file, or folder for the pages; None for beside the results.  decides: a Sensitivity whose table the pages show.
+    Raises UserError if there is no result, or if several are to go into one file.
     """
     sources, out = report_files(source), Path(out) if out else None
     as_file = out is not None and out.suffix in (".html", ".htm")
@@ -45,18 +46,18 @@ def report_pages(source, out=None):
         raise UserError(f"--out {out}: one page for {len(sources)} results; allowed is a folder")
     for path in sources:
         name = path.with_suffix(".html")
-        yield write_report(read_result(path), out if as_file else out / name.name if out else name)
+        yield write_report(read_result(path), out if as_file else out / name.name if out else name, decides)
 
 
-def write_report(result, path):
+def write_report(result, path, decides=None):
     """Write the page of a result, whole or not at all; returns the path."""
-    page = render(result)
+    page = render(result, decides)
     write_atomically(Path(path), lambda temporary: temporary.write_text(page, encoding="utf-8"))
     return Path(path)
 
 
-def render(result):
-    """The page as text."""
+def render(result, decides=None):
+    """The page as text; decides: see report_pages."""
     environment = jinja2.Environment(autoescape=True, trim_blocks=True, lstrip_blocks=True, undefined=jinja2.StrictUndefined)
     film, missing = frames(result)
     lives = all_lives(result)
@@ -79,6 +80,7 @@ def render(result):
         fatigue=result.parameters.get("scene.stress") == "fatigue",
         table_note=table_note(result),
         assumed=list(assumed_rows(result)),
+        decides=decides,
         life_is_known=life_is_known(result),
         solver=list(solver_rows(result)),
         charts={name: chart(result, name, lives) for name in CHARTS},

@@ -57,13 +57,16 @@ def table_note(result):
 
 
 def assumed_rows(result):
-    """Assumed parameters that move the rivets' stress most and that neither scene nor bearing file gives: (name, value, low, high, unit, source)."""
-    for name, (low, high, source) in variables.ASSUMPTIONS.items():
+    """Assumed parameters that move the rivets' stress most and that neither scene nor bearing file gives: (name, value, low, high, unit, stress, source).
+
+    stress: change of the worst head's 99.9 % quantile over the range low to high, over the quantile, at the working point.
+    """
+    for name, (low, high, stress, source) in variables.ASSUMPTIONS.items():
         if name in result.parameters and name not in result.about.get("given", ()):
             unit = variables.PARAMETERS[name].display or variables.PARAMETERS[name].unit
             factor, _ = variables.UNITS[variables.PARAMETERS[name].unit][unit]
             value = factor * result.parameters[name]
-            yield name, value, low * value, high * value, unit, source
+            yield name, value, low * value, high * value, unit, stress, source
 
 
 def life_is_known(result):
@@ -127,6 +130,6 @@ def assumed_ranges(model):
     """Documented ranges of the assumed parameters that the bearing's file does not give: {name: (lowest, highest)} in SI."""
     return {
         name: (low * model.default(model.parameters[name]), high * model.default(model.parameters[name]))
-        for name, (low, high, _) in variables.ASSUMPTIONS.items()
+        for name, (low, high, *_) in variables.ASSUMPTIONS.items()
         if name in model.parameters and model.origin.get(name) != "yours"
     }

@@ -11,7 +11,7 @@ from riveted_bearing import UserError
 from riveted_bearing.design.bench import Bench, response
 from riveted_bearing.design.optimize import plan_optimize, search, write_optimum
 from riveted_bearing.design.optimize import write_picture as write_optimum_picture
-from riveted_bearing.design.sensitivity import analyse, plan_sensitivity, write_indices, write_picture
+from riveted_bearing.design.sensitivity import analyse, plan_sensitivity, read_indices, write_indices, write_picture
 from riveted_bearing.fmu import Model
 from riveted_bearing.summary import assumed_ranges
 from riveted_bearing.sweep import cluster
@@ -79,7 +79,9 @@ def test_noise_stands_beside_the_indices(model):
 def test_indices_are_written_and_drawn(tmp_path, model):
     document = {"between": BOX, "responses": ["damage", "stress"], "sobol": {"count": 64, "factors": 2}}
     found = analyse(plan_sensitivity("s.toml", document, model), in_place_of_the_bearing(lambda a, b, c: [ishigami(a, b, c), a + b * c], noise=0.3))
-    assert json.loads(write_indices(found, tmp_path / "s.json").read_text())["chosen"] == list(found.chosen)
+    assert json.loads(write_indices(found, tmp_path / "sensitivity.json").read_text())["chosen"] == list(found.chosen)
+    again = read_indices(tmp_path)
+    assert (again.morris, again.sobol, again.ranked) == (found.morris, found.sobol, found.ranked) and again.ranked == [0, 1, 2]
     assert write_picture(found, tmp_path / "s.png").stat().st_size > 20000
 
 

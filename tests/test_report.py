@@ -16,6 +16,7 @@ from riveted_bearing import UserError, run, write_result
 from riveted_bearing.animation import BUDGET, exaggeration, frames, thinned
 from riveted_bearing.charts import PAGE_COLOURS, azimuth_of, by_bin
 from riveted_bearing.charts import thinned as thinned_result
+from riveted_bearing.design.sensitivity import Sensitivity
 from riveted_bearing.life import fatigue_law, rivet_life
 from riveted_bearing.report import CHARTS, duration, figure, render, report_files, report_pages
 from riveted_bearing.results import Result
@@ -70,6 +71,15 @@ def test_page_shows_the_figures_of_the_run(page, result):
 def test_texts_are_escaped(few):
     shown = render(replace(few, about=few.about | {"description": "<script>alert(1)</script>", "stopped": "<b>"}))
     assert "<script>alert" not in shown and "&lt;script&gt;" in shown
+
+
+def test_assumed_values_say_how_far_they_move_the_stress(few):
+    """Their own study beside them, if there is one: its factors, the strongest first."""
+    assert "moves the stress by" in render(few) and "what decides" not in render(few)
+    morris = {"damage": {"mu_star": [0.25, 1.5], "mu_star_conf": [0.1, 0.2], "sigma": [0.1, 0.1], "noise": 0.3}}
+    page = render(few, Sensitivity("duty", "", 2, ("damage",), ("joint.mu", "joint.preload"), morris, ()))
+    rows = re.findall(r"<tr><td><code>([^<]*)</code></td><td class=.n.>([^<]*) ± ([^<]*)</td></tr>", page)
+    assert rows == [("joint.preload", "1.5", "0.2"), ("joint.mu", "0.25", "0.1")] and "by the study duty" in page
 
 
 def test_what_was_not_recorded_is_said(few):

@@ -9,7 +9,7 @@
 
 #define FMI2_FUNCTION_PREFIX RivetedBearing_  // of the functions of a source-code FMU
 #define MODEL_IDENTIFIER "RivetedBearing"
-#define MODEL_GUID "{c1d3af84-f602-aa8c-78a6-21e5da83fb76}"  // digest of the table
+#define MODEL_GUID "{ffc3f722-8cdb-eaa6-e151-a514fbb40441}"  // digest of the table
 
 enum { Z = 9 };  // number of balls
 

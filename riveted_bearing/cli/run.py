@@ -106,9 +106,11 @@ def print_summary(result):
         f"[bold]real-time factor {summary['real_time_factor']:.2f}[/] (CPU time / simulated time)",
         soft_wrap=True,
     )
-    assumed = [f"{name} {value:.3g} {unit} ({low:.2g} to {high:.2g})" for name, value, low, high, unit, _ in assumed_rows(result)]
+    assumed = [f"{name} {value:.3g} {unit} ({low:.2g} to {high:.2g}: {100 * stress:.0f} %)" for name, value, low, high, unit, stress, _ in assumed_rows(result)]
     if assumed:
-        console.print(f"[dim]assumed, and the stress moves with it (usual range): {escape(', '.join(assumed))}[/]", soft_wrap=True)
+        console.print(
+            f"[dim]assumed, and the stress moves with it (usual range: change of the worst head over it): {escape(', '.join(assumed))}[/]", soft_wrap=True
+        )
     if about.get("replaced"):
         messages.print(f"[yellow]note:[/] the scene replaces values of the bearing: {escape(shortlist(about['replaced']))}", soft_wrap=True)
     for source, names in about.get("not_given", {}).items():

@@ -48,6 +48,11 @@ class Sensitivity:
     chosen: tuple
     sobol: dict = field(default_factory=dict)
 
+    @property
+    def ranked(self):
+        """Indices of the factors by their effect on the first response, the largest first."""
+        return order(self, self.responses[0])
+
 
 @dataclass(frozen=True)
 class Study:
@@ -144,6 +149,24 @@ def write_indices(found, path):
     """Write all indices as JSON, whole or not at all; returns the path."""
     write_atomically(path, lambda temporary: temporary.write_text(json.dumps(vars(found), indent=1) + "\n", encoding="utf-8"))
     return path
+
+
+def read_indices(path):
+    """The Sensitivity that write_indices wrote at a path, or in a folder; UserError names what is wrong."""
+    path = Path(path)
+    path = path / "sensitivity.json" if path.is_dir() else path
+    try:
+        record = json.loads(path.read_text(encoding="utf-8"))
+        found = Sensitivity(**record)
+        whole = all(len(found.morris[name][key]) == len(found.factors) for name in found.responses for key in ("mu_star", "mu_star_conf", "sigma"))
+        whole = whole and all("noise" in found.morris[name] for name in found.responses) and len(found.factors) > 0 < len(found.responses)
+    except OSError as error:
+        raise UserError(f"{path}: {error.strerror or error}; allowed is the sensitivity.json of `riveted-bearing sensitivity`, or its folder") from None
+    except (ValueError, TypeError, KeyError):
+        whole = False
+    if not whole:
+        raise UserError(f"{path}: not a record of `riveted-bearing sensitivity`")
+    return found
 
 
 def write_picture(found, path):
