@@ -223,13 +223,13 @@ def test_a_killed_driver_leaves_what_is_done(tmp_path, model, client):
         [sys.executable, "-m", "riveted_bearing", "sweep", study, "--out", out, "--workers", "1"], env=os.environ | {"PYTHONPATH": str(ROOT)}
     )
     patience = time.monotonic() + 120
-    while len(list(out.glob("run-*.parquet"))) < 2 and time.monotonic() < patience:
+    while not list(out.glob("run-*.parquet")) and time.monotonic() < patience:
         time.sleep(0.02)
     driver.kill()
     driver.wait()
     assert not (out / "runs.parquet").exists()  # it was the middle
     before = {key for path in out.glob("run-*.parquet") for key in read_rows(path)["key"].to_pylist()}
-    assert 2 <= len(before) < 24
+    assert 1 <= len(before) < 24
     counts = []
     rows = run_sweep(load_sweep(study, model), out, client, lambda done, failed, total: counts.append(done))
     assert counts == list(range(len(before), 25)) and rows["start.seed"].tolist() == list(range(1, 25)) and len(set(rows["key"])) == 24
@@ -269,5 +269,15 @@ def test_a_sweep_ends_with_a_table_a_picture_and_a_page(tmp_path, model, client)
     assert "&lt;mine&gt;" in page and page.count("<svg") == len(table.responses) and cells[1][3] in page
 
 
-def test_rows_that_arrive_fast_share_files(tmp_path, model, plan_of_many):
-    """Writing takes a twentieth of the time at most: rows wait until then; no row is lost, none comes twice."""
+def test_rows_that_arrive_fast_share_files(tmp_path, model, monkeypatch):
+    """Writing takes a twentieth of the time: a file that takes 1 s is followed by the next one 20 s later, whose rows have come meanwhile; none is lost."""
+    sweep = plan(tmp_path, model, "repeats = 30\n" + SHORT)
+    clock = iter(np.arange(0.0, 1e3))  # one second between any two looks at the clock
+    monkeypatch.setattr(engine.time, "monotonic", lambda: float(next(clock)))
+    store = engine.RowStore(tmp_path / "out", engine.schema_of(sweep))
+    (tmp_path / "out").mkdir()
+    for key in sweep.scenes:
+        store.add(engine.about_run(sweep, key) | {"status": "done", "message": "", "date": "2026-01-01T00:00:00.000+00:00"})
+    store.write()
+    keys = [read_rows(path)["key"].to_pylist() for path in (tmp_path / "out").iterdir()]
+    assert sorted(map(len, keys)) == [1, 9, 20] and sorted(sum(keys, [])) == sorted(sweep.scenes)
