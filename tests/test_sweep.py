@@ -1,5 +1,6 @@
 """Sweeps: designs, and runs on a real Dask cluster whose workers and driver are killed in the middle."""
 
+import itertools
 import json
 import os
 import signal
@@ -280,4 +281,4 @@ def test_rows_that_arrive_fast_share_files(tmp_path, model, monkeypatch):
         store.add(engine.about_run(sweep, key) | {"status": "done", "message": "", "date": "2026-01-01T00:00:00.000+00:00"})
     store.write()
     keys = [read_rows(path)["key"].to_pylist() for path in (tmp_path / "out").iterdir()]
-    assert sorted(map(len, keys)) == [1, 9, 20] and sorted(sum(keys, [])) == sorted(sweep.scenes)
+    assert sorted(map(len, keys)) == [1, 9, 20] and sorted(itertools.chain(*keys)) == sorted(sweep.scenes)
