@@ -48,7 +48,7 @@ rivets = "alike"
 half_width = 0.15
 max_seeds = 480
 """
-RECORD_S, WHOLE_SEEDS = 1.0, 24  # length of the record of speed
+RECORD_S, WHOLE_SEEDS = 12.0, 6  # length of the record of speed [s]: slow enough for the cage to follow
 HISTORY = """
 scene = "demo"
 simulation.t_end = 0.2
@@ -137,9 +137,9 @@ def life_of(mission, pool):
 
 
 def binned(shop):
-    """The speed swings once between 10,000 and 18,000 r/min; the record has a sample each millisecond, the run goes linearly between them."""
-    t = np.arange(0.0, RECORD_S, 1e-3)
-    speed = 14000.0 - 4000.0 * np.cos(2.0 * np.pi * t / RECORD_S)
+    """The speed swings once between 15,000 and 18,000 r/min; the record has a sample each 10 ms, the run goes linearly between them."""
+    t = np.arange(0.0, RECORD_S, 1e-2)
+    speed = 16500.0 - 1500.0 * np.cos(2.0 * np.pi * t / RECORD_S)
     np.savetxt(shop.folder / "speed.csv", np.column_stack([t, speed]), delimiter=",", header="t,n", comments="")
     settle = 0.02  # the run's beginning, which does not count, has the record's first speed
     points = [0.0, *map(float, t + settle)], [float(n) * np.pi / 30.0 for n in (speed[0], *speed)]

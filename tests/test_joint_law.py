@@ -276,7 +276,7 @@ def fine_alike():
 
 @pytest.mark.slow
 @pytest.mark.parametrize("P", [20.0, 40.0, 60.0])
-def test_tension_and_stress_over_speed(fine_alike, P):
+def test_tension_and_stress_over_speed(fine_alike, P, record_property):
     """The shipped table at rest of the impacts beside the direct contact on finer elements and fresh stress on a finer grid of angles: within 5 %."""
     contact, column = fine_alike
     table, joint, fit = rivet_table.read(rivet_table.DEFAULT_TABLE), load_cases.Joint(G, load_cases.TRUTH), -6e-6
@@ -287,7 +287,7 @@ def test_tension_and_stress_over_speed(fine_alike, P):
         T_direct, _, m_direct = contact.solve(P, (contact.loads(column=omega**2 * column)[0], np.zeros(1))).rivet[0]
         head = rivet_rom.rivet_rom_stress(table, rivet_rom.RivetLoad(T=T, m_z=m_t), fit)[0][0] / 1e6
         direct = joint.channels(joint.solve_shank(T_direct, 0.0, m_direct, 0.0, fit)[0][:, None])[0, 0] / 1e6
-        print(f"| {P:.0f} | {speed:,.0f} | {T:.1f} / {T_direct:.1f} | {1e3 * m_t:.2f} / {1e3 * m_direct:.2f} | {head:.1f} / {direct:.1f} |")
+        record_property("row", [P, float(speed), float(T), float(T_direct), 1e3 * float(m_t), 1e3 * float(m_direct), float(head), float(direct)])
         assert pytest.approx(T_direct, rel=0.05) == T
         assert head == pytest.approx(direct, rel=0.05)
 
