@@ -108,7 +108,7 @@ def test_out_of_range_is_refused():
 
 @pytest.mark.slow
 def test_the_order_of_damage_is_found_again(core):
-    """Nine rivets with preloads and fits of their own, each measured in a bearing where it alone differs: the bearing in which all differ has them in this order.
+    """Nine rivets that differ, each measured in a bearing where it alone does: the bearing in which all differ has them in this order.
 
     Pairs whose damage differs 3 times or more; 64 seeds of 0.1 s, because a rivet's damage scatters by a factor of 5 from seed to seed (16 seeds find 18 of 21
     pairs, 64 seeds 24 of 24).
