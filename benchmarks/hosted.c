@@ -20,7 +20,7 @@ typedef struct {
     SUNNonlinearSolver solver;
     SUNAdaptController controller;
     VerletState *now, *next;
-    double goal, t_stop, factor;
+    double goal, t_stop, proposed;
 } Host;
 
 static Host host;  // of one instance at a time
@@ -57,10 +57,10 @@ static int take_step(SUNNonlinearSolver solver, N_Vector predicted, N_Vector cor
     const double h = 2.0 * gamma;
     const double error = in->kernels->verlet(in->model, in->s->t, h, in->weight, host.now, host.next, in->w);
     in->s->rhs_evals += 1.0;
-    host.factor = step_factor(error);
+    SUNAdaptController_EstimateStep(in->control, h, ORDER, error, &host.proposed);
     if (!(error <= 1.0)) {
         in->s->error_tests_failed += 1.0;
-        host.goal = h * fmax(host.factor, MIN_FACTOR);
+        host.goal = host.proposed;
         ARKodeSetMaxCFailGrowth(host.arkode, step_length(host.goal, host.t_stop - in->s->t) / h);
         return SUN_NLS_CONV_RECVR;
     }
@@ -68,17 +68,11 @@ static int take_step(SUNNonlinearSolver solver, N_Vector predicted, N_Vector cor
     return SUN_SUCCESS;
 }
 
-static SUNAdaptController_Type controller_type(SUNAdaptController controller)
-{
-    (void)controller;
-    return SUN_ADAPTCONTROLLER_H;
-}
-
 static SUNErrCode next_step(SUNAdaptController controller, sunrealtype h, int p, sunrealtype error,
                             sunrealtype *h_next)
 {
     (void)controller, (void)p, (void)error;
-    if (h >= host.goal * (1.0 - LAST_STEP) || host.factor < 1.0) host.goal = h * fmin(host.factor, MAX_FACTOR);
+    if (h >= host.goal * (1.0 - LAST_STEP) || host.proposed < h) host.goal = host.proposed;
     const double left = host.t_stop - (host.in->s->t + h);
     *h_next = (left > 0.0 ? step_length(host.goal, left) : host.goal) / HALF;
     return SUN_SUCCESS;
@@ -94,7 +88,7 @@ static bool host_create(Integrator *in)
     host.solver->ops->solve = take_step;
     host.solver->ops->setsysfn = no_system;
     host.controller = SUNAdaptController_NewEmpty(in->sun);
-    host.controller->ops->gettype = controller_type;
+    host.controller->ops->gettype = control_type;
     host.controller->ops->estimatestep = next_step;
     ARKodeButcherTable table = ARKodeButcherTable_Create(2, 2, 1, c, A, b, b);
     int status = ARKStepSetTables(host.arkode, 2, 1, table, NULL);
