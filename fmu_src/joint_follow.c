@@ -11,10 +11,11 @@
 // A joint that carries nothing has K_0^-1 as its slope, everywhere.
 #include "joint_follow.h"
 
-// Sweeps from the moves of the instant before, and after the law has been asked; how often it may be.
-enum { FOLLOW_SWEEPS = 3, ASKED_SWEEPS = 2, ROUNDS = 3 };
+// Sweeps at most, and how often the law may be asked at one instant.
+enum { FOLLOW_SWEEPS = 4, ROUNDS = 3 };
 
-static const double REACH = 0.05;
+// Parts of s: how far tangents reach; change of L* by a sweep below which there is no other one.
+static const double REACH = 0.05, SETTLED = 0.002;
 
 // Weights of the three splines of an axis at a coordinate u in cells, and their derivatives.  Returns the cell.
 INLINE int axis_slopes(scalar u, int cells, scalar w[3], scalar dw[3])
@@ -180,9 +181,28 @@ INLINE void move_joints(const ball_array P, wide alone[PACKETS][3], JointTangent
             for (int i = 0; i < 3; i++) wide_store(&t->move[i][turn * Z + p * LANE_WIDTH], move[p][i]);
 }
 
+// Sweeps until L* changes no more; what is left are the moves under it.
+static void settle(const JointLaw *law, ball_array bonded[3], const ball_array P, const wide s[PACKETS],
+                   JointTangents *t, wide alone[PACKETS][3])
+{
+    find_alone(law, bonded, t->move, alone);
+    for (int sweep = 1; sweep < FOLLOW_SWEEPS; sweep++) {
+        wide next[PACKETS][3], most = wide_set(0.0);
+        move_joints(P, alone, t);
+        find_alone(law, bonded, t->move, next);
+        for (int p = 0; p < PACKETS; p++) {
+            const wide change = joint_size(law, next[p][0] - alone[p][0], next[p][1] - alone[p][1],
+                                           next[p][2] - alone[p][2]);
+            most = wide_max(most, change - SETTLED * s[p]);
+            for (int i = 0; i < 3; i++) alone[p][i] = next[p][i];
+        }
+        if (!wide_any(wide_above(most, 0.0))) break;
+    }
+}
+
 // Asks the law for the joints that are beyond the reach of their tangents; whether there are any.
-static bool renew(const JointLaw *law, ball_array bonded[3], const ball_array P, const constants intact,
-                  wide alone[PACKETS][3], JointTangents *t)
+static bool renew(const JointLaw *law, const ball_array P, const constants intact,
+                  const wide s[PACKETS], wide alone[PACKETS][3], JointTangents *t)
 {
     ball_array L[3];
     bool any = false;
@@ -190,9 +210,8 @@ static bool renew(const JointLaw *law, ball_array bonded[3], const ball_array P,
         const int k = p * LANE_WIDTH;
         wide change[FOLLOW_GIVEN];
         find_change(t, alone[p], P, k, change);
-        const wide s = wide_load(&P[k]) + joint_size(law, wide_load(&bonded[0][k]), wide_load(&bonded[1][k]),
-                                                     wide_load(&bonded[2][k]));
-        const wide beyond = joint_size(law, change[0], change[1], change[2]) + wide_abs(change[3]) - REACH * s;
+        const wide beyond =
+            joint_size(law, change[0], change[1], change[2]) + wide_abs(change[3]) - REACH * s[p];
         int mask = wide_mask(wide_above(wide_min(beyond, wide_load(&intact[k]) - 0.5), 0.0));
         if (mask == 0) continue;
         for (int i = 0; i < 3; i++) wide_store(&L[i][k], alone[p][i]);
@@ -208,18 +227,18 @@ static bool renew(const JointLaw *law, ball_array bonded[3], const ball_array P,
 void joints_follow(const JointLaw *law, ball_array bonded[3], const ball_array P, const constants intact,
                    scalar spin_M, scalar spin_P, JointTangents *t, ball_array load[3], ball_array rivet[3])
 {
-    wide alone[PACKETS][3];
+    wide alone[PACKETS][3], s[PACKETS];
     if (!t->known) begin_alike(law, intact, spin_M, spin_P, t);
-    for (int sweep = 0; sweep < FOLLOW_SWEEPS; sweep++) {
-        find_alone(law, bonded, t->move, alone);
-        move_joints(P, alone, t);
+    for (int p = 0; p < PACKETS; p++) {
+        const int k = p * LANE_WIDTH;
+        s[p] = wide_load(&P[k]) + joint_size(law, wide_load(&bonded[0][k]), wide_load(&bonded[1][k]),
+                                             wide_load(&bonded[2][k]));
     }
-    find_alone(law, bonded, t->move, alone);
-    for (int round = 0; round < ROUNDS && renew(law, bonded, P, intact, alone, t); round++)
-        for (int sweep = 0; sweep < ASKED_SWEEPS; sweep++) {
-            move_joints(P, alone, t);
-            find_alone(law, bonded, t->move, alone);
-        }
+    settle(law, bonded, P, s, t, alone);
+    for (int round = 0; round < ROUNDS && renew(law, P, intact, s, alone, t); round++) {
+        move_joints(P, alone, t);
+        settle(law, bonded, P, s, t, alone);
+    }
     move_joints(P, alone, t);
     for (int p = 0; p < PACKETS; p++) {
         const int k = p * LANE_WIDTH;
