@@ -46,7 +46,10 @@ static void add_stress(Bearing *b, bool counts, double h)
     memcpy(&law, &s->p.fatigue, sizeof law);
 
     // stress of all rivets
-    b->kernels.rivets_load(&b->model, &b->w, &load);
+    if (s->integrator.t < b->t_point)
+        b->kernels.rivets_follow(&b->model, &b->w, &b->joints, &load);
+    else
+        b->kernels.rivets_load(&b->model, &b->w, &load);
     b->kernels.rivet_rom_stress(&rivet_table, &load, b->d.fit_eff, false, sigma);
     const double *head = sigma[HEAD_P1], *mid = sigma[MID_VM];
 
@@ -281,6 +284,7 @@ PartStatus part_initialize(Bearing *b, double t_start, double tolerance)
         status = PART_WARNING;
     }
 
+    b->t_point = t_start;
     // first evaluation; the start counts as an accepted step of length 0
     integrator_evaluate(b->integrator);
     if (!check_start(b)) return PART_ERROR;
@@ -347,6 +351,9 @@ PartStatus part_step(Bearing *b, double t_end)
     for (int k = 0; k < Z; k++) s->head_peak[k] = s->mid_peak[k] = 0.0;
     b->current = 0;
     b->evaluated = false;
+
+    b->joints.known = false;
+    b->t_point = t_end;
 
     // one advance for each stretch between edges of pulses
     int status = 0;

@@ -9,6 +9,7 @@
 #undef verlet_step
 #undef race_contact_force
 #undef rivets_load
+#undef rivets_follow
 #undef rivet_rom_stress
 #define DECLARE_2(isa)                         \
     Rhs rhs_##isa;                             \
@@ -16,11 +17,13 @@
     VerletStep verlet_step_##isa;              \
     ImplicitSolve implicit_solve_##isa;        \
     RivetsLoad rivets_load_##isa;              \
+    RivetsFollow rivets_follow_##isa;          \
     RivetRomStress rivet_rom_stress_##isa;     \
     extern const VectorOps vector_ops_##isa, vector_ops_elastic_##isa
 #define KERNELS_2(isa)                                                                                  \
     ((Kernels){#isa, rhs_##isa, race_contact_force_##isa, &vector_ops_##isa, &vector_ops_elastic_##isa, \
-               verlet_step_##isa, implicit_solve_##isa, rivets_load_##isa, rivet_rom_stress_##isa})
+               verlet_step_##isa, implicit_solve_##isa, rivets_load_##isa, rivets_follow_##isa,       \
+               rivet_rom_stress_##isa})
 #define DECLARE(isa) DECLARE_2(isa)
 #define KERNELS(isa) KERNELS_2(isa)
 

@@ -25,11 +25,9 @@ typedef struct {
     scalar weight[2 * TERMS];
 } Touch;
 
-static Touch touch_of(const HalfPath *path, int side, const PathForces *on, int j)
+static Touch touch_of(const HalfPath *path, int side, const PathForces *on, scalar chi, int j)
 {
     const bool back = scalar_value(on->push_t[j]) < 0.0;
-    const wide push_x = wide_abs(wide_set(on->push_x[j])), push_t = wide_abs(wide_set(on->push_t[j]));
-    const scalar chi = wide_lane(wide_atan(push_x / wide_max(push_t, wide_set(1e-30))), 0);
     int i = 0;
     while (i < path->nodes - 2 && scalar_value(chi) >= path->chi[i + 1]) i++;
     const double h = path->chi[i + 1] - path->chi[i];
@@ -54,6 +52,13 @@ static void add_touch(const Touch *touch, int j, octet joint[Z])
     }
 }
 
+// chi of the pockets j, j + 1, ...
+INLINE void find_chi(const PathForces *on, int j, scalar chi[LANE_WIDTH])
+{
+    const wide push_x = wide_abs(wide_load(&on->push_x[j])), push_t = wide_abs(wide_load(&on->push_t[j]));
+    wide_store(chi, wide_atan(push_x / wide_max(push_t, wide_set(1e-30))));
+}
+
 // Bit k: pocket j + k is touched.
 INLINE int touched_pockets(const PathForces *on, int j)
 {
@@ -69,11 +74,13 @@ bool half_path_rows(const HalfPath *path, const PathForces on[2], PathRows *rows
     for (int h = 0; h < 2; h++) {
         for (int p = 0; p < PACKETS; p++) {
             int mask = touched_pockets(&on[h], p * LANE_WIDTH);
+            scalar chi[LANE_WIDTH];
+            if (mask != 0) find_chi(&on[h], p * LANE_WIDTH, chi);
             for (int j = p * LANE_WIDTH; mask != 0 && j < Z; mask >>= 1, j++) {
                 if (!(mask & 1)) continue;
                 if (!touched) memset(joint, 0, sizeof joint);
                 touched = true;
-                const Touch touch = touch_of(path, h == 0 ? -1 : 1, &on[h], j);
+                const Touch touch = touch_of(path, h == 0 ? -1 : 1, &on[h], chi[j - p * LANE_WIDTH], j);
                 add_touch(&touch, j, joint);
             }
         }

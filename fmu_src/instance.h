@@ -6,6 +6,7 @@
 #include "events.h"
 #include "fatigue.h"
 #include "integrator.h"
+#include "joint_follow.h"
 #include "part.h"
 #include "ring_load.h"
 #include "statistics.h"
@@ -52,6 +53,8 @@ struct Part {
     Model model;
     ElasticHalf *elastic;  // of a scene with elastic halves, kept for the next one; else NULL
     Work w;
+    JointTangents joints;  // of the accepted steps since the last communication point
+    double t_point;        // next communication point [s]
     Outputs out;
     Kernels kernels;
     Integrator *integrator;

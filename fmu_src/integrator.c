@@ -5,8 +5,9 @@
 //   explicit   classical Runge-Kutta 4(3), stepped by ARKODE: for tolerances below 2e-5, and as a check
 //
 // Order, error estimate and step-size control are derived in docs/method.md; bearing_model/verlet.py has the
-// control again.  SUNDIALS steps the explicit method, carries its vectors and reports its errors; the default
-// method needs none of it.
+// control again.  The step sizes of both methods come from a SUNAdaptController: of the explicit one from SUNDIALS'
+// PID controller, of the default one from step_estimate below.  SUNDIALS steps the explicit method, carries its
+// vectors and reports its errors.
 //
 // Determinism: an advance is a function of IntegratorState, model and t_stop alone, bit for bit, so that a
 // restored state and another instance go on alike.  For this ARKODE is reset at the start of every advance,
@@ -44,6 +45,7 @@ struct Integrator {
     SUNContext sun;
     N_Vector y;  // the step's result
     void *arkode;
+    SUNAdaptController control;  // of the default method
     const VectorOps *ops;  // of the scene
     double weight[N_ALL_STATES];
     VerletState trial;
@@ -234,6 +236,40 @@ static int weights(N_Vector y, N_Vector ewt, void *user)
     return 0;
 }
 
+// ---- control of the default method's steps ----------------------------------------------------------------
+
+// The estimated error of a step is proportional to h^3 (order two), so the step that would just be accepted is
+// error^(-1/3) times as long; SAFETY keeps the next one below it.  A step is at least MIN_FACTOR and at most MAX_FACTOR
+// times as long as the one before: contacts open and close, and estimates over a kink of the forces mean little.
+static const double SAFETY = 0.8, MIN_FACTOR = 0.2, MAX_FACTOR = 1.5;
+enum { ORDER = 2 };
+
+// Without error the next step is as long as it may be; a NaN as error means that the step has left the range of the
+// model, and gives the shortest one.
+static SUNErrCode step_estimate(SUNAdaptController control, sunrealtype h, int order, sunrealtype error,
+                                sunrealtype *h_next)
+{
+    (void)control, (void)order;
+    const double factor = error > 0.0 ? SAFETY * approx_inv_cbrt(error) : error == 0.0 ? MAX_FACTOR : 0.0;
+    *h_next = h * fmin(fmax(factor, MIN_FACTOR), MAX_FACTOR);
+    return SUN_SUCCESS;
+}
+
+static SUNAdaptController_Type control_type(SUNAdaptController control)
+{
+    (void)control;
+    return SUN_ADAPTCONTROLLER_H;
+}
+
+static SUNAdaptController control_new(SUNContext sun)
+{
+    SUNAdaptController control = SUNAdaptController_NewEmpty(sun);
+    if (control == NULL) return NULL;
+    control->ops->gettype = control_type;
+    control->ops->estimatestep = step_estimate;
+    return control;
+}
+
 // ---- creation ---------------------------------------------------------------------------------------------
 
 // An error message of SUNDIALS, to the log.
@@ -304,7 +340,8 @@ Integrator *integrator_create(const Kernels *kernels, const Model *model, Work *
     if (fine) {
         SUNContext_ClearErrHandlers(in->sun);
         fine = SUNContext_PushErrHandler(in->sun, report, in) == SUN_SUCCESS &&
-               (in->y = vector_new(in->sun, &in->ops)) != NULL;
+               (in->y = vector_new(in->sun, &in->ops)) != NULL &&
+               (in->control = control_new(in->sun)) != NULL;
     }
     if (fine) {  // error weights of 1 for the warm-up, until integrator_tolerance
         in->arkode = ERKStepCreate(explicit_rhs, 0.0, in->y, in->sun);
@@ -325,6 +362,7 @@ void integrator_destroy(Integrator *in)
     if (in == NULL) return;
     reserved_memory_use(&in->memory);
     if (in->arkode != NULL) ARKodeFree(&in->arkode);
+    if (in->control != NULL) SUNAdaptController_Destroy(in->control);
     if (in->y != NULL) N_VDestroy(in->y);
     if (in->sun != NULL) SUNContext_Free(&in->sun);
     reserved_memory_use(NULL);
@@ -349,12 +387,6 @@ void integrator_evaluate(Integrator *in)
     s->f_is_current = 1;
 }
 
-// Control of the step size.  The estimated error of a step is proportional to h^3 (order two), so the step
-// that would just be accepted is error^(-1/3) times as long; SAFETY keeps the next one below it.  A step is
-// at least MIN_FACTOR and at most MAX_FACTOR times as long as the one before: contacts open and close, and
-// estimates over a kink of the forces mean little.
-static const double SAFETY = 0.8, MIN_FACTOR = 0.2, MAX_FACTOR = 1.5;
-
 // Part of a step by which the last step before t_stop may be longer than the controller wants: the rounding
 // of time must not leave a last step of no length.
 static const double LAST_STEP = 1e-9;
@@ -366,14 +398,6 @@ static int step_underflow(const Integrator *in, const char *method, double h)
              method, h);
     in->log(in->context, text);
     return ARK_ERR_FAILURE;
-}
-
-// Factor between a step and the next one of the same quality.  Without error it has no bound but MAX_FACTOR;
-// a NaN as error means that the step has left the range of the model, and gives the smallest factor.
-static double step_factor(double error)
-{
-    if (error > 0.0) return SAFETY * approx_inv_cbrt(error);
-    return error == 0.0 ? MAX_FACTOR : 0.0;
 }
 
 // Length of the next step: the controller's goal, or what is left to t_stop, or half of that if two steps are
@@ -402,13 +426,14 @@ static int verlet_advance(Integrator *in, double t_stop, long max_steps)
             break;
         }
         const double error = in->kernels->verlet(in->model, s->t, h, in->weight, now, next, in->w);
-        const double factor = step_factor(error);
+        double proposed;
+        SUNAdaptController_EstimateStep(in->control, h, ORDER, error, &proposed);
         s->rhs_evals += 1.0;
 
         // Refused, also if the error is not a number: the same step again, shorter.
         if (!(error <= 1.0)) {
             s->error_tests_failed += 1.0;
-            goal = h * fmax(factor, MIN_FACTOR);
+            goal = proposed;
             continue;
         }
 
@@ -417,7 +442,7 @@ static int verlet_advance(Integrator *in, double t_stop, long max_steps)
         now = next, next = before;
         s->t = h == left ? t_stop : s->t + h;
         s->steps += 1.0;
-        if (h == goal || factor < 1.0) goal = h * fmin(factor, MAX_FACTOR);
+        if (h == goal || proposed < h) goal = proposed;
         in->hook(in->context, h, in->w);
     }
     if (now != &s->now) s->now = *now;

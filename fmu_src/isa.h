@@ -30,6 +30,8 @@
 #define bolt_group FOR_ISA(bolt_group)
 #define half_path_rows FOR_ISA(half_path_rows)
 #define joints_open FOR_ISA(joints_open)
+#define joints_follow FOR_ISA(joints_follow)
 #define joints_slip FOR_ISA(joints_slip)
 #define rivets_load FOR_ISA(rivets_load)
+#define rivets_follow FOR_ISA(rivets_follow)
 #define rivet_rom_stress FOR_ISA(rivet_rom_stress)

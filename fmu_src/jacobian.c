@@ -13,6 +13,7 @@
 #include "energy.c"
 #include "half_path.c"
 #include "joint_law.c"
+#include "joint_follow.c"
 #include "land_film.c"
 #include "outputs.c"
 #include "pocket.c"

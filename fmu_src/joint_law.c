@@ -6,10 +6,9 @@ enum { SWEEPS = 6, SLIP_SWEEPS = 3 };
 static const double NEAR = 0.05, CHANGE = 0.01;
 
 // ---- opening --------------------------------------------------------------------------------------------------------
-// What is sought: moves of all joints, once more behind the last one, so that those of neighbours lie side by
-// side; L* that the joints have answered to; loads of the rivets.
+// What is sought: moves of all joints, L* that the joints have answered to, loads of the rivets.
 typedef struct {
-    scalar move[3][2 * Z + LANES];
+    JointMoves move;
     ball_array alone[3], *rivet;
 } Opening;
 
@@ -23,39 +22,6 @@ INLINE void want(Wanted *wanted, int k, int mask)
 {
     for (; mask != 0; mask >>= 1, k++)
         if (mask & 1 && k < Z) wanted->joint[wanted->count++] = k;
-}
-
-// |N| + (|M_r| + |M_t|)/l.
-INLINE wide size(const JointLaw *law, wide N, wide M_r, wide M_t)
-{
-    return wide_abs(N) + (wide_abs(M_r) + wide_abs(M_t)) * (1.0 / law->length);
-}
-
-// What all joints have in common, of the table's `alike` for c and P, in newtons.
-static void find_alike(const JointLaw *law, scalar c, scalar P, scalar at[ALIKE_WIDTH])
-{
-    const scalar s = c + P, x = scalar_value(s) > 0.0 ? c / s * (law->alike_count - 1.0) : 0.0;
-    const int i = (int)scalar_min(scalar_max(scalar_value(x), 0.0), law->alike_count - 2.0);
-    const double *from = law->alike[i], *to = law->alike[i + 1];
-    const scalar up = x - i;
-    for (int n = 0; n < ALIKE_WIDTH; n++) at[n] = from[n] + up * (to[n] - from[n]);
-    for (int n = 0; n < ALIKE_SLOPES; n++) at[n] *= s;
-}
-
-// L* of all joints by the moves of their neighbours.
-static void find_alone(const JointLaw *law, ball_array bonded[3], const Opening *o, wide alone[PACKETS][3])
-{
-    for (int p = 0; p < PACKETS; p++)
-        for (int i = 0; i < 3; i++) alone[p][i] = wide_load(&bonded[i][p * LANE_WIDTH]);
-    for (int n = 0; n < law->neighbours; n++)
-        for (int m = 0; m < 3; m++) {
-            const scalar *move = &o->move[m][Z - law->neighbour[n]];
-            for (int i = 0; i < 3; i++) {
-                const wide K = wide_set(-law->K[n][i][m]);
-                for (int p = 0; p < PACKETS; p++)
-                    alone[p][i] = wide_fma(K, wide_load(move + p * LANE_WIDTH), alone[p][i]);
-            }
-        }
 }
 
 // The same where all joints move alike.
@@ -98,9 +64,9 @@ static void answer_near(const JointLaw *law, ball_array bonded[3], const ball_ar
                         L[0],
                         L[1],
                         L[2]};  // moves, rivet, L*
-        const wide s = wide_load(&P[k]) + size(law, wide_load(&bonded[0][k]), wide_load(&bonded[1][k]),
+        const wide s = wide_load(&P[k]) + joint_size(law, wide_load(&bonded[0][k]), wide_load(&bonded[1][k]),
                                                wide_load(&bonded[2][k]));
-        const wide beyond = size(law, N, M_r, M_t) + wide_abs(more_P) - NEAR * s;
+        const wide beyond = joint_size(law, N, M_r, M_t) + wide_abs(more_P) - NEAR * s;
         const bits far = wide_above(wide_max(beyond, 0.5 - wide_load(&intact[k])), 0.0);
         if (first)
             want(wanted, k, wide_mask(far));
@@ -112,7 +78,7 @@ static void answer_near(const JointLaw *law, ball_array bonded[3], const ball_ar
                 before[6 + i] = wide_load(&o->alone[i][k]);
             }
             const bits changed =
-                wide_above(size(law, L[0] - before[6], L[1] - before[7], L[2] - before[8]) - CHANGE * s, 0.0);
+                wide_above(joint_size(law, L[0] - before[6], L[1] - before[7], L[2] - before[8]) - CHANGE * s, 0.0);
             want(wanted, k, wide_mask(far & changed));
             for (int i = 0; i < 6; i++) near[i] = wide_select(far, before[i], near[i]);
             for (int i = 6; i < 9; i++)
@@ -129,21 +95,6 @@ static void answer_near(const JointLaw *law, ball_array bonded[3], const ball_ar
             for (int i = 0; i < 3; i++) wide_store(&o->move[i][turn * Z + p * LANE_WIDTH], move[p][i]);
 }
 
-// The move of a joint that carries nothing: K_0 move = L*, by Cramer's rule.
-static void joint_free(const double K[3][3], const scalar load[3], scalar move[3])
-{
-    double cofactor[3][3], det = 0.0;
-    for (int i = 0; i < 3; i++)
-        for (int j = 0; j < 3; j++) {
-            const int a = (i + 1) % 3, b = (i + 2) % 3, c = (j + 1) % 3, e = (j + 2) % 3;
-            cofactor[i][j] = K[a][c] * K[b][e] - K[a][e] * K[b][c];
-        }
-    for (int j = 0; j < 3; j++) det += K[0][j] * cofactor[0][j];
-    for (int j = 0; j < 3; j++)
-        move[j] =
-            (cofactor[0][j] * load[0] + cofactor[1][j] * load[1] + cofactor[2][j] * load[2]) * (1.0 / det);
-}
-
 void joints_open(const JointLaw *law, ball_array bonded[3], const ball_array P, const constants intact,
                  scalar spin_M, scalar spin_P, ball_array load[3], ball_array rivet[3])
 {
@@ -157,7 +108,7 @@ void joints_open(const JointLaw *law, ball_array bonded[3], const ball_array P, 
     answer_near(law, bonded, P, intact, spin_P, at, true, L, &o, &wanted);
     for (int sweep = 0; sweep < SWEEPS && wanted.count > 0; sweep++) {
         if (sweep > 0) {
-            find_alone(law, bonded, &o, L);
+            find_alone(law, bonded, o.move, L);
             answer_near(law, bonded, P, intact, spin_P, at, false, L, &o, &wanted);
         }
         for (int n = 0; n < wanted.count; n++) {

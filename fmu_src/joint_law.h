@@ -128,6 +128,57 @@ INLINE void joint_law(const JointLaw *law, const scalar load[3], scalar P, scala
     if (energy) *energy = s * s * sum.x[LAW_ENERGY];
 }
 
+// |N| + (|M_r| + |M_t|)/l.
+INLINE wide joint_size(const JointLaw *law, wide N, wide M_r, wide M_t)
+{
+    return wide_abs(N) + (wide_abs(M_r) + wide_abs(M_t)) * (1.0 / law->length);
+}
+
+// What all joints have in common, of the table's `alike` for c and P, in newtons.
+ONCE void find_alike(const JointLaw *law, scalar c, scalar P, scalar at[ALIKE_WIDTH])
+{
+    const scalar s = c + P, x = scalar_value(s) > 0.0 ? c / s * (law->alike_count - 1.0) : 0.0;
+    const int i = (int)scalar_min(scalar_max(scalar_value(x), 0.0), law->alike_count - 2.0);
+    const double *from = law->alike[i], *to = law->alike[i + 1];
+    const scalar up = x - i;
+    for (int n = 0; n < ALIKE_WIDTH; n++) at[n] = from[n] + up * (to[n] - from[n]);
+    for (int n = 0; n < ALIKE_SLOPES; n++) at[n] *= s;
+}
+
+// Moves of all joints, once more behind the last one, so that those of neighbours lie side by side.
+typedef scalar JointMoves[3][2 * Z + LANES];
+
+// L* of all joints by the moves of their neighbours.
+INLINE void find_alone(const JointLaw *law, ball_array bonded[3], JointMoves moves, wide alone[PACKETS][3])
+{
+    for (int p = 0; p < PACKETS; p++)
+        for (int i = 0; i < 3; i++) alone[p][i] = wide_load(&bonded[i][p * LANE_WIDTH]);
+    for (int n = 0; n < law->neighbours; n++)
+        for (int m = 0; m < 3; m++) {
+            const scalar *move = &moves[m][Z - law->neighbour[n]];
+            for (int i = 0; i < 3; i++) {
+                const wide K = wide_set(-law->K[n][i][m]);
+                for (int p = 0; p < PACKETS; p++)
+                    alone[p][i] = wide_fma(K, wide_load(move + p * LANE_WIDTH), alone[p][i]);
+            }
+        }
+}
+
+// The move of a joint that carries nothing: K_0 move = L*, by Cramer's rule.
+ONCE void joint_free(const double K[3][3], const scalar load[3], scalar move[3])
+{
+    double cofactor[3][3], det = 0.0;
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++) {
+            const int a = (i + 1) % 3, b = (i + 2) % 3, c = (j + 1) % 3, e = (j + 2) % 3;
+            cofactor[i][j] = K[a][c] * K[b][e] - K[a][e] * K[b][c];
+        }
+    for (int j = 0; j < 3; j++) det += K[0][j] * cofactor[0][j];
+    for (int j = 0; j < 3; j++)
+        move[j] =
+            (cofactor[0][j] * load[0] + cofactor[1][j] * load[1] + cofactor[2][j] * load[2]) * (1.0 / det);
+}
+
 // Loads (N, M_r, M_t) of the joints and (T, m_r, m_t) of the rivets [N, N.m], from bonded loads and preloads
 // P >= 0.  intact: 1, or 0 for a joint that carries nothing, whose move takes all of L*; spin_M, spin_P: bonded
 // M_t under the centrifugal load alone, and the preload with it.

@@ -18,6 +18,7 @@ typedef struct {
     VerletStep *verlet;
     ImplicitSolve *implicit;
     RivetsLoad *rivets_load;
+    RivetsFollow *rivets_follow;
     RivetRomStress *rivet_rom_stress;
 } Kernels;
 

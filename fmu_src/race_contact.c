@@ -132,33 +132,87 @@ INLINE Tangential point_traction(const Parameters *p, const Contact *c, wide inv
     return out;
 }
 
-// Traction over the long axis of the ellipse, slice by slice.
-INLINE Tangential sliced_traction(const Parameters *p, const Race *race, const Contact *c, wide inv_U,
+// What the slices of a contact have in common.
+typedef struct {
+    vec n, t_1, t_2, slip, bend;
+    wide R, a, spin_n, Q, inv_U, f_a;
+} SlicedContact;
+
+// What a slice adds: coefficient, force, moment about the ball's centre, power.
+typedef struct {
+    wide g, g_spin, dissipated;
+    vec F, M;
+} SliceTraction;
+
+INLINE SliceTraction slice_traction(const Parameters *p, const Race *race, const SlicedContact *c, wide place,
+                                    wide part, bool mixed)
+{
+    const wide xi = c->a * place, sagitta = xi * xi * (0.5 / race->R_m);
+    const vec slip = vec_axpy(-sagitta, c->bend, vec_axpy(-xi * c->spin_n, c->t_1, c->slip));
+    const wide slip_2 = vec_dot(slip, slip) + p->oil.v_0 * p->oil.v_0;
+    const wide inv_slip = 1.0 / wide_sqrt(slip_2);
+    const wide g = part * traction_mu(p, slip_2 * inv_slip * c->inv_U, c->f_a, mixed) * c->Q * inv_slip;
+    const vec F = vec_scale(-g, slip), arm = vec_axpy(xi, c->t_2, vec_scale(c->R - sagitta, c->n));
+    return (SliceTraction){g, g * xi * xi, vec_dot(F, slip), F, vec_cross(arm, F)};
+}
+
+// Sums over the slices, which lie side by side in a packet, for one ball after the other.  Where a packet has few
+// balls this takes fewer packets than slice by slice.
+INLINE void ball_by_ball(const Parameters *p, const Race *race, const SlicedContact *all, int balls, bool mixed,
+                         Tangential *out)
+{
+    enum { PARTS = (SLICES + LANE_WIDTH - 1) / LANE_WIDTH, COMMON = sizeof *all / sizeof(wide) };
+
+    scalar place[PARTS * LANE_WIDTH] = {0.0}, part[PARTS * LANE_WIDTH] = {0.0};
+    for (int i = 0; i < SLICES; i++) place[i] = SLICE[i], part[i] = SHARE[i];
+    scalar common[COMMON][LANE_WIDTH], sum[9][LANE_WIDTH] = {{0.0}};
+    memcpy(common, all, sizeof common);
+    for (int ball = 0; ball < balls; ball++) {
+        wide one[COMMON];
+        SlicedContact c;
+        for (int i = 0; i < COMMON; i++) one[i] = wide_set(common[i][ball]);
+        memcpy(&c, one, sizeof c);
+        for (int first = 0; first < SLICES; first += LANE_WIDTH) {
+            const SliceTraction s =
+                slice_traction(p, race, &c, wide_load(&place[first]), wide_load(&part[first]), mixed);
+            scalar of[9][LANE_WIDTH];
+            const wide value[9] = {s.g, s.g_spin, -s.dissipated, s.F.x, s.F.r, s.F.t, s.M.x, s.M.r, s.M.t};
+            for (int n = 0; n < 9; n++) wide_store(of[n], value[n]);
+            for (int i = 0; i < LANE_WIDTH && first + i < SLICES; i++)
+                for (int n = 0; n < 9; n++) sum[n][ball] += of[n][i];
+        }
+    }
+    out->g = wide_load(sum[0]), out->g_spin = wide_load(sum[1]), out->dissipated = wide_load(sum[2]);
+    out->F_s = vec_load(sum[3], sum[4], sum[5]), out->M = vec_load(sum[6], sum[7], sum[8]);
+}
+
+// Traction over the long axis of the ellipse, of a packet with a number of balls.
+INLINE Tangential sliced_traction(const Parameters *p, const Race *race, const Contact *c, int balls, wide inv_U,
                                   wide f_a, bool mixed)
 {
     const wide a = race->hertz.a_delta * c->sqrt_delta, spin_n = vec_dot(c->spin, c->n);
     const vec bend = vec_cross(c->spin, c->n);  // has parts along t_1 and t_2 only
+    const SlicedContact common = {c->n, c->t_1, c->t_2, c->slip, bend, c->R, a, spin_n, c->Q, inv_U, f_a};
     Tangential out = {0};
-    for (int i = 0; i < SLICES; i++) {
-        const wide xi = a * SLICE[i], sagitta = xi * xi * (0.5 / race->R_m);
-        const vec slip_i = vec_axpy(-sagitta, bend, vec_axpy(-xi * spin_n, c->t_1, c->slip));
-        const wide slip_2 = vec_dot(slip_i, slip_i) + p->oil.v_0 * p->oil.v_0;
-        const wide inv_slip = 1.0 / wide_sqrt(slip_2);
-        const wide g = SHARE[i] * traction_mu(p, slip_2 * inv_slip * inv_U, f_a, mixed) * c->Q * inv_slip;
-        const vec F = vec_scale(-g, slip_i);
-        out.g += g;
-        out.g_spin += g * xi * xi;
-        out.F_s = vec_add(out.F_s, F);
-        out.M = vec_add(out.M, vec_cross(vec_axpy(xi, c->t_2, vec_scale(c->R - sagitta, c->n)), F));
-        out.dissipated -= vec_dot(F, slip_i);
-    }
+    if (balls * ((SLICES + LANE_WIDTH - 1) / LANE_WIDTH) < SLICES)
+        ball_by_ball(p, race, &common, balls, mixed, &out);
+    else
+        for (int i = 0; i < SLICES; i++) {
+            const SliceTraction s =
+                slice_traction(p, race, &common, wide_set(SLICE[i]), wide_set(SHARE[i]), mixed);
+            out.g += s.g;
+            out.g_spin += s.g_spin;
+            out.F_s = vec_add(out.F_s, s.F);
+            out.M = vec_add(out.M, s.M);
+            out.dissipated -= s.dissipated;
+        }
     out.spin_dissipated = -(vec_dot(out.M, c->n) * spin_n);
     return out;
 }
 
 // Traction and the inlet's rolling friction: -F_R U/|U| at the surface, and the film's horizontal pressure
 // force +F_H U/|U| through the ball's centre.
-INLINE Tangential race_traction(const Model *model, const Race *race, const Contact *c, bool mixed,
+INLINE Tangential race_traction(const Model *model, const Race *race, const Contact *c, int balls, bool mixed,
                                 bool sliced)
 {
     const Parameters *p = model->p;
@@ -173,7 +227,7 @@ INLINE Tangential race_traction(const Model *model, const Race *race, const Cont
     const vec rolling = vec_scale(F_R * inv_U, c->roll);
 
     Tangential out =
-        sliced ? sliced_traction(p, race, c, inv_U, f_a, mixed) : point_traction(p, c, inv_U, f_a, mixed);
+        sliced ? sliced_traction(p, race, c, balls, inv_U, f_a, mixed) : point_traction(p, c, inv_U, f_a, mixed);
     out.F_s = vec_sub(out.F_s, rolling);
     out.M = vec_sub(out.M, vec_cross(vec_scale(c->R, c->n), rolling));
     out.F_c = vec_scale(wide_set(race->horizontal), rolling);
@@ -231,8 +285,9 @@ INLINE void race_contact_packet(const Model *model, Work *w, int j, scalar inner
                                              vec_local(outer_ring->a, cos_theta, sin_theta),
                                              vec_local(outer_ring->v, cos_theta, sin_theta),
                                              vec_local(outer_ring->Omega, cos_theta, sin_theta));
-    const Tangential T_i = race_traction(model, &d->inner, &inner, mixed, sliced);
-    const Tangential T_e = race_traction(model, &d->outer, &outer, mixed, sliced);
+    const int balls = Z - j < LANE_WIDTH ? Z - j : LANE_WIDTH;
+    const Tangential T_i = race_traction(model, &d->inner, &inner, balls, mixed, sliced);
+    const Tangential T_e = race_traction(model, &d->outer, &outer, balls, mixed, sliced);
     store_contacts(w, j, &inner, &outer, &T_i, &T_e);
 
     // forces and moments on the balls, what the pockets add to, wrench on the ring about its centre

@@ -145,7 +145,8 @@ static void elastic_loads(const Model *model, const Work *w, JointLoads *load)
     }
 }
 
-void rivets_load(const Model *model, const Work *w, JointLoads *load)
+// Loads of all joints; tangents: of the instant before, or NULL.
+static void find_loads(const Model *model, const Work *w, JointTangents *tangents, JointLoads *load)
 {
     if (model->elastic) {
         elastic_loads(model, w, load);
@@ -187,8 +188,12 @@ void rivets_load(const Model *model, const Work *w, JointLoads *load)
         wide_store(&P[k], wide_load(&d->intact[k]) *
                               wide_max(wide_load(&d->P[k]) + wide_load(&rows.row[ROW_DP][k]), wide_set(0.0)));
     }
-    joints_open(&half->law, bonded, P, d->intact, omega2 * d->spin[ROW_M_T],
-                scalar_max(d->P_mean + omega2 * d->spin[ROW_DP], 0.0), open, rivet);
+    const scalar spin_M = omega2 * d->spin[ROW_M_T],
+                 spin_P = scalar_max(d->P_mean + omega2 * d->spin[ROW_DP], 0.0);
+    if (tangents == NULL)
+        joints_open(&half->law, bonded, P, d->intact, spin_M, spin_P, open, rivet);
+    else
+        joints_follow(&half->law, bonded, P, d->intact, spin_M, spin_P, tangents, open, rivet);
 
     // joints that slip: under the centrifugal load alone none does
     if (touched)
@@ -211,4 +216,14 @@ void rivets_load(const Model *model, const Work *w, JointLoads *load)
         wide_store(&load->V_t[k], V_t);
         wide_store(&load->F_head[k], intact * wide_hypot(heads_r, heads_t));
     }
+}
+
+void rivets_load(const Model *model, const Work *w, JointLoads *load)
+{
+    find_loads(model, w, NULL, load);
+}
+
+void rivets_follow(const Model *model, const Work *w, JointTangents *tangents, JointLoads *load)
+{
+    find_loads(model, w, tangents, load);
 }

@@ -3,12 +3,17 @@
 #pragma once
 
 #include "isa.h"
+#include "joint_follow.h"
 #include "model.h"
 #include "rivet_rom.h"
 
 // Loads of all joints from the results w of the right-hand side.
 typedef void RivetsLoad(const Model *model, const Work *w, JointLoads *load);
 RivetsLoad rivets_load;
+
+// The same from one instant of a run to the next: joints that open answer by their tangents (joint_follow.h).
+typedef void RivetsFollow(const Model *model, const Work *w, JointTangents *tangents, JointLoads *load);
+RivetsFollow rivets_follow;
 
 // Slip of half 1 against half 0 at each joint, in the plane [m].
 INLINE void rivets_slip(const Model *model, const Work *w, scalar slip[Z])
