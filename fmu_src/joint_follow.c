@@ -191,8 +191,8 @@ static void settle(const JointLaw *law, ball_array bonded[3], const ball_array P
         move_joints(P, alone, t);
         find_alone(law, bonded, t->move, next);
         for (int p = 0; p < PACKETS; p++) {
-            const wide change = joint_size(law, next[p][0] - alone[p][0], next[p][1] - alone[p][1],
-                                           next[p][2] - alone[p][2]);
+            const wide change =
+                joint_size(law, next[p][0] - alone[p][0], next[p][1] - alone[p][1], next[p][2] - alone[p][2]);
             most = wide_max(most, change - SETTLED * s[p]);
             for (int i = 0; i < 3; i++) alone[p][i] = next[p][i];
         }
@@ -201,8 +201,8 @@ static void settle(const JointLaw *law, ball_array bonded[3], const ball_array P
 }
 
 // Asks the law for the joints that are beyond the reach of their tangents; whether there are any.
-static bool renew(const JointLaw *law, const ball_array P, const constants intact,
-                  const wide s[PACKETS], wide alone[PACKETS][3], JointTangents *t)
+static bool renew(const JointLaw *law, const ball_array P, const constants intact, const wide s[PACKETS],
+                  wide alone[PACKETS][3], JointTangents *t)
 {
     ball_array L[3];
     bool any = false;
@@ -231,8 +231,8 @@ void joints_follow(const JointLaw *law, ball_array bonded[3], const ball_array P
     if (!t->known) begin_alike(law, intact, spin_M, spin_P, t);
     for (int p = 0; p < PACKETS; p++) {
         const int k = p * LANE_WIDTH;
-        s[p] = wide_load(&P[k]) + joint_size(law, wide_load(&bonded[0][k]), wide_load(&bonded[1][k]),
-                                             wide_load(&bonded[2][k]));
+        s[p] = wide_load(&P[k]) +
+               joint_size(law, wide_load(&bonded[0][k]), wide_load(&bonded[1][k]), wide_load(&bonded[2][k]));
     }
     settle(law, bonded, P, s, t, alone);
     for (int round = 0; round < ROUNDS && renew(law, P, intact, s, alone, t); round++) {

@@ -65,7 +65,7 @@ static void answer_near(const JointLaw *law, ball_array bonded[3], const ball_ar
                         L[1],
                         L[2]};  // moves, rivet, L*
         const wide s = wide_load(&P[k]) + joint_size(law, wide_load(&bonded[0][k]), wide_load(&bonded[1][k]),
-                                               wide_load(&bonded[2][k]));
+                                                     wide_load(&bonded[2][k]));
         const wide beyond = joint_size(law, N, M_r, M_t) + wide_abs(more_P) - NEAR * s;
         const bits far = wide_above(wide_max(beyond, 0.5 - wide_load(&intact[k])), 0.0);
         if (first)
@@ -77,8 +77,8 @@ static void answer_near(const JointLaw *law, ball_array bonded[3], const ball_ar
                 before[3 + i] = wide_load(&o->rivet[i][k]);
                 before[6 + i] = wide_load(&o->alone[i][k]);
             }
-            const bits changed =
-                wide_above(joint_size(law, L[0] - before[6], L[1] - before[7], L[2] - before[8]) - CHANGE * s, 0.0);
+            const bits changed = wide_above(
+                joint_size(law, L[0] - before[6], L[1] - before[7], L[2] - before[8]) - CHANGE * s, 0.0);
             want(wanted, k, wide_mask(far & changed));
             for (int i = 0; i < 6; i++) near[i] = wide_select(far, before[i], near[i]);
             for (int i = 6; i < 9; i++)

@@ -160,17 +160,19 @@ def test_following_joints_against_the_converged_fixed_point(core, half):
         load, rivet = c_follows(core, instants)
         exact_load, exact_rivet = converged(half.law, *(np.array(given) for given in list(zip(*instants, strict=True))[:2]))
         moment = np.maximum(np.abs(exact_load[..., 1:]).max(axis=(1, 2)), 1e-3)
-        errors.append([np.abs(rivet - exact_rivet)[..., 0].max(axis=1) / exact_rivet[..., 0].max(axis=1), np.abs(load - exact_load)[..., 1:].max(axis=(1, 2)) / moment])
+        errors.append(
+            [np.abs(rivet - exact_rivet)[..., 0].max(axis=1) / exact_rivet[..., 0].max(axis=1), np.abs(load - exact_load)[..., 1:].max(axis=(1, 2)) / moment]
+        )
     errors = np.array(errors)
     print("T, M: largest", errors.max(axis=(0, 2)), "RMS", np.sqrt((errors**2).mean(axis=(0, 2))))
     assert errors.max() < 0.005
 
 
 def test_following_joints_one_of_them_broken(core, half):
-    """A joint that carries nothing: its rivet has no load, the other joints the converged ones of a law without it."""
+    """A joint that carries nothing: its rivet has no load, the others what plain sweeps find, which leave 1 % of a joint's load unfollowed (observed: 0.7 %)."""
     intact = np.arange(Z) != 3
     instants = [(bonded, intact * P, *spin) for bonded, P, *spin in wandering(half, 30, 100)]
-    load, rivet = c_follows(core, instants, intact=intact)
+    rivet = c_follows(core, instants, intact=intact)[1]
     expected = [joint_law.joints_open(half.law, *instant, sweeps=100, intact=intact)[:2] for instant in instants]
     assert np.all(rivet[:, 3] == 0.0)
     largest = rivet[..., 0].max()
