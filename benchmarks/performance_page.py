@@ -321,13 +321,14 @@ latency: chains of dependent operations in few packets.
 
 def hosted(data):
     """What ARKStep costs around the core's own step."""
-    rows = [
-        [SCENES[name][0], f"{row['own loop']['us']:.2f}", f"{row['ARKStep']['us']:.2f}", f"+{100 * (row['ARKStep']['us'] / row['own loop']['us'] - 1):.0f} %"]
-        for name, row in data["scenes"].items()
-    ]
+    rows = []
+    for name, row in data["scenes"].items():
+        own, arkstep = row["own loop"]["us"], row["ARKStep"]["us"]
+        rows.append([SCENES[name][0], f"{own:.2f}", f"{arkstep:.2f}", f"+{100 * (arkstep / own - 1):.0f} %"])
     return (
         "Microseconds an evaluation with stress and statistics, the same steps taken by the core's own loop and by ARKStep, "
-        "which calls the core's step as its nonlinear solver ([method](method.md#the-explicit-method-and-sundials)).\n\n" + table(["", "own loop", "ARKStep", ""], rows) + "\n"
+        "which calls the core's step as its nonlinear solver ([method](method.md)).\n\n"
+        f"{table(['', 'own loop', 'ARKStep', ''], rows)}\n"
     )
 
 

@@ -95,13 +95,14 @@ static void answer_near(const JointLaw *law, ball_array bonded[3], const ball_ar
             for (int i = 0; i < 3; i++) wide_store(&o->move[i][turn * Z + p * LANE_WIDTH], move[p][i]);
 }
 
-void joints_open(const JointLaw *law, ball_array bonded[3], const ball_array P, const constants intact,
-                 scalar spin_M, scalar spin_P, ball_array load[3], ball_array rivet[3])
+int joints_open(const JointLaw *law, ball_array bonded[3], const ball_array P, const constants intact,
+                scalar spin_M, scalar spin_P, ball_array load[3], ball_array rivet[3])
 {
     scalar at[ALIKE_WIDTH];
     wide L[PACKETS][3];
     Opening o;
     Wanted wanted;
+    int asked = 0;
     o.rivet = rivet;
     find_alike(law, (scalar_value(spin_M) < 0.0 ? -spin_M : spin_M) / law->length, spin_P, at);
     find_alone_alike(law, bonded, at, L);
@@ -111,6 +112,7 @@ void joints_open(const JointLaw *law, ball_array bonded[3], const ball_array P, 
             find_alone(law, bonded, o.move, L);
             answer_near(law, bonded, P, intact, spin_P, at, false, L, &o, &wanted);
         }
+        asked += wanted.count;
         for (int n = 0; n < wanted.count; n++) {
             const int k = wanted.joint[n];
             const scalar alone[3] = {o.alone[0][k], o.alone[1][k], o.alone[2][k]};
@@ -135,6 +137,7 @@ void joints_open(const JointLaw *law, ball_array bonded[3], const ball_array P, 
             wide_store(&load[i][k], left);
         }
     }
+    return asked;
 }
 
 // ---- slip -----------------------------------------------------------------------------------------------------------
