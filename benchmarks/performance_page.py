@@ -319,6 +319,19 @@ latency: chains of dependent operations in few packets.
 # -------------------------------------------------------------------------------------------------------------------------------------- step
 
 
+def hosted(data):
+    """What ARKStep costs around the core's own step."""
+    rows = []
+    for name, row in data["scenes"].items():
+        own, arkstep = row["own loop"]["us"], row["ARKStep"]["us"]
+        rows.append([SCENES[name][0], f"{own:.2f}", f"{arkstep:.2f}", f"+{100 * (arkstep / own - 1):.0f} %"])
+    return (
+        "Microseconds an evaluation with stress and statistics, the same steps taken by the core's own loop and by ARKStep, "
+        "which calls the core's step as its nonlinear solver ([method](method.md)).\n\n"
+        f"{table(['', 'own loop', 'ARKStep', ''], rows)}\n"
+    )
+
+
 def step(data):
     scenes = data["scenes"].values()
     parts = dict.fromkeys(part for scene in scenes for part in scene["parts"])
@@ -512,6 +525,7 @@ Times are processor times of one core. They scatter by some percent on a machine
 {section("Run time against error", "work_precision", work_precision)}
 {section("One evaluation of the right-hand side", "rhs", rhs)}
 {section("Where a step goes", "step", step)}
+{section("The step inside ARKODE", "hosted", hosted)}
 {section("What a scene does not need", "scenes", scenes)}
 {section("Scaling", "scaling", scaling)}"""
     PAGE.write_text("\n".join(line.rstrip() for line in text.splitlines()) + "\n")

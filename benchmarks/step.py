@@ -30,6 +30,7 @@ PARTS = {  # source file -> part
     "vector_ops": "error norm",
     "half_path": "rivet loads",
     "joint_law": "rivet loads",
+    "joint_follow": "rivet loads",
     "rivets": "rivet loads",
     "rivet_rom": "rivet table",
     "bearing": "peaks and statistics",

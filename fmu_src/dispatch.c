@@ -22,7 +22,7 @@
     extern const VectorOps vector_ops_##isa, vector_ops_elastic_##isa
 #define KERNELS_2(isa)                                                                                  \
     ((Kernels){#isa, rhs_##isa, race_contact_force_##isa, &vector_ops_##isa, &vector_ops_elastic_##isa, \
-               verlet_step_##isa, implicit_solve_##isa, rivets_load_##isa, rivets_follow_##isa,       \
+               verlet_step_##isa, implicit_solve_##isa, rivets_load_##isa, rivets_follow_##isa,         \
                rivet_rom_stress_##isa})
 #define DECLARE(isa) DECLARE_2(isa)
 #define KERNELS(isa) KERNELS_2(isa)

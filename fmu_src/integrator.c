@@ -46,7 +46,7 @@ struct Integrator {
     N_Vector y;  // the step's result
     void *arkode;
     SUNAdaptController control;  // of the default method
-    const VectorOps *ops;  // of the scene
+    const VectorOps *ops;        // of the scene
     double weight[N_ALL_STATES];
     VerletState trial;
     const double *latest;       // where ARKODE keeps the latest evaluation
@@ -242,6 +242,7 @@ static int weights(N_Vector y, N_Vector ewt, void *user)
 // error^(-1/3) times as long; SAFETY keeps the next one below it.  A step is at least MIN_FACTOR and at most MAX_FACTOR
 // times as long as the one before: contacts open and close, and estimates over a kink of the forces mean little.
 static const double SAFETY = 0.8, MIN_FACTOR = 0.2, MAX_FACTOR = 1.5;
+
 enum { ORDER = 2 };
 
 // Without error the next step is as long as it may be; a NaN as error means that the step has left the range of the

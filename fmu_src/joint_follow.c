@@ -7,12 +7,13 @@
 //
 // and the law is asked, value and slope, where L* and P are farther than REACH s from there.  Between the joints the
 // equations are linear then: sweeps over all joints, side by side, without the law (joint_law.h: a sweep leaves a
-// fifth to a half of the error).  At the first instant all joints have the tangent at the state where they are alike.
+// fifth to a half of the error).  The first tangent of all joints is the one where they are alike.  While joints_open asks
+// the law FEW times at an instant it costs less than the sweeps, and finds the loads by itself.
 // A joint that carries nothing has K_0^-1 as its slope, everywhere.
 #include "joint_follow.h"
 
 // Sweeps at most, and how often the law may be asked at one instant.
-enum { FOLLOW_SWEEPS = 4, ROUNDS = 3 };
+enum { FOLLOW_SWEEPS = 4, ROUNDS = 3, FEW = 6 };
 
 // Parts of s: how far tangents reach; change of L* by a sweep below which there is no other one.
 static const double REACH = 0.05, SETTLED = 0.002;
@@ -191,8 +192,8 @@ static void settle(const JointLaw *law, ball_array bonded[3], const ball_array P
         move_joints(P, alone, t);
         find_alone(law, bonded, t->move, next);
         for (int p = 0; p < PACKETS; p++) {
-            const wide change = joint_size(law, next[p][0] - alone[p][0], next[p][1] - alone[p][1],
-                                           next[p][2] - alone[p][2]);
+            const wide change =
+                joint_size(law, next[p][0] - alone[p][0], next[p][1] - alone[p][1], next[p][2] - alone[p][2]);
             most = wide_max(most, change - SETTLED * s[p]);
             for (int i = 0; i < 3; i++) alone[p][i] = next[p][i];
         }
@@ -201,8 +202,8 @@ static void settle(const JointLaw *law, ball_array bonded[3], const ball_array P
 }
 
 // Asks the law for the joints that are beyond the reach of their tangents; whether there are any.
-static bool renew(const JointLaw *law, const ball_array P, const constants intact,
-                  const wide s[PACKETS], wide alone[PACKETS][3], JointTangents *t)
+static bool renew(const JointLaw *law, const ball_array P, const constants intact, const wide s[PACKETS],
+                  wide alone[PACKETS][3], JointTangents *t)
 {
     ball_array L[3];
     bool any = false;
@@ -228,11 +229,15 @@ void joints_follow(const JointLaw *law, ball_array bonded[3], const ball_array P
                    scalar spin_M, scalar spin_P, JointTangents *t, ball_array load[3], ball_array rivet[3])
 {
     wide alone[PACKETS][3], s[PACKETS];
-    if (!t->known) begin_alike(law, intact, spin_M, spin_P, t);
+    if (!t->known) {
+        if (joints_open(law, bonded, P, intact, spin_M, spin_P, load, rivet) > FEW)
+            begin_alike(law, intact, spin_M, spin_P, t);
+        return;
+    }
     for (int p = 0; p < PACKETS; p++) {
         const int k = p * LANE_WIDTH;
-        s[p] = wide_load(&P[k]) + joint_size(law, wide_load(&bonded[0][k]), wide_load(&bonded[1][k]),
-                                             wide_load(&bonded[2][k]));
+        s[p] = wide_load(&P[k]) +
+               joint_size(law, wide_load(&bonded[0][k]), wide_load(&bonded[1][k]), wide_load(&bonded[2][k]));
     }
     settle(law, bonded, P, s, t, alone);
     for (int round = 0; round < ROUNDS && renew(law, P, intact, s, alone, t); round++) {

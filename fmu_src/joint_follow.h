@@ -9,7 +9,7 @@ enum { FOLLOW_VALUES = 6, FOLLOW_GIVEN = 4 };  // moves and the rivet's loads; N
 // Tangents by which the joints answer, each with the L* and P of its place, and the moves found last.  All zeros: no instant
 // before.
 typedef struct {
-    bool known;
+    bool known;  // set where many joints open, from when on they are followed
     ball_array at[FOLLOW_GIVEN], value[FOLLOW_VALUES], slope[FOLLOW_VALUES][FOLLOW_GIVEN];
     JointMoves move;
 } JointTangents;

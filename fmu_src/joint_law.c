@@ -65,7 +65,7 @@ static void answer_near(const JointLaw *law, ball_array bonded[3], const ball_ar
                         L[1],
                         L[2]};  // moves, rivet, L*
         const wide s = wide_load(&P[k]) + joint_size(law, wide_load(&bonded[0][k]), wide_load(&bonded[1][k]),
-                                               wide_load(&bonded[2][k]));
+                                                     wide_load(&bonded[2][k]));
         const wide beyond = joint_size(law, N, M_r, M_t) + wide_abs(more_P) - NEAR * s;
         const bits far = wide_above(wide_max(beyond, 0.5 - wide_load(&intact[k])), 0.0);
         if (first)
@@ -77,8 +77,8 @@ static void answer_near(const JointLaw *law, ball_array bonded[3], const ball_ar
                 before[3 + i] = wide_load(&o->rivet[i][k]);
                 before[6 + i] = wide_load(&o->alone[i][k]);
             }
-            const bits changed =
-                wide_above(joint_size(law, L[0] - before[6], L[1] - before[7], L[2] - before[8]) - CHANGE * s, 0.0);
+            const bits changed = wide_above(
+                joint_size(law, L[0] - before[6], L[1] - before[7], L[2] - before[8]) - CHANGE * s, 0.0);
             want(wanted, k, wide_mask(far & changed));
             for (int i = 0; i < 6; i++) near[i] = wide_select(far, before[i], near[i]);
             for (int i = 6; i < 9; i++)
@@ -95,13 +95,14 @@ static void answer_near(const JointLaw *law, ball_array bonded[3], const ball_ar
             for (int i = 0; i < 3; i++) wide_store(&o->move[i][turn * Z + p * LANE_WIDTH], move[p][i]);
 }
 
-void joints_open(const JointLaw *law, ball_array bonded[3], const ball_array P, const constants intact,
-                 scalar spin_M, scalar spin_P, ball_array load[3], ball_array rivet[3])
+int joints_open(const JointLaw *law, ball_array bonded[3], const ball_array P, const constants intact,
+                scalar spin_M, scalar spin_P, ball_array load[3], ball_array rivet[3])
 {
     scalar at[ALIKE_WIDTH];
     wide L[PACKETS][3];
     Opening o;
     Wanted wanted;
+    int asked = 0;
     o.rivet = rivet;
     find_alike(law, (scalar_value(spin_M) < 0.0 ? -spin_M : spin_M) / law->length, spin_P, at);
     find_alone_alike(law, bonded, at, L);
@@ -111,6 +112,7 @@ void joints_open(const JointLaw *law, ball_array bonded[3], const ball_array P, 
             find_alone(law, bonded, o.move, L);
             answer_near(law, bonded, P, intact, spin_P, at, false, L, &o, &wanted);
         }
+        asked += wanted.count;
         for (int n = 0; n < wanted.count; n++) {
             const int k = wanted.joint[n];
             const scalar alone[3] = {o.alone[0][k], o.alone[1][k], o.alone[2][k]};
@@ -135,6 +137,7 @@ void joints_open(const JointLaw *law, ball_array bonded[3], const ball_array P, 
             wide_store(&load[i][k], left);
         }
     }
+    return asked;
 }
 
 // ---- slip -----------------------------------------------------------------------------------------------------------

@@ -158,8 +158,8 @@ INLINE SliceTraction slice_traction(const Parameters *p, const Race *race, const
 
 // Sums over the slices, which lie side by side in a packet, for one ball after the other.  Where a packet has few
 // balls this takes fewer packets than slice by slice.
-INLINE void ball_by_ball(const Parameters *p, const Race *race, const SlicedContact *all, int balls, bool mixed,
-                         Tangential *out)
+INLINE void ball_by_ball(const Parameters *p, const Race *race, const SlicedContact *all, int balls,
+                         bool mixed, Tangential *out)
 {
     enum { PARTS = (SLICES + LANE_WIDTH - 1) / LANE_WIDTH, COMMON = sizeof *all / sizeof(wide) };
 
@@ -187,8 +187,8 @@ INLINE void ball_by_ball(const Parameters *p, const Race *race, const SlicedCont
 }
 
 // Traction over the long axis of the ellipse, of a packet with a number of balls.
-INLINE Tangential sliced_traction(const Parameters *p, const Race *race, const Contact *c, int balls, wide inv_U,
-                                  wide f_a, bool mixed)
+INLINE Tangential sliced_traction(const Parameters *p, const Race *race, const Contact *c, int balls,
+                                  wide inv_U, wide f_a, bool mixed)
 {
     const wide a = race->hertz.a_delta * c->sqrt_delta, spin_n = vec_dot(c->spin, c->n);
     const vec bend = vec_cross(c->spin, c->n);  // has parts along t_1 and t_2 only
@@ -226,8 +226,8 @@ INLINE Tangential race_traction(const Model *model, const Race *race, const Cont
     const wide F_R = traction_race_inlet(model->d, wide_set(race->rolling), U_2 * inv_U, ln_U, c->Q, ln_Q);
     const vec rolling = vec_scale(F_R * inv_U, c->roll);
 
-    Tangential out =
-        sliced ? sliced_traction(p, race, c, balls, inv_U, f_a, mixed) : point_traction(p, c, inv_U, f_a, mixed);
+    Tangential out = sliced ? sliced_traction(p, race, c, balls, inv_U, f_a, mixed)
+                            : point_traction(p, c, inv_U, f_a, mixed);
     out.F_s = vec_sub(out.F_s, rolling);
     out.M = vec_sub(out.M, vec_cross(vec_scale(c->R, c->n), rolling));
     out.F_c = vec_scale(wide_set(race->horizontal), rolling);

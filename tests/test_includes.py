@@ -12,7 +12,7 @@ SOURCES = Path(__file__).resolve().parents[1] / "fmu_src"
 GROUPS = {  # from the bottom up
     "numbers": "aligned build_info cpu_clock dual elementary elimination fatigue float_environment isa lanes octet part reserved_memory saved_numbers scalar "
     "statistics variable_table variables vector_ops viscosity",
-    "laws and tables": "derived elastic_half elastic_wall frame half_modes half_path hertz joint_law model outer_ring "
+    "laws and tables": "derived elastic_half elastic_wall frame half_modes half_path hertz joint_follow joint_law model outer_ring "
     "powers ring_fit rivet_joint rivet_rom rivet_splines rotor temperature traction vec",
     "elements": "ball cage_elastic cage_joint drag land_film pocket race_contact ring ring_load",
     "right-hand side": "rhs",

@@ -133,49 +133,53 @@ def wandering(half, steps, seed):
 
 
 def c_follows(core, instants, isa=None, intact=True):
-    """(N, M_r, M_t), (T, m_r, m_t) [instants, Z, 3] by the C core, which goes from each instant to the next."""
+    """(N, M_r, M_t), (T, m_r, m_t) [instants, Z, 3] by the C core, from each instant to the next; at which it followed the joints [instants]."""
     ffi, lib = core.ffi, core.lib
     tangents, given, out = core.new("JointTangents"), core.new("PathRows"), core.new("PathRows")
     given.row[4][0:Z] = np.broadcast_to(intact, Z).astype(float).tolist()
     rows, to = ffi.cast("ball_array *", given), ffi.cast("ball_array *", out)
     follow, law = core.model(isa=isa).kernel("joints_follow"), ffi.addressof(lib.rivet_table.half, "law")
-    found = []
+    found, followed = [], []
     for bonded, P, spin_M, spin_P in instants:
         for i in range(3):
             given.row[i][0:Z] = bonded[:, i].tolist()
         given.row[3][0:Z] = P.tolist()
+        followed.append(tangents.known)
         follow(law, rows, rows[3], rows[4], spin_M, spin_P, tangents, to, to + 3)
         found.append([list(out.row[i])[:Z] for i in range(6)])
-    return np.moveaxis(np.array(found).reshape(-1, 2, 3, Z), 1, 0).swapaxes(-1, -2)
+    return *np.moveaxis(np.array(found).reshape(-1, 2, 3, Z), 1, 0).swapaxes(-1, -2), np.array(followed)
 
 
 def test_following_joints_against_the_converged_fixed_point(core, half):
-    """20 runs of 60 steps: T and moments within 0.5 % of each instant's largest (observed 0.42 and 0.26 %; RMS 0.07, 0.04 %).
+    """20 runs of 60 steps, where joints are followed: T and moments within 0.5 % of each instant's largest (observed 0.42 and 0.21 %; RMS 0.07, 0.04 %).
 
     Tangents reach over 5 % of a joint's load (REACH); over 20 % the errors were 7.1 and 2.6 %.
     """
     errors = []
     for seed in range(20):
         instants = list(wandering(half, 60, seed))
-        load, rivet = c_follows(core, instants)
+        load, rivet, followed = c_follows(core, instants)
         exact_load, exact_rivet = converged(half.law, *(np.array(given) for given in list(zip(*instants, strict=True))[:2]))
         moment = np.maximum(np.abs(exact_load[..., 1:]).max(axis=(1, 2)), 1e-3)
-        errors.append([np.abs(rivet - exact_rivet)[..., 0].max(axis=1) / exact_rivet[..., 0].max(axis=1), np.abs(load - exact_load)[..., 1:].max(axis=(1, 2)) / moment])
-    errors = np.array(errors)
-    print("T, M: largest", errors.max(axis=(0, 2)), "RMS", np.sqrt((errors**2).mean(axis=(0, 2))))
-    assert errors.max() < 0.005
+        errors.append(np.abs(rivet - exact_rivet)[followed, :, 0].max(axis=1) / exact_rivet[followed, :, 0].max(axis=1))
+        errors.append((np.abs(load - exact_load)[..., 1:].max(axis=(1, 2)) / moment)[followed])
+    tension, moments = np.concatenate(errors[::2]), np.concatenate(errors[1::2])
+    print(len(tension), "instants; T, M: largest", tension.max(), moments.max(), "RMS", np.sqrt((tension**2).mean()), np.sqrt((moments**2).mean()))
+    assert len(tension) > 600
+    assert tension.max() < 0.005 and moments.max() < 0.005
 
 
 def test_following_joints_one_of_them_broken(core, half):
-    """A joint that carries nothing: its rivet has no load, the other joints the converged ones of a law without it."""
+    """A joint that carries nothing: its rivet has no load, the others what plain sweeps find, which leave 1 % of a joint's load unfollowed (observed: 0.2 %)."""
     intact = np.arange(Z) != 3
     instants = [(bonded, intact * P, *spin) for bonded, P, *spin in wandering(half, 30, 100)]
-    load, rivet = c_follows(core, instants, intact=intact)
+    rivet = c_follows(core, instants, intact=intact)[1]
     expected = [joint_law.joints_open(half.law, *instant, sweeps=100, intact=intact)[:2] for instant in instants]
     assert np.all(rivet[:, 3] == 0.0)
     largest = rivet[..., 0].max()
-    for found, (_, exact) in zip(rivet, expected, strict=True):
-        np.testing.assert_allclose(found[:, 0], exact[:, 0], atol=0.02 * largest)
+    worst = max(np.abs(found[:, 0] - exact[:, 0]).max() for found, (_, exact) in zip(rivet, expected, strict=True))
+    print("T of the others, of the largest", worst / largest)
+    assert worst < 0.02 * largest
 
 
 def rivet_values(bearing, name):
