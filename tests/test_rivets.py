@@ -170,7 +170,7 @@ def test_following_joints_against_the_converged_fixed_point(core, half):
 
 
 def test_following_joints_one_of_them_broken(core, half):
-    """A joint that carries nothing: its rivet has no load, the others what plain sweeps find, which leave 1 % of a joint's load unfollowed (observed: 0.2 %)."""
+    """A joint that carries nothing: its rivet has no load, the others what plain sweeps find, which leave 1 % of a load unfollowed (observed: 0.2 %)."""
     intact = np.arange(Z) != 3
     instants = [(bonded, intact * P, *spin) for bonded, P, *spin in wandering(half, 30, 100)]
     rivet = c_follows(core, instants, intact=intact)[1]
