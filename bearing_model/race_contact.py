@@ -17,7 +17,7 @@ Slip and mean speed at the contact point p + R n, seen from the frame that orbit
     u_ball = (omega_ball - omega_m e_x) x R n,   u_race = v_ring + Omega x (p + R n) - v_ball - omega_m e_x x R n
     Delta u = u_ball - u_race,   U = (u_ball + u_race)/2     (their parts in the tangent plane)
 The ring gets the opposite forces at the same points: force -F, moment -(p x F) - M about its centre.
-Spin and curvature let the slip vary along the long axis of the ellipse; `sliced` integrates the traction over this axis:
+Spin and curvature let the slip vary along the long axis of the ellipse; `sliced` and `fine` integrate the traction over this axis:
     Delta u(xi) = Delta u + Delta omega x (xi t_2 - xi^2/(2 R_m) n),  pressure (3/4)(1 - xi^2/a^2) per length
 Smoothness: C1 at touch-down.  Hertz' ellipse is not cut at the shoulder.
 """
@@ -35,12 +35,17 @@ from bearing_model.traction import Q_FLOOR, traction_asperity_share, traction_ln
 from bearing_model.variables import Lubrication, Traction
 from bearing_model.vec import vec, vec_across, vec_cross, vec_dot, vec_local, vec_to_global
 
-# Gauss-Jacobi points and shares for the weight (3/4)(1 - s^2) on [-1, 1]: exact to degree 13.
-SLICE, SHARE = roots_jacobi(7, 1.0, 1.0)
-SHARE = SHARE / SHARE.sum()
+
+def slice_rule(count):
+    """Gauss-Jacobi points and shares [count] for the weight (3/4)(1 - s^2) on [-1, 1]: exact to degree 2 count - 1."""
+    place, share = roots_jacobi(count, 1.0, 1.0)
+    return place, share / share.sum()
 
 
-def race_traction(model, race, c, mixed, sliced):
+SLICES = {Traction.POINT: ([0.0], [1.0]), Traction.SLICED: slice_rule(7), Traction.FINE: slice_rule(21)}
+
+
+def race_traction(model, race, c, mixed):
     """Forces on the ball by traction at a point or over the slices and by the inlet's rolling friction.
 
     c: the contact, normal n, rolling direction t_1, long axis t_2, slip Delta u, mean speed roll = U, spin = omega_ball - Omega of the race,
@@ -57,7 +62,7 @@ def race_traction(model, race, c, mixed, sliced):
 
     out = SimpleNamespace(U=U, F_s=0.0, M=0.0, dissipated=0.0, spin_dissipated=0.0, g=0.0, g_spin=0.0)
     a = race.hertz.a_delta * c.sqrt_delta
-    for s, share in zip(SLICE, SHARE, strict=True) if sliced else [(0.0, 1.0)]:
+    for s, share in zip(*SLICES[p.scene.traction], strict=True):
         xi = a * s
         sagitta = xi * xi * (0.5 / race.R_m)
         lever = (c.R - sagitta) * c.n + xi * c.t_2
@@ -70,7 +75,7 @@ def race_traction(model, race, c, mixed, sliced):
         out.F_s = out.F_s + F
         out.M = out.M + vec_cross(lever, F)
         out.dissipated = out.dissipated - vec_dot(F, slip_i)
-    if sliced:
+    if p.scene.traction != Traction.POINT:
         out.spin_dissipated = -vec_dot(out.M, c.n) * vec_dot(c.spin, c.n)
     # Inlet: -F_R U/|U| at the surface, the film's horizontal pressure force +F_H U/|U| through the ball's centre.
     rolling = F_R / U * c.roll
@@ -112,7 +117,7 @@ def race_contact(race, R_g, R, lambda_, p, a, Omega, approach, omega_b, omega_m)
 def race_contact_force(model, w):
     """Sets force and moment on the balls, their dissipated power and contact results, and the wrench on the inner ring."""
     p, d = model.p, model.d
-    mixed, sliced = p.scene.lubrication == Lubrication.MIXED, p.scene.traction == Traction.SLICED
+    mixed = p.scene.lubrication == Lubrication.MIXED
     v_b, omega_b = vec(w.v_x, w.v_r, w.v_t), vec(w.omega_x, w.omega_r, w.omega_t)
     position = vec(w.x, w.r, 0.0)
 
@@ -121,7 +126,7 @@ def race_contact_force(model, w):
     p_i = position - x_i
     R_g = d.inner.R_g + ring_fit_growth(d.fit, ring_fit_speed(model.ring_load))
     inner = race_contact(d.inner, R_g, d.R, p.bearing.lambda_, p_i, a, Omega, v_b - v_i - vec_cross(Omega, p_i), omega_b, w.omega_m)
-    T_i = race_traction(model, d.inner, inner, mixed, sliced)
+    T_i = race_traction(model, d.inner, inner, mixed)
     F_i = -inner.Q * inner.n + T_i.F_s + T_i.F_c
 
     # outer race, likewise
@@ -129,7 +134,7 @@ def race_contact_force(model, w):
     a, Omega, v_e, x_e = (vec_local(v, w.cos_theta, w.sin_theta) for v in (ring.a, ring.Omega, ring.v, ring.x))
     p_e = position - x_e
     outer = race_contact(d.outer, d.outer.R_g, d.R, p.bearing.lambda_, p_e, a, Omega, v_b - v_e - vec_cross(Omega, p_e), omega_b, w.omega_m)
-    T_e = race_traction(model, d.outer, outer, mixed, sliced)
+    T_e = race_traction(model, d.outer, outer, mixed)
     F_e = -outer.Q * outer.n + T_e.F_s + T_e.F_c
 
     # sums on the balls, the wrench on the ring

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from enum import IntEnum
 
 MODEL_IDENTIFIER = "RivetedBearing"
-MODEL_GUID = "{ffc3f722-8cdb-eaa6-e151-a514fbb40441}"
+MODEL_GUID = "{0270f101-7d5a-5cec-5171-3fd256e3d5cc}"
 Z = 9
 
 
@@ -49,6 +49,7 @@ class CageModel(IntEnum):
 class Traction(IntEnum):
     POINT = 1
     SLICED = 2
+    FINE = 3
 
 
 class Lubrication(IntEnum):

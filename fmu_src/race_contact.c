@@ -20,7 +20,7 @@
 //   u_ball = (omega_ball - omega_m e_x) x R n,   u_race = v_ring + Omega x (p + R n) - v_ball - omega_m e_x x R n
 //   Delta u = u_ball - u_race,   U = (u_ball + u_race)/2     (their parts in the tangent plane)
 // The ring gets the opposite forces at the same points: force -F, moment -(p x F) - M about its centre.  Spin
-// and curvature let the slip vary along the long axis of the ellipse; `sliced` integrates the traction over
+// and curvature let the slip vary along the long axis of the ellipse; `sliced` and `fine` integrate the traction over
 // this axis:
 //   Delta u(xi) = Delta u + Delta omega x (xi t_2 - xi^2/(2 R_m) n),  pressure (3/4)(1 - xi^2/a^2) per length
 // Smoothness: C1 at touch-down.  Hertz' ellipse is not cut at the shoulder.
@@ -31,14 +31,52 @@
 #include "ring_fit.h"
 #include "traction.h"
 
-// Gauss-Jacobi points and weights for the weight (3/4)(1 - s^2) on [-1, 1]: exact to degree 13.
-enum { SLICES = 7 };
+enum { MOST_SLICES = 21 };
 
-static const double SLICE[SLICES] = {-0.8997579954114603, -0.6771862795107377, -0.36311746382617816, 0.0,
-                                     0.36311746382617816, 0.6771862795107377,  0.8997579954114603};
-static const double SHARE[SLICES] = {0.02363715011287406, 0.11148030343755763, 0.22556281855841187,
-                                     0.27863945578231275, 0.22556281855841187, 0.11148030343755763,
-                                     0.02363715011287406};
+// Gauss-Jacobi points and weights for the weight (3/4)(1 - s^2) on [-1, 1]: exact to degree 2 count - 1.
+typedef struct {
+    int count;
+    double place[MOST_SLICES], share[MOST_SLICES];
+} SliceRule;
+
+static const SliceRule SLICED = {
+    7,
+    {-0.8997579954114603, -0.6771862795107377, -0.36311746382617816, 0.0, 0.36311746382617816,
+     0.6771862795107377, 0.8997579954114603},
+    {0.02363715011287406, 0.11148030343755763, 0.22556281855841187, 0.27863945578231275, 0.22556281855841187,
+     0.11148030343755763, 0.02363715011287406},
+};
+
+static const SliceRule FINE = {
+    21,
+    {-0.9855271558787326,
+     -0.9517579557107102,
+     -0.899458558040345,
+     -0.8296510966512859,
+     -0.7436950411720606,
+     -0.6432636444601362,
+     -0.5303117711368441,
+     -0.40703793791447485,
+     -0.27584154894579305,
+     -0.1392762040406684,
+     0.0,
+     0.1392762040406684,
+     0.27584154894579305,
+     0.40703793791447485,
+     0.5303117711368441,
+     0.6432636444601362,
+     0.7436950411720606,
+     0.8296510966512859,
+     0.899458558040345,
+     0.9517579557107102,
+     0.9855271558787326},
+    {0.000522609936244575, 0.003048976197285311, 0.008773236816095601, 0.018264887456477585,
+     0.03133917965857063,  0.047060695089807925, 0.06387929073723633,  0.07987539351053403,
+     0.09307267139929828,  0.10176439169366946,  0.10479733500956052,  0.10176439169366946,
+     0.09307267139929828,  0.07987539351053403,  0.06387929073723633,  0.047060695089807925,
+     0.03133917965857063,  0.018264887456477585, 0.008773236816095601, 0.003048976197285311,
+     0.000522609936244575},
+};
 
 static const double TINY = 1e-30;  // keeps padding lanes and balls at a groove's centre from dividing by 0
 
@@ -159,12 +197,12 @@ INLINE SliceTraction slice_traction(const Parameters *p, const Race *race, const
 // Sums over the slices, which lie side by side in a packet, for one ball after the other.  Where a packet has few
 // balls this takes fewer packets than slice by slice.
 INLINE void ball_by_ball(const Parameters *p, const Race *race, const SlicedContact *all, int balls,
-                         bool mixed, Tangential *out)
+                         bool mixed, const SliceRule *rule, Tangential *out)
 {
-    enum { PARTS = (SLICES + LANE_WIDTH - 1) / LANE_WIDTH, COMMON = sizeof *all / sizeof(wide) };
+    enum { MOST = MOST_SLICES + LANE_WIDTH, COMMON = sizeof *all / sizeof(wide) };
 
-    scalar place[PARTS * LANE_WIDTH] = {0.0}, part[PARTS * LANE_WIDTH] = {0.0};
-    for (int i = 0; i < SLICES; i++) place[i] = SLICE[i], part[i] = SHARE[i];
+    scalar place[MOST] = {0.0}, part[MOST] = {0.0};
+    for (int i = 0; i < rule->count; i++) place[i] = rule->place[i], part[i] = rule->share[i];
     scalar common[COMMON][LANE_WIDTH], sum[9][LANE_WIDTH] = {{0.0}};
     memcpy(common, all, sizeof common);
     for (int ball = 0; ball < balls; ball++) {
@@ -172,13 +210,13 @@ INLINE void ball_by_ball(const Parameters *p, const Race *race, const SlicedCont
         SlicedContact c;
         for (int i = 0; i < COMMON; i++) one[i] = wide_set(common[i][ball]);
         memcpy(&c, one, sizeof c);
-        for (int first = 0; first < SLICES; first += LANE_WIDTH) {
+        for (int first = 0; first < rule->count; first += LANE_WIDTH) {
             const SliceTraction s =
                 slice_traction(p, race, &c, wide_load(&place[first]), wide_load(&part[first]), mixed);
             scalar of[9][LANE_WIDTH];
             const wide value[9] = {s.g, s.g_spin, -s.dissipated, s.F.x, s.F.r, s.F.t, s.M.x, s.M.r, s.M.t};
             for (int n = 0; n < 9; n++) wide_store(of[n], value[n]);
-            for (int i = 0; i < LANE_WIDTH && first + i < SLICES; i++)
+            for (int i = 0; i < LANE_WIDTH && first + i < rule->count; i++)
                 for (int n = 0; n < 9; n++) sum[n][ball] += of[n][i];
         }
     }
@@ -188,18 +226,18 @@ INLINE void ball_by_ball(const Parameters *p, const Race *race, const SlicedCont
 
 // Traction over the long axis of the ellipse, of a packet with a number of balls.
 INLINE Tangential sliced_traction(const Parameters *p, const Race *race, const Contact *c, int balls,
-                                  wide inv_U, wide f_a, bool mixed)
+                                  wide inv_U, wide f_a, bool mixed, const SliceRule *rule)
 {
     const wide a = race->hertz.a_delta * c->sqrt_delta, spin_n = vec_dot(c->spin, c->n);
     const vec bend = vec_cross(c->spin, c->n);  // has parts along t_1 and t_2 only
     const SlicedContact common = {c->n, c->t_1, c->t_2, c->slip, bend, c->R, a, spin_n, c->Q, inv_U, f_a};
     Tangential out = {0};
-    if (balls * ((SLICES + LANE_WIDTH - 1) / LANE_WIDTH) < SLICES)
-        ball_by_ball(p, race, &common, balls, mixed, &out);
+    if (balls * ((rule->count + LANE_WIDTH - 1) / LANE_WIDTH) < rule->count)
+        ball_by_ball(p, race, &common, balls, mixed, rule, &out);
     else
-        for (int i = 0; i < SLICES; i++) {
+        for (int i = 0; i < rule->count; i++) {
             const SliceTraction s =
-                slice_traction(p, race, &common, wide_set(SLICE[i]), wide_set(SHARE[i]), mixed);
+                slice_traction(p, race, &common, wide_set(rule->place[i]), wide_set(rule->share[i]), mixed);
             out.g += s.g;
             out.g_spin += s.g_spin;
             out.F_s = vec_add(out.F_s, s.F);
@@ -213,7 +251,7 @@ INLINE Tangential sliced_traction(const Parameters *p, const Race *race, const C
 // Traction and the inlet's rolling friction: -F_R U/|U| at the surface, and the film's horizontal pressure
 // force +F_H U/|U| through the ball's centre.
 INLINE Tangential race_traction(const Model *model, const Race *race, const Contact *c, int balls, bool mixed,
-                                bool sliced)
+                                const SliceRule *rule)
 {
     const Parameters *p = model->p;
     const wide U_2 = vec_dot(c->roll, c->roll) + p->oil.U_0 * p->oil.U_0, inv_U = 1.0 / wide_sqrt(U_2);
@@ -226,8 +264,8 @@ INLINE Tangential race_traction(const Model *model, const Race *race, const Cont
     const wide F_R = traction_race_inlet(model->d, wide_set(race->rolling), U_2 * inv_U, ln_U, c->Q, ln_Q);
     const vec rolling = vec_scale(F_R * inv_U, c->roll);
 
-    Tangential out = sliced ? sliced_traction(p, race, c, balls, inv_U, f_a, mixed)
-                            : point_traction(p, c, inv_U, f_a, mixed);
+    Tangential out = rule ? sliced_traction(p, race, c, balls, inv_U, f_a, mixed, rule)
+                          : point_traction(p, c, inv_U, f_a, mixed);
     out.F_s = vec_sub(out.F_s, rolling);
     out.M = vec_sub(out.M, vec_cross(vec_scale(c->R, c->n), rolling));
     out.F_c = vec_scale(wide_set(race->horizontal), rolling);
@@ -263,8 +301,8 @@ INLINE void store_contacts(Work *w, int j, const Contact *inner, const Contact *
 
 // Both race contacts of a packet of balls.  inner_R_g: radius of the inner groove's circle as the ring has grown;
 // outer_ring: its motion, NULL for a ring at rest in its place.
-INLINE void race_contact_packet(const Model *model, Work *w, int j, scalar inner_R_g, bool mixed, bool sliced,
-                                const Rotor *outer_ring)
+INLINE void race_contact_packet(const Model *model, Work *w, int j, scalar inner_R_g, bool mixed,
+                                const SliceRule *rule, const Rotor *outer_ring)
 {
     const Derived *d = model->d;
     const wide cos_theta = wide_load(&w->cos_theta[j]), sin_theta = wide_load(&w->sin_theta[j]);
@@ -286,8 +324,8 @@ INLINE void race_contact_packet(const Model *model, Work *w, int j, scalar inner
                                              vec_local(outer_ring->v, cos_theta, sin_theta),
                                              vec_local(outer_ring->Omega, cos_theta, sin_theta));
     const int balls = Z - j < LANE_WIDTH ? Z - j : LANE_WIDTH;
-    const Tangential T_i = race_traction(model, &d->inner, &inner, balls, mixed, sliced);
-    const Tangential T_e = race_traction(model, &d->outer, &outer, balls, mixed, sliced);
+    const Tangential T_i = race_traction(model, &d->inner, &inner, balls, mixed, rule);
+    const Tangential T_e = race_traction(model, &d->outer, &outer, balls, mixed, rule);
     store_contacts(w, j, &inner, &outer, &T_i, &T_e);
 
     // forces and moments on the balls, what the pockets add to, wrench on the ring about its centre
@@ -305,33 +343,35 @@ INLINE void race_contact_packet(const Model *model, Work *w, int j, scalar inner
     vec_to_global(M_ring, cos_theta, sin_theta, &w->ring_M_x[j], &w->ring_M_y[j], &w->ring_M_z[j]);
 }
 
-// Balls of a bearing whose outer ring moves.
-static __attribute__((noinline)) void race_contact_force_moving(const Model *model, Work *w, scalar inner_R_g,
-                                                                bool mixed, bool sliced)
+// Balls of a bearing whose outer ring moves, or whose contacts have many slices.
+static __attribute__((noinline)) void race_contact_force_rare(const Model *model, Work *w, scalar inner_R_g,
+                                                              bool mixed, const SliceRule *rule)
 {
+    const bool moves = outer_ring_moves(model->ring_load);
     const Rotor outer = outer_ring(model->ring_load);
     for (int b = 0; b < PACKETS; b++)
-        race_contact_packet(model, w, b * LANE_WIDTH, inner_R_g, mixed, sliced, &outer);
+        race_contact_packet(model, w, b * LANE_WIDTH, inner_R_g, mixed, rule, moves ? &outer : NULL);
 }
 
 void race_contact_force(const Model *model, Work *w)
 {
     const bool mixed = model->p->scene.lubrication == LUBRICATION_MIXED;
-    const bool sliced = model->p->scene.traction == TRACTION_SLICED;
+    const int traction = model->p->scene.traction;
+    const SliceRule *rule = traction == TRACTION_POINT ? NULL : traction == TRACTION_SLICED ? &SLICED : &FINE;
     const scalar growth = ring_fit_growth(&model->d->fit, ring_fit_speed(model->ring_load));
     const scalar R_g = model->d->inner.R_g + growth;
-    if (outer_ring_moves(model->ring_load)) {
-        race_contact_force_moving(model, w, R_g, mixed, sliced);
+    if (outer_ring_moves(model->ring_load) || rule == &FINE) {
+        race_contact_force_rare(model, w, R_g, mixed, rule);
         return;
     }
     for (int b = 0; b < PACKETS; b++) {
         const int j = b * LANE_WIDTH;
-        if (sliced)
-            mixed ? race_contact_packet(model, w, j, R_g, true, true, NULL)
-                  : race_contact_packet(model, w, j, R_g, false, true, NULL);
+        if (rule)
+            mixed ? race_contact_packet(model, w, j, R_g, true, &SLICED, NULL)
+                  : race_contact_packet(model, w, j, R_g, false, &SLICED, NULL);
         else
-            mixed ? race_contact_packet(model, w, j, R_g, true, false, NULL)
-                  : race_contact_packet(model, w, j, R_g, false, false, NULL);
+            mixed ? race_contact_packet(model, w, j, R_g, true, NULL, NULL)
+                  : race_contact_packet(model, w, j, R_g, false, NULL, NULL);
     }
 }
 
