@@ -423,13 +423,13 @@ class RowStore:
     A process that is killed loses the rows of the last moments, twenty times as long as a file takes: those runs are done again.
     """
 
-    def __init__(self, folder, schema):
-        self.folder, self.schema, self.rows, self.due = folder, schema, [], 0.0
+    def __init__(self, folder, schema, clock=time.monotonic):
+        self.folder, self.schema, self.clock, self.rows, self.due = folder, schema, clock, [], 0.0
 
     def add(self, row):
         """Take a row, which an interrupt leaves in a file; KeyboardInterrupt once it is there."""
         self.rows.append(row)
-        if time.monotonic() < self.due:
+        if self.clock() < self.due:
             return
         with held_interrupts() as interrupts:
             self.write()
@@ -439,9 +439,9 @@ class RowStore:
     def write(self):
         """Write what has been taken."""
         if self.rows:
-            begin = time.monotonic()
+            begin = self.clock()
             write_rows(self.folder / f"run-{self.rows[0]['key']}.parquet", self.rows, self.schema)
-            end = time.monotonic()
+            end = self.clock()
             self.rows, self.due = [], end + (end - begin) / WRITING
 
 

@@ -270,12 +270,11 @@ def test_a_sweep_ends_with_a_table_a_picture_and_a_page(tmp_path, model, client)
     assert "&lt;mine&gt;" in page and page.count("<svg") == len(table.responses) and cells[1][3] in page
 
 
-def test_rows_that_arrive_fast_share_files(tmp_path, model, monkeypatch):
+def test_rows_that_arrive_fast_share_files(tmp_path, model):
     """Writing takes a twentieth of the time: a file that takes 1 s is followed by the next one 20 s later, whose rows have come meanwhile; none is lost."""
     sweep = plan(tmp_path, model, "repeats = 30\n" + SHORT)
     clock = iter(np.arange(0.0, 1e3))  # one second between any two looks at the clock
-    monkeypatch.setattr(engine.time, "monotonic", lambda: float(next(clock)))
-    store = engine.RowStore(tmp_path / "out", engine.schema_of(sweep))
+    store = engine.RowStore(tmp_path / "out", engine.schema_of(sweep), clock=lambda: float(next(clock)))
     (tmp_path / "out").mkdir()
     for key in sweep.scenes:
         store.add(engine.about_run(sweep, key) | {"status": "done", "message": "", "date": "2026-01-01T00:00:00.000+00:00"})
