@@ -194,6 +194,22 @@ INLINE SliceTraction slice_traction(const Parameters *p, const Race *race, const
     return (SliceTraction){g, g * xi * xi, vec_dot(F, slip), F, vec_cross(arm, F)};
 }
 
+enum { SUMS = 9, SUMS_ROOM = 16 };  // of the slices of a contact; whole packets
+
+// Adds the values in the first `count` lanes to the sums of a ball, one lane after the other as they come slice by slice.
+static __attribute__((noinline)) void add_lanes(const wide value[SUMS], int count, scalar sum[SUMS_ROOM])
+{
+    scalar of[LANE_WIDTH][SUMS_ROOM] = {{0.0}};
+    for (int n = 0; n < SUMS; n++) {
+        scalar lanes[LANE_WIDTH];
+        wide_store(lanes, value[n]);
+        for (int i = 0; i < LANE_WIDTH; i++) of[i][n] = lanes[i];
+    }
+    for (int i = 0; i < LANE_WIDTH && i < count; i++)
+        for (int n = 0; n < SUMS_ROOM; n += LANE_WIDTH)
+            wide_store(&sum[n], wide_load(&sum[n]) + wide_load(&of[i][n]));
+}
+
 // Sums over the slices, which lie side by side in a packet, for one ball after the other.  Where a packet has few
 // balls this takes fewer packets than slice by slice.
 INLINE void ball_by_ball(const Parameters *p, const Race *race, const SlicedContact *all, int balls,
@@ -203,7 +219,7 @@ INLINE void ball_by_ball(const Parameters *p, const Race *race, const SlicedCont
 
     scalar place[MOST] = {0.0}, part[MOST] = {0.0};
     for (int i = 0; i < rule->count; i++) place[i] = rule->place[i], part[i] = rule->share[i];
-    scalar common[COMMON][LANE_WIDTH], sum[9][LANE_WIDTH] = {{0.0}};
+    scalar common[COMMON][LANE_WIDTH], sum[LANE_WIDTH][SUMS_ROOM] = {{0.0}};
     memcpy(common, all, sizeof common);
     for (int ball = 0; ball < balls; ball++) {
         wide one[COMMON];
@@ -213,15 +229,17 @@ INLINE void ball_by_ball(const Parameters *p, const Race *race, const SlicedCont
         for (int first = 0; first < rule->count; first += LANE_WIDTH) {
             const SliceTraction s =
                 slice_traction(p, race, &c, wide_load(&place[first]), wide_load(&part[first]), mixed);
-            scalar of[9][LANE_WIDTH];
-            const wide value[9] = {s.g, s.g_spin, -s.dissipated, s.F.x, s.F.r, s.F.t, s.M.x, s.M.r, s.M.t};
-            for (int n = 0; n < 9; n++) wide_store(of[n], value[n]);
-            for (int i = 0; i < LANE_WIDTH && first + i < rule->count; i++)
-                for (int n = 0; n < 9; n++) sum[n][ball] += of[n][i];
+            const wide value[SUMS] = {s.g, s.g_spin, -s.dissipated, s.F.x, s.F.r, s.F.t, s.M.x, s.M.r, s.M.t};
+            add_lanes(value, rule->count - first, sum[ball]);
         }
     }
-    out->g = wide_load(sum[0]), out->g_spin = wide_load(sum[1]), out->dissipated = wide_load(sum[2]);
-    out->F_s = vec_load(sum[3], sum[4], sum[5]), out->M = vec_load(sum[6], sum[7], sum[8]);
+    scalar all_balls[SUMS][LANE_WIDTH];
+    for (int n = 0; n < SUMS; n++)
+        for (int ball = 0; ball < LANE_WIDTH; ball++) all_balls[n][ball] = sum[ball][n];
+    out->g = wide_load(all_balls[0]), out->g_spin = wide_load(all_balls[1]);
+    out->dissipated = wide_load(all_balls[2]);
+    out->F_s = vec_load(all_balls[3], all_balls[4], all_balls[5]);
+    out->M = vec_load(all_balls[6], all_balls[7], all_balls[8]);
 }
 
 // Traction over the long axis of the ellipse, of a packet with a number of balls.
