@@ -340,7 +340,6 @@ PartStatus part_step(Bearing *b, double t_end)
     Inputs u[INPUT_ORDERS + 1];
     if (!check_inputs(b, t_end - t_begin)) return PART_ERROR;
     motion_trajectory(&s->p, s->u, &s->history, &s->u_now, t_end - t_begin, u);
-    motion_remember(&s->u[0], t_end - t_begin, &s->history);
     report_without_effect(b);
     const double before = cpu_clock();
     change_temperature(b, &s->u_now, &s->u[0]);
@@ -367,6 +366,7 @@ PartStatus part_step(Bearing *b, double t_end)
 
     // the inputs stay where they are now; temperatures that have moved meanwhile act from here on
     change_temperature(b, &s->u[0], &s->u_now);
+    motion_remember(&s->u[0], s->integrator.t - t_begin, &s->history);
     inputs_reach(&s->p, t_begin, s->integrator.t, s->u);
     b->cpu_time += cpu_clock() - before;
     if (status == 0) {

@@ -321,6 +321,25 @@ def test_a_motion_may_end_on_its_limit(core):
 
 
 @pytest.mark.c_only
+@pytest.mark.parametrize(("drive", "t_end"), [({"housing.tilt_z": 0.03, "housing.tilt_z_dot": -150.0}, 1e-4), ({}, 1e70)], ids=["overshoot", "endless"])
+def test_saved_state_of_a_step_that_stopped_halfway(core, drive, t_end):
+    """The solver gives up a motion on its way, where its velocity is beyond the limits of both ends, or a step that would never end: the state saved
+    there goes on to the bit of the run itself, whose last step was as long as the time that passed."""
+    bearing, saved = Instance(core, {"solver.max_steps": 10}, {}), core.ffi.new("char[]", core.lib.part_saved_size())
+    bearing.set(**drive)
+    with pytest.raises(ArithmeticError, match="the solver cannot go on|the work limit is reached"):
+        bearing.step(t_end)
+    t = bearing.time
+    assert 0.0 < t < 1e-4
+    core.lib.part_save(bearing.bearing, saved)
+    restored = Instance(core, {}, {})
+    assert core.lib.part_restore_unknown(restored.bearing, saved), restored.messages
+    status = {core.lib.part_step(part.bearing, t + 1e-6) for part in (bearing, restored)}
+    assert len(status) == 1 and restored.time == bearing.time > t
+    assert restored.y.tobytes() == bearing.y.tobytes()
+
+
+@pytest.mark.c_only
 def test_saved_state_in_motion(core):
     """A state saved in the middle of a motion goes on to the bit."""
     parameters = PRESCRIBED | {"frame.radius": 0.1, "gravity.y": -9.81}
