@@ -17,8 +17,11 @@ Slip and mean speed at the contact point p + R n, seen from the frame that orbit
     u_ball = (omega_ball - omega_m e_x) x R n,   u_race = v_ring + Omega x (p + R n) - v_ball - omega_m e_x x R n
     Delta u = u_ball - u_race,   U = (u_ball + u_race)/2     (their parts in the tangent plane)
 The ring gets the opposite forces at the same points: force -F, moment -(p x F) - M about its centre.
-Spin and curvature let the slip vary along the long axis of the ellipse; `sliced` and `fine` integrate the traction over this axis:
+Spin and curvature let the slip vary along the long axis of the ellipse; `sliced` integrates the traction over this axis:
     Delta u(xi) = Delta u + Delta omega x (xi t_2 - xi^2/(2 R_m) n),  pressure (3/4)(1 - xi^2/a^2) per length
+in slices on both sides of where the slip changes its sign, because the traction is nearly a step there.  With x = xi/a the slip along t_1 is
+s_1 + k x + b_1 x^2; the place is x_0 = -s_1 k/(k^2 + b_1^2), not beyond the ends.  That is the root where spin (k) outweighs curvature (b_1); the two roots
+of curvature lie about the middle, which x_0 tends to.
 Smoothness: C1 at touch-down.  Hertz' ellipse is not cut at the shoulder.
 """
 
@@ -28,21 +31,31 @@ import numpy as np
 from scipy.special import roots_jacobi
 
 from bearing_model.hertz import hertz_damped, hertz_load
-from bearing_model.lanes import ball_array_sum, maximum
+from bearing_model.lanes import ball_array_sum, maximum, minimum
 from bearing_model.outer_ring import outer_ring
 from bearing_model.ring_fit import ring_fit_growth, ring_fit_rate, ring_fit_speed
 from bearing_model.traction import Q_FLOOR, traction_asperity_share, traction_ln_film, traction_ln_thermal, traction_mu, traction_race_inlet
 from bearing_model.variables import Lubrication, Traction
 from bearing_model.vec import vec, vec_across, vec_cross, vec_dot, vec_local, vec_to_global
 
-
-def slice_rule(count):
-    """Gauss-Jacobi points and shares [count] for the weight (3/4)(1 - s^2) on [-1, 1]: exact to degree 2 count - 1."""
-    place, share = roots_jacobi(count, 1.0, 1.0)
-    return place, share / share.sum()
+SLICE_POINTS = np.array(roots_jacobi(6, 1.0, 0.0)).T  # on either side, of the weight 1 - s on [-1, 1]
+TINY = 1e-30  # [m^2/s^2] keeps contacts without load from dividing by 0
 
 
-SLICES = {Traction.POINT: ([0.0], [1.0]), Traction.SLICED: slice_rule(7), Traction.FINE: slice_rule(21)}
+def split_place(s_1, k, b_1):
+    """Place x_0 = -s_1 k/(k^2 + b_1^2) in [-1, 1] where the slip s_1 + k x + b_1 x^2 changes its sign."""
+    return maximum(minimum(-s_1 * k / (k * k + b_1 * b_1 + TINY), 1.0), -1.0)
+
+
+def slices(x_0):
+    """Places x in [-1, 1] and shares of the pressure (3/4)(1 - x^2) of all slices: on each side x = x_0 (1 - z) + side z with
+    (3/4)(1 + side x)(1 - side x_0)^2 w, where z and w are Gauss-Jacobi's points for the weight 1 - z on [0, 1].  Polynomials up to degree 10 on each side are
+    integrated exactly."""
+    for side in (-1.0, 1.0):
+        for s, w in SLICE_POINTS:
+            z = 0.5 * (s + 1.0)
+            x = x_0 * (1.0 - z) + side * z
+            yield x, (1.0 + side * x) * 0.75 * (1.0 - side * x_0) ** 2 * 0.25 * w
 
 
 def race_traction(model, race, c, mixed):
@@ -60,23 +73,26 @@ def race_traction(model, race, c, mixed):
     f_a = traction_asperity_share(traction_ln_film(race.ln_Lambda, ln_U, ln_Q) + traction_ln_thermal(model.d.ln_thermal, ln_U)) if mixed else 0.0
     F_R = traction_race_inlet(model.d, race.rolling, U, ln_U, c.Q, ln_Q)
 
-    out = SimpleNamespace(U=U, F_s=0.0, M=0.0, dissipated=0.0, spin_dissipated=0.0, g=0.0, g_spin=0.0)
+    # slip along t_1 and t_2 at x = xi/a: s_1 + k x + b_1 x^2, s_2 + b_2 x^2
+    sliced = p.scene.traction == Traction.SLICED
     a = race.hertz.a_delta * c.sqrt_delta
-    for s, share in zip(*SLICES[p.scene.traction], strict=True):
-        xi = a * s
-        sagitta = xi * xi * (0.5 / race.R_m)
-        lever = (c.R - sagitta) * c.n + xi * c.t_2
-        slip_i = vec_across(c.slip + vec_cross(c.spin, lever - c.R * c.n), c.n)
-        slip = np.sqrt(vec_dot(slip_i, slip_i) + p.oil.v_0**2)
+    sagitta = a * a * (0.5 / race.R_m)
+    spin_n = vec_dot(c.spin, c.n)
+    s_1, s_2, k = vec_dot(c.slip, c.t_1), vec_dot(c.slip, c.t_2), -a * spin_n
+    b_1, b_2 = -sagitta * vec_dot(c.spin, c.t_2), sagitta * vec_dot(c.spin, c.t_1)
+    out = SimpleNamespace(U=U, F_s=0.0, M=0.0, dissipated=0.0, g=0.0, g_spin=0.0)
+    for x, share in slices(split_place(s_1, k, b_1)) if sliced else [(0.0, 1.0)]:
+        slip_1, slip_2 = s_1 + k * x + b_1 * x * x, s_2 + b_2 * x * x
+        slip = np.sqrt(slip_1 * slip_1 + slip_2 * slip_2 + p.oil.v_0**2)
         g = share * traction_mu(p, slip / U, f_a, mixed) * c.Q / slip
-        F = -g * slip_i
+        F = -g * (slip_1 * c.t_1 + slip_2 * c.t_2)
+        lever = (c.R - sagitta * x * x) * c.n + a * x * c.t_2
         out.g = out.g + g
-        out.g_spin = out.g_spin + g * xi * xi
+        out.g_spin = out.g_spin + g * (a * x) ** 2
         out.F_s = out.F_s + F
         out.M = out.M + vec_cross(lever, F)
-        out.dissipated = out.dissipated - vec_dot(F, slip_i)
-    if p.scene.traction != Traction.POINT:
-        out.spin_dissipated = -vec_dot(out.M, c.n) * vec_dot(c.spin, c.n)
+        out.dissipated = out.dissipated + g * (slip_1 * slip_1 + slip_2 * slip_2)
+    out.spin_dissipated = -vec_dot(out.M, c.n) * spin_n if sliced else 0.0
     # Inlet: -F_R U/|U| at the surface, the film's horizontal pressure force +F_H U/|U| through the ball's centre.
     rolling = F_R / U * c.roll
     out.F_s = out.F_s - rolling

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from enum import IntEnum
 
 MODEL_IDENTIFIER = "RivetedBearing"
-MODEL_GUID = "{0270f101-7d5a-5cec-5171-3fd256e3d5cc}"
+MODEL_GUID = "{849cc6ec-671d-06de-ef6a-f23e1c702cff}"
 Z = 9
 
 
@@ -49,7 +49,6 @@ class CageModel(IntEnum):
 class Traction(IntEnum):
     POINT = 1
     SLICED = 2
-    FINE = 3
 
 
 class Lubrication(IntEnum):

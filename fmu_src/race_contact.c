@@ -20,9 +20,11 @@
 //   u_ball = (omega_ball - omega_m e_x) x R n,   u_race = v_ring + Omega x (p + R n) - v_ball - omega_m e_x x R n
 //   Delta u = u_ball - u_race,   U = (u_ball + u_race)/2     (their parts in the tangent plane)
 // The ring gets the opposite forces at the same points: force -F, moment -(p x F) - M about its centre.  Spin
-// and curvature let the slip vary along the long axis of the ellipse; `sliced` and `fine` integrate the traction over
-// this axis:
+// and curvature let the slip vary along the long axis of the ellipse; `sliced` integrates the traction over this axis:
 //   Delta u(xi) = Delta u + Delta omega x (xi t_2 - xi^2/(2 R_m) n),  pressure (3/4)(1 - xi^2/a^2) per length
+// in slices on both sides of where the slip changes its sign, because the traction is nearly a step there.  With x = xi/a
+// the slip along t_1 is s_1 + k x + b_1 x^2; the place is x_0 = -s_1 k/(k^2 + b_1^2), not beyond the ends.  That is the
+// root where spin (k) outweighs curvature (b_1); the two roots of curvature lie about the middle, which x_0 tends to.
 // Smoothness: C1 at touch-down.  Hertz' ellipse is not cut at the shoulder.
 #include "race_contact.h"
 
@@ -31,51 +33,21 @@
 #include "ring_fit.h"
 #include "traction.h"
 
-enum { MOST_SLICES = 21 };
+// Slices on both sides of the place x_0 that splits the ellipse, x = xi/a in [-1, 1]: x = x_0 (1 - z) + side z with
+// weights (3/4)(1 + side x)(1 - side x_0)^2 w, where z and w are Gauss-Jacobi's points for the weight 1 - z on [0, 1].
+// They integrate the pressure (3/4)(1 - x^2) times polynomials up to degree 10 on each side exactly.
+enum { SLICES = 12, SLICES_ROOM = 16 };  // whole packets, the last slices without weight
 
-// Gauss-Jacobi points and weights for the weight (3/4)(1 - s^2) on [-1, 1]: exact to degree 2 count - 1.
-typedef struct {
-    int count;
-    double place[MOST_SLICES], share[MOST_SLICES];
-} SliceRule;
-
-static const SliceRule SLICED = {
-    7,
-    {-0.8997579954114603, -0.6771862795107377, -0.36311746382617816, 0.0, 0.36311746382617816,
-     0.6771862795107377, 0.8997579954114603},
-    {0.02363715011287406, 0.11148030343755763, 0.22556281855841187, 0.27863945578231275, 0.22556281855841187,
-     0.11148030343755763, 0.02363715011287406},
-};
-
-static const SliceRule FINE = {
-    21,
-    {-0.9855271558787326,
-     -0.9517579557107102,
-     -0.899458558040345,
-     -0.8296510966512859,
-     -0.7436950411720606,
-     -0.6432636444601362,
-     -0.5303117711368441,
-     -0.40703793791447485,
-     -0.27584154894579305,
-     -0.1392762040406684,
-     0.0,
-     0.1392762040406684,
-     0.27584154894579305,
-     0.40703793791447485,
-     0.5303117711368441,
-     0.6432636444601362,
-     0.7436950411720606,
-     0.8296510966512859,
-     0.899458558040345,
-     0.9517579557107102,
-     0.9855271558787326},
-    {0.000522609936244575, 0.003048976197285311, 0.008773236816095601, 0.018264887456477585,
-     0.03133917965857063,  0.047060695089807925, 0.06387929073723633,  0.07987539351053403,
-     0.09307267139929828,  0.10176439169366946,  0.10479733500956052,  0.10176439169366946,
-     0.09307267139929828,  0.07987539351053403,  0.06387929073723633,  0.047060695089807925,
-     0.03133917965857063,  0.018264887456477585, 0.008773236816095601, 0.003048976197285311,
-     0.000522609936244575},
+static const struct {
+    double side[SLICES_ROOM], z[SLICES_ROOM], w[SLICES_ROOM];
+} SLICE = {
+    {-1.0, -1.0, -1.0, -1.0, -1.0, -1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0},
+    {0.02931642715978494, 0.1480785996684843, 0.3369846902811543, 0.5586715187715502, 0.7692338620300545,
+     0.926945671319741, 0.02931642715978494, 0.1480785996684843, 0.3369846902811543, 0.5586715187715502,
+     0.7692338620300545, 0.926945671319741},
+    {0.0723103307255089, 0.13554249723151868, 0.14079255378819883, 0.0986611508906552, 0.04395516555050896,
+     0.008738301813609529, 0.0723103307255089, 0.13554249723151868, 0.14079255378819883, 0.0986611508906552,
+     0.04395516555050896, 0.008738301813609529},
 };
 
 static const double TINY = 1e-30;  // keeps padding lanes and balls at a groove's centre from dividing by 0
@@ -170,106 +142,122 @@ INLINE Tangential point_traction(const Parameters *p, const Contact *c, wide inv
     return out;
 }
 
-// What the slices of a contact have in common.
+// What the slices of a contact have in common.  Slip along t_1 and t_2: s_1 + k x + b_1 x^2, s_2 + b_2 x^2.
 typedef struct {
-    vec n, t_1, t_2, slip, bend;
-    wide R, a, spin_n, Q, inv_U, f_a;
+    wide s_1, s_2, k, b_1, b_2, Q, inv_U, f_a;
+    wide x_0;  // where the ellipse is split
 } SlicedContact;
 
-// What a slice adds: coefficient, force, moment about the ball's centre, power.
+// What a slice adds, and the sums over the slices: coefficient g and its second moment, power, forces -F_1, -F_2 and their
+// moments over x.
 typedef struct {
-    wide g, g_spin, dissipated;
-    vec F, M;
+    wide g, g_xx, dissipated, F_1, F_2, F_1x, F_1xx, F_2xx;
 } SliceTraction;
 
-INLINE SliceTraction slice_traction(const Parameters *p, const Race *race, const SlicedContact *c, wide place,
-                                    wide part, bool mixed)
+enum { SUMS = sizeof(SliceTraction) / sizeof(wide) };
+
+// Place -s k/(k^2 + b^2) where the slip changes its sign, within the ellipse.
+INLINE wide split_place(const SlicedContact *c)
 {
-    const wide xi = c->a * place, sagitta = xi * xi * (0.5 / race->R_m);
-    const vec slip = vec_axpy(-sagitta, c->bend, vec_axpy(-xi * c->spin_n, c->t_1, c->slip));
-    const wide slip_2 = vec_dot(slip, slip) + p->oil.v_0 * p->oil.v_0;
-    const wide inv_slip = 1.0 / wide_sqrt(slip_2);
-    const wide g = part * traction_mu(p, slip_2 * inv_slip * c->inv_U, c->f_a, mixed) * c->Q * inv_slip;
-    const vec F = vec_scale(-g, slip), arm = vec_axpy(xi, c->t_2, vec_scale(c->R - sagitta, c->n));
-    return (SliceTraction){g, g * xi * xi, vec_dot(F, slip), F, vec_cross(arm, F)};
+    const wide x_0 = -(c->s_1 * c->k) / (c->k * c->k + c->b_1 * c->b_1 + TINY);
+    return wide_max(wide_min(x_0, wide_set(1.0)), wide_set(-1.0));
 }
 
-enum { SUMS = 9, SUMS_ROOM = 16 };  // of the slices of a contact; whole packets
-
-// Adds the values in the first `count` lanes to the sums of a ball, one lane after the other as they come slice by slice.
-static __attribute__((noinline)) void add_lanes(const wide value[SUMS], int count, scalar sum[SUMS_ROOM])
+INLINE SliceTraction slice_traction(const Parameters *p, const SlicedContact *c, wide side, wide z, wide w,
+                                    bool mixed)
 {
-    scalar of[LANE_WIDTH][SUMS_ROOM] = {{0.0}};
-    for (int n = 0; n < SUMS; n++) {
-        scalar lanes[LANE_WIDTH];
-        wide_store(lanes, value[n]);
-        for (int i = 0; i < LANE_WIDTH; i++) of[i][n] = lanes[i];
-    }
-    for (int i = 0; i < LANE_WIDTH && i < count; i++)
-        for (int n = 0; n < SUMS_ROOM; n += LANE_WIDTH)
+    const wide x = c->x_0 * (1.0 - z) + side * z, xx = x * x, half = 1.0 - side * c->x_0;
+    const wide part = (1.0 + side * x) * (0.75 * (half * half) * w);
+    const wide s_1 = c->s_1 + x * c->k + xx * c->b_1, s_2 = c->s_2 + xx * c->b_2;
+    const wide slip_2 = s_1 * s_1 + s_2 * s_2 + p->oil.v_0 * p->oil.v_0, inv_slip = 1.0 / wide_sqrt(slip_2);
+    const wide g = part * traction_mu(p, slip_2 * inv_slip * c->inv_U, c->f_a, mixed) * c->Q * inv_slip;
+    const wide F_1 = g * s_1, F_2 = g * s_2;
+    return (SliceTraction){g, g * xx, F_1 * s_1 + F_2 * s_2, F_1, F_2, F_1 * x, F_1 * xx, F_2 * xx};
+}
+
+// Adds the values in the lanes to the sums of a ball, one lane after the other as they come slice by slice.
+static __attribute__((noinline)) void add_lanes(const SliceTraction *slices, scalar sum[SUMS])
+{
+    scalar of[LANE_WIDTH][SUMS], lanes[SUMS][LANE_WIDTH];
+    memcpy(lanes, slices, sizeof lanes);
+    for (int n = 0; n < SUMS; n++)
+        for (int i = 0; i < LANE_WIDTH; i++) of[i][n] = lanes[n][i];
+    for (int i = 0; i < LANE_WIDTH; i++)
+        for (int n = 0; n < SUMS; n += LANE_WIDTH)
             wide_store(&sum[n], wide_load(&sum[n]) + wide_load(&of[i][n]));
 }
 
 // Sums over the slices, which lie side by side in a packet, for one ball after the other.  Where a packet has few
 // balls this takes fewer packets than slice by slice.
-INLINE void ball_by_ball(const Parameters *p, const Race *race, const SlicedContact *all, int balls,
-                         bool mixed, const SliceRule *rule, Tangential *out)
+INLINE SliceTraction ball_by_ball(const Parameters *p, const SlicedContact *all, int balls, bool mixed)
 {
-    enum { MOST = MOST_SLICES + LANE_WIDTH, COMMON = sizeof *all / sizeof(wide) };
+    enum { COMMON = sizeof *all / sizeof(wide) };
 
-    scalar place[MOST] = {0.0}, part[MOST] = {0.0};
-    for (int i = 0; i < rule->count; i++) place[i] = rule->place[i], part[i] = rule->share[i];
-    scalar common[COMMON][LANE_WIDTH], sum[LANE_WIDTH][SUMS_ROOM] = {{0.0}};
+    scalar common[COMMON][LANE_WIDTH], sum[LANE_WIDTH][SUMS] = {{0.0}}, sums[SUMS][LANE_WIDTH];
     memcpy(common, all, sizeof common);
     for (int ball = 0; ball < balls; ball++) {
         wide one[COMMON];
         SlicedContact c;
         for (int i = 0; i < COMMON; i++) one[i] = wide_set(common[i][ball]);
         memcpy(&c, one, sizeof c);
-        for (int first = 0; first < rule->count; first += LANE_WIDTH) {
-            const SliceTraction s =
-                slice_traction(p, race, &c, wide_load(&place[first]), wide_load(&part[first]), mixed);
-            const wide value[SUMS] = {s.g, s.g_spin, -s.dissipated, s.F.x, s.F.r, s.F.t, s.M.x, s.M.r, s.M.t};
-            add_lanes(value, rule->count - first, sum[ball]);
+        for (int i = 0; i < SLICES; i += LANE_WIDTH) {
+            const SliceTraction s = slice_traction(p, &c, wide_load(&SLICE.side[i]), wide_load(&SLICE.z[i]),
+                                                   wide_load(&SLICE.w[i]), mixed);
+            add_lanes(&s, sum[ball]);
         }
     }
-    scalar all_balls[SUMS][LANE_WIDTH];
     for (int n = 0; n < SUMS; n++)
-        for (int ball = 0; ball < LANE_WIDTH; ball++) all_balls[n][ball] = sum[ball][n];
-    out->g = wide_load(all_balls[0]), out->g_spin = wide_load(all_balls[1]);
-    out->dissipated = wide_load(all_balls[2]);
-    out->F_s = vec_load(all_balls[3], all_balls[4], all_balls[5]);
-    out->M = vec_load(all_balls[6], all_balls[7], all_balls[8]);
+        for (int ball = 0; ball < LANE_WIDTH; ball++) sums[n][ball] = sum[ball][n];
+    SliceTraction out;
+    memcpy(&out, sums, sizeof out);
+    return out;
+}
+
+INLINE SliceTraction slice_by_slice(const Parameters *p, const SlicedContact *c, bool mixed)
+{
+    SliceTraction out = {0};
+    for (int i = 0; i < SLICES; i++) {
+        const SliceTraction s =
+            slice_traction(p, c, wide_set(SLICE.side[i]), wide_set(SLICE.z[i]), wide_set(SLICE.w[i]), mixed);
+        out.g += s.g, out.g_xx += s.g_xx, out.dissipated += s.dissipated;
+        out.F_1 += s.F_1, out.F_1x += s.F_1x, out.F_1xx += s.F_1xx;
+        out.F_2 += s.F_2, out.F_2xx += s.F_2xx;
+    }
+    return out;
 }
 
 // Traction over the long axis of the ellipse, of a packet with a number of balls.
 INLINE Tangential sliced_traction(const Parameters *p, const Race *race, const Contact *c, int balls,
-                                  wide inv_U, wide f_a, bool mixed, const SliceRule *rule)
+                                  wide inv_U, wide f_a, bool mixed)
 {
-    const wide a = race->hertz.a_delta * c->sqrt_delta, spin_n = vec_dot(c->spin, c->n);
-    const vec bend = vec_cross(c->spin, c->n);  // has parts along t_1 and t_2 only
-    const SlicedContact common = {c->n, c->t_1, c->t_2, c->slip, bend, c->R, a, spin_n, c->Q, inv_U, f_a};
-    Tangential out = {0};
-    if (balls * ((rule->count + LANE_WIDTH - 1) / LANE_WIDTH) < rule->count)
-        ball_by_ball(p, race, &common, balls, mixed, rule, &out);
-    else
-        for (int i = 0; i < rule->count; i++) {
-            const SliceTraction s =
-                slice_traction(p, race, &common, wide_set(rule->place[i]), wide_set(rule->share[i]), mixed);
-            out.g += s.g;
-            out.g_spin += s.g_spin;
-            out.F_s = vec_add(out.F_s, s.F);
-            out.M = vec_add(out.M, s.M);
-            out.dissipated -= s.dissipated;
-        }
-    out.spin_dissipated = -(vec_dot(out.M, c->n) * spin_n);
+    const wide a = race->hertz.a_delta * c->sqrt_delta, sagitta = a * a * (0.5 / race->R_m);
+    const wide spin_n = vec_dot(c->spin, c->n);
+    SlicedContact common = {.s_1 = vec_dot(c->slip, c->t_1),
+                            .s_2 = vec_dot(c->slip, c->t_2),
+                            .k = -(a * spin_n),
+                            .b_1 = -(sagitta * vec_dot(c->spin, c->t_2)),
+                            .b_2 = sagitta * vec_dot(c->spin, c->t_1),
+                            .Q = c->Q,
+                            .inv_U = inv_U,
+                            .f_a = f_a};
+    common.x_0 = split_place(&common);
+    const SliceTraction sum = balls * ((SLICES + LANE_WIDTH - 1) / LANE_WIDTH) < SLICES
+                                  ? ball_by_ball(p, &common, balls, mixed)
+                                  : slice_by_slice(p, &common, mixed);
+    // a slice's lever about the ball's centre: (R - sagitta x^2) n + a x t_2
+    Tangential out = {.g = sum.g, .g_spin = a * a * sum.g_xx, .dissipated = sum.dissipated};
+    const wide spin_M = a * sum.F_1x;
+    out.F_s = vec_axpy(-sum.F_1, c->t_1, vec_scale(-sum.F_2, c->t_2));
+    out.M = vec_axpy(sagitta * sum.F_1xx - c->R * sum.F_1, c->t_2,
+                     vec_axpy(c->R * sum.F_2 - sagitta * sum.F_2xx, c->t_1, vec_scale(spin_M, c->n)));
+    out.spin_dissipated = -(spin_M * spin_n);
     return out;
 }
 
 // Traction and the inlet's rolling friction: -F_R U/|U| at the surface, and the film's horizontal pressure
 // force +F_H U/|U| through the ball's centre.
 INLINE Tangential race_traction(const Model *model, const Race *race, const Contact *c, int balls, bool mixed,
-                                const SliceRule *rule)
+                                bool sliced)
 {
     const Parameters *p = model->p;
     const wide U_2 = vec_dot(c->roll, c->roll) + p->oil.U_0 * p->oil.U_0, inv_U = 1.0 / wide_sqrt(U_2);
@@ -282,8 +270,8 @@ INLINE Tangential race_traction(const Model *model, const Race *race, const Cont
     const wide F_R = traction_race_inlet(model->d, wide_set(race->rolling), U_2 * inv_U, ln_U, c->Q, ln_Q);
     const vec rolling = vec_scale(F_R * inv_U, c->roll);
 
-    Tangential out = rule ? sliced_traction(p, race, c, balls, inv_U, f_a, mixed, rule)
-                          : point_traction(p, c, inv_U, f_a, mixed);
+    Tangential out = sliced ? sliced_traction(p, race, c, balls, inv_U, f_a, mixed)
+                            : point_traction(p, c, inv_U, f_a, mixed);
     out.F_s = vec_sub(out.F_s, rolling);
     out.M = vec_sub(out.M, vec_cross(vec_scale(c->R, c->n), rolling));
     out.F_c = vec_scale(wide_set(race->horizontal), rolling);
@@ -319,8 +307,8 @@ INLINE void store_contacts(Work *w, int j, const Contact *inner, const Contact *
 
 // Both race contacts of a packet of balls.  inner_R_g: radius of the inner groove's circle as the ring has grown;
 // outer_ring: its motion, NULL for a ring at rest in its place.
-INLINE void race_contact_packet(const Model *model, Work *w, int j, scalar inner_R_g, bool mixed,
-                                const SliceRule *rule, const Rotor *outer_ring)
+INLINE void race_contact_packet(const Model *model, Work *w, int j, scalar inner_R_g, bool mixed, bool sliced,
+                                const Rotor *outer_ring)
 {
     const Derived *d = model->d;
     const wide cos_theta = wide_load(&w->cos_theta[j]), sin_theta = wide_load(&w->sin_theta[j]);
@@ -342,8 +330,8 @@ INLINE void race_contact_packet(const Model *model, Work *w, int j, scalar inner
                                              vec_local(outer_ring->v, cos_theta, sin_theta),
                                              vec_local(outer_ring->Omega, cos_theta, sin_theta));
     const int balls = Z - j < LANE_WIDTH ? Z - j : LANE_WIDTH;
-    const Tangential T_i = race_traction(model, &d->inner, &inner, balls, mixed, rule);
-    const Tangential T_e = race_traction(model, &d->outer, &outer, balls, mixed, rule);
+    const Tangential T_i = race_traction(model, &d->inner, &inner, balls, mixed, sliced);
+    const Tangential T_e = race_traction(model, &d->outer, &outer, balls, mixed, sliced);
     store_contacts(w, j, &inner, &outer, &T_i, &T_e);
 
     // forces and moments on the balls, what the pockets add to, wrench on the ring about its centre
@@ -361,35 +349,33 @@ INLINE void race_contact_packet(const Model *model, Work *w, int j, scalar inner
     vec_to_global(M_ring, cos_theta, sin_theta, &w->ring_M_x[j], &w->ring_M_y[j], &w->ring_M_z[j]);
 }
 
-// Balls of a bearing whose outer ring moves, or whose contacts have many slices.
-static __attribute__((noinline)) void race_contact_force_rare(const Model *model, Work *w, scalar inner_R_g,
-                                                              bool mixed, const SliceRule *rule)
+// Balls of a bearing whose outer ring moves.
+static __attribute__((noinline)) void race_contact_force_moving(const Model *model, Work *w, scalar inner_R_g,
+                                                                bool mixed, bool sliced)
 {
-    const bool moves = outer_ring_moves(model->ring_load);
     const Rotor outer = outer_ring(model->ring_load);
     for (int b = 0; b < PACKETS; b++)
-        race_contact_packet(model, w, b * LANE_WIDTH, inner_R_g, mixed, rule, moves ? &outer : NULL);
+        race_contact_packet(model, w, b * LANE_WIDTH, inner_R_g, mixed, sliced, &outer);
 }
 
 void race_contact_force(const Model *model, Work *w)
 {
     const bool mixed = model->p->scene.lubrication == LUBRICATION_MIXED;
-    const int traction = model->p->scene.traction;
-    const SliceRule *rule = traction == TRACTION_POINT ? NULL : traction == TRACTION_SLICED ? &SLICED : &FINE;
+    const bool sliced = model->p->scene.traction == TRACTION_SLICED;
     const scalar growth = ring_fit_growth(&model->d->fit, ring_fit_speed(model->ring_load));
     const scalar R_g = model->d->inner.R_g + growth;
-    if (outer_ring_moves(model->ring_load) || rule == &FINE) {
-        race_contact_force_rare(model, w, R_g, mixed, rule);
+    if (outer_ring_moves(model->ring_load)) {
+        race_contact_force_moving(model, w, R_g, mixed, sliced);
         return;
     }
     for (int b = 0; b < PACKETS; b++) {
         const int j = b * LANE_WIDTH;
-        if (rule)
-            mixed ? race_contact_packet(model, w, j, R_g, true, &SLICED, NULL)
-                  : race_contact_packet(model, w, j, R_g, false, &SLICED, NULL);
+        if (sliced)
+            mixed ? race_contact_packet(model, w, j, R_g, true, true, NULL)
+                  : race_contact_packet(model, w, j, R_g, false, true, NULL);
         else
-            mixed ? race_contact_packet(model, w, j, R_g, true, NULL, NULL)
-                  : race_contact_packet(model, w, j, R_g, false, NULL, NULL);
+            mixed ? race_contact_packet(model, w, j, R_g, true, false, NULL)
+                  : race_contact_packet(model, w, j, R_g, false, false, NULL);
     }
 }
 

@@ -69,18 +69,6 @@ def assumed_rows(result):
             yield name, value, low * value, high * value, unit, stress, source
 
 
-STRAIGHT = np.deg2rad(0.3)  # tilt up to which seven slices are enough
-
-
-def slices_note(result):
-    """What seven slices of a contact leave out in a run whose inner ring was tilted further than they bear: "" if it was not."""
-    tilts = [result.data[name] for name in ("ring.tilt_y", "ring.tilt_z") if name in result.data]
-    tilt = float(np.max(np.sqrt(np.sum(np.square(tilts), axis=0)))) if tilts else 0.0
-    if result.parameters.get("scene.traction") != "sliced" or tilt <= STRAIGHT:
-        return ""
-    return f'at a tilt of {tilt * DEG:.2g} deg seven slices of a contact miss up to a quarter of the largest stress: scene.traction = "fine" takes 21'
-
-
 def life_is_known(result):
     """Whether the stress is good enough to speak of a life: not from closed forms."""
     return int(result.summary.get("rivet.table_kind", 0)) != 3

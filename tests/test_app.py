@@ -22,7 +22,7 @@ from riveted_bearing.builder import start_document
 from riveted_bearing.fmu import Instance, Model
 from riveted_bearing.report import render
 from riveted_bearing.results import FORMATS, to_toml, write_atomically
-from riveted_bearing.summary import rivet_rows, slices_note, summary_rows, table_note
+from riveted_bearing.summary import rivet_rows, summary_rows, table_note
 
 ROOT = Path(__file__).resolve().parents[1]
 
@@ -405,15 +405,6 @@ def test_closed_forms_are_no_ground_for_a_life(short):
     known, unknown = render(short), render(rough)
     assert "Life: not given, for the rivets&#39; stress rests on closed forms" in unknown and "Life of the weakest rivet" not in unknown
     assert "Life: not given" not in known and "Life of the weakest rivet" in known
-
-
-def test_a_tilt_that_needs_more_slices_is_said():
-    """Beyond 0.3 degrees, with the default's seven slices, and not where the tilt is not known."""
-    tilted = run("demo", t_end=2e-4, inputs={"shaft.tilt_z": "0.5 deg"}, outputs=["ring.tilt_y", "ring.tilt_z"])
-    assert "0.5 deg" in slices_note(tilted) and '"fine"' in slices_note(tilted)
-    assert slices_note(replace(tilted, parameters=tilted.parameters | {"scene.traction": "fine"})) == ""
-    assert slices_note(replace(tilted, data={name: 0.5 * values for name, values in tilted.data.items()})) == ""
-    assert slices_note(replace(tilted, data={"time": tilted.data["time"]})) == ""
 
 
 @pytest.mark.slow

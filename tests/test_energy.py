@@ -162,7 +162,7 @@ def test_energy_balance_of_a_run(core, cage, method, order_of_error, largest, re
     Observed by Verlet 3.2e-4 and 4.2e-4 with either cage, of which the first millisecond, in which the start settles, makes most.
 
     Error by tolerance over the first 2 ms: slope 1 (Runge-Kutta), 2/3 (Verlet: order 2, steps by an estimate of order 3).  Later the motions at two
-    tolerances have parted, and so have their residuals, which have a sign and pass through zero.
+    tolerances have parted, and so have their residuals, which have a sign and pass through zero: medians of three clearances.
     """
     parameters = {"scene.cage": cage, "solver.method": method}
     error, loss, _ = residual(core, 1e-4, parameters, 1e-2)
@@ -170,8 +170,9 @@ def test_energy_balance_of_a_run(core, cage, method, order_of_error, largest, re
     dissipated = loss * 1e-2
     record_property("residual", {"of what is dissipated": float(error / dissipated)})
     assert error < largest * dissipated
-    slope, _ = order(core, [1e-4, 1e-5, 1e-6], parameters, 2e-3)
-    assert slope == pytest.approx(order_of_error, abs=0.2)  # observed 0.84, 0.85, where the error nears its passage through zero; 0.63
+    tolerances = [1e-5, 1e-6, 1e-7] if method == Method.EXPLICIT else [1e-4, 1e-5, 1e-6]
+    slopes = [order(core, tolerances, parameters | {"cage.pocket_clearance": clearance}, 2e-3)[0] for clearance in (1.8e-4, 2e-4, 2.2e-4)]
+    assert np.median(slopes) == pytest.approx(order_of_error, abs=0.2)  # observed 1.15, 1.14; 0.63
 
 
 @pytest.mark.c_only

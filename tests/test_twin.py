@@ -47,7 +47,7 @@ OTHER = {
     "ring.J_p": 3e-4,
 }
 SUPPORTED, FREE = {"ring.tilt_mode": 2}, {"ring.tilt_mode": 3}
-MIXED, SLICED, FINE, RIGID, ELASTIC = {"scene.lubrication": 2}, {"scene.traction": 2}, {"scene.traction": 3}, {"scene.cage": 2}, {"scene.cage": 3}
+MIXED, SLICED, RIGID, ELASTIC = {"scene.lubrication": 2}, {"scene.traction": 2}, {"scene.cage": 2}, {"scene.cage": 3}
 UNBALANCE = {"cage.unbalance": 2e-6, "gravity.y": -9.81, "gravity.z": 3.0}
 PULSE = {"pulse.F_r": 1401.0, "pulse.F_a": 241.0, "pulse.t_start": 0.0}
 LOADS = {"shaft.F_x": 800.0, "shaft.F_y": 2000.0, "shaft.F_z": -1500.0, "shaft.M_y": 3.0, "shaft.M_z": -2.0, "shaft.tilt_y": 1e-3, "shaft.tilt_z": 2.6e-3}
@@ -71,7 +71,7 @@ SCENES = {
     "jam": (MIXED | SUPPORTED | {"cage.pocket_clearance": 1e-4, "ring.k_tilt": 500.0}, SLOW),
     "free_sliced": (SLICED | FREE | UNBALANCE, LOADS),
     "sliced_mixed": (SLICED | MIXED | PULSE, BACKWARD),
-    "fine_mixed": (FINE | MIXED, LOADS | HOUSING),
+    "tilted_mixed": (MIXED, LOADS | HOUSING | {"shaft.tilt_z": 8e-3}),
     "rigid": (RIGID | UNBALANCE, {}),
     "rigid_mixed_sliced": (RIGID | MIXED | SLICED | SUPPORTED | UNBALANCE, LOADS),
     "other": (OTHER, HOT),

@@ -9,7 +9,7 @@
 
 #define FMI2_FUNCTION_PREFIX RivetedBearing_  // of the functions of a source-code FMU
 #define MODEL_IDENTIFIER "RivetedBearing"
-#define MODEL_GUID "{0270f101-7d5a-5cec-5171-3fd256e3d5cc}"  // digest of the table
+#define MODEL_GUID "{849cc6ec-671d-06de-ef6a-f23e1c702cff}"  // digest of the table
 
 enum { Z = 9 };  // number of balls
 
@@ -29,8 +29,7 @@ enum {  // CageModel
 };
 enum {  // Traction
     TRACTION_POINT = 1,  // one slip for the whole contact
-    TRACTION_SLICED = 2,  // slip, spin and curvature in 7 slices over the contact ellipse
-    TRACTION_FINE = 3,  // the same in 21 slices: for a tilted shaft
+    TRACTION_SLICED = 2,  // slip, spin and curvature in 12 slices over the contact ellipse
 };
 enum {  // Lubrication
     LUBRICATION_FILM = 1,  // full film in races and pockets

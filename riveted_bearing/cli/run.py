@@ -78,7 +78,7 @@ def looks_like_a_file(path):
 
 def print_summary(result):
     """The figures of a run on the terminal."""
-    from ..summary import assumed_rows, rivet_rows, slices_note, summary_rows, table_note
+    from ..summary import assumed_rows, rivet_rows, summary_rows, table_note
 
     about, summary = result.about, result.summary
     console.print(f"[bold]{escape(about['scene'])}[/]  {escape(about['description'])}", soft_wrap=True)
@@ -115,7 +115,7 @@ def print_summary(result):
         messages.print(f"[yellow]note:[/] the scene replaces values of the bearing: {escape(shortlist(about['replaced']))}", soft_wrap=True)
     for source, names in about.get("not_given", {}).items():
         console.print(f"[dim]not given, {escape(source)}: {escape(names)}[/]", soft_wrap=True)
-    for note in filter(None, (table_note(result), slices_note(result))):
+    if note := table_note(result):
         messages.print(f"[yellow]note:[/] {escape(note)}", soft_wrap=True)
     for text in dict.fromkeys(about.get("messages", [])):
         if not result.stopped or text not in result.stopped:
