@@ -157,7 +157,7 @@ def frictional_limit(core, load):
     """Mean orbital speed of the balls after 20 ms of pure thrust [rad/s]."""
     free = dict.fromkeys(("oil.rolling", "oil.rho_mix", "cage.mu", "cage.mu_land"), 0.0)
     instance = Instance(
-        core, free | {"oil.B": 100.0, "oil.eta": 1e-5, "cage.pocket_clearance": 5e-3}, {"shaft.F_x": load.F_x, "shaft.F_y": 0.0, "shaft.omega": load.omega}
+        core, free | {"oil.B": 100.0, "oil.eta": 1e-5, "cage.pocket_clearance": 1e-3}, {"shaft.F_x": load.F_x, "shaft.F_y": 0.0, "shaft.omega": load.omega}
     )
     instance.step(0.02)
     return float(np.mean(instance.output("ball.omega_m")))
