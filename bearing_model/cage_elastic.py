@@ -236,7 +236,7 @@ def cage_elastic_vibrations(model, w, y, h=None):
     inside = np.concatenate([axes @ before[1:3], before[5:]])
     results = []
     for v, block, rigid in ((half.mirrored, MODE_S_DOT, out), (half.opposed[int(np.any(w.k_bearing > 0.0))], MODE_D_DOT, inside)):
-        factor = v.slowed if h is None else 1.0 - np.minimum(0.2, WAVE_DAMPING * (h * h * v.lambda_) ** 2)
+        factor = v.slowed if h is None else 1.0 - WAVE_DAMPING * (h * h * v.lambda_) ** 2
         found = v.shape @ (factor * (v.shape.T @ (v.inertia * np.append(y[block][: half.n], rigid))))
         y[block][: half.n] = found[: half.n]
         results.append(found[half.n :])

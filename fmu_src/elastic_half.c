@@ -341,9 +341,9 @@ static void find_wave(const Parameters *p, const ElasticHalf *half, bool out, in
             for (int k = 0; k < Z; k++)
                 B[row][c] += sqrt(2.0) * unit[c][k] * (out ? half->out[i][c][k] : half->in[i][c][k]);
     }
+    wave->modes = wave->count;
     if (motion >= 0) {
         const int row = wave->count++;
-        wave->row[row] = RIGID_MOTION;
         root[row] = sqrt(inertia);
         for (int c = 0; c < count; c++)
             for (int k = 0; k < Z; k++)
@@ -355,14 +355,17 @@ static void find_wave(const Parameters *p, const ElasticHalf *half, bool out, in
                 for (int b = 0; b < count; b++)
                     A[i][k] += B[i][a] * K_n[a][b] * B[k][b] / (root[i] * root[k]);
     diagonalize(wave->count, A, Q);
-    for (int i = 0; i < wave->count; i++)
-        for (int k = 0; k < wave->count; k++)
-            wave->to[i][k] = root[i] * Q[i][k], wave->back[k][i] = Q[i][k] / root[i];
-    for (int i = 0; i < wave->count; i++) {
-        wave->slowed[i] = 1.0 / fmax(1.0, MARGIN * 0.25 * A[i][i] * half->longest * half->longest);
-        wave->lambda[i] = wave->slowed[i] * A[i][i];
-    }
     wave->blocks = (wave->count + 7) / 8;
+    for (int v = 0; v < wave->count; v++) {
+        const double slowed = 1.0 / fmax(1.0, MARGIN * 0.25 * A[v][v] * half->longest * half->longest),
+                     lambda = slowed * A[v][v];
+        for (int i = 0; i < wave->count; i++)
+            for (int k = 0; k < wave->count; k++) {
+                const double along = root[i] * Q[i][v] * Q[k][v] / root[k];
+                wave->slowing[i][k] += (slowed - 1.0) * along;
+                wave->damping[i][k] += lambda * lambda * along;
+            }
+    }
 }
 
 static void find_waves(const Parameters *p, const Derived *d, ElasticHalf *half)

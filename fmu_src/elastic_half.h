@@ -30,16 +30,15 @@ enum { RESTS = 65 };  // states of rest under the centrifugal load, at equal ste
 // The vibrations of both halves and their closed joints, wave by wave: a mode's coordinate a or b of harmonic n meets joints
 // only of the same wave, and so do relative motions of the halves as rigid bodies.  With a the accelerations times the root of
 // their inertia, the stiffness is Q diag(lambda) Q^T.
-enum { WAVES = 2 * (Z / 2 + 1), WAVE_SIZE = 16, RIGID_MOTION = -1 };
+enum { WAVES = 2 * (Z / 2 + 1), WAVE_SIZE = 16 };
 
 typedef struct {
-    int count, blocks;                  // coordinates, blocks of eight
-    int row[WAVE_SIZE];                 // mode, or RIGID_MOTION: the last one
-    int motion;                         // which rigid motion: v_x, about y, about z; v_y, v_z, spin
-    double lambda[WAVE_SIZE];           // with that inertia [1/s2]
-    double slowed[WAVE_SIZE];           // 1/inertia that the longest step needs
-    double to[WAVE_SIZE][WAVE_SIZE];    // root of the inertia times Q [coordinate][vibration]
-    double back[WAVE_SIZE][WAVE_SIZE];  // its inverse [vibration][coordinate]
+    int count, modes, blocks;  // coordinates, modes among them, blocks of eight
+    int row[WAVE_SIZE];        // of the modes
+    int motion;  // which rigid motion the last coordinate is: v_x, about y, about z; v_y, v_z, spin; or none
+    // What all coordinates change by one [from][to], times the roots of their inertia:
+    double slowing[WAVE_SIZE][WAVE_SIZE];  // Q diag(s - 1) Q^T, 1/s the inertia that the longest step needs
+    double damping[WAVE_SIZE][WAVE_SIZE];  // Q diag((s lambda)^2) Q^T [1/s4]
 } Wave;
 
 struct ElasticHalf {
