@@ -37,14 +37,15 @@ static void take_mode(const HalfModes *table, int entry, int coordinate, double 
                       int i)
 {
     const HalfMode *mode = &table->entry[entry];
+    const double root = sqrt(2.0);
     for (int k = 0; k < Z; k++) {
         const double theta = 2.0 * PI * (k + 0.5) / Z;
         for (int c = 0; c < PAD_OUT; c++)
-            half->out[i][c][k] = half->out_modes[c][k][i] =
-                unit * mode->at[OUT[c]] * wave_at(mode->harmonic, coordinate, ODD[OUT[c]], theta);
+            half->out[i][c * Z + k] = half->out_modes[c][k][i] =
+                root * unit * mode->at[OUT[c]] * wave_at(mode->harmonic, coordinate, ODD[OUT[c]], theta);
         for (int c = 0; c < PAD_IN; c++)
-            half->in[i][c][k] = half->in_modes[c][k][i] =
-                unit * mode->at[IN[c]] * wave_at(mode->harmonic, coordinate, ODD[IN[c]], theta);
+            half->in[i][c * Z + k] = half->in_modes[c][k][i] =
+                root * unit * mode->at[IN[c]] * wave_at(mode->harmonic, coordinate, ODD[IN[c]], theta);
         for (int part = 0; part < 2; part++)
             half->wave[k][part][i] = wave_at(mode->harmonic, coordinate, part, 2.0 * PI * k / Z);
     }
@@ -97,7 +98,10 @@ static void invert_residual(double R[Z][PADS][PADS], ElasticHalf *half)
     solve(A, x);
     for (int k = 0; k < Z; k++)
         for (int a = 0; a < PAD_OUT; a++)
-            for (int b = 0; b < PAD_OUT; b++) half->K[k][a][b] = unit[a] * unit[b] * x[PAD_OUT * k + a][b];
+            for (int b = 0; b < PAD_OUT; b++) {
+                half->K[k][a][b] = unit[a] * unit[b] * x[PAD_OUT * k + a][b];
+                for (int j = 0; j < Z; j++) half->held[b][j][a * Z + (j + k) % Z] = half->K[k][a][b];
+            }
 }
 
 // ---- the law over L^ ------------------------------------------------------------------------------------------------
@@ -339,7 +343,7 @@ static void find_wave(const Parameters *p, const ElasticHalf *half, bool out, in
         A[row][row] = half->omega_2[i];
         for (int c = 0; c < count; c++)
             for (int k = 0; k < Z; k++)
-                B[row][c] += sqrt(2.0) * unit[c][k] * (out ? half->out[i][c][k] : half->in[i][c][k]);
+                B[row][c] += unit[c][k] * (out ? half->out[i] : half->in[i])[c * Z + k];
     }
     wave->modes = wave->count;
     if (motion >= 0) {
@@ -443,10 +447,10 @@ static void rest_off(const Parameters *p, const ElasticHalf *half, double omega_
     double e[PAD_OUT] = {0.5 * x[0], 0.0, 0.0}, K[PAD_OUT][PAD_OUT] = {{0.0}}, bonded[PAD_OUT] = {0.0},
            behind[PAD_OUT];
     for (int i = 0; i < half->n; i++) {
-        const double load = half->alike[i] ? Z * half->out[i][2][0] * x[1] : 0.0;
-        S[i] = root * (half->spin[i] * omega_2 - load) / (p->cage.m * half->omega_2[i]);
-        e[0] += S[i] * half->out[i][0][0] / root;
-        e[2] += S[i] * half->out[i][2][0] / root;
+        const double load = half->alike[i] ? Z * half->out[i][2 * Z] * x[1] : 0.0;
+        S[i] = (root * half->spin[i] * omega_2 - load) / (p->cage.m * half->omega_2[i]);
+        e[0] += 0.5 * S[i] * half->out[i][0];
+        e[2] += 0.5 * S[i] * half->out[i][2 * Z];
     }
     for (int k = 0; k < Z; k++)
         for (int a = 0; a < PAD_OUT; a++)
