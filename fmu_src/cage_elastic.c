@@ -37,7 +37,7 @@ static void motion_out_of_plane(const ElasticHalf *half, const scalar *S, ball_a
 {
     octet sum[OUT_OCTETS] = {{{0.0}}}, odd[OUT_OCTETS] = {{{0.0}}};
     scalar row[8 * OUT_OCTETS];
-    octets_add_rows(MODES, S, OUT_OCTETS, half->out[0], sum, odd);
+    octets_add_rows(8 * half->blocks, S, OUT_OCTETS, half->out[0], sum, odd);
     octets_store_sum(OUT_OCTETS, sum, odd, row);
     for (int c = 0; c < PAD_OUT; c++) memcpy(to[c], &row[c * Z], Z * sizeof *row);
 }
@@ -46,7 +46,7 @@ static void motion_in_plane(const ElasticHalf *half, const scalar *D, ball_array
 {
     octet sum[IN_OCTETS] = {{{0.0}}}, odd[IN_OCTETS] = {{{0.0}}};
     scalar row[8 * IN_OCTETS];
-    octets_add_rows(MODES, D, IN_OCTETS, half->in[0], sum, odd);
+    octets_add_rows(8 * half->blocks, D, IN_OCTETS, half->in[0], sum, odd);
     octets_store_sum(IN_OCTETS, sum, odd, row);
     for (int c = 0; c < PAD_IN; c++) memcpy(to[c], &row[c * Z], Z * sizeof *row);
 }
@@ -99,7 +99,8 @@ INLINE void add_turned(const Model *model, int k, ball_array motion[PAD_IN], sca
 void cage_elastic_slip(const Model *model, const scalar *y, Work *w)
 {
     motion_in_plane(model->elastic, &y[Y_MODE_D_DOT], w->pad_in_dot);
-    for (int k = 0; k < PACKETS * LANE_WIDTH; k += LANE_WIDTH) add_turned(model, k, w->pad_in_dot, w->v_jy, w->v_jz);
+    for (int k = 0; k < PACKETS * LANE_WIDTH; k += LANE_WIDTH)
+        add_turned(model, k, w->pad_in_dot, w->v_jy, w->v_jz);
 }
 
 void cage_elastic_pads(const Model *model, Work *w)
@@ -267,8 +268,10 @@ void cage_elastic_acceleration(const Model *model, const scalar *y, Work *w, sca
                      D_dot = y[Y_MODE_D_DOT + i];
         y_dot[Y_MODE_S + i] = S_dot;
         y_dot[Y_MODE_D + i] = D_dot;
-        y_dot[Y_MODE_S_DOT + i] = inv_m * (mirrored[i] - by_out[i]) - half->damping[i] * S_dot - half->omega_2[i] * S;
-        y_dot[Y_MODE_D_DOT + i] = inv_m * (opposed[i] + by_in[i]) - half->damping[i] * D_dot - half->omega_2[i] * D;
+        y_dot[Y_MODE_S_DOT + i] =
+            inv_m * (mirrored[i] - by_out[i]) - half->damping[i] * S_dot - half->omega_2[i] * S;
+        y_dot[Y_MODE_D_DOT + i] =
+            inv_m * (opposed[i] + by_in[i]) - half->damping[i] * D_dot - half->omega_2[i] * D;
         const scalar v_2 = S_dot * S_dot + D_dot * D_dot;
         rates[i] = v_2 + half->omega_2[i] * (S * S + D * D);
         lost[i] = half->damping[i] * v_2;

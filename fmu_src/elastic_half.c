@@ -363,6 +363,7 @@ static void find_wave(const Parameters *p, const ElasticHalf *half, bool out, in
     for (int v = 0; v < wave->count; v++) {
         const double slowed = 1.0 / fmax(1.0, MARGIN * 0.25 * A[v][v] * half->longest * half->longest),
                      lambda = slowed * A[v][v];
+        wave->slows |= slowed < 1.0;
         for (int i = 0; i < wave->count; i++)
             for (int k = 0; k < wave->count; k++) {
                 const double along = root[i] * Q[i][v] * Q[k][v] / root[k];

@@ -39,21 +39,23 @@ typedef struct {
     int count, modes, blocks;  // coordinates, modes among them, blocks of eight
     int row[WAVE_SIZE];        // of the modes
     int motion;  // which rigid motion the last coordinate is: v_x, about y, about z; v_y, v_z, spin; or none
+    bool slows;  // whether the longest step slows down one of its vibrations
     // What all coordinates change by one [from][to], times the roots of their inertia:
-    _Alignas(64) double slowing[WAVE_SIZE][WAVE_SIZE];  // Q diag(s - 1) Q^T, 1/s the inertia that the longest step needs
-    double damping[WAVE_SIZE][WAVE_SIZE];  // Q diag((s lambda)^2) Q^T [1/s4]
+    _Alignas(64) double slowing[WAVE_SIZE]
+                               [WAVE_SIZE];  // Q diag(s - 1) Q^T, 1/s the inertia that the longest step needs
+    double damping[WAVE_SIZE][WAVE_SIZE];    // Q diag((s lambda)^2) Q^T [1/s4]
 } Wave;
 
 struct ElasticHalf {
-    int law_modes;                          // scene.modes of the coefficients below; 0: none yet
-    int n, blocks;                          // modes, blocks of eight of them
-    double omega_2[MODES], damping[MODES];  // omega^2, 2 zeta omega
-    double spin[MODES];                     // modal force per (rad/s)^2
-    bool alike[MODES];                      // moves all joints alike and does not twist them
-    bool pair[MODES];                       // one of two modes of the same frequency
-    _Alignas(64) double out[MODES][8 * OUT_OCTETS];      // motions of the pads against each other by S, in rows
-    _Alignas(64) double in[MODES][8 * IN_OCTETS];        // and by D
-    _Alignas(64) double out_modes[PAD_OUT][Z][MODES];    // the same, modes side by side
+    int law_modes;                                     // scene.modes of the coefficients below; 0: none yet
+    int n, blocks;                                     // modes, blocks of eight of them
+    double omega_2[MODES], damping[MODES];             // omega^2, 2 zeta omega
+    double spin[MODES];                                // modal force per (rad/s)^2
+    bool alike[MODES];                                 // moves all joints alike and does not twist them
+    bool pair[MODES];                                  // one of two modes of the same frequency
+    _Alignas(64) double out[MODES][8 * OUT_OCTETS];    // motions of the pads against each other by S, in rows
+    _Alignas(64) double in[MODES][8 * IN_OCTETS];      // and by D
+    _Alignas(64) double out_modes[PAD_OUT][Z][MODES];  // the same, modes side by side
     double in_modes[PAD_IN][Z][MODES];
     double wave[Z][2][MODES];  // at the pockets, what the real and the imaginary part of A are multiplied by
     double wall[WALL_NODES][2][3][2]
@@ -66,7 +68,8 @@ struct ElasticHalf {
     double widest[MODES];           // largest |u|/|q| of those, 0 of the others
     double compliance;              // of a wall along its normal, by the residual, less that in Hertz's [m/N]
     double K[Z][PAD_OUT][PAD_OUT];  // inverse of the residual between pads, out of the plane
-    _Alignas(64) double held[PAD_OUT][Z][8 * OUT_OCTETS];  // the same: loads of all joints by the motion of one, in rows
+    _Alignas(64) double held[PAD_OUT][Z]
+                            [8 * OUT_OCTETS];  // the same: loads of all joints by the motion of one, in rows
     double prying;  // |bonded M_t| of the centrifugal load over the law's length, per (rad/s)^2
     double relief[RESTS][PAD_OUT];  // what other joints relieve a joint of at rest, per newton of load + P
     double series, series_hole;  // parts of the joints' stiffness in the plane, in series with the residual
@@ -110,7 +113,8 @@ typedef struct {
 
 // Places of a packet of balls from j on, on the half at side (+1 or -1).  near: bits of those that are asked for.
 #define elastic_wall_places FOR_ISA(elastic_wall_places)
-void elastic_wall_places(const ElasticHalf *half, int side, int j, int near, wide n_x, wide n_t, WallPlaces *at);
+void elastic_wall_places(const ElasticHalf *half, int side, int j, int near, wide n_x, wide n_t,
+                         WallPlaces *at);
 
 // Motion of the wall of pocket j along the contact's normal, with the coordinates q.
 #define elastic_wall_normal FOR_ISA(elastic_wall_normal)

@@ -2,7 +2,8 @@
 #include "elastic_half.h"
 
 // Beyond the split the wall moves as at the split.
-void elastic_wall_places(const ElasticHalf *half, int side, int j, int near, wide n_x, wide n_t, WallPlaces *at)
+void elastic_wall_places(const ElasticHalf *half, int side, int j, int near, wide n_x, wide n_t,
+                         WallPlaces *at)
 {
     const wide along = wide_abs(n_t), zero = wide_set(0.0), one = wide_set(1.0);
     const wide chi = wide_max(wide_atan(side * n_x / wide_max(along, wide_set(1e-30))), zero);
@@ -22,8 +23,10 @@ void elastic_wall_places(const ElasticHalf *half, int side, int j, int near, wid
     const wide lower = wide_load(&at->lower[j]), inv_step = wide_load(&at->inv_step[j]);
     const wide u = (chi - lower) * inv_step, v = one - u;
     const wide step = wide_ratio(one, inv_step);
-    const wide value[4] = {v * v * (1.0 + 2.0 * u), step * u * v * v, u * u * (1.0 + 2.0 * v), -step * u * u * v};
-    const wide slope[4] = {-6.0 * u * v * inv_step, v * (v - 2.0 * u), 6.0 * u * v * inv_step, u * (u - 2.0 * v)};
+    const wide value[4] = {v * v * (1.0 + 2.0 * u), step * u * v * v, u * u * (1.0 + 2.0 * v),
+                           -step * u * u * v};
+    const wide slope[4] = {-6.0 * u * v * inv_step, v * (v - 2.0 * u), 6.0 * u * v * inv_step,
+                           u * (u - 2.0 * v)};
     for (int t = 0; t < 4; t++) {
         wide_store(&at->value[t][j], value[t]);
         wide_store(&at->slope[t][j], slope[t]);
@@ -68,7 +71,8 @@ scalar elastic_wall_normal(const ElasticHalf *half, int side, int j, const WallP
                         by[c] = wide_fma(weight[part][c][t], wide_load(&from[t][2 * c][part][m]), by[c]);
                 u[part] = by[0] + by[1];
             }
-            const wide moved = wide_fma(u[0], wide_load(&half->wave[j][0][m]), u[1] * wide_load(&half->wave[j][1][m]));
+            const wide moved =
+                wide_fma(u[0], wide_load(&half->wave[j][0][m]), u[1] * wide_load(&half->wave[j][1][m]));
             sums[i] = wide_fma(moved, wide_load(&q[m]), sums[i]);
         }
     return all_sums(sums);

@@ -589,10 +589,12 @@ static const double WAVE_DAMPING = 0.003;
 INLINE void solve_waves(const Wave *waves, bool slowing, double part, double *rates, double rigid[3])
 {
     for (const Wave *wave = waves; wave < waves + WAVES; wave++) {
+        if (slowing && !wave->slows) continue;
         const double (*by)[WAVE_SIZE] = slowing ? wave->slowing : wave->damping;
         octet change[WAVE_SIZE / 8] = {{{0.0}}};
         for (int i = 0; i < wave->modes; i++)
-            for (int b = 0; b < wave->blocks; b++) octet_add_from(rates[wave->row[i]], &by[i][8 * b], &change[b]);
+            for (int b = 0; b < wave->blocks; b++)
+                octet_add_from(rates[wave->row[i]], &by[i][8 * b], &change[b]);
         if (wave->motion >= 0) {
             const int last = wave->modes;
             for (int b = 0; b < wave->blocks; b++)
