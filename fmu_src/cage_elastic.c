@@ -277,6 +277,8 @@ void cage_elastic_acceleration(const Model *model, const scalar *y, Work *w, sca
         lost[i] = half->damping[i] * v_2;
         one[i] = 1.0;
     }
+    for (int i = half->n; i < MODES; i++)
+        y_dot[Y_MODE_S + i] = y_dot[Y_MODE_D + i] = y_dot[Y_MODE_S_DOT + i] = y_dot[Y_MODE_D_DOT + i] = 0.0;
     w->modes_energy = 0.5 * m * elastic_sum(half, rates, one);
     w->modes_dissipated = m * elastic_sum(half, lost, one);
     for (int h = 0; h < 2; h++)
