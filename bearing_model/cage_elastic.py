@@ -236,7 +236,7 @@ def cage_elastic_vibrations(model, w, y, h=None):
     inside = np.concatenate([axes @ before[1:3], before[5:]])
     results = []
     for v, block, rigid in ((half.mirrored, MODE_S_DOT, out), (half.opposed[int(np.any(w.k_bearing > 0.0))], MODE_D_DOT, inside)):
-        factor = v.slowed if h is None else 1.0 - np.minimum(0.2, WAVE_DAMPING * (h * h * v.lambda_) ** 2)
+        factor = v.slowed if h is None else 1.0 - WAVE_DAMPING * (h * h * v.lambda_) ** 2
         found = v.shape @ (factor * (v.shape.T @ (v.inertia * np.append(y[block][: half.n], rigid))))
         y[block][: half.n] = found[: half.n]
         results.append(found[half.n :])
@@ -338,12 +338,14 @@ def cage_elastic_pads(model, w):
 
 
 def cage_elastic_slip(model, y, w):
-    """Adds the modes to the joints' offsets and velocities in the plane (cage_joint_kinematics before), for the friction states."""
-    half = model.d.elastic
-    D, D_dot = (ROOT * y[..., block][..., : half.n] for block in (MODE_D, MODE_D_DOT))
-    w.pad_in, w.pad_in_dot = (np.einsum("...i,ikz->k...z", q, half.pad[:, IN]) for q in (D, D_dot))
-    w.pad_out = 0.0
-    cage_elastic_pads(model, w)
+    """Adds the modes to the joints' velocities in the plane (cage_joint_kinematics), for the friction states."""
+    half, d = model.d.elastic, model.d
+    r, t = np.einsum("...i,ikz->k...z", ROOT * y[..., MODE_D_DOT][..., : half.n], half.pad[:, IN])
+    R = 0.5 * d.table.joint["d_m"]
+    c, s = d.rivet_y / R, d.rivet_z / R
+    w.v_j = w.v_j.copy()
+    w.v_j[1] += c * r - s * t
+    w.v_j[2] += s * r + c * t
 
 
 def cage_elastic_law(model, e, P, omega_2):

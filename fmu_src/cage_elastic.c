@@ -32,39 +32,23 @@ enum { JOINT_SWEEPS = 1 };  // beside the first answer
 
 static const double ROOT = 1.4142135623730951;  // of 2
 
-// The pads' motions against each other in the plane, and their rates, from D and its rates.
-static void motion_in_plane(const ElasticHalf *half, const scalar *D, const scalar *D_dot, Work *w)
+// The pads' motions against each other by modal coordinates: out of the plane by S, in it by D.
+static void motion_out_of_plane(const ElasticHalf *half, const scalar *S, ball_array to[PAD_OUT])
 {
-    for (int k = 0; k < PACKETS * LANE_WIDTH; k += LANE_WIDTH) {
-        wide sum[PAD_IN], rate[PAD_IN];
-        for (int c = 0; c < PAD_IN; c++) sum[c] = rate[c] = wide_set(0.0);
-        for (int i = 0; i < half->n; i++) {
-            const wide d = wide_set(D[i]), d_dot = wide_set(D_dot[i]);
-            for (int c = 0; c < PAD_IN; c++) {
-                const wide shape = wide_load(&half->in[i][c][k]);
-                sum[c] = wide_fma(shape, d, sum[c]);
-                rate[c] = wide_fma(shape, d_dot, rate[c]);
-            }
-        }
-        for (int c = 0; c < PAD_IN; c++) {
-            wide_store(&w->pad_in[c][k], ROOT * sum[c]);
-            wide_store(&w->pad_in_dot[c][k], ROOT * rate[c]);
-        }
-    }
+    octet sum[OUT_OCTETS] = {{{0.0}}}, odd[OUT_OCTETS] = {{{0.0}}};
+    scalar row[8 * OUT_OCTETS];
+    octets_add_rows(8 * half->blocks, S, OUT_OCTETS, half->out[0], sum, odd);
+    octets_store_sum(OUT_OCTETS, sum, odd, row);
+    for (int c = 0; c < PAD_OUT; c++) memcpy(to[c], &row[c * Z], Z * sizeof *row);
 }
 
-// Out of the plane, from S.
-static void motion_out_of_plane(const ElasticHalf *half, const scalar *S, Work *w)
+static void motion_in_plane(const ElasticHalf *half, const scalar *D, ball_array to[PAD_IN])
 {
-    for (int k = 0; k < PACKETS * LANE_WIDTH; k += LANE_WIDTH) {
-        wide sum[PAD_OUT];
-        for (int c = 0; c < PAD_OUT; c++) sum[c] = wide_set(0.0);
-        for (int i = 0; i < half->n; i++) {
-            const wide s = wide_set(S[i]);
-            for (int c = 0; c < PAD_OUT; c++) sum[c] = wide_fma(wide_load(&half->out[i][c][k]), s, sum[c]);
-        }
-        for (int c = 0; c < PAD_OUT; c++) wide_store(&w->pad_out[c][k], ROOT * sum[c]);
-    }
+    octet sum[IN_OCTETS] = {{{0.0}}}, odd[IN_OCTETS] = {{{0.0}}};
+    scalar row[8 * IN_OCTETS];
+    octets_add_rows(8 * half->blocks, D, IN_OCTETS, half->in[0], sum, odd);
+    octets_store_sum(IN_OCTETS, sum, odd, row);
+    for (int c = 0; c < PAD_IN; c++) memcpy(to[c], &row[c * Z], Z * sizeof *row);
 }
 
 // Sum over the modes in one order for every lane width.
@@ -81,16 +65,17 @@ void cage_elastic_kinematics(const Model *model, const scalar *y, Work *w)
     const ElasticHalf *half = model->elastic;
     const double inv_root = 1.0 / ROOT;
     const scalar *S = &y[Y_MODE_S], *D = &y[Y_MODE_D], *S_dot = &y[Y_MODE_S_DOT], *D_dot = &y[Y_MODE_D_DOT];
-    for (int i = 0; i < 8 * half->blocks; i++) {
+    for (int i = 0; i < MODES; i++) {
         w->q[0][i] = inv_root * (S[i] - D[i]), w->q[1][i] = inv_root * (S[i] + D[i]);
         w->q_dot[0][i] = inv_root * (S_dot[i] - D_dot[i]), w->q_dot[1][i] = inv_root * (S_dot[i] + D_dot[i]);
         w->wall_force[0][i] = w->wall_force[1][i] = 0.0;
     }
-    motion_out_of_plane(half, S, w);
-    motion_in_plane(half, D, D_dot, w);
+    motion_out_of_plane(half, S, w->pad_out);
+    motion_in_plane(half, D, w->pad_in);
+    motion_in_plane(half, D_dot, w->pad_in_dot);
     for (int h = 0; h < 2; h++) {
-        scalar stored[MODES] = {0.0}, moved[MODES] = {0.0};
-        for (int i = 0; i < 8 * half->blocks; i++) {
+        mode_array stored, moved;
+        for (int i = 0; i < MODES; i++) {
             stored[i] = half->weight[i] * w->q[h][i];
             moved[i] = fabs(scalar_value(w->q[h][i]));
         }
@@ -101,11 +86,21 @@ void cage_elastic_kinematics(const Model *model, const scalar *y, Work *w)
     }
 }
 
+// Adds the motions (r, t) of a packet of pads in the frame of half 0.
+INLINE void add_turned(const Model *model, int k, ball_array motion[PAD_IN], scalar *y, scalar *z)
+{
+    const double inv_R = 2.0 / rivet_table.joint.d_m;
+    const wide c = wide_load(&model->d->rivet_y[k]) * inv_R, s = wide_load(&model->d->rivet_z[k]) * inv_R;
+    const wide r = wide_load(&motion[0][k]), t = wide_load(&motion[1][k]);
+    wide_store(&y[k], wide_load(&y[k]) + (c * r - s * t));
+    wide_store(&z[k], wide_load(&z[k]) + (s * r + c * t));
+}
+
 void cage_elastic_slip(const Model *model, const scalar *y, Work *w)
 {
-    motion_in_plane(model->elastic, &y[Y_MODE_D], &y[Y_MODE_D_DOT], w);
-    for (int c = 0; c < PAD_OUT; c++) memset(w->pad_out[c], 0, sizeof w->pad_out[c]);
-    cage_elastic_pads(model, w);
+    motion_in_plane(model->elastic, &y[Y_MODE_D_DOT], w->pad_in_dot);
+    for (int k = 0; k < PACKETS * LANE_WIDTH; k += LANE_WIDTH)
+        add_turned(model, k, w->pad_in_dot, w->v_jy, w->v_jz);
 }
 
 void cage_elastic_pads(const Model *model, Work *w)
@@ -119,42 +114,54 @@ void cage_elastic_pads(const Model *model, Work *w)
         const wide rigid[PAD_OUT] = {wide_load(&w->u_x[k]), turn_y * c + turn_z * s, turn_z * c - turn_y * s};
         for (int i = 0; i < PAD_OUT; i++)
             wide_store(&w->e[i][k], 0.5 * (rigid[i] + wide_load(&w->pad_out[i][k])));
-        const wide r = wide_load(&w->pad_in[0][k]), t = wide_load(&w->pad_in[1][k]);
-        const wide r_dot = wide_load(&w->pad_in_dot[0][k]), t_dot = wide_load(&w->pad_in_dot[1][k]);
         wide_store(&w->rigid_u_y[k], wide_load(&w->u_y[k]));
         wide_store(&w->rigid_u_z[k], wide_load(&w->u_z[k]));
-        wide_store(&w->u_y[k], wide_load(&w->u_y[k]) + (c * r - s * t));
-        wide_store(&w->u_z[k], wide_load(&w->u_z[k]) + (s * r + c * t));
-        wide_store(&w->v_jy[k], wide_load(&w->v_jy[k]) + (c * r_dot - s * t_dot));
-        wide_store(&w->v_jz[k], wide_load(&w->v_jz[k]) + (s * r_dot + c * t_dot));
+        add_turned(model, k, w->pad_in, w->u_y, w->u_z);
+        add_turned(model, k, w->pad_in_dot, w->v_jy, w->v_jz);
     }
 }
 
 // Sum over the joints j of K_(k-j) x_j for all joints k.
 static void stiffness_times(const ElasticHalf *half, ball_array x[PAD_OUT], ball_array out[PAD_OUT])
 {
-    scalar twice[PAD_OUT]
-                [2 * Z + LANES];  // once more behind the last one, so that neighbours lie side by side
-    for (int b = 0; b < PAD_OUT; b++)
-        for (int k = 0; k < 2 * Z + LANES; k++) twice[b][k] = x[b][k % Z];
-    for (int k = 0; k < PACKETS * LANE_WIDTH; k += LANE_WIDTH)
-        for (int a = 0; a < PAD_OUT; a++) {
-            wide sum = wide_set(0.0);
-            for (int d = 0; d < Z; d++)
-                for (int b = 0; b < PAD_OUT; b++)
-                    sum = wide_fma(wide_set(half->K[d][a][b]), wide_load(&twice[b][(Z - d) % Z + k]), sum);
-            wide_store(&out[a][k], sum);
-        }
+    octet sum[OUT_OCTETS] = {{{0.0}}}, odd[OUT_OCTETS] = {{{0.0}}};
+    scalar row[8 * OUT_OCTETS];
+    for (int b = 0; b < PAD_OUT; b++) octets_add_rows(Z, x[b], OUT_OCTETS, half->held[b][0], sum, odd);
+    octets_store_sum(OUT_OCTETS, sum, odd, row);
+    for (int a = 0; a < PAD_OUT; a++)
+        for (int k = 0; k < LANES; k++) out[a][k] = k < Z ? row[a * Z + k] : 0.0;
+}
+
+// Coordinates in cells of a packet of joints under L^, and s (joint_law.h).
+INLINE wide law_place(const JointLaw *law, const wide L[3], scalar P, wide u[LAW_AXES])
+{
+    const double inv_length = 1.0 / law->length;
+    const wide N = L[0], M_r = wide_abs(L[1]), M_t = L[2];
+    const wide M = wide_hypot(M_r, M_t) * inv_length, W = wide_hypot(N, M), s = P + W;
+    u[AXIS_TAU] = wide_ratio(W, s) * law->cells[AXIS_TAU];
+    u[AXIS_Q] = (wide_ratio(N, wide_abs(N) + M) + 1.0) * (0.5 * law->cells[AXIS_Q]);
+    u[AXIS_PSI] = (wide_ratio(M_t, wide_abs(M_t) + M_r) + 1.0) * (0.5 * law->cells[AXIS_PSI]);
+    return s;
 }
 
 // All joints answer to L^; behind: L^ without what a joint's own move relieves.
 static void joints_answer(const ElasticHalf *half, scalar P, Work *w)
 {
+    ball_array place[LAW_AXES], size;
+    for (int k = 0; k < PACKETS * LANE_WIDTH; k += LANE_WIDTH) {
+        wide L[PAD_OUT], u[LAW_AXES];
+        for (int a = 0; a < PAD_OUT; a++) L[a] = wide_load(&w->joint_behind[a][k]);
+        wide_store(&size[k], law_place(&half->law, L, P, u));
+        for (int a = 0; a < LAW_AXES; a++) wide_store(&place[a][k], u[a]);
+    }
     for (int k = 0; k < Z; k++) {
-        const scalar behind[3] = {w->joint_behind[0][k], w->joint_behind[1][k], w->joint_behind[2][k]};
-        scalar move[3], rivet[3];
-        joint_law(&half->law, behind, P, move, rivet, &w->joint_U[k]);
-        for (int a = 0; a < 3; a++) w->joint_move[a][k] = move[a], w->joint_rivet[a][k] = rivet[a];
+        octet S;
+        law_octet(&half->law, (const scalar[LAW_AXES]){place[0][k], place[1][k], place[2][k]}, &S);
+        const scalar s = size[k], across = scalar_value(w->joint_behind[1][k]) < 0.0 ? -s : s;
+        w->joint_move[0][k] = s * S.x[0], w->joint_rivet[0][k] = s * S.x[4];
+        w->joint_move[1][k] = across * S.x[1], w->joint_rivet[1][k] = across * S.x[5];
+        w->joint_move[2][k] = s * S.x[2], w->joint_rivet[2][k] = s * S.x[6];
+        w->joint_U[k] = s * s * S.x[LAW_ENERGY];
     }
 }
 
@@ -227,40 +234,44 @@ void cage_elastic_acceleration(const Model *model, const scalar *y, Work *w, sca
     const ElasticHalf *half = model->elastic;
     const double inv_root = 1.0 / ROOT, m = model->p->cage.m, inv_m = 1.0 / m,
                  inv_R = 2.0 / rivet_table.joint.d_m;
-    scalar mirrored[MODES] = {0.0}, opposed[MODES] = {0.0}, spin[2];
+    mode_array mirrored, opposed, by_out, by_in, rates, lost, one;
+    scalar spin[2];
     for (int h = 0; h < 2; h++) {
         const scalar s = w->half[h].s + w->frame_omega;
         spin[h] = s * s;
     }
-    for (int i = 0; i < 8 * half->blocks; i++) {
+    for (int i = 0; i < MODES; i++) {
         const scalar f_0 = w->wall_force[0][i] + spin[0] * half->spin[i];
         const scalar f_1 = w->wall_force[1][i] + spin[1] * half->spin[i];
         mirrored[i] = inv_root * (f_1 + f_0), opposed[i] = inv_root * (f_1 - f_0);
     }
 
     // loads of the joints, modes side by side
+    ball_array F_r, F_t;
     for (int k = 0; k < Z; k++) {
         const double c = model->d->rivet_y[k] * inv_R, s = model->d->rivet_z[k] * inv_R;
-        const scalar F_y = w->joint_F_y[k], F_z = w->joint_F_z[k];
-        const scalar out[PAD_OUT] = {-ROOT * w->joint_load[0][k], -ROOT * w->joint_load[1][k],
-                                     -ROOT * w->joint_load[2][k]};
-        const scalar in[PAD_IN] = {ROOT * (c * F_y + s * F_z), ROOT * (c * F_z - s * F_y)};
-        for (int i = 0; i < 8 * half->blocks; i++) {
-            mirrored[i] += out[0] * half->out_modes[0][k][i] + out[1] * half->out_modes[1][k][i] +
-                           out[2] * half->out_modes[2][k][i];
-            opposed[i] += in[0] * half->in_modes[0][k][i] + in[1] * half->in_modes[1][k][i];
-        }
+        F_r[k] = c * w->joint_F_y[k] + s * w->joint_F_z[k];
+        F_t[k] = c * w->joint_F_z[k] - s * w->joint_F_y[k];
     }
+    octet out[MODE_OCTETS] = {{{0.0}}}, out_odd[MODE_OCTETS] = {{{0.0}}}, in[MODE_OCTETS] = {{{0.0}}},
+          in_odd[MODE_OCTETS] = {{{0.0}}};
+    for (int a = 0; a < PAD_OUT; a++)
+        octets_add_rows(Z, w->joint_load[a], MODE_OCTETS, half->out_modes[a][0], out, out_odd);
+    octets_store_sum(MODE_OCTETS, out, out_odd, by_out);
+    octets_add_rows(Z, F_r, MODE_OCTETS, half->in_modes[0][0], in, in_odd);
+    octets_add_rows(Z, F_t, MODE_OCTETS, half->in_modes[1][0], in, in_odd);
+    octets_store_sum(MODE_OCTETS, in, in_odd, by_in);
 
     // rates, energy and dissipation
-    scalar rates[MODES] = {0.0}, lost[MODES] = {0.0}, one[MODES] = {0.0};
-    for (int i = 0; i < 8 * half->blocks; i++) {
+    for (int i = 0; i < MODES; i++) {
         const scalar S = y[Y_MODE_S + i], D = y[Y_MODE_D + i], S_dot = y[Y_MODE_S_DOT + i],
                      D_dot = y[Y_MODE_D_DOT + i];
         y_dot[Y_MODE_S + i] = S_dot;
         y_dot[Y_MODE_D + i] = D_dot;
-        y_dot[Y_MODE_S_DOT + i] = inv_m * mirrored[i] - half->damping[i] * S_dot - half->omega_2[i] * S;
-        y_dot[Y_MODE_D_DOT + i] = inv_m * opposed[i] - half->damping[i] * D_dot - half->omega_2[i] * D;
+        y_dot[Y_MODE_S_DOT + i] =
+            inv_m * (mirrored[i] - by_out[i]) - half->damping[i] * S_dot - half->omega_2[i] * S;
+        y_dot[Y_MODE_D_DOT + i] =
+            inv_m * (opposed[i] + by_in[i]) - half->damping[i] * D_dot - half->omega_2[i] * D;
         const scalar v_2 = S_dot * S_dot + D_dot * D_dot;
         rates[i] = v_2 + half->omega_2[i] * (S * S + D * D);
         lost[i] = half->damping[i] * v_2;

@@ -37,14 +37,15 @@ static void take_mode(const HalfModes *table, int entry, int coordinate, double 
                       int i)
 {
     const HalfMode *mode = &table->entry[entry];
+    const double root = sqrt(2.0);
     for (int k = 0; k < Z; k++) {
         const double theta = 2.0 * PI * (k + 0.5) / Z;
         for (int c = 0; c < PAD_OUT; c++)
-            half->out[i][c][k] = half->out_modes[c][k][i] =
-                unit * mode->at[OUT[c]] * wave_at(mode->harmonic, coordinate, ODD[OUT[c]], theta);
+            half->out[i][c * Z + k] = half->out_modes[c][k][i] =
+                root * unit * mode->at[OUT[c]] * wave_at(mode->harmonic, coordinate, ODD[OUT[c]], theta);
         for (int c = 0; c < PAD_IN; c++)
-            half->in[i][c][k] = half->in_modes[c][k][i] =
-                unit * mode->at[IN[c]] * wave_at(mode->harmonic, coordinate, ODD[IN[c]], theta);
+            half->in[i][c * Z + k] = half->in_modes[c][k][i] =
+                root * unit * mode->at[IN[c]] * wave_at(mode->harmonic, coordinate, ODD[IN[c]], theta);
         for (int part = 0; part < 2; part++)
             half->wave[k][part][i] = wave_at(mode->harmonic, coordinate, part, 2.0 * PI * k / Z);
     }
@@ -97,7 +98,10 @@ static void invert_residual(double R[Z][PADS][PADS], ElasticHalf *half)
     solve(A, x);
     for (int k = 0; k < Z; k++)
         for (int a = 0; a < PAD_OUT; a++)
-            for (int b = 0; b < PAD_OUT; b++) half->K[k][a][b] = unit[a] * unit[b] * x[PAD_OUT * k + a][b];
+            for (int b = 0; b < PAD_OUT; b++) {
+                half->K[k][a][b] = unit[a] * unit[b] * x[PAD_OUT * k + a][b];
+                for (int j = 0; j < Z; j++) half->held[b][j][a * Z + (j + k) % Z] = half->K[k][a][b];
+            }
 }
 
 // ---- the law over L^ ------------------------------------------------------------------------------------------------
@@ -339,11 +343,11 @@ static void find_wave(const Parameters *p, const ElasticHalf *half, bool out, in
         A[row][row] = half->omega_2[i];
         for (int c = 0; c < count; c++)
             for (int k = 0; k < Z; k++)
-                B[row][c] += sqrt(2.0) * unit[c][k] * (out ? half->out[i][c][k] : half->in[i][c][k]);
+                B[row][c] += unit[c][k] * (out ? half->out[i] : half->in[i])[c * Z + k];
     }
+    wave->modes = wave->count;
     if (motion >= 0) {
         const int row = wave->count++;
-        wave->row[row] = RIGID_MOTION;
         root[row] = sqrt(inertia);
         for (int c = 0; c < count; c++)
             for (int k = 0; k < Z; k++)
@@ -355,14 +359,18 @@ static void find_wave(const Parameters *p, const ElasticHalf *half, bool out, in
                 for (int b = 0; b < count; b++)
                     A[i][k] += B[i][a] * K_n[a][b] * B[k][b] / (root[i] * root[k]);
     diagonalize(wave->count, A, Q);
-    for (int i = 0; i < wave->count; i++)
-        for (int k = 0; k < wave->count; k++)
-            wave->to[i][k] = root[i] * Q[i][k], wave->back[k][i] = Q[i][k] / root[i];
-    for (int i = 0; i < wave->count; i++) {
-        wave->slowed[i] = 1.0 / fmax(1.0, MARGIN * 0.25 * A[i][i] * half->longest * half->longest);
-        wave->lambda[i] = wave->slowed[i] * A[i][i];
-    }
     wave->blocks = (wave->count + 7) / 8;
+    for (int v = 0; v < wave->count; v++) {
+        const double slowed = 1.0 / fmax(1.0, MARGIN * 0.25 * A[v][v] * half->longest * half->longest),
+                     lambda = slowed * A[v][v];
+        wave->slows |= slowed < 1.0;
+        for (int i = 0; i < wave->count; i++)
+            for (int k = 0; k < wave->count; k++) {
+                const double along = root[i] * Q[i][v] * Q[k][v] / root[k];
+                wave->slowing[i][k] += (slowed - 1.0) * along;
+                wave->damping[i][k] += lambda * lambda * along;
+            }
+    }
 }
 
 static void find_waves(const Parameters *p, const Derived *d, ElasticHalf *half)
@@ -440,10 +448,10 @@ static void rest_off(const Parameters *p, const ElasticHalf *half, double omega_
     double e[PAD_OUT] = {0.5 * x[0], 0.0, 0.0}, K[PAD_OUT][PAD_OUT] = {{0.0}}, bonded[PAD_OUT] = {0.0},
            behind[PAD_OUT];
     for (int i = 0; i < half->n; i++) {
-        const double load = half->alike[i] ? Z * half->out[i][2][0] * x[1] : 0.0;
-        S[i] = root * (half->spin[i] * omega_2 - load) / (p->cage.m * half->omega_2[i]);
-        e[0] += S[i] * half->out[i][0][0] / root;
-        e[2] += S[i] * half->out[i][2][0] / root;
+        const double load = half->alike[i] ? Z * half->out[i][2 * Z] * x[1] : 0.0;
+        S[i] = (root * half->spin[i] * omega_2 - load) / (p->cage.m * half->omega_2[i]);
+        e[0] += 0.5 * S[i] * half->out[i][0];
+        e[2] += 0.5 * S[i] * half->out[i][2 * Z];
     }
     for (int k = 0; k < Z; k++)
         for (int a = 0; a < PAD_OUT; a++)

@@ -23,6 +23,9 @@ enum {
     PAD_IN = 2
 };  // motions of pads against each other out of the plane (x, about r, about t), in it (r, t)
 
+// Motions of all pads in one row, motion c of joint k in place c Z + k: octets of a row.
+enum { OUT_OCTETS = (PAD_OUT * Z + 7) / 8, IN_OCTETS = (PAD_IN * Z + 7) / 8, MODE_OCTETS = MODES / 8 };
+
 enum { WALL_NODES = 16 };  // at most
 
 enum { RESTS = 65 };  // states of rest under the centrifugal load, at equal steps of load/(load + P)
@@ -30,28 +33,29 @@ enum { RESTS = 65 };  // states of rest under the centrifugal load, at equal ste
 // The vibrations of both halves and their closed joints, wave by wave: a mode's coordinate a or b of harmonic n meets joints
 // only of the same wave, and so do relative motions of the halves as rigid bodies.  With a the accelerations times the root of
 // their inertia, the stiffness is Q diag(lambda) Q^T.
-enum { WAVES = 2 * (Z / 2 + 1), WAVE_SIZE = 16, RIGID_MOTION = -1 };
+enum { WAVES = 2 * (Z / 2 + 1), WAVE_SIZE = 16 };
 
 typedef struct {
-    int count, blocks;                  // coordinates, blocks of eight
-    int row[WAVE_SIZE];                 // mode, or RIGID_MOTION: the last one
-    int motion;                         // which rigid motion: v_x, about y, about z; v_y, v_z, spin
-    double lambda[WAVE_SIZE];           // with that inertia [1/s2]
-    double slowed[WAVE_SIZE];           // 1/inertia that the longest step needs
-    double to[WAVE_SIZE][WAVE_SIZE];    // root of the inertia times Q [coordinate][vibration]
-    double back[WAVE_SIZE][WAVE_SIZE];  // its inverse [vibration][coordinate]
+    int count, modes, blocks;  // coordinates, modes among them, blocks of eight
+    int row[WAVE_SIZE];        // of the modes
+    int motion;  // which rigid motion the last coordinate is: v_x, about y, about z; v_y, v_z, spin; or none
+    bool slows;  // whether the longest step slows down one of its vibrations
+    // What all coordinates change by one [from][to], times the roots of their inertia:
+    _Alignas(64) double slowing[WAVE_SIZE]
+                               [WAVE_SIZE];  // Q diag(s - 1) Q^T, 1/s the inertia that the longest step needs
+    double damping[WAVE_SIZE][WAVE_SIZE];    // Q diag((s lambda)^2) Q^T [1/s4]
 } Wave;
 
 struct ElasticHalf {
-    int law_modes;                          // scene.modes of the coefficients below; 0: none yet
-    int n, blocks;                          // modes, blocks of eight of them
-    double omega_2[MODES], damping[MODES];  // omega^2, 2 zeta omega
-    double spin[MODES];                     // modal force per (rad/s)^2
-    bool alike[MODES];                      // moves all joints alike and does not twist them
-    bool pair[MODES];                       // one of two modes of the same frequency
-    double out[MODES][PAD_OUT][LANES];      // motions of the pads, joints side by side
-    double in[MODES][PAD_IN][LANES];
-    double out_modes[PAD_OUT][Z][MODES];  // the same, modes side by side
+    int law_modes;                                     // scene.modes of the coefficients below; 0: none yet
+    int n, blocks;                                     // modes, blocks of eight of them
+    double omega_2[MODES], damping[MODES];             // omega^2, 2 zeta omega
+    double spin[MODES];                                // modal force per (rad/s)^2
+    bool alike[MODES];                                 // moves all joints alike and does not twist them
+    bool pair[MODES];                                  // one of two modes of the same frequency
+    _Alignas(64) double out[MODES][8 * OUT_OCTETS];    // motions of the pads against each other by S, in rows
+    _Alignas(64) double in[MODES][8 * IN_OCTETS];      // and by D
+    _Alignas(64) double out_modes[PAD_OUT][Z][MODES];  // the same, modes side by side
     double in_modes[PAD_IN][Z][MODES];
     double wave[Z][2][MODES];  // at the pockets, what the real and the imaginary part of A are multiplied by
     double wall[WALL_NODES][2][3][2]
@@ -64,6 +68,8 @@ struct ElasticHalf {
     double widest[MODES];           // largest |u|/|q| of those, 0 of the others
     double compliance;              // of a wall along its normal, by the residual, less that in Hertz's [m/N]
     double K[Z][PAD_OUT][PAD_OUT];  // inverse of the residual between pads, out of the plane
+    _Alignas(64) double held[PAD_OUT][Z]
+                            [8 * OUT_OCTETS];  // the same: loads of all joints by the motion of one, in rows
     double prying;  // |bonded M_t| of the centrifugal load over the law's length, per (rad/s)^2
     double relief[RESTS][PAD_OUT];  // what other joints relieve a joint of at rest, per newton of load + P
     double series, series_hole;  // parts of the joints' stiffness in the plane, in series with the residual
@@ -72,7 +78,7 @@ struct ElasticHalf {
     Wave mirrored[WAVES];                    // of S and the relative motions out of the plane
     Wave opposed[2][WAVES];                  // of D and those in the plane; without and with shanks that bear
     JointLaw law;                            // the joints' law over L^ = L + K_0 delta with the K above
-    double coefficients[];                   // of the law; the fourth number is U, whose slope is delta
+    _Alignas(64) double coefficients[];      // of the law; the fourth number is U, whose slope is delta
 };
 
 // Bytes of an ElasticHalf.
@@ -86,7 +92,15 @@ void elastic_half_derive(const Parameters *p, const Derived *d, double tolerance
 double elastic_half_rest(const Parameters *p, const Derived *d, const ElasticHalf *half, double omega,
                          double *S);
 
-// The walls of the pockets of a half where balls meet them.
+// Where balls meet the walls of a half's pockets: direction (x, t) from the pocket's axis to the ball, side of the pocket and
+// of the split, node below the wall's angle, weights of the cubics for the value and the slope over the angle.
+typedef struct {
+    ball_array n_x, n_t, chi, lower, inv_step, value[4], slope[4];
+    bool back[LANES], inside[LANES];
+    int node[LANES];
+} WallPlaces;
+
+// The walls there.
 typedef struct {
     ball_array u_dot[3];  // velocity (x, r, t)
     ball_array tilt;      // slope of n.u across n, u the motion: how much the normal turns
@@ -97,14 +111,19 @@ typedef struct {
     scalar motion[3][MODES];
 } WallShape;
 
-// Motion along the contact's normal (n_x, n_t) of pocket j of the half at side (+1 or -1), with the coordinates q.
+// Places of a packet of balls from j on, on the half at side (+1 or -1).  near: bits of those that are asked for.
+#define elastic_wall_places FOR_ISA(elastic_wall_places)
+void elastic_wall_places(const ElasticHalf *half, int side, int j, int near, wide n_x, wide n_t,
+                         WallPlaces *at);
+
+// Motion of the wall of pocket j along the contact's normal, with the coordinates q.
 #define elastic_wall_normal FOR_ISA(elastic_wall_normal)
-scalar elastic_wall_normal(const ElasticHalf *half, int side, int j, const scalar *q, scalar n_x, scalar n_t);
+scalar elastic_wall_normal(const ElasticHalf *half, int side, int j, const WallPlaces *at, const scalar *q);
 
 // Sets all of its motion.  S: distance of the ball from the pocket's axis.
 #define elastic_wall FOR_ISA(elastic_wall)
-void elastic_wall(const ElasticHalf *half, int side, int j, const scalar *q, const scalar *q_dot, scalar n_x,
-                  scalar n_t, scalar S, WallMotion *wall, WallShape *shape);
+void elastic_wall(const ElasticHalf *half, int side, int j, const WallPlaces *at, const scalar *q,
+                  const scalar *q_dot, scalar S, WallMotion *wall, WallShape *shape);
 
 // Adds the modal forces of the force (x, r, t) on a wall.
 INLINE void elastic_wall_force(const ElasticHalf *half, const WallShape *shape, const scalar F[3],

@@ -1,93 +1,121 @@
 // Motion of the pockets' walls by the modes of a half: see elastic_half.h for the equations.
 #include "elastic_half.h"
 
-// A place on a wall: its side, the node below it, weights of the cubics for the value and the slope over the angle.
-typedef struct {
-    bool back, inside;
-    int node;
-    scalar value[4], slope[4];
-} WallPlace;
-
 // Beyond the split the wall moves as at the split.
-INLINE WallPlace wall_place(const ElasticHalf *half, int side, scalar n_x, scalar n_t)
+void elastic_wall_places(const ElasticHalf *half, int side, int j, int near, wide n_x, wide n_t,
+                         WallPlaces *at)
 {
-    WallPlace at = {.back = scalar_value(n_t) < 0.0, .inside = scalar_value(n_x) * side > 0.0};
-    const wide along = wide_abs(wide_set(n_t));
-    const scalar angle = wide_lane(wide_atan(wide_set(side * n_x) / wide_max(along, wide_set(1e-30))), 0);
-    const scalar chi = at.inside ? angle : 0.0;
-    while (at.node < half->nodes - 2 && scalar_value(chi) >= half->chi[at.node + 1]) at.node++;
-    const double h = half->chi[at.node + 1] - half->chi[at.node];
-    const scalar u = (chi - half->chi[at.node]) / h, v = 1.0 - u;
-    at.value[0] = v * v * (1.0 + 2.0 * u), at.value[1] = h * u * v * v;
-    at.value[2] = u * u * (1.0 + 2.0 * v), at.value[3] = -h * u * u * v;
-    at.slope[0] = -6.0 * u * v / h, at.slope[1] = v * (v - 2.0 * u);
-    at.slope[2] = 6.0 * u * v / h, at.slope[3] = u * (u - 2.0 * v);
-    return at;
+    const wide along = wide_abs(n_t), zero = wide_set(0.0), one = wide_set(1.0);
+    const wide chi = wide_max(wide_atan(side * n_x / wide_max(along, wide_set(1e-30))), zero);
+    wide_store(&at->n_x[j], n_x);
+    wide_store(&at->n_t[j], n_t);
+    wide_store(&at->chi[j], chi);
+    wide_store(&at->lower[j], zero);
+    wide_store(&at->inv_step[j], zero);
+    for (int k = j; near != 0 && k < Z; near >>= 1, k++) {
+        if (!(near & 1)) continue;
+        int node = 0;
+        while (node < half->nodes - 2 && scalar_value(at->chi[k]) >= half->chi[node + 1]) node++;
+        at->node[k] = node;
+        at->back[k] = scalar_value(at->n_t[k]) < 0.0, at->inside[k] = scalar_value(at->n_x[k]) * side > 0.0;
+        at->lower[k] = half->chi[node], at->inv_step[k] = 1.0 / (half->chi[node + 1] - half->chi[node]);
+    }
+    const wide lower = wide_load(&at->lower[j]), inv_step = wide_load(&at->inv_step[j]);
+    const wide u = (chi - lower) * inv_step, v = one - u;
+    const wide step = wide_ratio(one, inv_step);
+    const wide value[4] = {v * v * (1.0 + 2.0 * u), step * u * v * v, u * u * (1.0 + 2.0 * v),
+                           -step * u * u * v};
+    const wide slope[4] = {-6.0 * u * v * inv_step, v * (v - 2.0 * u), 6.0 * u * v * inv_step,
+                           u * (u - 2.0 * v)};
+    for (int t = 0; t < 4; t++) {
+        wide_store(&at->value[t][j], value[t]);
+        wide_store(&at->slope[t][j], slope[t]);
+    }
 }
 
 // Sign of the real (0) and the imaginary part (1) of component c on that side of the pocket and of the split.
-INLINE double wall_sign(const WallPlace *at, int side, int c, int part)
+INLINE double wall_sign(bool back, int side, int c, int part)
 {
-    const double mirrored = at->back && (c == 2) == (part == 0) ? -1.0 : 1.0;
+    const double mirrored = back && (c == 2) == (part == 0) ? -1.0 : 1.0;
     return c == 0 ? side * mirrored : mirrored;
 }
 
-scalar elastic_wall_normal(const ElasticHalf *half, int side, int j, const scalar *q, scalar n_x, scalar n_t)
+// Eight sums side by side, and all of them together, in one order for every lane width.
+enum { PARTS = 8 / LANE_WIDTH };
+
+INLINE scalar all_sums(const wide sums[PARTS])
 {
-    const WallPlace at = wall_place(half, side, n_x, n_t);
-    const double (*from)[3][2][MODES] = half->wall[at.node];
-    wide weight[2][2][4];  // [part][x, t][term]
+    scalar part[8];
+    for (int i = 0; i < PARTS; i++) wide_store(&part[i * LANE_WIDTH], sums[i]);
+    return ((part[0] + part[1]) + (part[2] + part[3])) + ((part[4] + part[5]) + (part[6] + part[7]));
+}
+
+scalar elastic_wall_normal(const ElasticHalf *half, int side, int j, const WallPlaces *at, const scalar *q)
+{
+    const double (*from)[3][2][MODES] = half->wall[at->node[j]];
+    wide weight[2][2][4], sums[PARTS];  // [part][x, t][term]
     for (int part = 0; part < 2; part++)
         for (int c = 0; c < 2; c++)
             for (int t = 0; t < 4; t++)
-                weight[part][c][t] =
-                    wide_set(wall_sign(&at, side, 2 * c, part) * (c == 0 ? n_x : n_t) * at.value[t]);
-    scalar along[MODES];
-    for (int m = 0; m < 8 * half->blocks; m += LANE_WIDTH) {
-        wide sum[2];
-        for (int part = 0; part < 2; part++) {
-            sum[part] = wide_set(0.0);
-            for (int t = 0; t < 4; t++)
-                for (int c = 0; c < 2; c++)
-                    sum[part] = wide_fma(weight[part][c][t], wide_load(&from[t][2 * c][part][m]), sum[part]);
+                weight[part][c][t] = wide_set(wall_sign(at->back[j], side, 2 * c, part) *
+                                              (c == 0 ? at->n_x[j] : at->n_t[j]) * at->value[t][j]);
+    for (int i = 0; i < PARTS; i++) sums[i] = wide_set(0.0);
+    for (int block = 0; block < half->blocks; block++)
+        for (int i = 0; i < PARTS; i++) {
+            const int m = 8 * block + i * LANE_WIDTH;
+            wide u[2];
+            for (int part = 0; part < 2; part++) {
+                wide by[2] = {wide_set(0.0), wide_set(0.0)};
+                for (int t = 0; t < 4; t++)
+                    for (int c = 0; c < 2; c++)
+                        by[c] = wide_fma(weight[part][c][t], wide_load(&from[t][2 * c][part][m]), by[c]);
+                u[part] = by[0] + by[1];
+            }
+            const wide moved =
+                wide_fma(u[0], wide_load(&half->wave[j][0][m]), u[1] * wide_load(&half->wave[j][1][m]));
+            sums[i] = wide_fma(moved, wide_load(&q[m]), sums[i]);
         }
-        wide_store(&along[m], wide_fma(sum[0], wide_load(&half->wave[j][0][m]),
-                                       sum[1] * wide_load(&half->wave[j][1][m])));
-    }
-    return elastic_sum(half, along, q);
+    return all_sums(sums);
 }
 
-void elastic_wall(const ElasticHalf *half, int side, int j, const scalar *q, const scalar *q_dot, scalar n_x,
-                  scalar n_t, scalar S, WallMotion *wall, WallShape *shape)
+void elastic_wall(const ElasticHalf *half, int side, int j, const WallPlaces *at, const scalar *q,
+                  const scalar *q_dot, scalar S, WallMotion *wall, WallShape *shape)
 {
-    // motions of all modes there, and their slopes over the angle
-    const WallPlace place = wall_place(half, side, n_x, n_t);
-    const double (*from)[3][2][MODES] = half->wall[place.node];
-    scalar turned[3][MODES];
-    for (int c = 0; c < 3; c++) {
-        const double re = wall_sign(&place, side, c, 0), im = wall_sign(&place, side, c, 1);
-        for (int m = 0; m < 8 * half->blocks; m += LANE_WIDTH) {
-            wide at[2], more[2];
-            for (int part = 0; part < 2; part++) {
-                at[part] = more[part] = wide_set(0.0);
-                for (int t = 0; t < 4; t++) {
-                    const wide A = wide_load(&from[t][c][part][m]);
-                    at[part] = wide_fma(wide_set(place.value[t]), A, at[part]);
-                    more[part] = wide_fma(wide_set(place.slope[t]), A, more[part]);
-                }
-            }
-            const wide e = re * wide_load(&half->wave[j][0][m]), o = im * wide_load(&half->wave[j][1][m]);
-            wide_store(&shape->motion[c][m], wide_fma(at[0], e, at[1] * o));
-            wide_store(&turned[c][m], wide_fma(more[0], e, more[1] * o));
-        }
-    }
+    const double (*from)[3][2][MODES] = half->wall[at->node[j]];
+    const double turn = at->inside[j] ? (at->back[j] ? -side : side) : 0.0;
 
-    scalar u_chi[3];
-    for (int c = 0; c < 3; c++) {
-        wall->u_dot[c][j] = elastic_sum(half, shape->motion[c], q_dot);
-        u_chi[c] = elastic_sum(half, turned[c], q);
+    // motion of a component by the value's weights; the normal's turn n_t u_x - n_x u_t + turn (n_x u_chi,x + n_t u_chi,t)
+    wide value[4], tilted[3][4], rates[3][PARTS], tilts[PARTS];
+    for (int t = 0; t < 4; t++) {
+        const scalar n_x = at->n_x[j], n_t = at->n_t[j], slope = turn * at->slope[t][j];
+        value[t] = wide_set(at->value[t][j]);
+        tilted[0][t] = wide_set(n_t * at->value[t][j] + n_x * slope);
+        tilted[2][t] = wide_set(n_t * slope - n_x * at->value[t][j]);
     }
-    const scalar u_x = elastic_sum(half, shape->motion[0], q), u_t = elastic_sum(half, shape->motion[2], q);
-    const double turn = place.inside ? (place.back ? -side : side) : 0.0;
-    wall->tilt[j] = (n_t * u_x - n_x * u_t + turn * (n_x * u_chi[0] + n_t * u_chi[2])) / S;
+    for (int i = 0; i < PARTS; i++) rates[0][i] = rates[1][i] = rates[2][i] = tilts[i] = wide_set(0.0);
+    for (int block = 0; block < half->blocks; block++)
+        for (int i = 0; i < PARTS; i++) {
+            const int m = 8 * block + i * LANE_WIDTH;
+            const wide wave[2] = {wide_load(&half->wave[j][0][m]), wide_load(&half->wave[j][1][m])};
+            wide tilt = wide_set(0.0);
+            for (int c = 0; c < 3; c++) {
+                wide motion = wide_set(0.0);
+                for (int part = 0; part < 2; part++) {
+                    const wide signed_wave = wall_sign(at->back[j], side, c, part) * wave[part];
+                    wide u = wide_set(0.0), turned = wide_set(0.0);
+                    for (int t = 0; t < 4; t++) {
+                        const wide A = wide_load(&from[t][c][part][m]);
+                        u = wide_fma(value[t], A, u);
+                        if (c != 1) turned = wide_fma(tilted[c][t], A, turned);
+                    }
+                    motion = wide_fma(u, signed_wave, motion);
+                    if (c != 1) tilt = wide_fma(turned, signed_wave, tilt);
+                }
+                wide_store(&shape->motion[c][m], motion);
+                rates[c][i] = wide_fma(motion, wide_load(&q_dot[m]), rates[c][i]);
+            }
+            tilts[i] = wide_fma(tilt, wide_load(&q[m]), tilts[i]);
+        }
+    for (int c = 0; c < 3; c++) wall->u_dot[c][j] = all_sums(rates[c]);
+    wall->tilt[j] = all_sums(tilts) / S;
 }

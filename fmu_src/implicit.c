@@ -585,34 +585,27 @@ static void stiff_part_of_halves(const Model *model, const Work *w, double gamma
 // ---- vibrations of elastic halves ---------------------------------------------------------------------------
 static const double WAVE_DAMPING = 0.003;
 
-// Each vibration of elastic halves that is faster than the longest step can follow gets the inertia that slows it down
-// to what the step can (elastic_half.h).
-static void solve_waves(const Wave *waves, double h_2, double *rates, double rigid[3])
+// Adds a part of what the vibrations of all waves change to the rates of the modes and of the relative rigid motions.
+INLINE void solve_waves(const Wave *waves, bool slowing, double part, double *rates, double rigid[3])
 {
     for (const Wave *wave = waves; wave < waves + WAVES; wave++) {
-        octet y[2] = {{{0.0}}}, x[2] = {{{0.0}}};
-        for (int i = 0; i < wave->count; i++) {
-            const double rate = wave->row[i] == RIGID_MOTION ? rigid[wave->motion] : rates[wave->row[i]];
-            for (int b = 0; b < wave->blocks; b++) octet_add_from(rate, &wave->to[i][8 * b], &y[b]);
-        }
-        for (int k = 0; k < 8 * wave->blocks; k++) {
-            const double x_2 = h_2 * wave->lambda[k], taken = WAVE_DAMPING * x_2 * x_2;
-            y[k / 8].x[k % 8] *= h_2 > 0.0 ? 1.0 - (taken < 0.2 ? taken : 0.2) : wave->slowed[k];
-        }
-        for (int k = 0; k < wave->count; k++)
+        if (slowing && !wave->slows) continue;
+        const double (*by)[WAVE_SIZE] = slowing ? wave->slowing : wave->damping;
+        octet change[WAVE_SIZE / 8] = {{{0.0}}};
+        for (int i = 0; i < wave->modes; i++)
             for (int b = 0; b < wave->blocks; b++)
-                octet_add_from(y[k / 8].x[k % 8], &wave->back[k][8 * b], &x[b]);
-        for (int i = 0; i < wave->count; i++) {
-            const double rate = x[i / 8].x[i % 8];
-            if (wave->row[i] == RIGID_MOTION)
-                rigid[wave->motion] = rate;
-            else
-                rates[wave->row[i]] = rate;
+                octet_add_from(rates[wave->row[i]], &by[i][8 * b], &change[b]);
+        if (wave->motion >= 0) {
+            const int last = wave->modes;
+            for (int b = 0; b < wave->blocks; b++)
+                octet_add_from(rigid[wave->motion], &by[last][8 * b], &change[b]);
+            rigid[wave->motion] += part * change[last / 8].x[last % 8];
         }
+        for (int i = 0; i < wave->modes; i++) rates[wave->row[i]] += part * change[i / 8].x[i % 8];
     }
 }
 
-static void all_waves(const Model *model, const Work *w, double h_2, double *f)
+INLINE void all_waves(const Model *model, const Work *w, bool slowing, double part, double *f)
 {
     const ElasticHalf *half = model->elastic;
     const double *b_y = w->half[0].b_y, *b_z = w->half[0].b_z;
@@ -625,8 +618,8 @@ static void all_waves(const Model *model, const Work *w, double h_2, double *f)
     bool bears = false;
     for (int k = 0; k < Z; k++) bears |= w->k_bearing[k] > 0.0;
     const double was[4] = {out[1], out[2], in[0], in[1]};
-    solve_waves(half->mirrored, h_2, &f[Y_MODE_S_DOT], out);
-    solve_waves(half->opposed[bears], h_2, &f[Y_MODE_D_DOT], in);
+    solve_waves(half->mirrored, slowing, part, &f[Y_MODE_S_DOT], out);
+    solve_waves(half->opposed[bears], slowing, part, &f[Y_MODE_D_DOT], in);
 
     // what has changed, in the global frame, half of it for each half
     const double about_y = out[1] - was[0], about_z = out[2] - was[1], y = in[0] - was[2], z = in[1] - was[3];
@@ -642,14 +635,17 @@ static void all_waves(const Model *model, const Work *w, double h_2, double *f)
     }
 }
 
+// Each vibration that is faster than the longest step can follow gets the inertia that slows it down to what the step
+// can (elastic_half.h).
 void implicit_waves(const Model *model, const Work *w, double *f)
 {
-    all_waves(model, w, 0.0, f);
+    all_waves(model, w, true, 1.0, f);
 }
 
+// A vibration that turns by x = omega h, at most 1.8, loses the part WAVE_DAMPING x^4.
 void implicit_wave_damping(const Model *model, const Work *w, double h, double *y)
 {
-    all_waves(model, w, h * h, y);
+    all_waves(model, w, false, -WAVE_DAMPING * (h * h) * (h * h), y);
 }
 
 // ---- ring -------------------------------------------------------------------------------------------------

@@ -93,21 +93,13 @@ INLINE scalar magnitude(scalar x)
     return scalar_value(x) < 0.0 ? -x : x;
 }
 
-// Moves of a joint's pad and loads of its rivet under L* = (N, M_r, M_t) and P; the energy of elastic_half.h if it is asked for.
-INLINE void joint_law(const JointLaw *law, const scalar load[3], scalar P, scalar move[3], scalar rivet[3],
-                      scalar *energy)
+// The numbers S of the law at coordinates in cells.
+INLINE void law_octet(const JointLaw *law, const scalar u[LAW_AXES], octet *S)
 {
-    const double inv_length = 1.0 / law->length;
-    const scalar N = load[0], M_r = magnitude(load[1]), M_t = load[2];
-    const scalar M = scalar_sqrt(M_r * M_r + M_t * M_t) * inv_length, W = scalar_sqrt(N * N + M * M),
-                 s = P + W;
-    const scalar q = share(N, magnitude(N) + M), psi = share(M_t, magnitude(M_t) + M_r);
     scalar w[LAW_AXES][3];
-    int place = axis_weights(share(W, s) * law->cells[AXIS_TAU], law->cells[AXIS_TAU], w[AXIS_TAU]);
-    place = place * (law->cells[AXIS_Q] + 2) +
-            axis_weights((q + 1.0) * (0.5 * law->cells[AXIS_Q]), law->cells[AXIS_Q], w[AXIS_Q]);
-    place = place * (law->cells[AXIS_PSI] + 2) +
-            axis_weights((psi + 1.0) * (0.5 * law->cells[AXIS_PSI]), law->cells[AXIS_PSI], w[AXIS_PSI]);
+    int place = axis_weights(u[AXIS_TAU], law->cells[AXIS_TAU], w[AXIS_TAU]);
+    place = place * (law->cells[AXIS_Q] + 2) + axis_weights(u[AXIS_Q], law->cells[AXIS_Q], w[AXIS_Q]);
+    place = place * (law->cells[AXIS_PSI] + 2) + axis_weights(u[AXIS_PSI], law->cells[AXIS_PSI], w[AXIS_PSI]);
 
     const int row = LAW_WIDTH * (law->cells[AXIS_PSI] + 2), sheet = row * (law->cells[AXIS_Q] + 2);
     const double *from = law->coefficients + LAW_WIDTH * place;
@@ -122,6 +114,22 @@ INLINE void joint_law(const JointLaw *law, const scalar load[3], scalar P, scala
         }
         octet_add(w[AXIS_TAU][a], &by_q, &sum);
     }
+    *S = sum;
+}
+
+// Moves of a joint's pad and loads of its rivet under L* = (N, M_r, M_t) and P; the energy of elastic_half.h if it is asked for.
+INLINE void joint_law(const JointLaw *law, const scalar load[3], scalar P, scalar move[3], scalar rivet[3],
+                      scalar *energy)
+{
+    const double inv_length = 1.0 / law->length;
+    const scalar N = load[0], M_r = magnitude(load[1]), M_t = load[2];
+    const scalar M = scalar_sqrt(M_r * M_r + M_t * M_t) * inv_length, W = scalar_sqrt(N * N + M * M),
+                 s = P + W;
+    const scalar q = share(N, magnitude(N) + M), psi = share(M_t, magnitude(M_t) + M_r);
+    const scalar u[LAW_AXES] = {share(W, s) * law->cells[AXIS_TAU], (q + 1.0) * (0.5 * law->cells[AXIS_Q]),
+                                (psi + 1.0) * (0.5 * law->cells[AXIS_PSI])};
+    octet sum;
+    law_octet(law, u, &sum);
     const scalar across = scalar_value(load[1]) < 0.0 ? -s : s;
     move[0] = s * sum.x[0], move[1] = across * sum.x[1], move[2] = s * sum.x[2];
     rivet[0] = s * sum.x[4], rivet[1] = across * sum.x[5], rivet[2] = s * sum.x[6];

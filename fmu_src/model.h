@@ -16,6 +16,9 @@ typedef struct ElasticHalf ElasticHalf;  // elastic_half.h
 
 enum { N_MODES = Y_MODE_D - Y_MODE_S };  // room for the modes of a half
 
+// One number for each mode of a half.
+typedef scalar mode_array[N_MODES] __attribute__((aligned(8 * sizeof(scalar))));
+
 // One vector for each ball of a packet, in the balls' own frames.
 typedef struct {
     wide x, r, t;
@@ -216,7 +219,8 @@ typedef struct {
     // elastic halves (cage_elastic.c): coordinates of the modes and their rates, by half [m, m/s]; how far a wall can have
     // moved [m]; moment of inertia that the modes add [kg.m2] and its rate; modal forces on the walls [N] (cleared
     // by cage_elastic_kinematics, added by pocket_force)
-    scalar q[2][N_MODES], q_dot[2][N_MODES], reach[2], more_J[2], more_J_dot[2], wall_force[2][N_MODES];
+    mode_array q[2], q_dot[2], wall_force[2];
+    scalar reach[2], more_J[2], more_J_dot[2];
 
     // elastic part of the pads' motions against each other, out of the plane (x, about r, about t) and in it (r, t); e: half
     // of the whole motion out of the plane; part of the halves' rigid motion in u_y and u_z

@@ -68,3 +68,25 @@ INLINE void octet_add(double w, const octet *x, octet *sum)
     octet_add_from(w, x->x, sum);
 }
 #endif
+
+// sum += w_0 rows_0 + w_1 rows_1 + ...: rows of a number of octets each, even and odd ones by themselves.
+INLINE void octets_add_rows(int count, const scalar *w, int octets, const double *rows, octet *sum,
+                            octet *odd)
+{
+    const int length = 8 * octets;
+    for (int i = 0; i + 1 < count; i += 2)
+        for (int b = 0; b < octets; b++) {
+            octet_add_from(w[i], rows + i * length + 8 * b, &sum[b]);
+            octet_add_from(w[i + 1], rows + (i + 1) * length + 8 * b, &odd[b]);
+        }
+    if (count % 2 == 1)
+        for (int b = 0; b < octets; b++)
+            octet_add_from(w[count - 1], rows + (count - 1) * length + 8 * b, &sum[b]);
+}
+
+// to = sum + odd.
+INLINE void octets_store_sum(int octets, const octet *sum, const octet *odd, scalar *to)
+{
+    for (int b = 0; b < octets; b++)
+        for (int i = 0; i < 8; i++) to[8 * b + i] = sum[b].x[i] + odd[b].x[i];
+}

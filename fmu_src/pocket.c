@@ -184,23 +184,25 @@ static bool pocket_elastic(const Model *model, Work *w, int h, int j, PocketGap 
 {
     const ElasticHalf *elastic = model->elastic;
     const int near = wide_mask(wide_above(gap->delta + w->reach[h], 0.0)), side = 2 * h - 1;
-    ball_array on_wall[3], moved;
+    ball_array on_wall[3], moved, S;
+    WallPlaces places;
     WallShape shape[LANE_WIDTH];
-    for (int i = 0; i < LANE_WIDTH; i++) {
-        const scalar n_x = wide_lane(gap->n_x, i), n_t = wide_lane(gap->n_t, i);
-        const bool reached = near >> i & 1 && j + i < Z;
-        moved[j + i] = reached ? elastic_wall_normal(elastic, side, j + i, w->q[h], n_x, n_t) : 0.0;
-        for (int c = 0; c < 3; c++) wall->u_dot[c][j + i] = 0.0;
-        wall->tilt[j + i] = 0.0;
-    }
+    elastic_wall_places(elastic, side, j, near, gap->n_x, gap->n_t, &places);
+    wide_store(&moved[j], wide_set(0.0));
+    for (int i = 0; i < LANE_WIDTH && j + i < Z; i++)
+        if (near >> i & 1) moved[j + i] = elastic_wall_normal(elastic, side, j + i, &places, w->q[h]);
     gap->delta -= wide_load(&moved[j]);
-    const int touched = near & wide_mask(wide_above(gap->delta, 0.0));
+
+    // a ball that touches the other half alone loads nothing here
+    const int loaded = wide_mask(wide_above(pocket_share(model->d, h, gap->n_x, gap->delta).load, 0.0));
+    const int touched = near & loaded & wide_mask(wide_above(gap->delta, 0.0));
     if (touched == 0) return false;
-    const wide S = 1.0 / gap->inv_S;
+    for (int c = 0; c < 3; c++) wide_store(&wall->u_dot[c][j], wide_set(0.0));
+    wide_store(&wall->tilt[j], wide_set(0.0));
+    wide_store(&S[j], 1.0 / gap->inv_S);
     for (int i = 0; i < LANE_WIDTH && j + i < Z; i++)
         if (touched >> i & 1)
-            elastic_wall(elastic, side, j + i, w->q[h], w->q_dot[h], wide_lane(gap->n_x, i),
-                         wide_lane(gap->n_t, i), wide_lane(S, i), wall, &shape[i]);
+            elastic_wall(elastic, side, j + i, &places, w->q[h], w->q_dot[h], S[j + i], wall, &shape[i]);
     gap->delta = pocket_approach(model, h, gap->n_x, gap->delta);
     pocket_contacts(model, w, h, j, gap, mixed, false, wall, on_wall);
     for (int i = 0; i < LANE_WIDTH && j + i < Z; i++) {

@@ -217,12 +217,13 @@ static void advance_modes(const Model *model, double h, const VerletState *from,
                           double *error)
 {
     const double gamma = 0.5 * h, inv_h = 1.0 / h, second = h * h * (2.0 / (h + from->h));
+    double left[N_MODES];
+    for (int i = 0; i < N_MODES; i++) left[i] = 1.0 / (1.0 + gamma * model->elastic->damping[i]);
     for (int first = RATES; first < N_ALL_STATES; first += N_MODES) {
-        const double *damping = model->elastic->damping, *y = &from->y[first], *f = &from->f[first],
-                     *jerk = &from->jerk[first];
+        const double *y = &from->y[first], *f = &from->f[first], *jerk = &from->jerk[first];
         double *y_1 = &to->y[first], *f_1 = &to->f[first], *jerk_1 = &to->jerk[first], *e = &error[first];
         for (int i = 0; i < N_MODES; i++) {
-            const double change = (f_1[i] - f[i]) / (1.0 + gamma * damping[i]);
+            const double change = (f_1[i] - f[i]) * left[i];
             f_1[i] = f[i] + change;
             y_1[i] = y[i] + gamma * (f[i] + f_1[i]);
             jerk_1[i] = change * inv_h;
