@@ -2,6 +2,7 @@
 #include "elastic_half.h"
 
 #include "elementary.h"
+#include "elimination.h"
 #include "rivet_rom.h"
 
 static const double LONGEST = 8e-6;  // step at tolerance 1e-3 [s]
@@ -142,17 +143,9 @@ static void load_before(const JointLaw *law, double more[3][3], const double beh
             for (int i = 0; i < 3; i++) slope[i][k] = (found[i] - rest[i]) / step;
         }
 
-        // Cramer's rule
-        double minor[3][3], det = 0.0;
-        for (int i = 0; i < 3; i++)
-            for (int k = 0; k < 3; k++) {
-                const int a = (i + 1) % 3, b = (i + 2) % 3, c = (k + 1) % 3, e = (k + 2) % 3;
-                minor[i][k] = slope[a][c] * slope[b][e] - slope[a][e] * slope[b][c];
-            }
-        for (int k = 0; k < 3; k++) det += slope[0][k] * minor[0][k];
-        for (int k = 0; k < 3; k++)
-            change[k] =
-                -(minor[0][k] * rest[0] + minor[1][k] * rest[1] + minor[2][k] * rest[2]) / det * unit[k];
+        for (int k = 0; k < 3; k++) change[k] = rest[k];
+        solve_3(slope[0], change);
+        for (int k = 0; k < 3; k++) change[k] *= -unit[k];
         double part = 1.0;
         for (int halving = 0; halving < 12; halving++, part *= 0.5) {
             for (int k = 0; k < 3; k++) trial[k] = load[k] + part * change[k];

@@ -430,23 +430,6 @@ static void joint_matrix(const Model *model, const Work *w, double gamma, double
     C[2][2] = ball_array_sum(rate_yy);
 }
 
-// x = B^-1 x by Cramer's rule.
-static void solve_3(double B[3][3], double x[3])
-{
-    double minor[3][3], out[3];
-    for (int i = 0; i < 3; i++)
-        for (int k = 0; k < 3; k++) {
-            const int a = (i + 1) % 3, b = (i + 2) % 3, c = (k + 1) % 3, e = (k + 2) % 3;
-            minor[i][k] = B[a][c] * B[b][e] - B[a][e] * B[b][c];
-        }
-    const double inv_det = 1.0 / (B[0][0] * minor[0][0] + B[0][1] * minor[0][1] + B[0][2] * minor[0][2]);
-    for (int i = 0; i < 3; i++) {
-        const double sum = minor[0][i] * x[0] + minor[1][i] * x[1] + minor[2][i] * x[2];
-        out[i] = sum * inv_det;
-    }
-    memcpy(x, out, sizeof out);
-}
-
 // Holds back the axial motion of half 1 against half 0, both already held back by their films f.  With dv
 // their relative velocity (v_x, beta_dot, gamma_dot) and G its change by unit impulses, again under the
 // films, the impulses of the joints are x = C (dv - G x): three equations (1 + C G) x = C dv, the form of
@@ -477,7 +460,7 @@ static double solve_joints(const Model *model, const Work *w, double gamma, cons
         B[i][2] = (i == 2) + C[i][1] * G_bg + C[i][2] * G_gg;
         x[i] = C[i][0] * dv[0] + C[i][1] * dv[1] + C[i][2] * dv[2];
     }
-    solve_3(B, x);
+    solve_3(B[0], x);
 
     // The impulses change the velocities of each half, which its own film holds back again.
     for (int h = 0; h < 2; h++) {
@@ -535,7 +518,7 @@ double implicit_shear(const Model *model, const Work *w, double gamma, double *v
                       {0.0, 1.0 + c * G_m, c_y * G_J},   //
                       {-c_z * G_m, c_y * G_m, 1.0 + c_rr * G_J}};
     double x[3] = {c * dv_y - c_z * ds, c * dv_z + c_y * ds, c_y * dv_z - c_z * dv_y + c_rr * ds};
-    solve_3(B, x);
+    solve_3(B[0], x);
     for (int h = 0; h < 2; h++) {
         const double sign = h == 0 ? 1.0 : -1.0;
         v[Y_CAGE_V_Y + h] += sign * x[0] / m;

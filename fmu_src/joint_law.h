@@ -34,6 +34,7 @@
 // relieved through the slip stiffness (joint_slip).
 #pragma once
 
+#include "elimination.h"
 #include "isa.h"
 #include "octet.h"
 
@@ -172,19 +173,11 @@ INLINE void find_alone(const JointLaw *law, ball_array bonded[3], JointMoves mov
         }
 }
 
-// The move of a joint that carries nothing: K_0 move = L*, by Cramer's rule.
+// The move of a joint that carries nothing: K_0 move = L*.
 ONCE void joint_free(const double K[3][3], const scalar load[3], scalar move[3])
 {
-    double cofactor[3][3], det = 0.0;
-    for (int i = 0; i < 3; i++)
-        for (int j = 0; j < 3; j++) {
-            const int a = (i + 1) % 3, b = (i + 2) % 3, c = (j + 1) % 3, e = (j + 2) % 3;
-            cofactor[i][j] = K[a][c] * K[b][e] - K[a][e] * K[b][c];
-        }
-    for (int j = 0; j < 3; j++) det += K[0][j] * cofactor[0][j];
-    for (int j = 0; j < 3; j++)
-        move[j] =
-            (cofactor[0][j] * load[0] + cofactor[1][j] * load[1] + cofactor[2][j] * load[2]) * (1.0 / det);
+    for (int i = 0; i < 3; i++) move[i] = load[i];
+    solve_3(K[0], move);
 }
 
 // Loads (N, M_r, M_t) of the joints and (T, m_r, m_t) of the rivets [N, N.m], from bonded loads and preloads
