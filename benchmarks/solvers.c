@@ -18,6 +18,7 @@
 // those evaluations are made only where a scene wants stress or statistics.
 #include "solvers.h"
 
+#include "cage_joint.h"
 #include "instance.h"
 #include "stepping.h"
 
@@ -67,7 +68,7 @@ struct Integrator {
     SUNMatrix matrix;
     SUNLinearSolver linear;
     SUNNonlinearSolver nonlinear;
-    double weight[N_STATES];
+    double weight[N_ALL_STATES];
     double t_latest, y_latest[N_STATES], f_latest[N_STATES];  // the evaluation that w belongs to
     double rates[N_STATES];                                   // D of the diagonal Jacobian
     bool rates_known;
@@ -96,7 +97,7 @@ static int right_hand_side(sunrealtype t, N_Vector y, N_Vector f, void *user)
     if (in->kernels->ops->finite(in->f_latest)) return 0;
     if (in->choice.method != SOLVER_ERK)
         return 1;  // CVODE tries a smaller step; ERKStep cannot, so its error test is made to fail
-    stepping_refuse(in->weight, in->nonfinite_stages++, N_VGetArrayPointer(f));
+    stepping_refuse(in->weight, N_STATES, in->nonfinite_stages++, N_VGetArrayPointer(f));
     return 0;
 }
 
@@ -473,6 +474,13 @@ void integrator_destroy(Integrator *in)
     free(in);
 }
 
+// States are not saved here.
+bool integrator_state_is_valid(const IntegratorState *state, bool elastic)
+{
+    (void)state, (void)elastic;
+    return false;
+}
+
 void integrator_tolerance(Integrator *in, double tolerance)
 {
     stepping_weights(in->model->d, tolerance, in->weight);
@@ -483,14 +491,14 @@ void integrator_evaluate(Integrator *in)
 {
     if (in->s->f_is_current) return;
     in->t_latest = NAN;  // the drive may have changed
-    memcpy(in->s->now.f, evaluate(in, in->s->t, in->s->now.y, &in->s->rhs_evals), sizeof in->s->now.f);
+    memcpy(in->s->now.f, evaluate(in, in->s->t, in->s->now.y, &in->s->rhs_evals), sizeof in->y_latest);
     in->s->f_is_current = 1;
 }
 
 static int start(Integrator *in, double t_stop)
 {
     const double h = fmin(in->s->h, t_stop - in->s->t);
-    memcpy(N_VGetArrayPointer(in->y), in->s->now.y, sizeof in->s->now.y);
+    memcpy(N_VGetArrayPointer(in->y), in->s->now.y, sizeof in->y_latest);
     in->rates_known = false;
     if (in->choice.method == SOLVER_ERK)
         return ARKodeReset(in->solver, in->s->t, in->y) | ARKodeSetInitStep(in->solver, h) |
