@@ -148,7 +148,7 @@ def ball_blocks(model, w, gamma):
     A contact's traction is -g P u, u the slip, P = 1 - n n^T, with the secant g = |traction|/|slip|: symmetric, and never below the tangent of a concave law.
     Its normal force has the rate lambda Q and the stiffness 3 Q/(2 delta).  Pockets: the diagonal of their friction.
     """
-    d, sliced, coupled = model.d, model.p.scene.traction != Traction.POINT, ring_coupled(model, w, gamma)
+    d, sliced, coupled = model.d, model.p.scene.traction == Traction.SLICED, ring_coupled(model, w, gamma)
     rate = (1.0 / d.m + d.R**2 / d.J) * (w.g_i + w.g_e) + 0.5 * np.sum(w.D + w.D_omega, axis=0)  # half the trace of A: two tangents share it
     A, K, A_stiff = np.zeros((3, N_V, N_V))
     for j in range(Z):

@@ -145,7 +145,7 @@ INLINE void packet_matrix(const Model *model, const Work *w, int j, double gamma
     }
     add_contact(gamma * wide_load(&w->g_i[j]), normal_i, R, n_i, W);
     add_contact(gamma * wide_load(&w->g_e[j]), normal_e, R, n_e, W);
-    if (model->p->scene.traction != TRACTION_POINT) {
+    if (model->p->scene.traction == TRACTION_SLICED) {
         add_spin(gamma * wide_load(&w->g_spin_i[j]), n_i, W);
         add_spin(gamma * wide_load(&w->g_spin_e[j]), n_e, W);
     }

@@ -156,7 +156,7 @@ typedef struct {
 
 enum { SUMS = sizeof(SliceTraction) / sizeof(wide) };
 
-// Place -s k/(k^2 + b^2) where the slip changes its sign, within the ellipse.
+// Place x_0 = -s_1 k/(k^2 + b_1^2) where the slip changes its sign, within the ellipse.
 INLINE wide split_place(const SlicedContact *c)
 {
     const wide x_0 = -(c->s_1 * c->k) / (c->k * c->k + c->b_1 * c->b_1 + TINY);
