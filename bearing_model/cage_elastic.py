@@ -63,7 +63,7 @@ class ElasticHalf:
     spin: np.ndarray  # modal force per (rad/s)^2 [n]
     K: np.ndarray  # stiffness of what the modes leave, out of the plane [Z, 3, 3]
     series: float  # part of the friction states' stiffness that is left in series with it
-    series_hole: float  # and of the hole's
+    k_hole: np.ndarray  # what is left of the holes' [Z] [N/m]
     reach_2: float  # largest |u|^2 of a wall / sum omega^2 q^2 [s2] by modes that do not move all pockets alike
     widest: np.ndarray  # largest |u|/|q| by the others, else 0 [n]
     wall: float  # compliance that the modes leave at a wall, along its normal, less that in Hertz's [m/N]
@@ -149,7 +149,7 @@ def derive_elastic(p, d, table):
     behind, energy = kept_law(table.half.law, K[0])
     pocket = unit * np.moveaxis(modes.pocket[entry], 1, 0)
     pad = unit * np.moveaxis(rivet_shapes(modes)[:, :, : len(PAD)], 1, 2)
-    series, series_hole = 1.0 / (1.0 + shear * (d.k_plate_t + d.k_head)), 1.0 / (1.0 + shear * d.k_hole[0])
+    series, k_hole = 1.0 / (1.0 + shear * (d.k_plate_t + d.k_head)), d.k_hole / (1.0 + shear * d.k_hole)
     held, longest = series * (d.k_plate_t + d.k_head), LONGEST * (p.solver.tol / 1e-3) ** (1.0 / 3.0)
     big = K[(np.arange(Z)[:, None] - np.arange(Z)) % Z].transpose(0, 2, 1, 3).reshape(3 * Z, 3 * Z)
     alike = (modes.harmonic[entry] == 0) & (part == 0.0)
@@ -169,13 +169,13 @@ def derive_elastic(p, d, table):
         widest=np.where(alike, 1.25 * np.sqrt(np.max(u_2, axis=0)), 0.0),
         K=K,
         series=series,
-        series_hole=series_hole,
+        k_hole=k_hole,
         wall=residual.wall[WALL_NODE],
         longest=longest,
         mirrored=vibrations(p.cage.m, omega, joints_out(d, pad), 0.5 * big, (0.5 * p.cage.m, 0.5 * d.J_t, 0.5 * d.J_t), longest),
         opposed=tuple(
             vibrations(p.cage.m, omega, joints_in(d, pad), np.eye(2 * Z) * k, (0.5 * p.cage.m, 0.5 * p.cage.m, 0.5 * d.J_p), longest)
-            for k in (held, held + series_hole * d.k_hole[0])
+            for k in (held, held + np.max(k_hole))
         ),
         law=behind,
         prying=np.abs(d.spin[4]) / behind.length,
@@ -348,21 +348,39 @@ def cage_elastic_slip(model, y, w):
     w.v_j[2] += s * r + c * t
 
 
+def broken_answer(K, behind):
+    """Moves [..., 3] of pads without a rivet at L^ = behind: they press on each other in their middles or move freely, and carry no moment."""
+    into = np.linalg.inv(K[1:, 1:])
+    free, along = behind[..., 1:] @ into.T, into @ K[1:, 0]
+    u = maximum((behind[..., 0] - free @ K[0, 1:]) / (K[0, 0] - K[0, 1:] @ along), 0.0)[..., None]
+    return np.concatenate([u, free - along * u], axis=-1)
+
+
 def cage_elastic_law(model, e, P, omega_2):
-    """Loads L (N, M_r, M_t) of the joints, loads of the rivets (T, m_r, m_t), [3, ..., Z], energy of one half [..., Z], for motions e [3, ..., Z]."""
-    half, law = model.d.elastic, model.d.elastic.law
+    """Loads L (N, M_r, M_t) of the joints, loads of the rivets (T, m_r, m_t), [3, ..., Z], energy of one half [..., Z], for motions e [3, ..., Z].
+
+    P: preloads with what the centrifugal load adds [..., Z].
+    """
+    d, half, law = model.d, model.d.elastic, model.d.elastic.law
+    intact = d.intact[:, None]
+
+    def answer(behind):
+        delta, rivet = joint_law(law, behind, P)
+        return np.where(intact > 0.0, delta, broken_answer(half.K[0], behind)), intact * rivet
+
     waves = half.K[(np.arange(Z)[:, None] - np.arange(Z)) % Z]  # [k, j, 3, 3]
     bonded = np.einsum("kjab,b...j->...ka", waves, e)
-    behind = bonded - cage_elastic_relief(half, P, omega_2)
-    delta, rivet = joint_law(law, behind, P)
+    behind = bonded - cage_elastic_relief(half, maximum(d.P_mean + d.spin[5] * omega_2, 0.0), omega_2)
+    delta, rivet = answer(behind)
     for _ in range(JOINT_SWEEPS):
         behind = bonded - np.einsum("kjab,...jb->...ka", waves, delta) + delta @ half.K[0].T
-        delta, rivet = joint_law(law, behind, P)
+        delta, rivet = answer(behind)
     load = behind - delta @ half.K[0].T
     s = P + np.sqrt(behind[..., 0] ** 2 + (behind[..., 1] ** 2 + behind[..., 2] ** 2) / law.length**2)
     rest = np.moveaxis(e, 0, -1) - delta
     V = 0.5 * np.sum(rest * np.einsum("kjab,...jb->...ka", waves, rest), axis=-1)
-    V = V + np.sum((behind - 0.5 * delta @ half.K[0].T) * delta, axis=-1) - s**2 * spline_value(law, half.energy, behind, P)
+    more = np.sum((behind - 0.5 * delta @ half.K[0].T) * delta, axis=-1) - s**2 * spline_value(law, half.energy, behind, P)
+    V = V + d.intact * more  # pads without a rivet keep no energy of their own
     return np.moveaxis(load, -1, 0), np.moveaxis(rivet, -1, 0), V
 
 
@@ -384,7 +402,7 @@ def cage_elastic_joints(model, y, w):
     """Loads of the joints out of the plane; sets what rivets and plates carry, adds the moments to both halves.  cage_joint_force needs T and N_plate."""
     d, (h0, h1) = model.d, w.half
     omega_2 = 0.5 * ((h0.s + w.frame_omega) ** 2 + (h1.s + w.frame_omega) ** 2)
-    P = maximum(d.P_mean + d.spin[5] * omega_2, 0.0) + 0.0 * w.e[0]
+    P = maximum(d.P + d.spin[5] * omega_2, 0.0) + 0.0 * w.e[0]
     w.joint_load, w.joint_rivet, V = cage_elastic_law(model, w.e, P, omega_2)
     w.joint_potential = 2.0 * V
     w.T = maximum(w.joint_rivet[0], 0.0)

@@ -93,7 +93,7 @@ def joint_stiffness(model):
     d = model.d
     if model.p.scene.cage != CageModel.ELASTIC:
         return d.k_plate_t, d.k_head, d.k_hole
-    return d.elastic.series * d.k_plate_t, d.elastic.series * d.k_head, d.elastic.series_hole * d.k_hole
+    return d.elastic.series * d.k_plate_t, d.elastic.series * d.k_head, d.elastic.k_hole
 
 
 def cage_joint_force(model, y, w):

@@ -143,5 +143,5 @@ def check_geometry(p):
         require(dD <= 0.0 or dD < clearance[j], f"ball[{j + 1}].dD = {dD} m: {less}")
     differ = {"preload_factor": p.rivet.preload_factor != 1.0, "dfit": p.rivet.dfit != 0.0, "intact": p.rivet.intact != 1}
     for name, others in differ.items():
-        where = f"rivet[{np.argmax(others) + 1}].{name}: rivets that differ need scene.cage = two_half"
-        require(p.scene.cage == variables.CageModel.TWO_HALF or not np.any(others), where)
+        where = f"rivet[{np.argmax(others) + 1}].{name}: rivets that differ need scene.cage = two_half or elastic"
+        require(p.scene.cage != variables.CageModel.RIGID or not np.any(others), where)

@@ -137,8 +137,8 @@ def elastic_loads(model, w):
     plates, heads, shank = (-turned(model, force) for force in (w.S, w.H, w.B))
     N, M_r, M_t = w.joint_load
     _, m_r, m_t = w.joint_rivet
-    V = np.hypot(*(plates + heads + shank))
-    return JointLoads(N=N, M_r=M_r, M_t=M_t, V=V, T=w.T, m_r=m_r, m_t=m_t, V_r=shank[0], V_t=shank[1], F_head=np.hypot(*heads))
+    V, F_head = np.hypot(*(plates + heads + shank)), model.d.intact * np.hypot(*heads)
+    return JointLoads(N=N, M_r=M_r, M_t=M_t, V=V, T=w.T, m_r=m_r, m_t=m_t, V_r=shank[0], V_t=shank[1], F_head=F_head)
 
 
 def rivets_load(model, w):

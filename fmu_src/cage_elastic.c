@@ -32,23 +32,25 @@ enum { JOINT_SWEEPS = 1 };  // beside the first answer
 
 static const double ROOT = 1.4142135623730951;  // of 2
 
-// The pads' motions against each other by modal coordinates: out of the plane by S, in it by D.
-static void motion_out_of_plane(const ElasticHalf *half, const scalar *S, ball_array to[PAD_OUT])
+// Motions of the pads against each other by modal coordinates: parts of Z pads each, in rows of a number of octets.
+INLINE void pads_follow(const ElasticHalf *half, const scalar *q, int parts, int octets, const double *rows,
+                        ball_array *to)
 {
     octet sum[OUT_OCTETS] = {{{0.0}}}, odd[OUT_OCTETS] = {{{0.0}}};
     scalar row[8 * OUT_OCTETS];
-    octets_add_rows(8 * half->blocks, S, OUT_OCTETS, half->out[0], sum, odd);
-    octets_store_sum(OUT_OCTETS, sum, odd, row);
-    for (int c = 0; c < PAD_OUT; c++) memcpy(to[c], &row[c * Z], Z * sizeof *row);
+    octets_add_rows(8 * half->blocks, q, octets, rows, sum, odd);
+    octets_store_sum(octets, sum, odd, row);
+    for (int c = 0; c < parts; c++) memcpy(to[c], &row[c * Z], Z * sizeof *row);
+}
+
+static void motion_out_of_plane(const ElasticHalf *half, const scalar *S, ball_array to[PAD_OUT])
+{
+    pads_follow(half, S, PAD_OUT, OUT_OCTETS, half->out[0], to);
 }
 
 static void motion_in_plane(const ElasticHalf *half, const scalar *D, ball_array to[PAD_IN])
 {
-    octet sum[IN_OCTETS] = {{{0.0}}}, odd[IN_OCTETS] = {{{0.0}}};
-    scalar row[8 * IN_OCTETS];
-    octets_add_rows(8 * half->blocks, D, IN_OCTETS, half->in[0], sum, odd);
-    octets_store_sum(IN_OCTETS, sum, odd, row);
-    for (int c = 0; c < PAD_IN; c++) memcpy(to[c], &row[c * Z], Z * sizeof *row);
+    pads_follow(half, D, PAD_IN, IN_OCTETS, half->in[0], to);
 }
 
 // Sum over the modes in one order for every lane width.
@@ -133,7 +135,7 @@ static void stiffness_times(const ElasticHalf *half, ball_array x[PAD_OUT], ball
 }
 
 // Coordinates in cells of a packet of joints under L^, and s (joint_law.h).
-INLINE wide law_place(const JointLaw *law, const wide L[3], scalar P, wide u[LAW_AXES])
+INLINE wide law_place(const JointLaw *law, const wide L[3], wide P, wide u[LAW_AXES])
 {
     const double inv_length = 1.0 / law->length;
     const wide N = L[0], M_r = wide_abs(L[1]), M_t = L[2];
@@ -144,17 +146,47 @@ INLINE wide law_place(const JointLaw *law, const wide L[3], scalar P, wide u[LAW
     return s;
 }
 
+// K_0 times the move of joint k.
+INLINE scalar own_relief(const ElasticHalf *half, const Work *w, int a, int k)
+{
+    const double *K = half->K[0][a];
+    return K[0] * w->joint_move[0][k] + K[1] * w->joint_move[1][k] + K[2] * w->joint_move[2][k];
+}
+
+// Joint k without its rivet: the pads press on each other in their middles or move freely.  Its move relieves it of both
+// moments, and of N unless that presses.
+static void broken_answers(const ElasticHalf *half, Work *w, int k)
+{
+    const double (*K)[PAD_OUT] = half->K[0], det = K[1][1] * K[2][2] - K[1][2] * K[2][1];
+    const scalar N = w->joint_behind[0][k], M_r = w->joint_behind[1][k], M_t = w->joint_behind[2][k];
+    const scalar phi_r = (K[2][2] * M_r - K[1][2] * M_t) / det, phi_t = (K[1][1] * M_t - K[2][1] * M_r) / det;
+    const double r_x = (K[2][2] * K[1][0] - K[1][2] * K[2][0]) / det,
+                 t_x = (K[1][1] * K[2][0] - K[2][1] * K[1][0]) / det;
+    const scalar u =
+        scalar_max((N - K[0][1] * phi_r - K[0][2] * phi_t) / (K[0][0] - K[0][1] * r_x - K[0][2] * t_x), 0.0);
+    w->joint_move[0][k] = u, w->joint_move[1][k] = phi_r - r_x * u, w->joint_move[2][k] = phi_t - t_x * u;
+    w->joint_U[k] = 0.0;
+    for (int a = 0; a < PAD_OUT; a++) {
+        w->joint_rivet[a][k] = 0.0;
+        w->joint_U[k] += (w->joint_behind[a][k] - 0.5 * own_relief(half, w, a, k)) * w->joint_move[a][k];
+    }
+}
+
 // All joints answer to L^; behind: L^ without what a joint's own move relieves.
-static void joints_answer(const ElasticHalf *half, scalar P, Work *w)
+static void joints_answer(const ElasticHalf *half, const ball_array P, const constants intact, Work *w)
 {
     ball_array place[LAW_AXES], size;
     for (int k = 0; k < PACKETS * LANE_WIDTH; k += LANE_WIDTH) {
         wide L[PAD_OUT], u[LAW_AXES];
         for (int a = 0; a < PAD_OUT; a++) L[a] = wide_load(&w->joint_behind[a][k]);
-        wide_store(&size[k], law_place(&half->law, L, P, u));
+        wide_store(&size[k], law_place(&half->law, L, wide_load(&P[k]), u));
         for (int a = 0; a < LAW_AXES; a++) wide_store(&place[a][k], u[a]);
     }
     for (int k = 0; k < Z; k++) {
+        if (intact[k] == 0.0) {
+            broken_answers(half, w, k);
+            continue;
+        }
         octet S;
         law_octet(&half->law, (const scalar[LAW_AXES]){place[0][k], place[1][k], place[2][k]}, &S);
         const scalar s = size[k], across = scalar_value(w->joint_behind[1][k]) < 0.0 ? -s : s;
@@ -165,33 +197,26 @@ static void joints_answer(const ElasticHalf *half, scalar P, Work *w)
     }
 }
 
-// K_0 times the move of joint k.
-INLINE scalar own_relief(const ElasticHalf *half, const Work *w, int a, int k)
-{
-    const double *K = half->K[0][a];
-    return K[0] * w->joint_move[0][k] + K[1] * w->joint_move[1][k] + K[2] * w->joint_move[2][k];
-}
-
 void cage_elastic_joints(const Model *model, Work *w)
 {
     const ElasticHalf *half = model->elastic;
     const Derived *d = model->d;
     const scalar s_0 = w->half[0].s + w->frame_omega, s_1 = w->half[1].s + w->frame_omega;
-    const scalar omega_2 = 0.5 * (s_0 * s_0 + s_1 * s_1),
-                 P = scalar_max(d->P_mean + d->spin[ROW_DP] * omega_2, 0.0);
-    ball_array bonded[PAD_OUT], relief[PAD_OUT];
+    const scalar omega_2 = 0.5 * (s_0 * s_0 + s_1 * s_1), more_P = d->spin[ROW_DP] * omega_2;
+    ball_array bonded[PAD_OUT], relief[PAD_OUT], P;
     scalar rest[PAD_OUT];
+    for (int k = 0; k < LANES; k++) P[k] = scalar_max(d->P[k] + more_P, 0.0);
     stiffness_times(half, w->e, bonded);
-    elastic_relief(half, P, omega_2, rest);
+    elastic_relief(half, scalar_max(d->P_mean + more_P, 0.0), omega_2, rest);
     for (int a = 0; a < 3; a++)
         for (int k = 0; k < Z; k++) w->joint_behind[a][k] = bonded[a][k] - rest[a];
-    joints_answer(half, P, w);
+    joints_answer(half, P, d->intact, w);
     for (int sweep = 0; sweep < JOINT_SWEEPS; sweep++) {
         stiffness_times(half, w->joint_move, relief);
         for (int a = 0; a < 3; a++)
             for (int k = 0; k < Z; k++)
                 w->joint_behind[a][k] = bonded[a][k] - relief[a][k] + own_relief(half, w, a, k);
-        joints_answer(half, P, w);
+        joints_answer(half, P, d->intact, w);
     }
 
     // loads; what rivets and plates carry

@@ -59,18 +59,18 @@ void cage_joint_kinematics(const Model *model, Work *w)
     }
 }
 
-// Stiffnesses of plates and head in the plane [N/m], and the factor of the hole's: of elastic halves in series with
-// what their modes leave.
+// Stiffnesses of plates, head and holes in the plane [N/m]: of elastic halves in series with what their modes leave.
 typedef struct {
-    double plate, head, hole;
+    double plate, head;
+    const double *hole;
 } JointStiffness;
 
 static JointStiffness joint_stiffness(const Model *model)
 {
     const Derived *d = model->d;
-    if (!model->elastic) return (JointStiffness){d->k_plate_t, d->k_head, 1.0};
-    const double series = model->elastic->series, hole = model->elastic->series_hole;
-    return (JointStiffness){series * d->k_plate_t, series * d->k_head, hole};
+    if (!model->elastic) return (JointStiffness){d->k_plate_t, d->k_head, d->k_hole};
+    const ElasticHalf *half = model->elastic;
+    return (JointStiffness){half->series * d->k_plate_t, half->series * d->k_head, half->k_hole};
 }
 
 // Dahl's friction with force -k z: sets the rate of z and its decay D, returns the dissipated power.
@@ -194,7 +194,7 @@ void cage_joint_force(const Model *model, const scalar *y, Work *w)
 
         // hole contact
         const wide slip = wide_sqrt(u_y * u_y + u_z * u_z + 1e-30);
-        const wide gap = wide_load(&d->hole_gap[k]), k_hole = k_in.hole * wide_load(&d->k_hole[k]);
+        const wide gap = wide_load(&d->hole_gap[k]), k_hole = wide_load(&k_in.hole[k]);
         const wide bearing = k_hole * wide_max(slip - gap, zero) / slip;
         wide_store(&w->k_bearing[k], wide_select(wide_above(slip - gap, 0.0), k_hole, zero));
 

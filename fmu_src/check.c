@@ -115,18 +115,19 @@ static bool require(Bearing *b, bool condition, const char *format, double value
     return condition;
 }
 
-// Checks that rivets which differ are in a scene whose joints know them one by one.
+// Checks that rivets which differ are in a scene whose joints know them one by one: a rigid cage shares its load among all.
 static bool check_rivets(Bearing *b)
 {
     const Parameters *p = &b->s.p;
-    if (p->scene.cage == CAGE_MODEL_TWO_HALF) return true;
+    if (p->scene.cage != CAGE_MODEL_RIGID) return true;
     for (int k = 0; k < Z; k++) {
         const char *name = p->rivet.preload_factor[k] != 1.0 ? "preload_factor"
                            : p->rivet.dfit[k] != 0.0         ? "dfit"
                            : p->rivet.intact[k] != 1         ? "intact"
                                                              : NULL;
         if (name == NULL) continue;
-        bearing_log(b, LOG_ERROR, "rivet[%d].%s: rivets that differ need scene.cage = two_half", k + 1, name);
+        bearing_log(b, LOG_ERROR, "rivet[%d].%s: rivets that differ need scene.cage = two_half or elastic",
+                    k + 1, name);
         return false;
     }
     return true;

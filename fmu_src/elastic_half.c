@@ -368,13 +368,14 @@ static void find_wave(const Parameters *p, const ElasticHalf *half, bool out, in
 
 static void find_waves(const Parameters *p, const Derived *d, ElasticHalf *half)
 {
-    double K[Z][PAD_OUT][PAD_OUT], shear[2][Z][PAD_OUT][PAD_OUT] = {{{{0.0}}}};
-    for (int k = 0; k < Z; k++)  // both halves move, and both are loaded: 2 (1/2)^2
+    double K[Z][PAD_OUT][PAD_OUT], shear[2][Z][PAD_OUT][PAD_OUT] = {{{{0.0}}}}, k_hole = 0.0;
+    for (int k = 0; k < Z; k++)
+        k_hole = fmax(k_hole, half->k_hole[k]);  // the waves of joints that are all alike
+    for (int k = 0; k < Z; k++)                  // both halves move, and both are loaded: 2 (1/2)^2
         for (int a = 0; a < 9; a++) K[k][a / 3][a % 3] = 0.5 * half->K[k][a / 3][a % 3];
     for (int bears = 0; bears < 2; bears++)
         for (int c = 0; c < PAD_IN; c++)
-            shear[bears][0][c][c] =
-                half->series * (d->k_plate_t + d->k_head) + bears * half->series_hole * d->k_hole[0];
+            shear[bears][0][c][c] = half->series * (d->k_plate_t + d->k_head) + bears * k_hole;
     for (int n = 0; n <= Z / 2; n++)
         for (int coordinate = 0; coordinate < 2; coordinate++) {
             const int w = 2 * n + coordinate;
@@ -527,7 +528,7 @@ void elastic_half_derive(const Parameters *p, const Derived *d, double tolerance
     invert_residual(R, half);
     const double shear = R[0][PAD_R][PAD_R] + R[0][PAD_T][PAD_T];  // mean over r and t, of both halves
     half->series = 1.0 / (1.0 + shear * (d->k_plate_t + d->k_head));
-    half->series_hole = 1.0 / (1.0 + shear * d->k_hole[0]);
+    for (int k = 0; k < LANES; k++) half->k_hole[k] = d->k_hole[k] / (1.0 + shear * d->k_hole[k]);
 
     // how far a wall can move; between the nodes a quarter farther at most
     for (int node = 0; node < half->nodes; node++) {

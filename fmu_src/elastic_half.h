@@ -72,8 +72,9 @@ struct ElasticHalf {
                             [8 * OUT_OCTETS];  // the same: loads of all joints by the motion of one, in rows
     double prying;  // |bonded M_t| of the centrifugal load over the law's length, per (rad/s)^2
     double relief[RESTS][PAD_OUT];  // what other joints relieve a joint of at rest, per newton of load + P
-    double series, series_hole;  // parts of the joints' stiffness in the plane, in series with the residual
-    double longest;              // step of the default method [s]
+    double series;     // part of the friction states' stiffness that is left in series with the residual
+    constants k_hole;  // what is left of the holes' [N/m]
+    double longest;    // step of the default method [s]
     int harmonic[MODES], coordinate[MODES];  // n; a 0, b 1
     Wave mirrored[WAVES];                    // of S and the relative motions out of the plane
     Wave opposed[2][WAVES];                  // of D and those in the plane; without and with shanks that bear

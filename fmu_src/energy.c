@@ -57,7 +57,7 @@ static scalar joint_energy(const Model *model, const scalar *y, const Work *w, i
     const scalar bearing =
         scalar_max(0.0, scalar_sqrt(w->u_y[k] * w->u_y[k] + w->u_z[k] * w->u_z[k]) - d->hole_gap[k]);
     if (model->elastic) {
-        const double k_in = model->elastic->series, k_hole = model->elastic->series_hole * d->k_hole[k];
+        const double k_in = model->elastic->series, k_hole = model->elastic->k_hole[k];
         return 0.5 * (k_in * d->k_plate_t * (z_y * z_y + z_z * z_z) +
                       k_in * d->k_head * (h_y * h_y + h_z * h_z) + k_hole * bearing * bearing);
     }

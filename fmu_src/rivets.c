@@ -141,7 +141,7 @@ static void elastic_loads(const Model *model, const Work *w, JointLoads *load)
         wide_store(&load->m_t[k], wide_load(&w->joint_rivet[2][k]));
         wide_store(&load->V_r[k], V_r);
         wide_store(&load->V_t[k], V_t);
-        wide_store(&load->F_head[k], wide_hypot(heads_r, heads_t));
+        wide_store(&load->F_head[k], wide_load(&model->d->intact[k]) * wide_hypot(heads_r, heads_t));
     }
 }
 

@@ -10,11 +10,12 @@ from functools import cached_property
 from itertools import pairwise
 
 import numpy as np
+from mechanics import Instance, view
 from scipy.linalg import expm
 from scipy.sparse.linalg import splu
 
 from bearing_model import half_modes as modes_of
-from bearing_model import rivet_table
+from bearing_model import rivet_table, variables
 from bearing_model.joint_law import joint_law, joints_open, relief
 from rivet_model import half, half_loads, half_modes, half_shape
 from rivet_model.cage_half import BODY, SYMMETRIC
@@ -100,6 +101,37 @@ class FullHalf:
             total += turn @ pitch @ turn.T
         mass, x_c = total[0, 0], total[1, 5] / total[0, 0]
         return half_shape.Inertia(mass, x_c, total[3, 3], total[4, 4] - mass * x_c**2), float(e.resultants[e.patterns.plane][1, 3])
+
+
+# Impacts of a run -------------------------------------------------------------------------------------------------------------------------
+
+
+def on_angles(angle):
+    """Weights [ANGLES] of the two angles around one, as linear interpolation has them."""
+    return np.array([np.interp(angle, ANGLES, row) for row in np.eye(len(ANGLES))])
+
+
+def recorded(core, parameters, inputs, count, settle=0.05, apart=3e-3):
+    """What the balls of a run with elastic halves do to the pockets: `count` windows of forces [half, Z, ANGLES, SAMPLES] over TIME, 3 ms apart.
+
+    The forces begin within 30 us, because a window may open in the middle of an impact.  Windows without a force above 15 N are passed over.
+    """
+    parameters = parameters | {"scene.cage": variables.CageModel.ELASTIC}
+    bearing, model = Instance(core, parameters, inputs).step(settle), core.model(parameters, inputs)
+    begin, windows = np.clip(TIME / 30e-6, 0.0, 1.0), []
+    while len(windows) < count:
+        t, force = bearing.time, np.zeros((2, variables.Z, len(ANGLES), SAMPLES))
+        for i in range(SAMPLES):
+            bearing.step(t + (i + 1) * TIME[1])
+            model.rhs(bearing.time, bearing.y)
+            for h, pockets in enumerate(model.work.pocket):
+                push_x, push_t = view(core, pockets.push_x)[: variables.Z], view(core, pockets.push_t)[: variables.Z]
+                for j in np.flatnonzero(push_x**2 + push_t**2):
+                    force[h, j, :, i] = np.hypot(push_x[j], push_t[j]) * on_angles(np.arctan2(abs(push_x[j]), push_t[j]))
+        if force.sum(axis=2).max() > 15.0:
+            windows.append(force * begin**2 * (3.0 - 2.0 * begin))
+        bearing.step(bearing.time + apart)
+    return windows
 
 
 # Joints that open --------------------------------------------------------------------------------------------------------------------------

@@ -4,7 +4,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from bearing_model.parameters import Parameters
 from bearing_model.quasi_static import Bearing, Load, quasi_static
+from bearing_model.ring_fit import ring_fit_of
 from bearing_model.variables import Z
 from riveted_bearing import run
 from riveted_bearing.summary import settled
@@ -30,9 +32,9 @@ def weighted(angle, load):
 
 
 def equilibrium(F_x, F_y, speed, control):
-    """Means over the passing of one ball.  Raises ArithmeticError if there is no equilibrium."""
+    """Means over the passing of one ball, the inner ring as it grows by rotation.  Raises ArithmeticError if there is no equilibrium."""
     load = Load(F_x=F_x, F_y=F_y, omega=speed * RPM)
-    found = [quasi_static(Bearing(), load, psi=psi, control=control) for psi in 2.0 * np.pi / Z / 6 * np.arange(6)]
+    found = [quasi_static(Bearing(fit=ring_fit_of(Parameters())), load, psi=psi, control=control) for psi in 2.0 * np.pi / Z / 6 * np.arange(6)]
     Q_i, Q_e, alpha_i, alpha_e = (np.array([getattr(at, name) for at in found]) for name in ("Q_i", "Q_e", "alpha_i", "alpha_e"))
     x, y, omega_c = (float(np.mean([getattr(at, name) for at in found])) for name in ("x", "y", "omega_m"))
     return Means(x, y, omega_c, weighted(alpha_i, Q_i), weighted(alpha_e, Q_e))

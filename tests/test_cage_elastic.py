@@ -22,6 +22,11 @@ SCENES = (
     {"scene.modes": 48, "scene.lubrication": 2, "cage.pocket_clearance": 1e-4, "ring.tilt_mode": 2},
     {"scene.modes": 32, "cage.m": 0.04, "joint.fit": -3e-5, "joint.preload": 60.0, "cage.modal_damping": 0.03, "scene.traction": 1},
     {"cage.centrifugal": 1, "cage.unbalance": 2e-6, "gravity.y": -9.81},
+    {
+        "rivet[k].preload_factor": [float(f) for f in np.linspace(0.2, 4.0, Z)],
+        "rivet[k].dfit": [float(f) for f in np.linspace(-2e-5, 1.2e-5, Z)],
+        "rivet[k].intact": [int(k not in (2, 6)) for k in range(Z)],
+    },
 )
 BLOCKS = STATE_SLICES | {name: getattr(variables, name.upper()) for name in ELASTIC_SCALES}
 
@@ -60,7 +65,7 @@ def test_twins_are_equal(core, scene, isa, record_property):
     assert worst < 1e-8
 
 
-@pytest.mark.parametrize("scene", SCENES[:3], ids=range(3))
+@pytest.mark.parametrize("scene", [*SCENES[:3], SCENES[-1]], ids=[0, 1, 2, 4])
 def test_step_equals_the_dense_step(core, scene, record_property):
     """Two steps in a row by waves and by dense matrices, in units of the error scales.
 
@@ -108,15 +113,15 @@ def test_derivatives(core):
             assert np.abs(by_core - exact).max() <= 1e-7 * size + 1e-9, (name, other)  # observed 1e-9
 
 
-@pytest.mark.parametrize("centrifugal", [1, 2])
-def test_power_is_the_rate_of_energy(centrifugal, record_property):
+@pytest.mark.parametrize("scene", [{"cage.centrifugal": 1}, {"cage.centrifugal": 2}, SCENES[-1]], ids=["without", "centrifugal", "differing"])
+def test_power_is_the_rate_of_energy(scene, record_property):
     """Net power against the energy's rate along dy/dt, by complex steps.
 
     The law of the joints is a table of moves over loads which has one energy within its own error only, and the joints' neighbours follow by one sweep: the
     balance is off by a part of what joints take and give, which is small beside what goes around.
     """
     rng, worst = np.random.default_rng(8), 0.0
-    model = Model.of(ELASTIC | {"cage.centrifugal": centrifugal, "oil.rolling": 0.0})
+    model = Model.of(ELASTIC | {"oil.rolling": 0.0} | scene)
     for _ in range(6):
         y, w, along = running_state_of(model, rng), Work(), Work()
         y_dot = rhs(model, 0.0, y, w)

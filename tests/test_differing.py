@@ -6,10 +6,13 @@ from mechanics import Instance, Z
 from test_rivets import c_opens
 
 from bearing_model import joint_law, variables
+from bearing_model.cage_elastic import joints_out
 from bearing_model.derived import default_table
-from bearing_model.model import Model
+from bearing_model.model import Model, Work
 from bearing_model.parameters import Parameters
+from bearing_model.rhs import rhs
 from bearing_model.rivet_rom import HEAD_P1, RivetLoad, rivet_rom_stress
+from bearing_model.start import start_state
 
 STILL = {"shaft.omega": 0.0, "shaft.F_x": 200.0, "shaft.F_y": 500.0}
 
@@ -32,15 +35,23 @@ def test_rivets_at_rest_carry_their_own_preload_at_their_own_fit(core):
         assert instance.output("rivet.sigma_head")[k] == pytest.approx(expected, rel=0.02)  # a moment of the law at rest
 
 
-def test_a_broken_rivet_carries_nothing_and_its_neighbours_more(core):
+@pytest.mark.parametrize("cage", [variables.CageModel.TWO_HALF, variables.CageModel.ELASTIC], ids=["two_half", "elastic"])
+def test_a_broken_rivet_carries_nothing_and_its_neighbours_more(core, cage):
     """At speed, the same motion of the cage: stress, tension, moments and damage of the broken one are 0; the centrifugal load goes to its neighbours."""
-    whole, broken = (Instance(core, each("rivet[k].intact", [int(k != gone) for k in range(Z)])).step(2e-3) for gone in (-1, 4))
+    whole, broken = (Instance(core, each("rivet[k].intact", [int(k != gone) for k in range(Z)]) | {"scene.cage": cage}) for gone in (-1, 4))
+    sums = []
+    for instance in (whole, broken):
+        rows = []
+        for i in range(1, 201):
+            instance.step(1e-5 * i)
+            rows.append([instance.output(f"rivet.{name}").copy() for name in ("sigma_head", "M")])
+        sums.append(np.mean(rows if cage == variables.CageModel.ELASTIC else rows[-1:], axis=0))  # elastic halves swing to their new rest
     for name in ("sigma_head", "sigma_mid", "sigma_head_vm", "T", "M_shank", "P", "F_head"):
         assert broken.output(f"rivet.{name}")[4] == 0.0
-    more = broken.output("rivet.sigma_head") / whole.output("rivet.sigma_head")
+    (head, M), (head_broken, M_broken) = sums
+    more = head_broken / head
     assert min(more[3], more[5]) > 1.1 and np.all(np.abs(more[[0, 1, 7, 8]] - 1.0) < 0.1)
-    M = [np.abs(instance.output("rivet.M")) for instance in (whole, broken)]
-    assert M[1][4] < 1e-6 * M[0][4]
+    assert M_broken[4] < 1e-6 * M[4]
 
 
 def test_both_twins_relieve_broken_joints_alike(core):
@@ -58,6 +69,54 @@ def test_both_twins_relieve_broken_joints_alike(core):
             worst = max(worst, np.max(np.abs((found - want) * half.law.unit)) / np.max(np.abs(bonded * half.law.unit)))
         assert np.abs(got[0][~intact] * half.law.unit).max() < 1e-9 and not got[1][~intact].any()
     assert worst < 1e-9  # observed 1e-14: the sweeps choose the same joints
+
+
+def at_rest(parameters, omega):
+    """Elastic halves at rest under the centrifugal load of the speed omega [rad/s], no ball near a wall: Newton's method for modes and rigid motions."""
+    model = Model.of({"scene.cage": variables.CageModel.ELASTIC, "cage.pocket_clearance": 1e-3} | parameters, {"shaft.omega": omega})
+    half, y = model.d.elastic, start_state(model)[0]
+    rows = [*range(variables.MODE_S.start, variables.MODE_S.start + half.n)]
+    rows += [block.start + 1 for block in (variables.CAGE_X, variables.CAGE_BETA, variables.CAGE_GAMMA)]
+    unit, rigid = np.append(np.full(half.n + 1, 1e-9), [1e-7, 1e-7]), joints_out(model.d, half.pad)[:, -3:]
+
+    def off(x):
+        """What moves the modes, as static motions [nm], and the joints' resultants [N, N per 25 mm]."""
+        w, state = Work(), y.copy()
+        state[rows] += x * unit
+        modes = rhs(model, 0.0, state, w)[variables.MODE_S_DOT][: half.n] / half.omega**2
+        return np.append(1e9 * modes, rigid.T @ np.moveaxis(w.joint_load, 0, -1).ravel() * [1.0, 40.0, 40.0]), w
+
+    x = np.zeros(half.n + 3)
+    for _ in range(40):
+        rest, w = off(x)
+        if np.abs(rest).max() < 1e-6:
+            return model, w
+        change = np.linalg.solve(np.array([(off(x + 1e-3 * axis)[0] - rest) / 1e-3 for axis in np.eye(len(x))]).T, rest)
+        x = x - next(part * change for part in 0.5 ** np.arange(8) if part < 0.01 or np.abs(off(x - part * change)[0]).max() < np.abs(rest).max())
+    raise AssertionError(f"no rest found: {np.abs(rest).max():g} is left")
+
+
+@pytest.mark.parametrize(
+    "parameters",
+    [each("rivet[k].intact", [int(k != 4) for k in range(Z)]), each("rivet[k].preload_factor", np.linspace(0.4, 3.0, Z))],
+    ids=["broken", "preloads"],
+)
+@pytest.mark.parametrize("omega", [1000.0, 1909.9])
+def test_elastic_halves_at_rest_are_those_of_the_static_path(parameters, omega, record_property):
+    """Joints by modes beside joints by the finite elements of the load path, its sweeps to their end: required 10 % of what a rivet carries.
+
+    Observed: T 2.1 %, M_t 0.9 % of the largest.
+    """
+    model, w = at_rest(parameters, omega)
+    d, law = model.d, model.d.table.half.law
+    spin = 0.5 * float(np.squeeze(w.half[0].s ** 2 + w.half[1].s ** 2)) * d.spin
+    P = d.intact * np.maximum(d.P + spin[5], 0.0)
+    load, rivet, _ = joint_law.joints_open(law, np.tile(spin[[0, 3, 4]], (Z, 1)), P, spin[4], d.P_mean + spin[5], sweeps=400, intact=d.intact > 0.0)
+    worst = [float(np.abs(a - b).max() / np.abs(b).max()) for a, b in ((w.joint_rivet[0], rivet[:, 0]), (w.joint_load[2], load[:, 2]))]
+    record_property("T, M_t", worst)
+    assert worst[0] < 0.03 and worst[1] < 0.015
+    gone = d.intact == 0.0
+    assert not np.any(w.joint_rivet[:, gone]) and np.abs(w.joint_load[:, gone]).max(initial=0.0) < 1e-9
 
 
 def test_a_pocket_that_stands_elsewhere_and_is_wider(core):
@@ -83,7 +142,7 @@ def test_a_pocket_that_stands_elsewhere_and_is_wider(core):
 @pytest.mark.parametrize(
     ("parameters", "words"),
     [
-        (each("rivet[k].intact", [1] * 8 + [0]) | {"scene.cage": 2}, "rivet[9].intact: rivets that differ need scene.cage = two_half"),
+        (each("rivet[k].intact", [1] * 8 + [0]) | {"scene.cage": 2}, "rivet[9].intact: rivets that differ need scene.cage = two_half or elastic"),
         (each("rivet[k].dfit", [1e-6] + [0.0] * 8) | {"scene.cage": 2}, "rivet[1].dfit: rivets that differ"),
         (each("rivet[k].preload_factor", [1.0, 0.5] + [1.0] * 7) | {"scene.cage": 2}, "rivet[2].preload_factor: rivets that differ"),
         (each("pocket[j].dD", [0.0, -2.1e-4] + [0.0] * 7), "pocket[2].dD = -0.00021 m: more than -cage.pocket_clearance = -0.0002 m is allowed"),
