@@ -80,8 +80,25 @@ over 10 µm, at the default tolerance and communication steps of 10 µs and more
     text += "## What happened in the model\n\nScenes with at least one onset, as reported by the logger and by `event.*`:\n\n"
     text += table(("event", "scenes"), event_rows(records))
     text += "## What was refused\n\n" + table(("scene", "reason"), [(r["name"], r["message"]) for r in records if r["outcome"] == "refused"])
+    elastic = load("stability_elastic")
+    text += elastic_text(elastic["records"], list(problems(elastic["records"]))) if elastic else ""
     long = load("stability_long")
     path.write_text(text + (long_text(long) if long else ""))
+
+
+def elastic_text(records, bad):
+    """The scenes again with elastic cage halves."""
+    count = Counter(r["outcome"] for r in records)
+    slow = largest(records, "ratio", lambda r: r["admissible"] and r["outcome"] == "finished")
+    energy = largest(records, "balance", lambda r: r["outcome"] == "finished" and r["admissible"])
+    return f"""## The same with elastic cage halves
+
+{len(records)} of the scenes with `scene.cage = elastic`, those of rivets by closed forms left out, which have no modes: {count["finished"]} finished,
+{count["discarded"]} discarded, {count["refused"]} refused, {count["crashed"]} crashed, {count["hung"]} hung, {count["not finite"]} with a value that is not
+finite. Run time relative to the working point with elastic halves: at most {slow["ratio"]:.1f} ({slow["family"]}: {slow["name"]}); energy: at most
+{energy["balance"]:.1e} ({energy["family"]}: {energy["name"]}). {"What must not happen: " + "; ".join(bad) if bad else "Nothing that must not happen."}
+
+"""
 
 
 def energy_text(records):

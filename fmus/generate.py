@@ -141,7 +141,8 @@ def load_table(bearing=None, path=None):
     variables = []
     for section, causality in CAUSALITIES.items():
         for entry in raw.get(section, {}).get("list", ()):
-            v = Variable(causality=causality, **entry | {"count": number_of(entry.get("count", 1), Z)})
+            numbers = {key: number_of(entry[key], Z) for key in ("count", "start", "min", "max") if key in entry}
+            v = Variable(causality=causality, **entry | numbers)
             v = replace(v, choices=tuple(raw["enumerations"].get(v.type, ())))
             variables.append(replace(v, start=Z) if v.group == "constant" else v)
     for section in ("parameters", "inputs"):
@@ -162,8 +163,17 @@ def load_table(bearing=None, path=None):
     return table
 
 
-def number_of(count, Z):
-    return Z if count == "Z" else count
+MODES = {"modes": (5, 9), "fewest modes": (4, 9), "most modes": (2, 3)}  # octets of vibration modes of a cage half per so many balls
+
+
+def number_of(value, Z):
+    """A value of the table, or the number that its name stands for in a bearing of Z balls."""
+    if value == "Z":
+        return Z
+    if value not in MODES:
+        return value
+    octets, balls = MODES[value]
+    return 8 * math.ceil(octets * Z / balls)
 
 
 def flatten(nested, prefix=""):

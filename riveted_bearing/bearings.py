@@ -67,7 +67,8 @@ class Case:
     @property
     def bearing(self):
         """Geometry and material for the quasi-static model, at the present temperatures and fits."""
-        parameters, inputs = ({name: v for name, v in table.items() if v.count == 1} for table in (variables.PARAMETERS, variables.INPUTS))
+        tables = variables.PARAMETERS, variables.INPUTS
+        parameters, inputs = ({name: v for name, v in table.items() if v.count == 1 and name != "scene.modes"} for table in tables)  # its limits go by Z
         p, u = (Values(table, {name: self.values[name] for name in table if name in self.values}) for table in (parameters, inputs))
         hot = temperature_apply(p, u, default_table())
         at_work = {f.name: getattr(hot.bearing, f.name) for f in fields(Bearing) if hasattr(hot.bearing, f.name)}
@@ -212,13 +213,14 @@ def rules(Z, given, rivet, inputs, data, entry):
     Z = Z or variables.Z
     if not entry and all(shape[name] == scaling.start(name) for name in SHAPE):
         known = {name: value for name, value in defaults().items() if name != "cage.m"} | given
-        follows = scaling.half_inertia({"Z": Z} | known, rivet)
+        follows = scaling.half_inertia({"Z": Z} | known, rivet) | {"scene.modes": scaling.modes(Z)}
         return Z, {name: value for name, value in follows.items() if name not in given and value != scaling.start(name)}, {}, {}
     D, d_m = shape["bearing.D"], shape["bearing.d_m"]
     rivet_by_rule = scaling.scaled_rivet(Z, D, d_m, given, rivet)
     parameters = scaling.scaled_parameters(Z, D, d_m, given, rivet_by_rule | rivet, data.get("bore"), data.get("width"))
     if "bore" in data and (P_d := catalogue.clearance(data["bore"])) is not None:
         parameters["bearing.P_d"] = P_d
+    parameters["scene.modes"] = scaling.modes(Z)
     loads = {} if inputs else scaling.scaled_inputs(Z, D, d_m, data.get("C"))
     return (
         Z,

@@ -50,6 +50,11 @@ def start(name):
     return variables.PARAMETERS[name].start
 
 
+def modes(Z):
+    """Vibration modes of a half as many a ball as the 6207 has, in octets."""
+    return 8 * math.ceil(start("scene.modes") * Z / (8 * variables.Z))
+
+
 def rounded(value):
     """Six digits: enough for an assumption."""
     return float(f"{value:.6g}")

@@ -11,6 +11,7 @@ from library import ROOT
 from lxml import etree
 
 from bearing_model import variables
+from riveted_bearing import scaling
 
 spec = importlib.util.spec_from_file_location("generate", ROOT / "fmus" / "generate.py")
 generate = importlib.util.module_from_spec(spec)
@@ -173,6 +174,16 @@ def test_bearing_file_sets_balls_and_start_values(tmp_path):
     assert len(by_name["ball[j].Q_i"].elements) == 12
     assert table.states[-1].offset + table.states[-1].count == variables.N_STATES + 13 * (12 - variables.Z)  # 13 states a ball and joint
     assert table.guid != TABLE.guid
+
+
+def test_modes_of_a_half_by_number_of_balls(tmp_path):
+    """As many a ball as the 6207 has, by the variable table and by the rule of a bearing file."""
+    for Z in range(5, 33):
+        table = generate.load_table(write(tmp_path / "b.toml", f"Z = {Z}\n"))
+        modes, place = table.named("scene.modes"), {block.name: block for block in table.elastic_states}
+        assert modes.start == scaling.modes(Z) and modes.min <= modes.start <= modes.max == place["mode_s"].count
+        assert 4.4 * Z <= modes.start < 4.5 * Z + 8
+    assert [getattr(TABLE.named("scene.modes"), name) for name in ("min", "start", "max")] == [32, 40, 48]
 
 
 @pytest.mark.parametrize("path", sorted((ROOT / "riveted_bearing" / "data" / "bearings").glob("*.toml")), ids=lambda path: path.stem)
