@@ -175,8 +175,9 @@ def twenty(shop):
     runs([point["seeds"] or 0 for point in found["points"]])
     cpu = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
     seeds = sum(point["seeds"] or 0 for point in found["points"])
-    half_width = max(found["high_h"] / found["life_h"], found["life_h"] / found["low_h"]) - 1.0
-    return {"wall_s": wall, "cpu_s": cpu, "runs_cpu_s": sum(runs.cost.values()), "runs": seeds, "half_width": half_width, "life_h": found["life_h"]}
+    half_width = (found["high_h"] / found["low_h"]) ** 0.5 - 1.0
+    costs = {"wall_s": wall, "cpu_s": cpu, "runs_cpu_s": sum(runs.cost.values()), "runs": seeds}
+    return costs | {"half_width": half_width} | {key: found[key] for key in ("life_h", "low_h", "high_h")}
 
 
 def choice(shop):

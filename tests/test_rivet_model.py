@@ -226,6 +226,7 @@ def test_elastic_pressure_of_contact_and_plasticity_agree(joint, fit_map):
 # The table ----------------------------------------------------------------------------------------------------------------------------
 
 
+@pytest.mark.slow  # most of a minute; test_app_rivet makes a coarse table among the fast tests
 def test_coarse_table_end_to_end(tmp_path):
     """A coarse table in seconds: written, read, and equal to its own finite elements where it was sampled.
 

@@ -390,7 +390,7 @@ def bound(steps, tolerance, t_end):
     return steps * tolerance * np.exp(t_end / PARTING)
 
 
-@pytest.mark.parametrize(("scene", "t_end"), [("demo", 1e-3), ("sliced_mixed", 2.5e-4), slow("mixed_supported", 2.5e-4), slow("other", 1e-3)])
+@pytest.mark.parametrize(("scene", "t_end"), [("demo", 5e-4), ("sliced_mixed", 2.5e-4), slow("mixed_supported", 2.5e-4), slow("other", 1e-3)])
 def test_trajectory(core, scene, t_end, record_property):
     """The core's trajectory converges to the reference's: order 4 (explicit) and 2 (Verlet), within the sum of its steps' errors.
 
