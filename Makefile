@@ -27,10 +27,10 @@ demo: build  ## build, then run the paper's working point: stress, cage and run-
 	$(BIN)/riveted-bearing run demo
 
 test: build lint  ## the fast tests, the ten slowest of them listed
-	$(PYTEST) -n 2 --durations=10
+	$(PYTEST) -n 2 --dist worksteal --durations=10
 
 test-slow: build  ## the tests that take minutes
-	$(PYTEST) -n 2 -m slow
+	$(PYTEST) -n 2 --dist worksteal -m slow
 
 bench: build  ## measure what the README claims and write docs/performance.md, in minutes; in an hour with FORM=
 	for name in $(BENCHMARKS); do $(PYTHON) benchmarks/$$name.py $(FORM) || exit 1; done
