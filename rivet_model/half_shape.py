@@ -12,6 +12,7 @@ import numpy as np
 DENSITY = 8800.0  # kg/m3, bronze CuSn8 (UNS C52100: 8.80 g/cm3)
 DENSITY_RIVET = 7850.0  # kg/m3, steel
 LEAST_WALL = 0.2e-3  # m of metal around the seat: assumed, the least that is machined
+LARGEST_HEAD = 0.985  # of its seat's diameter: between them there are elements
 LEAST_WEB = 0.05  # of the pocket's radius, between pocket and end face: assumed
 
 
@@ -42,7 +43,7 @@ def pad_half_length(g):
 POCKET = ("ball_diameter", "d_m", "Z", "pocket_clearance")
 LIMITS = (
     Limit(("cage_inner_diameter", *POCKET), lambda g: g.cage_inner_diameter - 2.0 * pocket_radius(g), "a pocket smaller than the cage's bore"),
-    Limit(("head_diameter", "seat_diameter"), lambda g: g.seat_diameter - g.head_diameter, "a seat that takes the rivet's head"),
+    Limit(("head_diameter", "seat_diameter"), lambda g: LARGEST_HEAD * g.seat_diameter - g.head_diameter, "a seat that takes the rivet's head"),
     Limit(
         ("seat_diameter", "head_diameter", *POCKET, "cage_inner_diameter"),
         lambda g: 2.0 * (narrowest_half_bar(g) - LEAST_WALL) - g.seat_diameter,
