@@ -442,42 +442,41 @@ def cage_elastic_acceleration(model, y, w, y_dot):
         w.modes_dissipated = w.modes_dissipated + p.cage.m * np.sum(half.damping * v * v, axis=-1, keepdims=True)
 
 
-def find_rest(half, m, omega_2, P, x=(0.0, 0.0), move=0.0):
-    """Rest under the centrifugal load of the speed's square omega_2 [rad2/s2]: coordinates S [n], (u_x, M_t), moves of the joints [3].
+def find_rest(half, m, omega_2, P):
+    """Rests under the centrifugal load of speeds of the squares omega_2 [rad2/s2] and preloads P, each [...].
 
-    All joints are alike: N = 0, and their M_t balances S_i = sqrt 2 (spin_i omega^2 - Z phi_t,i M_t)/(m omega_i^2).  Newton's method with differences for
-    the halves' distance u_x and M_t, from x; the joints' moves by sweeps, from `move`.
+    Returns coordinates S [..., n], (u_x, M_t) [..., 2], moves of the joints [..., 3].  All joints are alike: N = 0, and their M_t balances
+    S_i = sqrt 2 (spin_i omega^2 - Z phi_t,i M_t)/(m omega_i^2).  Newton's method with differences for the halves' distance u_x and M_t, all rests side by
+    side; the joints' moves by sweeps.
     """
+    omega_2, P = np.broadcast_arrays(omega_2, P)
     at, K = half.pad[:, OUT, 0], half.K.sum(axis=0)  # x, phi_r, phi_t
 
     def off(x, move):
-        S = ROOT * (half.spin * omega_2 - np.where(half.alike, Z * at[:, 2] * x[1], 0.0)) / (m * half.omega**2)
-        e = np.array([0.5 * x[0], 0.0, 0.0]) + S @ at / ROOT * [1.0, 0.0, 1.0]
+        S = ROOT * (half.spin * omega_2[..., None] - np.where(half.alike, Z * at[:, 2] * x[..., 1:], 0.0)) / (m * half.omega**2)
+        e = 0.5 * x[..., :1] * [1.0, 0.0, 0.0] + S @ at / ROOT * [1.0, 0.0, 1.0]
         for _ in range(REST_SWEEPS):
-            move = joint_law(half.law, K @ e - (K - half.K[0]) @ move, P)[0]
-        N, _, M_t = K @ (e - move)
-        return np.array([N, (M_t - x[1]) / half.law.length]), S, move
+            move = joint_law(half.law, e @ K.T - move @ (K - half.K[0]).T, P)[0]
+        N, _, M_t = np.moveaxis((e - move) @ K.T, -1, 0)
+        return np.stack([N, (M_t - x[..., 1]) / half.law.length], axis=-1), S, move
 
-    x, step, move = np.array(x), np.array([1e-10, 1e-7]), np.zeros(3) + move
+    x, move, step = np.zeros((*P.shape, 2)), np.zeros((*P.shape, 3)), np.array([1e-10, 1e-7])
     for _ in range(60):
         rest, S, move = off(x, move)
         if np.max(np.abs(rest)) < 1e-11:
             break
-        slope = np.stack([(off(x + s * axis, move)[0] - rest) / s for s, axis in zip(step, np.eye(2), strict=True)], axis=1)
-        x = x - np.linalg.solve(slope, rest)
+        slope = np.stack([(off(x + s * axis, move)[0] - rest) / s for s, axis in zip(step, np.eye(2), strict=True)], axis=-1)
+        x = x - np.linalg.solve(slope, rest[..., None])[..., 0]
     return S, x, move
 
 
 def find_relief(half, m):
     """What the moves of all other joints relieve a joint of at rest [RESTS, 3], at equal steps of load/(load + P), per newton of load + P."""
-    relief, x, move = np.zeros((RESTS, 3)), (0.0, 0.0), 0.0
-    if half.prying > 0.0:
-        for i in range(RESTS - 1):
-            part = i / (RESTS - 1.0)
-            _, x, move = find_rest(half, m, part / half.prying, 1.0 - part, x, move)
-            relief[i] = half.K[1:].sum(axis=0) @ move
-        relief[-1] = relief[-2]
-    return relief
+    if half.prying <= 0.0:
+        return np.zeros((RESTS, 3))
+    part = np.arange(RESTS - 1) / (RESTS - 1.0)
+    move = find_rest(half, m, part / half.prying, 1.0 - part)[2]
+    return (move @ half.K[1:].sum(axis=0).T)[[*range(RESTS - 1), -1]]
 
 
 def cage_elastic_rest(model, omega):
