@@ -38,7 +38,8 @@ from bearing_model.traction import Q_FLOOR, traction_asperity_share, traction_ln
 from bearing_model.variables import Lubrication, Traction
 from bearing_model.vec import vec, vec_across, vec_cross, vec_dot, vec_local, vec_to_global
 
-SLICE_POINTS = np.array(roots_jacobi(6, 1.0, 0.0)).T  # on either side, of the weight 1 - s on [-1, 1]
+SIDE = np.repeat([-1.0, 1.0], 6)
+Z_JACOBI, W_JACOBI = np.tile(roots_jacobi(6, 1.0, 0.0), 2)  # on either side, of the weight 1 - z on [-1, 1]
 TINY = 1e-30  # [m^2/s^2] keeps contacts without load from dividing by 0
 
 
@@ -48,14 +49,12 @@ def split_place(s_1, k, b_1):
 
 
 def slices(x_0):
-    """Places x in [-1, 1] and shares of the pressure (3/4)(1 - x^2) of all slices: on each side x = x_0 (1 - z) + side z with
+    """Places x in [-1, 1] and shares of the pressure (3/4)(1 - x^2) of all slices, [12, ...]: on each side x = x_0 (1 - z) + side z with
     (3/4)(1 + side x)(1 - side x_0)^2 w, where z and w are Gauss-Jacobi's points for the weight 1 - z on [0, 1].  Polynomials up to degree 10 on each side are
     integrated exactly."""
-    for side in (-1.0, 1.0):
-        for s, w in SLICE_POINTS:
-            z = 0.5 * (s + 1.0)
-            x = x_0 * (1.0 - z) + side * z
-            yield x, (1.0 + side * x) * 0.75 * (1.0 - side * x_0) ** 2 * 0.25 * w
+    side, z, w = (column.reshape(-1, *[1] * np.ndim(x_0)) for column in (SIDE, 0.5 * (Z_JACOBI + 1.0), 0.25 * W_JACOBI))
+    x = x_0 * (1.0 - z) + side * z
+    return x, (1.0 + side * x) * 0.75 * (1.0 - side * x_0) ** 2 * w
 
 
 def race_traction(model, race, c, mixed):
@@ -80,18 +79,15 @@ def race_traction(model, race, c, mixed):
     spin_n = vec_dot(c.spin, c.n)
     s_1, s_2, k = vec_dot(c.slip, c.t_1), vec_dot(c.slip, c.t_2), -a * spin_n
     b_1, b_2 = -sagitta * vec_dot(c.spin, c.t_2), sagitta * vec_dot(c.spin, c.t_1)
-    out = SimpleNamespace(U=U, F_s=0.0, M=0.0, dissipated=0.0, g=0.0, g_spin=0.0)
-    for x, share in slices(split_place(s_1, k, b_1)) if sliced else [(0.0, 1.0)]:
-        slip_1, slip_2 = s_1 + k * x + b_1 * x * x, s_2 + b_2 * x * x
-        slip = np.sqrt(slip_1 * slip_1 + slip_2 * slip_2 + p.oil.v_0**2)
-        g = share * traction_mu(p, slip / U, f_a, mixed) * c.Q / slip
-        F = -g * (slip_1 * c.t_1 + slip_2 * c.t_2)
-        lever = (c.R - sagitta * x * x) * c.n + a * x * c.t_2
-        out.g = out.g + g
-        out.g_spin = out.g_spin + g * (a * x) ** 2
-        out.F_s = out.F_s + F
-        out.M = out.M + vec_cross(lever, F)
-        out.dissipated = out.dissipated + g * (slip_1 * slip_1 + slip_2 * slip_2)
+    x, share = slices(split_place(s_1, k, b_1)) if sliced else (np.zeros((1, *a.shape)), 1.0)
+    slip_1, slip_2 = s_1 + k * x + b_1 * x * x, s_2 + b_2 * x * x
+    squared = slip_1 * slip_1 + slip_2 * slip_2
+    slip = np.sqrt(squared + p.oil.v_0**2)
+    g = share * traction_mu(p, slip / U, f_a, mixed) * c.Q / slip
+    F = -g * (slip_1 * c.t_1[:, None] + slip_2 * c.t_2[:, None])
+    lever = (c.R - sagitta * x * x) * c.n[:, None] + a * x * c.t_2[:, None]
+    out = SimpleNamespace(U=U, F_s=F.sum(axis=1), M=vec_cross(lever, F).sum(axis=1))
+    out.g, out.g_spin, out.dissipated = (part.sum(axis=0) for part in (g, g * (a * x) ** 2, g * squared))
     out.spin_dissipated = -vec_dot(out.M, c.n) * spin_n if sliced else 0.0
     # Inlet: -F_R U/|U| at the surface, the film's horizontal pressure force +F_H U/|U| through the ball's centre.
     rolling = F_R / U * c.roll

@@ -5,7 +5,9 @@ import numpy as np
 
 def vec(x, r, t):
     """A vector from its components."""
-    return np.array(np.broadcast_arrays(x, r, t))
+    v = np.empty((3, *np.broadcast(x, r, t).shape), np.result_type(x, r, t, float))
+    v[0], v[1], v[2] = x, r, t
+    return v
 
 
 def vec_dot(u, v):
