@@ -57,7 +57,7 @@ class Scene:
         model = Model(FMU)
         self.name, (self.title, shipped, changes) = name, SCENES[name]
         self.checked = load_scene(shipped, model, ("benchmark", changes))
-        items = self.checked.parameters.items()
+        items = ({"scene.cage": model.default(model.parameters["scene.cage"])} | self.checked.parameters).items()
         self.parameters = {key: codes(model.parameters[key])[value] if isinstance(value, str) else value for key, value in items}
         self.inputs = {key: float(history(0.0)) for key, history in self.checked.inputs.items()}
         self.settle = self.parameters.get("start.settle", variables.PARAMETERS["start.settle"].start)  # [s]

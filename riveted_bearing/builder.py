@@ -125,11 +125,21 @@ def find_zig(needed=True):
     return found
 
 
-def start_document(case, table):
+def start_document(case, path):
     """A case with its rivet table as fmus/generate.py reads it: all start values in SI, and what an importer shows of the FMU."""
-    sections = {"parameters": variables.PARAMETERS, "inputs": variables.INPUTS}
-    start = {section: {name: case.values[name] for name in known} for section, known in sections.items()}
-    return {"Z": case.Z, "description": fmu_description(case, read_table(table, case.Z)), "origin": case.origin} | start
+    table, sections = read_table(path, case.Z), {"parameters": variables.PARAMETERS, "inputs": variables.INPUTS}
+    values = case.values | cage_of(case, table)
+    start = {section: {name: values[name] for name in known} for section, known in sections.items()}
+    return {"Z": case.Z, "description": fmu_description(case, table), "origin": case.origin} | start
+
+
+def cage_of(case, table):
+    """The start value of scene.cage: rigid halves where the table has no vibration modes, unless the bearing file asks for elastic ones, a UserError."""
+    if table.modes is not None or case.values["scene.cage"] != "elastic":
+        return {}
+    if "scene.cage" in case.origin:
+        raise UserError(f"{case.designation}: scene.cage = elastic: {table_text(table)} has no vibration modes of the cage halves; allowed are two_half, rigid")
+    return {"scene.cage": "two_half"}
 
 
 def fmu_description(case, table):

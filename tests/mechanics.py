@@ -1,6 +1,7 @@
 """What the tests of the dynamics share: views of C structs, poses of bodies, states away from rest."""
 
 import numpy as np
+from library import TWO_HALF
 from python_core import Body, PythonWork
 
 from bearing_model import variables
@@ -188,7 +189,7 @@ class Instance:
         self.log = ffi.callback("void(void *, LogCategory, const char *)", lambda _, category, text: self.messages.append(ffi.string(text).decode()))
         self.host = ffi.new("PartHost *", {"environment": ffi.NULL, "log": self.log})
         self.bearing = ffi.gc(self.lib.part_create(self.host), self.lib.part_destroy)
-        core.set_values(self.lib.part_parameters(self.bearing), variables.PARAMETERS, parameters or {})
+        core.set_values(self.lib.part_parameters(self.bearing), variables.PARAMETERS, TWO_HALF | (parameters or {}))
         self.set(**(inputs or {}))
         status = self.lib.part_initialize(self.bearing, 0.0, tolerance)
         if status != self.lib.PART_OK:

@@ -10,6 +10,7 @@ import functools
 from types import SimpleNamespace
 
 import numpy as np
+from library import TWO_HALF
 
 from bearing_model import derived, drag, hertz, land_film, pocket, race_contact, traction, variables
 from bearing_model.energy import energy_total
@@ -163,7 +164,7 @@ class PythonCore:
         )
 
     def model(self, parameters=None, inputs=None, isa=None):
-        return PythonModel(self, parameters or {}, inputs or {})
+        return PythonModel(self, TWO_HALF | (parameters or {}), inputs or {})
 
     def map(self, function, x, *before):
         return np.asarray(function(np.ascontiguousarray(x, dtype=float), *before))

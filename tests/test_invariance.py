@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from library import TWO_HALF
 from mechanics import SLICE, Instance, Z, pocket_loads, running_state, view
 
 from bearing_model import variables
@@ -259,7 +260,7 @@ def test_trajectory_of_the_image(core, kind, record_property):
     here, there, image = image_of(kind)
     parameters = {"start.spacing": 0.0, "cage.pocket_clearance": 5e-5, "ring.tilt_mode": TiltMode.SUPPORTED}
     y, y_image = (Instance(core, parameters, inputs, tolerance=1e-6).step(1e-3).y for inputs in (here, there))
-    scale = Model.of(parameters).d.scale
+    scale = Model.of(TWO_HALF | parameters).d.scale
     apart = image(y) - y_image
     apart[SLICE["ball_theta"]] -= 2.0 * np.pi * np.round(apart[SLICE["ball_theta"]] / (2.0 * np.pi))
     error = np.max(np.abs(apart) / scale)

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from library import TWO_HALF
 from mechanics import Instance
 
 from bearing_model.model import Model, Work
@@ -50,7 +51,7 @@ def test_rivets_of_a_run_against_finer_contact(core):
     rng, cases, angles = np.random.default_rng(14), [], {}
     for switch in Switch:
         parameters = {"scene.traction": Traction.POINT, "cage.centrifugal": switch}
-        model = Model.of(parameters)
+        model = Model.of(TWO_HALF | parameters)
         for y in recorded(core, parameters, 4, rng):
             w = Work()
             rhs(model, 0.0, y, w)

@@ -4,6 +4,7 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from library import TWO_HALF
 from mechanics import Instance
 from slave import ERROR, Slave
 
@@ -310,7 +311,7 @@ def test_directional_derivatives(core, name):
     core.lib.part_directional_derivatives(bearing.bearing, direction, core.array(state), out)
 
     def beside(change):
-        model, w = Model.of(parameters, {name: INPUTS[name].start + change}), Work()
+        model, w = Model.of(TWO_HALF | parameters, {name: INPUTS[name].start + change}), Work()
         return outputs(model, w, bearing.y, rhs(model, bearing.time, bearing.y, w), 0.0)
 
     below, above = beside(-0.02), beside(0.02)

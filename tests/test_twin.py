@@ -4,6 +4,7 @@ import functools
 
 import numpy as np
 import pytest
+from library import TWO_HALF
 from mechanics import SLICE, Instance, Z
 
 from bearing_model import variables
@@ -83,6 +84,7 @@ SCENES = {
     "elastic": (ELASTIC | UNBALANCE | {"joint.fit": -3e-6}, {}),
     "other_rigid": (OTHER | RIGID | FREE | MIXED, SLOW),
 }
+SCENES = {name: (TWO_HALF | parameters, inputs) for name, (parameters, inputs) in SCENES.items()}
 PER_SCENE = 120  # 1800 states in all
 
 
@@ -290,7 +292,7 @@ def test_start(core, scene, record_property):
 @pytest.mark.parametrize("changes", [{"start.seed": 7}, {"start.seed": 2**31 - 1, "start.spacing": 0.5}, {"start.spacing": 0.0}])
 def test_start_spacing(core, changes):
     """The balls' azimuths are the same numbers: splitmix64."""
-    model = Model.of(changes)
+    model = Model.of(TWO_HALF | changes)
     y, _ = start_state(model)
     np.testing.assert_allclose(y[variables.BALL_THETA], core.model(changes).start()[variables.BALL_THETA], rtol=0, atol=1e-15)
 
@@ -428,7 +430,7 @@ EXPLICIT = {"solver.method": int(variables.Method.EXPLICIT)}  # the higher order
 def test_pulses(core):
     """A train of half-sines inside a communication step: both hit its edges; states after it agree to 1e-6 of the error scale."""
     pulses = {"pulse.F_r": 1401.0, "pulse.F_a": 241.0, "pulse.t_start": 3e-5, "pulse.duration": 4e-5, "pulse.interval": 5e-5, "pulse.count": 3}
-    y = simulate(pulses, t_end=2e-4, step=2e-4, tolerance=1e-9).y[-1]
+    y = simulate(TWO_HALF | pulses, t_end=2e-4, step=2e-4, tolerance=1e-9).y[-1]
     c = Instance(core, pulses | EXPLICIT, tolerance=1e-8).step(2e-4).y
     without = Instance(core, EXPLICIT, tolerance=1e-8).step(2e-4).y
     scale = start_of("demo")[0].d.scale
@@ -439,8 +441,8 @@ def test_pulses(core):
 @pytest.mark.parametrize("method", ["RK45", "Radau", "LSODA"])
 def test_methods(method):
     """scipy's other integrators, the implicit ones with the exact Jacobian, reach the same state: errors of some tolerances (observed 2 ... 20)."""
-    y = simulate(t_end=5e-5, step=5e-5, tolerance=1e-5, method=method).y[-1]
-    tight = simulate(t_end=5e-5, step=5e-5, tolerance=1e-10).y[-1]
+    y = simulate(TWO_HALF, t_end=5e-5, step=5e-5, tolerance=1e-5, method=method).y[-1]
+    tight = simulate(TWO_HALF, t_end=5e-5, step=5e-5, tolerance=1e-10).y[-1]
     assert np.sqrt(np.mean(((y - tight) / start_of("demo")[0].d.scale) ** 2)) < 1e-3
 
 
@@ -493,7 +495,7 @@ def test_ledger(record_property):
 
     Quadrature of the powers over steps of 5 us: (h omega)^4/720 = 1 % of their fluctuation at 2.5e5 rad/s, whose mean is nothing.
     """
-    parameters = UNBALANCE | SUPPORTED | PULSE | {"cage.pocket_clearance": 5e-5, "pulse.duration": 5e-4, "frame.radius": 0.15}
+    parameters = TWO_HALF | UNBALANCE | SUPPORTED | PULSE | {"cage.pocket_clearance": 5e-5, "pulse.duration": 5e-4, "frame.radius": 0.15}
 
     def inputs(t):
         swing, angle = 2.0 * np.pi * 500.0, 2.0 * np.pi * 500.0 * t
@@ -519,7 +521,7 @@ def test_ledger(record_property):
 # -------------------------------------------------------------------------------------------------------------------- statistics
 
 
-LONG, SETTLED = 0.1, {"start.settle": 0.02, "scene.statistics": 2}
+LONG, SETTLED = 0.1, TWO_HALF | {"start.settle": 0.02, "scene.statistics": 2}
 
 
 @functools.cache

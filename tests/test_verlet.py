@@ -6,6 +6,7 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from library import TWO_HALF
 from mechanics import Instance
 from test_jacobian import KINDS, SCENES, make_model, make_state
 
@@ -193,7 +194,7 @@ TIMES = (4e-3, 5e-3, 6e-3)
 
 def running(core, name, t=5e-3):
     """The twin's model and a state on the C core's trajectory: everything moves."""
-    return Model.of(RUNNING[name]), Instance(core, RUNNING[name]).step(t).y
+    return Model.of(TWO_HALF | RUNNING[name]), Instance(core, RUNNING[name]).step(t).y
 
 
 def errors(model, y, T, number, blocks, reference):
@@ -372,7 +373,7 @@ class CoreIntegrator:
 
 def both(core, h, t_stop, tolerance, **parameters):
     """Steps under control by the C core and by the twin: (lengths, next goal, refused) of each."""
-    y, c, model = Instance(core, parameters).step(5e-3).y, core.model(parameters), Model.of(parameters)
+    y, c, model = Instance(core, parameters).step(5e-3).y, core.model(parameters), Model.of(TWO_HALF | parameters)
     c.rhs(0.0, y)
     by_core = CoreIntegrator(core, c, y, tolerance).advance(h, t_stop)
     with np.errstate(invalid="ignore"):
@@ -411,7 +412,7 @@ def test_last_steps(core):
 
 def test_acceptance(core):
     """A step is refused from an error of 1 tolerance on."""
-    h, model = 2e-5, Model.of()
+    h, model = 2e-5, Model.of(TWO_HALF)
     y = Instance(core).step(5e-3).y
     _, error = verlet.verlet_step(model, 0.0, h, 1.0 / model.d.scale, VerletState(y, rhs(model, 0.0, y)))
     for factor, refused in ((1.005, 0.0), (0.995, 1.0)):
@@ -421,7 +422,7 @@ def test_acceptance(core):
 
 def test_a_step_cut_short(core):
     """The end of a communication step cuts a step short: the goal before it stays if 0.8 error^(-1/3) is 1 or more, else it follows the short step."""
-    h, model = 2e-5, Model.of()
+    h, model = 2e-5, Model.of(TWO_HALF)
     y = Instance(core).step(5e-3).y
     _, error = verlet.verlet_step(model, 0.0, h, 1.0 / model.d.scale, VerletState(y, rhs(model, 0.0, y)))
     for factor, goal in ((1.005, 2.0 * h), (0.995, 0.995 * h)):
@@ -462,7 +463,7 @@ def test_explicit_error_estimate(core):
     for before in (0.5 * h, 0.5 * h, h):
         slope.append(np.array(c.rhs(0.0, y + before * slope[-1])))
     last = np.array(c.rhs(0.0, y + h / 6.0 * (slope[0] + 2.0 * slope[1] + 2.0 * slope[2] + slope[3])))
-    error = 0.05 * h * (slope[3] - last) / Model.of({"solver.method": Method.EXPLICIT}).d.scale
+    error = 0.05 * h * (slope[3] - last) / Model.of(TWO_HALF | {"solver.method": Method.EXPLICIT}).d.scale
     norm = np.sqrt(np.mean(error**2))
     for tolerance, refused in ((1.001 * norm, False), (0.999 * norm, True)):
         assert (CoreIntegrator(core, c, y, tolerance).advance(h, h)[2] > 0) == refused

@@ -9,7 +9,7 @@
 
 #define FMI2_FUNCTION_PREFIX RivetedBearing_  // of the functions of a source-code FMU
 #define MODEL_IDENTIFIER "RivetedBearing"
-#define MODEL_GUID "{7942087c-8904-efb3-ba1a-6ceddc2a46be}"  // digest of the table
+#define MODEL_GUID "{15426135-9259-df0b-2685-003a28baa8de}"  // digest of the table
 
 enum { Z = 9 };  // number of balls
 
