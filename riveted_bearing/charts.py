@@ -30,6 +30,7 @@ PAGE_COLOURS = {  # of plot.py -> custom properties of style.css
 SVG = {"svg.fonttype": "none", "image.composite_image": False, "figure.facecolor": "none", "axes.facecolor": "none"}
 BUCKETS = 600  # of time, each with the smallest and the largest value
 AZIMUTHS = 36
+SEGMENT = 32  # fewest samples of a segment of the joints' spectra
 
 
 def svg(draw, size, label):
@@ -119,11 +120,13 @@ def moment_t(result, k):
 def sample_rate(result):
     """Rows per second after settling."""
     t = result.data["time"][settled(result)]
-    return (len(t) - 1) / (t[-1] - t[0]) if len(t) > 1 else 0.0
+    return (len(t) - 1) / (t[-1] - t[0])
 
 
-def too_coarse(result):
+def no_joint_spectra(result):
     """Why the joints' spectra would show none of the vibration modes, "" if they show some."""
+    if (late := settled(result).sum()) < SEGMENT:
+        return f"{late} samples after settling, at least {SEGMENT} are needed"
     lowest, rate = min(result.about.get("mode_frequencies") or [0.0]), sample_rate(result)
     if 2.0 * lowest < rate:
         return ""
@@ -133,12 +136,14 @@ def too_coarse(result):
 def joint_spectra(figure, result):
     """Amplitude densities of tension and moment of the most loaded joint, with the frequencies of a free half's modes."""
     k, late, rate = loaded_rivet(result), settled(result), sample_rate(result)
+    segment = np.clip(late.sum() // 4, SEGMENT, 1024)
     modes = [frequency for frequency in result.about.get("mode_frequencies", ()) if frequency < 0.5 * rate]
     panels = figure.subplots(2, 1, sharex=True)
     for ax, values, colour, unit in ((panels[0], result.data[f"rivet[{k}].T"], FORCE, "T [N/√Hz]"), (panels[1], 1e3 * moment_t(result, k), MIDDLE, "M_t [N·mm/√Hz]")):
-        f, power = welch(values[late], rate, nperseg=min(late.sum(), 1024), detrend="constant")
-        ax.semilogy(1e-3 * f[1:], np.sqrt(power[1:]), color=colour, lw=0.8)
+        f, power = welch(values[late], rate, nperseg=segment, detrend="constant")
+        ax.plot(1e-3 * f[1:], np.sqrt(power[1:]), color=colour, lw=0.8)
         ax.set(ylabel=unit)
+        ax.set_ylim(bottom=0)
         for frequency in modes:
             ax.axvline(1e-3 * frequency, color=HEAD, lw=0.5, label="modes of a free half" if frequency == modes[0] else None)
     panels[1].set(xlabel=f"frequency [kHz]; {1e-3 * rate:g} samples per ms", xlim=(0.0, 5e-4 * rate))

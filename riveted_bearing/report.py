@@ -136,7 +136,7 @@ def chart(result, name, lives):
         return f'<p class="missing">{label}: {lack}</p>'
     if name in ("spectra", "rainflow") and not np.any(np.diff(result.data[f"rivet[{charts.worst_rivet(result)}].sigma_head"][settled(result)])):
         return f'<p class="missing">{label}: the stress does not change</p>'
-    if name == "joints" and (reason := charts.too_coarse(result)):
+    if name == "joints" and (reason := charts.no_joint_spectra(result)):
         return f'<p class="missing">{label}: {reason}</p>'
     if name == "rainflow" and not lives:
         return f'<p class="missing">{label}: {table_note(result) or "the stress of the rivets was not recorded"}</p>'

@@ -17,7 +17,7 @@ function bearingDrawing({ Z, scale, bend, bearing, range, has }) {
   const cageOut = mm("cage.D_o") / 2, cageIn = mm("cage.D_i") / 2, rivet = 0.075 * mm("bearing.D") + 0.2;
   function readColours() {
     const style = getComputedStyle(document.documentElement);
-    for (const name of ["ink", "muted", "line", "paper", "ring", "ball", "cage", "cage-back", "head", "middle", "force"]) colours[name] = style.getPropertyValue("--" + name).trim();
+    for (const name of ["ink", "muted", "line", "paper", "ring", "ball", "cage", "cage-back", "head", "middle", "force", "amber"]) colours[name] = style.getPropertyValue("--" + name).trim();
   }
   function prepare(canvas) {
     const width = canvas.clientWidth, height = canvas.clientHeight, ratio = window.devicePixelRatio || 1;
@@ -110,16 +110,16 @@ function bearingDrawing({ Z, scale, bend, bearing, range, has }) {
     g.setLineDash([]);
 
     const flex = bending(see);
+    const bodies = [0, 1].map((h) => [...["y", "z"].map((name) => 1e3 * scale * see.value(`half_${h}.${name}`)), psi + (h ? 0.5 : -0.5) * scale * see.value("twist")]);
+    const at = (h, r, a) => {  // a place of half h, at the azimuth a without its bending
+      const [cy, cz, turn] = bodies[h], [, u, v] = flex(h, a - turn);
+      return [cy + (r + u) * Math.cos(a + v / r), cz + (r + u) * Math.sin(a + v / r)];
+    };
     const webs = (h, fill) => {
-      const cy = 1e3 * scale * see.value(`half_${h}.y`), cz = 1e3 * scale * see.value(`half_${h}.z`);
-      const turn = psi + (h ? 0.5 : -0.5) * scale * see.value("twist");
-      const place = (r, a) => {
-        const [, u, v] = flex(h, a - turn);
-        return [cy + (r + u) * Math.cos(a + v / r), cz + (r + u) * Math.sin(a + v / r)];
-      };
+      const [cy, cz, turn] = bodies[h];
       const edge = (r, from, to) => {
         if (!bend) g.arc(cy, cz, r, from, to, to < from);
-        else for (let i = 0; i <= 8; i++) g.lineTo(...place(r, from + ((to - from) * i) / 8));
+        else for (let i = 0; i <= 8; i++) g.lineTo(...at(h, r, from + ((to - from) * i) / 8));
       };
       const wall = (r) => Math.asin(Math.min(0.95, pocket / r));
       for (let k = 0; k < Z; k++) {
@@ -135,7 +135,7 @@ function bearingDrawing({ Z, scale, bend, bearing, range, has }) {
         g.stroke();
         if (h === 1) {
           g.beginPath();
-          g.arc(...place(pitch, c), rivet, 0, 2 * Math.PI);
+          g.arc(...at(h, pitch, c), rivet, 0, 2 * Math.PI);
           g.fillStyle = has("stress" + (k + 1)) ? heat(see.peak("stress" + (k + 1))) : colours.muted;
           g.fill();
           g.stroke();
@@ -170,6 +170,23 @@ function bearingDrawing({ Z, scale, bend, bearing, range, has }) {
       if (push > 0.01 * range.pocket) {
         const side = gapSide(see, j) * R * (0.5 + 1.4 * Math.min(1, push / range.pocket));
         arrow(g, r * c, r * s, r * c - s * side, r * s + c * side, colours.head, 0.9);
+      }
+    }
+    if (bend) {
+      g.lineWidth = 0.8 / zoom;
+      g.strokeStyle = colours.muted;
+      g.setLineDash([1 / zoom, 3 / zoom]);
+      g.beginPath();
+      g.arc(bodies[1][0], bodies[1][1], pitch, 0, 2 * Math.PI);
+      g.stroke();
+      g.setLineDash([]);
+      for (const [h, colour] of [[0, colours.muted], [1, colours.amber]]) {
+        g.beginPath();
+        for (let i = 0; i < 12 * Z; i++) g.lineTo(...at(h, pitch, bodies[h][2] + (2 * Math.PI * i) / (12 * Z)));
+        g.closePath();
+        g.lineWidth = 1.5 / zoom;
+        g.strokeStyle = colour;
+        g.stroke();
       }
     }
     const F_y = see.value("shaft.F_y"), F_z = see.value("shaft.F_z"), F = Math.hypot(F_y, F_z);
