@@ -139,7 +139,8 @@ def joint_spectra(figure, result):
     segment = np.clip(late.sum() // 4, SEGMENT, 1024)
     modes = [frequency for frequency in result.about.get("mode_frequencies", ()) if frequency < 0.5 * rate]
     panels = figure.subplots(2, 1, sharex=True)
-    for ax, values, colour, unit in ((panels[0], result.data[f"rivet[{k}].T"], FORCE, "T [N/√Hz]"), (panels[1], 1e3 * moment_t(result, k), MIDDLE, "M_t [N·mm/√Hz]")):
+    loads = (result.data[f"rivet[{k}].T"], FORCE, "T [N/√Hz]"), (1e3 * moment_t(result, k), MIDDLE, "M_t [N·mm/√Hz]")
+    for ax, (values, colour, unit) in zip(panels, loads, strict=True):
         f, power = welch(values[late], rate, nperseg=segment, detrend="constant")
         ax.plot(1e-3 * f[1:], np.sqrt(power[1:]), color=colour, lw=0.8)
         ax.set(ylabel=unit)

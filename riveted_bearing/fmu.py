@@ -78,7 +78,7 @@ class Model:
 
     @functools.cached_property
     def cage_modes(self):
-        """Vibration modes of a free cage half in the FMU's rivet table: frequency [Hz], modes of each frequency, mass [kg]; None if the FMU does not list them."""
+        """Modes of a free cage half in the FMU's rivet table: `frequency` [Hz], `modes` of each frequency, `mass` [kg]; None if the FMU does not list them."""
         with zipfile.ZipFile(self.path) as archive:
             return json.loads(archive.read(CAGE_MODES)) if CAGE_MODES in archive.namelist() else None
 

@@ -33,12 +33,13 @@ def simulate(model, scene, progress=None):
     summary |= {"simulated_time": simulated, "cpu_time": cpu, "wall_time": wall, "real_time_factor": cpu / simulated if simulated else float("nan")}
     names = ["time", *scene.outputs]
     variables = model.inputs | model.outputs
+    ending = {"stopped": stopped, "messages": [text for level, text in instance.log if level != "ok"][-20:]}
     return Result(
         data=dict(zip(names, [times, *columns], strict=True)),
         units={"time": "s"} | {name: variables[name].unit or "1" for name in scene.outputs},
         parameters=parameters,
         summary=summary,
-        about=provenance(model, scene) | vibrations(model, parameters) | {"stopped": stopped, "messages": [text for level, text in instance.log if level != "ok"][-20:]},
+        about=provenance(model, scene) | vibrations(model, parameters) | ending,
     )
 
 
