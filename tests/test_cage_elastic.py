@@ -201,7 +201,7 @@ def test_static_force_on_a_pocket_loads_bonded_joints_as_the_static_path_does(mo
 def test_what_the_halves_move_at_the_rivets(core, scene):
     """rivet[k].flex_*: the table's amplitudes times the states, by waves u_k = Re[(a - i b) U exp(i nu)] of unit modal mass; half 0 is mirrored in the split.
 
-    Rounding of 48 terms (observed 2e-15 of the largest); the halves' difference is what moves the pads of a joint against each other.
+    Rounding of 48 terms (observed 8e-16 of the largest); the halves' difference is what moves the pads of a joint against each other.
     """
     rng, instance, table = np.random.default_rng(11), Instance(core, ELASTIC | scene).step(1e-4), default_table()
     model, w = Model.of(ELASTIC | scene), Work()
