@@ -371,6 +371,24 @@ def test_printed_page_is_light_and_has_the_picture(opened):
     tab.close()
 
 
+@pytest.mark.parametrize("Z", [8, 9])
+def test_bending_between_rivets(opened, Z):
+    """Waves of up to three lobes, given at the rivets alone, come back at every angle; magnified, in mm."""
+    tab, _ = opened(1280, 900)
+    angles = np.linspace(0.0, 2.0 * np.pi, 50)
+    for lobes in range(4):
+        script = f"""() => {{
+            const wave = (a) => 1e-6 * Math.cos({lobes} * a + 0.3), rivet = (name) => (2 * Math.PI * (parseInt(name) - 0.5)) / {Z};
+            const see = {{ value: (name) => (name.endsWith("_1_r") ? wave(rivet(name)) : name.endsWith("_1_x") ? -wave(rivet(name)) : 0) }};
+            const at = bearingDrawing({{ Z: {Z}, scale: 1, bend: 500, bearing: {{}}, range: {{}}, has: () => true }}).bending(see);
+            return {angles.tolist()}.map((a) => [...at(1, a), ...at(0, a)]);
+        }}"""
+        wave = 0.5 * np.cos(lobes * angles + 0.3)
+        expected = np.column_stack([-wave, wave, *(0.0 * wave for _ in range(4))])
+        np.testing.assert_allclose(tab.evaluate(script), expected, atol=1e-12)
+    tab.close()
+
+
 def test_bending_is_drawn(page, tmp_path, browser):
     """The same instant with and without the factor: both views of the cage differ, and only they."""
     straight = re.sub(r'"bend": [0-9.]+', '"bend": 0.0', page)

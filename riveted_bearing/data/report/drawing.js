@@ -272,5 +272,5 @@ function bearingDrawing({ Z, scale, bend, bearing, range, has }) {
     g.restore();
   }
 
-  return { colours, readColours, prepare, drawFront, drawStrip };
+  return { colours, readColours, prepare, bending, drawFront, drawStrip };
 }
