@@ -42,6 +42,7 @@ def make_table(geometry, coarse=False, workers=2, progress=_quiet, hold_out=320,
     def stage(name):
         return lambda done, total: progress(name, done, total)
 
+    half_shape.check_half(geometry)  # before minutes are spent on the rivet
     joint = Joint(geometry, grid, stage("elements"))
     samples = reduction.sample(joint, knots, workers, stage("contacts"))
     fine = Fineness(0.5) if coarse else Fineness()

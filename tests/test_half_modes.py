@@ -282,6 +282,7 @@ def full():
     return half_full, *half_full.inertia(), half_modes.half_modes(half_full.elastic, half_full.alone, 60)[1]
 
 
+@pytest.mark.slow
 def test_modes_answer_at_any_frequency_as_all_elements_do(full):
     """Transfer functions from pockets to bonded joints, dynamic stiffness of the pads included, at 5, 12, 21 and 36 kHz: 117 modes and residual.
 

@@ -100,7 +100,10 @@ def pin_in_hole(clearance, load, hats, n_max):
     return theta[pressure > 0.0].max() + 180.0 / hats, pressure.max()  # the outermost hat ends between its node and the next one
 
 
-@pytest.mark.parametrize(("clearance", "load", "half_angle"), [(0.0, 20e3, 84.8), (5e-6, 20e3, 12.2), (45e-6, 100e3, 9.1)])
+@pytest.mark.parametrize(
+    ("clearance", "load", "half_angle"),
+    [(0.0, 20e3, 84.8), *(pytest.param(*case, marks=pytest.mark.slow) for case in [(5e-6, 20e3, 12.2), (45e-6, 100e3, 9.1)])],
+)
 def test_persson(clearance, load, half_angle):
     """Pin in hole: half-angles of Persson (1964) in Ciavarella and Decuzzi's form (2001), to 0.5 degrees; hats 0.7 degrees apart."""
     found, peak = pin_in_hole(clearance, load, 512, 256)
