@@ -77,12 +77,22 @@ def ball_outputs(model, w):
     }
 
 
-def pose_outputs(w, y):
+def flex(model, w, h):
+    """Motions (x, r, t) of half h at the rivets by its modes [3, ..., Z]; half 0 is the mirror image of half 1."""
+    if model.p.scene.cage != CageModel.ELASTIC:
+        return np.zeros((3, *w.x.shape))
+    side = 1.0 if h == 1 else -1.0
+    q, _ = w.modes[h]
+    return np.einsum("c,...i,ick->c...k", [side, 1.0, 1.0], q[..., 0, :], model.d.elastic.pad[:, :3])
+
+
+def pose_outputs(model, w, y):
     values = {"ball[j].x": w.x, "ball[j].r": w.r, "ball[j].psi": y[..., BALL_THETA]}
     for h, half in enumerate(w.half):
         tilt_y, tilt_z = ring_tilts(-half.a[2], half.a[1])
         pose = dict(zip(("x", "y", "z", "tilt_y", "tilt_z"), (*half.x, tilt_y, tilt_z), strict=True))
         values |= {f"half_{h}.{name}": value[..., 0] for name, value in pose.items()} | {f"half_{h}.psi": y[..., CAGE_PSI][..., h]}
+        values |= {f"rivet[k].flex_{h}_{name}": value for name, value in zip("xrt", flex(model, w, h), strict=True)}
     return values
 
 
@@ -161,5 +171,5 @@ def outputs(model, w, y, y_dot, energy_start):
     """All outputs but peaks, statistics, fatigue, onsets and the solver's, at the states y.  energy_start: energy_total at the start [J]."""
     work = y[..., WORK][..., 0]
     values = {"bearing.Z": np.full(np.shape(work), float(Z))}
-    values |= ring_outputs(model, w, y_dot) | pose_outputs(w, y) | ball_outputs(model, w) | cage_outputs(model, w)
+    values |= ring_outputs(model, w, y_dot) | pose_outputs(model, w, y) | ball_outputs(model, w) | cage_outputs(model, w)
     return values | rivet_outputs(model, w) | stress_outputs(model, w) | energy_outputs(model, w, work, energy_start) | event_outputs(model, w)

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from enum import IntEnum
 
 MODEL_IDENTIFIER = "RivetedBearing"
-MODEL_GUID = "{15426135-9259-df0b-2685-003a28baa8de}"
+MODEL_GUID = "{0021ca48-13b8-23e6-d686-633195b424fc}"
 Z = 9
 
 
@@ -427,6 +427,12 @@ OUTPUTS = {
         Variable("rivet[k].M_shank", 3810, "Real", "N.m", None, None, None, None, Z, "rivet", "Bending moment of the rivet's shank at the split", None),
         Variable("rivet[k].M_shank_y", 3850, "Real", "N.m", None, None, None, None, Z, "rivet", "Bending moment of the rivet's shank on the +X half about y of the cage's frame", None),
         Variable("rivet[k].M_shank_z", 3890, "Real", "N.m", None, None, None, None, Z, "rivet", "Bending moment of the rivet's shank on the +X half about z of the cage's frame", None),
+        Variable("rivet[k].flex_0_x", 8700, "Real", "m", "um", None, None, None, Z, "pose", "Motion of the cage half on the -X side at the rivet along X by its vibration modes, against its rigid motion (0 unless scene.cage = elastic)", None),
+        Variable("rivet[k].flex_0_r", 8740, "Real", "m", "um", None, None, None, Z, "pose", "Motion of the cage half on the -X side at the rivet away from the axis by its vibration modes, against its rigid motion (0 unless scene.cage = elastic)", None),
+        Variable("rivet[k].flex_0_t", 8780, "Real", "m", "um", None, None, None, Z, "pose", "Motion of the cage half on the -X side at the rivet in the sense of psi by its vibration modes, against its rigid motion (0 unless scene.cage = elastic)", None),
+        Variable("rivet[k].flex_1_x", 8820, "Real", "m", "um", None, None, None, Z, "pose", "Motion of the cage half on the +X side at the rivet along X by its vibration modes, against its rigid motion (0 unless scene.cage = elastic)", None),
+        Variable("rivet[k].flex_1_r", 8860, "Real", "m", "um", None, None, None, Z, "pose", "Motion of the cage half on the +X side at the rivet away from the axis by its vibration modes, against its rigid motion (0 unless scene.cage = elastic)", None),
+        Variable("rivet[k].flex_1_t", 8900, "Real", "m", "um", None, None, None, Z, "pose", "Motion of the cage half on the +X side at the rivet in the sense of psi by its vibration modes, against its rigid motion (0 unless scene.cage = elastic)", None),
         Variable("bearing.friction_torque", 4001, "Real", "N.m", None, None, None, None, 1, "ring", "Torque that the shaft must supply about X", None),
         Variable("bearing.power_loss", 4002, "Real", "W", None, None, None, None, 1, "energy", "Power dissipated in contacts, films, drag and joints", None),
         Variable("bearing.energy_residual", 4003, "Real", "J", None, None, None, None, 1, "energy", "Energy now - energy at start - net work since: 0 but for the errors of the integration and of the work's own integral", None),

@@ -82,7 +82,7 @@ foreach(binary IN LISTS binaries)
 endforeach()
 set(origin --version ${package_version} --author ${package_author} --compiler ${compiler} --build-info)  # then the file
 set(arguments ${binary_arguments} ${origin} ${build_info} --description ${description} --page ${parts}/index.html --pictures ${parts}/icons
-    --terminals ${tools}/terminalsAndIcons.xml --material "data rivet_table ${RIVET_TABLE}" --out ${FMU})
+    --terminals ${tools}/terminalsAndIcons.xml --material "data rivet_table ${RIVET_TABLE}" --rivet-table ${RIVET_TABLE} --out ${FMU})
 if(sundials_files)
     list(APPEND arguments --material "library sundials ${sundials_version}")
     list(TRANSFORM source_files PREPEND "--source\n" OUTPUT_VARIABLE sources)

@@ -2,6 +2,7 @@
 // values and, with dual numbers, for derivatives.
 #include "outputs.h"
 
+#include "elastic_half.h"
 #include "energy.h"
 #include "hertz.h"
 #include "powers.h"
@@ -122,6 +123,22 @@ static void fill_ball(const Evaluation *at, Outputs *out)
     out->cage.F_pocket_max = force_max;
 }
 
+// Motions of half h at the rivets by its modes; half 0 is the mirror image of half 1.
+static void flex(const Evaluation *at, int h, scalar x[Z], scalar r[Z], scalar t[Z])
+{
+    const ElasticHalf *half = at->model->elastic;
+    const double inv_root = sqrt(0.5), side = h == 1 ? inv_root : -inv_root;
+    for (int k = 0; k < Z; k++) x[k] = r[k] = t[k] = 0.0;
+    if (!half) return;
+    const scalar *q = at->w->q[h];
+    for (int i = 0; i < half->n; i++)
+        for (int k = 0; k < Z; k++) {
+            x[k] += side * half->out[i][k] * q[i];
+            r[k] += inv_root * half->in[i][k] * q[i];
+            t[k] += inv_root * half->in[i][Z + k] * q[i];
+        }
+}
+
 static void fill_pose(const Evaluation *at, Outputs *out)
 {
     const Work *w = at->w;
@@ -137,6 +154,8 @@ static void fill_pose(const Evaluation *at, Outputs *out)
     out->half_1.psi = at->y[Y_CAGE_PSI + 1];
     ring_tilts(-h0->a[2], h0->a[1], &out->half_0.tilt_y, &out->half_0.tilt_z);
     ring_tilts(-h1->a[2], h1->a[1], &out->half_1.tilt_y, &out->half_1.tilt_z);
+    flex(at, 0, out->rivet.flex_0_x, out->rivet.flex_0_r, out->rivet.flex_0_t);
+    flex(at, 1, out->rivet.flex_1_x, out->rivet.flex_1_r, out->rivet.flex_1_t);
 }
 
 static void fill_cage(const Evaluation *at, Outputs *out)

@@ -1,4 +1,4 @@
-"""Packs description, binaries, sources, documentation, terminals, pictures and reference results into the FMU.
+"""Packs description, binaries, sources, documentation, terminals, pictures, reference results and the cage's frequencies into the FMU.
 
     python fmus/package.py --description modelDescription.xml --binary RivetedBearing.so --out RivetedBearing.fmu [...]
     python fmus/package.py @arguments.txt                    one argument a line, as the build writes them
@@ -8,6 +8,7 @@ The same inputs give the same bytes.
 
 import argparse
 import contextlib
+import json
 import os
 import platform
 import re
@@ -16,9 +17,12 @@ import tempfile
 import zipfile
 from pathlib import Path
 
+import numpy as np
 from lxml import etree
 from materials import PLACE, bill_of_materials
 from sources import collect
+
+from bearing_model.rivet_table import read
 
 PROJECT = Path(__file__).resolve().parents[1]
 LICENSES = ("LICENSE", "THIRD_PARTY_NOTICES.md")
@@ -31,6 +35,7 @@ HOSTS = {  # (system, machine) -> platform as FMI 2.0 names its folder; others a
     ("Windows", "AMD64"): "win64",
 }
 REFERENCE = "extra/org.fmi-standard.fmi-ls-ref"
+CAGE_MODES = "extra/riveted-bearing/cage_modes.json"  # riveted_bearing/fmu.py reads it
 MANIFEST = """<?xml version="1.0" encoding="UTF-8"?>
 <fmiReferences xmlns:fmi-ls="http://fmi-standard.org/fmi-ls-manifest"
     fmi-ls:fmi-ls-name="org.fmi-standard.fmi-ls-ref"
@@ -88,9 +93,18 @@ def package(options):
     if options.reference:
         name = f"{identifier}_out.csv"
         members |= {f"{REFERENCE}/fmi-ls-manifest.xml": MANIFEST.format(name=name).encode(), f"{REFERENCE}/{name}": options.reference.read_bytes()}
+    members |= {CAGE_MODES: cage_modes(options.rivet_table)} if options.rivet_table else {}
     materials = [material.split(maxsplit=2) for material in options.material]
     members[PLACE] = bill_of_materials(root.attrib, options.version, options.author, build, options.compiler.split(), materials, members)
     write_archive(members, options.out)
+
+
+def cage_modes(rivet_table):
+    """Frequencies [Hz] of a free cage half in a rivet table, how many modes have each (2 of a pair), and the half's mass [kg], as JSON."""
+    table = read(rivet_table)
+    omega, count = (table.modes.omega, table.modes.count) if table.modes else (np.zeros(0), np.zeros(0, int))
+    content = {"mass": table.half.m, "frequency": (omega / (2.0 * np.pi)).tolist(), "modes": count.tolist()}
+    return json.dumps(content, indent=1).encode() + b"\n"
 
 
 def icons(folder, terminals):
@@ -139,6 +153,7 @@ def main(arguments=None):
     parser.add_argument("--page", type=Path, help="documentation (page.py)")
     parser.add_argument("--pictures", type=Path, help="folder of the icons (picture.py)")
     parser.add_argument("--terminals", type=Path, help="terminalsAndIcons.xml")
+    parser.add_argument("--rivet-table", type=Path, help="rivet table whose vibration modes are listed")
     parser.add_argument("--reference", type=Path, help="reference results (reference.py)")
     try:
         package(parser.parse_args(arguments))

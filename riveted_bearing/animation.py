@@ -5,6 +5,7 @@ import base64
 import numpy as np
 
 from .runner import is_peak
+from .summary import settled
 
 BUDGET = 650_000  # characters of all channels in the page
 SCALARS = (
@@ -14,6 +15,8 @@ SCALARS = (
 OF_BALLS = ("x", "r", "Q_i", "Q_e", "Q_c")
 STRESS = "sigma_head_peak"
 DRAWN = 0.13  # largest clearance as drawn / ball diameter
+BENT = 0.25  # largest motion of a half at a rivet by its modes as drawn / ball diameter
+FLEX = tuple(f"flex_{h}_{name}" for h in (0, 1) for name in "xrt")  # of rivets, outputs of elastic halves
 
 
 def needed(Z):
@@ -27,6 +30,11 @@ def number_of_balls(result):
     return sum(name.startswith("ball[") and name.endswith("].dD") for name in result.parameters)
 
 
+def flexes(Z):
+    """Channels that hold the motion of both halves by their modes."""
+    return [f"rivet[{k}].{name}" for k in range(1, Z + 1) for name in FLEX]
+
+
 def frames(result):
     """Data for animation.js, ready for JSON (None if channels are missing), and the list of missing channels.
 
@@ -37,7 +45,8 @@ def frames(result):
     missing = [name for name in needed(Z) if name not in result.data]
     if missing or len(result.data["time"]) < 2:
         return None, missing
-    stride = thinning(len(result.data["time"]), Z)
+    bends = result.parameters.get("scene.cage") == "elastic" and all(name in result.data for name in flexes(Z))
+    stride = thinning(len(result.data["time"]), Z, bends)
     rows = slice(None, None, stride)
     data = result.data
     psi = 0.5 * (data["half_0.psi"] + data["half_1.psi"])
@@ -49,6 +58,8 @@ def frames(result):
         channels |= {f"{name}{j}": data[f"ball[{j}].{name}"] for name in OF_BALLS if f"ball[{j}].{name}" in data}
         if (name := f"rivet[{j}].{STRESS}") in data:
             channels[f"stress{j}"] = data[name]
+    forms, widening = bent(result, Z) if bends else ({}, 0.0)
+    channels |= {name.replace("rivet[", "").replace("].", "_"): values for name, values in forms.items()}
     turned = {"psi": psi, "shaft": angle(data["time"], data["shaft.omega"]) if "shaft.omega" in data else psi}
     p = result.parameters
     return {
@@ -57,6 +68,8 @@ def frames(result):
         "turned": {name: packed(values[rows]) for name, values in turned.items()},
         "channels": {name: quantized(thinned(values, stride) if shows_peak(name) else values[rows]) for name, values in channels.items()},
         "scale": exaggeration(p),
+        "bend": magnification(result, forms) if bends else 0.0,
+        "widening": widening,
         "bearing": {
             name: p[name]
             for name in ("bearing.D", "bearing.d_m", "bearing.P_d", "cage.D_o", "cage.D_i", "cage.width", "cage.pocket_clearance", "cage.guide_clearance")
@@ -65,9 +78,9 @@ def frames(result):
     }, []
 
 
-def thinning(rows, Z):
-    """Distance of the rows to keep, so that all channels, at 2 bytes a value in base64, fit the budget."""
-    channels = len(SCALARS) + 1 + Z * (len(OF_BALLS) + 2)
+def thinning(rows, Z, bends=False):
+    """Distance of the rows to keep, so that all channels, at 2 bytes a value in base64, fit the budget; bends: with those of elastic halves."""
+    channels = len(SCALARS) + 1 + Z * (len(OF_BALLS) + 2 + bends * len(FLEX))
     return max(1, -(-rows * channels * 8 // (3 * BUDGET)))
 
 
@@ -88,8 +101,31 @@ def angle(t, omega):
 
 
 def exaggeration(p):
-    """Factor by which displacements and clearances are magnified: 1, 2 or 5 times a power of ten, limited to a share of the ball."""
-    largest = DRAWN * p["bearing.D"] / max(0.5 * p["cage.pocket_clearance"], 0.5 * p["cage.guide_clearance"], 1e-5)
+    """Factor by which displacements and clearances are magnified: round, limited to a share of the ball."""
+    return round_factor(DRAWN * p["bearing.D"] / max(0.5 * p["cage.pocket_clearance"], 0.5 * p["cage.guide_clearance"], 1e-5))
+
+
+def bent(result, Z):
+    """Motion of both halves at the rivets by their modes [m] by channel, less the mean widening after settling; that widening, mean of the halves [m]."""
+    late, forms, widenings = settled(result), {}, []
+    for h in (0, 1):
+        widenings.append(np.mean([result.data[f"rivet[{k}].flex_{h}_r"][late] for k in range(1, Z + 1)]))
+        for k in range(1, Z + 1):
+            for name in "xrt":
+                channel = f"rivet[{k}].flex_{h}_{name}"
+                forms[channel] = result.data[channel] - (widenings[h] if name == "r" else 0.0)
+    return forms, float(np.mean(widenings))
+
+
+def magnification(result, forms):
+    """Factor by which the bending of the halves is magnified: round, so that the largest after settling is a share of the ball."""
+    late = settled(result)
+    largest = max(np.abs(values[late]).max() for values in forms.values())
+    return round_factor(BENT * result.parameters["bearing.D"] / max(largest, 1e-9))
+
+
+def round_factor(largest):
+    """1, 2 or 5 times a power of ten, not above the largest but at least 1."""
     decade = 10.0 ** np.floor(np.log10(largest))
     return float(max(1.0, decade * max(step for step in (1, 2, 5) if step * decade <= largest)))
 

@@ -55,7 +55,7 @@ def build_fmu(bearing=None, rivet=None, out=None, say=lambda text, share=None: N
     case, folder = bearing_case(bearing or "6207"), build_folder(sources, bearing)
     cmake, platforms = tool("cmake") or no_tool("cmake"), platforms or compiler_platforms()
     make_folder(out.parent)
-    table = kept(given_table(rivet, case, kind, say, modes), folder / "rivet_table.json")
+    table = kept(given_table(rivet, case, kind, say, modes), table_copy(bearing))
     options = [f"-DRIVET_TABLE={table}", f"-DPython_EXECUTABLE={sys.executable}"]
     if bearing or rivet or kind or modes:
         say("variables")
@@ -222,6 +222,11 @@ def given_table(rivet, case, kind, say, modes=None):
             raise UserError(f"{option} {value}: {path} is a table already")
     read_table(path, case.Z)
     return path.resolve()
+
+
+def table_copy(bearing=None):
+    """Where the rivet table lies that build_fmu put into the FMU of a bearing."""
+    return build_folder(source_folder(), bearing) / "rivet_table.json"
 
 
 def kept(source, copy):

@@ -30,6 +30,7 @@ PAGE_COLOURS = {  # of plot.py -> custom properties of style.css
 SVG = {"svg.fonttype": "none", "image.composite_image": False, "figure.facecolor": "none", "axes.facecolor": "none"}
 BUCKETS = 600  # of time, each with the smallest and the largest value
 AZIMUTHS = 36
+SEGMENT = 32  # fewest samples of a segment of the joints' spectra
 
 
 def svg(draw, size, label):
@@ -101,6 +102,54 @@ def spectra(figure, result):
             ax.axvline(frequency, color=MUTED, lw=0.8, ls=":")
             ax.annotate(name, (frequency, 1.0), xycoords=("data", "axes fraction"), fontsize=7, va="bottom", ha="center")
     ax.legend(loc="lower left")
+
+
+def loaded_rivet(result):
+    """Number, as text, of the rivet with the largest tension after settling; None if tensions were not recorded."""
+    late, names = settled(result), columns(result, "rivet[", "].T")
+    return max(names, key=lambda name: result.data[name][late].max()).split("]")[0].removeprefix("rivet[") if names else None
+
+
+def moment_t(result, k):
+    """Moment that joint k transmits about the tangential direction [N.m] over time."""
+    Z = len(columns(result, "rivet[", "].T"))
+    angle = 2.0 * np.pi * (int(k) - 0.5) / Z
+    return np.cos(angle) * result.data[f"rivet[{k}].M_z"] - np.sin(angle) * result.data[f"rivet[{k}].M_y"]
+
+
+def sample_rate(result):
+    """Rows per second after settling."""
+    t = result.data["time"][settled(result)]
+    return (len(t) - 1) / (t[-1] - t[0])
+
+
+def no_joint_spectra(result):
+    """Why the joints' spectra would show none of the vibration modes, "" if they show some."""
+    if (late := settled(result).sum()) < SEGMENT:
+        return f"{late} samples after settling, at least {SEGMENT} are needed"
+    lowest, rate = min(result.about.get("mode_frequencies") or [0.0]), sample_rate(result)
+    if 2.0 * lowest < rate:
+        return ""
+    return f"sampled too coarsely: {1e-3 * rate:.3g} samples per ms, more than {2e-3 * lowest:.3g} are needed for the lowest mode at {1e-3 * lowest:.3g} kHz"
+
+
+def joint_spectra(figure, result):
+    """Amplitude densities of tension and moment of the most loaded joint, with the frequencies of a free half's modes."""
+    k, late, rate = loaded_rivet(result), settled(result), sample_rate(result)
+    segment = np.clip(late.sum() // 4, SEGMENT, 1024)
+    modes = [frequency for frequency in result.about.get("mode_frequencies", ()) if frequency < 0.5 * rate]
+    panels = figure.subplots(2, 1, sharex=True)
+    loads = (result.data[f"rivet[{k}].T"], FORCE, "T [N/√Hz]"), (1e3 * moment_t(result, k), MIDDLE, "M_t [N·mm/√Hz]")
+    for ax, (values, colour, unit) in zip(panels, loads, strict=True):
+        f, power = welch(values[late], rate, nperseg=segment, detrend="constant")
+        ax.plot(1e-3 * f[1:], np.sqrt(power[1:]), color=colour, lw=0.8)
+        ax.set(ylabel=unit)
+        ax.set_ylim(bottom=0)
+        for frequency in modes:
+            ax.axvline(1e-3 * frequency, color=HEAD, lw=0.5, label="modes of a free half" if frequency == modes[0] else None)
+    panels[1].set(xlabel=f"frequency [kHz]; {1e-3 * rate:g} samples per ms", xlim=(0.0, 5e-4 * rate))
+    if modes:
+        panels[0].legend(loc="lower right", bbox_to_anchor=(1.0, 1.0))
 
 
 def frequencies(result):

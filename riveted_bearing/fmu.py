@@ -2,6 +2,7 @@
 
 import ctypes
 import functools
+import json
 import shutil
 import weakref
 import zipfile
@@ -21,6 +22,7 @@ from .errors import UserError
 from .units import suffix, symbol_of, to_si, unit_table
 
 FMU_NAME = "RivetedBearing.fmu"
+CAGE_MODES = "extra/riveted-bearing/cage_modes.json"  # fmus/package.py writes it
 PACKAGE = Path(__file__).resolve().parent
 LEVELS = ("ok", "warning", "discard", "error", "fatal", "pending")
 LOGS = {}  # component environment -> log of its instance
@@ -73,6 +75,12 @@ class Model:
         with zipfile.ZipFile(self.path) as archive:
             root = ElementTree.fromstring(archive.read("modelDescription.xml"))
         return {value.get("name"): value.get("origin") for value in root.iterfind("VendorAnnotations/Tool[@name='riveted-bearing']/Value")}
+
+    @functools.cached_property
+    def cage_modes(self):
+        """Modes of a free cage half in the FMU's rivet table: `frequency` [Hz], `modes` of each frequency, `mass` [kg]; None if the FMU does not list them."""
+        with zipfile.ZipFile(self.path) as archive:
+            return json.loads(archive.read(CAGE_MODES)) if CAGE_MODES in archive.namelist() else None
 
     @functools.cached_property
     def folder(self):

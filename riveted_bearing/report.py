@@ -60,7 +60,7 @@ def render(result, decides=None):
     """The page as text; decides: see report_pages."""
     environment = jinja2.Environment(autoescape=True, trim_blocks=True, lstrip_blocks=True, undefined=jinja2.StrictUndefined)
     film, missing = frames(result)
-    lives = all_lives(result)
+    lives, elastic = all_lives(result), result.parameters.get("scene.cage") == "elastic"
     return environment.from_string((PARTS / "page.html").read_text(encoding="utf-8")).render(
         about=NOT_SAID | result.about,
         stopped=result.stopped,
@@ -77,13 +77,15 @@ def render(result, decides=None):
         settle=min(result.parameters.get("start.settle", 0.0), float(result.data["time"][-1])),
         lives=lives,
         worst=charts.worst_rivet(result),
+        elastic=elastic,
+        loaded=charts.loaded_rivet(result),
         fatigue=result.parameters.get("scene.stress") == "fatigue",
         table_note=table_note(result),
         assumed=list(assumed_rows(result)),
         decides=decides,
         life_is_known=life_is_known(result),
         solver=list(solver_rows(result)),
-        charts={name: chart(result, name, lives) for name in CHARTS},
+        charts={name: chart(result, name, lives) for name in CHARTS if elastic or name not in OF_ELASTIC},
         figure=figure,
         duration=duration,
     )
@@ -117,10 +119,12 @@ CHARTS = {  # name: (draw(figure, result), size, label, channels that the chart 
     "histogram": (charts.force_histogram, WIDE, "Histogram of contact forces", ball_channels("Q_c")),
     "pocket": (PANELS["pocket_force"], WIDE, "Pocket force over time", named("cage.F_pocket_peak")),
     "orbit": (charts.cage_orbit, SQUARE, "Orbit of the cage's centre", named("cage.y", "cage.z")),
+    "joints": (charts.joint_spectra, HIGH, "Spectra of the joint loads", rivet_channels("T", "M_y", "M_z")),
     "slip": (PANELS["slip"], LOW, "Cage slip over time", named("cage.slip_ratio")),
     "ring": (PANELS["ring"], WIDE, "Displacement of the inner ring over time", named("ring.x", "ring.y", "ring.z")),
     "energy": (charts.energy, LOW, "Power loss and energy balance over time", named("bearing.power_loss")),
 }
+OF_ELASTIC = ("joints",)  # charts of elastic cage halves alone
 
 
 def chart(result, name, lives):
@@ -132,6 +136,8 @@ def chart(result, name, lives):
         return f'<p class="missing">{label}: {lack}</p>'
     if name in ("spectra", "rainflow") and not np.any(np.diff(result.data[f"rivet[{charts.worst_rivet(result)}].sigma_head"][settled(result)])):
         return f'<p class="missing">{label}: the stress does not change</p>'
+    if name == "joints" and (reason := charts.no_joint_spectra(result)):
+        return f'<p class="missing">{label}: {reason}</p>'
     if name == "rainflow" and not lives:
         return f'<p class="missing">{label}: {table_note(result) or "the stress of the rivets was not recorded"}</p>'
     if name == "rainflow":

@@ -9,6 +9,7 @@ All hold a digest of what was written, by which a damaged file is known.
 import hashlib
 import importlib
 import json
+import math
 import os
 import re
 import tomllib
@@ -157,6 +158,8 @@ def origin_problem(name, value):
         return "" if isinstance(value, str) else "not a text"
     if name in ("given", "messages"):
         return "" if isinstance(value, list) and all(isinstance(one, str) for one in value) else "not a list of texts"
+    if name == "mode_frequencies":
+        return "" if isinstance(value, list) and all(is_number(one) and 0.0 < one < math.inf for one in value) else "not a list of positive numbers"
     if name in ("versions", "not_given"):
         return "" if isinstance(value, dict) and all(isinstance(one, str) for one in value.values()) else "not a table of texts"
     if name in ("t_end", "step"):

@@ -33,12 +33,13 @@ def simulate(model, scene, progress=None):
     summary |= {"simulated_time": simulated, "cpu_time": cpu, "wall_time": wall, "real_time_factor": cpu / simulated if simulated else float("nan")}
     names = ["time", *scene.outputs]
     variables = model.inputs | model.outputs
+    ending = {"stopped": stopped, "messages": [text for level, text in instance.log if level != "ok"][-20:]}
     return Result(
         data=dict(zip(names, [times, *columns], strict=True)),
         units={"time": "s"} | {name: variables[name].unit or "1" for name in scene.outputs},
         parameters=parameters,
         summary=summary,
-        about=provenance(model, scene) | {"stopped": stopped, "messages": [text for level, text in instance.log if level != "ok"][-20:]},
+        about=provenance(model, scene) | vibrations(model, parameters) | ending,
     )
 
 
@@ -105,6 +106,19 @@ def closing_names(model):
     """Variables that say how it went over the whole run: statistics, damage, solver counters, processor time, and what the rivets' stress rests on."""
     names = [*model.outputs, *model.locals]
     return [name for name in names if name.startswith(("stat.", "solver.")) or ".damage_" in name or name == "rivet.table_kind"]
+
+
+def vibrations(model, parameters):
+    """Frequencies [Hz] of a free half, of the modes that the run took, by the table inside the FMU; nothing if the halves are rigid or the FMU lists none.
+
+    A half is as much denser than the table's as `cage.m` is larger, and takes whole pairs of modes (bearing_model/half_modes.py: denser, fewer).
+    """
+    if parameters.get("scene.cage") != "elastic" or not model.cage_modes:
+        return {}
+    modes = model.cage_modes
+    kept = int(np.searchsorted(np.cumsum(modes["modes"]), parameters["scene.modes"], side="right"))
+    denser = parameters["cage.m"] / modes["mass"]
+    return {"mode_frequencies": [frequency / denser**0.5 for frequency in modes["frequency"][:kept]]}
 
 
 def provenance(model, scene):

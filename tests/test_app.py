@@ -3,6 +3,7 @@
 import gc
 import json
 import re
+import shlex
 import subprocess
 import sys
 import tomllib
@@ -413,6 +414,8 @@ def test_an_fmu_of_the_second_bearing(tmp_path):
     done = command("build", "--bearing", "6310", "--table", "closed-form", folder=tmp_path)
     assert done.returncode == 0, done.stderr
     assert "Meant with a machined two-piece riveted cage" in done.stdout and "Stress table of the rivets: closed forms" in done.stdout
+    shown = command(*shlex.split(done.stdout.split("as pictures: riveted-bearing ")[1]), "--out", "pictures", folder=tmp_path)
+    assert shown.returncode == 0 and (tmp_path / "pictures" / "cage_modes.png").is_file()
     out = tmp_path / "6310.fmu"
     scene = tmp_path / "own.toml"
     scene.write_text("[simulation]\nt_end = 0.02\nstep = 1e-4\n[parameters]\nstart.settle = 0.01")

@@ -198,6 +198,44 @@ def test_static_force_on_a_pocket_loads_bonded_joints_as_the_static_path_does(mo
             assert np.abs(L[:, 1:] - expected[:, 1:]).max() < bound * np.abs(expected[:, 1:]).max()
 
 
+@pytest.mark.parametrize("scene", [{}, {"scene.modes": 33, "cage.m": 0.04}], ids=["usual", "fewer and heavier"])
+def test_what_the_halves_move_at_the_rivets(core, scene):
+    """rivet[k].flex_*: the table's amplitudes times the states, by waves u_k = Re[(a - i b) U exp(i nu)] of unit modal mass; half 0 is mirrored in the split.
+
+    Rounding of 48 terms (observed 8e-16 of the largest); the halves' difference is what moves the pads of a joint against each other.
+    """
+    rng, instance, table = np.random.default_rng(11), Instance(core, ELASTIC | scene).step(1e-4), default_table()
+    model, w = Model.of(ELASTIC | scene), Work()
+    y = running_state(core.model(ELASTIC | scene), rng)
+    np.frombuffer(core.ffi.buffer(core.lib.part_state(instance.bearing), y.nbytes))[:] = y
+    rhs(model, 0.0, y, w)
+    modes, kept, nu = table.modes, 0, 2.0 * np.pi * (np.arange(Z) + 0.5) / Z
+    expected = np.zeros((2, 3, Z))
+    for i in range(len(modes.omega)):
+        if kept + modes.count[i] > model.p.scene.modes:
+            break
+        places = slice(kept, kept + modes.count[i])
+        kept += modes.count[i]
+        for h, sign in ((0, -1.0), (1, 1.0)):
+            q = (y[MODE_S][places] + sign * y[MODE_D][places]) * np.sqrt(0.5 * table.half.m)
+            a, b = {0: q, 1: [q[0], 0.0], -1: [0.0, q[0]]}[int(modes.parity[i])]
+            wave = (a - 1j * b) * np.exp(1j * modes.harmonic[i] * nu)
+            expected[h] += [sign * np.real(modes.pad[i, 0] * wave), np.real(modes.pad[i, 1] * wave), np.real(1j * modes.pad[i, 2] * wave)]
+    assert np.abs(expected).max() > 1e-8
+    for h in range(2):
+        for c, name in enumerate("xrt"):
+            found = instance.output(f"rivet.flex_{h}_{name}")
+            np.testing.assert_allclose(found, expected[h, c], atol=1e-12 * np.abs(expected).max())
+    pads = [w.pad_out[0], *w.pad_in]
+    np.testing.assert_allclose(expected[1] - expected[0], np.reshape(pads, (3, Z)), atol=1e-12 * np.abs(expected).max())
+
+
+def test_rigid_halves_move_nothing_at_the_rivets(core):
+    for cage in (CageModel.TWO_HALF, CageModel.RIGID):
+        instance = Instance(core, {"scene.cage": cage}).step(1e-4)
+        assert not np.any([instance.output(f"rivet.flex_{h}_{name}") for h in range(2) for name in "xrt"])
+
+
 def test_pair_vibrates_as_the_finite_elements_do():
     """Closed pair, mirrored: 2.05, 5.8, 11 kHz by full finite elements with bonded pads (observed 2.06, 5.75, 10.8)."""
     vibrations = Model.of(ELASTIC).d.elastic.mirrored

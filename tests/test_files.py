@@ -223,6 +223,7 @@ def changed(result, **parts):
         ({"parameters": {"scene.stress": 3.0}}, ["scene.stress = 3.0", "allowed: "]),
         ({"summary": {"cpu_time": "long"}}, ["cpu_time = 'long'", "not a number"]),
         ({"about": {"scene": 5}}, ["scene = 5", "not a text"]),
+        ({"about": {"mode_frequencies": [800.0, -1.0]}}, ["mode_frequencies = [800.0, -1.0]", "not a list of positive numbers"]),
         ({"about": {"messages": "one"}}, ["messages = 'one'", "not a list of texts"]),
         ({"about": {"versions": {"fmpy": 3}}}, ["versions = {'fmpy': 3}", "not a table of texts"]),
     ],

@@ -24,13 +24,14 @@ def results():
     steady = run("demo", t_end=8e-3, parameters=SETTLE)
     inputs = {"shaft.omega": {"t": [0.0, 8e-3], "value": [1000.0, 1900.0]}, "shaft.F_z": -900.0, "impact.F_r": PULSE, "impact.F_a": PULSE}
     varied = run("demo", t_end=8e-3, parameters=SETTLE, inputs=inputs)
+    elastic = run("demo", t_end=8e-3, parameters=SETTLE | {"scene.cage": "elastic"})
     still = run("demo", t_end=4e-3, parameters={"start.settle": 0.0, "scene.stress": "off"})
     first = replace(steady, data={name: values[:1] for name, values in steady.data.items()})
     few = replace(steady, data={name: steady.data[name] for name in ("time", "ring.y", "rivet.sigma_head_max")}, about=steady.about | {"description": ""})
-    return {"steady": steady, "varied": varied, "without stress": still, "one row": first, "few channels": few}
+    return {"steady": steady, "varied": varied, "elastic": elastic, "without stress": still, "one row": first, "few channels": few}
 
 
-CASES = ("steady", "varied", "without stress", "one row", "few channels")
+CASES = ("steady", "varied", "elastic", "without stress", "one row", "few channels")
 
 
 @pytest.mark.parametrize("case", CASES)
@@ -42,7 +43,7 @@ def test_the_picture_of_a_run(results, case, tmp_path):
 def test_the_charts_of_a_report(results, case):
     """Drawn as they stand in the page: each chart that the page shows was saved, and so inspected."""
     drawn = report.render(results[case]).count("<svg viewBox")
-    assert drawn >= {"steady": 14, "varied": 14, "without stress": 8, "one row": 0, "few channels": 1}[case]
+    assert drawn >= {"steady": 14, "varied": 14, "elastic": 15, "without stress": 8, "one row": 0, "few channels": 1}[case]
 
 
 @pytest.mark.parametrize("grid", [load_cases.COARSE, pytest.param(load_cases.SHIPPED, marks=pytest.mark.slow)], ids=["coarse", "shipped"])

@@ -4,9 +4,11 @@ import os
 import subprocess
 import sys
 
+import numpy as np
 import pytest
 from library import ROOT
 
+from bearing_model.rivet_table import read
 from riveted_bearing import build, run
 from riveted_bearing.builder import build_folder
 
@@ -24,6 +26,10 @@ def test_elastic_halves_of_many_balls(tmp_path, Z, sizes):
     for cage in ("elastic", "two_half"):
         found = run("demo", fmu=fmu, t_end=0.01, inputs={"shaft.F_y": 500.0, "shaft.F_x": 100.0}, parameters={"scene.cage": cage, "start.settle": 0.002})
         runs.append([found.summary["solver.rhs_evals"], max(found.data[f"rivet[{k}].T"][20:].mean() for k in range(1, Z + 1))])
+        if cage == "elastic":  # by the FMU's own table, pairs named once
+            table, named = read(build_folder(ROOT, str(path)) / "rivet_table.json", Z), found.about["mode_frequencies"]
+            heavier = found.parameters["cage.m"] / table.half.m
+            assert len(named) > Z and named == pytest.approx(table.modes.omega[: len(named)] / 2 / np.pi / heavier**0.5)
     (evaluations, tension), (evaluations_rigid, tension_rigid) = runs
     assert evaluations < 3.0 * evaluations_rigid
     assert tension == pytest.approx(tension_rigid, rel=0.1)

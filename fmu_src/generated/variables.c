@@ -378,4 +378,10 @@ const Variable VARIABLES[N_VARIABLES] = {
     {"rivet[k].preload_factor", "1", 8520, Z, TYPE_REAL, CAUSALITY_PARAMETER, GROUP_COUNT, -1, offsetof(Parameters, rivet.preload_factor), 1.0, 0.0, 5.0},
     {"rivet[k].dfit", "m", 8560, Z, TYPE_REAL, CAUSALITY_PARAMETER, GROUP_COUNT, -1, offsetof(Parameters, rivet.dfit), 0.0, -0.0002, 5e-05},
     {"rivet[k].intact", "1", 8600, Z, TYPE_INTEGER, CAUSALITY_PARAMETER, GROUP_COUNT, -1, offsetof(Parameters, rivet.intact), 1.0, 0.0, 1.0},
+    {"rivet[k].flex_0_x", "m", 8700, Z, TYPE_REAL, CAUSALITY_OUTPUT, GROUP_POSE, -1, offsetof(Outputs, rivet.flex_0_x), 0.0, -INFINITY, INFINITY},
+    {"rivet[k].flex_0_r", "m", 8740, Z, TYPE_REAL, CAUSALITY_OUTPUT, GROUP_POSE, -1, offsetof(Outputs, rivet.flex_0_r), 0.0, -INFINITY, INFINITY},
+    {"rivet[k].flex_0_t", "m", 8780, Z, TYPE_REAL, CAUSALITY_OUTPUT, GROUP_POSE, -1, offsetof(Outputs, rivet.flex_0_t), 0.0, -INFINITY, INFINITY},
+    {"rivet[k].flex_1_x", "m", 8820, Z, TYPE_REAL, CAUSALITY_OUTPUT, GROUP_POSE, -1, offsetof(Outputs, rivet.flex_1_x), 0.0, -INFINITY, INFINITY},
+    {"rivet[k].flex_1_r", "m", 8860, Z, TYPE_REAL, CAUSALITY_OUTPUT, GROUP_POSE, -1, offsetof(Outputs, rivet.flex_1_r), 0.0, -INFINITY, INFINITY},
+    {"rivet[k].flex_1_t", "m", 8900, Z, TYPE_REAL, CAUSALITY_OUTPUT, GROUP_POSE, -1, offsetof(Outputs, rivet.flex_1_t), 0.0, -INFINITY, INFINITY},
 };

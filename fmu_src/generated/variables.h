@@ -9,7 +9,7 @@
 
 #define FMI2_FUNCTION_PREFIX RivetedBearing_  // of the functions of a source-code FMU
 #define MODEL_IDENTIFIER "RivetedBearing"
-#define MODEL_GUID "{15426135-9259-df0b-2685-003a28baa8de}"  // digest of the table
+#define MODEL_GUID "{0021ca48-13b8-23e6-d686-633195b424fc}"  // digest of the table
 
 enum { Z = 9 };  // number of balls
 
@@ -412,6 +412,12 @@ typedef struct {
         scalar M_shank[Z];  // [N.m] Bending moment of the rivet's shank at the split
         scalar M_shank_y[Z];  // [N.m] Bending moment of the rivet's shank on the +X half about y of the cage's frame
         scalar M_shank_z[Z];  // [N.m] Bending moment of the rivet's shank on the +X half about z of the cage's frame
+        scalar flex_0_x[Z];  // [m] Motion of the cage half on the -X side at the rivet along X by its vibration modes, against its rigid motion (0 unless scene.cage = elastic)
+        scalar flex_0_r[Z];  // [m] Motion of the cage half on the -X side at the rivet away from the axis by its vibration modes, against its rigid motion (0 unless scene.cage = elastic)
+        scalar flex_0_t[Z];  // [m] Motion of the cage half on the -X side at the rivet in the sense of psi by its vibration modes, against its rigid motion (0 unless scene.cage = elastic)
+        scalar flex_1_x[Z];  // [m] Motion of the cage half on the +X side at the rivet along X by its vibration modes, against its rigid motion (0 unless scene.cage = elastic)
+        scalar flex_1_r[Z];  // [m] Motion of the cage half on the +X side at the rivet away from the axis by its vibration modes, against its rigid motion (0 unless scene.cage = elastic)
+        scalar flex_1_t[Z];  // [m] Motion of the cage half on the +X side at the rivet in the sense of psi by its vibration modes, against its rigid motion (0 unless scene.cage = elastic)
     } rivet;
     struct {
         scalar races;  // [W] Power dissipated in the race contacts
@@ -563,4 +569,4 @@ typedef enum {
 } StateScale;
 
 enum { N_INPUTS = 39 };  // all of them numbers
-enum { N_VARIABLES = 329 };  // time is the first
+enum { N_VARIABLES = 335 };  // time is the first

@@ -1,5 +1,6 @@
 """riveted-bearing build: an FMU for a bearing."""
 
+import shlex
 from pathlib import Path
 from typing import Annotated
 
@@ -31,7 +32,7 @@ def build(
     platforms: Annotated[str | None, typer.Option(help="all, or names such as linux64,win64: cross-compiled; default: this machine's compiler")] = None,
 ):
     """Make an FMU for a bearing: needs a C compiler, takes a minute or two; with --table full half an hour more."""
-    from ..builder import build_fmu, platform_names
+    from ..builder import build_fmu, platform_names, table_copy
     from ..fmu import Model
 
     columns = SpinnerColumn(), TextColumn("{task.description}"), BarColumn(bar_width=30), TimeElapsedColumn()
@@ -44,6 +45,8 @@ def build(
         path = build_fmu(bearing, rivet, out, say, platform_names(platforms), table, modes)
     console.print(escape(Model(path).description.description), style="dim", soft_wrap=True)
     console.print(str(path), style="cyan", soft_wrap=True)
+    shown = f"riveted-bearing rivet {shlex.quote(str(table_copy(bearing)))}"
+    console.print(f"its stress curves and the modes of its cage as pictures: {escape(shown)}", style="dim", soft_wrap=True)
     if rivet:
         from ..bearings import bearing_case
         from ..rivet import given_geometry, seat_note, write_drawing

@@ -2,12 +2,13 @@
 // gaps close on the screen when they close in the bearing.
 //
 //   Z, scale, bearing   number of balls, magnification, dimensions by their parameter names [m]
+//   bend                magnification of what elastic halves move by their modes, 0 or left out for rigid ones
 //   range               largest race load, pocket force and stress and the least stress, to which arrows and colours belong: {race, pocket, stress, least}
 //   has(name)           whether a channel is known
 //
 // What is drawn comes from a reader `see` of one instant, with the channels' names of animation.py: see.angle(name), see.value(name), see.peak(name).
 "use strict";
-function bearingDrawing({ Z, scale, bearing, range, has }) {
+function bearingDrawing({ Z, scale, bend, bearing, range, has }) {
   const colours = {};
   const mm = (name) => 1e3 * bearing[name];
   const R = mm("bearing.D") / 2, pitch = mm("bearing.d_m") / 2;
@@ -16,7 +17,7 @@ function bearingDrawing({ Z, scale, bearing, range, has }) {
   const cageOut = mm("cage.D_o") / 2, cageIn = mm("cage.D_i") / 2, rivet = 0.075 * mm("bearing.D") + 0.2;
   function readColours() {
     const style = getComputedStyle(document.documentElement);
-    for (const name of ["ink", "muted", "line", "paper", "ring", "ball", "cage", "cage-back", "head", "middle", "force"]) colours[name] = style.getPropertyValue("--" + name).trim();
+    for (const name of ["ink", "muted", "line", "paper", "ring", "ball", "cage", "cage-back", "head", "middle", "force", "amber"]) colours[name] = style.getPropertyValue("--" + name).trim();
   }
   function prepare(canvas) {
     const width = canvas.clientWidth, height = canvas.clientHeight, ratio = window.devicePixelRatio || 1;
@@ -62,6 +63,22 @@ function bearingDrawing({ Z, scale, bearing, range, has }) {
     g.stroke();
   }
 
+  // Motions (along X, outward, turning) [mm] of half h as drawn at the angle a of the cage, in which pocket 1 is at 0: those at the rivets, joined by the
+  // waves of the fewest lobes that go through all of them.
+  function bending(see) {
+    if (!bend) return () => [0, 0, 0];
+    const at = [0, 1].map((h) => Array.from({ length: Z }, (_, k) => ["x", "r", "t"].map((name) => 1e3 * bend * see.value(`${k + 1}_flex_${h}_${name}`))));
+    return (h, a) => {
+      const sum = [0, 0, 0];
+      for (let k = 0; k < Z; k++) {
+        const d = a / 2 - (Math.PI * (k + 0.5)) / Z, under = Z % 2 ? Math.sin(d) : Math.tan(d);
+        const weight = Math.abs(Math.sin(d)) < 1e-9 ? 1 : Math.sin(Z * d) / (Z * under);
+        for (let c = 0; c < 3; c++) sum[c] += weight * at[h][k][c];
+      }
+      return sum;
+    };
+  }
+
   // Seen along -X: Y to the right, Z up.
   function drawFront(canvas, see, follow) {
     const { g, width, height } = prepare(canvas);
@@ -92,16 +109,25 @@ function bearingDrawing({ Z, scale, bearing, range, has }) {
     g.stroke();
     g.setLineDash([]);
 
+    const flex = bending(see);
+    const bodies = [0, 1].map((h) => [...["y", "z"].map((name) => 1e3 * scale * see.value(`half_${h}.${name}`)), psi + (h ? 0.5 : -0.5) * scale * see.value("twist")]);
+    const at = (h, r, a) => {  // a place of half h, at the azimuth a without its bending
+      const [cy, cz, turn] = bodies[h], [, u, v] = flex(h, a - turn);
+      return [cy + (r + u) * Math.cos(a + v / r), cz + (r + u) * Math.sin(a + v / r)];
+    };
     const webs = (h, fill) => {
-      const cy = 1e3 * scale * see.value(`half_${h}.y`), cz = 1e3 * scale * see.value(`half_${h}.z`);
-      const turn = psi + (h ? 0.5 : -0.5) * scale * see.value("twist");
+      const [cy, cz, turn] = bodies[h];
+      const edge = (r, from, to) => {
+        if (!bend) g.arc(cy, cz, r, from, to, to < from);
+        else for (let i = 0; i <= 8; i++) g.lineTo(...at(h, r, from + ((to - from) * i) / 8));
+      };
       const wall = (r) => Math.asin(Math.min(0.95, pocket / r));
       for (let k = 0; k < Z; k++) {
         const a = turn + (2 * Math.PI * k) / Z, b = turn + (2 * Math.PI * (k + 1)) / Z, c = (a + b) / 2;
         const out = Math.min(wall(cageOut), (b - a) / 2), inn = Math.min(wall(cageIn), (b - a) / 2);
         g.beginPath();
-        g.arc(cy, cz, cageOut, a + out, b - out);
-        g.arc(cy, cz, cageIn, b - inn, a + inn, true);
+        edge(cageOut, a + out, b - out);
+        edge(cageIn, b - inn, a + inn);
         g.closePath();
         g.fillStyle = fill;
         g.fill();
@@ -109,7 +135,7 @@ function bearingDrawing({ Z, scale, bearing, range, has }) {
         g.stroke();
         if (h === 1) {
           g.beginPath();
-          g.arc(cy + pitch * Math.cos(c), cz + pitch * Math.sin(c), rivet, 0, 2 * Math.PI);
+          g.arc(...at(h, pitch, c), rivet, 0, 2 * Math.PI);
           g.fillStyle = has("stress" + (k + 1)) ? heat(see.peak("stress" + (k + 1))) : colours.muted;
           g.fill();
           g.stroke();
@@ -146,6 +172,23 @@ function bearingDrawing({ Z, scale, bearing, range, has }) {
         arrow(g, r * c, r * s, r * c - s * side, r * s + c * side, colours.head, 0.9);
       }
     }
+    if (bend) {
+      g.lineWidth = 0.8 / zoom;
+      g.strokeStyle = colours.muted;
+      g.setLineDash([1 / zoom, 3 / zoom]);
+      g.beginPath();
+      g.arc(bodies[1][0], bodies[1][1], pitch, 0, 2 * Math.PI);
+      g.stroke();
+      g.setLineDash([]);
+      for (const [h, colour] of [[0, colours.muted], [1, colours.amber]]) {
+        g.beginPath();
+        for (let i = 0; i < 12 * Z; i++) g.lineTo(...at(h, pitch, bodies[h][2] + (2 * Math.PI * i) / (12 * Z)));
+        g.closePath();
+        g.lineWidth = 1.5 / zoom;
+        g.strokeStyle = colour;
+        g.stroke();
+      }
+    }
     const F_y = see.value("shaft.F_y"), F_z = see.value("shaft.F_z"), F = Math.hypot(F_y, F_z);
     if (F > 0) arrow(g, ry, rz, ry + (0.6 * R * F_y) / F, rz + (0.6 * R * F_z) / F, colours.ink, 1);
     g.restore();
@@ -171,12 +214,14 @@ function bearingDrawing({ Z, scale, bearing, range, has }) {
     g.scale(zoom, -zoom);
     g.lineWidth = 0.8 / zoom;
     g.strokeStyle = colours.ink;
+    const flex = bending(see);
     const shift = (h, s) => {  // displacement of the half at the place s along the strip, magnified [mm]
-      const a = (s / pitch) - Math.PI / Z + psi, r = pitch * 1e-3, c = Math.cos(a), n = Math.sin(a);
+      const own = (s / pitch) - Math.PI / Z, [u, , v] = flex(h, own);
+      const a = own + psi, r = pitch * 1e-3, c = Math.cos(a), n = Math.sin(a);
       const twist = (h ? 0.5 : -0.5) * see.value("twist");
       return [
-        1e3 * scale * (c * see.value(`half_${h}.z`) - n * see.value(`half_${h}.y`) + r * twist),
-        1e3 * scale * (see.value(`half_${h}.x`) - see.value(`half_${h}.tilt_z`) * r * c + see.value(`half_${h}.tilt_y`) * r * n),
+        1e3 * scale * (c * see.value(`half_${h}.z`) - n * see.value(`half_${h}.y`) + r * twist) + v,
+        1e3 * scale * (see.value(`half_${h}.x`) - see.value(`half_${h}.tilt_z`) * r * c + see.value(`half_${h}.tilt_y`) * r * n) + u,
       ];
     };
     for (const h of [0, 1]) {
@@ -227,5 +272,5 @@ function bearingDrawing({ Z, scale, bearing, range, has }) {
     g.restore();
   }
 
-  return { colours, readColours, prepare, drawFront, drawStrip };
+  return { colours, readColours, prepare, bending, drawFront, drawStrip };
 }
