@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from enum import IntEnum
 
 MODEL_IDENTIFIER = "RivetedBearing"
-MODEL_GUID = "{0021ca48-13b8-23e6-d686-633195b424fc}"
+MODEL_GUID = "{27d0ff4c-e3e4-3658-9454-85cb68d9ae1c}"
 Z = 9
 
 

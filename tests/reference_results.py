@@ -20,7 +20,13 @@ import numpy as np
 # elementary.h takes no other function from the system: with the systems' own, differences of 1e-16 at the start reached 1e-2 in 0.6 ms, when one error test was
 # passed here and failed there.
 SAME = 1e-9
-FLOORS = {"m": 1e-7, "N": 0.1, "1": 1e-7, "rad": 1e-7}  # smaller ones are compared with these: a slip of 3e-11 m is known to 4e-18 m
+FLOORS = {
+    "m": 1e-7,
+    "N": 0.1,
+    "N.m": 2e-4,
+    "1": 1e-7,
+    "rad": 1e-7,
+}  # smaller ones are compared with these: a slip of 3e-11 m is known to 4e-18 m; 0.1 N at a pad's edge
 
 
 def read_reference(folder):

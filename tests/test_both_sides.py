@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from library import TWO_HALF
 from mechanics import RIGID_HALVES, SLICE, Instance, View, Z, pocket_loads, running_state
 from scipy.spatial.transform import Rotation
 
@@ -372,7 +373,7 @@ def test_directional_derivatives(core, motion, record_property):
 
     Central differences over twice 1e-3 of what changes a force by its half; contacts are smooth there.
     """
-    parameters = {"ring.motion": motion, "frame.radius": 0.1, "gravity.y": -9.81}
+    parameters = TWO_HALF | {"ring.motion": motion, "frame.radius": 0.1, "gravity.y": -9.81}
     given = {name: value for name, value in MOTIONS.items() if not name.endswith("_dot")} | {"shaft.tilt_y_dot": 0.0, "frame.omega_dot": 0.0}
     bearing = Instance(core, parameters, given)
     y, size = bearing.y, {"m": 1e-9, "m/s": 1e-6, "rad": 1e-8, "rad/s": 1e-4, "m/s2": 0.1, "rad/s2": 1.0}

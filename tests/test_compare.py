@@ -24,7 +24,7 @@ def model():
 def found(model):
     """A scene in which balls press on the cage from the start and a load jumps."""
     inputs = {"shaft.F_y": {"t": [0, 5e-5], "value": [2994.0, 2500.0], "interpolation": "hold"}}
-    parameters = {"start.spacing": 0.5, "cage.pocket_clearance": 2e-5}
+    parameters = {"scene.cage": "two_half", "start.spacing": 0.5, "cage.pocket_clearance": 2e-5}
     return compare(model, load_scene("demo", model, ("the test", {"inputs": inputs, "parameters": parameters})), short=1e-4, long=0.0)
 
 

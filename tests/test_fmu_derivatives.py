@@ -6,7 +6,7 @@ import re
 import fmpy
 import numpy as np
 import pytest
-from library import ROOT
+from library import ROOT, TWO_HALF
 from mechanics import SLICE, Instance, Z
 from slave import ERROR, OK, Slave
 
@@ -176,7 +176,7 @@ def test_output_derivatives_are_the_outputs_slopes(folder, record_property):
     names += [f"ball[{j + 1}].{name}" for j in range(Z) for name in ("Q_i", "Q_e", "alpha_i", "p_e", "Lambda_i", "omega_m", "spin_roll")]
     names += [f"rivet[{k + 1}].{name}" for k in range(Z) for name in ("N", "T", "V", "sigma_head")]
     h, exact, differences = 1e-8, [], []
-    slave = start(folder, {"cage.pocket_clearance": 1e-4}, tolerance=1e-8)
+    slave = start(folder, TWO_HALF | {"cage.pocket_clearance": 1e-4}, tolerance=1e-8)
     drive(slave, H, 2, 30)
     for _ in range(10):
         drive(slave, 7e-5, 2, 1)
@@ -255,6 +255,10 @@ SCENES = {
         {"shaft.tilt_z": 2e-3},
     ),
 }
+
+
+SCENES = {name: (TWO_HALF | parameters, inputs) for name, (parameters, inputs) in SCENES.items()}
+SCENES["elastic"] = {"scene.cage": 3, "ring.tilt_mode": 2}, {"shaft.tilt_z": 1e-3, "shaft.F_z": 400.0, "frame.omega": 50.0}
 
 
 @pytest.mark.parametrize("scene", SCENES)

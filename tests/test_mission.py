@@ -333,6 +333,7 @@ t_end = 0.004
 step = "0.02 ms"
 [parameters]
 start.settle = "1 ms"
+scene.cage = "two_half"
 [[point]]
 name = "one"
 hours = 2

@@ -238,7 +238,7 @@ def test_derivatives_see_a_small_error(core):
     """The comparison is not blind: a millionth of a coefficient shows."""
     names = ("bearing.E", "oil.B", "cage.lambda", "cage.land_width", "joint.mu", "oil.C_d")
     for name in names:
-        scene = {"scene.drag": variables.Drag.ISOLATED} if name == "oil.C_d" else {}  # balls in a row hardly feel their own drag
+        scene = TWO_HALF | ({"scene.drag": variables.Drag.ISOLATED} if name == "oil.C_d" else {})  # balls in a row hardly feel their own drag
         model = Model.of(scene)
         y, _ = start_state(model)
         c = core.model(scene | {name: (1.0 + 1e-6) * variables.PARAMETERS[name].start})

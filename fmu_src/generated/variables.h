@@ -9,7 +9,7 @@
 
 #define FMI2_FUNCTION_PREFIX RivetedBearing_  // of the functions of a source-code FMU
 #define MODEL_IDENTIFIER "RivetedBearing"
-#define MODEL_GUID "{0021ca48-13b8-23e6-d686-633195b424fc}"  // digest of the table
+#define MODEL_GUID "{27d0ff4c-e3e4-3658-9454-85cb68d9ae1c}"  // digest of the table
 
 enum { Z = 9 };  // number of balls
 
