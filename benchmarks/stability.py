@@ -256,7 +256,7 @@ def tiny_steps(count=10_000_000, h=1e-9):
 
 
 def long_run(t_end=100.0, h=1e-4):
-    """The working point for 100 s: a line every second."""
+    """The working point with rigid halves for 100 s: a line every second."""
     instance = CoreInstance(core_library(), {"scene.stress": 4, "scene.statistics": 2})
     psi_0, rows = instance.y[variables.CAGE_PSI][0], []
     names = ("bearing.energy_residual", "bearing.power_loss", "stat.Q_c_rms", "stat.time", "stat.cage_omega", "solver.steps", "cage.dislocation")
@@ -297,7 +297,7 @@ def main():
     parser.add_argument("--family", help="only this family of scenes")
     parser.add_argument("--name", help="only scenes whose name contains this")
     parser.add_argument("--workers", type=int, default=2)
-    parser.add_argument("--elastic", action="store_true", help="elastic cage halves in every scene whose rivets have a table with modes")
+    parser.add_argument("--elastic", action="store_true", help="elastic cage halves in every scene whose rivets have a table with modes, instead of rigid ones")
     parser.add_argument("--long", action="store_true", help="the long runs instead of the matrix")
     parser.add_argument("--page", action="store_true", help="only write the page")
     chosen = parser.parse_args()
@@ -305,12 +305,12 @@ def main():
         write("stability_long", {"tiny_steps": tiny_steps(), "many_turns": many_turns(), "long_run": long_run()}, short=False)
     elif not chosen.page:
         scenes = [s for s in matrix() if chosen.family in (None, s.family) and (chosen.name or "") in s.name]
-        if chosen.elastic:
-            scenes = [replace(s, parameters={"scene.cage": variables.CageModel.ELASTIC.value} | s.parameters) for s in scenes if s.bearing not in SHANKS]
+        cage = {"scene.cage": (variables.CageModel.ELASTIC if chosen.elastic else variables.CageModel.TWO_HALF).value}
+        scenes = [replace(s, parameters=cage | s.parameters) for s in scenes if not (chosen.elastic and s.bearing in SHANKS)]
         for bearing in {scene.bearing for scene in scenes} - {"6207"}:
             say(f"building {bearing}")
             build_fmu(bearing)
-        demo = replace(DEMO, parameters={"scene.cage": variables.CageModel.ELASTIC.value}) if chosen.elastic else DEMO
+        demo = replace(DEMO, parameters=cage)
         records = run_all(scenes, demo, chosen.workers) if chosen.workers else run_share(scenes, demo)
         for text in problems(records):
             say(text)

@@ -62,7 +62,8 @@ def write_page(path, problems):
     slow = sorted((r for r in records if r["admissible"] and r["outcome"] == "finished"), key=lambda r: -r["ratio"])
     text = f"""# Stability
 
-{len(records)} scenes, random and extreme, each run to its end by `benchmarks/stability.py`: {count["finished"]} finished, {count["discarded"]} discarded,
+{len(records)} scenes, random and extreme, with rigid cage halves (`scene.cage = two_half`; [with elastic ones](#the-same-with-elastic-cage-halves) below), each run
+to its end by `benchmarks/stability.py`: {count["finished"]} finished, {count["discarded"]} discarded,
 {count["refused"]} refused, {count["crashed"]} crashed, {count["hung"]} hung, {count["not finite"]} with a value that is not finite.
 Measured {data["date"][:10]} at commit {data["commit"]} on {data["machine"]["processor"]}, processor times of one core.
 
@@ -131,7 +132,8 @@ def long_text(data):
 **{tiny["steps"]:,} communication steps of 1 ns**: no status but OK, clock off by {tiny["clock_error"]:.1e} s, energy residual {tiny["residual"]:.1e} J,
 {1e6 * tiny["cpu_per_step"]:.1f} µs of processor time each.
 
-**{last["t"]:g} s of the working point** ({last["psi"] / (2 * np.pi):,.0f} turns of the cage, {last["solver.steps"]:,.0f} steps): the energy residual is
+**{last["t"]:g} s of the working point** with rigid halves ({last["psi"] / (2 * np.pi):,.0f} turns of the cage, {last["solver.steps"]:,.0f} steps): the energy
+residual is
 {last["bearing.energy_residual"]:.2e} J, its mean drift {drift:.1e} W: {100 * abs(drift) / loss:.1g} % of the power lost, the work integral's bias at the
 default tolerance.
 The cage's angle and its mean speed, summed apart, differ by {phase(rows):.1e}; friction states stay within {1e6 * max(r["friction"] for r in rows):.2f} µm,

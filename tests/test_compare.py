@@ -63,7 +63,7 @@ def test_a_wrong_coefficient_shows(model, monkeypatch):
 def test_statistics_and_ledger(model, tmp_path):
     """Over a long horizon, here as short as can be: each of stat.* beside the FMU's scatter, where the energy went, and a picture of it all."""
     seen = []
-    scene = replace(load_scene("demo", model), step=5e-4)
+    scene = replace(load_scene("demo", model, ("the test", {"parameters": {"scene.cage": "two_half"}})), step=5e-4)
     full = compare(model, scene, short=2e-5, long=1e-3, seeds=2, progress=lambda what, share: seen.append(what))
     assert {"stat.Q_c_mean", "stat.sigma_head_p999", "stat.cage_omega"} <= {row.name for row in full.statistics}
     omega = next(row for row in full.statistics if row.name == "stat.cage_omega")
@@ -89,7 +89,7 @@ def test_names():
 
 def test_the_tolerance_is_the_scenes(model):
     """A tolerance of the simulation takes the place of solver.tol, as in the FMU; each is that of the first of three runs."""
-    settings = {"parameters": {"solver.tol": 3e-4}}
+    settings = {"parameters": {"scene.cage": "two_half", "solver.tol": 3e-4}}
     assert compare(model, load_scene("demo", model, ("test", settings)), short=1e-5, long=0.0).tolerances[0] == 3e-4
     settings["simulation"] = {"tolerance": 2e-3}
     assert compare(model, load_scene("demo", model, ("test", settings)), short=1e-5, long=0.0).tolerances[0] == 2e-3

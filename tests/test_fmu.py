@@ -587,7 +587,7 @@ def count_allocations(program, folder, steps, h):
 
 
 @pytest.mark.skipif(not LINUX or SANITIZED, reason="replaces glibc's malloc")
-@pytest.mark.parametrize(("steps", "h"), [(200, H), (20000, 1e-8), pytest.param(1_000_000, 1e-8, marks=pytest.mark.slow)])
+@pytest.mark.parametrize(("steps", "h"), [(200, H), *(pytest.param(steps, 1e-8, marks=pytest.mark.slow) for steps in (20_000, 1_000_000))])
 def test_memory(allocations, folder, steps, h):
     """No allocation in a step, in reading outputs and derivatives, from the first step on; no page more after many steps or 500 lives of instances."""
     allocated, grown, left, pages = count_allocations(allocations, folder, steps, h)

@@ -315,6 +315,7 @@ def test_loads_of_joints_under_impacts(full):
     assert np.all(np.abs(p999[:5]) < 0.01)
 
 
+@pytest.mark.slow
 def test_steps_in_time_and_the_inverse_transform(full):
     """Bonded joints under one sequence by exact steps of 60 modes and by Laplace's inversion: two ways in time.
 

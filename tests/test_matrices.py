@@ -20,7 +20,7 @@ OMEGA = 1909.9
 @pytest.fixture(scope="module")
 def case(fmu):
     model = Model(fmu)
-    return model, scene_case("demo", model), load_scene("demo", model)
+    return model, scene_case("demo", model), load_scene("demo", model, ("the test", {"parameters": {"scene.cage": "two_half"}}))
 
 
 def test_stiffness_is_the_loads_derivative(case):

@@ -28,6 +28,9 @@ paper's; the sweeps are in `riveted_bearing/data/studies/`.
 - These figures depend on conditions that the paper leaves open, each of which is varied below: the direction of a tilt against the loads (Fig. 15), the
   support of the ring (Figs. 13 and 14), the local bending of the cage halves (Fig. 13), the clearances (Fig. 16), and how the two halves share a pocket force
   (beside Fig. 10).
+- The cage halves are rigid in their motion (`scene.cage = two_half`), because the paper's equations move each half as a rigid body. What
+  elastic halves, the default elsewhere, make of the same points of speed, fit and tilt stands in
+  [validation.md](validation.md#what-the-load-path-and-elastic-halves-change).
 - Rivets are elastic here: a figure beyond yield (590 MPa, assumed) tells how far the load exceeds yield, not the stress.
 - **Verdict**: *reproduced* if all conditions of a claim hold with their confidence, *partly* if some do, *not* if none does. The conditions are in
   `riveted_bearing/paper_study/claims.py`.
