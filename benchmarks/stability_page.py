@@ -62,7 +62,7 @@ def write_page(path, problems):
     slow = sorted((r for r in records if r["admissible"] and r["outcome"] == "finished"), key=lambda r: -r["ratio"])
     text = f"""# Stability
 
-{len(records)} scenes, random and extreme, with rigid cage halves (`scene.cage = two_half`; [with elastic ones](#the-same-with-elastic-cage-halves) below), each run
+{len(records)} scenes, random and extreme, with rigid cage halves (`scene.cage = two_half`; elastic ones: [below](#the-same-with-elastic-cage-halves)), each run
 to its end by `benchmarks/stability.py`: {count["finished"]} finished, {count["discarded"]} discarded,
 {count["refused"]} refused, {count["crashed"]} crashed, {count["hung"]} hung, {count["not finite"]} with a value that is not finite.
 Measured {data["date"][:10]} at commit {data["commit"]} on {data["machine"]["processor"]}, processor times of one core.
