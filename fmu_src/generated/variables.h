@@ -9,7 +9,7 @@
 
 #define FMI2_FUNCTION_PREFIX RivetedBearing_  // of the functions of a source-code FMU
 #define MODEL_IDENTIFIER "RivetedBearing"
-#define MODEL_GUID "{27d0ff4c-e3e4-3658-9454-85cb68d9ae1c}"  // digest of the table
+#define MODEL_GUID "{45ce6d5d-bcdb-6153-9783-d81d2323c4af}"  // digest of the table
 
 enum { Z = 9 };  // number of balls
 
