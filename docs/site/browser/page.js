@@ -19,7 +19,8 @@
   const shownUnit = (unit) => unit.replace("um", "µm").replace("deg", "°");
   function scene() {
     const line = (s) => `${s.name} = "${Number(s.input.value).toFixed(digits(s))} ${s.unit}"`;
-    const parameters = [...sliders.filter((s) => !s.live).map(line), ...Object.entries(data.fixed).map(([name, value]) => `${name} = ${value}`)];
+    const parameters = [...sliders.filter((s) => !s.live).map(line), ...Object.entries(data.fixed).map(([name, value]) => `${name} = ${value}`),
+      ...Object.entries(data.choices).map(([name, item]) => `${name} = "${item}"`)];
     find("scene").textContent = ['description = "From the page"', "", "[simulation]", "t_end = 0.4", "step = 1e-4", "", "[parameters]", ...parameters,
       "", "[inputs]", ...sliders.filter((s) => s.live).map(line)].join("\n") + "\n";
   }

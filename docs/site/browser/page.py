@@ -31,6 +31,7 @@ SLIDERS = (  # variable, label, unit, least, largest, step
     ("pulse.F_r", "Impacts", "N", 0, 4000, 50),
 )
 FIXED = {"pulse.count": 1_000_000}  # impacts go on as long as the page runs
+CHOICES = {"scene.cage": variables.CageModel.TWO_HALF}  # rigid halves, which a browser computes fast enough to watch
 SWITCHES = {"scene.statistics": int(variables.Switch.ON)}  # as riveted-bearing run does without being told
 CHANNELS = (
     *(f"half_{h}.{name}" for h in (0, 1) for name in ("x", "y", "z", "psi", "tilt_y", "tilt_z")),
@@ -87,7 +88,8 @@ def page(core):
         "settle": start["start.settle"],
         "sliders": list(sliders()),
         "fixed": FIXED,
-        "switches": SWITCHES,
+        "switches": SWITCHES | {name: int(item) for name, item in CHOICES.items()},
+        "choices": {name: item.name.lower() for name, item in CHOICES.items()},
         "channels": CHANNELS,
         "peaks": PEAKS,
         "figures": FIGURES,
