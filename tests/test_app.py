@@ -356,6 +356,17 @@ shaft.omega = "6000 rev/min"
     assert document["parameters"]["bearing.D"] == 0.005 and document["parameters"]["ring.tilt_mode"] == "free" and document["Z"] == 12
 
 
+def test_halves_are_elastic_where_the_table_has_modes(tmp_path):
+    """The shipped table has them; closed forms have none: their FMU starts with rigid halves, and a file that asks for elastic ones is refused."""
+    (tmp_path / "mine.toml").write_text('[parameters]\nscene.cage = "elastic"')
+    plain, asked = bearing_case("6207"), bearing_case(tmp_path / "mine.toml")
+    assert start_document(plain, DEFAULT_TABLE)["parameters"]["scene.cage"] == "elastic"
+    without = closed_form_table(plain, tmp_path)
+    assert start_document(plain, without)["parameters"]["scene.cage"] == "two_half"
+    with pytest.raises(UserError, match=r"mine: scene.cage = elastic: closed forms.* no vibration modes of the cage halves; allowed are two_half, rigid"):
+        start_document(asked, without)
+
+
 def closed_form_table(case, folder):
     """A rivet table for a case, in a moment."""
     path = folder / "table.json"
