@@ -49,7 +49,7 @@ def make_table(geometry, coarse=False, workers=2, progress=_quiet, hold_out=320,
     fit = plastic_fit.plastic_fit(geometry, fine=fine, progress=stage("interference"))
     elastic = half_loads.elastic_half(geometry, half.COARSE if coarse else None)
     alone = half_loads.JointAlone(elastic)
-    cage = half_loads.make_half(elastic, alone, half_loads.COARSE_KNOTS if coarse else None, stage("cage half"))
+    cage = half_loads.make_half(elastic, alone, stage("cage half"))
     vibration, report = made_modes(elastic, alone, cage, modes, stage("modes"))
     result = assemble("fe_coarse" if coarse else "fe", joint, knots, samples, fit, cage, vibration)
     if hold_out:

@@ -96,7 +96,7 @@ def half_data(geometry):
     k = 2.0 * g.E_flange * width * height**3 / (np.pi * g.d_m / Z) ** 3
     chain = np.zeros((Z, 1, 1))
     chain[[0, 1, -1], 0, 0] = 1.0, -0.5, -0.5
-    knots = half_loads.COARSE_KNOTS
+    knots = half_loads.KNOTS
     tau, q, psi = (splines.sites(knots[name]) for name in AXES)
     values = np.array([[[joint_law_samples(g, *law_load(half_loads.LENGTH, a, b, c)) for c in psi] for b in q] for a in tau])
     law = JointLaw(

@@ -22,7 +22,6 @@ from .lcp import Contact
 
 CHI = np.deg2rad([0.0, 6.0, 12.0, 20.0, 30.0, 42.0, 56.0, 72.0, 90.0])
 KNOTS = {"tau": np.linspace(0.0, 1.0, 11), "q": np.linspace(-1.0, 1.0, 11), "psi": np.linspace(-1.0, 1.0, 11)}  # equal steps: readers need no search
-COARSE_KNOTS = {name: knots[:: 1 if name == "tau" else 2] for name, knots in KNOTS.items()}
 LENGTH = 1.5e-3  # l of the law: about the distance of the pad's edge from the rivet
 
 
@@ -170,9 +169,9 @@ def pair_stiffness(contact, P=20.0):
     return tuple(float((b - a) * P / (separation(b * P) - separation(a * P))) for a, b in ((-0.25, 0.25), (3.0, 4.0)))
 
 
-def make_half(elastic, alone, knots=None, progress=lambda done, total: None):
-    """HalfData of a condensed half (elastic_half) with its pads (JointAlone), by contact solutions at the sites of `knots`."""
-    law = make_law(elastic, alone, knots)
+def make_half(elastic, alone, progress=lambda done, total: None):
+    """HalfData of a condensed half (elastic_half) with its pads (JointAlone)."""
+    law = make_law(elastic, alone)
     progress(1, 2)
     spin = alike_rows(elastic, alone, centrifugal(elastic))
     law.sign = np.sign(spin[4])
