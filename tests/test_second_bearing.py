@@ -37,9 +37,10 @@ def test_elastic_halves_of_many_balls(tmp_path, Z, sizes):
 
 @pytest.mark.slow
 def test_joints_of_a_large_bearing_open_alike(tmp_path):
-    """A 110-mm bearing at rest under the centrifugal load of 4,000 to 12,000 r/min, which makes the rivets' tension up to seven times the preload: elastic
-    halves have the tension of the static load path, 5 % (observed 0.8, 3.3, 2.6 %), and M to 0.5 %.  Half the knots along two axes of the joint's law made it twice
-    as large: what the modes leave of a half is so stiff that the law's argument is a small difference of large numbers.
+    """A 110-mm bearing at rest under the centrifugal load of 4,000 to 12,000 r/min, which makes the rivets' tension up to seven times the preload.
+
+    Elastic halves have the tension of the static load path, 5 % (observed 0.8, 3.3, 2.6 %), and M to 0.5 %.  Half the knots along two axes of the joint's
+    law made the tension twice as large: the modes leave so stiff a half that the law's load is a small difference of large numbers.
     """
     fmu = build(str(ROOT / "benchmarks" / "bearings" / "110mm.toml"), out=tmp_path / "110.fmu")
     for speed in (4000.0, 8000.0, 12000.0):
