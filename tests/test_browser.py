@@ -76,7 +76,7 @@ RUN = """async ([channels, step, frames]) => {
     worker.onmessage = ({ data }) => { if (data.clip) done(data.clip); if (data.stopped) fail(data.stopped); };
   });
   worker.postMessage({ create: { core, channels, peaks: [], figures: [] } });
-  worker.postMessage({ start: { values: {}, types: {} }, clip: { frames, interval: step } });
+  worker.postMessage({ start: { values: { "scene.cage": 1 }, types: {} }, clip: { frames, interval: step } });
   const result = await clip;
   worker.terminate();
   return result;
