@@ -488,8 +488,8 @@ def cage_forces(fmu, short):
         soft.append((name, *(f"{p999:.1f}, {most:.1f}" for _, most, p999, _ in found)))
     softness = (
         "What it takes to come near 25 N: the modulus of the whole cage divided by 10 and by 100, under thrust and radial load. At 12,000 r/min the impacts'"
-        " forces fall with it to a quarter, twice the measured ones; at 8,000 r/min balls hit too rarely for a trend. A part of the cage that bends by itself, with"
-        " a natural frequency far below the 10 kHz of the pulses, would not follow what is left; such a part is not in the model."
+        " forces fall with it to a quarter, twice the measured ones; at 8,000 r/min balls hit too rarely for a trend. A part of the cage that bends by itself,"
+        " with a natural frequency far below the 10 kHz of the pulses, would not follow what is left; such a part is not in the model."
     )
     head = ("99.9 %, largest [N]", "8,000 r/min", "12,000 r/min")
     return section("Ball–cage forces of a 110-mm bearing", text, table(columns, rows), softness, table(head, soft))
