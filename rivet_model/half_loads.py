@@ -21,6 +21,7 @@ from .joint_contact import JointContact, rivet_compliance
 from .lcp import Contact
 
 CHI = np.deg2rad([0.0, 6.0, 12.0, 20.0, 30.0, 42.0, 56.0, 72.0, 90.0])
+# Of the joint's law, in coarse tables too: with half of them the tension of elastic halves, a small difference of large numbers, is twice too large.
 KNOTS = {"tau": np.linspace(0.0, 1.0, 11), "q": np.linspace(-1.0, 1.0, 11), "psi": np.linspace(-1.0, 1.0, 11)}  # equal steps: readers need no search
 LENGTH = 1.5e-3  # l of the law: about the distance of the pad's edge from the rivet
 
@@ -135,10 +136,9 @@ def alike_rows(elastic, alone, column):
     return np.concatenate([M[0, :1], [0.0, 0.0], M[0, 1:], rivet[0]])
 
 
-def make_law(elastic, alone, knots=None, progress=lambda done, total: None):
-    """The joint's law of the geometry, from contact solutions of one pad at the sites of the knots."""
-    knots = knots or KNOTS
-    sites = [splines.sites(knots[name]) for name in AXES]
+def make_law(elastic, alone):
+    """The joint's law of the geometry, from contact solutions of one pad at the sites of KNOTS."""
+    sites = [splines.sites(KNOTS[name]) for name in AXES]
     values = np.zeros((*(len(s) for s in sites), len(NUMBERS)))
     for j, q in enumerate(sites[1]):
         for k, psi in enumerate(sites[2]):
@@ -147,10 +147,9 @@ def make_law(elastic, alone, knots=None, progress=lambda done, total: None):
                 load, P = law_load(LENGTH, tau, q, psi)
                 move, rivet, active = alone.solve(load, P, active)
                 values[i, j, k] = np.concatenate([move, rivet])
-        progress(j + 1, len(sites[1]))
     K = elastic.circulant(alone.K_waves)
     slip = 0.5 * elastic.circulant(elastic.opposed[0])
-    return JointLaw(LENGTH, knots, splines.interpolate([knots[name] for name in AXES], values), K, slip)
+    return JointLaw(LENGTH, KNOTS, splines.interpolate([KNOTS[name] for name in AXES], values), K, slip)
 
 
 def pair_stiffness(contact, P=20.0):

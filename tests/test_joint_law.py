@@ -16,14 +16,14 @@ ANGLES = np.deg2rad([3.0, 7.0, 12.0, 25.0, 50.0, 80.0])  # of the direct solutio
 class Chain:
     """What the table holds of a half, made on one mesh, and the direct contact of both halves on the same or on another one."""
 
-    def __init__(self, size, direct_size, knots=None):
+    def __init__(self, size, direct_size):
         angles = [*ANGLES, np.pi - ANGLES[1]]  # the last one on the pocket's other side
         points = np.stack([angles, np.full(len(angles), G.d_m / 2)], axis=1)
         self.elastic, self.rivet = half_loads.elastic_half(G, size, points), joint_contact.rivet_compliance(G)
         self.alone = half_loads.JointAlone(self.elastic, self.rivet)
         self.direct_half = self.elastic if direct_size == size else half_loads.elastic_half(G, direct_size, points)
         self.contact = joint_contact.JointContact(self.direct_half, self.rivet)
-        self.law = half_loads.make_law(self.elastic, self.alone, knots)
+        self.law = half_loads.make_law(self.elastic, self.alone)
         self.spin = half_loads.alike_rows(self.elastic, self.alone, half_loads.centrifugal(self.elastic))
         self.law.sign = np.sign(self.spin[4])
         self.nodes = len(half_loads.CHI)
