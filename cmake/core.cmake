@@ -3,7 +3,7 @@
 include(CheckCCompilerFlag)
 
 # Files that work on packets of balls: compiled once for each instruction set, chosen at run time.
-set(kernel_files rhs.c ball.c race_contact.c drag.c pocket.c cage_joint.c cage_elastic.c elastic_wall.c land_film.c ring.c  # the right-hand side
+set(kernel_files rhs.c ball.c race_contact.c drag.c pocket.c cage_joint.c cage_elastic.c cage_substeps.c elastic_wall.c land_film.c ring.c  # the right-hand side
     vector_ops.c implicit.c verlet.c                                                              # what the integrator does with it
     rivets.c half_path.c joint_law.c joint_follow.c rivet_rom.c)                                                 # stress after each step
 

@@ -208,7 +208,7 @@ static void derive_at(Bearing *b, const Inputs *u)
     model_derive(&b->hot, &b->d);
     b->model.elastic = NULL;
     if (b->s.p.scene.cage == CAGE_MODEL_ELASTIC && b->elastic != NULL) {
-        elastic_half_derive(&b->hot, &b->d, b->s.tolerance, b->elastic);
+        elastic_half_derive(&b->hot, &b->d, b->elastic);
         b->model.elastic = b->elastic;
     }
     integrator_tolerance(b->integrator, b->s.tolerance);

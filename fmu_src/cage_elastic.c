@@ -43,12 +43,12 @@ INLINE void pads_follow(const ElasticHalf *half, const scalar *q, int parts, int
     for (int c = 0; c < parts; c++) memcpy(to[c], &row[c * Z], Z * sizeof *row);
 }
 
-static void motion_out_of_plane(const ElasticHalf *half, const scalar *S, ball_array to[PAD_OUT])
+void cage_elastic_out(const ElasticHalf *half, const scalar *S, ball_array to[PAD_OUT])
 {
     pads_follow(half, S, PAD_OUT, OUT_OCTETS, half->out[0], to);
 }
 
-static void motion_in_plane(const ElasticHalf *half, const scalar *D, ball_array to[PAD_IN])
+void cage_elastic_in(const ElasticHalf *half, const scalar *D, ball_array to[PAD_IN])
 {
     pads_follow(half, D, PAD_IN, IN_OCTETS, half->in[0], to);
 }
@@ -72,9 +72,9 @@ void cage_elastic_kinematics(const Model *model, const scalar *y, Work *w)
         w->q_dot[0][i] = inv_root * (S_dot[i] - D_dot[i]), w->q_dot[1][i] = inv_root * (S_dot[i] + D_dot[i]);
         w->wall_force[0][i] = w->wall_force[1][i] = 0.0;
     }
-    motion_out_of_plane(half, S, w->pad_out);
-    motion_in_plane(half, D, w->pad_in);
-    motion_in_plane(half, D_dot, w->pad_in_dot);
+    cage_elastic_out(half, S, w->pad_out);
+    cage_elastic_in(half, D, w->pad_in);
+    cage_elastic_in(half, D_dot, w->pad_in_dot);
     for (int h = 0; h < 2; h++) {
         mode_array stored, moved;
         for (int i = 0; i < MODES; i++) {
@@ -96,13 +96,6 @@ INLINE void add_turned(const Model *model, int k, ball_array motion[PAD_IN], sca
     const wide r = wide_load(&motion[0][k]), t = wide_load(&motion[1][k]);
     wide_store(&y[k], wide_load(&y[k]) + (c * r - s * t));
     wide_store(&z[k], wide_load(&z[k]) + (s * r + c * t));
-}
-
-void cage_elastic_slip(const Model *model, const scalar *y, Work *w)
-{
-    motion_in_plane(model->elastic, &y[Y_MODE_D_DOT], w->pad_in_dot);
-    for (int k = 0; k < PACKETS * LANE_WIDTH; k += LANE_WIDTH)
-        add_turned(model, k, w->pad_in_dot, w->v_jy, w->v_jz);
 }
 
 void cage_elastic_pads(const Model *model, Work *w)
@@ -197,42 +190,60 @@ static void joints_answer(const ElasticHalf *half, const ball_array P, const con
     }
 }
 
-void cage_elastic_joints(const Model *model, Work *w)
+scalar cage_elastic_speed_2(const Work *w)
+{
+    const scalar s_0 = w->half[0].s + w->frame_omega, s_1 = w->half[1].s + w->frame_omega;
+    return 0.5 * (s_0 * s_0 + s_1 * s_1);
+}
+
+void cage_elastic_preload(const Model *model, scalar omega_2, JointPreload *preload)
+{
+    const Derived *d = model->d;
+    const scalar more_P = d->spin[ROW_DP] * omega_2;
+    for (int k = 0; k < LANES; k++) preload->P[k] = scalar_max(d->P[k] + more_P, 0.0);
+    elastic_relief(model->elastic, scalar_max(d->P_mean + more_P, 0.0), omega_2, preload->relief);
+}
+
+void cage_elastic_loads(const Model *model, const JointPreload *preload, Work *w)
 {
     const ElasticHalf *half = model->elastic;
-    const Derived *d = model->d;
-    const scalar s_0 = w->half[0].s + w->frame_omega, s_1 = w->half[1].s + w->frame_omega;
-    const scalar omega_2 = 0.5 * (s_0 * s_0 + s_1 * s_1), more_P = d->spin[ROW_DP] * omega_2;
-    ball_array bonded[PAD_OUT], relief[PAD_OUT], P;
-    scalar rest[PAD_OUT];
-    for (int k = 0; k < LANES; k++) P[k] = scalar_max(d->P[k] + more_P, 0.0);
+    ball_array bonded[PAD_OUT], relief[PAD_OUT];
     stiffness_times(half, w->e, bonded);
-    elastic_relief(half, scalar_max(d->P_mean + more_P, 0.0), omega_2, rest);
-    for (int a = 0; a < 3; a++)
-        for (int k = 0; k < Z; k++) w->joint_behind[a][k] = bonded[a][k] - rest[a];
-    joints_answer(half, P, d->intact, w);
+    for (int a = 0; a < PAD_OUT; a++)
+        for (int k = 0; k < Z; k++) w->joint_behind[a][k] = bonded[a][k] - preload->relief[a];
+    joints_answer(half, preload->P, model->d->intact, w);
     for (int sweep = 0; sweep < JOINT_SWEEPS; sweep++) {
         stiffness_times(half, w->joint_move, relief);
-        for (int a = 0; a < 3; a++)
+        for (int a = 0; a < PAD_OUT; a++)
             for (int k = 0; k < Z; k++)
                 w->joint_behind[a][k] = bonded[a][k] - relief[a][k] + own_relief(half, w, a, k);
-        joints_answer(half, P, d->intact, w);
+        joints_answer(half, preload->P, model->d->intact, w);
     }
-
-    // loads; what rivets and plates carry
-    ball_array M_y, M_z;
-    const double inv_R = 2.0 / rivet_table.joint.d_m;
     for (int k = 0; k < Z; k++) {
-        for (int a = 0; a < 3; a++) w->joint_load[a][k] = w->joint_behind[a][k] - own_relief(half, w, a, k);
+        for (int a = 0; a < PAD_OUT; a++)
+            w->joint_load[a][k] = w->joint_behind[a][k] - own_relief(half, w, a, k);
         w->T[k] = scalar_max(w->joint_rivet[0][k], 0.0);
         w->N_plate[k] = scalar_max(w->T[k] - w->joint_load[0][k], 0.0);
-        const double c = d->rivet_y[k] * inv_R, s = d->rivet_z[k] * inv_R;
-        M_y[k] = w->joint_load[1][k] * c - w->joint_load[2][k] * s;
-        M_z[k] = w->joint_load[1][k] * s + w->joint_load[2][k] * c;
     }
     for (int k = Z; k < LANES; k++) {
         w->T[k] = w->N_plate[k] = 0.0;
-        for (int a = 0; a < 3; a++) w->joint_load[a][k] = 0.0;
+        for (int a = 0; a < PAD_OUT; a++) w->joint_load[a][k] = 0.0;
+    }
+}
+
+void cage_elastic_joints(const Model *model, Work *w)
+{
+    const Derived *d = model->d;
+    JointPreload preload;
+    cage_elastic_preload(model, cage_elastic_speed_2(w), &preload);
+    cage_elastic_loads(model, &preload, w);
+
+    ball_array M_y, M_z;
+    const double inv_R = 2.0 / rivet_table.joint.d_m;
+    for (int k = 0; k < Z; k++) {
+        const double c = d->rivet_y[k] * inv_R, s = d->rivet_z[k] * inv_R;
+        M_y[k] = w->joint_load[1][k] * c - w->joint_load[2][k] * s;
+        M_z[k] = w->joint_load[1][k] * s + w->joint_load[2][k] * c;
     }
 
     // moments on half 1, whose power is that of the rates of turn_y and turn_z
@@ -254,24 +265,10 @@ scalar cage_elastic_coriolis(const Model *model, const Work *w, int h)
     return w->more_J_dot[h] * (w->half[h].s + w->frame_omega);
 }
 
-void cage_elastic_acceleration(const Model *model, const scalar *y, Work *w, scalar *y_dot)
+void cage_elastic_pull(const Model *model, const Work *w, mode_array by_out, mode_array by_in)
 {
     const ElasticHalf *half = model->elastic;
-    const double inv_root = 1.0 / ROOT, m = model->p->cage.m, inv_m = 1.0 / m,
-                 inv_R = 2.0 / rivet_table.joint.d_m;
-    mode_array mirrored, opposed, by_out, by_in, rates, lost, one;
-    scalar spin[2];
-    for (int h = 0; h < 2; h++) {
-        const scalar s = w->half[h].s + w->frame_omega;
-        spin[h] = s * s;
-    }
-    for (int i = 0; i < MODES; i++) {
-        const scalar f_0 = w->wall_force[0][i] + spin[0] * half->spin[i];
-        const scalar f_1 = w->wall_force[1][i] + spin[1] * half->spin[i];
-        mirrored[i] = inv_root * (f_1 + f_0), opposed[i] = inv_root * (f_1 - f_0);
-    }
-
-    // loads of the joints, modes side by side
+    const double inv_R = 2.0 / rivet_table.joint.d_m;
     ball_array F_r, F_t;
     for (int k = 0; k < Z; k++) {
         const double c = model->d->rivet_y[k] * inv_R, s = model->d->rivet_z[k] * inv_R;
@@ -286,6 +283,25 @@ void cage_elastic_acceleration(const Model *model, const scalar *y, Work *w, sca
     octets_add_rows(Z, F_r, MODE_OCTETS, half->in_modes[0][0], in, in_odd);
     octets_add_rows(Z, F_t, MODE_OCTETS, half->in_modes[1][0], in, in_odd);
     octets_store_sum(MODE_OCTETS, in, in_odd, by_in);
+}
+
+void cage_elastic_acceleration(const Model *model, const scalar *y, Work *w, scalar *y_dot)
+{
+    const ElasticHalf *half = model->elastic;
+    const double inv_root = 1.0 / ROOT, m = model->p->cage.m, inv_m = 1.0 / m;
+    mode_array mirrored, opposed, by_out, by_in, rates, lost, one;
+    scalar spin[2];
+    for (int h = 0; h < 2; h++) {
+        const scalar s = w->half[h].s + w->frame_omega;
+        spin[h] = s * s;
+    }
+    for (int i = 0; i < MODES; i++) {
+        const scalar f_0 = w->wall_force[0][i] + spin[0] * half->spin[i];
+        const scalar f_1 = w->wall_force[1][i] + spin[1] * half->spin[i];
+        mirrored[i] = inv_root * (f_1 + f_0), opposed[i] = inv_root * (f_1 - f_0);
+    }
+
+    cage_elastic_pull(model, w, by_out, by_in);
 
     // rates, energy and dissipation
     for (int i = 0; i < MODES; i++) {

@@ -8,15 +8,39 @@
 #define cage_elastic_kinematics FOR_ISA(cage_elastic_kinematics)
 void cage_elastic_kinematics(const Model *model, const scalar *y, Work *w);
 
-// Adds the modes to the joints' offsets and velocities in the plane (cage_joint_kinematics before), for the friction states.
-#define cage_elastic_slip FOR_ISA(cage_elastic_slip)
-void cage_elastic_slip(const Model *model, const scalar *y, Work *w);
-
 // Adds the modes to offset and velocity of the joints (cage_joint_kinematics before), sets e.
 #define cage_elastic_pads FOR_ISA(cage_elastic_pads)
 void cage_elastic_pads(const Model *model, Work *w);
 
-// Loads of the joints out of the plane, T and N_plate; adds the moments to both halves.
+// Motions of all pads against each other: out of the plane (x, about r, about t) by coordinates S, in it (r, t) by D.
+#define cage_elastic_out FOR_ISA(cage_elastic_out)
+void cage_elastic_out(const ElasticHalf *half, const scalar *S, ball_array to[3]);
+#define cage_elastic_in FOR_ISA(cage_elastic_in)
+void cage_elastic_in(const ElasticHalf *half, const scalar *D, ball_array to[2]);
+
+// Preloads [N] with what the centrifugal load adds, and what the joints relieve each other of at rest under that load.
+typedef struct {
+    ball_array P;
+    scalar relief[3];
+} JointPreload;
+
+// Square of the halves' speed in space, mean of both.
+#define cage_elastic_speed_2 FOR_ISA(cage_elastic_speed_2)
+scalar cage_elastic_speed_2(const Work *w);
+
+// Under that speed.
+#define cage_elastic_preload FOR_ISA(cage_elastic_preload)
+void cage_elastic_preload(const Model *model, scalar omega_2, JointPreload *preload);
+
+// Loads of the joints out of the plane, T and N_plate, for the motions e in w.
+#define cage_elastic_loads FOR_ISA(cage_elastic_loads)
+void cage_elastic_loads(const Model *model, const JointPreload *preload, Work *w);
+
+// Forces of the joints on the modes [N]: out of the plane, to be taken off S; in it, on D.
+#define cage_elastic_pull FOR_ISA(cage_elastic_pull)
+void cage_elastic_pull(const Model *model, const Work *w, mode_array by_out, mode_array by_in);
+
+// The same for the motions by the present state; adds the moments to both halves.
 #define cage_elastic_joints FOR_ISA(cage_elastic_joints)
 void cage_elastic_joints(const Model *model, Work *w);
 

@@ -84,13 +84,19 @@ INLINE wide cage_joint_friction(wide k, wide capacity, wide z_y, wide z_z, wide 
     return k * rate * (z_y * z_y + z_z * z_z);
 }
 
+// Force of a shank that bears against its holes, per offset.
+INLINE wide bearing_of(wide slip, wide gap, wide k_hole)
+{
+    return k_hole * wide_max(slip - gap, wide_set(0.0)) / slip;
+}
+
 #ifndef DUAL
 // Friction states z at rows row_y, row_z of y over a step h by the implicit midpoint rule:
-// z += h z'/(1 + h D/2), D = speed k/capacity.
-static void advance(const Work *w, double h, double k, const double *capacity, int row_y, int row_z,
-                    double *y)
+// z += h z'/(1 + h D/2), D = speed k/capacity.  Returns the work h k D z_m^2 that they dissipate, z_m in the middle.
+static double advance(const Work *w, double h, double k, const double *capacity, int row_y, int row_z,
+                      double *y)
 {
-    ball_array z_y = {0}, z_z = {0};
+    ball_array z_y = {0}, z_z = {0}, lost;
     memcpy(z_y, &y[row_y], Z * sizeof *y);
     memcpy(z_z, &y[row_z], Z * sizeof *y);
     for (int b = 0; b < PACKETS; b++) {
@@ -99,14 +105,18 @@ static void advance(const Work *w, double h, double k, const double *capacity, i
         const wide rate = wide_sqrt(v_y * v_y + v_z * v_z) * k / wide_load(&capacity[i]);
         const wide inv = h / (1.0 + (0.5 * h) * rate);
         const wide a = wide_load(&z_y[i]), c = wide_load(&z_z[i]);
-        wide_store(&z_y[i], a + (v_y - rate * a) * inv);
-        wide_store(&z_z[i], c + (v_z - rate * c) * inv);
+        const wide change_y = (v_y - rate * a) * inv, change_z = (v_z - rate * c) * inv;
+        const wide middle_y = a + 0.5 * change_y, middle_z = c + 0.5 * change_z;
+        wide_store(&z_y[i], a + change_y);
+        wide_store(&z_z[i], c + change_z);
+        wide_store(&lost[i], (h * k) * rate * (middle_y * middle_y + middle_z * middle_z));
     }
     memcpy(&y[row_y], z_y, Z * sizeof *y);
     memcpy(&y[row_z], z_z, Z * sizeof *y);
+    return ball_array_sum(lost);
 }
 
-void cage_joint_advance(const Model *model, const Work *w, double h, double *y)
+double cage_joint_advance(const Model *model, const Work *w, double h, double *y)
 {
     const Derived *d = model->d;
     const double mu = model->p->joint.mu, floor = model->p->joint.F_floor;
@@ -126,8 +136,27 @@ void cage_joint_advance(const Model *model, const Work *w, double h, double *y)
         wide_store(&plates[k], mu * wide_max(wide_max(P - d->k_plate * u_x, zero) + more, zero) + floor);
         wide_store(&heads[k], mu * wide_max(T + more, zero) + floor);
     }
-    advance(w, h, k_in.plate, plates, Y_JOINT_PLATE_Y, Y_JOINT_PLATE_Z, y);
-    advance(w, h, k_in.head, heads, Y_JOINT_HEAD_Y, Y_JOINT_HEAD_Z, y);
+    const double by_plates = advance(w, h, k_in.plate, plates, Y_JOINT_PLATE_Y, Y_JOINT_PLATE_Z, y);
+    return by_plates + advance(w, h, k_in.head, heads, Y_JOINT_HEAD_Y, Y_JOINT_HEAD_Z, y);
+}
+
+void cage_joint_shear(const Model *model, const double *y, Work *w)
+{
+    const JointStiffness k_in = joint_stiffness(model);
+    ball_array z_y = {0}, z_z = {0}, h_y = {0}, h_z = {0};
+    memcpy(z_y, &y[Y_JOINT_PLATE_Y], Z * sizeof *y);
+    memcpy(z_z, &y[Y_JOINT_PLATE_Z], Z * sizeof *y);
+    memcpy(h_y, &y[Y_JOINT_HEAD_Y], Z * sizeof *y);
+    memcpy(h_z, &y[Y_JOINT_HEAD_Z], Z * sizeof *y);
+    for (int k = 0; k < PACKETS * LANE_WIDTH; k += LANE_WIDTH) {
+        const wide u_y = wide_load(&w->u_y[k]), u_z = wide_load(&w->u_z[k]);
+        const wide slip = wide_sqrt(u_y * u_y + u_z * u_z + 1e-30);
+        const wide bearing = bearing_of(slip, wide_load(&model->d->hole_gap[k]), wide_load(&k_in.hole[k]));
+        const wide F_y = -k_in.plate * wide_load(&z_y[k]) - k_in.head * wide_load(&h_y[k]) - bearing * u_y;
+        const wide F_z = -k_in.plate * wide_load(&z_z[k]) - k_in.head * wide_load(&h_z[k]) - bearing * u_z;
+        wide_store(&w->joint_F_y[k], F_y);
+        wide_store(&w->joint_F_z[k], F_z);
+    }
 }
 #endif
 
@@ -195,7 +224,7 @@ void cage_joint_force(const Model *model, const scalar *y, Work *w)
         // hole contact
         const wide slip = wide_sqrt(u_y * u_y + u_z * u_z + 1e-30);
         const wide gap = wide_load(&d->hole_gap[k]), k_hole = wide_load(&k_in.hole[k]);
-        const wide bearing = k_hole * wide_max(slip - gap, zero) / slip;
+        const wide bearing = bearing_of(slip, gap, k_hole);
         wide_store(&w->k_bearing[k], wide_select(wide_above(slip - gap, 0.0), k_hole, zero));
 
         wide_store(&w->T[k], T);

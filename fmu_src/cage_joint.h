@@ -33,5 +33,10 @@ void cage_joint_kinematics(const Model *model, Work *w);
 // both halves.
 void cage_joint_force(const Model *model, const scalar *y, Work *w);
 
-// Advances the friction states in y over a step h; w holds the kinematics in the middle of the step.
-void cage_joint_advance(const Model *model, const Work *w, double h, double *y);
+// Forces of elastic halves' joints in the plane, by the offsets in w and the friction states in y: joint_F_y, joint_F_z.
+#define cage_joint_shear FOR_ISA(cage_joint_shear)
+void cage_joint_shear(const Model *model, const double *y, Work *w);
+
+// Advances the friction states in y over a step h; w holds the kinematics in the middle of the step.  Returns what they
+// dissipate [J].
+double cage_joint_advance(const Model *model, const Work *w, double h, double *y);

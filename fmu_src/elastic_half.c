@@ -5,10 +5,13 @@
 #include "elimination.h"
 #include "rivet_rom.h"
 
-static const double LONGEST = 8e-6;  // step at tolerance 1e-3 [s]
-static const double MARGIN = 1.3;    // of joints that are stiffer than the closed ones by rounding of the law
+// Angle by which the fastest vibration of closed joints turns in a substep: velocity Verlet is stable up to 2, and the law's
+// rounding may make a joint stiffer by 30 %.
+static const double SUBSTEP_TURN = 1.6;
 
 enum { SYSTEM = PAD_OUT * Z, RAY = 24, REST_SWEEPS = 12 };
+
+enum { COORDINATES = N_MODES + 3 };  // modes and relative rigid motions
 
 enum { WALL_NODE = 1 };  // of the walls' angle: impacts meet the wall at 7 degrees in the median
 
@@ -265,30 +268,6 @@ static void law_behind(ElasticHalf *half)
 }
 
 // ---- vibrations of the pair -----------------------------------------------------------------------------------------
-// Eigenvalues and vectors of a symmetric matrix by Jacobi's rotations; A becomes diagonal, Q has the vectors in its columns.
-static void diagonalize(int n, double A[WAVE_SIZE][WAVE_SIZE], double Q[WAVE_SIZE][WAVE_SIZE])
-{
-    for (int i = 0; i < n; i++)
-        for (int k = 0; k < n; k++) Q[i][k] = i == k;
-    for (int sweep = 0; sweep < 30; sweep++)
-        for (int i = 0; i < n; i++)
-            for (int k = i + 1; k < n; k++) {
-                if (fabs(A[i][k]) <= 1e-17 * sqrt(fabs(A[i][i] * A[k][k]))) continue;
-                const double tau = (A[k][k] - A[i][i]) / (2.0 * A[i][k]);
-                const double t = (tau < 0.0 ? -1.0 : 1.0) / (fabs(tau) + sqrt(1.0 + tau * tau));
-                const double c = 1.0 / sqrt(1.0 + t * t), s = t * c;
-                for (int q = 0; q < n; q++) {
-                    const double x = A[q][i], y = A[q][k];
-                    A[q][i] = c * x - s * y, A[q][k] = s * x + c * y;
-                }
-                for (int q = 0; q < n; q++) {
-                    const double x = A[i][q], y = A[k][q], u = Q[q][i], v = Q[q][k];
-                    A[i][q] = c * x - s * y, A[k][q] = s * x + c * y;
-                    Q[q][i] = c * u - s * v, Q[q][k] = s * u + c * v;
-                }
-            }
-}
-
 // Motion c of joint k by unit of a relative rigid motion: out of the plane (x, about r, about t) by v_x and rotations about
 // y and z, in it (r, t) by v_y, v_z and the spin.
 static double rigid_motion(bool out, int motion, int c, double theta)
@@ -304,89 +283,71 @@ static double rigid_motion(bool out, int motion, int c, double theta)
     return motion == 0 ? (c == 0 ? cosine : -sine) : (c == 0 ? sine : cosine);
 }
 
-// One wave.  K: stiffness between joints k - j apart of relative motions [Z][3][3], a share of the joints' motions; inertia
-// of the relative rigid motion.
-static void find_wave(const Parameters *p, const ElasticHalf *half, bool out, int n, int coordinate,
-                      double K[Z][PAD_OUT][PAD_OUT], int motion, double inertia, Wave *wave)
+// Largest eigenvalue of a symmetric matrix without negative ones, by power iteration.
+static double largest_eigenvalue(int n, double A[COORDINATES][COORDINATES])
 {
-    const int count = out ? PAD_OUT : PAD_IN, *pads = out ? OUT : IN;
-    double root[WAVE_SIZE], Q[WAVE_SIZE][WAVE_SIZE];
-    double unit[PAD_OUT][Z], A[WAVE_SIZE][WAVE_SIZE] = {{0.0}}, B[WAVE_SIZE][PAD_OUT] = {{0.0}},
-                             K_n[PAD_OUT][PAD_OUT] = {{0.0}};
-    for (int c = 0; c < count; c++) {
-        double sum = 0.0;
-        for (int k = 0; k < Z; k++) {
-            unit[c][k] = wave_at(n, coordinate, ODD[pads[c]], 2.0 * PI * (k + 0.5) / Z);
-            sum += unit[c][k] * unit[c][k];
+    double x[COORDINATES], lambda = 0.0;
+    for (int i = 0; i < n; i++) x[i] = 1.0 + 0.1 * i;
+    for (int iteration = 0; iteration < 300; iteration++) {
+        double to[COORDINATES], size_2 = 0.0;
+        for (int i = 0; i < n; i++) {
+            to[i] = 0.0;
+            for (int k = 0; k < n; k++) to[i] += A[i][k] * x[k];
+            size_2 += to[i] * to[i];
         }
-        for (int k = 0; k < Z; k++) unit[c][k] *= sum > 1e-9 ? 1.0 / sqrt(sum) : 0.0;
+        lambda = sqrt(size_2);
+        for (int i = 0; i < n; i++) x[i] = to[i] / lambda;
     }
-    for (int a = 0; a < count; a++)
-        for (int b = 0; b < count; b++)
-            for (int k = 0; k < Z; k++)
-                for (int j = 0; j < Z; j++) K_n[a][b] += unit[a][k] * K[(k - j + Z) % Z][a][b] * unit[b][j];
-
-    // coordinates, and the joints' motions by them
-    wave->motion = motion;
-    for (int i = 0; i < half->n && wave->count < WAVE_SIZE - 1; i++) {
-        if (half->harmonic[i] != n || half->coordinate[i] != coordinate) continue;
-        const int row = wave->count++;
-        wave->row[row] = i;
-        root[row] = sqrt(p->cage.m);
-        A[row][row] = half->omega_2[i];
-        for (int c = 0; c < count; c++)
-            for (int k = 0; k < Z; k++)
-                B[row][c] += unit[c][k] * (out ? half->out[i] : half->in[i])[c * Z + k];
-    }
-    wave->modes = wave->count;
-    if (motion >= 0) {
-        const int row = wave->count++;
-        root[row] = sqrt(inertia);
-        for (int c = 0; c < count; c++)
-            for (int k = 0; k < Z; k++)
-                B[row][c] += unit[c][k] * rigid_motion(out, motion, c, 2.0 * PI * (k + 0.5) / Z);
-    }
-    for (int i = 0; i < wave->count; i++)
-        for (int k = 0; k < wave->count; k++)
-            for (int a = 0; a < count; a++)
-                for (int b = 0; b < count; b++)
-                    A[i][k] += B[i][a] * K_n[a][b] * B[k][b] / (root[i] * root[k]);
-    diagonalize(wave->count, A, Q);
-    wave->blocks = (wave->count + 7) / 8;
-    for (int v = 0; v < wave->count; v++) {
-        const double slowed = 1.0 / fmax(1.0, MARGIN * 0.25 * A[v][v] * half->longest * half->longest),
-                     lambda = slowed * A[v][v];
-        wave->slows |= slowed < 1.0;
-        for (int i = 0; i < wave->count; i++)
-            for (int k = 0; k < wave->count; k++) {
-                const double along = root[i] * Q[i][v] * Q[k][v] / root[k];
-                wave->slowing[i][k] += (slowed - 1.0) * along;
-                wave->damping[i][k] += lambda * lambda * along;
-            }
-    }
+    return lambda;
 }
 
-static void find_waves(const Parameters *p, const Derived *d, ElasticHalf *half)
+// Square of the highest frequency of both halves with closed joints.  K: stiffness between joints k - j apart, of relative
+// motions [Z][3][3], out of the plane or in it; rigid: inertia of the relative rigid motions.
+static double fastest(const Parameters *p, const ElasticHalf *half, bool out, double K[Z][PAD_OUT][PAD_OUT],
+                      const double rigid[3])
 {
-    double K[Z][PAD_OUT][PAD_OUT], shear[2][Z][PAD_OUT][PAD_OUT] = {{{{0.0}}}}, k_hole = 0.0;
-    for (int k = 0; k < Z; k++)
-        k_hole = fmax(k_hole, half->k_hole[k]);  // the waves of joints that are all alike
-    for (int k = 0; k < Z; k++)                  // both halves move, and both are loaded: 2 (1/2)^2
-        for (int a = 0; a < 9; a++) K[k][a / 3][a % 3] = 0.5 * half->K[k][a / 3][a % 3];
-    for (int bears = 0; bears < 2; bears++)
-        for (int c = 0; c < PAD_IN; c++)
-            shear[bears][0][c][c] = half->series * (d->k_plate_t + d->k_head) + bears * k_hole;
-    for (int n = 0; n <= Z / 2; n++)
-        for (int coordinate = 0; coordinate < 2; coordinate++) {
-            const int w = 2 * n + coordinate;
-            const int out = n == 0 && coordinate == 0 ? 0 : n == 1 ? 2 - coordinate : -1;
-            const int in = n == 0 && coordinate == 1 ? 2 : n == 1 ? coordinate : -1;
-            find_wave(p, half, true, n, coordinate, K, out, 0.5 * (out == 0 ? p->cage.m : d->J_t),
-                      &half->mirrored[w]);
-            for (int bears = 0; bears < 2; bears++)
-                find_wave(p, half, false, n, coordinate, shear[bears], in,
-                          0.5 * (in == 2 ? d->J_p : p->cage.m), &half->opposed[bears][w]);
+    enum { JOINTS = PAD_OUT * Z };
+
+    const int count = out ? PAD_OUT : PAD_IN, modes = half->n, all = modes + 3;
+    double B[COORDINATES][JOINTS],
+        A[COORDINATES][COORDINATES];  // motions of the joints by coordinates of unit inertia
+    for (int i = 0; i < all; i++) {
+        const double root = sqrt(i < modes ? p->cage.m : rigid[i - modes]);
+        for (int c = 0; c < count; c++)
+            for (int k = 0; k < Z; k++) {
+                const double by_mode = i < modes ? (out ? half->out[i] : half->in[i])[c * Z + k] : 0.0;
+                const double by_rigid =
+                    i < modes ? 0.0 : rigid_motion(out, i - modes, c, 2.0 * PI * (k + 0.5) / Z);
+                B[i][c * Z + k] = (by_mode + by_rigid) / root;
+            }
+    }
+    for (int i = 0; i < all; i++) {
+        double load[JOINTS] = {0.0};
+        for (int a = 0; a < count; a++)
+            for (int k = 0; k < Z; k++)
+                for (int b = 0; b < count; b++)
+                    for (int j = 0; j < Z; j++) load[a * Z + k] += K[(k - j + Z) % Z][a][b] * B[i][b * Z + j];
+        for (int q = 0; q < all; q++) {
+            A[q][i] = i == q && i < modes ? half->omega_2[i] : 0.0;
+            for (int k = 0; k < count * Z; k++) A[q][i] += B[q][k] * load[k];
         }
+    }
+    return largest_eigenvalue(all, A);
+}
+
+// The longest substep: the fastest vibration, of closed joints and shanks that bear, turns by SUBSTEP_TURN.
+static double longest_substep(const Parameters *p, const Derived *d, const ElasticHalf *half)
+{
+    double K[Z][PAD_OUT][PAD_OUT], shear[Z][PAD_OUT][PAD_OUT] = {{{0.0}}}, k_hole = 0.0;
+    for (int k = 0; k < Z; k++) {
+        k_hole = fmax(k_hole, half->k_hole[k]);
+        for (int a = 0; a < 9; a++)  // both halves move, and both are loaded: 2 (1/2)^2
+            K[k][a / 3][a % 3] = 0.5 * half->K[k][a / 3][a % 3];
+    }
+    for (int c = 0; c < PAD_IN; c++) shear[0][c][c] = half->series * (d->k_plate_t + d->k_head) + k_hole;
+    const double out[3] = {0.5 * p->cage.m, 0.5 * d->J_t, 0.5 * d->J_t};
+    const double in[3] = {0.5 * p->cage.m, 0.5 * p->cage.m, 0.5 * d->J_p};
+    return SUBSTEP_TURN / sqrt(fmax(fastest(p, half, true, K, out), fastest(p, half, false, shear, in)));
 }
 
 // ---- all ------------------------------------------------------------------------------------------------------------
@@ -408,7 +369,6 @@ static void take_modes(const Parameters *p, ElasticHalf *half, double R[Z][PADS]
             if (taken) {
                 const int i = half->n++;
                 take_mode(table, entry, coordinate, unit, half, i);
-                half->harmonic[i] = mode->harmonic, half->coordinate[i] = coordinate;
                 half->pair[i] = mode->parity == 0;
                 half->alike[i] = mode->harmonic == 0 && coordinate == 0;
                 half->omega_2[i] = mode->omega * mode->omega / denser;
@@ -513,14 +473,13 @@ double elastic_half_rest(const Parameters *p, const Derived *d, const ElasticHal
     return x[0];
 }
 
-void elastic_half_derive(const Parameters *p, const Derived *d, double tolerance, ElasticHalf *half)
+void elastic_half_derive(const Parameters *p, const Derived *d, ElasticHalf *half)
 {
     const HalfPath *path = &rivet_table.half.path;
     double R[Z][PADS][PADS];
     const int before = half->law_modes;  // the law over L^ follows from the number of modes alone and is kept
     memset(half, 0, sizeof *half);
     half->nodes = path->nodes;
-    half->longest = LONGEST * portable_pow(tolerance / 1e-3, 1.0 / 3.0);
     memcpy(half->chi, path->chi, (size_t)half->nodes * sizeof *half->chi);
     memcpy(R, rivet_table.modes.pad, sizeof R);
     half->compliance = rivet_table.modes.wall[2 * WALL_NODE];
@@ -550,5 +509,5 @@ void elastic_half_derive(const Parameters *p, const Derived *d, double tolerance
     if (before != p->scene.modes) law_behind(half);
     half->law_modes = p->scene.modes;
     find_relief(p, d, half);
-    find_waves(p, d, half);
+    half->substep = longest_substep(p, d, half);
 }

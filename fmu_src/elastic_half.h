@@ -30,22 +30,6 @@ enum { WALL_NODES = 16 };  // at most
 
 enum { RESTS = 65 };  // states of rest under the centrifugal load, at equal steps of load/(load + P)
 
-// The vibrations of both halves and their closed joints, wave by wave: a mode's coordinate a or b of harmonic n meets joints
-// only of the same wave, and so do relative motions of the halves as rigid bodies.  With a the accelerations times the root of
-// their inertia, the stiffness is Q diag(lambda) Q^T.
-enum { WAVES = 2 * (Z / 2 + 1), WAVE_SIZE = 16 };
-
-typedef struct {
-    int count, modes, blocks;  // coordinates, modes among them, blocks of eight
-    int row[WAVE_SIZE];        // of the modes
-    int motion;  // which rigid motion the last coordinate is: v_x, about y, about z; v_y, v_z, spin; or none
-    bool slows;  // whether the longest step slows down one of its vibrations
-    // What all coordinates change by one [from][to], times the roots of their inertia:
-    _Alignas(64) double slowing[WAVE_SIZE]
-                               [WAVE_SIZE];  // Q diag(s - 1) Q^T, 1/s the inertia that the longest step needs
-    double damping[WAVE_SIZE][WAVE_SIZE];    // Q diag((s lambda)^2) Q^T [1/s4]
-} Wave;
-
 struct ElasticHalf {
     int law_modes;                                     // scene.modes of the coefficients below; 0: none yet
     int n, blocks;                                     // modes, blocks of eight of them
@@ -74,19 +58,16 @@ struct ElasticHalf {
     double relief[RESTS][PAD_OUT];  // what other joints relieve a joint of at rest, per newton of load + P
     double series;     // part of the friction states' stiffness that is left in series with the residual
     constants k_hole;  // what is left of the holes' [N/m]
-    double longest;    // step of the default method [s]
-    int harmonic[MODES], coordinate[MODES];  // n; a 0, b 1
-    Wave mirrored[WAVES];                    // of S and the relative motions out of the plane
-    Wave opposed[2][WAVES];                  // of D and those in the plane; without and with shanks that bear
-    JointLaw law;                            // the joints' law over L^ = L + K_0 delta with the K above
-    _Alignas(64) double coefficients[];      // of the law; the fourth number is U, whose slope is delta
+    double substep;    // of the default method, at most [s]
+    JointLaw law;      // the joints' law over L^ = L + K_0 delta with the K above
+    _Alignas(64) double coefficients[];  // of the law; the fourth number is U, whose slope is delta
 };
 
 // Bytes of an ElasticHalf.
 size_t elastic_half_size(void);
 
 // What the scene takes of the modes in the rivet table.
-void elastic_half_derive(const Parameters *p, const Derived *d, double tolerance, ElasticHalf *half);
+void elastic_half_derive(const Parameters *p, const Derived *d, ElasticHalf *half);
 
 // Coordinates S [MODES] and axial distance of the halves' bodies [m] at which modes and joints rest under the centrifugal
 // load of the speed omega [rad/s].

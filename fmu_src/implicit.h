@@ -6,14 +6,6 @@
 #include "isa.h"
 #include "model.h"
 
-// Accelerations f of elastic halves (rows of the state vector) with the inertia that the longest step needs.
-#define implicit_waves FOR_ISA(implicit_waves)
-void implicit_waves(const Model *model, const Work *w, double *f);
-
-// Takes from the velocities in y what the step h does not resolve of the halves' vibrations.
-#define implicit_wave_damping FOR_ISA(implicit_wave_damping)
-void implicit_wave_damping(const Model *model, const Work *w, double h, double *y);
-
 // v = (1 + gamma A + gamma^2 K)^-1 v, A and K at the evaluation w.  v has the rows of the state vector; only
 // velocities are read and written.  Returns the weight c of the position correction c gamma delta of half 1 against
 // half 0 along the axis.

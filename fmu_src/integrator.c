@@ -383,7 +383,10 @@ void integrator_evaluate(Integrator *in)
 {
     IntegratorState *s = in->s;
     if (s->f_is_current) return;
-    in->kernels->rhs(in->model, s->t, s->now.y, s->now.f, in->w);
+    if (in->model->p->solver.method == METHOD_EXPLICIT)
+        in->kernels->rhs(in->model, s->t, s->now.y, s->now.f, in->w);
+    else
+        in->kernels->verlet_evaluate(in->model, s->t, &s->now, in->w);
     s->rhs_evals += 1.0;
     s->f_is_current = 1;
 }
@@ -420,7 +423,6 @@ static int verlet_advance(Integrator *in, double t_stop, long max_steps)
             status = ARK_TOO_MUCH_WORK;
             break;
         }
-        if (in->model->elastic) goal = fmin(goal, in->model->elastic->longest);
         const double left = t_stop - s->t, h = step_length(goal, left);
         if (s->t + h == s->t || h < DBL_MIN) {  // 1/h of a subnormal h overflows
             status = step_underflow(in, "Verlet", h);
@@ -568,9 +570,16 @@ bool integrator_state_is_valid(const IntegratorState *s, bool elastic)
         fine &= values_are_within(s->now.jerk + b->offset, n, RATE * RATE * RATE * largest);
     }
 
-    // Loads of elastic halves' joints, up to that of anything that holds.
-    const double most = elastic ? 1e9 : 0.0;
-    fine &= values_are_within(s->now.rivet, LANES, most) && values_are_within(s->now.plate, LANES, most);
+    // Elastic halves: motions and loads of the joints up to those of anything that holds, fast accelerations.
+    const double motion = elastic ? 1.0 : 0.0, load = elastic ? 1e9 : 0.0,
+                 acceleration = elastic ? RATE * 1e9 : 0.0;
+    const FastState *fast = &s->now.fast;
+    fine &= values_are_within(fast->e[0], 3 * LANES, motion) && values_are_within(fast->u_y, LANES, motion) &&
+            values_are_within(fast->u_z, LANES, motion) && values_are_within(fast->T, LANES, load) &&
+            values_are_within(fast->N_plate, LANES, load) &&
+            values_are_within(&fast->omega_2, 1, elastic ? 1e18 : 0.0) &&
+            values_are_within(fast->modes, 2 * N_MODES, acceleration) &&
+            values_are_within(fast->rigid, RELATIVE_MOTIONS, acceleration);
 
     // Films, switch and counters.
     fine &=

@@ -19,6 +19,7 @@
 #define cage_joint_force FOR_ISA(cage_joint_force)
 #define ring_acceleration FOR_ISA(ring_acceleration)
 #define rhs FOR_ISA(rhs)
+#define verlet_evaluate FOR_ISA(verlet_evaluate)
 #define verlet_step FOR_ISA(verlet_step)
 #define implicit_elastic FOR_ISA(implicit_elastic)
 #define implicit_shear FOR_ISA(implicit_shear)

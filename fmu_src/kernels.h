@@ -16,6 +16,7 @@ typedef struct {
     RaceContactForce *race_contact_force;
     const VectorOps *ops, *ops_elastic;
     VerletStep *verlet;
+    VerletEvaluate *verlet_evaluate;
     ImplicitSolve *implicit;
     RivetsLoad *rivets_load;
     RivetsFollow *rivets_follow;

@@ -197,8 +197,7 @@ void rhs_cage_advance(const Model *model, const double *middle, double h, double
     for (int i = 0; i < 2; i++) y[Y_CAGE_PSI + i] += h * (w->half[i].s - rotor_roll(&w->half[i]));
     if (model->p->scene.cage == CAGE_MODEL_RIGID) return;
     cage_joint_kinematics(model, w);
-    if (model->elastic) cage_elastic_slip(model, middle, w);
-    cage_joint_advance(model, w, h, y);
+    if (!model->elastic) cage_joint_advance(model, w, h, y);
 }
 #endif
 

@@ -49,8 +49,9 @@ static double sum_of(const double *x, int count)
     return ((part[0] + part[1]) + (part[2] + part[3])) + ((part[4] + part[5]) + (part[6] + part[7]));
 }
 
-// Writes positions and friction states of the step's end and the velocities v_m of its middle into y.
-static void advance_positions(const Model *model, double h, const VerletState *from, double *y, Work *w)
+// Writes positions and friction states of the step's end and the velocities v_m of its middle into y.  Elastic halves take
+// substeps, whose length is returned.
+static double advance_positions(const Model *model, double h, const VerletState *from, double *y, Work *w)
 {
     const double gamma = 0.5 * h;
     double middle[N_ALL_STATES];  // the state in the middle of the step, of cage and ring
@@ -64,18 +65,10 @@ static void advance_positions(const Model *model, double h, const VerletState *f
     for (int i = Y_CAGE_X; i < Y_RING_X; i++) middle[i] = from->y[i] + gamma * y[VELOCITY + i];
     for (int i = Y_RING_X; i < FRICTION; i++) middle[i] = from->y[i];
     memcpy(&y[Y_CAGE_PSI], &from->y[Y_CAGE_PSI], 2 * sizeof *y);
-    if (model->elastic)
-        for (int q = PLACES; q < RATES; q++) {
-            const double v_m = from->y[q + MODE_RATES] + gamma * from->f[q + MODE_RATES];
-            middle[q + MODE_RATES] = y[q + MODE_RATES] = v_m;
-            middle[q] = from->y[q] + gamma * v_m;
-            y[q] = from->y[q] + h * v_m;
-        }
-    if (model->elastic) {
-        memcpy(w->T, from->rivet, sizeof w->T);
-        memcpy(w->N_plate, from->plate, sizeof w->N_plate);
-    }
     rhs_cage_advance(model, middle, h, y, w);
+    if (!model->elastic) return 0.0;
+    memcpy(&y[PLACES], &from->y[PLACES], (N_ALL_STATES - PLACES) * sizeof *y);
+    return cage_substeps_advance(model, h, &from->fast, from->f, y, w);
 }
 
 // Limits the predictor of the cage velocities: writes what is taken from h a_n into `removed`.  A land film
@@ -212,23 +205,33 @@ static void remember_friction(double h, const VerletState *from, VerletState *to
     }
 }
 
-// Rates of the modes of elastic halves: velocity Verlet, linearly implicit in their damping.
-static void advance_modes(const Model *model, double h, const VerletState *from, VerletState *to,
-                          double *error)
+void verlet_evaluate(const Model *model, double t, VerletState *now, Work *w)
+{
+    rhs(model, t, now->y, now->f, w);
+    if (model->elastic) cage_substeps_split(model, now->y, w, now->f, &now->fast);
+}
+
+// The second half of the last substep, of length `sub`, for the rates of the modes and the halves in y: with the fast
+// accelerations at `fast`, less those at `before`.
+static void kick(const Model *model, const Work *w, double sub, const FastState *fast,
+                 const FastState *before, double *y)
+{
+    double rigid[RELATIVE_MOTIONS];
+    for (int i = 0; i < 2 * N_MODES; i++)
+        y[RATES + i] += 0.5 * sub * (fast->modes[i] - (before ? before->modes[i] : 0.0));
+    for (int i = 0; i < RELATIVE_MOTIONS; i++) rigid[i] = fast->rigid[i] - (before ? before->rigid[i] : 0.0);
+    cage_substeps_kick(model, w, 0.5 * sub, rigid, y);
+}
+
+// Rates of the modes of elastic halves: the substeps held the slow accelerations, which change over the step.
+static void correct_modes(double h, const VerletState *from, VerletState *to, double *error)
 {
     const double gamma = 0.5 * h, inv_h = 1.0 / h, second = h * h * (2.0 / (h + from->h));
-    double left[N_MODES];
-    for (int i = 0; i < N_MODES; i++) left[i] = 1.0 / (1.0 + gamma * model->elastic->damping[i]);
-    for (int first = RATES; first < N_ALL_STATES; first += N_MODES) {
-        const double *y = &from->y[first], *f = &from->f[first], *jerk = &from->jerk[first];
-        double *y_1 = &to->y[first], *f_1 = &to->f[first], *jerk_1 = &to->jerk[first], *e = &error[first];
-        for (int i = 0; i < N_MODES; i++) {
-            const double change = (f_1[i] - f[i]) * left[i];
-            f_1[i] = f[i] + change;
-            y_1[i] = y[i] + gamma * (f[i] + f_1[i]);
-            jerk_1[i] = change * inv_h;
-            e[i] = (h / 12.0) * (second * (jerk_1[i] - jerk[i]));
-        }
+    for (int i = RATES; i < N_ALL_STATES; i++) {
+        const double change = to->f[i] - from->f[i];
+        to->y[i] += gamma * change;
+        to->jerk[i] = change * inv_h;
+        error[i] = (h / 12.0) * (second * (to->jerk[i] - from->jerk[i]));
     }
     memcpy(&to->f[PLACES], &to->y[RATES], MODE_RATES * sizeof *error);
     memset(&to->jerk[PLACES], 0, MODE_RATES * sizeof *error);
@@ -242,18 +245,19 @@ double verlet_step(const Model *model, double t, double h, const double *weight,
     double removed[N_STATES], residual[N_STATES], delta[N_STATES], error[N_ALL_STATES], *y = to->y;
 
     // Positions of the step's end; predicted velocities v^ there; the evaluation.
-    advance_positions(model, h, from, y, w);
+    const double sub = advance_positions(model, h, from, y, w);
     predictor_limiter(model, h, from, w, removed);
     for (int i = VELOCITY; i < N_STATES; i++) y[i] += gamma * f[i];
     for (int i = CAGE; i < CAGE_END; i++) y[i] -= removed[i];
-    if (model->elastic)
-        for (int i = RATES; i < N_ALL_STATES; i++) y[i] += gamma * f[i];
+    if (model->elastic) {
+        for (int i = RATES; i < N_ALL_STATES; i++) y[i] += 0.5 * sub * f[i];
+        kick(model, w, sub, &from->fast, NULL, y);
+    }
     rhs(model, t + h, y, to->f, w);
     remember_films(w, to);
     if (model->elastic) {
-        implicit_waves(model, w, to->f);
-        memcpy(to->rivet, w->T, sizeof to->rivet);
-        memcpy(to->plate, w->N_plate, sizeof to->plate);
+        cage_substeps_split(model, y, w, to->f, &to->fast);
+        kick(model, w, sub, &to->fast, &from->fast, y);
     }
 
     // The residual of the trapezoidal rule at v^, and the linear solve that corrects v^.
@@ -283,8 +287,7 @@ double verlet_step(const Model *model, double t, double h, const double *weight,
     remember_friction(h, from, to, error);
     to->h = h;
     if (model->elastic) {
-        advance_modes(model, h, from, to, error);
-        implicit_wave_damping(model, w, h, y);
+        correct_modes(h, from, to, error);
         return vector_ops_elastic.wrms_norm(error, weight);
     }
     return vector_ops.wrms_norm(error, weight);

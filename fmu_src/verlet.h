@@ -2,6 +2,7 @@
 // positions.
 #pragma once
 
+#include "cage_substeps.h"
 #include "isa.h"
 #include "model.h"
 
@@ -11,9 +12,8 @@ typedef struct {
     double f[N_ALL_STATES];  // dy/dt; after a step: accelerations, mean rates of the friction states, power
     double jerk[N_ALL_STATES];  // change of f over the last step / its length: history for the error estimate
     double film[2][3];          // -dF/dv of each land's film there: yy, yz, zz [N.s/m]
-    double rivet[LANES],
-        plate[LANES];  // T and N_plate of the joints between elastic halves there [N]; of others 0
-    double h;          // length of that step [s]; 0 before the first one
+    FastState fast;             // of elastic halves there, whose accelerations f lacks; of others 0
+    double h;                   // length of that step [s]; 0 before the first one
 } VerletState;
 
 // Takes the step of length h [s] from the state `from` at time t to the state `to` and returns the weighted
@@ -22,3 +22,7 @@ typedef struct {
 typedef double VerletStep(const Model *model, double t, double h, const double *weight,
                           const VerletState *from, VerletState *to, Work *w);
 VerletStep verlet_step;
+
+// Evaluates the rates at the state now->y for the next step: f, of elastic halves without the fast part, and that part.
+typedef void VerletEvaluate(const Model *model, double t, VerletState *now, Work *w);
+VerletEvaluate verlet_evaluate;

@@ -1,0 +1,266 @@
+// Substeps of elastic halves: the multiple time step method (Tuckerman, Berne and Martyna 1992) with the slow forces held over
+// the step.  Closed joints vibrate with the halves at up to 80 kHz, their loads decide the rivets' stress, and what they cost is small
+// beside races and pockets.  So a step of length h takes n substeps of length d = h/n, of velocity Verlet,
+//
+//     v_m = (v + d/2 (a_f + a_s))/(1 + d c/2),  q += d v_m,  v = v_m (1 - d c/2) + d/2 (a_f + a_s)
+//
+// q: coordinates of the modes and relative rigid motions of the halves;  c: damping of the modes
+// a_f: fast accelerations, by the joints and the modes' own springs, asked for at each substep
+// a_s: slow ones, by all else, at the step's start; the trapezoidal rule of verlet.c corrects them at its end
+//
+// The joints' motions are integrated with the velocities, in the frame of half 0 as it is in the middle of the step, and found anew from
+// the positions at each evaluation, which is the last substep's.  The halves as rigid bodies keep their own centre of mass and their common
+// motion: of a relative motion each takes half.  Forces in the plane of the split act beside the centres of mass, c_x from them,
+// and tilt both halves alike; a joint feels the inverse inertia 2/m + 2 c_x^2/J_t there.  Whatever these motions leave out,
+// gyroscopic terms for example, is in the slow accelerations, because these are the whole ones less the fast ones.
+//
+// The friction states follow the implicit midpoint rule (cage_joint_advance).  What they and the modes' damping dissipate is summed over
+// the substeps.  docs/method.md has the measured reasons.
+#include "cage_substeps.h"
+
+#include "cage_elastic.h"
+#include "cage_joint.h"
+#include "elastic_half.h"
+#include "rivet_rom.h"
+#include "rotor.h"
+
+static const double MOST_SUBSTEPS = 1000.0;  // an absurd step ends with a refusal, not with years of substeps
+static const double ROUNDING = 1e-9;         // part of a substep by which the last one may be longer
+
+enum { X, ABOUT_Y, ABOUT_Z, ACROSS_Y, ACROSS_Z, SPIN };  // relative rigid motions
+
+// Inverse inertia of the relative motions as the joints feel it [1/kg, 1/(kg.m2)]; what of y and z the centres of mass take;
+// common tilt [rad] by unit of y or z at the joints.
+typedef struct {
+    double inverse[RELATIVE_MOTIONS], part, tilt;
+} RelativeInertia;
+
+static RelativeInertia relative_inertia(const Model *model)
+{
+    const Derived *d = model->d;
+    const double translation = 2.0 / model->p->cage.m, c_x = d->com_x[1];
+    const double across = translation + 2.0 * c_x * c_x / d->J_t;
+    return (RelativeInertia){{translation, 2.0 / d->J_t, 2.0 / d->J_t, across, across, 2.0 / d->J_p},
+                             translation / across,
+                             c_x / d->J_t / across};
+}
+
+// Adds h times the relative motions to rows of both halves, from row `first` on.
+static void give(const Model *model, const Rotor *h0, double h, const double relative[RELATIVE_MOTIONS],
+                 int first, double *y)
+{
+    const RelativeInertia inertia = relative_inertia(model);
+    const double *b_y = h0->b_y, *b_z = h0->b_z;
+    const double across_y = inertia.part * relative[ACROSS_Y], across_z = inertia.part * relative[ACROSS_Z];
+    const double about_y = inertia.tilt * relative[ACROSS_Z], about_z = -inertia.tilt * relative[ACROSS_Y];
+    const double change[6] = {relative[X],  // x, y, z, beta, gamma, s
+                              b_y[1] * across_y + b_z[1] * across_z,
+                              b_y[2] * across_y + b_z[2] * across_z,
+                              b_y[1] * relative[ABOUT_Y] + b_z[1] * relative[ABOUT_Z],
+                              b_y[2] * relative[ABOUT_Y] + b_z[2] * relative[ABOUT_Z],
+                              relative[SPIN]};
+    for (int i = 0; i < 6; i++) {
+        y[first + 2 * i] -= 0.5 * h * change[i];
+        y[first + 2 * i + 1] += 0.5 * h * change[i];
+    }
+    const int tilts = first + Y_CAGE_BETA - Y_CAGE_X;
+    for (int half = 0; half < 2; half++) {
+        y[tilts + half] += h * (b_y[1] * about_y + b_z[1] * about_z);
+        y[tilts + 2 + half] += h * (b_y[2] * about_y + b_z[2] * about_z);
+    }
+}
+
+void cage_substeps_kick(const Model *model, const Work *w, double h, const double rigid[RELATIVE_MOTIONS],
+                        double *y)
+{
+    give(model, &w->half[0], h, rigid, Y_CAGE_V_X, y);
+}
+
+// The relative motions at the joints by rates f of both halves: the inverse of `give`.
+static void take(const Model *model, const Rotor *h0, const double *f, double relative[RELATIVE_MOTIONS])
+{
+    const double *b_y = h0->b_y, *b_z = h0->b_z, c_x = model->d->com_x[1];
+    double d[6];
+    for (int i = 0; i < 6; i++) d[i] = f[Y_CAGE_V_X + 2 * i + 1] - f[Y_CAGE_V_X + 2 * i];
+    const double beta = f[Y_CAGE_BETA_DOT] + f[Y_CAGE_BETA_DOT + 1],
+                 gamma = f[Y_CAGE_GAMMA_DOT] + f[Y_CAGE_GAMMA_DOT + 1];
+    relative[X] = d[0];
+    relative[ABOUT_Y] = b_y[1] * d[3] + b_y[2] * d[4];
+    relative[ABOUT_Z] = b_z[1] * d[3] + b_z[2] * d[4];
+    relative[ACROSS_Y] = b_y[1] * d[1] + b_y[2] * d[2] - c_x * (b_z[1] * beta + b_z[2] * gamma);
+    relative[ACROSS_Z] = b_z[1] * d[1] + b_z[2] * d[2] + c_x * (b_y[1] * beta + b_y[2] * gamma);
+    relative[SPIN] = d[5];
+}
+
+// Accelerations of modes and relative motions by the joints' loads in w and, at the coordinates in y, by the modes' springs.
+static void fast_accelerations(const Model *model, const double *y, const Work *w, double modes[2 * N_MODES],
+                               double rigid[RELATIVE_MOTIONS])
+{
+    const ElasticHalf *half = model->elastic;
+    const Derived *d = model->d;
+    const double inv_m = 1.0 / model->p->cage.m, inv_R = 2.0 / rivet_table.joint.d_m;
+    mode_array by_out, by_in;
+    cage_elastic_pull(model, w, by_out, by_in);
+    for (int i = 0; i < N_MODES; i++) {
+        modes[i] = -inv_m * by_out[i] - half->omega_2[i] * y[Y_MODE_S + i];
+        modes[N_MODES + i] = inv_m * by_in[i] - half->omega_2[i] * y[Y_MODE_D + i];
+    }
+
+    ball_array force[RELATIVE_MOTIONS];  // on half 1
+    for (int k = 0; k < PACKETS * LANE_WIDTH; k += LANE_WIDTH) {
+        const wide r_y = wide_load(&d->rivet_y[k]), r_z = wide_load(&d->rivet_z[k]), c = r_y * inv_R,
+                   s = r_z * inv_R;
+        const wide N = wide_load(&w->joint_load[0][k]), M_r = wide_load(&w->joint_load[1][k]),
+                   M_t = wide_load(&w->joint_load[2][k]);
+        const wide F_y = wide_load(&w->joint_F_y[k]), F_z = wide_load(&w->joint_F_z[k]);
+        wide_store(&force[X][k], -N);
+        wide_store(&force[ABOUT_Y][k], s * M_t - c * M_r - r_z * N);
+        wide_store(&force[ABOUT_Z][k], r_y * N - s * M_r - c * M_t);
+        wide_store(&force[ACROSS_Y][k], F_y);
+        wide_store(&force[ACROSS_Z][k], F_z);
+        wide_store(&force[SPIN][k], r_y * F_z - r_z * F_y);
+    }
+    const RelativeInertia inertia = relative_inertia(model);
+    for (int i = 0; i < RELATIVE_MOTIONS; i++) rigid[i] = inertia.inverse[i] * ball_array_sum(force[i]);
+}
+
+void cage_substeps_split(const Model *model, const double *y, const Work *w, double *f, FastState *fast)
+{
+    const ElasticHalf *half = model->elastic;
+    fast_accelerations(model, y, w, fast->modes, fast->rigid);
+    fast->omega_2 = cage_elastic_speed_2(w);
+    memcpy(fast->e, w->e, sizeof fast->e);
+    memcpy(fast->u_y, w->u_y, sizeof fast->u_y);
+    memcpy(fast->u_z, w->u_z, sizeof fast->u_z);
+    memcpy(fast->T, w->T, sizeof fast->T);
+    memcpy(fast->N_plate, w->N_plate, sizeof fast->N_plate);
+    give(model, &w->half[0], -1.0, fast->rigid, Y_CAGE_V_X, f);
+    for (int i = 0; i < N_MODES; i++) {
+        f[Y_MODE_S_DOT + i] -= fast->modes[i] - half->damping[i] * y[Y_MODE_S_DOT + i];
+        f[Y_MODE_D_DOT + i] -= fast->modes[N_MODES + i] - half->damping[i] * y[Y_MODE_D_DOT + i];
+    }
+    f[Y_WORK] += ball_array_sum(w->joint_dissipated) + w->modes_dissipated;
+}
+
+// Velocities of the joints by the rigid motions of the halves: out of the plane (x, about r, about t), across it (y, z).
+typedef struct {
+    ball_array out[3], y, z;
+} JointVelocities;
+
+// Sets those in the middle of the step, of which w has the kinematics.
+static void rigid_velocities(const Model *model, const Work *w, JointVelocities *v)
+{
+    const Rotor *h0 = &w->half[0], *h1 = &w->half[1];
+    const double inv_R = 2.0 / rivet_table.joint.d_m;
+    double Omega[3];
+    for (int i = 0; i < 3; i++) Omega[i] = h1->Omega[i] - h0->Omega[i];
+    const double about_y = dot3(h0->b_y, Omega), about_z = dot3(h0->b_z, Omega);
+    for (int k = 0; k < PACKETS * LANE_WIDTH; k += LANE_WIDTH) {
+        const wide c = wide_load(&model->d->rivet_y[k]) * inv_R, s = wide_load(&model->d->rivet_z[k]) * inv_R;
+        wide_store(&v->out[0][k], wide_load(&w->v_jx[k]));
+        wide_store(&v->out[1][k], about_y * c + about_z * s);
+        wide_store(&v->out[2][k], about_z * c - about_y * s);
+        wide_store(&v->y[k], wide_load(&w->v_jy[k]));
+        wide_store(&v->z[k], wide_load(&w->v_jz[k]));
+    }
+}
+
+// Moves the joints in w for the time h with velocities of the rigid halves, more by `relative`, and of the modes' pads.
+static void move_joints(const Model *model, double h, const JointVelocities *v,
+                        const double relative[RELATIVE_MOTIONS], ball_array out[3], ball_array in[2], Work *w)
+{
+    const double inv_R = 2.0 / rivet_table.joint.d_m;
+    for (int k = 0; k < PACKETS * LANE_WIDTH; k += LANE_WIDTH) {
+        const wide r_y = wide_load(&model->d->rivet_y[k]), r_z = wide_load(&model->d->rivet_z[k]);
+        const wide c = r_y * inv_R, s = r_z * inv_R, r = wide_load(&in[0][k]), t = wide_load(&in[1][k]);
+        const wide e_dot[3] = {wide_load(&v->out[0][k]) +
+                                   (relative[X] + (r_z * relative[ABOUT_Y] - r_y * relative[ABOUT_Z])),
+                               wide_load(&v->out[1][k]) + (c * relative[ABOUT_Y] + s * relative[ABOUT_Z]),
+                               wide_load(&v->out[2][k]) + (c * relative[ABOUT_Z] - s * relative[ABOUT_Y])};
+        for (int i = 0; i < 3; i++)
+            wide_store(&w->e[i][k], wide_load(&w->e[i][k]) + (0.5 * h) * (e_dot[i] + wide_load(&out[i][k])));
+        const wide v_y = wide_load(&v->y[k]) + (relative[ACROSS_Y] - r_z * relative[SPIN]) + (c * r - s * t);
+        const wide v_z = wide_load(&v->z[k]) + (relative[ACROSS_Z] + r_y * relative[SPIN]) + (s * r + c * t);
+        wide_store(&w->v_jy[k], v_y);
+        wide_store(&w->v_jz[k], v_z);
+        wide_store(&w->u_y[k], wide_load(&w->u_y[k]) + h * v_y);
+        wide_store(&w->u_z[k], wide_load(&w->u_z[k]) + h * v_z);
+    }
+}
+
+// Moves the modes by the first half of a substep and the drift: from velocities v to v_m and, behind the damping, to v.
+static void move_modes(const ElasticHalf *half, double h, const double *fast, const double *slow, double *q,
+                       double *v, double *v_m)
+{
+    for (int first = 0; first < 2 * N_MODES; first += N_MODES)
+        for (int i = 0; i < N_MODES; i++) {
+            const int k = first + i;
+            const double damped = 0.5 * h * half->damping[i];
+            v_m[k] = (v[k] + 0.5 * h * (fast[k] + slow[k])) / (1.0 + damped);
+            q[k] += h * v_m[k];
+            v[k] = v_m[k] * (1.0 - damped);
+        }
+}
+
+// Power that the modes' damping takes at the velocities v.
+static double modes_lose(const Model *model, const double *v)
+{
+    const double *c = model->elastic->damping, *v_S = v, *v_D = v + N_MODES;
+    double part[8] = {0.0};
+    for (int i = 0; i < N_MODES; i += 8)
+        for (int k = 0; k < 8; k++) part[k] += c[i + k] * (v_S[i + k] * v_S[i + k] + v_D[i + k] * v_D[i + k]);
+    return model->p->cage.m *
+           (((part[0] + part[1]) + (part[2] + part[3])) + ((part[4] + part[5]) + (part[6] + part[7])));
+}
+
+double cage_substeps_advance(const Model *model, double h, const FastState *fast, const double *f, double *y,
+                             Work *w)
+{
+    const ElasticHalf *half = model->elastic;
+    const int steps = (int)fmin(ceil(h / half->substep * (1.0 - ROUNDING)), MOST_SUBSTEPS);
+    const double sub = h / steps, *slow_modes = &f[Y_MODE_S_DOT];
+    double *q = &y[Y_MODE_S], *v = &y[Y_MODE_S_DOT];
+    double modes[2 * N_MODES], v_m[2 * N_MODES], rigid[RELATIVE_MOTIONS], slow[RELATIVE_MOTIONS];
+    double speed[RELATIVE_MOTIONS] = {0.0}, moved[RELATIVE_MOTIONS] = {0.0};  // by the fast accelerations
+    JointVelocities middle;
+    JointPreload preload;
+
+    // where the joints are, and what the step holds
+    memcpy(w->e, fast->e, sizeof fast->e);
+    memcpy(w->u_y, fast->u_y, sizeof fast->u_y);
+    memcpy(w->u_z, fast->u_z, sizeof fast->u_z);
+    memcpy(w->T, fast->T, sizeof fast->T);
+    memcpy(w->N_plate, fast->N_plate, sizeof fast->N_plate);
+    memcpy(modes, fast->modes, sizeof modes);
+    memcpy(rigid, fast->rigid, sizeof rigid);
+    cage_elastic_preload(model, fast->omega_2, &preload);
+    rigid_velocities(model, w, &middle);
+    take(model, &w->half[0], f, slow);
+
+    for (int step = 1;; step++) {
+        // first half of the accelerations, drift
+        double relative[RELATIVE_MOTIONS];
+        move_modes(half, sub, modes, slow_modes, q, v, v_m);
+        for (int i = 0; i < RELATIVE_MOTIONS; i++) {
+            speed[i] += 0.5 * sub * rigid[i];
+            moved[i] += sub * speed[i];
+            relative[i] = speed[i] + ((step - 0.5) * sub - 0.5 * h) * slow[i];
+        }
+        ball_array out[3], in[2];
+        cage_elastic_out(half, v_m, out);
+        cage_elastic_in(half, v_m + N_MODES, in);
+        move_joints(model, sub, &middle, relative, out, in, w);
+        y[Y_WORK] -= cage_joint_advance(model, w, sub, y) + sub * modes_lose(model, v_m);
+        if (step == steps) break;
+
+        // accelerations there, of which the second half
+        cage_elastic_loads(model, &preload, w);
+        cage_joint_shear(model, y, w);
+        fast_accelerations(model, y, w, modes, rigid);
+        for (int i = 0; i < 2 * N_MODES; i++) v[i] += 0.5 * sub * (modes[i] + slow_modes[i]);
+        for (int i = 0; i < RELATIVE_MOTIONS; i++) speed[i] += 0.5 * sub * rigid[i];
+    }
+    give(model, &w->half[0], 1.0, moved, Y_CAGE_X, y);
+    give(model, &w->half[0], 1.0, speed, Y_CAGE_V_X, y);
+    return sub;
+}

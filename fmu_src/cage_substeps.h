@@ -1,0 +1,36 @@
+// Substeps of elastic halves and their joints between two evaluations of the right-hand side.  Equations in
+// cage_substeps.c; twin: bearing_model/cage_substeps.py.
+#pragma once
+
+#include "isa.h"
+#include "model.h"
+
+// Relative rigid motions of half 1 against half 0, in the frame of half 0: x, about y, about z, y, z, spin.
+enum { RELATIVE_MOTIONS = 6 };
+
+// Where the substeps of the next step begin: joints and fast accelerations at an evaluation.
+typedef struct {
+    ball_array e[3], u_y, u_z;  // motions of the joints out of the plane and offsets in it (model.h)
+    ball_array T, N_plate;      // loads of rivets and plates [N]
+    double omega_2;             // square of the halves' speed in space [rad2/s2]
+    double modes[2 * N_MODES];  // accelerations of S, then of D, by joints and the modes' own springs [m/s2]
+    double
+        rigid[RELATIVE_MOTIONS];  // those of the relative motions at the joints, by the joints [m/s2, rad/s2]
+} FastState;
+
+// Takes the fast part from the rates f of the state y, at which w was evaluated, and writes it to `fast`.
+#define cage_substeps_split FOR_ISA(cage_substeps_split)
+void cage_substeps_split(const Model *model, const double *y, const Work *w, double *f, FastState *fast);
+
+// Substeps of a step of length h from `fast` under the slow rates f.  y: the state at the step's start but for positions
+// and velocities of the halves, which a step without fast accelerations has reached at its end and in its middle; the substeps
+// add theirs, and advance modes, friction states and work.  w: kinematics in the middle.  Velocities and rates of the modes lack
+// the last substep's second half.  Returns the length of the substeps [s].
+#define cage_substeps_advance FOR_ISA(cage_substeps_advance)
+double cage_substeps_advance(const Model *model, double h, const FastState *fast, const double *f, double *y,
+                             Work *w);
+
+// Adds to the velocities of both halves in y what the relative accelerations `rigid` give in the time h [s].
+#define cage_substeps_kick FOR_ISA(cage_substeps_kick)
+void cage_substeps_kick(const Model *model, const Work *w, double h, const double rigid[RELATIVE_MOTIONS],
+                        double *y);
