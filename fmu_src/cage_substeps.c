@@ -14,6 +14,10 @@
 // and tilt both halves alike; a joint feels the inverse inertia 2/m + 2 c_x^2/J_t there.  Whatever these motions leave out,
 // gyroscopic terms for example, is in the slow accelerations, because these are the whole ones less the fast ones.
 //
+// A ball that presses on a wall holds it: a held load would answer to the wall's motion a step late, which is unstable where the
+// contact is stiffer than the wall.  So the load follows in the substeps, Q + k (rate t - u), k the contact's stiffness, rate
+// that of the approach by rigid motions and u what the modes move the wall since the step's start; the end corrects it too.
+//
 // The friction states follow the implicit midpoint rule (cage_joint_advance).  What they and the modes' damping dissipate is summed over
 // the substeps.  docs/method.md has the measured reasons.
 #include "cage_substeps.h"
@@ -129,6 +133,13 @@ void cage_substeps_split(const Model *model, const double *y, const Work *w, dou
     const ElasticHalf *half = model->elastic;
     fast_accelerations(model, y, w, fast->modes, fast->rigid);
     fast->omega_2 = cage_elastic_speed_2(w);
+    for (int h = 0; h < 2; h++) {
+        memcpy(fast->touch_x[h], w->touch_x[h], sizeof fast->touch_x[h]);
+        memcpy(fast->touch_t[h], w->touch_t[h], sizeof fast->touch_t[h]);
+        memcpy(fast->touch_k[h], w->touch_k[h], sizeof fast->touch_k[h]);
+        memcpy(fast->touch_rate[h], w->touch_rate[h], sizeof fast->touch_rate[h]);
+        memcpy(fast->touch_Q[h], w->pocket[h].Q, sizeof fast->touch_Q[h]);
+    }
     memcpy(fast->e, w->e, sizeof fast->e);
     memcpy(fast->u_y, w->u_y, sizeof fast->u_y);
     memcpy(fast->u_z, w->u_z, sizeof fast->u_z);
@@ -213,17 +224,75 @@ static double modes_lose(const Model *model, const double *v)
            (((part[0] + part[1]) + (part[2] + part[3])) + ((part[4] + part[5]) + (part[6] + part[7])));
 }
 
+// A ball on the wall of half 0 (side -1) or 1 (side 1).
+typedef struct {
+    double k, rate, Q, side, from;       // from: the wall's motion at the step's start
+    _Alignas(64) double shape[N_MODES];  // its motion along the normal by S; by D: side times that
+} Touch;
+
+// Motion of the wall at the coordinates q of S and D.
+static double touch_motion(const ElasticHalf *half, const Touch *touch, const double *q)
+{
+    double part[8] = {0.0};
+    for (int i = 0; i < 8 * half->blocks; i += 8)
+        for (int k = 0; k < 8; k++)
+            part[k] += touch->shape[i + k] * (q[i + k] + touch->side * q[N_MODES + i + k]);
+    return ((part[0] + part[1]) + (part[2] + part[3])) + ((part[4] + part[5]) + (part[6] + part[7]));
+}
+
+// The balls that touch walls at the step's start; returns how many.
+static int find_touches(const ElasticHalf *half, const FastState *fast, const double *q, Touch touches[2 * Z])
+{
+    const double inv_root = 1.0 / 1.4142135623730951;
+    int count = 0;
+    for (int h = 0; h < 2; h++)
+        for (int j = 0; j < PACKETS * LANE_WIDTH; j += LANE_WIDTH) {
+            const int mask = wide_mask(wide_above(wide_load(&fast->touch_k[h][j]), 0.0)), side = 2 * h - 1;
+            WallPlaces places;
+            if (mask == 0) continue;
+            elastic_wall_places(half, side, j, mask, wide_load(&fast->touch_x[h][j]),
+                                wide_load(&fast->touch_t[h][j]), &places);
+            for (int k = j; k < j + LANE_WIDTH && k < Z; k++) {
+                if (!(mask >> (k - j) & 1)) continue;
+                Touch *touch = &touches[count++];
+                *touch = (Touch){
+                    fast->touch_k[h][k], fast->touch_rate[h][k], fast->touch_Q[h][k], side, 0.0, {0.0}};
+                elastic_wall_shape(half, side, k, &places, touch->shape);
+                for (int i = 0; i < N_MODES; i++) touch->shape[i] *= inv_root;
+                touch->from = touch_motion(half, touch, q);
+            }
+        }
+    return count;
+}
+
+// Slow accelerations of the modes at the time t of the step: those held, and what the loads on the walls have changed by.
+static void slow_accelerations(const Model *model, double t, const double *at_start, const Touch *touches,
+                               int count, const double *q, double slow[2 * N_MODES])
+{
+    const ElasticHalf *half = model->elastic;
+    memcpy(slow, at_start, 2 * N_MODES * sizeof *slow);
+    for (const Touch *touch = touches; touch < touches + count; touch++) {
+        const double u = touch_motion(half, touch, q) - touch->from;
+        const double change = fmax(touch->k * (touch->rate * t - u), -touch->Q) / model->p->cage.m;
+        for (int i = 0; i < 8 * half->blocks; i++) {
+            slow[i] += change * touch->shape[i];
+            slow[N_MODES + i] += (touch->side * change) * touch->shape[i];
+        }
+    }
+}
+
 double cage_substeps_advance(const Model *model, double h, const FastState *fast, const double *f, double *y,
-                             Work *w)
+                             double held[2 * N_MODES], Work *w)
 {
     const ElasticHalf *half = model->elastic;
     const int steps = (int)fmin(ceil(h / half->substep * (1.0 - ROUNDING)), MOST_SUBSTEPS);
-    const double sub = h / steps, *slow_modes = &f[Y_MODE_S_DOT];
+    const double sub = h / steps;
     double *q = &y[Y_MODE_S], *v = &y[Y_MODE_S_DOT];
     double modes[2 * N_MODES], v_m[2 * N_MODES], rigid[RELATIVE_MOTIONS], slow[RELATIVE_MOTIONS];
     double speed[RELATIVE_MOTIONS] = {0.0}, moved[RELATIVE_MOTIONS] = {0.0};  // by the fast accelerations
     JointVelocities middle;
     JointPreload preload;
+    Touch touches[2 * Z];
 
     // where the joints are, and what the step holds
     memcpy(w->e, fast->e, sizeof fast->e);
@@ -236,11 +305,13 @@ double cage_substeps_advance(const Model *model, double h, const FastState *fast
     cage_elastic_preload(model, fast->omega_2, &preload);
     rigid_velocities(model, w, &middle);
     take(model, &w->half[0], f, slow);
+    const int count = find_touches(half, fast, q, touches);
+    memcpy(held, &f[Y_MODE_S_DOT], sizeof modes);
 
     for (int step = 1;; step++) {
         // first half of the accelerations, drift
         double relative[RELATIVE_MOTIONS];
-        move_modes(half, sub, modes, slow_modes, q, v, v_m);
+        move_modes(half, sub, modes, held, q, v, v_m);
         for (int i = 0; i < RELATIVE_MOTIONS; i++) {
             speed[i] += 0.5 * sub * rigid[i];
             moved[i] += sub * speed[i];
@@ -251,13 +322,14 @@ double cage_substeps_advance(const Model *model, double h, const FastState *fast
         cage_elastic_in(half, v_m + N_MODES, in);
         move_joints(model, sub, &middle, relative, out, in, w);
         y[Y_WORK] -= cage_joint_advance(model, w, sub, y) + sub * modes_lose(model, v_m);
+        slow_accelerations(model, step * sub, &f[Y_MODE_S_DOT], touches, count, q, held);
         if (step == steps) break;
 
         // accelerations there, of which the second half
         cage_elastic_loads(model, &preload, w);
         cage_joint_shear(model, y, w);
         fast_accelerations(model, y, w, modes, rigid);
-        for (int i = 0; i < 2 * N_MODES; i++) v[i] += 0.5 * sub * (modes[i] + slow_modes[i]);
+        for (int i = 0; i < 2 * N_MODES; i++) v[i] += 0.5 * sub * (modes[i] + held[i]);
         for (int i = 0; i < RELATIVE_MOTIONS; i++) speed[i] += 0.5 * sub * rigid[i];
     }
     give(model, &w->half[0], 1.0, moved, Y_CAGE_X, y);

@@ -12,6 +12,8 @@ enum { RELATIVE_MOTIONS = 6 };
 typedef struct {
     ball_array e[3], u_y, u_z;  // motions of the joints out of the plane and offsets in it (model.h)
     ball_array T, N_plate;      // loads of rivets and plates [N]
+    ball_array touch_x[2], touch_t[2], touch_k[2], touch_rate[2],
+        touch_Q[2];             // contacts with the walls, their loads [N]
     double omega_2;             // square of the halves' speed in space [rad2/s2]
     double modes[2 * N_MODES];  // accelerations of S, then of D, by joints and the modes' own springs [m/s2]
     double
@@ -25,10 +27,11 @@ void cage_substeps_split(const Model *model, const double *y, const Work *w, dou
 // Substeps of a step of length h from `fast` under the slow rates f.  y: the state at the step's start but for positions
 // and velocities of the halves, which a step without fast accelerations has reached at its end and in its middle; the substeps
 // add theirs, and advance modes, friction states and work.  w: kinematics in the middle.  Velocities and rates of the modes lack
-// the last substep's second half.  Returns the length of the substeps [s].
+// the last substep's second half.  held: accelerations of the modes at the step's end that the substeps foresee beside the fast
+// ones.  Returns the length of the substeps [s].
 #define cage_substeps_advance FOR_ISA(cage_substeps_advance)
 double cage_substeps_advance(const Model *model, double h, const FastState *fast, const double *f, double *y,
-                             Work *w);
+                             double held[2 * N_MODES], Work *w);
 
 // Adds to the velocities of both halves in y what the relative accelerations `rigid` give in the time h [s].
 #define cage_substeps_kick FOR_ISA(cage_substeps_kick)

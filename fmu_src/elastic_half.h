@@ -102,6 +102,10 @@ void elastic_wall_places(const ElasticHalf *half, int side, int j, int near, wid
 #define elastic_wall_normal FOR_ISA(elastic_wall_normal)
 scalar elastic_wall_normal(const ElasticHalf *half, int side, int j, const WallPlaces *at, const scalar *q);
 
+// Its motion by each mode there [MODES].
+#define elastic_wall_shape FOR_ISA(elastic_wall_shape)
+void elastic_wall_shape(const ElasticHalf *half, int side, int j, const WallPlaces *at, scalar *shape);
+
 // Sets all of its motion.  S: distance of the ball from the pocket's axis.
 #define elastic_wall FOR_ISA(elastic_wall)
 void elastic_wall(const ElasticHalf *half, int side, int j, const WallPlaces *at, const scalar *q,

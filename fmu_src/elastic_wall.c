@@ -50,32 +50,54 @@ INLINE scalar all_sums(const wide sums[PARTS])
     return ((part[0] + part[1]) + (part[2] + part[3])) + ((part[4] + part[5]) + (part[6] + part[7]));
 }
 
-scalar elastic_wall_normal(const ElasticHalf *half, int side, int j, const WallPlaces *at, const scalar *q)
+// Motions of a wall along the contact's normal by a few modes side by side.
+typedef struct {
+    const double (*from)[3][2][MODES], (*wave)[MODES];
+    wide weight[2][2][4];  // [part][x, t][term]
+} NormalMotion;
+
+INLINE NormalMotion normal_motion(const ElasticHalf *half, int side, int j, const WallPlaces *at)
 {
-    const double (*from)[3][2][MODES] = half->wall[at->node[j]];
-    wide weight[2][2][4], sums[PARTS];  // [part][x, t][term]
+    NormalMotion n = {half->wall[at->node[j]], half->wave[j], {{{wide_set(0.0)}}}};
     for (int part = 0; part < 2; part++)
         for (int c = 0; c < 2; c++)
             for (int t = 0; t < 4; t++)
-                weight[part][c][t] = wide_set(wall_sign(at->back[j], side, 2 * c, part) *
-                                              (c == 0 ? at->n_x[j] : at->n_t[j]) * at->value[t][j]);
+                n.weight[part][c][t] = wide_set(wall_sign(at->back[j], side, 2 * c, part) *
+                                                (c == 0 ? at->n_x[j] : at->n_t[j]) * at->value[t][j]);
+    return n;
+}
+
+// By the modes from m on.
+INLINE wide normal_motions(const NormalMotion *n, int m)
+{
+    wide u[2];
+    for (int part = 0; part < 2; part++) {
+        wide by[2] = {wide_set(0.0), wide_set(0.0)};
+        for (int t = 0; t < 4; t++)
+            for (int c = 0; c < 2; c++)
+                by[c] = wide_fma(n->weight[part][c][t], wide_load(&n->from[t][2 * c][part][m]), by[c]);
+        u[part] = by[0] + by[1];
+    }
+    return wide_fma(u[0], wide_load(&n->wave[0][m]), u[1] * wide_load(&n->wave[1][m]));
+}
+
+scalar elastic_wall_normal(const ElasticHalf *half, int side, int j, const WallPlaces *at, const scalar *q)
+{
+    const NormalMotion normal = normal_motion(half, side, j, at);
+    wide sums[PARTS];
     for (int i = 0; i < PARTS; i++) sums[i] = wide_set(0.0);
     for (int block = 0; block < half->blocks; block++)
         for (int i = 0; i < PARTS; i++) {
             const int m = 8 * block + i * LANE_WIDTH;
-            wide u[2];
-            for (int part = 0; part < 2; part++) {
-                wide by[2] = {wide_set(0.0), wide_set(0.0)};
-                for (int t = 0; t < 4; t++)
-                    for (int c = 0; c < 2; c++)
-                        by[c] = wide_fma(weight[part][c][t], wide_load(&from[t][2 * c][part][m]), by[c]);
-                u[part] = by[0] + by[1];
-            }
-            const wide moved =
-                wide_fma(u[0], wide_load(&half->wave[j][0][m]), u[1] * wide_load(&half->wave[j][1][m]));
-            sums[i] = wide_fma(moved, wide_load(&q[m]), sums[i]);
+            sums[i] = wide_fma(normal_motions(&normal, m), wide_load(&q[m]), sums[i]);
         }
     return all_sums(sums);
+}
+
+void elastic_wall_shape(const ElasticHalf *half, int side, int j, const WallPlaces *at, scalar *shape)
+{
+    const NormalMotion normal = normal_motion(half, side, j, at);
+    for (int m = 0; m < 8 * half->blocks; m += LANE_WIDTH) wide_store(&shape[m], normal_motions(&normal, m));
 }
 
 void elastic_wall(const ElasticHalf *half, int side, int j, const WallPlaces *at, const scalar *q,

@@ -577,6 +577,11 @@ bool integrator_state_is_valid(const IntegratorState *s, bool elastic)
     fine &= values_are_within(fast->e[0], 3 * LANES, motion) && values_are_within(fast->u_y, LANES, motion) &&
             values_are_within(fast->u_z, LANES, motion) && values_are_within(fast->T, LANES, load) &&
             values_are_within(fast->N_plate, LANES, load) &&
+            values_are_within(fast->touch_x[0], 2 * LANES, motion) &&
+            values_are_within(fast->touch_t[0], 2 * LANES, motion) &&
+            values_are_within(fast->touch_k[0], 2 * LANES, elastic ? 1e15 : 0.0) &&
+            values_are_within(fast->touch_rate[0], 2 * LANES, elastic ? 1e6 : 0.0) &&
+            values_are_within(fast->touch_Q[0], 2 * LANES, load) &&
             values_are_within(&fast->omega_2, 1, elastic ? 1e18 : 0.0) &&
             values_are_within(fast->modes, 2 * N_MODES, acceleration) &&
             values_are_within(fast->rigid, RELATIVE_MOTIONS, acceleration);

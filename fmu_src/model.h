@@ -222,6 +222,10 @@ typedef struct {
     mode_array q[2], q_dot[2], wall_force[2];
     scalar reach[2], more_J[2], more_J_dot[2];
 
+    // contacts with the walls of each elastic half (pocket_force): direction (x, t) from the pocket's axis to the ball, stiffness
+    // along it [N/m], 0 without contact, and the rate of the approach by ball and half as rigid bodies [m/s]
+    ball_array touch_x[2], touch_t[2], touch_k[2], touch_rate[2];
+
     // elastic part of the pads' motions against each other, out of the plane (x, about r, about t) and in it (r, t); e: half
     // of the whole motion out of the plane; part of the halves' rigid motion in u_y and u_z
     ball_array pad_out[3], pad_in[2], pad_in_dot[2], e[3], rigid_u_y, rigid_u_z;

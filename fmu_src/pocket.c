@@ -119,6 +119,15 @@ INLINE void pocket_contacts(const Model *model, Work *w, int h, int j, const Poc
         wide_store(&on_wall[0][j], Q * n_x - vec_dot(drawn, a));
         wide_store(&on_wall[1][j], -vec_dot(drawn, gap->b));
         wide_store(&on_wall[2][j], Q * n_t - vec_dot(drawn, e_t));
+
+        // the wall's own compliance is in series with the contact
+        const wide k = 1.5 * Q_0,
+                   soft = wide_max(gap->delta, wide_set(1e-30)) + model->elastic->compliance * k;
+        const wide u_dot = n_x * wide_load(&wall->u_dot[0][j]) + n_t * wide_load(&wall->u_dot[2][j]);
+        wide_store(&w->touch_x[h][j], n_x);
+        wide_store(&w->touch_t[h][j], n_t);
+        wide_store(&w->touch_k[h][j], k / soft);
+        wide_store(&w->touch_rate[h][j], delta_dot + u_dot);
     }
 
     wide_store(&pocket->Q[j], Q);
@@ -224,7 +233,10 @@ static void pocket_elastic_half(const Model *model, Work *w, int h, bool mixed)
         PocketGap gap = pocket_gap(model->d, w, half, j);
         bool contact = wide_any(wide_above(gap.delta + w->reach[h], 0.0));
         if (contact) contact = pocket_elastic(model, w, h, j, &gap, mixed, &wall);
-        if (!contact) pocket_clear(pocket, j);
+        if (!contact) {
+            pocket_clear(pocket, j);
+            wide_store(&w->touch_k[h][j], wide_set(0.0));
+        }
         wide_store(&w->delta_c[h][j], gap.delta);
         touched |= contact;
     }
