@@ -296,7 +296,7 @@ INLINE wide wide_exp(wide x)
     return wide_select(underflow, wide_set(0.0), (wide)((words)p + ((words)shifted << 52)));
 }
 
-// 2^x of n <= ABREAST packets, relative error < 2e-14, for x < 1020; 2^-1020 below -1020.
+// 2^x of n <= ABREAST packets of x < 1020, relative error < 2e-14; 2^-1020 below -1020.
 INLINE void wide_power_of_2(int n, const wide x[], wide power[])
 {
     static const double c[] = {1.3258279803210894e-06, 1.5252998019728296e-05, 0.00015403441115819673,
@@ -315,9 +315,8 @@ INLINE void wide_power_of_2(int n, const wide x[], wide power[])
     for (int i = 0; i < n; i++) power[i] = (wide)((words)power[i] + ((words)whole[i] << 52));
 }
 
-// 1/sqrt(x) of n <= ABREAST packets of normal x > 0, relative error < 5e-16: half the bits of x from a constant, read as a number, are
-// within 3.5 % of it, and two steps of Householder's method do the rest.  Nearly all processors take longer for a root and
-// a division.
+// 1/sqrt(x) of n <= ABREAST packets of normal x > 0, relative error < 5e-16.  A constant less half the bits of x, read as a
+// number, is within 3.5 %; two steps with polynomials in e = x y^2 - 1 do the rest.  A root and a division take longer.
 INLINE void wide_inv_sqrt(int n, const wide x[], wide y[])
 {
     wide e[ABREAST];

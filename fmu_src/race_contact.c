@@ -340,7 +340,7 @@ INLINE Tangential sliced_traction(const Parameters *p, const RaceConstants *race
     return out;
 }
 
-// Films of all packets of contacts.  They go together through each stage, because its operations wait for one another.
+// Films of all packets of contacts, which go through each stage together.
 INLINE void race_films(const Model *model, const RaceConstants *const race[CONTACT_PACKETS],
                        const Contact *const c[CONTACT_PACKETS], bool mixed, Film film[CONTACT_PACKETS])
 {
