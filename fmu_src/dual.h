@@ -84,6 +84,29 @@ INLINE wide wide_select(bits condition, wide yes, wide no)
     return condition ? yes : no;
 }
 
+// Packets of one ball have no halves and no four lanes.
+INLINE wide wide_join(wide x, wide y)
+{
+    (void)y;
+    return x;
+}
+
+INLINE wide wide_last_half(wide x)
+{
+    return x;
+}
+
+INLINE wide wide_fill(wide x, int lane)
+{
+    (void)lane;
+    return x;
+}
+
+INLINE wide wide_sum_fours(wide x)
+{
+    return x;
+}
+
 INLINE wide wide_fma(wide x, wide y, wide z)
 {
     return x * y + z;
@@ -148,6 +171,19 @@ INLINE wide wide_exp(wide x)
 {
     const double value = creal(x), power = value < -700.0 ? 0.0 : exp(fmin(value, 700.0));
     return scalar_chain(x, power, value > 700.0 ? 0.0 : power);
+}
+
+INLINE void wide_power_of_2(int n, const wide x[], wide power[])
+{
+    for (int i = 0; i < n; i++) power[i] = wide_exp(0.6931471805599453 * x[i]);
+}
+
+INLINE void wide_inv_sqrt(int n, const wide x[], wide y[])
+{
+    for (int i = 0; i < n; i++) {
+        const double inverse = 1.0 / sqrt(creal(x[i]));
+        y[i] = scalar_chain(x[i], inverse, -0.5 * inverse / creal(x[i]));
+    }
 }
 
 INLINE wide wide_log(wide x)

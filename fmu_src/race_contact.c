@@ -36,18 +36,48 @@
 // Slices on both sides of the place x_0 that splits the ellipse, x = xi/a in [-1, 1]: x = x_0 (1 - z) + side z with
 // weights (3/4)(1 + side x)(1 - side x_0)^2 w, where z and w are Gauss-Jacobi's points for the weight 1 - z on [0, 1].
 // They integrate the pressure (3/4)(1 - x^2) times polynomials up to degree 10 on each side exactly.
-enum { SLICES = 12, SLICES_ROOM = 16 };  // whole packets, the last slices without weight
+// Slices 3 l to 3 l + 2 are the threes l = 0...3, two on each side: THIRDS rows with a slice of each.  Rows are repeated, so that
+// a packet may hold one row for each of two contacts.
+enum { SIDES = 2, ONE_SIDE = 6, THREES = 4, THIRDS = 3, ROW = 8 };
 
 static const struct {
-    double side[SLICES_ROOM], z[SLICES_ROOM], w[SLICES_ROOM];
+    double near[THIRDS][ROW];    // 1 - z, what x takes of x_0
+    double far[THIRDS][ROW];     // side z, what it takes of the ellipse's end
+    double w[THIRDS][ROW];       // w
+    double side_w[THIRDS][ROW];  // side w
 } SLICE = {
-    {-1.0, -1.0, -1.0, -1.0, -1.0, -1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0},
-    {0.02931642715978494, 0.1480785996684843, 0.3369846902811543, 0.5586715187715502, 0.7692338620300545,
-     0.926945671319741, 0.02931642715978494, 0.1480785996684843, 0.3369846902811543, 0.5586715187715502,
-     0.7692338620300545, 0.926945671319741},
-    {0.0723103307255089, 0.13554249723151868, 0.14079255378819883, 0.0986611508906552, 0.04395516555050896,
-     0.008738301813609529, 0.0723103307255089, 0.13554249723151868, 0.14079255378819883, 0.0986611508906552,
-     0.04395516555050896, 0.008738301813609529},
+    {{0.9706835728402151, 0.4413284812284498, 0.9706835728402151, 0.4413284812284498, 0.9706835728402151,
+      0.4413284812284498, 0.9706835728402151, 0.4413284812284498},
+     {0.8519214003315158, 0.2307661379699455, 0.8519214003315158, 0.2307661379699455, 0.8519214003315158,
+      0.2307661379699455, 0.8519214003315158, 0.2307661379699455},
+     {0.6630153097188457, 0.073054328680259, 0.6630153097188457, 0.073054328680259, 0.6630153097188457,
+      0.073054328680259, 0.6630153097188457, 0.073054328680259}},
+    {{-0.02931642715978494, -0.5586715187715502, 0.02931642715978494, 0.5586715187715502,
+      -0.02931642715978494, -0.5586715187715502, 0.02931642715978494, 0.5586715187715502},
+     {-0.1480785996684843, -0.7692338620300545, 0.1480785996684843, 0.7692338620300545, -0.1480785996684843,
+      -0.7692338620300545, 0.1480785996684843, 0.7692338620300545},
+     {-0.3369846902811543, -0.926945671319741, 0.3369846902811543, 0.926945671319741, -0.3369846902811543,
+      -0.926945671319741, 0.3369846902811543, 0.926945671319741}},
+    {{0.0723103307255089, 0.0986611508906552, 0.0723103307255089, 0.0986611508906552, 0.0723103307255089,
+      0.0986611508906552, 0.0723103307255089, 0.0986611508906552},
+     {0.13554249723151868, 0.04395516555050896, 0.13554249723151868, 0.04395516555050896, 0.13554249723151868,
+      0.04395516555050896, 0.13554249723151868, 0.04395516555050896},
+     {0.14079255378819883, 0.008738301813609529, 0.14079255378819883, 0.008738301813609529,
+      0.14079255378819883, 0.008738301813609529, 0.14079255378819883, 0.008738301813609529}},
+    {{-0.0723103307255089, -0.0986611508906552, 0.0723103307255089, 0.0986611508906552, -0.0723103307255089,
+      -0.0986611508906552, 0.0723103307255089, 0.0986611508906552},
+     {-0.13554249723151868, -0.04395516555050896, 0.13554249723151868, 0.04395516555050896,
+      -0.13554249723151868, -0.04395516555050896, 0.13554249723151868, 0.04395516555050896},
+     {-0.14079255378819883, -0.008738301813609529, 0.14079255378819883, 0.008738301813609529,
+      -0.14079255378819883, -0.008738301813609529, 0.14079255378819883, 0.008738301813609529}},
+};
+
+// Packets of balls without padding, balls in the last one, and packets of contacts (race_tractions).
+enum {
+    WHOLE = Z / LANE_WIDTH,
+    REST = Z % LANE_WIDTH,
+    JOINED = REST > 0 && 2 * REST <= LANE_WIDTH,
+    CONTACT_PACKETS = 2 * PACKETS - JOINED
 };
 
 static const double TINY = 1e-30;  // keeps padding lanes and balls at a groove's centre from dividing by 0
@@ -66,6 +96,18 @@ typedef struct {
     vec approach;     // velocity of the ball's centre against the race there
     wide R, delta, sqrt_delta, Q, dissipated;
 } Contact;
+
+// A race's constants at the contacts of a packet.
+typedef struct {
+    wide a_delta;         // a/sqrt(delta)
+    wide half_curvature;  // 1/(2 R_m)
+    wide ln_Lambda, rolling, horizontal;
+} RaceConstants;
+
+// Film of a contact: mean surface speed with its floor, 1/U, asperities' share of the load, rolling friction of the inlet.
+typedef struct {
+    wide U, inv_U, f_a, F_R;
+} Film;
 
 // Load of a contact with approach delta, which grows at the rate delta_dot, and the power that its damping
 // dissipates.
@@ -130,155 +172,289 @@ INLINE Contact outer_contact_at_rest(const Model *model, const BallMotion *ball)
 }
 
 // Traction with the slip at the contact's middle.
-INLINE Tangential point_traction(const Parameters *p, const Contact *c, wide inv_U, wide f_a, bool mixed)
+INLINE Tangential point_traction(const Parameters *p, const Contact *c, const Film *film, bool mixed)
 {
     const wide slip_2 = vec_dot(c->slip, c->slip) + p->oil.v_0 * p->oil.v_0;
-    const wide inv_slip = 1.0 / wide_sqrt(slip_2);
-    Tangential out = {0};
-    out.g = traction_mu(p, slip_2 * inv_slip * inv_U, f_a, mixed) * c->Q * inv_slip;
+    const wide inv_slip = 1.0 / wide_sqrt(slip_2), s = slip_2 * inv_slip * film->inv_U;
+    wide mu;
+    traction_mu(p, 1, &s, &film->f_a, mixed, &mu);
+    Tangential out;
+    out.g = mu * c->Q * inv_slip;
     out.F_s = vec_scale(-out.g, c->slip);
     out.M = vec_cross(vec_scale(c->R, c->n), out.F_s);
     out.dissipated = -vec_dot(out.F_s, c->slip);
+    out.g_spin = out.spin_dissipated = wide_set(0.0);
     return out;
 }
 
 // What the slices of a contact have in common.  Slip along t_1 and t_2: s_1 + k x + b_1 x^2, s_2 + b_2 x^2.
 typedef struct {
-    wide s_1, s_2, k, b_1, b_2, Q, inv_U, f_a;
+    wide s_1, s_2, k, b_1, b_2, inv_U, f_a;
     wide x_0;  // where the ellipse is split
+    wide Q;
 } SlicedContact;
 
-// What a slice adds, and the sums over the slices: coefficient g and its second moment, power, forces -F_1, -F_2 and their
-// moments over x.
+// A slice: its side, -1 or 1, and coefficients of SLICE.
 typedef struct {
-    wide g, g_xx, dissipated, F_1, F_2, F_1x, F_1xx, F_2xx;
-} SliceTraction;
+    wide side, near, far, w, side_w;
+} Slice;
 
-enum { SUMS = sizeof(SliceTraction) / sizeof(wide) };
+// Sums over the slices of g x^n, g = |traction| / |slip|.  The traction is -g times the slip, and the slip a polynomial in x:
+// forces, moments and power follow from these sums.
+enum { MOMENTS = 5 };
 
-// Place x_0 = -s_1 k/(k^2 + b_1^2) where the slip changes its sign, within the ellipse.
-INLINE wide split_place(const SlicedContact *c)
+typedef struct {
+    wide of[MOMENTS];
+} SliceMoments;
+
+// Place x_0 = -s_1 k/(k^2 + b_1^2) where the slip s_1 + k x + b_1 x^2 changes its sign, within the ellipse.
+INLINE wide split_place(wide s_1, wide k, wide b_1)
 {
-    const wide x_0 = -(c->s_1 * c->k) / (c->k * c->k + c->b_1 * c->b_1 + TINY);
+    const wide x_0 = -(s_1 * k) / (k * k + b_1 * b_1 + TINY);
     return wide_max(wide_min(x_0, wide_set(1.0)), wide_set(-1.0));
 }
 
-INLINE SliceTraction slice_traction(const Parameters *p, const SlicedContact *c, wide side, wide z, wide w,
-                                    bool mixed)
+// g x^m of n <= ABREAST packets of slices, slice[i] of contact c[i].
+INLINE void slice_tractions(const Parameters *p, int n, const SlicedContact *const c[], const Slice slice[],
+                            bool mixed, SliceMoments g[])
 {
-    const wide x = c->x_0 * (1.0 - z) + side * z, xx = x * x, half = 1.0 - side * c->x_0;
-    const wide part = (1.0 + side * x) * (0.75 * (half * half) * w);
-    const wide s_1 = c->s_1 + x * c->k + xx * c->b_1, s_2 = c->s_2 + xx * c->b_2;
-    const wide slip_2 = s_1 * s_1 + s_2 * s_2 + p->oil.v_0 * p->oil.v_0, inv_slip = 1.0 / wide_sqrt(slip_2);
-    const wide g = part * traction_mu(p, slip_2 * inv_slip * c->inv_U, c->f_a, mixed) * c->Q * inv_slip;
-    const wide F_1 = g * s_1, F_2 = g * s_2;
-    return (SliceTraction){g, g * xx, F_1 * s_1 + F_2 * s_2, F_1, F_2, F_1 * x, F_1 * xx, F_2 * xx};
+    wide x[ABREAST], slip_2[ABREAST], inv_slip[ABREAST], s[ABREAST], f_a[ABREAST], mu[ABREAST];
+    for (int i = 0; i < n; i++) {
+        x[i] = wide_fma(c[i]->x_0, slice[i].near, slice[i].far);
+        const wide s_1 = wide_fma(x[i], wide_fma(x[i], c[i]->b_1, c[i]->k), c[i]->s_1);
+        const wide s_2 = wide_fma(x[i] * x[i], c[i]->b_2, c[i]->s_2);
+        slip_2[i] = wide_fma(s_1, s_1, wide_fma(s_2, s_2, wide_set(p->oil.v_0 * p->oil.v_0)));
+    }
+    wide_inv_sqrt(n, slip_2, inv_slip);
+    for (int i = 0; i < n; i++) s[i] = slip_2[i] * inv_slip[i] * c[i]->inv_U, f_a[i] = c[i]->f_a;
+    traction_mu(p, n, s, f_a, mixed, mu);
+    for (int i = 0; i < n; i++) {
+        const wide half = 1.0 - slice[i].side * c[i]->x_0, load = 0.75 * c[i]->Q * (half * half);
+        g[i].of[0] = wide_fma(slice[i].side_w, x[i], slice[i].w) * load * (mu[i] * inv_slip[i]);
+        for (int m = 1; m < MOMENTS; m++) g[i].of[m] = g[i].of[m - 1] * x[i];
+    }
 }
 
-// Adds the values in the lanes to the sums of a ball, one lane after the other as they come slice by slice.
-static __attribute__((noinline)) void add_lanes(const SliceTraction *slices, scalar sum[SUMS])
+INLINE wide sum_of_three(const SliceMoments g[THIRDS], int m)
 {
-    scalar of[LANE_WIDTH][SUMS], lanes[SUMS][LANE_WIDTH];
-    memcpy(lanes, slices, sizeof lanes);
-    for (int n = 0; n < SUMS; n++)
-        for (int i = 0; i < LANE_WIDTH; i++) of[i][n] = lanes[n][i];
-    for (int i = 0; i < LANE_WIDTH; i++)
-        for (int n = 0; n < SUMS; n += LANE_WIDTH)
-            wide_store(&sum[n], wide_load(&sum[n]) + wide_load(&of[i][n]));
+    return g[0].of[m] + g[1].of[m] + g[2].of[m];
 }
 
-// Sums over the slices, which lie side by side in a packet, for one ball after the other.  Where a packet has few
-// balls this takes fewer packets than slice by slice.
-INLINE SliceTraction ball_by_ball(const Parameters *p, const SlicedContact *all, int balls, bool mixed)
+// Sums slice by slice, all slices of one side together.
+INLINE SliceMoments slice_by_slice(const Parameters *p, const SlicedContact *c, bool mixed)
 {
-    enum { COMMON = sizeof *all / sizeof(wide) };
-
-    scalar common[COMMON][LANE_WIDTH], sum[LANE_WIDTH][SUMS] = {{0.0}}, sums[SUMS][LANE_WIDTH];
-    memcpy(common, all, sizeof common);
-    for (int ball = 0; ball < balls; ball++) {
-        wide one[COMMON];
-        SlicedContact c;
-        for (int i = 0; i < COMMON; i++) one[i] = wide_set(common[i][ball]);
-        memcpy(&c, one, sizeof c);
-        for (int i = 0; i < SLICES; i += LANE_WIDTH) {
-            const SliceTraction s = slice_traction(p, &c, wide_load(&SLICE.side[i]), wide_load(&SLICE.z[i]),
-                                                   wide_load(&SLICE.w[i]), mixed);
-            add_lanes(&s, sum[ball]);
+    SliceMoments part[SIDES], out;
+    for (int side = 0; side < SIDES; side++) {
+        const wide sign = wide_set(side == 0 ? -1.0 : 1.0);
+        const SlicedContact *same[ONE_SIDE];
+        Slice slice[ONE_SIDE];
+        SliceMoments g[ONE_SIDE];
+        for (int i = 0; i < ONE_SIDE; i++) {
+            const int third = i % THIRDS, three = THREES / SIDES * side + i / THIRDS;
+            same[i] = c;
+            slice[i] = (Slice){sign, wide_set(SLICE.near[third][three]), wide_set(SLICE.far[third][three]),
+                               wide_set(SLICE.w[third][three]), wide_set(SLICE.side_w[third][three])};
         }
+        slice_tractions(p, ONE_SIDE, same, slice, mixed, g);
+        for (int m = 0; m < MOMENTS; m++)
+            part[side].of[m] = sum_of_three(&g[0], m) + sum_of_three(&g[THIRDS], m);
     }
-    for (int n = 0; n < SUMS; n++)
-        for (int ball = 0; ball < LANE_WIDTH; ball++) sums[n][ball] = sum[ball][n];
-    SliceTraction out;
-    memcpy(&out, sums, sizeof out);
+    for (int m = 0; m < MOMENTS; m++) out.of[m] = part[0].of[m] + part[1].of[m];
     return out;
 }
 
-INLINE SliceTraction slice_by_slice(const Parameters *p, const SlicedContact *c, bool mixed)
+// The same sums, in the same order, where a quarter of a packet with four lanes, or half of one with eight, has the slices of
+// one contact: THIRDS packets for each lane with a contact among the first four.
+INLINE SliceMoments contact_by_contact(const Parameters *p, const SlicedContact *all, int lanes, int balls,
+                                       bool mixed)
 {
-    SliceTraction out = {0};
-    for (int i = 0; i < SLICES; i++) {
-        const SliceTraction s =
-            slice_traction(p, c, wide_set(SLICE.side[i]), wide_set(SLICE.z[i]), wide_set(SLICE.w[i]), mixed);
-        out.g += s.g, out.g_xx += s.g_xx, out.dissipated += s.dissipated;
-        out.F_1 += s.F_1, out.F_1x += s.F_1x, out.F_1xx += s.F_1xx;
-        out.F_2 += s.F_2, out.F_2xx += s.F_2xx;
+    static const double LANE[ROW] = {0.0, 1.0, 2.0, 3.0, 0.0, 1.0, 2.0, 3.0};
+    static const double SIDE[ROW] = {-1.0, -1.0, 1.0, 1.0, -1.0, -1.0, 1.0, 1.0};
+
+    SliceMoments out;
+    for (int m = 0; m < MOMENTS; m++) out.of[m] = wide_set(0.0);
+    for (int k = 0; k < lanes; k++) {
+        const int lane = k % balls + k / balls * (LANE_WIDTH / 2);
+        const SlicedContact c = {.s_1 = wide_fill(all->s_1, lane),
+                                 .s_2 = wide_fill(all->s_2, lane),
+                                 .k = wide_fill(all->k, lane),
+                                 .b_1 = wide_fill(all->b_1, lane),
+                                 .b_2 = wide_fill(all->b_2, lane),
+                                 .inv_U = wide_fill(all->inv_U, lane),
+                                 .f_a = wide_fill(all->f_a, lane),
+                                 .x_0 = wide_fill(all->x_0, lane),
+                                 .Q = wide_fill(all->Q, lane)};
+        const SlicedContact *same[THIRDS];
+        Slice slice[THIRDS];
+        SliceMoments g[THIRDS];
+        for (int i = 0; i < THIRDS; i++) {
+            same[i] = &c;
+            slice[i] = (Slice){wide_load(SIDE), wide_load(SLICE.near[i]), wide_load(SLICE.far[i]),
+                               wide_load(SLICE.w[i]), wide_load(SLICE.side_w[i])};
+        }
+        slice_tractions(p, THIRDS, same, slice, mixed, g);
+        const bits here = wide_above(0.5 - wide_abs(wide_load(LANE) - (double)lane), 0.0);
+        for (int m = 0; m < MOMENTS; m++)
+            out.of[m] = wide_select(here, wide_sum_fours(sum_of_three(g, m)), out.of[m]);
     }
     return out;
 }
 
-// Traction over the long axis of the ellipse, of a packet with a number of balls.
-INLINE Tangential sliced_traction(const Parameters *p, const Race *race, const Contact *c, int balls,
-                                  wide inv_U, wide f_a, bool mixed)
+// Traction over the long axis of the ellipse, of a packet's contacts: `balls` at one race or at each of both.
+INLINE Tangential sliced_traction(const Parameters *p, const RaceConstants *race, const Contact *c,
+                                  const Film *film, int contacts, int balls, bool mixed)
 {
-    const wide a = race->hertz.a_delta * c->sqrt_delta, sagitta = a * a * (0.5 / race->R_m);
-    const wide spin_n = vec_dot(c->spin, c->n);
-    SlicedContact common = {.s_1 = vec_dot(c->slip, c->t_1),
-                            .s_2 = vec_dot(c->slip, c->t_2),
-                            .k = -(a * spin_n),
-                            .b_1 = -(sagitta * vec_dot(c->spin, c->t_2)),
-                            .b_2 = sagitta * vec_dot(c->spin, c->t_1),
-                            .Q = c->Q,
-                            .inv_U = inv_U,
-                            .f_a = f_a};
-    common.x_0 = split_place(&common);
-    const SliceTraction sum = balls * ((SLICES + LANE_WIDTH - 1) / LANE_WIDTH) < SLICES
-                                  ? ball_by_ball(p, &common, balls, mixed)
-                                  : slice_by_slice(p, &common, mixed);
+    const wide a = race->a_delta * c->sqrt_delta, sagitta = a * a * race->half_curvature;
+    const wide spin_n = vec_dot(c->spin, c->n), k = -(a * spin_n);
+    const wide s_1 = vec_dot(c->slip, c->t_1), b_1 = -(sagitta * vec_dot(c->spin, c->t_2));
+    const wide s_2 = vec_dot(c->slip, c->t_2), b_2 = sagitta * vec_dot(c->spin, c->t_1);
+    const SlicedContact common = {.s_1 = s_1,
+                                  .s_2 = s_2,
+                                  .k = k,
+                                  .b_1 = b_1,
+                                  .b_2 = b_2,
+                                  .inv_U = film->inv_U,
+                                  .f_a = film->f_a,
+                                  .x_0 = split_place(s_1, k, b_1),
+                                  .Q = c->Q};
+    // lanes with contacts among the first four: with fewer than four, contact by contact takes fewer packets
+    const int lanes = LANE_WIDTH == 8 ? balls : LANE_WIDTH == 4 ? contacts : THREES;
+    const SliceMoments g = lanes < THREES ? contact_by_contact(p, &common, lanes, balls, mixed)
+                                          : slice_by_slice(p, &common, mixed);
+    // sums of -F_1 x^n and -F_2 x^n, F = -g slip
+    wide F_1[3], F_2[3];
+    for (int n = 0; n < 3; n++) {
+        F_1[n] = wide_fma(b_1, g.of[n + 2], wide_fma(k, g.of[n + 1], s_1 * g.of[n]));
+        F_2[n] = wide_fma(b_2, g.of[n + 2], s_2 * g.of[n]);
+    }
     // a slice's lever about the ball's centre: (R - sagitta x^2) n + a x t_2
-    Tangential out = {.g = sum.g, .g_spin = a * a * sum.g_xx, .dissipated = sum.dissipated};
-    const wide spin_M = a * sum.F_1x;
-    out.F_s = vec_axpy(-sum.F_1, c->t_1, vec_scale(-sum.F_2, c->t_2));
-    out.M = vec_axpy(sagitta * sum.F_1xx - c->R * sum.F_1, c->t_2,
-                     vec_axpy(c->R * sum.F_2 - sagitta * sum.F_2xx, c->t_1, vec_scale(spin_M, c->n)));
+    Tangential out;
+    out.g = g.of[0], out.g_spin = a * a * g.of[2];
+    out.dissipated =
+        wide_fma(s_1, F_1[0], k * F_1[1]) + wide_fma(b_1, F_1[2], wide_fma(s_2, F_2[0], b_2 * F_2[2]));
+    const wide spin_M = a * F_1[1];
+    out.F_s = vec_axpy(-F_1[0], c->t_1, vec_scale(-F_2[0], c->t_2));
+    out.M = vec_axpy(sagitta * F_1[2] - c->R * F_1[0], c->t_2,
+                     vec_axpy(c->R * F_2[0] - sagitta * F_2[2], c->t_1, vec_scale(spin_M, c->n)));
     out.spin_dissipated = -(spin_M * spin_n);
     return out;
 }
 
+// Films of all packets of contacts, which go through each stage together.
+INLINE void race_films(const Model *model, const RaceConstants *const race[CONTACT_PACKETS],
+                       const Contact *const c[CONTACT_PACKETS], bool mixed, Film film[CONTACT_PACKETS])
+{
+    const double U_0 = model->p->oil.U_0;
+    wide ln_U[CONTACT_PACKETS], ln_Q[CONTACT_PACKETS];
+    for (int i = 0; i < CONTACT_PACKETS; i++) {
+        const wide U_2 = vec_dot(c[i]->roll, c[i]->roll) + U_0 * U_0;
+        film[i].inv_U = 1.0 / wide_sqrt(U_2);
+        film[i].U = U_2 * film[i].inv_U;
+    }
+    for (int i = 0; i < CONTACT_PACKETS; i++) wide_log2(film[i].U, c[i]->Q + Q_FLOOR, &ln_U[i], &ln_Q[i]);
+    for (int i = 0; i < CONTACT_PACKETS; i++)
+        film[i].F_R = traction_race_inlet(model->d, race[i]->rolling, film[i].U, ln_U[i], c[i]->Q, ln_Q[i]);
+    for (int i = 0; i < CONTACT_PACKETS; i++)
+        film[i].f_a =
+            mixed ? traction_asperity_share(traction_ln_film(race[i]->ln_Lambda, ln_U[i], ln_Q[i]) +
+                                            traction_ln_thermal(wide_set(model->d->ln_thermal), ln_U[i]))
+                  : wide_set(0.0);
+}
+
 // Traction and the inlet's rolling friction: -F_R U/|U| at the surface, and the film's horizontal pressure
 // force +F_H U/|U| through the ball's centre.
-INLINE Tangential race_traction(const Model *model, const Race *race, const Contact *c, int balls, bool mixed,
-                                bool sliced)
+INLINE Tangential race_traction(const Model *model, const RaceConstants *race, const Contact *c,
+                                const Film *film, int contacts, int balls, bool mixed, bool sliced)
 {
-    const Parameters *p = model->p;
-    const wide U_2 = vec_dot(c->roll, c->roll) + p->oil.U_0 * p->oil.U_0, inv_U = 1.0 / wide_sqrt(U_2);
-    wide ln_U, ln_Q;
-    wide_log2(U_2 * inv_U, c->Q + Q_FLOOR, &ln_U, &ln_Q);
-    wide f_a = wide_set(0.0);
-    if (mixed)
-        f_a = traction_asperity_share(traction_ln_film(wide_set(race->ln_Lambda), ln_U, ln_Q) +
-                                      traction_ln_thermal(wide_set(model->d->ln_thermal), ln_U));
-    const wide F_R = traction_race_inlet(model->d, wide_set(race->rolling), U_2 * inv_U, ln_U, c->Q, ln_Q);
-    const vec rolling = vec_scale(F_R * inv_U, c->roll);
-
-    Tangential out = sliced ? sliced_traction(p, race, c, balls, inv_U, f_a, mixed)
-                            : point_traction(p, c, inv_U, f_a, mixed);
+    const vec rolling = vec_scale(film->F_R * film->inv_U, c->roll);
+    Tangential out = sliced ? sliced_traction(model->p, race, c, film, contacts, balls, mixed)
+                            : point_traction(model->p, c, film, mixed);
     out.F_s = vec_sub(out.F_s, rolling);
     out.M = vec_sub(out.M, vec_cross(vec_scale(c->R, c->n), rolling));
-    out.F_c = vec_scale(wide_set(race->horizontal), rolling);
-    out.U = U_2 * inv_U;
+    out.F_c = vec_scale(race->horizontal, rolling);
+    out.U = film->U;
     out.inlet_dissipated = vec_dot(rolling, c->slip) - vec_dot(out.F_c, c->approach);
     out.dissipated += out.inlet_dissipated;
     return out;
+}
+
+INLINE RaceConstants race_constants(const Race *race)
+{
+    return (RaceConstants){wide_set(race->hertz.a_delta), wide_set(0.5 / race->R_m),
+                           wide_set(race->ln_Lambda), wide_set(race->rolling), wide_set(race->horizontal)};
+}
+
+INLINE RaceConstants join_races(const RaceConstants *i, const RaceConstants *e)
+{
+    return (RaceConstants){wide_join(i->a_delta, e->a_delta), wide_join(i->half_curvature, e->half_curvature),
+                           wide_join(i->ln_Lambda, e->ln_Lambda), wide_join(i->rolling, e->rolling),
+                           wide_join(i->horizontal, e->horizontal)};
+}
+
+// What the tractions need of the contacts.
+INLINE Contact join_contacts(const Contact *inner, const Contact *outer)
+{
+    return (Contact){.n = vec_join(inner->n, outer->n),
+                     .t_1 = vec_join(inner->t_1, outer->t_1),
+                     .t_2 = vec_join(inner->t_2, outer->t_2),
+                     .slip = vec_join(inner->slip, outer->slip),
+                     .roll = vec_join(inner->roll, outer->roll),
+                     .spin = vec_join(inner->spin, outer->spin),
+                     .approach = vec_join(inner->approach, outer->approach),
+                     .R = wide_join(inner->R, outer->R),
+                     .sqrt_delta = wide_join(inner->sqrt_delta, outer->sqrt_delta),
+                     .Q = wide_join(inner->Q, outer->Q)};
+}
+
+INLINE Tangential last_half(const Tangential *T)
+{
+    return (Tangential){.F_s = vec_last_half(T->F_s),
+                        .F_c = vec_last_half(T->F_c),
+                        .M = vec_last_half(T->M),
+                        .g = wide_last_half(T->g),
+                        .g_spin = wide_last_half(T->g_spin),
+                        .U = wide_last_half(T->U),
+                        .dissipated = wide_last_half(T->dissipated),
+                        .inlet_dissipated = wide_last_half(T->inlet_dissipated),
+                        .spin_dissipated = wide_last_half(T->spin_dissipated)};
+}
+
+// Tractions of all balls at both races.  If the last packet is at most half full, its contacts at both races share one.
+INLINE void race_tractions(const Model *model, const Contact inner[PACKETS], const Contact outer[PACKETS],
+                           bool mixed, bool sliced, Tangential T_i[PACKETS], Tangential T_e[PACKETS])
+{
+    const RaceConstants inner_race = race_constants(&model->d->inner),
+                        outer_race = race_constants(&model->d->outer);
+    RaceConstants both_races;
+    Contact both;
+    const RaceConstants *race[CONTACT_PACKETS];
+    const Contact *c[CONTACT_PACKETS];
+    Film film[CONTACT_PACKETS];
+    for (int b = 0; b < CONTACT_PACKETS / 2; b++) {
+        race[2 * b] = &inner_race, c[2 * b] = &inner[b];
+        race[2 * b + 1] = &outer_race, c[2 * b + 1] = &outer[b];
+    }
+    if (JOINED) {
+        both_races = join_races(&inner_race, &outer_race), both = join_contacts(&inner[WHOLE], &outer[WHOLE]);
+        race[2 * WHOLE] = &both_races, c[2 * WHOLE] = &both;
+    }
+    race_films(model, race, c, mixed, film);
+    for (int b = 0; b < WHOLE; b++) {
+        T_i[b] =
+            race_traction(model, &inner_race, &inner[b], &film[2 * b], LANE_WIDTH, LANE_WIDTH, mixed, sliced);
+        T_e[b] = race_traction(model, &outer_race, &outer[b], &film[2 * b + 1], LANE_WIDTH, LANE_WIDTH, mixed,
+                               sliced);
+    }
+    if (JOINED) {
+        T_i[WHOLE] =
+            race_traction(model, &both_races, &both, &film[2 * WHOLE], 2 * REST, REST, mixed, sliced);
+        T_e[WHOLE] = last_half(&T_i[WHOLE]);
+    } else if (REST > 0) {
+        T_i[WHOLE] =
+            race_traction(model, &inner_race, &inner[WHOLE], &film[2 * WHOLE], REST, REST, mixed, sliced);
+        T_e[WHOLE] =
+            race_traction(model, &outer_race, &outer[WHOLE], &film[2 * WHOLE + 1], REST, REST, mixed, sliced);
+    }
 }
 
 // Contact results that other elements and outputs read.
@@ -305,42 +481,43 @@ INLINE void store_contacts(Work *w, int j, const Contact *inner, const Contact *
     wide_store(&w->spin_dissipated[j], T_i->spin_dissipated + T_e->spin_dissipated);
 }
 
-// Both race contacts of a packet of balls.  inner_R_g: radius of the inner groove's circle as the ring has grown;
-// outer_ring: its motion, NULL for a ring at rest in its place.
-INLINE void race_contact_packet(const Model *model, Work *w, int j, scalar inner_R_g, bool mixed, bool sliced,
-                                const Rotor *outer_ring)
+// Normal contact and motion of a packet of balls at both races.  inner_R_g: radius of the inner groove's circle as the ring
+// has grown; outer_ring: its motion, NULL for a ring at rest in its place.
+INLINE void race_contacts(const Model *model, const Work *w, int j, scalar inner_R_g, const Rotor *outer_ring,
+                          vec *p_i, Contact *inner, Contact *outer)
 {
     const Derived *d = model->d;
     const wide cos_theta = wide_load(&w->cos_theta[j]), sin_theta = wide_load(&w->sin_theta[j]);
-    const wide minus = wide_set(-1.0);
     const BallMotion ball = {.x = {wide_load(&w->x[j]), wide_load(&w->r[j]), wide_set(0.0)},
                              .v = vec_load(&w->v_x[j], &w->v_r[j], &w->v_t[j]),
                              .omega = vec_load(&w->omega_x[j], &w->omega_r[j], &w->omega_t[j]),
                              .omega_m = wide_load(&w->omega_m[j]),
                              .R = wide_load(&d->R[j])};
-    const vec p_i = vec_sub(ball.x, vec_local(w->ring.x, cos_theta, sin_theta));
-    const Contact inner = race_contact(
-        model, &d->inner, &ball, wide_set(inner_R_g), p_i, vec_local(w->ring.a, cos_theta, sin_theta),
+    *p_i = vec_sub(ball.x, vec_local(w->ring.x, cos_theta, sin_theta));
+    *inner = race_contact(
+        model, &d->inner, &ball, wide_set(inner_R_g), *p_i, vec_local(w->ring.a, cos_theta, sin_theta),
         vec_local(w->ring.v, cos_theta, sin_theta), vec_local(w->ring.Omega, cos_theta, sin_theta));
-    const Contact outer = outer_ring == NULL
-                              ? outer_contact_at_rest(model, &ball)
-                              : race_contact(model, &d->outer, &ball, wide_set(d->outer.R_g),
-                                             vec_sub(ball.x, vec_local(outer_ring->x, cos_theta, sin_theta)),
-                                             vec_local(outer_ring->a, cos_theta, sin_theta),
-                                             vec_local(outer_ring->v, cos_theta, sin_theta),
-                                             vec_local(outer_ring->Omega, cos_theta, sin_theta));
-    const int balls = Z - j < LANE_WIDTH ? Z - j : LANE_WIDTH;
-    const Tangential T_i = race_traction(model, &d->inner, &inner, balls, mixed, sliced);
-    const Tangential T_e = race_traction(model, &d->outer, &outer, balls, mixed, sliced);
-    store_contacts(w, j, &inner, &outer, &T_i, &T_e);
+    *outer = outer_ring == NULL
+                 ? outer_contact_at_rest(model, &ball)
+                 : race_contact(model, &d->outer, &ball, wide_set(d->outer.R_g),
+                                vec_sub(ball.x, vec_local(outer_ring->x, cos_theta, sin_theta)),
+                                vec_local(outer_ring->a, cos_theta, sin_theta),
+                                vec_local(outer_ring->v, cos_theta, sin_theta),
+                                vec_local(outer_ring->Omega, cos_theta, sin_theta));
+}
 
-    // forces and moments on the balls, what the pockets add to, wrench on the ring about its centre
+// Forces and moments on a packet of balls, what the pockets add to, wrench on the ring about its centre.
+INLINE void store_forces(Work *w, int j, vec p_i, const Contact *inner, const Contact *outer,
+                         const Tangential *T_i, const Tangential *T_e)
+{
+    const wide cos_theta = wide_load(&w->cos_theta[j]), sin_theta = wide_load(&w->sin_theta[j]),
+               minus = wide_set(-1.0);
     const vec none = {0};
-    const vec F_i = vec_axpy(-inner.Q, inner.n, vec_add(T_i.F_s, T_i.F_c));
-    const vec F_e = vec_axpy(-outer.Q, outer.n, vec_add(T_e.F_s, T_e.F_c));
-    const vec M_ring = vec_sub(vec_scale(minus, vec_cross(p_i, F_i)), T_i.M);
+    const vec F_i = vec_axpy(-inner->Q, inner->n, vec_add(T_i->F_s, T_i->F_c));
+    const vec F_e = vec_axpy(-outer->Q, outer->n, vec_add(T_e->F_s, T_e->F_c));
+    const vec M_ring = vec_sub(vec_scale(minus, vec_cross(p_i, F_i)), T_i->M);
     vec_store(vec_add(F_i, F_e), &w->F_x[j], &w->F_r[j], &w->F_t[j]);
-    vec_store(vec_add(T_i.M, T_e.M), &w->M_x[j], &w->M_r[j], &w->M_t[j]);
+    vec_store(vec_add(T_i->M, T_e->M), &w->M_x[j], &w->M_r[j], &w->M_t[j]);
     vec_store(none, &w->D_x[j], &w->D_r[j], &w->D_t[j]);
     vec_store(none, &w->D_omega_x[j], &w->D_omega_r[j], &w->D_omega_t[j]);
     wide_store(&w->pocket_dissipated[j], wide_set(0.0));
@@ -349,13 +526,27 @@ INLINE void race_contact_packet(const Model *model, Work *w, int j, scalar inner
     vec_to_global(M_ring, cos_theta, sin_theta, &w->ring_M_x[j], &w->ring_M_y[j], &w->ring_M_z[j]);
 }
 
+INLINE void race_contact_balls(const Model *model, Work *w, scalar inner_R_g, bool mixed, bool sliced,
+                               const Rotor *outer_ring)
+{
+    vec p_i[PACKETS];
+    Contact inner[PACKETS], outer[PACKETS];
+    Tangential T_i[PACKETS], T_e[PACKETS];
+    for (int b = 0; b < PACKETS; b++)
+        race_contacts(model, w, b * LANE_WIDTH, inner_R_g, outer_ring, &p_i[b], &inner[b], &outer[b]);
+    race_tractions(model, inner, outer, mixed, sliced, T_i, T_e);
+    for (int b = 0; b < PACKETS; b++) {
+        store_contacts(w, b * LANE_WIDTH, &inner[b], &outer[b], &T_i[b], &T_e[b]);
+        store_forces(w, b * LANE_WIDTH, p_i[b], &inner[b], &outer[b], &T_i[b], &T_e[b]);
+    }
+}
+
 // Balls of a bearing whose outer ring moves.
 static __attribute__((noinline)) void race_contact_force_moving(const Model *model, Work *w, scalar inner_R_g,
                                                                 bool mixed, bool sliced)
 {
     const Rotor outer = outer_ring(model->ring_load);
-    for (int b = 0; b < PACKETS; b++)
-        race_contact_packet(model, w, b * LANE_WIDTH, inner_R_g, mixed, sliced, &outer);
+    race_contact_balls(model, w, inner_R_g, mixed, sliced, &outer);
 }
 
 void race_contact_force(const Model *model, Work *w)
@@ -364,19 +555,14 @@ void race_contact_force(const Model *model, Work *w)
     const bool sliced = model->p->scene.traction == TRACTION_SLICED;
     const scalar growth = ring_fit_growth(&model->d->fit, ring_fit_speed(model->ring_load));
     const scalar R_g = model->d->inner.R_g + growth;
-    if (outer_ring_moves(model->ring_load)) {
+    if (outer_ring_moves(model->ring_load))
         race_contact_force_moving(model, w, R_g, mixed, sliced);
-        return;
-    }
-    for (int b = 0; b < PACKETS; b++) {
-        const int j = b * LANE_WIDTH;
-        if (sliced)
-            mixed ? race_contact_packet(model, w, j, R_g, true, true, NULL)
-                  : race_contact_packet(model, w, j, R_g, false, true, NULL);
-        else
-            mixed ? race_contact_packet(model, w, j, R_g, true, false, NULL)
-                  : race_contact_packet(model, w, j, R_g, false, false, NULL);
-    }
+    else if (sliced)
+        mixed ? race_contact_balls(model, w, R_g, true, true, NULL)
+              : race_contact_balls(model, w, R_g, false, true, NULL);
+    else
+        mixed ? race_contact_balls(model, w, R_g, true, false, NULL)
+              : race_contact_balls(model, w, R_g, false, false, NULL);
 }
 
 scalar race_growth_power(const Model *model, const Work *w)

@@ -54,19 +54,21 @@ INLINE wide traction_asperity_share(wide ln_Lambda)
     return wide_exp(-1.8 * wide_exp(1.2 * ln_Lambda));
 }
 
-// Traction coefficient of the film at the slide-roll ratio s.
-INLINE wide traction_film(const Parameters *p, wide s)
+// Traction coefficients at the slide-roll ratios s of n <= ABREAST packets, with the asperity shares f_a (zero where there is
+// only film).
+INLINE void traction_mu(const Parameters *p, int n, const wide s[], const wide f_a[], bool mixed, wide mu[])
 {
-    return (p->oil.A + p->oil.B * s) * wide_exp(-p->oil.C * s) - p->oil.A;
-}
-
-// Traction coefficient with the asperity share f_a (zero where there is only film).
-INLINE wide traction_mu(const Parameters *p, wide s, wide f_a, bool mixed)
-{
-    const wide film = traction_film(p, s);
-    if (!mixed) return film;
-    const wide boundary = p->oil.mu_b * s / wide_sqrt(s * s + p->oil.s_0 * p->oil.s_0);
-    return film + f_a * (boundary - film);
+    const double A = p->oil.A, B = p->oil.B, C_log2_e = 1.4426950408889634 * p->oil.C;
+    wide power[ABREAST], root_2[ABREAST], inv_root[ABREAST];
+    for (int i = 0; i < n; i++) power[i] = s[i] * -C_log2_e;
+    wide_power_of_2(n, power, power);
+    for (int i = 0; i < n; i++)
+        mu[i] = wide_fma(wide_fma(wide_set(B), s[i], wide_set(A)), power[i], wide_set(-A));
+    if (!mixed) return;
+    for (int i = 0; i < n; i++) root_2[i] = wide_fma(s[i], s[i], wide_set(p->oil.s_0 * p->oil.s_0));
+    wide_inv_sqrt(n, root_2, inv_root);
+    for (int i = 0; i < n; i++)
+        mu[i] = wide_fma(f_a[i], wide_fma(p->oil.mu_b * s[i], inv_root[i], -mu[i]), mu[i]);
 }
 
 // Rolling friction F_R of the inlet; rolling: F_R at U = 1 m/s, Q = 1 N.  W^0.47 is taken as W (W +

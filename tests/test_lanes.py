@@ -51,6 +51,24 @@ def test_exp_far_out(core, function):
 
 
 @extended
+def test_power_of_2(core, function):
+    """Observed 1.5e-14, the polynomial's own error; integers are exact."""
+    for span in (0.5, 50.0, 1000.0):
+        x = uniform(-span, span)
+        assert relative_error(core.map(function("test_power_of_2"), x), np.exp2(x.astype(np.longdouble))) < 2e-14
+    whole = np.arange(-1020.0, 1020.0)
+    assert (core.map(function("test_power_of_2"), whole) == np.exp2(whole)).all()
+    assert core.map(function("test_power_of_2"), [-1e300, -1021.0]).tolist() == [2.0**-1020, 2.0**-1020]
+
+
+@extended
+def test_inv_sqrt(core, function):
+    """Uniform in the exponent, and at the places of the largest first errors; observed 3e-16."""
+    for x in (np.exp(uniform(-700.0, 700.0)), uniform(1.0, 4.0)):
+        assert relative_error(core.map(function("test_inv_sqrt"), x), 1.0 / np.sqrt(x.astype(np.longdouble))) < 5e-16
+
+
+@extended
 def test_log(core, function):
     """Uniform in the exponent, and close to 1 where the logarithm vanishes; observed 7e-16."""
     x = np.exp(uniform(-700.0, 700.0))

@@ -81,7 +81,12 @@ void test_hertz_damped(int n, double Q, double lambda, const double *delta_dot, 
 
 void test_traction_mu(int n, const Parameters *p, double f_a, bool mixed, const double *s, double *mu)
 {
-    for (int i = 0; i < n; i++) mu[i] = traction_mu(p, wide_set(s[i]), wide_set(f_a), mixed)[0];
+    for (int i = 0; i < n; i++) {
+        const wide ratio = wide_set(s[i]), share = wide_set(f_a);
+        wide out;
+        traction_mu(p, 1, &ratio, &share, mixed, &out);
+        mu[i] = out[0];
+    }
 }
 
 void test_traction_asperity_share(int n, const double *ln_Lambda, double *f_a)
