@@ -37,9 +37,7 @@ from bearing_model.vec import vec_cross, vec_dot
 OUT, IN = [0, 4, 5], [1, 2]  # of the motions (x, r, t, phi_x, phi_r, phi_t) of a pad: out of the plane, in it
 ROOT = np.sqrt(2.0)
 CAGE_RATES = CAGE_V_X, CAGE_V_Y, CAGE_V_Z, CAGE_BETA_DOT, CAGE_GAMMA_DOT, CAGE_S
-LONGEST = 8e-6  # step of the default method at tolerance 1e-3 [s]
-MARGIN = 1.3  # of joints that are stiffer than the closed ones by rounding of the law
-WAVE_DAMPING = 0.003  # a step takes this part times x^4 of a vibration that turns by x = omega h
+SUBSTEP_TURN = 1.6  # angle by which the fastest vibration of closed joints turns in a substep (cage_substeps.py)
 WALL_NODE = 1  # of the walls' angle: impacts meet the wall at 7 degrees in the median
 JOINT_SWEEPS = 1  # of the joints beside their first answer
 RESTS = 65  # states of rest
@@ -67,9 +65,7 @@ class ElasticHalf:
     reach_2: float  # largest |u|^2 of a wall / sum omega^2 q^2 [s2] by modes that do not move all pockets alike
     widest: np.ndarray  # largest |u|/|q| by the others, else 0 [n]
     wall: float  # compliance that the modes leave at a wall, along its normal, less that in Hertz's [m/N]
-    longest: float  # step of the default method [s]
-    mirrored: tuple  # vibrations of S and the relative rigid motions out of the plane (Vibrations)
-    opposed: tuple  # of D and those in the plane, without and with shanks that bear
+    substep: float  # of the default method, at most [s]
     law: JointLaw  # over L^
     prying: float  # |bonded M_t| of the centrifugal load over the law's length, per (rad/s)^2 [N s2]
     relief: np.ndarray  # of a joint by the others at rest [RESTS, 3], per newton
@@ -150,7 +146,7 @@ def derive_elastic(p, d, table):
     pocket = unit * np.moveaxis(modes.pocket[entry], 1, 0)
     pad = unit * np.moveaxis(rivet_shapes(modes)[:, :, : len(PAD)], 1, 2)
     series, k_hole = 1.0 / (1.0 + shear * (d.k_plate_t + d.k_head)), d.k_hole / (1.0 + shear * d.k_hole)
-    held, longest = series * (d.k_plate_t + d.k_head), LONGEST * (p.solver.tol / 1e-3) ** (1.0 / 3.0)
+    held = series * (d.k_plate_t + d.k_head) + np.max(k_hole)
     big = K[(np.arange(Z)[:, None] - np.arange(Z)) % Z].transpose(0, 2, 1, 3).reshape(3 * Z, 3 * Z)
     alike = (modes.harmonic[entry] == 0) & (part == 0.0)
     u_2 = np.sum(pocket[:, :, [0, 2]] ** 2, axis=(2, 3))  # [chi, n], at the nodes; between them a quarter farther at most
@@ -171,11 +167,12 @@ def derive_elastic(p, d, table):
         series=series,
         k_hole=k_hole,
         wall=residual.wall[WALL_NODE],
-        longest=longest,
-        mirrored=vibrations(p.cage.m, omega, joints_out(d, pad), 0.5 * big, (0.5 * p.cage.m, 0.5 * d.J_t, 0.5 * d.J_t), longest),
-        opposed=tuple(
-            vibrations(p.cage.m, omega, joints_in(d, pad), np.eye(2 * Z) * k, (0.5 * p.cage.m, 0.5 * p.cage.m, 0.5 * d.J_p), longest)
-            for k in (held, held + np.max(k_hole))
+        substep=SUBSTEP_TURN
+        / np.sqrt(
+            max(
+                fastest(p.cage.m, omega, joints_out(d, pad), 0.5 * big, (0.5 * p.cage.m, 0.5 * d.J_t, 0.5 * d.J_t)),
+                fastest(p.cage.m, omega, joints_in(d, pad), np.eye(2 * Z) * held, (0.5 * p.cage.m, 0.5 * p.cage.m, 0.5 * d.J_p)),
+            )
         ),
         law=behind,
         prying=np.abs(d.spin[4]) / behind.length,
@@ -186,24 +183,11 @@ def derive_elastic(p, d, table):
     return half
 
 
-@dataclass
-class Vibrations:
-    """Vibrations of modes and relative rigid motions with closed joints: x = shape q, with the inertia M each of unit modal mass."""
-
-    inertia: np.ndarray  # M [n + 3]
-    shape: np.ndarray  # [n + 3, n + 3]
-    slowed: np.ndarray  # 1/inertia that the longest step needs
-    lambda_: np.ndarray  # omega^2 with that inertia
-
-
-def vibrations(m, omega, motions, stiffness, rigid, longest):
-    """Vibrations; motions [joints' motions, n + 3] by unit coordinates, stiffness between the joints' motions, rigid: inertia of the three rigid motions."""
-    M = np.append(np.full(len(omega), m), rigid)
+def fastest(m, omega, motions, stiffness, rigid):
+    """Square of the highest frequency with closed joints; motions [joints' motions, n + 3] by unit coordinates, rigid: inertia of the three rigid motions."""
     K = motions.T @ stiffness @ motions + np.diag(np.append(m * omega**2, np.zeros(3)))
-    root = np.sqrt(M)
-    values, Q = np.linalg.eigh(K / np.outer(root, root))
-    slowed = 1.0 / np.maximum(1.0, MARGIN * 0.25 * values * longest**2)
-    return Vibrations(M, Q / root[:, None], slowed, slowed * values)
+    root = np.sqrt(np.append(np.full(len(omega), m), rigid))
+    return np.linalg.eigvalsh(K / np.outer(root, root))[-1]
 
 
 def circle(d):
@@ -224,26 +208,6 @@ def joints_in(d, pad):
     R, c, s = circle(d)
     rigid = np.array([[c, -s], [s, c], [0.0 * c, R + 0.0 * c]])
     return np.concatenate([ROOT * pad[:, IN], rigid]).transpose(2, 1, 0).reshape(2 * Z, -1)
-
-
-def cage_elastic_vibrations(model, w, y, h=None):
-    """Accelerations in y [states] with the inertia that the longest step needs; or, of velocities, what a step h leaves of each vibration.  Changes y."""
-    half, h0 = model.d.elastic, w.half[0]
-    b_y, b_z = h0.b_y[1:, 0], h0.b_z[1:, 0]
-    axes = np.array([b_y, b_z])
-    before = np.array([y[block][1] - y[block][0] for block in CAGE_RATES])
-    out = np.concatenate([before[:1], axes @ before[3:5]])
-    inside = np.concatenate([axes @ before[1:3], before[5:]])
-    results = []
-    for v, block, rigid in ((half.mirrored, MODE_S_DOT, out), (half.opposed[int(np.any(w.k_bearing > 0.0))], MODE_D_DOT, inside)):
-        factor = v.slowed if h is None else 1.0 - WAVE_DAMPING * (h * h * v.lambda_) ** 2
-        found = v.shape @ (factor * (v.shape.T @ (v.inertia * np.append(y[block][: half.n], rigid))))
-        y[block][: half.n] = found[: half.n]
-        results.append(found[half.n :])
-    out, inside = results
-    after = np.concatenate([out[:1], inside[:2] @ axes, out[1:] @ axes, inside[2:]])
-    for block, change in zip(CAGE_RATES, after - before, strict=True):
-        y[block] += 0.5 * change * np.array([-1.0, 1.0])
 
 
 # ------------------------------------------------------------------------------------------------------------------ walls of the pockets
@@ -337,17 +301,6 @@ def cage_elastic_pads(model, w):
         total[2] += s * r + c * t
 
 
-def cage_elastic_slip(model, y, w):
-    """Adds the modes to the joints' velocities in the plane (cage_joint_kinematics), for the friction states."""
-    half, d = model.d.elastic, model.d
-    r, t = np.einsum("...i,ikz->k...z", ROOT * y[..., MODE_D_DOT][..., : half.n], half.pad[:, IN])
-    R = 0.5 * d.table.joint["d_m"]
-    c, s = d.rivet_y / R, d.rivet_z / R
-    w.v_j = w.v_j.copy()
-    w.v_j[1] += c * r - s * t
-    w.v_j[2] += s * r + c * t
-
-
 def broken_answer(K, behind):
     """Moves [..., 3] of pads without a rivet at L^ = behind: they press on each other in their middles or move freely, and carry no moment."""
     into = np.linalg.inv(K[1:, 1:])
@@ -398,10 +351,16 @@ def spline_value(law, coefficients, load, P):
     return law_spline(law, coefficients[..., None], load, P)[1][..., 0]
 
 
+def cage_elastic_speed_2(w):
+    """Square of the halves' speed in space, mean of both."""
+    h0, h1 = w.half
+    return 0.5 * ((h0.s + w.frame_omega) ** 2 + (h1.s + w.frame_omega) ** 2)
+
+
 def cage_elastic_joints(model, y, w):
     """Loads of the joints out of the plane; sets what rivets and plates carry, adds the moments to both halves.  cage_joint_force needs T and N_plate."""
     d, (h0, h1) = model.d, w.half
-    omega_2 = 0.5 * ((h0.s + w.frame_omega) ** 2 + (h1.s + w.frame_omega) ** 2)
+    omega_2 = cage_elastic_speed_2(w)
     P = maximum(d.P + d.spin[5] * omega_2, 0.0) + 0.0 * w.e[0]
     w.joint_load, w.joint_rivet, V = cage_elastic_law(model, w.e, P, omega_2)
     w.joint_potential = 2.0 * V

@@ -71,7 +71,7 @@ def cage_joint_friction(k, capacity, z_y, z_z, v_y, v_z):
 def cage_joint_advance(model, w, h, y):
     """The friction states in y [N_STATES] over a step h [s] at the offsets and velocities of w: z += h z'/(1 + h D/2), D = |v| k/capacity.
 
-    The implicit midpoint rule of z' = v - D z, solved in closed form.
+    The implicit midpoint rule of z' = v - D z, solved in closed form.  Returns what they dissipate, h k D z_m^2 with z_m in the middle [J].
     """
     p, d = model.p, model.d
     u_x, (_, v_y, v_z) = w.u[0], w.v_j
@@ -82,10 +82,23 @@ def cage_joint_advance(model, w, h, y):
         T, N_plate = d.intact * maximum(d.P + d.k_rivet * u_x, 0.0), maximum(d.P - d.k_plate * u_x, 0.0)
         plates, heads = (maximum(force + d.intact * dT, 0.0) for force in (N_plate, T))
     k_t, k_h, _ = joint_stiffness(model)
+    lost = 0.0
     for k, load, blocks in ((k_t, plates, (JOINT_PLATE_Y, JOINT_PLATE_Z)), (k_h, heads, (JOINT_HEAD_Y, JOINT_HEAD_Z))):
         rate = np.hypot(v_y, v_z) * k / (p.joint.mu * load + p.joint.F_floor)
         for v, z in zip((v_y, v_z), blocks, strict=True):
-            y[z] += h * (v - rate * y[z]) / (1.0 + 0.5 * h * rate)
+            change = h * (v - rate * y[z]) / (1.0 + 0.5 * h * rate)
+            lost += np.sum(h * k * rate * (y[z] + 0.5 * change) ** 2)
+            y[z] += change
+    return lost
+
+
+def cage_joint_shear(model, y, w):
+    """Forces (y, z) [2, Z] on half 1 of elastic halves' joints in the plane, by the offsets in w and the friction states in y, in the frame of half 0."""
+    k_t, k_h, k_hole = joint_stiffness(model)
+    _, u_y, u_z = w.u
+    slip = np.sqrt(u_y * u_y + u_z * u_z + 1e-30)
+    bearing = k_hole * maximum(slip - model.d.hole_gap, 0.0) / slip
+    return np.array([-k_t * y[JOINT_PLATE_Y] - k_h * y[JOINT_HEAD_Y] - bearing * u_y, -k_t * y[JOINT_PLATE_Z] - k_h * y[JOINT_HEAD_Z] - bearing * u_z])
 
 
 def joint_stiffness(model):

@@ -110,6 +110,9 @@ def pocket_half(model, w, h, mixed, whole):
         on_wall = (Q * n_x - vec_dot(F_s + F_c, a), -vec_dot(F_s + F_c, b), Q * n_t - vec_dot(F_s + F_c, e_t))
         w.pocket_modal[h] = sum(force[..., None] * motion for force, motion in zip(on_wall, shape, strict=True))
         stored = 0.5 * d.elastic.wall * Q_0 * Q_0
+        # direction, stiffness with the wall's own compliance in series, rate of the approach by rigid motions (cage_substeps.py)
+        k = 1.5 * Q_0 / (maximum(delta, 1e-30) + d.elastic.wall * 1.5 * Q_0)
+        w.touch[h] = n_x, n_t, k, delta_dot + n_x * u_dot[0] + n_t * u_dot[2]
     half.F, half.M = ball_array_sum(w.pocket_F[h]), ball_array_sum(w.pocket_M[h])
     w.delta_c[h], w.Q_c[h] = delta, Q
     w.pocket_energy = w.pocket_energy + e_h * hertz_energy(d.pocket.K, delta) + stored
@@ -123,7 +126,7 @@ def pocket_force(model, w):
     D, D_omega: rates at which friction slows each velocity of a ball by itself, -d(acceleration)/d(velocity) [1/s], for the integrator's Jacobian.
     """
     mixed, rigid = model.p.scene.lubrication == Lubrication.MIXED, model.p.scene.cage == CageModel.RIGID
-    w.delta_c, w.Q_c, w.pocket, w.pocket_push, w.pocket_F, w.pocket_M, w.pocket_modal = {}, {}, {}, {}, {}, {}, {}  # by half
+    w.delta_c, w.Q_c, w.pocket, w.pocket_push, w.pocket_F, w.pocket_M, w.pocket_modal, w.touch = {}, {}, {}, {}, {}, {}, {}, {}  # by half
     w.pocket_energy, w.pocket_dissipated = 0.0, 0.0
     w.D, w.D_omega = 0.0 * w.F, 0.0 * w.F
     if rigid:

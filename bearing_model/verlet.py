@@ -16,8 +16,8 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from bearing_model import variables
-from bearing_model.cage_elastic import cage_elastic_slip, cage_elastic_vibrations
 from bearing_model.cage_joint import cage_joint_advance, cage_joint_kinematics
+from bearing_model.cage_substeps import FastState, cage_substeps_advance, cage_substeps_kick, cage_substeps_split
 from bearing_model.model import Work
 from bearing_model.rhs import jacobian, rhs, rotor_kinematics
 from bearing_model.rotor import rotor_roll
@@ -82,8 +82,7 @@ class VerletState:
     jerk: np.ndarray = None  # change of f over the last step / its length
     film: np.ndarray = field(default_factory=lambda: np.zeros((2, 2, 2)))  # -dF/dv of each land's film there [N.s/m]
     h: float = 0.0  # length of that step [s], 0: none yet
-    rivet: np.ndarray = field(default_factory=lambda: np.zeros(Z))  # T and N_plate of the joints between elastic halves there [N]
-    plate: np.ndarray = field(default_factory=lambda: np.zeros(Z))
+    fast: FastState = None  # of elastic halves there, whose accelerations f lacks
 
     def __post_init__(self):
         self.jerk = np.zeros(len(self.y)) if self.jerk is None else self.jerk
@@ -271,25 +270,24 @@ def land_films(w):
 
 
 def advance_positions(model, h, start):
-    """The state with positions and friction states of the next step, which follow from the velocities v_m of the middle."""
+    """The state with positions and friction states of the next step, which follow from the velocities v_m of the middle.
+
+    Elastic halves take substeps, which change the velocities too: their length, and the slow accelerations of the modes at the end [2, n].
+    Last the Work with the kinematics of the middle.
+    """
     middle, y, w = start.y.copy(), start.y.copy(), Work()
     middle[V] = y[V] = start.y[V] + 0.5 * h * start.f[V]
     middle[POSITIONS] += 0.5 * h * y[V][POSITIONS]
     y[POSITIONS] += h * y[V][POSITIONS]
     rotor_kinematics(model, middle, w)
     elastic = model.p.scene.cage == CageModel.ELASTIC
-    if elastic:
-        middle[RATES] = y[RATES] = start.y[RATES] + 0.5 * h * start.f[RATES]
-        middle[PLACES] += 0.5 * h * y[RATES]
-        y[PLACES] += h * y[RATES]
-        w.T, w.N_plate = start.rivet, start.plate
     y[CAGE_PSI] = start.y[CAGE_PSI] + h * np.concatenate([half.s - rotor_roll(half) for half in w.half])
     if model.p.scene.cage != CageModel.RIGID:
         cage_joint_kinematics(model, w)
-        if elastic:
-            cage_elastic_slip(model, middle, w)
-        cage_joint_advance(model, w, h, y)
-    return y
+        if not elastic:
+            cage_joint_advance(model, w, h, y)
+    substeps = cage_substeps_advance(model, h, start.fast, start.f, y, w) if elastic else (0.0, None)
+    return y, *substeps, w
 
 
 def predictor_limiter(model, h, start):
@@ -349,17 +347,19 @@ def verlet_step(model, t, h, weight, start, blocks=jacobian_blocks):
 
     weight: 1/(tolerance scale) of each state.  blocks: function of (model, t, y, w, gamma) that gives the Blocks; any A and K keep the second order.
     """
-    gamma, f, v, a, w = 0.5 * h, start.f, start.y[V], start.f[V], Work()
-    y, held = advance_positions(model, h, start), predictor_limiter(model, h, start)
-    y[V] = v + h * a - held
+    gamma, f, a, w = 0.5 * h, start.f, start.f[V], Work()
+    (y, sub, foreseen, middle), held = advance_positions(model, h, start), predictor_limiter(model, h, start)
+    y[V] += gamma * a - held
     elastic = model.p.scene.cage == CageModel.ELASTIC
     if elastic:
-        y[RATES] += 0.5 * h * f[RATES]
+        cage_substeps_kick(model, middle, 0.5 * sub, start.fast.rigid, y)
+        add_rates(model, 0.5 * sub * (start.fast.modes + foreseen), y)
     end = VerletState(y, rhs(model, t + h, y, w), h=h)
     end.film = land_films(w)
     if elastic:
-        cage_elastic_vibrations(model, w, end.f)
-        end.rivet, end.plate = w.T, w.N_plate
+        end.fast = cage_substeps_split(model, y, w, end.f)
+        add_rates(model, 0.5 * sub * (end.fast.modes - start.fast.modes), y)
+        cage_substeps_kick(model, w, 0.5 * sub, end.fast.rigid - start.fast.rigid, y)
 
     # One linear solve takes the predicted velocities to those of the trapezoidal rule.
     b, residual = blocks(model, t + h, y, w, gamma), held + gamma * (end.f[V] - a)
@@ -369,7 +369,7 @@ def verlet_step(model, t, h, weight, start, blocks=jacobian_blocks):
     delta -= held  # from here on delta = v_{n+1} - v_n - h a_n
     correct_positions(model, gamma, delta, b, y)
     correct_friction(model, w, gamma, delta, b.shear, y)
-    y[V] = v + h * a + delta
+    y[V] += held + delta
     y[WORK] += gamma * (f[WORK] + end.f[WORK])
 
     # Velocities: error h^3/12 a'' of the trapezoidal rule; stiff accelerations give up a part of their second difference h^2 a''.
@@ -385,22 +385,40 @@ def verlet_step(model, t, h, weight, start, blocks=jacobian_blocks):
     end.jerk[FRICTION] = 2.0 / (h + start.h) * (end.f - f)[FRICTION]
     error[FRICTION] = h / 24.0 * second * (end.jerk - start.jerk)[FRICTION]
     if elastic:
-        advance_modes(model, h, second, start, end, error)
-        cage_elastic_vibrations(model, w, y, h)
+        correct_modes(model, h, second, foreseen, start, end, error)
     return end, np.sqrt(np.sum((error * weight) ** 2) / N_STATES)  # modes do not make the tolerance of the others wider
 
 
-def advance_modes(model, h, second, start, end, error):
-    """Rates of the modes of elastic halves: velocity Verlet, linearly implicit in their damping."""
-    damping = np.zeros(RATES.stop - RATES.start)
-    for block in (MODE_S_DOT, MODE_D_DOT):
-        damping[block.start - RATES.start :][: model.d.elastic.n] = model.d.elastic.damping
-    change = (end.f - start.f)[RATES] / (1.0 + 0.5 * h * damping)
-    end.f[RATES] = start.f[RATES] + change
-    end.y[RATES] = start.y[RATES] + 0.5 * h * (start.f + end.f)[RATES]
-    end.jerk[RATES] = change / h
+def verlet_evaluate(model, t, y):
+    """VerletState at y, without a history: f, of elastic halves without the fast part, and that part."""
+    w = Work()
+    state = VerletState(y, rhs(model, t, y, w))
+    if model.p.scene.cage == CageModel.ELASTIC:
+        state.fast = cage_substeps_split(model, y, w, state.f)
+    return state
+
+
+def add_rates(model, change, y):
+    """Adds to the rates of the modes of elastic halves, S and D [2, n]."""
+    for block, more in zip((MODE_S_DOT, MODE_D_DOT), change, strict=True):
+        y[block][: model.d.elastic.n] += more
+
+
+def correct_modes(model, h, second, foreseen, start, end, error):
+    """Rates of the modes of elastic halves: the substeps had the slow accelerations `foreseen` [2, n] at the end."""
+    n = model.d.elastic.n
+    add_rates(model, 0.5 * h * (np.array([end.f[block][:n] for block in (MODE_S_DOT, MODE_D_DOT)]) - foreseen), end.y)
+    end.jerk[RATES] = (end.f - start.f)[RATES] / h
     error[RATES] = h / 12.0 * second * (end.jerk - start.jerk)[RATES]
     end.f[PLACES], end.jerk[PLACES] = end.y[RATES], 0.0
+
+
+def longest_step(model, state):
+    """The longest step from a state [s]: two substeps of elastic halves where a land's film takes a half's velocity within one, for these leave films out."""
+    if model is None or model.p.scene.cage != CageModel.ELASTIC:
+        return np.inf
+    d = model.d.elastic.substep
+    return 2.0 * d if np.max(np.trace(state.film, axis1=1, axis2=2)) / model.p.cage.m * d > 1.0 else np.inf
 
 
 def verlet_advance(model, t, t_stop, h, weight, state, step=verlet_step):
@@ -411,7 +429,7 @@ def verlet_advance(model, t, t_stop, h, weight, state, step=verlet_step):
     """
     taken, refused = [], 0
     while t < t_stop:
-        left = t_stop - t
+        h, left = min(h, longest_step(model, state)), t_stop - t
         last = h >= left * (1.0 - LAST_STEP)
         length = left if last else 0.5 * left if left < 2.0 * h else h
         end, error = step(model, t, length, weight, state)

@@ -157,6 +157,14 @@ class Model:
         left = left[1] - left[0]
         return 2.0 * (1.0 - left) / (h * (1.0 + left))
 
+    def verlet_evaluate(self, t, y):
+        """VerletState at the state y, without a history."""
+        state = self.core.new("VerletState")
+        state.y[0 : len(y)] = list(y)
+        self.core.lib.ring_load_update(self.p, self.u, t, self.ring_load)
+        self.kernel("verlet_evaluate")(self.pointer, t, state, self.work)
+        return state
+
     def verlet(self, t, h, start, weight):
         """One Verlet step of length h from `start` (VerletState) at t; returns the VerletState reached and the error's norm in units of 1/weight."""
         end = self.core.new("VerletState")
