@@ -67,8 +67,8 @@ class Case:
     @property
     def bearing(self):
         """Geometry and material for the quasi-static model, at the present temperatures and fits."""
-        tables = variables.PARAMETERS, variables.INPUTS
-        parameters, inputs = ({name: v for name, v in table.items() if v.count == 1 and name != "scene.modes"} for table in tables)  # its limits go by Z
+        tables = scaling.parameters_of(self.Z), variables.INPUTS
+        parameters, inputs = ({name: v for name, v in table.items() if v.count == 1} for table in tables)
         p, u = (Values(table, {name: self.values[name] for name in table if name in self.values}) for table in (parameters, inputs))
         hot = temperature_apply(p, u, default_table())
         at_work = {f.name: getattr(hot.bearing, f.name) for f in fields(Bearing) if hasattr(hot.bearing, f.name)}
@@ -180,13 +180,14 @@ def read_case(path, document, own, bare=False):
             raise unknown(path, "key", key, KEYS)
     designation = str(document["designation"])
     entry = catalogue.entries().get(designation) if own != "shipped" else None
-    data = dict(catalogue_values(path, section_of(path, document, "catalogue")))
-    given = dict(start_values(path, "parameters", section_of(path, document, "parameters"), variables.PARAMETERS))
-    inputs = dict(start_values(path, "inputs", section_of(path, document, "inputs"), variables.INPUTS))
-    rivet = dict(rivet_values(path, section_of(path, document, "rivet")))
     Z = document.get("Z")
     if Z is not None and (isinstance(Z, bool) or not isinstance(Z, int) or not 5 <= Z <= 32):
         raise refusal(path, "Z", Z, "allowed: an integer from 5 to 32")
+    parameters = scaling.parameters_of(Z or (catalogue.balls(entry)[0] if entry else variables.Z))
+    data = dict(catalogue_values(path, section_of(path, document, "catalogue")))
+    given = dict(start_values(path, "parameters", section_of(path, document, "parameters"), parameters))
+    inputs = dict(start_values(path, "inputs", section_of(path, document, "inputs"), variables.INPUTS))
+    rivet = dict(rivet_values(path, section_of(path, document, "rivet")))
     origin = dict.fromkeys([*(["Z"] if Z else []), *data, *given, *(f"rivet.{name}" for name in rivet), *inputs], own)
 
     by_catalogue = {key: value for key, value in (entry.data if entry else {}).items() if key not in data}
@@ -350,8 +351,10 @@ def start_values(path, section, tree, known):
         except UserError as problem:
             raise refusal(path, f"{section}.{name}", value, problem) from None
         low, high = (-math.inf if variable.min is None else variable.min), (math.inf if variable.max is None else variable.max)
-        if not items and not (is_number(value) and low <= value <= high):
-            raise refusal(path, f"{section}.{name}", written, f"not a number in {span(low, high, variable.unit, symbol_of(written))}, or a text with its unit")
+        whole = variable.type == "Integer"
+        if not items and not (is_number(value) and low <= value <= high and (isinstance(value, int) or not whole)):
+            what, text = ("an integer", "") if whole else ("a number", ", or a text with its unit")
+            raise refusal(path, f"{section}.{name}", written, f"not {what} in {span(low, high, variable.unit, symbol_of(written))}{text}")
         yield name, value
 
 
