@@ -36,6 +36,7 @@ import itertools
 import json
 import time
 import uuid
+from concurrent.futures import CancelledError
 from dataclasses import dataclass, field
 from datetime import UTC, datetime
 from pathlib import Path
@@ -355,10 +356,11 @@ def run_missing(sweep, folder, client, progress, keys):
             if future.status == "lost" and client.status == "running":  # with its worker: the scheduler has it done again
                 completed.add(future)
                 continue
-            if future.status in ("cancelled", "lost"):
+            found = outcome(future)
+            if found is None:
                 raise UserError(f"the Dask scheduler is gone after {done + failed} of {len(keys)} runs; they are in {folder}, the same command does the others")
             key = future.key.removeprefix("run-")
-            row = about_run(sweep, key) | outcome(future)
+            row = about_run(sweep, key) | found
             future.release()
             store.add(row)
             done, failed = (done + 1, failed) if row["status"] == "done" else (done, failed + 1)
@@ -372,9 +374,14 @@ def run_missing(sweep, folder, client, progress, keys):
 
 
 def outcome(future):
-    """A worker's part of a row, or the reason why there is none."""
+    """A worker's part of a row, or the reason why there is none; None if the scheduler is gone, be it between the news of the run's end and its result."""
+    from distributed.comm import CommClosedError
+
     if future.status == "finished":
-        return future.result()
+        with contextlib.suppress(CommClosedError, CancelledError):
+            return future.result()
+    if future.status in ("finished", "cancelled", "lost"):
+        return None
     return {"status": "failed", "message": f"no result: {future.exception()!r}", "date": datetime.now(UTC).isoformat(timespec="milliseconds")}
 
 
@@ -411,7 +418,7 @@ def schema_of(sweep):
         "description": sweep.description,
         "document": sweep.document,
         "factors": sweep.factors,
-        "guid": model.description.instantiationToken,
+        "guid": model.description.guid,
         "version": __version__,
     }
     return pa.schema(fields, metadata={KEY: json.dumps(about)})

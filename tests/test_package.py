@@ -468,3 +468,23 @@ def test_without_a_compiler_zig_is_taken_or_named(monkeypatch):
     monkeypatch.setattr(builder.shutil, "which", lambda name, path=None: None)
     with pytest.raises(UserError, match=r"no C compiler \(cc, gcc, clang\) found: .*riveted-bearing\[cross\]"):
         builder.compiler_platforms()
+
+
+def test_from_source_without_a_compiler_is_one_line(tmp_path, monkeypatch):
+    """pip asks the backend before it downloads anything, and gets no list of packages but a line; archives and editable installs compile nothing."""
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))
+    assert project["build-system"]["requires"] == []
+    hook = "import sys; sys.path.insert(0, sys.argv[1]); import backend; print(*getattr(backend, f'get_requires_for_build_{sys.argv[2]}')(), sep='\\n')"
+
+    def asked(kind, **environment):
+        command = [sys.executable, "-c", hook, str(ROOT / "cmake"), kind]
+        return subprocess.run(command, env=environment, capture_output=True, text=True, check=False)
+
+    (tmp_path / "mycc").touch(mode=0o755)
+    for environment in ({"PATH": str(tmp_path)}, {"PATH": os.environ["PATH"], "CC": "missing-cc -O2"}):
+        refused = asked("wheel", **environment)
+        assert refused.returncode == 1 and refused.stdout == "" and refused.stderr.count("\n") == 1
+        assert re.search(r"needs a C compiler, .*\((cc, gcc, clang|missing-cc)\): install one .* gcc libc6-dev.*riveted_bearing-\*\.whl", refused.stderr)
+        assert asked("sdist", **environment).stdout == asked("editable", **environment).stdout == "scikit-build-core>=0.11\n"
+    first, *others = asked("wheel", PATH=str(tmp_path), CC="mycc").stdout.splitlines()
+    assert first.startswith("scikit-build-core") and set(others) <= set(project["project"]["dependencies"])
