@@ -49,7 +49,7 @@ class Case:
     """A bearing at work: catalogue data, SI values or item names by the FMU's full variable names, dimensions of the rivet.
 
     origin: "catalogue", "rule", "yours" (a file's) or "shipped" (a shipped file's) by name; what is not in it has the variable table's default.
-    bare: whether only a designation was given, which says nothing of the cage.
+    bare: whether only a designation was given, which says nothing of the cage; alone: what a scene sets of a bearing's shape, from which nothing follows.
     """
 
     designation: str
@@ -60,6 +60,7 @@ class Case:
     rivet: dict = field(default_factory=dict)
     origin: dict = field(default_factory=dict)
     bare: bool = False
+    alone: tuple = ()
 
     def __repr__(self):
         return f"<Case {self.designation}: {self.description or 'no description'}; Z = {self.Z}, {len(self.values)} values>"
@@ -399,7 +400,8 @@ def scene_case(source, model):
         if case.Z == Z and all(case.values[f"bearing.{s}"] == values[f"bearing.{s}"] for s in ("D", "d_m"))
     ]
     designation, catalogue = (known[0].designation, known[0].catalogue) if known else ("bearing", {})
-    return Case(f"{designation}, scene {scene.name}", scene.description, Z, values, catalogue)
+    alone = tuple(name for name in SHAPE if name in scene.parameters)
+    return Case(f"{designation}, scene {scene.name}", scene.description, Z, values, catalogue, alone=alone)
 
 
 def flat(tree, prefix=""):
