@@ -46,7 +46,7 @@ from filelock import FileLock, Timeout
 
 from .errors import UserError, unknown
 from .fmu import Model
-from .interrupts import held_interrupts, ignored_interrupts
+from .interrupts import held_interrupts, ignored_interrupts, kept_from_children
 from .results import KEY, make_folder, one_line, read_table, write_atomically, write_table
 from .runner import closing_names, simulate
 from .scene import SIMULATION, leaves, load_scene, read_toml, refusal, section_of, shipped_scenes
@@ -303,9 +303,12 @@ class cluster:
                 raise UserError(f"--scheduler {self.address}: {problem}") from None
         else:
             here = {"host": "127.0.0.1", "dashboard_address": "127.0.0.1:0", "silence_logs": logging.CRITICAL + 1}  # what matters is in the rows
-            with ignored_interrupts():  # a terminal sends Ctrl-C to the workers too
+            with kept_from_children() as interrupts:  # a terminal sends Ctrl-C to the workers too
                 self.local = LocalCluster(n_workers=self.workers, threads_per_worker=1, processes=True, **here)
                 self.client = Client(self.local)
+            if interrupts.pending:
+                self.__exit__()
+                raise KeyboardInterrupt
         return self.client
 
     def __exit__(self, *_):
