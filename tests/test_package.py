@@ -488,3 +488,24 @@ def test_from_source_without_a_compiler_is_one_line(tmp_path, monkeypatch):
         assert asked("sdist", **environment).stdout == asked("editable", **environment).stdout == "scikit-build-core>=0.11\n"
     first, *others = asked("wheel", PATH=str(tmp_path), CC="mycc").stdout.splitlines()
     assert first.startswith("scikit-build-core") and set(others) <= set(project["project"]["dependencies"])
+
+
+def test_a_default_build_forgets_the_one_before(tmp_path, monkeypatch):
+    """CMake remembers options: after a build with variables of its own, one without must say so, or description and binary do not belong together."""
+    told = []
+
+    class EnoughError(Exception):
+        pass
+
+    def configured(cmake, sources, folder, options, target, say):
+        told.append([option for option in options if option.startswith("-DGENERATED_DIR=")])
+        raise EnoughError
+
+    for name, value in {"build_folder": lambda *_: tmp_path, "table_copy": lambda *_: tmp_path / "table.json", "compiler_platforms": tuple}.items():
+        monkeypatch.setattr(builder, name, value)
+    monkeypatch.setattr(builder, "has_compiler", lambda: True)
+    monkeypatch.setattr(builder, "compile_target", configured)
+    for kind in ("closed-form", None):
+        with pytest.raises(EnoughError):
+            builder.build_fmu(out=tmp_path / "x.fmu", kind=kind)
+    assert told == [[f"-DGENERATED_DIR={tmp_path / 'generated'}"], ["-DGENERATED_DIR="]]
