@@ -55,7 +55,8 @@ if(GENERATED_DIR)
     set(parameters ${GENERATED_DIR}/parameters.md)
 endif()
 set(tools ${PROJECT_SOURCE_DIR}/fmus)
-set(run ${Python_EXECUTABLE} ${tools})
+cmake_path(GET bearing_model_dir PARENT_PATH packages)  # in the environment that pip builds in, the checkout's packages are not installed
+set(run ${CMAKE_COMMAND} -E env --modify PYTHONPATH=path_list_prepend:${packages} ${Python_EXECUTABLE} ${tools})
 set(parts ${PROJECT_BINARY_DIR}/fmu)
 file(MAKE_DIRECTORY ${parts})
 

@@ -206,11 +206,12 @@ class CageHalf(CyclicSolid):
         return np.tensordot(e_r, x, 1) - self.g.d_m / 2, np.tensordot(e_t, x, 1)
 
     def _facets(self, level, within):
+        """Facets in the plane x = level whose corners are all within; not their middles, which lie nearer to the rivet than the ring that they belong to."""
         mesh = self.basis.mesh
         facets = mesh.boundary_facets()
         corners = mesh.p[:, mesh.facets[:, facets]]
         flat = np.all(np.abs(corners[0] - level) < 1e-9, axis=0)
-        return facets[flat & within(*self.rivet_place(corners.mean(axis=1)))]
+        return facets[flat & np.all(within(*self.rivet_place(corners)), axis=0)]
 
     def _facet_basis(self, facets, element):
         return FacetBasis(self.basis.mesh, element, mapping=self.basis.mapping, facets=facets, intorder=4)
@@ -218,7 +219,7 @@ class CageHalf(CyclicSolid):
     def _pad_loads(self):
         """Unit forces spread by hats over the pad's vertices, without those at the edge of the hole: loads; places and areas of the hats stay here."""
         pad = half_shape.pad_half_length(self.g)
-        facets = self._facets(0.0, lambda r, t: np.abs(t) < pad)
+        facets = self._facets(0.0, lambda r, t: np.abs(t) < pad + 1e-9)
         vector, scalar = self._facet_basis(facets, self.basis.elem), self._facet_basis(facets, ElementHex1())
         vertices = np.unique(self.basis.mesh.facets[:, facets])
         r, t = self.rivet_place(self.basis.mesh.doflocs[:, vertices])
@@ -249,7 +250,7 @@ class CageHalf(CyclicSolid):
         """Uniform and linear pressures under the head: unit force along x, unit moments about r and t; unit forces along r and t."""
         g = self.g
         inner, outer = g.shank_diameter / 2 + g.relief_radius, g.head_diameter / 2
-        facets = self._facets(g.flange_thickness, lambda r, t: (np.hypot(r, t) > inner) & (np.hypot(r, t) < outer))
+        facets = self._facets(g.flange_thickness, lambda r, t: (np.hypot(r, t) > inner - 1e-9) & (np.hypot(r, t) < outer + 1e-9))
         basis, (e_x, e_r, e_t) = self._facet_basis(facets, self.basis.elem), self._axes()
 
         def load(e, weight=lambda r, t: 1.0 + 0.0 * r):

@@ -49,7 +49,7 @@ class Case:
     """A bearing at work: catalogue data, SI values or item names by the FMU's full variable names, dimensions of the rivet.
 
     origin: "catalogue", "rule", "yours" (a file's) or "shipped" (a shipped file's) by name; what is not in it has the variable table's default.
-    bare: whether only a designation was given, which says nothing of the cage.
+    bare: whether only a designation was given, which says nothing of the cage; alone: what a scene sets of a bearing's shape, from which nothing follows.
     """
 
     designation: str
@@ -60,6 +60,7 @@ class Case:
     rivet: dict = field(default_factory=dict)
     origin: dict = field(default_factory=dict)
     bare: bool = False
+    alone: tuple = ()
 
     def __repr__(self):
         return f"<Case {self.designation}: {self.description or 'no description'}; Z = {self.Z}, {len(self.values)} values>"
@@ -67,8 +68,8 @@ class Case:
     @property
     def bearing(self):
         """Geometry and material for the quasi-static model, at the present temperatures and fits."""
-        tables = variables.PARAMETERS, variables.INPUTS
-        parameters, inputs = ({name: v for name, v in table.items() if v.count == 1 and name != "scene.modes"} for table in tables)  # its limits go by Z
+        tables = scaling.parameters_of(self.Z), variables.INPUTS
+        parameters, inputs = ({name: v for name, v in table.items() if v.count == 1} for table in tables)
         p, u = (Values(table, {name: self.values[name] for name in table if name in self.values}) for table in (parameters, inputs))
         hot = temperature_apply(p, u, default_table())
         at_work = {f.name: getattr(hot.bearing, f.name) for f in fields(Bearing) if hasattr(hot.bearing, f.name)}
@@ -180,13 +181,14 @@ def read_case(path, document, own, bare=False):
             raise unknown(path, "key", key, KEYS)
     designation = str(document["designation"])
     entry = catalogue.entries().get(designation) if own != "shipped" else None
-    data = dict(catalogue_values(path, section_of(path, document, "catalogue")))
-    given = dict(start_values(path, "parameters", section_of(path, document, "parameters"), variables.PARAMETERS))
-    inputs = dict(start_values(path, "inputs", section_of(path, document, "inputs"), variables.INPUTS))
-    rivet = dict(rivet_values(path, section_of(path, document, "rivet")))
     Z = document.get("Z")
     if Z is not None and (isinstance(Z, bool) or not isinstance(Z, int) or not 5 <= Z <= 32):
         raise refusal(path, "Z", Z, "allowed: an integer from 5 to 32")
+    parameters = scaling.parameters_of(Z or (catalogue.balls(entry)[0] if entry else variables.Z))
+    data = dict(catalogue_values(path, section_of(path, document, "catalogue")))
+    given = dict(start_values(path, "parameters", section_of(path, document, "parameters"), parameters))
+    inputs = dict(start_values(path, "inputs", section_of(path, document, "inputs"), variables.INPUTS))
+    rivet = dict(rivet_values(path, section_of(path, document, "rivet")))
     origin = dict.fromkeys([*(["Z"] if Z else []), *data, *given, *(f"rivet.{name}" for name in rivet), *inputs], own)
 
     by_catalogue = {key: value for key, value in (entry.data if entry else {}).items() if key not in data}
@@ -350,8 +352,10 @@ def start_values(path, section, tree, known):
         except UserError as problem:
             raise refusal(path, f"{section}.{name}", value, problem) from None
         low, high = (-math.inf if variable.min is None else variable.min), (math.inf if variable.max is None else variable.max)
-        if not items and not (is_number(value) and low <= value <= high):
-            raise refusal(path, f"{section}.{name}", written, f"not a number in {span(low, high, variable.unit, symbol_of(written))}, or a text with its unit")
+        whole = variable.type == "Integer"
+        if not items and not (is_number(value) and low <= value <= high and (isinstance(value, int) or not whole)):
+            what, text = ("an integer", "") if whole else ("a number", ", or a text with its unit")
+            raise refusal(path, f"{section}.{name}", written, f"not {what} in {span(low, high, variable.unit, symbol_of(written))}{text}")
         yield name, value
 
 
@@ -396,7 +400,8 @@ def scene_case(source, model):
         if case.Z == Z and all(case.values[f"bearing.{s}"] == values[f"bearing.{s}"] for s in ("D", "d_m"))
     ]
     designation, catalogue = (known[0].designation, known[0].catalogue) if known else ("bearing", {})
-    return Case(f"{designation}, scene {scene.name}", scene.description, Z, values, catalogue)
+    alone = tuple(name for name in SHAPE if name in scene.parameters)
+    return Case(f"{designation}, scene {scene.name}", scene.description, Z, values, catalogue, alone=alone)
 
 
 def flat(tree, prefix=""):

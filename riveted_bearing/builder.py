@@ -56,14 +56,13 @@ def build_fmu(bearing=None, rivet=None, out=None, say=lambda text, share=None: N
     cmake, platforms = tool("cmake") or no_tool("cmake"), platforms or compiler_platforms()
     make_folder(out.parent)
     table = kept(given_table(rivet, case, kind, say, modes), table_copy(bearing))
-    options = [f"-DRIVET_TABLE={table}", f"-DPython_EXECUTABLE={sys.executable}"]
-    if bearing or rivet or kind or modes:
+    generated = folder / "generated" if bearing or rivet or kind or modes else ""  # said in any case: a build folder remembers what it was told before
+    options = [f"-DRIVET_TABLE={table}", f"-DPython_EXECUTABLE={sys.executable}", f"-DGENERATED_DIR={generated}"]
+    if generated:
         say("variables")
-        generated = folder / "generated"
         resolved = folder / "bearing.toml"
         resolved.write_text("\n".join(to_toml(start_document(case, table))), encoding="utf-8")
         execute([sys.executable, sources / "fmus" / "generate.py", "--bearing", resolved, "--out", generated], folder, say)
-        options.append(f"-DGENERATED_DIR={generated}")
     binaries = [f"{platform}={cross_compile(cmake, sources, folder / platform, options, platform, say)}" for platform in platforms]
     options += [f"-DBINARIES={';'.join(binaries)}", f"-DCOMPILER={zig_version() if platforms else ''}"]
     if not has_compiler():  # the archive's project wants some compiler too

@@ -148,7 +148,7 @@ class Instance:
         description = self.model.description
         try:
             self.fmu = FMU2Slave(
-                guid=description.instantiationToken,
+                guid=description.guid,
                 unzipDirectory=self.model.folder,
                 modelIdentifier=description.coSimulation.modelIdentifier,
                 instanceName=description.modelName,

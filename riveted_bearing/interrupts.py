@@ -2,6 +2,7 @@
 
 import signal
 import threading
+from multiprocessing import resource_tracker
 
 
 class held_interrupts:
@@ -28,7 +29,7 @@ class held_interrupts:
 
 
 class ignored_interrupts:
-    """While this context lasts, Ctrl-C does nothing, here and in the processes that are started meanwhile, for as long as these live."""
+    """While this context lasts, Ctrl-C does nothing."""
 
     def __enter__(self):
         self.main = threading.current_thread() is threading.main_thread()
@@ -38,3 +39,24 @@ class ignored_interrupts:
     def __exit__(self, *_):
         if self.main:
             signal.signal(signal.SIGINT, self.before)
+
+
+class kept_from_children(held_interrupts):
+    """While this context lasts, Ctrl-C only sets `pending`; processes that are started meanwhile never receive it: they inherit the mask.
+
+    Where signals have no masks (Windows), it is ignored instead and `pending` stays false.
+    """
+
+    def __enter__(self):
+        super().__enter__()
+        if self.main and hasattr(signal, "pthread_sigmask"):
+            resource_tracker.ensure_running()  # before: its start lifts the mask of the thread that needs it first
+            self.mask = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+        elif self.main:
+            signal.signal(signal.SIGINT, signal.SIG_IGN)
+        return self
+
+    def __exit__(self, *_):
+        if self.main and hasattr(signal, "pthread_sigmask"):
+            signal.pthread_sigmask(signal.SIG_SETMASK, self.mask)
+        super().__exit__()

@@ -55,8 +55,8 @@ def title(result):
     """Scene, conditions and main figures in a few lines."""
     about, speed = result.about, result.data.get("shaft.omega")
     facts = [
-        f"preload {result.parameters['joint.preload']:g} N",
-        f"fit {1e6 * result.parameters['joint.fit']:+g} µm",
+        f"preload {result.parameters['joint.preload']:.4g} N",
+        f"fit {1e6 * result.parameters['joint.fit']:+.4g} µm",
         f"seed {result.parameters['start.seed']}",
     ]
     if speed is not None:

@@ -137,7 +137,7 @@ def provenance(model, scene):
         "given": [*scene.parameters, *(name for name, origin in model.origin.items() if origin == "yours" and name not in scene.parameters)],
         "not_given": not_given(model.origin),
         "replaced": list(scene.replaced),
-        "guid": model.description.instantiationToken,
+        "guid": model.description.guid,
         "model": model.description.description or model.description.modelName,
         "generated": f"{model.description.generationTool or ''} {model.description.generationDateAndTime or ''}".strip(),
         "versions": {"riveted-bearing": __version__, "fmpy": fmpy_version, "python": platform.python_version()},

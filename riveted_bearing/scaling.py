@@ -7,7 +7,7 @@ Loads: a tenth of C radially, a sixth of that axially; speed: n d_m = 480,000 mm
 """
 
 import math
-from dataclasses import asdict
+from dataclasses import asdict, replace
 from types import SimpleNamespace
 
 from bearing_model import variables
@@ -52,7 +52,14 @@ def start(name):
 
 def modes(Z):
     """Vibration modes of a half as many a ball as the 6207 has, in octets."""
-    return 8 * math.ceil(start("scene.modes") * Z / (8 * variables.Z))
+    return parameters_of(Z)["scene.modes"].start
+
+
+def parameters_of(Z):
+    """The variable table's parameters by name, with the start and the limits that hold for Z balls (fmus/generate.py, number_of)."""
+    v = variables.PARAMETERS["scene.modes"]
+    start, low, high = (8 * math.ceil(number * Z / (8 * variables.Z)) for number in (v.start, v.min, v.max))
+    return variables.PARAMETERS | {v.name: replace(v, start=start, min=low, max=high)}
 
 
 def rounded(value):

@@ -36,6 +36,7 @@ import itertools
 import json
 import time
 import uuid
+from concurrent.futures import CancelledError
 from dataclasses import dataclass, field
 from datetime import UTC, datetime
 from pathlib import Path
@@ -45,7 +46,7 @@ from filelock import FileLock, Timeout
 
 from .errors import UserError, unknown
 from .fmu import Model
-from .interrupts import held_interrupts, ignored_interrupts
+from .interrupts import held_interrupts, ignored_interrupts, kept_from_children
 from .results import KEY, make_folder, one_line, read_table, write_atomically, write_table
 from .runner import closing_names, simulate
 from .scene import SIMULATION, leaves, load_scene, read_toml, refusal, section_of, shipped_scenes
@@ -302,9 +303,12 @@ class cluster:
                 raise UserError(f"--scheduler {self.address}: {problem}") from None
         else:
             here = {"host": "127.0.0.1", "dashboard_address": "127.0.0.1:0", "silence_logs": logging.CRITICAL + 1}  # what matters is in the rows
-            with ignored_interrupts():  # a terminal sends Ctrl-C to the workers too
+            with kept_from_children() as interrupts:  # a terminal sends Ctrl-C to the workers too
                 self.local = LocalCluster(n_workers=self.workers, threads_per_worker=1, processes=True, **here)
                 self.client = Client(self.local)
+            if interrupts.pending:
+                self.__exit__()
+                raise KeyboardInterrupt
         return self.client
 
     def __exit__(self, *_):
@@ -355,10 +359,11 @@ def run_missing(sweep, folder, client, progress, keys):
             if future.status == "lost" and client.status == "running":  # with its worker: the scheduler has it done again
                 completed.add(future)
                 continue
-            if future.status in ("cancelled", "lost"):
+            found = outcome(future)
+            if found is None:
                 raise UserError(f"the Dask scheduler is gone after {done + failed} of {len(keys)} runs; they are in {folder}, the same command does the others")
             key = future.key.removeprefix("run-")
-            row = about_run(sweep, key) | outcome(future)
+            row = about_run(sweep, key) | found
             future.release()
             store.add(row)
             done, failed = (done + 1, failed) if row["status"] == "done" else (done, failed + 1)
@@ -372,9 +377,14 @@ def run_missing(sweep, folder, client, progress, keys):
 
 
 def outcome(future):
-    """A worker's part of a row, or the reason why there is none."""
+    """A worker's part of a row, or the reason why there is none; None if the scheduler is gone, be it between the news of the run's end and its result."""
+    from distributed.comm import CommClosedError
+
     if future.status == "finished":
-        return future.result()
+        with contextlib.suppress(CommClosedError, CancelledError):
+            return future.result()
+    if future.status in ("finished", "cancelled", "lost"):
+        return None
     return {"status": "failed", "message": f"no result: {future.exception()!r}", "date": datetime.now(UTC).isoformat(timespec="milliseconds")}
 
 
@@ -411,7 +421,7 @@ def schema_of(sweep):
         "description": sweep.description,
         "document": sweep.document,
         "factors": sweep.factors,
-        "guid": model.description.instantiationToken,
+        "guid": model.description.guid,
         "version": __version__,
     }
     return pa.schema(fields, metadata={KEY: json.dumps(about)})

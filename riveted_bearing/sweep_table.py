@@ -11,6 +11,7 @@ from . import charts
 from .plot import FORCE, HEAD, MIDDLE, MUTED, RING, STYLE, plt
 from .report import PARTS
 from .results import write_atomically
+from .units import suffix
 
 CONFIDENCE = 0.95
 SEED = "start.seed"
@@ -38,7 +39,8 @@ class Response:
 
 @dataclass(frozen=True)
 class SweepTable:
-    """name; factors: names of what varies but the seed; points: their values, texts or SI numbers [P, factors]; seeds: runs of each point [P]; responses."""
+    """name; factors: names of what varies but the seed, with the unit in which people read it; points: their values, texts or numbers in it [P, factors];
+    seeds: runs of each point [P]; responses."""
 
     name: str
     factors: tuple
@@ -50,7 +52,7 @@ class SweepTable:
 def sweep_table(sweep, rows):
     """The SweepTable of a sweep's rows; runs that failed or were stopped do not count."""
     names = [name for name in sweep.factors if name != SEED]
-    columns = [rows[column_of(name)] for name in names]
+    units, columns = zip(*(shown(sweep.model, name, rows[column_of(name)]) for name in names), strict=True) if names else ((), ())
     done = rows["status"] == "done"
     groups = {}
     for i in np.flatnonzero(done):
@@ -61,7 +63,17 @@ def sweep_table(sweep, rows):
             responses.append(Response(title, unit, *averaged(factor * rows[column], groups)))
     if np.any(damage := damage_per_hour(rows, done)):
         responses.append(Response("log10 damage per hour", "", *averaged(np.log10(np.maximum(damage, 1e-300)), groups), logarithmic=True))
-    return SweepTable(sweep.name, tuple(names), list(groups), np.array([len(group) for group in groups.values()]), responses)
+    factors = tuple(f"{name} [{unit}]" if unit else name for name, unit in zip(names, units, strict=True))
+    return SweepTable(sweep.name, factors, list(groups), np.array([len(group) for group in groups.values()]), responses)
+
+
+def shown(model, name, values):
+    """Unit in which people read a factor, "" for a text or a plain number, and its values in it."""
+    variable = (model.parameters | model.inputs).get(name)
+    if variable is None or values.dtype.kind not in "fi":
+        return "", values
+    symbol, (factor, offset) = model.display(variable)
+    return suffix(symbol).strip(), factor * values + offset
 
 
 def column_of(name):

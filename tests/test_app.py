@@ -294,6 +294,17 @@ def test_help_names_the_commands(tmp_path):
     assert done.returncode == 0 and all(name in done.stdout for name in ("build", "run", "info"))
 
 
+def test_info_says_that_nothing_follows_from_a_scene(tmp_path):
+    """A file with D and d_m alone is a scene, in which the cage stays that of the FMU; with Z it is a bearing whose cage follows."""
+    path = tmp_path / "mine.toml"
+    path.write_text('[parameters]\nbearing.D = "15.081 mm"\nbearing.d_m = "65 mm"\n')
+    said = command("info", path.name, folder=tmp_path).stdout
+    assert "note: read as a scene, which sets bearing.D, bearing.d_m" in said and "59.5, 49.7, 13.6" in said
+    path.write_text("Z = 9\n" + path.read_text())
+    said = command("info", path.name, folder=tmp_path).stdout
+    assert "read as a scene" not in said and "73.14, 59.84, 18.46" in said
+
+
 def test_info_gives_the_known_frequencies(tmp_path):
     done = command("info", "6207", folder=tmp_path)
     for figure in ("120.4", "1083.7", "1652.0", "700.1"):  # Hz at 18,238 r/min: cage, BPFO, BPFI, ball, by hand from D, d_m, Z

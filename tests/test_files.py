@@ -1,5 +1,6 @@
 """Files that the program writes and reads: a full disk, a killed writer, damaged content, hostile texts, and clocks that jump."""
 
+import contextlib
 import json
 import os
 import random
@@ -362,21 +363,30 @@ def test_a_lost_scheduler_is_one_message_and_loses_no_row(tmp_path):
     (tmp_path / "study.toml").write_text(LOST)
     dask = [sys.executable, "-m", "distributed.cli.dask_scheduler", "--host", "127.0.0.1", "--port", "0", "--no-dashboard", "--scheduler-file", "where.json"]
     quiet = {"cwd": tmp_path, "env": ENVIRONMENT, "stderr": subprocess.DEVNULL}
-    with subprocess.Popen(dask, **quiet) as scheduler:
+    with until_killed(dask, **quiet) as scheduler:
         address = json.loads(wait_for(lambda: (tmp_path / "where.json").is_file() and (tmp_path / "where.json").read_text()))["address"]
         worker = [sys.executable, "-m", "distributed.cli.dask_worker", address, "--nthreads", "1", "--no-dashboard", "--local-directory", tmp_path / "worker"]
-        with subprocess.Popen(worker, **quiet) as working:
-            words = [sys.executable, "-m", "riveted_bearing", "sweep", "study.toml", "--out", "out", "--scheduler", address]
-            with subprocess.Popen(words, cwd=tmp_path, env=ENVIRONMENT, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as driver:
-                wait_for(lambda: list((tmp_path / "out").glob("run-*.parquet")))
-                scheduler.kill()
-                _, said = driver.communicate(timeout=120)
-            working.kill()
+        words = [sys.executable, "-m", "riveted_bearing", "sweep", "study.toml", "--out", "out", "--scheduler", address]
+        pipes = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE, "text": True}
+        with until_killed(worker, **quiet), until_killed(words, cwd=tmp_path, env=ENVIRONMENT, **pipes) as driver:
+            wait_for(lambda: driver.poll() is not None or list((tmp_path / "out").glob("run-*.parquet")))
+            scheduler.kill()
+            _, said = driver.communicate(timeout=120)
     assert driver.returncode == 2 and said.count("\n") == 1, said
     done = int(re.fullmatch(r"error: the Dask scheduler is gone after (\d+) of 24 runs; they are in out, the same command does the others\n", said)[1])
     assert 1 <= done < 24 and sum(read_rows(path).num_rows for path in (tmp_path / "out").glob("run-*.parquet")) == done
     again = command("sweep", "study.toml", "--out", "out", "--workers", "1", folder=tmp_path)
     assert again.returncode == 0 and "24 runs, 0 of them failed" in again.stdout
+
+
+@contextlib.contextmanager
+def until_killed(words, **options):
+    """A program that runs while the block does and not longer, however the block ends."""
+    with subprocess.Popen(words, **options) as program:
+        try:
+            yield program
+        finally:
+            program.kill()
 
 
 def wait_for(condition, patience=120.0):

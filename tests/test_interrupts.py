@@ -8,12 +8,13 @@ import sys
 import time
 from pathlib import Path
 
+import distributed
 import pytest
 
 from riveted_bearing import UserError, read_result, run
 from riveted_bearing.fmu import Model
 from riveted_bearing.interrupts import held_interrupts
-from riveted_bearing.sweep import alone_in, load_sweep, run_sweep
+from riveted_bearing.sweep import alone_in, cluster, load_sweep, run_sweep
 
 ROOT = Path(__file__).resolve().parents[1]
 LONG = ("run", "demo", "--t-end", "100 s")
@@ -125,6 +126,28 @@ def test_held_interrupts_are_noted():
 
 
 # --------------------------------------------------------------------------------------------------------------------------- sweeps
+
+
+@pytest.mark.skipif(not hasattr(signal, "pthread_sigmask"), reason="signals have no masks here")
+def test_while_the_cluster_starts_it_waits(monkeypatch):
+    """It is not lost: it ends the sweep as soon as the cluster can be closed.  Processes of the cluster do not see it."""
+    asked = "import signal; print(signal.SIGINT in signal.pthread_sigmask(signal.SIG_BLOCK, []))"
+    seen = []
+
+    class Part:
+        def __init__(self, *_, **options):
+            seen.append(subprocess.run([sys.executable, "-c", asked], capture_output=True, text=True, check=True).stdout.strip())
+            os.kill(os.getpid(), signal.SIGINT)
+
+        def close(self):
+            seen.append("closed")
+
+    monkeypatch.setattr(distributed, "LocalCluster", Part)
+    monkeypatch.setattr(distributed, "Client", Part)
+    with pytest.raises(KeyboardInterrupt), cluster(workers=1):
+        raise AssertionError
+    assert seen == ["True", "True", "closed", "closed"]
+    assert signal.getsignal(signal.SIGINT) is signal.default_int_handler and signal.SIGINT not in signal.pthread_sigmask(signal.SIG_BLOCK, [])
 
 
 def test_a_sweep_says_what_is_kept(tmp_path):

@@ -468,3 +468,44 @@ def test_without_a_compiler_zig_is_taken_or_named(monkeypatch):
     monkeypatch.setattr(builder.shutil, "which", lambda name, path=None: None)
     with pytest.raises(UserError, match=r"no C compiler \(cc, gcc, clang\) found: .*riveted-bearing\[cross\]"):
         builder.compiler_platforms()
+
+
+def test_from_source_without_a_compiler_is_one_line(tmp_path, monkeypatch):
+    """pip asks the backend before it downloads anything, and gets no list of packages but a line; archives and editable installs compile nothing."""
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))
+    assert project["build-system"]["requires"] == []
+    hook = "import sys; sys.path.insert(0, sys.argv[1]); import backend; print(*getattr(backend, f'get_requires_for_build_{sys.argv[2]}')(), sep='\\n')"
+
+    def asked(kind, **environment):
+        command = [sys.executable, "-c", hook, str(ROOT / "cmake"), kind]
+        return subprocess.run(command, env=environment, capture_output=True, text=True, check=False)
+
+    (tmp_path / "mycc").touch(mode=0o755)
+    for environment in ({"PATH": str(tmp_path)}, {"PATH": os.environ["PATH"], "CC": "missing-cc -O2"}):
+        refused = asked("wheel", **environment)
+        assert refused.returncode == 1 and refused.stdout == "" and refused.stderr.count("\n") == 1
+        assert re.search(r"needs a C compiler, .*\((cc, gcc, clang|missing-cc)\): install one .* gcc libc6-dev.*riveted_bearing-\*\.whl", refused.stderr)
+        assert asked("sdist", **environment).stdout == asked("editable", **environment).stdout == "scikit-build-core>=0.11\n"
+    first, *others = asked("wheel", PATH=str(tmp_path), CC="mycc").stdout.splitlines()
+    assert first.startswith("scikit-build-core") and set(others) <= set(project["project"]["dependencies"])
+
+
+def test_a_default_build_forgets_the_one_before(tmp_path, monkeypatch):
+    """CMake remembers options: after a build with variables of its own, one without must say so, or description and binary do not belong together."""
+    told = []
+
+    class EnoughError(Exception):
+        pass
+
+    def configured(cmake, sources, folder, options, target, say):
+        told.append([option for option in options if option.startswith("-DGENERATED_DIR=")])
+        raise EnoughError
+
+    for name, value in {"build_folder": lambda *_: tmp_path, "table_copy": lambda *_: tmp_path / "table.json", "compiler_platforms": tuple}.items():
+        monkeypatch.setattr(builder, name, value)
+    monkeypatch.setattr(builder, "has_compiler", lambda: True)
+    monkeypatch.setattr(builder, "compile_target", configured)
+    for kind in ("closed-form", None):
+        with pytest.raises(EnoughError):
+            builder.build_fmu(out=tmp_path / "x.fmu", kind=kind)
+    assert told == [[f"-DGENERATED_DIR={tmp_path / 'generated'}"], ["-DGENERATED_DIR="]]

@@ -258,13 +258,13 @@ def test_a_sweep_ends_with_a_table_a_picture_and_a_page(tmp_path, model, client)
     sweep = plan(tmp_path, model, "repeats = 3\n" + SHORT + '[[vary]]\njoint.preload = [10, 30]\n[[vary]]\nscene.stress = ["fatigue"]')
     rows = run_sweep(sweep, tmp_path / "out", client)
     table = sweep_table(sweep, rows)
-    assert table.factors == ("joint.preload", "scene.stress") and table.points == [(10.0, "fatigue"), (30.0, "fatigue")] and table.seeds.tolist() == [3, 3]
+    assert table.factors == ("joint.preload [N]", "scene.stress") and table.points == [(10.0, "fatigue"), (30.0, "fatigue")] and table.seeds.tolist() == [3, 3]
     stress = rows["stat.sigma_head_p999"][rows["joint.preload"] == 30.0] / 1e6
     first = table.responses[0]
     assert first.mean[1] == pytest.approx(stress.mean(), rel=1e-12)
     assert first.half[1] == pytest.approx(4.302653 * stress.std(ddof=1) / np.sqrt(3), rel=1e-6, abs=1e-12)
     heads, cells = lines(table)
-    assert heads[:3] == ["joint.preload", "scene.stress", "seeds"] and len(cells) == 2 and "log10 damage per hour" in heads
+    assert heads[:3] == ["joint.preload [N]", "scene.stress", "seeds"] and len(cells) == 2 and "log10 damage per hour" in heads
     assert write_picture(table, tmp_path / "sweep.png").stat().st_size > 20000
     page = write_page(table, "<mine>", tmp_path / "sweep.html").read_text()
     assert "&lt;mine&gt;" in page and page.count("<svg") == len(table.responses) and cells[1][3] in page

@@ -181,6 +181,8 @@ def test_modes_of_a_half_by_number_of_balls(tmp_path):
     for Z in range(5, 33):
         table = generate.load_table(write(tmp_path / "b.toml", f"Z = {Z}\n"))
         modes, place = table.named("scene.modes"), {block.name: block for block in table.elastic_states}
+        rule = scaling.parameters_of(Z)["scene.modes"]
+        assert (modes.min, modes.start, modes.max) == (rule.min, rule.start, rule.max)
         assert modes.start == scaling.modes(Z) and modes.min <= modes.start <= modes.max == place["mode_s"].count
         assert 4.4 * Z <= modes.start < 4.5 * Z + 8
     assert [getattr(TABLE.named("scene.modes"), name) for name in ("min", "start", "max")] == [32, 40, 48]

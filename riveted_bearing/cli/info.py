@@ -30,9 +30,19 @@ def info(
     console.print(f"[bold]{escape(case.designation)}[/]  {escape(case.description)}", soft_wrap=True)
     if case.bare:
         console.print(escape(CAGE_MEANT), soft_wrap=True)
+    if case.alone:
+        console.print(f"[yellow]note:[/] {escape(read_as_scene(case.alone))}", soft_wrap=True)
     for title, table in info_tables(case):
         console.print(f"\n[bold]{title}[/]", soft_wrap=True)
         console.print(table)
+
+
+def read_as_scene(names):
+    """What to say of a scene that sets a bearing's shape."""
+    return (
+        f"read as a scene, which sets {', '.join(names)}; all else is the FMU's. "
+        "With a line `Z = ...` or `designation = ...` the file is a bearing's: cage, rivets and masses follow by rule"
+    )
 
 
 def info_tables(case):

@@ -59,4 +59,4 @@ def print_table(table):
     if len(cells) > LARGEST:
         console.print(f"... {len(cells) - LARGEST} more points: --report has them all")
     if any(table.seeds > 1):
-        console.print(f"[dim]means over seeds ± half-width of the {100 * CONFIDENCE:g} % interval; factors in SI units[/]")
+        console.print(f"[dim]means over seeds ± half-width of the {100 * CONFIDENCE:g} % interval[/]")
