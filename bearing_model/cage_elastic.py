@@ -65,6 +65,7 @@ class ElasticHalf:
     reach_2: float  # largest |u|^2 of a wall / sum omega^2 q^2 [s2] by modes that do not move all pockets alike
     widest: np.ndarray  # largest |u|/|q| by the others, else 0 [n]
     wall: float  # compliance that the modes leave at a wall, along its normal, less that in Hertz's [m/N]
+    mirrored: np.ndarray  # squares of the frequencies of S and the relative rigid motions out of the plane with closed joints, rising [n + 3]
     substep: float  # of the default method, at most [s]
     law: JointLaw  # over L^
     prying: float  # |bonded M_t| of the centrifugal load over the law's length, per (rad/s)^2 [N s2]
@@ -150,6 +151,8 @@ def derive_elastic(p, d, table):
     big = K[(np.arange(Z)[:, None] - np.arange(Z)) % Z].transpose(0, 2, 1, 3).reshape(3 * Z, 3 * Z)
     alike = (modes.harmonic[entry] == 0) & (part == 0.0)
     u_2 = np.sum(pocket[:, :, [0, 2]] ** 2, axis=(2, 3))  # [chi, n], at the nodes; between them a quarter farther at most
+    mirrored = frequencies_2(p.cage.m, omega, joints_out(d, pad), 0.5 * big, (0.5 * p.cage.m, 0.5 * d.J_t, 0.5 * d.J_t))
+    opposed = frequencies_2(p.cage.m, omega, joints_in(d, pad), np.eye(2 * Z) * held, (0.5 * p.cage.m, 0.5 * p.cage.m, 0.5 * d.J_p))
     half = ElasticHalf(
         n=len(omega),
         omega=omega,
@@ -167,13 +170,8 @@ def derive_elastic(p, d, table):
         series=series,
         k_hole=k_hole,
         wall=residual.wall[WALL_NODE],
-        substep=SUBSTEP_TURN
-        / np.sqrt(
-            max(
-                fastest(p.cage.m, omega, joints_out(d, pad), 0.5 * big, (0.5 * p.cage.m, 0.5 * d.J_t, 0.5 * d.J_t)),
-                fastest(p.cage.m, omega, joints_in(d, pad), np.eye(2 * Z) * held, (0.5 * p.cage.m, 0.5 * p.cage.m, 0.5 * d.J_p)),
-            )
-        ),
+        mirrored=mirrored,
+        substep=SUBSTEP_TURN / np.sqrt(max(mirrored[-1], opposed[-1])),
         law=behind,
         prying=np.abs(d.spin[4]) / behind.length,
         relief=None,
@@ -183,11 +181,14 @@ def derive_elastic(p, d, table):
     return half
 
 
-def fastest(m, omega, motions, stiffness, rigid):
-    """Square of the highest frequency with closed joints; motions [joints' motions, n + 3] by unit coordinates, rigid: inertia of the three rigid motions."""
+def frequencies_2(m, omega, motions, stiffness, rigid):
+    """Squares of the frequencies with closed joints, rising.
+
+    motions [joints' motions, n + 3] by unit coordinates; rigid: inertia of the three rigid motions.
+    """
     K = motions.T @ stiffness @ motions + np.diag(np.append(m * omega**2, np.zeros(3)))
     root = np.sqrt(np.append(np.full(len(omega), m), rigid))
-    return np.linalg.eigvalsh(K / np.outer(root, root))[-1]
+    return np.linalg.eigvalsh(K / np.outer(root, root))
 
 
 def circle(d):

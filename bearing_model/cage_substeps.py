@@ -2,7 +2,8 @@
 
     v_m = (v + d/2 (a_f + a_s))/(1 + d c/2),  q += d v_m,  v = v_m (1 - d c/2) + d/2 (a_f + a_s)
 
-a_f: fast accelerations, by the joints and the modes' own springs; a_s: slow ones, held over the step but for the loads of balls on walls, which follow the walls.
+a_f: fast accelerations, by the joints and the modes' own springs; a_s: slow ones, held over the step but for the loads of
+balls on walls, which follow the walls.
 Coordinates here are those of the modes, S and D side by side [2, n], and relative rigid motions of the halves [6]: x, about y, about z, y, z, spin.
 """
 
@@ -87,7 +88,7 @@ def halves(y, blocks):
 
 
 def fast_accelerations(model, q, load, shear):
-    """Accelerations of modes [2, n] and relative motions [6] at coordinates q [2, n] under loads of the joints: out of the plane [3, Z], in it (y, z) [2, Z]."""
+    """Accelerations of modes [2, n] and relative motions [6] at coordinates q [2, n], under loads of the joints out of the plane [3, Z] and in it [2, Z]."""
     half, p, d = model.d.elastic, model.p, model.d
     _, c, s = circle(d)
     across = np.stack([c * shear[0] + s * shear[1], c * shear[1] - s * shear[0]])  # r, t
@@ -140,7 +141,10 @@ def cage_substeps_advance(model, h, fast, f, y, w):
     half, d, h0 = model.d.elastic, model.d, w.half[0]
     steps = int(min(np.ceil(h / half.substep * (1.0 - ROUNDING)), MOST_SUBSTEPS))
     sub = h / steps
-    q, v, slow_modes = (np.array([x[block][: half.n] for block in blocks]) for x, blocks in ((y, (MODE_S, MODE_D)), (y, (MODE_S_DOT, MODE_D_DOT)), (f, (MODE_S_DOT, MODE_D_DOT))))
+    q, v, slow_modes = (
+        np.array([x[block][: half.n] for block in blocks])
+        for x, blocks in ((y, (MODE_S, MODE_D)), (y, (MODE_S_DOT, MODE_D_DOT)), (f, (MODE_S_DOT, MODE_D_DOT)))
+    )
     slow, speed, moved = take(model, h0, halves(f, CAGE_RATES)), np.zeros(6), np.zeros(6)
     touches, held, modes, rigid = Touches(model, fast, q), slow_modes, fast.modes, fast.rigid
     w.e, w.u, w.T, w.N_plate = fast.e.copy(), np.concatenate([w.u[:1], fast.u]), fast.T, fast.N_plate

@@ -8,12 +8,14 @@
 // Relative rigid motions of half 1 against half 0, in the frame of half 0: x, about y, about z, y, z, spin.
 enum { RELATIVE_MOTIONS = 6 };
 
-// Where the substeps of the next step begin: joints and fast accelerations at an evaluation.
+// Where the substeps of the next step begin: joints, contacts and fast accelerations at an evaluation.  Part of the saved state: no
+// member is aligned beyond a double, so that nothing lies between them.
 typedef struct {
-    ball_array e[3], u_y, u_z;  // motions of the joints out of the plane and offsets in it (model.h)
-    ball_array T, N_plate;      // loads of rivets and plates [N]
-    ball_array touch_x[2], touch_t[2], touch_k[2], touch_rate[2],
-        touch_Q[2];             // contacts with the walls, their loads [N]
+    double e[3][LANES], u_y[LANES],
+        u_z[LANES];                   // motions of the joints out of the plane and offsets in it (model.h)
+    double T[LANES], N_plate[LANES];  // loads of rivets and plates [N]
+    // contacts with the walls of each half (model.h), their loads [N]
+    double touch_x[2][LANES], touch_t[2][LANES], touch_k[2][LANES], touch_rate[2][LANES], touch_Q[2][LANES];
     double omega_2;             // square of the halves' speed in space [rad2/s2]
     double modes[2 * N_MODES];  // accelerations of S, then of D, by joints and the modes' own springs [m/s2]
     double

@@ -235,7 +235,10 @@ static void pocket_elastic_half(const Model *model, Work *w, int h, bool mixed)
         if (contact) contact = pocket_elastic(model, w, h, j, &gap, mixed, &wall);
         if (!contact) {
             pocket_clear(pocket, j);
+            wide_store(&w->touch_x[h][j], wide_set(0.0));
+            wide_store(&w->touch_t[h][j], wide_set(0.0));
             wide_store(&w->touch_k[h][j], wide_set(0.0));
+            wide_store(&w->touch_rate[h][j], wide_set(0.0));
         }
         wide_store(&w->delta_c[h][j], gap.delta);
         touched |= contact;

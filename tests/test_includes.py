@@ -17,7 +17,7 @@ GROUPS = {  # from the bottom up
     "elements": "ball cage_elastic cage_joint drag land_film pocket race_contact ring ring_load",
     "right-hand side": "rhs",
     "what follows from an evaluation": "energy events jacobian outputs rivets",
-    "one step": "dispatch implicit kernels start verlet",
+    "one step": "cage_substeps dispatch implicit kernels start verlet",
     "integrator": "integrator stepping",
     "instance": "bearing check instance outputs_recorded",
     "wrapper": "fmi2_calls fmi2_wrapper",
