@@ -6,8 +6,10 @@ from library import TWO_HALF
 from mechanics import SLICE, Instance, Z, pocket_loads, running_state, view
 
 from bearing_model import variables
+from bearing_model.derived import default_table
+from bearing_model.half_modes import coordinates, fewer
 from bearing_model.model import Model
-from bearing_model.variables import CageModel, Lubrication, Switch, TiltMode, Traction
+from bearing_model.variables import MODE_D, MODE_D_DOT, MODE_S, MODE_S_DOT, N_STATES, CageModel, Lubrication, Switch, TiltMode, Traction
 
 TWINS = True
 POLAR = ("F_y", "F_z"), ("M_y", "M_z"), ("tilt_y", "tilt_z")
@@ -161,6 +163,77 @@ def test_mirror_x(core, scene, record_property):
             for name in ("plate_y", "plate_z", "head_y", "head_z"):
                 part[SLICE[f"joint_{name}"]] = 0.0
         worst = max(worst, difference(mirrored_x(rate), image))
+    record_property("difference", float(worst))
+    assert worst < 1e-8
+
+
+# ------------------------------------------------------------------------------------------------------------- both, elastic halves
+
+MODE_BLOCKS = MODE_S, MODE_D, MODE_S_DOT, MODE_D_DOT
+
+
+def modal_image(y, image, act):
+    """The state whose rigid part is `image` and whose modes are act(a - i b, harmonic): a mode of a pair or alone has the coordinates a (cos) and b (sin)."""
+    modes = fewer(default_table().modes, variables.PARAMETERS["scene.modes"].start)
+    n = np.repeat(modes.harmonic, modes.count)
+    is_b = coordinates(modes, 0.0 * modes.omega, 0.0 * modes.omega + 1.0) > 0.0
+    alone = np.repeat(modes.parity, modes.count) != 0
+    z = np.concatenate([image, np.zeros(len(y) - N_STATES)])
+    for block in MODE_BLOCKS:
+        q = y[block][: len(n)]
+        u = act(np.where(is_b, -1j * q, q), n)
+        of_a, of_b = u.real, -u.imag  # what a coordinate gives to a and b of its pair
+        first = np.flatnonzero(~alone & ~is_b)
+        new = np.where(is_b, of_b, of_a)
+        new[first] += of_a[first + 1]
+        new[first + 1] += of_b[first]
+        z[block][: len(n)] = new
+    return z
+
+
+def modal_difference(a, b):
+    """As `difference`, modes included."""
+    worst = difference(a[:N_STATES], b[:N_STATES])
+    return max(worst, *(np.abs(a[rows] - b[rows]).max() / np.abs(b[rows]).max() for rows in MODE_BLOCKS))
+
+
+@pytest.mark.parametrize("n", [1, 4])
+def test_turn_of_elastic_halves(core, n, record_property):
+    """As test_turn_by_a_pitch; waves go on by n pitches: (a - i b) exp(-i m n alpha), m the harmonic; observed 3e-11."""
+    angle, elastic = 2.0 * np.pi * n / Z, {"scene.cage": CageModel.ELASTIC} | SUPPORTED
+    outer, gravity = dict(INPUTS), {"gravity.y": -9.81, "gravity.z": 3.0}
+    for pair in POLAR:
+        rotated(outer, [f"shaft.{name}" for name in pair], angle)
+    rotated(gravity, ("gravity.y", "gravity.z"), angle)
+    here, there = core.model(parameters=elastic, inputs=INPUTS), core.model(parameters=elastic | gravity, inputs=outer)
+    rng, worst = np.random.default_rng(4), 0.0
+
+    def image(y, rate):
+        return modal_image(y, turned(y[:N_STATES], n, rate), lambda u, m: u * np.exp(-1j * m * angle))
+
+    for _ in range(5):
+        y = running_state(here, rng)
+        rate, there_rate = here.rhs(0.0, y), there.rhs(0.0, image(y, False))
+        assert pocket_loads(here).max() > 0.0
+        worst = max(worst, modal_difference(image(rate, True), there_rate))
+    record_property("difference", float(worst))
+    assert worst < 1e-8
+
+
+def test_mirror_of_elastic_halves(core, record_property):
+    """As test_mirror_z; a wave's cosine stays, its sine changes sign: (a - i b) becomes a + i b; observed 2e-10."""
+    odd = ("shaft.F_z", "shaft.M_y", "shaft.tilt_y", "shaft.omega")
+    image_inputs = {name: -value if name in odd else value for name, value in INPUTS.items()}
+    elastic = {"scene.cage": CageModel.ELASTIC} | SUPPORTED
+    here, there = core.model(parameters=elastic, inputs=INPUTS), core.model(parameters=elastic | {"gravity.z": -3.0}, inputs=image_inputs)
+    rng, worst = np.random.default_rng(5), 0.0
+
+    def image(y):
+        return modal_image(y, mirrored_z(y[:N_STATES]), lambda u, m: np.conj(u))
+
+    for _ in range(5):
+        y = running_state(here, rng)
+        worst = max(worst, modal_difference(image(here.rhs(0.0, y)), there.rhs(0.0, image(y))))
     record_property("difference", float(worst))
     assert worst < 1e-8
 
