@@ -414,11 +414,11 @@ def correct_modes(model, h, second, foreseen, start, end, error):
 
 
 def longest_step(model, state):
-    """The longest step from a state [s]: two substeps of elastic halves where a land's film takes a half's velocity within one, for these leave films out."""
+    """The longest step from a state [s]: substeps of elastic halves leave out films, whose force is held over the next step, 1/A of their rate A at most."""
     if model is None or model.p.scene.cage != CageModel.ELASTIC:
         return np.inf
-    d = model.d.elastic.substep
-    return 2.0 * d if np.max(np.trace(state.film, axis1=1, axis2=2)) / model.p.cage.m * d > 1.0 else np.inf
+    film = np.max(np.trace(state.film, axis1=1, axis2=2))
+    return max(2.0 * model.d.elastic.substep, model.p.cage.m / film if film > 0.0 else np.inf)
 
 
 def verlet_advance(model, t, t_stop, h, weight, state, step=verlet_step):

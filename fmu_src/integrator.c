@@ -412,14 +412,13 @@ static double step_length(double goal, double left)
     return left < 2.0 * goal ? 0.5 * left : goal;
 }
 
-// The longest step from a state [s].  Substeps of elastic halves move the halves without their films (cage_substeps.c), which must
-// answer before the joints have vibrated on: where a film takes a half's velocity within a substep, a step is two substeps at most.
+// The longest step from a state [s].  Substeps of elastic halves move the halves without their films (cage_substeps.c), whose force is held
+// over the next step: so that films of the rate A do not feed the joints' vibrations, they hold for 1/A, but two substeps are always stable.
 static double longest_step(const Model *model, const VerletState *now)
 {
     if (!model->elastic) return INFINITY;
-    const double m = model->p->cage.m, d = model->elastic->substep;
-    const double rate = fmax(now->film[0][0] + now->film[0][2], now->film[1][0] + now->film[1][2]) / m;
-    return rate * d > 1.0 ? 2.0 * d : INFINITY;
+    const double film = fmax(now->film[0][0] + now->film[0][2], now->film[1][0] + now->film[1][2]);
+    return fmax(2.0 * model->elastic->substep, model->p->cage.m / film);
 }
 
 static int verlet_advance(Integrator *in, double t_stop, long max_steps)
