@@ -133,10 +133,16 @@ class Touches:
         return sum((max(k * (rate * t - (np.sum(both * q) - start)), -Q) / self.m * both for k, rate, Q, both, start in self.rows), np.zeros_like(q))
 
 
+def turn(t, rates):
+    """Turns the relative tilt rates by the angle of their gyroscopic moment, tan of half of which is t: no power."""
+    _, y, z, *_ = rates
+    rates[1:3] = np.array([(1.0 - t * t) * y - 2.0 * t * z, (1.0 - t * t) * z + 2.0 * t * y]) / (1.0 + t * t)
+
+
 def cage_substeps_advance(model, h, fast, f, y, w):
     """Substeps of a step of length h from `fast` under the slow rates f; w: kinematics in the middle of the step; changes y as cage_substeps.c does.
 
-    Returns the length of the substeps and the slow accelerations of the modes [2, n] at the step's end.
+    Returns the length of the substeps and what they foresee at the step's end: slow accelerations of the modes [2, n], changes of those of the halves [6, 2].
     """
     half, d, h0 = model.d.elastic, model.d, w.half[0]
     steps = int(min(np.ceil(h / half.substep * (1.0 - ROUNDING)), MOST_SUBSTEPS))
@@ -148,6 +154,7 @@ def cage_substeps_advance(model, h, fast, f, y, w):
     slow, speed, moved = take(model, h0, halves(f, CAGE_RATES)), np.zeros(6), np.zeros(6)
     touches, held, modes, rigid = Touches(model, fast, q), slow_modes, fast.modes, fast.rigid
     w.e, w.u, w.T, w.N_plate = fast.e.copy(), np.concatenate([w.u[:1], fast.u]), fast.T, fast.N_plate
+    gyro = float(d.J_p / d.J_t * 0.5 * np.sum([half.s for half in w.half]))
     P = maximum(d.P + d.spin[5] * fast.omega_2, 0.0)
 
     # the joints' velocities by modes and relative rigid motions; those by the slow motion of the rigid halves in the middle of the step
@@ -163,6 +170,7 @@ def cage_substeps_advance(model, h, fast, f, y, w):
         q = q + sub * v_m
         v = v_m * (1.0 - 0.5 * sub * half.damping)
         speed = speed + 0.5 * sub * rigid
+        turn(0.5 * gyro * sub, speed)
         moved = moved + sub * speed
         relative = speed + ((step - 0.5) * sub - 0.5 * h) * slow
         by_out = (out @ np.append(v_m[0], relative[:3])).reshape(Z, 3).T
@@ -186,7 +194,7 @@ def cage_substeps_advance(model, h, fast, f, y, w):
     for blocks, x in (((MODE_S, MODE_D), q), ((MODE_S_DOT, MODE_D_DOT), v)):
         for block, values in zip(blocks, x, strict=True):
             y[block][: half.n] = values
-    return sub, held
+    return sub, (held, give(model, h0, gyro * np.array([0.0, -speed[2], speed[1], 0.0, 0.0, 0.0])))
 
 
 def cage_substeps_kick(model, w, h, rigid, y):

@@ -286,7 +286,7 @@ def advance_positions(model, h, start):
         cage_joint_kinematics(model, w)
         if not elastic:
             cage_joint_advance(model, w, h, y)
-    substeps = cage_substeps_advance(model, h, start.fast, start.f, y, w) if elastic else (0.0, None)
+    substeps = cage_substeps_advance(model, h, start.fast, start.f, y, w) if elastic else (0.0, (None, np.zeros((6, 2))))
     return y, *substeps, w
 
 
@@ -348,7 +348,7 @@ def verlet_step(model, t, h, weight, start, blocks=jacobian_blocks):
     weight: 1/(tolerance scale) of each state.  blocks: function of (model, t, y, w, gamma) that gives the Blocks; any A and K keep the second order.
     """
     gamma, f, a, w = 0.5 * h, start.f, start.f[V], Work()
-    (y, sub, foreseen, middle), held = advance_positions(model, h, start), predictor_limiter(model, h, start)
+    (y, sub, (foreseen, of_halves), middle), held = advance_positions(model, h, start), predictor_limiter(model, h, start)
     y[V] += gamma * a - held
     elastic = model.p.scene.cage == CageModel.ELASTIC
     if elastic:
@@ -362,7 +362,9 @@ def verlet_step(model, t, h, weight, start, blocks=jacobian_blocks):
         cage_substeps_kick(model, w, 0.5 * sub, end.fast.rigid - start.fast.rigid, y)
 
     # One linear solve takes the predicted velocities to those of the trapezoidal rule.
-    b, residual = blocks(model, t + h, y, w, gamma), held + gamma * (end.f[V] - a)
+    foreseen_rates = np.zeros(N_V)
+    foreseen_rates[HALF] = of_halves
+    b, residual = blocks(model, t + h, y, w, gamma), held + gamma * (end.f[V] - a - foreseen_rates)
     residual = np.linalg.solve(np.eye(N_V) + gamma**2 * b.K_shear, residual)
     delta = np.linalg.solve(b.matrix(gamma), residual)
     end.f[WORK] += dissipation_correction(model, w, gamma, residual, delta)
@@ -370,6 +372,7 @@ def verlet_step(model, t, h, weight, start, blocks=jacobian_blocks):
     correct_positions(model, gamma, delta, b, y)
     correct_friction(model, w, gamma, delta, b.shear, y)
     y[V] += held + delta
+    delta += gamma * foreseen_rates
     y[WORK] += gamma * (f[WORK] + end.f[WORK])
 
     # Velocities: error h^3/12 a'' of the trapezoidal rule; stiff accelerations give up a part of their second difference h^2 a''.

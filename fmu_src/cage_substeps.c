@@ -18,6 +18,9 @@
 // contact is stiffer than the wall.  So the load follows in the substeps, Q + k (rate t - u), k the contact's stiffness, rate
 // that of the approach by rigid motions and u what the modes move the wall since the step's start; the end corrects it too.
 //
+// The gyroscopic moment of the halves' relative tilts belongs to the slow accelerations, but follows in the substeps too: sampled at the
+// ends of the steps and held, it would feed vibrations that turn by more than a little, by 120/s at 12,000 r/min.
+//
 // The friction states follow the implicit midpoint rule (cage_joint_advance).  What they and the modes' damping dissipate is summed over
 // the substeps.  docs/method.md has the measured reasons.
 #include "cage_substeps.h"
@@ -281,8 +284,16 @@ static void slow_accelerations(const Model *model, double t, const double *at_st
     }
 }
 
+// Turns the relative tilt rates by the angle of their gyroscopic moment, tan of half of which is t: no power.
+static void turn(double t, double rates[RELATIVE_MOTIONS])
+{
+    const double y = rates[ABOUT_Y], z = rates[ABOUT_Z], inv = 1.0 / (1.0 + t * t);
+    rates[ABOUT_Y] = inv * ((1.0 - t * t) * y - 2.0 * t * z);
+    rates[ABOUT_Z] = inv * ((1.0 - t * t) * z + 2.0 * t * y);
+}
+
 double cage_substeps_advance(const Model *model, double h, const FastState *fast, const double *f, double *y,
-                             double held[2 * N_MODES], Work *w)
+                             Foreseen *foreseen, Work *w)
 {
     const ElasticHalf *half = model->elastic;
     const int steps = (int)fmin(ceil(h / half->substep * (1.0 - ROUNDING)), MOST_SUBSTEPS);
@@ -292,6 +303,7 @@ double cage_substeps_advance(const Model *model, double h, const FastState *fast
     double speed[RELATIVE_MOTIONS] = {0.0}, moved[RELATIVE_MOTIONS] = {0.0};  // by the fast accelerations
     JointVelocities middle;
     JointPreload preload;
+    const double gyro = model->d->J_p / model->d->J_t * 0.5 * (w->half[0].s + w->half[1].s);
     Touch touches[2 * Z];
 
     // where the joints are, and what the step holds
@@ -306,14 +318,15 @@ double cage_substeps_advance(const Model *model, double h, const FastState *fast
     rigid_velocities(model, w, &middle);
     take(model, &w->half[0], f, slow);
     const int count = find_touches(half, fast, q, touches);
-    memcpy(held, &f[Y_MODE_S_DOT], sizeof modes);
+    memcpy(foreseen->modes, &f[Y_MODE_S_DOT], sizeof modes);
 
     for (int step = 1;; step++) {
         // first half of the accelerations, drift
         double relative[RELATIVE_MOTIONS];
-        move_modes(half, sub, modes, held, q, v, v_m);
+        move_modes(half, sub, modes, foreseen->modes, q, v, v_m);
+        for (int i = 0; i < RELATIVE_MOTIONS; i++) speed[i] += 0.5 * sub * rigid[i];
+        turn(0.5 * gyro * sub, speed);
         for (int i = 0; i < RELATIVE_MOTIONS; i++) {
-            speed[i] += 0.5 * sub * rigid[i];
             moved[i] += sub * speed[i];
             relative[i] = speed[i] + ((step - 0.5) * sub - 0.5 * h) * slow[i];
         }
@@ -322,16 +335,20 @@ double cage_substeps_advance(const Model *model, double h, const FastState *fast
         cage_elastic_in(half, v_m + N_MODES, in);
         move_joints(model, sub, &middle, relative, out, in, w);
         y[Y_WORK] -= cage_joint_advance(model, w, sub, y) + sub * modes_lose(model, v_m);
-        slow_accelerations(model, step * sub, &f[Y_MODE_S_DOT], touches, count, q, held);
+        slow_accelerations(model, step * sub, &f[Y_MODE_S_DOT], touches, count, q, foreseen->modes);
         if (step == steps) break;
 
         // accelerations there, of which the second half
         cage_elastic_loads(model, &preload, w);
         cage_joint_shear(model, y, w);
         fast_accelerations(model, y, w, modes, rigid);
-        for (int i = 0; i < 2 * N_MODES; i++) v[i] += 0.5 * sub * (modes[i] + held[i]);
+        for (int i = 0; i < 2 * N_MODES; i++) v[i] += 0.5 * sub * (modes[i] + foreseen->modes[i]);
         for (int i = 0; i < RELATIVE_MOTIONS; i++) speed[i] += 0.5 * sub * rigid[i];
     }
+    const double moment[RELATIVE_MOTIONS] = {[ABOUT_Y] = -gyro * speed[ABOUT_Z],
+                                             [ABOUT_Z] = gyro * speed[ABOUT_Y]};
+    memset(foreseen->halves, 0, sizeof foreseen->halves);
+    give(model, &w->half[0], 1.0, moment, 0, foreseen->halves);
     give(model, &w->half[0], 1.0, moved, Y_CAGE_X, y);
     give(model, &w->half[0], 1.0, speed, Y_CAGE_V_X, y);
     return sub;

@@ -26,14 +26,19 @@ typedef struct {
 #define cage_substeps_split FOR_ISA(cage_substeps_split)
 void cage_substeps_split(const Model *model, const double *y, const Work *w, double *f, FastState *fast);
 
+// Slow accelerations at the step's end as the substeps foresee them: those of the modes; of the halves what they change by, in
+// the order of their velocities in the state.
+typedef struct {
+    double modes[2 * N_MODES], halves[2 * RELATIVE_MOTIONS];
+} Foreseen;
+
 // Substeps of a step of length h from `fast` under the slow rates f.  y: the state at the step's start but for positions
 // and velocities of the halves, which a step without fast accelerations has reached at its end and in its middle; the substeps
 // add theirs, and advance modes, friction states and work.  w: kinematics in the middle.  Velocities and rates of the modes lack
-// the last substep's second half.  held: accelerations of the modes at the step's end that the substeps foresee beside the fast
-// ones.  Returns the length of the substeps [s].
+// the last substep's second half.  Returns the length of the substeps [s].
 #define cage_substeps_advance FOR_ISA(cage_substeps_advance)
 double cage_substeps_advance(const Model *model, double h, const FastState *fast, const double *f, double *y,
-                             double held[2 * N_MODES], Work *w);
+                             Foreseen *foreseen, Work *w);
 
 // Adds to the velocities of both halves in y what the relative accelerations `rigid` give in the time h [s].
 #define cage_substeps_kick FOR_ISA(cage_substeps_kick)

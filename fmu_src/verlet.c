@@ -52,7 +52,7 @@ static double sum_of(const double *x, int count)
 // Writes positions and friction states of the step's end and the velocities v_m of its middle into y.  Elastic halves take
 // substeps, whose length is returned.
 static double advance_positions(const Model *model, double h, const VerletState *from, double *y,
-                                double held[2 * N_MODES], Work *w)
+                                Foreseen *foreseen, Work *w)
 {
     const double gamma = 0.5 * h;
     double middle[N_ALL_STATES];  // the state in the middle of the step, of cage and ring
@@ -69,7 +69,7 @@ static double advance_positions(const Model *model, double h, const VerletState 
     rhs_cage_advance(model, middle, h, y, w);
     if (!model->elastic) return 0.0;
     memcpy(&y[PLACES], &from->y[PLACES], (N_ALL_STATES - PLACES) * sizeof *y);
-    return cage_substeps_advance(model, h, &from->fast, from->f, y, held, w);
+    return cage_substeps_advance(model, h, &from->fast, from->f, y, foreseen, w);
 }
 
 // Limits the predictor of the cage velocities: writes what is taken from h a_n into `removed`.  A land film
@@ -224,14 +224,14 @@ static void kick(const Model *model, const Work *w, double sub, const FastState 
     cage_substeps_kick(model, w, 0.5 * sub, rigid, y);
 }
 
-// Rates of the modes of elastic halves: the substeps had the slow accelerations `held` at the end.
-static void correct_modes(double h, const double held[2 * N_MODES], const VerletState *from, VerletState *to,
+// Rates of the modes of elastic halves: the substeps had the slow accelerations `foreseen` at the end.
+static void correct_modes(double h, const Foreseen *foreseen, const VerletState *from, VerletState *to,
                           double *error)
 {
     const double gamma = 0.5 * h, inv_h = 1.0 / h, second = h * h * (2.0 / (h + from->h));
     for (int i = RATES; i < N_ALL_STATES; i++) {
         const double change = to->f[i] - from->f[i];
-        to->y[i] += gamma * (to->f[i] - held[i - RATES]);
+        to->y[i] += gamma * (to->f[i] - foreseen->modes[i - RATES]);
         to->jerk[i] = change * inv_h;
         error[i] = (h / 12.0) * (second * (to->jerk[i] - from->jerk[i]));
     }
@@ -244,16 +244,16 @@ double verlet_step(const Model *model, double t, double h, const double *weight,
                    VerletState *to, Work *w)
 {
     const double gamma = 0.5 * h, *f = from->f;
-    double held[2 * N_MODES], removed[N_STATES], residual[N_STATES], delta[N_STATES], error[N_ALL_STATES],
-        *y = to->y;
+    Foreseen foreseen;
+    double removed[N_STATES], residual[N_STATES], delta[N_STATES], error[N_ALL_STATES], *y = to->y;
 
     // Positions of the step's end; predicted velocities v^ there; the evaluation.
-    const double sub = advance_positions(model, h, from, y, held, w);
+    const double sub = advance_positions(model, h, from, y, &foreseen, w);
     predictor_limiter(model, h, from, w, removed);
     for (int i = VELOCITY; i < N_STATES; i++) y[i] += gamma * f[i];
     for (int i = CAGE; i < CAGE_END; i++) y[i] -= removed[i];
     if (model->elastic) {
-        for (int i = RATES; i < N_ALL_STATES; i++) y[i] += 0.5 * sub * held[i - RATES];
+        for (int i = RATES; i < N_ALL_STATES; i++) y[i] += 0.5 * sub * foreseen.modes[i - RATES];
         kick(model, w, sub, &from->fast, NULL, y);
     }
     rhs(model, t + h, y, to->f, w);
@@ -266,6 +266,8 @@ double verlet_step(const Model *model, double t, double h, const double *weight,
     // The residual of the trapezoidal rule at v^, and the linear solve that corrects v^.
     for (int i = VELOCITY; i < N_STATES; i++) residual[i] = gamma * (to->f[i] - f[i]);
     for (int i = CAGE; i < CAGE_END; i++) residual[i] += removed[i];
+    if (model->elastic)
+        for (int i = CAGE; i < CAGE_END; i++) residual[i] -= gamma * foreseen.halves[i - CAGE];
     const double shear = implicit_shear(model, w, gamma, residual);
     for (int i = VELOCITY; i < N_STATES; i++) delta[i] = residual[i];
     const double axial = implicit_solve(model, w, gamma, delta);
@@ -277,6 +279,8 @@ double verlet_step(const Model *model, double t, double h, const double *weight,
         delta[i] -= removed[i];
     }
     for (int i = VELOCITY; i < N_STATES; i++) y[i] += delta[i];
+    if (model->elastic)
+        for (int i = CAGE; i < CAGE_END; i++) delta[i] += gamma * foreseen.halves[i - CAGE];
     correct_positions(model, gamma, delta, axial, shear, y);
     correct_friction(model, w, gamma, delta, shear, y);
 
@@ -290,7 +294,7 @@ double verlet_step(const Model *model, double t, double h, const double *weight,
     remember_friction(h, from, to, error);
     to->h = h;
     if (model->elastic) {
-        correct_modes(h, held, from, to, error);
+        correct_modes(h, &foreseen, from, to, error);
         return vector_ops_elastic.wrms_norm(error, weight);
     }
     return vector_ops.wrms_norm(error, weight);
