@@ -417,11 +417,11 @@ def correct_modes(model, h, second, foreseen, start, end, error):
 
 
 def longest_step(model, state):
-    """The longest step from a state [s]: substeps of elastic halves leave out films, whose force is held over the next step, 1/A of their rate A at most."""
+    """The longest step from a state [s]: of elastic halves three substeps, or what a film of the rate A holds for, 1/A, but two substeps at least."""
     if model is None or model.p.scene.cage != CageModel.ELASTIC:
         return np.inf
-    film = np.max(np.trace(state.film, axis1=1, axis2=2))
-    return max(2.0 * model.d.elastic.substep, model.p.cage.m / film if film > 0.0 else np.inf)
+    film, d = np.max(np.trace(state.film, axis1=1, axis2=2)), model.d.elastic.substep
+    return min(3.0 * d, max(2.0 * d, model.p.cage.m / film if film > 0.0 else np.inf))
 
 
 def verlet_advance(model, t, t_stop, h, weight, state, step=verlet_step):

@@ -412,13 +412,15 @@ static double step_length(double goal, double left)
     return left < 2.0 * goal ? 0.5 * left : goal;
 }
 
-// The longest step from a state [s].  Substeps of elastic halves move the halves without their films (cage_substeps.c), whose force is held
-// over the next step: so that films of the rate A do not feed the joints' vibrations, they hold for 1/A, but two substeps are always stable.
+// The longest step from a state [s].  Elastic halves: slow forces that are held over a step feed vibrations that turn by much more than pi in
+// it, so that it has three substeps at most; films of the rate A, which the substeps leave out, hold for 1/A, or for two
+// substeps, which are always stable.
 static double longest_step(const Model *model, const VerletState *now)
 {
     if (!model->elastic) return INFINITY;
+    const double d = model->elastic->substep;
     const double film = fmax(now->film[0][0] + now->film[0][2], now->film[1][0] + now->film[1][2]);
-    return fmax(2.0 * model->elastic->substep, model->p->cage.m / film);
+    return fmin(3.0 * d, fmax(2.0 * d, model->p->cage.m / film));
 }
 
 static int verlet_advance(Integrator *in, double t_stop, long max_steps)
