@@ -356,10 +356,11 @@ def add_log_categories(root):
 
 
 def add_origin(root, table):
-    """Where start values come from, for `riveted-bearing run`: an annotation that other tools pass over."""
+    """Where start values come from, for `riveted-bearing run`: an annotation that other tools pass over.  FMI 2.0 allows one element in a tool's."""
     tool = etree.SubElement(etree.SubElement(root, "VendorAnnotations"), "Tool", name="riveted-bearing")
+    values = etree.SubElement(tool, "Origin")
     for name, origin in table.origin.items():
-        etree.SubElement(tool, "Value", name=name, origin=origin)
+        etree.SubElement(values, "Value", name=name, origin=origin)
 
 
 def add_variables(root, table):

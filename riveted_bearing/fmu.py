@@ -74,7 +74,7 @@ class Model:
         """Where start values come from, by name: "yours", "catalogue", "rule", "shipped"; empty for the default FMU."""
         with zipfile.ZipFile(self.path) as archive:
             root = ElementTree.fromstring(archive.read("modelDescription.xml"))
-        return {value.get("name"): value.get("origin") for value in root.iterfind("VendorAnnotations/Tool[@name='riveted-bearing']/Value")}
+        return {value.get("name"): value.get("origin") for value in root.iterfind("VendorAnnotations/Tool[@name='riveted-bearing']/Origin/Value")}
 
     @functools.cached_property
     def cage_modes(self):

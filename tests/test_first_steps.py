@@ -13,8 +13,8 @@ from riveted_bearing.fmu import Model
 from riveted_bearing.scene import load_scene
 from riveted_bearing.variable_list import essentials, matching
 
-ORIGIN = """<VendorAnnotations><Tool name="riveted-bearing"><Value name="shaft.F_y" origin="yours"/><Value name="shaft.omega" origin="rule"/>
-<Value name="bearing.D" origin="yours"/></Tool></VendorAnnotations>"""
+ORIGIN = """<VendorAnnotations><Tool name="riveted-bearing"><Origin><Value name="shaft.F_y" origin="yours"/><Value name="shaft.omega" origin="rule"/>
+<Value name="bearing.D" origin="yours"/></Origin></Tool></VendorAnnotations>"""
 
 
 @pytest.fixture(scope="module")
