@@ -1,6 +1,6 @@
 // Substeps of elastic halves: the multiple time step method (Tuckerman, Berne and Martyna 1992) with the slow forces held over
-// the step.  Closed joints vibrate with the halves at up to 80 kHz, their loads decide the rivets' stress, and what they cost is small
-// beside races and pockets.  So a step of length h takes n substeps of length d = h/n, of velocity Verlet,
+// the step.  Closed joints vibrate with the halves at up to 80 kHz, their loads decide the rivets' stress, and an evaluation of them
+// costs a fifth of one of all forces.  So a step of length h takes n substeps of length d = h/n, of velocity Verlet,
 //
 //     v_m = (v + d/2 (a_f + a_s))/(1 + d c/2),  q += d v_m,  v = v_m (1 - d c/2) + d/2 (a_f + a_s)
 //
@@ -14,7 +14,7 @@
 // and tilt both halves alike; a joint feels the inverse inertia 2/m + 2 c_x^2/J_t there.  Whatever these motions leave out,
 // gyroscopic terms for example, is in the slow accelerations, because these are the whole ones less the fast ones.
 //
-// A ball that presses on a wall holds it: a held load would answer to the wall's motion a step late, which is unstable where the
+// A ball that presses on a wall holds it: a load held over the step would answer to the wall's motion a step late, which is unstable where the
 // contact is stiffer than the wall.  So the load follows in the substeps, Q + k (rate t - u), k the contact's stiffness, rate
 // that of the approach by rigid motions and u what the modes move the wall since the step's start; the end corrects it too.
 //
