@@ -16,7 +16,7 @@ Joint, out of the plane: with e half of the relative motion of its pads (rigid a
 
     L_k = sum_j K_(k-j) (e_j - delta_j),    (delta, T, m_r, m_t)_k = law(L^_k, P),    L^_k = L_k + K_0 delta_k
 
-with the joint's law (joint_law.py), in which the stiffness K_0 of the whole half around a joint is replaced by that which the modes leave (law_behind).
+with the joint's law of the table, over the stiffness K_0 around a joint that the modes leave (joint_law.py, LawBehind), which gives L; delta = K_0^-1 (L^ - L).
 The moves of the neighbours in L^ are found by sweeps that begin with those at rest under the centrifugal load.
 In the plane, friction states and the hole's contact as in cage_joint.py, in series with what the modes leave.  Pads do not hold each other about x.
 
@@ -27,14 +27,14 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from bearing_model.half_modes import PAD, coordinates, denser, fewer, frequencies, phases, rivet_shapes, spin_load
-from bearing_model.joint_law import JointLaw, joint_law, law_load, law_spline, ratio
+from bearing_model.half_modes import OUT, PAD, coordinates, denser, fewer, frequencies, phases, rivet_shapes, spin_load, stiffness_left
+from bearing_model.joint_law import LawBehind, joint_law, law_load, law_spline, ratio
 from bearing_model.lanes import absolute, ball_array_sum, maximum
 from bearing_model.rivet_splines import interpolate, sites
 from bearing_model.variables import CAGE_BETA_DOT, CAGE_GAMMA_DOT, CAGE_S, CAGE_V_X, CAGE_V_Y, CAGE_V_Z, MODE_D, MODE_D_DOT, MODE_S, MODE_S_DOT, Z
 from bearing_model.vec import vec_cross, vec_dot
 
-OUT, IN = [0, 4, 5], [1, 2]  # of the motions (x, r, t, phi_x, phi_r, phi_t) of a pad: out of the plane, in it
+IN = [1, 2]  # of the motions (x, r, t, phi_x, phi_r, phi_t) of a pad: in the plane; OUT: out of it
 ROOT = np.sqrt(2.0)
 CAGE_RATES = CAGE_V_X, CAGE_V_Y, CAGE_V_Z, CAGE_BETA_DOT, CAGE_GAMMA_DOT, CAGE_S
 SUBSTEP_TURN = 1.6  # angle by which the fastest vibration of closed joints turns in a substep (cage_substeps.py)
@@ -67,31 +67,31 @@ class ElasticHalf:
     wall: float  # compliance that the modes leave at a wall, along its normal, less that in Hertz's [m/N]
     mirrored: np.ndarray  # squares of the frequencies of S and the relative rigid motions out of the plane with closed joints, rising [n + 3]
     substep: float  # of the default method, at most [s]
-    law: JointLaw  # over L^
+    law: LawBehind
     prying: float  # |bonded M_t| of the centrifugal load over the law's length, per (rad/s)^2 [N s2]
     relief: np.ndarray  # of a joint by the others at rest [RESTS, 3], per newton
     energy: np.ndarray  # coefficients of U, whose slope is delta [tau, q, psi], per newton squared
 
 
-def circulant_inverse(R):
-    """Inverse of a circulant matrix of blocks [Z, n, n]."""
-    return np.fft.ifft(np.linalg.inv(np.fft.fft(R, axis=0)), axis=0).real
-
-
 def law_behind(law, K):
-    """The law over L^ = L + K delta in place of L* = L + K_0 delta, on the same knots, and the coefficients of U(L^), whose slope is delta."""
+    """The law of the table over L^ = L + K delta for another stiffness K, on the same knots, and the coefficients of U(L^), whose slope is delta."""
     knots = [law.knots[name] for name in ("tau", "q", "psi")]
     places = [sites(k) for k in knots]
     grid = np.array([[[np.append(*law_load(law.length, a, b, c)) for c in places[2]] for b in places[1]] for a in places[0]])
     load, P = grid[..., :3], grid[..., 3]
     values = np.concatenate(joint_law(law, load_before(law, K, load, P), P), axis=-1)
-    behind = JointLaw(law.length, law.knots, interpolate(knots, values), law.stiffness, law.slip_stiffness, law.sign)
+    behind = LawBehind(law.length, law.knots, interpolate(knots, values), K)
     ray = np.linspace(0.0, 1.0, RAY + 1)
     simpson = np.tile([2.0, 4.0], RAY // 2 + 1)[: RAY + 1] / (3.0 * RAY)
     simpson[[0, -1]] /= 2.0
     # without the start of the ray, where no load moves a joint
-    U = sum(w * np.sum(joint_law(behind, t * load, P)[0] * load, axis=-1) for w, t in zip(simpson[1:], ray[1:], strict=True))
+    U = sum(w * np.sum(joint_moves(behind, t * load, joint_law(behind, t * load, P)[0]) * load, axis=-1) for w, t in zip(simpson[1:], ray[1:], strict=True))
     return behind, interpolate(knots, U)
+
+
+def joint_moves(law, behind, load):
+    """Moves (u, phi_r, phi_t) [..., 3] of joints that carry `load` [..., 3] under L^ = behind [..., 3]."""
+    return (behind - load) @ np.linalg.inv(law.stiffness).T
 
 
 LAWS = {}  # found so far, by the numbers that they follow from
@@ -106,12 +106,13 @@ def kept_law(law, K):
 
 
 def load_before(law, K, behind, P):
-    """L* [..., 3] for L^ = behind [..., 3]: Newton's method on L* + (K - K_0) delta(L*) = L^."""
-    more, unit = K - law.stiffness[0], np.array([1.0, law.length, law.length])
+    """L^ [..., 3] of the table's law for L^ = behind [..., 3] of the law over K: Newton's method on L + K delta = behind."""
+    ratio_K, unit = K @ np.linalg.inv(law.stiffness), np.array([1.0, law.length, law.length])
     load = behind.copy()
 
     def residual(load):
-        return load + joint_law(law, load, P)[0] @ more.T - behind
+        carried = joint_law(law, load, P)[0]
+        return carried + (load - carried) @ ratio_K.T - behind
 
     rest = residual(load)
     for _ in range(40):
@@ -141,9 +142,9 @@ def derive_elastic(p, d, table):
     c, s = (f[entry] for f in phases(modes, 0.0))
     wave = np.where(part[:, None, None] == 0.0, np.stack([c, -s], axis=1), np.stack([s, c], axis=1))
     omega, residual = frequencies(modes), modes.residual
-    K = circulant_inverse(residual.pad[:, OUT][:, :, OUT])
+    K = stiffness_left(modes)
     shear = 2.0 * np.mean(np.diag(residual.pad[0])[IN])  # of both halves
-    behind, energy = kept_law(table.half.law, K[0])
+    behind, energy = kept_law(modes.law, K[0])
     pocket = unit * np.moveaxis(modes.pocket[entry], 1, 0)
     pad = unit * np.moveaxis(rivet_shapes(modes)[:, :, : len(PAD)], 1, 2)
     series, k_hole = 1.0 / (1.0 + shear * (d.k_plate_t + d.k_head)), d.k_hole / (1.0 + shear * d.k_hole)
@@ -319,8 +320,9 @@ def cage_elastic_law(model, e, P, omega_2):
     intact = d.intact[:, None]
 
     def answer(behind):
-        delta, rivet = joint_law(law, behind, P)
-        return np.where(intact > 0.0, delta, broken_answer(half.K[0], behind)), intact * rivet
+        load, rivet = joint_law(law, behind, P)
+        delta = np.where(intact > 0.0, joint_moves(law, behind, load), broken_answer(half.K[0], behind))
+        return delta, intact * rivet
 
     waves = half.K[(np.arange(Z)[:, None] - np.arange(Z)) % Z]  # [k, j, 3, 3]
     bonded = np.einsum("kjab,b...j->...ka", waves, e)
@@ -416,7 +418,8 @@ def find_rest(half, m, omega_2, P):
         S = ROOT * (half.spin * omega_2[..., None] - np.where(half.alike, Z * at[:, 2] * x[..., 1:], 0.0)) / (m * half.omega**2)
         e = 0.5 * x[..., :1] * [1.0, 0.0, 0.0] + S @ at / ROOT * [1.0, 0.0, 1.0]
         for _ in range(REST_SWEEPS):
-            move = joint_law(half.law, e @ K.T - move @ (K - half.K[0]).T, P)[0]
+            behind = e @ K.T - move @ (K - half.K[0]).T
+            move = joint_moves(half.law, behind, joint_law(half.law, behind, P)[0])
         N, _, M_t = np.moveaxis((e - move) @ K.T, -1, 0)
         return np.stack([N, (M_t - x[..., 1]) / half.law.length], axis=-1), S, move
 

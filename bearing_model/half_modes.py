@@ -25,11 +25,14 @@ from functools import cached_property
 import numpy as np
 
 from bearing_model.half_path import cubic_slopes
+from bearing_model.joint_law import LawBehind
 
 PAD = ("x", "r", "t", "phi_x", "phi_r", "phi_t")
 RIVET = ("dP", "dm_r", "dm_t")
 EVEN = np.array([1.0, 1.0, -1.0, -1.0, -1.0, 1.0, 1.0, -1.0, 1.0])  # of PAD and RIVET: 1 if mirroring in the rivet's plane leaves it as it is, else -1
 MIRROR = np.array([1.0, 1.0, -1.0])  # of x, r, t
+OUT = [0, 4, 5]  # of PAD: relative motions of two pads out of the plane of the split
+LAW_MODES_PER_PITCH = 4.5  # of the half whose residual the joints' law is made for; for other numbers of modes it is found from that
 OTHER_HALF = np.array([-1.0, 1.0, 1.0, 1.0, -1.0, -1.0])  # of PAD: the other half is the mirror image in the split
 
 
@@ -59,6 +62,7 @@ class HalfModes:
     rim: np.ndarray  # [entries, outer and inner] amplitude of the radial displacement cos(n theta): mean over the rim
     spin: np.ndarray  # [entries] force per (rad/s)^2 at mass m
     residual: Residual
+    law: LawBehind  # of the joints, made for the residual of LAW_MODES_PER_PITCH Z modes
 
     @property
     def count(self):
@@ -139,6 +143,16 @@ def fewer(modes, n):
     arrays = {name: getattr(modes, name) for name in ("omega", "harmonic", "parity", "pocket", "pad", "rivet", "rim", "spin")}
     rest = replace(modes, **{name: values[kept:] for name, values in arrays.items()})
     return replace(modes, **{name: values[:kept] for name, values in arrays.items()}, residual=softer(modes.residual, rest))
+
+
+def circulant_inverse(R):
+    """Inverse of a circulant matrix of blocks [Z, n, n]."""
+    return np.fft.ifft(np.linalg.inv(np.fft.fft(R, axis=0)), axis=0).real
+
+
+def stiffness_left(modes):
+    """Stiffness [Z, 3, 3] between the pads, out of the plane, that the modes leave: the inverse of the residual, N/m, N/rad, N.m/rad."""
+    return circulant_inverse(modes.residual.pad[:, OUT][:, :, OUT])
 
 
 def softer(residual, modes):

@@ -33,6 +33,7 @@ from bearing_model.rivet_splines import cell_weights
 
 AXES = ("tau", "q", "psi")
 NUMBERS = ("u", "phi_r", "phi_t", "T", "m_r", "m_t")
+CARRIED = ("N", "M_r", "M_t", "T", "m_r", "m_t")
 SWEEPS = 6  # at most: a sweep leaves a fifth to a half of the error, and within a few per cent of s the first is right
 NEAR = 0.05  # with it and CHANGE = 0.01, T and moments stay within 0.8 % of the fixed point's largest, by a third of the evaluations
 CHANGE = 0.01
@@ -79,6 +80,19 @@ class JointLaw:
         return alike_states(self)
 
 
+@dataclass
+class LawBehind:
+    """The law over L^ = L + K delta, where K is what vibration modes leave of the stiffness around a joint.
+
+    K is a hundred times K_0, so that L = L^ - K delta is a small difference: the law gives L, and the moves follow from it.
+    """
+
+    length: float  # l [m]
+    knots: dict  # AXES -> knots
+    coefficients: np.ndarray  # [tau, q, psi, CARRIED], per newton
+    stiffness: np.ndarray  # K [3, 3] of (u, phi_r, phi_t); N/m, N/rad, N.m/rad
+
+
 def ratio(top, bottom):
     """top/bottom, 0 where bottom is 0."""
     out = np.zeros(np.broadcast(top, bottom).shape, dtype=np.result_type(top, bottom, float))
@@ -108,7 +122,10 @@ def law_load(length, tau, q, psi):
 
 
 def joint_law(law, load, P):
-    """Moves (u, phi_r, phi_t) [..., 3] of the pad and loads (T, m_r, m_t) [..., 3] of the rivet, under loads [..., 3] and preloads [...] >= 0."""
+    """Moves (u, phi_r, phi_t) [..., 3] of the pad and loads (T, m_r, m_t) [..., 3] of the rivet, under loads [..., 3] and preloads [...] >= 0.
+
+    A LawBehind gives the joint's loads (N, M_r, M_t) in place of the moves.
+    """
     s, result = law_spline(law, law.coefficients, np.asarray(load), np.asarray(P))
     result = result * s[..., None]
     side = np.where(np.real(load)[..., 1] < 0.0, -1.0, 1.0)[..., None] * [0.0, 1.0, 0.0] + [1.0, 0.0, 1.0]

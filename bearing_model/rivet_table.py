@@ -18,7 +18,7 @@ from bearing_model import half_path, joint_law
 from bearing_model.half_modes import PAD, RIVET, HalfModes, Residual
 
 DEFAULT_TABLE = Path(__file__).resolve().parents[1] / "rivet_model" / "tables" / "6207.json"
-FORMAT = "rivet-table-4"
+FORMAT = "rivet-table-5"
 KINDS = {"fe": "finite elements", "fe_coarse": "coarse finite elements", "closed_form": "closed forms"}  # numbered from 1: the output rivet.table_kind
 SECTIONS = ("header", "shank", "fit_eff", "joint", "half", "modes")
 CHANNELS = ("head_p1", "head_vm", "mid_vm", "mid_p1")
@@ -180,10 +180,15 @@ def _read_shank(path, section):
     return ShankTable(length, knots, as_embedded(coefficients))
 
 
+def _read_law(path, section, numbers):
+    """Section, knots and coefficients of the joints' law in a section."""
+    law = _Section(path, f"{section.name}.law", section.member("law", dict))
+    return law, *_spline(path, law, joint_law.AXES, (len(numbers),))
+
+
 def _read_half(path, section, Z):
     """The section of the cage half, its arrays checked for their shapes."""
-    law = _Section(path, f"{section.name}.law", section.member("law", dict))
-    knots, coefficients = _spline(path, law, joint_law.AXES, (len(joint_law.NUMBERS),))
+    law, knots, coefficients = _read_law(path, section, joint_law.NUMBERS)
     chi, spin = section.numbers("chi"), section.array("spin", (8,))
     for key in ("m", "J_p", "J_t", "k_open"):
         _need(section.number(key) > 0.0, path, f"half.{key} = {section.number(key)}: more than 0 is needed")
@@ -221,9 +226,15 @@ def _read_modes(path, section, Z, chi):
     waves = np.fft.fft(residual.pad, axis=0) / np.outer(unit, unit)
     least = np.linalg.eigvalsh(0.5 * (waves + waves.conj().swapaxes(1, 2))).min()
     _need(least > 0.0, path, f"modes.residual.pad is no flexibility: a load does work {least:g} m/N")
+    law, knots, coefficients = _read_law(path, section, joint_law.CARRIED)
+    stiffness = law.array("stiffness", (3, 3))
+    lengths = np.array([1.0, 1e3, 1e3])  # of rotations 1 mrad
+    least = np.linalg.eigvalsh(np.outer(lengths, lengths) * 0.5 * (stiffness + stiffness.T)).min()
+    _need(least > 0.0, path, f"modes.law.stiffness is none: a motion takes work of {least:g} N/m")
+    law = joint_law.LawBehind(law.number("length"), knots, coefficients, stiffness)
     shapes = {"pocket": (len(chi), 3, 2), "pad": (len(PAD),), "rivet": (len(RIVET),), "rim": (2,), "spin": ()}
     arrays = {key: section.array(key, (len(omega), *shape)) for key, shape in shapes.items()}
-    return HalfModes(Z=Z, chi=chi, omega=omega, harmonic=harmonic.astype(int), parity=parity.astype(int), residual=residual, **arrays)
+    return HalfModes(Z=Z, chi=chi, omega=omega, harmonic=harmonic.astype(int), parity=parity.astype(int), residual=residual, law=law, **arrays)
 
 
 def _check_joint(path, joint):

@@ -15,8 +15,8 @@
 //
 //     L_k = sum_j K_(k-j) (e_j - delta_j),     (delta, T, m_r, m_t)_k = law(L^_k, P),     L^_k = L_k + K_0 delta_k
 //
-// with the joint's law (joint_law.h), in which the stiffness of the whole half around a joint is replaced by that which the
-// modes leave (elastic_half.c).  The moves of the neighbours in L^ are found by sweeps that begin with those at rest under the
+// with the joint's law over the stiffness K_0 around a joint that the modes leave (elastic_half.c), which gives L; the move is
+// K_0^-1 (L^ - L).  The moves of the neighbours in L^ are found by sweeps that begin with those at rest under the
 // centrifugal load.  In the plane, friction states and the hole's contact are those of cage_joint.c, in series
 // with what the modes leave.  Pads do not hold each other about x.
 //
@@ -160,12 +160,14 @@ static void broken_answers(const ElasticHalf *half, Work *w, int k)
     w->joint_move[0][k] = u, w->joint_move[1][k] = phi_r - r_x * u, w->joint_move[2][k] = phi_t - t_x * u;
     w->joint_U[k] = 0.0;
     for (int a = 0; a < PAD_OUT; a++) {
+        const scalar relieved = own_relief(half, w, a, k);
         w->joint_rivet[a][k] = 0.0;
-        w->joint_U[k] += (w->joint_behind[a][k] - 0.5 * own_relief(half, w, a, k)) * w->joint_move[a][k];
+        w->joint_load[a][k] = w->joint_behind[a][k] - relieved;
+        w->joint_U[k] += (w->joint_behind[a][k] - 0.5 * relieved) * w->joint_move[a][k];
     }
 }
 
-// All joints answer to L^; behind: L^ without what a joint's own move relieves.
+// All joints answer to L^.
 static void joints_answer(const ElasticHalf *half, const ball_array P, const constants intact, Work *w)
 {
     ball_array place[LAW_AXES], size;
@@ -183,10 +185,18 @@ static void joints_answer(const ElasticHalf *half, const ball_array P, const con
         octet S;
         law_octet(&half->law, (const scalar[LAW_AXES]){place[0][k], place[1][k], place[2][k]}, &S);
         const scalar s = size[k], across = scalar_value(w->joint_behind[1][k]) < 0.0 ? -s : s;
-        w->joint_move[0][k] = s * S.x[0], w->joint_rivet[0][k] = s * S.x[4];
-        w->joint_move[1][k] = across * S.x[1], w->joint_rivet[1][k] = across * S.x[5];
-        w->joint_move[2][k] = s * S.x[2], w->joint_rivet[2][k] = s * S.x[6];
+        w->joint_load[0][k] = s * S.x[0], w->joint_rivet[0][k] = s * S.x[4];
+        w->joint_load[1][k] = across * S.x[1], w->joint_rivet[1][k] = across * S.x[5];
+        w->joint_load[2][k] = s * S.x[2], w->joint_rivet[2][k] = s * S.x[6];
         w->joint_U[k] = s * s * S.x[LAW_ENERGY];
+    }
+    for (int k = 0; k < PACKETS * LANE_WIDTH; k += LANE_WIDTH) {
+        wide rest[PAD_OUT];
+        for (int a = 0; a < PAD_OUT; a++)
+            rest[a] = wide_load(&w->joint_behind[a][k]) - wide_load(&w->joint_load[a][k]);
+        for (int a = 0; a < PAD_OUT; a++)
+            wide_store(&w->joint_move[a][k], half->move[a][0] * rest[0] + half->move[a][1] * rest[1] +
+                                                 half->move[a][2] * rest[2]);
     }
 }
 
@@ -216,12 +226,11 @@ void cage_elastic_loads(const Model *model, const JointPreload *preload, Work *w
         stiffness_times(half, w->joint_move, relief);
         for (int a = 0; a < PAD_OUT; a++)
             for (int k = 0; k < Z; k++)
-                w->joint_behind[a][k] = bonded[a][k] - relief[a][k] + own_relief(half, w, a, k);
+                w->joint_behind[a][k] =
+                    bonded[a][k] - relief[a][k] + (w->joint_behind[a][k] - w->joint_load[a][k]);
         joints_answer(half, preload->P, model->d->intact, w);
     }
     for (int k = 0; k < Z; k++) {
-        for (int a = 0; a < PAD_OUT; a++)
-            w->joint_load[a][k] = w->joint_behind[a][k] - own_relief(half, w, a, k);
         w->T[k] = scalar_max(w->joint_rivet[0][k], 0.0);
         w->N_plate[k] = scalar_max(w->T[k] - w->joint_load[0][k], 0.0);
     }

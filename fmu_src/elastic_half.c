@@ -21,7 +21,7 @@ static const bool ODD[PADS] = {false, false, true,
 
 size_t elastic_half_size(void)
 {
-    const int *cells = rivet_table.half.law.cells;
+    const int *cells = rivet_table.modes.law.cells;
     size_t count = LAW_WIDTH;
     for (int a = 0; a < LAW_AXES; a++) count *= (size_t)(cells[a] + 2);
     return sizeof(ElasticHalf) + count * sizeof(double);
@@ -86,6 +86,16 @@ static void solve(double A[SYSTEM][SYSTEM], double x[SYSTEM][PAD_OUT])
         for (int q = 0; q < PAD_OUT; q++) x[i][q] /= A[i][i];
 }
 
+static void invert_3(const double *K, double inverse[3][3])
+{
+    for (int k = 0; k < 3; k++) {
+        double A[3][3], x[3] = {k == 0, k == 1, k == 2};
+        memcpy(A, K, sizeof A);
+        solve_3(A[0], x);
+        for (int i = 0; i < 3; i++) inverse[i][k] = x[i];
+    }
+}
+
 // The stiffness of what the modes leave between the pads.  R: its compliance [k][motion][load], k pitches farther.
 static void invert_residual(double R[Z][PADS][PADS], ElasticHalf *half)
 {
@@ -109,15 +119,22 @@ static void invert_residual(double R[Z][PADS][PADS], ElasticHalf *half)
 }
 
 // ---- the law over L^ ------------------------------------------------------------------------------------------------
-// L* + (K - K_0) delta(L*) - L^ in newtons.
-static void behind_residual(const JointLaw *law, double more[3][3], const double load[3], double P,
-                            const double behind[3], double rest[3])
+static const JointLaw *table_law(void)
 {
-    double move[3], rivet[3], U;
-    joint_law(law, load, P, move, rivet, &U);
+    return &rivet_table.modes.law;
+}
+
+// L + K delta - L^ in newtons where the joint carries L, under the load `at` of the table's law, at + (ratio - 1)(at - L)
+// with ratio = K K_table^-1.
+static void behind_residual(double ratio[3][3], const double at[3], double P, const double behind[3],
+                            double rest[3])
+{
+    const JointLaw *law = table_law();
+    double load[3], rivet[3], U;
+    joint_law(law, at, P, load, rivet, &U);
     for (int i = 0; i < 3; i++) {
         rest[i] = load[i] - behind[i];
-        for (int k = 0; k < 3; k++) rest[i] += more[i][k] * move[k];
+        for (int k = 0; k < 3; k++) rest[i] += ratio[i][k] * (at[k] - load[k]);
         if (i > 0) rest[i] /= law->length;
     }
 }
@@ -127,22 +144,21 @@ static double size_of(const double rest[3])
     return fabs(rest[0]) + fabs(rest[1]) + fabs(rest[2]);
 }
 
-// L* for L^, by Newton's method with differences; a step is halved until the residual falls.
-static void load_before(const JointLaw *law, double more[3][3], const double behind[3], double P,
-                        double load[3])
+// The load `at` of the table's law for L^, by Newton's method with differences; a step is halved until the residual falls.
+static void load_before(double ratio[3][3], const double behind[3], double P, double at[3])
 {
-    const double unit[3] = {1.0, law->length, law->length};
+    const double length = table_law()->length, unit[3] = {1.0, length, length};
     double rest[3];
-    memcpy(load, behind, 3 * sizeof *load);
-    behind_residual(law, more, load, P, behind, rest);
+    memcpy(at, behind, 3 * sizeof *at);
+    behind_residual(ratio, at, P, behind, rest);
     for (int iteration = 0; iteration < 60 && size_of(rest) > 1e-13; iteration++) {
         double slope[3][3], change[3], trial[3], found[3];
-        const double scale = P + fabs(load[0]) + (fabs(load[1]) + fabs(load[2])) / law->length;
+        const double scale = P + fabs(at[0]) + (fabs(at[1]) + fabs(at[2])) / length;
         for (int k = 0; k < 3; k++) {
             const double step = 1e-6 * scale;
-            memcpy(trial, load, sizeof trial);
+            memcpy(trial, at, sizeof trial);
             trial[k] += step * unit[k];
-            behind_residual(law, more, trial, P, behind, found);
+            behind_residual(ratio, trial, P, behind, found);
             for (int i = 0; i < 3; i++) slope[i][k] = (found[i] - rest[i]) / step;
         }
 
@@ -151,11 +167,11 @@ static void load_before(const JointLaw *law, double more[3][3], const double beh
         for (int k = 0; k < 3; k++) change[k] *= -unit[k];
         double part = 1.0;
         for (int halving = 0; halving < 12; halving++, part *= 0.5) {
-            for (int k = 0; k < 3; k++) trial[k] = load[k] + part * change[k];
-            behind_residual(law, more, trial, P, behind, found);
+            for (int k = 0; k < 3; k++) trial[k] = at[k] + part * change[k];
+            behind_residual(ratio, trial, P, behind, found);
             if (size_of(found) < size_of(rest)) break;
         }
-        memcpy(load, trial, sizeof trial);
+        memcpy(at, trial, sizeof trial);
         memcpy(rest, found, sizeof found);
     }
 }
@@ -213,24 +229,24 @@ static void interpolate(const int cells[LAW_AXES], double *values)
     }
 }
 
-// Values at a site of the law: moves of the pad and loads of the rivet under L^ (first pass); U, the work of the moves along
-// the ray from 0 to L^, by Simpson's rule (second pass).
-static void site_values(const ElasticHalf *half, double more[3][3], const double behind[3], double P,
+// Values at a site of the law: loads of joint and rivet under L^ (first pass); U, the work of the moves along the ray from 0 to
+// L^, by Simpson's rule (second pass).
+static void site_values(const ElasticHalf *half, double ratio[3][3], const double behind[3], double P,
                         int pass, double *to)
 {
-    double load[3], move[3], rivet[3], U;
+    double at[3], load[3], rivet[3], U;
     if (pass == 0) {
-        load_before(&rivet_table.half.law, more, behind, P, load);
-        joint_law(&rivet_table.half.law, load, P, move, rivet, &U);
-        memcpy(to, move, sizeof move);
-        memcpy(to + 4, rivet, sizeof rivet);
+        load_before(ratio, behind, P, at);
+        joint_law(table_law(), at, P, to, to + 4, &U);
         return;
     }
     double sum = 0.0;
     for (int i = 1; i <= RAY; i++) {
         const double t = (double)i / RAY, weight = (i == RAY ? 1.0 : i % 2 == 1 ? 4.0 : 2.0) / (3.0 * RAY);
-        for (int k = 0; k < 3; k++) load[k] = t * behind[k];
-        joint_law(&half->law, load, P, move, rivet, &U);
+        double move[3];
+        for (int k = 0; k < 3; k++) at[k] = t * behind[k];
+        joint_law(&half->law, at, P, load, rivet, &U);
+        joint_moves(half, at, load, move);
         for (int k = 0; k < 3; k++) sum += weight * move[k] * behind[k];
     }
     to[LAW_ENERGY] = sum;
@@ -238,17 +254,21 @@ static void site_values(const ElasticHalf *half, double more[3][3], const double
 
 static void law_of(ElasticHalf *half)
 {
-    half->law = rivet_table.half.law;
+    half->law = *table_law();
     half->law.coefficients = half->coefficients;
+    invert_3(half->K[0][0], half->move);
 }
 
 // The law over L^, on the same cells.
 static void law_behind(ElasticHalf *half)
 {
-    const JointLaw *law = &rivet_table.half.law;
+    const JointLaw *law = table_law();
     const int *cells = law->cells;
-    double more[3][3];
-    for (int i = 0; i < 9; i++) more[i / 3][i % 3] = half->K[0][i / 3][i % 3] - law->K_0[i / 3][i % 3];
+    double inverse[3][3], ratio[3][3] = {{0.0}};
+    invert_3(law->K_0[0], inverse);
+    for (int i = 0; i < 3; i++)
+        for (int k = 0; k < 3; k++)
+            for (int j = 0; j < 3; j++) ratio[i][k] += half->K[0][i][j] * inverse[j][k];
     memset(half->coefficients, 0, elastic_half_size() - sizeof *half);
     for (int pass = 0; pass < 2; pass++) {
         double *to = half->coefficients;
@@ -260,7 +280,7 @@ static void law_behind(ElasticHalf *half)
                                                  2.0 * site(c, cells[2]) / cells[2] - 1.0};
                     double behind[3];
                     const double P = law_load(law->length, at, behind);
-                    site_values(half, more, behind, P, pass, to);
+                    site_values(half, ratio, behind, P, pass, to);
                 }
         for (int number = 0; number < LAW_WIDTH; number++)
             if ((number == LAW_ENERGY) == (pass == 1)) interpolate(cells, half->coefficients + number);
@@ -400,10 +420,10 @@ static void rest_off(const Parameters *p, const ElasticHalf *half, double omega_
 {
     const double root = sqrt(2.0);
     double e[PAD_OUT] = {0.5 * x[0], 0.0, 0.0}, K[PAD_OUT][PAD_OUT] = {{0.0}}, bonded[PAD_OUT] = {0.0},
-           behind[PAD_OUT];
+           behind[PAD_OUT], load[PAD_OUT];
     for (int i = 0; i < half->n; i++) {
-        const double load = half->alike[i] ? Z * half->out[i][2 * Z] * x[1] : 0.0;
-        S[i] = (root * half->spin[i] * omega_2 - load) / (p->cage.m * half->omega_2[i]);
+        const double moment = half->alike[i] ? Z * half->out[i][2 * Z] * x[1] : 0.0;
+        S[i] = (root * half->spin[i] * omega_2 - moment) / (p->cage.m * half->omega_2[i]);
         e[0] += 0.5 * S[i] * half->out[i][0];
         e[2] += 0.5 * S[i] * half->out[i][2 * Z];
     }
@@ -418,7 +438,8 @@ static void rest_off(const Parameters *p, const ElasticHalf *half, double omega_
             behind[a] = bonded[a];
             for (int b = 0; b < PAD_OUT; b++) behind[a] -= (K[a][b] - half->K[0][a][b]) * move[b];
         }
-        joint_law(&half->law, behind, P, move, rivet, &U);
+        joint_law(&half->law, behind, P, load, rivet, &U);
+        joint_moves(half, behind, load, move);
     }
     off[0] = bonded[0] - (K[0][0] * move[0] + K[0][1] * move[1] + K[0][2] * move[2]);
     off[1] =

@@ -52,6 +52,7 @@ struct ElasticHalf {
     double widest[MODES];           // largest |u|/|q| of those, 0 of the others
     double compliance;              // of a wall along its normal, by the residual, less that in Hertz's [m/N]
     double K[Z][PAD_OUT][PAD_OUT];  // inverse of the residual between pads, out of the plane
+    double move[PAD_OUT][PAD_OUT];  // inverse of K[0]: of a joint by L^ - L
     _Alignas(64) double held[PAD_OUT][Z]
                             [8 * OUT_OCTETS];  // the same: loads of all joints by the motion of one, in rows
     double prying;  // |bonded M_t| of the centrifugal load over the law's length, per (rad/s)^2
@@ -59,7 +60,7 @@ struct ElasticHalf {
     double series;     // part of the friction states' stiffness that is left in series with the residual
     constants k_hole;  // what is left of the holes' [N/m]
     double substep;    // of the default method, at most [s]
-    JointLaw law;      // the joints' law over L^ = L + K_0 delta with the K above
+    JointLaw law;      // the joints' law over L^ = L + K_0 delta with the K above, which gives L
     _Alignas(64) double coefficients[];  // of the law; the fourth number is U, whose slope is delta
 };
 
@@ -127,6 +128,16 @@ INLINE void elastic_relief(const ElasticHalf *half, scalar P, scalar omega_2, sc
     const int i = (int)fmin(scalar_value(x), RESTS - 2.0);
     for (int a = 0; a < PAD_OUT; a++)
         relief[a] = s * (half->relief[i][a] + (x - i) * (half->relief[i + 1][a] - half->relief[i][a]));
+}
+
+// Move of a joint that carries `load` under L^.
+INLINE void joint_moves(const ElasticHalf *half, const scalar behind[PAD_OUT], const scalar load[PAD_OUT],
+                        scalar move[PAD_OUT])
+{
+    for (int a = 0; a < PAD_OUT; a++) {
+        move[a] = 0.0;
+        for (int b = 0; b < PAD_OUT; b++) move[a] += half->move[a][b] * (behind[b] - load[b]);
+    }
 }
 
 // Energy of all joints between the halves, and of what the modes leave of the halves around them, from e, L^, delta and U.

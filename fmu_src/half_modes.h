@@ -3,6 +3,7 @@
 #pragma once
 
 #include "isa.h"
+#include "joint_law.h"
 
 // Displacements (x, r, t) and rotations about them of a pad, work-conjugate to what the bonded joint carries, at the
 // rivet; then what its rivet gets because the half gives under its head (rows dP, dm_r, dm_t of half_path.h).
@@ -42,4 +43,6 @@ typedef struct {
     const double *wall_to;  // [chi][value, slope][Z][SEATS][x, r, t] by forces on the wall of pocket 0
     double spin[SEATS];     // per (rad/s)^2, at any rivet
     const double *wall;     // [chi][value, slope] of the wall under the contact, along its normal [m/N]
+    JointLaw law;  // over L^ = L + K_0 delta, K_0 what a number of modes leaves of the stiffness around a joint: gives L
+                   // in place of delta, which is a small difference; no neighbours
 } HalfModes;

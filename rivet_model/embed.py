@@ -43,8 +43,13 @@ def uniform_cells(name, knots):
     step = np.diff(knots).min()
     ends = (knots - knots[0]) / step
     if not np.allclose(ends, np.round(ends), atol=1e-6):
-        raise ValueError(f"half.law: knots of axis {name} = {knots.tolist()}: multiples of their smallest step are allowed")
+        raise ValueError(f"joint's law: knots of axis {name} = {knots.tolist()}: multiples of their smallest step are allowed")
     return round(ends[-1])
+
+
+def law_cells(law):
+    """Cells on the axes of the law."""
+    return [uniform_cells(name, law.knots[name]) for name in joint_law.AXES]
 
 
 def uniform_coefficients(law):
@@ -93,10 +98,9 @@ def _half_source(half):
         f"static const double law_K_slip[{law.Z}][2][2] = {_braces(law.slip_stiffness)};\n",
         f"static const double law_alike[{len(law.alike.x)}][ALIKE_WIDTH] = {_braces(alike_rows(law.alike))};\n",
     ]
-    cells = [uniform_cells(name, law.knots[name]) for name in joint_law.AXES]
     text = f"""{{
         .m = {float(half.m)!r}, .x_c = {float(half.x_c)!r}, .path = {{{len(half.chi)}, path_chi, path_rows}}, .spin = {_braces(half.spin)},
-        .law = {{.length = {float(law.length)!r}, .cells = {_braces(cells)}, .coefficients = law_coefficients,
+        .law = {{.length = {float(law.length)!r}, .cells = {_braces(law_cells(law))}, .coefficients = law_coefficients,
                 .K_0 = {_braces(law.stiffness[0])}, .K_others = {_braces(law.others.sum(axis=0))},
                 .neighbours = {len(felt)}, .neighbour = law_neighbour, .K = law_K, .K_slip = law_K_slip,
                 .alike_count = {len(law.alike.x)}, .alike = law_alike}}}}"""
@@ -121,7 +125,7 @@ def _modes_source(t):
             strict=True,
         )
     ]
-    residual = modes.residual
+    residual, law = modes.residual, modes.law
     arrays = [
         f"static const HalfMode mode_entry[{len(entries)}] = {{\n    " + ",\n    ".join(entries) + "};\n",
         _array("mode_pocket", np.stack([modes.pocket, modes.slope], axis=2)),
@@ -129,10 +133,12 @@ def _modes_source(t):
         f"static const double residual_rivet[{t.Z}][SEATS - PADS][PADS] = {_braces(residual.rivet)};\n",
         _array("residual_wall_to", np.stack([residual.pocket, modes.residual_slope], axis=1)),
         _array("residual_wall", np.stack([residual.wall, modes.wall_slope], axis=1)),
+        _array("behind_coefficients", uniform_coefficients(law)),
     ]
     text = f"""{{
         .entries = {len(entries)}, .modes = {modes.count.sum()}, .entry = mode_entry, .pocket = mode_pocket, .pad = residual_pad,
-        .rivet = residual_rivet, .wall_to = residual_wall_to, .spin = {_braces(residual.spin)}, .wall = residual_wall}}"""
+        .rivet = residual_rivet, .wall_to = residual_wall_to, .spin = {_braces(residual.spin)}, .wall = residual_wall,
+        .law = {{.length = {float(law.length)!r}, .cells = {_braces(law_cells(law))}, .coefficients = behind_coefficients, .K_0 = {_braces(law.stiffness)}}}}}"""
     return arrays, text
 
 

@@ -12,7 +12,7 @@ A force on one half is half a mirrored pair of forces, which gives N, M, dP, dm,
 import numpy as np
 
 from bearing_model.half_path import bolt_group
-from bearing_model.joint_law import AXES, NUMBERS, JointLaw, law_load
+from bearing_model.joint_law import AXES, CARRIED, NUMBERS, JointLaw, LawBehind, law_load
 from bearing_model.rivet_table import HalfData
 
 from . import half_shape, splines
@@ -21,9 +21,11 @@ from .joint_contact import JointContact, rivet_compliance
 from .lcp import Contact
 
 CHI = np.deg2rad([0.0, 6.0, 12.0, 20.0, 30.0, 42.0, 56.0, 72.0, 90.0])
-# Of the joint's law, in coarse tables too: with half of them the tension of elastic halves, a small difference of large numbers, is twice too large.
 KNOTS = {"tau": np.linspace(0.0, 1.0, 11), "q": np.linspace(-1.0, 1.0, 11), "psi": np.linspace(-1.0, 1.0, 11)}  # equal steps: readers need no search
+# Of the law behind the residual: pads that the modes leave stiff turn about their edges within a tenth of q, and all states of open joints lie there.
+KNOTS_BEHIND = KNOTS | {"q": np.linspace(-1.0, 1.0, 41)}
 LENGTH = 1.5e-3  # l of the law: about the distance of the pad's edge from the rivet
+NEWTON = 60  # steps at most
 
 
 class JointAlone:
@@ -59,9 +61,50 @@ class JointAlone:
         a = np.linalg.solve(self.K_0, load)
         free_head = a + [self.shortening * P, 0.0, 0.0]
         solution = self.contact.solve(self.lever @ a - self.pull @ free_head, np.zeros(1), active)
-        rivet = self.A @ (self.B_ph.T @ solution.p + free_head)
-        carried = rivet - solution.p @ self.lever
-        return np.linalg.solve(self.K_0, load - carried), rivet, solution.active
+        return *self._follow(load, free_head, solution.p), solution.active
+
+    def _follow(self, load, free_head, p):
+        rivet = self.A @ (self.B_ph.T @ p + free_head)
+        carried = rivet - p @ self.lever
+        return np.linalg.solve(self.K_0, load - carried), rivet
+
+    def slope(self, active):
+        """Moves [3, 3] by unit loads (columns) while the same points touch."""
+        columns = []
+        for load in np.eye(3):
+            a = np.linalg.solve(self.K_0, load)
+            p = self.contact.solve_active(active, self.lever @ a - self.pull @ a, np.zeros(1))[0]
+            columns.append(self._follow(load, a, p)[0])
+        return np.stack(columns, axis=1)
+
+    def solve_behind(self, K, behind, P, near=None):
+        """Loads (N, M_r, M_t) of joint and rivet [6], and L*, where L^ = L + K delta is given in place of L* = L + K_0 delta, by Newton's method.
+
+        near: L* of a similar case, and its active set.  Raises ArithmeticError if no solution is found.
+        """
+        more, unit = K - self.K_0, np.array([1.0, LENGTH, LENGTH])
+        load, active = (behind, None) if near is None else near
+        small = 1e-9 * (P + np.sum(np.abs(behind / unit)))
+
+        def residual(load, active):
+            move, rivet, active = self.solve(load, P, active)
+            return load + more @ move - behind, move, rivet, active
+
+        rest, move, rivet, active = residual(load, active)
+        for _ in range(NEWTON):
+            size = np.sum(np.abs(rest / unit))
+            if size <= small:
+                return np.concatenate([behind - K @ move, rivet]), (load, active)
+            change = np.linalg.solve(np.eye(3) + more @ self.slope(active), -rest)
+            part = 1.0
+            while True:  # halved until the residual falls
+                found = residual(load + part * change, active)
+                if np.sum(np.abs(found[0] / unit)) < size or part < 1e-4:
+                    break
+                part *= 0.5
+            load = load + part * change
+            rest, move, rivet, active = found
+        raise ArithmeticError(f"joint's law: no load L* gives L^ = {behind} at P = {P}")
 
     def rivet_rows(self, waves, loads):
         """dP, dm_r, dm_t [waves, 3] for free motions of the heads with all pads held `waves` [waves, 3] and the bonded loads [waves, 3]."""
@@ -150,6 +193,18 @@ def make_law(elastic, alone):
     K = elastic.circulant(alone.K_waves)
     slip = 0.5 * elastic.circulant(elastic.opposed[0])
     return JointLaw(LENGTH, KNOTS, splines.interpolate([KNOTS[name] for name in AXES], values), K, slip)
+
+
+def make_law_behind(alone, K):
+    """LawBehind of pads around which the half has the stiffness K [3, 3], from contact solutions at the sites of KNOTS_BEHIND."""
+    sites = [splines.sites(KNOTS_BEHIND[name]) for name in AXES]
+    values = np.zeros((*(len(s) for s in sites), len(CARRIED)))
+    for j, q in enumerate(sites[1]):
+        for k, psi in enumerate(sites[2]):
+            near = None
+            for i, tau in enumerate(sites[0]):
+                values[i, j, k], near = alone.solve_behind(K, *law_load(LENGTH, tau, q, psi), near)
+    return LawBehind(LENGTH, KNOTS_BEHIND, splines.interpolate([KNOTS_BEHIND[name] for name in AXES], values), K)
 
 
 def pair_stiffness(contact, P=20.0):

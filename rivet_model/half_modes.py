@@ -6,13 +6,13 @@ its lowest modes.  Statics come from the same elements by another way (the conde
 two numbers that differ by the modes that are left out; tests hold it against their sum.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 import scipy.sparse as sp
 from scipy.sparse.linalg import LinearOperator, eigsh, splu
 
-from bearing_model.half_modes import EVEN, PAD, HalfModes, Residual, fewer
+from bearing_model.half_modes import EVEN, LAW_MODES_PER_PITCH, OUT, PAD, HalfModes, Residual, fewer, stiffness_left
 
 from . import half_loads, half_shape
 from .cage_half import BODY, SYMMETRIC
@@ -196,15 +196,19 @@ def half_modes(elastic, alone, count, progress=lambda done, total: None):
     rows.sort(key=lambda row: row[0])
     for omega, n, parity, u, _ in rows:
         static[n] -= (1.0 if parity else 0.5) * Z / omega**2 * np.outer(u, u.conj())
-    found = HalfModes(
+    shapes = HalfModes(
         Z=Z,
         chi=half_loads.CHI,
         omega=np.array([row[0] for row in rows]),
         harmonic=np.array([row[1] for row in rows]),
         parity=np.array([row[2] for row in rows]),
         residual=residual(elastic, places, elastic.circulant(static)),
+        law=None,
         **amplitudes(Z, len(half_loads.CHI), rows),
     )
+    K = stiffness_left(fewer(shapes, min(count, round(LAW_MODES_PER_PITCH * Z))))[0]
+    alike = np.multiply.outer(EVEN[OUT], EVEN[OUT]) > 0.0  # by mirroring in the rivet's plane the other elements are 0
+    found = replace(shapes, law=half_loads.make_law_behind(alone, np.where(alike, 0.5 * (K + K.T), 0.0)))
     return fewer(found, count), found
 
 

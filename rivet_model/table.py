@@ -68,11 +68,15 @@ def _half_section(half):
         "spin": rounded(tidy(half.spin)).tolist(),
         "stiffness": rounded(tidy(law.stiffness)).tolist(),
         "slip_stiffness": rounded(tidy(law.slip_stiffness)).tolist(),
-        "law": {
-            "length": law.length,
-            "knots": {name: [float(v) for v in law.knots[name]] for name in law.knots},
-            "coefficients": rounded(tidy(law.coefficients), 4).ravel().tolist(),
-        },
+        "law": _law_section(law),
+    }
+
+
+def _law_section(law):
+    return {
+        "length": law.length,
+        "knots": {name: [float(v) for v in law.knots[name]] for name in law.knots},
+        "coefficients": rounded(tidy(law.coefficients), 4).ravel().tolist(),
     }
 
 
@@ -85,6 +89,7 @@ def _modes_section(modes):
         "parity": modes.parity.tolist(),
         **shapes,
         "residual": {name: rounded(tidy(values)).tolist() for name, values in vars(modes.residual).items()},
+        "law": _law_section(modes.law) | {"stiffness": rounded(tidy(modes.law.stiffness), 9).tolist()},
     }
 
 
