@@ -12,12 +12,13 @@ with S = (q_1 + q_0)/sqrt 2 (mirrored) and D = (q_1 - q_0)/sqrt 2 (opposed) the 
 Modes are cyclic: at the angle theta, even components (x, r, phi_t) are a cos(n theta), odd ones (t, phi_x, phi_r) -b sin(n theta) for the first mode of a pair
 and a sin(n theta), b cos(n theta) for the second.
 
-Joint, out of the plane: with e half of the relative motion of its pads (rigid and elastic), the static compliance R that the modes leave, K = R^-1, circulant,
+Joint, out of the plane: with e half of the relative motion of its pads (rigid and elastic) and K the inverse of the static compliance that the modes leave
+between the pads of one joint,
 
-    L_k = sum_j K_(k-j) (e_j - delta_j),    (delta, T, m_r, m_t)_k = law(L^_k, P),    L^_k = L_k + K_0 delta_k
+    L^ = K e,    (L, T, m_r, m_t) = law(L^, P)
 
-with the joint's law of the table, over the stiffness K_0 around a joint that the modes leave (joint_law.py, LawBehind), which gives L; delta = K_0^-1 (L^ - L).
-The moves of the neighbours in L^ are found by sweeps that begin with those at rest under the centrifugal load.
+with the joint's law over K (joint_law.py, LawBehind): its pads move by delta, L = K (e - delta).  So each joint follows from its own pads; what the loads of
+other joints move them by beside the modes is left out.
 In the plane, friction states and the hole's contact as in cage_joint.py, in series with what the modes leave.  Pads do not hold each other about x.
 
 Left out: Coriolis forces and the softening of modes by spin, of the order 2 omega_c/omega_i and (omega_c/omega_i)^2.
@@ -27,9 +28,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from bearing_model.half_modes import OUT, PAD, coordinates, denser, fewer, frequencies, phases, rivet_shapes, spin_load, stiffness_left
-from bearing_model.joint_law import LawBehind, joint_law, law_load, law_spline, ratio
-from bearing_model.lanes import absolute, ball_array_sum, maximum
+from bearing_model.half_modes import OUT, PAD, coordinates, denser, fewer, frequencies, joint_residual, phases, rivet_shapes, spin_load
+from bearing_model.joint_law import LawBehind, joint_law, law_load, law_spline
+from bearing_model.lanes import absolute, ball_array_sum, maximum, minimum
 from bearing_model.rivet_splines import interpolate, sites
 from bearing_model.variables import CAGE_BETA_DOT, CAGE_GAMMA_DOT, CAGE_S, CAGE_V_X, CAGE_V_Y, CAGE_V_Z, MODE_D, MODE_D_DOT, MODE_S, MODE_S_DOT, Z
 from bearing_model.vec import vec_cross, vec_dot
@@ -39,9 +40,6 @@ ROOT = np.sqrt(2.0)
 CAGE_RATES = CAGE_V_X, CAGE_V_Y, CAGE_V_Z, CAGE_BETA_DOT, CAGE_GAMMA_DOT, CAGE_S
 SUBSTEP_TURN = 1.6  # angle by which the fastest vibration of closed joints turns in a substep (cage_substeps.py)
 WALL_NODE = 1  # of the walls' angle: impacts meet the wall at 7 degrees in the median
-JOINT_SWEEPS = 1  # of the joints beside their first answer
-RESTS = 65  # states of rest
-REST_SWEEPS = 12  # of all joints at once
 RAY = 24  # intervals of Simpson's rule along a ray of loads
 
 
@@ -59,7 +57,7 @@ class ElasticHalf:
     pocket: np.ndarray  # (x, r, t) by Re and Im of the wave at the nodes [chi, n, 3, 2]
     slope: np.ndarray  # its slopes
     spin: np.ndarray  # modal force per (rad/s)^2 [n]
-    K: np.ndarray  # stiffness of what the modes leave, out of the plane [Z, 3, 3]
+    R: np.ndarray  # compliance that the modes leave between the pads of a joint, out of the plane [3, 3]
     series: float  # part of the friction states' stiffness that is left in series with it
     k_hole: np.ndarray  # what is left of the holes' [Z] [N/m]
     reach_2: float  # largest |u|^2 of a wall / sum omega^2 q^2 [s2] by modes that do not move all pockets alike
@@ -68,8 +66,6 @@ class ElasticHalf:
     mirrored: np.ndarray  # squares of the frequencies of S and the relative rigid motions out of the plane with closed joints, rising [n + 3]
     substep: float  # of the default method, at most [s]
     law: LawBehind
-    prying: float  # |bonded M_t| of the centrifugal load over the law's length, per (rad/s)^2 [N s2]
-    relief: np.ndarray  # of a joint by the others at rest [RESTS, 3], per newton
     energy: np.ndarray  # coefficients of U, whose slope is delta [tau, q, psi], per newton squared
 
 
@@ -85,13 +81,9 @@ def law_behind(law, K):
     simpson = np.tile([2.0, 4.0], RAY // 2 + 1)[: RAY + 1] / (3.0 * RAY)
     simpson[[0, -1]] /= 2.0
     # without the start of the ray, where no load moves a joint
-    U = sum(w * np.sum(joint_moves(behind, t * load, joint_law(behind, t * load, P)[0]) * load, axis=-1) for w, t in zip(simpson[1:], ray[1:], strict=True))
+    moves = (t * load - joint_law(behind, t * load, P)[0] for t in ray[1:])
+    U = sum(w * np.sum(move @ np.linalg.inv(K).T * load, axis=-1) for w, move in zip(simpson[1:], moves, strict=True))
     return behind, interpolate(knots, U)
-
-
-def joint_moves(law, behind, load):
-    """Moves (u, phi_r, phi_t) [..., 3] of joints that carry `load` [..., 3] under L^ = behind [..., 3]."""
-    return (behind - load) @ np.linalg.inv(law.stiffness).T
 
 
 LAWS = {}  # found so far, by the numbers that they follow from
@@ -142,19 +134,18 @@ def derive_elastic(p, d, table):
     c, s = (f[entry] for f in phases(modes, 0.0))
     wave = np.where(part[:, None, None] == 0.0, np.stack([c, -s], axis=1), np.stack([s, c], axis=1))
     omega, residual = frequencies(modes), modes.residual
-    K = stiffness_left(modes)
+    R = joint_residual(modes)
     shear = 2.0 * np.mean(np.diag(residual.pad[0])[IN])  # of both halves
-    behind, energy = kept_law(modes.law, K[0])
+    behind, energy = kept_law(modes.law, np.linalg.inv(R))
     pocket = unit * np.moveaxis(modes.pocket[entry], 1, 0)
     pad = unit * np.moveaxis(rivet_shapes(modes)[:, :, : len(PAD)], 1, 2)
     series, k_hole = 1.0 / (1.0 + shear * (d.k_plate_t + d.k_head)), d.k_hole / (1.0 + shear * d.k_hole)
     held = series * (d.k_plate_t + d.k_head) + np.max(k_hole)
-    big = K[(np.arange(Z)[:, None] - np.arange(Z)) % Z].transpose(0, 2, 1, 3).reshape(3 * Z, 3 * Z)
     alike = (modes.harmonic[entry] == 0) & (part == 0.0)
     u_2 = np.sum(pocket[:, :, [0, 2]] ** 2, axis=(2, 3))  # [chi, n], at the nodes; between them a quarter farther at most
-    mirrored = frequencies_2(p.cage.m, omega, joints_out(d, pad), 0.5 * big, (0.5 * p.cage.m, 0.5 * d.J_t, 0.5 * d.J_t))
+    mirrored = frequencies_2(p.cage.m, omega, joints_out(d, pad), 0.5 * np.kron(np.eye(Z), behind.stiffness), (0.5 * p.cage.m, 0.5 * d.J_t, 0.5 * d.J_t))
     opposed = frequencies_2(p.cage.m, omega, joints_in(d, pad), np.eye(2 * Z) * held, (0.5 * p.cage.m, 0.5 * p.cage.m, 0.5 * d.J_p))
-    half = ElasticHalf(
+    return ElasticHalf(
         n=len(omega),
         omega=omega,
         alike=alike,
@@ -167,19 +158,15 @@ def derive_elastic(p, d, table):
         spin=d.centrifugal * unit * spin_load(modes),
         reach_2=1.5625 * np.max(np.sum(np.where(alike, 0.0, np.where(modes.parity[entry] == 0, 0.5, 1.0) * u_2 / omega**2), axis=1)),
         widest=np.where(alike, 1.25 * np.sqrt(np.max(u_2, axis=0)), 0.0),
-        K=K,
+        R=R,
         series=series,
         k_hole=k_hole,
         wall=residual.wall[WALL_NODE],
         mirrored=mirrored,
         substep=SUBSTEP_TURN / np.sqrt(max(mirrored[-1], opposed[-1])),
         law=behind,
-        prying=np.abs(d.spin[4]) / behind.length,
-        relief=None,
         energy=energy,
     )
-    half.relief = find_relief(half, p.cage.m)
-    return half
 
 
 def frequencies_2(m, omega, motions, stiffness, rigid):
@@ -304,49 +291,26 @@ def cage_elastic_pads(model, w):
 
 
 def broken_answer(K, behind):
-    """Moves [..., 3] of pads without a rivet at L^ = behind: they press on each other in their middles or move freely, and carry no moment."""
-    into = np.linalg.inv(K[1:, 1:])
-    free, along = behind[..., 1:] @ into.T, into @ K[1:, 0]
-    u = maximum((behind[..., 0] - free @ K[0, 1:]) / (K[0, 0] - K[0, 1:] @ along), 0.0)[..., None]
-    return np.concatenate([u, free - along * u], axis=-1)
+    """Loads (N, M_r, M_t) [..., 3] of joints without a rivet at L^ = behind: the pads press on each other in their middles or carry nothing."""
+    N = minimum(behind[..., 0] - behind[..., 1:] @ np.linalg.solve(K[1:, 1:], K[1:, 0]), 0.0)
+    return N[..., None] * [1.0, 0.0, 0.0]
 
 
-def cage_elastic_law(model, e, P, omega_2):
+def cage_elastic_law(model, e, P):
     """Loads L (N, M_r, M_t) of the joints, loads of the rivets (T, m_r, m_t), [3, ..., Z], energy of one half [..., Z], for motions e [3, ..., Z].
 
     P: preloads with what the centrifugal load adds [..., Z].
     """
     d, half, law = model.d, model.d.elastic, model.d.elastic.law
-    intact = d.intact[:, None]
-
-    def answer(behind):
-        load, rivet = joint_law(law, behind, P)
-        delta = np.where(intact > 0.0, joint_moves(law, behind, load), broken_answer(half.K[0], behind))
-        return delta, intact * rivet
-
-    waves = half.K[(np.arange(Z)[:, None] - np.arange(Z)) % Z]  # [k, j, 3, 3]
-    bonded = np.einsum("kjab,b...j->...ka", waves, e)
-    behind = bonded - cage_elastic_relief(half, maximum(d.P_mean + d.spin[5] * omega_2, 0.0), omega_2)
-    delta, rivet = answer(behind)
-    for _ in range(JOINT_SWEEPS):
-        behind = bonded - np.einsum("kjab,...jb->...ka", waves, delta) + delta @ half.K[0].T
-        delta, rivet = answer(behind)
-    load = behind - delta @ half.K[0].T
+    e = np.moveaxis(e, 0, -1)
+    behind = e @ law.stiffness.T
+    load, rivet = joint_law(law, behind, P)
+    broken = broken_answer(law.stiffness, behind)
     s = P + np.sqrt(behind[..., 0] ** 2 + (behind[..., 1] ** 2 + behind[..., 2] ** 2) / law.length**2)
-    rest = np.moveaxis(e, 0, -1) - delta
-    V = 0.5 * np.sum(rest * np.einsum("kjab,...jb->...ka", waves, rest), axis=-1)
-    more = np.sum((behind - 0.5 * delta @ half.K[0].T) * delta, axis=-1) - s**2 * spline_value(law, half.energy, behind, P)
-    V = V + d.intact * more  # pads without a rivet keep no energy of their own
-    return np.moveaxis(load, -1, 0), np.moveaxis(rivet, -1, 0), V
-
-
-def cage_elastic_relief(half, P, omega_2):
-    """What the moves of all other joints relieve a joint of at rest under the centrifugal load [..., Z, 3]: linear between the states of rest."""
-    load = half.prying * omega_2
-    s = P + load
-    x = ratio(load + 0.0 * s, s) * (RESTS - 1.0)
-    i = np.minimum(np.real(x), RESTS - 2.0).astype(int)
-    return s[..., None] * (half.relief[i] + (x - i)[..., None] * (half.relief[i + 1] - half.relief[i]))
+    V = 0.5 * np.sum(e * behind, axis=-1) - s**2 * spline_value(law, half.energy, behind, P)
+    V = np.where(d.intact > 0.0, V, 0.5 * np.sum(broken * (broken @ half.R.T), axis=-1))
+    load = np.where(d.intact[:, None] > 0.0, load, broken)
+    return np.moveaxis(load, -1, 0), np.moveaxis(d.intact[:, None] * rivet, -1, 0), V
 
 
 def spline_value(law, coefficients, load, P):
@@ -365,7 +329,7 @@ def cage_elastic_joints(model, y, w):
     d, (h0, h1) = model.d, w.half
     omega_2 = cage_elastic_speed_2(w)
     P = maximum(d.P + d.spin[5] * omega_2, 0.0) + 0.0 * w.e[0]
-    w.joint_load, w.joint_rivet, V = cage_elastic_law(model, w.e, P, omega_2)
+    w.joint_load, w.joint_rivet, V = cage_elastic_law(model, w.e, P)
     w.joint_potential = 2.0 * V
     w.T = maximum(w.joint_rivet[0], 0.0)
     w.N_plate = maximum(w.T - w.joint_load[0], 0.0)
@@ -405,47 +369,33 @@ def cage_elastic_acceleration(model, y, w, y_dot):
 
 
 def find_rest(half, m, omega_2, P):
-    """Rests under the centrifugal load of speeds of the squares omega_2 [rad2/s2] and preloads P, each [...].
+    """Coordinates S [n] and (u_x, M_t) of the rest under the centrifugal load of the speed's square omega_2 [rad2/s2] and the preload P.
 
-    Returns coordinates S [..., n], (u_x, M_t) [..., 2], moves of the joints [..., 3].  All joints are alike: N = 0, and their M_t balances
-    S_i = sqrt 2 (spin_i omega^2 - Z phi_t,i M_t)/(m omega_i^2).  Newton's method with differences for the halves' distance u_x and M_t, all rests side by
-    side; the joints' moves by sweeps.
+    All joints are alike: N = 0, and their M_t balances S_i = sqrt 2 (spin_i omega^2 - Z phi_t,i M_t)/(m omega_i^2).  Newton's method with differences for
+    the halves' distance u_x and M_t.
     """
-    omega_2, P = np.broadcast_arrays(omega_2, P)
-    at, K = half.pad[:, OUT, 0], half.K.sum(axis=0)  # x, phi_r, phi_t
+    at = half.pad[:, OUT, 0]  # x, phi_r, phi_t
 
-    def off(x, move):
-        S = ROOT * (half.spin * omega_2[..., None] - np.where(half.alike, Z * at[:, 2] * x[..., 1:], 0.0)) / (m * half.omega**2)
-        e = 0.5 * x[..., :1] * [1.0, 0.0, 0.0] + S @ at / ROOT * [1.0, 0.0, 1.0]
-        for _ in range(REST_SWEEPS):
-            behind = e @ K.T - move @ (K - half.K[0]).T
-            move = joint_moves(half.law, behind, joint_law(half.law, behind, P)[0])
-        N, _, M_t = np.moveaxis((e - move) @ K.T, -1, 0)
-        return np.stack([N, (M_t - x[..., 1]) / half.law.length], axis=-1), S, move
+    def off(x):
+        S = ROOT * (half.spin * omega_2 - np.where(half.alike, Z * at[:, 2] * x[1], 0.0)) / (m * half.omega**2)
+        e = 0.5 * x[0] * np.array([1.0, 0.0, 0.0]) + S @ at / ROOT * [1.0, 0.0, 1.0]
+        N, _, M_t = joint_law(half.law, e @ half.law.stiffness.T, P)[0]
+        return np.array([N, (M_t - x[1]) / half.law.length]), S
 
-    x, move, step = np.zeros((*P.shape, 2)), np.zeros((*P.shape, 3)), np.array([1e-10, 1e-7])
+    x = np.zeros(2)
     for _ in range(60):
-        rest, S, move = off(x, move)
+        rest, S = off(x)
         if np.max(np.abs(rest)) < 1e-11:
             break
-        slope = np.stack([(off(x + s * axis, move)[0] - rest) / s for s, axis in zip(step, np.eye(2), strict=True)], axis=-1)
-        x = x - np.linalg.solve(slope, rest[..., None])[..., 0]
-    return S, x, move
-
-
-def find_relief(half, m):
-    """What the moves of all other joints relieve a joint of at rest [RESTS, 3], at equal steps of load/(load + P), per newton of load + P."""
-    if half.prying <= 0.0:
-        return np.zeros((RESTS, 3))
-    part = np.arange(RESTS - 1) / (RESTS - 1.0)
-    move = find_rest(half, m, part / half.prying, 1.0 - part)[2]
-    return (move @ half.K[1:].sum(axis=0).T)[[*range(RESTS - 1), -1]]
+        slope = np.stack([(off(x + step)[0] - rest) / step.sum() for step in np.diag([1e-10, 1e-7])], axis=-1)
+        x = x - np.linalg.solve(slope, rest)
+    return S, x
 
 
 def cage_elastic_rest(model, omega):
     """Coordinates S [n] and distance of the halves' bodies [m] at which modes and joints rest under the centrifugal load of the speed omega [rad/s]."""
     d = model.d
-    S, x, _ = find_rest(d.elastic, model.p.cage.m, omega**2, max(d.P_mean + d.spin[5] * omega**2, 0.0))
+    S, x = find_rest(d.elastic, model.p.cage.m, omega**2, max(d.P_mean + d.spin[5] * omega**2, 0.0))
     return S, x[0]
 
 

@@ -182,7 +182,7 @@ def cage_substeps_advance(model, h, fast, f, y, w):
         held = slow_modes + touches.accelerations(step * sub, q)
         if step == steps:
             break
-        load, rivet, _ = cage_elastic_law(model, w.e, P, fast.omega_2)
+        load, rivet, _ = cage_elastic_law(model, w.e, P)
         w.T = maximum(rivet[0], 0.0)
         w.N_plate = maximum(w.T - load[0], 0.0)
         modes, rigid = fast_accelerations(model, q, load, cage_joint_shear(model, y, w))

@@ -145,14 +145,9 @@ def fewer(modes, n):
     return replace(modes, **{name: values[:kept] for name, values in arrays.items()}, residual=softer(modes.residual, rest))
 
 
-def circulant_inverse(R):
-    """Inverse of a circulant matrix of blocks [Z, n, n]."""
-    return np.fft.ifft(np.linalg.inv(np.fft.fft(R, axis=0)), axis=0).real
-
-
-def stiffness_left(modes):
-    """Stiffness [Z, 3, 3] between the pads, out of the plane, that the modes leave: the inverse of the residual, N/m, N/rad, N.m/rad."""
-    return circulant_inverse(modes.residual.pad[:, OUT][:, :, OUT])
+def joint_residual(modes):
+    """Compliance [3, 3] between the pads of one joint, out of the plane, that the modes leave; m/N, rad/N, rad/(N.m)."""
+    return modes.residual.pad[0][np.ix_(OUT, OUT)]
 
 
 def softer(residual, modes):

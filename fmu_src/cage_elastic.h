@@ -18,23 +18,17 @@ void cage_elastic_out(const ElasticHalf *half, const scalar *S, ball_array to[3]
 #define cage_elastic_in FOR_ISA(cage_elastic_in)
 void cage_elastic_in(const ElasticHalf *half, const scalar *D, ball_array to[2]);
 
-// Preloads [N] with what the centrifugal load adds, and what the joints relieve each other of at rest under that load.
-typedef struct {
-    ball_array P;
-    scalar relief[3];
-} JointPreload;
-
 // Square of the halves' speed in space, mean of both.
 #define cage_elastic_speed_2 FOR_ISA(cage_elastic_speed_2)
 scalar cage_elastic_speed_2(const Work *w);
 
-// Under that speed.
+// Preloads [N] with what the centrifugal load of that speed adds.
 #define cage_elastic_preload FOR_ISA(cage_elastic_preload)
-void cage_elastic_preload(const Model *model, scalar omega_2, JointPreload *preload);
+void cage_elastic_preload(const Model *model, scalar omega_2, ball_array P);
 
-// Loads of the joints out of the plane, T and N_plate, for the motions e in w.
+// Loads of the joints out of the plane, T and N_plate, for the motions e in w and preloads P.
 #define cage_elastic_loads FOR_ISA(cage_elastic_loads)
-void cage_elastic_loads(const Model *model, const JointPreload *preload, Work *w);
+void cage_elastic_loads(const Model *model, const ball_array P, Work *w);
 
 // Forces of the joints on the modes [N]: out of the plane, to be taken off S; in it, on D.
 #define cage_elastic_pull FOR_ISA(cage_elastic_pull)

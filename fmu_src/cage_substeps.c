@@ -302,7 +302,7 @@ double cage_substeps_advance(const Model *model, double h, const FastState *fast
     double modes[2 * N_MODES], v_m[2 * N_MODES], rigid[RELATIVE_MOTIONS], slow[RELATIVE_MOTIONS];
     double speed[RELATIVE_MOTIONS] = {0.0}, moved[RELATIVE_MOTIONS] = {0.0};  // by the fast accelerations
     JointVelocities middle;
-    JointPreload preload;
+    ball_array P;
     const double gyro = model->d->J_p / model->d->J_t * 0.5 * (w->half[0].s + w->half[1].s);
     Touch touches[2 * Z];
 
@@ -314,7 +314,7 @@ double cage_substeps_advance(const Model *model, double h, const FastState *fast
     memcpy(w->N_plate, fast->N_plate, sizeof fast->N_plate);
     memcpy(modes, fast->modes, sizeof modes);
     memcpy(rigid, fast->rigid, sizeof rigid);
-    cage_elastic_preload(model, fast->omega_2, &preload);
+    cage_elastic_preload(model, fast->omega_2, P);
     rigid_velocities(model, w, &middle);
     take(model, &w->half[0], f, slow);
     const int count = find_touches(half, fast, q, touches);
@@ -339,7 +339,7 @@ double cage_substeps_advance(const Model *model, double h, const FastState *fast
         if (step == steps) break;
 
         // accelerations there, of which the second half
-        cage_elastic_loads(model, &preload, w);
+        cage_elastic_loads(model, P, w);
         cage_joint_shear(model, y, w);
         fast_accelerations(model, y, w, modes, rigid);
         for (int i = 0; i < 2 * N_MODES; i++) v[i] += 0.5 * sub * (modes[i] + foreseen->modes[i]);

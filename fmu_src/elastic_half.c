@@ -9,7 +9,7 @@
 // rounding may make a joint stiffer by 30 %.
 static const double SUBSTEP_TURN = 1.6;
 
-enum { SYSTEM = PAD_OUT * Z, RAY = 24, REST_SWEEPS = 12 };
+enum { RAY = 24 };
 
 enum { COORDINATES = N_MODES + 3 };  // modes and relative rigid motions
 
@@ -60,32 +60,6 @@ static void take_mode(const HalfModes *table, int entry, int coordinate, double 
                 for (int part = 0; part < 2; part++) half->wall[node][slope][c][part][i] = unit * *from++;
 }
 
-// x = A^-1 x for a few columns x, by elimination with pivots.
-static void solve(double A[SYSTEM][SYSTEM], double x[SYSTEM][PAD_OUT])
-{
-    for (int i = 0; i < SYSTEM; i++) {
-        int pivot = i;
-        for (int k = i + 1; k < SYSTEM; k++)
-            if (fabs(A[k][i]) > fabs(A[pivot][i])) pivot = k;
-        for (int q = 0; q < SYSTEM; q++) {
-            const double swap = A[i][q];
-            A[i][q] = A[pivot][q], A[pivot][q] = swap;
-        }
-        for (int q = 0; q < PAD_OUT; q++) {
-            const double swap = x[i][q];
-            x[i][q] = x[pivot][q], x[pivot][q] = swap;
-        }
-        for (int k = 0; k < SYSTEM; k++) {
-            if (k == i) continue;
-            const double l = A[k][i] / A[i][i];
-            for (int q = i; q < SYSTEM; q++) A[k][q] -= l * A[i][q];
-            for (int q = 0; q < PAD_OUT; q++) x[k][q] -= l * x[i][q];
-        }
-    }
-    for (int i = 0; i < SYSTEM; i++)
-        for (int q = 0; q < PAD_OUT; q++) x[i][q] /= A[i][i];
-}
-
 static void invert_3(const double *K, double inverse[3][3])
 {
     for (int k = 0; k < 3; k++) {
@@ -96,26 +70,12 @@ static void invert_3(const double *K, double inverse[3][3])
     }
 }
 
-// The stiffness of what the modes leave between the pads.  R: its compliance [k][motion][load], k pitches farther.
-static void invert_residual(double R[Z][PADS][PADS], ElasticHalf *half)
+// What the modes leave between the pads of a joint, of R: compliance [motion][load].
+static void take_residual(double R[PADS][PADS], ElasticHalf *half)
 {
-    static const double unit[PAD_OUT] = {1.0, 1e-3, 1e-3};  // [m] makes the equations alike
-    double A[SYSTEM][SYSTEM], x[SYSTEM][PAD_OUT];
-    memset(x, 0, sizeof x);
-    for (int k = 0; k < Z; k++)
-        for (int j = 0; j < Z; j++)
-            for (int a = 0; a < PAD_OUT; a++)
-                for (int b = 0; b < PAD_OUT; b++)
-                    A[PAD_OUT * k + a][PAD_OUT * j + b] =
-                        unit[a] * unit[b] * R[(k - j + Z) % Z][OUT[a]][OUT[b]];
-    for (int a = 0; a < PAD_OUT; a++) x[a][a] = 1.0;
-    solve(A, x);
-    for (int k = 0; k < Z; k++)
-        for (int a = 0; a < PAD_OUT; a++)
-            for (int b = 0; b < PAD_OUT; b++) {
-                half->K[k][a][b] = unit[a] * unit[b] * x[PAD_OUT * k + a][b];
-                for (int j = 0; j < Z; j++) half->held[b][j][a * Z + (j + k) % Z] = half->K[k][a][b];
-            }
+    for (int a = 0; a < PAD_OUT; a++)
+        for (int b = 0; b < PAD_OUT; b++) half->R[a][b] = R[OUT[a]][OUT[b]];
+    invert_3(half->R[0], half->K);
 }
 
 // ---- the law over L^ ------------------------------------------------------------------------------------------------
@@ -243,11 +203,10 @@ static void site_values(const ElasticHalf *half, double ratio[3][3], const doubl
     double sum = 0.0;
     for (int i = 1; i <= RAY; i++) {
         const double t = (double)i / RAY, weight = (i == RAY ? 1.0 : i % 2 == 1 ? 4.0 : 2.0) / (3.0 * RAY);
-        double move[3];
         for (int k = 0; k < 3; k++) at[k] = t * behind[k];
         joint_law(&half->law, at, P, load, rivet, &U);
-        joint_moves(half, at, load, move);
-        for (int k = 0; k < 3; k++) sum += weight * move[k] * behind[k];
+        for (int i = 0; i < 3; i++)
+            for (int k = 0; k < 3; k++) sum += weight * behind[i] * half->R[i][k] * (at[k] - load[k]);
     }
     to[LAW_ENERGY] = sum;
 }
@@ -256,7 +215,6 @@ static void law_of(ElasticHalf *half)
 {
     half->law = *table_law();
     half->law.coefficients = half->coefficients;
-    invert_3(half->K[0][0], half->move);
 }
 
 // The law over L^, on the same cells.
@@ -268,7 +226,7 @@ static void law_behind(ElasticHalf *half)
     invert_3(law->K_0[0], inverse);
     for (int i = 0; i < 3; i++)
         for (int k = 0; k < 3; k++)
-            for (int j = 0; j < 3; j++) ratio[i][k] += half->K[0][i][j] * inverse[j][k];
+            for (int j = 0; j < 3; j++) ratio[i][k] += half->K[i][j] * inverse[j][k];
     memset(half->coefficients, 0, elastic_half_size() - sizeof *half);
     for (int pass = 0; pass < 2; pass++) {
         double *to = half->coefficients;
@@ -321,9 +279,9 @@ static double largest_eigenvalue(int n, double A[COORDINATES][COORDINATES])
     return lambda;
 }
 
-// Square of the highest frequency of both halves with closed joints.  K: stiffness between joints k - j apart, of relative
-// motions [Z][3][3], out of the plane or in it; rigid: inertia of the relative rigid motions.
-static double fastest(const Parameters *p, const ElasticHalf *half, bool out, double K[Z][PAD_OUT][PAD_OUT],
+// Square of the highest frequency of both halves with closed joints.  K: stiffness of a joint for relative motions out of the plane or
+// in it; rigid: inertia of the relative rigid motions.
+static double fastest(const Parameters *p, const ElasticHalf *half, bool out, double K[PAD_OUT][PAD_OUT],
                       const double rigid[3])
 {
     enum { JOINTS = PAD_OUT * Z };
@@ -345,8 +303,7 @@ static double fastest(const Parameters *p, const ElasticHalf *half, bool out, do
         double load[JOINTS] = {0.0};
         for (int a = 0; a < count; a++)
             for (int k = 0; k < Z; k++)
-                for (int b = 0; b < count; b++)
-                    for (int j = 0; j < Z; j++) load[a * Z + k] += K[(k - j + Z) % Z][a][b] * B[i][b * Z + j];
+                for (int b = 0; b < count; b++) load[a * Z + k] += K[a][b] * B[i][b * Z + k];
         for (int q = 0; q < all; q++) {
             A[q][i] = i == q && i < modes ? half->omega_2[i] : 0.0;
             for (int k = 0; k < count * Z; k++) A[q][i] += B[q][k] * load[k];
@@ -358,13 +315,11 @@ static double fastest(const Parameters *p, const ElasticHalf *half, bool out, do
 // The longest substep: the fastest vibration, of closed joints and shanks that bear, turns by SUBSTEP_TURN.
 static double longest_substep(const Parameters *p, const Derived *d, const ElasticHalf *half)
 {
-    double K[Z][PAD_OUT][PAD_OUT], shear[Z][PAD_OUT][PAD_OUT] = {{{0.0}}}, k_hole = 0.0;
-    for (int k = 0; k < Z; k++) {
-        k_hole = fmax(k_hole, half->k_hole[k]);
-        for (int a = 0; a < 9; a++)  // both halves move, and both are loaded: 2 (1/2)^2
-            K[k][a / 3][a % 3] = 0.5 * half->K[k][a / 3][a % 3];
-    }
-    for (int c = 0; c < PAD_IN; c++) shear[0][c][c] = half->series * (d->k_plate_t + d->k_head) + k_hole;
+    double K[PAD_OUT][PAD_OUT], shear[PAD_OUT][PAD_OUT] = {{0.0}}, k_hole = 0.0;
+    for (int a = 0; a < PAD_OUT; a++)  // both halves move, and both are loaded: 2 (1/2)^2
+        for (int b = 0; b < PAD_OUT; b++) K[a][b] = 0.5 * half->K[a][b];
+    for (int k = 0; k < Z; k++) k_hole = fmax(k_hole, half->k_hole[k]);
+    for (int c = 0; c < PAD_IN; c++) shear[c][c] = half->series * (d->k_plate_t + d->k_head) + k_hole;
     const double out[3] = {0.5 * p->cage.m, 0.5 * d->J_t, 0.5 * d->J_t};
     const double in[3] = {0.5 * p->cage.m, 0.5 * p->cage.m, 0.5 * d->J_p};
     return SUBSTEP_TURN / sqrt(fmax(fastest(p, half, true, K, out), fastest(p, half, false, shear, in)));
@@ -413,84 +368,52 @@ static void take_modes(const Parameters *p, ElasticHalf *half, double R[Z][PADS]
 
 // ---- rest under the centrifugal load -----------------------------------------------------------------------------------
 // All joints are alike: N = 0, and their M_t balances S_i = sqrt 2 (spin_i omega^2 - Z phi_t,i M_t)/(m omega_i^2).  Sets S and
-// what is off for the distance x[0] and M_t = x[1]: N, and M_t over the law's length [N].  move: of the joints, to begin with
-// and as found.
+// what is off for the distance x[0] and M_t = x[1]: N, and M_t over the law's length [N].
 static void rest_off(const Parameters *p, const ElasticHalf *half, double omega_2, double P,
-                     const double x[2], double *S, double off[2], double move[PAD_OUT])
+                     const double x[2], double *S, double off[2])
 {
     const double root = sqrt(2.0);
-    double e[PAD_OUT] = {0.5 * x[0], 0.0, 0.0}, K[PAD_OUT][PAD_OUT] = {{0.0}}, bonded[PAD_OUT] = {0.0},
-           behind[PAD_OUT], load[PAD_OUT];
+    double e[PAD_OUT] = {0.5 * x[0], 0.0, 0.0}, behind[PAD_OUT], load[PAD_OUT], rivet[3], U;
     for (int i = 0; i < half->n; i++) {
         const double moment = half->alike[i] ? Z * half->out[i][2 * Z] * x[1] : 0.0;
         S[i] = (root * half->spin[i] * omega_2 - moment) / (p->cage.m * half->omega_2[i]);
         e[0] += 0.5 * S[i] * half->out[i][0];
         e[2] += 0.5 * S[i] * half->out[i][2 * Z];
     }
-    for (int k = 0; k < Z; k++)
-        for (int a = 0; a < PAD_OUT; a++)
-            for (int b = 0; b < PAD_OUT; b++) K[a][b] += half->K[k][a][b];
     for (int a = 0; a < PAD_OUT; a++)
-        for (int b = 0; b < PAD_OUT; b++) bonded[a] += K[a][b] * e[b];
-    double rivet[3], U;
-    for (int sweep = 0; sweep < REST_SWEEPS; sweep++) {
-        for (int a = 0; a < PAD_OUT; a++) {
-            behind[a] = bonded[a];
-            for (int b = 0; b < PAD_OUT; b++) behind[a] -= (K[a][b] - half->K[0][a][b]) * move[b];
-        }
-        joint_law(&half->law, behind, P, load, rivet, &U);
-        joint_moves(half, behind, load, move);
-    }
-    off[0] = bonded[0] - (K[0][0] * move[0] + K[0][1] * move[1] + K[0][2] * move[2]);
-    off[1] =
-        (bonded[2] - (K[2][0] * move[0] + K[2][1] * move[1] + K[2][2] * move[2]) - x[1]) / half->law.length;
+        behind[a] = half->K[a][0] * e[0] + half->K[a][1] * e[1] + half->K[a][2] * e[2];
+    joint_law(&half->law, behind, P, load, rivet, &U);
+    off[0] = load[0];
+    off[1] = (load[2] - x[1]) / half->law.length;
 }
 
 // Newton's method with differences; x: distance and M_t to begin with and as found.
 static void find_rest(const Parameters *p, const ElasticHalf *half, double omega_2, double P, double x[2],
-                      double *S, double move[PAD_OUT])
+                      double *S)
 {
     const double step[2] = {1e-10, 1e-7};
-    double off[2], to[2], slope[2][2], other[PAD_OUT];
+    double off[2], to[2], slope[2][2];
     memset(S, 0, MODES * sizeof *S);
-    rest_off(p, half, omega_2, P, x, S, off, move);
+    rest_off(p, half, omega_2, P, x, S, off);
     for (int iteration = 0; iteration < 60 && fmax(fabs(off[0]), fabs(off[1])) > 1e-11; iteration++) {
         for (int k = 0; k < 2; k++) {
             double trial[2] = {x[0], x[1]};
             trial[k] += step[k];
-            memcpy(other, move, sizeof other);
-            rest_off(p, half, omega_2, P, trial, S, to, other);
+            rest_off(p, half, omega_2, P, trial, S, to);
             for (int i = 0; i < 2; i++) slope[i][k] = (to[i] - off[i]) / step[k];
         }
         const double det = slope[0][0] * slope[1][1] - slope[0][1] * slope[1][0];
         x[0] -= (slope[1][1] * off[0] - slope[0][1] * off[1]) / det;
         x[1] -= (slope[0][0] * off[1] - slope[1][0] * off[0]) / det;
-        rest_off(p, half, omega_2, P, x, S, off, move);
+        rest_off(p, half, omega_2, P, x, S, off);
     }
-}
-
-// The states of rest at equal steps of load/(load + P); law and modes are homogeneous.  The last one, without preload, is that
-// before it.
-static void find_relief(const Parameters *p, const Derived *d, ElasticHalf *half)
-{
-    double x[2] = {0.0, 0.0}, move[PAD_OUT] = {0.0}, S[MODES];
-    half->prying = fabs(d->spin[ROW_M_T]) / half->law.length;
-    if (half->prying == 0.0) return;
-    for (int i = 0; i < RESTS - 1; i++) {
-        const double part = (double)i / (RESTS - 1);
-        find_rest(p, half, part / half->prying, 1.0 - part, x, S, move);
-        for (int a = 0; a < PAD_OUT; a++)
-            for (int b = 0; b < PAD_OUT; b++)
-                for (int k = 1; k < Z; k++) half->relief[i][a] += half->K[k][a][b] * move[b];
-    }
-    memcpy(half->relief[RESTS - 1], half->relief[RESTS - 2], sizeof half->relief[0]);
 }
 
 double elastic_half_rest(const Parameters *p, const Derived *d, const ElasticHalf *half, double omega,
                          double *S)
 {
-    double x[2] = {0.0, 0.0}, move[PAD_OUT] = {0.0};
-    find_rest(p, half, omega * omega, fmax(d->P_mean + d->spin[ROW_DP] * omega * omega, 0.0), x, S, move);
+    double x[2] = {0.0, 0.0};
+    find_rest(p, half, omega * omega, fmax(d->P_mean + d->spin[ROW_DP] * omega * omega, 0.0), x, S);
     return x[0];
 }
 
@@ -505,7 +428,7 @@ void elastic_half_derive(const Parameters *p, const Derived *d, ElasticHalf *hal
     memcpy(R, rivet_table.modes.pad, sizeof R);
     half->compliance = rivet_table.modes.wall[2 * WALL_NODE];
     take_modes(p, half, R);
-    invert_residual(R, half);
+    take_residual(R[0], half);
     const double shear = R[0][PAD_R][PAD_R] + R[0][PAD_T][PAD_T];  // mean over r and t, of both halves
     half->series = 1.0 / (1.0 + shear * (d->k_plate_t + d->k_head));
     for (int k = 0; k < LANES; k++) half->k_hole[k] = d->k_hole[k] / (1.0 + shear * d->k_hole[k]);
@@ -529,6 +452,5 @@ void elastic_half_derive(const Parameters *p, const Derived *d, ElasticHalf *hal
     law_of(half);
     if (before != p->scene.modes) law_behind(half);
     half->law_modes = p->scene.modes;
-    find_relief(p, d, half);
     half->substep = longest_substep(p, d, half);
 }

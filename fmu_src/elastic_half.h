@@ -28,8 +28,6 @@ enum { OUT_OCTETS = (PAD_OUT * Z + 7) / 8, IN_OCTETS = (PAD_IN * Z + 7) / 8, MOD
 
 enum { WALL_NODES = 16 };  // at most
 
-enum { RESTS = 65 };  // states of rest under the centrifugal load, at equal steps of load/(load + P)
-
 struct ElasticHalf {
     int law_modes;                                     // scene.modes of the coefficients below; 0: none yet
     int n, blocks;                                     // modes, blocks of eight of them
@@ -47,20 +45,17 @@ struct ElasticHalf {
     int nodes;               // of the walls' angle
     double chi[WALL_NODES];  // [rad]
     // how far a wall can move: modes that move all pockets alike by themselves, all others by Cauchy's inequality
-    double reach_2;                 // largest |u|^2 / sum omega^2 q^2 of the others [s2]
-    double weight[MODES];           // omega^2 of the others, 0 of those
-    double widest[MODES];           // largest |u|/|q| of those, 0 of the others
-    double compliance;              // of a wall along its normal, by the residual, less that in Hertz's [m/N]
-    double K[Z][PAD_OUT][PAD_OUT];  // inverse of the residual between pads, out of the plane
-    double move[PAD_OUT][PAD_OUT];  // inverse of K[0]: of a joint by L^ - L
-    _Alignas(64) double held[PAD_OUT][Z]
-                            [8 * OUT_OCTETS];  // the same: loads of all joints by the motion of one, in rows
-    double prying;  // |bonded M_t| of the centrifugal load over the law's length, per (rad/s)^2
-    double relief[RESTS][PAD_OUT];  // what other joints relieve a joint of at rest, per newton of load + P
+    double reach_2;        // largest |u|^2 / sum omega^2 q^2 of the others [s2]
+    double weight[MODES];  // omega^2 of the others, 0 of those
+    double widest[MODES];  // largest |u|/|q| of those, 0 of the others
+    double compliance;     // of a wall along its normal, by the residual, less that in Hertz's [m/N]
+    double R[PAD_OUT][PAD_OUT],
+        K[PAD_OUT][PAD_OUT];  // what the modes leave between the pads of a joint, out of the
+                              // plane: compliance and its inverse
     double series;     // part of the friction states' stiffness that is left in series with the residual
     constants k_hole;  // what is left of the holes' [N/m]
     double substep;    // of the default method, at most [s]
-    JointLaw law;      // the joints' law over L^ = L + K_0 delta with the K above, which gives L
+    JointLaw law;      // the joints' law over L^ = L + K delta with the K above, which gives L
     _Alignas(64) double coefficients[];  // of the law; the fourth number is U, whose slope is delta
 };
 
@@ -120,41 +115,12 @@ INLINE void elastic_wall_force(const ElasticHalf *half, const WallShape *shape, 
         modal[i] += F[0] * shape->motion[0][i] + F[1] * shape->motion[1][i] + F[2] * shape->motion[2][i];
 }
 
-// What the moves of all other joints relieve a joint of at rest under the centrifugal load, at the speed's square.
-INLINE void elastic_relief(const ElasticHalf *half, scalar P, scalar omega_2, scalar relief[PAD_OUT])
+// Energy of all joints between the halves, and of what the modes leave of the halves around them, from e, L^ and U.
+INLINE scalar elastic_potential(const Work *w)
 {
-    const scalar load = half->prying * omega_2, s = P + load;
-    const scalar x = scalar_value(s) > 0.0 ? load / s * (RESTS - 1.0) : 0.0;
-    const int i = (int)fmin(scalar_value(x), RESTS - 2.0);
-    for (int a = 0; a < PAD_OUT; a++)
-        relief[a] = s * (half->relief[i][a] + (x - i) * (half->relief[i + 1][a] - half->relief[i][a]));
-}
-
-// Move of a joint that carries `load` under L^.
-INLINE void joint_moves(const ElasticHalf *half, const scalar behind[PAD_OUT], const scalar load[PAD_OUT],
-                        scalar move[PAD_OUT])
-{
-    for (int a = 0; a < PAD_OUT; a++) {
-        move[a] = 0.0;
-        for (int b = 0; b < PAD_OUT; b++) move[a] += half->move[a][b] * (behind[b] - load[b]);
-    }
-}
-
-// Energy of all joints between the halves, and of what the modes leave of the halves around them, from e, L^, delta and U.
-INLINE scalar elastic_potential(const ElasticHalf *half, const Work *w)
-{
-    scalar V = 0.0, rest[PAD_OUT][Z];
-    for (int a = 0; a < PAD_OUT; a++)
-        for (int k = 0; k < Z; k++) rest[a][k] = w->e[a][k] - w->joint_move[a][k];
+    scalar V = 0.0;
     for (int k = 0; k < Z; k++) {
-        for (int a = 0; a < PAD_OUT; a++) {
-            scalar held = 0.0, own = 0.0;
-            for (int b = 0; b < PAD_OUT; b++) {
-                own += half->K[0][a][b] * w->joint_move[b][k];
-                for (int j = 0; j < Z; j++) held += half->K[(k - j + Z) % Z][a][b] * rest[b][j];
-            }
-            V += 0.5 * rest[a][k] * held + (w->joint_behind[a][k] - 0.5 * own) * w->joint_move[a][k];
-        }
+        for (int a = 0; a < PAD_OUT; a++) V += 0.5 * w->e[a][k] * w->joint_behind[a][k];
         V -= w->joint_U[k];
     }
     return 2.0 * V;

@@ -71,7 +71,7 @@ scalar energy_total(const Model *model, const scalar *y, const Work *w)
     const Parameters *p = model->p;
     const bool rigid = p->scene.cage == CAGE_MODEL_RIGID;
     scalar E = w->land_elastic + contact_energy(model, w);
-    if (model->elastic) E += w->modes_energy + elastic_potential(model->elastic, w);
+    if (model->elastic) E += w->modes_energy + elastic_potential(w);
     for (int j = 0; j < Z; j++) {
         E += ball_energy(model, y, j);
         if (!rigid) E += joint_energy(model, y, w, j);

@@ -138,7 +138,8 @@ def _modes_source(t):
     text = f"""{{
         .entries = {len(entries)}, .modes = {modes.count.sum()}, .entry = mode_entry, .pocket = mode_pocket, .pad = residual_pad,
         .rivet = residual_rivet, .wall_to = residual_wall_to, .spin = {_braces(residual.spin)}, .wall = residual_wall,
-        .law = {{.length = {float(law.length)!r}, .cells = {_braces(law_cells(law))}, .coefficients = behind_coefficients, .K_0 = {_braces(law.stiffness)}}}}}"""
+        .law = {{.length = {float(law.length)!r}, .cells = {_braces(law_cells(law))}, .coefficients = behind_coefficients,
+                 .K_0 = {_braces(law.stiffness)}}}}}"""
     return arrays, text
 
 

@@ -12,7 +12,7 @@ import numpy as np
 import scipy.sparse as sp
 from scipy.sparse.linalg import LinearOperator, eigsh, splu
 
-from bearing_model.half_modes import EVEN, LAW_MODES_PER_PITCH, OUT, PAD, HalfModes, Residual, fewer, stiffness_left
+from bearing_model.half_modes import EVEN, LAW_MODES_PER_PITCH, OUT, PAD, HalfModes, Residual, fewer, joint_residual
 
 from . import half_loads, half_shape
 from .cage_half import BODY, SYMMETRIC
@@ -206,9 +206,9 @@ def half_modes(elastic, alone, count, progress=lambda done, total: None):
         law=None,
         **amplitudes(Z, len(half_loads.CHI), rows),
     )
-    K = stiffness_left(fewer(shapes, min(count, round(LAW_MODES_PER_PITCH * Z))))[0]
-    alike = np.multiply.outer(EVEN[OUT], EVEN[OUT]) > 0.0  # by mirroring in the rivet's plane the other elements are 0
-    found = replace(shapes, law=half_loads.make_law_behind(alone, np.where(alike, 0.5 * (K + K.T), 0.0)))
+    R = joint_residual(fewer(shapes, min(count, round(LAW_MODES_PER_PITCH * Z))))
+    even = np.multiply.outer(EVEN[OUT], EVEN[OUT]) > 0.0  # the other elements are 0: mirroring in the rivet's plane changes their sign
+    found = replace(shapes, law=half_loads.make_law_behind(alone, np.linalg.inv(np.where(even, 0.5 * (R + R.T), 0.0))))
     return fewer(found, count), found
 
 
