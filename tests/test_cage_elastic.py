@@ -150,7 +150,10 @@ def running_state_of(model, rng):
 @pytest.mark.parametrize("modes", [32, 40, 48])
 @pytest.mark.parametrize("omega", [200.0, 1000.0, 1910.0])
 def test_rest_under_centrifugal_load_is_that_of_the_static_path(modes, omega):
-    """The start: joints as by the static load path of rigid halves (M_t to 0.3 %, T to 1.2 %: observed 0.2 %, 1.2 %), N = 0, and nothing moves from there."""
+    """The start: joints as by the static load path of rigid halves (M_t to 0.3 %, T to 0.5 %: observed 0.1 %, 0.4 %), N = 0, and nothing moves from there.
+
+    The path's own rest is the direct contact's (test_cage_joint.py).
+    """
     loads = []
     for scene in (ELASTIC | {"scene.modes": modes}, TWO_HALF):
         model, w = Model.of(scene, {"shaft.omega": omega}), Work()
@@ -165,31 +168,36 @@ def test_rest_under_centrifugal_load_is_that_of_the_static_path(modes, omega):
             assert np.abs(w.joint_load[0]).max() < 1e-2
     elastic, path = loads
     np.testing.assert_allclose(elastic.M_t, path.M_t, rtol=3e-3)
-    np.testing.assert_allclose(elastic.T, path.T, rtol=1.5e-2)
+    np.testing.assert_allclose(elastic.T, path.T, rtol=5e-3)
+
+
+# By modes, of forces along x and t: observed 0.33, 0.10; 0.081, 0.021; 0.053, 0.018.
+OWN_PADS = {32: {0: 0.35, 2: 0.11}, 40: {0: 0.085, 2: 0.025}, 48: {0: 0.055, 2: 0.02}}
 
 
 @pytest.mark.parametrize("modes", [32, 40, 48])
 @pytest.mark.parametrize("node", [0, 1, 3])
 def test_static_force_on_a_pocket_loads_bonded_joints_as_the_static_path_does(modes, node):
-    """Moments of the joints by a unit force on a wall: modes, what they leave between pads and from wall to pads, against the finite elements of the load path.
+    """Moments of the joints by a unit force on a wall: modes and what they leave, against the finite elements of the load path.
 
-    The largest moment to 1 % (observed 0.95 %, 0.3 % of forces along t); without the part from wall to pads, as the dynamics has it, to 3 % along t from 40
-    modes on (observed 2.5 %).
+    The largest moment to 1 % (observed 0.95 %, 0.3 % of forces along t) with all of the residual; as the dynamics has it, with what each joint's own pads feel
+    of it and without the part from wall to pads, to OWN_PADS.
     """
     model = Model.of(ELASTIC | {"scene.modes": modes})
     d, half, table = model.d, model.d.elastic, default_table()
     residual, path, chi = fewer(table.modes, modes).residual, table.half.path[node], table.half.chi[node]
     to_joints = joints_out(d, half.pad)
-    K = half.K[(np.arange(Z)[:, None] - np.arange(Z)) % Z].transpose(0, 2, 1, 3).reshape(3 * Z, 3 * Z)
+    relative = (np.arange(Z)[:, None] - np.arange(Z)) % Z
+    R = residual.pad[:, OUT][:, :, OUT][relative].transpose(0, 2, 1, 3).reshape(3 * Z, 3 * Z)
     shape, _ = cage_elastic_shapes(half, 1, np.full(Z, np.sin(chi)), np.full(Z, np.cos(chi)))
-    stiffness = to_joints.T @ (0.5 * K) @ to_joints + np.diag(np.append(model.p.cage.m * half.omega**2, np.zeros(3)))
     place = np.array([-table.half.x_c, 0.5 * model.p.bearing.d_m, 0.0])
     for f in (0, 2):
         force = np.eye(3)[f]
         M = np.cross(place, force)
         load = np.append(shape[:, 0].T @ force / ROOT, 0.5 * np.array([force[0], M[1], M[2]]))
-        for fed, bound in ((1.0, 0.01), (0.0, 0.03 if f == 2 and modes >= 40 else 0.35)):
-            e = fed * 0.5 * residual.pocket[node][:, OUT][:, :, f].ravel()
+        by_wall = 0.5 * residual.pocket[node][:, OUT][:, :, f].ravel()
+        for K, e, bound in ((np.linalg.inv(R), by_wall, 0.01), (np.kron(np.eye(Z), half.law.stiffness), 0.0 * by_wall, OWN_PADS[modes][f])):
+            stiffness = to_joints.T @ (0.5 * K) @ to_joints + np.diag(np.append(model.p.cage.m * half.omega**2, np.zeros(3)))
             x = np.linalg.solve(stiffness, load - to_joints.T @ K @ e)
             L = (K @ (0.5 * to_joints @ x + e)).reshape(Z, 3)
             expected = path[:, [0, 3, 4], f]
@@ -347,15 +355,13 @@ def all_states(core, instance):
     return np.frombuffer(core.ffi.buffer(core.lib.part_state(instance.bearing), 8 * N_ALL_STATES)).copy()
 
 
-@pytest.mark.parametrize("modes", [32, 40, 48])
-def test_moves_of_other_joints_follow_by_few_sweeps(modes):
-    """What a sweep leaves of an error where all joints are open: the spectral radius of K_0^-1 (K - K_0), observed 0.46, 0.26, 0.09.
-
-    Beyond 1 the joints would not follow one energy: with 2.5 modes a ball it is 2.2, and a run under the centrifugal load fails.
-    """
-    K = Model.of(ELASTIC | {"scene.modes": modes}).d.elastic.K
-    left = np.linalg.solve(K[0], np.fft.fft(K, axis=0) - K[0])
-    assert np.abs(np.linalg.eigvals(left)).max() < {32: 0.5, 40: 0.3, 48: 0.1}[modes]
+@pytest.mark.parametrize(("modes", "most"), [(32, 0.25), (40, 0.09), (48, 0.04)])
+def test_what_the_modes_leave_between_two_joints_is_small(modes, most):
+    """Each joint follows from its own pads: what a load on the others moves them by beside the modes, as a part of what their own loads do."""
+    R = fewer(default_table().modes, modes).residual.pad[:, OUT][:, :, OUT]
+    root = np.sqrt(np.diag(R[0]))
+    part = np.abs(R / np.outer(root, root))
+    assert part[1:].max() < most
 
 
 @pytest.mark.c_only
