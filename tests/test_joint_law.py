@@ -365,7 +365,7 @@ def test_with_one_joint_gone_its_neighbours_carry_what_the_finite_elements_say(c
 
 
 def test_law_behind_the_residual_at_the_same_loads():
-    """Rivets by the table's law behind the residual, beside the contact of one pad, under loads that run through 16,000 r/min: tension to 0.5 % RMS (observed 0.35 %).
+    """Rivets by the table's law behind the residual, beside the contact of one pad, under drawn loads: tension to 0.5 % RMS (observed 0.35 %).
 
     Joints balance what the halves give them, so that their loads are given: at each load the contact gives L^, Newton's method the law's own L^ for it.
     """
