@@ -223,7 +223,7 @@ scalar cage_elastic_coriolis(const Model *model, const Work *w, int h)
     return w->more_J_dot[h] * (w->half[h].s + w->frame_omega);
 }
 
-void cage_elastic_pull(const Model *model, const Work *w, mode_array by_out, mode_array by_in)
+void cage_elastic_pull(const Model *model, Work *w)
 {
     const ElasticHalf *half = model->elastic;
     const double inv_R = 2.0 / rivet_table.joint.d_m;
@@ -237,17 +237,17 @@ void cage_elastic_pull(const Model *model, const Work *w, mode_array by_out, mod
           in_odd[MODE_OCTETS] = {{{0.0}}};
     for (int a = 0; a < PAD_OUT; a++)
         octets_add_rows(Z, w->joint_load[a], MODE_OCTETS, half->out_modes[a][0], out, out_odd);
-    octets_store_sum(MODE_OCTETS, out, out_odd, by_out);
+    octets_store_sum(MODE_OCTETS, out, out_odd, w->pull_S);
     octets_add_rows(Z, F_r, MODE_OCTETS, half->in_modes[0][0], in, in_odd);
     octets_add_rows(Z, F_t, MODE_OCTETS, half->in_modes[1][0], in, in_odd);
-    octets_store_sum(MODE_OCTETS, in, in_odd, by_in);
+    octets_store_sum(MODE_OCTETS, in, in_odd, w->pull_D);
 }
 
 void cage_elastic_acceleration(const Model *model, const scalar *y, Work *w, scalar *y_dot)
 {
     const ElasticHalf *half = model->elastic;
     const double inv_root = 1.0 / ROOT, m = model->p->cage.m, inv_m = 1.0 / m;
-    mode_array mirrored, opposed, by_out, by_in, rates, lost, one;
+    mode_array mirrored, opposed, rates, lost, one;
     scalar spin[2];
     for (int h = 0; h < 2; h++) {
         const scalar s = w->half[h].s + w->frame_omega;
@@ -259,7 +259,7 @@ void cage_elastic_acceleration(const Model *model, const scalar *y, Work *w, sca
         mirrored[i] = inv_root * (f_1 + f_0), opposed[i] = inv_root * (f_1 - f_0);
     }
 
-    cage_elastic_pull(model, w, by_out, by_in);
+    cage_elastic_pull(model, w);
 
     // rates, energy and dissipation
     for (int i = 0; i < MODES; i++) {
@@ -268,9 +268,9 @@ void cage_elastic_acceleration(const Model *model, const scalar *y, Work *w, sca
         y_dot[Y_MODE_S + i] = S_dot;
         y_dot[Y_MODE_D + i] = D_dot;
         y_dot[Y_MODE_S_DOT + i] =
-            inv_m * (mirrored[i] - by_out[i]) - half->damping[i] * S_dot - half->omega_2[i] * S;
+            inv_m * (mirrored[i] - w->pull_S[i]) - half->damping[i] * S_dot - half->omega_2[i] * S;
         y_dot[Y_MODE_D_DOT + i] =
-            inv_m * (opposed[i] + by_in[i]) - half->damping[i] * D_dot - half->omega_2[i] * D;
+            inv_m * (opposed[i] + w->pull_D[i]) - half->damping[i] * D_dot - half->omega_2[i] * D;
         const scalar v_2 = S_dot * S_dot + D_dot * D_dot;
         rates[i] = v_2 + half->omega_2[i] * (S * S + D * D);
         lost[i] = half->damping[i] * v_2;

@@ -30,11 +30,11 @@ void cage_elastic_preload(const Model *model, scalar omega_2, ball_array P);
 #define cage_elastic_loads FOR_ISA(cage_elastic_loads)
 void cage_elastic_loads(const Model *model, const ball_array P, Work *w);
 
-// Forces of the joints on the modes [N]: out of the plane, to be taken off S; in it, on D.
+// Sets the forces of the joints on the modes, from the joints' loads.
 #define cage_elastic_pull FOR_ISA(cage_elastic_pull)
-void cage_elastic_pull(const Model *model, const Work *w, mode_array by_out, mode_array by_in);
+void cage_elastic_pull(const Model *model, Work *w);
 
-// The same for the motions by the present state; adds the moments to both halves.
+// Loads of the joints for the motions by the present state; adds the moments to both halves.
 #define cage_elastic_joints FOR_ISA(cage_elastic_joints)
 void cage_elastic_joints(const Model *model, Work *w);
 

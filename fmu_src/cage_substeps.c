@@ -99,18 +99,16 @@ static void take(const Model *model, const Rotor *h0, const double *f, double re
     relative[SPIN] = d[5];
 }
 
-// Accelerations of modes and relative motions by the joints' loads in w and, at the coordinates in y, by the modes' springs.
+// Accelerations of modes and relative motions by the joints' loads and pulls in w and, at the coordinates in y, by the modes' springs.
 static void fast_accelerations(const Model *model, const double *y, const Work *w, double modes[2 * N_MODES],
                                double rigid[RELATIVE_MOTIONS])
 {
     const ElasticHalf *half = model->elastic;
     const Derived *d = model->d;
     const double inv_m = 1.0 / model->p->cage.m, inv_R = 2.0 / rivet_table.joint.d_m;
-    mode_array by_out, by_in;
-    cage_elastic_pull(model, w, by_out, by_in);
     for (int i = 0; i < N_MODES; i++) {
-        modes[i] = -inv_m * by_out[i] - half->omega_2[i] * y[Y_MODE_S + i];
-        modes[N_MODES + i] = inv_m * by_in[i] - half->omega_2[i] * y[Y_MODE_D + i];
+        modes[i] = -inv_m * w->pull_S[i] - half->omega_2[i] * y[Y_MODE_S + i];
+        modes[N_MODES + i] = inv_m * w->pull_D[i] - half->omega_2[i] * y[Y_MODE_D + i];
     }
 
     ball_array force[RELATIVE_MOTIONS];  // on half 1
@@ -341,6 +339,7 @@ double cage_substeps_advance(const Model *model, double h, const FastState *fast
         // accelerations there, of which the second half
         cage_elastic_loads(model, P, w);
         cage_joint_shear(model, y, w);
+        cage_elastic_pull(model, w);
         fast_accelerations(model, y, w, modes, rigid);
         for (int i = 0; i < 2 * N_MODES; i++) v[i] += 0.5 * sub * (modes[i] + foreseen->modes[i]);
         for (int i = 0; i < RELATIVE_MOTIONS; i++) speed[i] += 0.5 * sub * rigid[i];

@@ -220,6 +220,7 @@ typedef struct {
     // moved [m]; moment of inertia that the modes add [kg.m2] and its rate; modal forces on the walls [N] (cleared
     // by cage_elastic_kinematics, added by pocket_force)
     mode_array q[2], q_dot[2], wall_force[2];
+    mode_array pull_S, pull_D;  // of the joints on the modes [N]: to be taken off S, on D
     scalar reach[2], more_J[2], more_J_dot[2];
 
     // contacts with the walls of each elastic half (pocket_force): direction (x, t) from the pocket's axis to the ball, stiffness
