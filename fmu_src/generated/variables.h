@@ -9,7 +9,7 @@
 
 #define FMI2_FUNCTION_PREFIX RivetedBearing_  // of the functions of a source-code FMU
 #define MODEL_IDENTIFIER "RivetedBearing"
-#define MODEL_GUID "{7a89e463-187b-312c-0ea8-2eb7b56b3296}"  // digest of the table
+#define MODEL_GUID "{09e881c3-c818-1090-a543-19bbd6e67f62}"  // digest of the table
 
 enum { Z = 9 };  // number of balls
 
