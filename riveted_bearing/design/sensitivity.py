@@ -28,7 +28,7 @@ from ..plot import FORCE, HEAD, MIDDLE, MUTED, STYLE, plt
 from ..results import write_atomically
 from ..scene import refusal, section_of
 from ..sweep import count_of
-from .bench import COMMON, Box, noise_variance, response_names
+from .bench import COMMON, Box, display_of, noise_variance, response_names
 
 KEYS = (*COMMON, "responses", "morris", "sobol")
 METHODS = {"morris": ("trajectories", "levels"), "sobol": ("factors", "count")}
@@ -188,15 +188,16 @@ def write_picture(found, path):
 def screening_panel(ax, found, name):
     """Bars of mu_star with their confidence; the effect of noise alone as a line."""
     indices, ranked = found.morris[name], order(found, name)
-    size, error = (np.array([indices[key][k] for k in ranked]) for key in ("mu_star", "mu_star_conf"))
+    unit, factor, _ = display_of(name)
+    size, error = (factor * np.array([indices[key][k] for k in ranked]) for key in ("mu_star", "mu_star_conf"))
     ax.barh(range(len(ranked)), size, xerr=error, color=MIDDLE, height=0.6, error_kw={"ecolor": FORCE, "lw": 1.0})
     ax.set_yticks(range(len(ranked)), [found.factors[k] for k in ranked])
     ax.invert_yaxis()
     ax.grid(axis="y", visible=False)
     if indices["noise"] is not None:
-        ax.axvline(indices["noise"], color=HEAD, lw=1.2, ls="--", label="seeds alone")
+        ax.axvline(factor * indices["noise"], color=HEAD, lw=1.2, ls="--", label="seeds alone")
         ax.legend(loc="lower right")
-    ax.set(title=f"{name}: effect over the range (Morris)", xlabel="mu* (change of the response)")
+    ax.set(title=f"{name}: effect over the range (Morris)", xlabel=f"mu*: change of the response{unit and f' [{unit}]'}")
     ax.set_xlim(left=0.0)
 
 
