@@ -164,6 +164,7 @@ def test_what_no_point_can_keep_is_said(model):
         (plan_optimize, {"between": BOX, "trials": 0}, ["trials = 0"]),
         (plan_optimize, {"between": BOX, "check_seeds": 1}, ["check_seeds = 1"]),
         (plan_optimize, {"between": BOX, "limits": {"stress": "3 mm"}}, ["limits.stress = '3 mm'", "MPa"]),
+        (plan_optimize, {"between": BOX, "limits": {"stres": "3 MPa"}}, ['"limits.stres"', 'did you mean "limits.stress"']),
         (plan_optimize, {"between": BOX, "objective": []}, ['"objective"', 'did you mean "objectives"']),
         (plan_optimize, {"between": {"start.seed": [1, 9]}}, ["start.seed", "only real numbers have ranges"]),
     ],

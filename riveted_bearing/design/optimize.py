@@ -88,6 +88,8 @@ def plan_optimize(path, document, model):
         try:
             limits[name] = to_si(value, model.units[variable.unit] if variable else {"1": (1.0, 0.0)})
         except UserError as problem:
+            if variable is None and name != "damage":  # a misspelt name, rather than a column without a unit
+                raise unknown(path, "response", f"limits.{name}", [f"limits.{key}" for key in ("damage", *COLUMNS)]) from None
             raise refusal(path, f"limits.{name}", value, problem) from None
     box = Box(path, section_of(path, document, "between"), model)
     names = [name.removeprefix("-") for name in objectives]

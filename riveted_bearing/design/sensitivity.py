@@ -180,6 +180,9 @@ def write_picture(found, path):
             screening_panel(row[0], found, name)
             if found.sobol:
                 sobol_panel(row[1], found, name)
+        keys = {text: handle for ax in axes.flat for handle, text in zip(*ax.get_legend_handles_labels(), strict=True)}
+        if keys:  # beside the panels, whose bars and errors lie anywhere
+            figure.legend(keys.values(), keys, loc="outside lower center", ncols=len(keys))
         write_atomically(path, lambda temporary: figure.savefig(temporary, dpi=110))
         plt.close(figure)
     return path
@@ -196,7 +199,6 @@ def screening_panel(ax, found, name):
     ax.grid(axis="y", visible=False)
     if indices["noise"] is not None:
         ax.axvline(factor * indices["noise"], color=HEAD, lw=1.2, ls="--", label="seeds alone")
-        ax.legend(loc="lower right")
     ax.set(title=f"{name}: effect over the range (Morris)", xlabel=f"mu*: change of the response{unit and f' [{unit}]'}")
     ax.set_xlim(left=0.0)
 
@@ -210,7 +212,6 @@ def sobol_panel(ax, found, name):
     ax.invert_yaxis()
     ax.grid(axis="y", visible=False)
     if indices["noise"] is not None:
-        ax.axvline(indices["noise"], color=HEAD, lw=1.2, ls="--", label="seeds")
+        ax.axvline(indices["noise"], color=HEAD, lw=1.2, ls="--", label="seeds alone")
     ax.set(title=f"{name}: share of the variance (Sobol)", xlabel="alone S1, with interactions ST")
     ax.set_xlim(left=min(0.0, ax.get_xlim()[0]))
-    ax.legend(loc="best")
