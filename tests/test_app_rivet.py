@@ -132,14 +132,16 @@ def test_the_default_rivet_takes_the_shipped_table(tmp_path):
 
 @pytest.mark.slow
 def test_an_fmu_for_another_rivet(tmp_path):
-    """Built and run: stress of the preload before anything moves = that of the new table, not of the shipped one."""
+    """Built and run: stress of the preload alone, which the cage's centrifugal load would more than double, = that of the new table, not of the shipped one."""
     (tmp_path / "long_head.toml").write_text("head_height = 0.6e-3")
     done = command("build", "--rivet", "long_head.toml", folder=tmp_path)
     assert done.returncode == 0, done.stderr
-    result = run("demo", fmu=tmp_path / "long_head.fmu", t_end=1e-4, outputs=["rivet[1].sigma_mid", "rivet[1].sigma_head", "rivet[1].N"])
+    channels = ["rivet[1].sigma_mid", "rivet[1].sigma_head", "rivet[1].T"]
+    result = run("demo", fmu=tmp_path / "long_head.fmu", t_end=1e-4, parameters={"cage.centrifugal": "off"}, outputs=channels)
+    assert result.data["rivet[1].T"][0] == pytest.approx(20.0, rel=1e-3)  # N, the preload
     ratio = result.data["rivet[1].sigma_head"][0] / result.data["rivet[1].sigma_mid"][0]
     sigma, _ = rivet_rom.rivet_rom_stress(TABLE, rivet_rom.RivetLoad(T=20.0), -6e-6)
-    assert ratio > 1.2 * sigma[rivet_rom.HEAD_P1] / sigma[rivet_rom.MID_VM]  # a prototype: 145 MPa at 0.9 mm, some 200 at 0.6
+    assert ratio > 1.2 * sigma[rivet_rom.HEAD_P1] / sigma[rivet_rom.MID_VM]  # a prototype: 145 MPa at 0.9 mm, some 200 at 0.6; observed 1.55
 
 
 @pytest.mark.slow
