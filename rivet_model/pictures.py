@@ -35,9 +35,22 @@ class Curve:
     label: str
     unit: str
     scale: float  # x in `unit` / x in SI
+    loads: str  # what is held, with units
+    figure: str  # of the paper that shows the same, "" if none does
+    kind: str  # of the material at the bore, "" if it makes no difference
     x: np.ndarray
     head: np.ndarray
     mid: np.ndarray
+
+    @property
+    def title(self):
+        """What the curve shows, under which loads, and where the paper shows it."""
+        return f"Stress over {self.label}{self.kind and f', {self.kind}'}: {self.loads}{self.source}"
+
+    @property
+    def source(self):
+        """Where the paper shows the same, behind a title."""
+        return self.figure and f" ({self.figure} of the paper)"
 
 
 def table_response(t):
@@ -68,19 +81,28 @@ def joint_response(joint):
 
 
 def curves(stress, fit_eff, swell=SWELL):
-    """Curves by name; Fig. 11: preload alone at the largest clearance; Fig. 12: REFERENCE over the fit, elastic and with the flange's yield."""
+    """Curves by name: preload alone at the largest clearance; REFERENCE over the fit, elastic and with the flange's yield; over the transverse load."""
     preload, fit, V = np.linspace(0.0, 60.0, 25), 1e-6 * np.arange(-90.0, 40.1, 2.0), np.linspace(0.0, 60.0, 25)
+    loose, r = -90e-6, REFERENCE
+    alone = f"fit {micrometres(loose)} (clearance), no external load"
+    loaded = f"preload {r.P:g} N, external tension {r.N:g} N, transverse load {r.V:g} N"
+    preloaded = f"preload {r.P:g} N, no external tension, fit {micrometres(FIT - SWELL)} (clearance)"
 
-    def curve(label, unit, scale, x, load, fit_a):
+    def curve(label, unit, scale, x, load, fit_a, loads, figure="", kind=""):
         sigma = stress(load, fit_a)
-        return Curve(label, unit, scale, x, sigma[..., HEAD_P1], sigma[..., MID_VM])
+        return Curve(label, unit, scale, loads, figure, kind, x, sigma[..., HEAD_P1], sigma[..., MID_VM])
 
     return {
-        "Fig. 11": curve("preload", "N", 1.0, preload, JointLoad(P=preload), -90e-6),
-        "Fig. 12, elastic": curve("fit", "µm", 1e6, fit, REFERENCE, fit + swell),
-        "Fig. 12, with yield": curve("fit", "µm", 1e6, fit, REFERENCE, fit_eff(fit + swell)),
-        "transverse load": curve("transverse load", "N", 1.0, V, replace(REFERENCE, N=0.0, V=V), FIT),
+        "preload": curve("preload", "N", 1.0, preload, JointLoad(P=preload), loose + swell, alone, "Fig. 11"),
+        "fit, elastic": curve("fit", "µm", 1e6, fit, REFERENCE, fit + swell, loaded, "Fig. 12", "elastic"),
+        "fit, with yield": curve("fit", "µm", 1e6, fit, REFERENCE, fit_eff(fit + swell), loaded, "Fig. 12", "the flange yields"),
+        "transverse load": curve("transverse load", "N", 1.0, V, replace(REFERENCE, N=0.0, V=V), FIT, preloaded),
     }
+
+
+def micrometres(length):
+    """A length [m] as text."""
+    return f"{1e6 * length:.0f} µm".replace("-", "−")
 
 
 def plot_curves(data, title=""):
@@ -90,15 +112,13 @@ def plot_curves(data, title=""):
     figure = Figure(figsize=(13, 4.2), layout="constrained")
     axes = figure.subplots(1, 3)
     panel = {"preload": axes[0], "fit": axes[1], "transverse load": axes[2]}
-    for name, c in data.items():
-        style, kind = ("--", ", elastic") if name.endswith("elastic") else ("-", "")
+    for c in data.values():
+        style, kind = ("--", ", elastic") if c.kind == "elastic" else ("-", "")
         panel[c.label].plot(c.scale * c.x, c.head / 1e6, style, color=HEAD, label="head" + kind)
         panel[c.label].plot(c.scale * c.x, c.mid / 1e6, style, color=MIDDLE, label="middle" + kind)
         panel[c.label].set(xlabel=f"{c.label} [{c.unit}]", ylabel="stress [MPa]", ylim=(0.0, None))
-    r, yielded = REFERENCE, data["Fig. 12, with yield"]
-    axes[0].set_title("Fig. 11: preload alone, fit −90 µm")
-    axes[1].set_title(f"Fig. 12: P {r.P:g} N, N {r.N:g} N, V {r.V:g} N")
-    axes[2].set_title(f"P {r.P:g} N, fit {1e6 * (FIT - SWELL):g} µm")
+        panel[c.label].set_title(f"Over {c.label}{c.source}\n{c.loads}", fontsize="small")
+    yielded = data["fit, with yield"]
     axes[1].set_ylim(0.0, 1.5e-6 * max(yielded.head.max(), yielded.mid.max()))
     axes[1].axvspan(-20.0, 0.0, color="0.93", zorder=0)
     for ax in axes:

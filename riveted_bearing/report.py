@@ -12,6 +12,7 @@ from bearing_model import variables
 
 from . import charts, plot
 from .animation import frames, number_of_balls
+from .design.bench import display_of
 from .errors import UserError
 from .life import rivet_life
 from .results import FORMATS, read_result, write_atomically
@@ -83,6 +84,7 @@ def render(result, decides=None):
         table_note=table_note(result),
         assumed=list(assumed_rows(result)),
         decides=decides,
+        display_of=display_of,
         life_is_known=life_is_known(result),
         solver=list(solver_rows(result)),
         charts={name: chart(result, name, lives) for name in CHARTS if elastic or name not in OF_ELASTIC},

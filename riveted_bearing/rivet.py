@@ -190,13 +190,13 @@ def sources_digest():
 
 def curve_tables(curves):
     """Title and rich table of each curve, a row every ROWS."""
-    for name, curve in curves.items():
+    for curve in curves.values():
         step = ROWS[curve.label]
         shown = np.isclose(curve.x / step, np.round(curve.x / step), atol=1e-6)
         rows = Table(*(Column(text, justify="right") for text in (f"{curve.label} [{curve.unit}]", "head [MPa]", "middle [MPa]")), box=None, pad_edge=False)
         for x, head, mid in zip(curve.scale * curve.x[shown], curve.head[shown] / 1e6, curve.mid[shown] / 1e6, strict=True):
             rows.add_row(f"{x:.0f}", f"{head:.1f}", f"{mid:.1f}")
-        yield name, rows
+        yield curve.title, rows
 
 
 @threadpool_limits.wrap(limits=1)

@@ -6,9 +6,10 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from test_app import command
 
 from riveted_bearing import UserError
-from riveted_bearing.design.bench import Bench, response
+from riveted_bearing.design.bench import Bench, response, shown, titled
 from riveted_bearing.design.optimize import plan_optimize, search, write_optimum
 from riveted_bearing.design.optimize import write_picture as write_optimum_picture
 from riveted_bearing.design.sensitivity import analyse, plan_sensitivity, read_indices, write_indices, write_picture
@@ -163,6 +164,7 @@ def test_what_no_point_can_keep_is_said(model):
         (plan_optimize, {"between": BOX, "trials": 0}, ["trials = 0"]),
         (plan_optimize, {"between": BOX, "check_seeds": 1}, ["check_seeds = 1"]),
         (plan_optimize, {"between": BOX, "limits": {"stress": "3 mm"}}, ["limits.stress = '3 mm'", "MPa"]),
+        (plan_optimize, {"between": BOX, "limits": {"stres": "3 MPa"}}, ['"limits.stres"', 'did you mean "limits.stress"']),
         (plan_optimize, {"between": BOX, "objective": []}, ['"objective"', 'did you mean "objectives"']),
         (plan_optimize, {"between": {"start.seed": [1, 9]}}, ["start.seed", "only real numbers have ranges"]),
     ],
@@ -177,6 +179,25 @@ def test_what_a_study_cannot_say_is_refused(model, plan, document, fragments):
 def test_a_response_that_does_not_exist_is_refused():
     with pytest.raises(UserError, match='unknown response "stres"; did you mean "stress"'):
         response("study.toml", {"stat.sigma_head_p999": np.ones(2)}, "stres")
+
+
+@pytest.mark.parametrize("kind", ["sensitivity", "optimize"])
+def test_a_response_that_does_not_exist_is_refused_before_a_run(tmp_path, kind):
+    """One line, and no folder is left."""
+    key = {"sensitivity": "responses", "optimize": "objectives"}[kind]
+    (tmp_path / "study.toml").write_text(f'{key} = ["stres"]\n[between]\njoint.mu = [0.1, 0.3]\n')
+    refused = command(kind, "study.toml", folder=tmp_path)
+    assert refused.returncode == 2 and refused.stderr == 'error: study.toml: unknown response "stres"; did you mean "stress"?\n'
+    assert [path.name for path in tmp_path.iterdir()] == ["study.toml"]
+
+
+def test_values_are_shown_in_units_that_people_use():
+    """SI inside; printed and drawn as the variable table displays them, a temperature with its offset."""
+    values = {"joint.fit": (-3e-6, "-3 um"), "stress": (3.1e8, "310 MPa"), "damage": (-7.0, "-7 log10 per hour"), "ball.T": (293.15, "20 degC")}
+    values |= {"max(cage.dislocation)": (2e-6, "2 um"), "rivet[3].sigma_head": (2e8, "200 MPa"), "shaft.omega": (100.0 * math.pi, "3000 rev/min")}
+    values |= {"joint.mu": (0.2, "0.2"), "wall_time": (2.0, "2"), "mean(bearing.friction_torque)": (0.1, "0.1 N.m")}
+    assert {name: shown(name, value) for name, (value, _) in values.items()} == {name: text for name, (_, text) in values.items()}
+    assert titled("joint.fit") == "joint.fit [um]" and titled("joint.mu") == "joint.mu"
 
 
 def test_the_bench_simulates_what_it_is_asked_and_nothing_twice(tmp_path, model, monkeypatch):

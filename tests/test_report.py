@@ -353,14 +353,23 @@ def test_animation_plays_and_scrubs(opened, width, height, scheme):
     tab.close()
 
 
-def test_printed_page_is_light_and_has_the_picture(opened):
-    """Printing from a dark screen: dark ink on white, and the canvas drawn again for it."""
-    tab, complaints = opened(1280, 900, "dark")
+PAPER = (703, 965)  # what 12 mm of margin leave of the narrower of A4 and Letter, and of the shorter, at 96 pixels an inch
+
+
+@pytest.mark.parametrize("width", [1280, 375])
+def test_printed_page_is_light_and_has_the_picture(opened, width):
+    """Printing from a dark screen: dark ink on white, and the canvas drawn again for it, on the first page."""
+    tab, complaints = opened(width, 900, "dark")
     tab.evaluate("dispatchEvent(new Event('beforeprint'))")
     assert tab.evaluate("getComputedStyle(document.body).backgroundColor") == "rgb(255, 255, 255)"
     tab.emulate_media(media="print", color_scheme="dark")
+    tab.set_viewport_size({"width": PAPER[0], "height": PAPER[1]})
     shown = np.array(Image.open(io.BytesIO(tab.screenshot(full_page=True))).convert("RGB"))
     box = tab.locator("#front").bounding_box()
+    assert tab.evaluate("document.documentElement.scrollWidth") <= PAPER[0]
+    assert (
+        tab.evaluate("document.getElementById('animation').getBoundingClientRect().bottom") <= PAPER[1]
+    )  # else the first page ends above it, two thirds empty
     part = shown[round(box["y"]) : round(box["y"] + box["height"]), round(box["x"]) : round(box["x"] + box["width"])]
     extents = [np.ptp(where) for where in np.nonzero(np.all(part == (211, 219, 227), axis=2))]  # the colour of the rings on paper
     assert min(extents) > 150 and extents[0] == pytest.approx(extents[1], rel=0.02)  # a circle: to 2 of 250 pixels; stretched over the paper's width 2.2

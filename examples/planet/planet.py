@@ -16,6 +16,14 @@ import riveted_bearing as rb
 R, R_PLANET, PLANET = 0.15, 0.06, 1.5  # [m], [m], mass of the planet gear [kg]
 MESH = 2500.0  # tangential load of both meshes [N]
 RING = 0.6  # ring.m [kg]: held by the pin, not by the balls
+COLUMNS = {  # of the printed table: key of a summary -> heading, factor, format
+    "sigma_head_mean": ("head mean [MPa]", 1.0, ".0f"),
+    "sigma_head_p999": ("head 99.9 % [MPa]", 1.0, ".0f"),
+    "eccentricity": ("eccentricity/clearance", 1.0, ".2f"),
+    "power_loss": ("power loss [W]", 1.0, ".0f"),
+    "cage_omega": ("cage [r/min]", 30.0 / np.pi, ",.0f"),
+    "RTF": ("real-time factor", 1.0, ".1f"),
+}
 OUTPUTS = ["rivet.sigma_head_max", "rivet.sigma_mid_max", "cage.omega", "cage.eccentricity", "bearing.power_loss", "event.*", "stat.*"]
 
 
@@ -30,12 +38,22 @@ def run(speed, field=True, t_end=0.12, fmu=None, **parameters):
 
 
 def summary(result):
-    """Mean and 99.9 % quantile of the worst rivet's head stress [MPa], land contact, power loss [W], real-time factor."""
+    """Mean and 99.9 % quantile of the worst rivet's head stress [MPa], eccentricity of the cage, power loss [W], cage speed [rad/s], real-time factor."""
     values = {name: float(result.data[f"stat.{name}"][-1]) / 1e6 for name in ("sigma_head_mean", "sigma_head_p999")}
     later = result.data["time"] > 0.04
     values["eccentricity"] = float(np.mean(result.data["cage.eccentricity"][later]))
     values["power_loss"] = float(np.mean(result.data["bearing.power_loss"][later]))
     return values | {"cage_omega": float(np.mean(result.data["cage.omega"][later])), "RTF": result.summary["real_time_factor"]}
+
+
+def table(speeds, rows):
+    """Lines of the printed table: each value with the carrier's field, in brackets without it."""
+    lines = [["carrier [r/min]", *(heading for heading, _, _ in COLUMNS.values())]]
+    for speed, *both in zip(speeds, rows[True], rows[False], strict=True):
+        cells = [[format(round(factor * row[key], 6) + 0.0, form) for row in both] for key, (_, factor, form) in COLUMNS.items()]
+        lines.append([f"{speed:,.0f}", *(f"{inside} ({outside})" for inside, outside in cells)])
+    widths = [max(map(len, column)) for column in zip(*lines, strict=True)]
+    return ["  ".join(cell.rjust(width) for cell, width in zip(line, widths, strict=True)) for line in lines]
 
 
 def plot(speeds, rows, path):
@@ -50,7 +68,8 @@ def plot(speeds, rows, path):
         right.plot(speeds, [row["eccentricity"] for row in rows[field]], "o-", color=colour, label=label)
     left.set(xlabel="carrier [r/min]", ylabel="head stress of the worst rivet [MPa]")
     right.set(xlabel="carrier [r/min]", ylabel="eccentricity of the cage / clearance")
-    left.legend(), right.legend()
+    left.legend()
+    right.legend()
     figure.savefig(path, dpi=110)
 
 
@@ -60,7 +79,7 @@ if __name__ == "__main__":
     parser.add_argument("--picture", type=Path)
     options = parser.parse_args()
     rows = {field: [summary(run(speed, field)) for speed in options.speeds] for field in (True, False)}
-    for speed, with_field, without in zip(options.speeds, rows[True], rows[False], strict=True):
-        print(f"{speed:6.0f} r/min", *(f"{name} {with_field[name]:.3g} ({without[name]:.3g})" for name in with_field), sep="  ")
+    print("Worst rivet, cage and loss over the carrier's speed; in brackets: without the carrier's field", *table(options.speeds, rows), sep="\n")
     if options.picture:
         plot(options.speeds, rows, options.picture)
+        print(f"picture  {options.picture}")

@@ -31,9 +31,10 @@ def optimize(
     model, document = Model(fmu), read_toml(study)
     plan = plan_optimize(study, document, model)
     folder = out or Path("results") / study.stem
-    make_folder(folder)
     with design_runs(study.stem, folder, scheduler, workers) as (client, progress):
-        found = search(plan, Bench(study, document, model, folder, client, progress))
+        bench = Bench(study, document, model, folder, client, progress).check(plan.responses)
+        make_folder(folder)
+        found = search(plan, bench)
     print_optimum(found)
     for label, path in (("results", write_optimum(found, folder / "optimize.json")), ("picture", write_picture(found, folder / "optimize.png"))):
         console.print(f"{label:8} [cyan]{escape(str(path))}[/]", soft_wrap=True)
@@ -41,13 +42,14 @@ def optimize(
 
 def print_optimum(found):
     """The points simulated again, the recommended one marked."""
-    from ..design.optimize import label
+    from ..design.bench import display_of, displayed, titled
 
     study = found.study
-    heads = [*study.box.names, *map(label, study.responses)]
+    heads = map(titled, (*study.box.names, *study.responses))
     table = Table("", *(Column(escape(text), justify="right") for text in heads), box=None, pad_edge=False)
     for place, (i, mean, error) in enumerate(zip(found.candidates, found.means, found.errors, strict=True)):
-        cells = [f"{value:.4g}" for value in found.points[i]] + [f"{m:.4g} ± {e:.2g}" for m, e in zip(mean, error, strict=True)]
+        cells = [f"{displayed(name, value):.4g}" for name, value in zip(study.box.names, found.points[i], strict=True)]
+        cells += [f"{displayed(name, m):.4g} ± {display_of(name)[1] * e:.2g}" for name, m, e in zip(study.responses, mean, error, strict=True)]
         table.add_row("recommended" if place == found.best else "", *cells, style="bold" if place == found.best else None)
     console.print(table)
     text = f"{len(found.points)} points searched; means ± standard error over {study.check_seeds} seeds that the search has not seen"

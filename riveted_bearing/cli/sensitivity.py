@@ -32,29 +32,33 @@ def sensitivity(
     model, document = Model(fmu), read_toml(study)
     plan = plan_sensitivity(study, document, model, assumed_ranges(model))
     folder = out or Path("results") / study.stem
-    make_folder(folder)
     with design_runs(study.stem, folder, scheduler, workers) as (client, progress):
-        found = analyse(plan, Bench(study, document, model, folder, client, progress))
-    print_indices(found)
+        bench = Bench(study, document, model, folder, client, progress).check(plan.responses)
+        make_folder(folder)
+        found = analyse(plan, bench)
+    print_indices(found, plan.box)
     for label, path in (("results", write_indices(found, folder / "sensitivity.json")), ("picture", write_picture(found, folder / "sensitivity.png"))):
         console.print(f"{label:8} [cyan]{escape(str(path))}[/]", soft_wrap=True)
 
 
-def print_indices(found):
-    """One table for each response."""
+def print_indices(found, box):
+    """One table for each response; box: of the factors' ranges."""
+    from ..design.bench import display_of, displayed, titled
     from ..design.sensitivity import order
 
+    ends = [f"{displayed(name, low):.4g} ... {displayed(name, high):.4g}" for name, low, high in zip(box.names, box.low, box.high, strict=True)]
     for name in found.responses:
         morris, sobol = found.morris[name], found.sobol.get(name)
-        noise = "" if morris["noise"] is None else f", seeds alone {morris['noise']:.3g}"
+        factor = display_of(name)[1]
+        noise = "" if morris["noise"] is None else f", seeds alone {factor * morris['noise']:.3g}"
         share = "" if sobol is None or sobol["noise"] is None else f", seeds have {100 * sobol['noise']:.2g} % of the variance"
-        console.print(f"\n[bold]{escape(name)}[/]  [dim]mu* of Morris{noise}{share}[/]", soft_wrap=True)
-        heads = ("mu*", "±", "sigma", "S1", "±", "ST", "±")
+        console.print(f"\n[bold]{escape(titled(name))}[/]  [dim]mu* of Morris{noise}{share}[/]", soft_wrap=True)
+        heads = ("range", "mu*", "±", "sigma", *(("S1", "±", "ST", "±") if sobol else ()))
         table = Table("factor", *(Column(text, justify="right") for text in heads), box=None, pad_edge=False)
         for k in order(found, name):
-            cells = [f"{morris[key][k]:.3g}" for key in ("mu_star", "mu_star_conf", "sigma")]
+            cells = [ends[k], *(f"{factor * morris[key][k]:.3g}" for key in ("mu_star", "mu_star_conf", "sigma"))]
             if found.factors[k] in found.chosen and sobol:
                 place = found.chosen.index(found.factors[k])
                 cells += [f"{sobol[key][place]:.2f}" for key in ("S1", "S1_conf", "ST", "ST_conf")]
-            table.add_row(escape(found.factors[k]), *cells)
+            table.add_row(escape(titled(found.factors[k])), *cells)
         console.print(table)

@@ -11,14 +11,18 @@ halves [m]), friction (mean torque [N.m]), pocket_force (RMS [N]), or the name o
 """
 
 import hashlib
+import re
 from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 
+from bearing_model import variables
+
 from ..errors import UserError, unknown
 from ..scene import leaves, load_scene, refusal, section_of
 from ..sweep import Sweep, beside, bounds, columns_of, compact, count_of, key_of, known_names, run_sweep, schema_of, sections_of
+from ..variable_list import KNOWN
 
 COMMON = ("description", "scene", "simulation", "parameters", "inputs", "between", "seeds", "seed")
 OUTPUTS = ["cage.dislocation", "bearing.friction_torque", "event.joint_open"]
@@ -28,7 +32,7 @@ COLUMNS = {
     "friction": "mean(bearing.friction_torque)",
     "pocket_force": "stat.Q_c_rms",
 }
-UNITS = {"damage": "log10 per hour", "stress": "Pa", "dislocation": "m", "friction": "N.m", "pocket_force": "N"}
+DAMAGE_UNIT = "log10 per hour"
 NO_DAMAGE = 1e-300
 
 
@@ -82,6 +86,18 @@ class Bench:
         self.fingerprint = hashlib.sha256(self.fmu).hexdigest()
         self.scenes = {}
 
+    def sweep(self, names, scenes):
+        """The runs of scenes by key, in which the names vary."""
+        return Sweep(self.path.stem, str(self.document.get("description", "")), self.model, self.fmu, self.document, tuple(names), scenes, (), True)
+
+    def check(self, responses):
+        """Refuse a response that the rows will not have, before anything is simulated."""
+        columns = schema_of(self.sweep((), {"": self.scene})).names
+        for name in responses:
+            if name != "damage" and COLUMNS.get(name, name) not in columns:
+                raise unknown(self.path, "response", name, ["damage", *COLUMNS, *columns])
+        return self
+
     def scene_at(self, names, point):
         """The scene of one point."""
         settings = {name: self.plain(name, value) for name, value in zip(names, point, strict=True)}
@@ -102,7 +118,7 @@ class Bench:
                 run = replace(scene, parameters=scene.parameters | {"start.seed": seed})
                 keys.append(key_of(run, self.fingerprint))
                 self.scenes[keys[-1]] = run
-        sweep = Sweep(self.path.stem, str(self.document.get("description", "")), self.model, self.fmu, self.document, tuple(names), self.scenes, (), True)
+        sweep = self.sweep(names, self.scenes)
         stored = compact(self.folder, schema_of(sweep), list(self.scenes), True)
         wanted = list(dict.fromkeys(keys))
         rows = run_sweep(sweep, self.folder, self.client(), self.progress, wanted) if set(wanted) - stored else columns_of(self.folder)
@@ -117,7 +133,7 @@ class Bench:
 
     def point_text(self, names, rows, i):
         """A point in words."""
-        return ", ".join(f"{name} = {rows[name][i]:g}" for name in names if name in rows)
+        return ", ".join(f"{name} = {shown(name, rows[name][i])}" for name in names if name in rows)
 
 
 def response(path, rows, name):
@@ -130,6 +146,36 @@ def response(path, rows, name):
     if column not in rows or not np.issubdtype(np.asarray(rows[column]).dtype, np.number):
         raise unknown(path, "response", name, ["damage", *COLUMNS, *(key for key in rows if np.issubdtype(np.asarray(rows[key]).dtype, np.number))])
     return np.asarray(rows[column], float)
+
+
+def display_of(name):
+    """Unit in which people read a response, parameter or input, "" without one; factor and offset that make it from the SI value."""
+    if name == "damage":
+        return DAMAGE_UNIT, 1.0, 0.0
+    inner = re.fullmatch(r"(?:\w+\()?([^()]*)\)?", COLUMNS.get(name, name))
+    variable = next((KNOWN[key] for index in ("[j]", "[k]") if inner and (key := re.sub(r"\[\d+\]", index, inner[1])) in KNOWN), None)
+    if variable is None:
+        return "", 1.0, 0.0
+    symbol = variable.display or variable.unit
+    return "" if symbol == "1" else symbol, *variables.UNITS[variable.unit][symbol]
+
+
+def titled(name):
+    """A name with the unit in which its values are shown."""
+    unit = display_of(name)[0]
+    return f"{name} [{unit}]" if unit else name
+
+
+def displayed(name, values):
+    """SI values in the unit in which people read them."""
+    _, factor, offset = display_of(name)
+    return factor * np.asarray(values, float) + offset
+
+
+def shown(name, value):
+    """An SI value as text with its unit."""
+    unit = display_of(name)[0]
+    return f"{displayed(name, value):.4g}{unit and f' {unit}'}"
 
 
 def response_names(path, key, value):

@@ -27,7 +27,7 @@ from ..results import write_atomically
 from ..scene import refusal, section_of
 from ..sweep import count_of
 from ..units import to_si
-from .bench import COLUMNS, COMMON, UNITS, Box, response_names
+from .bench import COLUMNS, COMMON, Box, display_of, displayed, response_names, titled
 
 KEYS = (*COMMON, "objectives", "limits", "trials", "batch", "check_seeds", "candidates")
 COUNTS = {"trials": 40, "batch": 4, "check_seeds": 8, "candidates": 5}
@@ -88,6 +88,8 @@ def plan_optimize(path, document, model):
         try:
             limits[name] = to_si(value, model.units[variable.unit] if variable else {"1": (1.0, 0.0)})
         except UserError as problem:
+            if variable is None and name != "damage":  # a misspelt name, rather than a column without a unit
+                raise unknown(path, "response", f"limits.{name}", [f"limits.{key}" for key in ("damage", *COLUMNS)]) from None
             raise refusal(path, f"limits.{name}", value, problem) from None
     box = Box(path, section_of(path, document, "between"), model)
     names = [name.removeprefix("-") for name in objectives]
@@ -202,6 +204,7 @@ def write_picture(found, path):
         figure, ax = plt.subplots(figsize=(6.6, 5.0), layout="constrained")
         (pareto_panel if len(found.study.objectives) > 1 else single_panel)(ax, found)
         figure.suptitle(f"{found.study.path.stem}: {len(found.points)} points searched", x=0.01, ha="left", fontsize=11)
+        figure.legend(loc="outside lower center", ncols=3, fontsize=8)  # points lie anywhere on the panel
         write_atomically(path, lambda temporary: figure.savefig(temporary, dpi=110))
         plt.close(figure)
     return path
@@ -211,32 +214,30 @@ def pareto_panel(ax, found):
     """The first two objectives: all points, the front, the candidates with their standard errors, the recommendation."""
     study = found.study
     keeps = np.all(excess(study, found.values) <= 0.0, axis=1)
-    ax.plot(*found.values[~keeps, :2].T, "x", color=MUTED, ms=5, label="beyond a limit") if not keeps.all() else None
-    ax.plot(*found.values[keeps, :2].T, ".", color=MUTED, ms=7, label="searched")
-    edge = found.values[front(study, found.values)][:, :2]
+    values = [displayed(name, found.values[:, i]) for i, name in enumerate(study.objectives[:2])]
+    means = [displayed(name, found.means[:, i]) for i, name in enumerate(study.objectives[:2])]
+    errors = [display_of(name)[1] * found.errors[:, i] for i, name in enumerate(study.objectives[:2])]
+    x, y = values
+    ax.plot(x[~keeps], y[~keeps], "x", color=MUTED, ms=5, label="beyond a limit") if not keeps.all() else None
+    ax.plot(x[keeps], y[keeps], ".", color=MUTED, ms=7, label="searched")
+    edge = np.column_stack(values)[front(study, found.values)]
     edge = edge[edge[:, 0].argsort()]
     ax.step(edge[:, 0], edge[:, 1], where="post", color=MIDDLE, lw=1.2, label="Pareto front of the search")
-    candidates(ax, found, found.means[:, 0], found.means[:, 1], found.errors[:, 0], found.errors[:, 1])
-    ax.set(xlabel=label(study.objectives[0]), ylabel=label(study.objectives[1]))
-    ax.legend(fontsize=8)
+    candidates(ax, found, *means, *errors)
+    ax.set(xlabel=titled(study.objectives[0]), ylabel=titled(study.objectives[1]))
 
 
 def single_panel(ax, found):
     """One objective over the first variable."""
-    study = found.study
-    ax.plot(found.points[:, 0], found.values[:, 0], ".", color=MUTED, ms=7, label="searched")
-    candidates(ax, found, found.points[found.candidates, 0], found.means[:, 0], None, found.errors[:, 0])
-    ax.set(xlabel=study.box.names[0], ylabel=label(study.objectives[0]))
-    ax.legend(fontsize=8)
+    variable, objective = found.study.box.names[0], found.study.objectives[0]
+    x = displayed(variable, found.points[:, 0])
+    ax.plot(x, displayed(objective, found.values[:, 0]), ".", color=MUTED, ms=7, label="searched")
+    candidates(ax, found, x[found.candidates], displayed(objective, found.means[:, 0]), None, display_of(objective)[1] * found.errors[:, 0])
+    ax.set(xlabel=titled(variable), ylabel=titled(objective))
 
 
 def candidates(ax, found, x, y, x_error, y_error):
     """Candidates with their standard errors over fresh seeds; the recommendation filled."""
     ax.errorbar(x, y, xerr=x_error, yerr=y_error, fmt="o", mfc="white", color=FORCE, ms=5, lw=0.9, label="again, fresh seeds")
     if found.best is not None:
-        ax.plot(x[found.best], y[found.best], "o", color=HEAD, ms=8, label="recommended")
-
-
-def label(name):
-    """A response with its unit."""
-    return f"{name} [{UNITS[name]}]" if name in UNITS else name
+        ax.plot(x[found.best], y[found.best], "o", color=HEAD, ms=8, zorder=5, label="recommended")

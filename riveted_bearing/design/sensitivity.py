@@ -28,7 +28,7 @@ from ..plot import FORCE, HEAD, MIDDLE, MUTED, STYLE, plt
 from ..results import write_atomically
 from ..scene import refusal, section_of
 from ..sweep import count_of
-from .bench import COMMON, Box, noise_variance, response_names
+from .bench import COMMON, Box, display_of, noise_variance, response_names
 
 KEYS = (*COMMON, "responses", "morris", "sobol")
 METHODS = {"morris": ("trajectories", "levels"), "sobol": ("factors", "count")}
@@ -180,6 +180,9 @@ def write_picture(found, path):
             screening_panel(row[0], found, name)
             if found.sobol:
                 sobol_panel(row[1], found, name)
+        keys = {text: handle for ax in axes.flat for handle, text in zip(*ax.get_legend_handles_labels(), strict=True)}
+        if keys:  # beside the panels, whose bars and errors lie anywhere
+            figure.legend(keys.values(), keys, loc="outside lower center", ncols=len(keys))
         write_atomically(path, lambda temporary: figure.savefig(temporary, dpi=110))
         plt.close(figure)
     return path
@@ -188,15 +191,15 @@ def write_picture(found, path):
 def screening_panel(ax, found, name):
     """Bars of mu_star with their confidence; the effect of noise alone as a line."""
     indices, ranked = found.morris[name], order(found, name)
-    size, error = (np.array([indices[key][k] for k in ranked]) for key in ("mu_star", "mu_star_conf"))
+    unit, factor, _ = display_of(name)
+    size, error = (factor * np.array([indices[key][k] for k in ranked]) for key in ("mu_star", "mu_star_conf"))
     ax.barh(range(len(ranked)), size, xerr=error, color=MIDDLE, height=0.6, error_kw={"ecolor": FORCE, "lw": 1.0})
     ax.set_yticks(range(len(ranked)), [found.factors[k] for k in ranked])
     ax.invert_yaxis()
     ax.grid(axis="y", visible=False)
     if indices["noise"] is not None:
-        ax.axvline(indices["noise"], color=HEAD, lw=1.2, ls="--", label="seeds alone")
-        ax.legend(loc="lower right")
-    ax.set(title=f"{name}: effect over the range (Morris)", xlabel="mu* (change of the response)")
+        ax.axvline(factor * indices["noise"], color=HEAD, lw=1.2, ls="--", label="seeds alone")
+    ax.set(title=f"{name}: effect over the range (Morris)", xlabel=f"mu*: change of the response{unit and f' [{unit}]'}")
     ax.set_xlim(left=0.0)
 
 
@@ -209,7 +212,6 @@ def sobol_panel(ax, found, name):
     ax.invert_yaxis()
     ax.grid(axis="y", visible=False)
     if indices["noise"] is not None:
-        ax.axvline(indices["noise"], color=HEAD, lw=1.2, ls="--", label="seeds")
+        ax.axvline(indices["noise"], color=HEAD, lw=1.2, ls="--", label="seeds alone")
     ax.set(title=f"{name}: share of the variance (Sobol)", xlabel="alone S1, with interactions ST")
     ax.set_xlim(left=min(0.0, ax.get_xlim()[0]))
-    ax.legend(loc="best")

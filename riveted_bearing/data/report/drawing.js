@@ -20,7 +20,8 @@ function bearingDrawing({ Z, scale, bend, bearing, range, has }) {
     for (const name of ["ink", "muted", "line", "paper", "ring", "ball", "cage", "cage-back", "head", "middle", "force", "amber"]) colours[name] = style.getPropertyValue("--" + name).trim();
   }
   function prepare(canvas) {
-    const width = canvas.clientWidth, height = canvas.clientHeight, ratio = window.devicePixelRatio || 1;
+    const finer = document.documentElement.dataset.theme ? 3 : 1;  // on paper
+    const width = canvas.clientWidth, height = canvas.clientHeight, ratio = finer * (window.devicePixelRatio || 1);
     if (canvas.width !== Math.round(width * ratio) || canvas.height !== Math.round(height * ratio)) {
       canvas.width = Math.round(width * ratio);
       canvas.height = Math.round(height * ratio);
