@@ -1,11 +1,11 @@
 """Running statistics over time, weighted by the length of the steps: mean, RMS, largest value and quantiles of positive quantities.
 
-32 bins in each octave, 106 a decade: a bin is 1.6...3.1 % wide; 24 octaves above the channel's floor.  Smaller values count as below the floor.
+64 bins in each octave, 213 a decade: a bin is 0.8...1.6 % wide; 24 octaves above the channel's floor.  Smaller values count as below the floor.
 """
 
 import numpy as np
 
-STATISTICS_OCTAVES, STATISTICS_PER_OCTAVE = 24, 32
+STATISTICS_OCTAVES, STATISTICS_PER_OCTAVE = 24, 64
 STATISTICS_BINS = STATISTICS_OCTAVES * STATISTICS_PER_OCTAVE
 
 

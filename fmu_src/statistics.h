@@ -4,11 +4,11 @@
 
 #include <stdbool.h>
 
-// 32 bins in each octave, 106 in each decade: a bin is 1.6...3.1 % wide.  There are 24 octaves above the
+// 64 bins in each octave, 213 in each decade: a bin is 0.8...1.6 % wide, which a motion that repeats itself can feel whole.  There are 24 octaves above the
 // channel's floor; smaller values count as below the floor.
 enum {
     STATISTICS_OCTAVES = 24,
-    STATISTICS_PER_OCTAVE = 32,
+    STATISTICS_PER_OCTAVE = 64,
     STATISTICS_BINS = STATISTICS_OCTAVES * STATISTICS_PER_OCTAVE
 };
 
