@@ -9,7 +9,7 @@
 
 #define FMI2_FUNCTION_PREFIX RivetedBearing_  // of the functions of a source-code FMU
 #define MODEL_IDENTIFIER "RivetedBearing"
-#define MODEL_GUID "{09e881c3-c818-1090-a543-19bbd6e67f62}"  // digest of the table
+#define MODEL_GUID "{ff2c8cb6-fb64-dae7-a42d-20bd4012e49f}"  // digest of the table
 
 enum { Z = 9 };  // number of balls
 
