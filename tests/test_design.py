@@ -2,6 +2,8 @@
 
 import json
 import math
+import subprocess
+import sys
 from pathlib import Path
 
 import numpy as np
@@ -216,3 +218,12 @@ def test_the_bench_simulates_what_it_is_asked_and_nothing_twice(tmp_path, model,
 
     again = Bench(tmp_path / "b.toml", document, model, tmp_path / "out", no_cluster)(["joint.preload"], [[10.0], [60.0]], ["damage", "stress"])
     np.testing.assert_array_equal(again, first)
+
+
+@pytest.mark.parametrize(("kind", "key", "library"), [("sensitivity", "responses", "SALib"), ("optimize", "objectives", "optuna")])
+def test_a_missing_library_is_named_and_leaves_nothing(tmp_path, kind, key, library):
+    (tmp_path / "study.toml").write_text(f'{key} = ["stress"]\n[between]\njoint.mu = [0.1, 0.3]\n')
+    without = f"import sys; sys.modules[{library!r}] = None; sys.argv = ['', {kind!r}, 'study.toml']; from riveted_bearing.__main__ import main; main()"
+    refused = subprocess.run([sys.executable, "-c", without], cwd=tmp_path, capture_output=True, text=True)
+    assert refused.returncode == 2 and refused.stderr.startswith(f"error: {kind}: needs the library") and refused.stderr.count("\n") == 1
+    assert [path.name for path in tmp_path.iterdir()] == ["study.toml"]

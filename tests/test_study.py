@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from bearing_model import rivet_table
+from bearing_model.variables import CageModel
 from rivet_model import table
 from riveted_bearing import build, run
 from riveted_bearing.fmu import Model
@@ -52,6 +53,13 @@ def test_designs_have_eight_seeds_and_the_working_point(model, name):
 
 def test_seeds_can_be_fewer(model):
     assert len(study_sweep("preload", model, repeats=2).scenes) == 20
+
+
+def test_all_sweeps_can_have_elastic_halves(model):
+    for name in shipped_studies():
+        usual, elastic = study_sweep(name, model), study_sweep(name, model, repeats=2, cage="elastic")
+        assert {scene.parameters["scene.cage"] for scene in elastic.scenes.values()} == {CageModel.ELASTIC}
+        assert {scene.parameters["scene.cage"] for scene in usual.scenes.values()} == {CageModel.TWO_HALF}
 
 
 def test_clearances_hold_what_they_say(model):
@@ -149,6 +157,20 @@ def test_the_page_has_pictures_claims_and_cost(clearance, tmp_path, monkeypatch)
     series = study.clearance_series(data["clearance"], "constant sum 0.4 mm")
     lowest = min(np.unique(series["ratio"]), key=lambda value: series.at(ratio=value).estimate("force").mean)
     assert f"constant sum: mean force {lowest:g}," in text
+
+
+def test_verdicts_of_elastic_halves_stand_beside_those_of_rigid_ones(clearance, tmp_path):
+    """Forces that fall with the ratio, whatever the real ones do: verdicts differ, and the page has the figures where they do."""
+    rigid = {"clearance": study.runs_of(clearance)}
+    columns = rigid["clearance"].columns
+    bent = {"clearance": Runs(columns | {"force": 10.0 - columns["ratio"], "force_peak": 10.0 - columns["ratio"]})}
+    text = paper.write_paper(rigid, tmp_path, bent).read_text()
+    both = list(zip(claims.all_claims(rigid)["clearance"], claims.all_claims(bent)["clearance"], strict=True))
+    part = text[text.index("## With elastic halves") :]
+    for claim, soft in both:
+        assert f"| {claim.where} | {claim.said} | {claim.verdict} | {soft.verdict} |" in part
+        assert (f"- **{soft.said}** ({soft.where}): {soft.found}" in part) == (claim.verdict != soft.verdict)
+    assert any(claim.verdict != soft.verdict for claim, soft in both)
 
 
 def test_a_band_shows_means_and_confidence():

@@ -22,7 +22,7 @@ def optimize(
 ):
     """Which values to choose: a search under the noise of the seeds, its best points again with fresh seeds; a second call does only missing runs."""
     from ..design.bench import Bench
-    from ..design.optimize import plan_optimize, search, write_optimum, write_picture
+    from ..design.optimize import optuna_library, plan_optimize, search, write_optimum, write_picture
     from ..errors import UserError
     from ..fmu import Model
 
@@ -30,6 +30,7 @@ def optimize(
         raise UserError(f"{study}: no such study file")
     model, document = Model(fmu), read_toml(study)
     plan = plan_optimize(study, document, model)
+    optuna_library()  # before there is a folder
     folder = out or Path("results") / study.stem
     with design_runs(study.stem, folder, scheduler, workers) as (client, progress):
         bench = Bench(study, document, model, folder, client, progress).check(plan.responses)

@@ -22,7 +22,7 @@ def sensitivity(
 ):
     """What decides life and stress: screening of all factors (Morris), then shares of the variance (Sobol); a second call does only missing runs."""
     from ..design.bench import Bench
-    from ..design.sensitivity import analyse, plan_sensitivity, write_indices, write_picture
+    from ..design.sensitivity import analyse, plan_sensitivity, salib, write_indices, write_picture
     from ..errors import UserError
     from ..fmu import Model
     from ..summary import assumed_ranges
@@ -31,6 +31,7 @@ def sensitivity(
         raise UserError(f"{study}: no such study file")
     model, document = Model(fmu), read_toml(study)
     plan = plan_sensitivity(study, document, model, assumed_ranges(model))
+    salib()  # before there is a folder
     folder = out or Path("results") / study.stem
     with design_runs(study.stem, folder, scheduler, workers) as (client, progress):
         bench = Bench(study, document, model, folder, client, progress).check(plan.responses)

@@ -17,6 +17,7 @@ def study(
     out: Annotated[Path, typer.Option(help="folder of the runs")] = Path("results/study"),
     report: Annotated[Path | None, typer.Option(help="folder of paper.md and its pictures; default: that of the runs")] = None,
     seeds: Annotated[int | None, typer.Option(min=2, help="seeds of each point; default: eight, which the report's confidence needs")] = None,
+    elastic: Annotated[bool, typer.Option("--elastic", help="all sweeps with elastic cage halves too: their verdicts beside those of rigid halves")] = False,
     scheduler: SCHEDULER = None,
     workers: WORKERS = None,
 ):
@@ -31,5 +32,6 @@ def study(
     make_folder(report or out)
     with resumable(out), cluster(scheduler, workers) as client, sweep_progress() as progress:
         data = run_study(model, out, client, names, seeds, progress)
-    path = write_paper(data, report or out)
+        bent = run_study(model, out / "elastic", client, names, seeds, progress, cage="elastic") if elastic else None
+    path = write_paper(data, report or out, bent)
     console.print(f"report   [cyan]{escape(str(path))}[/]", soft_wrap=True)

@@ -29,21 +29,21 @@ paper's; the sweeps are in `riveted_bearing/data/studies/`.
   support of the ring (Figs. 13 and 14), the local bending of the cage halves (Fig. 13), the clearances (Fig. 16), and how the two halves share a pocket force
   (beside Fig. 10).
 - The cage halves are rigid in their motion (`scene.cage = two_half`), because the paper's equations move each half as a rigid body. What
-  elastic halves, the default elsewhere, make of the same points of speed, fit and tilt stands in
-  [validation.md](validation.md#what-the-load-path-and-elastic-halves-change).
+  elastic halves, the default elsewhere, make of the same sweeps stands [below](#with-elastic-halves).
 - Rivets are elastic here: a figure beyond yield (590 MPa, assumed) tells how far the load exceeds yield, not the stress.
 - **Verdict**: *reproduced* if all conditions of a claim hold with their confidence, *partly* if some do, *not* if none does. The conditions are in
   `riveted_bearing/paper_study/claims.py`.
 """
 
 
-def write_paper(data, folder):
-    """Write paper.md and its pictures into a folder from the Runs by name; returns the file's path."""
+def write_paper(data, folder, elastic=None):
+    """Write paper.md and its pictures into a folder from the Runs by name; elastic: those with elastic halves.  Returns the file's path."""
     folder = Path(folder)
     claims = all_claims(data)
     pictures = draw(data, folder / "paper")
     parts = [INTRODUCTION, summary_text(claims)]
     parts += [picture_text(name, path.relative_to(folder), claims.get(name, ())) for name, path in pictures.items()]
+    parts += [elastic_text(claims, elastic)] if elastic else []
     parts += [centrifugal_text(data["centrifugal"])] if "centrifugal" in data else []
     parts += [tolerance_text(data["tolerance"])] if "tolerance" in data else []
     parts.append(cost_text(data, claims.get("cost", ())))
@@ -72,6 +72,27 @@ def details_text(claims):
     """Each claim with its verdict, the figures of the runs, and the reason."""
     text = "".join(f"- **{claim.said}** ({claim.where}): {claim.verdict}.\n  - Here: {claim.found}\n  - Why: {claim.why}\n" for claim in claims)
     return text.replace("Here: \n", "Here:\n")
+
+
+def elastic_text(claims, data):
+    """Verdicts with elastic halves beside those with rigid ones, and the figures wherever the two differ."""
+    bent = all_claims(data)
+    pairs = [(rigid, soft) for name in claims if name in bent for rigid, soft in zip(claims[name], bent[name], strict=True)]
+    count = {verdict: sum(soft.verdict == verdict for _, soft in pairs) for verdict in ("reproduced", "partly", "**not**")}
+    lines = [
+        "## With elastic halves",
+        "",
+        "The same sweeps with `scene.cage = elastic`: pockets' walls give way to an impact, joints ring and carry what the motion gives them. "
+        f"Of {len(pairs)} claims {count['reproduced']} are reproduced, {count['partly']} partly, {count['**not**']} not. Both verdicts, and the figures of "
+        "elastic halves where they differ:",
+        "",
+        "| section | the paper says | rigid halves | elastic halves |",
+        "|---|---|---|---|",
+        *(f"| {rigid.where} | {rigid.said} | {rigid.verdict} | {soft.verdict} |" for rigid, soft in pairs),
+        "",
+        *(f"- **{soft.said}** ({soft.where}): {soft.found}" for rigid, soft in pairs if rigid.verdict != soft.verdict),
+    ]
+    return "\n".join(lines) + "\n"
 
 
 def centrifugal_text(runs):

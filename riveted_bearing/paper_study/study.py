@@ -43,19 +43,25 @@ def check_names(names):
             raise unknown("study", "study", name, shipped_studies())
 
 
-def study_sweep(name, model, repeats=None):
-    """The Sweep of a shipped study; repeats: number of seeds in the place of the study's own, if the study varies the seed."""
+def study_sweep(name, model, repeats=None, cage=None):
+    """The Sweep of a shipped study; repeats: number of seeds in the place of the study's own, if the study varies the seed;
+    cage: in the place of its own.
+    """
     check_names([name])
     path = SHIPPED / f"{name}.toml"
     sweep = load_sweep(path, model)
-    if repeats is None or "repeats" not in sweep.document:
-        return sweep
-    return plan_sweep(name, sweep.document | {"repeats": repeats}, model, path)
+    document = dict(sweep.document)
+    if repeats is not None and "repeats" in document:
+        document["repeats"] = repeats
+    if cage is not None:
+        given = document["parameters"]
+        document["parameters"] = given | {"scene": given["scene"] | {"cage": cage}}
+    return sweep if document == sweep.document else plan_sweep(name, document, model, path)
 
 
-def run_study(model, folder, client, names=None, repeats=None, progress=None):
+def run_study(model, folder, client, names=None, repeats=None, progress=None, cage=None):
     """Do the runs that the study's folder lacks and return its Runs by name; progress: called with name and the numbers of runs done, failed, in all."""
-    sweeps = [study_sweep(name, model, repeats) for name in names or shipped_studies()]
+    sweeps = [study_sweep(name, model, repeats, cage) for name in names or shipped_studies()]
     progress = progress or (lambda *_: None)
     return {
         sweep.name: runs_of(run_sweep(sweep, Path(folder) / sweep.name, client, lambda *counts, name=sweep.name: progress(name, *counts))) for sweep in sweeps
