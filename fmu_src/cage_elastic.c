@@ -16,8 +16,8 @@
 //     L^ = K e,     (L, T, m_r, m_t) = law(L^, P)
 //
 // with the joint's law over K (elastic_half.c): its pads move by delta, L = K (e - delta).  So each joint follows from its own
-// pads; what the loads of other joints move them by beside the modes is left out, below 7 % of the residual from 4.4 modes a
-// pitch on.  In the plane, friction states and the hole's contact are those of cage_joint.c, in series with what the modes leave.
+// pads; what the loads of other joints move them by beside the modes is left out: with 4.4 modes a pitch 7 % of what a joint's
+// own load does.  In the plane, friction states and the hole's contact are those of cage_joint.c, in series with what the modes leave.
 // Pads do not hold each other about x.
 //
 // The centrifugal load widens a half, which takes spin from it: its moment of inertia is J_p + 2 sum spin_i q_i.  Coriolis
