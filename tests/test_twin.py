@@ -8,6 +8,7 @@ from library import TWO_HALF
 from mechanics import SLICE, Instance, Z
 
 from bearing_model import variables
+from bearing_model.derived import default_table
 from bearing_model.energy import energy_total, power_loss
 from bearing_model.integrator import observe, simulate
 from bearing_model.land_film import land_film_gap
@@ -20,7 +21,7 @@ from bearing_model.statistics import StatisticsChannel
 
 # A hybrid bearing: smaller ceramic-like balls of unequal size, other conformities, clearances, cage, oil and joints (d_m and Z are the rivet table's).
 OTHER = {
-    "bearing.D": 0.0095,
+    "bearing.D": round(0.855 * variables.PARAMETERS["bearing.D"].start, 4),
     "oil.flow": 2e-5,
     "scene.growth": 2,
     "ring.bore": 0.03,
@@ -84,6 +85,8 @@ SCENES = {
     "elastic": (ELASTIC | UNBALANCE | {"joint.fit": -3e-6}, {}),
     "other_rigid": (OTHER | RIGID | FREE | MIXED, SLOW),
 }
+if default_table().modes is None:  # of a table by closed forms
+    del SCENES["elastic"]
 SCENES = {name: (TWO_HALF | parameters, inputs) for name, (parameters, inputs) in SCENES.items()}
 PER_SCENE = 120  # 1800 states in all
 
