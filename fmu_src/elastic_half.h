@@ -49,9 +49,8 @@ struct ElasticHalf {
     double weight[MODES];  // omega^2 of the others, 0 of those
     double widest[MODES];  // largest |u|/|q| of those, 0 of the others
     double compliance;     // of a wall along its normal, by the residual, less that in Hertz's [m/N]
-    double R[PAD_OUT][PAD_OUT],
-        K[PAD_OUT][PAD_OUT];  // what the modes leave between the pads of a joint, out of the
-                              // plane: compliance and its inverse
+    // what the modes leave between the pads of a joint, out of the plane: compliance and its inverse
+    double R[PAD_OUT][PAD_OUT], K[PAD_OUT][PAD_OUT];
     double series;     // part of the friction states' stiffness that is left in series with the residual
     constants k_hole;  // what is left of the holes' [N/m]
     double substep;    // of the default method, at most [s]

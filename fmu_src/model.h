@@ -231,7 +231,7 @@ typedef struct {
     // of the whole motion out of the plane; part of the halves' rigid motion in u_y and u_z
     ball_array pad_out[3], pad_in[2], pad_in_dot[2], e[3], rigid_u_y, rigid_u_z;
 
-    // loads of the joints (N, M_r, M_t), of their rivets (T, m_r, m_t), L^, moves delta and the energy U of the law; force on half
+    // loads of the joints (N, M_r, M_t), of their rivets (T, m_r, m_t), L^ and the energy U of the law; force on half
     // 1 in the plane, in the frame of half 0 (cage_joint_force)
     ball_array joint_load[3], joint_rivet[3], joint_behind[3], joint_U, joint_F_y, joint_F_z;
     scalar modes_energy, modes_dissipated;  // energy of the modes [J] and power that they lose [W]

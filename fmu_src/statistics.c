@@ -1,4 +1,4 @@
-// Running statistics.  The exponent of a number and the first six bits of its mantissa give its bin, without
+// Running statistics.  The exponent of a number and the first bits of its mantissa give its bin, without
 // a logarithm.
 #include "statistics.h"
 
@@ -13,7 +13,7 @@ static int bin_of(double ratio)
 {
     uint64_t word;
     memcpy(&word, &ratio, sizeof word);
-    const int64_t bin = (int64_t)(word >> 46) - ((int64_t)1023 << 6);
+    const int64_t bin = (int64_t)(word >> (52 - STATISTICS_BITS)) - ((int64_t)1023 << STATISTICS_BITS);
     return bin < STATISTICS_BINS ? (int)bin : STATISTICS_BINS - 1;
 }
 

@@ -4,11 +4,12 @@
 
 #include <stdbool.h>
 
-// 64 bins in each octave, 213 in each decade: a bin is 0.8...1.6 % wide, which a motion that repeats itself can feel whole.  There are 24 octaves above the
-// channel's floor; smaller values count as below the floor.
+// 64 bins in each octave, 213 in each decade: a bin is 0.8...1.6 % wide.  Where a motion repeats itself a quantile can be wrong
+// by a whole bin.  There are 24 octaves above the channel's floor; smaller values count as below the floor.
 enum {
     STATISTICS_OCTAVES = 24,
-    STATISTICS_PER_OCTAVE = 64,
+    STATISTICS_BITS = 6,  // of the mantissa
+    STATISTICS_PER_OCTAVE = 1 << STATISTICS_BITS,
     STATISTICS_BINS = STATISTICS_OCTAVES * STATISTICS_PER_OCTAVE
 };
 

@@ -179,32 +179,37 @@ def alike_rows(elastic, alone, column):
     return np.concatenate([M[0, :1], [0.0, 0.0], M[0, 1:], rivet[0]])
 
 
-def make_law(elastic, alone):
-    """The joint's law of the geometry, from contact solutions of one pad at the sites of KNOTS."""
-    sites = [splines.sites(KNOTS[name]) for name in AXES]
-    values = np.zeros((*(len(s) for s in sites), len(NUMBERS)))
-    for j, q in enumerate(sites[1]):
-        for k, psi in enumerate(sites[2]):
-            active = None
-            for i, tau in enumerate(sites[0]):
-                load, P = law_load(LENGTH, tau, q, psi)
-                move, rivet, active = alone.solve(load, P, active)
-                values[i, j, k] = np.concatenate([move, rivet])
-    K = elastic.circulant(alone.K_waves)
-    slip = 0.5 * elastic.circulant(elastic.opposed[0])
-    return JointLaw(LENGTH, KNOTS, splines.interpolate([KNOTS[name] for name in AXES], values), K, slip)
-
-
-def make_law_behind(alone, K):
-    """LawBehind of pads around which the half has the stiffness K [3, 3], from contact solutions at the sites of KNOTS_BEHIND."""
-    sites = [splines.sites(KNOTS_BEHIND[name]) for name in AXES]
-    values = np.zeros((*(len(s) for s in sites), len(CARRIED)))
+def law_coefficients(knots, width, answer):
+    """Coefficients [tau, q, psi, width] of splines through answer(load, P, near) = (values, what helps with the next tau), per newton."""
+    sites = [splines.sites(knots[name]) for name in AXES]
+    values = np.zeros((*(len(s) for s in sites), width))
     for j, q in enumerate(sites[1]):
         for k, psi in enumerate(sites[2]):
             near = None
             for i, tau in enumerate(sites[0]):
-                values[i, j, k], near = alone.solve_behind(K, *law_load(LENGTH, tau, q, psi), near)
-    return LawBehind(LENGTH, KNOTS_BEHIND, splines.interpolate([KNOTS_BEHIND[name] for name in AXES], values), K)
+                values[i, j, k], near = answer(*law_load(LENGTH, tau, q, psi), near)
+    return splines.interpolate([knots[name] for name in AXES], values)
+
+
+def make_law(elastic, alone):
+    """The joint's law of the geometry, from contact solutions of one pad at the sites of KNOTS."""
+
+    def answer(load, P, active):
+        move, rivet, active = alone.solve(load, P, active)
+        return np.concatenate([move, rivet]), active
+
+    K = elastic.circulant(alone.K_waves)
+    slip = 0.5 * elastic.circulant(elastic.opposed[0])
+    return JointLaw(LENGTH, KNOTS, law_coefficients(KNOTS, len(NUMBERS), answer), K, slip)
+
+
+def make_law_behind(alone, K):
+    """LawBehind of pads around which the half has the stiffness K [3, 3], from contact solutions at the sites of KNOTS_BEHIND."""
+
+    def answer(load, P, near):
+        return alone.solve_behind(K, load, P, near)
+
+    return LawBehind(LENGTH, KNOTS_BEHIND, law_coefficients(KNOTS_BEHIND, len(CARRIED), answer), K)
 
 
 def pair_stiffness(contact, P=20.0):

@@ -227,9 +227,11 @@ def test_joint_functions(core, rivets):
 def test_sizes(rivets, tmp_path):
     """At most 2 MB of text, at most 1 MB embedded."""
     assert TABLE.stat().st_size <= 2_000_000
-    half = rivets.half
+    half, modes, residual = rivets.half, rivets.modes, rivets.modes.residual
     doubles = 3 * sum(len(k) for k in rivets.shank.knots.values()) + 4 * len(rivets.fit_a) + half.law.stiffness.size + 26 * len(half.law.alike.x)
-    assert 4 * rivets.shank.coefficients.size + 4 * embed.path_rows(half).size + 8 * (doubles + embed.uniform_coefficients(half.law).size) <= 2**20
+    doubles += 13 * len(modes.omega) + 2 * modes.pocket.size + residual.pad.size + residual.rivet.size + 2 * residual.pocket.size + 2 * residual.wall.size
+    doubles += sum(embed.uniform_coefficients(law).size for law in (half.law, modes.law))
+    assert 4 * rivets.shank.coefficients.size + 4 * embed.path_rows(half).size + 8 * doubles <= 2**20  # 0.69 MB
 
 
 def test_defaults_are_those_of_the_table(rivets):
