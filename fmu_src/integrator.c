@@ -24,6 +24,7 @@
 
 #include <arkode/arkode_erkstep.h>
 #include <float.h>
+#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <sundials/sundials_nvector.h>
@@ -57,9 +58,12 @@ struct Integrator {
 
 // ---- vectors of ARKODE: fixed length, operations of this processor's instruction set ----------------------
 
+enum { LINE = 8 };  // numbers in a cache line
+
 typedef struct {
-    const VectorOps *const *ops;  // where the integrator keeps them
-    double value[N_ALL_STATES];
+    const VectorOps *const *ops;           // where the integrator keeps them
+    double *value;                         // the first whole cache line of `block`
+    double block[N_ALL_STATES + LINE - 1];
 } Content;
 
 static double *data(N_Vector v)
@@ -88,17 +92,26 @@ static sunindextype vector_length(N_Vector v)
     return states(v);
 }
 
+static Content *content_new(const VectorOps *const *vector_operations)
+{
+    Content *content = malloc(sizeof *content);
+    if (content == NULL) return NULL;
+    const uintptr_t line = LINE * sizeof(double), at = (uintptr_t)content->block;
+    content->ops = vector_operations;
+    content->value = (double *)((at + line - 1) / line * line);
+    return content;
+}
+
 static N_Vector vector_clone(N_Vector like)
 {
     N_Vector v = N_VNewEmpty(like->sunctx);
     if (v == NULL) return NULL;
     N_VCopyOps(like, v);
-    v->content = malloc(sizeof(Content));
+    v->content = content_new(((const Content *)like->content)->ops);
     if (v->content == NULL) {
         N_VFreeEmpty(v);
         return NULL;
     }
-    ((Content *)v->content)->ops = ((const Content *)like->content)->ops;
     return v;
 }
 
@@ -141,7 +154,10 @@ static void vector_scale(sunrealtype c, N_Vector x, N_Vector z)
 
 static void vector_const(sunrealtype c, N_Vector z)
 {
-    for (int i = 0; i < states(z); i++) data(z)[i] = c;
+    if (c == 0.0)
+        memset(data(z), 0, sizeof(double) * (size_t)states(z));
+    else
+        for (int i = 0; i < states(z); i++) data(z)[i] = c;
 }
 
 // ARKODE checks that these operations exist.  It calls them only to choose a first step, which is always
@@ -192,12 +208,11 @@ static N_Vector vector_new(SUNContext sun, const VectorOps *const *vector_operat
     v->ops->nvinv = vector_inv;
     v->ops->nvaddconst = vector_add_const;
     v->ops->nvmaxnorm = vector_max_norm;
-    v->content = malloc(sizeof(Content));
+    v->content = content_new(vector_operations);
     if (v->content == NULL) {
         N_VFreeEmpty(v);
         return NULL;
     }
-    ((Content *)v->content)->ops = vector_operations;
     vector_const(0.0, v);
     return v;
 }
