@@ -189,7 +189,9 @@ def derive_scales(p, d):
     within a step, are wider.
     """
     equal = p.solver.method == Method.EXPLICIT
-    length, velocity, r = 1e-5, 0.1 if equal else 0.2, 0.5 * p.bearing.d_m
+    length, velocity, r = 1e-5, 0.1 if equal else 0.5, 0.5 * p.bearing.d_m
+    elastic = p.scene.cage == CageModel.ELASTIC
+    orbit = velocity / (3.75 if elastic else 6.0)
     slip = max(p.joint.mu * d.P_mean, 3.0)  # force at which plates slip; of a loose joint the default's
     friction = slip if equal else 20.0 * slip
     by_class = {
@@ -197,7 +199,7 @@ def derive_scales(p, d):
         "velocity": velocity,
         "normal": velocity if equal else 1.5 * velocity,
         "rate": velocity / r,
-        "orbit": (velocity if equal else velocity / 6.0) / r,
+        "orbit": (velocity if equal else orbit) / r,
         "mode": velocity,
         "spin": velocity / (0.5 * p.bearing.D),
         "angle": length / r,
@@ -206,7 +208,6 @@ def derive_scales(p, d):
         "head": friction / d.k_head,
         "energy": 1e30,
     }
-    elastic = p.scene.cage == CageModel.ELASTIC
     scales = STATE_SCALES | ELASTIC_SCALES if elastic else STATE_SCALES
     d.scale = np.empty(N_ALL_STATES if elastic else N_STATES)
     for name, scale in scales.items():

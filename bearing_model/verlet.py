@@ -22,6 +22,7 @@ from bearing_model.model import Work
 from bearing_model.rhs import jacobian, rhs, rotor_kinematics
 from bearing_model.rotor import rotor_roll
 from bearing_model.variables import (
+    BALL_OMEGA_M,
     BALL_R,
     BALL_V_X,
     BALL_X,
@@ -55,6 +56,8 @@ STIFF_LIMIT = 2.0  # gamma A of a ball from which its accelerations are smoothed
 COUPLING_LIMIT = 0.2  # gamma A of the ring by traction from which ring and balls are solved together
 APPROACH_FLOOR = 1e-12  # least approach in the stiffness 3 Q/(2 delta) [m]
 SAFETY, MIN_FACTOR, MAX_FACTOR = 0.8, 0.2, 1.5  # of the next step size
+LEAST_ERROR = 1e-4  # smaller errors are the same to the next step
+FULL_ORBIT, LEAST_ORBIT = 20.0, 1.0 / 80.0  # orbital speed from which on the scale of velocities along the orbit holds [m/s]; its least part
 LAST_STEP = 1e-9  # part of a step by which the last one may be longer
 
 POSITIONS, FRICTION, V = slice(0, JOINT_PLATE_Y.start), slice(JOINT_PLATE_Y.start, WORK.start), slice(BALL_V_X.start, N_STATES)
@@ -82,6 +85,7 @@ class VerletState:
     jerk: np.ndarray = None  # change of f over the last step / its length
     film: np.ndarray = field(default_factory=lambda: np.zeros((2, 2, 2)))  # -dF/dv of each land's film there [N.s/m]
     h: float = 0.0  # length of that step [s], 0: none yet
+    ratio: float = 0.0  # what its error asked the next one to be, by that length; 0 likewise
     fast: FastState = None  # of elastic halves there, whose accelerations f lacks
 
     def __post_init__(self):
@@ -418,10 +422,33 @@ def correct_modes(model, h, second, foreseen, start, end, error):
 
 def longest_step(model, state):
     """The longest step from a state [s]: of elastic halves three substeps, or what a film of the rate A holds for, 1/A, but two substeps at least."""
-    if model is None or model.p.scene.cage != CageModel.ELASTIC:
+    if model.p.scene.cage != CageModel.ELASTIC:
         return np.inf
     film, d = np.max(np.trace(state.film, axis1=1, axis2=2)), model.d.elastic.substep
     return min(3.0 * d, max(2.0 * d, model.p.cage.m / film if film > 0.0 else np.inf))
+
+
+def weigh_orbit(model, weight, y):
+    """Weights with those of velocities along the orbit as the speed of the orbit asks: the speed with which ball and pocket meet goes with it."""
+    speed = 0.5 * model.p.bearing.d_m * np.mean(np.abs(y[BALL_OMEGA_M]))
+    weight = weight.copy()
+    weight[BALL_OMEGA_M] /= min(max(speed / FULL_ORBIT, LEAST_ORBIT), 1.0)
+    return weight
+
+
+def ratio_of(error):
+    """What an error asks the next step to be, by the length of its step; 0 where the error is not a number."""
+    return SAFETY * max(error, LEAST_ERROR) ** (-1.0 / 3.0) if error >= 0.0 else 0.0
+
+
+def step_factor(h, error, before):
+    """The next step by the one of length h: after an accepted one the digital filter H211b of Soderlind (2003), b = 4, after a refused one its ratio.
+
+    before: length and ratio of the step before, 0 if there is none.
+    """
+    ratio, (h_before, ratio_before) = ratio_of(error), before
+    filtered = error <= 1.0 and ratio_before > 0.0
+    return min(max((ratio * ratio_before * h_before / h) ** 0.25 if filtered else ratio, MIN_FACTOR), MAX_FACTOR)
 
 
 def verlet_advance(model, t, t_stop, h, weight, state, step=verlet_step):
@@ -431,17 +458,19 @@ def verlet_advance(model, t, t_stop, h, weight, state, step=verlet_step):
     two steps are equal.  step: a function like verlet_step.
     """
     taken, refused = [], 0
+    weight = weigh_orbit(model, weight, state.y)
     while t < t_stop:
         h, left = min(h, longest_step(model, state)), t_stop - t
         last = h >= left * (1.0 - LAST_STEP)
         length = left if last else 0.5 * left if left < 2.0 * h else h
         end, error = step(model, t, length, weight, state)
-        factor = SAFETY * error ** (-1.0 / 3.0) if error > 0.0 else MAX_FACTOR if error == 0.0 else 0.0  # 0: error is not a number
+        factor = step_factor(length, error, (state.h, state.ratio))
         if not error <= 1.0:
-            h, refused = length * max(factor, MIN_FACTOR), refused + 1
+            h, refused = length * factor, refused + 1
             continue
         state, t = end, t_stop if last else t + length
+        state.ratio = ratio_of(error)
         taken.append(length)
         if length == h or factor < 1.0:  # a step cut short to meet t_stop says nothing against the step size before it
-            h = length * min(factor, MAX_FACTOR)
+            h = length * factor
     return state, h, np.array(taken), refused

@@ -223,7 +223,8 @@ static void derive_joint(const Parameters *p, Derived *d)
 static void derive_scales(const Parameters *p, Derived *d)
 {
     const bool equal = p->solver.method == METHOD_EXPLICIT;
-    const double length = 1e-5, velocity = equal ? 0.1 : 0.2, r = 0.5 * p->bearing.d_m;
+    const double length = 1e-5, velocity = equal ? 0.1 : 0.5, r = 0.5 * p->bearing.d_m;
+    const double orbit = p->scene.cage == CAGE_MODEL_ELASTIC ? velocity / 3.75 : velocity / 6.0;
     const double slip =
         fmax(p->joint.mu * d->P_mean, 3.0);  // force at which plates slip; of a loose joint the default's
     const double friction = equal ? slip : 20.0 * slip;
@@ -231,7 +232,7 @@ static void derive_scales(const Parameters *p, Derived *d)
     d->scale[SCALE_VELOCITY] = velocity;
     d->scale[SCALE_NORMAL] = equal ? velocity : 1.5 * velocity;
     d->scale[SCALE_RATE] = velocity / r;
-    d->scale[SCALE_ORBIT] = (equal ? velocity : velocity / 6.0) / r;
+    d->scale[SCALE_ORBIT] = (equal ? velocity : orbit) / r;
     d->scale[SCALE_MODE] = velocity;
     d->scale[SCALE_SPIN] = velocity / (0.5 * p->bearing.D);
     d->scale[SCALE_ANGLE] = d->scale[SCALE_TILT] = length / r;

@@ -49,6 +49,8 @@ struct Integrator {
     SUNAdaptController control;  // of the default method
     const VectorOps *ops;        // of the scene
     double weight[N_ALL_STATES];
+    double orbit_weight;      // of a ball's velocity along its orbit, at a high speed
+    const VerletState *from;  // where the default method's step starts
     VerletState trial;
     const double *latest;       // where ARKODE keeps the latest evaluation
     bool starting;              // the next evaluation is at (s->t, s->now.y), where s->now.f is known
@@ -256,17 +258,27 @@ static int weights(N_Vector y, N_Vector ewt, void *user)
 // The estimated error of a step is proportional to h^3 (order two), so the step that would just be accepted is
 // error^(-1/3) times as long; SAFETY keeps the next one below it.  A step is at least MIN_FACTOR and at most MAX_FACTOR
 // times as long as the one before: contacts open and close, and estimates over a kink of the forces mean little.
-static const double SAFETY = 0.8, MIN_FACTOR = 0.2, MAX_FACTOR = 1.5;
+// Errors below LEAST_ERROR are the same to the next step.
+static const double SAFETY = 0.8, MIN_FACTOR = 0.2, MAX_FACTOR = 1.5, LEAST_ERROR = 1e-4;
 
 enum { ORDER = 2 };
 
-// Without error the next step is as long as it may be; a NaN as error means that the step has left the range of the
-// model, and gives the shortest one.
+// What an error asks the next step to be, by the length of its step; of a NaN, by which a step has left the range of the
+// model, 0.
+static double ratio_of(double error)
+{
+    return error >= 0.0 ? SAFETY * approx_inv_cbrt(fmax(error, LEAST_ERROR)) : 0.0;
+}
+
+// After a step that is accepted, the digital filter H211b of Soderlind (2003) with b = 4: lengths that change smoothly, so that
+// the errors of a contact's rise and fall cancel.  After one that is refused, the ratio itself.
 static SUNErrCode step_estimate(SUNAdaptController control, sunrealtype h, int order, sunrealtype error,
                                 sunrealtype *h_next)
 {
-    (void)control, (void)order;
-    const double factor = error > 0.0 ? SAFETY * approx_inv_cbrt(error) : error == 0.0 ? MAX_FACTOR : 0.0;
+    (void)order;
+    const VerletState *from = *(const VerletState **)control->content;
+    const double ratio = ratio_of(error), smooth = ratio * (from->ratio * from->h / h);
+    const double factor = error <= 1.0 && from->ratio > 0.0 ? sqrt(sqrt(smooth)) : ratio;
     *h_next = h * fmin(fmax(factor, MIN_FACTOR), MAX_FACTOR);
     return SUN_SUCCESS;
 }
@@ -277,12 +289,23 @@ static SUNAdaptController_Type control_type(SUNAdaptController control)
     return SUN_ADAPTCONTROLLER_H;
 }
 
-static SUNAdaptController control_new(SUNContext sun)
+// SUNDIALS would free the content, which is the integrator's.
+static SUNErrCode control_destroy(SUNAdaptController control)
+{
+    control->content = NULL;
+    SUNAdaptController_DestroyEmpty(control);
+    return SUN_SUCCESS;
+}
+
+// from: where the integrator keeps the state that its steps start at.
+static SUNAdaptController control_new(SUNContext sun, const VerletState **from)
 {
     SUNAdaptController control = SUNAdaptController_NewEmpty(sun);
     if (control == NULL) return NULL;
+    control->content = from;
     control->ops->gettype = control_type;
     control->ops->estimatestep = step_estimate;
+    control->ops->destroy = control_destroy;
     return control;
 }
 
@@ -357,7 +380,7 @@ Integrator *integrator_create(const Kernels *kernels, const Model *model, Work *
         SUNContext_ClearErrHandlers(in->sun);
         fine = SUNContext_PushErrHandler(in->sun, report, in) == SUN_SUCCESS &&
                (in->y = vector_new(in->sun, &in->ops)) != NULL &&
-               (in->control = control_new(in->sun)) != NULL;
+               (in->control = control_new(in->sun, &in->from)) != NULL;
     }
     if (fine) {  // error weights of 1 for the warm-up, until integrator_tolerance
         in->arkode = ERKStepCreate(explicit_rhs, 0.0, in->y, in->sun);
@@ -390,6 +413,7 @@ void integrator_tolerance(Integrator *in, double tolerance)
     memset(&in->trial, 0, sizeof in->trial);  // no modes of a scene before this one
     in->ops = in->model->elastic ? in->kernels->ops_elastic : in->kernels->ops;
     stepping_weights(in->model->d, tolerance, in->weight);
+    in->orbit_weight = in->weight[Y_BALL_OMEGA_M];
 }
 
 // ---- stepping ---------------------------------------------------------------------------------------------
@@ -438,8 +462,22 @@ static double longest_step(const Model *model, const VerletState *now)
     return fmin(3.0 * d, fmax(2.0 * d, model->p->cage.m / film));
 }
 
+// The speed with which ball and pocket meet goes with the orbital speed, and so does the error of it that matters: the scale of
+// velocities along the orbit holds from FULL_ORBIT [m/s] on and is in proportion below, down to its LEAST_ORBIT part.
+static const double FULL_ORBIT = 20.0, LEAST_ORBIT = 1.0 / 80.0;
+
+static void weigh_orbit(Integrator *in)
+{
+    double sum = 0.0;
+    for (int j = 0; j < Z; j++) sum += fabs(in->s->now.y[Y_BALL_OMEGA_M + j]);
+    const double speed = 0.5 * in->model->p->bearing.d_m * sum / Z;
+    const double part = fmin(fmax(speed / FULL_ORBIT, LEAST_ORBIT), 1.0);
+    for (int j = 0; j < Z; j++) in->weight[Y_BALL_OMEGA_M + j] = in->orbit_weight / part;
+}
+
 static int verlet_advance(Integrator *in, double t_stop, long max_steps)
 {
+    weigh_orbit(in);
     IntegratorState *s = in->s;
     VerletState *now = &s->now, *next = &in->trial;  // they change places at every accepted step
     double goal = s->h;
@@ -457,6 +495,7 @@ static int verlet_advance(Integrator *in, double t_stop, long max_steps)
         }
         const double error = in->kernels->verlet(in->model, s->t, h, in->weight, now, next, in->w);
         double proposed;
+        in->from = now;
         SUNAdaptController_EstimateStep(in->control, h, ORDER, error, &proposed);
         s->rhs_evals += 1.0;
 
@@ -470,6 +509,7 @@ static int verlet_advance(Integrator *in, double t_stop, long max_steps)
         // Accepted.  A step that was cut short to meet t_stop says nothing against the goal before it.
         VerletState *const before = now;
         now = next, next = before;
+        now->ratio = ratio_of(error);
         s->t = h == left ? t_stop : s->t + h;
         s->steps += 1.0;
         if (h == goal || proposed < h) goal = proposed;
@@ -586,6 +626,7 @@ bool integrator_state_is_valid(const IntegratorState *s, bool elastic)
 
     // Time and step sizes.
     bool fine = values_are_within(&s->t, 1, LARGEST_TIME) && values_are_amounts(&s->now.h, 1) &&
+                values_are_amounts(&s->now.ratio, 1) && s->now.ratio <= ratio_of(0.0) &&
                 values_are_amounts(&s->h, 1) && s->h > 0.0;
 
     // States, their rates and the differences of their rates.
