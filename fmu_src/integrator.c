@@ -63,8 +63,8 @@ struct Integrator {
 enum { LINE = 8 };  // numbers in a cache line
 
 typedef struct {
-    const VectorOps *const *ops;           // where the integrator keeps them
-    double *value;                         // the first whole cache line of `block`
+    const VectorOps *const *ops;  // where the integrator keeps them
+    double *value;                // the first whole cache line of `block`
     double block[N_ALL_STATES + LINE - 1];
 } Content;
 

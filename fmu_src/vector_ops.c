@@ -107,7 +107,8 @@ static void linear_combination_all(int count, const double *c, double *const *x,
 // The divisor stays: more states do not make the tolerance of the others wider.
 static double wrms_norm_all(const double *x, const double *w)
 {
-    return sqrt((sum_of_squares(N_STATES, x, w) + sum_of_squares(MORE, x + N_STATES, w + N_STATES)) / N_STATES);
+    return sqrt((sum_of_squares(N_STATES, x, w) + sum_of_squares(MORE, x + N_STATES, w + N_STATES)) /
+                N_STATES);
 }
 
 static bool all_finite_all(const double *x)
