@@ -85,8 +85,8 @@ class VerletState:
     jerk: np.ndarray = None  # change of f over the last step / its length
     film: np.ndarray = field(default_factory=lambda: np.zeros((2, 2, 2)))  # -dF/dv of each land's film there [N.s/m]
     h: float = 0.0  # length of that step [s], 0: none yet
-    ratio: float = 0.0  # what its error asked the next one to be, by that length; 0 likewise
     fast: FastState = None  # of elastic halves there, whose accelerations f lacks
+    ratio: float = 0.0  # what its error asked the next step to be, by that length; 0 likewise
 
     def __post_init__(self):
         self.jerk = np.zeros(len(self.y)) if self.jerk is None else self.jerk
@@ -429,8 +429,8 @@ def longest_step(model, state):
 
 
 def weigh_orbit(model, weight, y):
-    """Weights with those of velocities along the orbit as the speed of the orbit asks: the speed with which ball and pocket meet goes with it."""
-    speed = 0.5 * model.p.bearing.d_m * np.mean(np.abs(y[BALL_OMEGA_M]))
+    """Weights with those of velocities along the orbit as the speed of the orbit asks: the speed with which ball and pocket meet goes with that against the outer ring."""
+    speed = 0.5 * model.p.bearing.d_m * np.mean(np.abs(y[BALL_OMEGA_M] - model.ring_load.outer_omega))
     weight = weight.copy()
     weight[BALL_OMEGA_M] /= min(max(speed / FULL_ORBIT, LEAST_ORBIT), 1.0)
     return weight

@@ -57,6 +57,7 @@ static int take_step(SUNNonlinearSolver solver, N_Vector predicted, N_Vector cor
     const double h = 2.0 * gamma;
     const double error = in->kernels->verlet(in->model, in->s->t, h, in->weight, host.now, host.next, in->w);
     in->s->rhs_evals += 1.0;
+    in->from = host.now;
     SUNAdaptController_EstimateStep(in->control, h, ORDER, error, &host.proposed);
     if (!(error <= 1.0)) {
         in->s->error_tests_failed += 1.0;
@@ -64,6 +65,7 @@ static int take_step(SUNNonlinearSolver solver, N_Vector predicted, N_Vector cor
         ARKodeSetMaxCFailGrowth(host.arkode, step_length(host.goal, host.t_stop - in->s->t) / h);
         return SUN_NLS_CONV_RECVR;
     }
+    host.next->ratio = ratio_of(error);
     in->ops->linear_sum(1.0, host.next->y, -1.0, data(predicted), data(correction));
     return SUN_SUCCESS;
 }
@@ -108,6 +110,7 @@ int integrator_advance(Integrator *in, double t_stop, long max_steps)
     IntegratorState *s = in->s;
     integrator_evaluate(in);
     if (host.in != in && !host_create(in)) return -1;
+    weigh_orbit(in);
     host.now = &s->now, host.next = &in->trial;
     host.goal = fmin(s->h, longest_step(in->model, host.now)), host.t_stop = t_stop;
     memcpy(data(host.y), s->now.y, sizeof s->now.y);

@@ -5,14 +5,14 @@ Interleaved runs of 20 ms in one process, least of 25; evaluations of both, whic
 
 from common import SCENES, Core, Scene, build_target, core_library, counters, cpu, options, say, write
 
-from bearing_model.variables import Stress, Switch
+from bearing_model.variables import CageModel, Stress, Switch
 
 LENGTH, STEP, ROUNDS = 0.02, 1e-4, 25  # [s], [s]
 
 
-def run(core, scene):
+def run(core, scene, cage):
     """Processor time [s] and evaluations of a run with stress and statistics."""
-    instance = scene.start(core, scene_stress=int(Stress.PEAK), scene_statistics=int(Switch.ON)).step(0.01)
+    instance = scene.start(core, scene_stress=int(Stress.PEAK), scene_statistics=int(Switch.ON), scene_cage=int(cage)).step(0.01)
     before = counters(instance)["rhs_evals"]
 
     def steps():
@@ -23,21 +23,22 @@ def run(core, scene):
     return seconds, counters(instance)["rhs_evals"] - before
 
 
-def compare(cores, scene):
+def compare(cores, scene, cage):
     """Least microseconds an evaluation and evaluations of each core."""
     found = {name: [] for name in cores}
     for _ in range(ROUNDS):
         for name, core in cores.items():
-            found[name].append(run(core, scene))
+            found[name].append(run(core, scene, cage))
     best = {name: (min(1e6 * seconds / count for seconds, count in runs), runs[0][1]) for name, runs in found.items()}
-    say(f"{scene.name:6} " + ", ".join(f"{name} {us:.2f} us, {count:.0f} evaluations" for name, (us, count) in best.items()))
+    say(f"{scene.name:6} {cage.name.lower():8} " + ", ".join(f"{name} {us:.2f} us, {count:.0f} evaluations" for name, (us, count) in best.items()))
     return {name: {"us": us, "evaluations": count} for name, (us, count) in best.items()}
 
 
 def main():
     short = options(__doc__).short
     cores = {"own loop": core_library(), "ARKStep": Core.load(build_target("bearing_hosted"))}
-    write("hosted", {"scenes": {name: compare(cores, Scene(name)) for name in SCENES}}, short)
+    cages = {cage.name.lower(): {name: compare(cores, Scene(name), cage) for name in SCENES} for cage in (CageModel.ELASTIC, CageModel.TWO_HALF)}
+    write("hosted", {"cages": cages}, short)
 
 
 if __name__ == "__main__":

@@ -462,14 +462,14 @@ static double longest_step(const Model *model, const VerletState *now)
     return fmin(3.0 * d, fmax(2.0 * d, model->p->cage.m / film));
 }
 
-// The speed with which ball and pocket meet goes with the orbital speed, and so does the error of it that matters: the scale of
-// velocities along the orbit holds from FULL_ORBIT [m/s] on and is in proportion below, down to its LEAST_ORBIT part.
+// The speed with which ball and pocket meet goes with the orbital speed against the outer ring, and so does the error of it that matters:
+// the scale of velocities along the orbit holds from FULL_ORBIT [m/s] on and is in proportion below, down to its LEAST_ORBIT part.
 static const double FULL_ORBIT = 20.0, LEAST_ORBIT = 1.0 / 80.0;
 
 static void weigh_orbit(Integrator *in)
 {
     double sum = 0.0;
-    for (int j = 0; j < Z; j++) sum += fabs(in->s->now.y[Y_BALL_OMEGA_M + j]);
+    for (int j = 0; j < Z; j++) sum += fabs(in->s->now.y[Y_BALL_OMEGA_M + j] - in->model->ring_load->outer_omega);
     const double speed = 0.5 * in->model->p->bearing.d_m * sum / Z;
     const double part = fmin(fmax(speed / FULL_ORBIT, LEAST_ORBIT), 1.0);
     for (int j = 0; j < Z; j++) in->weight[Y_BALL_OMEGA_M + j] = in->orbit_weight / part;

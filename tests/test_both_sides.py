@@ -503,10 +503,10 @@ def test_which_ring_turns(core, kind, gravity, record_property):
     """Inner ring at omega, outer at rest; inner at rest, outer at -omega in a frame that turns with omega: the same motion, energy and stress.
 
     Under axial motion, which has no direction across: to rounding, 1e-6 of each quantity after 0.3 ms.  And under gravity, which turns in the frame and is
-    integrated there with other errors: to 2e-4, at a tolerance of 1e-5 a step.
+    integrated there with other errors: to 2e-4, at a tolerance of 4e-6 a step.
     """
     parameters = PRESCRIBED | {"gravity.y": gravity}
-    a, b = (Instance(core, parameters, {"shaft.x": 80e-6} | SPINS[k], tolerance=1e-5) for k in ("inner", kind))
+    a, b = (Instance(core, parameters, {"shaft.x": 80e-6} | SPINS[k], tolerance=4e-6) for k in ("inner", kind))
     names, turn = ("ball.Q_i", "ball.Q_e", "ball.Q_c", "rivet.sigma_head", "bearing.power_loss", "shaft.R_x", "housing.F_x"), SPINS[kind]["frame.omega"]
     for n in range(1, 31):
         a.step(n * 1e-5), b.step(n * 1e-5)

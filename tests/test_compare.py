@@ -24,13 +24,13 @@ def model():
 def found(model):
     """A scene in which balls press on the cage from the start and a load jumps."""
     inputs = {"shaft.F_y": {"t": [0, 5e-5], "value": [2994.0, 2500.0], "interpolation": "hold"}}
-    parameters = {"scene.cage": "two_half", "start.spacing": 0.5, "cage.pocket_clearance": 2e-5}
+    parameters = {"scene.cage": "two_half", "solver.tol": 4e-4, "start.spacing": 0.5, "cage.pocket_clearance": 2e-5}
     return compare(model, load_scene("demo", model, ("the test", {"inputs": inputs, "parameters": parameters})), short=1e-4, long=0.0)
 
 
 def test_difference_falls_with_the_tolerance(found):
     """Motion stays within 100 tolerances (observed 0.07), loads and stresses within 1000 (observed 19: a contact of 1e8 N/m tells 10 um x tolerance by
-    newtons), and both fall by 50 when the tolerance falls by 1e4 (observed 61: contacts have kinks, which two trajectories do not meet at one time):
+    newtons), and both fall by 50 when the tolerance falls by 1e4 (observed 68: contacts have kinks, which two trajectories do not meet at one time):
     what is left belongs to the integration, not to the models.  5e-5 is nothing."""
     for channel in found.channels:
         assert channel.worst[0] < (100.0 if is_motion(channel) else 1000.0) * found.tolerances[0], channel.name

@@ -111,7 +111,7 @@ def test_inputs_set_after_a_step_do_not_change_its_outputs(folder):
 def test_communication_steps_agree_to_the_tolerance(folder):
     """Motion of the ring after 1 ms at tolerance 1e-6: within 10 times the error that the tolerance allows; observed 1.6 times."""
     tolerance = 1e-6
-    allowed = tolerance * np.array([1e-5] * 3 + [0.2] * 3)  # scales of length [m] and velocity [m/s]
+    allowed = tolerance * np.array([1e-5] * 3 + [0.5] * 3)  # scales of length [m] and velocity [m/s]
     names = ("ring.x", "ring.y", "ring.z", "ring.v_x", "ring.v_y", "ring.v_z")
     ends = [Slave(folder).initialize(tolerance=tolerance).step(1e-3 / n, n).get(*names) for n in (1, 10, 100, 1000)]
     for end in ends[1:]:

@@ -162,14 +162,14 @@ def test_a_land_rests_against_its_film(core):
     """A cage with 10 um of play between pockets and guide under a tilt of 0.36 deg: its lands are pressed against the film, which hardly pulls.
 
     Expected: no more evaluations than the working point takes, 220 a millisecond; predictions that do not know the film took 3,400.  Medians of nine
-    seeds: of 180 runs one took 5,600 and left 9 mJ.
+    seeds, at a tolerance of 4e-4.
     """
     parameters = {"bearing.P_d": -9.7e-6, "cage.pocket_clearance": 2.1e-5, "cage.guide_clearance": 2.6e-5, "joint.preload": 0.0, "joint.fit": -1.4e-4}
     inputs = {"shaft.omega": -160.0, "shaft.F_x": 350.0, "shaft.F_y": -3446.0, "shaft.F_z": -1355.0, "shaft.tilt_y": -0.00114, "shaft.tilt_z": -0.0062}
-    runs = [Instance(core, parameters | {"start.seed": seed}, inputs).step(1e-2) for seed in range(1, 10)]
-    assert np.median([run.output("solver.rhs_evals") for run in runs]) < 2200  # observed 1,550
+    runs = [Instance(core, parameters | {"start.seed": seed}, inputs, 4e-4).step(1e-2) for seed in range(1, 10)]
+    assert np.median([run.output("solver.rhs_evals") for run in runs]) < 2200  # observed 1,760
     residual = np.median([abs(run.output("bearing.energy_residual")) for run in runs])
-    assert residual < 1.5e-3  # J, of the 0.03 J that the load gives over 10 um; observed 1.0e-3
+    assert residual < 1.5e-3  # J, of the 0.03 J that the load gives over 10 um; observed 0.36e-3
 
 
 def test_a_whirling_land_is_not_held_back(core):

@@ -159,10 +159,10 @@ def test_the_page_has_pictures_claims_and_cost(clearance, tmp_path, monkeypatch)
 
 
 def test_verdicts_of_elastic_halves_stand_beside_those_of_rigid_ones(clearance, tmp_path):
-    """Forces that fall with the ratio, whatever the real ones do: verdicts differ, and the page has the figures where they do."""
-    rigid = {"clearance": study.runs_of(clearance)}
-    columns = rigid["clearance"].columns
-    bent = {"clearance": Runs(columns | {"force": 10.0 - columns["ratio"], "force_peak": 10.0 - columns["ratio"]})}
+    """Forces that are lowest at the ratio 1 and forces that are largest there: verdicts differ, and the page has the figures where they do."""
+    columns = study.runs_of(clearance).columns
+    distance = np.abs(np.log(columns["ratio"]))
+    rigid, bent = ({"clearance": Runs(columns | {"force": force, "force_peak": force})} for force in (distance, 10.0 - distance))
     text = paper.write_paper(rigid, tmp_path, bent).read_text()
     both = list(zip(claims.all_claims(rigid)["clearance"], claims.all_claims(bent)["clearance"], strict=True))
     part = text[text.index("## With elastic halves") :]

@@ -14,7 +14,20 @@ from bearing_model import verlet
 from bearing_model.cage_joint import cage_joint_kinematics
 from bearing_model.model import Model, Work
 from bearing_model.rhs import jacobian, rhs, rotor_kinematics
-from bearing_model.variables import N_STATES, RING_BETA_DOT, RING_GAMMA_DOT, RING_V_X, STATE_SLICES, WORK, CageModel, Lubrication, Method, TiltMode, Traction
+from bearing_model.variables import (
+    BALL_OMEGA_M,
+    N_STATES,
+    RING_BETA_DOT,
+    RING_GAMMA_DOT,
+    RING_V_X,
+    STATE_SLICES,
+    WORK,
+    CageModel,
+    Lubrication,
+    Method,
+    TiltMode,
+    Traction,
+)
 from bearing_model.verlet import FRICTION, N_V, POSITIONS, RING, V, VerletState
 
 TWIN = SimpleNamespace(model=Model.of)  # what make_model builds models with
@@ -391,8 +404,8 @@ def same(by_core, by_twin):
 
 @pytest.mark.parametrize(("h", "lubrication"), [(1e-8, 1), (1e-4, 2)])
 def test_control(core, h, lubrication):
-    """Steps that grow from far too small, 1.5 times each, or shrink from far too large, to 0.2 times; then they follow 0.8 error^(-1/3)."""
-    by_core, by_twin = both(core, h, 1.2e-4, 1e-4, **{"scene.lubrication": lubrication})
+    """Steps that grow from far too small, 1.5 times each, or shrink from far too large, to 0.2 times; then they follow the filter."""
+    by_core, by_twin = both(core, h, 1.5e-4, 1e-4, **{"scene.lubrication": lubrication})
     taken = same(by_core, by_twin)
     if h == 1e-8:
         np.testing.assert_allclose(taken[1:10] / taken[:9], 1.5, rtol=1e-9)
@@ -418,6 +431,39 @@ def test_acceptance(core):
     for factor, refused in ((1.005, 0.0), (0.995, 1.0)):
         by_core, by_twin = both(core, h, h, factor * error)
         assert by_core[2] == by_twin[2] == refused
+
+
+@pytest.mark.parametrize(("rpm", "part"), [(4000.0, None), (0.0, 1.0 / 80.0)])
+def test_acceptance_by_the_orbit(core, rpm, part):
+    """Below an orbital speed of 20 m/s the scale of velocities along the orbit is in proportion to it, down to an eightieth."""
+    h, model = 2e-5, Model.of(TWO_HALF)
+    y = Instance(core, {}, {"shaft.omega": rpm * np.pi / 30.0}).step(5e-3).y
+    speed = np.mean(np.abs(y[BALL_OMEGA_M])) * 0.5 * model.p.bearing.d_m
+    scale = model.d.scale.copy()
+    scale[BALL_OMEGA_M] *= part or speed / 20.0
+    assert part or 4.2 < speed < 4.6  # the kinematic speed is 4.43 m/s
+    _, error = verlet.verlet_step(model, 0.0, h, 1.0 / scale, VerletState(y, rhs(model, 0.0, y)))
+    for factor, refused in ((1.001, 0.0), (0.999, 1.0)):
+        c = core.model({})
+        c.rhs(0.0, y)
+        found = CoreIntegrator(core, c, y, factor * error).advance(h, h)
+        with np.errstate(invalid="ignore"):
+            twin = verlet.verlet_advance(model, 0.0, h, h, 1.0 / (factor * error * model.d.scale), VerletState(y, rhs(model, 0.0, y)))
+        assert found[2] == twin[3] == refused
+
+
+def test_filter():
+    """Where errors are 0.512 (h/g)^3, the distance of ln h from ln g halves in every step behind the first one: r_n = g/h_n, and h_{n+1} = (g h_n)^(1/2)."""
+    goal, y = 1e-6, np.zeros(N_STATES)
+    model, start = Model.of(TWO_HALF), VerletState(y, y)
+
+    def plant(model, t, h, *_):
+        return VerletState(y, y, h=h), 0.512 * (h / goal) ** 3
+
+    first = 1.1 * goal
+    start.h, start.ratio = first, goal / first
+    taken = verlet.verlet_advance(model, 0.0, 40 * goal, first, 1.0 / model.d.scale, start, plant)[2]
+    np.testing.assert_allclose(np.log(taken[:12] / goal), np.log(1.1) * 0.5 ** np.arange(12), rtol=1e-9, atol=1e-12)
 
 
 def test_a_step_cut_short(core):
