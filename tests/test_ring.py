@@ -178,7 +178,8 @@ def test_edges(core):
 def test_impulse_through_the_integrator(core, method, steps):
     """Three pulses push a loose undamped ring of 0.6 kg to 3 * 2 F duration/(pi m), whatever the communication step.
 
-    A step may err by 1e-8 of 0.1 m/s (of Verlet's scale of 0.5 m/s a fifth of that) in the mean over 152 states, 1.2e-8 m/s in one.  Verlet's h^3/12 F/m (pi/duration)^2 makes that a step of 1.7 us,
+    A step may err by 1e-8 of 0.1 m/s (of Verlet's scale of 0.5 m/s a fifth of that) in the mean over 152 states, 1.2e-8 m/s in one.
+    Verlet's h^3/12 F/m (pi/duration)^2 makes that a step of 1.7 us,
     220 in all, and h^2/6 F/m pi/duration = 5e-7 m/s a pulse; observed 1.3e-6 m/s in three, with Runge-Kutta 2e-8.
     """
     parameters = LOOSE | {"solver.method": method, "ring.c": 0.0, "pulse.F_r": 30.0, "pulse.F_a": -20.0, "pulse.t_start": 3.7e-5, "pulse.duration": 1.3e-4}
