@@ -429,7 +429,7 @@ def longest_step(model, state):
 
 
 def weigh_orbit(model, weight, y):
-    """Weights with those of velocities along the orbit in proportion to its speed against the outer ring, with which the speeds go at which ball and pocket meet."""
+    """Weights with those of velocities along the orbit by its speed against the outer ring: the speed with which ball and pocket meet goes with it."""
     speed = 0.5 * model.p.bearing.d_m * np.mean(np.abs(y[BALL_OMEGA_M] - model.ring_load.outer_omega))
     weight = weight.copy()
     weight[BALL_OMEGA_M] /= min(max(speed / FULL_ORBIT, LEAST_ORBIT), 1.0)
