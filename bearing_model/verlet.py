@@ -57,7 +57,7 @@ COUPLING_LIMIT = 0.2  # gamma A of the ring by traction from which ring and ball
 APPROACH_FLOOR = 1e-12  # least approach in the stiffness 3 Q/(2 delta) [m]
 SAFETY, MIN_FACTOR, MAX_FACTOR = 0.8, 0.2, 1.5  # of the next step size
 LEAST_ERROR = 1e-4  # smaller errors are the same to the next step
-FULL_ORBIT, LEAST_ORBIT = 20.0, 1.0 / 80.0  # orbital speed from which on the scale of velocities along the orbit holds [m/s]; its least part
+FULL_ORBIT, LEAST_ORBIT = 20.0, 0.1  # orbital speed from which on the scale of velocities along the orbit holds [m/s]; its least part
 LAST_STEP = 1e-9  # part of a step by which the last one may be longer
 
 POSITIONS, FRICTION, V = slice(0, JOINT_PLATE_Y.start), slice(JOINT_PLATE_Y.start, WORK.start), slice(BALL_V_X.start, N_STATES)

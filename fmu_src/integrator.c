@@ -464,7 +464,7 @@ static double longest_step(const Model *model, const VerletState *now)
 
 // The speed with which ball and pocket meet goes with the orbital speed against the outer ring, and so does the error of it that matters:
 // the scale of velocities along the orbit holds from FULL_ORBIT [m/s] on and is in proportion below, down to its LEAST_ORBIT part.
-static const double FULL_ORBIT = 20.0, LEAST_ORBIT = 1.0 / 80.0;
+static const double FULL_ORBIT = 20.0, LEAST_ORBIT = 0.1;
 
 static void weigh_orbit(Integrator *in)
 {
