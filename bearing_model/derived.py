@@ -184,9 +184,9 @@ def derive_joint(p, d, table):
 def derive_scales(p, d):
     """Errors that tolerance 1 allows: lengths and velocities, angles as arcs, friction states as parts of the deflection at which the plates slip.
 
-    The default method has scales by consequence (docs/method.md): a ball's velocity along its orbit decides how it meets its pocket and is finer; its
-    velocity along the contact normals, where a step's error moves it by nanometres, and the friction states, whose error hardly changes a half's velocity
-    within a step, are wider.
+    The default method has scales by consequence (docs/method.md): a ball's velocity along its orbit decides how it meets its pocket and is finer,
+    less so where walls give way; verlet.py makes it finer still at lower speeds.  Its velocity along the contact normals, where a step's error moves it
+    by nanometres, and the friction states, whose error hardly changes a half's velocity within a step, are wider.
     """
     equal = p.solver.method == Method.EXPLICIT
     length, velocity, r = 1e-5, 0.1 if equal else 0.5, 0.5 * p.bearing.d_m

@@ -218,8 +218,9 @@ static void derive_joint(const Parameters *p, Derived *d)
 
 // Errors that tolerance 1 allows: lengths and velocities, angles as arcs, friction states as parts of the deflection at
 // which the plates slip.  The default method has scales by consequence (docs/method.md): a ball's velocity along its
-// orbit decides how it meets its pocket and is finer; its velocity along the contact normals, where a step's error
-// moves it by nanometres, and the friction states, whose error hardly changes a half's velocity within a step, are wider.
+// orbit decides how it meets its pocket and is finer, less so where walls give way; integrator.c makes it finer still at
+// lower speeds.  Its velocity along the contact normals, where a step's error moves it by nanometres, and the friction
+// states, whose error hardly changes a half's velocity within a step, are wider.
 static void derive_scales(const Parameters *p, Derived *d)
 {
     const bool equal = p->solver.method == METHOD_EXPLICIT;
