@@ -469,7 +469,8 @@ static const double FULL_ORBIT = 20.0, LEAST_ORBIT = 0.1;
 static void weigh_orbit(Integrator *in)
 {
     double sum = 0.0;
-    for (int j = 0; j < Z; j++) sum += fabs(in->s->now.y[Y_BALL_OMEGA_M + j] - in->model->ring_load->outer_omega);
+    for (int j = 0; j < Z; j++)
+        sum += fabs(in->s->now.y[Y_BALL_OMEGA_M + j] - in->model->ring_load->outer_omega);
     const double speed = 0.5 * in->model->p->bearing.d_m * sum / Z;
     const double part = fmin(fmax(speed / FULL_ORBIT, LEAST_ORBIT), 1.0);
     for (int j = 0; j < Z; j++) in->weight[Y_BALL_OMEGA_M + j] = in->orbit_weight / part;

@@ -472,7 +472,8 @@ static void steps_and_times(void)
     amount_refused(AT(integrator.h), "step size");
     amount_refused(AT(integrator.now.h), "last step size");
     amount_refused(AT(integrator.now.ratio), "ratio of the last step");
-    double_refused(AT(integrator.now.ratio), 18.0, "ratio of the last step");  // an error of 1e-4 or less gives 17.2
+    double_refused(AT(integrator.now.ratio), 18.0,
+                   "ratio of the last step");  // an error of 1e-4 or less gives 17.2
     range_refused(AT(integrator.f_is_current), 0, 1, "f_is_current");
     count_refused(AT(integrator.steps), "steps");
     count_refused(AT(integrator.rhs_evals), "evaluations");
