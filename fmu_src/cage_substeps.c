@@ -36,30 +36,14 @@ static const double ROUNDING = 1e-9;         // part of a substep by which the l
 
 enum { X, ABOUT_Y, ABOUT_Z, ACROSS_Y, ACROSS_Z, SPIN };  // relative rigid motions
 
-// Inverse inertia of the relative motions as the joints feel it [1/kg, 1/(kg.m2)]; what of y and z the centres of mass take;
-// common tilt [rad] by unit of y or z at the joints.
-typedef struct {
-    double inverse[RELATIVE_MOTIONS], part, tilt;
-} RelativeInertia;
-
-static RelativeInertia relative_inertia(const Model *model)
-{
-    const Derived *d = model->d;
-    const double translation = 2.0 / model->p->cage.m, c_x = d->com_x[1];
-    const double across = translation + 2.0 * c_x * c_x / d->J_t;
-    return (RelativeInertia){{translation, 2.0 / d->J_t, 2.0 / d->J_t, across, across, 2.0 / d->J_p},
-                             translation / across,
-                             c_x / d->J_t / across};
-}
-
 // Adds h times the relative motions to rows of both halves, from row `first` on.
 static void give(const Model *model, const Rotor *h0, double h, const double relative[RELATIVE_MOTIONS],
                  int first, double *y)
 {
-    const RelativeInertia inertia = relative_inertia(model);
+    const RelativeInertia *inertia = &model->d->relative;
     const double *b_y = h0->b_y, *b_z = h0->b_z;
-    const double across_y = inertia.part * relative[ACROSS_Y], across_z = inertia.part * relative[ACROSS_Z];
-    const double about_y = inertia.tilt * relative[ACROSS_Z], about_z = -inertia.tilt * relative[ACROSS_Y];
+    const double across_y = inertia->part * relative[ACROSS_Y], across_z = inertia->part * relative[ACROSS_Z];
+    const double about_y = inertia->tilt * relative[ACROSS_Z], about_z = -inertia->tilt * relative[ACROSS_Y];
     const double change[6] = {relative[X],  // x, y, z, beta, gamma, s
                               b_y[1] * across_y + b_z[1] * across_z,
                               b_y[2] * across_y + b_z[2] * across_z,
@@ -125,8 +109,7 @@ static void fast_accelerations(const Model *model, const double *y, const Work *
         wide_store(&force[ACROSS_Z][k], F_z);
         wide_store(&force[SPIN][k], r_y * F_z - r_z * F_y);
     }
-    const RelativeInertia inertia = relative_inertia(model);
-    for (int i = 0; i < RELATIVE_MOTIONS; i++) rigid[i] = inertia.inverse[i] * ball_array_sum(force[i]);
+    for (int i = 0; i < RELATIVE_MOTIONS; i++) rigid[i] = d->relative.inverse[i] * ball_array_sum(force[i]);
 }
 
 void cage_substeps_split(const Model *model, const double *y, const Work *w, double *f, FastState *fast)
@@ -200,17 +183,30 @@ static void move_joints(const Model *model, double h, const JointVelocities *v,
     }
 }
 
+// The modes' damping over half a substep: 1/(1 + d/2 c) before its middle, 1 - d/2 c behind it.
+typedef struct {
+    double before[N_MODES], behind[N_MODES];
+} HalfDamping;
+
+static void half_damping(const ElasticHalf *half, double h, HalfDamping *damping)
+{
+    for (int i = 0; i < N_MODES; i++) {
+        const double damped = 0.5 * h * half->damping[i];
+        damping->before[i] = 1.0 / (1.0 + damped);
+        damping->behind[i] = 1.0 - damped;
+    }
+}
+
 // Moves the modes by the first half of a substep and the drift: from velocities v to v_m and, behind the damping, to v.
-static void move_modes(const ElasticHalf *half, double h, const double *fast, const double *slow, double *q,
-                       double *v, double *v_m)
+static void move_modes(const HalfDamping *damping, double h, const double *fast, const double *slow,
+                       double *q, double *v, double *v_m)
 {
     for (int first = 0; first < 2 * N_MODES; first += N_MODES)
         for (int i = 0; i < N_MODES; i++) {
             const int k = first + i;
-            const double damped = 0.5 * h * half->damping[i];
-            v_m[k] = (v[k] + 0.5 * h * (fast[k] + slow[k])) / (1.0 + damped);
+            v_m[k] = (v[k] + 0.5 * h * (fast[k] + slow[k])) * damping->before[i];
             q[k] += h * v_m[k];
-            v[k] = v_m[k] * (1.0 - damped);
+            v[k] = v_m[k] * damping->behind[i];
         }
 }
 
@@ -303,6 +299,7 @@ double cage_substeps_advance(const Model *model, double h, const FastState *fast
     ball_array P;
     const double gyro = model->d->J_p / model->d->J_t * 0.5 * (w->half[0].s + w->half[1].s);
     Touch touches[2 * Z];
+    HalfDamping damping;
 
     // where the joints are, and what the step holds
     memcpy(w->e, fast->e, sizeof fast->e);
@@ -315,13 +312,14 @@ double cage_substeps_advance(const Model *model, double h, const FastState *fast
     cage_elastic_preload(model, fast->omega_2, P);
     rigid_velocities(model, w, &middle);
     take(model, &w->half[0], f, slow);
+    half_damping(half, sub, &damping);
     const int count = find_touches(half, fast, q, touches);
     memcpy(foreseen->modes, &f[Y_MODE_S_DOT], sizeof modes);
 
     for (int step = 1;; step++) {
         // first half of the accelerations, drift
         double relative[RELATIVE_MOTIONS];
-        move_modes(half, sub, modes, foreseen->modes, q, v, v_m);
+        move_modes(&damping, sub, modes, foreseen->modes, q, v, v_m);
         for (int i = 0; i < RELATIVE_MOTIONS; i++) speed[i] += 0.5 * sub * rigid[i];
         turn(0.5 * gyro * sub, speed);
         for (int i = 0; i < RELATIVE_MOTIONS; i++) {

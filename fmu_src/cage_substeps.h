@@ -5,9 +5,6 @@
 #include "isa.h"
 #include "model.h"
 
-// Relative rigid motions of half 1 against half 0, in the frame of half 0: x, about y, about z, y, z, spin.
-enum { RELATIVE_MOTIONS = 6 };
-
 // Where the substeps of the next step begin: joints, contacts and fast accelerations at an evaluation.  Part of the saved state: no
 // member is aligned beyond a double, so that nothing lies between them.
 typedef struct {

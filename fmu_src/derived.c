@@ -242,6 +242,15 @@ static void derive_scales(const Parameters *p, Derived *d)
     d->scale[SCALE_ENERGY] = 1e30;
 }
 
+static void derive_relative(const Parameters *p, Derived *d)
+{
+    const double translation = 2.0 / p->cage.m, c_x = d->com_x[1];
+    const double across = translation + 2.0 * c_x * c_x / d->J_t;
+    d->relative = (RelativeInertia){{translation, 2.0 / d->J_t, 2.0 / d->J_t, across, across, 2.0 / d->J_p},
+                                    translation / across,
+                                    c_x / d->J_t / across};
+}
+
 static void fill(double *row, int count, double value)
 {
     for (int i = 0; i < count; i++) row[i] = value;
@@ -262,6 +271,7 @@ void model_derive(const Parameters *p, Derived *d)
     derive_balls(p, d);
     derive_pockets(p, d);
     derive_cage(p, d);
+    derive_relative(p, d);
     derive_joint(p, d);
     derive_scales(p, d);
     derive_inertia(p, d);

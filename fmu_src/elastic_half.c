@@ -425,6 +425,10 @@ void elastic_half_derive(const Parameters *p, const Derived *d, ElasticHalf *hal
     memset(half, 0, sizeof *half);
     half->nodes = path->nodes;
     memcpy(half->chi, path->chi, (size_t)half->nodes * sizeof *half->chi);
+    for (int node = 0; node + 1 < half->nodes; node++) {
+        half->step[node] = half->chi[node + 1] - half->chi[node];
+        half->inv_step[node] = 1.0 / half->step[node];
+    }
     memcpy(R, rivet_table.modes.pad, sizeof R);
     half->compliance = rivet_table.modes.wall[2 * WALL_NODE];
     take_modes(p, half, R);

@@ -44,6 +44,7 @@ struct ElasticHalf {
                [MODES];      // A by node, value and slope, (x, r, t), real and imaginary part
     int nodes;               // of the walls' angle
     double chi[WALL_NODES];  // [rad]
+    double step[WALL_NODES], inv_step[WALL_NODES];  // from a node to the next one [rad], its inverse
     // how far a wall can move: modes that move all pockets alike by themselves, all others by Cauchy's inequality
     double reach_2;        // largest |u|^2 / sum omega^2 q^2 of the others [s2]
     double weight[MODES];  // omega^2 of the others, 0 of those
@@ -72,7 +73,7 @@ double elastic_half_rest(const Parameters *p, const Derived *d, const ElasticHal
 // Where balls meet the walls of a half's pockets: direction (x, t) from the pocket's axis to the ball, side of the pocket and
 // of the split, node below the wall's angle, weights of the cubics for the value and the slope over the angle.
 typedef struct {
-    ball_array n_x, n_t, chi, lower, inv_step, value[4], slope[4];
+    ball_array n_x, n_t, chi, lower, step, inv_step, value[4], slope[4];
     bool back[LANES], inside[LANES];
     int node[LANES];
 } WallPlaces;

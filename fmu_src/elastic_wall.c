@@ -11,6 +11,7 @@ void elastic_wall_places(const ElasticHalf *half, int side, int j, int near, wid
     wide_store(&at->n_t[j], n_t);
     wide_store(&at->chi[j], chi);
     wide_store(&at->lower[j], zero);
+    wide_store(&at->step[j], zero);
     wide_store(&at->inv_step[j], zero);
     for (int k = j; near != 0 && k < Z; near >>= 1, k++) {
         if (!(near & 1)) continue;
@@ -18,11 +19,12 @@ void elastic_wall_places(const ElasticHalf *half, int side, int j, int near, wid
         while (node < half->nodes - 2 && scalar_value(at->chi[k]) >= half->chi[node + 1]) node++;
         at->node[k] = node;
         at->back[k] = scalar_value(at->n_t[k]) < 0.0, at->inside[k] = scalar_value(at->n_x[k]) * side > 0.0;
-        at->lower[k] = half->chi[node], at->inv_step[k] = 1.0 / (half->chi[node + 1] - half->chi[node]);
+        at->lower[k] = half->chi[node], at->step[k] = half->step[node],
+        at->inv_step[k] = half->inv_step[node];
     }
-    const wide lower = wide_load(&at->lower[j]), inv_step = wide_load(&at->inv_step[j]);
+    const wide lower = wide_load(&at->lower[j]), step = wide_load(&at->step[j]),
+               inv_step = wide_load(&at->inv_step[j]);
     const wide u = (chi - lower) * inv_step, v = one - u;
-    const wide step = wide_ratio(one, inv_step);
     const wide value[4] = {v * v * (1.0 + 2.0 * u), step * u * v * v, u * u * (1.0 + 2.0 * v),
                            -step * u * u * v};
     const wide slope[4] = {-6.0 * u * v * inv_step, v * (v - 2.0 * u), 6.0 * u * v * inv_step,

@@ -51,6 +51,15 @@ typedef struct {
         loosening;  // radial interference at standstill [m], what the rotation takes of it / omega^2 [m.s2]
 } RingFit;
 
+// Relative rigid motions of half 1 against half 0, in the frame of half 0: x, about y, about z, y, z, spin.
+enum { RELATIVE_MOTIONS = 6 };
+
+// Inverse inertia of these motions as the joints feel it [1/kg, 1/(kg.m2)]; what of y and z the centres of mass take; common
+// tilt [rad] by unit of y or z at the joints (cage_substeps.c).
+typedef struct {
+    double inverse[RELATIVE_MOTIONS], part, tilt;
+} RelativeInertia;
+
 typedef struct {
     // balls and races
     constants R;  // ball radius [m]
@@ -100,6 +109,8 @@ typedef struct {
     bool any_broken;
     double c_joint;     // axial damping of one closed joint [N.s/m]
     double spin[ROWS];  // rows of bonded joints (half_path.h) under the centrifugal load, per (rad/s)^2
+
+    RelativeInertia relative;  // of the halves, for the substeps of elastic ones
 
     // whole state
     double scale[SCALE_COUNT];  // error that tolerance 1 allows, by class of state
