@@ -86,7 +86,7 @@ class VerletState:
     film: np.ndarray = field(default_factory=lambda: np.zeros((2, 2, 2)))  # -dF/dv of each land's film there [N.s/m]
     h: float = 0.0  # length of that step [s], 0: none yet
     fast: FastState = None  # of elastic halves there, whose accelerations f lacks
-    ratio: float = 0.0  # what its error asked the next step to be, by that length; 0 likewise
+    ratio: float = 0.0  # length that its error asks of the next step / h, 0: none yet
 
     def __post_init__(self):
         self.jerk = np.zeros(len(self.y)) if self.jerk is None else self.jerk
@@ -437,12 +437,12 @@ def weigh_orbit(model, weight, y):
 
 
 def ratio_of(error):
-    """What an error asks the next step to be, by the length of its step; 0 where the error is not a number."""
+    """Length that a step's error asks of the next one / its own length; 0 where the error is not a number."""
     return SAFETY * max(error, LEAST_ERROR) ** (-1.0 / 3.0) if error >= 0.0 else 0.0
 
 
 def step_factor(h, error, before):
-    """The next step by the one of length h: after an accepted one the digital filter H211b of Soderlind (2003), b = 4, after a refused one its ratio.
+    """Length of the next step / h: after an accepted step of length h by the digital filter H211b of Soderlind (2003), b = 4, after a refused one its ratio.
 
     before: length and ratio of the step before, 0 if there is none.
     """

@@ -263,8 +263,8 @@ static const double SAFETY = 0.8, MIN_FACTOR = 0.2, MAX_FACTOR = 1.5, LEAST_ERRO
 
 enum { ORDER = 2 };
 
-// What an error asks the next step to be, by the length of its step; of a NaN, by which a step has left the range of the
-// model, 0.
+// Length that a step's error asks of the next one / its own length.  A NaN means that the step has left the range of the model,
+// and gives 0.
 static double ratio_of(double error)
 {
     return error >= 0.0 ? SAFETY * approx_inv_cbrt(fmax(error, LEAST_ERROR)) : 0.0;

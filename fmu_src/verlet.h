@@ -14,7 +14,7 @@ typedef struct {
     double film[2][3];          // -dF/dv of each land's film there: yy, yz, zz [N.s/m]
     FastState fast;             // of elastic halves there, whose accelerations f lacks; of others 0
     double h;                   // length of that step [s]; 0 before the first one
-    double ratio;  // what its error asked the next one to be, by that length (integrator.c); 0 likewise
+    double ratio;  // length that its error asks of the next step / h (integrator.c); 0 before the first one
 } VerletState;
 
 // Takes the step of length h [s] from the state `from` at time t to the state `to` and returns the weighted

@@ -488,9 +488,11 @@ def test_no_derivative(core):
 
     errors = iter((np.nan, 0.0, 0.0, 0.0, 0.0))
     model, start = Model.of(TWO_HALF), VerletState(y, y)
-    taken, refused = verlet.verlet_advance(model, 0.0, 1e-2, 1e-2, 1.0 / model.d.scale, start, lambda model, t, h, *_: (VerletState(y, y, h=h), next(errors)))[
-        2:
-    ]
+
+    def plant(model, t, h, *_):
+        return VerletState(y, y, h=h), next(errors)
+
+    taken, refused = verlet.verlet_advance(model, 0.0, 1e-2, 1e-2, 1.0 / model.d.scale, start, plant)[2:]
     np.testing.assert_allclose(taken, [2e-3, 3e-3, 2.5e-3, 2.5e-3], rtol=1e-12)  # 0.2 times; 1.5 times where there is no error; two halves
     assert refused == 1
 
