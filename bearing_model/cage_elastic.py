@@ -41,6 +41,7 @@ CAGE_RATES = CAGE_V_X, CAGE_V_Y, CAGE_V_Z, CAGE_BETA_DOT, CAGE_GAMMA_DOT, CAGE_S
 SUBSTEP_TURN = 1.6  # angle by which the fastest vibration of closed joints turns in a substep (cage_substeps.py)
 WALL_NODE = 1  # of the walls' angle: impacts meet the wall at 7 degrees in the median
 RAY = 24  # intervals of Simpson's rule along a ray of loads
+ENTRIES = (MODE_S.stop - MODE_S.start + 15) // 16 * 8  # room for the coordinates of one kind
 
 
 @dataclass
@@ -123,22 +124,35 @@ def load_before(law, K, behind, P):
     return load
 
 
+def count_modes(p, modes):
+    """How many modes the scene takes: of the lowest frequencies, no pair divided, coordinates a and b of at most ENTRIES each."""
+    a, b = np.cumsum(modes.parity >= 0), np.cumsum(modes.parity <= 0)
+    return int(np.max((a + b)[(a + b <= p.scene.modes) & (np.maximum(a, b) <= ENTRIES)], initial=0))
+
+
+def mode_order(modes):
+    """Place of each coordinate of the state among those of half_modes.py [n]: all a, those of pairs first, then all b likewise; its entry; 0 of a, 1 of b."""
+    entry, part = np.repeat(np.arange(len(modes.omega)), modes.count), coordinates(modes, 0.0 * modes.omega, 0.0 * modes.omega + 1.0)
+    order = np.lexsort((entry, modes.parity[entry] != 0, part))
+    return order, entry[order], part[order]
+
+
 def derive_elastic(p, d, table):
     """ElasticHalf of the scene."""
     if table.modes is None:
         raise ValueError("scene.cage = elastic: the rivet table has no vibration modes")
     ratio = p.cage.m / table.half.m
-    modes = denser(fewer(table.modes, min(p.scene.modes, int(table.modes.count.sum()))), ratio)
+    modes = denser(fewer(table.modes, count_modes(p, table.modes)), ratio)
     unit = np.sqrt(p.cage.m)  # the table's modes have unit modal mass
-    entry, part = np.repeat(np.arange(len(modes.omega)), modes.count), coordinates(modes, 0.0 * modes.omega, 0.0 * modes.omega + 1.0)
+    order, entry, part = mode_order(modes)
     c, s = (f[entry] for f in phases(modes, 0.0))
     wave = np.where(part[:, None, None] == 0.0, np.stack([c, -s], axis=1), np.stack([s, c], axis=1))
-    omega, residual = frequencies(modes), modes.residual
+    omega, residual = frequencies(modes)[order], modes.residual
     R = joint_residual(modes)
     shear = 2.0 * np.mean(np.diag(residual.pad[0])[IN])  # of both halves
     behind, energy = kept_law(modes.law, np.linalg.inv(R))
     pocket = unit * np.moveaxis(modes.pocket[entry], 1, 0)
-    pad = unit * np.moveaxis(rivet_shapes(modes)[:, :, : len(PAD)], 1, 2)
+    pad = unit * np.moveaxis(rivet_shapes(modes)[order][:, :, : len(PAD)], 1, 2)
     series, k_hole = 1.0 / (1.0 + shear * (d.k_plate_t + d.k_head)), d.k_hole / (1.0 + shear * d.k_hole)
     held = series * (d.k_plate_t + d.k_head) + np.max(k_hole)
     alike = (modes.harmonic[entry] == 0) & (part == 0.0)
@@ -155,7 +169,7 @@ def derive_elastic(p, d, table):
         chi=table.half.chi,
         pocket=pocket,
         slope=unit * np.moveaxis(modes.slope[entry], 1, 0),
-        spin=d.centrifugal * unit * spin_load(modes),
+        spin=d.centrifugal * unit * spin_load(modes)[order],
         reach_2=1.5625 * np.max(np.sum(np.where(alike, 0.0, np.where(modes.parity[entry] == 0, 0.5, 1.0) * u_2 / omega**2), axis=1)),
         widest=np.where(alike, 1.25 * np.sqrt(np.max(u_2, axis=0)), 0.0),
         R=R,

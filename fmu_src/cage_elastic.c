@@ -30,25 +30,36 @@
 
 static const double ROOT = 1.4142135623730951;  // of 2
 
-// Motions of the pads against each other by modal coordinates: parts of Z pads each, in rows of a number of octets.
-INLINE void pads_follow(const ElasticHalf *half, const scalar *q, int parts, int octets, const double *rows,
-                        ball_array *to)
+// Which motions of pads turn their sign in the mirror image by a coordinate a; by b the others do.
+static const bool OUT_TURNS[PAD_OUT] = {false, true, false}, IN_TURNS[PAD_IN] = {false, true};
+
+// Motions of the pads against each other by modal coordinates: motions of the first pads, in rows of a number of octets.
+INLINE void pads_follow(const ElasticHalf *half, const scalar *q, int motions, int octets, const double *rows,
+                        const bool *turns, ball_array *to)
 {
-    octet sum[OUT_OCTETS] = {{{0.0}}}, odd[OUT_OCTETS] = {{{0.0}}};
-    scalar row[8 * OUT_OCTETS];
-    octets_add_rows(8 * half->blocks, q, octets, rows, sum, odd);
-    octets_store_sum(octets, sum, odd, row);
-    for (int c = 0; c < parts; c++) memcpy(to[c], &row[c * Z], Z * sizeof *row);
+    scalar row[2][8 * OUT_OCTETS];
+    for (int kind = 0; kind < 2; kind++) {
+        const int first = kind * half->count[0];
+        octet sum[OUT_OCTETS] = {{{0.0}}}, odd[OUT_OCTETS] = {{{0.0}}};
+        octets_add_rows(half->count[kind], q + first, octets, rows + first * 8 * octets, sum, odd);
+        octets_store_sum(octets, sum, odd, row[kind]);
+    }
+    for (int c = 0; c < motions; c++)
+        for (int k = 0; k < FIRST; k++) {
+            const scalar by_a = row[0][c * FIRST + k], by_b = row[1][c * FIRST + k];
+            to[c][Z - 1 - k] = turns[c] ? by_b - by_a : by_a - by_b;
+            to[c][k] = by_a + by_b;
+        }
 }
 
 void cage_elastic_out(const ElasticHalf *half, const scalar *S, ball_array to[PAD_OUT])
 {
-    pads_follow(half, S, PAD_OUT, OUT_OCTETS, half->out[0], to);
+    pads_follow(half, S, PAD_OUT, OUT_OCTETS, half->out[0], OUT_TURNS, to);
 }
 
 void cage_elastic_in(const ElasticHalf *half, const scalar *D, ball_array to[PAD_IN])
 {
-    pads_follow(half, D, PAD_IN, IN_OCTETS, half->in[0], to);
+    pads_follow(half, D, PAD_IN, IN_OCTETS, half->in[0], IN_TURNS, to);
 }
 
 // Sum over the modes in one order for every lane width.
@@ -223,24 +234,38 @@ scalar cage_elastic_coriolis(const Model *model, const Work *w, int h)
     return w->more_J_dot[h] * (w->half[h].s + w->frame_omega);
 }
 
+// Forces of the joints' loads on the modes: of the first joints, each with its mirror image.
+INLINE void pads_pull(const ElasticHalf *half, int motions, ball_array *load, const double *modes,
+                      const bool *turns, mode_array to)
+{
+    scalar weight[2][FIRST];
+    octet sum[2][ENTRY_OCTETS] = {{{{0.0}}}}, odd[2][ENTRY_OCTETS] = {{{{0.0}}}};
+    for (int c = 0; c < motions; c++) {
+        for (int k = 0; k < FIRST; k++) {
+            const scalar here = load[c][k], there = load[c][Z - 1 - k];
+            weight[turns[c]][k] = here + there;
+            weight[!turns[c]][k] = here - there;
+        }
+        for (int kind = 0; kind < 2; kind++)
+            octets_add_rows(FIRST, weight[kind], ENTRY_OCTETS, modes + (kind * motions + c) * FIRST * ENTRIES,
+                            sum[kind], odd[kind]);
+    }
+    octets_store_sum(ENTRY_OCTETS, sum[0], odd[0], to);
+    octets_store_sum(ENTRY_OCTETS, sum[1], odd[1], to + half->count[0]);
+}
+
 void cage_elastic_pull(const Model *model, Work *w)
 {
     const ElasticHalf *half = model->elastic;
     const double inv_R = 2.0 / rivet_table.joint.d_m;
-    ball_array F_r, F_t;
+    ball_array across[PAD_IN];
     for (int k = 0; k < Z; k++) {
         const double c = model->d->rivet_y[k] * inv_R, s = model->d->rivet_z[k] * inv_R;
-        F_r[k] = c * w->joint_F_y[k] + s * w->joint_F_z[k];
-        F_t[k] = c * w->joint_F_z[k] - s * w->joint_F_y[k];
+        across[0][k] = c * w->joint_F_y[k] + s * w->joint_F_z[k];
+        across[1][k] = c * w->joint_F_z[k] - s * w->joint_F_y[k];
     }
-    octet out[MODE_OCTETS] = {{{0.0}}}, out_odd[MODE_OCTETS] = {{{0.0}}}, in[MODE_OCTETS] = {{{0.0}}},
-          in_odd[MODE_OCTETS] = {{{0.0}}};
-    for (int a = 0; a < PAD_OUT; a++)
-        octets_add_rows(Z, w->joint_load[a], MODE_OCTETS, half->out_modes[a][0], out, out_odd);
-    octets_store_sum(MODE_OCTETS, out, out_odd, w->pull_S);
-    octets_add_rows(Z, F_r, MODE_OCTETS, half->in_modes[0][0], in, in_odd);
-    octets_add_rows(Z, F_t, MODE_OCTETS, half->in_modes[1][0], in, in_odd);
-    octets_store_sum(MODE_OCTETS, in, in_odd, w->pull_D);
+    pads_pull(half, PAD_OUT, w->joint_load, half->out_modes[0][0], OUT_TURNS, w->pull_S);
+    pads_pull(half, PAD_IN, across, half->in_modes[0][0], IN_TURNS, w->pull_D);
 }
 
 void cage_elastic_acceleration(const Model *model, const scalar *y, Work *w, scalar *y_dot)

@@ -223,8 +223,8 @@ static double modes_lose(const Model *model, const double *v)
 
 // A ball on the wall of half 0 (side -1) or 1 (side 1).
 typedef struct {
-    double k, rate, Q, side, from;       // from: the wall's motion at the step's start
-    _Alignas(64) double shape[N_MODES];  // its motion along the normal by S; by D: side times that
+    double k, rate, Q, side, from;  // from: the wall's motion at the step's start
+    mode_array shape;               // its motion along the normal by S; by D: side times that
 } Touch;
 
 // Motion of the wall at the coordinates q of S and D.

@@ -36,28 +36,51 @@ static double wave_at(int n, int coordinate, int part, double theta)
     return part == 0 ? s : c;
 }
 
-// Mode i: coordinate a (0) or b (1) of an entry of the table.
+// Amplitudes of an entry at the walls [node][value, slope][x, r, t][U', U''].
+static const double *wall_of(const HalfModes *table, const ElasticHalf *half, int entry)
+{
+    return table->pocket + 12 * entry * half->nodes;
+}
+
+// Place e among the a (coordinate 0) or b (1), of an entry of the table.
 static void take_mode(const HalfModes *table, int entry, int coordinate, double unit, ElasticHalf *half,
-                      int i)
+                      int e)
 {
     const HalfMode *mode = &table->entry[entry];
     const double root = sqrt(2.0);
-    for (int k = 0; k < Z; k++) {
-        const double theta = 2.0 * PI * (k + 0.5) / Z;
-        for (int c = 0; c < PAD_OUT; c++)
-            half->out[i][c * Z + k] = half->out_modes[c][k][i] =
+    const int i = coordinate * half->count[0] + e;
+    half->entry[i] = entry;
+    for (int k = 0; k < FIRST; k++) {
+        const double theta = 2.0 * PI * (k + 0.5) / Z, part = k == Z - 1 - k ? 0.5 : 1.0;
+        for (int c = 0; c < PAD_OUT; c++) {
+            half->out[i][c * FIRST + k] =
                 root * unit * mode->at[OUT[c]] * wave_at(mode->harmonic, coordinate, ODD[OUT[c]], theta);
-        for (int c = 0; c < PAD_IN; c++)
-            half->in[i][c * Z + k] = half->in_modes[c][k][i] =
+            half->out_modes[coordinate * PAD_OUT + c][k][e] = part * half->out[i][c * FIRST + k];
+        }
+        for (int c = 0; c < PAD_IN; c++) {
+            half->in[i][c * FIRST + k] =
                 root * unit * mode->at[IN[c]] * wave_at(mode->harmonic, coordinate, ODD[IN[c]], theta);
-        for (int part = 0; part < 2; part++)
-            half->wave[k][part][i] = wave_at(mode->harmonic, coordinate, part, 2.0 * PI * k / Z);
+            half->in_modes[coordinate * PAD_IN + c][k][e] = part * half->in[i][c * FIRST + k];
+        }
     }
-    const double *from = table->pocket + 12 * entry * half->nodes;
+    for (int j = 0; j < Z; j++) {
+        const double nu = 2.0 * PI * j / Z;
+        half->turn[j][coordinate][e] = wave_at(mode->harmonic, 0, 0, nu);
+        half->turn[j][2][e] = mode->parity == 0 ? wave_at(mode->harmonic, 1, 0, nu) : 0.0;
+    }
+    const double *from = wall_of(table, half, entry);
     for (int node = 0; node < half->nodes; node++)
         for (int slope = 0; slope < 2; slope++)
-            for (int c = 0; c < 3; c++)
-                for (int part = 0; part < 2; part++) half->wall[node][slope][c][part][i] = unit * *from++;
+            for (int c = 0; c < 3; c++, from += 2)
+                half->wall[node][slope][c][coordinate][e] = unit * from[coordinate];
+}
+
+double elastic_half_pad(const ElasticHalf *half, bool out, int i, int motion, int k)
+{
+    const bool b = i >= half->count[0], mirrored = k >= FIRST;
+    const double sign = mirrored && ODD[out ? OUT[motion] : IN[motion]] != b ? -1.0 : 1.0;
+    const double *row = out ? half->out[i] : half->in[i];
+    return sign * row[motion * FIRST + (mirrored ? Z - 1 - k : k)];
 }
 
 static void invert_3(const double *K, double inverse[3][3])
@@ -293,7 +316,7 @@ static double fastest(const Parameters *p, const ElasticHalf *half, bool out, do
         const double root = sqrt(i < modes ? p->cage.m : rigid[i - modes]);
         for (int c = 0; c < count; c++)
             for (int k = 0; k < Z; k++) {
-                const double by_mode = i < modes ? (out ? half->out[i] : half->in[i])[c * Z + k] : 0.0;
+                const double by_mode = i < modes ? elastic_half_pad(half, out, i, c, k) : 0.0;
                 const double by_rigid =
                     i < modes ? 0.0 : rigid_motion(out, i - modes, c, 2.0 * PI * (k + 0.5) / Z);
                 B[i][c * Z + k] = (by_mode + by_rigid) / root;
@@ -326,44 +349,90 @@ static double longest_substep(const Parameters *p, const Derived *d, const Elast
 }
 
 // ---- all ------------------------------------------------------------------------------------------------------------
-// The modes of the lowest frequencies; the statics of the others go to the residual between pads and at the wall.
+// Whether an entry has the coordinate a (0) or b (1).
+static bool has(const HalfMode *mode, int coordinate)
+{
+    return coordinate == 0 ? mode->parity >= 0 : mode->parity <= 0;
+}
+
+// How many entries the scene takes, those of the lowest frequencies; counts their coordinates.
+static int count_modes(const Parameters *p, const HalfModes *table, ElasticHalf *half)
+{
+    for (int entry = 0; entry < table->entries; entry++) {
+        int count[2];
+        for (int c = 0; c < 2; c++) count[c] = half->count[c] + has(&table->entry[entry], c);
+        if (count[0] + count[1] > p->scene.modes || count[0] > ENTRIES || count[1] > ENTRIES) return entry;
+        memcpy(half->count, count, sizeof count);
+    }
+    return table->entries;
+}
+
+// Adds the statics of an entry that is not taken to the residual between pads and at the wall.
+static void leave_mode(const HalfModes *table, int entry, int coordinate, ElasticHalf *half,
+                       double R[Z][PADS][PADS])
+{
+    const HalfMode *mode = &table->entry[entry];
+    const double flexibility = 1.0 / (mode->omega * mode->omega), *at = mode->at;
+    const double *wall = wall_of(table, half, entry) + 12 * WALL_NODE;
+    const int n = mode->harmonic;
+    for (int k = 0; k < Z; k++)
+        for (int a = 0; a < PADS; a++)
+            for (int b = 0; b < PADS; b++)
+                R[k][a][b] += at[a] * wave_at(n, coordinate, ODD[a], 2.0 * PI * (k + 0.5) / Z) * at[b] *
+                              wave_at(n, coordinate, ODD[b], PI / Z) * flexibility;
+    const double c = portable_cos(half->chi[WALL_NODE]), s = portable_sin(half->chi[WALL_NODE]);
+    const double u = s * wall[coordinate] + c * wall[4 + coordinate];  // on pocket 0, along the normal
+    half->compliance += u * u * flexibility;
+}
+
+// The modes of the lowest frequencies; the statics of the others go to the residual.
 static void take_modes(const Parameters *p, ElasticHalf *half, double R[Z][PADS][PADS])
 {
     const CageHalfData *data = &rivet_table.half;
     const HalfModes *table = &rivet_table.modes;
     const double unit = sqrt(data->m), denser = p->cage.m / data->m;
-    const double c = portable_cos(half->chi[WALL_NODE]), s = portable_sin(half->chi[WALL_NODE]);
-    bool taken = true;
-    for (int entry = 0; entry < table->entries; entry++) {
-        const HalfMode *mode = &table->entry[entry];
-        const double flexibility = 1.0 / (mode->omega * mode->omega), *at = mode->at;
-        const double *wall = table->pocket + 12 * (entry * half->nodes + WALL_NODE);
-        const int from = mode->parity < 0, to = mode->parity > 0 ? 1 : 2;
-        taken = taken && half->n + (to - from) <= p->scene.modes;
-        for (int coordinate = from; coordinate < to; coordinate++) {
-            if (taken) {
-                const int i = half->n++;
-                take_mode(table, entry, coordinate, unit, half, i);
+    const int taken = count_modes(p, table, half);
+    half->n = half->count[0] + half->count[1];
+    half->blocks = (half->n + 7) / 8;
+    half->octets = ((half->count[0] > half->count[1] ? half->count[0] : half->count[1]) + 7) / 8;
+
+    for (int coordinate = 0; coordinate < 2; coordinate++) {
+        int e = 0;
+        for (int single = 0; single < 2; single++)
+            for (int entry = 0; entry < taken; entry++) {
+                const HalfMode *mode = &table->entry[entry];
+                if (!has(mode, coordinate) || (mode->parity != 0) != single) continue;
+                const int i = coordinate * half->count[0] + e;
+                take_mode(table, entry, coordinate, unit, half, e++);
                 half->pair[i] = mode->parity == 0;
                 half->alike[i] = mode->harmonic == 0 && coordinate == 0;
                 half->omega_2[i] = mode->omega * mode->omega / denser;
                 half->damping[i] = 2.0 * p->cage.modal_damping * sqrt(half->omega_2[i]);
                 if (p->cage.centrifugal == SWITCH_ON && coordinate == 0)
                     half->spin[i] = denser * unit * mode->spin;
-                continue;
             }
-            const int n = mode->harmonic;
-            for (int k = 0; k < Z; k++)
-                for (int a = 0; a < PADS; a++)
-                    for (int b = 0; b < PADS; b++)
-                        R[k][a][b] += at[a] * wave_at(n, coordinate, ODD[a], 2.0 * PI * (k + 0.5) / Z) *
-                                      at[b] * wave_at(n, coordinate, ODD[b], PI / Z) * flexibility;
-            const double u =
-                s * wall[coordinate] + c * wall[4 + coordinate];  // on pocket 0, along the normal
-            half->compliance += u * u * flexibility;
-        }
+        for (int entry = taken; entry < table->entries; entry++)
+            if (has(&table->entry[entry], coordinate)) leave_mode(table, entry, coordinate, half, R);
     }
-    half->blocks = (half->n + 7) / 8;
+}
+
+// How far a wall can move; between the nodes a quarter farther at most.
+static void find_reach(ElasticHalf *half)
+{
+    const double unit_2 = rivet_table.half.m;
+    for (int i = 0; i < half->n; i++) half->weight[i] = half->alike[i] ? 0.0 : half->omega_2[i];
+    for (int node = 0; node < half->nodes; node++) {
+        double sum = 0.0;
+        for (int i = 0; i < half->n; i++) {
+            const double *U = wall_of(&rivet_table.modes, half, half->entry[i]) + 12 * node;
+            const double u_2 = unit_2 * (U[0] * U[0] + U[1] * U[1] + U[4] * U[4] + U[5] * U[5]);  // x and t
+            if (half->alike[i])
+                half->widest[i] = fmax(half->widest[i], 1.25 * sqrt(u_2));
+            else
+                sum += (half->pair[i] ? 0.5 : 1.0) * u_2 / half->omega_2[i];
+        }
+        half->reach_2 = fmax(half->reach_2, 1.5625 * sum);
+    }
 }
 
 // ---- rest under the centrifugal load -----------------------------------------------------------------------------------
@@ -375,10 +444,10 @@ static void rest_off(const Parameters *p, const ElasticHalf *half, double omega_
     const double root = sqrt(2.0);
     double e[PAD_OUT] = {0.5 * x[0], 0.0, 0.0}, behind[PAD_OUT], load[PAD_OUT], rivet[3], U;
     for (int i = 0; i < half->n; i++) {
-        const double moment = half->alike[i] ? Z * half->out[i][2 * Z] * x[1] : 0.0;
+        const double moment = half->alike[i] ? Z * half->out[i][2 * FIRST] * x[1] : 0.0;
         S[i] = (root * half->spin[i] * omega_2 - moment) / (p->cage.m * half->omega_2[i]);
         e[0] += 0.5 * S[i] * half->out[i][0];
-        e[2] += 0.5 * S[i] * half->out[i][2 * Z];
+        e[2] += 0.5 * S[i] * half->out[i][2 * FIRST];
     }
     for (int a = 0; a < PAD_OUT; a++)
         behind[a] = half->K[a][0] * e[0] + half->K[a][1] * e[1] + half->K[a][2] * e[2];
@@ -437,22 +506,7 @@ void elastic_half_derive(const Parameters *p, const Derived *d, ElasticHalf *hal
     half->series = 1.0 / (1.0 + shear * (d->k_plate_t + d->k_head));
     for (int k = 0; k < LANES; k++) half->k_hole[k] = d->k_hole[k] / (1.0 + shear * d->k_hole[k]);
 
-    // how far a wall can move; between the nodes a quarter farther at most
-    for (int node = 0; node < half->nodes; node++) {
-        double sum = 0.0;
-        for (int i = 0; i < half->n; i++) {
-            double u_2 = 0.0;
-            for (int c = 0; c < 3; c += 2)
-                for (int part = 0; part < 2; part++)
-                    u_2 += half->wall[node][0][c][part][i] * half->wall[node][0][c][part][i];
-            if (half->alike[i])
-                half->widest[i] = fmax(half->widest[i], 1.25 * sqrt(u_2));
-            else
-                sum += (half->pair[i] ? 0.5 : 1.0) * u_2 / half->omega_2[i];
-            half->weight[i] = half->alike[i] ? 0.0 : half->omega_2[i];
-        }
-        half->reach_2 = fmax(half->reach_2, 1.5625 * sum);
-    }
+    find_reach(half);
     law_of(half);
     if (before != p->scene.modes) law_behind(half);
     half->law_modes = p->scene.modes;

@@ -8,7 +8,14 @@
 //
 // (half_modes.h, bearing_model/half_modes.py).  A scene takes the modes of the lowest frequencies, without
 // dividing a pair; the statics of all others are the residual.  Here the modes have no dimension and the modal mass is the
-// half's, so that coordinates are lengths.
+// half's, so that coordinates are lengths.  They stand in this order: all a, those of pairs first; then all b, the same.  So what a pair
+// moves at a place follows from U and two sums of its coordinates:
+//
+//     u_j = U' a' + U'' b',     a' = a cos nu + b sin nu,  b' = b cos nu - a sin nu
+//
+// and its coordinates get the forces f_a = F' cos nu - F'' sin nu, f_b = F' sin nu + F'' cos nu of F' = U'.F, F'' = U''.F.  A single mode
+// has sin nu = 0.  Mirroring the half in the plane between the first and the last rivet turns the sign of each motion of pads by an a or by a
+// b, so that half of the rivets say what all do.
 #pragma once
 
 #include "half_path.h"
@@ -23,25 +30,30 @@ enum {
     PAD_IN = 2
 };  // motions of pads against each other out of the plane (x, about r, about t), in it (r, t)
 
-// Motions of all pads in one row, motion c of joint k in place c Z + k: octets of a row.
-enum { OUT_OCTETS = (PAD_OUT * Z + 7) / 8, IN_OCTETS = (PAD_IN * Z + 7) / 8, MODE_OCTETS = MODES / 8 };
+// Motions of the first pads in one row, motion c of joint k in place c FIRST + k; joint Z - 1 - k is its mirror image.  Octets of a row.
+enum { FIRST = (Z + 1) / 2, OUT_OCTETS = (PAD_OUT * FIRST + 7) / 8, IN_OCTETS = (PAD_IN * FIRST + 7) / 8 };
+
+enum { ENTRY_OCTETS = ENTRIES / 8 };
 
 enum { WALL_NODES = 16 };  // at most
 
 struct ElasticHalf {
-    int law_modes;                                     // scene.modes of the coefficients below; 0: none yet
-    int n, blocks;                                     // modes, blocks of eight of them
-    double omega_2[MODES], damping[MODES];             // omega^2, 2 zeta omega
-    double spin[MODES];                                // modal force per (rad/s)^2
-    bool alike[MODES];                                 // moves all joints alike and does not twist them
-    bool pair[MODES];                                  // one of two modes of the same frequency
-    _Alignas(64) double out[MODES][8 * OUT_OCTETS];    // motions of the pads against each other by S, in rows
-    _Alignas(64) double in[MODES][8 * IN_OCTETS];      // and by D
-    _Alignas(64) double out_modes[PAD_OUT][Z][MODES];  // the same, modes side by side
-    double in_modes[PAD_IN][Z][MODES];
-    double wave[Z][2][MODES];  // at the pockets, what the real and the imaginary part of A are multiplied by
+    int law_modes;                                   // scene.modes of the coefficients below; 0: none yet
+    int n, blocks;                                   // modes, blocks of eight of them
+    int count[2], octets;                            // coordinates a and b; blocks of eight of the more
+    int entry[MODES];                                // of the table, of each coordinate
+    double omega_2[MODES], damping[MODES];           // omega^2, 2 zeta omega
+    double spin[MODES];                              // modal force per (rad/s)^2
+    bool alike[MODES];                               // moves all joints alike and does not twist them
+    bool pair[MODES];                                // one of two modes of the same frequency
+    _Alignas(64) double out[MODES][8 * OUT_OCTETS];  // motions of the pads against each other by S, in rows
+    _Alignas(64) double in[MODES][8 * IN_OCTETS];    // and by D
+    // the same, a and b by themselves, modes side by side; of a joint that is its own mirror image one half
+    _Alignas(64) double out_modes[2 * PAD_OUT][FIRST][ENTRIES];
+    double in_modes[2 * PAD_IN][FIRST][ENTRIES];
+    double turn[Z][3][ENTRIES];  // at the pockets: cos nu of the a, of the b, sin nu
     double wall[WALL_NODES][2][3][2]
-               [MODES];      // A by node, value and slope, (x, r, t), real and imaginary part
+               [ENTRIES];    // U by node, value and slope, (x, r, t), U' of the a and U'' of the b
     int nodes;               // of the walls' angle
     double chi[WALL_NODES];  // [rad]
     double step[WALL_NODES], inv_step[WALL_NODES];  // from a node to the next one [rad], its inverse
@@ -84,9 +96,9 @@ typedef struct {
     ball_array tilt;      // slope of n.u across n, u the motion: how much the normal turns
 } WallMotion;
 
-// Motions (x, r, t) of one wall by all modes.
+// Motions (x, r, t) of one wall by all a' and b'.
 typedef struct {
-    scalar motion[3][MODES];
+    scalar motion[3][2][ENTRIES];
 } WallShape;
 
 // Places of a packet of balls from j on, on the half at side (+1 or -1).  near: bits of those that are asked for.
@@ -98,22 +110,22 @@ void elastic_wall_places(const ElasticHalf *half, int side, int j, int near, wid
 #define elastic_wall_normal FOR_ISA(elastic_wall_normal)
 scalar elastic_wall_normal(const ElasticHalf *half, int side, int j, const WallPlaces *at, const scalar *q);
 
-// Its motion by each mode there [MODES].
+// Its motion by each mode there.
 #define elastic_wall_shape FOR_ISA(elastic_wall_shape)
-void elastic_wall_shape(const ElasticHalf *half, int side, int j, const WallPlaces *at, scalar *shape);
+void elastic_wall_shape(const ElasticHalf *half, int side, int j, const WallPlaces *at, mode_array shape);
 
 // Sets all of its motion.  S: distance of the ball from the pocket's axis.
 #define elastic_wall FOR_ISA(elastic_wall)
 void elastic_wall(const ElasticHalf *half, int side, int j, const WallPlaces *at, const scalar *q,
                   const scalar *q_dot, scalar S, WallMotion *wall, WallShape *shape);
 
-// Adds the modal forces of the force (x, r, t) on a wall.
-INLINE void elastic_wall_force(const ElasticHalf *half, const WallShape *shape, const scalar F[3],
-                               scalar *modal)
-{
-    for (int i = 0; i < 8 * half->blocks; i++)
-        modal[i] += F[0] * shape->motion[0][i] + F[1] * shape->motion[1][i] + F[2] * shape->motion[2][i];
-}
+// Adds the modal forces of the force (x, r, t) on the wall of pocket j.
+#define elastic_wall_force FOR_ISA(elastic_wall_force)
+void elastic_wall_force(const ElasticHalf *half, int j, const WallShape *shape, const scalar F[3],
+                        mode_array modal);
+
+// Motion of the pad of joint k by coordinate i, of PAD_OUT out of the plane or of PAD_IN in it.
+double elastic_half_pad(const ElasticHalf *half, bool out, int i, int motion, int k);
 
 // Energy of all joints between the halves, and of what the modes leave of the halves around them, from e, L^ and U.
 INLINE scalar elastic_potential(const Work *w)

@@ -16,8 +16,10 @@ typedef struct ElasticHalf ElasticHalf;  // elastic_half.h
 
 enum { N_MODES = Y_MODE_D - Y_MODE_S };  // room for the modes of a half
 
-// One number for each mode of a half.
-typedef scalar mode_array[N_MODES] __attribute__((aligned(8 * sizeof(scalar))));
+enum { ENTRIES = (N_MODES / 2 + 7) / 8 * 8 };  // of one kind (elastic_half.h)
+
+// One number for each mode of a half; eight modes side by side may reach beyond the last one.
+typedef scalar mode_array[2 * ENTRIES] __attribute__((aligned(8 * sizeof(scalar))));
 
 // One vector for each ball of a packet, in the balls' own frames.
 typedef struct {

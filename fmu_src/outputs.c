@@ -133,9 +133,9 @@ static void flex(const Evaluation *at, int h, scalar x[Z], scalar r[Z], scalar t
     const scalar *q = at->w->q[h];
     for (int i = 0; i < half->n; i++)
         for (int k = 0; k < Z; k++) {
-            x[k] += side * half->out[i][k] * q[i];
-            r[k] += inv_root * half->in[i][k] * q[i];
-            t[k] += inv_root * half->in[i][Z + k] * q[i];
+            x[k] += side * elastic_half_pad(half, true, i, 0, k) * q[i];
+            r[k] += inv_root * elastic_half_pad(half, false, i, 0, k) * q[i];
+            t[k] += inv_root * elastic_half_pad(half, false, i, 1, k) * q[i];
         }
 }
 

@@ -217,7 +217,7 @@ static bool pocket_elastic(const Model *model, Work *w, int h, int j, PocketGap 
     for (int i = 0; i < LANE_WIDTH && j + i < Z; i++) {
         if (!(touched >> i & 1)) continue;
         const scalar F[3] = {on_wall[0][j + i], on_wall[1][j + i], on_wall[2][j + i]};
-        elastic_wall_force(elastic, &shape[i], F, w->wall_force[h]);
+        elastic_wall_force(elastic, j + i, &shape[i], F, w->wall_force[h]);
     }
     return true;
 }

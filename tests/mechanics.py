@@ -5,6 +5,7 @@ from library import TWO_HALF
 from python_core import Body, PythonWork
 
 from bearing_model import variables
+from bearing_model.cage_elastic import mode_order
 from bearing_model.derived import default_table
 from bearing_model.half_modes import fewer
 from bearing_model.hertz_exact import HertzContact, hertz_ellipse
@@ -144,11 +145,12 @@ def running_state(model, rng, *, pockets=True, slip=1.0):
     play = 0.5 * p.cage.pocket_clearance + rng.uniform(-2e-6, 3e-6, Z) if pockets else np.zeros(Z)
     y[SLICE["ball_theta"]] = phi + (rng.choice([-1.0, 1.0], Z) * play + shift[1] * np.cos(phi) - shift[0] * np.sin(phi)) / r_0
     if p.scene.cage == variables.CageModel.ELASTIC:
-        n = modes_of(p)
+        order, _, _ = mode_order(fewer(default_table().modes, p.scene.modes))
+        n = len(order)
         for block in (variables.MODE_S, variables.MODE_D):  # lower modes farther, all with the same acceleration
-            y[block][:n] += 1e-6 * rng.uniform(-1.0, 1.0, n) / (1.0 + np.arange(n))
+            y[block][:n] += 1e-6 * rng.uniform(-1.0, 1.0, n) / (1.0 + order)
         for block in (variables.MODE_S_DOT, variables.MODE_D_DOT):
-            y[block][:n] += 1e-2 * slip * rng.uniform(-1.0, 1.0, n) / (1.0 + np.arange(n))
+            y[block][:n] += 1e-2 * slip * rng.uniform(-1.0, 1.0, n) / (1.0 + order)
     if p.scene.cage != variables.CageModel.RIGID:
         add("cage_x", 3e-7), add("cage_y", 3e-6), add("cage_z", 3e-6), add("cage_psi", 5e-5)
         tilt = rng.uniform(-2e-4, 2e-4, 2)

@@ -6,7 +6,7 @@ from library import TWO_HALF
 from mechanics import Instance, View, running_state
 
 from bearing_model import variables
-from bearing_model.cage_elastic import IN, OUT, ROOT, cage_elastic_shapes, joints_out
+from bearing_model.cage_elastic import IN, OUT, ROOT, cage_elastic_shapes, joints_out, mode_order
 from bearing_model.derived import default_table
 from bearing_model.energy import energy_terms, energy_total, net_power
 from bearing_model.half_modes import fewer
@@ -217,10 +217,11 @@ def test_what_the_halves_move_at_the_rivets(core, scene):
     rhs(model, 0.0, y, w)
     modes, kept, nu = table.modes, 0, 2.0 * np.pi * (np.arange(Z) + 0.5) / Z
     expected = np.zeros((2, 3, Z))
+    where = np.argsort(mode_order(fewer(modes, model.p.scene.modes))[0])
     for i in range(len(modes.omega)):
         if kept + modes.count[i] > model.p.scene.modes:
             break
-        places = slice(kept, kept + modes.count[i])
+        places = where[kept : kept + modes.count[i]]
         kept += modes.count[i]
         for h, sign in ((0, -1.0), (1, 1.0)):
             q = (y[MODE_S][places] + sign * y[MODE_D][places]) * np.sqrt(0.5 * table.half.m)
@@ -258,14 +259,13 @@ def test_waves_go_on_by_a_pitch():
     y = running_state_of(model, rng)
     alpha = 2.0 * np.pi / Z
     modes = fewer(default_table().modes, model.p.scene.modes)
-    n = np.repeat(modes.harmonic, modes.count)
-    pair = np.repeat(modes.parity == 0, modes.count)
-    z = y.copy()
-    first = np.flatnonzero(pair)[::2]
+    _, entry, is_b = mode_order(modes)
+    n, pair, z = modes.harmonic[entry], modes.parity[entry] == 0, y.copy()
+    first, second = np.flatnonzero(pair & (is_b == 0.0)), np.flatnonzero(pair & (is_b == 1.0))
     for block in (MODE_S, MODE_D, MODE_S_DOT, MODE_D_DOT):  # the wave goes one pocket on: (a - i b) exp(-i n alpha)
         q = y[block][: half.n].astype(complex)
-        u = (q[first] - 1j * q[first + 1]) * np.exp(-1j * n[first] * alpha)
-        z[block][first], z[block][first + 1] = u.real, -u.imag
+        u = (q[first] - 1j * q[second]) * np.exp(-1j * n[first] * alpha)
+        z[block][first], z[block][second] = u.real, -u.imag
         single = ~pair
         sign = np.cos(n[single] * alpha)
         z[block][: half.n][single] = sign * y[block][: half.n][single]

@@ -6,8 +6,9 @@ from library import TWO_HALF
 from mechanics import SLICE, Instance, Z, pocket_loads, running_state, view
 
 from bearing_model import variables
+from bearing_model.cage_elastic import mode_order
 from bearing_model.derived import default_table
-from bearing_model.half_modes import coordinates, fewer
+from bearing_model.half_modes import fewer
 from bearing_model.model import Model
 from bearing_model.variables import MODE_D, MODE_D_DOT, MODE_S, MODE_S_DOT, N_STATES, CageModel, Lubrication, Switch, TiltMode, Traction
 
@@ -175,18 +176,17 @@ MODE_BLOCKS = MODE_S, MODE_D, MODE_S_DOT, MODE_D_DOT
 def modal_image(y, image, act):
     """The state whose rigid part is `image` and whose modes are act(a - i b, harmonic): a mode of a pair or alone has the coordinates a (cos) and b (sin)."""
     modes = fewer(default_table().modes, variables.PARAMETERS["scene.modes"].start)
-    n = np.repeat(modes.harmonic, modes.count)
-    is_b = coordinates(modes, 0.0 * modes.omega, 0.0 * modes.omega + 1.0) > 0.0
-    alone = np.repeat(modes.parity, modes.count) != 0
+    _, entry, part = mode_order(modes)
+    n, is_b, alone = modes.harmonic[entry], part > 0.0, modes.parity[entry] != 0
     z = np.concatenate([image, np.zeros(len(y) - N_STATES)])
     for block in MODE_BLOCKS:
         q = y[block][: len(n)]
         u = act(np.where(is_b, -1j * q, q), n)
         of_a, of_b = u.real, -u.imag  # what a coordinate gives to a and b of its pair
-        first = np.flatnonzero(~alone & ~is_b)
+        first, second = np.flatnonzero(~alone & ~is_b), np.flatnonzero(~alone & is_b)
         new = np.where(is_b, of_b, of_a)
-        new[first] += of_a[first + 1]
-        new[first + 1] += of_b[first]
+        new[first] += of_a[second]
+        new[second] += of_b[first]
         z[block][: len(n)] = new
     return z
 
