@@ -125,16 +125,37 @@ void cage_elastic_pads(const Model *model, Work *w)
     }
 }
 
-// Coordinates in cells of a packet of joints under L^, and s (joint_law.h).
-INLINE wide law_place(const JointLaw *law, const wide L[3], wide P, wide u[LAW_AXES])
+// Where a joint is in the law: its cell, the weights of the splines [axis][3] and s (joint_law.h).
+typedef struct {
+    ball_array cell, size, weight[LAW_AXES][3];
+} LawPlaces;
+
+// Cell and weights of a packet of joints at the coordinate u in cells of an axis; as axis_weights.
+INLINE wide law_weights(int cells, wide u, int k, ball_array weight[3])
 {
+    const wide cell = wide_floor(wide_min(wide_max(u, wide_set(0.0)), wide_set(cells - 1.0)));
+    const wide up = u - cell, down = 1.0 - up, first = 0.5 * (down * down), last = 0.5 * (up * up);
+    wide_store(&weight[0][k], first);
+    wide_store(&weight[1][k], 1.0 - first - last);
+    wide_store(&weight[2][k], last);
+    return cell;
+}
+
+// A packet of joints under L^.
+INLINE void law_places(const JointLaw *law, const wide L[3], wide P, int k, LawPlaces *at)
+{
+    const int *cells = law->cells;
     const double inv_length = 1.0 / law->length;
     const wide N = L[0], M_r = wide_abs(L[1]), M_t = L[2];
     const wide M = wide_hypot(M_r, M_t) * inv_length, W = wide_hypot(N, M), s = P + W;
-    u[AXIS_TAU] = wide_ratio(W, s) * law->cells[AXIS_TAU];
-    u[AXIS_Q] = (wide_ratio(N, wide_abs(N) + M) + 1.0) * (0.5 * law->cells[AXIS_Q]);
-    u[AXIS_PSI] = (wide_ratio(M_t, wide_abs(M_t) + M_r) + 1.0) * (0.5 * law->cells[AXIS_PSI]);
-    return s;
+    const wide tau = wide_ratio(W, s) * cells[AXIS_TAU];
+    const wide q = (wide_ratio(N, wide_abs(N) + M) + 1.0) * (0.5 * cells[AXIS_Q]);
+    const wide psi = (wide_ratio(M_t, wide_abs(M_t) + M_r) + 1.0) * (0.5 * cells[AXIS_PSI]);
+    wide cell = law_weights(cells[AXIS_TAU], tau, k, at->weight[AXIS_TAU]);
+    cell = cell * (cells[AXIS_Q] + 2.0) + law_weights(cells[AXIS_Q], q, k, at->weight[AXIS_Q]);
+    cell = cell * (cells[AXIS_PSI] + 2.0) + law_weights(cells[AXIS_PSI], psi, k, at->weight[AXIS_PSI]);
+    wide_store(&at->cell[k], cell);
+    wide_store(&at->size[k], s);
 }
 
 // Joint k without its rivet: the pads press on each other in their middles or carry nothing.
@@ -157,33 +178,36 @@ static void broken_answers(const ElasticHalf *half, Work *w, int k)
 void cage_elastic_loads(const Model *model, const ball_array P, Work *w)
 {
     const ElasticHalf *half = model->elastic;
-    ball_array place[LAW_AXES], size;
+    LawPlaces at;
     for (int k = 0; k < PACKETS * LANE_WIDTH; k += LANE_WIDTH) {
-        wide L[PAD_OUT], u[LAW_AXES];
+        wide L[PAD_OUT];
         for (int a = 0; a < PAD_OUT; a++) {
             const double *K = half->K[a];
             L[a] =
                 K[0] * wide_load(&w->e[0][k]) + K[1] * wide_load(&w->e[1][k]) + K[2] * wide_load(&w->e[2][k]);
             wide_store(&w->joint_behind[a][k], L[a]);
         }
-        wide_store(&size[k], law_place(&half->law, L, wide_load(&P[k]), u));
-        for (int a = 0; a < LAW_AXES; a++) wide_store(&place[a][k], u[a]);
+        law_places(&half->law, L, wide_load(&P[k]), k, &at);
     }
     for (int k = 0; k < Z; k++) {
         octet S;
-        law_octet(&half->law, (const scalar[LAW_AXES]){place[0][k], place[1][k], place[2][k]}, &S);
-        const scalar s = size[k], across = scalar_value(w->joint_behind[1][k]) < 0.0 ? -s : s;
+        scalar weight[LAW_AXES][3];
+        for (int a = 0; a < LAW_AXES; a++)
+            for (int i = 0; i < 3; i++) weight[a][i] = at.weight[a][i][k];
+        law_sum(&half->law, (int)scalar_value(at.cell[k]), weight, &S);
+        const scalar s = at.size[k], across = scalar_value(w->joint_behind[1][k]) < 0.0 ? -s : s;
         w->joint_load[0][k] = s * S.x[0], w->joint_rivet[0][k] = s * S.x[4];
         w->joint_load[1][k] = across * S.x[1], w->joint_rivet[1][k] = across * S.x[5];
         w->joint_load[2][k] = s * S.x[2], w->joint_rivet[2][k] = s * S.x[6];
         w->joint_U[k] = s * s * S.x[LAW_ENERGY];
         if (model->d->intact[k] == 0.0) broken_answers(half, w, k);
-        w->T[k] = scalar_max(w->joint_rivet[0][k], 0.0);
-        w->N_plate[k] = scalar_max(w->T[k] - w->joint_load[0][k], 0.0);
     }
-    for (int k = Z; k < LANES; k++) {
-        w->T[k] = w->N_plate[k] = 0.0;
-        for (int a = 0; a < PAD_OUT; a++) w->joint_load[a][k] = 0.0;
+    for (int k = Z; k < LANES; k++)
+        for (int a = 0; a < PAD_OUT; a++) w->joint_load[a][k] = w->joint_rivet[a][k] = 0.0;
+    for (int k = 0; k < PACKETS * LANE_WIDTH; k += LANE_WIDTH) {
+        const wide zero = wide_set(0.0), T = wide_max(wide_load(&w->joint_rivet[0][k]), zero);
+        wide_store(&w->T[k], T);
+        wide_store(&w->N_plate[k], wide_max(T - wide_load(&w->joint_load[0][k]), zero));
     }
 }
 

@@ -122,6 +122,11 @@ INLINE wide wide_min(wide x, wide y)
     return creal(x) < creal(y) ? x : y;
 }
 
+INLINE wide wide_floor(wide x)
+{
+    return floor(creal(x));
+}
+
 INLINE wide wide_abs(wide x)
 {
     return signbit(creal(x)) ? -x : x;

@@ -94,14 +94,9 @@ INLINE scalar magnitude(scalar x)
     return scalar_value(x) < 0.0 ? -x : x;
 }
 
-// The numbers S of the law at coordinates in cells.
-INLINE void law_octet(const JointLaw *law, const scalar u[LAW_AXES], octet *S)
+// The numbers S of the law in the cell `place`, the weights of its splines given.
+INLINE void law_sum(const JointLaw *law, int place, scalar w[LAW_AXES][3], octet *S)
 {
-    scalar w[LAW_AXES][3];
-    int place = axis_weights(u[AXIS_TAU], law->cells[AXIS_TAU], w[AXIS_TAU]);
-    place = place * (law->cells[AXIS_Q] + 2) + axis_weights(u[AXIS_Q], law->cells[AXIS_Q], w[AXIS_Q]);
-    place = place * (law->cells[AXIS_PSI] + 2) + axis_weights(u[AXIS_PSI], law->cells[AXIS_PSI], w[AXIS_PSI]);
-
     const int row = LAW_WIDTH * (law->cells[AXIS_PSI] + 2), sheet = row * (law->cells[AXIS_Q] + 2);
     const double *from = law->coefficients + LAW_WIDTH * place;
     octet sum = {{0}};
@@ -116,6 +111,16 @@ INLINE void law_octet(const JointLaw *law, const scalar u[LAW_AXES], octet *S)
         octet_add(w[AXIS_TAU][a], &by_q, &sum);
     }
     *S = sum;
+}
+
+// At coordinates in cells.
+INLINE void law_octet(const JointLaw *law, const scalar u[LAW_AXES], octet *S)
+{
+    scalar w[LAW_AXES][3];
+    int place = axis_weights(u[AXIS_TAU], law->cells[AXIS_TAU], w[AXIS_TAU]);
+    place = place * (law->cells[AXIS_Q] + 2) + axis_weights(u[AXIS_Q], law->cells[AXIS_Q], w[AXIS_Q]);
+    place = place * (law->cells[AXIS_PSI] + 2) + axis_weights(u[AXIS_PSI], law->cells[AXIS_PSI], w[AXIS_PSI]);
+    law_sum(law, place, w, S);
 }
 
 // Moves of a joint's pad and loads of its rivet under L* = (N, M_r, M_t) and P; the energy of elastic_half.h if it is asked for.

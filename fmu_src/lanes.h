@@ -272,6 +272,13 @@ INLINE wide wide_round(wide x, bits *n)
     return shifted - shift;
 }
 
+// Largest integer that is not above x, |x| < 2^51.
+INLINE wide wide_floor(wide x)
+{
+    const wide shift = wide_set(ROUND_SHIFT), nearest = (x + shift) - shift;
+    return nearest - (wide)((bits)wide_set(1.0) & (nearest > x));
+}
+
 // The polynomials below are Chebyshev fits over the reduced ranges; tests/test_lanes.py measures the errors
 // stated.
 
