@@ -85,7 +85,7 @@ double elastic_half_rest(const Parameters *p, const Derived *d, const ElasticHal
 // Where balls meet the walls of a half's pockets: direction (x, t) from the pocket's axis to the ball, side of the pocket and
 // of the split, node below the wall's angle, weights of the cubics for the value and the slope over the angle.
 typedef struct {
-    ball_array n_x, n_t, chi, lower, step, inv_step, value[4], slope[4];
+    ball_array n_x, n_t, value[4], slope[4];
     bool back[LANES], inside[LANES];
     int node[LANES];
 } WallPlaces;
@@ -101,10 +101,9 @@ typedef struct {
     scalar motion[3][2][ENTRIES];
 } WallShape;
 
-// Places of a packet of balls from j on, on the half at side (+1 or -1).  near: bits of those that are asked for.
+// Places of a packet of balls from j on, on the half at side (+1 or -1).
 #define elastic_wall_places FOR_ISA(elastic_wall_places)
-void elastic_wall_places(const ElasticHalf *half, int side, int j, int near, wide n_x, wide n_t,
-                         WallPlaces *at);
+void elastic_wall_places(const ElasticHalf *half, int side, int j, wide n_x, wide n_t, WallPlaces *at);
 
 // Motion of the wall of pocket j along the contact's normal, with the coordinates q.
 #define elastic_wall_normal FOR_ISA(elastic_wall_normal)

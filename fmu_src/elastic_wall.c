@@ -2,28 +2,27 @@
 #include "elastic_half.h"
 
 // Beyond the split the wall moves as at the split.
-void elastic_wall_places(const ElasticHalf *half, int side, int j, int near, wide n_x, wide n_t,
-                         WallPlaces *at)
+void elastic_wall_places(const ElasticHalf *half, int side, int j, wide n_x, wide n_t, WallPlaces *at)
 {
     const wide along = wide_abs(n_t), zero = wide_set(0.0), one = wide_set(1.0);
     const wide chi = wide_max(wide_atan(side * n_x / wide_max(along, wide_set(1e-30))), zero);
     wide_store(&at->n_x[j], n_x);
     wide_store(&at->n_t[j], n_t);
-    wide_store(&at->chi[j], chi);
-    wide_store(&at->lower[j], zero);
-    wide_store(&at->step[j], zero);
-    wide_store(&at->inv_step[j], zero);
-    for (int k = j; near != 0 && k < Z; near >>= 1, k++) {
-        if (!(near & 1)) continue;
-        int node = 0;
-        while (node < half->nodes - 2 && scalar_value(at->chi[k]) >= half->chi[node + 1]) node++;
-        at->node[k] = node;
-        at->back[k] = scalar_value(at->n_t[k]) < 0.0, at->inside[k] = scalar_value(at->n_x[k]) * side > 0.0;
-        at->lower[k] = half->chi[node], at->step[k] = half->step[node],
-        at->inv_step[k] = half->inv_step[node];
+    scalar below[LANE_WIDTH];  // the node below chi
+    wide node = zero, lower = wide_set(half->chi[0]), step = wide_set(half->step[0]),
+         inv_step = wide_set(half->inv_step[0]);
+    for (int n = 1; n < half->nodes - 1; n++) {
+        const bits beyond = wide_above(chi, half->chi[n]);
+        node = wide_select(beyond, wide_set(n), node);
+        lower = wide_select(beyond, wide_set(half->chi[n]), lower);
+        step = wide_select(beyond, wide_set(half->step[n]), step);
+        inv_step = wide_select(beyond, wide_set(half->inv_step[n]), inv_step);
     }
-    const wide lower = wide_load(&at->lower[j]), step = wide_load(&at->step[j]),
-               inv_step = wide_load(&at->inv_step[j]);
+    wide_store(below, node);
+    for (int i = 0, k = j; i < LANE_WIDTH; i++, k++) {
+        at->node[k] = (int)scalar_value(below[i]);
+        at->back[k] = scalar_value(at->n_t[k]) < 0.0, at->inside[k] = scalar_value(at->n_x[k]) * side > 0.0;
+    }
     const wide u = (chi - lower) * inv_step, v = one - u;
     const wide value[4] = {v * v * (1.0 + 2.0 * u), step * u * v * v, u * u * (1.0 + 2.0 * v),
                            -step * u * u * v};

@@ -196,7 +196,7 @@ static bool pocket_elastic(const Model *model, Work *w, int h, int j, PocketGap 
     ball_array on_wall[3], moved, S;
     WallPlaces places;
     WallShape shape[LANE_WIDTH];
-    elastic_wall_places(elastic, side, j, near, gap->n_x, gap->n_t, &places);
+    elastic_wall_places(elastic, side, j, gap->n_x, gap->n_t, &places);
     wide_store(&moved[j], wide_set(0.0));
     for (int i = 0; i < LANE_WIDTH && j + i < Z; i++)
         if (near >> i & 1) moved[j + i] = elastic_wall_normal(elastic, side, j + i, &places, w->q[h]);
