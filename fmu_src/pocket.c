@@ -162,6 +162,17 @@ INLINE void pocket_clear(Pockets *pocket, int j)
     vec_store(none, &pocket->half_M_x[j], &pocket->half_M_y[j], &pocket->half_M_z[j]);
 }
 
+// Adds the forces of all pockets to their half.
+INLINE void add_pockets(const Pockets *pocket, Rotor *half)
+{
+    const scalar *F[3] = {pocket->half_F_x, pocket->half_F_y, pocket->half_F_z};
+    const scalar *M[3] = {pocket->half_M_x, pocket->half_M_y, pocket->half_M_z};
+    for (int i = 0; i < 3; i++) {
+        half->F[i] += ball_array_sum(F[i]);
+        half->M[i] += ball_array_sum(M[i]);
+    }
+}
+
 // All pockets of one half.  Most pockets are not touched, so that their forces are not computed.
 INLINE void pocket_half(const Model *model, Work *w, int h, bool mixed, bool whole)
 {
@@ -177,79 +188,97 @@ INLINE void pocket_half(const Model *model, Work *w, int h, bool mixed, bool who
         } else
             pocket_clear(pocket, j);
     }
-    if (!touched) return;
-    const scalar *F[3] = {pocket->half_F_x, pocket->half_F_y, pocket->half_F_z};
-    const scalar *M[3] = {pocket->half_M_x, pocket->half_M_y, pocket->half_M_z};
-    for (int i = 0; i < 3; i++) {
-        half->F[i] += ball_array_sum(F[i]);
-        half->M[i] += ball_array_sum(M[i]);
-    }
+    if (touched) add_pockets(pocket, half);
 }
 
-// The pockets of a packet whose walls a ball can have reached: motion of the walls, forces, modal forces.  Returns whether
-// there is a contact.
-static bool pocket_elastic(const Model *model, Work *w, int h, int j, PocketGap *gap, bool mixed,
-                           WallMotion *wall)
+// A packet of pockets of an elastic half in which walls are touched.
+typedef struct {
+    int h, j, touched;  // bits of the balls
+    PocketGap gap;
+} TouchedPacket;
+
+// Bits of the balls of a packet that press on a wall, behind what the walls have moved; `near`: those that can have reached it.
+static int find_touched(const Model *model, const Work *w, int h, int j, int near, PocketGap *gap,
+                        WallPlaces *places)
 {
     const ElasticHalf *elastic = model->elastic;
-    const int near = wide_mask(wide_above(gap->delta + w->reach[h], 0.0)), side = 2 * h - 1;
-    ball_array on_wall[3], moved, S;
-    WallPlaces places;
-    WallShape shape[LANE_WIDTH];
-    elastic_wall_places(elastic, side, j, gap->n_x, gap->n_t, &places);
+    const int side = 2 * h - 1;
+    ball_array moved;
+    elastic_wall_places(elastic, side, j, gap->n_x, gap->n_t, places);
     wide_store(&moved[j], wide_set(0.0));
     for (int i = 0; i < LANE_WIDTH && j + i < Z; i++)
-        if (near >> i & 1) moved[j + i] = elastic_wall_normal(elastic, side, j + i, &places, w->q[h]);
+        if (near >> i & 1) moved[j + i] = elastic_wall_normal(elastic, side, j + i, places, w->q[h]);
     gap->delta -= wide_load(&moved[j]);
 
     // a ball that touches the other half alone loads nothing here
     const int loaded = wide_mask(wide_above(pocket_share(model->d, h, gap->n_x, gap->delta).load, 0.0));
-    const int touched = near & loaded & wide_mask(wide_above(gap->delta, 0.0));
-    if (touched == 0) return false;
-    for (int c = 0; c < 3; c++) wide_store(&wall->u_dot[c][j], wide_set(0.0));
-    wide_store(&wall->tilt[j], wide_set(0.0));
-    wide_store(&S[j], 1.0 / gap->inv_S);
+    return near & loaded & wide_mask(wide_above(gap->delta, 0.0));
+}
+
+// No contact in a packet of walls.
+static void clear_touches(Work *w, int h, int j)
+{
+    const wide zero = wide_set(0.0);
+    pocket_clear(&w->pocket[h], j);
+    wide_store(&w->touch_x[h][j], zero);
+    wide_store(&w->touch_t[h][j], zero);
+    wide_store(&w->touch_k[h][j], zero);
+    wide_store(&w->touch_rate[h][j], zero);
+}
+
+// Motion of the walls, forces and modal forces of a packet.
+static void press_walls(const Model *model, Work *w, const TouchedPacket *at, const WallPlaces *places,
+                        bool mixed)
+{
+    const ElasticHalf *elastic = model->elastic;
+    const int h = at->h, j = at->j, side = 2 * h - 1;
+    ball_array on_wall[3], S;
+    WallShape shape[LANE_WIDTH];
+    WallMotion wall;
+    for (int c = 0; c < 3; c++) wide_store(&wall.u_dot[c][j], wide_set(0.0));
+    wide_store(&wall.tilt[j], wide_set(0.0));
+    wide_store(&S[j], 1.0 / at->gap.inv_S);
     for (int i = 0; i < LANE_WIDTH && j + i < Z; i++)
-        if (touched >> i & 1)
-            elastic_wall(elastic, side, j + i, &places, w->q[h], w->q_dot[h], S[j + i], wall, &shape[i]);
-    gap->delta = pocket_approach(model, h, gap->n_x, gap->delta);
-    pocket_contacts(model, w, h, j, gap, mixed, false, wall, on_wall);
+        if (at->touched >> i & 1)
+            elastic_wall(elastic, side, j + i, places, w->q[h], w->q_dot[h], S[j + i], &wall, &shape[i]);
+    pocket_contacts(model, w, h, j, &at->gap, mixed, false, &wall, on_wall);
     for (int i = 0; i < LANE_WIDTH && j + i < Z; i++) {
-        if (!(touched >> i & 1)) continue;
+        if (!(at->touched >> i & 1)) continue;
         const scalar F[3] = {on_wall[0][j + i], on_wall[1][j + i], on_wall[2][j + i]};
         elastic_wall_force(elastic, j + i, &shape[i], F, w->wall_force[h]);
     }
-    return true;
 }
 
-// All pockets of one elastic half.
-static void pocket_elastic_half(const Model *model, Work *w, int h, bool mixed)
+// All pockets of both elastic halves, stage by stage: what takes long for a packet, as the approaches, runs for several at a time.
+static void pocket_elastic(const Model *model, Work *w, bool mixed)
 {
-    Pockets *pocket = &w->pocket[h];
-    Rotor *half = &w->half[h];
-    WallMotion wall;
-    bool touched = false;
-    for (int j = 0; j < PACKETS * LANE_WIDTH; j += LANE_WIDTH) {
-        PocketGap gap = pocket_gap(model->d, w, half, j);
-        bool contact = wide_any(wide_above(gap.delta + w->reach[h], 0.0));
-        if (contact) contact = pocket_elastic(model, w, h, j, &gap, mixed, &wall);
-        if (!contact) {
-            pocket_clear(pocket, j);
-            wide_store(&w->touch_x[h][j], wide_set(0.0));
-            wide_store(&w->touch_t[h][j], wide_set(0.0));
-            wide_store(&w->touch_k[h][j], wide_set(0.0));
-            wide_store(&w->touch_rate[h][j], wide_set(0.0));
+    TouchedPacket packets[2 * PACKETS];
+    WallPlaces places[2];
+    int count = 0;
+    for (int h = 0; h < 2; h++)
+        for (int j = 0; j < PACKETS * LANE_WIDTH; j += LANE_WIDTH) {
+            TouchedPacket *at = &packets[count];
+            *at = (TouchedPacket){h, j, 0, pocket_gap(model->d, w, &w->half[h], j)};
+            const int near = wide_mask(wide_above(at->gap.delta + w->reach[h], 0.0));
+            if (near != 0) at->touched = find_touched(model, w, h, j, near, &at->gap, &places[h]);
+            if (at->touched != 0)
+                count++;
+            else {
+                clear_touches(w, h, j);
+                wide_store(&w->delta_c[h][j], at->gap.delta);
+            }
         }
-        wide_store(&w->delta_c[h][j], gap.delta);
-        touched |= contact;
+    for (TouchedPacket *at = packets; at < packets + count; at++) {
+        at->gap.delta = pocket_approach(model, at->h, at->gap.n_x, at->gap.delta);
+        wide_store(&w->delta_c[at->h][at->j], at->gap.delta);
     }
-    if (!touched) return;
-    const scalar *F[3] = {pocket->half_F_x, pocket->half_F_y, pocket->half_F_z};
-    const scalar *M[3] = {pocket->half_M_x, pocket->half_M_y, pocket->half_M_z};
-    for (int i = 0; i < 3; i++) {
-        half->F[i] += ball_array_sum(F[i]);
-        half->M[i] += ball_array_sum(M[i]);
+    bool pressed[2] = {false, false};
+    for (const TouchedPacket *at = packets; at < packets + count; at++) {
+        press_walls(model, w, at, &places[at->h], mixed);
+        pressed[at->h] = true;
     }
+    for (int h = 0; h < 2; h++)
+        if (pressed[h]) add_pockets(&w->pocket[h], &w->half[h]);
 }
 
 void pocket_force(const Model *model, Work *w)
@@ -257,7 +286,7 @@ void pocket_force(const Model *model, Work *w)
     const bool mixed = model->p->scene.lubrication == LUBRICATION_MIXED;
     const bool rigid = model->p->scene.cage == CAGE_MODEL_RIGID;
     if (model->elastic) {
-        for (int h = 0; h < 2; h++) pocket_elastic_half(model, w, h, mixed);
+        pocket_elastic(model, w, mixed);
         return;
     }
     for (int h = 0; h < (rigid ? 1 : 2); h++) pocket_half(model, w, h, mixed, rigid);
