@@ -85,30 +85,37 @@ typedef struct {
     wide L[TERMS], inv_D[BLOCK];
 } Factors;
 
-// On entry the matrix is in L.
-INLINE void factor_block(Factors *f)
+// Factors n matrices; on entry each is in L.  A factorization and a substitution are chains in which each number waits for the one before, so
+// that several packets take little longer than one.
+INLINE void factor_blocks(int n, Factors f[])
 {
-    wide *L = f->L;
     for (int i = 0; i < BLOCK; i++) {
+        // Row i of L D, column by column; then of L.
         for (int k = 1; k < i; k++)
-            for (int q = 0; q < k; q++) L[AT(i, k)] = wide_fma(-L[AT(i, q)], L[AT(k, q)], L[AT(i, k)]);
-        for (int k = 0; k < i; k++) {
-            const wide l = L[AT(i, k)] * f->inv_D[k];
-            L[AT(i, i)] = wide_fma(-l, L[AT(i, k)], L[AT(i, i)]);
-            L[AT(i, k)] = l;
-        }
-        f->inv_D[i] = 1.0 / L[AT(i, i)];
+            for (int q = 0; q < k; q++)
+                for (int p = 0; p < n; p++)
+                    f[p].L[AT(i, k)] = wide_fma(-f[p].L[AT(i, q)], f[p].L[AT(k, q)], f[p].L[AT(i, k)]);
+        for (int k = 0; k < i; k++)
+            for (int p = 0; p < n; p++) {
+                wide *L = f[p].L;
+                const wide l = L[AT(i, k)] * f[p].inv_D[k];
+                L[AT(i, i)] = wide_fma(-l, L[AT(i, k)], L[AT(i, i)]);
+                L[AT(i, k)] = l;
+            }
+        for (int p = 0; p < n; p++) f[p].inv_D[i] = 1.0 / f[p].L[AT(i, i)];
     }
 }
 
-// x = W^-1 x: forward and backward substitution.
-INLINE void solve_block(const Factors *f, wide x[BLOCK])
+// x = W^-1 x of each: forward and backward substitution.
+INLINE void solve_blocks(int n, const Factors f[], wide x[][BLOCK])
 {
     for (int i = 1; i < BLOCK; i++)
-        for (int k = 0; k < i; k++) x[i] = wide_fma(-f->L[AT(i, k)], x[k], x[i]);
+        for (int k = 0; k < i; k++)
+            for (int p = 0; p < n; p++) x[p][i] = wide_fma(-f[p].L[AT(i, k)], x[p][k], x[p][i]);
     for (int i = BLOCK - 1; i >= 0; i--) {
-        x[i] *= f->inv_D[i];
-        for (int k = i + 1; k < BLOCK; k++) x[i] = wide_fma(-f->L[AT(k, i)], x[k], x[i]);
+        for (int p = 0; p < n; p++) x[p][i] *= f[p].inv_D[i];
+        for (int k = i + 1; k < BLOCK; k++)
+            for (int p = 0; p < n; p++) x[p][i] = wide_fma(-f[p].L[AT(k, i)], x[p][k], x[p][i]);
     }
 }
 
@@ -186,18 +193,19 @@ static void store_balls(ball_array rows[BLOCK], double *v)
     for (int i = 0; i < BLOCK; i++) memcpy(&v[BALL_ROW[i]], rows[i], Z * sizeof *v);
 }
 
-// x = W^-1 M v of one packet, v in rows; on entry W is in f, on return its factors.  The state's third
+// x = W^-1 M v of n packets, of the first balls `at`; v in rows.  On entry W is in f, on return its factors.  The state's third
 // velocity is the orbital speed, the matrix has v_t = r omega_m.
-INLINE void solve_packet(const Model *model, const Work *w, int j, Factors *f, ball_array rows[BLOCK],
-                         wide x[BLOCK])
+INLINE void solve_packets(const Model *model, const Work *w, int n, const int at[], Factors f[],
+                          ball_array rows[BLOCK], wide x[][BLOCK])
 {
     const double m = model->d->m, J = model->d->J;
-    const wide r = wide_load(&w->r[j]);
-    for (int i = 0; i < BLOCK; i++) x[i] = wide_load(&rows[i][j]) * (i < 3 ? m : J);
-    x[2] *= r;
-    factor_block(f);
-    solve_block(f, x);
-    x[2] /= r;
+    for (int p = 0; p < n; p++) {
+        for (int i = 0; i < BLOCK; i++) x[p][i] = wide_load(&rows[i][at[p]]) * (i < 3 ? m : J);
+        x[p][2] *= wide_load(&w->r[at[p]]);
+    }
+    factor_blocks(n, f);
+    solve_blocks(n, f, x);
+    for (int p = 0; p < n; p++) x[p][2] /= wide_load(&w->r[at[p]]);
 }
 
 // What remains of the balls in the ring's equations.  The coupling of a ball with the velocity u (x, r, t) of
@@ -229,9 +237,9 @@ INLINE void couple_packet(const Model *model, const Work *w, int j, double gamma
 
     for (int k = 0; k < 3; k++) {
         // y = W^-1 G e_k.
-        wide y[BLOCK];
-        memcpy(y, G[k], sizeof y);
-        solve_block(f, y);
+        wide solved[1][BLOCK], *y = solved[0];
+        memcpy(y, G[k], sizeof solved);
+        solve_blocks(1, f, solved);
 
         // G^T W^-1 M v; the third velocity of x is an orbital speed.
         wide schur_rhs = G[k][2] * (r * x[2]);
@@ -260,13 +268,17 @@ INLINE void couple_packet(const Model *model, const Work *w, int j, double gamma
 // what the equations of the ring need of the balls.
 static void solve_balls(const Model *model, const Work *w, double gamma, ball_array rows[BLOCK], Coupling *c)
 {
-    for (int j = 0; j < PACKETS * LANE_WIDTH; j += LANE_WIDTH) {
-        Factors f;
-        wide x[BLOCK];
-        packet_matrix(model, w, j, gamma, true, f.L);
-        solve_packet(model, w, j, &f, rows, x);
-        if (c != NULL) couple_packet(model, w, j, gamma, &f, x, c);
-        for (int i = 0; i < BLOCK; i++) wide_store(&rows[i][j], x[i]);
+    Factors f[PACKETS];
+    wide x[PACKETS][BLOCK];
+    int at[PACKETS];
+    for (int p = 0; p < PACKETS; p++) {
+        at[p] = p * LANE_WIDTH;
+        packet_matrix(model, w, at[p], gamma, true, f[p].L);
+    }
+    solve_packets(model, w, PACKETS, at, f, rows, x);
+    for (int p = 0; p < PACKETS; p++) {
+        if (c != NULL) couple_packet(model, w, at[p], gamma, &f[p], x[p], c);
+        for (int i = 0; i < BLOCK; i++) wide_store(&rows[i][at[p]], x[p][i]);
     }
 }
 
@@ -282,11 +294,11 @@ static void stiff_part_of_balls(const Model *model, const Work *w, double gamma,
             continue;
         }
         Factors f;
-        wide x[BLOCK];
+        wide x[1][BLOCK];
         packet_matrix(model, w, j, gamma, false, f.L);
-        solve_packet(model, w, j, &f, rows, x);
+        solve_packets(model, w, 1, &j, &f, rows, x);
         for (int i = 0; i < BLOCK; i++) {
-            const wide taken = wide_load(&rows[i][j]) - x[i];
+            const wide taken = wide_load(&rows[i][j]) - x[0][i];
             wide_store(&rows[i][j], wide_select(stiff, taken, wide_set(0.0)));
         }
     }
