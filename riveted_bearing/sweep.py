@@ -222,7 +222,12 @@ def beside(path, source):
         raise refusal(path, "scene", source, "a shipped scene's name or a file is needed")
     if source in shipped_scenes() or Path(source).is_absolute():
         return source
-    return Path(path).parent / source
+    file = Path(path).parent / source
+    if not file.is_file():
+        if not file.suffix:
+            raise unknown(f"{path}: scene", "name", source, shipped_scenes())
+        raise UserError(f"{path}: scene: {file}: no such scene file")
+    return file
 
 
 def sections_of(settings, model):
