@@ -57,7 +57,7 @@ def plot(quiet, shaken, path):
         axes[1].plot(1e3 * result["time"], result["rivet.sigma_head_max"] / 1e6, color=colour, lw=0.8, label=label)
     axes[0].set_ylabel("radial force [N]")
     axes[1].set(xlabel="time [ms]", ylabel="largest head stress [MPa]")
-    axes[0].legend()
+    axes[0].legend(loc="lower center", bbox_to_anchor=(0.5, 1.0), ncols=2, frameon=False)
     figure.savefig(path, dpi=110)
 
 
