@@ -99,7 +99,6 @@ class Blocks:
     A: np.ndarray
     K: np.ndarray
     A_stiff: np.ndarray
-    K_stiff: np.ndarray
     K_shear: np.ndarray = field(default_factory=lambda: np.zeros((N_V, N_V)))  # of the joints across the axis: a factor of its own
     axial: float = 0.0  # weights of the position correction of one half against the other: along the axis, across it
     shear: float = 0.0
@@ -108,7 +107,7 @@ class Blocks:
         return np.eye(N_V) + gamma * self.A + gamma**2 * self.K
 
     def matrix_stiff(self, gamma):
-        return np.eye(N_V) + gamma * self.A_stiff + gamma**2 * self.K_stiff
+        return np.eye(N_V) + gamma * self.A_stiff
 
 
 # -------------------------------------------------------------------------------------------------------------------- Jacobian
@@ -239,14 +238,13 @@ def jacobian_blocks(model, t, y, w, gamma):
     M = inertia(model, w)[:, None]
     A, K, A_stiff = (force / M + np.diag(support) for force, support in zip(ball_blocks(model, w, gamma), ring_support(model), strict=True))
     A_0, A_1 = land_rates(model, land_films(w), w.film_spin)
-    K_stiff = A_0 @ A_1  # the lands of a rigid cage one after the other: (1 + gamma A_0)(1 + gamma A_1); 0 for two halves
     K_shear, axial, shear = np.zeros((N_V, N_V)), 0.0, 0.0
     if model.p.scene.cage == CageModel.TWO_HALF:
         (A_joint, K_joint), K_shear = (force / M for force in joint_blocks(model, w)), shear_blocks(model, w, gamma) / M
         weight, axial = vibration_weights(8.0 * np.max(np.diag(gamma * A_joint + gamma**2 * K_joint)[HALF[[0, 3, 4], 0]]))
         weight_shear, shear = vibration_weights(8.0 * gamma**2 * np.max(np.diag(K_shear)[HALF[[1, 5], 0]]))
         A, K, K_shear = A + weight * A_joint, K + weight * K_joint, weight_shear * K_shear
-    return Blocks(A + A_0 + A_1, K + K_stiff, A_stiff + A_0 + A_1, K_stiff, K_shear, axial, shear)
+    return Blocks(A + A_0 + A_1, K, A_stiff + A_0 + A_1, K_shear, axial, shear)
 
 
 def vibration_weights(x_2):
@@ -261,7 +259,7 @@ def masked_jacobian(model, t, y, w, gamma):
     by_position = np.zeros((N_V, N_V))
     by_position[:, POSITIONS] = J[V, POSITIONS]  # velocities are in the order of their positions
     return Blocks(
-        np.where(kept.A != 0.0, -J[V, V], 0.0), np.where(kept.K != 0.0, -by_position, 0.0), kept.A_stiff, kept.K_stiff, kept.K_shear, kept.axial, kept.shear
+        np.where(kept.A != 0.0, -J[V, V], 0.0), np.where(kept.K != 0.0, -by_position, 0.0), kept.A_stiff, kept.K_shear, kept.axial, kept.shear
     )
 
 
@@ -305,7 +303,7 @@ def predictor_limiter(model, h, start):
     new = np.zeros(N_V)
     new[HALF] = h * (a - minmod)[HALF]
     A_0, A_1 = land_rates(model, start.film, np.zeros(2))
-    return new - np.linalg.solve((np.eye(N_V) + h * A_0) @ (np.eye(N_V) + h * A_1), new)
+    return new - np.linalg.solve(np.eye(N_V) + h * (A_0 + A_1), new)
 
 
 def dissipation_correction(model, w, gamma, residual, delta):

@@ -364,22 +364,58 @@ static void film_solve(const Film *f, Half *v)
     v->s /= 1.0 + f->spin;
 }
 
-// The films that act on half h: its own, or on a rigid cage both, each with the inertia of the whole.
-// Returns their number.
-static int films(const Model *model, const Work *w, int h, double gamma, Film f[2])
+static Film film_of_half(const Model *model, const Work *w, int h, double gamma)
 {
     const Parameters *p = model->p;
-    const double m = p->cage.m, J_p = model->d->J_p, J_t = model->d->J_t, x_c = p->cage.x_c;
-    if (p->scene.cage != CAGE_MODEL_RIGID) {
-        const double x_land = h == 0 ? -p->cage.land_x : p->cage.land_x;
-        f[0] = film(w, h, m, J_p, J_t, x_land - model->d->com_x[h], gamma);
-        return 1;
-    }
+    const double x_land = h == 0 ? -p->cage.land_x : p->cage.land_x;
+    return film(w, h, p->cage.m, model->d->J_p, model->d->J_t, x_land - model->d->com_x[h], gamma);
+}
+
+// v = (1 + gamma A)^-1 v of a rigid cage, A of both films together: where both are stiff, one after the other would hold the cage by their
+// product.
+static void rigid_solve(const Model *model, const Work *w, double gamma, Half *v)
+{
+    enum { V_Y, V_Z, BETA, GAMMA, S };
+
+    const Parameters *p = model->p;
+    const double m = 2.0 * p->cage.m, J_p = 2.0 * model->d->J_p,
+                 J_t = 2.0 * (model->d->J_t + p->cage.m * p->cage.x_c * p->cage.x_c);
+    const double inertia[BODY_DOF] = {m, m, J_t, J_t, J_p};
+    double x[BODY_DOF] = {m * v->y, m * v->z, J_t * v->beta, J_t * v->gamma, J_p * v->s};
+    double A[BODY_DOF][BODY_DOF] = {{0.0}};
     for (int land = 0; land < 2; land++) {
-        const double x_land = land == 0 ? -p->cage.land_x : p->cage.land_x;
-        f[land] = film(w, land, 2.0 * m, 2.0 * J_p, 2.0 * (J_t + m * x_c * x_c), x_land, gamma);
+        const double lever = land == 0 ? -p->cage.land_x : p->cage.land_x;
+        const double yy = w->film_yy[land], yz = w->film_yz[land], zz = w->film_zz[land];
+        A[V_Y][V_Y] += yy;
+        A[V_Y][V_Z] += yz;
+        A[V_Y][BETA] -= lever * yz;
+        A[V_Y][GAMMA] += lever * yy;
+        A[V_Z][V_Z] += zz;
+        A[V_Z][BETA] -= lever * zz;
+        A[V_Z][GAMMA] += lever * yz;
+        A[BETA][BETA] += lever * lever * zz;
+        A[BETA][GAMMA] -= lever * lever * yz;
+        A[GAMMA][GAMMA] += lever * lever * yy;
+        A[S][S] += w->film_spin[land];
     }
-    return 2;
+    for (int i = 0; i < BODY_DOF; i++)
+        for (int k = i; k < BODY_DOF; k++)
+            A[i][k] = A[k][i] = gamma * A[i][k] + (i == k ? inertia[i] : 0.0);
+    eliminate(A, x);
+    v->y = x[V_Y], v->z = x[V_Z], v->beta = x[BETA], v->gamma = x[GAMMA], v->s = x[S];
+}
+
+// Half h by its film, which is returned; a rigid cage by both.
+static Film hold_half(const Model *model, const Work *w, int h, double gamma, Half *half)
+{
+    Film f = {0};
+    if (model->p->scene.cage == CAGE_MODEL_RIGID)
+        rigid_solve(model, w, gamma, half);
+    else {
+        f = film_of_half(model, w, h, gamma);
+        film_solve(&f, half);
+    }
+    return f;
 }
 
 static Half half_load(const double *v, int h)
@@ -540,20 +576,17 @@ double implicit_shear(const Model *model, const Work *w, double gamma, double *v
     return correction;
 }
 
-// (1 + gamma A + gamma^2 K)^-1 of both halves.  The lands of a rigid cage are solved one after the other,
-// which differs from both together by gamma^2 A_0 A_1, a choice of K.  Returns what solve_joints does.
+// (1 + gamma A + gamma^2 K)^-1 of both halves.  Returns what solve_joints does.
 static double solve_halves(const Model *model, const Work *w, double gamma, double *v)
 {
-    Film f[2][2];
+    Film f[2];
     Half half[2];
     for (int h = 0; h < 2; h++) {
         half[h] = half_load(v, h);
-        const int count = films(model, w, h, gamma, f[h]);
-        for (int land = 0; land < count; land++) film_solve(&f[h][land], &half[h]);
+        f[h] = hold_half(model, w, h, gamma, &half[h]);
     }
-    const Film own[2] = {f[0][0], f[1][0]};
     double correction = 0.0;
-    if (model->p->scene.cage == CAGE_MODEL_TWO_HALF) correction = solve_joints(model, w, gamma, own, half);
+    if (model->p->scene.cage == CAGE_MODEL_TWO_HALF) correction = solve_joints(model, w, gamma, f, half);
     for (int h = 0; h < 2; h++) half_store(&half[h], v, h);
     return correction;
 }
@@ -561,10 +594,8 @@ static double solve_halves(const Model *model, const Work *w, double gamma, doub
 void implicit_films(const Model *model, const Work *w, double gamma, double *v)
 {
     for (int h = 0; h < 2; h++) {
-        Film f[2];
         Half half = half_load(v, h);
-        const int count = films(model, w, h, gamma, f);
-        for (int land = 0; land < count; land++) film_solve(&f[land], &half);
+        hold_half(model, w, h, gamma, &half);
         half_store(&half, v, h);
     }
 }
@@ -579,7 +610,7 @@ static void stiff_part_of_halves(const Model *model, const Work *w, double gamma
 
 // ---- ring -------------------------------------------------------------------------------------------------
 
-enum { RING = RING_DOF };  // velocities of the ring: v_x, v_y, v_z, beta_dot, gamma_dot
+enum { RING = BODY_DOF };  // velocities of the ring: v_x, v_y, v_z, beta_dot, gamma_dot
 
 // gamma A of the ring by traction from which ring and balls are solved together.  Below, the ring takes the
 // traction explicitly, which saves three substitutions a ball and is stable up to gamma A = 1/2; at 0.2 the

@@ -20,7 +20,7 @@
 #include "outer_ring.h"
 #include "ring_load.h"
 
-enum { DOF = RING_DOF, TILT = 3 };  // of the ring: x, y, z, then from TILT on beta, gamma
+enum { DOF = BODY_DOF, TILT = 3 };  // of the ring: x, y, z, then from TILT on beta, gamma
 
 static const double K_0 = 1e3;    // spring on each coordinate [N/m]
 static const double F_0 = 1e-3;   // force that presses each ball outward [N]

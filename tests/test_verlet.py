@@ -192,13 +192,13 @@ def perturbed(model, t, y, w, gamma):
     """A and K wrong by up to 20 % in every entry."""
     rng, b = np.random.default_rng(34), verlet.jacobian_blocks(model, t, y, w, gamma)
     A, K = (matrix * rng.uniform(0.8, 1.2, matrix.shape) for matrix in (b.A, b.K))
-    return verlet.Blocks(A, K, b.A_stiff, b.K_stiff)
+    return verlet.Blocks(A, K, b.A_stiff)
 
 
 def explicit(model, t, y, w, gamma):
     """No A and no K: velocity Verlet."""
     b, nothing = verlet.jacobian_blocks(model, t, y, w, gamma), np.zeros((N_V, N_V))
-    return verlet.Blocks(nothing, nothing, b.A_stiff, b.K_stiff)
+    return verlet.Blocks(nothing, nothing, b.A_stiff)
 
 
 RUNNING = {"working point": {}, "rigid cage, mixed lubrication": {"scene.cage": 2, "scene.lubrication": 2, "scene.traction": 1}}
