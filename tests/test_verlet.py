@@ -128,6 +128,21 @@ def solved(c, model, y, w, gamma):
     return by_core, np.array([np.linalg.solve(b.matrix(gamma), v[V]), v[V] - np.linalg.solve(b.matrix_stiff(gamma), v[V])])
 
 
+@pytest.mark.parametrize("cage", [CageModel.TWO_HALF, CageModel.RIGID])
+def test_stiff_lands(core, cage):
+    """Films that hold both lands with rates of 1e4 a step: a rigid cage is held by both together, each half by its own."""
+    c, model, y, w = evaluated(core, "pockets open", (cage, *POINT_FILM[1:]))
+    rng, gamma = np.random.default_rng(35), 5e-6
+    for land in range(2):
+        L = rng.standard_normal((2, 2))
+        film = 1e4 * model.p.cage.m / gamma * (L @ L.T + 0.1 * np.eye(2))
+        for name, value in (("film_yy", film[0, 0]), ("film_yz", film[0, 1]), ("film_zz", film[1, 1])):
+            getattr(c.work, name)[land] = getattr(w, name)[land] = value
+    by_core, by_twin = solved(c, model, y, w, gamma)
+    for found, expected in zip(by_core, by_twin, strict=True):
+        np.testing.assert_allclose(found[verlet.HALF], expected[verlet.HALF], rtol=1e-7, atol=1e-9 * np.abs(expected[verlet.HALF]).max())  # condition 1e4
+
+
 @pytest.mark.parametrize("by", ["traction", "pocket"])
 def test_stiff_limit(core, by):
     """A ball's accelerations are damped from gamma A = 2 on, A the mean rate along its contacts' two tangents: a thousandth less, and they are not."""
