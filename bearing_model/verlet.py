@@ -258,9 +258,7 @@ def masked_jacobian(model, t, y, w, gamma):
     kept, J = jacobian_blocks(model, t, y, w, gamma), jacobian(model, t, y)
     by_position = np.zeros((N_V, N_V))
     by_position[:, POSITIONS] = J[V, POSITIONS]  # velocities are in the order of their positions
-    return Blocks(
-        np.where(kept.A != 0.0, -J[V, V], 0.0), np.where(kept.K != 0.0, -by_position, 0.0), kept.A_stiff, kept.K_shear, kept.axial, kept.shear
-    )
+    return Blocks(np.where(kept.A != 0.0, -J[V, V], 0.0), np.where(kept.K != 0.0, -by_position, 0.0), kept.A_stiff, kept.K_shear, kept.axial, kept.shear)
 
 
 # ------------------------------------------------------------------------------------------------------------------------ step

@@ -247,8 +247,8 @@ static int find_touches(const ElasticHalf *half, const FastState *fast, const do
             const int mask = wide_mask(wide_above(wide_load(&fast->touch_k[h][j]), 0.0)), side = 2 * h - 1;
             WallPlaces places;
             if (mask == 0) continue;
-            elastic_wall_places(half, side, j, wide_load(&fast->touch_x[h][j]), wide_load(&fast->touch_t[h][j]),
-                                &places);
+            elastic_wall_places(half, side, j, wide_load(&fast->touch_x[h][j]),
+                                wide_load(&fast->touch_t[h][j]), &places);
             for (int k = j; k < j + LANE_WIDTH && k < Z; k++) {
                 if (!(mask >> (k - j) & 1)) continue;
                 Touch *touch = &touches[count++];

@@ -399,8 +399,7 @@ static void rigid_solve(const Model *model, const Work *w, double gamma, Half *v
         A[S][S] += w->film_spin[land];
     }
     for (int i = 0; i < BODY_DOF; i++)
-        for (int k = i; k < BODY_DOF; k++)
-            A[i][k] = A[k][i] = gamma * A[i][k] + (i == k ? inertia[i] : 0.0);
+        for (int k = i; k < BODY_DOF; k++) A[i][k] = A[k][i] = gamma * A[i][k] + (i == k ? inertia[i] : 0.0);
     eliminate(A, x);
     v->y = x[V_Y], v->z = x[V_Z], v->beta = x[BETA], v->gamma = x[GAMMA], v->s = x[S];
 }

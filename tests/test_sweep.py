@@ -104,7 +104,7 @@ def test_a_sobol_sequence_is_balanced_in_both_halves_of_each_axis(tmp_path, mode
         ("[[vary]]\njoint.preload = { from = 0, to = 3, count = 2, spacing = 'log' }", ["not 0"]),
         ("[[vary]]\nstart.seed = { from = 1, to = 3, count = 3 }", ["start.seed", "list the values"]),
         ("[[vary]]\njoint.preload = [3, 3]", ["the same run occurs twice"]),
-        ("[[vary]]\nscene = ['dmeo']", ["scene: unknown name \"dmeo\"", 'did you mean "demo"']),
+        ("[[vary]]\nscene = ['dmeo']", ['scene: unknown name "dmeo"', 'did you mean "demo"']),
         ("scene = 'mine.toml'", ["scene", "mine.toml: no such scene file"]),
         ("vary = 3", ["[[vary]]"]),
         ("[sample]\nmethod = 'sobol'\ncount = 6\nbetween.joint.mu = [0, 1]", ["sample.count = 6", "powers of 2"]),
