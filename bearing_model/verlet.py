@@ -467,8 +467,6 @@ def verlet_advance(model, t, t_stop, h, weight, state, step=verlet_step):
         state, t = end, t_stop if last else t + length
         state.ratio = ratio_of(error)
         taken.append(length)
-        if length >= h * (1.0 - LAST_STEP) or factor < 1.0:
+        if length == h or factor < 1.0:  # a step cut short to meet t_stop says nothing against the step size before it
             h = length * factor
-        else:  # a step cut short to meet t_stop says nothing against the step size before it, but may ask for more
-            h = max(h, np.sqrt(h * length * state.ratio))
     return state, h, np.array(taken), refused

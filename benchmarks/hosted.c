@@ -74,7 +74,7 @@ static SUNErrCode next_step(SUNAdaptController controller, sunrealtype h, int p,
                             sunrealtype *h_next)
 {
     (void)controller, (void)p, (void)error;
-    host.goal = next_goal(host.goal, h, host.proposed, host.next->ratio);
+    if (h >= host.goal * (1.0 - LAST_STEP) || host.proposed < h) host.goal = host.proposed;
     host.goal = fmin(host.goal, longest_step(host.in->model, host.next));
     const double left = host.t_stop - (host.in->s->t + h);
     *h_next = (left > 0.0 ? step_length(host.goal, left) : host.goal) / HALF;

@@ -451,15 +451,6 @@ static double step_length(double goal, double left)
     return left < 2.0 * goal ? 0.5 * left : goal;
 }
 
-// The controller's goal behind an accepted step of length h towards `goal`, for which it proposes a length and whose error asks for h ratio.  A
-// step that was cut short to meet t_stop says nothing against the goal before it unless less than h is proposed; but where it asks for more than
-// that goal, the goal goes half of the way.  So short communication steps do not hold the goal down.
-static double next_goal(double goal, double h, double proposed, double ratio)
-{
-    if (h >= goal * (1.0 - LAST_STEP) || proposed < h) return proposed;
-    return fmax(goal, sqrt(goal * h * ratio));
-}
-
 // The longest step from a state [s].  Elastic halves: slow forces that are held over a step feed vibrations that turn by much more than pi in
 // it, so that it has three substeps at most; films of the rate A, which the substeps leave out, hold for 1/A, or for two
 // substeps, which are always stable.
@@ -516,13 +507,13 @@ static int verlet_advance(Integrator *in, double t_stop, long max_steps)
             continue;
         }
 
-        // Accepted.
+        // Accepted.  A step that was cut short to meet t_stop says nothing against the goal before it.
         VerletState *const before = now;
         now = next, next = before;
         now->ratio = ratio_of(error);
         s->t = h == left ? t_stop : s->t + h;
         s->steps += 1.0;
-        goal = next_goal(goal, h, proposed, now->ratio);
+        if (h == goal || proposed < h) goal = proposed;
         in->hook(in->context, h, in->w);
     }
     if (now != &s->now) s->now = *now;
