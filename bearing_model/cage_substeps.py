@@ -139,6 +139,26 @@ def turn(t, rates):
     rates[1:3] = np.array([(1.0 - t * t) * y - 2.0 * t * z, (1.0 - t * t) * z + 2.0 * t * y]) / (1.0 + t * t)
 
 
+TURNING = np.array([[1, 2], [3, 4]])  # of the relative motions: pairs across the axis
+
+
+def turn_out(phi, relative):
+    """Accelerations [6] in the frame of the joints, which turn with half 0, in the frame that is phi behind."""
+    turned = relative.copy()
+    for y, z in TURNING:
+        turned[y], turned[z] = relative[y] - phi * relative[z], relative[z] + phi * relative[y]
+    return turned
+
+
+def turn_in(spin, t, middle, slow, moved, relative):
+    """Velocities [6] in the frame of the middle as the joints see them at the time t after it: they turn back, and so does the way since the middle."""
+    back, seen = moved + t * (2.0 * middle + relative + 0.5 * t * slow), relative.copy()
+    for y, z in TURNING:
+        seen[y] += spin * back[z]
+        seen[z] -= spin * back[y]
+    return seen
+
+
 def cage_substeps_advance(model, h, fast, f, y, w):
     """Substeps of a step of length h from `fast` under the slow rates f; w: kinematics in the middle of the step; changes y as cage_substeps.c does.
 
@@ -163,7 +183,9 @@ def cage_substeps_advance(model, h, fast, f, y, w):
     Omega = w.half[1].Omega[:, 0] - h0.Omega[:, 0]
     about_y, about_z = h0.b_y[:, 0] @ Omega, h0.b_z[:, 0] @ Omega
     middle_out = np.array([w.v_j[0], about_y * c + about_z * s, about_z * c - about_y * s])
-    middle_in = w.v_j[1:].copy()
+    middle_in, spin = w.v_j[1:].copy(), float(np.squeeze(h0.s))
+    middle = np.array([0.0, about_y, about_z, *middle_in.mean(axis=-1), 0.0])
+    rigid = turn_out(-0.5 * spin * h, rigid)
 
     for step in range(1, steps + 1):
         v_m = (v + 0.5 * sub * (modes + held)) / (1.0 + 0.5 * sub * half.damping)
@@ -171,8 +193,8 @@ def cage_substeps_advance(model, h, fast, f, y, w):
         v = v_m * (1.0 - 0.5 * sub * half.damping)
         speed = speed + 0.5 * sub * rigid
         turn(0.5 * gyro * sub, speed)
-        moved = moved + sub * speed
-        relative = speed + ((step - 0.5) * sub - 0.5 * h) * slow
+        halfway, moved, time = moved + 0.5 * sub * speed, moved + sub * speed, (step - 0.5) * sub - 0.5 * h
+        relative = turn_in(spin, time, middle, slow, halfway, speed + time * slow)
         by_out = (out @ np.append(v_m[0], relative[:3])).reshape(Z, 3).T
         r, t = (inside @ np.append(v_m[1], relative[3:])).reshape(Z, 2).T
         w.e = w.e + 0.5 * sub * (middle_out + by_out)
@@ -186,6 +208,7 @@ def cage_substeps_advance(model, h, fast, f, y, w):
         w.T = maximum(rivet[0], 0.0)
         w.N_plate = maximum(w.T - load[0], 0.0)
         modes, rigid = fast_accelerations(model, q, load, cage_joint_shear(model, y, w))
+        rigid = turn_out(spin * (step * sub - 0.5 * h), rigid)
         v = v + 0.5 * sub * (modes + held)
         speed = speed + 0.5 * sub * rigid
     for blocks, change in ((CAGE_PLACES, moved), (CAGE_RATES, speed)):
