@@ -30,7 +30,8 @@
 
 static const double ROOT = 1.4142135623730951;  // of 2
 
-// Which motions of pads turn their sign in the mirror image by a coordinate a; by b the others do.
+// Which motions of pads turn their sign in the mirror image by a coordinate a (ODD of elastic_half.c, here as constants that the compiler
+// sees); by b the others do.
 static const bool OUT_TURNS[PAD_OUT] = {false, true, false}, IN_TURNS[PAD_IN] = {false, true};
 
 // Motions of the pads against each other by modal coordinates: motions of the first pads, in rows of a number of octets.

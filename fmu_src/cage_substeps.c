@@ -18,8 +18,8 @@
 // contact is stiffer than the wall.  So the load follows in the substeps, Q + k (rate t - u), k the contact's stiffness, rate
 // that of the approach by rigid motions and u what the modes move the wall since the step's start; the end corrects it too.
 //
-// The joints turn with the cage, by 1.8 degrees in a step at 72,000 r/min: relative tilts and offsets turn back as they see them, with what has
-// moved since the middle, and their accelerations turn out of the frame of the middle.
+// The joints turn with the cage, by 1.8 degrees in a step at 72,000 r/min: in the frame of the joints the relative velocities turn back,
+// and so does the way since the middle of the step; the joints' accelerations turn into the frame of the middle.  Both to first order in the angle.
 //
 // The gyroscopic moment of the halves' relative tilts belongs to the slow accelerations, but follows in the substeps too: sampled at the
 // ends of the steps and held, it would feed vibrations that turn by more than a little, by 120/s at 12,000 r/min.
@@ -181,8 +181,8 @@ static void turn_out(double phi, double relative[RELATIVE_MOTIONS])
     }
 }
 
-// Adds to velocities in the frame of the middle what the joints see beside them at the time t after it, turning at the rate s: those velocities
-// turn back, and the way since the middle does so as well.
+// Adds to velocities in the frame of the middle what the joints, which turn at the rate s, see beside them at the time t after it: those velocities
+// turn back, and so does the way since the middle.  moved: the part of that way by the fast accelerations.
 static void turn_in(double s, double t, const JointVelocities *middle, const double slow[RELATIVE_MOTIONS],
                     const double moved[RELATIVE_MOTIONS], double relative[RELATIVE_MOTIONS])
 {
