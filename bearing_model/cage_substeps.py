@@ -151,7 +151,7 @@ def turn_out(phi, relative):
 
 
 def turn_in(spin, t, middle, slow, moved, relative):
-    """Velocities [6] in the frame of the middle as the joints, which turn, see them at the time t after it: the velocities turn back, and so does the way since the middle."""
+    """Velocities [6] in the frame of the middle as the joints see them at the time t after it: both these and the way since the middle turn back."""
     back, seen = moved + t * (2.0 * middle + relative + 0.5 * t * slow), relative.copy()
     for y, z in TURNING:
         seen[y] += spin * back[z]
