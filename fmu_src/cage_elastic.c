@@ -30,13 +30,10 @@
 
 static const double ROOT = 1.4142135623730951;  // of 2
 
-// Which motions of pads turn their sign in the mirror image by a coordinate a (ODD of elastic_half.c, here as constants that the compiler
-// sees); by b the others do.
-static const bool OUT_TURNS[PAD_OUT] = {false, true, false}, IN_TURNS[PAD_IN] = {false, true};
-
-// Motions of the pads against each other by modal coordinates: motions of the first pads, in rows of a number of octets.
+// Motions of the pads against each other by modal coordinates: motions of the first pads, in rows of a number of octets.  The mirror image
+// turns the sign of odd motions by a and of the others by b.
 INLINE void pads_follow(const ElasticHalf *half, const scalar *q, int motions, int octets, const double *rows,
-                        const bool *turns, ball_array *to)
+                        const int *pads, ball_array *to)
 {
     scalar row[2][8 * OUT_OCTETS];
     for (int kind = 0; kind < 2; kind++) {
@@ -48,19 +45,19 @@ INLINE void pads_follow(const ElasticHalf *half, const scalar *q, int motions, i
     for (int c = 0; c < motions; c++)
         for (int k = 0; k < FIRST; k++) {
             const scalar by_a = row[0][c * FIRST + k], by_b = row[1][c * FIRST + k];
-            to[c][Z - 1 - k] = turns[c] ? by_b - by_a : by_a - by_b;
+            to[c][Z - 1 - k] = PAD_ODD[pads[c]] ? by_b - by_a : by_a - by_b;
             to[c][k] = by_a + by_b;
         }
 }
 
 void cage_elastic_out(const ElasticHalf *half, const scalar *S, ball_array to[PAD_OUT])
 {
-    pads_follow(half, S, PAD_OUT, OUT_OCTETS, half->out[0], OUT_TURNS, to);
+    pads_follow(half, S, PAD_OUT, OUT_OCTETS, half->out[0], OUT_PADS, to);
 }
 
 void cage_elastic_in(const ElasticHalf *half, const scalar *D, ball_array to[PAD_IN])
 {
-    pads_follow(half, D, PAD_IN, IN_OCTETS, half->in[0], IN_TURNS, to);
+    pads_follow(half, D, PAD_IN, IN_OCTETS, half->in[0], IN_PADS, to);
 }
 
 // Sum over the modes in one order for every lane width.
@@ -261,15 +258,16 @@ scalar cage_elastic_coriolis(const Model *model, const Work *w, int h)
 
 // Forces of the joints' loads on the modes: of the first joints, each with its mirror image.
 INLINE void pads_pull(const ElasticHalf *half, int motions, ball_array *load, const double *modes,
-                      const bool *turns, mode_array to)
+                      const int *pads, mode_array to)
 {
     scalar weight[2][FIRST];
     octet sum[2][ENTRY_OCTETS] = {{{{0.0}}}}, odd[2][ENTRY_OCTETS] = {{{{0.0}}}};
     for (int c = 0; c < motions; c++) {
+        const bool turned = PAD_ODD[pads[c]];
         for (int k = 0; k < FIRST; k++) {
             const scalar here = load[c][k], there = load[c][Z - 1 - k];
-            weight[turns[c]][k] = here + there;
-            weight[!turns[c]][k] = here - there;
+            weight[turned][k] = here + there;
+            weight[!turned][k] = here - there;
         }
         for (int kind = 0; kind < 2; kind++)
             octets_add_rows(FIRST, weight[kind], ENTRY_OCTETS, modes + (kind * motions + c) * FIRST * ENTRIES,
@@ -289,8 +287,8 @@ void cage_elastic_pull(const Model *model, Work *w)
         across[0][k] = c * w->joint_F_y[k] + s * w->joint_F_z[k];
         across[1][k] = c * w->joint_F_z[k] - s * w->joint_F_y[k];
     }
-    pads_pull(half, PAD_OUT, w->joint_load, half->out_modes[0][0], OUT_TURNS, w->pull_S);
-    pads_pull(half, PAD_IN, across, half->in_modes[0][0], IN_TURNS, w->pull_D);
+    pads_pull(half, PAD_OUT, w->joint_load, half->out_modes[0][0], OUT_PADS, w->pull_S);
+    pads_pull(half, PAD_IN, across, half->in_modes[0][0], IN_PADS, w->pull_D);
 }
 
 void cage_elastic_acceleration(const Model *model, const scalar *y, Work *w, scalar *y_dot)

@@ -15,10 +15,6 @@ enum { COORDINATES = N_MODES + 3 };  // modes and relative rigid motions
 
 enum { WALL_NODE = 1 };  // of the walls' angle: impacts meet the wall at 7 degrees in the median
 
-static const int OUT[PAD_OUT] = {PAD_X, PAD_PHI_R, PAD_PHI_T}, IN[PAD_IN] = {PAD_R, PAD_T};
-static const bool ODD[PADS] = {false, false, true,
-                               true,  true,  false};  // mirroring in the rivet's plane changes them
-
 size_t elastic_half_size(void)
 {
     const int *cells = rivet_table.modes.law.cells;
@@ -54,12 +50,12 @@ static void take_mode(const HalfModes *table, int entry, int coordinate, double 
         const double theta = 2.0 * PI * (k + 0.5) / Z, part = k == Z - 1 - k ? 0.5 : 1.0;
         for (int c = 0; c < PAD_OUT; c++) {
             half->out[i][c * FIRST + k] =
-                root * unit * mode->at[OUT[c]] * wave_at(mode->harmonic, coordinate, ODD[OUT[c]], theta);
+                root * unit * mode->at[OUT_PADS[c]] * wave_at(mode->harmonic, coordinate, PAD_ODD[OUT_PADS[c]], theta);
             half->out_modes[coordinate * PAD_OUT + c][k][e] = part * half->out[i][c * FIRST + k];
         }
         for (int c = 0; c < PAD_IN; c++) {
             half->in[i][c * FIRST + k] =
-                root * unit * mode->at[IN[c]] * wave_at(mode->harmonic, coordinate, ODD[IN[c]], theta);
+                root * unit * mode->at[IN_PADS[c]] * wave_at(mode->harmonic, coordinate, PAD_ODD[IN_PADS[c]], theta);
             half->in_modes[coordinate * PAD_IN + c][k][e] = part * half->in[i][c * FIRST + k];
         }
     }
@@ -78,7 +74,7 @@ static void take_mode(const HalfModes *table, int entry, int coordinate, double 
 double elastic_half_pad(const ElasticHalf *half, bool out, int i, int motion, int k)
 {
     const bool b = i >= half->count[0], mirrored = k >= FIRST;
-    const double sign = mirrored && ODD[out ? OUT[motion] : IN[motion]] != b ? -1.0 : 1.0;
+    const double sign = mirrored && PAD_ODD[out ? OUT_PADS[motion] : IN_PADS[motion]] != b ? -1.0 : 1.0;
     const double *row = out ? half->out[i] : half->in[i];
     return sign * row[motion * FIRST + (mirrored ? Z - 1 - k : k)];
 }
@@ -97,7 +93,7 @@ static void invert_3(const double *K, double inverse[3][3])
 static void take_residual(double R[PADS][PADS], ElasticHalf *half)
 {
     for (int a = 0; a < PAD_OUT; a++)
-        for (int b = 0; b < PAD_OUT; b++) half->R[a][b] = R[OUT[a]][OUT[b]];
+        for (int b = 0; b < PAD_OUT; b++) half->R[a][b] = R[OUT_PADS[a]][OUT_PADS[b]];
     invert_3(half->R[0], half->K);
 }
 
@@ -378,8 +374,8 @@ static void leave_mode(const HalfModes *table, int entry, int coordinate, Elasti
     for (int k = 0; k < Z; k++)
         for (int a = 0; a < PADS; a++)
             for (int b = 0; b < PADS; b++)
-                R[k][a][b] += at[a] * wave_at(n, coordinate, ODD[a], 2.0 * PI * (k + 0.5) / Z) * at[b] *
-                              wave_at(n, coordinate, ODD[b], PI / Z) * flexibility;
+                R[k][a][b] += at[a] * wave_at(n, coordinate, PAD_ODD[a], 2.0 * PI * (k + 0.5) / Z) * at[b] *
+                              wave_at(n, coordinate, PAD_ODD[b], PI / Z) * flexibility;
     const double c = portable_cos(half->chi[WALL_NODE]), s = portable_sin(half->chi[WALL_NODE]);
     const double u = s * wall[coordinate] + c * wall[4 + coordinate];  // on pocket 0, along the normal
     half->compliance += u * u * flexibility;

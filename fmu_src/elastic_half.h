@@ -18,6 +18,7 @@
 // b, so that half of the rivets say what all do.
 #pragma once
 
+#include "half_modes.h"
 #include "half_path.h"
 #include "isa.h"
 #include "joint_law.h"
@@ -25,10 +26,10 @@
 
 enum { MODES = N_MODES };
 
-enum {
-    PAD_OUT = 3,
-    PAD_IN = 2
-};  // motions of pads against each other out of the plane (x, about r, about t), in it (r, t)
+// Motions of pads against each other out of the plane and in it.
+enum { PAD_OUT = 3, PAD_IN = 2 };
+
+static const int OUT_PADS[PAD_OUT] = {PAD_X, PAD_PHI_R, PAD_PHI_T}, IN_PADS[PAD_IN] = {PAD_R, PAD_T};
 
 // Motions of the first pads in one row, motion c of joint k in place c FIRST + k; joint Z - 1 - k is its mirror image.  Octets of a row.
 enum { FIRST = (Z + 1) / 2, OUT_OCTETS = (PAD_OUT * FIRST + 7) / 8, IN_OCTETS = (PAD_IN * FIRST + 7) / 8 };

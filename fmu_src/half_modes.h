@@ -21,6 +21,9 @@ enum {
     SEATS
 };
 
+// Which of a pad's motions the mirror image in the rivet's plane turns round.
+static const bool PAD_ODD[PADS] = {[PAD_T] = true, [PAD_PHI_X] = true, [PAD_PHI_R] = true};
+
 // A pair of modes (coordinates a and b) or a single one, normalised with the mass `half.m`.
 typedef struct {
     double omega;      // [rad/s]
