@@ -25,7 +25,9 @@ if(ANALYZE)
     list(APPEND core_flags -fanalyzer -Wno-analyzer-shift-count-overflow -Wno-analyzer-use-of-uninitialized-value)
 endif()
 if(NOT SANITIZE)
-    list(APPEND core_flags -O3)
+    # Without superword vectorisation: GCC 12's fuses a b - c d and a b + c d into one vfmaddsub in spite of -ffp-contract=off, and packed single numbers
+    # keep loads of whole packets waiting.
+    list(APPEND core_flags -O3 -fno-tree-slp-vectorize)
 endif()
 
 set(fmu_src ${PROJECT_SOURCE_DIR}/fmu_src)

@@ -33,10 +33,13 @@ def commands():
     return table
 
 
+def disassembly(path):
+    return subprocess.run(["objdump", "-d", "--no-show-raw-insn", str(path)], capture_output=True, text=True, check=True).stdout
+
+
 def packed_share(path, register):
     """Share of the object's arithmetic instructions that are packed and use whole registers of this kind, and their number."""
-    text = subprocess.run(["objdump", "-d", "--no-show-raw-insn", str(path)], capture_output=True, text=True, check=True).stdout
-    found = [match.groups() for match in map(ARITHMETIC.search, text.splitlines()) if match]
+    found = [match.groups() for match in map(ARITHMETIC.search, disassembly(path).splitlines()) if match]
     whole = sum(kind == "p" and register in operands for kind, operands in found)
     return whole / max(len(found), 1), len(found)
 
@@ -57,3 +60,12 @@ def test_loss_is_seen(commands, tmp_path):
     subprocess.run([*words, "-Wno-psabi"], check=True, cwd=ROOT / "build")
     share, _ = packed_share(tmp_path / "lost.o", REGISTER["avx2"])
     assert share < LEAST["race_contact"]
+
+
+@pytest.mark.parametrize("isa", ["avx2", "avx512"])
+def test_only_written_sums_are_fused(commands, isa):
+    """No fmaddsub, which the source cannot ask for: GCC makes it of a b - c d beside a b + c d, against its options, and other compilers round these sums otherwise."""
+    objects = sorted((OBJECTS / f"kernel_{isa}.dir" / "fmu_src").glob("*.c.o"))
+    texts = {path.name: disassembly(path) for path in objects}
+    assert "vfmadd" in texts["race_contact.c.o"]  # what wide_fma is
+    assert not [name for name, text in texts.items() if re.search("vfmaddsub|vfmsubadd", text)]
