@@ -336,10 +336,10 @@ def hosted(data):
     )
 
 
-def step(data):
-    scenes = data["scenes"].values()
+def steps_by_part(scenes):
+    """Table of instructions and floors by part, and how many steps there are."""
     parts = dict.fromkeys(part for scene in scenes for part in scene["parts"])
-    first = next(iter(scenes))["parts"]
+    first = scenes[0]["parts"]
     rows = []
     for part in sorted(parts, key=lambda part: -first[part]["counts"]["instructions"] if part in first else 0.0):
         cells = [part]
@@ -356,10 +356,16 @@ def step(data):
         measured += ["", f"**{scene['ns']:,.0f}**"]
         head += [f"{scene['title']}: instructions", "floor, ns"]
     taken = "; ".join(f"{scene['title']}: {scene['steps'] / 100:,.0f} accepted, {scene['error_tests_failed'] / 100:,.0f} rejected" for scene in scenes)
-    return f"""{origin(data)}. {data["isa"]}, peak stress and statistics on, 1e-4 s communication steps; per accepted step, rejected ones included.
-Steps per 10 ms: {taken}.
+    return f"Steps per 10 ms: {taken}.\n\n{table(head, [*rows, whole, measured])}"
 
-{table(head, [*rows, whole, measured])}
+
+def step(data):
+    elastic, rigid = (steps_by_part([*data["cages"][cage].values()]) for cage in ("elastic", "two_half"))
+    return f"""{origin(data)}. {data["isa"]}, peak stress and statistics on, 1e-4 s communication steps; per accepted step, rejected ones included.
+
+Elastic halves, the default, with their substeps. {elastic}
+
+Rigid halves. {rigid}
 
 Instructions are counted by single steps of the processor. A part is a source file of the core, with the functions that the compiler inlines from headers. The
 floor of a part is the largest of its three floors (see above); the floors of the whole step are those of arithmetic / loads / divisions and roots.

@@ -13,14 +13,18 @@ import numpy as np
 from common import BUILD, Core, Scene, build_target, counters, cpu, options, say, write
 from rhs import base_address, disassembly, floor, instruction_sets, kinds, peaks
 
-from bearing_model.variables import Stress, Switch
+from bearing_model.variables import CageModel, Stress, Switch
 
 STEP = 1e-4  # [s]
+CAGES = CageModel.ELASTIC, CageModel.TWO_HALF  # the default first
 PARTS = {  # source file -> part
     "race_contact": "race contacts",
     "pocket": "pockets",
     "land_film": "land films",
     "cage_joint": "joints",
+    "cage_elastic": "elastic halves: modes, pads, law of the joints",
+    "cage_substeps": "elastic halves: substeps",
+    "elastic_wall": "elastic halves: walls of the pockets",
     "ball": "balls: kinematics, accelerations",
     "drag": "drag",
     "ring": "ring",
@@ -73,15 +77,15 @@ def declare(core):
     return core
 
 
-def moving(scene, core):
+def moving(scene, cage, core):
     """A settled instance with peak stress and statistics."""
-    return scene.start(core, scene_stress=int(Stress.PEAK), scene_statistics=int(Switch.ON)).step(scene.settle)
+    return scene.start(core, scene_cage=int(cage), scene_stress=int(Stress.PEAK), scene_statistics=int(Switch.ON)).step(scene.settle)
 
 
-def instructions(scene, core, library, samples):
+def instructions(scene, cage, core, library, samples):
     """Counts by part and kind per accepted step, over some communication steps 3.7 ms apart."""
     table, (starts, functions), base = disassembly(library), sources(library), base_address(library)
-    instance, addresses, steps = moving(scene, core), np.empty(20_000_000, dtype=np.uint64), 0.0
+    instance, addresses, steps = moving(scene, cage, core), np.empty(20_000_000, dtype=np.uint64), 0.0
     pointer = core.ffi.cast("unsigned long *", core.ffi.from_buffer(addresses))
     counts = collections.defaultdict(collections.Counter)
     for i in range(samples):
@@ -99,11 +103,11 @@ def instructions(scene, core, library, samples):
     return {part: {kind: number / steps for kind, number in row.items()} for part, row in counts.items()}
 
 
-def time_of_step(scene, core, length, repeat):
+def time_of_step(scene, cage, core, length, repeat):
     """Least processor time of an accepted step [ns], and steps and evaluations per second."""
     best = np.inf
     for _ in range(repeat):
-        instance = moving(scene, core)
+        instance = moving(scene, cage, core)
         before = counters(instance)
         seconds, _ = cpu(lambda instance=instance: [instance.step(scene.settle + (i + 1) * STEP) for i in range(round(length / STEP))])
         done = {name: (value - before[name]) / length for name, value in counters(instance).items()}
@@ -111,22 +115,25 @@ def time_of_step(scene, core, length, repeat):
     return {"ns": best} | done
 
 
+def measure(scene, cage, core, library, peak, short):
+    """A row of the record: steps, time and counts of a scene with one model of the cage."""
+    row = time_of_step(scene, cage, core, 0.02 if short else 0.1, 5)
+    parts = instructions(scene, cage, core, library, 2 if short else 8)
+    whole = sum(map(collections.Counter, parts.values()), collections.Counter())
+    row |= {"title": scene.title, "counts": whole, "floor": floor(whole, peak)}
+    say(f"{scene.name}, {cage.name.lower()}: {row['ns']:.0f} ns a step, {whole['instructions']:.0f} instructions, floor {row['floor']['floor']:.0f} ns")
+    return row | {"parts": {part: {"counts": counts, "floor": floor(counts, peak)["floor"]} for part, counts in parts.items()}}
+
+
 def main():
     short = options(__doc__).short
     library = build_target("bearing_kernels")
-    core, scenes = declare(Core.load(library)), {}
+    core = declare(Core.load(library))
     isa = instruction_sets(core)[-1]
     core.ffi.cdef(f"void peak_times_{isa}(long, double *);")
-    peak = peaks(core, isa)
-    for name in ("demo", "tilt", "jam"):
-        scene = Scene(name)
-        row = time_of_step(scene, core, 0.02 if short else 0.1, 5)
-        parts = instructions(scene, core, library, 2 if short else 8)
-        whole = sum(map(collections.Counter, parts.values()), collections.Counter())
-        row |= {"parts": {part: {"counts": counts, "floor": floor(counts, peak)["floor"]} for part, counts in parts.items()}}
-        scenes[name] = row | {"title": scene.title, "counts": whole, "floor": floor(whole, peak)}
-        say(f"{name}: {row['ns']:.0f} ns a step, {whole['instructions']:.0f} instructions, floor {scenes[name]['floor']['floor']:.0f} ns")
-    write("step", {"isa": isa, "peaks": peak, "scenes": scenes}, short)
+    peak, scenes = peaks(core, isa), [Scene(name) for name in ("demo", "tilt", "jam")]
+    cages = {cage.name.lower(): {scene.name: measure(scene, cage, core, library, peak, short) for scene in scenes} for cage in CAGES}
+    write("step", {"isa": isa, "peaks": peak, "cages": cages}, short)
 
 
 if __name__ == "__main__":
