@@ -49,13 +49,13 @@ static void take_mode(const HalfModes *table, int entry, int coordinate, double 
     for (int k = 0; k < FIRST; k++) {
         const double theta = 2.0 * PI * (k + 0.5) / Z, part = k == Z - 1 - k ? 0.5 : 1.0;
         for (int c = 0; c < PAD_OUT; c++) {
-            half->out[i][c * FIRST + k] =
-                root * unit * mode->at[OUT_PADS[c]] * wave_at(mode->harmonic, coordinate, PAD_ODD[OUT_PADS[c]], theta);
+            half->out[i][c * FIRST + k] = root * unit * mode->at[OUT_PADS[c]] *
+                                          wave_at(mode->harmonic, coordinate, PAD_ODD[OUT_PADS[c]], theta);
             half->out_modes[coordinate * PAD_OUT + c][k][e] = part * half->out[i][c * FIRST + k];
         }
         for (int c = 0; c < PAD_IN; c++) {
-            half->in[i][c * FIRST + k] =
-                root * unit * mode->at[IN_PADS[c]] * wave_at(mode->harmonic, coordinate, PAD_ODD[IN_PADS[c]], theta);
+            half->in[i][c * FIRST + k] = root * unit * mode->at[IN_PADS[c]] *
+                                         wave_at(mode->harmonic, coordinate, PAD_ODD[IN_PADS[c]], theta);
             half->in_modes[coordinate * PAD_IN + c][k][e] = part * half->in[i][c * FIRST + k];
         }
     }

@@ -64,7 +64,7 @@ def test_loss_is_seen(commands, tmp_path):
 
 @pytest.mark.parametrize("isa", ["avx2", "avx512"])
 def test_only_written_sums_are_fused(commands, isa):
-    """No fmaddsub, which the source cannot ask for: GCC makes it of a b - c d beside a b + c d, against its options, and other compilers round these sums otherwise."""
+    """No fmaddsub, which the source cannot ask for: GCC makes it of a b - c d beside a b + c d, against its options; other compilers round these otherwise."""
     objects = sorted((OBJECTS / f"kernel_{isa}.dir" / "fmu_src").glob("*.c.o"))
     texts = {path.name: disassembly(path) for path in objects}
     assert "vfmadd" in texts["race_contact.c.o"]  # what wide_fma is
