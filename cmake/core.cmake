@@ -25,8 +25,7 @@ if(ANALYZE)
     list(APPEND core_flags -fanalyzer -Wno-analyzer-shift-count-overflow -Wno-analyzer-use-of-uninitialized-value)
 endif()
 if(NOT SANITIZE)
-    # Without superword vectorisation: GCC 12's fuses a b - c d and a b + c d into one vfmaddsub in spite of -ffp-contract=off, and packed single numbers
-    # keep loads of whole packets waiting.
+    # Without superword vectorisation: GCC 12's fuses a b - c d and a b + c d into one vfmaddsub in spite of -ffp-contract=off.
     list(APPEND core_flags -O3 -fno-tree-slp-vectorize)
 endif()
 

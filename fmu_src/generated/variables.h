@@ -9,7 +9,7 @@
 
 #define FMI2_FUNCTION_PREFIX RivetedBearing_  // of the functions of a source-code FMU
 #define MODEL_IDENTIFIER "RivetedBearing"
-#define MODEL_GUID "{936dcb8f-d910-cc3b-0175-9c6ad4ec480e}"  // digest of the table
+#define MODEL_GUID "{f55c24dc-a3bd-5592-1e2b-d0607669846b}"  // digest of the table
 
 enum { Z = 9 };  // number of balls
 
