@@ -40,7 +40,8 @@ class Bearing:
 
     D ball diameter [m], d_m pitch diameter [m] (mean of the groove-bottom diameters), Z balls, f_i, f_e groove radius / D, P_d diametral clearance [m]
     (negative: preload), E [Pa], nu of the rings, rho [kg/m3] of the balls; ball: E and nu of the balls, None for those of the rings.
-    alpha_0 [rad]: free contact angle of an angular contact bearing; it takes the place of P_d, and x = 0 is then where balls and races just touch.  C, C_0: dynamic and static load rating [N] for the life and the static safety.
+    alpha_0 [rad]: free contact angle of an angular contact bearing; it takes the place of P_d, and x = 0 is then where balls and races just touch.
+    C, C_0: dynamic and static load rating [N] for the life and the static safety.
     fit: growth of the inner groove by rotation and fit (ring_fit.py), which takes clearance at speed; without it the rings keep their size.
     Raises ValueError for a value that is not admissible.
     """

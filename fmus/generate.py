@@ -296,7 +296,8 @@ def render(template, table, source):
     environment = jinja2.Environment(trim_blocks=True, lstrip_blocks=True, keep_trailing_newline=True, undefined=jinja2.StrictUndefined)
     environment.filters |= {f.__name__: f for f in (screaming, struct_members, c_number, quoted, label, named_in)}
     scales = list(dict.fromkeys(s.scale for s in (*table.states, *table.elastic_states)))
-    return environment.from_string((TEMPLATES / template).read_text()).render(table=table, source=source, scales=scales, shown=shown, allowed=allowed, feeds=feeds)
+    words = {"shown": shown, "allowed": allowed, "feeds": feeds}
+    return environment.from_string((TEMPLATES / template).read_text()).render(table=table, source=source, scales=scales, **words)
 
 
 # ------------------------------------------------------------------------------------------------------- modelDescription.xml

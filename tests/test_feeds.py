@@ -1,4 +1,4 @@
-"""Every parameter of a bearing does what docs/parameters.md says that it feeds: the rivet table, the run, both, or it is refused; none is dropped in silence."""
+"""Every parameter of a bearing feeds what docs/parameters.md says: the rivet table, the run, both, or it is refused; none is dropped in silence."""
 
 import sys
 from pathlib import Path
@@ -14,7 +14,7 @@ from riveted_bearing.runner import simulate
 from riveted_bearing.scene import load_scene
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "fmus"))
-from generate import load_table  # noqa: E402
+from generate import load_table
 
 TABLE = load_table()
 PARAMETERS = {v.name: v for v in TABLE.of("parameter")}
@@ -138,7 +138,7 @@ def other_case(tmp_path, name, value):
 
 @pytest.mark.parametrize("name", [name for name, v in PARAMETERS.items() if not v.is_array and name != "cage.material"])
 def test_what_the_rivet_table_is_made_from(tmp_path, name):
-    """A parameter of a bearing file, half a per cent off: the geometry of the rivet table changes if the list of variables says so, and the FMU's value in any case."""
+    """A parameter of a bearing file, half a per cent off: the rivet table's geometry changes if the variable table says so, the FMU's value in any case."""
     (tmp_path / "plain.toml").write_text(OWN, encoding="utf-8")
     plain, v = bearing_case(tmp_path / "plain.toml"), PARAMETERS[name]
     start = plain.values[name]

@@ -1,0 +1,158 @@
+"""What follows by rule for a bearing of which only the designation is known, and by how much the rivets' stress moves over what is usual: docs/rules.md.
+
+Each value that scaling.py makes from the 6207's stands once at the lower and once at the upper end of its usual range, all others by rule, in the 6309 at its
+loads and speed by rule; the same seeds each time.  Values that the rivet table is made from take a build each.
+
+python benchmarks/rules.py [--short]     half an hour on two cores; --short takes two seeds and the values alone that need no build
+"""
+
+import argparse
+import tempfile
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from common import ROOT, say, write
+
+import riveted_bearing as rb
+from rivet_model import table
+from rivet_model.build import make_table
+from riveted_bearing import scaling
+from riveted_bearing.bearings import RIVET, bearing_case
+from riveted_bearing.rivet import geometry_of
+
+BEARING, T_END, SEEDS = "6309", 0.25, 8
+PAGE = ROOT / "docs" / "rules.md"
+
+
+@dataclass(frozen=True)
+class Rule:
+    """A value by rule: name in a bearing file; of: the quantity that it follows, low, high: usual range as factors of the value by rule; why: of the range."""
+
+    name: str
+    of: str
+    low: float
+    high: float
+    why: str
+
+    @property
+    def formula(self):
+        """The rule as a formula of the ball's diameter D, the pitch diameter d_m, the shank's diameter d, the head's d_h [m], bore and width."""
+        start = RIVET[self.name.removeprefix("rivet.")] if self.name.startswith("rivet.") else scaling.start(self.name)
+        D, d_m, d = scaling.start("bearing.D"), scaling.start("bearing.d_m"), RIVET["shank_diameter"]
+        if self.of == "d_m + D":
+            return f"d_m {'+' if start > d_m else '−'} {abs(start - d_m) / D:.3g} D"
+        if self.of == "d^2":
+            return f"{1e-6 * start / d**2:.3g} N/mm² d²"
+        return {
+            "D": f"{start / D:.3g} D",
+            "axial": f"{start / D:.3g} D, at most {scaling.WIDEST_CAGE} B for the cage",
+            "d": f"{start / d:.3g} d",
+            "head": f"{start / RIVET['head_diameter']:.3g} d_h, less where the bridge is narrow",
+            "ring": "the 6207's times (bore/35 mm)² B/17 mm",
+            "tilting ring": "the 6207's times (bore/35 mm)⁴ B/17 mm",
+            "damping ratio": "the 6207's times the root of (bore/35 mm)⁴ B/17 mm",
+        }[self.of]
+
+
+RULES = (
+    Rule("cage.pocket_clearance", "D", 0.5, 2.0, "0.9 to 3.6 % of the ball"),
+    Rule("cage.guide_clearance", "D", 0.5, 2.0, "0.17 to 0.7 % of the land"),
+    Rule("bearing.P_d", "class CN", 0.45, 1.6, "least and largest of class CN"),
+    Rule("cage.D_o", "d_m + D", 0.99, 1.01, "a tenth of the cage's height"),
+    Rule("cage.D_i", "d_m + D", 0.99, 1.01, "a tenth of the cage's height"),
+    Rule("cage.width", "axial", 0.95, 1.0, "from webs of half the thickness to the bearing's width"),
+    Rule("cage.land_width", "axial", 0.7, 1.1, "assumed"),
+    Rule("cage.land_x", "axial", 0.8, 1.0, "assumed"),
+    Rule("rivet.shank_diameter", "D", 0.8, 1.25, "a step of the usual diameters"),
+    Rule("rivet.flange_thickness", "D", 0.8, 1.25, "assumed"),
+    Rule("rivet.head_diameter", "d", 0.95, 1.05, "round heads of ISO 1051 and of smaller standards"),
+    Rule("rivet.head_height", "d", 0.8, 1.2, "the same"),
+    Rule("rivet.fillet_radius", "d", 0.6, 1.8, "0.03 to 0.1 d, the largest that standards allow"),
+    Rule("rivet.relief_radius", "d", 0.8, 1.1, "assumed"),
+    Rule("rivet.relief_depth", "d", 0.7, 1.3, "assumed"),
+    Rule("rivet.edge_break", "d", 0.8, 1.3, "assumed"),
+    Rule("rivet.seat_diameter", "head", 0.95, 1.05, "assumed"),
+    Rule("joint.preload", "d^2", 0.5, 3.0, "the paper's studies: 0 to 60 N"),
+    Rule("joint.fit", "d", 0.0, 2.0, "the paper's studies: -0.02 to 0 mm in the middle of their range"),
+    Rule("joint.swell", "d", 0.0, 2.0, "assumed"),
+    Rule("ring.m", "ring", 0.5, 4.0, "the ring alone to a heavy shaft"),
+    Rule("ring.c", "ring", 0.5, 2.0, "assumed"),
+    Rule("ring.J_t", "tilting ring", 0.5, 4.0, "the ring alone to a heavy shaft"),
+    Rule("ring.c_tilt", "damping ratio", 0.5, 2.0, "assumed"),
+)
+MATERIALS = ("brass", "steel", "PA66-GF25", "PEEK")  # beside bronze, which stands where none is named
+
+
+def needs_build(rule):
+    """Whether the rivet table is made from the value."""
+    return rule.name.startswith("rivet.") or rule.name in scaling.SHAPE.values()
+
+
+def stress(fmu, parameters, seeds):
+    """99.9 % quantile and mean of the worst head [seeds, 2] in Pa."""
+    found = [rb.run(None, fmu=fmu, seed=seed, t_end=T_END, parameters=parameters, outputs=["ring.y"]).summary for seed in seeds]
+    return np.array([[summary["stat.sigma_head_p999"], summary["stat.sigma_head_mean"]] for summary in found])
+
+
+def built(folder, stem, section):
+    """An FMU of the bearing with a section of its file."""
+    path = folder / f"{stem}.toml"
+    path.write_text(f'designation = "{BEARING}"\n{section}', encoding="utf-8")
+    json = folder / f"{stem}.json"
+    table.write(make_table(geometry_of(bearing_case(path)), coarse=True, hold_out=0), json)
+    return rb.build(path, json, out=folder / f"{stem}.fmu")
+
+
+def section_of(name, value):
+    """The section of a bearing file that gives one value."""
+    return f"[rivet]\n{name.removeprefix('rivet.')} = {value!r}\n" if name.startswith("rivet.") else f"[parameters]\n{name} = {value!r}\n"
+
+
+def changes(values, base):
+    """Mean change of quantile and mean in per cent, and the standard error of the first."""
+    ratio = 100.0 * (values / base - 1.0)
+    return {"p999": float(ratio[:, 0].mean()), "mean": float(ratio[:, 1].mean()), "error": float(ratio[:, 0].std(ddof=1) / np.sqrt(len(ratio)))}
+
+
+def measure(short):
+    """The record: by rule, its value and the changes at both ends; by material the changes."""
+    seeds, case = range(1, 3 if short else 1 + SEEDS), bearing_case(BEARING)
+    with tempfile.TemporaryDirectory() as name:
+        folder = Path(name)
+        plain = built(folder, "plain", "")
+        base = stress(plain, {}, seeds)
+        rules, cages = {}, {}
+        for rule in RULES:
+            if short and needs_build(rule):
+                continue
+            value = case.joint[rule.name.removeprefix("rivet.")] if rule.name.startswith("rivet.") else case.values[rule.name]
+            row = {"value": value}
+            for end, factor in (("low", rule.low), ("high", rule.high)):
+                try:
+                    if needs_build(rule):
+                        found = stress(built(folder, "other", section_of(rule.name, factor * value)), {}, seeds)
+                    else:
+                        found = stress(plain, {rule.name: factor * value}, seeds)
+                except rb.UserError as refusal:
+                    say(f"{rule.name} = {factor * value:g}: {refusal}")
+                    continue
+                row[end] = changes(found, base)
+            rules[rule.name] = row
+            say(f"{rule.name}: {row}")
+        for cage in () if short else MATERIALS:
+            cages[cage] = changes(stress(built(folder, "other", f'[cage]\nmaterial = "{cage}"\n'), {}, seeds), base)
+            say(f"{cage}: {cages[cage]}")
+    return {"seeds": len(seeds), "p999": float(base[:, 0].mean()), "mean": float(base[:, 1].mean()), "rules": rules, "materials": cages}
+
+
+def main():
+    """Command line."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--short", action="store_true")
+    options = parser.parse_args()
+    write("rules", measure(options.short), options.short)
+
+
+if __name__ == "__main__":
+    main()
