@@ -307,5 +307,5 @@ def test_tables_of_steel_and_brass_and_of_thin_and_thick_rivets(tmp_path):
         assert 1.1 < thick.half.k_open / thin.half.k_open < 1.5625  # the rivet's own share grows with its section, the seat's does not
     for fmu in fmus.values():
         own = run(None, fmu=fmu, t_end=0.06)
-        written = run(None, fmu=fmu, t_end=0.06, inputs={"shaft.F_y": 8000.0, "shaft.F_x": 0.0, "shaft.omega": 9000 * np.pi / 30})
+        written = run(None, fmu=fmu, t_end=0.06, inputs={"shaft.F_y": "8 kN", "shaft.F_x": 0.0, "shaft.omega": "9000 rev/min"})
         np.testing.assert_array_equal(own.data["rivet.sigma_head_max"], written.data["rivet.sigma_head_max"])
