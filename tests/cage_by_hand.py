@@ -1,0 +1,361 @@
+"""A riveted cage half once more, by a path of its own: meshes of gmsh, plain isoparametric elements, direct contact.
+
+      x ^   ________________________
+        |  |  web            | seat |       One half pitch of one half: theta = 0 is the plane through the rivet's axis, theta = pi/Z that
+        |  |_____            |__    |       through the pocket's axis.  At rest of impacts both are planes of symmetry, and so is the split
+        |   pocket \\   bar     |___|       x = 0 between the two halves: pads touch a rigid plane there, the rivet's section stays in it.
+        +-----------\\=========-----+
+      theta = pi/Z        pad    theta = 0
+
+Places are (x, y, z): x along the axis, y outward through the rivet, z along the circle there.  SI units.  Nothing of rivet_model is used; `g` is a
+Geometry, of which only the dimensions are read.
+
+- Half: quadratic tetrahedra.  Rivet: quadratic hexahedra, a meridian mesh of gmsh turned about the rivet's axis.
+- Contact without friction: pressures are sums of hats that are nowhere negative; gaps, weighted with the same hats, are nowhere negative either.
+- A rivet's half is a point mass at its seat: its centrifugal force acts on the half there, and it vibrates with the mean of the seat.
+"""
+
+import math
+from typing import NamedTuple
+
+import gmsh
+import numpy as np
+from scipy.linalg import lapack
+from scipy.sparse import block_diag, bmat, coo_matrix, csc_matrix, csr_matrix, diags
+from scipy.sparse.linalg import LinearOperator, eigsh, splu
+
+
+class Material(NamedTuple):
+    """Young's modulus [Pa], Poisson's ratio, density [kg/m3]."""
+
+    E: float
+    nu: float
+    rho: float
+
+
+# Elements --------------------------------------------------------------------------------------------------------------------------------
+
+
+def lagrange(x):
+    """Quadratic polynomials that are 1 at 0, 1/2, 1 of [0, 1], and their slopes [3, n]."""
+    return np.stack([(1 - x) * (1 - 2 * x), 4 * x * (1 - x), x * (2 * x - 1)]), np.stack([4 * x - 3, 4 - 8 * x, 4 * x - 1])
+
+
+def tetrahedron(points):
+    """Shape functions [10, n] and gradients [10, 3, n] of the tetrahedron of gmsh's order at points [3, n] of the unit one."""
+    L = np.vstack([1 - points.sum(axis=0), points])
+    dL = np.vstack([-np.ones(3), np.eye(3)])
+    edges = [(0, 1), (1, 2), (0, 2), (0, 3), (2, 3), (1, 3)]
+    N = np.stack([L[i] * (2 * L[i] - 1) for i in range(4)] + [4 * L[i] * L[j] for i, j in edges])
+    corner = [dL[i][:, None] * (4 * L[i] - 1) for i in range(4)]
+    return N, np.stack(corner + [4 * (dL[i][:, None] * L[j] + dL[j][:, None] * L[i]) for i, j in edges])
+
+
+def triangle(points):
+    """Shape functions [6, n] and gradients [6, 2, n] of gmsh's triangle at points [2, n]."""
+    L = np.vstack([1 - points.sum(axis=0), points])
+    dL = np.vstack([-np.ones(2), np.eye(2)])
+    edges = [(0, 1), (1, 2), (0, 2)]
+    N = np.stack([L[i] * (2 * L[i] - 1) for i in range(3)] + [4 * L[i] * L[j] for i, j in edges])
+    corner = [dL[i][:, None] * (4 * L[i] - 1) for i in range(3)]
+    return N, np.stack(corner + [4 * (dL[i][:, None] * L[j] + dL[j][:, None] * L[i]) for i, j in edges])
+
+
+def hexahedron(points):
+    """Shape functions [27, n] and gradients [27, 3, n] at points [3, n] of the unit cube; node (i, j, k) is 9 i + 3 j + k."""
+    (a, da), (b, db), (c, dc) = (lagrange(x) for x in points)
+    n = points.shape[1]
+    N = np.einsum("in,jn,kn->ijkn", a, b, c).reshape(27, n)
+    slopes = [np.einsum("in,jn,kn->ijkn", *f).reshape(27, n) for f in ((da, b, c), (a, db, c), (a, b, dc))]
+    return N, np.stack(slopes, axis=1)
+
+
+def cube_rule(n):
+    """Gauss points [3, n^3] of the unit cube and weights."""
+    x, w = np.polynomial.legendre.leggauss(n)
+    x, w = (x + 1) / 2, w / 2
+    points = np.stack(np.meshgrid(x, x, x, indexing="ij")).reshape(3, -1)
+    return points, np.einsum("i,j,k->ijk", w, w, w).ravel()
+
+
+def tetrahedron_rule(n):
+    """Gauss points of the cube collapsed to the unit tetrahedron, and weights: exact to degree 2 n - 3."""
+    (a, b, c), w = cube_rule(n)
+    return np.stack([a, b * (1 - a), c * (1 - a) * (1 - b)]), w * (1 - a) ** 2 * (1 - b)
+
+
+def triangle_rule(parts):
+    """Points [2, 3 parts^2] of the unit triangle cut into parts^2, three in each, and weights: exact to degree 2 in each part."""
+    own, points = np.array([[1, 1], [4, 1], [1, 4]]) / 6, []
+    for i in range(parts):
+        for j in range(parts - i):
+            points.append((own + [i, j]) / parts)
+            if i + j < parts - 1:
+                points.append(([i + 1, j + 1] - own) / parts)
+    points = np.concatenate(points).T
+    return points, np.full(points.shape[1], 0.5 / points.shape[1])
+
+
+class Solid:
+    """Nodes [n, 3] with elements of one shape: stiffness, inertia, stress."""
+
+    def __init__(self, nodes, elements, shape, rule, fine_rule):
+        self.nodes, self.elements, self.shape, self.rule, self.fine_rule = nodes, elements, shape, rule, fine_rule
+
+    def points(self, rule):
+        """At the points of a rule: places [e, q, 3], volumes [e, q], shape functions [i, q], gradients in space [e, i, 3, q]."""
+        points, weights = rule
+        N, dN = self.shape(points)
+        X = self.nodes[self.elements]
+        J = np.einsum("eia,ibq->eqab", X, dN)
+        volume = np.linalg.det(J) * weights
+        return np.einsum("eia,iq->eqa", X, N), volume, N, np.einsum("ibq,eqba->eiaq", dN, np.linalg.inv(J))
+
+    def assemble(self, blocks):
+        """Matrix [3 n, 3 n] of element blocks [e, i, a, j, b]."""
+        dofs = (3 * self.elements[:, :, None] + np.arange(3)).reshape(len(self.elements), -1)
+        size = dofs.shape[1]
+        rows, columns = np.repeat(dofs, size, axis=1).ravel(), np.tile(dofs, (1, size)).ravel()
+        return coo_matrix((blocks.ravel(), (rows, columns)), shape=(3 * len(self.nodes),) * 2).tocsc()
+
+    def stiffness(self, E, nu):
+        """Matrix of linear elasticity: lambda div u div v + 2 mu e(u) : e(v) [N/m]."""
+        lam, mu = E * nu / (1 + nu) / (1 - 2 * nu), E / 2 / (1 + nu)
+        blocks = []
+        for e in np.array_split(np.arange(len(self.elements)), max(1, len(self.elements) // 500)):
+            part = Solid(self.nodes, self.elements[e], self.shape, None, None)
+            _, volume, _, d = part.points(self.rule)
+            n = d.shape[1]
+            flat = (d * np.sqrt(volume)[:, None, None, :]).reshape(len(e), 3 * n, -1)
+            outer = (flat @ flat.transpose(0, 2, 1)).reshape(len(e), n, 3, n, 3)
+            trace = np.einsum("eiaja->eij", outer)
+            blocks.append(lam * outer + mu * outer.transpose(0, 1, 4, 3, 2) + mu * np.einsum("eij,ab->eiajb", trace, np.eye(3)))
+        return self.assemble(np.concatenate(blocks))
+
+    def inertia(self, rho):
+        """Mass matrix [kg]."""
+        _, volume, N, _ = self.points(self.fine_rule)
+        return self.assemble(np.einsum("eij,ab->eiajb", rho * np.einsum("eq,iq,jq->eij", volume, N, N, optimize=True), np.eye(3)))
+
+    def moments(self):
+        """Volume, first moments [3] and second moments [3, 3] about the origin."""
+        X, volume, _, _ = self.points(self.fine_rule)
+        return volume.sum(), np.einsum("eq,eqa->a", volume, X), np.einsum("eq,eqa,eqb->ab", volume, X, X)
+
+    def stress(self, u, local, E, nu):
+        """Principal stresses [e, q, 3] at local points [3, q] of all elements, u [n, 3]."""
+        _, _, _, d = self.points((local, np.ones(local.shape[1])))
+        grad = np.einsum("eia,eibq->eqab", u[self.elements], d)
+        strain = (grad + grad.swapaxes(-1, -2)) / 2
+        trace = np.trace(strain, axis1=-2, axis2=-1)[..., None, None]
+        return np.linalg.eigvalsh(E / (1 + nu) * (strain + nu / (1 - 2 * nu) * trace * np.eye(3)))
+
+
+def dissection(nodes, least=60):
+    """Order of the nodes' unknowns by nested dissection of the graph that `neighbours` makes; nodes: (places, adjacency)."""
+    places, graph = nodes
+    order = []
+
+    def part(members):
+        if len(members) <= least:
+            return [members]
+        at = places[members]
+        axis = np.argmax(np.ptp(at, axis=0))
+        left = at[:, axis] <= np.median(at[:, axis])
+        if left.all():
+            return [members]
+        mark = np.zeros(len(places), dtype=bool)
+        mark[members[~left]] = True
+        touched = np.asarray(graph[members[left]] @ mark) > 0
+        wall = members[left][touched]
+        return [*part(members[left][~touched]), *part(members[~left]), wall]
+
+    order = np.concatenate(part(np.arange(len(places))))
+    return order
+
+
+class Factor:
+    """Solves K u = f of a symmetric positive definite K whose unknowns have places [n, 3]; order by nested dissection."""
+
+    def __init__(self, K, places):
+        graph = csr_matrix((np.ones(K.nnz, dtype=np.float32), K.indices, K.indptr), shape=K.shape)
+        unique, which = np.unique(np.round(places, 9), axis=0, return_inverse=True)
+        which = which.ravel()
+        gather = csr_matrix((np.ones(len(which), dtype=np.float32), (which, np.arange(len(which)))), shape=(len(unique), len(which)))
+        order = dissection((unique, (gather @ graph @ gather.T).tocsr()))
+        rank = np.empty(len(unique), dtype=int)
+        rank[order] = np.arange(len(unique))
+        self.order = np.argsort(rank[which], kind="stable")
+        K = K[self.order][:, self.order].tocsc()
+        self.lu = splu(K, permc_spec="NATURAL", diag_pivot_thresh=0.0, options={"SymmetricMode": True})
+
+    def solve(self, f):
+        u = np.empty_like(f, dtype=float)
+        u[self.order] = self.lu.solve(np.ascontiguousarray(np.asarray(f, dtype=float)[self.order]))
+        return u
+
+
+# Meshes ----------------------------------------------------------------------------------------------------------------------------------
+
+
+class Half(NamedTuple):
+    """Mesh of one half pitch of a half: solid, facets [m, 6] of pad and seat."""
+
+    solid: Solid
+    pad: np.ndarray
+    seat: np.ndarray
+
+
+def pad_half_length(g):
+    """The pad's half length along the circle [m]: patch_radius, or 0.1 mm less than the half bar at the bore."""
+    r, p = g.cage_inner_diameter / 2, (g.ball_diameter + g.pocket_clearance) / 2
+    return min(g.patch_radius, r * math.sin(math.pi / g.Z - math.asin(p / r)) - 0.1e-3)
+
+
+def session(function):
+    """Runs a function that meshes in a session of gmsh, silent and with one thread."""
+
+    def run(*args):
+        gmsh.initialize(interruptible=False)
+        try:
+            for name, value in (("General.Terminal", 0), ("General.NumThreads", 1)):
+                gmsh.option.setNumber(name, value)
+            for name in ("MeshSizeFromPoints", "MeshSizeExtendFromBoundary", "MeshSizeFromCurvature"):
+                gmsh.option.setNumber(f"Mesh.{name}", 0)
+            return function(*args)
+        finally:
+            gmsh.finalize()
+
+    return run
+
+
+def used(tags, coordinates, *element_lists):
+    """Nodes [n, 3] in m of the first list of elements (tags) and all lists as indices into them; gmsh has mm."""
+    kept = np.unique(element_lists[0])
+    index = np.zeros(int(tags.max()) + 1, dtype=int)
+    index[kept] = np.arange(len(kept))
+    place = np.empty((int(tags.max()) + 1, 3))
+    place[tags] = coordinates.reshape(-1, 3)
+    return place[kept] * 1e-3, *(index[e] for e in element_lists)
+
+
+@session
+def half_mesh(g, size):
+    """One half pitch of a half, theta = 0 to pi/Z; size: elements relative to the ordinary ones (1), whose seat has four in its width."""
+    occ, mm = gmsh.model.occ, 1e3
+    r_i, r_o, R, w = (mm * v for v in (g.cage_inner_diameter / 2, g.cage_outer_diameter / 2, g.d_m / 2, g.cage_half_width))
+    shank, head, relief, seat = (mm * v for v in (g.shank_diameter / 2, g.head_diameter / 2, g.shank_diameter / 2 + g.relief_radius, g.seat_diameter / 2))
+    flange, depth, edge, pocket = (mm * v for v in (g.flange_thickness, g.relief_depth, g.edge_break, (g.ball_diameter + g.pocket_clearance) / 2))
+    pad, angle, far = mm * pad_half_length(g), math.pi / g.Z, 2 * r_o
+
+    face = occ.addPlaneSurface([occ.addCurveLoop([occ.addLine(a, b) for a, b in _closed([occ.addPoint(x, r, 0) for x, r in ((0, r_i), (w, r_i), (w, r_o), (0, r_o))])])])
+    ring = [e for e in occ.revolve([(2, face)], 0, 0, 0, 1, 0, 0, angle) if e[0] == 3]
+    tools = [
+        (3, occ.addCylinder(0, 0, 0, 0, far * math.cos(angle), far * math.sin(angle), pocket)),
+        (3, occ.addCylinder(-1, R, 0, 1 + flange, 0, 0, shank)),
+        (3, occ.addCylinder(flange - depth, R, 0, depth, 0, 0, relief)),
+        (3, occ.addCylinder(flange, R, 0, w, 0, 0, seat)),
+        (3, occ.addCone(0, R, 0, edge, 0, 0, shank + edge, shank)),
+    ]
+    body, _ = occ.cut(ring, tools)
+    at_pad = occ.addRectangle(0, 0, 0, pad, far)
+    occ.rotate([(2, at_pad)], 0, 0, 0, 0, 1, 0, -math.pi / 2)
+    at_seat = occ.addDisk(flange, R, 0, head, head, zAxis=[1, 0, 0], xAxis=[0, 1, 0])
+    body, _ = occ.fragment(body, [(2, at_pad), (2, at_seat)])
+    occ.synchronize()
+    volumes = gmsh.model.getEntities(3)
+    assert len(volumes) == 1
+    skin = {tag for _, tag in gmsh.model.getBoundary(volumes, oriented=False)}
+    gmsh.model.removeEntities([(2, tag) for _, tag in gmsh.model.getEntities(2) if tag not in skin], True)
+
+    pads, seats = [], []
+    for tag in skin:
+        x, y, z = gmsh.model.occ.getCenterOfMass(2, tag)
+        low_x, _, _, high_x, _, high_z = gmsh.model.getBoundingBox(2, tag)
+        if high_x < 1e-3 and high_z < pad + 1e-3:
+            pads.append(tag)
+        if low_x > flange - 1e-3 and high_x < flange + 1e-3 and high_z < head + 1e-3:
+            seats.append(tag)
+    assert len(seats) == 1 and len(pads) >= 1, (pads, seats)
+
+    width, field = head - relief, gmsh.model.mesh.field
+    coarse, slope, sizes = 0.14 * (r_o - r_i) * size, 0.35, []
+    for low, high, r_low, r_high, fine in ((flange, flange, relief, head, width / 4 * size), (0, flange, shank, relief, 0.4 * shank * size)):
+        expression = f"Max(Max({r_low} - Sqrt((y-{R})^2+z^2), Sqrt((y-{R})^2+z^2) - {r_high}), 0)"
+        along = f"Max(Max({low} - x, x - {high}), 0)"
+        tag = field.add("MathEval")
+        field.setString(tag, "F", f"{fine} + {slope} * Sqrt(({expression})^2 + ({along})^2)")
+        sizes.append(tag)
+    near_pad = field.add("MathEval")
+    field.setString(near_pad, "F", f"{0.09 * (r_o - r_i) * size} + 0.3 * Max(z - {pad}, 0) + 0.3 * x")
+    at_most = field.add("MathEval")
+    field.setString(at_most, "F", f"{coarse}")
+    least = field.add("Min")
+    field.setNumbers(least, "FieldsList", [*sizes, near_pad, at_most])
+    field.setAsBackgroundMesh(least)
+    gmsh.model.mesh.generate(3)
+    gmsh.model.mesh.setOrder(2)
+    tags, coordinates, _ = gmsh.model.mesh.getNodes()
+    elements = gmsh.model.mesh.getElementsByType(11)[1].reshape(-1, 10)
+    facets = [np.concatenate([gmsh.model.mesh.getElementsByType(9, tag)[1].reshape(-1, 6) for tag in group]) for group in (pads, seats)]
+    nodes, elements, *facets = used(tags, coordinates, elements, *facets)
+    return Half(Solid(nodes, elements, tetrahedron, tetrahedron_rule(2), tetrahedron_rule(4)), *facets)
+
+
+def _closed(points):
+    return zip(points, points[1:] + points[:1])
+
+
+class Rivet(NamedTuple):
+    """Mesh of a quarter of a rivet (its half above the split, cut at z = 0): solid, facets [m, 9] below the head, element and local place of the fillet."""
+
+    solid: Solid
+    seat: np.ndarray
+    fillet: np.ndarray
+
+
+@session
+def rivet_mesh(g, fillet_elements, layers):
+    """Half of a rivet above the split, z >= 0: a meridian mesh whose fillet has so many quadratic elements, turned in so many layers."""
+    geo, mm = gmsh.model.geo, 1e3
+    shank, head, relief, radius = (mm * v for v in (g.shank_diameter / 2, g.head_diameter / 2, g.shank_diameter / 2 + g.relief_radius, g.fillet_radius))
+    flange, top = mm * g.flange_thickness, mm * (g.flange_thickness + g.head_height)
+    fine = radius * math.pi / 2 / fillet_elements
+    place = [(0, 0), (shank, 0), (shank, flange - radius), (shank + radius, flange), (relief, flange), (head, flange), (head, top), (0, top)]
+    p = [geo.addPoint(r, x, 0) for r, x in place]
+    centre = geo.addPoint(shank + radius, flange - radius, 0)
+    lines = [geo.addLine(p[0], p[1]), geo.addLine(p[1], p[2]), geo.addCircleArc(p[2], centre, p[3]), *(geo.addLine(p[i], p[(i + 1) % 8]) for i in range(3, 8))]
+    surface = geo.addPlaneSurface([geo.addCurveLoop(lines)])
+    geo.synchronize()
+    coarse = 1.6 * head / fillet_elements
+    field = gmsh.model.mesh.field
+    tag = field.add("MathEval")
+    far = f"Max(Sqrt((x-{shank + 0.3 * radius})^2+(y-{flange - 0.3 * radius})^2) - {radius}, 0)"
+    field.setString(tag, "F", f"2 * Min({fine} + 0.3 * {far}, {coarse})")  # of quadrilaterals that are cut into four
+    field.setAsBackgroundMesh(tag)
+    for name, value in (("Algorithm", 8), ("RecombineAll", 1), ("RecombinationAlgorithm", 1), ("SubdivisionAlgorithm", 1)):
+        gmsh.option.setNumber(f"Mesh.{name}", value)
+    gmsh.model.mesh.generate(2)
+    gmsh.model.mesh.setOrder(2)
+    tags, coordinates, _ = gmsh.model.mesh.getNodes()
+    quads = gmsh.model.mesh.getElementsByType(10)[1].reshape(-1, 9)[:, [0, 4, 1, 7, 8, 5, 3, 6, 2]]  # rows of three
+    assert len(gmsh.model.mesh.getElementsByType(9)[1]) == 0
+    plane, quads = used(tags, coordinates, quads)
+    return turned(g, plane[:, 0], plane[:, 1], quads, layers)
+
+
+def turned(g, r, x, quads, layers):
+    """Half of a body of revolution from nodes (r, x) and quadrilaterals [m, 9] of its meridian plane; on the axis nodes of all angles are one."""
+    R, count = g.d_m / 2, 2 * layers + 1
+    r, angle = np.where(r < 1e-9, 0.0, r), np.linspace(0.0, math.pi, count)
+    number = np.empty((len(r), count), dtype=int)
+    axis = r == 0.0
+    number[axis] = np.arange(np.count_nonzero(axis))[:, None]
+    number[~axis] = np.count_nonzero(axis) + np.arange(np.count_nonzero(~axis) * count).reshape(-1, count)
+    nodes = np.empty((number.max() + 1, 3))
+    nodes[number.ravel()] = np.stack([np.repeat(x, count), R + np.outer(r, np.cos(angle)).ravel(), np.outer(r, np.sin(angle)).ravel()], axis=1)
+    elements = np.concatenate([number[quads][:, :, 2 * k : 2 * k + 3].reshape(len(quads), 27) for k in range(layers)])
+    solid = Solid(nodes, elements, hexahedron, cube_rule(3), cube_rule(4))
+    if np.linalg.det(np.einsum("ia,ib->ab", nodes[elements[0]], hexahedron(np.full((3, 1), 0.5))[1][:, :, 0])) < 0.0:
+        solid.elements = elements.reshape(-1, 3, 3, 3).transpose(0, 2, 1, 3).reshape(-1, 27)
+    return solid
