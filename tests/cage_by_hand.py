@@ -151,48 +151,9 @@ class Solid:
         return np.linalg.eigvalsh(E / (1 + nu) * (strain + nu / (1 - 2 * nu) * trace * np.eye(3)))
 
 
-def dissection(nodes, least=60):
-    """Order of the nodes' unknowns by nested dissection of the graph that `neighbours` makes; nodes: (places, adjacency)."""
-    places, graph = nodes
-    order = []
-
-    def part(members):
-        if len(members) <= least:
-            return [members]
-        at = places[members]
-        axis = np.argmax(np.ptp(at, axis=0))
-        left = at[:, axis] <= np.median(at[:, axis])
-        if left.all():
-            return [members]
-        mark = np.zeros(len(places), dtype=bool)
-        mark[members[~left]] = True
-        touched = np.asarray(graph[members[left]] @ mark) > 0
-        wall = members[left][touched]
-        return [*part(members[left][~touched]), *part(members[~left]), wall]
-
-    order = np.concatenate(part(np.arange(len(places))))
-    return order
-
-
-class Factor:
-    """Solves K u = f of a symmetric positive definite K whose unknowns have places [n, 3]; order by nested dissection."""
-
-    def __init__(self, K, places):
-        graph = csr_matrix((np.ones(K.nnz, dtype=np.float32), K.indices, K.indptr), shape=K.shape)
-        unique, which = np.unique(np.round(places, 9), axis=0, return_inverse=True)
-        which = which.ravel()
-        gather = csr_matrix((np.ones(len(which), dtype=np.float32), (which, np.arange(len(which)))), shape=(len(unique), len(which)))
-        order = dissection((unique, (gather @ graph @ gather.T).tocsr()))
-        rank = np.empty(len(unique), dtype=int)
-        rank[order] = np.arange(len(unique))
-        self.order = np.argsort(rank[which], kind="stable")
-        K = K[self.order][:, self.order].tocsc()
-        self.lu = splu(K, permc_spec="NATURAL", diag_pivot_thresh=0.0, options={"SymmetricMode": True})
-
-    def solve(self, f):
-        u = np.empty_like(f, dtype=float)
-        u[self.order] = self.lu.solve(np.ascontiguousarray(np.asarray(f, dtype=float)[self.order]))
-        return u
+def factor(K):
+    """Solver of K u = f for a symmetric positive definite K."""
+    return splu(K.tocsc(), permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options={"SymmetricMode": True})
 
 
 # Meshes ----------------------------------------------------------------------------------------------------------------------------------
@@ -359,3 +320,217 @@ def turned(g, r, x, quads, layers):
     if np.linalg.det(np.einsum("ia,ib->ab", nodes[elements[0]], hexahedron(np.full((3, 1), 0.5))[1][:, :, 0])) < 0.0:
         solid.elements = elements.reshape(-1, 3, 3, 3).transpose(0, 2, 1, 3).reshape(-1, 27)
     return solid
+
+
+# Contact at rest of impacts --------------------------------------------------------------------------------------------------------------
+
+
+def supported(solid, Z):
+    """Matrix [3 n, free]: displacements of a sector between its planes of symmetry theta = 0 and pi/Z (Z = 1: the plane z = 0 alone)."""
+    n, angle = solid.nodes, math.pi / Z
+    columns, kept = csr_matrix((len(n) * 3, len(n) * 3)), np.ones((len(n), 3), dtype=bool)
+    tiny = 1e-6 * np.ptp(n[:, 0])
+    kept[np.abs(n[:, 2]) < tiny, 2] = False
+    turn = np.tile(np.eye(3), (len(n), 1, 1))
+    if Z > 1:
+        side = np.abs(n[:, 2] * math.cos(angle) - n[:, 1] * math.sin(angle)) < tiny
+        turn[side] = [[1, 0, 0], [0, math.cos(angle), -math.sin(angle)], [0, math.sin(angle), math.cos(angle)]]
+        kept[side, 2] = False
+    columns = block_diag(list(turn), format="csc") if Z > 1 else diags(np.ones(3 * len(n)), format="csc")
+    return columns[:, np.flatnonzero(kept.ravel())], np.repeat(n, 3, axis=0)[kept.ravel()], np.tile(np.arange(3), len(n))[kept.ravel()]
+
+
+def facet_points(nodes, facets, parts=3):
+    """Shape functions [i, q], places [f, q, 3] and areas [f, q] on flat facets x = constant: triangles [f, 6] or quadrilaterals [f, 9]."""
+    if facets.shape[1] == 6:
+        points, weights = triangle_rule(parts)
+        N, dN = triangle(points)
+    else:
+        x, w = np.polynomial.legendre.leggauss(2)
+        x = ((np.arange(parts)[:, None] + (x + 1) / 2) / parts).ravel()
+        w = np.tile(w / 2 / parts, parts)
+        (a, da), (b, db) = lagrange(np.repeat(x, len(x))), lagrange(np.tile(x, len(x)))
+        weights = np.repeat(w, len(x)) * np.tile(w, len(x))
+        N = np.einsum("iq,jq->ijq", a, b).reshape(9, -1)
+        dN = np.stack([np.einsum("iq,jq->ijq", *f).reshape(9, -1) for f in ((da, b), (a, db))], axis=1)
+    X = nodes[facets]
+    J = np.einsum("fia,ibq->fqab", X[:, :, 1:], dN)
+    return N, np.einsum("fia,iq->fqa", X, N), np.abs(np.linalg.det(J)) * weights
+
+
+def polar_hats(places, R, low, high, shape):
+    """Hats over radius and angle of the seat's half ring at places [..., 3]: values [n_hats, ...]; shape: intervals (radius, angle)."""
+
+    def hats(t, n):
+        return np.maximum(0.0, 1.0 - np.abs(t[None] * n - np.arange(n + 1).reshape(-1, *[1] * t.ndim)))
+
+    y, z = places[..., 1] - R, places[..., 2]
+    radius = np.clip((np.hypot(y, z) - low) / (high - low), 0.0, 1.0)
+    return np.einsum("i...,j...->ij...", hats(radius, shape[0]), hats(np.arctan2(z, y) / math.pi, shape[1])).reshape(-1, *radius.shape)
+
+
+def rows_of_x(nodes, facets, N, values, area):
+    """Matrix [n_hats, 3 n]: integral of hat times u_x; values [n_hats, f, q]."""
+    blocks = np.einsum("hfq,iq,fq->hfi", values, N, area, optimize=True)
+    h = np.repeat(np.arange(len(values)), facets.size)
+    return coo_matrix((blocks.ravel(), (h, np.tile(3 * facets.ravel(), len(values)))), shape=(len(values), 3 * len(nodes))).tocsr()
+
+
+class Body:
+    """A body with hats of contact: flexibility between them, displacements by any loads; x is held at one point or plane."""
+
+    def __init__(self, solid, Z, material, held_x, rows):
+        self.solid, self.rows = solid, rows
+        self.Q, places, axis = supported(solid, Z)
+        free = ~((axis == 0) & held_x(places))
+        self.Q = self.Q[:, np.flatnonzero(free)]
+        self.factor = factor(self.Q.T @ solid.stiffness(material.E, material.nu) @ self.Q)
+        self.by_hats = self.solve((rows.T).toarray())
+        self.G = rows @ self.by_hats
+
+    def solve(self, f):
+        """Displacements [3 n, ...] by nodal forces [3 n, ...]."""
+        return self.Q @ self.factor.solve(self.Q.T @ f)
+
+
+def pressures(G, gap, C):
+    """Pressures p >= 0 and rigid shift s with gaps G p + gap + C s >= 0, complementary, and C.p = 0: block principal pivoting (Judice, Pires 1994)."""
+    n, active, least, patience = len(gap), np.ones(len(gap), dtype=bool), len(gap) + 1, 10
+    scale_p, scale_g = 1e-9 * np.abs(gap).max() / np.abs(np.diag(G)).mean(), 1e-9 * np.abs(gap).max()
+    for _ in range(20 * n):
+        a = np.flatnonzero(active)
+        system = np.block([[G[np.ix_(a, a)], C[a, None]], [C[None, a], np.zeros((1, 1))]])
+        size = np.append(1.0 / np.sqrt(np.diag(G)[a]), np.sqrt(np.diag(G).mean()) / np.abs(C[a]).mean() )
+        size[-1] = 1.0 / np.linalg.norm(C[a] * size[:-1])
+        found = size * np.linalg.solve(system * np.outer(size, size), size * np.append(-gap[a], 0.0))
+        p = np.zeros(n)
+        p[a] = found[:-1]
+        g = G @ p + gap + C * found[-1]
+        wrong = np.where(active, p < -scale_p, g < -scale_g)
+        count = np.count_nonzero(wrong)
+        if count == 0:
+            return p, found[-1]
+        if count < least:
+            least, patience = count, 10
+        elif patience > 0:
+            patience -= 1
+        else:
+            wrong[: np.flatnonzero(wrong)[-1]] = False
+        active = active ^ wrong
+    raise RuntimeError("contact was not found")
+
+
+class State(NamedTuple):
+    """Tension of the rivet [N], bending moment of its shank at the split about the circle's direction [N m], head stress [Pa], pressed share of the pad."""
+
+    T: float
+    m_t: float
+    head: float
+    pressed: float
+
+
+class Cage:
+    """Cage of two equal halves turning at rest of impacts: half pitch of a half, half of a rivet above the split."""
+
+    def __init__(self, g, material, rivet_material, half=None, rivet=None, hats=(3, 16)):
+        self.g, self.material, self.rivet_material = g, material, rivet_material
+        self.half, self.rivet = half or half_mesh(g, 1.0), rivet or rivet_mesh(g, 8, 8)
+        R, low, high = g.d_m / 2, g.shank_diameter / 2 + g.relief_radius, g.head_diameter / 2
+        nodes, pad, seat = self.half.solid.nodes, self.half.pad, self.half.seat
+        N, _, area = facet_points(nodes, pad)
+        points, _ = triangle_rule(3)
+        corner = np.vstack([1 - points.sum(axis=0), points])  # linear hats of the triangles' corners
+        vertices, which = np.unique(pad[:, :3], return_inverse=True)
+        blocks = np.einsum("cq,iq,fq->fci", corner, N, area)
+        which = which.reshape(-1, 3)
+        at = np.broadcast_to(which[:, :, None], blocks.shape), np.broadcast_to(3 * pad[:, None, :], blocks.shape)
+        on_pad = coo_matrix((blocks.ravel(), (at[0].ravel(), at[1].ravel())), shape=(len(vertices), 3 * len(nodes))).tocsr()
+        N, X, area = facet_points(nodes, seat)
+        on_seat = rows_of_x(nodes, seat, N, polar_hats(X, R, low, high, hats), area)
+        self.n_pad = len(vertices)
+        far = np.argmax(nodes[:, 0] + nodes[:, 1])
+        self.body = Body(self.half.solid, g.Z, material, lambda at: np.all(at == nodes[far], axis=1), bmat([[on_pad], [-on_seat]], format="csr"))
+
+        on_half, nodes_r, self.below = self.body.rows, self.rivet.nodes, below_head(self.rivet, g)
+        N, X, area = facet_points(nodes_r, self.below)
+        rows = rows_of_x(nodes_r, self.below, N, polar_hats(X, R, low, high, hats), area)
+        self.pin = Body(self.rivet, 1, rivet_material, lambda at: at[:, 0] < 1e-9, rows)
+        self.lever = rows @ np.column_stack([nodes_r[:, 1] - R, *np.zeros((2, len(nodes_r)))]).ravel()
+        self.area = rows @ np.tile([1.0, 0.0, 0.0], len(nodes_r))
+        self.C = on_half @ np.tile([1.0, 0.0, 0.0], len(nodes))
+        self.G = self.body.G.copy()
+        self.G[self.n_pad :, self.n_pad :] += self.pin.G
+        self.spin_gap = on_half @ self.body.solve(self.centrifugal())
+        preload_gap = np.append(np.zeros(self.n_pad), -self.area)
+        self.preload_gap = preload_gap / self.tension(pressures(self.G, preload_gap, self.C)[0])  # of 1 N at standstill
+        self.fillet = Fillet(self.rivet, g)
+
+    def centrifugal(self):
+        """Nodal forces on the half at 1 rad/s [N]: rho r outward, the rivet's half at its seat."""
+        g, solid = self.g, self.half.solid
+        X, volume, N, _ = solid.points(solid.fine_rule)
+        force = np.zeros_like(solid.nodes)
+        for axis in (1, 2):
+            np.add.at(force[:, axis], solid.elements, self.material.rho * np.einsum("eq,eq,iq->ei", volume, X[..., axis], N))
+        force[:, 1] += self.rivet_mass() / 2 * g.d_m / 2 * self.seat_mean()
+        return force.ravel()
+
+    def rivet_mass(self):
+        """Mass of one rivet above the split [kg]."""
+        return 2 * self.rivet_material.rho * self.rivet.moments()[0]
+
+    def seat_mean(self):
+        """Weights of the nodes' displacements in the mean of the seat below the head [n]."""
+        N, _, area = facet_points(self.half.solid.nodes, self.half.seat)
+        weights = np.zeros(len(self.half.solid.nodes))
+        np.add.at(weights, self.half.seat, np.einsum("iq,fq->fi", N, area))
+        return weights / weights.sum()
+
+    def tension(self, p):
+        return 2.0 * self.area @ p[self.n_pad :]
+
+    def at_rest(self, P, omega):
+        """State with preload P [N] at the cage's speed omega [rad/s]."""
+        p, _ = pressures(self.G, P * self.preload_gap + omega**2 * self.spin_gap, self.C)
+        u = (self.pin.by_hats @ p[self.n_pad :]).reshape(-1, 3)
+        pressed = self.C[: self.n_pad][p[: self.n_pad] > 0].sum() / self.C[: self.n_pad].sum()
+        return State(self.tension(p), 2.0 * self.lever @ p[self.n_pad :], self.fillet.largest(u, self.rivet_material), pressed)
+
+
+FACES = [np.arange(27).reshape(3, 3, 3)[key].ravel() for key in ((0,), (2,), (slice(None), 0), (slice(None), 2))]  # that turn with the angle
+
+
+def below_head(rivet, g):
+    """Facets [m, 9] of the ring on which the head sits."""
+    nodes = rivet.nodes
+    r = np.hypot(nodes[:, 1] - g.d_m / 2, nodes[:, 2])
+    tiny = 1e-6 * g.head_diameter
+    inside = (np.abs(nodes[:, 0] - g.flange_thickness) < tiny) & (r < g.head_diameter / 2 + tiny) & (r > g.shank_diameter / 2 + g.relief_radius - tiny)
+    facets = np.concatenate([rivet.elements[:, face] for face in FACES])
+    return facets[inside[facets].all(axis=1)]
+
+
+class Fillet:
+    """Where the fillet's surface is in a rivet's mesh."""
+
+    def __init__(self, rivet, g):
+        self.rivet, nodes = rivet, rivet.nodes
+        r = np.hypot(nodes[:, 1] - g.d_m / 2, nodes[:, 2]) - g.shank_diameter / 2 - g.fillet_radius
+        x = nodes[:, 0] - g.flange_thickness + g.fillet_radius
+        tiny = 1e-3 * g.fillet_radius
+        on = (np.abs(np.hypot(r, x) - g.fillet_radius) < tiny) & (r < tiny) & (x > -tiny)
+        self.parts = [(face, np.flatnonzero(on[rivet.elements[:, face]].all(axis=1))) for face in FACES]
+        assert sum(len(e) for _, e in self.parts) > 0
+
+    def largest(self, u, material):
+        """Largest principal stress [Pa] over the fillet's nodes, each the mean of its elements."""
+        total, count = np.zeros(len(self.rivet.nodes)), np.zeros(len(self.rivet.nodes))
+        i, j, k = np.unravel_index(np.arange(27), (3, 3, 3))
+        local = np.stack([i, j, k]) / 2.0
+        for face, elements in self.parts:
+            if len(elements):
+                part = Solid(self.rivet.nodes, self.rivet.elements[elements], hexahedron, None, None)
+                stress = part.stress(u, local[:, face], material.E, material.nu)[..., -1]
+                np.add.at(total, part.elements[:, face], stress)
+                np.add.at(count, part.elements[:, face], 1.0)
+        return (total[count > 0] / count[count > 0]).max()
