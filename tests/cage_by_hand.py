@@ -109,6 +109,7 @@ class Solid:
         X = self.nodes[self.elements]
         J = np.einsum("eia,ibq->eqab", X, dN)
         volume = np.linalg.det(J) * weights
+        assert volume.min() > 0.0, "an element is turned inside out"
         return np.einsum("eia,iq->eqa", X, N), volume, N, np.einsum("ibq,eqba->eiaq", dN, np.linalg.inv(J))
 
     def assemble(self, blocks):
@@ -534,3 +535,61 @@ class Fillet:
                 np.add.at(total, part.elements[:, face], stress)
                 np.add.at(count, part.elements[:, face], 1.0)
         return (total[count > 0] / count[count > 0]).max()
+
+
+# A free half -----------------------------------------------------------------------------------------------------------------------------
+
+
+def inertia(g, material, rivet_material, half, rivet):
+    """Mass, x_c, J_p, J_t of a half with its half of the rivets [kg, m, kg m2], by the volumes of the meshes."""
+    parts = [(2 * material.rho, *half.solid.moments()), (2 * rivet_material.rho, *rivet.moments())]  # two mirrored parts in a pitch
+    m, first, second = (g.Z * sum(part[0] * part[i] for part in parts) for i in (1, 2, 3))
+    x_c, J_p = first[0] / m, second[1, 1] + second[2, 2]
+    return m, x_c, J_p, J_p / 2 + second[0, 0] - m * x_c**2
+
+
+def frequencies(g, material, rivet_mass, half, waves, count):
+    """Lowest `count` frequencies [Hz] of a free half with each number of waves around it: {n: array}, rigid motions left out.
+
+    Mirroring in the plane of the rivet parts a displacement into e, even, and i o, odd.  A wave e + i o that gains the phase phi = 2 pi n/Z in a pitch has in the
+    plane of the pocket e sin(phi/2) = o cos(phi/2) along x and r, and e cos(phi/2) = -o sin(phi/2) along t: real fields on one half pitch.
+    """
+    solid, nodes, Z = half.solid, half.solid.nodes, g.Z
+    K, M = solid.stiffness(material.E, material.nu), solid.inertia(material.rho)
+    s = np.zeros(len(nodes))
+    N, _, area = facet_points(nodes, half.seat)
+    np.add.at(s, half.seat, np.einsum("iq,fq->fi", N, area))
+    s /= s.sum()
+    mean = [csc_matrix(np.kron(s, np.eye(3)[a])[:, None]) for a in range(3)]
+    on_seat = [rivet_mass / 2 * mean[a] @ mean[a].T for a in range(3)]
+    K2, M2 = block_diag([K, K], format="csc"), block_diag([M + on_seat[0] + on_seat[1], M + on_seat[2]], format="csc")
+
+    tiny, angle, n3 = 1e-6 * np.ptp(nodes[:, 0]), math.pi / Z, 3 * len(nodes)
+    at_rivet, at_pocket = np.abs(nodes[:, 2]) < tiny, np.abs(nodes[:, 2] * math.cos(angle) - nodes[:, 1] * math.sin(angle)) < tiny
+    free = np.ones((2, len(nodes), 3), dtype=bool)
+    free[0, at_rivet, 2] = free[1, at_rivet, 0] = free[1, at_rivet, 1] = False
+    free[:, at_pocket] = False
+    inner = diags(np.ones(2 * n3), format="csc")[:, np.flatnonzero(free.ravel())]
+    axes = np.array([[1, 0, 0], [0, math.cos(angle), math.sin(angle)], [0, -math.sin(angle), math.cos(angle)]])  # rows x, r, t
+    place, found = np.flatnonzero(at_pocket), {}
+    for n in waves:
+        c, d = math.cos(math.pi * n / Z), math.sin(math.pi * n / Z)
+        blocks = np.concatenate([axes * [[c], [c], [-d]], axes * [[d], [d], [c]]], axis=1)  # [x r t, (even, odd) space]
+        rows = np.concatenate([3 * place[:, None] + np.arange(3), n3 + 3 * place[:, None] + np.arange(3)], axis=1)
+        shared = coo_matrix(
+            (
+                np.tile(blocks.ravel(), len(place)),
+                (np.repeat(rows[:, None, :], 3, axis=1).ravel(), np.repeat(np.arange(3 * len(place)), 6)),
+            ),
+            shape=(2 * n3, 3 * len(place)),
+        )
+        T = bmat([[inner, shared]], format="csc")
+        K_n, M_n = (T.T @ K2 @ T).tocsc(), (T.T @ M2 @ T).tocsc()
+        shift = -((2 * math.pi * 500.0) ** 2)
+        inverse = factor(K_n - shift * M_n)
+        rigid = 2 if n < 2 else 0  # x and the turn about x; two of the translations and tilts
+        operator = LinearOperator(K_n.shape, inverse.solve, dtype=float)
+        square = np.sort(eigsh(K_n, count + rigid, M_n, sigma=shift, OPinv=operator, v0=np.ones(K_n.shape[0]), return_eigenvectors=False))
+        assert np.all(np.abs(square[:rigid]) < -1e-3 * shift) and square[rigid] > -shift
+        found[n] = np.sqrt(square[rigid:]) / (2 * math.pi)
+    return found
