@@ -84,6 +84,12 @@ def tetrahedron_rule(n):
     return np.stack([a, b * (1 - a), c * (1 - a) * (1 - b)]), w * (1 - a) ** 2 * (1 - b)
 
 
+def four_points():
+    """Points [3, 4] of the unit tetrahedron and weights: exact to degree 2, which stiffness of quadratic tetrahedra with straight sides has."""
+    near = (5.0 - math.sqrt(5.0)) / 20.0
+    return near + (1.0 - 4.0 * near) * np.vstack([np.zeros(3), np.eye(3)]).T, np.full(4, 1.0 / 24.0)
+
+
 def triangle_rule(parts):
     """Points [2, 3 parts^2] of the unit triangle cut into parts^2, three in each, and weights: exact to degree 2 in each part."""
     own, points = np.array([[1, 1], [4, 1], [1, 4]]) / 6, []
@@ -202,8 +208,9 @@ def used(tags, coordinates, *element_lists):
 
 
 @session
-def half_mesh(g, size):
-    """One half pitch of a half, theta = 0 to pi/Z; size: elements relative to the ordinary ones (1), whose seat has four in its width."""
+def half_mesh(g, size, seat_size=None):
+    """One half pitch of a half, theta = 0 to pi/Z; size: elements relative to the ordinary ones (1), whose seat has four in its width (seat_size: there)."""
+    seat_size = seat_size or size
     occ, mm = gmsh.model.occ, 1e3
     r_i, r_o, R, w = (mm * v for v in (g.cage_inner_diameter / 2, g.cage_outer_diameter / 2, g.d_m / 2, g.cage_half_width))
     shank, head, relief, seat = (mm * v for v in (g.shank_diameter / 2, g.head_diameter / 2, g.shank_diameter / 2 + g.relief_radius, g.seat_diameter / 2))
@@ -242,7 +249,7 @@ def half_mesh(g, size):
 
     width, field = head - relief, gmsh.model.mesh.field
     coarse, slope, sizes = 0.14 * (r_o - r_i) * size, 0.35, []
-    for low, high, r_low, r_high, fine in ((flange, flange, relief, head, width / 4 * size), (0, flange, shank, relief, 0.4 * shank * size)):
+    for low, high, r_low, r_high, fine in ((flange, flange, relief, head, width / 4 * seat_size), (0, flange, shank, relief, 0.4 * shank * size)):
         expression = f"Max(Max({r_low} - Sqrt((y-{R})^2+z^2), Sqrt((y-{R})^2+z^2) - {r_high}), 0)"
         along = f"Max(Max({low} - x, x - {high}), 0)"
         tag = field.add("MathEval")
@@ -261,7 +268,7 @@ def half_mesh(g, size):
     elements = gmsh.model.mesh.getElementsByType(11)[1].reshape(-1, 10)
     facets = [np.concatenate([gmsh.model.mesh.getElementsByType(9, tag)[1].reshape(-1, 6) for tag in group]) for group in (pads, seats)]
     nodes, elements, *facets = used(tags, coordinates, elements, *facets)
-    return Half(Solid(nodes, elements, tetrahedron, tetrahedron_rule(2), tetrahedron_rule(4)), *facets)
+    return Half(Solid(nodes, elements, tetrahedron, four_points(), tetrahedron_rule(4)), *facets)
 
 
 def _closed(points):
