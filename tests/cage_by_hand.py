@@ -440,7 +440,7 @@ class State(NamedTuple):
 class Cage:
     """Cage of two equal halves turning at rest of impacts: half pitch of a half, half of a rivet above the split."""
 
-    def __init__(self, g, material, rivet_material, half=None, rivet=None, hats=(3, 16)):
+    def __init__(self, g, material, rivet_material, half=None, rivet=None, hats=(3, 8)):
         self.g, self.material, self.rivet_material = g, material, rivet_material
         self.half, self.rivet = half or half_mesh(g, 1.0), rivet or rivet_mesh(g, 8, 8)
         R, low, high = g.d_m / 2, g.shank_diameter / 2 + g.relief_radius, g.head_diameter / 2
