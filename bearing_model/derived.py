@@ -44,10 +44,22 @@ def inlet(E_prime, R_x, R_y, p):
     return p.oil.rolling * 2.86 * E_prime * R_x**2 * (R_y / R_x) ** 0.348 * G**0.022 * U**0.66 * W**0.47
 
 
+def ball_elasticity(p):
+    """Young's modulus [Pa] and Poisson's ratio of the balls, those of the rings where the parameters leave them open."""
+    return p.ball.E or p.bearing.E, p.ball.nu or p.bearing.nu
+
+
+def race_modulus(p):
+    """E_star of ball and race [Pa], 1/E_star = (1 - nu_b^2)/E_b + (1 - nu^2)/E; half of E/(1 - nu^2) to the last bit where both are alike."""
+    E_b, nu_b = ball_elasticity(p)
+    ring, ball = p.bearing.E / (1.0 - p.bearing.nu**2), E_b / (1.0 - nu_b**2)
+    return ring / (1.0 + ring / ball)
+
+
 def derive_race(p, f, side):
     """Constants of the contacts with one race; side: -1 for the inner race, +1 for the outer one."""
     D, R, gamma = p.bearing.D, 0.5 * p.bearing.D, p.bearing.D / p.bearing.d_m
-    E_star = 0.5 * p.bearing.E / (1.0 - p.bearing.nu**2)
+    E_star = race_modulus(p)
     rho_x, rho_y = 1.0 / (R * (1.0 + side * gamma)), 1.0 / R - 1.0 / (f * D)
     hertz = hertz_contact(rho_x, rho_y, E_star)
     return Race(
@@ -117,7 +129,8 @@ def derive_balls(p, d):
 def derive_pockets(p, d):
     R = 0.5 * p.bearing.D
     d.pocket_radius = R + 0.5 * p.cage.pocket_clearance
-    E_star = 1.0 / ((1.0 - p.bearing.nu**2) / p.bearing.E + (1.0 - p.cage.nu**2) / p.cage.E)
+    E_b, nu_b = ball_elasticity(p)
+    E_star = 1.0 / ((1.0 - nu_b**2) / E_b + (1.0 - p.cage.nu**2) / p.cage.E)
     rho_y = max(1.0 / R - 1.0 / d.pocket_radius, 1e-3 / R)  # a limit of conformity: R_y <= 1000 R
     d.pocket = hertz_contact(1.0 / R, rho_y, E_star)
     d.pocket_rolling = inlet(2.0 * E_star, R, 1.0 / rho_y, p)

@@ -79,10 +79,11 @@ class HertzContact:
         return c * self.sum_rho * self.E_star / (np.pi * self.ellipse.a_star * self.ellipse.b_star)
 
 
-def ball_race_contact(D, d_m, f, alpha, E, nu, race):
-    """Hertz contact of a ball with a groove of the same material.
+def ball_race_contact(D, d_m, f, alpha, E, nu, race, ball=None):
+    """Hertz contact of a ball with a groove.
 
-    D ball diameter, d_m pitch diameter [m], f groove radius / D [-], alpha contact angle [rad], E [Pa], nu [-], race "inner" or "outer".
+    D ball diameter, d_m pitch diameter [m], f groove radius / D [-], alpha contact angle [rad], E [Pa], nu [-] of the ring, race "inner" or "outer",
+    ball: E and nu of the ball, None for those of the ring.
     Curvatures 2/D, 2/D of the ball, -1/(f D) across the groove, and along it gamma = D cos(alpha)/d_m:  (2/D) gamma/(1 - gamma) inner,
     -(2/D) gamma/(1 + gamma) outer.  Harris & Kotzalas (2006), ch. 2.
 
@@ -96,4 +97,5 @@ def ball_race_contact(D, d_m, f, alpha, E, nu, race):
     across = -1.0 / (f * D)
     sum_rho = 4.0 / D + along + across
     F_rho = (along - across) / sum_rho
-    return HertzContact(float(sum_rho), float(F_rho), 0.5 * E / (1.0 - nu**2), hertz_ellipse(F_rho))
+    (E_b, nu_b), ring = ball or (E, nu), E / (1.0 - nu**2)
+    return HertzContact(float(sum_rho), float(F_rho), ring / (1.0 + ring / (E_b / (1.0 - nu_b**2))), hertz_ellipse(F_rho))

@@ -17,6 +17,7 @@ from bearing_model.variables import INPUTS, PARAMETERS, Z
 ENUMERATIONS = (
     variables.TiltMode,
     variables.RingMotion,
+    variables.CageMaterial,
     variables.CageModel,
     variables.Traction,
     variables.Drag,

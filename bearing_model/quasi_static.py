@@ -39,8 +39,8 @@ class Bearing:
     """A groove ball bearing; names, units and defaults as the parameters bearing.* of the FMU (fmus/variables.toml).  Default: 6207.
 
     D ball diameter [m], d_m pitch diameter [m] (mean of the groove-bottom diameters), Z balls, f_i, f_e groove radius / D, P_d diametral clearance [m]
-    (negative: preload), E [Pa], nu, rho [kg/m3] of balls and rings.  alpha_0 [rad]: free contact angle of an angular contact bearing; it takes the
-    place of P_d, and x = 0 is then where balls and races just touch.  C, C_0: dynamic and static load rating [N] for the life and the static safety.
+    (negative: preload), E [Pa], nu of the rings, rho [kg/m3] of the balls; ball: E and nu of the balls, None for those of the rings.
+    alpha_0 [rad]: free contact angle of an angular contact bearing; it takes the place of P_d, and x = 0 is then where balls and races just touch.  C, C_0: dynamic and static load rating [N] for the life and the static safety.
     fit: growth of the inner groove by rotation and fit (ring_fit.py), which takes clearance at speed; without it the rings keep their size.
     Raises ValueError for a value that is not admissible.
     """
@@ -54,6 +54,7 @@ class Bearing:
     E: float = 207e9
     nu: float = 0.3
     rho: float = 7800.0
+    ball: tuple | None = None
     alpha_0: float | None = None
     C: float | None = None
     C_0: float | None = None
@@ -273,8 +274,8 @@ class Potential:
         self.R_e = 0.5 * (d_m + D) + 0.25 * P_d - f_e * D
         self.l_i, self.l_e = (f_i - 0.5) * D, (f_e - 0.5) * D
         self.x_touch = 0.0 if bearing.alpha_0 is None else bearing.A * math.sin(bearing.alpha_0)
-        self.inner = ball_race_contact(D, d_m, f_i, bearing.nominal_angle, bearing.E, bearing.nu, "inner")
-        self.outer = ball_race_contact(D, d_m, f_e, bearing.nominal_angle, bearing.E, bearing.nu, "outer")
+        self.inner = ball_race_contact(D, d_m, f_i, bearing.nominal_angle, bearing.E, bearing.nu, "inner", bearing.ball)
+        self.outer = ball_race_contact(D, d_m, f_e, bearing.nominal_angle, bearing.E, bearing.nu, "outer", bearing.ball)
         self.e_r = np.column_stack([np.zeros_like(psi), np.cos(psi), np.sin(psi)])
         self.inertia = InertiaLoads(0.0, np.zeros((len(psi), 2)), np.zeros(RING))
 

@@ -91,7 +91,7 @@ def temperature_apply(p, u, table):
     """The Parameters p at the temperatures in the Inputs u, with the joint of a RivetTable."""
     hot, T_a, expansion = copy.deepcopy(p), table.joint["T_0"], p.bearing.expansion
     e_i, e_e = expansion * (u.ring.T_i - T_a), expansion * (u.ring.T_e - T_a)
-    e_b, e_c = expansion * (u.ball.T - T_a), table.joint["alpha_flange"] * (u.cage.T - T_a)
+    e_b, e_c = (p.ball.expansion or expansion) * (u.ball.T - T_a), table.joint["alpha_flange"] * (u.cage.T - T_a)
     heat_oil(p, u.oil.T, hot)
     heat_steel(p, e_i, e_e, e_b, hot)
     heat_cage(p, e_c, e_e, e_b, hot)

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from enum import IntEnum
 
 MODEL_IDENTIFIER = "RivetedBearing"
-MODEL_GUID = "{f55c24dc-a3bd-5592-1e2b-d0607669846b}"
+MODEL_GUID = "{64da0723-02df-fa6f-1842-3558e6bd3bd3}"
 Z = 9
 
 
@@ -38,6 +38,15 @@ class TiltMode(IntEnum):
 class RingMotion(IntEnum):
     FREE = 1
     PRESCRIBED = 2
+
+
+class CageMaterial(IntEnum):
+    BRONZE = 1
+    BRASS = 2
+    STEEL = 3
+    PA66_GF25 = 4
+    PEEK = 5
+    OWN = 6
 
 
 class CageModel(IntEnum):
@@ -154,14 +163,17 @@ PARAMETERS = {
         Variable("bearing.f_i", 1003, "Real", "1", None, 0.515, 0.5005, 0.6, 1, None, "Inner groove radius / ball diameter", "assumed (usual 0.515)"),
         Variable("bearing.f_e", 1004, "Real", "1", None, 0.52, 0.5005, 0.6, 1, None, "Outer groove radius / ball diameter", "assumed (usual 0.52)"),
         Variable("bearing.P_d", 1005, "Real", "m", "um", 1.5e-05, -5e-05, 0.001, 1, None, "Diametral (radial internal) clearance, negative = preload", "assumed (clearance class CN: 6...20 um)"),
-        Variable("bearing.E", 1006, "Real", "Pa", "GPa", 207000000000.0, 1000000000.0, 1000000000000.0, 1, None, "Young's modulus of balls and rings", "bearing steel, Harris"),
-        Variable("bearing.nu", 1007, "Real", "1", None, 0.3, 0.0, 0.49, 1, None, "Poisson's ratio of balls and rings", "bearing steel, Harris"),
+        Variable("bearing.E", 1006, "Real", "Pa", "GPa", 207000000000.0, 1000000000.0, 1000000000000.0, 1, None, "Young's modulus of the rings, and of the balls unless ball.E says otherwise", "bearing steel, Harris"),
+        Variable("bearing.nu", 1007, "Real", "1", None, 0.3, 0.0, 0.49, 1, None, "Poisson's ratio of the rings, and of the balls unless ball.nu says otherwise", "bearing steel, Harris"),
         Variable("bearing.rho", 1008, "Real", "kg/m3", None, 7800.0, 1000.0, 20000.0, 1, None, "Density of the balls", "bearing steel, Harris"),
         Variable("bearing.lambda", 1009, "Real", "s/m", None, 0.05, 0.0, 10.0, 1, None, "Hunt-Crossley damping of the race contacts: Q = K delta^1.5 (1 + lambda delta_dot)", "assumed: 0.01...0.2 do not change force statistics, 0 rings"),
         Variable("bearing.h_i", 1010, "Real", "1", None, 0.2, 0.01, 0.5, 1, None, "Height of the inner ring's shoulder above the groove's bottom / ball diameter: reported when the contact ellipse reaches over it", "assumed (usual 0.17...0.25)"),
         Variable("bearing.h_e", 1011, "Real", "1", None, 0.2, 0.01, 0.5, 1, None, "Height of the outer ring's shoulder above the groove's bottom / ball diameter: reported when the contact ellipse reaches over it", "assumed (usual 0.17...0.25)"),
         Variable("bearing.p_limit", 1012, "Real", "Pa", "MPa", 4200000000.0, 1000000.0, 1000000000000.0, 1, None, "Contact pressure of the races beyond which a warning is given", "ISO 76: permanent deformation of 1e-4 D"),
-        Variable("bearing.expansion", 8231, "Real", "1/K", None, 1.17e-05, 0.0, 0.0001, 1, None, "Thermal expansion of balls and rings; dimensions are those at assembly temperature", "bearing steel, Harris"),
+        Variable("bearing.expansion", 8231, "Real", "1/K", None, 1.17e-05, 0.0, 0.0001, 1, None, "Thermal expansion of the rings, and of the balls unless ball.expansion says otherwise; dimensions are those at assembly temperature", "bearing steel, Harris"),
+        Variable("ball.E", 1013, "Real", "Pa", "GPa", 0.0, 0.0, 1000000000000.0, 1, None, "Young's modulus of the balls", "0: bearing.E"),
+        Variable("ball.nu", 1014, "Real", "1", None, 0.0, 0.0, 0.49, 1, None, "Poisson's ratio of the balls", "0: bearing.nu"),
+        Variable("ball.expansion", 1015, "Real", "1/K", None, 0.0, 0.0, 0.0001, 1, None, "Thermal expansion of the balls", "0: bearing.expansion"),
         Variable("ball[j].dD", 1020, "Real", "m", "um", 0.0, -0.001, 5e-05, Z, None, "Excess of the ball's diameter over bearing.D", "perfect set of balls"),
         Variable("cage.pocket_clearance", 1101, "Real", "m", "mm", 0.0002, 0.0, 0.005, 1, None, "Pocket diameter - ball diameter", "assumed (0.1...0.4 mm usual)"),
         Variable("cage.guide_clearance", 1102, "Real", "m", "mm", 0.0002, 1e-05, 0.005, 1, None, "Outer ring land diameter - cage outer diameter", "assumed (0.1...0.4 mm usual); least: six roughnesses a side, below it the lands brake the cage like plain bearings, with kilowatts"),
@@ -173,8 +185,10 @@ PARAMETERS = {
         Variable("cage.x_c", 1108, "Real", "m", "mm", 0.00401163, 0.0, 0.1, 1, None, "Axial distance of a half's centre of mass from the split plane", "rivet_model/half_shape.py: a web of 1.14 mm, bars from pocket to pocket"),
         Variable("cage.land_width", 1109, "Real", "m", "mm", 0.0025, 1e-05, 0.2, 1, None, "Width of the guiding land of one half", "assumed"),
         Variable("cage.land_x", 1110, "Real", "m", "mm", 0.0055, 0.0, 0.2, 1, None, "Axial distance of the land's middle from the split plane", "assumed"),
-        Variable("cage.E", 1111, "Real", "Pa", "GPa", 110000000000.0, 100000000.0, 1000000000000.0, 1, None, "Young's modulus of the cage", "bronze"),
-        Variable("cage.nu", 1112, "Real", "1", None, 0.33, 0.0, 0.49, 1, None, "Poisson's ratio of the cage", "bronze"),
+        Variable("cage.material", 1125, "CageMaterial", "1", None, 1, None, None, 1, None, "Material of the cage, from which its rivet table was made", "the 6207's"),
+        Variable("cage.E", 1111, "Real", "Pa", "GPa", 110000000000.0, 100000000.0, 1000000000000.0, 1, None, "Young's modulus of the cage", "cage.material: bronze"),
+        Variable("cage.nu", 1112, "Real", "1", None, 0.33, 0.0, 0.49, 1, None, "Poisson's ratio of the cage", "cage.material: bronze"),
+        Variable("cage.rho", 1124, "Real", "kg/m3", None, 8800.0, 500.0, 23000.0, 1, None, "Density of the cage", "cage.material: bronze"),
         Variable("cage.mu", 1113, "Real", "1", None, 0.05, 0.0, 1.0, 1, None, "Friction coefficient between ball and pocket with a full film", "assumed (lubricated bronze on steel)"),
         Variable("cage.v_c", 1114, "Real", "m/s", None, 0.2, 0.0001, 10.0, 1, None, "Sliding speed at which pocket and land friction are 71 % of Coulomb's", "regularization of Coulomb's law"),
         Variable("cage.lambda", 1115, "Real", "s/m", None, 1.0, 0.0, 20.0, 1, None, "Hunt-Crossley damping of the pocket contacts", "assumed: moves RMS pocket force by -24 % from 0 to 10"),

@@ -262,7 +262,7 @@ PartStatus part_initialize(Bearing *b, double t_start, double tolerance)
 {
     InstanceState *s = &b->s;
     if (!check_all(b) || !room_for_modes(b)) return PART_ERROR;
-    report_without_effect(b);
+    report_start(b);
     s->t_start = t_start;
     s->tolerance = tolerance > 0.0 ? tolerance : s->p.solver.tol;
     s->u_now = s->u[0];

@@ -255,6 +255,23 @@ static bool check_seat(Bearing *b)
     return fine;
 }
 
+// Checks the parameters that the build fixes: the constants of the cage's material, from which the rivet table was made.
+static bool check_built(Bearing *b)
+{
+    bool fine = true;
+    for (const Variable *v = VARIABLES; v < VARIABLES + N_VARIABLES; v++) {
+        if (!v->built) continue;
+        const double value = variable_value(v, 0, &b->s.p);
+        if (value == v->start) continue;
+        bearing_log(b, LOG_ERROR,
+                    "%s = %g: %g is allowed, of the material for which this FMU and its rivet table were "
+                    "built; for another material build an FMU from a bearing file with [cage] material",
+                    v->name, value, v->start);
+        fine = false;
+    }
+    return fine;
+}
+
 // Checks the embedded rivet table, which belongs to one number of rivets and one pitch circle.
 static bool check_table(Bearing *b)
 {
@@ -286,7 +303,7 @@ static bool check_values(Bearing *b)
 {
     bool fine = check_variables(b, CAUSALITY_PARAMETER, &b->s.p);
     fine &= check_variables(b, CAUSALITY_INPUT, &b->s.u[0]);
-    return fine && check_geometry(b) && check_table(b) && check_seat(b);
+    return fine && check_geometry(b) && check_built(b) && check_table(b) && check_seat(b);
 }
 
 bool check_all(Bearing *b)
@@ -342,6 +359,47 @@ void report_without_effect(Bearing *b)
     b->reported = true;
     bearing_log(b, LOG_WARNING, "ring.motion is %s: no effect have %s", prescribed ? "prescribed" : "free",
                 list);
+}
+
+// Logs that the parts stay at their start temperatures where the oil alone has been given another one.
+static void report_parts_left(Bearing *b)
+{
+    const Inputs *u = &b->s.u[0], *start = &b->start;
+    const bool alone = u->ring.T_i == start->ring.T_i && u->ring.T_e == start->ring.T_e &&
+                       u->ball.T == start->ball.T && u->cage.T == start->cage.T;
+    if (!alone || u->oil.T == start->oil.T) return;
+    bearing_log(
+        b, LOG_WARNING,
+        "oil.T = %g K is set, the parts' temperatures are not: ring.T_i = %g K, ring.T_e = %g K, ball.T = "
+        "%g K, cage.T = %g K, at which clearances, preload and fit are taken",
+        u->oil.T, u->ring.T_i, u->ring.T_e, u->ball.T, u->cage.T);
+}
+
+// Sizes of which the rivet table holds those of the build: it keeps them when the parameters change.
+static const char *const SIZES_OF_TABLE[] = {"bearing.D", "cage.D_o", "cage.D_i", "cage.width"};
+
+// Logs sizes by which the dynamics leave the rivet table behind: 1 % moves a half's bending stiffness by some per cent.
+static void report_sizes_of_table(Bearing *b)
+{
+    char list[128] = "";
+    for (size_t i = 0; i < sizeof SIZES_OF_TABLE / sizeof *SIZES_OF_TABLE; i++) {
+        const Variable *v = variable_named(SIZES_OF_TABLE[i]);
+        if (fabs(variable_value(v, 0, &b->s.p) - v->start) > 0.01 * v->start)
+            add_name(v->name, list, sizeof list);
+    }
+    if (*list)
+        bearing_log(b, LOG_WARNING,
+                    "%s: more than 1 %% off the start value; contacts and films have the new size, the "
+                    "embedded rivet "
+                    "table (modes, load path, stress) that of the build: build an FMU for this size",
+                    list);
+}
+
+void report_start(Bearing *b)
+{
+    report_without_effect(b);
+    report_parts_left(b);
+    report_sizes_of_table(b);
 }
 
 bool check_start(Bearing *b)

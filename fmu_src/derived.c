@@ -27,11 +27,30 @@ static double inlet(double E_prime, double R_x, double R_y, const Parameters *p)
            portable_pow(E_prime * R_x * R_x, -0.47);
 }
 
+// Constants of the balls' material, those of the rings where the parameters leave them open.
+static double ball_E(const Parameters *p)
+{
+    return p->ball.E > 0.0 ? p->ball.E : p->bearing.E;
+}
+
+static double ball_nu(const Parameters *p)
+{
+    return p->ball.nu > 0.0 ? p->ball.nu : p->bearing.nu;
+}
+
+// E_star of ball and race, 1/E_star = (1 - nu_b^2)/E_b + (1 - nu^2)/E; half of E/(1 - nu^2) to the last bit where both are alike.
+static double race_modulus(const Parameters *p)
+{
+    const double ring = p->bearing.E / (1.0 - p->bearing.nu * p->bearing.nu);
+    const double ball = ball_E(p) / (1.0 - ball_nu(p) * ball_nu(p));
+    return ring / (1.0 + ring / ball);
+}
+
 // Constants of the contacts with one race; side: -1 for the inner race, +1 for the outer one.
 static void derive_race(const Parameters *p, double f, double side, Race *race)
 {
     const double D = p->bearing.D, R = 0.5 * D, gamma = D / p->bearing.d_m;
-    const double E_star = 0.5 * p->bearing.E / (1.0 - p->bearing.nu * p->bearing.nu);
+    const double E_star = race_modulus(p);
     const double rho_x = 1.0 / (R * (1.0 + side * gamma)), rho_y = 1.0 / R - 1.0 / (f * D);
     race->R_g = 0.5 * p->bearing.d_m - side * ((f - 0.5) * D - 0.25 * p->bearing.P_d);
     race->r_g = f * D;
@@ -111,8 +130,8 @@ static void derive_pockets(const Parameters *p, Derived *d)
 {
     const double R = 0.5 * p->bearing.D;
     d->pocket_radius = R + 0.5 * p->cage.pocket_clearance;
-    const double E_star = 1.0 / ((1.0 - p->bearing.nu * p->bearing.nu) / p->bearing.E +
-                                 (1.0 - p->cage.nu * p->cage.nu) / p->cage.E);
+    const double E_star =
+        1.0 / ((1.0 - ball_nu(p) * ball_nu(p)) / ball_E(p) + (1.0 - p->cage.nu * p->cage.nu) / p->cage.E);
     // the closest conformity is R_y = 1000 R
     const double rho_y = fmax(1.0 / R - 1.0 / d->pocket_radius, 1e-3 / R);
     d->pocket = hertz_contact(1.0 / R, rho_y, E_star);

@@ -74,6 +74,9 @@ bool check_all(Bearing *b);
 // Logs once which inputs and parameters differ from their start values but have no effect, by ring.motion.
 void report_without_effect(Bearing *b);
 
+// Logs the same before the start, and settings that do less than their names promise.
+void report_start(Bearing *b);
+
 // Whether all balls lie in their grooves at the start; w holds the results there.
 bool check_start(Bearing *b);
 

@@ -91,7 +91,8 @@ void temperature_apply(const Parameters *p, const Inputs *u, Parameters *hot)
     const JointData *joint = &rivet_table.joint;
     const double T_a = joint->T_0, expansion = cold.bearing.expansion;
     const double e_i = expansion * (u->ring.T_i - T_a), e_e = expansion * (u->ring.T_e - T_a);
-    const double e_b = expansion * (u->ball.T - T_a), e_c = joint->alpha_flange * (u->cage.T - T_a);
+    const double of_ball = cold.ball.expansion > 0.0 ? cold.ball.expansion : expansion;
+    const double e_b = of_ball * (u->ball.T - T_a), e_c = joint->alpha_flange * (u->cage.T - T_a);
     *hot = cold;
     heat_oil(&cold, u->oil.T, hot);
     heat_steel(&cold, e_i, e_e, e_b, hot);

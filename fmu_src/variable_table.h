@@ -36,6 +36,7 @@ typedef struct {
     int state;          // index in y of an output that is a state, else -1
     size_t offset;      // offset of the first element in Inputs, Parameters or Outputs
     double start, min, max;
+    bool built;  // fixed by the build: no value but the start value is allowed
 } Variable;
 
 extern const Variable VARIABLES[N_VARIABLES];  // in the order of value references

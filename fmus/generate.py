@@ -14,7 +14,7 @@ import math
 import re
 import sys
 import tomllib
-from dataclasses import asdict, dataclass, replace
+from dataclasses import asdict, dataclass, field, replace
 from pathlib import Path
 
 import jinja2
@@ -60,6 +60,9 @@ class Variable:
     derivative_of: str | None = None
     depends: tuple | None = None  # patterns of names; default: the group's
     choices: tuple = ()  # names of an enumeration's items
+    built: bool = False  # whether the build fixes the value, for rivet table and run alike
+    table: bool = False  # whether the build makes the rivet table from the value, which a run may change
+    needs: dict = field(default_factory=dict)  # other values without which a run does not feel this one
 
     @property
     def kind(self):
@@ -282,12 +285,18 @@ def allowed(v, table):
     return ", ".join(v.choices) if v.choices else " … ".join(shown(value, v, table) for value in v.limits)
 
 
+def feeds(v):
+    """What a parameter feeds, for readers."""
+    needs = " and ".join(f"a changing `{name}`" if isinstance(value, dict) else f"`{name}` = {value}" for name, value in v.needs.items())
+    return ("rivet table, run" if v.built or v.table else "run") + (f", there with {needs}" if needs else "")
+
+
 def render(template, table, source):
     """A template of fmus/templates filled in."""
     environment = jinja2.Environment(trim_blocks=True, lstrip_blocks=True, keep_trailing_newline=True, undefined=jinja2.StrictUndefined)
     environment.filters |= {f.__name__: f for f in (screaming, struct_members, c_number, quoted, label, named_in)}
     scales = list(dict.fromkeys(s.scale for s in (*table.states, *table.elastic_states)))
-    return environment.from_string((TEMPLATES / template).read_text()).render(table=table, source=source, scales=scales, shown=shown, allowed=allowed)
+    return environment.from_string((TEMPLATES / template).read_text()).render(table=table, source=source, scales=scales, shown=shown, allowed=allowed, feeds=feeds)
 
 
 # ------------------------------------------------------------------------------------------------------- modelDescription.xml

@@ -38,11 +38,13 @@ class Geometry:
     yield_rivet: float = 590e6  # 15CrMn quenched and tempered, from memory of GB/T 3077: unverified
     hardening_rivet: float = 2e9  # assumed
     alpha_rivet: float = 12e-6  # 1/K, steel
+    rho_rivet: float = 7850.0  # kg/m3, steel
     E_flange: float = 110e9  # bronze
     nu_flange: float = 0.33  # bronze
     yield_flange: float = 250e6  # bronze, assumed
     hardening_flange: float = 1.5e9  # assumed
     alpha_flange: float = 17.5e-6  # 1/K, bronze
+    rho_flange: float = 8800.0  # kg/m3, bronze CuSn8 (UNS C52100: 8.80 g/cm3)
     T_0: float = 293.15  # K, assembly
     Z: int = 9  # rivets on the circle d_m
     d_m: float = 53.5e-3  # catalogue 6207

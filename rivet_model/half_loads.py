@@ -163,11 +163,11 @@ def path_at(elastic, alone, point):
     return result
 
 
-def centrifugal(elastic, density=half_shape.DENSITY, density_rivet=half_shape.DENSITY_RIVET):
+def centrifugal(elastic):
     """Patterns [patterns] of each pitch per (rad/s)^2: its own body force, and that of half a rivet, which the head's friction gives to the seat's bottom."""
     column = np.zeros(elastic.loads.shape[1])
-    column[SPIN] = density
-    column[elastic.patterns.head.start + 3] = half_shape.rivet_mass(elastic.g, density_rivet) * 0.5 * elastic.g.d_m
+    column[SPIN] = elastic.g.rho_flange
+    column[elastic.patterns.head.start + 3] = half_shape.rivet_mass(elastic.g) * 0.5 * elastic.g.d_m
     return column
 
 

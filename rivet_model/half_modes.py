@@ -63,12 +63,12 @@ class Places:
 class MassiveHalf:
     """The condensed half with its density and its part of the rivets."""
 
-    def __init__(self, elastic, density=half_shape.DENSITY, density_rivet=half_shape.DENSITY_RIVET):
+    def __init__(self, elastic):
         self.elastic, p = elastic, elastic.patterns
-        self.density, self.rivet = density, half_shape.rivet_mass(elastic.g, density_rivet)
+        self.density, self.rivet = elastic.g.rho_flange, half_shape.rivet_mass(elastic.g)
         self.seat = [p.head.start, p.head.start + 3, p.head.start + 4]
         seat = sp.csc_matrix(elastic.loads[:, self.seat])
-        self.M = (density * elastic.M + self.rivet * (seat @ seat.T)).tocsc()
+        self.M = (self.density * elastic.M + self.rivet * (seat @ seat.T)).tocsc()
 
     def balance(self, n):
         """Matrix [patterns, patterns] as CyclicSolid.balance, by the inertia of half and rivets."""

@@ -9,8 +9,6 @@ from typing import NamedTuple
 
 import numpy as np
 
-DENSITY = 8800.0  # kg/m3, bronze CuSn8 (UNS C52100: 8.80 g/cm3)
-DENSITY_RIVET = 7850.0  # kg/m3, steel
 LEAST_WALL = 0.2e-3  # m of metal around the seat: assumed, the least that is machined
 LARGEST_HEAD = 0.985  # of its seat's diameter: between them there are elements
 LEAST_WEB = 0.05  # of the pocket's radius, between pocket and end face: assumed
@@ -93,10 +91,10 @@ class Inertia(NamedTuple):
 _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(16)
 
 
-def half_inertia(g, density=DENSITY, density_rivet=DENSITY_RIVET):
+def half_inertia(g):
     """Inertia of one half with its part of the rivets (head and half of the shank), by integrals over the drawing's bodies."""
     Z, w, p, R = g.Z, g.cage_half_width, pocket_radius(g), 0.5 * g.d_m
-    r_i, r_o = 0.5 * g.cage_inner_diameter, 0.5 * g.cage_outer_diameter
+    r_i, r_o, density = 0.5 * g.cage_inner_diameter, 0.5 * g.cage_outer_diameter, g.rho_flange
     bodies = [(density * math.pi * (r_o**2 - r_i**2) * w, 0.5 * w, w * w / 3.0, 0.5 * (r_i**2 + r_o**2))]  # mass, means of x, x^2, r^2
 
     def cylinder(density, radius, low, high):
@@ -115,8 +113,8 @@ def half_inertia(g, density=DENSITY, density_rivet=DENSITY_RIVET):
     cylinder(-density, shank, 0.0, relieved)
     cylinder(-density, shank + g.relief_radius, relieved, top)
     cylinder(-density, 0.5 * g.seat_diameter, top, w)
-    cylinder(density_rivet, shank, 0.0, top)
-    cylinder(density_rivet, 0.5 * g.head_diameter, top, top + g.head_height)
+    cylinder(g.rho_rivet, shank, 0.0, top)
+    cylinder(g.rho_rivet, 0.5 * g.head_diameter, top, top + g.head_height)
 
     mass, mean_x, mean_xx, mean_rr = np.transpose(bodies)
     m = mass.sum()
@@ -124,6 +122,6 @@ def half_inertia(g, density=DENSITY, density_rivet=DENSITY_RIVET):
     return Inertia(float(m), float(x_c), float(J_p), float(0.5 * J_p + mass @ mean_xx - m * x_c**2))
 
 
-def rivet_mass(g, density=DENSITY_RIVET):
+def rivet_mass(g):
     """Mass of half a rivet [kg]: one head and the shank up to the split."""
-    return density * math.pi / 4 * (g.shank_diameter**2 * g.flange_thickness + g.head_diameter**2 * g.head_height)
+    return g.rho_rivet * math.pi / 4 * (g.shank_diameter**2 * g.flange_thickness + g.head_diameter**2 * g.head_height)

@@ -7,7 +7,7 @@ import numpy as np
 from bearing_model.joint_law import single_joint
 from bearing_model.rivet_rom import HEAD_P1, MID_VM, RivetLoad, rivet_rom_fit_eff, rivet_rom_stress
 
-from . import half, half_loads, half_modes, half_shape, plastic_fit
+from . import half, half_loads, half_modes, plastic_fit
 from .cage_half import CageHalf, CyclicSolid
 from .load_cases import GROUPS
 
@@ -322,7 +322,7 @@ def plot_modes(g, count=8, largest=2.5e-3):
     from mpl_toolkits.mplot3d.art3d import Poly3DCollection
 
     solid = CyclicSolid(half.pitch_mesh(g, half.COARSE), g.Z, g.E_flange, g.nu_flange)
-    M = (half_shape.DENSITY * solid.M).tocsc()
+    M = (g.rho_flange * solid.M).tocsc()
     found = []
     for n in range(min(g.Z // 2, count) + 1):
         square, shapes = half_modes.wave_modes(solid, M, n, 4)

@@ -5,13 +5,16 @@
     [catalogue]           # optional: bore, outside_diameter, width [m], C, C_0 [N]
     [parameters]          # start values of the FMU made from this file
     bearing.D = "19.05 mm"
-    [rivet]               # optional: dimensions and materials by the names of rivet_model.geometry
+    [cage]                # optional, like [rings], [balls] and [rivet]: material by name or as a table, single properties (materials.py)
+    material = "steel"
+    [rivet]               # optional: dimensions by the names of rivet_model.geometry
     shank_diameter = "2 mm"
+    head = "DIN 660"      # optional: head diameter and height by a standard (rivet_heads.py)
     [inputs]              # start values too
     shaft.F_y = 6000.0
 
-A number is SI, a text carries its unit.  What is left out comes from the catalogue (catalogue.py) if it knows the designation, by rule from balls and pitch
-diameter (scaling.py) if these differ from the 6207's, else from the variable table; Case.origin says which.
+A number is SI, a text carries its unit.  What is left out comes from the catalogue (catalogue.py) if it knows the designation, by rule (scaling.py) from
+the rivet's shank, and from balls and pitch diameter if these differ from the 6207's, else from the variable table; Case.origin says which.
 """
 
 import math
@@ -20,23 +23,26 @@ from importlib.resources import files
 from pathlib import Path
 
 from bearing_model import variables
-from bearing_model.derived import default_table
+from bearing_model.derived import ball_elasticity, default_table
 from bearing_model.parameters import Values
 from bearing_model.quasi_static import Bearing, Load, quasi_static
 from bearing_model.ring_fit import ring_fit_of
 from bearing_model.temperature import temperature_apply
 from rivet_model.geometry import Geometry
 
-from . import catalogue, limits, scaling
+from . import catalogue, limits, materials, rivet_heads, scaling
 from .errors import UserError, unknown
 from .scene import load_scene, positive, read_toml, refusal, section_of, shipped_scenes
 from .units import scales_of, suffix, symbol_of, to_si
 
 SHIPPED = files("riveted_bearing") / "data" / "bearings"
-KEYS = ("designation", "description", "Z", "catalogue", "parameters", "rivet", "inputs")
+KEYS = ("designation", "description", "Z", "catalogue", "parameters", *materials.PARTS, "inputs")
 CATALOGUE = ("bore", "outside_diameter", "width", "C", "C_0")
 CAGE_SIZES = ("Z", "d_m", "ball_diameter", "pocket_clearance", "cage_outer_diameter", "cage_inner_diameter", "cage_half_width")  # a bearing's own
-RIVET = {f.name: f.default for f in fields(Geometry) if f.name not in CAGE_SIZES}  # the rivet's own, with the defaults
+CAGE_MATERIAL = tuple(materials.PARTS["cage"].geometry.values())
+RIVET = {f.name: f.default for f in fields(Geometry) if f.name not in (*CAGE_SIZES, *CAGE_MATERIAL)}  # the rivet's own, with the defaults
+RIVET_MATERIAL = ("material", "source", *materials.PARTS["rivet"].properties)
+RIVET_SIZES = tuple(name for name in RIVET if name not in materials.PARTS["rivet"].geometry.values())
 CAGE_MEANT = (
     "Meant with a machined two-piece riveted cage, guided by the outer ring; the pressed ribbon cage with spherical pockets "
     "that many bearings of this designation carry is not modelled"
@@ -49,6 +55,7 @@ class Case:
     """A bearing at work: catalogue data, SI values or item names by the FMU's full variable names, dimensions of the rivet.
 
     origin: "catalogue", "rule", "yours" (a file's) or "shipped" (a shipped file's) by name; what is not in it has the variable table's default.
+    rivet: dimensions and material of the rivet by the names of rivet_model.geometry; materials: the Material of each part, of a bearing file's case.
     bare: whether only a designation was given, which says nothing of the cage; alone: what a scene sets of a bearing's shape, from which nothing follows.
     """
 
@@ -59,6 +66,7 @@ class Case:
     catalogue: dict = field(default_factory=dict)
     rivet: dict = field(default_factory=dict)
     origin: dict = field(default_factory=dict)
+    materials: dict = field(default_factory=dict)
     bare: bool = False
     alone: tuple = ()
 
@@ -73,7 +81,7 @@ class Case:
         p, u = (Values(table, {name: self.values[name] for name in table if name in self.values}) for table in (parameters, inputs))
         hot = temperature_apply(p, u, default_table())
         at_work = {f.name: getattr(hot.bearing, f.name) for f in fields(Bearing) if hasattr(hot.bearing, f.name)}
-        return Bearing(**at_work, Z=self.Z, C=self.catalogue.get("C"), C_0=self.catalogue.get("C_0"), fit=ring_fit_of(hot))
+        return Bearing(**at_work, ball=ball_elasticity(hot), Z=self.Z, C=self.catalogue.get("C"), C_0=self.catalogue.get("C_0"), fit=ring_fit_of(hot))
 
     @property
     def load(self):
@@ -97,6 +105,7 @@ class Case:
             "cage_inner_diameter": v["cage.D_i"],
             "cage_half_width": round(0.5 * v["cage.width"], 12),
             "patch_radius": round((v["cage.D_o"] - v["cage.D_i"]) / 4.0, 12),  # without the rounding of the difference: the table's digest knows every bit
+            **materials.geometry_of("cage", self.materials["cage"]),
         } | self.rivet
 
     def equilibrium(self):
@@ -163,15 +172,25 @@ def is_bearing(source):
     return Path(source).is_file() and {"Z", "designation", "catalogue", "rivet"} & set(read_toml(Path(source))) != set()
 
 
-def bearing_case(source):
-    """The Case of a designation or a bearing file; UserError naming file, key, value and what is allowed."""
+def bearing_case(source, rivet=None):
+    """The Case of a designation or a bearing file; UserError naming file, key, value and what is allowed.
+
+    rivet: file and keys of another rivet, as in a section [rivet]: a new shank leaves nothing of the bearing's own rivet.
+    """
     designation = str(source)
     if designation in catalogue.entries() and designation not in shipped_bearings():
         description = f"Deep-groove ball bearing {designation} with a machined two-piece riveted cage"
-        return read_case(f"catalogue bearing {designation}", {"designation": designation, "description": description}, "yours", bare=True)
-    path = find_bearing(source)
-    shipped = designation in shipped_bearings()
-    return read_case(path, {"designation": path.name.removesuffix(".toml")} | read_toml(path), "shipped" if shipped else "yours", bare=shipped)
+        path, own, document = f"catalogue bearing {designation}", "yours", {"designation": designation, "description": description}
+        bare = True
+    else:
+        path = find_bearing(source)
+        bare = designation in shipped_bearings()
+        own, document = "shipped" if bare else "yours", {"designation": path.name.removesuffix(".toml")} | read_toml(path)
+    if rivet:
+        path, keys = rivet
+        kept = {} if "shank_diameter" in keys else section_of(path, document, "rivet")
+        document["rivet"] = kept | keys
+    return read_case(path, document, own, bare)
 
 
 def read_case(path, document, own, bare=False):
@@ -186,19 +205,47 @@ def read_case(path, document, own, bare=False):
         raise refusal(path, "Z", Z, "allowed: an integer from 5 to 32")
     parameters = scaling.parameters_of(Z or (catalogue.balls(entry)[0] if entry else variables.Z))
     data = dict(catalogue_values(path, section_of(path, document, "catalogue")))
-    given = dict(start_values(path, "parameters", section_of(path, document, "parameters"), parameters))
+    given = dict(start_values(path, "parameters", plain_names(section_of(path, document, "parameters")), parameters))
     inputs = dict(start_values(path, "inputs", section_of(path, document, "inputs"), variables.INPUTS))
-    rivet = dict(rivet_values(path, section_of(path, document, "rivet")))
-    origin = dict.fromkeys([*(["Z"] if Z else []), *data, *given, *(f"rivet.{name}" for name in rivet), *inputs], own)
+    found = {part: materials.material_of(path, part, material_section(path, document, part), given) for part in materials.PARTS}
+    for part, material in found.items():
+        given |= materials.parameters_of(part, material)
+    sizes = rivet_sizes(path, section_of(path, document, "rivet"))
+    steel = materials.geometry_of("rivet", found["rivet"])
+    origin = dict.fromkeys([*(["Z"] if Z else []), *data, *given, *(f"rivet.{name}" for name in sizes), *inputs], own)
 
     by_catalogue = {key: value for key, value in (entry.data if entry else {}).items() if key not in data}
     data |= by_catalogue
-    all_Z, by_rule, rivet_by_rule, inputs_by_rule = rules(Z, given, rivet, inputs, data, entry)
+    parts = Z, given, sizes | steel, inputs, data, entry
+    all_Z, by_rule, rivet_by_rule, inputs_by_rule = rules(*parts)
     origin |= dict.fromkeys(by_catalogue, "catalogue")
     origin |= dict.fromkeys([name for name in ("Z", *by_rule, *(f"rivet.{name}" for name in rivet_by_rule), *inputs_by_rule) if name not in origin], "rule")
     values = defaults() | by_rule | inputs_by_rule | given | inputs
-    check_limits(path, document, (Z, given, rivet, inputs, data, entry))
-    return Case(designation, str(document.get("description", "")), all_Z, values, data, rivet_by_rule | rivet, origin, bare)
+    check_limits(path, document, parts)
+    found["cage"] = found["cage"].with_density(values["cage.rho"])
+    return Case(designation, str(document.get("description", "")), all_Z, values, data, rivet_by_rule | sizes | steel, origin, found, bare)
+
+
+def plain_names(tree):
+    """Parameters of a bearing file with the cage's material by the name that the FMU has for it."""
+    cage = tree.get("cage")
+    if not isinstance(cage, dict) or not isinstance(cage.get("material"), str):
+        return tree
+    return tree | {"cage": cage | {"material": materials.code_of(cage["material"])}}
+
+
+def material_section(path, document, part):
+    """The keys of a part's section that are about its material."""
+    return {key: value for key, value in section_of(path, document, part).items() if part != "rivet" or key in RIVET_MATERIAL}
+
+
+def rivet_sizes(path, section):
+    """Dimensions of the rivet that a section [rivet] gives, itself or by a standard's name."""
+    for key in section:
+        if key not in (*RIVET_SIZES, *RIVET_MATERIAL, "head"):
+            raise unknown(path, "rivet key", key, (*RIVET_SIZES, *RIVET_MATERIAL, "head"))
+    sizes = dict(rivet_values(path, {key: value for key, value in section.items() if key in RIVET_SIZES}))
+    return rivet_heads.head_of(path, section["head"], sizes) | sizes if "head" in section else sizes
 
 
 def defaults():
@@ -213,22 +260,30 @@ def rules(Z, given, rivet, inputs, data, entry):
         rule_Z, rule_D = catalogue.balls(entry)
         Z, shape["bearing.D"], shape["bearing.d_m"] = Z or rule_Z, given.get("bearing.D", rule_D), given.get("bearing.d_m", entry.d_m)
     Z = Z or variables.Z
-    if not entry and all(shape[name] == scaling.start(name) for name in SHAPE):
-        known = {name: value for name, value in defaults().items() if name != "cage.m"} | given
-        follows = scaling.half_inertia({"Z": Z} | known, rivet) | {"scene.modes": scaling.modes(Z)}
-        return Z, {name: value for name, value in follows.items() if name not in given and value != scaling.start(name)}, {}, {}
     D, d_m = shape["bearing.D"], shape["bearing.d_m"]
+    own_shape = bool(entry) or any(shape[name] != scaling.start(name) for name in SHAPE)
     rivet_by_rule = scaling.scaled_rivet(Z, D, d_m, given, rivet)
-    parameters = scaling.scaled_parameters(Z, D, d_m, given, rivet_by_rule | rivet, data.get("bore"), data.get("width"))
-    if "bore" in data and (P_d := catalogue.clearance(data["bore"])) is not None:
-        parameters["bearing.P_d"] = P_d
-    parameters["scene.modes"] = scaling.modes(Z)
-    loads = {} if inputs else scaling.scaled_inputs(Z, D, d_m, data.get("C"))
+    whole = rivet_by_rule | rivet
+    if own_shape:
+        parameters = scaling.scaled_parameters(Z, D, d_m, given, whole, data.get("bore"), data.get("width"))
+        if "bore" in data and (P_d := catalogue.clearance(data["bore"])) is not None:
+            parameters["bearing.P_d"] = P_d
+        parameters["cage.material"] = materials.PARTS["cage"].material
+        by_rule = scaling.scaled_inputs(Z, D, d_m, inputs, data.get("C"))
+    else:
+        known = {name: value for name, value in defaults().items() if name not in ("cage.m", "cage.rho")} | given
+        parameters = scaling.scaled_joint(whole) | scaling.half_inertia({"Z": Z} | known, whole)
+        parameters = {name: value for name, value in parameters.items() if value != scaling.start(name)}
+        rivet_by_rule = {name: value for name, value in rivet_by_rule.items() if value != RIVET[name]}
+        by_rule = {}
+    parameters |= scaling.scaled_materials(given)
+    if Z != variables.Z or own_shape:
+        parameters["scene.modes"] = scaling.modes(Z)
     return (
         Z,
         {name: value for name, value in parameters.items() if name not in given},
         rivet_by_rule,
-        loads,
+        {name: value for name, value in (by_rule | scaling.parts_temperatures(inputs)).items() if name not in inputs},
     )
 
 

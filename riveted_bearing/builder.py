@@ -10,6 +10,7 @@ Intermediate files stay in BUILD, so that the next build of the same bearing com
 """
 
 import importlib.util
+import math
 import os
 import platform as machine
 import re
@@ -20,12 +21,14 @@ import sysconfig
 from pathlib import Path
 
 from bearing_model import variables
+from rivet_model.geometry import Geometry
 
 from .bearings import CAGE_MEANT, bearing_case
 from .errors import UserError, unknown
 from .fmu import FMU_NAME, PACKAGE, Instance, Model
+from .materials import PARTS
 from .results import make_folder, to_toml, write_atomically
-from .rivet import TABLES, cache_folder, geometry_of, read_geometry, read_table, table_of, table_text
+from .rivet import TABLES, cache_folder, geometry_of, read_table, rivet_case, table_of, table_text
 from .scene import Scene
 
 SOURCES = (PACKAGE.parent, PACKAGE / "_source")  # a checkout, an installed package
@@ -52,7 +55,7 @@ def build_fmu(bearing=None, rivet=None, out=None, say=lambda text, share=None: N
     """
     sources = source_folder()
     out = Path(out) if out else default_out(sources, bearing or rivet)
-    case, folder = bearing_case(bearing or "6207"), build_folder(sources, bearing)
+    case, folder = case_with(bearing, rivet), build_folder(sources, bearing)
     cmake, platforms = tool("cmake") or no_tool("cmake"), platforms or compiler_platforms()
     make_folder(out.parent)
     table = kept(given_table(rivet, case, kind, say, modes), table_copy(bearing))
@@ -144,6 +147,7 @@ def cage_of(case, table):
 def fmu_description(case, table):
     """Which bearing an FMU is, and what its stress table rests on."""
     parts = [f"{case.designation}: {case.description}" if case.description else case.designation]
+    parts += [f"Cage: {case.materials['cage'].words()}"]
     parts += [CAGE_MEANT] if case.bare else []
     parts += [f"Stress table of the rivets: {table_text(table)}"]
     return ". ".join(parts)
@@ -207,20 +211,34 @@ def generator(folder):
     return ["-G", "Ninja", f"-DCMAKE_MAKE_PROGRAM={ninja}"] if ninja and not (folder / "Makefile").is_file() else []
 
 
+def case_with(bearing, rivet):
+    """The Case of a bearing, with the rivet of a geometry file if there is one: preload and seat follow from its shank."""
+    if rivet is None or Path(rivet).suffix != ".toml":
+        return bearing_case(bearing or "6207")
+    return rivet_case(Path(rivet), bearing or "6207")
+
+
 def given_table(rivet, case, kind, say, modes=None):
-    """Absolute path of the rivet table: the user's, or one for the user's or the bearing's geometry; UserError if it cannot be had or is for another cage."""
+    """Absolute path of the rivet table: the user's, or one for the case's geometry; UserError if it cannot be had or is for another cage."""
     if kind is not None and kind not in TABLES:
         raise unknown("--table", "kind", kind, TABLES)
-    if rivet is None:
-        return table_of(case.designation, geometry_of(case), kind, say, modes)
+    if rivet is None or Path(rivet).suffix == ".toml":
+        return table_of(rivet or case.designation, geometry_of(case), kind, say, modes)
     path = Path(rivet)
-    if path.suffix == ".toml":
-        return table_of(path, read_geometry(path, case), kind, say, modes)
     for option, value in (("--table", kind), ("--modes", modes)):
         if value is not None:
             raise UserError(f"{option} {value}: {path} is a table already")
-    read_table(path, case.Z)
+    check_material(path, read_table(path, case.Z), case)
     return path.resolve()
+
+
+def check_material(path, table, case):
+    """UserError if a table was made for a cage of another material than the case's."""
+    made_for = Geometry(**table.geometry)
+    for key, name in PARTS["cage"].geometry.items():
+        value, own = getattr(made_for, name), case.materials["cage"].values[key]
+        if not math.isclose(value, own, rel_tol=1e-6):
+            raise UserError(f"{path}: made for a cage with {key} = {value:g}, but that of {case.designation} has {own:g} ({case.materials['cage'].name})")
 
 
 def table_copy(bearing=None):

@@ -31,6 +31,12 @@ def centre_of_mass_beside_shape(v):
     return 0.02 * own - abs(v["cage.x_c"] - own)
 
 
+def mass_beside_density(v):
+    """How far cage.m is from the half's own shape and density, and what is allowed, as no drawing has every edge: 10 %."""
+    own = scaling.half_inertia({name: value for name, value in v.items() if name != "cage.m"}, vars(shape_of(v))).get("cage.m", v["cage.m"])
+    return 0.1 * own - abs(v["cage.m"] - own)
+
+
 def groove_bottom(v, side):
     """Diameter of the groove's bottom, outer (side = 1) or inner (-1) [m]."""
     return v["bearing.d_m"] + side * (v["bearing.D"] + 0.5 * v["bearing.P_d"])
@@ -75,6 +81,11 @@ LIMITS = (
     ),
     Limit(
         ("cage.m", "cage.D_o", "cage.D_i", "cage.width"), lambda v: ring_mass(v, DENSEST) - v["cage.m"], "a half lighter than a full ring of the heaviest metal"
+    ),
+    Limit(
+        ("cage.m", "cage.rho"),
+        mass_beside_density,
+        "a half's mass by its shape and the density of its material (10 % for edges that no drawing has); without cage.m it follows",
     ),
     Limit(("cage.J_p", "cage.m", "cage.D_o"), lambda v: 0.25 * v["cage.m"] * v["cage.D_o"] ** 2 - v["cage.J_p"], "a half with its mass inside cage.D_o"),
     Limit(("cage.J_p", "cage.m", "cage.D_i"), lambda v: v["cage.J_p"] - 0.25 * v["cage.m"] * v["cage.D_i"] ** 2, "a half with its mass outside cage.D_i"),

@@ -17,7 +17,7 @@ from rivet_model.geometry import Geometry
 from rivet_model.half_modes import check_count
 from rivet_model.load_cases import Joint
 
-from .bearings import CAGE_SIZES, RIVET, bearing_case, check_limits, is_number, rivet_values, unit_scales
+from .bearings import CAGE_SIZES, bearing_case, check_limits, is_number, unit_scales
 from .errors import UserError
 from .results import make_folder, write_atomically
 from .scene import positive, read_toml, refusal
@@ -49,30 +49,46 @@ def rivet_curves(source=None):
     return f"{path.name}: {table_text(t)}", pictures.curves(*pictures.table_response(t)), condensed(Geometry(**t.geometry), path)
 
 
-def read_geometry(path, case=None):
-    """Geometry of a TOML file over that of a Case, the 6207's without one; UserError if the file cannot be used or its rivet cannot be made.
+def read_geometry(path, bearing=None):
+    """Geometry of a rivet file (TOML) in the cage of a bearing (file or designation); UserError if the file cannot be used or its rivet cannot be made.
 
-    Values are SI numbers or texts with a unit; the file may repeat but not change what the bearing says of the cage.
+    Without a bearing the cage is the 6207's, and the file may give sizes of its own by the names of Geometry.
     """
-    base, section = case or bearing_case("6207"), read_toml(Path(path))
-    own = dict(cage_sizes(path, {name: value for name, value in section.items() if name in CAGE_SIZES}))
-    for name, value in own.items():
-        if case and not math.isclose(value, case.joint[name], rel_tol=1e-9):
-            raise refusal(path, name, section[name], f"the bearing has {case.joint[name]!r}")
-    rivet = dict(rivet_values(path, {name: value for name, value in section.items() if name not in own}, where="", known=[*RIVET, *CAGE_SIZES]))
-    numbers = {name: value for name, value in base.values.items() if is_number(value)}
+    path = Path(path)
+    case, document = rivet_case(path, bearing or "6207", fixed=bearing is not None), read_toml(path)
+    own = dict(cage_sizes(path, document))
+    numbers = {name: value for name, value in case.values.items() if is_number(value)}
     given = numbers | {CAGE_NAMES[name]: value for name, value in own.items() if name in CAGE_NAMES}
-    written = {"rivet": {name: section[name] for name in rivet}, "parameters": {CAGE_NAMES[name]: section[name] for name in own if name in CAGE_NAMES}}
-    check_limits(path, written, (own.get("Z", base.Z), given, base.rivet | rivet, {}, {}, None), called)
+    written = {"rivet": own_keys(document), "parameters": {CAGE_NAMES[name]: document[name] for name in own if name in CAGE_NAMES}}
+    check_limits(path, written, (own.get("Z", case.Z), given, case.rivet, {}, {}, None), called)
     try:
-        return Geometry(**(base.joint | own | rivet))
+        return Geometry(**(case.joint | own))
     except ValueError as problem:
         raise UserError(f"{path}: {problem}") from None
+
+
+def rivet_case(path, bearing, fixed=True):
+    """The Case of a bearing with the rivet of a file, whose keys are those of a section [rivet]; the file may repeat the bearing's sizes.
+
+    fixed: whether the file may not change them.
+    """
+    document, case = read_toml(path), bearing_case(bearing)
+    for name, value in cage_sizes(path, document):
+        if fixed and not math.isclose(value, case.joint[name], rel_tol=1e-9):
+            raise refusal(path, name, document[name], f"the bearing has {case.joint[name]!r}")
+    return bearing_case(bearing, (path, own_keys(document)))
+
+
+def own_keys(document):
+    """What of a rivet file is the rivet's own."""
+    return {name: value for name, value in document.items() if name not in CAGE_SIZES}
 
 
 def cage_sizes(path, section):
     """Sizes of the cage from a geometry file: SI values and the number of rivets."""
     for name, value in section.items():
+        if name not in CAGE_SIZES:
+            continue
         try:
             yield name, whole(value) if name == "Z" else positive(value, unit_scales("m"))
         except UserError as problem:
@@ -223,10 +239,10 @@ def write_drawing(geometry, path):
     return path
 
 
-def given_geometry(rivet, case=None):
-    """Geometry of a rivet given as table (JSON) or geometry (TOML), in the cage of a Case."""
+def given_geometry(rivet, bearing=None):
+    """Geometry of a rivet given as table (JSON) or geometry (TOML), in the cage of a bearing."""
     path = Path(rivet)
-    return read_geometry(path, case) if path.suffix == ".toml" else Geometry(**read_table(path).geometry)
+    return read_geometry(path, bearing) if path.suffix == ".toml" else Geometry(**read_table(path).geometry)
 
 
 def seat_note(geometry):

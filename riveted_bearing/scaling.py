@@ -1,9 +1,11 @@
 """What is not known of a bearing, by rule from the 6207 of the paper: the defaults of the variable table, scaled.
 
-Cage, clearances and rivets are geometrically similar: lengths grow with the ball's diameter, the cage's diameters keep their distances from the pitch circle
-in ball diameters, the rivets' preload grows with the section (equal stress).  A half's mass, centre of mass and inertia follow from its shape
-(rivet_model/half_shape.py), the inner ring's (with its share of the shaft) from bore and width; its damping keeps damping per mass and damping ratio.
-Loads: a tenth of C radially, a sixth of that axially; speed: n d_m = 480,000 mm/min, 70 % of the usual limit with grease.
+Cage and clearances are geometrically similar: lengths grow with the ball's diameter, the cage's diameters keep their distances from the pitch circle
+in ball diameters.  The rivet's shank grows with the ball; head, relief, chamfer, fit and swell grow with the shank, the seat with the head, the preload with
+the shank's section (equal stress).  A half's mass, centre of mass and inertia follow from its shape and density (rivet_model/half_shape.py), the inner
+ring's (with its share of the shaft) from bore and width; its damping keeps damping per mass and damping ratio.
+Loads: a tenth of C radially, a sixth of that axially where no load is given, else 0 for those that are not; speed: n d_m = 480,000 mm/min, 70 % of the usual
+limit with grease.  Parts whose temperature is not given have that of the oil, if it is given.
 """
 
 import math
@@ -16,21 +18,12 @@ from rivet_model import half_shape
 from rivet_model.geometry import Geometry
 
 BORE, WIDTH = 0.035, 0.017  # of the 6207 [m]
-BY_BALL = ("cage.guide_clearance", "joint.fit", "joint.swell")
+BY_BALL = ("cage.guide_clearance",)
+BY_SHANK = ("joint.fit", "joint.swell")
 AXIAL = ("cage.width", "cage.land_width", "cage.land_x")  # by the ball too, as far as the bearing is wide enough
 WIDEST_CAGE = 0.97  # of the bearing's width
-RIVET_LENGTHS = (
-    "shank_diameter",
-    "head_diameter",
-    "head_height",
-    "fillet_radius",
-    "relief_radius",
-    "relief_depth",
-    "edge_break",
-    "flange_thickness",
-    "middle_zone",
-    "seat_diameter",
-)
+RIVET_BY_BALL = ("shank_diameter", "flange_thickness")
+RIVET_BY_SHANK = ("head_diameter", "head_height", "fillet_radius", "relief_radius", "relief_depth", "edge_break", "middle_zone")
 SHAPE = {  # names of half_shape.py by those of a bearing file; half the cage's width apart
     "Z": "Z",
     "d_m": "bearing.d_m",
@@ -39,7 +32,10 @@ SHAPE = {  # names of half_shape.py by those of a bearing file; half the cage's 
     "cage_outer_diameter": "cage.D_o",
     "cage_inner_diameter": "cage.D_i",
     "cage_half_width": "cage.width",
+    "rho_flange": "cage.rho",
 }
+LOADS = ("shaft.F_x", "shaft.F_y", "shaft.F_z", "shaft.M_y", "shaft.M_z")
+PARTS_TEMPERATURES = ("ring.T_i", "ring.T_e", "ball.T", "cage.T")
 INERTIA = ("cage.m", "cage.x_c", "cage.J_p", "cage.J_t")  # of one half, in the order of half_shape.Inertia
 RIVET = asdict(Geometry())
 SPEED = 8.0  # n d_m, 480,000 mm/min [m/s]
@@ -77,12 +73,31 @@ def scaled_parameters(Z, D, d_m, given, rivet, bore=None, width=None):
     axial = r if width is None else min(r, WIDEST_CAGE * width / start("cage.width"))
     values |= {name: rounded(r * start(name)) for name in BY_BALL} | {name: rounded(axial * start(name)) for name in AXIAL}
     values |= {name: value for name, value in cage_sizes(D, d_m).items() if name != "cage.width"}
-    values["joint.preload"] = rounded(r**2 * start("joint.preload"))
-    values |= given
+    values |= scaled_joint(rivet) | given
     values |= half_inertia({"Z": Z} | values, rivet) | given
     bore = (d_m - (start("bearing.d_m") - BORE) * r) if bore is None else bore
     width = WIDTH * r if width is None else width
     return inner_ring(bore / BORE, width / WIDTH) | values
+
+
+def scaled_joint(rivet):
+    """Preload [N] by rule for the shank of a rivet, of the same stress as the 6207's; fit and swell [m]."""
+    s = rivet.get("shank_diameter", RIVET["shank_diameter"]) / RIVET["shank_diameter"]
+    return {"joint.preload": rounded(s**2 * start("joint.preload"))} | {name: rounded(s * start(name)) for name in BY_SHANK}
+
+
+def scaled_materials(given):
+    """Parameters that follow from given materials: balls are of the rings' steel, the S-N curve of a rivet's steel keeps its ratios to the strength."""
+    values = {"bearing.rho": given["ring.rho"]} if "ring.rho" in given else {}
+    if "fatigue.sigma_m" in given:
+        share = given["fatigue.sigma_m"] / start("fatigue.sigma_m")
+        values |= {name: rounded(share * start(name)) for name in ("fatigue.sigma_D", "fatigue.sigma_f")}
+    return {name: value for name, value in values.items() if value != start(name)}
+
+
+def parts_temperatures(inputs):
+    """Temperatures of rings, balls and cage by rule [K]: that of the oil, if it is given."""
+    return dict.fromkeys(PARTS_TEMPERATURES, inputs["oil.T"]) if "oil.T" in inputs else {}
 
 
 def shape_of(values, rivet):
@@ -92,13 +107,21 @@ def shape_of(values, rivet):
 
 
 def half_inertia(values, rivet):
-    """INERTIA of the half that follows from the shape; a mass among the values scales the density.  Without those of a shape that has none."""
-    shape = shape_of(values, rivet)
+    """INERTIA of the half that follows from shape and density, and the density that a mass among the values means where none is among them.
+
+    A mass beside a density scales the moments of inertia.  A shape that leaves no bars has none of these.
+    """
+    shape = shape_of({"cage.rho": start("cage.rho")} | values, rivet)
     if half_shape.narrowest_half_bar(shape) <= 0.0:
         return {}
+    found = {}
+    if "cage.m" in values and "cage.rho" not in values:
+        rivets = shape.Z * half_shape.rivet_mass(shape)
+        shape.rho_flange *= (values["cage.m"] - rivets) / (half_shape.half_inertia(shape).m - rivets)
+        found["cage.rho"] = rounded(shape.rho_flange)
     m, x_c, J_p, J_t = half_shape.half_inertia(shape)
-    share = values["cage.m"] / m if "cage.m" in values else 1.0
-    return dict(zip(INERTIA, (rounded(value) for value in (share * m, x_c, share * J_p, share * J_t)), strict=True))
+    share = values.get("cage.m", m) / m
+    return found | dict(zip(INERTIA, (rounded(value) for value in (share * m, x_c, share * J_p, share * J_t)), strict=True))
 
 
 def inner_ring(bore, width):
@@ -120,15 +143,21 @@ def cage_sizes(D, d_m):
 def scaled_rivet(Z, D, d_m, given, rivet):
     """Lengths of the rivet and its seat by rule [m]; the seat's counterbore leaves metal around it, as far as the head has room at all."""
     r = D / start("bearing.D")
-    values = {name: rounded(r * RIVET[name]) for name in RIVET_LENGTHS} | rivet
-    shape = shape_of({"Z": Z, "bearing.D": D, "bearing.d_m": d_m} | cage_sizes(D, d_m) | given, values)
+    values = {name: rounded(r * RIVET[name]) for name in RIVET_BY_BALL} | rivet
+    s = values["shank_diameter"] / RIVET["shank_diameter"]
+    values = {name: rounded(s * RIVET[name]) for name in RIVET_BY_SHANK} | values
+    shape = shape_of({"Z": Z, "bearing.D": D, "bearing.d_m": d_m, "cage.rho": start("cage.rho")} | cage_sizes(D, d_m) | given, values)
     across = min(d_m - shape.cage_inner_diameter, shape.cage_outer_diameter - d_m, 2.0 * half_shape.narrowest_half_bar(shape))
     if "seat_diameter" not in rivet:
-        values["seat_diameter"] = rounded(max(values["head_diameter"], min(values["seat_diameter"], across - 2.0 * half_shape.LEAST_WALL)))
+        usual = values["head_diameter"] * RIVET["seat_diameter"] / RIVET["head_diameter"]
+        values["seat_diameter"] = rounded(max(values["head_diameter"], min(usual, across - 2.0 * half_shape.LEAST_WALL)))
     return {name: value for name, value in values.items() if name not in rivet}
 
 
-def scaled_inputs(Z, D, d_m, C=None):
-    """Loads and speed by rule; without C [N] that of ISO 281."""
+def scaled_inputs(Z, D, d_m, inputs, C=None):
+    """Loads and speed by rule beside the given inputs; without C [N] that of ISO 281."""
+    speed = {"shaft.omega": rounded(2.0 * math.pi * SPEED / d_m)}
+    if any(name in inputs for name in LOADS):
+        return speed | dict.fromkeys(LOADS[:2], 0.0)
     F_y = 0.1 * (C or dynamic_rating(Z, D, d_m))
-    return {"shaft.F_y": float(f"{F_y:.3g}"), "shaft.F_x": float(f"{F_y / 6.0:.3g}"), "shaft.omega": rounded(2.0 * math.pi * SPEED / d_m)}
+    return speed | {"shaft.F_y": float(f"{F_y:.3g}"), "shaft.F_x": float(f"{F_y / 6.0:.3g}")}

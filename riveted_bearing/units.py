@@ -37,6 +37,7 @@ MULTIPLES = {  # in addition to the display units of the variable table: value i
     "Pa": {"bar": (1e-5, 0.0), "psi": (INCH**2 / (POUND * GRAVITY), 0.0)},
     "Pa.s": {"cP": (1e3, 0.0)},
     "kg": {"lb": (1.0 / POUND, 0.0)},
+    "kg/m3": {"g/cm3": (1e-3, 0.0)},
     "s": {"us": (1e6, 0.0), "min": (1.0 / 60.0, 0.0), "h": (1.0 / 3600.0, 0.0)},
     "K": {"degF": (1.8, -459.67)},
     "1": {"%": (1e2, 0.0)},

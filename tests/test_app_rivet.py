@@ -12,7 +12,7 @@ from rivet_model import load_cases, pictures
 from rivet_model.geometry import Geometry
 from riveted_bearing import UserError, rivet, run
 from riveted_bearing.bearings import bearing_case
-from riveted_bearing.builder import given_table
+from riveted_bearing.builder import case_with, given_table
 
 TABLE = rivet_table.read(ROOT / "rivet_model" / "tables" / "6207.json")
 
@@ -83,8 +83,9 @@ def test_pictures_draw_contact_as_contact(joint):
 
 def test_a_table_for_another_rivet(tmp_path, monkeypatch):
     """Geometry of the file, cage of the bearing; stages reported; made once; an error leaves no file."""
-    case, source, stages = bearing_case("6310"), tmp_path / "stout.toml", {}
+    source, stages = tmp_path / "stout.toml", {}
     source.write_text("shank_diameter = 1.3e-3")
+    case = case_with("6310", source)
 
     def say(stage, share):
         assert stages.get(stage, 0.0) < share <= 1.0
@@ -109,6 +110,7 @@ def test_a_table_for_another_rivet(tmp_path, monkeypatch):
     monkeypatch.setattr(rivet, "make_table", broken)
     assert given_table(source, case, "coarse", say) == path  # not made again
     source.write_text('shank_diameter = "1.2 mm"')
+    case = case_with("6310", source)
     files = sorted(path.parent.iterdir())
     with pytest.raises(UserError, match=r"stout.toml: contact not found"):
         given_table(source, case, None, say)

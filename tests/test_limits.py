@@ -77,7 +77,7 @@ POSSIBLE = [{"designation": f'"{name}"'} for name in list(entries())[::4]] + [
     {"rivet.shank_diameter": '"2.5 mm"'},
     {"rivet.head_diameter": '"4 mm"'},
     {"rivet.head_diameter": "3.0e-3"},
-    {"rivet.E_rivet": '"200 GPa"'},
+    {"rivet.material": '"15CrMn"', "rivet.E": '"200 GPa"'},
     {"catalogue.bore": '"42 mm"'},
     {"designation": '"mine"', "Z": "8", "bearing.D": '"15.081 mm"', "bearing.d_m": '"65 mm"'},
     {"designation": '"mine"', "Z": "12", "bearing.D": '"7.938 mm"', "bearing.d_m": '"54 mm"'},

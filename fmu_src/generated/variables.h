@@ -9,7 +9,7 @@
 
 #define FMI2_FUNCTION_PREFIX RivetedBearing_  // of the functions of a source-code FMU
 #define MODEL_IDENTIFIER "RivetedBearing"
-#define MODEL_GUID "{f55c24dc-a3bd-5592-1e2b-d0607669846b}"  // digest of the table
+#define MODEL_GUID "{64da0723-02df-fa6f-1842-3558e6bd3bd3}"  // digest of the table
 
 enum { Z = 9 };  // number of balls
 
@@ -21,6 +21,14 @@ enum {  // TiltMode
 enum {  // RingMotion
     RING_MOTION_FREE = 1,  // loads move the inner ring: shaft.F, shaft.M, impacts
     RING_MOTION_PRESCRIBED = 2,  // the inner ring moves as shaft.x, y, z, tilt_y, tilt_z and their rates say
+};
+enum {  // CageMaterial
+    CAGE_MATERIAL_BRONZE = 1,  // CuSn8
+    CAGE_MATERIAL_BRASS = 2,  // machined brass
+    CAGE_MATERIAL_STEEL = 3,  // machined steel
+    CAGE_MATERIAL_PA66_GF25 = 4,  // polyamide 66 with 25 % glass fibres
+    CAGE_MATERIAL_PEEK = 5,  // polyether ether ketone
+    CAGE_MATERIAL_OWN = 6,  // the constants of the bearing file
 };
 enum {  // CageModel
     CAGE_MODEL_TWO_HALF = 1,  // two halves held by the rivets
@@ -71,16 +79,19 @@ typedef struct {
         double f_i;  // [1] Inner groove radius / ball diameter
         double f_e;  // [1] Outer groove radius / ball diameter
         double P_d;  // [m] Diametral (radial internal) clearance, negative = preload
-        double E;  // [Pa] Young's modulus of balls and rings
-        double nu;  // [1] Poisson's ratio of balls and rings
+        double E;  // [Pa] Young's modulus of the rings, and of the balls unless ball.E says otherwise
+        double nu;  // [1] Poisson's ratio of the rings, and of the balls unless ball.nu says otherwise
         double rho;  // [kg/m3] Density of the balls
         double lambda;  // [s/m] Hunt-Crossley damping of the race contacts: Q = K delta^1.5 (1 + lambda delta_dot)
         double h_i;  // [1] Height of the inner ring's shoulder above the groove's bottom / ball diameter: reported when the contact ellipse reaches over it
         double h_e;  // [1] Height of the outer ring's shoulder above the groove's bottom / ball diameter: reported when the contact ellipse reaches over it
         double p_limit;  // [Pa] Contact pressure of the races beyond which a warning is given
-        double expansion;  // [1/K] Thermal expansion of balls and rings; dimensions are those at assembly temperature
+        double expansion;  // [1/K] Thermal expansion of the rings, and of the balls unless ball.expansion says otherwise; dimensions are those at assembly temperature
     } bearing;
     struct {
+        double E;  // [Pa] Young's modulus of the balls
+        double nu;  // [1] Poisson's ratio of the balls
+        double expansion;  // [1/K] Thermal expansion of the balls
         double dD[Z];  // [m] Excess of the ball's diameter over bearing.D
     } ball;
     struct {
@@ -94,8 +105,10 @@ typedef struct {
         double x_c;  // [m] Axial distance of a half's centre of mass from the split plane
         double land_width;  // [m] Width of the guiding land of one half
         double land_x;  // [m] Axial distance of the land's middle from the split plane
+        int material;  // CageMaterial: Material of the cage, from which its rivet table was made
         double E;  // [Pa] Young's modulus of the cage
         double nu;  // [1] Poisson's ratio of the cage
+        double rho;  // [kg/m3] Density of the cage
         double mu;  // [1] Friction coefficient between ball and pocket with a full film
         double v_c;  // [m/s] Sliding speed at which pocket and land friction are 71 % of Coulomb's
         double lambda;  // [s/m] Hunt-Crossley damping of the pocket contacts
@@ -569,4 +582,4 @@ typedef enum {
 } StateScale;
 
 enum { N_INPUTS = 39 };  // all of them numbers
-enum { N_VARIABLES = 335 };  // time is the first
+enum { N_VARIABLES = 340 };  // time is the first

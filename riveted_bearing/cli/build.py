@@ -48,10 +48,9 @@ def build(
     shown = f"riveted-bearing rivet {shlex.quote(str(table_copy(bearing)))}"
     console.print(f"its stress curves and the modes of its cage as pictures: {escape(shown)}", style="dim", soft_wrap=True)
     if rivet:
-        from ..bearings import bearing_case
         from ..rivet import given_geometry, seat_note, write_drawing
 
-        geometry = given_geometry(rivet, bearing_case(bearing or "6207"))
+        geometry = given_geometry(rivet, bearing or "6207")
         drawing = write_drawing(geometry, path.with_name(f"{path.stem}_rivet.png"))
         console.print(f"drawing  [cyan]{escape(str(drawing))}[/]", soft_wrap=True)
         if note := seat_note(geometry):

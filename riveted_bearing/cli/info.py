@@ -78,6 +78,8 @@ def geometry(case):
         yield label, ", ".join(f"{1e3 * values[name]:.4g}" for name in names), "mm", origins(case, *names)
     rivet = [f"{1e3 * case.rivet.get(name, getattr(Geometry, name)):.3g}" for name in RIVET]
     yield "rivet: shank, head, head height, fillet", ", ".join(rivet), "mm", origins(case, *(f"rivet.{name}" for name in RIVET))
+    for part, material in case.materials.items():
+        yield f"material of {'the ' + part if part in ('cage', 'rivet') else part}", material.words(), "", "yours" if material.given else "default"
     yield "mass of a ball, a cage half", f"{1e3 * bearing.ball_mass:.3g}, {1e3 * values['cage.m']:.3g}", "g", origins(case, "cage.m")
     yield "mass of the inner ring and its share of shaft", f"{values['ring.m']:.3g}", "kg", origins(case, "ring.m")
 

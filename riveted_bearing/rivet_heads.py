@@ -1,0 +1,44 @@
+"""Heads of solid rivets by the standards that makers deliver: head diameter and height by the shank's nominal diameter (data/rivet_heads.csv).
+
+The head that riveting forms is taken to be like the one that the rivet brings along.  The fillet below the head follows the shank by rule (scaling.py): the
+standards give its upper limit only.
+"""
+
+import csv
+import math
+from functools import cache
+from importlib.resources import files
+
+from .errors import unknown
+from .scene import refusal
+
+TABLE = files("riveted_bearing") / "data" / "rivet_heads.csv"
+
+
+@cache
+def heads():
+    """{standard: {shank diameter [mm]: (head diameter, head height) [m]}}."""
+    lines = (line for line in TABLE.read_text(encoding="utf-8").splitlines() if not line.startswith("#"))
+    found = {}
+    for row in csv.DictReader(lines):
+        sizes = round(1e-3 * float(row["head_diameter"]), 9), round(1e-3 * float(row["head_height"]), 9)
+        found.setdefault(row["standard"], {})[float(row["shank_diameter"])] = sizes
+    return found
+
+
+def head_of(path, standard, sizes):
+    """Head diameter and height [m] by a standard's name for the rivet's shank; UserError if the standard or the shank is not in the table.
+
+    >>> head_of("", "DIN 660", {"shank_diameter": 2e-3})
+    {'head_diameter': 0.0035, 'head_height': 0.0012}
+    """
+    if standard not in heads():
+        raise unknown(path, "rivet.head", standard, heads())
+    rows = heads()[standard]
+    shanks = ", ".join(f"{shank:g}" for shank in rows)
+    if "shank_diameter" not in sizes:
+        raise refusal(path, "rivet.head", standard, f"rivet.shank_diameter is needed too; {standard} has {shanks} mm")
+    shank = next((shank for shank in rows if math.isclose(shank, 1e3 * sizes["shank_diameter"], rel_tol=1e-6)), None)
+    if shank is None:
+        raise refusal(path, "rivet.head", standard, f"it has shanks of {shanks} mm, but rivet.shank_diameter = {1e3 * sizes['shank_diameter']:g} mm")
+    return dict(zip(("head_diameter", "head_height"), rows[shank], strict=True))

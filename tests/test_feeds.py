@@ -1,0 +1,149 @@
+"""Every parameter of a bearing does what docs/parameters.md says that it feeds: the rivet table, the run, both, or it is refused; none is dropped in silence."""
+
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from rivet_model.geometry import Geometry
+from riveted_bearing import UserError, build
+from riveted_bearing.bearings import bearing_case
+from riveted_bearing.fmu import Model, codes
+from riveted_bearing.runner import simulate
+from riveted_bearing.scene import load_scene
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "fmus"))
+from generate import load_table  # noqa: E402
+
+TABLE = load_table()
+PARAMETERS = {v.name: v for v in TABLE.of("parameter")}
+OWN = 'designation = "6309"\nZ = 8\n[cage]\nmaterial = "steel"\n[rivet]\nshank_diameter = "2.5 mm"\n'  # a bearing of its own
+SETTINGS = {"start.settle": 0.0, "scene.stress": "fatigue", "scene.statistics": "on"}
+T_END = 6e-3  # balls have met their pockets
+INSTEAD_OF_ZERO = {  # another value where the start value is zero, which mostly stands for a rule
+    "ball.E": 310e9,
+    "ball.nu": 0.26,
+    "ball.expansion": 3.2e-6,
+    "ball[j].dD": 1e-6,
+    "cage.unbalance": 1e-6,
+    "pocket[j].dtheta": 1e-4,
+    "pocket[j].dD": 1e-5,
+    "rivet[k].dfit": -2e-6,
+    "ring.bore": 0.9,  # of the pitch diameter less the ball's, likewise the next three
+    "ring.effective_i": 1.1,
+    "ring.outside": 1.2,
+    "ring.effective_e": 0.95,
+    "shaft.bore": 0.01,
+    "shaft.interference": 1e-5,
+    "housing.interference": 1e-5,
+    "housing.outside": 0.3,
+    "oil.flow": 1e-5,
+    "gravity.y": 9.81,
+    "gravity.z": 9.81,
+    "frame.radius": 0.1,
+    "pulse.F_r": 1000.0,
+    "pulse.F_a": 1000.0,
+}
+NO_EFFECT = {"solver.max_steps": "a limit that no run here reaches"}
+
+
+def another(model, v, name):
+    """A value that differs from the start value of the variable v, whose first element has the name."""
+    variable = model.parameters[name]
+    start = model.default(variable)
+    if v.choices:
+        return next(item for item in codes(variable) if item != SETTINGS.get(name, start))
+    if v.name == "bearing.p_limit":
+        return 1e9  # below the pressures of the working point
+    if v.type == "Integer":
+        return start + 1 if start < v.limits[1] else start - 1
+    if start:
+        return 1.005 * start if 1.005 * start <= v.limits[1] else 0.995 * start
+    value = INSTEAD_OF_ZERO[v.name]
+    D, d_m = (float(model.parameters[f"bearing.{size}"].start) for size in ("D", "d_m"))
+    outer = v.name in ("ring.outside", "ring.effective_e")
+    return value * (d_m + D if outer else d_m - D) if v.name.startswith("ring.") else value
+
+
+def run(model, settings):
+    """All outputs and closing figures of a short run, by name."""
+    document = {"parameters": dict(SETTINGS), "inputs": {}, "simulation": {"t_end": T_END, "step": 2e-4}}
+    for name, value in settings.items():
+        document["inputs" if name in model.inputs else "parameters"][name] = value
+    result = simulate(model, load_scene(None, model, ("the test", document)))
+    clocks = ("cpu", "wall", "real_time", "solver.cpu_time")
+    return {name: values for name, values in (result.data | result.summary).items() if not name.startswith(clocks) and name not in model.inputs}
+
+
+def felt(model, v):
+    """Whether a run feels another value of v, without its needs and with them; the words of a refusal in their place."""
+    name = v.elements[0][0]
+    found = []
+    for needs in [{}, v.needs] if v.needs else [{}]:
+        try:
+            changed = run(model, needs | {name: another(model, v, name)})
+        except UserError as refusal:
+            return str(refusal)
+        plain = run(model, needs)
+        found.append(any(not np.array_equal(changed[key], value, equal_nan=True) for key, value in plain.items()))
+    return found
+
+
+def check_run(model, v):
+    """The run feels the parameter as the table of variables says."""
+    found = felt(model, v)
+    if v.built:
+        assert v.name in found and "is allowed, of the material for which this FMU and its rivet table were built" in found
+    elif v.name == "bearing.d_m":
+        assert "bearing.d_m" in found and "build an FMU for this bearing" in found
+    elif v.name in NO_EFFECT:
+        assert found == [False]
+    else:
+        assert found == ([False, True] if v.needs else [True])
+
+
+@pytest.fixture(scope="module")
+def model():
+    return Model()
+
+
+@pytest.mark.parametrize("name", PARAMETERS)
+def test_what_a_run_feels(model, name):
+    """A parameter of the shipped FMU, half a per cent off: some output of six milliseconds changes, and without what the parameter needs none does."""
+    check_run(model, PARAMETERS[name])
+
+
+@pytest.fixture(scope="module")
+def own_model(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("own")
+    (folder / "mine.toml").write_text(OWN, encoding="utf-8")
+    return Model(build(folder / "mine.toml", out=folder / "mine.fmu"))
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", PARAMETERS)
+def test_what_a_run_of_an_own_bearing_feels(own_model, name):
+    """The same of a 6309 with eight balls, a cage of steel and rivets of 2.5 mm."""
+    check_run(own_model, PARAMETERS[name])
+
+
+def other_case(tmp_path, name, value):
+    """The own bearing with one parameter of its file."""
+    written = f'"{value}"' if isinstance(value, str) else repr(value)
+    path = tmp_path / "mine.toml"
+    path.write_text(f"{OWN}[parameters]\n{name} = {written}\n", encoding="utf-8")
+    return bearing_case(path)
+
+
+@pytest.mark.parametrize("name", [name for name, v in PARAMETERS.items() if not v.is_array and name != "cage.material"])
+def test_what_the_rivet_table_is_made_from(tmp_path, name):
+    """A parameter of a bearing file, half a per cent off: the geometry of the rivet table changes if the list of variables says so, and the FMU's value in any case."""
+    (tmp_path / "plain.toml").write_text(OWN, encoding="utf-8")
+    plain, v = bearing_case(tmp_path / "plain.toml"), PARAMETERS[name]
+    start = plain.values[name]
+    value = next(item for item in v.choices if item != start) if v.choices else start + 1 if v.type == "Integer" else 1.005 * start or INSTEAD_OF_ZERO[name]
+    changed = other_case(tmp_path, name, value if v.choices or v.type == "Integer" or value <= v.limits[1] else 0.995 * start)
+    assert changed.values[name] != start and changed.origin[name] == "yours"
+    same = Geometry(**changed.joint).digest == Geometry(**plain.joint).digest
+    assert same != (v.table or v.built)
