@@ -597,6 +597,6 @@ def frequencies(g, material, rivet_mass, half, waves, count):
         rigid = 2 if n < 2 else 0  # x and the turn about x; two of the translations and tilts
         operator = LinearOperator(K_n.shape, inverse.solve, dtype=float)
         square = np.sort(eigsh(K_n, count + rigid, M_n, sigma=shift, OPinv=operator, v0=np.ones(K_n.shape[0]), return_eigenvectors=False))
-        assert np.all(np.abs(square[:rigid]) < -1e-3 * shift) and square[rigid] > -shift
+        assert np.all(np.abs(square[:rigid]) < -1e-4 * shift) and square[rigid] > -1e-2 * shift
         found[n] = np.sqrt(square[rigid:]) / (2 * math.pi)
     return found
