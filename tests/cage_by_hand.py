@@ -20,8 +20,7 @@ from typing import NamedTuple
 
 import gmsh
 import numpy as np
-from scipy.linalg import lapack
-from scipy.sparse import block_diag, bmat, coo_matrix, csc_matrix, csr_matrix, diags
+from scipy.sparse import block_diag, bmat, coo_matrix, csc_matrix, diags
 from scipy.sparse.linalg import LinearOperator, eigsh, splu
 
 
@@ -209,15 +208,19 @@ def used(tags, coordinates, *element_lists):
 
 @session
 def half_mesh(g, size, seat_size=None):
-    """One half pitch of a half, theta = 0 to pi/Z; size: elements relative to the ordinary ones (1), whose seat has four in its width (seat_size: there)."""
+    """One half pitch of a half, theta = 0 to pi/Z.
+
+    size: of the elements over the ordinary ones, 0.14 of the ring's radial width; seat_size: of those at the seat over a quarter of its width.
+    """
     seat_size = seat_size or size
     occ, mm = gmsh.model.occ, 1e3
     r_i, r_o, R, w = (mm * v for v in (g.cage_inner_diameter / 2, g.cage_outer_diameter / 2, g.d_m / 2, g.cage_half_width))
-    shank, head, relief, seat = (mm * v for v in (g.shank_diameter / 2, g.head_diameter / 2, g.shank_diameter / 2 + g.relief_radius, g.seat_diameter / 2))
-    flange, depth, edge, pocket = (mm * v for v in (g.flange_thickness, g.relief_depth, g.edge_break, (g.ball_diameter + g.pocket_clearance) / 2))
+    shank, head, seat, pocket = (mm / 2 * v for v in (g.shank_diameter, g.head_diameter, g.seat_diameter, g.ball_diameter + g.pocket_clearance))
+    flange, depth, edge, relief = mm * g.flange_thickness, mm * g.relief_depth, mm * g.edge_break, shank + mm * g.relief_radius
     pad, angle, far = mm * pad_half_length(g), math.pi / g.Z, 2 * r_o
 
-    face = occ.addPlaneSurface([occ.addCurveLoop([occ.addLine(a, b) for a, b in _closed([occ.addPoint(x, r, 0) for x, r in ((0, r_i), (w, r_i), (w, r_o), (0, r_o))])])])
+    corners = [occ.addPoint(x, r, 0) for x, r in ((0, r_i), (w, r_i), (w, r_o), (0, r_o))]
+    face = occ.addPlaneSurface([occ.addCurveLoop([occ.addLine(*ends) for ends in zip(corners, corners[1:] + corners[:1], strict=True)])])
     ring = [e for e in occ.revolve([(2, face)], 0, 0, 0, 1, 0, 0, angle) if e[0] == 3]
     tools = [
         (3, occ.addCylinder(0, 0, 0, 0, far * math.cos(angle), far * math.sin(angle), pocket)),
@@ -239,7 +242,6 @@ def half_mesh(g, size, seat_size=None):
 
     pads, seats = [], []
     for tag in skin:
-        x, y, z = gmsh.model.occ.getCenterOfMass(2, tag)
         low_x, _, _, high_x, _, high_z = gmsh.model.getBoundingBox(2, tag)
         if high_x < 1e-3 and high_z < pad + 1e-3:
             pads.append(tag)
@@ -248,17 +250,17 @@ def half_mesh(g, size, seat_size=None):
     assert len(seats) == 1 and len(pads) >= 1, (pads, seats)
 
     width, field = head - relief, gmsh.model.mesh.field
-    coarse, slope, sizes = 0.14 * (r_o - r_i) * size, 0.35, []
+    sizes = []  # a fine place each: from x low to high and radius r_low to r_high about the rivet's axis, elements growing with the distance
     for low, high, r_low, r_high, fine in ((flange, flange, relief, head, width / 4 * seat_size), (0, flange, shank, relief, 0.4 * shank * size)):
-        expression = f"Max(Max({r_low} - Sqrt((y-{R})^2+z^2), Sqrt((y-{R})^2+z^2) - {r_high}), 0)"
-        along = f"Max(Max({low} - x, x - {high}), 0)"
+        radius = f"Sqrt((y-{R})^2+z^2)"
+        beside, along = f"Max(Max({r_low} - {radius}, {radius} - {r_high}), 0)", f"Max(Max({low} - x, x - {high}), 0)"
         tag = field.add("MathEval")
-        field.setString(tag, "F", f"{fine} + {slope} * Sqrt(({expression})^2 + ({along})^2)")
+        field.setString(tag, "F", f"{fine} + 0.35 * Sqrt(({beside})^2 + ({along})^2)")
         sizes.append(tag)
     near_pad = field.add("MathEval")
     field.setString(near_pad, "F", f"{0.09 * (r_o - r_i) * size} + 0.3 * Max(z - {pad}, 0) + 0.3 * x")
     at_most = field.add("MathEval")
-    field.setString(at_most, "F", f"{coarse}")
+    field.setString(at_most, "F", f"{0.14 * (r_o - r_i) * size}")
     least = field.add("Min")
     field.setNumbers(least, "FieldsList", [*sizes, near_pad, at_most])
     field.setAsBackgroundMesh(least)
@@ -271,30 +273,19 @@ def half_mesh(g, size, seat_size=None):
     return Half(Solid(nodes, elements, tetrahedron, four_points(), tetrahedron_rule(4)), *facets)
 
 
-def _closed(points):
-    return zip(points, points[1:] + points[:1])
-
-
-class Rivet(NamedTuple):
-    """Mesh of a quarter of a rivet (its half above the split, cut at z = 0): solid, facets [m, 9] below the head, element and local place of the fillet."""
-
-    solid: Solid
-    seat: np.ndarray
-    fillet: np.ndarray
-
-
 @session
 def rivet_mesh(g, fillet_elements, layers):
     """Half of a rivet above the split, z >= 0: a meridian mesh whose fillet has so many quadratic elements, turned in so many layers."""
     geo, mm = gmsh.model.geo, 1e3
-    shank, head, relief, radius = (mm * v for v in (g.shank_diameter / 2, g.head_diameter / 2, g.shank_diameter / 2 + g.relief_radius, g.fillet_radius))
+    shank, head, radius = mm * g.shank_diameter / 2, mm * g.head_diameter / 2, mm * g.fillet_radius
+    relief = shank + mm * g.relief_radius
     flange, top = mm * g.flange_thickness, mm * (g.flange_thickness + g.head_height)
     fine = radius * math.pi / 2 / fillet_elements
     place = [(0, 0), (shank, 0), (shank, flange - radius), (shank + radius, flange), (relief, flange), (head, flange), (head, top), (0, top)]
     p = [geo.addPoint(r, x, 0) for r, x in place]
     centre = geo.addPoint(shank + radius, flange - radius, 0)
-    lines = [geo.addLine(p[0], p[1]), geo.addLine(p[1], p[2]), geo.addCircleArc(p[2], centre, p[3]), *(geo.addLine(p[i], p[(i + 1) % 8]) for i in range(3, 8))]
-    surface = geo.addPlaneSurface([geo.addCurveLoop(lines)])
+    lines = [geo.addCircleArc(p[2], centre, p[3]) if i == 2 else geo.addLine(p[i], p[(i + 1) % 8]) for i in range(8)]
+    geo.addPlaneSurface([geo.addCurveLoop(lines)])
     geo.synchronize()
     coarse = 1.6 * head / fillet_elements
     field = gmsh.model.mesh.field
@@ -334,9 +325,12 @@ def turned(g, r, x, quads, layers):
 
 
 def supported(solid, Z):
-    """Matrix [3 n, free]: displacements of a sector between its planes of symmetry theta = 0 and pi/Z (Z = 1: the plane z = 0 alone)."""
+    """Matrix [3 n, free] of the displacements of a sector between its planes of symmetry theta = 0 and pi/Z (Z = 1: the plane z = 0 alone).
+
+    Also the places [free, 3] of what is free, and its axes [free]: 0 is x.
+    """
     n, angle = solid.nodes, math.pi / Z
-    columns, kept = csr_matrix((len(n) * 3, len(n) * 3)), np.ones((len(n), 3), dtype=bool)
+    kept = np.ones((len(n), 3), dtype=bool)
     tiny = 1e-6 * np.ptp(n[:, 0])
     kept[np.abs(n[:, 2]) < tiny, 2] = False
     turn = np.tile(np.eye(3), (len(n), 1, 1))
@@ -344,7 +338,7 @@ def supported(solid, Z):
         side = np.abs(n[:, 2] * math.cos(angle) - n[:, 1] * math.sin(angle)) < tiny
         turn[side] = [[1, 0, 0], [0, math.cos(angle), -math.sin(angle)], [0, math.sin(angle), math.cos(angle)]]
         kept[side, 2] = False
-    columns = block_diag(list(turn), format="csc") if Z > 1 else diags(np.ones(3 * len(n)), format="csc")
+    columns = block_diag(list(turn), format="csc")
     return columns[:, np.flatnonzero(kept.ravel())], np.repeat(n, 3, axis=0)[kept.ravel()], np.tile(np.arange(3), len(n))[kept.ravel()]
 
 
@@ -402,13 +396,13 @@ class Body:
 
 
 def pressures(G, gap, C):
-    """Pressures p >= 0 and rigid shift s with gaps G p + gap + C s >= 0, complementary, and C.p = 0: block principal pivoting (Judice, Pires 1994)."""
+    """Pressures p >= 0 and shift s with gaps G p + gap + C s >= 0, complementary, and C.p = 0: block principal pivoting (Judice, Pires 1994)."""
     n, active, least, patience = len(gap), np.ones(len(gap), dtype=bool), len(gap) + 1, 10
     scale_p, scale_g = 1e-9 * np.abs(gap).max() / np.abs(np.diag(G)).mean(), 1e-9 * np.abs(gap).max()
     for _ in range(20 * n):
         a = np.flatnonzero(active)
         system = np.block([[G[np.ix_(a, a)], C[a, None]], [C[None, a], np.zeros((1, 1))]])
-        size = np.append(1.0 / np.sqrt(np.diag(G)[a]), np.sqrt(np.diag(G).mean()) / np.abs(C[a]).mean() )
+        size = np.append(1.0 / np.sqrt(np.diag(G)[a]), np.sqrt(np.diag(G).mean()) / np.abs(C[a]).mean())
         size[-1] = 1.0 / np.linalg.norm(C[a] * size[:-1])
         found = size * np.linalg.solve(system * np.outer(size, size), size * np.append(-gap[a], 0.0))
         p = np.zeros(n)
@@ -429,7 +423,7 @@ def pressures(G, gap, C):
 
 
 class State(NamedTuple):
-    """Tension of the rivet [N], bending moment of its shank at the split about the circle's direction [N m], head stress [Pa], pressed share of the pad."""
+    """Tension of the rivet [N], its shank's bending moment at the split about the circle's tangent [N m], head stress [Pa], pressed share of the pad."""
 
     T: float
     m_t: float
@@ -513,7 +507,8 @@ def below_head(rivet, g):
     nodes = rivet.nodes
     r = np.hypot(nodes[:, 1] - g.d_m / 2, nodes[:, 2])
     tiny = 1e-6 * g.head_diameter
-    inside = (np.abs(nodes[:, 0] - g.flange_thickness) < tiny) & (r < g.head_diameter / 2 + tiny) & (r > g.shank_diameter / 2 + g.relief_radius - tiny)
+    inside = (r < g.head_diameter / 2 + tiny) & (r > g.shank_diameter / 2 + g.relief_radius - tiny)
+    inside &= np.abs(nodes[:, 0] - g.flange_thickness) < tiny
     facets = np.concatenate([rivet.elements[:, face] for face in FACES])
     return facets[inside[facets].all(axis=1)]
 
@@ -558,8 +553,8 @@ def inertia(g, material, rivet_material, half, rivet):
 def frequencies(g, material, rivet_mass, half, waves, count):
     """Lowest `count` frequencies [Hz] of a free half with each number of waves around it: {n: array}, rigid motions left out.
 
-    Mirroring in the plane of the rivet parts a displacement into e, even, and i o, odd.  A wave e + i o that gains the phase phi = 2 pi n/Z in a pitch has in the
-    plane of the pocket e sin(phi/2) = o cos(phi/2) along x and r, and e cos(phi/2) = -o sin(phi/2) along t: real fields on one half pitch.
+    Mirroring in the plane of the rivet parts a displacement into e, even, and i o, odd.  A wave e + i o that gains the phase phi = 2 pi n/Z in a
+    pitch has in the plane of the pocket e sin(phi/2) = o cos(phi/2) along x and r, and e cos(phi/2) = -o sin(phi/2) along t: real fields on one half pitch.
     """
     solid, nodes, Z = half.solid, half.solid.nodes, g.Z
     K, M = solid.stiffness(material.E, material.nu), solid.inertia(material.rho)
