@@ -423,7 +423,7 @@ def pressures(G, gap, C):
 
 
 class State(NamedTuple):
-    """Tension of the rivet [N], its shank's bending moment at the split about the circle's tangent [N m], head stress [Pa], pressed share of the pad."""
+    """Tension of the rivet [N], bending moment of its shank about the circle's tangent [N m], head stress [Pa], pressed share of the pad."""
 
     T: float
     m_t: float
@@ -553,8 +553,8 @@ def inertia(g, material, rivet_material, half, rivet):
 def frequencies(g, material, rivet_mass, half, waves, count):
     """Lowest `count` frequencies [Hz] of a free half with each number of waves around it: {n: array}, rigid motions left out.
 
-    Mirroring in the plane of the rivet parts a displacement into e, even, and i o, odd.  A wave e + i o that gains the phase phi = 2 pi n/Z in a
-    pitch has in the plane of the pocket e sin(phi/2) = o cos(phi/2) along x and r, and e cos(phi/2) = -o sin(phi/2) along t: real fields on one half pitch.
+    Mirroring in the plane of the rivet parts a displacement into e, even, and i o, odd.  A wave e + i o gains the phase phi = 2 pi n/Z in a pitch, so in
+    the plane of the pocket e sin(phi/2) = o cos(phi/2) along x and r, e cos(phi/2) = -o sin(phi/2) along t: real fields on one half pitch.
     """
     solid, nodes, Z = half.solid, half.solid.nodes, g.Z
     K, M = solid.stiffness(material.E, material.nu), solid.inertia(material.rho)

@@ -59,8 +59,8 @@ def test_elements_by_hand_against_closed_forms():
     """
     E, nu = 2.0, 0.3
     lam, mu = E * nu / (1 + nu) / (1 - 2 * nu), E / 2 / (1 + nu)
-    half_solid, rivet = hand_meshes("6309")
-    for solid in (half_solid.solid, rivet):
+    g = geometry("6309", "steel")
+    for solid in (by_hand.half_mesh(g, 2.0).solid, by_hand.rivet_mesh(g, 4, 4)):
         second, (x, y, _) = solid.moments()[2], solid.nodes.T
         zero, K = 0.0 * x, solid.stiffness(E, nu)
         for u, expected in (
