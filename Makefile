@@ -30,6 +30,7 @@ test: build lint  ## the fast tests, the ten slowest of them listed
 	$(PYTEST) -n 2 --dist worksteal --durations=10
 
 test-slow: build  ## the tests that take minutes
+	$(PYTHON) -c "import gmsh" 2>/dev/null || .ci/environment $(VENV) mesher
 	$(PYTEST) -n 2 --dist worksteal -m slow
 
 bench: build  ## measure what the README claims and write docs/performance.md, in minutes; in an hour with FORM=
