@@ -45,7 +45,7 @@ def __dir__():
 
 
 def run(
-    scene: str | Path | None = "demo",
+    scene: str | Path | None = None,
     *,
     parameters: Mapping | None = None,
     inputs: Mapping | None = None,
@@ -57,9 +57,9 @@ def run(
     tolerance: float | None = None,
     progress: Callable[[float], None] | None = None,
 ) -> "Result":
-    """Simulate a scene and return its Result.
+    """Simulate the FMU at its own working point, or a scene, and return the Result.
 
-    scene: name of a shipped scene (demo, R, F, jam) or path of a TOML file, None for the FMU's own working point; parameters, inputs: changes by full
+    scene: name of a shipped scene (demo, R, F, jam) or path of a TOML file, None for the FMU's own parameters and inputs; parameters, inputs: changes by full
     variable name, values as in the file (SI numbers, "30 N", item names; inputs also {"t": [...], "value": [...]}); fmu: path of the FMU, None for the
     default one;
     seed: start.seed; t_end, step: s; outputs: names or patterns; progress: called with the simulated time [s] about twenty times a second.
@@ -84,11 +84,11 @@ def run(
     return simulate(model, load_scene(scene, model, ("run()", changes)), progress)
 
 
-def info(target: str | Path = "6207", fmu: str | Path | None = None) -> "Case":
+def info(target: str | Path | None = None, fmu: str | Path | None = None) -> "Case":
     """Geometry, masses, loads and quasi-static equilibrium of a bearing, or of a scene at its start, without a simulation.
 
-    target: designation (6207, 6008, ...), bearing file, name of a shipped scene or scene file; fmu: the FMU whose start values a scene
-    begins from, None for the default one.
+    target: designation (6207, 6008, ...), bearing file, name of a shipped scene or scene file, None for the bearing of the FMU, and without an FMU for the
+    6207; fmu: the FMU whose start values a scene begins from, None for the default one.
     Returns a Case: .bearing and .load of the quasi-static model, .values by variable name, .equilibrium() with loads, contact angles, pressures,
     stiffness, life and frequencies.  Raises UserError naming what cannot be used.
 

@@ -47,6 +47,7 @@ CAGE_MEANT = (
     "Meant with a machined two-piece riveted cage, guided by the outer ring; the pressed ribbon cage with spherical pockets "
     "that many bearings of this designation carry is not modelled"
 )
+EXAMPLE = "6207"
 SHAPE = ("bearing.D", "bearing.d_m", "cage.D_o", "cage.D_i", "cage.width")  # what the rules follow from
 
 
@@ -55,7 +56,8 @@ class Case:
     """A bearing at work: catalogue data, SI values or item names by the FMU's full variable names, dimensions of the rivet.
 
     origin: "catalogue", "rule", "yours" (a file's) or "shipped" (a shipped file's) by name; what is not in it has the variable table's default.
-    rivet: dimensions and material of the rivet by the names of rivet_model.geometry; materials: the Material of each part, of a bearing file's case.
+    rivet: dimensions and material of the rivet by the names of rivet_model.geometry, None if not known; materials: the Material of each part, of a bearing
+    file's case.
     bare: whether only a designation was given, which says nothing of the cage; alone: what a scene sets of a bearing's shape, from which nothing follows.
     """
 
@@ -431,12 +433,16 @@ def is_number(value):
     return isinstance(value, (int, float)) and not isinstance(value, bool) and math.isfinite(value)
 
 
-def case_of(target, fmu=None):
-    """The Case of a bearing (file or designation) or of a scene at its start (file or name); fmu: path of the FMU that a scene is for."""
+def case_of(target=None, fmu=None):
+    """The Case of a bearing (file or designation) or of a scene at its start (file or name); without a target of the FMU itself, and without both EXAMPLE.
+
+    fmu: path of the FMU, None for the default one.
+    """
+    target = EXAMPLE if target is None and fmu is None else target
     names = [*known_bearings(), *shipped_scenes()]
-    if str(target) not in names and not Path(target).is_file():
+    if target is not None and str(target) not in names and not Path(target).is_file():
         raise unknown("info", "bearing, scene or file", target, names)
-    if is_bearing(target):
+    if target is not None and is_bearing(target):
         return bearing_case(target)
     from .fmu import Model
 
@@ -444,7 +450,10 @@ def case_of(target, fmu=None):
 
 
 def scene_case(source, model):
-    """The Case of a scene at its start, with the FMU's start values for all variables that the scene does not set."""
+    """The Case of a scene at its start, with the FMU's start values for all variables that the scene does not set; None: of the FMU itself.
+
+    An FMU holds no dimensions of its rivets.
+    """
     scene = load_scene(source, model)
     values = {name: model.default(variable) for name, variable in (model.parameters | model.inputs).items()}
     values |= scene.parameters | {name: float(history(0.0)) for name, history in scene.inputs.items()}
@@ -454,9 +463,12 @@ def scene_case(source, model):
         for case in map(bearing_case, shipped_bearings())
         if case.Z == Z and all(case.values[f"bearing.{s}"] == values[f"bearing.{s}"] for s in ("D", "d_m"))
     ]
-    designation, catalogue = (known[0].designation, known[0].catalogue) if known else ("bearing", {})
+    designation = model.bearing.partition(". ")[0].partition(":")[0]
+    entry = catalogue.entries().get(designation) if model.origin.get("C") == "catalogue" else None
+    data = known[0].catalogue if known else entry.data if entry else {}
     alone = tuple(name for name in SHAPE if name in scene.parameters)
-    return Case(f"{designation}, scene {scene.name}", scene.description, Z, values, catalogue, alone=alone)
+    name = f"{designation}, scene {scene.name}" if scene.source else designation
+    return Case(name, scene.description, Z, values, data, rivet=None, origin={} if scene.source else model.origin, alone=alone)
 
 
 def flat(tree, prefix=""):

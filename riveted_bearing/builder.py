@@ -24,7 +24,7 @@ from bearing_model import variables
 from rivet_model.geometry import Geometry
 
 from .bearings import CAGE_MEANT, bearing_case
-from .errors import UserError, unknown
+from .errors import UserError, extra, unknown
 from .fmu import FMU_NAME, PACKAGE, Instance, Model
 from .materials import PARTS
 from .results import make_folder, to_toml, write_atomically
@@ -123,7 +123,7 @@ def find_zig(needed=True):
     package = importlib.util.find_spec("ziglang")
     found = (package and shutil.which("zig", path=package.submodule_search_locations[0])) or shutil.which("zig")
     if not found and needed:
-        raise UserError('zig not found, which compiles for other platforms: `pip install "riveted-bearing[cross]"`')
+        raise UserError(f"zig not found, which compiles for other platforms: {extra('cross')}")
     return found
 
 
@@ -192,7 +192,7 @@ def compiler_platforms():
         return ()
     if find_zig(needed=False):
         return (PLATFORM_OF[machine.system(), machine.machine()],)
-    raise UserError(f'no C compiler ({", ".join(compilers())}) found: install one, or `pip install "riveted-bearing[cross]"`, which brings one along')
+    raise UserError(f"no C compiler ({', '.join(compilers())}) found: install one, or zig, which is one: {extra('cross')}")
 
 
 def tool(name):

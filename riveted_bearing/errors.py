@@ -14,6 +14,11 @@ def unknown(where, kind, name, allowed):
     return UserError(f'{where}: unknown {kind} "{name}"; {hint}')
 
 
+def extra(name):
+    """How to install what one of the package's extras brings: the package is in no index."""
+    return f'pip install ".[{name}]" in a checkout, or pip install "riveted_bearing-….whl[{name}]" with the wheel\'s own name'
+
+
 def shortlist(names, length=12):
     """The first names, separated by commas."""
     names = [str(name) for name in names]

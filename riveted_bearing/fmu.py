@@ -2,6 +2,7 @@
 
 import ctypes
 import functools
+import hashlib
 import json
 import shutil
 import weakref
@@ -68,6 +69,17 @@ class Model:
         self.inputs = {v.name: v for v in variables if v.causality == "input"}
         self.outputs = {v.name: v for v in variables if v.causality == "output"}
         self.locals = {v.name: v for v in variables if v.causality == "local"}
+
+    @property
+    def bearing(self):
+        """The FMU's description of its bearing, without the sentence about all bearings before it."""
+        whole = self.description.description or self.description.modelName
+        return whole.partition(". ")[2] or whole
+
+    @functools.cached_property
+    def digest(self):
+        """SHA-256 of the file."""
+        return hashlib.sha256(self.path.read_bytes()).hexdigest()
 
     @functools.cached_property
     def origin(self):

@@ -19,9 +19,11 @@ from bearing_model.quasi_static import quasi_static
 from .errors import UserError
 from .fmu import Instance
 from .results import write_atomically
+from .scene import History
 
 DIRECTIONS = ("x", "y", "z", "tilt_y", "tilt_z")
 RATES = ("v_x", "v_y", "v_z", "tilt_y_dot", "tilt_z_dot")
+LOADS = ("F_x", "F_y", "F_z", "M_y", "M_z")
 REACTIONS = ("shaft.R_x", "shaft.R_y", "shaft.R_z", "shaft.R_My", "shaft.R_Mz")
 AMPLITUDE = 0.5e-6  # of the shake at the pitch radius [m]
 AZIMUTHS = 8  # of the balls within a pitch, over which the equilibrium is averaged
@@ -70,10 +72,17 @@ def dynamic_matrices(model, case, scene, points, frequency=None, amplitude=AMPLI
     return found
 
 
+def scene_at(model, scene, point):
+    """The scene at the speed and the load factor of a point."""
+    own = {name: scene.inputs[name](0.0) if name in scene.inputs else model.default(model.inputs[name]) for name in (f"shaft.{load}" for load in LOADS)}
+    inputs = {name: point.load * value for name, value in own.items()} | {"shaft.omega": point.omega}
+    return replace(scene, inputs=scene.inputs | {name: History(np.zeros(1), np.array([value])) for name, value in inputs.items()})
+
+
 def equilibrium(case, load, omega):
     """Place of the ring [5] and stiffness [5, 5] under the case's loads times a factor at a speed [rad/s]."""
     given = case.load
-    scaled = {name: load * getattr(given, name) for name in ("F_x", "F_y", "F_z", "M_y", "M_z")}
+    scaled = {name: load * getattr(given, name) for name in LOADS}
     try:
         azimuths = 2.0 * math.pi / case.bearing.Z * np.arange(AZIMUTHS) / AZIMUTHS
         states = [quasi_static(case.bearing, replace(given, omega=omega, **scaled), psi) for psi in azimuths]
@@ -132,16 +141,21 @@ def shaken(model, scene, omega, q, direction, amplitude, w):
 # ------------------------------------------------------------------------------------------------------------------------- files
 
 
-def write_table(found, path):
-    """A CSV with a row for each Matrices: speed, load factor, frequency, place, then K_static, K and C entry by entry, SI."""
+def write_table(found, path, basis=()):
+    """A CSV with a row for each Matrices: speed, load factor, frequency, place, then K_static, K and C entry by entry, SI; in front, behind "# ", the basis."""
     entries = [f"{a}.{b}" for a in DIRECTIONS for b in DIRECTIONS]
     kinds = ["K_static", *(("K", "C") if found[0].K is not None else ())]
     header = ["omega [rad/s]", "load", "frequency [rad/s]", *(f"{name} [{'rad' if 'tilt' in name else 'm'}]" for name in DIRECTIONS)]
     header += [f"{kind}[{entry}]" for kind in kinds for entry in entries]
     rows = [[p.omega, p.load, p.frequency, *p.q, *np.concatenate([getattr(p, kind).ravel() for kind in kinds])] for p in found]
-    text = "\n".join([",".join(header), *(",".join(f"{value:.9g}" for value in row) for row in rows)]) + "\n"
-    write_atomically(path, lambda file: file.write_text(text))
+    text = "\n".join([*comments(basis), ",".join(header), *(",".join(f"{value:.9g}" for value in row) for row in rows)]) + "\n"
+    write_atomically(path, lambda file: file.write_text(text, encoding="utf-8"))
     return path
+
+
+def comments(basis):
+    """Lines of what the figures rest on, for files."""
+    return [f"# {name}: {text}" for name, text in basis]
 
 
 def ross_coefficients(found):
@@ -166,11 +180,11 @@ def entry(point, kind):
     return np.zeros((5, 5)) if point.C is None else point.C
 
 
-def write_ross(found, path, node=0, tag="bearing"):
+def write_ross(found, path, node=0, tag="bearing", basis=()):
     """A TOML file that ross.BearingElement.load reads: one load factor, speeds rising."""
-    lines = [f"[BearingElement_{tag}]", f"n = {node}", f'tag = "{tag}"']
+    lines = [*comments(basis), f"[BearingElement_{tag}]", f"n = {node}", f'tag = "{tag}"']
     lines += [f"{name} = [{', '.join(repr(float(value)) for value in values)}]" for name, values in ross_coefficients(found).items()]
-    write_atomically(path, lambda file: file.write_text("\n".join(lines) + "\n"))
+    write_atomically(path, lambda file: file.write_text("\n".join(lines) + "\n", encoding="utf-8"))
     return path
 
 
@@ -195,8 +209,8 @@ def plot_matrices(found, path):
                 if points[0].K is not None:
                     left.plot(speed, [1e-6 * p.K[i, i] for p in points], "o", color=colour, markersize=4, label=f"K {name}{name}{suffix}")
                     right.plot(speed, [p.C[i, i] for p in points], "o" + dash, color=colour, markersize=4, label=f"C {name}{name}{suffix}")
-        left.set(xlabel="speed [r/min]", ylabel="stiffness [N/um]", title="Stiffness: lines quasi-static, points FMU")
-        right.set(xlabel="speed [r/min]", ylabel="damping [N s/m]", title="Damping, FMU")
+        left.set(xlabel="speed [rev/min]", ylabel="stiffness [N/um]", title="Stiffness: lines quasi-static, points FMU")
+        right.set(xlabel="speed [rev/min]", ylabel="damping [N s/m]", title="Damping, FMU")
         for ax in (left, right):
             if ax.has_data() and ax.get_legend_handles_labels()[0]:
                 ax.legend()

@@ -13,15 +13,17 @@ from bearing_model import variables
 from . import charts, plot
 from .animation import frames, number_of_balls
 from .design.bench import display_of
+from .duty.sn import Strength, in_words
 from .errors import UserError
-from .life import rivet_life
+from .life import fatigue_law, rivet_life
 from .results import FORMATS, read_result, write_atomically
-from .summary import DEG, RPM, assumed_rows, columns, life_is_known, settled, summary_rows, table_note
+from .summary import DEG, assumed_rows, columns, early_rows, has_statistics, life_is_known, no_statistics, settled, summary_rows, table_note
+from .units import hours_text, scales_of, suffix
 
 PARTS = files("riveted_bearing") / "data" / "report"
+FIRST = 3  # rows without statistics that stand on the cards
 WIDE, LOW, SQUARE, HIGH = (4.9, 2.7), (4.9, 1.9), (4.9, 4.2), (4.9, 3.0)  # inches
-NOT_SAID = dict.fromkeys(("scene", "description", "model", "date", "guid"), "") | {"versions": {}, "not_given": {}, "messages": []}
-DISPLAY = {"rad/s": (RPM, "rev/min"), "rad": (DEG, "deg"), "Pa": (1e-6, "MPa"), "m": (1e3, "mm")}
+NOT_SAID = dict.fromkeys(("scene", "description", "model", "date", "guid"), "") | {"basis": {}, "versions": {}, "not_given": {}, "messages": []}
 
 
 def report_files(source):
@@ -74,6 +76,9 @@ def render(result, decides=None):
         inputs=list(input_rows(result)),
         settings=list(setting_rows(result)),
         rows=[replace(row, unit=row.unit.replace("um", "µm")) for row in summary_rows(result)],
+        early=[] if has_statistics(result) else list(early_rows(result)),
+        no_statistics=no_statistics(result),
+        curve=in_words(Strength(fatigue_law(result.parameters))) if lives else "",
         balls=list(ball_rows(result)),
         settle=min(result.parameters.get("start.settle", 0.0), float(result.data["time"][-1])),
         lives=lives,
@@ -152,7 +157,7 @@ def chart(result, name, lives):
 def all_lives(result):
     """One dict a rivet: k, RivetLife of head and middle, and the FMU's own Miner's sums if it counted; none from closed forms."""
     rows = []
-    if result.parameters.get("scene.stress") == "off" or not life_is_known(result):
+    if result.parameters.get("scene.stress") == "off" or not life_is_known(result) or not has_statistics(result):
         return rows
     for k in range(1, number_of_balls(result) + 1):
         head, mid = (rivet_life(result, k, place) for place in ("head", "mid"))
@@ -165,6 +170,9 @@ def all_lives(result):
 def cards(result, lives):
     """The figures to see first: (title, value, unit, remark)."""
     rows = {row.channel: row for row in summary_rows(result)}
+    if not rows:
+        for channel, unit, last, largest in list(early_rows(result))[:FIRST]:
+            yield channel.capitalize(), figure(largest), unit.replace("um", "µm"), f"largest since the start · {figure(last)} at the end"
     for channel, title in (
         ("head stress, worst rivet", "Head stress"),
         ("middle stress, worst rivet", "Middle stress"),
@@ -189,9 +197,17 @@ def input_rows(result):
     """Name, meaning and value of every input that is not zero all the time, in the units that people read."""
     for name, variable in variables.INPUTS.items():
         if name in result.data and np.any(result.data[name]):
-            factor, unit = DISPLAY.get(variable.unit, (1.0, variable.unit))
-            low, high = factor * result.data[name].min(), factor * result.data[name].max()
+            unit, factor, offset = unit_of(result, name, variable)
+            low, high = factor * result.data[name].min() + offset, factor * result.data[name].max() + offset
             yield name, variable.description, figure(low) if low == high else f"{figure(low)} … {figure(high)}", unit
+
+
+def unit_of(result, name, variable):
+    """The unit in which the user wrote a value, else the one in which people read it, "" for none; factor and offset from SI."""
+    scales = scales_of(variable.unit, variables.UNITS[variable.unit])
+    symbol = result.about.get("units", {}).get(name)
+    symbol = symbol if symbol in scales else variable.display or variable.unit
+    return suffix(symbol).strip().replace("um", "µm"), *scales[symbol]
 
 
 def setting_rows(result):
@@ -203,9 +219,9 @@ def setting_rows(result):
         elif isinstance(value, str):
             yield name, variable.description, value, "", value != getattr(variables, variable.type)(variable.start).name.lower()
         else:
-            factor, unit = DISPLAY.get(variable.unit, (1.0, variable.unit))
-            unit = "" if variable.type == "Integer" or unit == "1" else unit
-            yield name, variable.description, figure(factor * value), unit, not math.isclose(value, variable.start, rel_tol=1e-9, abs_tol=1e-15)
+            unit, factor, offset = unit_of(result, name, variable)
+            shown = value if variable.type == "Integer" else factor * value + offset
+            yield name, variable.description, figure(shown), unit, not math.isclose(value, variable.start, rel_tol=1e-9, abs_tol=1e-15)
 
 
 def ball_rows(result):
@@ -270,12 +286,5 @@ def figure(value):
 
 
 def duration(seconds):
-    """A time in the unit in which it reads best."""
-    if not math.isfinite(seconds):
-        return "no damage"
-    hours = seconds / 3600.0
-    if hours < 0.1:
-        return f"{figure(seconds)} s"
-    if hours < 1e5:
-        return f"{hours:,.0f} h" if hours >= 100.0 else f"{hours:.3g} h"
-    return f"{hours / 8766.0:,.0f} years" if hours < 1e9 else "> 1e5 years"
+    """A life in hours, in seconds if it is short."""
+    return f"{figure(seconds)} s" if seconds < 360.0 else hours_text(seconds / 3600.0)

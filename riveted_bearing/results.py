@@ -21,7 +21,7 @@ import numpy as np
 from bearing_model.parameters import TYPES
 from bearing_model.variables import PARAMETERS
 
-from .errors import UserError
+from .errors import UserError, extra
 
 FORMATS = ("parquet", "csv", "mat")
 FORMAT_VERSION = 1
@@ -87,7 +87,7 @@ def needed(name):
     try:
         return importlib.import_module(name)
     except ImportError:
-        raise UserError(f'{name} is not installed: pip install "riveted-bearing[tables]"') from None
+        raise UserError(f"{name} is not installed: {extra('tables')}") from None
 
 
 def write_result(result: Result, path: str | Path) -> Path:
@@ -156,11 +156,11 @@ def origin_problem(name, value):
     """What is wrong with a fact about the origin of a result, nothing if it may stand there or has no meaning here."""
     if name in ("scene", "description", "fmu", "guid", "model", "generated", "machine", "date", "stopped"):
         return "" if isinstance(value, str) else "not a text"
-    if name in ("given", "messages"):
+    if name in ("given", "messages", "replaced"):
         return "" if isinstance(value, list) and all(isinstance(one, str) for one in value) else "not a list of texts"
     if name == "mode_frequencies":
         return "" if isinstance(value, list) and all(is_number(one) and 0.0 < one < math.inf for one in value) else "not a list of positive numbers"
-    if name in ("versions", "not_given"):
+    if name in ("versions", "not_given", "basis", "units"):
         return "" if isinstance(value, dict) and all(isinstance(one, str) for one in value.values()) else "not a table of texts"
     if name in ("t_end", "step"):
         return "" if is_number(value) else "not a number"

@@ -10,11 +10,13 @@ from fmpy import __version__ as fmpy_version
 from fmpy.fmi1 import FMICallException
 from fmpy.fmi2 import fmi2Discard
 
+from .basis import basis
 from .bearings import not_given
 from .fmu import Instance
 from .interrupts import held_interrupts
 from .record import Record
 from .results import Result
+from .summary import given_names
 from .version import __version__
 
 PROGRESS_INTERVAL = 0.05  # s of wall time between calls of progress
@@ -134,9 +136,11 @@ def provenance(model, scene):
             if len(history.t) <= 1000
         },
         "fmu": str(model.path),
-        "given": [*scene.parameters, *(name for name, origin in model.origin.items() if origin == "yours" and name not in scene.parameters)],
+        "given": sorted(given_names(model, scene)),
         "not_given": not_given(model.origin),
+        "basis": dict(basis(model, [scene])),
         "replaced": list(scene.replaced),
+        "units": scene.units,
         "guid": model.description.guid,
         "model": model.description.description or model.description.modelName,
         "generated": f"{model.description.generationTool or ''} {model.description.generationDateAndTime or ''}".strip(),

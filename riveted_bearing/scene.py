@@ -36,6 +36,7 @@ SECTIONS = ("description", "simulation", "parameters", "inputs")
 SIMULATION = ("t_end", "step", "output_interval", "tolerance", "outputs")
 HISTORY = ("t", "value", "unit", "interpolation")
 COLUMN = ("file", "column", "time", "unit", "interpolation")
+SIMULATED = ("scene.", "solver.", "start.")  # begin of the parameters that say how to simulate, not what
 LARGEST_RESULT = 16 * 2**30  # bytes, on disk
 
 
@@ -67,7 +68,9 @@ class Scene:
     outputs: tuple = ()
     parameters: dict = field(default_factory=dict)
     inputs: dict = field(default_factory=dict)
-    replaced: tuple = ()  # what the scene's file puts in the place of another bearing's own values, in words
+    source: str = ""  # the scene's file, "" for the FMU's own working point
+    replaced: tuple = ()  # values of its file that stand in the place of the FMU's own, in words
+    units: dict = field(default_factory=dict)  # units in which values were written, by full variable name
 
     @property
     def stride(self):
@@ -88,23 +91,23 @@ def shipped_scenes():
 def load_scene(source, model, *changes):
     """Read a scene and apply changes to it.
 
-    source: path of a TOML file or name of a shipped scene, None for the FMU's own working point, its start values; model: the Model to run it;
+    source: path of a TOML file or name of a shipped scene, None for the FMU's own parameters and inputs; model: the Model to run it;
     changes: pairs (origin for messages, document like the file's), later ones win.
     scene.statistics is on unless the scene sets it, because communication points alone miss the impacts.
     Returns a Scene; raises UserError naming file, key, value and what is allowed.
     """
-    scene, path = Scene(parameters={"scene.statistics": "on"}), None
+    start = Scene(parameters={"scene.statistics": "on"})
     if source is None:
-        scene = replace(scene, name=model.path.stem, description=working_point(model))
+        of_file, folder = replace(start, name=model.path.stem, description=working_point(model)), Path()
     else:
         path = find_scene(source)
-        scene = replace(scene, name=Path(path.name).stem)
-        scene = apply(scene, str(path), read_toml(path), model, Path(str(path)).parent)
-        scene = replace(scene, replaced=tuple(replacements(scene, model)))
+        folder = Path(str(path)).parent
+        of_file = apply(replace(start, name=Path(path.name).stem, source=str(path)), str(path), read_toml(path), model, folder)
+    scene = of_file
     for where, document in changes:
-        scene = apply(scene, where, document, model, Path(str(path)).parent if path else Path())
-    check_times(scene, " with ".join([*([str(path)] if path else []), *(where for where, _ in changes)]))
-    return replace(scene, outputs=scene.outputs or default_outputs(model))
+        scene = apply(scene, where, document, model, folder)
+    check_times(scene, " with ".join([*filter(None, [scene.source]), *(where for where, _ in changes)]))
+    return replace(scene, outputs=scene.outputs or default_outputs(model), replaced=tuple(replacements(of_file, scene, model)))
 
 
 def working_point(model):
@@ -113,22 +116,25 @@ def working_point(model):
     return f"own working point of {model.path.name}, {', '.join(shown)}"
 
 
-def in_words(model, name, value=None):
-    """A start value of the FMU, or a value of the scene, in the unit in which people read it."""
+def in_words(model, name, value=None, symbol=None):
+    """A start value of the FMU, or values of a scene, in the unit `symbol`, None for the one in which people read it."""
     variable = (model.parameters | model.inputs)[name]
     value = model.default(variable) if value is None else value
     if variable.type != "Real":
         return str(value)
-    symbol, (factor, offset) = model.display(variable)
-    return f"{factor * value + offset:.5g}{suffix(symbol)}"
+    symbol = symbol or model.display(variable)[0]
+    factor, offset = model.units[variable.unit][symbol]
+    low, high = (f"{factor * extreme(value) + offset:.5g}" for extreme in (np.min, np.max))
+    return f"{low}{'' if low == high else f' to {high}'}{suffix(symbol)}"
 
 
-def replacements(scene, model):
-    """For the FMU of another bearing, what the scene puts in the place of the bearing's own values: "shaft.F_y 2994 N for 4100 N"."""
-    for name, value in (scene.parameters | {name: history.value[0] for name, history in scene.inputs.items() if len(history.value) == 1}).items():
-        own = model.default((model.parameters | model.inputs)[name])
-        if name in model.origin and value != own:
-            yield f"{name} {in_words(model, name, value)} for {in_words(model, name)}"
+def replacements(of_file, scene, model):
+    """Values of a scene's file, not changed since, in the place of the FMU's own: "shaft.F_y 2994 N for 4100 N".  How to simulate does not count."""
+    for name, given in (of_file.parameters | of_file.inputs).items():
+        value, own = getattr(given, "value", given), model.default((model.parameters | model.inputs)[name])
+        there, here = (in_words(model, name, one, scene.units.get(name)) for one in (value, own))
+        if there != here and not name.startswith(SIMULATED) and (scene.parameters | scene.inputs)[name] is given:
+            yield f"{name} {there} for {here}"
 
 
 def find_scene(source):
@@ -161,14 +167,22 @@ def apply(scene, where, document, model, folder):
         if key not in SECTIONS:
             raise unknown(where, "key", key, SECTIONS)
     sections = {name: section_of(where, document, name) for name in SECTIONS[1:]}
+    parameters = read_section(where, "parameters", sections["parameters"], model.parameters, model.inputs, model.parameter_value)
+    inputs = read_section(where, "inputs", sections["inputs"], model.inputs, model.parameters, lambda value, v: input_history(value, v, model, folder))
+    written = {name: unit_of(value) for kind in ("parameters", "inputs") for name, value in leaves(sections[kind], model.parameters | model.inputs)}
     return replace(
         scene,
         description=str(document.get("description", scene.description)),
-        parameters=scene.parameters | read_section(where, "parameters", sections["parameters"], model.parameters, model.inputs, model.parameter_value),
-        inputs=scene.inputs
-        | read_section(where, "inputs", sections["inputs"], model.inputs, model.parameters, lambda value, v: input_history(value, v, model, folder)),
+        parameters=scene.parameters | parameters,
+        inputs=scene.inputs | inputs,
+        units={name: symbol for name, symbol in (scene.units | written).items() if symbol},
         **read_simulation(where, sections["simulation"], model),
     )
+
+
+def unit_of(value):
+    """The unit that the user wrote with a value or a history; None for numbers."""
+    return canonical(value["unit"]) if isinstance(value, dict) and "unit" in value else symbol_of(value)
 
 
 def section_of(where, document, name):
@@ -270,9 +284,8 @@ def input_history(value, variable, model, folder):
         raise UserError("not all times and values are finite numbers")
     if not np.all(np.diff(history.t) > 0.0):
         raise UserError("the times do not increase")
-    symbol = canonical(value["unit"]) if isinstance(value, dict) and "unit" in value else symbol_of(value)
     for extreme in (history.value.min(), history.value.max()):
-        model.check_range(extreme, variable, symbol)
+        model.check_range(extreme, variable, unit_of(value))
     return history
 
 

@@ -24,25 +24,59 @@ class Row:
 
 
 def summary_rows(result):
-    """Rows for every channel that the result has; values before start.settle [s] do not count."""
+    """Rows for every channel that the result has; values before start.settle [s] do not count, and without later ones there are no rows."""
+    if not has_statistics(result):
+        return []
     rows = [
         counted(result, "pocket force, all balls", "N", "stat.Q_c_{}", 1.0),
         stress(result, "head stress, worst rivet", "stat.sigma_head_{}"),
         stress(result, "middle stress, worst rivet", "stat.sigma_mid_{}"),
-        sampled(result, "largest inner contact load", "N", 1.0, columns(result, "ball[", "].Q_i"), largest_of),
-        sampled(result, "largest outer contact load", "N", 1.0, columns(result, "ball[", "].Q_e"), largest_of),
-        sampled(result, "largest inner pressure", "MPa", 1e-6, columns(result, "ball[", "].p_i"), largest_of),
-        sampled(result, "cage speed", "rev/min", RPM, ["cage.omega"]),
-        sampled(result, "cage slip ratio", "%", 100.0, ["cage.slip_ratio"]),
-        sampled(result, "cage eccentricity", "1", 1.0, ["cage.eccentricity"]),
-        sampled(result, "cage dislocation", "um", 1e6, ["cage.dislocation"]),
-        sampled(result, "ring displacement, radial", "um", 1e6, ["ring.y", "ring.z"], length_of),
-        sampled(result, "ring displacement, axial", "um", 1e6, ["ring.x"]),
-        sampled(result, "ring tilt", "deg", DEG, ["ring.tilt_y", "ring.tilt_z"], length_of),
-        sampled(result, "friction torque", "N.m", 1.0, ["bearing.friction_torque"]),
-        sampled(result, "power loss", "W", 1.0, ["bearing.power_loss"]),
+        *(sampled(result, *channel) for channel in channels(result)),
     ]
     return [row for row in rows if row]
+
+
+def channels(result):
+    """Channel, unit shown, factor, names of the outputs and how they combine, for what is known at the communication points alone."""
+    return [
+        ("largest inner contact load", "N", 1.0, columns(result, "ball[", "].Q_i"), largest_of),
+        ("largest outer contact load", "N", 1.0, columns(result, "ball[", "].Q_e"), largest_of),
+        ("largest inner pressure", "MPa", 1e-6, columns(result, "ball[", "].p_i"), largest_of),
+        ("cage speed", "rev/min", RPM, ["cage.omega"], None),
+        ("cage slip ratio", "%", 100.0, ["cage.slip_ratio"], None),
+        ("cage eccentricity", "1", 1.0, ["cage.eccentricity"], None),
+        ("cage dislocation", "um", 1e6, ["cage.dislocation"], None),
+        ("ring displacement, radial", "um", 1e6, ["ring.y", "ring.z"], length_of),
+        ("ring displacement, axial", "um", 1e6, ["ring.x"], None),
+        ("ring tilt", "deg", DEG, ["ring.tilt_y", "ring.tilt_z"], length_of),
+        ("friction torque", "N.m", 1.0, ["bearing.friction_torque"], None),
+        ("power loss", "W", 1.0, ["bearing.power_loss"], None),
+    ]
+
+
+def has_statistics(result):
+    """Whether the run went on after start.settle, where statistics begin."""
+    return float(result.data["time"][-1]) > result.parameters.get("start.settle", 0.0)
+
+
+def no_statistics(result):
+    """Why there are no statistics and how to get them: a sentence; "" if there are some."""
+    if has_statistics(result):
+        return ""
+    settle, end = (f"{time:g} s" for time in (result.parameters.get("start.settle", 0.0), float(result.data["time"][-1])))
+    return f"no statistics yet: they begin at start.settle = {settle}, and the run ended at {end}; let it run longer (t_end), or set start.settle lower"
+
+
+def early_rows(result):
+    """For a run without statistics: (channel, unit, value at the end, largest since the start) of what it has."""
+    peaks = [
+        ("pocket force, largest in the step", "N", 1.0, ["cage.F_pocket_peak"], None),
+        *((f"{place} stress, worst rivet", "MPa", 1e-6, [f"rivet.sigma_{short}_max"], None) for place, short in (("head", "head"), ("middle", "mid"))),
+    ]
+    for channel, unit, factor, names, combine in [*peaks, *channels(result)]:
+        if names and all(name in result.data for name in names) and (unit != "MPa" or result.parameters.get("scene.stress") != "off"):
+            values = factor * combined(result, names, combine)
+            yield channel, unit, float(values[-1]), float(values[np.argmax(np.abs(values))])
 
 
 TABLE_NOTES = {  # by rivet.table_kind
@@ -57,16 +91,23 @@ def table_note(result):
 
 
 def assumed_rows(result):
-    """Assumed parameters that move the rivets' stress most and that neither scene nor bearing file gives: (name, value, low, high, unit, stress, source).
+    """Assumed parameters that move the rivets' stress most: (name, value, low, high, unit, stress, source).
 
-    stress: change of the worst head's 99.9 % quantile over the range low to high, over the quantile, at the working point.
+    Neither scene nor bearing file gives them, or others from which they follow.  stress: change of the worst head's 99.9 % quantile over the range low to
+    high, over the quantile, at the working point.
     """
     for name, (low, high, stress, source) in variables.ASSUMPTIONS.items():
-        if name in result.parameters and name not in result.about.get("given", ()):
+        if name in result.parameters and not is_known(name, set(result.about.get("given", ())), result.parameters):
             unit = variables.PARAMETERS[name].display or variables.PARAMETERS[name].unit
             factor, _ = variables.UNITS[variables.PARAMETERS[name].unit][unit]
             value = factor * result.parameters[name]
             yield name, value, low * value, high * value, unit, stress, source
+
+
+def is_known(name, given, parameters):
+    """Whether a parameter is given, or follows from others that are: the viscosity from both its points, the mixture's density from the flow of oil."""
+    follows = {"oil.eta": {"oil.nu_1", "oil.nu_2"} <= given, "oil.rho_mix": "oil.flow" in given and parameters["oil.flow"] > 0.0}
+    return name in given or follows.get(name, False)
 
 
 def life_is_known(result):
@@ -82,9 +123,9 @@ def rivet_rows(result):
 
 
 def counted(result, channel, unit, pattern, factor):
-    """A row from the FMU's own statistics; None if they were off or never started."""
+    """A row from the FMU's own statistics; None if they were off or never really started."""
     names = [pattern.format(kind) for kind in ("mean", "rms", "p999", "max")]
-    if not result.summary.get("stat.time") or not all(name in result.summary for name in names):
+    if not has_statistics(result) or not result.summary.get("stat.time") or not all(name in result.summary for name in names):
         return None
     return Row(channel, unit, *(factor * result.summary[name] for name in names), every_step=True)
 
@@ -95,20 +136,25 @@ def stress(result, channel, pattern):
     return counted(result, channel, "MPa", pattern, 1e-6) if every_step else None
 
 
-def sampled(result, channel, unit, factor, names, combine=None):
+def sampled(result, channel, unit, factor, names, combine):
     """A row from the samples after settling; None if a channel was not recorded."""
     if not names or not all(name in result.data for name in names):
         return None
-    values = np.column_stack([result.data[name] for name in names])[settled(result)]
-    values = factor * (combine(values) if combine else values[:, 0])
+    values = factor * combined(result, names, combine)[settled(result)]
     extreme = values[np.argmax(np.abs(values))]
     return Row(channel, unit, float(values.mean()), float(np.sqrt(np.mean(values**2))), float(np.quantile(values, 0.999)), float(extreme), every_step=False)
 
 
+def combined(result, names, combine):
+    """One column of several."""
+    values = np.column_stack([result.data[name] for name in names])
+    return combine(values) if combine else values[:, 0]
+
+
 def settled(result):
-    """Mask of the rows after start.settle; of all rows if none is later."""
+    """Mask of the rows from start.settle on; of all rows if the run ends by then."""
     late = result.data["time"] >= result.parameters.get("start.settle", 0.0)
-    return late if late.any() else np.ones_like(late)
+    return late if has_statistics(result) else np.ones_like(late)
 
 
 def columns(result, head, tail):
@@ -126,10 +172,17 @@ def length_of(values):
     return np.sqrt((values**2).sum(axis=1))
 
 
-def assumed_ranges(model):
-    """Documented ranges of the assumed parameters that the bearing's file does not give: {name: (lowest, highest)} in SI."""
+def assumed_ranges(model, scene=None):
+    """Documented ranges of the assumed parameters that follow neither from the bearing's file nor from a scene: {name: (lowest, highest)} in SI."""
+    values = {name: model.default(variable) for name, variable in model.parameters.items()} | (scene.parameters if scene else {})
+    given = given_names(model, scene)
     return {
-        name: (low * model.default(model.parameters[name]), high * model.default(model.parameters[name]))
+        name: (low * values[name], high * values[name])
         for name, (low, high, *_) in variables.ASSUMPTIONS.items()
-        if name in model.parameters and model.origin.get(name) != "yours"
+        if name in model.parameters and not is_known(name, given, values)
     }
+
+
+def given_names(model, scene=None):
+    """Names of the parameters that a scene or the bearing's own file gives."""
+    return {*(scene.parameters if scene else ()), *(name for name, origin in model.origin.items() if origin == "yours")}

@@ -1,7 +1,7 @@
 """Sweeps: many runs of the FMU on a Dask cluster, one row each in a Parquet dataset.
 
     description = "..."
-    scene = "demo"                       # shipped name or file, relative to the sweep's own; default: demo
+    scene = "demo"                       # shipped name or file, relative to the sweep's own; default: none, the FMU's own parameters and inputs
     repeats = 8                          # start.seed = 1 ... 8; default: the scene's seed
     [simulation]                         # as in a scene file; outputs are sampled at the communication points
     [parameters]                         # as in a scene file, for all runs
@@ -44,6 +44,7 @@ from pathlib import Path
 import numpy as np
 from filelock import FileLock, Timeout
 
+from .basis import basis
 from .errors import UserError, unknown
 from .fmu import Model
 from .interrupts import held_interrupts, ignored_interrupts, kept_from_children
@@ -59,6 +60,7 @@ SAMPLE = ("method", "count", "seed", "between")
 RANGE = ("from", "to", "count", "spacing")
 SETTINGS = {"simulation.t_end": SECONDS, "simulation.step": SECONDS, "simulation.output_interval": SECONDS, "simulation.tolerance": {"1": (1.0, 0.0)}}
 SAMPLED = ("cage.dislocation", "rivet[*].sigma_head", "rivet[*].sigma_mid")  # unless simulation.outputs names others
+WORDS = ("description", "source", "replaced", "units")  # of a scene: no other run
 KINDS = {
     "mean": np.mean,
     "rms": lambda x: np.sqrt(np.mean(x**2)),
@@ -114,7 +116,7 @@ def plan_sweep(name, document, model, path):
     scenes = {}
     for point in itertools.product(*axes):
         settings = {name: value for part in point for name, value in part.items()}
-        source = settings.pop("scene", document.get("scene", "demo"))
+        source = settings.pop("scene", document.get("scene"))
         scene = load_scene(beside(path, source), model, (str(path), common), (str(path), sections_of(settings, model)))
         key = key_of(scene, fingerprint)
         if key in scenes:
@@ -217,10 +219,10 @@ def sample_axes(path, section, model):
 
 
 def beside(path, source):
-    """A scene's name or file, looked for beside the sweep's file."""
-    if not isinstance(source, str):
+    """A scene's name or file, looked for beside the sweep's file; None, the FMU's own parameters and inputs, stays None."""
+    if source is not None and not isinstance(source, str):
         raise refusal(path, "scene", source, "a shipped scene's name or a file is needed")
-    if source in shipped_scenes() or Path(source).is_absolute():
+    if source is None or source in shipped_scenes() or Path(source).is_absolute():
         return source
     file = Path(path).parent / source
     if not file.is_file():
@@ -243,8 +245,7 @@ def sections_of(settings, model):
 
 def key_of(scene, fingerprint):
     """Key of a run: a digest of the FMU's content and of everything in the scene."""
-    content = vars(scene) | {
-        "description": "",
+    content = {name: value for name, value in vars(scene).items() if name not in WORDS} | {
         "inputs": {name: (history.t.tolist(), history.value.tolist(), history.hold) for name, history in scene.inputs.items()},
         "fmu": fingerprint,
         "row": ROW_VERSION,
@@ -426,6 +427,7 @@ def schema_of(sweep):
         "description": sweep.description,
         "document": sweep.document,
         "factors": sweep.factors,
+        "basis": dict(basis(model, sweep.scenes.values())),
         "guid": model.description.guid,
         "version": __version__,
     }

@@ -8,6 +8,7 @@ import numpy as np
 from scipy import stats
 
 from . import charts
+from .basis import basis
 from .plot import FORCE, HEAD, MIDDLE, MUTED, RING, STYLE, plt
 from .report import PARTS
 from .results import write_atomically
@@ -40,13 +41,14 @@ class Response:
 @dataclass(frozen=True)
 class SweepTable:
     """name; factors: names of what varies but the seed, with the unit in which people read it; points: their values, texts or numbers in it [P, factors];
-    seeds: runs of each point [P]; responses."""
+    seeds: runs of each point [P]; responses; basis: what all rests on."""
 
     name: str
     factors: tuple
     points: list
     seeds: np.ndarray
     responses: list
+    basis: list
 
 
 def sweep_table(sweep, rows):
@@ -64,7 +66,8 @@ def sweep_table(sweep, rows):
     if np.any(damage := damage_per_hour(rows, done)):
         responses.append(Response("log10 damage per hour", "", *averaged(np.log10(np.maximum(damage, 1e-300)), groups), logarithmic=True))
     factors = tuple(f"{name} [{unit}]" if unit else name for name, unit in zip(names, units, strict=True))
-    return SweepTable(sweep.name, factors, list(groups), np.array([len(group) for group in groups.values()]), responses)
+    seeds = np.array([len(group) for group in groups.values()])
+    return SweepTable(sweep.name, factors, list(groups), seeds, responses, basis(sweep.model, sweep.scenes.values()))
 
 
 def shown(model, name, values):
@@ -164,6 +167,7 @@ def write_page(table, description, path):
     text = environment.from_string((PARTS / "sweep.html").read_text(encoding="utf-8")).render(
         name=table.name,
         description=description,
+        basis=table.basis,
         confidence=f"{100 * CONFIDENCE:g} %",
         style=(PARTS / "style.css").read_text(encoding="utf-8"),
         heads=heads,

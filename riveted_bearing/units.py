@@ -43,6 +43,7 @@ MULTIPLES = {  # in addition to the display units of the variable table: value i
     "1": {"%": (1e2, 0.0)},
 }
 SECONDS = {"s": (1.0, 0.0), "ms": (1e3, 0.0)} | MULTIPLES["s"]
+LONGEST = 1e6  # h: a longer life is no figure to tell
 NUMBER = re.compile(r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*((?:1/|[^\d.,\s]).*?)?\s*")
 
 
@@ -81,6 +82,15 @@ def scale(symbol, scales):
         complaint = "a text needs a unit" if symbol == "1" else f'unit "{symbol}" does not fit'
         raise UserError(f"{complaint}; allowed: {', '.join(scales)}")
     return scales[symbol]
+
+
+def hours_text(hours):
+    """A life in hours with three digits, or that it is longer than LONGEST."""
+    if not math.isfinite(hours):
+        return "no damage"
+    if hours > LONGEST:
+        return "> 1e6 h"
+    return f"{hours:.3g} h" if hours < 1e3 else f"{round(hours, 2 - math.floor(math.log10(hours))):,.0f} h"
 
 
 def to_si(value, scales):

@@ -3,10 +3,12 @@
 import ctypes
 import importlib.util
 import os
+import re
 import shutil
 import signal
 import subprocess
 import sys
+import zipfile
 from pathlib import Path
 from types import SimpleNamespace
 
@@ -65,6 +67,26 @@ def fmu():
     return path
 
 
+ORIGIN = """<VendorAnnotations><Tool name="riveted-bearing"><Origin><Value name="shaft.F_y" origin="yours"/><Value name="shaft.omega" origin="rule"/>
+<Value name="bearing.D" origin="yours"/></Origin></Tool></VendorAnnotations>"""
+
+
+@pytest.fixture(scope="session")
+def own(fmu, tmp_path_factory):
+    """The FMU described as that of another bearing: a load of its own, the 6207's balls, a speed by rule."""
+    path = tmp_path_factory.mktemp("own") / "mine.fmu"
+    with zipfile.ZipFile(fmu) as old, zipfile.ZipFile(path, "w") as new:
+        for member in old.infolist():
+            data = old.read(member)
+            if member.filename == "modelDescription.xml":
+                text = data.decode().replace("<ModelVariables>", f"{ORIGIN}<ModelVariables>")
+                text, count = re.subn(r'(name="shaft.F_y".*?start=")2994.0', r"\g<1>4100.0", text, count=1, flags=re.S)
+                assert count == 1
+                data = text.encode()
+            new.writestr(member, data)
+    return path
+
+
 @pytest.fixture(scope="session")
 def core(request):
     """The C core: models of it, and every function by name (see library.py); or the reference in its place (see python_core.py)."""
@@ -110,7 +132,7 @@ def everywhere(tmp_path_factory):
 @pytest.fixture(scope="session")
 def browser():
     """A headless Chromium of this machine."""
-    playwright = pytest.importorskip("playwright.sync_api", reason='no playwright: pip install "riveted-bearing[browser]"')
+    playwright = pytest.importorskip("playwright.sync_api", reason='no playwright: pip install ".[browser]"')
     chromium = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None)
     if chromium is None:
         pytest.skip("no Chromium on this machine")

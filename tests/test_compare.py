@@ -109,10 +109,11 @@ def test_refusals(model, monkeypatch):
 
 def test_command(tmp_path):
     """As a user starts it."""
-    done = CliRunner().invoke(program, ["compare", "demo", "--short", "20 us", "--long", "0", "--out", str(tmp_path)])
-    assert done.exit_code == 0, done.output
-    assert "ball[j].Q_i" in done.stdout
-    assert (tmp_path / "demo_compare.png").is_file()
+    for scene, name in ((["demo"], "demo"), ([], "RivetedBearing")):
+        done = CliRunner().invoke(program, ["compare", *scene, "--short", "20 us", "--long", "0", "--out", str(tmp_path)])
+        assert done.exit_code == 0, done.output
+        assert "ball[j].Q_i" in done.stdout and "F_x 515 N, F_y 2994 N" in done.stdout
+        assert (tmp_path / f"{name}_compare.png").is_file()
     refused = CliRunner().invoke(program, ["compare", "demo", "--short", "fast"])
     assert refused.exit_code == 2
     assert "--short = 'fast'" in refused.stderr

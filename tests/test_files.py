@@ -440,7 +440,7 @@ def with_texts(value, text, keys=False):
 
 def hostile(result, text):
     """The result with a text in the place of every text: origin, messages, versions, units, items, and names that no table knows."""
-    tables = {name: with_texts(result.about[name], text, keys=True) for name in ("versions", "not_given")}
+    tables = {name: with_texts(result.about[name], text, keys=True) for name in ("versions", "not_given", "basis", "units")}
     about = with_texts(result.about, text) | tables | {"messages": [text, text], "stopped": text, "inputs": {}, "given": [text]}
     return replace(
         result,

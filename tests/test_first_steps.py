@@ -13,25 +13,6 @@ from riveted_bearing.fmu import Model
 from riveted_bearing.scene import load_scene
 from riveted_bearing.variable_list import essentials, matching
 
-ORIGIN = """<VendorAnnotations><Tool name="riveted-bearing"><Origin><Value name="shaft.F_y" origin="yours"/><Value name="shaft.omega" origin="rule"/>
-<Value name="bearing.D" origin="yours"/></Origin></Tool></VendorAnnotations>"""
-
-
-@pytest.fixture(scope="module")
-def own(fmu, tmp_path_factory):
-    """The FMU described as that of another bearing: a load of its own, the 6207's balls, a speed by rule."""
-    path = tmp_path_factory.mktemp("own") / "mine.fmu"
-    with zipfile.ZipFile(fmu) as old, zipfile.ZipFile(path, "w") as new:
-        for member in old.infolist():
-            data = old.read(member)
-            if member.filename == "modelDescription.xml":
-                text = data.decode().replace("<ModelVariables>", f"{ORIGIN}<ModelVariables>")
-                text, count = re.subn(r'(name="shaft.F_y".*?start=")2994.0', r"\g<1>4100.0", text, count=1, flags=re.S)
-                assert count == 1
-                data = text.encode()
-            new.writestr(member, data)
-    return path
-
 
 def test_without_a_scene_the_fmu_has_its_own_working_point(own):
     model = Model(own)
@@ -46,10 +27,25 @@ def test_a_run_without_a_scene(fmu):
 
 
 def test_a_scene_says_what_it_replaces(own, fmu):
-    """The scene demo sets load and speed; its speed is the FMU's own, and of the default FMU nothing is somebody's own."""
+    """The scene demo sets load and speed; its speed is the FMU's own.  A load of the command line is the user's, not the scene's."""
     assert load_scene("demo", Model(own)).replaced == ("shaft.F_y 2994 N for 4100 N",)
-    assert load_scene("demo", Model(own), ("the command line", {"inputs": {"shaft.F_y": 1000.0}})).replaced == ("shaft.F_y 2994 N for 4100 N",)
+    assert load_scene("demo", Model(own), ("the command line", {"inputs": {"shaft.F_y": 1000.0}})).replaced == ()
     assert load_scene("demo", Model(fmu)).replaced == ()
+
+
+def test_a_scene_of_the_user_replaces_values_of_the_default_fmu_too(fmu, tmp_path):
+    """In the unit of the scene; a history by its range; how to simulate is no value of the bearing."""
+    path = tmp_path / "mine.toml"
+    path.write_text("""[parameters]
+joint.preload = "3 kgf"
+joint.mu = 0.15
+start.settle = "10 ms"
+[inputs]
+shaft.F_y = "3 kN"
+shaft.omega = { t = [0, 1], value = [3000, 12000], unit = "rev/min" }
+""")
+    expected = ("joint.preload 3 kgf for 2.0394 kgf", "shaft.F_y 3 kN for 2.994 kN", "shaft.omega 3000 to 12000 rev/min for 18238 rev/min")
+    assert load_scene(path, Model(fmu)).replaced == expected
 
 
 def test_the_essential_variables(fmu):

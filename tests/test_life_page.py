@@ -77,6 +77,7 @@ def test_commands_do_what_the_page_says(folder, line):
         "life": ("life.json", "life.html", "life.png", "runs.parquet"),
         "sensitivity": ("sensitivity.json",),
         "optimize": ("optimize.json", "optimize.png"),
+        "cascade": ("cascade.json", "cascade.png"),
     }
     for file in expected[name] + (("bearings.json", "weibull.png") if path == "tolerance.toml" else ()):
         assert (made / file).is_file(), file

@@ -55,7 +55,8 @@ def test_files(case, tmp_path):
     """The table has all entries in their order; ROSS' axes (x, y lateral, z axial) are our (Y, Z, X)."""
     K = np.arange(25.0).reshape(5, 5)
     found = [Matrices(omega, 1.0, omega, np.zeros(5), K, K + omega, 0.1 * K) for omega in (100.0, 200.0)]
-    header, *rows = write_table(found, tmp_path / "m.csv").read_text().splitlines()
+    basis, header, *rows = write_table(found, tmp_path / "m.csv", [("speed", "6000 rev/min")]).read_text().splitlines()
+    assert basis == "# speed: 6000 rev/min"
     columns = header.split(",")
     values = dict(zip(columns, map(float, rows[1].split(",")), strict=True))
     assert values["omega [rad/s]"] == 200.0
@@ -79,6 +80,8 @@ def test_the_command(fmu, tmp_path):
     result = CliRunner().invoke(program, command)
     assert result.exit_code == 0, result.output
     assert {path.name for path in tmp_path.iterdir()} == {"demo_matrices.csv", "demo_matrices.png", "demo_ross_0.5.toml", "demo_ross_1.toml"}
+    assert "F_x 257.5 to 515 N, F_y 1497 to 2994 N" in result.output
+    assert "# loads: F_x 257.5 to 515 N, F_y 1497 to 2994 N\n# speed: 6000 rev/min\n" in (tmp_path / "demo_matrices.csv").read_text()
     element = tomllib.loads((tmp_path / "demo_ross_1.toml").read_text())["BearingElement_demo"]
     # at one azimuth of the balls; over a pitch it moves by 2 %
     K = quasi_static(Bearing(), Load(F_x=515.0, F_y=2994.0, omega=6000.0 * np.pi / 30.0)).K

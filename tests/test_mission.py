@@ -149,7 +149,7 @@ def test_a_mission_of_one_point_lives_as_this_point(model):
     assert found["life_h"] == pytest.approx(1 / mean.max(), rel=1e-12)
     assert found["points"][0] == {"share": pytest.approx(1.0), "damage_per_h": pytest.approx(mean.max(), rel=1e-12), "seeds": n}
     assert [row["head_per_h"] for row in found["rivets"]] == pytest.approx(mean[:, 0].tolist(), rel=1e-12)
-    assert set(found) == {"life_h", "low_h", "high_h", "confidence", "points", "rivets"} and found["confidence"] == 0.9
+    assert set(found) == {"basis", "life_h", "low_h", "high_h", "confidence", "points", "rivets"} and found["confidence"] == 0.9
     assert found["low_h"] < found["life_h"] < found["high_h"]
 
 
@@ -380,6 +380,7 @@ def test_a_mission_stopped_by_the_keyboard_goes_on_to_the_same_life(tmp_path):
     assert code == 130 and "kept in results/trial" in err and "Traceback" not in err
     out, err, code = finished(start(tmp_path, "--workers", "1"))
     assert code == 0 and "max_seeds = 5 was reached" in out, err
+    assert "none: the FMU's own parameters and inputs" in out and "F_y 1000 to 2994 N" in out and "S-N curve" in out
     found = json.loads((tmp_path / "results" / "trial" / "life.json").read_text())
     _, err, code = finished(start(tmp_path, "--workers", "1", "--out", "calm"))
     assert code == 0 and json.loads((tmp_path / "calm" / "life.json").read_text()) == found, err

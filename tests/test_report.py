@@ -275,9 +275,7 @@ def test_life_agrees_with_the_count_of_every_step():
     assert stress.min() > 0.88 and stress.max() < 1.005
 
 
-@pytest.mark.parametrize(
-    ("seconds", "text"), [(30.0, "30 s"), (7200.0, "2 h"), (8766 * 3600 * 200.0, "200 years"), (1e20, "> 1e5 years"), (np.inf, "no damage")]
-)
+@pytest.mark.parametrize(("seconds", "text"), [(30.0, "30 s"), (7200.0, "2 h"), (8766 * 3600.0, "8,770 h"), (1e20, "> 1e6 h"), (np.inf, "no damage")])
 def test_durations_read_well(seconds, text):
     assert duration(seconds) == text
 

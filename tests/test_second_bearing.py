@@ -47,7 +47,7 @@ def test_joints_of_a_large_bearing_open_alike(tmp_path):
         rests = []
         for cage in ("elastic", "two_half"):
             inputs = {"shaft.omega": speed * np.pi / 30.0}
-            data = run(fmu=fmu, t_end=1e-4, step=1e-4, inputs=inputs, parameters={"scene.cage": cage}, outputs=["rivet[*].T", "rivet[*].M"]).data
+            data = run("demo", fmu=fmu, t_end=1e-4, step=1e-4, inputs=inputs, parameters={"scene.cage": cage}, outputs=["rivet[*].T", "rivet[*].M"]).data
             rests.append([np.mean([data[f"rivet[{k}].{name}"][0] for k in range(1, 14)]) for name in ("T", "M")])
         (tension, moment), (tension_path, moment_path) = rests
         assert tension == pytest.approx(tension_path, rel=0.01)

@@ -147,6 +147,7 @@ def test_other_programs_can_read_the_dataset(tmp_path, model, client):
     table = dataset.dataset(tmp_path / "out").to_table()
     assert table.num_rows == 2 and table.schema.field("joint.fit").metadata[b"unit"] == b"m"
     about = json.loads(table.schema.metadata[b"riveted_bearing"])
+    assert about["basis"]["loads"] == "F_x 515 N, F_y 2994 N" and about["basis"]["scene"] == "none: the FMU's own parameters and inputs"
     assert about["description"] == "two" and about["factors"] == ["joint.preload"] and about["document"]["vary"] == [{"joint": {"preload": [10, 30]}}]
 
 

@@ -9,7 +9,8 @@ from rich.table import Column, Table
 
 from ..results import make_folder
 from ..scene import read_toml
-from .terminal import FMU, SCHEDULER, WORKERS, command, console, design_runs
+from ..units import hours_text
+from .terminal import FMU, SCHEDULER, WORKERS, command, console, design_runs, print_basis
 
 SHIPPED = Path(__file__).resolve().parents[1] / "data" / "cascade.toml"
 
@@ -35,6 +36,8 @@ def cascade(
     make_folder(folder)
     with design_runs(study.stem, folder, scheduler, workers) as (client, progress):
         found = run_cascades(study, document, model, folder, client, progress)
+    for rows in dict.fromkeys(each.basis for each in found):
+        print_basis(rows)
     for each in found:
         print_cascade(each)
     for label, path in (("results", write_cascades(found, folder / "cascade.json")), ("picture", write_picture(found, folder / "cascade.png"))):
@@ -43,13 +46,15 @@ def cascade(
 
 def print_cascade(found):
     """A table of the states: what breaks, when, how sure, what the others then carry."""
-    heads = ("breaks", "place", "after, h", "at, h", "sure", "largest head stress, MPa", "dislocation, um")
+    heads = ("breaks", "place", "after", "at", "sure", "largest head stress, MPa", "dislocation, um")
     table = Table("gone", *(Column(text, justify="right") for text in heads), title=escape(found.name), title_justify="left", box=None, pad_edge=False)
     hours = 0.0
     for state in found.states:
         hours += state.hours
         ends = (
-            ("", "", "", "", "") if state.rivet is None else (str(state.rivet), state.place, f"{state.hours:.3g}", f"{hours:.3g}", f"{100 * state.sure:.0f} %")
+            ("", "", "", "", "")
+            if state.rivet is None
+            else (str(state.rivet), state.place, hours_text(state.hours), hours_text(hours), f"{100 * state.sure:.0f} %")
         )
         gone = ", ".join(map(str, state.gone)) or "none"
         table.add_row(gone + (" (opens)" if state.opens else ""), *ends, f"{state.stress.max() / 1e6:.0f}", f"{1e6 * state.dislocation:.1f}")

@@ -9,12 +9,12 @@ from rich.progress import BarColumn, Progress, SpinnerColumn, TextColumn
 
 from ..results import make_folder
 from ..scene import load_scene
-from .terminal import FMU, SETTINGS, changes, command, console, messages, number_or_text
+from .terminal import FMU, SETTINGS, changes, command, console, messages, number_or_text, print_basis
 
 
 @command
 def compare(
-    scene: Annotated[str, typer.Argument(help="scene file (TOML) or one of the shipped scenes")],
+    scene: Annotated[str | None, typer.Argument(help="scene file (TOML) or one of the shipped scenes; default: the FMU's own working point")] = None,
     fmu: FMU = None,
     out: Annotated[Path, typer.Option(help="folder for the picture")] = Path("results"),
     settings: SETTINGS = None,
@@ -24,6 +24,7 @@ def compare(
     method: Annotated[str, typer.Option(help="the reference's method over the short horizon: DOP853, Radau where films or joints are stiff")] = "DOP853",
 ):
     """Run a scene through the FMU and through the Python reference: differences in tables and a picture."""
+    from ..basis import basis
     from ..compare import compare as compare_scene
     from ..compare import ledger_table, long_table, short_table
     from ..fmu import Model
@@ -40,11 +41,12 @@ def compare(
             model, plan, **horizons, seeds=seeds, method=method, progress=lambda what, share: bar.update(task, description=what, completed=share)
         )
     console.print(f"[bold]{escape(plan.name)}[/]: FMU against reference over {1e3 * found.t[-1]:g} ms, at tolerances of the FMU", soft_wrap=True)
+    print_basis(basis(model, [plan]))
     console.print(short_table(found))
     if found.statistics:
         console.print(f"\n[bold]Statistics[/] from {found.settle:g} to {found.long:g} s, {found.seeds} seeds of the FMU, one of the reference", soft_wrap=True)
         console.print(long_table(found))
         console.print("\n[bold]Energy in the reference[/]")
         console.print(ledger_table(found.ledger))
-    path = plot_comparison(found, out / f"{Path(scene).stem}_compare.png")
+    path = plot_comparison(found, out / f"{plan.name}_compare.png")
     console.print(f"picture  [cyan]{escape(str(path))}[/]", soft_wrap=True)

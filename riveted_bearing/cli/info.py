@@ -12,7 +12,7 @@ from bearing_model.kinematics import fault_frequencies
 from rivet_model.geometry import Geometry
 
 from ..summary import DEG, RPM
-from .terminal import FMU, command, console
+from .terminal import FMU, command, console, print_basis
 
 BOUNDARY = ("bore", "outside_diameter", "width")
 RIVET = ("shank_diameter", "head_diameter", "head_height", "fillet_radius")
@@ -20,14 +20,27 @@ RIVET = ("shank_diameter", "head_diameter", "head_height", "fillet_radius")
 
 @command
 def info(
-    target: Annotated[str, typer.Argument(metavar="BEARING|SCENE", help="bearing file or designation, or scene file or name")] = "6207",
+    target: Annotated[
+        str | None,
+        typer.Argument(metavar="[BEARING|SCENE]", help="bearing file or designation, or scene file or name; default: the bearing of --fmu, else the 6207"),
+    ] = None,
     fmu: FMU = None,
 ):
     """Geometry, masses, kinematic and fault frequencies, quasi-static loads and life."""
-    from ..bearings import CAGE_MEANT, case_of
+    from ..basis import basis
+    from ..bearings import CAGE_MEANT, EXAMPLE, case_of, is_bearing
+    from ..fmu import Model
+    from ..scene import load_scene
 
     case = case_of(target, fmu)
     console.print(f"[bold]{escape(case.designation)}[/]  {escape(case.description)}", soft_wrap=True)
+    if target is None and fmu is None:
+        console.print(
+            f"[yellow]note:[/] no bearing is named: this is the {EXAMPLE}, as an example; name a bearing or a scene, or an FMU with --fmu", soft_wrap=True
+        )
+    elif target is None or not is_bearing(target):
+        model = Model(fmu)
+        print_basis(basis(model, [load_scene(target, model)]))
     if case.bare:
         console.print(escape(CAGE_MEANT), soft_wrap=True)
     if case.alone:
@@ -53,7 +66,7 @@ def info_tables(case):
     return [
         ("Geometry and masses", pairs(geometry(case))),
         *([("Not given", sources(missing))] if (missing := not_given(case.origin)) else []),
-        (f"Frequencies at {RPM * case.load.omega:,.0f} r/min", frequencies(case, state)),
+        (f"Frequencies at {RPM * case.load.omega:,.0f} rev/min", frequencies(case, state)),
         (f"Quasi-static equilibrium, {load_text(case.load)}", pairs(equilibrium(case, state))),
         ("Balls", balls(state)),
     ]
@@ -76,8 +89,9 @@ def geometry(case):
         ("pocket, guide clearance (diametral)", ("cage.pocket_clearance", "cage.guide_clearance")),
     ):
         yield label, ", ".join(f"{1e3 * values[name]:.4g}" for name in names), "mm", origins(case, *names)
-    rivet = [f"{1e3 * case.rivet.get(name, getattr(Geometry, name)):.3g}" for name in RIVET]
-    yield "rivet: shank, head, head height, fillet", ", ".join(rivet), "mm", origins(case, *(f"rivet.{name}" for name in RIVET))
+    if case.rivet is not None:
+        rivet = [f"{1e3 * case.rivet.get(name, getattr(Geometry, name)):.3g}" for name in RIVET]
+        yield "rivet: shank, head, head height, fillet", ", ".join(rivet), "mm", origins(case, *(f"rivet.{name}" for name in RIVET))
     for part, material in case.materials.items():
         yield f"material of {'the ' + part if part in ('cage', 'rivet') else part}", material.words(), "", "yours" if material.given else "default"
     yield "mass of a ball, a cage half", f"{1e3 * bearing.ball_mass:.3g}, {1e3 * values['cage.m']:.3g}", "g", origins(case, "cage.m")
@@ -126,7 +140,7 @@ def equilibrium(case, state):
     yield "balls carrying on the inner race", f"{loaded.sum()} of {case.Z}", ""
     yield "largest contact load inner, outer", f"{state.Q_i.max():.0f}, {state.Q_e.max():.0f}", "N"
     yield "largest pressure inner, outer", f"{1e-6 * state.p_i.max():.0f}, {1e-6 * state.p_e.max():.0f}", "MPa"
-    yield "cage speed", f"{RPM * state.omega_m:,.0f}", "r/min"
+    yield "cage speed", f"{RPM * state.omega_m:,.0f}", "rev/min"
     yield "centrifugal force of a ball", f"{state.F_c.mean():.1f}", "N"
     if case.bearing.C_0 and math.isfinite(state.S_0):
         yield "P_0, static safety S_0 = C_0/P_0 (ISO 76)", f"{state.P_0:.0f} N, {state.S_0:.3g}", ""

@@ -8,7 +8,7 @@ from rich.markup import escape
 from rich.table import Column, Table
 
 from ..results import make_folder
-from .terminal import FMU, SCHEDULER, WORKERS, command, console, design_runs, messages
+from .terminal import FMU, SCHEDULER, WORKERS, command, console, design_runs, messages, print_basis
 
 
 @command
@@ -64,10 +64,13 @@ def print_life(found, remarks):
     from ..duty.page import cards, part_rows
 
     console.print(f"[bold]{escape(found.mission.name)}[/]  {escape(found.mission.description)}", soft_wrap=True)
+    print_basis(found.mission.basis)
     for title, value, remark in cards(found):
         console.print(f"{title:14} [bold]{escape(value)}[/]  [dim]{escape(remark)}[/]", soft_wrap=True)
     table = Table(
         "",
+        "load",
+        "speed",
         *(Column(text, justify="right") for text in ("in the mission", "simulated", "damage")),
         "per",
         Column("share", justify="right"),

@@ -9,14 +9,14 @@ from rich.progress import BarColumn, Progress, TextColumn
 from rich.table import Column, Table
 
 from ..results import make_folder
-from .terminal import FMU, command, console, messages, number_or_text
+from .terminal import FMU, command, console, messages, number_or_text, print_basis
 
 SPEEDS = 6  # up to that of the scene, if none is given
 
 
 @command
 def matrices(
-    scene: Annotated[str, typer.Argument(help="scene file (TOML) or one of the shipped scenes: bearing, loads and speed")] = "demo",
+    scene: Annotated[str | None, typer.Argument(help="scene file (TOML) or one of the shipped scenes; default: the FMU's own loads and speed")] = None,
     fmu: FMU = None,
     out: Annotated[Path, typer.Option(help="folder for the files")] = Path("results"),
     speeds: Annotated[list[str] | None, typer.Option("--speed", help='speed, e.g. --speed "6000 rev/min"; repeatable; default: six up to the scene\'s')] = None,
@@ -27,9 +27,10 @@ def matrices(
     """Stiffness and damping (5 x 5, shaft against housing) over speed and load, as CSV, as a ROSS bearing and as a picture."""
     import math
 
+    from ..basis import basis
     from ..bearings import scene_case
     from ..fmu import Model
-    from ..matrices import dynamic_matrices, plot_matrices, quasi_static_matrices, write_ross, write_table
+    from ..matrices import dynamic_matrices, plot_matrices, quasi_static_matrices, scene_at, write_ross, write_table
     from ..scene import load_scene
     from ..units import to_si
 
@@ -43,12 +44,13 @@ def matrices(
     with Progress(TextColumn("matrices"), BarColumn(bar_width=30), console=messages, disable=not messages.is_terminal) as bar:
         task, w = bar.add_task("matrices", total=1.0), frequency and 2.0 * math.pi * frequency
         found = balanced if static else dynamic_matrices(model, case, plan, balanced, w, progress=lambda share: bar.update(task, completed=share))
+    rows, stem = basis(model, [scene_at(model, plan, point) for point in found]), plan.name
+    print_basis(rows)
     console.print(table(found))
-    stem = Path(scene).stem
-    paths = [write_table(found, out / f"{stem}_matrices.csv"), plot_matrices(found, out / f"{stem}_matrices.png")]
+    paths = [write_table(found, out / f"{stem}_matrices.csv", rows), plot_matrices(found, out / f"{stem}_matrices.png")]
     for load in dict.fromkeys(point.load for point in found):
         name = f"{stem}_ross.toml" if len(loads or [1.0]) == 1 else f"{stem}_ross_{load:g}.toml"
-        paths.append(write_ross([point for point in found if point.load == load], out / name, tag=stem))
+        paths.append(write_ross([point for point in found if point.load == load], out / name, tag=stem, basis=rows))
     for path in paths:
         console.print(f"written  [cyan]{escape(str(path))}[/]", soft_wrap=True)
 
@@ -67,7 +69,7 @@ def speed_of(text, variable, model, to_si):
 
 def table(found):
     """Diagonals of stiffness and damping for the terminal."""
-    heads = ("speed r/min", "load", *(f"K {i}{i} N/um" for i in "xyz"), *(f"K FMU {i}{i}" for i in "xyz"), *(f"C {i}{i} N s/m" for i in "xyz"))
+    heads = ("speed rev/min", "load", *(f"K {i}{i} N/um" for i in "xyz"), *(f"K FMU {i}{i}" for i in "xyz"), *(f"C {i}{i} N s/m" for i in "xyz"))
     shown = heads if found[0].K is not None else heads[:5]
     rows = Table(*(Column(head, justify="right") for head in shown), box=None)
     for p in found:

@@ -9,7 +9,7 @@ from rich.table import Column, Table
 
 from ..results import make_folder
 from ..scene import read_toml
-from .terminal import FMU, SCHEDULER, WORKERS, command, console, design_runs
+from .terminal import FMU, SCHEDULER, WORKERS, command, console, design_runs, print_basis
 
 
 @command
@@ -36,8 +36,10 @@ def optimize(
         bench = Bench(study, document, model, folder, client, progress).check(plan.responses)
         make_folder(folder)
         found = search(plan, bench)
+    print_basis(bench.basis())
     print_optimum(found)
-    for label, path in (("results", write_optimum(found, folder / "optimize.json")), ("picture", write_picture(found, folder / "optimize.png"))):
+    written = write_optimum(found, folder / "optimize.json", bench.basis())
+    for label, path in (("results", written), ("picture", write_picture(found, folder / "optimize.png"))):
         console.print(f"{label:8} [cyan]{escape(str(path))}[/]", soft_wrap=True)
 
 

@@ -8,11 +8,11 @@ import typer
 from rich.markup import escape
 from rich.table import Column, Table
 
-from ..errors import UserError, shortlist, unknown
+from ..errors import UserError, unknown
 from ..interrupts import held_interrupts
 from ..results import FORMATS, make_folder, write_result
 from ..scene import load_scene, shipped_scenes
-from .terminal import FMU, SETTINGS, STOPPED, changes, command, console, messages, simulation_progress
+from .terminal import FMU, SETTINGS, STOPPED, changes, command, console, messages, print_basis, simulation_progress
 
 ROUNDING = 1e-9  # in the units shown: what is smaller stands as 0
 
@@ -50,7 +50,6 @@ def run(
             paths.append(plot_result(result, target.with_suffix(".png")))
     for label, path in zip(("results", "picture"), paths, strict=False):
         console.print(f"{label}  [cyan]{escape(str(path))}[/]", soft_wrap=True)
-    console.print(f"FMU      [cyan]{escape(str(model.path))}[/]", soft_wrap=True)
     console.print(f"[dim]riveted-bearing report {escape(str(paths[0]))}[/]  a page with charts, life and the motion to play", soft_wrap=True)
     if result.stopped:
         messages.print(f"[bold red]stopped:[/] {escape(result.stopped)}", soft_wrap=True)
@@ -76,28 +75,49 @@ def looks_like_a_file(path):
     return re.fullmatch(r"\.[A-Za-z]\w{1,5}", path.suffix) is not None and not path.is_dir()
 
 
+def statistics_table(result):
+    """Mean, RMS, 99.9 % quantile and largest value after settling."""
+    from ..summary import summary_rows
+
+    table = Table(Column("", no_wrap=True), "unit", *(Column(text, justify="right") for text in ("mean", "RMS", "p99.9", "max")), box=None, pad_edge=False)
+    for row in summary_rows(result):
+        table.add_row(row.channel + ("" if row.every_step else " *"), row.unit, *map(four_digits, (row.mean, row.rms, row.p999, row.largest)))
+    return table
+
+
+def early_table(result):
+    """What there is without statistics."""
+    from ..summary import early_rows
+
+    table = Table(
+        Column("", no_wrap=True), "unit", *(Column(text, justify="right") for text in ("at the end", "largest since the start")), box=None, pad_edge=False
+    )
+    for channel, unit, last, largest in early_rows(result):
+        table.add_row(channel, unit, four_digits(last), four_digits(largest))
+    return table
+
+
+def four_digits(value):
+    """A figure of the table."""
+    return f"{value if abs(value) > ROUNDING else 0.0:.4g}"
+
+
 def print_summary(result):
     """The figures of a run on the terminal."""
-    from ..summary import assumed_rows, rivet_rows, summary_rows, table_note
+    from ..summary import assumed_rows, has_statistics, no_statistics, rivet_rows, table_note
 
     about, summary = result.about, result.summary
     console.print(f"[bold]{escape(about['scene'])}[/]  {escape(about['description'])}", soft_wrap=True)
-    table = Table(Column("", no_wrap=True), "unit", *(Column(text, justify="right") for text in ("mean", "RMS", "p99.9", "max")), box=None, pad_edge=False)
-    for row in summary_rows(result):
-        mark = "" if row.every_step else " *"
-        table.add_row(row.channel + mark, row.unit, *(f"{value if abs(value) > ROUNDING else 0.0:.4g}" for value in (row.mean, row.rms, row.p999, row.largest)))
-    console.print(table)
+    print_basis(about["basis"].items())
+    console.print(statistics_table(result) if has_statistics(result) else early_table(result))
     rivets = rivet_rows(result)
     if rivets:
         worst = max(rivets, key=lambda row: row[1].p999)
         console.print(f"worst rivet: {worst[0]} (head p99.9 {worst[1].p999:.4g} MPa, middle p99.9 {worst[2].p999:.4g} MPa)")
-    settle = result.parameters.get("start.settle", 0.0)
-    if summary["simulated_time"] > settle:
-        console.print(f"[dim]after the first {settle:g} s; every internal step, * at communication points only[/]")
+    if missing := no_statistics(result):
+        messages.print(f"[yellow]note:[/] {missing}", soft_wrap=True)
     else:
-        messages.print(
-            f"[yellow]note:[/] no statistics: they begin at start.settle = {settle:g} s, and the run ended at {summary['simulated_time']:g} s", soft_wrap=True
-        )
+        console.print(f"[dim]after the first {result.parameters['start.settle']:g} s; every internal step, * at communication points only[/]")
     counters = {name: f"{summary[f'solver.{name}']:,.0f}" for name in ("steps", "rhs_evals", "error_tests_failed") if f"solver.{name}" in summary}
     if counters:
         console.print(f"{counters['steps']} steps, {counters['rhs_evals']} evaluations of the equations, {counters['error_tests_failed']} steps rejected")
@@ -111,8 +131,6 @@ def print_summary(result):
         console.print(
             f"[dim]assumed, and the stress moves with it (usual range: change of the worst head over it): {escape(', '.join(assumed))}[/]", soft_wrap=True
         )
-    if about.get("replaced"):
-        messages.print(f"[yellow]note:[/] the scene replaces values of the bearing: {escape(shortlist(about['replaced']))}", soft_wrap=True)
     for source, names in about.get("not_given", {}).items():
         console.print(f"[dim]not given, {escape(source)}: {escape(names)}[/]", soft_wrap=True)
     if note := table_note(result):

@@ -1,5 +1,6 @@
 """riveted-bearing sensitivity: which parameters decide."""
 
+from dataclasses import replace
 from pathlib import Path
 from typing import Annotated
 
@@ -9,7 +10,7 @@ from rich.table import Column, Table
 
 from ..results import make_folder
 from ..scene import read_toml
-from .terminal import FMU, SCHEDULER, WORKERS, command, console, design_runs
+from .terminal import FMU, SCHEDULER, WORKERS, command, console, design_runs, print_basis
 
 
 @command
@@ -30,13 +31,15 @@ def sensitivity(
     if not study.is_file():
         raise UserError(f"{study}: no such study file")
     model, document = Model(fmu), read_toml(study)
-    plan = plan_sensitivity(study, document, model, assumed_ranges(model))
-    salib()  # before there is a folder
     folder = out or Path("results") / study.stem
+    salib()  # before there is a folder
     with design_runs(study.stem, folder, scheduler, workers) as (client, progress):
-        bench = Bench(study, document, model, folder, client, progress).check(plan.responses)
+        bench = Bench(study, document, model, folder, client, progress)
+        plan = plan_sensitivity(study, document, model, assumed_ranges(model, bench.scene))
+        bench.check(plan.responses)
         make_folder(folder)
-        found = analyse(plan, bench)
+        found = replace(analyse(plan, bench), basis=dict(bench.basis()))
+    print_basis(found.basis.items())
     print_indices(found, plan.box)
     for label, path in (("results", write_indices(found, folder / "sensitivity.json")), ("picture", write_picture(found, folder / "sensitivity.png"))):
         console.print(f"{label:8} [cyan]{escape(str(path))}[/]", soft_wrap=True)

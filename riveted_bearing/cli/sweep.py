@@ -8,7 +8,7 @@ from rich.markup import escape
 from rich.table import Column, Table
 
 from ..results import make_folder
-from .terminal import FMU, SCHEDULER, STOPPED, WORKERS, command, console, design_runs, messages
+from .terminal import FMU, SCHEDULER, STOPPED, WORKERS, command, console, design_runs, messages, print_basis
 
 
 @command
@@ -33,6 +33,7 @@ def sweep(
     failures = rows["message"][rows["status"] != "done"]
     spent = rows["cpu_time"][rows["status"] == "done"].sum()
     table = sweep_table(plan, rows)
+    print_basis(table.basis)
     if table.responses:
         print_table(table)
     console.print(f"{len(rows['key'])} runs, {len(failures)} of them failed, CPU time {spent:.1f} s")

@@ -106,6 +106,12 @@ def number_or_text(value):
     return value
 
 
+def print_basis(rows):
+    """What the figures that follow rest on; what a scene has replaced stands out."""
+    for name, text in rows:
+        console.print(f"[{'yellow' if name == 'replaced' else 'dim'}]{name:13} {escape(text)}[/]", soft_wrap=True)
+
+
 @contextlib.contextmanager
 def design_runs(name, folder, scheduler, workers):
     """For a study that simulates as it goes: gives a function that starts the cluster when it is first called, and a function for progress."""

@@ -1,6 +1,6 @@
 """The bench of a study: points of a box of parameters, simulated with common seeds, and the responses that the study asks for.
 
-    scene = "demo"                       # as in a sweep, and so are [simulation], [parameters], [inputs]
+    scene = "demo"                       # as in a sweep (default: none, the FMU's own parameters and inputs), and so are [simulation], [parameters], [inputs]
     seeds = 3                            # runs of each point, the same start.seed for all points
     seed = 1                             # first start.seed, and seed of the study's own choices
     [between]                            # lowest and highest value
@@ -19,6 +19,7 @@ import numpy as np
 
 from bearing_model import variables
 
+from ..basis import basis
 from ..errors import UserError, unknown
 from ..scene import leaves, load_scene, refusal, section_of
 from ..sweep import Sweep, beside, bounds, columns_of, compact, count_of, key_of, known_names, run_sweep, schema_of, sections_of
@@ -78,8 +79,8 @@ class Bench:
         common = {section: section_of(path, document, section) for section in ("simulation", "parameters", "inputs")}
         common["simulation"] = {"outputs": OUTPUTS} | common["simulation"]
         common["parameters"] = {"scene.stress": "fatigue"} | common["parameters"]
-        self.scene = load_scene(beside(path, document.get("scene", "demo")), model, (str(path), common))
-        self.common, self.source = common, beside(path, document.get("scene", "demo"))
+        self.common, self.source = common, beside(path, document.get("scene"))
+        self.scene = load_scene(self.source, model, (str(path), common))
         self.seeds = count_of(path, "seeds", document.get("seeds", 2))
         self.first = count_of(path, "seed", document.get("seed", 1))
         self.fmu = model.path.read_bytes()
@@ -89,6 +90,10 @@ class Bench:
     def sweep(self, names, scenes):
         """The runs of scenes by key, in which the names vary."""
         return Sweep(self.path.stem, str(self.document.get("description", "")), self.model, self.fmu, self.document, tuple(names), scenes, (), True)
+
+    def basis(self):
+        """What the runs asked for so far rest on."""
+        return basis(self.model, self.scenes.values() or [self.scene])
 
     def check(self, responses):
         """Refuse a response that the rows will not have, before anything is simulated."""

@@ -1,6 +1,6 @@
 """What happens when the first rivet goes: the most damaged one breaks, the rest is simulated on, and so on.
 
-    scene = "demo"                       # as in a sweep, and so are [simulation], [parameters], [inputs]
+    scene = "demo"                       # as in a sweep (default: none, the FMU's own parameters and inputs), and so are [simulation], [parameters], [inputs]
     seeds = 4                            # runs of each state of the cage
     breaks = 3                           # rivets that break before the end
     [[case]]                             # each case is a cascade of its own; without one there is a single one
@@ -25,6 +25,7 @@ from ..plot import HEAD, MIDDLE, MUTED, STYLE, plt
 from ..results import write_atomically
 from ..scene import refusal, section_of
 from ..sweep import count_of
+from ..units import hours_text
 from .bench import COMMON, Bench
 
 KEYS = (*(key for key in COMMON if key != "between"), "breaks", "case")
@@ -53,10 +54,11 @@ class State:
 
 @dataclass(frozen=True)
 class Cascade:
-    """The states of one case, in order."""
+    """The states of one case, in order; basis: of its runs."""
 
     name: str
     states: tuple
+    basis: tuple = ()
 
     @property
     def order(self):
@@ -90,7 +92,8 @@ def run_cascades(path, document, model, folder, client, progress=None):
         rivets = sum(each.startswith("rivet[") and each.endswith("].intact") for each in model.parameters)
         if breaks >= rivets:
             raise refusal(path, "breaks", breaks, f"less than the number of rivets, {rivets}, is allowed")
-        found.append(Cascade(name, tuple(follow(lambda gone, bench=bench, rivets=rivets: state_of(bench, rivets, gone), breaks, bench.first))))
+        states = follow(lambda gone, bench=bench, rivets=rivets: state_of(bench, rivets, gone), breaks, bench.first)
+        found.append(Cascade(name, tuple(states), tuple(bench.basis())))
     return found
 
 
@@ -136,14 +139,18 @@ def next_break(damage, rates):
 
 
 def write_cascades(found, path):
-    """JSON: for each case its breaks (rivet, place, hours, sure) and its states; returns the path."""
+    """JSON: for each case what it rests on, its breaks (rivet, place, hours, sure) and its states; returns the path."""
 
     def plain(state):
         values = asdict(state) | {"rates": state.rates.tolist(), "stress": state.stress.tolist(), "gone": list(state.gone)}
         return values | {"hours": state.hours if np.isfinite(state.hours) else None}
 
     content = {
-        each.name: {"order": [{"rivet": rivet, "place": place, "hours": hours} for rivet, place, hours in each.order], "states": list(map(plain, each.states))}
+        each.name: {
+            "basis": dict(each.basis),
+            "order": [{"rivet": rivet, "place": place, "hours": hours} for rivet, place, hours in each.order],
+            "states": list(map(plain, each.states)),
+        }
         for each in found
     }
     write_atomically(path, lambda temporary: temporary.write_text(json.dumps(content, indent=1) + "\n", encoding="utf-8"))
@@ -184,7 +191,7 @@ def circle(ax, state, low, high):
         else:
             ax.scatter(x, y, s=size[k], color=MIDDLE if worse[k] else HEAD, edgecolor="black" if k + 1 == state.rivet else "none", linewidth=2.0)
         ax.text(0.72 * x, 0.72 * y, str(k + 1), ha="center", va="center", fontsize=8)
-    text = "the cage opens" if state.opens else "end" if state.rivet is None else f"{state.place} of {state.rivet}\nafter {state.hours:.3g} h"
+    text = "the cage opens" if state.opens else "end" if state.rivet is None else f"{state.place} of {state.rivet}\nafter {hours_text(state.hours)}"
     ax.text(0.0, 0.0, text, ha="center", va="center", fontsize=8)
     ax.set(xlim=(-1.25, 1.25), ylim=(-1.25, 1.25), aspect="equal", xticks=[], yticks=[])
     ax.spines[:].set_visible(False)

@@ -21,7 +21,7 @@ from pathlib import Path
 
 import numpy as np
 
-from ..errors import UserError, unknown
+from ..errors import UserError, extra, unknown
 from ..plot import FORCE, HEAD, MIDDLE, MUTED, STYLE, plt
 from ..results import write_atomically
 from ..scene import refusal, section_of
@@ -102,7 +102,7 @@ def optuna_library():
     try:
         import optuna
     except ImportError:
-        raise UserError('optimize: needs the library Optuna: pip install "riveted-bearing[design]"') from None
+        raise UserError(f"optimize: needs the library Optuna: {extra('design')}") from None
     optuna.logging.set_verbosity(optuna.logging.ERROR)
     return optuna
 
@@ -177,8 +177,8 @@ def most_promising(study, values):
     return [int(i) for i in ranked[: study.candidates]]
 
 
-def write_optimum(found, path):
-    """Write the answer as JSON, whole or not at all; returns the path."""
+def write_optimum(found, path, basis=()):
+    """Write the answer as JSON, whole or not at all; basis: what the runs rest on.  Returns the path."""
     study = found.study
     rows = [
         {
@@ -189,6 +189,7 @@ def write_optimum(found, path):
         for i, mean, error in zip(found.candidates, found.means, found.errors, strict=True)
     ]
     document = {
+        "basis": dict(basis),
         "recommended": None if found.best is None else rows[found.best],
         "fresh_seeds": study.check_seeds,
         "candidates": rows,

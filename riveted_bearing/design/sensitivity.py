@@ -23,7 +23,7 @@ from pathlib import Path
 
 import numpy as np
 
-from ..errors import UserError, unknown
+from ..errors import UserError, extra, unknown
 from ..plot import FORCE, HEAD, MIDDLE, MUTED, STYLE, plt
 from ..results import write_atomically
 from ..scene import refusal, section_of
@@ -37,7 +37,7 @@ METHODS = {"morris": ("trajectories", "levels"), "sobol": ("factors", "count")}
 @dataclass(frozen=True)
 class Sensitivity:
     """For each response: factors with mu_star, its confidence, sigma and the mu_star of noise; those of Sobol with S1, ST, their confidence (95 %), and the
-    noise's share of the variance."""
+    noise's share of the variance; basis: what the runs rest on."""
 
     name: str
     description: str
@@ -47,6 +47,7 @@ class Sensitivity:
     morris: dict
     chosen: tuple
     sobol: dict = field(default_factory=dict)
+    basis: dict = field(default_factory=dict)
 
     @property
     def ranked(self):
@@ -98,7 +99,7 @@ def salib():
         from SALib.sample import morris as sample_morris
         from SALib.sample import sobol as sample_sobol
     except ImportError:
-        raise UserError('sensitivity: needs the library SALib: pip install "riveted-bearing[design]"') from None
+        raise UserError(f"sensitivity: needs the library SALib: {extra('design')}") from None
     return sample_morris, analyze_morris, sample_sobol, analyze_sobol
 
 

@@ -7,9 +7,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..errors import UserError
+from ..errors import UserError, extra
 from ..plot import FORCE, HEAD, MIDDLE, STYLE, plt
 from ..results import write_atomically
+from ..units import hours_text
 
 
 @dataclass(frozen=True)
@@ -41,7 +42,7 @@ def fit_weibull(lives, suspended=(), counts=None, confidence=0.9):
     try:
         import surpyval
     except ImportError:
-        raise UserError('a Weibull law needs the library surpyval: pip install "riveted-bearing[design]"') from None
+        raise UserError(f"a Weibull law needs the library surpyval: {extra('design')}") from None
     lives, suspended = np.asarray(lives, float), np.asarray(suspended, float)
     times = np.concatenate([lives, suspended])
     if len(lives) < 3 or np.ptp(lives) == 0.0:
@@ -76,10 +77,10 @@ def write_weibull_plot(law, title, path):
         first, last = (law.eta * (-np.log1p(-share)) ** (1.0 / law.beta) for share in (0.01, 0.99))
         low, high = 0.97 * min(law.lives.min(), law.b10_interval[0], first), 1.03 * max(law.lives.max(), law.b10_interval[1], last)
         t = np.geomspace(low, high, 100)
-        ax.plot(t, (t / law.eta) ** law.beta, color=MIDDLE, lw=1.4, label=f"β {law.beta:.3g}, η {law.eta:.3g} h")
+        ax.plot(t, (t / law.eta) ** law.beta, color=MIDDLE, lw=1.4, label=f"β {law.beta:.3g}, η {hours_text(law.eta)}")
         ax.plot(law.lives, -np.log1p(-law.ranks), "o", color=FORCE, ms=4, label="lives, median ranks")
         ax.plot(law.b10_interval, [-np.log(0.9)] * 2, color=HEAD, lw=2.0, solid_capstyle="butt")
-        ax.plot(law.b10, -np.log(0.9), "o", color=HEAD, ms=7, label=f"B10 {law.b10:.3g} h, {100 * law.confidence:g} % interval")
+        ax.plot(law.b10, -np.log(0.9), "o", color=HEAD, ms=7, label=f"B10 {hours_text(law.b10)}, {100 * law.confidence:g} % interval")
         shares = np.array([0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 0.8, 0.95, 0.99])
         ax.set(xscale="log", yscale="log", xlabel="life [h]", ylabel="failed", xlim=(low, high), ylim=(0.6 * -np.log1p(-min(0.02, law.ranks.min())), 5.0))
         ax.set_yticks(-np.log1p(-shares), [f"{100 * share:g} %" for share in shares])

@@ -7,6 +7,8 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
+from bearing_model.variables import INPUTS
+
 from ..errors import UserError
 from ..life import fatigue_law
 from ..results import write_atomically
@@ -246,7 +248,7 @@ def bound(mission, rate, q, i):
     for name, value in rare.values.items():
         if value == known.values[name] and value is not None:
             continue
-        if known.scene is None or name not in known.scene.inputs or value is None or not known.values[name]:
+        if known.scene is None or name not in INPUTS or value is None or not known.values[name]:
             return math.inf
         change = abs(value / known.values[name])
         ratio *= max(change, 1.0 / change if change else math.inf) ** (2.0 if name in SPEED_SQUARED else 1.0)
@@ -258,12 +260,13 @@ def bound(mission, rate, q, i):
 
 
 def record(life):
-    """life.json's content: hours, damages per hour, shares; None where nothing is known (a point left out) or never (no damage)."""
+    """life.json's content: what it rests on, hours, damages per hour, shares; None where nothing is known (a point left out) or never (no damage)."""
     mission, found = life.mission, life.estimate
     share = dict(zip(life.kept, found.shares, strict=True))
     k, place = divmod(found.place, 2) if mission.settings["rivets"] == "each" else (slice(None), found.place)
     rivets = np.einsum("i,ikp->kp", mission.duty.weights, life.rates)
     return {
+        "basis": dict(mission.basis),
         "life_h": finite(found.life),
         "low_h": finite(life.low),
         "high_h": finite(found.high),

@@ -1,7 +1,7 @@
 """Missions: operating points with their hours and events with their counts, from TOML files, checked against the FMU.
 
 description = "..."
-scene = "demo"                       # shipped name or file; points and events may name another one
+scene = "demo"                       # shipped name or file, default: none, the FMU's own parameters and inputs; points and events may name another one
 [simulation]                         # as in a scene file, for all points and events; so are:
 t_end = 0.2
 [parameters]
@@ -48,12 +48,15 @@ from pathlib import Path
 
 import numpy as np
 
+from ..basis import basis, loads, speeds
 from ..errors import UserError, unknown
+from ..life import fatigue_law
 from ..scene import Scene, leaves, load_scene, read_toml, refusal, section_of
 from ..sweep import beside, count_of, key_of
 from ..units import scale, to_si
 from .history import binned, read_columns
 from .miner import Duty
+from .sn import in_words, read_strength
 
 SECTIONS = ("description", "scene", "simulation", "parameters", "inputs", "point", "event", "table", "history", "preload_loss", "life", "sn", "tolerance")
 POINT = ("name", "hours", "share", "preload_factor", "interpolate", "scene", "simulation", "parameters", "inputs")
@@ -71,8 +74,9 @@ FORCED = {"scene.stress": "fatigue", "scene.statistics": "on"}
 
 @dataclass(frozen=True)
 class Part:
-    """An operating point (weight: hours) or an event (weight: count); scene: None if it is interpolated; values: of its constant inputs and numeric
-    parameters, SI.  Of a class of a record: cell, its number along each axis; means and spreads, of the record's values in it."""
+    """An operating point (weight: hours) or an event (weight: count); scene: None if it is interpolated; values: of all inputs, None for those that vary, and
+    of the parameters that it sets, SI; load, speed: in words.  Of a class of a record: cell, its number along each axis; means and spreads, of the record's
+    values in it."""
 
     name: str
     event: bool
@@ -80,6 +84,8 @@ class Part:
     scene: Scene | None = field(repr=False)
     factor: float = 1.0
     values: dict = field(default_factory=dict, repr=False)
+    load: str = ""
+    speed: str = ""
     cell: tuple = ()
     means: tuple = ()
     spreads: tuple = ()
@@ -95,7 +101,7 @@ class Case:
 
 @dataclass(frozen=True)
 class Mission:
-    """A mission checked against its Model; hours: of all points together."""
+    """A mission checked against its Model; hours: of all points together; basis: what all of it rests on."""
 
     name: str
     description: str
@@ -106,6 +112,7 @@ class Mission:
     duty: Duty = field(repr=False)
     hours: float
     settings: dict
+    basis: tuple
 
 
 def load_mission(path, model):
@@ -131,7 +138,20 @@ def plan_mission(name, document, model, path):
     loss = preload_loss(path, section_of(path, document, "preload_loss"))
     cases, blends = cases_of(path, parts, loss[1], model)
     duty = Duty(np.array([part.weight / hours for part in parts]), blends, loss[0], slopes_of(parts, blends))
-    return Mission(name, str(document.get("description", "")), path, document, tuple(parts), tuple(cases), duty, hours, settings)
+    scenes = [case.scene for case in cases]
+    rows = tuple(basis(model, scenes, curves(path, document, scenes, model)))
+    return Mission(name, str(document.get("description", "")), path, document, tuple(parts), tuple(cases), duty, hours, settings, rows)
+
+
+def curves(path, document, scenes, model):
+    """The S-N curves of the scenes in words."""
+    laws = dict.fromkeys(scene_law(scene, model) for scene in scenes)
+    return "; ".join(dict.fromkeys(in_words(read_strength(path, section_of(path, document, "sn"), law)) for law in laws))
+
+
+def scene_law(scene, model):
+    """The FatigueLaw of a scene's parameters."""
+    return fatigue_law({name: scene.parameters.get(name, model.default(v)) for name, v in model.parameters.items() if name.startswith("fatigue.")})
 
 
 def life_settings(path, section):
@@ -222,16 +242,18 @@ def part_of(path, document, model, label, name, block, weight, event=False):
     for changes in (common, own):
         if any(key in FORCED for key, _ in leaves(changes["parameters"], model.parameters)):
             raise UserError(f"{path}: {label}: {' and '.join(FORCED)} are not free here: a life needs the count of stress cycles")
-    source = block.get("scene", document.get("scene", "demo"))
+    source = block.get("scene", document.get("scene"))
     scene = load_scene(beside(path, source), model, (str(path), common), (f"{path}: {label}", own), ("a mission", {"parameters": FORCED}))
     if scene.t_end <= scene.parameters.get("start.settle", model.default(model.parameters["start.settle"])):
         raise refusal(f"{path}: {label}", "simulation.t_end", scene.t_end, "longer than start.settle is needed, before which damage does not count")
-    return Part(name, event, weight, None if block.get("interpolate", False) else scene, factor, values_of(scene))
+    simulated = None if block.get("interpolate", False) else scene
+    return Part(name, event, weight, simulated, factor, values_of(scene, model), loads(model, [scene]), speeds(model, [scene]))
 
 
-def values_of(scene):
-    """What of a scene can be compared and interpolated: its constant inputs and numeric parameters, SI; None for inputs that vary."""
-    inputs = {name: float(history.value[0]) if len(history.t) == 1 else None for name, history in scene.inputs.items()}
+def values_of(scene, model):
+    """What of a scene can be compared and interpolated: constant inputs, its own or the FMU's, and its parameters, SI; None for inputs that vary."""
+    own = {name: model.default(variable) for name, variable in model.inputs.items()}
+    inputs = own | {name: float(history.value[0]) if len(history.t) == 1 else None for name, history in scene.inputs.items()}
     return inputs | {name: value for name, value in scene.parameters.items() if not isinstance(value, bool)}
 
 

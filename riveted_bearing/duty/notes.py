@@ -4,9 +4,10 @@ import math
 
 import numpy as np
 
+from ..units import hours_text
 from .assess import part_duty
 from .miner import NO_DAMAGE, class_factors
-from .page import percent
+from .page import open_ends, percent, width_text
 
 WIDE, MATTERS = 1.3, 0.05  # factor of a class, and share in the damage from which it is named
 
@@ -24,7 +25,9 @@ def notes(life, runs, scatter=None):
     mission, found = life.mission, life.estimate
     settings = mission.settings
     reached = f"{percent(found.half_width)}, wanted {100 * settings['half_width']:g} %"
-    if found.half_width > math.log1p(settings["half_width"]):
+    if open_ends(life):
+        sentences = [f"The interval of life is {width_text(life)}; max_seeds = {settings['max_seeds']} was reached."]
+    elif found.half_width > math.log1p(settings["half_width"]):
         sentences = [f"The interval is wider than asked for ({reached} of life): max_seeds = {settings['max_seeds']} was reached."]
     else:
         sentences = [f"The interval is as narrow as asked for: {reached} of life."]
@@ -55,8 +58,8 @@ def notes(life, runs, scatter=None):
         low, high = law.b10_interval
         noise = "" if math.isnan(scatter.noise) else f" The seeds have {100 * min(scatter.noise, 1.0):.2g} % of the scatter."
         sentences.append(
-            f"Over {len(scatter.lives)} bearings within their tolerances: B10 {law.b10:.3g} h ({low:.3g} to {high:.3g} h at {100 * law.confidence:g} %), "
-            f"Weibull shape {law.beta:.3g}, characteristic life {law.eta:.3g} h.{noise}"
+            f"Over {len(scatter.lives)} bearings within their tolerances: B10 {hours_text(law.b10)} ({hours_text(low)} to {hours_text(high)} at "
+            f"{100 * law.confidence:g} %), Weibull shape {law.beta:.3g}, characteristic life {hours_text(law.eta)}.{noise}"
         )
     sentences.append(f"Processor time of the runs: {sum(runs.cost.values()):.0f} s in {len(runs.cost)} runs.")
     return sentences

@@ -11,8 +11,10 @@ from ..plot import FORCE, HEAD, MIDDLE, MUTED, RING, plt
 from ..report import PARTS, figure
 from ..results import write_atomically
 from ..summary import RPM
+from ..units import LONGEST, hours_text
 
 MOST_BARS = 14
+OPEN = 11.0  # times life: an end of the interval beyond it, or below life over it, says nothing
 WIDE, TALL = (4.9, 2.9), (4.9, 3.6)  # inches
 
 
@@ -32,13 +34,6 @@ def write_page(life, path, notes):
     return path
 
 
-def hours_text(hours):
-    """A life in hours with three digits."""
-    if not math.isfinite(hours):
-        return "no damage"
-    return f"{hours:.3g} h" if hours >= 1e7 or hours < 1e3 else f"{round(hours, 2 - math.floor(math.log10(hours))):,.0f} h"
-
-
 def share_text(share):
     """A share of the damage in per cent."""
     return f"{100 * share:.3g} %" if share < 0.9995 and share >= 1e-3 else "100 %" if share > 0.5 else "< 0.1 %"
@@ -48,22 +43,52 @@ def cards(life):
     """The figures to see first: (title, value, remark)."""
     found, settings = life.estimate, life.mission.settings
     yield "Life", hours_text(found.life), f"{life.place} · Miner's sum 1"
-    yield (
-        f"{100 * settings['confidence']:g} % interval",
-        f"{hours_text(life.low)} – {hours_text(found.high)}",
-        f"half-width {percent(found.half_width)} of life",
-    )
-    yield "Mission", f"{figure(life.mission.hours)} h", f"{figure(found.life / life.mission.hours)} passes" if math.isfinite(found.life) else "no damage"
+    yield f"{100 * settings['confidence']:g} % interval", interval_text(life), width_text(life)
+    yield "Mission", f"{figure(life.mission.hours)} h", passes_text(found.life, life.mission.hours)
     yield "Runs", f"{sum(life.counts)}", f"{sum(part.scene is not None for part in life.mission.parts) - len(life.bounds)} points and events simulated"
+
+
+def open_ends(life):
+    """Which ends of the interval are so far from life that they say nothing: "lower", "upper"."""
+    found = life.estimate
+    if not math.isfinite(found.life):
+        return []
+    return [end for end, far in (("lower", found.life > OPEN * life.low), ("upper", found.high > OPEN * found.life)) if far]
+
+
+def interval_text(life):
+    """The interval, without the ends that are open."""
+    low, high, ends = hours_text(life.low), hours_text(life.estimate.high), open_ends(life)
+    if len(ends) == 2:
+        return "open at both ends"
+    if ends:
+        return f"below {high}" if ends == ["lower"] else f"above {low}"
+    return low if low == high else f"{low} – {high}"
+
+
+def width_text(life):
+    """How wide the interval is, or which of its ends are open and what closes them."""
+    if not (ends := open_ends(life)):
+        return f"half-width {percent(life.estimate.half_width)} of life"
+    return f"open at its {' and its '.join(ends)} end: more seeds (max_seeds) or a longer t_end close it"
+
+
+def passes_text(life, hours):
+    """A life in passes of the mission."""
+    if not math.isfinite(life):
+        return "no damage"
+    if life < hours:
+        return f"fails within the first pass, after {hours_text(life)}"
+    return f"{'> ' if life > LONGEST else ''}{figure(min(life, max(LONGEST, hours)) / hours)} passes"
 
 
 def percent(half_width):
     """A half-width of ln life as a share of life."""
-    return f"{100 * math.expm1(half_width):.3g} %"
+    return f"{100 * math.expm1(half_width):.3g} %" if half_width <= math.log(OPEN) else f"> {100 * (OPEN - 1):,.0f} %"
 
 
 def part_rows(life):
-    """Name, kind, weight, seeds, damage per hour or event, standard error, share of each part."""
+    """Name, load, speed, weight, how it was simulated, damage per hour or event, share of each part."""
     share = dict(zip(life.kept, life.estimate.shares, strict=True))
     for i, part in enumerate(life.mission.parts):
         weight = f"{figure(part.weight)} {'times' if part.event else 'h'}"
@@ -72,7 +97,7 @@ def part_rows(life):
         else:
             how = "interpolated" if part.scene is None else f"{life.counts[i]} seeds"
             rate, text = f"{rate_at_place(life, i):.3g}", share_text(share[i])
-        yield part.name, weight, how, rate, "event" if part.event else "h", text
+        yield part.name, part.load, part.speed, weight, how, rate, "event" if part.event else "h", text
 
 
 def rate_at_place(life, i):
@@ -97,7 +122,7 @@ def life_chart(fig, life):
     ax.set(xlabel="life [h]", ylabel="draws", xlim=(10 ** (low - margin), 10 ** (high + margin)))
     if high - low < 1.0:
         ticks = np.unique([float(f"{10**x:.2g}") for x in np.linspace(low, high, 5)])
-        ax.set_xticks(ticks, [hours_text(tick).removesuffix(" h") for tick in ticks])
+        ax.set_xticks(ticks, [f"{tick:,.0f}" if 1e3 <= tick < 1e7 else f"{tick:.3g}" for tick in ticks])
         ax.xaxis.set_minor_formatter(matplotlib.ticker.NullFormatter())
     ax.legend(ncols=3, loc="lower right", bbox_to_anchor=(1.0, 1.0))
 

@@ -25,7 +25,7 @@ import numpy as np
 from bearing_model.fatigue import FatigueLaw, fully_reversed
 from bearing_model.variables import MeanStress
 
-from ..errors import UserError, unknown
+from ..errors import UserError, extra, unknown
 from ..scene import read_toml, refusal
 from ..units import to_si
 
@@ -79,6 +79,29 @@ def read_strength(path, section, law):
     return Strength(law, rule, T_S, survival, surface_factor(numbers, law.sigma_m) * size_factor(numbers), table)
 
 
+def in_words(strength):
+    """The S-N curve with its rule, mean-stress correction, scatter and factors."""
+    law = strength.law
+    if strength.table is None:
+        slopes = f"slope {law.k_1:g} above it, {below(strength)}"
+        curve = f"amplitude {1e-6 * law.sigma_D:.4g} MPa (R = -1) at {law.N_D:.3g} cycles, {slopes}"
+    else:
+        amplitude, cycles = strength.table
+        curve = f"table of {len(cycles)} amplitudes from {1e-6 * amplitude[0]:.4g} to {1e-6 * amplitude[-1]:.4g} MPa"
+    mean = MeanStress(law.mean_stress).name.lower()
+    limit = {"goodman": f", sigma_m {1e-6 * law.sigma_m:.4g} MPa", "morrow": f", sigma_f {1e-6 * law.sigma_f:.4g} MPa"}.get(mean, "")
+    scatter = f", T_S {strength.T_S:.3g}, survival {100 * strength.survival:.4g} %" if strength.T_S > 1.0 else ""
+    factor = f", factor of surface and size {strength.factor:.3g}" if strength.factor != 1.0 else ""
+    return f"{curve}; mean stress: {mean}{limit}{scatter}{factor}"
+
+
+def below(strength):
+    """The S-N curve below its knee in words."""
+    law = strength.law
+    slopes = {"knee": law.k_2, "haibach": 2.0 * law.k_1 - 1.0, "elementary": law.k_1}
+    return "no damage below" if strength.rule == "original" else f"{slopes[strength.rule]:g} below"
+
+
 def with_file(path, where, section):
     """The section with the keys of its file below its own, and the table of the file if it is one."""
     name = section.pop("file", None)
@@ -122,7 +145,7 @@ def library():
         import pandas as pd
         from pylife.materiallaws import WoehlerCurve
     except ImportError:
-        raise UserError('sn: needs the library pylife: pip install "riveted-bearing[design]"') from None
+        raise UserError(f"sn: needs the library pylife: {extra('design')}") from None
     return lambda **values: WoehlerCurve(pd.Series(values))
 
 

@@ -1,0 +1,91 @@
+"""What figures rest on: bearing, FMU, scene, loads, speed, oil, temperatures and S-N curve, in lines for terminals, pages and files."""
+
+from types import SimpleNamespace
+
+import numpy as np
+
+from bearing_model.temperature import heat_oil
+
+from .errors import UserError, shortlist
+from .scene import in_words
+
+LOADS = (
+    *(f"shaft.{name}" for name in ("F_x", "F_y", "F_z", "M_y", "M_z", "tilt_y", "tilt_z")),
+    *("impact.F_r", "impact.F_a", "pulse.F_r", "pulse.F_a"),
+)
+SPEEDS = ("shaft.omega", "housing.omega", "frame.omega")
+PARTS = {"inner ring": "ring.T_i", "outer ring": "ring.T_e", "balls": "ball.T", "cage": "cage.T"}
+
+
+def basis(model, scenes, curve=""):
+    """Name and text of each line for runs of a Model: values that differ between the scenes, or in time, as their range; curve: the S-N curve in words."""
+    scenes = list(scenes)
+    replaced = dict.fromkeys(text for scene in scenes for text in scene.replaced)
+    return [
+        ("bearing", model.bearing),
+        ("FMU", f"{model.path}, SHA-256 {model.digest[:12]}"),
+        ("scene", ", ".join(dict.fromkeys(scene.name if scene.source else "none: the FMU's own parameters and inputs" for scene in scenes))),
+        *([("replaced", f"the scene has {shortlist(replaced)}")] if replaced else []),
+        ("loads", loads(model, scenes)),
+        ("speed", speeds(model, scenes)),
+        ("oil", oil(model, scenes)),
+        ("temperatures", temperatures(model, scenes)),
+        *([("S-N curve", curve)] if curve else []),
+    ]
+
+
+def values(model, scenes, name):
+    """All values that a parameter or an input has in the scenes, SI."""
+    own = model.default((model.parameters | model.inputs)[name])
+    given = ((scene.parameters | scene.inputs).get(name, own) for scene in scenes)
+    return np.concatenate([np.atleast_1d(getattr(value, "value", value)) for value in given])
+
+
+def text(model, scenes, name):
+    """The range of a variable in the unit that all scenes were written in, else in the one in which people read it."""
+    symbols = {scene.units.get(name) for scene in scenes}
+    return in_words(model, name, values(model, scenes, name), symbols.pop() if len(symbols) == 1 else None)
+
+
+def loads(model, scenes):
+    """Loads, tilts and impacts that are not zero; none where all scenes prescribe the motion of the inner ring."""
+    if set(values(model, scenes, "ring.motion")) == {"prescribed"}:
+        return "none: the motion of the inner ring is prescribed"
+    acting = [name for name in LOADS if np.any(values(model, scenes, name))]
+    return ", ".join(f"{name.removeprefix('shaft.')} {text(model, scenes, name)}" for name in acting) or "none"
+
+
+def speeds(model, scenes):
+    """Speed of the inner ring, and those of the outer ring and the frame unless they are zero."""
+    first, *others = SPEEDS
+    return ", ".join([text(model, scenes, first), *(f"{name} {text(model, scenes, name)}" for name in others if np.any(values(model, scenes, name)))])
+
+
+def oil(model, scenes):
+    """Viscosity of the oil at its temperature."""
+    found = {viscosity(model, scene, T) for scene in scenes for T in extremes(values(model, [scene], "oil.T"))}
+    return f"{in_words(model, 'oil.eta', list(found))} at {text(model, scenes, 'oil.T')}"
+
+
+def extremes(numbers):
+    """Smallest and largest number."""
+    return numbers.min(), numbers.max()
+
+
+def viscosity(model, scene, T):
+    """Viscosity of a scene's oil [Pa.s] at T [K]; UserError if its two points make no oil."""
+    own = {name.removeprefix("oil."): scene.parameters.get(name, model.default(v)) for name, v in model.parameters.items() if name.startswith("oil.")}
+    hot = SimpleNamespace(oil=SimpleNamespace())
+    try:
+        heat_oil(SimpleNamespace(oil=SimpleNamespace(**own)), T, hot)
+    except ValueError as problem:
+        raise UserError(f"{scene.source or model.path}: oil.nu_1, oil.nu_2: {problem}") from None
+    return float(hot.oil.eta)
+
+
+def temperatures(model, scenes):
+    """Temperatures of the parts; equal ones once."""
+    found = {part: text(model, scenes, name) for part, name in PARTS.items()}
+    if len(set(found.values())) == 1:
+        return f"{', '.join(PARTS)} {found['cage']}"
+    return ", ".join(f"{part} {value}" for part, value in found.items())
