@@ -43,8 +43,9 @@ The cage's material is bronze where none is named. Another one changes the stres
 |---|---|---|"""
 CLOSE = """
 
-Rules without a range: balls and loads ([own_bearing.md](own_bearing.md)), mass and inertia of the half by shape and density, the number of vibration modes by the
-number of balls, temperatures of the parts by the oil's. The S–N curve follows the strength of the rivet's steel; damage goes with the 15th power of the stress.
+Rules without a range: balls and loads ([own_bearing.md](own_bearing.md)), mass and inertia of the half by shape and density, the number of vibration modes by
+the number of balls, temperatures of the parts by the oil's. The S–N curve follows the strength of the rivet's steel; damage goes with the 15th power of the
+stress.
 """
 
 

@@ -38,6 +38,7 @@ def make_table(geometry, coarse=False, workers=2, progress=_quiet, hold_out=320,
     Raises ValueError for a geometry that cannot be meshed, ArithmeticError if a contact or plasticity solution is not found.
     """
     grid, knots = (COARSE, reduction.COARSE) if coarse else (SHIPPED, reduction.FULL)
+    knots = reduction.knots_for(geometry, knots)
 
     def stage(name):
         return lambda done, total: progress(name, done, total)
@@ -79,7 +80,7 @@ def assemble(kind, joint, knots, samples, fit, cage, modes):
     return table.make(
         geometry,
         kind,
-        reduction.LENGTH,
+        reduction.bending_length(geometry),
         knots,
         samples / rivet_table.MPA_PER_N,
         (fit.fit_a, fit.fit_eff),
@@ -96,7 +97,7 @@ def assemble(kind, joint, knots, samples, fit, cage, modes):
 
 def measured_errors(result, joint, count, workers, progress, seed=2026):
     """Errors of the table against fresh solutions on another, finer grid of angles; as fractions of the channels' maxima."""
-    loads = reduction.random_loads(count, seed)
+    loads = reduction.random_loads(count, seed, size=joint.geometry.size)
     errors = reduction.hold_out_errors(result, loads, reduction.solve_loads(joint, loads, workers, progress))
     return errors | {"seed": seed, "angles": len(joint.angles["UB"]), "harmonics": joint.grid.n_max, "rule": RULE}
 

@@ -65,7 +65,7 @@ def joint_data(geometry):
         "alpha_rivet": g.alpha_rivet,
         "alpha_flange": g.alpha_flange,
         "T_0": g.T_0,
-        "hole_fit": [-20e-6, -10e-6, 0.0, 5e-6],
+        "hole_fit": [g.size * fit for fit in (-20e-6, -10e-6, 0.0, 5e-6)],
         "k_hole": [1.5e7, 2.0e7, 2.8e7, 4.65e7],
     }
 
@@ -98,9 +98,9 @@ def half_data(geometry):
     chain[[0, 1, -1], 0, 0] = 1.0, -0.5, -0.5
     knots = half_loads.KNOTS
     tau, q, psi = (splines.sites(knots[name]) for name in AXES)
-    values = np.array([[[joint_law_samples(g, *law_load(half_loads.LENGTH, a, b, c)) for c in psi] for b in q] for a in tau])
+    values = np.array([[[joint_law_samples(g, *law_load(half_loads.law_length(g), a, b, c)) for c in psi] for b in q] for a in tau])
     law = JointLaw(
-        half_loads.LENGTH,
+        half_loads.law_length(g),
         knots,
         splines.interpolate([knots[name] for name in AXES], values),
         k * chain * np.diag([1.0, width**2, width**2]),
@@ -114,8 +114,9 @@ def half_data(geometry):
 def make_table(geometry=None):
     """Table of kind closed_form for the geometry (default: that of Geometry)."""
     geometry = geometry or Geometry()
-    a, c, xi = np.meshgrid(*(splines.sites(KNOTS[name]) for name in rivet_table.SHANK_AXES), indexing="ij")
-    loads = reduction.shank_loads(a, c, reduction.LENGTH)
+    knots = reduction.knots_for(geometry, KNOTS)
+    a, c, xi = np.meshgrid(*(splines.sites(knots[name]) for name in rivet_table.SHANK_AXES), indexing="ij")
+    loads = reduction.shank_loads(a, c, reduction.bending_length(geometry))
     sheets = [stress(geometry, *loads, chi, xi) / rivet_table.MPA_PER_N for chi in (1.0, 0.5, 0.0)]
     yield_pressure = geometry.yield_flange / np.sqrt(3)  # first yield at the bore: 2 tau = p + hoop tension, taken as pure shear 2 p
     fit_yield = yield_pressure / lame_pressure(geometry, 1.0)
@@ -126,8 +127,8 @@ def make_table(geometry=None):
     return table.make(
         geometry,
         "closed_form",
-        reduction.LENGTH,
-        KNOTS,
+        reduction.bending_length(geometry),
+        knots,
         np.stack(sheets, axis=-2),
         (fit_a, fit_eff),
         joint_data(geometry),

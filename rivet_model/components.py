@@ -131,15 +131,15 @@ def _turned(field, azimuth):
 def make(geometry, coarse=False, workers=2, progress=None, hold_out=60):
     """Components of a geometry, their error at fresh loads in `errors`.  Raises as rivet_model.build.make_table does."""
     grid, knots = (COARSE, COARSE_KNOTS) if coarse else (SHIPPED, KNOTS)
-    joint = Joint(geometry, grid)
+    joint, knots = Joint(geometry, grid), reduction.knots_for(geometry, knots)
     samples = reduction.sample(joint, knots, workers, progress, joint_fields, representative)
     rows = samples.reshape(-1, samples.shape[-1])
     scale, vectors = np.linalg.eigh(rows.T @ rows) if rows.shape[1] < len(rows) else _row_space(rows)
     modes = vectors[:, np.argsort(scale)[::-1][:MODES]].T
     coefficients = splines.interpolate([knots[name] for name in rivet_table.SHANK_AXES], samples @ modes.T)
     points = tuple(place[2].shape[1] for place in (joint.fillet, joint.fillet, joint.middle))
-    made = Components(geometry.digest, reduction.LENGTH, knots, coefficients, modes, points, {})
-    made.errors = hold_out_errors(made, joint, reduction.random_loads(hold_out, 2027)) if hold_out else {}
+    made = Components(geometry.digest, reduction.bending_length(geometry), knots, coefficients, modes, points, {})
+    made.errors = hold_out_errors(made, joint, reduction.random_loads(hold_out, 2027, size=geometry.size)) if hold_out else {}
     return made
 
 

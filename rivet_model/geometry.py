@@ -18,6 +18,8 @@ import tomllib
 from dataclasses import asdict, dataclass, fields
 from pathlib import Path
 
+REFERENCE_SHANK = 1.5e-3  # m, of the 6207's rivets, for which the ranges of the tables were chosen
+
 
 @dataclass(frozen=True)
 class Geometry:
@@ -82,6 +84,11 @@ class Geometry:
         for name, value, sign, other, limit in limits:
             if not (value > limit if sign == ">" else value < limit):
                 raise ValueError(f"geometry: {name} = {value:g} must be {'above' if sign == '>' else 'below'} {other} = {limit:g}")
+
+    @property
+    def size(self):
+        """The joint's size over the 6207's, by the shank: ranges of lengths that a table covers go with it."""
+        return self.shank_diameter / REFERENCE_SHANK
 
     @property
     def shank_area(self):

@@ -24,7 +24,7 @@ CHI = np.deg2rad([0.0, 6.0, 12.0, 20.0, 30.0, 42.0, 56.0, 72.0, 90.0])
 KNOTS = {"tau": np.linspace(0.0, 1.0, 11), "q": np.linspace(-1.0, 1.0, 11), "psi": np.linspace(-1.0, 1.0, 11)}  # equal steps: readers need no search
 # Of the law behind the residual: pads that the modes leave stiff turn about their edges within a tenth of q, and all states of open joints lie there.
 KNOTS_BEHIND = KNOTS | {"q": np.linspace(-1.0, 1.0, 41)}
-LENGTH = 1.5e-3  # l of the law: about the distance of the pad's edge from the rivet
+LENGTH = 1.5e-3  # l of the law of the 6207's joint: about the distance of the pad's edge from the rivet
 NEWTON = 60  # steps at most
 
 
@@ -82,7 +82,8 @@ class JointAlone:
 
         near: L* of a similar case, and its active set.  Raises ArithmeticError if no solution is found.
         """
-        more, unit = K - self.K_0, np.array([1.0, LENGTH, LENGTH])
+        length = law_length(self.elastic.g)
+        more, unit = K - self.K_0, np.array([1.0, length, length])
         load, active = (behind, None) if near is None else near
         small = 1e-9 * (P + np.sum(np.abs(behind / unit)))
 
@@ -179,7 +180,12 @@ def alike_rows(elastic, alone, column):
     return np.concatenate([M[0, :1], [0.0, 0.0], M[0, 1:], rivet[0]])
 
 
-def law_coefficients(knots, width, answer):
+def law_length(g):
+    """l of the law of a geometry [m]."""
+    return LENGTH * g.size
+
+
+def law_coefficients(knots, width, length, answer):
     """Coefficients [tau, q, psi, width] of splines through answer(load, P, near) = (values, what helps with the next tau), per newton."""
     sites = [splines.sites(knots[name]) for name in AXES]
     values = np.zeros((*(len(s) for s in sites), width))
@@ -187,7 +193,7 @@ def law_coefficients(knots, width, answer):
         for k, psi in enumerate(sites[2]):
             near = None
             for i, tau in enumerate(sites[0]):
-                values[i, j, k], near = answer(*law_load(LENGTH, tau, q, psi), near)
+                values[i, j, k], near = answer(*law_load(length, tau, q, psi), near)
     return splines.interpolate([knots[name] for name in AXES], values)
 
 
@@ -200,7 +206,8 @@ def make_law(elastic, alone):
 
     K = elastic.circulant(alone.K_waves)
     slip = 0.5 * elastic.circulant(elastic.opposed[0])
-    return JointLaw(LENGTH, KNOTS, law_coefficients(KNOTS, len(NUMBERS), answer), K, slip)
+    length = law_length(elastic.g)
+    return JointLaw(length, KNOTS, law_coefficients(KNOTS, len(NUMBERS), length, answer), K, slip)
 
 
 def make_law_behind(alone, K):
@@ -209,7 +216,8 @@ def make_law_behind(alone, K):
     def answer(load, P, near):
         return alone.solve_behind(K, load, P, near)
 
-    return LawBehind(LENGTH, KNOTS_BEHIND, law_coefficients(KNOTS_BEHIND, len(CARRIED), answer), K)
+    length = law_length(alone.elastic.g)
+    return LawBehind(length, KNOTS_BEHIND, law_coefficients(KNOTS_BEHIND, len(CARRIED), length, answer), K)
 
 
 def pair_stiffness(contact, P=20.0):

@@ -20,7 +20,8 @@ from . import section_mesh
 from .elasticity import stiffness
 from .section_mesh import Fineness
 
-STEP = 1e-6  # m
+STEP = 1e-6  # m, of the 6207's joint; this and the next lengths go with Geometry.size
+LARGEST = 46e-6  # m
 TOLERANCE = 1e-9  # residual force / reaction
 ITERATIONS = 30
 LAYER = 0.05e-3  # m
@@ -111,7 +112,7 @@ class _Joint:
         self.layers = []
         for body in self.bodies:
             x = np.asarray(body.basis.global_coordinates())
-            self.layers.append(body.weight * ((np.abs(x[0] - self.R) < LAYER) & (x[1] > bore[0]) & (x[1] < bore[-1])))
+            self.layers.append(body.weight * ((np.abs(x[0] - self.R) < LAYER * g.size) & (x[1] > bore[0]) & (x[1] < bore[-1])))
         self._tie(g, (g.edge_break - 1e-9, bore[-1] + 1e-9))
 
     def _tie(self, g, between):
@@ -163,26 +164,26 @@ class _Joint:
         raise ArithmeticError(f"interference did not converge at fit/d = {swelling:g}: residual {np.abs(residual).max():g} of {reaction:g}")
 
 
-def plastic_fit(geometry, largest=46e-6, fine=None, progress=None):
-    """FitMap of the geometry up to `largest` [m].  Raises ArithmeticError if a step does not converge."""
+def plastic_fit(geometry, largest=LARGEST, fine=None, progress=None):
+    """FitMap of the geometry up to `largest` [m] times its size.  Raises ArithmeticError if a step does not converge."""
     fine = fine or Fineness()
     progress = progress or (lambda done, total: None)
-    d = geometry.shank_diameter
+    d, step = geometry.shank_diameter, STEP * geometry.size
     elastic = _Joint(geometry, True, fine)
-    _, p_unit, largest_stress, mean_stress = elastic.step(np.zeros(elastic.T.shape[0]), STEP / d)
+    _, p_unit, largest_stress, mean_stress = elastic.step(np.zeros(elastic.T.shape[0]), step / d)
     limits = geometry.yield_rivet, geometry.yield_flange
-    rivet_yield, flange_yield = (STEP * limit / stress for limit, stress in zip(limits, mean_stress, strict=True))
-    first = min(STEP * limit / stress for limit, stress in zip(limits, largest_stress, strict=True))
+    rivet_yield, flange_yield = (step * limit / stress for limit, stress in zip(limits, mean_stress, strict=True))
+    first = min(step * limit / stress for limit, stress in zip(limits, largest_stress, strict=True))
     joint = _Joint(geometry, False, fine)
     count = int(np.ceil(largest / STEP))
     u, pressures, strains = np.zeros(joint.T.shape[0]), [], []
     for i in range(1, count + 1):
-        u, p, *_ = joint.step(u, i * STEP / d)
+        u, p, *_ = joint.step(u, i * step / d)
         pressures.append(p)
         strains.append(joint.flange.hardened.max())
         progress(i, count)
-    fits, pressures = STEP * np.arange(1, count + 1), np.array(pressures)
-    effective = STEP * pressures / p_unit
+    fits, pressures = step * np.arange(1, count + 1), np.array(pressures)
+    effective = step * pressures / p_unit
     beyond = fits > first * 1.02
     return FitMap(
         np.concatenate([[0.0, first], fits[beyond]]),

@@ -14,6 +14,7 @@ from bearing_model import rivet_rom, rivet_table
 from . import splines
 from .load_cases import Joint
 
+# The ranges of lengths are those of the 6207's joint; those of a joint f times as large are f times as long, and its loads at equal stress f^2 times as large.
 LENGTH = 0.3e-3  # m, of the axis c: opening joints reach |m|/T = 0.2 mm; heads would lift off at 0.5 mm
 
 # Knots are close together where contacts open: xi = 0...12 nm/N (the bore closes all around).
@@ -25,6 +26,17 @@ FULL = {
 COARSE = {"a": np.array([0.0, 0.5, 1.0]), "c": np.array([0.0, 1.0]), "xi": 1e-9 * np.array([-1000, -100, 0, 30, 400])}
 
 DIRECTION = {"plane": 0.0, "oblique": np.pi / 3, "across": np.pi / 2}  # of m, to the axis across V: chi = cos
+
+
+def bending_length(geometry):
+    """|m|/T at c = 1 for a geometry [m]."""
+    return LENGTH * geometry.size
+
+
+def knots_for(geometry, knots):
+    """FULL or COARSE for a geometry: xi, a length over a load, shrinks with the joint's size."""
+    return knots | {"xi": knots["xi"] / geometry.size}
+
 
 _joint = None  # of the worker processes, inherited by fork
 
@@ -42,7 +54,7 @@ def _moments(m, direction):
 def _row(task):
     """Results of `measure` per newton at all xi of one (a, c, sheet) [xi, ...]; xi falls, so that contacts open one after the other."""
     a, c, sheet, xi, measure = task
-    T, V, m = shank_loads(a, c, LENGTH)
+    T, V, m = shank_loads(a, c, bending_length(_joint.geometry))
     forces, active = [], None
     for value in xi[::-1]:
         force, solution = _joint.solve_shank(T, V, *_moments(m, DIRECTION[sheet]), value, active)
@@ -96,15 +108,19 @@ class Load:
     fit: float
 
 
-def random_loads(count, seed, largest_fit=9.1e-6):
-    """Random loads that no table is made from: T <= 120 N, V <= 60 N, m up to 0.2 mm T in all directions, half of the fits in clearance."""
+def random_loads(count, seed, largest_fit=9.1e-6, size=1.0):
+    """Random loads that no table is made from: T <= 120 N, V <= 60 N, m up to 0.2 mm T in all directions, half of the fits in clearance.
+
+    size: of the joint over the 6207's.
+    """
     rng = np.random.default_rng(seed)
     loads = []
     for i in range(count):
         direction = rng.choice([0.0, np.pi / 2, rng.uniform(0.0, np.pi / 2)])
         fit = -90e-6 * rng.uniform() ** 2 if i % 2 == 0 else largest_fit * rng.uniform()
         T = rng.uniform(2, 120)
-        loads.append(Load(T, rng.uniform(0, 60), 0.2e-3 * T * rng.uniform(), direction, fit))
+        V, m = rng.uniform(0, 60), 0.2e-3 * T * rng.uniform()
+        loads.append(Load(T * size**2, V * size**2, m * size**3, direction, fit * size))
     return loads
 
 

@@ -10,22 +10,24 @@ from .load_cases import surface_stress
 from .section_mesh import edge_nodes
 
 REFERENCE = 20.0  # N, preload at which tangents are taken: the response is homogeneous, so only ratios to it matter
+OPEN = -90e-6  # m, a fit at which the bores of the 6207's joint do not touch; of a larger joint more by its size, as the fits below
 K_T_PLATE = 1.5e7  # N/m: a regularization; the closed plates are stiffer than 2e8 by finite elements, which would only shorten the steps of the dynamics
 HOLE_FITS = 1e-6 * np.array([-90, -40, -20, -10, -6, -3, -1, 0, 1, 2, 4, 8])
 
 
-def _rim(joint, motion, P=REFERENCE, N=0.0, V=0.0, fit=-90e-6):
-    return joint.solve(P, N, V, 0.0, 0.0, fit)[1][5 + motion]
+def _rim(joint, motion, P, V, fit):
+    return joint.solve(P, 0.0, V, 0.0, 0.0, fit)[1][5 + motion]
 
 
 def hole_stiffness(joint, fit, V=20.0):
-    """Tangent dV/dx of both bores in series at V [N/m], preload 20 N, frictionless."""
-    return 0.2 * V / (_rim(joint, 0, V=1.1 * V, fit=fit) - _rim(joint, 0, V=0.9 * V, fit=fit))
+    """Tangent dV/dx of both bores in series at V [N/m], preload 20 N, frictionless; both loads are those of the 6207's joint, see Geometry.size."""
+    P, V = (load * joint.geometry.size**2 for load in (REFERENCE, V))
+    return 0.2 * V / (_rim(joint, 0, P, 1.1 * V, fit) - _rim(joint, 0, P, 0.9 * V, fit))
 
 
 def stack_stiffness(joint):
     """Preload per shortening of the rivet [N/m]."""
-    return REFERENCE / joint.overclosure(REFERENCE, -90e-6)
+    return REFERENCE / joint.overclosure(REFERENCE, OPEN * joint.geometry.size)
 
 
 def head_friction(joint, P=REFERENCE, F=2.0):
@@ -48,7 +50,7 @@ def head_friction(joint, P=REFERENCE, F=2.0):
     contact, member = joint.problems["plane"]
 
     def solve(force):
-        gaps = joint.gaps(P, -90e-6) - force * approach / joint.weight
+        gaps = joint.gaps(P, OPEN * g.size) - force * approach / joint.weight
         f = np.zeros(10)
         f[4], f[9] = 2 * t * force, -t * force
         solution = contact.solve(np.bincount(member, weights=gaps, minlength=contact.C.shape[0]), f)
@@ -88,6 +90,6 @@ def joint_data(joint):
         "alpha_rivet": g.alpha_rivet,
         "alpha_flange": g.alpha_flange,
         "T_0": g.T_0,
-        "hole_fit": HOLE_FITS,
-        "k_hole": [float(hole_stiffness(joint, fit)) for fit in HOLE_FITS],
+        "hole_fit": g.size * HOLE_FITS,
+        "k_hole": [float(hole_stiffness(joint, fit)) for fit in g.size * HOLE_FITS],
     }

@@ -200,13 +200,10 @@ def test_rivet_of_a_turning_cage_by_full_elements(bearing, material):
         assert np.abs(off_head).max() < allowed_head
 
 
-ENDS = "the table's bending ends at |m| = 0.3 mm T of every bearing, without a flag: reduction.LENGTH"
-
-
 @pytest.mark.slow
 @pytest.mark.parametrize(
     ("bearing", "material"),
-    [pytest.param(*case, marks=pytest.mark.xfail(reason=ENDS, strict=True)) if case == ("6316", "brass") else case for case in ALL],
+    ALL,
 )
 def test_rivet_of_a_turning_cage_by_a_coarse_table(bearing, material):
     """Tension and head stress by a whole coarse table: 10 %.
@@ -245,7 +242,6 @@ def enlarged(g, factor):
     return replace(g, **{name: getattr(g, name) * factor for name in lengths})
 
 
-@pytest.mark.xfail(reason="the length l of the joint's law is 1.5 mm of every bearing: half_loads.LENGTH", strict=True)
 def test_law_of_an_enlarged_joint():
     """All lengths times f, all forces times f^2, all moments times f^3: the tension over the preload of an opening joint is the same, to rounding.
 
@@ -264,7 +260,6 @@ def test_law_of_an_enlarged_joint():
 
 
 @pytest.mark.slow
-@pytest.mark.xfail(reason=ENDS, strict=True)
 def test_head_stress_of_a_bent_rivet_of_a_large_bearing():
     """The 6316's coarse table at |m|/T from 0 to 0.2 mm times its size over the 6207's, beside fresh solutions on the shipped grid: 3 %."""
     g = geometry("6316", "steel")
