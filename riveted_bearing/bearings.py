@@ -188,15 +188,16 @@ def bearing_case(source, rivet=None):
         path = find_bearing(source)
         bare = designation in shipped_bearings()
         own, document = "shipped" if bare else "yours", {"designation": path.name.removesuffix(".toml")} | read_toml(path)
+    prefix = "rivet."
     if rivet:
-        path, keys = rivet
+        (path, keys), prefix = rivet, ""
         kept = {} if "shank_diameter" in keys else section_of(path, document, "rivet")
         document["rivet"] = kept | keys
-    return read_case(path, document, own, bare)
+    return read_case(path, document, own, bare, prefix)
 
 
-def read_case(path, document, own, bare=False):
-    """The Case of a document; own: how the origin of its values is called."""
+def read_case(path, document, own, bare=False, prefix="rivet."):
+    """The Case of a document; own: how the origin of its values is called; prefix: of the rivet's keys in messages."""
     for key in document:
         if key not in KEYS:
             raise unknown(path, "key", key, KEYS)
@@ -212,7 +213,7 @@ def read_case(path, document, own, bare=False):
     found = {part: materials.material_of(path, part, material_section(path, document, part), given) for part in materials.PARTS}
     for part, material in found.items():
         given |= materials.parameters_of(part, material)
-    sizes = rivet_sizes(path, section_of(path, document, "rivet"))
+    sizes = rivet_sizes(path, section_of(path, document, "rivet"), prefix)
     steel = materials.geometry_of("rivet", found["rivet"])
     origin = dict.fromkeys([*(["Z"] if Z else []), *data, *given, *(f"rivet.{name}" for name in sizes), *inputs], own)
 
@@ -223,7 +224,7 @@ def read_case(path, document, own, bare=False):
     origin |= dict.fromkeys(by_catalogue, "catalogue")
     origin |= dict.fromkeys([name for name in ("Z", *by_rule, *(f"rivet.{name}" for name in rivet_by_rule), *inputs_by_rule) if name not in origin], "rule")
     values = defaults() | by_rule | inputs_by_rule | given | inputs
-    check_limits(path, document, parts)
+    check_limits(path, document, parts, lambda name: prefix + name.removeprefix("rivet.") if name.startswith("rivet.") else name)
     found["cage"] = found["cage"].with_density(values["cage.rho"])
     return Case(designation, str(document.get("description", "")), all_Z, values, data, rivet_by_rule | sizes | steel, origin, found, bare)
 
@@ -241,12 +242,12 @@ def material_section(path, document, part):
     return {key: value for key, value in section_of(path, document, part).items() if part != "rivet" or key in RIVET_MATERIAL}
 
 
-def rivet_sizes(path, section):
+def rivet_sizes(path, section, prefix):
     """Dimensions of the rivet that a section [rivet] gives, itself or by a standard's name."""
     for key in section:
         if key not in (*RIVET_SIZES, *RIVET_MATERIAL, "head"):
             raise unknown(path, "rivet key", key, (*RIVET_SIZES, *RIVET_MATERIAL, "head"))
-    sizes = dict(rivet_values(path, {key: value for key, value in section.items() if key in RIVET_SIZES}))
+    sizes = dict(rivet_values(path, {key: value for key, value in section.items() if key in RIVET_SIZES}, prefix))
     return rivet_heads.head_of(path, section["head"], sizes) | sizes if "head" in section else sizes
 
 
@@ -367,11 +368,9 @@ def rivet_unit(key):
     return {"nu": "1", "alpha": "1", "T": "K"}.get(key.partition("_")[0], "m")  # alpha: 1/K, without a symbol of its own
 
 
-def rivet_values(path, section, where="rivet.", known=tuple(RIVET)):
-    """Dimensions and materials of a rivet in SI, each checked; known: the keys that are allowed."""
+def rivet_values(path, section, where):
+    """Dimensions of a rivet in SI, each checked; where: in front of the key in messages."""
     for key, value in section.items():
-        if key not in known:
-            raise unknown(path, "rivet key", key, known)
         try:
             yield key, positive(value, unit_scales(rivet_unit(key)))
         except UserError as problem:
