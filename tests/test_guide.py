@@ -1,4 +1,4 @@
-"""The user's guide: its files, commands and examples do what they say."""
+"""The user's guide and the page on an own bearing: their files, commands and examples do what they say."""
 
 import re
 import shlex
@@ -20,8 +20,10 @@ from riveted_bearing.sweep import load_sweep
 ROOT = Path(__file__).parents[1]
 GUIDE = (ROOT / "docs" / "guide.md").read_text(encoding="utf-8")
 FMU = ROOT / "fmus" / "RivetedBearing.fmu"
-BLOCKS = re.findall(r"^```(\w+)\n(.*?)^```", GUIDE, re.S | re.M)  # (language, text)
-FILES = {re.match(r"# (\S+)", text)[1]: text for language, text in BLOCKS if language == "toml"}
+OWN = (ROOT / "docs" / "own_bearing.md").read_text(encoding="utf-8")
+BLOCKS = [block for page in (GUIDE, OWN) for block in re.findall(r"^```(\w+)\n(.*?)^```", page, re.S | re.M)]  # (language, text)
+FILES = {found[1]: text for language, text in BLOCKS if language == "toml" and (found := re.match(r"# (\S+)", text))}
+PARTS = [text for language, text in BLOCKS if language == "toml" and not text.startswith("#")]  # of bearing files
 COMMANDS = [line for language, text in BLOCKS if language == "sh" for line in text.splitlines()]
 KNOWN = variables.INPUTS | variables.PARAMETERS | variables.OUTPUTS
 
@@ -51,6 +53,10 @@ def test_files_can_be_read(folder):
     assert set(FILES) == set(readers)
     for name, read in readers.items():
         read(Path(name))
+    assert PARTS
+    for text in PARTS:
+        Path("part.toml").write_text(f'designation = "6309"\n{text}', encoding="utf-8")
+        bearing_case("part.toml")
 
 
 @pytest.mark.parametrize("line", [line for line in COMMANDS if line.startswith("riveted-bearing ")])
@@ -71,7 +77,7 @@ def test_names_of_the_stress_table_are_outputs():
 
 def test_links_lead_somewhere():
     """Files that are there, and headings in them."""
-    for link in re.findall(r"\]\(([^)]+)\)", GUIDE):
+    for link in re.findall(r"\]\(([^)]+)\)", GUIDE + OWN):
         path, _, heading = link.partition("#")
         target = ROOT / "docs" / (path or "guide.md")
         assert target.exists(), link
@@ -93,7 +99,7 @@ def test_scene_of_the_guide_and_python_examples_run(folder, capsys):
 
 @pytest.mark.slow
 def test_the_whole_guide(folder):
-    """All blocks in the order of the page: what the commands promise is there afterwards.  Two minutes, most of it the builds and the rivet's table."""
+    """All blocks in the order of the pages: what the commands promise is there afterwards.  Minutes, most of it the builds and their rivet tables."""
     for language, text in BLOCKS:
         if language == "sh":
             for line in text.splitlines():
@@ -101,7 +107,7 @@ def test_the_whole_guide(folder):
         elif language == "python":
             exec(compile(text, "guide.md", "exec"), {"__name__": "guide"})
     results = {path.name for path in (folder / "results").iterdir()}
-    assert {"demo.html", "demo.png", "runup.html", "preload40.html", "mine.parquet", "softer.parquet", "demo_compare.png", "preload"} <= results
+    assert {"demo.html", "demo.png", "runup.html", "preload40.html", "softer.parquet", "demo_compare.png", "preload"} <= results
 
 
 def run_in_shell(line):
