@@ -94,7 +94,7 @@ def assumed_rows(result):
     """Assumed parameters that move the rivets' stress most: (name, value, low, high, unit, stress, source).
 
     Neither scene nor bearing file gives them, or others from which they follow.  stress: change of the worst head's 99.9 % quantile over the range low to
-    high, over the quantile, at the working point.
+    high, over the quantile, at the working point of the 6207.
     """
     for name, (low, high, stress, source) in variables.ASSUMPTIONS.items():
         if name in result.parameters and not is_known(name, set(result.about.get("given", ())), result.parameters):

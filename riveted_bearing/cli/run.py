@@ -128,9 +128,8 @@ def print_summary(result):
     )
     assumed = [f"{name} {value:.3g} {unit} ({low:.2g} to {high:.2g}: {100 * stress:.0f} %)" for name, value, low, high, unit, stress, _ in assumed_rows(result)]
     if assumed:
-        console.print(
-            f"[dim]assumed, and the stress moves with it (usual range: change of the worst head over it): {escape(', '.join(assumed))}[/]", soft_wrap=True
-        )
+        meant = "usual range: change of the worst head over it, at the working point of the 6207"
+        console.print(f"[dim]assumed, and the stress moves with it ({meant}): {escape(', '.join(assumed))}[/]", soft_wrap=True)
     for source, names in about.get("not_given", {}).items():
         console.print(f"[dim]not given, {escape(source)}: {escape(names)}[/]", soft_wrap=True)
     if note := table_note(result):
