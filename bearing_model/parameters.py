@@ -115,6 +115,8 @@ def check_geometry(p):
     far = f"a ball on one race would reach the other groove's far side; less than 4 (min(f_i, f_e) - 1/2) D = {play:g} m is allowed"
     require(p.bearing.P_d < play, f"bearing.P_d = {p.bearing.P_d} m: {far}")
     require(-p.bearing.P_d < 0.01 * D, f"bearing.P_d = {p.bearing.P_d} m: the interference exceeds 1 % of bearing.D; at least {-0.01 * D:g} m is allowed")
+    softest = PARAMETERS["bearing.E"].min
+    require(p.ball.E == 0.0 or p.ball.E >= softest, f"ball.E = {p.ball.E} Pa: 0, which stands for bearing.E, or at least {softest:g} Pa is allowed")
     require(p.cage.D_i < p.cage.D_o, f"cage.D_i = {p.cage.D_i} m: less than cage.D_o = {p.cage.D_o} m is allowed")
     require(p.cage.D_i < d_m, f"cage.D_i = {p.cage.D_i} m: less than bearing.d_m = {d_m} m is allowed")
     require(d_m < p.cage.D_o, f"cage.D_o = {p.cage.D_o} m: more than bearing.d_m = {d_m} m is allowed")

@@ -180,6 +180,10 @@ static bool check_geometry(Bearing *b)
                     "housing.outside = %g m: 0 or more than the outside diameter of the outer ring, %g m, is "
                     "allowed",
                     p->housing.outside, ring_fit_outside(p));
+    const double softest = variable_named("bearing.E")->min;
+    fine &= require(b, p->ball.E == 0.0 || p->ball.E >= softest,
+                    "ball.E = %g Pa: 0, which stands for bearing.E, or at least %g Pa is allowed", p->ball.E,
+                    softest);
     fine &= require(b, p->cage.D_i < p->cage.D_o, "cage.D_i = %g m: less than cage.D_o = %g m is allowed",
                     p->cage.D_i, p->cage.D_o);
     fine &= require(b, p->cage.D_i < d_m, "cage.D_i = %g m: less than bearing.d_m = %g m is allowed",
