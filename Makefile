@@ -6,7 +6,7 @@ PYTHON  = $(BIN)/python
 FMU     = fmus/RivetedBearing.fmu
 COPY    = $(CURDIR)/build/sanitize
 PYTEST  = $(PYTHON) -m pytest
-C_FILES = $(wildcard fmu_src/*.[ch] tests/*.[ch] benchmarks/*.[ch] examples/*/*.c docs/site/browser/*.c)
+C_FILES = $(shell find fmu_src -name '*.[ch]') $(wildcard tests/*.[ch] benchmarks/*.[ch] examples/*/*.c docs/site/browser/*.c)
 BENCHMARKS = rtf rhs step hosted scenes scaling work_precision
 FORM    = --short
 # Test files that call the C code themselves: functions of the core, of FMI, programs of cmake/fuzz.cmake.  The command line, reports and sweeps come to
@@ -94,7 +94,7 @@ analyze: build  ## static analysis without findings: the compiler's analyzer and
 	$(BIN)/pip --disable-pip-version-check --quiet install clang-tidy
 	$(BIN)/cmake -S . -B build/analyze -G Ninja -DANALYZE=ON -DFMU=$(CURDIR)/build/analyze/analyzed.fmu -DPython_EXECUTABLE=$(CURDIR)/$(PYTHON)
 	$(BIN)/cmake --build build/analyze --target RivetedBearing
-	$(BIN)/clang-tidy -p build --quiet fmu_src/*.c
+	$(BIN)/clang-tidy -p build --quiet $(filter %.c,$(shell find fmu_src -name '*.c'))
 
 FUZZ_SECONDS = 120
 fuzz: $(VENV)/installed  ## coverage-guided fuzzing of the FMI functions with sanitizers (clang) for FUZZ_SECONDS, from tests/corpus on

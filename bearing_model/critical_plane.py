@@ -13,7 +13,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from bearing_model.rivet_rom import RivetLoad
+from bearing_model.rivet.rivet_rom import RivetLoad
 
 DIRECTIONS = 36  # tried in a plane, over 180 degrees: they give the extent within 1 - cos(2.5 deg) = 0.1 %
 

@@ -24,9 +24,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from bearing_model.hertz_exact import ball_race_contact
+from bearing_model.physics.hertz_exact import ball_race_contact
 from bearing_model.kinematics import CONTROLS, FaultFrequencies, ball_motion
-from bearing_model.ring_fit import RingFit, ring_fit_growth
+from bearing_model.physics.ring_fit import RingFit, ring_fit_growth
 
 RING = 5  # ring coordinates: x, y, z, tilt_y, tilt_z
 KINEMATICS = ("exact", "linear")

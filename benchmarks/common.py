@@ -20,7 +20,7 @@ sys.path[:0] = [str(ROOT), str(ROOT / "tests")]
 from library import LIBRARY, Core  # noqa: E402
 from mechanics import Instance  # noqa: E402
 
-from bearing_model import variables  # noqa: E402
+from bearing_model.generated import variables  # noqa: E402
 from riveted_bearing.fmu import Model, codes  # noqa: E402
 from riveted_bearing.scene import load_scene  # noqa: E402
 

@@ -8,7 +8,7 @@
 // Behind integrator.h like solvers.c.  Steps are those of the core's loop but for rounding: ARKODE multiplies the last step
 // by the ratio of both.  All of the difference in time is ARKODE's, and the correction that becomes its state.
 #define integrator_advance own_advance
-#include "integrator.c"
+#include "solver/integrator.c"
 #undef integrator_advance
 
 #include <arkode/arkode_arkstep.h>

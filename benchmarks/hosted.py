@@ -5,7 +5,7 @@ Interleaved runs of 20 ms in one process, least of 25; evaluations of both, whic
 
 from common import SCENES, Core, Scene, build_target, core_library, counters, cpu, options, say, write
 
-from bearing_model.variables import CageModel, Stress, Switch
+from bearing_model.generated.variables import CageModel, Stress, Switch
 
 LENGTH, STEP, ROUNDS = 0.02, 1e-4, 25  # [s], [s]
 

@@ -1,13 +1,13 @@
 // Compiled once per instruction set, like the kernels.
 #include "kernel_loops.h"
 
-#include "ball.h"
-#include "cage_joint.h"
-#include "drag.h"
-#include "land_film.h"
-#include "pocket.h"
-#include "race_contact.h"
-#include "ring.h"
+#include "physics/ball.h"
+#include "cage/common/cage_joint.h"
+#include "physics/drag.h"
+#include "physics/land_film.h"
+#include "cage/common/pocket.h"
+#include "physics/race_contact.h"
+#include "physics/ring.h"
 
 #include <time.h>
 

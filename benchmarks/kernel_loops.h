@@ -1,7 +1,7 @@
 // Loops around the kernels of one instruction set, and the processor's own limits.
 #pragma once
 
-#include "rhs.h"
+#include "physics/rhs.h"
 
 enum { ELEMENTS = 10 };
 

@@ -12,7 +12,7 @@ import subprocess
 import numpy as np
 from common import SCENES, Core, Scene, build_target, options, say, write
 
-from bearing_model import variables
+from bearing_model.generated import variables
 
 ELEMENT_NAMES = (
     "ball kinematics",

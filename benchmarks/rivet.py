@@ -7,7 +7,7 @@ import numpy as np
 from common import SCENES, Core, Scene, build_target, cpu, options, say, write
 from rhs import settled_states
 
-from bearing_model.variables import Z
+from bearing_model.generated.variables import Z
 
 REACH = 0.5e-6  # s for the 2 Z channels
 CALLS = 20_000  # evaluations of Z rivets in one timing

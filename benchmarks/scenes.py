@@ -12,8 +12,8 @@ import numpy as np
 from common import FMU, SCENES, Scene, core_library, counters, cpu, options, say, write
 from scipy.stats import t as student
 
-from bearing_model import variables
-from bearing_model.variables import CageModel, Lubrication, Method, Stress, Switch, Traction
+from bearing_model.generated import variables
+from bearing_model.generated.variables import CageModel, Lubrication, Method, Stress, Switch, Traction
 
 STEP = 1e-4  # communication step [s]
 FIGURES = [f"stat.{channel}_{figure}" for channel in ("Q_c", "sigma_head", "sigma_mid") for figure in ("mean", "rms", "p999")]

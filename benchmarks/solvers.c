@@ -18,9 +18,9 @@
 // those evaluations are made only where a scene wants stress or statistics.
 #include "solvers.h"
 
-#include "cage_joint.h"
-#include "instance.h"
-#include "stepping.h"
+#include "cage/common/cage_joint.h"
+#include "instance/instance.h"
+#include "solver/stepping.h"
 
 #include <arkode/arkode_erkstep.h>
 #include <cvode/cvode.h>

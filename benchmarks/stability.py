@@ -26,7 +26,7 @@ from mechanics import Instance as CoreInstance
 from stability_page import write_page
 from stability_scenes import WORKING, Scene, matrix
 
-from bearing_model import variables
+from bearing_model.generated import variables
 from rivet_model import closed_form, table
 from rivet_model.geometry import Geometry
 from riveted_bearing import build

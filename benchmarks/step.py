@@ -13,7 +13,7 @@ import numpy as np
 from common import BUILD, Core, Scene, build_target, counters, cpu, options, say, write
 from rhs import base_address, disassembly, floor, instruction_sets, kinds, peaks
 
-from bearing_model.variables import CageModel, Stress, Switch
+from bearing_model.generated.variables import CageModel, Stress, Switch
 
 STEP = 1e-4  # [s]
 CAGES = CageModel.ELASTIC, CageModel.TWO_HALF  # the default first

@@ -1,6 +1,6 @@
 // Instructions of a call, by single steps of a child process (Linux).
 #include "trace.h"
-#include "rhs.h"
+#include "physics/rhs.h"
 
 #include <signal.h>
 #include <sys/ptrace.h>

@@ -1,8 +1,8 @@
 // Instruction counts.
 #pragma once
 
-#include "part.h"
-#include "rhs.h"
+#include "instance/part.h"
+#include "physics/rhs.h"
 
 // Each runs a call in a child process and writes the address of each instruction on the way (those around the
 // call too); returns their number, < 0 on failure or if there are more than `max_count`.

@@ -25,12 +25,12 @@ from race_control import LOADS, SPEEDS
 from race_control import equilibrium as control_equilibrium
 from race_control import running as running_with_spin
 
-from bearing_model.hertz import curvature_difference, hertz_contact
-from bearing_model.hertz_exact import ball_race_contact
+from bearing_model.physics.hertz import curvature_difference, hertz_contact
+from bearing_model.physics.hertz_exact import ball_race_contact
 from bearing_model.kinematics import fault_frequencies
-from bearing_model.parameters import Parameters
+from bearing_model.physics.parameters import Parameters
 from bearing_model.quasi_static import Bearing, Load, quasi_static
-from bearing_model.ring_fit import ring_fit_of
+from bearing_model.physics.ring_fit import ring_fit_of
 from rivet_model.geometry import Geometry
 from riveted_bearing import build, run
 from riveted_bearing.compare import compare, is_motion

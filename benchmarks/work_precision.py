@@ -21,9 +21,9 @@ import numpy as np
 from common import SCENES, Core, Scene, build_target, core_library, counters, cpu, declare, options, say, set_state, write
 from scipy.stats import t as student
 
-from bearing_model import integrator as reference_implementation
-from bearing_model import variables
-from bearing_model.statistics import StatisticsChannel
+from bearing_model.solver import integrator as reference_implementation
+from bearing_model.generated import variables
+from bearing_model.instance.statistics import StatisticsChannel
 
 HORIZON, PYTHON_HORIZON, BLOCK = 2e-3, 0.5e-3, 20e-3  # [s]
 DENSE_OUTPUTS = 0.4 / 10_000  # the paper's 10,000 outputs in 0.4 s

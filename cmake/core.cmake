@@ -3,9 +3,13 @@
 include(CheckCCompilerFlag)
 
 # Files that work on packets of balls: compiled once for each instruction set, chosen at run time.
-set(kernel_files rhs.c ball.c race_contact.c drag.c pocket.c cage_joint.c cage_elastic.c cage_substeps.c elastic_wall.c land_film.c ring.c  # the right-hand side
-    vector_ops.c implicit.c verlet.c                                                              # what the integrator does with it
-    rivets.c half_path.c joint_law.c joint_follow.c rivet_rom.c)                                                 # stress after each step
+set(kernel_files
+    physics/rhs.c physics/ball.c physics/race_contact.c physics/drag.c physics/land_film.c physics/ring.c
+    cage/common/pocket.c cage/common/cage_joint.c cage/common/joint_law.c
+    cage/two_half/half_path.c cage/two_half/joint_follow.c
+    cage/elastic/cage_elastic.c cage/elastic/cage_substeps.c cage/elastic/elastic_wall.c
+    rivet/rivets.c rivet/rivet_rom.c
+    solver/vector_ops.c solver/implicit.c solver/verlet.c)
 
 set(warnings -Wall -Wextra -Wpedantic)
 set(arithmetic -ffp-contract=off -fno-math-errno -fno-trapping-math)  # IEEE results, the same ones on every instruction set
@@ -40,15 +44,17 @@ set(rivet_table ${PROJECT_BINARY_DIR}/rivet_table.c)
 if(GENERATED_DIR AND EXISTS ${GENERATED_DIR}/rivet_table.c)
     set(rivet_table ${GENERATED_DIR}/rivet_table.c)
 else()
-    file(GLOB embed_sources CONFIGURE_DEPENDS ${rivet_model_dir}/*.py ${bearing_model_dir}/rivet_*.py ${bearing_model_dir}/joint_law.py ${bearing_model_dir}/half_path.py ${bearing_model_dir}/half_modes.py)
+    file(GLOB embed_sources CONFIGURE_DEPENDS ${rivet_model_dir}/*.py ${bearing_model_dir}/rivet/*.py
+        ${bearing_model_dir}/cage/*/joint_law.py ${bearing_model_dir}/cage/*/half_*.py)
     add_custom_command(OUTPUT ${rivet_table}
         COMMAND ${Python_EXECUTABLE} -m rivet_model.embed ${RIVET_TABLE} ${rivet_table}
         DEPENDS ${RIVET_TABLE} ${embed_sources} WORKING_DIRECTORY ${PROJECT_SOURCE_DIR} VERBATIM)
 endif()
 
 list(TRANSFORM kernel_files PREPEND ${fmu_src}/)
-file(GLOB core_files CONFIGURE_DEPENDS ${fmu_src}/*.c)
-list(REMOVE_ITEM core_files ${kernel_files} ${fmu_src}/fmi2_wrapper.c)
+file(GLOB_RECURSE core_files CONFIGURE_DEPENDS ${fmu_src}/*.c)
+list(FILTER core_files EXCLUDE REGEX /generated/)
+list(REMOVE_ITEM core_files ${kernel_files} ${fmu_src}/host/fmi2_wrapper.c)
 list(APPEND core_files ${generated}/variables.c)
 
 add_library(core OBJECT ${core_files} ${rivet_table})
@@ -95,7 +101,7 @@ endif()
 # And once in dual numbers: derivatives.  Complex products need no care for infinities here.
 check_c_compiler_flag("-Werror -fcx-limited-range" limited_range)
 if(limited_range)
-    set_source_files_properties(${fmu_src}/jacobian.c PROPERTIES COMPILE_OPTIONS -fcx-limited-range)
+    set_source_files_properties(${fmu_src}/instance/jacobian.c PROPERTIES COMPILE_OPTIONS -fcx-limited-range)
 endif()
 
 # For the tests only: each element's functions, callable from Python.

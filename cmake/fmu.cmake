@@ -27,11 +27,11 @@ function(add_fmu_binary name)
     endif()
 endfunction()
 
-set(source_files ${core_files} ${kernel_files} ${fmu_src}/fmi2_wrapper.c ${rivet_table} ${sundials_files})
+set(source_files ${core_files} ${kernel_files} ${fmu_src}/host/fmi2_wrapper.c ${rivet_table} ${sundials_files})
 set(source_folders ${core_includes} ${sundials_folders})
 set(build_info ${PROJECT_BINARY_DIR}/build_info.c)
 add_build_info(${build_info} "${source_files}" "${source_folders}")
-add_fmu_binary(RivetedBearing ${core_objects} ${fmu_src}/fmi2_wrapper.c ${build_info})
+add_fmu_binary(RivetedBearing ${core_objects} ${fmu_src}/host/fmi2_wrapper.c ${build_info})
 target_link_libraries(RivetedBearing PRIVATE core)
 add_custom_target(binaries DEPENDS RivetedBearing)  # all there are for this platform
 

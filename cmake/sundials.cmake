@@ -156,7 +156,7 @@ function(configure_sundials source folder)
     endforeach()
     configure_file(${source}/include/sundials/sundials_config.in ${folder}/configured.h)
     file(READ ${folder}/configured.h configured)
-    file(CONFIGURE OUTPUT ${folder}/sundials/sundials_config.h CONTENT "@configured@\n#include \"@PROJECT_SOURCE_DIR@/fmu_src/reserved_memory.h\"\n" @ONLY)
+    file(CONFIGURE OUTPUT ${folder}/sundials/sundials_config.h CONTENT "@configured@\n#include \"@PROJECT_SOURCE_DIR@/fmu_src/numbers/reserved_memory.h\"\n" @ONLY)
     file(CONFIGURE OUTPUT ${folder}/sundials/sundials_export.h CONTENT
         "#define SUNDIALS_EXPORT\n#define SUNDIALS_NO_EXPORT\n#define SUNDIALS_DEPRECATED\n#define SUNDIALS_DEPRECATED_EXPORT\n#define SUNDIALS_DEPRECATED_NO_EXPORT\n")
 endfunction()

@@ -14,7 +14,7 @@ from pathlib import Path
 from sources import collect
 
 TEXT = """// Written by fmus/build_info.py: do not edit.
-#include "build_info.h"
+#include "host/build_info.h"
 
 const char BUILD_DIGEST[] = "{digest}";
 """

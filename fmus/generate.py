@@ -22,7 +22,7 @@ from lxml import etree
 
 ROOT = Path(__file__).resolve().parent.parent
 TABLE = ROOT / "fmus" / "variables.toml"
-OUTPUTS = ("fmu_src/generated/variables.h", "fmu_src/generated/variables.c", "fmus/modelDescription.xml", "bearing_model/variables.py", "docs/parameters.md")
+OUTPUTS = ("fmu_src/generated/variables.h", "fmu_src/generated/variables.c", "fmus/modelDescription.xml", "bearing_model/generated/variables.py", "docs/parameters.md")
 TEMPLATES = ROOT / "fmus" / "templates"
 Z_MIN, Z_MAX = 5, 32
 CAUSALITIES = {"inputs": "input", "parameters": "parameter", "outputs": "output", "locals": "local"}

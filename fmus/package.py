@@ -22,7 +22,7 @@ from lxml import etree
 from materials import PLACE, bill_of_materials
 from sources import collect
 
-from bearing_model.rivet_table import read
+from bearing_model.rivet.rivet_table import read
 
 PROJECT = Path(__file__).resolve().parents[1]
 LICENSES = ("LICENSE", "THIRD_PARTY_NOTICES.md")

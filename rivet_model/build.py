@@ -14,7 +14,7 @@ from pathlib import Path
 import numpy as np
 from threadpoolctl import threadpool_limits
 
-from bearing_model import rivet_table
+from bearing_model.rivet import rivet_table
 
 from . import half, half_loads, half_modes, half_shape, impacts, plastic_fit, reduction, stiffness, table
 from .geometry import Geometry

@@ -12,8 +12,8 @@ import sys
 
 import numpy as np
 
-from bearing_model import rivet_table
-from bearing_model.joint_law import AXES, JointLaw, law_load
+from bearing_model.rivet import rivet_table
+from bearing_model.cage.common.joint_law import AXES, JointLaw, law_load
 
 from . import half_loads, half_shape, reduction, splines, table
 from .geometry import Geometry
@@ -39,7 +39,7 @@ def lame_pressure(geometry, fit):
 
 
 def stress(geometry, T, V, m, chi, fit):
-    """Channels [..., 4] in Pa of a shank that carries tension T, transverse load V and moment m, elastic fit [m]; chi as in fmu_src/rivet_rom.h."""
+    """Channels [..., 4] in Pa of a shank that carries tension T, transverse load V and moment m, elastic fit [m]; chi as in fmu_src/rivet/rivet_rom.h."""
     g = geometry
     lever = V * g.relief_depth
     bending = np.sqrt((lever + m * np.abs(chi)) ** 2 + m**2 * (1 - chi**2)) / (np.pi * g.shank_diameter**3 / 32)

@@ -2,7 +2,7 @@
 
 python -m rivet_model.components OUT.npz [GEOMETRY.toml] [--coarse] [--workers 2]
 
-    field = s sum_i C_i(a, c, xi, direction of m) mode_i        coordinates as in fmu_src/rivet_rom.h
+    field = s sum_i C_i(a, c, xi, direction of m) mode_i        coordinates as in fmu_src/rivet/rivet_rom.h
 
 The fields of sampled loads are reduced to their first singular vectors; the amplitudes C_i are splines, as the channels of the table are.
 Over the direction phi of the moment m against V, C = A + B cos phi + D sin phi through the three sheets: exact as long as no contact opens or closes.
@@ -17,7 +17,7 @@ from pathlib import Path
 
 import numpy as np
 
-from bearing_model import rivet_rom, rivet_table
+from bearing_model.rivet import rivet_rom, rivet_table
 
 from . import reduction, splines
 from .geometry import Geometry

@@ -7,11 +7,13 @@ from pathlib import Path
 
 import numpy as np
 
-from bearing_model import half_path, joint_law, rivet_splines, rivet_table
+from bearing_model.cage.two_half import half_path
+from bearing_model.cage.common import joint_law
+from bearing_model.rivet import rivet_splines, rivet_table
 
 from . import splines
 
-BINS = 256  # RIVET_BINS in fmu_src/rivet_rom.h
+BINS = 256  # RIVET_BINS in fmu_src/rivet/rivet_rom.h
 
 
 def _array(name, values, kind="double"):
@@ -71,7 +73,7 @@ def uniform_coefficients(law):
 
 
 def alike_rows(alike):
-    """Rows of fmu_src/joint_law.h's ALIKE_WIDTH."""
+    """Rows of fmu_src/cage/common/joint_law.h's ALIKE_WIDTH."""
     even = [0, 2, 3, 5]  # u, phi_t, T, m_t, over N, M_t, P
     slopes = alike.slopes[:, even][:, :, [0, 2, 3]].reshape(len(alike.x), -1)
     return np.column_stack([alike.load[:, [0, 2]], alike.values[:, even], slopes, alike.slopes[:, 1, 1], alike.slopes[:, 4, 1]])
@@ -147,7 +149,7 @@ def c_source(t):
     """The C text of rivet_table.c."""
     parts = [
         f"// The rivet table, kind {t.kind}, geometry {t.geometry_hash}: written by rivet_model/embed.py, not to be edited.\n",
-        '#include "rivet_rom.h"\n\n',
+        '#include "rivet/rivet_rom.h"\n\n',
         f'_Static_assert(Z == {t.Z}, "the rivet table was made for Z = {t.Z}");\n\n// clang-format off\n',
     ]
     axes, shank = [], t.shank

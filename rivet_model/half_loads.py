@@ -11,9 +11,9 @@ A force on one half is half a mirrored pair of forces, which gives N, M, dP, dm,
 
 import numpy as np
 
-from bearing_model.half_path import bolt_group
-from bearing_model.joint_law import AXES, CARRIED, NUMBERS, JointLaw, LawBehind, law_load
-from bearing_model.rivet_table import HalfData
+from bearing_model.cage.two_half.half_path import bolt_group
+from bearing_model.cage.common.joint_law import AXES, CARRIED, NUMBERS, JointLaw, LawBehind, law_load
+from bearing_model.rivet.rivet_table import HalfData
 
 from . import half_shape, splines
 from .cage_half import BODY, SPIN, CageHalf

@@ -1,4 +1,4 @@
-"""Free-free modes of a cage half by its solid finite elements, wave by wave, and the residual flexibility beside them: bearing_model/half_modes.py.
+"""Free-free modes of a cage half by its solid finite elements, wave by wave, and the residual flexibility beside them: bearing_model/cage/elastic/half_modes.py.
 
 The half of cage_half.py, of its density, with its part of the rivets as point masses at the seats' bottoms (their centre of mass is within 0.1 mm of it).
 Wave n of one pitch meets itself at the cuts, u(far) = turn(2 pi/Z) exp(2 pi i n/Z) u(near), and Lanczos iteration about a small negative shift finds
@@ -12,7 +12,7 @@ import numpy as np
 import scipy.sparse as sp
 from scipy.sparse.linalg import LinearOperator, eigsh, splu
 
-from bearing_model.half_modes import EVEN, LAW_MODES_PER_PITCH, OUT, PAD, HalfModes, Residual, fewer, joint_residual
+from bearing_model.cage.elastic.half_modes import EVEN, LAW_MODES_PER_PITCH, OUT, PAD, HalfModes, Residual, fewer, joint_residual
 
 from . import half_loads, half_shape
 from .cage_half import BODY, SYMMETRIC

@@ -12,8 +12,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from bearing_model import half_modes as modes_of
-from bearing_model.half_path import path_rows
+from bearing_model.cage.elastic import half_modes as modes_of
+from bearing_model.cage.two_half.half_path import path_rows
 
 from . import half_shape
 

@@ -4,8 +4,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from bearing_model.joint_law import single_joint
-from bearing_model.rivet_rom import HEAD_P1, MID_VM, RivetLoad, rivet_rom_fit_eff, rivet_rom_stress
+from bearing_model.cage.common.joint_law import single_joint
+from bearing_model.rivet.rivet_rom import HEAD_P1, MID_VM, RivetLoad, rivet_rom_fit_eff, rivet_rom_stress
 
 from . import half, half_loads, half_modes, plastic_fit
 from .cage_half import CageHalf, CyclicSolid

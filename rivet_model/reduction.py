@@ -9,7 +9,7 @@ from multiprocessing import get_context
 import numpy as np
 from threadpoolctl import threadpool_limits
 
-from bearing_model import rivet_rom, rivet_table
+from bearing_model.rivet import rivet_rom, rivet_table
 
 from . import splines
 from .load_cases import Joint
@@ -42,7 +42,7 @@ _joint = None  # of the worker processes, inherited by fork
 
 
 def shank_loads(a, c, length):
-    """Loads (T, V, m) of s = 1 N at the table's coordinates: the inverse of the formulas in fmu_src/rivet_rom.h."""
+    """Loads (T, V, m) of s = 1 N at the table's coordinates: the inverse of the formulas in fmu_src/rivet/rivet_rom.h."""
     return 1.0 - a, a, c * length * (1.0 - a)
 
 

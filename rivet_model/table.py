@@ -1,4 +1,4 @@
-"""Making and writing the rivet table; bearing_model.rivet_table holds its format and its reader."""
+"""Making and writing the rivet table; bearing_model.rivet.rivet_table holds its format and its reader."""
 
 import json
 from dataclasses import asdict
@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 
-from bearing_model.rivet_table import CHANNELS, FORMAT, MPA_PER_N, SHANK_AXES, SHEETS, RivetTable, ShankTable, as_embedded, digest_of
+from bearing_model.rivet.rivet_table import CHANNELS, FORMAT, MPA_PER_N, SHANK_AXES, SHEETS, RivetTable, ShankTable, as_embedded, digest_of
 
 from . import splines
 from .geometry import Geometry

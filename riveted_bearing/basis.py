@@ -4,7 +4,7 @@ from types import SimpleNamespace
 
 import numpy as np
 
-from bearing_model.temperature import heat_oil
+from bearing_model.physics.temperature import heat_oil
 
 from .errors import UserError, shortlist
 from .scene import in_words

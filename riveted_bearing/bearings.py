@@ -22,12 +22,12 @@ from dataclasses import dataclass, field, fields, replace
 from importlib.resources import files
 from pathlib import Path
 
-from bearing_model import variables
-from bearing_model.derived import ball_elasticity, default_table
-from bearing_model.parameters import Values
+from bearing_model.generated import variables
+from bearing_model.physics.derived import ball_elasticity, default_table
+from bearing_model.physics.parameters import Values
 from bearing_model.quasi_static import Bearing, Load, quasi_static
-from bearing_model.ring_fit import ring_fit_of
-from bearing_model.temperature import temperature_apply
+from bearing_model.physics.ring_fit import ring_fit_of
+from bearing_model.physics.temperature import temperature_apply
 from rivet_model.geometry import Geometry
 
 from . import catalogue, limits, materials, rivet_heads, scaling

@@ -20,7 +20,7 @@ import sys
 import sysconfig
 from pathlib import Path
 
-from bearing_model import variables
+from bearing_model.generated import variables
 from rivet_model.geometry import Geometry
 
 from .bearings import CAGE_MEANT, bearing_case

@@ -1,4 +1,4 @@
-"""One scene through the FMU and through the Python reference (bearing_model.integrator), which shares no code with it.
+"""One scene through the FMU and through the Python reference (bearing_model.solver.integrator), which shares no code with it.
 
 Short horizon: outputs at the same instants, at several tolerances.  A difference that falls with the tolerance is the integration's error; a difference that
 stays is one of the models.  Differences of motion are given in parts of 10 um and 0.1 m/s (angles by arc length at the pitch circle), which are
@@ -13,7 +13,8 @@ import numpy as np
 from rich.markup import escape
 from rich.table import Column, Table
 
-from bearing_model import integrator, variables
+from bearing_model.solver import integrator
+from bearing_model.generated import variables
 
 from .errors import UserError
 from .runner import simulate

@@ -17,7 +17,7 @@ from fmpy.fmi1 import FMICallException
 from fmpy.fmi2 import FMU2Slave, defaultCallbacks, fmi2CallbackFunctions, fmi2CallbackLoggerTYPE, fmi2LastSuccessfulTime, fmi2ValueReference
 from fmpy.logging import addLoggerProxy
 
-from bearing_model.variables import MODEL_IDENTIFIER
+from bearing_model.generated.variables import MODEL_IDENTIFIER
 
 from .errors import UserError
 from .units import suffix, symbol_of, to_si, unit_table

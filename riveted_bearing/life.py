@@ -1,12 +1,12 @@
-"""Rainflow cycles and life of the rivets from recorded stress, by the `rainflow` package (ASTM E1049) and the S-N law of bearing_model.fatigue."""
+"""Rainflow cycles and life of the rivets from recorded stress, by the `rainflow` package (ASTM E1049) and the S-N law of bearing_model.instance.fatigue."""
 
 from dataclasses import dataclass
 
 import numpy as np
 import rainflow
 
-from bearing_model.fatigue import FatigueLaw, fatigue_cycle
-from bearing_model.variables import MeanStress
+from bearing_model.instance.fatigue import FatigueLaw, fatigue_cycle
+from bearing_model.generated.variables import MeanStress
 
 from .summary import settled
 

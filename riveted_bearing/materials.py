@@ -15,7 +15,7 @@ from dataclasses import dataclass, field, replace
 from functools import cache
 from importlib.resources import files
 
-from bearing_model import variables
+from bearing_model.generated import variables
 
 from .errors import UserError, unknown
 from .scene import positive, refusal

@@ -8,7 +8,7 @@ from pathlib import Path
 import jinja2
 import numpy as np
 
-from bearing_model import variables
+from bearing_model.generated import variables
 
 from . import charts, plot
 from .animation import frames, number_of_balls

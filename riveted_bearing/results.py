@@ -18,8 +18,8 @@ from pathlib import Path
 
 import numpy as np
 
-from bearing_model.parameters import TYPES
-from bearing_model.variables import PARAMETERS
+from bearing_model.physics.parameters import TYPES
+from bearing_model.generated.variables import PARAMETERS
 
 from .errors import UserError, extra
 

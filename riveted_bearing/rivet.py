@@ -10,7 +10,10 @@ import numpy as np
 from rich.table import Column, Table
 from threadpoolctl import threadpool_limits
 
-from bearing_model import half_modes, half_path, joint_law, rivet_rom, rivet_splines, rivet_table
+from bearing_model.cage.elastic import half_modes
+from bearing_model.cage.two_half import half_path
+from bearing_model.cage.common import joint_law
+from bearing_model.rivet import rivet_rom, rivet_splines, rivet_table
 from rivet_model import closed_form, pictures, table
 from rivet_model.build import make_table, other_modes
 from rivet_model.geometry import Geometry

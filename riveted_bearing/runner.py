@@ -113,7 +113,7 @@ def closing_names(model):
 def vibrations(model, parameters):
     """Frequencies [Hz] of a free half, of the modes that the run took, by the table inside the FMU; nothing if the halves are rigid or the FMU lists none.
 
-    A half is as much denser than the table's as `cage.m` is larger, and takes whole pairs of modes (bearing_model/half_modes.py: denser, fewer).
+    A half is as much denser than the table's as `cage.m` is larger, and takes whole pairs of modes (bearing_model/cage/elastic/half_modes.py: denser, fewer).
     """
     if parameters.get("scene.cage") != "elastic" or not model.cage_modes:
         return {}

@@ -12,7 +12,7 @@ import math
 from dataclasses import asdict, replace
 from types import SimpleNamespace
 
-from bearing_model import variables
+from bearing_model.generated import variables
 from bearing_model.load_ratings import dynamic_rating
 from rivet_model import half_shape
 from rivet_model.geometry import Geometry

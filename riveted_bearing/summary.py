@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from bearing_model import variables
+from bearing_model.generated import variables
 
 RPM = 30.0 / np.pi  # rev/min per rad/s
 DEG = 180.0 / np.pi

@@ -3,8 +3,8 @@
 import math
 import re
 
-from bearing_model import variables
-from bearing_model.variables import ESSENTIALS, INPUTS, LOCALS, OUTPUTS, PARAMETERS
+from bearing_model.generated import variables
+from bearing_model.generated.variables import ESSENTIALS, INPUTS, LOCALS, OUTPUTS, PARAMETERS
 
 from .errors import unknown
 from .units import suffix

@@ -4,7 +4,7 @@
 //   the instance can then be reset and runs as a new one, byte for byte
 //
 // The linker sends all allocations of the FMU's own code here (--wrap), those of a sanitizer's build too.  Prints for each act how many were refused.
-#include "part.h"
+#include "instance/part.h"
 
 #include "fmi2Functions.h"
 

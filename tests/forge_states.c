@@ -7,13 +7,13 @@
 // forge_states COUNT [SEED]   forges COUNT states at random from those of many scenes and phases, and prints what became of them.
 // forge_states fields [all]   (bearing) every index, enumeration, depth, count, phase and time in turn beyond its range, and no number in the place of each
 //                             number, each in another one of the states, or in all: all are refused.  Prints how many.
-#include "part.h"
+#include "instance/part.h"
 
 #include "fmi2Functions.h"
 #if defined(BEARING)
-#include "instance.h"
+#include "instance/instance.h"
 #else
-#include "variable_table.h"
+#include "numbers/variable_table.h"
 #endif
 
 #include <inttypes.h>

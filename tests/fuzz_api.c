@@ -9,7 +9,7 @@
 // LLVMFuzzerTestOneInput is what coverage-guided fuzzers call.  With -DSTANDALONE:  fuzz_api CALLS [SEED
 // [THREADS]]  feeds pseudo-random strings until each thread has made that many calls and prints what came
 // back.  A violation aborts.
-#include "part.h"
+#include "instance/part.h"
 
 #include "fmi2Functions.h"
 

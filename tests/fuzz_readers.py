@@ -16,7 +16,7 @@ from pathlib import Path
 
 from fuzz_corpus import CORPUS, unpack
 
-from bearing_model import rivet_table
+from bearing_model.rivet import rivet_table
 from riveted_bearing import bearings, errors, fmu, scene, units
 
 ROOT = Path(__file__).resolve().parents[1]

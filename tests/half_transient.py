@@ -14,9 +14,10 @@ from mechanics import Instance, view
 from scipy.linalg import expm
 from scipy.sparse.linalg import splu
 
-from bearing_model import half_modes as modes_of
-from bearing_model import rivet_table, variables
-from bearing_model.joint_law import joint_law, joints_open, relief
+from bearing_model.cage.elastic import half_modes as modes_of
+from bearing_model.rivet import rivet_table
+from bearing_model.generated import variables
+from bearing_model.cage.common.joint_law import joint_law, joints_open, relief
 from rivet_model import half, half_loads, half_modes, half_shape
 from rivet_model.cage_half import BODY, SYMMETRIC
 from rivet_model.geometry import Geometry

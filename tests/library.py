@@ -17,7 +17,7 @@ import numpy as np
 import other_bearing
 from pycparser import c_ast, c_generator, c_parser
 
-from bearing_model import variables
+from bearing_model.generated import variables
 
 ROOT = Path(__file__).resolve().parents[1]
 SOURCES = ROOT / "fmu_src"
@@ -206,7 +206,9 @@ def parse(sources, isa):
 
 
 def headers(sources):
-    return [path for folder in sources for path in sorted(folder.glob("*.h")) if path.name not in AROUND_THE_CORE]
+    """The core's headers; the variables' are those of the last folder, which may be another bearing's."""
+    found = [path for folder in sources for path in sorted(folder.rglob("*.h")) if path.name not in AROUND_THE_CORE]
+    return [path for path in found if path.parent.name != "generated" or path.parent == sources[-1]]
 
 
 def preprocess(files, *options, before=""):
@@ -252,7 +254,7 @@ def struct_layout(sources, tree):
         + f", sizeof({name}));\n"
         for name, members in structs.items()
     )
-    includes = "".join(f'#include "{path.name}"\n' for path in headers(sources))
+    includes = "".join(f'#include "{path}"\n' for path in headers(sources))
     with tempfile.TemporaryDirectory() as folder:  # optimised, so that functions in headers that nothing calls need no library
         program = Path(folder) / "layout"
         text = f"#include <stdio.h>\n{includes}int main(void) {{\n{prints}return 0; }}\n"

@@ -4,11 +4,11 @@ import numpy as np
 from library import TWO_HALF
 from python_core import Body, PythonWork
 
-from bearing_model import variables
-from bearing_model.cage_elastic import mode_order
-from bearing_model.derived import default_table
-from bearing_model.half_modes import fewer
-from bearing_model.hertz_exact import HertzContact, hertz_ellipse
+from bearing_model.generated import variables
+from bearing_model.cage.elastic.cage_elastic import mode_order
+from bearing_model.physics.derived import default_table
+from bearing_model.cage.elastic.half_modes import fewer
+from bearing_model.physics.hertz_exact import HertzContact, hertz_ellipse
 
 Z = variables.Z
 SLICE = variables.STATE_SLICES

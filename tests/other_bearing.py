@@ -16,15 +16,15 @@ def install(build):
     """Makes the package that of the other bearing."""
     import bearing_model
 
-    spec = importlib.util.spec_from_file_location("bearing_model.variables", build / "generated" / "variables.py")
+    spec = importlib.util.spec_from_file_location("bearing_model.generated.variables", build / "generated" / "variables.py")
     module = importlib.util.module_from_spec(spec)
-    sys.modules[spec.name] = bearing_model.variables = module
+    sys.modules[spec.name] = bearing_model.generated.variables = module
     spec.loader.exec_module(module)
-    from bearing_model import rivet_table
+    from bearing_model.rivet import rivet_table
 
     rivet_table.DEFAULT_TABLE = build / "rivet_table.json"
 
 
 if BUILD:
-    assert "bearing_model.variables" not in sys.modules, "too late: another bearing's variables are in use"
+    assert "bearing_model.generated.variables" not in sys.modules, "too late: another bearing's variables are in use"
     install(BUILD)

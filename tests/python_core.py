@@ -12,15 +12,17 @@ from types import SimpleNamespace
 import numpy as np
 from library import TWO_HALF
 
-from bearing_model import derived, drag, hertz, land_film, pocket, race_contact, traction, variables
-from bearing_model.energy import energy_total
-from bearing_model.model import Model, Work
-from bearing_model.parameters import Inputs, Parameters
-from bearing_model.rhs import rhs
-from bearing_model.ring_load import ring_load_update
-from bearing_model.rotor import Rotor
-from bearing_model.start import start_state
-from bearing_model.temperature import temperature_apply
+from bearing_model.physics import derived, drag, hertz, land_film, race_contact, traction
+from bearing_model.cage.common import pocket
+from bearing_model.generated import variables
+from bearing_model.instance.energy import energy_total
+from bearing_model.physics.model import Model, Work
+from bearing_model.physics.parameters import Inputs, Parameters
+from bearing_model.physics.rhs import rhs
+from bearing_model.physics.ring_load import ring_load_update
+from bearing_model.physics.rotor import Rotor
+from bearing_model.solver.start import start_state
+from bearing_model.physics.temperature import temperature_apply
 
 Z = variables.Z
 ELEMENTS = (race_contact.race_contact_force, pocket.pocket_force, drag.drag_mixture, drag.drag_force, drag.drag_cage, drag.drag_ring, land_film.land_film_force)

@@ -4,10 +4,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from bearing_model.parameters import Parameters
+from bearing_model.physics.parameters import Parameters
 from bearing_model.quasi_static import Bearing, Load, quasi_static
-from bearing_model.ring_fit import ring_fit_of
-from bearing_model.variables import Z
+from bearing_model.physics.ring_fit import ring_fit_of
+from bearing_model.generated.variables import Z
 from riveted_bearing import run
 from riveted_bearing.summary import settled
 

@@ -14,7 +14,7 @@ import fmpy
 import numpy as np
 import pytest
 
-from bearing_model.rivet_table import DEFAULT_TABLE
+from bearing_model.rivet.rivet_table import DEFAULT_TABLE
 from rivet_model import closed_form, table
 from rivet_model.geometry import Geometry
 from riveted_bearing import Result, UserError, read_result, run, write_result

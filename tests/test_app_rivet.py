@@ -7,7 +7,7 @@ import pytest
 from library import ROOT
 from test_app import command
 
-from bearing_model import rivet_rom, rivet_table
+from bearing_model.rivet import rivet_rom, rivet_table
 from rivet_model import load_cases, pictures
 from rivet_model.geometry import Geometry
 from riveted_bearing import UserError, rivet, run

@@ -6,12 +6,12 @@ from library import TWO_HALF
 from mechanics import RIGID_HALVES, SLICE, Instance, View, Z, pocket_loads, running_state
 from scipy.spatial.transform import Rotation
 
-from bearing_model.derived import model_derive
-from bearing_model.integrator import observe
-from bearing_model.model import Model
-from bearing_model.parameters import Inputs, Parameters
-from bearing_model.ring_load import ring_load_update
-from bearing_model.variables import INPUTS, OUTPUTS, PARAMETERS, CageModel, RingMotion, TiltMode, Traction
+from bearing_model.physics.derived import model_derive
+from bearing_model.solver.integrator import observe
+from bearing_model.physics.model import Model
+from bearing_model.physics.parameters import Inputs, Parameters
+from bearing_model.physics.ring_load import ring_load_update
+from bearing_model.generated.variables import INPUTS, OUTPUTS, PARAMETERS, CageModel, RingMotion, TiltMode, Traction
 
 TWINS = True
 LOAD = np.array([515.0, 2994.0, 0.0])  # the table's start values [N]

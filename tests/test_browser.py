@@ -10,7 +10,7 @@ import pytest
 from library import ROOT
 from mechanics import Instance
 
-from bearing_model import variables
+from bearing_model.generated import variables
 from riveted_bearing.fmu import Model
 from riveted_bearing.scene import load_scene
 

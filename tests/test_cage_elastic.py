@@ -5,17 +5,18 @@ import pytest
 from library import TWO_HALF
 from mechanics import Instance, View, running_state
 
-from bearing_model import cage_substeps, variables
-from bearing_model.cage_elastic import IN, OUT, ROOT, cage_elastic_shapes, joints_out, mode_order
-from bearing_model.derived import default_table
-from bearing_model.energy import energy_terms, energy_total, net_power
-from bearing_model.half_modes import fewer
-from bearing_model.model import Model, Work
-from bearing_model.rhs import jacobian, rhs
-from bearing_model.rivets import rivets_load
-from bearing_model.start import start_state
-from bearing_model.variables import ELASTIC_SCALES, MODE_D, MODE_D_DOT, MODE_S, MODE_S_DOT, N_ALL_STATES, STATE_SLICES, CageModel, Method, Z
-from bearing_model.verlet import VerletState, advance_positions, verlet_evaluate, verlet_step
+from bearing_model.cage.elastic import cage_substeps
+from bearing_model.generated import variables
+from bearing_model.cage.elastic.cage_elastic import IN, OUT, ROOT, cage_elastic_shapes, joints_out, mode_order
+from bearing_model.physics.derived import default_table
+from bearing_model.instance.energy import energy_terms, energy_total, net_power
+from bearing_model.cage.elastic.half_modes import fewer
+from bearing_model.physics.model import Model, Work
+from bearing_model.physics.rhs import jacobian, rhs
+from bearing_model.rivet.rivets import rivets_load
+from bearing_model.solver.start import start_state
+from bearing_model.generated.variables import ELASTIC_SCALES, MODE_D, MODE_D_DOT, MODE_S, MODE_S_DOT, N_ALL_STATES, STATE_SLICES, CageModel, Method, Z
+from bearing_model.solver.verlet import VerletState, advance_positions, verlet_evaluate, verlet_step
 
 ELASTIC = {"scene.cage": CageModel.ELASTIC}
 SCENES = (
@@ -271,7 +272,7 @@ def test_waves_go_on_by_a_pitch():
         z[block][: half.n][single] = sign * y[block][: half.n][single]
     rhs(model, 0.0, y, w)
     rows = {"pad_out": 3, "pad_in": 2}
-    from bearing_model.cage_elastic import cage_elastic_kinematics
+    from bearing_model.cage.elastic.cage_elastic import cage_elastic_kinematics
 
     turned.half, turned.frame_omega = w.half, w.frame_omega
     cage_elastic_kinematics(model, z, turned)
@@ -294,9 +295,9 @@ def test_momentum_is_kept():
     assert np.abs(w.joint_load[0]).max() > 1.0
     stiffless = y.copy()
     h0, h1 = w.half
-    from bearing_model.cage_elastic import cage_elastic_joints, cage_elastic_pads
-    from bearing_model.cage_joint import cage_joint_force, cage_joint_kinematics
-    from bearing_model.rhs import rotor_kinematics
+    from bearing_model.cage.elastic.cage_elastic import cage_elastic_joints, cage_elastic_pads
+    from bearing_model.cage.common.cage_joint import cage_joint_force, cage_joint_kinematics
+    from bearing_model.physics.rhs import rotor_kinematics
 
     rotor_kinematics(model, stiffless, without)
     without.modes, without.pad_out, without.pad_in, without.pad_in_dot = w.modes, w.pad_out, w.pad_in, w.pad_in_dot

@@ -9,7 +9,7 @@ from library import ROOT
 from mechanics import SLICE, Z, pose, running_state
 from scipy.spatial.transform import Rotation
 
-from bearing_model import variables
+from bearing_model.generated import variables
 from rivet_model import half_loads, joint_contact
 from rivet_model.geometry import Geometry
 

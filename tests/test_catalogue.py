@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from scipy.optimize import brentq
 
-from bearing_model import variables
+from bearing_model.generated import variables
 from bearing_model.load_ratings import dynamic_rating, rating_factor_0, static_rating
 from rivet_model import half_shape
 from rivet_model.geometry import Geometry

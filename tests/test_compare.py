@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from typer.testing import CliRunner
 
-from bearing_model.variables import OUTPUTS
+from bearing_model.generated.variables import OUTPUTS
 from riveted_bearing.cli import program
 from riveted_bearing.compare import Statistic, compare, family, is_motion, through_reference
 from riveted_bearing.errors import UserError

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from mechanics import RIGID_HALVES, SLICE, Instance, Z, axis, pocket_loads, running_state
 
-from bearing_model.variables import PARAMETERS, Lubrication, Method, Switch, TiltMode, Traction
+from bearing_model.generated.variables import PARAMETERS, Lubrication, Method, Switch, TiltMode, Traction
 
 TWINS = True
 BALL_MASS = 7800.0 * np.pi / 6.0 * 0.0111125**3

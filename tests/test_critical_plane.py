@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from bearing_model.critical_plane import findley, logged_load, plane_normals, worst_point
-from bearing_model.rivet_rom import RivetLoad
+from bearing_model.rivet.rivet_rom import RivetLoad
 from rivet_model import components, load_cases, reduction
 from rivet_model.geometry import Geometry
 

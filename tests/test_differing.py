@@ -5,14 +5,15 @@ import pytest
 from mechanics import Instance, Z
 from test_rivets import c_opens
 
-from bearing_model import joint_law, variables
-from bearing_model.cage_elastic import joints_out
-from bearing_model.derived import default_table
-from bearing_model.model import Model, Work
-from bearing_model.parameters import Parameters
-from bearing_model.rhs import rhs
-from bearing_model.rivet_rom import HEAD_P1, RivetLoad, rivet_rom_stress
-from bearing_model.start import start_state
+from bearing_model.cage.common import joint_law
+from bearing_model.generated import variables
+from bearing_model.cage.elastic.cage_elastic import joints_out
+from bearing_model.physics.derived import default_table
+from bearing_model.physics.model import Model, Work
+from bearing_model.physics.parameters import Parameters
+from bearing_model.physics.rhs import rhs
+from bearing_model.rivet.rivet_rom import HEAD_P1, RivetLoad, rivet_rom_stress
+from bearing_model.solver.start import start_state
 
 STILL = {"shaft.omega": 0.0, "shaft.F_x": 200.0, "shaft.F_y": 500.0}
 

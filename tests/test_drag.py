@@ -5,7 +5,7 @@ import pytest
 from mechanics import Z, clear_balls, on_ball, place_balls, pose
 from scipy.optimize import brentq
 
-from bearing_model.variables import Drag, Switch
+from bearing_model.generated.variables import Drag, Switch
 
 TWINS = True
 CHURNING = 8.3896e-5  # [N.m], see test_churning

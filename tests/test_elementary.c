@@ -1,6 +1,6 @@
 // The elementary functions of the packets, callable over arrays: compiled once per instruction set, like the
 // kernels, and once for the core.
-#include "lanes.h"
+#include "numbers/lanes.h"
 
 void FOR_ISA(test_exp)(int n, const double *x, double *y);
 void FOR_ISA(test_power_of_2)(int n, const double *x, double *y);

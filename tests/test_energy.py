@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from mechanics import RIGID_HALVES, SLICE, Instance, View, pocket_loads, running_state
 
-from bearing_model.variables import CageModel, Lubrication, Method, Traction
+from bearing_model.generated.variables import CageModel, Lubrication, Method, Traction
 
 TWINS = True
 SCENES = list(itertools.product(RIGID_HALVES, Traction, Lubrication))

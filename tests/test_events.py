@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 from mechanics import Instance
 
-from bearing_model import variables
-from bearing_model.derived import default_table
-from bearing_model.hertz import hertz_contact
+from bearing_model.generated import variables
+from bearing_model.physics.derived import default_table
+from bearing_model.physics.hertz import hertz_contact
 
 REST = {"shaft.omega": 0.0, "shaft.F_x": 0.0}  # nothing tilts the balls' plane
 TABLE = default_table()

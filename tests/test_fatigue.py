@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 import rainflow
 
-from bearing_model import fatigue
-from bearing_model.variables import MeanStress
+from bearing_model.instance import fatigue
+from bearing_model.generated.variables import MeanStress
 
 ASTM = [-2.0, 1.0, -3.0, 5.0, -1.0, 3.0, -4.0, 4.0, -2.0]  # ASTM E1049-85, figure 6
 LAWS = {

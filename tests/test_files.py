@@ -248,7 +248,7 @@ def test_a_damaged_table_of_the_cache_is_made_anew(tmp_path, monkeypatch):
     from riveted_bearing.rivet import is_table, table_of
 
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
-    from bearing_model import rivet_table
+    from bearing_model.rivet import rivet_table
     from rivet_model.geometry import Geometry
 
     geometry = Geometry(shank_diameter=1.4e-3)

@@ -6,7 +6,7 @@ import zipfile
 import pytest
 from typer.testing import CliRunner
 
-from bearing_model.variables import ESSENTIALS
+from bearing_model.generated.variables import ESSENTIALS
 from riveted_bearing import __version__, run
 from riveted_bearing.cli import program
 from riveted_bearing.fmu import Model

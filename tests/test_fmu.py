@@ -26,7 +26,7 @@ from slave import (
     fmi,
 )
 
-from bearing_model.variables import PARAMETERS, RING_V_Y
+from bearing_model.generated.variables import PARAMETERS, RING_V_Y
 
 H = 1e-4  # communication step [s]
 LINUX = sys.platform.startswith("linux")

@@ -10,7 +10,7 @@ from library import ROOT, TWO_HALF
 from mechanics import SLICE, Instance, Z
 from slave import ERROR, OK, Slave
 
-from bearing_model.variables import INPUTS, OUTPUTS
+from bearing_model.generated.variables import INPUTS, OUTPUTS
 
 H = 1e-4  # communication step [s]
 SMOOTH = {"scene.cage": 2, "oil.A": 0.0, "oil.B": 0.0, "oil.rolling": 0.0, "oil.rho_mix": 0.0, "oil.eta": 1e-5, "cage.mu": 0.0, "cage.mu_land": 0.0}

@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 from slave import DISCARD, ERROR, OK, Slave
 
-from bearing_model.variables import Method
+from bearing_model.generated.variables import Method
 
 H = 1e-4  # communication step [s]
 LINUX = sys.platform.startswith("linux")

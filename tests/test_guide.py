@@ -10,7 +10,7 @@ import pytest
 import typer
 from typer.main import get_command
 
-from bearing_model import variables
+from bearing_model.generated import variables
 from riveted_bearing.bearings import bearing_case
 from riveted_bearing.cli import program
 from riveted_bearing.fmu import Model

@@ -9,7 +9,8 @@ import scipy.sparse as sp
 from scipy.sparse.linalg import splu
 from skfem import ElementHex1
 
-from bearing_model import half_path, rivet_table
+from bearing_model.cage.two_half import half_path
+from bearing_model.rivet import rivet_table
 from rivet_model import cage_half, half, half_loads, half_shape, joint_contact
 from rivet_model.geometry import Geometry
 

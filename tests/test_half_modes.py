@@ -11,9 +11,9 @@ import pytest
 from scipy.sparse.linalg import LinearOperator, eigsh, splu
 from test_half import SMALL, whole
 
-from bearing_model import half_modes as modes_of
-from bearing_model import rivet_table
-from bearing_model.rivet_rom import HEAD_P1, RivetLoad, rivet_rom_stress
+from bearing_model.cage.elastic import half_modes as modes_of
+from bearing_model.rivet import rivet_table
+from bearing_model.rivet.rivet_rom import HEAD_P1, RivetLoad, rivet_rom_stress
 from rivet_model import cage_half, closed_form, embed, half, half_loads, half_modes, half_shape, impacts, table
 from rivet_model.geometry import Geometry
 from riveted_bearing.fmu import Model, codes

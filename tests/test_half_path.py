@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
-from bearing_model import half_path
-from bearing_model.derived import default_table
-from bearing_model.variables import Z
+from bearing_model.cage.two_half import half_path
+from bearing_model.physics.derived import default_table
+from bearing_model.generated.variables import Z
 
 D_M = 53.5e-3
 ANGLE = 2 * np.pi * (np.arange(Z) + 0.5) / Z

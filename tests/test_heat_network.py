@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from library import ROOT
 
-from bearing_model.viscosity import Oil
+from bearing_model.physics.viscosity import Oil
 
 sys.path.insert(0, str(ROOT / "examples" / "heat"))
 import network

@@ -6,7 +6,7 @@ from scipy.integrate import quad
 from scipy.optimize import brentq
 from scipy.special import ellipe, ellipk
 
-from bearing_model.hertz_exact import HertzContact, ball_race_contact, hertz_ellipse
+from bearing_model.physics.hertz_exact import HertzContact, ball_race_contact, hertz_ellipse
 
 TWINS = True
 E_STAR = 0.5 * 207e9 / (1.0 - 0.3**2)

@@ -9,7 +9,7 @@ import pytest
 from mechanics import SLICE, Instance, Z
 from test_jacobian import matrix, prepared, push_cage, rhs
 
-from bearing_model.variables import N_STATES, CageModel, Lubrication, TiltMode, Traction
+from bearing_model.generated.variables import N_STATES, CageModel, Lubrication, TiltMode, Traction
 
 GAMMA = 4e-6  # half a typical step [s]
 LINEAR = {"oil.A": 0.0, "oil.B": 30.0, "oil.C": 0.0, "oil.rolling": 0.0}

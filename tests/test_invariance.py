@@ -5,12 +5,12 @@ import pytest
 from library import TWO_HALF
 from mechanics import SLICE, Instance, Z, pocket_loads, running_state, view
 
-from bearing_model import variables
-from bearing_model.cage_elastic import mode_order
-from bearing_model.derived import default_table
-from bearing_model.half_modes import fewer
-from bearing_model.model import Model
-from bearing_model.variables import MODE_D, MODE_D_DOT, MODE_S, MODE_S_DOT, N_STATES, CageModel, Lubrication, Switch, TiltMode, Traction
+from bearing_model.generated import variables
+from bearing_model.cage.elastic.cage_elastic import mode_order
+from bearing_model.physics.derived import default_table
+from bearing_model.cage.elastic.half_modes import fewer
+from bearing_model.physics.model import Model
+from bearing_model.generated.variables import MODE_D, MODE_D_DOT, MODE_S, MODE_S_DOT, N_STATES, CageModel, Lubrication, Switch, TiltMode, Traction
 
 TWINS = True
 POLAR = ("F_y", "F_z"), ("M_y", "M_z"), ("tilt_y", "tilt_z")

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from mechanics import RIGID_HALVES, SLICE, View, Z, running_state, view
 
-from bearing_model.variables import INPUTS, N_STATES, CageModel, Lubrication, TiltMode, Traction
+from bearing_model.generated.variables import INPUTS, N_STATES, CageModel, Lubrication, TiltMode, Traction
 
 KINDS = ("pockets closed", "pockets open", "rolling", "separated", "dry land", "high tilt", "unloaded", "joints apart", "slow")
 SCENES = list(itertools.product(RIGID_HALVES, Traction, Lubrication, TiltMode))  # 24 of them: 216 states

@@ -5,7 +5,9 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from bearing_model import half_path, joint_law, rivet_rom, rivet_table
+from bearing_model.cage.two_half import half_path
+from bearing_model.cage.common import joint_law
+from bearing_model.rivet import rivet_rom, rivet_table
 from rivet_model import half, half_loads, joint_contact, load_cases
 from rivet_model.geometry import Geometry
 

@@ -8,7 +8,7 @@ from library import block
 from mechanics import pose
 from scipy.integrate import quad, solve_bvp
 
-from bearing_model.variables import PARAMETERS, Lubrication, Switch
+from bearing_model.generated.variables import PARAMETERS, Lubrication, Switch
 
 TWINS = True
 ETA, R, L, C = 6e-3, 0.02975, 2.5e-3, 1e-4

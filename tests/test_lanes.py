@@ -7,7 +7,7 @@ import pytest
 from library import INSTRUCTION_SETS
 from mechanics import pocket_loads, running_state
 
-from bearing_model.variables import STATE_SLICES, CageModel, Lubrication, Traction
+from bearing_model.generated.variables import STATE_SLICES, CageModel, Lubrication, Traction
 
 extended = pytest.mark.skipif(np.finfo(np.longdouble).eps > 2e-19, reason="this machine's long double is no better than double")
 N = 100_000

@@ -1,13 +1,13 @@
 // What the tests' library adds to the core's objects: the inline functions, callable over arrays, and memory
 // as the kernels want it.
-#include "elementary.h"
-#include "hertz.h"
-#include "kernels.h"
-#include "lanes.h"
-#include "model.h"
-#include "part.h"
-#include "ring_load.h"
-#include "traction.h"
+#include "numbers/elementary.h"
+#include "physics/hertz.h"
+#include "solver/kernels.h"
+#include "numbers/lanes.h"
+#include "physics/model.h"
+#include "instance/part.h"
+#include "physics/ring_load.h"
+#include "physics/traction.h"
 
 #include <stdlib.h>
 

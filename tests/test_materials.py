@@ -5,10 +5,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from bearing_model.derived import race_modulus
-from bearing_model.hertz_exact import ball_race_contact
-from bearing_model.parameters import Parameters
-from bearing_model.variables import PARAMETERS
+from bearing_model.physics.derived import race_modulus
+from bearing_model.physics.hertz_exact import ball_race_contact
+from bearing_model.physics.parameters import Parameters
+from bearing_model.generated.variables import PARAMETERS
 from rivet_model import half, half_loads, half_modes, half_shape
 from rivet_model.geometry import Geometry
 from riveted_bearing import UserError, build, run

@@ -16,8 +16,8 @@ try:
 except (ImportError, OSError) as error:  # gmsh, or a library of the system that it loads
     pytest.skip(f"the mesher gmsh cannot be loaded, `make test-slow` installs it: {error}", allow_module_level=True)
 
-from bearing_model import joint_law
-from bearing_model.rivet_rom import HEAD_P1, RivetLoad, rivet_rom_stress
+from bearing_model.cage.common import joint_law
+from bearing_model.rivet.rivet_rom import HEAD_P1, RivetLoad, rivet_rom_stress
 from rivet_model import build, half, half_loads, half_modes, half_shape, joint_contact, load_cases
 from rivet_model.geometry import Geometry
 from riveted_bearing.bearings import bearing_case

@@ -29,8 +29,8 @@ from lxml import etree
 from reference_results import SAME
 from slave import Slave, describe
 
-from bearing_model import variables
-from bearing_model.rivet_table import DEFAULT_TABLE
+from bearing_model.generated import variables
+from bearing_model.rivet.rivet_table import DEFAULT_TABLE
 from riveted_bearing import UserError, builder
 from riveted_bearing.builder import build_folder
 

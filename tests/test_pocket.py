@@ -6,7 +6,7 @@ from mechanics import RIGID_HALVES, Z, clear_balls, frames, on_ball, place_balls
 from scipy.integrate import quad
 from scipy.spatial.transform import Rotation
 
-from bearing_model.variables import CageModel, Lubrication
+from bearing_model.generated.variables import CageModel, Lubrication
 
 TWINS = True
 R, GAP = 0.0111125 / 2, 1e-4

@@ -9,7 +9,7 @@ from scipy.optimize import root
 from scipy.spatial.transform import Rotation
 from scipy.special import ellipk
 
-from bearing_model.hertz_exact import HertzContact, ball_race_contact, hertz_ellipse
+from bearing_model.physics.hertz_exact import HertzContact, ball_race_contact, hertz_ellipse
 from bearing_model.kinematics import cage_speed
 from bearing_model.quasi_static import KINEMATICS, RING, Bearing, LinearPotential, Load, Potential, quasi_static
 

@@ -8,7 +8,7 @@ from scipy.optimize import minimize_scalar
 from scipy.spatial.transform import Rotation
 from scipy.special import roots_jacobi
 
-from bearing_model.variables import Lubrication, Switch, Traction
+from bearing_model.generated.variables import Lubrication, Switch, Traction
 
 TWINS = True
 D, R = 0.0111125, 0.0111125 / 2

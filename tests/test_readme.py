@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from bearing_model import variables
+from bearing_model.generated import variables
 
 ROOT = Path(__file__).parents[1]
 README = (ROOT / "README.md").read_text()

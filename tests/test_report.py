@@ -11,9 +11,9 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from bearing_model import fatigue
-from bearing_model.model import Model
-from bearing_model.variables import CageModel, Z
+from bearing_model.instance import fatigue
+from bearing_model.physics.model import Model
+from bearing_model.generated.variables import CageModel, Z
 from riveted_bearing import UserError, run, write_result
 from riveted_bearing.animation import BUDGET, exaggeration, frames, thinned
 from riveted_bearing.charts import PAGE_COLOURS, azimuth_of, by_bin, joint_spectra, loaded_rivet

@@ -5,9 +5,9 @@ import pytest
 from mechanics import SLICE, Instance
 from scipy.integrate import quad, solve_ivp
 
-from bearing_model import ring_load as twin_load
-from bearing_model.parameters import InputDerivatives, Inputs, Parameters
-from bearing_model.variables import INPUTS, Method, TiltMode
+from bearing_model.physics import ring_load as twin_load
+from bearing_model.physics.parameters import InputDerivatives, Inputs, Parameters
+from bearing_model.generated.variables import INPUTS, Method, TiltMode
 
 LOOSE = {"bearing.P_d": 4e-4}  # a ring that rests free of the balls
 

@@ -6,11 +6,11 @@ from mechanics import Instance
 from scipy.integrate import solve_bvp
 from slave import ERROR, Slave
 
-from bearing_model.integrator import simulate
-from bearing_model.model import Model
+from bearing_model.solver.integrator import simulate
+from bearing_model.physics.model import Model
 from bearing_model.quasi_static import Bearing, Load, quasi_static
-from bearing_model.ring_fit import RingFit
-from bearing_model.variables import STATE_SLICES, Switch
+from bearing_model.physics.ring_fit import RingFit
+from bearing_model.generated.variables import STATE_SLICES, Switch
 
 TWINS = True
 OMEGA = 18238.0 * np.pi / 30.0

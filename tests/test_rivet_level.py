@@ -5,11 +5,11 @@ import pytest
 from library import TWO_HALF
 from mechanics import Instance
 
-from bearing_model.model import Model, Work
-from bearing_model.rhs import rhs
-from bearing_model.rivet_rom import HEAD_P1, RivetLoad, rivet_rom_stress
-from bearing_model.rivets import rivets_load
-from bearing_model.variables import Switch, Traction, Z
+from bearing_model.physics.model import Model, Work
+from bearing_model.physics.rhs import rhs
+from bearing_model.rivet.rivet_rom import HEAD_P1, RivetLoad, rivet_rom_stress
+from bearing_model.rivet.rivets import rivets_load
+from bearing_model.generated.variables import Switch, Traction, Z
 from rivet_model import half, half_loads, joint_contact
 from rivet_model.geometry import Geometry
 

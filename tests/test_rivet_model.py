@@ -5,7 +5,7 @@ import pytest
 from library import ROOT
 from skfem import Basis, BilinearForm, ElementHex2, ElementVector, FacetBasis, LinearForm, MeshQuad, condense, solve
 
-from bearing_model import rivet_rom, rivet_table
+from bearing_model.rivet import rivet_rom, rivet_table
 from rivet_model import build, geometry, half, load_cases, plastic_fit, reduction, section_mesh, stiffness
 from rivet_model.elasticity import Body
 from rivet_model.lcp import Contact

@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 from library import ROOT
 
-from bearing_model import rivet_rom, rivet_table
-from bearing_model.rivet_rom import FLANGE_YIELDS, RIVET_OUTSIDE, RIVET_YIELDS, RivetLoad
-from bearing_model.variables import PARAMETERS, FitModel, Z
+from bearing_model.rivet import rivet_rom, rivet_table
+from bearing_model.rivet.rivet_rom import FLANGE_YIELDS, RIVET_OUTSIDE, RIVET_YIELDS, RivetLoad
+from bearing_model.generated.variables import PARAMETERS, FitModel, Z
 from rivet_model import build, closed_form, components, embed, friction, geometry, splines, table
 
 TABLE = ROOT / "rivet_model" / "tables" / "6207.json"

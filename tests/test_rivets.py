@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 from mechanics import Instance
 
-from bearing_model import joint_law
-from bearing_model.derived import default_table
-from bearing_model.rivet_rom import HEAD_P1, RivetLoad, rivet_rom_stress
-from bearing_model.variables import Z
+from bearing_model.cage.common import joint_law
+from bearing_model.physics.derived import default_table
+from bearing_model.rivet.rivet_rom import HEAD_P1, RivetLoad, rivet_rom_stress
+from bearing_model.generated.variables import Z
 
 RPM = np.pi / 30.0
 CAGE = 0.395  # cage speed per shaft speed of the 6207, near no-slip

@@ -14,7 +14,8 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from slave import DISCARD, ERROR, OK, WARNING, Slave
 
-from bearing_model import parameters, variables
+from bearing_model.physics import parameters
+from bearing_model.generated import variables
 
 H = 1e-4  # communication step [s]
 TYPES = parameters.TYPES

@@ -5,7 +5,7 @@ import pytest
 from mechanics import SLICE, axis
 from scipy.integrate import solve_ivp
 
-from bearing_model import variables
+from bearing_model.generated import variables
 
 M, J_P, J_T, X_C = (variables.PARAMETERS[f"cage.{name}"].start for name in ("m", "J_p", "J_t", "x_c"))
 NAMES = [f"cage_{name}" for name in ("x", "y", "z", "beta", "gamma", "psi", "v_x", "v_y", "v_z", "beta_dot", "gamma_dot", "s")]

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from library import ROOT
 
-from bearing_model.rivet_table import read
+from bearing_model.rivet.rivet_table import read
 from riveted_bearing import build, run
 from riveted_bearing.builder import build_folder
 

@@ -7,10 +7,10 @@ import pytest
 from mechanics import SLICE, Instance, View, Z, pocket_loads
 
 from bearing_model.kinematics import cage_speed
-from bearing_model.parameters import Parameters
+from bearing_model.physics.parameters import Parameters
 from bearing_model.quasi_static import Bearing, Load, quasi_static
-from bearing_model.ring_fit import ring_fit_of
-from bearing_model.variables import PARAMETERS, TiltMode
+from bearing_model.physics.ring_fit import ring_fit_of
+from bearing_model.generated.variables import PARAMETERS, TiltMode
 
 TWINS = True
 RPM = math.pi / 30.0

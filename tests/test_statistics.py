@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from mechanics import Instance
 
-from bearing_model.variables import Method, Switch
+from bearing_model.generated.variables import Method, Switch
 
 FLOOR = 1e-3
 BIN = 1.0 / 64.0  # of the lower edge, at most

@@ -6,7 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from bearing_model import rivet_table
+from bearing_model.rivet import rivet_table
 from rivet_model import table
 from riveted_bearing import build, run
 from riveted_bearing.fmu import Model

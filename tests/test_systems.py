@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from library import ROOT
 
-from bearing_model.variables import PARAMETERS
+from bearing_model.generated.variables import PARAMETERS
 
 
 def example(*place):

@@ -8,12 +8,12 @@ from library import TWO_HALF
 from mechanics import Instance
 from slave import ERROR, Slave
 
-from bearing_model.derived import default_table
-from bearing_model.integrator import simulate
-from bearing_model.model import Model, Work
-from bearing_model.outputs import outputs
-from bearing_model.rhs import rhs
-from bearing_model.variables import INPUTS, PARAMETERS, CageModel, Switch
+from bearing_model.physics.derived import default_table
+from bearing_model.solver.integrator import simulate
+from bearing_model.physics.model import Model, Work
+from bearing_model.instance.outputs import outputs
+from bearing_model.physics.rhs import rhs
+from bearing_model.generated.variables import INPUTS, PARAMETERS, CageModel, Switch
 
 TWINS = True
 FREE_OF_GROWTH = {"scene.growth": Switch.OFF}

@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 from scipy import stats
 
-from bearing_model.fatigue import FatigueLaw, fatigue_cycle
-from bearing_model.variables import MeanStress
+from bearing_model.instance.fatigue import FatigueLaw, fatigue_cycle
+from bearing_model.generated.variables import MeanStress
 from riveted_bearing import UserError
 from riveted_bearing.design.weibull import fit_weibull, write_weibull_plot
 from riveted_bearing.duty.assess import assess

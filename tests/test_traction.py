@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from bearing_model.variables import Switch
+from bearing_model.generated.variables import Switch
 
 TWINS = True
 # the 6207's inner race and its oil, by hand

@@ -7,17 +7,17 @@ import pytest
 from library import TWO_HALF
 from mechanics import SLICE, Instance, Z
 
-from bearing_model import variables
-from bearing_model.derived import default_table
-from bearing_model.energy import energy_total, power_loss
-from bearing_model.integrator import observe, simulate
-from bearing_model.land_film import land_film_gap
-from bearing_model.model import Model, Work, derived_at
-from bearing_model.parameters import InputDerivatives, Inputs, Parameters
-from bearing_model.rhs import jacobian, rhs
-from bearing_model.ring_load import input_trajectory_here, input_trajectory_update, motion_trajectory, ring_load_at
-from bearing_model.start import start_state
-from bearing_model.statistics import StatisticsChannel
+from bearing_model.generated import variables
+from bearing_model.physics.derived import default_table
+from bearing_model.instance.energy import energy_total, power_loss
+from bearing_model.solver.integrator import observe, simulate
+from bearing_model.physics.land_film import land_film_gap
+from bearing_model.physics.model import Model, Work, derived_at
+from bearing_model.physics.parameters import InputDerivatives, Inputs, Parameters
+from bearing_model.physics.rhs import jacobian, rhs
+from bearing_model.physics.ring_load import input_trajectory_here, input_trajectory_update, motion_trajectory, ring_load_at
+from bearing_model.solver.start import start_state
+from bearing_model.instance.statistics import StatisticsChannel
 
 # A hybrid bearing: smaller ceramic-like balls of unequal size, other conformities, clearances, cage, oil and joints (d_m and Z are the rivet table's).
 OTHER = {

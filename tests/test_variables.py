@@ -10,7 +10,7 @@ from fmpy.model_description import read_model_description
 from library import ROOT
 from lxml import etree
 
-from bearing_model import variables
+from bearing_model.generated import variables
 from riveted_bearing import scaling
 
 spec = importlib.util.spec_from_file_location("generate", ROOT / "fmus" / "generate.py")

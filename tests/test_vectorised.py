@@ -33,6 +33,12 @@ def commands():
     return table
 
 
+def objects(isa):
+    """The objects of an instruction set's kernels by the names of their elements."""
+    folder = OBJECTS / f"kernel_{isa}.dir" / "fmu_src"
+    return {path.name.removesuffix(".c.o"): path for path in sorted(folder.rglob("*.c.o"))}
+
+
 def disassembly(path):
     return subprocess.run(["objdump", "-d", "--no-show-raw-insn", str(path)], capture_output=True, text=True, check=True).stdout
 
@@ -47,14 +53,14 @@ def packed_share(path, register):
 @pytest.mark.parametrize("isa", REGISTER)
 @pytest.mark.parametrize("element", LEAST)
 def test_arithmetic_is_packed(commands, element, isa):
-    share, count = packed_share(OBJECTS / f"kernel_{isa}.dir" / "fmu_src" / f"{element}.c.o", REGISTER[isa])
+    share, count = packed_share(objects(isa)[element], REGISTER[isa])
     assert count > 50, f"{element}: only {count} arithmetic instructions found, the count itself is broken"
     assert share >= LEAST[element], f"{element} for {isa}: {100 * share:.0f} % of {count} arithmetic instructions are packed"
 
 
 def test_loss_is_seen(commands, tmp_path):
     """The same element with packets of four compiled without AVX: half-width registers, as after a lost option."""
-    command = next(text for name, text in commands.items() if name.endswith("kernel_avx2.dir/fmu_src/race_contact.c.o"))
+    command = next(text for name, text in commands.items() if name.endswith("kernel_avx2.dir/fmu_src/physics/race_contact.c.o"))
     words = [word for word in command.split() if word not in ("-mavx2", "-mfma")]
     words[words.index("-o") + 1] = str(tmp_path / "lost.o")
     subprocess.run([*words, "-Wno-psabi"], check=True, cwd=ROOT / "build")
@@ -65,7 +71,6 @@ def test_loss_is_seen(commands, tmp_path):
 @pytest.mark.parametrize("isa", ["avx2", "avx512"])
 def test_only_written_sums_are_fused(commands, isa):
     """No fmaddsub, which the source cannot ask for: GCC makes it of a b - c d beside a b + c d, against its options; other compilers round these otherwise."""
-    objects = sorted((OBJECTS / f"kernel_{isa}.dir" / "fmu_src").glob("*.c.o"))
-    texts = {path.name: disassembly(path) for path in objects}
-    assert "vfmadd" in texts["race_contact.c.o"]  # what wide_fma is
+    texts = {name: disassembly(path) for name, path in objects(isa).items()}
+    assert "vfmadd" in texts["race_contact"]  # what wide_fma is
     assert not [name for name, text in texts.items() if re.search("vfmaddsub|vfmsubadd", text)]

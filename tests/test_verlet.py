@@ -1,4 +1,4 @@
-"""The default step: verlet.c, implicit.c and the control of integrator.c against their dense twin bearing_model/verlet.py, and both against what numerical
+"""The default step: verlet.c, implicit.c and the control of integrator.c against their dense twin bearing_model/solver/verlet.py, and both against what numerical
 analysis expects of them.  The error scales (10 um, 0.1 m/s ..., derived.py) are the units.
 """
 
@@ -10,11 +10,11 @@ from library import TWO_HALF
 from mechanics import Instance
 from test_jacobian import KINDS, SCENES, make_model, make_state
 
-from bearing_model import verlet
-from bearing_model.cage_joint import cage_joint_kinematics
-from bearing_model.model import Model, Work
-from bearing_model.rhs import jacobian, rhs, rotor_kinematics
-from bearing_model.variables import (
+from bearing_model.solver import verlet
+from bearing_model.cage.common.cage_joint import cage_joint_kinematics
+from bearing_model.physics.model import Model, Work
+from bearing_model.physics.rhs import jacobian, rhs, rotor_kinematics
+from bearing_model.generated.variables import (
     BALL_OMEGA_M,
     N_STATES,
     RING_BETA_DOT,
@@ -28,7 +28,7 @@ from bearing_model.variables import (
     TiltMode,
     Traction,
 )
-from bearing_model.verlet import FRICTION, N_V, POSITIONS, RING, V, VerletState
+from bearing_model.solver.verlet import FRICTION, N_V, POSITIONS, RING, V, VerletState
 
 TWIN = SimpleNamespace(model=Model.of)  # what make_model builds models with
 POINT_FILM = (CageModel.TWO_HALF, Traction.POINT, Lubrication.FILM, TiltMode.SUPPORTED)

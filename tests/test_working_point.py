@@ -15,10 +15,10 @@ from mechanics import Instance, View, Z, pocket_contact
 from scipy.spatial.transform import Rotation
 
 from bearing_model.kinematics import cage_speed
-from bearing_model.parameters import Parameters
+from bearing_model.physics.parameters import Parameters
 from bearing_model.quasi_static import Bearing, Load, quasi_static
-from bearing_model.ring_fit import ring_fit_of
-from bearing_model.variables import PARAMETERS, CageModel, Drag, Lubrication, Method, Stress, Switch, TiltMode, Traction
+from bearing_model.physics.ring_fit import ring_fit_of
+from bearing_model.generated.variables import PARAMETERS, CageModel, Drag, Lubrication, Method, Stress, Switch, TiltMode, Traction
 
 RPM = math.pi / 30.0
 OMEGA = 18238 * RPM

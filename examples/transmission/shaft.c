@@ -17,9 +17,9 @@
 //   M_B = mu |F - R| d / 2,                              SKF catalogue, constant coefficient of friction
 //   J omega_dot = k (omega_d - omega) - M - M_A - M_B.   M_A: friction torque of bearing A
 // C1 in omega: friction passes through rest as omega / sqrt(omega^2 + omega_0^2).
-#include "part.h"
+#include "instance/part.h"
 
-#include "saved_numbers.h"
+#include "numbers/saved_numbers.h"
 
 #include <math.h>
 #include <stdio.h>

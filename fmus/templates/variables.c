@@ -1,6 +1,6 @@
 // Written by fmus/generate.py from {{ source }}: do not edit.
 // clang-format off
-#include "variable_table.h"
+#include "numbers/variable_table.h"
 
 #include <math.h>
 

@@ -3,7 +3,7 @@
 // All variables of the model: what users set (Parameters, Inputs), what they read (Outputs), and the state vector.  SI units.
 #pragma once
 
-#include "scalar.h"
+#include "numbers/scalar.h"
 
 #include <stddef.h>
 

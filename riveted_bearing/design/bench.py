@@ -17,7 +17,7 @@ from pathlib import Path
 
 import numpy as np
 
-from bearing_model import variables
+from bearing_model.generated import variables
 
 from ..basis import basis
 from ..errors import UserError, unknown

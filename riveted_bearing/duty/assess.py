@@ -7,7 +7,7 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from bearing_model.variables import INPUTS
+from bearing_model.generated.variables import INPUTS
 
 from ..errors import UserError
 from ..life import fatigue_law

@@ -22,8 +22,8 @@ from pathlib import Path
 
 import numpy as np
 
-from bearing_model.fatigue import FatigueLaw, fully_reversed
-from bearing_model.variables import MeanStress
+from bearing_model.instance.fatigue import FatigueLaw, fully_reversed
+from bearing_model.generated.variables import MeanStress
 
 from ..errors import UserError, extra, unknown
 from ..scene import read_toml, refusal

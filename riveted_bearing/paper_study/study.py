@@ -18,8 +18,9 @@ import matplotlib.pyplot as plt
 import numpy as np
 from scipy.stats import t as student
 
-from bearing_model import joint_law, rivet_rom
-from bearing_model.derived import default_table
+from bearing_model.cage.common import joint_law
+from bearing_model.rivet import rivet_rom
+from bearing_model.physics.derived import default_table
 
 from ..errors import unknown
 from ..plot import FORCE, HEAD, MIDDLE, MUTED, RING, STYLE

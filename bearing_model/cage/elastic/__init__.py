@@ -1,0 +1,1 @@
+"""Vibrating halves: modes, walls, joints, substeps."""

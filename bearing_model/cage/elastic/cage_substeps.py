@@ -1,0 +1,226 @@
+"""Substeps of elastic halves and their joints between two evaluations of the right-hand side: the readable twin of cage_substeps.c, which has the equations.
+
+    v_m = (v + d/2 (a_f + a_s))/(1 + d c/2),  q += d v_m,  v = v_m (1 - d c/2) + d/2 (a_f + a_s)
+
+a_f: fast accelerations, by the joints and the modes' own springs; a_s: slow ones, held over the step but for the loads of
+balls on walls, which follow the walls.
+Coordinates here are those of the modes, S and D side by side [2, n], and relative rigid motions of the halves [6]: x, about y, about z, y, z, spin.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from bearing_model.cage.elastic.cage_elastic import (
+    CAGE_RATES,
+    IN,
+    OUT,
+    ROOT,
+    cage_elastic_law,
+    cage_elastic_shapes,
+    cage_elastic_speed_2,
+    circle,
+    joints_in,
+    joints_out,
+)
+from bearing_model.cage.common.cage_joint import cage_joint_advance, cage_joint_shear
+from bearing_model.numbers.lanes import maximum
+from bearing_model.generated.variables import (
+    CAGE_BETA,
+    CAGE_GAMMA,
+    CAGE_PSI,
+    CAGE_X,
+    CAGE_Y,
+    CAGE_Z,
+    MODE_D,
+    MODE_D_DOT,
+    MODE_S,
+    MODE_S_DOT,
+    WORK,
+    Z,
+)
+
+CAGE_PLACES = CAGE_X, CAGE_Y, CAGE_Z, CAGE_BETA, CAGE_GAMMA, CAGE_PSI
+MOST_SUBSTEPS, ROUNDING = 1000, 1e-9
+
+
+@dataclass
+class FastState:
+    """Where the substeps of the next step begin: joints and fast accelerations at an evaluation."""
+
+    e: np.ndarray  # motions of the joints out of the plane [3, Z]
+    u: np.ndarray  # their offsets in it [2, Z]
+    T: np.ndarray  # loads of rivets and plates [Z]
+    N_plate: np.ndarray
+    touch: list  # of each half: direction (x, t), stiffness, rate of the approach, load of its contacts [5, Z]
+    omega_2: float  # square of the halves' speed in space
+    modes: np.ndarray  # accelerations by joints and springs [2, n]
+    rigid: np.ndarray  # accelerations of the relative motions at the joints [6]
+
+
+def relative_inertia(model):
+    """Inverse inertia of the relative motions at the joints [6]; part of y and z that the centres of mass take; common tilt by unit of y or z."""
+    d, m = model.d, 2.0 / model.p.cage.m
+    across = m + 2.0 * d.com_x[1] ** 2 / d.J_t
+    return np.array([m, 2.0 / d.J_t, 2.0 / d.J_t, across, across, 2.0 / d.J_p]), m / across, d.com_x[1] / d.J_t / across
+
+
+def give(model, h0, relative):
+    """What relative motions at the joints [6] give to both halves: x, y, z, beta, gamma, s [6, 2]."""
+    _, part, tilt = relative_inertia(model)
+    axes = np.array([h0.b_y[1:, 0], h0.b_z[1:, 0]])  # rows: b_y, b_z
+    change = np.concatenate([relative[:1], part * relative[3:5] @ axes, relative[1:3] @ axes, relative[5:]])
+    rows = change[:, None] * np.array([-0.5, 0.5])
+    rows[3:5] += (tilt * np.array([relative[4], -relative[3]]) @ axes)[:, None]
+    return rows
+
+
+def take(model, h0, rows):
+    """The relative motions at the joints [6] by such rows [6, 2]."""
+    axes, c_x = np.array([h0.b_y[1:, 0], h0.b_z[1:, 0]]), model.d.com_x[1]
+    d, common = rows[:, 1] - rows[:, 0], axes @ rows[3:5].sum(axis=1)
+    return np.concatenate([d[:1], axes @ d[3:5], axes @ d[1:3] + c_x * np.array([-common[1], common[0]]), d[5:]])
+
+
+def halves(y, blocks):
+    """Rows of both halves [6, 2] of a state."""
+    return np.array([y[block] for block in blocks])
+
+
+def fast_accelerations(model, q, load, shear):
+    """Accelerations of modes [2, n] and relative motions [6] at coordinates q [2, n], under loads of the joints out of the plane [3, Z] and in it [2, Z]."""
+    half, p, d = model.d.elastic, model.p, model.d
+    _, c, s = circle(d)
+    across = np.stack([c * shear[0] + s * shear[1], c * shear[1] - s * shear[0]])  # r, t
+    by_out, by_in = -ROOT * np.einsum("kz,ikz->i", load, half.pad[:, OUT]), ROOT * np.einsum("kz,ikz->i", across, half.pad[:, IN])
+    N, M_r, M_t = load
+    r_y, r_z = d.rivet_y, d.rivet_z
+    force = [-N, s * M_t - c * M_r - r_z * N, r_y * N - s * M_r - c * M_t, shear[0], shear[1], r_y * shear[1] - r_z * shear[0]]
+    return np.array([by_out, by_in]) / p.cage.m - half.omega**2 * q, relative_inertia(model)[0] * np.sum(force, axis=1)
+
+
+def cage_substeps_split(model, y, w, f):
+    """Takes the fast part from the rates f [states] of the state y, at which w was evaluated; returns it as FastState."""
+    half, h0 = model.d.elastic, w.half[0]
+    q, v = (np.array([y[block][: half.n] for block in blocks]) for blocks in ((MODE_S, MODE_D), (MODE_S_DOT, MODE_D_DOT)))
+    modes, rigid = fast_accelerations(model, q, w.joint_load, w.joint_force[1:])
+    for block, change in zip(CAGE_RATES, give(model, h0, rigid), strict=True):
+        f[block] -= change
+    for block, change in zip((MODE_S_DOT, MODE_D_DOT), modes - half.damping * v, strict=True):
+        f[block][: half.n] -= change
+    f[WORK] += np.sum(w.joint_dissipated) + w.modes_dissipated
+    touch = [np.array([*w.touch[h], w.Q_c[h]]) for h in range(2)]
+    omega_2 = float(np.squeeze(cage_elastic_speed_2(w)))
+    return FastState(w.e.copy(), w.u[1:].copy(), w.T.copy(), w.N_plate.copy(), touch, omega_2, modes, rigid)
+
+
+class Touches:
+    """The balls that touch walls at the step's start: their loads follow the walls."""
+
+    def __init__(self, model, fast, q):
+        self.m, self.rows = model.p.cage.m, []
+        for h, (n_x, n_t, k, rate, Q) in enumerate(fast.touch):
+            if not np.any(k > 0.0):
+                continue
+            shape = cage_elastic_shapes(model.d.elastic, 2 * h - 1, n_x, n_t)[0]  # [3, Z, n]
+            normal = (n_x[:, None] * shape[0] + n_t[:, None] * shape[2]) / ROOT
+            for j in np.flatnonzero(k > 0.0):
+                both = np.array([normal[j], (2 * h - 1) * normal[j]])
+                self.rows.append((k[j], rate[j], Q[j], both, np.sum(both * q)))
+
+    def accelerations(self, t, q):
+        """Of the modes [2, n] by the changes of the loads at the time t of the step."""
+        return sum((max(k * (rate * t - (np.sum(both * q) - start)), -Q) / self.m * both for k, rate, Q, both, start in self.rows), np.zeros_like(q))
+
+
+def turn(t, rates):
+    """Turns the relative tilt rates by the angle of their gyroscopic moment, tan of half of which is t: no power."""
+    _, y, z, *_ = rates
+    rates[1:3] = np.array([(1.0 - t * t) * y - 2.0 * t * z, (1.0 - t * t) * z + 2.0 * t * y]) / (1.0 + t * t)
+
+
+TURNING = np.array([[1, 2], [3, 4]])  # of the relative motions: pairs across the axis
+
+
+def turn_out(phi, relative):
+    """Accelerations [6] in the frame of the joints, which turn with half 0, in the frame that is phi behind."""
+    turned = relative.copy()
+    for y, z in TURNING:
+        turned[y], turned[z] = relative[y] - phi * relative[z], relative[z] + phi * relative[y]
+    return turned
+
+
+def turn_in(spin, t, middle, slow, moved, relative):
+    """Velocities [6] in the frame of the middle as the joints see them at the time t after it: both these and the way since the middle turn back."""
+    back, seen = moved + t * (2.0 * middle + relative + 0.5 * t * slow), relative.copy()
+    for y, z in TURNING:
+        seen[y] += spin * back[z]
+        seen[z] -= spin * back[y]
+    return seen
+
+
+def cage_substeps_advance(model, h, fast, f, y, w):
+    """Substeps of a step of length h from `fast` under the slow rates f; w: kinematics in the middle of the step; changes y as cage_substeps.c does.
+
+    Returns the length of the substeps and what they foresee at the step's end: slow accelerations of the modes [2, n], changes of those of the halves [6, 2].
+    """
+    half, d, h0 = model.d.elastic, model.d, w.half[0]
+    steps = int(min(np.ceil(h / half.substep * (1.0 - ROUNDING)), MOST_SUBSTEPS))
+    sub = h / steps
+    q, v, slow_modes = (
+        np.array([x[block][: half.n] for block in blocks])
+        for x, blocks in ((y, (MODE_S, MODE_D)), (y, (MODE_S_DOT, MODE_D_DOT)), (f, (MODE_S_DOT, MODE_D_DOT)))
+    )
+    slow, speed, moved = take(model, h0, halves(f, CAGE_RATES)), np.zeros(6), np.zeros(6)
+    touches, held, modes, rigid = Touches(model, fast, q), slow_modes, fast.modes, fast.rigid
+    w.e, w.u, w.T, w.N_plate = fast.e.copy(), np.concatenate([w.u[:1], fast.u]), fast.T, fast.N_plate
+    gyro = float(d.J_p / d.J_t * 0.5 * np.sum([half.s for half in w.half]))
+    P = maximum(d.P + d.spin[5] * fast.omega_2, 0.0)
+
+    # the joints' velocities by modes and relative rigid motions; those by the slow motion of the rigid halves in the middle of the step
+    _, c, s = circle(d)
+    out, inside = joints_out(d, half.pad), joints_in(d, half.pad)  # rows: all joints, motion by motion
+    Omega = w.half[1].Omega[:, 0] - h0.Omega[:, 0]
+    about_y, about_z = h0.b_y[:, 0] @ Omega, h0.b_z[:, 0] @ Omega
+    middle_out = np.array([w.v_j[0], about_y * c + about_z * s, about_z * c - about_y * s])
+    middle_in, spin = w.v_j[1:].copy(), float(np.squeeze(h0.s))
+    middle = np.array([0.0, about_y, about_z, *middle_in.mean(axis=-1), 0.0])
+    rigid = turn_out(-0.5 * spin * h, rigid)
+
+    for step in range(1, steps + 1):
+        v_m = (v + 0.5 * sub * (modes + held)) / (1.0 + 0.5 * sub * half.damping)
+        q = q + sub * v_m
+        v = v_m * (1.0 - 0.5 * sub * half.damping)
+        speed = speed + 0.5 * sub * rigid
+        turn(0.5 * gyro * sub, speed)
+        halfway, moved, time = moved + 0.5 * sub * speed, moved + sub * speed, (step - 0.5) * sub - 0.5 * h
+        relative = turn_in(spin, time, middle, slow, halfway, speed + time * slow)
+        by_out = (out @ np.append(v_m[0], relative[:3])).reshape(Z, 3).T
+        r, t = (inside @ np.append(v_m[1], relative[3:])).reshape(Z, 2).T
+        w.e = w.e + 0.5 * sub * (middle_out + by_out)
+        w.v_j = np.array([w.v_j[0], middle_in[0] + c * r - s * t, middle_in[1] + s * r + c * t])
+        w.u = w.u + sub * np.array([0.0 * r, w.v_j[1], w.v_j[2]])
+        y[WORK] -= cage_joint_advance(model, w, sub, y) + sub * model.p.cage.m * np.sum(half.damping * v_m**2)
+        held = slow_modes + touches.accelerations(step * sub, q)
+        if step == steps:
+            break
+        load, rivet, _ = cage_elastic_law(model, w.e, P)
+        w.T = maximum(rivet[0], 0.0)
+        w.N_plate = maximum(w.T - load[0], 0.0)
+        modes, rigid = fast_accelerations(model, q, load, cage_joint_shear(model, y, w))
+        rigid = turn_out(spin * (step * sub - 0.5 * h), rigid)
+        v = v + 0.5 * sub * (modes + held)
+        speed = speed + 0.5 * sub * rigid
+    for blocks, change in ((CAGE_PLACES, moved), (CAGE_RATES, speed)):
+        for block, rows in zip(blocks, give(model, h0, change), strict=True):
+            y[block] += rows
+    for blocks, x in (((MODE_S, MODE_D), q), ((MODE_S_DOT, MODE_D_DOT), v)):
+        for block, values in zip(blocks, x, strict=True):
+            y[block][: half.n] = values
+    return sub, (held, give(model, h0, gyro * np.array([0.0, -speed[2], speed[1], 0.0, 0.0, 0.0])))
+
+
+def cage_substeps_kick(model, w, h, rigid, y):
+    """Adds to the velocities of both halves in y what the relative accelerations `rigid` [6] give in the time h."""
+    for block, change in zip(CAGE_RATES, give(model, w.half[0], h * rigid), strict=True):
+        y[block] += change

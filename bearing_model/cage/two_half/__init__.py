@@ -1,0 +1,1 @@
+"""Load path of rigid halves."""

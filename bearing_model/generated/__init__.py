@@ -1,0 +1,1 @@
+"""Written by fmus/generate.py from fmus/variables.toml."""

@@ -1,0 +1,67 @@
+"""Where the energy goes: what was supplied, stored and lost since the start, term by term.
+
+    sum of supplied = change of energy + sum of lost
+
+Powers are integrated over the accepted steps from their values and rates at both ends,  h (P_0 + P_1)/2 + h^2 (P_0' - P_1')/12  (order 4, Hermite),
+the energies are those of the states, so that the two sides of the balance share nothing but the trajectory.  The rates of the powers are complex
+steps along dy/dt.
+"""
+
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from bearing_model.instance.energy import energy_terms, loss_terms, supply_terms
+from bearing_model.physics.model import Work
+from bearing_model.physics.rhs import rhs
+
+STEP = 1e-30  # of the complex step [s]
+
+
+@dataclass
+class Ledger:
+    """Energies [J] since the start by name: numbers during a simulation, arrays [points] in Results.
+
+    supplied: by the inner ring's spin (the shaft's torque), translation and tilting, by the housing, by gravity and
+    frame; stored: change of kinetic and elastic energies;
+    lost: in races, pockets, drag, land and joints.
+    """
+
+    supplied: dict = field(default_factory=dict)
+    stored: dict = field(default_factory=dict)
+    lost: dict = field(default_factory=dict)
+
+    @property
+    def residual(self):
+        """Supplied - stored - lost [J]: zero but for the error of the integration."""
+        return sum(self.supplied.values()) - sum(self.stored.values()) - sum(self.lost.values())
+
+    def add(self, model, t, y):
+        """Add the steps between the times t [points], whose states are y [points, N_STATES]; the first point is the start of the first step."""
+        w, along = Work(), Work()
+        y_dot = rhs(model, t, y, w)
+        rhs(model, t + 1j * STEP, y + 1j * STEP * y_dot, along)
+        for account, terms in ((self.supplied, supply_terms), (self.lost, loss_terms)):
+            for name, rate in terms(model.at(t + 1j * STEP), along).items():
+                P = np.broadcast_to(rate, (len(t), 1))[:, 0]
+                account[name] = account.get(name, 0.0) + integral(np.diff(t), np.real(P), np.imag(P) / STEP)
+        for name, energy in energy_terms(model, w).items():
+            self.stored[name] = self.stored.get(name, 0.0) + energy[-1, 0] - energy[0, 0]
+
+    def copy(self):
+        return Ledger(dict(self.supplied), dict(self.stored), dict(self.lost))
+
+    @classmethod
+    def over_time(cls, ledgers):
+        """One Ledger of arrays from those of all points; a term that appears at a later point is 0 before it."""
+
+        def account(name):
+            terms = getattr(ledgers[-1], name)
+            return {term: np.array([getattr(ledger, name).get(term, 0.0) for ledger in ledgers]) for term in terms}
+
+        return cls(account("supplied"), account("stored"), account("lost"))
+
+
+def integral(h, P, P_dot):
+    """Integral of a power over steps h from its values P and rates P_dot at their ends."""
+    return np.sum(0.5 * h * (P[:-1] + P[1:]) + h * h / 12.0 * (P_dot[:-1] - P_dot[1:]))

@@ -1,0 +1,1 @@
+"""Arrays over balls and vectors."""

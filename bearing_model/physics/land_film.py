@@ -1,0 +1,123 @@
+"""Land and outer ring: short journal bearing whose film carries where the gap closes, dry contact behind it.
+
+           outer ring          e    land's centre from the ring's axis, eps = e/C, gap h = C - e.n(phi)
+        .-----------.          V    pure squeeze velocity e_dot - (omega/2) e_x x e: the land turns, the ring stands
+       /   .-----.   \\         film pressure over the width L: p = 6 eta (V.n)/h^3 (L^2/4 - z^2) where V.n > 0, else cavitated
+      |   (   o e |   |        F = -eta R L^3 int n (V.n)/h^3 dphi = -kappa (I_c V + I_s V_perp),  kappa = eta R L^3/C^3
+       \\   '-----'   /
+        '-----------'          with a = eps.V/|V|, b = eps.V_perp/|V|, V_perp = e_x x V, q^2 = 1 - eps^2, S = pi/2 + atan(a/q):
+    I_c = int cos^2 phi/(1 - a cos phi - b sin phi)^3 dphi = 3 a/q^4 + S (q^2 + 3 a^2)/q^5                    phi = -pi/2 ... pi/2
+    I_s = int sin phi cos phi/(...)^3 dphi               = 2 b/q^4 + a^2 b/(q^4 (1 - b^2)) + 3 a b S/q^5
+    I_t = int sin^2 phi/(...)^3 dphi                     = a/(q^2 (1 - b^2)) + 3 a b^2/(q^4 (1 - b^2)) + 2 a b^2/(q^2 (1 - b^2)^2) + S (q^2 + 3 b^2)/q^5
+
+Shear heats the film between walls at the oil's temperature; viscosity exp(-beta (T - T_wall)).  In plane Couette flow the shear stress then is
+asinh(s)/(s sqrt(1 + s^2)) times the isothermal one, s^2 = Na/8, Na = beta eta U^2/k, whatever the gap (Nahme (1940), Ing.-Archiv 11, 191); the
+film's viscosity is lower by this factor.
+
+An outer ring that moves (outer_ring.py): e, e_dot and omega are those against its material, and the forces are along its axes.  For a ring that turns
+this is Reynolds' equation for two turning surfaces: squeeze e_dot - (omega + omega_e)/2 e_x x e.
+
+Steady rotation gives Ocvirk's force (a = 0), pure squeeze that of the pi-film.  The force derives from int (V.n)^2/h^3 over the closing half, so that
+-dF/dV = kappa (I_c, I_s; I_s, I_t) exactly: these are the stiff rates of the film.  The force is regular at e = 0, C0 in V (cavitation) and C1 elsewhere.
+At the wall the film stays finite: q^2 is g_0 at the wall and tends to g_0/2 behind it, and eps is capped at 1.2.  Behind the wall the dry contact
+F = K_land (e - C)^1.5 carries.
+"""
+
+import numpy as np
+
+from bearing_model.physics.hertz import hertz_damped, hertz_energy, hertz_load
+from bearing_model.numbers.lanes import ball_array_sum, maximum, minimum, wide_pair
+from bearing_model.physics.outer_ring import outer_ring
+from bearing_model.physics.traction import traction_asperity_share
+from bearing_model.generated.variables import Lubrication
+from bearing_model.numbers.vec import vec_cross, vec_dot
+
+EPS_CAP = 1.2
+
+
+def land_film_integrals(a, b, q2):
+    """The integrals I_c, I_s and I_t that stand at the head of this file."""
+    q = np.sqrt(q2)
+    q4, q5, c2 = q2 * q2, q2 * q2 * q, q2 + a * a  # c2 = 1 - b^2
+    S = 0.5 * np.pi + np.arctan(a / q)
+    I_c = 3.0 * a / q4 + S * (q2 + 3.0 * a * a) / q5
+    I_s = 2.0 * b / q4 + a * a * b / (q4 * c2) + 3.0 * a * b * S / q5
+    I_t = a / (q2 * c2) + 3.0 * a * b * b / (q4 * c2) + 2.0 * a * b * b / (q2 * c2 * c2) + S * (q2 + 3.0 * b * b) / q5
+    return I_c, I_s, I_t
+
+
+def land_film_gap(eps, g_0):
+    """q^2: 1 - eps^2 inside, g_0 at the wall, and g_0/2 far behind the wall."""
+    above = 1.0 - eps * eps - 0.5 * g_0
+    return 0.5 * g_0 + 0.5 * (above + np.sqrt(above * above + 2.0 * g_0 * g_0))
+
+
+def land_film_heating(s_2):
+    """Viscosity of the heated film / eta; s_2: Na/8."""
+    s, root = np.sqrt(s_2), np.sqrt(1.0 + s_2)
+    return np.where(np.real(s) > 1e-3, np.log(s + root) / (maximum(s, 1e-3) * root), 1.0 - 2.0 / 3.0 * s_2)
+
+
+def land_film_force(model, w):
+    """Adds film, friction and dry contact of both lands to the halves; sets their elastic energy and dissipated power.
+
+    film_yy, film_yz, film_zz, film_spin: -dF/dv [N.s/m] and -dM/domega [N.m.s] of each land, for the integrator's Jacobian.
+    """
+    p, d = model.p, model.d
+    h0, h1 = w.half
+    x_land = np.array([-p.cage.land_x, p.cage.land_x])
+
+    # position and velocity of the middle of each land, x + a x_land and v + Omega x a x_land = v + a_dot x_land, against the outer ring along its axes
+    outer, axis, axis_dot = outer_ring(model.ring_load, h0.s), wide_pair(h0.a, h1.a), wide_pair(h0.a_dot, h1.a_dot)
+    arm = wide_pair(h0.x, h1.x) + x_land * axis - outer.x
+    velocity = wide_pair(h0.v, h1.v) + x_land * axis_dot - outer.v - vec_cross(outer.Omega, arm)
+    e_y, e_z, v_y, v_z = (vec_dot(value, axis_of) for value in (arm, velocity) for axis_of in (outer.b_y, outer.b_z))
+    omega = vec_dot(wide_pair(h0.Omega, h1.Omega) - outer.Omega, outer.a)
+
+    # film
+    V_y, V_z = v_y + 0.5 * omega * e_z, v_z - 0.5 * omega * e_y
+    V = np.sqrt(V_y * V_y + V_z * V_z + 1e-30)
+    n_y, n_z = V_y / V, V_z / V
+    e = np.sqrt(e_y * e_y + e_z * e_z + 1e-30)
+    eps = e / d.C_land
+    cap = minimum(1.0, EPS_CAP / eps) / d.C_land
+    a, b = (e_y * n_y + e_z * n_z) * cap, (e_z * n_y - e_y * n_z) * cap
+    q2 = land_film_gap(eps, p.cage.g_0)
+    I_c, I_s, I_t = land_film_integrals(a, b, q2)
+    heated = land_film_heating(d.nahme * omega * omega) if d.nahme > 0.0 else 1.0
+    kappa = d.kappa * heated
+    F_y, F_z = -kappa * (I_c * V_y - I_s * V_z), -kappa * (I_c * V_z + I_s * V_y)
+    couette = d.couette * heated / np.sqrt(q2)
+
+    # dry contact and friction where the gap is smallest; with mixed lubrication the asperities carry their share of the film force too
+    u_y, u_z = e_y / e, e_z / e
+    pen, pen_dot = e - d.C_land, v_y * u_y + v_z * u_z
+    N_0 = hertz_load(p.cage.K_land, pen)
+    N = hertz_damped(N_0, p.cage.lambda_, pen_dot)
+    N_mu = N
+    if p.scene.lubrication == Lubrication.MIXED:
+        ln_Lambda = d.ln_land + np.log(q2 / (1.0 + eps))
+        N_mu = N + traction_asperity_share(ln_Lambda) * np.sqrt(F_y * F_y + F_z * F_z)
+    R = 0.5 * p.cage.D_o
+    slip = v_z * u_y - v_y * u_z + omega * R  # along t = e_x x u
+    g = p.cage.mu_land * N_mu / np.sqrt(slip * slip + p.cage.v_c**2)
+    F_t = -g * slip
+    F_y = F_y - N * u_y - F_t * u_z
+    F_z = F_z - N * u_z + F_t * u_y
+    M_x = R * F_t - couette * omega
+
+    power = F_y * v_y + F_z * v_z + M_x * omega
+    w.land_elastic = ball_array_sum(hertz_energy(p.cage.K_land, pen))
+    w.land_dissipated = -ball_array_sum(power + N_0 * pen_dot)
+
+    # -dF/dv in the global frame
+    w.film_yy = kappa * (I_c * n_y * n_y - 2.0 * I_s * n_y * n_z + I_t * n_z * n_z)
+    w.film_zz = kappa * (I_c * n_z * n_z + 2.0 * I_s * n_y * n_z + I_t * n_y * n_y)
+    w.film_yz = kappa * ((I_c - I_t) * n_y * n_z + I_s * (n_y * n_y - n_z * n_z))
+    w.film_spin = couette + g * R * R
+
+    F = F_y * outer.b_y + F_z * outer.b_z
+    M = M_x * outer.a + vec_cross(x_land * axis, F)
+    for h, half in enumerate(w.half):
+        half.F = half.F + F[..., h : h + 1]
+        half.M = half.M + M[..., h : h + 1]

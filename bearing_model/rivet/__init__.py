@@ -1,0 +1,1 @@
+"""The rivet table and its evaluation: loads and stress of the rivets."""

@@ -1,0 +1,1 @@
+"""The quasi-static start, the default step and the integration of the reference."""

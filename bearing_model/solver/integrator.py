@@ -1,0 +1,282 @@
+"""The bearing over time: scipy's integrators on rhs, with the start, error scales, outputs and statistics of the FMU.
+
+    results = simulate({"cage.pocket_clearance": 0.1e-3}, {"shaft.tilt_z": 2e-3}, t_end=0.01)
+    results["ball[1].Q_c"], results["cage.omega"]
+
+Communication points and edges of pulses are hit exactly, because an integration ends at each of them.  The error of a step is the RMS over the
+states of error/(tolerance scale); derived.py sets the scales, and no tolerance is relative.
+"""
+
+import functools
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+from scipy.integrate import BDF, DOP853, LSODA, RK23, RK45, Radau
+
+from bearing_model.instance.energy import energy_total
+from bearing_model.instance.fatigue import FatigueChannel, FatigueLaw
+from bearing_model.physics.hertz import hertz_energy
+from bearing_model.instance.ledger import Ledger
+from bearing_model.physics.model import Model, Work, derived_at
+from bearing_model.instance.outputs import outputs
+from bearing_model.physics.parameters import InputDerivatives, Inputs, Parameters
+from bearing_model.physics.rhs import jacobian, rhs
+from bearing_model.physics.ring_fit import ring_fit_growth, ring_fit_speed
+from bearing_model.physics.ring_load import (
+    input_trajectory_here,
+    input_trajectory_update,
+    input_trajectory_varies,
+    motion_remember,
+    motion_trajectory,
+    pulse_next_edge,
+    ring_load_at,
+)
+from bearing_model.rivet.rivet_rom import HEAD_P1, MID_VM, rivet_rom_stress
+from bearing_model.rivet.rivets import rivets_load, rivets_slip
+from bearing_model.solver.start import ring_follow, start_state
+from bearing_model.instance.statistics import StatisticsChannel
+from bearing_model.physics.temperature import temperature_same
+from bearing_model.generated.variables import OUTPUTS, WORK, RingMotion, Stress, Switch, Z
+
+METHODS = {"DOP853": DOP853, "RK45": RK45, "RK23": RK23, "Radau": Radau, "BDF": BDF, "LSODA": LSODA}
+IMPLICIT = ("Radau", "BDF", "LSODA")
+FORCE_FLOOR, STRESS_FLOOR = 1e-3, 1e3  # the statistics do not resolve smaller values [N], [Pa]
+FIRST_STEP = 1e-6  # [s]
+
+
+@dataclass
+class Results:
+    """What a simulation returns.
+
+    t: communication points [s]; y: states there [points, N_STATES]; outputs: name of the variable table -> [points] or [points, Z];
+    statistics: stat.* and the damage of the rivets at the end; ledger: where the energy went, each term [points]; steps, rhs_evals: work done.
+    results[name] takes any output's name, "ball[3].Q_i" or "ball[j].Q_i".
+    """
+
+    t: np.ndarray
+    y: np.ndarray
+    outputs: dict
+    statistics: dict
+    ledger: Ledger
+    steps: int
+    rhs_evals: int
+
+    def __getitem__(self, name):
+        values = self.outputs | self.statistics
+        if name in values:
+            return values[name]
+        for letter in "jk":
+            head, bracket, tail = name.partition("[")
+            number, _, rest = tail.partition("]")
+            array = f"{head}[{letter}]{rest}"
+            if bracket and number.isdigit() and array in values and 1 <= int(number) <= Z:
+                return values[array][..., int(number) - 1]
+        raise KeyError(name)
+
+
+@dataclass
+class Record:
+    """Peaks, statistics and fatigue over accepted steps, as the FMU keeps them."""
+
+    p: Parameters
+    force: StatisticsChannel = field(default_factory=lambda: StatisticsChannel(FORCE_FLOOR))
+    head: list = field(default_factory=lambda: [StatisticsChannel(STRESS_FLOOR) for _ in range(Z + 1)])  # one for each rivet, the last one for the worst rivet
+    mid: list = field(default_factory=lambda: [StatisticsChannel(STRESS_FLOOR) for _ in range(Z + 1)])
+    fatigue_head: list = field(default_factory=lambda: [FatigueChannel() for _ in range(Z)])
+    fatigue_mid: list = field(default_factory=lambda: [FatigueChannel() for _ in range(Z)])
+    duty_time: float = 0.0
+    omega_time: float = 0.0
+    eccentricity_time: float = 0.0
+    dislocation_max: float = 0.0
+
+    @property
+    def law(self):
+        return FatigueLaw(**vars(self.p.fatigue))
+
+    def add(self, model, t, h, w):
+        """Record accepted steps of lengths h [s] that end at the times t, from the evaluation w at their ends; returns the peaks by output name."""
+        p, counts = self.p, (t >= self.p.start.settle) & (self.p.scene.statistics == Switch.ON)
+        weight = np.repeat(h[:, None], Z, axis=1)
+        self.force.add(weight[counts].ravel(), w.Q_pocket[counts].ravel())
+        self.duty_time += np.sum((weight * (w.Q_pocket > 0.0))[counts])
+        peaks = {"cage.F_pocket_peak": np.max(w.Q_pocket)}
+        peaks |= self.add_stress(model, t, h, counts, w) if p.scene.stress >= Stress.PEAK else no_stress()
+        h0, h1 = w.half
+        centre = (0.5 * (h0.x + h1.x) - w.outer_x)[..., 0]
+        self.omega_time += np.sum((h * 0.5 * (h0.s + h1.s)[..., 0])[counts])
+        self.eccentricity_time += np.sum((h * np.hypot(centre[1], centre[2]) / model.d.C_land)[counts])
+        self.dislocation_max = max(self.dislocation_max, np.max(rivets_slip(model, w)[counts], initial=0.0))
+        return peaks
+
+    def add_stress(self, model, t, h, counts, w):
+        sigma, _ = rivet_rom_stress(model.d.table, rivets_load(model, w).rivet, model.d.fit_eff)
+        peaks = {}
+        channels = (("head", HEAD_P1, self.head, self.fatigue_head), ("mid", MID_VM, self.mid, self.fatigue_mid))
+        for name, channel, statistics, fatigue in channels:
+            stress = sigma[..., channel]
+            for k in range(Z):
+                statistics[k].add(h[counts], stress[counts, k])
+            statistics[Z].add(h[counts], np.max(stress, axis=1)[counts])
+            if self.p.scene.stress == Stress.FATIGUE:
+                for values in stress[t >= self.p.start.settle]:
+                    for k in range(Z):
+                        fatigue[k].push(self.law, values[k])
+            peak = np.max(stress, axis=0)
+            peaks |= {f"rivet[k].sigma_{name}_peak": peak, f"rivet.sigma_{name}_max": np.max(peak)}
+        return peaks
+
+    def statistics(self):
+        """stat.* and damage by the names of the variable table."""
+        time, p = self.force.time / Z, 0.999  # each ball has added the time of each step
+        share = 1.0 / time if time > 0.0 else 0.0
+        values = {"stat.time": time, "stat.contact_duty": self.duty_time * share / Z, "stat.cage_omega": self.omega_time * share}
+        values |= {"stat.eccentricity": self.eccentricity_time * share, "stat.dislocation_max": self.dislocation_max}
+
+        def four(channel):
+            return {"mean": channel.mean, "rms": channel.rms, "p999": channel.quantile(p), "max": channel.max}
+
+        values |= {f"stat.Q_c_{name}": value for name, value in four(self.force).items()}
+        for part, channels, fatigue in (("head", self.head, self.fatigue_head), ("mid", self.mid, self.fatigue_mid)):
+            values |= {f"stat.sigma_{part}_{name}": value for name, value in four(channels[Z]).items()}
+            values |= {f"stat.rivet_{part}_{name}[k]": np.array([four(c)[name] for c in channels[:Z]]) for name in ("mean", "rms", "p999", "max")}
+            values[f"rivet[k].damage_{part}"] = np.array([channel.damage(self.law) for channel in fatigue])
+        return values
+
+
+def no_stress():
+    """Zeros in the place of the peak stresses, for scenes that record no stress."""
+    names = [name for name, variable in OUTPUTS.items() if variable.group == "peak" and "sigma" in name]
+    return {name: np.zeros(Z) if "[k]" in name else 0.0 for name in names}
+
+
+class Integration:
+    """One run in progress: state, step size and what has been recorded."""
+
+    def __init__(self, p, t, y, tolerance, method):
+        self.p, self.t, self.y, self.tolerance, self.method = p, t, y, tolerance, method
+        self.step_size, self.steps, self.rhs_evals = FIRST_STEP, 0, 0
+
+    def segment(self, model, t_end):
+        """Accepted steps from here to t_end under one ring load: their times and states, without the start."""
+        rtol = 100.0 * np.finfo(float).eps  # the smallest that SciPy accepts: in effect only atol counts
+        options = {"rtol": rtol, "atol": self.tolerance * model.d.scale}
+        if self.method in IMPLICIT:
+            options["jac"] = lambda t, y: jacobian(model, t, y)
+        first = min(self.step_size, t_end - self.t)
+        solver = METHODS[self.method](functools.partial(rhs, model), self.t, self.y, t_end, first_step=first, **options)
+        times, states = [], []
+        while solver.status == "running":
+            message = solver.step()
+            if solver.status == "failed":
+                raise RuntimeError(f"t = {solver.t:.9g} s: the solver cannot go on: {message}")
+            times.append(solver.t)
+            states.append(solver.y.copy())
+            self.steps += 1
+            if self.steps > self.p.solver.max_steps:
+                raise RuntimeError(f"t = {solver.t:.9g} s: more than solver.max_steps = {self.p.solver.max_steps} steps")
+        self.step_size = max(getattr(solver, "h_abs", solver.step_size), 0.9 * self.step_size)
+        self.rhs_evals += solver.nfev
+        self.t, self.y = t_end, solver.y
+        return np.array(times), np.array(states)
+
+
+def simulate(parameters=None, inputs=None, t_end=1e-3, *, derivatives=None, step=1e-4, t_start=0.0, tolerance=None, method="DOP853", y=None, table=None):
+    """Integrate from the quasi-static start (or the state y) at t_start to t_end [s]; returns Results at communication points `step` [s] apart.
+
+    parameters: {name: value} of the variable table in SI, others at their start values.  inputs: the same, or a function t -> {name: value} called
+    at each communication point and held until the next one, as an FMU's inputs are.  derivatives: a function t -> (first, second) derivatives of
+    inputs {name: value}, called at the same points: the inputs are then polynomials of time until the next point.  tolerance: of a step, relative to
+    the error scales; default solver.tol.  method: DOP853, RK45, RK23, or with the exact Jacobian Radau, BDF, LSODA.  table: RivetTable, default
+    that of the 6207.
+    ValueError names a value that is not allowed; RuntimeError if the solver cannot go on.
+
+    >>> results = simulate({"scene.cage": "rigid"}, {"shaft.F_y": 1000.0}, t_end=1e-4)
+    >>> results["ball[1].Q_i"].shape
+    (2,)
+    """
+    if method not in METHODS:
+        raise ValueError(f"method = {method!r}: allowed are {', '.join(METHODS)}")
+    if not (t_end > t_start and step > 0.0):
+        raise ValueError(f"t_end = {t_end} s, step = {step} s: t_end must be after t_start = {t_start} s and step positive")
+    if tolerance is not None and not tolerance > 0.0:
+        raise ValueError(f"tolerance = {tolerance}: more than 0 is allowed")
+    p, held = Parameters(parameters), inputs if callable(inputs) else lambda t: inputs
+    slopes = derivatives or (lambda t: ({}, {}))
+    here = input_trajectory_update(p, (Inputs(held(t_start)), *map(InputDerivatives, slopes(t_start))), t_start, t_start)
+    model = Model(*derived_at(p, here.u[0], table), ring_load_at(here, t_start))
+    y = start_state(model)[0] if y is None else np.array(y, dtype=float)
+    run = Integration(p, t_start, y, p.solver.tol if tolerance is None else tolerance, method)
+    record, w = Record(p), Work()
+    rhs(model, t_start, y, w)
+    energy_start = energy_total(model, w) - y[WORK][0]
+
+    count = int(np.ceil((t_end - t_start) / step * (1.0 - 1e-12)))
+    points = np.minimum(t_start + step * np.arange(count + 1), t_end)
+    ledger, history = Ledger(), None
+    ledger.add(model, np.array([t_start]), y[None])
+    first = observe(model, t_start, y, energy_start) | accepted(model, record, np.array([t_start]), np.zeros(1), y[None])
+    states, ledgers, rows = [y], [ledger.copy()], [first]
+    for point in points[1:]:
+        u, peaks, t_0, angle = [Inputs(held(run.t)), *map(InputDerivatives, slopes(run.t))], [], run.t, here.frame_angle
+        given, reached = u, here.u[0]
+        u, history = motion_trajectory(p, given, reached, point - t_0, history), motion_remember(given[0], point - t_0, history)
+        model, expansion = at_temperature(p, model, reached, given[0], run, table)
+        expansion += at_speed(model, given[0], run)
+        while run.t < point:
+            trajectory, begin, y_begin = input_trajectory_update(p, u, t_0, run.t, angle), run.t, run.y
+            model = Model(model.p, model.d, ring_load_at(trajectory, run.t), trajectory if input_trajectory_varies(trajectory) else None)
+            times, ys = run.segment(model, min(pulse_next_edge(p, run.t), point))
+            peaks.append(accepted(model, record, times, np.diff(times, prepend=begin), ys))
+            ledger.add(model, np.append(begin, times), np.vstack([y_begin, ys]))
+        here = input_trajectory_here(trajectory, run.t)
+        model = Model(model.p, model.d, ring_load_at(here, run.t))
+        if p.ring.motion == RingMotion.PRESCRIBED:
+            run.y = ring_follow(model.ring_load, run.y)
+        model, further = at_temperature(p, model, given[0], here.u[0], run, table)
+        energy_start += expansion + further
+        states.append(run.y)
+        ledgers.append(ledger.copy())
+        rows.append(observe(model, run.t, run.y, energy_start) | {name: np.max([peak[name] for peak in peaks], axis=0) for name in peaks[0]})
+    table_of = {name: np.array([row[name] for row in rows]) for name in rows[0]}
+    return Results(points, np.array(states), table_of, record.statistics(), Ledger.over_time(ledgers), run.steps, run.rhs_evals)
+
+
+def at_temperature(p, model, from_, u, run, table):
+    """The Model at the temperatures in the Inputs u instead of those in from_, and the work of the expansion [J], which is no part of the energy balance."""
+    if temperature_same(from_, u):
+        return model, 0.0
+    hot = Model(*derived_at(p, u, table), model.ring_load)
+    energies = []
+    for each in (model, hot):
+        w = Work()
+        rhs(each, run.t, run.y, w)
+        energies.append(energy_total(each, w))
+    return hot, energies[1] - energies[0]
+
+
+def at_speed(model, u, run):
+    """What a jump to the speed in the Inputs u adds to the elastic energy [J], because the inner ring grows at once."""
+    loads, fit = (model.ring_load, replace(model.ring_load, omega=u.shaft.omega)), model.d.fit
+    before, after = (ring_fit_growth(fit, ring_fit_speed(load)) for load in loads)
+    if before == after:
+        return 0.0
+    energies = []
+    for load in loads:
+        w = Work()
+        rhs(Model(model.p, model.d, load), run.t, run.y, w)
+        energies.append(np.sum(hertz_energy(model.d.inner.hertz.K, w.delta_i)))
+    return energies[1] - energies[0]
+
+
+def observe(model, t, y, energy_start):
+    """Outputs at one state by name."""
+    w = Work()
+    y_dot = rhs(model, t, y, w)
+    return outputs(model, w, y, y_dot, energy_start)
+
+
+def accepted(model, record, t, h, y):
+    """Record accepted steps that end at times t in states y [steps, N_STATES]; returns the peaks of these steps."""
+    w = Work()
+    rhs(model, t, y, w)
+    return record.add(model, t, h, w)

@@ -1,0 +1,230 @@
+// Joints that open and slip: see joint_law.h for the equations.
+#include "cage/common/joint_law.h"
+
+enum { SWEEPS = 6, SLIP_SWEEPS = 3 };
+
+static const double NEAR = 0.05, CHANGE = 0.01;
+
+// ---- opening --------------------------------------------------------------------------------------------------------
+// What is sought: moves of all joints, L* that the joints have answered to, loads of the rivets.
+typedef struct {
+    JointMoves move;
+    ball_array alone[3], *rivet;
+} Opening;
+
+// The joints to be found by the law.
+typedef struct {
+    int count, joint[Z];
+} Wanted;
+
+// Wants the joints k, k + 1, ... whose bit of the mask is set.
+INLINE void want(Wanted *wanted, int k, int mask)
+{
+    for (; mask != 0; mask >>= 1, k++)
+        if (mask & 1 && k < Z) wanted->joint[wanted->count++] = k;
+}
+
+// The same where all joints move alike.
+static void find_alone_alike(const JointLaw *law, ball_array bonded[3], const scalar at[ALIKE_WIDTH],
+                             wide alone[PACKETS][3])
+{
+    for (int i = 0; i < 3; i++) {
+        const scalar relieved = law->K_others[i][0] * at[ALIKE_U] + law->K_others[i][2] * at[ALIKE_PHI_T];
+        for (int p = 0; p < PACKETS; p++)
+            alone[p][i] = wide_load(&bonded[i][p * LANE_WIDTH]) - wide_set(relieved);
+    }
+}
+
+// Joints near the state where all are alike answer to L* by their tangent there, unless they are broken.  The others keep their last
+// answer, and those of them are wanted whose L* has changed since; in the first sweep all others are.
+static void answer_near(const JointLaw *law, ball_array bonded[3], const ball_array P, const constants intact,
+                        scalar spin_P, const scalar at[ALIKE_WIDTH], bool first, wide alone[PACKETS][3],
+                        Opening *o, Wanted *wanted)
+{
+    wide move[PACKETS][3];
+    wanted->count = 0;
+    for (int p = 0; p < PACKETS; p++) {
+        const int k = p * LANE_WIDTH;
+        const wide *L = alone[p];
+        const wide N = L[0] - at[ALIKE_N], M_r = L[1], M_t = L[2] - at[ALIKE_M_T],
+                   more_P = wide_load(&P[k]) - spin_P;
+        wide value[4];  // u, phi_t, T, m_t
+        for (int n = 0; n < 4; n++) {
+            const scalar *slope = &at[ALIKE_SLOPES + 3 * n];
+            value[n] = wide_fma(wide_set(slope[2]), more_P,
+                                wide_fma(wide_set(slope[1]), M_t,
+                                         wide_fma(wide_set(slope[0]), N, wide_set(at[ALIKE_U + n]))));
+        }
+        wide near[9] = {value[0],
+                        at[ALIKE_PHI_R] * M_r,
+                        value[1],
+                        value[2],
+                        at[ALIKE_M_R_RIVET] * M_r,
+                        value[3],
+                        L[0],
+                        L[1],
+                        L[2]};  // moves, rivet, L*
+        const wide s = wide_load(&P[k]) + joint_size(law, wide_load(&bonded[0][k]), wide_load(&bonded[1][k]),
+                                                     wide_load(&bonded[2][k]));
+        const wide beyond = joint_size(law, N, M_r, M_t) + wide_abs(more_P) - NEAR * s;
+        const bits far = wide_above(wide_max(beyond, 0.5 - wide_load(&intact[k])), 0.0);
+        if (first)
+            want(wanted, k, wide_mask(far));
+        else if (wide_any(far)) {
+            wide before[9];
+            for (int i = 0; i < 3; i++) {
+                before[i] = wide_load(&o->move[i][k]);
+                before[3 + i] = wide_load(&o->rivet[i][k]);
+                before[6 + i] = wide_load(&o->alone[i][k]);
+            }
+            const bits changed = wide_above(
+                joint_size(law, L[0] - before[6], L[1] - before[7], L[2] - before[8]) - CHANGE * s, 0.0);
+            want(wanted, k, wide_mask(far & changed));
+            for (int i = 0; i < 6; i++) near[i] = wide_select(far, before[i], near[i]);
+            for (int i = 6; i < 9; i++)
+                near[i] = wide_select(far, wide_select(changed, near[i], before[i]), near[i]);
+        }
+        for (int i = 0; i < 3; i++) {
+            move[p][i] = near[i];
+            wide_store(&o->rivet[i][k], near[3 + i]);
+            wide_store(&o->alone[i][k], near[6 + i]);
+        }
+    }
+    for (int turn = 0; turn < 2; turn++)
+        for (int p = 0; p < PACKETS; p++)
+            for (int i = 0; i < 3; i++) wide_store(&o->move[i][turn * Z + p * LANE_WIDTH], move[p][i]);
+}
+
+int joints_open(const JointLaw *law, ball_array bonded[3], const ball_array P, const constants intact,
+                scalar spin_M, scalar spin_P, ball_array load[3], ball_array rivet[3])
+{
+    scalar at[ALIKE_WIDTH];
+    wide L[PACKETS][3];
+    Opening o;
+    Wanted wanted;
+    int asked = 0;
+    o.rivet = rivet;
+    find_alike(law, (scalar_value(spin_M) < 0.0 ? -spin_M : spin_M) / law->length, spin_P, at);
+    find_alone_alike(law, bonded, at, L);
+    answer_near(law, bonded, P, intact, spin_P, at, true, L, &o, &wanted);
+    for (int sweep = 0; sweep < SWEEPS && wanted.count > 0; sweep++) {
+        if (sweep > 0) {
+            find_alone(law, bonded, o.move, L);
+            answer_near(law, bonded, P, intact, spin_P, at, false, L, &o, &wanted);
+        }
+        asked += wanted.count;
+        for (int n = 0; n < wanted.count; n++) {
+            const int k = wanted.joint[n];
+            const scalar alone[3] = {o.alone[0][k], o.alone[1][k], o.alone[2][k]};
+            scalar move[3], carried[3];
+            if (intact[k] > 0.0)
+                joint_law(law, alone, P[k], move, carried, NULL);
+            else {
+                joint_free(law->K_0, alone, move);
+                carried[0] = carried[1] = carried[2] = 0.0;
+            }
+            for (int i = 0; i < 3; i++) {
+                o.move[i][k] = o.move[i][Z + k] = move[i];
+                rivet[i][k] = carried[i];
+            }
+        }
+    }
+    for (int i = 0; i < 3; i++) {
+        const wide K[3] = {wide_set(-law->K_0[i][0]), wide_set(-law->K_0[i][1]), wide_set(-law->K_0[i][2])};
+        for (int k = 0; k < PACKETS * LANE_WIDTH; k += LANE_WIDTH) {
+            wide left = wide_load(&o.alone[i][k]);
+            for (int m = 0; m < 3; m++) left = wide_fma(K[m], wide_load(&o.move[m][Z + k]), left);
+            wide_store(&load[i][k], left);
+        }
+    }
+    return asked;
+}
+
+// ---- slip -----------------------------------------------------------------------------------------------------------
+// Slip of joints that would carry V bonded, and what heads and hole then carry, all along V.  K: slip stiffness
+// of the halves around a joint.  Plates hold up to `plate`, then the heads drag the rivet (k_head) up to `head`,
+// then the halves slip freely to `gap`, then the hole bears (k_hole):
+//     V - K slip = plate + min(k_head slip, head) + k_hole max(0, slip - gap).
+INLINE wide joint_slip(wide V, wide K, wide gap, wide plate, wide head, double k_head, wide k_hole,
+                       wide *heads, wide *hole)
+{
+    // Each of the two branches of the heads is the larger slip where it holds; of two fractions with positive
+    // denominators the larger one is chosen before the division.
+    const wide zero = wide_set(0.0), beyond = V - plate, past = beyond - head, borne = k_hole * gap;
+    const bits slides = wide_above(past * (K + k_head) - beyond * K, 0.0);
+    const wide free = wide_select(slides, past, beyond) / wide_select(slides, K, K + k_head);
+    const bits bears = wide_above(free - gap, 0.0);
+    wide slip = wide_max(free, zero);
+    if (wide_any(bears)) {
+        const wide held = K + (k_head + k_hole), loose = K + k_hole;
+        const bits pushes = wide_above((past + borne) * held - (beyond + borne) * loose, 0.0);
+        const wide borne_slip =
+            (wide_select(pushes, past, beyond) + borne) / wide_select(pushes, loose, held);
+        slip = wide_select(bears, wide_max(borne_slip, zero), slip);
+    }
+    *heads = wide_min(k_head * slip, head);
+    *hole = k_hole * wide_max(slip - gap, zero);
+    return slip;
+}
+
+static void add_vector(ball_array sum[2], int k, wide r, wide t)
+{
+    wide_store(&sum[0][k], wide_load(&sum[0][k]) + r);
+    wide_store(&sum[1][k], wide_load(&sum[1][k]) + t);
+}
+
+void joints_slip(const JointLaw *law, const ball_array V_r, const ball_array V_t, const SlipLimits *limits,
+                 ball_array plates[2], ball_array heads[2], ball_array shank[2])
+{
+    bool slips = false;
+    for (int k = 0; k < PACKETS * LANE_WIDTH; k += LANE_WIDTH)
+        slips |= wide_any(wide_above(
+            wide_hypot(wide_load(&V_r[k]), wide_load(&V_t[k])) - wide_load(&limits->plates[k]), 0.0));
+    if (!slips) {
+        for (int k = 0; k < PACKETS * LANE_WIDTH; k += LANE_WIDTH)
+            add_vector(plates, k, wide_load(&V_r[k]), wide_load(&V_t[k]));
+        return;
+    }
+    const double (*K)[2] = law->K_slip[0];
+    scalar slip[2][2 * Z + LANES] = {{0.0}};  // once more behind the last one
+    for (int sweep = 0; sweep < SLIP_SWEEPS; sweep++) {
+        ball_array next[2];
+        wide alone[PACKETS][2];
+        for (int p = 0; p < PACKETS; p++) {
+            alone[p][0] = wide_load(&V_r[p * LANE_WIDTH]);
+            alone[p][1] = wide_load(&V_t[p * LANE_WIDTH]);
+        }
+        for (int d = 1; sweep > 0 && d < Z; d++)
+            for (int m = 0; m < 2; m++)
+                for (int i = 0; i < 2; i++) {
+                    const wide K_d = wide_set(law->K_slip[d][i][m]);
+                    for (int p = 0; p < PACKETS; p++)
+                        alone[p][i] =
+                            wide_fma(-K_d, wide_load(&slip[m][Z - d + p * LANE_WIDTH]), alone[p][i]);
+                }
+        for (int p = 0; p < PACKETS; p++) {
+            const int k = p * LANE_WIDTH;
+            const wide r = alone[p][0], t = alone[p][1];
+            const wide V_rt = wide_hypot(r, t), inv_V = wide_ratio(wide_set(1.0), V_rt), e_r = r * inv_V,
+                       e_t = t * inv_V;
+            const wide along = e_r * (K[0][0] * e_r + (K[0][1] + K[1][0]) * e_t) + K[1][1] * (e_t * e_t);
+            const wide stiffness = wide_select(wide_above(V_rt, 0.0), along, wide_set(K[0][0]));
+            wide head, hole;
+            const wide gap = wide_load(&limits->gap[k]), plate = wide_load(&limits->plates[k]),
+                       rest = wide_load(&limits->heads[k]), k_hole = wide_load(&limits->k_hole[k]);
+            const wide moved =
+                joint_slip(V_rt, stiffness, gap, plate, rest, limits->k_head, k_hole, &head, &hole);
+            const wide s_r = moved * e_r, s_t = moved * e_t;
+            wide_store(&next[0][k], s_r);
+            wide_store(&next[1][k], s_t);
+            if (sweep < SLIP_SWEEPS - 1) continue;
+            const wide left_r = r - (K[0][0] * s_r + K[0][1] * s_t),
+                       left_t = t - (K[1][0] * s_r + K[1][1] * s_t), rivet = head + hole;
+            add_vector(plates, k, left_r - rivet * e_r, left_t - rivet * e_t);
+            add_vector(heads, k, head * e_r, head * e_t);
+            add_vector(shank, k, hole * e_r, hole * e_t);
+        }
+        for (int i = 0; i < 2; i++)
+            for (int k = 0; k < Z; k++) slip[i][k] = slip[i][Z + k] = next[i][k];
+    }
+}

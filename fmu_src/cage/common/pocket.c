@@ -1,0 +1,334 @@
+// Ball and pocket: a cylinder with a radial axis, cut by the split plane into the two halves.
+//
+//        x (a)               a     axis of the half;  e_t  its tangent at pocket j
+//        |   half 1          p = ball centre - geometric centre of the half
+//     .--+--.                (x, t) = (p.a, p.e_t): ball against the pocket's axis
+//    (   |n->)---- t (e_t)   S = sqrt(x^2 + t^2),  n = (x, t)/S,  delta = S - (R_c - R)           Cui et al. (2023)
+//     '--+--'                V = e(xi) (2/5) K delta^2.5
+//        |   half 0          xi = +- n_x R_c/a, at most 1: split plane against the patch, a = a_delta delta^0.5
+//                            force on the ball: -dV/d(x, t), damping -(w K delta^1.5) lambda delta_dot n,
+//                            Coulomb friction mu Q
+//
+// A half bears the part of the Hertz pressure on its side of the split plane, which cuts the contact ellipse
+// across its long half axis a:
+//     w = 1/2 + 3/4 xi - 1/4 xi^3,  e = 1/2 + 15/16 xi - 5/8 xi^3 + 3/16 xi^5
+// w is the part of the load: the pressure sqrt(1 - (x/a)^2 - (y/b)^2), summed over y, leaves 1 - (x/a)^2
+// along x.  e is the part of the energy: the integral of w K delta^1.5 over delta at the contact's position.
+// Therefore -dV/d(delta) is w K delta^1.5, and both halves together store and bear as much as one whole
+// contact.  The slope of V along the wall is a force across n that pushes the halves apart; without this
+// force energy would not be conserved.
+//
+// The friction P_S acts at the contact point p + R n, where the slip is v + omega x R n; in mixed lubrication
+// its coefficient goes from that of the film to that of the asperities by Lambda.  P_R and its horizontal
+// counterpart are the inlet's rolling friction as in the races, with the mean speed |slip|/2 and R_x = R.
+// The half gets the opposite forces at the same points.
+//
+// Smoothness: C1 at touch-down and where the patch leaves a half.  The cylinder has no radial end: a ball
+// whose equator leaves the cage's section is reported (events.h), not modelled.
+#include "cage/common/pocket.h"
+
+#include "cage/elastic/elastic_half.h"
+#include "physics/hertz.h"
+#include "physics/traction.h"
+
+// Friction coefficient of a pocket at mean speed U and load Q.  The film is the thicker one of piezoviscous
+// and isoviscous-rigid lubrication.
+INLINE wide pocket_mu(const Model *model, wide ln_U, wide ln_Q, bool mixed)
+{
+    const wide film = wide_set(model->p->cage.mu);
+    if (!mixed) return film;
+    const wide ln_piezo = traction_ln_film(wide_set(model->d->ln_pocket_piezo), ln_U, ln_Q);
+    const wide ln_rigid = model->d->ln_pocket_rigid + 2.0 * (ln_U - ln_Q);
+    return film + traction_asperity_share(wide_max(ln_piezo, ln_rigid)) * (model->p->oil.mu_b - film);
+}
+
+// Adds v to the vectors stored at x, r, t.
+INLINE void add_vec(vec v, scalar *x, scalar *r, scalar *t)
+{
+    vec_store(vec_add(vec_load(x, r, t), v), x, r, t);
+}
+
+// Approach of ball and wall without what the compliance c of the wall takes, delta_h + c w K delta_h^1.5 = delta, by
+// Newton's method.
+INLINE wide pocket_approach(const Model *model, int h, wide n_x, wide delta)
+{
+    const Derived *d = model->d;
+    const wide zero = wide_set(0.0), cK = wide_set(model->elastic->compliance * d->pocket.K);
+    wide own = wide_max(delta, zero);
+    for (int i = 0; i < 4; i++) {
+        const wide root = wide_sqrt(wide_max(own, wide_set(1e-30)));
+        const wide load = wide_max(cK * pocket_share(d, h, n_x, own).load * root, wide_set(-0.3));
+        own = wide_max(own - (own + load * own - delta) / (1.0 + 1.5 * load), zero);
+    }
+    return wide_select(wide_above(delta, 0.0), own, delta);
+}
+
+// Forces in a packet of pockets, stored for the half and added to the balls.  whole: the rigid cage, whose
+// half 0 carries the whole contact.  wall: motion of the walls of an elastic half, or NULL.
+INLINE void pocket_contacts(const Model *model, Work *w, int h, int j, const PocketGap *gap, bool mixed,
+                            bool whole, const WallMotion *wall, ball_array on_wall[3])
+{
+    const Parameters *p = model->p;
+    const Derived *d = model->d;
+    const Rotor *half = &w->half[h];
+    Pockets *pocket = &w->pocket[h];
+    const wide cos_theta = wide_load(&w->cos_theta[j]), sin_theta = wide_load(&w->sin_theta[j]);
+    const wide R = wide_load(&d->R[j]);
+
+    // normal
+    const vec a = gap->a, e_t = gap->e_t, arm_p = gap->p;
+    const wide n_x = gap->n_x, n_t = gap->n_t;
+    const vec n = vec_axpy(n_t, e_t, vec_scale(n_x, a));
+
+    // velocity of the ball's centre against the half there
+    const vec omega_b = vec_load(&w->omega_x[j], &w->omega_r[j], &w->omega_t[j]);
+    const vec v_b = vec_load(&w->v_x[j], &w->v_r[j], &w->v_t[j]);
+    const vec Omega = vec_local(half->Omega, cos_theta, sin_theta);
+    vec v = vec_sub(vec_sub(v_b, vec_local(half->v, cos_theta, sin_theta)), vec_cross(Omega, arm_p));
+    if (wall) {
+        const vec along =
+            vec_axpy(wide_load(&wall->u_dot[0][j]), a, vec_scale(wide_load(&wall->u_dot[2][j]), e_t));
+        v = vec_sub(v, vec_axpy(wide_load(&wall->u_dot[1][j]), gap->b, along));
+    }
+    const wide delta_dot = vec_dot(n, v);
+
+    // share of the half, contact load, and the energy's gradient across n
+    const PocketShare all = {wide_set(1.0), wide_set(1.0), wide_set(0.0)};
+    const PocketShare share = whole ? all : pocket_share(d, h, n_x, gap->delta);
+    const wide Q_0 = share.load * hertz_load(wide_set(d->pocket.K), gap->delta);
+    const wide Q = hertz_damped(Q_0, wide_set(p->cage.lambda), delta_dot);
+    wide F_across = pocket_across(d, gap, share.slope);
+    if (wall) F_across -= Q_0 * wide_load(&wall->tilt[j]);
+    const vec F_n = vec_axpy(-Q, n, vec_axpy(-F_across * n_t, a, vec_scale(F_across * n_x, e_t)));
+
+    // friction at the contact point (F_s), film force through the ball's centre (F_c)
+    const vec arm = vec_scale(R, n);
+    const vec slip = vec_across(vec_add(v, vec_cross(vec_sub(omega_b, Omega), arm)), n);
+    const wide slip_2 = vec_dot(slip, slip), U_2 = 0.25 * slip_2 + p->oil.U_0 * p->oil.U_0;
+    const wide inv_U = 1.0 / wide_sqrt(U_2);
+    wide ln_U, ln_Q;
+    wide_log2(U_2 * inv_U, Q + Q_FLOOR, &ln_U, &ln_Q);
+    const wide g = pocket_mu(model, ln_U, ln_Q, mixed) * Q / wide_sqrt(slip_2 + p->cage.v_c * p->cage.v_c);
+    const wide g_R = 0.5 * traction_inlet(wide_set(d->pocket_rolling), ln_U, Q, ln_Q) * inv_U;
+    const vec F_s = vec_scale(-(g + g_R), slip), F_c = vec_scale(2.0 * g_R, slip);
+    const vec F = vec_add(F_n, vec_add(F_s, F_c)), M = vec_cross(arm, F_s);
+    const vec F_half = vec_scale(wide_set(-1.0), F), M_half = vec_sub(vec_cross(arm_p, F_half), M);
+
+    if (wall) {
+        const vec drawn = vec_add(F_s, F_c);
+        wide_store(&on_wall[0][j], Q * n_x - vec_dot(drawn, a));
+        wide_store(&on_wall[1][j], -vec_dot(drawn, gap->b));
+        wide_store(&on_wall[2][j], Q * n_t - vec_dot(drawn, e_t));
+
+        // the wall's own compliance is in series with the contact
+        const wide k = 1.5 * Q_0,
+                   soft = wide_max(gap->delta, wide_set(1e-30)) + model->elastic->compliance * k;
+        const wide u_dot = n_x * wide_load(&wall->u_dot[0][j]) + n_t * wide_load(&wall->u_dot[2][j]);
+        wide_store(&w->touch_x[h][j], n_x);
+        wide_store(&w->touch_t[h][j], n_t);
+        wide_store(&w->touch_k[h][j], k / soft);
+        wide_store(&w->touch_rate[h][j], delta_dot + u_dot);
+    }
+
+    wide_store(&pocket->Q[j], Q);
+    wide_store(&pocket->F_x[j], vec_dot(F_half, a));
+    wide_store(&pocket->F_r[j], vec_dot(F_half, gap->b));
+    wide_store(&pocket->F_t[j], vec_dot(F_half, e_t));
+    wide_store(&pocket->push_x[j], wide_fma(F_across, n_t, Q * n_x));
+    wide_store(&pocket->push_t[j], wide_fma(-F_across, n_x, Q * n_t));
+    vec_to_global(F_half, cos_theta, sin_theta, &pocket->half_F_x[j], &pocket->half_F_y[j],
+                  &pocket->half_F_z[j]);
+    vec_to_global(M_half, cos_theta, sin_theta, &pocket->half_M_x[j], &pocket->half_M_y[j],
+                  &pocket->half_M_z[j]);
+
+    // on the balls: forces, stiff rates of friction in the tangent plane, dissipated power
+    const vec tangent = {1.0 - n.x * n.x, 1.0 - n.r * n.r, 1.0 - n.t * n.t};
+    add_vec(F, &w->F_x[j], &w->F_r[j], &w->F_t[j]);
+    add_vec(M, &w->M_x[j], &w->M_r[j], &w->M_t[j]);
+    add_vec(vec_scale(g / d->m, tangent), &w->D_x[j], &w->D_r[j], &w->D_t[j]);
+    add_vec(vec_scale(g * (R * R / d->J), tangent), &w->D_omega_x[j], &w->D_omega_r[j], &w->D_omega_t[j]);
+    const wide dissipated = (Q - Q_0) * delta_dot - vec_dot(F_s, slip) - vec_dot(F_c, v);
+    wide_store(&w->dissipated[j], wide_load(&w->dissipated[j]) + dissipated);
+    wide_store(&w->pocket_dissipated[j], wide_load(&w->pocket_dissipated[j]) + dissipated);
+}
+
+// Forces of a packet in which no ball touches its pocket.
+INLINE void pocket_clear(Pockets *pocket, int j)
+{
+    const vec none = {0};
+    wide_store(&pocket->Q[j], wide_set(0.0));
+    vec_store(none, &pocket->F_x[j], &pocket->F_r[j], &pocket->F_t[j]);
+    vec_store(none, &pocket->half_F_x[j], &pocket->half_F_y[j], &pocket->half_F_z[j]);
+    vec_store(none, &pocket->half_M_x[j], &pocket->half_M_y[j], &pocket->half_M_z[j]);
+}
+
+// Adds the forces of all pockets to their half.
+INLINE void add_pockets(const Pockets *pocket, Rotor *half)
+{
+    const scalar *F[3] = {pocket->half_F_x, pocket->half_F_y, pocket->half_F_z};
+    const scalar *M[3] = {pocket->half_M_x, pocket->half_M_y, pocket->half_M_z};
+    for (int i = 0; i < 3; i++) {
+        half->F[i] += ball_array_sum(F[i]);
+        half->M[i] += ball_array_sum(M[i]);
+    }
+}
+
+// All pockets of one half.  Most pockets are not touched, so that their forces are not computed.
+INLINE void pocket_half(const Model *model, Work *w, int h, bool mixed, bool whole)
+{
+    Pockets *pocket = &w->pocket[h];
+    Rotor *half = &w->half[h];
+    bool touched = false;
+    for (int j = 0; j < PACKETS * LANE_WIDTH; j += LANE_WIDTH) {
+        const PocketGap gap = pocket_gap(model->d, w, half, j);
+        wide_store(&w->delta_c[h][j], gap.delta);
+        if (wide_any(wide_above(gap.delta, 0.0))) {
+            pocket_contacts(model, w, h, j, &gap, mixed, whole, NULL, NULL);
+            touched = true;
+        } else
+            pocket_clear(pocket, j);
+    }
+    if (touched) add_pockets(pocket, half);
+}
+
+// A packet of pockets of an elastic half in which walls are touched.
+typedef struct {
+    int h, j, touched;  // bits of the balls
+    PocketGap gap;
+} TouchedPacket;
+
+// Bits of the balls of a packet that press on a wall, behind what the walls have moved; `near`: those that can have reached it.
+static int find_touched(const Model *model, const Work *w, int h, int j, int near, PocketGap *gap,
+                        WallPlaces *places)
+{
+    const ElasticHalf *elastic = model->elastic;
+    const int side = 2 * h - 1;
+    ball_array moved;
+    elastic_wall_places(elastic, side, j, gap->n_x, gap->n_t, places);
+    wide_store(&moved[j], wide_set(0.0));
+    for (int i = 0; i < LANE_WIDTH && j + i < Z; i++)
+        if (near >> i & 1) moved[j + i] = elastic_wall_normal(elastic, side, j + i, places, w->q[h]);
+    gap->delta -= wide_load(&moved[j]);
+
+    // a ball that touches the other half alone loads nothing here
+    const int loaded = wide_mask(wide_above(pocket_share(model->d, h, gap->n_x, gap->delta).load, 0.0));
+    return near & loaded & wide_mask(wide_above(gap->delta, 0.0));
+}
+
+// No contact in a packet of walls.
+static void clear_touches(Work *w, int h, int j)
+{
+    const wide zero = wide_set(0.0);
+    pocket_clear(&w->pocket[h], j);
+    wide_store(&w->touch_x[h][j], zero);
+    wide_store(&w->touch_t[h][j], zero);
+    wide_store(&w->touch_k[h][j], zero);
+    wide_store(&w->touch_rate[h][j], zero);
+}
+
+// Motion of the walls, forces and modal forces of a packet.
+static void press_walls(const Model *model, Work *w, const TouchedPacket *at, const WallPlaces *places,
+                        bool mixed)
+{
+    const ElasticHalf *elastic = model->elastic;
+    const int h = at->h, j = at->j, side = 2 * h - 1;
+    ball_array on_wall[3], S;
+    WallShape shape[LANE_WIDTH];
+    WallMotion wall;
+    for (int c = 0; c < 3; c++) wide_store(&wall.u_dot[c][j], wide_set(0.0));
+    wide_store(&wall.tilt[j], wide_set(0.0));
+    wide_store(&S[j], 1.0 / at->gap.inv_S);
+    for (int i = 0; i < LANE_WIDTH && j + i < Z; i++)
+        if (at->touched >> i & 1)
+            elastic_wall(elastic, side, j + i, places, w->q[h], w->q_dot[h], S[j + i], &wall, &shape[i]);
+    pocket_contacts(model, w, h, j, &at->gap, mixed, false, &wall, on_wall);
+    for (int i = 0; i < LANE_WIDTH && j + i < Z; i++) {
+        if (!(at->touched >> i & 1)) continue;
+        const scalar F[3] = {on_wall[0][j + i], on_wall[1][j + i], on_wall[2][j + i]};
+        elastic_wall_force(elastic, j + i, &shape[i], F, w->wall_force[h]);
+    }
+}
+
+// All pockets of both elastic halves, stage by stage: what takes long for a packet, as the approaches, runs for several at a time.
+static void pocket_elastic(const Model *model, Work *w, bool mixed)
+{
+    TouchedPacket packets[2 * PACKETS];
+    WallPlaces places[2];
+    int count = 0;
+    for (int h = 0; h < 2; h++)
+        for (int j = 0; j < PACKETS * LANE_WIDTH; j += LANE_WIDTH) {
+            TouchedPacket *at = &packets[count];
+            *at = (TouchedPacket){h, j, 0, pocket_gap(model->d, w, &w->half[h], j)};
+            const int near = wide_mask(wide_above(at->gap.delta + w->reach[h], 0.0));
+            if (near != 0) at->touched = find_touched(model, w, h, j, near, &at->gap, &places[h]);
+            if (at->touched != 0)
+                count++;
+            else {
+                clear_touches(w, h, j);
+                wide_store(&w->delta_c[h][j], at->gap.delta);
+            }
+        }
+    for (TouchedPacket *at = packets; at < packets + count; at++) {
+        at->gap.delta = pocket_approach(model, at->h, at->gap.n_x, at->gap.delta);
+        wide_store(&w->delta_c[at->h][at->j], at->gap.delta);
+    }
+    bool pressed[2] = {false, false};
+    for (const TouchedPacket *at = packets; at < packets + count; at++) {
+        press_walls(model, w, at, &places[at->h], mixed);
+        pressed[at->h] = true;
+    }
+    for (int h = 0; h < 2; h++)
+        if (pressed[h]) add_pockets(&w->pocket[h], &w->half[h]);
+}
+
+void pocket_force(const Model *model, Work *w)
+{
+    const bool mixed = model->p->scene.lubrication == LUBRICATION_MIXED;
+    const bool rigid = model->p->scene.cage == CAGE_MODEL_RIGID;
+    if (model->elastic) {
+        pocket_elastic(model, w, mixed);
+        return;
+    }
+    for (int h = 0; h < (rigid ? 1 : 2); h++) pocket_half(model, w, h, mixed, rigid);
+}
+
+void pocket_split(const Model *model, const Work *w, Pockets on[2])
+{
+    const Derived *d = model->d;
+    const Rotor *cage = &w->half[0];
+    const Pockets *whole = &w->pocket[0];
+
+    enum { COUNT = 11 };
+
+    const scalar *from[COUNT] = {whole->F_x,      whole->F_r,      whole->F_t,      whole->push_x,
+                                 whole->push_t,   whole->half_F_x, whole->half_F_y, whole->half_F_z,
+                                 whole->half_M_x, whole->half_M_y, whole->half_M_z};
+    scalar *to[2][COUNT];
+    for (int h = 0; h < 2; h++) {
+        Pockets *half = &on[h];
+        scalar *rows[COUNT] = {half->F_x,      half->F_r,      half->F_t,      half->push_x,
+                               half->push_t,   half->half_F_x, half->half_F_y, half->half_F_z,
+                               half->half_M_x, half->half_M_y, half->half_M_z};
+        memcpy(to[h], rows, sizeof rows);
+    }
+    for (int j = 0; j < PACKETS * LANE_WIDTH; j += LANE_WIDTH) {
+        const wide cos_theta = wide_load(&w->cos_theta[j]), sin_theta = wide_load(&w->sin_theta[j]);
+        const PocketGap gap = pocket_gap(d, w, cage, j);
+        const PocketShare share = pocket_share(d, 1, gap.n_x, gap.delta);
+        const wide F_across = pocket_across(d, &gap, share.slope);
+        const wide push_x = F_across * gap.n_t, push_t = -F_across * gap.n_x;
+        const vec push = vec_axpy(push_x, gap.a, vec_scale(push_t, gap.e_t));
+        vec_store((vec){push_x, wide_set(0.0), push_t}, &on[1].F_x[j], &on[1].F_r[j], &on[1].F_t[j]);
+        wide_store(&on[1].push_x[j], push_x);
+        wide_store(&on[1].push_t[j], push_t);
+        vec_to_global(push, cos_theta, sin_theta, &on[1].half_F_x[j], &on[1].half_F_y[j], &on[1].half_F_z[j]);
+        vec_to_global(vec_cross(gap.p, push), cos_theta, sin_theta, &on[1].half_M_x[j], &on[1].half_M_y[j],
+                      &on[1].half_M_z[j]);
+        for (int i = 0; i < COUNT; i++) {
+            const wide both = wide_load(&from[i][j]),
+                       part = wide_fma(share.load, both, wide_load(&to[1][i][j]));
+            wide_store(&to[1][i][j], part);
+            wide_store(&to[0][i][j], both - part);
+        }
+    }
+}

@@ -1,0 +1,64 @@
+// Contact of the balls with the cage pockets.  Equations in pocket.c.
+#pragma once
+
+#include "physics/hertz.h"
+#include "numbers/isa.h"
+#include "numbers/vec.h"
+
+// Adds to the balls' forces, moments, rates and dissipation; sets the wrench on both halves.
+void pocket_force(const Model *model, Work *w);
+
+// Pocket forces on each half of a rigid cage, without Q; pocket_force has all of them on half 0.
+void pocket_split(const Model *model, const Work *w, Pockets on[2]);
+
+// Where a packet of balls is in the pockets of a half, in the frames of the balls.
+typedef struct {
+    vec a, b, e_t;  // axis of the half, radial direction of the pocket, tangent
+    vec p;          // ball centre - geometric centre of the half
+    wide inv_S;     // 1 / distance of the ball from the pocket's axis
+    wide n_x, n_t;  // direction from this axis to the ball
+    wide delta;     // elastic approach (negative: the pocket is open)
+} PocketGap;
+
+INLINE PocketGap pocket_gap(const Derived *d, const Work *w, const Rotor *half, int j)
+{
+    const wide cos_theta = wide_load(&w->cos_theta[j]), sin_theta = wide_load(&w->sin_theta[j]);
+    PocketGap gap;
+
+    // direction of pocket j: body angle phi_j turned by the half, b = b_y cos phi + b_z sin phi, e_t = a x b
+    const vec b_y = vec_local(half->b_y, cos_theta, sin_theta);
+    const vec b_z = vec_local(half->b_z, cos_theta, sin_theta);
+    gap.a = vec_local(half->a, cos_theta, sin_theta);
+    gap.b = vec_axpy(wide_load(&d->pocket_sin[j]), b_z, vec_scale(wide_load(&d->pocket_cos[j]), b_y));
+    gap.e_t = vec_cross(gap.a, gap.b);
+
+    // ball against the pocket's axis; 1e-30 gives a centred ball a direction
+    const vec centre = {wide_load(&w->x[j]), wide_load(&w->r[j]), wide_set(0.0)};
+    gap.p = vec_sub(centre, vec_local(half->x, cos_theta, sin_theta));
+    const wide x = vec_dot(gap.p, gap.a), t = vec_dot(gap.p, gap.e_t);
+    const wide S = wide_sqrt(x * x + t * t + 1e-30);
+    gap.inv_S = 1.0 / S, gap.n_x = x * gap.inv_S, gap.n_t = t * gap.inv_S;
+    gap.delta = S - (wide_load(&d->R_c[j]) - wide_load(&d->R[j]));
+    return gap;
+}
+
+// Parts of the load (w) and of the energy (e) of a contact that belong to one half, and de/dn_x.
+typedef struct {
+    wide load, energy, slope;
+} PocketShare;
+
+INLINE PocketShare pocket_share(const Derived *d, int h, wide n_x, wide delta)
+{
+    const wide one = wide_set(1.0), a = d->pocket.a_delta * wide_sqrt(wide_max(delta, wide_set(1e-30)));
+    const wide xi_n = (h == 0 ? -1.0 : 1.0) * d->pocket_radius / a;
+    const wide xi = wide_max(wide_min(xi_n * n_x, one), -one), xi_2 = xi * xi, rest = 1.0 - xi_2;
+    return (PocketShare){.load = 0.5 + xi * (0.75 - 0.25 * xi_2),
+                         .energy = 0.5 + xi * (15.0 / 16.0 - xi_2 * (0.625 - 3.0 / 16.0 * xi_2)),
+                         .slope = 15.0 / 16.0 * rest * rest * xi_n};
+}
+
+// Force across n: dV/dn_x grad n_x, grad n_x = (n_t a - n_x e_t) n_t/S.
+INLINE wide pocket_across(const Derived *d, const PocketGap *gap, wide slope)
+{
+    return hertz_energy(wide_set(d->pocket.K), gap->delta) * slope * gap->n_t * gap->inv_S;
+}

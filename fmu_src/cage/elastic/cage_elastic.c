@@ -1,0 +1,334 @@
+// Elastic cage halves.  Each half vibrates in the frame that moves with it as a rigid body, by its free modes i with the
+// coordinates q_i and the modal mass m of the half:
+//
+//     m (q_i'' + 2 zeta omega_i q_i' + omega_i^2 q_i) = sum phi_i . F,       u = sum phi_i q_i
+//
+// F: forces of balls on the pockets' walls (pocket.c), loads of the joints on the pads, centrifugal load.  Half 0 is the
+// mirror image of half 1, so that with S = (q_1 + q_0)/sqrt 2 (mirrored) and D = (q_1 - q_0)/sqrt 2 (opposed) the pads of
+// one joint move against each other by
+//
+//     x, phi_r, phi_t:  sqrt 2 sum phi_i S_i    out of the plane: N, M_r, M_t
+//     r, t:             sqrt 2 sum phi_i D_i    in the plane: V_r, V_t
+//
+// Joint, out of the plane: with e half of the relative motion of its pads (rigid and elastic) and K the inverse of the static
+// compliance that the modes leave between the pads of one joint,
+//
+//     L^ = K e,     (L, T, m_r, m_t) = law(L^, P)
+//
+// with the joint's law over K (elastic_half.c): its pads move by delta, L = K (e - delta).  So each joint follows from its own
+// pads; what the loads of other joints move them by beside the modes is left out: with 4.4 modes a pitch 7 % of what a joint's
+// own load does.  In the plane, friction states and the hole's contact are those of cage_joint.c, in series with what the modes leave.
+// Pads do not hold each other about x.
+//
+// The centrifugal load widens a half, which takes spin from it: its moment of inertia is J_p + 2 sum spin_i q_i.  Coriolis
+// forces on the modes and their softening by spin are left out: 2 omega_c/omega_i and (omega_c/omega_i)^2.
+#include "cage/elastic/cage_elastic.h"
+
+#include "cage/elastic/elastic_half.h"
+#include "rivet/rivet_rom.h"
+#include "physics/rotor.h"
+
+static const double ROOT = 1.4142135623730951;  // of 2
+
+// Motions of the pads against each other by modal coordinates: motions of the first pads, in rows of a number of octets.  The mirror image
+// turns the sign of odd motions by a and of the others by b.
+INLINE void pads_follow(const ElasticHalf *half, const scalar *q, int motions, int octets, const double *rows,
+                        const int *pads, ball_array *to)
+{
+    scalar row[2][8 * OUT_OCTETS];
+    for (int kind = 0; kind < 2; kind++) {
+        const int first = kind * half->count[0];
+        octet sum[OUT_OCTETS] = {{{0.0}}}, odd[OUT_OCTETS] = {{{0.0}}};
+        octets_add_rows(half->count[kind], q + first, octets, rows + first * 8 * octets, sum, odd);
+        octets_store_sum(octets, sum, odd, row[kind]);
+    }
+    for (int c = 0; c < motions; c++)
+        for (int k = 0; k < FIRST; k++) {
+            const scalar by_a = row[0][c * FIRST + k], by_b = row[1][c * FIRST + k];
+            to[c][Z - 1 - k] = PAD_ODD[pads[c]] ? by_b - by_a : by_a - by_b;
+            to[c][k] = by_a + by_b;
+        }
+}
+
+void cage_elastic_out(const ElasticHalf *half, const scalar *S, ball_array to[PAD_OUT])
+{
+    pads_follow(half, S, PAD_OUT, OUT_OCTETS, half->out[0], OUT_PADS, to);
+}
+
+void cage_elastic_in(const ElasticHalf *half, const scalar *D, ball_array to[PAD_IN])
+{
+    pads_follow(half, D, PAD_IN, IN_OCTETS, half->in[0], IN_PADS, to);
+}
+
+// Sum over the modes in one order for every lane width.
+static scalar elastic_dot(const ElasticHalf *half, const double *x, const scalar *y)
+{
+    scalar part[8] = {0};
+    for (int i = 0; i < 8 * half->blocks; i += 8)
+        for (int k = 0; k < 8; k++) part[k] += x[i + k] * y[i + k];
+    return ((part[0] + part[1]) + (part[2] + part[3])) + ((part[4] + part[5]) + (part[6] + part[7]));
+}
+
+void cage_elastic_kinematics(const Model *model, const scalar *y, Work *w)
+{
+    const ElasticHalf *half = model->elastic;
+    const double inv_root = 1.0 / ROOT;
+    const scalar *S = &y[Y_MODE_S], *D = &y[Y_MODE_D], *S_dot = &y[Y_MODE_S_DOT], *D_dot = &y[Y_MODE_D_DOT];
+    for (int i = 0; i < MODES; i++) {
+        w->q[0][i] = inv_root * (S[i] - D[i]), w->q[1][i] = inv_root * (S[i] + D[i]);
+        w->q_dot[0][i] = inv_root * (S_dot[i] - D_dot[i]), w->q_dot[1][i] = inv_root * (S_dot[i] + D_dot[i]);
+        w->wall_force[0][i] = w->wall_force[1][i] = 0.0;
+    }
+    cage_elastic_out(half, S, w->pad_out);
+    cage_elastic_in(half, D, w->pad_in);
+    cage_elastic_in(half, D_dot, w->pad_in_dot);
+    for (int h = 0; h < 2; h++) {
+        mode_array stored, moved;
+        for (int i = 0; i < MODES; i++) {
+            stored[i] = half->weight[i] * w->q[h][i];
+            moved[i] = fabs(scalar_value(w->q[h][i]));
+        }
+        w->reach[h] = sqrt(half->reach_2 * scalar_value(elastic_sum(half, stored, w->q[h]))) +
+                      elastic_dot(half, half->widest, moved);
+        w->more_J[h] = 2.0 * elastic_dot(half, half->spin, w->q[h]);
+        w->more_J_dot[h] = 2.0 * elastic_dot(half, half->spin, w->q_dot[h]);
+    }
+}
+
+// Adds the motions (r, t) of a packet of pads in the frame of half 0.
+INLINE void add_turned(const Model *model, int k, ball_array motion[PAD_IN], scalar *y, scalar *z)
+{
+    const double inv_R = 2.0 / rivet_table.joint.d_m;
+    const wide c = wide_load(&model->d->rivet_y[k]) * inv_R, s = wide_load(&model->d->rivet_z[k]) * inv_R;
+    const wide r = wide_load(&motion[0][k]), t = wide_load(&motion[1][k]);
+    wide_store(&y[k], wide_load(&y[k]) + (c * r - s * t));
+    wide_store(&z[k], wide_load(&z[k]) + (s * r + c * t));
+}
+
+void cage_elastic_pads(const Model *model, Work *w)
+{
+    const Rotor *h0 = &w->half[0], *h1 = &w->half[1];
+    const double inv_R = 2.0 / rivet_table.joint.d_m;
+    const scalar turn_y = -dot3(h0->b_z, h1->a),
+                 turn_z = dot3(h0->b_y, h1->a);  // small rotation of half 1 against half 0
+    for (int k = 0; k < PACKETS * LANE_WIDTH; k += LANE_WIDTH) {
+        const wide c = wide_load(&model->d->rivet_y[k]) * inv_R, s = wide_load(&model->d->rivet_z[k]) * inv_R;
+        const wide rigid[PAD_OUT] = {wide_load(&w->u_x[k]), turn_y * c + turn_z * s, turn_z * c - turn_y * s};
+        for (int i = 0; i < PAD_OUT; i++)
+            wide_store(&w->e[i][k], 0.5 * (rigid[i] + wide_load(&w->pad_out[i][k])));
+        wide_store(&w->rigid_u_y[k], wide_load(&w->u_y[k]));
+        wide_store(&w->rigid_u_z[k], wide_load(&w->u_z[k]));
+        add_turned(model, k, w->pad_in, w->u_y, w->u_z);
+        add_turned(model, k, w->pad_in_dot, w->v_jy, w->v_jz);
+    }
+}
+
+// Where a joint is in the law: its cell, the weights of the splines [axis][3] and s (joint_law.h).
+typedef struct {
+    ball_array cell, size, weight[LAW_AXES][3];
+} LawPlaces;
+
+// Cell and weights of a packet of joints at the coordinate u in cells of an axis; as axis_weights.
+INLINE wide law_weights(int cells, wide u, int k, ball_array weight[3])
+{
+    const wide cell = wide_floor(wide_min(wide_max(u, wide_set(0.0)), wide_set(cells - 1.0)));
+    const wide up = u - cell, down = 1.0 - up, first = 0.5 * (down * down), last = 0.5 * (up * up);
+    wide_store(&weight[0][k], first);
+    wide_store(&weight[1][k], 1.0 - first - last);
+    wide_store(&weight[2][k], last);
+    return cell;
+}
+
+// A packet of joints under L^.
+INLINE void law_places(const JointLaw *law, const wide L[3], wide P, int k, LawPlaces *at)
+{
+    const int *cells = law->cells;
+    const double inv_length = 1.0 / law->length;
+    const wide N = L[0], M_r = wide_abs(L[1]), M_t = L[2];
+    const wide M = wide_hypot(M_r, M_t) * inv_length, W = wide_hypot(N, M), s = P + W;
+    const wide tau = wide_ratio(W, s) * cells[AXIS_TAU];
+    const wide q = (wide_ratio(N, wide_abs(N) + M) + 1.0) * (0.5 * cells[AXIS_Q]);
+    const wide psi = (wide_ratio(M_t, wide_abs(M_t) + M_r) + 1.0) * (0.5 * cells[AXIS_PSI]);
+    wide cell = law_weights(cells[AXIS_TAU], tau, k, at->weight[AXIS_TAU]);
+    cell = cell * (cells[AXIS_Q] + 2.0) + law_weights(cells[AXIS_Q], q, k, at->weight[AXIS_Q]);
+    cell = cell * (cells[AXIS_PSI] + 2.0) + law_weights(cells[AXIS_PSI], psi, k, at->weight[AXIS_PSI]);
+    wide_store(&at->cell[k], cell);
+    wide_store(&at->size[k], s);
+}
+
+// Joint k without its rivet: the pads press on each other in their middles or carry nothing.
+static void broken_answers(const ElasticHalf *half, Work *w, int k)
+{
+    const double (*K)[PAD_OUT] = half->K, det = K[1][1] * K[2][2] - K[1][2] * K[2][1];
+    const double r = (K[0][1] * K[2][2] - K[0][2] * K[2][1]) / det,
+                 t = (K[0][2] * K[1][1] - K[0][1] * K[1][2]) / det;
+    const scalar N =
+        scalar_min(w->joint_behind[0][k] - r * w->joint_behind[1][k] - t * w->joint_behind[2][k], 0.0);
+    w->joint_load[0][k] = N;
+    w->joint_load[1][k] = w->joint_load[2][k] = 0.0;
+    w->joint_U[k] = -0.5 * half->R[0][0] * N * N;
+    for (int a = 0; a < PAD_OUT; a++) {
+        w->joint_rivet[a][k] = 0.0;
+        w->joint_U[k] += 0.5 * w->e[a][k] * w->joint_behind[a][k];
+    }
+}
+
+void cage_elastic_loads(const Model *model, const ball_array P, Work *w)
+{
+    const ElasticHalf *half = model->elastic;
+    LawPlaces at;
+    for (int k = 0; k < PACKETS * LANE_WIDTH; k += LANE_WIDTH) {
+        wide L[PAD_OUT];
+        for (int a = 0; a < PAD_OUT; a++) {
+            const double *K = half->K[a];
+            L[a] =
+                K[0] * wide_load(&w->e[0][k]) + K[1] * wide_load(&w->e[1][k]) + K[2] * wide_load(&w->e[2][k]);
+            wide_store(&w->joint_behind[a][k], L[a]);
+        }
+        law_places(&half->law, L, wide_load(&P[k]), k, &at);
+    }
+    for (int k = 0; k < Z; k++) {
+        octet S;
+        scalar weight[LAW_AXES][3];
+        for (int a = 0; a < LAW_AXES; a++)
+            for (int i = 0; i < 3; i++) weight[a][i] = at.weight[a][i][k];
+        law_sum(&half->law, (int)scalar_value(at.cell[k]), weight, &S);
+        const scalar s = at.size[k], across = scalar_value(w->joint_behind[1][k]) < 0.0 ? -s : s;
+        w->joint_load[0][k] = s * S.x[0], w->joint_rivet[0][k] = s * S.x[4];
+        w->joint_load[1][k] = across * S.x[1], w->joint_rivet[1][k] = across * S.x[5];
+        w->joint_load[2][k] = s * S.x[2], w->joint_rivet[2][k] = s * S.x[6];
+        w->joint_U[k] = s * s * S.x[LAW_ENERGY];
+        if (model->d->intact[k] == 0.0) broken_answers(half, w, k);
+    }
+    for (int k = Z; k < LANES; k++)
+        for (int a = 0; a < PAD_OUT; a++) w->joint_load[a][k] = w->joint_rivet[a][k] = 0.0;
+    for (int k = 0; k < PACKETS * LANE_WIDTH; k += LANE_WIDTH) {
+        const wide zero = wide_set(0.0), T = wide_max(wide_load(&w->joint_rivet[0][k]), zero);
+        wide_store(&w->T[k], T);
+        wide_store(&w->N_plate[k], wide_max(T - wide_load(&w->joint_load[0][k]), zero));
+    }
+}
+
+scalar cage_elastic_speed_2(const Work *w)
+{
+    const scalar s_0 = w->half[0].s + w->frame_omega, s_1 = w->half[1].s + w->frame_omega;
+    return 0.5 * (s_0 * s_0 + s_1 * s_1);
+}
+
+void cage_elastic_preload(const Model *model, scalar omega_2, ball_array P)
+{
+    const Derived *d = model->d;
+    const scalar more_P = d->spin[ROW_DP] * omega_2;
+    for (int k = 0; k < LANES; k++) P[k] = scalar_max(d->P[k] + more_P, 0.0);
+}
+
+void cage_elastic_joints(const Model *model, Work *w)
+{
+    const Derived *d = model->d;
+    ball_array P;
+    cage_elastic_preload(model, cage_elastic_speed_2(w), P);
+    cage_elastic_loads(model, P, w);
+
+    ball_array M_y, M_z;
+    const double inv_R = 2.0 / rivet_table.joint.d_m;
+    for (int k = 0; k < Z; k++) {
+        const double c = d->rivet_y[k] * inv_R, s = d->rivet_z[k] * inv_R;
+        M_y[k] = w->joint_load[1][k] * c - w->joint_load[2][k] * s;
+        M_z[k] = w->joint_load[1][k] * s + w->joint_load[2][k] * c;
+    }
+
+    // moments on half 1, whose power is that of the rates of turn_y and turn_z
+    Rotor *h0 = &w->half[0], *h1 = &w->half[1];
+    const scalar sum_y = ball_array_sum(M_y), sum_z = ball_array_sum(M_z);
+    scalar about_y[3], about_z[3];
+    cross3(h1->a, h0->b_z, about_y);
+    cross3(h1->a, h0->b_y, about_z);
+    for (int i = 0; i < 3; i++) {
+        const scalar moment = sum_y * about_y[i] - sum_z * about_z[i];
+        h0->M[i] -= moment;
+        h1->M[i] += moment;
+    }
+}
+
+scalar cage_elastic_coriolis(const Model *model, const Work *w, int h)
+{
+    (void)model;
+    return w->more_J_dot[h] * (w->half[h].s + w->frame_omega);
+}
+
+// Forces of the joints' loads on the modes: of the first joints, each with its mirror image.
+INLINE void pads_pull(const ElasticHalf *half, int motions, ball_array *load, const double *modes,
+                      const int *pads, mode_array to)
+{
+    scalar weight[2][FIRST];
+    octet sum[2][ENTRY_OCTETS] = {{{{0.0}}}}, odd[2][ENTRY_OCTETS] = {{{{0.0}}}};
+    for (int c = 0; c < motions; c++) {
+        const bool turned = PAD_ODD[pads[c]];
+        for (int k = 0; k < FIRST; k++) {
+            const scalar here = load[c][k], there = load[c][Z - 1 - k];
+            weight[turned][k] = here + there;
+            weight[!turned][k] = here - there;
+        }
+        for (int kind = 0; kind < 2; kind++)
+            octets_add_rows(FIRST, weight[kind], ENTRY_OCTETS, modes + (kind * motions + c) * FIRST * ENTRIES,
+                            sum[kind], odd[kind]);
+    }
+    octets_store_sum(ENTRY_OCTETS, sum[0], odd[0], to);
+    octets_store_sum(ENTRY_OCTETS, sum[1], odd[1], to + half->count[0]);
+}
+
+void cage_elastic_pull(const Model *model, Work *w)
+{
+    const ElasticHalf *half = model->elastic;
+    const double inv_R = 2.0 / rivet_table.joint.d_m;
+    ball_array across[PAD_IN];
+    for (int k = 0; k < Z; k++) {
+        const double c = model->d->rivet_y[k] * inv_R, s = model->d->rivet_z[k] * inv_R;
+        across[0][k] = c * w->joint_F_y[k] + s * w->joint_F_z[k];
+        across[1][k] = c * w->joint_F_z[k] - s * w->joint_F_y[k];
+    }
+    pads_pull(half, PAD_OUT, w->joint_load, half->out_modes[0][0], OUT_PADS, w->pull_S);
+    pads_pull(half, PAD_IN, across, half->in_modes[0][0], IN_PADS, w->pull_D);
+}
+
+void cage_elastic_acceleration(const Model *model, const scalar *y, Work *w, scalar *y_dot)
+{
+    const ElasticHalf *half = model->elastic;
+    const double inv_root = 1.0 / ROOT, m = model->p->cage.m, inv_m = 1.0 / m;
+    mode_array mirrored, opposed, rates, lost, one;
+    scalar spin[2];
+    for (int h = 0; h < 2; h++) {
+        const scalar s = w->half[h].s + w->frame_omega;
+        spin[h] = s * s;
+    }
+    for (int i = 0; i < MODES; i++) {
+        const scalar f_0 = w->wall_force[0][i] + spin[0] * half->spin[i];
+        const scalar f_1 = w->wall_force[1][i] + spin[1] * half->spin[i];
+        mirrored[i] = inv_root * (f_1 + f_0), opposed[i] = inv_root * (f_1 - f_0);
+    }
+
+    cage_elastic_pull(model, w);
+
+    // rates, energy and dissipation
+    for (int i = 0; i < MODES; i++) {
+        const scalar S = y[Y_MODE_S + i], D = y[Y_MODE_D + i], S_dot = y[Y_MODE_S_DOT + i],
+                     D_dot = y[Y_MODE_D_DOT + i];
+        y_dot[Y_MODE_S + i] = S_dot;
+        y_dot[Y_MODE_D + i] = D_dot;
+        y_dot[Y_MODE_S_DOT + i] =
+            inv_m * (mirrored[i] - w->pull_S[i]) - half->damping[i] * S_dot - half->omega_2[i] * S;
+        y_dot[Y_MODE_D_DOT + i] =
+            inv_m * (opposed[i] + w->pull_D[i]) - half->damping[i] * D_dot - half->omega_2[i] * D;
+        const scalar v_2 = S_dot * S_dot + D_dot * D_dot;
+        rates[i] = v_2 + half->omega_2[i] * (S * S + D * D);
+        lost[i] = half->damping[i] * v_2;
+        one[i] = 1.0;
+    }
+    for (int i = half->n; i < MODES; i++)
+        y_dot[Y_MODE_S + i] = y_dot[Y_MODE_D + i] = y_dot[Y_MODE_S_DOT + i] = y_dot[Y_MODE_D_DOT + i] = 0.0;
+    w->modes_energy = 0.5 * m * elastic_sum(half, rates, one);
+    w->modes_dissipated = m * elastic_sum(half, lost, one);
+    for (int h = 0; h < 2; h++)
+        w->modes_energy +=
+            0.5 * w->more_J[h] * (w->half[h].s * w->half[h].s - w->frame_omega * w->frame_omega);
+}

@@ -1,0 +1,394 @@
+// Substeps of elastic halves: the multiple time step method (Tuckerman, Berne and Martyna 1992) with the slow forces held over
+// the step.  Closed joints vibrate with the halves at up to 80 kHz, their loads decide the rivets' stress, and an evaluation of them
+// costs a fifth of one of all forces.  So a step of length h takes n substeps of length d = h/n, of velocity Verlet,
+//
+//     v_m = (v + d/2 (a_f + a_s))/(1 + d c/2),  q += d v_m,  v = v_m (1 - d c/2) + d/2 (a_f + a_s)
+//
+// q: coordinates of the modes and relative rigid motions of the halves;  c: damping of the modes
+// a_f: fast accelerations, by the joints and the modes' own springs, asked for at each substep
+// a_s: slow ones, by all else, at the step's start; the trapezoidal rule of verlet.c corrects them at its end
+//
+// The joints' motions are integrated with the velocities, in the frame of half 0 as it is in the middle of the step, and found anew from
+// the positions at each evaluation, which is the last substep's.  The halves as rigid bodies keep their own centre of mass and their common
+// motion: of a relative motion each takes half.  Forces in the plane of the split act beside the centres of mass, c_x from them,
+// and tilt both halves alike; a joint feels the inverse inertia 2/m + 2 c_x^2/J_t there.  Whatever these motions leave out,
+// gyroscopic terms for example, is in the slow accelerations, because these are the whole ones less the fast ones.
+//
+// A ball that presses on a wall holds it: a load held over the step would answer to the wall's motion a step late, which is unstable where the
+// contact is stiffer than the wall.  So the load follows in the substeps, Q + k (rate t - u), k the contact's stiffness, rate
+// that of the approach by rigid motions and u what the modes move the wall since the step's start; the end corrects it too.
+//
+// The joints turn with the cage, by 1.8 degrees in a step at 72,000 r/min: in the frame of the joints the relative velocities turn back,
+// and so does the way since the middle of the step; the joints' accelerations turn into the frame of the middle.  Both to first order in the angle.
+//
+// The gyroscopic moment of the halves' relative tilts belongs to the slow accelerations, but follows in the substeps too: sampled at the
+// ends of the steps and held, it would feed vibrations that turn by more than a little, by 120/s at 12,000 r/min.
+//
+// The friction states follow the implicit midpoint rule (cage_joint_advance).  What they and the modes' damping dissipate is summed over
+// the substeps.  docs/method.md has the measured reasons.
+#include "cage/elastic/cage_substeps.h"
+
+#include "cage/elastic/cage_elastic.h"
+#include "cage/common/cage_joint.h"
+#include "cage/elastic/elastic_half.h"
+#include "rivet/rivet_rom.h"
+#include "physics/rotor.h"
+
+static const double MOST_SUBSTEPS = 1000.0;  // an absurd step ends with a refusal, not with years of substeps
+static const double ROUNDING = 1e-9;         // part of a substep by which the last one may be longer
+
+enum { X, ABOUT_Y, ABOUT_Z, ACROSS_Y, ACROSS_Z, SPIN };  // relative rigid motions
+
+// Adds h times the relative motions to rows of both halves, from row `first` on.
+static void give(const Model *model, const Rotor *h0, double h, const double relative[RELATIVE_MOTIONS],
+                 int first, double *y)
+{
+    const RelativeInertia *inertia = &model->d->relative;
+    const double *b_y = h0->b_y, *b_z = h0->b_z;
+    const double across_y = inertia->part * relative[ACROSS_Y], across_z = inertia->part * relative[ACROSS_Z];
+    const double about_y = inertia->tilt * relative[ACROSS_Z], about_z = -inertia->tilt * relative[ACROSS_Y];
+    const double change[6] = {relative[X],  // x, y, z, beta, gamma, s
+                              b_y[1] * across_y + b_z[1] * across_z,
+                              b_y[2] * across_y + b_z[2] * across_z,
+                              b_y[1] * relative[ABOUT_Y] + b_z[1] * relative[ABOUT_Z],
+                              b_y[2] * relative[ABOUT_Y] + b_z[2] * relative[ABOUT_Z],
+                              relative[SPIN]};
+    for (int i = 0; i < 6; i++) {
+        y[first + 2 * i] -= 0.5 * h * change[i];
+        y[first + 2 * i + 1] += 0.5 * h * change[i];
+    }
+    const int tilts = first + Y_CAGE_BETA - Y_CAGE_X;
+    for (int half = 0; half < 2; half++) {
+        y[tilts + half] += h * (b_y[1] * about_y + b_z[1] * about_z);
+        y[tilts + 2 + half] += h * (b_y[2] * about_y + b_z[2] * about_z);
+    }
+}
+
+void cage_substeps_kick(const Model *model, const Work *w, double h, const double rigid[RELATIVE_MOTIONS],
+                        double *y)
+{
+    give(model, &w->half[0], h, rigid, Y_CAGE_V_X, y);
+}
+
+// The relative motions at the joints by rates f of both halves: the inverse of `give`.
+static void take(const Model *model, const Rotor *h0, const double *f, double relative[RELATIVE_MOTIONS])
+{
+    const double *b_y = h0->b_y, *b_z = h0->b_z, c_x = model->d->com_x[1];
+    double d[6];
+    for (int i = 0; i < 6; i++) d[i] = f[Y_CAGE_V_X + 2 * i + 1] - f[Y_CAGE_V_X + 2 * i];
+    const double beta = f[Y_CAGE_BETA_DOT] + f[Y_CAGE_BETA_DOT + 1],
+                 gamma = f[Y_CAGE_GAMMA_DOT] + f[Y_CAGE_GAMMA_DOT + 1];
+    relative[X] = d[0];
+    relative[ABOUT_Y] = b_y[1] * d[3] + b_y[2] * d[4];
+    relative[ABOUT_Z] = b_z[1] * d[3] + b_z[2] * d[4];
+    relative[ACROSS_Y] = b_y[1] * d[1] + b_y[2] * d[2] - c_x * (b_z[1] * beta + b_z[2] * gamma);
+    relative[ACROSS_Z] = b_z[1] * d[1] + b_z[2] * d[2] + c_x * (b_y[1] * beta + b_y[2] * gamma);
+    relative[SPIN] = d[5];
+}
+
+// Accelerations of modes and relative motions by the joints' loads and pulls in w and, at the coordinates in y, by the modes' springs.
+static void fast_accelerations(const Model *model, const double *y, const Work *w, double modes[2 * N_MODES],
+                               double rigid[RELATIVE_MOTIONS])
+{
+    const ElasticHalf *half = model->elastic;
+    const Derived *d = model->d;
+    const double inv_m = 1.0 / model->p->cage.m, inv_R = 2.0 / rivet_table.joint.d_m;
+    for (int i = 0; i < N_MODES; i++) {
+        modes[i] = -inv_m * w->pull_S[i] - half->omega_2[i] * y[Y_MODE_S + i];
+        modes[N_MODES + i] = inv_m * w->pull_D[i] - half->omega_2[i] * y[Y_MODE_D + i];
+    }
+
+    ball_array force[RELATIVE_MOTIONS];  // on half 1
+    for (int k = 0; k < PACKETS * LANE_WIDTH; k += LANE_WIDTH) {
+        const wide r_y = wide_load(&d->rivet_y[k]), r_z = wide_load(&d->rivet_z[k]), c = r_y * inv_R,
+                   s = r_z * inv_R;
+        const wide N = wide_load(&w->joint_load[0][k]), M_r = wide_load(&w->joint_load[1][k]),
+                   M_t = wide_load(&w->joint_load[2][k]);
+        const wide F_y = wide_load(&w->joint_F_y[k]), F_z = wide_load(&w->joint_F_z[k]);
+        wide_store(&force[X][k], -N);
+        wide_store(&force[ABOUT_Y][k], s * M_t - c * M_r - r_z * N);
+        wide_store(&force[ABOUT_Z][k], r_y * N - s * M_r - c * M_t);
+        wide_store(&force[ACROSS_Y][k], F_y);
+        wide_store(&force[ACROSS_Z][k], F_z);
+        wide_store(&force[SPIN][k], r_y * F_z - r_z * F_y);
+    }
+    for (int i = 0; i < RELATIVE_MOTIONS; i++) rigid[i] = d->relative.inverse[i] * ball_array_sum(force[i]);
+}
+
+void cage_substeps_split(const Model *model, const double *y, const Work *w, double *f, FastState *fast)
+{
+    const ElasticHalf *half = model->elastic;
+    fast_accelerations(model, y, w, fast->modes, fast->rigid);
+    fast->omega_2 = cage_elastic_speed_2(w);
+    for (int h = 0; h < 2; h++) {
+        memcpy(fast->touch_x[h], w->touch_x[h], sizeof fast->touch_x[h]);
+        memcpy(fast->touch_t[h], w->touch_t[h], sizeof fast->touch_t[h]);
+        memcpy(fast->touch_k[h], w->touch_k[h], sizeof fast->touch_k[h]);
+        memcpy(fast->touch_rate[h], w->touch_rate[h], sizeof fast->touch_rate[h]);
+        memcpy(fast->touch_Q[h], w->pocket[h].Q, sizeof fast->touch_Q[h]);
+    }
+    memcpy(fast->e, w->e, sizeof fast->e);
+    memcpy(fast->u_y, w->u_y, sizeof fast->u_y);
+    memcpy(fast->u_z, w->u_z, sizeof fast->u_z);
+    memcpy(fast->T, w->T, sizeof fast->T);
+    memcpy(fast->N_plate, w->N_plate, sizeof fast->N_plate);
+    give(model, &w->half[0], -1.0, fast->rigid, Y_CAGE_V_X, f);
+    for (int i = 0; i < N_MODES; i++) {
+        f[Y_MODE_S_DOT + i] -= fast->modes[i] - half->damping[i] * y[Y_MODE_S_DOT + i];
+        f[Y_MODE_D_DOT + i] -= fast->modes[N_MODES + i] - half->damping[i] * y[Y_MODE_D_DOT + i];
+    }
+    f[Y_WORK] += ball_array_sum(w->joint_dissipated) + w->modes_dissipated;
+}
+
+// Velocities of the joints by the rigid motions of the halves: out of the plane (x, about r, about t), across it (y, z); those of the
+// halves against each other, as relative motions.
+typedef struct {
+    ball_array out[3], y, z;
+    double relative[RELATIVE_MOTIONS];
+} JointVelocities;
+
+// Sets those in the middle of the step, of which w has the kinematics.
+static void rigid_velocities(const Model *model, const Work *w, JointVelocities *v)
+{
+    const Rotor *h0 = &w->half[0], *h1 = &w->half[1];
+    const double inv_R = 2.0 / rivet_table.joint.d_m;
+    double Omega[3];
+    for (int i = 0; i < 3; i++) Omega[i] = h1->Omega[i] - h0->Omega[i];
+    const double about_y = dot3(h0->b_y, Omega), about_z = dot3(h0->b_z, Omega);
+    for (int k = 0; k < PACKETS * LANE_WIDTH; k += LANE_WIDTH) {
+        const wide c = wide_load(&model->d->rivet_y[k]) * inv_R, s = wide_load(&model->d->rivet_z[k]) * inv_R;
+        wide_store(&v->out[0][k], wide_load(&w->v_jx[k]));
+        wide_store(&v->out[1][k], about_y * c + about_z * s);
+        wide_store(&v->out[2][k], about_z * c - about_y * s);
+        wide_store(&v->y[k], wide_load(&w->v_jy[k]));
+        wide_store(&v->z[k], wide_load(&w->v_jz[k]));
+    }
+    v->relative[ABOUT_Y] = about_y, v->relative[ABOUT_Z] = about_z;
+    v->relative[ACROSS_Y] = v->relative[ACROSS_Z] = 0.0;
+    for (int k = 0; k < Z; k++) {
+        v->relative[ACROSS_Y] += w->v_jy[k] / Z;
+        v->relative[ACROSS_Z] += w->v_jz[k] / Z;
+    }
+}
+
+// The joints turn with half 0, by the angle phi from the middle of the step on.  Turns accelerations in their frame into the frame of the middle.
+static void turn_out(double phi, double relative[RELATIVE_MOTIONS])
+{
+    for (int i = ABOUT_Y; i <= ACROSS_Y; i += 2) {
+        const double y = relative[i], z = relative[i + 1];
+        relative[i] = y - phi * z;
+        relative[i + 1] = z + phi * y;
+    }
+}
+
+// Adds to velocities in the frame of the middle what the joints, which turn at the rate s, see beside them at the time t after it: those velocities
+// turn back, and so does the way since the middle.  moved: the part of that way by the fast accelerations.
+static void turn_in(double s, double t, const JointVelocities *middle, const double slow[RELATIVE_MOTIONS],
+                    const double moved[RELATIVE_MOTIONS], double relative[RELATIVE_MOTIONS])
+{
+    double back[RELATIVE_MOTIONS];
+    for (int i = ABOUT_Y; i <= ACROSS_Z; i++)
+        back[i] = moved[i] + t * (2.0 * middle->relative[i] + relative[i] + 0.5 * t * slow[i]);
+    for (int i = ABOUT_Y; i <= ACROSS_Y; i += 2) {
+        relative[i] += s * back[i + 1];
+        relative[i + 1] -= s * back[i];
+    }
+}
+
+// Moves the joints in w for the time h with velocities of the rigid halves, more by `relative`, and of the modes' pads.
+static void move_joints(const Model *model, double h, const JointVelocities *v,
+                        const double relative[RELATIVE_MOTIONS], ball_array out[3], ball_array in[2], Work *w)
+{
+    const double inv_R = 2.0 / rivet_table.joint.d_m;
+    for (int k = 0; k < PACKETS * LANE_WIDTH; k += LANE_WIDTH) {
+        const wide r_y = wide_load(&model->d->rivet_y[k]), r_z = wide_load(&model->d->rivet_z[k]);
+        const wide c = r_y * inv_R, s = r_z * inv_R, r = wide_load(&in[0][k]), t = wide_load(&in[1][k]);
+        const wide e_dot[3] = {wide_load(&v->out[0][k]) +
+                                   (relative[X] + (r_z * relative[ABOUT_Y] - r_y * relative[ABOUT_Z])),
+                               wide_load(&v->out[1][k]) + (c * relative[ABOUT_Y] + s * relative[ABOUT_Z]),
+                               wide_load(&v->out[2][k]) + (c * relative[ABOUT_Z] - s * relative[ABOUT_Y])};
+        for (int i = 0; i < 3; i++)
+            wide_store(&w->e[i][k], wide_load(&w->e[i][k]) + (0.5 * h) * (e_dot[i] + wide_load(&out[i][k])));
+        const wide v_y = wide_load(&v->y[k]) + (relative[ACROSS_Y] - r_z * relative[SPIN]) + (c * r - s * t);
+        const wide v_z = wide_load(&v->z[k]) + (relative[ACROSS_Z] + r_y * relative[SPIN]) + (s * r + c * t);
+        wide_store(&w->v_jy[k], v_y);
+        wide_store(&w->v_jz[k], v_z);
+        wide_store(&w->u_y[k], wide_load(&w->u_y[k]) + h * v_y);
+        wide_store(&w->u_z[k], wide_load(&w->u_z[k]) + h * v_z);
+    }
+}
+
+// The modes' damping over half a substep: 1/(1 + d/2 c) before its middle, 1 - d/2 c behind it.
+typedef struct {
+    double before[N_MODES], behind[N_MODES];
+} HalfDamping;
+
+static void half_damping(const ElasticHalf *half, double h, HalfDamping *damping)
+{
+    for (int i = 0; i < N_MODES; i++) {
+        const double damped = 0.5 * h * half->damping[i];
+        damping->before[i] = 1.0 / (1.0 + damped);
+        damping->behind[i] = 1.0 - damped;
+    }
+}
+
+// Moves the modes by the first half of a substep and the drift: from velocities v to v_m and, behind the damping, to v.
+static void move_modes(const HalfDamping *damping, double h, const double *fast, const double *slow,
+                       double *q, double *v, double *v_m)
+{
+    for (int first = 0; first < 2 * N_MODES; first += N_MODES)
+        for (int i = 0; i < N_MODES; i++) {
+            const int k = first + i;
+            v_m[k] = (v[k] + 0.5 * h * (fast[k] + slow[k])) * damping->before[i];
+            q[k] += h * v_m[k];
+            v[k] = v_m[k] * damping->behind[i];
+        }
+}
+
+// Power that the modes' damping takes at the velocities v.
+static double modes_lose(const Model *model, const double *v)
+{
+    const double *c = model->elastic->damping, *v_S = v, *v_D = v + N_MODES;
+    double part[8] = {0.0};
+    for (int i = 0; i < N_MODES; i += 8)
+        for (int k = 0; k < 8; k++) part[k] += c[i + k] * (v_S[i + k] * v_S[i + k] + v_D[i + k] * v_D[i + k]);
+    return model->p->cage.m *
+           (((part[0] + part[1]) + (part[2] + part[3])) + ((part[4] + part[5]) + (part[6] + part[7])));
+}
+
+// A ball on the wall of half 0 (side -1) or 1 (side 1).
+typedef struct {
+    double k, rate, Q, side, from;  // from: the wall's motion at the step's start
+    mode_array shape;               // its motion along the normal by S; by D: side times that
+} Touch;
+
+// Motion of the wall at the coordinates q of S and D.
+static double touch_motion(const ElasticHalf *half, const Touch *touch, const double *q)
+{
+    double part[8] = {0.0};
+    for (int i = 0; i < 8 * half->blocks; i += 8)
+        for (int k = 0; k < 8; k++)
+            part[k] += touch->shape[i + k] * (q[i + k] + touch->side * q[N_MODES + i + k]);
+    return ((part[0] + part[1]) + (part[2] + part[3])) + ((part[4] + part[5]) + (part[6] + part[7]));
+}
+
+// The balls that touch walls at the step's start; returns how many.
+static int find_touches(const ElasticHalf *half, const FastState *fast, const double *q, Touch touches[2 * Z])
+{
+    const double inv_root = 1.0 / 1.4142135623730951;
+    int count = 0;
+    for (int h = 0; h < 2; h++)
+        for (int j = 0; j < PACKETS * LANE_WIDTH; j += LANE_WIDTH) {
+            const int mask = wide_mask(wide_above(wide_load(&fast->touch_k[h][j]), 0.0)), side = 2 * h - 1;
+            WallPlaces places;
+            if (mask == 0) continue;
+            elastic_wall_places(half, side, j, wide_load(&fast->touch_x[h][j]),
+                                wide_load(&fast->touch_t[h][j]), &places);
+            for (int k = j; k < j + LANE_WIDTH && k < Z; k++) {
+                if (!(mask >> (k - j) & 1)) continue;
+                Touch *touch = &touches[count++];
+                *touch = (Touch){
+                    fast->touch_k[h][k], fast->touch_rate[h][k], fast->touch_Q[h][k], side, 0.0, {0.0}};
+                elastic_wall_shape(half, side, k, &places, touch->shape);
+                for (int i = 0; i < N_MODES; i++) touch->shape[i] *= inv_root;
+                touch->from = touch_motion(half, touch, q);
+            }
+        }
+    return count;
+}
+
+// Slow accelerations of the modes at the time t of the step: those held, and what the loads on the walls have changed by.
+static void slow_accelerations(const Model *model, double t, const double *at_start, const Touch *touches,
+                               int count, const double *q, double slow[2 * N_MODES])
+{
+    const ElasticHalf *half = model->elastic;
+    memcpy(slow, at_start, 2 * N_MODES * sizeof *slow);
+    for (const Touch *touch = touches; touch < touches + count; touch++) {
+        const double u = touch_motion(half, touch, q) - touch->from;
+        const double change = fmax(touch->k * (touch->rate * t - u), -touch->Q) / model->p->cage.m;
+        for (int i = 0; i < 8 * half->blocks; i++) {
+            slow[i] += change * touch->shape[i];
+            slow[N_MODES + i] += (touch->side * change) * touch->shape[i];
+        }
+    }
+}
+
+// Turns the relative tilt rates by the angle of their gyroscopic moment, tan of half of which is t: no power.
+static void turn(double t, double rates[RELATIVE_MOTIONS])
+{
+    const double y = rates[ABOUT_Y], z = rates[ABOUT_Z], inv = 1.0 / (1.0 + t * t);
+    rates[ABOUT_Y] = inv * ((1.0 - t * t) * y - 2.0 * t * z);
+    rates[ABOUT_Z] = inv * ((1.0 - t * t) * z + 2.0 * t * y);
+}
+
+double cage_substeps_advance(const Model *model, double h, const FastState *fast, const double *f, double *y,
+                             Foreseen *foreseen, Work *w)
+{
+    const ElasticHalf *half = model->elastic;
+    const int steps = (int)fmin(ceil(h / half->substep * (1.0 - ROUNDING)), MOST_SUBSTEPS);
+    const double sub = h / steps;
+    double *q = &y[Y_MODE_S], *v = &y[Y_MODE_S_DOT];
+    double modes[2 * N_MODES], v_m[2 * N_MODES], rigid[RELATIVE_MOTIONS], slow[RELATIVE_MOTIONS];
+    double speed[RELATIVE_MOTIONS] = {0.0}, moved[RELATIVE_MOTIONS] = {0.0};  // by the fast accelerations
+    JointVelocities middle;
+    ball_array P;
+    const double gyro = model->d->J_p / model->d->J_t * 0.5 * (w->half[0].s + w->half[1].s);
+    Touch touches[2 * Z];
+    HalfDamping damping;
+
+    // where the joints are, and what the step holds
+    memcpy(w->e, fast->e, sizeof fast->e);
+    memcpy(w->u_y, fast->u_y, sizeof fast->u_y);
+    memcpy(w->u_z, fast->u_z, sizeof fast->u_z);
+    memcpy(w->T, fast->T, sizeof fast->T);
+    memcpy(w->N_plate, fast->N_plate, sizeof fast->N_plate);
+    memcpy(modes, fast->modes, sizeof modes);
+    memcpy(rigid, fast->rigid, sizeof rigid);
+    const double s = w->half[0].s;
+    turn_out(-0.5 * s * h, rigid);
+    cage_elastic_preload(model, fast->omega_2, P);
+    rigid_velocities(model, w, &middle);
+    take(model, &w->half[0], f, slow);
+    half_damping(half, sub, &damping);
+    const int count = find_touches(half, fast, q, touches);
+    memcpy(foreseen->modes, &f[Y_MODE_S_DOT], sizeof modes);
+
+    for (int step = 1;; step++) {
+        // first half of the accelerations, drift
+        double relative[RELATIVE_MOTIONS];
+        move_modes(&damping, sub, modes, foreseen->modes, q, v, v_m);
+        for (int i = 0; i < RELATIVE_MOTIONS; i++) speed[i] += 0.5 * sub * rigid[i];
+        turn(0.5 * gyro * sub, speed);
+        const double time = (step - 0.5) * sub - 0.5 * h;  // after the middle
+        double halfway[RELATIVE_MOTIONS];
+        for (int i = 0; i < RELATIVE_MOTIONS; i++) {
+            halfway[i] = moved[i] + 0.5 * sub * speed[i];
+            moved[i] += sub * speed[i];
+            relative[i] = speed[i] + time * slow[i];
+        }
+        turn_in(s, time, &middle, slow, halfway, relative);
+        ball_array out[3], in[2];
+        cage_elastic_out(half, v_m, out);
+        cage_elastic_in(half, v_m + N_MODES, in);
+        move_joints(model, sub, &middle, relative, out, in, w);
+        y[Y_WORK] -= cage_joint_advance(model, w, sub, y) + sub * modes_lose(model, v_m);
+        slow_accelerations(model, step * sub, &f[Y_MODE_S_DOT], touches, count, q, foreseen->modes);
+        if (step == steps) break;
+
+        // accelerations there, of which the second half
+        cage_elastic_loads(model, P, w);
+        cage_joint_shear(model, y, w);
+        cage_elastic_pull(model, w);
+        fast_accelerations(model, y, w, modes, rigid);
+        turn_out(s * (step * sub - 0.5 * h), rigid);
+        for (int i = 0; i < 2 * N_MODES; i++) v[i] += 0.5 * sub * (modes[i] + foreseen->modes[i]);
+        for (int i = 0; i < RELATIVE_MOTIONS; i++) speed[i] += 0.5 * sub * rigid[i];
+    }
+    const double moment[RELATIVE_MOTIONS] = {[ABOUT_Y] = -gyro * speed[ABOUT_Z],
+                                             [ABOUT_Z] = gyro * speed[ABOUT_Y]};
+    memset(foreseen->halves, 0, sizeof foreseen->halves);
+    give(model, &w->half[0], 1.0, moment, 0, foreseen->halves);
+    give(model, &w->half[0], 1.0, moved, Y_CAGE_X, y);
+    give(model, &w->half[0], 1.0, speed, Y_CAGE_V_X, y);
+    return sub;
+}

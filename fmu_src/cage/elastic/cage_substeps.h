@@ -1,0 +1,43 @@
+// Substeps of elastic halves and their joints between two evaluations of the right-hand side.  Equations in
+// cage_substeps.c; twin: bearing_model/cage/elastic/cage_substeps.py.
+#pragma once
+
+#include "numbers/isa.h"
+#include "physics/model.h"
+
+// Where the substeps of the next step begin: joints, contacts and fast accelerations at an evaluation.  Part of the saved state: no
+// member is aligned beyond a double, so that nothing lies between them.
+typedef struct {
+    double e[3][LANES], u_y[LANES],
+        u_z[LANES];                   // motions of the joints out of the plane and offsets in it (model.h)
+    double T[LANES], N_plate[LANES];  // loads of rivets and plates [N]
+    // contacts with the walls of each half (model.h), their loads [N]
+    double touch_x[2][LANES], touch_t[2][LANES], touch_k[2][LANES], touch_rate[2][LANES], touch_Q[2][LANES];
+    double omega_2;             // square of the halves' speed in space [rad2/s2]
+    double modes[2 * N_MODES];  // accelerations of S, then of D, by joints and the modes' own springs [m/s2]
+    double
+        rigid[RELATIVE_MOTIONS];  // those of the relative motions at the joints, by the joints [m/s2, rad/s2]
+} FastState;
+
+// Takes the fast part from the rates f of the state y, at which w was evaluated, and writes it to `fast`.
+#define cage_substeps_split FOR_ISA(cage_substeps_split)
+void cage_substeps_split(const Model *model, const double *y, const Work *w, double *f, FastState *fast);
+
+// Slow accelerations at the step's end as the substeps foresee them: those of the modes; of the halves what they change by, in
+// the order of their velocities in the state.
+typedef struct {
+    double modes[2 * N_MODES], halves[2 * RELATIVE_MOTIONS];
+} Foreseen;
+
+// Substeps of a step of length h from `fast` under the slow rates f.  y: the state at the step's start but for positions
+// and velocities of the halves, which a step without fast accelerations has reached at its end and in its middle; the substeps
+// add theirs, and advance modes, friction states and work.  w: kinematics in the middle.  Velocities and rates of the modes lack
+// the last substep's second half.  Returns the length of the substeps [s].
+#define cage_substeps_advance FOR_ISA(cage_substeps_advance)
+double cage_substeps_advance(const Model *model, double h, const FastState *fast, const double *f, double *y,
+                             Foreseen *foreseen, Work *w);
+
+// Adds to the velocities of both halves in y what the relative accelerations `rigid` give in the time h [s].
+#define cage_substeps_kick FOR_ISA(cage_substeps_kick)
+void cage_substeps_kick(const Model *model, const Work *w, double h, const double rigid[RELATIVE_MOTIONS],
+                        double *y);

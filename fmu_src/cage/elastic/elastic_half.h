@@ -1,0 +1,148 @@
+// The vibration modes of a cage half, and what a scene takes of them.
+//
+// The half is a ring of Z equal pitches.  An entry of the table is a mode of harmonic n, for 0 < n < Z/2 a pair of the
+// same frequency with the coordinates a (cos) and b (sin).  A place whose complex amplitude on pitch 0 is A moves by
+//
+//     u_j = Re[(a - i b) A exp(i nu)]      pocket j, side t > 0:  nu = 2 pi n j/Z;  side t < 0: (A_x, A_r, -A_t) conjugate
+//                                          rivet k:  nu = 2 pi n (k + 1/2)/Z;  A real along x, r and about t, else imaginary
+//
+// (half_modes.h, bearing_model/cage/elastic/half_modes.py).  A scene takes the modes of the lowest frequencies, without
+// dividing a pair; the statics of all others are the residual.  Here the modes have no dimension and the modal mass is the
+// half's, so that coordinates are lengths.  They stand in this order: all a, those of pairs first; then all b, the same.  So what a pair
+// moves at a place follows from U and two sums of its coordinates:
+//
+//     u_j = U' a' + U'' b',     a' = a cos nu + b sin nu,  b' = b cos nu - a sin nu
+//
+// and its coordinates get the forces f_a = F' cos nu - F'' sin nu, f_b = F' sin nu + F'' cos nu of F' = U'.F, F'' = U''.F.  A single mode
+// has sin nu = 0.  Mirroring the half in the plane between the first and the last rivet turns the sign of each motion of pads by an a or by a
+// b, so that half of the rivets say what all do.
+#pragma once
+
+#include "cage/elastic/half_modes.h"
+#include "cage/two_half/half_path.h"
+#include "numbers/isa.h"
+#include "cage/common/joint_law.h"
+#include "physics/model.h"
+
+enum { MODES = N_MODES };
+
+// Motions of pads against each other out of the plane and in it.
+enum { PAD_OUT = 3, PAD_IN = 2 };
+
+static const int OUT_PADS[PAD_OUT] = {PAD_X, PAD_PHI_R, PAD_PHI_T}, IN_PADS[PAD_IN] = {PAD_R, PAD_T};
+
+// Motions of the first pads in one row, motion c of joint k in place c FIRST + k; joint Z - 1 - k is its mirror image.  Octets of a row.
+enum { FIRST = (Z + 1) / 2, OUT_OCTETS = (PAD_OUT * FIRST + 7) / 8, IN_OCTETS = (PAD_IN * FIRST + 7) / 8 };
+
+enum { ENTRY_OCTETS = ENTRIES / 8 };
+
+enum { WALL_NODES = 16 };  // at most
+
+struct ElasticHalf {
+    int law_modes;                                   // scene.modes of the coefficients below; 0: none yet
+    int n, blocks;                                   // modes, blocks of eight of them
+    int count[2], octets;                            // coordinates a and b; blocks of eight of the more
+    int entry[MODES];                                // of the table, of each coordinate
+    double omega_2[MODES], damping[MODES];           // omega^2, 2 zeta omega
+    double spin[MODES];                              // modal force per (rad/s)^2
+    bool alike[MODES];                               // moves all joints alike and does not twist them
+    bool pair[MODES];                                // one of two modes of the same frequency
+    _Alignas(64) double out[MODES][8 * OUT_OCTETS];  // motions of the pads against each other by S, in rows
+    _Alignas(64) double in[MODES][8 * IN_OCTETS];    // and by D
+    // the same, a and b by themselves, modes side by side; of a joint that is its own mirror image one half
+    _Alignas(64) double out_modes[2 * PAD_OUT][FIRST][ENTRIES];
+    double in_modes[2 * PAD_IN][FIRST][ENTRIES];
+    double turn[Z][3][ENTRIES];  // at the pockets: cos nu of the a, of the b, sin nu
+    double wall[WALL_NODES][2][3][2]
+               [ENTRIES];    // U by node, value and slope, (x, r, t), U' of the a and U'' of the b
+    int nodes;               // of the walls' angle
+    double chi[WALL_NODES];  // [rad]
+    double step[WALL_NODES], inv_step[WALL_NODES];  // from a node to the next one [rad], its inverse
+    // how far a wall can move: modes that move all pockets alike by themselves, all others by Cauchy's inequality
+    double reach_2;        // largest |u|^2 / sum omega^2 q^2 of the others [s2]
+    double weight[MODES];  // omega^2 of the others, 0 of those
+    double widest[MODES];  // largest |u|/|q| of those, 0 of the others
+    double compliance;     // of a wall along its normal, by the residual, less that in Hertz's [m/N]
+    // what the modes leave between the pads of a joint, out of the plane: compliance and its inverse
+    double R[PAD_OUT][PAD_OUT], K[PAD_OUT][PAD_OUT];
+    double series;     // part of the friction states' stiffness that is left in series with the residual
+    constants k_hole;  // what is left of the holes' [N/m]
+    double substep;    // of the default method, at most [s]
+    JointLaw law;      // the joints' law over L^ = L + K delta with the K above, which gives L
+    _Alignas(64) double coefficients[];  // of the law; the fourth number is U, whose slope is delta
+};
+
+// Bytes of an ElasticHalf.
+size_t elastic_half_size(void);
+
+// What the scene takes of the modes in the rivet table.
+void elastic_half_derive(const Parameters *p, const Derived *d, ElasticHalf *half);
+
+// Coordinates S [MODES] and axial distance of the halves' bodies [m] at which modes and joints rest under the centrifugal
+// load of the speed omega [rad/s].
+double elastic_half_rest(const Parameters *p, const Derived *d, const ElasticHalf *half, double omega,
+                         double *S);
+
+// Where balls meet the walls of a half's pockets: direction (x, t) from the pocket's axis to the ball, side of the pocket and
+// of the split, node below the wall's angle, weights of the cubics for the value and the slope over the angle.
+typedef struct {
+    ball_array n_x, n_t, value[4], slope[4];
+    bool back[LANES], inside[LANES];
+    int node[LANES];
+} WallPlaces;
+
+// The walls there.
+typedef struct {
+    ball_array u_dot[3];  // velocity (x, r, t)
+    ball_array tilt;      // slope of n.u across n, u the motion: how much the normal turns
+} WallMotion;
+
+// Motions (x, r, t) of one wall by all a' and b'.
+typedef struct {
+    scalar motion[3][2][ENTRIES];
+} WallShape;
+
+// Places of a packet of balls from j on, on the half at side (+1 or -1).
+#define elastic_wall_places FOR_ISA(elastic_wall_places)
+void elastic_wall_places(const ElasticHalf *half, int side, int j, wide n_x, wide n_t, WallPlaces *at);
+
+// Motion of the wall of pocket j along the contact's normal, with the coordinates q.
+#define elastic_wall_normal FOR_ISA(elastic_wall_normal)
+scalar elastic_wall_normal(const ElasticHalf *half, int side, int j, const WallPlaces *at, const scalar *q);
+
+// Its motion by each mode there.
+#define elastic_wall_shape FOR_ISA(elastic_wall_shape)
+void elastic_wall_shape(const ElasticHalf *half, int side, int j, const WallPlaces *at, mode_array shape);
+
+// Sets all of its motion.  S: distance of the ball from the pocket's axis.
+#define elastic_wall FOR_ISA(elastic_wall)
+void elastic_wall(const ElasticHalf *half, int side, int j, const WallPlaces *at, const scalar *q,
+                  const scalar *q_dot, scalar S, WallMotion *wall, WallShape *shape);
+
+// Adds the modal forces of the force (x, r, t) on the wall of pocket j.
+#define elastic_wall_force FOR_ISA(elastic_wall_force)
+void elastic_wall_force(const ElasticHalf *half, int j, const WallShape *shape, const scalar F[3],
+                        mode_array modal);
+
+// Motion of the pad of joint k by coordinate i, of PAD_OUT out of the plane or of PAD_IN in it.
+double elastic_half_pad(const ElasticHalf *half, bool out, int i, int motion, int k);
+
+// Energy of all joints between the halves, and of what the modes leave of the halves around them, from e, L^ and U.
+INLINE scalar elastic_potential(const Work *w)
+{
+    scalar V = 0.0;
+    for (int k = 0; k < Z; k++) {
+        for (int a = 0; a < PAD_OUT; a++) V += 0.5 * w->e[a][k] * w->joint_behind[a][k];
+        V -= w->joint_U[k];
+    }
+    return 2.0 * V;
+}
+
+// Sum over the modes in one order for every lane width.
+INLINE scalar elastic_sum(const ElasticHalf *half, const scalar *x, const scalar *y)
+{
+    scalar part[8] = {0};
+    for (int i = 0; i < 8 * half->blocks; i += 8)
+        for (int k = 0; k < 8; k++) part[k] += x[i + k] * y[i + k];
+    return ((part[0] + part[1]) + (part[2] + part[3])) + ((part[4] + part[5]) + (part[6] + part[7]));
+}

@@ -1,0 +1,198 @@
+// Motion of the pockets' walls by the modes of a half: see elastic_half.h for the equations.
+#include "cage/elastic/elastic_half.h"
+
+// Beyond the split the wall moves as at the split.
+void elastic_wall_places(const ElasticHalf *half, int side, int j, wide n_x, wide n_t, WallPlaces *at)
+{
+    const wide along = wide_abs(n_t), zero = wide_set(0.0), one = wide_set(1.0);
+    const wide chi = wide_max(wide_atan(side * n_x / wide_max(along, wide_set(1e-30))), zero);
+    wide_store(&at->n_x[j], n_x);
+    wide_store(&at->n_t[j], n_t);
+    scalar below[LANE_WIDTH];  // the node below chi
+    wide node = zero, lower = wide_set(half->chi[0]), step = wide_set(half->step[0]),
+         inv_step = wide_set(half->inv_step[0]);
+    for (int n = 1; n < half->nodes - 1; n++) {
+        const bits beyond = wide_above(chi, half->chi[n]);
+        node = wide_select(beyond, wide_set(n), node);
+        lower = wide_select(beyond, wide_set(half->chi[n]), lower);
+        step = wide_select(beyond, wide_set(half->step[n]), step);
+        inv_step = wide_select(beyond, wide_set(half->inv_step[n]), inv_step);
+    }
+    wide_store(below, node);
+    for (int i = 0, k = j; i < LANE_WIDTH; i++, k++) {
+        at->node[k] = (int)scalar_value(below[i]);
+        at->back[k] = scalar_value(at->n_t[k]) < 0.0, at->inside[k] = scalar_value(at->n_x[k]) * side > 0.0;
+    }
+    const wide u = (chi - lower) * inv_step, v = one - u;
+    const wide value[4] = {v * v * (1.0 + 2.0 * u), step * u * v * v, u * u * (1.0 + 2.0 * v),
+                           -step * u * u * v};
+    const wide slope[4] = {-6.0 * u * v * inv_step, v * (v - 2.0 * u), 6.0 * u * v * inv_step,
+                           u * (u - 2.0 * v)};
+    for (int t = 0; t < 4; t++) {
+        wide_store(&at->value[t][j], value[t]);
+        wide_store(&at->slope[t][j], slope[t]);
+    }
+}
+
+// Sign of the real (0) and the imaginary part (1) of component c on that side of the pocket and of the split.
+INLINE double wall_sign(bool back, int side, int c, int part)
+{
+    const double mirrored = back && (c == 2) == (part == 0) ? -1.0 : 1.0;
+    return c == 0 ? side * mirrored : mirrored;
+}
+
+// Eight sums side by side, and all of them together, in one order for every lane width.
+enum { PARTS = 8 / LANE_WIDTH };
+
+INLINE scalar all_sums(const wide sums[PARTS])
+{
+    scalar part[8];
+    for (int i = 0; i < PARTS; i++) wide_store(&part[i * LANE_WIDTH], sums[i]);
+    return ((part[0] + part[1]) + (part[2] + part[3])) + ((part[4] + part[5]) + (part[6] + part[7]));
+}
+
+// The coordinates a' and b' in a pocket of the coordinates q, and back for forces: those of a pair turned by nu.
+typedef struct {
+    const double *cos_a, *cos_b, *sin_nu;
+    int b;  // where the coordinates b begin
+} Turn;
+
+INLINE Turn turn_of(const ElasticHalf *half, int j)
+{
+    return (Turn){half->turn[j][0], half->turn[j][1], half->turn[j][2], half->count[0]};
+}
+
+INLINE wide turned_a(const Turn *turn, int m, const scalar *q)
+{
+    return wide_fma(wide_load(&turn->cos_a[m]), wide_load(&q[m]),
+                    wide_load(&turn->sin_nu[m]) * wide_load(&q[turn->b + m]));
+}
+
+INLINE wide turned_b(const Turn *turn, int m, const scalar *q)
+{
+    return wide_fma(wide_load(&turn->cos_b[m]), wide_load(&q[turn->b + m]),
+                    -wide_load(&turn->sin_nu[m]) * wide_load(&q[m]));
+}
+
+INLINE wide back_to_a(const Turn *turn, int m, wide a, wide b)
+{
+    return wide_fma(wide_load(&turn->cos_a[m]), a, -wide_load(&turn->sin_nu[m]) * b);
+}
+
+INLINE wide back_to_b(const Turn *turn, int m, wide a, wide b)
+{
+    return wide_fma(wide_load(&turn->cos_b[m]), b, wide_load(&turn->sin_nu[m]) * a);
+}
+
+// Motions of a wall along the contact's normal by a few a' (part 0) or b' (1) side by side.
+typedef struct {
+    const double (*from)[3][2][ENTRIES];
+    wide weight[2][2][4];  // [part][x, t][term]
+} NormalMotion;
+
+INLINE NormalMotion normal_motion(const ElasticHalf *half, int side, int j, const WallPlaces *at)
+{
+    NormalMotion n = {half->wall[at->node[j]], {{{wide_set(0.0)}}}};
+    for (int part = 0; part < 2; part++)
+        for (int c = 0; c < 2; c++)
+            for (int t = 0; t < 4; t++)
+                n.weight[part][c][t] = wide_set(wall_sign(at->back[j], side, 2 * c, part) *
+                                                (c == 0 ? at->n_x[j] : at->n_t[j]) * at->value[t][j]);
+    return n;
+}
+
+// By those from m on.
+INLINE wide normal_motions(const NormalMotion *n, int part, int m)
+{
+    wide by[2] = {wide_set(0.0), wide_set(0.0)};
+    for (int t = 0; t < 4; t++)
+        for (int c = 0; c < 2; c++)
+            by[c] = wide_fma(n->weight[part][c][t], wide_load(&n->from[t][2 * c][part][m]), by[c]);
+    return by[0] + by[1];
+}
+
+scalar elastic_wall_normal(const ElasticHalf *half, int side, int j, const WallPlaces *at, const scalar *q)
+{
+    const NormalMotion normal = normal_motion(half, side, j, at);
+    const Turn turn = turn_of(half, j);
+    wide sums[PARTS];
+    for (int i = 0; i < PARTS; i++) sums[i] = wide_set(0.0);
+    for (int block = 0; block < half->octets; block++)
+        for (int i = 0; i < PARTS; i++) {
+            const int m = 8 * block + i * LANE_WIDTH;
+            sums[i] = wide_fma(normal_motions(&normal, 0, m), turned_a(&turn, m, q), sums[i]);
+            sums[i] = wide_fma(normal_motions(&normal, 1, m), turned_b(&turn, m, q), sums[i]);
+        }
+    return all_sums(sums);
+}
+
+void elastic_wall_shape(const ElasticHalf *half, int side, int j, const WallPlaces *at, mode_array shape)
+{
+    const NormalMotion normal = normal_motion(half, side, j, at);
+    const Turn turn = turn_of(half, j);
+    scalar b[ENTRIES];
+    for (int m = 0; m < 8 * half->octets; m += LANE_WIDTH) {
+        const wide by_a = normal_motions(&normal, 0, m), by_b = normal_motions(&normal, 1, m);
+        wide_store(&shape[m], back_to_a(&turn, m, by_a, by_b));
+        wide_store(&b[m], back_to_b(&turn, m, by_a, by_b));
+    }
+    memcpy(&shape[turn.b], b, (size_t)(8 * half->octets) * sizeof *b);
+}
+
+void elastic_wall(const ElasticHalf *half, int side, int j, const WallPlaces *at, const scalar *q,
+                  const scalar *q_dot, scalar S, WallMotion *wall, WallShape *shape)
+{
+    const double (*from)[3][2][ENTRIES] = half->wall[at->node[j]];
+    const Turn turn = turn_of(half, j);
+    const double inward = at->inside[j] ? (at->back[j] ? -side : side) : 0.0;
+
+    // motion of a component by the value's weights; the normal's turn n_t u_x - n_x u_t + inward (n_x u_chi,x + n_t u_chi,t)
+    wide value[4], tilted[3][4], rates[3][PARTS], tilts[PARTS];
+    for (int t = 0; t < 4; t++) {
+        const scalar n_x = at->n_x[j], n_t = at->n_t[j], slope = inward * at->slope[t][j];
+        value[t] = wide_set(at->value[t][j]);
+        tilted[0][t] = wide_set(n_t * at->value[t][j] + n_x * slope);
+        tilted[2][t] = wide_set(n_t * slope - n_x * at->value[t][j]);
+    }
+    for (int i = 0; i < PARTS; i++) rates[0][i] = rates[1][i] = rates[2][i] = tilts[i] = wide_set(0.0);
+    for (int block = 0; block < half->octets; block++)
+        for (int i = 0; i < PARTS; i++) {
+            const int m = 8 * block + i * LANE_WIDTH;
+            const wide place[2] = {turned_a(&turn, m, q), turned_b(&turn, m, q)};
+            const wide rate[2] = {turned_a(&turn, m, q_dot), turned_b(&turn, m, q_dot)};
+            for (int c = 0; c < 3; c++)
+                for (int part = 0; part < 2; part++) {
+                    const wide sign = wide_set(wall_sign(at->back[j], side, c, part));
+                    wide u = wide_set(0.0), tilt = wide_set(0.0);
+                    for (int t = 0; t < 4; t++) {
+                        const wide U = wide_load(&from[t][c][part][m]);
+                        u = wide_fma(value[t], U, u);
+                        if (c != 1) tilt = wide_fma(tilted[c][t], U, tilt);
+                    }
+                    const wide motion = sign * u;
+                    wide_store(&shape->motion[c][part][m], motion);
+                    rates[c][i] = wide_fma(motion, rate[part], rates[c][i]);
+                    if (c != 1) tilts[i] = wide_fma(sign * tilt, place[part], tilts[i]);
+                }
+        }
+    for (int c = 0; c < 3; c++) wall->u_dot[c][j] = all_sums(rates[c]);
+    wall->tilt[j] = all_sums(tilts) / S;
+}
+
+void elastic_wall_force(const ElasticHalf *half, int j, const WallShape *shape, const scalar F[3],
+                        mode_array modal)
+{
+    const Turn turn = turn_of(half, j);
+    scalar b[ENTRIES];
+    for (int m = 0; m < 8 * half->octets; m += LANE_WIDTH) {
+        wide by[2];
+        for (int part = 0; part < 2; part++)
+            by[part] = F[0] * wide_load(&shape->motion[0][part][m]) +
+                       F[1] * wide_load(&shape->motion[1][part][m]) +
+                       F[2] * wide_load(&shape->motion[2][part][m]);
+        wide_store(&modal[m], wide_load(&modal[m]) + back_to_a(&turn, m, by[0], by[1]));
+        wide_store(&b[m], back_to_b(&turn, m, by[0], by[1]));
+    }
+    for (int m = 0; m < 8 * half->octets; m += LANE_WIDTH)
+        wide_store(&modal[turn.b + m], wide_load(&modal[turn.b + m]) + wide_load(&b[m]));
+}

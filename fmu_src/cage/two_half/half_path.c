@@ -1,0 +1,99 @@
+// Loads of bonded joints: see half_path.h for the equations.
+#include "cage/two_half/half_path.h"
+
+#include "numbers/octet.h"
+
+void bolt_group(double d_m, const scalar wrench[6], const double c[Z], const double s[Z], scalar N[Z],
+                scalar V_y[Z], scalar V_z[Z])
+{
+    const double R = 0.5 * d_m;
+    const scalar shear = wrench[3] / (Z * R);
+    for (int k = 0; k < Z; k++) {
+        N[k] = wrench[0] / Z + 2.0 * (wrench[4] * s[k] - wrench[5] * c[k]) / (Z * R);
+        V_y[k] = wrench[1] / Z - shear * s[k];
+        V_z[k] = wrench[2] / Z + shear * c[k];
+    }
+}
+
+enum { TERMS = 6, NODE = TERMS * Z * ROWS };  // of a node: terms, numbers of all terms
+
+_Static_assert(ROWS == 8, "the rows of a joint are an octet");
+
+// A touched pocket: its node in the table, and the weights of the terms of this node and of the next one.
+typedef struct {
+    const float *node;
+    scalar weight[2 * TERMS];
+} Touch;
+
+static Touch touch_of(const HalfPath *path, int side, const PathForces *on, scalar chi, int j)
+{
+    const bool back = scalar_value(on->push_t[j]) < 0.0;
+    int i = 0;
+    while (i < path->nodes - 2 && scalar_value(chi) >= path->chi[i + 1]) i++;
+    const double h = path->chi[i + 1] - path->chi[i];
+    const scalar u = (chi - path->chi[i]) / h, v = 1.0 - u;
+    const scalar spline[4] = {v * v * (1.0 + 2.0 * u), h * u * v * v, u * u * (1.0 + 2.0 * v),
+                              -h * u * u * v};
+    const scalar force[3] = {side * on->F_x[j], on->F_r[j], back ? -on->F_t[j] : on->F_t[j]};
+    Touch touch = {.node = path->rows + (back * path->nodes + i) * NODE};
+    for (int n = 0; n < 4; n++)
+        for (int f = 0; f < 3; f++) touch.weight[3 * n + f] = spline[n] * force[f];
+    return touch;
+}
+
+// Adds the rows of all joints by the touched pocket j.
+static void add_touch(const Touch *touch, int j, octet joint[Z])
+{
+    for (int k = 0; k < Z; k++) {
+        octet rows = joint[(j + k) % Z];
+        for (int t = 0; t < 2 * TERMS; t++)
+            octet_add_floats(touch->weight[t], touch->node + (t * Z + k) * ROWS, &rows);
+        joint[(j + k) % Z] = rows;
+    }
+}
+
+// chi of the pockets j, j + 1, ...
+INLINE void find_chi(const PathForces *on, int j, scalar chi[LANE_WIDTH])
+{
+    const wide push_x = wide_abs(wide_load(&on->push_x[j])), push_t = wide_abs(wide_load(&on->push_t[j]));
+    wide_store(chi, wide_atan(push_x / wide_max(push_t, wide_set(1e-30))));
+}
+
+// Bit k: pocket j + k is touched.
+INLINE int touched_pockets(const PathForces *on, int j)
+{
+    return wide_mask(wide_above(wide_abs(wide_load(&on->F_x[j])) + wide_abs(wide_load(&on->F_r[j])) +
+                                    wide_abs(wide_load(&on->F_t[j])),
+                                0.0));
+}
+
+bool half_path_rows(const HalfPath *path, const PathForces on[2], PathRows *rows)
+{
+    octet joint[Z];
+    bool touched = false;
+    for (int h = 0; h < 2; h++) {
+        for (int p = 0; p < PACKETS; p++) {
+            int mask = touched_pockets(&on[h], p * LANE_WIDTH);
+            scalar chi[LANE_WIDTH];
+            if (mask != 0) find_chi(&on[h], p * LANE_WIDTH, chi);
+            for (int j = p * LANE_WIDTH; mask != 0 && j < Z; mask >>= 1, j++) {
+                if (!(mask & 1)) continue;
+                if (!touched) memset(joint, 0, sizeof joint);
+                touched = true;
+                const Touch touch = touch_of(path, h == 0 ? -1 : 1, &on[h], chi[j - p * LANE_WIDTH], j);
+                add_touch(&touch, j, joint);
+            }
+        }
+        if (h == 0 && touched)  // of the mirrored forces
+            for (int k = 0; k < Z; k++) {
+                joint[k].x[ROW_V_R] = -joint[k].x[ROW_V_R];
+                joint[k].x[ROW_V_T] = -joint[k].x[ROW_V_T];
+            }
+    }
+    if (!touched) return false;
+    for (int i = 0; i < ROWS; i++) {
+        for (int k = 0; k < Z; k++) rows->row[i][k] = joint[k].x[i];
+        for (int k = Z; k < LANES; k++) rows->row[i][k] = 0.0;  // padding
+    }
+    return true;
+}

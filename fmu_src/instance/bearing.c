@@ -1,0 +1,510 @@
+// One instance of the bearing: life cycle, stepping, peaks and statistics over accepted steps, saved state.
+#include "numbers/aligned.h"
+#include "numbers/cpu_clock.h"
+#include "instance/energy.h"
+#include "instance/instance.h"
+#include "instance/jacobian.h"
+#include "instance/outputs.h"
+#include "physics/ring_load.h"
+#include "rivet/rivets.h"
+#include "solver/start.h"
+#include "physics/temperature.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+
+void bearing_log(Bearing *b, LogCategory category, const char *format, ...)
+{
+    if (b->host.log == NULL) return;
+    char message[1024];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(message, sizeof message, format, arguments);
+    va_end(arguments);
+    b->host.log(b->host.environment, category, message);
+}
+
+// ---- accepted steps ---------------------------------------------------------------------------------------
+static void add_force(InstanceState *s, const Work *w, bool counts, double h)
+{
+    for (int j = 0; j < Z; j++) {
+        const double Q_c = w->pocket[0].Q[j] + w->pocket[1].Q[j];
+        s->force_peak = scalar_max(s->force_peak, Q_c);
+        if (!counts) continue;
+        statistics_add(&s->force, FORCE_FLOOR, h, Q_c);
+        if (Q_c > 0.0) s->duty_time += h;
+    }
+}
+
+static void add_stress(Bearing *b, bool counts, double h)
+{
+    InstanceState *s = &b->s;
+    FatigueLaw law;
+    JointLoads load;
+    double sigma[RIVET_CHANNELS][Z], head_max = 0.0, mid_max = 0.0;
+    const bool fatigue = s->p.scene.stress == STRESS_FATIGUE && s->integrator.t >= s->p.start.settle;
+    memcpy(&law, &s->p.fatigue, sizeof law);
+
+    // stress of all rivets
+    if (s->integrator.t < b->t_point)
+        b->kernels.rivets_follow(&b->model, &b->w, &b->joints, &load);
+    else
+        b->kernels.rivets_load(&b->model, &b->w, &load);
+    b->kernels.rivet_rom_stress(&rivet_table, &load, b->d.fit_eff, false, sigma);
+    const double *head = sigma[HEAD_P1], *mid = sigma[MID_VM];
+
+    // peaks, statistics and fatigue of each rivet, statistics of the worst one
+    for (int k = 0; k < Z; k++) {
+        s->head_peak[k] = scalar_max(s->head_peak[k], head[k]);
+        s->mid_peak[k] = scalar_max(s->mid_peak[k], mid[k]);
+        head_max = scalar_max(head_max, head[k]);
+        mid_max = scalar_max(mid_max, mid[k]);
+        if (counts) {
+            statistics_add(&s->head[k], STRESS_FLOOR, h, head[k]);
+            statistics_add(&s->mid[k], STRESS_FLOOR, h, mid[k]);
+        }
+        if (fatigue) {
+            fatigue_push(&s->fatigue_head[k], &law, head[k]);
+            fatigue_push(&s->fatigue_mid[k], &law, mid[k]);
+        }
+    }
+    if (counts) {
+        statistics_add(&s->head[WORST_RIVET], STRESS_FLOOR, h, head_max);
+        statistics_add(&s->mid[WORST_RIVET], STRESS_FLOOR, h, mid_max);
+    }
+}
+
+static void add_cage(Bearing *b, double h)
+{
+    InstanceState *s = &b->s;
+    const Rotor *h0 = &b->w.half[0], *h1 = &b->w.half[1];
+    const double y = 0.5 * (h0->x[1] + h1->x[1]) - b->w.outer_x[1];
+    const double z = 0.5 * (h0->x[2] + h1->x[2]) - b->w.outer_x[2];
+    double slip[Z];
+    rivets_slip(&b->model, &b->w, slip);
+    for (int k = 0; k < Z; k++) s->dislocation_max = scalar_max(s->dislocation_max, slip[k]);
+    s->omega_time += h * 0.5 * (h0->s + h1->s);
+    s->eccentricity_time += h * sqrt(y * y + z * z) / b->d.C_land;
+}
+
+// Adds the state just reached, after a step of length h, to peaks, statistics and fatigue.
+static void accepted_step(void *context, double h, const Work *w)
+{
+    Bearing *b = context;
+    InstanceState *s = &b->s;
+    const bool counts = s->p.scene.statistics == SWITCH_ON && s->integrator.t >= s->p.start.settle;
+    add_force(s, w, counts, h);
+    if (s->p.scene.stress >= STRESS_PEAK) add_stress(b, counts, h);
+    if (counts) add_cage(b, h);
+}
+
+static void solver_message(void *context, const char *message)
+{
+    bearing_log(context, LOG_SOLVER, "%s", message);
+}
+
+// Reports the events that begin at the state just reached; w holds the results there.
+static void report_events(Bearing *b)
+{
+    InstanceState *s = &b->s;
+    Event now[EVENT_COUNT];
+    events_now(&b->model, &b->w, s->head_peak, s->mid_peak, now);
+    for (EventKind kind = 0; kind < EVENT_COUNT; kind++) {
+        if (!event_onset(&s->event, kind, &now[kind])) continue;
+        char text[256];
+        event_text(kind, &now[kind], text, sizeof text);
+        const bool warned = kind == EVENT_OVERPRESSURE || kind == EVENT_NO_CLEARANCE;
+        const bool warning = warned && s->event.onsets[kind] == 1.0;
+        bearing_log(b, warning ? LOG_WARNING : LOG_EVENT, "t = %.9g s: %s (onset %.0f)", s->integrator.t,
+                    text, s->event.onsets[kind]);
+    }
+}
+
+// ---- life cycle -------------------------------------------------------------------------------------------
+Bearing *part_create(const PartHost *host)
+{
+    Bearing *b = aligned_new(sizeof *b);
+    if (b == NULL) return NULL;
+    memset(b, 0, sizeof *b);
+    b->host = *host;
+    b->kernels = kernels_select();
+    b->model = (Model){.p = &b->hot, .d = &b->d, .ring_load = &b->ring_load};
+    b->integrator =
+        integrator_create(&b->kernels, &b->model, &b->w, &b->s.integrator, accepted_step, solver_message, b);
+    if (b->integrator == NULL) {
+        aligned_delete(b);
+        return NULL;
+    }
+    part_reset(b);
+    return b;
+}
+
+void part_destroy(Bearing *b)
+{
+    if (b == NULL) return;
+    integrator_destroy(b->integrator);
+    aligned_delete(b->elastic);
+    aligned_delete(b);
+}
+
+void part_reset(Bearing *b)
+{
+    memset(&b->s, 0, sizeof b->s);
+    memset(&b->out, 0, sizeof b->out);
+    variables_set_start(&b->s.p, &b->s.u[0]);
+    b->start = b->s.u[0];
+    b->reported = false;
+    b->current = 0;
+    b->evaluated = false;
+}
+
+Parameters *part_parameters(Bearing *b)
+{
+    return &b->s.p;
+}
+
+Inputs *part_inputs(Bearing *b, int order)
+{
+    return &b->s.u[order];
+}
+
+const Outputs *part_outputs(const Bearing *b)
+{
+    return &b->out;
+}
+
+double *part_state(Bearing *b)
+{
+    return b->s.integrator.now.y;
+}
+
+double part_time(const Bearing *b)
+{
+    return b->s.integrator.t;
+}
+
+// The present inputs u_now and their rates, as a trajectory that begins at the present time.
+static void present_trajectory(const Bearing *b, InputTrajectory *trajectory)
+{
+    const InstanceState *s = &b->s;
+    const Inputs u[INPUT_ORDERS + 1] = {s->u_now, s->u_now_dot};
+    input_trajectory_update(&s->p, u, s->integrator.t, s->integrator.t, trajectory);
+    trajectory->frame_angle = s->frame_angle;
+}
+
+// Puts loads and motions of the present inputs u_now on the bearing and holds them: there is no trajectory to follow.
+static void hold_ring_load(Bearing *b)
+{
+    InputTrajectory present;
+    present_trajectory(b, &present);
+    b->model.trajectory = NULL;
+    ring_load_at(&present, b->s.integrator.t, &b->ring_load);
+}
+
+// Computes all that follows from the parameters at the temperatures in u.
+static void derive_at(Bearing *b, const Inputs *u)
+{
+    temperature_apply(&b->s.p, u, &b->hot);
+    model_derive(&b->hot, &b->d);
+    b->model.elastic = NULL;
+    if (b->s.p.scene.cage == CAGE_MODEL_ELASTIC && b->elastic != NULL) {
+        elastic_half_derive(&b->hot, &b->d, b->elastic);
+        b->model.elastic = b->elastic;
+    }
+    integrator_tolerance(b->integrator, b->s.tolerance);
+    b->current = 0;
+    b->evaluated = false;
+}
+
+// Memory for the modes of elastic halves, taken when a scene first needs them.  Returns whether there is any.
+static bool room_for_modes(Bearing *b)
+{
+    if (b->s.p.scene.cage != CAGE_MODEL_ELASTIC || b->elastic != NULL) return true;
+    b->elastic = aligned_new(elastic_half_size());
+    if (b->elastic == NULL)
+        bearing_log(b, LOG_ERROR, "scene.cage = elastic: no memory for the modes of the halves");
+    if (b->elastic != NULL) b->elastic->law_modes = 0;
+    return b->elastic != NULL;
+}
+
+// Computes all that follows from parameters and inputs and is therefore not saved.
+static void derive(Bearing *b)
+{
+    derive_at(b, b->s.initialized ? &b->s.u_now : &b->s.u[0]);
+    hold_ring_load(b);
+    work_init(&b->d, &b->w);
+}
+
+// Evaluates the right-hand side if w and y_dot do not belong to the present state and inputs yet.
+static void evaluate(Bearing *b)
+{
+    if (b->evaluated) return;
+    const IntegratorState *i = &b->s.integrator;
+    b->kernels.rhs(&b->model, i->t, i->now.y, b->y_dot, &b->w);
+    b->evaluated = true;
+}
+
+// Changes the temperatures of oil and parts from those in `from` to those in u.  The work of the expansion is no part
+// of the energy balance: the energy at the start moves by as much as the elastic energy of the present state.
+static void change_temperature(Bearing *b, const Inputs *from, const Inputs *u)
+{
+    if (temperature_same(from, u)) return;
+    const double *y = b->s.integrator.now.y;
+    evaluate(b);
+    const double before = energy_total(&b->model, y, &b->w);
+    derive_at(b, u);
+    evaluate(b);
+    b->s.energy_start += energy_total(&b->model, y, &b->w) - before;
+    b->s.integrator.f_is_current = 0;
+}
+
+PartStatus part_initialize(Bearing *b, double t_start, double tolerance)
+{
+    InstanceState *s = &b->s;
+    if (!check_all(b) || !room_for_modes(b)) return PART_ERROR;
+    report_start(b);
+    s->t_start = t_start;
+    s->tolerance = tolerance > 0.0 ? tolerance : s->p.solver.tol;
+    s->u_now = s->u[0];
+    s->u_now_dot = s->u[1];
+    s->frame_angle = 0.0;
+    s->history = (MotionHistory){.steps = 0};
+    s->integrator.t = t_start;
+    s->integrator.h = 1e-6;
+    derive(b);
+
+    // quasi-static start
+    const double residual = start_state(&b->kernels, &b->model, &b->w, s->integrator.now.y);
+    const double load = fabs(b->ring_load.F[0]) + fabs(b->ring_load.F[1]) + fabs(b->ring_load.F[2]);
+    PartStatus status = PART_OK;
+    if (!(residual < 1e-6 * (load + 1.0))) {
+        bearing_log(b, LOG_WARNING,
+                    "t = %g s: the start is not in equilibrium, residual %g N of a load of %g N", t_start,
+                    residual, load);
+        status = PART_WARNING;
+    }
+
+    b->t_point = t_start;
+    // first evaluation; the start counts as an accepted step of length 0
+    integrator_evaluate(b->integrator);
+    if (!check_start(b)) return PART_ERROR;
+    s->energy_start = energy_total(&b->model, s->integrator.now.y, &b->w);
+    accepted_step(b, 0.0, &b->w);
+    report_events(b);
+    s->initialized = 1;
+    return status;
+}
+
+// ---- stepping ---------------------------------------------------------------------------------------------
+// Sets the trajectory of the inputs u from the present time to the next edge of a pulse, in a communication
+// step that began at t_0 with the frame at frame_angle.  Where the load on the ring jumps, the derivative at the
+// present state is no longer current.
+static void begin_trajectory(Bearing *b, const Inputs u[INPUT_ORDERS + 1], double t_0, double frame_angle)
+{
+    InstanceState *s = &b->s;
+    const RingLoad before = b->ring_load;
+    input_trajectory_update(&s->p, u, t_0, s->integrator.t, &b->trajectory);
+    b->trajectory.frame_angle = frame_angle;
+    b->model.trajectory = input_trajectory_varies(&b->trajectory) ? &b->trajectory : NULL;
+    ring_load_at(&b->trajectory, s->integrator.t, &b->ring_load);
+    if (memcmp(&b->ring_load, &before, sizeof before) == 0) return;
+    s->integrator.f_is_current = 0;
+}
+
+// Ends the trajectory at the present time: the inputs reached are held from there on.
+static void end_trajectory(Bearing *b)
+{
+    InstanceState *s = &b->s;
+    input_trajectory_rates_at(&b->trajectory, s->integrator.t, &s->u_now, &s->u_now_dot);
+    s->frame_angle = frame_angle_at(&b->trajectory, s->integrator.t);
+    hold_ring_load(b);
+    if (s->p.ring.motion == RING_MOTION_PRESCRIBED) ring_follow(&b->ring_load, s->integrator.now.y);
+}
+
+// The values that the inputs' own polynomials have at time t, which the host reads back and which hold from there
+// on; motions that are given without derivatives keep what the host gave.
+static void inputs_reach(const Parameters *p, double t_0, double t, Inputs u[INPUT_ORDERS + 1])
+{
+    InputTrajectory given;
+    Inputs end;
+    input_trajectory_update(p, u, t_0, t, &given);
+    input_trajectory_at(&given, t, &end);
+    u[0] = end;
+    memset(&u[1], 0, INPUT_ORDERS * sizeof *u);
+}
+
+PartStatus part_step(Bearing *b, double t_end)
+{
+    InstanceState *s = &b->s;
+    const double t_begin = s->integrator.t, steps_before = s->integrator.steps, frame_angle = s->frame_angle;
+    Inputs u[INPUT_ORDERS + 1];
+    if (!check_inputs(b, t_end - t_begin)) return PART_ERROR;
+    motion_trajectory(&s->p, s->u, &s->history, &s->u_now, t_end - t_begin, u);
+    report_without_effect(b);
+    const double before = cpu_clock();
+    change_temperature(b, &s->u_now, &s->u[0]);
+    const double frame_omega = s->u_now.frame.omega;  // which does not jump
+    s->energy_start += energy_of_speed(&b->model, s->integrator.now.y, s->u_now.shaft.omega + frame_omega,
+                                       s->u[0].shaft.omega + frame_omega);
+    s->force_peak = 0.0;
+    for (int k = 0; k < Z; k++) s->head_peak[k] = s->mid_peak[k] = 0.0;
+    b->current = 0;
+    b->evaluated = false;
+
+    b->joints.known = false;
+    b->t_point = t_end;
+
+    // one advance for each stretch between edges of pulses
+    int status = 0;
+    while (status == 0 && s->integrator.t < t_end) {
+        begin_trajectory(b, u, t_begin, frame_angle);
+        const double edge = pulse_next_edge(&s->p, s->integrator.t);
+        const long left = s->p.solver.max_steps - (long)(s->integrator.steps - steps_before);
+        status = integrator_advance(b->integrator, fmin(edge, t_end), left);
+        end_trajectory(b);
+    }
+
+    // the inputs stay where they are now; temperatures that have moved meanwhile act from here on
+    change_temperature(b, &s->u[0], &s->u_now);
+    motion_remember(&s->u[0], s->integrator.t - t_begin, &s->history);
+    inputs_reach(&s->p, t_begin, s->integrator.t, s->u);
+    b->cpu_time += cpu_clock() - before;
+    if (status == 0) {
+        report_events(b);
+        return PART_OK;
+    }
+    const double steps = s->integrator.steps - steps_before;
+    if (steps >= s->p.solver.max_steps)
+        bearing_log(
+            b, LOG_ERROR,
+            "t = %.9g s: the work limit is reached, solver.max_steps = %d steps since %.9g s; step size %g s",
+            s->integrator.t, s->p.solver.max_steps, t_begin, s->integrator.h);
+    else
+        bearing_log(
+            b, LOG_ERROR,
+            "t = %.9g s: the solver cannot go on (code %d) after %g steps since %.9g s; step size %g s",
+            s->integrator.t, status, steps, t_begin, s->integrator.h);
+    return PART_DISCARD;
+}
+
+void part_update(Bearing *b, OutputGroup group)
+{
+    if (b->current >> group & 1u) return;
+    evaluate(b);
+    outputs_fill(b, group);
+    b->current |= 1u << group;
+}
+
+// ---- derivatives ------------------------------------------------------------------------------------------
+// All outputs that follow from one evaluation at the present state, with the inputs u in the place of their temperatures.
+static void outputs_beside(const Bearing *b, const Inputs *u, Outputs *out)
+{
+    const InstanceState *s = &b->s;
+    Parameters hot;
+    Derived d;
+    Work w;
+    double y_dot[N_ALL_STATES];
+    temperature_apply(&s->p, u, &hot);
+    model_derive(&hot, &d);
+    work_init(&d, &w);
+    const Model model = {&hot, &d, &b->ring_load, NULL, b->model.elastic};
+    b->kernels.rhs(&model, s->integrator.t, s->integrator.now.y, y_dot, &w);
+    const Evaluation at = {&model, s->integrator.now.y,    y_dot,
+                           &w,     b->kernels.rivets_load, b->kernels.rivet_rom_stress};
+    memset(out, 0, sizeof *out);
+    for (int group = 0; group < GROUP_COUNT; group++) outputs_evaluate(&at, group, out);
+    out->bearing.energy_residual = 0.0;  // the work of expansion is no part of the balance
+}
+
+// Adds the derivatives of all outputs along the temperatures of du: central differences over +-1 mK, because the derived
+// constants have no dual numbers.  Their relative error is 1e-7.
+static void add_thermal_derivatives(const Bearing *b, const Inputs *du, Outputs *derivatives)
+{
+    const double step = 1e-3;
+    for (int i = 0; i < TEMPERATURES; i++) {
+        const double along = *temperature_of((Inputs *)du, i);
+        if (along == 0.0) continue;
+        Inputs below = b->s.u_now, above = below;
+        Outputs from, to;
+        *temperature_of(&below, i) -= step;
+        *temperature_of(&above, i) += step;
+        outputs_beside(b, &below, &from);
+        outputs_beside(b, &above, &to);
+        const double *x = (const double *)&from, *y = (const double *)&to;
+        double *sum = (double *)derivatives;
+        for (size_t k = 0; k < sizeof from / sizeof *x; k++) sum[k] += along * ((y[k] - x[k]) / (2.0 * step));
+    }
+}
+
+// Derivatives of all outputs at the present state along dt of time, du of the inputs and dy of the states.
+static void differentiate(Bearing *b, double dt, const Inputs *du, const double *dy, Outputs *derivatives)
+{
+    const InstanceState *s = &b->s;
+    InputTrajectory trajectory;
+    present_trajectory(b, &trajectory);
+    jacobian_outputs(&b->model, (const double *)&trajectory, s->integrator.t, dt, (const double *)du,
+                     s->integrator.now.y, dy, (double *)derivatives);
+    add_thermal_derivatives(b, du ? du : &s->u_now_dot, derivatives);
+}
+
+void part_time_derivatives(Bearing *b, Outputs *derivatives)
+{
+    evaluate(b);
+    differentiate(b, 1.0, NULL, b->y_dot, derivatives);
+}
+
+void part_directional_derivatives(Bearing *b, const Inputs *inputs, const double state[N_ALL_STATES],
+                                  Outputs *derivatives)
+{
+    differentiate(b, 0.0, inputs, state, derivatives);
+}
+
+// ---- saved state ------------------------------------------------------------------------------------------
+size_t part_saved_size(void)
+{
+    return sizeof(InstanceState);
+}
+
+void part_save(const Bearing *b, void *saved)
+{
+    memcpy(saved, &b->s, sizeof b->s);
+}
+
+void part_restore(Bearing *b, const void *saved)
+{
+    memcpy(&b->s, saved, sizeof b->s);
+    if (room_for_modes(b)) derive(b);
+}
+
+// All outputs at the restored state, and its derivative.
+static bool outputs_are_numbers(Bearing *b)
+{
+    evaluate(b);
+    bool fine = (b->model.elastic ? b->kernels.ops_elastic : b->kernels.ops)->finite(b->y_dot);
+    for (int group = 0; group < GROUP_COUNT; group++) part_update(b, (OutputGroup)group);
+    for (const Variable *v = VARIABLES; v < VARIABLES + N_VARIABLES; v++) {
+        if (v->causality != CAUSALITY_OUTPUT) continue;
+        const double *value = (const double *)((const char *)&b->out + v->offset);
+        for (int i = 0; i < v->count; i++) fine &= isfinite(value[i]) != 0;
+    }
+    if (!fine) bearing_log(b, LOG_ERROR, "the outputs there are no numbers");
+    return fine;
+}
+
+bool part_restore_unknown(Bearing *b, const void *saved)
+{
+    memcpy(&b->s, saved, sizeof b->s);
+    if (!check_saved(b) || !room_for_modes(b)) return false;
+    derive(b);
+    return !b->s.initialized || outputs_are_numbers(b);
+}
+
+bool part_is_initialized(const Bearing *b)
+{
+    return b->s.initialized;
+}
+
+const char *part_data_digest(void)
+{
+    return rivet_table.digest;
+}

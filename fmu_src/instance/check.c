@@ -1,0 +1,519 @@
+// Refusals before a run or a step: values outside their limits, parameters that make no bearing, a rivet
+// table that belongs to another bearing.
+#include "numbers/saved_numbers.h"
+
+#include "instance/instance.h"
+#include "physics/ring_fit.h"
+#include "physics/ring_load.h"
+#include "rivet/rivet_rom.h"
+#include "physics/temperature.h"
+
+#include <float.h>
+#include <stddef.h>
+#include <stdio.h>
+
+// Clearance at which a ball on one race reaches the other groove's far side.
+static double largest_clearance(const Parameters *p)
+{
+    return 4.0 * (fmin(p->bearing.f_i, p->bearing.f_e) - 0.5) * p->bearing.D;
+}
+
+static void report_error(void *bearing, const char *message)
+{
+    bearing_log(bearing, LOG_ERROR, "%s", message);
+}
+
+// Checks all values of one causality (Parameters or Inputs) against the limits of the variable table.
+static bool check_variables(Bearing *b, Causality causality, const void *values)
+{
+    return variables_allow(causality, values, 0.0, report_error, b);
+}
+
+// Checks inputs that a trajectory reaches: its polynomial may round a limit that the caller asks for by a few units of the last place.
+static bool check_reached(Bearing *b, const Inputs *u)
+{
+    return variables_allow(CAUSALITY_INPUT, u, 1e-12, report_error, b);
+}
+
+// Where the motions that are given lead within a step of length h.
+static bool check_motions(Bearing *b, double h)
+{
+    if (!(h > 0.0)) return true;
+    Inputs u[INPUT_ORDERS + 1], end;
+    InputTrajectory trajectory = {.t_0 = 0.0};
+    motion_trajectory(&b->s.p, b->s.u, &b->s.history, &b->s.u_now, h, u);
+    if (memcmp(u, b->s.u, sizeof u) == 0) return true;
+    memcpy(trajectory.u, u, sizeof u);
+    input_trajectory_at(&trajectory, h, &end);
+    return check_reached(b, &end);
+}
+
+// Checks that oil and bearing bear the temperatures in u: viscosity within its limits, cage neither on the outer ring nor
+// on the balls, no interference beyond what parameters may have.
+static bool check_temperatures(Bearing *b, const Inputs *u)
+{
+    const Variable *eta = variable_named("oil.eta"), *guide = variable_named("cage.guide_clearance");
+    Parameters hot;
+    temperature_apply(&b->s.p, u, &hot);
+    bool fine = true;
+    if (!(hot.oil.eta >= eta->min && hot.oil.eta <= eta->max)) {
+        bearing_log(b, LOG_ERROR, "oil.T = %g K: the oil's viscosity is %g Pa.s there; %g ... %g is allowed",
+                    u->oil.T, hot.oil.eta, eta->min, eta->max);
+        fine = false;
+    }
+    if (!(hot.cage.guide_clearance >= guide->min)) {
+        bearing_log(
+            b, LOG_ERROR,
+            "cage.T = %g K, ring.T_e = %g K: the cage's guide clearance is %g m there; at least %g m is "
+            "allowed",
+            u->cage.T, u->ring.T_e, hot.cage.guide_clearance, guide->min);
+        fine = false;
+    }
+    if (!(hot.cage.pocket_clearance >= 0.0)) {
+        bearing_log(
+            b, LOG_ERROR,
+            "cage.T = %g K, ball.T = %g K: the pockets' clearance is %g m there; at least 0 m is allowed",
+            u->cage.T, u->ball.T, hot.cage.pocket_clearance);
+        fine = false;
+    }
+    const double least = -0.01 * hot.bearing.D, most = largest_clearance(&hot);
+    if (!(hot.bearing.P_d > least && hot.bearing.P_d < most)) {
+        bearing_log(
+            b, LOG_ERROR,
+            "ring.T_i = %g K, ring.T_e = %g K, ball.T = %g K: the bearing's clearance is %g m there; %g ... "
+            "%g m is allowed",
+            u->ring.T_i, u->ring.T_e, u->ball.T, hot.bearing.P_d, least, most);
+        fine = false;
+    }
+    return fine;
+}
+
+// Inputs are polynomials of second order: their extremes are at the ends of the step or where their slope
+// vanishes.
+bool check_inputs(Bearing *b, double h)
+{
+    const double *u_1 = (const double *)&b->s.u[1], *u_2 = (const double *)&b->s.u[2];
+    InputTrajectory trajectory = {.t_0 = 0.0, .u = {b->s.u[0], b->s.u[1], b->s.u[2]}};
+    Inputs u = b->s.u[0], turning = u;
+    if (!check_motions(b, h)) return false;
+    if (!input_trajectory_varies(&trajectory))
+        return check_variables(b, CAUSALITY_INPUT, &u) &&
+               (temperature_same(&b->s.u_now, &u) || check_temperatures(b, &u));
+    input_trajectory_at(&trajectory, h, &u);
+    for (int i = 0; i < N_INPUTS; i++) {
+        const double tau = -u_1[i] / u_2[i];
+        if (tau > 0.0 && tau < h) ((double *)&turning)[i] += 0.5 * tau * u_1[i];
+    }
+    return check_variables(b, CAUSALITY_INPUT, &b->s.u[0]) && check_reached(b, &u) &&
+           check_reached(b, &turning) && check_temperatures(b, &b->s.u[0]) && check_temperatures(b, &u);
+}
+
+// Logs value and limit unless the condition holds.
+static bool require(Bearing *b, bool condition, const char *format, double value, double limit)
+{
+    if (!condition) bearing_log(b, LOG_ERROR, format, value, limit);
+    return condition;
+}
+
+// Checks that rivets which differ are in a scene whose joints know them one by one: a rigid cage shares its load among all.
+static bool check_rivets(Bearing *b)
+{
+    const Parameters *p = &b->s.p;
+    if (p->scene.cage != CAGE_MODEL_RIGID) return true;
+    for (int k = 0; k < Z; k++) {
+        const char *name = p->rivet.preload_factor[k] != 1.0 ? "preload_factor"
+                           : p->rivet.dfit[k] != 0.0         ? "dfit"
+                           : p->rivet.intact[k] != 1         ? "intact"
+                                                             : NULL;
+        if (name == NULL) continue;
+        bearing_log(b, LOG_ERROR, "rivet[%d].%s: rivets that differ need scene.cage = two_half or elastic",
+                    k + 1, name);
+        return false;
+    }
+    return true;
+}
+
+// Checks parameters against each other.
+static bool check_geometry(Bearing *b)
+{
+    const Parameters *p = &b->s.p;
+    const double D = p->bearing.D, d_m = p->bearing.d_m;
+    const double chord = d_m * sin(PI / Z), play = largest_clearance(p);
+    bool fine = true;
+    fine &= require(b, D < chord,
+                    "bearing.D = %g m: the balls overlap; less than bearing.d_m sin(pi/Z) = %g m is allowed",
+                    D, chord);
+    fine &= require(b, D + p->cage.pocket_clearance < chord,
+                    "cage.pocket_clearance = %g m: the pockets overlap; less than bearing.d_m sin(pi/Z) - "
+                    "bearing.D = %g m is allowed",
+                    p->cage.pocket_clearance, chord - D);
+    fine &= require(b, p->bearing.P_d < play,
+                    "bearing.P_d = %g m: a ball on one race would reach the other groove's far side; less "
+                    "than 4 (min(f_i, f_e) - 1/2) D = %g m is allowed",
+                    p->bearing.P_d, play);
+    fine &=
+        require(b, -p->bearing.P_d < 0.01 * D,
+                "bearing.P_d = %g m: the interference exceeds 1 %% of bearing.D; at least %g m is allowed",
+                p->bearing.P_d, -0.01 * D);
+    fine &= require(b, p->ring.bore < d_m - D,
+                    "ring.bore = %g m: less than the diameter of the inner groove's bottom, %g m, is allowed",
+                    p->ring.bore, d_m - D);
+    const double least = 1e-6;  // [m], far below any ring's: squares of bores do not underflow
+    fine &= require(b, p->ring.bore == 0.0 || p->ring.bore >= least,
+                    "ring.bore = %g m: 0 or at least %g m is allowed", p->ring.bore, least);
+    fine &= require(
+        b, ring_fit_effective_i(p) >= d_m - D,
+        "ring.effective_i = %g m: at least the diameter of the inner groove's bottom, %g m, is allowed",
+        p->ring.effective_i, d_m - D);
+    fine &= require(
+        b, ring_fit_effective_e(p) <= d_m + D,
+        "ring.effective_e = %g m: at most the diameter of the outer groove's bottom, %g m, is allowed",
+        p->ring.effective_e, d_m + D);
+    fine &=
+        require(b, ring_fit_outside(p) > d_m + D,
+                "ring.outside = %g m: more than the diameter of the outer groove's bottom, %g m, is allowed",
+                p->ring.outside, d_m + D);
+    fine &= require(b, p->shaft.bore < ring_fit_bore(p),
+                    "shaft.bore = %g m: less than the bore of the inner ring, %g m, is allowed",
+                    p->shaft.bore, ring_fit_bore(p));
+    fine &= require(b, p->housing.outside == 0.0 || p->housing.outside > ring_fit_outside(p),
+                    "housing.outside = %g m: 0 or more than the outside diameter of the outer ring, %g m, is "
+                    "allowed",
+                    p->housing.outside, ring_fit_outside(p));
+    const double softest = variable_named("bearing.E")->min;
+    fine &= require(b, p->ball.E == 0.0 || p->ball.E >= softest,
+                    "ball.E = %g Pa: 0, which stands for bearing.E, or at least %g Pa is allowed", p->ball.E,
+                    softest);
+    fine &= require(b, p->cage.D_i < p->cage.D_o, "cage.D_i = %g m: less than cage.D_o = %g m is allowed",
+                    p->cage.D_i, p->cage.D_o);
+    fine &= require(b, p->cage.D_i < d_m, "cage.D_i = %g m: less than bearing.d_m = %g m is allowed",
+                    p->cage.D_i, d_m);
+    fine &= require(b, d_m < p->cage.D_o, "cage.D_o = %g m: more than bearing.d_m = %g m is allowed",
+                    p->cage.D_o, d_m);
+    const double groove = d_m + D + 0.5 * p->bearing.P_d - p->cage.guide_clearance;
+    fine &= require(b, p->cage.D_o <= groove,
+                    "cage.D_o = %g m: with its guide clearance the cage must fit inside the outer groove's "
+                    "bottom; at most bearing.d_m + bearing.D + bearing.P_d/2 - cage.guide_clearance = %g m "
+                    "is allowed",
+                    p->cage.D_o, groove);
+    const double web = 1.05 * 0.5 * (D + p->cage.pocket_clearance);
+    fine &= require(b, 0.5 * p->cage.width >= web,
+                    "cage.width = %g m: no web closes the pockets; at least 1.05 (bearing.D + "
+                    "cage.pocket_clearance) = %g m is allowed",
+                    p->cage.width, 2.0 * web);
+    fine &= require(b, p->cage.land_width <= 0.5 * p->cage.width,
+                    "cage.land_width = %g m: at most half of cage.width, %g m, is allowed",
+                    p->cage.land_width, 0.5 * p->cage.width);
+    fine &= require(b, p->oil.T_1 < p->oil.T_2, "oil.T_1 = %g K: less than oil.T_2 = %g K is allowed",
+                    p->oil.T_1, p->oil.T_2);
+    fine &=
+        require(b, p->oil.nu_1 > p->oil.nu_2,
+                "oil.nu_1 = %g m2/s: more than oil.nu_2 = %g m2/s is allowed, for the viscosity falls with "
+                "temperature",
+                p->oil.nu_1, p->oil.nu_2);
+    fine &= require(b, p->fatigue.k_2 >= p->fatigue.k_1,
+                    "fatigue.k_2 = %g: at least fatigue.k_1 = %g is allowed", p->fatigue.k_2, p->fatigue.k_1);
+    fine &= require(b, p->pulse.count < 2 || p->pulse.interval >= p->pulse.duration,
+                    "pulse.interval = %g s: at least pulse.duration = %g s is allowed", p->pulse.interval,
+                    p->pulse.duration);
+    for (int j = 0; j < Z; j++) {
+        const double clearance = p->cage.pocket_clearance + p->pocket.dD[j];
+        if (p->pocket.dD[j] < 0.0 && clearance <= 0.0) {
+            bearing_log(b, LOG_ERROR,
+                        "pocket[%d].dD = %g m: more than -cage.pocket_clearance = %g m is allowed", j + 1,
+                        p->pocket.dD[j], -p->cage.pocket_clearance);
+            fine = false;
+        } else if (p->ball.dD[j] > 0.0 && p->ball.dD[j] >= clearance) {
+            bearing_log(
+                b, LOG_ERROR,
+                "ball[%d].dD = %g m: less than cage.pocket_clearance + pocket[%d].dD = %g m is allowed",
+                j + 1, p->ball.dD[j], j + 1, clearance);
+            fine = false;
+        }
+    }
+    return check_rivets(b) && fine;
+}
+
+// Checks that the halves have room for the seat of the rivet's head: metal inside and outside of it, a
+// bridge between the pockets around it.  The least wall is that of rivet_model/half_shape.py.
+static bool check_seat(Bearing *b)
+{
+    const Parameters *p = &b->s.p;
+    const double wall = 0.2e-3, seat = rivet_table.joint.seat + 2.0 * wall, r = 0.5 * p->cage.D_i;
+    const double inside = p->bearing.d_m - seat, outside = p->bearing.d_m + seat;
+    const double tolerance = 1e-6 * p->bearing.d_m;
+    bool fine =
+        require(b, p->cage.D_i <= inside + tolerance,
+                "cage.D_i = %g m: no metal inside the seat of the rivet's head; at most %g m is allowed",
+                p->cage.D_i, inside);
+    fine &=
+        require(b, p->cage.D_o >= outside - tolerance,
+                "cage.D_o = %g m: no metal outside the seat of the rivet's head; at least %g m is allowed",
+                p->cage.D_o, outside);
+    const double pocket = 2.0 * r * sin(PI / Z - asin(fmin(0.5 * seat / r, 1.0)));
+    fine &=
+        require(b, p->bearing.D + p->cage.pocket_clearance <= pocket + tolerance,
+                "cage.pocket_clearance = %g m: the bridges between the pockets do not hold the seat of the "
+                "rivet's head; at most %g m is allowed",
+                p->cage.pocket_clearance, pocket - p->bearing.D);
+    return fine;
+}
+
+// Checks the parameters that the build fixes: the constants of the cage's material, from which the rivet table was made.
+static bool check_built(Bearing *b)
+{
+    bool fine = true;
+    for (const Variable *v = VARIABLES; v < VARIABLES + N_VARIABLES; v++) {
+        if (!v->built) continue;
+        const double value = variable_value(v, 0, &b->s.p);
+        if (value == v->start) continue;
+        bearing_log(b, LOG_ERROR,
+                    "%s = %g: %g is allowed, of the material for which this FMU and its rivet table were "
+                    "built; for another material build an FMU from a bearing file with [cage] material",
+                    v->name, value, v->start);
+        fine = false;
+    }
+    return fine;
+}
+
+// Checks the embedded rivet table, which belongs to one number of rivets and one pitch circle.
+static bool check_table(Bearing *b)
+{
+    const double d_m = b->s.p.bearing.d_m, table = rivet_table.joint.d_m;
+    bool fine = require(
+        b, rivet_table.Z == Z,
+        "the embedded rivet table is for Z = %g; this FMU has Z = %g: build it with a table for this bearing",
+        rivet_table.Z, Z);
+    fine &= require(
+        b, fabs(d_m - table) <= 1e-3 * table,
+        "bearing.d_m = %g m: the embedded load path is for %g m +- 0.1 %%; build an FMU for this bearing",
+        d_m, table);
+    fine &= require(
+        b, fabs(b->s.p.cage.x_c - rivet_table.half.x_c) <= 0.02 * rivet_table.half.x_c,
+        "cage.x_c = %g m: allowed is %g m +- 2 %%, the centre of mass of the cage half in the embedded rivet "
+        "table; build an FMU for this cage",
+        b->s.p.cage.x_c, rivet_table.half.x_c);
+    fine &=
+        require(b, b->s.p.scene.cage != CAGE_MODEL_ELASTIC || rivet_table.modes.modes >= b->s.p.scene.modes,
+                "scene.cage = elastic with scene.modes = %g: the embedded rivet table has %g vibration "
+                "modes; build an FMU "
+                "with a table by finite elements",
+                b->s.p.scene.modes, rivet_table.modes.modes);
+    return fine;
+}
+
+// Parameters and inputs, but not whether the bearing bears the temperatures.
+static bool check_values(Bearing *b)
+{
+    bool fine = check_variables(b, CAUSALITY_PARAMETER, &b->s.p);
+    fine &= check_variables(b, CAUSALITY_INPUT, &b->s.u[0]);
+    return fine && check_geometry(b) && check_built(b) && check_table(b) && check_seat(b);
+}
+
+bool check_all(Bearing *b)
+{
+    return check_values(b) && check_temperatures(b, &b->s.u[0]);
+}
+
+// Inputs that have no effect on a ring whose motion is free, and on one whose motion is prescribed.
+typedef struct {
+    const char *name;
+    size_t offset;
+} InputName;
+
+#define INPUT(group, member) {#group "." #member, offsetof(Inputs, group.member)}
+
+static const InputName OF_PRESCRIBED[] = {
+    INPUT(shaft, x),   INPUT(shaft, y),   INPUT(shaft, z),          INPUT(shaft, v_x),
+    INPUT(shaft, v_y), INPUT(shaft, v_z), INPUT(shaft, tilt_y_dot), INPUT(shaft, tilt_z_dot)};
+static const InputName OF_FREE[] = {INPUT(shaft, F_x), INPUT(shaft, F_y), INPUT(shaft, F_z),
+                                    INPUT(shaft, M_y), INPUT(shaft, M_z), INPUT(impact, F_r),
+                                    INPUT(impact, F_a)};
+static const char *const PARAMETERS_OF_FREE[] = {
+    "pulse.F_r",      "pulse.F_a",   "pulse.t_start", "pulse.duration", "pulse.interval",
+    "pulse.count",    "ring.m",      "ring.J_p",      "ring.J_t",       "ring.c",
+    "ring.tilt_mode", "ring.k_tilt", "ring.c_tilt",   "ring.tilt_time"};
+
+static void add_name(const char *name, char *list, size_t size)
+{
+    const size_t length = strlen(list);
+    snprintf(list + length, size - length, "%s%s", length > 0 ? ", " : "", name);
+}
+
+void report_without_effect(Bearing *b)
+{
+    if (b->reported) return;
+    const bool prescribed = b->s.p.ring.motion == RING_MOTION_PRESCRIBED;
+    const InputName *input = prescribed ? OF_FREE : OF_PRESCRIBED;
+    const size_t count =
+        prescribed ? sizeof OF_FREE / sizeof *OF_FREE : sizeof OF_PRESCRIBED / sizeof *OF_PRESCRIBED;
+    const char *now = (const char *)&b->s.u[0], *start = (const char *)&b->start;
+    char list[512] = "";
+    for (size_t i = 0; i < count; i++)
+        if (*(const double *)(now + input[i].offset) != *(const double *)(start + input[i].offset))
+            add_name(input[i].name, list, sizeof list);
+
+    // parameters cannot change after the start
+    for (size_t i = 0;
+         prescribed && !b->s.initialized && i < sizeof PARAMETERS_OF_FREE / sizeof *PARAMETERS_OF_FREE; i++) {
+        const Variable *v = variable_named(PARAMETERS_OF_FREE[i]);
+        if (variable_value(v, 0, &b->s.p) != v->start) add_name(v->name, list, sizeof list);
+    }
+    if (!*list) return;
+    b->reported = true;
+    bearing_log(b, LOG_WARNING, "ring.motion is %s: no effect have %s", prescribed ? "prescribed" : "free",
+                list);
+}
+
+// Logs that the parts stay at their start temperatures where the oil alone has been given another one.
+static void report_parts_left(Bearing *b)
+{
+    const Inputs *u = &b->s.u[0], *start = &b->start;
+    const bool alone = u->ring.T_i == start->ring.T_i && u->ring.T_e == start->ring.T_e &&
+                       u->ball.T == start->ball.T && u->cage.T == start->cage.T;
+    if (!alone || u->oil.T == start->oil.T) return;
+    bearing_log(
+        b, LOG_WARNING,
+        "oil.T = %g K is set, the parts' temperatures are not: ring.T_i = %g K, ring.T_e = %g K, ball.T = "
+        "%g K, cage.T = %g K, at which clearances, preload and fit are taken",
+        u->oil.T, u->ring.T_i, u->ring.T_e, u->ball.T, u->cage.T);
+}
+
+// Sizes of which the rivet table holds those of the build: it keeps them when the parameters change.
+static const char *const SIZES_OF_TABLE[] = {"bearing.D", "cage.D_o", "cage.D_i", "cage.width"};
+
+// Logs sizes by which the dynamics leave the rivet table behind: 1 % moves a half's bending stiffness by some per cent.
+static void report_sizes_of_table(Bearing *b)
+{
+    char list[128] = "";
+    for (size_t i = 0; i < sizeof SIZES_OF_TABLE / sizeof *SIZES_OF_TABLE; i++) {
+        const Variable *v = variable_named(SIZES_OF_TABLE[i]);
+        if (fabs(variable_value(v, 0, &b->s.p) - v->start) > 0.01 * v->start)
+            add_name(v->name, list, sizeof list);
+    }
+    if (*list)
+        bearing_log(b, LOG_WARNING,
+                    "%s: more than 1 %% off the start value; contacts and films have the new size, the "
+                    "embedded rivet "
+                    "table (modes, load path, stress) that of the build: build an FMU for this size",
+                    list);
+}
+
+void report_start(Bearing *b)
+{
+    report_without_effect(b);
+    report_parts_left(b);
+    report_sizes_of_table(b);
+}
+
+bool check_start(Bearing *b)
+{
+    const Inputs *u = &b->s.u[0];
+    const bool prescribed = b->s.p.ring.motion == RING_MOTION_PRESCRIBED;
+    const double load[3] = {u->shaft.F_x, u->shaft.F_y, u->shaft.F_z};
+    const double place[3] = {u->shaft.x, u->shaft.y, u->shaft.z};
+    const double *drive = prescribed ? place : load;
+    const char *name = prescribed ? "shaft." : "shaft.F_", *unit = prescribed ? "m" : "N";
+    for (int i = 0; i < 2 * Z; i++) {
+        const double reach = ellipse_reach(&b->model, &b->w, i % 2 == 1, i / 2);
+        if (reach < 0.5 * PI) continue;
+        bearing_log(
+            b, LOG_ERROR,
+            "ball[%d] is pressed out of the %s race's groove at the start: its contact reaches to %g rad, "
+            "less than pi/2 is allowed; %sx = %g %s, %sy = %g %s, %sz = %g %s, shaft.tilt_y = %g rad, "
+            "shaft.tilt_z = %g rad are too much",
+            i / 2 + 1, i % 2 == 1 ? "outer" : "inner", reach, name, drive[0], unit, name, drive[1], unit,
+            name, drive[2], unit, u->shaft.tilt_y, u->shaft.tilt_z);
+        return false;
+    }
+    return true;
+}
+
+static bool is_zero(const void *memory, size_t size)
+{
+    const unsigned char *byte = memory;
+    for (size_t i = 0; i < size; i++)
+        if (byte[i] != 0) return false;
+    return true;
+}
+
+static bool saved_is(Bearing *b, bool condition, const char *what)
+{
+    if (!condition) bearing_log(b, LOG_ERROR, "%s: not what a run can have left there", what);
+    return condition;
+}
+
+// Of each rivet and of all balls together, over the time since the start; every ball adds its own time to the pocket forces.
+static bool check_recorded(Bearing *b, double time)
+{
+    const InstanceState *s = &b->s;
+    const double amounts[] = {s->force_peak, s->dislocation_max, s->duty_time, s->eccentricity_time};
+    const double sums[] = {s->energy_start, s->omega_time};
+    bool fine = values_are_amounts(amounts, sizeof amounts / sizeof amounts[0]) &&
+                values_are_sane(sums, sizeof sums / sizeof sums[0]);
+    fine &= values_are_amounts(s->head_peak, Z) && values_are_amounts(s->mid_peak, Z);
+    fine = saved_is(b, fine, "peaks and sums") &&
+           saved_is(b, event_state_is_valid(&s->event), "counts of events");
+    fine = fine && saved_is(b, statistics_is_valid(&s->force, Z * time), "statistics of the pocket forces");
+    for (int k = 0; fine && k < STRESS_CHANNELS; k++)
+        fine = saved_is(b, statistics_is_valid(&s->head[k], time) && statistics_is_valid(&s->mid[k], time),
+                        "statistics of the stress");
+    for (int k = 0; fine && k < Z; k++)
+        fine = saved_is(b, fatigue_is_valid(&s->fatigue_head[k]) && fatigue_is_valid(&s->fatigue_mid[k]),
+                        "turning points of the stress");
+    return fine;
+}
+
+static bool history_is_valid(const MotionHistory *history)
+{
+    const int steps = history->steps;
+    return values_are_sane(history->v, MOTIONS) && values_are_sane(history->a, MOTIONS) &&
+           values_are_amounts(&history->h, 1) && steps >= 0 && steps <= 2 && (steps == 0 || history->h > 0.0);
+}
+
+// Checks the inputs reached.  A step that stopped halfway leaves a given motion on its way, where its polynomial may be
+// beyond the limits that hold at both ends.
+static bool check_saved_inputs(Bearing *b, const Inputs *reached)
+{
+    Inputs u = *reached;
+    for (int i = 0; i < MOTIONS; i++)
+        ((double *)&u)[MOTION[i].position] = ((double *)&u)[MOTION[i].velocity] = 0.0;
+    return check_reached(b, &u) && saved_is(b, values_are_sane((const double *)reached, N_INPUTS), "inputs");
+}
+
+bool check_saved(Bearing *b)
+{
+    const InstanceState *s = &b->s;
+    const Variable *tolerance = variable_named("solver.tol");
+    if (!saved_is(b, s->initialized == 0 || s->initialized == 1, "the mark of a started run")) return false;
+    if (!s->initialized) {
+        const size_t first = offsetof(InstanceState, u_now), end = offsetof(InstanceState, initialized);
+        if (!saved_is(b, is_zero((const char *)s + first, end - first), "a run that has not been started"))
+            return false;
+        return check_variables(b, CAUSALITY_PARAMETER, &s->p) &&
+               check_variables(b, CAUSALITY_INPUT, &s->u[0]) &&
+               saved_is(b,
+                        values_are_within((const double *)&s->u[1], (size_t)INPUT_ORDERS * N_INPUTS,
+                                          LARGEST_DERIVATIVE),
+                        "derivatives of inputs");
+    }
+    char message[256];
+    bool fine = check_values(b) && check_saved_inputs(b, &s->u_now) && check_temperatures(b, &s->u_now);
+    fine = fine && saved_is(b,
+                            values_are_within((const double *)&s->u[1], (size_t)INPUT_ORDERS * N_INPUTS,
+                                              LARGEST_DERIVATIVE),
+                            "derivatives of inputs");
+    fine = fine && saved_is(b, values_are_sane((const double *)&s->u_now_dot, N_INPUTS), "rates of inputs");
+    fine = fine && saved_is(b, values_are_sane(&s->frame_angle, 1), "the frame's angle");
+    fine = fine && saved_is(b, history_is_valid(&s->history), "the motions given before");
+    fine = fine &&
+           saved_is(b, variable_allows(tolerance, 0, s->tolerance, message, sizeof message), "the tolerance");
+    fine =
+        fine && saved_is(b, integrator_state_is_valid(&s->integrator, s->p.scene.cage == CAGE_MODEL_ELASTIC),
+                         "states and steps");
+    fine = fine && saved_is(b, values_are_sane(&s->t_start, 1) && s->integrator.t >= s->t_start, "time");
+    const double rounding =
+        s->integrator.steps * DBL_EPSILON *
+        fabs(s->integrator.t);  // of the time, not of the lengths of the steps that are summed
+    return fine && check_recorded(b, s->integrator.t - s->t_start + rounding);
+}

@@ -1,0 +1,58 @@
+// Events: what the model's laws do not cover, or what a user wants to know at once.  For each kind the model
+// counts the elements concerned at present and the onsets since the start, and reports the first, second,
+// fourth, eighth ... onset to the log.
+//
+//   land contact   land of a half beyond the guide clearance: e > C (land_film.c has a dry contact there)
+//   pocket exit    centre of a ball outside the cage's section D_i/2 ... D_o/2: a real pocket ends there, that of
+//                  pocket.c does not
+//   ellipse cut    |alpha| + a/R_m > arccos(1 - h D/r_g): the contact ellipse reaches over the shoulder, which
+//                  race_contact.c does not cut off
+//   overpressure   p_max > bearing.p_limit at a race: permanent deformation, which Hertz' law does not know
+//   joint open     plates of a joint apart: u_x > P/k_plate
+//   no clearance   speed, temperatures and fits leave a diametral clearance below 0: the bearing is preloaded
+//   rivet yield    sigma_head_peak or sigma_mid_peak beyond the yield stress since the last communication point;
+//                  the stress is linear elastic
+#pragma once
+
+#include "physics/model.h"
+
+typedef enum {
+    EVENT_LAND_CONTACT,
+    EVENT_POCKET_EXIT,
+    EVENT_ELLIPSE_CUT,
+    EVENT_OVERPRESSURE,
+    EVENT_JOINT_OPEN,
+    EVENT_RIVET_YIELD,
+    EVENT_NO_CLEARANCE,
+    EVENT_COUNT
+} EventKind;
+
+// One kind of event at one instant.
+typedef struct {
+    int count;            // contacts, balls, joints ... at which the event happens
+    int element;          // the worst of them
+    double value, limit;  // of this element, in the unit of the message; value/limit is largest there
+} Event;
+
+// Memory of the events: plain bytes, part of the saved state.
+typedef struct {
+    double onsets[EVENT_COUNT];
+    int active[EVENT_COUNT];
+} EventState;
+
+// Angle from a groove's bottom to which the contact ellipse of ball j reaches [rad], 0 without contact.
+double ellipse_reach(const Model *model, const Work *w, bool outer, int j);
+
+// All kinds of events at the state whose results are w.  head_peak, mid_peak: peak stresses of each rivet
+// [Pa].
+void events_now(const Model *model, const Work *w, const double head_peak[Z], const double mid_peak[Z],
+                Event now[EVENT_COUNT]);
+
+// Counts the event's onset if it has one; returns whether this onset is to be reported.
+bool event_onset(EventState *state, EventKind kind, const Event *now);
+
+// Whether counting onsets can have made the state.
+bool event_state_is_valid(const EventState *state);
+
+// Text of the message on an event.
+void event_text(EventKind kind, const Event *now, char *text, size_t size);

@@ -1,0 +1,93 @@
+// One instance of the bearing: its saved state, and all that is computed from this state.  For the core's own
+// files only.
+#pragma once
+
+#include "cage/elastic/elastic_half.h"
+#include "instance/events.h"
+#include "instance/fatigue.h"
+#include "solver/integrator.h"
+#include "cage/two_half/joint_follow.h"
+#include "instance/part.h"
+#include "physics/ring_load.h"
+#include "instance/statistics.h"
+
+// Floors of the statistics' bins: smaller values are not resolved.
+static const double FORCE_FLOOR = 1e-3;  // [N]
+static const double STRESS_FLOOR = 1e3;  // [Pa]
+
+// Channels of the stress statistics: each rivet, and the worst rivet at each instant.
+enum { WORST_RIVET = Z, STRESS_CHANNELS = Z + 1 };
+
+// The saved state: all that the instance's future depends on, in plain bytes.
+typedef struct {
+    Parameters p;
+    Inputs u[INPUT_ORDERS + 1];  // inputs of the next step: their values at its start and their derivatives
+    Inputs u_now, u_now_dot;     // inputs under which the present state was reached, and their rates
+    MotionHistory history;       // of the motions that the host gave
+    double frame_angle;          // by which the frame has turned since the start [rad]
+    IntegratorState integrator;
+    double t_start, tolerance;
+    double energy_start;  // total energy at the start [J]
+    // since the last communication point: largest pocket force [N], largest stresses of each rivet [Pa]
+    double force_peak, head_peak[Z], mid_peak[Z];
+    // since start.settle: largest slip of a joint [m]; integrals over time of pocket contact, cage speed,
+    // eccentricity
+    double dislocation_max;
+    double duty_time, omega_time, eccentricity_time;
+    StatisticsChannel force, head[STRESS_CHANNELS], mid[STRESS_CHANNELS];
+    FatigueChannel fatigue_head[Z], fatigue_mid[Z];
+    EventState event;
+    int initialized;
+} InstanceState;
+
+typedef struct Part Bearing;  // this FMU's part (part.h)
+
+struct Part {
+    PartHost host;
+    InstanceState s;
+    Parameters hot;  // s.p at the temperatures in s.u_now: what the model sees
+    Derived d;
+    Inputs start;  // start values of the variable table
+    InputTrajectory trajectory;
+    RingLoad ring_load;
+    Model model;
+    ElasticHalf *elastic;  // of a scene with elastic halves, kept for the next one; else NULL
+    Work w;
+    JointTangents joints;  // of the accepted steps since the last communication point
+    double t_point;        // next communication point [s]
+    Outputs out;
+    Kernels kernels;
+    Integrator *integrator;
+    unsigned current;            // one bit for each output group: set while the group is up to date
+    double y_dot[N_ALL_STATES];  // dy/dt at the present state
+    bool evaluated;              // w and y_dot belong to the present state and inputs
+    bool reported;               // inputs and parameters without effect have been logged
+    double cpu_time;             // processor time of all steps [s]
+};
+
+// Fills one group of outputs from the last evaluation and the saved state.
+void outputs_fill(Bearing *b, OutputGroup group);
+
+// Whether parameters and inputs make a bearing; refusals go to the log.
+bool check_all(Bearing *b);
+
+// Logs once which inputs and parameters differ from their start values but have no effect, by ring.motion.
+void report_without_effect(Bearing *b);
+
+// Logs the same before the start, and settings that do less than their names promise.
+void report_start(Bearing *b);
+
+// Whether all balls lie in their grooves at the start; w holds the results there.
+bool check_start(Bearing *b);
+
+// Whether the inputs stay within their limits over a step of length h; inputs may change at every step.  Temperatures
+// must leave the bearing its clearances and the oil a viscosity within its limits.
+bool check_inputs(Bearing *b, double h);
+
+// Whether b->s, copied from bytes of unknown origin, is what a run can have left there, as far as single
+// values tell.
+bool check_saved(Bearing *b);
+
+// Sends a message to the host, formatted as by printf.
+void bearing_log(Bearing *b, LogCategory category, const char *format, ...)
+    __attribute__((format(printf, 3, 4)));

@@ -1,0 +1,105 @@
+// Derivatives: the kernel files and the outputs are compiled once more, with dual numbers for scalars.
+#define DUAL
+#define ISA dual
+#define LANE_WIDTH 1
+
+#include "instance/jacobian.h"
+
+#include "physics/ball.c"
+#include "cage/elastic/cage_elastic.c"
+#include "cage/common/cage_joint.c"
+#include "physics/drag.c"
+#include "cage/elastic/elastic_wall.c"
+#include "instance/energy.c"
+#include "cage/two_half/half_path.c"
+#include "cage/two_half/joint_follow.c"
+#include "cage/common/joint_law.c"
+#include "physics/land_film.c"
+#include "instance/outputs.c"
+#include "cage/common/pocket.c"
+#include "physics/race_contact.c"
+#include "physics/rhs.c"
+#include "physics/ring.c"
+#include "rivet/rivet_rom.c"
+#include "rivet/rivets.c"
+
+enum {
+    LOAD_SCALARS = sizeof(RingLoad) / sizeof(scalar),
+    TRAJECTORY_SCALARS = sizeof(InputTrajectory) / sizeof(scalar),
+    WORK_SCALARS = sizeof(Work) / sizeof(scalar),
+    OUTPUT_SCALARS = sizeof(Outputs) / sizeof(scalar)
+};
+
+// Dual numbers from n values and derivatives (NULL: all derivatives are 0).
+static void scalars_join(int n, const double *value, const double *derivative, scalar *x)
+{
+    for (int i = 0; i < n; i++) x[i] = scalar_dual(value[i], derivative ? derivative[i] : 0.0);
+}
+
+static void scalars_derivative(int n, const scalar *x, double *derivative)
+{
+    for (int i = 0; i < n; i++) derivative[i] = scalar_derivative(x[i]);
+}
+
+void jacobian_product(const Model *model, double t, const double *y, const double *dy,
+                      const double *d_ring_load, double *dy_dot, double *dw)
+{
+    RingLoad ring_load;
+    InputTrajectory trajectory;
+    Work work = {0};
+    scalar state[N_ALL_STATES] = {0.0}, rate[N_ALL_STATES] = {0.0};
+    const int states = states_of(model);
+    const Model dual = {model->p, model->d, &ring_load, NULL, model->elastic};
+    scalars_join(LOAD_SCALARS, (const double *)model->ring_load, NULL, (scalar *)&ring_load);
+    if (model->trajectory) {
+        scalars_join(TRAJECTORY_SCALARS, (const double *)model->trajectory, NULL, (scalar *)&trajectory);
+        ring_load_at(&trajectory, t, &ring_load);
+    }
+    if (d_ring_load)
+        for (int i = 0; i < LOAD_SCALARS; i++) ((scalar *)&ring_load)[i] += scalar_dual(0.0, d_ring_load[i]);
+    scalars_join(states, y, dy, state);
+    rhs(&dual, t, state, rate, &work);
+    scalars_derivative(states, rate, dy_dot);
+    if (dw) scalars_derivative(WORK_SCALARS, (const scalar *)&work, dw);
+}
+
+void jacobian_matrix(const Model *model, double t, const double *y, double *J)
+{
+    const int states = states_of(model);
+    for (int j = 0; j < states; j++) {
+        double dy[N_ALL_STATES] = {0.0};
+        dy[j] = 1.0;
+        jacobian_product(model, t, y, dy, NULL, &J[j * states], NULL);
+    }
+}
+
+void jacobian_outputs(const Model *model, const double *trajectory, double t, double dt, const double *du,
+                      const double *y, const double *dy, double *d_out)
+{
+    InputTrajectory inputs;
+    RingLoad ring_load;
+    Work work = {0};
+    Outputs out = {0};
+    scalar state[N_ALL_STATES] = {0.0}, rate[N_ALL_STATES] = {0.0};
+    const int states = states_of(model);
+    const Model dual = {model->p, model->d, &ring_load, NULL, model->elastic};
+    scalars_join(TRAJECTORY_SCALARS, trajectory, NULL, (scalar *)&inputs);
+    if (du)
+        for (int i = 0; i < N_INPUTS; i++) ((scalar *)&inputs.u[0])[i] += scalar_dual(0.0, du[i]);
+    ring_load_at(&inputs, scalar_dual(t, dt), &ring_load);
+    scalars_join(states, y, dy, state);
+    rhs(&dual, t, state, rate, &work);
+    const Evaluation at = {&dual, state, rate, &work, rivets_load, rivet_rom_stress};
+    for (int group = 0; group < GROUP_COUNT; group++) outputs_evaluate(&at, group, &out);
+    scalars_derivative(OUTPUT_SCALARS, (const scalar *)&out, d_out);
+}
+
+void jacobian_housing(const double *w, const double *dw, double dF[3], double dM[3])
+{
+    Work work;
+    scalar F[3], M[3];
+    scalars_join(WORK_SCALARS, w, dw, (scalar *)&work);
+    housing_reaction(&work, F, M);
+    scalars_derivative(3, F, dF);
+    scalars_derivative(3, M, dM);
+}

@@ -1,9 +1,0 @@
-// Oil film between the lands of the cage halves and the outer ring.  Equations in land_film.c.
-#pragma once
-
-#include "isa.h"
-#include "model.h"
-
-// Adds force and moment to both halves (Rotor F, M); sets their film rates, the dissipated power and the
-// elastic energy.
-void land_film_force(const Model *model, Work *w);

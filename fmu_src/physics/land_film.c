@@ -1,0 +1,219 @@
+// Land and outer ring: short journal bearing whose film carries where the gap closes, dry contact behind it.
+//
+//         outer ring       e    land's centre from the ring's axis, eps = e/C, gap h = C - e.n(phi)
+//      .-----------.       V    pure squeeze velocity e_dot - (omega/2) e_x x e: the land turns, the ring stands
+//     /   .-----.   \      p = 6 eta (V.n)/h^3 (L^2/4 - z^2) over the width L where V.n > 0, else cavitated
+//    |   (   o e |   |     F = -eta R L^3 int n (V.n)/h^3 dphi = -kappa (I_c V + I_s V_perp)
+//     \   '-----'   /      kappa = eta R L^3/C^3,  V_perp = e_x x V
+//      '-----------'
+//   with a = eps.V/|V|, b = eps.V_perp/|V|, q^2 = 1 - eps^2, S = pi/2 + atan(a/q), phi = -pi/2 ... pi/2:
+//   I_c = int cos^2 phi/(1 - a cos phi - b sin phi)^3 dphi = 3 a/q^4 + S (q^2 + 3 a^2)/q^5
+//   I_s = int sin phi cos phi/(...)^3 dphi = 2 b/q^4 + a^2 b/(q^4 (1 - b^2)) + 3 a b S/q^5
+//   I_t = int sin^2 phi/(...)^3 dphi = a/(q^2 (1 - b^2)) + 3 a b^2/(q^4 (1 - b^2)) + 2 a b^2/(q^2 (1 - b^2)^2)
+//                                      + S (q^2 + 3 b^2)/q^5
+//
+// An outer ring that moves (outer_ring.h): e, e_dot and omega are those against its material, and the forces are along
+// its axes.  For a ring that turns this is Reynolds' equation for two turning surfaces: squeeze e_dot - (omega + omega_e)/2
+// e_x x e.
+//
+// Steady rotation gives Ocvirk's force (a = 0), pure squeeze that of the pi-film.  F is the gradient of an
+// integral of (V.n)^2/h^3 over the closing half, so that -dF/dV = kappa (I_c, I_s; I_s, I_t) exactly: these
+// are the stiff rates.
+//
+// Shear heats the film between walls at the oil's temperature; viscosity exp(-beta (T - T_wall)).  In plane Couette
+// flow the shear stress then is asinh(s)/(s sqrt(1 + s^2)) times the isothermal one, s^2 = Na/8, Na = beta eta
+// U^2/k, whatever the gap (Nahme (1940), Ing.-Archiv 11, 191); the film's viscosity is lower by this factor.
+//
+// The force is regular at e = 0, C0 in V (cavitation) and C1 elsewhere.  At the wall the film stays finite:
+// q^2 is g_0 at the wall and tends to g_0/2 behind it, and eps is capped at 1.2.  Behind the wall the dry
+// contact F = K_land (e - C)^1.5 carries.
+#include "physics/land_film.h"
+
+#include "physics/hertz.h"
+#include "physics/outer_ring.h"
+#include "physics/traction.h"
+
+static const double EPS_CAP = 1.2;
+
+// q^2: 1 - eps^2 inside, g_0 at the wall, and g_0/2 far behind the wall.
+INLINE wide land_film_gap(wide eps, double g_0)
+{
+    const double floor = 0.5 * g_0;
+    const wide above = 1.0 - eps * eps - floor;
+    return floor + 0.5 * (above + wide_sqrt(above * above + 8.0 * floor * floor));
+}
+
+// The integrals at the head of this file, times q^4.
+typedef struct {
+    wide I_c, I_s, I_t;
+} FilmIntegrals;
+
+INLINE FilmIntegrals land_film_integrals(wide a, wide b, wide q2, wide inv_q)
+{
+    const wide inv_c2 = 1.0 / (q2 + a * a);                    // c^2 = 1 - b^2
+    const wide S = inv_q * (0.5 * PI + wide_atan(a * inv_q));  // S/q
+    return (FilmIntegrals){3.0 * a + S * (q2 + 3.0 * a * a), 2.0 * b + a * a * b * inv_c2 + 3.0 * a * b * S,
+                           a * inv_c2 * (q2 + b * b * (3.0 + 2.0 * q2 * inv_c2)) + S * (q2 + 3.0 * b * b)};
+}
+
+// Viscosity of the heated film / eta; s_2: Na/8.
+INLINE wide land_film_heating(wide s_2)
+{
+    const wide s = wide_sqrt(s_2), root = wide_sqrt(1.0 + s_2);
+    const wide heated = wide_log(s + root) / (wide_max(s, wide_set(1e-3)) * root);
+    return wide_select(wide_above(s, 1e-3), heated, 1.0 - (2.0 / 3.0) * s_2);
+}
+
+// A land's middle and its motion against the outer ring, in the plane across the outer ring's axis.
+typedef struct {
+    wide e_y, e_z, v_y, v_z, omega;
+} LandMotion;
+
+// Position and velocity of the lands' middles, x + a x_land and v + Omega x a x_land = v + a_dot x_land; the outer
+// ring is at rest in its place.
+INLINE LandMotion land_motion(const Rotor *h0, const Rotor *h1, wide x_land)
+{
+    return (LandMotion){wide_pair(h0->x[1], h1->x[1]) + x_land * wide_pair(h0->a[1], h1->a[1]),
+                        wide_pair(h0->x[2], h1->x[2]) + x_land * wide_pair(h0->a[2], h1->a[2]),
+                        wide_pair(h0->v[1], h1->v[1]) + x_land * wide_pair(h0->a_dot[1], h1->a_dot[1]),
+                        wide_pair(h0->v[2], h1->v[2]) + x_land * wide_pair(h0->a_dot[2], h1->a_dot[2]),
+                        wide_pair(h0->Omega[0], h1->Omega[0])};
+}
+
+// The same against the outer ring's material, along its axes.
+INLINE LandMotion land_motion_against(const Rotor *outer, const Rotor *h0, const Rotor *h1, wide x_land)
+{
+    const Rotor *half[2] = {h0, h1};
+    scalar motion[5][2];
+    for (int h = 0; h < 2; h++) {
+        const scalar x = wide_lane(x_land, h % HALVES);
+        scalar p[3], v[3], turn[3], carried[3];
+        for (int i = 0; i < 3; i++) {
+            p[i] = half[h]->x[i] + x * half[h]->a[i] - outer->x[i];
+            turn[i] = half[h]->Omega[i] - outer->Omega[i];
+        }
+        cross3(outer->Omega, p, carried);
+        for (int i = 0; i < 3; i++) v[i] = half[h]->v[i] + x * half[h]->a_dot[i] - outer->v[i] - carried[i];
+        motion[0][h] = dot3(p, outer->b_y), motion[1][h] = dot3(p, outer->b_z);
+        motion[2][h] = dot3(v, outer->b_y), motion[3][h] = dot3(v, outer->b_z);
+        motion[4][h] = dot3(turn, outer->a);
+    }
+    return (LandMotion){wide_pair(motion[0][0], motion[0][1]), wide_pair(motion[1][0], motion[1][1]),
+                        wide_pair(motion[2][0], motion[2][1]), wide_pair(motion[3][0], motion[3][1]),
+                        wide_pair(motion[4][0], motion[4][1])};
+}
+
+// Adds force (F_y, F_z) and moment M_x along the outer ring's axes, at the land x from the half's centre, to its wrench.
+INLINE void add_wrench_along(const Rotor *outer, scalar x, scalar F_y, scalar F_z, scalar M_x, Rotor *half)
+{
+    scalar F[3], arm[3], lever[3];
+    for (int i = 0; i < 3; i++) {
+        F[i] = F_y * outer->b_y[i] + F_z * outer->b_z[i];
+        arm[i] = half->a[i] * x;
+    }
+    cross3(arm, F, lever);
+    for (int i = 0; i < 3; i++) {
+        half->F[i] += F[i];
+        half->M[i] += M_x * outer->a[i] + lever[i];
+    }
+}
+
+// The lands of HALVES halves side by side, beginning with half `first`.  outer: the outer ring, NULL if it is at rest in
+// its place.
+INLINE void land_film_packet(const Model *model, Work *w, int first, const Rotor *outer)
+{
+    const Parameters *p = model->p;
+    const Derived *d = model->d;
+    Rotor *h0 = &w->half[first], *h1 = &w->half[first + HALVES - 1];
+    const wide x_land = wide_pair(first == 0 ? -p->cage.land_x : p->cage.land_x, p->cage.land_x);
+
+    const LandMotion land =
+        outer == NULL ? land_motion(h0, h1, x_land) : land_motion_against(outer, h0, h1, x_land);
+    const wide e_y = land.e_y, e_z = land.e_z, v_y = land.v_y, v_z = land.v_z, omega = land.omega;
+
+    // film: direction n of V, eccentricity (a, b) along and across V, gap function q^2
+    const wide V_y = v_y + 0.5 * omega * e_z, V_z = v_z - 0.5 * omega * e_y;
+    const wide inv_V = 1.0 / wide_sqrt(V_y * V_y + V_z * V_z + 1e-30);
+    const wide n_y = V_y * inv_V, n_z = V_z * inv_V;
+    const wide e_2 = e_y * e_y + e_z * e_z + 1e-30, inv_e = 1.0 / wide_sqrt(e_2), e = e_2 * inv_e;
+    const double inv_C = 1.0 / d->C_land;
+    const wide eps = e * inv_C, cap = wide_min(wide_set(inv_C), EPS_CAP * inv_e);
+    const wide a = (e_y * n_y + e_z * n_z) * cap, b = (e_z * n_y - e_y * n_z) * cap;
+    const wide q2 = land_film_gap(eps, p->cage.g_0), inv_q = 1.0 / wide_sqrt(q2), inv_q2 = inv_q * inv_q;
+    const FilmIntegrals film = land_film_integrals(a, b, q2, inv_q);
+    const wide I_c = film.I_c, I_s = film.I_s, I_t = film.I_t;
+    const wide heated = d->nahme > 0.0 ? land_film_heating(d->nahme * omega * omega) : wide_set(1.0);
+    const wide kappa = d->kappa * heated * inv_q2 * inv_q2;
+    wide F_y = -kappa * (I_c * V_y - I_s * V_z), F_z = -kappa * (I_c * V_z + I_s * V_y);
+    const wide couette = d->couette * heated * inv_q;
+
+    // dry contact and friction where the gap is smallest; in mixed lubrication asperities also carry their
+    // share of the film force
+    const wide u_y = e_y * inv_e, u_z = e_z * inv_e;
+    const wide pen = e - d->C_land, pen_dot = v_y * u_y + v_z * u_z;
+    const wide N_0 = hertz_load(wide_set(p->cage.K_land), pen);
+    const wide N = hertz_damped(N_0, wide_set(p->cage.lambda), pen_dot);
+    wide N_mu = N;
+    if (p->scene.lubrication == LUBRICATION_MIXED) {
+        const wide ln_Lambda = d->ln_land + wide_log(q2 / (1.0 + eps));
+        N_mu += traction_asperity_share(ln_Lambda) * wide_sqrt(F_y * F_y + F_z * F_z);
+    }
+
+    // friction along t = e_x x u
+    const wide R = wide_set(0.5 * p->cage.D_o);
+    const wide slip = v_z * u_y - v_y * u_z + omega * R;
+    const wide g = p->cage.mu_land * N_mu / wide_sqrt(slip * slip + p->cage.v_c * p->cage.v_c);
+    const wide F_t = -g * slip;
+    F_y += -N * u_y - F_t * u_z;
+    F_z += -N * u_z + F_t * u_y;
+    const wide M_x = R * F_t - couette * omega;
+
+    // power of the forces, of which the dry contact stores a part
+    const wide power = F_y * v_y + F_z * v_z + M_x * omega;
+    const wide elastic = hertz_energy(wide_set(p->cage.K_land), pen), elastic_rate = N_0 * pen_dot;
+
+    // -dF/dv in the global frame
+    const wide K_yy = kappa * (I_c * n_y * n_y - 2.0 * I_s * n_y * n_z + I_t * n_z * n_z);
+    const wide K_zz = kappa * (I_c * n_z * n_z + 2.0 * I_s * n_y * n_z + I_t * n_y * n_y);
+    const wide K_yz = kappa * ((I_c - I_t) * n_y * n_z + I_s * (n_y * n_y - n_z * n_z));
+
+    // wrench on each half about its geometric centre
+    for (int i = 0; i < HALVES; i++) {
+        const int h = first + i;
+        Rotor *half = &w->half[h];
+        const scalar x = wide_lane(x_land, i), R_h = wide_lane(R, i);
+        const scalar F[3] = {0.0, wide_lane(F_y, i), wide_lane(F_z, i)};
+        const scalar arm[3] = {half->a[0] * x, half->a[1] * x, half->a[2] * x};
+        if (outer == NULL) {
+            half->F[1] += F[1];
+            half->F[2] += F[2];
+            half->M[0] += wide_lane(M_x, i) + arm[1] * F[2] - arm[2] * F[1];
+            half->M[1] += -arm[0] * F[2];
+            half->M[2] += arm[0] * F[1];
+        } else
+            add_wrench_along(outer, x, F[1], F[2], wide_lane(M_x, i), half);
+        w->film_yy[h] = wide_lane(K_yy, i), w->film_yz[h] = wide_lane(K_yz, i),
+        w->film_zz[h] = wide_lane(K_zz, i);
+        w->film_spin[h] = wide_lane(couette, i) + wide_lane(g, i) * R_h * R_h;
+        w->land_elastic += wide_lane(elastic, i);
+        w->cage_dissipated -= wide_lane(power, i) + wide_lane(elastic_rate, i);
+    }
+}
+
+// Lands of a cage whose outer ring moves.
+static __attribute__((noinline)) void land_film_moving(const Model *model, Work *w)
+{
+    Rotor outer = outer_ring(model->ring_load);
+    rotor_body_axes(&outer, 1.0, 0.0);
+    for (int first = 0; first < 2; first += HALVES) land_film_packet(model, w, first, &outer);
+}
+
+void land_film_force(const Model *model, Work *w)
+{
+    w->land_elastic = w->cage_dissipated = 0.0;
+    if (outer_ring_moves(model->ring_load))
+        land_film_moving(model, w);
+    else
+        for (int first = 0; first < 2; first += HALVES) land_film_packet(model, w, first, NULL);
+    w->land_dissipated = w->cage_dissipated;  // drag_cage adds to what the cage dissipates
+}

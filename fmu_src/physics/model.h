@@ -1,0 +1,272 @@
+// Data of the model: constants that are derived once, loads that are held over a step, and the results of one
+// evaluation of the right-hand side.
+//
+// Frame: X axial, Y and Z radial.  Ball j has its own cylindrical frame (x, r, t): x along X, r from the axis
+// through the ball, t = x cross r.
+//
+// Letters: i inner, e outer race, c cage, half h = 0 on the side of -X, h = 1 on +X; alpha contact angle;
+// n unit normal from race or pocket surface into it, seen from the ball (the ball is pushed along -n).
+#pragma once
+
+#include "cage/two_half/half_path.h"
+#include "numbers/lanes.h"
+#include "numbers/variable_table.h"
+
+typedef struct ElasticHalf ElasticHalf;  // elastic_half.h
+
+enum { N_MODES = Y_MODE_D - Y_MODE_S };  // room for the modes of a half
+
+enum { ENTRIES = (N_MODES / 2 + 7) / 8 * 8 };  // of one kind (elastic_half.h)
+
+// One number for each mode of a half; eight modes side by side may reach beyond the last one.
+typedef scalar mode_array[2 * ENTRIES] __attribute__((aligned(8 * sizeof(scalar))));
+
+// One vector for each ball of a packet, in the balls' own frames.
+typedef struct {
+    wide x, r, t;
+} vec;
+
+// ---- constants, written by model_derive at the start and where a temperature changes ----------------------
+typedef struct {
+    double K;        // Q = K delta^1.5 [N/m^1.5]
+    double a, b;     // semi-axes of the contact ellipse / Q^(1/3), a >= b [m/N^(1/3)]
+    double a_delta;  // a / delta^(1/2) [m^0.5]
+    double k;        // a/b
+    double R_x;      // reduced radius in the rolling direction [m]
+} Hertz;
+
+typedef struct {
+    double R_g;         // radius of the circle of groove-curvature centres [m]
+    double r_g;         // groove radius f D [m]
+    double R_m;         // radius of the deformed contact surface across rolling [m]
+    double rolling;     // F_R = rolling U^0.66 Q^0.47 [N]
+    double horizontal;  // F_H / F_R = 2 R_x / R of the ball
+    double ln_Lambda;   // ln of Lambda at U = 1 m/s, Q = 1 N
+    Hertz hertz;
+} Race;
+
+// Growth of the inner groove's radius by rotation and fit (ring_fit.h).
+typedef struct {
+    double growth;   // by rotation with a loose shaft / omega^2 [m.s2]
+    double per_fit;  // per radial interference of the tight shaft
+    double fit,
+        loosening;  // radial interference at standstill [m], what the rotation takes of it / omega^2 [m.s2]
+} RingFit;
+
+// Relative rigid motions of half 1 against half 0, in the frame of half 0: x, about y, about z, y, z, spin.
+enum { RELATIVE_MOTIONS = 6 };
+
+// Inverse inertia of these motions as the joints feel it [1/kg, 1/(kg.m2)]; what of y and z the centres of mass take; common
+// tilt [rad] by unit of y or z at the joints (cage_substeps.c).
+typedef struct {
+    double inverse[RELATIVE_MOTIONS], part, tilt;
+} RelativeInertia;
+
+typedef struct {
+    // balls and races
+    constants R;  // ball radius [m]
+    double m, J;  // ball mass [kg], moment of inertia [kg.m2]
+    Race inner, outer;
+    RingFit fit;
+    double starvation, ln_heating;  // of the inlets: exponent / U [s/m], ln of the heating term at U = 1 m/s
+    double ln_thermal;              // ln of the thermal loading L of the race films at U = 1 m/s
+
+    // mixture; densities in proportion to that of the mixture, or of the oil where the flow gives the filling
+    double flooded_omega, air;  // shaft speed up to which oil fills the space [rad/s], density air / oil
+    double sigma;               // shaft speed / orbital speed without slip
+    double ball_area, inner_wall, outer_wall, fresh;   // B [m2], I and E / |omega|^-0.25, N |omega|
+    double drag, churning_viscous, churning_boundary;  // of a ball / v^2 [N.s2/m2], / omega, / omega^1.5
+    double ring_drag;  // moment on the ring / (omega - stream)^2 |omega|^-0.25
+
+    // pockets
+    double ln_pocket_piezo;  // ln Lambda of the pocket film at U = 1 m/s, Q = 1 N: piezoviscous,
+    double ln_pocket_rigid;  // isoviscous-rigid
+    double pocket_rolling;   // F_R = pocket_rolling U^0.66 Q^0.47
+    Hertz pocket;
+    double pocket_radius;              // [m]
+    constants R_c;                     // radius of each pocket [m]
+    constants pocket_cos, pocket_sin;  // of the body angle 2 pi j / Z + dtheta of pocket j
+
+    // cage half
+    double J_p, J_t;         // moments of inertia: polar, transverse about the centre of mass [kg.m2]
+    double com_x[2], com_e;  // centre of mass from the geometric centre: axial, toward pocket 1 [m]
+    double C_land;           // radial guide clearance [m]
+    double kappa;            // eta R L^3 / C^3 [N.s/m]
+    double couette;          // Couette torque / speed of a land [N.m.s]
+    double nahme;            // (Na/8) / omega^2 of a land's film, 0 without heating [s2]
+    double ln_land;          // ln Lambda of a land film of thickness C
+    double disk_laminar, disk_turbulent;                // end-face drag moment / |omega|^1.5, |omega|^1.8
+    double cylinder_laminar, cylinder_vortex;           // cylinder drag moment / |omega|, |omega|^1.539
+    double disk_laminar_omega, cylinder_laminar_omega;  // cage speeds below which each is laminar [rad/s]
+
+    // joint
+    constants rivet_y, rivet_z;  // position of rivet k in a half [m]: angle 2 pi (k + 1/2) / Z, pitch circle
+    constants intact;            // 1, or 0 for a rivet that is broken
+    constants P;                 // preload [N], 0 of a broken rivet
+    double P_mean;               // preload of the rivets that are not broken, mean [N]
+    constants fit_eff;           // elastic fit of the same pressure [m]
+    unsigned fit_flags[Z];       // rivet_rom_fit_flags
+    double k_rivet, k_plate, k_plate_t, k_head;  // stiffnesses [N/m]
+    constants k_hole, hole_gap;  // stiffness of the hole [N/m], diametral play of the shank [m]
+    bool any_broken;
+    double c_joint;     // axial damping of one closed joint [N.s/m]
+    double spin[ROWS];  // rows of bonded joints (half_path.h) under the centrifugal load, per (rad/s)^2
+
+    RelativeInertia relative;  // of the halves, for the substeps of elastic ones
+
+    // whole state
+    double scale[SCALE_COUNT];  // error that tolerance 1 allows, by class of state
+    double inertia[N_STATES];   // of balls and cage in each velocity, of orbital speeds / r^2; 0 elsewhere
+} Derived;
+
+// All members of the structs from here to Work are scalars, so that jacobian.h can give the derivative of
+// each.
+
+// ---- inputs over a communication step; written by input_trajectory_update ---------------------------------
+typedef struct {
+    scalar t_0;                  // communication point [s]
+    Inputs u[INPUT_ORDERS + 1];  // inputs there, and their derivatives
+    scalar pulse_r, pulse_a;     // radial and axial amplitude of the half-sine in progress [N]; 0 if none is
+    scalar pulse_start, pulse_rate;  // its start [s], pi / duration [1/s]
+    scalar gravity[2], radius;       // parameters gravity.y, gravity.z [m/s2] and frame.radius [m]
+    scalar frame_angle;              // by which the frame has turned since the start, at t_0 [rad]
+} InputTrajectory;
+
+// ---- loads and motions that the inputs impose on the bearing at one time; written by ring_load_at ---------
+typedef struct {
+    scalar F[3], M[2];   // load [N], moment about Y, Z [N.m]
+    scalar omega;        // speed [rad/s]
+    scalar beta, gamma;  // direction cosines of the shaft's tilt
+    scalar omega_dot;    // rate of the speed [rad/s2]
+
+    // motion of the inner ring where it is prescribed: position, velocity, acceleration; rates of the cosines
+    scalar x[3], v[3], a[3];
+    scalar beta_dot, gamma_dot, beta_ddot, gamma_ddot;
+
+    // motion of the outer ring: position, velocity, direction cosines and their rates, speed [rad/s]
+    scalar outer_x[3], outer_v[3];
+    scalar outer_beta, outer_gamma, outer_beta_dot, outer_gamma_dot, outer_omega;
+    scalar outer_moves;  // not 0 if any of these is not
+
+    // the frame: gravity less the acceleration of the bearing's centre [m/s2], speed [rad/s] and its rate
+    scalar field[3], frame_omega, frame_omega_dot;
+    scalar frame_turns;  // not 0 if one of the last two is not
+} RingLoad;
+
+// ---- a rigid body with an axis: inner ring or cage half; written by rotor_axis, rotor_body_axes -----------
+typedef struct {
+    scalar x[3], v[3];      // geometric centre: position, velocity
+    scalar a[3], a_dot[3];  // axis: unit vector (a_x, gamma, -beta) and its rate
+    scalar Omega[3], s;     // angular velocity a x a_dot + s a, spin s
+    scalar b_y[3], b_z[3];  // body axes across the axis (cage halves)
+    scalar c[3];            // centre of mass - geometric centre (cage halves)
+    scalar F[3], M[3];      // force and moment about the geometric centre, by all contacts
+} Rotor;
+
+// ---- the balls in the pockets of one half; written by pocket_force, 0 for pockets without contact ---------
+typedef struct {
+    ball_array Q;                             // contact load [N]
+    ball_array F_x, F_r, F_t;                 // force on the half in the pocket's frame [N]
+    ball_array push_x, push_t;                // its normal part
+    ball_array half_F_x, half_F_y, half_F_z;  // force on the half, global frame
+    ball_array half_M_x, half_M_y, half_M_z;  // moment on the half about its geometric centre, global frame
+} Pockets;
+
+// ---- results of one evaluation of the right-hand side, in the order in which they are written -------------
+typedef struct {
+    // position and velocity of the balls: copies of y (ball_kinematics)
+    ball_array x, r, theta, v_x, v_r, omega_m, omega_x, omega_r, omega_t;
+    ball_array cos_theta, sin_theta, v_t;
+    Rotor ring, half[2];
+
+    // of the outer ring and of the frame, for what is recorded over steps (evaluate in rhs.c)
+    scalar outer_x[3], outer_gamma, outer_beta, frame_omega;
+
+    // total force and moment on the ball about its centre (set by race_contact_force, then pocket_force and
+    // drag_force add theirs), power dissipated by contacts and drag [W]
+    ball_array F_x, F_r, F_t, M_x, M_r, M_t;
+    ball_array dissipated;
+
+    // its parts [W]: races, of it the inlet's rolling friction and the spin about the normal
+    // (race_contact_force), pockets (cleared there, added by pocket_force), drag (drag_force)
+    ball_array race_dissipated, inlet_dissipated, spin_dissipated, pocket_dissipated, drag_dissipated;
+
+    // stiff rates of the race contacts (race_contact_force): |traction|/|slip| [N.s/m], moment/spin about the
+    // normal [N.m.s]
+    ball_array g_i, g_e, g_spin_i, g_spin_e;
+
+    // stiff rates of the ball's velocities by the pockets, -d(acceleration)/d(velocity) [1/s] (cleared by
+    // race_contact_force, added by pocket_force)
+    ball_array D_x, D_r, D_t, D_omega_x, D_omega_r, D_omega_t;
+
+    // wrench of the race contacts on the inner ring about its centre, global frame
+    ball_array ring_F_x, ring_F_y, ring_F_z, ring_M_x, ring_M_y, ring_M_z;
+
+    // contact results: approaches [m], loads [N], normals, mean surface speeds [m/s]
+    ball_array delta_i, delta_e, Q_i, Q_e, n_ix, n_ir, n_it, n_ex, n_er, U_i, U_e;
+    ball_array delta_c[2];  // approach of ball and pocket of each half
+    Pockets pocket[2];      // of each half; a rigid cage has all pocket forces in the first
+
+    // joints, in the frame of half 0 (cage_joint_force): offset and velocity of half 1 against half 0, rivet
+    // tension, plate force, forces on half 1 by plates (S), heads (H) and hole (B), rates of the friction
+    // states, power
+    ball_array u_x, u_y, u_z, v_jx, v_jy, v_jz;
+    ball_array T, N_plate, S_y, S_z, H_y, H_z, B_y, B_z;
+    ball_array plate_y_dot, plate_z_dot, head_y_dot, head_z_dot;
+    ball_array plate_rate, head_rate;  // decay D of the friction states, z' = v - D z [1/s]
+    ball_array k_bearing;              // stiffness of the hole where the shank bears, else 0 [N/m]
+    ball_array joint_dissipated;
+
+    // mixture (drag_mixture): density / that of the derived constants, angular speed about X [rad/s],
+    // |shaft speed|^-0.25; power of its friction on the ring [W] (drag_ring)
+    scalar filling, stream, wall;
+    scalar ring_drag_dissipated;
+
+    // cage (land_film_force, drag_cage): power of lands and drag together, of the lands, of the drag [W]
+    scalar cage_dissipated, land_dissipated, cage_drag_dissipated;
+
+    // lands (land_film_force): elastic energy [J], film rates -dF/dv and -dM/domega of each land
+    scalar land_elastic;
+    scalar film_yy[2], film_yz[2], film_zz[2], film_spin[2];
+
+    // elastic halves (cage_elastic.c): coordinates of the modes and their rates, by half [m, m/s]; how far a wall can have
+    // moved [m]; moment of inertia that the modes add [kg.m2] and its rate; modal forces on the walls [N] (cleared
+    // by cage_elastic_kinematics, added by pocket_force)
+    mode_array q[2], q_dot[2], wall_force[2];
+    mode_array pull_S, pull_D;  // of the joints on the modes [N]: to be taken off S, on D
+    scalar reach[2], more_J[2], more_J_dot[2];
+
+    // contacts with the walls of each elastic half (pocket_force): direction (x, t) from the pocket's axis to the ball, stiffness
+    // along it [N/m], 0 without contact, and the rate of the approach by ball and half as rigid bodies [m/s]
+    ball_array touch_x[2], touch_t[2], touch_k[2], touch_rate[2];
+
+    // elastic part of the pads' motions against each other, out of the plane (x, about r, about t) and in it (r, t); e: half
+    // of the whole motion out of the plane; part of the halves' rigid motion in u_y and u_z
+    ball_array pad_out[3], pad_in[2], pad_in_dot[2], e[3], rigid_u_y, rigid_u_z;
+
+    // loads of the joints (N, M_r, M_t), of their rivets (T, m_r, m_t), L^ and the energy U of the law; force on half
+    // 1 in the plane, in the frame of half 0 (cage_joint_force)
+    ball_array joint_load[3], joint_rivet[3], joint_behind[3], joint_U, joint_F_y, joint_F_z;
+    scalar modes_energy, modes_dissipated;  // energy of the modes [J] and power that they lose [W]
+} Work;
+
+// All that the right-hand side needs beside time and state.
+typedef struct {
+    const Parameters *p;  // at the present temperatures (temperature.h)
+    const Derived *d;
+    const RingLoad *ring_load;          // load at present; used while there is no trajectory
+    const InputTrajectory *trajectory;  // from which the load at any time follows; NULL: the load is held
+    const ElasticHalf *elastic;         // modes of the halves, where they are elastic, else NULL
+} Model;
+
+// Number of states of the scene.
+static inline int states_of(const Model *model)
+{
+    return model->elastic ? N_ALL_STATES : N_STATES;
+}
+
+// Derived constants of all elements; the parameters have been checked and have their present temperatures.
+void model_derive(const Parameters *p, Derived *d);
+
+// A Work whose padding lanes are harmless.
+void work_init(const Derived *d, Work *w);

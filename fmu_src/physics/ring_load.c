@@ -1,0 +1,153 @@
+// Trajectory of the inputs over a communication step, and the built-in pulses.  Equations in ring_load.h.
+#include "physics/ring_load.h"
+
+#define PLACE(group, member) (int)(offsetof(Inputs, group.member) / sizeof(double))
+
+const MotionInput MOTION[MOTIONS] = {
+    {PLACE(shaft, x), PLACE(shaft, v_x)},
+    {PLACE(shaft, y), PLACE(shaft, v_y)},
+    {PLACE(shaft, z), PLACE(shaft, v_z)},
+    {PLACE(shaft, tilt_y), PLACE(shaft, tilt_y_dot)},
+    {PLACE(shaft, tilt_z), PLACE(shaft, tilt_z_dot)},
+    {PLACE(housing, x), PLACE(housing, v_x)},
+    {PLACE(housing, y), PLACE(housing, v_y)},
+    {PLACE(housing, z), PLACE(housing, v_z)},
+    {PLACE(housing, tilt_y), PLACE(housing, tilt_y_dot)},
+    {PLACE(housing, tilt_z), PLACE(housing, tilt_z_dot)},
+    {PLACE(frame, omega), PLACE(frame, omega_dot)},
+};
+
+// Loads do nothing to a ring whose motion is prescribed.
+static void clear_loads(Inputs *u)
+{
+    u->shaft.F_x = u->shaft.F_y = u->shaft.F_z = u->shaft.M_y = u->shaft.M_z = 0.0;
+    u->impact.F_r = u->impact.F_a = 0.0;
+}
+
+// Rate of velocity i over the last step; 0 before there was one.
+static double mean_rate(const MotionHistory *history, const Inputs *given, int i)
+{
+    return history->steps > 0 ? (((const double *)given)[MOTION[i].velocity] - history->v[i]) / history->h
+                              : 0.0;
+}
+
+static double minmod(double x, double y)
+{
+    return x * y <= 0.0 ? 0.0 : fabs(x) < fabs(y) ? x : y;
+}
+
+void motion_remember(const Inputs *given, double h, MotionHistory *history)
+{
+    for (int i = 0; i < MOTIONS; i++) {
+        history->a[i] = mean_rate(history, given, i);
+        history->v[i] = ((const double *)given)[MOTION[i].velocity];
+    }
+    history->h = fmax(h, SHORTEST_MOTION);
+    if (history->steps < 2) history->steps++;
+}
+
+void motion_trajectory(const Parameters *p, const Inputs given[INPUT_ORDERS + 1],
+                       const MotionHistory *history, const Inputs *now, double h, Inputs u[INPUT_ORDERS + 1])
+{
+    const bool prescribed = p->ring.motion == RING_MOTION_PRESCRIBED;
+    const double *in[INPUT_ORDERS + 1], *at = (const double *)now;
+    double *out[INPUT_ORDERS + 1];
+    memcpy(u, given, (INPUT_ORDERS + 1) * sizeof *u);
+    for (int order = 0; order <= INPUT_ORDERS; order++) {
+        in[order] = (const double *)&given[order];
+        out[order] = (double *)&u[order];
+        if (prescribed) clear_loads(&u[order]);
+    }
+    for (int i = 0; i < MOTIONS; i++) {
+        const int q = MOTION[i].position, v = MOTION[i].velocity;
+        if (i < SHAFT_MOTIONS && !prescribed) {
+            out[1][v] = out[2][v] = 0.0;
+            continue;
+        }
+
+        // the motion reached so far, and that at the end of the step
+        const double x_0 = at[q], v_0 = at[v], jerk = in[2][v];
+        out[0][q] = x_0, out[0][v] = out[1][q] = v_0;
+        out[1][v] = out[2][q] = out[2][v] = 0.0;
+        if (h < SHORTEST_MOTION) continue;
+        double a = in[1][v];
+        if (a == 0.0 && jerk == 0.0 && history->steps == 2)
+            a = minmod(mean_rate(history, given, i), history->a[i]);
+        const double x_1 = in[0][q] + h * (in[0][v] + 0.5 * h * (a + h / 3.0 * jerk));
+        const double v_1 = in[0][v] + h * (a + 0.5 * h * jerk);
+        const double mean = (x_1 - x_0) / h;
+        out[1][v] = out[2][q] = (6.0 * mean - 4.0 * v_0 - 2.0 * v_1) / h;
+        out[2][v] = (6.0 * (v_0 + v_1) - 12.0 * mean) / (h * h);
+    }
+}
+
+static double pulse_start(const Parameters *p, int n)
+{
+    return p->pulse.t_start + n * p->pulse.interval;
+}
+
+// Index of the last pulse that started at or before t, -1 before the first one.
+static int pulse_index(const Parameters *p, double t)
+{
+    if (p->pulse.count == 0 || t < p->pulse.t_start) return -1;
+    const double n = floor((t - p->pulse.t_start) / p->pulse.interval);
+    int i = n < p->pulse.count ? (int)n : p->pulse.count - 1;
+    while (i + 1 < p->pulse.count && pulse_start(p, i + 1) <= t) i++;  // the division may round up or down
+    while (i > 0 && pulse_start(p, i) > t) i--;
+    return i;
+}
+
+static bool has_pulses(const Parameters *p)
+{
+    return (p->pulse.F_r != 0.0 || p->pulse.F_a != 0.0) && p->ring.motion == RING_MOTION_FREE;
+}
+
+double pulse_next_edge(const Parameters *p, double t)
+{
+    if (!has_pulses(p)) return INFINITY;
+    const int i = pulse_index(p, t);
+    if (i >= 0 && pulse_start(p, i) + p->pulse.duration > t) return pulse_start(p, i) + p->pulse.duration;
+    return i + 1 < p->pulse.count ? pulse_start(p, i + 1) : INFINITY;
+}
+
+void input_trajectory_update(const Parameters *p, const Inputs u[INPUT_ORDERS + 1], double t_0, double t,
+                             InputTrajectory *trajectory)
+{
+    const int i = pulse_index(p, t);
+    const bool active = has_pulses(p) && i >= 0 && t < pulse_start(p, i) + p->pulse.duration;
+    trajectory->t_0 = t_0;
+    memcpy(trajectory->u, u, sizeof trajectory->u);
+    trajectory->pulse_r = active ? p->pulse.F_r : 0.0;
+    trajectory->pulse_a = active ? p->pulse.F_a : 0.0;
+    trajectory->pulse_start = active ? pulse_start(p, i) : 0.0;
+    trajectory->pulse_rate = PI / p->pulse.duration;
+    trajectory->gravity[0] = p->gravity.y;
+    trajectory->gravity[1] = p->gravity.z;
+    trajectory->radius = p->frame.radius;
+    trajectory->frame_angle = 0.0;
+}
+
+bool input_trajectory_varies(const InputTrajectory *trajectory)
+{
+    const double *derivative = (const double *)&trajectory->u[1];
+    const bool gravity = trajectory->gravity[0] != 0.0 || trajectory->gravity[1] != 0.0;
+    bool varies = trajectory->pulse_r != 0.0 || trajectory->pulse_a != 0.0;
+    varies |= gravity && trajectory->u[0].frame.omega != 0.0;  // gravity turns in the frame
+    for (int i = 0; i < INPUT_ORDERS * N_INPUTS; i++) varies |= derivative[i] != 0.0;
+    return varies;
+}
+
+void input_trajectory_rates_at(const InputTrajectory *trajectory, double t, Inputs *u, Inputs *u_dot)
+{
+    const double *u_1 = (const double *)&trajectory->u[1], *u_2 = (const double *)&trajectory->u[2];
+    input_trajectory_at(trajectory, t, u);
+    for (int i = 0; i < N_INPUTS; i++) ((double *)u_dot)[i] = u_1[i] + (t - trajectory->t_0) * u_2[i];
+}
+
+void ring_load_update(const Parameters *p, const Inputs *u, double t, RingLoad *ring_load)
+{
+    const Inputs held[INPUT_ORDERS + 1] = {*u};
+    InputTrajectory trajectory;
+    input_trajectory_update(p, held, t, t, &trajectory);
+    ring_load_at(&trajectory, t, ring_load);
+}

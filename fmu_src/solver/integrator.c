@@ -1,0 +1,664 @@
+// Steps from communication point to communication point, by one of two one-step methods with the same error
+// weights:
+//
+//   verlet     the default: a linearly implicit trapezoidal rule, order two, one evaluation a step (verlet.c)
+//   explicit   classical Runge-Kutta 4(3), stepped by ARKODE: for tolerances below 2e-5, and as a check
+//
+// Order, error estimate and step-size control are derived in docs/method.md; bearing_model/solver/verlet.py has the
+// control again.  The step sizes of both methods come from a SUNAdaptController: of the explicit one from SUNDIALS'
+// PID controller, of the default one from step_estimate below.  SUNDIALS steps the explicit method, carries its
+// vectors and reports its errors.
+//
+// Determinism: an advance is a function of IntegratorState, model and t_stop alone, bit for bit, so that a
+// restored state and another instance go on alike.  For this ARKODE is reset at the start of every advance,
+// with the remembered step size.  Error weights are absolute, 1/(tolerance scale): angles are unbounded, so
+// that relative ones would fade.
+#include "solver/integrator.h"
+
+#include "numbers/aligned.h"
+#include "cage/elastic/elastic_half.h"
+#include "numbers/elementary.h"
+#include "numbers/reserved_memory.h"
+#include "numbers/saved_numbers.h"
+#include "solver/stepping.h"
+
+#include <arkode/arkode_erkstep.h>
+#include <float.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <sundials/sundials_nvector.h>
+
+// Size of the block in which SUNDIALS allocates: its 15 vectors of the states, and what does not grow with them.
+// A test sees that the block is large enough.
+enum { SUNDIALS_MEMORY = 20 * N_ALL_STATES * sizeof(double) + 32768 };
+
+struct Integrator {
+    _Alignas(64) unsigned char block[SUNDIALS_MEMORY];
+    ReservedMemory memory;
+    const Kernels *kernels;
+    const Model *model;
+    Work *w;
+    IntegratorState *s;
+    StepHook *hook;
+    IntegratorLog *log;
+    void *context;
+    SUNContext sun;
+    N_Vector y;  // the step's result
+    void *arkode;
+    SUNAdaptController control;  // of the default method
+    const VectorOps *ops;        // of the scene
+    double weight[N_ALL_STATES];
+    double orbit_weight;      // of a ball's velocity along its orbit, at a high speed
+    const VerletState *from;  // where the default method's step starts
+    VerletState trial;
+    const double *latest;       // where ARKODE keeps the latest evaluation
+    bool starting;              // the next evaluation is at (s->t, s->now.y), where s->now.f is known
+    bool warming_up;            // dy/dt = 0, see warm_up
+    unsigned nonfinite_stages;  // stages of this advance whose derivative is not a number
+};
+
+// ---- vectors of ARKODE: fixed length, operations of this processor's instruction set ----------------------
+
+enum { LINE = 8 };  // numbers in a cache line
+
+typedef struct {
+    const VectorOps *const *ops;  // where the integrator keeps them
+    double *value;                // the first whole cache line of `block`
+    double block[N_ALL_STATES + LINE - 1];
+} Content;
+
+static double *data(N_Vector v)
+{
+    return ((Content *)v->content)->value;
+}
+
+static const VectorOps *ops(N_Vector v)
+{
+    return *((const Content *)v->content)->ops;
+}
+
+static int states(N_Vector v)
+{
+    return ops(v)->states;
+}
+
+static N_Vector_ID vector_id(N_Vector v)
+{
+    (void)v;
+    return SUNDIALS_NVEC_CUSTOM;
+}
+
+static sunindextype vector_length(N_Vector v)
+{
+    return states(v);
+}
+
+static Content *content_new(const VectorOps *const *vector_operations)
+{
+    Content *content = malloc(sizeof *content);
+    if (content == NULL) return NULL;
+    const uintptr_t line = LINE * sizeof(double), at = (uintptr_t)content->block;
+    content->ops = vector_operations;
+    content->value = (double *)((at + line - 1) / line * line);
+    return content;
+}
+
+static N_Vector vector_clone(N_Vector like)
+{
+    N_Vector v = N_VNewEmpty(like->sunctx);
+    if (v == NULL) return NULL;
+    N_VCopyOps(like, v);
+    v->content = content_new(((const Content *)like->content)->ops);
+    if (v->content == NULL) {
+        N_VFreeEmpty(v);
+        return NULL;
+    }
+    return v;
+}
+
+static void vector_destroy(N_Vector v)
+{
+    if (v == NULL) return;
+    free(v->content);
+    N_VFreeEmpty(v);
+}
+
+static void vector_linear_sum(sunrealtype a, N_Vector x, sunrealtype b, N_Vector y, N_Vector z)
+{
+    ops(z)->linear_sum(a, data(x), b, data(y), data(z));
+}
+
+static SUNErrCode vector_linear_combination(int n, sunrealtype *c, N_Vector *x, N_Vector z)
+{
+    enum { MAX_VECTORS = 8 };  // more than the stages and the state
+
+    double *values[MAX_VECTORS];
+    if (n > MAX_VECTORS) return SUN_ERR_ARG_OUTOFRANGE;
+    for (int i = 0; i < n; i++) values[i] = data(x[i]);
+    ops(z)->linear_combination(n, c, values, data(z));
+    return SUN_SUCCESS;
+}
+
+static double vector_wrms_norm(N_Vector x, N_Vector w)
+{
+    return ops(x)->wrms_norm(data(x), data(w));
+}
+
+static void vector_scale(sunrealtype c, N_Vector x, N_Vector z)
+{
+    if (c == 1.0) {
+        if (x != z) memcpy(data(z), data(x), sizeof(double) * (size_t)states(z));
+    } else {
+        for (int i = 0; i < states(z); i++) data(z)[i] = c * data(x)[i];
+    }
+}
+
+static void vector_const(sunrealtype c, N_Vector z)
+{
+    if (c == 0.0)
+        memset(data(z), 0, sizeof(double) * (size_t)states(z));
+    else
+        for (int i = 0; i < states(z); i++) data(z)[i] = c;
+}
+
+// ARKODE checks that these operations exist.  It calls them only to choose a first step, which is always
+// given.
+static void vector_div(N_Vector x, N_Vector y, N_Vector z)
+{
+    for (int i = 0; i < states(z); i++) data(z)[i] = data(x)[i] / data(y)[i];
+}
+
+static void vector_abs(N_Vector x, N_Vector z)
+{
+    for (int i = 0; i < states(z); i++) data(z)[i] = fabs(data(x)[i]);
+}
+
+static void vector_inv(N_Vector x, N_Vector z)
+{
+    for (int i = 0; i < states(z); i++) data(z)[i] = 1.0 / data(x)[i];
+}
+
+static void vector_add_const(N_Vector x, sunrealtype b, N_Vector z)
+{
+    for (int i = 0; i < states(z); i++) data(z)[i] = data(x)[i] + b;
+}
+
+static double vector_max_norm(N_Vector x)
+{
+    double max = 0.0;
+    for (int i = 0; i < states(x); i++) max = fmax(max, fabs(data(x)[i]));
+    return max;
+}
+
+static N_Vector vector_new(SUNContext sun, const VectorOps *const *vector_operations)
+{
+    N_Vector v = N_VNewEmpty(sun);
+    if (v == NULL) return NULL;
+    *v->ops = (struct _generic_N_Vector_Ops){0};
+    v->ops->nvgetvectorid = vector_id;
+    v->ops->nvclone = vector_clone;
+    v->ops->nvdestroy = vector_destroy;
+    v->ops->nvgetlength = vector_length;
+    v->ops->nvlinearsum = vector_linear_sum;
+    v->ops->nvlinearcombination = vector_linear_combination;
+    v->ops->nvwrmsnorm = vector_wrms_norm;
+    v->ops->nvscale = vector_scale;
+    v->ops->nvconst = vector_const;
+    v->ops->nvdiv = vector_div;
+    v->ops->nvabs = vector_abs;
+    v->ops->nvinv = vector_inv;
+    v->ops->nvaddconst = vector_add_const;
+    v->ops->nvmaxnorm = vector_max_norm;
+    v->content = content_new(vector_operations);
+    if (v->content == NULL) {
+        N_VFreeEmpty(v);
+        return NULL;
+    }
+    vector_const(0.0, v);
+    return v;
+}
+
+// ---- what ARKODE calls ------------------------------------------------------------------------------------
+
+// dy/dt; at a step's start the one that is already known.
+static void evaluate(Integrator *in, double t, const double *y, double *f)
+{
+    if (in->warming_up) {
+        memset(f, 0, sizeof in->s->now.f);
+        return;
+    }
+    if (in->starting) {
+        in->starting = false;
+        memcpy(f, in->s->now.f, sizeof in->s->now.f);
+        return;
+    }
+    in->kernels->rhs(in->model, t, y, f, in->w);
+    in->s->rhs_evals += 1.0;
+    in->latest = f;
+    if (in->ops->finite(f)) return;
+    stepping_refuse(in->weight, in->ops->states, in->nonfinite_stages++, f);
+}
+
+static int explicit_rhs(sunrealtype t, N_Vector y, N_Vector f, void *user)
+{
+    evaluate(user, t, data(y), data(f));
+    return 0;
+}
+
+static int weights(N_Vector y, N_Vector ewt, void *user)
+{
+    (void)y;
+    memcpy(data(ewt), ((const Integrator *)user)->weight, sizeof(double) * (size_t)states(ewt));
+    return 0;
+}
+
+// ---- control of the default method's steps ----------------------------------------------------------------
+
+// The estimated error of a step is proportional to h^3 (order two), so the step that would just be accepted is
+// error^(-1/3) times as long; SAFETY keeps the next one below it.  A step is at least MIN_FACTOR and at most MAX_FACTOR
+// times as long as the one before: contacts open and close, and estimates over a kink of the forces mean little.
+// Errors below LEAST_ERROR are the same to the next step.
+static const double SAFETY = 0.8, MIN_FACTOR = 0.2, MAX_FACTOR = 1.5, LEAST_ERROR = 1e-4;
+
+enum { ORDER = 2 };
+
+// Length that a step's error asks of the next one / its own length.  A NaN means that the step has left the range of the model,
+// and gives 0.
+static double ratio_of(double error)
+{
+    return error >= 0.0 ? SAFETY * approx_inv_cbrt(fmax(error, LEAST_ERROR)) : 0.0;
+}
+
+// After a step that is accepted, the digital filter H211b of Soderlind (2003) with b = 4: lengths that change smoothly, so that
+// the errors of a contact's rise and fall cancel.  After one that is refused, the ratio itself.
+static SUNErrCode step_estimate(SUNAdaptController control, sunrealtype h, int order, sunrealtype error,
+                                sunrealtype *h_next)
+{
+    (void)order;
+    const VerletState *from = *(const VerletState **)control->content;
+    const double ratio = ratio_of(error), smooth = ratio * (from->ratio * from->h / h);
+    const double factor = error <= 1.0 && from->ratio > 0.0 ? sqrt(sqrt(smooth)) : ratio;
+    *h_next = h * fmin(fmax(factor, MIN_FACTOR), MAX_FACTOR);
+    return SUN_SUCCESS;
+}
+
+static SUNAdaptController_Type control_type(SUNAdaptController control)
+{
+    (void)control;
+    return SUN_ADAPTCONTROLLER_H;
+}
+
+// SUNDIALS would free the content, which is the integrator's.
+static SUNErrCode control_destroy(SUNAdaptController control)
+{
+    control->content = NULL;
+    SUNAdaptController_DestroyEmpty(control);
+    return SUN_SUCCESS;
+}
+
+// from: where the integrator keeps the state that its steps start at.
+static SUNAdaptController control_new(SUNContext sun, const VerletState **from)
+{
+    SUNAdaptController control = SUNAdaptController_NewEmpty(sun);
+    if (control == NULL) return NULL;
+    control->content = from;
+    control->ops->gettype = control_type;
+    control->ops->estimatestep = step_estimate;
+    control->ops->destroy = control_destroy;
+    return control;
+}
+
+// ---- creation ---------------------------------------------------------------------------------------------
+
+// An error message of SUNDIALS, to the log.
+static void report(int line, const char *function, const char *file, const char *message, SUNErrCode code,
+                   void *user, SUNContext sun)
+{
+    (void)file, (void)sun;
+    const Integrator *in = user;
+    stepping_report(in->s->t, function, line, message, (int)code, in->log, in->context);
+}
+
+// No interpolation (steps end at t_stop), no warnings of small steps (they are legitimate in an impact).
+static int set_up(void *arkode, Integrator *in)
+{
+    if (ARKodeSetUserData(arkode, in) != ARK_SUCCESS) return -1;
+    if (ARKodeWFtolerances(arkode, weights) != ARK_SUCCESS) return -1;
+    if (ARKodeSetInterpolantType(arkode, ARK_INTERP_NONE) != ARK_SUCCESS) return -1;
+    if (ARKodeSetMaxErrTestFails(arkode, 30) != ARK_SUCCESS) return -1;
+    return ARKodeSetMaxHnilWarns(arkode, -1) == ARK_SUCCESS ? 0 : -1;
+}
+
+// Classical Runge-Kutta of order four with an embedded order three.  The fifth stage is the next step's first
+// (FSAL); the difference of the two solutions, theta h (k_4 - k_5), estimates the error.  theta scales the
+// estimate and nothing else.
+static int explicit_table(void *arkode)
+{
+    enum { STAGES = 5 };
+
+    const double theta = 0.05;
+    double c[STAGES] = {0.0, 0.5, 0.5, 1.0, 1.0},
+           b[STAGES] = {1.0 / 6.0, 1.0 / 3.0, 1.0 / 3.0, 1.0 / 6.0, 0.0};
+    double d[STAGES] = {1.0 / 6.0, 1.0 / 3.0, 1.0 / 3.0, 1.0 / 6.0 - theta, theta};
+    double A[STAGES * STAGES] = {0.0,       0.0,       0.0,       0.0,       0.0,  //
+                                 0.5,       0.0,       0.0,       0.0,       0.0,  //
+                                 0.0,       0.5,       0.0,       0.0,       0.0,  //
+                                 0.0,       0.0,       1.0,       0.0,       0.0,  //
+                                 1.0 / 6.0, 1.0 / 3.0, 1.0 / 3.0, 1.0 / 6.0, 0.0};
+    ARKodeButcherTable table = ARKodeButcherTable_Create(STAGES, 4, 3, c, A, b, d);
+    const int status = table != NULL ? ERKStepSetTable(arkode, table) : ARK_MEM_FAIL;
+    ARKodeButcherTable_Free(table);
+    return status;
+}
+
+// Takes one step of dy/dt = 0: ARKODE allocates memory in its first step, which must not happen in
+// fmi2DoStep.
+static bool warm_up(Integrator *in)
+{
+    double t;
+    in->warming_up = true;
+    const bool fine = ARKodeSetInitStep(in->arkode, 1.0) == ARK_SUCCESS &&
+                      ARKodeSetStopTime(in->arkode, 1.0) == ARK_SUCCESS &&
+                      ARKodeEvolve(in->arkode, 1.0, in->y, &t, ARK_ONE_STEP) >= 0;
+    in->warming_up = false;
+    return fine;
+}
+
+Integrator *integrator_create(const Kernels *kernels, const Model *model, Work *w, IntegratorState *state,
+                              StepHook *hook, IntegratorLog *log, void *context)
+{
+    Integrator *in = aligned_new(sizeof *in);
+    if (in == NULL) return NULL;
+    memset(in, 0, sizeof *in);
+    in->kernels = kernels, in->ops = kernels->ops_elastic, in->model = model, in->w = w, in->s = state;
+    in->hook = hook, in->log = log, in->context = context;
+    in->memory = (ReservedMemory){in->block, sizeof in->block, 0};
+    reserved_memory_use(&in->memory);
+    bool fine = SUNContext_Create(SUN_COMM_NULL, &in->sun) == SUN_SUCCESS;
+    if (fine) {
+        SUNContext_ClearErrHandlers(in->sun);
+        fine = SUNContext_PushErrHandler(in->sun, report, in) == SUN_SUCCESS &&
+               (in->y = vector_new(in->sun, &in->ops)) != NULL &&
+               (in->control = control_new(in->sun, &in->from)) != NULL;
+    }
+    if (fine) {  // error weights of 1 for the warm-up, until integrator_tolerance
+        in->arkode = ERKStepCreate(explicit_rhs, 0.0, in->y, in->sun);
+        fine = in->arkode != NULL && set_up(in->arkode, in) == 0 && explicit_table(in->arkode) == ARK_SUCCESS;
+        for (int i = 0; i < N_ALL_STATES; i++) in->weight[i] = 1.0;
+        fine = fine && warm_up(in);
+    }
+    reserved_memory_use(NULL);
+    if (!fine) {
+        integrator_destroy(in);
+        return NULL;
+    }
+    return in;
+}
+
+void integrator_destroy(Integrator *in)
+{
+    if (in == NULL) return;
+    reserved_memory_use(&in->memory);
+    if (in->arkode != NULL) ARKodeFree(&in->arkode);
+    if (in->control != NULL) SUNAdaptController_Destroy(in->control);
+    if (in->y != NULL) N_VDestroy(in->y);
+    if (in->sun != NULL) SUNContext_Free(&in->sun);
+    reserved_memory_use(NULL);
+    aligned_delete(in);
+}
+
+void integrator_tolerance(Integrator *in, double tolerance)
+{
+    memset(&in->trial, 0, sizeof in->trial);  // no modes of a scene before this one
+    in->ops = in->model->elastic ? in->kernels->ops_elastic : in->kernels->ops;
+    stepping_weights(in->model->d, tolerance, in->weight);
+    in->orbit_weight = in->weight[Y_BALL_OMEGA_M];
+}
+
+// ---- stepping ---------------------------------------------------------------------------------------------
+
+void integrator_evaluate(Integrator *in)
+{
+    IntegratorState *s = in->s;
+    if (s->f_is_current) return;
+    if (in->model->p->solver.method == METHOD_EXPLICIT)
+        in->kernels->rhs(in->model, s->t, s->now.y, s->now.f, in->w);
+    else
+        in->kernels->verlet_evaluate(in->model, s->t, &s->now, in->w);
+    s->rhs_evals += 1.0;
+    s->f_is_current = 1;
+}
+
+// Part of a step by which the last step before t_stop may be longer than the controller wants: the rounding
+// of time must not leave a last step of no length.
+static const double LAST_STEP = 1e-9;
+
+static int step_underflow(const Integrator *in, const char *method, double h)
+{
+    char text[128];
+    snprintf(text, sizeof text, "t = %.9g s: %s: a step of %g s is lost in the rounding of time", in->s->t,
+             method, h);
+    in->log(in->context, text);
+    return ARK_ERR_FAILURE;
+}
+
+// Length of the next step: the controller's goal, or what is left to t_stop, or half of that if two steps are
+// needed.
+static double step_length(double goal, double left)
+{
+    if (goal >= left * (1.0 - LAST_STEP)) return left;
+    return left < 2.0 * goal ? 0.5 * left : goal;
+}
+
+// The longest step from a state [s].  Elastic halves: slow forces that are held over a step feed vibrations that turn by much more than pi in
+// it, so that it has three substeps at most; films of the rate A, which the substeps leave out, hold for 1/A, or for two
+// substeps, which are always stable.
+static double longest_step(const Model *model, const VerletState *now)
+{
+    if (!model->elastic) return INFINITY;
+    const double d = model->elastic->substep;
+    const double film = fmax(now->film[0][0] + now->film[0][2], now->film[1][0] + now->film[1][2]);
+    return fmin(3.0 * d, fmax(2.0 * d, model->p->cage.m / film));
+}
+
+// The speed with which ball and pocket meet goes with the orbital speed against the outer ring, and so does the error of it that matters:
+// the scale of velocities along the orbit holds from FULL_ORBIT [m/s] on and is in proportion below, down to its LEAST_ORBIT part.
+static const double FULL_ORBIT = 20.0, LEAST_ORBIT = 0.1;
+
+static void weigh_orbit(Integrator *in)
+{
+    double sum = 0.0;
+    for (int j = 0; j < Z; j++)
+        sum += fabs(in->s->now.y[Y_BALL_OMEGA_M + j] - in->model->ring_load->outer_omega);
+    const double speed = 0.5 * in->model->p->bearing.d_m * sum / Z;
+    const double part = fmin(fmax(speed / FULL_ORBIT, LEAST_ORBIT), 1.0);
+    for (int j = 0; j < Z; j++) in->weight[Y_BALL_OMEGA_M + j] = in->orbit_weight / part;
+}
+
+static int verlet_advance(Integrator *in, double t_stop, long max_steps)
+{
+    weigh_orbit(in);
+    IntegratorState *s = in->s;
+    VerletState *now = &s->now, *next = &in->trial;  // they change places at every accepted step
+    double goal = s->h;
+    int status = 0;
+    while (status == 0 && s->t < t_stop) {
+        if (max_steps-- <= 0) {
+            status = ARK_TOO_MUCH_WORK;
+            break;
+        }
+        goal = fmin(goal, longest_step(in->model, now));
+        const double left = t_stop - s->t, h = step_length(goal, left);
+        if (s->t + h == s->t || h < DBL_MIN) {  // 1/h of a subnormal h overflows
+            status = step_underflow(in, "Verlet", h);
+            break;
+        }
+        const double error = in->kernels->verlet(in->model, s->t, h, in->weight, now, next, in->w);
+        double proposed;
+        in->from = now;
+        SUNAdaptController_EstimateStep(in->control, h, ORDER, error, &proposed);
+        s->rhs_evals += 1.0;
+
+        // Refused, also if the error is not a number: the same step again, shorter.
+        if (!(error <= 1.0)) {
+            s->error_tests_failed += 1.0;
+            goal = proposed;
+            continue;
+        }
+
+        // Accepted.  A step that was cut short to meet t_stop says nothing against the goal before it.
+        VerletState *const before = now;
+        now = next, next = before;
+        now->ratio = ratio_of(error);
+        s->t = h == left ? t_stop : s->t + h;
+        s->steps += 1.0;
+        if (h == goal || proposed < h) goal = proposed;
+        in->hook(in->context, h, in->w);
+    }
+    if (now != &s->now) s->now = *now;
+    s->h = goal;
+    return status;
+}
+
+// The shortest step that ARKODE begins with [s].  It multiplies the time to t_stop by the step size of the run
+// before, which it keeps over a reset, and takes a product that underflows for a t_stop in the past; thirty
+// failed error tests may shorten a step by 1e-30.
+static const double SHORTEST_EXPLICIT = 1e-100;
+
+// Part of the step size before an advance that the next one begins with at least: ARKODE's own proposal is
+// too small after a step that was cut short to meet t_stop.
+static const double KEPT_STEP = 0.9;
+
+static int explicit_advance(Integrator *in, double t_stop, long max_steps)
+{
+    IntegratorState *s = in->s;
+    const double h_first = fmin(s->h, t_stop - s->t);
+    if (s->t + h_first == s->t || h_first < SHORTEST_EXPLICIT)
+        return step_underflow(in, "Runge-Kutta", h_first);
+
+    // ARKODE forgets what it knows of the steps before and begins at the state with the remembered step size.
+    in->nonfinite_stages = 0;
+    memcpy(data(in->y), s->now.y, sizeof s->now.y);
+    if (ARKodeReset(in->arkode, s->t, in->y) != ARK_SUCCESS) return -1;
+    if (ARKodeSetInitStep(in->arkode, h_first) != ARK_SUCCESS) return -1;
+    if (ARKodeSetStopTime(in->arkode, t_stop) != ARK_SUCCESS) return -1;
+    long failed_before = 0, failed = 0;
+    ARKodeGetNumErrTestFails(in->arkode, &failed_before);
+
+    // One step at a time: each is counted and shown to the hook.
+    double h_next = 0.0, t = s->t;
+    int status = ARK_SUCCESS;
+    while (status >= 0 && status != ARK_TSTOP_RETURN) {
+        if (max_steps-- <= 0) {
+            status = ARK_TOO_MUCH_WORK;
+            break;
+        }
+        in->starting = s->f_is_current;
+        status = ARKodeEvolve(in->arkode, t_stop, in->y, &t, ARK_ONE_STEP);
+        if (status < 0) break;
+        if (t == s->t) {
+            double h_last = 0.0;
+            ARKodeGetLastStep(in->arkode, &h_last);
+            status = step_underflow(in, "Runge-Kutta", h_last);
+            break;
+        }
+        const double h = stepping_accept(s, t, data(in->y));
+        ARKodeGetCurrentStep(in->arkode, &h_next);
+        in->hook(in->context, h, in->w);
+    }
+
+    // What the next advance needs.  The last stage was at the new state: its derivative is known.
+    in->starting = false;
+    ARKodeGetNumErrTestFails(in->arkode, &failed);
+    s->error_tests_failed += (double)(failed - failed_before);
+    s->h = fmax(h_next, KEPT_STEP * s->h);
+    if (status < 0) return status;
+    s->t = t_stop;
+    memcpy(s->now.f, in->latest, sizeof s->now.f);
+    s->f_is_current = 1;
+    return 0;
+}
+
+int integrator_advance(Integrator *in, double t_stop, long max_steps)
+{
+    // Without a derivative at the start there is no step.
+    integrator_evaluate(in);
+    if (!in->ops->finite(in->s->now.f)) {
+        memset(in->s->now.f, 0, sizeof in->s->now.f);
+        in->s->f_is_current = 0;
+        return ARK_RHSFUNC_FAIL;
+    }
+    if (in->model->p->solver.method != METHOD_EXPLICIT) return verlet_advance(in, t_stop, max_steps);
+
+    // SUNDIALS allocates memory for its error messages; in the reserved block.
+    reserved_memory_use(&in->memory);
+    const int status = explicit_advance(in, t_stop, max_steps);
+    reserved_memory_use(NULL);
+    return status;
+}
+
+// Bound of a state of each class [SI]: far beyond all that a bearing does, and so small that the error of a step
+// can still be told from the rounding of the state.
+static double largest_of(StateScale scale)
+{
+    switch (scale) {
+    case SCALE_LENGTH:
+    case SCALE_NORMAL:
+    case SCALE_MODE:
+    case SCALE_VELOCITY: return 1e6;
+    case SCALE_ANGLE: return 1e15;
+    case SCALE_TILT:
+    case SCALE_PLATE:
+    case SCALE_HEAD: return 1.0;
+    case SCALE_RATE:
+    case SCALE_ORBIT:
+    case SCALE_SPIN: return 1e9;
+    case SCALE_ENERGY: return 1e30;
+    case SCALE_COUNT: break;
+    }
+    return 0.0;
+}
+
+bool integrator_state_is_valid(const IntegratorState *s, bool elastic)
+{
+    // A state crosses its range in no less than a microsecond [1/s]; largest film rate [N.s/m].
+    const double RATE = 1e6, LARGEST_FILM = 1e30;
+
+    // Time and step sizes.
+    bool fine = values_are_within(&s->t, 1, LARGEST_TIME) && values_are_amounts(&s->now.h, 1) &&
+                values_are_amounts(&s->now.ratio, 1) && s->now.ratio <= ratio_of(0.0) &&
+                values_are_amounts(&s->h, 1) && s->h > 0.0;
+
+    // States, their rates and the differences of their rates.
+    for (const StateBlock *b = STATE_BLOCKS; b < STATE_BLOCKS + N_ALL_BLOCKS; b++) {
+        const size_t n = (size_t)b->count;
+        const double largest = b->offset < N_STATES || elastic ? largest_of(b->scale) : 0.0;
+        fine &= values_are_within(s->now.y + b->offset, n, largest) &&
+                values_are_within(s->now.f + b->offset, n, RATE * largest);
+        fine &= values_are_within(s->now.jerk + b->offset, n, RATE * RATE * RATE * largest);
+    }
+
+    // Elastic halves: motions and loads of the joints up to those of anything that holds, fast accelerations.
+    const double motion = elastic ? 1.0 : 0.0, load = elastic ? 1e9 : 0.0,
+                 acceleration = elastic ? RATE * 1e9 : 0.0;
+    const FastState *fast = &s->now.fast;
+    fine &= values_are_within(fast->e[0], 3 * LANES, motion) && values_are_within(fast->u_y, LANES, motion) &&
+            values_are_within(fast->u_z, LANES, motion) && values_are_within(fast->T, LANES, load) &&
+            values_are_within(fast->N_plate, LANES, load) &&
+            values_are_within(fast->touch_x[0], 2 * LANES, motion) &&
+            values_are_within(fast->touch_t[0], 2 * LANES, motion) &&
+            values_are_within(fast->touch_k[0], 2 * LANES, elastic ? 1e15 : 0.0) &&
+            values_are_within(fast->touch_rate[0], 2 * LANES, elastic ? 1e6 : 0.0) &&
+            values_are_within(fast->touch_Q[0], 2 * LANES, load) &&
+            values_are_within(&fast->omega_2, 1, elastic ? 1e18 : 0.0) &&
+            values_are_within(fast->modes, 2 * N_MODES, acceleration) &&
+            values_are_within(fast->rigid, RELATIVE_MOTIONS, acceleration);
+
+    // Films, switch and counters.
+    fine &=
+        values_are_within(&s->now.film[0][0], sizeof s->now.film / sizeof s->now.film[0][0], LARGEST_FILM);
+    fine &= s->f_is_current == 0 || s->f_is_current == 1;
+    return fine && value_is_count(s->steps) && value_is_count(s->rhs_evals) &&
+           value_is_count(s->error_tests_failed);
+}

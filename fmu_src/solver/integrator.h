@@ -1,0 +1,40 @@
+// Integration of the right-hand side in time with control of the error (docs/method.md).  integrator.c is the
+// only file that knows SUNDIALS.
+#pragma once
+
+#include "solver/kernels.h"
+
+// All that the integrator carries from one advance to the next; plain bytes, part of the saved state.
+typedef struct {
+    double t;
+    VerletState now;
+    double h;          // step size to go on with [s]
+    int f_is_current;  // now.f is dy/dt at now.y under the present load of the ring
+    double steps, rhs_evals, error_tests_failed;  // counts since the start
+} IntegratorState;
+
+typedef struct Integrator Integrator;
+
+// Called after every accepted step of length h [s].  w: the last evaluation of the step, at its end; that of
+// the default method is at the predicted velocities.
+typedef void StepHook(void *context, double h, const Work *w);
+
+typedef void IntegratorLog(void *context, const char *message);
+
+// All memory is taken here; NULL if there is none.
+Integrator *integrator_create(const Kernels *kernels, const Model *model, Work *w, IntegratorState *state,
+                              StepHook *hook, IntegratorLog *log, void *context);
+void integrator_destroy(Integrator *integrator);
+
+// Whether steps can have made the state; elastic: of elastic cage halves.
+bool integrator_state_is_valid(const IntegratorState *state, bool elastic);
+
+// Error weights 1/(tolerance scale), the scale of each class of states in model->d.
+void integrator_tolerance(Integrator *integrator, double tolerance);
+
+// Makes now.f the derivative at the present state, if it is not.
+void integrator_evaluate(Integrator *integrator);
+
+// Steps to t_stop under the present load of the ring, at most max_steps.  Returns 0, or a negative code of
+// ARKODE if it cannot go on; the state is then that of the last accepted step.
+int integrator_advance(Integrator *integrator, double t_stop, long max_steps);

@@ -1,0 +1,29 @@
+// One step of the default method: a linearly implicit trapezoidal rule (W-method) with velocity Verlet's
+// positions.
+#pragma once
+
+#include "cage/elastic/cage_substeps.h"
+#include "numbers/isa.h"
+#include "physics/model.h"
+
+// A state and what the method remembers of the way there.
+typedef struct {
+    double y[N_ALL_STATES];
+    double f[N_ALL_STATES];  // dy/dt; after a step: accelerations, mean rates of the friction states, power
+    double jerk[N_ALL_STATES];  // change of f over the last step / its length: history for the error estimate
+    double film[2][3];          // -dF/dv of each land's film there: yy, yz, zz [N.s/m]
+    FastState fast;             // of elastic halves there, whose accelerations f lacks; of others 0
+    double h;                   // length of that step [s]; 0 before the first one
+    double ratio;  // length that its error asks of the next step / h (integrator.c); 0 before the first one
+} VerletState;
+
+// Takes the step of length h [s] from the state `from` at time t to the state `to` and returns the weighted
+// norm of the step's error: the step is acceptable up to 1.  weight: 1/(tolerance scale) of each state.  w:
+// evaluation at the new positions.
+typedef double VerletStep(const Model *model, double t, double h, const double *weight,
+                          const VerletState *from, VerletState *to, Work *w);
+VerletStep verlet_step;
+
+// Evaluates the rates at the state now->y for the next step: f, of elastic halves without the fast part, and that part.
+typedef void VerletEvaluate(const Model *model, double t, VerletState *now, Work *w);
+VerletEvaluate verlet_evaluate;
