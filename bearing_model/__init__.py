@@ -4,9 +4,10 @@
     from bearing_model.quasi_static import quasi_static
     quasi_static(Bearing(), Load(F_y=2994.0, omega=1909.9)).Q_i     # ball loads [N]
 
-Dynamics: each element of fmu_src stands here under the same name (race_contact, pocket, land_film, cage_joint, ring ...), rhs joins them to dy/dt, start finds
-the first state and integrator advances it with SciPy.  Without dynamics: quasi_static, kinematics, hertz_exact.  After a run: fatigue, critical_plane,
-statistics.  The rivet table is read by rivet_table and evaluated by rivet_rom.  Units are SI; nothing here loads an FMU.
+Dynamics: each element of fmu_src stands here under the same name (race_contact, pocket, land_film, cage_joint, ring
+...), rhs joins them to dy/dt, start finds the first state and integrator advances it with SciPy.  Without dynamics:
+quasi_static, kinematics, hertz_exact.  After a run: fatigue, critical_plane, statistics.  The rivet table is read by
+rivet_table and evaluated by rivet_rom.  Units are SI; nothing here loads an FMU.
 """
 
 from importlib import import_module
@@ -30,7 +31,9 @@ __all__ = list(HOMES)
 
 
 def __getattr__(name):
-    """Public names are imported when they are asked for: readers of the rivet table, and rivet_model, do without the dynamics."""
+    """Public names are imported when they are asked for: readers of the rivet table, and rivet_model, do without the
+    dynamics.
+    """
     if name not in HOMES:
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
     return getattr(import_module(f"{__name__}.{HOMES[name]}"), name)

@@ -1,8 +1,10 @@
-"""Critical plane after Findley for a history of stress at a free surface: offline, from logged loads and the rivet's stress components.
+"""Critical plane after Findley for a history of stress at a free surface: offline, from logged loads and the rivet's
+stress components.
 
     f = max over planes of (tau_a + k sigma_n,max)        Findley (1959); crack initiation where f reaches the material's limit
 
-tau_a: shear amplitude on the plane (half the largest extent of the shear vector's path), sigma_n,max: largest normal stress on it.
+tau_a: shear amplitude on the plane (half the largest extent of the shear vector's path), sigma_n,max: largest normal
+stress on it.
 
     components = rivet_model.components.read("components.npz")
     fields = components.fields(logged_load(result.data, k=1), fit_eff)
@@ -40,8 +42,9 @@ def plane_normals(step=5.0):
 def findley(stress, k=0.3, step=5.0):
     """Worst plane of one point's history.
 
-    stress: (tt, hoop, shear) [3, times] in Pa, meridian, hoop and shear stress of a free surface; k: Findley's constant (0.2...0.3 for ductile
-    steel).  step: angle between the planes tried [deg].  Raises ValueError for another shape or numbers that are not finite.
+    stress: (tt, hoop, shear) [3, times] in Pa, meridian, hoop and shear stress of a free surface; k: Findley's constant
+    (0.2...0.3 for ductile steel).  step: angle between the planes tried [deg].  Raises ValueError for another shape or
+    numbers that are not finite.
 
     >>> cycle = np.array([[1.0, -1.0], [0.0, 0.0], [0.0, 0.0]])
     >>> round(findley(cycle, k=0.0, step=5.0).f, 6)
@@ -69,15 +72,18 @@ def findley(stress, k=0.3, step=5.0):
 def worst_point(fields, k=0.3, step=5.0):
     """Worst of all points of several histories: (place, point, angle, CriticalPlane), indices into `fields`.
 
-    fields: arrays [3, points, angles, times] of (tt, hoop, shear) in Pa, e.g. of rivet_model.components.Components.fields.  The points are
-    searched in the order of an upper bound of f (half the norm of the ranges for tau_a, the largest principal stress for sigma_n), and the search
-    ends where the bound falls below the largest f found.
+    fields: arrays [3, points, angles, times] of (tt, hoop, shear) in Pa, e.g. of
+    rivet_model.components.Components.fields.  The points are searched in the order of an upper bound of f (half the
+    norm of the ranges for tau_a, the largest principal stress for sigma_n), and the search ends where the bound falls
+    below the largest f found.
     """
     candidates = []
     for place, field in enumerate(fields):
         spread = np.ptp(field, axis=-1)
         mean, half = 0.5 * (field[0] + field[1]), np.hypot(0.5 * (field[0] - field[1]), field[2])
-        bound = 0.5 * np.sqrt((spread[0] ** 2 + spread[1] ** 2) / 2 + spread[2] ** 2) + k * np.maximum(np.max(mean + half, axis=-1), 0.0)
+        bound = 0.5 * np.sqrt((spread[0] ** 2 + spread[1] ** 2) / 2 + spread[2] ** 2) + k * np.maximum(
+            np.max(mean + half, axis=-1), 0.0
+        )
         candidates += [(value, place, *index) for index, value in np.ndenumerate(bound)]
     worst = None
     for bound, place, point, angle in sorted(candidates, reverse=True):
@@ -93,5 +99,7 @@ LOGGED = {"T": "T", "V_y": "V_y", "V_z": "V_z", "m_y": "M_shank_y", "m_z": "M_sh
 
 
 def logged_load(data, k):
-    """RivetLoad of rivet k over time from the outputs rivet[k].T, V_y, V_z, M_shank_y, M_shank_z, F_head of a run; data: arrays by name of the output."""
+    """RivetLoad of rivet k over time from the outputs rivet[k].T, V_y, V_z, M_shank_y, M_shank_z, F_head of a run;
+    data: arrays by name of the output.
+    """
     return RivetLoad(**{name: np.asarray(data[f"rivet[{k}].{output}"]) for name, output in LOGGED.items()})

@@ -1,13 +1,15 @@
 """Speeds of balls and cage, and the frequencies at which a damaged part is felt.
 
-The ball rolls on both races without slip along the rolling direction.  Its spin omega_R, seen from the cage, lies in the plane through the bearing's
-axis and the ball's centre and turns backwards; beta is the pitch angle between spin and axis:  omega_R (-cos beta, sin beta)  in (x, r).  With g = d_m/D
+The ball rolls on both races without slip along the rolling direction.  Its spin omega_R, seen from the cage, lies in
+the plane through the bearing's axis and the ball's centre and turns backwards; beta is the pitch angle between spin and
+axis:  omega_R (-cos beta, sin beta)  in (x, r).  With g = d_m/D
 
     outer:  omega_R cos(beta - alpha_e) = (omega_m - omega_e) (g + cos alpha_e)
     inner:  omega_R cos(beta - alpha_i) = (omega_i - omega_m) (g - cos alpha_i)
 
-and the race control hypothesis gives beta: no spin at the outer or at the inner race (Jones), or the axis halfway between both contact normals.
-Harris & Kotzalas, Essential and Advanced Concepts of Bearing Technology (2006), ch. 10 and 2; Jones, ASME J. Basic Eng. 81 (1959) 1-12.
+and the race control hypothesis gives beta: no spin at the outer or at the inner race (Jones), or the axis halfway
+between both contact normals. Harris & Kotzalas, Essential and Advanced Concepts of Bearing Technology (2006), ch. 10
+and 2; Jones, ASME J. Basic Eng. 81 (1959) 1-12.
 """
 
 from dataclasses import dataclass
@@ -19,7 +21,9 @@ CONTROLS = ("none", "outer", "inner")
 
 @dataclass(frozen=True)
 class BallMotion:
-    """Speeds of a ball rolling without slip [rad/s]; spin_i, spin_e relative to the race about the contact normal; beta pitch angle [rad]."""
+    """Speeds of a ball rolling without slip [rad/s]; spin_i, spin_e relative to the race about the contact normal; beta
+    pitch angle [rad].
+    """
 
     omega_m: float
     omega_R: float
@@ -30,7 +34,9 @@ class BallMotion:
 
 @dataclass(frozen=True)
 class FaultFrequencies:
-    """Frequencies [Hz]: FTF cage, BPFO and BPFI balls over a point of the outer and the inner race, BSF spin of the ball (it hits a race at 2 BSF)."""
+    """Frequencies [Hz]: FTF cage, BPFO and BPFI balls over a point of the outer and the inner race, BSF spin of the
+    ball (it hits a race at 2 BSF).
+    """
 
     FTF: float
     BPFO: float
@@ -47,7 +53,8 @@ def check_geometry(D, d_m):
 
 
 def pitch_angle(D, d_m, alpha_i, alpha_e, control):
-    """Pitch angle beta [rad] of the ball's spin axis under the race control hypothesis "outer", "inner" or "none" (halfway).
+    """Pitch angle beta [rad] of the ball's spin axis under the race control hypothesis "outer", "inner" or "none"
+    (halfway).
 
     Harris & Kotzalas (2006), ch. 2.
     """
@@ -61,7 +68,8 @@ def pitch_angle(D, d_m, alpha_i, alpha_e, control):
 
 
 def ball_motion(omega_i, D, d_m, alpha_i, alpha_e, control="none", omega_e=0.0):
-    """Orbital speed, spin and spin relative to the races of a ball between races turning at omega_i and omega_e [rad/s].
+    """Orbital speed, spin and spin relative to the races of a ball between races turning at omega_i and omega_e
+    [rad/s].
 
     D, d_m [m], contact angles alpha_i, alpha_e [rad] (scalars or arrays).  Raises ValueError for D, d_m and control.
     Limit: alpha_i = alpha_e = alpha gives the epicyclic speed of `cage_speed`.
@@ -91,7 +99,9 @@ def cage_speed(omega_i, D, d_m, alpha=0.0, omega_e=0.0):
 
 
 def ball_spin(omega_i, D, d_m, alpha=0.0, omega_e=0.0):
-    """Spin of the ball seen from the cage [rad/s]: d_m/(2 D) (1 - gamma^2) (omega_i - omega_e).  Harris & Kotzalas (2006), ch. 10."""
+    """Spin of the ball seen from the cage [rad/s]: d_m/(2 D) (1 - gamma^2) (omega_i - omega_e).  Harris & Kotzalas
+    (2006), ch. 10.
+    """
     check_geometry(D, d_m)
     gamma = D * np.cos(alpha) / d_m
     return 0.5 * d_m / D * (1.0 - gamma**2) * (omega_i - omega_e)
@@ -110,4 +120,6 @@ def fault_frequencies(omega_i, D, d_m, Z, alpha=0.0, omega_e=0.0):
     omega_m = cage_speed(omega_i, D, d_m, alpha, omega_e)
     omega_R = ball_spin(omega_i, D, d_m, alpha, omega_e)
     turn = 2.0 * np.pi
-    return FaultFrequencies(abs(omega_m) / turn, Z * abs(omega_m - omega_e) / turn, Z * abs(omega_i - omega_m) / turn, abs(omega_R) / turn)
+    return FaultFrequencies(
+        abs(omega_m) / turn, Z * abs(omega_m - omega_e) / turn, Z * abs(omega_i - omega_m) / turn, abs(omega_R) / turn
+    )

@@ -4,7 +4,8 @@
     C_0 = f_0 Z D^2
 
 The standards tabulate f_c and f_0; the formulas behind the tables are used here.
-Sources: ISO 281:2007; ISO/TR 1281-1:2008 (f_c); ISO 76:2006 and ISO/TR 10657:1991 (f_0: 4200 MPa under the ball load 5 C_0/Z).
+Sources: ISO 281:2007; ISO/TR 1281-1:2008 (f_c); ISO 76:2006 and ISO/TR 10657:1991 (f_0: 4200 MPa under the ball load 5
+C_0/Z).
 """
 
 from bearing_model.physics.hertz_exact import ball_race_contact

@@ -1,4 +1,5 @@
-"""Quasi-static equilibrium of a single-row groove ball bearing: inner ring and balls at rest in the frame of the cage (Jones-Harris).
+"""Quasi-static equilibrium of a single-row groove ball bearing: inner ring and balls at rest in the frame of the cage
+(Jones-Harris).
 
     outer groove centres: the circle |r| = R_e, x = 0                    R_e = d_m/2 + D/2 + P_d/4 - f_e D
     inner groove centres: circle of radius R_i about C, axis a           R_i = d_m/2 - D/2 - P_d/4 + f_i D + growth,   a = (a_x, tilt_z, -tilt_y)
@@ -7,16 +8,19 @@
     delta = |c - ball| - (f - 1/2) D,  c the nearest point of the circle          Q = K delta^1.5
     V = sum 2/5 K delta^2.5 - sum 1/2 m omega_m^2 r_j^2 - F.C - M.tilt + 1/2 k_tilt (tilt - shaft tilt)^2
 
-For given inertia loads the equilibrium is the minimum of the potential energy V over the ring's five coordinates and the 2 Z of the balls.  This one
-problem is smooth and nearly convex; loose balls, clearance and preload are no special cases.  The minimum is the exact rest state of a
-frictionless bearing whose balls orbit at omega_m.  Gyroscopic moments (race control "outer" or "inner") need friction forces at the races, which are held
-as loads during a search and iterated.
+For given inertia loads the equilibrium is the minimum of the potential energy V over the ring's five coordinates and
+the 2 Z of the balls.  This one problem is smooth and nearly convex; loose balls, clearance and preload are no special
+cases.  The minimum is the exact rest state of a frictionless bearing whose balls orbit at omega_m.  Gyroscopic moments
+(race control "outer" or "inner") need friction forces at the races, which are held as loads during a search and
+iterated.
 
-kinematics = "linear" takes the ring's displacements as those of ISO/TS 16281: small tilt, every ball at the pitch radius, no sideways motion of the ring's
-groove.  It gives the ball loads and lives that programs for this standard print; the default "exact" holds for any displacement and tilt.
+kinematics = "linear" takes the ring's displacements as those of ISO/TS 16281: small tilt, every ball at the pitch
+radius, no sideways motion of the ring's groove.  It gives the ball loads and lives that programs for this standard
+print; the default "exact" holds for any displacement and tilt.
 
-Sources: Jones, ASME J. Basic Eng. 82 (1960) 309-320; Harris & Kotzalas, Advanced Concepts of Bearing Technology (2006), ch. 1 and 3;
-de Mul, Vree & Maas, ASME J. Tribol. 111 (1989) 142-148.  Life: ISO/TS 16281:2008.  Static safety: ISO 76:2006.
+Sources: Jones, ASME J. Basic Eng. 82 (1960) 309-320; Harris & Kotzalas, Advanced Concepts of Bearing Technology (2006),
+ch. 1 and 3; de Mul, Vree & Maas, ASME J. Tribol. 111 (1989) 142-148.  Life: ISO/TS 16281:2008.  Static safety: ISO
+76:2006.
 """
 
 import math
@@ -24,8 +28,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from bearing_model.physics.hertz_exact import ball_race_contact
 from bearing_model.kinematics import CONTROLS, FaultFrequencies, ball_motion
+from bearing_model.physics.hertz_exact import ball_race_contact
 from bearing_model.physics.ring_fit import RingFit, ring_fit_growth
 
 RING = 5  # ring coordinates: x, y, z, tilt_y, tilt_z
@@ -36,14 +40,16 @@ Y_0_VALUES = (0.52, 0.50, 0.46, 0.42, 0.38, 0.33, 0.29, 0.26, 0.22)
 
 @dataclass(frozen=True)
 class Bearing:
-    """A groove ball bearing; names, units and defaults as the parameters bearing.* of the FMU (fmus/variables.toml).  Default: 6207.
+    """A groove ball bearing; names, units and defaults as the parameters bearing.* of the FMU (fmus/variables.toml).
+    Default: 6207.
 
-    D ball diameter [m], d_m pitch diameter [m] (mean of the groove-bottom diameters), Z balls, f_i, f_e groove radius / D, P_d diametral clearance [m]
-    (negative: preload), E [Pa], nu of the rings, rho [kg/m3] of the balls; ball: E and nu of the balls, None for those of the rings.
-    alpha_0 [rad]: free contact angle of an angular contact bearing; it takes the place of P_d, and x = 0 is then where balls and races just touch.
-    C, C_0: dynamic and static load rating [N] for the life and the static safety.
-    fit: growth of the inner groove by rotation and fit (ring_fit.py), which takes clearance at speed; without it the rings keep their size.
-    Raises ValueError for a value that is not admissible.
+    D ball diameter [m], d_m pitch diameter [m] (mean of the groove-bottom diameters), Z balls, f_i, f_e groove radius /
+    D, P_d diametral clearance [m] (negative: preload), E [Pa], nu of the rings, rho [kg/m3] of the balls; ball: E and
+    nu of the balls, None for those of the rings. alpha_0 [rad]: free contact angle of an angular contact bearing; it
+    takes the place of P_d, and x = 0 is then where balls and races just touch. C, C_0: dynamic and static load rating
+    [N] for the life and the static safety. fit: growth of the inner groove by rotation and fit (ring_fit.py), which
+    takes clearance at speed; without it the rings keep their size. Raises ValueError for a value that is not
+    admissible.
     """
 
     D: float = 0.0111125
@@ -63,7 +69,9 @@ class Bearing:
 
     def __post_init__(self):
         if self.alpha_0 is not None and self.P_d is not None:
-            raise ValueError(f"bearing.alpha_0 = {self.alpha_0} and bearing.P_d = {self.P_d}: only one of them can be given")
+            raise ValueError(
+                f"bearing.alpha_0 = {self.alpha_0} and bearing.P_d = {self.P_d}: only one of them can be given"
+            )
         for name in ("D", "d_m", "E", "rho"):
             admit("bearing", self, name, lambda v: v > 0.0, "must be positive")
         for name in ("f_i", "f_e"):
@@ -73,11 +81,25 @@ class Bearing:
                 admit("bearing", self, name, lambda v: v > 0.0, "must be positive")
         admit("bearing", self, "nu", lambda v: 0.0 <= v < 0.5, "must be at least 0 and less than 0.5")
         admit("bearing", self, "Z", lambda v: v >= 3 and v == int(v), "must be a whole number of at least 3")
-        admit("bearing", self, "d_m", lambda v: v * math.sin(math.pi / self.Z) >= self.D, f"{self.Z} balls of D = {self.D} m do not fit")
+        admit(
+            "bearing",
+            self,
+            "d_m",
+            lambda v: v * math.sin(math.pi / self.Z) >= self.D,
+            f"{self.Z} balls of D = {self.D} m do not fit",
+        )
         if self.alpha_0 is not None:
-            admit("bearing", self, "alpha_0", lambda v: 0.0 <= v < 0.5 * math.pi, "must be at least 0 and less than pi/2")
+            admit(
+                "bearing", self, "alpha_0", lambda v: 0.0 <= v < 0.5 * math.pi, "must be at least 0 and less than pi/2"
+            )
         if self.P_d is not None:
-            admit("bearing", self, "P_d", lambda v: abs(v) < 2.0 * self.A, f"must be within +-2 (f_i + f_e - 1) D = {2.0 * self.A:.4g} m")
+            admit(
+                "bearing",
+                self,
+                "P_d",
+                lambda v: abs(v) < 2.0 * self.A,
+                f"must be within +-2 (f_i + f_e - 1) D = {2.0 * self.A:.4g} m",
+            )
 
     @property
     def A(self):
@@ -86,25 +108,37 @@ class Bearing:
 
     @property
     def clearance(self):
-        """Diametral clearance P_d [m]: as given, that of alpha_0, or 15 um.  Harris & Kotzalas (2006), ch. 2: P_d = 2 A (1 - cos alpha_0)."""
+        """Diametral clearance P_d [m]: as given, that of alpha_0, or 15 um.  Harris & Kotzalas (2006), ch. 2: P_d = 2 A
+        (1 - cos alpha_0).
+        """
         if self.alpha_0 is not None:
             return 2.0 * self.A * (1.0 - math.cos(self.alpha_0))
         return 15e-6 if self.P_d is None else self.P_d
 
     @property
     def free_contact_angle(self):
-        """Contact angle under a vanishing axial load, cos(alpha) = 1 - P_d/(2 A) [rad]; 0 with preload.  Harris & Kotzalas (2006), ch. 2."""
+        """Contact angle under a vanishing axial load, cos(alpha) = 1 - P_d/(2 A) [rad]; 0 with preload.  Harris &
+        Kotzalas (2006), ch. 2.
+        """
         return math.acos(min(1.0, 1.0 - self.clearance / (2.0 * self.A)))
 
     @property
     def nominal_angle(self):
-        """Contact angle for which Hertz constants and load rating are taken: alpha_0, 0 for a deep groove bearing [rad]."""
+        """Contact angle for which Hertz constants and load rating are taken: alpha_0, 0 for a deep groove bearing
+        [rad].
+        """
         return self.alpha_0 or 0.0
 
     @property
     def static_factors(self):
-        """X_0, Y_0 of the static equivalent load X_0 F_r + Y_0 F_a of one row: 0.6, 0.5 for deep groove, else by contact angle.  ISO 76:2006, table 2."""
-        return (0.5, float(np.interp(self.nominal_angle, Y_0_ANGLES, Y_0_VALUES))) if self.nominal_angle >= Y_0_ANGLES[0] else (0.6, 0.5)
+        """X_0, Y_0 of the static equivalent load X_0 F_r + Y_0 F_a of one row: 0.6, 0.5 for deep groove, else by
+        contact angle.  ISO 76:2006, table 2.
+        """
+        return (
+            (0.5, float(np.interp(self.nominal_angle, Y_0_ANGLES, Y_0_VALUES)))
+            if self.nominal_angle >= Y_0_ANGLES[0]
+            else (0.6, 0.5)
+        )
 
     @property
     def ball_mass(self):
@@ -116,9 +150,10 @@ class Bearing:
 class Load:
     """Loads on the inner ring and its speed; names and units as the inputs shaft.* of the FMU.
 
-    F_x, F_y, F_z [N], M_y, M_z [N.m], omega [rad/s].  k_tilt [N.m/rad] ties the ring's tilt to the shaft's tilt_y, tilt_z [rad]: inf (default) prescribes
-    it, 0 leaves the ring to the moments alone, else M = k_tilt (shaft tilt - ring tilt) + (M_y, M_z).  A tilt is a direction cosine of the axis
-    (its angle to 2e-4 at 2 deg), and M_y, M_z do work on it.  Raises ValueError for a value that is not admissible.
+    F_x, F_y, F_z [N], M_y, M_z [N.m], omega [rad/s].  k_tilt [N.m/rad] ties the ring's tilt to the shaft's tilt_y,
+    tilt_z [rad]: inf (default) prescribes it, 0 leaves the ring to the moments alone, else M = k_tilt (shaft tilt -
+    ring tilt) + (M_y, M_z).  A tilt is a direction cosine of the axis (its angle to 2e-4 at 2 deg), and M_y, M_z do
+    work on it.  Raises ValueError for a value that is not admissible.
     """
 
     F_x: float = 0.0
@@ -139,12 +174,16 @@ class Load:
         if not self.k_tilt >= 0.0:
             raise ValueError(f"load.k_tilt = {self.k_tilt}: must be at least 0 (0: free, inf: tilt prescribed)")
         if math.isinf(self.k_tilt) and (self.M_y or self.M_z):
-            raise ValueError(f"load.k_tilt = {self.k_tilt} prescribes the tilt: load.M_y, load.M_z must be 0, not {self.M_y}, {self.M_z}")
+            raise ValueError(
+                f"load.k_tilt = {self.k_tilt} prescribes the tilt: load.M_y, load.M_z must be 0, not {self.M_y}, {self.M_z}"
+            )
 
 
 @dataclass(frozen=True)
 class QuasiStatic:
-    """Equilibrium of ring and balls.  Arrays hold one value per ball; a ball without contact at a race has Q = 0 and contact angle 0 there."""
+    """Equilibrium of ring and balls.  Arrays hold one value per ball; a ball without contact at a race has Q = 0 and
+    contact angle 0 there.
+    """
 
     bearing: Bearing
     load: Load
@@ -187,11 +226,17 @@ class QuasiStatic:
         loaded = self.Q_i > 0.0
         omega_R = float(np.mean(self.omega_R[loaded] if loaded.any() else self.omega_R))
         Z = self.bearing.Z
-        return FaultFrequencies(abs(self.omega_m) / turn, Z * abs(self.omega_m) / turn, Z * abs(self.load.omega - self.omega_m) / turn, abs(omega_R) / turn)
+        return FaultFrequencies(
+            abs(self.omega_m) / turn,
+            Z * abs(self.omega_m) / turn,
+            Z * abs(self.load.omega - self.omega_m) / turn,
+            abs(omega_R) / turn,
+        )
 
     @property
     def L_10r(self):
-        """Basic reference rating life [10^6 revolutions], inf without load; the load stands still.  ISO/TS 16281:2008, point contact, one row.
+        """Basic reference rating life [10^6 revolutions], inf without load; the load stands still.  ISO/TS 16281:2008,
+        point contact, one row.
 
         The standard's own number asks for kinematics = "linear" and omega = 0, for it knows no centrifugal force.
         Q_ci, Q_ce: ball loads that give the rings the rating C.  Raises ValueError without bearing.C.
@@ -200,7 +245,11 @@ class QuasiStatic:
         if b.C is None:
             raise ValueError("bearing.C = None: the life needs the dynamic load rating [N]")
         gamma = b.D * math.cos(b.nominal_angle) / b.d_m
-        ratio = 1.044 * ((1.0 - gamma) / (1.0 + gamma)) ** 1.72 * (b.f_i / b.f_e * (2.0 * b.f_e - 1.0) / (2.0 * b.f_i - 1.0)) ** 0.41
+        ratio = (
+            1.044
+            * ((1.0 - gamma) / (1.0 + gamma)) ** 1.72
+            * (b.f_i / b.f_e * (2.0 * b.f_e - 1.0) / (2.0 * b.f_i - 1.0)) ** 0.41
+        )
         Q_ci = b.C / (0.407 * b.Z * math.cos(b.nominal_angle)) * (1.0 + ratio ** (10 / 3)) ** 0.3
         Q_ce = b.C / (0.389 * b.Z * math.cos(b.nominal_angle)) * (1.0 + ratio ** (-10 / 3)) ** 0.3
         Q_ei = np.mean(self.Q_i**3) ** (1 / 3)  # the inner ring turns through the load ...
@@ -228,13 +277,17 @@ class QuasiStatic:
 
     @property
     def pressure_safety(self):
-        """Static safety by pressure, (4200 MPa/p_max)^3, inf without load: how often the load of the ball most loaded fits into the one that defines C_0."""
+        """Static safety by pressure, (4200 MPa/p_max)^3, inf without load: how often the load of the ball most loaded
+        fits into the one that defines C_0.
+        """
         p_max = max(self.p_i.max(), self.p_e.max())
         return float((4.2e9 / p_max) ** 3) if p_max > 0.0 else math.inf
 
 
 def admit(owner, obj, name, test, allowed):
-    """Raise ValueError that names owner.name, its value and what is allowed, unless it is a finite number that passes the test."""
+    """Raise ValueError that names owner.name, its value and what is allowed, unless it is a finite number that passes
+    the test.
+    """
     value = getattr(obj, name)
     try:
         good = math.isfinite(value) and test(value)
@@ -244,13 +297,15 @@ def admit(owner, obj, name, test, allowed):
         raise ValueError(f"{owner}.{name} = {value}: {allowed}")
 
 
-# ---------------------------------------------------------------------------------------------------------------------------------------------------
+# ----------------------------------------------------------------------------------------------------------------------
 # Potential energy
 
 
 @dataclass
 class InertiaLoads:
-    """Loads by the balls' motion, held during the search: centrifugal stiffness m omega_m^2 and friction forces that carry gyroscopic moments."""
+    """Loads by the balls' motion, held during the search: centrifugal stiffness m omega_m^2 and friction forces that
+    carry gyroscopic moments.
+    """
 
     m_omega2: float  # [N/m]
     ball: np.ndarray  # friction on the balls (x, r), Z x 2 [N]
@@ -262,16 +317,22 @@ class InertiaLoads:
 
     def halfway(self, other):
         """Mean of two sets of loads."""
-        return InertiaLoads(0.5 * (self.m_omega2 + other.m_omega2), 0.5 * (self.ball + other.ball), 0.5 * (self.ring + other.ring))
+        return InertiaLoads(
+            0.5 * (self.m_omega2 + other.m_omega2), 0.5 * (self.ball + other.ball), 0.5 * (self.ring + other.ring)
+        )
 
 
 class Potential:
-    """Potential energy of ring and balls, its gradient and its Hessian.  Coordinates v: five of the ring, then (x_j, r_j) of each ball."""
+    """Potential energy of ring and balls, its gradient and its Hessian.  Coordinates v: five of the ring, then (x_j,
+    r_j) of each ball.
+    """
 
     def __init__(self, bearing, load, psi):
         self.bearing, self.load, self.psi = bearing, load, psi
         D, d_m, f_i, f_e, P_d = bearing.D, bearing.d_m, bearing.f_i, bearing.f_e, bearing.clearance
-        self.R_i = 0.5 * (d_m - D) - 0.25 * P_d + f_i * D + (ring_fit_growth(bearing.fit, load.omega) if bearing.fit else 0.0)
+        self.R_i = (
+            0.5 * (d_m - D) - 0.25 * P_d + f_i * D + (ring_fit_growth(bearing.fit, load.omega) if bearing.fit else 0.0)
+        )
         self.R_e = 0.5 * (d_m + D) + 0.25 * P_d - f_e * D
         self.l_i, self.l_e = (f_i - 0.5) * D, (f_e - 0.5) * D
         self.x_touch = 0.0 if bearing.alpha_0 is None else bearing.A * math.sin(bearing.alpha_0)
@@ -314,13 +375,17 @@ class Potential:
         if not np.isfinite(self.axis(q)).all():
             return math.inf
         delta_i, delta_e = self.approaches(v)
-        contact = 0.4 * (self.inner.K * np.maximum(delta_i, 0.0) ** 2.5 + self.outer.K * np.maximum(delta_e, 0.0) ** 2.5)
+        contact = 0.4 * (
+            self.inner.K * np.maximum(delta_i, 0.0) ** 2.5 + self.outer.K * np.maximum(delta_e, 0.0) ** 2.5
+        )
         V = contact.sum() - 0.5 * self.inertia.m_omega2 * (r_b @ r_b) - self.applied() @ q
         V -= self.inertia.ball[:, 0] @ x_b + self.inertia.ball[:, 1] @ r_b
         return V + 0.5 * self.support() * ((q[3] - self.load.tilt_y) ** 2 + (q[4] - self.load.tilt_z) ** 2)
 
     def rounding(self, v):
-        """Bound of the rounding error of value(v) [J]: approaches are differences of lengths R_e, and the centrifugal part is one large number."""
+        """Bound of the rounding error of value(v) [J]: approaches are differences of lengths R_e, and the centrifugal
+        part is one large number.
+        """
         _, _, r_b = self.split(v)
         delta_i, delta_e = self.approaches(v)
         loads = self.inner.load(delta_i).sum() + self.outer.load(delta_e).sum()
@@ -357,7 +422,8 @@ class Potential:
         return gradient, hessian
 
     def inner_distance(self, v):
-        """Distance of each ball from the inner groove-centre circle: h along the ring's axis, w across it, each with gradient and Hessian in (ring, x_j, r_j).
+        """Distance of each ball from the inner groove-centre circle: h along the ring's axis, w across it, each with
+        gradient and Hessian in (ring, x_j, r_j).
 
         With p from the ring's centre to the ball: h = p.a, w = R_i - s, s = sqrt(p.p - h^2).
         """
@@ -401,14 +467,19 @@ class Potential:
         return g, H
 
     def stiffness(self, v):
-        """Stiffness of the bearing against the ring's coordinates, balls in equilibrium: K = K_qq - sum K_qb K_bb^-1 K_bq; loose balls add nothing."""
+        """Stiffness of the bearing against the ring's coordinates, balls in equilibrium: K = K_qq - sum K_qb K_bb^-1
+        K_bq; loose balls add nothing.
+        """
         _, H = self.contact_derivatives(v)
         H[:, 6, 6] -= self.inertia.m_omega2
-        return sum(H_j[:5, :5] - H_j[:5, 5:] @ np.linalg.pinv(H_j[5:, 5:]) @ H_j[5:, :5] for H_j in H if H_j[:5, :5].any()) + np.zeros((RING, RING))
+        return sum(
+            H_j[:5, :5] - H_j[:5, 5:] @ np.linalg.pinv(H_j[5:, 5:]) @ H_j[5:, :5] for H_j in H if H_j[:5, :5].any()
+        ) + np.zeros((RING, RING))
 
 
 class LinearPotential(Potential):
-    """The same with the displacements of the inner groove linear in the ring's coordinates.  ISO/TS 16281:2008, 4.2; its psi is any tilt here.
+    """The same with the displacements of the inner groove linear in the ring's coordinates.  ISO/TS 16281:2008, 4.2;
+    its psi is any tilt here.
 
     Seen from the ball j in its half-plane the groove centre moves by  x - d_m/2 (tilt_z cos psi_j - tilt_y sin psi_j)  along the bearing's axis and by
     y cos psi_j + z sin psi_j  outward.  Forces act at the pitch radius d_m/2.
@@ -419,13 +490,21 @@ class LinearPotential(Potential):
         q, x_b, r_b = self.split(v)
         motion = self.motion() @ q
         ball = x_b[:, None] * [1.0, 0.0, 0.0] + r_b[:, None] * self.e_r
-        return ball, (self.x_touch + motion[:, 0])[:, None] * [1.0, 0.0, 0.0] + (self.R_i + motion[:, 1])[:, None] * self.e_r
+        return ball, (self.x_touch + motion[:, 0])[:, None] * [1.0, 0.0, 0.0] + (self.R_i + motion[:, 1])[
+            :, None
+        ] * self.e_r
 
     def motion(self):
-        """Derivatives of the groove centres' displacements (along the axis, outward) by the ring's coordinates, Z x 2 x 5."""
+        """Derivatives of the groove centres' displacements (along the axis, outward) by the ring's coordinates, Z x 2 x
+        5.
+        """
         cos, sin = self.e_r[:, 1], self.e_r[:, 2]
         motion = np.zeros((len(cos), 2, RING))
-        motion[:, 0, 0], motion[:, 0, 3], motion[:, 0, 4] = 1.0, 0.5 * self.bearing.d_m * sin, -0.5 * self.bearing.d_m * cos
+        motion[:, 0, 0], motion[:, 0, 3], motion[:, 0, 4] = (
+            1.0,
+            0.5 * self.bearing.d_m * sin,
+            -0.5 * self.bearing.d_m * cos,
+        )
         motion[:, 1, 1], motion[:, 1, 2] = cos, sin
         return motion
 
@@ -455,17 +534,18 @@ def add_contact(gradient, hessian, K, delta, d_q, d_qq):
     hessian += (K * delta**1.5)[:, :, None] * d_qq + 1.5 * K * np.sqrt(delta)[:, :, None] * outer(d_q)
 
 
-# ---------------------------------------------------------------------------------------------------------------------------------------------------
+# ----------------------------------------------------------------------------------------------------------------------
 # Equilibrium
 
 
 def minimum(potential, v):
     """Coordinates of the stable equilibrium, searched from v.
 
-    Newton's method in the eigenvectors of the Hessian, with a trust region: steps go downhill where the energy is not convex, and the decrease of the
-    energy sets the radius.  Where the energy changes by less than its rounding, a step has to reduce the largest force instead.  Coordinates without
-    force (loose balls, a loose ring) keep their values.  From an equilibrium on a ridge (the ring balanced on one ball) the search goes on downhill.
-    Raises ArithmeticError if there is no equilibrium: the bearing does not carry the load.
+    Newton's method in the eigenvectors of the Hessian, with a trust region: steps go downhill where the energy is not
+    convex, and the decrease of the energy sets the radius.  Where the energy changes by less than its rounding, a step
+    has to reduce the largest force instead.  Coordinates without force (loose balls, a loose ring) keep their values.
+    From an equilibrium on a ridge (the ring balanced on one ball) the search goes on downhill. Raises ArithmeticError
+    if there is no equilibrium: the bearing does not carry the load.
     """
     # scales: an approach of 10 um counts as one
     length = 1e-5
@@ -474,12 +554,19 @@ def minimum(potential, v):
     free = np.ones(len(v), dtype=bool)
     free[3:RING] = not math.isinf(potential.load.k_tilt)
     unit = potential.inner.K * length**2.5
-    loads = np.append(scale[:RING] * potential.applied() * free[:RING], length * potential.inertia.m_omega2 * potential.R_e) / unit
+    loads = (
+        np.append(scale[:RING] * potential.applied() * free[:RING], length * potential.inertia.m_omega2 * potential.R_e)
+        / unit
+    )
     enough = 1e-11 * np.abs(loads).max() + 1e-11  # of 1 kN: the rounding of a contact load
 
     def local(v):
         g, H = potential.derivatives(v)
-        return potential.value(v) / unit, scale[free] * g[free] / unit, np.outer(scale[free], scale[free]) * H[np.ix_(free, free)] / unit
+        return (
+            potential.value(v) / unit,
+            scale[free] * g[free] / unit,
+            np.outer(scale[free], scale[free]) * H[np.ix_(free, free)] / unit,
+        )
 
     def moved(v, step):
         trial = v.copy()
@@ -495,7 +582,8 @@ def minimum(potential, v):
         if np.abs(g).max() <= enough or radius < 1e-12:
             if curvature[0] >= -1e-9 * curvature[-1]:
                 break
-            step, radius = 0.1 * mode[:, 0] * np.sign(mode[np.abs(mode[:, 0]).argmax(), 0]), 1.0  # off the ridge, in the same direction in every run
+            # off the ridge, in the same direction in every run
+            step, radius = 0.1 * mode[:, 0] * np.sign(mode[np.abs(mode[:, 0]).argmax(), 0]), 1.0
         else:
             step = mode @ (force / np.maximum(np.abs(curvature), np.abs(force) / radius + 1e-300))
         trial = moved(v, step)
@@ -513,7 +601,9 @@ def minimum(potential, v):
             radius = 0.25 * min(radius, np.abs(step).max())
     residual = np.abs(g).max()
     if residual > 1e3 * enough:
-        raise ArithmeticError(f"no equilibrium found: the bearing does not carry this load (residual {residual * unit / length:.3g} N)")
+        raise ArithmeticError(
+            f"no equilibrium found: the bearing does not carry this load (residual {residual * unit / length:.3g} N)"
+        )
     return v
 
 
@@ -530,10 +620,11 @@ def contact_state(potential, v):
 
 
 def orbit(bearing, load, Q_i, alpha_i, alpha_e, control):
-    """Motion of each ball, and the one orbital speed omega_m [rad/s] that the cage imposes: the mean of the balls' speeds, weighted by the inner contact load.
+    """Motion of each ball, and the one orbital speed omega_m [rad/s] that the cage imposes: the mean of the balls'
+    speeds, weighted by the inner contact load.
 
-    A ball loose from the inner race rolls on the outer one.  Each ball also counts with 1 N at its speed when loose, so that the mean is continuous
-    where contacts open.
+    A ball loose from the inner race rolls on the outer one.  Each ball also counts with 1 N at its speed when loose, so
+    that the mean is continuous where contacts open.
     """
     loose = ball_motion(load.omega, bearing.D, bearing.d_m, alpha_e, alpha_e, control)
     motion = ball_motion(load.omega, bearing.D, bearing.d_m, np.where(Q_i > 0.0, alpha_i, alpha_e), alpha_e, control)
@@ -544,8 +635,9 @@ def orbit(bearing, load, Q_i, alpha_i, alpha_e, control):
 def inertia_loads(potential, v, control):
     """Centrifugal and gyroscopic loads for the contact angles at v, with the motion they come from.
 
-    Gyroscopic moment M_g = J omega_m omega_R sin(beta) about the tangent, carried by friction lambda M_g/D at the races, lambda_i + lambda_e = 2:
-    outer control (0, 2), inner control (1, 1).  Harris & Kotzalas (2006), ch. 3; a loose ball has no such moment, and without race control no ball has.
+    Gyroscopic moment M_g = J omega_m omega_R sin(beta) about the tangent, carried by friction lambda M_g/D at the
+    races, lambda_i + lambda_e = 2: outer control (0, 2), inner control (1, 1).  Harris & Kotzalas (2006), ch. 3; a
+    loose ball has no such moment, and without race control no ball has.
     """
     bearing, load = potential.bearing, potential.load
     Q_i, Q_e, alpha_i, alpha_e, n_i = contact_state(potential, v)
@@ -554,7 +646,8 @@ def inertia_loads(potential, v, control):
     turning = (Q_i > 0.0) & (Q_e > 0.0) & (control != "none")
     M_g = np.where(turning, J * omega_m * motion.omega_R * np.sin(motion.beta), 0.0)
     lambda_i, lambda_e = (1.0, 1.0) if control == "inner" else (0.0, 2.0)
-    # a force T along e_t x n at the contact -D/2 n has the moment -D/2 T about e_t; n_i = (sin, cos) alpha_i, n_e = -(sin, cos) alpha_e in (x, r)
+    # a force T along e_t x n at the contact -D/2 n has the moment -D/2 T about e_t; n_i = (sin, cos) alpha_i, n_e =
+    # -(sin, cos) alpha_e in (x, r)
     T_i, T_e = -lambda_i * M_g / bearing.D, -lambda_e * M_g / bearing.D
     friction_i = T_i[:, None] * np.column_stack([-np.cos(alpha_i), np.sin(alpha_i)])
     friction_e = T_e[:, None] * np.column_stack([np.cos(alpha_e), -np.sin(alpha_e)])
@@ -577,12 +670,15 @@ def quasi_static(bearing, load, psi=0.0, control="none", kinematics="exact"):
     """Equilibrium of the inner ring and the balls of a bearing under a load: a QuasiStatic.
 
     psi: azimuth of ball 1 (balls evenly spaced) or of each ball, from Y toward Z [rad].
-    control: "none" - no friction, no gyroscopic moments: the rest state of the frictionless dynamics; "outer", "inner" - race control (Jones) with them.
-    kinematics: "exact" for any displacement and tilt; "linear" as ISO/TS 16281 has it, without race control (omega = 0 leaves out centrifugal forces too).
-    Raises ValueError for inadmissible values, ArithmeticError if the bearing cannot carry the load (no equilibrium, or contacts beyond Hertz' theory).
+    control: "none" - no friction, no gyroscopic moments: the rest state of the frictionless dynamics; "outer", "inner"
+    - race control (Jones) with them. kinematics: "exact" for any displacement and tilt; "linear" as ISO/TS 16281 has
+      it, without race control (omega = 0 leaves out centrifugal forces too).
+    Raises ValueError for inadmissible values, ArithmeticError if the bearing cannot carry the load (no equilibrium, or
+    contacts beyond Hertz' theory).
 
     >>> result = quasi_static(Bearing(C=25.7e3), Load(F_x=515.0, F_y=2994.0, omega=1909.88))
-    >>> print(f"{1e6 * result.y:.1f} um, largest ball load {result.Q_i.max():.0f} N, L_10r = {result.L_10r:.0f} million revolutions")
+    >>> print(f"{1e6 * result.y:.1f} um, largest ball load {result.Q_i.max():.0f} N, L_10r = {result.L_10r:.0f} million
+    revolutions")
     30.2 um, largest ball load 1543 N, L_10r = 555 million revolutions
     """
     if control not in CONTROLS:
@@ -590,14 +686,17 @@ def quasi_static(bearing, load, psi=0.0, control="none", kinematics="exact"):
     if kinematics not in KINEMATICS:
         raise ValueError(f"kinematics = {kinematics!r}: must be one of {', '.join(KINEMATICS)}")
     if kinematics == "linear" and control != "none":
-        raise ValueError(f'control = {control!r} with kinematics = "linear": must be "none", ISO/TS 16281 has no gyroscopic moments')
+        raise ValueError(
+            f'control = {control!r} with kinematics = "linear": must be "none", ISO/TS 16281 has no gyroscopic moments'
+        )
     potential = {"exact": Potential, "linear": LinearPotential}[kinematics](bearing, load, azimuths(psi, bearing.Z))
     v = np.zeros(RING + 2 * bearing.Z)
     v[3:RING] = load.tilt_y, load.tilt_z
     alpha = bearing.nominal_angle  # balls touch the outer race
     v[RING::2], v[RING + 1 :: 2] = potential.l_e * math.sin(alpha), potential.R_e + potential.l_e * math.cos(alpha)
 
-    # contact angles set speeds and inertia loads, which in turn set contact angles: the coupling is weak, so a fixed-point iteration settles in a few turns
+    # contact angles set speeds and inertia loads, which in turn set contact angles: the coupling is weak, so a
+    # fixed-point iteration settles in a few turns
     potential.inertia, *_ = inertia_loads(potential, v, control)
     for turn in range(80):
         v = minimum(potential, v)
@@ -607,14 +706,20 @@ def quasi_static(bearing, load, psi=0.0, control="none", kinematics="exact"):
             check_approach(potential, v)
             return report(potential, v, motion, omega_m, M_g, kinematics)
         potential.inertia = loads if turn < 10 else potential.inertia.halfway(loads)
-    raise ArithmeticError(f"inertia loads do not settle (last change {change:.3g} N): race control {control!r} does not hold for balls that hardly touch")
+    raise ArithmeticError(
+        f"inertia loads do not settle (last change {change:.3g} N): race control {control!r} does not hold for balls that hardly touch"
+    )
 
 
 def check_approach(potential, v):
-    """ArithmeticError where the contacts are pressed beyond Hertz' theory: an approach of 1 % of D, 6.6 GPa in the 6207 (4.2 GPa: C_0)."""
+    """ArithmeticError where the contacts are pressed beyond Hertz' theory: an approach of 1 % of D, 6.6 GPa in the 6207
+    (4.2 GPa: C_0).
+    """
     D, delta = potential.bearing.D, max(map(np.max, potential.approaches(v)))
     if delta > 0.01 * D:
-        raise ArithmeticError(f"a ball is pressed {delta:.3g} m into a race, more than D/100 = {0.01 * D:.3g} m: the bearing does not carry this load")
+        raise ArithmeticError(
+            f"a ball is pressed {delta:.3g} m into a race, more than D/100 = {0.01 * D:.3g} m: the bearing does not carry this load"
+        )
 
 
 def report(potential, v, motion, omega_m, M_g, kinematics):

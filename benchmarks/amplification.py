@@ -1,8 +1,10 @@
-"""The picture of docs/method.md: by which factor a step of the default method shrinks what decays at a stiff rate, with and without its damping.
+"""The picture of docs/method.md: by which factor a step of the default method shrinks what decays at a stiff rate, with
+and without its damping.
 
     python benchmarks/amplification.py      # writes docs/method/amplification.svg and prints the numbers that the page quotes
 
-The equation is v' = -A v and the Jacobian that the step uses A/ratio; z = gamma A/ratio, gamma = h/2.  A step acts on (v_n, gamma a_n, gamma a_{n-1}).
+The equation is v' = -A v and the Jacobian that the step uses A/ratio; z = gamma A/ratio, gamma = h/2.  A step acts on
+(v_n, gamma a_n, gamma a_{n-1}).
 """
 
 import io
@@ -39,14 +41,26 @@ def explicit_roots(z):
 
 
 def draw():
-    plt.rcParams.update({"svg.fonttype": "none", "svg.hashsalt": "method", "font.size": 9, "axes.grid": True, "grid.alpha": 0.25})
+    plt.rcParams.update(
+        {"svg.fonttype": "none", "svg.hashsalt": "method", "font.size": 9, "axes.grid": True, "grid.alpha": 0.25}
+    )
     z = np.geomspace(0.05, 1000.0, 80)
     figure, axes = plt.subplots(figsize=(6.4, 3.4))
     curves = (
         ("trapezoidal rule, no damping", 0.0, 1.0, {"color": "#a33", "linestyle": "--"}),
         ("damped with 0.15", SMOOTHING, 1.0, {"color": "#0b3c8c", "linewidth": 2.2}),
-        ("the same, Jacobian twice too large", SMOOTHING, 0.5, {"color": "#0b3c8c", "linewidth": 1.0, "linestyle": ":"}),
-        ("the same, Jacobian 10 % too small", SMOOTHING, 1.0 / 0.9, {"color": "#0b3c8c", "linewidth": 1.0, "linestyle": "-."}),
+        (
+            "the same, Jacobian twice too large",
+            SMOOTHING,
+            0.5,
+            {"color": "#0b3c8c", "linewidth": 1.0, "linestyle": ":"},
+        ),
+        (
+            "the same, Jacobian 10 % too small",
+            SMOOTHING,
+            1.0 / 0.9,
+            {"color": "#0b3c8c", "linewidth": 1.0, "linestyle": "-."},
+        ),
     )
     for label, theta, ratio, style in curves:
         axes.semilogx(z, [factor(value, theta, ratio) for value in z], label=label, **style)
@@ -64,9 +78,13 @@ def draw():
 def main():
     for theta in (0.0, 0.05, 0.1, 1.0 / 9.0, SMOOTHING, 0.2, 0.25):
         worst = max(factor(z, theta) for z in np.geomspace(2.0, 1e6, 400))
-        print(f"smoothing {theta:.3f}: at most {worst:.3f} for gamma A > 2, {factor(1e9, theta):.3f} in the limit, error constant {1 / 12 - theta / 2:+.4f}")
+        print(
+            f"smoothing {theta:.3f}: at most {worst:.3f} for gamma A > 2, {factor(1e9, theta):.3f} in the limit, error constant {1 / 12 - theta / 2:+.4f}"
+        )
     ratios = np.linspace(0.5, 1.5, 1001)
-    print(f"stable up to a true rate of {ratios[[factor(1e9, SMOOTHING, r) <= 1.0 + 1e-7 for r in ratios]].max():.3f} times the Jacobian's")
+    print(
+        f"stable up to a true rate of {ratios[[factor(1e9, SMOOTHING, r) <= 1.0 + 1e-7 for r in ratios]].max():.3f} times the Jacobian's"
+    )
     print("without a Jacobian, roots at gamma A = 0.2:", explicit_roots(0.2), "and at 0.5:", explicit_roots(0.5))
     draw()
 

@@ -1,10 +1,11 @@
-"""Whether two builds run the same trajectory: digests of all outputs of the shipped scenes, elastic and rigid halves, over 0.05 s.
+"""Whether two builds run the same trajectory: digests of all outputs of the shipped scenes, elastic and rigid halves,
+over 0.05 s.
 
     python benchmarks/bits.py > before; ...; python benchmarks/bits.py | diff before -
     python benchmarks/bits.py --against OTHER.fmu          the scenes in which an output of both FMUs differs, and which outputs
 
-A change of the code's form must leave every line as it was.  Digests depend on the instruction set only by its fused multiply-add.
---outputs prints a digest of each output, to find the one that moved.
+A change of the code's form must leave every line as it was.  Digests depend on the instruction set only by its fused
+multiply-add. --outputs prints a digest of each output, to find the one that moved.
 """
 
 import argparse
@@ -18,7 +19,11 @@ from riveted_bearing.runner import simulate
 TILT = {"inputs": {"shaft.tilt_z": "0.5 deg"}}
 RIGID = {"parameters": {"scene.cage": "two_half"}}
 SCENES = {  # name -> shipped scene, changes
-    **{f"{name}, {cage}": (name, changes) for name in ("demo", "R", "F", "jam") for cage, changes in (("elastic", {}), ("two halves", RIGID))},
+    **{
+        f"{name}, {cage}": (name, changes)
+        for name in ("demo", "R", "F", "jam")
+        for cage, changes in (("elastic", {}), ("two halves", RIGID))
+    },
     "tilt, elastic": ("demo", TILT),
     "tilt, two halves": ("demo", TILT | RIGID),
     "point, elastic": ("demo", {"parameters": {"scene.traction": "point", "scene.stress": "fatigue"}}),
@@ -37,7 +42,9 @@ def outputs_of(model, name):
 
 def digest(arrays):
     """The first 16 hexadecimal digits of the arrays' SHA-256."""
-    return hashlib.sha256(b"".join(np.ascontiguousarray(array, dtype=float).tobytes() for array in arrays)).hexdigest()[:16]
+    return hashlib.sha256(b"".join(np.ascontiguousarray(array, dtype=float).tobytes() for array in arrays)).hexdigest()[
+        :16
+    ]
 
 
 def differing(outputs, others):
@@ -57,7 +64,11 @@ def main():
         outputs = outputs_of(model, name)
         if other:
             found = dict(differing(outputs, outputs_of(other, name)))
-            print(f"{name:20} {len(found)} outputs differ", *(f"{output} {share:.1e}" for output, share in list(found.items())[:6]), flush=True)
+            print(
+                f"{name:20} {len(found)} outputs differ",
+                *(f"{output} {share:.1e}" for output, share in list(found.items())[:6]),
+                flush=True,
+            )
             continue
         print(f"{name:20} {digest(outputs.values())}", flush=True)
         if options.outputs:

@@ -51,7 +51,9 @@ SCENES = {
 
 
 class Scene:
-    """A scene with rigid cage halves, which all solvers can run, as the core takes it: numbers by full variable name.  rtf.py has the elastic ones' cost."""
+    """A scene with rigid cage halves, which all solvers can run, as the core takes it: numbers by full variable name.
+    rtf.py has the elastic ones' cost.
+    """
 
     def __init__(self, name):
         model = Model(FMU)
@@ -59,13 +61,18 @@ class Scene:
         parameters = {"scene.cage": "two_half"} | changes.get("parameters", {})
         self.checked = load_scene(shipped, model, ("benchmark", changes | {"parameters": parameters}))
         items = self.checked.parameters.items()
-        self.parameters = {key: codes(model.parameters[key])[value] if isinstance(value, str) else value for key, value in items}
+        self.parameters = {
+            key: codes(model.parameters[key])[value] if isinstance(value, str) else value for key, value in items
+        }
         self.inputs = {key: float(history(0.0)) for key, history in self.checked.inputs.items()}
         self.settle = self.parameters.get("start.settle", variables.PARAMETERS["start.settle"].start)  # [s]
 
     def start(self, core, tolerance=0.0, **parameters):
         """An initialised instance; parameters with _ for the dot change the scene's."""
-        changes = {name.replace("_", ".", 1): int(value) if isinstance(value, bool) else value for name, value in parameters.items()}
+        changes = {
+            name.replace("_", ".", 1): int(value) if isinstance(value, bool) else value
+            for name, value in parameters.items()
+        }
         return Instance(core, self.parameters | changes, self.inputs, tolerance)
 
 
@@ -77,7 +84,11 @@ def core_library():
 def build_target(name):
     """Build a target that only benchmarks need; returns its library."""
     cmake = Path(sys.executable).with_name("cmake")
-    subprocess.run([str(cmake if cmake.exists() else "cmake"), "--build", str(BUILD), "--target", name], check=True, stdout=subprocess.DEVNULL)
+    subprocess.run(
+        [str(cmake if cmake.exists() else "cmake"), "--build", str(BUILD), "--target", name],
+        check=True,
+        stdout=subprocess.DEVNULL,
+    )
     return BUILD / f"lib{name}.so"
 
 
@@ -119,9 +130,19 @@ def cpu(action, repeat=1):
 
 def machine():
     """Processor, system, compiler and Python, without names of hosts or users."""
-    processor = next((line.partition(":")[2].strip() for line in cpu_info() if line.startswith(("model name", "Model"))), platform.machine())
-    compiler = subprocess.run(["cc", "--version"], capture_output=True, text=True, check=False).stdout.partition("\n")[0]
-    return {"processor": processor, "system": f"{platform.system()} {platform.machine()}", "compiler": compiler, "python": platform.python_version()}
+    processor = next(
+        (line.partition(":")[2].strip() for line in cpu_info() if line.startswith(("model name", "Model"))),
+        platform.machine(),
+    )
+    compiler = subprocess.run(["cc", "--version"], capture_output=True, text=True, check=False).stdout.partition("\n")[
+        0
+    ]
+    return {
+        "processor": processor,
+        "system": f"{platform.system()} {platform.machine()}",
+        "compiler": compiler,
+        "python": platform.python_version(),
+    }
 
 
 def cpu_info():
@@ -133,9 +154,13 @@ def commit():
     """Commit of the checkout, with + if files differ from it, records and pages apart; "" outside a checkout."""
 
     def git(*arguments):
-        return subprocess.run(["git", "-C", str(ROOT), *arguments], capture_output=True, text=True, check=False).stdout.strip()
+        return subprocess.run(
+            ["git", "-C", str(ROOT), *arguments], capture_output=True, text=True, check=False
+        ).stdout.strip()
 
-    return git("rev-parse", "--short", "HEAD") + ("+" if git("status", "--porcelain", "-uno", "--", ".", ":!benchmarks/results", ":!docs") else "")
+    return git("rev-parse", "--short", "HEAD") + (
+        "+" if git("status", "--porcelain", "-uno", "--", ".", ":!benchmarks/results", ":!docs") else ""
+    )
 
 
 def options(description):
@@ -147,7 +172,13 @@ def options(description):
 
 def write(name, data, short):
     """Write the record of a benchmark, with commit, date and machine, to benchmarks/results/."""
-    about = {"benchmark": name, "short": short, "date": datetime.now(UTC).isoformat(timespec="seconds"), "commit": commit(), "machine": machine()}
+    about = {
+        "benchmark": name,
+        "short": short,
+        "date": datetime.now(UTC).isoformat(timespec="seconds"),
+        "commit": commit(),
+        "machine": machine(),
+    }
     path = write_record(about | data)
     print(f"wrote {path.relative_to(ROOT)}")
 

@@ -1,12 +1,13 @@
 // The core's own step hosted by ARKStep: ARKODE keeps time, state and step size, and asks for each step.
 //
 //   table        implicit trapezoidal rule: the second stage is the result, its derivative is deduced from the solve
-//   nonlinear    SUNNonlinearSolver: one step of verlet.c in place of an iteration; a recoverable failure where its error
-//                is above 1, with the factor of the next trial
+//   nonlinear    SUNNonlinearSolver: one step of verlet.c in place of an iteration; a recoverable failure
+// where its error                is above 1, with the factor of the next trial
 //   controller   SUNAdaptController: the step sizes of integrator.c
 //
-// Behind integrator.h like solvers.c.  Steps are those of the core's loop but for rounding: ARKODE multiplies the last step
-// by the ratio of both.  All of the difference in time is ARKODE's, and the correction that becomes its state.
+// Behind integrator.h like solvers.c.  Steps are those of the core's loop but for rounding: ARKODE multiplies
+// the last step by the ratio of both.  All of the difference in time is ARKODE's, and the correction that
+// becomes its state.
 #define integrator_advance own_advance
 #include "solver/integrator.c"
 #undef integrator_advance

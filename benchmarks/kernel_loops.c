@@ -1,11 +1,11 @@
 // Compiled once per instruction set, like the kernels.
 #include "kernel_loops.h"
 
-#include "physics/ball.h"
 #include "cage/common/cage_joint.h"
+#include "cage/common/pocket.h"
+#include "physics/ball.h"
 #include "physics/drag.h"
 #include "physics/land_film.h"
-#include "cage/common/pocket.h"
 #include "physics/race_contact.h"
 #include "physics/ring.h"
 

@@ -119,11 +119,23 @@ def coverage(shop):
     hits, lowest, highest, counts = 0, np.inf, 0.0, []
     for m in range(MISSIONS):
         own = [damages[m * SEEDS : (m + 1) * SEEDS] for damages in pool]
-        found, _, used = until_sure(mission.duty, lambda n, own=own: [d[:k] for d, k in zip(map(alike, own), n, strict=True)], mission.settings, SEEDS)
+        found, _, used = until_sure(
+            mission.duty,
+            lambda n, own=own: [d[:k] for d, k in zip(map(alike, own), n, strict=True)],
+            mission.settings,
+            SEEDS,
+        )
         hits += int(found.low <= truth <= found.high)
         lowest, highest = min(lowest, found.life), max(highest, found.life)
         counts.append(int(sum(used)))
-    return {"missions": MISSIONS, "covered": hits, "truth_h": truth, "lowest_h": lowest, "highest_h": highest, "mean_runs": float(np.mean(counts))}
+    return {
+        "missions": MISSIONS,
+        "covered": hits,
+        "truth_h": truth,
+        "lowest_h": lowest,
+        "highest_h": highest,
+        "mean_runs": float(np.mean(counts)),
+    }
 
 
 def alike(damages):
@@ -137,25 +149,39 @@ def life_of(mission, pool):
 
 
 def binned(shop):
-    """The load swings once between 2.4 and 4.2 kN; the record has a sample each 10 ms, the run goes linearly between them.
+    """The load swings once between 2.4 and 4.2 kN; the record has a sample each 10 ms, the run goes linearly between
+    them.
 
-    The speed stays: where it swings, each swing is also one large cycle of stress between the classes, which no class has.
+    The speed stays: where it swings, each swing is also one large cycle of stress between the classes, which no class
+    has.
     """
     t = np.arange(0.0, RECORD_S, 1e-2)
     F = 3300.0 - 900.0 * np.cos(2.0 * np.pi * t / RECORD_S)
     np.savetxt(shop.folder / "load.csv", np.column_stack([t, F]), delimiter=",", header="t,F", comments="")
     settle = 0.02  # the run's beginning, which does not count, has the record's first load
-    text = WHOLE.format(end=RECORD_S + settle, t=[0.0, *map(float, t + settle)], F=[float(F[0]), *map(float, F)], seeds=WHOLE_SEEDS)
+    text = WHOLE.format(
+        end=RECORD_S + settle, t=[0.0, *map(float, t + settle)], F=[float(F[0]), *map(float, F)], seeds=WHOLE_SEEDS
+    )
     mission, runs = shop.runs("whole", text)
     (damages,) = runs([WHOLE_SEEDS])
     whole = alike(damages)
     place = whole.mean(axis=0).argmax()
     rates = whole[:, place]
-    result = {"whole_h": 1.0 / rates.mean(), "whole_relative_error": float(rates.std(ddof=1) / np.sqrt(len(rates)) / rates.mean())}
+    result = {
+        "whole_h": 1.0 / rates.mean(),
+        "whole_relative_error": float(rates.std(ddof=1) / np.sqrt(len(rates)) / rates.mean()),
+    }
     for bins in (5, 10):
         mission, runs = shop.runs(f"bins_{bins}", HISTORY.format(bins=bins))
-        found, _, counts = until_sure(mission.duty, lambda n, runs=runs: [alike(d) for d in runs(n)], mission.settings, 24)
-        result |= {f"life_{bins}_h": found.life, f"low_{bins}_h": found.low, f"high_{bins}_h": found.high, f"runs_{bins}": int(sum(counts))}
+        found, _, counts = until_sure(
+            mission.duty, lambda n, runs=runs: [alike(d) for d in runs(n)], mission.settings, 24
+        )
+        result |= {
+            f"life_{bins}_h": found.life,
+            f"low_{bins}_h": found.low,
+            f"high_{bins}_h": found.high,
+            f"runs_{bins}": int(sum(counts)),
+        }
     return result
 
 
@@ -163,11 +189,19 @@ def twenty(shop):
     """Loads and speeds of 20 points hours fall with the load."""
     lines = ['scene = "demo"', "simulation.t_end = 0.1", "[life]", "half_width = 0.25", "max_seeds = 32"]
     for i, (F_y, speed) in enumerate(itertools.product((600, 1200, 1800, 2400, 3000), (9000, 12000, 15000, 18000))):
-        lines += ["[[point]]", f"hours = {1000 * [0.1, 0.08, 0.04, 0.02, 0.01][i // 4]:g}", f'inputs.shaft.F_y = "{F_y} N"']
+        lines += [
+            "[[point]]",
+            f"hours = {1000 * [0.1, 0.08, 0.04, 0.02, 0.01][i // 4]:g}",
+            f'inputs.shaft.F_y = "{F_y} N"',
+        ]
         lines += [f'inputs.shaft.omega = "{speed} rev/min"']
     path, out = shop.file("twenty.toml", "\n".join(lines)), shop.folder / "twenty"
     before, began = resource.getrusage(resource.RUSAGE_CHILDREN), time.monotonic()
-    subprocess.run([sys.executable, "-m", "riveted_bearing", "life", str(path), "--fmu", str(FMU), "--out", str(out)], check=True, capture_output=True)
+    subprocess.run(
+        [sys.executable, "-m", "riveted_bearing", "life", str(path), "--fmu", str(FMU), "--out", str(out)],
+        check=True,
+        capture_output=True,
+    )
     wall, after = time.monotonic() - began, resource.getrusage(resource.RUSAGE_CHILDREN)
     found = json.loads((out / "life.json").read_text())
     mission = load_mission(path, model())
@@ -199,8 +233,18 @@ def choice(shop):
     return {
         "cost_runs": spent,
         "grid_runs": len(grid) * (spent // len(grid)),
-        "optimum": {"preload": chosen[0], "fit": chosen[1], "log10_damage_per_h": float(np.log10(rates[0].mean())), "error": float(error[0] / rates[0].mean())},
-        "grid": {"preload": best[0], "fit": best[1], "log10_damage_per_h": float(np.log10(rates[1].mean())), "error": float(error[1] / rates[1].mean())},
+        "optimum": {
+            "preload": chosen[0],
+            "fit": chosen[1],
+            "log10_damage_per_h": float(np.log10(rates[0].mean())),
+            "error": float(error[0] / rates[0].mean()),
+        },
+        "grid": {
+            "preload": best[0],
+            "fit": best[1],
+            "log10_damage_per_h": float(np.log10(rates[1].mean())),
+            "error": float(error[1] / rates[1].mean()),
+        },
         "pairs_better": int((again[0] < again[1]).sum()),
         "pairs": len(FRESH),
     }
@@ -211,7 +255,9 @@ PARTS = {part.__name__: part for part in (coverage, binned, twenty, choice)}
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
-    parser.add_argument("parts", nargs="*", metavar="PART", help=f"of {', '.join(PARTS)}; default: all, written as a record")
+    parser.add_argument(
+        "parts", nargs="*", metavar="PART", help=f"of {', '.join(PARTS)}; default: all, written as a record"
+    )
     chosen = parser.parse_args().parts or list(PARTS)
     result = {}
     for name in chosen:

@@ -42,7 +42,16 @@ STYLES = {  # family -> colour, marker, line width
     "CVODE BDF, bordered": ("#8e1b5a", "o", 1.0),
 }
 SPARE = [("#555555", "h", 1.2), ("#999999", "p", 1.2), ("#222222", "*", 1.2)]
-plt.rcParams.update({"svg.fonttype": "none", "svg.hashsalt": "performance", "font.size": 8, "axes.grid": True, "grid.alpha": 0.25, "axes.axisbelow": True})
+plt.rcParams.update(
+    {
+        "svg.fonttype": "none",
+        "svg.hashsalt": "performance",
+        "font.size": 8,
+        "axes.grid": True,
+        "grid.alpha": 0.25,
+        "axes.axisbelow": True,
+    }
+)
 
 
 def section(title, name, write):
@@ -100,17 +109,23 @@ def style(family, families):
     return STYLES[family] if family in STYLES else SPARE[unknown.index(family) % len(SPARE)]
 
 
-# ------------------------------------------------------------------------------------------------------------------------- work and precision
+# --------------------------------------------------------------------------------------------------- work and precision
 
 
 def curve(rows, family):
     """Errors and RTFs of one family by tolerance."""
-    points = [(r["error"], r["rtf"]) for r in sorted(rows, key=lambda r: r["tolerance"]) if r["family"] == family and "error" in r]
+    points = [
+        (r["error"], r["rtf"])
+        for r in sorted(rows, key=lambda r: r["tolerance"])
+        if r["family"] == family and "error" in r
+    ]
     return np.array(points).reshape(-1, 2)
 
 
 def cheapest(rows, family, error):
-    """Least RTF of a family at this error or better: along its curve, straight in logarithms; None where it never gets there."""
+    """Least RTF of a family at this error or better: along its curve, straight in logarithms; None where it never gets
+    there.
+    """
     points = curve(rows, family)
     if not len(points) or points[:, 0].min() > error:
         return None
@@ -123,7 +138,9 @@ def cheapest(rows, family, error):
 
 
 def row_of(rows, family, tolerance):
-    return next((r for r in rows if r["family"] == family and math.isclose(r["tolerance"], tolerance) and "rtf" in r), None)
+    return next(
+        (r for r in rows if r["family"] == family and math.isclose(r["tolerance"], tolerance) and "rtf" in r), None
+    )
 
 
 def draw_work_precision(data):
@@ -138,7 +155,9 @@ def draw_work_precision(data):
         default = row_of(rows, **data["default"])
         axis.loglog(default["error"], default["rtf"], "o", ms=10, mfc="none", mec="#0b3c8c")
         read_off(axis)
-        axis.set(title=scene["title"], xlabel="error after 2 ms / tolerance scale", ylabel="processor time / simulated time")
+        axis.set(
+            title=scene["title"], xlabel="error after 2 ms / tolerance scale", ylabel="processor time / simulated time"
+        )
     handles, labels = axes.flat[0].get_legend_handles_labels()
     for axis in list(axes.flat)[len(data["scenes"]) :]:
         axis.axis("off")
@@ -169,7 +188,10 @@ def ratio(value):
 
 def largest_error(data, scene):
     """The largest of the nine statistical errors of the default and its name."""
-    name, figure = max(row_of(scene["statistics"]["rows"], **data["default"])["figures"].items(), key=lambda item: abs(item[1]["error"]))
+    name, figure = max(
+        row_of(scene["statistics"]["rows"], **data["default"])["figures"].items(),
+        key=lambda item: abs(item[1]["error"]),
+    )
     return f"{percent(figure)} ({name})"
 
 
@@ -187,7 +209,15 @@ def headline(data):
         ]
         for name, scene in data["scenes"].items()
     ]
-    head = ["scene", "RTF to reach", "RTF through fmpy", "rigid halves", "inside the FMU", "rigid halves", "largest of nine statistical errors, %"]
+    head = [
+        "scene",
+        "RTF to reach",
+        "RTF through fmpy",
+        "rigid halves",
+        "inside the FMU",
+        "rigid halves",
+        "largest of nine statistical errors, %",
+    ]
     head.append("BDF dense at equal error")
     return table([*head, "best Python solver at equal error"], rows)
 
@@ -203,7 +233,11 @@ def states_table(data):
         cells = [f"**{family} {tolerance:g}**" if not rows else f"{family} {tolerance:g}"]
         for scene in scenes.values():
             row = row_of(scene["states"]["rows"], family, tolerance)
-            cells.append(f"{number(row['rtf'])} / {row['evals'] / 100:,.0f} / {row['steps'] / 100:,.0f} / {row['error']:.0e}" if row else "failed")
+            cells.append(
+                f"{number(row['rtf'])} / {row['evals'] / 100:,.0f} / {row['steps'] / 100:,.0f} / {row['error']:.0e}"
+                if row
+                else "failed"
+            )
         rows.append(cells)
     return table(["RTF / evaluations / steps per 10 ms / error", *[scene["title"] for scene in scenes.values()]], rows)
 
@@ -215,7 +249,14 @@ def statistics_table(data):
             figures = row["figures"]
             cells = [percent(figures[name]) for name in FIGURES]
             mark = "**" if {"family": row["family"], "tolerance": row["tolerance"]} == data["default"] else ""
-            rows.append([f"{scene['title']}: {mark}{row['family']} {row['tolerance']:g}{mark}", number(row["rtf"]), f"{row['evals'] / 100:,.0f}", *cells])
+            rows.append(
+                [
+                    f"{scene['title']}: {mark}{row['family']} {row['tolerance']:g}{mark}",
+                    number(row["rtf"]),
+                    f"{row['evals'] / 100:,.0f}",
+                    *cells,
+                ]
+            )
     return table(["", "RTF", "evaluations per 10 ms", *FIGURES.values()], rows)
 
 
@@ -223,7 +264,12 @@ def python_table(data):
     rows = []
     for scene in data["scenes"].values():
         rows += [
-            [f"{scene['title']}: {r['family']} {r['tolerance']:g}", number(r["rtf"]), f"{r['evals'] / 100:,.0f}", f"{r['error']:.0e}"]
+            [
+                f"{scene['title']}: {r['family']} {r['tolerance']:g}",
+                number(r["rtf"]),
+                f"{r['evals'] / 100:,.0f}",
+                f"{r['error']:.0e}",
+            ]
             for r in [*scene["states"]["python"], *[row_of(scene["states"].get("python_ours", []), **data["default"])]]
             if r
         ]
@@ -273,7 +319,7 @@ The last row of each scene is the FMU's default over the same horizon.
 """
 
 
-# ------------------------------------------------------------------------------------------------------------------------- right-hand side
+# ------------------------------------------------------------------------------------------------------ right-hand side
 
 
 def rhs(data):
@@ -282,7 +328,10 @@ def rhs(data):
     for scene in data["scenes"].values():
         base = scene["sets"]["scalar"]["rhs"]
         rows.append(
-            [f"**{scene['title']}**, {scene['pockets_touched']:.1f} contacts of ball and half", *[f"**{scene['sets'][isa]['rhs']:,.0f}**" for isa in sets]]
+            [
+                f"**{scene['title']}**, {scene['pockets_touched']:.1f} contacts of ball and half",
+                *[f"**{scene['sets'][isa]['rhs']:,.0f}**" for isa in sets],
+            ]
         )
         rows.append(["against scalar", *[f"{base / scene['sets'][isa]['rhs']:.2f}×" for isa in sets]])
         for element in scene["sets"]["scalar"]["elements"]:
@@ -302,10 +351,19 @@ def rhs(data):
             rows.append(
                 [
                     "floor: arithmetic / loads / divisions",
-                    *[" / ".join(f"{scene['sets'][isa]['floor'][part]:,.0f}" for part in ("arithmetic", "load", "divide_root")) for isa in sets],
+                    *[
+                        " / ".join(
+                            f"{scene['sets'][isa]['floor'][part]:,.0f}"
+                            for part in ("arithmetic", "load", "divide_root")
+                        )
+                        for isa in sets
+                    ],
                 ]
             )
-    peaks = "; ".join(f"{isa} {p['arithmetic']:.3f}, {p['load']:.3f}, {p['divide']:.2f}, {p['root']:.2f}" for isa, p in data["peaks"].items())
+    peaks = "; ".join(
+        f"{isa} {p['arithmetic']:.3f}, {p['load']:.3f}, {p['divide']:.2f}, {p['root']:.2f}"
+        for isa, p in data["peaks"].items()
+    )
     return f"""{origin(data)}. Times in ns over states of a settled run, elements timed one by one.
 
 {table(["", *sets], rows)}
@@ -317,7 +375,7 @@ latency: chains of dependent operations in few packets.
 """
 
 
-# -------------------------------------------------------------------------------------------------------------------------------------- step
+# ----------------------------------------------------------------------------------------------------------------- step
 
 
 def hosted(data):
@@ -355,7 +413,10 @@ def steps_by_part(scenes):
         whole += [f"**{scene['counts']['instructions']:,.0f}**", parts_of_floor]
         measured += ["", f"**{scene['ns']:,.0f}**"]
         head += [f"{scene['title']}: instructions", "floor, ns"]
-    taken = "; ".join(f"{scene['title']}: {scene['steps'] / 100:,.0f} accepted, {scene['error_tests_failed'] / 100:,.0f} rejected" for scene in scenes)
+    taken = "; ".join(
+        f"{scene['title']}: {scene['steps'] / 100:,.0f} accepted, {scene['error_tests_failed'] / 100:,.0f} rejected"
+        for scene in scenes
+    )
     return f"Steps per 10 ms: {taken}.\n\n{table(head, [*rows, whole, measured])}"
 
 
@@ -372,14 +433,20 @@ floor of a part is the largest of its three floors (see above); the floors of th
 """
 
 
-# ------------------------------------------------------------------------------------------------------------------------------------ scenes
+# --------------------------------------------------------------------------------------------------------------- scenes
 
 
 def scenes(data):
     stress = data["stress"]
     base, span = stress["off"]["rtf"], data["span"]
     rows = [
-        [name, f"{row['rtf']:.3f}", f"{100 * (row['rtf'] / base - 1):+.1f} %", "same bits" if row["same_bits"] else "differs"] for name, row in stress.items()
+        [
+            name,
+            f"{row['rtf']:.3f}",
+            f"{100 * (row['rtf'] / base - 1):+.1f} %",
+            "same bits" if row["same_bits"] else "differs",
+        ]
+        for name, row in stress.items()
     ]
     missed = [
         f"{100 * row['missed_mean']:.1f} % (at most {100 * row['missed_most']:.0f} %) at {float(step) * 1e6:,.0f} µs"
@@ -387,12 +454,20 @@ def scenes(data):
     ]
     groups, reading = data["groups"]["median_us"], data["groups"]["reading"]
     inputs = [
-        [f"{float(step) * 1e6:.0f} µs, {name}", f"{row['rtf']:.3f}", f"{row['evals'] / 100:,.0f}", f"{row['evals'] / rows_['free']['evals']:.2f}×"]
+        [
+            f"{float(step) * 1e6:.0f} µs, {name}",
+            f"{row['rtf']:.3f}",
+            f"{row['evals'] / 100:,.0f}",
+            f"{row['evals'] / rows_['free']['evals']:.2f}×",
+        ]
         for step, rows_ in data["inputs"].items()
         for name, row in rows_.items()
     ]
     first = next(iter(data["paths"].values()))
-    paths = [[name, *[f"{row['rtf']:.2f} / {row['evals'] / 100:,.0f}" for row in rows_.values()]] for name, rows_ in data["paths"].items()]
+    paths = [
+        [name, *[f"{row['rtf']:.2f} / {row['evals'] / 100:,.0f}" for row in rows_.values()]]
+        for name, rows_ in data["paths"].items()
+    ]
     by_group = ", ".join(f"{name} {value:.2f}" for name, value in groups.items())
     bits = "same bits" if reading["all"]["same_bits"] else "the end state differs"
     head = ["simpler model", "RTF / full model's", "force mean", "RMS", "p99.9", "head stress RMS", "p99.9"]
@@ -400,7 +475,10 @@ def scenes(data):
         [
             name,
             f"{row['rtf']:.2f} / {row['rtf_full']:.2f}",
-            *[percent(row["figures"][key]) for key in ("Q_c_mean", "Q_c_rms", "Q_c_p999", "sigma_head_rms", "sigma_head_p999")],
+            *[
+                percent(row["figures"][key])
+                for key in ("Q_c_mean", "Q_c_rms", "Q_c_p999", "sigma_head_rms", "sigma_head_p999")
+            ],
         ]
         for name, row in data["models"].items()
     ]
@@ -424,7 +502,7 @@ Simpler models at the working point, {data["seeds"]} seeds × {span:g} s; differ
 """
 
 
-# ----------------------------------------------------------------------------------------------------------------------------------- scaling
+# -------------------------------------------------------------------------------------------------------------- scaling
 
 
 def draw_scaling(data):
@@ -433,9 +511,23 @@ def draw_scaling(data):
     left.plot(Z, [row["us_per_eval"] for row in data["balls"].values()], "o-", color="#0b3c8c")
     left.set(xlabel="balls", ylabel="µs per evaluation, stepping included", ylim=(0, None))
     steps = [float(step) for step in data["step"]]
-    middle.loglog(steps, [row["constant"]["rtf"] for row in data["step"].values()], "o-", color="#0b3c8c", label="process")
-    middle.loglog(steps, [row["constant"]["inside"] for row in data["step"].values()], "s--", color="#3f83d9", label="inside the FMU")
-    middle.loglog(steps, [row["changing"]["rtf"] for row in data["step"].values()], "^:", color="#c0271f", label="process, inputs changing")
+    middle.loglog(
+        steps, [row["constant"]["rtf"] for row in data["step"].values()], "o-", color="#0b3c8c", label="process"
+    )
+    middle.loglog(
+        steps,
+        [row["constant"]["inside"] for row in data["step"].values()],
+        "s--",
+        color="#3f83d9",
+        label="inside the FMU",
+    )
+    middle.loglog(
+        steps,
+        [row["changing"]["rtf"] for row in data["step"].values()],
+        "^:",
+        color="#c0271f",
+        label="process, inputs changing",
+    )
     middle.set(xlabel="communication step [s]", ylabel="processor time / simulated time")
     read_off(middle)
     middle.legend(frameon=False)
@@ -448,7 +540,10 @@ def draw_scaling(data):
 
 def scaling(data):
     draw_scaling(data)
-    balls = [[z, number(r["rtf"]), f"{r['evals'] / 100:,.0f}", f"{r['us_per_eval']:.2f}", f"{r['start_ms']:.1f}"] for z, r in data["balls"].items()]
+    balls = [
+        [z, number(r["rtf"]), f"{r['evals'] / 100:,.0f}", f"{r['us_per_eval']:.2f}", f"{r['start_ms']:.1f}"]
+        for z, r in data["balls"].items()
+    ]
     steps = [
         [
             f"{float(step):g}",
@@ -459,7 +554,10 @@ def scaling(data):
         for step, row in data["step"].items()
     ]
     outputs = [[count, number(row["rtf"], 3), number(row["inside"], 3)] for count, row in data["outputs"].items()]
-    horizon = [[f"{h} s", *[f"{q['rtf']:.3f}, {q['peak_memory_MB']:.1f} MB" for q in rows]] for h, rows in data["horizon"].items()]
+    horizon = [
+        [f"{h} s", *[f"{q['rtf']:.3f}, {q['peak_memory_MB']:.1f} MB" for q in rows]]
+        for h, rows in data["horizon"].items()
+    ]
     head = ["communication step, s", "RTF, constant inputs", "inside the FMU", "RTF, changing inputs", "inside the FMU"]
     head += ["evaluations per 10 ms, constant", "changing", "fmpy's own µs per step"]
     parallel = [[count, number(row["rtf"], 3), number(row["wall"], 3)] for count, row in data["parallel"].items()]
@@ -483,7 +581,7 @@ The last column is fmpy's overhead for `doStep` and one `getReal` of 18 channels
 """
 
 
-# -------------------------------------------------------------------------------------------------------------------------------------- goals
+# ---------------------------------------------------------------------------------------------------------------- goals
 
 
 def goals():
@@ -499,14 +597,25 @@ def goals():
             measured = f"{number(elastic[name]['rtf'])}; rigid halves {number(rigid[name]['rtf'])}"
             rows.append([f"RTF through fmpy, {SCENES[name][0]}", f"≤ {reach:g}", measured])
     if data := found.get("work_precision"):
-        rows += [[f"largest of nine statistical errors, {scene['title']}, %", "≤ 1", largest_error(data, scene)] for scene in data["scenes"].values()]
-        rows += [[f"CVODE BDF dense at equal error, {scene['title']}", "≥ 10×", ratio(bdf_ratio(data, scene))] for scene in data["scenes"].values()]
+        rows += [
+            [f"largest of nine statistical errors, {scene['title']}, %", "≤ 1", largest_error(data, scene)]
+            for scene in data["scenes"].values()
+        ]
+        rows += [
+            [f"CVODE BDF dense at equal error, {scene['title']}", "≥ 10×", ratio(bdf_ratio(data, scene))]
+            for scene in data["scenes"].values()
+        ]
         measured = [scene for scene in data["scenes"].values() if scene["states"]["python"]]
-        rows += [[f"best Python solver at equal error, {scene['title']}", "≥ 100×", ratio(python_ratio(data, scene))] for scene in measured]
+        rows += [
+            [f"best Python solver at equal error, {scene['title']}", "≥ 100×", ratio(python_ratio(data, scene))]
+            for scene in measured
+        ]
     if data := found.get("scenes"):
         for step_size, cases in data["inputs"].items():
             evals = cases["changing"]["evals"] / cases["free"]["evals"]
-            rows.append([f"evaluations, inputs changing every {float(step_size):g} s / free run", "≤ 2×", f"{evals:.2f}×"])
+            rows.append(
+                [f"evaluations, inputs changing every {float(step_size):g} s / free run", "≤ 2×", f"{evals:.2f}×"]
+            )
     if data := found.get("rhs"):
         sets = next(iter(data["scenes"].values()))["sets"]
         if "avx2" in sets:
@@ -520,8 +629,17 @@ def goals():
                 ]
             )
     if data := found.get("scaling"):
-        overhead = {size: 1e6 * (row["constant"]["rtf"] - row["constant"]["inside"]) * float(size) for size, row in data["step"].items()}
-        rows.append(["fmpy's own time per communication step of 1e-4 s, 18 channels read", "apart", f"{overhead['0.0001']:.1f} µs"])
+        overhead = {
+            size: 1e6 * (row["constant"]["rtf"] - row["constant"]["inside"]) * float(size)
+            for size, row in data["step"].items()
+        }
+        rows.append(
+            [
+                "fmpy's own time per communication step of 1e-4 s, 18 channels read",
+                "apart",
+                f"{overhead['0.0001']:.1f} µs",
+            ]
+        )
         rows.append(["instantiation and initialisation, once loaded", "≤ 50 ms", f"{data['start_ms']:.1f} ms"])
     return table(["", "to reach", "measured"], rows)
 

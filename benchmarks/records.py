@@ -1,4 +1,5 @@
-"""Records of benchmarks as CSV, one file for each machine and benchmark: benchmarks/results/MACHINE/NAME.csv, tracked; the pages are made from these files.
+"""Records of benchmarks as CSV, one file for each machine and benchmark: benchmarks/results/MACHINE/NAME.csv, tracked;
+the pages are made from these files.
 
     # benchmark = "rtf"
     # short = false
@@ -9,9 +10,9 @@
     ,7,,,
     scenes/demo,,0.41,0.39,103000
 
-A record is a tree of tables and lists.  Each node that has values of its own is a row; `where` is the node's path, [i] an item of a list, and the columns
-are the names of all values.  Numbers have all their digits, an empty cell is no value, and a text that reads like a number stands in quotation marks of
-its own.
+A record is a tree of tables and lists.  Each node that has values of its own is a row; `where` is the node's path, [i]
+an item of a list, and the columns are the names of all values.  Numbers have all their digits, an empty cell is no
+value, and a text that reads like a number stands in quotation marks of its own.
 """
 
 import csv
@@ -26,14 +27,18 @@ HEADER = ("benchmark", "short", "date", "commit", "machine")
 
 
 def folder_of(machine):
-    """Name of a machine's folder: processor and compiler in lower case, without trade marks and versions of the distribution."""
+    """Name of a machine's folder: processor and compiler in lower case, without trade marks and versions of the
+    distribution.
+    """
     compiler = re.sub(r"\(.*?\)", "", machine["compiler"])
     text = re.sub(r"\((?:r|tm)\)|\bcpu\b|\bprocessor\b|@.*", " ", machine["processor"].lower()) + " " + compiler.lower()
     return "-".join(re.findall(r"[a-z0-9.]+", text))
 
 
 def write_record(record, folder=RESULTS):
-    """Write a record (members HEADER and what was measured) and return the file's path; ValueError for a name with a slash."""
+    """Write a record (members HEADER and what was measured) and return the file's path; ValueError for a name with a
+    slash.
+    """
     path = Path(folder) / folder_of(record["machine"]) / f"{record['benchmark']}.csv"
     path.parent.mkdir(parents=True, exist_ok=True)
     path.write_text(text_of(record), encoding="utf-8", newline="\n")
@@ -64,13 +69,19 @@ def text_of(record):
     text.writelines(f"# {name} = {json.dumps(record[name], ensure_ascii=False)}\n" for name in HEADER)
     table = csv.writer(text, lineterminator="\n")
     table.writerow(["where", *columns])
-    table.writerows([where, *(cell(values[name]) if name in values else "" for name in columns)] for where, values in rows)
+    table.writerows(
+        [where, *(cell(values[name]) if name in values else "" for name in columns)] for where, values in rows
+    )
     return text.getvalue()
 
 
 def rows_of(node, where=""):
     """Path and values of each node that has values, or that has nothing at all below it."""
-    items = [(f"[{i}]", value) for i, value in enumerate(node)] if isinstance(node, (list, tuple)) else [(str(name), value) for name, value in node.items()]
+    items = (
+        [(f"[{i}]", value) for i, value in enumerate(node)]
+        if isinstance(node, (list, tuple))
+        else [(str(name), value) for name, value in node.items()]
+    )
     values = {name: value for name, value in items if not is_branch(value)}
     if values:
         yield where, values
@@ -111,7 +122,10 @@ def value_of(text):
 def record_of(text):
     """The record of text_of."""
     lines = list(io.StringIO(text))
-    header = [line.removeprefix("# ").partition(" = ") for line in itertools.takewhile(lambda line: line.startswith("# "), lines)]
+    header = [
+        line.removeprefix("# ").partition(" = ")
+        for line in itertools.takewhile(lambda line: line.startswith("# "), lines)
+    ]
     record = {name: json.loads(value) for name, _, value in header}
     if missing := [name for name in HEADER if name not in record]:
         raise ValueError(f"{', '.join(missing)} missing in the header")

@@ -1,8 +1,10 @@
-"""Cost of one evaluation of the right-hand side per instruction set, element by element, with the processor's floor beside it.
+"""Cost of one evaluation of the right-hand side per instruction set, element by element, with the processor's floor
+beside it.
 
-States are those of settled runs, in turn.  Elements are timed one by one, so their sum is not exactly the whole.  Instructions are counted by single
-steps of a child process and named by disassembly.  The floor takes the measured times of independent instructions on this processor: arithmetic and
-loads run side by side, division and root on a unit of their own, so no evaluation with these instructions can take less than the largest of the three.
+States are those of settled runs, in turn.  Elements are timed one by one, so their sum is not exactly the whole.
+Instructions are counted by single steps of a child process and named by disassembly.  The floor takes the measured
+times of independent instructions on this processor: arithmetic and loads run side by side, division and root on a unit
+of their own, so no evaluation with these instructions can take less than the largest of the three.
 """
 
 import collections
@@ -54,12 +56,16 @@ def settled_states(scene, core, count):
 
 def timing(core, model, isa, y, rounds):
     """Least times of several repeats [ns]: the whole evaluation and each element."""
-    whole = min(getattr(core.lib, f"rhs_time_{isa}")(model.pointer, len(y), core.array(y), rounds, model.work) for _ in range(7))
+    whole = min(
+        getattr(core.lib, f"rhs_time_{isa}")(model.pointer, len(y), core.array(y), rounds, model.work) for _ in range(7)
+    )
     elements, ns = [], np.empty(len(ELEMENT_NAMES))
     for state in y[:: max(1, len(y) // 16)]:
         repeats = []
         for _ in range(5):
-            getattr(core.lib, f"element_times_{isa}")(model.pointer, core.array(state.copy()), 40 * rounds, model.work, core.array(ns))
+            getattr(core.lib, f"element_times_{isa}")(
+                model.pointer, core.array(state.copy()), 40 * rounds, model.work, core.array(ns)
+            )
             repeats.append(ns.copy())
         elements.append(np.min(repeats, axis=0))
     return {"rhs": whole, "elements": dict(zip(ELEMENT_NAMES, np.mean(elements, axis=0)))}
@@ -74,12 +80,14 @@ def peaks(core, isa):
     return dict(zip(PEAKS, best))
 
 
-# ------------------------------------------------------------------------------------------------------------------------------- instructions
+# --------------------------------------------------------------------------------------------------------- instructions
 
 
 def disassembly(library):
     """Offset -> (function, mnemonic, operands) of all instructions."""
-    text = subprocess.run(["objdump", "-d", "--no-show-raw-insn", str(library)], capture_output=True, text=True, check=True).stdout
+    text = subprocess.run(
+        ["objdump", "-d", "--no-show-raw-insn", str(library)], capture_output=True, text=True, check=True
+    ).stdout
     table, function = {}, ""
     for line in text.splitlines():
         if match := re.match(r"^[0-9a-f]+ <(.*)>:$", line):
@@ -97,12 +105,16 @@ def base_address(library):
 
 def instructions(core, library, table, model, isa, y):
     """Mean counts of instructions by kind over states; None where single steps are not possible."""
-    core.ffi.cdef("long trace_rhs(void *, const Model *, const double *, Work *, unsigned long *, long);", override=True)
+    core.ffi.cdef(
+        "long trace_rhs(void *, const Model *, const double *, Work *, unsigned long *, long);", override=True
+    )
     function, addresses = core.ffi.addressof(core.lib, f"rhs_{isa}"), np.empty(200_000, dtype=np.uint64)
     counts = collections.Counter()
     for state in y:
         pointer = core.ffi.cast("unsigned long *", core.ffi.from_buffer(addresses))
-        count = core.lib.trace_rhs(function, model.pointer, core.array(state.copy()), model.work, pointer, len(addresses))
+        count = core.lib.trace_rhs(
+            function, model.pointer, core.array(state.copy()), model.work, pointer, len(addresses)
+        )
         if count <= 0:
             return None
         base = base_address(library)
@@ -160,7 +172,9 @@ def main():
             rows[isa] = timing(core, model, isa, y, 50 if short else 200)
             if counts := instructions(core, library, table, model, isa, y[:8]):
                 rows[isa] |= {"counts": counts, "floor": floor(counts, peaks(core, isa))}
-            say(f"{name} {isa}: {rows[isa]['rhs']:.0f} ns, floor {rows[isa].get('floor', {}).get('floor', float('nan')):.0f} ns")
+            say(
+                f"{name} {isa}: {rows[isa]['rhs']:.0f} ns, floor {rows[isa].get('floor', {}).get('floor', float('nan')):.0f} ns"
+            )
         scenes[name] = {"title": scene.title, "pockets_touched": float(np.mean(touched)), "sets": rows}
     write("rhs", {"peaks": {isa: peaks(core, isa) for isa in sets}, "lanes": LANES, "scenes": scenes}, short)
 

@@ -1,6 +1,8 @@
-"""Cost of the rivets' stress from the table, at the loads of settled runs, beside one evaluation of the right-hand side.
+"""Cost of the rivets' stress from the table, at the loads of settled runs, beside one evaluation of the right-hand
+side.
 
-Both are timed in a C loop over many states, so that neither calls from Python nor a table in the cache distort the times; the least of several repeats counts.
+Both are timed in a C loop over many states, so that neither calls from Python nor a table in the cache distort the
+times; the least of several repeats counts.
 """
 
 import numpy as np
@@ -37,7 +39,13 @@ def table_time(core, model, loads, count):
 def rhs_time(core, model, y):
     """Time of one evaluation of the right-hand side [s]."""
     rounds = -(-CALLS // len(y))
-    return min(getattr(core.lib, f"rhs_time_{model.isa}")(model.pointer, len(y), core.array(y), rounds, model.work) for _ in range(9)) * 1e-9
+    return (
+        min(
+            getattr(core.lib, f"rhs_time_{model.isa}")(model.pointer, len(y), core.array(y), rounds, model.work)
+            for _ in range(9)
+        )
+        * 1e-9
+    )
 
 
 def main():
@@ -52,7 +60,9 @@ def main():
         table, rhs = table_time(core, model, rivet_loads(core, model, y), len(y)), rhs_time(core, model, y)
         scenes[name] = {"title": scene.title, "isa": model.isa, "table": table, "rhs": rhs}
         verdict = "within" if table <= REACH else "beyond"
-        say(f"{name}: {2 * Z} channels {1e6 * table:.2f} us, {verdict} {1e6 * REACH:g} us; {table / rhs:.2f} of a right-hand side")
+        say(
+            f"{name}: {2 * Z} channels {1e6 * table:.2f} us, {verdict} {1e6 * REACH:g} us; {table / rhs:.2f} of a right-hand side"
+        )
     worst = np.max([scene["table"] for scene in scenes.values()])
     write("rivet", {"reach": REACH, "worst": worst, "scenes": scenes}, short)
 

@@ -1,7 +1,9 @@
-"""What follows by rule for a bearing of which only the designation is known, and by how much the rivets' stress moves over what is usual: docs/rules.md.
+"""What follows by rule for a bearing of which only the designation is known, and by how much the rivets' stress moves
+over what is usual: docs/rules.md.
 
-Each value that scaling.py makes from the 6207's stands once at the lower and once at the upper end of its usual range, all others by rule, in the 6309 at its
-loads and speed by rule; the same seeds each time.  Values that the rivet table is made from take a build each.
+Each value that scaling.py makes from the 6207's stands once at the lower and once at the upper end of its usual range,
+all others by rule, in the 6309 at its loads and speed by rule; the same seeds each time.  Values that the rivet table
+is made from take a build each.
 
 python benchmarks/rules.py [--short]     half an hour on two cores; --short takes two seeds and the values alone that need no build
 """
@@ -51,7 +53,9 @@ stress.
 
 @dataclass(frozen=True)
 class Rule:
-    """A value by rule: name in a bearing file; of: the quantity that it follows, low, high: usual range as factors of the value by rule; why: of the range."""
+    """A value by rule: name in a bearing file; of: the quantity that it follows, low, high: usual range as factors of
+    the value by rule; why: of the range.
+    """
 
     name: str
     of: str
@@ -61,7 +65,9 @@ class Rule:
 
     @property
     def formula(self):
-        """The rule as a formula of the ball's diameter D, the pitch diameter d_m, the shank's diameter d, the head's d_h [m], bore and width."""
+        """The rule as a formula of the ball's diameter D, the pitch diameter d_m, the shank's diameter d, the head's
+        d_h [m], bore and width.
+        """
         start = RIVET[self.name.removeprefix("rivet.")] if self.name.startswith("rivet.") else scaling.start(self.name)
         D, d_m, d = scaling.start("bearing.D"), scaling.start("bearing.d_m"), RIVET["shank_diameter"]
         if self.of == "d_m + D":
@@ -116,7 +122,10 @@ def needs_build(rule):
 
 def stress(fmu, parameters, seeds):
     """99.9 % quantile and mean of the worst head [seeds, 2] in Pa."""
-    found = [rb.run(None, fmu=fmu, seed=seed, t_end=T_END, parameters=parameters, outputs=["ring.y"]).summary for seed in seeds]
+    found = [
+        rb.run(None, fmu=fmu, seed=seed, t_end=T_END, parameters=parameters, outputs=["ring.y"]).summary
+        for seed in seeds
+    ]
     return np.array([[summary["stat.sigma_head_p999"], summary["stat.sigma_head_mean"]] for summary in found])
 
 
@@ -131,17 +140,27 @@ def built(folder, stem, section):
 
 def section_of(name, value):
     """The section of a bearing file that gives one value."""
-    return f"[rivet]\n{name.removeprefix('rivet.')} = {value!r}\n" if name.startswith("rivet.") else f"[parameters]\n{name} = {value!r}\n"
+    return (
+        f"[rivet]\n{name.removeprefix('rivet.')} = {value!r}\n"
+        if name.startswith("rivet.")
+        else f"[parameters]\n{name} = {value!r}\n"
+    )
 
 
 def changes(values, base):
     """Mean change of quantile and mean in per cent, and the standard error of the first."""
     ratio = 100.0 * (values / base - 1.0)
-    return {"p999": float(ratio[:, 0].mean()), "mean": float(ratio[:, 1].mean()), "error": float(ratio[:, 0].std(ddof=1) / np.sqrt(len(ratio)))}
+    return {
+        "p999": float(ratio[:, 0].mean()),
+        "mean": float(ratio[:, 1].mean()),
+        "error": float(ratio[:, 0].std(ddof=1) / np.sqrt(len(ratio))),
+    }
 
 
 def measure(short, only=()):
-    """The record: by rule, its value and the changes at both ends; by material the changes.  only: names of the rules that are wanted, all without any."""
+    """The record: by rule, its value and the changes at both ends; by material the changes.  only: names of the rules
+    that are wanted, all without any.
+    """
     seeds, case = range(1, 3 if short else 1 + SEEDS), bearing_case(BEARING)
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
@@ -151,7 +170,11 @@ def measure(short, only=()):
         for rule in RULES:
             if (short and needs_build(rule)) or (only and rule.name not in only):
                 continue
-            value = case.joint[rule.name.removeprefix("rivet.")] if rule.name.startswith("rivet.") else case.values[rule.name]
+            value = (
+                case.joint[rule.name.removeprefix("rivet.")]
+                if rule.name.startswith("rivet.")
+                else case.values[rule.name]
+            )
             row = {"value": value}
             for end, factor in (("low", rule.low), ("high", rule.high)):
                 try:
@@ -168,7 +191,13 @@ def measure(short, only=()):
         for cage in () if short or only else MATERIALS:
             cages[cage] = changes(stress(built(folder, "other", f'[cage]\nmaterial = "{cage}"\n'), {}, seeds), base)
             say(f"{cage}: {cages[cage]}")
-    return {"seeds": len(seeds), "p999": float(base[:, 0].mean()), "mean": float(base[:, 1].mean()), "rules": rules, "materials": cages}
+    return {
+        "seeds": len(seeds),
+        "p999": float(base[:, 0].mean()),
+        "mean": float(base[:, 1].mean()),
+        "rules": rules,
+        "materials": cages,
+    }
 
 
 def change_text(row, end):
@@ -188,7 +217,10 @@ def page(record):
                 f"| `{rule.name}` | {rule.formula} | {rule.low:g} … {rule.high:g} times | {change_text(row, 'low')} | {change_text(row, 'high')} | {rule.why} |"
             )
     lines.append(MATERIALS_TABLE)
-    lines += [f"| `{name}` | {row['p999']:+.1f} ± {row['error']:.1f} % | {row['mean']:+.1f} % |" for name, row in record["materials"].items()]
+    lines += [
+        f"| `{name}` | {row['p999']:+.1f} ± {row['error']:.1f} % | {row['mean']:+.1f} % |"
+        for name, row in record["materials"].items()
+    ]
     return "\n".join(lines) + CLOSE
 
 
@@ -196,14 +228,22 @@ def main():
     """Command line."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--short", action="store_true")
-    parser.add_argument("--only", nargs="+", default=(), metavar="NAME", help="measure these rules again; the others stay as the newest record has them")
+    parser.add_argument(
+        "--only",
+        nargs="+",
+        default=(),
+        metavar="NAME",
+        help="measure these rules again; the others stay as the newest record has them",
+    )
     parser.add_argument("--page", action="store_true", help="the page again, from the newest record")
     options = parser.parse_args()
     if not options.page:
         found = measure(options.short, options.only)
         if options.only:
             old = newest_record("rules")
-            assert (old["seeds"], old["p999"]) == (found["seeds"], found["p999"]), "another build or other seeds: measure all"
+            assert (old["seeds"], old["p999"]) == (found["seeds"], found["p999"]), (
+                "another build or other seeds: measure all"
+            )
             found |= {"rules": old["rules"] | found["rules"], "materials": old["materials"]}
         write("rules", found, options.short)
     PAGE.write_text(page(newest_record("rules")), encoding="utf-8")

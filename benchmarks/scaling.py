@@ -1,7 +1,8 @@
-"""Scaling of the cost with balls, communication step, outputs read, parallel processes, horizon and inputs; and the time that fmpy itself takes.
+"""Scaling of the cost with balls, communication step, outputs read, parallel processes, horizon and inputs; and the
+time that fmpy itself takes.
 
-All runs go through the FMU and fmpy, as users run them.  The FMU's own share is its variable solver.cpu_time, the time inside fmi2DoStep; the rest is fmpy's:
-ctypes calls, and Python's loop around them.
+All runs go through the FMU and fmpy, as users run them.  The FMU's own share is its variable solver.cpu_time, the time
+inside fmi2DoStep; the rest is fmpy's: ctypes calls, and Python's loop around them.
 """
 
 import math
@@ -24,7 +25,9 @@ def peak_channels(model):
 
 
 def simulate(model, scene, length, step, outputs=(), changing=False, begin=0.0):
-    """Run through fmpy's calls: processor times per simulated second, of the process and inside fmi2DoStep, and evaluations per second."""
+    """Run through fmpy's calls: processor times per simulated second, of the process and inside fmi2DoStep, and
+    evaluations per second.
+    """
     started = time.process_time()
     with Instance(model) as instance:
         instance.initialize(scene)
@@ -57,7 +60,7 @@ def least(repeat, *arguments, **options_):
     return min((simulate(*arguments, **options_) for _ in range(repeat)), key=lambda row: row["rtf"])
 
 
-# ----------------------------------------------------------------------------------------------------------------------------------- balls
+# ---------------------------------------------------------------------------------------------------------------- balls
 
 
 def bearing_file(Z):
@@ -74,7 +77,11 @@ def bearing_file(Z):
     }
     inputs = {"shaft.F_x": 515.0 * ratio, "shaft.F_y": 2994.0 * ratio, "shaft.omega": 18238.0 * math.pi / 30.0 / ratio}
     text = [f'designation = "scaling-{Z}"', f'description = "{Z} balls of the 6207"', f"Z = {Z}", "[parameters]"]
-    text += [f"{name} = {value!r}" for name, value in values.items()] + ["[inputs]"] + [f"{name} = {value!r}" for name, value in inputs.items()]
+    text += (
+        [f"{name} = {value!r}" for name, value in values.items()]
+        + ["[inputs]"]
+        + [f"{name} = {value!r}" for name, value in inputs.items()]
+    )
     folder = BUILD / "benchmarks"
     folder.mkdir(parents=True, exist_ok=True)
     path = folder / f"scaling{Z}.toml"
@@ -89,14 +96,17 @@ def balls(scene, length, repeat):
         path, inputs = bearing_file(Z)
         model = Model(build(path, out=path.with_suffix(".fmu")))
         history = scene.inputs["shaft.F_y"]
-        loaded = replace(scene, inputs={name: replace(history, value=np.full_like(history.value, value)) for name, value in inputs.items()})
+        loaded = replace(
+            scene,
+            inputs={name: replace(history, value=np.full_like(history.value, value)) for name, value in inputs.items()},
+        )
         rows[Z] = least(repeat, model, loaded, length, 1e-4, outputs=peak_channels(model), begin=0.02)
         rows[Z]["us_per_eval"] = 1e6 * rows[Z]["inside"] / rows[Z]["evals"]
         say(f"Z = {Z}: RTF {rows[Z]['rtf']:.2f}, {rows[Z]['us_per_eval']:.2f} us an evaluation")
     return rows
 
 
-# ------------------------------------------------------------------------------------------------------------------------------------ runs
+# ----------------------------------------------------------------------------------------------------------------- runs
 
 
 def horizon_child(connection, length):
@@ -112,7 +122,12 @@ def horizon_child(connection, length):
             for i in range(round(part / step)):
                 instance.fmu.doStep(quarter * part + i * step, step)
                 instance.fmu.getReal(references)
-            rows.append({"rtf": (time.process_time() - spent) / part, "peak_memory_MB": resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024.0})
+            rows.append(
+                {
+                    "rtf": (time.process_time() - spent) / part,
+                    "peak_memory_MB": resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024.0,
+                }
+            )
     connection.send(rows)
 
 
@@ -146,7 +161,10 @@ def parallel(length):
     for count in (1, 2):
         barrier = multiprocessing.get_context("spawn").Barrier(count)
         results = children(count, parallel_child, barrier, length)
-        rows[count] = {"rtf": float(np.mean([row["rtf"] for row in results])), "wall": max(row["wall"] for row in results) / length}
+        rows[count] = {
+            "rtf": float(np.mean([row["rtf"] for row in results])),
+            "wall": max(row["wall"] for row in results) / length,
+        }
     return rows
 
 
@@ -162,7 +180,9 @@ def main():
     for step in (1e-6, 1e-5, 1e-4, 1e-3, 1e-2):
         for name, changing in (("constant", False), ("changing", True)):
             span = min(length, 2000 * step) if step < 1e-5 else length
-            data["step"].setdefault(f"{step:g}", {})[name] = least(repeat, model, scene, span, step, outputs=channels, changing=changing, begin=0.02)
+            data["step"].setdefault(f"{step:g}", {})[name] = least(
+                repeat, model, scene, span, step, outputs=channels, changing=changing, begin=0.02
+            )
         row = data["step"][f"{step:g}"]
         say(f"step {step:g} s: RTF {row['constant']['rtf']:.2f}, inside the FMU {row['constant']['inside']:.2f}")
 

@@ -1,8 +1,9 @@
 """Parts of the model that a scene does not need are not computed: gain in processor time and error of each.
 
-Where there should be no error, the states at the end are compared bit for bit.  Errors of a simpler model (rigid cage, traction at a point) are
-differences of statistics pooled over seeds, with 95 % half-widths of the seeds' scatter; sampled peaks are compared with peaks over every step.
-Runs that are compared take turns, and the least time of several counts, so that other users of the machine affect all runs alike.
+Where there should be no error, the states at the end are compared bit for bit.  Errors of a simpler model (rigid cage,
+traction at a point) are differences of statistics pooled over seeds, with 95 % half-widths of the seeds' scatter;
+sampled peaks are compared with peaks over every step. Runs that are compared take turns, and the least time of several
+counts, so that other users of the machine affect all runs alike.
 """
 
 import math
@@ -16,12 +17,16 @@ from bearing_model.generated import variables
 from bearing_model.generated.variables import CageModel, Lubrication, Method, Stress, Switch, Traction
 
 STEP = 1e-4  # communication step [s]
-FIGURES = [f"stat.{channel}_{figure}" for channel in ("Q_c", "sigma_head", "sigma_mid") for figure in ("mean", "rms", "p999")]
+FIGURES = [
+    f"stat.{channel}_{figure}" for channel in ("Q_c", "sigma_head", "sigma_mid") for figure in ("mean", "rms", "p999")
+]
 GROUPS = sorted({variable.group for variable in variables.OUTPUTS.values()} - {"constant"})
 
 
 def march(core, scene, length, groups=(), **parameters):
-    """Processor time per simulated second, evaluations per second and the end state of a run in communication steps, output groups read at each."""
+    """Processor time per simulated second, evaluations per second and the end state of a run in communication steps,
+    output groups read at each.
+    """
     instance = scene.start(core, **parameters)
     codes = [getattr(core.lib, f"GROUP_{group.upper()}") for group in groups]
     bearing, step, update = instance.bearing, core.lib.part_step, core.lib.part_update
@@ -47,10 +52,13 @@ def compare(core, scene, length, cases, repeat):
             best = min(rtf, results[name]["rtf"]) if name in results else rtf
             results[name] = {"rtf": best, "evals": evals, "y": y}
     first = next(iter(results.values()))["y"]
-    return {name: {"rtf": r["rtf"], "evals": r["evals"], "same_bits": r["y"].tobytes() == first.tobytes()} for name, r in results.items()}
+    return {
+        name: {"rtf": r["rtf"], "evals": r["evals"], "same_bits": r["y"].tobytes() == first.tobytes()}
+        for name, r in results.items()
+    }
 
 
-# ------------------------------------------------------------------------------------------------------------------------------- statistics
+# ----------------------------------------------------------------------------------------------------------- statistics
 
 
 def statistics(core, scene, seeds, length, **parameters):
@@ -81,7 +89,7 @@ def simpler(core, scene, seeds, length, name, value, full):
     return {"rtf": cost, "rtf_full": full_cost, "figures": difference(simple, rows)}
 
 
-# ------------------------------------------------------------------------------------------------------------------------------------ items
+# ---------------------------------------------------------------------------------------------------------------- items
 
 
 def stress_levels(core, scene, length, repeat):
@@ -89,8 +97,16 @@ def stress_levels(core, scene, length, repeat):
     off = int(Switch.OFF)
     cases = {level.name.lower(): {"scene_stress": int(level), "scene_statistics": off} for level in Stress}
     cases["sampled"]["groups"] = ("stress",) if "stress" in GROUPS else ()
-    cases["peak, statistics"] = {"scene_stress": int(Stress.PEAK), "scene_statistics": int(Switch.ON), "start_settle": 0.0}
-    cases["off, statistics"] = {"scene_stress": int(Stress.OFF), "scene_statistics": int(Switch.ON), "start_settle": 0.0}
+    cases["peak, statistics"] = {
+        "scene_stress": int(Stress.PEAK),
+        "scene_statistics": int(Switch.ON),
+        "start_settle": 0.0,
+    }
+    cases["off, statistics"] = {
+        "scene_stress": int(Stress.OFF),
+        "scene_statistics": int(Switch.ON),
+        "start_settle": 0.0,
+    }
     return compare(core, scene, length, cases, repeat)
 
 
@@ -107,7 +123,10 @@ def sampled_peaks(core, scene, length):
     for stride in (1, 10, 100):
         windows = peaks[: len(peaks) // 100 * 100].reshape(-1, 100).max(axis=1)  # over 1 ms
         seen = samples[stride - 1 : len(peaks) // 100 * 100 : stride].reshape(len(windows), -1).max(axis=1)
-        result[f"{stride * fine:g}"] = {"missed_mean": float(np.mean(1.0 - seen / windows)), "missed_most": float(np.max(1.0 - seen / windows))}
+        result[f"{stride * fine:g}"] = {
+            "missed_mean": float(np.mean(1.0 - seen / windows)),
+            "missed_most": float(np.max(1.0 - seen / windows)),
+        }
     return result
 
 
@@ -136,7 +155,9 @@ def output_groups(core, scene, repeat):
 
 
 def unchanged_inputs(core, scene, length, step, repeat):
-    """Evaluations and time of a run in communication steps: free, with constant inputs, with inputs that change at each."""
+    """Evaluations and time of a run in communication steps: free, with constant inputs, with inputs that change at
+    each.
+    """
     results = {}
     for _ in range(repeat):
         for name in ("free", "constant", "changing"):
@@ -166,7 +187,10 @@ def solver_paths(core, length, repeat):
     rows = {}
     for name in SCENES:
         scene = Scene(name)
-        cases = {method.name.lower(): {"solver_method": int(method), "scene_statistics": int(Switch.OFF)} for method in Method}
+        cases = {
+            method.name.lower(): {"solver_method": int(method), "scene_statistics": int(Switch.OFF)}
+            for method in Method
+        }
         rows[name] = compare(core, scene, length, cases, repeat)
         say("paths, " + name + ": " + ", ".join(f"{path} {row['rtf']:.2f}" for path, row in rows[name].items()))
     return rows

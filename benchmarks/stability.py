@@ -1,4 +1,5 @@
-"""Random and extreme scenes, each run to its end: outcome, energy balance, and run time relative to the working point's.
+"""Random and extreme scenes, each run to its end: outcome, energy balance, and run time relative to the working
+point's.
 
 python benchmarks/stability.py                 the whole matrix, then docs/stability.md
 python benchmarks/stability.py --elastic       the same with elastic cage halves, for the page's last section
@@ -6,8 +7,9 @@ python benchmarks/stability.py --family tilt   one family, printed
 python benchmarks/stability.py --long          ten million tiny steps, 100 s of simulated time, angles after a million revolutions (minutes)
 python benchmarks/stability.py --page          only the page, from the newest records in benchmarks/results/
 
-A scene is finished, discarded (the solver gives up with a message) or refused (before the run, by name, value and limit).  A fault is a crash, a hang, a
-value that is not finite with status OK, a refused scene that is admissible, or an impossible scene that runs.
+A scene is finished, discarded (the solver gives up with a message) or refused (before the run, by name, value and
+limit).  A fault is a crash, a hang, a value that is not finite with status OK, a refused scene that is admissible, or
+an impossible scene that runs.
 """
 
 import argparse
@@ -36,12 +38,25 @@ FOLDER = BUILD / "stability"
 HANGS = 600.0  # a scene that takes longer is called hanging [s]
 MOST_STEPS = 2_000_000  # work limit of one communication step
 DEMO_EVERY = 25  # scenes between two runs of the working point, to which run times are related
-OUTPUTS = [name.replace("[j]", f"[{j}]").replace("[k]", f"[{j}]") for name, v in (variables.OUTPUTS | variables.LOCALS).items() for j in range(1, v.count + 1)]
+OUTPUTS = [
+    name.replace("[j]", f"[{j}]").replace("[k]", f"[{j}]")
+    for name, v in (variables.OUTPUTS | variables.LOCALS).items()
+    for j in range(1, v.count + 1)
+]
 CAGE = {"cage.D_o": 0.0595, "cage.D_i": 0.0497}
 BEARINGS = {  # changes of the 6207: number of balls, parameters
     "5 balls": (5, {}),
     "16 balls": (16, {"bearing.D": 6.35e-3, "cage.pocket_clearance": 1.5e-4}),
-    "32 balls": (32, {"bearing.D": 5.5e-3, "bearing.d_m": 0.08, "cage.D_o": 0.0836, "cage.D_i": 0.0772, "cage.pocket_clearance": 1e-4}),
+    "32 balls": (
+        32,
+        {
+            "bearing.D": 5.5e-3,
+            "bearing.d_m": 0.08,
+            "cage.D_o": 0.0836,
+            "cage.D_i": 0.0772,
+            "cage.pocket_clearance": 1e-4,
+        },
+    ),
     "soft rivets": (9, {}),
     "stiff rivets": (9, {}),
 }
@@ -58,7 +73,9 @@ def build_fmu(bearing):
     Z, changes = BEARINGS[bearing]
     target = fmu_of(bearing)
     source, name = target.with_suffix(".toml"), target.stem
-    text = f'designation = "{bearing}"\nZ = {Z}\n[parameters]\n' + "".join(f"{key} = {value}\n" for key, value in changes.items())
+    text = f'designation = "{bearing}"\nZ = {Z}\n[parameters]\n' + "".join(
+        f"{key} = {value}\n" for key, value in changes.items()
+    )
     source.write_text(text)
     rivet = None
     if bearing in SHANKS:
@@ -68,7 +85,7 @@ def build_fmu(bearing):
     build(str(source), rivet, target)
 
 
-# ---------------------------------------------------------------------------------------------------------------------- one scene
+# ------------------------------------------------------------------------------------------------------------ one scene
 
 
 @cache
@@ -104,9 +121,15 @@ def set_all(instance, scene, inputs):
 def energy_scale(instance, scene, loss):
     """Scale of energy errors [J]: energy lost so far + kinetic energy of balls and cage + work of the load over 10 um."""
     p = instance.parameters()
-    inputs = {name: float(np.max(np.abs(np.array(value)[:, 1]))) if isinstance(value, list) else abs(value) for name, value in scene.inputs.items()}
+    inputs = {
+        name: float(np.max(np.abs(np.array(value)[:, 1]))) if isinstance(value, list) else abs(value)
+        for name, value in scene.inputs.items()
+    }
     speed = 0.25 * inputs.get("shaft.omega", WORKING) * p["bearing.d_m"]
-    mass = math.pi / 6 * p["bearing.rho"] * p["bearing.D"] ** 3 * instance.read(["bearing.Z"])["bearing.Z"] + 2 * p["cage.m"]
+    mass = (
+        math.pi / 6 * p["bearing.rho"] * p["bearing.D"] ** 3 * instance.read(["bearing.Z"])["bearing.Z"]
+        + 2 * p["cage.m"]
+    )
     load = sum(inputs.get(f"shaft.F_{axis}", 0.0) for axis in "xyz")
     return loss + 0.5 * mass * speed**2 + 1e-5 * (load + 1.0)
 
@@ -159,12 +182,14 @@ def run(scene):
         "evaluations": row[at["solver.rhs_evals"]],
         "rejected": row[at["solver.error_tests_failed"]],
         "path": row[at["solver.method_used"]],
-        "events": {name[6:-7]: row[i] for name, i in at.items() if name.startswith("event.") and name.endswith("_onsets")},
+        "events": {
+            name[6:-7]: row[i] for name, i in at.items() if name.startswith("event.") and name.endswith("_onsets")
+        },
         "warnings": [text for level, text in instance.log if level == "warning"],
     }
 
 
-# ---------------------------------------------------------------------------------------------------------------------- the matrix
+# ----------------------------------------------------------------------------------------------------------- the matrix
 
 DEMO = Scene("speed", "working point", t_end=0.02)
 
@@ -178,12 +203,23 @@ def run_share(scenes, demo):
         record = run(scene)
         if "rate" in record:
             record["ratio"] = record["rate"] / reference["rate"]
-        records.append({"family": scene.family, "name": scene.name, "admissible": scene.admissible, "expected": scene.expected} | record)
+        records.append(
+            {"family": scene.family, "name": scene.name, "admissible": scene.admissible, "expected": scene.expected}
+            | record
+        )
     return records
 
 
 def lost(scene, outcome):
-    return {"family": scene.family, "name": scene.name, "admissible": scene.admissible, "expected": scene.expected, "outcome": outcome, "message": "", "t": 0.0}
+    return {
+        "family": scene.family,
+        "name": scene.name,
+        "admissible": scene.admissible,
+        "expected": scene.expected,
+        "outcome": outcome,
+        "message": "",
+        "t": 0.0,
+    }
 
 
 def run_all(scenes, demo, workers):
@@ -226,7 +262,7 @@ def problems(records):
             yield where + f"{r['ratio']:.1f} times the working point's run time"
 
 
-# ---------------------------------------------------------------------------------------------------------------------- long runs
+# ------------------------------------------------------------------------------------------------------------ long runs
 
 
 def tiny_steps(count=10_000_000, h=1e-9):
@@ -259,7 +295,15 @@ def long_run(t_end=100.0, h=1e-4):
     """The working point with rigid halves for 100 s: a line every second."""
     instance = CoreInstance(core_library(), {"scene.stress": 4, "scene.statistics": 2})
     psi_0, rows = instance.y[variables.CAGE_PSI][0], []
-    names = ("bearing.energy_residual", "bearing.power_loss", "stat.Q_c_rms", "stat.time", "stat.cage_omega", "solver.steps", "cage.dislocation")
+    names = (
+        "bearing.energy_residual",
+        "bearing.power_loss",
+        "stat.Q_c_rms",
+        "stat.time",
+        "stat.cage_omega",
+        "solver.steps",
+        "cage.dislocation",
+    )
     seconds, n = 0.0, round(1.0 / h)
     for second in range(round(t_end)):
 
@@ -269,9 +313,14 @@ def long_run(t_end=100.0, h=1e-4):
 
         seconds += cpu(go)[0]
         y = instance.y
-        friction = max(np.max(np.abs(y[getattr(variables, f"JOINT_{part}_{axis}")])) for part in ("PLATE", "HEAD") for axis in "YZ")
+        friction = max(
+            np.max(np.abs(y[getattr(variables, f"JOINT_{part}_{axis}")])) for part in ("PLATE", "HEAD") for axis in "YZ"
+        )
         work = y[variables.WORK][0]
-        rows.append({"t": second + 1.0, "psi": y[variables.CAGE_PSI][0] - psi_0, "work": work, "friction": friction} | {k: instance.output(k) for k in names})
+        rows.append(
+            {"t": second + 1.0, "psi": y[variables.CAGE_PSI][0] - psi_0, "work": work, "friction": friction}
+            | {k: instance.output(k) for k in names}
+        )
     return {"rows": rows, "cpu": seconds}
 
 
@@ -287,7 +336,12 @@ def many_turns(turns=1_000_000, t_end=1e-3):
         moved[angles] -= 2.0 * np.pi * ahead
         results.append(moved)
     difference = np.abs(results[1] - results[0])
-    blocks = {"ball azimuth": variables.BALL_THETA, "cage rotation": variables.CAGE_PSI, "ball radius": variables.BALL_R, "ring y": variables.RING_Y}
+    blocks = {
+        "ball azimuth": variables.BALL_THETA,
+        "cage rotation": variables.CAGE_PSI,
+        "ball radius": variables.BALL_R,
+        "ring y": variables.RING_Y,
+    }
     differences = {name: float(difference[block].max()) for name, block in blocks.items()}
     return {"turns": turns, "resolution": float(np.spacing(2.0 * np.pi * turns)), "differences": differences}
 
@@ -297,16 +351,26 @@ def main():
     parser.add_argument("--family", help="only this family of scenes")
     parser.add_argument("--name", help="only scenes whose name contains this")
     parser.add_argument("--workers", type=int, default=2)
-    parser.add_argument("--elastic", action="store_true", help="elastic cage halves in every scene whose rivets have a table with modes, instead of rigid ones")
+    parser.add_argument(
+        "--elastic",
+        action="store_true",
+        help="elastic cage halves in every scene whose rivets have a table with modes, instead of rigid ones",
+    )
     parser.add_argument("--long", action="store_true", help="the long runs instead of the matrix")
     parser.add_argument("--page", action="store_true", help="only write the page")
     chosen = parser.parse_args()
     if chosen.long:
-        write("stability_long", {"tiny_steps": tiny_steps(), "many_turns": many_turns(), "long_run": long_run()}, short=False)
+        write(
+            "stability_long",
+            {"tiny_steps": tiny_steps(), "many_turns": many_turns(), "long_run": long_run()},
+            short=False,
+        )
     elif not chosen.page:
         scenes = [s for s in matrix() if chosen.family in (None, s.family) and (chosen.name or "") in s.name]
         cage = {"scene.cage": (variables.CageModel.ELASTIC if chosen.elastic else variables.CageModel.TWO_HALF).value}
-        scenes = [replace(s, parameters=cage | s.parameters) for s in scenes if not (chosen.elastic and s.bearing in SHANKS)]
+        scenes = [
+            replace(s, parameters=cage | s.parameters) for s in scenes if not (chosen.elastic and s.bearing in SHANKS)
+        ]
         for bearing in {scene.bearing for scene in scenes} - {"6207"}:
             say(f"building {bearing}")
             build_fmu(bearing)
@@ -316,7 +380,11 @@ def main():
             say(text)
         if chosen.family or chosen.name:
             for r in records:
-                figures = f"run time {r['ratio']:.1f}, energy {r['balance']:.1e}, {r['rejected']:.0f} of {r['steps']:.0f} steps rejected" if r["t"] else ""
+                figures = (
+                    f"run time {r['ratio']:.1f}, energy {r['balance']:.1e}, {r['rejected']:.0f} of {r['steps']:.0f} steps rejected"
+                    if r["t"]
+                    else ""
+                )
                 say(f"{r['family']}, {r['name']}: {r['outcome']}; {figures} {r['message']}")
             return
         write("stability_elastic" if chosen.elastic else "stability", {"records": records}, short=False)

@@ -75,12 +75,18 @@ over 10 µm, at the default tolerance and communication steps of 10 µs and more
     head = ("family", "scenes", "finished", "discarded", "refused", "energy", "rejected", "run time")
     text += table(head, family_rows(records))
     text += energy_text(records)
-    text += "## What must not happen\n\n" + ("".join(f"- {line}\n" for line in bad) if bad else "None of these happened.\n") + "\n"
+    text += (
+        "## What must not happen\n\n"
+        + ("".join(f"- {line}\n" for line in bad) if bad else "None of these happened.\n")
+        + "\n"
+    )
     text += f"## The slowest admissible scenes\n\nThe limit is 20 times the working point; the worst has {slow[0]['ratio']:.1f}.\n\n"
     text += table(("scene", "run time", "evaluations per ms", "path"), [slow_row(r) for r in slow[:10]])
     text += "## What happened in the model\n\nScenes with at least one onset, as reported by the logger and by `event.*`:\n\n"
     text += table(("event", "scenes"), event_rows(records))
-    text += "## What was refused\n\n" + table(("scene", "reason"), [(r["name"], r["message"]) for r in records if r["outcome"] == "refused"])
+    text += "## What was refused\n\n" + table(
+        ("scene", "reason"), [(r["name"], r["message"]) for r in records if r["outcome"] == "refused"]
+    )
     elastic = load("stability_elastic")
     text += elastic_text(elastic["records"], list(problems(elastic["records"]))) if elastic else ""
     long = load("stability_long")
@@ -104,7 +110,10 @@ finite. Run time relative to the working point with elastic halves: at most {slo
 
 def energy_text(records):
     """Paragraph about the scenes whose energy balance does not close."""
-    open_ = sorted((r for r in records if r.get("balance", 0.0) > 0.01 and r["family"] != "tolerance"), key=lambda r: -r["residual"])
+    open_ = sorted(
+        (r for r in records if r.get("balance", 0.0) > 0.01 and r["family"] != "tolerance"),
+        key=lambda r: -r["residual"],
+    )
     if not open_:
         return ""
     worst = ", ".join(f"{r['family']}: {r['name']} ({r['residual']:.1g} J)" for r in open_[:4])

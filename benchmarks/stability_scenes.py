@@ -1,7 +1,7 @@
 """The scenes of stability.py: conditions at and beyond a bearing's limits, family by family, and random ones.
 
-A scene is plain data: parameters and inputs by full variable name in SI, inputs as a number or as points [(t, value), ...] that are joined by
-straight lines or, with hold, by steps.
+A scene is plain data: parameters and inputs by full variable name in SI, inputs as a number or as points [(t, value),
+...] that are joined by straight lines or, with hold, by steps.
 """
 
 import itertools
@@ -37,17 +37,30 @@ class Scene:
 
 
 def speeds():
-    for rpm, sign, mixed in itertools.product((0, 1e-3, 1, 30, 300, 1500, 4000, 10000, 18238, 30000, 40000), (1, -1), (False, True)):
+    for rpm, sign, mixed in itertools.product(
+        (0, 1e-3, 1, 30, 300, 1500, 4000, 10000, 18238, 30000, 40000), (1, -1), (False, True)
+    ):
         if rpm == 0 and sign < 0:
             continue
-        yield Scene("speed", f"{sign * rpm:g} r/min{', mixed' * mixed}", MIXED if mixed else {}, {"shaft.omega": sign * rpm * RPM})
+        yield Scene(
+            "speed",
+            f"{sign * rpm:g} r/min{', mixed' * mixed}",
+            MIXED if mixed else {},
+            {"shaft.omega": sign * rpm * RPM},
+        )
 
 
 def ramps():
     ends = {"start": (0, 40000), "stop": (18238, 0), "reversal": (18238, -18238), "overrun": (40000, 18238)}
     for (name, (a, b)), duration, mixed in itertools.product(ends.items(), (1e-3, 5e-3, 2e-2), (False, True)):
         points = [(1e-3, a * RPM), (1e-3 + duration, b * RPM)]
-        yield Scene("ramp", f"{name} in {duration * 1e3:g} ms{', mixed' * mixed}", MIXED if mixed else {}, {"shaft.omega": points}, t_end=duration + 4e-3)
+        yield Scene(
+            "ramp",
+            f"{name} in {duration * 1e3:g} ms{', mixed' * mixed}",
+            MIXED if mixed else {},
+            {"shaft.omega": points},
+            t_end=duration + 4e-3,
+        )
 
 
 def loads():
@@ -55,9 +68,16 @@ def loads():
     for factor, sign, (name, (r, a)) in itertools.product((0, 1e-3, 0.1, 1, 3, 10), (1, -1), directions.items()):
         if factor == 0 and (sign < 0 or name != "both"):
             continue
-        yield Scene("load", f"{name} {sign * factor:g}x", {}, {"shaft.F_y": sign * factor * r * F_RADIAL, "shaft.F_x": sign * factor * a * F_AXIAL})
+        yield Scene(
+            "load",
+            f"{name} {sign * factor:g}x",
+            {},
+            {"shaft.F_y": sign * factor * r * F_RADIAL, "shaft.F_x": sign * factor * a * F_AXIAL},
+        )
     for moment, mode in itertools.product((1, 20, -20, 100), (SUPPORTED, FREE)):
-        yield Scene("load", f"moment {moment} N.m, tilt mode {mode['ring.tilt_mode']}", mode, {"shaft.M_z": float(moment)})
+        yield Scene(
+            "load", f"moment {moment} N.m, tilt mode {mode['ring.tilt_mode']}", mode, {"shaft.M_z": float(moment)}
+        )
 
 
 def jumps():
@@ -73,15 +93,25 @@ def jumps():
         "load turned": {"shaft.F_y": (F_RADIAL, 0), "shaft.F_z": (0, F_RADIAL)},
         "tilt 0.3 deg": {"shaft.tilt_z": (0, math.radians(0.3))},
         "tilt reversed": {"shaft.tilt_y": (math.radians(0.2), -math.radians(0.2))},
-        "everything": {"shaft.omega": (WORKING, -WORKING), "shaft.F_y": (F_RADIAL, -F_RADIAL), "shaft.F_x": (F_AXIAL, -3 * F_AXIAL), "shaft.tilt_z": (0, 3e-3)},
+        "everything": {
+            "shaft.omega": (WORKING, -WORKING),
+            "shaft.F_y": (F_RADIAL, -F_RADIAL),
+            "shaft.F_x": (F_AXIAL, -3 * F_AXIAL),
+            "shaft.tilt_z": (0, 3e-3),
+        },
     }
     for (name, changes), mixed in itertools.product(pairs.items(), (False, True)):
         inputs = {key: [(0.0, a), (2e-3, b)] for key, (a, b) in changes.items()}
         yield Scene("jump", name + ", mixed" * mixed, MIXED if mixed else {}, inputs, hold=True)
     for step in (1e-5, 1e-4):
         times = np.arange(0.0, 4e-3, step)
-        inputs = {"shaft.F_y": [(t, F_RADIAL * (-1) ** i) for i, t in enumerate(times)], "shaft.omega": [(t, WORKING * (i % 2)) for i, t in enumerate(times)]}
-        yield Scene("jump", f"load and speed at every step of {step * 1e6:g} us", {}, inputs, hold=True, step=step, t_end=4e-3)
+        inputs = {
+            "shaft.F_y": [(t, F_RADIAL * (-1) ** i) for i, t in enumerate(times)],
+            "shaft.omega": [(t, WORKING * (i % 2)) for i, t in enumerate(times)],
+        }
+        yield Scene(
+            "jump", f"load and speed at every step of {step * 1e6:g} us", {}, inputs, hold=True, step=step, t_end=4e-3
+        )
 
 
 def impacts():
@@ -97,38 +127,83 @@ def impacts():
 def tilts():
     for degrees, axis, mode in itertools.product((0.1, 0.2, 0.35, 0.5, 0.7, 1.0), ("y", "z", "-z"), ({}, SUPPORTED)):
         value = math.radians(degrees) * (-1 if axis[0] == "-" else 1)
-        yield Scene("tilt", f"{degrees:g} deg about {axis}{', supported' * bool(mode)}", mode, {f"shaft.tilt_{axis[-1]}": value})
+        yield Scene(
+            "tilt", f"{degrees:g} deg about {axis}{', supported' * bool(mode)}", mode, {f"shaft.tilt_{axis[-1]}": value}
+        )
     for degrees, speed in itertools.product((0.3, 0.5, 1.0), (0, 4000, 40000)):
-        yield Scene("tilt", f"{degrees:g} deg at {speed} r/min, mixed", MIXED, {"shaft.tilt_z": math.radians(degrees), "shaft.omega": speed * RPM})
+        yield Scene(
+            "tilt",
+            f"{degrees:g} deg at {speed} r/min, mixed",
+            MIXED,
+            {"shaft.tilt_z": math.radians(degrees), "shaft.omega": speed * RPM},
+        )
 
 
 def clearances():
     for P_d in (-50e-6, -20e-6, -5e-6, 0.0, 5e-6, 100e-6, 300e-6, 600e-6):
         yield Scene("clearance", f"P_d {P_d * 1e6:g} um", {"bearing.P_d": P_d})
     for pocket, guide in itertools.product((0.0, 1e-6, 5e-5, 5e-4, 2e-3), (1e-5, 2e-5, 5e-4, 3e-3)):
-        yield Scene("clearance", f"pocket {pocket * 1e3:g} mm, guide {guide * 1e3:g} mm", {"cage.pocket_clearance": pocket, "cage.guide_clearance": guide})
+        yield Scene(
+            "clearance",
+            f"pocket {pocket * 1e3:g} mm, guide {guide * 1e3:g} mm",
+            {"cage.pocket_clearance": pocket, "cage.guide_clearance": guide},
+        )
     for f_i, f_e in itertools.product((0.5005, 0.505, 0.6), repeat=2):
-        yield Scene("clearance", f"conformity {f_i}, {f_e}", {"bearing.f_i": f_i, "bearing.f_e": f_e, "bearing.P_d": 0.0})
+        yield Scene(
+            "clearance", f"conformity {f_i}, {f_e}", {"bearing.f_i": f_i, "bearing.f_e": f_e, "bearing.P_d": 0.0}
+        )
 
 
 def joints():
-    for preload, fit in itertools.product((0.0, 1.0, 5.0, 20.0, 50.0, 100.0, 200.0), (-2e-4, -5e-5, -1e-5, 0.0, 5e-5, 1e-4)):
-        yield Scene("joint", f"preload {preload:g} N, fit {fit * 1e3:g} mm", {"joint.preload": preload, "joint.fit": fit})
+    for preload, fit in itertools.product(
+        (0.0, 1.0, 5.0, 20.0, 50.0, 100.0, 200.0), (-2e-4, -5e-5, -1e-5, 0.0, 5e-5, 1e-4)
+    ):
+        yield Scene(
+            "joint", f"preload {preload:g} N, fit {fit * 1e3:g} mm", {"joint.preload": preload, "joint.fit": fit}
+        )
     for mu, zeta in itertools.product((0.0, 1.0), (0.0, 1.0)):
         yield Scene("joint", f"joint.mu {mu:g}, joint.zeta {zeta:g}", {"joint.mu": mu, "joint.zeta": zeta})
     for T in (150.0, 400.0, 700.0):
         yield Scene("joint", f"at {T:g} K", {}, dict.fromkeys(("ring.T_i", "ring.T_e", "ball.T", "cage.T"), T))
-    for bearing, preload, speed in itertools.product(("soft rivets", "stiff rivets"), (0.0, 20.0, 200.0), (4000, 18238, 40000)):
-        yield Scene("joint", f"{bearing}, preload {preload:g} N, {speed} r/min", {"joint.preload": preload}, {"shaft.omega": speed * RPM}, bearing=bearing)
+    for bearing, preload, speed in itertools.product(
+        ("soft rivets", "stiff rivets"), (0.0, 20.0, 200.0), (4000, 18238, 40000)
+    ):
+        yield Scene(
+            "joint",
+            f"{bearing}, preload {preload:g} N, {speed} r/min",
+            {"joint.preload": preload},
+            {"shaft.omega": speed * RPM},
+            bearing=bearing,
+        )
 
 
 def oils():
-    for eta, rpm, mixed in itertools.product((0.5e-3, 2e-3, 6e-3, 20e-3, 100e-3, 500e-3), (400, 4000, 18238, 40000), (False, True)):
-        yield Scene("oil", f"{eta * 1e3:g} mPa.s at {rpm} r/min{', mixed' * mixed}", {"oil.eta": eta} | (MIXED if mixed else {}), {"shaft.omega": rpm * RPM})
-    dry = {"oil.eta": 1e-5, "oil.rolling": 0.0, "oil.rho_mix": 0.0, "scene.lubrication": 2, "oil.mu_b": 0.2, "cage.mu": 0.2}
+    for eta, rpm, mixed in itertools.product(
+        (0.5e-3, 2e-3, 6e-3, 20e-3, 100e-3, 500e-3), (400, 4000, 18238, 40000), (False, True)
+    ):
+        yield Scene(
+            "oil",
+            f"{eta * 1e3:g} mPa.s at {rpm} r/min{', mixed' * mixed}",
+            {"oil.eta": eta} | (MIXED if mixed else {}),
+            {"shaft.omega": rpm * RPM},
+        )
+    dry = {
+        "oil.eta": 1e-5,
+        "oil.rolling": 0.0,
+        "oil.rho_mix": 0.0,
+        "scene.lubrication": 2,
+        "oil.mu_b": 0.2,
+        "cage.mu": 0.2,
+    }
     for rpm, mu in itertools.product((0, 400, 4000, 18238, 40000), (0.1, 0.3)):
-        yield Scene("oil", f"dry, mu {mu} at {rpm} r/min", dry | {"oil.mu_b": mu, "cage.mu": mu}, {"shaft.omega": rpm * RPM})
-    yield Scene("oil", "no friction at all", {"oil.A": 0.0, "oil.B": 0.0, "oil.rolling": 0.0, "oil.rho_mix": 0.0, "cage.mu": 0.0})
+        yield Scene(
+            "oil", f"dry, mu {mu} at {rpm} r/min", dry | {"oil.mu_b": mu, "cage.mu": mu}, {"shaft.omega": rpm * RPM}
+        )
+    yield Scene(
+        "oil",
+        "no friction at all",
+        {"oil.A": 0.0, "oil.B": 0.0, "oil.rolling": 0.0, "oil.rho_mix": 0.0, "cage.mu": 0.0},
+    )
 
 
 def balls():
@@ -154,19 +229,48 @@ MODES = {
 
 
 def communication():
-    for step, count in ((1e-9, 2000), (1e-8, 2000), (1e-7, 2000), (1e-6, 2000), (1e-5, 1000), (1e-3, 20), (1e-2, 3), (0.1, 1), (1.0, 1)):
+    for step, count in (
+        (1e-9, 2000),
+        (1e-8, 2000),
+        (1e-7, 2000),
+        (1e-6, 2000),
+        (1e-5, 1000),
+        (1e-3, 20),
+        (1e-2, 3),
+        (0.1, 1),
+        (1.0, 1),
+    ):
         for name in ("point", "rigid") if step < 0.1 else ("rigid",):
             yield Scene("communication step", f"{step:g} s, {name}", MODES[name], step=step, t_end=step * count)
     for h in (3e-8, 3e-6, 1e-5):
         times = np.arange(0.0, 500 * h, h)
         history = [(t, F_RADIAL * (1 + 0.2 * math.sin(1e4 * t))) for t in times]
-        yield Scene("communication step", f"{h:g} s, load changing at each", {}, {"shaft.F_y": history}, hold=True, step=h, t_end=500 * h)
+        yield Scene(
+            "communication step",
+            f"{h:g} s, load changing at each",
+            {},
+            {"shaft.F_y": history},
+            hold=True,
+            step=h,
+            t_end=500 * h,
+        )
 
 
 def tolerances():
-    cases = {"working point": ({}, {}), "4,000 r/min mixed": (MIXED, {"shaft.omega": 4000 * RPM}), "tilt": ({}, {"shaft.tilt_z": math.radians(0.5)})}
+    cases = {
+        "working point": ({}, {}),
+        "4,000 r/min mixed": (MIXED, {"shaft.omega": 4000 * RPM}),
+        "tilt": ({}, {"shaft.tilt_z": math.radians(0.5)}),
+    }
     for (name, (parameters, inputs)), exponent in itertools.product(cases.items(), range(1, 10)):
-        yield Scene("tolerance", f"1e-{exponent}, {name}", parameters, inputs, tolerance=10.0**-exponent, t_end=5e-3 if exponent < 7 else 1e-3)
+        yield Scene(
+            "tolerance",
+            f"1e-{exponent}, {name}",
+            parameters,
+            inputs,
+            tolerance=10.0**-exponent,
+            t_end=5e-3 if exponent < 7 else 1e-3,
+        )
 
 
 def numbers_of_balls():
@@ -174,8 +278,18 @@ def numbers_of_balls():
     for bearing, size, speed in (("5 balls", 1.0, 1.0), ("16 balls", 0.33, 1.0), ("32 balls", 0.25, 0.67)):
         for mode, parameters in MODES.items():
             for factor, load in ((0.2, 1.0), (1.0, 1.0), (1.0, 5.0), (2.0, 0.1)):
-                inputs = {"shaft.omega": speed * factor * WORKING, "shaft.F_y": size * load * F_RADIAL, "shaft.F_x": size * load * F_AXIAL}
-                yield Scene("number of balls", f"{bearing}, {mode}, speed {factor:g}x, load {load:g}x", parameters, inputs, bearing=bearing)
+                inputs = {
+                    "shaft.omega": speed * factor * WORKING,
+                    "shaft.F_y": size * load * F_RADIAL,
+                    "shaft.F_x": size * load * F_AXIAL,
+                }
+                yield Scene(
+                    "number of balls",
+                    f"{bearing}, {mode}, speed {factor:g}x, load {load:g}x",
+                    parameters,
+                    inputs,
+                    bearing=bearing,
+                )
 
 
 def randoms(count=200):
@@ -212,10 +326,17 @@ def randoms(count=200):
             "start.seed": n,
         }
         if rng.random() < 0.3:
-            parameters |= {"pulse.F_r": log(100, 2e4), "pulse.F_a": log(10, 3e3), "pulse.duration": log(1e-5, 1e-3), "pulse.t_start": 2e-3}
+            parameters |= {
+                "pulse.F_r": log(100, 2e4),
+                "pulse.F_a": log(10, 3e3),
+                "pulse.duration": log(1e-5, 1e-3),
+                "pulse.t_start": 2e-3,
+            }
         omega = float(rng.choice((-1.0, 1.0))) * log(10, 40000) * RPM
         inputs = {
-            "shaft.omega": omega if rng.random() < 0.7 else [(1e-3, omega), (6e-3, float(rng.uniform(-1, 1)) * 30000 * RPM)],
+            "shaft.omega": omega
+            if rng.random() < 0.7
+            else [(1e-3, omega), (6e-3, float(rng.uniform(-1, 1)) * 30000 * RPM)],
             "shaft.F_y": float(rng.normal(0, 3000)),
             "shaft.F_z": pick(0.0, float(rng.normal(0, 1000))),
             "shaft.F_x": float(rng.normal(0, 1000)),
@@ -255,7 +376,23 @@ def impossible():
         yield Scene("impossible", name, parameters, inputs, expected="refused")
 
 
-FAMILIES = (speeds, ramps, loads, jumps, impacts, tilts, clearances, joints, oils, balls, communication, tolerances, numbers_of_balls, randoms, impossible)
+FAMILIES = (
+    speeds,
+    ramps,
+    loads,
+    jumps,
+    impacts,
+    tilts,
+    clearances,
+    joints,
+    oils,
+    balls,
+    communication,
+    tolerances,
+    numbers_of_balls,
+    randoms,
+    impossible,
+)
 
 
 def matrix():

@@ -1,7 +1,8 @@
 """Instructions of a step by element, with the processor's floor beside them.
 
-Communication steps of 1e-4 s with peak stress and statistics are run instruction by instruction in a child process and counted by the source file of their
-function (what the compiler inlines from a header counts where it is used).  Counts are per accepted step, rejected ones included.  For the floor see rhs.py.
+Communication steps of 1e-4 s with peak stress and statistics are run instruction by instruction in a child process and
+counted by the source file of their function (what the compiler inlines from a header counts where it is used).  Counts
+are per accepted step, rejected ones included.  For the floor see rhs.py.
 """
 
 import collections
@@ -45,14 +46,22 @@ REST, OUTSIDE = "control of steps, inputs", "memcpy, memset, clock"
 
 
 def lines(*command):
-    return subprocess.run([str(word) for word in command], capture_output=True, text=True, check=True).stdout.splitlines()
+    return subprocess.run(
+        [str(word) for word in command], capture_output=True, text=True, check=True
+    ).stdout.splitlines()
 
 
 def sources(library):
-    """Starts of the functions in order, and (end, source file) of each: local symbols follow their file's, global ones are found in the objects."""
+    """Starts of the functions in order, and (end, source file) of each: local symbols follow their file's, global ones
+    are found in the objects.
+    """
     defined = {}
     for path in BUILD.glob("CMakeFiles/*.dir/*/*.c.o"):
-        defined |= {line.split()[2]: path.name.removesuffix(".c.o") for line in lines("nm", "--defined-only", path) if " T " in line}
+        defined |= {
+            line.split()[2]: path.name.removesuffix(".c.o")
+            for line in lines("nm", "--defined-only", path)
+            if " T " in line
+        }
     functions, file = {}, ""
     for line in lines("readelf", "-sW", library):
         match = re.match(r"\s*\d+: ([0-9a-f]+)\s+(\S+) (FILE|FUNC)\s+(LOCAL|GLOBAL|WEAK)\s+\S+\s+\S+ (\S+)", line)
@@ -79,7 +88,9 @@ def declare(core):
 
 def moving(scene, cage, core):
     """A settled instance with peak stress and statistics."""
-    return scene.start(core, scene_cage=int(cage), scene_stress=int(Stress.PEAK), scene_statistics=int(Switch.ON)).step(scene.settle)
+    return scene.start(core, scene_cage=int(cage), scene_stress=int(Stress.PEAK), scene_statistics=int(Switch.ON)).step(
+        scene.settle
+    )
 
 
 def instructions(scene, cage, core, library, samples):
@@ -109,7 +120,11 @@ def time_of_step(scene, cage, core, length, repeat):
     for _ in range(repeat):
         instance = moving(scene, cage, core)
         before = counters(instance)
-        seconds, _ = cpu(lambda instance=instance: [instance.step(scene.settle + (i + 1) * STEP) for i in range(round(length / STEP))])
+        seconds, _ = cpu(
+            lambda instance=instance: [
+                instance.step(scene.settle + (i + 1) * STEP) for i in range(round(length / STEP))
+            ]
+        )
         done = {name: (value - before[name]) / length for name, value in counters(instance).items()}
         best = min(best, 1e9 * seconds / (done["steps"] * length))
     return {"ns": best} | done
@@ -121,8 +136,12 @@ def measure(scene, cage, core, library, peak, short):
     parts = instructions(scene, cage, core, library, 2 if short else 8)
     whole = sum(map(collections.Counter, parts.values()), collections.Counter())
     row |= {"title": scene.title, "counts": whole, "floor": floor(whole, peak)}
-    say(f"{scene.name}, {cage.name.lower()}: {row['ns']:.0f} ns a step, {whole['instructions']:.0f} instructions, floor {row['floor']['floor']:.0f} ns")
-    return row | {"parts": {part: {"counts": counts, "floor": floor(counts, peak)["floor"]} for part, counts in parts.items()}}
+    say(
+        f"{scene.name}, {cage.name.lower()}: {row['ns']:.0f} ns a step, {whole['instructions']:.0f} instructions, floor {row['floor']['floor']:.0f} ns"
+    )
+    return row | {
+        "parts": {part: {"counts": counts, "floor": floor(counts, peak)["floor"]} for part, counts in parts.items()}
+    }
 
 
 def main():
@@ -132,7 +151,10 @@ def main():
     isa = instruction_sets(core)[-1]
     core.ffi.cdef(f"void peak_times_{isa}(long, double *);")
     peak, scenes = peaks(core, isa), [Scene(name) for name in ("demo", "tilt", "jam")]
-    cages = {cage.name.lower(): {scene.name: measure(scene, cage, core, library, peak, short) for scene in scenes} for cage in CAGES}
+    cages = {
+        cage.name.lower(): {scene.name: measure(scene, cage, core, library, peak, short) for scene in scenes}
+        for cage in CAGES
+    }
     write("step", {"isa": isa, "peaks": peak, "cages": cages}, short)
 
 

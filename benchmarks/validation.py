@@ -1,7 +1,9 @@
-"""Writes docs/validation.md: numbers from outside the model, each with its source, the model's value and the difference.
+"""Writes docs/validation.md: numbers from outside the model, each with its source, the model's value and the
+difference.
 
-Nothing is copied into the page by hand: figures of books and papers are arguments here; all others are computed, or recorded by the tests, which run once
-more for this.  Some minutes, most of them for 0.1 s of the working point in the Python reference; --short takes 0.01 s.
+Nothing is copied into the page by hand: figures of books and papers are arguments here; all others are computed, or
+recorded by the tests, which run once more for this.  Some minutes, most of them for 0.1 s of the working point in the
+Python reference; --short takes 0.01 s.
 """
 
 import ast
@@ -25,12 +27,12 @@ from race_control import LOADS, SPEEDS
 from race_control import equilibrium as control_equilibrium
 from race_control import running as running_with_spin
 
+from bearing_model.kinematics import fault_frequencies
 from bearing_model.physics.hertz import curvature_difference, hertz_contact
 from bearing_model.physics.hertz_exact import ball_race_contact
-from bearing_model.kinematics import fault_frequencies
 from bearing_model.physics.parameters import Parameters
-from bearing_model.quasi_static import Bearing, Load, quasi_static
 from bearing_model.physics.ring_fit import ring_fit_of
+from bearing_model.quasi_static import Bearing, Load, quasi_static
 from rivet_model.geometry import Geometry
 from riveted_bearing import build, run
 from riveted_bearing.compare import compare, is_motion
@@ -57,7 +59,10 @@ def main():
     PICTURES.mkdir(exist_ok=True)
     core, model = core_library(), Model(FMU)
     say("FMUs of three more bearings")
-    fmus = [build(ROOT / "benchmarks" / "bearings" / f"{name}.toml", out=ROOT / "build" / f"{name}.fmu") for name in ("120mm", "110mm", "35mm")]
+    fmus = [
+        build(ROOT / "benchmarks" / "bearings" / f"{name}.toml", out=ROOT / "build" / f"{name}.fmu")
+        for name in ("120mm", "110mm", "35mm")
+    ]
     sections = []
     for section in (contacts, kinematics, distribution, working_point, clearance, race_control, load_path):
         say(section.__name__)
@@ -69,7 +74,9 @@ def main():
     sections += twins(model, 0.01 if short else 0.1)
     say("published experiments")
     sections += [skid(fmus[0], short), cage_forces(fmus[1], short), heat(fmus[2], short)]
-    PAGE.write_text("\n".join([HEAD_OF_PAGE.format(**machine(), commit=commit()), *([SHORT_FORM] if short else []), *sections]))
+    PAGE.write_text(
+        "\n".join([HEAD_OF_PAGE.format(**machine(), commit=commit()), *([SHORT_FORM] if short else []), *sections])
+    )
     say(f"wrote {PAGE.relative_to(ROOT)}")
 
 
@@ -85,7 +92,7 @@ SHORT_FORM = """
 0.4 s, so their cages have not settled. The command without `--short` writes the full page.
 """
 
-# --------------------------------------------------------------------------------------------------------------------------- the page
+# ------------------------------------------------------------------------------------------------------------- the page
 
 
 def section(title, text, *parts):
@@ -95,18 +102,31 @@ def section(title, text, *parts):
 def table(columns, rows):
     """A Markdown table; numbers get four digits."""
     lines = ["| " + " | ".join(columns) + " |", "|" + "---|" * len(columns)]
-    lines += ["| " + " | ".join(cell if isinstance(cell, str) else f"{cell:.5g}" for cell in row) + " |" for row in rows]
+    lines += [
+        "| " + " | ".join(cell if isinstance(cell, str) else f"{cell:.5g}" for cell in row) + " |" for row in rows
+    ]
     return "\n".join(lines)
 
 
 def against(rows):
-    """A table of (quantity, unit, source, expected, reached by ...): the difference is the largest of those reached, relative."""
+    """A table of (quantity, unit, source, expected, reached by ...): the difference is the largest of those reached,
+    relative.
+    """
     columns = ("quantity", "unit", "source", "expected", "core", "reference", "difference")
     shown = []
     for quantity, unit, source, expected, core, reference in rows:
         reached = [value for value in (core, reference) if value is not None]
         worst = max((value / expected - 1.0 for value in reached), key=abs)
-        shown.append((quantity, unit, source, expected, *("–" if value is None else value for value in (core, reference)), f"{100.0 * worst:+.2g} %"))
+        shown.append(
+            (
+                quantity,
+                unit,
+                source,
+                expected,
+                *("–" if value is None else value for value in (core, reference)),
+                f"{100.0 * worst:+.2g} %",
+            )
+        )
     return table(columns, shown)
 
 
@@ -118,7 +138,7 @@ def picture(figure, name):
     return f"![{name}]({PICTURES.name}/{path.name})"
 
 
-# ------------------------------------------------------------------------------------------------------------------ contacts, kinematics
+# ------------------------------------------------------------------------------------------------- contacts, kinematics
 
 
 def contacts(core, model):
@@ -129,26 +149,65 @@ def contacts(core, model):
         rho = 0.5 * total * (1.0 + F_rho), 0.5 * total * (1.0 - F_rho)
         pair = core.lib.hertz_contact(*rho, E_star), hertz_contact(*rho, E_star)
         unit = np.cbrt(1.5 / (total * E_star)) ** 2 * 0.5 * total
-        rows.append((f"δ* at F(ρ) = {F_rho}", "1", "Harris, table of contact parameters", delta_star, *(c.K ** (-2 / 3) / unit for c in pair)))
+        rows.append(
+            (
+                f"δ* at F(ρ) = {F_rho}",
+                "1",
+                "Harris, table of contact parameters",
+                delta_star,
+                *(c.K ** (-2 / 3) / unit for c in pair),
+            )
+        )
         rows.append((f"κ at F(ρ) = {F_rho}", "1", "the same", kappa, *(c.a / c.b for c in pair)))
         assert abs(curvature_difference(pair[1].k) - F_rho) < 1e-9
     derived = core.model().d.inner.hertz
     exact = ball_race_contact(0.0111125, 0.0535, 0.515, 0.0, 207e9, 0.3, "inner")
-    rows.append(("6207 inner contact, K", "N/m^1.5", "Harris' formulae, f_i 0.515, 207 GPa", 3.331e10, derived.K, exact.K))
+    rows.append(
+        ("6207 inner contact, K", "N/m^1.5", "Harris' formulae, f_i 0.515, 207 GPa", 3.331e10, derived.K, exact.K)
+    )
     p = 1.5 * np.cbrt(1000.0) / (np.pi * derived.a * derived.b)
-    rows.append(("6207 inner contact, largest pressure at 1000 N", "MPa", "the same", 1942.0, 1e-6 * p, 1e-6 * exact.p_max(1000.0)))
-    return section("Contacts", "Hertz with exact elliptic integrals (`hertz`), required to 1e-3 of the tables' four digits.", against(rows))
+    rows.append(
+        (
+            "6207 inner contact, largest pressure at 1000 N",
+            "MPa",
+            "the same",
+            1942.0,
+            1e-6 * p,
+            1e-6 * exact.p_max(1000.0),
+        )
+    )
+    return section(
+        "Contacts",
+        "Hertz with exact elliptic integrals (`hertz`), required to 1e-3 of the tables' four digits.",
+        against(rows),
+    )
 
 
 def kinematics(core, model):
     """Frequencies, and the speeds that the dynamics reaches where nothing but traction acts."""
     found = fault_frequencies(WORKING_POINT.omega, 0.0111125, 0.0535, 9)
-    named = (("cage (FTF)", 120.4, found.FTF), ("BPFO", 1083.7, found.BPFO), ("BPFI", 1652.0, found.BPFI), ("ball (BSF)", 700.1, found.BSF))
-    rows = [(f"6207 at 18,238 r/min, {name}", "Hz", "rigid-body kinematics, given to 0.1 Hz", expected, None, reached) for name, expected, reached in named]
-    slow = Load(F_x=1000.0, omega=300.0)  # both contact angles are nearly the same: the speed does not depend on which race controls the spin
+    named = (
+        ("cage (FTF)", 120.4, found.FTF),
+        ("BPFO", 1083.7, found.BPFO),
+        ("BPFI", 1652.0, found.BPFI),
+        ("ball (BSF)", 700.1, found.BSF),
+    )
+    rows = [
+        (f"6207 at 18,238 r/min, {name}", "Hz", "rigid-body kinematics, given to 0.1 Hz", expected, None, reached)
+        for name, expected, reached in named
+    ]
+    # both contact angles are nearly the same: the speed does not depend on which race controls the spin
+    slow = Load(F_x=1000.0, omega=300.0)
     source = "no slip at the loaded contact angles"
     rows.append(
-        ("balls' orbit, 300 rad/s, 1 kN thrust, strong traction", "rad/s", source, quasi_static(Bearing(), slow).omega_m, frictional_limit(core, slow), None)
+        (
+            "balls' orbit, 300 rad/s, 1 kN thrust, strong traction",
+            "rad/s",
+            source,
+            quasi_static(Bearing(), slow).omega_m,
+            frictional_limit(core, slow),
+            None,
+        )
     )
     text = "Fault frequencies; and the frictional limit of the dynamics: traction rises 45 times as steeply, no drag, no films, no contact with the cage."
     return section("Kinematics", text, against(rows))
@@ -158,7 +217,9 @@ def frictional_limit(core, load):
     """Mean orbital speed of the balls after 20 ms of pure thrust [rad/s]."""
     free = dict.fromkeys(("oil.rolling", "oil.rho_mix", "cage.mu", "cage.mu_land"), 0.0)
     instance = Instance(
-        core, free | {"oil.B": 100.0, "oil.eta": 1e-5, "cage.pocket_clearance": 1e-3}, {"shaft.F_x": load.F_x, "shaft.F_y": 0.0, "shaft.omega": load.omega}
+        core,
+        free | {"oil.B": 100.0, "oil.eta": 1e-5, "cage.pocket_clearance": 1e-3},
+        {"shaft.F_x": load.F_x, "shaft.F_y": 0.0, "shaft.omega": load.omega},
     )
     instance.step(0.02)
     return float(np.mean(instance.output("ball.omega_m")))
@@ -169,19 +230,30 @@ def distribution(core, model):
     many = quasi_static(Bearing(Z=200, d_m=1.0, P_d=0.0), Load(F_y=2000.0))
     nine = quasi_static(Bearing(P_d=0.0), Load(F_y=1000.0))
     rows = [
-        ("Z Q_max/F_r, 200 balls without clearance", "1", "Stribeck, Sjövall; Harris ch. 7", 4.37, None, 200 * many.Q_i.max() / 2000.0),
+        (
+            "Z Q_max/F_r, 200 balls without clearance",
+            "1",
+            "Stribeck, Sjövall; Harris ch. 7",
+            4.37,
+            None,
+            200 * many.Q_i.max() / 2000.0,
+        ),
         ("the same, the 6207's nine balls", "1", "the many-ball limit", 4.37, None, 9 * nine.Q_i.max() / 1000.0),
     ]
     return section("Load distribution", "`quasi_static`, radial load, α = 0.", against(rows))
 
 
-# --------------------------------------------------------------------------------------------------------------------- running bearing
+# ------------------------------------------------------------------------------------------------------ running bearing
 
 
 def equilibrium(P_d=15e-6):
-    """Mean displacements over a ball pass [m] and, at its worst azimuth, the largest ball load [N]; race control by the outer race."""
+    """Mean displacements over a ball pass [m] and, at its worst azimuth, the largest ball load [N]; race control by the
+    outer race.
+    """
     bearing = Bearing(P_d=P_d, fit=ring_fit_of(Parameters()))
-    results = [quasi_static(bearing, WORKING_POINT, psi=psi, control="outer") for psi in np.arange(12) * 2.0 * np.pi / 9 / 12]
+    results = [
+        quasi_static(bearing, WORKING_POINT, psi=psi, control="outer") for psi in np.arange(12) * 2.0 * np.pi / 9 / 12
+    ]
     return np.mean([r.x for r in results]), np.mean([r.y for r in results]), max(r.Q_i.max() for r in results)
 
 
@@ -195,7 +267,14 @@ def working_point(core, model):
     passes = loads[: len(loads) // samples * samples].reshape(-1, samples).max(axis=1)
     axial = sum(result.data[f"ball[{j}].Q_i"] * np.sin(result.data[f"ball[{j}].alpha_i"]) for j in range(1, 10))[late]
     rows = [
-        ("ring, axial", "µm", "Jones–Harris equilibrium, outer race control", 1e6 * x, 1e6 * result.data["ring.x"][late].mean(), None),
+        (
+            "ring, axial",
+            "µm",
+            "Jones–Harris equilibrium, outer race control",
+            1e6 * x,
+            1e6 * result.data["ring.x"][late].mean(),
+            None,
+        ),
         ("ring, radial", "µm", "the same", 1e6 * y, 1e6 * result.data["ring.y"][late].mean(), None),
         ("largest ball load of a pass, mean", "N", "the same", Q_max, passes.mean(), None),
         ("sum of Q_i sin α_i", "N", "axial load", 515.0, axial.mean(), None),
@@ -213,7 +292,16 @@ def clearance(core, model):
     for P_d in (5e-6, 15e-6, 25e-6, 40e-6):
         result = run("demo", fmu=FMU, t_end=0.06, parameters={"bearing.P_d": P_d, "start.settle": 0.02})
         reached = 1e6 * result.data["ring.y"][settled(result)].mean()
-        rows.append((f"ring, radial, P_d = {1e6 * P_d:g} µm", "µm", "Jones–Harris equilibrium, outer race control", 1e6 * equilibrium(P_d)[1], reached, None))
+        rows.append(
+            (
+                f"ring, radial, P_d = {1e6 * P_d:g} µm",
+                "µm",
+                "Jones–Harris equilibrium, outer race control",
+                1e6 * equilibrium(P_d)[1],
+                reached,
+                None,
+            )
+        )
     text = "In another open code the clearance had no effect on the running ring. Here the mean radial displacement follows that of the equilibrium."
     return section("Clearance", text, against(rows))
 
@@ -225,9 +313,19 @@ def race_control(core, model):
         for F_x, F_y in LOADS:
             found, outer = running_with_spin(FMU, F_x, F_y, speed), control_equilibrium(F_x, F_y, speed, "outer")
             radial = (1e6 * found.y, f"{1e6 * (found.y - outer.y):+.2g}") if F_y else ("–", "–")
-            row = (1e6 * found.x, f"{100.0 * (found.x / outer.x - 1.0):+.2f}", *radial, f"{100.0 * (found.omega_c / outer.omega_c - 1.0):+.2f}")
-            angles = ((np.degrees(a), f"{np.degrees(a - b):+.2f}") for a, b in ((found.alpha_i, outer.alpha_i), (found.alpha_e, outer.alpha_e)))
-            rows.append((f"{speed:,.0f}", f"{F_x:.0f}", f"{F_y:.0f}", *row, *(cell for pair in angles for cell in pair)))
+            row = (
+                1e6 * found.x,
+                f"{100.0 * (found.x / outer.x - 1.0):+.2f}",
+                *radial,
+                f"{100.0 * (found.omega_c / outer.omega_c - 1.0):+.2f}",
+            )
+            angles = (
+                (np.degrees(a), f"{np.degrees(a - b):+.2f}")
+                for a, b in ((found.alpha_i, outer.alpha_i), (found.alpha_e, outer.alpha_e))
+            )
+            rows.append(
+                (f"{speed:,.0f}", f"{F_x:.0f}", f"{F_y:.0f}", *row, *(cell for pair in angles for cell in pair))
+            )
     columns = ("r/min", "thrust, N", "radial, N", "x, µm", "%", "y, µm", "µm", "cage, %", "α_i, °", "−", "α_e, °", "−")
     text = (
         "`demo` with `scene.traction = sliced`, means of 0.05 s after as much for settling; behind each value its difference from `quasi_static` with outer"
@@ -239,8 +337,10 @@ def race_control(core, model):
     return section("Spin and race control", text, table(columns, rows))
 
 
-# fit [um], r/min, tilt [deg]: pocket force 99.9 % [N], head mean and 99.9 %, middle 99.9 % [MPa], means of 8 seeds x 0.2 s after 0.2 s, `demo`
-FIRST_VERSION = {  # bonded joints, quasi-static path at two wall angles, no centrifugal load, traction at a point, balls' drag isolated
+# fit [um], r/min, tilt [deg]: pocket force 99.9 % [N], head mean and 99.9 %, middle 99.9 % [MPa], means of 8 seeds x
+# 0.2 s after 0.2 s, `demo`
+# bonded joints, quasi-static path at two wall angles, no centrifugal load, traction at a point, balls' drag isolated
+FIRST_VERSION = {
     (-10, 4000, 0.0): (13, 50, 63, 12),
     (-10, 8000, 0.0): (27, 51, 80, 17),
     (-10, 12000, 0.0): (45, 53, 107, 25),
@@ -257,13 +357,25 @@ FIRST_VERSION = {  # bonded joints, quasi-static path at two wall angles, no cen
     (-10, 18238, 0.2): (233, 80, 374, 101),
     (-10, 18238, 0.5): (416, 553, 651, 170),
 }
-SHOWN = ("stat.Q_c_p999", 1.0), ("stat.sigma_head_mean", 1e-6), ("stat.sigma_head_p999", 1e-6), ("stat.sigma_mid_p999", 1e-6)  # [N], [MPa]
+# [N], [MPa]
+SHOWN = (
+    ("stat.Q_c_p999", 1.0),
+    ("stat.sigma_head_mean", 1e-6),
+    ("stat.sigma_head_p999", 1e-6),
+    ("stat.sigma_mid_p999", 1e-6),
+)
 
 
 def stress_now(fit, speed, tilt, cage):
     """The same of the present model."""
-    inputs, parameters = {"shaft.omega": speed * RPM, "shaft.tilt_z": np.radians(tilt)}, {"joint.fit": 1e-6 * fit, "scene.cage": cage, "start.settle": 0.2}
-    runs = [run("demo", fmu=FMU, t_end=0.4, inputs=inputs, parameters=parameters | {"start.seed": seed}).summary for seed in range(1, 9)]
+    inputs, parameters = (
+        {"shaft.omega": speed * RPM, "shaft.tilt_z": np.radians(tilt)},
+        {"joint.fit": 1e-6 * fit, "scene.cage": cage, "start.settle": 0.2},
+    )
+    runs = [
+        run("demo", fmu=FMU, t_end=0.4, inputs=inputs, parameters=parameters | {"start.seed": seed}).summary
+        for seed in range(1, 9)
+    ]
     return [scale * np.mean([summary[name] for summary in runs]) for name, scale in SHOWN]
 
 
@@ -284,7 +396,15 @@ def load_path(core, model):
         " of the largest dislocation at 40 N preload and the largest clearance falls from 6.5 to 2.0 µm with rigid halves, 3.6 with elastic ones: the contact"
         " patch decides how the halves share a pocket force, pocket forces are smaller, and the centrifugal load adds friction to the joints."
     )
-    columns = ("fit", "r/min", "tilt", "pocket force, 99.9 %, N", "head, mean, MPa", "head, 99.9 %, MPa", "middle, 99.9 %, MPa")
+    columns = (
+        "fit",
+        "r/min",
+        "tilt",
+        "pocket force, 99.9 %, N",
+        "head, mean, MPa",
+        "head, 99.9 %, MPa",
+        "middle, 99.9 %, MPa",
+    )
     return section("What the load path and elastic halves change", text, table(columns, rows))
 
 
@@ -292,7 +412,10 @@ def rivets_over_speed():
     """Tension and stress between the impacts, as the table gives them and by direct contact on finer elements."""
     rows = []
     for _, _, (P, speed, *pairs) in recorded("tests/test_joint_law.py", "tension_and_stress_over_speed", "slow"):
-        both = [f"{ours:.{digits}f} / {direct:.{digits}f}" for ours, direct, digits in zip(pairs[::2], pairs[1::2], (1, 2, 1), strict=True)]
+        both = [
+            f"{ours:.{digits}f} / {direct:.{digits}f}"
+            for ours, direct, digits in zip(pairs[::2], pairs[1::2], (1, 2, 1), strict=True)
+        ]
         rows.append((f"{P:.0f}", f"{speed:,.0f}", *both, f"{100.0 * (pairs[4] / pairs[5] - 1.0):+.1f} %"))
     text = (
         "Between the impacts a rivet has its preload and what the centrifugal load pries: the shipped table / direct contact of plates and rivet on finer "
@@ -301,11 +424,13 @@ def rivets_over_speed():
     return section(
         "Rivets at rest of the impacts, over speed",
         text,
-        table(("preload, N", "r/min", "tension, N", "moment of the shank, N·mm", "head, MPa", "head, difference"), rows),
+        table(
+            ("preload, N", "r/min", "tension, N", "moment of the shank, N·mm", "head, MPa", "head, difference"), rows
+        ),
     )
 
 
-# ------------------------------------------------------------------------------------------------------------- what the tests observe
+# ----------------------------------------------------------------------------------------------- what the tests observe
 
 
 def observed_by_tests():
@@ -314,16 +439,33 @@ def observed_by_tests():
     for file, chosen in TESTS.items():
         for name, entry, value in recorded(file, chosen):
             observed.setdefault((Path(file).stem, name, entry), []).append(value)
-    rows = [(first_line(*key[:2]), f"`{key[0]}::{key[1]}`", key[2], largest_of(values)) for key, values in observed.items()]
+    rows = [
+        (first_line(*key[:2]), f"`{key[0]}::{key[1]}`", key[2], largest_of(values)) for key, values in observed.items()
+    ]
     text = "Symmetries, conservation, convergence, twins: what the tests observed in this very run. Their bounds and the reasons for them stand in `tests/`."
     return section("Observed by the tests", text, table(("what", "test", "recorded", "largest of all cases"), rows))
 
 
 def recorded(file, chosen, marker="not slow"):
-    """What the chosen tests of a file record, run once more: (test, name, value) of each record; CalledProcessError if a test fails."""
+    """What the chosen tests of a file record, run once more: (test, name, value) of each record; CalledProcessError if
+    a test fails.
+    """
     with tempfile.TemporaryDirectory() as folder:
         record = Path(folder) / "record.xml"
-        command = [sys.executable, "-m", "pytest", "-q", "-o", "junit_family=legacy", f"--junitxml={record}", file, "-k", chosen, "-m", marker]
+        command = [
+            sys.executable,
+            "-m",
+            "pytest",
+            "-q",
+            "-o",
+            "junit_family=legacy",
+            f"--junitxml={record}",
+            file,
+            "-k",
+            chosen,
+            "-m",
+            marker,
+        ]
         subprocess.run(command, cwd=ROOT, check=True, stdout=subprocess.DEVNULL)
         for case in ElementTree.parse(record).iter("testcase"):
             for entry in case.iter("property"):
@@ -346,18 +488,27 @@ def largest_of(values):
     return ", ".join(f"{number:.1e}" for number in np.max(np.abs([np.ravel(value) for value in values]), axis=0))
 
 
-# ------------------------------------------------------------------------------------------------------------- FMU against reference
+# ------------------------------------------------------------------------------------------------ FMU against reference
 
 
 def twins(model, long):
     """`riveted-bearing compare`: demo over both horizons, R, where balls press on the cage at once, over the short one."""
-    found, other = compare(model, load_scene("demo", model), long=long), compare(model, load_scene("R", model), long=0.0)
+    found, other = (
+        compare(model, load_scene("demo", model), long=long),
+        compare(model, load_scene("R", model), long=0.0),
+    )
     plot_comparison(other, PICTURES / "compare.png", dpi=80)
     worst = []
     for comparison in (found, other):
         for motion, name in ((True, "positions, angles, speeds"), (False, "loads, stresses, powers")):
             channels = [channel for channel in comparison.channels if is_motion(channel) == motion]
-            worst.append((f"`{comparison.scene}`", name, *(f"{value:.1e} (`{channels[i].name}`)" for value, i in largest(channels))))
+            worst.append(
+                (
+                    f"`{comparison.scene}`",
+                    name,
+                    *(f"{value:.1e} (`{channels[i].name}`)" for value, i in largest(channels)),
+                )
+            )
     columns = ("scene", "largest difference / scale", *(f"FMU at {tolerance:.0e}" for tolerance in found.tolerances))
     text = (
         "The FMU and the reference (SciPy, DOP853) at the same 20 instants of the first millisecond. Differences of motion are in parts of 10 µm and 0.1 m/s,"
@@ -370,7 +521,10 @@ def twins(model, long):
     text = f"From {found.settle:g} to {found.long:g} s trajectories have parted; these are statistics of the reference and of {found.seeds} seeds of the FMU."
     text += " Both count the ends of their steps, a few in each pocket pulse; mean force and head stress differ by about 1 % because the steps differ."
     columns = ("statistic", "unit", "reference", "FMU, mean", "standard deviation", "difference in these")
-    rows = [(f"`{row.name}`", row.unit, row.reference, row.mean, f"{row.scatter:.2g}", f"{row.deviation:+.1f}") for row in found.statistics]
+    rows = [
+        (f"`{row.name}`", row.unit, row.reference, row.mean, f"{row.scatter:.2g}", f"{row.deviation:+.1f}")
+        for row in found.statistics
+    ]
     second = section("Statistics", text, table(columns, rows))
 
     ledger = found.ledger
@@ -392,24 +546,35 @@ def largest(channels):
     return [(column.max(), int(column.argmax())) for column in table_.T]
 
 
-# --------------------------------------------------------------------------------------------------------------- published experiments
+# ------------------------------------------------------------------------------------------------ published experiments
 
 
 def running(fmu, speed_rpm, t_end, cage, **changes):
     """Mean speed of the cage [rad/s], largest, 99.9 % and mean ball–pocket force [N] of a bearing after settling."""
     inputs = {"shaft.omega": speed_rpm * RPM} | {name.replace("__", "."): value for name, value in changes.items()}
-    result = run("demo", fmu=fmu, t_end=t_end, inputs=inputs, parameters={"scene.cage": cage, "start.settle": 0.5 * t_end})
-    return result.data["cage.omega"][settled(result)].mean(), result.summary["stat.Q_c_max"], result.summary["stat.Q_c_p999"], result.summary["stat.Q_c_mean"]
+    result = run(
+        "demo", fmu=fmu, t_end=t_end, inputs=inputs, parameters={"scene.cage": cage, "start.settle": 0.5 * t_end}
+    )
+    return (
+        result.data["cage.omega"][settled(result)].mean(),
+        result.summary["stat.Q_c_max"],
+        result.summary["stat.Q_c_p999"],
+        result.summary["stat.Q_c_mean"],
+    )
 
 
 def skids(fmu, F_x, speed_rpm, t_end):
-    """Mean over the second half of the run of 100 (1 - cage speed / orbit without slip at the running contact angles) under thrust F_x [N], outer race
-    control; and how much the mean changes from the third quarter of the run to the fourth."""
+    """Mean over the second half of the run of 100 (1 - cage speed / orbit without slip at the running contact angles)
+    under thrust F_x [N], outer race control; and how much the mean changes from the third quarter of the run to the
+    fourth.
+    """
     p = load_bearing("120mm")
     orbit = quasi_static(Bearing(**p), Load(F_x=F_x, omega=speed_rpm * RPM), control="outer").omega_m
     inputs = {"shaft.omega": speed_rpm * RPM, "shaft.F_x": F_x, "shaft.F_y": 0.0}
     result = run("demo", fmu=fmu, t_end=t_end, inputs=inputs, parameters={"start.settle": 0.5 * t_end})
-    third, fourth = np.split(100.0 * (1.0 - result.data["cage.omega"][-2 * (len(result.data["time"]) // 4) :] / orbit), 2)
+    third, fourth = np.split(
+        100.0 * (1.0 - result.data["cage.omega"][-2 * (len(result.data["time"]) // 4) :] / orbit), 2
+    )
     return 0.5 * (third.mean() + fourth.mean()), abs(fourth.mean() - third.mean())
 
 
@@ -458,7 +623,10 @@ def softer_cage(factor):
     """The FMU of the 110-mm bearing with a cage whose modulus is divided by a factor."""
     text = (ROOT / "benchmarks" / "bearings" / "110mm.toml").read_text(encoding="utf-8")
     path = ROOT / "build" / f"110mm-{factor}-times-softer.toml"
-    path.write_text(text.replace('material = "bronze"', f'material = "bronze"\nE = {Geometry().E_flange / factor} #'), encoding="utf-8")
+    path.write_text(
+        text.replace('material = "bronze"', f'material = "bronze"\nE = {Geometry().E_flange / factor} #'),
+        encoding="utf-8",
+    )
     return build(path, out=path.with_suffix(".fmu"))
 
 
@@ -469,8 +637,20 @@ def cage_forces(fmu, short):
     rows = []
     for speed in (4000, 8000, 12000):
         for name, (F_x, F_y) in loads.items():
-            rigid, elastic = (running(fmu, speed, t_end, cage, shaft__F_x=F_x, shaft__F_y=F_y)[:0:-1] for cage in ("two_half", "elastic"))
-            rows.append((f"{speed:,}", name, *(f"{a:.{digits}f}, {b:.{digits}f}" for a, b, digits in zip(rigid, elastic, (2, 1, 1), strict=True))))
+            rigid, elastic = (
+                running(fmu, speed, t_end, cage, shaft__F_x=F_x, shaft__F_y=F_y)[:0:-1]
+                for cage in ("two_half", "elastic")
+            )
+            rows.append(
+                (
+                    f"{speed:,}",
+                    name,
+                    *(
+                        f"{a:.{digits}f}, {b:.{digits}f}"
+                        for a, b, digits in zip(rigid, elastic, (2, 1, 1), strict=True)
+                    ),
+                )
+            )
     text = (
         "Nypan, ASME J. Lubr. Tech. 101(2) (1979) 180, abstract: forces between balls and cage of a 110-mm bearing to 12,000 r/min, by the deflection of a"
         f" part of the cage, 25 N at most. Here: a bearing like theirs (`benchmarks/bearings/110mm.toml`), {t_end:g} s. What differs: all but bore "
@@ -495,7 +675,8 @@ def cage_forces(fmu, short):
     return section("Ball–cage forces of a 110-mm bearing", text, table(columns, rows), softness, table(head, soft))
 
 
-MEASURED = {28000: 350.0, 48000: 700.0, 64000: 1100.0, 72000: 1400.0}  # r/min: heat [W], digitised from NASA TP-2275, +-3 %
+# r/min: heat [W], digitised from NASA TP-2275, +-3 %
+MEASURED = {28000: 350.0, 48000: 700.0, 64000: 1100.0, 72000: 1400.0}
 LOSSES = {
     "races": "races",
     "inlet": "of it inlets",
@@ -518,7 +699,13 @@ WITHOUT = {  # one change at a time
     "inner ring does not grow": {"scene.growth": "off"},
     "30 µm interference on the shaft": {"shaft.interference": 30e-6},
     "guide clearance 0.2 mm": {"cage.guide_clearance": 0.2e-3},
-    "all of the first five": {"scene.drag": "isolated", "oil.flow": 0.0, "scene.churning": "off", "scene.heating": "off", "oil.K_rs": 0.0},
+    "all of the first five": {
+        "scene.drag": "isolated",
+        "oil.flow": 0.0,
+        "scene.churning": "off",
+        "scene.heating": "off",
+        "oil.K_rs": 0.0,
+    },
 }
 
 
@@ -526,10 +713,17 @@ def heats(fmu, speed_rpm, t_end, **changes):
     """Mean power loss and its parts [W] over the last 40 % of a run under a thrust of 667 N."""
     inputs = {"shaft.omega": speed_rpm * RPM, "shaft.F_x": 667.0, "shaft.F_y": 0.0, "oil.T": 394.0}
     inputs |= {name: changes.pop(name) for name in ("oil.T", "ring.T_e") if name in changes}
-    scene = {"scene.traction": "sliced", "scene.lubrication": "mixed", "scene.stress": "off", "start.settle": 0.5 * t_end}
+    scene = {
+        "scene.traction": "sliced",
+        "scene.lubrication": "mixed",
+        "scene.stress": "off",
+        "start.settle": 0.5 * t_end,
+    }
     result = run("demo", fmu=fmu, t_end=t_end, inputs=inputs, parameters=scene | changes)
     late = result.data["time"] > 0.6 * t_end
-    return {name: result.data[name][late].mean() for name in ("bearing.power_loss", *(f"loss.{part}" for part in LOSSES))}
+    return {
+        name: result.data[name][late].mean() for name in ("bearing.power_loss", *(f"loss.{part}" for part in LOSSES))
+    }
 
 
 def heat(fmu, short):
@@ -557,7 +751,9 @@ def heat(fmu, short):
         " piece in the test. The growth of the inner ring takes clearance, and with it whirl of the cage and loss of the lands."
     )
     first = table(("speed [r/min]", "measured [W]", "here [W]", "ratio", *LOSSES.values()), rows)
-    second = table(("ratio to the measurement, one change at a time", *(f"{speed:,}" for speed in speeds), "exponent"), varied)
+    second = table(
+        ("ratio to the measurement, one change at a time", *(f"{speed:,}" for speed in speeds), "exponent"), varied
+    )
     return section("Heat of a 35-mm bearing", text, first, second)
 
 

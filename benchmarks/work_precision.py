@@ -3,14 +3,15 @@
 Two errors, because trajectories are chaotic (e-fold 1.4...2.7 ms):
 
 states      RMS over all states of error/(tolerance scale) after 2 ms from settled states, against Dormand-Prince at 1e-10, itself compared with
-            Verner 6(5) at 1e-10.  (Pairs of order 8 are no reference here: their error estimates miss the kinks of friction, and at 1e-10 they
-            still err by 1e-4...3e-4.)  Geometric mean over start states.
+            Verner 6(5) at 1e-10.  (Pairs of order 8 are no reference here: their error estimates miss the kinks of
+            friction, and at 1e-10 they still err by 1e-4...3e-4.)  Geometric mean over start states.
 statistics  mean, RMS and 99.9 % quantile of pocket force and of the worst rivet's stress, pooled over seeds, against a run at a tight tolerance.
-            95 % intervals: the larger one of seeds (Student, of the differences seed by seed: under a tilt a seed's balls keep their spacing)
-            and of a bootstrap over 20 ms blocks common to all seeds, since in jams all seeds may follow one attractor.
+            95 % intervals: the larger one of seeds (Student, of the differences seed by seed: under a tilt a seed's
+            balls keep their spacing) and of a bootstrap over 20 ms blocks common to all seeds, since in jams all seeds
+            may follow one attractor.
 
-Cost is processor time per simulated time (RTF), with evaluations of the right-hand side and steps beside it.  Costs of state runs are without stress
-and statistics, costs of statistics runs with peak stress and statistics.
+Cost is processor time per simulated time (RTF), with evaluations of the right-hand side and steps beside it.  Costs of
+state runs are without stress and statistics, costs of statistics runs with peak stress and statistics.
 """
 
 import itertools
@@ -18,12 +19,25 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from common import SCENES, Core, Scene, build_target, core_library, counters, cpu, declare, options, say, set_state, write
+from common import (
+    SCENES,
+    Core,
+    Scene,
+    build_target,
+    core_library,
+    counters,
+    cpu,
+    declare,
+    options,
+    say,
+    set_state,
+    write,
+)
 from scipy.stats import t as student
 
-from bearing_model.solver import integrator as reference_implementation
 from bearing_model.generated import variables
 from bearing_model.instance.statistics import StatisticsChannel
+from bearing_model.solver import integrator as reference_implementation
 
 HORIZON, PYTHON_HORIZON, BLOCK = 2e-3, 0.5e-3, 20e-3  # [s]
 DENSE_OUTPUTS = 0.4 / 10_000  # the paper's 10,000 outputs in 0.4 s
@@ -36,7 +50,8 @@ TABLES = {
 }
 JACOBIANS = {"dense": 0, "diagonal": 1, "bordered": 2}
 PYTHON_METHODS = ("RK45", "DOP853", "BDF", "Radau", "LSODA")
-SEEDS = {"demo": 48, "slow": 128, "tilt": 48, "impact": 48, "jam": 16}  # of the default and the tight run: enough to resolve 1 %
+# of the default and the tight run: enough to resolve 1 %
+SEEDS = {"demo": 48, "slow": 128, "tilt": 48, "impact": 48, "jam": 16}
 CHANNELS = {"Q_c": "force", "sigma_head": "head", "sigma_mid": "mid"}
 FIGURES = ("mean", "rms", "p999")
 DEFAULT_TOLERANCE = variables.PARAMETERS["solver.tol"].start
@@ -86,12 +101,15 @@ class Bench:
             scale[block.offset : block.offset + block.count] = d.scale[int(block.scale)]
         return scale
 
-    # ---- states ---------------------------------------------------------------------------------------------------------------------------------
+    # ---- states ------------------------------------------------------------------------------------------------------
 
     def settled(self, scene, seeds):
         """Settled states of several seeds."""
         setting = Setting(DEFAULT, DEFAULT_TOLERANCE, method=int(variables.Method.VERLET))
-        return [self.instance(scene, setting, start_seed=seed, scene_stress=1, scene_statistics=1).step(scene.settle).y for seed in seeds]
+        return [
+            self.instance(scene, setting, start_seed=seed, scene_stress=1, scene_statistics=1).step(scene.settle).y
+            for seed in seeds
+        ]
 
     def advance(self, scene, setting, y, horizon, repeat=1):
         """One run from state y: processor time, counters, end state."""
@@ -115,7 +133,9 @@ class Bench:
                 seconds, work, end = self.advance(scene, setting, y, horizon, repeat=3)
             except ArithmeticError as problem:
                 return {"failed": str(problem)[:200]}
-            rows.append([rms((end - truth) / scale), seconds / horizon, work["rhs_evals"] / horizon, work["steps"] / horizon])
+            rows.append(
+                [rms((end - truth) / scale), seconds / horizon, work["rhs_evals"] / horizon, work["steps"] / horizon]
+            )
         error, rtf, evals, steps = np.array(rows).T
         return {
             "error": geometric(error),
@@ -128,28 +148,45 @@ class Bench:
 
     def truth(self, scene, y, horizon):
         """End state at 1e-10, and how far another method ends from it."""
-        tight = [Setting(name, 1e-10, choice=(0, TABLES[name], 0, 0.0)) for name in ("Dormand-Prince 5(4)", "Verner 6(5)")]
+        tight = [
+            Setting(name, 1e-10, choice=(0, TABLES[name], 0, 0.0)) for name in ("Dormand-Prince 5(4)", "Verner 6(5)")
+        ]
         ends = [self.advance(scene, setting, y, horizon)[2] for setting in tight]
         return ends[0], rms((ends[1] - ends[0]) / self.scales(scene))
 
     def python(self, scene, method, tolerance, y, truth):
         """The Python reference over its short horizon; RTF is extrapolated."""
-        parameters = {key: value for key, value in scene.parameters.items() if key != "scene.statistics"} | {"scene.stress": 1}
+        parameters = {key: value for key, value in scene.parameters.items() if key != "scene.statistics"} | {
+            "scene.stress": 1
+        }
 
         def simulate():
-            return reference_implementation.simulate(parameters, scene.inputs, PYTHON_HORIZON, step=PYTHON_HORIZON, tolerance=tolerance, method=method, y=y)
+            return reference_implementation.simulate(
+                parameters, scene.inputs, PYTHON_HORIZON, step=PYTHON_HORIZON, tolerance=tolerance, method=method, y=y
+            )
 
         seconds, results = cpu(simulate)
         error = rms((results.y[-1] - truth) / self.scales(scene))
-        return {"error": error, "rtf": seconds / PYTHON_HORIZON, "evals": results.rhs_evals / PYTHON_HORIZON, "steps": results.steps / PYTHON_HORIZON}
+        return {
+            "error": error,
+            "rtf": seconds / PYTHON_HORIZON,
+            "evals": results.rhs_evals / PYTHON_HORIZON,
+            "steps": results.steps / PYTHON_HORIZON,
+        }
 
-    # ---- statistics -------------------------------------------------------------------------------------------------------------------------------
+    # ---- statistics --------------------------------------------------------------------------------------------------
 
     def statistics(self, scene, setting, seeds, length):
         """Histograms of each seed and block, [seed][block] -> {channel: numbers}, and the cost."""
         runs, seconds, evals = [], 0.0, 0.0
         for seed in seeds:
-            instance = self.instance(scene, setting, start_seed=seed, scene_stress=int(variables.Stress.PEAK), scene_statistics=int(variables.Switch.ON))
+            instance = self.instance(
+                scene,
+                setting,
+                start_seed=seed,
+                scene_stress=int(variables.Stress.PEAK),
+                scene_statistics=int(variables.Switch.ON),
+            )
             instance.step(scene.settle)
             before, blocks = counters(instance), [moments(instance)]
             for i in range(round(length / BLOCK)):
@@ -157,7 +194,9 @@ class Bench:
                 seconds += spent
                 blocks.append(moments(instance))
             evals += counters(instance)["rhs_evals"] - before["rhs_evals"] + self.jacobian_evals(setting)
-            runs.append([{name: late[name] - early[name] for name in late} for early, late in itertools.pairwise(blocks)])
+            runs.append(
+                [{name: late[name] - early[name] for name in late} for early, late in itertools.pairwise(blocks)]
+            )
         span = length * len(seeds)
         return runs, {"rtf": seconds / span, "evals": evals / span}
 
@@ -178,7 +217,10 @@ def moments(instance):
     core.lib.part_save(instance.bearing, saved)
     worst = variables.Z
     channels = {"Q_c": saved.force, "sigma_head": saved.head[worst], "sigma_mid": saved.mid[worst]}
-    return {name: np.array([channel.time, channel.first, channel.second, *channel.weight]) for name, channel in channels.items()}
+    return {
+        name: np.array([channel.time, channel.first, channel.second, *channel.weight])
+        for name, channel in channels.items()
+    }
 
 
 def figures(blocks):
@@ -214,21 +256,34 @@ def against(result, truth):
         tight = truth[name]
         differences = [a - b for a, b in zip(r["by_seed"], tight["by_seed"], strict=False)]
         by_seed = student.ppf(0.975, len(differences) - 1) * np.std(differences, ddof=1) / math.sqrt(len(differences))
-        rows[name] = {"error": r["value"] / tight["value"] - 1.0, "half_width": max(by_seed, math.hypot(r["of_blocks"], tight["of_blocks"]))}
+        rows[name] = {
+            "error": r["value"] / tight["value"] - 1.0,
+            "half_width": max(by_seed, math.hypot(r["of_blocks"], tight["of_blocks"])),
+        }
     return rows
 
 
-# ------------------------------------------------------------------------------------------------------------------------------------ settings
+# ------------------------------------------------------------------------------------------------------------- settings
 
 
 def state_settings(short):
     ours = [
-        Setting(f"ours, {method.name.lower()}", tol, method=int(method)) for method in variables.Method for tol in (1e-2, 3e-3, 1e-3, 3e-4, 1e-4, 1e-5, 1e-6)
+        Setting(f"ours, {method.name.lower()}", tol, method=int(method))
+        for method in variables.Method
+        for tol in (1e-2, 3e-3, 1e-3, 3e-4, 1e-4, 1e-5, 1e-6)
     ]
-    explicit = [Setting(name, tol, choice=(0, table, 0, 0.0)) for name, table in TABLES.items() for tol in (1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7)]
+    explicit = [
+        Setting(name, tol, choice=(0, table, 0, 0.0))
+        for name, table in TABLES.items()
+        for tol in (1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7)
+    ]
     adams = [Setting("CVODE Adams", tol, choice=(1, "", 0, 0.0)) for tol in (1e-2, 1e-3, 1e-4, 1e-5, 1e-6)]
     tols = (1e-2, 1e-3, 1e-4) if short else (1e-2, 1e-3, 1e-4, 1e-5, 1e-6)
-    bdf = [Setting(f"CVODE BDF, {name}", tol, choice=(2, "", code, DENSE_OUTPUTS)) for name, code in JACOBIANS.items() for tol in tols]
+    bdf = [
+        Setting(f"CVODE BDF, {name}", tol, choice=(2, "", code, DENSE_OUTPUTS))
+        for name, code in JACOBIANS.items()
+        for tol in tols
+    ]
     return ours + explicit + adams + bdf
 
 
@@ -236,19 +291,30 @@ def statistics_settings(short):
     default = int(variables.Method[DEFAULT.partition(", ")[2].upper()])
     ours = [
         Setting(DEFAULT, tol, method=default)
-        for tol in sorted({1e-2, 3e-3, 1e-3, 3e-4, 1e-4, DEFAULT_TOLERANCE} if not short else {1e-2, 1e-3, DEFAULT_TOLERANCE})
+        for tol in sorted(
+            {1e-2, 3e-3, 1e-3, 3e-4, 1e-4, DEFAULT_TOLERANCE} if not short else {1e-2, 1e-3, DEFAULT_TOLERANCE}
+        )
     ]
     if short:
         return ours
     others = [Setting(f"ours, {m.name.lower()}", 1e-3, method=int(m)) for m in variables.Method if int(m) != default]
-    explicit = [Setting(name, 1e-3, choice=(0, TABLES[name], 0, 0.0)) for name in ("Bogacki-Shampine 3(2)", "Dormand-Prince 5(4)")]
+    explicit = [
+        Setting(name, 1e-3, choice=(0, TABLES[name], 0, 0.0))
+        for name in ("Bogacki-Shampine 3(2)", "Dormand-Prince 5(4)")
+    ]
     adams = [Setting("CVODE Adams", 1e-3, choice=(1, "", 0, 0.0))]
-    return ours + others + explicit + adams + [Setting(f"CVODE BDF, {n}", 1e-3, choice=(2, "", JACOBIANS[n], DENSE_OUTPUTS)) for n in JACOBIANS]
+    return (
+        ours
+        + others
+        + explicit
+        + adams
+        + [Setting(f"CVODE BDF, {n}", 1e-3, choice=(2, "", JACOBIANS[n], DENSE_OUTPUTS)) for n in JACOBIANS]
+    )
 
 
 TIGHT = Setting("Dormand-Prince 5(4)", 1e-6, choice=(0, TABLES["Dormand-Prince 5(4)"], 0, 0.0))
 
-# ------------------------------------------------------------------------------------------------------------------------------------ programs
+# ------------------------------------------------------------------------------------------------------------- programs
 
 
 def state_part(bench, scene, short):
@@ -258,9 +324,14 @@ def state_part(bench, scene, short):
     rows = []
     for setting in state_settings(short):
         few = 2 if "BDF" in setting.family and short else len(starts)
-        rows.append({"family": setting.family, "tolerance": setting.tolerance} | bench.states(scene, setting, starts[:few], truths[:few]))
+        rows.append(
+            {"family": setting.family, "tolerance": setting.tolerance}
+            | bench.states(scene, setting, starts[:few], truths[:few])
+        )
     say(f"  states: {len(rows)} settings, reference good to {max(doubts):.1e}")
-    return {"rows": rows, "reference_doubt": max(doubts), "starts": len(starts)} | python_part(bench, scene, starts[0], short)
+    return {"rows": rows, "reference_doubt": max(doubts), "starts": len(starts)} | python_part(
+        bench, scene, starts[0], short
+    )
 
 
 def python_part(bench, scene, y, short):
@@ -269,7 +340,8 @@ def python_part(bench, scene, y, short):
         return {"python": []}
     truth, _ = bench.truth(scene, y, PYTHON_HORIZON)
     ours = [
-        {"family": DEFAULT, "tolerance": tol} | bench.states(scene, Setting(DEFAULT, tol, method=int(variables.Method.VERLET)), [y], [truth], PYTHON_HORIZON)
+        {"family": DEFAULT, "tolerance": tol}
+        | bench.states(scene, Setting(DEFAULT, tol, method=int(variables.Method.VERLET)), [y], [truth], PYTHON_HORIZON)
         for tol in (1e-2, 3e-3, 1e-3, 3e-4, 1e-4, 1e-5, 1e-6)
     ]
     rows = [
@@ -288,12 +360,22 @@ def statistics_part(bench, scene, short):
     truth_runs, truth_cost = bench.statistics(scene, TIGHT, most, length)
     rows = []
     for setting in statistics_settings(short):
-        seeds = few if setting.choice is not None else most if (setting.family, setting.tolerance) == (DEFAULT, DEFAULT_TOLERANCE) else many
+        seeds = (
+            few
+            if setting.choice is not None
+            else most
+            if (setting.family, setting.tolerance) == (DEFAULT, DEFAULT_TOLERANCE)
+            else many
+        )
         runs, cost = bench.statistics(scene, setting, seeds, length)
         errors = against(pooled(runs), pooled(truth_runs[: len(seeds)]))
-        rows.append({"family": setting.family, "tolerance": setting.tolerance} | cost | {"seeds": len(seeds), "figures": errors})
+        rows.append(
+            {"family": setting.family, "tolerance": setting.tolerance} | cost | {"seeds": len(seeds), "figures": errors}
+        )
         worst = max(abs(figure["error"]) for figure in rows[-1]["figures"].values())
-        say(f"  statistics: {setting.family} {setting.tolerance:g}: RTF {cost['rtf']:.2f}, largest error {100 * worst:.2f} %")
+        say(
+            f"  statistics: {setting.family} {setting.tolerance:g}: RTF {cost['rtf']:.2f}, largest error {100 * worst:.2f} %"
+        )
     return {"rows": rows, "truth_cost": truth_cost, "seeds": [len(few), len(many), len(most)], "length": length}
 
 
@@ -306,12 +388,19 @@ def main():
         instance = bench.instance(scene, TIGHT)
         outside = bench.other.lib.solver_outside_pattern(instance.bearing)
         if outside > 1e-9:
-            raise SystemExit(f"{name}: the Jacobian has entries outside the bordered pattern, {outside:.1e} of the largest one")
+            raise SystemExit(
+                f"{name}: the Jacobian has entries outside the bordered pattern, {outside:.1e} of the largest one"
+            )
         scenes[name] = {"title": scene.title, "states": state_part(bench, scene, short)}
         scenes[name]["statistics"] = statistics_part(bench, scene, short)
         write(
             "work_precision",
-            {"default": {"family": DEFAULT, "tolerance": DEFAULT_TOLERANCE}, "horizon": HORIZON, "python_horizon": PYTHON_HORIZON, "scenes": scenes},
+            {
+                "default": {"family": DEFAULT, "tolerance": DEFAULT_TOLERANCE},
+                "horizon": HORIZON,
+                "python_horizon": PYTHON_HORIZON,
+                "scenes": scenes,
+            },
             short,
         )
 

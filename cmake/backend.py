@@ -1,6 +1,7 @@
 """What pip calls to build this project: scikit-build-core, after a look for a C compiler.
 
-Who has none reads one line before anything is downloaded.  That is why pyproject.toml requires nothing and REQUIRES stands here.
+Who has none reads one line before anything is downloaded.  That is why pyproject.toml requires nothing and REQUIRES
+stands here.
 """
 
 import os
@@ -23,7 +24,9 @@ REQUIRES = [
 
 
 def get_requires_for_build_wheel(config_settings=None):
-    """Packages that a wheel is built with; ends the program if there is no compiler.  On Windows CMake looks for one itself, in the registry too."""
+    """Packages that a wheel is built with; ends the program if there is no compiler.  On Windows CMake looks for one
+    itself, in the registry too.
+    """
     compilers = os.environ.get("CC", "").split()[:1] or COMPILERS
     if sys.platform != "win32" and not any(map(shutil.which, compilers)):
         sys.exit(

@@ -1,4 +1,5 @@
-"""Writes the C file that tells one build of an FMU from another: a digest of all sources, headers included, wherever they lie and whatever compiles them.
+"""Writes the C file that tells one build of an FMU from another: a digest of all sources, headers included, wherever
+they lie and whatever compiles them.
 
     python fmus/build_info.py --source fmi2_wrapper.c [...] --include FOLDER [...] --out build_info.c
     python fmus/build_info.py @arguments.txt --out build_info.c

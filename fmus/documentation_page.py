@@ -1,7 +1,9 @@
-"""The FMU's documentation/index.html: one readable page that needs no other file, from modelDescription.xml and the project's own texts.
+"""The FMU's documentation/index.html: one readable page that needs no other file, from modelDescription.xml and the
+project's own texts.
 
-python fmus/documentation_page.py --description modelDescription.xml --parameters parameters.md --drawing bearing.svg --sources --out index.html
-python fmus/documentation_page.py --description modelDescription.xml --parameters parameters.md --drawing shaft.svg --text shaft.md --sources --out index.html
+python fmus/documentation_page.py --description modelDescription.xml --parameters parameters.md --drawing bearing.svg
+--sources --out index.html python fmus/documentation_page.py --description modelDescription.xml --parameters
+parameters.md --drawing shaft.svg --text shaft.md --sources --out index.html
 """
 
 import argparse
@@ -34,7 +36,9 @@ def html(markdown):
 
 
 def sections(markdown, *titles):
-    """The text of the sections with these titles, without links to files that do not travel with the FMU; ValueError for a title that is not there."""
+    """The text of the sections with these titles, without links to files that do not travel with the FMU; ValueError
+    for a title that is not there.
+    """
     parts = dict(re.findall(r"^## (.*)\n((?:(?!^## ).*\n)*)", markdown + "\n", re.MULTILINE))
     missing = set(titles) - set(parts)
     if missing:
@@ -64,18 +68,28 @@ def page(description, parameters, drawing, text, with_sources):
     root = ElementTree.parse(description).getroot()
     variables = parameters.read_text()
     loader = jinja2.FileSystemLoader(TEMPLATES)
-    environment = jinja2.Environment(loader=loader, trim_blocks=True, lstrip_blocks=True, autoescape=True, undefined=jinja2.StrictUndefined)
+    environment = jinja2.Environment(
+        loader=loader, trim_blocks=True, lstrip_blocks=True, autoescape=True, undefined=jinja2.StrictUndefined
+    )
     template = environment.get_template("page.html" if text else "bearing.html")
     texts = {"text": html(text.read_text())} if text else bearing_texts()
     simulation = root.find("CoSimulation")
     return template.render(
         model=root.attrib,
         experiment=root.find("DefaultExperiment").attrib,
-        flags=[(name, simulation.get(name), meaning) for name, meaning in FLAGS.items() if simulation.get(name, "false") not in ("false", "0")],
+        flags=[
+            (name, simulation.get(name), meaning)
+            for name, meaning in FLAGS.items()
+            if simulation.get(name, "false") not in ("false", "0")
+        ],
         drawing=re.search(r"<svg.*</svg>", drawing.read_text(), re.DOTALL)[0],
         **texts,
         essentials=html(sections(variables, "Essentials")) if "\n## Essentials\n" in variables else "",
-        variables={title: html(sections(variables, title)) for title in ("Inputs", "Parameters", "Outputs", "Locals") if f"\n## {title}\n" in variables},
+        variables={
+            title: html(sections(variables, title))
+            for title in ("Inputs", "Parameters", "Outputs", "Locals")
+            if f"\n## {title}\n" in variables
+        },
         with_sources=with_sources,
         licenses=LICENSES,
     )
@@ -86,11 +100,15 @@ def main(arguments=None):
     parser.add_argument("--description", type=Path, required=True, help="modelDescription.xml")
     parser.add_argument("--parameters", type=Path, required=True, help="parameters.md of the same bearing")
     parser.add_argument("--drawing", type=Path, required=True, help="picture (SVG)")
-    parser.add_argument("--text", type=Path, help="Markdown about the model; default: the project's own about the bearing")
+    parser.add_argument(
+        "--text", type=Path, help="Markdown about the model; default: the project's own about the bearing"
+    )
     parser.add_argument("--sources", action="store_true", help="the FMU holds its sources")
     parser.add_argument("--out", type=Path, required=True, help="the page to write")
     options = parser.parse_args(arguments)
-    options.out.write_text(page(options.description, options.parameters, options.drawing, options.text, options.sources))
+    options.out.write_text(
+        page(options.description, options.parameters, options.drawing, options.text, options.sources)
+    )
 
 
 if __name__ == "__main__":

@@ -22,13 +22,28 @@ from lxml import etree
 
 ROOT = Path(__file__).resolve().parent.parent
 TABLE = ROOT / "fmus" / "variables.toml"
-OUTPUTS = ("fmu_src/generated/variables.h", "fmu_src/generated/variables.c", "fmus/modelDescription.xml", "bearing_model/generated/variables.py", "docs/parameters.md")
+OUTPUTS = (
+    "fmu_src/generated/variables.h",
+    "fmu_src/generated/variables.c",
+    "fmus/modelDescription.xml",
+    "bearing_model/generated/variables.py",
+    "docs/parameters.md",
+)
 TEMPLATES = ROOT / "fmus" / "templates"
 Z_MIN, Z_MAX = 5, 32
 CAUSALITIES = {"inputs": "input", "parameters": "parameter", "outputs": "output", "locals": "local"}
 CALCULATED = ("output", "local")
 BASE_UNITS = ("kg", "m", "s", "A", "K", "mol", "cd", "rad")
-LABELS = {"m": "m", "um": "µm", "m/s2": "m/s²", "rad/s2": "rad/s²", "N/m1.5": "N/m^1.5", "kg.m2": "kg.m²", "kg/m3": "kg/m³", "degC": "°C"}
+LABELS = {
+    "m": "m",
+    "um": "µm",
+    "m/s2": "m/s²",
+    "rad/s2": "rad/s²",
+    "N/m1.5": "N/m^1.5",
+    "kg.m2": "kg.m²",
+    "kg/m3": "kg/m³",
+    "degC": "°C",
+}
 LOG_CATEGORIES = {  # in the order of LogCategory in part.h
     "logStatusError": "Refused calls and values, failed steps: always sent",
     "logStatusWarning": "Done, but worth a look: always sent",
@@ -114,7 +129,8 @@ class Table:
     groups: dict
     variables: tuple
     states: tuple
-    assumptions: dict  # by parameter: usual range as factors of its value, share of the stress that goes with it, and the source
+    # by parameter: usual range as factors of its value, share of the stress that goes with it, and the source
+    assumptions: dict
     origin: dict  # where the values of another bearing come from, by name
     essentials: dict  # names by question
     elastic_states: tuple = ()  # behind the states, of elastic cage halves only
@@ -160,13 +176,21 @@ def load_table(bearing=None, path=None):
     description = ". ".join(filter(None, (raw["description"], changes.get("description", raw.get("case")))))
     layout = raw["units"], raw["enumerations"], raw["groups"], tuple(variables), tuple(states[:n_plain])
     table = Table(
-        Z, raw["model_name"], description, *layout, raw.get("assumptions", {}), changes.get("origin", {}), raw.get("essentials", {}), tuple(states[n_plain:])
+        Z,
+        raw["model_name"],
+        description,
+        *layout,
+        raw.get("assumptions", {}),
+        changes.get("origin", {}),
+        raw.get("essentials", {}),
+        tuple(states[n_plain:]),
     )
     check_table(table, path, raw.get("retired", ()))
     return table
 
 
-MODES = {"modes": (5, 9), "fewest modes": (4, 9), "most modes": (2, 3)}  # octets of vibration modes of a cage half per so many balls
+# octets of vibration modes of a cage half per so many balls
+MODES = {"modes": (5, 9), "fewest modes": (4, 9), "most modes": (2, 3)}
 
 
 def number_of(value, Z):
@@ -197,13 +221,19 @@ def set_start(variables, causality, name, value, source):
     start = v.choices.index(value) + 1 if value in v.choices else value
     right_type = type(start) in ((int, float) if v.kind == "Real" else (int,))
     if not right_type or not v.limits[0] <= start <= v.limits[1]:
-        what = "one of " + ", ".join(v.choices) if v.choices else f"{v.limits[0]!r} ... {v.limits[1]!r} {v.unit} ({v.type})"
+        what = (
+            "one of " + ", ".join(v.choices)
+            if v.choices
+            else f"{v.limits[0]!r} ... {v.limits[1]!r} {v.unit} ({v.type})"
+        )
         raise ValueError(f"{source}: {name} = {value!r}: allowed is {what}")
     variables[places[name]] = replace(v, start=float(start) if v.kind == "Real" else start)
 
 
 def check_table(table, path, retired=()):
-    """Every variable complete and consistent, every name and value reference given once and none that is retired; else ValueError."""
+    """Every variable complete and consistent, every name and value reference given once and none that is retired; else
+    ValueError.
+    """
     names, references = {"time"}, {0: "time"} | dict.fromkeys(retired, "a variable that is gone")
     for v in table.variables:
         last = v.vr + (Z_MAX if v.is_array else 1)
@@ -212,12 +242,15 @@ def check_table(table, path, retired=()):
         problems = {
             "given twice": v.name in names,
             f"shares value references with {', '.join(shared)}": shared,
-            f"type {v.type!r} is not Real, Integer or an enumeration": v.type not in ("Real", "Integer", *table.enumerations),
+            f"type {v.type!r} is not Real, Integer or an enumeration": v.type
+            not in ("Real", "Integer", *table.enumerations),
             f"unknown unit {v.unit!r}": v.unit not in table.units,
-            f"unknown display unit {v.display!r}": v.display and v.display not in table.units.get(v.unit, {}).get("display", {}),
+            f"unknown display unit {v.display!r}": v.display
+            and v.display not in table.units.get(v.unit, {}).get("display", {}),
             f"unknown group {v.group!r}": v.causality in CALCULATED and v.group not in table.groups,
             "no source": v.causality not in CALCULATED and not v.source,
-            f"start {v.start!r} outside {v.limits}": v.causality not in CALCULATED and (v.start is None or not v.limits[0] <= v.start <= v.limits[1]),
+            f"start {v.start!r} outside {v.limits}": v.causality not in CALCULATED
+            and (v.start is None or not v.limits[0] <= v.start <= v.limits[1]),
         }
         names.add(v.name)
         for problem, found in problems.items():
@@ -231,7 +264,7 @@ def check_table(table, path, retired=()):
             raise ValueError(f"{path}: {s.name}: unknown unit {s.unit!r}")
 
 
-# ---------------------------------------------------------------------------------------------------------------- text files
+# ----------------------------------------------------------------------------------------------------------- text files
 
 
 def screaming(name):
@@ -287,20 +320,26 @@ def allowed(v, table):
 
 def feeds(v):
     """What a parameter feeds, for readers."""
-    needs = " and ".join(f"a changing `{name}`" if isinstance(value, dict) else f"`{name}` = {value}" for name, value in v.needs.items())
+    needs = " and ".join(
+        f"a changing `{name}`" if isinstance(value, dict) else f"`{name}` = {value}" for name, value in v.needs.items()
+    )
     return ("rivet table, run" if v.built or v.table else "run") + (f", there with {needs}" if needs else "")
 
 
 def render(template, table, source):
     """A template of fmus/templates filled in."""
-    environment = jinja2.Environment(trim_blocks=True, lstrip_blocks=True, keep_trailing_newline=True, undefined=jinja2.StrictUndefined)
+    environment = jinja2.Environment(
+        trim_blocks=True, lstrip_blocks=True, keep_trailing_newline=True, undefined=jinja2.StrictUndefined
+    )
     environment.filters |= {f.__name__: f for f in (screaming, struct_members, c_number, quoted, label, named_in)}
     scales = list(dict.fromkeys(s.scale for s in (*table.states, *table.elastic_states)))
     words = {"shown": shown, "allowed": allowed, "feeds": feeds}
-    return environment.from_string((TEMPLATES / template).read_text()).render(table=table, source=source, scales=scales, **words)
+    return environment.from_string((TEMPLATES / template).read_text()).render(
+        table=table, source=source, scales=scales, **words
+    )
 
 
-# ------------------------------------------------------------------------------------------------------- modelDescription.xml
+# ------------------------------------------------------------------------------------------------- modelDescription.xml
 
 
 def write_description(table):
@@ -332,7 +371,8 @@ def write_description(table):
     if table.enumerations:
         add_types(root, table)
     add_log_categories(root)
-    etree.SubElement(root, "DefaultExperiment", startTime="0", stopTime="0.4", stepSize="1e-4")  # a tolerance here would overrule solver.tol
+    # a tolerance here would overrule solver.tol
+    etree.SubElement(root, "DefaultExperiment", startTime="0", stopTime="0.4", stepSize="1e-4")
     if table.origin:
         add_origin(root, table)
     indices = add_variables(root, table)
@@ -348,7 +388,9 @@ def add_units(root, table):
             etree.SubElement(unit, "BaseUnit", {base: str(entry[base]) for base in BASE_UNITS if base in entry})
         for display in entry.get("display", {}):
             factor, offset = display_unit(table, name, display)
-            etree.SubElement(unit, "DisplayUnit", name=display, factor=repr(factor), **({"offset": repr(offset)} if offset else {}))
+            etree.SubElement(
+                unit, "DisplayUnit", name=display, factor=repr(factor), **({"offset": repr(offset)} if offset else {})
+            )
 
 
 def add_types(root, table):
@@ -366,7 +408,9 @@ def add_log_categories(root):
 
 
 def add_origin(root, table):
-    """Where start values come from, for `riveted-bearing run`: an annotation that other tools pass over.  FMI 2.0 allows one element in a tool's."""
+    """Where start values come from, for `riveted-bearing run`: an annotation that other tools pass over.  FMI 2.0
+    allows one element in a tool's.
+    """
     tool = etree.SubElement(etree.SubElement(root, "VendorAnnotations"), "Tool", name="riveted-bearing")
     values = etree.SubElement(tool, "Origin")
     for name, origin in table.origin.items():
@@ -377,7 +421,13 @@ def add_variables(root, table):
     """ModelVariables; returns the index of each scalar variable, from 1."""
     variables = etree.SubElement(root, "ModelVariables")
     time = etree.SubElement(
-        variables, "ScalarVariable", name="time", valueReference="0", description="Simulation time", causality="independent", variability="continuous"
+        variables,
+        "ScalarVariable",
+        name="time",
+        valueReference="0",
+        description="Simulation time",
+        causality="independent",
+        variability="continuous",
     )
     etree.SubElement(time, "Real", unit="s")
     indices = {"time": 1}
@@ -386,7 +436,13 @@ def add_variables(root, table):
     for v in table.variables:
         for name, vr in v.elements:
             scalar = etree.SubElement(
-                variables, "ScalarVariable", name=name, valueReference=str(vr), description=v.description, causality=v.causality, **variability(v)
+                variables,
+                "ScalarVariable",
+                name=name,
+                valueReference=str(vr),
+                description=v.description,
+                causality=v.causality,
+                **variability(v),
             )
             etree.SubElement(scalar, v.kind, value_attributes(v, indices))
     return indices
@@ -404,7 +460,11 @@ def value_attributes(v, indices):
     """Attributes of Real, Integer or Enumeration."""
     attributes = {"declaredType": v.type} if v.choices else {}
     if v.type == "Real":
-        attributes |= {"unit": v.unit, "displayUnit": v.display, "derivative": v.derivative_of and indices[v.derivative_of]}
+        attributes |= {
+            "unit": v.unit,
+            "displayUnit": v.display,
+            "derivative": v.derivative_of and indices[v.derivative_of],
+        }
         attributes |= {"min": v.min, "max": v.max, "nominal": v.nominal}
     elif v.type == "Integer":
         attributes |= {"min": v.min, "max": v.max}
@@ -422,7 +482,9 @@ def add_structure(root, table, indices):
     derivatives = etree.SubElement(structure, "Derivatives")
     for v in table.of("output"):
         if v.derivative_of:
-            etree.SubElement(derivatives, "Unknown", index=str(indices[v.name]), dependencies=dependencies(v, table, indices))
+            etree.SubElement(
+                derivatives, "Unknown", index=str(indices[v.name]), dependencies=dependencies(v, table, indices)
+            )
     unknowns = etree.SubElement(structure, "InitialUnknowns")
     for v in table.of("output"):
         if v.group != "constant":
@@ -432,24 +494,37 @@ def add_structure(root, table, indices):
 
 def dependencies(v, table, indices):
     """Indices of the inputs and states that an output depends on directly."""
-    patterns = [v.name, *(v.depends or ())] if v.state else table.groups[v.group]["depends"] if v.depends is None else v.depends
+    patterns = (
+        [v.name, *(v.depends or ())]
+        if v.state
+        else table.groups[v.group]["depends"]
+        if v.depends is None
+        else v.depends
+    )
     known = [k.name for k in table.variables if k.causality == "input" or k.state]
-    return " ".join(str(indices[name]) for name in known if any(fnmatch.fnmatchcase(name, pattern) for pattern in patterns))
+    return " ".join(
+        str(indices[name]) for name in known if any(fnmatch.fnmatchcase(name, pattern) for pattern in patterns)
+    )
 
 
-# ------------------------------------------------------------------------------------------------------------------- command
+# -------------------------------------------------------------------------------------------------------------- command
 
 
 def generate(bearing=None, path=None):
     """Contents of all files by their place in the project; ValueError if the table or the bearing file is wrong."""
     table = load_table(bearing, path)
     source = Path(path).name if path else TABLE.relative_to(ROOT).as_posix()
-    return {place: write_description(table) if place.endswith(".xml") else render(Path(place).name, table, source) for place in OUTPUTS}
+    return {
+        place: write_description(table) if place.endswith(".xml") else render(Path(place).name, table, source)
+        for place in OUTPUTS
+    }
 
 
 def main(arguments=None):
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--bearing", type=Path, help="bearing file (riveted_bearing/data/bearings) with Z and start values")
+    parser.add_argument(
+        "--bearing", type=Path, help="bearing file (riveted_bearing/data/bearings) with Z and start values"
+    )
     parser.add_argument("--table", type=Path, help="another part's table of variables")
     parser.add_argument("--out", type=Path, help="one folder for all files, instead of their places in the project")
     parser.add_argument("--check", action="store_true", help="write nothing, compare")
@@ -460,13 +535,18 @@ def main(arguments=None):
         files = generate(options.bearing, options.table)
     except (OSError, ValueError) as error:
         sys.exit(f"generate: {error}")
-    places = {(options.out / Path(name).name if options.out else ROOT / name): content for name, content in files.items()}
+    places = {
+        (options.out / Path(name).name if options.out else ROOT / name): content for name, content in files.items()
+    }
     if options.check:
-        stale = [str(path) for path, content in places.items() if not path.is_file() or path.read_bytes() != content.encode()]
+        stale = [
+            str(path) for path, content in places.items() if not path.is_file() or path.read_bytes() != content.encode()
+        ]
         sys.exit(f"generate: not what {(options.table or TABLE).name} says: {', '.join(stale)}" if stale else 0)
     for path, content in places.items():
         path.parent.mkdir(parents=True, exist_ok=True)
-        if not path.is_file() or path.read_bytes() != content.encode():  # unchanged files keep their time stamps, so that nothing is recompiled
+        # unchanged files keep their time stamps, so that nothing is recompiled
+        if not path.is_file() or path.read_bytes() != content.encode():
             path.write_bytes(content.encode())
 
 

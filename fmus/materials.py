@@ -1,4 +1,5 @@
-"""Software bill of materials of an FMU (CycloneDX 1.6, JSON): what is in it, where from, under which licence, with checksums.
+"""Software bill of materials of an FMU (CycloneDX 1.6, JSON): what is in it, where from, under which licence, with
+checksums.
 
 The same members give the same bytes: no date, and a serial number that follows from the content.
 """
@@ -11,7 +12,11 @@ from pathlib import Path
 
 PLACE = "extra/org.cyclonedx/bom.json"
 LIBRARIES = {  # name -> description, licence, package URL without its version
-    "sundials": ("Suite of equation solvers: context, vectors and ARKODE, compiled from source", "BSD-3-Clause", "github/LLNL/sundials@v"),
+    "sundials": (
+        "Suite of equation solvers: context, vectors and ARKODE, compiled from source",
+        "BSD-3-Clause",
+        "github/LLNL/sundials@v",
+    ),
     "fmpy": ("Headers of FMI 2.0 by the Modelica Association, as fmpy carries them", "BSD-2-Clause", "pypi/fmpy@"),
 }
 
@@ -19,8 +24,9 @@ LIBRARIES = {  # name -> description, licence, package URL without its version
 def bill_of_materials(model, version, author, build, compiler, materials, members):
     """The bill as bytes.
 
-    model: modelDescription's attributes; version, author: of the package; build: digest of all sources; compiler: name and version;
-    materials: ("library", name, version) or ("data", name, path); members: content of the FMU's files by name.  OSError if data cannot be read.
+    model: modelDescription's attributes; version, author: of the package; build: digest of all sources; compiler: name
+    and version; materials: ("library", name, version) or ("data", name, path); members: content of the FMU's files by
+    name.  OSError if data cannot be read.
     """
     parts = [("library", "fmpy", None), *materials]
     components = [component(*part) for part in parts]
@@ -31,7 +37,9 @@ def bill_of_materials(model, version, author, build, compiler, materials, member
         "specVersion": "1.6",
         "version": 1,
         "metadata": {
-            "tools": {"components": [{"type": "application", "name": " ".join(compiler[:-1]), "version": compiler[-1]}]},
+            "tools": {
+                "components": [{"type": "application", "name": " ".join(compiler[:-1]), "version": compiler[-1]}]
+            },
             "component": {
                 "type": "library",
                 "bom-ref": "fmu",
@@ -68,4 +76,9 @@ def component(kind, name, origin):
 
 
 def file(name, content):
-    return {"type": "file", "bom-ref": name, "name": name, "hashes": [{"alg": "SHA-256", "content": hashlib.sha256(content).hexdigest()}]}
+    return {
+        "type": "file",
+        "bom-ref": name,
+        "name": name,
+        "hashes": [{"alg": "SHA-256", "content": hashlib.sha256(content).hexdigest()}],
+    }

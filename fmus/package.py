@@ -1,4 +1,5 @@
-"""Packs description, binaries, sources, documentation, terminals, pictures, reference results and the cage's frequencies into the FMU.
+"""Packs description, binaries, sources, documentation, terminals, pictures, reference results and the cage's
+frequencies into the FMU.
 
     python fmus/package.py --description modelDescription.xml --binary RivetedBearing.so --out RivetedBearing.fmu [...]
     python fmus/package.py @arguments.txt                    one argument a line, as the build writes them
@@ -67,7 +68,8 @@ def platform_and_file(text):
 def package(options):
     """Write the FMU `options.out`: the file is complete or stays as it was.
 
-    Raises OSError for a file that cannot be read or written, ValueError for a platform that FMI has no name for and for two sources of one name.
+    Raises OSError for a file that cannot be read or written, ValueError for a platform that FMI has no name for and for
+    two sources of one name.
     """
     description = etree.parse(str(options.description), etree.XMLParser(remove_blank_text=True))
     root = description.getroot()
@@ -84,7 +86,9 @@ def package(options):
     root.set("version", options.version)
     root.set("author", options.author)
     root.set("generationTool", f"riveted-bearing {options.version}, build {build[:12]}")
-    members = {"modelDescription.xml": etree.tostring(description, encoding="UTF-8", xml_declaration=True, pretty_print=True)}
+    members = {
+        "modelDescription.xml": etree.tostring(description, encoding="UTF-8", xml_declaration=True, pretty_print=True)
+    }
     members |= {f"binaries/{name}/{identifier}{SUFFIXES[name]}": file.read_bytes() for name, file in binaries.items()}
     members |= {f"sources/{name}": content for name, content in sources.items()}
     members |= {f"documentation/licenses/{name}": (PROJECT / name).read_bytes() for name in LICENSES}
@@ -92,15 +96,22 @@ def package(options):
     members |= icons(options.pictures, options.terminals) if options.pictures else {}
     if options.reference:
         name = f"{identifier}_out.csv"
-        members |= {f"{REFERENCE}/fmi-ls-manifest.xml": MANIFEST.format(name=name).encode(), f"{REFERENCE}/{name}": options.reference.read_bytes()}
+        members |= {
+            f"{REFERENCE}/fmi-ls-manifest.xml": MANIFEST.format(name=name).encode(),
+            f"{REFERENCE}/{name}": options.reference.read_bytes(),
+        }
     members |= {CAGE_MODES: cage_modes(options.rivet_table)} if options.rivet_table else {}
     materials = [material.split(maxsplit=2) for material in options.material]
-    members[PLACE] = bill_of_materials(root.attrib, options.version, options.author, build, options.compiler.split(), materials, members)
+    members[PLACE] = bill_of_materials(
+        root.attrib, options.version, options.author, build, options.compiler.split(), materials, members
+    )
     write_archive(members, options.out)
 
 
 def cage_modes(rivet_table):
-    """Frequencies [Hz] of a free cage half in a rivet table, how many modes have each (2 of a pair), and the half's mass [kg], as JSON."""
+    """Frequencies [Hz] of a free cage half in a rivet table, how many modes have each (2 of a pair), and the half's
+    mass [kg], as JSON.
+    """
     table = read(rivet_table)
     omega, count = (table.modes.omega, table.modes.count) if table.modes else (np.zeros(0), np.zeros(0, int))
     content = {"mass": table.half.m, "frequency": (omega / (2.0 * np.pi)).tolist(), "modes": count.tolist()}
@@ -140,16 +151,34 @@ def write_archive(members, out):
 
 def main(arguments=None):
     parser = argparse.ArgumentParser(description="Pack an FMU.", fromfile_prefix_chars="@")
-    parser.add_argument("--description", type=Path, required=True, help="modelDescription.xml, without the list of sources")
+    parser.add_argument(
+        "--description", type=Path, required=True, help="modelDescription.xml, without the list of sources"
+    )
     parser.add_argument("--out", type=Path, required=True, help="the FMU to write")
-    parser.add_argument("--binary", action="append", default=[], metavar="[PLATFORM=]FILE", help="a shared library; repeatable")
+    parser.add_argument(
+        "--binary", action="append", default=[], metavar="[PLATFORM=]FILE", help="a shared library; repeatable"
+    )
     parser.add_argument("--source", action="append", type=Path, default=[], help="a C file to compile; repeatable")
-    parser.add_argument("--include", action="append", type=Path, default=[], help="a folder of headers that go with the sources; repeatable")
+    parser.add_argument(
+        "--include",
+        action="append",
+        type=Path,
+        default=[],
+        help="a folder of headers that go with the sources; repeatable",
+    )
     parser.add_argument("--version", required=True, help="of the package")
     parser.add_argument("--author", required=True)
-    parser.add_argument("--build-info", type=Path, required=True, help="C file with the digest of the sources (build_info.py)")
+    parser.add_argument(
+        "--build-info", type=Path, required=True, help="C file with the digest of the sources (build_info.py)"
+    )
     parser.add_argument("--compiler", required=True, help="name and version of what compiled the binaries")
-    parser.add_argument("--material", action="append", default=[], metavar="KIND NAME ORIGIN", help="library NAME VERSION or data NAME FILE; repeatable")
+    parser.add_argument(
+        "--material",
+        action="append",
+        default=[],
+        metavar="KIND NAME ORIGIN",
+        help="library NAME VERSION or data NAME FILE; repeatable",
+    )
     parser.add_argument("--page", type=Path, help="documentation (page.py)")
     parser.add_argument("--pictures", type=Path, help="folder of the icons (picture.py)")
     parser.add_argument("--terminals", type=Path, help="terminalsAndIcons.xml")

@@ -22,7 +22,9 @@ ICON_PIXELS = 256
 
 
 def dimensions(description):
-    """Number of balls and the start values of the dimensions [mm]; bore and outside from the 6207's proportions, which the variables do not hold."""
+    """Number of balls and the start values of the dimensions [mm]; bore and outside from the 6207's proportions, which
+    the variables do not hold.
+    """
     start = {v.get("name"): v[0].get("start") for v in ElementTree.parse(description).getroot().find("ModelVariables")}
     names = {"D": "bearing.D", "d_m": "bearing.d_m", "D_o": "cage.D_o", "D_i": "cage.D_i", "width": "cage.width"}
     mm = {letter: 1e3 * float(start[name]) for letter, name in names.items()}
@@ -48,7 +50,11 @@ def front(ax, mm):
     bearing(ax, mm)
     arrow(ax, (0, 0), (16, 0), "$F_r$ along $Y$")
     ax.text(-6, 5.5, r"$\omega$", fontsize=12, ha="center", color=INK)
-    ax.add_patch(FancyArrowPatch((-4, 12), (-12, 4), connectionstyle="arc3,rad=0.35", arrowstyle="-|>", mutation_scale=12, color=INK))
+    ax.add_patch(
+        FancyArrowPatch(
+            (-4, 12), (-12, 4), connectionstyle="arc3,rad=0.35", arrowstyle="-|>", mutation_scale=12, color=INK
+        )
+    )
     ax.set_title("seen along the shaft", y=-0.05, fontsize=10, color=INK)
 
 
@@ -74,7 +80,15 @@ def section(ax, mm):
         x = x0 + rivet * pitch
         ax.add_patch(Rectangle((x - mm["d"] / 2, -FLANGE), mm["d"], 2 * FLANGE, facecolor=RIVET, **RIM))
         for side in (-1, 1):
-            ax.add_patch(Rectangle((x - HEAD_RADIUS, min(side * FLANGE, side * (FLANGE + HEAD_HEIGHT))), 2 * HEAD_RADIUS, HEAD_HEIGHT, facecolor=RIVET, **RIM))
+            ax.add_patch(
+                Rectangle(
+                    (x - HEAD_RADIUS, min(side * FLANGE, side * (FLANGE + HEAD_HEIGHT))),
+                    2 * HEAD_RADIUS,
+                    HEAD_HEIGHT,
+                    facecolor=RIVET,
+                    **RIM,
+                )
+            )
     ax.annotate("rivet: preload $P$, tension $T$,\nslip $u$, stress of head and middle", (x0 + 0.5 * pitch, -2.6), (x0 - 0.3 * pitch, -13), fontsize=10,
                 color=INK, arrowprops={"arrowstyle": "-", "color": INK, "linewidth": 0.8})  # fmt: skip
     ax.set_title("the riveted cage, unrolled", y=-0.75, fontsize=10, color=INK)
@@ -116,10 +130,14 @@ def write_icons(mm, folder):
     folder.mkdir(parents=True, exist_ok=True)
     icon(folder / "icon.png", lambda ax: bearing(ax, mm), 0.51 * mm["outside"])
     icon(folder / "shaft.png", lambda ax: ax.add_patch(Circle((0, 0), 0.7, facecolor=STEEL, **thin)), 1.0)
-    icon(folder / "housing.png", lambda ax: ax.add_patch(Rectangle((-0.7, -0.7), 1.4, 1.4, facecolor=BALL, **thin)), 1.0)
+    icon(
+        folder / "housing.png", lambda ax: ax.add_patch(Rectangle((-0.7, -0.7), 1.4, 1.4, facecolor=BALL, **thin)), 1.0
+    )
     icon(
         folder / "impact.png",
-        lambda ax: ax.add_patch(FancyArrowPatch((-0.8, 0), (0.9, 0), arrowstyle="-|>", mutation_scale=18, color=RIVET, linewidth=2.0)),
+        lambda ax: ax.add_patch(
+            FancyArrowPatch((-0.8, 0), (0.9, 0), arrowstyle="-|>", mutation_scale=18, color=RIVET, linewidth=2.0)
+        ),
         1.0,
     )
 
@@ -132,7 +150,9 @@ def use_style(settings):
 def main(arguments=None):
     use_style(matplotlib.rcParams)
     parser = argparse.ArgumentParser(description="Draw a bearing.")
-    parser.add_argument("--description", type=Path, required=True, help="modelDescription.xml, whose start values are drawn")
+    parser.add_argument(
+        "--description", type=Path, required=True, help="modelDescription.xml, whose start values are drawn"
+    )
     parser.add_argument("--drawing", type=Path, help="file for both views with letters")
     parser.add_argument("--icons", type=Path, help="folder for the icons")
     options = parser.parse_args(arguments)

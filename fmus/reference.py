@@ -1,4 +1,5 @@
-"""Reference results by which an importer can check itself: all outputs of the first millisecond from the start values, as CSV.
+"""Reference results by which an importer can check itself: all outputs of the first millisecond from the start values,
+as CSV.
 
     python fmus/reference.py --description modelDescription.xml --binary RivetedBearing.so --out reference.csv
 
@@ -19,10 +20,14 @@ STEP, STEPS = 1e-4, 10  # [s]
 def simulate(description, binary):
     """Names and rows of the outputs at the communication points; raises fmpy's FMICallException if a call fails."""
     model = read_model_description(str(description), validate=False)
-    outputs = [v for v in model.modelVariables if v.causality == "output" and not v.name.startswith(("solver.", "stat."))]
+    outputs = [
+        v for v in model.modelVariables if v.causality == "output" and not v.name.startswith(("solver.", "stat."))
+    ]
     references = [v.valueReference for v in outputs]
     place = {"unzipDirectory": str(Path.cwd()), "libraryPath": str(binary.resolve())}
-    slave = FMU2Slave(guid=model.guid, modelIdentifier=model.coSimulation.modelIdentifier, instanceName="reference", **place)
+    slave = FMU2Slave(
+        guid=model.guid, modelIdentifier=model.coSimulation.modelIdentifier, instanceName="reference", **place
+    )
     slave.instantiate()
     slave.setupExperiment(startTime=0.0)
     slave.enterInitializationMode()
@@ -39,7 +44,9 @@ def simulate(description, binary):
 def main(arguments=None):
     parser = argparse.ArgumentParser(description="Write reference results.")
     parser.add_argument("--description", type=Path, required=True)
-    parser.add_argument("--binary", action="append", required=True, metavar="[PLATFORM=]FILE", help="repeatable; this host's is run")
+    parser.add_argument(
+        "--binary", action="append", required=True, metavar="[PLATFORM=]FILE", help="repeatable; this host's is run"
+    )
     parser.add_argument("--out", type=Path, required=True)
     options = parser.parse_args(arguments)
     binaries = dict(map(platform_and_file, options.binary))

@@ -1,7 +1,7 @@
 """C sources for the FMU's folder sources/: the files to compile and every header they include, side by side.
 
-FMI 2.0.4, section 2.3: headers that travel with the FMU are included by "..."; those of FMI itself come from the importer.
-With one flat folder, `cc -shared -fPIC -I<FMI headers> sources/*.c -lm` needs no path of its own.
+FMI 2.0.4, section 2.3: headers that travel with the FMU are included by "..."; those of FMI itself come from the
+importer. With one flat folder, `cc -shared -fPIC -I<FMI headers> sources/*.c -lm` needs no path of its own.
 """
 
 import re
@@ -10,7 +10,8 @@ INCLUDE = re.compile(rb'^([ \t]*#[ \t]*include[ \t]*)[<"]([^>"]+)[>"]', re.MULTI
 
 
 def collect(files, folders):
-    """Contents by name of the C files and of all they include from the folders, includes rewritten to names alone; and the names of the C files.
+    """Contents by name of the C files and of all they include from the folders, includes rewritten to names alone; and
+    the names of the C files.
 
     Raises ValueError if two files have the same name, OSError if one cannot be read.
     """

@@ -1,6 +1,7 @@
 """Packs a system structure description (SSP 1.0) with its resources.
 
-    python fmus/system.py --description transmission.ssd --resource transmission.ssv --resource Shaft.fmu [...] --out Transmission.ssp
+    python fmus/system.py --description transmission.ssd --resource transmission.ssv --resource Shaft.fmu [...] --out
+    Transmission.ssp
 
 The same inputs give the same bytes.
 """

@@ -3,11 +3,12 @@
     from rivet_model import Geometry, make_table, write
     write(make_table(Geometry(fillet_radius=0.1e-3), coarse=True), "rivet.json")
 
-The rivet: geometry -> elasticity (mesh, weak form) -> load_cases (unilateral contact) -> reduction (homogeneous coordinates) -> splines -> table.
-The cage half: half (solid, mass, limits) -> cage_half (elements by waves) -> joint_contact (pads and rivets) -> half_loads (load path, joint law) -> table;
-its vibration: half_modes (modes, residual) -> impacts (their error) -> table.
-Commands: `python -m rivet_model.build`, `closed_form`, `embed`, `components`, `friction`; docs/rivet.md explains them.
-Of bearing_model this package knows the table's format and how a table is evaluated: rivet_table, rivet_rom, rivet_splines, joint_law, half_path, half_modes.
+The rivet: geometry -> elasticity (mesh, weak form) -> load_cases (unilateral contact) -> reduction (homogeneous
+coordinates) -> splines -> table. The cage half: half (solid, mass, limits) -> cage_half (elements by waves) ->
+joint_contact (pads and rivets) -> half_loads (load path, joint law) -> table; its vibration: half_modes (modes,
+residual) -> impacts (their error) -> table. Commands: `python -m rivet_model.build`, `closed_form`, `embed`,
+`components`, `friction`; docs/rivet.md explains them. Of bearing_model this package knows the table's format and how a
+table is evaluated: rivet_table, rivet_rom, rivet_splines, joint_law, half_path, half_modes.
 """
 
 from importlib import import_module

@@ -1,7 +1,7 @@
 """Finite elements to table: python -m rivet_model.build OUT.json [GEOMETRY.toml] [--coarse] [--workers 2]
 
-About 20 minutes on two cores for the shipped fineness, most of it contact solutions; --coarse takes seconds and is for tests and first looks.
-The file is written last and in one piece, so that an error leaves no table behind.
+About 20 minutes on two cores for the shipped fineness, most of it contact solutions; --coarse takes seconds and is for
+tests and first looks. The file is written last and in one piece, so that an error leaves no table behind.
 """
 
 import argparse
@@ -32,10 +32,11 @@ def _quiet(stage, done, total):
 def make_table(geometry, coarse=False, workers=2, progress=_quiet, hold_out=320, modes=None):
     """Table of kind fe, or fe_coarse.
 
-    progress(stage, done, total) is called as the work goes on; hold_out: number of fresh loads for the error in the header (0 leaves it out), solved on a
-    finer grid of angles, of a coarse table on its own: there it is the interpolation that errs; modes: of a cage half, pairs counted as two, None: as many
-    as half_modes.default_count.
-    Raises ValueError for a geometry that cannot be meshed, ArithmeticError if a contact or plasticity solution is not found.
+    progress(stage, done, total) is called as the work goes on; hold_out: number of fresh loads for the error in the
+    header (0 leaves it out), solved on a finer grid of angles, of a coarse table on its own: there it is the
+    interpolation that errs; modes: of a cage half, pairs counted as two, None: as many as half_modes.default_count.
+    Raises ValueError for a geometry that cannot be meshed, ArithmeticError if a contact or plasticity solution is not
+    found.
     """
     grid, knots = (COARSE, reduction.COARSE) if coarse else (SHIPPED, reduction.FULL)
     knots = reduction.knots_for(geometry, knots)
@@ -54,7 +55,9 @@ def make_table(geometry, coarse=False, workers=2, progress=_quiet, hold_out=320,
     vibration, report = made_modes(elastic, alone, cage, modes, stage("modes"))
     result = assemble("fe_coarse" if coarse else "fe", joint, knots, samples, fit, cage, vibration)
     if hold_out:
-        result.errors |= measured_errors(result, joint if coarse else Joint(geometry, TRUTH), hold_out, workers, stage("hold-out"))
+        result.errors |= measured_errors(
+            result, joint if coarse else Joint(geometry, TRUTH), hold_out, workers, stage("hold-out")
+        )
     result.errors["modes"] = report
     return result
 
@@ -69,7 +72,9 @@ def made_modes(elastic, alone, cage, count=None, progress=lambda done, total: No
 def other_modes(table, count=None, progress=_quiet):
     """A table of full finite elements with another number of modes."""
     elastic = half_loads.elastic_half(Geometry(**table.geometry))
-    modes, report = made_modes(elastic, half_loads.JointAlone(elastic), table.half, count, lambda done, total: progress("modes", done, total))
+    modes, report = made_modes(
+        elastic, half_loads.JointAlone(elastic), table.half, count, lambda done, total: progress("modes", done, total)
+    )
     return replace(table, modes=modes, errors=table.errors | {"modes": report})
 
 
@@ -96,7 +101,9 @@ def assemble(kind, joint, knots, samples, fit, cage, modes):
 
 
 def measured_errors(result, joint, count, workers, progress, seed=2026):
-    """Errors of the table against fresh solutions on another, finer grid of angles; as fractions of the channels' maxima."""
+    """Errors of the table against fresh solutions on another, finer grid of angles; as fractions of the channels'
+    maxima.
+    """
     loads = reduction.random_loads(count, seed, size=joint.geometry.size)
     errors = reduction.hold_out_errors(result, loads, reduction.solve_loads(joint, loads, workers, progress))
     return errors | {"seed": seed, "angles": len(joint.angles["UB"]), "harmonics": joint.grid.n_max, "rule": RULE}
@@ -108,7 +115,9 @@ def main(arguments=None):
     parser.add_argument("out")
     parser.add_argument("geometry", nargs="?")
     parser.add_argument("--coarse", action="store_true")
-    parser.add_argument("--modes", type=int, help="modes of a cage half, a pair counted as two (default: 20 for three rivets)")
+    parser.add_argument(
+        "--modes", type=int, help="modes of a cage half, a pair counted as two (default: 20 for three rivets)"
+    )
     parser.add_argument("--workers", type=int, default=min(2, os.cpu_count() or 1))
     options = parser.parse_args(arguments)
     if not Path(options.out).resolve().parent.is_dir():
@@ -130,9 +139,19 @@ def main(arguments=None):
         print(f"rivet table: {error}", file=sys.stderr)
         return 2
     for region, report in ((k, v) for k, v in result.errors.items() if isinstance(v, dict) and "maximum" in v):
-        print(region, *(f"{name} max {100 * report['maximum'][name]:.2f} % rms {100 * report['rms'][name]:.2f} %" for name in rivet_table.CHANNELS), sep="  ")
+        print(
+            region,
+            *(
+                f"{name} max {100 * report['maximum'][name]:.2f} % rms {100 * report['rms'][name]:.2f} %"
+                for name in rivet_table.CHANNELS
+            ),
+            sep="  ",
+        )
     report = result.errors["modes"]
-    shares = (f"{name} RMS {100 * report['rms'][name]:.2g} % p99.9 {100 * report['p999'][name]:.2g} %" for name in report["rms"])
+    shares = (
+        f"{name} RMS {100 * report['rms'][name]:.2g} % p99.9 {100 * report['p999'][name]:.2g} %"
+        for name in report["rms"]
+    )
     print(f"{report['modes']} modes", *shares, sep="  ")
     return 0
 

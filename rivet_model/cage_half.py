@@ -1,13 +1,15 @@
-"""Elastic cage half: one pitch by solid finite elements, condensed to what loads it, repeated Z times (cyclic symmetry, waves m = 0...Z-1).
+"""Elastic cage half: one pitch by solid finite elements, condensed to what loads it, repeated Z times (cyclic symmetry,
+waves m = 0...Z-1).
 
-A load pattern is a set of nodal loads on one pitch; what the half does under it is measured by the patterns themselves (work), so the compliance
-between patterns is symmetric.  In the frames of the pitches a load on pitch 0 is the sum of all waves exp(2 pi i m k/Z)/Z, and each wave meets
-itself at the cuts through the webs: u(far) = turn(2 pi/Z) exp(2 pi i m/Z) u(near).  Inside, the pitch is eliminated once:
+A load pattern is a set of nodal loads on one pitch; what the half does under it is measured by the patterns themselves
+(work), so the compliance between patterns is symmetric.  In the frames of the pitches a load on pitch 0 is the sum of
+all waves exp(2 pi i m k/Z)/Z, and each wave meets itself at the cuts through the webs: u(far) = turn(2 pi/Z) exp(2 pi i
+m/Z) u(near).  Inside, the pitch is eliminated once:
 
     compliance of wave m    H_m = A_FF + A_FB T_m (T_m^H S T_m)^-1 T_m^H A_FB^T,      S = K_BB - K_BI K_II^-1 K_IB,  T_m: near -> near, far
 
-Rigid motions of the half (waves 0, 1, Z-1) are balanced by inertia, as in the dynamics: loads are freed of their resultants by body forces
-proportional to the rigid motions, and displacements are measured without them.
+Rigid motions of the half (waves 0, 1, Z-1) are balanced by inertia, as in the dynamics: loads are freed of their
+resultants by body forces proportional to the rigid motions, and displacements are measured without them.
 """
 
 from dataclasses import dataclass
@@ -24,13 +26,17 @@ from . import half, half_shape
 from .half import HalfMesh
 
 SYMMETRIC = {"permc_spec": "MMD_AT_PLUS_A", "diag_pivot_thresh": 0.0, "options": {"SymmetricMode": True}}  # for splu
-BODY = 6  # the first patterns: body forces that rigid motions x, y, z and rotations about x, y, z would need, per unit density
-MIRRORED, OPPOSED = {0: [0], 1: [1]}, {0: [1], 1: [0]}  # wave -> rigid motion (see _rigid) that joints prevent if the halves' loads mirror or oppose each other
+# the first patterns: body forces that rigid motions x, y, z and rotations about x, y, z would need, per unit density
+BODY = 6
+# wave -> rigid motion (see _rigid) that joints prevent if the halves' loads mirror or oppose each other
+MIRRORED, OPPOSED = {0: [0], 1: [1]}, {0: [1], 1: [0]}
 SPIN = 6  # the next one: centrifugal body force per (rad/s)^2 and unit density
 
 
 class CyclicSolid:
-    """An elastic solid of Z equal pitches, condensed to the load patterns of one of them (which lies between theta = 0 and 2 pi/Z)."""
+    """An elastic solid of Z equal pitches, condensed to the load patterns of one of them (which lies between theta = 0
+    and 2 pi/Z).
+    """
 
     def __init__(self, mesh, Z, E, nu):
         self.Z = Z
@@ -49,13 +55,23 @@ class CyclicSolid:
         """Dofs at theta = 0 and those at 2 pi/Z that continue them."""
         theta, r = np.arctan2(self.x[2], self.x[1]), np.hypot(self.x[1], self.x[2])
         near, far = (np.flatnonzero(np.abs(theta - cut) < 1e-9) for cut in (0.0, 2 * np.pi / self.Z))
-        return tuple(dofs[np.lexsort((self.component[dofs], np.round(r[dofs] * 1e9), np.round(self.x[0][dofs] * 1e9)))] for dofs in (near, far))
+        return tuple(
+            dofs[np.lexsort((self.component[dofs], np.round(r[dofs] * 1e9), np.round(self.x[0][dofs] * 1e9)))]
+            for dofs in (near, far)
+        )
 
     def rigid_motions(self):
         """Displacements [dofs, 6] by unit rigid motions about the centre of the circle in the split plane."""
         x = self.x
         zero = np.zeros_like(x[0])
-        fields = [(1 + zero, zero, zero), (zero, 1 + zero, zero), (zero, zero, 1 + zero), (zero, -x[2], x[1]), (x[2], zero, -x[0]), (-x[1], x[0], zero)]
+        fields = [
+            (1 + zero, zero, zero),
+            (zero, 1 + zero, zero),
+            (zero, zero, 1 + zero),
+            (zero, -x[2], x[1]),
+            (x[2], zero, -x[0]),
+            (-x[1], x[0], zero),
+        ]
         return np.stack([np.choose(self.component, field) for field in fields], axis=1)
 
     def body_loads(self):
@@ -63,10 +79,12 @@ class CyclicSolid:
         outward = np.choose(self.component, [0.0 * self.x[0], self.x[1], self.x[2]])
         return self.M @ np.column_stack([self.motions, outward])
 
-    # Condensation ----------------------------------------------------------------------------------------------------------------------
+    # Condensation -----------------------------------------------------------------------------------------------------
 
     def condense(self, loads, back=None):
-        """Take the patterns [dofs, patterns], the first of them from body_loads; back: which of them stand one pitch back (on its far end)."""
+        """Take the patterns [dofs, patterns], the first of them from body_loads; back: which of them stand one pitch
+        back (on its far end).
+        """
         self.loads = loads
         self.back = np.zeros(loads.shape[1], dtype=bool) if back is None else back
         near, far = self.near, self.far
@@ -88,7 +106,9 @@ class CyclicSolid:
         return np.where(self.back, np.exp(2j * np.pi * m / self.Z), 1.0)
 
     def _rigid(self, m):
-        """Rigid motions of wave m as combinations of the six [6, 2]: displacement u = motions @ column, turned on from pitch to pitch."""
+        """Rigid motions of wave m as combinations of the six [6, 2]: displacement u = motions @ column, turned on from
+        pitch to pitch.
+        """
         e = np.eye(6, dtype=complex)
         if m == 0:
             return e[:, [0, 3]]
@@ -97,14 +117,17 @@ class CyclicSolid:
         return np.zeros((6, 0))
 
     def wave(self, m):
-        """Compliance [patterns, patterns] of wave m, 0...Z/2; that of Z - m is its conjugate.  Rigid motions are balanced by inertia."""
+        """Compliance [patterns, patterns] of wave m, 0...Z/2; that of Z - m is its conjugate.  Rigid motions are
+        balanced by inertia.
+        """
         n = len(self.near)
         alpha = 2 * np.pi / self.Z
         c, s = np.cos(alpha), np.sin(alpha)
         turn = np.kron(np.eye(n // 3), np.array([[1, 0, 0], [0, c, -s], [0, s, c]]))
         T = np.vstack([np.eye(n), np.exp(1j * m * alpha) * turn])
         phase = self._phase(m)
-        S, L = T.conj().T @ self.S @ T, (phase.conj()[:, None] * self.A_FB) @ T  # work of patterns on boundary motions: conj(load) . u
+        # work of patterns on boundary motions: conj(load) . u
+        S, L = T.conj().T @ self.S @ T, (phase.conj()[:, None] * self.A_FB) @ T
         rigid = self._rigid(m)
         boundary = self.motions[self.near] @ rigid
         Q, _ = np.linalg.qr(boundary)
@@ -134,7 +157,8 @@ class CyclicSolid:
         return np.fft.irfft(waves, self.Z, axis=0)
 
     def prevented(self, m, motions):
-        """Rigid motions of wave m that held patterns prevent, freed of those that stay free (orthogonal to them over the mass): [6, count].
+        """Rigid motions of wave m that held patterns prevent, freed of those that stay free (orthogonal to them over
+        the mass): [6, count].
 
         A load does work on them with what inertia takes of it along the free ones already counted.
         """
@@ -148,9 +172,10 @@ class CyclicSolid:
     def held(self, rows, motions):
         """The half with some patterns held everywhere: those of `rows` do not move.
 
-        motions: wave -> which of its two rigid motions they prevent; inertia balances the other, which does not move them.
-        Returns by waves: stiffness of the held patterns [waves, rows, rows]; their reactions to all patterns [waves, rows, patterns], as loads that the
-        half gives to what holds it; compliance of all patterns [waves, patterns, patterns].
+        motions: wave -> which of its two rigid motions they prevent; inertia balances the other, which does not move
+        them. Returns by waves: stiffness of the held patterns [waves, rows, rows]; their reactions to all patterns
+        [waves, rows, patterns], as loads that the half gives to what holds it; compliance of all patterns [waves,
+        patterns, patterns].
         """
         K, R, G = [], [], []
         for m, C in enumerate(self.waves):
@@ -174,21 +199,29 @@ class Patterns:
     pad: slice  # hats on the pad, along x
     plane: slice  # forces along r and t that friction gives to the pad, below the cone under the rivet's head
     twist: slice  # moment about x that friction gives to the pad there
-    head: slice  # at the seat's bottom, under the rivet's head: force along x, moments about r and t; then forces along r and t
-    pocket: slice  # unit forces (x, r, t) at points of pocket 0's wall: near parts, then parts on the far end of the pitch before
+    # at the seat's bottom, under the rivet's head: force along x, moments about r and t; then forces along r and t
+    head: slice
+    # unit forces (x, r, t) at points of pocket 0's wall: near parts, then parts on the far end of the pitch before
+    pocket: slice
 
 
 class CageHalf(CyclicSolid):
     """Condensed half of a geometry.
 
-    points: places of unit forces on the pocket's wall [n, 2]: angle from the split toward growing x [rad, 0...pi: pi/2 the bottom] and radius [m].
+    points: places of unit forces on the pocket's wall [n, 2]: angle from the split toward growing x [rad, 0...pi: pi/2
+    the bottom] and radius [m].
     """
 
     def __init__(self, g, size=None, points=()):
         self.g, self.size = g, size or HalfMesh()
         super().__init__(half.pitch_mesh(g, self.size), g.Z, g.E_flange, g.nu_flange)
         self.points = np.reshape(points, (-1, 2))
-        groups = {"body": self.body_loads(), **self._pad_loads(), "head": self._head_loads(), "pocket": self._pocket_loads()}
+        groups = {
+            "body": self.body_loads(),
+            **self._pad_loads(),
+            "head": self._head_loads(),
+            "pocket": self._pocket_loads(),
+        }
         ends = np.cumsum([0] + [loads.shape[1] for loads in groups.values()])
         self.patterns = Patterns(*(slice(a, b) for a, b in pairwise(ends.tolist())))
         back = np.zeros(ends[-1], dtype=bool)
@@ -206,7 +239,9 @@ class CageHalf(CyclicSolid):
         return np.tensordot(e_r, x, 1) - self.g.d_m / 2, np.tensordot(e_t, x, 1)
 
     def _facets(self, level, within):
-        """Facets in the plane x = level whose corners are all within; not their middles, which lie nearer to the rivet than the ring that they belong to."""
+        """Facets in the plane x = level whose corners are all within; not their middles, which lie nearer to the rivet
+        than the ring that they belong to.
+        """
         mesh = self.basis.mesh
         facets = mesh.boundary_facets()
         corners = mesh.p[:, mesh.facets[:, facets]]
@@ -217,7 +252,9 @@ class CageHalf(CyclicSolid):
         return FacetBasis(self.basis.mesh, element, mapping=self.basis.mapping, facets=facets, intorder=4)
 
     def _pad_loads(self):
-        """Unit forces spread by hats over the pad's vertices, without those at the edge of the hole: loads; places and areas of the hats stay here."""
+        """Unit forces spread by hats over the pad's vertices, without those at the edge of the hole: loads; places and
+        areas of the hats stay here.
+        """
         pad = half_shape.pad_half_length(self.g)
         facets = self._facets(0.0, lambda r, t: np.abs(t) < pad + 1e-9)
         vector, scalar = self._facet_basis(facets, self.basis.elem), self._facet_basis(facets, ElementHex1())
@@ -227,7 +264,10 @@ class CageHalf(CyclicSolid):
         vertices, dofs = vertices[kept], scalar.nodal_dofs[0, vertices[kept]]
         self.pad_area = LinearForm(lambda v, w: v).assemble(scalar)[dofs]
         # the hat's own middle: forces and moments of the patterns are exact with it
-        moments = [LinearForm(lambda v, w, i=i: v * self.rivet_place(np.asarray(w.x))[i]).assemble(scalar)[dofs] for i in range(2)]
+        moments = [
+            LinearForm(lambda v, w, i=i: v * self.rivet_place(np.asarray(w.x))[i]).assemble(scalar)[dofs]
+            for i in range(2)
+        ]
         self.pad_place = np.array(moments) / self.pad_area
         e_x, e_r, e_t = self._axes()
 
@@ -235,8 +275,17 @@ class CageHalf(CyclicSolid):
             form = BilinearForm(lambda p, v, w: p * sum(e[i] * v[i] for i in range(3)))
             return form.assemble(scalar, vector).tocsc()[:, dofs].toarray() / self.pad_area
 
-        # friction acts where the head presses: pressure falls from the head's edge to nothing one flange thickness farther out
-        cone = np.clip((0.5 * self.g.head_diameter + self.g.flange_thickness - np.hypot(*self.pad_place)) / self.g.flange_thickness, 0.0, 1.0) * self.pad_area
+        # friction acts where the head presses: pressure falls from the head's edge to nothing one flange thickness
+        # farther out
+        cone = (
+            np.clip(
+                (0.5 * self.g.head_diameter + self.g.flange_thickness - np.hypot(*self.pad_place))
+                / self.g.flange_thickness,
+                0.0,
+                1.0,
+            )
+            * self.pad_area
+        )
         r, t = self.pad_place
         along_r, along_t = hats(e_r), hats(e_t)
         twist = along_t @ (cone * r) - along_r @ (cone * t)
@@ -247,29 +296,48 @@ class CageHalf(CyclicSolid):
         }
 
     def _head_loads(self):
-        """Uniform and linear pressures under the head: unit force along x, unit moments about r and t; unit forces along r and t."""
+        """Uniform and linear pressures under the head: unit force along x, unit moments about r and t; unit forces
+        along r and t.
+        """
         g = self.g
         inner, outer = g.shank_diameter / 2 + g.relief_radius, g.head_diameter / 2
-        facets = self._facets(g.flange_thickness, lambda r, t: (np.hypot(r, t) > inner - 1e-9) & (np.hypot(r, t) < outer + 1e-9))
+        facets = self._facets(
+            g.flange_thickness, lambda r, t: (np.hypot(r, t) > inner - 1e-9) & (np.hypot(r, t) < outer + 1e-9)
+        )
         basis, (e_x, e_r, e_t) = self._facet_basis(facets, self.basis.elem), self._axes()
 
         def load(e, weight=lambda r, t: 1.0 + 0.0 * r):
-            form = LinearForm(lambda v, w: weight(*self.rivet_place(np.asarray(w.x))) * sum(e[i] * v[i] for i in range(3)))
+            form = LinearForm(
+                lambda v, w: weight(*self.rivet_place(np.asarray(w.x))) * sum(e[i] * v[i] for i in range(3))
+            )
             return form.assemble(basis)
 
         r, t = self.rivet_place(np.asarray(basis.global_coordinates()))
         area, square = basis.dx.sum(), 0.5 * ((r**2 + t**2) * basis.dx).sum()
         # a rotation phi moves the head by u_x = phi_r t - phi_t r
-        return np.stack([load(e_x) / area, load(e_x, lambda r, t: t) / square, -load(e_x, lambda r, t: r) / square, load(e_r) / area, load(e_t) / area], axis=1)
+        return np.stack(
+            [
+                load(e_x) / area,
+                load(e_x, lambda r, t: t) / square,
+                -load(e_x, lambda r, t: r) / square,
+                load(e_r) / area,
+                load(e_t) / area,
+            ],
+            axis=1,
+        )
 
     def _pocket_loads(self):
-        """Unit forces along (x, r, t) of pocket 0 at the points: those on this pitch, then those on the far end of the pitch before it."""
+        """Unit forces along (x, r, t) of pocket 0 at the points: those on this pitch, then those on the far end of the
+        pitch before it.
+        """
         near, far = np.zeros((2, self.basis.N, len(self.points), 3))
         at = {end: self._wall_nodes(end) for end in (0, 1)}
         for i, (angle, radius) in enumerate(self.points):
             end = int(angle > np.pi / 2)
             phi = np.pi - angle if end else angle
-            weights = np.outer(_lagrange(half.wall_angles(self.g, self.size), phi), _lagrange(half.radii(self.g, self.size), radius))
+            weights = np.outer(
+                _lagrange(half.wall_angles(self.g, self.size), phi), _lagrange(half.radii(self.g, self.size), radius)
+            )
             turn = 2 * np.pi / self.g.Z * end
             axes = np.array([[1.0, 0.0, 0.0], [0.0, np.cos(turn), np.sin(turn)], [0.0, -np.sin(turn), np.cos(turn)]])
             (far if end else near)[at[end], i] = (weights[..., None, None] * axes.T).reshape(weights.shape + (3, 3))
@@ -295,17 +363,23 @@ class CageHalf(CyclicSolid):
 
     @cached_property
     def mirrored(self):
-        """`held` by the pads along x: of loads that push both halves alike.  Pads balance forces along x and tilting moments."""
+        """`held` by the pads along x: of loads that push both halves alike.  Pads balance forces along x and tilting
+        moments.
+        """
         return self.held(self.patterns.pad, MIRRORED)
 
     @cached_property
     def opposed(self):
-        """`held` by friction in the split plane: of loads that push the halves against each other.  It balances transverse forces and the torque."""
+        """`held` by friction in the split plane: of loads that push the halves against each other.  It balances
+        transverse forces and the torque.
+        """
         return self.held(self.patterns.plane, OPPOSED)
 
 
 def _matrices(basis, E, nu):
-    """Stiffness, and mass at unit density, of an elastic solid with quadratic hexahedra; the same as by skfem's forms, by matrix products."""
+    """Stiffness, and mass at unit density, of an elastic solid with quadratic hexahedra; the same as by skfem's forms,
+    by matrix products.
+    """
     lam, mu = E * nu / ((1 + nu) * (1 - 2 * nu)), E / (2 * (1 + nu))
     scalar = basis.with_element(ElementHex2())
     value = np.stack([np.broadcast_to(field[0].value, basis.dx.shape) for field in scalar.basis])  # [27, cells, points]
@@ -327,5 +401,9 @@ def _lagrange(levels, at):
     first = 2 * min(max((np.searchsorted(levels, at) - 1) // 2, 0), (len(levels) - 1) // 2 - 1)
     a, b, c = levels[first : first + 3]
     weights = np.zeros(len(levels))
-    weights[first : first + 3] = (at - b) * (at - c) / ((a - b) * (a - c)), (at - a) * (at - c) / ((b - a) * (b - c)), (at - a) * (at - b) / ((c - a) * (c - b))
+    weights[first : first + 3] = (
+        (at - b) * (at - c) / ((a - b) * (a - c)),
+        (at - a) * (at - c) / ((b - a) * (b - c)),
+        (at - a) * (at - b) / ((c - a) * (c - b)),
+    )
     return weights

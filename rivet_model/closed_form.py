@@ -12,8 +12,8 @@ import sys
 
 import numpy as np
 
-from bearing_model.rivet import rivet_table
 from bearing_model.cage.common.joint_law import AXES, JointLaw, law_load
+from bearing_model.rivet import rivet_table
 
 from . import half_loads, half_shape, reduction, splines, table
 from .geometry import Geometry
@@ -39,7 +39,9 @@ def lame_pressure(geometry, fit):
 
 
 def stress(geometry, T, V, m, chi, fit):
-    """Channels [..., 4] in Pa of a shank that carries tension T, transverse load V and moment m, elastic fit [m]; chi as in fmu_src/rivet/rivet_rom.h."""
+    """Channels [..., 4] in Pa of a shank that carries tension T, transverse load V and moment m, elastic fit [m]; chi
+    as in fmu_src/rivet/rivet_rom.h.
+    """
     g = geometry
     lever = V * g.relief_depth
     bending = np.sqrt((lever + m * np.abs(chi)) ** 2 + m**2 * (1 - chi**2)) / (np.pi * g.shank_diameter**3 / 32)
@@ -71,10 +73,12 @@ def joint_data(geometry):
 
 
 def joint_law_samples(geometry, load, P):
-    """(u, phi_r, phi_t, T, m_r, m_t) of a joint under (N, M_r, M_t) and P: rigid pads that hinge at their edges, the head turning with them.
+    """(u, phi_r, phi_t, T, m_r, m_t) of a joint under (N, M_r, M_t) and P: rigid pads that hinge at their edges, the
+    head turning with them.
 
-    Joints do not move, so loads are carried as bonded joints would: on the safe side.  T = max(P, N + |M_r|/e_t + |M_t|/e_r), e: distances of the pad's
-    edges from the rivet; the shank bends by the rotation of the hinge, m = (T - P) I/(A e) = (T - P) d^2/(16 e).
+    Joints do not move, so loads are carried as bonded joints would: on the safe side.  T = max(P, N + |M_r|/e_t +
+    |M_t|/e_r), e: distances of the pad's edges from the rivet; the shank bends by the rotation of the hinge, m = (T -
+    P) I/(A e) = (T - P) d^2/(16 e).
     """
     N, M_r, M_t = load
     e_t, e_r = half_shape.pad_half_length(geometry), (geometry.cage_outer_diameter - geometry.cage_inner_diameter) / 4
@@ -85,7 +89,9 @@ def joint_law_samples(geometry, load, P):
 
 
 def half_data(geometry):
-    """HalfData of rigid halves: no elastic share of the load path; the centrifugal load as the pull of a pitch beside the web that holds it."""
+    """HalfData of rigid halves: no elastic share of the load path; the centrifugal load as the pull of a pitch beside
+    the web that holds it.
+    """
     g, Z = geometry, geometry.Z
     inertia = half_shape.half_inertia(g)
     lever = 0.5 * (g.cage_half_width + half_shape.pocket_radius(g)) - inertia.x_c
@@ -98,7 +104,9 @@ def half_data(geometry):
     chain[[0, 1, -1], 0, 0] = 1.0, -0.5, -0.5
     knots = half_loads.KNOTS
     tau, q, psi = (splines.sites(knots[name]) for name in AXES)
-    values = np.array([[[joint_law_samples(g, *law_load(half_loads.law_length(g), a, b, c)) for c in psi] for b in q] for a in tau])
+    values = np.array(
+        [[[joint_law_samples(g, *law_load(half_loads.law_length(g), a, b, c)) for c in psi] for b in q] for a in tau]
+    )
     law = JointLaw(
         half_loads.law_length(g),
         knots,
@@ -108,7 +116,9 @@ def half_data(geometry):
         np.sign(spin[4]),
     )
     chi = np.array([0.0, np.pi / 4, np.pi / 2])
-    return rivet_table.HalfData(**inertia._asdict(), chi=chi, path=np.zeros((3, Z, 8, 3)), spin=spin, law=law, k_closed=K_CLOSED, k_open=K_OPEN)
+    return rivet_table.HalfData(
+        **inertia._asdict(), chi=chi, path=np.zeros((3, Z, 8, 3)), spin=spin, law=law, k_closed=K_CLOSED, k_open=K_OPEN
+    )
 
 
 def make_table(geometry=None):
@@ -118,9 +128,11 @@ def make_table(geometry=None):
     a, c, xi = np.meshgrid(*(splines.sites(knots[name]) for name in rivet_table.SHANK_AXES), indexing="ij")
     loads = reduction.shank_loads(a, c, reduction.bending_length(geometry))
     sheets = [stress(geometry, *loads, chi, xi) / rivet_table.MPA_PER_N for chi in (1.0, 0.5, 0.0)]
-    yield_pressure = geometry.yield_flange / np.sqrt(3)  # first yield at the bore: 2 tau = p + hoop tension, taken as pure shear 2 p
+    # first yield at the bore: 2 tau = p + hoop tension, taken as pure shear 2 p
+    yield_pressure = geometry.yield_flange / np.sqrt(3)
     fit_yield = yield_pressure / lame_pressure(geometry, 1.0)
-    full = 2 / np.sqrt(3) * geometry.yield_flange * np.log(2 * geometry.patch_radius / geometry.shank_diameter)  # fully plastic ring
+    # fully plastic ring
+    full = 2 / np.sqrt(3) * geometry.yield_flange * np.log(2 * geometry.patch_radius / geometry.shank_diameter)
     fit_full = full / lame_pressure(geometry, 1.0)
     fit_a = np.array([0.0, fit_yield, 2 * fit_full, 4 * fit_full, max(44e-6, 5 * fit_full)])
     fit_eff = np.array([0.0, fit_yield, 0.9 * fit_full, fit_full, 1.02 * fit_full])

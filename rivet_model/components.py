@@ -1,12 +1,14 @@
-"""Stress components around both fillets and the middle for any load: modes of the finite elements' fields, for critical-plane work.
+"""Stress components around both fillets and the middle for any load: modes of the finite elements' fields, for
+critical-plane work.
 
 python -m rivet_model.components OUT.npz [GEOMETRY.toml] [--coarse] [--workers 2]
 
     field = s sum_i C_i(a, c, xi, direction of m) mode_i        coordinates as in fmu_src/rivet/rivet_rom.h
 
-The fields of sampled loads are reduced to their first singular vectors; the amplitudes C_i are splines, as the channels of the table are.
-Over the direction phi of the moment m against V, C = A + B cos phi + D sin phi through the three sheets: exact as long as no contact opens or closes.
-A mirror and a half turn of the joint give the other three quadrants of phi.  Angles run from the direction of V.
+The fields of sampled loads are reduced to their first singular vectors; the amplitudes C_i are splines, as the channels
+of the table are. Over the direction phi of the moment m against V, C = A + B cos phi + D sin phi through the three
+sheets: exact as long as no contact opens or closes. A mirror and a half turn of the joint give the other three
+quadrants of phi.  Angles run from the direction of V.
 """
 
 import argparse
@@ -36,12 +38,16 @@ PLACES = ("upper fillet", "lower fillet", "middle")
 
 
 def joint_fields(joint, forces):
-    """Fields of contact forces [contacts, cases] as rows [cases, numbers]: (tt, hoop, shear) x points x ANGLES of the places, one after the other."""
+    """Fields of contact forces [contacts, cases] as rows [cases, numbers]: (tt, hoop, shear) x points x ANGLES of the
+    places, one after the other.
+    """
     return np.concatenate([field.reshape(-1, field.shape[-1]) for field in joint.fields(forces, ANGLES)]).T
 
 
 def representative(a, c, sheet):
-    """One set of coordinates for all those with the same field; unlike a channel, a field turns with m where there is no V."""
+    """One set of coordinates for all those with the same field; unlike a channel, a field turns with m where there is
+    no V.
+    """
     c = 0.0 if a == 1.0 else c
     return a, c, "plane" if c == 0.0 else sheet
 
@@ -50,7 +56,8 @@ def representative(a, c, sheet):
 class Components:
     """Modes and amplitudes of one geometry.
 
-    coefficients [a, c, xi, sheet, mode] in 1/m2; length: of c = 1 [m]; modes [mode, numbers]; points: of each of the PLACES.
+    coefficients [a, c, xi, sheet, mode] in 1/m2; length: of c = 1 [m]; modes [mode, numbers]; points: of each of the
+    PLACES.
     """
 
     geometry_hash: str
@@ -64,17 +71,22 @@ class Components:
     def fields(self, load, fit_eff):
         """(tt, hoop, shear) [3, points, ANGLES, times] in Pa of each place, angles from the direction y of the loads.
 
-        load: rivet_rom.RivetLoad of arrays [times] in N, N.m; fit_eff: m, scalar or [times].  Head friction is not part of the fields.
+        load: rivet_rom.RivetLoad of arrays [times] in N, N.m; fit_eff: m, scalar or [times].  Head friction is not part
+        of the fields.
         """
-        arrays = np.broadcast_arrays(*(np.atleast_1d(np.asarray(v, dtype=float)) for v in (*vars(load).values(), fit_eff)))
+        arrays = np.broadcast_arrays(
+            *(np.atleast_1d(np.asarray(v, dtype=float)) for v in (*vars(load).values(), fit_eff))
+        )
         load, fit = rivet_rom.RivetLoad(*arrays[:-1]), arrays[-1]
         azimuth = np.arctan2(load.V_z, load.V_y)
         c, s = np.cos(azimuth), np.sin(azimuth)
-        across, plane = c * load.m_y + s * load.m_z, c * load.m_z - s * load.m_y  # m about V's own direction, and about the one 90 degrees ahead
+        # m about V's own direction, and about the one 90 degrees ahead
+        across, plane = c * load.m_y + s * load.m_z, c * load.m_z - s * load.m_y
         _, at = rivet_rom.load_splines(self, load, fit)
         amplitude = self._amplitudes(at, np.arctan2(np.abs(across), np.abs(plane)))
         fields = self._split(amplitude @ self.modes)
-        # The joint's z leads against the bearing's x: see load_cases.  Signs of the moments by the half turn and by the mirror.
+        # The joint's z leads against the bearing's x: see load_cases.  Signs of the moments by the half turn and by the
+        # mirror.
         fields = _chosen(plane < 0.0, half_turn(fields), fields)
         fields = _chosen(across < 0.0, mirrored(fields), fields)
         return tuple(_turned(field, azimuth) for field in fields)
@@ -92,7 +104,9 @@ class Components:
 
     def _split(self, rows):
         ends = np.cumsum([3 * n * ANGLES for n in self.points])[:-1]
-        return [part.T.reshape(3, n, ANGLES, -1) for part, n in zip(np.split(rows, ends, axis=1), self.points, strict=True)]
+        return [
+            part.T.reshape(3, n, ANGLES, -1) for part, n in zip(np.split(rows, ends, axis=1), self.points, strict=True)
+        ]
 
 
 def mirrored(fields):
@@ -101,7 +115,9 @@ def mirrored(fields):
 
 
 def half_turn(fields):
-    """Fields of the load after half a turn about the axis across V: m in the plane of V changes sign, the heads change places."""
+    """Fields of the load after half a turn about the axis across V: m in the plane of V changes sign, the heads change
+    places.
+    """
     upper, lower, middle = (_reflected(field, ANGLES // 2) for field in fields)
     return [lower * _SHEAR, upper * _SHEAR, middle[:, ::-1]]
 
@@ -119,13 +135,15 @@ def _chosen(where, first, second):
 
 
 def _turned(field, azimuth):
-    """Field [3, points, ANGLES, times] turned by the azimuths: by Fourier series, so that no direction is rounded to a point."""
+    """Field [3, points, ANGLES, times] turned by the azimuths: by Fourier series, so that no direction is rounded to a
+    point.
+    """
     spectrum = np.fft.rfft(field, axis=2)
     n = np.arange(spectrum.shape[2])[:, None]
     return np.fft.irfft(spectrum * np.exp(-1j * n * azimuth), n=field.shape[2], axis=2)
 
 
-# Making ------------------------------------------------------------------------------------------------------------------------------------
+# Making ---------------------------------------------------------------------------------------------------------------
 
 
 def make(geometry, coarse=False, workers=2, progress=None, hold_out=60):
@@ -139,7 +157,9 @@ def make(geometry, coarse=False, workers=2, progress=None, hold_out=60):
     coefficients = splines.interpolate([knots[name] for name in rivet_table.SHANK_AXES], samples @ modes.T)
     points = tuple(place[2].shape[1] for place in (joint.fillet, joint.fillet, joint.middle))
     made = Components(geometry.digest, reduction.bending_length(geometry), knots, coefficients, modes, points, {})
-    made.errors = hold_out_errors(made, joint, reduction.random_loads(hold_out, 2027, size=geometry.size)) if hold_out else {}
+    made.errors = (
+        hold_out_errors(made, joint, reduction.random_loads(hold_out, 2027, size=geometry.size)) if hold_out else {}
+    )
     return made
 
 
@@ -153,7 +173,9 @@ def hold_out_errors(components, joint, loads):
     got = components.fields(reduction.rivet_load(loads), np.array([load.fit for load in loads]))
     report = {}
     for i, place in enumerate(PLACES):
-        fresh = np.stack([joint.fields(reduction.load_forces(joint, load)[:, None], ANGLES)[i][..., 0] for load in loads], axis=-1)
+        fresh = np.stack(
+            [joint.fields(reduction.load_forces(joint, load)[:, None], ANGLES)[i][..., 0] for load in loads], axis=-1
+        )
         error = (got[i] - fresh) / np.abs(fresh).max()
         report[place] = {"maximum": float(np.abs(error).max()), "rms": float(np.sqrt((error**2).mean()))}
     return report
@@ -179,7 +201,14 @@ def read(path, geometry_hash=None):
         raise ValueError(f"{path}: not a file of rivet components: {error}") from error
     if geometry_hash not in (None, header["geometry_hash"]):
         raise ValueError(f"{path}: made for geometry {header['geometry_hash']}; {geometry_hash} is needed")
-    return Components(header["geometry_hash"], header["length"], knots, points=tuple(header["points"]), errors=header["errors"], **arrays)
+    return Components(
+        header["geometry_hash"],
+        header["length"],
+        knots,
+        points=tuple(header["points"]),
+        errors=header["errors"],
+        **arrays,
+    )
 
 
 def main(arguments=None):
@@ -193,7 +222,9 @@ def main(arguments=None):
     if not Path(options.out).resolve().parent.is_dir():
         parser.error(f"{options.out}: no such folder")
     try:
-        made = make(Geometry.from_toml(options.geometry) if options.geometry else Geometry(), options.coarse, options.workers)
+        made = make(
+            Geometry.from_toml(options.geometry) if options.geometry else Geometry(), options.coarse, options.workers
+        )
         write(made, options.out)
     except (OSError, ValueError, ArithmeticError, np.linalg.LinAlgError) as error:
         print(f"rivet components: {error}", file=sys.stderr)

@@ -4,8 +4,9 @@
 
     e_rr = U,r   e_tt = (U + n T)/r   e_zz = W,z   g_rz = U,z + W,r   g_rt = T,r - (T + n U)/r   g_tz = T,z - n W/r
 
-The last two go with sin n theta.  Strain is B_0 + n B_1, so three matrices serve all harmonics.  Energies and loads leave out the common
-factor pi (2 pi for n = 0) of the integral over theta.  (Zienkiewicz and Taylor, The Finite Element Method, semi-analytical processes.)
+The last two go with sin n theta.  Strain is B_0 + n B_1, so three matrices serve all harmonics.  Energies and loads
+leave out the common factor pi (2 pi for n = 0) of the integral over theta.  (Zienkiewicz and Taylor, The Finite Element
+Method, semi-analytical processes.)
 """
 
 from types import SimpleNamespace
@@ -41,9 +42,10 @@ def strain_1(u, w):
 class Body:
     """One body of revolution: mesh, material, and clamped points.
 
-    mesh: skfem MeshQuad in (r, z) [m].  E [Pa], nu.  clamped: function of the points x [2, n] that is True where all displacements vanish;
-    without it the body is free, and loads are balanced by body forces proportional to the rigid motions (self-equilibrated loads are not
-    affected, and the displacement is orthogonal to the rigid motions).  plane_strain: no displacement along z anywhere.
+    mesh: skfem MeshQuad in (r, z) [m].  E [Pa], nu.  clamped: function of the points x [2, n] that is True where all
+    displacements vanish; without it the body is free, and loads are balanced by body forces proportional to the rigid
+    motions (self-equilibrated loads are not affected, and the displacement is orthogonal to the rigid motions).
+    plane_strain: no displacement along z anywhere.
     """
 
     def __init__(self, mesh, E, nu, clamped=None, plane_strain=False):
@@ -53,12 +55,18 @@ class Body:
         C = self.C
 
         def energy(first, second):
-            form = BilinearForm(lambda u, v, w: np.einsum("i...,i...,...->...", second(v, w), np.tensordot(C, first(u, w), axes=1), w.x[0]))
+            form = BilinearForm(
+                lambda u, v, w: np.einsum(
+                    "i...,i...,...->...", second(v, w), np.tensordot(C, first(u, w), axes=1), w.x[0]
+                )
+            )
             return form.assemble(self.basis)
 
         mixed = energy(strain_0, strain_1)
         self.K = [energy(strain_0, strain_0), mixed + mixed.T, energy(strain_1, strain_1)]
-        self.mass = BilinearForm(lambda u, v, w: (u[0] * v[0] + u[1] * v[1] + u[2] * v[2]) * w.x[0]).assemble(self.basis)
+        self.mass = BilinearForm(lambda u, v, w: (u[0] * v[0] + u[1] * v[1] + u[2] * v[2]) * w.x[0]).assemble(
+            self.basis
+        )
         x = self.basis.doflocs
         self.component = self._component_of_dofs()
         self.clamped_dofs = np.flatnonzero(clamped(x)) if clamped else np.zeros(0, dtype=int)
@@ -109,7 +117,9 @@ class Body:
         return u - R @ (gram @ (MR.T @ u))
 
     def _pins(self, n):
-        """Dofs that hold a free body under balanced loads without reaction: z of one point (n = 0), x of the surface at two heights (n = 1)."""
+        """Dofs that hold a free body under balanced loads without reaction: z of one point (n = 0), x of the surface at
+        two heights (n = 1).
+        """
         x = self.basis.doflocs
         candidates = np.flatnonzero((self.component == (2 if n == 0 else 0)) & (x[0] > 0.5 * x[0].max()))
         order = candidates[np.argsort(x[1][candidates])]
@@ -118,8 +128,9 @@ class Body:
     def ring_loads(self, nodes, positions, normal, axis):
         """Normal pressure loads of hats over rings [dofs, rings]: G_j = int hat_j (u . normal) r ds.
 
-        nodes: mesh vertices of the contact edge, in order; positions: coordinates (`axis`) of the rings along the edge, among the nodes.
-        A pressure p_j acts as -G_j p_j; G_j^T u is the mean normal displacement times the ring's area (without the factor of theta).
+        nodes: mesh vertices of the contact edge, in order; positions: coordinates (`axis`) of the rings along the edge,
+        among the nodes. A pressure p_j acts as -G_j p_j; G_j^T u is the mean normal displacement times the ring's area
+        (without the factor of theta).
         """
         return self.traction_loads(nodes, positions, (normal[0], 0.0, normal[1]), axis)
 
@@ -128,13 +139,17 @@ class Body:
         facets = self._facets(nodes)
         vector = FacetBasis(self.mesh, self.element, facets=facets, intorder=5)
         scalar = FacetBasis(self.mesh, ElementQuad1(), facets=facets, intorder=5)
-        form = BilinearForm(lambda p, v, w: p * (v[0] * direction[0] + v[1] * direction[1] + v[2] * direction[2]) * w.x[0])
+        form = BilinearForm(
+            lambda p, v, w: p * (v[0] * direction[0] + v[1] * direction[1] + v[2] * direction[2]) * w.x[0]
+        )
         G = form.assemble(scalar, vector).tocsc()[:, scalar.nodal_dofs[0, nodes]]
         hats = np.stack([np.interp(self.mesh.p[axis, nodes], positions, row) for row in np.eye(len(positions))], axis=1)
         return G @ hats
 
     def shear_load(self, nodes):
-        """Load [dofs, 1] of harmonic 1 by a uniform traction of 1 Pa along x on the edge: t_r = cos theta, t_theta = -sin theta."""
+        """Load [dofs, 1] of harmonic 1 by a uniform traction of 1 Pa along x on the edge: t_r = cos theta, t_theta =
+        -sin theta.
+        """
         basis = FacetBasis(self.mesh, self.element, facets=self._facets(nodes), intorder=5)
         return LinearForm(lambda v, w: (v[0] - v[1]) * w.x[0]).assemble(basis)[:, None]
 
@@ -153,7 +168,8 @@ class Body:
         return np.stack([form.assemble(scalar)[scalar.nodal_dofs[0, nodes]] @ hats for form in forms])
 
     def stress_rows(self, facets):
-        """Stress at two Gauss points on each facet, where it is superconvergent: matrices (S_0, S_1) and the points x [2, points].
+        """Stress at two Gauss points on each facet, where it is superconvergent: matrices (S_0, S_1) and the points x
+        [2, points].
 
         Amplitudes of harmonic n: (S_0 + n S_1) u [6 points, cases], component by component in the order COMPONENTS.
         """

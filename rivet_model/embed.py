@@ -1,4 +1,6 @@
-"""Write a rivet table as C constants: python -m rivet_model.embed TABLE OUT.c [--Z 9].  Needs numpy only; the same table gives the same bytes."""
+"""Write a rivet table as C constants: python -m rivet_model.embed TABLE OUT.c [--Z 9].  Needs numpy only; the same
+table gives the same bytes.
+"""
 
 import argparse
 import hashlib
@@ -7,8 +9,8 @@ from pathlib import Path
 
 import numpy as np
 
-from bearing_model.cage.two_half import half_path
 from bearing_model.cage.common import joint_law
+from bearing_model.cage.two_half import half_path
 from bearing_model.rivet import rivet_splines, rivet_table
 
 from . import splines
@@ -34,8 +36,11 @@ def bin_cells(knots):
 
 
 def path_rows(half):
-    """The path over the wall's angle as the C reader wants it: [push_t >= 0 and < 0, node, value and slope, 3 forces, Z, ROWS]."""
-    front = np.moveaxis(np.stack([half.path, half.path_slope], axis=1), 4, 2)  # from [node, value and slope, Z, ROWS, 3]
+    """The path over the wall's angle as the C reader wants it: [push_t >= 0 and < 0, node, value and slope, 3 forces,
+    Z, ROWS].
+    """
+    # from [node, value and slope, Z, ROWS, 3]
+    front = np.moveaxis(np.stack([half.path, half.path_slope], axis=1), 4, 2)
     back = front[..., ::-1, :] * half_path.PATH_MIRROR  # rivet -1 - i for i
     return np.stack([front, back])
 
@@ -45,7 +50,9 @@ def uniform_cells(name, knots):
     step = np.diff(knots).min()
     ends = (knots - knots[0]) / step
     if not np.allclose(ends, np.round(ends), atol=1e-6):
-        raise ValueError(f"joint's law: knots of axis {name} = {knots.tolist()}: multiples of their smallest step are allowed")
+        raise ValueError(
+            f"joint's law: knots of axis {name} = {knots.tolist()}: multiples of their smallest step are allowed"
+        )
     return round(ends[-1])
 
 
@@ -55,7 +62,9 @@ def law_cells(law):
 
 
 def uniform_coefficients(law):
-    """Coefficients of the law [tau, q, psi, LAW_WIDTH] for uniform splines without clamped ends, on equal cells: the same function."""
+    """Coefficients of the law [tau, q, psi, LAW_WIDTH] for uniform splines without clamped ends, on equal cells: the
+    same function.
+    """
     values = law.coefficients
     for axis, name in enumerate(joint_law.AXES):
         knots = law.knots[name]
@@ -76,14 +85,18 @@ def alike_rows(alike):
     """Rows of fmu_src/cage/common/joint_law.h's ALIKE_WIDTH."""
     even = [0, 2, 3, 5]  # u, phi_t, T, m_t, over N, M_t, P
     slopes = alike.slopes[:, even][:, :, [0, 2, 3]].reshape(len(alike.x), -1)
-    return np.column_stack([alike.load[:, [0, 2]], alike.values[:, even], slopes, alike.slopes[:, 1, 1], alike.slopes[:, 4, 1]])
+    return np.column_stack(
+        [alike.load[:, [0, 2]], alike.values[:, even], slopes, alike.slopes[:, 1, 1], alike.slopes[:, 4, 1]]
+    )
 
 
 def _braces(values):
     """Nested C initialiser of an array."""
     if np.ndim(values) == 0:
         return repr(values)
-    return "{" + ", ".join(map(_braces, np.asarray(values).tolist() if isinstance(values, np.ndarray) else values)) + "}"
+    return (
+        "{" + ", ".join(map(_braces, np.asarray(values).tolist() if isinstance(values, np.ndarray) else values)) + "}"
+    )
 
 
 def _half_source(half):
@@ -175,7 +188,10 @@ def c_source(t):
         *half_arrays,
         *mode_arrays,
     ]
-    joint = {key: float(t.joint[key]) for key in rivet_table.JOINT_KEYS} | {"k_rivet": t.half.k_open, "k_plate": t.half.k_closed - t.half.k_open}
+    joint = {key: float(t.joint[key]) for key in rivet_table.JOINT_KEYS} | {
+        "k_rivet": t.half.k_open,
+        "k_plate": t.half.k_closed - t.half.k_open,
+    }
     joint = ", ".join(f".{key} = {float(value)!r}" for key, value in joint.items())
     parts.append(f"""
 const RivetTable rivet_table = {{

@@ -1,8 +1,10 @@
-"""Coulomb friction in the closed joint, offline: slip of the halves over the transverse load, and the shares of plates and heads.
+"""Coulomb friction in the closed joint, offline: slip of the halves over the transverse load, and the shares of plates
+and heads.
 
 python -m rivet_model.friction [GEOMETRY.toml]
 
-Heads and plates stick or slip; the bores do not touch.  At each contact point, with the normal force p and the tangential slip s of a load step:
+Heads and plates stick or slip; the bores do not touch.  At each contact point, with the normal force p and the
+tangential slip s of a load step:
 
     gap >= 0, p >= 0, p gap = 0        |t| <= mu p, t = -mu p s/|s| where it slips
 
@@ -31,7 +33,9 @@ FREE = 1e-3  # m: larger than any elastic slip
 
 @dataclass(frozen=True)
 class Slip:
-    """Solution for one transverse load V [N]: slip of the halves [m], friction of plates and of each head [N], head's largest principal stress [Pa]."""
+    """Solution for one transverse load V [N]: slip of the halves [m], friction of plates and of each head [N], head's
+    largest principal stress [Pa].
+    """
 
     V: float
     slip: float
@@ -47,7 +51,8 @@ class Friction:
         self.joint, grid = joint, joint.grid
         self.angles = 2 * np.pi * np.arange(grid.uniform) / grid.uniform
         cos, sin = hat_harmonics(self.angles, grid.n_max)
-        self.hats = {"n": (cos, sin), "r": (cos, sin), "t": (sin, -cos)}  # amplitudes of cos (sin for t), and of the field turned by a quarter wave
+        # amplitudes of cos (sin for t), and of the field turned by a quarter wave
+        self.hats = {"n": (cos, sin), "r": (cos, sin), "t": (sin, -cos)}
         self.rings = {name: len(joint.rings[name]) for name in CONTACTS}
         self.slices, start = {}, 0
         for part in "nrt":
@@ -55,14 +60,18 @@ class Friction:
                 self.slices[part, name] = slice(start, start + self.rings[name] * len(self.angles))
                 start = self.slices[part, name].stop
         self.size = start
-        self.weight = np.concatenate([np.outer(joint.moments[name][0], cos[:, 0]).ravel() for _ in "nrt" for name in CONTACTS])
+        self.weight = np.concatenate(
+            [np.outer(joint.moments[name][0], cos[:, 0]).ravel() for _ in "nrt" for name in CONTACTS]
+        )
         self._condense()
         self._fold()
 
-    # Compliance: forces p on the heads and plates push apart, t drags the first body along and the second one back ------------------------
+    # Compliance: forces p on the heads and plates push apart, t drags the first body along and the second one back ----
 
     def _loads(self, body, surfaces):
-        """Load columns of a body [dofs, rings], by (part, contact).  surfaces: contact -> (z, outward normal along z, sign of the traction)."""
+        """Load columns of a body [dofs, rings], by (part, contact).  surfaces: contact -> (z, outward normal along z,
+        sign of the traction).
+        """
         columns = {}
         for name, (z, normal, sign) in surfaces.items():
             positions = self.joint.rings[name]
@@ -74,8 +83,11 @@ class Friction:
     def _condense(self):
         joint, t = self.joint, self.joint.geometry.flange_thickness
         upper = self._loads(joint.flange, {"UH": (t, 1.0, -1.0), "PP": (0.0, -1.0, 1.0)})
-        lower = {("n", "LH"): upper["n", "UH"], ("n", "PP"): upper["n", "PP"]}  # the mirrored flange, which feels the opposite friction of the plates
-        lower |= {(part, "LH"): upper[part, "UH"] for part in "rt"} | {(part, "PP"): -upper[part, "PP"] for part in "rt"}
+        # the mirrored flange, which feels the opposite friction of the plates
+        lower = {("n", "LH"): upper["n", "UH"], ("n", "PP"): upper["n", "PP"]}
+        lower |= {(part, "LH"): upper[part, "UH"] for part in "rt"} | {
+            (part, "PP"): -upper[part, "PP"] for part in "rt"
+        }
         self.rivet_loads = self._loads(joint.rivet, {"UH": (t, -1.0, 1.0), "LH": (-t, 1.0, 1.0)})
         self.C, self.stress = np.zeros((self.size, self.size)), []
         for n in range(joint.grid.n_max + 1):
@@ -93,11 +105,16 @@ class Friction:
         for first in columns:
             for second in columns:
                 for a, b in zip(self.hats[first[0]], self.hats[second[0]], strict=True):
-                    part = np.einsum("ij,k,l->ikjl", S[place[first], place[second]], a[:, n], b[:, n]) / self.joint.kappa[n]
+                    part = (
+                        np.einsum("ij,k,l->ikjl", S[place[first], place[second]], a[:, n], b[:, n])
+                        / self.joint.kappa[n]
+                    )
                     self.C[self.slices[first], self.slices[second]] += part.reshape(part.shape[0] * part.shape[1], -1)
 
     def _approach(self):
-        """Mean approach (n) and minus the mean slip (r, t) by the rigid motions: the matrix D of the balance D^T (p, t) = f [contacts, 6]."""
+        """Mean approach (n) and minus the mean slip (r, t) by the rigid motions: the matrix D of the balance D^T (p, t)
+        = f [contacts, 6].
+        """
         joint, t = self.joint, self.joint.geometry.flange_thickness
         D = np.zeros((self.size, 6))
         for name in CONTACTS:
@@ -106,7 +123,10 @@ class Friction:
             for part, amplitude in (("r", self.hats["r"][0][:, 1]), ("t", -self.hats["t"][0][:, 1])):
                 along = -np.outer(area, amplitude).ravel()  # slip cos theta along r, -sin theta along theta
                 rivet, rim, height = {"UH": (1.0, -1.0, t), "LH": (1.0, 0.0, -t), "PP": (0.0, 1.0, 0.0)}[name]
-                motion = np.stack([rivet * along, 0 * along, rivet * height * along, rim * along, 0 * along, rim * height * along], axis=1)
+                motion = np.stack(
+                    [rivet * along, 0 * along, rivet * height * along, rim * along, 0 * along, rim * height * along],
+                    axis=1,
+                )
                 D[self.slices[part, name]] = motion / self.weight[self.slices[part, name], None]
         return D
 
@@ -128,12 +148,13 @@ class Friction:
         self.orbit = np.abs(E).sum(axis=0)[: self.count]
         self.C_half, self.D_half = E.T @ self.C @ E, E.T @ self.D
 
-    # Loading -------------------------------------------------------------------------------------------------------------------------------
+    # Loading ----------------------------------------------------------------------------------------------------------
 
     def curve(self, P, loads, mu):
         """Slip of each transverse load [N] of an increasing list, from the preload P [N] on.
 
-        Raises ArithmeticError beyond the friction's capacity, where the joint slips until a bore carries, and if a load step does not converge.
+        Raises ArithmeticError beyond the friction's capacity, where the joint slips until a bore carries, and if a load
+        step does not converge.
         """
         gaps = np.zeros(self.size)
         short = self.joint.overclosure(P, -90e-6)
@@ -144,16 +165,21 @@ class Friction:
         x[: self.count] = P / self.count
         answers, before = [], 0.0
         for V in (0.0, *loads):
-            x, before = self._to(x, slip, before, V, mu if V > 0.0 else 0.0, P), V  # no friction (mu = 0) while the preload alone acts
+            # no friction (mu = 0) while the preload alone acts
+            x, before = self._to(x, slip, before, V, mu if V > 0.0 else 0.0, P), V
             slip = self._displacement(x)[self.count :]
             if V > 0.0:
                 answers.append(self._answer(x, V))
                 if answers[-1].slip > FREE:
-                    raise ArithmeticError(f"V = {V:g} N: heads and plates hold {answers[-1].plates + answers[-1].heads:.4g} N, then they slip freely")
+                    raise ArithmeticError(
+                        f"V = {V:g} N: heads and plates hold {answers[-1].plates + answers[-1].heads:.4g} N, then they slip freely"
+                    )
         return answers
 
     def _to(self, x, slip, before, V, mu, P, halvings=HALVINGS):
-        """Solution at V from the one at the load `before`; a step that Newton's method does not find is taken in two halves."""
+        """Solution at V from the one at the load `before`; a step that Newton's method does not find is taken in two
+        halves.
+        """
         try:
             return self._step(x, slip, np.array([0.0, 0.0, 0.0, V, 0.0, 0.0]), mu, P)
         except ArithmeticError:
@@ -207,7 +233,9 @@ class Friction:
             J[frozen], residual[frozen] = 0.0, 0.0
             J[frozen, frozen] = 1.0
             x = x - np.linalg.solve(J, residual)
-        raise ArithmeticError(f"friction at V = {f[3]:g} N not found in {ITERATIONS} steps: residual {np.abs(residual).max():g} N")
+        raise ArithmeticError(
+            f"friction at V = {f[3]:g} N not found in {ITERATIONS} steps: residual {np.abs(residual).max():g} N"
+        )
 
     def movable(self):
         """Whether a point of the half circle can slip along theta."""
@@ -228,9 +256,14 @@ class Friction:
         phi, total = 2 * np.pi * np.arange(count) / count, 0.0
         traction = forces / self.weight
         for n, response in enumerate(self.stress):
-            amplitude = [traction[self.slices[key]].reshape(-1, len(self.angles)) @ self.hats[key[0]][0][:, n] / joint.kappa[n] for key in self.rivet_loads]
+            amplitude = [
+                traction[self.slices[key]].reshape(-1, len(self.angles)) @ self.hats[key[0]][0][:, n] / joint.kappa[n]
+                for key in self.rivet_loads
+            ]
             field = response @ np.concatenate(amplitude)
-            total = total + field[:, :, None] * np.stack([np.cos(n * phi), np.cos(n * phi), np.sin(n * phi)])[:, None, :]
+            total = (
+                total + field[:, :, None] * np.stack([np.cos(n * phi), np.cos(n * phi), np.sin(n * phi)])[:, None, :]
+            )
         return surface_stress(*total)[0].max()
 
 

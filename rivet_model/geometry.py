@@ -23,7 +23,9 @@ REFERENCE_SHANK = 1.5e-3  # m, of the 6207's rivets, for which the ranges of the
 
 @dataclass(frozen=True)
 class Geometry:
-    """Rivet joint and cage half; SI units.  Each line names its source; "assumed" is an estimate, "calibrated" names the figure that was fitted."""
+    """Rivet joint and cage half; SI units.  Each line names its source; "assumed" is an estimate, "calibrated" names
+    the figure that was fitted.
+    """
 
     shank_diameter: float = 1.5e-3  # paper Table 1
     head_diameter: float = 2.6e-3  # assumed
@@ -60,8 +62,15 @@ class Geometry:
     def __post_init__(self):
         for field in fields(self):
             value = getattr(self, field.name)
-            if isinstance(value, bool) or not isinstance(value, (int, float)) or not math.isfinite(value) or value <= 0.0:
-                raise ValueError(f"geometry: {field.name} = {value!r}: a positive number is needed, in SI units without their symbol")
+            if (
+                isinstance(value, bool)
+                or not isinstance(value, (int, float))
+                or not math.isfinite(value)
+                or value <= 0.0
+            ):
+                raise ValueError(
+                    f"geometry: {field.name} = {value!r}: a positive number is needed, in SI units without their symbol"
+                )
         for name in ("nu_rivet", "nu_flange"):
             if getattr(self, name) >= 0.5:
                 raise ValueError(f"geometry: {name} = {getattr(self, name)!r}: Poisson's ratio must be below 0.5")
@@ -74,16 +83,30 @@ class Geometry:
             ("head_height", self.head_height, ">", "fillet_radius", self.fillet_radius),
             ("fillet_radius", self.fillet_radius, "<", "relief_radius", self.relief_radius),
             ("fillet_radius", self.fillet_radius, "<", "relief_depth", self.relief_depth),
-            ("relief_depth + edge_break", self.relief_depth + self.edge_break, "<", "flange_thickness", self.flange_thickness),
+            (
+                "relief_depth + edge_break",
+                self.relief_depth + self.edge_break,
+                "<",
+                "flange_thickness",
+                self.flange_thickness,
+            ),
             ("middle_zone", self.middle_zone, "<", "edge_break", self.edge_break),
             ("edge_break", self.edge_break, "<", "relief_radius", self.relief_radius),
             ("cage_inner_diameter", self.cage_inner_diameter, "<", "d_m", self.d_m),
             ("d_m", self.d_m, "<", "cage_outer_diameter", self.cage_outer_diameter),
-            ("Z (ball_diameter + pocket_clearance)", self.Z * (self.ball_diameter + self.pocket_clearance), "<", "pi d_m", math.pi * self.d_m),
+            (
+                "Z (ball_diameter + pocket_clearance)",
+                self.Z * (self.ball_diameter + self.pocket_clearance),
+                "<",
+                "pi d_m",
+                math.pi * self.d_m,
+            ),
         ]
         for name, value, sign, other, limit in limits:
             if not (value > limit if sign == ">" else value < limit):
-                raise ValueError(f"geometry: {name} = {value:g} must be {'above' if sign == '>' else 'below'} {other} = {limit:g}")
+                raise ValueError(
+                    f"geometry: {name} = {value:g} must be {'above' if sign == '>' else 'below'} {other} = {limit:g}"
+                )
 
     @property
     def size(self):
@@ -102,7 +125,9 @@ class Geometry:
 
     @property
     def seat_share(self):
-        """Area on which the head sits over the shank's section: the head presses on its seat with the shank's tension stress divided by this."""
+        """Area on which the head sits over the shank's section: the head presses on its seat with the shank's tension
+        stress divided by this.
+        """
         hole = self.shank_diameter + 2.0 * self.relief_radius
         return (self.head_diameter**2 - hole**2) / self.shank_diameter**2
 
@@ -115,7 +140,8 @@ class Geometry:
     def from_toml(cls, path, cage=None):
         """Read a TOML file; values that the file leaves out keep their defaults.
 
-        cage: values that a bearing gives (name: value); the file may repeat but not change them, except patch_radius, which is the joint's own.
+        cage: values that a bearing gives (name: value); the file may repeat but not change them, except patch_radius,
+        which is the joint's own.
 
         >>> Geometry().digest == Geometry(**asdict(Geometry())).digest
         True

@@ -8,9 +8,9 @@
       |       |  bar       _|   |_                   |                hole: shank_diameter, relieved under the head
       +-------+----=======+      +=======------------+---> t          pad ===: |t| < pad_half_length at x = 0, where the halves touch
 
-Radially the half goes from cage_inner_diameter to cage_outer_diameter.  Rivet k lies at the angle 2 pi (k + 1/2)/Z on the circle d_m, pocket j at
-2 pi j/Z.  Beside its pads the bar's face is relieved by so little that no mass is lost.  Frame of a place: x away from the split, r outward,
-t toward growing angle (right-handed x, r, t).
+Radially the half goes from cage_inner_diameter to cage_outer_diameter.  Rivet k lies at the angle 2 pi (k + 1/2)/Z on
+the circle d_m, pocket j at 2 pi j/Z.  Beside its pads the bar's face is relieved by so little that no mass is lost.
+Frame of a place: x away from the split, r outward, t toward growing angle (right-handed x, r, t).
 """
 
 from dataclasses import dataclass
@@ -26,8 +26,10 @@ from .half_shape import check_half, pad_half_length, pocket_radius
 
 @dataclass(frozen=True)
 class HalfMesh:
-    """Cells: around a quarter of the rivet (and through the ring's radial thickness), through each ring around it, along x through the flange below
-    and beside the relief, through the bar above, along the web, through the strip between rivet and pocket."""
+    """Cells: around a quarter of the rivet (and through the ring's radial thickness), through each ring around it,
+    along x through the flange below and beside the relief, through the bar above, along the web, through the strip
+    between rivet and pocket.
+    """
 
     quarter: int = 4
     outer: int = 2
@@ -53,7 +55,9 @@ def _levels(levels, counts):
 
 
 class _Blocks:
-    """Structured blocks of points [2 n1 + 1, 2 n2 + 1, 2 n3 + 1, (x, r, theta)]: corners at even places, the rest shapes the cells' curved sides."""
+    """Structured blocks of points [2 n1 + 1, 2 n2 + 1, 2 n3 + 1, (x, r, theta)]: corners at even places, the rest
+    shapes the cells' curved sides.
+    """
 
     def __init__(self):
         self.true, self.straight, self.cells, self.count = [], [], [], 0
@@ -68,15 +72,23 @@ class _Blocks:
         index = self.count + np.arange(true[..., 0].size).reshape(true.shape[:3])
         n = [size - 2 for size in index.shape]
         corner = [(0, 0, 0), (2, 0, 0), (2, 2, 0), (0, 2, 0), (0, 0, 2), (2, 0, 2), (2, 2, 2), (0, 2, 2)]
-        self.cells.append(np.stack([index[a : n[0] + a : 2, b : n[1] + b : 2, c : n[2] + c : 2].ravel() for a, b, c in corner]))
+        self.cells.append(
+            np.stack([index[a : n[0] + a : 2, b : n[1] + b : 2, c : n[2] + c : 2].ravel() for a, b, c in corner])
+        )
         self.true.append(true.reshape(-1, 3))
         self.straight.append(straight.reshape(-1, 3))
         self.count += index.size
 
     def mesh(self):
-        true, straight, cells = np.concatenate(self.true).T, np.concatenate(self.straight), np.concatenate(self.cells, axis=1)
+        true, straight, cells = (
+            np.concatenate(self.true).T,
+            np.concatenate(self.straight),
+            np.concatenate(self.cells, axis=1),
+        )
         corners, inverse = np.unique(cells, return_inverse=True)
-        _, first, merged = np.unique(np.round(true[:, corners] * 1e9).astype(np.int64), axis=1, return_index=True, return_inverse=True)
+        _, first, merged = np.unique(
+            np.round(true[:, corners] * 1e9).astype(np.int64), axis=1, return_index=True, return_inverse=True
+        )
         mesh = MeshHex2.from_mesh(hexahedra(true[:, corners][:, first], merged.ravel()[inverse.reshape(cells.shape)]))
         distance, nearest = cKDTree(straight).query(mesh.doflocs.T)
         if distance.max() > 1e-8:
@@ -108,11 +120,14 @@ def radii(g, size):
 
 def wall_angles(g, size):
     """Angles of the pocket's wall at double resolution [rad]: 0 at the split, pi/2 at the pocket's bottom."""
-    return np.deg2rad(np.concatenate([45.0 / g.cage_half_width * heights(g, size), _levels([45.0, 90.0], [size.web])[1:]]))
+    return np.deg2rad(
+        np.concatenate([45.0 / g.cage_half_width * heights(g, size), _levels([45.0, 90.0], [size.web])[1:]])
+    )
 
 
 def pitch_mesh(g, size=None):
-    """Mesh of one pitch, pocket 0 at theta = 0, rivet at pi/Z, pocket 1 at 2 pi/Z; quadratic cells on the true cylinders.  [m]
+    """Mesh of one pitch, pocket 0 at theta = 0, rivet at pi/Z, pocket 1 at 2 pi/Z; quadratic cells on the true
+    cylinders.  [m]
 
     Raises ValueError for a half that cannot be built.
     """
@@ -123,7 +138,8 @@ def pitch_mesh(g, size=None):
     flange_top, relief_top = 2 * (size.flange + size.relief) + 1, 2 * size.flange + 1
     blocks = _Blocks()
 
-    # Around the rivet: rings about its axis, then from the seat's circle to the pad's outline.  Plane coordinates (radial, tangential) from the rivet.
+    # Around the rivet: rings about its axis, then from the seat's circle to the pad's outline.  Plane coordinates
+    # (radial, tangential) from the rivet.
     rings = [g.shank_diameter / 2, g.shank_diameter / 2 + g.relief_radius, g.head_diameter / 2, g.seat_diameter / 2]
     side = np.stack([np.sqrt(r**2 - pad**2) - R, np.full(r.size, pad)], axis=1)
     across = _levels([-pad, pad], [size.quarter])
@@ -133,19 +149,24 @@ def pitch_mesh(g, size=None):
         ends = np.unwrap(np.arctan2(line[[0, -1], 1], line[[0, -1], 0]))
         angle = np.linspace(*ends, line.shape[0])
         circle = np.stack([np.cos(angle), np.sin(angle)], axis=1)
-        share = 1.0 - (1.0 - _levels([0.0, 1.0], [size.outer])[:, None, None]) ** 2  # finer toward the pad's edge, where an opening joint touches
+        # finer toward the pad's edge, where an opening joint touches
+        share = 1.0 - (1.0 - _levels([0.0, 1.0], [size.outer])[:, None, None]) ** 2
         beyond = rings[-1] * circle * (1.0 - share) + line * share
         within = [_levels(list(pair), [1])[:, None, None] * circle for pair in pairwise(rings)]
         for plane, top in zip([*within, beyond], [relief_top, flange_top, flange_top, levels.size], strict=True):
             y, z, x = R + plane[..., 0], plane[..., 1], levels[:top, None, None]
             blocks.add(np.stack(np.broadcast_arrays(x, np.hypot(y, z), np.pi / g.Z + np.arctan2(z, y)), axis=-1))
 
-    # Between the rivet's block and the pockets: strip beside the bar up to 45 degrees of the wall, web above it; both sides of the bar.
+    # Between the rivet's block and the pockets: strip beside the bar up to 45 degrees of the wall, web above it; both
+    # sides of the bar.
     share = _levels([0.0, 1.0], [size.strip])[None, :, None]
     phi, theta_pad = wall_angles(g, size)[:, None], np.pi / g.Z - np.arcsin(pad / r)
     x_wall, theta_wall = p * np.sin(phi) + 0.0 * r, np.arcsin(p * np.cos(phi) / r)
     across_web = np.concatenate([np.ones(levels.size - 1), _levels([1.0, 0.0], [size.web])])
-    x_top, theta_top = np.concatenate([levels, np.full(2 * size.web, w)])[:, None] + 0.0 * r, across_web[:, None] * theta_pad
+    x_top, theta_top = (
+        np.concatenate([levels, np.full(2 * size.web, w)])[:, None] + 0.0 * r,
+        across_web[:, None] * theta_pad,
+    )
     for part in (slice(0, levels.size), slice(levels.size - 1, None)):
         x = x_top[part, None] * (1.0 - share) + x_wall[part, None] * share
         theta = theta_top[part, None] * (1.0 - share) + theta_wall[part, None] * share
@@ -155,7 +176,9 @@ def pitch_mesh(g, size=None):
 
 
 class Mapping(MappingIsoparametric):
-    """Newton's iteration for local coordinates ends at 1e-10, not 1e-12, which small cells far from the origin cannot reach."""
+    """Newton's iteration for local coordinates ends at 1e-10, not 1e-12, which small cells far from the origin cannot
+    reach.
+    """
 
     def invF(self, x, tind=None):
         return super().invF(x, tind, newton_tol=1e-10)

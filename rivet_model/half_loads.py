@@ -1,4 +1,5 @@
-"""What bonded joints carry, by the elastic half: pocket forces over the wall's angle, centrifugal load; and the numbers of the joint's law.
+"""What bonded joints carry, by the elastic half: pocket forces over the wall's angle, centrifugal load; and the numbers
+of the joint's law.
 
 Rows of a joint's loads (on the +x half, frame (x, r, t) at the rivet):
 
@@ -6,13 +7,14 @@ Rows of a joint's loads (on the +x half, frame (x, r, t) at the rivet):
     dP, dm_r, dm_t          of its rivet: the seat's bottom gives under a load nearby, though the pad does not move; dP is the change of preload that
                             would shift the head as much, dm the bending moment of the shank
 
-A force on one half is half a mirrored pair of forces, which gives N, M, dP, dm, and half an opposed pair, which gives V.
+A force on one half is half a mirrored pair of forces, which gives N, M, dP, dm, and half an opposed pair, which gives
+V.
 """
 
 import numpy as np
 
-from bearing_model.cage.two_half.half_path import bolt_group
 from bearing_model.cage.common.joint_law import AXES, CARRIED, NUMBERS, JointLaw, LawBehind, law_load
+from bearing_model.cage.two_half.half_path import bolt_group
 from bearing_model.rivet.rivet_table import HalfData
 
 from . import half_shape, splines
@@ -21,8 +23,10 @@ from .joint_contact import JointContact, rivet_compliance
 from .lcp import Contact
 
 CHI = np.deg2rad([0.0, 6.0, 12.0, 20.0, 30.0, 42.0, 56.0, 72.0, 90.0])
-KNOTS = {"tau": np.linspace(0.0, 1.0, 11), "q": np.linspace(-1.0, 1.0, 11), "psi": np.linspace(-1.0, 1.0, 11)}  # equal steps: readers need no search
-# Of the law behind the residual: pads that the modes leave stiff turn about their edges within a tenth of q, and all states of open joints lie there.
+# equal steps: readers need no search
+KNOTS = {"tau": np.linspace(0.0, 1.0, 11), "q": np.linspace(-1.0, 1.0, 11), "psi": np.linspace(-1.0, 1.0, 11)}
+# Of the law behind the residual: pads that the modes leave stiff turn about their edges within a tenth of q, and all
+# states of open joints lie there.
 KNOTS_BEHIND = KNOTS | {"q": np.linspace(-1.0, 1.0, 41)}
 LENGTH = 1.5e-3  # l of the law of the 6207's joint: about the distance of the pad's edge from the rivet
 NEWTON = 60  # steps at most
@@ -40,7 +44,9 @@ class JointAlone:
         self.head = head
         stiffness, reactions, held = elastic.mirrored
         self.K_waves = self.lever.T @ stiffness @ self.lever
-        own, to_head, clamped = (elastic.circulant(wave)[0] for wave in (stiffness, reactions[:, :, head], held[:, head, head]))
+        own, to_head, clamped = (
+            elastic.circulant(wave)[0] for wave in (stiffness, reactions[:, :, head], held[:, head, head])
+        )
         B = np.linalg.inv(own)  # of the pad's hats alone
         B = 0.5 * (B + B.T)
         self.B_ph = B @ to_head  # hats by the head: what the held pad gives back undoes it
@@ -52,7 +58,8 @@ class JointAlone:
         self.A, self.pull, self.own = A, self.B_ph @ A, own
         C = B - self.pull @ self.B_ph.T
         self.contact = Contact(0.5 * (C + C.T), np.zeros((self.n, 1)), np.ones(1))
-        self.follows = np.eye(3) - self.B_ph.T @ own @ self.lever  # move of the head per move of the pad's surroundings, the pad held
+        # move of the head per move of the pad's surroundings, the pad held
+        self.follows = np.eye(3) - self.B_ph.T @ own @ self.lever
         self.shortening = 1.0
         self.shortening = 1.0 / self.solve(np.zeros(3), 1.0)[1][0]
 
@@ -78,7 +85,8 @@ class JointAlone:
         return np.stack(columns, axis=1)
 
     def solve_behind(self, K, behind, P, near=None):
-        """Loads (N, M_r, M_t) of joint and rivet [6], and L*, where L^ = L + K delta is given in place of L* = L + K_0 delta, by Newton's method.
+        """Loads (N, M_r, M_t) of joint and rivet [6], and L*, where L^ = L + K delta is given in place of L* = L + K_0
+        delta, by Newton's method.
 
         near: L* of a similar case, and its active set.  Raises ArithmeticError if no solution is found.
         """
@@ -108,14 +116,18 @@ class JointAlone:
         raise ArithmeticError(f"joint's law: no load L* gives L^ = {behind} at P = {P}")
 
     def rivet_rows(self, waves, loads):
-        """dP, dm_r, dm_t [waves, 3] for free motions of the heads with all pads held `waves` [waves, 3] and the bonded loads [waves, 3]."""
+        """dP, dm_r, dm_t [waves, 3] for free motions of the heads with all pads held `waves` [waves, 3] and the bonded
+        loads [waves, 3].
+        """
         shift = waves - loads @ np.linalg.inv(self.K_0).T @ self.follows.T
         moment = np.linalg.solve(self.clamped, shift.T).T
         return np.concatenate([shift[:, :1] / self.shortening, moment[:, 1:]], axis=1)
 
 
 def bonded_rows(elastic, alone, column):
-    """Rows [Z, 8] of all joints under a unit of the patterns `column` [patterns] on both halves (mirrored) and against each other (opposed)."""
+    """Rows [Z, 8] of all joints under a unit of the patterns `column` [patterns] on both halves (mirrored) and against
+    each other (opposed).
+    """
     _, reactions, held = elastic.mirrored
     M = (reactions @ column) @ alone.lever  # [waves, 3]
     rivet = alone.rivet_rows((held @ column)[:, alone.head], M)
@@ -125,7 +137,9 @@ def bonded_rows(elastic, alone, column):
 
 
 def rigid_inertia(elastic):
-    """Mass matrix [6, 6] per unit density of the whole half for its rigid motions about the centre of the circle in the split plane."""
+    """Mass matrix [6, 6] per unit density of the whole half for its rigid motions about the centre of the circle in the
+    split plane.
+    """
     pitch = elastic.resultants[:BODY]
     I = np.zeros((6, 6))
     for k in range(elastic.Z):
@@ -136,7 +150,9 @@ def rigid_inertia(elastic):
 
 
 def rigid_rows(elastic, place):
-    """N, V_r, V_t [3, Z, 3] of rigid halves per unit force (x, r, t) at a place (x, r, t) of pocket 0; inertia balances what joints leave free."""
+    """N, V_r, V_t [3, Z, 3] of rigid halves per unit force (x, r, t) at a place (x, r, t) of pocket 0; inertia balances
+    what joints leave free.
+    """
     Z, I = elastic.Z, rigid_inertia(elastic)
     angle = 2 * np.pi * (np.arange(Z) + 0.5) / Z
     c, s = np.cos(angle), np.sin(angle)
@@ -165,7 +181,9 @@ def path_at(elastic, alone, point):
 
 
 def centrifugal(elastic):
-    """Patterns [patterns] of each pitch per (rad/s)^2: its own body force, and that of half a rivet, which the head's friction gives to the seat's bottom."""
+    """Patterns [patterns] of each pitch per (rad/s)^2: its own body force, and that of half a rivet, which the head's
+    friction gives to the seat's bottom.
+    """
     column = np.zeros(elastic.loads.shape[1])
     column[SPIN] = elastic.g.rho_flange
     column[elastic.patterns.head.start + 3] = half_shape.rivet_mass(elastic.g) * 0.5 * elastic.g.d_m
@@ -186,7 +204,9 @@ def law_length(g):
 
 
 def law_coefficients(knots, width, length, answer):
-    """Coefficients [tau, q, psi, width] of splines through answer(load, P, near) = (values, what helps with the next tau), per newton."""
+    """Coefficients [tau, q, psi, width] of splines through answer(load, P, near) = (values, what helps with the next
+    tau), per newton.
+    """
     sites = [splines.sites(knots[name]) for name in AXES]
     values = np.zeros((*(len(s) for s in sites), width))
     for j, q in enumerate(sites[1]):
@@ -211,7 +231,9 @@ def make_law(elastic, alone):
 
 
 def make_law_behind(alone, K):
-    """LawBehind of pads around which the half has the stiffness K [3, 3], from contact solutions at the sites of KNOTS_BEHIND."""
+    """LawBehind of pads around which the half has the stiffness K [3, 3], from contact solutions at the sites of
+    KNOTS_BEHIND.
+    """
 
     def answer(load, P, near):
         return alone.solve_behind(K, load, P, near)
@@ -221,7 +243,8 @@ def make_law_behind(alone, K):
 
 
 def pair_stiffness(contact, P=20.0):
-    """Force per separation of the two halves' bodies, all joints alike [N/m for each joint]: closed (N = -P/4...P/4) and open (N = 3 P...4 P).
+    """Force per separation of the two halves' bodies, all joints alike [N/m for each joint]: closed (N = -P/4...P/4)
+    and open (N = 3 P...4 P).
 
     contact: JointContact of joints that are all alike.  The body of a half is its mean over the mass.
     """
@@ -245,7 +268,15 @@ def make_half(elastic, alone, progress=lambda done, total: None):
     path = np.stack([path_at(elastic, alone, i) for i in range(len(CHI))])
     k_closed, k_open = pair_stiffness(JointContact(elastic, alone.rivet, alike=True))
     progress(2, 2)
-    return HalfData(**half_shape.half_inertia(elastic.g)._asdict(), chi=CHI, path=path, spin=spin, law=law, k_closed=k_closed, k_open=k_open)
+    return HalfData(
+        **half_shape.half_inertia(elastic.g)._asdict(),
+        chi=CHI,
+        path=path,
+        spin=spin,
+        law=law,
+        k_closed=k_closed,
+        k_open=k_open,
+    )
 
 
 def elastic_half(g, size=None, points=()):

@@ -1,9 +1,11 @@
-"""Free-free modes of a cage half by its solid finite elements, wave by wave, and the residual flexibility beside them: bearing_model/cage/elastic/half_modes.py.
+"""Free-free modes of a cage half by its solid finite elements, wave by wave, and the residual flexibility beside them:
+bearing_model/cage/elastic/half_modes.py.
 
-The half of cage_half.py, of its density, with its part of the rivets as point masses at the seats' bottoms (their centre of mass is within 0.1 mm of it).
-Wave n of one pitch meets itself at the cuts, u(far) = turn(2 pi/Z) exp(2 pi i n/Z) u(near), and Lanczos iteration about a small negative shift finds
-its lowest modes.  Statics come from the same elements by another way (the condensed pitch, inertia in balance), so the residual is the difference of
-two numbers that differ by the modes that are left out; tests hold it against their sum.
+The half of cage_half.py, of its density, with its part of the rivets as point masses at the seats' bottoms (their
+centre of mass is within 0.1 mm of it). Wave n of one pitch meets itself at the cuts, u(far) = turn(2 pi/Z) exp(2 pi i
+n/Z) u(near), and Lanczos iteration about a small negative shift finds its lowest modes.  Statics come from the same
+elements by another way (the condensed pitch, inertia in balance), so the residual is the difference of two numbers that
+differ by the modes that are left out; tests hold it against their sum.
 """
 
 from dataclasses import dataclass, replace
@@ -12,12 +14,22 @@ import numpy as np
 import scipy.sparse as sp
 from scipy.sparse.linalg import LinearOperator, eigsh, splu
 
-from bearing_model.cage.elastic.half_modes import EVEN, LAW_MODES_PER_PITCH, OUT, PAD, HalfModes, Residual, fewer, joint_residual
+from bearing_model.cage.elastic.half_modes import (
+    EVEN,
+    LAW_MODES_PER_PITCH,
+    OUT,
+    PAD,
+    HalfModes,
+    Residual,
+    fewer,
+    joint_residual,
+)
 
 from . import half_loads, half_shape
 from .cage_half import BODY, SYMMETRIC
 
-MODES_PER_PITCH = 20 / 3  # of a half, a pair counted as two: 60 of nine pitches; docs/rivet.md has the error over the number
+# of a half, a pair counted as two: 60 of nine pitches; docs/rivet.md has the error over the number
+MODES_PER_PITCH = 20 / 3
 SHIFT = -((2.0 * np.pi * 500.0) ** 2)  # (rad/s)^2 below the rigid motions, whose frequency is 0
 TOLERANCE = 1e-6  # of symmetry: shapes whose real or imaginary part should be 0 (observed 1e-9)
 APART = 1.1e-3  # m between two places of the wall beyond which point loads need no finer cells than those of the half
@@ -30,16 +42,20 @@ class Wave:
     n: int
     omega: np.ndarray  # [modes] rad/s
     parity: np.ndarray  # [modes] as HalfModes
-    shape: np.ndarray  # [dofs, modes] complex amplitudes, mirror images of themselves; conj(shape) M shape = 1/Z, 2/Z of a pair
+    # [dofs, modes] complex amplitudes, mirror images of themselves; conj(shape) M shape = 1/Z, 2/Z of a pair
+    shape: np.ndarray
 
 
 class Places:
-    """Loads at the places of a half as combinations of its patterns [patterns, places]; their transposes measure displacements."""
+    """Loads at the places of a half as combinations of its patterns [patterns, places]; their transposes measure
+    displacements.
+    """
 
     def __init__(self, elastic, alone):
         p, patterns = elastic.patterns, elastic.loads.shape[1]
         head = slice(p.head.start, p.head.start + 3)
-        spread = alone.own @ alone.lever @ np.linalg.inv(alone.K_0)  # pressure under unit loads of a pad that stays flat [hats, 3]
+        # pressure under unit loads of a pad that stays flat [hats, 3]
+        spread = alone.own @ alone.lever @ np.linalg.inv(alone.K_0)
         pad = np.zeros((patterns, len(PAD)))
         pad[p.pad, 0], pad[p.pad, 4], pad[p.pad, 5] = spread.T
         pad[p.plane, 1:3] = np.eye(2)
@@ -86,7 +102,9 @@ class MassiveHalf:
         return balance.conj().T @ self.elastic.waves[n] @ balance
 
     def wave(self, n, count):
-        """The first `count` elastic modes of wave n: Wave.  Raises ArithmeticError if they are not found or not symmetric."""
+        """The first `count` elastic modes of wave n: Wave.  Raises ArithmeticError if they are not found or not
+        symmetric.
+        """
         Z, (square, shape) = self.elastic.Z, wave_modes(self.elastic, self.M, n, count)
         single = 2 * n in (0, Z)
         shape /= np.sqrt(Z if single else 0.5 * Z)
@@ -95,7 +113,8 @@ class MassiveHalf:
 
 
 def wave_modes(solid, M, n, count):
-    """Squares of the first `count` elastic frequencies of wave n of a CyclicSolid, and shapes [dofs, count] of one pitch with conj(shape) M shape = 1.
+    """Squares of the first `count` elastic frequencies of wave n of a CyclicSolid, and shapes [dofs, count] of one
+    pitch with conj(shape) M shape = 1.
 
     Raises ArithmeticError if there is another number of rigid motions.
     """
@@ -105,11 +124,14 @@ def wave_modes(solid, M, n, count):
         K_n, M_n = K_n.real, M_n.real
     factor = splu((K_n - SHIFT * M_n).tocsc(), **SYMMETRIC)
     inverse = LinearOperator(K_n.shape, factor.solve, dtype=K_n.dtype)
-    start = np.random.default_rng(0).standard_normal(K_n.shape[0])  # of its own, so that the same half gives the same bits
+    # of its own, so that the same half gives the same bits
+    start = np.random.default_rng(0).standard_normal(K_n.shape[0])
     square, v = eigsh(K_n, count + rigid, M_n.tocsc(), sigma=SHIFT, OPinv=inverse, which="LM", v0=start)
     order = np.argsort(square)
     if not (np.all(np.abs(square[order[:rigid]]) < -1e-3 * SHIFT) and square[order[rigid]] > -1e-3 * SHIFT):
-        raise ArithmeticError(f"modes of the cage half: the squares of the lowest frequencies of wave {n} are {square[order[: rigid + 1]]} (rad/s)^2")
+        raise ArithmeticError(
+            f"modes of the cage half: the squares of the lowest frequencies of wave {n} are {square[order[: rigid + 1]]} (rad/s)^2"
+        )
     shape = T @ v[:, order[rigid:]].astype(complex)
     return square[order[rigid:]], shape / np.sqrt(np.einsum("di,di->i", shape.conj(), M @ shape).real)
 
@@ -120,16 +142,20 @@ def cut(elastic, n):
     kept = np.setdiff1d(np.arange(elastic.basis.N), far)
     angle = 2 * np.pi / elastic.Z
     c, s = np.cos(angle), np.sin(angle)
-    turn = np.exp(1j * n * angle) * sp.kron(sp.eye(len(near) // 3), np.array([[1, 0, 0], [0, c, -s], [0, s, c]]), format="coo")
+    turn = np.exp(1j * n * angle) * sp.kron(
+        sp.eye(len(near) // 3), np.array([[1, 0, 0], [0, c, -s], [0, s, c]]), format="coo"
+    )
     rows, columns = np.concatenate([kept, far[turn.row]]), np.concatenate([kept, near[turn.col]])
     T = sp.csc_matrix((np.concatenate([np.ones(len(kept)), turn.data]), (rows, columns)), shape=2 * (elastic.basis.N,))
     return T[:, kept]
 
 
 def symmetric(elastic, n, shape):
-    """Shapes [dofs, modes] with the phase in which each is its own mirror image, and their parities.  ArithmeticError if one has none.
+    """Shapes [dofs, modes] with the phase in which each is its own mirror image, and their parities.  ArithmeticError
+    if one has none.
 
-    Mirrored in the plane of the rivet, displacements change place with those of the other side; those at the seat's bottom and at the pocket's do not.
+    Mirrored in the plane of the rivet, displacements change place with those of the other side; those at the seat's
+    bottom and at the pocket's do not.
     """
     p = elastic.patterns
     seat = slice(p.head.start, p.head.start + 5)
@@ -139,12 +165,15 @@ def symmetric(elastic, n, shape):
     at_bottom = (elastic.loads[:, bottom].T @ shape).T
     both, sign = np.concatenate([at_seat, at_bottom], axis=1), np.concatenate([even, [1.0, 1.0, -1.0]])
     phase = np.exp(-0.5j * np.angle((both**2) @ sign))
-    largest = (both * phase[:, None])[np.arange(len(both)), np.argmax(np.abs(both), axis=1)]  # real or imaginary; its sign is free
+    # real or imaginary; its sign is free
+    largest = (both * phase[:, None])[np.arange(len(both)), np.argmax(np.abs(both), axis=1)]
     phase *= np.where(largest.real + largest.imag < 0.0, -1.0, 1.0)
     both = both * phase[:, None]
     wrong = np.where(sign > 0.0, np.abs(both.imag), np.abs(both.real)).max(axis=1) / np.abs(both).max(axis=1)
     if wrong.max() > TOLERANCE:
-        raise ArithmeticError(f"modes of the cage half: wave {n} has a shape that is not symmetric by {wrong.max():.1g} of its largest displacement")
+        raise ArithmeticError(
+            f"modes of the cage half: wave {n} has a shape that is not symmetric by {wrong.max():.1g} of its largest displacement"
+        )
     shape = shape * phase
     return shape, np.where(np.linalg.norm(shape.real, axis=0) > np.linalg.norm(shape.imag, axis=0), 1, -1)
 
@@ -179,7 +208,8 @@ def waves(massive, count, progress=lambda done, total: None):
 
 
 def half_modes(elastic, alone, count, progress=lambda done, total: None):
-    """HalfModes of a condensed half (half_loads.elastic_half) with its pads (JointAlone): the first `count` modes or one less, and all that were found.
+    """HalfModes of a condensed half (half_loads.elastic_half) with its pads (JointAlone): the first `count` modes or
+    one less, and all that were found.
 
     Raises ValueError for an impossible number, ArithmeticError if they cannot be found.
     """
@@ -207,7 +237,8 @@ def half_modes(elastic, alone, count, progress=lambda done, total: None):
         **amplitudes(Z, len(half_loads.CHI), rows),
     )
     R = joint_residual(fewer(shapes, min(count, round(LAW_MODES_PER_PITCH * Z))))
-    even = np.multiply.outer(EVEN[OUT], EVEN[OUT]) > 0.0  # the other elements are 0: mirroring in the rivet's plane changes their sign
+    # the other elements are 0: mirroring in the rivet's plane changes their sign
+    even = np.multiply.outer(EVEN[OUT], EVEN[OUT]) > 0.0
     found = replace(shapes, law=half_loads.make_law_behind(alone, np.linalg.inv(np.where(even, 0.5 * (R + R.T), 0.0))))
     return fewer(found, count), found
 
@@ -244,17 +275,23 @@ def residual(elastic, places, C):
 
 
 def wall_compliance(elastic, C):
-    """Compliance [nodes] along the normal under the contact, without the indentation of the half-space that Hertz's formula counts.
+    """Compliance [nodes] along the normal under the contact, without the indentation of the half-space that Hertz's
+    formula counts.
 
-    C [nodes, 3, nodes, 3]: of the wall.  Indentation is what a point load does to the half-space at a distance s, (1 - nu^2)/(pi E s); the rest of the
-    compliance between two places varies slowly, so that of the neighbours on both sides of a node stands for its own (of the ends: the nearest one's).
+    C [nodes, 3, nodes, 3]: of the wall.  Indentation is what a point load does to the half-space at a distance s, (1 -
+    nu^2)/(pi E s); the rest of the compliance between two places varies slowly, so that of the neighbours on both sides
+    of a node stands for its own (of the ends: the nearest one's).
     """
     g, chi = elastic.g, half_loads.CHI
     normal = np.stack([np.sin(chi), 0.0 * chi, np.cos(chi)], axis=1)
     between = np.einsum("ia,iajb,jb->ij", normal, C, normal)
     place, found = [], []
     for i in range(len(chi) - 2):
-        j = next(j for j in range(i + 2, len(chi)) if half_shape.pocket_radius(g) * (chi[j] - chi[i]) > APART or j == len(chi) - 1)
+        j = next(
+            j
+            for j in range(i + 2, len(chi))
+            if half_shape.pocket_radius(g) * (chi[j] - chi[i]) > APART or j == len(chi) - 1
+        )
         s = 2.0 * half_shape.pocket_radius(g) * np.sin(0.5 * (chi[j] - chi[i]))
         place.append(0.5 * (chi[i] + chi[j]))
         found.append(between[i, j] - (1.0 - g.nu_flange**2) / (np.pi * g.E_flange * s))
@@ -262,7 +299,9 @@ def wall_compliance(elastic, C):
 
 
 def rim_means(elastic):
-    """Rows [n, outer and inner, dofs] whose product with a shape of wave n is the mean of u_r exp(-i n theta) over the rim, facets by their middles."""
+    """Rows [n, outer and inner, dofs] whose product with a shape of wave n is the mean of u_r exp(-i n theta) over the
+    rim, facets by their middles.
+    """
     g, mesh = elastic.g, elastic.basis.mesh
     facets = mesh.boundary_facets()
     corners = mesh.p[:, mesh.facets[:, facets]]  # [3, a facet's corners, facets]

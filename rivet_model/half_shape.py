@@ -1,4 +1,5 @@
-"""Shape of one cage half in closed form: what can be built, mass, place of the centre of mass, moments of inertia.  half.py has sketch and mesh.
+"""Shape of one cage half in closed form: what can be built, mass, place of the centre of mass, moments of inertia.
+half.py has sketch and mesh.
 
 Lengths in m, names as in geometry.py; g: a Geometry, or anything with its members.
 """
@@ -15,7 +16,9 @@ LEAST_WEB = 0.05  # of the pocket's radius, between pocket and end face: assumed
 
 
 class Limit(NamedTuple):
-    """margin(g) >= 0 must hold [m]; keys: the values that it is about, the one to blame first; reason: what would be impossible."""
+    """margin(g) >= 0 must hold [m]; keys: the values that it is about, the one to blame first; reason: what would be
+    impossible.
+    """
 
     keys: tuple
     margin: Callable
@@ -28,7 +31,9 @@ def pocket_radius(g):
 
 
 def narrowest_half_bar(g):
-    """Least distance from the rivet's radial plane to the pocket's wall, in the split plane at the cage's bore [m]; negative if the pockets overlap."""
+    """Least distance from the rivet's radial plane to the pocket's wall, in the split plane at the cage's bore [m];
+    negative if the pockets overlap.
+    """
     r, pocket = 0.5 * g.cage_inner_diameter, pocket_radius(g)
     return r * math.sin(math.pi / g.Z - math.asin(pocket / r)) if r > pocket else -pocket
 
@@ -40,8 +45,16 @@ def pad_half_length(g):
 
 POCKET = ("ball_diameter", "d_m", "Z", "pocket_clearance")
 LIMITS = (
-    Limit(("cage_inner_diameter", *POCKET), lambda g: g.cage_inner_diameter - 2.0 * pocket_radius(g), "a pocket smaller than the cage's bore"),
-    Limit(("head_diameter", "seat_diameter"), lambda g: LARGEST_HEAD * g.seat_diameter - g.head_diameter, "a seat that takes the rivet's head"),
+    Limit(
+        ("cage_inner_diameter", *POCKET),
+        lambda g: g.cage_inner_diameter - 2.0 * pocket_radius(g),
+        "a pocket smaller than the cage's bore",
+    ),
+    Limit(
+        ("head_diameter", "seat_diameter"),
+        lambda g: LARGEST_HEAD * g.seat_diameter - g.head_diameter,
+        "a seat that takes the rivet's head",
+    ),
     Limit(
         ("seat_diameter", "head_diameter", *POCKET, "cage_inner_diameter"),
         lambda g: 2.0 * (narrowest_half_bar(g) - LEAST_WALL) - g.seat_diameter,
@@ -80,7 +93,9 @@ def check_half(g):
 
 
 class Inertia(NamedTuple):
-    """Of one half with its half of the rivets: mass [kg], place x_c of its centre of mass [m], moments of inertia about it [kg m2]."""
+    """Of one half with its half of the rivets: mass [kg], place x_c of its centre of mass [m], moments of inertia about
+    it [kg m2].
+    """
 
     m: float
     x_c: float
@@ -92,10 +107,13 @@ _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(16)
 
 
 def half_inertia(g):
-    """Inertia of one half with its part of the rivets (head and half of the shank), by integrals over the drawing's bodies."""
+    """Inertia of one half with its part of the rivets (head and half of the shank), by integrals over the drawing's
+    bodies.
+    """
     Z, w, p, R = g.Z, g.cage_half_width, pocket_radius(g), 0.5 * g.d_m
     r_i, r_o, density = 0.5 * g.cage_inner_diameter, 0.5 * g.cage_outer_diameter, g.rho_flange
-    bodies = [(density * math.pi * (r_o**2 - r_i**2) * w, 0.5 * w, w * w / 3.0, 0.5 * (r_i**2 + r_o**2))]  # mass, means of x, x^2, r^2
+    # mass, means of x, x^2, r^2
+    bodies = [(density * math.pi * (r_o**2 - r_i**2) * w, 0.5 * w, w * w / 3.0, 0.5 * (r_i**2 + r_o**2))]
 
     def cylinder(density, radius, low, high):
         mass = Z * density * math.pi * radius**2 * (high - low)

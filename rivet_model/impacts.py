@@ -1,11 +1,14 @@
-"""What bonded joints carry over time if balls hit the pockets, by the modes of both halves: the error that a number of modes has.
+"""What bonded joints carry over time if balls hit the pockets, by the modes of both halves: the error that a number of
+modes has.
 
-Impacts are those of Hertz's law, F = peak sin(pi t/duration)^1.5, along the normal of the wall at an angle from the split (0...180 degrees; beyond 90 on
-the side t < 0) in the frame of their own half (x away from the split).  The sum of the loads of both halves, each half of it, moves the halves as
-mirror images, which gives N, M_r, M_t of the joints; the difference moves them against each other, which gives V_r, V_t.
+Impacts are those of Hertz's law, F = peak sin(pi t/duration)^1.5, along the normal of the wall at an angle from the
+split (0...180 degrees; beyond 90 on the side t < 0) in the frame of their own half (x away from the split).  The sum of
+the loads of both halves, each half of it, moves the halves as mirror images, which gives N, M_r, M_t of the joints; the
+difference moves them against each other, which gives V_r, V_t.
 
-Transfer functions from the pockets to the joints at complex frequencies s, then Laplace's inversion by FFT on the line s = sigma + i omega, sigma
-PERIOD = 6: what the next period would add is e^-6 of it.  Frequencies end smoothly between BAND[0] and BAND[1].  The stiffness is (1 + DAMPING s) K.
+Transfer functions from the pockets to the joints at complex frequencies s, then Laplace's inversion by FFT on the line
+s = sigma + i omega, sigma PERIOD = 6: what the next period would add is e^-6 of it.  Frequencies end smoothly between
+BAND[0] and BAND[1].  The stiffness is (1 + DAMPING s) K.
 """
 
 from dataclasses import dataclass
@@ -17,7 +20,8 @@ from bearing_model.cage.two_half.half_path import path_rows
 
 from . import half_shape
 
-ANGLES = np.deg2rad([3.0, 8.0, 14.0, 22.0, 35.0, 60.0, 88.0, 118.0, 140.0, 156.0, 165.0, 171.0, 178.0])  # medians and tails of recorded impacts: 7 and 14
+# medians and tails of recorded impacts: 7 and 14
+ANGLES = np.deg2rad([3.0, 8.0, 14.0, 22.0, 35.0, 60.0, 88.0, 118.0, 140.0, 156.0, 165.0, 171.0, 178.0])
 PERIOD, SAMPLES = 1.024e-3, 2048  # s, and in steps of 0.5 us
 SIGMA = 6.0 / PERIOD
 BAND = (110e3, 160e3)  # Hz
@@ -43,7 +47,9 @@ class Impacts:
 
 
 def synthetic(seed, Z=9, count=8):
-    """Impacts of 35-100 us and 20-120 N within the first 0.5 ms; a third of them hit both halves at the same time, as near the split they do."""
+    """Impacts of 35-100 us and 20-120 N within the first 0.5 ms; a third of them hit both halves at the same time, as
+    near the split they do.
+    """
     rng = np.random.default_rng(seed)
     half, twice = rng.integers(2, size=count), rng.random(count) < 1 / 3
     weight = np.where(np.minimum(ANGLES, np.pi - ANGLES) < 0.45, 1.0, 0.35)  # most are near the split
@@ -66,7 +72,9 @@ def pulses(impacts, Z=9):
     result = np.zeros((2, Z, len(ANGLES), SAMPLES))
     for i in range(len(impacts.start)):
         phase = np.clip((TIME - impacts.start[i]) / impacts.duration[i], 0.0, 1.0)
-        result[impacts.half[i], impacts.pocket[i], impacts.place[i]] += impacts.peak[i] * np.sin(np.pi * phase).clip(0.0) ** 1.5
+        result[impacts.half[i], impacts.pocket[i], impacts.place[i]] += (
+            impacts.peak[i] * np.sin(np.pi * phase).clip(0.0) ** 1.5
+        )
     return result
 
 
@@ -103,7 +111,8 @@ class Transfer:
 
 
 def mass_motions(g, inertia, lever, pocket=0):
-    """Displacements PAD of all pads [Z, 6, 6] and of a pocket at ANGLES along the normal [ANGLES, 6] by the rigid motions of unit mass.
+    """Displacements PAD of all pads [Z, 6, 6] and of a pocket at ANGLES along the normal [ANGLES, 6] by the rigid
+    motions of unit mass.
 
     lever: radius at which the pads' friction acts along t [m].
     """
@@ -129,7 +138,9 @@ def mass_motions(g, inertia, lever, pocket=0):
 
 
 def at_angles(modes, pocket=0):
-    """Displacements along the normal of a pocket by all coordinates [n, ANGLES], and residual rows [Z, 9, ANGLES] by unit forces, between the nodes."""
+    """Displacements along the normal of a pocket by all coordinates [n, ANGLES], and residual rows [Z, 9, ANGLES] by
+    unit forces, between the nodes.
+    """
     shapes, slopes = modes_of.pocket_shapes(modes)[:, pocket], modes_of.pocket_shapes(modes, modes.slope)[:, pocket]
     wall, rows = [], []
     for angle in ANGLES:
@@ -161,7 +172,9 @@ def modal_transfer(g, inertia, modes, lever=None, at_s=S):
         for chosen, out in (([0, 4, 5], [0, 3, 4]), ([1, 2], [1, 2])):
             n = len(chosen)
             A = pads[:, :, chosen].reshape(len(answer), -1)
-            C = A.T @ (answer[:, None] * A) + 1.0 / stiff * C_pad[:, :, chosen][..., chosen].transpose(0, 2, 1, 3).reshape(Z * n, Z * n)
+            C = A.T @ (answer[:, None] * A) + 1.0 / stiff * C_pad[:, :, chosen][..., chosen].transpose(
+                0, 2, 1, 3
+            ).reshape(Z * n, Z * n)
             free = A.T @ (answer[:, None] * walls) + 1.0 / stiff * rows[:, chosen].reshape(Z * n, -1)
             L = np.linalg.solve(C, np.column_stack([free, np.eye(Z * n, n)]))
             held = L[:, : len(ANGLES)]
@@ -170,21 +183,30 @@ def modal_transfer(g, inertia, modes, lever=None, at_s=S):
                 pad[f] = L[:, len(ANGLES) :].reshape(Z, n, n)
                 q = answer[:, None] * (walls - A @ held)
                 pocket[f][:, 5:] = np.einsum("ika,il->kal", rivets, q) + 1.0 / stiff * rows[:, 6:]
-                pocket[f][:, 5:] -= 1.0 / stiff * np.einsum("kjab,jbl->kal", C_rivet[..., chosen], held.reshape(Z, n, -1))
+                pocket[f][:, 5:] -= (
+                    1.0 / stiff * np.einsum("kjab,jbl->kal", C_rivet[..., chosen], held.reshape(Z, n, -1))
+                )
     return Transfer(pocket, pad)
 
 
 def errors(found, expected):
-    """RMS of the difference over the RMS [8], and the error of the 99.9 % quantile of the modulus [8], of loads [sequences, Z, 8, SAMPLES]."""
+    """RMS of the difference over the RMS [8], and the error of the 99.9 % quantile of the modulus [8], of loads
+    [sequences, Z, 8, SAMPLES].
+    """
     a, b = (np.moveaxis(loads[..., SHOWN], 2, 0).reshape(8, -1) for loads in (found, expected))
     p = np.quantile(np.abs(a), 0.999, axis=1) / np.quantile(np.abs(b), 0.999, axis=1)
     return np.sqrt(((a - b) ** 2).mean(axis=1) / (b**2).mean(axis=1)), p - 1.0
 
 
 def modes_error(g, inertia, modes, found, sequences=12):
-    """Error of modes against all that were found, under synthetic impacts: for a table's header; loads of bonded joints, as fractions."""
+    """Error of modes against all that were found, under synthetic impacts: for a table's header; loads of bonded
+    joints, as fractions.
+    """
     force = [pulses(synthetic(seed, g.Z), g.Z) for seed in range(sequences)]
-    few, all_found = (np.stack([transfer.loads(f) for f in force]) for transfer in (modal_transfer(g, inertia, m) for m in (modes, found)))
+    few, all_found = (
+        np.stack([transfer.loads(f) for f in force])
+        for transfer in (modal_transfer(g, inertia, m) for m in (modes, found))
+    )
     rms, p999 = errors(few, all_found)
     return {
         "modes": int(modes.count.sum()),

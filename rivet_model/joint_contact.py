@@ -1,14 +1,17 @@
-"""Both halves and their rivets in unilateral contact: the direct solution that the joint's law is made from and held against.
+"""Both halves and their rivets in unilateral contact: the direct solution that the joint's law is made from and held
+against.
 
-The halves mirror each other, and of the forces on both only the mirrored part (half their mirrored sum) opens or closes a joint: the rest moves both pads
-alike.  So one half stands on a rigid plane at the split; half a rivet pulls its head there:
+The halves mirror each other, and of the forces on both only the mirrored part (half their mirrored sum) opens or closes
+a joint: the rest moves both pads alike.  So one half stands on a rigid plane at the split; half a rivet pulls its head
+there:
 
     pads      p >= 0,  gap = C_pp p + C_ph h + D_p q + free >= 0,  p gap = 0         p: forces of the hats on the half, along x
     rivet     -(T, m_r, m_t) = h,  half a rivet: its head follows the seat's bottom,  C_hp p + (C_hh + c) h + D_h q + free_h + e = 0
     balance   D_p^T p + D_h^T h + resultant = 0                                       q: motion along x, rotations about y and z
 
-e: shortening of the rivet that gives the tension P to the unloaded joint.  With h eliminated this is the problem of lcp.py.
-Loads of a joint, as the half gives them to it: N = T - sum p, M_r = m_r - sum p t, M_t = m_t + sum p r (place (r, t) from the rivet's axis).
+e: shortening of the rivet that gives the tension P to the unloaded joint.  With h eliminated this is the problem of
+lcp.py. Loads of a joint, as the half gives them to it: N = T - sum p, M_r = m_r - sum p t, M_t = m_t + sum p r (place
+(r, t) from the rivet's axis).
 """
 
 from dataclasses import dataclass
@@ -24,17 +27,22 @@ from .section_mesh import edge_nodes
 
 @dataclass
 class JointState:
-    """Loads at each rivet [..., Z] in N and N.m: (N, M_r, M_t) of the joint, (T, m_r, m_t) of the rivet; motion (u, phi_r, phi_t) of the pad [m, rad]."""
+    """Loads at each rivet [..., Z] in N and N.m: (N, M_r, M_t) of the joint, (T, m_r, m_t) of the rivet; motion (u,
+    phi_r, phi_t) of the pad [m, rad].
+    """
 
     load: np.ndarray  # [Z, 3]
     rivet: np.ndarray  # [Z, 3]
     motion: np.ndarray  # [Z, 3]
     pressure: np.ndarray  # [Z, hats] forces [N]
-    closing: np.ndarray  # [3] motion along x, rotations about y and z of the whole half; along x alone [1] of joints that are all alike
+    # [3] motion along x, rotations about y and z of the whole half; along x alone [1] of joints that are all alike
+    closing: np.ndarray
 
 
 def rivet_compliance(g, fine=None):
-    """Half a rivet under uniform and linear pressure below its head: axial [m/N] and bending [rad/(N.m)], by the elements of revolution."""
+    """Half a rivet under uniform and linear pressure below its head: axial [m/N] and bending [rad/(N.m)], by the
+    elements of revolution.
+    """
     body = Body(section_mesh.rivet_mesh(g, fine), g.E_rivet, g.nu_rivet)
     radii = (g.shank_diameter / 2 + g.relief_radius, g.head_diameter / 2)
     up, down = (edge_nodes(body.mesh, z=z, between=radii) for z in (g.flange_thickness, -g.flange_thickness))
@@ -85,12 +93,14 @@ class JointContact:
         self.e = self._shortening()
 
     def _rigid(self):
-        """Work of the patterns on (motion along x, rotations about y, z of the whole half) [Z, patterns, 3], what inertia takes of it left out.
+        """Work of the patterns on (motion along x, rotations about y, z of the whole half) [Z, patterns, 3], what
+        inertia takes of it left out.
 
         Joints that are all alike: on the motion along x alone [1, patterns, 1].
         """
         e = self.half
-        x, tilt = e.prevented(0, MIRRORED)[:, 0].real, e.prevented(1, MIRRORED)[:, 0]  # tilt: about y, and i times about z
+        # tilt: about y, and i times about z
+        x, tilt = e.prevented(0, MIRRORED)[:, 0].real, e.prevented(1, MIRRORED)[:, 0]
         if self.Z == 1:
             return (e.resultants @ x)[None, :, None]
         D = np.zeros((self.Z, len(e.resultants), 3))
@@ -102,7 +112,11 @@ class JointContact:
     def _shortening(self):
         """e of the heads per newton of preload [Z, 3]: along x only, the same everywhere."""
         e = np.tile([1.0, 0.0, 0.0], self.Z)
-        T = -self._solve(np.zeros(self.Z * self.hats), e, np.zeros(self.D_c.shape[1]))[1].reshape(self.Z, 3)[:, 0].mean()
+        T = (
+            -self._solve(np.zeros(self.Z * self.hats), e, np.zeros(self.D_c.shape[1]))[1]
+            .reshape(self.Z, 3)[:, 0]
+            .mean()
+        )
         return e / T
 
     def _solve(self, free, e, resultant, active=None):
@@ -114,10 +128,11 @@ class JointContact:
         return solution.p, h, q, solution
 
     def loads(self, forces=(), column=None):
-        """Mirrored loads for `solve`: (displacements of all patterns if nothing held them [Z, patterns], resultant [3]).
+        """Mirrored loads for `solve`: (displacements of all patterns if nothing held them [Z, patterns], resultant
+        [3]).
 
-        forces: (pocket, point, (F_x, F_r, F_t)) on the +x half, point: index into the half's points; half of each is mirrored.
-        column: patterns [patterns] that every pitch of both halves has beside (half_loads.centrifugal).
+        forces: (pocket, point, (F_x, F_r, F_t)) on the +x half, point: index into the half's points; half of each is
+        mirrored. column: patterns [patterns] that every pitch of both halves has beside (half_loads.centrifugal).
         """
         p, Z = self.half.patterns, self.Z
         count = 3 * len(self.half.points)
@@ -128,7 +143,8 @@ class JointContact:
             for part, shift in ((0, 0), (1, -1)):
                 columns = p.pocket.start + part * count + 3 * point + np.arange(3)
                 f = 0.5 * np.asarray(force)
-                # the waves count both parts at their pocket (CyclicSolid._phase), the rigid motions count them at the pitch that they stand on
+                # the waves count both parts at their pocket (CyclicSolid._phase), the rigid motions count them at the
+                # pitch that they stand on
                 u += np.roll(self.C[:, :, columns] @ f, pocket, axis=0)
                 resultant += f @ self.rigid[(pocket + shift) % Z, columns]
         return u, resultant
@@ -146,7 +162,9 @@ class JointContact:
         return JointState(rivet - forces @ self.lever, rivet, motion, forces, q)
 
     def displacement(self, column, pitch, load, state):
-        """Work-conjugate displacement of the patterns `column` [patterns] of one pitch in a state under a load of `solve`."""
+        """Work-conjugate displacement of the patterns `column` [patterns] of one pitch in a state under a load of
+        `solve`.
+        """
         u, p = load[0].copy(), self.half.patterns
         relative = (np.arange(self.Z)[:, None] - np.arange(self.Z)) % self.Z
         for where, forces in ((p.pad, state.pressure), (self.head, -state.rivet)):

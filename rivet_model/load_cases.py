@@ -1,13 +1,16 @@
-"""The rivet joint condensed to its contacts: from loads follow pressures, stresses and displacements without solving on the mesh again.
+"""The rivet joint condensed to its contacts: from loads follow pressures, stresses and displacements without solving on
+the mesh again.
 
-Pressure in each contact is a sum of hats along the edge (rings) times hats over the angle; gaps are means with the same hats, so the compliance
-is symmetric and positive definite on any grid.  Fit and preload change the gaps only.  Contacts: UH, LH under the upper and lower head,
-UB, LB in the bores, PP in the split plane.  Upper = the +x half; loads act on its rigid rim, and the lower rim is held:
+Pressure in each contact is a sum of hats along the edge (rings) times hats over the angle; gaps are means with the same
+hats, so the compliance is symmetric and positive definite on any grid.  Fit and preload change the gaps only.
+Contacts: UH, LH under the upper and lower head, UB, LB in the bores, PP in the split plane.  Upper = the +x half; loads
+act on its rigid rim, and the lower rim is held:
 
-    rigid motions q = (x, y, z, rotation x, rotation y) of the rivet, then of the upper rim;  V along x, M about x and y, N along z
+    rigid motions q = (x, y, z, rotation x, rotation y) of the rivet, then of the upper rim;  V along x, M about x and
+    y, N along z
 
-here with z along the rivet.  Two symmetries halve the work: the plane of V if M bends in it ("plane": M about y), and half a turn about y if M
-bends across it ("across": M about x).
+here with z along the rivet.  Two symmetries halve the work: the plane of V if M bends in it ("plane": M about y), and
+half a turn about y if M bends across it ("across": M about x).
 """
 
 from dataclasses import dataclass
@@ -26,7 +29,8 @@ NO_PRELOAD = 1e-9  # share of s that replaces P = 0, so that the heads just touc
 
 
 def graded_angles(step, dense=16.0, coarse=15.0):
-    """Angles of the bore's hats [rad]: `step` degrees within `dense` degrees of 0 and 180, growing to `coarse`; symmetric about 0, 90 and 180.
+    """Angles of the bore's hats [rad]: `step` degrees within `dense` degrees of 0 and 180, growing to `coarse`;
+    symmetric about 0, 90 and 180.
 
     >>> len(graded_angles(3.75))
     48
@@ -67,7 +71,9 @@ class Grid:
 
     def __post_init__(self):
         if self.n_max < max(180.0 / self.step, self.uniform / 2):
-            raise ValueError(f"grid: n_max = {self.n_max}: hats of {self.step:g} degrees need {np.ceil(max(180.0 / self.step, self.uniform / 2)):g} harmonics")
+            raise ValueError(
+                f"grid: n_max = {self.n_max}: hats of {self.step:g} degrees need {np.ceil(max(180.0 / self.step, self.uniform / 2)):g} harmonics"
+            )
 
     def solved_harmonics(self):
         """Harmonics that are solved; between them n times the compliance is smooth over n and is interpolated."""
@@ -101,13 +107,15 @@ class Joint:
         self._condense(progress or (lambda done, total: None))
         self._assemble()
 
-    # Finite elements, once per geometry ------------------------------------------------------------------------------------------------
+    # Finite elements, once per geometry -------------------------------------------------------------------------------
 
     def _condense(self, progress):
         g, fine = self.geometry, self.grid.fine
         R, t = g.shank_diameter / 2, g.flange_thickness
         self.rivet = Body(section_mesh.rivet_mesh(g, fine), g.E_rivet, g.nu_rivet)
-        self.flange = Body(section_mesh.flange_mesh(g, fine), g.E_flange, g.nu_flange, lambda x: x[0] > g.patch_radius - 1e-9)
+        self.flange = Body(
+            section_mesh.flange_mesh(g, fine), g.E_flange, g.nu_flange, lambda x: x[0] > g.patch_radius - 1e-9
+        )
         bore, heads = (g.edge_break, t - g.relief_depth), (R + g.relief_radius, g.head_diameter / 2)
 
         def pair(body, normal_side):
@@ -115,7 +123,10 @@ class Joint:
             sign = normal_side
             on_head = edge_nodes(body.mesh, z=t, between=heads)
             on_bore = edge_nodes(body.mesh, r=R, between=bore)
-            upper = [body.ring_loads(on_head, self.rings["UH"], (0.0, -sign), 0), body.ring_loads(on_bore, self.rings["UB"], (sign, 0.0), 1)]
+            upper = [
+                body.ring_loads(on_head, self.rings["UH"], (0.0, -sign), 0),
+                body.ring_loads(on_bore, self.rings["UB"], (sign, 0.0), 1),
+            ]
             self.moments = {
                 "UH": body.ring_moments(on_head, self.rings["UH"], 0),
                 "UB": body.ring_moments(on_bore, self.rings["UB"], 1),
@@ -138,7 +149,8 @@ class Joint:
 
         size = {name: len(self.rings[name]) for name in GROUPS}
         half = size["UH"] + size["UB"]
-        heads, bores = np.arange(size["UH"]), np.arange(size["UB"])  # mirror[i]: the mirrored ring, in the order UH, UB, LB, LH
+        # mirror[i]: the mirrored ring, in the order UH, UB, LB, LH
+        heads, bores = np.arange(size["UH"]), np.arange(size["UB"])
         mirror = np.concatenate([half + size["LB"] + heads, half + bores, size["UH"] + bores, heads])
         solved = self.grid.solved_harmonics()
         rivet, flange, stress = [], [], []
@@ -156,7 +168,9 @@ class Joint:
         def spread(values):
             values = np.array(values)
             scale = np.maximum(solved, 1).reshape(-1, *[1] * (values.ndim - 1))
-            return PchipInterpolator(solved, scale * values, axis=0)(all_n) / np.maximum(all_n, 1).reshape(-1, *[1] * (values.ndim - 1))
+            return PchipInterpolator(solved, scale * values, axis=0)(all_n) / np.maximum(all_n, 1).reshape(
+                -1, *[1] * (values.ndim - 1)
+            )
 
         self.S_rivet, self.S_flange, self.S_stress = spread(rivet), spread(flange), spread(stress)
         self.ring_slices, start = {}, 0
@@ -165,7 +179,9 @@ class Joint:
             start += size[name]
 
     def _stress_places(self):
-        """Stress rows (S_0, S_1, x, tangent) of the upper fillet, the lower one with its points in mirrored order, and the middle."""
+        """Stress rows (S_0, S_1, x, tangent) of the upper fillet, the lower one with its points in mirrored order, and
+        the middle.
+        """
         g, mesh = self.geometry, self.rivet.mesh
         facets = mesh.boundary_facets()
         ends = mesh.p[:, mesh.facets[:, facets]]
@@ -179,7 +195,9 @@ class Joint:
         return *places, self._stress_rows(facets[np.all(zone, axis=0)], 1.0)
 
     def _stress_rows(self, facets, side):
-        """Rows sorted along the edge from the split plane outward; tangents of the lower side are the mirrored ones of the upper side."""
+        """Rows sorted along the edge from the split plane outward; tangents of the lower side are the mirrored ones of
+        the upper side.
+        """
         mesh = self.rivet.mesh
         S_0, S_1, x = self.rivet.stress_rows(facets)
         along = np.diff(mesh.p[:, mesh.facets[:, facets]], axis=1)[:, 0]
@@ -190,14 +208,17 @@ class Joint:
         return S_0[rows], S_1[rows], x[:, order], tangent[:, order]
 
     def surface_response(self, place, n, u):
-        """Surface stress (tt, hoop, shear) of harmonic n along an edge (`place`) for rivet displacements u [dofs, cases]: [3, points, cases]."""
+        """Surface stress (tt, hoop, shear) of harmonic n along an edge (`place`) for rivet displacements u [dofs,
+        cases]: [3, points, cases].
+        """
         S_0, S_1, x, (tr, tz) = place
         s = ((S_0 + n * S_1) @ u).reshape(6, x.shape[1], -1)
         tr, tz = tr[:, None], tz[:, None]
         return np.stack([tr**2 * s[0] + 2 * tr * tz * s[3] + tz**2 * s[2], s[1], tr * s[4] + tz * s[5]])
 
     def _stress_response(self, n, u, mirror, half):
-        """Surface stress at upper fillet, then middle, per unit pressure amplitude of all rings, from displacements u by the upper rings.
+        """Surface stress at upper fillet, then middle, per unit pressure amplitude of all rings, from displacements u
+        by the upper rings.
 
         By symmetry a lower ring causes at a point the stress that the mirrored ring causes at the mirrored point.
         """
@@ -208,7 +229,7 @@ class Joint:
         fillets = np.concatenate([upper, lower[:, :, back]], axis=2)
         return np.concatenate([fillets, np.concatenate([middle, mirrored[:, :, back]], axis=2)], axis=1)
 
-    # The contact problem ---------------------------------------------------------------------------------------------------------------
+    # The contact problem ----------------------------------------------------------------------------------------------
 
     def _assemble(self):
         """Compliance C [m/N], approach by rigid motions D, and the two symmetric reductions of the whole circle."""
@@ -218,15 +239,23 @@ class Joint:
             self.slices[name] = slice(start, start + count)
             start += count
         self.size = start
-        self.weight = np.concatenate([np.outer(self.moments[name][0], self.hats[name][0][:, 0]).ravel() for name in GROUPS])
+        self.weight = np.concatenate(
+            [np.outer(self.moments[name][0], self.hats[name][0][:, 0]).ravel() for name in GROUPS]
+        )
         C = np.zeros((start, start))
         heads, bores = len(self.rings["UH"]), len(self.rings["UB"])
-        self.upper = {"UH": slice(0, heads), "UB": slice(heads, heads + bores), "PP": slice(heads + bores, self.S_flange.shape[1])}
+        self.upper = {
+            "UH": slice(0, heads),
+            "UB": slice(heads, heads + bores),
+            "PP": slice(heads + bores, self.S_flange.shape[1]),
+        }
         self.lower = {"LH": self.upper["UH"], "LB": self.upper["UB"], "PP": self.upper["PP"]}
         for S, rings in ((self.S_rivet, self.ring_slices), (self.S_flange, self.upper), (self.S_flange, self.lower)):
             for first in rings:
                 for second in rings:
-                    C[self.slices[first], self.slices[second]] += self._spread(S[:, rings[first], rings[second]], first, second)
+                    C[self.slices[first], self.slices[second]] += self._spread(
+                        S[:, rings[first], rings[second]], first, second
+                    )
         C /= np.outer(self.weight, self.weight)
         self.C = 0.5 * (C + C.T)
         self.D = self._approach() / self.weight[:, None]
@@ -238,7 +267,11 @@ class Joint:
             angles = self.angles[name]
             plane[position[name]] = position[name][:, self._turned(angles, -angles)]
             across[position[name]] = position[swap[name]][:, self._turned(angles, np.pi - angles)]
-        self.problems = {"plane": self._reduced(plane), "across": self._reduced(across), "full": self._reduced(np.arange(self.size))}
+        self.problems = {
+            "plane": self._reduced(plane),
+            "across": self._reduced(across),
+            "full": self._reduced(np.arange(self.size)),
+        }
 
     def _index(self, name):
         s = self.slices[name]
@@ -266,7 +299,8 @@ class Joint:
             if name.endswith("B"):  # u . r = (x + z ry) cos + (y - z rx) sin
                 motion = [np.outer(area, c), np.outer(area, s), zero, -np.outer(first, s), np.outer(first, c)]
                 rivet, rim = 1.0, -1.0
-            else:  # u_z = z + r (rx sin - ry cos); outward normal of the rivet -z under the upper head, +z under the lower one
+            # u_z = z + r (rx sin - ry cos); outward normal of the rivet -z under the upper head, +z under the lower one
+            else:
                 motion = [zero, zero, np.outer(area, one), np.outer(first, s), -np.outer(first, c)]
                 rivet, rim = {"UH": (-1.0, 1.0), "LH": (1.0, 0.0), "PP": (0.0, -1.0)}[name]
             if name in ("LB", "LH"):
@@ -291,49 +325,72 @@ class Joint:
         return folded
 
     def overclosure(self, P, fit):
-        """Shortening of the rivet between its heads [m] that gives the clamp force P at this fit: the preload after riveting."""
+        """Shortening of the rivet between its heads [m] that gives the clamp force P at this fit: the preload after
+        riveting.
+        """
         if not hasattr(self, "_axial"):
             area = {name: 2 * np.pi * self.moments[name][0] for name in GROUPS}
-            uniform = {name: np.repeat(np.eye(len(self.rings[name])), len(self.angles[name]), axis=0) for name in GROUPS}
+            uniform = {
+                name: np.repeat(np.eye(len(self.rings[name])), len(self.angles[name]), axis=0) for name in GROUPS
+            }
             E = np.zeros((self.size, sum(len(self.rings[name]) for name in GROUPS)))
             start = 0
             for name in GROUPS:
-                share = (self.weight[self.slices[name]].reshape(len(self.rings[name]), -1) / area[name][:, None]).ravel()
+                share = (
+                    self.weight[self.slices[name]].reshape(len(self.rings[name]), -1) / area[name][:, None]
+                ).ravel()
                 E[self.slices[name], start : start + len(self.rings[name])] = uniform[name] * share[:, None]
                 start += len(self.rings[name])
             C, D = E.T @ self.C @ E, (E.T @ self.D)[:, [2, 7]]
-            heads = np.concatenate([np.full(len(self.rings[name]), 0.5 if name.endswith("H") else 0.0) for name in GROUPS])
-            bores = np.concatenate([np.full(len(self.rings[name]), 1.0 if name.endswith("B") else 0.0) for name in GROUPS])
+            heads = np.concatenate(
+                [np.full(len(self.rings[name]), 0.5 if name.endswith("H") else 0.0) for name in GROUPS]
+            )
+            bores = np.concatenate(
+                [np.full(len(self.rings[name]), 1.0 if name.endswith("B") else 0.0) for name in GROUPS]
+            )
             self._axial = Contact(C, np.column_stack([D, heads]), np.full(3, SPRINGS[2])), bores
         contact, bores = self._axial
         return contact.solve(-0.5 * fit * bores, np.array([0.0, 0.0, P])).q[2]
 
     def shank(self, T, m, fit):
-        """Shortening of the rivet between its heads [m] and tilt of one head against the other [rad] that give the shank the tension T and the moment m.
+        """Shortening of the rivet between its heads [m] and tilt of one head against the other [rad] that give the
+        shank the tension T and the moment m.
 
-        The plates stay closed and carry the rest, so this is the rivet of any joint: what opens the plates is not asked.
+        The plates stay closed and carry the rest, so this is the rivet of any joint: what opens the plates is not
+        asked.
         """
         if not hasattr(self, "_shank"):
             contact, member = self.problems["plane"]
-            heads = np.concatenate([np.full(self.slices[n].stop - self.slices[n].start, 0.5 if n.endswith("H") else 0.0) for n in GROUPS])
+            heads = np.concatenate(
+                [np.full(self.slices[n].stop - self.slices[n].start, 0.5 if n.endswith("H") else 0.0) for n in GROUPS]
+            )
             columns = np.column_stack([heads, self._head_tilt()[:, 1]])
             D = np.hstack([contact.D, self._fold(columns, member, contact.C.shape[0])])
-            bores = np.concatenate([np.full(self.slices[n].stop - self.slices[n].start, 1.0 if n.endswith("B") else 0.0) for n in GROUPS])
-            self._shank = Contact(contact.C, D, np.concatenate([np.tile(SPRINGS, 2), SPRINGS[[2, 4]]])), np.bincount(member, weights=bores)
+            bores = np.concatenate(
+                [np.full(self.slices[n].stop - self.slices[n].start, 1.0 if n.endswith("B") else 0.0) for n in GROUPS]
+            )
+            self._shank = (
+                Contact(contact.C, D, np.concatenate([np.tile(SPRINGS, 2), SPRINGS[[2, 4]]])),
+                np.bincount(member, weights=bores),
+            )
         contact, bores = self._shank
         f = np.zeros(12)
         f[10:] = T, m
         return contact.solve(-0.5 * fit * bores, f).q[10:]
 
     def _head_tilt(self):
-        """Approach of the contacts by a unit tilt of the upper head's seat against the lower one's, half of it each, about x and y [contacts, 2]."""
+        """Approach of the contacts by a unit tilt of the upper head's seat against the lower one's, half of it each,
+        about x and y [contacts, 2].
+        """
         tilt = np.zeros((self.size, 2))
         for name, side in (("UH", 0.5), ("LH", -0.5)):
             tilt[self.slices[name]] = side * self.D[self.slices[name], 3:5]
         return tilt
 
     def solve_shank(self, T, V, m_plane, m_across, fit, active=None):
-        """Contact forces and Solution of a rivet whose shank would carry tension T and moments m without V, then bears V [N, N.m, m]."""
+        """Contact forces and Solution of a rivet whose shank would carry tension T and moments m without V, then bears
+        V [N, N.m, m].
+        """
         symmetry = "plane" if m_across == 0.0 else "across" if m_plane == 0.0 else "full"
         contact, member = self.problems[symmetry]
         m = np.hypot(m_plane, m_across)
@@ -360,7 +417,8 @@ class Joint:
     def solve(self, P, N, V, M_plane, M_across, fit, active=None):
         """Contact forces and rigid motions for one load [N, N.m, m]; the symmetry of the load is used.
 
-        Returns (forces [contacts], q [10], Solution, symmetry).  `active`: active set of a similar case of the same symmetry.
+        Returns (forces [contacts], q [10], Solution, symmetry).  `active`: active set of a similar case of the same
+        symmetry.
         """
         symmetry = "plane" if M_across == 0.0 else "across" if M_plane == 0.0 else "full"
         contact, member = self.problems[symmetry]
@@ -372,19 +430,24 @@ class Joint:
         solution = contact.solve(folded, f, active)
         return solution.p[member], solution.q, solution, symmetry
 
-    # Stress ----------------------------------------------------------------------------------------------------------------------------
+    # Stress -----------------------------------------------------------------------------------------------------------
 
     def amplitudes(self, forces, rings):
-        """Cosine and sine amplitudes of the pressure of a body's rings [2, harmonics, rings, cases] in Pa.  rings: name -> places on that body."""
+        """Cosine and sine amplitudes of the pressure of a body's rings [2, harmonics, rings, cases] in Pa.  rings: name
+        -> places on that body.
+        """
         pressure = forces / self.weight[:, None]
         amplitude = np.zeros((2, self.grid.n_max + 1, max(s.stop for s in rings.values()), forces.shape[1]))
         for name, place in rings.items():
             p = pressure[self.slices[name]].reshape(len(self.rings[name]), len(self.angles[name]), -1)
-            amplitude[:, :, place] = np.einsum("tkn,jkc->tnjc", self.hats[name], p, optimize=True) / self.kappa[:, None, None]
+            amplitude[:, :, place] = (
+                np.einsum("tkn,jkc->tnjc", self.hats[name], p, optimize=True) / self.kappa[:, None, None]
+            )
         return amplitude
 
     def fields(self, forces, count=72):
-        """Surface stress (tt, hoop, shear) of both fillets and the middle at `count` angles: [3, points, angles, cases] each.
+        """Surface stress (tt, hoop, shear) of both fillets and the middle at `count` angles: [3, points, angles, cases]
+        each.
 
         forces: contact forces [contacts, cases].  The lower fillet's points mirror the upper one's.
         """
@@ -393,7 +456,9 @@ class Joint:
         amplitude = self.amplitudes(forces, self.ring_slices)
         upper, lower, middle = [], [], []
         points = self.fillet[2].shape[1]
-        order = np.concatenate([np.arange(s.start, s.stop) for s in (self.ring_slices[k] for k in ("LH", "LB", "UB", "UH"))])
+        order = np.concatenate(
+            [np.arange(s.start, s.stop) for s in (self.ring_slices[k] for k in ("LH", "LB", "UB", "UH"))]
+        )
         c, s = np.cos(np.outer(n, phi)), np.sin(np.outer(n, phi))
         for result, rows, amp in (
             (upper, self.S_stress[:, :, :points], amplitude),

@@ -1,4 +1,6 @@
-"""Curves of one rivet (the paper's Figs. 11 and 12, and over transverse load) and pictures of the finite elements behind them."""
+"""Curves of one rivet (the paper's Figs. 11 and 12, and over transverse load) and pictures of the finite elements
+behind them.
+"""
 
 from dataclasses import dataclass, replace
 
@@ -25,7 +27,8 @@ class JointLoad:
     V: float = 0.0
 
 
-REFERENCE = JointLoad(P=20.0, N=10.0, V=10.0)  # P: preload of the paper's section 4.1 (3); N, V: large enough to be seen
+# P: preload of the paper's section 4.1 (3); N, V: large enough to be seen
+REFERENCE = JointLoad(P=20.0, N=10.0, V=10.0)
 
 
 @dataclass(frozen=True)
@@ -81,7 +84,9 @@ def joint_response(joint):
 
 
 def curves(stress, fit_eff, swell=SWELL):
-    """Curves by name: preload alone at the largest clearance; REFERENCE over the fit, elastic and with the flange's yield; over the transverse load."""
+    """Curves by name: preload alone at the largest clearance; REFERENCE over the fit, elastic and with the flange's
+    yield; over the transverse load.
+    """
     preload, fit, V = np.linspace(0.0, 60.0, 25), 1e-6 * np.arange(-90.0, 40.1, 2.0), np.linspace(0.0, 60.0, 25)
     loose, r = -90e-6, REFERENCE
     alone = f"fit {micrometres(loose)} (clearance), no external load"
@@ -95,7 +100,9 @@ def curves(stress, fit_eff, swell=SWELL):
     return {
         "preload": curve("preload", "N", 1.0, preload, JointLoad(P=preload), loose + swell, alone, "Fig. 11"),
         "fit, elastic": curve("fit", "µm", 1e6, fit, REFERENCE, fit + swell, loaded, "Fig. 12", "elastic"),
-        "fit, with yield": curve("fit", "µm", 1e6, fit, REFERENCE, fit_eff(fit + swell), loaded, "Fig. 12", "the flange yields"),
+        "fit, with yield": curve(
+            "fit", "µm", 1e6, fit, REFERENCE, fit_eff(fit + swell), loaded, "Fig. 12", "the flange yields"
+        ),
         "transverse load": curve("transverse load", "N", 1.0, V, replace(REFERENCE, N=0.0, V=V), FIT, preloaded),
     }
 
@@ -130,7 +137,7 @@ def plot_curves(data, title=""):
     return figure
 
 
-# The drawing -------------------------------------------------------------------------------------------------------------------------------
+# The drawing ----------------------------------------------------------------------------------------------------------
 
 
 def plot_geometry(geometry, title=""):
@@ -149,7 +156,14 @@ def plot_geometry(geometry, title=""):
     ax.axhline(0.0, color="0.5", linewidth=0.7, linestyle="-.")
     ax.axvline(0.0, color="0.5", linewidth=0.7, linestyle="-.")
     gap = 0.16 * (out + top)
-    across(ax, -0.5 * g["head_diameter"], 0.5 * g["head_diameter"], top + gap, f"head_diameter {g['head_diameter']:.4g}", g["flange_thickness"])
+    across(
+        ax,
+        -0.5 * g["head_diameter"],
+        0.5 * g["head_diameter"],
+        top + gap,
+        f"head_diameter {g['head_diameter']:.4g}",
+        g["flange_thickness"],
+    )
     across(ax, -a, a, -top - gap, f"shank_diameter {g['shank_diameter']:.4g}", -top)
     across(ax, 0.0, out, -top - 2.2 * gap, f"patch_radius {out:.4g}", -g["flange_thickness"])
     along(ax, g["flange_thickness"], top, out + gap, f"head_height {g['head_height']:.4g}", 0.5 * g["head_diameter"])
@@ -176,7 +190,9 @@ def plot_geometry(geometry, title=""):
         xlim=(-2.3 * out - gap, 2.3 * out + gap),
         ylim=(-top - 3.0 * gap, top + 2.0 * gap),
     )
-    ax.set_xlabel(f"seat under the head: {1e3 * geometry.seat_width:.3g} mm wide, {100.0 * geometry.seat_share:.0f} % of the shank's section")
+    ax.set_xlabel(
+        f"seat under the head: {1e3 * geometry.seat_width:.3g} mm wide, {100.0 * geometry.seat_share:.0f} % of the shank's section"
+    )
     ax.set(xticks=[], yticks=[])
     ax.spines[:].set_visible(False)
     return figure
@@ -191,12 +207,26 @@ LENGTHS = (
 def flange_outline(g):
     """Corners (r, x) of the upper flange's section [mm], from the chamfer at the split plane around."""
     a, t, e, c = 0.5 * g["shank_diameter"], g["flange_thickness"], g["edge_break"], g["relief_radius"]
-    return [(a + e, 0.0), (a, e), (a, t - g["relief_depth"]), (a + c, t - g["relief_depth"]), (a + c, t), (g["patch_radius"], t), (g["patch_radius"], 0.0)]
+    return [
+        (a + e, 0.0),
+        (a, e),
+        (a, t - g["relief_depth"]),
+        (a + c, t - g["relief_depth"]),
+        (a + c, t),
+        (g["patch_radius"], t),
+        (g["patch_radius"], 0.0),
+    ]
 
 
 def rivet_outline(g):
     """Corners (r, x) of the rivet's section [mm] with rounded fillets."""
-    a, h, t, top, f = 0.5 * g["shank_diameter"], 0.5 * g["head_diameter"], g["flange_thickness"], g["flange_thickness"] + g["head_height"], g["fillet_radius"]
+    a, h, t, top, f = (
+        0.5 * g["shank_diameter"],
+        0.5 * g["head_diameter"],
+        g["flange_thickness"],
+        g["flange_thickness"] + g["head_height"],
+        g["fillet_radius"],
+    )
     turn = np.linspace(0.0, 0.5 * np.pi, 9)
     fillet = [(a + f * (1.0 - np.cos(s)), t - f * (1.0 - np.sin(s))) for s in turn]
     quarter = [*fillet, (h, t), (h, top)]
@@ -206,7 +236,12 @@ def rivet_outline(g):
 
 def across(ax, start, end, height, text, foot):
     """A dimension across the axis, its lines from `foot` on."""
-    ax.annotate("", (start, height), (end, height), arrowprops={"arrowstyle": "<|-|>", "color": MIDDLE, "lw": 1.0, "shrinkA": 0, "shrinkB": 0})
+    ax.annotate(
+        "",
+        (start, height),
+        (end, height),
+        arrowprops={"arrowstyle": "<|-|>", "color": MIDDLE, "lw": 1.0, "shrinkA": 0, "shrinkB": 0},
+    )
     for r in (start, end):
         ax.plot((r, r), (foot, height), color=MIDDLE, linewidth=0.5)
     ax.text(
@@ -222,17 +257,23 @@ def across(ax, start, end, height, text, foot):
 
 def along(ax, start, end, radius, text, foot):
     """A dimension along the axis, its lines from `foot` on."""
-    ax.annotate("", (radius, start), (radius, end), arrowprops={"arrowstyle": "<|-|>", "color": MIDDLE, "lw": 1.0, "shrinkA": 0, "shrinkB": 0})
+    ax.annotate(
+        "",
+        (radius, start),
+        (radius, end),
+        arrowprops={"arrowstyle": "<|-|>", "color": MIDDLE, "lw": 1.0, "shrinkA": 0, "shrinkB": 0},
+    )
     for x in (start, end):
         ax.plot((foot, radius), (x, x), color=MIDDLE, linewidth=0.5)
     ax.text(1.04 * radius, 0.5 * (start + end), text, ha="left", va="center", color=MIDDLE)
 
 
-# The section -------------------------------------------------------------------------------------------------------------------------------
+# The section ----------------------------------------------------------------------------------------------------------
 
 
 def plot_section(joint, load=REFERENCE, fit=FIT, magnified=60.0):
-    """Figure: meshes; the joint in the plane of V, deformed, with its largest principal stress; the fillet that carries most.
+    """Figure: meshes; the joint in the plane of V, deformed, with its largest principal stress; the fillet that carries
+    most.
 
     Gaps and displacements are magnified alike, so that bodies touch in the picture where they touch in the solution.
     """
@@ -258,22 +299,31 @@ def plot_section(joint, load=REFERENCE, fit=FIT, magnified=60.0):
     up = np.sign(place[1, np.argmax(stress)])
     right.tripcolor(1e3 * np.abs(place[0]), 1e3 * up * place[1], triangles, stress / 1e6, **shade)
     centre, size = (1e3 * g.shank_diameter / 2, 1e3 * g.flange_thickness), 3e3 * g.fillet_radius
-    right.set(xlim=(centre[0] - 1.5 * size, centre[0] + size), ylim=(centre[1] - size, centre[1] + 1.5 * size), xlabel="r [mm]", aspect="equal")
+    right.set(
+        xlim=(centre[0] - 1.5 * size, centre[0] + size),
+        ylim=(centre[1] - size, centre[1] + 1.5 * size),
+        xlabel="r [mm]",
+        aspect="equal",
+    )
     right.set_title("the fillet with the largest stress")
     figure.colorbar(filled, ax=right, label="largest principal stress [MPa]")
-    figure.suptitle(f"P {load.P:g} N, N {load.N:g} N, V {load.V:g} N, hole contact at fit {1e6 * fit:g} µm", x=0.01, ha="left")
+    figure.suptitle(
+        f"P {load.P:g} N, N {load.N:g} N, V {load.V:g} N, hole contact at fit {1e6 * fit:g} µm", x=0.01, ha="left"
+    )
     return figure
 
 
 def section(joint, forces, q, theta, P, fit, magnified):
     """Rivet, upper and lower flange in the half plane at theta = 0 or pi.
 
-    forces, q: contact forces and rigid motions of a solution under the preload P.  Returns for each body the displaced and the original
-    positions of the vertices (along V, x) [2, vertices], triangles, and the largest principal stress [vertices] in Pa.
+    forces, q: contact forces and rigid motions of a solution under the preload P.  Returns for each body the displaced
+    and the original positions of the vertices (along V, x) [2, vertices], triangles, and the largest principal stress
+    [vertices] in Pa.
     """
     g, side = joint.geometry, np.cos(theta)
     mirrored = {"LH": joint.upper["UH"], "LB": joint.upper["UB"], "PP": joint.upper["PP"]}
-    short = np.array([0.5 * fit / (g.shank_diameter / 2), -0.5 * joint.overclosure(P, fit) / g.flange_thickness])  # fit and preload as strains
+    # fit and preload as strains
+    short = np.array([0.5 * fit / (g.shank_diameter / 2), -0.5 * joint.overclosure(P, fit) / g.flange_thickness])
     still = np.zeros(5)
     bodies = (
         (joint.rivet, joint.rivet_loads, joint.ring_slices, 1.0, q[:5], short),
@@ -291,13 +341,17 @@ def section(joint, forces, q, theta, P, fit, magnified):
 
 
 def _response(body, loads, amplitude, theta):
-    """Elastic displacement (r, z) [2, vertices] and largest principal stress [vertices] under the rings' pressures [harmonics, rings]."""
+    """Elastic displacement (r, z) [2, vertices] and largest principal stress [vertices] under the rings' pressures
+    [harmonics, rings].
+    """
     mesh, (S_0, S_1) = body.mesh, body.centre_stress()
     moved, stress = np.zeros((2, mesh.nvertices)), np.zeros((6, body.basis.nelems))
     for n in range(min(len(amplitude), 13)):  # enough for a picture
         u = -body.solve(n, (loads @ amplitude[n])[:, None])
         moved += np.cos(n * theta) * u[body.basis.nodal_dofs[[0, 2]], 0]
-        stress += ((S_0 + n * S_1) @ u).reshape(6, -1) * np.where(np.arange(6) < 4, np.cos(n * theta), np.sin(n * theta))[:, None]
+        stress += ((S_0 + n * S_1) @ u).reshape(6, -1) * np.where(
+            np.arange(6) < 4, np.cos(n * theta), np.sin(n * theta)
+        )[:, None]
     tensor = stress[[0, 4, 3, 4, 1, 5, 3, 5, 2]].T.reshape(-1, 3, 3)
     largest = np.linalg.eigvalsh(tensor)[:, 2]
     count = np.bincount(mesh.t.ravel(), minlength=mesh.nvertices)
@@ -314,7 +368,8 @@ def _draw_mesh(ax, mesh):
 
 
 def plot_modes(g, count=8, largest=2.5e-3):
-    """Figure: the first shapes in which a free cage half vibrates, one of each pair, by coarse elements without the rivets' mass (2 % off in frequency).
+    """Figure: the first shapes in which a free cage half vibrates, one of each pair, by coarse elements without the
+    rivets' mass (2 % off in frequency).
 
     largest: what the largest displacement of each shape is drawn as [m].
     """
@@ -334,7 +389,9 @@ def plot_modes(g, count=8, largest=2.5e-3):
         ax = figure.add_subplot(rows, -(-count // rows), i + 1, projection="3d")
         quads, moved = half_surface(solid, n, shape)
         size = np.linalg.norm(moved, axis=-1)
-        skin = Poly3DCollection(1e3 * (quads + largest / size.max() * moved)[..., [1, 2, 0]], cmap="viridis", edgecolor="0.3", linewidth=0.1)
+        skin = Poly3DCollection(
+            1e3 * (quads + largest / size.max() * moved)[..., [1, 2, 0]], cmap="viridis", edgecolor="0.3", linewidth=0.1
+        )
         skin.set_array(size.mean(axis=1))
         ax.add_collection3d(skin)
         R = 0.62e3 * g.cage_outer_diameter / 1.15
@@ -348,7 +405,9 @@ def plot_modes(g, count=8, largest=2.5e-3):
 
 
 def half_surface(solid, n, shape):
-    """Corners of all facets of the half's skin [facets, 4, 3] and their displacements by wave n with the amplitudes shape [dofs]."""
+    """Corners of all facets of the half's skin [facets, 4, 3] and their displacements by wave n with the amplitudes
+    shape [dofs].
+    """
     mesh, step = solid.basis.mesh, 2.0 * np.pi / solid.Z
     facets = mesh.boundary_facets()
     theta = np.arctan2(*mesh.p[[2, 1]][:, mesh.facets[:, facets]])

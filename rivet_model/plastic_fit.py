@@ -1,8 +1,9 @@
 """Interference with plasticity: the effective fit is the elastic fit whose bore pressure is that of the yielded flange.
 
-One half of the shank and its flange, axisymmetric, joined without friction along the bore; the shank swells by fit/d in its section (eigenstrain).
-J2 flow with linear isotropic hardening, radial return with consistent tangent (Simo and Hughes, Computational Inelasticity, section 3.3), fully
-converged in steps of at most 1 um, because larger steps have converged to wrong states without an error.
+One half of the shank and its flange, axisymmetric, joined without friction along the bore; the shank swells by fit/d in
+its section (eigenstrain). J2 flow with linear isotropic hardening, radial return with consistent tangent (Simo and
+Hughes, Computational Inelasticity, section 3.3), fully converged in steps of at most 1 um, because larger steps have
+converged to wrong states without an error.
 
     fit_eff(fit) = fit p_plastic(fit)/p_elastic(fit)       p: mean pressure in the bore
 
@@ -29,10 +30,11 @@ LAYER = 0.05e-3  # m
 
 @dataclass(frozen=True)
 class FitMap:
-    """fit_a and fit_eff [m], yield of flange and rivet as an elastic fit [m], mean pressure [Pa], largest plastic strain of the flange.
+    """fit_a and fit_eff [m], yield of flange and rivet as an elastic fit [m], mean pressure [Pa], largest plastic
+    strain of the flange.
 
-    Yield means that the mean von Mises stress of the layer of 0.05 mm along the bore reaches the yield stress: at the edges of
-    the bore first yield comes at a fit that falls with the size of the elements, so it cannot serve.
+    Yield means that the mean von Mises stress of the layer of 0.05 mm along the bore reaches the yield stress: at the
+    edges of the bore first yield comes at a fit that falls with the size of the elements, so it cannot serve.
     """
 
     fit_a: np.ndarray
@@ -80,7 +82,11 @@ class _Solid:
         dev[:3, :3] -= 1.0 / 3.0
         flows = flow > 0.0
         second = np.where(flows, 2 * self.mu * (3 * self.mu / (3 * self.mu + self.H) - shrink), 0.0)
-        tangent = self.C[:, :, None, None] - 2 * self.mu * shrink * dev[:, :, None, None] - second * normal[:, None] * normal[None]
+        tangent = (
+            self.C[:, :, None, None]
+            - 2 * self.mu * shrink * dev[:, :, None, None]
+            - second * normal[:, None] * normal[None]
+        )
         force_e = np.einsum("bcef,cef,ef->be", self.B, stress, self.weight)
         K_e = np.einsum("acef,cdef,bdef,ef->abe", self.B, tangent, self.B, self.weight, optimize=True)
         dofs = self.basis.element_dofs
@@ -104,22 +110,32 @@ class _Joint:
         bore = section_mesh.bore_levels(g, fine)
         below, above = np.linspace(0.0, bore[0], fine(3) + 1), np.linspace(bore[-1], g.flange_thickness, fine(4) + 1)
         levels = np.concatenate([below[:-1], bore, above[1:]])
-        shank_mesh = section_mesh.MeshQuad.init_tensor(self.R - section_mesh.graded(0.0, self.R, fine(8), 4.0)[::-1], levels)
+        shank_mesh = section_mesh.MeshQuad.init_tensor(
+            self.R - section_mesh.graded(0.0, self.R, fine(8), 4.0)[::-1], levels
+        )
         self.shank = _Solid(shank_mesh, g.E_rivet, g.nu_rivet, huge * g.yield_rivet, g.hardening_rivet, 1.0)
-        self.flange = _Solid(section_mesh.flange_mesh(g, fine), g.E_flange, g.nu_flange, huge * g.yield_flange, g.hardening_flange, 0.0)
+        self.flange = _Solid(
+            section_mesh.flange_mesh(g, fine), g.E_flange, g.nu_flange, huge * g.yield_flange, g.hardening_flange, 0.0
+        )
         self.bodies = (self.shank, self.flange)
         self.bore_height = bore[-1] - bore[0]
         self.layers = []
         for body in self.bodies:
             x = np.asarray(body.basis.global_coordinates())
-            self.layers.append(body.weight * ((np.abs(x[0] - self.R) < LAYER * g.size) & (x[1] > bore[0]) & (x[1] < bore[-1])))
+            self.layers.append(
+                body.weight * ((np.abs(x[0] - self.R) < LAYER * g.size) & (x[1] > bore[0]) & (x[1] < bore[-1]))
+            )
         self._tie(g, (g.edge_break - 1e-9, bore[-1] + 1e-9))
 
     def _tie(self, g, between):
-        """Free dofs: all but the axis, the split plane (shank), the rim (flange); the flange's bore follows the shank's in r."""
+        """Free dofs: all but the axis, the split plane (shank), the rim (flange); the flange's bore follows the shank's
+        in r.
+        """
         on_bore = []
         for body in self.bodies:
-            facets = body.basis.mesh.facets_satisfying(lambda x: (np.abs(x[0] - self.R) < 1e-9) & (x[1] > between[0]) & (x[1] < between[1]), True)
+            facets = body.basis.mesh.facets_satisfying(
+                lambda x: (np.abs(x[0] - self.R) < 1e-9) & (x[1] > between[0]) & (x[1] < between[1]), True
+            )
             dofs = np.unique(body.basis.get_dofs(facets).all("u^1"))
             on_bore.append(dofs[np.argsort(body.basis.doflocs[1, dofs])])
         N = [body.basis.N for body in self.bodies]
@@ -147,10 +163,15 @@ class _Joint:
         return radial
 
     def step(self, u, swelling):
-        """Converged displacements, mean bore pressure [Pa], largest and mean von Mises stress along the bore, before flow, of both bodies."""
+        """Converged displacements, mean bore pressure [Pa], largest and mean von Mises stress along the bore, before
+        flow, of both bodies.
+        """
         u = u.copy()
         for _ in range(ITERATIONS):
-            parts = [body.respond(part, swelling) for body, part in zip(self.bodies, (u[: self.split], u[self.split :]), strict=True)]
+            parts = [
+                body.respond(part, swelling)
+                for body, part in zip(self.bodies, (u[: self.split], u[self.split :]), strict=True)
+            ]
             force = np.concatenate([part[0] for part in parts])
             residual, reaction = self.T.T @ force, np.abs(force[self.slave]).sum()
             if np.abs(residual).max() <= TOLERANCE * max(reaction, 1e-12):
@@ -161,7 +182,9 @@ class _Joint:
                 return u, pressure, [part[3].max() for part in parts], mean
             K = self.T.T @ sp.block_diag([part[1] for part in parts]) @ self.T
             u -= self.T @ spsolve(K.tocsc(), residual)
-        raise ArithmeticError(f"interference did not converge at fit/d = {swelling:g}: residual {np.abs(residual).max():g} of {reaction:g}")
+        raise ArithmeticError(
+            f"interference did not converge at fit/d = {swelling:g}: residual {np.abs(residual).max():g} of {reaction:g}"
+        )
 
 
 def plastic_fit(geometry, largest=LARGEST, fine=None, progress=None):

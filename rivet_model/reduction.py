@@ -1,4 +1,6 @@
-"""From the condensed joint to the table: sample the homogeneous response, fit splines, measure the error at loads that the table was not made from."""
+"""From the condensed joint to the table: sample the homogeneous response, fit splines, measure the error at loads that
+the table was not made from.
+"""
 
 import signal
 from concurrent.futures import ProcessPoolExecutor
@@ -14,14 +16,16 @@ from bearing_model.rivet import rivet_rom, rivet_table
 from . import splines
 from .load_cases import Joint
 
-# The ranges of lengths are those of the 6207's joint; those of a joint f times as large are f times as long, and its loads at equal stress f^2 times as large.
+# The ranges of lengths are those of the 6207's joint; those of a joint f times as large are f times as long, and its
+# loads at equal stress f^2 times as large.
 LENGTH = 0.3e-3  # m, of the axis c: opening joints reach |m|/T = 0.2 mm; heads would lift off at 0.5 mm
 
 # Knots are close together where contacts open: xi = 0...12 nm/N (the bore closes all around).
 FULL = {
     "a": np.array([0.0, 0.1, 0.2, 0.35, 0.5, 0.65, 0.8, 0.9, 1.0]),
     "c": np.array([0.0, 0.2, 0.45, 0.7, 1.0]),
-    "xi": 1e-9 * np.array([-2800, -1500, -800, -400, -200, -110, -50, -20, -5, 0.5, 1.5, 3, 5, 8, 12, 18, 30, 60, 150, 400]),
+    "xi": 1e-9
+    * np.array([-2800, -1500, -800, -400, -200, -110, -50, -20, -5, 0.5, 1.5, 3, 5, 8, 12, 18, 30, 60, 150, 400]),
 }
 COARSE = {"a": np.array([0.0, 0.5, 1.0]), "c": np.array([0.0, 1.0]), "xi": 1e-9 * np.array([-1000, -100, 0, 30, 400])}
 
@@ -52,7 +56,9 @@ def _moments(m, direction):
 
 
 def _row(task):
-    """Results of `measure` per newton at all xi of one (a, c, sheet) [xi, ...]; xi falls, so that contacts open one after the other."""
+    """Results of `measure` per newton at all xi of one (a, c, sheet) [xi, ...]; xi falls, so that contacts open one
+    after the other.
+    """
     a, c, sheet, xi, measure = task
     T, V, m = shank_loads(a, c, bending_length(_joint.geometry))
     forces, active = [], None
@@ -64,19 +70,28 @@ def _row(task):
 
 
 def representative(a, c, sheet):
-    """One set of coordinates for all those with the same response: c and the sheet are 0 and "plane" where they have no meaning."""
+    """One set of coordinates for all those with the same response: c and the sheet are 0 and "plane" where they have no
+    meaning.
+    """
     return a, 0.0 if a == 1.0 else c, "plane" if a in (0.0, 1.0) or c == 0.0 else sheet
 
 
 @threadpool_limits.wrap(limits=1)
 def _map(joint, function, tasks, workers, progress):
-    """function of all tasks, in `workers` processes that inherit the joint by fork, each with one thread: the matrices are small."""
+    """function of all tasks, in `workers` processes that inherit the joint by fork, each with one thread: the matrices
+    are small.
+    """
     global _joint
     _joint = joint
     results = []
     with ExitStack() as stack:
-        quiet = {"initializer": signal.signal, "initargs": (signal.SIGINT, signal.SIG_IGN)}  # a terminal sends Ctrl-C to the workers too
-        pool = stack.enter_context(ProcessPoolExecutor(workers, mp_context=get_context("fork"), **quiet)) if workers > 1 else None
+        # a terminal sends Ctrl-C to the workers too
+        quiet = {"initializer": signal.signal, "initargs": (signal.SIGINT, signal.SIG_IGN)}
+        pool = (
+            stack.enter_context(ProcessPoolExecutor(workers, mp_context=get_context("fork"), **quiet))
+            if workers > 1
+            else None
+        )
         for result in pool.map(function, tasks, chunksize=4) if pool else map(function, tasks):
             results.append(result)
             progress(len(results), len(tasks))
@@ -86,7 +101,8 @@ def _map(joint, function, tasks, workers, progress):
 def sample(joint, knots, workers=2, progress=None, measure=Joint.channels, representative=representative):
     """S [1/m2] at the sites of all axes: [a, c, xi, sheet, channel].
 
-    measure(joint, forces [contacts, cases]) -> [cases, numbers]; representative: maps coordinates to those with the same response.
+    measure(joint, forces [contacts, cases]) -> [cases, numbers]; representative: maps coordinates to those with the
+    same response.
     """
     a, c, xi = (splines.sites(knots[name]) for name in rivet_table.SHANK_AXES)
     names = [representative(x, y, sheet) for x in a for y in c for sheet in rivet_table.SHEETS]
@@ -99,7 +115,9 @@ def sample(joint, knots, workers=2, progress=None, measure=Joint.channels, repre
 
 @dataclass(frozen=True)
 class Load:
-    """What the shank carries at one load of the hold-out set [N, N.m, m]; direction: angle of m to the axis across V [rad], 0 bends in the plane of V."""
+    """What the shank carries at one load of the hold-out set [N, N.m, m]; direction: angle of m to the axis across V
+    [rad], 0 bends in the plane of V.
+    """
 
     T: float
     V: float
@@ -109,7 +127,8 @@ class Load:
 
 
 def random_loads(count, seed, largest_fit=9.1e-6, size=1.0):
-    """Random loads that no table is made from: T <= 120 N, V <= 60 N, m up to 0.2 mm T in all directions, half of the fits in clearance.
+    """Random loads that no table is made from: T <= 120 N, V <= 60 N, m up to 0.2 mm T in all directions, half of the
+    fits in clearance.
 
     size: of the joint over the 6207's.
     """
@@ -150,7 +169,9 @@ def table_stress(t, loads):
 
 
 def hold_out_errors(t, loads, fresh):
-    """Largest and RMS error of each channel relative to the channel's maximum, over all loads and over those in clearance."""
+    """Largest and RMS error of each channel relative to the channel's maximum, over all loads and over those in
+    clearance.
+    """
     got, clear = table_stress(t, loads), np.array([load.fit <= 0.0 for load in loads])
     report = {}
     for name, chosen in (("all", np.ones(len(loads), dtype=bool)), ("clearance", clear)):
@@ -159,6 +180,8 @@ def hold_out_errors(t, loads, fresh):
             "loads": int(chosen.sum()),
             "maximum": dict(zip(rivet_table.CHANNELS, np.abs(error).max(axis=0).round(5).tolist(), strict=True)),
             "rms": dict(zip(rivet_table.CHANNELS, np.sqrt((error**2).mean(axis=0)).round(5).tolist(), strict=True)),
-            "channel_maximum_MPa": dict(zip(rivet_table.CHANNELS, (fresh[chosen].max(axis=0) / 1e6).round(1).tolist(), strict=True)),
+            "channel_maximum_MPa": dict(
+                zip(rivet_table.CHANNELS, (fresh[chosen].max(axis=0) / 1e6).round(1).tolist(), strict=True)
+            ),
         }
     return report

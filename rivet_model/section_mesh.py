@@ -1,6 +1,8 @@
-"""Meridian meshes of rivet and flange: structured quadrilaterals whose contact edges have the same nodes on both bodies.
+"""Meridian meshes of rivet and flange: structured quadrilaterals whose contact edges have the same nodes on both
+bodies.
 
-z = 0 is the split plane, the upper (+x of the bearing) half has z > 0.  The fit is a gap in the contact problem, so the meshes do not depend on it.
+z = 0 is the split plane, the upper (+x of the bearing) half has z > 0.  The fit is a gap in the contact problem, so the
+meshes do not depend on it.
 """
 
 from dataclasses import dataclass
@@ -50,7 +52,9 @@ class _Blocks:
         n, m = r.shape
         index = np.arange(self.count, self.count + n * m).reshape(n, m)
         self.points.append(np.stack([r.ravel(), z.ravel()]))
-        self.quads.append(np.stack([index[:-1, :-1].ravel(), index[1:, :-1].ravel(), index[1:, 1:].ravel(), index[:-1, 1:].ravel()]))
+        self.quads.append(
+            np.stack([index[:-1, :-1].ravel(), index[1:, :-1].ravel(), index[1:, 1:].ravel(), index[:-1, 1:].ravel()])
+        )
         self.count += n * m
 
     def rectangle(self, r, z):
@@ -58,7 +62,9 @@ class _Blocks:
 
     def mesh(self):
         points, quads = np.concatenate(self.points, axis=1), np.concatenate(self.quads, axis=1)
-        _, first, inverse = np.unique(np.round(points / TOLERANCE).astype(np.int64), axis=1, return_index=True, return_inverse=True)
+        _, first, inverse = np.unique(
+            np.round(points / TOLERANCE).astype(np.int64), axis=1, return_index=True, return_inverse=True
+        )
         quads = inverse.ravel()[quads]
         p = points[:, first]
         x, y = p[0][quads], p[1][quads]
@@ -95,7 +101,9 @@ def rivet_mesh(g, fine=None):
     layers = w * graded(0.0, 1.0, fine(7), 8.0)  # distance from the surface
     core = np.linspace(0.0, R - w, fine(5) + 1)
     arc = fine(10)
-    middle = _levels([np.linspace(0.0, g.middle_zone, fine(3) + 1), np.linspace(g.middle_zone, g.edge_break, fine(2) + 1)])
+    middle = _levels(
+        [np.linspace(0.0, g.middle_zone, fine(3) + 1), np.linspace(g.middle_zone, g.edge_break, fine(2) + 1)]
+    )
     neck = graded_both(g.flange_thickness - g.relief_depth, t - rf, fine(6), 2.0)
     shank = _levels([middle, bore_levels(g, fine), neck])
     beside = R - w, np.linspace(t - rf, t + w, arc + 1)  # straight edges opposite to the two halves of the fillet's arc
@@ -131,7 +139,8 @@ def flange_mesh(g, fine=None):
     blocks = _Blocks()
     blocks.rectangle(R + inner * g.relief_radius, bore)
     blocks.rectangle(outer, _levels([chamfer, bore, relief]))
-    # Block between the chamfer and the nodes plate_radii on the split plane: its levels follow the chamfer from the split plane to the bore's layers.
+    # Block between the chamfer and the nodes plate_radii on the split plane: its levels follow the chamfer from the
+    # split plane to the bore's layers.
     plane = np.linspace(R + g.edge_break, edge, len(inner))
     share = (chamfer / g.edge_break)[None, :]
     start = R + g.edge_break * (1.0 - share)

@@ -1,4 +1,6 @@
-"""Interpolation by the clamped quadratic B-splines of bearing_model.rivet.rivet_splines, on one axis and on products of axes."""
+"""Interpolation by the clamped quadratic B-splines of bearing_model.rivet.rivet_splines, on one axis and on products of
+axes.
+"""
 
 from bearing_model.rivet.rivet_splines import collocation, interpolate, sites
 

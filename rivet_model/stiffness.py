@@ -1,7 +1,8 @@
 """Joint data for the dynamics from the condensed finite elements: stiffnesses, and the stress by head friction.
 
-Friction itself is not solved here: the dynamics has friction states with the capacities mu P of the plates and mu P of the heads.  This file gives the
-elastic stiffness of each branch: while the bores do not touch, the sticking heads drag the rivet; after that the bores carry.
+Friction itself is not solved here: the dynamics has friction states with the capacities mu P of the plates and mu P of
+the heads.  This file gives the elastic stiffness of each branch: while the bores do not touch, the sticking heads drag
+the rivet; after that the bores carry.
 """
 
 import numpy as np
@@ -10,8 +11,11 @@ from .load_cases import surface_stress
 from .section_mesh import edge_nodes
 
 REFERENCE = 20.0  # N, preload at which tangents are taken: the response is homogeneous, so only ratios to it matter
-OPEN = -90e-6  # m, a fit at which the bores of the 6207's joint do not touch; of a larger joint more by its size, as the fits below
-K_T_PLATE = 1.5e7  # N/m: a regularization; the closed plates are stiffer than 2e8 by finite elements, which would only shorten the steps of the dynamics
+# m, a fit at which the bores of the 6207's joint do not touch; of a larger joint more by its size, as the fits below
+OPEN = -90e-6
+# N/m: a regularization; the closed plates are stiffer than 2e8 by finite elements, which would only shorten the steps
+# of the dynamics
+K_T_PLATE = 1.5e7
 HOLE_FITS = 1e-6 * np.array([-90, -40, -20, -10, -6, -3, -1, 0, 1, 2, 4, 8])
 
 
@@ -20,7 +24,9 @@ def _rim(joint, motion, P, V, fit):
 
 
 def hole_stiffness(joint, fit, V=20.0):
-    """Tangent dV/dx of both bores in series at V [N/m], preload 20 N, frictionless; both loads are those of the 6207's joint, see Geometry.size."""
+    """Tangent dV/dx of both bores in series at V [N/m], preload 20 N, frictionless; both loads are those of the 6207's
+    joint, see Geometry.size.
+    """
     P, V = (load * joint.geometry.size**2 for load in (REFERENCE, V))
     return 0.2 * V / (_rim(joint, 0, P, 1.1 * V, fit) - _rim(joint, 0, P, 0.9 * V, fit))
 
@@ -31,20 +37,28 @@ def stack_stiffness(joint):
 
 
 def head_friction(joint, P=REFERENCE, F=2.0):
-    """Tangential stiffness of both sticking heads in series [N/m]; growth of the fillet's stress per newton of friction [1/m2]: p1, von Mises.
+    """Tangential stiffness of both sticking heads in series [N/m]; growth of the fillet's stress per newton of friction
+    [1/m2]: p1, von Mises.
 
-    Uniform tractions drag the upper head by +F along x and the lower one by -F; bores open; the couple is balanced by the heads' pressures.
-    The slip of the halves is what keeps heads and flanges together: 2 t q_4 - t q_9 + elastic displacements.
+    Uniform tractions drag the upper head by +F along x and the lower one by -F; bores open; the couple is balanced by
+    the heads' pressures. The slip of the halves is what keeps heads and flanges together: 2 t q_4 - t q_9 + elastic
+    displacements.
     """
     g, rivet, flange = joint.geometry, joint.rivet, joint.flange
     t, radii = g.flange_thickness, (joint.rings["UH"][0], joint.rings["UH"][-1])
     area = np.pi * (radii[1] ** 2 - radii[0] ** 2)
     up, down = (rivet.shear_load(edge_nodes(rivet.mesh, z=z, between=radii)) for z in (t, -t))
     drag, top = (up - down) / area, flange.shear_load(edge_nodes(flange.mesh, z=t, between=radii)) / area
-    u, v = rivet.solve(1, drag), flange.solve(1, top)  # per newton, of the rivet and of the upper flange; the upper flange feels -F, the lower one +F
-    on_rivet, on_flange = joint.rivet_loads.T @ u, joint.flange_loads.T @ v  # outward displacement amplitudes of the rings
+    # per newton, of the rivet and of the upper flange; the upper flange feels -F, the lower one +F
+    u, v = rivet.solve(1, drag), flange.solve(1, top)
+    # outward displacement amplitudes of the rings
+    on_rivet, on_flange = joint.rivet_loads.T @ u, joint.flange_loads.T @ v
     approach = np.zeros(joint.size)
-    for body, rings, sign in ((on_rivet, joint.ring_slices, 1.0), (on_flange, joint.upper, -1.0), (on_flange, joint.lower, 1.0)):
+    for body, rings, sign in (
+        (on_rivet, joint.ring_slices, 1.0),
+        (on_flange, joint.upper, -1.0),
+        (on_flange, joint.lower, 1.0),
+    ):
         for name, place in rings.items():
             approach[joint.slices[name]] += sign * np.outer(body[place, 0], joint.hats[name][0][:, 1]).ravel()
     contact, member = joint.problems["plane"]

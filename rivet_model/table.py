@@ -6,16 +6,38 @@ from pathlib import Path
 
 import numpy as np
 
-from bearing_model.rivet.rivet_table import CHANNELS, FORMAT, MPA_PER_N, SHANK_AXES, SHEETS, RivetTable, ShankTable, as_embedded, digest_of
+from bearing_model.rivet.rivet_table import (
+    CHANNELS,
+    FORMAT,
+    MPA_PER_N,
+    SHANK_AXES,
+    SHEETS,
+    RivetTable,
+    ShankTable,
+    as_embedded,
+    digest_of,
+)
 
 from . import splines
 from .geometry import Geometry
 
-UNITS = {"T": "MPa/N", "xi": "m/N", "fit": "m", "stiffness": "N/m", "length": "m", "stress": "Pa", "expansion": "1/K", "half": "SI", "modes": "SI"}
+UNITS = {
+    "T": "MPa/N",
+    "xi": "m/N",
+    "fit": "m",
+    "stiffness": "N/m",
+    "length": "m",
+    "stress": "Pa",
+    "expansion": "1/K",
+    "half": "SI",
+    "modes": "SI",
+}
 
 
 def rounded(numbers, digits=5):
-    """The numbers as the file keeps them: five digits, a hundredth of the table's own error; four where the error is 1 %."""
+    """The numbers as the file keeps them: five digits, a hundredth of the table's own error; four where the error is 1
+    %.
+    """
     return np.array([float(f"{value:.{digits}g}") for value in np.ravel(numbers)]).reshape(np.shape(numbers))
 
 
@@ -40,7 +62,9 @@ def write(table, path):
             "slope": [float(v) for v in table.fit_slope],
             "fit_flange_yield": table.fit_flange_yield,
         },
-        "joint": {key: (value if np.isscalar(value) else [float(v) for v in value]) for key, value in table.joint.items()},
+        "joint": {
+            key: (value if np.isscalar(value) else [float(v) for v in value]) for key, value in table.joint.items()
+        },
         "half": _half_section(table.half),
         "modes": _modes_section(table.modes) if table.modes else {},
     }
@@ -55,7 +79,10 @@ def write(table, path):
         "errors": table.errors,
         "digest": digest_of(sections),
     }
-    blocks = [f'"{name}":{json.dumps(value, separators=(",", ":"))}' for name, value in ({"header": header} | sections).items()]
+    blocks = [
+        f'"{name}":{json.dumps(value, separators=(",", ":"))}'
+        for name, value in ({"header": header} | sections).items()
+    ]
     Path(path).write_text("{\n" + ",\n".join(blocks) + "\n}\n", encoding="utf-8")
 
 
@@ -81,8 +108,12 @@ def _law_section(law):
 
 
 def _modes_section(modes):
-    """Shapes to seven digits, as the softest modes' share of the flexibility is some thousand times the residual; the residual to five."""
-    shapes = {name: rounded(tidy(getattr(modes, name)), 7).tolist() for name in ("pocket", "pad", "rivet", "rim", "spin")}
+    """Shapes to seven digits, as the softest modes' share of the flexibility is some thousand times the residual; the
+    residual to five.
+    """
+    shapes = {
+        name: rounded(tidy(getattr(modes, name)), 7).tolist() for name in ("pocket", "pad", "rivet", "rim", "spin")
+    }
     return {
         "omega": rounded(modes.omega, 9).tolist(),
         "harmonic": modes.harmonic.tolist(),
@@ -94,7 +125,9 @@ def _modes_section(modes):
 
 
 def tidy(array):
-    """The array with 0 where a number is only rounding: below 1e-9 of the largest one with its last index (arrays whose last axis is of different kinds)."""
+    """The array with 0 where a number is only rounding: below 1e-9 of the largest one with its last index (arrays whose
+    last axis is of different kinds).
+    """
     return np.where(np.abs(array) < 1e-9 * np.abs(array).max(axis=tuple(range(array.ndim - 1)) or None), 0.0, array)
 
 
@@ -108,9 +141,11 @@ def monotone_slopes(x, y):
 
 
 def make(geometry: Geometry, kind, length, knots, samples_mpa, fit_map, joint, half, **scalars):
-    """A table from samples of the shank's stress [1/mm2] at the sites of the axes (splines.sites), in the order SHANK_AXES, then sheets, channels last.
+    """A table from samples of the shank's stress [1/mm2] at the sites of the axes (splines.sites), in the order
+    SHANK_AXES, then sheets, channels last.
 
-    length: of the axis c [m]; fit_map: (fit_a, fit_eff) of the plastic map; half: HalfData.  scalars: the remaining members of RivetTable.
+    length: of the axis c [m]; fit_map: (fit_a, fit_eff) of the plastic map; half: HalfData.  scalars: the remaining
+    members of RivetTable.
     """
     coefficients = as_embedded(rounded(splines.interpolate([knots[name] for name in SHANK_AXES], samples_mpa)))
     fit_a, fit_eff = map(np.asarray, fit_map)

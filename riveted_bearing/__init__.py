@@ -9,13 +9,15 @@
     again = rb.read_result("results/demo.parquet")               # a file that `riveted-bearing run demo` has written
     path = rb.build("6310")                                      # an FMU for another bearing: needs a C compiler
 
-Numbers are SI; a text carries its unit ("30 N", "18238 rev/min").  Whatever cannot be used raises UserError with one message that names it.
-The command `riveted-bearing` does the same and more; docs/running.md explains both.  The physics without an FMU is in the package bearing_model,
-the finite elements of the rivet in rivet_model.
+Numbers are SI; a text carries its unit ("30 N", "18238 rev/min").  Whatever cannot be used raises UserError with one
+message that names it. The command `riveted-bearing` does the same and more; docs/running.md explains both.  The physics
+without an FMU is in the package bearing_model, the finite elements of the rivet in rivet_model.
 """
 
-# The functions below import what they need when they are called: NumPy, fmpy, SciPy and matplotlib take a second.  No module of this package has
-# the name of a function here (runner and run, builder and build), because Python would put the imported module in the function's place.
+# The functions below import what they need when they are called: NumPy, fmpy, SciPy and matplotlib take a second.  No
+# module of this package has
+# the name of a function here (runner and run, builder and build), because Python would put the imported module in the
+# function's place.
 
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
@@ -59,12 +61,12 @@ def run(
 ) -> "Result":
     """Simulate the FMU at its own working point, or a scene, and return the Result.
 
-    scene: name of a shipped scene (demo, R, F, jam) or path of a TOML file, None for the FMU's own parameters and inputs; parameters, inputs: changes by full
-    variable name, values as in the file (SI numbers, "30 N", item names; inputs also {"t": [...], "value": [...]}); fmu: path of the FMU, None for the
-    default one;
-    seed: start.seed; t_end, step: s; outputs: names or patterns; progress: called with the simulated time [s] about twenty times a second.
-    Raises UserError (a ValueError) naming what cannot be used.  If the FMU ends a run early, the Result holds the run up to that time, and its member
-    `stopped` gives the reason.
+    scene: name of a shipped scene (demo, R, F, jam) or path of a TOML file, None for the FMU's own parameters and
+    inputs; parameters, inputs: changes by full variable name, values as in the file (SI numbers, "30 N", item names;
+    inputs also {"t": [...], "value": [...]}); fmu: path of the FMU, None for the default one;
+    seed: start.seed; t_end, step: s; outputs: names or patterns; progress: called with the simulated time [s] about
+    twenty times a second. Raises UserError (a ValueError) naming what cannot be used.  If the FMU ends a run early, the
+    Result holds the run up to that time, and its member `stopped` gives the reason.
 
         >>> import riveted_bearing as rb
         >>> result = rb.run("demo", parameters={"joint.preload": "30 N"}, t_end=0.01)
@@ -85,12 +87,13 @@ def run(
 
 
 def info(target: str | Path | None = None, fmu: str | Path | None = None) -> "Case":
-    """Geometry, masses, loads and quasi-static equilibrium of a bearing, or of a scene at its start, without a simulation.
+    """Geometry, masses, loads and quasi-static equilibrium of a bearing, or of a scene at its start, without a
+    simulation.
 
-    target: designation (6207, 6008, ...), bearing file, name of a shipped scene or scene file, None for the bearing of the FMU, and without an FMU for the
-    6207; fmu: the FMU whose start values a scene begins from, None for the default one.
-    Returns a Case: .bearing and .load of the quasi-static model, .values by variable name, .equilibrium() with loads, contact angles, pressures,
-    stiffness, life and frequencies.  Raises UserError naming what cannot be used.
+    target: designation (6207, 6008, ...), bearing file, name of a shipped scene or scene file, None for the bearing of
+    the FMU, and without an FMU for the 6207; fmu: the FMU whose start values a scene begins from, None for the default
+    one. Returns a Case: .bearing and .load of the quasi-static model, .values by variable name, .equilibrium() with
+    loads, contact angles, pressures, stiffness, life and frequencies.  Raises UserError naming what cannot be used.
 
         >>> import riveted_bearing as rb
         >>> round(rb.info("6207").equilibrium().Q_i.sum())      # N
@@ -111,13 +114,16 @@ def build(
 ) -> Path:
     """Build an FMU for a bearing and return its path: needs a C compiler and takes a minute or two.
 
-    bearing: bearing file or designation (6008, 6308, ...), None for the 6207; rivet: rivet table (JSON) or geometry of the rivet (TOML), None for the
-    bearing's own rivet; out: the FMU to write, None for my.fmu in the working directory from my.toml, and RivetedBearing.fmu (in a checkout: in fmus/) from
-    the default; platforms: FMI's names, e.g. ["win64"], of the systems to compile for instead of this one (needs ziglang); table: "coarse" finite elements,
-    "full" ones in some half an hour, or "closed-form", None for the shipped table if it was made for this rivet, else coarse; progress: called with what is
-    being done and, if known, the share done.
-    Raises UserError with the reason; `out` is then left as it was.
+    bearing: bearing file or designation (6008, 6308, ...), None for the 6207; rivet: rivet table (JSON) or geometry of
+    the rivet (TOML), None for the bearing's own rivet; out: the FMU to write, None for my.fmu in the working directory
+    from my.toml, and RivetedBearing.fmu (in a checkout: in fmus/) from the default; platforms: FMI's names, e.g.
+    ["win64"], of the systems to compile for instead of this one (needs ziglang); table: "coarse" finite elements,
+    "full" ones in some half an hour, or "closed-form", None for the shipped table if it was made for this rivet, else
+    coarse; progress: called with what is being done and, if known, the share done. Raises UserError with the reason;
+    `out` is then left as it was.
     """
     from .builder import build_fmu, platform_names
 
-    return build_fmu(bearing, rivet, out, progress or (lambda text, share=None: None), platform_names(",".join(platforms)), table)
+    return build_fmu(
+        bearing, rivet, out, progress or (lambda text, share=None: None), platform_names(",".join(platforms)), table
+    )

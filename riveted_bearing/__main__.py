@@ -5,7 +5,9 @@ import sys
 
 
 def main():
-    """Run the command line; Ctrl-C before it is loaded ends it with a line, and after its work is done changes nothing more."""
+    """Run the command line; Ctrl-C before it is loaded ends it with a line, and after its work is done changes nothing
+    more.
+    """
     try:
         from .cli import program
 

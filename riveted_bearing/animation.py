@@ -1,4 +1,6 @@
-"""The motion of a run as compact numbers that animation.js draws: positions, loads and rivet stress at a limited number of frames."""
+"""The motion of a run as compact numbers that animation.js draws: positions, loads and rivet stress at a limited number
+of frames.
+"""
 
 import base64
 
@@ -38,8 +40,8 @@ def flexes(Z):
 def frames(result):
     """Data for animation.js, ready for JSON (None if channels are missing), and the list of missing channels.
 
-    Azimuths are relative to the mean rotation of the halves, `psi` [rad], so that they fit 16 bits; channels are {first, step, data}: value = first + step n,
-    n 16-bit numbers in base64; SI units.
+    Azimuths are relative to the mean rotation of the halves, `psi` [rad], so that they fit 16 bits; channels are
+    {first, step, data}: value = first + step n, n 16-bit numbers in base64; SI units.
     """
     Z = number_of_balls(result)
     missing = [name for name in needed(Z) if name not in result.data]
@@ -66,20 +68,34 @@ def frames(result):
         "Z": Z,
         "time": packed(data["time"][rows]),
         "turned": {name: packed(values[rows]) for name, values in turned.items()},
-        "channels": {name: quantized(thinned(values, stride) if shows_peak(name) else values[rows]) for name, values in channels.items()},
+        "channels": {
+            name: quantized(thinned(values, stride) if shows_peak(name) else values[rows])
+            for name, values in channels.items()
+        },
         "scale": exaggeration(p),
         "bend": magnification(result, forms) if bends else 0.0,
         "widening": widening,
         "bearing": {
             name: p[name]
-            for name in ("bearing.D", "bearing.d_m", "bearing.P_d", "cage.D_o", "cage.D_i", "cage.width", "cage.pocket_clearance", "cage.guide_clearance")
+            for name in (
+                "bearing.D",
+                "bearing.d_m",
+                "bearing.P_d",
+                "cage.D_o",
+                "cage.D_i",
+                "cage.width",
+                "cage.pocket_clearance",
+                "cage.guide_clearance",
+            )
         },
         "settle": p.get("start.settle", 0.0),
     }, []
 
 
 def thinning(rows, Z, bends=False):
-    """Distance of the rows to keep, so that all channels, at 2 bytes a value in base64, fit the budget; bends: with those of elastic halves."""
+    """Distance of the rows to keep, so that all channels, at 2 bytes a value in base64, fit the budget; bends: with
+    those of elastic halves.
+    """
     channels = len(SCALARS) + 1 + Z * (len(OF_BALLS) + 2 + bends * len(FLEX))
     return max(1, -(-rows * channels * 8 // (3 * BUDGET)))
 
@@ -102,11 +118,15 @@ def angle(t, omega):
 
 def exaggeration(p):
     """Factor by which displacements and clearances are magnified: round, limited to a share of the ball."""
-    return round_factor(DRAWN * p["bearing.D"] / max(0.5 * p["cage.pocket_clearance"], 0.5 * p["cage.guide_clearance"], 1e-5))
+    return round_factor(
+        DRAWN * p["bearing.D"] / max(0.5 * p["cage.pocket_clearance"], 0.5 * p["cage.guide_clearance"], 1e-5)
+    )
 
 
 def bent(result, Z):
-    """Motion of both halves at the rivets by their modes [m] by channel, less the mean widening after settling; that widening, mean of the halves [m]."""
+    """Motion of both halves at the rivets by their modes [m] by channel, less the mean widening after settling; that
+    widening, mean of the halves [m].
+    """
     late, forms, widenings = settled(result), {}, []
     for h in (0, 1):
         widenings.append(np.mean([result.data[f"rivet[{k}].flex_{h}_r"][late] for k in range(1, Z + 1)]))
@@ -118,7 +138,9 @@ def bent(result, Z):
 
 
 def magnification(result, forms):
-    """Factor by which the bending of the halves is magnified: round, so that the largest after settling is a share of the ball."""
+    """Factor by which the bending of the halves is magnified: round, so that the largest after settling is a share of
+    the ball.
+    """
     late = settled(result)
     largest = max(np.abs(values[late]).max() for values in forms.values())
     return round_factor(BENT * result.parameters["bearing.D"] / max(largest, 1e-9))
@@ -136,7 +158,11 @@ def quantized(values):
     low, high = float(values.min()), float(values.max())
     step = (high - low) / 65535 or 1.0
     numbers = np.round((values - low) / step) - 32768
-    return {"first": low + 32768 * step, "step": step, "data": base64.b64encode(numbers.astype("<i2").tobytes()).decode()}
+    return {
+        "first": low + 32768 * step,
+        "step": step,
+        "data": base64.b64encode(numbers.astype("<i2").tobytes()).decode(),
+    }
 
 
 def packed(values):

@@ -1,4 +1,6 @@
-"""What figures rest on: bearing, FMU, scene, loads, speed, oil, temperatures and S-N curve, in lines for terminals, pages and files."""
+"""What figures rest on: bearing, FMU, scene, loads, speed, oil, temperatures and S-N curve, in lines for terminals,
+pages and files.
+"""
 
 from types import SimpleNamespace
 
@@ -18,13 +20,22 @@ PARTS = {"inner ring": "ring.T_i", "outer ring": "ring.T_e", "balls": "ball.T", 
 
 
 def basis(model, scenes, curve=""):
-    """Name and text of each line for runs of a Model: values that differ between the scenes, or in time, as their range; curve: the S-N curve in words."""
+    """Name and text of each line for runs of a Model: values that differ between the scenes, or in time, as their
+    range; curve: the S-N curve in words.
+    """
     scenes = list(scenes)
     replaced = dict.fromkeys(text for scene in scenes for text in scene.replaced)
     return [
         ("bearing", model.bearing),
         ("FMU", f"{model.path}, SHA-256 {model.digest[:12]}"),
-        ("scene", ", ".join(dict.fromkeys(scene.name if scene.source else "none: the FMU's own parameters and inputs" for scene in scenes))),
+        (
+            "scene",
+            ", ".join(
+                dict.fromkeys(
+                    scene.name if scene.source else "none: the FMU's own parameters and inputs" for scene in scenes
+                )
+            ),
+        ),
         *([("replaced", f"the scene has {shortlist(replaced)}")] if replaced else []),
         ("loads", loads(model, scenes)),
         ("speed", speeds(model, scenes)),
@@ -58,7 +69,12 @@ def loads(model, scenes):
 def speeds(model, scenes):
     """Speed of the inner ring, and those of the outer ring and the frame unless they are zero."""
     first, *others = SPEEDS
-    return ", ".join([text(model, scenes, first), *(f"{name} {text(model, scenes, name)}" for name in others if np.any(values(model, scenes, name)))])
+    return ", ".join(
+        [
+            text(model, scenes, first),
+            *(f"{name} {text(model, scenes, name)}" for name in others if np.any(values(model, scenes, name))),
+        ]
+    )
 
 
 def oil(model, scenes):
@@ -74,7 +90,11 @@ def extremes(numbers):
 
 def viscosity(model, scene, T):
     """Viscosity of a scene's oil [Pa.s] at T [K]; UserError if its two points make no oil."""
-    own = {name.removeprefix("oil."): scene.parameters.get(name, model.default(v)) for name, v in model.parameters.items() if name.startswith("oil.")}
+    own = {
+        name.removeprefix("oil."): scene.parameters.get(name, model.default(v))
+        for name, v in model.parameters.items()
+        if name.startswith("oil.")
+    }
     hot = SimpleNamespace(oil=SimpleNamespace())
     try:
         heat_oil(SimpleNamespace(oil=SimpleNamespace(**own)), T, hot)

@@ -1,4 +1,5 @@
-"""Bearings: by designation or file, what is given, what the catalogue says, what follows by rule, and what can be said without a simulation.
+"""Bearings: by designation or file, what is given, what the catalogue says, what follows by rule, and what can be said
+without a simulation.
 
     designation = "6310"  # one of the catalogue's fills in what is not given below
     Z = 8
@@ -13,8 +14,9 @@
     [inputs]              # start values too
     shaft.F_y = 6000.0
 
-A number is SI, a text carries its unit.  What is left out comes from the catalogue (catalogue.py) if it knows the designation, by rule (scaling.py) from
-the rivet's shank, and from balls and pitch diameter if these differ from the 6207's, else from the variable table; Case.origin says which.
+A number is SI, a text carries its unit.  What is left out comes from the catalogue (catalogue.py) if it knows the
+designation, by rule (scaling.py) from the rivet's shank, and from balls and pitch diameter if these differ from the
+6207's, else from the variable table; Case.origin says which.
 """
 
 import math
@@ -25,9 +27,9 @@ from pathlib import Path
 from bearing_model.generated import variables
 from bearing_model.physics.derived import ball_elasticity, default_table
 from bearing_model.physics.parameters import Values
-from bearing_model.quasi_static import Bearing, Load, quasi_static
 from bearing_model.physics.ring_fit import ring_fit_of
 from bearing_model.physics.temperature import temperature_apply
+from bearing_model.quasi_static import Bearing, Load, quasi_static
 from rivet_model.geometry import Geometry
 
 from . import catalogue, limits, materials, rivet_heads, scaling
@@ -38,9 +40,19 @@ from .units import scales_of, suffix, symbol_of, to_si
 SHIPPED = files("riveted_bearing") / "data" / "bearings"
 KEYS = ("designation", "description", "Z", "catalogue", "parameters", *materials.PARTS, "inputs")
 CATALOGUE = ("bore", "outside_diameter", "width", "C", "C_0")
-CAGE_SIZES = ("Z", "d_m", "ball_diameter", "pocket_clearance", "cage_outer_diameter", "cage_inner_diameter", "cage_half_width")  # a bearing's own
+# a bearing's own
+CAGE_SIZES = (
+    "Z",
+    "d_m",
+    "ball_diameter",
+    "pocket_clearance",
+    "cage_outer_diameter",
+    "cage_inner_diameter",
+    "cage_half_width",
+)
 CAGE_MATERIAL = tuple(materials.PARTS["cage"].geometry.values())
-RIVET = {f.name: f.default for f in fields(Geometry) if f.name not in (*CAGE_SIZES, *CAGE_MATERIAL)}  # the rivet's own, with the defaults
+# the rivet's own, with the defaults
+RIVET = {f.name: f.default for f in fields(Geometry) if f.name not in (*CAGE_SIZES, *CAGE_MATERIAL)}
 RIVET_MATERIAL = ("material", "source", *materials.PARTS["rivet"].properties)
 RIVET_SIZES = tuple(name for name in RIVET if name not in materials.PARTS["rivet"].geometry.values())
 CAGE_MEANT = (
@@ -53,12 +65,14 @@ SHAPE = ("bearing.D", "bearing.d_m", "cage.D_o", "cage.D_i", "cage.width")  # wh
 
 @dataclass(frozen=True)
 class Case:
-    """A bearing at work: catalogue data, SI values or item names by the FMU's full variable names, dimensions of the rivet.
+    """A bearing at work: catalogue data, SI values or item names by the FMU's full variable names, dimensions of the
+    rivet.
 
-    origin: "catalogue", "rule", "yours" (a file's) or "shipped" (a shipped file's) by name; what is not in it has the variable table's default.
-    rivet: dimensions and material of the rivet by the names of rivet_model.geometry, None if not known; materials: the Material of each part, of a bearing
-    file's case.
-    bare: whether only a designation was given, which says nothing of the cage; alone: what a scene sets of a bearing's shape, from which nothing follows.
+    origin: "catalogue", "rule", "yours" (a file's) or "shipped" (a shipped file's) by name; what is not in it has the
+    variable table's default. rivet: dimensions and material of the rivet by the names of rivet_model.geometry, None if
+    not known; materials: the Material of each part, of a bearing file's case.
+    bare: whether only a designation was given, which says nothing of the cage; alone: what a scene sets of a bearing's
+    shape, from which nothing follows.
     """
 
     designation: str
@@ -80,10 +94,20 @@ class Case:
         """Geometry and material for the quasi-static model, at the present temperatures and fits."""
         tables = scaling.parameters_of(self.Z), variables.INPUTS
         parameters, inputs = ({name: v for name, v in table.items() if v.count == 1} for table in tables)
-        p, u = (Values(table, {name: self.values[name] for name in table if name in self.values}) for table in (parameters, inputs))
+        p, u = (
+            Values(table, {name: self.values[name] for name in table if name in self.values})
+            for table in (parameters, inputs)
+        )
         hot = temperature_apply(p, u, default_table())
         at_work = {f.name: getattr(hot.bearing, f.name) for f in fields(Bearing) if hasattr(hot.bearing, f.name)}
-        return Bearing(**at_work, ball=ball_elasticity(hot), Z=self.Z, C=self.catalogue.get("C"), C_0=self.catalogue.get("C_0"), fit=ring_fit_of(hot))
+        return Bearing(
+            **at_work,
+            ball=ball_elasticity(hot),
+            Z=self.Z,
+            C=self.catalogue.get("C"),
+            C_0=self.catalogue.get("C_0"),
+            fit=ring_fit_of(hot),
+        )
 
     @property
     def load(self):
@@ -106,7 +130,8 @@ class Case:
             "cage_outer_diameter": v["cage.D_o"],
             "cage_inner_diameter": v["cage.D_i"],
             "cage_half_width": round(0.5 * v["cage.width"], 12),
-            "patch_radius": round((v["cage.D_o"] - v["cage.D_i"]) / 4.0, 12),  # without the rounding of the difference: the table's digest knows every bit
+            # without the rounding of the difference: the table's digest knows every bit
+            "patch_radius": round((v["cage.D_o"] - v["cage.D_i"]) / 4.0, 12),
             **materials.geometry_of("cage", self.materials["cage"]),
         } | self.rivet
 
@@ -115,7 +140,9 @@ class Case:
         return self.solved(self.load, "exact")
 
     def standard_equilibrium(self):
-        """The QuasiStatic as ISO/TS 16281 has it, with linear kinematics and without centrifugal forces; UserError if there is none."""
+        """The QuasiStatic as ISO/TS 16281 has it, with linear kinematics and without centrifugal forces; UserError if
+        there is none.
+        """
         return self.solved(replace(self.load, omega=0.0), "linear")
 
     def solved(self, load, kinematics):
@@ -131,7 +158,9 @@ class Case:
 
 
 def not_given(origin):
-    """What was not given, by what stands for it: {"by rule": names, ...}; nothing for a shipped file, which gives all that its bearing needs."""
+    """What was not given, by what stands for it: {"by rule": names, ...}; nothing for a shipped file, which gives all
+    that its bearing needs.
+    """
     if "shipped" in origin.values():
         return {}
     sources = {"catalogue": f"from {catalogue.SOURCE}", "rule": "by rule"}
@@ -145,7 +174,9 @@ def grouped(names):
     for name in names:
         prefix, _, last = name.rpartition(".")
         groups.setdefault(prefix, []).append(last)
-    return ", ".join(f"{prefix} ({', '.join(lasts)})" if prefix else ", ".join(lasts) for prefix, lasts in groups.items())
+    return ", ".join(
+        f"{prefix} ({', '.join(lasts)})" if prefix else ", ".join(lasts) for prefix, lasts in groups.items()
+    )
 
 
 def shipped_bearings():
@@ -177,17 +208,25 @@ def is_bearing(source):
 def bearing_case(source, rivet=None):
     """The Case of a designation or a bearing file; UserError naming file, key, value and what is allowed.
 
-    rivet: file and keys of another rivet, as in a section [rivet]: a new shank leaves nothing of the bearing's own rivet.
+    rivet: file and keys of another rivet, as in a section [rivet]: a new shank leaves nothing of the bearing's own
+    rivet.
     """
     designation = str(source)
     if designation in catalogue.entries() and designation not in shipped_bearings():
         description = f"Deep-groove ball bearing {designation} with a machined two-piece riveted cage"
-        path, own, document = f"catalogue bearing {designation}", "yours", {"designation": designation, "description": description}
+        path, own, document = (
+            f"catalogue bearing {designation}",
+            "yours",
+            {"designation": designation, "description": description},
+        )
         bare = True
     else:
         path = find_bearing(source)
         bare = designation in shipped_bearings()
-        own, document = "shipped" if bare else "yours", {"designation": path.name.removesuffix(".toml")} | read_toml(path)
+        own, document = (
+            "shipped" if bare else "yours",
+            {"designation": path.name.removesuffix(".toml")} | read_toml(path),
+        )
     prefix = "rivet."
     if rivet:
         (path, keys), prefix = rivet, ""
@@ -210,7 +249,10 @@ def read_case(path, document, own, bare=False, prefix="rivet."):
     data = dict(catalogue_values(path, section_of(path, document, "catalogue")))
     given = dict(start_values(path, "parameters", plain_names(section_of(path, document, "parameters")), parameters))
     inputs = dict(start_values(path, "inputs", section_of(path, document, "inputs"), variables.INPUTS))
-    found = {part: materials.material_of(path, part, material_section(path, document, part), given) for part in materials.PARTS}
+    found = {
+        part: materials.material_of(path, part, material_section(path, document, part), given)
+        for part in materials.PARTS
+    }
     for part, material in found.items():
         given |= materials.parameters_of(part, material)
     sizes = rivet_sizes(path, section_of(path, document, "rivet"), prefix)
@@ -222,11 +264,30 @@ def read_case(path, document, own, bare=False, prefix="rivet."):
     parts = Z, given, sizes | steel, inputs, data, entry
     all_Z, by_rule, rivet_by_rule, inputs_by_rule = rules(*parts)
     origin |= dict.fromkeys(by_catalogue, "catalogue")
-    origin |= dict.fromkeys([name for name in ("Z", *by_rule, *(f"rivet.{name}" for name in rivet_by_rule), *inputs_by_rule) if name not in origin], "rule")
+    origin |= dict.fromkeys(
+        [
+            name
+            for name in ("Z", *by_rule, *(f"rivet.{name}" for name in rivet_by_rule), *inputs_by_rule)
+            if name not in origin
+        ],
+        "rule",
+    )
     values = defaults() | by_rule | inputs_by_rule | given | inputs
-    check_limits(path, document, parts, lambda name: prefix + name.removeprefix("rivet.") if name.startswith("rivet.") else name)
+    check_limits(
+        path, document, parts, lambda name: prefix + name.removeprefix("rivet.") if name.startswith("rivet.") else name
+    )
     found["cage"] = found["cage"].with_density(values["cage.rho"])
-    return Case(designation, str(document.get("description", "")), all_Z, values, data, rivet_by_rule | sizes | steel, origin, found, bare)
+    return Case(
+        designation,
+        str(document.get("description", "")),
+        all_Z,
+        values,
+        data,
+        rivet_by_rule | sizes | steel,
+        origin,
+        found,
+        bare,
+    )
 
 
 def plain_names(tree):
@@ -239,7 +300,11 @@ def plain_names(tree):
 
 def material_section(path, document, part):
     """The keys of a part's section that are about its material."""
-    return {key: value for key, value in section_of(path, document, part).items() if part != "rivet" or key in RIVET_MATERIAL}
+    return {
+        key: value
+        for key, value in section_of(path, document, part).items()
+        if part != "rivet" or key in RIVET_MATERIAL
+    }
 
 
 def rivet_sizes(path, section, prefix):
@@ -253,7 +318,9 @@ def rivet_sizes(path, section, prefix):
 
 def defaults():
     """Start values of the variable table, by item name where they belong to an enumeration."""
-    return {name: named(variable, variable.start) for name, variable in (variables.PARAMETERS | variables.INPUTS).items()}
+    return {
+        name: named(variable, variable.start) for name, variable in (variables.PARAMETERS | variables.INPUTS).items()
+    }
 
 
 def rules(Z, given, rivet, inputs, data, entry):
@@ -261,7 +328,11 @@ def rules(Z, given, rivet, inputs, data, entry):
     shape = {name: given.get(name, scaling.start(name)) for name in SHAPE}
     if entry:
         rule_Z, rule_D = catalogue.balls(entry)
-        Z, shape["bearing.D"], shape["bearing.d_m"] = Z or rule_Z, given.get("bearing.D", rule_D), given.get("bearing.d_m", entry.d_m)
+        Z, shape["bearing.D"], shape["bearing.d_m"] = (
+            Z or rule_Z,
+            given.get("bearing.D", rule_D),
+            given.get("bearing.d_m", entry.d_m),
+        )
     Z = Z or variables.Z
     D, d_m = shape["bearing.D"], shape["bearing.d_m"]
     own_shape = bool(entry) or any(shape[name] != scaling.start(name) for name in SHAPE)
@@ -295,20 +366,28 @@ def limited_values(Z, given, rivet, inputs, data, entry):
     all_Z, by_rule, rivet_by_rule, _ = rules(Z, given, rivet, inputs, data, entry)
     numbers = {name: value for name, value in (defaults() | by_rule | given).items() if is_number(value)} | {"Z": all_Z}
     rivet = RIVET | rivet_by_rule | rivet
-    return numbers | {f"rivet.{name}": value for name, value in rivet.items()} | {f"catalogue.{key}": value for key, value in data.items()}
+    return (
+        numbers
+        | {f"rivet.{name}": value for name, value in rivet.items()}
+        | {f"catalogue.{key}": value for key, value in data.items()}
+    )
 
 
 def check_limits(path, document, parts, called=lambda name: name):
     """UserError for a bearing that cannot be built, by the first limit that does not hold and a key that the user gave.
 
-    parts: Z, given parameters, rivet, inputs and catalogue data, and the catalogue's Entry; called: how the file calls a value, if otherwise than a bearing
-    file does.
+    parts: Z, given parameters, rivet, inputs and catalogue data, and the catalogue's Entry; called: how the file calls
+    a value, if otherwise than a bearing file does.
     """
     values = limited_values(*parts)
     broken = next((limit for limit in limits.LIMITS if not limits.holds(limit, values)), None)
     if broken is None:
         return
-    written = {name: value for section in ("catalogue", "rivet") for name, value in flat(document.get(section, {}), f"{section}.")}
+    written = {
+        name: value
+        for section in ("catalogue", "rivet")
+        for name, value in flat(document.get(section, {}), f"{section}.")
+    }
     written |= dict(flat(document.get("parameters", {}))) | {key: document[key] for key in ("Z",) if key in document}
     own = [name for name in written if name in values and name not in broken.keys]
     keys = [*(key for key in broken.keys if key in written), *own, *(key for key in broken.keys if key not in written)]
@@ -316,7 +395,11 @@ def check_limits(path, document, parts, called=lambda name: name):
         allowed = limits.bound(broken, values[key], lambda value, key=key: limited_values(*changed(parts, key, value)))
         if allowed:
             words, number = allowed
-            others = ", ".join(f"{called(name)} = {shown(name, values[name], written.get(name))}" for name in broken.keys if name != key)
+            others = ", ".join(
+                f"{called(name)} = {shown(name, values[name], written.get(name))}"
+                for name in broken.keys
+                if name != key
+            )
             reason = f"{words} {shown(key, number, written.get(key), words)} is allowed for {broken.reason}{f', with {others}' if others else ''}"
             raise refusal(path, called(key), written.get(key, values[key]), reason)
     raise refusal(path, called(keys[0]), written.get(keys[0], values[keys[0]]), f"impossible: {broken.reason}")
@@ -338,16 +421,22 @@ def changed(parts, key, value):
 
 
 def shown(name, value, written, words=""):
-    """A value in the unit in which the user wrote it, SI for a bare number, else in the one in which people read it; a bound is rounded to the allowed side."""
+    """A value in the unit in which the user wrote it, SI for a bare number, else in the one in which people read it; a
+    bound is rounded to the allowed side.
+    """
     if name == "Z":
         return f"{value}"
     unit = unit_of(name)
-    symbol = (symbol_of(written) or unit) if written is not None else [*variables.UNITS[unit], *variables.UNITS[unit]][1]
+    symbol = (
+        (symbol_of(written) or unit) if written is not None else [*variables.UNITS[unit], *variables.UNITS[unit]][1]
+    )
     factor, offset = unit_scales(unit).get(symbol, (1.0, 0.0))
     number = factor * value + offset
     if words:
         digits = 3 - math.floor(math.log10(abs(number) or 1.0))
-        number = (math.floor if words == "at most" else math.ceil)(number * 10.0**digits + (1e-9 if words == "at most" else -1e-9)) / 10.0**digits
+        number = (math.floor if words == "at most" else math.ceil)(
+            number * 10.0**digits + (1e-9 if words == "at most" else -1e-9)
+        ) / 10.0**digits
     return f"{number:.4g}{suffix(symbol)}"
 
 
@@ -365,7 +454,8 @@ def rivet_unit(key):
     """SI unit of a dimension or material constant of the rivet."""
     if key.startswith(("E_", "yield_", "hardening_")):
         return "Pa"
-    return {"nu": "1", "alpha": "1", "T": "K"}.get(key.partition("_")[0], "m")  # alpha: 1/K, without a symbol of its own
+    # alpha: 1/K, without a symbol of its own
+    return {"nu": "1", "alpha": "1", "T": "K"}.get(key.partition("_")[0], "m")
 
 
 def rivet_values(path, section, where):
@@ -399,7 +489,11 @@ def start_values(path, section, tree, known):
         if name not in known:
             raise unknown(path, section.removesuffix("s"), name, known)
         variable = known[name]
-        items = [] if variable.type in ("Real", "Integer") else [item.name.lower() for item in getattr(variables, variable.type)]
+        items = (
+            []
+            if variable.type in ("Real", "Integer")
+            else [item.name.lower() for item in getattr(variables, variable.type)]
+        )
         if items and value not in items:
             raise refusal(path, f"{section}.{name}", value, f"allowed: {', '.join(items)}")
         written = value
@@ -407,11 +501,19 @@ def start_values(path, section, tree, known):
             value = to_si(value, unit_scales(variable.unit)) if isinstance(value, str) and not items else value
         except UserError as problem:
             raise refusal(path, f"{section}.{name}", value, problem) from None
-        low, high = (-math.inf if variable.min is None else variable.min), (math.inf if variable.max is None else variable.max)
+        low, high = (
+            (-math.inf if variable.min is None else variable.min),
+            (math.inf if variable.max is None else variable.max),
+        )
         whole = variable.type == "Integer"
         if not items and not (is_number(value) and low <= value <= high and (isinstance(value, int) or not whole)):
             what, text = ("an integer", "") if whole else ("a number", ", or a text with its unit")
-            raise refusal(path, f"{section}.{name}", written, f"not {what} in {span(low, high, variable.unit, symbol_of(written))}{text}")
+            raise refusal(
+                path,
+                f"{section}.{name}",
+                written,
+                f"not {what} in {span(low, high, variable.unit, symbol_of(written))}{text}",
+            )
         yield name, value
 
 
@@ -433,7 +535,8 @@ def is_number(value):
 
 
 def case_of(target=None, fmu=None):
-    """The Case of a bearing (file or designation) or of a scene at its start (file or name); without a target of the FMU itself, and without both EXAMPLE.
+    """The Case of a bearing (file or designation) or of a scene at its start (file or name); without a target of the
+    FMU itself, and without both EXAMPLE.
 
     fmu: path of the FMU, None for the default one.
     """
@@ -449,7 +552,8 @@ def case_of(target=None, fmu=None):
 
 
 def scene_case(source, model):
-    """The Case of a scene at its start, with the FMU's start values for all variables that the scene does not set; None: of the FMU itself.
+    """The Case of a scene at its start, with the FMU's start values for all variables that the scene does not set;
+    None: of the FMU itself.
 
     An FMU holds no dimensions of its rivets.
     """
@@ -467,7 +571,9 @@ def scene_case(source, model):
     data = known[0].catalogue if known else entry.data if entry else {}
     alone = tuple(name for name in SHAPE if name in scene.parameters)
     name = f"{designation}, scene {scene.name}" if scene.source else designation
-    return Case(name, scene.description, Z, values, data, rivet=None, origin={} if scene.source else model.origin, alone=alone)
+    return Case(
+        name, scene.description, Z, values, data, rivet=None, origin={} if scene.source else model.origin, alone=alone
+    )
 
 
 def flat(tree, prefix=""):

@@ -1,10 +1,12 @@
-"""Make an FMU for a bearing: variable files, rivet table, compilation and archive, and a first start to see that it works.
+"""Make an FMU for a bearing: variable files, rivet table, compilation and archive, and a first start to see that it
+works.
 
     python fmus/generate.py --bearing FILE --out BUILD/generated
     cmake -S SOURCES -B BUILD -DGENERATED_DIR=BUILD/generated -DRIVET_TABLE=TABLE
     cmake --build BUILD --target fmu
 
-For other platforms zig compiles each binary in a build folder of its own (cmake/zig.cmake), and the last step packs all binaries into one FMU.
+For other platforms zig compiles each binary in a build folder of its own (cmake/zig.cmake), and the last step packs all
+binaries into one FMU.
 
 Intermediate files stay in BUILD, so that the next build of the same bearing compiles only what changed.
 """
@@ -44,14 +46,17 @@ LIBRARIES = ("RivetedBearing.so", "RivetedBearing.dll", "RivetedBearing.dylib")
 STEP = re.compile(r"\[\s*(?:(\d+)/(\d+)|(\d+)%)\s*\]")  # Ninja's [3/40], make's [ 7%]
 
 
-def build_fmu(bearing=None, rivet=None, out=None, say=lambda text, share=None: None, platforms=(), kind=None, modes=None):
+def build_fmu(
+    bearing=None, rivet=None, out=None, say=lambda text, share=None: None, platforms=(), kind=None, modes=None
+):
     """Build an FMU and return its path.
 
-    bearing: bearing file or designation, None for the default one; rivet: rivet table (JSON) or geometry of the rivet (TOML), None for the bearing's own
-    rivet; out: the FMU to write, None for my.fmu here from my.toml, RivetedBearing.fmu from the default (in a checkout: in fmus/); say: called with what
-    is being done and the share done; platforms: names of FMI's binary folders to cross-compile for (cmake/zig.cmake), none for this machine's compiler
-    alone; kind, modes: of the rivet table, see table_of.
-    Raises UserError with the reason; `out` is then left as it was.
+    bearing: bearing file or designation, None for the default one; rivet: rivet table (JSON) or geometry of the rivet
+    (TOML), None for the bearing's own rivet; out: the FMU to write, None for my.fmu here from my.toml,
+    RivetedBearing.fmu from the default (in a checkout: in fmus/); say: called with what is being done and the share
+    done; platforms: names of FMI's binary folders to cross-compile for (cmake/zig.cmake), none for this machine's
+    compiler alone; kind, modes: of the rivet table, see table_of. Raises UserError with the reason; `out` is then left
+    as it was.
     """
     sources = source_folder()
     out = Path(out) if out else default_out(sources, bearing or rivet)
@@ -59,14 +64,20 @@ def build_fmu(bearing=None, rivet=None, out=None, say=lambda text, share=None: N
     cmake, platforms = tool("cmake") or no_tool("cmake"), platforms or compiler_platforms()
     make_folder(out.parent)
     table = kept(given_table(rivet, case, kind, say, modes), table_copy(bearing))
-    generated = folder / "generated" if bearing or rivet or kind or modes else ""  # said in any case: a build folder remembers what it was told before
+    # said in any case: a build folder remembers what it was told before
+    generated = folder / "generated" if bearing or rivet or kind or modes else ""
     options = [f"-DRIVET_TABLE={table}", f"-DPython_EXECUTABLE={sys.executable}", f"-DGENERATED_DIR={generated}"]
     if generated:
         say("variables")
         resolved = folder / "bearing.toml"
         resolved.write_text("\n".join(to_toml(start_document(case, table))), encoding="utf-8")
-        execute([sys.executable, sources / "fmus" / "generate.py", "--bearing", resolved, "--out", generated], folder, say)
-    binaries = [f"{platform}={cross_compile(cmake, sources, folder / platform, options, platform, say)}" for platform in platforms]
+        execute(
+            [sys.executable, sources / "fmus" / "generate.py", "--bearing", resolved, "--out", generated], folder, say
+        )
+    binaries = [
+        f"{platform}={cross_compile(cmake, sources, folder / platform, options, platform, say)}"
+        for platform in platforms
+    ]
     options += [f"-DBINARIES={';'.join(binaries)}", f"-DCOMPILER={zig_version() if platforms else ''}"]
     if not has_compiler():  # the archive's project wants some compiler too
         folder = folder / "archive"
@@ -77,10 +88,13 @@ def build_fmu(bearing=None, rivet=None, out=None, say=lambda text, share=None: N
     say("starting it once")
     try_start(finished)
     write_atomically(out, lambda temporary: shutil.copyfile(finished, temporary))
-    if out.resolve() == sources / "fmus" / FMU_NAME and not bearing and (sources / "examples").is_dir():  # the example uses the FMU of the checkout
+    # the example uses the FMU of the checkout
+    if out.resolve() == sources / "fmus" / FMU_NAME and not bearing and (sources / "examples").is_dir():
         compile_target(cmake, sources, folder, options, "transmission", say)
         for name in ("Shaft.fmu", "Transmission.ssp"):
-            write_atomically(out.with_name(name), lambda temporary, made=folder / name: shutil.copyfile(made, temporary))
+            write_atomically(
+                out.with_name(name), lambda temporary, made=folder / name: shutil.copyfile(made, temporary)
+            )
     return out
 
 
@@ -96,13 +110,24 @@ def platform_names(text):
 def cross_compile(cmake, sources, folder, options, platform, say):
     """The binary for another platform, compiled with zig in its own build folder."""
     folder.mkdir(exist_ok=True)
-    compile_target(cmake, sources, folder, [*options, *toolchain(sources, platform)], "binaries", lambda text, share=None: say(f"{platform}: {text}", share))
+    compile_target(
+        cmake,
+        sources,
+        folder,
+        [*options, *toolchain(sources, platform)],
+        "binaries",
+        lambda text, share=None: say(f"{platform}: {text}", share),
+    )
     return next(path for name in LIBRARIES if (path := folder / name).is_file())
 
 
 def toolchain(sources, platform):
     """Options of CMake to compile for a platform with zig."""
-    return [f"-DCMAKE_TOOLCHAIN_FILE={sources / 'cmake' / 'zig.cmake'}", f"-DPLATFORM={platform}", f"-DZIG={find_zig()}"]
+    return [
+        f"-DCMAKE_TOOLCHAIN_FILE={sources / 'cmake' / 'zig.cmake'}",
+        f"-DPLATFORM={platform}",
+        f"-DZIG={find_zig()}",
+    ]
 
 
 def compile_target(cmake, sources, folder, options, target, say):
@@ -119,7 +144,9 @@ def zig_version():
 
 
 def find_zig(needed=True):
-    """Path of zig: that of the Python package, else that on the search path; without it UserError, or None if it is not needed."""
+    """Path of zig: that of the Python package, else that on the search path; without it UserError, or None if it is not
+    needed.
+    """
     package = importlib.util.find_spec("ziglang")
     found = (package and shutil.which("zig", path=package.submodule_search_locations[0])) or shutil.which("zig")
     if not found and needed:
@@ -128,7 +155,9 @@ def find_zig(needed=True):
 
 
 def start_document(case, path):
-    """A case with its rivet table as fmus/generate.py reads it: all start values in SI, and what an importer shows of the FMU."""
+    """A case with its rivet table as fmus/generate.py reads it: all start values in SI, and what an importer shows of
+    the FMU.
+    """
     table, sections = read_table(path, case.Z), {"parameters": variables.PARAMETERS, "inputs": variables.INPUTS}
     values = case.values | cage_of(case, table)
     start = {section: {name: values[name] for name in known} for section, known in sections.items()}
@@ -136,11 +165,15 @@ def start_document(case, path):
 
 
 def cage_of(case, table):
-    """The start value of scene.cage: rigid halves where the table has no vibration modes, unless the bearing file asks for elastic ones, a UserError."""
+    """The start value of scene.cage: rigid halves where the table has no vibration modes, unless the bearing file asks
+    for elastic ones, a UserError.
+    """
     if table.modes is not None or case.values["scene.cage"] != "elastic":
         return {}
     if "scene.cage" in case.origin:
-        raise UserError(f"{case.designation}: scene.cage = elastic: {table_text(table)} has no vibration modes of the cage halves; allowed are two_half, rigid")
+        raise UserError(
+            f"{case.designation}: scene.cage = elastic: {table_text(table)} has no vibration modes of the cage halves; allowed are two_half, rigid"
+        )
     return {"scene.cage": "two_half"}
 
 
@@ -158,11 +191,15 @@ def source_folder():
     for folder in SOURCES:
         if (folder / "CMakeLists.txt").is_file():
             return folder
-    raise UserError(f"the C sources are not there (looked in {', '.join(map(str, SOURCES))}): install the package again, or build in a checkout")
+    raise UserError(
+        f"the C sources are not there (looked in {', '.join(map(str, SOURCES))}): install the package again, or build in a checkout"
+    )
 
 
 def default_out(sources, source):
-    """Default path of the FMU: my.fmu in the working directory for the bearing or rivet my.toml; that of the 6207 in fmus/ of a checkout."""
+    """Default path of the FMU: my.fmu in the working directory for the bearing or rivet my.toml; that of the 6207 in
+    fmus/ of a checkout.
+    """
     if source:
         return Path.cwd() / f"{Path(source).stem}.fmu"
     return (sources / "fmus" if sources == PACKAGE.parent else Path.cwd()) / FMU_NAME
@@ -187,12 +224,16 @@ def has_compiler():
 
 
 def compiler_platforms():
-    """Platforms to compile for if the user names none: () with a C compiler of this machine, this machine's platform with zig; UserError without either."""
+    """Platforms to compile for if the user names none: () with a C compiler of this machine, this machine's platform
+    with zig; UserError without either.
+    """
     if has_compiler():
         return ()
     if find_zig(needed=False):
         return (PLATFORM_OF[machine.system(), machine.machine()],)
-    raise UserError(f"no C compiler ({', '.join(compilers())}) found: install one, or zig, which is one: {extra('cross')}")
+    raise UserError(
+        f"no C compiler ({', '.join(compilers())}) found: install one, or zig, which is one: {extra('cross')}"
+    )
 
 
 def tool(name):
@@ -219,7 +260,9 @@ def case_with(bearing, rivet):
 
 
 def given_table(rivet, case, kind, say, modes=None):
-    """Absolute path of the rivet table: the user's, or one for the case's geometry; UserError if it cannot be had or is for another cage."""
+    """Absolute path of the rivet table: the user's, or one for the case's geometry; UserError if it cannot be had or is
+    for another cage.
+    """
     if kind is not None and kind not in TABLES:
         raise unknown("--table", "kind", kind, TABLES)
     if rivet is None or Path(rivet).suffix == ".toml":
@@ -238,7 +281,9 @@ def check_material(path, table, case):
     for key, name in PARTS["cage"].geometry.items():
         value, own = getattr(made_for, name), case.materials["cage"].values[key]
         if not math.isclose(value, own, rel_tol=1e-6):
-            raise UserError(f"{path}: made for a cage with {key} = {value:g}, but that of {case.designation} has {own:g} ({case.materials['cage'].name})")
+            raise UserError(
+                f"{path}: made for a cage with {key} = {value:g}, but that of {case.designation} has {own:g} ({case.materials['cage'].name})"
+            )
 
 
 def table_copy(bearing=None):
@@ -256,7 +301,9 @@ def kept(source, copy):
 def execute(command, folder, say):
     """Run one program of the build, its output in BUILD/build.log; UserError with the first error lines if it fails."""
     lines = []
-    with subprocess.Popen([str(part) for part in command], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, errors="replace") as process:
+    with subprocess.Popen(
+        [str(part) for part in command], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, errors="replace"
+    ) as process:
         for line in process.stdout:
             lines.append(line)
             if match := STEP.match(line):
@@ -270,7 +317,10 @@ def execute(command, folder, say):
 def essence(lines):
     """The lines that tell the cause: the first error and the two lines after it, else the last three lines."""
     lines = [line.strip() for line in lines if line.strip() and not STEP.match(line)]
-    first = next((i for i, line in enumerate(lines) if re.search(r"\berror\b|^generate:|^rivet table:", line, re.IGNORECASE)), max(len(lines) - 3, 0))
+    first = next(
+        (i for i, line in enumerate(lines) if re.search(r"\berror\b|^generate:|^rivet table:", line, re.IGNORECASE)),
+        max(len(lines) - 3, 0),
+    )
     return " ".join(lines[first : first + 3])
 
 

@@ -1,9 +1,11 @@
-"""Bearings by designation: boundary dimensions and load ratings from a maker's catalogue, the balls from the ratings by a rule.
+"""Bearings by designation: boundary dimensions and load ratings from a maker's catalogue, the balls from the ratings by
+a rule.
 
-A catalogue tells neither balls nor cage.  Rule for the balls: of all numbers and usual sizes of balls that can be filled in, those whose ratings by ISO 281
-and ISO 76 come nearest to C and C_0 (the larger of both logarithmic deviations is smallest), on the pitch circle (bore + outside diameter)/2.
-How good the rule is: 69 of the 85 bearings have ball sizes within 2 % (RMS 2.4 %) of those that follow from another maker's factors f_0 (NSK), the numbers of
-balls known from measurements agree; makers differ in some bearings by a ball size or a ball (6305: 7 balls of 11.5 mm here).
+A catalogue tells neither balls nor cage.  Rule for the balls: of all numbers and usual sizes of balls that can be
+filled in, those whose ratings by ISO 281 and ISO 76 come nearest to C and C_0 (the larger of both logarithmic
+deviations is smallest), on the pitch circle (bore + outside diameter)/2. How good the rule is: 69 of the 85 bearings
+have ball sizes within 2 % (RMS 2.4 %) of those that follow from another maker's factors f_0 (NSK), the numbers of balls
+known from measurements agree; makers differ in some bearings by a ball size or a ball (6305: 7 balls of 11.5 mm here).
 """
 
 import csv
@@ -17,13 +19,15 @@ from bearing_model.load_ratings import dynamic_rating, static_rating
 TABLE = files("riveted_bearing") / "data" / "catalogue.csv"
 SOURCE = "NKE General Catalogue 2018/10"
 INCH = 25.4e-3
-BALL_SIZES = sorted(  # [m] usual with ball makers: 1/32 inch up to 1 1/2 inch, then 1/16 inch; two of 1/64 inch; millimetres up to 25 mm
+# [m] usual with ball makers: 1/32 inch up to 1 1/2 inch, then 1/16 inch; two of 1/64 inch; millimetres up to 25 mm
+BALL_SIZES = sorted(
     [n * INCH / 32 for n in range(4, 49)]
     + [n * INCH / 16 for n in range(25, 41)]
     + [15 * INCH / 64, 17 * INCH / 64]
     + [0.5e-3 * n for n in (10, 11, 12, 13, 14, 15, 16, 17, 18, 20, 22, 23, *range(24, 51, 2))]
 )
-LARGEST_FILL = math.radians(205.0)  # angle of the arc that the balls take when they are filled in: usual 180 to 200 degrees
+# angle of the arc that the balls take when they are filled in: usual 180 to 200 degrees
+LARGEST_FILL = math.radians(205.0)
 THICKEST_BALL = 0.325  # ball diameter over the difference of the bearing's diameters: usual 0.28 to 0.32
 CLEARANCE_CN = (  # bore up to [mm], least and largest radial internal clearance of class CN [um]: ISO 5753-1:2009
     (10, 2, 13),
@@ -69,7 +73,9 @@ def entries():
     for row in csv.DictReader(lines):
         designation = row.pop("designation")
         lengths = {key: round(1e-3 * float(row[key]), 9) for key in ("bore", "outside_diameter", "width")}
-        table[designation] = Entry(designation, **lengths, **{key: round(1e3 * float(row[key]), 6) for key in ("C", "C_0")})
+        table[designation] = Entry(
+            designation, **lengths, **{key: round(1e3 * float(row[key]), 6) for key in ("C", "C_0")}
+        )
     return table
 
 
@@ -87,7 +93,10 @@ def balls(entry):
             break
         most = 1 + int(0.5 * LARGEST_FILL / math.asin(D / entry.d_m))
         for Z in range(5, most + 1):
-            deviations = (math.log(dynamic_rating(Z, D, entry.d_m) / entry.C), math.log(static_rating(Z, D, entry.d_m) / entry.C_0))
+            deviations = (
+                math.log(dynamic_rating(Z, D, entry.d_m) / entry.C),
+                math.log(static_rating(Z, D, entry.d_m) / entry.C_0),
+            )
             candidates.append((max(map(abs, deviations)), Z, D))
     _, Z, D = min(candidates)
     return Z, round(D, 9)

@@ -34,7 +34,9 @@ SEGMENT = 32  # fewest samples of a segment of the joints' spectra
 
 
 def svg(draw, size, label):
-    """The figure of draw(figure) as an <svg> element without fixed size; size: inches, at which 9 points are legible on a phone's width."""
+    """The figure of draw(figure) as an <svg> element without fixed size; size: inches, at which 9 points are legible on
+    a phone's width.
+    """
     with plt.rc_context(STYLE | SVG | {"svg.hashsalt": label}):
         figure = plt.figure(figsize=size, layout="constrained")
         draw(figure)
@@ -47,20 +49,29 @@ def svg(draw, size, label):
         text = text.replace(colour, name)
     text = re.sub(r"<metadata>.*?</metadata>", "", text, flags=re.S)
     text = re.sub(r"font: (\S+) '[^;\"]*", r"font: \1 inherit", text).replace(" inherit", " system-ui, sans-serif")
-    text = re.sub(r' d="[^"]*"', lambda path: re.sub(r"-?\d+\.\d+", lambda number: f"{float(number[0]):.1f}", path[0]), text)
+    text = re.sub(
+        r' d="[^"]*"', lambda path: re.sub(r"-?\d+\.\d+", lambda number: f"{float(number[0]):.1f}", path[0]), text
+    )
     prefix = re.sub(r"\W+", "-", label)
     text = re.sub(r'(id="|url\(#|href="#)', rf"\g<1>{prefix}-", text)  # ids are shared by all charts of a page
-    opening = rf'<svg viewBox="\1" role="img" aria-label="{html.escape(label)}" xmlns:xlink="http://www.w3.org/1999/xlink">'
+    opening = (
+        rf'<svg viewBox="\1" role="img" aria-label="{html.escape(label)}" xmlns:xlink="http://www.w3.org/1999/xlink">'
+    )
     return re.sub(r'<svg [^>]*?viewBox="([^"]*)"[^>]*>', opening, text, count=1)
 
 
 def thinned(result, buckets=BUCKETS):
-    """The result with at most two rows per stretch of time: the smallest and the largest value of each channel, so that no peak is lost."""
+    """The result with at most two rows per stretch of time: the smallest and the largest value of each channel, so that
+    no peak is lost.
+    """
     t = result.data["time"]
     if len(t) <= 2 * buckets:
         return result
     first = np.linspace(0, len(t), buckets, endpoint=False).astype(int)
-    data = {name: np.column_stack([reduce.reduceat(values, first) for reduce in (np.minimum, np.maximum)]).ravel() for name, values in result.data.items()}
+    data = {
+        name: np.column_stack([reduce.reduceat(values, first) for reduce in (np.minimum, np.maximum)]).ravel()
+        for name, values in result.data.items()
+    }
     return replace(result, data=data)
 
 
@@ -83,7 +94,11 @@ def worst_rivet(result):
     """Number, as text, of the rivet with the largest head stress in the run; None if it was not recorded."""
     names = columns(result, "rivet[", "].sigma_head_peak") or columns(result, "rivet[", "].sigma_head")
     late = settled(result)
-    return max(names, key=lambda name: result.data[name][late].max()).split("]")[0].removeprefix("rivet[") if names else None
+    return (
+        max(names, key=lambda name: result.data[name][late].max()).split("]")[0].removeprefix("rivet[")
+        if names
+        else None
+    )
 
 
 def spectra(figure, result):
@@ -96,18 +111,26 @@ def spectra(figure, result):
         if values is not None:
             f, power = welch(1e-6 * values[late], rate, nperseg=min(len(t), 1024), detrend="constant")
             ax.loglog(f[1:], np.sqrt(power[1:]), color=colour, lw=0.8, label=label)
-    ax.set(xlabel=f"frequency [Hz]; {1e-3 * rate:g} samples per ms", ylabel="MPa/√Hz", xlim=(2.0 * rate / 1024, 0.5 * rate))
+    ax.set(
+        xlabel=f"frequency [Hz]; {1e-3 * rate:g} samples per ms", ylabel="MPa/√Hz", xlim=(2.0 * rate / 1024, 0.5 * rate)
+    )
     for name, frequency in frequencies(result).items():
         if ax.get_xlim()[0] < frequency < ax.get_xlim()[1]:
             ax.axvline(frequency, color=MUTED, lw=0.8, ls=":")
-            ax.annotate(name, (frequency, 1.0), xycoords=("data", "axes fraction"), fontsize=7, va="bottom", ha="center")
+            ax.annotate(
+                name, (frequency, 1.0), xycoords=("data", "axes fraction"), fontsize=7, va="bottom", ha="center"
+            )
     ax.legend(loc="lower left")
 
 
 def loaded_rivet(result):
     """Number, as text, of the rivet with the largest tension after settling; None if tensions were not recorded."""
     late, names = settled(result), columns(result, "rivet[", "].T")
-    return max(names, key=lambda name: result.data[name][late].max()).split("]")[0].removeprefix("rivet[") if names else None
+    return (
+        max(names, key=lambda name: result.data[name][late].max()).split("]")[0].removeprefix("rivet[")
+        if names
+        else None
+    )
 
 
 def moment_t(result, k):
@@ -146,7 +169,9 @@ def joint_spectra(figure, result):
         ax.set(ylabel=unit)
         ax.set_ylim(bottom=0)
         for frequency in modes:
-            ax.axvline(1e-3 * frequency, color=HEAD, lw=0.5, label="modes of a free half" if frequency == modes[0] else None)
+            ax.axvline(
+                1e-3 * frequency, color=HEAD, lw=0.5, label="modes of a free half" if frequency == modes[0] else None
+            )
     panels[1].set(xlabel=f"frequency [kHz]; {1e-3 * rate:g} samples per ms", xlim=(0.0, 5e-4 * rate))
     if modes:
         panels[0].legend(loc="lower right", bbox_to_anchor=(1.0, 1.0))
@@ -208,12 +233,18 @@ def force_histogram(figure, result):
         bins = np.geomspace(max(touching.min(), 1e-3), touching.max() * 1.001, 40)
         pockets.hist(touching, bins, weights=np.full(len(touching), 100.0 / len(force)), color=FORCE, alpha=0.85)
         pockets.set_xscale("log")
-    pockets.set(xlabel="pocket force [N]", ylabel="share of time [%]", title=f"touching {100 * len(touching) / len(force):.1f} %")
+    pockets.set(
+        xlabel="pocket force [N]",
+        ylabel="share of time [%]",
+        title=f"touching {100 * len(touching) / len(force):.1f} %",
+    )
     for name, colour, label in (("Q_e", FORCE, "outer"), ("Q_i", MIDDLE, "inner")):
         names = columns(result, "ball[", f"].{name}")
         if names:
             load = np.concatenate([result.data[n][late] for n in names])
-            races.hist(load, 40, weights=np.full(len(load), 100.0 / len(load)), histtype="step", color=colour, label=label)
+            races.hist(
+                load, 40, weights=np.full(len(load), 100.0 / len(load)), histtype="step", color=colour, label=label
+            )
     races.set(xlabel="race load [N]")
     races.set_yscale("log")
     races.legend(ncols=2, loc="lower right", bbox_to_anchor=(1.0, 1.0))
@@ -239,7 +270,9 @@ def stress_over_azimuth(figure, result):
 
 
 def stress_over_time(figure, result):
-    """Largest head stress, rivet by rivet, in stretches of time; the colour scale ends at the largest stress after settling."""
+    """Largest head stress, rivet by rivet, in stretches of time; the colour scale ends at the largest stress after
+    settling.
+    """
     names, t = columns(result, "rivet[", "].sigma_head_peak"), result.data["time"]
     first = np.unique(np.linspace(0, len(t), 240, endpoint=False).astype(int))
     rows = [1e-6 * np.maximum.reduceat(result.data[name], first) for name in names]
@@ -250,7 +283,9 @@ def stress_over_time(figure, result):
 def heat_map(figure, rows, extent, xlabel, ticks=None):
     """One row a rivet, in MPa."""
     ax, count = figure.subplots(), len(rows)
-    image = ax.imshow(rows, aspect="auto", origin="lower", extent=(*extent, 0.5, count + 0.5), cmap="viridis", interpolation="none")
+    image = ax.imshow(
+        rows, aspect="auto", origin="lower", extent=(*extent, 0.5, count + 0.5), cmap="viridis", interpolation="none"
+    )
     ax.set(xlabel=xlabel, ylabel="rivet", yticks=range(1, count + 1, 1 + count // 12))
     if ticks:
         ax.set_xticks(ticks)
@@ -282,7 +317,12 @@ def rainflow_matrix(figure, cycles):
 def energy(figure, result):
     """Power loss and the residual of the energy balance."""
     ax = figure.subplots()
-    few = thinned(replace(result, data={"time": result.data["time"]} | wanted(result, ["bearing.power_loss", "bearing.energy_residual"])))
+    few = thinned(
+        replace(
+            result,
+            data={"time": result.data["time"]} | wanted(result, ["bearing.power_loss", "bearing.energy_residual"]),
+        )
+    )
     ax.plot(1e3 * few.data["time"], few.data["bearing.power_loss"], color=RING, lw=0.6, label="power loss")
     ax.set(xlabel="time [ms]", ylabel="W")
     if "bearing.energy_residual" in few.data:

@@ -1,9 +1,12 @@
-"""One scene through the FMU and through the Python reference (bearing_model.solver.integrator), which shares no code with it.
+"""One scene through the FMU and through the Python reference (bearing_model.solver.integrator), which shares no code
+with it.
 
-Short horizon: outputs at the same instants, at several tolerances.  A difference that falls with the tolerance is the integration's error; a difference that
-stays is one of the models.  Differences of motion are given in parts of 10 um and 0.1 m/s (angles by arc length at the pitch circle), which are
-near the integrator's error scales, so that they compare with the tolerance; those of loads and stresses as parts of the largest value.
-Long horizon: trajectories have parted (errors grow e-fold in 1.4 ... 2.7 ms), so statistics are compared: the reference with the FMU's scatter over seeds.
+Short horizon: outputs at the same instants, at several tolerances.  A difference that falls with the tolerance is the
+integration's error; a difference that stays is one of the models.  Differences of motion are given in parts of 10 um
+and 0.1 m/s (angles by arc length at the pitch circle), which are near the integrator's error scales, so that they
+compare with the tolerance; those of loads and stresses as parts of the largest value. Long horizon: trajectories have
+parted (errors grow e-fold in 1.4 ... 2.7 ms), so statistics are compared: the reference with the FMU's scatter over
+seeds.
 """
 
 import re
@@ -13,8 +16,8 @@ import numpy as np
 from rich.markup import escape
 from rich.table import Column, Table
 
-from bearing_model.solver import integrator
 from bearing_model.generated import variables
+from bearing_model.solver import integrator
 
 from .errors import UserError
 from .runner import simulate
@@ -22,20 +25,25 @@ from .runner import simulate
 POINTS = 20  # instants of the short horizon
 FINER = (1.0, 1e-2, 1e-4)  # tolerances of the FMU / the scene's
 REFERENCE_FINER = 1e-6  # tolerance of the reference on the short horizon / the scene's
-LONG_FINER = 1e-2  # on the long horizon: at 1e-3 the error of RK45 moves the mean stress by 0.3 %, more than the scatter over seeds; 1e-5 costs no more
+# on the long horizon: at 1e-3 the error of RK45 moves the mean stress by 0.3 %, more than the scatter over seeds; 1e-5
+# costs no more
+LONG_FINER = 1e-2
 SETTLED = 0.2  # share of the long horizon that its statistics leave out, unless the scene settles earlier
 MOTION = {"m": 1e-5, "m/s": 0.1}
 LEAST = {  # smallest scale of loads, stresses, accelerations, contact angles, ratios
     "N": 1.0, "N.m": 1e-3, "Pa": 1e5, "m/s2": 1.0, "1/s2": 100.0, "W": 1.0, "J": 1e-3, "rad": 1e-3, "1": 1e-3
 }  # fmt: skip
-LEFT_OUT = ("rivet[k].flag", "bearing.contacts", "bearing.energy_residual")  # the first two jump between whole numbers, the last one is itself an error
+# the first two jump between whole numbers, the last one is itself an error
+LEFT_OUT = ("rivet[k].flag", "bearing.contacts", "bearing.energy_residual")
 STEPS_COUNT = ("peak", "event")  # groups that depend on the steps taken
 SEEDS = 8
 
 
 @dataclass(frozen=True)
 class Channel:
-    """One output, all its elements: values [points, elements] of the reference, scale [its unit], largest |difference|/scale at each point by tolerance."""
+    """One output, all its elements: values [points, elements] of the reference, scale [its unit], largest
+    |difference|/scale at each point by tolerance.
+    """
 
     name: str
     unit: str
@@ -73,7 +81,9 @@ class Statistic:
 
 @dataclass(frozen=True)
 class Comparison:
-    """What compare() found: channels over the times t [s] by tolerance, statistics from `settle` to `long` [s] (none if long is 0), where the energy went."""
+    """What compare() found: channels over the times t [s] by tolerance, statistics from `settle` to `long` [s] (none if
+    long is 0), where the energy went.
+    """
 
     scene: str
     t: np.ndarray
@@ -87,11 +97,12 @@ class Comparison:
 
 
 def compare(model, scene, short=1e-3, long=0.1, seeds=SEEDS, method="DOP853", progress=None):
-    """Run a Scene, checked against the Model, through FMU and reference as the head of this file says; returns a Comparison.
+    """Run a Scene, checked against the Model, through FMU and reference as the head of this file says; returns a
+    Comparison.
 
-    short, long: horizons [s], long = 0 for none; seeds: runs of the FMU over the long horizon; method: the reference's method over the short horizon
-    (Radau where films or joints are stiff; over the long horizon RK45, whose steps are as dense as the FMU's); progress: called with the name of the
-    present run and the share done.
+    short, long: horizons [s], long = 0 for none; seeds: runs of the FMU over the long horizon; method: the reference's
+    method over the short horizon (Radau where films or joints are stiff; over the long horizon RK45, whose steps are as
+    dense as the FMU's); progress: called with the name of the present run and the share done.
     Raises UserError if the FMU is of another bearing than the reference, or if FMU or reference refuse or cannot go on.
     """
     progress = progress or (lambda what, share: None)
@@ -103,7 +114,13 @@ def compare(model, scene, short=1e-3, long=0.1, seeds=SEEDS, method="DOP853", pr
     names = [name for name in model.outputs if family(name) in variables.OUTPUTS]
     near = replace(scene, t_end=short, step=short / POINTS, output_interval=None, outputs=tuple(names))
     runs = [through_fmu(model, near, tol) for tol in tolerances]
-    reference = through_reference(runs[0].parameters, near, tolerance * REFERENCE_FINER, method, lambda share: progress("reference, short horizon", share))
+    reference = through_reference(
+        runs[0].parameters,
+        near,
+        tolerance * REFERENCE_FINER,
+        method,
+        lambda share: progress("reference, short horizon", share),
+    )
     found = Comparison(scene.name, runs[0].data["time"], tolerances, channels(model, names, reference, runs))
     return with_statistics(found, model, scene, tolerance, long, seeds, progress) if long > 0.0 else found
 
@@ -127,7 +144,9 @@ def through_fmu(model, scene, tolerance, **parameters):
 
 
 def through_reference(parameters, scene, tolerance, method, progress):
-    """The reference's Results of a scene with the FMU's own parameters; UserError if the reference refuses or cannot go on."""
+    """The reference's Results of a scene with the FMU's own parameters; UserError if the reference refuses or cannot go
+    on.
+    """
 
     def held(t):
         progress(t / scene.t_end)
@@ -139,7 +158,7 @@ def through_reference(parameters, scene, tolerance, method, progress):
         raise UserError(f"reference: {problem}") from None
 
 
-# ------------------------------------------------------------------------------------------------------------------- short horizon
+# -------------------------------------------------------------------------------------------------------- short horizon
 
 
 def channels(model, names, reference, runs):
@@ -167,47 +186,71 @@ def scale_of(variable, values, parameters):
 
 
 def is_motion(channel):
-    """Whether a channel is a position, an angle or a speed of a body, whose differences are measured in parts of 10 um and 0.1 m/s."""
+    """Whether a channel is a position, an angle or a speed of a body, whose differences are measured in parts of 10 um
+    and 0.1 m/s.
+    """
     return channel.unit in ("m", "m/s", "rad", "rad/s", "1/s") and "alpha" not in channel.name
 
 
 def family(name):
     """Name in the variable table: ball[3].Q_i is one of ball[j].Q_i."""
-    return re.sub(r"^(ball|pocket|rivet)\[\d+\]", lambda match: f"{match[1]}[{'k' if match[1] == 'rivet' else 'j'}]", name)
+    return re.sub(
+        r"^(ball|pocket|rivet)\[\d+\]", lambda match: f"{match[1]}[{'k' if match[1] == 'rivet' else 'j'}]", name
+    )
 
 
-# -------------------------------------------------------------------------------------------------------------------- long horizon
+# --------------------------------------------------------------------------------------------------------- long horizon
 
 
 def with_statistics(found, model, scene, tolerance, long, seeds, progress):
     """The Comparison with its statistics."""
     settle = min(scene.parameters.get("start.settle", np.inf), SETTLED * long)
-    far = replace(scene, t_end=long, output_interval=None, outputs=(), parameters=scene.parameters | {"start.settle": settle, "scene.statistics": "on"})
+    far = replace(
+        scene,
+        t_end=long,
+        output_interval=None,
+        outputs=(),
+        parameters=scene.parameters | {"start.settle": settle, "scene.statistics": "on"},
+    )
     runs = []
     for n in range(seeds):
         progress("FMU, long horizon", n / seeds)
         runs.append(through_fmu(model, far, tolerance, **{"start.seed": n + 1}))
     first = runs[0].parameters
-    reference = through_reference(first, far, tolerance * LONG_FINER, "RK45", lambda share: progress("reference, long horizon", share))
+    reference = through_reference(
+        first, far, tolerance * LONG_FINER, "RK45", lambda share: progress("reference, long horizon", share)
+    )
     rows = []
     for name, value in reference.statistics.items():
         if name in runs[0].summary and name != "stat.time":
             sample = np.array([run.summary[name] for run in runs])
-            rows.append(Statistic(name, variables.OUTPUTS[name].unit, float(value), float(sample.mean()), float(sample.std(ddof=1))))
+            rows.append(
+                Statistic(
+                    name, variables.OUTPUTS[name].unit, float(value), float(sample.mean()), float(sample.std(ddof=1))
+                )
+            )
     return replace(found, statistics=rows, settle=settle, long=long, seeds=seeds, ledger=reference.ledger)
 
 
-# -------------------------------------------------------------------------------------------------------------------------- tables
+# --------------------------------------------------------------------------------------------------------------- tables
 
 
 def short_table(found):
-    """Rich table of the short horizon: size and largest difference of each output, worst first within motion, loads and stresses."""
+    """Rich table of the short horizon: size and largest difference of each output, worst first within motion, loads and
+    stresses.
+    """
     columns = ("scale", "", *(f"at {tolerance:.0e}" for tolerance in found.tolerances))
-    table = Table("largest difference / scale", *(Column(text, justify="right") for text in columns), box=None, pad_edge=False)
+    table = Table(
+        "largest difference / scale", *(Column(text, justify="right") for text in columns), box=None, pad_edge=False
+    )
     for part in (True, False):
-        rows = sorted((channel for channel in found.channels if is_motion(channel) == part), key=lambda channel: -channel.worst[0])
+        rows = sorted(
+            (channel for channel in found.channels if is_motion(channel) == part), key=lambda channel: -channel.worst[0]
+        )
         for channel in rows:
-            table.add_row(escape(channel.name), f"{channel.scale:.4g}", channel.unit, *(f"{value:.1e}" for value in channel.worst))
+            table.add_row(
+                escape(channel.name), f"{channel.scale:.4g}", channel.unit, *(f"{value:.1e}" for value in channel.worst)
+            )
         table.add_section()
     return table
 
@@ -215,9 +258,17 @@ def short_table(found):
 def long_table(found):
     """Rich table of the statistics."""
     columns = ("reference", "FMU, mean", "scatter", "difference", "in scatters")
-    table = Table(Column("", no_wrap=True), "unit", *(Column(text, justify="right") for text in columns), box=None, pad_edge=False)
+    table = Table(
+        Column("", no_wrap=True), "unit", *(Column(text, justify="right") for text in columns), box=None, pad_edge=False
+    )
     for row in found.statistics:
-        figures = (f"{row.reference:.5g}", f"{row.mean:.5g}", f"{row.scatter:.2g}", f"{100.0 * row.difference:+.2f} %", f"{row.deviation:+.1f}")
+        figures = (
+            f"{row.reference:.5g}",
+            f"{row.mean:.5g}",
+            f"{row.scatter:.2g}",
+            f"{100.0 * row.difference:+.2f} %",
+            f"{row.deviation:+.1f}",
+        )
         table.add_row(row.name, row.unit, *figures)
     return table
 

@@ -4,7 +4,9 @@ from difflib import get_close_matches
 
 
 class UserError(ValueError):
-    """A file, name, value or unit that cannot be used; the message says where it stands, what it is and what is allowed."""
+    """A file, name, value or unit that cannot be used; the message says where it stands, what it is and what is
+    allowed.
+    """
 
 
 def unknown(where, kind, name, allowed):

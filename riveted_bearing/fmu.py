@@ -14,7 +14,14 @@ from xml.etree import ElementTree
 import numpy as np
 from fmpy import extract, read_model_description
 from fmpy.fmi1 import FMICallException
-from fmpy.fmi2 import FMU2Slave, defaultCallbacks, fmi2CallbackFunctions, fmi2CallbackLoggerTYPE, fmi2LastSuccessfulTime, fmi2ValueReference
+from fmpy.fmi2 import (
+    FMU2Slave,
+    defaultCallbacks,
+    fmi2CallbackFunctions,
+    fmi2CallbackLoggerTYPE,
+    fmi2LastSuccessfulTime,
+    fmi2ValueReference,
+)
 from fmpy.logging import addLoggerProxy
 
 from bearing_model.generated.variables import MODEL_IDENTIFIER
@@ -31,13 +38,17 @@ LOGS = {}  # component environment -> log of its instance
 
 @fmi2CallbackLoggerTYPE
 def keep_message(environment, name, status, category, message):
-    """Callback of the loggers of all FMUs: fmpy's proxy, which formats messages, takes one callback only, so the environment tells the instances apart."""
+    """Callback of the loggers of all FMUs: fmpy's proxy, which formats messages, takes one callback only, so the
+    environment tells the instances apart.
+    """
     if environment in LOGS:
         LOGS[environment].append((LEVELS[status], message.decode(errors="replace").strip()))
 
 
 def default_fmu():
-    """The FMU of the working directory, of the checkout, or the one installed with the package; UserError if there is none."""
+    """The FMU of the working directory, of the checkout, or the one installed with the package; UserError if there is
+    none.
+    """
     places = [Path.cwd() / FMU_NAME, PACKAGE.parent / "fmus" / FMU_NAME, PACKAGE / FMU_NAME]
     for path in places:
         if path.is_file():
@@ -62,7 +73,9 @@ class Model:
         if self.description.coSimulation is None or not self.description.fmiVersion.startswith("2."):
             raise UserError(f"{self.path}: not a co-simulation FMU of FMI 2.0")
         if self.description.modelName != MODEL_IDENTIFIER:
-            raise UserError(f"{self.path}: the FMU of {self.description.modelName}, not of a bearing ({MODEL_IDENTIFIER})")
+            raise UserError(
+                f"{self.path}: the FMU of {self.description.modelName}, not of a bearing ({MODEL_IDENTIFIER})"
+            )
         self.units = {"1": {"1": (1.0, 0.0)}, None: {"1": (1.0, 0.0)}} | unit_table(self.description.unitDefinitions)
         variables = self.description.modelVariables
         self.parameters = {v.name: v for v in variables if v.causality == "parameter"}
@@ -86,11 +99,16 @@ class Model:
         """Where start values come from, by name: "yours", "catalogue", "rule", "shipped"; empty for the default FMU."""
         with zipfile.ZipFile(self.path) as archive:
             root = ElementTree.fromstring(archive.read("modelDescription.xml"))
-        return {value.get("name"): value.get("origin") for value in root.iterfind("VendorAnnotations/Tool[@name='riveted-bearing']/Origin/Value")}
+        return {
+            value.get("name"): value.get("origin")
+            for value in root.iterfind("VendorAnnotations/Tool[@name='riveted-bearing']/Origin/Value")
+        }
 
     @functools.cached_property
     def cage_modes(self):
-        """Modes of a free cage half in the FMU's rivet table: `frequency` [Hz], `modes` of each frequency, `mass` [kg]; None if the FMU does not list them."""
+        """Modes of a free cage half in the FMU's rivet table: `frequency` [Hz], `modes` of each frequency, `mass` [kg];
+        None if the FMU does not list them.
+        """
         with zipfile.ZipFile(self.path) as archive:
             return json.loads(archive.read(CAGE_MODES)) if CAGE_MODES in archive.namelist() else None
 
@@ -117,7 +135,9 @@ class Model:
         return number
 
     def check_range(self, number, variable, symbol=None):
-        """UserError, in the unit `symbol` or else in the one in which people read the variable, if an SI value is outside the variable's limits."""
+        """UserError, in the unit `symbol` or else in the one in which people read the variable, if an SI value is
+        outside the variable's limits.
+        """
         low = -np.inf if variable.min is None else float(variable.min)
         high = np.inf if variable.max is None else float(variable.max)
         if not low <= number <= high:
@@ -150,7 +170,9 @@ def item_name(variable, code):
 
 
 class Instance:
-    """One instance of an FMU, from instantiation to freeing (a context manager).  Everything the FMU logs is kept in `log`."""
+    """One instance of an FMU, from instantiation to freeing (a context manager).  Everything the FMU logs is kept in
+    `log`.
+    """
 
     def __init__(self, model):
         self.model = model
@@ -168,7 +190,9 @@ class Instance:
             self.fmu.instantiate(callbacks=self.callbacks())
         except Exception as problem:
             self.forget()
-            raise UserError(f"{self.model.path}: cannot be loaded: {'; '.join([str(problem), *(message for _, message in self.log)])}") from None
+            raise UserError(
+                f"{self.model.path}: cannot be loaded: {'; '.join([str(problem), *(message for _, message in self.log)])}"
+            ) from None
         return self
 
     def __exit__(self, *_):
@@ -192,11 +216,15 @@ class Instance:
 
     def complaints(self):
         """The FMU's messages about its failure, oldest first."""
-        lines = [message for level, message in self.log if level in ("discard", "error", "fatal")] or [message for _, message in self.log[-3:]]
+        lines = [message for level, message in self.log if level in ("discard", "error", "fatal")] or [
+            message for _, message in self.log[-3:]
+        ]
         return "; ".join(lines) or "the FMU gave no reason"
 
     def initialize(self, scene):
-        """Set parameters and the inputs at the start, then find the quasi-static start; UserError with the FMU's reason if it refuses."""
+        """Set parameters and the inputs at the start, then find the quasi-static start; UserError with the FMU's reason
+        if it refuses.
+        """
         inputs = {name: float(history(0.0)) for name, history in scene.inputs.items()}
         try:
             for name, value in scene.parameters.items():
@@ -233,7 +261,9 @@ class Instance:
         return dict(zip(names, self.reader(names)().tolist()))
 
     def reader(self, names):
-        """A function that reads the named variables, with one call of the FMU, into an array that its next call overwrites."""
+        """A function that reads the named variables, with one call of the FMU, into an array that its next call
+        overwrites.
+        """
         variables = self.model.inputs | self.model.outputs | self.model.locals
         references = (fmi2ValueReference * len(names))(*(variables[name].valueReference for name in names))
         buffer = (ctypes.c_double * len(names))()

@@ -8,8 +8,9 @@ from multiprocessing import resource_tracker
 class held_interrupts:
     """While this context lasts, Ctrl-C only sets `pending`.
 
-    Python's handler would raise KeyboardInterrupt between any two instructions, also between a finished step and its place in the result, or in a callback
-    of the FMU, where an exception is lost.  Only a program's main thread receives Ctrl-C: in any other nothing changes.
+    Python's handler would raise KeyboardInterrupt between any two instructions, also between a finished step and its
+    place in the result, or in a callback of the FMU, where an exception is lost.  Only a program's main thread receives
+    Ctrl-C: in any other nothing changes.
     """
 
     def __enter__(self):
@@ -42,7 +43,8 @@ class ignored_interrupts:
 
 
 class kept_from_children(held_interrupts):
-    """While this context lasts, Ctrl-C only sets `pending`; processes that are started meanwhile never receive it: they inherit the mask.
+    """While this context lasts, Ctrl-C only sets `pending`; processes that are started meanwhile never receive it: they
+    inherit the mask.
 
     Where signals have no masks (Windows), it is ignored instead and `pending` stays false.
     """

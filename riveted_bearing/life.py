@@ -1,12 +1,14 @@
-"""Rainflow cycles and life of the rivets from recorded stress, by the `rainflow` package (ASTM E1049) and the S-N law of bearing_model.instance.fatigue."""
+"""Rainflow cycles and life of the rivets from recorded stress, by the `rainflow` package (ASTM E1049) and the S-N law
+of bearing_model.instance.fatigue.
+"""
 
 from dataclasses import dataclass
 
 import numpy as np
 import rainflow
 
-from bearing_model.instance.fatigue import FatigueLaw, fatigue_cycle
 from bearing_model.generated.variables import MeanStress
+from bearing_model.instance.fatigue import FatigueLaw, fatigue_cycle
 
 from .summary import settled
 
@@ -15,7 +17,9 @@ CHANNELS = {"head": "sigma_head", "mid": "sigma_mid"}
 
 @dataclass(frozen=True)
 class RivetLife:
-    """Cycles (rows of range [Pa], mean [Pa], count) of one rivet's stress, Miner's sum of the run and time [s] to Miner's sum 1 if the run repeated."""
+    """Cycles (rows of range [Pa], mean [Pa], count) of one rivet's stress, Miner's sum of the run and time [s] to
+    Miner's sum 1 if the run repeated.
+    """
 
     cycles: np.ndarray
     damage: float
@@ -29,7 +33,8 @@ def fatigue_law(parameters):
 
 
 def stress_history(result, k, place):
-    """Stress of rivet k at "head" or "mid" after settling [Pa]: peak and end of each communication step in turn, None if not recorded.
+    """Stress of rivet k at "head" or "mid" after settling [Pa]: peak and end of each communication step in turn, None
+    if not recorded.
 
     Minima between communication points are not recorded, so ranges are those between peaks and samples.
     """
@@ -47,6 +52,8 @@ def rivet_life(result, k, place):
     if history is None:
         return None
     law, t = fatigue_law(result.parameters), result.data["time"][settled(result)]
-    cycles = np.array([(span, mean, count) for span, mean, count, *_ in rainflow.extract_cycles(history)]).reshape(-1, 3)
+    cycles = np.array([(span, mean, count) for span, mean, count, *_ in rainflow.extract_cycles(history)]).reshape(
+        -1, 3
+    )
     damage = sum(count * fatigue_cycle(law, span, mean) for span, mean, count in cycles if span > 0.0)
     return RivetLife(cycles, damage, float(t[-1] - t[0]) / damage if damage > 0.0 else np.inf)

@@ -1,7 +1,9 @@
-"""Which bearings can be built: limits between dimensions, each refused by the user's own key, value and unit with what is allowed.
+"""Which bearings can be built: limits between dimensions, each refused by the user's own key, value and unit with what
+is allowed.
 
-A limit is a margin, a length (or another quantity) that must not be negative, over the named values; the bound of one of them comes from the margin itself,
-by bisection.  Names are those of a bearing file: parameters by their full names, Z, catalogue.*, rivet.*.
+A limit is a margin, a length (or another quantity) that must not be negative, over the named values; the bound of one
+of them comes from the margin itself, by bisection.  Names are those of a bearing file: parameters by their full names,
+Z, catalogue.*, rivet.*.
 """
 
 import math
@@ -16,7 +18,9 @@ DENSEST = 2.3e4  # kg/m3: no metal is heavier
 
 def shape_of(v):
     """What half_shape.py needs of the cage half."""
-    return scaling.shape_of(v, {name.removeprefix("rivet."): value for name, value in v.items() if name.startswith("rivet.")})
+    return scaling.shape_of(
+        v, {name.removeprefix("rivet."): value for name, value in v.items() if name.startswith("rivet.")}
+    )
 
 
 def of_half(limit):
@@ -33,7 +37,9 @@ def centre_of_mass_beside_shape(v):
 
 def mass_beside_density(v):
     """How far cage.m is from the half's own shape and density, and what is allowed, as no drawing has every edge: 10 %."""
-    own = scaling.half_inertia({name: value for name, value in v.items() if name != "cage.m"}, vars(shape_of(v))).get("cage.m", v["cage.m"])
+    own = scaling.half_inertia({name: value for name, value in v.items() if name != "cage.m"}, vars(shape_of(v))).get(
+        "cage.m", v["cage.m"]
+    )
     return 0.1 * own - abs(v["cage.m"] - own)
 
 
@@ -49,13 +55,19 @@ def ring_mass(v, density):
 
 CAGE, RIVET = ("bearing.D", "bearing.d_m", "Z", "cage.pocket_clearance"), "rivet.head_diameter"
 LIMITS = (
-    Limit(CAGE[:3], lambda v: v["bearing.d_m"] * math.sin(math.pi / v["Z"]) - v["bearing.D"], "balls that do not overlap"),
+    Limit(
+        CAGE[:3], lambda v: v["bearing.d_m"] * math.sin(math.pi / v["Z"]) - v["bearing.D"], "balls that do not overlap"
+    ),
     Limit(
         ("bearing.P_d", "bearing.D", "bearing.f_i", "bearing.f_e"),
         lambda v: 4.0 * (min(v["bearing.f_i"], v["bearing.f_e"]) - 0.5) * v["bearing.D"] - v["bearing.P_d"],
         "balls that stay on their side of the grooves",
     ),
-    Limit(("bearing.P_d", "bearing.D"), lambda v: 0.01 * v["bearing.D"] + v["bearing.P_d"], "an interference of at most 1 % of the ball"),
+    Limit(
+        ("bearing.P_d", "bearing.D"),
+        lambda v: 0.01 * v["bearing.D"] + v["bearing.P_d"],
+        "an interference of at most 1 % of the ball",
+    ),
     Limit(("cage.D_i", "cage.D_o"), lambda v: v["cage.D_o"] - v["cage.D_i"], "a cage with a wall"),
     Limit(
         ("cage.D_o", "bearing.d_m", "bearing.D", "cage.guide_clearance"),
@@ -73,22 +85,36 @@ LIMITS = (
         centre_of_mass_beside_shape,
         "a centre of mass (2 % for rounding) of the half's own shape; without cage.x_c it follows",
     ),
-    Limit(("cage.land_width", "cage.width"), lambda v: 0.5 * v["cage.width"] - v["cage.land_width"] + 1e-12, "a land on its half of the cage"),
+    Limit(
+        ("cage.land_width", "cage.width"),
+        lambda v: 0.5 * v["cage.width"] - v["cage.land_width"] + 1e-12,
+        "a land on its half of the cage",
+    ),
     Limit(
         ("cage.land_x", "cage.land_width", "cage.width"),
         lambda v: 0.5 * (v["cage.width"] - v["cage.land_width"]) - v["cage.land_x"] + 1e-6,
         "a land that does not reach over the cage's edge",
     ),
     Limit(
-        ("cage.m", "cage.D_o", "cage.D_i", "cage.width"), lambda v: ring_mass(v, DENSEST) - v["cage.m"], "a half lighter than a full ring of the heaviest metal"
+        ("cage.m", "cage.D_o", "cage.D_i", "cage.width"),
+        lambda v: ring_mass(v, DENSEST) - v["cage.m"],
+        "a half lighter than a full ring of the heaviest metal",
     ),
     Limit(
         ("cage.m", "cage.rho"),
         mass_beside_density,
         "a half's mass by its shape and the density of its material (10 % for edges that no drawing has); without cage.m it follows",
     ),
-    Limit(("cage.J_p", "cage.m", "cage.D_o"), lambda v: 0.25 * v["cage.m"] * v["cage.D_o"] ** 2 - v["cage.J_p"], "a half with its mass inside cage.D_o"),
-    Limit(("cage.J_p", "cage.m", "cage.D_i"), lambda v: v["cage.J_p"] - 0.25 * v["cage.m"] * v["cage.D_i"] ** 2, "a half with its mass outside cage.D_i"),
+    Limit(
+        ("cage.J_p", "cage.m", "cage.D_o"),
+        lambda v: 0.25 * v["cage.m"] * v["cage.D_o"] ** 2 - v["cage.J_p"],
+        "a half with its mass inside cage.D_o",
+    ),
+    Limit(
+        ("cage.J_p", "cage.m", "cage.D_i"),
+        lambda v: v["cage.J_p"] - 0.25 * v["cage.m"] * v["cage.D_i"] ** 2,
+        "a half with its mass outside cage.D_i",
+    ),
     Limit(("cage.J_t", "cage.J_p"), lambda v: v["cage.J_t"] - 0.499 * v["cage.J_p"], "moments of inertia of a body"),
     Limit(("ring.J_t", "ring.J_p"), lambda v: v["ring.J_t"] - 0.499 * v["ring.J_p"], "moments of inertia of a body"),
     Limit(
@@ -96,16 +122,36 @@ LIMITS = (
         lambda v: v[RIVET] - v["rivet.shank_diameter"] - 2.0 * v["rivet.relief_radius"],
         "a head wider than the relieved hole",
     ),
-    Limit(("rivet.head_height", "rivet.fillet_radius"), lambda v: v["rivet.head_height"] - v["rivet.fillet_radius"], "a fillet below the head"),
-    Limit(("rivet.fillet_radius", "rivet.relief_radius"), lambda v: v["rivet.relief_radius"] - v["rivet.fillet_radius"], "a fillet inside the relief"),
-    Limit(("rivet.fillet_radius", "rivet.relief_depth"), lambda v: v["rivet.relief_depth"] - v["rivet.fillet_radius"], "a fillet inside the relief"),
+    Limit(
+        ("rivet.head_height", "rivet.fillet_radius"),
+        lambda v: v["rivet.head_height"] - v["rivet.fillet_radius"],
+        "a fillet below the head",
+    ),
+    Limit(
+        ("rivet.fillet_radius", "rivet.relief_radius"),
+        lambda v: v["rivet.relief_radius"] - v["rivet.fillet_radius"],
+        "a fillet inside the relief",
+    ),
+    Limit(
+        ("rivet.fillet_radius", "rivet.relief_depth"),
+        lambda v: v["rivet.relief_depth"] - v["rivet.fillet_radius"],
+        "a fillet inside the relief",
+    ),
     Limit(
         ("rivet.flange_thickness", "rivet.relief_depth", "rivet.edge_break"),
         lambda v: v["rivet.flange_thickness"] - v["rivet.relief_depth"] - v["rivet.edge_break"],
         "a flange that bears the shank",
     ),
-    Limit(("rivet.edge_break", "rivet.relief_radius"), lambda v: v["rivet.relief_radius"] - v["rivet.edge_break"], "a chamfer smaller than the relief"),
-    Limit(("rivet.middle_zone", "rivet.edge_break"), lambda v: v["rivet.edge_break"] - v["rivet.middle_zone"], "a middle zone inside the chamfer"),
+    Limit(
+        ("rivet.edge_break", "rivet.relief_radius"),
+        lambda v: v["rivet.relief_radius"] - v["rivet.edge_break"],
+        "a chamfer smaller than the relief",
+    ),
+    Limit(
+        ("rivet.middle_zone", "rivet.edge_break"),
+        lambda v: v["rivet.edge_break"] - v["rivet.middle_zone"],
+        "a middle zone inside the chamfer",
+    ),
     Limit(
         ("catalogue.bore", "bearing.d_m", "bearing.D"),
         lambda v: groove_bottom(v, -1) - 2.0 * LEAST_WALL - v["catalogue.bore"],
@@ -116,8 +162,16 @@ LIMITS = (
         lambda v: v["catalogue.outside_diameter"] - groove_bottom(v, 1) - 2.0 * LEAST_WALL,
         "an outer ring above its groove",
     ),
-    Limit(("catalogue.width", "cage.width"), lambda v: v["catalogue.width"] - v["cage.width"], "a cage inside the bearing's width"),
-    Limit(("catalogue.width", "bearing.D"), lambda v: v["catalogue.width"] - v["bearing.D"], "balls inside the bearing's width"),
+    Limit(
+        ("catalogue.width", "cage.width"),
+        lambda v: v["catalogue.width"] - v["cage.width"],
+        "a cage inside the bearing's width",
+    ),
+    Limit(
+        ("catalogue.width", "bearing.D"),
+        lambda v: v["catalogue.width"] - v["bearing.D"],
+        "balls inside the bearing's width",
+    ),
 )
 
 
@@ -127,9 +181,11 @@ def holds(limit, values):
 
 
 def bound(limit, value, values_with):
-    """What is allowed for one value: ("at most" or "at least", bound); None if nothing between a thousandth and a thousand times the value would do.
+    """What is allowed for one value: ("at most" or "at least", bound); None if nothing between a thousandth and a
+    thousand times the value would do.
 
-    value: as it is, which the limit refuses; values_with: a function of it that gives all values, those that follow from it too.
+    value: as it is, which the limit refuses; values_with: a function of it that gives all values, those that follow
+    from it too.
     """
     if isinstance(value, int):
         fitting = [number for number in range(5, 33) if holds(limit, values_with(number))]

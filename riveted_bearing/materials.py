@@ -6,7 +6,8 @@
     [balls]
     material = "Si3N4"
 
-The properties of a part go to the parameters of the FMU and to the geometry that its rivet table is made from (rivet_model.geometry): one value for both.
+The properties of a part go to the parameters of the FMU and to the geometry that its rivet table is made from
+(rivet_model.geometry): one value for both.
 """
 
 import math
@@ -24,7 +25,9 @@ from .units import scales_of
 TABLE = files("riveted_bearing") / "data" / "materials.toml"
 OWN = "own"
 OPTIONAL = ("strength", "endurance")  # of an own material; without them the S-N curve is the FMU's
-UNITS = {"nu": "1", "density": "kg/m3", "expansion": "1/K"} | dict.fromkeys(("E", "yield", "hardening", "strength", "endurance"), "Pa")
+UNITS = {"nu": "1", "density": "kg/m3", "expansion": "1/K"} | dict.fromkeys(
+    ("E", "yield", "hardening", "strength", "endurance"), "Pa"
+)
 SHOWN = {  # label, factor and unit of what people ask for first
     "E": ("E", 1e-9, "GPa"),
     "nu": ("nu", 1.0, ""),
@@ -36,9 +39,11 @@ SHOWN = {  # label, factor and unit of what people ask for first
 
 @dataclass(frozen=True)
 class Part:
-    """What of a part's material is used, and where: parameters of the FMU and members of the rivet table's geometry by property.
+    """What of a part's material is used, and where: parameters of the FMU and members of the rivet table's geometry by
+    property.
 
-    material: that of the 6207, in a part for which nothing is given; named: a parameter that may give the material's name, too.
+    material: that of the 6207, in a part for which nothing is given; named: a parameter that may give the material's
+    name, too.
     """
 
     material: str
@@ -66,8 +71,12 @@ PARTS = {
         },
         "cage.material",
     ),
-    "rings": Part("bearing steel", {"E": "bearing.E", "nu": "bearing.nu", "density": "ring.rho", "expansion": "bearing.expansion"}),
-    "balls": Part("bearing steel", {"E": "ball.E", "nu": "ball.nu", "density": "bearing.rho", "expansion": "ball.expansion"}),
+    "rings": Part(
+        "bearing steel", {"E": "bearing.E", "nu": "bearing.nu", "density": "ring.rho", "expansion": "bearing.expansion"}
+    ),
+    "balls": Part(
+        "bearing steel", {"E": "ball.E", "nu": "ball.nu", "density": "bearing.rho", "expansion": "ball.expansion"}
+    ),
     "rivet": Part(
         "15CrMn",
         {"strength": "fatigue.sigma_m", "endurance": "fatigue.sigma_D"},
@@ -85,8 +94,9 @@ PARTS = {
 
 @dataclass(frozen=True)
 class Material:
-    """Name and properties of one part's material [SI]; sources: in words, by property; given: the properties that the bearing file decides, all if it names
-    the material."""
+    """Name and properties of one part's material [SI]; sources: in words, by property; given: the properties that the
+    bearing file decides, all if it names the material.
+    """
 
     name: str
     values: dict
@@ -99,7 +109,11 @@ class Material:
 
     def words(self):
         """The material on one line."""
-        found = ((label, f"{factor * self.values[key]:.4g}", unit) for key, (label, factor, unit) in SHOWN.items() if key in self.values)
+        found = (
+            (label, f"{factor * self.values[key]:.4g}", unit)
+            for key, (label, factor, unit) in SHOWN.items()
+            if key in self.values
+        )
         return f"{self.name}: {', '.join(' '.join(filter(None, words)) for words in found)}"
 
 
@@ -128,9 +142,10 @@ def code_of(name):
 def material_of(path, part, section, given):
     """The Material of a part.
 
-    section: the keys `material` and properties of the part's section of a bearing file; given: the file's parameters in SI, which may name the material
-    (Part.named) or give its properties by the FMU's names.  Raises UserError naming the key for an unknown material or property, one that is given
-    twice with two values, or one that is given where no material is.
+    section: the keys `material` and properties of the part's section of a bearing file; given: the file's parameters in
+    SI, which may name the material (Part.named) or give its properties by the FMU's names.  Raises UserError naming the
+    key for an unknown material or property, one that is given twice with two values, or one that is given where no
+    material is.
     """
     where = PARTS[part]
     for key in section:
@@ -159,11 +174,18 @@ def only_one(path, key, value, other, other_value, written=None):
     """The value that stands under one of two names; UserError if both are given and differ."""
     if value is None or other_value is None:
         return other_value if value is None else value
-    same = value == other_value or (not isinstance(value, (str, dict)) and math.isclose(value, other_value, rel_tol=1e-9))
+    same = value == other_value or (
+        not isinstance(value, (str, dict)) and math.isclose(value, other_value, rel_tol=1e-9)
+    )
     if isinstance(value, str) and isinstance(other_value, str):
         same = code_of(value) == code_of(other_value)
     if not same:
-        raise refusal(path, key, value if written is None else written, f"{other} = {other_value!r} stands under [parameters]: leave one of them out")
+        raise refusal(
+            path,
+            key,
+            value if written is None else written,
+            f"{other} = {other_value!r} stands under [parameters]: leave one of them out",
+        )
     return value
 
 
@@ -176,8 +198,14 @@ def base_of(path, part, chosen):
                 raise unknown(path, f"{part}.material key", key, ("source", *where.properties))
         missing = [key for key in where.properties if key not in chosen and key not in OPTIONAL]
         if missing:
-            raise UserError(f"{path}: {part}.material: {', '.join(missing)} {'is' if len(missing) == 1 else 'are'} missing in the table of an own material")
-        values = {key: property_of(path, f"{part}.material.{key}", key, chosen[key]) for key in where.properties if key in chosen}
+            raise UserError(
+                f"{path}: {part}.material: {', '.join(missing)} {'is' if len(missing) == 1 else 'are'} missing in the table of an own material"
+            )
+        values = {
+            key: property_of(path, f"{part}.material.{key}", key, chosen[key])
+            for key in where.properties
+            if key in chosen
+        }
         return values, dict.fromkeys(values, str(chosen.get("source", "the bearing file")))
     name = found_name(part, where.material if chosen is None else chosen)
     if name is None:

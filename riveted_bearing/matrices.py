@@ -2,10 +2,10 @@
 
     R = R_0 - K q - C q_dot,   q = (x, y, z, tilt_y, tilt_z) of the inner ring,   R = (F_x, F_y, F_z, M_y, M_z) on the shaft
 
-K by the quasi-static equilibrium: balls follow, their inertia loads stay; mean over the azimuths that the balls pass.  K and C by the FMU: the inner
-ring is prescribed at the equilibrium and shaken
-along one direction after the other, q_i = A sin(w t); the first harmonic of R over whole periods gives column i of K + i w C.  Each shake runs with +A and with
--A: half the difference leaves out what balls that pass do of themselves.
+K by the quasi-static equilibrium: balls follow, their inertia loads stay; mean over the azimuths that the balls pass.
+K and C by the FMU: the inner ring is prescribed at the equilibrium and shaken
+along one direction after the other, q_i = A sin(w t); the first harmonic of R over whole periods gives column i of K +
+i w C.  Each shake runs with +A and with -A: half the difference leaves out what balls that pass do of themselves.
 """
 
 import math
@@ -36,8 +36,8 @@ ROSS = {"x": "y", "y": "z", "z": "x"}  # its axes, z axial, by ours, x axial
 class Matrices:
     """The bearing at one speed and load: place and matrices [5], [5, 5] in m, rad, N, N.m and s.
 
-    omega [rad/s], load: factor of the loads, frequency of the shake [rad/s]; q: equilibrium; K_static: quasi-static stiffness; K, C: of the FMU,
-    None without it.
+    omega [rad/s], load: factor of the loads, frequency of the shake [rad/s]; q: equilibrium; K_static: quasi-static
+    stiffness; K, C: of the FMU, None without it.
     """
 
     omega: float
@@ -50,7 +50,8 @@ class Matrices:
 
 
 def quasi_static_matrices(case, speeds, loads=(1.0,)):
-    """The Matrices of a bearing without the FMU's K and C at each load factor and speed [rad/s]; UserError if there is no equilibrium.
+    """The Matrices of a bearing without the FMU's K and C at each load factor and speed [rad/s]; UserError if there is
+    no equilibrium.
 
     case: bearings.scene_case of a scene.
     """
@@ -58,9 +59,11 @@ def quasi_static_matrices(case, speeds, loads=(1.0,)):
 
 
 def dynamic_matrices(model, case, scene, points, frequency=None, amplitude=AMPLITUDE, progress=lambda share: None):
-    """The quasi_static_matrices `points` with K and C of the FMU `model` under the scene's parameters; UserError if the FMU refuses.
+    """The quasi_static_matrices `points` with K and C of the FMU `model` under the scene's parameters; UserError if the
+    FMU refuses.
 
-    frequency [rad/s]: of the shakes, None for the speed itself (at standstill 100 Hz); amplitude [m]: at the pitch radius for tilts.
+    frequency [rad/s]: of the shakes, None for the speed itself (at standstill 100 Hz); amplitude [m]: at the pitch
+    radius for tilts.
     """
     found = []
     for i, point in enumerate(points):
@@ -74,9 +77,14 @@ def dynamic_matrices(model, case, scene, points, frequency=None, amplitude=AMPLI
 
 def scene_at(model, scene, point):
     """The scene at the speed and the load factor of a point."""
-    own = {name: scene.inputs[name](0.0) if name in scene.inputs else model.default(model.inputs[name]) for name in (f"shaft.{load}" for load in LOADS)}
+    own = {
+        name: scene.inputs[name](0.0) if name in scene.inputs else model.default(model.inputs[name])
+        for name in (f"shaft.{load}" for load in LOADS)
+    }
     inputs = {name: point.load * value for name, value in own.items()} | {"shaft.omega": point.omega}
-    return replace(scene, inputs=scene.inputs | {name: History(np.zeros(1), np.array([value])) for name, value in inputs.items()})
+    return replace(
+        scene, inputs=scene.inputs | {name: History(np.zeros(1), np.array([value])) for name, value in inputs.items()}
+    )
 
 
 def equilibrium(case, load, omega):
@@ -93,13 +101,17 @@ def equilibrium(case, load, omega):
 
 
 def response(model, scene, omega, q, direction, amplitude, w):
-    """-dR/dq_i at the frequency w [rad/s], complex [5]: half the difference of the responses to both signs of the amplitude."""
+    """-dR/dq_i at the frequency w [rad/s], complex [5]: half the difference of the responses to both signs of the
+    amplitude.
+    """
     there, back = (shaken(model, scene, omega, q, direction, sign * amplitude, w) for sign in (1.0, -1.0))
     return -(there - back) / (2.0 * amplitude)
 
 
 def shaken(model, scene, omega, q, direction, amplitude, w):
-    """First harmonic of the reactions [5], as the factor of sin(w t) + i times that of cos(w t), while the ring shakes with amplitude sin(w t)."""
+    """First harmonic of the reactions [5], as the factor of sin(w t) + i times that of cos(w t), while the ring shakes
+    with amplitude sin(w t).
+    """
     period = 2.0 * math.pi / w
     count = math.ceil(period / LONGEST_STEP)
     h, settle, periods = period / count, math.ceil(SETTLE / period), math.ceil(LENGTH / period)
@@ -114,7 +126,10 @@ def shaken(model, scene, omega, q, direction, amplitude, w):
         return [*place, *velocity]
 
     with Instance(model) as instance:
-        fmu, parameters = instance.fmu, scene.parameters | {"ring.motion": "prescribed", "scene.stress": "off", "scene.statistics": "off"}
+        fmu, parameters = (
+            instance.fmu,
+            scene.parameters | {"ring.motion": "prescribed", "scene.stress": "off", "scene.statistics": "off"},
+        )
         try:
             for name, value in parameters.items():
                 instance.set_parameter(model.parameters[name], value)
@@ -138,17 +153,30 @@ def shaken(model, scene, omega, q, direction, amplitude, w):
     return sums * 2.0 / (periods * count)
 
 
-# ------------------------------------------------------------------------------------------------------------------------- files
+# ---------------------------------------------------------------------------------------------------------------- files
 
 
 def write_table(found, path, basis=()):
-    """A CSV with a row for each Matrices: speed, load factor, frequency, place, then K_static, K and C entry by entry, SI; in front, behind "# ", the basis."""
+    """A CSV with a row for each Matrices: speed, load factor, frequency, place, then K_static, K and C entry by entry,
+    SI; in front, behind "# ", the basis.
+    """
     entries = [f"{a}.{b}" for a in DIRECTIONS for b in DIRECTIONS]
     kinds = ["K_static", *(("K", "C") if found[0].K is not None else ())]
-    header = ["omega [rad/s]", "load", "frequency [rad/s]", *(f"{name} [{'rad' if 'tilt' in name else 'm'}]" for name in DIRECTIONS)]
+    header = [
+        "omega [rad/s]",
+        "load",
+        "frequency [rad/s]",
+        *(f"{name} [{'rad' if 'tilt' in name else 'm'}]" for name in DIRECTIONS),
+    ]
     header += [f"{kind}[{entry}]" for kind in kinds for entry in entries]
-    rows = [[p.omega, p.load, p.frequency, *p.q, *np.concatenate([getattr(p, kind).ravel() for kind in kinds])] for p in found]
-    text = "\n".join([*comments(basis), ",".join(header), *(",".join(f"{value:.9g}" for value in row) for row in rows)]) + "\n"
+    rows = [
+        [p.omega, p.load, p.frequency, *p.q, *np.concatenate([getattr(p, kind).ravel() for kind in kinds])]
+        for p in found
+    ]
+    text = (
+        "\n".join([*comments(basis), ",".join(header), *(",".join(f"{value:.9g}" for value in row) for row in rows)])
+        + "\n"
+    )
     write_atomically(path, lambda file: file.write_text(text, encoding="utf-8"))
     return path
 
@@ -159,7 +187,8 @@ def comments(basis):
 
 
 def ross_coefficients(found):
-    """Coefficients of ROSS' BearingElement over speed: {kxx, kxy ... czz, frequency}, its axes (x, y lateral, z axial) for our (Y, Z, X).
+    """Coefficients of ROSS' BearingElement over speed: {kxx, kxy ... czz, frequency}, its axes (x, y lateral, z axial)
+    for our (Y, Z, X).
 
     K and C of the FMU where they are known, else the quasi-static K and no damping.
     """
@@ -183,13 +212,18 @@ def entry(point, kind):
 def write_ross(found, path, node=0, tag="bearing", basis=()):
     """A TOML file that ross.BearingElement.load reads: one load factor, speeds rising."""
     lines = [*comments(basis), f"[BearingElement_{tag}]", f"n = {node}", f'tag = "{tag}"']
-    lines += [f"{name} = [{', '.join(repr(float(value)) for value in values)}]" for name, values in ross_coefficients(found).items()]
+    lines += [
+        f"{name} = [{', '.join(repr(float(value)) for value in values)}]"
+        for name, values in ross_coefficients(found).items()
+    ]
     write_atomically(path, lambda file: file.write_text("\n".join(lines) + "\n", encoding="utf-8"))
     return path
 
 
 def plot_matrices(found, path):
-    """A picture: direct and cross stiffness and damping of the translations over speed, one line style for each load factor."""
+    """A picture: direct and cross stiffness and damping of the translations over speed, one line style for each load
+    factor.
+    """
     import matplotlib
 
     matplotlib.use("Agg")
@@ -207,8 +241,22 @@ def plot_matrices(found, path):
                 suffix = "" if len(loads) == 1 else f", load x {load:g}"
                 left.plot(speed, [1e-6 * p.K_static[i, i] for p in points], dash, color=colour, alpha=0.45)
                 if points[0].K is not None:
-                    left.plot(speed, [1e-6 * p.K[i, i] for p in points], "o", color=colour, markersize=4, label=f"K {name}{name}{suffix}")
-                    right.plot(speed, [p.C[i, i] for p in points], "o" + dash, color=colour, markersize=4, label=f"C {name}{name}{suffix}")
+                    left.plot(
+                        speed,
+                        [1e-6 * p.K[i, i] for p in points],
+                        "o",
+                        color=colour,
+                        markersize=4,
+                        label=f"K {name}{name}{suffix}",
+                    )
+                    right.plot(
+                        speed,
+                        [p.C[i, i] for p in points],
+                        "o" + dash,
+                        color=colour,
+                        markersize=4,
+                        label=f"C {name}{name}{suffix}",
+                    )
         left.set(xlabel="speed [rev/min]", ylabel="stiffness [N/um]", title="Stiffness: lines quasi-static, points FMU")
         right.set(xlabel="speed [rev/min]", ylabel="damping [N s/m]", title="Damping, FMU")
         for ax in (left, right):

@@ -62,8 +62,18 @@ def title(result):
     if speed is not None:
         facts.insert(0, f"{RPM * speed[-1]:,.0f} rev/min")
     lines = [": ".join(filter(None, (about.get("scene"), about.get("description")))), " · ".join(facts)]
-    figures = [f"{row.channel}: mean {row.mean:.3g}, p99.9 {row.p999:.3g} {row.unit}" for row in summary_rows(result) if row.every_step]
-    return "\n".join([*lines, *([" · ".join(figures)] if figures else []), *([f"STOPPED: {result.stopped}"] if result.stopped else [])])
+    figures = [
+        f"{row.channel}: mean {row.mean:.3g}, p99.9 {row.p999:.3g} {row.unit}"
+        for row in summary_rows(result)
+        if row.every_step
+    ]
+    return "\n".join(
+        [
+            *lines,
+            *([" · ".join(figures)] if figures else []),
+            *([f"STOPPED: {result.stopped}"] if result.stopped else []),
+        ]
+    )
 
 
 def wanted(result, names):
@@ -99,7 +109,9 @@ def loads(ax, t, data):
     colours = {"shaft.F_y": FORCE, "shaft.F_x": MIDDLE, "shaft.F_z": MUTED, "impact.F_r": HEAD, "impact.F_a": "#e09f3e"}
     for name, values in data.items():
         if name in colours and (name in ("shaft.F_x", "shaft.F_y") or np.any(values)):
-            ax.plot(t, 1e-3 * values, color=colours[name], label=name.replace("shaft.", "").replace("impact.", "impact "))
+            ax.plot(
+                t, 1e-3 * values, color=colours[name], label=name.replace("shaft.", "").replace("impact.", "impact ")
+            )
     ax.set(title="Loads on the inner ring", ylabel="kN")
     speed = RPM * data.get("shaft.omega", np.zeros(1))
     if np.ptp(speed):
@@ -118,7 +130,10 @@ def pocket_force(ax, t, data):
 
 def stress(ax, t, data):
     """Largest stress of all rivets in each communication step."""
-    for name, colour, label in (("rivet.sigma_head_max", HEAD, "head fillet"), ("rivet.sigma_mid_max", MIDDLE, "middle of the shank")):
+    for name, colour, label in (
+        ("rivet.sigma_head_max", HEAD, "head fillet"),
+        ("rivet.sigma_mid_max", MIDDLE, "middle of the shank"),
+    ):
         if name in data:
             ax.plot(t, 1e-6 * data[name], color=colour, lw=0.5, label=label)
     ax.set(title="Rivet stress, worst rivet, largest in each step", ylabel="MPa")
@@ -151,7 +166,12 @@ HEIGHTS = {loads: 0.6, stress: 1.4}
 
 def cage_orbit(ax, result):
     """Path of the cage's centre within its guide clearance."""
-    ax.set(title="Orbit of the cage's centre, seen from +X", xlabel="y [µm]; dashed: guide clearance", ylabel="z [µm]", aspect="equal")
+    ax.set(
+        title="Orbit of the cage's centre, seen from +X",
+        xlabel="y [µm]; dashed: guide clearance",
+        ylabel="z [µm]",
+        aspect="equal",
+    )
     if not wanted(result, ["cage.y", "cage.z"]):
         ax.text(0.5, 0.5, "cage.y and cage.z were not recorded", ha="center", transform=ax.transAxes)
         return
@@ -172,7 +192,12 @@ def magnified(ax, y, z, half):
     centre = (y.max() + y.min()) / 2, (z.max() + z.min()) / 2
     inset = ax.inset_axes([0.3, 0.3, 0.4, 0.4])
     inset.plot(y, z, color=FORCE, lw=0.35, alpha=0.8)
-    inset.set(xlim=(centre[0] - half, centre[0] + half), ylim=(centre[1] - half, centre[1] + half), aspect="equal", facecolor="#ffffff")
+    inset.set(
+        xlim=(centre[0] - half, centre[0] + half),
+        ylim=(centre[1] - half, centre[1] + half),
+        aspect="equal",
+        facecolor="#ffffff",
+    )
     inset.tick_params(labelsize=7)
     ax.indicate_inset_zoom(inset, edgecolor=MUTED)
 
@@ -194,13 +219,16 @@ def rivet_bars(ax, result):
     ax.legend(ncols=2, loc="upper right")
 
 
-# ---------------------------------------------------------------------------------------------------------------------- comparison
+# ----------------------------------------------------------------------------------------------------------- comparison
 
-OVERLAID = (("ball[j].Q_i", "Contact loads"), ("ball[j].Q_c", "Pocket loads"), ("rivet[k].V", "Loads of the joints"))  # [N]
+# [N]
+OVERLAID = (("ball[j].Q_i", "Contact loads"), ("ball[j].Q_c", "Pocket loads"), ("rivet[k].V", "Loads of the joints"))
 
 
 def plot_comparison(found, path, dpi=110):
-    """Write the picture of a Comparison as PNG: outputs of both on top of each other, differences over time by tolerance, statistics in standard deviations."""
+    """Write the picture of a Comparison as PNG: outputs of both on top of each other, differences over time by
+    tolerance, statistics in standard deviations.
+    """
     with plt.rc_context(STYLE):
         rows = 3 if found.statistics else 2
         figure, axes = plt.subplots(2, rows, figsize=(4.6 * rows, 7.0), layout="constrained")
@@ -235,7 +263,9 @@ def differences(ax, found):
     for i, (tolerance, colour) in enumerate(zip(found.tolerances, (HEAD, MIDDLE, RING), strict=True)):
         for motion, style in ((True, "-"), (False, "--")):
             worst = np.max([channel.error[i] for channel in found.channels if is_motion(channel) == motion], axis=0)
-            ax.semilogy(1e3 * found.t[1:], worst[1:], style, color=colour, lw=1.0, label=f"{tolerance:.0e}" if motion else None)
+            ax.semilogy(
+                1e3 * found.t[1:], worst[1:], style, color=colour, lw=1.0, label=f"{tolerance:.0e}" if motion else None
+            )
     ax.locator_params(axis="x", nbins=5)
     ax.set(title="By tolerance", xlabel="time [ms]", ylabel="largest difference / scale: motion, - - loads")
     ax.legend(ncols=3, loc="lower right", bbox_to_anchor=(1.0, 1.0))
@@ -244,9 +274,18 @@ def differences(ax, found):
 def deviations(ax, found):
     """Statistics of the reference in standard deviations of the FMU's over seeds."""
     rows = [row for row in found.statistics if np.isfinite(row.deviation)][::-1]
-    ax.barh(range(len(rows)), [row.deviation for row in rows], color=[MIDDLE if abs(row.deviation) < 3.0 else HEAD for row in rows], height=0.6)
+    ax.barh(
+        range(len(rows)),
+        [row.deviation for row in rows],
+        color=[MIDDLE if abs(row.deviation) < 3.0 else HEAD for row in rows],
+        height=0.6,
+    )
     ax.set_yticks(range(len(rows)), [row.name.removeprefix("stat.") for row in rows])
     ax.locator_params(axis="x", nbins=4)
     limit = max(3.5, 1.1 * max((abs(row.deviation) for row in rows), default=0.0))
-    ax.set(title=f"Statistics of {found.long - found.settle:g} s: reference - FMU", xlabel="standard deviations over seeds", xlim=(-limit, limit))
+    ax.set(
+        title=f"Statistics of {found.long - found.settle:g} s: reference - FMU",
+        xlabel="standard deviations over seeds",
+        xlim=(-limit, limit),
+    )
     ax.axvline(0.0, color=MUTED, lw=0.8)

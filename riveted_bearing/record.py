@@ -1,4 +1,6 @@
-"""The outputs of a run as they come: column by column, on disk if there are many, so that a long run needs no more memory than a short one."""
+"""The outputs of a run as they come: column by column, on disk if there are many, so that a long run needs no more
+memory than a short one.
+"""
 
 import tempfile
 
@@ -11,8 +13,9 @@ BLOCK = 1024  # rows that are turned into columns together
 class Record:
     """Columns of numbers of which at most `count` rows are written, one after the other.
 
-    A row may be written again until the next one is; columns() ends the record.  A large record is a file in the user's cache folder, which the
-    system removes when nothing refers to it any more, however the program ends; of its columns only those in use take memory.
+    A row may be written again until the next one is; columns() ends the record.  A large record is a file in the user's
+    cache folder, which the system removes when nothing refers to it any more, however the program ends; of its columns
+    only those in use take memory.
     """
 
     def __init__(self, count, width):

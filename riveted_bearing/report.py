@@ -17,13 +17,29 @@ from .duty.sn import Strength, in_words
 from .errors import UserError
 from .life import fatigue_law, rivet_life
 from .results import FORMATS, read_result, write_atomically
-from .summary import DEG, assumed_rows, columns, early_rows, has_statistics, life_is_known, no_statistics, settled, summary_rows, table_note
+from .summary import (
+    DEG,
+    assumed_rows,
+    columns,
+    early_rows,
+    has_statistics,
+    life_is_known,
+    no_statistics,
+    settled,
+    summary_rows,
+    table_note,
+)
 from .units import hours_text, scales_of, suffix
 
 PARTS = files("riveted_bearing") / "data" / "report"
 FIRST = 3  # rows without statistics that stand on the cards
 WIDE, LOW, SQUARE, HIGH = (4.9, 2.7), (4.9, 1.9), (4.9, 4.2), (4.9, 3.0)  # inches
-NOT_SAID = dict.fromkeys(("scene", "description", "model", "date", "guid"), "") | {"basis": {}, "versions": {}, "not_given": {}, "messages": []}
+NOT_SAID = dict.fromkeys(("scene", "description", "model", "date", "guid"), "") | {
+    "basis": {},
+    "versions": {},
+    "not_given": {},
+    "messages": [],
+}
 
 
 def report_files(source):
@@ -31,7 +47,9 @@ def report_files(source):
     source = Path(source)
     if not source.is_dir():
         return [source]
-    found = sorted(path for path in source.iterdir() if path.suffix.removeprefix(".") in FORMATS and not path.name.startswith("."))
+    found = sorted(
+        path for path in source.iterdir() if path.suffix.removeprefix(".") in FORMATS and not path.name.startswith(".")
+    )
     if not found:
         raise UserError(f"{source}: no results in this folder; allowed are files ending in {', '.join(FORMATS)}")
     return found
@@ -61,7 +79,9 @@ def write_report(result, path, decides=None):
 
 def render(result, decides=None):
     """The page as text; decides: see report_pages."""
-    environment = jinja2.Environment(autoescape=True, trim_blocks=True, lstrip_blocks=True, undefined=jinja2.StrictUndefined)
+    environment = jinja2.Environment(
+        autoescape=True, trim_blocks=True, lstrip_blocks=True, undefined=jinja2.StrictUndefined
+    )
     film, missing = frames(result)
     lives, elastic = all_lives(result), result.parameters.get("scene.cage") == "elastic"
     return environment.from_string((PARTS / "page.html").read_text(encoding="utf-8")).render(
@@ -115,14 +135,39 @@ def named(*names):
 
 PANELS = {draw.__name__: charts.over_time((draw, names)) for draw, names in plot.OVER_TIME}
 CHARTS = {  # name: (draw(figure, result), size, label, channels that the chart needs)
-    "loads": (PANELS["loads"], LOW, "Loads on the inner ring over time", named("shaft.F_x", "shaft.F_y", "shaft.omega")),
-    "stress": (PANELS["stress"], WIDE, "Largest rivet stress over time", named("rivet.sigma_head_max", "rivet.sigma_mid_max")),
+    "loads": (
+        PANELS["loads"],
+        LOW,
+        "Loads on the inner ring over time",
+        named("shaft.F_x", "shaft.F_y", "shaft.omega"),
+    ),
+    "stress": (
+        PANELS["stress"],
+        WIDE,
+        "Largest rivet stress over time",
+        named("rivet.sigma_head_max", "rivet.sigma_mid_max"),
+    ),
     "spectra": (charts.spectra, WIDE, "Spectra of the worst rivet's stress", rivet_channels("sigma_head", "sigma_mid")),
     "bars": (charts.rivet_bars, WIDE, "Stress of each rivet", named()),
-    "map": (charts.stress_over_azimuth, HIGH, "Head stress of each rivet over its azimuth", lambda r: ["half_0.psi", *rivet_channels("sigma_head_peak")(r)]),
-    "history": (charts.stress_over_time, HIGH, "Head stress of each rivet over time", rivet_channels("sigma_head_peak")),
+    "map": (
+        charts.stress_over_azimuth,
+        HIGH,
+        "Head stress of each rivet over its azimuth",
+        lambda r: ["half_0.psi", *rivet_channels("sigma_head_peak")(r)],
+    ),
+    "history": (
+        charts.stress_over_time,
+        HIGH,
+        "Head stress of each rivet over time",
+        rivet_channels("sigma_head_peak"),
+    ),
     "rainflow": (None, HIGH, "Rainflow matrix of the worst rivet's head", rivet_channels("sigma_head")),
-    "distribution": (charts.load_distribution, WIDE, "Load distribution over the azimuth", ball_channels("psi", "Q_i", "Q_e")),
+    "distribution": (
+        charts.load_distribution,
+        WIDE,
+        "Load distribution over the azimuth",
+        ball_channels("psi", "Q_i", "Q_e"),
+    ),
     "histogram": (charts.force_histogram, WIDE, "Histogram of contact forces", ball_channels("Q_c")),
     "pocket": (PANELS["pocket_force"], WIDE, "Pocket force over time", named("cage.F_pocket_peak")),
     "orbit": (charts.cage_orbit, SQUARE, "Orbit of the cage's centre", named("cage.y", "cage.z")),
@@ -139,9 +184,15 @@ def chart(result, name, lives):
     draw, size, label, needs = CHARTS[name]
     missing = [channel for channel in needs(result) if channel not in result.data]
     if missing or len(result.data["time"]) < 16:
-        lack = f"not recorded: {', '.join(missing[:4])}{' …' if len(missing) > 4 else ''}" if missing else "too few samples"
+        lack = (
+            f"not recorded: {', '.join(missing[:4])}{' …' if len(missing) > 4 else ''}"
+            if missing
+            else "too few samples"
+        )
         return f'<p class="missing">{label}: {lack}</p>'
-    if name in ("spectra", "rainflow") and not np.any(np.diff(result.data[f"rivet[{charts.worst_rivet(result)}].sigma_head"][settled(result)])):
+    if name in ("spectra", "rainflow") and not np.any(
+        np.diff(result.data[f"rivet[{charts.worst_rivet(result)}].sigma_head"][settled(result)])
+    ):
         return f'<p class="missing">{label}: the stress does not change</p>'
     if name == "joints" and (reason := charts.no_joint_spectra(result)):
         return f'<p class="missing">{label}: {reason}</p>'
@@ -155,14 +206,19 @@ def chart(result, name, lives):
 
 
 def all_lives(result):
-    """One dict a rivet: k, RivetLife of head and middle, and the FMU's own Miner's sums if it counted; none from closed forms."""
+    """One dict a rivet: k, RivetLife of head and middle, and the FMU's own Miner's sums if it counted; none from closed
+    forms.
+    """
     rows = []
     if result.parameters.get("scene.stress") == "off" or not life_is_known(result) or not has_statistics(result):
         return rows
     for k in range(1, number_of_balls(result) + 1):
         head, mid = (rivet_life(result, k, place) for place in ("head", "mid"))
         if head and mid:
-            own = [float(result.data[name][-1]) if (name := f"rivet[{k}].damage_{place}") in result.data else math.nan for place in ("head", "mid")]
+            own = [
+                float(result.data[name][-1]) if (name := f"rivet[{k}].damage_{place}") in result.data else math.nan
+                for place in ("head", "mid")
+            ]
             rows.append({"k": k, "head": head, "mid": mid, "fmu_head": own[0], "fmu_mid": own[1]})
     return rows
 
@@ -172,7 +228,12 @@ def cards(result, lives):
     rows = {row.channel: row for row in summary_rows(result)}
     if not rows:
         for channel, unit, last, largest in list(early_rows(result))[:FIRST]:
-            yield channel.capitalize(), figure(largest), unit.replace("um", "µm"), f"largest since the start · {figure(last)} at the end"
+            yield (
+                channel.capitalize(),
+                figure(largest),
+                unit.replace("um", "µm"),
+                f"largest since the start · {figure(last)} at the end",
+            )
     for channel, title in (
         ("head stress, worst rivet", "Head stress"),
         ("middle stress, worst rivet", "Middle stress"),
@@ -182,15 +243,34 @@ def cards(result, lives):
             row = rows[channel]
             yield title, figure(row.p999), row.unit, f"p99.9 · mean {figure(row.mean)} · largest {figure(row.largest)}"
     if "cage slip ratio" in rows:
-        yield "Cage slip", figure(rows["cage slip ratio"].mean), "%", f"mean · {figure(rows['cage speed'].mean)} rev/min" if "cage speed" in rows else "mean"
+        yield (
+            "Cage slip",
+            figure(rows["cage slip ratio"].mean),
+            "%",
+            f"mean · {figure(rows['cage speed'].mean)} rev/min" if "cage speed" in rows else "mean",
+        )
     if "cage dislocation" in rows:
-        yield "Dislocation of the halves", figure(rows["cage dislocation"].largest), "µm", f"largest · mean {figure(rows['cage dislocation'].mean)}"
+        yield (
+            "Dislocation of the halves",
+            figure(rows["cage dislocation"].largest),
+            "µm",
+            f"largest · mean {figure(rows['cage dislocation'].mean)}",
+        )
     if lives:
-        shortest = min((life[place].life, f"rivet {life['k']}, {'head' if place == 'head' else 'middle'}") for life in lives for place in ("head", "mid"))
+        shortest = min(
+            (life[place].life, f"rivet {life['k']}, {'head' if place == 'head' else 'middle'}")
+            for life in lives
+            for place in ("head", "mid")
+        )
         yield "Life of the weakest rivet", duration(shortest[0]), "", f"{shortest[1]} · Miner's sum 1"
     if "real_time_factor" in result.summary:
         s = result.summary
-        yield "Real-time factor", figure(s["real_time_factor"]), "", f"{s['cpu_time']:.2f} s for {s['simulated_time']:g} s"
+        yield (
+            "Real-time factor",
+            figure(s["real_time_factor"]),
+            "",
+            f"{s['cpu_time']:.2f} s for {s['simulated_time']:g} s",
+        )
 
 
 def input_rows(result):
@@ -203,7 +283,9 @@ def input_rows(result):
 
 
 def unit_of(result, name, variable):
-    """The unit in which the user wrote a value, else the one in which people read it, "" for none; factor and offset from SI."""
+    """The unit in which the user wrote a value, else the one in which people read it, "" for none; factor and offset
+    from SI.
+    """
     scales = scales_of(variable.unit, variables.UNITS[variable.unit])
     symbol = result.about.get("units", {}).get(name)
     symbol = symbol if symbol in scales else variable.display or variable.unit
@@ -213,15 +295,29 @@ def unit_of(result, name, variable):
 def setting_rows(result):
     """Name, meaning, value, unit of every parameter and whether it differs from the 6207's default."""
     for name, value in result.parameters.items():
-        variable = variables.PARAMETERS.get(name) or variables.PARAMETERS.get("ball[j].dD" if name.startswith("ball[") else name)
+        variable = variables.PARAMETERS.get(name) or variables.PARAMETERS.get(
+            "ball[j].dD" if name.startswith("ball[") else name
+        )
         if variable is None:
             yield name, "", value if isinstance(value, str) else figure(value), "", False
         elif isinstance(value, str):
-            yield name, variable.description, value, "", value != getattr(variables, variable.type)(variable.start).name.lower()
+            yield (
+                name,
+                variable.description,
+                value,
+                "",
+                value != getattr(variables, variable.type)(variable.start).name.lower(),
+            )
         else:
             unit, factor, offset = unit_of(result, name, variable)
             shown = value if variable.type == "Integer" else factor * value + offset
-            yield name, variable.description, figure(shown), unit, not math.isclose(value, variable.start, rel_tol=1e-9, abs_tol=1e-15)
+            yield (
+                name,
+                variable.description,
+                figure(shown),
+                unit,
+                not math.isclose(value, variable.start, rel_tol=1e-9, abs_tol=1e-15),
+            )
 
 
 def ball_rows(result):
@@ -252,7 +348,11 @@ def ball_rows(result):
 def solver_rows(result):
     """Name and value of the solver's counters and self-checks."""
     s = result.summary
-    for key, text in (("steps", "internal steps"), ("rhs_evals", "evaluations of the equations"), ("error_tests_failed", "steps rejected")):
+    for key, text in (
+        ("steps", "internal steps"),
+        ("rhs_evals", "evaluations of the equations"),
+        ("error_tests_failed", "steps rejected"),
+    ):
         if f"solver.{key}" in s:
             yield text, f"{s[f'solver.{key}']:,.0f}"
     if s.get("solver.steps"):
@@ -260,16 +360,29 @@ def solver_rows(result):
     if "solver.tolerance" in s:
         yield "tolerance", f"{s['solver.tolerance']:g}"
     if "solver.method_used" in s:
-        yield "method", {1: "velocity Verlet", 2: "Runge–Kutta 4(3)"}.get(int(s["solver.method_used"]), f"{s['solver.method_used']:g}")
+        yield (
+            "method",
+            {1: "velocity Verlet", 2: "Runge–Kutta 4(3)"}.get(
+                int(s["solver.method_used"]), f"{s['solver.method_used']:g}"
+            ),
+        )
     if "real_time_factor" in s:
         yield "CPU time / simulated time", f"{s['real_time_factor']:.2f}"
     if "bearing.energy_residual" in result.data:
         yield "energy residual at the end", f"{1e3 * result.data['bearing.energy_residual'][-1]:.3g} mJ"
     if "bearing.penetration" in result.data:
         yield "largest elastic approach", f"{1e6 * result.data['bearing.penetration'].max():.1f} µm"
-    onsets = {name: int(result.data[name][-1]) for name in result.data if name.startswith("event.") and name.endswith("_onsets")}
+    onsets = {
+        name: int(result.data[name][-1])
+        for name in result.data
+        if name.startswith("event.") and name.endswith("_onsets")
+    }
     if onsets:
-        seen = [f"{name.removeprefix('event.').removesuffix('_onsets').replace('_', ' ')} {count:,}" for name, count in onsets.items() if count]
+        seen = [
+            f"{name.removeprefix('event.').removesuffix('_onsets').replace('_', ' ')} {count:,}"
+            for name, count in onsets.items()
+            if count
+        ]
         yield "onsets of events", ", ".join(seen) or "none"
     flags = columns(result, "rivet[", "].flag")
     if flags:

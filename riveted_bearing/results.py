@@ -1,4 +1,5 @@
-"""Results of a run, in memory and as Parquet, CSV or MAT files that carry all parameters, units and their origin inside.
+"""Results of a run, in memory and as Parquet, CSV or MAT files that carry all parameters, units and their origin
+inside.
 
 Parquet: one column per channel; the schema's metadata holds the key "riveted_bearing" (JSON), each field its unit.
 CSV:     a header of TOML behind "# ", then a line of names and the numbers.
@@ -18,8 +19,8 @@ from pathlib import Path
 
 import numpy as np
 
-from bearing_model.physics.parameters import TYPES
 from bearing_model.generated.variables import PARAMETERS
+from bearing_model.physics.parameters import TYPES
 
 from .errors import UserError, extra
 
@@ -30,8 +31,10 @@ KEY = "riveted_bearing"
 
 @dataclass(frozen=True)
 class Result:
-    """Result of a run: data (arrays by channel, "time" [s] first), units by channel, all parameters (SI value or item name),
-    summary (statistics over every internal step, solver counters and run times at the end) and about (scene, FMU, versions, reason of an early stop)."""
+    """Result of a run: data (arrays by channel, "time" [s] first), units by channel, all parameters (SI value or item
+    name), summary (statistics over every internal step, solver counters and run times at the end) and about (scene,
+    FMU, versions, reason of an early stop).
+    """
 
     data: dict
     units: dict
@@ -51,17 +54,29 @@ class Result:
 
     def metadata(self):
         """All members but the data over time, ready for JSON."""
-        return {"format": FORMAT_VERSION, "about": self.about, "parameters": self.parameters, "summary": self.summary, "units": self.units}
+        return {
+            "format": FORMAT_VERSION,
+            "about": self.about,
+            "parameters": self.parameters,
+            "summary": self.summary,
+            "units": self.units,
+        }
 
     def to_pandas(self):
-        """The data as a pandas.DataFrame over time [s]; its attrs hold units, parameters, summary and origin.  Needs pandas (the extra "tables")."""
+        """The data as a pandas.DataFrame over time [s]; its attrs hold units, parameters, summary and origin.  Needs
+        pandas (the extra "tables").
+        """
         pandas = needed("pandas")
-        frame = pandas.DataFrame({name: values for name, values in self.data.items() if name != "time"}, index=pandas.Index(self.data["time"], name="time"))
+        frame = pandas.DataFrame(
+            {name: values for name, values in self.data.items() if name != "time"},
+            index=pandas.Index(self.data["time"], name="time"),
+        )
         frame.attrs = self.metadata()
         return frame
 
     def to_xarray(self):
-        """The data as an xarray.Dataset: ball[1].Q_i ... ball[Z].Q_i are one array ball.Q_i over (time, ball), units in attrs.
+        """The data as an xarray.Dataset: ball[1].Q_i ... ball[Z].Q_i are one array ball.Q_i over (time, ball), units in
+        attrs.
 
         Needs xarray (the extra "tables").
         """
@@ -73,12 +88,19 @@ class Result:
             if all(len(found) == 1 for found in numbers):
                 kind = "ball" if place[0] == "ball" else "rivet"
                 values = xarray.DataArray(
-                    np.column_stack([self.data[name] for name in names]), dims=("time", kind), coords={kind: [int(found[0]) for found in numbers]}, attrs=attrs
+                    np.column_stack([self.data[name] for name in names]),
+                    dims=("time", kind),
+                    coords={kind: [int(found[0]) for found in numbers]},
+                    attrs=attrs,
                 )
             else:
                 values = ("time", self.data[names[0]], attrs)
             variables[".".join(place)] = values
-        about = {"about": json.dumps(self.about), "parameters": json.dumps(self.parameters), "summary": json.dumps(self.summary)}
+        about = {
+            "about": json.dumps(self.about),
+            "parameters": json.dumps(self.parameters),
+            "summary": json.dumps(self.summary),
+        }
         return xarray.Dataset(variables, attrs=about | {"title": self.about.get("scene", "")})
 
 
@@ -93,7 +115,12 @@ def needed(name):
 def write_result(result: Result, path: str | Path) -> Path:
     """Write a result whole or not at all; the suffix of `path` (.parquet, .csv, .mat) is the format."""
     path = Path(path)
-    write_atomically(path, lambda temporary: WRITERS[format_of(path)](result, result.metadata() | {"digest": digest_of(result)}, temporary))
+    write_atomically(
+        path,
+        lambda temporary: WRITERS[format_of(path)](
+            result, result.metadata() | {"digest": digest_of(result)}, temporary
+        ),
+    )
     return path
 
 
@@ -104,7 +131,13 @@ def read_result(path: str | Path) -> Result:
         raise UserError(f"{path}: no such file")
     try:
         data, metadata = READERS[format_of(path)](path)
-        result = Result(data=data, units=metadata["units"], parameters=metadata["parameters"], summary=metadata["summary"], about=metadata["about"])
+        result = Result(
+            data=data,
+            units=metadata["units"],
+            parameters=metadata["parameters"],
+            summary=metadata["summary"],
+            about=metadata["about"],
+        )
         check_result(result, path)
         if metadata.get("digest", "") not in ("", digest_of(result)):
             raise UserError(f"{path}: damaged or changed: its digest is not that of what was written")
@@ -159,9 +192,17 @@ def origin_problem(name, value):
     if name in ("given", "messages", "replaced"):
         return "" if isinstance(value, list) and all(isinstance(one, str) for one in value) else "not a list of texts"
     if name == "mode_frequencies":
-        return "" if isinstance(value, list) and all(is_number(one) and 0.0 < one < math.inf for one in value) else "not a list of positive numbers"
+        return (
+            ""
+            if isinstance(value, list) and all(is_number(one) and 0.0 < one < math.inf for one in value)
+            else "not a list of positive numbers"
+        )
     if name in ("versions", "not_given", "basis", "units"):
-        return "" if isinstance(value, dict) and all(isinstance(one, str) for one in value.values()) else "not a table of texts"
+        return (
+            ""
+            if isinstance(value, dict) and all(isinstance(one, str) for one in value.values())
+            else "not a table of texts"
+        )
     if name in ("t_end", "step"):
         return "" if is_number(value) else "not a number"
     return ""
@@ -202,7 +243,9 @@ def make_folder(folder):
 
 
 def write_atomically(path, write):
-    """Let write(temporary path) make a file beside `path`, then rename it to `path`: never half a file.  UserError if folder or disk refuse."""
+    """Let write(temporary path) make a file beside `path`, then rename it to `path`: never half a file.  UserError if
+    folder or disk refuse.
+    """
     make_folder(path.parent)
     temporary = path.with_name(f".{path.stem}.{os.getpid()}{path.suffix}")
     try:
@@ -242,7 +285,9 @@ def write_parquet(result, metadata, path):
 def read_parquet(path):
     """Data and metadata of write_parquet."""
     table = read_table(path)
-    return {name: table[name].to_numpy() for name in table.column_names}, json.loads(table.schema.metadata[KEY.encode()])
+    return {name: table[name].to_numpy() for name in table.column_names}, json.loads(
+        table.schema.metadata[KEY.encode()]
+    )
 
 
 def write_csv(result, metadata, path):

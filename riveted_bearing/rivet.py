@@ -1,4 +1,6 @@
-"""Stress of the rivets of a table or of a geometry: curves over preload, fit and transverse load, and pictures of the finite elements."""
+"""Stress of the rivets of a table or of a geometry: curves over preload, fit and transverse load, and pictures of the
+finite elements.
+"""
 
 import math
 import os
@@ -10,9 +12,9 @@ import numpy as np
 from rich.table import Column, Table
 from threadpoolctl import threadpool_limits
 
+from bearing_model.cage.common import joint_law
 from bearing_model.cage.elastic import half_modes
 from bearing_model.cage.two_half import half_path
-from bearing_model.cage.common import joint_law
 from bearing_model.rivet import rivet_rom, rivet_splines, rivet_table
 from rivet_model import closed_form, pictures, table
 from rivet_model.build import make_table, other_modes
@@ -41,19 +43,24 @@ ROWS = {"preload": 10.0, "fit": 10e-6, "transverse load": 10.0}  # distance of t
 def rivet_curves(source=None):
     """Title, curves (see rivet_model.pictures.curves) and Joint of a rivet.
 
-    source: rivet table (JSON) or geometry (TOML), None for the tracked table; for a geometry the finite elements are solved, in some 20 s.
-    Raises UserError naming file and fault.
+    source: rivet table (JSON) or geometry (TOML), None for the tracked table; for a geometry the finite elements are
+    solved, in some 20 s. Raises UserError naming file and fault.
     """
     path = Path(source or rivet_table.DEFAULT_TABLE)
     if path.suffix == ".toml":
         joint = condensed(read_geometry(path), path)
         return f"{path.name}: finite elements", pictures.curves(*pictures.joint_response(joint)), joint
     t = read_table(path)
-    return f"{path.name}: {table_text(t)}", pictures.curves(*pictures.table_response(t)), condensed(Geometry(**t.geometry), path)
+    return (
+        f"{path.name}: {table_text(t)}",
+        pictures.curves(*pictures.table_response(t)),
+        condensed(Geometry(**t.geometry), path),
+    )
 
 
 def read_geometry(path, bearing=None):
-    """Geometry of a rivet file (TOML) in the cage of a bearing (file or designation); UserError if the file cannot be used or its rivet cannot be made.
+    """Geometry of a rivet file (TOML) in the cage of a bearing (file or designation); UserError if the file cannot be
+    used or its rivet cannot be made.
 
     Without a bearing the cage is the 6207's, and the file may give sizes of its own by the names of Geometry.
     """
@@ -62,7 +69,10 @@ def read_geometry(path, bearing=None):
     own = dict(cage_sizes(path, document))
     numbers = {name: value for name, value in case.values.items() if is_number(value)}
     given = numbers | {CAGE_NAMES[name]: value for name, value in own.items() if name in CAGE_NAMES}
-    written = {"rivet": own_keys(document), "parameters": {CAGE_NAMES[name]: document[name] for name in own if name in CAGE_NAMES}}
+    written = {
+        "rivet": own_keys(document),
+        "parameters": {CAGE_NAMES[name]: document[name] for name in own if name in CAGE_NAMES},
+    }
     check_limits(path, written, (own.get("Z", case.Z), given, case.rivet, {}, {}, None), called)
     try:
         return Geometry(**(case.joint | own))
@@ -71,7 +81,8 @@ def read_geometry(path, bearing=None):
 
 
 def rivet_case(path, bearing, fixed=True):
-    """The Case of a bearing with the rivet of a file, whose keys are those of a section [rivet]; the file may repeat the bearing's sizes.
+    """The Case of a bearing with the rivet of a file, whose keys are those of a section [rivet]; the file may repeat
+    the bearing's sizes.
 
     fixed: whether the file may not change them.
     """
@@ -146,11 +157,13 @@ def condensed(geometry, path):
 
 
 def table_of(where, geometry, kind=None, say=lambda text, share=None: None, modes=None):
-    """Path of the rivet table of a geometry: the shipped one, or one made in the user's cache folder, or found there from an earlier time.
+    """Path of the rivet table of a geometry: the shipped one, or one made in the user's cache folder, or found there
+    from an earlier time.
 
-    where: whose geometry it is, for messages; kind: one of TABLES, None for the shipped table if it was made for this geometry, else a coarse one;
-    say: called with stage and share done; modes: of a cage half, None: as many as usual.  Raises UserError if the geometry cannot be meshed or solved, or
-    for an impossible number of modes; then there is no new file.
+    where: whose geometry it is, for messages; kind: one of TABLES, None for the shipped table if it was made for this
+    geometry, else a coarse one; say: called with stage and share done; modes: of a cage half, None: as many as usual.
+    Raises UserError if the geometry cannot be meshed or solved, or for an impossible number of modes; then there is no
+    new file.
     """
     if modes is not None and kind == "closed-form":
         raise UserError(f"--modes {modes}: a table of closed forms has none; allowed: coarse or full")
@@ -202,7 +215,9 @@ def table_text(t):
 
 def sources_digest():
     """Digest of the source files that make a table, so that a table made by other sources is not taken for theirs."""
-    readers = (Path(module.__file__) for module in (half_modes, half_path, joint_law, rivet_rom, rivet_splines, rivet_table))
+    readers = (
+        Path(module.__file__) for module in (half_modes, half_path, joint_law, rivet_rom, rivet_splines, rivet_table)
+    )
     files = [*sorted(Path(table.__file__).parent.glob("*.py")), *readers]
     return sha256(b"".join(file.read_bytes() for file in files)).hexdigest()[:8]
 
@@ -212,15 +227,26 @@ def curve_tables(curves):
     for curve in curves.values():
         step = ROWS[curve.label]
         shown = np.isclose(curve.x / step, np.round(curve.x / step), atol=1e-6)
-        rows = Table(*(Column(text, justify="right") for text in (f"{curve.label} [{curve.unit}]", "head [MPa]", "middle [MPa]")), box=None, pad_edge=False)
-        for x, head, mid in zip(curve.scale * curve.x[shown], curve.head[shown] / 1e6, curve.mid[shown] / 1e6, strict=True):
+        rows = Table(
+            *(
+                Column(text, justify="right")
+                for text in (f"{curve.label} [{curve.unit}]", "head [MPa]", "middle [MPa]")
+            ),
+            box=None,
+            pad_edge=False,
+        )
+        for x, head, mid in zip(
+            curve.scale * curve.x[shown], curve.head[shown] / 1e6, curve.mid[shown] / 1e6, strict=True
+        ):
             rows.add_row(f"{x:.0f}", f"{head:.1f}", f"{mid:.1f}")
         yield curve.title, rows
 
 
 @threadpool_limits.wrap(limits=1)
 def write_pictures(folder, title, curves, joint):
-    """Write rivet_drawing.png, rivet_curves.png, rivet_section.png and cage_modes.png into a folder; returns their paths."""
+    """Write rivet_drawing.png, rivet_curves.png, rivet_section.png and cage_modes.png into a folder; returns their
+    paths.
+    """
     figures = {
         "rivet_curves.png": pictures.plot_curves(curves, title),
         "rivet_section.png": pictures.plot_section(joint),
@@ -249,7 +275,9 @@ def given_geometry(rivet, bearing=None):
 
 
 def seat_note(geometry):
-    """A warning where the seat under the head is smaller than the shank's section, so that the head presses harder than the shank is pulled; else ""."""
+    """A warning where the seat under the head is smaller than the shank's section, so that the head presses harder than
+    the shank is pulled; else "".
+    """
     if geometry.seat_share >= 1.0:
         return ""
     ring = f"{1e3 * geometry.seat_width:.2g} mm wide, {100.0 * geometry.seat_share:.0f} % of the shank's section"

@@ -1,7 +1,8 @@
-"""Heads of solid rivets by the standards that makers deliver: head diameter and height by the shank's nominal diameter (data/rivet_heads.csv).
+"""Heads of solid rivets by the standards that makers deliver: head diameter and height by the shank's nominal diameter
+(data/rivet_heads.csv).
 
-The head that riveting forms is taken to be like the one that the rivet brings along.  The fillet below the head follows the shank by rule (scaling.py): the
-standards give its upper limit only.
+The head that riveting forms is taken to be like the one that the rivet brings along.  The fillet below the head follows
+the shank by rule (scaling.py): the standards give its upper limit only.
 """
 
 import csv
@@ -27,7 +28,8 @@ def heads():
 
 
 def head_of(path, standard, sizes):
-    """Head diameter and height [m] by a standard's name for the rivet's shank; UserError if the standard or the shank is not in the table.
+    """Head diameter and height [m] by a standard's name for the rivet's shank; UserError if the standard or the shank
+    is not in the table.
 
     >>> head_of("", "DIN 660", {"shank_diameter": 2e-3})
     {'head_diameter': 0.0035, 'head_height': 0.0012}
@@ -40,5 +42,10 @@ def head_of(path, standard, sizes):
         raise refusal(path, "rivet.head", standard, f"rivet.shank_diameter is needed too; {standard} has {shanks} mm")
     shank = next((shank for shank in rows if math.isclose(shank, 1e3 * sizes["shank_diameter"], rel_tol=1e-6)), None)
     if shank is None:
-        raise refusal(path, "rivet.head", standard, f"it has shanks of {shanks} mm, but rivet.shank_diameter = {1e3 * sizes['shank_diameter']:g} mm")
+        raise refusal(
+            path,
+            "rivet.head",
+            standard,
+            f"it has shanks of {shanks} mm, but rivet.shank_diameter = {1e3 * sizes['shank_diameter']:g} mm",
+        )
     return dict(zip(("head_diameter", "head_height"), rows[shank], strict=True))

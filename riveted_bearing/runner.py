@@ -23,7 +23,9 @@ PROGRESS_INTERVAL = 0.05  # s of wall time between calls of progress
 
 
 def simulate(model, scene, progress=None):
-    """Run a Scene that was checked against the Model; returns its Result, see riveted_bearing.run.  Ctrl-C ends the run after the step under way."""
+    """Run a Scene that was checked against the Model; returns its Result, see riveted_bearing.run.  Ctrl-C ends the run
+    after the step under way.
+    """
     with held_interrupts() as interrupts, Instance(model) as instance:
         instance.initialize(scene)
         parameters = instance.parameters()
@@ -32,7 +34,12 @@ def simulate(model, scene, progress=None):
         wall, cpu = time.perf_counter() - wall, time.thread_time() - cpu
         summary = closing_values(instance, model)
     simulated = float(times[-1])
-    summary |= {"simulated_time": simulated, "cpu_time": cpu, "wall_time": wall, "real_time_factor": cpu / simulated if simulated else float("nan")}
+    summary |= {
+        "simulated_time": simulated,
+        "cpu_time": cpu,
+        "wall_time": wall,
+        "real_time_factor": cpu / simulated if simulated else float("nan"),
+    }
     names = ["time", *scene.outputs]
     variables = model.inputs | model.outputs
     ending = {"stopped": stopped, "messages": [text for level, text in instance.log if level != "ok"][-20:]}
@@ -48,7 +55,8 @@ def simulate(model, scene, progress=None):
 def march(instance, scene, progress, interrupts):
     """All communication steps of a scene, until interrupts.pending.
 
-    Returns the times [s] and columns of outputs up to the end or to the point where the FMU gave up, and the reason for that ("" at the end).
+    Returns the times [s] and columns of outputs up to the end or to the point where the FMU gave up, and the reason for
+    that ("" at the end).
     """
     times = scene.communication_points()
     varying = {name: history for name, history in scene.inputs.items() if len(history.t) > 1}
@@ -105,15 +113,23 @@ def closing_values(instance, model):
 
 
 def closing_names(model):
-    """Variables that say how it went over the whole run: statistics, damage, solver counters, processor time, and what the rivets' stress rests on."""
+    """Variables that say how it went over the whole run: statistics, damage, solver counters, processor time, and what
+    the rivets' stress rests on.
+    """
     names = [*model.outputs, *model.locals]
-    return [name for name in names if name.startswith(("stat.", "solver.")) or ".damage_" in name or name == "rivet.table_kind"]
+    return [
+        name
+        for name in names
+        if name.startswith(("stat.", "solver.")) or ".damage_" in name or name == "rivet.table_kind"
+    ]
 
 
 def vibrations(model, parameters):
-    """Frequencies [Hz] of a free half, of the modes that the run took, by the table inside the FMU; nothing if the halves are rigid or the FMU lists none.
+    """Frequencies [Hz] of a free half, of the modes that the run took, by the table inside the FMU; nothing if the
+    halves are rigid or the FMU lists none.
 
-    A half is as much denser than the table's as `cage.m` is larger, and takes whole pairs of modes (bearing_model/cage/elastic/half_modes.py: denser, fewer).
+    A half is as much denser than the table's as `cage.m` is larger, and takes whole pairs of modes
+    (bearing_model/cage/elastic/half_modes.py: denser, fewer).
     """
     if parameters.get("scene.cage") != "elastic" or not model.cage_modes:
         return {}

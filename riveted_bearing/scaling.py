@@ -1,11 +1,12 @@
 """What is not known of a bearing, by rule from the 6207 of the paper: the defaults of the variable table, scaled.
 
-Cage and clearances are geometrically similar: lengths grow with the ball's diameter, the cage's diameters keep their distances from the pitch circle
-in ball diameters.  The rivet's shank grows with the ball; head, relief, chamfer, fit and swell grow with the shank, the seat with the head, the preload with
-the shank's section (equal stress).  A half's mass, centre of mass and inertia follow from its shape and density (rivet_model/half_shape.py), the inner
-ring's (with its share of the shaft) from bore and width; its damping keeps damping per mass and damping ratio.
-Loads: a tenth of C radially, a sixth of that axially where no load is given, else 0 for those that are not; speed: n d_m = 480,000 mm/min, 70 % of the usual
-limit with grease.  Parts whose temperature is not given have that of the oil, if it is given.
+Cage and clearances are geometrically similar: lengths grow with the ball's diameter, the cage's diameters keep their
+distances from the pitch circle in ball diameters.  The rivet's shank grows with the ball; head, relief, chamfer, fit
+and swell grow with the shank, the seat with the head, the preload with the shank's section (equal stress).  A half's
+mass, centre of mass and inertia follow from its shape and density (rivet_model/half_shape.py), the inner ring's (with
+its share of the shaft) from bore and width; its damping keeps damping per mass and damping ratio. Loads: a tenth of C
+radially, a sixth of that axially where no load is given, else 0 for those that are not; speed: n d_m = 480,000 mm/min,
+70 % of the usual limit with grease.  Parts whose temperature is not given have that of the oil, if it is given.
 """
 
 import math
@@ -23,7 +24,15 @@ BY_SHANK = ("joint.fit", "joint.swell")
 AXIAL = ("cage.width", "cage.land_width", "cage.land_x")  # by the ball too, as far as the bearing is wide enough
 WIDEST_CAGE = 0.97  # of the bearing's width
 RIVET_BY_BALL = ("shank_diameter", "flange_thickness")
-RIVET_BY_SHANK = ("head_diameter", "head_height", "fillet_radius", "relief_radius", "relief_depth", "edge_break", "middle_zone")
+RIVET_BY_SHANK = (
+    "head_diameter",
+    "head_height",
+    "fillet_radius",
+    "relief_radius",
+    "relief_depth",
+    "edge_break",
+    "middle_zone",
+)
 SHAPE = {  # names of half_shape.py by those of a bearing file; half the cage's width apart
     "Z": "Z",
     "d_m": "bearing.d_m",
@@ -52,7 +61,9 @@ def modes(Z):
 
 
 def parameters_of(Z):
-    """The variable table's parameters by name, with the start and the limits that hold for Z balls (fmus/generate.py, number_of)."""
+    """The variable table's parameters by name, with the start and the limits that hold for Z balls (fmus/generate.py,
+    number_of).
+    """
     v = variables.PARAMETERS["scene.modes"]
     start, low, high = (8 * math.ceil(number * Z / (8 * variables.Z)) for number in (v.start, v.min, v.max))
     return variables.PARAMETERS | {v.name: replace(v, start=start, min=low, max=high)}
@@ -64,14 +75,17 @@ def rounded(value):
 
 
 def scaled_parameters(Z, D, d_m, given, rivet, bore=None, width=None):
-    """Parameters by rule for Z balls of the diameter D on the pitch diameter d_m [m]; what `given` holds stands, and others that follow from it do.
+    """Parameters by rule for Z balls of the diameter D on the pitch diameter d_m [m]; what `given` holds stands, and
+    others that follow from it do.
 
     rivet: dimensions by the names of rivet_model.geometry; bore, width [m]: the 6207's in ball diameters, if not known.
     """
     r = D / start("bearing.D")
     values = {"bearing.D": D, "bearing.d_m": d_m}
     axial = r if width is None else min(r, WIDEST_CAGE * width / start("cage.width"))
-    values |= {name: rounded(r * start(name)) for name in BY_BALL} | {name: rounded(axial * start(name)) for name in AXIAL}
+    values |= {name: rounded(r * start(name)) for name in BY_BALL} | {
+        name: rounded(axial * start(name)) for name in AXIAL
+    }
     values |= {name: value for name, value in cage_sizes(D, d_m).items() if name != "cage.width"}
     values |= scaled_joint(rivet) | given
     values |= half_inertia({"Z": Z} | values, rivet) | given
@@ -83,11 +97,15 @@ def scaled_parameters(Z, D, d_m, given, rivet, bore=None, width=None):
 def scaled_joint(rivet):
     """Preload [N] by rule for the shank of a rivet, of the same stress as the 6207's; fit and swell [m]."""
     s = rivet.get("shank_diameter", RIVET["shank_diameter"]) / RIVET["shank_diameter"]
-    return {"joint.preload": rounded(s**2 * start("joint.preload"))} | {name: rounded(s * start(name)) for name in BY_SHANK}
+    return {"joint.preload": rounded(s**2 * start("joint.preload"))} | {
+        name: rounded(s * start(name)) for name in BY_SHANK
+    }
 
 
 def scaled_materials(given):
-    """Parameters that follow from given materials: balls are of the rings' steel, the S-N curve of a rivet's steel keeps its ratios to the strength."""
+    """Parameters that follow from given materials: balls are of the rings' steel, the S-N curve of a rivet's steel
+    keeps its ratios to the strength.
+    """
     values = {"bearing.rho": given["ring.rho"]} if "ring.rho" in given else {}
     if "fatigue.sigma_m" in given:
         share = given["fatigue.sigma_m"] / start("fatigue.sigma_m")
@@ -101,13 +119,16 @@ def parts_temperatures(inputs):
 
 
 def shape_of(values, rivet):
-    """What half_shape.py needs of a cage half: values by the names of a bearing file, the rivet's by those of rivet_model.geometry."""
+    """What half_shape.py needs of a cage half: values by the names of a bearing file, the rivet's by those of
+    rivet_model.geometry.
+    """
     cage = {name: values[parameter] for name, parameter in SHAPE.items()}
     return SimpleNamespace(**RIVET | rivet | cage | {"cage_half_width": 0.5 * cage["cage_half_width"]})
 
 
 def half_inertia(values, rivet):
-    """INERTIA of the half that follows from shape and density, and the density that a mass among the values means where none is among them.
+    """INERTIA of the half that follows from shape and density, and the density that a mass among the values means where
+    none is among them.
 
     A mass beside a density scales the moments of inertia.  A shape that leaves no bars has none of these.
     """
@@ -121,7 +142,9 @@ def half_inertia(values, rivet):
         found["cage.rho"] = rounded(shape.rho_flange)
     m, x_c, J_p, J_t = half_shape.half_inertia(shape)
     share = values.get("cage.m", m) / m
-    return found | dict(zip(INERTIA, (rounded(value) for value in (share * m, x_c, share * J_p, share * J_t)), strict=True))
+    return found | dict(
+        zip(INERTIA, (rounded(value) for value in (share * m, x_c, share * J_p, share * J_t)), strict=True)
+    )
 
 
 def inner_ring(bore, width):
@@ -141,16 +164,24 @@ def cage_sizes(D, d_m):
 
 
 def scaled_rivet(Z, D, d_m, given, rivet):
-    """Lengths of the rivet and its seat by rule [m]; the seat's counterbore leaves metal around it, as far as the head has room at all."""
+    """Lengths of the rivet and its seat by rule [m]; the seat's counterbore leaves metal around it, as far as the head
+    has room at all.
+    """
     r = D / start("bearing.D")
     values = {name: rounded(r * RIVET[name]) for name in RIVET_BY_BALL} | rivet
     s = values["shank_diameter"] / RIVET["shank_diameter"]
     values = {name: rounded(s * RIVET[name]) for name in RIVET_BY_SHANK} | values
-    shape = shape_of({"Z": Z, "bearing.D": D, "bearing.d_m": d_m, "cage.rho": start("cage.rho")} | cage_sizes(D, d_m) | given, values)
-    across = min(d_m - shape.cage_inner_diameter, shape.cage_outer_diameter - d_m, 2.0 * half_shape.narrowest_half_bar(shape))
+    shape = shape_of(
+        {"Z": Z, "bearing.D": D, "bearing.d_m": d_m, "cage.rho": start("cage.rho")} | cage_sizes(D, d_m) | given, values
+    )
+    across = min(
+        d_m - shape.cage_inner_diameter, shape.cage_outer_diameter - d_m, 2.0 * half_shape.narrowest_half_bar(shape)
+    )
     if "seat_diameter" not in rivet:
         usual = values["head_diameter"] * RIVET["seat_diameter"] / RIVET["head_diameter"]
-        values["seat_diameter"] = rounded(max(values["head_diameter"], min(usual, across - 2.0 * half_shape.LEAST_WALL)))
+        values["seat_diameter"] = rounded(
+            max(values["head_diameter"], min(usual, across - 2.0 * half_shape.LEAST_WALL))
+        )
     return {name: value for name, value in values.items() if name not in rivet}
 
 

@@ -42,7 +42,9 @@ LARGEST_RESULT = 16 * 2**30  # bytes, on disk
 
 @dataclass(frozen=True)
 class History:
-    """An input over time: straight lines between points or, with hold, steps; constant before the first and after the last point."""
+    """An input over time: straight lines between points or, with hold, steps; constant before the first and after the
+    last point.
+    """
 
     t: np.ndarray
     value: np.ndarray
@@ -91,8 +93,8 @@ def shipped_scenes():
 def load_scene(source, model, *changes):
     """Read a scene and apply changes to it.
 
-    source: path of a TOML file or name of a shipped scene, None for the FMU's own parameters and inputs; model: the Model to run it;
-    changes: pairs (origin for messages, document like the file's), later ones win.
+    source: path of a TOML file or name of a shipped scene, None for the FMU's own parameters and inputs; model: the
+    Model to run it; changes: pairs (origin for messages, document like the file's), later ones win.
     scene.statistics is on unless the scene sets it, because communication points alone miss the impacts.
     Returns a Scene; raises UserError naming file, key, value and what is allowed.
     """
@@ -102,17 +104,23 @@ def load_scene(source, model, *changes):
     else:
         path = find_scene(source)
         folder = Path(str(path)).parent
-        of_file = apply(replace(start, name=Path(path.name).stem, source=str(path)), str(path), read_toml(path), model, folder)
+        of_file = apply(
+            replace(start, name=Path(path.name).stem, source=str(path)), str(path), read_toml(path), model, folder
+        )
     scene = of_file
     for where, document in changes:
         scene = apply(scene, where, document, model, folder)
     check_times(scene, " with ".join([*filter(None, [scene.source]), *(where for where, _ in changes)]))
-    return replace(scene, outputs=scene.outputs or default_outputs(model), replaced=tuple(replacements(of_file, scene, model)))
+    return replace(
+        scene, outputs=scene.outputs or default_outputs(model), replaced=tuple(replacements(of_file, scene, model))
+    )
 
 
 def working_point(model):
     """The FMU's own loads and speed in words."""
-    shown = [f"{name.removeprefix('shaft.')} {in_words(model, name)}" for name in ("shaft.F_y", "shaft.F_x", "shaft.omega")]
+    shown = [
+        f"{name.removeprefix('shaft.')} {in_words(model, name)}" for name in ("shaft.F_y", "shaft.F_x", "shaft.omega")
+    ]
     return f"own working point of {model.path.name}, {', '.join(shown)}"
 
 
@@ -129,7 +137,9 @@ def in_words(model, name, value=None, symbol=None):
 
 
 def replacements(of_file, scene, model):
-    """Values of a scene's file, not changed since, in the place of the FMU's own: "shaft.F_y 2994 N for 4100 N".  How to simulate does not count."""
+    """Values of a scene's file, not changed since, in the place of the FMU's own: "shaft.F_y 2994 N for 4100 N".  How
+    to simulate does not count.
+    """
     for name, given in (of_file.parameters | of_file.inputs).items():
         value, own = getattr(given, "value", given), model.default((model.parameters | model.inputs)[name])
         there, here = (in_words(model, name, one, scene.units.get(name)) for one in (value, own))
@@ -162,14 +172,29 @@ def read_toml(path):
 def apply(scene, where, document, model, folder):
     """The scene with one document's settings on top."""
     if "Z" in document:
-        raise UserError(f"{where}: this is a bearing file, not a scene: `riveted-bearing build --bearing {where}` makes an FMU of it")
+        raise UserError(
+            f"{where}: this is a bearing file, not a scene: `riveted-bearing build --bearing {where}` makes an FMU of it"
+        )
     for key in document:
         if key not in SECTIONS:
             raise unknown(where, "key", key, SECTIONS)
     sections = {name: section_of(where, document, name) for name in SECTIONS[1:]}
-    parameters = read_section(where, "parameters", sections["parameters"], model.parameters, model.inputs, model.parameter_value)
-    inputs = read_section(where, "inputs", sections["inputs"], model.inputs, model.parameters, lambda value, v: input_history(value, v, model, folder))
-    written = {name: unit_of(value) for kind in ("parameters", "inputs") for name, value in leaves(sections[kind], model.parameters | model.inputs)}
+    parameters = read_section(
+        where, "parameters", sections["parameters"], model.parameters, model.inputs, model.parameter_value
+    )
+    inputs = read_section(
+        where,
+        "inputs",
+        sections["inputs"],
+        model.inputs,
+        model.parameters,
+        lambda value, v: input_history(value, v, model, folder),
+    )
+    written = {
+        name: unit_of(value)
+        for kind in ("parameters", "inputs")
+        for name, value in leaves(sections[kind], model.parameters | model.inputs)
+    }
     return replace(
         scene,
         description=str(document.get("description", scene.description)),
@@ -198,7 +223,9 @@ def read_section(where, kind, section, variables, others, value_of):
     settings = {}
     for name, value in leaves(section, variables | others):
         if name in others:
-            raise UserError(f"{where}: {kind}.{name}: does not belong into [{kind}] but into [{'inputs' if kind == 'parameters' else 'parameters'}]")
+            raise UserError(
+                f"{where}: {kind}.{name}: does not belong into [{kind}] but into [{'inputs' if kind == 'parameters' else 'parameters'}]"
+            )
         if name not in variables:
             raise unknown(where, kind.removesuffix("s"), name, variables)
         try:
@@ -225,7 +252,11 @@ def read_simulation(where, section, model):
         if key not in SIMULATION:
             raise unknown(where, "key", f"simulation.{key}", [f"simulation.{name}" for name in SIMULATION])
         try:
-            settings[key] = select(value, model) if key == "outputs" else positive(value, SECONDS if key != "tolerance" else {"1": (1.0, 0.0)})
+            settings[key] = (
+                select(value, model)
+                if key == "outputs"
+                else positive(value, SECONDS if key != "tolerance" else {"1": (1.0, 0.0)})
+            )
         except UserError as problem:
             raise refusal(where, f"simulation.{key}", value, problem) from None
     return settings
@@ -295,12 +326,17 @@ def from_points(value, scales):
     if not all(isinstance(value[key], (list, tuple, np.ndarray)) for key in ("t", "value")):
         raise UserError("t and value must be lists")
     factor, offset = scale(value["unit"], scales) if "unit" in value else (1.0, 0.0)
-    si = [to_si(entry, scales) if isinstance(entry, str) else (to_si(entry, scales) - offset) / factor for entry in value["value"]]
+    si = [
+        to_si(entry, scales) if isinstance(entry, str) else (to_si(entry, scales) - offset) / factor
+        for entry in value["value"]
+    ]
     return History(np.array([to_si(entry, SECONDS) for entry in value["t"]]), np.array(si), is_hold(value))
 
 
 def from_column(value, scales, folder):
-    """A History from { file = "...", column = "..." }: CSV with a header line, lines with # in front are skipped, times in s."""
+    """A History from { file = "...", column = "..." }: CSV with a header line, lines with # in front are skipped, times
+    in s.
+    """
     check_keys(value, COLUMN, ("file", "column"))
     path = folder / value["file"]
     if not path.is_file():
@@ -352,8 +388,15 @@ def check_times(scene, where):
     """UserError unless step, output interval and end fit each other and the result is no larger than LARGEST_RESULT."""
     if scene.step > scene.t_end:
         raise refusal(where, "simulation.step", scene.step, f"not longer than t_end = {scene.t_end:g} s is allowed")
-    if scene.output_interval is not None and (scene.stride < 1 or abs(scene.stride * scene.step / scene.output_interval - 1.0) > 1e-9):
-        raise refusal(where, "simulation.output_interval", scene.output_interval, f"multiples of step = {scene.step:g} s are allowed")
+    if scene.output_interval is not None and (
+        scene.stride < 1 or abs(scene.stride * scene.step / scene.output_interval - 1.0) > 1e-9
+    ):
+        raise refusal(
+            where,
+            "simulation.output_interval",
+            scene.output_interval,
+            f"multiples of step = {scene.step:g} s are allowed",
+        )
     size = 8 * len(scene.outputs or range(400)) * scene.t_end / (scene.step * scene.stride)
     if size > LARGEST_RESULT:
         raise refusal(

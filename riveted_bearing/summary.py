@@ -12,7 +12,9 @@ DEG = 180.0 / np.pi
 
 @dataclass(frozen=True)
 class Row:
-    """One line: channel, unit shown, figures in that unit (nan if unknown), and whether every internal step or only the communication points count."""
+    """One line: channel, unit shown, figures in that unit (nan if unknown), and whether every internal step or only the
+    communication points count.
+    """
 
     channel: str
     unit: str
@@ -24,7 +26,9 @@ class Row:
 
 
 def summary_rows(result):
-    """Rows for every channel that the result has; values before start.settle [s] do not count, and without later ones there are no rows."""
+    """Rows for every channel that the result has; values before start.settle [s] do not count, and without later ones
+    there are no rows.
+    """
     if not has_statistics(result):
         return []
     rows = [
@@ -37,7 +41,9 @@ def summary_rows(result):
 
 
 def channels(result):
-    """Channel, unit shown, factor, names of the outputs and how they combine, for what is known at the communication points alone."""
+    """Channel, unit shown, factor, names of the outputs and how they combine, for what is known at the communication
+    points alone.
+    """
     return [
         ("largest inner contact load", "N", 1.0, columns(result, "ball[", "].Q_i"), largest_of),
         ("largest outer contact load", "N", 1.0, columns(result, "ball[", "].Q_e"), largest_of),
@@ -63,7 +69,9 @@ def no_statistics(result):
     """Why there are no statistics and how to get them: a sentence; "" if there are some."""
     if has_statistics(result):
         return ""
-    settle, end = (f"{time:g} s" for time in (result.parameters.get("start.settle", 0.0), float(result.data["time"][-1])))
+    settle, end = (
+        f"{time:g} s" for time in (result.parameters.get("start.settle", 0.0), float(result.data["time"][-1]))
+    )
     return f"no statistics yet: they begin at start.settle = {settle}, and the run ended at {end}; let it run longer (t_end), or set start.settle lower"
 
 
@@ -71,10 +79,17 @@ def early_rows(result):
     """For a run without statistics: (channel, unit, value at the end, largest since the start) of what it has."""
     peaks = [
         ("pocket force, largest in the step", "N", 1.0, ["cage.F_pocket_peak"], None),
-        *((f"{place} stress, worst rivet", "MPa", 1e-6, [f"rivet.sigma_{short}_max"], None) for place, short in (("head", "head"), ("middle", "mid"))),
+        *(
+            (f"{place} stress, worst rivet", "MPa", 1e-6, [f"rivet.sigma_{short}_max"], None)
+            for place, short in (("head", "head"), ("middle", "mid"))
+        ),
     ]
     for channel, unit, factor, names, combine in [*peaks, *channels(result)]:
-        if names and all(name in result.data for name in names) and (unit != "MPa" or result.parameters.get("scene.stress") != "off"):
+        if (
+            names
+            and all(name in result.data for name in names)
+            and (unit != "MPa" or result.parameters.get("scene.stress") != "off")
+        ):
             values = factor * combined(result, names, combine)
             yield channel, unit, float(values[-1]), float(values[np.argmax(np.abs(values))])
 
@@ -93,8 +108,8 @@ def table_note(result):
 def assumed_rows(result):
     """Assumed parameters that move the rivets' stress most: (name, value, low, high, unit, stress, source).
 
-    Neither scene nor bearing file gives them, or others from which they follow.  stress: change of the worst head's 99.9 % quantile over the range low to
-    high, over the quantile, at the working point of the 6207.
+    Neither scene nor bearing file gives them, or others from which they follow.  stress: change of the worst head's
+    99.9 % quantile over the range low to high, over the quantile, at the working point of the 6207.
     """
     for name, (low, high, stress, source) in variables.ASSUMPTIONS.items():
         if name in result.parameters and not is_known(name, set(result.about.get("given", ())), result.parameters):
@@ -105,8 +120,13 @@ def assumed_rows(result):
 
 
 def is_known(name, given, parameters):
-    """Whether a parameter is given, or follows from others that are: the viscosity from both its points, the mixture's density from the flow of oil."""
-    follows = {"oil.eta": {"oil.nu_1", "oil.nu_2"} <= given, "oil.rho_mix": "oil.flow" in given and parameters["oil.flow"] > 0.0}
+    """Whether a parameter is given, or follows from others that are: the viscosity from both its points, the mixture's
+    density from the flow of oil.
+    """
+    follows = {
+        "oil.eta": {"oil.nu_1", "oil.nu_2"} <= given,
+        "oil.rho_mix": "oil.flow" in given and parameters["oil.flow"] > 0.0,
+    }
     return name in given or follows.get(name, False)
 
 
@@ -118,14 +138,21 @@ def life_is_known(result):
 def rivet_rows(result):
     """Head and middle stress [MPa] of each rivet over every internal step, as (k, Row of the head, Row of the middle)."""
     count = sum(name.startswith("stat.rivet_head_mean[") for name in result.summary)
-    pairs = [tuple(stress(result, f"rivet {k}, {place}", f"stat.rivet_{place}_{{}}[{k}]") for place in ("head", "mid")) for k in range(1, count + 1)]
+    pairs = [
+        tuple(stress(result, f"rivet {k}, {place}", f"stat.rivet_{place}_{{}}[{k}]") for place in ("head", "mid"))
+        for k in range(1, count + 1)
+    ]
     return [(k, *pair) for k, pair in enumerate(pairs, 1) if all(pair)]
 
 
 def counted(result, channel, unit, pattern, factor):
     """A row from the FMU's own statistics; None if they were off or never really started."""
     names = [pattern.format(kind) for kind in ("mean", "rms", "p999", "max")]
-    if not has_statistics(result) or not result.summary.get("stat.time") or not all(name in result.summary for name in names):
+    if (
+        not has_statistics(result)
+        or not result.summary.get("stat.time")
+        or not all(name in result.summary for name in names)
+    ):
         return None
     return Row(channel, unit, *(factor * result.summary[name] for name in names), every_step=True)
 
@@ -142,7 +169,15 @@ def sampled(result, channel, unit, factor, names, combine):
         return None
     values = factor * combined(result, names, combine)[settled(result)]
     extreme = values[np.argmax(np.abs(values))]
-    return Row(channel, unit, float(values.mean()), float(np.sqrt(np.mean(values**2))), float(np.quantile(values, 0.999)), float(extreme), every_step=False)
+    return Row(
+        channel,
+        unit,
+        float(values.mean()),
+        float(np.sqrt(np.mean(values**2))),
+        float(np.quantile(values, 0.999)),
+        float(extreme),
+        every_step=False,
+    )
 
 
 def combined(result, names, combine):
@@ -173,8 +208,12 @@ def length_of(values):
 
 
 def assumed_ranges(model, scene=None):
-    """Documented ranges of the assumed parameters that follow neither from the bearing's file nor from a scene: {name: (lowest, highest)} in SI."""
-    values = {name: model.default(variable) for name, variable in model.parameters.items()} | (scene.parameters if scene else {})
+    """Documented ranges of the assumed parameters that follow neither from the bearing's file nor from a scene: {name:
+    (lowest, highest)} in SI.
+    """
+    values = {name: model.default(variable) for name, variable in model.parameters.items()} | (
+        scene.parameters if scene else {}
+    )
     given = given_names(model, scene)
     return {
         name: (low * values[name], high * values[name])

@@ -23,11 +23,11 @@
     seed = 1
     between.joint.mu = [0.05, 0.3]       # lowest and highest value
 
-A row holds all parameters and inputs of the run in SI units, its end (status: done, stopped by the FMU, failed), the FMU's statistics over every
-internal step, solver counters, run time (cpu_time of the simulation, whole_cpu_time with its start and end), and of each sampled output mean, rms, min, max
-and the quantiles p001 and p999 (0.1 and 99.9 %) after start.settle, as `mean(ring.y)`.
-Rows are written as they arrive, a few in a file where they arrive fast, each file whole or not at all; a second call does only runs that are missing or
-failed.
+A row holds all parameters and inputs of the run in SI units, its end (status: done, stopped by the FMU, failed), the
+FMU's statistics over every internal step, solver counters, run time (cpu_time of the simulation, whole_cpu_time with
+its start and end), and of each sampled output mean, rms, min, max and the quantiles p001 and p999 (0.1 and 99.9 %)
+after start.settle, as `mean(ring.y)`. Rows are written as they arrive, a few in a file where they arrive fast, each
+file whole or not at all; a second call does only runs that are missing or failed.
 """
 
 import contextlib
@@ -58,7 +58,12 @@ from .version import __version__
 SECTIONS = ("description", "scene", "repeats", "simulation", "parameters", "inputs", "vary", "sample")
 SAMPLE = ("method", "count", "seed", "between")
 RANGE = ("from", "to", "count", "spacing")
-SETTINGS = {"simulation.t_end": SECONDS, "simulation.step": SECONDS, "simulation.output_interval": SECONDS, "simulation.tolerance": {"1": (1.0, 0.0)}}
+SETTINGS = {
+    "simulation.t_end": SECONDS,
+    "simulation.step": SECONDS,
+    "simulation.output_interval": SECONDS,
+    "simulation.tolerance": {"1": (1.0, 0.0)},
+}
 SAMPLED = ("cage.dislocation", "rivet[*].sigma_head", "rivet[*].sigma_mid")  # unless simulation.outputs names others
 WORDS = ("description", "source", "replaced", "units")  # of a scene: no other run
 KINDS = {
@@ -86,7 +91,8 @@ class Sweep:
     document: dict
     factors: tuple
     scenes: dict = field(repr=False)  # key -> Scene, in the order in which they are run
-    further: tuple = ()  # further columns of a row: function of a run's Result that gives them by name, and function that gives their fields
+    # further columns of a row: function of a run's Result that gives them by name, and function that gives their fields
+    further: tuple = ()
     grows: bool = False  # whether further runs may join the design: rows that do not belong to it are kept
 
 
@@ -99,11 +105,16 @@ def load_sweep(path, model):
 
 
 def plan_sweep(name, document, model, path):
-    """The Sweep of a document like the file's; path: of the file, for messages and to find the scene files that it names."""
+    """The Sweep of a document like the file's; path: of the file, for messages and to find the scene files that it
+    names.
+    """
     for key in document:
         if key not in SECTIONS:
             raise unknown(path, "key", key, SECTIONS)
-    axes = [*vary_axes(path, document.get("vary", []), model), *sample_axes(path, section_of(path, document, "sample"), model)]
+    axes = [
+        *vary_axes(path, document.get("vary", []), model),
+        *sample_axes(path, section_of(path, document, "sample"), model),
+    ]
     if "repeats" in document:
         axes.insert(0, [{"start.seed": seed} for seed in range(1, count_of(path, "repeats", document["repeats"]) + 1)])
     factors = tuple(name for axis in axes for name in axis[0])
@@ -153,8 +164,16 @@ def values_of(path, name, value, model):
     if isinstance(value, list) and value:
         return value
     if not isinstance(value, dict) or not {"from", "to", "count"} <= set(value) <= set(RANGE):
-        raise refusal(path, f"vary.{name}", value, 'a list or { from = ..., to = ..., count = ..., spacing = "linear" or "log" } is needed')
-    low, high, count = *bounds(path, name, (value["from"], value["to"]), model), count_of(path, f"vary.{name}.count", value["count"])
+        raise refusal(
+            path,
+            f"vary.{name}",
+            value,
+            'a list or { from = ..., to = ..., count = ..., spacing = "linear" or "log" } is needed',
+        )
+    low, high, count = (
+        *bounds(path, name, (value["from"], value["to"]), model),
+        count_of(path, f"vary.{name}.count", value["count"]),
+    )
     spacing = value.get("spacing", "linear")
     if spacing not in ("linear", "log"):
         raise refusal(path, f"vary.{name}.spacing", spacing, "allowed: linear, log")
@@ -186,7 +205,9 @@ def count_of(path, name, value):
 
 
 def sample_axes(path, section, model):
-    """The axis of [sample], if there is one: points of a Latin hypercube or a Sobol sequence (scrambled) in the box `between`."""
+    """The axis of [sample], if there is one: points of a Latin hypercube or a Sobol sequence (scrambled) in the box
+    `between`.
+    """
     if not section:
         return []
     from scipy.stats import qmc
@@ -196,7 +217,9 @@ def sample_axes(path, section, model):
             raise unknown(path, "key", f"sample.{key}", [f"sample.{name}" for name in SAMPLE])
     box = dict(leaves(section_of(f"{path}: sample", section, "between"), known_names(model)))
     if not box:
-        raise UserError(f"{path}: sample.between: name at least one parameter or input with its lowest and highest value")
+        raise UserError(
+            f"{path}: sample.between: name at least one parameter or input with its lowest and highest value"
+        )
     for name, pair in box.items():
         if name not in known_names(model):
             raise unknown(path, "parameter or input", name, known_names(model))
@@ -219,7 +242,9 @@ def sample_axes(path, section, model):
 
 
 def beside(path, source):
-    """A scene's name or file, looked for beside the sweep's file; None, the FMU's own parameters and inputs, stays None."""
+    """A scene's name or file, looked for beside the sweep's file; None, the FMU's own parameters and inputs, stays
+    None.
+    """
     if source is not None and not isinstance(source, str):
         raise refusal(path, "scene", source, "a shipped scene's name or a file is needed")
     if source is None or source in shipped_scenes() or Path(source).is_absolute():
@@ -246,26 +271,37 @@ def sections_of(settings, model):
 def key_of(scene, fingerprint):
     """Key of a run: a digest of the FMU's content and of everything in the scene."""
     content = {name: value for name, value in vars(scene).items() if name not in WORDS} | {
-        "inputs": {name: (history.t.tolist(), history.value.tolist(), history.hold) for name, history in scene.inputs.items()},
+        "inputs": {
+            name: (history.t.tolist(), history.value.tolist(), history.hold) for name, history in scene.inputs.items()
+        },
         "fmu": fingerprint,
         "row": ROW_VERSION,
     }
     return hashlib.sha256(json.dumps(content, sort_keys=True).encode()).hexdigest()[:24]
 
 
-# What a worker does --------------------------------------------------------------------------------------------------------------------------
+# What a worker does ---------------------------------------------------------------------------------------------------
 
 
 def perform(scene, fmu, measure=None):
-    """Run a scene through the FMU given as bytes; returns the measured part of the row, with what measure(result) finds if it is given."""
+    """Run a scene through the FMU given as bytes; returns the measured part of the row, with what measure(result) finds
+    if it is given.
+    """
     started, cpu = datetime.now(UTC).isoformat(timespec="milliseconds"), time.thread_time()
     try:
         result = simulate(unpacked(fmu), scene)
     except UserError as problem:
         return {"status": "failed", "message": str(problem), "date": started}
     late = settled(result)
-    sampled = {f"{kind}({name})": float(of(result.data[name][late])) for name in scene.outputs for kind, of in KINDS.items()}
-    about = {"status": "stopped" if result.stopped else "done", "message": result.stopped, "date": started, "whole_cpu_time": time.thread_time() - cpu}
+    sampled = {
+        f"{kind}({name})": float(of(result.data[name][late])) for name in scene.outputs for kind, of in KINDS.items()
+    }
+    about = {
+        "status": "stopped" if result.stopped else "done",
+        "message": result.stopped,
+        "date": started,
+        "whole_cpu_time": time.thread_time() - cpu,
+    }
     return about | result.summary | sampled | (measure(result) if measure else {})
 
 
@@ -284,11 +320,13 @@ def unpacked(fmu):
 MODELS = {}  # by path
 
 
-# What the driver does ------------------------------------------------------------------------------------------------------------------------
+# What the driver does -------------------------------------------------------------------------------------------------
 
 
 class cluster:
-    """A Dask client, as a context manager: of the scheduler at `address`, or of `workers` processes of its own with one thread each."""
+    """A Dask client, as a context manager: of the scheduler at `address`, or of `workers` processes of its own with one
+    thread each.
+    """
 
     def __init__(self, address=None, workers=None):
         self.address, self.workers = address, workers
@@ -300,7 +338,8 @@ class cluster:
         from distributed import Client, LocalCluster
 
         dask.config.set({"distributed.admin.large-graph-warning-threshold": "64MB"})  # the FMU travels inside the graph
-        logging.getLogger("distributed.client").setLevel(logging.CRITICAL)  # run_sweep says in one line what a lost scheduler means
+        # run_sweep says in one line what a lost scheduler means
+        logging.getLogger("distributed.client").setLevel(logging.CRITICAL)
         if self.address:
             self.local = None
             try:
@@ -308,7 +347,8 @@ class cluster:
             except (OSError, ValueError) as problem:
                 raise UserError(f"--scheduler {self.address}: {problem}") from None
         else:
-            here = {"host": "127.0.0.1", "dashboard_address": "127.0.0.1:0", "silence_logs": logging.CRITICAL + 1}  # what matters is in the rows
+            # what matters is in the rows
+            here = {"host": "127.0.0.1", "dashboard_address": "127.0.0.1:0", "silence_logs": logging.CRITICAL + 1}
             with kept_from_children() as interrupts:  # a terminal sends Ctrl-C to the workers too
                 self.local = LocalCluster(n_workers=self.workers, threads_per_worker=1, processes=True, **here)
                 self.client = Client(self.local)
@@ -327,9 +367,9 @@ class cluster:
 def run_sweep(sweep, folder, client, progress=None, keys=None):
     """Do the runs that a sweep's folder lacks and return the rows that it then has.
 
-    folder: of the Parquet dataset, made if need be; client: of a Dask cluster whose workers have this package (the FMU travels with the runs);
-    progress: called with the numbers of runs done, failed, and in all; keys: of the runs that are wanted, None for all.
-    A worker that dies is replaced by another; its run counts once.
+    folder: of the Parquet dataset, made if need be; client: of a Dask cluster whose workers have this package (the FMU
+    travels with the runs); progress: called with the numbers of runs done, failed, and in all; keys: of the runs that
+    are wanted, None for all. A worker that dies is replaced by another; its run counts once.
     A run that fails is a row with status and message, and is tried again in the next call.
     """
     folder = Path(folder)
@@ -345,7 +385,9 @@ def alone_in(folder):
         with FileLock(folder / ".lock", timeout=0):
             yield
     except Timeout:
-        raise UserError(f"{folder}: another sweep is writing to this folder: wait until it has ended, or name another folder with --out") from None
+        raise UserError(
+            f"{folder}: another sweep is writing to this folder: wait until it has ended, or name another folder with --out"
+        ) from None
 
 
 def run_missing(sweep, folder, client, progress, keys):
@@ -357,17 +399,25 @@ def run_missing(sweep, folder, client, progress, keys):
     finished = compact(folder, schema, design, sweep.grows) & set(keys)
     done, failed = len(finished), 0
     progress(done, failed, len(keys))
-    fmu = client.submit(bytes, sweep.fmu, key=f"fmu-{hashlib.sha256(sweep.fmu).hexdigest()}")  # as a task, so that Dask makes it again if its workers die
-    futures = [client.submit(perform, sweep.scenes[key], fmu, *sweep.further[:1], key=f"run-{key}") for key in keys if key not in finished]
+    # as a task, so that Dask makes it again if its workers die
+    fmu = client.submit(bytes, sweep.fmu, key=f"fmu-{hashlib.sha256(sweep.fmu).hexdigest()}")
+    futures = [
+        client.submit(perform, sweep.scenes[key], fmu, *sweep.further[:1], key=f"run-{key}")
+        for key in keys
+        if key not in finished
+    ]
     try:
         completed = as_completed(futures)
         for future in completed:
-            if future.status == "lost" and client.status == "running":  # with its worker: the scheduler has it done again
+            # with its worker: the scheduler has it done again
+            if future.status == "lost" and client.status == "running":
                 completed.add(future)
                 continue
             found = outcome(future)
             if found is None:
-                raise UserError(f"the Dask scheduler is gone after {done + failed} of {len(keys)} runs; they are in {folder}, the same command does the others")
+                raise UserError(
+                    f"the Dask scheduler is gone after {done + failed} of {len(keys)} runs; they are in {folder}, the same command does the others"
+                )
             key = future.key.removeprefix("run-")
             row = about_run(sweep, key) | found
             future.release()
@@ -383,7 +433,9 @@ def run_missing(sweep, folder, client, progress, keys):
 
 
 def outcome(future):
-    """A worker's part of a row, or the reason why there is none; None if the scheduler is gone, be it between the news of the run's end and its result."""
+    """A worker's part of a row, or the reason why there is none; None if the scheduler is gone, be it between the news
+    of the run's end and its result.
+    """
     from distributed.comm import CommClosedError
 
     if future.status == "finished":
@@ -391,7 +443,11 @@ def outcome(future):
             return future.result()
     if future.status in ("finished", "cancelled", "lost"):
         return None
-    return {"status": "failed", "message": f"no result: {future.exception()!r}", "date": datetime.now(UTC).isoformat(timespec="milliseconds")}
+    return {
+        "status": "failed",
+        "message": f"no result: {future.exception()!r}",
+        "date": datetime.now(UTC).isoformat(timespec="milliseconds"),
+    }
 
 
 def about_run(sweep, key):
@@ -402,7 +458,10 @@ def about_run(sweep, key):
     row["solver.tol"] = row["solver.tol"] if scene.tolerance is None else scene.tolerance
     for name, variable in model.inputs.items():
         history = scene.inputs.get(name)
-        row[name] = model.default(variable) if history is None else float(history.value[0]) if len(history.t) == 1 else None  # None: varies in time
+        # None: varies in time
+        row[name] = (
+            model.default(variable) if history is None else float(history.value[0]) if len(history.t) == 1 else None
+        )
     return row
 
 
@@ -411,15 +470,25 @@ def schema_of(sweep):
     import pyarrow as pa
 
     model = sweep.model
-    units = {name: v.unit or "1" for name, v in (model.parameters | model.inputs | model.outputs | model.locals).items()}
+    units = {
+        name: v.unit or "1" for name, v in (model.parameters | model.inputs | model.outputs | model.locals).items()
+    }
     kinds = {"Real": pa.float64(), "Integer": pa.int64(), "Enumeration": pa.string()}
     outputs = dict.fromkeys(name for scene in sweep.scenes.values() for name in scene.outputs)
     fields = [pa.field(name, pa.string()) for name in ("key", "scene", "status", "message", "date")]
     fields += [pa.field("run", pa.int64())]
-    fields += [pa.field(name, pa.float64(), metadata={"unit": "s"}) for name in ("t_end", "step", "simulated_time", "cpu_time", "whole_cpu_time", "wall_time")]
-    fields += [pa.field(name, kinds[v.type], metadata={"unit": units[name]}) for name, v in (model.parameters | model.inputs).items()]
+    fields += [
+        pa.field(name, pa.float64(), metadata={"unit": "s"})
+        for name in ("t_end", "step", "simulated_time", "cpu_time", "whole_cpu_time", "wall_time")
+    ]
+    fields += [
+        pa.field(name, kinds[v.type], metadata={"unit": units[name]})
+        for name, v in (model.parameters | model.inputs).items()
+    ]
     fields += [pa.field(name, pa.float64(), metadata={"unit": units[name]}) for name in closing_names(model)]
-    fields += [pa.field(f"{kind}({name})", pa.float64(), metadata={"unit": units[name]}) for name in outputs for kind in KINDS]
+    fields += [
+        pa.field(f"{kind}({name})", pa.float64(), metadata={"unit": units[name]}) for name in outputs for kind in KINDS
+    ]
     fields += [further for give in sweep.further[1:] for further in give()]
     about = {
         "format": ROW_VERSION,
@@ -435,9 +504,11 @@ def schema_of(sweep):
 
 
 class RowStore:
-    """Writes rows as they arrive: one file a row, or several rows a file where single ones would take more than WRITING of the time.
+    """Writes rows as they arrive: one file a row, or several rows a file where single ones would take more than WRITING
+    of the time.
 
-    A process that is killed loses the rows of the last moments, twenty times as long as a file takes: those runs are done again.
+    A process that is killed loses the rows of the last moments, twenty times as long as a file takes: those runs are
+    done again.
     """
 
     def __init__(self, folder, schema, clock=time.monotonic):
@@ -478,24 +549,30 @@ def read_rows(path):
             raise ValueError("no table of runs")
         return table
     except Exception as problem:  # pyarrow has many
-        raise UserError(f"{path}: not a result of a sweep, or damaged: {one_line(problem)}; without this file its runs are done again") from None
+        raise UserError(
+            f"{path}: not a result of a sweep, or damaged: {one_line(problem)}; without this file its runs are done again"
+        ) from None
 
 
 def compact(folder, schema, keys, grows=False):
-    """Put all rows into one file, in the order of the design and each run once; returns the keys of the runs that are done.
+    """Put all rows into one file, in the order of the design and each run once; returns the keys of the runs that are
+    done.
 
-    If the design or the FMU has changed, the rows that no longer belong to the design go to a folder that readers pass over, or behind the others if the
-    design grows.  The new file is written before the old ones are removed; a process that is killed in between leaves rows twice, until the next call.
+    If the design or the FMU has changed, the rows that no longer belong to the design go to a folder that readers pass
+    over, or behind the others if the design grows.  The new file is written before the old ones are removed; a process
+    that is killed in between leaves rows twice, until the next call.
     """
     import pyarrow as pa
 
     whole = folder / ROWS
-    files = sorted(folder.glob("[!._]*.parquet"), key=lambda path: (path != whole, path))  # what an earlier call has put together, then what came after
+    # what an earlier call has put together, then what came after
+    files = sorted(folder.glob("[!._]*.parquet"), key=lambda path: (path != whole, path))
     if not files:
         return set()
     table = pa.concat_tables([schema.empty_table(), *(read_rows(path) for path in files)], promote_options="default")
     facts = zip(*(table[name].to_pylist() for name in ("key", "status")), strict=True)
-    latest = {key: i for _, i, key in sorted((status == "done", i, key) for i, (key, status) in enumerate(facts))}  # whatever the clocks say
+    # whatever the clocks say
+    latest = {key: i for _, i, key in sorted((status == "done", i, key) for i, (key, status) in enumerate(facts))}
     if grows:
         keys = list(dict.fromkeys([*keys, *latest]))
     wanted = set(keys)
@@ -504,12 +581,16 @@ def compact(folder, schema, keys, grows=False):
         write_atomically(path, lambda temporary: write_table(table.take(foreign), temporary))
     places = {key: place for place, key in enumerate(keys) if key in latest}
     kept = table.take(pa.array([latest[key] for key in places], pa.int64())).select(schema.names).cast(schema)
-    kept = kept.set_column(schema.get_field_index("run"), schema.field("run"), pa.array(list(places.values()), pa.int64()))
+    kept = kept.set_column(
+        schema.get_field_index("run"), schema.field("run"), pa.array(list(places.values()), pa.int64())
+    )
     write_atomically(whole, lambda temporary: write_table(kept.replace_schema_metadata(schema.metadata), temporary))
     for path in files:
         if path != whole:
             path.unlink()
-    return {key for key, status in zip(kept["key"].to_pylist(), kept["status"].to_pylist(), strict=True) if status == "done"}
+    return {
+        key for key, status in zip(kept["key"].to_pylist(), kept["status"].to_pylist(), strict=True) if status == "done"
+    }
 
 
 def columns_of(folder):

@@ -1,4 +1,6 @@
-"""What a sweep ends with: means over seeds with their confidence for each point of the design, as a table, a picture and a page."""
+"""What a sweep ends with: means over seeds with their confidence for each point of the design, as a table, a picture
+and a page.
+"""
 
 import math
 from dataclasses import dataclass
@@ -29,7 +31,9 @@ DAMAGE = "damage"
 
 @dataclass(frozen=True)
 class Response:
-    """Means and half-widths of the confidence interval (nan with one seed) of a response at the points of the design [P]."""
+    """Means and half-widths of the confidence interval (nan with one seed) of a response at the points of the design
+    [P].
+    """
 
     title: str
     unit: str
@@ -40,8 +44,9 @@ class Response:
 
 @dataclass(frozen=True)
 class SweepTable:
-    """name; factors: names of what varies but the seed, with the unit in which people read it; points: their values, texts or numbers in it [P, factors];
-    seeds: runs of each point [P]; responses; basis: what all rests on."""
+    """name; factors: names of what varies but the seed, with the unit in which people read it; points: their values,
+    texts or numbers in it [P, factors]; seeds: runs of each point [P]; responses; basis: what all rests on.
+    """
 
     name: str
     factors: tuple
@@ -54,17 +59,25 @@ class SweepTable:
 def sweep_table(sweep, rows):
     """The SweepTable of a sweep's rows; runs that failed or were stopped do not count."""
     names = [name for name in sweep.factors if name != SEED]
-    units, columns = zip(*(shown(sweep.model, name, rows[column_of(name)]) for name in names), strict=True) if names else ((), ())
+    units, columns = (
+        zip(*(shown(sweep.model, name, rows[column_of(name)]) for name in names), strict=True) if names else ((), ())
+    )
     done = rows["status"] == "done"
     groups = {}
     for i in np.flatnonzero(done):
-        groups.setdefault(tuple(column[i] if isinstance(column[i], str) else float(column[i]) for column in columns), []).append(i)
+        groups.setdefault(
+            tuple(column[i] if isinstance(column[i], str) else float(column[i]) for column in columns), []
+        ).append(i)
     responses = []
     for title, unit, factor, column in RESPONSES:
         if column in rows and np.any(rows[column][done]):
             responses.append(Response(title, unit, *averaged(factor * rows[column], groups)))
     if np.any(damage := damage_per_hour(rows, done)):
-        responses.append(Response("log10 damage per hour", "", *averaged(np.log10(np.maximum(damage, 1e-300)), groups), logarithmic=True))
+        responses.append(
+            Response(
+                "log10 damage per hour", "", *averaged(np.log10(np.maximum(damage, 1e-300)), groups), logarithmic=True
+            )
+        )
     factors = tuple(f"{name} [{unit}]" if unit else name for name, unit in zip(names, units, strict=True))
     seeds = np.array([len(group) for group in groups.values()])
     return SweepTable(sweep.name, factors, list(groups), seeds, responses, basis(sweep.model, sweep.scenes.values()))
@@ -81,12 +94,16 @@ def shown(model, name, values):
 
 def column_of(name):
     """Column of the rows that holds a factor."""
-    return {"simulation.t_end": "t_end", "simulation.step": "step", "simulation.tolerance": "solver.tol"}.get(name, name)
+    return {"simulation.t_end": "t_end", "simulation.step": "step", "simulation.tolerance": "solver.tol"}.get(
+        name, name
+    )
 
 
 def damage_per_hour(rows, done):
     """Miner's sum per hour of the worst place of each run."""
-    damage = np.column_stack([rows[name] for name in rows if name.startswith("rivet[") and ".damage_" in name] or [np.zeros(len(done))])
+    damage = np.column_stack(
+        [rows[name] for name in rows if name.startswith("rivet[") and ".damage_" in name] or [np.zeros(len(done))]
+    )
     hours = (rows["simulated_time"] - rows["start.settle"]) / 3600.0
     return np.where(done & (hours > 0.0), np.nan_to_num(damage).max(axis=1) / np.where(hours > 0.0, hours, 1.0), 0.0)
 
@@ -95,7 +112,9 @@ def averaged(values, groups):
     """Means over the runs of each group and half-widths of their interval by Student's t."""
     mean = np.array([values[group].mean() for group in groups.values()])
     half = [
-        stats.t.ppf(0.5 + 0.5 * CONFIDENCE, len(group) - 1) * values[group].std(ddof=1) / math.sqrt(len(group)) if len(group) > 1 else math.nan
+        stats.t.ppf(0.5 + 0.5 * CONFIDENCE, len(group) - 1) * values[group].std(ddof=1) / math.sqrt(len(group))
+        if len(group) > 1
+        else math.nan
         for group in groups.values()
     ]
     return mean, np.array(half)
@@ -103,11 +122,17 @@ def averaged(values, groups):
 
 def lines(table):
     """Heads and cells of the table as texts."""
-    heads = [*table.factors, "seeds", *(f"{response.title} [{response.unit}]" if response.unit else response.title for response in table.responses)]
+    heads = [
+        *table.factors,
+        "seeds",
+        *(f"{response.title} [{response.unit}]" if response.unit else response.title for response in table.responses),
+    ]
     cells = []
     for p, point in enumerate(table.points):
         means = [cell(response.mean[p], response.half[p]) for response in table.responses]
-        cells.append([*(value if isinstance(value, str) else f"{value:.6g}" for value in point), str(table.seeds[p]), *means])
+        cells.append(
+            [*(value if isinstance(value, str) else f"{value:.6g}" for value in point), str(table.seeds[p]), *means]
+        )
     return heads, cells
 
 
@@ -124,15 +149,30 @@ def draw_response(ax, table, response):
         groups.setdefault(point[1:], []).append(p)
     ticks = [] if numbers else list(dict.fromkeys(point[0] if point else "" for point in table.points))
     for (rest, places), colour in zip(groups.items(), colours(len(groups)), strict=True):
-        x = [table.points[p][0] if numbers else ticks.index(table.points[p][0] if table.points[p] else "") for p in places]
+        x = [
+            table.points[p][0] if numbers else ticks.index(table.points[p][0] if table.points[p] else "")
+            for p in places
+        ]
         order = np.argsort(x)
         places, x = np.array(places)[order], np.array(x, float)[order]
         label = ", ".join(value if isinstance(value, str) else f"{value:.4g}" for value in rest)
         style = "o-" if numbers and len(groups) <= MOST_LINES else "o"
-        ax.errorbar(x, response.mean[places], yerr=np.nan_to_num(response.half[places]), fmt=style, color=colour, ms=4, lw=1.0, capsize=2, label=label)
+        ax.errorbar(
+            x,
+            response.mean[places],
+            yerr=np.nan_to_num(response.half[places]),
+            fmt=style,
+            color=colour,
+            ms=4,
+            lw=1.0,
+            capsize=2,
+            label=label,
+        )
     if ticks:
         ax.set_xticks(range(len(ticks)), ticks)
-    ax.set(title=response.title, xlabel=table.factors[0] if table.factors else "", ylabel=response.unit or response.title)
+    ax.set(
+        title=response.title, xlabel=table.factors[0] if table.factors else "", ylabel=response.unit or response.title
+    )
     ax.margins(x=0.06, y=0.12)
     if 1 < len(groups) <= MOST_LINES:
         ax.legend(title=", ".join(table.factors[1:]), title_fontsize=8)
@@ -148,8 +188,12 @@ def write_picture(table, path):
     columns = min(3, len(table.responses))
     rows = -(-len(table.responses) // columns)
     with plt.rc_context(STYLE):
-        figure, axes = plt.subplots(rows, columns, figsize=(4.4 * columns, 0.5 + 3.3 * rows), layout="constrained", squeeze=False)
-        figure.suptitle(f"{table.name}: means over seeds, {100 * CONFIDENCE:g} % intervals", x=0.01, ha="left", fontsize=11)
+        figure, axes = plt.subplots(
+            rows, columns, figsize=(4.4 * columns, 0.5 + 3.3 * rows), layout="constrained", squeeze=False
+        )
+        figure.suptitle(
+            f"{table.name}: means over seeds, {100 * CONFIDENCE:g} % intervals", x=0.01, ha="left", fontsize=11
+        )
         for ax in axes.ravel()[len(table.responses) :]:
             ax.remove()
         for ax, response in zip(axes.ravel(), table.responses, strict=False):
@@ -161,9 +205,14 @@ def write_picture(table, path):
 
 def write_page(table, description, path):
     """Table and charts as one HTML page, whole or not at all; returns the path."""
-    environment = jinja2.Environment(autoescape=True, trim_blocks=True, lstrip_blocks=True, undefined=jinja2.StrictUndefined)
+    environment = jinja2.Environment(
+        autoescape=True, trim_blocks=True, lstrip_blocks=True, undefined=jinja2.StrictUndefined
+    )
     heads, cells = lines(table)
-    pictures = [charts.svg(lambda fig, r=response: draw_response(fig.subplots(), table, r), (4.9, 3.2), response.title) for response in table.responses]
+    pictures = [
+        charts.svg(lambda fig, r=response: draw_response(fig.subplots(), table, r), (4.9, 3.2), response.title)
+        for response in table.responses
+    ]
     text = environment.from_string((PARTS / "sweep.html").read_text(encoding="utf-8")).render(
         name=table.name,
         description=description,

@@ -1,7 +1,7 @@
 """Values with units: "18238 rev/min" becomes 1909.9 rad/s, or an error.
 
-The units are those of the FMU (fmus/variables.toml, [units]) and those of workshops and catalogues (MULTIPLES).  A text must carry a unit of its own
-variable, so that 3600 rev/min cannot pass for 3600 rad/s; a bare number is SI.
+The units are those of the FMU (fmus/variables.toml, [units]) and those of workshops and catalogues (MULTIPLES).  A text
+must carry a unit of its own variable, so that 3600 rev/min cannot pass for 3600 rad/s; a bare number is SI.
 """
 
 import math
@@ -10,7 +10,8 @@ from numbers import Real
 
 from .errors import UserError
 
-INCH, POUND, GRAVITY, RPM = 0.0254, 0.45359237, 9.80665, 30.0 / math.pi  # m, kg, m/s2: exact by definition; rev/min per rad/s
+# m, kg, m/s2: exact by definition; rev/min per rad/s
+INCH, POUND, GRAVITY, RPM = 0.0254, 0.45359237, 9.80665, 30.0 / math.pi
 SPELLINGS = {  # symbol -> how else people write it
     "rev/min": "rpm r/min 1/min min-1",
     "krpm": "krev/min",
@@ -28,7 +29,8 @@ SPELLINGS = {  # symbol -> how else people write it
     "s": "sec",
 }
 SYMBOLS = {spelling: symbol for symbol, spellings in SPELLINGS.items() for spelling in spellings.split()}
-MULTIPLES = {  # in addition to the display units of the variable table: value in that symbol = factor * SI value + offset
+# in addition to the display units of the variable table: value in that symbol = factor * SI value + offset
+MULTIPLES = {
     "m": {"cm": (1e2, 0.0), "in": (1.0 / INCH, 0.0)},
     "N": {"kN": (1e-3, 0.0), "kgf": (1.0 / GRAVITY, 0.0), "lbf": (1.0 / (POUND * GRAVITY), 0.0)},
     "N.m": {"N.mm": (1e3, 0.0), "kN.m": (1e-3, 0.0)},
@@ -48,8 +50,13 @@ NUMBER = re.compile(r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*((?:1/|[^
 
 
 def unit_table(unit_definitions):
-    """For each unit of a model description its scales: symbol -> (factor, offset), value in that symbol = factor * SI + offset."""
-    return {unit.name: scales_of(unit.name, {d.name: (float(d.factor), float(d.offset)) for d in unit.displayUnits}) for unit in unit_definitions}
+    """For each unit of a model description its scales: symbol -> (factor, offset), value in that symbol = factor * SI +
+    offset.
+    """
+    return {
+        unit.name: scales_of(unit.name, {d.name: (float(d.factor), float(d.offset)) for d in unit.displayUnits})
+        for unit in unit_definitions
+    }
 
 
 def scales_of(unit, displays):
@@ -101,7 +108,11 @@ def to_si(value, scales):
     if isinstance(value, str):
         match = NUMBER.fullmatch(value)
         if not match:
-            raise UserError("not a number" if "1" in scales else f'not a number with a unit such as "1.5 {list(scales)[min(1, len(scales) - 1)]}"')
+            raise UserError(
+                "not a number"
+                if "1" in scales
+                else f'not a number with a unit such as "1.5 {list(scales)[min(1, len(scales) - 1)]}"'
+            )
         factor, offset = scale(match[2] or "", scales)
         value = (float(match[1]) - offset) / factor
     if isinstance(value, bool) or not isinstance(value, Real) or not math.isfinite(value):

@@ -19,25 +19,36 @@ def essentials():
 
 
 def matching(pattern):
-    """Variables by kind whose name matches a pattern with *, or whose name or description contains it; UserError if there are none."""
+    """Variables by kind whose name matches a pattern with *, or whose name or description contains it; UserError if
+    there are none.
+    """
     general = re.sub(r"\[\d+\]", "[*]", pattern)  # ball[3].Q_i is one of ball[j].Q_i
     expression = re.compile(re.escape(general).replace(r"\*", ".*"), re.IGNORECASE)
     fits = expression.fullmatch if "*" in general else lambda text: expression.search(text)
-    found = {title: [v for v in known.values() if fits(v.name) or ("*" not in general and fits(v.description))] for title, known in KINDS.items()}
+    found = {
+        title: [v for v in known.values() if fits(v.name) or ("*" not in general and fits(v.description))]
+        for title, known in KINDS.items()
+    }
     if not any(found.values()):
         raise unknown("variables", "name or word", pattern, KNOWN)
     return {title: listed for title, listed in found.items() if listed}
 
 
 def row(variable, model=None):
-    """Name, kind, unit, start, limits and description in the unit in which people read the variable; the start value is that of `model`, if given."""
+    """Name, kind, unit, start, limits and description in the unit in which people read the variable; the start value is
+    that of `model`, if given.
+    """
     kind = next(title for title, known in KINDS.items() if variable.name in known).removesuffix("s").lower()
     symbol = variable.display or variable.unit
     start = allowed = ""
     if variable.name in INPUTS | PARAMETERS:
         if variable.type in ("Real", "Integer"):
             value = (
-                variable.start if model is None else model.default((model.parameters | model.inputs)[variable.name.replace("[j]", "[1]").replace("[k]", "[1]")])
+                variable.start
+                if model is None
+                else model.default(
+                    (model.parameters | model.inputs)[variable.name.replace("[j]", "[1]").replace("[k]", "[1]")]
+                )
             )
             start = shown(value, variable)
             allowed = f"{shown(variable.min, variable, -math.inf)} ... {shown(variable.max, variable, math.inf)}"

@@ -7,12 +7,14 @@
         +-----------\\=========-----+
       theta = pi/Z        pad    theta = 0
 
-Places are (x, y, z): x along the axis, y outward through the rivet, z along the circle there.  SI units.  Nothing of rivet_model is used; `g` is a
-Geometry, of which only the dimensions are read.
+Places are (x, y, z): x along the axis, y outward through the rivet, z along the circle there.  SI units.  Nothing of
+rivet_model is used; `g` is a Geometry, of which only the dimensions are read.
 
 - Half: quadratic tetrahedra.  Rivet: quadratic hexahedra, a meridian mesh of gmsh turned about the rivet's axis.
-- Contact without friction: pressures are sums of hats that are nowhere negative; gaps, weighted with the same hats, are nowhere negative either.
-- A rivet's half is a point mass at its seat: its centrifugal force acts on the half there, and it vibrates with the mean of the seat.
+- Contact without friction: pressures are sums of hats that are nowhere negative; gaps, weighted with the same hats, are
+  nowhere negative either.
+- A rivet's half is a point mass at its seat: its centrifugal force acts on the half there, and it vibrates with the
+  mean of the seat.
 """
 
 import math
@@ -32,16 +34,20 @@ class Material(NamedTuple):
     rho: float
 
 
-# Elements --------------------------------------------------------------------------------------------------------------------------------
+# Elements -------------------------------------------------------------------------------------------------------------
 
 
 def lagrange(x):
     """Quadratic polynomials that are 1 at 0, 1/2, 1 of [0, 1], and their slopes [3, n]."""
-    return np.stack([(1 - x) * (1 - 2 * x), 4 * x * (1 - x), x * (2 * x - 1)]), np.stack([4 * x - 3, 4 - 8 * x, 4 * x - 1])
+    return np.stack([(1 - x) * (1 - 2 * x), 4 * x * (1 - x), x * (2 * x - 1)]), np.stack(
+        [4 * x - 3, 4 - 8 * x, 4 * x - 1]
+    )
 
 
 def tetrahedron(points):
-    """Shape functions [10, n] and gradients [10, 3, n] of the tetrahedron of gmsh's order at points [3, n] of the unit one."""
+    """Shape functions [10, n] and gradients [10, 3, n] of the tetrahedron of gmsh's order at points [3, n] of the unit
+    one.
+    """
     L = np.vstack([1 - points.sum(axis=0), points])
     dL = np.vstack([-np.ones(3), np.eye(3)])
     edges = [(0, 1), (1, 2), (0, 2), (0, 3), (2, 3), (1, 3)]
@@ -61,7 +67,9 @@ def triangle(points):
 
 
 def hexahedron(points):
-    """Shape functions [27, n] and gradients [27, 3, n] at points [3, n] of the unit cube; node (i, j, k) is 9 i + 3 j + k."""
+    """Shape functions [27, n] and gradients [27, 3, n] at points [3, n] of the unit cube; node (i, j, k) is 9 i + 3 j +
+    k.
+    """
     (a, da), (b, db), (c, dc) = (lagrange(x) for x in points)
     n = points.shape[1]
     N = np.einsum("in,jn,kn->ijkn", a, b, c).reshape(27, n)
@@ -84,13 +92,17 @@ def tetrahedron_rule(n):
 
 
 def four_points():
-    """Points [3, 4] of the unit tetrahedron and weights: exact to degree 2, which stiffness of quadratic tetrahedra with straight sides has."""
+    """Points [3, 4] of the unit tetrahedron and weights: exact to degree 2, which stiffness of quadratic tetrahedra
+    with straight sides has.
+    """
     near = (5.0 - math.sqrt(5.0)) / 20.0
     return near + (1.0 - 4.0 * near) * np.vstack([np.zeros(3), np.eye(3)]).T, np.full(4, 1.0 / 24.0)
 
 
 def triangle_rule(parts):
-    """Points [2, 3 parts^2] of the unit triangle cut into parts^2, three in each, and weights: exact to degree 2 in each part."""
+    """Points [2, 3 parts^2] of the unit triangle cut into parts^2, three in each, and weights: exact to degree 2 in
+    each part.
+    """
     own, points = np.array([[1, 1], [4, 1], [1, 4]]) / 6, []
     for i in range(parts):
         for j in range(parts - i):
@@ -108,7 +120,9 @@ class Solid:
         self.nodes, self.elements, self.shape, self.rule, self.fine_rule = nodes, elements, shape, rule, fine_rule
 
     def points(self, rule):
-        """At the points of a rule: places [e, q, 3], volumes [e, q], shape functions [i, q], gradients in space [e, i, 3, q]."""
+        """At the points of a rule: places [e, q, 3], volumes [e, q], shape functions [i, q], gradients in space [e, i,
+        3, q].
+        """
         points, weights = rule
         N, dN = self.shape(points)
         X = self.nodes[self.elements]
@@ -135,13 +149,17 @@ class Solid:
             flat = (d * np.sqrt(volume)[:, None, None, :]).reshape(len(e), 3 * n, -1)
             outer = (flat @ flat.transpose(0, 2, 1)).reshape(len(e), n, 3, n, 3)
             trace = np.einsum("eiaja->eij", outer)
-            blocks.append(lam * outer + mu * outer.transpose(0, 1, 4, 3, 2) + mu * np.einsum("eij,ab->eiajb", trace, np.eye(3)))
+            blocks.append(
+                lam * outer + mu * outer.transpose(0, 1, 4, 3, 2) + mu * np.einsum("eij,ab->eiajb", trace, np.eye(3))
+            )
         return self.assemble(np.concatenate(blocks))
 
     def inertia(self, rho):
         """Mass matrix [kg]."""
         _, volume, N, _ = self.points(self.fine_rule)
-        return self.assemble(np.einsum("eij,ab->eiajb", rho * np.einsum("eq,iq,jq->eij", volume, N, N, optimize=True), np.eye(3)))
+        return self.assemble(
+            np.einsum("eij,ab->eiajb", rho * np.einsum("eq,iq,jq->eij", volume, N, N, optimize=True), np.eye(3))
+        )
 
     def moments(self):
         """Volume, first moments [3] and second moments [3, 3] about the origin."""
@@ -162,7 +180,7 @@ def factor(K):
     return splu(K.tocsc(), permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options={"SymmetricMode": True})
 
 
-# Meshes ----------------------------------------------------------------------------------------------------------------------------------
+# Meshes ---------------------------------------------------------------------------------------------------------------
 
 
 class Half(NamedTuple):
@@ -210,17 +228,29 @@ def used(tags, coordinates, *element_lists):
 def half_mesh(g, size, seat_size=None):
     """One half pitch of a half, theta = 0 to pi/Z.
 
-    size: of the elements over the ordinary ones, 0.14 of the ring's radial width; seat_size: of those at the seat over a quarter of its width.
+    size: of the elements over the ordinary ones, 0.14 of the ring's radial width; seat_size: of those at the seat over
+    a quarter of its width.
     """
     seat_size = seat_size or size
     occ, mm = gmsh.model.occ, 1e3
-    r_i, r_o, R, w = (mm * v for v in (g.cage_inner_diameter / 2, g.cage_outer_diameter / 2, g.d_m / 2, g.cage_half_width))
-    shank, head, seat, pocket = (mm / 2 * v for v in (g.shank_diameter, g.head_diameter, g.seat_diameter, g.ball_diameter + g.pocket_clearance))
-    flange, depth, edge, relief = mm * g.flange_thickness, mm * g.relief_depth, mm * g.edge_break, shank + mm * g.relief_radius
+    r_i, r_o, R, w = (
+        mm * v for v in (g.cage_inner_diameter / 2, g.cage_outer_diameter / 2, g.d_m / 2, g.cage_half_width)
+    )
+    shank, head, seat, pocket = (
+        mm / 2 * v for v in (g.shank_diameter, g.head_diameter, g.seat_diameter, g.ball_diameter + g.pocket_clearance)
+    )
+    flange, depth, edge, relief = (
+        mm * g.flange_thickness,
+        mm * g.relief_depth,
+        mm * g.edge_break,
+        shank + mm * g.relief_radius,
+    )
     pad, angle, far = mm * pad_half_length(g), math.pi / g.Z, 2 * r_o
 
     corners = [occ.addPoint(x, r, 0) for x, r in ((0, r_i), (w, r_i), (w, r_o), (0, r_o))]
-    face = occ.addPlaneSurface([occ.addCurveLoop([occ.addLine(*ends) for ends in zip(corners, corners[1:] + corners[:1], strict=True)])])
+    face = occ.addPlaneSurface(
+        [occ.addCurveLoop([occ.addLine(*ends) for ends in zip(corners, corners[1:] + corners[:1], strict=True)])]
+    )
     ring = [e for e in occ.revolve([(2, face)], 0, 0, 0, 1, 0, 0, angle) if e[0] == 3]
     tools = [
         (3, occ.addCylinder(0, 0, 0, 0, far * math.cos(angle), far * math.sin(angle), pocket)),
@@ -250,8 +280,13 @@ def half_mesh(g, size, seat_size=None):
     assert len(seats) == 1 and len(pads) >= 1, (pads, seats)
 
     width, field = head - relief, gmsh.model.mesh.field
-    sizes = []  # a fine place each: from x low to high and radius r_low to r_high about the rivet's axis, elements growing with the distance
-    for low, high, r_low, r_high, fine in ((flange, flange, relief, head, width / 4 * seat_size), (0, flange, shank, relief, 0.4 * shank * size)):
+    # a fine place each: from x low to high and radius r_low to r_high about the rivet's axis, elements growing with the
+    # distance
+    sizes = []
+    for low, high, r_low, r_high, fine in (
+        (flange, flange, relief, head, width / 4 * seat_size),
+        (0, flange, shank, relief, 0.4 * shank * size),
+    ):
         radius = f"Sqrt((y-{R})^2+z^2)"
         beside, along = f"Max(Max({r_low} - {radius}, {radius} - {r_high}), 0)", f"Max(Max({low} - x, x - {high}), 0)"
         tag = field.add("MathEval")
@@ -268,20 +303,34 @@ def half_mesh(g, size, seat_size=None):
     gmsh.model.mesh.setOrder(2)
     tags, coordinates, _ = gmsh.model.mesh.getNodes()
     elements = gmsh.model.mesh.getElementsByType(11)[1].reshape(-1, 10)
-    facets = [np.concatenate([gmsh.model.mesh.getElementsByType(9, tag)[1].reshape(-1, 6) for tag in group]) for group in (pads, seats)]
+    facets = [
+        np.concatenate([gmsh.model.mesh.getElementsByType(9, tag)[1].reshape(-1, 6) for tag in group])
+        for group in (pads, seats)
+    ]
     nodes, elements, *facets = used(tags, coordinates, elements, *facets)
     return Half(Solid(nodes, elements, tetrahedron, four_points(), tetrahedron_rule(4)), *facets)
 
 
 @session
 def rivet_mesh(g, fillet_elements, layers):
-    """Half of a rivet above the split, z >= 0: a meridian mesh whose fillet has so many quadratic elements, turned in so many layers."""
+    """Half of a rivet above the split, z >= 0: a meridian mesh whose fillet has so many quadratic elements, turned in
+    so many layers.
+    """
     geo, mm = gmsh.model.geo, 1e3
     shank, head, radius = mm * g.shank_diameter / 2, mm * g.head_diameter / 2, mm * g.fillet_radius
     relief = shank + mm * g.relief_radius
     flange, top = mm * g.flange_thickness, mm * (g.flange_thickness + g.head_height)
     fine = radius * math.pi / 2 / fillet_elements
-    place = [(0, 0), (shank, 0), (shank, flange - radius), (shank + radius, flange), (relief, flange), (head, flange), (head, top), (0, top)]
+    place = [
+        (0, 0),
+        (shank, 0),
+        (shank, flange - radius),
+        (shank + radius, flange),
+        (relief, flange),
+        (head, flange),
+        (head, top),
+        (0, top),
+    ]
     p = [geo.addPoint(r, x, 0) for r, x in place]
     centre = geo.addPoint(shank + radius, flange - radius, 0)
     lines = [geo.addCircleArc(p[2], centre, p[3]) if i == 2 else geo.addLine(p[i], p[(i + 1) % 8]) for i in range(8)]
@@ -293,7 +342,12 @@ def rivet_mesh(g, fillet_elements, layers):
     far = f"Max(Sqrt((x-{shank + 0.3 * radius})^2+(y-{flange - 0.3 * radius})^2) - {radius}, 0)"
     field.setString(tag, "F", f"2 * Min({fine} + 0.3 * {far}, {coarse})")  # of quadrilaterals that are cut into four
     field.setAsBackgroundMesh(tag)
-    for name, value in (("Algorithm", 8), ("RecombineAll", 1), ("RecombinationAlgorithm", 1), ("SubdivisionAlgorithm", 1)):
+    for name, value in (
+        ("Algorithm", 8),
+        ("RecombineAll", 1),
+        ("RecombinationAlgorithm", 1),
+        ("SubdivisionAlgorithm", 1),
+    ):
         gmsh.option.setNumber(f"Mesh.{name}", value)
     gmsh.model.mesh.generate(2)
     gmsh.model.mesh.setOrder(2)
@@ -305,7 +359,9 @@ def rivet_mesh(g, fillet_elements, layers):
 
 
 def turned(g, r, x, quads, layers):
-    """Half of a body of revolution from nodes (r, x) and quadrilaterals [m, 9] of its meridian plane; on the axis nodes of all angles are one."""
+    """Half of a body of revolution from nodes (r, x) and quadrilaterals [m, 9] of its meridian plane; on the axis nodes
+    of all angles are one.
+    """
     R, count = g.d_m / 2, 2 * layers + 1
     r, angle = np.where(r < 1e-9, 0.0, r), np.linspace(0.0, math.pi, count)
     number = np.empty((len(r), count), dtype=int)
@@ -313,7 +369,9 @@ def turned(g, r, x, quads, layers):
     number[axis] = np.arange(np.count_nonzero(axis))[:, None]
     number[~axis] = np.count_nonzero(axis) + np.arange(np.count_nonzero(~axis) * count).reshape(-1, count)
     nodes = np.empty((number.max() + 1, 3))
-    nodes[number.ravel()] = np.stack([np.repeat(x, count), R + np.outer(r, np.cos(angle)).ravel(), np.outer(r, np.sin(angle)).ravel()], axis=1)
+    nodes[number.ravel()] = np.stack(
+        [np.repeat(x, count), R + np.outer(r, np.cos(angle)).ravel(), np.outer(r, np.sin(angle)).ravel()], axis=1
+    )
     elements = np.concatenate([number[quads][:, :, 2 * k : 2 * k + 3].reshape(len(quads), 27) for k in range(layers)])
     solid = Solid(nodes, elements, hexahedron, cube_rule(3), cube_rule(4))
     if np.linalg.det(np.einsum("ia,ib->ab", nodes[elements[0]], hexahedron(np.full((3, 1), 0.5))[1][:, :, 0])) < 0.0:
@@ -321,11 +379,12 @@ def turned(g, r, x, quads, layers):
     return solid
 
 
-# Contact at rest of impacts --------------------------------------------------------------------------------------------------------------
+# Contact at rest of impacts -------------------------------------------------------------------------------------------
 
 
 def supported(solid, Z):
-    """Matrix [3 n, free] of the displacements of a sector between its planes of symmetry theta = 0 and pi/Z (Z = 1: the plane z = 0 alone).
+    """Matrix [3 n, free] of the displacements of a sector between its planes of symmetry theta = 0 and pi/Z (Z = 1: the
+    plane z = 0 alone).
 
     Also the places [free, 3] of what is free, and its axes [free]: 0 is x.
     """
@@ -339,11 +398,17 @@ def supported(solid, Z):
         turn[side] = [[1, 0, 0], [0, math.cos(angle), -math.sin(angle)], [0, math.sin(angle), math.cos(angle)]]
         kept[side, 2] = False
     columns = block_diag(list(turn), format="csc")
-    return columns[:, np.flatnonzero(kept.ravel())], np.repeat(n, 3, axis=0)[kept.ravel()], np.tile(np.arange(3), len(n))[kept.ravel()]
+    return (
+        columns[:, np.flatnonzero(kept.ravel())],
+        np.repeat(n, 3, axis=0)[kept.ravel()],
+        np.tile(np.arange(3), len(n))[kept.ravel()],
+    )
 
 
 def facet_points(nodes, facets, parts=3):
-    """Shape functions [i, q], places [f, q, 3] and areas [f, q] on flat facets x = constant: triangles [f, 6] or quadrilaterals [f, 9]."""
+    """Shape functions [i, q], places [f, q, 3] and areas [f, q] on flat facets x = constant: triangles [f, 6] or
+    quadrilaterals [f, 9].
+    """
     if facets.shape[1] == 6:
         points, weights = triangle_rule(parts)
         N, dN = triangle(points)
@@ -361,25 +426,33 @@ def facet_points(nodes, facets, parts=3):
 
 
 def polar_hats(places, R, low, high, shape):
-    """Hats over radius and angle of the seat's half ring at places [..., 3]: values [n_hats, ...]; shape: intervals (radius, angle)."""
+    """Hats over radius and angle of the seat's half ring at places [..., 3]: values [n_hats, ...]; shape: intervals
+    (radius, angle).
+    """
 
     def hats(t, n):
         return np.maximum(0.0, 1.0 - np.abs(t[None] * n - np.arange(n + 1).reshape(-1, *[1] * t.ndim)))
 
     y, z = places[..., 1] - R, places[..., 2]
     radius = np.clip((np.hypot(y, z) - low) / (high - low), 0.0, 1.0)
-    return np.einsum("i...,j...->ij...", hats(radius, shape[0]), hats(np.arctan2(z, y) / math.pi, shape[1])).reshape(-1, *radius.shape)
+    return np.einsum("i...,j...->ij...", hats(radius, shape[0]), hats(np.arctan2(z, y) / math.pi, shape[1])).reshape(
+        -1, *radius.shape
+    )
 
 
 def rows_of_x(nodes, facets, N, values, area):
     """Matrix [n_hats, 3 n]: integral of hat times u_x; values [n_hats, f, q]."""
     blocks = np.einsum("hfq,iq,fq->hfi", values, N, area, optimize=True)
     h = np.repeat(np.arange(len(values)), facets.size)
-    return coo_matrix((blocks.ravel(), (h, np.tile(3 * facets.ravel(), len(values)))), shape=(len(values), 3 * len(nodes))).tocsr()
+    return coo_matrix(
+        (blocks.ravel(), (h, np.tile(3 * facets.ravel(), len(values)))), shape=(len(values), 3 * len(nodes))
+    ).tocsr()
 
 
 class Body:
-    """A body with hats of contact: flexibility between them, displacements by any loads; x is held at one point or plane."""
+    """A body with hats of contact: flexibility between them, displacements by any loads; x is held at one point or
+    plane.
+    """
 
     def __init__(self, solid, Z, material, held_x, rows):
         self.solid, self.rows = solid, rows
@@ -396,7 +469,9 @@ class Body:
 
 
 def pressures(G, gap, C):
-    """Pressures p >= 0 and shift s with gaps G p + gap + C s >= 0, complementary, and C.p = 0: block principal pivoting (Judice, Pires 1994)."""
+    """Pressures p >= 0 and shift s with gaps G p + gap + C s >= 0, complementary, and C.p = 0: block principal pivoting
+    (Judice, Pires 1994).
+    """
     n, active, least, patience = len(gap), np.ones(len(gap), dtype=bool), len(gap) + 1, 10
     scale_p, scale_g = 1e-9 * np.abs(gap).max() / np.abs(np.diag(G)).mean(), 1e-9 * np.abs(gap).max()
     for _ in range(20 * n):
@@ -423,7 +498,9 @@ def pressures(G, gap, C):
 
 
 class State(NamedTuple):
-    """Tension of the rivet [N], bending moment of its shank about the circle's tangent [N m], head stress [Pa], pressed share of the pad."""
+    """Tension of the rivet [N], bending moment of its shank about the circle's tangent [N m], head stress [Pa], pressed
+    share of the pad.
+    """
 
     T: float
     m_t: float
@@ -446,12 +523,20 @@ class Cage:
         blocks = np.einsum("cq,iq,fq->fci", corner, N, area)
         which = which.reshape(-1, 3)
         at = np.broadcast_to(which[:, :, None], blocks.shape), np.broadcast_to(3 * pad[:, None, :], blocks.shape)
-        on_pad = coo_matrix((blocks.ravel(), (at[0].ravel(), at[1].ravel())), shape=(len(vertices), 3 * len(nodes))).tocsr()
+        on_pad = coo_matrix(
+            (blocks.ravel(), (at[0].ravel(), at[1].ravel())), shape=(len(vertices), 3 * len(nodes))
+        ).tocsr()
         N, X, area = facet_points(nodes, seat)
         on_seat = rows_of_x(nodes, seat, N, polar_hats(X, R, low, high, hats), area)
         self.n_pad = len(vertices)
         far = np.argmax(nodes[:, 0] + nodes[:, 1])
-        self.body = Body(self.half.solid, g.Z, material, lambda at: np.all(at == nodes[far], axis=1), bmat([[on_pad], [-on_seat]], format="csr"))
+        self.body = Body(
+            self.half.solid,
+            g.Z,
+            material,
+            lambda at: np.all(at == nodes[far], axis=1),
+            bmat([[on_pad], [-on_seat]], format="csr"),
+        )
 
         on_half, nodes_r, self.below = self.body.rows, self.rivet.nodes, below_head(self.rivet, g)
         N, X, area = facet_points(nodes_r, self.below)
@@ -473,7 +558,9 @@ class Cage:
         X, volume, N, _ = solid.points(solid.fine_rule)
         force = np.zeros_like(solid.nodes)
         for axis in (1, 2):
-            np.add.at(force[:, axis], solid.elements, self.material.rho * np.einsum("eq,eq,iq->ei", volume, X[..., axis], N))
+            np.add.at(
+                force[:, axis], solid.elements, self.material.rho * np.einsum("eq,eq,iq->ei", volume, X[..., axis], N)
+            )
         force[:, 1] += self.rivet_mass() / 2 * g.d_m / 2 * self.seat_mean()
         return force.ravel()
 
@@ -496,10 +583,13 @@ class Cage:
         p, _ = pressures(self.G, P * self.preload_gap + omega**2 * self.spin_gap, self.C)
         u = (self.pin.by_hats @ p[self.n_pad :]).reshape(-1, 3)
         pressed = self.C[: self.n_pad][p[: self.n_pad] > 0].sum() / self.C[: self.n_pad].sum()
-        return State(self.tension(p), 2.0 * self.lever @ p[self.n_pad :], self.fillet.largest(u, self.rivet_material), pressed)
+        return State(
+            self.tension(p), 2.0 * self.lever @ p[self.n_pad :], self.fillet.largest(u, self.rivet_material), pressed
+        )
 
 
-FACES = [np.arange(27).reshape(3, 3, 3)[key].ravel() for key in ((0,), (2,), (slice(None), 0), (slice(None), 2))]  # that turn with the angle
+# that turn with the angle
+FACES = [np.arange(27).reshape(3, 3, 3)[key].ravel() for key in ((0,), (2,), (slice(None), 0), (slice(None), 2))]
 
 
 def below_head(rivet, g):
@@ -539,22 +629,25 @@ class Fillet:
         return (total[count > 0] / count[count > 0]).max()
 
 
-# A free half -----------------------------------------------------------------------------------------------------------------------------
+# A free half ----------------------------------------------------------------------------------------------------------
 
 
 def inertia(g, material, rivet_material, half, rivet):
     """Mass, x_c, J_p, J_t of a half with its half of the rivets [kg, m, kg m2], by the volumes of the meshes."""
-    parts = [(2 * material.rho, *half.solid.moments()), (2 * rivet_material.rho, *rivet.moments())]  # two mirrored parts in a pitch
+    # two mirrored parts in a pitch
+    parts = [(2 * material.rho, *half.solid.moments()), (2 * rivet_material.rho, *rivet.moments())]
     m, first, second = (g.Z * sum(part[0] * part[i] for part in parts) for i in (1, 2, 3))
     x_c, J_p = first[0] / m, second[1, 1] + second[2, 2]
     return m, x_c, J_p, J_p / 2 + second[0, 0] - m * x_c**2
 
 
 def frequencies(g, material, rivet_mass, half, waves, count):
-    """Lowest `count` frequencies [Hz] of a free half with each number of waves around it: {n: array}, rigid motions left out.
+    """Lowest `count` frequencies [Hz] of a free half with each number of waves around it: {n: array}, rigid motions
+    left out.
 
-    Mirroring in the plane of the rivet parts a displacement into e, even, and i o, odd.  A wave e + i o gains the phase phi = 2 pi n/Z in a pitch, so in
-    the plane of the pocket e sin(phi/2) = o cos(phi/2) along x and r, e cos(phi/2) = -o sin(phi/2) along t: real fields on one half pitch.
+    Mirroring in the plane of the rivet parts a displacement into e, even, and i o, odd.  A wave e + i o gains the phase
+    phi = 2 pi n/Z in a pitch, so in the plane of the pocket e sin(phi/2) = o cos(phi/2) along x and r, e cos(phi/2) =
+    -o sin(phi/2) along t: real fields on one half pitch.
     """
     solid, nodes, Z = half.solid, half.solid.nodes, g.Z
     K, M = solid.stiffness(material.E, material.nu), solid.inertia(material.rho)
@@ -567,12 +660,16 @@ def frequencies(g, material, rivet_mass, half, waves, count):
     K2, M2 = block_diag([K, K], format="csc"), block_diag([M + on_seat[0] + on_seat[1], M + on_seat[2]], format="csc")
 
     tiny, angle, n3 = 1e-6 * np.ptp(nodes[:, 0]), math.pi / Z, 3 * len(nodes)
-    at_rivet, at_pocket = np.abs(nodes[:, 2]) < tiny, np.abs(nodes[:, 2] * math.cos(angle) - nodes[:, 1] * math.sin(angle)) < tiny
+    at_rivet, at_pocket = (
+        np.abs(nodes[:, 2]) < tiny,
+        np.abs(nodes[:, 2] * math.cos(angle) - nodes[:, 1] * math.sin(angle)) < tiny,
+    )
     free = np.ones((2, len(nodes), 3), dtype=bool)
     free[0, at_rivet, 2] = free[1, at_rivet, 0] = free[1, at_rivet, 1] = False
     free[:, at_pocket] = False
     inner = diags(np.ones(2 * n3), format="csc")[:, np.flatnonzero(free.ravel())]
-    axes = np.array([[1, 0, 0], [0, math.cos(angle), math.sin(angle)], [0, -math.sin(angle), math.cos(angle)]])  # rows x, r, t
+    # rows x, r, t
+    axes = np.array([[1, 0, 0], [0, math.cos(angle), math.sin(angle)], [0, -math.sin(angle), math.cos(angle)]])
     place, found = np.flatnonzero(at_pocket), {}
     for n in waves:
         c, d = math.cos(math.pi * n / Z), math.sin(math.pi * n / Z)
@@ -591,7 +688,17 @@ def frequencies(g, material, rivet_mass, half, waves, count):
         inverse = factor(K_n - shift * M_n)
         rigid = 2 if n < 2 else 0  # x and the turn about x; two of the translations and tilts
         operator = LinearOperator(K_n.shape, inverse.solve, dtype=float)
-        square = np.sort(eigsh(K_n, count + rigid, M_n, sigma=shift, OPinv=operator, v0=np.ones(K_n.shape[0]), return_eigenvectors=False))
+        square = np.sort(
+            eigsh(
+                K_n,
+                count + rigid,
+                M_n,
+                sigma=shift,
+                OPinv=operator,
+                v0=np.ones(K_n.shape[0]),
+                return_eigenvectors=False,
+            )
+        )
         assert np.all(np.abs(square[:rigid]) < -1e-4 * shift) and square[rigid] > -1e-2 * shift
         found[n] = np.sqrt(square[rigid:]) / (2 * math.pi)
     return found

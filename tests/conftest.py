@@ -26,18 +26,27 @@ from riveted_bearing.builder import PLATFORMS, build_folder
 
 
 def pytest_generate_tests(metafunc):
-    """In files with TWINS = True, tests of `core` run on the C core and on the Python reference, unless they are marked c_only."""
-    if "core" in metafunc.fixturenames and getattr(metafunc.module, "TWINS", False) and not metafunc.definition.get_closest_marker("c_only"):
+    """In files with TWINS = True, tests of `core` run on the C core and on the Python reference, unless they are marked
+    c_only.
+    """
+    if (
+        "core" in metafunc.fixturenames
+        and getattr(metafunc.module, "TWINS", False)
+        and not metafunc.definition.get_closest_marker("c_only")
+    ):
         metafunc.parametrize("core", ["C", "Python"], indirect=True)
 
 
-if signal.getsignal(signal.SIGINT) == signal.SIG_IGN:  # a shell's background job ignores Ctrl-C, and so would the programs that tests start and interrupt
+# a shell's background job ignores Ctrl-C, and so would the programs that tests start and interrupt
+if signal.getsignal(signal.SIGINT) == signal.SIG_IGN:
     signal.signal(signal.SIGINT, signal.default_int_handler)
 
 
 @pytest.fixture(scope="session", autouse=True)
 def one_thread():
-    """Small matrices: on a shared machine the threads of the linear algebra wait for each other longer than they compute."""
+    """Small matrices: on a shared machine the threads of the linear algebra wait for each other longer than they
+    compute.
+    """
     with threadpool_limits(1):
         yield
 
@@ -89,7 +98,9 @@ def own(fmu, tmp_path_factory):
 
 @pytest.fixture(scope="session")
 def core(request):
-    """The C core: models of it, and every function by name (see library.py); or the reference in its place (see python_core.py)."""
+    """The C core: models of it, and every function by name (see library.py); or the reference in its place (see
+    python_core.py).
+    """
     if getattr(request, "param", "C") == "Python":
         return python_core()
     assert LIBRARY.is_file(), f"{LIBRARY} is missing: make build"
@@ -118,9 +129,24 @@ def everywhere(tmp_path_factory):
     if not importlib.util.find_spec("ziglang"):
         pytest.skip("needs the package ziglang: pip install ziglang")
     made = tmp_path_factory.mktemp("all")
-    subprocess.run([sys.executable, "-m", "riveted_bearing", "build", "--platforms", "all", "--out", str(made / "RivetedBearing.fmu")], check=True)
+    subprocess.run(
+        [
+            sys.executable,
+            "-m",
+            "riveted_bearing",
+            "build",
+            "--platforms",
+            "all",
+            "--out",
+            str(made / "RivetedBearing.fmu"),
+        ],
+        check=True,
+    )
     assert validate_fmu(str(made / "RivetedBearing.fmu")) == []
-    bearing, built = Path(fmpy.extract(str(made / "RivetedBearing.fmu"), str(made / "bearing"))), build_folder(ROOT, None)
+    bearing, built = (
+        Path(fmpy.extract(str(made / "RivetedBearing.fmu"), str(made / "bearing"))),
+        build_folder(ROOT, None),
+    )
     shaft = Path(fmpy.extract(str(ROOT / "fmus" / "Shaft.fmu"), str(made / "shaft")))
     for platform in PLATFORMS:
         (binary,) = (built / platform).glob("Shaft.*")
@@ -137,7 +163,8 @@ def browser():
     if chromium is None:
         pytest.skip("no Chromium on this machine")
     with playwright.sync_playwright() as p:
-        env = {name: value for name, value in os.environ.items() if name != "LD_PRELOAD"}  # the sanitizers' library is not for the browser
+        # the sanitizers' library is not for the browser
+        env = {name: value for name, value in os.environ.items() if name != "LD_PRELOAD"}
         browser = p.chromium.launch(executable_path=chromium, args=["--no-sandbox"], env=env)
         yield browser
         browser.close()
@@ -149,7 +176,11 @@ def wine(tmp_path_factory):
     program = next(filter(None, map(shutil.which, ("wine64", "wine", "/usr/lib/wine/wine64"))), None)
     if not program:
         pytest.skip("needs wine, which runs Windows programs: apt-get install wine64")
-    environment = os.environ | {"WINEPREFIX": str(tmp_path_factory.mktemp("wine")), "WINEDEBUG": "-all", "WINEDLLOVERRIDES": "mscoree,mshtml="}
+    environment = os.environ | {
+        "WINEPREFIX": str(tmp_path_factory.mktemp("wine")),
+        "WINEDEBUG": "-all",
+        "WINEDLLOVERRIDES": "mscoree,mshtml=",
+    }
     return SimpleNamespace(command=[program], environment=environment)
 
 
@@ -161,7 +192,9 @@ exec "{python}" -m zipfile -e "$2" "$4"
 
 @pytest.fixture
 def ecospy(tmp_path, monkeypatch):
-    """The importer ecos with what its package does not bring: the program `unzip`, and the library TBB (`pip install tbb`, or the system's)."""
+    """The importer ecos with what its package does not bring: the program `unzip`, and the library TBB (`pip install
+    tbb`, or the system's).
+    """
     program = tmp_path / "bin" / "unzip"
     program.parent.mkdir()
     program.write_text(UNZIP.format(python=sys.executable))

@@ -1,9 +1,11 @@
-// Memory that runs out: each act of an instance's life is repeated with its first, second, third ... allocation refused until none is, and holds:
+// Memory that runs out: each act of an instance's life is repeated with its first, second, third ...
+// allocation refused until none is, and holds:
 //
 //   the call is refused with a message, nothing else happens; what was taken for it is given back
 //   the instance can then be reset and runs as a new one, byte for byte
 //
-// The linker sends all allocations of the FMU's own code here (--wrap), those of a sanitizer's build too.  Prints for each act how many were refused.
+// The linker sends all allocations of the FMU's own code here (--wrap), those of a sanitizer's build too.
+// Prints for each act how many were refused.
 #include "instance/part.h"
 
 #include "fmi2Functions.h"

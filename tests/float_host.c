@@ -1,10 +1,13 @@
-// A host with a floating-point environment of its own: calls every function of an FMU in it, with what is right and with what is refused.
+// A host with a floating-point environment of its own: calls every function of an FMU in it, with what is
+// right and with what is refused.
 //
-//   float_host LIBRARY MODE < script      one line for each function: its calls, those after which the environment differed from before, messages that
-//                                         the logger got in another environment, and a digest of all that came back
+//   float_host LIBRARY MODE < script      one line for each function: its calls, those after which the
+// environment differed from before, messages that                                         the logger got in
+// another environment, and a digest of all that came back
 //
-// The script: the GUID, then numbers: how many outputs and their value references, a Real input, how many Integer parameters and pairs of reference
-// and value, how many Real parameters and pairs.  Digests of two modes are equal if the FMU computed the same bits.
+// The script: the GUID, then numbers: how many outputs and their value references, a Real input, how many
+// Integer parameters and pairs of reference and value, how many Real parameters and pairs.  Digests of two
+// modes are equal if the FMU computed the same bits.
 #define _DEFAULT_SOURCE
 #include <stdint.h>
 #include <stdio.h>
@@ -151,7 +154,8 @@ static void *function(const char *name)
     return address.pointer;
 }
 
-// Calls fmi2<name>(...) in the host's environment; the result of type `type` goes into the digest and is the value of the expression.
+// Calls fmi2<name>(...) in the host's environment; the result of type `type` goes into the digest and is the
+// value of the expression.
 static fmi2Status status;
 #define CALL(name, ...)                                    \
     do {                                                   \

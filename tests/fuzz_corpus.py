@@ -1,10 +1,11 @@
-"""Strings that fuzzing starts from, kept in the tree as text: one string a line, in hexadecimal digits, in tests/corpus/.
+"""Strings that fuzzing starts from, kept in the tree as text: one string a line, in hexadecimal digits, in
+tests/corpus/.
 
     python tests/fuzz_corpus.py unpack tests/corpus/fuzz_api.txt build/corpus        a file for each line
     python tests/fuzz_corpus.py pack build/corpus tests/corpus/fuzz_api.txt [BYTES]  adds the shortest strings that are not there, up to BYTES of text (100000)
 
-`make fuzz` does the first.  After a run that reached more, `fuzz_api -merge=1 SMALL build/corpus` keeps in the folder SMALL what each of its strings adds,
-and the second brings SMALL into the tree.
+`make fuzz` does the first.  After a run that reached more, `fuzz_api -merge=1 SMALL build/corpus` keeps in the folder
+SMALL what each of its strings adds, and the second brings SMALL into the tree.
 """
 
 import hashlib

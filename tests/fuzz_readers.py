@@ -2,8 +2,8 @@
 
 python tests/fuzz_readers.py [SECONDS]     coverage-guided from tests/corpus/ on (needs atheris: `pip install .[fuzz]`)
 
-A string of bytes decides what becomes of a good file: bytes of its text are changed, or one of its values is replaced by an odd one, with the rivet
-table's digest made to fit, so that the checks behind it are reached.
+A string of bytes decides what becomes of a good file: bytes of its text are changed, or one of its values is replaced
+by an odd one, with the rivet table's digest made to fit, so that the checks behind it are reached.
 """
 
 import copy
@@ -21,7 +21,28 @@ from riveted_bearing import bearings, errors, fmu, scene, units
 
 ROOT = Path(__file__).resolve().parents[1]
 DATA = ROOT / "riveted_bearing" / "data"
-ODD = (None, True, "", "nan", "x" * 300, "1 N", "\0", -1, 0, 10**400, 1e308, float("inf"), float("nan"), -0.0, [], {}, [[]], {"": 0}, [1, "a"], 5e-324)
+ODD = (
+    None,
+    True,
+    "",
+    "nan",
+    "x" * 300,
+    "1 N",
+    "\0",
+    -1,
+    0,
+    10**400,
+    1e308,
+    float("inf"),
+    float("nan"),
+    -0.0,
+    [],
+    {},
+    [[]],
+    {"": 0},
+    [1, "a"],
+    5e-324,
+)
 TOKENS = (
     b"[",
     b"]",
@@ -157,7 +178,11 @@ def try_one(data):
     kind = choices.below(4)
     with tempfile.TemporaryDirectory() as folder:
         if kind == 0:
-            reader, path, text = read_bearing, Path(folder) / "bearing.toml", damage_text((DATA / "bearings" / "6310.toml").read_bytes(), choices)
+            reader, path, text = (
+                read_bearing,
+                Path(folder) / "bearing.toml",
+                damage_text((DATA / "bearings" / "6310.toml").read_bytes(), choices),
+            )
         elif kind == 1:
             reader, path, text = read_scene, Path(folder) / "scene.toml", damage_text(SCENE.encode(), choices)
         elif kind == 2:
@@ -182,7 +207,16 @@ def main():
                 setattr(module, name, atheris.instrument_func(function))
     found = ROOT / "build" / "corpus_readers"
     unpack(CORPUS / "fuzz_readers.txt", found)
-    atheris.Setup([sys.argv[0], str(found), f"-max_total_time={sys.argv[1] if len(sys.argv) > 1 else 60}", "-max_len=64", "-len_control=0"], try_one)
+    atheris.Setup(
+        [
+            sys.argv[0],
+            str(found),
+            f"-max_total_time={sys.argv[1] if len(sys.argv) > 1 else 60}",
+            "-max_len=64",
+            "-len_control=0",
+        ],
+        try_one,
+    )
     atheris.Fuzz()
 
 

@@ -1,7 +1,9 @@
-"""Both halves of a cage under impacts in their pockets by all finite elements, nothing left out: what modes are held against.
+"""Both halves of a cage under impacts in their pockets by all finite elements, nothing left out: what modes are held
+against.
 
-At each complex frequency s one pitch with the stiffness (1 + b s) K + s^2 M is condensed to its loads and its cuts, the waves of the ring follow from
-them, and the pads are held: transfer functions from the pockets to the joints, as rivet_model/impacts.py has them from modes.
+At each complex frequency s one pitch with the stiffness (1 + b s) K + s^2 M is condensed to its loads and its cuts, the
+waves of the ring follow from them, and the pads are held: transfer functions from the pockets to the joints, as
+rivet_model/impacts.py has them from modes.
 
     PYTHONPATH=. python tests/half_transient.py      # prints the tables over the number of modes of docs/rivet.md; 15 minutes of one core
 """
@@ -14,14 +16,28 @@ from mechanics import Instance, view
 from scipy.linalg import expm
 from scipy.sparse.linalg import splu
 
-from bearing_model.cage.elastic import half_modes as modes_of
-from bearing_model.rivet import rivet_table
-from bearing_model.generated import variables
 from bearing_model.cage.common.joint_law import joint_law, joints_open, relief
+from bearing_model.cage.elastic import half_modes as modes_of
+from bearing_model.generated import variables
+from bearing_model.rivet import rivet_table
 from rivet_model import half, half_loads, half_modes, half_shape
 from rivet_model.cage_half import BODY, SYMMETRIC
 from rivet_model.geometry import Geometry
-from rivet_model.impacts import ANGLES, DAMPING, SAMPLES, SHOWN, TIME, S, Transfer, at_angles, errors, mass_motions, modal_transfer, pulses, synthetic
+from rivet_model.impacts import (
+    ANGLES,
+    DAMPING,
+    SAMPLES,
+    SHOWN,
+    TIME,
+    S,
+    Transfer,
+    at_angles,
+    errors,
+    mass_motions,
+    modal_transfer,
+    pulses,
+    synthetic,
+)
 
 
 class FullHalf:
@@ -49,23 +65,32 @@ class FullHalf:
         order = np.concatenate([self.inside, self.edge])
         n = len(self.inside)
         both = [A[order][:, order].tocsc() for A in (self.elastic.K, self.massive.M)]
-        return [(A[:n, :n].tocsc(), A[:n, n:].toarray(), A[n:, n:].toarray()) for A in both], self.columns[self.inside], self.columns[self.edge]
+        return (
+            [(A[:n, :n].tocsc(), A[:n, n:].toarray(), A[n:, n:].toarray()) for A in both],
+            self.columns[self.inside],
+            self.columns[self.edge],
+        )
 
     def waves(self, s, damping=DAMPING):
-        """Flexibility [waves 0...Z-1, columns, columns] at the frequency s; the far parts of the wall count with the near ones."""
+        """Flexibility [waves 0...Z-1, columns, columns] at the frequency s; the far parts of the wall count with the
+        near ones.
+        """
         e, ((K, M), F_I, F_B) = self.elastic, self.parts
         II, IB, BB = ((1.0 + damping * s) * k + s * s * m for k, m in zip(K, M, strict=True))
         X = splu(II.tocsc(), **SYMMETRIC).solve(np.column_stack([F_I.astype(complex), IB]))
         X_F, X_B = X[:, : F_I.shape[1]], X[:, F_I.shape[1] :]
         A_FF, A_FB, stiff = F_I.T @ X_F, F_B.T - F_I.T @ X_B, BB - IB.T @ X_B
         n, angle = len(e.near), 2.0 * np.pi / e.Z
-        turn = np.kron(np.eye(n // 3), np.array([[1, 0, 0], [0, np.cos(angle), -np.sin(angle)], [0, np.sin(angle), np.cos(angle)]]))
+        turn = np.kron(
+            np.eye(n // 3), np.array([[1, 0, 0], [0, np.cos(angle), -np.sin(angle)], [0, np.sin(angle), np.cos(angle)]])
+        )
         result = np.zeros((e.Z, self.near.stop, self.near.stop), dtype=complex)
         for m in range(e.Z // 2 + 1):
             T = np.vstack([np.eye(n), np.exp(1j * m * angle) * turn])
             H = A_FF + A_FB @ T @ np.linalg.solve(T.conj().T @ stiff @ T, T.conj().T @ A_FB.T)
             gather = np.eye(H.shape[0], self.near.stop, dtype=complex)
-            gather[self.far, self.near] = np.exp(2j * np.pi * m / e.Z) * np.eye(len(ANGLES))  # they stand one pitch back
+            # they stand one pitch back
+            gather[self.far, self.near] = np.exp(2j * np.pi * m / e.Z) * np.eye(len(ANGLES))
             result[m] = gather.conj().T @ H @ gather
             result[-m] = result[m].T
         return result
@@ -92,7 +117,9 @@ class FullHalf:
         return Transfer(*(np.stack(part) for part in zip(*found, strict=True)))
 
     def inertia(self):
-        """half_shape.Inertia of the elements with the rivets' masses at their seats, and the radius at which the pads' friction acts along t [m]."""
+        """half_shape.Inertia of the elements with the rivets' masses at their seats, and the radius at which the pads'
+        friction acts along t [m].
+        """
         e, m = self.elastic, self.massive
         pitch = m.density * e.resultants[:BODY] + m.rivet * e.resultants[m.seat].T @ e.resultants[m.seat]
         total = np.zeros((BODY, BODY))
@@ -101,10 +128,12 @@ class FullHalf:
             turn = np.kron(np.eye(2), np.array([[1.0, 0.0, 0.0], [0.0, c, -s], [0.0, s, c]]))
             total += turn @ pitch @ turn.T
         mass, x_c = total[0, 0], total[1, 5] / total[0, 0]
-        return half_shape.Inertia(mass, x_c, total[3, 3], total[4, 4] - mass * x_c**2), float(e.resultants[e.patterns.plane][1, 3])
+        return half_shape.Inertia(mass, x_c, total[3, 3], total[4, 4] - mass * x_c**2), float(
+            e.resultants[e.patterns.plane][1, 3]
+        )
 
 
-# Impacts of a run -------------------------------------------------------------------------------------------------------------------------
+# Impacts of a run -----------------------------------------------------------------------------------------------------
 
 
 def on_angles(angle):
@@ -113,9 +142,11 @@ def on_angles(angle):
 
 
 def recorded(core, parameters, inputs, count, settle=0.05, apart=3e-3):
-    """What the balls of a run with elastic halves do to the pockets: `count` windows of forces [half, Z, ANGLES, SAMPLES] over TIME, 3 ms apart.
+    """What the balls of a run with elastic halves do to the pockets: `count` windows of forces [half, Z, ANGLES,
+    SAMPLES] over TIME, 3 ms apart.
 
-    The forces begin within 30 us, because a window may open in the middle of an impact.  Windows without a force above 15 N are passed over.
+    The forces begin within 30 us, because a window may open in the middle of an impact.  Windows without a force above
+    15 N are passed over.
     """
     parameters = parameters | {"scene.cage": variables.CageModel.ELASTIC}
     bearing, model = Instance(core, parameters, inputs).step(settle), core.model(parameters, inputs)
@@ -128,18 +159,22 @@ def recorded(core, parameters, inputs, count, settle=0.05, apart=3e-3):
             for h, pockets in enumerate(model.work.pocket):
                 push_x, push_t = view(core, pockets.push_x)[: variables.Z], view(core, pockets.push_t)[: variables.Z]
                 for j in np.flatnonzero(push_x**2 + push_t**2):
-                    force[h, j, :, i] = np.hypot(push_x[j], push_t[j]) * on_angles(np.arctan2(abs(push_x[j]), push_t[j]))
+                    force[h, j, :, i] = np.hypot(push_x[j], push_t[j]) * on_angles(
+                        np.arctan2(abs(push_x[j]), push_t[j])
+                    )
         if force.sum(axis=2).max() > 15.0:
             windows.append(force * begin**2 * (3.0 - 2.0 * begin))
         bearing.step(bearing.time + apart)
     return windows
 
 
-# Joints that open --------------------------------------------------------------------------------------------------------------------------
+# Joints that open -----------------------------------------------------------------------------------------------------
 
 
 def first_order_hold(omega, h):
-    """Exact step of q'' + DAMPING omega^2 q' + omega^2 q = f for f linear in time: (q, v) by (q, v) [2, 2, n], and by f before and after it [2, 2, n]."""
+    """Exact step of q'' + DAMPING omega^2 q' + omega^2 q = f for f linear in time: (q, v) by (q, v) [2, 2, n], and by f
+    before and after it [2, 2, n].
+    """
     A = np.zeros((len(omega), 4, 4))  # of q, v, f, h f'
     A[:, 0, 1] = A[:, 1, 2] = h
     A[:, 1, 0], A[:, 1, 1], A[:, 2, 3] = -h * omega**2, -h * DAMPING * omega**2, 1.0
@@ -148,11 +183,12 @@ def first_order_hold(omega, h):
 
 
 def opened(g, inertia, modes, force, law, P, spin, lever):
-    """Loads (N, M_r, M_t) of joints and (T, m_r, m_t) of rivets, each [Z, 3, SAMPLES], over time, of mirrored halves whose joints open by `law`.
+    """Loads (N, M_r, M_t) of joints and (T, m_r, m_t) of rivets, each [Z, 3, SAMPLES], over time, of mirrored halves
+    whose joints open by `law`.
 
-    force [half, Z, ANGLES, SAMPLES]; spin: (M_t, dP) of bonded joints under the centrifugal load; P: preload without it [N], or None: bonded.
-    Modes go exactly from step to step, what damps the residual by the implicit Euler method; in each step, Newton's iteration finds moves =
-    law(L + K_0 moves) of all joints at once.
+    force [half, Z, ANGLES, SAMPLES]; spin: (M_t, dP) of bonded joints under the centrifugal load; P: preload without it
+    [N], or None: bonded. Modes go exactly from step to step, what damps the residual by the implicit Euler method; in
+    each step, Newton's iteration finds moves = law(L + K_0 moves) of all joints at once.
     """
     Z, h, omega = g.Z, TIME[1], np.concatenate([modes_of.frequencies(modes), np.zeros(6)])
     pads, at = mass_motions(g, inertia, lever)[0], modes_of.rivet_shapes(modes)
@@ -161,7 +197,11 @@ def opened(g, inertia, modes, force, law, P, spin, lever):
     relative = (np.arange(Z)[:, None] - np.arange(Z)) % Z
     R = modes.residual.pad[relative][..., [0, 4, 5], :][..., [0, 4, 5]].transpose(0, 2, 1, 3).reshape(3 * Z, -1)
     lag = DAMPING / h / (1.0 + DAMPING / h)  # d + DAMPING d' = R L for the residual's move d
-    K, K_0, angle = np.linalg.inv((1.0 - lag) * R + A.T @ (forced[0, 1][:, None] * A)), law.stiffness[0], np.tile([1.0, 1.0 / law.length, 1.0 / law.length], Z)
+    K, K_0, angle = (
+        np.linalg.inv((1.0 - lag) * R + A.T @ (forced[0, 1][:, None] * A)),
+        law.stiffness[0],
+        np.tile([1.0, 1.0 / law.length, 1.0 / law.length], Z),
+    )
     mirrored = 0.5 * (force[0] + force[1])
     modal, shift = np.zeros((len(omega), SAMPLES)), np.zeros((Z * 3, SAMPLES))
     for j in range(Z):
@@ -174,17 +214,26 @@ def opened(g, inertia, modes, force, law, P, spin, lever):
     moves_0 = np.zeros((Z, 3)) if P is None else joints_open(law, rest, preload, spin[0], P + spin[1], sweeps=400)[2]
     alone_0 = rest - relief(law.others, moves_0)
     q, v, before = np.zeros(len(omega)), np.zeros(len(omega)), np.zeros(len(omega))
-    delta, lagging, loads, rivets = np.zeros(3 * Z), np.zeros(3 * Z), np.zeros((Z, 3, SAMPLES)), np.zeros((Z, 3, SAMPLES))
+    delta, lagging, loads, rivets = (
+        np.zeros(3 * Z),
+        np.zeros(3 * Z),
+        np.zeros((Z, 3, SAMPLES)),
+        np.zeros((Z, 3, SAMPLES)),
+    )
 
     def tried(delta, at_pads):
-        """Load that a joint would carry alone, its moves by the law, the rivet's loads, what is wrong with the moves, and how much load that is [N]."""
+        """Load that a joint would carry alone, its moves by the law, the rivet's loads, what is wrong with the moves,
+        and how much load that is [N].
+        """
         alone = alone_0 + (K @ (at_pads - delta)).reshape(Z, 3) + delta.reshape(Z, 3) @ K_0.T
         moves, rivet = joint_law(law, alone, preload)
         wrong = delta - (moves - moves_0).ravel()
         return alone, moves, rivet, wrong, np.abs(K @ wrong * angle).max()
 
     def newton(delta, at_pads, time):
-        """Moves [3 Z] and loads of the rivets [Z, 3]: Newton's iteration with halved steps where a joint closes or opens."""
+        """Moves [3 Z] and loads of the rivets [Z, 3]: Newton's iteration with halved steps where a joint closes or
+        opens.
+        """
         now = tried(delta, at_pads)
         for _ in range(60):
             alone, moves, rivet, wrong, size = now
@@ -219,7 +268,9 @@ def opened(g, inertia, modes, force, law, P, spin, lever):
 
 
 def print_tables(counts=(240, 120, 60, 50, 40, 30, 20), sequences=12, opening=2):
-    """Errors in % over the number of modes: bonded joints beside all elements (RMS, 99.9 % quantile), then opening ones beside all modes."""
+    """Errors in % over the number of modes: bonded joints beside all elements (RMS, 99.9 % quantile), then opening ones
+    beside all modes.
+    """
     g, t = Geometry(), rivet_table.read(rivet_table.DEFAULT_TABLE)
     full = FullHalf(g, half.COARSE)
     inertia, lever = full.inertia()
@@ -235,7 +286,12 @@ def print_tables(counts=(240, 120, 60, 50, 40, 30, 20), sequences=12, opening=2)
     spin, expected = t.half.spin[[4, 5]] * 754.0**2, None
     for n in counts:
         modes = modes_of.fewer(found, min(n, int(found.count.sum())))
-        loads = np.stack([np.concatenate(opened(g, inertia, modes, f, t.half.law, 20.0, spin, lever), axis=1) for f in force[:opening]])
+        loads = np.stack(
+            [
+                np.concatenate(opened(g, inertia, modes, f, t.half.law, 20.0, spin, lever), axis=1)
+                for f in force[:opening]
+            ]
+        )
         loads = np.moveaxis(loads[..., SHOWN], 2, 0).reshape(6, -1)
         expected = loads if expected is None else expected
         rms = np.sqrt(((loads - expected) ** 2).mean(axis=1) / expected.var(axis=1))

@@ -1,4 +1,5 @@
-"""The C core in Python, element by element: the tests' library opened with cffi, its declarations taken from the headers themselves.
+"""The C core in Python, element by element: the tests' library opened with cffi, its declarations taken from the
+headers themselves.
 
 core = Core.load()
 model = core.model(parameters={"bearing.P_d": 0.0}, inputs={"shaft.omega": 100.0})
@@ -25,9 +26,11 @@ GENERATED = other_bearing.BUILD / "generated" if other_bearing.BUILD else SOURCE
 LIBRARY = (other_bearing.BUILD or ROOT / "build") / "libbearing_test.so"
 INSTRUCTION_SETS = ("generic", "neon", "sse2", "avx2", "avx512")
 LANE_TYPES = {"wide", "bits", "words", "vec"}  # depend on the lane width: no place outside the kernels
-# What a test of the core runs unless it says otherwise: rigid halves, which take half the time.  Elastic ones are named where they matter.
+# What a test of the core runs unless it says otherwise: rigid halves, which take half the time.  Elastic ones are named
+# where they matter.
 TWO_HALF = {"scene.cage": variables.CageModel.TWO_HALF}
-AROUND_THE_CORE = {"float_environment.h", "fmi2_calls.h", "reserved_memory.h"}  # of the wrapper and of SUNDIALS: macros and instructions, no physics
+# of the wrapper and of SUNDIALS: macros and instructions, no physics
+AROUND_THE_CORE = {"float_environment.h", "fmi2_calls.h", "reserved_memory.h"}
 SYSTEM_TYPES = "typedef _Bool bool; typedef unsigned long size_t; typedef long int64_t; typedef unsigned long uint64_t; typedef unsigned uint32_t;"
 
 
@@ -83,7 +86,9 @@ class Model:
 
     def __init__(self, core, parameters, inputs, isa):
         self.core = core
-        self.p, self.u, self.d, self.ring_load, self.work = map(core.new, ("Parameters", "Inputs", "Derived", "RingLoad", "Work"))
+        self.p, self.u, self.d, self.ring_load, self.work = map(
+            core.new, ("Parameters", "Inputs", "Derived", "RingLoad", "Work")
+        )
         core.lib.variables_set_start(self.p, self.u)
         core.set_values(self.p, variables.PARAMETERS, parameters)
         core.set_values(self.u, variables.INPUTS, inputs)
@@ -95,7 +100,9 @@ class Model:
         self.pointer.p, self.pointer.d, self.pointer.ring_load = self.p, self.d, self.ring_load
         self.elastic = core.ffi.NULL
         if self.p.scene.cage == variables.CageModel.ELASTIC:
-            self.elastic = core.ffi.gc(core.ffi.cast("ElasticHalf *", core.lib.test_allocate(core.lib.elastic_half_size())), core.lib.free)
+            self.elastic = core.ffi.gc(
+                core.ffi.cast("ElasticHalf *", core.lib.test_allocate(core.lib.elastic_half_size())), core.lib.free
+            )
             core.lib.elastic_half_derive(self.p, self.d, self.elastic)
         self.pointer.elastic = self.elastic
         self.states = variables.N_ALL_STATES if self.elastic else variables.N_STATES
@@ -126,13 +133,17 @@ class Model:
         return y_dot
 
     def implicit(self, function, gamma, v):
-        """implicit_solve or implicit_stiff_part of velocities v (rows of the state vector) at the state of the last evaluation."""
+        """implicit_solve or implicit_stiff_part of velocities v (rows of the state vector) at the state of the last
+        evaluation.
+        """
         v = np.array(v, dtype=float)
         self.kernel(function)(self.pointer, self.work, gamma, self.core.array(v))
         return v
 
     def rates(self):
-        """Rates [1/s] by which velocities (implicit.c) and friction states (cage_joint_advance) hold themselves back at the state of the last evaluation."""
+        """Rates [1/s] by which velocities (implicit.c) and friction states (cage_joint_advance) hold themselves back at
+        the state of the last evaluation.
+        """
         gamma, D = 1e-12, np.zeros(variables.N_STATES)  # small: A_ii beside its coupling to others; rounding 1e-4 1/s
         stiffness = self.d.k_plate, self.d.k_rivet
         self.d.k_plate = self.d.k_rivet = 0.0
@@ -148,7 +159,9 @@ class Model:
         return D
 
     def friction_rates(self, h):
-        """Rates of the friction states by what a step h leaves of one: the midpoint rule's (1 - h D/2)/(1 + h D/2).  Exact to rounding for h D near 1."""
+        """Rates of the friction states by what a step h leaves of one: the midpoint rule's (1 - h D/2)/(1 + h D/2).
+        Exact to rounding for h D near 1.
+        """
         left = []
         for start in (0.0, 1.0):
             y = np.full(variables.N_STATES, start)
@@ -166,7 +179,9 @@ class Model:
         return state
 
     def verlet(self, t, h, start, weight):
-        """One Verlet step of length h from `start` (VerletState) at t; returns the VerletState reached and the error's norm in units of 1/weight."""
+        """One Verlet step of length h from `start` (VerletState) at t; returns the VerletState reached and the error's
+        norm in units of 1/weight.
+        """
         end = self.core.new("VerletState")
         self.core.lib.ring_load_update(self.p, self.u, t, self.ring_load)
         error = self.kernel("verlet_step")(self.pointer, t, h, self.core.array(weight), start, end, self.work)
@@ -178,7 +193,7 @@ class Model:
         return self.core.lib.energy_total(self.pointer, self.core.array(y), self.work)
 
 
-# -------------------------------------------------------------------------------------------------- declarations from the headers
+# ---------------------------------------------------------------------------------------- declarations from the headers
 
 
 def declarations(sources):
@@ -197,12 +212,20 @@ def declarations(sources):
 
 
 def parse(sources, isa):
-    """Declarations of all headers and of the tests' own C files, without function bodies and without types that depend on the lane width."""
-    files = [*headers(sources), Path(__file__).with_name("test_library.c"), Path(__file__).with_name("test_elementary.c")]
+    """Declarations of all headers and of the tests' own C files, without function bodies and without types that depend
+    on the lane width.
+    """
+    files = [
+        *headers(sources),
+        Path(__file__).with_name("test_library.c"),
+        Path(__file__).with_name("test_elementary.c"),
+    ]
     text = preprocess(files, f"-DISA={isa}", *(f"-I{folder}" for folder in sources), before=SYSTEM_TYPES)
     nodes = c_parser.CParser().parse(text).ext
     own = SYSTEM_TYPES.count(";")
-    return [node for node in nodes[own:] if not isinstance(node, (c_ast.FuncDef, c_ast.StaticAssert)) and declares(node)]
+    return [
+        node for node in nodes[own:] if not isinstance(node, (c_ast.FuncDef, c_ast.StaticAssert)) and declares(node)
+    ]
 
 
 def headers(sources):
@@ -217,7 +240,20 @@ def preprocess(files, *options, before=""):
         for name in re.findall(r"#\s*include\s*<(.*)>", "".join(path.read_text() for path in files)):
             (Path(folder) / name).parent.mkdir(parents=True, exist_ok=True)
             (Path(folder) / name).write_text("")
-        command = [compiler(), "-E", "-P", "-nostdinc", "-undef", "-D__attribute__(x)=", "-D_Alignas(x)=", *options, f"-I{folder}", "-x", "c", "-"]
+        command = [
+            compiler(),
+            "-E",
+            "-P",
+            "-nostdinc",
+            "-undef",
+            "-D__attribute__(x)=",
+            "-D_Alignas(x)=",
+            *options,
+            f"-I{folder}",
+            "-x",
+            "c",
+            "-",
+        ]
         text = before + "".join(f'\n#include "{path}"' for path in files)
         return subprocess.run(command, input=text, stdout=subprocess.PIPE, text=True, check=True).stdout
 
@@ -255,11 +291,23 @@ def struct_layout(sources, tree):
         for name, members in structs.items()
     )
     includes = "".join(f'#include "{path}"\n' for path in headers(sources))
-    with tempfile.TemporaryDirectory() as folder:  # optimised, so that functions in headers that nothing calls need no library
+    # optimised, so that functions in headers that nothing calls need no library
+    with tempfile.TemporaryDirectory() as folder:
         program = Path(folder) / "layout"
         text = f"#include <stdio.h>\n{includes}int main(void) {{\n{prints}return 0; }}\n"
         subprocess.run(
-            [compiler(), "-std=c17", "-O1", *(f"-I{folder}" for folder in sources), "-x", "c", "-", "-o", str(program), "-lm"],
+            [
+                compiler(),
+                "-std=c17",
+                "-O1",
+                *(f"-I{folder}" for folder in sources),
+                "-x",
+                "c",
+                "-",
+                "-o",
+                str(program),
+                "-lm",
+            ],
             input=text,
             text=True,
             check=True,

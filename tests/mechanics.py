@@ -4,15 +4,16 @@ import numpy as np
 from library import TWO_HALF
 from python_core import Body, PythonWork
 
-from bearing_model.generated import variables
 from bearing_model.cage.elastic.cage_elastic import mode_order
-from bearing_model.physics.derived import default_table
 from bearing_model.cage.elastic.half_modes import fewer
+from bearing_model.generated import variables
+from bearing_model.physics.derived import default_table
 from bearing_model.physics.hertz_exact import HertzContact, hertz_ellipse
 
 Z = variables.Z
 SLICE = variables.STATE_SLICES
-RIGID_HALVES = variables.CageModel.TWO_HALF, variables.CageModel.RIGID  # elastic ones have tests of their own: test_cage_elastic.py
+# elastic ones have tests of their own: test_cage_elastic.py
+RIGID_HALVES = variables.CageModel.TWO_HALF, variables.CageModel.RIGID
 OUTPUTS = {name.replace("[j]", "").replace("[k]", ""): variable for name, variable in variables.OUTPUTS.items()}
 
 
@@ -35,7 +36,11 @@ class View:
 
     def __getattr__(self, name):
         member = getattr(self.struct, name)
-        return view(self.core, member) if isinstance(member, self.core.ffi.CData) and self.core.ffi.typeof(member).kind == "array" else member
+        return (
+            view(self.core, member)
+            if isinstance(member, self.core.ffi.CData) and self.core.ffi.typeof(member).kind == "array"
+            else member
+        )
 
     def __setattr__(self, name, value):
         if isinstance(getattr(self.struct, name), (float, int)):
@@ -81,7 +86,21 @@ def place_balls(model, x, r, theta, v=None, omega=None, omega_m=None):
 
 def clear_balls(w):
     """Nothing acts on the balls yet: what pocket_force and drag_force add to."""
-    for name in ("F_x", "F_r", "F_t", "M_x", "M_r", "M_t", "D_x", "D_r", "D_t", "D_omega_x", "D_omega_r", "D_omega_t", "dissipated"):
+    for name in (
+        "F_x",
+        "F_r",
+        "F_t",
+        "M_x",
+        "M_r",
+        "M_t",
+        "D_x",
+        "D_r",
+        "D_t",
+        "D_omega_x",
+        "D_omega_r",
+        "D_omega_t",
+        "dissipated",
+    ):
         getattr(w, name)[:] = 0.0
 
 
@@ -104,11 +123,15 @@ def pocket_wrench(model, h):
 
 
 def pocket_contact(clearance=2e-4):
-    """Hertz contact of ball and pocket at the default geometry, by the quasi-static model: the long half axis lies around the pocket's axis."""
+    """Hertz contact of ball and pocket at the default geometry, by the quasi-static model: the long half axis lies
+    around the pocket's axis.
+    """
     R = 0.5 * 0.0111125
     curvatures = np.array([1.0 / R, 1.0 / R - 1.0 / (R + 0.5 * clearance)])  # along the pocket's axis the ball alone
     F_rho = (curvatures[0] - curvatures[1]) / curvatures.sum()
-    return HertzContact(curvatures.sum(), F_rho, 1.0 / ((1.0 - 0.3**2) / 207e9 + (1.0 - 0.33**2) / 110e9), hertz_ellipse(F_rho))
+    return HertzContact(
+        curvatures.sum(), F_rho, 1.0 / ((1.0 - 0.3**2) / 207e9 + (1.0 - 0.33**2) / 110e9), hertz_ellipse(F_rho)
+    )
 
 
 def pocket_loads(model):
@@ -122,7 +145,8 @@ def modes_of(p):
 
 
 def running_state(model, rng, *, pockets=True, slip=1.0):
-    """A state near the quasi-static start with every element at work: pockets closed, cage off centre and tilted, joints offset and slipping.
+    """A state near the quasi-static start with every element at work: pockets closed, cage off centre and tilted,
+    joints offset and slipping.
 
     `slip` scales all velocities' deviations from pure rolling; without `pockets` no ball touches the cage.
     """
@@ -143,7 +167,9 @@ def running_state(model, rng, *, pockets=True, slip=1.0):
         y[SLICE["cage_z"]][h] += shift[1]
     phi = 2.0 * np.pi * np.arange(Z) / Z
     play = 0.5 * p.cage.pocket_clearance + rng.uniform(-2e-6, 3e-6, Z) if pockets else np.zeros(Z)
-    y[SLICE["ball_theta"]] = phi + (rng.choice([-1.0, 1.0], Z) * play + shift[1] * np.cos(phi) - shift[0] * np.sin(phi)) / r_0
+    y[SLICE["ball_theta"]] = (
+        phi + (rng.choice([-1.0, 1.0], Z) * play + shift[1] * np.cos(phi) - shift[0] * np.sin(phi)) / r_0
+    )
     if p.scene.cage == variables.CageModel.ELASTIC:
         order, _, _ = mode_order(fewer(default_table().modes, p.scene.modes))
         n = len(order)
@@ -157,10 +183,24 @@ def running_state(model, rng, *, pockets=True, slip=1.0):
         for h in range(2):
             y[SLICE["cage_beta"]][h] += tilt[0]
             y[SLICE["cage_gamma"]][h] += tilt[1]
-        add("cage_beta", 5e-6), add("cage_gamma", 5e-6), add("cage_v_x", 1e-3 * slip), add("cage_v_y", 0.1 * slip), add("cage_v_z", 0.1 * slip)
+        (
+            add("cage_beta", 5e-6),
+            add("cage_gamma", 5e-6),
+            add("cage_v_x", 1e-3 * slip),
+            add("cage_v_y", 0.1 * slip),
+            add("cage_v_z", 0.1 * slip),
+        )
         add("cage_beta_dot", 1.0 * slip), add("cage_gamma_dot", 1.0 * slip), add("cage_s", 1.0 * slip)
     else:
-        rigid_halves(model, y, beta=rng.uniform(-2e-4, 2e-4), gamma=rng.uniform(-2e-4, 2e-4), psi=rng.uniform(-5e-5, 5e-5), slip=slip, rng=rng)
+        rigid_halves(
+            model,
+            y,
+            beta=rng.uniform(-2e-4, 2e-4),
+            gamma=rng.uniform(-2e-4, 2e-4),
+            psi=rng.uniform(-5e-5, 5e-5),
+            slip=slip,
+            rng=rng,
+        )
     add("ring_v_x", 0.01 * slip), add("ring_v_y", 0.01 * slip), add("ring_v_z", 0.01 * slip)
     add("ring_beta", 1e-4), add("ring_gamma", 1e-4), add("ring_beta_dot", 1.0 * slip), add("ring_gamma_dot", 1.0 * slip)
     return y
@@ -169,7 +209,11 @@ def running_state(model, rng, *, pockets=True, slip=1.0):
 def rigid_halves(model, y, beta, gamma, psi, slip, rng):
     """Both halves as one rigid body about the cage's centre (cage without unbalance)."""
     a, a_dot = axis(beta, gamma), np.zeros(3)
-    beta_dot, gamma_dot, s = slip * rng.uniform(-1, 1), slip * rng.uniform(-1, 1), y[SLICE["cage_s"]][0] + slip * rng.uniform(-1, 1)
+    beta_dot, gamma_dot, s = (
+        slip * rng.uniform(-1, 1),
+        slip * rng.uniform(-1, 1),
+        y[SLICE["cage_s"]][0] + slip * rng.uniform(-1, 1),
+    )
     a_dot[1], a_dot[2] = gamma_dot, -beta_dot
     a_dot[0] = -(a[1] * a_dot[1] + a[2] * a_dot[2]) / a[0]
     centre = np.array([0.0, y[SLICE["cage_y"]][0], y[SLICE["cage_z"]][0]])
@@ -178,17 +222,29 @@ def rigid_halves(model, y, beta, gamma, psi, slip, rng):
         place, rate = centre + model.d.com_x[h] * a, velocity + model.d.com_x[h] * a_dot
         for i, name in enumerate("xyz"):
             y[SLICE[f"cage_{name}"]][h], y[SLICE[f"cage_v_{name}"]][h] = place[i], rate[i]
-        for name, value in (("beta", beta), ("gamma", gamma), ("psi", psi), ("beta_dot", beta_dot), ("gamma_dot", gamma_dot), ("s", s)):
+        for name, value in (
+            ("beta", beta),
+            ("gamma", gamma),
+            ("psi", psi),
+            ("beta_dot", beta_dot),
+            ("gamma_dot", gamma_dot),
+            ("s", s),
+        ):
             y[SLICE[f"cage_{name}"]][h] = value
 
 
 class Instance:
-    """A whole bearing behind part.h: parameters and inputs by name, stepping, states and outputs.  Freed with this object."""
+    """A whole bearing behind part.h: parameters and inputs by name, stepping, states and outputs.  Freed with this
+    object.
+    """
 
     def __init__(self, core, parameters=None, inputs=None, tolerance=0.0):
         self.core, self.lib, self.messages = core, core.lib, []
         ffi = core.ffi
-        self.log = ffi.callback("void(void *, LogCategory, const char *)", lambda _, category, text: self.messages.append(ffi.string(text).decode()))
+        self.log = ffi.callback(
+            "void(void *, LogCategory, const char *)",
+            lambda _, category, text: self.messages.append(ffi.string(text).decode()),
+        )
         self.host = ffi.new("PartHost *", {"environment": ffi.NULL, "log": self.log})
         self.bearing = ffi.gc(self.lib.part_create(self.host), self.lib.part_destroy)
         core.set_values(self.lib.part_parameters(self.bearing), variables.PARAMETERS, TWO_HALF | (parameters or {}))

@@ -1,7 +1,9 @@
-"""The tests of both twins on another bearing: BEARING_BUILD=build/bearings/6310 pytest tests/test_twin.py -k derivatives
+"""The tests of both twins on another bearing: BEARING_BUILD=build/bearings/6310 pytest tests/test_twin.py -k
+derivatives
 
-BEARING_BUILD is a folder that `riveted-bearing build --bearing` left, with the library of the tests added (cmake --build FOLDER --target bearing_test).
-Import this before anything of bearing_model: number of balls and start values are those of the folder's variables.py, the rivet table is its own.
+BEARING_BUILD is a folder that `riveted-bearing build --bearing` left, with the library of the tests added (cmake
+--build FOLDER --target bearing_test). Import this before anything of bearing_model: number of balls and start values
+are those of the folder's variables.py, the rivet table is its own.
 """
 
 import importlib.util
@@ -16,7 +18,9 @@ def install(build):
     """Makes the package that of the other bearing."""
     import bearing_model
 
-    spec = importlib.util.spec_from_file_location("bearing_model.generated.variables", build / "generated" / "variables.py")
+    spec = importlib.util.spec_from_file_location(
+        "bearing_model.generated.variables", build / "generated" / "variables.py"
+    )
     module = importlib.util.module_from_spec(spec)
     sys.modules[spec.name] = bearing_model.generated.variables = module
     spec.loader.exec_module(module)

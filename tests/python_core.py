@@ -1,4 +1,5 @@
-"""The Python reference behind the interface of library.Core, as far as tests of elements use it: the same assertions run on both twins.
+"""The Python reference behind the interface of library.Core, as far as tests of elements use it: the same assertions
+run on both twins.
 
 core = PythonCore()
 model = core.model(parameters={"bearing.P_d": 0.0})
@@ -12,20 +13,28 @@ from types import SimpleNamespace
 import numpy as np
 from library import TWO_HALF
 
-from bearing_model.physics import derived, drag, hertz, land_film, race_contact, traction
 from bearing_model.cage.common import pocket
 from bearing_model.generated import variables
 from bearing_model.instance.energy import energy_total
+from bearing_model.physics import derived, drag, hertz, land_film, race_contact, traction
 from bearing_model.physics.model import Model, Work
 from bearing_model.physics.parameters import Inputs, Parameters
 from bearing_model.physics.rhs import rhs
 from bearing_model.physics.ring_load import ring_load_update
 from bearing_model.physics.rotor import Rotor
-from bearing_model.solver.start import start_state
 from bearing_model.physics.temperature import temperature_apply
+from bearing_model.solver.start import start_state
 
 Z = variables.Z
-ELEMENTS = (race_contact.race_contact_force, pocket.pocket_force, drag.drag_mixture, drag.drag_force, drag.drag_cage, drag.drag_ring, land_film.land_film_force)
+ELEMENTS = (
+    race_contact.race_contact_force,
+    pocket.pocket_force,
+    drag.drag_mixture,
+    drag.drag_force,
+    drag.drag_cage,
+    drag.drag_ring,
+    land_film.land_film_force,
+)
 KERNELS = {f.__name__: f for f in ELEMENTS}
 PLACES = ("x", "r", "theta", "cos_theta", "sin_theta", "v_x", "v_r", "v_t", "omega_m", "omega_x", "omega_r", "omega_t")
 VECTORS = {f"{kind}_{axis}": (kind, i) for kind in "FM" for i, axis in enumerate("xrt")}
@@ -33,7 +42,8 @@ WRENCH = {f"ring_{kind}_{axis}": (f"ring_{kind}", i) for kind in "FM" for i, axi
 NORMALS = {f"n_{race}{axis}": (f"n_{race}", i) for race in "ie" for i, axis in enumerate("xrt")}
 RATES = {f"{kind}_{axis}": (kind, i) for kind in ("D", "D_omega") for i, axis in enumerate("xrt")}
 COMPONENTS = VECTORS | WRENCH | NORMALS | RATES
-NOTHING = SimpleNamespace(Q=np.zeros(Z), **{f"half_{kind}_{i}": np.zeros(Z) for kind in "FM" for i in "xyz"})  # the rigid cage has one set of pockets
+# the rigid cage has one set of pockets
+NOTHING = SimpleNamespace(Q=np.zeros(Z), **{f"half_{kind}_{i}": np.zeros(Z) for kind in "FM" for i in "xyz"})
 DISSIPATED = ("race_dissipated", "pocket_dissipated", "drag_dissipated")
 
 
@@ -49,15 +59,31 @@ class Body:
 
     def __setattr__(self, name, value):
         shape = (1,) if name == "s" else (3, 1)
-        setattr(self.rotor, name, np.broadcast_to(np.reshape(np.asarray(value, dtype=float), (-1, 1) if shape == (3, 1) else -1), shape).copy())
+        setattr(
+            self.rotor,
+            name,
+            np.broadcast_to(
+                np.reshape(np.asarray(value, dtype=float), (-1, 1) if shape == (3, 1) else -1), shape
+            ).copy(),
+        )
 
 
 class PythonWork:
-    """A Work with the names of the C struct: components F_x, F_r ... n_ix, bodies as Body, numbers of a body or of all balls as floats."""
+    """A Work with the names of the C struct: components F_x, F_r ... n_ix, bodies as Body, numbers of a body or of all
+    balls as floats.
+    """
 
     def __init__(self):
         zero = {name: np.zeros(Z) for name in PLACES}
-        w = Work(**zero, F=np.zeros((3, Z)), M=np.zeros((3, Z)), D=np.zeros((3, Z)), D_omega=np.zeros((3, Z)), ring=Rotor(), half=[Rotor(), Rotor()])
+        w = Work(
+            **zero,
+            F=np.zeros((3, Z)),
+            M=np.zeros((3, Z)),
+            D=np.zeros((3, Z)),
+            D_omega=np.zeros((3, Z)),
+            ring=Rotor(),
+            half=[Rotor(), Rotor()],
+        )
         object.__setattr__(self, "w", w)
         for body in (self.ring, *self.half):
             body.F = body.M = 0.0
@@ -85,7 +111,12 @@ class PythonWork:
 
         def of_half(h):
             wrench = {"F": w.pocket_F[h], "M": w.pocket_M[h]}
-            return SimpleNamespace(Q=w.Q_c[h], **{f"half_{kind}_{i}": row for kind, rows in wrench.items() for i, row in zip("xyz", rows, strict=True)})
+            return SimpleNamespace(
+                Q=w.Q_c[h],
+                **{
+                    f"half_{kind}_{i}": row for kind, rows in wrench.items() for i, row in zip("xyz", rows, strict=True)
+                },
+            )
 
         return [of_half(h) if h in w.Q_c else NOTHING for h in range(2)]
 
@@ -159,8 +190,12 @@ class PythonCore:
             test_traction_mu=lambda s, p, f_a, mixed: traction.traction_mu(p, s, f_a, mixed),
             test_traction_asperity_share=traction.traction_asperity_share,
             test_traction_ln_film=lambda u, ln_1, Q: traction.traction_ln_film(ln_1, np.log(u), np.log(Q)),
-            test_traction_inlet=lambda u, rolling, Q: traction.traction_inlet(rolling, np.log(u), Q, np.log(Q + traction.Q_FLOOR)),
-            test_traction_race_inlet=lambda u, d, rolling, Q: traction.traction_race_inlet(d, rolling, u, np.log(u), Q, np.log(Q + traction.Q_FLOOR)),
+            test_traction_inlet=lambda u, rolling, Q: traction.traction_inlet(
+                rolling, np.log(u), Q, np.log(Q + traction.Q_FLOOR)
+            ),
+            test_traction_race_inlet=lambda u, d, rolling, Q: traction.traction_race_inlet(
+                d, rolling, u, np.log(u), Q, np.log(Q + traction.Q_FLOOR)
+            ),
             test_traction_ln_thermal=lambda u, ln_thermal: traction.traction_ln_thermal(ln_thermal, np.log(u)),
             model_derive=derive,
         )

@@ -1,4 +1,5 @@
-"""The FMU against the reference results that it carries: its outputs over the first millisecond, on any machine on which fmpy runs.
+"""The FMU against the reference results that it carries: its outputs over the first millisecond, on any machine on
+which fmpy runs.
 
     python tests/reference_results.py fmus/RivetedBearing.fmu
 
@@ -15,9 +16,12 @@ from pathlib import Path
 import fmpy
 import numpy as np
 
-# Largest difference of an output against its largest magnitude: what a user may count on.  Observed: 0 for zig's clang and for gcc -O1 and -O3 on Linux,
-# 2e-16 for Windows (contact angles, by the system's atan2), 1.1e-10 for sources compiled without the fused multiply-adds of the binary's kernels.  Only because
-# elementary.h takes no other function from the system: with the systems' own, differences of 1e-16 at the start reached 1e-2 in 0.6 ms, when one error test was
+# Largest difference of an output against its largest magnitude: what a user may count on.  Observed: 0 for zig's clang
+# and for gcc -O1 and -O3 on Linux,
+# 2e-16 for Windows (contact angles, by the system's atan2), 1.1e-10 for sources compiled without the fused
+# multiply-adds of the binary's kernels.  Only because
+# elementary.h takes no other function from the system: with the systems' own, differences of 1e-16 at the start reached
+# 1e-2 in 0.6 ms, when one error test was
 # passed here and failed there.
 SAME = 1e-9
 FLOORS = {
@@ -27,10 +31,14 @@ FLOORS = {
     "N.m": 2e-4,
     "1": 1e-7,
     "rad": 1e-7,
-}  # smaller ones are compared with these: a slip of 3e-11 m is known to 4e-18 m; halves that rest lose 2e-8 W by vibration
+    # smaller ones are compared with these: a slip of 3e-11 m is known to 4e-18 m; halves that rest lose 2e-8 W by
+    # vibration
+}
 DIFFERENCE_OF = {
     ".N": ".T"
-}  # what a joint carries, 6e-4 N at most here, is the tension of its rivet, 53 N, less what its plates press: compared with the rivet's
+    # what a joint carries, 6e-4 N at most here, is the tension of its rivet, 53 N, less what its plates press: compared
+    # with the rivet's
+}
 
 
 def read_reference(folder):
@@ -42,7 +50,9 @@ def read_reference(folder):
 
 
 def difference(rows, expected, names, units):
-    """Largest difference [1] of each output, a column with name and unit, from its expected trajectory, against the largest magnitude there."""
+    """Largest difference [1] of each output, a column with name and unit, from its expected trajectory, against the
+    largest magnitude there.
+    """
     assert rows.shape == expected.shape
     assert np.abs(expected).max() > 1e3
     largest = np.maximum(np.abs(expected).max(axis=0), [FLOORS.get(unit, 0.0) for unit in units])
@@ -54,14 +64,17 @@ def difference(rows, expected, names, units):
 
 
 def native_binary(folder):
-    """Puts the binary for macOS on Arm where fmpy looks for it: FMI 2.0.4 calls its folder aarch64-darwin, fmpy darwin64."""
+    """Puts the binary for macOS on Arm where fmpy looks for it: FMI 2.0.4 calls its folder aarch64-darwin, fmpy
+    darwin64.
+    """
     binary = folder / "binaries" / "aarch64-darwin"
     if sys.platform == "darwin" and platform.machine() == "arm64" and binary.is_dir():
         shutil.copytree(binary, folder / "binaries" / "darwin64", dirs_exist_ok=True)
 
 
 def main(path):
-    with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as temporary:  # Windows keeps a library that was loaded
+    # Windows keeps a library that was loaded
+    with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as temporary:
         folder = Path(fmpy.extract(path, temporary))
         native_binary(folder)
         names, times, expected = read_reference(folder)
@@ -70,7 +83,9 @@ def main(path):
         units = {v.name: v.unit or "1" for v in fmpy.read_model_description(str(folder)).modelVariables}
     largest = difference(np.array([result[name] for name in names]).T, expected, names, [units[name] for name in names])
     worst = int(largest.argmax())
-    print(f"{platform.system()} {platform.machine()}, fmpy {fmpy.__version__}: {len(names)} outputs, {len(times) - 1} steps of {step:g} s")
+    print(
+        f"{platform.system()} {platform.machine()}, fmpy {fmpy.__version__}: {len(names)} outputs, {len(times) - 1} steps of {step:g} s"
+    )
     print(f"largest difference from the reference results: {largest[worst]:.1e} of {names[worst]}, allowed {SAME:g}")
     return int(not np.all(largest <= SAME))
 

@@ -1,4 +1,6 @@
-"""One instance of an FMU, called through the functions of the FMI 2.0 headers: statuses as they come, log messages kept."""
+"""One instance of an FMU, called through the functions of the FMI 2.0 headers: statuses as they come, log messages
+kept.
+"""
 
 import re
 from functools import cache
@@ -19,7 +21,8 @@ def fmi():
     """cffi with the types and functions of the standard's headers."""
     text = preprocess(sorted((Path(fmpy.__file__).parent / "c-code").glob("fmi2*.h")))
     ffi = cffi.FFI()
-    ffi.cdef(re.sub(r",\s*\.\.\.", "", text))  # the logger: cffi has no variadic callbacks, messages come without arguments
+    # the logger: cffi has no variadic callbacks, messages come without arguments
+    ffi.cdef(re.sub(r",\s*\.\.\.", "", text))
     return ffi
 
 
@@ -37,13 +40,21 @@ class Slave:
         self.description = describe(folder)
         self.vr = {v.name: int(v.valueReference) for v in self.description.modelVariables}
         identifier = self.description.coSimulation.modelIdentifier
-        self.lib = self.ffi.dlopen(str(folder / "binaries" / fmpy.platform / f"{identifier}{fmpy.sharedLibraryExtension}"))
-        self.free_instance = self.lib.fmi2FreeInstance  # found here: the garbage collector may call free() inside cffi's look-up
+        self.lib = self.ffi.dlopen(
+            str(folder / "binaries" / fmpy.platform / f"{identifier}{fmpy.sharedLibraryExtension}")
+        )
+        # found here: the garbage collector may call free() inside cffi's look-up
+        self.free_instance = self.lib.fmi2FreeInstance
         self.messages = []  # (status, category, text)
         self.logger = self.ffi.callback("fmi2CallbackLogger", self.log)
         functions = {"logger": self.logger} | changes.pop("functions", {})
         self.functions = self.ffi.new("fmi2CallbackFunctions *", functions)
-        arguments = {"name": b"bearing", "type": CO_SIMULATION, "guid": self.description.guid.encode(), "resources": b""} | changes
+        arguments = {
+            "name": b"bearing",
+            "type": CO_SIMULATION,
+            "guid": self.description.guid.encode(),
+            "resources": b"",
+        } | changes
         self.component = self.lib.fmi2Instantiate(*arguments.values(), self.functions, 0, logging)
 
     def log(self, _, name, status, category, message):
@@ -87,7 +98,12 @@ class Slave:
         """Values of Real variables as an array."""
         references = np.array([self.vr[name] for name in names], dtype=np.uint32)
         values = np.empty(len(names))
-        status = self.call("GetReal", self.ffi.from_buffer("unsigned[]", references), len(names), self.ffi.from_buffer("double[]", values))
+        status = self.call(
+            "GetReal",
+            self.ffi.from_buffer("unsigned[]", references),
+            len(names),
+            self.ffi.from_buffer("double[]", values),
+        )
         assert status in (OK, WARNING), self.messages
         return values
 

@@ -1,4 +1,6 @@
-"""The command line and the Python interface: runs, results in all formats, exit codes, and that the physics does not depend on them."""
+"""The command line and the Python interface: runs, results in all formats, exit codes, and that the physics does not
+depend on them.
+"""
 
 import gc
 import json
@@ -30,7 +32,14 @@ ROOT = Path(__file__).resolve().parents[1]
 
 def command(*arguments, folder):
     """The program as a user starts it, its output in pipes."""
-    return subprocess.run([sys.executable, "-m", "riveted_bearing", *map(str, arguments)], cwd=folder, capture_output=True, text=True, timeout=300, check=False)
+    return subprocess.run(
+        [sys.executable, "-m", "riveted_bearing", *map(str, arguments)],
+        cwd=folder,
+        capture_output=True,
+        text=True,
+        timeout=300,
+        check=False,
+    )
 
 
 @pytest.fixture(scope="module", autouse=True)
@@ -55,7 +64,11 @@ def short():
 @pytest.fixture
 def result():
     """A small made-up result with everything that is hard to store."""
-    data = {"time": np.array([0.0, 1e-4, 2e-4]), "ball[1].Q_i": np.array([1 / 3, np.pi, 1e-300]), "ball[2].Q_i": np.array([0.0, -0.0, np.nan])}
+    data = {
+        "time": np.array([0.0, 1e-4, 2e-4]),
+        "ball[1].Q_i": np.array([1 / 3, np.pi, 1e-300]),
+        "ball[2].Q_i": np.array([0.0, -0.0, np.nan]),
+    }
     data |= {"rivet.sigma_head_max": np.array([1e8, 2e8, 3e8]), "stat.rivet_head_max[3]": np.array([1.0, 2.0, 3.0])}
     return Result(
         data=data,
@@ -127,7 +140,9 @@ def test_other_programs_can_read_parquet_and_csv(short, tmp_path):
     lines = write_result(short, tmp_path / "x.csv").read_text().splitlines()
     body = [line for line in lines if not line.startswith("#")]
     assert body[0].startswith("time,") and len(body) == 1 + len(short.data["time"])
-    assert tomllib.loads("\n".join(line[2:] for line in lines if line.startswith("#")))["parameters"] == short.parameters
+    assert (
+        tomllib.loads("\n".join(line[2:] for line in lines if line.startswith("#")))["parameters"] == short.parameters
+    )
 
 
 def test_pandas_and_xarray_have_every_number_and_unit(short):
@@ -141,29 +156,50 @@ def test_pandas_and_xarray_have_every_number_and_unit(short):
     assert data["ball.Q_i"].sel(ball=3).to_numpy().tolist() == short.data["ball[3].Q_i"].tolist()
     assert data["rivet.sigma_head"].attrs["units"] == "Pa" and data["shaft.F_y"].attrs["units"] == "N"
     assert float(data["rivet.sigma_head"].sel(rivet=9).isel(time=-1)) == short.data["rivet[9].sigma_head"][-1]
-    assert sum(array.sizes.get("ball", 1) * array.sizes.get("rivet", 1) for array in data.data_vars.values()) == len(short.data) - 1
+    assert (
+        sum(array.sizes.get("ball", 1) * array.sizes.get("rivet", 1) for array in data.data_vars.values())
+        == len(short.data) - 1
+    )
     assert json.loads(data.attrs["parameters"]) == short.parameters
 
 
 def test_without_pandas_the_extra_is_named(result, monkeypatch):
     monkeypatch.setitem(sys.modules, "pandas", None)
-    with pytest.raises(UserError, match=re.escape('pandas is not installed: pip install ".[tables]" in a checkout, or')):
+    with pytest.raises(
+        UserError, match=re.escape('pandas is not installed: pip install ".[tables]" in a checkout, or')
+    ):
         result.to_pandas()
 
 
 def test_a_run_returns_what_was_asked_for(short):
-    assert short.stopped == "" and short.data["time"][0] == 0.0 and short.data["time"][-1] == 2e-3 and len(short.data["time"]) == 21
+    assert (
+        short.stopped == ""
+        and short.data["time"][0] == 0.0
+        and short.data["time"][-1] == 2e-3
+        and len(short.data["time"]) == 21
+    )
     assert set(short.data) == set(short.units) and all(np.isfinite(values).all() for values in short.data.values())
     assert short.parameters["joint.preload"] == 20.0 and short.parameters["ring.tilt_mode"] == "prescribed"
-    assert short.summary["stat.time"] == pytest.approx(1.5e-3, rel=0.02)  # from the first internal step (about 1e-5 s) after settling
+    # from the first internal step (about 1e-5 s) after settling
+    assert short.summary["stat.time"] == pytest.approx(1.5e-3, rel=0.02)
     assert short.summary["solver.rhs_evals"] > short.summary["solver.steps"] > 20
     assert short.about["guid"].startswith("{") and short.about["inputs"]["shaft.F_y"]["value"] == [2994.0]
     assert summary_rows(short)[0].channel == "pocket force, all balls" and len(rivet_rows(short)) == 9
 
 
 def test_changes_reach_the_fmu():
-    result = run("demo", t_end=2e-4, seed=5, parameters={"joint.preload": "30 N", "scene.traction": "sliced", "ball[3].dD": "1 um"}, outputs=["rivet[*].P"])
-    assert result.parameters["joint.preload"] == 30.0 and result.parameters["scene.traction"] == "sliced" and result.parameters["start.seed"] == 5
+    result = run(
+        "demo",
+        t_end=2e-4,
+        seed=5,
+        parameters={"joint.preload": "30 N", "scene.traction": "sliced", "ball[3].dD": "1 um"},
+        outputs=["rivet[*].P"],
+    )
+    assert (
+        result.parameters["joint.preload"] == 30.0
+        and result.parameters["scene.traction"] == "sliced"
+        and result.parameters["start.seed"] == 5
+    )
     assert result.parameters["ball[3].dD"] == pytest.approx(1e-6, rel=1e-15)
     assert list(result.data) == ["time", *(f"rivet[{k}].P" for k in range(1, 10))]
     assert result.data["rivet[1].P"] == pytest.approx(30.0, rel=1e-12)  # at assembly temperature
@@ -196,7 +232,9 @@ def test_time_histories_reach_the_fmu(tmp_path):
 
 def test_longer_output_intervals_keep_peaks(tmp_path):
     scene = tmp_path / "mine.toml"
-    scene.write_text('[simulation]\nt_end = 2e-3\nstep = 1e-4\noutputs = ["rivet.sigma_head_max", "cage.F_pocket_peak", "ring.y"]')
+    scene.write_text(
+        '[simulation]\nt_end = 2e-3\nstep = 1e-4\noutputs = ["rivet.sigma_head_max", "cage.F_pocket_peak", "ring.y"]'
+    )
     fine = run(scene).data
     scene.write_text(scene.read_text() + "\noutput_interval = 7e-4")
     coarse = run(scene).data
@@ -208,7 +246,9 @@ def test_longer_output_intervals_keep_peaks(tmp_path):
 
 def test_a_run_that_the_fmu_ends_keeps_what_there_is(tmp_path):
     """The work limit ends the run when a communication step needs more than 10 internal steps, here the first long one."""
-    done = command("run", "demo", "--set", "solver.max_steps=10", "--step", "1e-2", "--no-plot", "--out", tmp_path, folder=tmp_path)
+    done = command(
+        "run", "demo", "--set", "solver.max_steps=10", "--step", "1e-2", "--no-plot", "--out", tmp_path, folder=tmp_path
+    )
     assert done.returncode == 3 and "Traceback" not in done.stderr
     assert "gave up" in done.stderr and "10 steps" in done.stderr
     result = read_result(tmp_path / "demo.parquet")
@@ -224,10 +264,31 @@ def test_what_the_fmu_refuses_is_said(tmp_path):
 
 
 def test_run_in_a_pipe(tmp_path):
-    done = command("run", "demo", "--t-end", "2 ms", "--set", "start.settle=0.5 ms", "--format", "csv", "--out", tmp_path / "out", folder=tmp_path)
+    done = command(
+        "run",
+        "demo",
+        "--t-end",
+        "2 ms",
+        "--set",
+        "start.settle=0.5 ms",
+        "--format",
+        "csv",
+        "--out",
+        tmp_path / "out",
+        folder=tmp_path,
+    )
     assert done.returncode == 0, done.stderr
-    assert "\x1b" not in done.stdout + done.stderr and "real time" not in done.stderr  # neither colours nor a progress bar
-    for text in ("pocket force", "head stress", "cage speed", "friction torque", "real-time factor", "demo.csv", "demo.png"):
+    # neither colours nor a progress bar
+    assert "\x1b" not in done.stdout + done.stderr and "real time" not in done.stderr
+    for text in (
+        "pocket force",
+        "head stress",
+        "cage speed",
+        "friction torque",
+        "real-time factor",
+        "demo.csv",
+        "demo.png",
+    ):
         assert text in done.stdout
     assert (tmp_path / "out" / "demo.png").read_bytes()[:4] == b"\x89PNG"
     assert read_result(tmp_path / "out" / "demo.csv").data["time"][-1] == 2e-3
@@ -248,9 +309,18 @@ def test_run_in_a_pipe(tmp_path):
         (["run", "demo", "--format", "xls"], ['"xls"', "parquet, csv, mat"]),
         (["run", "demo", "--format", "csv", "--out", "a.mat"], ["a.mat", "csv"]),
         (["run", "demo", "--t-end", "1 m"], ["t_end = '1 m'", "s, ms, us"]),
-        (["run", "demo", "--set", "bearing.f_i=0.4"], ["bearing.f_i = 0.4: 0.4 is out of range, allowed: 0.5005 ... 0.6\n"]),
-        (["run", "demo", "--out", "bad.json"], ['--out bad.json: unknown format "json"', "parquet, csv, mat, or a folder"]),
-        (["run", "demo", "--t-end", "1 ms", "--step", "2 ms"], ["demo.toml with the command line", "step = 0.002", "t_end = 0.001 s"]),
+        (
+            ["run", "demo", "--set", "bearing.f_i=0.4"],
+            ["bearing.f_i = 0.4: 0.4 is out of range, allowed: 0.5005 ... 0.6\n"],
+        ),
+        (
+            ["run", "demo", "--out", "bad.json"],
+            ['--out bad.json: unknown format "json"', "parquet, csv, mat, or a folder"],
+        ),
+        (
+            ["run", "demo", "--t-end", "1 ms", "--step", "2 ms"],
+            ["demo.toml with the command line", "step = 0.002", "t_end = 0.001 s"],
+        ),
         (["info", "6299"], ['"6299"', "did you mean"]),
         (["info", "bad.toml"], ["bad.toml", "Z = 3", "5 to 32"]),
         (["build", "--bearing", "bad.toml"], ["bad.toml", "Z = 3", "5 to 32"]),
@@ -263,7 +333,10 @@ def test_run_in_a_pipe(tmp_path):
         (["build", "--rivet", "nine.json", "--bearing", "6310"], ["nine.json", "made for Z = 9", "Z = 8 is needed"]),
         (["build", "--rivet", "bad.toml"], ["bad.toml", "Z = 3", "5 to 32"]),
         (["build", "--rivet", "negative.toml"], ["negative.toml", "shank_diameter = -0.0015"]),
-        (["build", "--rivet", "wide.toml"], ["wide.toml", "fillet_radius = 0.0003: at most 0.00025 m is allowed", "relief_radius = 0.25 mm"]),
+        (
+            ["build", "--rivet", "wide.toml"],
+            ["wide.toml", "fillet_radius = 0.0003: at most 0.00025 m is allowed", "relief_radius = 0.25 mm"],
+        ),
         (["build", "--rivet", "none.toml"], ["none.toml", "No such file"]),
         (["rivet", "bad.json"], ["bad.json", "not a rivet table"]),
         (["rivet", "negative.toml"], ["negative.toml", "shank_diameter = -0.0015"]),
@@ -283,7 +356,12 @@ def test_errors_are_one_message(tmp_path, arguments, fragments):
     (tmp_path / "typo.toml").write_text("Z = 8\n[parameters]\nbearing.Dm = 0.05")
     (tmp_path / "far.toml").write_text("Z = 8\n[parameters]\nbearing.f_i = 0.4")
     done = command(*arguments, folder=tmp_path)
-    assert done.returncode == 2 and done.stdout == "" and done.stderr.count("\n") == 1 and done.stderr.startswith("error: ")
+    assert (
+        done.returncode == 2
+        and done.stdout == ""
+        and done.stderr.count("\n") == 1
+        and done.stderr.startswith("error: ")
+    )
     for fragment in fragments:
         assert fragment in done.stderr
     assert [path.name for path in tmp_path.rglob("*.fmu")] == ["broken.fmu"]
@@ -295,7 +373,9 @@ def test_help_names_the_commands(tmp_path):
 
 
 def test_info_says_that_nothing_follows_from_a_scene(tmp_path):
-    """A file with D and d_m alone is a scene, in which the cage stays that of the FMU; with Z it is a bearing whose cage follows."""
+    """A file with D and d_m alone is a scene, in which the cage stays that of the FMU; with Z it is a bearing whose
+    cage follows.
+    """
     path = tmp_path / "mine.toml"
     path.write_text('[parameters]\nbearing.D = "15.081 mm"\nbearing.d_m = "65 mm"\n')
     said = command("info", path.name, folder=tmp_path).stdout
@@ -307,7 +387,8 @@ def test_info_says_that_nothing_follows_from_a_scene(tmp_path):
 
 def test_info_gives_the_known_frequencies(tmp_path):
     done = command("info", "6207", folder=tmp_path)
-    for figure in ("120.4", "1083.7", "1652.0", "700.1"):  # Hz at 18,238 r/min: cage, BPFO, BPFI, ball, by hand from D, d_m, Z
+    # Hz at 18,238 r/min: cage, BPFO, BPFI, ball, by hand from D, d_m, Z
+    for figure in ("120.4", "1083.7", "1652.0", "700.1"):
         assert figure in done.stdout
     assert "4000 rev/min" in command("info", "jam", folder=tmp_path).stdout.replace(",", "")
 
@@ -327,7 +408,8 @@ def test_shipped_bearings_are_consistent(designation):
     case = bearing_case(designation)
     v, c = case.values, case.catalogue
     f_0 = {"6207": 13.8, "6310": 13.1}[designation]  # ISO 76, table 1
-    assert c["C_0"] == pytest.approx(f_0 * 1e6 * case.Z * v["bearing.D"] ** 2, rel=0.01)  # rounded in catalogues: observed 0.4 %
+    # rounded in catalogues: observed 0.4 %
+    assert c["C_0"] == pytest.approx(f_0 * 1e6 * case.Z * v["bearing.D"] ** 2, rel=0.01)
     assert v["bearing.d_m"] == pytest.approx((c["bore"] + c["outside_diameter"]) / 2, rel=1e-12)
     f_c = {"6207": 59.5, "6310": 58.8}[designation]  # ISO 281, table 2, with b_m = 1.3
     C = 1.3 * f_c * case.Z ** (2 / 3) * (1e3 * v["bearing.D"]) ** 1.8
@@ -355,7 +437,12 @@ ring.tilt_mode = "free"
 [inputs]
 shaft.omega = "6000 rev/min"
 """
-    numbers = texts.replace('"20 mm"', "0.02").replace('"9.36 kN"', "9360").replace('"5 mm"', "0.005").replace('"30 mm"', "0.03")
+    numbers = (
+        texts.replace('"20 mm"', "0.02")
+        .replace('"9.36 kN"', "9360")
+        .replace('"5 mm"', "0.005")
+        .replace('"30 mm"', "0.03")
+    )
     (tmp_path / "texts.toml").write_text(texts)
     (tmp_path / "numbers.toml").write_text(numbers.replace('"6000 rev/min"', "628.318530717958"))
     with_texts, with_numbers = (bearing_case(tmp_path / f"{name}.toml") for name in ("texts", "numbers"))
@@ -363,18 +450,31 @@ shaft.omega = "6000 rev/min"
     changed = {name: value for name, value in with_texts.values.items() if isinstance(value, float)}
     assert changed == pytest.approx({name: with_numbers.values[name] for name in changed}, rel=1e-12)
     document = start_document(with_texts, closed_form_table(with_texts, tmp_path))
-    assert "closed forms" in document["description"] and document["origin"]["bearing.D"] == "yours" and document["origin"]["cage.D_o"] == "rule"
-    assert document["parameters"]["bearing.D"] == 0.005 and document["parameters"]["ring.tilt_mode"] == "free" and document["Z"] == 12
+    assert (
+        "closed forms" in document["description"]
+        and document["origin"]["bearing.D"] == "yours"
+        and document["origin"]["cage.D_o"] == "rule"
+    )
+    assert (
+        document["parameters"]["bearing.D"] == 0.005
+        and document["parameters"]["ring.tilt_mode"] == "free"
+        and document["Z"] == 12
+    )
 
 
 def test_halves_are_elastic_where_the_table_has_modes(tmp_path):
-    """The shipped table has them; closed forms have none: their FMU starts with rigid halves, and a file that asks for elastic ones is refused."""
+    """The shipped table has them; closed forms have none: their FMU starts with rigid halves, and a file that asks for
+    elastic ones is refused.
+    """
     (tmp_path / "mine.toml").write_text('[parameters]\nscene.cage = "elastic"')
     plain, asked = bearing_case("6207"), bearing_case(tmp_path / "mine.toml")
     assert start_document(plain, DEFAULT_TABLE)["parameters"]["scene.cage"] == "elastic"
     without = closed_form_table(plain, tmp_path)
     assert start_document(plain, without)["parameters"]["scene.cage"] == "two_half"
-    with pytest.raises(UserError, match=r"mine: scene.cage = elastic: closed forms.* no vibration modes of the cage halves; allowed are two_half, rigid"):
+    with pytest.raises(
+        UserError,
+        match=r"mine: scene.cage = elastic: closed forms.* no vibration modes of the cage halves; allowed are two_half, rigid",
+    ):
         start_document(asked, without)
 
 
@@ -405,13 +505,34 @@ def test_bad_bearing_files_name_key_value_and_what_is_allowed(tmp_path, text, fr
 
 
 def test_a_run_shorter_than_settling_says_that_there_are_no_statistics(tmp_path):
-    """Until start.settle itself there is one sample at most, whose mean, RMS, quantile and largest value would be one number."""
+    """Until start.settle itself there is one sample at most, whose mean, RMS, quantile and largest value would be one
+    number.
+    """
     for t_end in ("2 ms", "50 ms"):
-        done = command("run", "demo", "--t-end", t_end, "--no-plot", "--set", "joint.preload='30 N'", "--out", tmp_path, folder=tmp_path)
-        assert done.returncode == 0 and "no statistics yet: they begin at start.settle = 0.05 s" in done.stderr and "after the first" not in done.stdout
+        done = command(
+            "run",
+            "demo",
+            "--t-end",
+            t_end,
+            "--no-plot",
+            "--set",
+            "joint.preload='30 N'",
+            "--out",
+            tmp_path,
+            folder=tmp_path,
+        )
+        assert (
+            done.returncode == 0
+            and "no statistics yet: they begin at start.settle = 0.05 s" in done.stderr
+            and "after the first" not in done.stdout
+        )
         assert "p99.9" not in done.stdout and "largest since the start" in done.stdout
         page = render(read_result(tmp_path / "demo.parquet"))
-        assert "No statistics yet" in page and "p99.9" not in page.split("<script")[0] and "Life of the weakest rivet" not in page
+        assert (
+            "No statistics yet" in page
+            and "p99.9" not in page.split("<script")[0]
+            and "Life of the weakest rivet" not in page
+        )
     assert read_result(tmp_path / "demo.parquet").parameters["joint.preload"] == 30.0
 
 
@@ -419,7 +540,9 @@ def test_the_variables_of_the_second_bearing(tmp_path):
     """The files from which its FMU is compiled: eight balls, its own sizes and working point, the kind of its table."""
     case, resolved = bearing_case("6310"), tmp_path / "bearing.toml"
     resolved.write_text("\n".join(to_toml(start_document(case, closed_form_table(case, tmp_path)))), encoding="utf-8")
-    subprocess.run([sys.executable, ROOT / "fmus" / "generate.py", "--bearing", resolved, "--out", tmp_path], check=True)
+    subprocess.run(
+        [sys.executable, ROOT / "fmus" / "generate.py", "--bearing", resolved, "--out", tmp_path], check=True
+    )
     description = fmpy.read_model_description(str(tmp_path / "modelDescription.xml"))  # valid by the standard
     start = {v.name: v.start for v in description.modelVariables}
     assert "ball[8].Q_i" in start and "ball[9].Q_i" not in start and "rivet[8].N" in start and "rivet[9].N" not in start
@@ -431,7 +554,10 @@ def test_closed_forms_are_no_ground_for_a_life(short):
     rough = replace(short, summary=short.summary | {"rivet.table_kind": 3.0})
     assert table_note(short) == "" and "closed forms" in table_note(rough)
     known, unknown = render(short), render(rough)
-    assert "Life: not given, for the rivets&#39; stress rests on closed forms" in unknown and "Life of the weakest rivet" not in unknown
+    assert (
+        "Life: not given, for the rivets&#39; stress rests on closed forms" in unknown
+        and "Life of the weakest rivet" not in unknown
+    )
     assert "Life: not given" not in known and "Life of the weakest rivet" in known
 
 
@@ -440,21 +566,34 @@ def test_an_fmu_of_the_second_bearing(tmp_path):
     """Built from its file, started at its own working point: ring and ball loads near the quasi-static equilibrium."""
     done = command("build", "--bearing", "6310", "--table", "closed-form", folder=tmp_path)
     assert done.returncode == 0, done.stderr
-    assert "Meant with a machined two-piece riveted cage" in done.stdout and "Stress table of the rivets: closed forms" in done.stdout
-    shown = command(*shlex.split(done.stdout.split("as pictures: riveted-bearing ")[1]), "--out", "pictures", folder=tmp_path)
+    assert (
+        "Meant with a machined two-piece riveted cage" in done.stdout
+        and "Stress table of the rivets: closed forms" in done.stdout
+    )
+    shown = command(
+        *shlex.split(done.stdout.split("as pictures: riveted-bearing ")[1]), "--out", "pictures", folder=tmp_path
+    )
     assert shown.returncode == 0 and (tmp_path / "pictures" / "cage_modes.png").is_file()
     out = tmp_path / "6310.fmu"
     scene = tmp_path / "own.toml"
     scene.write_text("[simulation]\nt_end = 0.02\nstep = 1e-4\n[parameters]\nstart.settle = 0.01")
     result, state = run(scene, fmu=out), bearing_case("6310").equilibrium()
-    assert result.summary["rivet.table_kind"] == 3.0 and "closed forms" in table_note(result) and "closed forms" in result.about["model"]
+    assert (
+        result.summary["rivet.table_kind"] == 3.0
+        and "closed forms" in table_note(result)
+        and "closed forms" in result.about["model"]
+    )
     page = render(result)
-    assert "Life: not given, for the rivets&#39; stress rests on closed forms" in page and "Life of the weakest rivet" not in page
+    assert (
+        "Life: not given, for the rivets&#39; stress rests on closed forms" in page
+        and "Life of the weakest rivet" not in page
+    )
     assert result.stopped == "" and "ball[8].Q_i" in result.data and "ball[9].Q_i" not in result.data
     assert result.parameters["bearing.D"] == 0.01905 and result.data["shaft.F_y"][-1] == 6000.0
     late = result.data["time"] > 0.01
     loads = np.column_stack([result.data[f"ball[{j}].Q_i"] for j in range(1, 9)])[late]
-    assert result.data["ring.y"][late].mean() == pytest.approx(state.y, rel=0.03)  # other ball positions, friction: observed 1.3 %
+    # other ball positions, friction: observed 1.3 %
+    assert result.data["ring.y"][late].mean() == pytest.approx(state.y, rel=0.03)
     assert result.data["ring.x"][late].mean() == pytest.approx(state.x, rel=0.03)  # observed 1.3 %
     assert loads.max() == pytest.approx(state.Q_i.max(), rel=0.03)  # observed 0.7 %
 
@@ -466,7 +605,11 @@ def test_a_bearing_that_cannot_be_built_leaves_the_old_fmu(tmp_path):
     (tmp_path / "tight.toml").write_text("[parameters]\ncage.D_o = 0.05")  # no room for a rivet's head
     for name, fragments in (("crowded", ["Z = 20", "at most 15"]), ("tight", ["cage.D_o = 0.05", "0.0565"])):
         done = command("build", "--bearing", f"{name}.toml", "--out", out, folder=tmp_path)
-        assert done.returncode == 2 and "Traceback" not in done.stderr and all(fragment in done.stderr for fragment in [name, *fragments])
+        assert (
+            done.returncode == 2
+            and "Traceback" not in done.stderr
+            and all(fragment in done.stderr for fragment in [name, *fragments])
+        )
     assert out.read_bytes() == b"the old one" and len(list(tmp_path.iterdir())) == 3
 
 

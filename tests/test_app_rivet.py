@@ -1,4 +1,6 @@
-"""Rivets from the command line: curves and pictures, a table and an FMU for another rivet, and nothing left behind by what cannot be built."""
+"""Rivets from the command line: curves and pictures, a table and an FMU for another rivet, and nothing left behind by
+what cannot be built.
+"""
 
 from functools import partial
 
@@ -31,8 +33,10 @@ def joint():
 
 
 def test_curves_of_the_paper():
-    """Fig. 11: the head above 140 MPa at 60 N (calibrated), straight lines through 0.  Fig. 12: head above middle in clearance, the other way round
-    in interference, crossing inside -20...0 um (calibrated), lower there than at the largest interference; yield lowers both."""
+    """Fig. 11: the head above 140 MPa at 60 N (calibrated), straight lines through 0.  Fig. 12: head above middle in
+    clearance, the other way round in interference, crossing inside -20...0 um (calibrated), lower there than at the
+    largest interference; yield lowers both.
+    """
     curves = pictures.curves(*pictures.table_response(TABLE))
     preload = curves["preload"]
     assert 140e6 < preload.head[-1] < 150e6
@@ -40,7 +44,11 @@ def test_curves_of_the_paper():
     elastic, yielded = curves["fit, elastic"], curves["fit, with yield"]
     leads = elastic.x[np.argmax(elastic.mid > elastic.head)]
     assert -20e-6 <= leads <= 0.0 and elastic.head[0] > 2 * elastic.mid[0]
-    assert np.all(yielded.head <= elastic.head) and np.all(yielded.mid <= elastic.mid) and yielded.mid[-1] > 1.5 * yielded.head[-1]
+    assert (
+        np.all(yielded.head <= elastic.head)
+        and np.all(yielded.mid <= elastic.mid)
+        and yielded.mid[-1] > 1.5 * yielded.head[-1]
+    )
     assert np.all(np.diff(curves["transverse load"].head) > 0.0)
 
 
@@ -50,19 +58,27 @@ def test_titles_say_under_which_loads():
 
 
 def test_curves_of_a_geometry_are_its_finite_elements(joint):
-    """Without a table: solutions of the joint itself, and the map of its own plasticity; within 2 % of the table (coarse angles; observed 0.5 %)."""
+    """Without a table: solutions of the joint itself, and the map of its own plasticity; within 2 % of the table
+    (coarse angles; observed 0.5 %).
+    """
     stress, fit_eff = pictures.joint_response(joint)
     forces = joint.solve_shank(20.0, 10.0, 0.0, 0.0, -6e-6)[0]
     preloaded = pictures.JointLoad(20.0, 0.0, 10.0)
-    np.testing.assert_allclose(stress(preloaded, np.array([-6e-6]))[0], joint.channels(forces[:, None])[0], rtol=0.01)  # the pad's own m at rest
+    # the pad's own m at rest
+    np.testing.assert_allclose(stress(preloaded, np.array([-6e-6]))[0], joint.channels(forces[:, None])[0], rtol=0.01)
     shown = [rivet_rom.HEAD_P1, rivet_rom.MID_VM]
-    got, expected = (response(pictures.REFERENCE, np.array([-6e-6]))[0, shown] for response in (stress, pictures.table_response(TABLE)[0]))
+    got, expected = (
+        response(pictures.REFERENCE, np.array([-6e-6]))[0, shown]
+        for response in (stress, pictures.table_response(TABLE)[0])
+    )
     np.testing.assert_allclose(got, expected, rtol=0.02)
     assert fit_eff(-5e-6) == -5e-6 and 0.0 < fit_eff(30e-6) < 15e-6
 
 
 def test_pictures_draw_contact_as_contact(joint):
-    """Displacements and gaps magnified alike: where pressure acts, both bodies are in the same place (to the unevenness along a hat: 5 % of the gap)."""
+    """Displacements and gaps magnified alike: where pressure acts, both bodies are in the same place (to the unevenness
+    along a hat: 5 % of the gap).
+    """
     load, fit, magnified = pictures.REFERENCE, -6e-6, 60.0
     forces, q, *_ = joint.solve(load.P, load.N, load.V, 0.0, 0.0, fit)
     radius = joint.geometry.shank_diameter / 2
@@ -92,17 +108,24 @@ def test_a_table_for_another_rivet(tmp_path, monkeypatch):
         stages[stage] = share
 
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
-    monkeypatch.setattr(rivet, "make_table", partial(rivet.make_table, hold_out=24))  # the loads of its error are the longest part
+    # the loads of its error are the longest part
+    monkeypatch.setattr(rivet, "make_table", partial(rivet.make_table, hold_out=24))
     path = given_table(source, case, None, say)
     assert path.is_relative_to(tmp_path / "cache")
     t = rivet_table.read(path, Z=8)
     assert (
-        t.kind == "fe_coarse" and t.errors["all"]["loads"] == 24 and t.geometry["shank_diameter"] == 1.3e-3 and t.geometry["d_m"] == case.values["bearing.d_m"]
+        t.kind == "fe_coarse"
+        and t.errors["all"]["loads"] == 24
+        and t.geometry["shank_diameter"] == 1.3e-3
+        and t.geometry["d_m"] == case.values["bearing.d_m"]
     )
-    assert list(stages) == [f"rivet: {name}" for name in ("elements", "contacts", "interference", "cage half", "modes", "hold-out")]
+    assert list(stages) == [
+        f"rivet: {name}" for name in ("elements", "contacts", "interference", "cage half", "modes", "hold-out")
+    ]
     assert set(stages.values()) == {1.0}
     sigma, _ = rivet_rom.rivet_rom_stress(t, rivet_rom.RivetLoad(T=20.0), -90e-6)
-    assert sigma[rivet_rom.MID_VM] == pytest.approx(20.0 / (np.pi / 4 * 1.3e-3**2), rel=0.01)  # F/A, heads more than two diameters away
+    # F/A, heads more than two diameters away
+    assert sigma[rivet_rom.MID_VM] == pytest.approx(20.0 / (np.pi / 4 * 1.3e-3**2), rel=0.01)
 
     def broken(*arguments, **options):
         raise ArithmeticError("contact not found")
@@ -134,16 +157,21 @@ def test_the_default_rivet_takes_the_shipped_table(tmp_path):
 
 @pytest.mark.slow
 def test_an_fmu_for_another_rivet(tmp_path):
-    """Built and run: stress of the preload alone, which the cage's centrifugal load would more than double, = that of the new table, not of the shipped one."""
+    """Built and run: stress of the preload alone, which the cage's centrifugal load would more than double, = that of
+    the new table, not of the shipped one.
+    """
     (tmp_path / "long_head.toml").write_text("head_height = 0.6e-3")
     done = command("build", "--rivet", "long_head.toml", folder=tmp_path)
     assert done.returncode == 0, done.stderr
     channels = ["rivet[1].sigma_mid", "rivet[1].sigma_head", "rivet[1].T"]
-    result = run("demo", fmu=tmp_path / "long_head.fmu", t_end=1e-4, parameters={"cage.centrifugal": "off"}, outputs=channels)
+    result = run(
+        "demo", fmu=tmp_path / "long_head.fmu", t_end=1e-4, parameters={"cage.centrifugal": "off"}, outputs=channels
+    )
     assert result.data["rivet[1].T"][0] == pytest.approx(20.0, rel=1e-3)  # N, the preload
     ratio = result.data["rivet[1].sigma_head"][0] / result.data["rivet[1].sigma_mid"][0]
     sigma, _ = rivet_rom.rivet_rom_stress(TABLE, rivet_rom.RivetLoad(T=20.0), -6e-6)
-    assert ratio > 1.2 * sigma[rivet_rom.HEAD_P1] / sigma[rivet_rom.MID_VM]  # a prototype: 145 MPa at 0.9 mm, some 200 at 0.6; observed 1.55
+    # a prototype: 145 MPa at 0.9 mm, some 200 at 0.6; observed 1.55
+    assert ratio > 1.2 * sigma[rivet_rom.HEAD_P1] / sigma[rivet_rom.MID_VM]
 
 
 @pytest.mark.slow

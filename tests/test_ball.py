@@ -1,4 +1,6 @@
-"""A ball that nothing touches: a straight path (or a parabola) and a spin that does not turn, seen from its turning frame."""
+"""A ball that nothing touches: a straight path (or a parabola) and a spin that does not turn, seen from its turning
+frame.
+"""
 
 import numpy as np
 import pytest
@@ -49,7 +51,9 @@ def test_free_flight(core):
 
 
 def test_forces_and_moments_accelerate(core):
-    """m a = F and J dOmega/dt = M in space, with the race contacts' forces; the sphere's mass and inertia from its diameter."""
+    """m a = F and J dOmega/dt = M in space, with the race contacts' forces; the sphere's mass and inertia from its
+    diameter.
+    """
     model = core.model()
     y = model.start()
     rng = np.random.default_rng(2)

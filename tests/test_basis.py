@@ -1,4 +1,6 @@
-"""One rule for what runs, and what figures rest on: without a scene the FMU's own parameters and inputs, a scene only where it is named, and both said."""
+"""One rule for what runs, and what figures rest on: without a scene the FMU's own parameters and inputs, a scene only
+where it is named, and both said.
+"""
 
 import hashlib
 import math
@@ -47,19 +49,30 @@ def warm(tmp_path):
     return path
 
 
-# What is said ---------------------------------------------------------------------------------------------------------------------------------
+# What is said ---------------------------------------------------------------------------------------------------------
 
 
 def test_the_lines_of_the_default_fmu(model, fmu):
-    """Digest by another hand; loads and speed of the paper's Table 2, oil and temperatures as docs/parameters.md has them."""
+    """Digest by another hand; loads and speed of the paper's Table 2, oil and temperatures as docs/parameters.md has
+    them.
+    """
     rows = dict(basis(model, [load_scene(None, model)]))
-    assert rows["bearing"].startswith("6207: ") and rows["FMU"] == f"{fmu}, SHA-256 {hashlib.sha256(fmu.read_bytes()).hexdigest()[:12]}"
+    assert (
+        rows["bearing"].startswith("6207: ")
+        and rows["FMU"] == f"{fmu}, SHA-256 {hashlib.sha256(fmu.read_bytes()).hexdigest()[:12]}"
+    )
     assert (rows["scene"], rows["loads"], rows["speed"]) == (NO_SCENE, "F_x 515 N, F_y 2994 N", "18238 rev/min")
-    assert rows["oil"] == "6 mPa.s at 85.851 degC" and rows["temperatures"] == "inner ring, outer ring, balls, cage 20 degC" and "replaced" not in rows
+    assert (
+        rows["oil"] == "6 mPa.s at 85.851 degC"
+        and rows["temperatures"] == "inner ring, outer ring, balls, cage 20 degC"
+        and "replaced" not in rows
+    )
 
 
 def test_viscosity_is_that_at_the_oils_temperature(model, warm):
-    """At oil.T_1 the kinematic viscosity is oil.nu_1: 25 mm2/s; the density is 900 kg/m3 at 85.85 degC and falls by 7.5e-4 of that a kelvin."""
+    """At oil.T_1 the kinematic viscosity is oil.nu_1: 25 mm2/s; the density is 900 kg/m3 at 85.85 degC and falls by
+    7.5e-4 of that a kelvin.
+    """
     rows = dict(basis(model, [load_scene(warm, model)]))
     eta = 25e-6 * 900.0 * (1.0 - 7.5e-4 * (40.0 - 85.8506))
     assert rows["oil"] == f"{1e3 * eta:.5g} mPa.s at 40 degC"
@@ -67,7 +80,10 @@ def test_viscosity_is_that_at_the_oils_temperature(model, warm):
 
 
 def test_several_scenes_are_a_range(model, own):
-    scenes = [load_scene(None, model, ("test", {"inputs": {"shaft.F_y": load, "ring.T_i": 313.15}})) for load in (600.0, 2994.0)]
+    scenes = [
+        load_scene(None, model, ("test", {"inputs": {"shaft.F_y": load, "ring.T_i": 313.15}}))
+        for load in (600.0, 2994.0)
+    ]
     rows = dict(basis(model, scenes))
     assert rows["loads"] == "F_x 515 N, F_y 600 to 2994 N"
     assert rows["temperatures"] == "inner ring 40 degC, outer ring 20 degC, balls 20 degC, cage 20 degC"
@@ -82,48 +98,88 @@ def test_a_prescribed_motion_takes_no_loads(model):
 
 
 def test_a_run_keeps_and_prints_what_it_rests_on(own, tmp_path):
-    done = CliRunner().invoke(program, ["run", "demo", "--fmu", str(own), "--t-end", "1 ms", "--no-plot", "--out", str(tmp_path)])
+    done = CliRunner().invoke(
+        program, ["run", "demo", "--fmu", str(own), "--t-end", "1 ms", "--no-plot", "--out", str(tmp_path)]
+    )
     assert done.exit_code == 0, done.output
-    assert "the scene has shaft.F_y 2994 N for 4100 N" in done.stdout and hashlib.sha256(own.read_bytes()).hexdigest()[:12] in done.stdout
+    assert (
+        "the scene has shaft.F_y 2994 N for 4100 N" in done.stdout
+        and hashlib.sha256(own.read_bytes()).hexdigest()[:12] in done.stdout
+    )
     result = read_result(tmp_path / "demo.parquet")
-    assert result.about["basis"]["loads"] == "F_x 515 N, F_y 2994 N" and result.about["replaced"] == ["shaft.F_y 2994 N for 4100 N"]
+    assert result.about["basis"]["loads"] == "F_x 515 N, F_y 2994 N" and result.about["replaced"] == [
+        "shaft.F_y 2994 N for 4100 N"
+    ]
     page = render(result)
-    assert all(text in page for text in ("the scene has shaft.F_y 2994 N for 4100 N", "18238 rev/min", "6 mPa.s at 85.851 degC"))
+    assert all(
+        text in page
+        for text in ("the scene has shaft.F_y 2994 N for 4100 N", "18238 rev/min", "6 mPa.s at 85.851 degC")
+    )
 
 
 def mission_of(path, model, **document):
     """A mission of two points of 10 ms."""
-    common = {"simulation": {"t_end": 0.01}, "parameters": {"start.settle": 0.002}, "life": {"min_seeds": 3, "max_seeds": 3}}
-    return plan_mission("trial", common | {"point": [{"hours": 10}, {"hours": 30, "inputs": {"shaft.omega": "9000 rev/min"}}]} | document, model, path)
+    common = {
+        "simulation": {"t_end": 0.01},
+        "parameters": {"start.settle": 0.002},
+        "life": {"min_seeds": 3, "max_seeds": 3},
+    }
+    return plan_mission(
+        "trial",
+        common | {"point": [{"hours": 10}, {"hours": 30, "inputs": {"shaft.omega": "9000 rev/min"}}]} | document,
+        model,
+        path,
+    )
 
 
 def test_a_mission_without_a_scene_has_the_fmus_own_loads(own):
     """Each point shows its load and speed, those that it does not set too."""
     mission = mission_of(Path("trial.toml"), Model(own))
-    assert [part.load for part in mission.parts] == ["F_x 515 N, F_y 4100 N"] * 2 and [part.speed for part in mission.parts] == [
+    assert [part.load for part in mission.parts] == ["F_x 515 N, F_y 4100 N"] * 2 and [
+        part.speed for part in mission.parts
+    ] == [
         "18238 rev/min",
         "9000 rev/min",
     ]
-    assert all(part.values["shaft.F_y"] == 4100.0 for part in mission.parts) and "shaft.F_y" not in mission.cases[0].scene.inputs
+    assert (
+        all(part.values["shaft.F_y"] == 4100.0 for part in mission.parts)
+        and "shaft.F_y" not in mission.cases[0].scene.inputs
+    )
     rows = dict(mission.basis)
-    assert (rows["scene"], rows["loads"], rows["speed"]) == (NO_SCENE, "F_x 515 N, F_y 4100 N", "9000 to 18238 rev/min") and "replaced" not in rows
+    assert (rows["scene"], rows["loads"], rows["speed"]) == (
+        NO_SCENE,
+        "F_x 515 N, F_y 4100 N",
+        "9000 to 18238 rev/min",
+    ) and "replaced" not in rows
 
 
 def test_a_mission_that_names_a_scene_says_what_it_replaces(own, tmp_path):
     mission = mission_of(Path("trial.toml"), Model(own), scene="demo")
     life = assess(mission, lambda counts: [np.full((n, 9, 2), 1e-4) for n in counts])
     page = write_page(life, tmp_path / "life.html", []).read_text()
-    for text in ("the scene has shaft.F_y 2994 N for 4100 N", "9000 to 18238 rev/min", "amplitude 250 MPa (R = -1) at 2e+06 cycles", mission.basis[1][1]):
+    for text in (
+        "the scene has shaft.F_y 2994 N for 4100 N",
+        "9000 to 18238 rev/min",
+        "amplitude 250 MPa (R = -1) at 2e+06 cycles",
+        mission.basis[1][1],
+    ):
         assert text in page
     assert re.findall(r"<td>F_x 515 N, F_y 2994 N</td><td>(\d+) rev/min</td>", page) == ["18238", "9000"]
 
 
 def test_the_curve_in_words():
     law = FatigueLaw(sigma_D=230e6, k_1=7.0)
-    assert in_words(Strength(law)) == "amplitude 230 MPa (R = -1) at 2e+06 cycles, slope 7 above it, 15 below; mean stress: goodman, sigma_m 785 MPa"
+    assert (
+        in_words(Strength(law))
+        == "amplitude 230 MPa (R = -1) at 2e+06 cycles, slope 7 above it, 15 below; mean stress: goodman, sigma_m 785 MPa"
+    )
     assert "slope 7 above it, 13 below" in in_words(Strength(law, "haibach"))  # 2 k - 1
-    assert "T_S 1.25, survival 97.5 %" in in_words(Strength(law, T_S=1.25, survival=0.975)) and "no damage below" in in_words(Strength(law, "original"))
-    assert "table of 2 amplitudes from 100 to 300 MPa" in in_words(Strength(law, table=(np.array([1e8, 3e8]), np.array([1e7, 1e4]))))
+    assert "T_S 1.25, survival 97.5 %" in in_words(
+        Strength(law, T_S=1.25, survival=0.975)
+    ) and "no damage below" in in_words(Strength(law, "original"))
+    assert "table of 2 amplitudes from 100 to 300 MPa" in in_words(
+        Strength(law, table=(np.array([1e8, 3e8]), np.array([1e7, 1e4])))
+    )
 
 
 def test_info_is_of_the_fmu_that_is_named(own):
@@ -133,11 +189,19 @@ def test_info_is_of_the_fmu_that_is_named(own):
     assert "no bearing is named: this is the 6207, as an example" in CliRunner().invoke(program, ["info"]).stdout
 
 
-# Words of results -----------------------------------------------------------------------------------------------------------------------------
+# Words of results -----------------------------------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize(
-    ("hours", "text"), [(0.00123, "0.00123 h"), (53.21, "53.2 h"), (4263.0, "4,260 h"), (1e6, "1,000,000 h"), (6.8e8, "> 1e6 h"), (math.inf, "no damage")]
+    ("hours", "text"),
+    [
+        (0.00123, "0.00123 h"),
+        (53.21, "53.2 h"),
+        (4263.0, "4,260 h"),
+        (1e6, "1,000,000 h"),
+        (6.8e8, "> 1e6 h"),
+        (math.inf, "no damage"),
+    ],
 )
 def test_hours(hours, text):
     assert hours_text(hours) == text
@@ -162,7 +226,12 @@ def test_passes(life, hours, text):
         (80.0, 125.0, "80 h – 125 h", "half-width 25 % of life"),
         (1.0, 150.0, "below 150 h", "open at its lower end"),
         (80.0, 1e5, "above 80 h", "open at its upper end"),
-        (0.6, 1.7e4, "open at both ends", "open at its lower and its upper end: more seeds (max_seeds) or a longer t_end close it"),
+        (
+            0.6,
+            1.7e4,
+            "open at both ends",
+            "open at its lower and its upper end: more seeds (max_seeds) or a longer t_end close it",
+        ),
     ],
 )
 def test_intervals(low, high, interval, width):
@@ -177,26 +246,56 @@ def test_the_cards_of_a_wild_life(model):
     """Damages that scatter by ten decades with three seeds: no half-width in per cent, no share of a pass."""
     mission = mission_of(Path("trial.toml"), model)
     wild = np.array([1e-9, 1.0, 1e3])[:, None, None] * np.ones((3, 9, 2))
-    shown = {title: (value, remark) for title, value, remark in cards(assess(mission, lambda counts: [wild[:n] for n in counts]))}
-    assert shown["Mission"][1].startswith("fails within the first pass, after ") and "max_seeds" in shown["90 % interval"][1]
+    shown = {
+        title: (value, remark)
+        for title, value, remark in cards(assess(mission, lambda counts: [wild[:n] for n in counts]))
+    }
+    assert (
+        shown["Mission"][1].startswith("fails within the first pass, after ")
+        and "max_seeds" in shown["90 % interval"][1]
+    )
 
 
 def test_no_page_names_an_index_in_which_the_package_is_not():
     """An extra comes from a checkout or from the wheel's file."""
-    places = [ROOT / "README.md", *(ROOT / "docs").rglob("*.md"), *(ROOT / "examples").rglob("*.*"), *(ROOT / "riveted_bearing").rglob("*.py")]
-    assert [path for path in places if path.suffix in (".md", ".py", ".ipynb") and "riveted-bearing[" in path.read_text(encoding="utf-8")] == []
+    places = [
+        ROOT / "README.md",
+        *(ROOT / "docs").rglob("*.md"),
+        *(ROOT / "examples").rglob("*.*"),
+        *(ROOT / "riveted_bearing").rglob("*.py"),
+    ]
+    assert [
+        path
+        for path in places
+        if path.suffix in (".md", ".py", ".ipynb") and "riveted-bearing[" in path.read_text(encoding="utf-8")
+    ] == []
 
 
-# Units and assumptions ------------------------------------------------------------------------------------------------------------------------
+# Units and assumptions ------------------------------------------------------------------------------------------------
 
 
 def test_values_are_shown_as_they_were_written(warm):
     """A report in the units of the scene; what the scene does not set in those in which people read it."""
     page = render(run(warm, t_end=1e-3))
-    cells = dict(re.findall(r"<code>([\w.]+)</code></td><td>[^<]*</td><td class=\"n\">([^<]*</td><td>[^<]*)</td>", page))
+    cells = dict(
+        re.findall(r"<code>([\w.]+)</code></td><td>[^<]*</td><td class=\"n\">([^<]*</td><td>[^<]*)</td>", page)
+    )
     units = {name: cell.replace("</td><td>", " ").strip() for name, cell in cells.items()}
-    expected = {"oil.nu_1": "25 mm2/s", "oil.T": "40 degC", "shaft.F_y": "3 kN", "shaft.x": "20 µm", "shaft.omega": "18,238 rev/min"}
-    expected |= {"oil.T_1": "40 degC", "bearing.E": "207 GPa", "bearing.P_d": "15 µm", "bearing.D": "11.11 mm", "joint.fit": "-10 µm", "oil.eta": "6 mPa.s"}
+    expected = {
+        "oil.nu_1": "25 mm2/s",
+        "oil.T": "40 degC",
+        "shaft.F_y": "3 kN",
+        "shaft.x": "20 µm",
+        "shaft.omega": "18,238 rev/min",
+    }
+    expected |= {
+        "oil.T_1": "40 degC",
+        "bearing.E": "207 GPa",
+        "bearing.P_d": "15 µm",
+        "bearing.D": "11.11 mm",
+        "joint.fit": "-10 µm",
+        "oil.eta": "6 mPa.s",
+    }
     assert {name: units[name] for name in expected} == expected
 
 
@@ -205,20 +304,31 @@ def names_of(result):
 
 
 def test_assumed_is_what_nobody_gave(model, warm):
-    """Both points of the oil give its viscosity, its flow the mixture's density; one point, or a flow of zero, does not."""
+    """Both points of the oil give its viscosity, its flow the mixture's density; one point, or a flow of zero, does
+    not.
+    """
     assert names_of(run(warm, t_end=2e-4)) == {"cage.pocket_clearance", "cage.guide_clearance", "oil.rho_mix"}
     everything = {"cage.pocket_clearance", "cage.guide_clearance", "oil.eta", "oil.rho_mix"}
     assert names_of(run(t_end=2e-4, parameters={"oil.nu_2": "6 mm2/s", "oil.flow": 0.0})) == everything
-    assert names_of(run(t_end=2e-4, parameters={"oil.eta": "6 mPa.s", "oil.flow": "1 L/min"})) == {"cage.pocket_clearance", "cage.guide_clearance"}
-    assert set(assumed_ranges(model)) == everything and set(assumed_ranges(model, load_scene(warm, model))) == everything - {"oil.eta"}
+    assert names_of(run(t_end=2e-4, parameters={"oil.eta": "6 mPa.s", "oil.flow": "1 L/min"})) == {
+        "cage.pocket_clearance",
+        "cage.guide_clearance",
+    }
+    assert set(assumed_ranges(model)) == everything and set(
+        assumed_ranges(model, load_scene(warm, model))
+    ) == everything - {"oil.eta"}
 
 
 def test_clearances_of_the_bearings_own_file_are_not_assumed(model):
-    given = SimpleNamespace(parameters=model.parameters, default=model.default, origin={"cage.pocket_clearance": "yours", "cage.guide_clearance": "rule"})
+    given = SimpleNamespace(
+        parameters=model.parameters,
+        default=model.default,
+        origin={"cage.pocket_clearance": "yours", "cage.guide_clearance": "rule"},
+    )
     assert set(assumed_ranges(given)) == {"cage.guide_clearance", "oil.eta", "oil.rho_mix"}
 
 
-# The same bits, whether the FMU's own inputs are written out or not ---------------------------------------------------------------------------
+# The same bits, whether the FMU's own inputs are written out or not ---------------------------------------------------
 
 SHORT = {"simulation": {"t_end": 0.01}, "parameters": {"start.settle": 0.002}}
 
@@ -250,7 +360,9 @@ def variants(model):
 def same(one, two):
     """Whether all figures of two rows of sweeps are the same bits, but clocks and what says which run it was."""
     names = [name for name in one if name not in ("key", "scene", "date") and "time" not in name]
-    return "stat.sigma_head_p999" in names and all(one[name].tolist() == two[name].tolist() or np.array_equal(one[name], two[name], True) for name in names)
+    return "stat.sigma_head_p999" in names and all(
+        one[name].tolist() == two[name].tolist() or np.array_equal(one[name], two[name], True) for name in names
+    )
 
 
 @pytest.mark.slow
@@ -258,14 +370,17 @@ def test_a_run_of_another_bearing(other):
     own = run(fmu=other.path, t_end=2e-3)
     out = run(fmu=other.path, t_end=2e-3, **written_out(other))
     demo = run("demo", fmu=other.path, t_end=2e-3)
-    assert all(np.array_equal(own.data[name], out.data[name]) for name in own.data) and own.data["shaft.F_y"][0] == 5300.0
+    assert (
+        all(np.array_equal(own.data[name], out.data[name]) for name in own.data) and own.data["shaft.F_y"][0] == 5300.0
+    )
     assert demo.data["shaft.F_y"][0] == 2994.0 and not np.array_equal(own.data["ring.y"], demo.data["ring.y"])
 
 
 @pytest.mark.slow
 def test_a_sweep_of_another_bearing(other, client, tmp_path):
     own, out, demo = (
-        run_sweep(plan_sweep("s", SHORT | document, other, tmp_path / "s.toml"), tmp_path / str(i), client) for i, document in enumerate(variants(other))
+        run_sweep(plan_sweep("s", SHORT | document, other, tmp_path / "s.toml"), tmp_path / str(i), client)
+        for i, document in enumerate(variants(other))
     )
     assert same(own, out) and not same(own, demo) and demo["shaft.F_y"].tolist() == [2994.0]
 
@@ -284,7 +399,9 @@ def test_a_life_of_another_bearing(other, client, tmp_path):
 @pytest.mark.slow
 def test_the_bench_of_sensitivity_and_optimize_on_another_bearing(other, client, tmp_path):
     own, out, demo = (
-        Bench(tmp_path / "b.toml", SHORT | document, other, tmp_path / str(i), lambda: client)(["joint.preload"], [[20.0]], ["stress", "friction"])
+        Bench(tmp_path / "b.toml", SHORT | document, other, tmp_path / str(i), lambda: client)(
+            ["joint.preload"], [[20.0]], ["stress", "friction"]
+        )
         for i, document in enumerate(variants(other))
     )
     assert np.array_equal(own, out) and np.all(own != demo)
@@ -293,7 +410,9 @@ def test_the_bench_of_sensitivity_and_optimize_on_another_bearing(other, client,
 @pytest.mark.slow
 def test_matrices_and_info_of_another_bearing(other, tmp_path):
     path = tmp_path / "own.toml"
-    path.write_text("[inputs]\n" + "".join(f"{name} = {value!r}\n" for name, value in written_out(other)["inputs"].items()))
+    path.write_text(
+        "[inputs]\n" + "".join(f"{name} = {value!r}\n" for name, value in written_out(other)["inputs"].items())
+    )
     own, out, demo = (quasi_static_matrices(scene_case(source, other), [500.0])[0] for source in (None, path, "demo"))
     assert np.array_equal(own.K_static, out.K_static) and not np.array_equal(own.K_static, demo.K_static)
     command = ["matrices", "--static", "--speed", "500 rad/s", "--fmu", str(other.path), "--out", str(tmp_path)]
@@ -301,4 +420,6 @@ def test_matrices_and_info_of_another_bearing(other, tmp_path):
     text = (tmp_path / "my6309_matrices.csv").read_text()
     assert "# loads: F_x 883 N, F_y 5300 N\n" in text and f"{own.K_static[0, 0]:.9g}" in text
     case = case_of(None, other.path)
-    assert (case.designation, case.catalogue["C"], case.rivet) == ("6309", 53e3, None) and replace(case, rivet={}).bearing.Z == 8
+    assert (case.designation, case.catalogue["C"], case.rivet) == ("6309", 53e3, None) and replace(
+        case, rivet={}
+    ).bearing.Z == 8

@@ -1,4 +1,6 @@
-"""Records of benchmarks: what is written to benchmarks/results is read again digit for digit, and the pages are made from it."""
+"""Records of benchmarks: what is written to benchmarks/results is read again digit for digit, and the pages are made
+from it.
+"""
 
 import math
 import sys
@@ -10,17 +12,41 @@ sys.path.insert(0, str(ROOT / "benchmarks"))
 
 from records import RESULTS, folder_of, newest_record, read_record, write_record
 
-MACHINE = {"processor": "Intel(R) Xeon(R) CPU @ 2.20GHz", "system": "Linux x86_64", "compiler": "gcc (Debian 12.2.0-14) 12.2.0", "python": "3.11.7"}
-ABOUT = {"benchmark": "rtf", "short": True, "date": "2025-01-31T12:00:00+00:00", "commit": "732eda5+", "machine": MACHINE}
+MACHINE = {
+    "processor": "Intel(R) Xeon(R) CPU @ 2.20GHz",
+    "system": "Linux x86_64",
+    "compiler": "gcc (Debian 12.2.0-14) 12.2.0",
+    "python": "3.11.7",
+}
+ABOUT = {
+    "benchmark": "rtf",
+    "short": True,
+    "date": "2025-01-31T12:00:00+00:00",
+    "commit": "732eda5+",
+    "machine": MACHINE,
+}
 
 
 @pytest.mark.parametrize(
     "measured",
     [
         {"rounds": 7, "scenes": {"demo": {"rtf": 0.1 + 0.2, "evals": 103000.0}, "jam": {"rtf": 1e-300, "evals": -0.0}}},
-        {"rows": [{"family": "CVODE BDF, dense", "tolerance": 1e-3}, {"family": "failed"}], "seeds": [8, 16, 32], "nothing": [], "none": {}},
-        {"records": [{"name": '"5"', "message": "ring.tilt_y = 0.2:\n out of range", "events": {"skid": 3}}, {"name": "5", "message": "", "events": {}}]},
-        {"step": {"1e-06": {"constant": {"rtf": 2.5}}, "0.01": {"constant": {"rtf": 0.4}}}, "horizon": {"0.4": [{"rtf": 1.0}, {"rtf": 2.0}]}},
+        {
+            "rows": [{"family": "CVODE BDF, dense", "tolerance": 1e-3}, {"family": "failed"}],
+            "seeds": [8, 16, 32],
+            "nothing": [],
+            "none": {},
+        },
+        {
+            "records": [
+                {"name": '"5"', "message": "ring.tilt_y = 0.2:\n out of range", "events": {"skid": 3}},
+                {"name": "5", "message": "", "events": {}},
+            ]
+        },
+        {
+            "step": {"1e-06": {"constant": {"rtf": 2.5}}, "0.01": {"constant": {"rtf": 0.4}}},
+            "horizon": {"0.4": [{"rtf": 1.0}, {"rtf": 2.0}]},
+        },
         {"same_bits": True, "missing": None, "text": "true", "nested": [[1.0, 2.0], [3.0, 4.0]], "# no header": "# 1"},
     ],
 )
@@ -30,7 +56,9 @@ def test_record_is_read_as_written(tmp_path, measured):
 
 
 def test_numbers_that_are_none_are_kept(tmp_path):
-    found = read_record(write_record(ABOUT | {"scenes": {"a": {"error": math.nan, "ratio": math.inf}}}, tmp_path))["scenes"]["a"]
+    found = read_record(write_record(ABOUT | {"scenes": {"a": {"error": math.nan, "ratio": math.inf}}}, tmp_path))[
+        "scenes"
+    ]["a"]
     assert math.isnan(found["error"]) and found["ratio"] == math.inf
 
 
@@ -41,7 +69,11 @@ def test_record_tells_machine_date_and_commit(tmp_path):
     head, table = [], []
     for line in path.read_text().splitlines():
         (head if line.startswith("# ") else table).append(line)
-    assert '# commit = "732eda5+"' in head and '# date = "2025-01-31T12:00:00+00:00"' in head and any("2.20GHz" in line for line in head)
+    assert (
+        '# commit = "732eda5+"' in head
+        and '# date = "2025-01-31T12:00:00+00:00"' in head
+        and any("2.20GHz" in line for line in head)
+    )
     assert table == ["where,rounds,rtf", ",7,", "scenes/demo,,0.41"]
 
 

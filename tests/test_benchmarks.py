@@ -12,7 +12,13 @@ sys.path.insert(0, str(ROOT / "benchmarks"))
 
 HORIZON = 0.5e-3  # [s]; errors double about once in it
 TABLE = "ARKODE_DORMAND_PRINCE_7_4_5"
-SOLVERS = {"explicit": (0, TABLE, 0, 0.0), "adams": (1, "", 0, 0.0), "dense": (2, "", 0, 4e-5), "diagonal": (2, "", 1, 4e-5), "bordered": (2, "", 2, 4e-5)}
+SOLVERS = {
+    "explicit": (0, TABLE, 0, 0.0),
+    "adams": (1, "", 0, 0.0),
+    "dense": (2, "", 0, 4e-5),
+    "diagonal": (2, "", 1, 4e-5),
+    "bordered": (2, "", 2, 4e-5),
+}
 
 
 @pytest.fixture(scope="module")
@@ -45,14 +51,18 @@ def error(bench, problem, tolerance, **solver):
 
 @pytest.mark.parametrize("solver", SOLVERS)
 def test_solvers_meet(bench, problem, solver):
-    """Error at 1e-6 below 1e-4 (some hundred steps of that error add up at most; observed 4e-6...1.5e-5), far less than at 1e-2 (1e-2...9e-2)."""
+    """Error at 1e-6 below 1e-4 (some hundred steps of that error add up at most; observed 4e-6...1.5e-5), far less than
+    at 1e-2 (1e-2...9e-2).
+    """
     errors = [error(bench, problem, tolerance, choice=SOLVERS[solver]) for tolerance in (1e-2, 1e-6)]
     assert errors[1] < 1e-4 and errors[1] < 0.01 * errors[0], errors
 
 
 @pytest.mark.parametrize(("method", "bound"), [(1, 1e-3), (2, 1e-4)])
 def test_the_core_meets_them(bench, problem, method, bound):
-    """Our own methods likewise; Verlet, of second order, takes ten times as many steps of that error.  Observed 1.1e-4, 1.5e-5."""
+    """Our own methods likewise; Verlet, of second order, takes ten times as many steps of that error.  Observed 1.1e-4,
+    1.5e-5.
+    """
     errors = [error(bench, problem, tolerance, method=method) for tolerance in (1e-2, 1e-6)]
     assert errors[1] < bound and errors[1] < 0.01 * errors[0], errors
 
@@ -89,7 +99,8 @@ for isa in rhs.instruction_sets(core):
 
 
 def test_instructions_of_a_step_are_told_apart():
-    """A step has the instructions of one evaluation by both counts, those of the cage's middle state and of rejected steps on top; observed 1.15.
+    """A step has the instructions of one evaluation by both counts, those of the cage's middle state and of rejected
+    steps on top; observed 1.15.
 
     Little lies outside the core; observed 0.022.
     """

@@ -1,4 +1,6 @@
-"""Both sides of the bearing: the inner ring's motion given, the outer ring and the frame moving, reactions and powers on all of them."""
+"""Both sides of the bearing: the inner ring's motion given, the outer ring and the frame moving, reactions and powers
+on all of them.
+"""
 
 import numpy as np
 import pytest
@@ -6,20 +8,34 @@ from library import TWO_HALF
 from mechanics import RIGID_HALVES, SLICE, Instance, View, Z, pocket_loads, running_state
 from scipy.spatial.transform import Rotation
 
+from bearing_model.generated.variables import INPUTS, OUTPUTS, PARAMETERS, CageModel, RingMotion, TiltMode, Traction
 from bearing_model.physics.derived import model_derive
-from bearing_model.solver.integrator import observe
 from bearing_model.physics.model import Model
 from bearing_model.physics.parameters import Inputs, Parameters
 from bearing_model.physics.ring_load import ring_load_update
-from bearing_model.generated.variables import INPUTS, OUTPUTS, PARAMETERS, CageModel, RingMotion, TiltMode, Traction
+from bearing_model.solver.integrator import observe
 
 TWINS = True
 LOAD = np.array([515.0, 2994.0, 0.0])  # the table's start values [N]
 RING_M, RING_C = PARAMETERS["ring.m"].start, PARAMETERS["ring.c"].start
 PLACE = ("x", "y", "z", "v_x", "v_y", "v_z")
 PRESCRIBED = {"ring.motion": RingMotion.PRESCRIBED}
-LOSSLESS = {"oil.A": 0.0, "oil.B": 0.0, "oil.rolling": 0.0, "oil.rho_mix": 0.0, "oil.eta": 1e-5, "cage.guide_clearance": 5e-3, "cage.mu": 0.0}
-LOSSLESS |= {"cage.mu_land": 0.0, "cage.lambda": 0.0, "bearing.lambda": 0.0, "scene.cage": CageModel.RIGID, "scene.traction": Traction.POINT}
+LOSSLESS = {
+    "oil.A": 0.0,
+    "oil.B": 0.0,
+    "oil.rolling": 0.0,
+    "oil.rho_mix": 0.0,
+    "oil.eta": 1e-5,
+    "cage.guide_clearance": 5e-3,
+    "cage.mu": 0.0,
+}
+LOSSLESS |= {
+    "cage.mu_land": 0.0,
+    "cage.lambda": 0.0,
+    "bearing.lambda": 0.0,
+    "scene.cage": CageModel.RIGID,
+    "scene.traction": Traction.POINT,
+}
 MOTIONS = {  # all at once: every power has its part
     "shaft.x": 6e-6,
     "shaft.y": 25e-6,
@@ -67,11 +83,13 @@ def derivative(bearing, order, **values):
     bearing.core.set_values(bearing.lib.part_inputs(bearing.bearing, order), INPUTS, values)
 
 
-# ------------------------------------------------------------------------------------------------------------------------- energy
+# --------------------------------------------------------------------------------------------------------------- energy
 
 
 def power_and_rate(model, y, inputs):
-    """Net power into balls and cage, and the rate of their energy while rings and frame move on as their rates say; as in test_energy."""
+    """Net power into balls and cage, and the rate of their energy while rings and frame move on as their rates say; as
+    in test_energy.
+    """
     rate = model.rhs(0.0, y)
     power, h, E = rate[SLICE["work"]][0], 1e-8, {}
     members = {name: name.split(".") for name in RATES}
@@ -89,10 +107,11 @@ def power_and_rate(model, y, inputs):
 @pytest.mark.parametrize("motion", RingMotion)
 @pytest.mark.parametrize("cage", RIGID_HALVES)
 def test_power_balance(core, cage, motion):
-    """dE/dt = shaft + housing + frame - losses at random states while everything moves, to 2e-8 of the power that goes around.
+    """dE/dt = shaft + housing + frame - losses at random states while everything moves, to 2e-8 of the power that goes
+    around.
 
-    The rotations of the tilts are second order in the difference of the inputs' angles: 1e-8 s * 7 rad/s * 1e-3.  Each of the powers is more than 1e4 times
-    the tolerance.
+    The rotations of the tilts are second order in the difference of the inputs' angles: 1e-8 s * 7 rad/s * 1e-3.  Each
+    of the powers is more than 1e4 times the tolerance.
     """
     parameters = {"scene.cage": cage, "ring.motion": motion, "gravity.y": -9.81, "gravity.z": 4.0, "frame.radius": 0.15}
     if cage == CageModel.TWO_HALF:
@@ -111,21 +130,36 @@ def test_power_balance(core, cage, motion):
 @pytest.mark.parametrize(
     ("parameters", "inputs"),
     [
-        (PRESCRIBED | {"frame.radius": 0.1}, {"shaft.x": 55e-6, "shaft.y": 20e-6, "housing.omega": -800.0, "frame.omega": 200.0}),
-        ({"gravity.y": -500.0, "frame.radius": 0.1}, {"housing.omega": 900.0, "frame.omega": 200.0, "frame.a_x": 300.0}),
+        (
+            PRESCRIBED | {"frame.radius": 0.1},
+            {"shaft.x": 55e-6, "shaft.y": 20e-6, "housing.omega": -800.0, "frame.omega": 200.0},
+        ),
+        (
+            {"gravity.y": -500.0, "frame.radius": 0.1},
+            {"housing.omega": 900.0, "frame.omega": 200.0, "frame.a_x": 300.0},
+        ),
     ],
     ids=["prescribed", "free"],
 )
 def test_powers_close_the_balance(core, parameters, inputs, record_property):
-    """Supplied by shaft, housing and frame less the losses, integrated over the outputs, is the change of energy: 0.1 % of what is turned over in 10 ms.
+    """Supplied by shaft, housing and frame less the losses, integrated over the outputs, is the change of energy: 0.1 %
+    of what is turned over in 10 ms.
 
     Trapezoidal rule at points 2 us apart, shaft and housing shaking at 700 Hz.
     """
-    bearing, H, names = Instance(core, parameters, inputs), 2e-6, ("shaft.power", "housing.power", "frame.power", "bearing.power_loss", "bearing.energy")
+    bearing, H, names = (
+        Instance(core, parameters, inputs),
+        2e-6,
+        ("shaft.power", "housing.power", "frame.power", "bearing.power_loss", "bearing.energy"),
+    )
     rows, size, w = [numbers(bearing, *names)], 8e-6, 2.0 * np.pi * 700.0
     for n in range(1, 2501):
         t = (n - 1) * H
-        shake = {f"{side}.{q}": base + size * np.sin(w * t) for side, base in (("shaft", 20e-6), ("housing", 0.0)) for q in "y"}
+        shake = {
+            f"{side}.{q}": base + size * np.sin(w * t)
+            for side, base in (("shaft", 20e-6), ("housing", 0.0))
+            for q in "y"
+        }
         bearing.set(**shake, **{f"{side}.v_y": size * w * np.cos(w * t) for side in ("shaft", "housing")})
         bearing.step(n * H)
         rows.append(numbers(bearing, *names))
@@ -139,12 +173,14 @@ def test_powers_close_the_balance(core, parameters, inputs, record_property):
     assert all(np.abs(H * P[:, :3]).sum(axis=0) > 3e-3 * turned_over)  # every side does its part
 
 
-# ------------------------------------------------------------------------------------------------------------- motion in, force out
+# ------------------------------------------------------------------------------------------------- motion in, force out
 
 
 @pytest.mark.c_only
 def test_reaction_at_the_mean_place_is_the_load(core):
-    """The ring held at the mean place of the free run reacts with the load in the mean: 0.5 %; observed 0.06 % and 0.02 %."""
+    """The ring held at the mean place of the free run reacts with the load in the mean: 0.5 %; observed 0.06 % and 0.02
+    %.
+    """
     free, places = Instance(core), []
     for n in range(1, 501):
         free.step(n * 1e-4)
@@ -162,8 +198,8 @@ def test_reaction_at_the_mean_place_is_the_load(core):
 def test_a_recorded_motion_fed_back(core, record_property):
     """Positions and velocities of a free run every 10 us: R + F - c v - m a of the fed run.
 
-    Pointwise within 0.2 % of the load in the first ms (observed 0.03 %), RMS within 1 % over 50 ms (observed 0.2 %): later, balls and cage of both runs part
-    as chaos has it.
+    Pointwise within 0.2 % of the load in the first ms (observed 0.03 %), RMS within 1 % over 50 ms (observed 0.2 %):
+    later, balls and cage of both runs part as chaos has it.
     """
     h, free = 1e-5, Instance(core)
     rows = [numbers(free, *(f"ring.{q}" for q in (*PLACE, "a_x", "a_y", "a_z")))]
@@ -183,7 +219,9 @@ def test_a_recorded_motion_fed_back(core, record_property):
 
 
 def shaken(core, H, T=4e-4, order=0, tolerance=1e-8):
-    """The reaction at T of a ring and a housing that shake, given every H with derivatives of the velocities up to `order`."""
+    """The reaction at T of a ring and a housing that shake, given every H with derivatives of the velocities up to
+    `order`.
+    """
     w, size = 2.0 * np.pi * 800.0, 10e-6
 
     def given(t, k):
@@ -201,7 +239,9 @@ def shaken(core, H, T=4e-4, order=0, tolerance=1e-8):
     for n in range(1, round(T / H) + 1):
         bearing.set(**at((n - 1) * H))
         for k in range(1, order + 1):
-            derivative(bearing, k, **{name.replace(".", ".v_"): value for name, value in given((n - 1) * H, 1 + k).items()})
+            derivative(
+                bearing, k, **{name.replace(".", ".v_"): value for name, value in given((n - 1) * H, 1 + k).items()}
+            )
         bearing.step(n * H)
         if round(n * H / 1e-4, 6).is_integer():
             trace.append(np.append(reaction(bearing), numbers(bearing, "housing.F_x", "housing.F_y", "housing.F_z")))
@@ -210,10 +250,11 @@ def shaken(core, H, T=4e-4, order=0, tolerance=1e-8):
 
 @pytest.mark.c_only
 def test_convergence_with_the_communication_step(core, record_property):
-    """The reactions converge with the communication step at order 2, with positions and velocities alone and with accelerations too.
+    """The reactions converge with the communication step at order 2, with positions and velocities alone and with
+    accelerations too.
 
-    Reference: accelerations and their rates every us.  Pockets stay open, so that nothing is chaotic.  Steps above 10 us shake the balls on their races,
-    whose own frequencies begin at 20 kHz, by the jumps of the acceleration.
+    Reference: accelerations and their rates every us.  Pockets stay open, so that nothing is chaotic.  Steps above 10
+    us shake the balls on their races, whose own frequencies begin at 20 kHz, by the jumps of the acceleration.
     """
     reference, steps = shaken(core, 1e-6, order=2), (1.25e-5, 6.25e-6, 3.125e-6)
     for order in (0, 1):
@@ -223,11 +264,16 @@ def test_convergence_with_the_communication_step(core, record_property):
 
 
 def driven(core, H, how, T=3e-4):
-    """Positions [points, 3] of a mass on the bearing, by a master that takes the reaction as held, with slopes, or in three passes with saved states."""
+    """Positions [points, 3] of a mass on the bearing, by a master that takes the reaction as held, with slopes, or in
+    three passes with saved states.
+    """
     parameters = PRESCRIBED | {"scene.cage": CageModel.RIGID, "cage.pocket_clearance": 4e-4, "start.spacing": 0.0}
     free = Instance(core, parameters | {"ring.motion": RingMotion.FREE}, tolerance=1e-6)
     x, v = numbers(free, "ring.x", "ring.y", "ring.z"), np.zeros(3)
-    bearing, load = Instance(core, parameters, dict(zip(("shaft.x", "shaft.y", "shaft.z"), x, strict=True)), tolerance=1e-6), LOAD + [0.0, 300.0, 0.0]
+    bearing, load = (
+        Instance(core, parameters, dict(zip(("shaft.x", "shaft.y", "shaft.z"), x, strict=True)), tolerance=1e-6),
+        LOAD + [0.0, 300.0, 0.0],
+    )
     saved, R, places, expected = core.ffi.new("char[]", core.lib.part_saved_size()), reaction(bearing), [], []
     free.set(**{"shaft.F_y": load[1]})
     for n in range(round(T / H)):
@@ -243,7 +289,11 @@ def driven(core, H, how, T=3e-4):
             R = reaction(bearing.step((n + 1) * H))
             end = v + 0.5 * H * (a + (load + R - RING_C * (v + H * mean)) / RING_M)
             mean = mean if how == "slopes" else (end - v) / H
-        x, v = (x + H * v + 0.5 * H * H * a, v + H * a) if how == "held" else (x + H * v + 0.5 * H * H * (a if how == "slopes" else mean), end)
+        x, v = (
+            (x + H * v + 0.5 * H * H * a, v + H * a)
+            if how == "held"
+            else (x + H * v + 0.5 * H * H * (a if how == "slopes" else mean), end)
+        )
         if round((n + 1) * H / 1e-4, 6).is_integer():
             places.append(x)
             expected.append(numbers(free.step((n + 1) * H), "ring.x", "ring.y", "ring.z"))
@@ -251,9 +301,12 @@ def driven(core, H, how, T=3e-4):
 
 
 @pytest.mark.c_only
-@pytest.mark.parametrize(("how", "order", "largest"), [("held", 0.9, 5e-7), ("slopes", 1.8, 2e-8), ("passes", 1.8, 4e-8)])
+@pytest.mark.parametrize(
+    ("how", "order", "largest"), [("held", 0.9, 5e-7), ("slopes", 1.8, 2e-8), ("passes", 1.8, 4e-8)]
+)
 def test_masters(core, how, order, largest, record_property):
-    """A mass that a master moves on the bearing's reaction, against the free ring of the same mass: order 1 held, order 2 with the reaction at the step's end.
+    """A mass that a master moves on the bearing's reaction, against the free ring of the same mass: order 1 held, order
+    2 with the reaction at the step's end.
 
     300 N added at once move it by 2 um in 0.3 ms; `largest`: error at 1e-5 s, observed 3e-7, 6e-9 and 1.2e-8 m.
     """
@@ -265,13 +318,19 @@ def test_masters(core, how, order, largest, record_property):
 
 @pytest.mark.c_only
 def test_the_motion_is_continuous(core):
-    """Inside a step the ring moves from where it is to x + v H, v: positions that jump do not jump; at the end it is there, outputs say so."""
-    bearing, H = Instance(core, PRESCRIBED | {"bearing.P_d": 1e-4, "scene.cage": CageModel.RIGID}, {"shaft.x": 0.0}), 1e-4
+    """Inside a step the ring moves from where it is to x + v H, v: positions that jump do not jump; at the end it is
+    there, outputs say so.
+    """
+    bearing, H = (
+        Instance(core, PRESCRIBED | {"bearing.P_d": 1e-4, "scene.cage": CageModel.RIGID}, {"shaft.x": 0.0}),
+        1e-4,
+    )
     bearing.set(**{"shaft.x": 2e-6, "shaft.v_x": 0.01, "shaft.tilt_z": 1e-4})
     bearing.step(H)
     assert numbers(bearing, "ring.x", "ring.v_x", "ring.tilt_z") == pytest.approx([3e-6, 0.01, 1e-4], rel=1e-9)
     assert bearing.y[SLICE["ring_x"]][0] == pytest.approx(3e-6, rel=1e-9)
-    # Hermite's polynomial from (0, 0) to (3 um, 0.01 m/s): acceleration at the end (2 v_0 + 4 v_1)/H - 6 (x_1 - x_0)/H^2
+    # Hermite's polynomial from (0, 0) to (3 um, 0.01 m/s): acceleration at the end (2 v_0 + 4 v_1)/H - 6 (x_1 -
+    # x_0)/H^2
     assert numbers(bearing, "ring.a_x")[0] == pytest.approx(4 * 0.01 / H - 6 * 3e-6 / H**2, rel=1e-6)
     # a jump by 3 um against 1e8 N/m would bring 5e-4 J; observed 3e-6 J, the integration's own error
     assert abs(numbers(bearing, "bearing.energy_residual")[0]) < 2e-5
@@ -279,7 +338,9 @@ def test_the_motion_is_continuous(core):
 
 @pytest.mark.c_only
 def test_what_has_no_effect_is_logged_once(core):
-    """Loads and the support of a free ring do nothing to a prescribed one, and the other way round; the log says so once, nothing is refused."""
+    """Loads and the support of a free ring do nothing to a prescribed one, and the other way round; the log says so
+    once, nothing is refused.
+    """
     held = PRESCRIBED | {"ring.tilt_mode": TiltMode.SUPPORTED, "ring.m": 2.0, "pulse.F_r": 500.0, "pulse.t_start": 0.0}
     loaded, plain = Instance(core, held, {"shaft.F_y": 1.0}), Instance(core, PRESCRIBED)
     for n in range(1, 6):
@@ -297,7 +358,11 @@ def test_what_has_no_effect_is_logged_once(core):
 @pytest.mark.c_only
 def test_limits_of_motions(core):
     """A motion that would leave its range within the step is refused, as NaN is; the range is in the message."""
-    for inputs, name in (({"shaft.v_y": 9.0, "shaft.y": 1.9e-3}, "shaft.y"), ({"housing.x": np.nan}, "housing.x"), ({"frame.omega": 2e4}, "frame.omega")):
+    for inputs, name in (
+        ({"shaft.v_y": 9.0, "shaft.y": 1.9e-3}, "shaft.y"),
+        ({"housing.x": np.nan}, "housing.x"),
+        ({"frame.omega": 2e4}, "frame.omega"),
+    ):
         bearing = Instance(core, PRESCRIBED, {"shaft.x": 1e-6})
         bearing.set(**inputs)
         with pytest.raises(ArithmeticError, match=name):
@@ -306,7 +371,9 @@ def test_limits_of_motions(core):
 
 @pytest.mark.c_only
 def test_a_motion_may_end_on_its_limit(core):
-    """A limit is allowed although the polynomial that leads to it rounds: after steps of any length, and in the state saved there."""
+    """A limit is allowed although the polynomial that leads to it rounds: after steps of any length, and in the state
+    saved there.
+    """
     saved = core.ffi.new("char[]", core.lib.part_saved_size())
     limit = INPUTS["housing.tilt_y"].max
     for length in np.random.default_rng(1).uniform(1e-6, 3e-5, 40):
@@ -322,10 +389,16 @@ def test_a_motion_may_end_on_its_limit(core):
 
 
 @pytest.mark.c_only
-@pytest.mark.parametrize(("drive", "t_end"), [({"housing.tilt_z": 0.03, "housing.tilt_z_dot": -150.0}, 1e-4), ({}, 1e70)], ids=["overshoot", "endless"])
+@pytest.mark.parametrize(
+    ("drive", "t_end"),
+    [({"housing.tilt_z": 0.03, "housing.tilt_z_dot": -150.0}, 1e-4), ({}, 1e70)],
+    ids=["overshoot", "endless"],
+)
 def test_saved_state_of_a_step_that_stopped_halfway(core, drive, t_end):
-    """The solver gives up a motion on its way, where its velocity is beyond the limits of both ends, or a step that would never end: the state saved
-    there goes on to the bit of the run itself, whose last step was as long as the time that passed."""
+    """The solver gives up a motion on its way, where its velocity is beyond the limits of both ends, or a step that
+    would never end: the state saved there goes on to the bit of the run itself, whose last step was as long as the time
+    that passed.
+    """
     bearing, saved = Instance(core, {"solver.max_steps": 10}, {}), core.ffi.new("char[]", core.lib.part_saved_size())
     bearing.set(**drive)
     with pytest.raises(ArithmeticError, match="the solver cannot go on|the work limit is reached"):
@@ -349,7 +422,15 @@ def test_saved_state_in_motion(core):
 
     def go(bearing, first, last):
         for n in range(first, last):
-            bearing.set(**{"shaft.x": 6e-6 + 1e-7 * n, "housing.y": 1e-7 * n, "shaft.v_x": 1e-3, "shaft.v_y": 0.0, "shaft.v_z": 0.0})
+            bearing.set(
+                **{
+                    "shaft.x": 6e-6 + 1e-7 * n,
+                    "housing.y": 1e-7 * n,
+                    "shaft.v_x": 1e-3,
+                    "shaft.v_y": 0.0,
+                    "shaft.v_z": 0.0,
+                }
+            )
             bearing.step(n * 1e-4)
 
     go(bearing, 1, 6)
@@ -369,19 +450,25 @@ KINKS = ("cage.eccentricity",)  # of a cage in the middle
 @pytest.mark.c_only
 @pytest.mark.parametrize("motion", RingMotion)
 def test_directional_derivatives(core, motion, record_property):
-    """Derivatives of all outputs by each motion, against differences of the Python reference at the same state: 1e-5 of the largest in each unit.
+    """Derivatives of all outputs by each motion, against differences of the Python reference at the same state: 1e-5 of
+    the largest in each unit.
 
     Central differences over twice 1e-3 of what changes a force by its half; contacts are smooth there.
     """
     parameters = TWO_HALF | {"ring.motion": motion, "frame.radius": 0.1, "gravity.y": -9.81}
-    given = {name: value for name, value in MOTIONS.items() if not name.endswith("_dot")} | {"shaft.tilt_y_dot": 0.0, "frame.omega_dot": 0.0}
+    given = {name: value for name, value in MOTIONS.items() if not name.endswith("_dot")} | {
+        "shaft.tilt_y_dot": 0.0,
+        "frame.omega_dot": 0.0,
+    }
     bearing = Instance(core, parameters, given)
     y, size = bearing.y, {"m": 1e-9, "m/s": 1e-6, "rad": 1e-8, "rad/s": 1e-4, "m/s2": 0.1, "rad/s2": 1.0}
     p, d = Parameters(parameters), model_derive(Parameters(parameters))
     pointer, rest, judged = core.new("Inputs"), np.zeros_like(y), 0
 
     def outputs_at(name, h):
-        return observe(Model(p, d, ring_load_update(p, Inputs(given | {name: given.get(name, 0.0) + h}), 0.0)), 0.0, y, 0.0)
+        return observe(
+            Model(p, d, ring_load_update(p, Inputs(given | {name: given.get(name, 0.0) + h}), 0.0)), 0.0, y, 0.0
+        )
 
     for name in MOTIONS:
         group, member = name.split(".")
@@ -392,7 +479,11 @@ def test_directional_derivatives(core, motion, record_property):
         h = size[INPUTS[name].unit]
         above, below = outputs_at(name, h), outputs_at(name, -h)
         largest = {}
-        differences = {output: (above[output] - below[output]) / (2.0 * h) for output in above if not output.startswith("event.") and output not in KINKS}
+        differences = {
+            output: (above[output] - below[output]) / (2.0 * h)
+            for output in above
+            if not output.startswith("event.") and output not in KINKS
+        }
         for output, value in differences.items():
             unit = OUTPUTS[output].unit
             largest[unit] = max(largest.get(unit, 0.0), np.abs(value).max())
@@ -405,7 +496,7 @@ def test_directional_derivatives(core, motion, record_property):
     assert judged > 600
 
 
-# ------------------------------------------------------------------------------------------------------- relative motion only counts
+# ------------------------------------------------------------------------------------------ relative motion only counts
 
 
 def moved(y, rotation, shift, Omega=None):
@@ -419,13 +510,24 @@ def moved(y, rotation, shift, Omega=None):
 
     before = frames(block["ball_theta"])
     place = np.einsum("jki,jk->ji", before, np.array([block["ball_x"], block["ball_r"], np.zeros(Z)]).T) @ T.T + shift
-    velocity = np.einsum("jki,jk->ji", before, np.array([block["ball_v_x"], block["ball_v_r"], block["ball_r"] * block["ball_omega_m"]]).T) @ T.T
+    velocity = (
+        np.einsum(
+            "jki,jk->ji",
+            before,
+            np.array([block["ball_v_x"], block["ball_v_r"], block["ball_r"] * block["ball_omega_m"]]).T,
+        )
+        @ T.T
+    )
     spin = np.einsum("jki,jk->ji", before, np.array([block[f"ball_omega_{i}"] for i in "xrt"]).T) @ T.T
     theta = np.arctan2(place[:, 2], place[:, 1])
     theta += 2.0 * np.pi * np.round((block["ball_theta"] - theta) / (2.0 * np.pi))
     after = frames(theta)
     v, omega = (np.einsum("jki,ji->jk", after, u) for u in (velocity, spin))
-    block["ball_theta"][:], block["ball_x"][:], block["ball_r"][:] = theta, place[:, 0], np.hypot(place[:, 1], place[:, 2])
+    block["ball_theta"][:], block["ball_x"][:], block["ball_r"][:] = (
+        theta,
+        place[:, 0],
+        np.hypot(place[:, 1], place[:, 2]),
+    )
     block["ball_v_x"][:], block["ball_v_r"][:], block["ball_omega_m"][:] = v[:, 0], v[:, 1], v[:, 2] / block["ball_r"]
     for i, name in enumerate("xrt"):
         block[f"ball_omega_{name}"][:] = omega[:, i]
@@ -459,7 +561,8 @@ def moved(y, rotation, shift, Omega=None):
 
 @pytest.mark.c_only
 def test_a_common_place_changes_nothing(core, record_property):
-    """Shaft and housing shifted by 0.3 mm and tilted by 0.6 degrees together: the same loads, speeds and stress for 1 ms, to the integration's tolerance.
+    """Shaft and housing shifted by 0.3 mm and tilted by 0.6 degrees together: the same loads, speeds and stress for 1
+    ms, to the integration's tolerance.
 
     The mixture's drag knows the frame's axis: cos(0.6 degrees) = 1 - 6e-5.
     """
@@ -500,14 +603,18 @@ SPINS = {
 @pytest.mark.parametrize("gravity", [0.0, -900.0])
 @pytest.mark.parametrize("kind", ["outer", "both"])
 def test_which_ring_turns(core, kind, gravity, record_property):
-    """Inner ring at omega, outer at rest; inner at rest, outer at -omega in a frame that turns with omega: the same motion, energy and stress.
+    """Inner ring at omega, outer at rest; inner at rest, outer at -omega in a frame that turns with omega: the same
+    motion, energy and stress.
 
-    Under axial motion, which has no direction across: to rounding, 1e-6 of each quantity after 0.3 ms.  And under gravity, which turns in the frame and is
-    integrated there with other errors: to 2e-4, at a tolerance of 4e-6 a step.
+    Under axial motion, which has no direction across: to rounding, 1e-6 of each quantity after 0.3 ms.  And under
+    gravity, which turns in the frame and is integrated there with other errors: to 2e-4, at a tolerance of 4e-6 a step.
     """
     parameters = PRESCRIBED | {"gravity.y": gravity}
     a, b = (Instance(core, parameters, {"shaft.x": 80e-6} | SPINS[k], tolerance=4e-6) for k in ("inner", kind))
-    names, turn = ("ball.Q_i", "ball.Q_e", "ball.Q_c", "rivet.sigma_head", "bearing.power_loss", "shaft.R_x", "housing.F_x"), SPINS[kind]["frame.omega"]
+    names, turn = (
+        ("ball.Q_i", "ball.Q_e", "ball.Q_c", "rivet.sigma_head", "bearing.power_loss", "shaft.R_x", "housing.F_x"),
+        SPINS[kind]["frame.omega"],
+    )
     for n in range(1, 31):
         a.step(n * 1e-5), b.step(n * 1e-5)
         for name in names:
@@ -516,13 +623,15 @@ def test_which_ring_turns(core, kind, gravity, record_property):
     assert numbers(b, "cage.omega")[0] + turn == pytest.approx(numbers(a, "cage.omega")[0], rel=1e-9)
 
 
-# -------------------------------------------------------------------------------------------------------------------- frame, speeds
+# -------------------------------------------------------------------------------------------------------- frame, speeds
 
 
 @pytest.mark.c_only
 @pytest.mark.parametrize(("inner", "outer"), [(1500.0, -400.0), (0.0, 1200.0), (1000.0, 600.0)])
 def test_cage_speed_with_both_rings_turning(core, inner, outer):
-    """(omega_i (1 - g) + omega_e (1 + g))/2, g = D/d_m cos(alpha): the cage's speed within 2 % of it, 30 ms after both speeds rose by a quarter."""
+    """(omega_i (1 - g) + omega_e (1 + g))/2, g = D/d_m cos(alpha): the cage's speed within 2 % of it, 30 ms after both
+    speeds rose by a quarter.
+    """
     bearing = Instance(core, {"scene.stress": 1}, {"shaft.omega": 0.8 * inner, "housing.omega": 0.8 * outer})
     bearing.set(**{"shaft.omega": inner, "housing.omega": outer})
     for n in range(1, 301):
@@ -539,7 +648,8 @@ def test_cage_speed_with_both_rings_turning(core, inner, outer):
 def test_balls_at_rest_in_a_turning_frame(core, radius):
     """The outer race carries m omega_f^2 (r + R cos theta) along the ball's radius: 0.1 %; no ring turns in the frame.
 
-    The start takes the pitch radius for r: 0.02 %.  Without an arm balls and cage stay at rest, and the loads with them.
+    The start takes the pitch radius for r: 0.02 %.  Without an arm balls and cage stay at rest, and the loads with
+    them.
     """
     omega = 600.0
     inputs = {"shaft.omega": 0.0, "frame.omega": omega, "shaft.F_x": 0.0, "shaft.F_y": 0.0}
@@ -559,17 +669,26 @@ def test_balls_at_rest_in_a_turning_frame(core, radius):
 
 @pytest.mark.c_only
 def test_energy_integral_of_a_turning_frame(core, record_property):
-    """Without friction, E - sum m omega_f^2 |s + R|^2/2 stays: balls and cage fall about in the field, the rings stand.  0.1 % of what E exchanges."""
+    """Without friction, E - sum m omega_f^2 |s + R|^2/2 stays: balls and cage fall about in the field, the rings stand.
+    0.1 % of what E exchanges.
+    """
     omega, R = 300.0, 0.05
-    bearing = Instance(core, PRESCRIBED | LOSSLESS | {"frame.radius": R}, {"shaft.omega": 0.0, "frame.omega": omega}, tolerance=1e-6)
-    m, m_c = PARAMETERS["bearing.rho"].start * np.pi / 6.0 * PARAMETERS["bearing.D"].start ** 3, PARAMETERS["cage.m"].start
+    bearing = Instance(
+        core, PRESCRIBED | LOSSLESS | {"frame.radius": R}, {"shaft.omega": 0.0, "frame.omega": omega}, tolerance=1e-6
+    )
+    m, m_c = (
+        PARAMETERS["bearing.rho"].start * np.pi / 6.0 * PARAMETERS["bearing.D"].start ** 3,
+        PARAMETERS["cage.m"].start,
+    )
 
     def integral():
         y = bearing.y
         theta, r = y[SLICE["ball_theta"]], y[SLICE["ball_r"]]
         places = [(r * np.cos(theta), r * np.sin(theta), m), (y[SLICE["cage_y"]], y[SLICE["cage_z"]], m_c)]
         # of the cage's halves their own extension does not count: they turn about an axis parallel to the frame's
-        return numbers(bearing, "bearing.energy")[0], 0.5 * omega**2 * sum(mass * np.sum((Y + R) ** 2 + Z_ * Z_) for Y, Z_, mass in places)
+        return numbers(bearing, "bearing.energy")[0], 0.5 * omega**2 * sum(
+            mass * np.sum((Y + R) ** 2 + Z_ * Z_) for Y, Z_, mass in places
+        )
 
     rows = [integral()]
     for n in range(1, 101):

@@ -1,4 +1,6 @@
-"""The page that runs the bearing in a browser: the core as WebAssembly against the native one, and the page in a headless Chromium."""
+"""The page that runs the bearing in a browser: the core as WebAssembly against the native one, and the page in a
+headless Chromium.
+"""
 
 import re
 import subprocess
@@ -43,7 +45,7 @@ def test_the_page_names_variables_that_there_are():
         assert abs(slider["start"] / slider["factor"] - limits.start) <= 0.5001 * slider["step"] / slider["factor"]
 
 
-# ----------------------------------------------------------------------------------------------------------------------------- built
+# ---------------------------------------------------------------------------------------------------------------- built
 
 
 @pytest.fixture(scope="session")
@@ -60,7 +62,12 @@ def tab(built, browser):
     tab, complaints = browser.new_page(viewport={"width": 1280, "height": 900}), []
     tab.on("console", lambda message: complaints.append(message.text))
     tab.on("pageerror", lambda error: complaints.append(str(error)))
-    tab.on("request", lambda request: complaints.append(request.url) if not request.url.startswith(("file:", "data:", "blob:")) else None)
+    tab.on(
+        "request",
+        lambda request: (
+            complaints.append(request.url) if not request.url.startswith(("file:", "data:", "blob:")) else None
+        ),
+    )
     start = time.monotonic()
     tab.goto(built.as_uri())
     tab.wait_for_selector("body[data-ready]")
@@ -100,7 +107,9 @@ def test_the_figures_are_those_of_the_native_core(tab, core):
     """Over 2 ms, a quarter of a turn of the cage.  Rounding makes DIFFERENCE of it; 1 % more load must not pass."""
     clip = tab[0].evaluate(RUN, [list(COMPARED), STEP, STEPS + 1])
     expected, computed = native(core), np.array(clip["rows"])
-    size = np.maximum(np.abs(expected).max(axis=0), [CLEARANCE if re.match(r"half_\d\.[xyz]$", name) else 0.0 for name in COMPARED])
+    size = np.maximum(
+        np.abs(expected).max(axis=0), [CLEARANCE if re.match(r"half_\d\.[xyz]$", name) else 0.0 for name in COMPARED]
+    )
     assert computed.shape == expected.shape
     difference = (np.abs(computed - expected) / size).max(axis=0)
     print({name: f"{value:.1e}" for name, value in zip(COMPARED, difference)})
@@ -124,7 +133,9 @@ def test_the_page_runs(tab, tmp_path):
     for _ in range(20):
         rates.append(float(tab.get_attribute("#time", "data-rate")))
         tab.wait_for_timeout(200)
-    print(f"first frame after {first:.2f} s; {np.median(rates):.3f} simulated seconds in a second, at most {max(rates):.3f}")
+    print(
+        f"first frame after {first:.2f} s; {np.median(rates):.3f} simulated seconds in a second, at most {max(rates):.3f}"
+    )
     assert tab.inner_text("#readout") != before and tab.locator("#front").screenshot() != picture
     head = float(tab.inner_text('[data-figure="stat.sigma_head_mean"]'))
     assert 100.0 < head < float(tab.inner_text('[data-figure="stat.sigma_head_p999"]')) < 1000.0  # MPa
@@ -137,7 +148,14 @@ def test_the_page_runs(tab, tmp_path):
 @pytest.mark.slow
 def test_sliders_act_and_the_scene_says_so(tab, fmu, tmp_path):
     tab, complaints, _ = tab
-    settings = {"shaft.F_y": 4000.0, "shaft.omega": 12000.0, "shaft.tilt_z": 0.12, "joint.preload": 35.0, "joint.fit": 5.0, "pulse.F_r": 1500.0}
+    settings = {
+        "shaft.F_y": 4000.0,
+        "shaft.omega": 12000.0,
+        "shaft.tilt_z": 0.12,
+        "joint.preload": 35.0,
+        "joint.fit": 5.0,
+        "pulse.F_r": 1500.0,
+    }
     move = "(input, value) => { input.value = value; ['input', 'change'].forEach((kind) => input.dispatchEvent(new Event(kind))); }"
     for name, value in settings.items():
         tab.locator(f'input[name="{name}"]').evaluate(move, value)
@@ -164,6 +182,8 @@ def test_nothing_is_cut_at_any_width(tab, width):
 @pytest.mark.slow
 def test_refused_values_are_said(tab):
     tab, _, _ = tab
-    tab.locator('input[name="joint.fit"]').evaluate("(input) => { input.max = 1e6; input.value = 1e6; input.dispatchEvent(new Event('change')); }")
+    tab.locator('input[name="joint.fit"]').evaluate(
+        "(input) => { input.max = 1e6; input.value = 1e6; input.dispatchEvent(new Event('change')); }"
+    )
     tab.wait_for_selector("#message:not([hidden])")
     assert "joint.fit" in tab.inner_text("#message") and "is not allowed" in tab.inner_text("#message")

@@ -1,4 +1,6 @@
-"""Elastic cage halves: the core against its twin, and both against statics by finite elements, conservation, symmetry and their own exact derivatives."""
+"""Elastic cage halves: the core against its twin, and both against statics by finite elements, conservation, symmetry
+and their own exact derivatives.
+"""
 
 import numpy as np
 import pytest
@@ -6,23 +8,41 @@ from library import TWO_HALF
 from mechanics import Instance, View, running_state
 
 from bearing_model.cage.elastic import cage_substeps
-from bearing_model.generated import variables
 from bearing_model.cage.elastic.cage_elastic import IN, OUT, ROOT, cage_elastic_shapes, joints_out, mode_order
-from bearing_model.physics.derived import default_table
-from bearing_model.instance.energy import energy_terms, energy_total, net_power
 from bearing_model.cage.elastic.half_modes import fewer
+from bearing_model.generated import variables
+from bearing_model.generated.variables import (
+    ELASTIC_SCALES,
+    MODE_D,
+    MODE_D_DOT,
+    MODE_S,
+    MODE_S_DOT,
+    N_ALL_STATES,
+    STATE_SLICES,
+    CageModel,
+    Method,
+    Z,
+)
+from bearing_model.instance.energy import energy_terms, energy_total, net_power
+from bearing_model.physics.derived import default_table
 from bearing_model.physics.model import Model, Work
 from bearing_model.physics.rhs import jacobian, rhs
 from bearing_model.rivet.rivets import rivets_load
 from bearing_model.solver.start import start_state
-from bearing_model.generated.variables import ELASTIC_SCALES, MODE_D, MODE_D_DOT, MODE_S, MODE_S_DOT, N_ALL_STATES, STATE_SLICES, CageModel, Method, Z
 from bearing_model.solver.verlet import VerletState, advance_positions, verlet_evaluate, verlet_step
 
 ELASTIC = {"scene.cage": CageModel.ELASTIC}
 SCENES = (
     {},
     {"scene.modes": 48, "scene.lubrication": 2, "cage.pocket_clearance": 1e-4, "ring.tilt_mode": 2},
-    {"scene.modes": 32, "cage.m": 0.04, "joint.fit": -3e-5, "joint.preload": 60.0, "cage.modal_damping": 0.03, "scene.traction": 1},
+    {
+        "scene.modes": 32,
+        "cage.m": 0.04,
+        "joint.fit": -3e-5,
+        "joint.preload": 60.0,
+        "cage.modal_damping": 0.03,
+        "scene.traction": 1,
+    },
     {"cage.centrifugal": 1, "cage.unbalance": 2e-6, "gravity.y": -9.81},
     {
         "rivet[k].preload_factor": [float(f) for f in np.linspace(0.2, 4.0, Z)],
@@ -45,7 +65,9 @@ def largest_difference(a, b, scale=None):
 @pytest.mark.parametrize("isa", ["sse2", "avx2", "avx512"])
 @pytest.mark.parametrize("scene", SCENES, ids=range(len(SCENES)))
 def test_twins_are_equal(core, scene, isa, record_property):
-    """dy/dt, energy, loads of the rivets at random states: rounding (observed 2e-10 of a block's largest rate, 1e-12 of the loads)."""
+    """dy/dt, energy, loads of the rivets at random states: rounding (observed 2e-10 of a block's largest rate, 1e-12 of
+    the loads).
+    """
     best = core.ffi.string(core.lib.kernels_select().name).decode()
     if ["sse2", "avx2", "avx512"].index(isa) > ["sse2", "avx2", "avx512"].index(best):
         pytest.skip("this processor lacks the instruction set")
@@ -58,8 +80,12 @@ def test_twins_are_equal(core, scene, isa, record_property):
         worst = max(worst, largest_difference(by_core, by_twin))
         assert c.energy(y) == pytest.approx(energy_total(model, w), rel=1e-12)
         for a in range(3):
-            np.testing.assert_allclose(at.joint_load[a][:Z], w.joint_load[a], atol=1e-11 * np.abs(w.joint_load[a]).max())
-            np.testing.assert_allclose(at.joint_rivet[a][:Z], w.joint_rivet[a], atol=1e-11 * np.abs(w.joint_rivet[a]).max())
+            np.testing.assert_allclose(
+                at.joint_load[a][:Z], w.joint_load[a], atol=1e-11 * np.abs(w.joint_load[a]).max()
+            )
+            np.testing.assert_allclose(
+                at.joint_rivet[a][:Z], w.joint_rivet[a], atol=1e-11 * np.abs(w.joint_rivet[a]).max()
+            )
         touched += np.sum(w.Q_pocket > 0.0)
         assert np.abs(by_twin[MODE_S_DOT]).max() > 1e3
     record_property("worst", float(worst))
@@ -88,7 +114,9 @@ def test_step_equals_the_dense_step(core, scene, record_property):
             for a, b, unit in ((at.y, end.y, scale), (at.f, end.f, scale / h), (at.jerk, end.jerk, scale / h**2)):
                 worst = max(worst, np.max(np.abs(a - b) / unit / (1.0 + np.max(np.abs(b / unit)) * 1e-3)))
             np.testing.assert_allclose(list(state.fast.T)[:Z], end.fast.T, rtol=1e-9)
-            np.testing.assert_allclose(list(state.fast.rigid), end.fast.rigid, rtol=0.0, atol=1e-6 * np.max(np.abs(end.fast.rigid)))
+            np.testing.assert_allclose(
+                list(state.fast.rigid), end.fast.rigid, rtol=0.0, atol=1e-6 * np.max(np.abs(end.fast.rigid))
+            )
     record_property("worst", float(worst))
     assert worst < 1e-9
 
@@ -113,12 +141,15 @@ def test_derivatives(core):
             assert np.abs(by_core - exact).max() <= 1e-7 * size + 1e-9, (name, other)  # observed 1e-9
 
 
-@pytest.mark.parametrize("scene", [{"cage.centrifugal": 1}, {"cage.centrifugal": 2}, SCENES[-1]], ids=["without", "centrifugal", "differing"])
+@pytest.mark.parametrize(
+    "scene", [{"cage.centrifugal": 1}, {"cage.centrifugal": 2}, SCENES[-1]], ids=["without", "centrifugal", "differing"]
+)
 def test_power_is_the_rate_of_energy(scene, record_property):
     """Net power against the energy's rate along dy/dt, by complex steps.
 
-    The law of the joints is a table of moves over loads which has one energy within its own error only, and the joints' neighbours follow by one sweep: the
-    balance is off by a part of what joints take and give, which is small beside what goes around.
+    The law of the joints is a table of moves over loads which has one energy within its own error only, and the joints'
+    neighbours follow by one sweep: the balance is off by a part of what joints take and give, which is small beside
+    what goes around.
     """
     rng, worst = np.random.default_rng(8), 0.0
     model = Model.of(ELASTIC | {"oil.rolling": 0.0} | scene)
@@ -126,7 +157,11 @@ def test_power_is_the_rate_of_energy(scene, record_property):
         y, w, along = running_state_of(model, rng), Work(), Work()
         y_dot = rhs(model, 0.0, y, w)
         rhs(model, 0.0, y + 1e-30j * y_dot, along)
-        rates = {name: float(np.imag(energy).ravel()[0]) / 1e-30 for name, energy in energy_terms(model, along).items() if np.ndim(energy)}
+        rates = {
+            name: float(np.imag(energy).ravel()[0]) / 1e-30
+            for name, energy in energy_terms(model, along).items()
+            if np.ndim(energy)
+        }
         power, moving = net_power(model, w)[0], sum(abs(rate) for rate in rates.values())
         assert moving > 100.0
         off = abs(sum(rates.values()) - power)
@@ -151,7 +186,8 @@ def running_state_of(model, rng):
 @pytest.mark.parametrize("modes", [32, 40, 48])
 @pytest.mark.parametrize("omega", [200.0, 1000.0, 1910.0])
 def test_rest_under_centrifugal_load_is_that_of_the_static_path(modes, omega):
-    """The start: joints as by the static load path of rigid halves (M_t to 0.3 %, T to 0.5 %: observed 0.1 %, 0.4 %), N = 0, and nothing moves from there.
+    """The start: joints as by the static load path of rigid halves (M_t to 0.3 %, T to 0.5 %: observed 0.1 %, 0.4 %), N
+    = 0, and nothing moves from there.
 
     The path's own rest is the direct contact's (test_cage_joint.py).
     """
@@ -179,10 +215,11 @@ OWN_PADS = {32: {0: 0.35, 2: 0.11}, 40: {0: 0.085, 2: 0.025}, 48: {0: 0.055, 2: 
 @pytest.mark.parametrize("modes", [32, 40, 48])
 @pytest.mark.parametrize("node", [0, 1, 3])
 def test_static_force_on_a_pocket_loads_bonded_joints_as_the_static_path_does(modes, node):
-    """Moments of the joints by a unit force on a wall: modes and what they leave, against the finite elements of the load path.
+    """Moments of the joints by a unit force on a wall: modes and what they leave, against the finite elements of the
+    load path.
 
-    The largest moment to 1 % (observed 0.95 %, 0.3 % of forces along t) with all of the residual; as the dynamics has it, with what each joint's own pads feel
-    of it and without the part from wall to pads, to OWN_PADS.
+    The largest moment to 1 % (observed 0.95 %, 0.3 % of forces along t) with all of the residual; as the dynamics has
+    it, with what each joint's own pads feel of it and without the part from wall to pads, to OWN_PADS.
     """
     model = Model.of(ELASTIC | {"scene.modes": modes})
     d, half, table = model.d, model.d.elastic, default_table()
@@ -197,8 +234,13 @@ def test_static_force_on_a_pocket_loads_bonded_joints_as_the_static_path_does(mo
         M = np.cross(place, force)
         load = np.append(shape[:, 0].T @ force / ROOT, 0.5 * np.array([force[0], M[1], M[2]]))
         by_wall = 0.5 * residual.pocket[node][:, OUT][:, :, f].ravel()
-        for K, e, bound in ((np.linalg.inv(R), by_wall, 0.01), (np.kron(np.eye(Z), half.law.stiffness), 0.0 * by_wall, OWN_PADS[modes][f])):
-            stiffness = to_joints.T @ (0.5 * K) @ to_joints + np.diag(np.append(model.p.cage.m * half.omega**2, np.zeros(3)))
+        for K, e, bound in (
+            (np.linalg.inv(R), by_wall, 0.01),
+            (np.kron(np.eye(Z), half.law.stiffness), 0.0 * by_wall, OWN_PADS[modes][f]),
+        ):
+            stiffness = to_joints.T @ (0.5 * K) @ to_joints + np.diag(
+                np.append(model.p.cage.m * half.omega**2, np.zeros(3))
+            )
             x = np.linalg.solve(stiffness, load - to_joints.T @ K @ e)
             L = (K @ (0.5 * to_joints @ x + e)).reshape(Z, 3)
             expected = path[:, [0, 3, 4], f]
@@ -207,9 +249,11 @@ def test_static_force_on_a_pocket_loads_bonded_joints_as_the_static_path_does(mo
 
 @pytest.mark.parametrize("scene", [{}, {"scene.modes": 33, "cage.m": 0.04}], ids=["usual", "fewer and heavier"])
 def test_what_the_halves_move_at_the_rivets(core, scene):
-    """rivet[k].flex_*: the table's amplitudes times the states, by waves u_k = Re[(a - i b) U exp(i nu)] of unit modal mass; half 0 is mirrored in the split.
+    """rivet[k].flex_*: the table's amplitudes times the states, by waves u_k = Re[(a - i b) U exp(i nu)] of unit modal
+    mass; half 0 is mirrored in the split.
 
-    Rounding of 48 terms (observed 8e-16 of the largest); the halves' difference is what moves the pads of a joint against each other.
+    Rounding of 48 terms (observed 8e-16 of the largest); the halves' difference is what moves the pads of a joint
+    against each other.
     """
     rng, instance, table = np.random.default_rng(11), Instance(core, ELASTIC | scene).step(1e-4), default_table()
     model, w = Model.of(ELASTIC | scene), Work()
@@ -228,7 +272,11 @@ def test_what_the_halves_move_at_the_rivets(core, scene):
             q = (y[MODE_S][places] + sign * y[MODE_D][places]) * np.sqrt(0.5 * table.half.m)
             a, b = {0: q, 1: [q[0], 0.0], -1: [0.0, q[0]]}[int(modes.parity[i])]
             wave = (a - 1j * b) * np.exp(1j * modes.harmonic[i] * nu)
-            expected[h] += [sign * np.real(modes.pad[i, 0] * wave), np.real(modes.pad[i, 1] * wave), np.real(1j * modes.pad[i, 2] * wave)]
+            expected[h] += [
+                sign * np.real(modes.pad[i, 0] * wave),
+                np.real(modes.pad[i, 1] * wave),
+                np.real(1j * modes.pad[i, 2] * wave),
+            ]
     assert np.abs(expected).max() > 1e-8
     for h in range(2):
         for c, name in enumerate("xrt"):
@@ -278,11 +326,15 @@ def test_waves_go_on_by_a_pitch():
     cage_elastic_kinematics(model, z, turned)
     for name, count in rows.items():
         for i in range(count):
-            np.testing.assert_allclose(getattr(turned, name)[i], np.roll(getattr(w, name)[i], 1), atol=1e-9 * np.abs(getattr(w, name)[i]).max())
+            np.testing.assert_allclose(
+                getattr(turned, name)[i], np.roll(getattr(w, name)[i], 1), atol=1e-9 * np.abs(getattr(w, name)[i]).max()
+            )
 
 
 def test_momentum_is_kept():
-    """Forces of joints on halves and modes balance: joints alone (no contact) leave momentum and the moment about X of both halves as they are."""
+    """Forces of joints on halves and modes balance: joints alone (no contact) leave momentum and the moment about X of
+    both halves as they are.
+    """
     rng = np.random.default_rng(10)
     model = Model.of(ELASTIC | {"cage.pocket_clearance": 1e-3})
     y = start_state(model)[0]
@@ -295,8 +347,8 @@ def test_momentum_is_kept():
     assert np.abs(w.joint_load[0]).max() > 1.0
     stiffless = y.copy()
     h0, h1 = w.half
-    from bearing_model.cage.elastic.cage_elastic import cage_elastic_joints, cage_elastic_pads
     from bearing_model.cage.common.cage_joint import cage_joint_force, cage_joint_kinematics
+    from bearing_model.cage.elastic.cage_elastic import cage_elastic_joints, cage_elastic_pads
     from bearing_model.physics.rhs import rotor_kinematics
 
     rotor_kinematics(model, stiffless, without)
@@ -316,7 +368,9 @@ def test_momentum_is_kept():
 @pytest.mark.c_only
 @pytest.mark.parametrize(("method", "bound"), [(Method.EXPLICIT, 1e-4), (Method.VERLET, 5e-3)])
 def test_energy_of_a_run(core, method, bound, record_property):
-    """The working point for 10 ms: supplied = stored + lost, to a part of what is lost (observed 3e-5 by Runge-Kutta, 2e-3 by the default step)."""
+    """The working point for 10 ms: supplied = stored + lost, to a part of what is lost (observed 3e-5 by Runge-Kutta,
+    2e-3 by the default step).
+    """
     bearing, lost = Instance(core, ELASTIC | {"solver.method": method}, tolerance=1e-4), 0.0
     for i in range(100):
         bearing.step(1e-4 * (i + 1))
@@ -329,7 +383,9 @@ def test_energy_of_a_run(core, method, bound, record_property):
 
 @pytest.mark.c_only
 def test_saved_state(core):
-    """Saved, restored into another instance, and gone on: the same bits.  A forged mode or joint load is refused; so is a mode in a scene without modes."""
+    """Saved, restored into another instance, and gone on: the same bits.  A forged mode or joint load is refused; so is
+    a mode in a scene without modes.
+    """
     lib, ffi = core.lib, core.ffi
     first, other = Instance(core, ELASTIC), Instance(core)
     first.step(2e-3)
@@ -358,7 +414,9 @@ def all_states(core, instance):
 
 @pytest.mark.parametrize(("modes", "most"), [(32, 0.25), (40, 0.09), (48, 0.04)])
 def test_what_the_modes_leave_between_two_joints_is_small(modes, most):
-    """Each joint follows from its own pads: what a load on the others moves them by beside the modes, as a part of what their own loads do."""
+    """Each joint follows from its own pads: what a load on the others moves them by beside the modes, as a part of what
+    their own loads do.
+    """
     R = fewer(default_table().modes, modes).residual.pad[:, OUT][:, :, OUT]
     root = np.sqrt(np.diag(R[0]))
     part = np.abs(R / np.outer(root, root))
@@ -377,14 +435,24 @@ def test_in_plane_and_out_of_plane_are_all_motions_but_one():
 
 
 def test_joints_turn_with_the_cage(monkeypatch):
-    """What substeps move the joints by is what the joints' new places say, found from the halves' positions alone: a turning cage, halves that move apart.
+    """What substeps move the joints by is what the joints' new places say, found from the halves' positions alone: a
+    turning cage, halves that move apart.
 
-    Expected: far below what joints that stand still over the step miss; a turn that is 1 % off misses 1 % of that (observed 0.65 %, by steps of third order).
+    Expected: far below what joints that stand still over the step miss; a turn that is 1 % off misses 1 % of that
+    (observed 0.65 %, by steps of third order).
     """
     model = Model.of(ELASTIC | {"cage.pocket_clearance": 4e-4}, {"shaft.omega": 7500.0})
     y, opposed = start_state(model)[0], np.array([-1.0, 1.0])
     y[STATE_SLICES["cage_s"]] = 3300.0
-    for name, apart in {"y": 1e-7, "beta": 2e-6, "gamma": -1e-6, "beta_dot": -0.3, "gamma_dot": 0.2, "v_y": -5e-3, "v_z": 3e-3}.items():
+    for name, apart in {
+        "y": 1e-7,
+        "beta": 2e-6,
+        "gamma": -1e-6,
+        "beta_dot": -0.3,
+        "gamma_dot": 0.2,
+        "v_y": -5e-3,
+        "v_z": 3e-3,
+    }.items():
         y[STATE_SLICES[f"cage_{name}"]] += apart * opposed
 
     def missed(h=1.175e-6):

@@ -14,8 +14,12 @@ from rivet_model import half_loads, joint_contact
 from rivet_model.geometry import Geometry
 
 MU, PRELOAD = 0.15, 20.0
-TABLE = json.loads((ROOT / "rivet_model" / "tables" / "6207.json").read_text(encoding="utf-8"))  # the table that is embedded
-JOINT = TABLE["joint"] | {"k_rivet": TABLE["half"]["k_open"], "k_plate": TABLE["half"]["k_closed"] - TABLE["half"]["k_open"]}
+# the table that is embedded
+TABLE = json.loads((ROOT / "rivet_model" / "tables" / "6207.json").read_text(encoding="utf-8"))
+JOINT = TABLE["joint"] | {
+    "k_rivet": TABLE["half"]["k_open"],
+    "k_plate": TABLE["half"]["k_closed"] - TABLE["half"]["k_open"],
+}
 K_RIVET, K_PLATE, K_T, K_H = (JOINT[name] for name in ("k_rivet", "k_plate", "k_t_plate", "k_t_head"))  # [N/m]
 
 NAMES = ("plate_y", "plate_z", "head_y", "head_z")
@@ -56,7 +60,9 @@ class Joints:
             self.y[SLICE[f"joint_{name}"]] += dt * numbers(getattr(self.w, f"{name}_dot"))
 
     def pull(self, path, speed=1e-3):
-        """Moves half 1 along y through the places of `path`; friction force per joint after each, and the dissipated work."""
+        """Moves half 1 along y through the places of `path`; friction force per joint after each, and the dissipated
+        work.
+        """
         force, work = [], 0.0
         for here, there in itertools.pairwise(path):
             step, middle = there - here, 0.5 * (here + there)
@@ -72,16 +78,20 @@ class Joints:
 
 
 def test_pull_curve(core):
-    """Plates then heads hold mu P each, 2 mu P = 6 N in all; free slip up to the gap of 6 um; then the shank bears with k_hole.
+    """Plates then heads hold mu P each, 2 mu P = 6 N in all; free slip up to the gap of 6 um; then the shank bears with
+    k_hole.
 
-    Dahl's law pulled one way: mu P (1 - exp(-k u/(mu P))) for each of the two.  Midpoint steps of 6 nm: observed 1e-4 of 6 N.
+    Dahl's law pulled one way: mu P (1 - exp(-k u/(mu P))) for each of the two.  Midpoint steps of 6 nm: observed 1e-4
+    of 6 N.
     """
     joints = Joints(core)  # fit -10 um + swell 4 um
     u = np.linspace(0.0, 9e-6, 1501)
     force, _ = joints.pull(u)
     capacity = MU * PRELOAD
     gap, k_hole = 6e-6, np.interp(-6e-6, JOINT["hole_fit"], JOINT["k_hole"])
-    law = sum((capacity + 1e-3) * (1.0 - np.exp(-k * u[1:] / (capacity + 1e-3))) for k in (K_T, K_H)) + k_hole * np.maximum(u[1:] - gap, 0.0)
+    law = sum(
+        (capacity + 1e-3) * (1.0 - np.exp(-k * u[1:] / (capacity + 1e-3))) for k in (K_T, K_H)
+    ) + k_hole * np.maximum(u[1:] - gap, 0.0)
     assert np.abs(force - law).max() < 1e-3
     at = lambda place: force[np.searchsorted(u[1:], place)]
     assert at(5.9e-6) == pytest.approx(2.0 * capacity, rel=1e-3)
@@ -93,7 +103,10 @@ def test_play_of_the_hole(core, fit):
     """Bearing starts at |u| = -(fit + swell), at once with interference; without friction."""
     joints = Joints(core, **{"joint.fit": fit, "joint.mu": 0.0})
     play = max(0.0, -(fit + 4e-6))
-    before, after = (-joints.move((0.0, (play + step) * 0.6, -(play + step) * 0.8))[1:] / Z for step in (-1e-8 if play else 0.0, 1e-7))
+    before, after = (
+        -joints.move((0.0, (play + step) * 0.6, -(play + step) * 0.8))[1:] / Z
+        for step in (-1e-8 if play else 0.0, 1e-7)
+    )
     assert before == pytest.approx([0.0, 0.0], abs=1e-12)
     assert np.hypot(*after) == pytest.approx(joints.model.d.k_hole[0] * 1e-7, rel=1e-8)
     assert after / np.hypot(*after) == pytest.approx([0.6, -0.8], rel=1e-8)
@@ -101,7 +114,8 @@ def test_play_of_the_hole(core, fit):
 
 @pytest.mark.parametrize("amplitude", [1e-7, 5e-7, 4e-6])
 def test_hysteresis(core, amplitude):
-    """Cycle of +-A: Dahl's loop encloses 4 F_c (A - (F_c/k) tanh(k A/F_c)) for plates and heads, and that is what is dissipated.
+    """Cycle of +-A: Dahl's loop encloses 4 F_c (A - (F_c/k) tanh(k A/F_c)) for plates and heads, and that is what is
+    dissipated.
 
     From z(u) = z_c - (z_c + z_m) exp(-(u + A)/z_c), z_c = F_c/k, z_m = z_c tanh(A/z_c).  Observed 2e-6.
     """
@@ -120,7 +134,9 @@ def test_hysteresis(core, amplitude):
 
 
 def test_axial_law(core):
-    """Rivet P + k u, plates P - k u until they open at P/k; then the rivet alone; pressed plates carry more until the rivet goes slack."""
+    """Rivet P + k u, plates P - k u until they open at P/k; then the rivet alone; pressed plates carry more until the
+    rivet goes slack.
+    """
     joints = Joints(core)
     opening, slack = PRELOAD / K_PLATE, -PRELOAD / K_RIVET
     for u in (0.3 * opening, 3.0 * opening, 0.8 * slack, 1.7 * slack):
@@ -154,7 +170,8 @@ def joints_alike():
 
 @pytest.mark.parametrize(("omega", "preload"), [(754.0, 20.0), (754.0, 40.0), (1500.0, 20.0), (200.0, 60.0)])
 def test_spin_sets_the_friction(core, joints_alike, omega, preload):
-    """Breakaway force of a joint in a cage that turns: 2 mu T, T the rivet's tension by direct contact of the halves under their centrifugal load.
+    """Breakaway force of a joint in a cage that turns: 2 mu T, T the rivet's tension by direct contact of the halves
+    under their centrifugal load.
 
     The table's law is within 2 % of the contact (tests/test_joint_law.py).  Without the centrifugal load: 2 mu P.
     """
@@ -170,7 +187,8 @@ def test_spin_sets_the_friction(core, joints_alike, omega, preload):
 
 
 def test_friction_is_smooth_in_the_speed(core):
-    """The slope of the capacity over the cage's speed has no jump: in steps of 0.1 rad/s it changes by less than 0.5 % of its largest value.
+    """The slope of the capacity over the cage's speed has no jump: in steps of 0.1 rad/s it changes by less than 0.5 %
+    of its largest value.
 
     The table's states are 7 rad/s apart; joined by straight lines they would give jumps of some 3 %.
     """
@@ -188,7 +206,9 @@ def test_friction_is_smooth_in_the_speed(core):
 
 
 def test_axial_natural_frequency(core):
-    """Two halves on Z closed joints: omega^2 = Z (k_rivet + k_plate)/(m/2), damping ratio 0.02.  By differences of dy/dt about rest."""
+    """Two halves on Z closed joints: omega^2 = Z (k_rivet + k_plate)/(m/2), damping ratio 0.02.  By differences of
+    dy/dt about rest.
+    """
     model = core.model(parameters={"joint.F_floor": 1e-3, "oil.eta": 1e-12})
     y = model.start()
 
@@ -226,7 +246,9 @@ def test_common_motion_slips_nowhere(core):
 
 
 def test_slip_by_relative_rotation(core):
-    """Half 1 turned by 0.1 mrad against half 0: every joint slips 0.1 mrad times the pitch radius, along the circumference, at that rate."""
+    """Half 1 turned by 0.1 mrad against half 0: every joint slips 0.1 mrad times the pitch radius, along the
+    circumference, at that rate.
+    """
     joints = Joints(core, **{"joint.mu": 0.0})
     psi, rate, R = 1e-4, 3.0, 0.5 * 0.0535
     pose(core, joints.w.half[1], frame=Rotation.from_rotvec([psi, 0, 0]).as_matrix(), Omega=(rate, 0.0, 0.0))

@@ -7,7 +7,15 @@ import numpy as np
 import pytest
 
 from riveted_bearing import UserError
-from riveted_bearing.design.cascade import Cascade, State, follow, next_break, run_cascades, write_cascades, write_picture
+from riveted_bearing.design.cascade import (
+    Cascade,
+    State,
+    follow,
+    next_break,
+    run_cascades,
+    write_cascades,
+    write_picture,
+)
 from riveted_bearing.fmu import Model
 from riveted_bearing.sweep import cluster
 
@@ -27,7 +35,8 @@ def states_by(rates_of, opens=lambda gone: False, seeds=3):
 def test_damage_adds_up_over_the_states_by_hand():
     """Rates 1, 0.5, 0.25 per 1000 h; after each break the others' rates double.
 
-    Rivet 1 goes after 1000 h.  Rivet 2 has half of its damage then: 0.5/(1/1000) = 500 h more.  Rivet 3 has 0.25 + 500 x 0.5/1000 = 0.5: with 1/1000 500 h.
+    Rivet 1 goes after 1000 h.  Rivet 2 has half of its damage then: 0.5/(1/1000) = 500 h more.  Rivet 3 has 0.25 + 500
+    x 0.5/1000 = 0.5: with 1/1000 500 h.
     """
 
     def rates(gone):
@@ -43,7 +52,10 @@ def test_damage_adds_up_over_the_states_by_hand():
 
 def test_a_middle_breaks_where_its_damage_is_larger():
     assert next_break(np.zeros((3, 2)), np.array([[1.0, 0.0], [0.0, 4.0], [2.0, 3.0]])) == (0.25, (1, 1))
-    assert next_break(np.array([[0.9, 0.0], [0.0, 0.0]]), np.array([[1.0, 0.0], [0.0, 4.0]])) == (pytest.approx(0.1), (0, 0))
+    assert next_break(np.array([[0.9, 0.0], [0.0, 0.0]]), np.array([[1.0, 0.0], [0.0, 4.0]])) == (
+        pytest.approx(0.1),
+        (0, 0),
+    )
 
 
 def test_what_ends_a_cascade():
@@ -57,7 +69,9 @@ def test_what_ends_a_cascade():
 
 
 def test_seeds_that_disagree_leave_the_order_unsure():
-    """Two rivets, each worse with one of two seeds by the same factor: the first is the next to break in all resamples but those of the other seed alone."""
+    """Two rivets, each worse with one of two seeds by the same factor: the first is the next to break in all resamples
+    but those of the other seed alone.
+    """
 
     def state_at(gone):
         rates = np.array([[[3.0, 0.0], [1.0, 0.0], [0.0, 0.0]], [[1.0, 0.0], [2.9, 0.0], [0.0, 0.0]]])
@@ -79,7 +93,12 @@ def test_seeds_that_disagree_leave_the_order_unsure():
 )
 def test_what_cannot_be_is_refused_by_name(tmp_path, fmu, document, words):
     path = tmp_path / "c.toml"
-    small = {"seeds": 1, "breaks": 1, "simulation": {"t_end": 2e-3}, "parameters": {"start.settle": 1e-3, "fatigue.sigma_D": "20 MPa"}}
+    small = {
+        "seeds": 1,
+        "breaks": 1,
+        "simulation": {"t_end": 2e-3},
+        "parameters": {"start.settle": 1e-3, "fatigue.sigma_D": "20 MPa"},
+    }
     small |= document
     with pytest.raises(UserError, match=re.escape(words)):
         run_cascades(path, small, Model(fmu), tmp_path / "runs", lambda: pytest.fail("nothing is simulated"))
@@ -98,12 +117,16 @@ def test_a_rigid_cage_is_refused(fmu, tmp_path):
 
 
 def test_neighbours_of_a_broken_rivet_carry_its_share(fmu, tmp_path, record_property):
-    """Whichever goes first, its neighbours bear a part of the centrifugal load that it had.  A second call reads the runs."""
+    """Whichever goes first, its neighbours bear a part of the centrifugal load that it had.  A second call reads the
+    runs.
+    """
     document = {"scene": "demo", "seeds": 2, "breaks": 2, "simulation": {"t_end": "20 ms"}}
     document["parameters"] = {"scene.cage": "two_half", "start.settle": "5 ms", "fatigue.sigma_D": "150 MPa"}
     with cluster(None, 1) as client:
         found = run_cascades(tmp_path / "c.toml", document, Model(fmu), tmp_path / "runs", lambda: client)
-    again = run_cascades(tmp_path / "c.toml", document, Model(fmu), tmp_path / "runs", lambda: pytest.fail("no run is missing"))
+    again = run_cascades(
+        tmp_path / "c.toml", document, Model(fmu), tmp_path / "runs", lambda: pytest.fail("no run is missing")
+    )
     first, second = found[0].order
     record_property("order", json.dumps(found[0].order))
     assert first[0] != second[0] and found[0].order == again[0].order

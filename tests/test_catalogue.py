@@ -1,4 +1,6 @@
-"""Bearings by designation: the table against other sources, the rule for the balls against known bearings, what follows by scaling."""
+"""Bearings by designation: the table against other sources, the rule for the balls against known bearings, what follows
+by scaling.
+"""
 
 import math
 
@@ -31,15 +33,25 @@ KNOWN = {  # balls counted and measured: number, diameter [mm]
 
 
 def test_the_common_series_are_there():
-    """60, 62, 63 with bores 10...110 mm and 64 from 17 to 90 mm, with the boundary dimensions that ISO 15 gives by series and bore."""
+    """60, 62, 63 with bores 10...110 mm and 64 from 17 to 90 mm, with the boundary dimensions that ISO 15 gives by
+    series and bore.
+    """
     table = entries()
     assert sorted({name[:2] for name in table}) == ["60", "62", "63", "64"] and len(table) == 85
     for name, entry in table.items():
         code = int(name[2:])
         assert round(1e3 * entry.bore) == {0: 10, 1: 12, 2: 15, 3: 17}.get(code, 5 * code), name
-        assert entry.bore < entry.outside_diameter and entry.C_0 < entry.C and 0.2 < entry.width / (entry.outside_diameter - entry.bore) < 0.6, name
-    sizes = {name: tuple(round(1e3 * v) for v in (table[name].bore, table[name].outside_diameter, table[name].width)) for name in ("6008", "6308", "6408")}
-    assert sizes == {"6008": (40, 68, 15), "6308": (40, 90, 23), "6408": (40, 110, 27)}  # ISO 15: dimension series 10, 03, 04
+        assert (
+            entry.bore < entry.outside_diameter
+            and entry.C_0 < entry.C
+            and 0.2 < entry.width / (entry.outside_diameter - entry.bore) < 0.6
+        ), name
+    sizes = {
+        name: tuple(round(1e3 * v) for v in (table[name].bore, table[name].outside_diameter, table[name].width))
+        for name in ("6008", "6308", "6408")
+    }
+    # ISO 15: dimension series 10, 03, 04
+    assert sizes == {"6008": (40, 68, 15), "6308": (40, 90, 23), "6408": (40, 110, 27)}
 
 
 @pytest.mark.parametrize("designation", NSK)
@@ -52,7 +64,9 @@ def test_ratings_against_another_maker(designation):
 
 @pytest.mark.parametrize("designation", NSK)
 def test_balls_against_another_makers_factor(designation):
-    """The other maker's f_0 tells its D/d_m by ISO 76, with three digits to 1 %: ball diameters by rule within 4 %, observed 2.8 %."""
+    """The other maker's f_0 tells its D/d_m by ISO 76, with three digits to 1 %: ball diameters by rule within 4 %,
+    observed 2.8 %.
+    """
     entry = entries()[designation]
     _, D = balls(entry)
     gamma = brentq(lambda gamma: rating_factor_0(gamma) - NSK[designation][2], 0.08, 0.36)
@@ -87,12 +101,19 @@ def test_every_bearing_of_the_catalogue_can_be_built():
         assert case.bare and not case.of_origin("yours")
         for key, variable in variables.PARAMETERS.items():
             value = case.values.get(key)
-            assert not isinstance(value, float) or variable.min is None or variable.min <= value <= variable.max, (name, key)
+            assert not isinstance(value, float) or variable.min is None or variable.min <= value <= variable.max, (
+                name,
+                key,
+            )
 
 
 def test_clearance_is_the_middle_of_class_cn():
     """ISO 5753-1: 6...20 um for 30 < bore <= 40 mm; the table's bounds rise with the bore."""
-    assert clearance(0.035) == pytest.approx(13e-6) and clearance(0.040) == pytest.approx(13e-6) and clearance(0.041) == pytest.approx(14.5e-6)
+    assert (
+        clearance(0.035) == pytest.approx(13e-6)
+        and clearance(0.040) == pytest.approx(13e-6)
+        and clearance(0.041) == pytest.approx(14.5e-6)
+    )
     assert clearance(0.2) is None
     assert all(np.diff([row[2] for row in CLEARANCE_CN]) >= 0)
 
@@ -109,23 +130,45 @@ def test_scaling_gives_the_6207_back():
 def test_similar_bearings_scale():
     """A bearing twice as large: lengths twice, preload four times, masses eight times, inertia 32 times."""
     shapes = [(9, r * 0.0111125, r * 0.0535, {}) for r in (1.0, 2.0)]
-    small, large = (scaled_parameters(*shape, scaled_rivet(*shape, {}), r * BORE, r * WIDTH) for shape, r in zip(shapes, (1.0, 2.0), strict=True))
-    powers = {"cage.D_o": 1, "cage.width": 1, "cage.pocket_clearance": 1, "joint.preload": 2, "cage.m": 3, "cage.J_p": 5, "ring.m": 3, "ring.J_t": 5}
+    small, large = (
+        scaled_parameters(*shape, scaled_rivet(*shape, {}), r * BORE, r * WIDTH)
+        for shape, r in zip(shapes, (1.0, 2.0), strict=True)
+    )
+    powers = {
+        "cage.D_o": 1,
+        "cage.width": 1,
+        "cage.pocket_clearance": 1,
+        "joint.preload": 2,
+        "cage.m": 3,
+        "cage.J_p": 5,
+        "ring.m": 3,
+        "ring.J_t": 5,
+    }
     for name, power in powers.items():
         assert large[name] / small[name] == pytest.approx(2.0**power, rel=1e-4), name
 
 
 def test_what_is_given_stands_and_leads(tmp_path):
-    """A given mass means a density, that of the finite elements too: the inertias follow; a given diameter of the cage changes mass and inertias."""
+    """A given mass means a density, that of the finite elements too: the inertias follow; a given diameter of the cage
+    changes mass and inertias.
+    """
     plain = bearing_case("6308")
     path = tmp_path / "mine.toml"
     path.write_text('designation = "6308"\n[parameters]\ncage.m = "70 g"\n')
     mine, g = bearing_case(path), Geometry(**plain.joint)
     rivets = g.Z * half_shape.rivet_mass(g)
-    assert mine.values["cage.rho"] / plain.values["cage.rho"] == pytest.approx((0.07 - rivets) / (plain.values["cage.m"] - rivets), rel=1e-5)
+    assert mine.values["cage.rho"] / plain.values["cage.rho"] == pytest.approx(
+        (0.07 - rivets) / (plain.values["cage.m"] - rivets), rel=1e-5
+    )
     assert mine.joint["rho_flange"] == mine.values["cage.rho"] and mine.origin["cage.rho"] == "rule"
-    assert mine.values["cage.J_p"] / plain.values["cage.J_p"] == pytest.approx(0.07 / plain.values["cage.m"], rel=2e-3)  # rivets sit elsewhere than the bronze
-    assert mine.origin["cage.m"] == "yours" and mine.origin["cage.J_p"] == "rule" and mine.origin["C"] == "catalogue" and "oil.eta" not in mine.origin
+    # rivets sit elsewhere than the bronze
+    assert mine.values["cage.J_p"] / plain.values["cage.J_p"] == pytest.approx(0.07 / plain.values["cage.m"], rel=2e-3)
+    assert (
+        mine.origin["cage.m"] == "yours"
+        and mine.origin["cage.J_p"] == "rule"
+        and mine.origin["C"] == "catalogue"
+        and "oil.eta" not in mine.origin
+    )
     assert mine.catalogue == plain.catalogue and not mine.bare
     path.write_text('Z = 8\n[parameters]\nbearing.D = "15.081 mm"\nbearing.d_m = "65 mm"\ncage.D_o = "74 mm"\n')
     wide = bearing_case(path)
@@ -135,7 +178,9 @@ def test_what_is_given_stands_and_leads(tmp_path):
 
 
 def test_the_seat_leaves_metal_in_every_cage():
-    """Seats by rule: three millimetres in the 6207 and similar, less in the smallest bearings, never smaller than the head; all can be meshed."""
+    """Seats by rule: three millimetres in the 6207 and similar, less in the smallest bearings, never smaller than the
+    head; all can be meshed.
+    """
     for name in entries():
         joint = bearing_case(name).joint
         g = Geometry(**joint)

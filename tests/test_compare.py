@@ -1,4 +1,6 @@
-"""`riveted-bearing compare`: the same scene through FMU and reference, and that a difference between them would be seen."""
+"""`riveted-bearing compare`: the same scene through FMU and reference, and that a difference between them would be
+seen.
+"""
 
 from dataclasses import replace
 
@@ -25,13 +27,20 @@ def found(model):
     """A scene in which balls press on the cage from the start and a load jumps."""
     inputs = {"shaft.F_y": {"t": [0, 5e-5], "value": [2994.0, 2500.0], "interpolation": "hold"}}
     parameters = {"scene.cage": "two_half", "solver.tol": 4e-4, "start.spacing": 0.5, "cage.pocket_clearance": 2e-5}
-    return compare(model, load_scene("demo", model, ("the test", {"inputs": inputs, "parameters": parameters})), short=1e-4, long=0.0)
+    return compare(
+        model,
+        load_scene("demo", model, ("the test", {"inputs": inputs, "parameters": parameters})),
+        short=1e-4,
+        long=0.0,
+    )
 
 
 def test_difference_falls_with_the_tolerance(found):
-    """Motion stays within 100 tolerances (observed 0.07), loads and stresses within 1000 (observed 19: a contact of 1e8 N/m tells 10 um x tolerance by
-    newtons), and both fall by 50 when the tolerance falls by 1e4 (observed 68: contacts have kinks, which two trajectories do not meet at one time):
-    what is left belongs to the integration, not to the models.  5e-5 is nothing."""
+    """Motion stays within 100 tolerances (observed 0.07), loads and stresses within 1000 (observed 19: a contact of 1e8
+    N/m tells 10 um x tolerance by newtons), and both fall by 50 when the tolerance falls by 1e4 (observed 68: contacts
+    have kinks, which two trajectories do not meet at one time): what is left belongs to the integration, not to the
+    models.  5e-5 is nothing.
+    """
     for channel in found.channels:
         assert channel.worst[0] < (100.0 if is_motion(channel) else 1000.0) * found.tolerances[0], channel.name
         assert channel.worst[-1] < max(2e-2 * channel.worst[0], 5e-5), channel.name
@@ -41,7 +50,11 @@ def test_difference_falls_with_the_tolerance(found):
 
 def test_all_outputs_but_peaks_are_compared(found):
     """Every output of the variable table that belongs to an instant."""
-    missing = {name for name, variable in OUTPUTS.items() if variable.group not in ("peak", "event", "stat", "solver", "fatigue")}
+    missing = {
+        name
+        for name, variable in OUTPUTS.items()
+        if variable.group not in ("peak", "event", "stat", "solver", "fatigue")
+    }
     missing -= {channel.name for channel in found.channels}
     assert missing == {"rivet[k].flag", "bearing.contacts", "bearing.energy_residual"}
     for channel in found.channels:
@@ -53,7 +66,11 @@ def test_a_wrong_coefficient_shows(model, monkeypatch):
     """A reference with one per mille more stiffness: the difference no longer falls with the tolerance."""
     import riveted_bearing.compare as module
 
-    monkeypatch.setattr(module, "through_reference", lambda parameters, *rest: through_reference(parameters | {"bearing.E": 1.001 * 207e9}, *rest))
+    monkeypatch.setattr(
+        module,
+        "through_reference",
+        lambda parameters, *rest: through_reference(parameters | {"bearing.E": 1.001 * 207e9}, *rest),
+    )
     wrong = compare(model, load_scene("demo", model), short=2e-5, long=0.0)
     ring = next(channel for channel in wrong.channels if channel.name == "ring.y")
     assert ring.worst[-1] == pytest.approx(ring.worst[0], rel=0.1)
@@ -61,7 +78,9 @@ def test_a_wrong_coefficient_shows(model, monkeypatch):
 
 
 def test_statistics_and_ledger(model, tmp_path):
-    """Over a long horizon, here as short as can be: each of stat.* beside the FMU's scatter, where the energy went, and a picture of it all."""
+    """Over a long horizon, here as short as can be: each of stat.* beside the FMU's scatter, where the energy went, and
+    a picture of it all.
+    """
     seen = []
     scene = replace(load_scene("demo", model, ("the test", {"parameters": {"scene.cage": "two_half"}})), step=5e-4)
     full = compare(model, scene, short=2e-5, long=1e-3, seeds=2, progress=lambda what, share: seen.append(what))
@@ -88,7 +107,9 @@ def test_names():
 
 
 def test_the_tolerance_is_the_scenes(model):
-    """A tolerance of the simulation takes the place of solver.tol, as in the FMU; each is that of the first of three runs."""
+    """A tolerance of the simulation takes the place of solver.tol, as in the FMU; each is that of the first of three
+    runs.
+    """
     settings = {"parameters": {"scene.cage": "two_half", "solver.tol": 3e-4}}
     assert compare(model, load_scene("demo", model, ("test", settings)), short=1e-5, long=0.0).tolerances[0] == 3e-4
     settings["simulation"] = {"tolerance": 2e-3}
@@ -110,7 +131,9 @@ def test_refusals(model, monkeypatch):
 def test_command(tmp_path):
     """As a user starts it."""
     for scene, name in ((["demo"], "demo"), ([], "RivetedBearing")):
-        done = CliRunner().invoke(program, ["compare", *scene, "--short", "20 us", "--long", "0", "--out", str(tmp_path)])
+        done = CliRunner().invoke(
+            program, ["compare", *scene, "--short", "20 us", "--long", "0", "--out", str(tmp_path)]
+        )
         assert done.exit_code == 0, done.output
         assert "ball[j].Q_i" in done.stdout and "F_x 515 N, F_y 2994 N" in done.stdout
         assert (tmp_path / f"{name}_compare.png").is_file()

@@ -29,7 +29,9 @@ def momenta(y):
     for h in range(2):
         x = np.array([part[f"cage_{i}"][h] for i in "xyz"])
         v = np.array([part[f"cage_v_{i}"][h] for i in "xyz"])
-        beta, gamma, beta_dot, gamma_dot = (part[f"cage_{name}"][h] for name in ("beta", "gamma", "beta_dot", "gamma_dot"))
+        beta, gamma, beta_dot, gamma_dot = (
+            part[f"cage_{name}"][h] for name in ("beta", "gamma", "beta_dot", "gamma_dot")
+        )
         a = axis(beta, gamma)
         a_dot = np.array([-(beta * beta_dot + gamma * gamma_dot) / a[0], gamma_dot, -beta_dot])
         P = P + M * v
@@ -50,7 +52,8 @@ def momentum_rates(y, rate, h=1e-9):
 def test_internal_forces_cancel(core, cage, traction, lubrication):
     """The momenta of balls and cage change by what ring and housing do to them: pockets and joints drop out.
 
-    Ring, outer race, films, drag and gravity are taken from a second evaluation with pockets and joints dead; observed 2e-6 N.
+    Ring, outer race, films, drag and gravity are taken from a second evaluation with pockets and joints dead; observed
+    2e-6 N.
     """
     rng = np.random.default_rng(1)
     parameters = {"scene.cage": cage, "scene.traction": traction, "scene.lubrication": lubrication}
@@ -76,11 +79,20 @@ def test_internal_forces_cancel(core, cage, traction, lubrication):
 @pytest.mark.filterwarnings("ignore:divide by zero:RuntimeWarning")  # no oil, no film
 @pytest.mark.parametrize("cage", RIGID_HALVES)
 def test_angular_momentum_about_the_axis(core, cage, record_property):
-    """Without friction, film and drag only the ring changes L_x, by its normal forces' moment about X when it stands off centre or tilted.
+    """Without friction, film and drag only the ring changes L_x, by its normal forces' moment about X when it stands
+    off centre or tilted.
 
     The outer race is round: it cannot.  Observed 1e-9 N.m of 1e-2.
     """
-    smooth = {"oil.A": 0.0, "oil.B": 0.0, "oil.rolling": 0.0, "oil.rho_mix": 0.0, "oil.eta": 1e-300, "cage.mu_land": 0.0, "scene.cage": cage}
+    smooth = {
+        "oil.A": 0.0,
+        "oil.B": 0.0,
+        "oil.rolling": 0.0,
+        "oil.rho_mix": 0.0,
+        "oil.eta": 1e-300,
+        "cage.mu_land": 0.0,
+        "scene.cage": cage,
+    }
     rng = np.random.default_rng(2)
     model = core.model(parameters=smooth)
     seen, worst = 0.0, 0.0
@@ -90,15 +102,30 @@ def test_angular_momentum_about_the_axis(core, cage, record_property):
         ring = model.work.ring
         moment = np.array(list(ring.M)) + np.cross(list(ring.x), list(ring.F))
         assert moment[0] == pytest.approx(-L_dot, abs=3e-8 + 1e-7 * abs(L_dot))
-        assert np.dot(list(ring.M), list(ring.a)) == pytest.approx(0.0, abs=1e-12)  # grooves are round: no moment about the ring's own axis
+        # grooves are round: no moment about the ring's own axis
+        assert np.dot(list(ring.M), list(ring.a)) == pytest.approx(0.0, abs=1e-12)
         seen, worst = max(seen, abs(L_dot)), max(worst, abs(moment[0] + L_dot))
     record_property("N.m", {"difference": float(worst), "of": float(seen)})
     assert seen > 1e-3
 
 
 FREE = {"ring.tilt_mode": TiltMode.FREE, "ring.c": 0.0}  # no support
-SMOOTH = {"oil.A": 0.0, "oil.B": 0.0, "oil.rolling": 0.0, "oil.rho_mix": 0.0, "oil.eta": 1e-5, "cage.mu": 0.0, "cage.mu_land": 0.0}
-SMOOTH |= {"cage.lambda": 0.0, "bearing.lambda": 0.0, "cage.guide_clearance": 5e-3, "cage.land_width": 1e-4, "start.spacing": 0.5}
+SMOOTH = {
+    "oil.A": 0.0,
+    "oil.B": 0.0,
+    "oil.rolling": 0.0,
+    "oil.rho_mix": 0.0,
+    "oil.eta": 1e-5,
+    "cage.mu": 0.0,
+    "cage.mu_land": 0.0,
+}
+SMOOTH |= {
+    "cage.lambda": 0.0,
+    "bearing.lambda": 0.0,
+    "cage.guide_clearance": 5e-3,
+    "cage.land_width": 1e-4,
+    "start.spacing": 0.5,
+}
 OMEGA, RING_J_P, RING_J_T = 1909.8788938, 1.8e-4, 1.2e-4
 
 
@@ -112,8 +139,14 @@ def angular_momentum(y):
 
 
 def drift(core, cage, method, tolerance, t=2e-3):
-    """Change of the angular momentum in t [N.m.s] of unequal balls under thrust alone, less what the thinnest film takes: Petroff, both lands."""
-    parameters = SMOOTH | FREE | {"scene.cage": cage, "solver.method": method, "ball[j].dD": [1e-6 * (j * 5 % 9 - 4) for j in range(Z)]}
+    """Change of the angular momentum in t [N.m.s] of unequal balls under thrust alone, less what the thinnest film
+    takes: Petroff, both lands.
+    """
+    parameters = (
+        SMOOTH
+        | FREE
+        | {"scene.cage": cage, "solver.method": method, "ball[j].dD": [1e-6 * (j * 5 % 9 - 4) for j in range(Z)]}
+    )
     bearing = Instance(core, parameters, {"shaft.F_x": 515.0, "shaft.F_y": 0.0, "shaft.omega": OMEGA}, tolerance)
     start = angular_momentum(bearing.y)
     omega = bearing.output("cage.omega")
@@ -125,9 +158,11 @@ def drift(core, cage, method, tolerance, t=2e-3):
 @pytest.mark.c_only
 @pytest.mark.parametrize("cage", RIGID_HALVES)
 def test_angular_momentum_stays(core, cage, record_property):
-    """Of 0.4 N.m.s without friction, drag, load across the axis or support: Runge-Kutta to rounding, Verlet with a drift of order 2.
+    """Of 0.4 N.m.s without friction, drag, load across the axis or support: Runge-Kutta to rounding, Verlet with a
+    drift of order 2.
 
-    A step's error is of order 3, so the drift goes with tolerance^(2/3), where the tolerance alone decides the steps: from 1e-7 on.
+    A step's error is of order 3, so the drift goes with tolerance^(2/3), where the tolerance alone decides the steps:
+    from 1e-7 on.
     """
     exact, petroff = drift(core, cage, Method.EXPLICIT, 1e-5)
     coarse, tolerances = 1e-5, 10.0 ** np.array([-7.0, -7.5, -8.0, -8.5])
@@ -144,7 +179,9 @@ def test_angular_momentum_stays(core, cage, record_property):
 @pytest.mark.c_only
 @pytest.mark.parametrize("cage", RIGID_HALVES)
 def test_housing_reaction(core, cage):
-    """Load = housing force + inertia of ring, balls and cage + ring damping (ring and gravity included), at each instant of a run."""
+    """Load = housing force + inertia of ring, balls and cage + ring damping (ring and gravity included), at each
+    instant of a run.
+    """
     parameters = {"scene.cage": cage, "gravity.y": -9.81, "scene.statistics": Switch.OFF, "cage.pocket_clearance": 7e-5}
     bearing = Instance(core, parameters)
     model = core.model(parameters=parameters)
@@ -154,7 +191,9 @@ def test_housing_reaction(core, cage):
         bearing.step(n * 4e-4)
         y = bearing.y
         P_dot, _ = momentum_rates(y, model.rhs(bearing.time, y))
-        ring = np.array([bearing.output(f"ring.a_{i}") for i in "xyz"]) * RING + 1500.0 * np.array([bearing.output(f"ring.v_{i}") for i in "xyz"])
+        ring = np.array([bearing.output(f"ring.a_{i}") for i in "xyz"]) * RING + 1500.0 * np.array(
+            [bearing.output(f"ring.v_{i}") for i in "xyz"]
+        )
         housing = np.array([bearing.output(f"housing.F_{i}") for i in "xyz"])
         assert housing == pytest.approx(load + masses * np.array([0.0, -9.81, 0.0]) - P_dot - ring, abs=1e-4)
         assert np.abs(housing).max() > 1000.0
@@ -162,7 +201,9 @@ def test_housing_reaction(core, cage):
 
 @pytest.mark.c_only
 def test_housing_moment(core):
-    """The same for moments about Y and Z: prescribed tilt holds the ring with M_hold = -M_contacts, the housing feels the rest."""
+    """The same for moments about Y and Z: prescribed tilt holds the ring with M_hold = -M_contacts, the housing feels
+    the rest.
+    """
     bearing = Instance(core, inputs={"shaft.tilt_z": 1e-3})
     model = core.model(inputs={"shaft.tilt_z": 1e-3})
     for n in range(1, 4):
@@ -170,7 +211,8 @@ def test_housing_moment(core):
         y = bearing.y
         _, L_dot = momentum_rates(y, model.rhs(bearing.time, y))
         ring = model.work.ring
-        from_ring = -(np.array(list(ring.M)) + np.cross(list(ring.x), list(ring.F)))  # on balls and cage, about the bearing's centre
+        # on balls and cage, about the bearing's centre
+        from_ring = -(np.array(list(ring.M)) + np.cross(list(ring.x), list(ring.F)))
         housing = np.array([bearing.output(f"housing.M_{i}") for i in "yz"])
         assert housing == pytest.approx((from_ring - L_dot)[1:], abs=1e-5)
         assert np.abs(housing).max() > 0.1
@@ -178,7 +220,9 @@ def test_housing_moment(core):
 
 @pytest.mark.c_only
 def test_friction_torque_is_the_shafts(core):
-    """bearing.friction_torque times speed feeds all losses in the mean: here at an instant, -M.a of the contacts about the ring's axis."""
+    """bearing.friction_torque times speed feeds all losses in the mean: here at an instant, -M.a of the contacts about
+    the ring's axis.
+    """
     bearing = Instance(core)
     model = core.model()
     bearing.step(1e-3)

@@ -55,11 +55,15 @@ def test_the_worst_point_is_the_worst():
     rng = np.random.default_rng(3)
     fields = [scale * rng.normal(size=(3, 4, 5, 6)) for scale in (1e8, 2e7)]
     place, point, angle, worst = worst_point(fields, 0.3, 15.0)
-    tried = {(i, *at): findley(f[:, at[0], at[1]], 0.3, 15.0).f for i, f in enumerate(fields) for at in np.ndindex(*f.shape[1:3])}
+    tried = {
+        (i, *at): findley(f[:, at[0], at[1]], 0.3, 15.0).f
+        for i, f in enumerate(fields)
+        for at in np.ndindex(*f.shape[1:3])
+    }
     assert (place, point, angle) == max(tried, key=tried.get) and worst.f == max(tried.values())
 
 
-# Stress components of the rivet ---------------------------------------------------------------------------------------------------------
+# Stress components of the rivet ---------------------------------------------------------------------------------------
 
 
 @pytest.fixture(scope="module")
@@ -74,11 +78,18 @@ def rivet(joint):
 
 def fresh(joint, load, fit):
     """Fields of one load, V along y, by a fresh solution."""
-    return [f[..., 0] for f in joint.fields(joint.solve_shank(load.T, load.V_y, load.m_z, load.m_y, fit)[0][:, None], components.ANGLES)]
+    return [
+        f[..., 0]
+        for f in joint.fields(
+            joint.solve_shank(load.T, load.V_y, load.m_z, load.m_y, fit)[0][:, None], components.ANGLES
+        )
+    ]
 
 
 def test_components_follow_the_finite_elements(rivet, joint):
-    """At the sites of the axes and the sheets' directions they are the finite elements' fields, in all quadrants of m (24 modes: observed 0.5 %)."""
+    """At the sites of the axes and the sheets' directions they are the finite elements' fields, in all quadrants of m
+    (24 modes: observed 0.5 %).
+    """
     T, V, m = reduction.shank_loads(0.25, 0.5, reduction.LENGTH)
     for sign_plane, sign_across in ((1, 1), (-1, 1), (1, -1), (-1, -1)):
         load = RivetLoad(T, V, 0.0, sign_across * m * np.sin(np.pi / 3), sign_plane * m * np.cos(np.pi / 3))
@@ -96,11 +107,20 @@ def test_components_turn_with_the_load(rivet):
 
 
 def test_components_of_a_logged_history(rivet, tmp_path):
-    """Read back from a file, at the loads of a run's outputs; a turning V makes a cycle of a constant channel, and the head is the worst place."""
+    """Read back from a file, at the loads of a run's outputs; a turning V makes a cycle of a constant channel, and the
+    head is the worst place.
+    """
     components.write(rivet, tmp_path / "components.npz")
     again = components.read(tmp_path / "components.npz", Geometry().digest)
     turn, one = np.linspace(0.0, 2 * np.pi, 24), np.ones(24)
-    values = {"T": 25 * one, "V_y": 12 * np.cos(turn), "V_z": 12 * np.sin(turn), "M_shank_y": 0 * one, "M_shank_z": 0 * one, "F_head": 0 * one}
+    values = {
+        "T": 25 * one,
+        "V_y": 12 * np.cos(turn),
+        "V_z": 12 * np.sin(turn),
+        "M_shank_y": 0 * one,
+        "M_shank_z": 0 * one,
+        "F_head": 0 * one,
+    }
     load = logged_load({f"rivet[3].{name}": value for name, value in values.items()}, 3)
     fields = again.fields(load, -6e-6)
     for a, b in zip(fields, rivet.fields(load, -6e-6), strict=True):

@@ -35,7 +35,9 @@ def in_place_of_the_bearing(function, noise=0.0, seed=1):
 
     def evaluate(names, points, responses, seeds=(1, 2)):
         low, high = np.array([BOX[name] for name in names]).T
-        unit = dict.fromkeys(NAMES, 0.5 * np.ones(len(points))) | dict(zip(names, ((np.asarray(points) - low) / (high - low)).T, strict=True))
+        unit = dict.fromkeys(NAMES, 0.5 * np.ones(len(points))) | dict(
+            zip(names, ((np.asarray(points) - low) / (high - low)).T, strict=True)
+        )
         values = np.array(function(*unit.values()), ndmin=2)  # [m, n]
         return values.T[:, None, :] + noise * rng.normal(size=(len(points), len(seeds), len(values)))
 
@@ -49,31 +51,48 @@ def ishigami(a, b, c):
 
 
 def test_sobol_indices_of_ishigamis_function(model):
-    """Ishigami and Homma (1990) in closed form: V1 = (1 + b pi^4/5)^2/2, V2 = a^2/8, V13 = b^2 pi^8 (1/18 - 1/50); a = 7, b = 0.1."""
+    """Ishigami and Homma (1990) in closed form: V1 = (1 + b pi^4/5)^2/2, V2 = a^2/8, V13 = b^2 pi^8 (1/18 - 1/50); a =
+    7, b = 0.1.
+    """
     V1, V2, V13 = 0.5 * (1 + 0.1 * math.pi**4 / 5) ** 2, 49 / 8, 0.01 * math.pi**8 * (1 / 18 - 1 / 50)
     V = V1 + V2 + V13
-    document = {"between": BOX, "responses": ["damage"], "sobol": {"count": 4096, "factors": 3}, "morris": {"trajectories": 20}}
+    document = {
+        "between": BOX,
+        "responses": ["damage"],
+        "sobol": {"count": 4096, "factors": 3},
+        "morris": {"trajectories": 20},
+    }
     found = analyse(plan_sensitivity("s.toml", document, model), in_place_of_the_bearing(ishigami))
     S1, ST = (dict(zip(found.chosen, found.sobol["damage"][key], strict=True)) for key in ("S1", "ST"))
     expected = dict(zip(NAMES, (V1 / V, V2 / V, 0.0), strict=True))
     total = dict(zip(NAMES, ((V1 + V13) / V, V2 / V, V13 / V), strict=True))
     for name in NAMES:  # observed within 0.005 at 4096 points
-        assert S1[name] == pytest.approx(expected[name], abs=0.015) and ST[name] == pytest.approx(total[name], abs=0.015)
+        assert S1[name] == pytest.approx(expected[name], abs=0.015) and ST[name] == pytest.approx(
+            total[name], abs=0.015
+        )
 
 
 def test_elementary_effects_of_a_plane_are_its_slopes(model):
     """y = 5 a - 2 b: mu_star 5, 2, 0 and no scatter, exactly."""
     document = {"between": BOX, "responses": ["damage"], "sobol": {"factors": 0}}
-    found = analyse(plan_sensitivity("s.toml", document, model), in_place_of_the_bearing(lambda a, b, c: 5 * a - 2 * b + 0 * c))
+    found = analyse(
+        plan_sensitivity("s.toml", document, model), in_place_of_the_bearing(lambda a, b, c: 5 * a - 2 * b + 0 * c)
+    )
     morris = found.morris["damage"]
-    assert dict(zip(found.factors, morris["mu_star"], strict=True)) == pytest.approx(dict(zip(NAMES, (5, 2, 0), strict=True)), abs=1e-9)
+    assert dict(zip(found.factors, morris["mu_star"], strict=True)) == pytest.approx(
+        dict(zip(NAMES, (5, 2, 0), strict=True)), abs=1e-9
+    )
     assert np.allclose(morris["sigma"], 0.0, atol=1e-9) and morris["noise"] == pytest.approx(0.0, abs=1e-12)
 
 
 def test_noise_stands_beside_the_indices(model):
-    """Nothing but seeds with variance 1, 2 of them: mu_star is 2 s/sqrt(pi)/delta with s^2 = 1/2, delta = 2/3; 40 trajectories scatter by some 10 %."""
+    """Nothing but seeds with variance 1, 2 of them: mu_star is 2 s/sqrt(pi)/delta with s^2 = 1/2, delta = 2/3; 40
+    trajectories scatter by some 10 %.
+    """
     document = {"between": BOX, "responses": ["damage"], "sobol": {"factors": 0}, "morris": {"trajectories": 40}}
-    found = analyse(plan_sensitivity("s.toml", document, model), in_place_of_the_bearing(lambda a, b, c: 0 * a, noise=1.0))
+    found = analyse(
+        plan_sensitivity("s.toml", document, model), in_place_of_the_bearing(lambda a, b, c: 0 * a, noise=1.0)
+    )
     expected = 2 * math.sqrt(0.5 / math.pi) / (2 / 3)
     assert found.morris["damage"]["noise"] == pytest.approx(expected, rel=0.15)
     assert np.mean(found.morris["damage"]["mu_star"]) == pytest.approx(expected, rel=0.2)
@@ -81,10 +100,17 @@ def test_noise_stands_beside_the_indices(model):
 
 def test_indices_are_written_and_drawn(tmp_path, model):
     document = {"between": BOX, "responses": ["damage", "stress"], "sobol": {"count": 64, "factors": 2}}
-    found = analyse(plan_sensitivity("s.toml", document, model), in_place_of_the_bearing(lambda a, b, c: [ishigami(a, b, c), a + b * c], noise=0.3))
+    found = analyse(
+        plan_sensitivity("s.toml", document, model),
+        in_place_of_the_bearing(lambda a, b, c: [ishigami(a, b, c), a + b * c], noise=0.3),
+    )
     assert json.loads(write_indices(found, tmp_path / "sensitivity.json").read_text())["chosen"] == list(found.chosen)
     again = read_indices(tmp_path)
-    assert (again.morris, again.sobol, again.ranked) == (found.morris, found.sobol, found.ranked) and again.ranked == [0, 1, 2]
+    assert (again.morris, again.sobol, again.ranked) == (found.morris, found.sobol, found.ranked) and again.ranked == [
+        0,
+        1,
+        2,
+    ]
     assert write_picture(found, tmp_path / "s.png").stat().st_size > 20000
 
 
@@ -100,8 +126,10 @@ def valley(a, b, c):
 
 
 def test_a_known_optimum_is_found_under_noise(model):
-    """A search point's mean has a noise of 0.1/sqrt(2) = 0.07.  Over three searches the recommended points are on average far better than that (observed
-    0.01 to 0.02), and better than the one that a grid of 8 x 8 points would choose by its noisy values."""
+    """A search point's mean has a noise of 0.1/sqrt(2) = 0.07.  Over three searches the recommended points are on
+    average far better than that (observed
+    0.01 to 0.02), and better than the one that a grid of 8 x 8 points would choose by its noisy values.
+    """
     two = {name: BOX[name] for name in NAMES[:2]}
     found, grid = [], []
     for seed in (1, 2, 3):
@@ -109,10 +137,13 @@ def test_a_known_optimum_is_found_under_noise(model):
         document = {"between": two, "objectives": ["damage"], "trials": 60, "check_seeds": 8, "seed": seed}
         optimum = search(plan_optimize("o.toml", document, model), evaluate)
         value = valley(*unit(optimum.points[optimum.candidates[optimum.best]]), 0.0)
-        assert abs(optimum.means[optimum.best, 0] - value) < 4 * 0.1 / math.sqrt(8)  # fresh seeds: without the luck of the search
+        # fresh seeds: without the luck of the search
+        assert abs(optimum.means[optimum.best, 0] - value) < 4 * 0.1 / math.sqrt(8)
         found.append(value)
         a, b = (x.ravel() for x in np.meshgrid(*[(np.arange(8) + 0.5) / 8] * 2))
-        points = np.column_stack([BOX[name][0] + x * (BOX[name][1] - BOX[name][0]) for name, x in zip(NAMES, (a, b), strict=False)])
+        points = np.column_stack(
+            [BOX[name][0] + x * (BOX[name][1] - BOX[name][0]) for name, x in zip(NAMES, (a, b), strict=False)]
+        )
         grid.append(valley(*unit(points[evaluate(NAMES[:2], points, ["damage"]).mean(axis=1)[:, 0].argmin()]), 0.0))
     assert np.mean(found) < 0.03 and np.mean(found) < np.mean(grid)
 
@@ -124,25 +155,44 @@ def unit(point):
 
 def test_a_limit_is_kept_and_its_optimum_lies_on_it(model):
     """Least of a + b with a b >= 0.25, that is -ab <= -0.25: a = b = 0.5."""
-    document = {"between": {name: BOX[name] for name in NAMES[:2]}, "objectives": ["damage"], "limits": {"dislocation": -0.25}, "trials": 80, "candidates": 3}
+    document = {
+        "between": {name: BOX[name] for name in NAMES[:2]},
+        "objectives": ["damage"],
+        "limits": {"dislocation": -0.25},
+        "trials": 80,
+        "candidates": 3,
+    }
     found = search(plan_optimize("o.toml", document, model), in_place_of_the_bearing(lambda a, b, c: [a + b, -a * b]))
     assert found.means[found.best, 1] <= -0.25 and found.means[found.best, 0] == pytest.approx(1.0, abs=0.12)
 
 
 def test_two_objectives_give_a_front(tmp_path, model):
     """a^2 and (1 - a)^2: every a is on the front as long as b = 0 is not worse; the recommended one is in the middle."""
-    document = {"between": {name: BOX[name] for name in NAMES[:2]}, "objectives": ["damage", "friction"], "trials": 60, "candidates": 4}
-    found = search(plan_optimize("o.toml", document, model), in_place_of_the_bearing(lambda a, b, c: [a**2 + 0.2 * b, (1 - a) ** 2 + 0.2 * b]))
+    document = {
+        "between": {name: BOX[name] for name in NAMES[:2]},
+        "objectives": ["damage", "friction"],
+        "trials": 60,
+        "candidates": 4,
+    }
+    found = search(
+        plan_optimize("o.toml", document, model),
+        in_place_of_the_bearing(lambda a, b, c: [a**2 + 0.2 * b, (1 - a) ** 2 + 0.2 * b]),
+    )
     a = (found.points[found.candidates[found.best], 0] - 0.1) / 0.2
     assert 0.25 < a < 0.75
     answer = json.loads(write_optimum(found, tmp_path / "o.json").read_text())
-    assert answer["recommended"]["at"]["joint.mu"] == found.points[found.candidates[found.best], 0] and len(answer["candidates"]) == 4
+    assert (
+        answer["recommended"]["at"]["joint.mu"] == found.points[found.candidates[found.best], 0]
+        and len(answer["candidates"]) == 4
+    )
     assert write_optimum_picture(found, tmp_path / "o.png").stat().st_size > 15000
 
 
 def test_a_search_repeats_itself(model):
     document = {"between": BOX, "objectives": ["damage"], "trials": 24, "candidates": 2}
-    one, two = (search(plan_optimize("o.toml", document, model), in_place_of_the_bearing(valley, noise=0.1)) for _ in range(2))
+    one, two = (
+        search(plan_optimize("o.toml", document, model), in_place_of_the_bearing(valley, noise=0.1)) for _ in range(2)
+    )
     np.testing.assert_array_equal(one.points, two.points)
 
 
@@ -166,7 +216,11 @@ def test_what_no_point_can_keep_is_said(model):
         (plan_optimize, {"between": BOX, "trials": 0}, ["trials = 0"]),
         (plan_optimize, {"between": BOX, "check_seeds": 1}, ["check_seeds = 1"]),
         (plan_optimize, {"between": BOX, "limits": {"stress": "3 mm"}}, ["limits.stress = '3 mm'", "MPa"]),
-        (plan_optimize, {"between": BOX, "limits": {"stres": "3 MPa"}}, ['"limits.stres"', 'did you mean "limits.stress"']),
+        (
+            plan_optimize,
+            {"between": BOX, "limits": {"stres": "3 MPa"}},
+            ['"limits.stres"', 'did you mean "limits.stress"'],
+        ),
         (plan_optimize, {"between": BOX, "objective": []}, ['"objective"', 'did you mean "objectives"']),
         (plan_optimize, {"between": {"start.seed": [1, 9]}}, ["start.seed", "only real numbers have ranges"]),
     ],
@@ -189,16 +243,30 @@ def test_a_response_that_does_not_exist_is_refused_before_a_run(tmp_path, kind):
     key = {"sensitivity": "responses", "optimize": "objectives"}[kind]
     (tmp_path / "study.toml").write_text(f'{key} = ["stres"]\n[between]\njoint.mu = [0.1, 0.3]\n')
     refused = command(kind, "study.toml", folder=tmp_path)
-    assert refused.returncode == 2 and refused.stderr == 'error: study.toml: unknown response "stres"; did you mean "stress"?\n'
+    assert (
+        refused.returncode == 2
+        and refused.stderr == 'error: study.toml: unknown response "stres"; did you mean "stress"?\n'
+    )
     assert [path.name for path in tmp_path.iterdir()] == ["study.toml"]
 
 
 def test_values_are_shown_in_units_that_people_use():
     """SI inside; printed and drawn as the variable table displays them, a temperature with its offset."""
-    values = {"joint.fit": (-3e-6, "-3 um"), "stress": (3.1e8, "310 MPa"), "damage": (-7.0, "-7 log10 per hour"), "ball.T": (293.15, "20 degC")}
-    values |= {"max(cage.dislocation)": (2e-6, "2 um"), "rivet[3].sigma_head": (2e8, "200 MPa"), "shaft.omega": (100.0 * math.pi, "3000 rev/min")}
+    values = {
+        "joint.fit": (-3e-6, "-3 um"),
+        "stress": (3.1e8, "310 MPa"),
+        "damage": (-7.0, "-7 log10 per hour"),
+        "ball.T": (293.15, "20 degC"),
+    }
+    values |= {
+        "max(cage.dislocation)": (2e-6, "2 um"),
+        "rivet[3].sigma_head": (2e8, "200 MPa"),
+        "shaft.omega": (100.0 * math.pi, "3000 rev/min"),
+    }
     values |= {"joint.mu": (0.2, "0.2"), "wall_time": (2.0, "2"), "mean(bearing.friction_torque)": (0.1, "0.1 N.m")}
-    assert {name: shown(name, value) for name, (value, _) in values.items()} == {name: text for name, (_, text) in values.items()}
+    assert {name: shown(name, value) for name, (value, _) in values.items()} == {
+        name: text for name, (_, text) in values.items()
+    }
     assert titled("joint.fit") == "joint.fit [um]" and titled("joint.mu") == "joint.mu"
 
 
@@ -216,14 +284,22 @@ def test_the_bench_simulates_what_it_is_asked_and_nothing_twice(tmp_path, model,
     def no_cluster():
         raise AssertionError("nothing is to be simulated")
 
-    again = Bench(tmp_path / "b.toml", document, model, tmp_path / "out", no_cluster)(["joint.preload"], [[10.0], [60.0]], ["damage", "stress"])
+    again = Bench(tmp_path / "b.toml", document, model, tmp_path / "out", no_cluster)(
+        ["joint.preload"], [[10.0], [60.0]], ["damage", "stress"]
+    )
     np.testing.assert_array_equal(again, first)
 
 
-@pytest.mark.parametrize(("kind", "key", "library"), [("sensitivity", "responses", "SALib"), ("optimize", "objectives", "optuna")])
+@pytest.mark.parametrize(
+    ("kind", "key", "library"), [("sensitivity", "responses", "SALib"), ("optimize", "objectives", "optuna")]
+)
 def test_a_missing_library_is_named_and_leaves_nothing(tmp_path, kind, key, library):
     (tmp_path / "study.toml").write_text(f'{key} = ["stress"]\n[between]\njoint.mu = [0.1, 0.3]\n')
     without = f"import sys; sys.modules[{library!r}] = None; sys.argv = ['', {kind!r}, 'study.toml']; from riveted_bearing.__main__ import main; main()"
     refused = subprocess.run([sys.executable, "-c", without], cwd=tmp_path, capture_output=True, text=True)
-    assert refused.returncode == 2 and refused.stderr.startswith(f"error: {kind}: needs the library") and refused.stderr.count("\n") == 1
+    assert (
+        refused.returncode == 2
+        and refused.stderr.startswith(f"error: {kind}: needs the library")
+        and refused.stderr.count("\n") == 1
+    )
     assert [path.name for path in tmp_path.iterdir()] == ["study.toml"]

@@ -40,7 +40,7 @@ def test_no_link_is_dead(page):
         assert not anchor or anchor in anchors(place), f"{page.name}: {target}"
 
 
-# ----------------------------------------------------------------------------------------------------------------------- cookbook
+# ------------------------------------------------------------------------------------------------------------- cookbook
 
 
 SLOW = ("my6308", "rivet rivet.toml")
@@ -89,7 +89,7 @@ def test_the_slow_part_of_the_cookbook(kitchen):
     assert (kitchen / "results" / "my6308.parquet").is_file() and (kitchen / "results" / "my6308.png").is_file()
 
 
-# --------------------------------------------------------------------------------------------------------------------------- site
+# ----------------------------------------------------------------------------------------------------------------- site
 
 
 class Links(html.parser.HTMLParser):
@@ -138,15 +138,21 @@ def test_the_site_needs_no_network_and_has_no_dead_link(site):
             path, _, anchor = unquote(target).partition("#")
             place = os.path.normpath(folder / path) if path not in ("", ".") else name if not path else "index.html"
             assert place in site, f"{name}: {target}"
-            assert not anchor or not place.endswith(".html") or anchor in pages[place].names | {"__tabbed_1_1"}, f"{name}: {target}"
+            assert not anchor or not place.endswith(".html") or anchor in pages[place].names | {"__tabbed_1_1"}, (
+                f"{name}: {target}"
+            )
 
 
 def test_the_site_has_formulas_search_and_the_interface(site):
     method = Links(site["method.html"].read_text(encoding="utf-8"))
     source = without_code((ROOT / "docs" / "method.md").read_text(encoding="utf-8"))
     assert method.formulas == len(re.findall(r"\$\$.+?\$\$|\$[^$\n]+\$", source, re.S)) > 100
-    assert "$" not in re.sub(r"<(script|code|annotation)\b.*?</\1>", "", site["method.html"].read_text(encoding="utf-8"), flags=re.S)
-    assert re.search(r"with\s*<span><math", site["method.html"].read_text(encoding="utf-8")), "a formula at a line's start stays in its sentence"
+    assert "$" not in re.sub(
+        r"<(script|code|annotation)\b.*?</\1>", "", site["method.html"].read_text(encoding="utf-8"), flags=re.S
+    )
+    assert re.search(r"with\s*<span><math", site["method.html"].read_text(encoding="utf-8")), (
+        "a formula at a line's start stays in its sentence"
+    )
     index = site["search/search_index.json"].read_text(encoding="utf-8")
     assert "joint.preload" in index and "Own bearing" in index
     api = site["api.html"].read_text(encoding="utf-8")

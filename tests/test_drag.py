@@ -1,4 +1,6 @@
-"""Drag in the mixture of oil and air: density, the balance of a mixture that turns, balls, cage ends and cylinder, inner ring, by hand."""
+"""Drag in the mixture of oil and air: density, the balance of a mixture that turns, balls, cage ends and cylinder,
+inner ring, by hand.
+"""
 
 import numpy as np
 import pytest
@@ -29,7 +31,9 @@ def mixture(core, speed=1909.879, cage=757.0, inputs=None, **changes):
 
 @pytest.mark.parametrize(("speed_rpm", "X"), [(18238.0, 0.073574), (72000.0, 0.018637), (500.0, 1.0)])
 def test_density_from_the_flow(core, speed_rpm, X):
-    """Parker's 10^5 W^0.37/(n d_m^1.7) with 760 cm3/min and 53.5 mm; the space is full of oil at 500 r/min.  Balls, cage and churning feel it alike."""
+    """Parker's 10^5 W^0.37/(n d_m^1.7) with 760 cm3/min and 53.5 mm; the space is full of oil at 500 r/min.  Balls,
+    cage and churning feel it alike.
+    """
     m = mixture(core, speed_rpm * np.pi / 30.0, **{"oil.flow": 760e-6 / 60.0})
     assert m.work.filling * 900.0 == pytest.approx(900.0 * X + 1.19 * (1.0 - X), rel=1e-4)
     assert m.d.drag == pytest.approx(0.5 * 0.45 * 900.0 * np.pi / 4.0 * 0.0111125**2, rel=1e-14)
@@ -41,14 +45,27 @@ def test_density_given(core):
 
 
 def balance(omega, x, rho, flow, land):
-    """Moment on a mixture that turns at x omega_m [N.m]: balls, inner ring, outer ring beside the lands, fresh oil, each written out by itself."""
+    """Moment on a mixture that turns at x omega_m [N.m]: balls, inner ring, outer ring beside the lands, fresh oil,
+    each written out by itself.
+    """
     D, d_m, width = 0.0111125, 0.0535, 13.5e-3
     r_m, r_i, r_e, h = d_m / 2, (d_m - D) / 2, (d_m + D) / 2, 0.6 * D
     omega_m = omega * (1.0 - D / d_m) / 2.0
 
     def wall(r, width, speed):  # friction on the mixture by a wall that turns at `speed`
         f = 0.066 * (abs(speed - omega_m) * r * h / NU) ** -0.25
-        return 0.5 * rho * f * ((speed - x * omega_m) * r) ** 2 * np.sign(speed - x * omega_m) * 2.0 * np.pi * r * width * r
+        return (
+            0.5
+            * rho
+            * f
+            * ((speed - x * omega_m) * r) ** 2
+            * np.sign(speed - x * omega_m)
+            * 2.0
+            * np.pi
+            * r
+            * width
+            * r
+        )
 
     v = (1.0 - x) * omega_m * r_m
     balls = Z * 0.5 * 0.45 * rho * np.pi * D**2 / 4.0 * v * abs(v) * r_m
@@ -59,8 +76,9 @@ def balance(omega, x, rho, flow, land):
 @pytest.mark.parametrize("land", [2.5e-3, 6.75e-3])
 @pytest.mark.parametrize("omega", [200.0, -1909.9, 7500.0])
 def test_mixture_turns_where_its_moments_balance(core, omega, land, flow):
-    """x from the closed form against the root of the balance; without fresh oil, and all of the outer ring under lands, the inner ring drives the mixture
-    faster than the balls."""
+    """x from the closed form against the root of the balance; without fresh oil, and all of the outer ring under lands,
+    the inner ring drives the mixture faster than the balls.
+    """
     m = mixture(core, omega, cage=omega / 2.5, **{"cage.land_width": land, "oil.flow": flow})
     rho = (900.0 if flow else 35.0) * m.work.filling
     x = brentq(lambda x: balance(abs(omega), x, rho, flow, land), 0.0, 2.0, xtol=1e-15)
@@ -73,7 +91,9 @@ def test_mixture_turns_where_its_moments_balance(core, omega, land, flow):
 def test_row_of_balls(core):
     """Drag of the speed against the mixture, (1/2) C_d rho A v|v|; the ball's loss is force times its own speed."""
     m = mixture(core, **{"scene.churning": Switch.OFF})
-    w = place_balls(m, np.zeros(Z), np.full(Z, 0.02675), np.zeros(Z), np.stack([np.zeros(Z), np.zeros(Z), np.full(Z, 20.25)], -1))
+    w = place_balls(
+        m, np.zeros(Z), np.full(Z, 0.02675), np.zeros(Z), np.stack([np.zeros(Z), np.zeros(Z), np.full(Z, 20.25)], -1)
+    )
     clear_balls(w)
     m.kernel("drag_force")(m.pointer, m.work)
     v = 20.25 - m.work.stream * 0.02675
@@ -83,7 +103,9 @@ def test_row_of_balls(core):
 
 
 def test_churning(core):
-    """(1/2) rho R^5 C_n omega^2 with Re = R^2 omega/nu = 20376, C_n = 0.046762: 8.3896e-5 N.m at 4400 rad/s in a mixture at rest, about any axis."""
+    """(1/2) rho R^5 C_n omega^2 with Re = R^2 omega/nu = 20376, C_n = 0.046762: 8.3896e-5 N.m at 4400 rad/s in a
+    mixture at rest, about any axis.
+    """
     m = mixture(core, **{"scene.drag": Drag.ISOLATED})
     axis = np.array([2.0, -3.0, 6.0]) / 7.0
     w = place_balls(m, np.zeros(Z), np.full(Z, 0.02675), np.zeros(Z), np.zeros((Z, 3)), np.tile(4400.0 * axis, (Z, 1)))
@@ -96,13 +118,16 @@ def test_churning(core):
 
 
 def test_churning_of_a_slow_ball(core):
-    """At Re = 10 the moment of a sphere that turns in a fluid at rest is 8 pi eta R^3 omega (1 + Re^2/1200 - ...), Lamb's with Ovseenko's next term.
+    """At Re = 10 the moment of a sphere that turns in a fluid at rest is 8 pi eta R^3 omega (1 + Re^2/1200 - ...),
+    Lamb's with Ovseenko's next term.
 
     The formula's C_n of Dennis, Singh & Ingham, fitted from Re = 10 on, is 3.6 % below.
     """
     m = mixture(core, **{"scene.drag": Drag.ISOLATED})
     R, speed = 0.5 * 0.0111125, 10.0 * NU / (0.5 * 0.0111125) ** 2
-    w = place_balls(m, np.zeros(Z), np.full(Z, 0.02675), np.zeros(Z), np.zeros((Z, 3)), np.tile([speed, 0.0, 0.0], (Z, 1)))
+    w = place_balls(
+        m, np.zeros(Z), np.full(Z, 0.02675), np.zeros(Z), np.zeros((Z, 3)), np.tile([speed, 0.0, 0.0], (Z, 1))
+    )
     clear_balls(w)
     m.kernel("drag_force")(m.pointer, m.work)
     rho = 35.0
@@ -113,7 +138,9 @@ def test_churning_of_a_slow_ball(core):
 def test_churning_is_against_the_mixture(core):
     """A ball that turns with the mixture feels no moment."""
     m = mixture(core)
-    w = place_balls(m, np.zeros(Z), np.full(Z, 0.02675), np.zeros(Z), np.zeros((Z, 3)), np.tile([m.work.stream, 0.0, 0.0], (Z, 1)))
+    w = place_balls(
+        m, np.zeros(Z), np.full(Z, 0.02675), np.zeros(Z), np.zeros((Z, 3)), np.tile([m.work.stream, 0.0, 0.0], (Z, 1))
+    )
     clear_balls(w)
     m.kernel("drag_force")(m.pointer, m.work)
     assert not on_ball(w)[1].any()
@@ -134,7 +161,9 @@ def test_balls(core):
     """(1/2) 0.45 * 35 kg/m3 * 96.985 mm2 * (20 m/s)^2 = 0.30550 N against the motion; power F v."""
     m = mixture(core, **ALONE)
     v_t = np.linspace(-20.0, 20.0, Z)
-    w = place_balls(m, np.zeros(Z), np.full(Z, 0.02675), np.zeros(Z), np.stack([np.full(Z, 5.0), np.full(Z, -3.0), v_t], -1))
+    w = place_balls(
+        m, np.zeros(Z), np.full(Z, 0.02675), np.zeros(Z), np.stack([np.full(Z, 5.0), np.full(Z, -3.0), v_t], -1)
+    )
     clear_balls(w)
     m.kernel("drag_force")(m.pointer, m.work)
     F, M = on_ball(w)

@@ -28,7 +28,8 @@ LOSSLESS = {
 def power_and_rate(model, y):
     """Net power into balls and cage from the right-hand side, and the rate of their energy along the motion.
 
-    Difference quotient of fourth order over 1e-8 s: (1e-8 * 1e6 rad/s)^4/30 of the power, rounding 1e-16 * 30 J/1e-8 s = 3e-7 W.
+    Difference quotient of fourth order over 1e-8 s: (1e-8 * 1e6 rad/s)^4/30 of the power, rounding 1e-16 * 30 J/1e-8 s
+    = 3e-7 W.
     """
     rate = model.rhs(0.0, y)
     power, h = rate[SLICE["work"]][0], 1e-8
@@ -42,8 +43,16 @@ def power_and_rate(model, y):
 
 @pytest.mark.parametrize(("cage", "traction", "lubrication"), SCENES)
 def test_power_balance(core, cage, traction, lubrication):
-    """dE/dt = supplied - dissipated to 1e-9 of the power that goes around (largest kinetic power of one contact); observed 1.4e-10."""
-    parameters = {"scene.cage": cage, "scene.traction": traction, "scene.lubrication": lubrication, "gravity.y": -9.81, "gravity.z": 4.0}
+    """dE/dt = supplied - dissipated to 1e-9 of the power that goes around (largest kinetic power of one contact);
+    observed 1.4e-10.
+    """
+    parameters = {
+        "scene.cage": cage,
+        "scene.traction": traction,
+        "scene.lubrication": lubrication,
+        "gravity.y": -9.81,
+        "gravity.z": 4.0,
+    }
     if cage == CageModel.TWO_HALF:
         parameters["cage.unbalance"] = 2e-6
     rng = np.random.default_rng(11)
@@ -52,7 +61,8 @@ def test_power_balance(core, cage, traction, lubrication):
         y = running_state(model, rng)
         power, rate = power_and_rate(model, y)
         w = View(core, model.work)
-        moving = np.abs(w.Q_i[:9] + w.Q_e[:9]).max() * 0.1 + pocket_loads(model).max() * 20.0  # [W] loads times speeds across and along
+        # [W] loads times speeds across and along
+        moving = np.abs(w.Q_i[:9] + w.Q_e[:9]).max() * 0.1 + pocket_loads(model).max() * 20.0
         assert moving > 10.0
         assert rate == pytest.approx(power, abs=1e-9 * moving + 2e-6)
 
@@ -75,7 +85,14 @@ def test_dissipation_is_positive(core):
     """Every element loses energy at every state."""
     rng = np.random.default_rng(13)
     for cage, traction, lubrication in SCENES:
-        model = core.model(parameters={"scene.cage": cage, "scene.traction": traction, "scene.lubrication": lubrication, "oil.rolling": 0.0})
+        model = core.model(
+            parameters={
+                "scene.cage": cage,
+                "scene.traction": traction,
+                "scene.lubrication": lubrication,
+                "oil.rolling": 0.0,
+            }
+        )
         for _ in range(5):
             model.rhs(0.0, running_state(model, rng))
             w = View(core, model.work)
@@ -87,7 +104,9 @@ def test_dissipation_is_positive(core):
 
 @pytest.mark.parametrize(("cage", "traction", "lubrication"), SCENES)
 def test_losses_by_place_add_up(core, cage, traction, lubrication):
-    """Balls: races, pockets and drag; cage: lands and drag.  Without rolling friction the races lose less by the part of the inlets."""
+    """Balls: races, pockets and drag; cage: lands and drag.  Without rolling friction the races lose less by the part
+    of the inlets.
+    """
     rng = np.random.default_rng(14)
     scene = {"scene.cage": cage, "scene.traction": traction, "scene.lubrication": lubrication}
     model, without = core.model(parameters=scene), core.model(parameters=scene | {"oil.rolling": 0.0})
@@ -98,8 +117,18 @@ def test_losses_by_place_add_up(core, cage, traction, lubrication):
         w, v = View(core, model.work), View(core, without.work)
         parts = w.race_dissipated + w.pocket_dissipated + w.drag_dissipated
         assert w.dissipated[:9] == pytest.approx(parts[:9], rel=1e-14, abs=1e-13 * np.abs(parts).max())
-        assert min(w.race_dissipated[:9].max(), w.pocket_dissipated[:9].max(), w.drag_dissipated[:9].min(), w.cage_drag_dissipated) > 0.0
-        assert w.inlet_dissipated[:9] == pytest.approx((w.race_dissipated - v.race_dissipated)[:9], rel=1e-9, abs=1e-12 * np.abs(parts).max())
+        assert (
+            min(
+                w.race_dissipated[:9].max(),
+                w.pocket_dissipated[:9].max(),
+                w.drag_dissipated[:9].min(),
+                w.cage_drag_dissipated,
+            )
+            > 0.0
+        )
+        assert w.inlet_dissipated[:9] == pytest.approx(
+            (w.race_dissipated - v.race_dissipated)[:9], rel=1e-9, abs=1e-12 * np.abs(parts).max()
+        )
         assert (np.abs(w.spin_dissipated[:9]).max() > 0.0) == (traction == Traction.SLICED)
 
 
@@ -110,7 +139,10 @@ def test_loss_outputs_add_up(core, cage):
     bearing = Instance(core, {"scene.cage": cage})
     for i in range(1, 6):
         bearing.step(2e-4 * i)
-        parts = [bearing.output(f"loss.{part}") for part in ("races", "ball_drag", "cage_drag", "ring_drag", "land", "pockets", "joints", "modes")]
+        parts = [
+            bearing.output(f"loss.{part}")
+            for part in ("races", "ball_drag", "cage_drag", "ring_drag", "land", "pockets", "joints", "modes")
+        ]
         assert sum(parts) == pytest.approx(bearing.output("bearing.power_loss"), rel=1e-13)  # observed 3e-16
         assert min(parts[:5]) > 0.0
         assert 0.0 < bearing.output("loss.inlet") + bearing.output("loss.spin") <= parts[0]
@@ -131,13 +163,18 @@ def order(core, tolerances, parameters, t):
 
 @pytest.mark.c_only
 def test_lossless_energy_stays(core, record_property):
-    """Friction, damping, drag and films off, a heavy ring: balls rattle in their pockets with 60 N (4e-5 J a pulse) and 26.5 J stay.
+    """Friction, damping, drag and films off, a heavy ring: balls rattle in their pockets with 60 N (4e-5 J a pulse) and
+    26.5 J stay.
 
-    Runge-Kutta's global error of order 4, with steps by an estimate of order 4, is proportional to the tolerance: slope 1, observed 0.96 from 1e-5
-    to 1e-7; 7.6e-9 J at 1e-7.  Medians of three clearances: the error has a sign, and where it passes through zero the slope is another one.
+    Runge-Kutta's global error of order 4, with steps by an estimate of order 4, is proportional to the tolerance: slope
+    1, observed 0.96 from 1e-5 to 1e-7; 7.6e-9 J at 1e-7.  Medians of three clearances: the error has a sign, and where
+    it passes through zero the slope is another one.
     """
     parameters = LOSSLESS | {"solver.method": Method.EXPLICIT, "ring.m": 1000.0, "cage.pocket_clearance": 7e-5}
-    orders = [order(core, [1e-5, 1e-6, 1e-7], parameters | {"cage.pocket_clearance": clearance}, 2e-3) for clearance in (6e-5, 7e-5, 8e-5)]
+    orders = [
+        order(core, [1e-5, 1e-6, 1e-7], parameters | {"cage.pocket_clearance": clearance}, 2e-3)
+        for clearance in (6e-5, 7e-5, 8e-5)
+    ]
     slope, last = np.median(orders, axis=0)
     record_property("drift", {"slope": float(slope), "J at 1e-7": float(last)})
     assert slope == pytest.approx(1.0, abs=0.2)
@@ -150,19 +187,25 @@ def test_lossless_energy_stays(core, record_property):
     start = model.energy(y)
     model.rhs(2e-3, bearing.y)
     assert start == pytest.approx(26.5, rel=0.02)
-    assert model.energy(bearing.y) == pytest.approx(start, abs=1e-4)  # the springs of the start give 2e-5 J of work to the ring
+    # the springs of the start give 2e-5 J of work to the ring
+    assert model.energy(bearing.y) == pytest.approx(start, abs=1e-4)
 
 
 @pytest.mark.c_only
-@pytest.mark.parametrize(("method", "order_of_error", "largest"), [(Method.EXPLICIT, 1.0, 1e-5), (Method.VERLET, 2.0 / 3.0, 5e-4)])
+@pytest.mark.parametrize(
+    ("method", "order_of_error", "largest"), [(Method.EXPLICIT, 1.0, 1e-5), (Method.VERLET, 2.0 / 3.0, 5e-4)]
+)
 @pytest.mark.parametrize("cage", RIGID_HALVES)
 def test_energy_balance_of_a_run(core, cage, method, order_of_error, largest, record_property):
-    """The working point for 10 ms dissipates 2.3 J; the balance closes to 1e-5 of it at 1e-4, by Verlet to 5e-4 at 4e-5.
+    """The working point for 10 ms dissipates 2.3 J; the balance closes to 1e-5 of it at 1e-4, by Verlet to 5e-4 at
+    4e-5.
 
-    Observed by Verlet 3.3e-4 and 3.2e-4 with either cage, of which the first millisecond, in which the start settles, makes most.
+    Observed by Verlet 3.3e-4 and 3.2e-4 with either cage, of which the first millisecond, in which the start settles,
+    makes most.
 
-    Error by tolerance over the first 2 ms: slope 1 (Runge-Kutta), 2/3 (Verlet: order 2, steps by an estimate of order 3).  Later the motions at two
-    tolerances have parted, and so have their residuals, which have a sign and pass through zero: medians of three clearances.
+    Error by tolerance over the first 2 ms: slope 1 (Runge-Kutta), 2/3 (Verlet: order 2, steps by an estimate of order
+    3).  Later the motions at two tolerances have parted, and so have their residuals, which have a sign and pass
+    through zero: medians of three clearances.
     """
     parameters = {"scene.cage": cage, "solver.method": method}
     error, loss, _ = residual(core, 1e-4 if method == Method.EXPLICIT else 4e-5, parameters, 1e-2)
@@ -171,15 +214,20 @@ def test_energy_balance_of_a_run(core, cage, method, order_of_error, largest, re
     record_property("residual", {"of what is dissipated": float(error / dissipated)})
     assert error < largest * dissipated
     tolerances = [1e-5, 1e-6, 1e-7] if method == Method.EXPLICIT else [1e-4, 1e-5, 1e-6]
-    slopes = [order(core, tolerances, parameters | {"cage.pocket_clearance": clearance}, 2e-3)[0] for clearance in (1.8e-4, 2e-4, 2.2e-4)]
+    slopes = [
+        order(core, tolerances, parameters | {"cage.pocket_clearance": clearance}, 2e-3)[0]
+        for clearance in (1.8e-4, 2e-4, 2.2e-4)
+    ]
     assert np.median(slopes) == pytest.approx(order_of_error, abs=0.2)  # observed 1.15, 1.14; 0.63
 
 
 @pytest.mark.c_only
 @pytest.mark.parametrize("eta", [0.5e-3, 20e-3])
 def test_energy_balance_of_a_slow_run(core, eta):
-    """400 r/min for 10 ms at the default tolerance: films hold the cage by rates far above 1/h.  The balance closes to 1 % of the motion's
-    energy, 17 mJ, and what is lost (observed 0.7 %, 0.2 %); with the work of predicted velocities alone it is off by 3.8 % and 2.3 %."""
+    """400 r/min for 10 ms at the default tolerance: films hold the cage by rates far above 1/h.  The balance closes to
+    1 % of the motion's energy, 17 mJ, and what is lost (observed 0.7 %, 0.2 %); with the work of predicted velocities
+    alone it is off by 3.8 % and 2.3 %.
+    """
     omega = 400.0 * np.pi / 30.0
     bearing = Instance(core, {"oil.eta": eta}, {"shaft.omega": omega})
     loss = 0.0

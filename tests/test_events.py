@@ -56,7 +56,9 @@ def test_joint_opens_where_the_preload_is_used_up(resting):
 
 
 def test_overpressure_counts_the_contacts_beyond_the_limit(core):
-    """Limits between the pressures of the loaded contacts; the warning is given once and names variable, value and limit."""
+    """Limits between the pressures of the loaded contacts; the warning is given once and names variable, value and
+    limit.
+    """
     all_ = Instance(core)
     pressures = np.sort(np.concatenate([all_.output("ball.p_i"), all_.output("ball.p_e")]))[::-1]
     for n in range(1, 6):
@@ -72,7 +74,9 @@ def test_overpressure_counts_the_contacts_beyond_the_limit(core):
 
 
 def test_ellipse_is_cut_where_it_reaches_the_shoulder(core):
-    """Axial load: all balls alike at the angle alpha; the ellipse by Hertz' formula from catalogue geometry, the shoulder just below and above."""
+    """Axial load: all balls alike at the angle alpha; the ellipse by Hertz' formula from catalogue geometry, the
+    shoulder just below and above.
+    """
     inputs = {"shaft.omega": 0.0, "shaft.F_y": 0.0, "shaft.F_x": 5000.0}
     instance = Instance(core, {}, inputs)
     D, d_m, f = (variables.PARAMETERS[f"bearing.{name}"].start for name in ("D", "d_m", "f_i"))
@@ -82,12 +86,17 @@ def test_ellipse_is_cut_where_it_reaches_the_shoulder(core):
     reach = alpha + contact.a * np.cbrt(Q) * 0.5 * (2.0 / D + 1.0 / (f * D))
     height = f * (1.0 - np.cos(reach))
     for factor, balls in ((1.0 - 1e-4, variables.Z), (1.0 + 1e-4, 0)):
-        assert Instance(core, {"bearing.h_i": height * factor, "bearing.h_e": 0.5}, inputs).output("event.ellipse_cut") == balls
+        assert (
+            Instance(core, {"bearing.h_i": height * factor, "bearing.h_e": 0.5}, inputs).output("event.ellipse_cut")
+            == balls
+        )
     assert 0.2 < reach < 1.2
 
 
 def test_rivets_yield_under_too_much_preload(core):
-    """The head stress is proportional to the preload where nothing else acts (a rigid cage, balls free): yield stress at a preload found from that."""
+    """The head stress is proportional to the preload where nothing else acts (a rigid cage, balls free): yield stress
+    at a preload found from that.
+    """
     light = Instance(core, {"joint.preload": 100.0, "scene.cage": 2}, REST | {"shaft.F_y": 0.0})
     at_yield = 100.0 * TABLE.yield_rivet / light.output("rivet.sigma_head_max")
     for factor, rivets in ((0.99, 0), (1.01, variables.Z)):

@@ -1,4 +1,6 @@
-"""Rainflow and Miner: against the ASTM example, the `rainflow` package, and a history cut into pieces; both twins alike."""
+"""Rainflow and Miner: against the ASTM example, the `rainflow` package, and a history cut into pieces; both twins
+alike.
+"""
 
 import math
 import struct
@@ -7,8 +9,8 @@ import numpy as np
 import pytest
 import rainflow
 
-from bearing_model.instance import fatigue
 from bearing_model.generated.variables import MeanStress
+from bearing_model.instance import fatigue
 
 ASTM = [-2.0, 1.0, -3.0, 5.0, -1.0, 3.0, -4.0, 4.0, -2.0]  # ASTM E1049-85, figure 6
 LAWS = {
@@ -55,7 +57,9 @@ class PythonChannel(fatigue.FatigueChannel):
             self.push(law, sigma)
 
     def saved(self):
-        return struct.pack("ddiii", self.last, self.closed, self.direction, self.samples, self.dropped), list(self.stack)
+        return struct.pack("ddiii", self.last, self.closed, self.direction, self.samples, self.dropped), list(
+            self.stack
+        )
 
     def restored(self, saved):
         values = struct.unpack("ddiii", saved[0])
@@ -80,7 +84,8 @@ def test_astm_example(new_channel):
     channel = new_channel()
     channel.push_all(LAWS["linear"], ASTM)
     expected = (3 * 0.5 + 4 * 1.5 + 6 * 0.5 + 8 * 1.0 + 9 * 0.5) / 2 / 1e9
-    assert channel.damage(LAWS["linear"]) == pytest.approx(expected, rel=1e-14)  # decimal 1e9: rounding only, observed 0
+    # decimal 1e9: rounding only, observed 0
+    assert channel.damage(LAWS["linear"]) == pytest.approx(expected, rel=1e-14)
     assert miner(LAWS["linear"], ASTM) == channel.damage(LAWS["linear"])
 
 
@@ -118,7 +123,9 @@ def test_damage_of_every_prefix(new_channel):
 
 
 def test_stack_is_bounded(new_channel):
-    """Shrinking ranges only: the residue outgrows the stack, the oldest ranges are counted as the halves they would end as."""
+    """Shrinking ranges only: the residue outgrows the stack, the oldest ranges are counted as the halves they would end
+    as.
+    """
     history = [(1.0 - 1e-3 * n) * (-1) ** n for n in range(2 * fatigue.FATIGUE_DEPTH)]
     law, channel = LAWS["linear"], new_channel()
     channel.push_all(law, history)

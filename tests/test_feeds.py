@@ -1,4 +1,6 @@
-"""Every parameter of a bearing feeds what docs/parameters.md says: the rivet table, the run, both, or it is refused; none is dropped in silence."""
+"""Every parameter of a bearing feeds what docs/parameters.md says: the rivet table, the run, both, or it is refused;
+none is dropped in silence.
+"""
 
 import sys
 from pathlib import Path
@@ -18,7 +20,8 @@ from generate import load_table
 
 TABLE = load_table()
 PARAMETERS = {v.name: v for v in TABLE.of("parameter")}
-OWN = 'designation = "6309"\nZ = 8\n[cage]\nmaterial = "steel"\n[rivet]\nshank_diameter = "2.5 mm"\n'  # a bearing of its own
+# a bearing of its own
+OWN = 'designation = "6309"\nZ = 8\n[cage]\nmaterial = "steel"\n[rivet]\nshank_diameter = "2.5 mm"\n'
 SETTINGS = {"start.settle": 0.0, "scene.stress": "fatigue", "scene.statistics": "on"}
 T_END = 6e-3  # balls have met their pockets
 INSTEAD_OF_ZERO = {  # another value where the start value is zero, which mostly stands for a rule
@@ -73,7 +76,11 @@ def run(model, settings):
         document["inputs" if name in model.inputs else "parameters"][name] = value
     result = simulate(model, load_scene(None, model, ("the test", document)))
     clocks = ("cpu", "wall", "real_time", "solver.cpu_time")
-    return {name: values for name, values in (result.data | result.summary).items() if not name.startswith(clocks) and name not in model.inputs}
+    return {
+        name: values
+        for name, values in (result.data | result.summary).items()
+        if not name.startswith(clocks) and name not in model.inputs
+    }
 
 
 def felt(model, v):
@@ -94,7 +101,9 @@ def check_run(model, v):
     """The run feels the parameter as the table of variables says."""
     found = felt(model, v)
     if v.built:
-        assert v.name in found and "is allowed, of the material for which this FMU and its rivet table were built" in found
+        assert (
+            v.name in found and "is allowed, of the material for which this FMU and its rivet table were built" in found
+        )
     elif v.name == "bearing.d_m":
         assert "bearing.d_m" in found and "build an FMU for this bearing" in found
     elif v.name in NO_EFFECT:
@@ -110,7 +119,9 @@ def model():
 
 @pytest.mark.parametrize("name", PARAMETERS)
 def test_what_a_run_feels(model, name):
-    """A parameter of the shipped FMU, half a per cent off: some output of six milliseconds changes, and without what the parameter needs none does."""
+    """A parameter of the shipped FMU, half a per cent off: some output of six milliseconds changes, and without what
+    the parameter needs none does.
+    """
     check_run(model, PARAMETERS[name])
 
 
@@ -138,12 +149,22 @@ def other_case(tmp_path, name, value):
 
 @pytest.mark.parametrize("name", [name for name, v in PARAMETERS.items() if not v.is_array and name != "cage.material"])
 def test_what_the_rivet_table_is_made_from(tmp_path, name):
-    """A parameter of a bearing file, half a per cent off: the rivet table's geometry changes if the variable table says so, the FMU's value in any case."""
+    """A parameter of a bearing file, half a per cent off: the rivet table's geometry changes if the variable table says
+    so, the FMU's value in any case.
+    """
     (tmp_path / "plain.toml").write_text(OWN, encoding="utf-8")
     plain, v = bearing_case(tmp_path / "plain.toml"), PARAMETERS[name]
     start = plain.values[name]
-    value = next(item for item in v.choices if item != start) if v.choices else start + 1 if v.type == "Integer" else 1.005 * start or INSTEAD_OF_ZERO[name]
-    changed = other_case(tmp_path, name, value if v.choices or v.type == "Integer" or value <= v.limits[1] else 0.995 * start)
+    value = (
+        next(item for item in v.choices if item != start)
+        if v.choices
+        else start + 1
+        if v.type == "Integer"
+        else 1.005 * start or INSTEAD_OF_ZERO[name]
+    )
+    changed = other_case(
+        tmp_path, name, value if v.choices or v.type == "Integer" or value <= v.limits[1] else 0.995 * start
+    )
     assert changed.values[name] != start and changed.origin[name] == "yours"
     same = Geometry(**changed.joint).digest == Geometry(**plain.joint).digest
     assert same != (v.table or v.built)

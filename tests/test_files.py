@@ -1,4 +1,6 @@
-"""Files that the program writes and reads: a full disk, a killed writer, damaged content, hostile texts, and clocks that jump."""
+"""Files that the program writes and reads: a full disk, a killed writer, damaged content, hostile texts, and clocks
+that jump.
+"""
 
 import contextlib
 import json
@@ -37,7 +39,9 @@ def short():
 def command(*arguments, folder, **options):
     """The program as a user starts it."""
     words = [sys.executable, "-m", "riveted_bearing", *map(str, arguments)]
-    return subprocess.run(words, cwd=folder, env=ENVIRONMENT, capture_output=True, text=True, timeout=300, check=False, **options)
+    return subprocess.run(
+        words, cwd=folder, env=ENVIRONMENT, capture_output=True, text=True, timeout=300, check=False, **options
+    )
 
 
 def files_below(folder):
@@ -45,7 +49,7 @@ def files_below(folder):
     return sorted(str(path.relative_to(folder)) for path in folder.rglob("*") if path.is_file())
 
 
-# ---------------------------------------------------------------------------------------------------------------------- full disk
+# ------------------------------------------------------------------------------------------------------------ full disk
 
 
 LATE = """
@@ -67,15 +71,30 @@ program(words)
 
 
 def command_on_a_small_disk(after, size, arguments, folder, **environment):
-    """The program; once its function `after` (module:name) has returned, no file grows beyond `size` bytes: writing more fails as on a full disk."""
+    """The program; once its function `after` (module:name) has returned, no file grows beyond `size` bytes: writing
+    more fails as on a full disk.
+    """
     words = [sys.executable, "-c", LATE, *after.split(":"), size, *arguments]
-    return subprocess.run(list(map(str, words)), cwd=folder, env=ENVIRONMENT | environment, capture_output=True, text=True, timeout=300, check=False)
+    return subprocess.run(
+        list(map(str, words)),
+        cwd=folder,
+        env=ENVIRONMENT | environment,
+        capture_output=True,
+        text=True,
+        timeout=300,
+        check=False,
+    )
 
 
 RUN = ["run", "demo", "--t-end", "2 ms", "--set", "scene.stress=off", "--set", "start.settle=0", "--out", "out"]
-SIMULATED, READ, ASKED = "riveted_bearing.runner:simulate", "riveted_bearing.report:read_result", "riveted_bearing.builder:bearing_case"
+SIMULATED, READ, ASKED = (
+    "riveted_bearing.runner:simulate",
+    "riveted_bearing.report:read_result",
+    "riveted_bearing.builder:bearing_case",
+)
 STARTED = "riveted_bearing.sweep:cluster.__enter__"
-WRITERS = {  # command line, what it has done when the disk becomes full, largest file [bytes], name of the file in the message
+# command line, what it has done when the disk becomes full, largest file [bytes], name of the file in the message
+WRITERS = {
     "parquet": ([*RUN, "--no-plot"], SIMULATED, 4000, "out/demo.parquet"),
     "csv": ([*RUN, "--no-plot", "--format", "csv"], SIMULATED, 4000, "out/demo.csv"),
     "mat": ([*RUN, "--no-plot", "--format", "mat"], SIMULATED, 4000, "out/demo.mat"),
@@ -89,7 +108,9 @@ WRITERS = {  # command line, what it has done when the disk becomes full, larges
 def test_a_full_disk_is_one_message_and_leaves_nothing(short, tmp_path, name):
     arguments, after, size, file = WRITERS[name]
     write_result(drawn(short), tmp_path / "good.parquet")
-    (tmp_path / "study.toml").write_text('repeats = 2\n[simulation]\nt_end = 1e-3\n[parameters]\nstart.settle = 0\nscene.stress = "off"')
+    (tmp_path / "study.toml").write_text(
+        'repeats = 2\n[simulation]\nt_end = 1e-3\n[parameters]\nstart.settle = 0\nscene.stress = "off"'
+    )
     (tmp_path / "out").mkdir()
     (tmp_path / "out" / "page.html").write_text("old")
     before = files_below(tmp_path)
@@ -105,7 +126,9 @@ def test_a_disk_that_is_full_for_the_picture_keeps_the_results(tmp_path):
     """Written before it; 60 kB are enough for the one, not for the other."""
     few = [*RUN, "--out", "out/few.csv"]
     done = command_on_a_small_disk(SIMULATED, 60_000, few, tmp_path)
-    assert done.returncode == 2 and re.search(r"error: out/few.(png|csv): cannot be written: ", done.stderr), done.stderr
+    assert done.returncode == 2 and re.search(r"error: out/few.(png|csv): cannot be written: ", done.stderr), (
+        done.stderr
+    )
     done = command_on_a_small_disk("riveted_bearing.cli.run:write_result", 20_000, few, tmp_path)
     assert done.returncode == 2 and re.search(r"error: out/few.png: cannot be written: ", done.stderr), done.stderr
     assert files_below(tmp_path) == ["out/few.csv"]
@@ -120,14 +143,17 @@ def test_a_full_disk_leaves_the_old_fmu(fmu, tmp_path):
     copy += "results.write_atomically(Path('my.fmu'), lambda temporary: shutil.copyfile(sys.argv[2], temporary))"
     pack = limit + "import package; package.main(sys.argv[2:])"
     options = [f"@{ROOT / 'build' / 'fmu' / 'arguments.txt'}", "--out", "my.fmu"]
-    for code, words, reason in ((copy, [fmu], "UserError: my.fmu: cannot be written: "), (pack, options, "File too large")):
+    for code, words, reason in (
+        (copy, [fmu], "UserError: my.fmu: cannot be written: "),
+        (pack, options, "File too large"),
+    ):
         call = [sys.executable, "-c", code, ROOT / "fmus", *words]
         done = subprocess.run(call, cwd=tmp_path, env=ENVIRONMENT, capture_output=True, text=True, check=False)
         assert done.returncode != 0 and reason in done.stderr
         assert files_below(tmp_path) == ["my.fmu"] and (tmp_path / "my.fmu").read_text() == "old"
 
 
-# ------------------------------------------------------------------------------------------------------------------- killed writer
+# -------------------------------------------------------------------------------------------------------- killed writer
 
 SLOW = """
 import sys, time; from pathlib import Path
@@ -146,11 +172,15 @@ results.write_result(read_result("{good}"), Path("{kind}.{kind}"))
 
 @pytest.mark.parametrize("kind", FORMATS)
 def test_a_killed_writer_leaves_the_old_file(short, tmp_path, kind):
-    """Half of a file is written when the process is killed: under the final name stands what was there, and the next writer gets through."""
+    """Half of a file is written when the process is killed: under the final name stands what was there, and the next
+    writer gets through.
+    """
     good = write_result(replace(short, about=short.about | {"scene": "new"}), tmp_path / f"good.{kind}")
     write_result(short, tmp_path / f"{kind}.{kind}")
     code = SLOW.format(kind=kind, good=good)
-    with subprocess.Popen([sys.executable, "-c", code], cwd=tmp_path, env=ENVIRONMENT, stdout=subprocess.PIPE) as writer:
+    with subprocess.Popen(
+        [sys.executable, "-c", code], cwd=tmp_path, env=ENVIRONMENT, stdout=subprocess.PIPE
+    ) as writer:
         assert writer.stdout.readline() == b"half\n"
         writer.kill()
     assert read_result(tmp_path / f"{kind}.{kind}").about["scene"] == "demo"
@@ -158,19 +188,25 @@ def test_a_killed_writer_leaves_the_old_file(short, tmp_path, kind):
     assert read_result(tmp_path / f"{kind}.{kind}").about["scene"] == "new"
 
 
-# ----------------------------------------------------------------------------------------------------------------- damaged content
+# ------------------------------------------------------------------------------------------------------ damaged content
 
 
 def same(a, b):
     """Whether two results hold the same bits."""
-    return a.metadata() == b.metadata() and list(a.data) == list(b.data) and all(a.data[name].tobytes() == b.data[name].tobytes() for name in b.data)
+    return (
+        a.metadata() == b.metadata()
+        and list(a.data) == list(b.data)
+        and all(a.data[name].tobytes() == b.data[name].tobytes() for name in b.data)
+    )
 
 
 @pytest.fixture(scope="module")
 def little(short):
     """A result with few channels, so that a flipped bit hits each part of the file often."""
     names = ("time", "ring.y", "ball[1].Q_i", "ball[2].Q_i")
-    return replace(short, data={name: short.data[name] for name in names}, units={name: short.units[name] for name in names})
+    return replace(
+        short, data={name: short.data[name] for name in names}, units={name: short.units[name] for name in names}
+    )
 
 
 def outcome_of(path):
@@ -224,7 +260,10 @@ def changed(result, **parts):
         ({"parameters": {"scene.stress": 3.0}}, ["scene.stress = 3.0", "allowed: "]),
         ({"summary": {"cpu_time": "long"}}, ["cpu_time = 'long'", "not a number"]),
         ({"about": {"scene": 5}}, ["scene = 5", "not a text"]),
-        ({"about": {"mode_frequencies": [800.0, -1.0]}}, ["mode_frequencies = [800.0, -1.0]", "not a list of positive numbers"]),
+        (
+            {"about": {"mode_frequencies": [800.0, -1.0]}},
+            ["mode_frequencies = [800.0, -1.0]", "not a list of positive numbers"],
+        ),
         ({"about": {"messages": "one"}}, ["messages = 'one'", "not a list of texts"]),
         ({"about": {"versions": {"fmpy": 3}}}, ["versions = {'fmpy': 3}", "not a table of texts"]),
     ],
@@ -260,7 +299,7 @@ def test_a_damaged_table_of_the_cache_is_made_anew(tmp_path, monkeypatch):
     assert rivet_table.read(path).kind == "closed_form"
 
 
-# -------------------------------------------------------------------------------------------------------------------------- sweeps
+# --------------------------------------------------------------------------------------------------------------- sweeps
 
 
 @pytest.fixture(scope="module")
@@ -350,7 +389,12 @@ def test_the_cluster_listens_on_this_machine_only(monkeypatch):
     with cluster(workers=1) as client:
         client.wait_for_workers(1)
         processes = [psutil.Process(), *psutil.Process().children(recursive=True)]
-        listening = [c.laddr.ip for process in processes for c in process.net_connections("inet") if c.status == psutil.CONN_LISTEN]
+        listening = [
+            c.laddr.ip
+            for process in processes
+            for c in process.net_connections("inet")
+            if c.status == psutil.CONN_LISTEN
+        ]
         assert len(listening) >= 3 and set(listening) <= {"127.0.0.1", "::1"}
         assert "127.0.0.1" in client.dashboard_link or "localhost" in client.dashboard_link
 
@@ -361,11 +405,34 @@ LOST = "repeats = 24\n[simulation]\nt_end = 0.1\n[parameters]\nstart.settle = '0
 @pytest.mark.slow  # three processes to start
 def test_a_lost_scheduler_is_one_message_and_loses_no_row(tmp_path):
     (tmp_path / "study.toml").write_text(LOST)
-    dask = [sys.executable, "-m", "distributed.cli.dask_scheduler", "--host", "127.0.0.1", "--port", "0", "--no-dashboard", "--scheduler-file", "where.json"]
+    dask = [
+        sys.executable,
+        "-m",
+        "distributed.cli.dask_scheduler",
+        "--host",
+        "127.0.0.1",
+        "--port",
+        "0",
+        "--no-dashboard",
+        "--scheduler-file",
+        "where.json",
+    ]
     quiet = {"cwd": tmp_path, "env": ENVIRONMENT, "stderr": subprocess.DEVNULL}
     with until_killed(dask, **quiet) as scheduler:
-        address = json.loads(wait_for(lambda: (tmp_path / "where.json").is_file() and (tmp_path / "where.json").read_text()))["address"]
-        worker = [sys.executable, "-m", "distributed.cli.dask_worker", address, "--nthreads", "1", "--no-dashboard", "--local-directory", tmp_path / "worker"]
+        address = json.loads(
+            wait_for(lambda: (tmp_path / "where.json").is_file() and (tmp_path / "where.json").read_text())
+        )["address"]
+        worker = [
+            sys.executable,
+            "-m",
+            "distributed.cli.dask_worker",
+            address,
+            "--nthreads",
+            "1",
+            "--no-dashboard",
+            "--local-directory",
+            tmp_path / "worker",
+        ]
         words = [sys.executable, "-m", "riveted_bearing", "sweep", "study.toml", "--out", "out", "--scheduler", address]
         pipes = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE, "text": True}
         with until_killed(worker, **quiet), until_killed(words, cwd=tmp_path, env=ENVIRONMENT, **pipes) as driver:
@@ -373,7 +440,12 @@ def test_a_lost_scheduler_is_one_message_and_loses_no_row(tmp_path):
             scheduler.kill()
             _, said = driver.communicate(timeout=120)
     assert driver.returncode == 2 and said.count("\n") == 1, said
-    done = int(re.fullmatch(r"error: the Dask scheduler is gone after (\d+) of 24 runs; they are in out, the same command does the others\n", said)[1])
+    done = int(
+        re.fullmatch(
+            r"error: the Dask scheduler is gone after (\d+) of 24 runs; they are in out, the same command does the others\n",
+            said,
+        )[1]
+    )
     assert 1 <= done < 24 and sum(read_rows(path).num_rows for path in (tmp_path / "out").glob("run-*.parquet")) == done
     again = command("sweep", "study.toml", "--out", "out", "--workers", "1", folder=tmp_path)
     assert again.returncode == 0 and "24 runs, 0 of them failed" in again.stdout
@@ -399,7 +471,7 @@ def wait_for(condition, patience=120.0):
     raise TimeoutError
 
 
-# -------------------------------------------------------------------------------------------------------------------------- report
+# --------------------------------------------------------------------------------------------------------------- report
 
 POISON = """</script></style></title><script>alert(1)</script>'"<img src=x onerror=alert(2)>&amp;{{ 7*7 }}<!-- ]]> $\\frac{ """
 
@@ -439,9 +511,17 @@ def with_texts(value, text, keys=False):
 
 
 def hostile(result, text):
-    """The result with a text in the place of every text: origin, messages, versions, units, items, and names that no table knows."""
-    tables = {name: with_texts(result.about[name], text, keys=True) for name in ("versions", "not_given", "basis", "units")}
-    about = with_texts(result.about, text) | tables | {"messages": [text, text], "stopped": text, "inputs": {}, "given": [text]}
+    """The result with a text in the place of every text: origin, messages, versions, units, items, and names that no
+    table knows.
+    """
+    tables = {
+        name: with_texts(result.about[name], text, keys=True) for name in ("versions", "not_given", "basis", "units")
+    }
+    about = (
+        with_texts(result.about, text)
+        | tables
+        | {"messages": [text, text], "stopped": text, "inputs": {}, "given": [text]}
+    )
     return replace(
         result,
         about=about,
@@ -452,13 +532,24 @@ def hostile(result, text):
 
 
 def drawn(short):
-    """The run with the channels of the drawing only: a page with the film and few of the fourteen charts, which take 0.3 s each."""
-    return replace(short, data={name: values for name, values in short.data.items() if name == "time" or name in needed(number_of_balls(short))})
+    """The run with the channels of the drawing only: a page with the film and few of the fourteen charts, which take
+    0.3 s each.
+    """
+    return replace(
+        short,
+        data={
+            name: values
+            for name, values in short.data.items()
+            if name == "time" or name in needed(number_of_balls(short))
+        },
+    )
 
 
 @pytest.mark.parametrize("channels", [drawn, pytest.param(lambda short: short, marks=pytest.mark.slow, id="all")])
 def test_no_text_of_a_result_becomes_part_of_the_page(short, monkeypatch, channels):
-    """The elements, attributes and scripts of the page are those of a page with harmless texts, also with any text in the film."""
+    """The elements, attributes and scripts of the page are those of a page with harmless texts, also with any text in
+    the film.
+    """
     real, pages = report.frames, []
     for text in ("harmless", POISON):
         monkeypatch.setattr(report, "frames", lambda result, text=text: (real(result)[0] | {"note": text}, []))

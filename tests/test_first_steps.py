@@ -17,8 +17,16 @@ from riveted_bearing.variable_list import essentials, matching
 def test_without_a_scene_the_fmu_has_its_own_working_point(own):
     model = Model(own)
     scene = load_scene(None, model, ("the command line", {"simulation": {"t_end": "1 ms"}}))
-    assert scene.name == "mine" and scene.inputs == {} and scene.parameters == {"scene.statistics": "on"} and scene.t_end == 1e-3
-    assert scene.description == "own working point of mine.fmu, F_y 4100 N, F_x 515 N, omega 18238 rev/min" and scene.replaced == ()
+    assert (
+        scene.name == "mine"
+        and scene.inputs == {}
+        and scene.parameters == {"scene.statistics": "on"}
+        and scene.t_end == 1e-3
+    )
+    assert (
+        scene.description == "own working point of mine.fmu, F_y 4100 N, F_x 515 N, omega 18238 rev/min"
+        and scene.replaced == ()
+    )
 
 
 def test_a_run_without_a_scene(fmu):
@@ -27,7 +35,9 @@ def test_a_run_without_a_scene(fmu):
 
 
 def test_a_scene_says_what_it_replaces(own, fmu):
-    """The scene demo sets load and speed; its speed is the FMU's own.  A load of the command line is the user's, not the scene's."""
+    """The scene demo sets load and speed; its speed is the FMU's own.  A load of the command line is the user's, not
+    the scene's.
+    """
     assert load_scene("demo", Model(own)).replaced == ("shaft.F_y 2994 N for 4100 N",)
     assert load_scene("demo", Model(own), ("the command line", {"inputs": {"shaft.F_y": 1000.0}})).replaced == ()
     assert load_scene("demo", Model(fmu)).replaced == ()
@@ -44,7 +54,11 @@ start.settle = "10 ms"
 shaft.F_y = "3 kN"
 shaft.omega = { t = [0, 1], value = [3000, 12000], unit = "rev/min" }
 """)
-    expected = ("joint.preload 3 kgf for 2.0394 kgf", "shaft.F_y 3 kN for 2.994 kN", "shaft.omega 3000 to 12000 rev/min for 18238 rev/min")
+    expected = (
+        "joint.preload 3 kgf for 2.0394 kgf",
+        "shaft.F_y 3 kN for 2.994 kN",
+        "shaft.omega 3000 to 12000 rev/min for 18238 rev/min",
+    )
     assert load_scene(path, Model(fmu)).replaced == expected
 
 
@@ -55,7 +69,9 @@ def test_the_essential_variables(fmu):
     assert done.exit_code == 0 and all(name in done.stdout for name in listed)
     with zipfile.ZipFile(fmu) as archive:
         page = archive.read("documentation/index.html").decode()
-    assert page.index('<h2 id="essentials">') < page.index('<h2 id="use">') and all(f"<code>{name}</code>" in page.split('<h2 id="use">')[0] for name in listed)
+    assert page.index('<h2 id="essentials">') < page.index('<h2 id="use">') and all(
+        f"<code>{name}</code>" in page.split('<h2 id="use">')[0] for name in listed
+    )
 
 
 @pytest.mark.parametrize(
@@ -73,7 +89,11 @@ def test_variables_by_pattern(pattern, some):
 
 
 def test_variables_have_unit_and_limits(own):
-    line = next(line for line in CliRunner().invoke(program, ["variables", "shaft.F_y", "--fmu", str(own)]).stdout.splitlines() if line.startswith("shaft.F_y"))
+    line = next(
+        line
+        for line in CliRunner().invoke(program, ["variables", "shaft.F_y", "--fmu", str(own)]).stdout.splitlines()
+        if line.startswith("shaft.F_y")
+    )
     assert re.split(r"\s{1,}", line)[:7] == ["shaft.F_y", "input", "N", "4100", "-100000", "...", "100000"]
 
 

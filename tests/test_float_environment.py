@@ -1,4 +1,6 @@
-"""Every function of both FMUs in every floating-point environment that a host may have: the same bits, the host's environment as before, no signal."""
+"""Every function of both FMUs in every floating-point environment that a host may have: the same bits, the host's
+environment as before, no signal.
+"""
 
 import os
 import shutil
@@ -19,7 +21,10 @@ PROCESSORS = ("x86_64", "AMD64", "aarch64", "arm64")
 SANITIZED = "asan" in os.environ.get("LD_PRELOAD", "")  # make sanitize
 EXACT_FUNCTIONS = 44  # of FMI 2.0, for model exchange and co-simulation
 # Scenes by parameters: the start values; and what computes most, with a joint that is always at its limit.
-SCENES = {"RivetedBearing": ({}, {"joint.preload": 0.0, "start.settle": 0.0, "scene.stress": 4, "scene.lubrication": 2}), "Shaft": ({},)}
+SCENES = {
+    "RivetedBearing": ({}, {"joint.preload": 0.0, "start.settle": 0.0, "scene.stress": 4, "scene.lubrication": 2}),
+    "Shaft": ({},),
+}
 INPUT = {"RivetedBearing": "shaft.F_x", "Shaft": "gear.M"}
 CASES = [(name, i) for name in SCENES for i in range(len(SCENES[name]))]
 
@@ -33,7 +38,10 @@ def script(folder, changes):
     reals = {name: value for name, value in changes.items() if variables[name].type == "Real"}
     words = [description.guid, len(outputs), *outputs, variables[INPUT[description.modelName]].valueReference]
     for values in (integers, reals):
-        words += [len(values), *(word for name, value in values.items() for word in (variables[name].valueReference, value))]
+        words += [
+            len(values),
+            *(word for name, value in values.items() for word in (variables[name].valueReference, value)),
+        ]
     return " ".join(map(str, words))
 
 
@@ -44,7 +52,9 @@ def table(command, text, **options):
     for mode in modes:
         done = subprocess.run([*command, mode], input=text, capture_output=True, text=True, check=False, **options)
         assert done.returncode == 0, (mode, done.returncode, done.stderr)
-        rows[mode] = {name: (*map(int, counts), digest) for name, *counts, digest in map(str.split, done.stdout.splitlines())}
+        rows[mode] = {
+            name: (*map(int, counts), digest) for name, *counts, digest in map(str.split, done.stdout.splitlines())
+        }
     return rows
 
 
@@ -62,7 +72,9 @@ def check(rows, exported):
 
 def exported_functions(library):
     """Names of the FMI functions of a binary with their addresses."""
-    functions = {symbol.name.removeprefix("_"): symbol.address for symbol in lief.parse(str(library)).exported_functions}
+    functions = {
+        symbol.name.removeprefix("_"): symbol.address for symbol in lief.parse(str(library)).exported_functions
+    }
     return {name: address for name, address in functions.items() if name.startswith("fmi2")}
 
 
@@ -84,21 +96,29 @@ def library_of(folder):
     return folder / "binaries" / fmpy.platform / f"{describe(folder).modelName}{fmpy.sharedLibraryExtension}"
 
 
-@pytest.mark.skipif(os.name != "posix" or os.uname().machine not in PROCESSORS, reason="sets control registers of x86-64 or AArch64 under Unix")
+@pytest.mark.skipif(
+    os.name != "posix" or os.uname().machine not in PROCESSORS,
+    reason="sets control registers of x86-64 or AArch64 under Unix",
+)
 @pytest.mark.parametrize(("name", "scene"), CASES)
 def test_every_function_in_every_environment(folders, tmp_path, name, scene):
     host = tmp_path / "float_host"
-    subprocess.run(["cc", "-std=c17", "-O1", "-Wall", "-Wextra", "-Werror", f"-I{HEADERS}", str(SOURCE), "-o", str(host), "-ldl"], check=True)
+    subprocess.run(
+        ["cc", "-std=c17", "-O1", "-Wall", "-Wextra", "-Werror", f"-I{HEADERS}", str(SOURCE), "-o", str(host), "-ldl"],
+        check=True,
+    )
     library = library_of(folders[name])
     rows = table([host, library], script(folders[name], SCENES[name][scene]))
     check(rows, set(exported_functions(library)))
 
 
-# --------------------------------------------------------------------------------------------------------------- in the built code
+# ---------------------------------------------------------------------------------------------------- in the built code
 
 
 class Code:
-    """The instructions of an FMU's exported functions; capstone reads them, so that binaries that cannot run here are checked too."""
+    """The instructions of an FMU's exported functions; capstone reads them, so that binaries that cannot run here are
+    checked too.
+    """
 
     def __init__(self, library):
         capstone = pytest.importorskip("capstone")
@@ -106,7 +126,13 @@ class Code:
         self.functions = exported_functions(library)
         kind = str(self.binary.abstract.header.architecture).rsplit(".", 1)[-1]
         self.arm = kind == "ARM64"
-        self.engine = capstone.Cs(*((capstone.CS_ARCH_ARM64, capstone.CS_MODE_ARM) if self.arm else (capstone.CS_ARCH_X86, capstone.CS_MODE_64)))
+        self.engine = capstone.Cs(
+            *(
+                (capstone.CS_ARCH_ARM64, capstone.CS_MODE_ARM)
+                if self.arm
+                else (capstone.CS_ARCH_X86, capstone.CS_MODE_64)
+            )
+        )
         self.base = 0 if self.binary.format == lief.Binary.FORMATS.ELF else self.binary.imagebase
 
     def instructions(self, start, size=4096):
@@ -128,7 +154,11 @@ class Code:
 
     def target(self, one):
         """Of a jump within or out of the function; None for other instructions."""
-        jump = one.mnemonic in ("b", "cbz", "cbnz", "tbz", "tbnz", "br") or one.mnemonic.startswith("b.") if self.arm else one.mnemonic.startswith("j")
+        jump = (
+            one.mnemonic in ("b", "cbz", "cbnz", "tbz", "tbnz", "br") or one.mnemonic.startswith("b.")
+            if self.arm
+            else one.mnemonic.startswith("j")
+        )
         if not jump:
             return None
         last = one.op_str.split(",")[-1].strip().removeprefix("#")
@@ -142,7 +172,9 @@ OUTSIDE, INSIDE, CALLED, LEFT = range(4)
 
 
 def guard_problems(code, start):
-    """What is wrong with a function on any way through it: a call before its environment is read, a return before the host's is given back."""
+    """What is wrong with a function on any way through it: a call before its environment is read, a return before the
+    host's is given back.
+    """
     instructions = code.instructions(start)
     problems, writes = set(), 0
     seen, waiting = set(), [(start, OUTSIDE)]
@@ -179,11 +211,19 @@ def guard_problems(code, start):
 
 
 def check_code(library):
-    """Each exported function makes its environment before its first call and gives the host's back after its last one; two only return a text."""
+    """Each exported function makes its environment before its first call and gives the host's back after its last one;
+    two only return a text.
+    """
     code = Code(library)
     assert len(code.functions) == EXACT_FUNCTIONS
-    assert {name: found for name, address in code.functions.items() if (found := guard_problems(code, code.base + address))} == {}
-    calling = {name for name, address in code.functions.items() if any(map(code.is_read, function_body(code, code.base + address)))}
+    assert {
+        name: found for name, address in code.functions.items() if (found := guard_problems(code, code.base + address))
+    } == {}
+    calling = {
+        name
+        for name, address in code.functions.items()
+        if any(map(code.is_read, function_body(code, code.base + address)))
+    }
     assert set(code.functions) - calling == {"fmi2GetTypesPlatform", "fmi2GetVersion"}
 
 
@@ -203,16 +243,22 @@ def test_every_exported_function_has_the_guard(folders, name):
 
 
 @pytest.mark.skipif(os.name != "posix" or os.uname().machine != "x86_64", reason="compiles for this machine")
-@pytest.mark.skipif(SANITIZED, reason="capstone opens its library in a way (RTLD_DEEPBIND) at which the address sanitizer ends the process")
+@pytest.mark.skipif(
+    SANITIZED,
+    reason="capstone opens its library in a way (RTLD_DEEPBIND) at which the address sanitizer ends the process",
+)
 def test_a_function_without_the_guard_is_found(tmp_path):
     source, library = tmp_path / "bare.c", tmp_path / "bare.so"
     source.write_text("double other(double);\ndouble fmi2Bare(double x) { return 2.0 * other(x); }\n")
     subprocess.run(["cc", "-O2", "-shared", "-fPIC", str(source), "-o", str(library)], check=True)
     code = Code(library)
-    assert guard_problems(code, code.functions["fmi2Bare"]) >= {"calls in the host's environment", "returns in the core's environment"}
+    assert guard_problems(code, code.functions["fmi2Bare"]) >= {
+        "calls in the host's environment",
+        "returns in the core's environment",
+    }
 
 
-# ------------------------------------------------------------------------------------------------------------------ other systems
+# -------------------------------------------------------------------------------------------------------- other systems
 
 
 @pytest.mark.slow
@@ -228,9 +274,14 @@ def test_every_exported_function_of_other_systems_has_the_guard(everywhere, plat
 def test_every_function_in_every_environment_of_windows(everywhere, wine, tmp_path, name, scene):
     host = tmp_path / "float_host.exe"
     zig = [sys.executable, "-m", "ziglang", "cc", "-target", "x86_64-windows-gnu"]
-    subprocess.run([*zig, "-std=c17", "-O1", "-Wall", "-Wextra", "-Werror", f"-I{HEADERS}", str(SOURCE), "-o", str(host)], check=True)
+    subprocess.run(
+        [*zig, "-std=c17", "-O1", "-Wall", "-Wextra", "-Werror", f"-I{HEADERS}", str(SOURCE), "-o", str(host)],
+        check=True,
+    )
     folder = everywhere[name]
     library = folder / "binaries" / "win64" / f"{name}.dll"
     shutil.copy(library, tmp_path)
-    rows = table([*wine.command, host, library.name], script(folder, SCENES[name][scene]), env=wine.environment, cwd=tmp_path)
+    rows = table(
+        [*wine.command, host, library.name], script(folder, SCENES[name][scene]), env=wine.environment, cwd=tmp_path
+    )
     check(rows, set(exported_functions(library)))

@@ -38,7 +38,7 @@ def binary_of(folder):
     return path
 
 
-# ------------------------------------------------------------------------------------------------------- archive and binary
+# --------------------------------------------------------------------------------------------------- archive and binary
 
 
 def test_validation_reports_nothing(fmu):
@@ -54,11 +54,15 @@ def test_archive_is_complete(folder):
 
 @pytest.mark.skipif(not LINUX or SANITIZED, reason="reads an ELF file, without sanitizers")
 def test_binary_exports_fmi_only_and_needs_libc_and_libm_only(folder):
-    symbols = subprocess.run(["nm", "-D", "--defined-only", str(binary_of(folder))], capture_output=True, text=True, check=True).stdout
+    symbols = subprocess.run(
+        ["nm", "-D", "--defined-only", str(binary_of(folder))], capture_output=True, text=True, check=True
+    ).stdout
     exported = {line.split()[-1] for line in symbols.splitlines()}
     assert all(name.startswith("fmi2") for name in exported)
     assert len(exported) == 44  # all functions of FMI 2.0, for model exchange and co-simulation
-    dynamic = subprocess.run(["readelf", "-d", str(binary_of(folder))], capture_output=True, text=True, check=True).stdout
+    dynamic = subprocess.run(
+        ["readelf", "-d", str(binary_of(folder))], capture_output=True, text=True, check=True
+    ).stdout
     needed = {line.split("[")[1].rstrip("]") for line in dynamic.splitlines() if "(NEEDED)" in line}
     assert needed <= {"libc.so.6", "libm.so.6", "ld-linux-x86-64.so.2", "ld-linux-aarch64.so.1"}
 
@@ -72,7 +76,7 @@ def test_runs_through_fmpy(fmu):
     assert 1e-6 < result["ring.y"][-1] < 1e-4
 
 
-# ------------------------------------------------------------------------------------------------------------------ life cycle
+# ----------------------------------------------------------------------------------------------------------- life cycle
 
 
 @pytest.mark.parametrize(
@@ -174,7 +178,7 @@ def test_versions(slave):
     assert slave.ffi.string(slave.lib.fmi2GetTypesPlatform()) == b"default"
 
 
-# ------------------------------------------------------------------------------------------------------------------- variables
+# ------------------------------------------------------------------------------------------------------------ variables
 
 
 @pytest.mark.parametrize(
@@ -235,7 +239,12 @@ def test_wrong_reference_is_refused(running, function, reference, reason):
 
 def test_null_pointers_are_refused(slave):
     null = slave.ffi.NULL
-    for function, arguments in (("SetReal", ([1], 1, null)), ("SetReal", (null, 1, [1.0])), ("GetFMUstate", (null,)), ("SetFMUstate", (null,))):
+    for function, arguments in (
+        ("SetReal", ([1], 1, null)),
+        ("SetReal", (null, 1, [1.0])),
+        ("GetFMUstate", (null,)),
+        ("SetFMUstate", (null,)),
+    ):
         assert slave.call(function, *arguments) == ERROR
         slave.check("Reset")
     slave.check("SetReal", null, 0, null)
@@ -309,11 +318,19 @@ def test_cages_that_cannot_be_built_are_refused(slave, name, value, allowed):
     slave.check("EnterInitializationMode")
     assert slave.call("ExitInitializationMode") == ERROR
     message = next(text for _, _, text in slave.messages if f"{name} = " in text)
-    numbers = [float(number) for number in re.findall(r"= (\d[\d.e+-]*) m|(?:most|least|at|is) (\d[\d.e+-]*) m", message) for number in number if number]
-    assert numbers[0] == pytest.approx(value, rel=1e-5) and min(abs(number / allowed - 1.0) for number in numbers[1:]) < 1e-3, message
+    numbers = [
+        float(number)
+        for number in re.findall(r"= (\d[\d.e+-]*) m|(?:most|least|at|is) (\d[\d.e+-]*) m", message)
+        for number in number
+        if number
+    ]
+    assert (
+        numbers[0] == pytest.approx(value, rel=1e-5)
+        and min(abs(number / allowed - 1.0) for number in numbers[1:]) < 1e-3
+    ), message
 
 
-# ------------------------------------------------------------------------------------------------------------------------ time
+# ----------------------------------------------------------------------------------------------------------------- time
 
 
 @pytest.mark.parametrize("h", [0.0, -H, math.nan, math.inf, -math.inf])
@@ -355,7 +372,9 @@ def test_tolerance_of_the_host_is_in_force(folder):
     [(1e-12, 1e-10), (5e-324, 1e-10), (0.5, 0.1), (math.inf, 0.1), (0.0, None), (-1.0, None), (math.nan, None)],
 )
 def test_tolerance_of_the_host_is_a_hint(slave, hint, used):
-    """Some importers stop at anything but fmi2OK: the nearest tolerance that can be used, and one warning; the FMU's own where nothing can be meant."""
+    """Some importers stop at anything but fmi2OK: the nearest tolerance that can be used, and one warning; the FMU's
+    own where nothing can be meant.
+    """
     assert slave.call("SetupExperiment", 1, hint, 0.0, 0, 0.0) == OK
     ((status, category, message),) = slave.messages
     assert (status, category) == (WARNING, "logStatusWarning")
@@ -385,7 +404,9 @@ def test_processor_time_is_local_and_never_zeroed(folder):
     slave = Slave(folder)
     (variable,) = [v for v in slave.description.modelVariables if v.name == "solver.cpu_time"]
     assert variable.causality == "local" and variable.initial == "calculated"
-    assert variable not in [unknown.variable for unknown in slave.description.outputs + slave.description.initialUnknowns]
+    assert variable not in [
+        unknown.variable for unknown in slave.description.outputs + slave.description.initialUnknowns
+    ]
     used = [slave.initialize().step(1e-3, 3).get("solver.cpu_time")[0]]
     state = slave.save()
     used.append(slave.step(1e-3).get("solver.cpu_time")[0])
@@ -416,7 +437,9 @@ def test_hosts_clocks(folder):
 
 @pytest.mark.parametrize("start", [0.0, -1e-4, -1.0, 1.0, 1e3, 1.7e9])
 def test_hosts_clocks_from_any_start(folder, start):
-    """start + k h and t += h, also through 0, where times are small and their rounding is not, and in seconds since 1970."""
+    """start + k h and t += h, also through 0, where times are small and their rounding is not, and in seconds since
+    1970.
+    """
     h = 1e-5 if start < 1e6 else 1e-4
     multiplied, added = Slave(folder).initialize(start=start), Slave(folder).initialize(start=start)
     for k in range(40):
@@ -449,7 +472,7 @@ def test_a_step_that_is_lost_in_the_rounding_of_time_is_refused(folder):
     assert "lost in the rounding" in slave.messages[-1][2]
 
 
-# ------------------------------------------------------------------------------------------------------- failures, statuses, log
+# ---------------------------------------------------------------------------------------------- failures, statuses, log
 
 
 def failed(slave):
@@ -530,7 +553,9 @@ def test_logger_categories(folder):
     ((status, category, message),) = slave.messages
     assert (status, category) == (WARNING, "logStatusWarning")
     assert "logEverything" in message
-    declared = {c.name for c in slave.description.logCategories} if hasattr(slave.description, "logCategories") else {category}
+    declared = (
+        {c.name for c in slave.description.logCategories} if hasattr(slave.description, "logCategories") else {category}
+    )
     assert category in declared
 
 
@@ -542,7 +567,9 @@ def test_logger_categories(folder):
     ],
 )
 def test_the_integrators_own_messages_reach_the_log(folder, author, start, step, options):
-    """Doubles at 9e9 s are 2 us apart, and the tolerance asks for shorter steps: the integrator's words under logSolver, then the reason and a Discard."""
+    """Doubles at 9e9 s are 2 us apart, and the tolerance asks for shorter steps: the integrator's words under
+    logSolver, then the reason and a Discard.
+    """
     for logging in (True, False):
         slave = Slave(folder, logging=logging).initialize(start=start, **options)
         slave.messages.clear()
@@ -565,7 +592,7 @@ def test_messages_of_sundials_reach_the_log(core):
     assert "the solver cannot go on" in bearing.messages[-1]
 
 
-# ---------------------------------------------------------------------------------------------------------- memory, run time
+# ----------------------------------------------------------------------------------------------------- memory, run time
 
 
 @pytest.fixture(scope="session")
@@ -574,7 +601,9 @@ def allocations(tmp_path_factory):
     program = tmp_path_factory.mktemp("allocations") / "allocations"
     headers = Path(fmpy.__file__).parent / "c-code"
     source = Path(__file__).with_name("allocations.c")
-    subprocess.run(["cc", "-O1", "-fno-builtin", f"-I{headers}", str(source), "-o", str(program), "-rdynamic", "-ldl"], check=True)
+    subprocess.run(
+        ["cc", "-O1", "-fno-builtin", f"-I{headers}", str(source), "-o", str(program), "-rdynamic", "-ldl"], check=True
+    )
     return program
 
 
@@ -587,9 +616,13 @@ def count_allocations(program, folder, steps, h):
 
 
 @pytest.mark.skipif(not LINUX or SANITIZED, reason="replaces glibc's malloc")
-@pytest.mark.parametrize(("steps", "h"), [(200, H), *(pytest.param(steps, 1e-8, marks=pytest.mark.slow) for steps in (20_000, 1_000_000))])
+@pytest.mark.parametrize(
+    ("steps", "h"), [(200, H), *(pytest.param(steps, 1e-8, marks=pytest.mark.slow) for steps in (20_000, 1_000_000))]
+)
 def test_memory(allocations, folder, steps, h):
-    """No allocation in a step, in reading outputs and derivatives, from the first step on; no page more after many steps or 500 lives of instances."""
+    """No allocation in a step, in reading outputs and derivatives, from the first step on; no page more after many
+    steps or 500 lives of instances.
+    """
     allocated, grown, left, pages = count_allocations(allocations, folder, steps, h)
     assert allocated == 0
     assert grown == 0

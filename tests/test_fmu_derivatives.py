@@ -1,4 +1,6 @@
-"""Derivatives at the FMU's interface: inputs as polynomials inside a step, outputs by time, outputs and accelerations by inputs and states of the ring."""
+"""Derivatives at the FMU's interface: inputs as polynomials inside a step, outputs by time, outputs and accelerations
+by inputs and states of the ring.
+"""
 
 import math
 import re
@@ -13,7 +15,16 @@ from slave import ERROR, OK, Slave
 from bearing_model.generated.variables import INPUTS, OUTPUTS
 
 H = 1e-4  # communication step [s]
-SMOOTH = {"scene.cage": 2, "oil.A": 0.0, "oil.B": 0.0, "oil.rolling": 0.0, "oil.rho_mix": 0.0, "oil.eta": 1e-5, "cage.mu": 0.0, "cage.mu_land": 0.0}
+SMOOTH = {
+    "scene.cage": 2,
+    "oil.A": 0.0,
+    "oil.B": 0.0,
+    "oil.rolling": 0.0,
+    "oil.rho_mix": 0.0,
+    "oil.eta": 1e-5,
+    "cage.mu": 0.0,
+    "cage.mu_land": 0.0,
+}
 OMEGA = 2.0 * np.pi * 500.0  # of the loads below [rad/s]
 LOADS = {  # mean, amplitude, phase
     "shaft.F_x": (515.0, 200.0, 0.3),
@@ -28,7 +39,10 @@ LOADS = {  # mean, amplitude, phase
 
 def loads(t, order=0):
     """Each load or its derivative at time t."""
-    return [(0.0 if order else mean) + size * OMEGA**order * math.sin(OMEGA * t + phase + order * math.pi / 2) for mean, size, phase in LOADS.values()]
+    return [
+        (0.0 if order else mean) + size * OMEGA**order * math.sin(OMEGA * t + phase + order * math.pi / 2)
+        for mean, size, phase in LOADS.values()
+    ]
 
 
 def named(values):
@@ -36,7 +50,9 @@ def named(values):
 
 
 def start(folder, parameters=None, tolerance=None):
-    return Slave(folder).initialize(tolerance=tolerance, **named(dict(zip(LOADS, loads(0.0), strict=True)) | (parameters or {})))
+    return Slave(folder).initialize(
+        tolerance=tolerance, **named(dict(zip(LOADS, loads(0.0), strict=True)) | (parameters or {}))
+    )
 
 
 def drive(slave, h, order, steps, each=None):
@@ -45,26 +61,32 @@ def drive(slave, h, order, steps, each=None):
     for _ in range(steps):
         slave.check("SetReal", references, len(references), loads(slave.time))
         for k in range(1, order + 1):
-            slave.check("SetRealInputDerivatives", references, len(references), [k] * len(references), loads(slave.time, k))
+            slave.check(
+                "SetRealInputDerivatives", references, len(references), [k] * len(references), loads(slave.time, k)
+            )
         slave.step(h)
         if each:
             seen.append(each(slave))
     return np.array(seen)
 
 
-# --------------------------------------------------------------------------------------------------------------- inputs by time
+# ------------------------------------------------------------------------------------------------------- inputs by time
 
 
 def test_interpolated_inputs_converge_at_their_order(folder, record_property):
-    """Held, linear and quadratic inputs: the ring's displacement after each 0.2 ms converges with communication step^1, ^2, ^3.
+    """Held, linear and quadratic inputs: the ring's displacement after each 0.2 ms converges with communication step^1,
+    ^2, ^3.
 
-    The reference takes quadratic inputs every 5 us: a cube of a quarter of the finest step's error.  Frictionless, rigid cage, 2 ms.
+    The reference takes quadratic inputs every 5 us: a cube of a quarter of the finest step's error.  Frictionless,
+    rigid cage, 2 ms.
     """
     tolerance, steps = 1e-9, np.array([2e-4, 1e-4, 5e-5, 2e-5, 1e-5])
 
     def motion(h, order):
         every = round(2e-4 / h)
-        return drive(start(folder, SMOOTH, tolerance), h, order, round(2e-3 / h), lambda s: s.get("ring.x", "ring.y", "ring.z"))[every - 1 :: every]
+        return drive(
+            start(folder, SMOOTH, tolerance), h, order, round(2e-3 / h), lambda s: s.get("ring.x", "ring.y", "ring.z")
+        )[every - 1 :: every]
 
     reference = motion(5e-6, 2)
     for order, finest in ((0, 3e-7), (1, 4e-9), (2, 3e-11)):  # observed 2.4e-7, 2.9e-9, 1.7e-11 m
@@ -77,8 +99,11 @@ def test_interpolated_inputs_converge_at_their_order(folder, record_property):
 
 
 def test_an_importer_interpolates(fmu):
-    """fmpy with and without derivatives, a ramp of the load: with them the coarse step's result is the fine step's; without it lags by half a step."""
-    values = {name: INPUTS[name].start for name in (*LOADS, "shaft.M_y", "shaft.M_z")}  # fmpy 0.3 takes the derivatives of nine inputs, no more and no less
+    """fmpy with and without derivatives, a ramp of the load: with them the coarse step's result is the fine step's;
+    without it lags by half a step.
+    """
+    # fmpy 0.3 takes the derivatives of nine inputs, no more and no less
+    values = {name: INPUTS[name].start for name in (*LOADS, "shaft.M_y", "shaft.M_z")}
     ramp = np.zeros(2, dtype=[(name, float) for name in ("time", *values)])
     for name, value in values.items():
         ramp[name] = value
@@ -115,7 +140,9 @@ def test_an_input_stays_where_its_polynomial_ended(folder):
 
 
 def test_held_inputs_cost_nothing(folder):
-    """Derivatives of zero change no bit and no evaluation; a smooth load costs little more than a held one, as it is no jump."""
+    """Derivatives of zero change no bit and no evaluation; a smooth load costs little more than a held one, as it is no
+    jump.
+    """
     plain, zero = Slave(folder).initialize(), Slave(folder).initialize()
     for _ in range(10):
         zero.check("SetRealInputDerivatives", [1, 2, 6], 3, [1, 2, 1], [0.0, 0.0, 0.0])
@@ -146,7 +173,9 @@ def test_wrong_input_derivatives_are_refused(running, reference, order, value, r
     assert reason in running.messages[-1][2]
 
 
-@pytest.mark.parametrize(("first", "second", "value"), [(400.0, 0.0, 0.04), (1600.0, -3.2e7, 0.04), (-800.0, 0.0, -0.08)])
+@pytest.mark.parametrize(
+    ("first", "second", "value"), [(400.0, 0.0, 0.04), (1600.0, -3.2e7, 0.04), (-800.0, 0.0, -0.08)]
+)
 def test_inputs_that_leave_their_range_inside_a_step_are_refused(folder, first, second, value):
     """At the end or at the extremum between; the step is not begun."""
     slave = Slave(folder).initialize()
@@ -157,7 +186,7 @@ def test_inputs_that_leave_their_range_inside_a_step_are_refused(folder, first, 
     slave.initialize().step(H)
 
 
-# -------------------------------------------------------------------------------------------------------------- outputs by time
+# ------------------------------------------------------------------------------------------------------ outputs by time
 
 
 def output_derivatives(slave, names):
@@ -167,20 +196,35 @@ def output_derivatives(slave, names):
 
 
 def test_output_derivatives_are_the_outputs_slopes(folder, record_property):
-    """Against central differences over 20 ns of the motion itself, under loads that change, pockets hit; far apart only where a kink lies between.
+    """Against central differences over 20 ns of the motion itself, under loads that change, pockets hit; far apart only
+    where a kink lies between.
 
-    Judged by the largest slope of each output.  Truncation (4e5/s 1e-8 s)^2/6 = 3e-6 of the fastest parts, rounding of a joint's tension 1e-6.
+    Judged by the largest slope of each output.  Truncation (4e5/s 1e-8 s)^2/6 = 3e-6 of the fastest parts, rounding of
+    a joint's tension 1e-6.
     """
     held = ("peak", "stat", "fatigue", "solver", "constant", "event")
-    names = [v for v in OUTPUTS if "[" not in v and OUTPUTS[v].group not in (*held, "stress") and v not in ("bearing.contacts", "bearing.energy_residual")]
-    names += [f"ball[{j + 1}].{name}" for j in range(Z) for name in ("Q_i", "Q_e", "alpha_i", "p_e", "Lambda_i", "omega_m", "spin_roll")]
+    names = [
+        v
+        for v in OUTPUTS
+        if "[" not in v
+        and OUTPUTS[v].group not in (*held, "stress")
+        and v not in ("bearing.contacts", "bearing.energy_residual")
+    ]
+    names += [
+        f"ball[{j + 1}].{name}"
+        for j in range(Z)
+        for name in ("Q_i", "Q_e", "alpha_i", "p_e", "Lambda_i", "omega_m", "spin_roll")
+    ]
     names += [f"rivet[{k + 1}].{name}" for k in range(Z) for name in ("N", "T", "V", "sigma_head")]
     h, exact, differences = 1e-8, [], []
     slave = start(folder, TWO_HALF | {"cage.pocket_clearance": 1e-4}, tolerance=1e-8)
     drive(slave, H, 2, 30)
     for _ in range(10):
         drive(slave, 7e-5, 2, 1)
-        outputs, slopes = zip(*(drive(slave, h, 2, 1, lambda s: (s.get(*names), output_derivatives(s, names)))[0] for _ in range(3)), strict=True)
+        outputs, slopes = zip(
+            *(drive(slave, h, 2, 1, lambda s: (s.get(*names), output_derivatives(s, names)))[0] for _ in range(3)),
+            strict=True,
+        )
         exact.append(slopes[1])
         differences.append((outputs[2] - outputs[0]) / (2.0 * h))
     exact, differences = np.array(exact), np.array(differences)
@@ -189,7 +233,8 @@ def test_output_derivatives_are_the_outputs_slopes(folder, record_property):
     shares = np.sort(np.mean(np.abs(exact - differences) <= 2e-5 * size, axis=1))
     record_property("share", [float(share) for share in shares])
     print(f"share of slopes that agree at each time: {shares.round(4)}")
-    assert shares[3] > 0.995  # observed 1 at eight times; 0.92 and 0.75 where a ball touches its pocket or a joint slips between the differences
+    # observed 1 at eight times; 0.92 and 0.75 where a ball touches its pocket or a joint slips between the differences
+    assert shares[3] > 0.995
 
 
 def test_recorded_outputs_are_held(running):
@@ -199,14 +244,15 @@ def test_recorded_outputs_are_held(running):
 
 
 @pytest.mark.parametrize(
-    ("reference", "order", "reason"), [(2101, 2, "order = 2"), (2101, 0, "order = 0"), (1, 1, "shaft.F_x is no output"), (9999, 1, "9999")]
+    ("reference", "order", "reason"),
+    [(2101, 2, "order = 2"), (2101, 0, "order = 0"), (1, 1, "shaft.F_x is no output"), (9999, 1, "9999")],
 )
 def test_wrong_output_derivatives_are_refused(running, reference, order, reason):
     assert running.call("GetRealOutputDerivatives", [reference], 1, [order], [0.0]) == ERROR
     assert reason in running.messages[-1][2]
 
 
-# ------------------------------------------------------------------------------------------------------- directional derivatives
+# ---------------------------------------------------------------------------------------------- directional derivatives
 
 STATES = [f"ring.{name}" for name in ("x", "y", "z", "beta", "gamma")]
 RATES = [f"ring.{name}" for name in ("v_x", "v_y", "v_z", "beta_dot", "gamma_dot")]
@@ -215,7 +261,14 @@ ACCELERATIONS = [f"ring.{name}" for name in ("a_x", "a_y", "a_z", "beta_ddot", "
 
 def directional(slave, unknown, known, direction):
     values = slave.ffi.new("double[]", len(unknown))
-    arguments = [slave.vr[name] for name in unknown], len(unknown), [slave.vr[name] for name in known], len(known), list(direction), values
+    arguments = (
+        [slave.vr[name] for name in unknown],
+        len(unknown),
+        [slave.vr[name] for name in known],
+        len(known),
+        list(direction),
+        values,
+    )
     slave.check("GetDirectionalDerivative", *arguments)
     return np.array(list(values))
 
@@ -236,34 +289,92 @@ SCENES = {
     ),
     "prescribed": (
         {"ring.motion": 2, "frame.radius": 0.1, "scene.lubrication": 2, "scene.growth": 2},
-        {"shaft.x": 5e-5, "shaft.y": 2e-5, "shaft.z": 3e-6, "shaft.v_x": 1e-2, "shaft.v_y": -2e-2, "shaft.v_z": 1e-2, "shaft.tilt_y": 1e-3}
-        | {"shaft.tilt_z": 2e-3, "shaft.tilt_y_dot": 0.1, "shaft.tilt_z_dot": -0.2, "frame.omega": 50.0, "frame.omega_dot": 300.0, "frame.a_x": 5.0},
+        {
+            "shaft.x": 5e-5,
+            "shaft.y": 2e-5,
+            "shaft.z": 3e-6,
+            "shaft.v_x": 1e-2,
+            "shaft.v_y": -2e-2,
+            "shaft.v_z": 1e-2,
+            "shaft.tilt_y": 1e-3,
+        }
+        | {
+            "shaft.tilt_z": 2e-3,
+            "shaft.tilt_y_dot": 0.1,
+            "shaft.tilt_z_dot": -0.2,
+            "frame.omega": 50.0,
+            "frame.omega_dot": 300.0,
+            "frame.a_x": 5.0,
+        },
     ),
     "moving": (
         {"ring.tilt_mode": 2, "frame.radius": 0.1, "gravity.y": -9.81, "gravity.z": 5.0},
-        {"housing.x": 2e-6, "housing.y": -3e-6, "housing.z": 4e-6, "housing.v_x": 1e-2, "housing.v_y": -2e-2, "housing.v_z": 1e-2, "housing.tilt_y": 1e-3}
-        | {"housing.tilt_z": 2e-3, "housing.tilt_y_dot": 0.1, "housing.tilt_z_dot": -0.2, "housing.omega": -300.0, "frame.omega": 50.0, "frame.a_y": 5.0},
+        {
+            "housing.x": 2e-6,
+            "housing.y": -3e-6,
+            "housing.z": 4e-6,
+            "housing.v_x": 1e-2,
+            "housing.v_y": -2e-2,
+            "housing.v_z": 1e-2,
+            "housing.tilt_y": 1e-3,
+        }
+        | {
+            "housing.tilt_z": 2e-3,
+            "housing.tilt_y_dot": 0.1,
+            "housing.tilt_z_dot": -0.2,
+            "housing.omega": -300.0,
+            "frame.omega": 50.0,
+            "frame.a_y": 5.0,
+        },
     ),
     "rigid_moving": (
         {"scene.cage": 2, "ring.motion": 2, "scene.lubrication": 2},
-        {"shaft.x": 5e-5, "shaft.y": 2e-5, "housing.x": 2e-6, "housing.y": -3e-6, "housing.tilt_y": 1e-3, "housing.tilt_z": 2e-3, "housing.tilt_y_dot": 0.1}
-        | {"housing.tilt_z_dot": -0.2, "housing.omega": -300.0, "frame.omega": 50.0, "shaft.tilt_y": 1e-3, "shaft.tilt_z": 1e-3},
+        {
+            "shaft.x": 5e-5,
+            "shaft.y": 2e-5,
+            "housing.x": 2e-6,
+            "housing.y": -3e-6,
+            "housing.tilt_y": 1e-3,
+            "housing.tilt_z": 2e-3,
+            "housing.tilt_y_dot": 0.1,
+        }
+        | {
+            "housing.tilt_z_dot": -0.2,
+            "housing.omega": -300.0,
+            "frame.omega": 50.0,
+            "shaft.tilt_y": 1e-3,
+            "shaft.tilt_z": 1e-3,
+        },
     ),
-    "rigid": ({"scene.cage": 2, "ring.tilt_mode": 3, "scene.traction": 2, "oil.flow": 1e-5, "scene.growth": 2}, {"shaft.F_z": 500.0, "shaft.tilt_y": 1e-3}),
+    "rigid": (
+        {"scene.cage": 2, "ring.tilt_mode": 3, "scene.traction": 2, "oil.flow": 1e-5, "scene.growth": 2},
+        {"shaft.F_z": 500.0, "shaft.tilt_y": 1e-3},
+    ),
     "pockets and holes closed": (
-        {"cage.pocket_clearance": 0.0, "ring.tilt_mode": 2, "scene.lubrication": 2, "joint.preload": 0.0, "joint.fit": 0.0},
+        {
+            "cage.pocket_clearance": 0.0,
+            "ring.tilt_mode": 2,
+            "scene.lubrication": 2,
+            "joint.preload": 0.0,
+            "joint.fit": 0.0,
+        },
         {"shaft.tilt_z": 2e-3},
     ),
 }
 
 
 SCENES = {name: (TWO_HALF | parameters, inputs) for name, (parameters, inputs) in SCENES.items()}
-SCENES["elastic"] = {"scene.cage": 3, "ring.tilt_mode": 2}, {"shaft.tilt_z": 1e-3, "shaft.F_z": 400.0, "frame.omega": 50.0}
+SCENES["elastic"] = (
+    {"scene.cage": 3, "ring.tilt_mode": 2},
+    {"shaft.tilt_z": 1e-3, "shaft.F_z": 400.0, "frame.omega": 50.0},
+)
 
 
 @pytest.mark.parametrize("scene", SCENES)
 def test_directional_derivatives_are_those_of_the_core(core, folder, scene):
-    """Every input and every state of the ring reaches its place: the core's derivatives, which test_jacobian.py compares with differences."""
+    """Every input and every state of the ring reaches its place: the core's derivatives, which test_jacobian.py
+    compares with differences.
+    """
     parameters, inputs = SCENES[scene]
     slave = Slave(folder).initialize(**named(parameters | inputs)).step(H, 7)
     bearing, names = Instance(core, parameters, inputs), all_outputs(slave)
@@ -282,20 +393,26 @@ def test_directional_derivatives_are_those_of_the_core(core, folder, scene):
         held = np.zeros(len(expected) - len(column))  # local variables have no derivative
         assert np.array_equal(np.sort(np.append(column, held)), np.sort(expected)), name
     together = directional(slave, names, known, np.arange(1.0, len(known) + 1.0))
-    np.testing.assert_allclose(together, J @ np.arange(1.0, len(known) + 1.0), rtol=0.0, atol=1e-13 * np.abs(J).max() * len(known))
+    np.testing.assert_allclose(
+        together, J @ np.arange(1.0, len(known) + 1.0), rtol=0.0, atol=1e-13 * np.abs(J).max() * len(known)
+    )
 
 
 def family(unknown, known):
-    """Unknown and known; an unknown that depends on a temperature without its number: pockets and joints may be open at one and closed at the next."""
+    """Unknown and known; an unknown that depends on a temperature without its number: pockets and joints may be open at
+    one and closed at the next.
+    """
     return re.sub(r"\[\d+\]", "[]", unknown) if known in INPUTS and INPUTS[known].unit == "K" else unknown, known
 
 
 def test_dependencies_are_those_declared(folder):
-    """No derivative where the description declares none; each declared one by loads, speed, tilt and states occurs in some scene, those by a temperature at
-    some ball or rivet.  The motions of rings and frame are declared by whole groups of outputs.
+    """No derivative where the description declares none; each declared one by loads, speed, tilt and states occurs in
+    some scene, those by a temperature at some ball or rivet.  The motions of rings and frame are declared by whole
+    groups of outputs.
 
-    But for four: counts have none, penetration is often that of an outer race, the ring's push passes through the balls to the housing only
-    where a film pushes one of its sides, and the ring's spin moves its contacts along themselves: of its effect on their loads only rounding is left.
+    But for four: counts have none, penetration is often that of an outer race, the ring's push passes through the balls
+    to the housing only where a film pushes one of its sides, and the ring's spin moves its contacts along themselves:
+    of its effect on their loads only rounding is left.
     """
     exempt = ("housing.", "event.", "bearing.contacts", "bearing.penetration")
     missing = None
@@ -310,8 +427,14 @@ def test_dependencies_are_those_declared(folder):
         assert found <= declared
         missing = declared - found if missing is None else missing - found
     motions = [name for name in INPUTS if not name.startswith(("shaft.F", "shaft.M", "shaft.omega", "impact"))]
-    missing = {(unknown, known) for unknown, known in missing if not unknown.startswith(exempt) and known not in motions}
-    left = {(unknown, known) for unknown, known in missing if known != "shaft.omega" or not unknown.endswith((".Q_i", ".p_i"))}
+    missing = {
+        (unknown, known) for unknown, known in missing if not unknown.startswith(exempt) and known not in motions
+    }
+    left = {
+        (unknown, known)
+        for unknown, known in missing
+        if known != "shaft.omega" or not unknown.endswith((".Q_i", ".p_i"))
+    }
     assert left == set()
 
 
@@ -320,12 +443,15 @@ def test_loads_accelerate_the_ring(folder):
     slave = Slave(folder).initialize(ring__m=0.5).step(H)
     expected = np.zeros((3, 5))
     expected[[0, 1, 2, 1, 0], range(5)] = 1.0 / 0.5
-    J = jacobian(slave, ["ring.a_x", "ring.a_y", "ring.a_z"], ["shaft.F_x", "shaft.F_y", "shaft.F_z", "impact.F_r", "impact.F_a"])
+    J = jacobian(
+        slave, ["ring.a_x", "ring.a_y", "ring.a_z"], ["shaft.F_x", "shaft.F_y", "shaft.F_z", "impact.F_r", "impact.F_a"]
+    )
     np.testing.assert_allclose(J, expected, rtol=1e-14)
 
 
 def contact_energy(q, place, model):
-    """Hertz energy (2/5) K delta^2.5 of all inner contacts; the groove's centre line is a circle in the ring, the ball's distance to it measures delta.
+    """Hertz energy (2/5) K delta^2.5 of all inner contacts; the groove's centre line is a circle in the ring, the
+    ball's distance to it measures delta.
 
     q: x, y, z, beta, gamma of the ring; place [Z, 3]: the balls' centres.
     """
@@ -340,9 +466,11 @@ def contact_energy(q, place, model):
 
 
 def test_stiffness_matrix(core, folder):
-    """-m d(acceleration)/d(displacement) is the second derivative of the contacts' energy, balls and cage staying where they are.
+    """-m d(acceleration)/d(displacement) is the second derivative of the contacts' energy, balls and cage staying where
+    they are.
 
-    Frictionless, undamped, free tilt.  Differences of complex steps: 1e-6 (step/delta squared); terms of M tilt, J tilt^2: 1e-5.
+    Frictionless, undamped, free tilt.  Differences of complex steps: 1e-6 (step/delta squared); terms of M tilt, J
+    tilt^2: 1e-5.
     """
     parameters = SMOOTH | {"bearing.lambda": 0.0, "ring.tilt_mode": 3, "scene.growth": 1}
     slave = Slave(folder).initialize(shaft__F_z=700.0, **named(parameters)).step(1e-5, 20)
@@ -354,7 +482,9 @@ def test_stiffness_matrix(core, folder):
         return np.array([np.imag(contact_energy(q + 1e-30j * e, place, model)) / 1e-30 for e in np.eye(5)])
 
     step = np.array([1e-8] * 3 + [4e-7] * 2)
-    expected = np.array([(gradient(q + h * e) - gradient(q - h * e)) / (2.0 * h) for h, e in zip(step, np.eye(5), strict=True)]).T
+    expected = np.array(
+        [(gradient(q + h * e) - gradient(q - h * e)) / (2.0 * h) for h, e in zip(step, np.eye(5), strict=True)]
+    ).T
     m, J_t = slave.get("ring.m", "ring.J_t")
     K = -np.diag([m, m, m, J_t, J_t]) @ jacobian(slave, ACCELERATIONS, STATES)
     size = np.sqrt(np.outer(np.diag(expected), np.diag(expected)))
@@ -364,7 +494,9 @@ def test_stiffness_matrix(core, folder):
 
 
 def test_documented_example(monkeypatch, capsys):
-    """docs/running.md: at the working point the inner contacts alone are about twice as stiff as the quasi-static bearing, 176 N/um along Y."""
+    """docs/running.md: at the working point the inner contacts alone are about twice as stiff as the quasi-static
+    bearing, 176 N/um along Y.
+    """
     monkeypatch.chdir(ROOT)
     text = (ROOT / "docs" / "running.md").read_text().split("## In a co-simulation master")[1]
     exec(compile(text.split("```python\n")[1].split("```")[0], "running.md", "exec"), {})

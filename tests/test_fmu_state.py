@@ -1,4 +1,6 @@
-"""What the FMU repeats bit for bit: reset, instances, threads, rounding modes, saved and restored states; what it refuses to restore."""
+"""What the FMU repeats bit for bit: reset, instances, threads, rounding modes, saved and restored states; what it
+refuses to restore.
+"""
 
 import ctypes
 import ctypes.util
@@ -23,7 +25,7 @@ def same_bits(a, b):
     return a.tobytes() == b.tobytes()
 
 
-# ---------------------------------------------------------------------------------------------------------------- reproducibility
+# ------------------------------------------------------------------------------------------------------ reproducibility
 
 
 def test_reset_is_as_new_bit_for_bit(folder):
@@ -46,7 +48,9 @@ def test_two_interleaved_instances_equal_two_separate_ones(folder):
 
 
 def test_any_thread(folder):
-    """Eight different instances stepped in eight threads, created in this one, equal those stepped here one after the other."""
+    """Eight different instances stepped in eight threads, created in this one, equal those stepped here one after the
+    other.
+    """
     loads = 1000.0 + 250.0 * np.arange(8)
     slaves = [Slave(folder).initialize(shaft__F_y=float(load)) for load in loads]
     threads = [threading.Thread(target=slave.step, args=(H, 10)) for slave in slaves]
@@ -60,7 +64,9 @@ def test_any_thread(folder):
 
 @pytest.mark.skipif(not LINUX, reason="other systems' clocks tick too rarely")
 def test_processor_time_is_of_the_stepping_thread(folder):
-    """Two threads at a time: what both count is no more than what the process spent, which a clock of the process would count twice."""
+    """Two threads at a time: what both count is no more than what the process spent, which a clock of the process would
+    count twice.
+    """
     slaves = [Slave(folder).initialize() for _ in range(2)]
     threads = [threading.Thread(target=slave.step, args=(1e-2, 20)) for slave in slaves]
     before = time.process_time()
@@ -109,7 +115,9 @@ def test_inputs_set_after_a_step_do_not_change_its_outputs(folder):
 
 
 def test_communication_steps_agree_to_the_tolerance(folder):
-    """Motion of the ring after 1 ms at tolerance 1e-6: within 10 times the error that the tolerance allows; observed 1.6 times."""
+    """Motion of the ring after 1 ms at tolerance 1e-6: within 10 times the error that the tolerance allows; observed
+    1.6 times.
+    """
     tolerance = 1e-6
     allowed = tolerance * np.array([1e-5] * 3 + [0.5] * 3)  # scales of length [m] and velocity [m/s]
     names = ("ring.x", "ring.y", "ring.z", "ring.v_x", "ring.v_y", "ring.v_z")
@@ -118,7 +126,7 @@ def test_communication_steps_agree_to_the_tolerance(folder):
         assert (np.abs(end - ends[0]) < 10 * allowed).all()
 
 
-# ------------------------------------------------------------------------------------------------------------------- saved states
+# --------------------------------------------------------------------------------------------------------- saved states
 
 
 def test_saved_state_continues_bit_for_bit(folder):
@@ -157,9 +165,11 @@ def new_inputs(slave, rng):
 
 @pytest.mark.parametrize("scene", SCENES)
 def test_rollback_at_random_points_with_random_steps(folder, scene):
-    """100 points in all.  Whole states compared, not only outputs: solver memory, inputs, peaks, statistics and fatigue counters go on alike.
+    """100 points in all.  Whole states compared, not only outputs: solver memory, inputs, peaks, statistics and fatigue
+    counters go on alike.
 
-    Every second state is saved between new inputs with derivatives and the step that they are for; later steps have their own.
+    Every second state is saved between new inputs with derivatives and the step that they are for; later steps have
+    their own.
     """
     rng = np.random.default_rng(2)
     slave, other = Slave(folder).initialize(**SCENES[scene]), Slave(folder)
@@ -201,12 +211,16 @@ def test_saved_state_continues_in_another_process(folder, tmp_path):
         f"s = Slave(Path({str(folder)!r})); status, state = s.try_load(Path({str(path)!r}).read_bytes())\n"
         f"sys.stdout.write(s.restore(state, {time!r}).step({H!r}, 3).outputs().tobytes().hex())"
     )
-    result = subprocess.run([sys.executable, "-c", program], cwd=Path(__file__).parent, capture_output=True, text=True, check=True)
+    result = subprocess.run(
+        [sys.executable, "-c", program], cwd=Path(__file__).parent, capture_output=True, text=True, check=True
+    )
     assert result.stdout == slave.step(H, 3).outputs().tobytes().hex()
 
 
 def test_inputs_that_the_next_step_would_refuse_can_be_saved(folder):
-    """A cage of 700 K does not fit its guide: the step says so, not the restoring of a state in which the host has set it."""
+    """A cage of 700 K does not fit its guide: the step says so, not the restoring of a state in which the host has set
+    it.
+    """
     slave = Slave(folder).initialize().step(H)
     slave.set("cage.T", 700.0)
     status, state = slave.try_load(slave.bytes(slave.save()))
@@ -242,7 +256,13 @@ def test_state_holds_parameters_inputs_and_phase(slave):
 def corrupted(data):
     """What must be refused, and why."""
     header = 216  # magic 8, version 8, GUID 40, digest of the sources 72, of data built in 72, size 8, checksum 8
-    for position in (header, header + 100, len(data) // 2, len(data) - 1, *np.random.default_rng(3).integers(header, len(data), 50)):
+    for position in (
+        header,
+        header + 100,
+        len(data) // 2,
+        len(data) - 1,
+        *np.random.default_rng(3).integers(header, len(data), 50),
+    ):
         yield data[:position] + bytes([data[position] ^ 1]) + data[position + 1 :], "corrupted"
     yield data[:208] + struct.pack("<Q", struct.unpack_from("<Q", data, 208)[0] ^ 1) + data[header:], "corrupted"
     for length in (0, 10, header, len(data) - 1):
@@ -270,8 +290,9 @@ def test_corrupted_and_foreign_states_are_refused_with_the_reason(running):
 @pytest.mark.parametrize("method", Method)
 @pytest.mark.parametrize("step", [5e-324, 1e-310, 3e-308])
 def test_a_step_too_short_for_arithmetic_leaves_nothing_behind(folder, step, method):
-    """1/h of a subnormal step overflows, its product with a time underflows.  At time zero such a step is not lost in the rounding of time; its step size
-    must stay neither in the state nor in the integrator's memory."""
+    """1/h of a subnormal step overflows, its product with a time underflows.  At time zero such a step is not lost in
+    the rounding of time; its step size must stay neither in the state nor in the integrator's memory.
+    """
     slave = Slave(folder).initialize(solver__method=int(method))
     before = slave.save()
     assert slave.call("DoStep", 0.0, step, 1) == DISCARD
@@ -292,9 +313,11 @@ def test_serialization_needs_the_whole_room(running):
 
 @pytest.mark.slow
 def test_rollback_by_a_master_with_variable_steps(folder):
-    """Every macro step is tried as one, taken back and made as two halves, its size chosen from the difference: statistics as from fixed steps.
+    """Every macro step is tried as one, taken back and made as two halves, its size chosen from the difference:
+    statistics as from fixed steps.
 
-    Pooled over eight seeds, 0.1 s each after 0.02 s.  Expected: equal within 4 standard errors of the difference of means over seeds.
+    Pooled over eight seeds, 0.1 s each after 0.02 s.  Expected: equal within 4 standard errors of the difference of
+    means over seeds.
     """
     names = ("stat.Q_c_mean", "stat.Q_c_rms", "stat.sigma_head_mean", "stat.sigma_head_rms", "stat.cage_omega")
     fixed, varied = [], []

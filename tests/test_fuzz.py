@@ -25,7 +25,9 @@ def said(name, *arguments):
 
 def fuzz(calls, seed, threads=1):
     """Counts by kind."""
-    found = re.findall(r"(\d+) (calls|OK|warning|discard|error|steps done|reset runs)", said("fuzz_api", calls, seed, threads))
+    found = re.findall(
+        r"(\d+) (calls|OK|warning|discard|error|steps done|reset runs)", said("fuzz_api", calls, seed, threads)
+    )
     return {kind: int(count) for count, kind in found}
 
 
@@ -52,7 +54,9 @@ def test_ten_million_random_calls():
 def forge(name, count, seed):
     """Counts by what became of the states; each kind occurs, so the forging reaches what it shall."""
     text = said(name, count, seed)
-    counts = {kind: int(number) for number, kind in re.findall(r"(\d+) (forged|refused|kept|stepped|discarded|stopped)", text)}
+    counts = {
+        kind: int(number) for number, kind in re.findall(r"(\d+) (forged|refused|kept|stepped|discarded|stopped)", text)
+    }
     assert counts["forged"] == count
     assert counts["refused"] > 0.2 * count and counts["stepped"] > 0.2 * count and counts["kept"] > 0.05 * count
     assert sum(counts.values()) == 2 * count
@@ -66,7 +70,8 @@ def test_forged_states_are_refused_or_run(name):
 
 def test_every_field_out_of_range_is_refused():
     """Indices, enumerations, depths, counts, phases, times and numbers of a bearing's state, one after the other."""
-    assert int(re.match(r"(\d+) fields out of range, all refused", said("forge_states", "fields"))[1]) > 7000  # observed 9289
+    # observed 9289
+    assert int(re.match(r"(\d+) fields out of range, all refused", said("forge_states", "fields"))[1]) > 7000
 
 
 @pytest.mark.slow

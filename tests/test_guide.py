@@ -21,7 +21,8 @@ ROOT = Path(__file__).parents[1]
 GUIDE = (ROOT / "docs" / "guide.md").read_text(encoding="utf-8")
 FMU = ROOT / "fmus" / "RivetedBearing.fmu"
 OWN = (ROOT / "docs" / "own_bearing.md").read_text(encoding="utf-8")
-BLOCKS = [block for page in (GUIDE, OWN) for block in re.findall(r"^```(\w+)\n(.*?)^```", page, re.S | re.M)]  # (language, text)
+# (language, text)
+BLOCKS = [block for page in (GUIDE, OWN) for block in re.findall(r"^```(\w+)\n(.*?)^```", page, re.S | re.M)]
 FILES = {found[1]: text for language, text in BLOCKS if language == "toml" and (found := re.match(r"# (\S+)", text))}
 PARTS = [text for language, text in BLOCKS if language == "toml" and not text.startswith("#")]  # of bearing files
 COMMANDS = [line for language, text in BLOCKS if language == "sh" for line in text.splitlines()]
@@ -82,7 +83,9 @@ def test_links_lead_somewhere():
         target = ROOT / "docs" / (path or "guide.md")
         assert target.exists(), link
         titles = re.findall(r"^#+ (.*)$", target.read_text(encoding="utf-8"), re.M) if heading else []
-        assert not heading or heading in {re.sub(r"[^\w -]", "", title).lower().replace(" ", "-") for title in titles}, link
+        assert not heading or heading in {
+            re.sub(r"[^\w -]", "", title).lower().replace(" ", "-") for title in titles
+        }, link
 
 
 def test_scene_of_the_guide_and_python_examples_run(folder, capsys):
@@ -94,12 +97,15 @@ def test_scene_of_the_guide_and_python_examples_run(folder, capsys):
     printed = capsys.readouterr().out
     assert len(printed.splitlines()) == 3
     stresses = [int(text) for text in re.findall(r"(\d+) MPa", printed)]
-    assert len(stresses) == 5 and all(40 < stress < 900 for stress in stresses)  # 730 MPa the largest, with the centrifugal load
+    # 730 MPa the largest, with the centrifugal load
+    assert len(stresses) == 5 and all(40 < stress < 900 for stress in stresses)
 
 
 @pytest.mark.slow
 def test_the_whole_guide(folder):
-    """All blocks in the order of the pages: what the commands promise is there afterwards.  Minutes, most of it the builds and their rivet tables."""
+    """All blocks in the order of the pages: what the commands promise is there afterwards.  Minutes, most of it the
+    builds and their rivet tables.
+    """
     for language, text in BLOCKS:
         if language == "sh":
             for line in text.splitlines():
@@ -107,12 +113,22 @@ def test_the_whole_guide(folder):
         elif language == "python":
             exec(compile(text, "guide.md", "exec"), {"__name__": "guide"})
     results = {path.name for path in (folder / "results").iterdir()}
-    assert {"demo.html", "demo.png", "runup.html", "preload40.html", "softer.parquet", "demo_compare.png", "preload"} <= results
+    assert {
+        "demo.html",
+        "demo.png",
+        "runup.html",
+        "preload40.html",
+        "softer.parquet",
+        "demo_compare.png",
+        "preload",
+    } <= results
 
 
 def run_in_shell(line):
     """A command as typed, with this Python's program of the checkout."""
     program, *arguments = shlex.split(line)
     module = ["-m", "riveted_bearing"] if program == "riveted-bearing" else []
-    done = subprocess.run([sys.executable, *module, *arguments], capture_output=True, text=True, timeout=1800, check=False)
+    done = subprocess.run(
+        [sys.executable, *module, *arguments], capture_output=True, text=True, timeout=1800, check=False
+    )
     assert done.returncode == 0, f"{line}\n{done.stdout}\n{done.stderr}"

@@ -17,7 +17,8 @@ from rivet_model.geometry import Geometry
 G = Geometry()
 BARE = replace(G, rho_rivet=1e-9)  # the bronze alone: rivets without mass
 STEPS = np.deg2rad(np.arange(0.0, 91.0, 5.0))
-SMALL = Geometry(Z=6, d_m=40e-3, cage_outer_diameter=46e-3, cage_inner_diameter=36.2e-3)  # few pitches for models of the whole half
+# few pitches for models of the whole half
+SMALL = Geometry(Z=6, d_m=40e-3, cage_outer_diameter=46e-3, cage_inner_diameter=36.2e-3)
 
 
 def wall_points(angles, g=G):
@@ -26,7 +27,9 @@ def wall_points(angles, g=G):
 
 @pytest.fixture(scope="module")
 def coarse():
-    """Coarse half with further points at the steps of 5 degrees, then a Hertz patch about 30 degrees, then the same place nearer and farther out."""
+    """Coarse half with further points at the steps of 5 degrees, then a Hertz patch about 30 degrees, then the same
+    place nearer and farther out.
+    """
     patch, _ = hertz_patch(np.deg2rad(30.0))
     radial = np.stack([np.full(2, np.deg2rad(30.0)), G.d_m / 2 + np.array([-0.1e-3, 0.1e-3])], axis=1)
     elastic = half_loads.elastic_half(G, half.COARSE, np.concatenate([wall_points(STEPS), patch, radial]))
@@ -34,7 +37,9 @@ def coarse():
 
 
 def hertz_patch(angle, a=0.9e-3, b=0.16e-3, count=5):
-    """Points and weights of Hertz's pressure over an ellipse with half axes a along the wall (200 N in the 6207's pocket) and b along the pocket's axis."""
+    """Points and weights of Hertz's pressure over an ellipse with half axes a along the wall (200 N in the 6207's
+    pocket) and b along the pocket's axis.
+    """
     nodes, weights = np.polynomial.legendre.leggauss(count)
     u, v = np.meshgrid(nodes, nodes, indexing="ij")
     pressure = np.sqrt(np.clip(1.0 - u**2 - v**2, 0.0, None)) * np.outer(weights, weights)
@@ -42,7 +47,7 @@ def hertz_patch(angle, a=0.9e-3, b=0.16e-3, count=5):
     return points, pressure.ravel() / pressure.sum()
 
 
-# Geometry -----------------------------------------------------------------------------------------------------------------------------
+# Geometry -------------------------------------------------------------------------------------------------------------
 
 
 def mesh_inertia(size, density):
@@ -55,14 +60,18 @@ def mesh_inertia(size, density):
 
 
 def test_mass_and_inertia_of_the_mesh():
-    """Bronze by the mesh and by the drawing's integrals: within 0.1 % on coarse cells, too (observed 1.4e-4; the shipped mesh 3e-5)."""
+    """Bronze by the mesh and by the drawing's integrals: within 0.1 % on coarse cells, too (observed 1.4e-4; the
+    shipped mesh 3e-5).
+    """
     bronze = half_shape.half_inertia(BARE)
     for size in (half.COARSE, half.HalfMesh()):
         np.testing.assert_allclose(mesh_inertia(size, G.rho_flange), bronze, rtol=1e-3)
 
 
 def test_inertia_of_the_whole():
-    """Bronze and rivets together: masses add; the polar moment exceeds m d_m2/4 as the ring's section and the rivets say (to 2 %: the pockets)."""
+    """Bronze and rivets together: masses add; the polar moment exceeds m d_m2/4 as the ring's section and the rivets
+    say (to 2 %: the pockets).
+    """
     both, bronze = half_shape.half_inertia(G), half_shape.half_inertia(BARE)
     assert both.m - bronze.m == pytest.approx(G.Z * half_shape.rivet_mass(G), rel=1e-9)
     mean_square = (G.cage_outer_diameter**2 + G.cage_inner_diameter**2) / 8
@@ -71,8 +80,18 @@ def test_inertia_of_the_whole():
 
 
 def test_inertia_of_a_plain_ring():
-    """Tiny pockets, holes and rivets leave a ring: m = rho pi (r_o^2 - r_i^2) w, x_c = w/2, J_t = m ((r_o^2 + r_i^2)/4 + w^2/12) (to 1e-6)."""
-    names = ("ball_diameter", "pocket_clearance", "shank_diameter", "head_diameter", "head_height", "seat_diameter", "relief_radius")
+    """Tiny pockets, holes and rivets leave a ring: m = rho pi (r_o^2 - r_i^2) w, x_c = w/2, J_t = m ((r_o^2 + r_i^2)/4
+    + w^2/12) (to 1e-6).
+    """
+    names = (
+        "ball_diameter",
+        "pocket_clearance",
+        "shank_diameter",
+        "head_diameter",
+        "head_height",
+        "seat_diameter",
+        "relief_radius",
+    )
     tiny = dict.fromkeys(names, 1e-9)
     g = SimpleNamespace(**(vars(G) | tiny))
     r_i, r_o, w = g.cage_inner_diameter / 2, g.cage_outer_diameter / 2, g.cage_half_width
@@ -100,13 +119,16 @@ def test_limits_name_what_cannot_be_built(change, key):
         half_shape.check_half(g)
 
 
-# Elasticity ---------------------------------------------------------------------------------------------------------------------------
+# Elasticity -----------------------------------------------------------------------------------------------------------
 
 
 def plain_ring(R, thickness, width, Z, cells=16):
     """A ring of rectangular section as a cyclic solid with its body patterns alone."""
     blocks = half._Blocks()
-    x, r, theta = (np.linspace(a, b, 2 * n + 1) for a, b, n in ((0, width, 2), (R - thickness / 2, R + thickness / 2, 2), (0, 2 * np.pi / Z, cells)))
+    x, r, theta = (
+        np.linspace(a, b, 2 * n + 1)
+        for a, b, n in ((0, width, 2), (R - thickness / 2, R + thickness / 2, 2), (0, 2 * np.pi / Z, cells))
+    )
     blocks.add(np.stack(np.meshgrid(x - width / 2, r, theta, indexing="ij"), axis=-1))
     ring = cage_half.CyclicSolid(blocks.mesh(), Z, G.E_flange, G.nu_flange)
     ring.condense(ring.body_loads())
@@ -114,11 +136,12 @@ def plain_ring(R, thickness, width, Z, cells=16):
 
 
 def test_free_ring():
-    """Waves of a thin ring (R/thickness 50) against the formulas of rings: stretching, bending in and out of its plane with torsion.
+    """Waves of a thin ring (R/thickness 50) against the formulas of rings: stretching, bending in and out of its plane
+    with torsion.
 
-    Body forces q_r, q_t per length in the frame of each place, wave m: u_r = (q_r - i q_t/m) R4/(E I (m2 - 1)2); along x:
-    u_x = q R4 (m2 + E I/(G J))/(E I m2 (m2 - 1)2).  The pitches' patterns turn by steps, of which wave m has the part sinc(m/Z), in load and answer.
-    Observed 0.4 % with torsion, else 0.18 %: shear, curvature and elements.
+    Body forces q_r, q_t per length in the frame of each place, wave m: u_r = (q_r - i q_t/m) R4/(E I (m2 - 1)2); along
+    x: u_x = q R4 (m2 + E I/(G J))/(E I m2 (m2 - 1)2).  The pitches' patterns turn by steps, of which wave m has the
+    part sinc(m/Z), in load and answer. Observed 0.4 % with torsion, else 0.18 %: shear, curvature and elements.
     """
     R, t, Z = 25e-3, 0.5e-3, 12
     E, nu, A = G.E_flange, G.nu_flange, t * t
@@ -140,33 +163,50 @@ def test_free_ring():
 
 
 def whole(elastic):
-    """Matrices [Z] that put the displacements and loads of the pitches, each in its own frame, together to those of the whole half."""
+    """Matrices [Z] that put the displacements and loads of the pitches, each in its own frame, together to those of the
+    whole half.
+    """
     Z, x, member = elastic.Z, elastic.x, []
     for k in range(Z):
         c, s = np.cos(2 * np.pi * k / Z), np.sin(2 * np.pi * k / Z)
-        member.append(np.stack([1e8 * x[0], 1e8 * (c * x[1] - s * x[2]), 1e8 * (s * x[1] + c * x[2]), elastic.component]))
+        member.append(
+            np.stack([1e8 * x[0], 1e8 * (c * x[1] - s * x[2]), 1e8 * (s * x[1] + c * x[2]), elastic.component])
+        )
     _, member = np.unique(np.round(np.concatenate(member, axis=1)).astype(np.int64), axis=1, return_inverse=True)
     member, matrices = member.ravel().reshape(Z, -1), []
     assert member.max() + 1 < 0.99 * member.size, "neighbours meet"
     for k in range(Z):
         c, s = np.cos(2 * np.pi * k / Z), np.sin(2 * np.pi * k / Z)
-        turn = sp.block_diag([np.array([[1, 0, 0], [0, c, -s], [0, s, c]])] * (x.shape[1] // 3), format="csr")  # dofs of a node follow each other
-        matrices.append(sp.csr_matrix((np.ones(x.shape[1]), (member[k], np.arange(x.shape[1]))), shape=(member.max() + 1, x.shape[1])) @ turn)
+        # dofs of a node follow each other
+        turn = sp.block_diag([np.array([[1, 0, 0], [0, c, -s], [0, s, c]])] * (x.shape[1] // 3), format="csr")
+        matrices.append(
+            sp.csr_matrix(
+                (np.ones(x.shape[1]), (member[k], np.arange(x.shape[1]))), shape=(member.max() + 1, x.shape[1])
+            )
+            @ turn
+        )
     return matrices
 
 
 @pytest.mark.slow
 def test_cyclic_half_equals_the_whole_half():
-    """Rows under a pocket force and under the centrifugal load, by waves and by one sparse solution of all pitches, pads held by stiff springs.
+    """Rows under a pocket force and under the centrifugal load, by waves and by one sparse solution of all pitches,
+    pads held by stiff springs.
 
-    Observed 1e-5 of the row's largest: springs of 1e13 N/m give, and the inertia that balances free motions is 1e-6 of the softest stiffness.
+    Observed 1e-5 of the row's largest: springs of 1e13 N/m give, and the inertia that balances free motions is 1e-6 of
+    the softest stiffness.
     """
     elastic = cage_half.CageHalf(SMALL, half.COARSE, wall_points(np.deg2rad([12.0]), SMALL))
     alone, p, Z = half_loads.JointAlone(elastic), elastic.patterns, SMALL.Z
     assert np.array_equal(elastic.component, np.arange(elastic.basis.N) % 3)
     to_whole = whole(elastic)
     K = sum(T @ (elastic.K + 1e5 * elastic.M) @ T.T for T in to_whole)
-    loads = np.column_stack([to_whole[0] @ (0.5 * elastic.loads[:, p.pocket][:, :3]), sum(T @ elastic.loads[:, cage_half.SPIN] for T in to_whole)])
+    loads = np.column_stack(
+        [
+            to_whole[0] @ (0.5 * elastic.loads[:, p.pocket][:, :3]),
+            sum(T @ elastic.loads[:, cage_half.SPIN] for T in to_whole),
+        ]
+    )
     rows = half_loads.path_at(elastic, alone, 0)
     rows[:, :3] += np.moveaxis(half_loads.rigid_rows(elastic, elastic.point_places()[0]), 0, -1)
     spin = half_loads.alike_rows(elastic, alone, np.eye(elastic.loads.shape[1])[cage_half.SPIN])
@@ -182,10 +222,11 @@ def test_cyclic_half_equals_the_whole_half():
 
 @pytest.mark.slow
 def test_pair_stiffness_of_the_whole_half():
-    """Separation of the halves' bodies, closed and open: waves, condensation and contact beside one sparse solution of all pitches with pads and rivets.
+    """Separation of the halves' bodies, closed and open: waves, condensation and contact beside one sparse solution of
+    all pitches with pads and rivets.
 
-    The pads' hats that touch are held by stiff springs, the heads by springs of half a rivet that are too short by the preload.  No compliance is in one
-    of the two and not in the other: within 1e-6 (observed 3e-8).
+    The pads' hats that touch are held by stiff springs, the heads by springs of half a rivet that are too short by the
+    preload.  No compliance is in one of the two and not in the other: within 1e-6 (observed 3e-8).
     """
     rivet = joint_contact.rivet_compliance(SMALL)
     elastic = cage_half.CageHalf(SMALL, half.COARSE)
@@ -211,7 +252,8 @@ def test_pair_stiffness_of_the_whole_half():
 
 @pytest.mark.parametrize("shank", [1.5e-3, 1.9e-3, 2e-3])
 def test_the_pad_takes_what_the_head_brings(shank):
-    """Force and moments of a unit at the head come out at the held pad however narrow the seat, 0.3, 0.1 or 0.05 mm; neighbours take 2 % (observed).
+    """Force and moments of a unit at the head come out at the held pad however narrow the seat, 0.3, 0.1 or 0.05 mm;
+    neighbours take 2 % (observed).
 
     Lost facets of a narrow seat would leave a pressure that does not balance: they made 55 % of a moment.
     """
@@ -243,7 +285,9 @@ def test_bonded_rows_balance(coarse):
 
 
 def test_path_between_its_nodes(coarse):
-    """Cubic between nine angles against direct solutions at 0...90 degrees in steps of 5: below 3 % of the largest moment (observed 1.1 %, N 1.0 %)."""
+    """Cubic between nine angles against direct solutions at 0...90 degrees in steps of 5: below 3 % of the largest
+    moment (observed 1.1 %, N 1.0 %).
+    """
     elastic, alone = coarse
     nodes = len(half_loads.CHI)
     table = np.stack([half_loads.path_at(elastic, alone, i) for i in range(nodes)])
@@ -257,9 +301,11 @@ def test_path_between_its_nodes(coarse):
 
 @pytest.mark.slow
 def test_shipped_path_on_finer_elements():
-    """Path and centrifugal load of the shipped table beside direct solutions on finer elements, at angles of 0...90 degrees in steps of 5.
+    """Path and centrifugal load of the shipped table beside direct solutions on finer elements, at angles of 0...90
+    degrees in steps of 5.
 
-    Within 1 % of the largest of their kind (observed: tension 0.88, transverse loads 0.23, moments 0.93 %); the centrifugal moment 0.2 % (0.04 %).
+    Within 1 % of the largest of their kind (observed: tension 0.88, transverse loads 0.23, moments 0.93 %); the
+    centrifugal moment 0.2 % (0.04 %).
     """
     t = rivet_table.read(rivet_table.DEFAULT_TABLE).half
     elastic = half_loads.elastic_half(G, half.FINE, wall_points(STEPS))
@@ -273,8 +319,10 @@ def test_shipped_path_on_finer_elements():
 
 
 def test_patch_and_radial_place_do_not_matter(coarse):
-    """The path of Hertz's patch of 200 N within 1 % of the largest moment of the point's (observed 0.4 %), and of a contact 0.1 mm nearer to the axis or
-    farther, as far as the guide clearance lets the cage go: within 3 % (observed 2.6 %: the lever of a force along x)."""
+    """The path of Hertz's patch of 200 N within 1 % of the largest moment of the point's (observed 0.4 %), and of a
+    contact 0.1 mm nearer to the axis or farther, as far as the guide clearance lets the cage go: within 3 % (observed
+    2.6 %: the lever of a force along x).
+    """
     elastic, alone = coarse
     first = len(half_loads.CHI) + len(STEPS)
     _, weights = hertz_patch(np.deg2rad(30.0))
@@ -288,9 +336,11 @@ def test_patch_and_radial_place_do_not_matter(coarse):
 
 
 def test_centrifugal_load_beside_statics(coarse):
-    """No tension and no radial moment by symmetry; M_t beside statics: the pitch pulls at its centre of mass, the web's tension holds it beside.
+    """No tension and no radial moment by symmetry; M_t beside statics: the pitch pulls at its centre of mass, the web's
+    tension holds it beside.
 
-    The bar carries a part of the tension, so M_t lies between half and all of pull times distance.  The bare half: -93.2 N.mm at 754 rad/s.
+    The bar carries a part of the tension, so M_t lies between half and all of pull times distance.  The bare half:
+    -93.2 N.mm at 754 rad/s.
     """
     elastic, alone = coarse
     spin = half_loads.alike_rows(elastic, alone, half_loads.centrifugal(elastic))

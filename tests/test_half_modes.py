@@ -1,4 +1,6 @@
-"""Modes and residual flexibility of a cage half: against rings, all elements of the whole half, the static load path and the full elements in time."""
+"""Modes and residual flexibility of a cage half: against rings, all elements of the whole half, the static load path
+and the full elements in time.
+"""
 
 import copy
 import json
@@ -37,14 +39,16 @@ def coarse():
     return elastic, alone, half_modes.half_modes(elastic, alone, 30)[0]
 
 
-# Rings -----------------------------------------------------------------------------------------------------------------------------------
+# Rings ----------------------------------------------------------------------------------------------------------------
 
 
 def ring_frequencies(harmonic, count):
     """First frequencies of a thin ring of square section by the half's solver [rad/s], with its constants rho, E, nu."""
     R, t, Z = RING.values()
     blocks = half._Blocks()
-    x, r, theta = (np.linspace(a, b, 2 * n + 1) for a, b, n in ((0, t, 2), (R - t / 2, R + t / 2, 2), (0, 2 * np.pi / Z, 16)))
+    x, r, theta = (
+        np.linspace(a, b, 2 * n + 1) for a, b, n in ((0, t, 2), (R - t / 2, R + t / 2, 2), (0, 2 * np.pi / Z, 16))
+    )
     blocks.add(np.stack(np.meshgrid(x - t / 2, r, theta, indexing="ij"), axis=-1))
     ring = cage_half.CyclicSolid(blocks.mesh(), Z, G.E_flange, G.nu_flange)
     ring.condense(ring.body_loads())
@@ -53,7 +57,8 @@ def ring_frequencies(harmonic, count):
 
 @pytest.mark.parametrize("n", [2, 3, 4])
 def test_bending_of_a_thin_ring(n):
-    """In its plane (Hoppe 1871) omega^2 = E I/(rho A R^4) n^2 (n^2 - 1)^2/(n^2 + 1), out of it, with torsion (Michell 1889), .../(n^2 + E I/(G J)).
+    """In its plane (Hoppe 1871) omega^2 = E I/(rho A R^4) n^2 (n^2 - 1)^2/(n^2 + 1), out of it, with torsion (Michell
+    1889), .../(n^2 + E I/(G J)).
 
     Shear and rotary inertia take (n t/R)^2 of it, 0.6 % of n = 4 at most: observed 0.07 % (n = 2) to 0.25 % (n = 4).
     """
@@ -65,7 +70,8 @@ def test_bending_of_a_thin_ring(n):
 
 
 def test_stretching_and_twisting_of_a_thin_ring():
-    """Harmonic 0: twist of the section omega^2 = E I_x/(rho I_p R^2) = E/(2 rho R^2), breathing omega^2 = E/(rho R^2) (Love); to (t/R)^2 = 4e-4.
+    """Harmonic 0: twist of the section omega^2 = E I_x/(rho I_p R^2) = E/(2 rho R^2), breathing omega^2 = E/(rho R^2)
+    (Love); to (t/R)^2 = 4e-4.
 
     Wave 0 of 12 pitches has the bending of harmonic 12 as well.  Observed 3e-5.
     """
@@ -75,12 +81,13 @@ def test_stretching_and_twisting_of_a_thin_ring():
         assert np.abs(found / expected - 1.0).min() < 4e-4
 
 
-# The whole half --------------------------------------------------------------------------------------------------------------------------
+# The whole half -------------------------------------------------------------------------------------------------------
 
 
 @pytest.mark.slow
 def test_cyclic_modes_equal_those_of_the_whole_half():
-    """Frequencies, and all that the table reads off the shapes, against the elements of all pitches at once: to rounding.
+    """Frequencies, and all that the table reads off the shapes, against the elements of all pitches at once: to
+    rounding.
 
     Shapes: in the space of each frequency those of the table and those found are the same up to a turn.
     """
@@ -111,8 +118,9 @@ def test_cyclic_modes_equal_those_of_the_whole_half():
 
 
 def test_mirror_images_and_turns(shipped):
-    """A half turned by one pitch, and its mirror image in the plane of pocket 0, have the same modes: shapes at all places are those of the table, mixed
-    within each pair by a turn and by the sign of b."""
+    """A half turned by one pitch, and its mirror image in the plane of pocket 0, have the same modes: shapes at all
+    places are those of the table, mixed within each pair by a turn and by the sign of b.
+    """
     modes = shipped.modes
     at, walls = modes_of.rivet_shapes(modes), modes_of.pocket_shapes(modes)
     first, n = 0, modes.harmonic
@@ -123,16 +131,22 @@ def test_mirror_images_and_turns(shipped):
         c, s = np.cos(angle), np.sin(angle)
         mix = np.array([[c, -s], [s, c]]) if count == 2 else np.array([[c]])
         for shapes in (at, walls):
-            np.testing.assert_allclose(np.roll(shapes[own], -1, axis=1), np.tensordot(mix, shapes[own], 1), atol=1e-9 * np.abs(shapes).max())
+            np.testing.assert_allclose(
+                np.roll(shapes[own], -1, axis=1), np.tensordot(mix, shapes[own], 1), atol=1e-9 * np.abs(shapes).max()
+            )
         sign = np.array([1.0, -1.0])[:count] if count == 2 else np.array([modes.parity[entry]])
         mirrored = at[own][:, ::-1] * modes_of.EVEN  # rivet -1 - k
         np.testing.assert_allclose(mirrored, np.einsum("i,ika->ika", sign, at[own]), atol=1e-9 * np.abs(at).max())
         mirrored = np.roll(walls[own][:, ::-1], 1, axis=1)[:, :, :, ::-1] * modes_of.MIRROR  # pocket -j, the other side
-        np.testing.assert_allclose(mirrored, np.einsum("i,ijcsf->ijcsf", sign, walls[own]), atol=1e-9 * np.abs(walls).max())
+        np.testing.assert_allclose(
+            mirrored, np.einsum("i,ijcsf->ijcsf", sign, walls[own]), atol=1e-9 * np.abs(walls).max()
+        )
 
 
 def test_density(coarse):
-    """Twice the density everywhere: frequencies, shapes and forces of the spin by the elements are those of `denser` (to rounding)."""
+    """Twice the density everywhere: frequencies, shapes and forces of the spin by the elements are those of `denser`
+    (to rounding).
+    """
     elastic, alone, modes = coarse
     denser = copy.copy(elastic)
     denser.g = replace(elastic.g, rho_flange=2.0 * elastic.g.rho_flange, rho_rivet=2.0 * elastic.g.rho_rivet)
@@ -142,7 +156,11 @@ def test_density(coarse):
     np.testing.assert_allclose(heavy.omega, expected.omega[same][:3], rtol=1e-9)
     places = half_modes.Places(elastic, alone)
     at_wall = (places.pocket.T @ (elastic.loads.T @ heavy.shape)).T.reshape(3, -1, 3)
-    np.testing.assert_allclose(np.stack([at_wall.real, at_wall.imag], axis=-1), expected.pocket[same][:3], atol=1e-7 * np.abs(expected.pocket).max())
+    np.testing.assert_allclose(
+        np.stack([at_wall.real, at_wall.imag], axis=-1),
+        expected.pocket[same][:3],
+        atol=1e-7 * np.abs(expected.pocket).max(),
+    )
 
 
 @pytest.mark.slow
@@ -160,18 +178,22 @@ def test_finer_elements():
     assert np.all((coarse > 3.0 * standard) & (coarse < 0.04))
 
 
-# Statics ---------------------------------------------------------------------------------------------------------------------------------
+# Statics --------------------------------------------------------------------------------------------------------------
 
 
 def wall_place(t, node):
     """Place (x, r, t) of a node of pocket 0's wall and the function place -> displacement by the rigid motions."""
     g, chi = Geometry(**t.geometry), t.half.chi[node]
     z = half_shape.pocket_radius(g) * np.cos(chi)
-    return np.array([half_shape.pocket_radius(g) * np.sin(chi), np.sqrt(0.25 * g.d_m**2 - z**2), z]), rigid_motions(t)[1]
+    return np.array([half_shape.pocket_radius(g) * np.sin(chi), np.sqrt(0.25 * g.d_m**2 - z**2), z]), rigid_motions(t)[
+        1
+    ]
 
 
 def rigid_motions(t):
-    """Displacements of all pads [Z, 6 (PAD), 6] by the rigid motions about the half's centre of mass, and function place -> [3, 6]."""
+    """Displacements of all pads [Z, 6 (PAD), 6] by the rigid motions about the half's centre of mass, and function
+    place -> [3, 6].
+    """
     g, Z, x_c = t.geometry, t.Z, t.half.x_c
 
     def moved(place):
@@ -185,7 +207,8 @@ def rigid_motions(t):
 
 
 def static_joints(t, modes, node):
-    """N, V_r, V_t, M_r, M_t, dP, dm_r, dm_t [Z, 8, 3] of bonded joints at rest in force, by unit forces on both halves, mirrored (V: opposed), one half each.
+    """N, V_r, V_t, M_r, M_t, dP, dm_r, dm_t [Z, 8, 3] of bonded joints at rest in force, by unit forces on both halves,
+    mirrored (V: opposed), one half each.
 
     Pads do not move; of the half's rigid motions those are free, with inertia in balance, that the pads do not feel.
     """
@@ -196,11 +219,14 @@ def static_joints(t, modes, node):
     q_wall = modes_of.pocket_shapes(modes)[:, 0, node, 0] @ force / omega[:, None] ** 2
     result = np.zeros((Z, 8, 3))
     prevented = {3: np.eye(6)[:, [0, 4, 5]], 2: np.eye(6)[:, [1, 2, 3]].copy()}
-    prevented[2][5, 0], prevented[2][4, 1] = -t.half.m * t.half.x_c / t.half.J_t, t.half.m * t.half.x_c / t.half.J_t  # orthogonal to tilts about the split
+    # orthogonal to tilts about the split
+    prevented[2][5, 0], prevented[2][4, 1] = -t.half.m * t.half.x_c / t.half.J_t, t.half.m * t.half.x_c / t.half.J_t
     for chosen, out in ((X_TYPE, [0, 3, 4]), (PLANE_TYPE, [1, 2])):
         n = len(chosen)
         A, D = at[:, :, chosen].reshape(len(omega), -1), np.vstack([pad[chosen] @ prevented[n] for pad in pads])
-        C = A.T @ (A / omega[:, None] ** 2) + modes.residual.pad[relative][:, :, chosen][..., chosen].transpose(0, 2, 1, 3).reshape(Z * n, -1)
+        C = A.T @ (A / omega[:, None] ** 2) + modes.residual.pad[relative][:, :, chosen][..., chosen].transpose(
+            0, 2, 1, 3
+        ).reshape(Z * n, -1)
         free = A.T @ q_wall + modes.residual.pocket[node][:, chosen].reshape(Z * n, 3) @ force
         system = np.block([[C, D], [D.T, np.zeros((3, 3))]])
         on_half = np.linalg.solve(system, -np.vstack([free, (moved(place) @ prevented[n]).T @ force]))[: Z * n]
@@ -208,15 +234,19 @@ def static_joints(t, modes, node):
         if n == 3:
             q = q_wall + A @ on_half / omega[:, None] ** 2
             result[:, 5:] = np.einsum("ika,if->kaf", at[:, :, 6:], q) + modes.residual.pocket[node][:, 6:] @ force
-            result[:, 5:] += np.einsum("kjab,jbf->kaf", modes.residual.rivet[relative][..., chosen], on_half.reshape(Z, n, 3))
+            result[:, 5:] += np.einsum(
+                "kjab,jbf->kaf", modes.residual.rivet[relative][..., chosen], on_half.reshape(Z, n, 3)
+            )
     return result
 
 
 def test_static_loads_are_those_of_the_load_path(shipped):
-    """Modes and residual at rest give the bonded joints' loads of the section `half`, found by holding every node of the pads.
+    """Modes and residual at rest give the bonded joints' loads of the section `half`, found by holding every node of
+    the pads.
 
-    The load path has the rigid share of N and V beside it and balances loads without the rivets' masses; modes hold the mean of a pad, not its bending.
-    Observed, of the row's largest over all angles: N 0.04 %, V 0.09 %, M_r 0.13 %, M_t 0.18 %, dP 0.07 %, dm 0.3 % and 0.5 %.
+    The load path has the rigid share of N and V beside it and balances loads without the rivets' masses; modes hold the
+    mean of a pad, not its bending. Observed, of the row's largest over all angles: N 0.04 %, V 0.09 %, M_r 0.13 %, M_t
+    0.18 %, dP 0.07 %, dm 0.3 % and 0.5 %.
     """
     path = shipped.half.path
     largest = np.abs(path).max(axis=(0, 1, 3))
@@ -238,7 +268,9 @@ def bronze(g):
 
 
 def test_every_number_of_modes_has_the_same_statics(shipped):
-    """`fewer` moves what modes give into the residual: loads of joints by 60, 33 and 7 modes are equal to rounding, and a pair is never parted."""
+    """`fewer` moves what modes give into the residual: loads of joints by 60, 33 and 7 modes are equal to rounding, and
+    a pair is never parted.
+    """
     expected = static_joints(shipped, shipped.modes, 3)
     for n, kept in ((34, 33), (8, 7)):
         modes = modes_of.fewer(shipped.modes, n)
@@ -250,7 +282,9 @@ def test_every_number_of_modes_has_the_same_statics(shipped):
 
 
 def test_reciprocity(shipped):
-    """Work of a load on one pad over the displacement by another: the same both ways, as rounded as the file (1e-5 of the largest)."""
+    """Work of a load on one pad over the displacement by another: the same both ways, as rounded as the file (1e-5 of
+    the largest).
+    """
     pad = shipped.modes.residual.pad
     back = np.roll(pad[::-1], 1, axis=0).transpose(0, 2, 1)
     np.testing.assert_allclose(pad, back, atol=2e-5 * np.abs(pad).max(axis=0).max())
@@ -265,7 +299,9 @@ def test_spin(shipped):
     Z, omega, at = t.Z, modes_of.frequencies(modes), modes_of.rivet_shapes(modes)
     relative = (np.arange(Z)[:, None] - np.arange(Z)) % Z
     A, D = at[:, :, X_TYPE].reshape(len(omega), -1), rigid_motions(t)[0][:, X_TYPE][:, :, X_TYPE].reshape(3 * Z, 3)
-    C = A.T @ (A / omega[:, None] ** 2) + modes.residual.pad[relative][:, :, X_TYPE][..., X_TYPE].transpose(0, 2, 1, 3).reshape(3 * Z, -1)
+    C = A.T @ (A / omega[:, None] ** 2) + modes.residual.pad[relative][:, :, X_TYPE][..., X_TYPE].transpose(
+        0, 2, 1, 3
+    ).reshape(3 * Z, -1)
     q = modes_of.spin_load(modes) / omega**2
     free = A.T @ q + np.tile(modes.residual.spin[X_TYPE], Z)
     on_half = np.linalg.solve(np.block([[C, D], [D.T, np.zeros((3, 3))]]), -np.append(free, np.zeros(3)))[: 3 * Z]
@@ -276,7 +312,7 @@ def test_spin(shipped):
     assert np.abs(on_half[0::3]).max() < 1e-9  # N = 0 by symmetry
 
 
-# Impacts ---------------------------------------------------------------------------------------------------------------------------------
+# Impacts --------------------------------------------------------------------------------------------------------------
 
 
 @pytest.fixture(scope="module")
@@ -288,10 +324,12 @@ def full():
 
 @pytest.mark.slow
 def test_modes_answer_at_any_frequency_as_all_elements_do(full):
-    """Transfer functions from pockets to bonded joints, dynamic stiffness of the pads included, at 5, 12, 21 and 36 kHz: 117 modes and residual.
+    """Transfer functions from pockets to bonded joints, dynamic stiffness of the pads included, at 5, 12, 21 and 36
+    kHz: 117 modes and residual.
 
-    Observed, of the row's largest over all places: V 0.1 to 1.4 % (between the nodes of the wall's angle, and near resonance), N and M up to 1.6 % at 21
-    and 5 % at 36 kHz, where a pad's own bending counts; pads 0.2 to 1.8 %, at 36 kHz 13 % of next to nothing.
+    Observed, of the row's largest over all places: V 0.1 to 1.4 % (between the nodes of the wall's angle, and near
+    resonance), N and M up to 1.6 % at 21 and 5 % at 36 kHz, where a pad's own bending counts; pads 0.2 to 1.8 %, at 36
+    kHz 13 % of next to nothing.
     """
     half_full, inertia, lever, modes = full
     at_s = impacts.S[[5, 12, 21, 37]]
@@ -305,7 +343,8 @@ def test_modes_answer_at_any_frequency_as_all_elements_do(full):
 
 @pytest.mark.slow
 def test_loads_of_joints_under_impacts(full):
-    """Twelve sequences of impacts, all elements at all frequencies beside 60 modes: RMS and 99.9 % quantile of the loads of bonded joints.
+    """Twelve sequences of impacts, all elements at all frequencies beside 60 modes: RMS and 99.9 % quantile of the
+    loads of bonded joints.
 
     Observed RMS N 4.0, V_r 0.8, V_t 1.1, M_r 4.8, M_t 4.3 %; the quantiles are 0.3 % off at most.
     """
@@ -337,7 +376,8 @@ def test_steps_in_time_and_the_inverse_transform(full):
 
 @pytest.mark.slow
 def test_rivets_of_opening_joints_under_impacts(full):
-    """Joints that open by their law, under centrifugal load and one sequence, by 60 modes beside 117: the rivet's tension and bending.
+    """Joints that open by their law, under centrifugal load and one sequence, by 60 modes beside 117: the rivet's
+    tension and bending.
 
     Observed: RMS of what changes T 1.0, m_t 0.8 %, 99.9 % quantiles within 0.2 %.
     """
@@ -345,7 +385,8 @@ def test_rivets_of_opening_joints_under_impacts(full):
     half_data, force = rivet_table.read(rivet_table.DEFAULT_TABLE).half, impacts.pulses(impacts.synthetic(0))
     spin = half_data.spin[[4, 5]] * 754.0**2
     many, few = (
-        half_transient.opened(G, inertia, m, force, half_data.law, 20.0, spin, lever)[1][..., impacts.SHOWN] for m in (found, modes_of.fewer(found, 60))
+        half_transient.opened(G, inertia, m, force, half_data.law, 20.0, spin, lever)[1][..., impacts.SHOWN]
+        for m in (found, modes_of.fewer(found, 60))
     )
     for i in (0, 2):  # T, m_t
         assert np.quantile(np.abs(few[:, i]), 0.999) == pytest.approx(np.quantile(np.abs(many[:, i]), 0.999), rel=0.01)
@@ -354,22 +395,31 @@ def test_rivets_of_opening_joints_under_impacts(full):
 
 @pytest.mark.slow
 def test_rivets_under_recorded_impacts(core, fmu, shipped):
-    """What the balls of runs with elastic halves do to the pockets, on joints that open: 40 modes, the default, beside 198.
+    """What the balls of runs with elastic halves do to the pockets, on joints that open: 40 modes, the default, beside
+    198.
 
-    Three windows of 1 ms, two at the working point, one of the scene R.  Required of tension and head stress: 2 % of the RMS and of the 99.9 % quantile.
-    Observed in twelve windows: T 0.43 and 0.14 %, head 0.46 and 0.04 %; 3 % of the RMS of what changes in time.
+    Three windows of 1 ms, two at the working point, one of the scene R.  Required of tension and head stress: 2 % of
+    the RMS and of the 99.9 % quantile. Observed in twelve windows: T 0.43 and 0.14 %, head 0.46 and 0.04 %; 3 % of the
+    RMS of what changes in time.
     """
     elastic = half_loads.elastic_half(G, half.COARSE)
     alone = half_loads.JointAlone(elastic)
     found = half_modes.half_modes(elastic, alone, 120)[1]
     full = half_transient.FullHalf(G, half.COARSE)
     inertia, lever = full.inertia()
-    force = [window for scene, count in (("demo", 2), ("R", 1)) for window in half_transient.recorded(core, *settings(fmu, scene), count)]
+    force = [
+        window
+        for scene, count in (("demo", 2), ("R", 1))
+        for window in half_transient.recorded(core, *settings(fmu, scene), count)
+    ]
     spin = shipped.half.spin[[4, 5]] * 754.0**2
 
     def rivets(modes):
         """Tension and head stress [2, windows, Z, SHOWN]."""
-        loads = [half_transient.opened(G, inertia, modes, f, shipped.half.law, 20.0, spin, lever)[1][..., impacts.SHOWN] for f in force]
+        loads = [
+            half_transient.opened(G, inertia, modes, f, shipped.half.law, 20.0, spin, lever)[1][..., impacts.SHOWN]
+            for f in force
+        ]
         T, m_r, m_t = np.moveaxis(loads, 2, 0)
         return np.stack([T, rivet_rom_stress(shipped, RivetLoad(T=T, m_y=m_r, m_z=m_t), -9e-5)[0][..., HEAD_P1]])
 
@@ -385,11 +435,14 @@ def settings(fmu, name):
     """Parameters and inputs of a shipped scene."""
     model = Model(fmu)
     scene = load_scene(name, model)
-    parameters = {key: codes(model.parameters[key])[value] if isinstance(value, str) else value for key, value in scene.parameters.items()}
+    parameters = {
+        key: codes(model.parameters[key])[value] if isinstance(value, str) else value
+        for key, value in scene.parameters.items()
+    }
     return parameters, {key: float(history(0.0)) for key, history in scene.inputs.items()}
 
 
-# The file --------------------------------------------------------------------------------------------------------------------------------
+# The file -------------------------------------------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize(
@@ -397,9 +450,17 @@ def settings(fmu, name):
     [
         ("omega", lambda values: values[::-1], "modes.omega: positive numbers that do not decrease are needed"),
         ("harmonic", lambda values: [5, *values[1:]], "modes.harmonic: whole numbers from 0 to 4 are needed"),
-        ("parity", lambda values: [1, *values[1:]], "modes.parity: 1 or -1 of harmonics 0 and Z/2, 0 of the others is needed"),
+        (
+            "parity",
+            lambda values: [1, *values[1:]],
+            "modes.parity: 1 or -1 of harmonics 0 and Z/2, 0 of the others is needed",
+        ),
         ("pad", lambda values: values[1:], r"modes.pad has shape \(32, 6\); \(33, 6\) is needed"),
-        ("residual", lambda values: values | {"pad": (-np.array(values["pad"])).tolist()}, "modes.residual.pad is no flexibility"),
+        (
+            "residual",
+            lambda values: values | {"pad": (-np.array(values["pad"])).tolist()},
+            "modes.residual.pad is no flexibility",
+        ),
     ],
 )
 def test_a_wrong_section_is_refused(tmp_path, key, change, message):

@@ -1,11 +1,13 @@
-"""From pocket forces to bonded joints: equilibrium of the rigid share, symmetry and smoothness of the half's; both twins alike."""
+"""From pocket forces to bonded joints: equilibrium of the rigid share, symmetry and smoothness of the half's; both
+twins alike.
+"""
 
 import numpy as np
 import pytest
 
 from bearing_model.cage.two_half import half_path
-from bearing_model.physics.derived import default_table
 from bearing_model.generated.variables import Z
+from bearing_model.physics.derived import default_table
 
 D_M = 53.5e-3
 ANGLE = 2 * np.pi * (np.arange(Z) + 0.5) / Z
@@ -71,7 +73,14 @@ def test_rigid_share_carries_the_wrench(rigid):
         c, s = np.cos(ANGLE + psi), np.sin(ANGLE + psi)
         N, V_y, V_z = rigid(D_M, wrench, c, s)
         R = D_M / 2
-        resultant = [N.sum(), V_y.sum(), V_z.sum(), (R * (c * V_z - s * V_y)).sum(), (R * s * N).sum(), (-R * c * N).sum()]
+        resultant = [
+            N.sum(),
+            V_y.sum(),
+            V_z.sum(),
+            (R * (c * V_z - s * V_y)).sum(),
+            (R * s * N).sum(),
+            (-R * c * N).sum(),
+        ]
         np.testing.assert_allclose(resultant, wrench, rtol=1e-12, atol=1e-12)
 
 
@@ -84,30 +93,40 @@ def test_rigid_share_of_a_moment_is_linear_in_the_lever(rigid):
 
 
 def test_rows_at_the_nodes_are_those_of_the_finite_elements(rows):
-    """A unit force at pocket 2 that pushes the wall at a node's angle shows the matrix at relative index (k - 2) mod Z (float32 of four digits)."""
+    """A unit force at pocket 2 that pushes the wall at a node's angle shows the matrix at relative index (k - 2) mod Z
+    (float32 of four digits).
+    """
     half = default_table().half
     for node, chi in enumerate(half.chi):
         for f in range(3):
             push, force = np.zeros((2, Z)), np.zeros((3, Z))
             push[:, 2] = np.sin(chi), np.cos(chi)
             force[f, 2] = 1.0
-            np.testing.assert_allclose(rows(1, push, force), np.roll(half.path[node, :, :, f], 2, axis=0), rtol=1e-9, atol=1e-9)
+            np.testing.assert_allclose(
+                rows(1, push, force), np.roll(half.path[node, :, :, f], 2, axis=0), rtol=1e-9, atol=1e-9
+            )
 
 
 def test_rows_are_circulant_linear_and_homogeneous(rows):
-    """A force moved on by one pocket moves the answer on by one rivet; pockets add; twice the force is twice the load (order of sums: 1e-12)."""
+    """A force moved on by one pocket moves the answer on by one rivet; pockets add; twice the force is twice the load
+    (order of sums: 1e-12).
+    """
     rng = np.random.default_rng(2)
     push, force = random_forces(rng)
     found = rows(1, push, force)
     tolerance = {"rtol": 1e-12, "atol": 1e-12}
-    np.testing.assert_allclose(rows(1, np.roll(push, 1, axis=1), np.roll(force, 1, axis=1)), np.roll(found, 1, axis=0), **tolerance)
+    np.testing.assert_allclose(
+        rows(1, np.roll(push, 1, axis=1), np.roll(force, 1, axis=1)), np.roll(found, 1, axis=0), **tolerance
+    )
     np.testing.assert_allclose(rows(1, 2.0 * push, 2.0 * force), 2.0 * found, **tolerance)
     each = [rows(1, push * (np.arange(Z) == j), force * (np.arange(Z) == j)) for j in range(Z)]
     np.testing.assert_allclose(sum(each), found, **tolerance)
 
 
 def test_opposite_walls_are_mirror_images(rows):
-    """Forces on pocket 0 mirrored at its plane: rivet i answers like rivet -1 - i, V_t, M_r and dm_r with the other sign."""
+    """Forces on pocket 0 mirrored at its plane: rivet i answers like rivet -1 - i, V_t, M_r and dm_r with the other
+    sign.
+    """
     push, force = (v * (np.arange(Z) == 0) for v in random_forces(np.random.default_rng(5)))
     push[1] = np.abs(push[1])
     front, back = rows(1, push, force), rows(1, push * [[1], [-1]], force * [[1], [1], [-1]])
@@ -115,14 +134,18 @@ def test_opposite_walls_are_mirror_images(rows):
 
 
 def test_mirrored_halves(rows):
-    """Mirrored forces on the other half: the same rows but for V, which is opposite, so equal forces on both leave no V."""
+    """Mirrored forces on the other half: the same rows but for V, which is opposite, so equal forces on both leave no
+    V.
+    """
     push, force = random_forces(np.random.default_rng(3))
     front, back = rows(1, push, force), rows(-1, push * [[-1], [1]], force * [[-1], [1], [1]])
     np.testing.assert_allclose(back, front * SIDE, rtol=1e-12, atol=1e-12)
 
 
 def test_rows_are_smooth_over_the_angle(rows):
-    """No jump of value or slope at a node, at the split (push_x = 0) and at the bottom (push_t = 0): differences over 1e-5 rad beside the curvature's share."""
+    """No jump of value or slope at a node, at the split (push_x = 0) and at the bottom (push_t = 0): differences over
+    1e-5 rad beside the curvature's share.
+    """
     half, h = default_table().half, 1e-5
 
     def at(chi):
@@ -138,10 +161,14 @@ def test_rows_are_smooth_over_the_angle(rows):
 
 
 def test_twins(core, rows):
-    """C and Python agree to the order of their sums, with some and with all pockets touched (observed 3e-15 of the largest)."""
+    """C and Python agree to the order of their sums, with some and with all pockets touched (observed 3e-15 of the
+    largest).
+    """
     rng = np.random.default_rng(4)
     for touched in (0, 1, 2, 5, Z):
         for side in (-1, 1):
             push, force = random_forces(rng, touched)
             expected = half_path.path_load(default_table().half, side, push, force)
-            np.testing.assert_allclose(rows(side, push, force), expected, rtol=1e-12, atol=1e-12 * max(np.abs(expected).max(), 1e-9))
+            np.testing.assert_allclose(
+                rows(side, push, force), expected, rtol=1e-12, atol=1e-12 * max(np.abs(expected).max(), 1e-9)
+            )

@@ -36,10 +36,16 @@ def test_refused():
 
 
 def test_network_reaches_its_steady_state(fmu):
-    """What the losses bring goes out with the oil, to shaft and housing; ten minutes step by step end there, too, within 1 K (observed below)."""
+    """What the losses bring goes out with the oil, to shaft and housing; ten minutes step by step end there, too,
+    within 1 K (observed below).
+    """
     unzipped = fmpy.extract(str(fmu))
     T, P, runs = network.network(unzipped)
-    out = network.SHAFT * (T[0] - network.AROUND) + network.HOUSING * (T[1] - network.AROUND) + network.FLOW * (T[4] - network.SUPPLY)
+    out = (
+        network.SHAFT * (T[0] - network.AROUND)
+        + network.HOUSING * (T[1] - network.AROUND)
+        + network.FLOW * (T[4] - network.SUPPLY)
+    )
     assert out == pytest.approx(P.sum(), rel=1e-9)
     assert P.sum() > 50.0 and T[2] > T[4] > network.SUPPLY
     marched, _, steps = network.network(unzipped, march=True, step=30.0)

@@ -33,18 +33,28 @@ def test_sphere_on_plane(core):
 
 
 def pressure_solution(rho_x, rho_y, E_star):
-    """a, b, K at Q = 1 N from the potential of the ellipsoidal pressure by quadrature: nothing of the elliptic integrals' formulae.
+    """a, b, K at Q = 1 N from the potential of the ellipsoidal pressure by quadrature: nothing of the elliptic
+    integrals' formulae.
 
     w(0) - A x^2 - B y^2 = 3 Q/(4 pi E*) int_0^inf (1 - x^2/(b^2 + s) - y^2/(a^2 + s)) ds/sqrt((a^2 + s)(b^2 + s) s),  2 A = rho_x, 2 B = rho_y.
     Love (1929); Johnson (1985), section 3.5, 4.2.
     """
 
     def integral(f, a, b):  # s = t^2 removes the root at 0
-        return quad(lambda t: 2.0 * f(t * t) / np.sqrt((a * a + t * t) * (b * b + t * t)), 0.0, np.inf, epsabs=0.0, epsrel=1e-11, limit=400)[0]
+        return quad(
+            lambda t: 2.0 * f(t * t) / np.sqrt((a * a + t * t) * (b * b + t * t)),
+            0.0,
+            np.inf,
+            epsabs=0.0,
+            epsrel=1e-11,
+            limit=400,
+        )[0]
 
     def curvature_ratio(ln_k):
         k = np.exp(ln_k)
-        return integral(lambda s: 1.0 / (1.0 + s), k, 1.0) / integral(lambda s: 1.0 / (k * k + s), k, 1.0) - rho_x / rho_y
+        return (
+            integral(lambda s: 1.0 / (1.0 + s), k, 1.0) / integral(lambda s: 1.0 / (k * k + s), k, 1.0) - rho_x / rho_y
+        )
 
     k = np.exp(brentq(curvature_ratio, 1e-6, 5.0, xtol=1e-13))
     # at b = 1 the curvature is A(1); it falls with 1/b^3

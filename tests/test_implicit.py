@@ -1,7 +1,7 @@
 """What the default method takes implicitly (implicit.c), against the exact Jacobian of the right-hand side.
 
-Traction linear in slip (A = C = 0) and films only, so that secant and tangent are one; what implicit.c leaves out on purpose - the turning of the contacts'
-normals, the films' stiffness - stays below the tolerances.
+Traction linear in slip (A = C = 0) and films only, so that secant and tangent are one; what implicit.c leaves out on
+purpose - the turning of the contacts' normals, the films' stiffness - stays below the tolerances.
 """
 
 import numpy as np
@@ -43,10 +43,11 @@ def ball(model, j):
 
 
 def test_ball_blocks(core):
-    """(1 + gamma A + gamma^2 K)^-1 of each ball's velocities is the inverse of 1 - gamma dv'/dv - gamma^2 dv'/d(x, r) of the right-hand side.
+    """(1 + gamma A + gamma^2 K)^-1 of each ball's velocities is the inverse of 1 - gamma dv'/dv - gamma^2 dv'/d(x, r)
+    of the right-hand side.
 
-    Left out: traction that grows with the load where a ball slips (unsymmetric: such balls are not compared), the turning of the normals.
-    Observed 0.5...2.1 %.
+    Left out: traction that grows with the load where a ball slips (unsymmetric: such balls are not compared), the
+    turning of the normals. Observed 0.5...2.1 %.
     """
     model, _, J = rolling(core)
     strong = compared = 0
@@ -55,7 +56,8 @@ def test_ball_blocks(core):
         W = np.eye(6) - GAMMA * J[np.ix_(rows, rows)]
         for at, name in ((0, "ball_x"), (1, "ball_r")):
             W[:, at] -= GAMMA**2 * J[rows, SLICE[name].start + j]
-        momentum = W * np.repeat([1.0, 0.4], 3)[:, None] * scale[:, None] / scale  # J = 0.4 m R^2: symmetric but for slip
+        # J = 0.4 m R^2: symmetric but for slip
+        momentum = W * np.repeat([1.0, 0.4], 3)[:, None] * scale[:, None] / scale
         if np.max(np.abs(momentum - momentum.T)) > 0.15:
             continue
         expected = np.linalg.inv(W) * scale[:, None] / scale
@@ -67,7 +69,9 @@ def test_ball_blocks(core):
 
 
 def test_spin(core):
-    """Sliced traction holds back a ball's spin about its contacts' normals: that part of the matrix of implicit.c, its inverse's inverse.  Observed 0...2 %."""
+    """Sliced traction holds back a ball's spin about its contacts' normals: that part of the matrix of implicit.c, its
+    inverse's inverse.  Observed 0...2 %.
+    """
     model, _, J = rolling(core, (SCENE[0], Traction.SLICED, *SCENE[2:]))
     compared = 0
     for j in range(Z):
@@ -100,7 +104,9 @@ def test_held_part_of_balls(core):
 
 @pytest.mark.parametrize("eccentricity", [0.3, 0.95])
 def test_halves(core, eccentricity):
-    """Both halves together: films of the lands, Couette drag, and the joints' axial stiffness and damping between the halves."""
+    """Both halves together: films of the lands, Couette drag, and the joints' axial stiffness and damping between the
+    halves.
+    """
     model, y = prepared(core, "pockets open", SCENE, np.random.default_rng(22), **LINEAR | {"oil.eta": 0.02})
     push_cage(model, y, eccentricity)
     J = matrix(model, y)
@@ -110,11 +116,21 @@ def test_halves(core, eccentricity):
     relative = np.zeros((12, 12))
     for at in (0, 3, 4):
         relative[2 * at : 2 * at + 2, 2 * at : 2 * at + 2] = [[0.5, -0.5], [-0.5, 0.5]]
-    positions = np.array([SLICE[name].start + h for name in ("cage_x", "cage_y", "cage_z", "cage_beta", "cage_gamma", "cage_psi") for h in range(2)])
+    positions = np.array(
+        [
+            SLICE[name].start + h
+            for name in ("cage_x", "cage_y", "cage_z", "cage_beta", "cage_gamma", "cage_psi")
+            for h in range(2)
+        ]
+    )
     stiffness = relative @ J[np.ix_(rows, positions)] @ relative
     x_4 = (4.0 * GAMMA**2 * np.max(np.abs(np.linalg.eigvals(stiffness)))) ** 2  # fastest vibration: x = omega h
     weight = 1.0 / 3.0 + x_4 / (x_4 + 1.0) * (1.5 - 1.0 / 3.0)
-    expected = np.linalg.inv(np.eye(12) - GAMMA * J[np.ix_(rows, rows)] - weight * GAMMA**2 * stiffness) * scale[:, None] / scale
+    expected = (
+        np.linalg.inv(np.eye(12) - GAMMA * J[np.ix_(rows, rows)] - weight * GAMMA**2 * stiffness)
+        * scale[:, None]
+        / scale
+    )
     got = response(model, "implicit_solve", rows, scale)
     assert np.max(np.abs(got - expected)) < 0.03
 
@@ -132,18 +148,23 @@ def test_ring(core):
 
 @pytest.mark.parametrize("tilt_mode", [TiltMode.PRESCRIBED, TiltMode.SUPPORTED])
 def test_ring_and_balls_together(core, tilt_mode):
-    """Traction of the inner contacts couples ring and balls where it is much for the ring: the inverse of 1 - gamma dv'/dv over all their velocities.
+    """Traction of the inner contacts couples ring and balls where it is much for the ring: the inverse of 1 - gamma
+    dv'/dv over all their velocities.
 
-    Left out: Coriolis' and gyroscopic terms, gamma omega = 0.8 %, and that traction falls with the rolling speed, which is as much as slip is of rolling:
-    so a state in which every ball touches its outer race, because one that flies there slips inside.  Observed 1.0 %; up to half
-    of the ring's motion passes on to a ball.
+    Left out: Coriolis' and gyroscopic terms, gamma omega = 0.8 %, and that traction falls with the rolling speed, which
+    is as much as slip is of rolling: so a state in which every ball touches its outer race, because one that flies
+    there slips inside.  Observed 1.0 %; up to half of the ring's motion passes on to a ball.
     """
     scene = (*SCENE[:3], tilt_mode)
-    model, y = prepared(core, "rolling", scene, np.random.default_rng(19), **LINEAR | {"oil.B": 300.0, "bearing.lambda": 0.0})
+    model, y = prepared(
+        core, "rolling", scene, np.random.default_rng(19), **LINEAR | {"oil.B": 300.0, "bearing.lambda": 0.0}
+    )
     model.d.pocket.K = 0.0
     J = matrix(model, y)
     rhs(model, y)
-    rows = np.concatenate([np.arange(SLICE[name].start, SLICE[name].stop) for name in BALL] + [np.arange(Y_RING, Y_RING + 5)])
+    rows = np.concatenate(
+        [np.arange(SLICE[name].start, SLICE[name].stop) for name in BALL] + [np.arange(Y_RING, Y_RING + 5)]
+    )
     R, r = model.d.R[0], np.array([model.work.r[j] for j in range(Z)])
     scale = np.concatenate([np.ones(2 * Z), r, np.full(3 * Z, R), np.ones(3), np.full(2, 0.027)])
     for j in range(Z):
@@ -159,13 +180,27 @@ def test_ring_and_balls_together(core, tilt_mode):
 
 
 def test_a_land_rests_against_its_film(core):
-    """A cage with 10 um of play between pockets and guide under a tilt of 0.36 deg: its lands are pressed against the film, which hardly pulls.
+    """A cage with 10 um of play between pockets and guide under a tilt of 0.36 deg: its lands are pressed against the
+    film, which hardly pulls.
 
-    Expected: no more evaluations than the working point takes, 220 a millisecond; predictions that do not know the film took 3,400.  Medians of nine
-    seeds, at a tolerance of 4e-4.
+    Expected: no more evaluations than the working point takes, 220 a millisecond; predictions that do not know the film
+    took 3,400.  Medians of nine seeds, at a tolerance of 4e-4.
     """
-    parameters = {"bearing.P_d": -9.7e-6, "cage.pocket_clearance": 2.1e-5, "cage.guide_clearance": 2.6e-5, "joint.preload": 0.0, "joint.fit": -1.4e-4}
-    inputs = {"shaft.omega": -160.0, "shaft.F_x": 350.0, "shaft.F_y": -3446.0, "shaft.F_z": -1355.0, "shaft.tilt_y": -0.00114, "shaft.tilt_z": -0.0062}
+    parameters = {
+        "bearing.P_d": -9.7e-6,
+        "cage.pocket_clearance": 2.1e-5,
+        "cage.guide_clearance": 2.6e-5,
+        "joint.preload": 0.0,
+        "joint.fit": -1.4e-4,
+    }
+    inputs = {
+        "shaft.omega": -160.0,
+        "shaft.F_x": 350.0,
+        "shaft.F_y": -3446.0,
+        "shaft.F_z": -1355.0,
+        "shaft.tilt_y": -0.00114,
+        "shaft.tilt_z": -0.0062,
+    }
     runs = [Instance(core, parameters | {"start.seed": seed}, inputs, 4e-4).step(1e-2) for seed in range(1, 10)]
     assert np.median([run.output("solver.rhs_evals") for run in runs]) < 2200  # observed 1,760
     residual = np.median([abs(run.output("bearing.energy_residual")) for run in runs])
@@ -173,9 +208,12 @@ def test_a_land_rests_against_its_film(core):
 
 
 def test_a_whirling_land_is_not_held_back(core):
-    """100 g.mm of unbalance whirl the cage along its guide: films that hold back the steady acceleration too take 10 % of the energy."""
+    """100 g.mm of unbalance whirl the cage along its guide: films that hold back the steady acceleration too take 10 %
+    of the energy.
+    """
     instance, loss = Instance(core, {"cage.unbalance": 1e-4}), 0.0
     for k in range(100):
         loss += 1e-4 * instance.step((k + 1) * 1e-4).output("bearing.power_loss")
     assert instance.output("cage.eccentricity") > 0.95
-    assert abs(instance.output("bearing.energy_residual")) < 2e-3 * loss  # observed 8e-4, without predictions that know the film 3e-4
+    # observed 8e-4, without predictions that know the film 3e-4
+    assert abs(instance.output("bearing.energy_residual")) < 2e-3 * loss

@@ -1,4 +1,6 @@
-"""Other importers simulate the bearing as fmpy does: each a program of its own, with its own idea of time, start values and tolerance."""
+"""Other importers simulate the bearing as fmpy does: each a program of its own, with its own idea of time, start values
+and tolerance.
+"""
 
 import json
 import logging
@@ -12,13 +14,16 @@ STEP, STEPS = 1e-4, 20
 # Off the FMU's own start values: an importer that does not pass them on fails.
 START = {"shaft.omega": 1500.0, "shaft.F_y": 2000.0, "shaft.F_x": 300.0, "joint.preload": 30.0}
 OUTPUTS = ("rivet.sigma_head_max", "housing.F_y", "bearing.friction_torque", "ring.y", "cage.slip_ratio", "ball[1].Q_i")
-# The steps have equal sizes but in rounding, where hosts count time their own way (t + h, k h, nanoseconds): what a user may count on over a short
+# The steps have equal sizes but in rounding, where hosts count time their own way (t + h, k h, nanoseconds): what a
+# user may count on over a short
 # horizon, as for the binaries of other platforms in test_package.py.
 SAME = 1e-9
 
 
 def simulate(path, start=START):
-    """Outputs at the communication points by fmpy, the start among them; at the FMU's own tolerance, as nobody passes one."""
+    """Outputs at the communication points by fmpy, the start among them; at the FMU's own tolerance, as nobody passes
+    one.
+    """
     times = {"stop_time": STEPS * STEP, "step_size": STEP, "output_interval": STEP}
     result = fmpy.simulate_fmu(str(path), **times, start_values=start, output=OUTPUTS)
     return np.array([result[name] for name in OUTPUTS]).T
@@ -29,7 +34,8 @@ def expected(fmu):
     rows = simulate(fmu)
     assert len(rows) == STEPS + 1
     default = simulate(fmu, start={})
-    assert np.all(np.abs(rows - default).max(axis=0) > 1e-3 * np.abs(default).max(axis=0))  # the start values matter to each output
+    # the start values matter to each output
+    assert np.all(np.abs(rows - default).max(axis=0) > 1e-3 * np.abs(default).max(axis=0))
     return rows
 
 
@@ -95,7 +101,8 @@ def test_fmuloader(fmu, expected):
 def test_pathsim(fmu, expected):
     """A block diagram with the bearing between constant blocks.
 
-    The bearing's step to (k + 1) STEP is an event at k STEP: that far it has come when the diagram's clock shows k STEP.  Observed: 1.2e-11.
+    The bearing's step to (k + 1) STEP is an event at k STEP: that far it has come when the diagram's clock shows k
+    STEP.  Observed: 1.2e-11.
     """
     pathsim = pytest.importorskip("pathsim", reason="pathsim-fmi is not installed: pip install pathsim-fmi")
     pathsim_fmi = pytest.importorskip("pathsim_fmi", reason="pathsim-fmi is not installed: pip install pathsim-fmi")
@@ -156,7 +163,9 @@ def test_container_of_fmpy(fmu, expected, tmp_path):
     bearing = Component("bearing", fmu, description)
     mappings = {o: [(bearing, i)] for o, i in zip(outer, inner) if o.causality != "independent"}
     (tmp_path / "unzipped").mkdir()
-    cli.create_container_fmu(Configuration(False, container, [bearing], [], mappings), tmp_path / "unzipped", tmp_path / "container.fmu")
+    cli.create_container_fmu(
+        Configuration(False, container, [bearing], [], mappings), tmp_path / "unzipped", tmp_path / "container.fmu"
+    )
     rows = simulate(tmp_path / "container.fmu")
     assert difference(rows[1:], expected[1:]) < SAME
 
@@ -169,7 +178,10 @@ def test_ssp_of_fmpy(fmu, expected, tmp_path):
     path = tmp_path / "system.ssp"
     with zipfile.ZipFile(path, "w") as archive:
         archive.write(fmu, f"resources/{fmu.name}")
-        archive.writestr("SystemStructure.ssd", SYSTEM.format(fmu=fmu.name, connectors="".join(CONNECTOR.format(name=name) for name in OUTPUTS)))
+        archive.writestr(
+            "SystemStructure.ssd",
+            SYSTEM.format(fmu=fmu.name, connectors="".join(CONNECTOR.format(name=name) for name in OUTPUTS)),
+        )
     start = ParameterSet(parameters=[Parameter(name=f"bearing.{name}", value=value) for name, value in START.items()])
     result = simulate_ssp(str(path), stop_time=(STEPS - 0.5) * STEP, step_size=STEP, parameter_set=start)
     rows = np.array([result[f"bearing.{name}"] for name in OUTPUTS]).T

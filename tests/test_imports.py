@@ -1,6 +1,7 @@
 """Who imports whom: riveted_bearing -> rivet_model -> the table's reader in bearing_model, and never back.
 
-The arrows are read from the source text, imports inside functions included, so that a lazy import counts as much as one at the top.
+The arrows are read from the source text, imports inside functions included, so that a lazy import counts as much as one
+at the top.
 """
 
 import ast
@@ -14,7 +15,10 @@ from library import ROOT
 
 PACKAGES = ("bearing_model", "rivet_model", "riveted_bearing")
 # All that rivet_model may know of bearing_model.
-READERS = {f"bearing_model.{name}" for name in ("rivet_table", "rivet_rom", "rivet_splines", "joint_law", "half_path", "half_modes", "lanes")}
+READERS = {
+    f"bearing_model.{name}"
+    for name in ("rivet_table", "rivet_rom", "rivet_splines", "joint_law", "half_path", "half_modes", "lanes")
+}
 
 
 def name_of(path):
@@ -27,7 +31,9 @@ FILES = {name_of(path): path for package in PACKAGES for path in (ROOT / package
 
 
 def imported(name, tree):
-    """Full names that a module's import statements ask for, relative ones resolved; `from a import b` gives a.b where that is a module, else a."""
+    """Full names that a module's import statements ask for, relative ones resolved; `from a import b` gives a.b where
+    that is a module, else a.
+    """
     package = name if FILES[name].name == "__init__.py" else name.rpartition(".")[0]
     for node in ast.walk(tree):
         if isinstance(node, ast.Import):
@@ -47,7 +53,13 @@ def package_of(module):
 
 def arrows(of, to):
     """Imports from modules of one package in modules of another: (importer, imported)."""
-    return {(name, target) for name, targets in GRAPH.items() if package_of(name) == of for target in targets if package_of(target) == to}
+    return {
+        (name, target)
+        for name, targets in GRAPH.items()
+        if package_of(name) == of
+        for target in targets
+        if package_of(target) == to
+    }
 
 
 def test_all_modules_are_read():
@@ -59,7 +71,10 @@ def test_all_modules_are_read():
     assert "riveted_bearing.sweep" in GRAPH["riveted_bearing.paper_study.study"], "a relative import"
 
 
-@pytest.mark.parametrize(("of", "to"), [("bearing_model", "rivet_model"), ("bearing_model", "riveted_bearing"), ("rivet_model", "riveted_bearing")])
+@pytest.mark.parametrize(
+    ("of", "to"),
+    [("bearing_model", "rivet_model"), ("bearing_model", "riveted_bearing"), ("rivet_model", "riveted_bearing")],
+)
 def test_no_arrow_upwards(of, to):
     assert not arrows(of, to)
 
@@ -71,7 +86,11 @@ def test_rivet_model_knows_the_tables_reader_and_nothing_of_the_dynamics():
 
 
 def test_only_riveted_bearing_loads_an_fmu():
-    loading = {name for name, targets in GRAPH.items() if any(package_of(target) in ("fmpy", "ctypes", "cffi") for target in targets)}
+    loading = {
+        name
+        for name, targets in GRAPH.items()
+        if any(package_of(target) in ("fmpy", "ctypes", "cffi") for target in targets)
+    }
     assert loading and {package_of(name) for name in loading} == {"riveted_bearing"}
 
 
@@ -112,7 +131,13 @@ def test_public_names_exist(package):
 
 def loaded(code):
     """Modules that are there after some code in a fresh Python."""
-    done = subprocess.run([sys.executable, "-c", f"import sys\n{code}\nprint(*sys.modules)"], cwd=ROOT, capture_output=True, text=True, check=True)
+    done = subprocess.run(
+        [sys.executable, "-c", f"import sys\n{code}\nprint(*sys.modules)"],
+        cwd=ROOT,
+        capture_output=True,
+        text=True,
+        check=True,
+    )
     return set(done.stdout.split())
 
 
@@ -135,11 +160,15 @@ def test_embedding_a_table_needs_numpy_only():
 
 def test_interface_is_imported_quickly():
     """The interface and the help of the command line come without what takes seconds."""
-    assert not {"fmpy", "scipy", "matplotlib", "pyarrow", "dask"} & loaded("import riveted_bearing, riveted_bearing.cli")
+    assert not {"fmpy", "scipy", "matplotlib", "pyarrow", "dask"} & loaded(
+        "import riveted_bearing, riveted_bearing.cli"
+    )
 
 
 def test_interface_reads_as_one():
-    """Each function says with types what it takes and gives, and in words what it does; results show themselves in one line."""
+    """Each function says with types what it takes and gives, and in words what it does; results show themselves in one
+    line.
+    """
     import inspect
 
     import riveted_bearing as rb
@@ -151,6 +180,16 @@ def test_interface_reads_as_one():
         assert inspect.getdoc(function) and signature.return_annotation is not signature.empty, function
         assert all(parameter.annotation is not parameter.empty for parameter in signature.parameters.values()), function
     outputs = {f"ball[{j}].Q_i": np.arange(1000.0) for j in range(400)}
-    result = rb.Result({"time": 1e-4 * np.arange(1000.0)} | outputs, dict.fromkeys(outputs, "N"), {}, about={"scene": "demo", "stopped": ""})
-    assert "demo" in repr(result) and "401 channels" in repr(result) and "0.0999 s" in repr(result) and len(repr(result)) < 1000
+    result = rb.Result(
+        {"time": 1e-4 * np.arange(1000.0)} | outputs,
+        dict.fromkeys(outputs, "N"),
+        {},
+        about={"scene": "demo", "stopped": ""},
+    )
+    assert (
+        "demo" in repr(result)
+        and "401 channels" in repr(result)
+        and "0.0999 s" in repr(result)
+        and len(repr(result)) < 1000
+    )
     assert "6207" in repr(rb.info()) and len(repr(rb.info())) < 1000

@@ -1,4 +1,5 @@
-"""The direction of the C core's includes: from the wrapper down to plain numbers, never up, and never from one physical element to another.
+"""The direction of the C core's includes: from the wrapper down to plain numbers, never up, and never from one physical
+element to another.
 
 A new file of fmu_src goes into the group whose users may include it.
 """

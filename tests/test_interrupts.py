@@ -20,7 +20,8 @@ ROOT = Path(__file__).resolve().parents[1]
 LONG = ("run", "demo", "--t-end", "100 s")
 SWEEP = 'scene = "demo"\nrepeats = 40\n[simulation]\nt_end = 0.2\n'
 
-# A program that sends itself Ctrl-C when the function named on its command line is called, then goes on as the program would.
+# A program that sends itself Ctrl-C when the function named on its command line is called, then goes on as the program
+# would.
 WITH_CTRL_C = """
 import importlib, os, signal, sys
 module, name, *arguments = sys.argv[1:]
@@ -64,7 +65,9 @@ def test_before_the_first_step_nothing_is_left(tmp_path, module, name):
 def test_at_the_first_step_the_start_is_kept(tmp_path, module, name, rows):
     arguments = (*LONG, "--set", "start.settle=0", "--out", tmp_path) + (("--step", "1 ms") if name == "march" else ())
     if name == "is_peak":
-        (tmp_path / "mine.toml").write_text('[simulation]\nt_end = 100\nstep = 1e-3\noutput_interval = 1e-2\noutputs = ["ring.y"]')
+        (tmp_path / "mine.toml").write_text(
+            '[simulation]\nt_end = 100\nstep = 1e-3\noutput_interval = 1e-2\noutputs = ["ring.y"]'
+        )
         arguments = ("run", "mine.toml", "--out", tmp_path)
     done = interrupted_in(module, name, *arguments, folder=tmp_path)
     assert done.returncode == 3 and "Traceback" not in done.stderr, done.stderr
@@ -73,9 +76,13 @@ def test_at_the_first_step_the_start_is_kept(tmp_path, module, name, rows):
     assert len(read_result(path).data["time"]) == rows and path.with_suffix(".png").is_file()
 
 
-@pytest.mark.parametrize(("module", "name"), [("riveted_bearing.results", "write_parquet"), ("riveted_bearing.plot", "plot_result")])
+@pytest.mark.parametrize(
+    ("module", "name"), [("riveted_bearing.results", "write_parquet"), ("riveted_bearing.plot", "plot_result")]
+)
 def test_files_under_way_are_finished(tmp_path, module, name):
-    """The dictionary WRITERS holds the function itself, so the interrupt comes in its first call of a library for Parquet."""
+    """The dictionary WRITERS holds the function itself, so the interrupt comes in its first call of a library for
+    Parquet.
+    """
     target = ("pyarrow.parquet", "write_table") if name == "write_parquet" else (module, name)
     done = interrupted_in(*target, "run", "demo", "--t-end", "2 ms", "--out", tmp_path, folder=tmp_path)
     assert done.returncode == 0 and "Traceback" not in done.stderr, done.stderr
@@ -125,7 +132,7 @@ def test_held_interrupts_are_noted():
         signal.raise_signal(signal.SIGINT)
 
 
-# --------------------------------------------------------------------------------------------------------------------------- sweeps
+# --------------------------------------------------------------------------------------------------------------- sweeps
 
 
 @pytest.mark.skipif(not hasattr(signal, "pthread_sigmask"), reason="signals have no masks here")
@@ -136,7 +143,9 @@ def test_while_the_cluster_starts_it_waits(monkeypatch):
 
     class Part:
         def __init__(self, *_, **options):
-            seen.append(subprocess.run([sys.executable, "-c", asked], capture_output=True, text=True, check=True).stdout.strip())
+            seen.append(
+                subprocess.run([sys.executable, "-c", asked], capture_output=True, text=True, check=True).stdout.strip()
+            )
             os.kill(os.getpid(), signal.SIGINT)
 
         def close(self):
@@ -147,14 +156,24 @@ def test_while_the_cluster_starts_it_waits(monkeypatch):
     with pytest.raises(KeyboardInterrupt), cluster(workers=1):
         raise AssertionError
     assert seen == ["True", "True", "closed", "closed"]
-    assert signal.getsignal(signal.SIGINT) is signal.default_int_handler and signal.SIGINT not in signal.pthread_sigmask(signal.SIG_BLOCK, [])
+    assert signal.getsignal(
+        signal.SIGINT
+    ) is signal.default_int_handler and signal.SIGINT not in signal.pthread_sigmask(signal.SIG_BLOCK, [])
 
 
 def test_a_sweep_says_what_is_kept(tmp_path):
     (tmp_path / "many.toml").write_text(SWEEP)
     env = os.environ | {"PYTHONPATH": str(ROOT)}
     command = [sys.executable, "-m", "riveted_bearing", "sweep", "many.toml", "--out", "rows", "--workers", "1"]
-    process = subprocess.Popen(command, env=env, cwd=tmp_path, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, start_new_session=True)
+    process = subprocess.Popen(
+        command,
+        env=env,
+        cwd=tmp_path,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+        start_new_session=True,
+    )
     until = time.monotonic() + 120.0
     while not list((tmp_path / "rows").glob("run-*.parquet")) and time.monotonic() < until:
         time.sleep(0.2)

@@ -5,16 +5,35 @@ import pytest
 from library import TWO_HALF
 from mechanics import SLICE, Instance, Z, pocket_loads, running_state, view
 
-from bearing_model.generated import variables
 from bearing_model.cage.elastic.cage_elastic import mode_order
-from bearing_model.physics.derived import default_table
 from bearing_model.cage.elastic.half_modes import fewer
+from bearing_model.generated import variables
+from bearing_model.generated.variables import (
+    MODE_D,
+    MODE_D_DOT,
+    MODE_S,
+    MODE_S_DOT,
+    N_STATES,
+    CageModel,
+    Lubrication,
+    Switch,
+    TiltMode,
+    Traction,
+)
+from bearing_model.physics.derived import default_table
 from bearing_model.physics.model import Model
-from bearing_model.generated.variables import MODE_D, MODE_D_DOT, MODE_S, MODE_S_DOT, N_STATES, CageModel, Lubrication, Switch, TiltMode, Traction
 
 TWINS = True
 POLAR = ("F_y", "F_z"), ("M_y", "M_z"), ("tilt_y", "tilt_z")
-INPUTS = {"shaft.F_x": 515.0, "shaft.F_y": 2994.0, "shaft.F_z": -400.0, "shaft.M_y": 3.0, "shaft.M_z": -2.0, "shaft.tilt_y": 1e-3, "shaft.tilt_z": 2e-3}
+INPUTS = {
+    "shaft.F_x": 515.0,
+    "shaft.F_y": 2994.0,
+    "shaft.F_z": -400.0,
+    "shaft.M_y": 3.0,
+    "shaft.M_z": -2.0,
+    "shaft.tilt_y": 1e-3,
+    "shaft.tilt_z": 2e-3,
+}
 INPUTS |= {"shaft.omega": 1909.8788938, "impact.F_r": 70.0, "impact.F_a": -30.0}
 SCENES = [
     {"scene.cage": CageModel.TWO_HALF, "scene.traction": Traction.POINT, "scene.lubrication": Lubrication.FILM},
@@ -44,7 +63,7 @@ def joined(part):
     return y
 
 
-# ---------------------------------------------------------------------------------------------------------------------------- turn
+# ----------------------------------------------------------------------------------------------------------------- turn
 
 
 def rotated(part, names, angle):
@@ -54,7 +73,9 @@ def rotated(part, names, angle):
 
 
 def turned(y, n, rate=False):
-    """The state turned about X by n pitches: ball j becomes ball j + n, rivet k rivet k + n; the halves' rotation psi stays."""
+    """The state turned about X by n pitches: ball j becomes ball j + n, rivet k rivet k + n; the halves' rotation psi
+    stays.
+    """
     angle = 2.0 * np.pi * n / Z
     part = blocks(y)
     for name in part:
@@ -75,7 +96,9 @@ def turned(y, n, rate=False):
 @pytest.mark.parametrize("scene", SCENES, ids=["film", "sliced mixed", "rigid"])
 @pytest.mark.parametrize("n", [1, 4])
 def test_turn_by_a_pitch(core, scene, n, record_property):
-    """Loads, gravity, tilts and all states turned: dy/dt turns with them; observed 1e-11 (rounding of places over approaches)."""
+    """Loads, gravity, tilts and all states turned: dy/dt turns with them; observed 1e-11 (rounding of places over
+    approaches).
+    """
     angle = 2.0 * np.pi * n / Z
     outer = dict(INPUTS)
     for pair in POLAR:
@@ -99,7 +122,7 @@ def test_turn_by_a_pitch(core, scene, n, record_property):
     assert worst < 1e-8
 
 
-# -------------------------------------------------------------------------------------------------------------------------- mirror
+# --------------------------------------------------------------------------------------------------------------- mirror
 
 
 def mirrored_z(y):
@@ -147,7 +170,9 @@ def mirrored_x(y):
 
 @pytest.mark.parametrize("scene", SCENES, ids=["film", "sliced mixed", "rigid"])
 def test_mirror_x(core, scene, record_property):
-    """The image in x = 0, the halves change places, stuck to each other (joint offsets are described in the frame of half 0); observed 1e-11."""
+    """The image in x = 0, the halves change places, stuck to each other (joint offsets are described in the frame of
+    half 0); observed 1e-11.
+    """
     odd = ("shaft.F_x", "shaft.M_y", "shaft.M_z", "shaft.tilt_y", "shaft.tilt_z", "impact.F_a")
     image_inputs = {name: -value if name in odd else value for name, value in INPUTS.items()}
     here = core.model(parameters=scene | SUPPORTED, inputs=INPUTS)
@@ -160,7 +185,10 @@ def test_mirror_x(core, scene, record_property):
             y[SLICE[f"joint_{name}"]] = 0.0
         rate, image = here.rhs(0.0, y), there.rhs(0.0, mirrored_x(y))
         for part in (rate, image):  # rates of friction: rounding of velocities that cancel
-            assert max(np.abs(part[SLICE[f"joint_{name}"]]).max() for name in ("plate_y", "plate_z", "head_y", "head_z")) < 1e-12
+            assert (
+                max(np.abs(part[SLICE[f"joint_{name}"]]).max() for name in ("plate_y", "plate_z", "head_y", "head_z"))
+                < 1e-12
+            )
             for name in ("plate_y", "plate_z", "head_y", "head_z"):
                 part[SLICE[f"joint_{name}"]] = 0.0
         worst = max(worst, difference(mirrored_x(rate), image))
@@ -168,13 +196,15 @@ def test_mirror_x(core, scene, record_property):
     assert worst < 1e-8
 
 
-# ------------------------------------------------------------------------------------------------------------- both, elastic halves
+# ------------------------------------------------------------------------------------------------- both, elastic halves
 
 MODE_BLOCKS = MODE_S, MODE_D, MODE_S_DOT, MODE_D_DOT
 
 
 def modal_image(y, image, act):
-    """The state whose rigid part is `image` and whose modes are act(a - i b, harmonic): a mode of a pair or alone has the coordinates a (cos) and b (sin)."""
+    """The state whose rigid part is `image` and whose modes are act(a - i b, harmonic): a mode of a pair or alone has
+    the coordinates a (cos) and b (sin).
+    """
     modes = fewer(default_table().modes, variables.PARAMETERS["scene.modes"].start)
     _, entry, part = mode_order(modes)
     n, is_b, alone = modes.harmonic[entry], part > 0.0, modes.parity[entry] != 0
@@ -225,7 +255,10 @@ def test_mirror_of_elastic_halves(core, record_property):
     odd = ("shaft.F_z", "shaft.M_y", "shaft.tilt_y", "shaft.omega")
     image_inputs = {name: -value if name in odd else value for name, value in INPUTS.items()}
     elastic = {"scene.cage": CageModel.ELASTIC} | SUPPORTED
-    here, there = core.model(parameters=elastic, inputs=INPUTS), core.model(parameters=elastic | {"gravity.z": -3.0}, inputs=image_inputs)
+    here, there = (
+        core.model(parameters=elastic, inputs=INPUTS),
+        core.model(parameters=elastic | {"gravity.z": -3.0}, inputs=image_inputs),
+    )
     rng, worst = np.random.default_rng(5), 0.0
 
     def image(y):
@@ -238,12 +271,20 @@ def test_mirror_of_elastic_halves(core, record_property):
     assert worst < 1e-8
 
 
-# --------------------------------------------------------------------------------------------------------------------------- units
+# ---------------------------------------------------------------------------------------------------------------- units
 
 LENGTH, TIME = 1.7, 0.6  # the new units; the unit of force stays, as one load of 1 N is a constant of the model
 DIMENSION = {"m": (1, 0, 0), "kg": (0, 1, 0), "s": (0, 0, 1), "N": (1, 1, -2), "Pa": (-1, 1, -2), "W": (2, 1, -3)}
 DIMENSION |= dict.fromkeys(("rad", "1", "K"), (0, 0, 0))
-STATE_UNITS = {"length": "m", "angle": "rad", "velocity": "m/s", "normal": "m/s", "orbit": "rad/s", "rate": "rad/s", "spin": "rad/s"}
+STATE_UNITS = {
+    "length": "m",
+    "angle": "rad",
+    "velocity": "m/s",
+    "normal": "m/s",
+    "orbit": "rad/s",
+    "rate": "rad/s",
+    "spin": "rad/s",
+}
 STATE_UNITS |= {"plate": "m", "head": "m", "tilt": "1", "energy": "N.m"}
 
 
@@ -273,9 +314,11 @@ def test_reading_units():
 @pytest.mark.c_only
 @pytest.mark.parametrize("scene", SCENES, ids=["film", "sliced mixed", "rigid"])
 def test_other_units(core, scene, record_property):
-    """Every parameter, input and state in other units of length, time and mass: dy/dt follows.  No hidden constant has a dimension but Q_FLOOR = 1 N.
+    """Every parameter, input and state in other units of length, time and mass: dy/dt follows.  No hidden constant has
+    a dimension but Q_FLOOR = 1 N.
 
-    Heating and starvation of the inlets are off: SKF's formulas hold in r/min, mm and mm2/s.  The cage's centrifugal load is off: it stands in the rivet table.
+    Heating and starvation of the inlets are off: SKF's formulas hold in r/min, mm and mm2/s.  The cage's centrifugal
+    load is off: it stands in the rivet table.
 
     The joint's stiffnesses come from the rivet table in SI and are converted here.  Observed 1e-11.
     """
@@ -285,7 +328,9 @@ def test_other_units(core, scene, record_property):
     for name, variable in variables.PARAMETERS.items():
         if variable.type == "Real" and variable.count == 1 and variable.unit != "K":
             scaled[name] = parameters.get(name, variable.start) * factor(variable.unit)
-    inputs = {name: INPUTS.get(name, variable.start) * factor(variable.unit) for name, variable in variables.INPUTS.items()}
+    inputs = {
+        name: INPUTS.get(name, variable.start) * factor(variable.unit) for name, variable in variables.INPUTS.items()
+    }
     there = core.model(parameters=parameters | scaled, inputs=inputs)
     for name in ("k_rivet", "k_plate", "k_plate_t", "k_head"):
         setattr(there.d, name, getattr(here.d, name) * factor("N/m"))
@@ -308,7 +353,7 @@ def test_other_units(core, scene, record_property):
     assert worst < 1e-8
 
 
-# -------------------------------------------------------------------------------------------------------------------- trajectories
+# --------------------------------------------------------------------------------------------------------- trajectories
 
 
 def image_of(kind):
@@ -316,7 +361,14 @@ def image_of(kind):
     load = {"shaft.F_x": 515.0, "shaft.F_y": 2994.0, "shaft.F_z": 700.0, "shaft.tilt_y": 1e-3, "shaft.tilt_z": 2e-3}
     if kind == "mirror":
         odd = ("shaft.F_z", "shaft.tilt_y", "shaft.omega")
-        return load, {name: -value if name in odd else value for name, value in (load | {"shaft.omega": 18238.0 * np.pi / 30.0}).items()}, mirrored_z
+        return (
+            load,
+            {
+                name: -value if name in odd else value
+                for name, value in (load | {"shaft.omega": 18238.0 * np.pi / 30.0}).items()
+            },
+            mirrored_z,
+        )
     other = dict(load)
     rotated(other, ("shaft.F_y", "shaft.F_z"), 2.0 * np.pi / Z)
     rotated(other, ("shaft.tilt_y", "shaft.tilt_z"), 2.0 * np.pi / Z)

@@ -1,7 +1,9 @@
-"""Derivatives of the right-hand side: dual numbers against differences of the kernels in plain numbers, at states of every kind.
+"""Derivatives of the right-hand side: dual numbers against differences of the kernels in plain numbers, at states of
+every kind.
 
-Differences are central, extrapolated to step 0 (Richardson), with their own error estimate: it tells where the right-hand side is smooth.
-Entries are judged by the largest of their block, the rows of one kind of state by the columns of another (ball_v_r by ring_x, ...).
+Differences are central, extrapolated to step 0 (Richardson), with their own error estimate: it tells where the
+right-hand side is smooth. Entries are judged by the largest of their block, the rows of one kind of state by the
+columns of another (ball_v_r by ring_x, ...).
 """
 
 import itertools
@@ -12,13 +14,35 @@ from mechanics import RIGID_HALVES, SLICE, View, Z, running_state, view
 
 from bearing_model.generated.variables import INPUTS, N_STATES, CageModel, Lubrication, TiltMode, Traction
 
-KINDS = ("pockets closed", "pockets open", "rolling", "separated", "dry land", "high tilt", "unloaded", "joints apart", "slow")
+KINDS = (
+    "pockets closed",
+    "pockets open",
+    "rolling",
+    "separated",
+    "dry land",
+    "high tilt",
+    "unloaded",
+    "joints apart",
+    "slow",
+)
 SCENES = list(itertools.product(RIGID_HALVES, Traction, Lubrication, TiltMode))  # 24 of them: 216 states
 FULL = (CageModel.TWO_HALF, Traction.SLICED, Lubrication.MIXED, TiltMode.SUPPORTED)
 
-# First step of the differences: a hundredth of what changes contact forces, slip, film and friction; the last one is 1/256 of it.
+# First step of the differences: a hundredth of what changes contact forces, slip, film and friction; the last one is
+# 1/256 of it.
 LEVELS = 9
-STEPS = {"theta": 3e-6, "psi": 3e-6, "beta": 3e-6, "gamma": 3e-6, "v": 1e-2, "omega": 1.0, "s": 1.0, "beta_dot": 0.2, "gamma_dot": 0.2, "work": 1.0}
+STEPS = {
+    "theta": 3e-6,
+    "psi": 3e-6,
+    "beta": 3e-6,
+    "gamma": 3e-6,
+    "v": 1e-2,
+    "omega": 1.0,
+    "s": 1.0,
+    "beta_dot": 0.2,
+    "gamma_dot": 0.2,
+    "work": 1.0,
+}
 STEP = np.empty(N_STATES)
 for _name, _slice in SLICE.items():
     _kind = _name.split("_", 1)[-1]
@@ -29,7 +53,12 @@ STARTS = np.array([s.start for s in SLICE.values()])
 
 def make_model(core, kind, scene, **changes):
     cage, traction, lubrication, tilt_mode = scene
-    parameters = {"scene.cage": cage, "scene.traction": traction, "scene.lubrication": lubrication, "ring.tilt_mode": tilt_mode}
+    parameters = {
+        "scene.cage": cage,
+        "scene.traction": traction,
+        "scene.lubrication": lubrication,
+        "ring.tilt_mode": tilt_mode,
+    }
     parameters |= {"gravity.y": -9.81, "gravity.z": 3.0, "cage.unbalance": 1e-8, "ring.c": 50.0, "oil.v_0": 0.01}
     inputs = {"shaft.M_y": 0.5, "shaft.M_z": -0.7}
     if kind == "high tilt":
@@ -51,7 +80,12 @@ def push_cage(model, y, eccentricity):
 
 
 def make_state(model, kind, rng):
-    y = running_state(model, rng, pockets=kind not in ("pockets open", "separated"), slip={"rolling": 1e-3, "slow": 0.02}.get(kind, 1.0))
+    y = running_state(
+        model,
+        rng,
+        pockets=kind not in ("pockets open", "separated"),
+        slip={"rolling": 1e-3, "slow": 0.02}.get(kind, 1.0),
+    )
     if kind == "separated":  # balls halfway between the races
         y[SLICE["ball_x"]], y[SLICE["ball_r"]] = 0.0, 0.5 * model.p.bearing.d_m
         for name in ("ring_x", "ring_y", "ring_z", "ring_beta", "ring_gamma"):
@@ -72,9 +106,11 @@ def rhs(model, y, t=0.0):
 
 
 def extrapolated(f, h, noise):
-    """Derivative of f at 0 by central differences with steps h, h/2, ..., extrapolated to 0, and an estimate of its error.
+    """Derivative of f at 0 by central differences with steps h, h/2, ..., extrapolated to 0, and an estimate of its
+    error.
 
-    noise: what rounding does to each component of f.  The error is large where finer steps contradict: a kink lies in between.
+    noise: what rounding does to each component of f.  The error is large where finer steps contradict: a kink lies in
+    between.
     """
     best, error, level, row, finest = 0.0, np.inf, 0, [], []
     for k in range(LEVELS):
@@ -83,7 +119,11 @@ def extrapolated(f, h, noise):
             fine = row[m]
             row.append(fine + (fine - coarse) / (4.0 ** (m + 1) - 1.0))
             guess = np.maximum(abs(row[-1] - fine), abs(row[-1] - coarse)) + noise / h
-            best, level, error = np.where(guess < error, row[-1], best), np.where(guess < error, k, level), np.minimum(guess, error)
+            best, level, error = (
+                np.where(guess < error, row[-1], best),
+                np.where(guess < error, k, level),
+                np.minimum(guess, error),
+            )
         finest.append((row[min(k, 1)], 1.5 * noise / h))  # of rounding: 4/3 of this step and 1/3 of the one before
         h /= 2.0
     for k, (value, blur) in enumerate(finest):
@@ -115,7 +155,9 @@ def product(model, y, dy, d_ring_load=None, t=0.0):
 def difference_matrix(model, y, rng):
     """The matrix by differences, and the estimate of its error."""
     noise = rounding(lambda y: rhs(model, y), y, rng)
-    columns = [extrapolated(lambda h, e=e: rhs(model, y + h * e), STEP[j], noise) for j, e in enumerate(np.eye(N_STATES))]
+    columns = [
+        extrapolated(lambda h, e=e: rhs(model, y + h * e), STEP[j], noise) for j, e in enumerate(np.eye(N_STATES))
+    ]
     return tuple(np.array(part).T for part in zip(*columns, strict=True))
 
 
@@ -126,7 +168,9 @@ def blocks(big):
 
 
 def compare(J, differences, error):
-    """Relative errors of the entries where differences know better than 1e-6 of the block, and the share of all that matter which these are."""
+    """Relative errors of the entries where differences know better than 1e-6 of the block, and the share of all that
+    matter which these are.
+    """
     big = np.maximum(abs(J), np.where(error < 0.1 * abs(differences), abs(differences), 0.0))
     block = blocks(big)
     smooth = (error <= 1e-6 * block) & (block > 0.0)
@@ -151,8 +195,10 @@ def test_matrix_against_differences(core, scene):
         J = matrix(model, y)
         assert np.isfinite(J).all() and np.count_nonzero(J) > 300  # a rigid cage without contacts has the fewest: 324
         relative, share = compare(J, *difference_matrix(model, y, rng))
-        assert share > 0.7, kind  # observed 0.75...1: the rest, as the mixture's pull of cage on balls, drowns in rounding or lies at a kink
-        assert np.mean(relative > 1e-6) < 3e-4, kind  # observed 9e-5: kinks so near that only the finest differences see them
+        # observed 0.75...1: the rest, as the mixture's pull of cage on balls, drowns in rounding or lies at a kink
+        assert share > 0.7, kind
+        # observed 9e-5: kinks so near that only the finest differences see them
+        assert np.mean(relative > 1e-6) < 3e-4, kind
         assert relative.max() < 1e-4, kind  # observed 3.2e-6
 
 
@@ -182,7 +228,14 @@ def housing(model, work):
     place = np.stack([w.x[:Z], w.r[:Z] * w.cos_theta[:Z], w.r[:Z] * w.sin_theta[:Z]], -1)
 
     def turn(x, r, t):
-        return np.stack([x[:Z], r[:Z] * w.cos_theta[:Z] - t[:Z] * w.sin_theta[:Z], r[:Z] * w.sin_theta[:Z] + t[:Z] * w.cos_theta[:Z]], -1)
+        return np.stack(
+            [
+                x[:Z],
+                r[:Z] * w.cos_theta[:Z] - t[:Z] * w.sin_theta[:Z],
+                r[:Z] * w.sin_theta[:Z] + t[:Z] * w.cos_theta[:Z],
+            ],
+            -1,
+        )
 
     force, moment = turn(w.F_x, w.F_r, w.F_t), turn(w.M_x, w.M_r, w.M_t)
     F, M = -force.sum(0), -(moment + np.cross(place, force)).sum(0)
@@ -192,9 +245,28 @@ def housing(model, work):
     return np.concatenate([F, M])
 
 
-DRIVE_STEP = {"omega_dot": 1e4, "F": 10.0, "M": 0.1, "omega": 0.1, "beta": 1e-6, "gamma": 1e-6, "x": 1e-8, "v": 1e-4, "a": 1.0, "field": 1.0}
+DRIVE_STEP = {
+    "omega_dot": 1e4,
+    "F": 10.0,
+    "M": 0.1,
+    "omega": 0.1,
+    "beta": 1e-6,
+    "gamma": 1e-6,
+    "x": 1e-8,
+    "v": 1e-4,
+    "a": 1.0,
+    "field": 1.0,
+}
 DRIVE_STEP |= {"frame_omega": 0.1, "frame_omega_dot": 10.0, "outer_moves": 1.0, "frame_turns": 1.0}
-DRIVE_STEP |= {"beta_dot": 1e-3, "gamma_dot": 1e-3, "beta_ddot": 1.0, "gamma_ddot": 1.0, "outer_x": 1e-8, "outer_v": 1e-4, "outer_omega": 0.1}
+DRIVE_STEP |= {
+    "beta_dot": 1e-3,
+    "gamma_dot": 1e-3,
+    "beta_ddot": 1.0,
+    "gamma_ddot": 1.0,
+    "outer_x": 1e-8,
+    "outer_v": 1e-4,
+    "outer_omega": 0.1,
+}
 DRIVE_STEP |= {"outer_beta": 1e-6, "outer_gamma": 1e-6, "outer_beta_dot": 1e-3, "outer_gamma_dot": 1e-3}
 
 
@@ -217,7 +289,11 @@ def test_products_with_drive_and_results(core, scene):
             for name in base:
                 setattr(View(core, model.ring_load), name, np.squeeze(base[name] + h * direction[name])[()])
             y_dot = rhs(model, y + h * dy, t)
-            return {name: y_dot[s] for name, s in SLICE.items()} | members(core, model.work[0]) | {"housing": housing(model, model.work)}
+            return (
+                {name: y_dot[s] for name, s in SLICE.items()}
+                | members(core, model.work[0])
+                | {"housing": housing(model, model.work)}
+            )
 
         def flat(*where, results=results):
             return np.concatenate([value.ravel() for value in results(*where).values()])
@@ -236,21 +312,36 @@ def test_products_with_drive_and_results(core, scene):
         size = largest[names]
         smooth = (error <= 1e-6 * size) & (size > 0.0)
         judged += np.sum(smooth)
-        assert np.all((abs(exact - differences) <= 1e-6 * size + error)[smooth]), kind  # observed 3e-7, once 1.1e-6 where the differences are as uncertain
+        # observed 3e-7, once 1.1e-6 where the differences are as uncertain
+        assert np.all((abs(exact - differences) <= 1e-6 * size + error)[smooth]), kind
     assert judged > 5000  # observed 5200...
 
 
 EVALUATED = ("STATE", "RING", "POSE", "BALL", "CAGE", "RIVET", "STRESS", "ENERGY")
 INPUT_STEP = {"F": 10.0, "M": 0.1, "omega": 0.1, "tilt": 1e-6, "x": 1e-9, "y": 1e-9, "z": 1e-9, "v": 1e-5, "a": 0.1}
-PULSE = {"pulse.F_r": 500.0, "pulse.F_a": 100.0, "pulse.t_start": 0.0, "pulse.duration": 1e-3, "pulse.interval": 1e-2, "pulse.count": 1}
+PULSE = {
+    "pulse.F_r": 500.0,
+    "pulse.F_a": 100.0,
+    "pulse.t_start": 0.0,
+    "pulse.duration": 1e-3,
+    "pulse.interval": 1e-2,
+    "pulse.count": 1,
+}
 
 
 def drawn(rng, low):
-    """A number in (low, 1) for each input: those of the motions from their own generator, so that the states stay those of the loads' tests.
+    """A number in (low, 1) for each input: those of the motions from their own generator, so that the states stay those
+    of the loads' tests.
 
-    Where a joint is about to open, differences of the relieved rivet loads are known to 4e-6 only, and other states may lie there.
+    Where a joint is about to open, differences of the relieved rivet loads are known to 4e-6 only, and other states may
+    lie there.
     """
-    loads = np.array([name.startswith(("shaft.F", "shaft.M", "shaft.omega", "shaft.tilt", "impact")) and not name.endswith("_dot") for name in INPUTS])
+    loads = np.array(
+        [
+            name.startswith(("shaft.F", "shaft.M", "shaft.omega", "shaft.tilt", "impact")) and not name.endswith("_dot")
+            for name in INPUTS
+        ]
+    )
     values = np.random.default_rng(99).uniform(low, 1.0, len(INPUTS))
     values[loads] = rng.uniform(low, 1.0, np.sum(loads))
     return values
@@ -261,7 +352,8 @@ class Trajectory:
 
     def __init__(self, core, model, t, rng):
         self.core, self.model, self.t = core, model, t
-        self.size = np.array([INPUT_STEP.get(name.split(".")[1].split("_")[0], 0.0) for name in INPUTS])  # temperatures stay: test_temperature.py
+        # temperatures stay: test_temperature.py
+        self.size = np.array([INPUT_STEP.get(name.split(".")[1].split("_")[0], 0.0) for name in INPUTS])
         self.u, self.trajectory, self.out = core.ffi.new("Inputs[3]"), core.new("InputTrajectory"), core.new("Outputs")
         self.u[0] = model.u[0]
         self.values = np.frombuffer(core.ffi.buffer(self.u)).reshape(3, -1)
@@ -290,20 +382,26 @@ class Trajectory:
         self.outputs(0.0, 0.0, y)
         array, out = self.core.array, self.core.new("Outputs")
         trajectory, d_out = (self.core.ffi.cast("double *", struct) for struct in (self.trajectory, out))
-        self.core.lib.jacobian_outputs(self.model.pointer, trajectory, self.t, dt, array(du), array(y), array(dy), d_out)
+        self.core.lib.jacobian_outputs(
+            self.model.pointer, trajectory, self.t, dt, array(du), array(y), array(dy), d_out
+        )
         return np.frombuffer(self.core.ffi.buffer(out)).copy()
 
 
 @pytest.mark.parametrize("scene", SCENES, ids=lambda scene: "-".join(part.name for part in scene))
 def test_outputs_by_time_inputs_and_states(core, scene):
-    """One direction in time, all inputs and all states at once: every output that follows from an evaluation, in the middle of a pulse."""
+    """One direction in time, all inputs and all states at once: every output that follows from an evaluation, in the
+    middle of a pulse.
+    """
     rng, judged = np.random.default_rng(12), 0
     for kind in KINDS:
         model, y = prepared(core, kind, scene, rng, **PULSE)
         trajectory = Trajectory(core, model, 3e-4, rng)
         dt, du, dy = 1e-6, trajectory.size * drawn(rng, 0.5), 0.1 * STEP * rng.uniform(-1.0, 1.0, N_STATES)
         noise = rounding(lambda y, trajectory=trajectory: trajectory.outputs(0.0, 0.0, y), y, rng)
-        differences, error = extrapolated(lambda h, c=trajectory, dt=dt, du=du, y=y, dy=dy: c.outputs(h * dt, h * du, y + h * dy), 1.0, noise)
+        differences, error = extrapolated(
+            lambda h, c=trajectory, dt=dt, du=du, y=y, dy=dy: c.outputs(h * dt, h * du, y + h * dy), 1.0, noise
+        )
         exact = trajectory.derivatives(dt, du, y, dy)
         size = np.maximum(abs(exact), abs(differences))
         smooth = (error <= 3e-7 * size) & (size > 0.0)  # differences that are known better than they are asked for
@@ -369,7 +467,9 @@ UNDAMPED = {"bearing.lambda": 0.0, "cage.lambda": 0.0, "joint.zeta": 0.0, "oil.v
 
 @pytest.mark.parametrize("scene", SCENES, ids=lambda scene: "-".join(part.name for part in scene))
 def test_stiff_rates_against_the_diagonal(core, scene):
-    """D is what traction and friction states hold back: never far below -J_ii without the contacts' damping, which it leaves out, and of its size."""
+    """D is what traction and friction states hold back: never far below -J_ii without the contacts' damping, which it
+    leaves out, and of its size.
+    """
     rng = np.random.default_rng(12)
     stiff = 0
     for kind in KINDS:
@@ -379,7 +479,8 @@ def test_stiff_rates_against_the_diagonal(core, scene):
             fast = rate[SLICE[name]] > 1e4
             ratio = D[SLICE[name]][fast] / rate[SLICE[name]][fast]
             stiff += ratio.size
-            assert np.all((ratio > 0.999) & (ratio < 20.0)), (kind, name)  # observed 0.9999...9.5, the most where asperities slip against each other
+            # observed 0.9999...9.5, the most where asperities slip against each other
+            assert np.all((ratio > 0.999) & (ratio < 20.0)), (kind, name)
         for name in ("joint_plate_y", "joint_plate_z", "joint_head_y", "joint_head_z"):
             np.testing.assert_allclose(D[SLICE[name]], rate[SLICE[name]], rtol=1e-12)  # observed 1.6e-13
     assert stiff > 50  # observed 144...199
@@ -395,4 +496,5 @@ def test_film_rates_against_the_diagonal(core):
         rhs(model, y)
         D, rate = model.rates(), -np.diag(matrix(model, y))
         for name in ("cage_v_y", "cage_v_z", "cage_beta_dot", "cage_gamma_dot"):
-            np.testing.assert_allclose(D[SLICE[name]], rate[SLICE[name]], rtol=1e-3, atol=1e-5 * D[SLICE[name]].max())  # observed 8e-5
+            # observed 8e-5
+            np.testing.assert_allclose(D[SLICE[name]], rate[SLICE[name]], rtol=1e-3, atol=1e-5 * D[SLICE[name]].max())

@@ -1,12 +1,14 @@
-"""Law of a riveted joint and the scheme that relieves opening joints, against direct contact solutions, closed forms and their own equations."""
+"""Law of a riveted joint and the scheme that relieves opening joints, against direct contact solutions, closed forms
+and their own equations.
+"""
 
 from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
-from bearing_model.cage.two_half import half_path
 from bearing_model.cage.common import joint_law
+from bearing_model.cage.two_half import half_path
 from bearing_model.rivet import rivet_rom, rivet_table
 from rivet_model import half, half_loads, joint_contact, load_cases
 from rivet_model.geometry import Geometry
@@ -16,7 +18,9 @@ ANGLES = np.deg2rad([3.0, 7.0, 12.0, 25.0, 50.0, 80.0])  # of the direct solutio
 
 
 class Chain:
-    """What the table holds of a half, made on one mesh, and the direct contact of both halves on the same or on another one."""
+    """What the table holds of a half, made on one mesh, and the direct contact of both halves on the same or on another
+    one.
+    """
 
     def __init__(self, size, direct_size):
         angles = [*ANGLES, np.pi - ANGLES[1]]  # the last one on the pocket's other side
@@ -34,7 +38,9 @@ class Chain:
         self.rigid = [half_loads.rigid_rows(self.elastic, place) for place in self.elastic.point_places()]
 
     def direct(self, P, omega, forces):
-        """JointState by contact, and its load; forces: (pocket, index of ANGLES, (F_x, F_r, F_t)) of one half, half of each mirrored."""
+        """JointState by contact, and its load; forces: (pocket, index of ANGLES, (F_x, F_r, F_t)) of one half, half of
+        each mirrored.
+        """
         moved = [(pocket, self.nodes + i, force) for pocket, i, force in forces]
         load = self.contact.loads(moved, omega**2 * half_loads.centrifugal(self.direct_half))
         return self.contact.solve(P, load), load
@@ -56,8 +62,12 @@ class Chain:
 
 
 def scheme(law, rows, spin, P, sweeps=joint_law.SWEEPS):
-    """(N, M_r, M_t), (T, m_r, m_t) [Z, 3] and moves of all joints: bonded rows [Z, 8], those of the centrifugal load alone [8] among them."""
-    load, rivet, moves = joint_law.joints_open(law, rows[:, [0, 3, 4]], np.maximum(P + rows[:, 5], 0.0), spin[4], P + spin[5], sweeps)
+    """(N, M_r, M_t), (T, m_r, m_t) [Z, 3] and moves of all joints: bonded rows [Z, 8], those of the centrifugal load
+    alone [8] among them.
+    """
+    load, rivet, moves = joint_law.joints_open(
+        law, rows[:, [0, 3, 4]], np.maximum(P + rows[:, 5], 0.0), spin[4], P + spin[5], sweeps
+    )
     return load, rivet + np.stack([np.zeros(len(rows)), rows[:, 6], rows[:, 7]], axis=1), moves
 
 
@@ -66,7 +76,11 @@ def random_scene(rng):
     P, omega = np.exp(rng.uniform(np.log(5.0), np.log(160.0))), rng.choice([0.0, rng.uniform(0.0, 1030.0)])
     forces = []
     for _ in range(rng.integers(1, 3)):
-        i, Q, mu = rng.integers(len(ANGLES)), np.exp(rng.uniform(np.log(20.0), np.log(200.0))), rng.uniform(-0.1, 0.1, 2)
+        i, Q, mu = (
+            rng.integers(len(ANGLES)),
+            np.exp(rng.uniform(np.log(20.0), np.log(200.0))),
+            rng.uniform(-0.1, 0.1, 2),
+        )
         c, s = np.cos(ANGLES[i]), np.sin(ANGLES[i])
         forces.append((int(rng.integers(G.Z)), int(i), Q * np.array([s + mu[0] * c, mu[1], c - mu[0] * s])))
     return P, omega, forces
@@ -77,11 +91,13 @@ def chain():
     return Chain(half.COARSE, half.COARSE)
 
 
-# One joint ----------------------------------------------------------------------------------------------------------------------------
+# One joint ------------------------------------------------------------------------------------------------------------
 
 
 def thin_ring(a, n=48):
-    """A JointAlone whose pad is a thin ring of radius a on springs, on a rigid bar that is held softly, with a rivet too soft to take part."""
+    """A JointAlone whose pad is a thin ring of radius a on springs, on a rigid bar that is held softly, with a rivet
+    too soft to take part.
+    """
     angle = 2 * np.pi * np.arange(n) / n
     lever = np.stack([np.ones(n), a * np.sin(angle), -a * np.cos(angle)], axis=1)
     bar = np.diag([1e-3, 1e2, 1e2])  # compliance of the bar: m/N, rad/(N.m)
@@ -100,7 +116,8 @@ def thin_ring(a, n=48):
 
 
 def test_thin_ring_opens_at_half_its_radius():
-    """Contact on a thin ring of radius a: pressure P/(2 pi a) (1 + 2 M cos/(P a)) vanishes first at M = P a/2, exactly; before, no load moves it.
+    """Contact on a thin ring of radius a: pressure P/(2 pi a) (1 + 2 M cos/(P a)) vanishes first at M = P a/2, exactly;
+    before, no load moves it.
 
     When the ring stands on one point, the moment is clamp force times radius.
     """
@@ -121,7 +138,10 @@ def test_thin_ring_opens_at_half_its_radius():
 
 def test_law_is_homogeneous_and_symmetric(chain):
     """Twice the loads and the preload: twice everything; M_r of the other sign: phi_r and m_r change sign (rounding)."""
-    load, P = np.random.default_rng(2).normal(size=(40, 3)) * [20.0, 0.05, 0.05], np.random.default_rng(3).uniform(5.0, 100.0, 40)
+    load, P = (
+        np.random.default_rng(2).normal(size=(40, 3)) * [20.0, 0.05, 0.05],
+        np.random.default_rng(3).uniform(5.0, 100.0, 40),
+    )
     move, rivet = joint_law.joint_law(chain.law, load, P)
     for a, b in zip(joint_law.joint_law(chain.law, 2.0 * load, 2.0 * P), (move, rivet), strict=True):
         np.testing.assert_allclose(a, 2.0 * b, rtol=1e-11)
@@ -138,26 +158,33 @@ def test_coordinates_invert():
 
 
 def test_law_between_its_samples(chain):
-    """Spline against contact solutions of one joint at 300 loads in and out of the plane, P 5...160 N: T and moments of the rivet, loads left of the joint.
+    """Spline against contact solutions of one joint at 300 loads in and out of the plane, P 5...160 N: T and moments of
+    the rivet, loads left of the joint.
 
-    Below 5 % of the largest and 1 % RMS (observed T 0.9 and 0.2 %, loads 1.5 and 0.3 %, moments of the shank 3.6 and 0.6 %).
+    Below 5 % of the largest and 1 % RMS (observed T 0.9 and 0.2 %, loads 1.5 and 0.3 %, moments of the shank 3.6 and
+    0.6 %).
     """
     rng = np.random.default_rng(5)
     load, P = rng.normal(size=(300, 3)) * [20.0, 0.08, 0.08], np.exp(rng.uniform(np.log(5.0), np.log(160.0), 300))
     move, rivet = joint_law.joint_law(chain.law, load, P)
     exact = [chain.alone.solve(*case) for case in zip(load, P, strict=True)]
     K = chain.law.stiffness[0]
-    for got, true in ((rivet, np.array([e[1] for e in exact])), (load - move @ K.T, load - np.array([e[0] for e in exact]) @ K.T)):
+    for got, true in (
+        (rivet, np.array([e[1] for e in exact])),
+        (load - move @ K.T, load - np.array([e[0] for e in exact]) @ K.T),
+    ):
         error = (got - true) / np.abs(true).max(axis=0)
         print("largest", np.abs(error).max(axis=0), "RMS", np.sqrt((error**2).mean(axis=0)))
         assert np.abs(error).max() < 0.05 and np.sqrt((error**2).mean(axis=0)).max() < 0.01
 
 
-# All joints of a half -----------------------------------------------------------------------------------------------------------------
+# All joints of a half -------------------------------------------------------------------------------------------------
 
 
 def compare(chain, scenes, seed):
-    """Errors of (N, M_r, M_t, T, m_r, m_t) of all joints in random scenes: largest and RMS, relative to the largest value."""
+    """Errors of (N, M_r, M_t, T, m_r, m_t) of all joints in random scenes: largest and RMS, relative to the largest
+    value.
+    """
     rng = np.random.default_rng(seed)
     errors, truth = [], []
     for _ in range(scenes):
@@ -171,9 +198,11 @@ def compare(chain, scenes, seed):
 
 
 def test_scheme_against_direct_contact(chain):
-    """Twenty scenes on coarse elements, law and direct contact on the same: T, M_t below 4 %, M_r below 5 % of the largest; RMS below 1.5 %.
+    """Twenty scenes on coarse elements, law and direct contact on the same: T, M_t below 4 %, M_r below 5 % of the
+    largest; RMS below 1.5 %.
 
-    Observed T 2.9, M_t 0.7, M_r 4.0 %; RMS 0.5, 0.2, 0.9 %: pads that pocket forces bend, and joints near the state under spin by its tangent.
+    Observed T 2.9, M_t 0.7, M_r 4.0 %; RMS 0.5, 0.2, 0.9 %: pads that pocket forces bend, and joints near the state
+    under spin by its tangent.
     """
     largest, rms = compare(chain, 20, 1)
     print(largest, rms)
@@ -182,7 +211,9 @@ def test_scheme_against_direct_contact(chain):
 
 
 def test_push_on_the_other_side_of_a_pocket(chain):
-    """The mirror image of a push loads the mirrored joints: rivet -1 - k as rivet k before, M_r and m_r of the other sign (1 % of the largest)."""
+    """The mirror image of a push loads the mirrored joints: rivet -1 - k as rivet k before, M_r and m_r of the other
+    sign (1 % of the largest).
+    """
     sign = np.array([1.0, -1.0, 1.0])
     one, _ = chain.direct(20.0, 500.0, [(0, 1, 60.0 * np.array([0.2, 0.05, 1.0]))])
     other, _ = chain.direct(20.0, 500.0, [(0, len(ANGLES), 60.0 * np.array([0.2, 0.05, -1.0]))])
@@ -192,7 +223,9 @@ def test_push_on_the_other_side_of_a_pocket(chain):
 
 
 def test_centrifugal_load_is_not_relieved(chain):
-    """Under spin alone N stays 0 and M_t nearly what equilibrium imposes, while T rises; the start is the fixed point (one more sweep changes 0.1 %)."""
+    """Under spin alone N stays 0 and M_t nearly what equilibrium imposes, while T rises; the start is the fixed point
+    (one more sweep changes 0.1 %).
+    """
     for P, omega in ((20.0, 754.0), (40.0, 1000.0)):
         state, _ = chain.direct(P, omega, [])
         load, rivet, moves = chain.scheme(P, omega, [], sweeps=1)
@@ -204,10 +237,12 @@ def test_centrifugal_load_is_not_relieved(chain):
 
 
 def test_no_compliance_is_counted_twice(chain):
-    """The assembled pair's stiffness: how far a pocket's wall gives under its push, by the law's moves and by the direct contact of the whole pair.
+    """The assembled pair's stiffness: how far a pocket's wall gives under its push, by the law's moves and by the
+    direct contact of the whole pair.
 
-    By reciprocity the moves of the joints add to the wall's displacement what a unit push would give bonded joints: sum of rows times moves.  The part of
-    bonded halves is the elements' own.  Closed (P = 1 kN) and open joints agree within 1 % and 3 % (observed 0.1 % and 0.9 %).
+    By reciprocity the moves of the joints add to the wall's displacement what a unit push would give bonded joints: sum
+    of rows times moves.  The part of bonded halves is the elements' own.  Closed (P = 1 kN) and open joints agree
+    within 1 % and 3 % (observed 0.1 % and 0.9 %).
     """
     elastic, nodes = chain.elastic, chain.nodes
     for i, F in ((1, 60.0), (4, 60.0)):
@@ -215,12 +250,15 @@ def test_no_compliance_is_counted_twice(chain):
         column = np.zeros(elastic.loads.shape[1])
         column[elastic.patterns.pocket.start + 3 * (nodes + i) + np.arange(3)] = 0.5 * push
         held = elastic.mirrored[2]
-        bonded = (2 * (column @ held[1:] @ column).real.sum() + (column @ held[0] @ column).real) / G.Z  # waves m and Z - m
+        # waves m and Z - m
+        bonded = (2 * (column @ held[1:] @ column).real.sum() + (column @ held[0] @ column).real) / G.Z
         for P, tolerance in ((1000.0, 0.01), (20.0, 0.03)):
             forces = [(0, i, F * push)]
             state, load = chain.direct(P, 0.0, forces)
             rest, nothing = chain.direct(P, 0.0, [])
-            expected = chain.contact.displacement(column, 0, load, state) - chain.contact.displacement(column, 0, nothing, rest)
+            expected = chain.contact.displacement(column, 0, load, state) - chain.contact.displacement(
+                column, 0, nothing, rest
+            )
             _, _, moves = chain.scheme(P, 0.0, forces, sweeps=12)
             _, _, moves_at_rest = chain.scheme(P, 0.0, [], sweeps=12)
             rows = chain.bonded(0.0, [(0, i, push)])[:, [0, 3, 4]]
@@ -231,7 +269,9 @@ def test_no_compliance_is_counted_twice(chain):
 
 
 def test_pair_stiffness_of_joints_that_are_alike(chain):
-    """Force per separation of the halves' bodies: one joint by wave 0 and nine joints by all waves give the same, closed and open (observed 1e-12)."""
+    """Force per separation of the halves' bodies: one joint by wave 0 and nine joints by all waves give the same,
+    closed and open (observed 1e-12).
+    """
     column = np.zeros(chain.elastic.loads.shape[1])
     column[0] = 1.0 / chain.elastic.resultants[0, 0]
 
@@ -248,7 +288,8 @@ def test_pair_stiffness_of_joints_that_are_alike(chain):
 def test_pair_stiffness_on_finer_elements():
     """The shipped elements' pair stiffness beside finer ones: closed 235.0 and 230.3, open 27.57 and 27.31 N/um."""
     shipped, finer = (
-        half_loads.pair_stiffness(joint_contact.JointContact(half_loads.elastic_half(G, size), alike=True)) for size in (half.HalfMesh(), half.FINE)
+        half_loads.pair_stiffness(joint_contact.JointContact(half_loads.elastic_half(G, size), alike=True))
+        for size in (half.HalfMesh(), half.FINE)
     )
     assert shipped[0] == pytest.approx(finer[0], rel=0.03)
     assert shipped[1] == pytest.approx(finer[1], rel=0.015)
@@ -256,9 +297,11 @@ def test_pair_stiffness_on_finer_elements():
 
 @pytest.mark.slow
 def test_scheme_against_finer_contact():
-    """Law and path from the shipped elements against direct contact on finer ones, 60 scenes of 9 joints: T and M_t below 3 %, M_r below 5 %, RMS below 1.5 %.
+    """Law and path from the shipped elements against direct contact on finer ones, 60 scenes of 9 joints: T and M_t
+    below 3 %, M_r below 5 %, RMS below 1.5 %.
 
-    Observed T 0.8, M_r 4.9, M_t 0.8 %; RMS 0.2, 0.9, 0.2 %.  (N 1.8 %; the moments of the shank, far smaller than those of the joint: m_r 7.6, m_t 2.6 %.)
+    Observed T 0.8, M_r 4.9, M_t 0.8 %; RMS 0.2, 0.9, 0.2 %.  (N 1.8 %; the moments of the shank, far smaller than those
+    of the joint: m_r 7.6, m_t 2.6 %.)
     """
     largest, rms = compare(Chain(half.HalfMesh(), half.FINE), 60, 7)
     print(largest, rms)
@@ -279,29 +322,52 @@ def fine_alike():
 @pytest.mark.slow
 @pytest.mark.parametrize("P", [20.0, 40.0, 60.0])
 def test_tension_and_stress_over_speed(fine_alike, P, record_property):
-    """The shipped table at rest of the impacts beside the direct contact on finer elements and fresh stress on a finer grid of angles: within 5 %."""
+    """The shipped table at rest of the impacts beside the direct contact on finer elements and fresh stress on a finer
+    grid of angles: within 5 %.
+    """
     contact, column = fine_alike
     table, joint, fit = rivet_table.read(rivet_table.DEFAULT_TABLE), load_cases.Joint(G, load_cases.TRUTH), -6e-6
     for speed in SPEEDS:
         omega = 0.5 * (1.0 - G.ball_diameter / G.d_m) * speed * np.pi / 30.0  # of the cage, contact angle 0
-        _, rivet, _ = scheme(table.half.law, np.tile(table.half.spin * omega**2, (G.Z, 1)), table.half.spin * omega**2, P)
+        _, rivet, _ = scheme(
+            table.half.law, np.tile(table.half.spin * omega**2, (G.Z, 1)), table.half.spin * omega**2, P
+        )
         T, _, m_t = rivet[0]
         T_direct, _, m_direct = contact.solve(P, (contact.loads(column=omega**2 * column)[0], np.zeros(1))).rivet[0]
         head = rivet_rom.rivet_rom_stress(table, rivet_rom.RivetLoad(T=T, m_z=m_t), fit)[0][0] / 1e6
         direct = joint.channels(joint.solve_shank(T_direct, 0.0, m_direct, 0.0, fit)[0][:, None])[0, 0] / 1e6
-        record_property("row", [P, float(speed), float(T), float(T_direct), 1e3 * float(m_t), 1e3 * float(m_direct), float(head), float(direct)])
+        record_property(
+            "row",
+            [
+                P,
+                float(speed),
+                float(T),
+                float(T_direct),
+                1e3 * float(m_t),
+                1e3 * float(m_direct),
+                float(head),
+                float(direct),
+            ],
+        )
         assert pytest.approx(T_direct, rel=0.05) == T
         assert head == pytest.approx(direct, rel=0.05)
 
 
-# In the plane -------------------------------------------------------------------------------------------------------------------------
+# In the plane ---------------------------------------------------------------------------------------------------------
 
 
 def test_slip_solves_its_equation():
-    """V - K slip = plates + heads + hole at random joints: sticking, dragged, free and bearing ones, each in 4 % of the cases (rounding)."""
+    """V - K slip = plates + heads + hole at random joints: sticking, dragged, free and bearing ones, each in 4 % of the
+    cases (rounding).
+    """
     rng = np.random.default_rng(8)
     n = 2000
-    V, gap, plate, head = rng.uniform(0, 60, n), rng.choice([0.0, 1.0], n) * rng.uniform(0, 30e-6, n), rng.uniform(0, 6, n), rng.uniform(0, 6, n)
+    V, gap, plate, head = (
+        rng.uniform(0, 60, n),
+        rng.choice([0.0, 1.0], n) * rng.uniform(0, 30e-6, n),
+        rng.uniform(0, 6, n),
+        rng.uniform(0, 6, n),
+    )
     K, k_head, k_hole = 0.45e6, 6.5e6, 15e6
     slip, H, B = joint_law.joint_slip(V, K, gap, plate, head, k_head, k_hole)
     carried = np.minimum(V, plate) + np.minimum(k_head * slip, head) + k_hole * np.maximum(slip - gap, 0.0)
@@ -311,7 +377,9 @@ def test_slip_solves_its_equation():
 
 
 def test_slip_is_found_with_its_neighbours(chain):
-    """All joints together: what they carry and what the slips relieve add to the bonded loads (three sweeps: 2 % of the largest; converged: 1e-6)."""
+    """All joints together: what they carry and what the slips relieve add to the bonded loads (three sweeps: 2 % of the
+    largest; converged: 1e-6).
+    """
     rng = np.random.default_rng(9)
     args = (np.full(G.Z, 6e-6), np.full(G.Z, 2.0), np.full(G.Z, 2.0), 6.5e6, 15e6)
     for sweeps, tolerance in ((joint_law.SWEEPS, 0.02), (60, 1e-6)):
@@ -324,11 +392,13 @@ def test_slip_is_found_with_its_neighbours(chain):
             assert np.hypot(*H.T).max() <= 2.0 + 1e-12
 
 
-# A broken joint -----------------------------------------------------------------------------------------------------------------------
+# A broken joint -------------------------------------------------------------------------------------------------------
 
 
 def released(chain, hats, broken):
-    """Loads (N, M_r, M_t) [Z, 3] of all joints, and the mean move [3] of the broken one, if nothing holds its pad: hats [Z, n] are bonded loads."""
+    """Loads (N, M_r, M_t) [Z, 3] of all joints, and the mean move [3] of the broken one, if nothing holds its pad: hats
+    [Z, n] are bonded loads.
+    """
     K = chain.elastic.circulant(chain.elastic.mirrored[0])
     moved = np.linalg.solve(K[0], hats[broken])
     left = hats - K[(np.arange(G.Z) - broken) % G.Z] @ moved
@@ -337,11 +407,12 @@ def released(chain, hats, broken):
 
 @pytest.mark.parametrize("place", ["spin", 0, 3, 5])
 def test_with_one_joint_gone_its_neighbours_carry_what_the_finite_elements_say(chain, place, record_property):
-    """Pads of all other joints bonded, by ten times the largest load as preload (three times lets some open, thirty times shows the splines' rounding of P);
-    the broken pad free at every point of its face: within 10 % of the largest load.  Observed 2.0, 5.9, 4.1, 5.8 %, gap 3.3, 4.0, 4.0, 9.7 %.
+    """Pads of all other joints bonded, by ten times the largest load as preload (three times lets some open, thirty
+    times shows the splines' rounding of P); the broken pad free at every point of its face: within 10 % of the largest
+    load.  Observed 2.0, 5.9, 4.1, 5.8 %, gap 3.3, 4.0, 4.0, 9.7 %.
 
-    Under the centrifugal load, and a push at a wall's angle of pocket 0 beside the broken joint 0 or its neighbours.  The scheme knows three moves of a
-    pad and six sweeps.
+    Under the centrifugal load, and a push at a wall's angle of pocket 0 beside the broken joint 0 or its neighbours.
+    The scheme knows three moves of a pad and six sweeps.
     """
     broken, reactions = 0, chain.elastic.mirrored[1]
     if place == "spin":
@@ -350,7 +421,11 @@ def test_with_one_joint_gone_its_neighbours_carry_what_the_finite_elements_say(c
     else:
         column, n = np.zeros(chain.elastic.loads.shape[1]), len(chain.elastic.points)
         for first in (0, 3 * n):
-            column[chain.elastic.patterns.pocket.start + first + 3 * (chain.nodes + place) + np.arange(3)] = [30.0, 0.0, 50.0]
+            column[chain.elastic.patterns.pocket.start + first + 3 * (chain.nodes + place) + np.arange(3)] = [
+                30.0,
+                0.0,
+                50.0,
+            ]
         hats = chain.elastic.circulant(reactions @ column)
     bonded, intact, unit = hats @ chain.alone.lever, np.arange(G.Z) != broken, chain.law.unit
     P = 10.0 * np.abs(bonded * unit).max()
@@ -360,18 +435,25 @@ def test_with_one_joint_gone_its_neighbours_carry_what_the_finite_elements_say(c
     error_of_gap = np.abs((moves[broken] - gap) / unit).max() / np.abs(gap / unit).max()
     record_property("error", [float(error), float(error_of_gap)])
     print(f"{place}: loads {100 * error:.1f} %, gap {100 * error_of_gap:.1f} %")
-    assert np.abs((expected - bonded)[intact] * unit).max() > 0.1 * np.abs(bonded * unit).max()  # the neighbours feel it
+    # the neighbours feel it
+    assert np.abs((expected - bonded)[intact] * unit).max() > 0.1 * np.abs(bonded * unit).max()
     assert error < 0.1 and error_of_gap < 0.1
     np.testing.assert_allclose(got[broken] * unit, 0.0, atol=1e-9 * np.abs(bonded * unit).max())
     assert np.all(rivet[broken] == 0.0)
 
 
 def test_law_behind_the_residual_at_the_same_loads():
-    """Rivets by the table's law behind the residual, beside the contact of one pad, under drawn loads: tension to 0.5 % RMS (observed 0.35 %).
+    """Rivets by the table's law behind the residual, beside the contact of one pad, under drawn loads: tension to 0.5 %
+    RMS (observed 0.35 %).
 
-    Joints balance what the halves give them, so that their loads are given: at each load the contact gives L^, Newton's method the law's own L^ for it.
+    Joints balance what the halves give them, so that their loads are given: at each load the contact gives L^, Newton's
+    method the law's own L^ for it.
     """
-    alone, law, P = half_loads.JointAlone(half_loads.elastic_half(G)), rivet_table.read(rivet_table.DEFAULT_TABLE).modes.law, 20.0
+    alone, law, P = (
+        half_loads.JointAlone(half_loads.elastic_half(G)),
+        rivet_table.read(rivet_table.DEFAULT_TABLE).modes.law,
+        20.0,
+    )
     rng = np.random.default_rng(7)
     drawn = np.stack([rng.normal(0.0, 60.0, 200), rng.normal(0.0, 0.02, 200), -rng.uniform(0.02, 0.3, 200)], axis=1)
     solved = [alone.solve(load, P) for load in drawn]
@@ -380,7 +462,16 @@ def test_law_behind_the_residual_at_the_same_loads():
     behind, unit = load + move @ law.stiffness.T, np.array([1.0, law.length, law.length])
     for _ in range(30):
         rest = (joint_law.joint_law(law, behind, P)[0] - load) / unit
-        slope = np.stack([(joint_law.joint_law(law, behind + 1e-4 * axis * unit, P)[0] - load) / unit - rest for axis in np.eye(3)], axis=-1) * 1e4
+        slope = (
+            np.stack(
+                [
+                    (joint_law.joint_law(law, behind + 1e-4 * axis * unit, P)[0] - load) / unit - rest
+                    for axis in np.eye(3)
+                ],
+                axis=-1,
+            )
+            * 1e4
+        )
         step = np.linalg.solve(slope, -rest[..., None])[..., 0]
         behind = behind + step * unit * 1.0 / np.maximum(1.0, np.linalg.norm(step, axis=1) / 200.0)[:, None]
     assert np.abs(rest).max() < 1e-6

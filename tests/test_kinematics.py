@@ -1,4 +1,6 @@
-"""Speeds of balls and cage against rigid-body kinematics, the closed forms' limits and the figures of the 6207 at 18,238 r/min."""
+"""Speeds of balls and cage against rigid-body kinematics, the closed forms' limits and the figures of the 6207 at
+18,238 r/min.
+"""
 
 import numpy as np
 import pytest
@@ -18,7 +20,8 @@ def test_6207_at_the_working_point():
 def test_published_frequencies_of_the_6205():
     """SKF 6205 (Case Western Reserve University bearing data centre): multiples of the shaft speed, given to 5 digits.
 
-    The ball frequency there, 4.7135, counts both hits of a turn.  The drive-end bearing has 9 balls, D 0.3126 in, d_m 1.537 in; observed 3e-4.
+    The ball frequency there, 4.7135, counts both hits of a turn.  The drive-end bearing has 9 balls, D 0.3126 in, d_m
+    1.537 in; observed 3e-4.
     """
     f = fault_frequencies(2.0 * np.pi, 0.3126, 1.537, 9)
     assert (f.BPFI, f.BPFO, f.FTF, 2.0 * f.BSF) == pytest.approx((5.4152, 3.5848, 0.39828, 4.7135), rel=5e-4)

@@ -34,13 +34,16 @@ def film(core, e, v, omega, tilt_rate=(0.0, 0.0), **changes):
 
 @pytest.mark.parametrize("eps", [1e-6, 0.3, 0.6, 0.9])
 def test_ocvirk(core, eps):
-    """Steady rotation: F_r = -eta omega R L^3 eps^2/(C^2 (1 - eps^2)^2), F_t = pi eps .../(4 (1 - eps^2)^1.5).  Ocvirk (1952), NACA TN 2808."""
+    """Steady rotation: F_r = -eta omega R L^3 eps^2/(C^2 (1 - eps^2)^2), F_t = pi eps .../(4 (1 - eps^2)^1.5).  Ocvirk
+    (1952), NACA TN 2808.
+    """
     omega = 757.0
     _, F, M = film(core, (C * eps, 0.0), (0.0, 0.0), omega)
     unit = ETA * omega * R * L**3 / C**2
     assert F[0] == pytest.approx(-unit * eps**2 / (1 - eps**2) ** 2, rel=1e-9, abs=1e-12 * unit)
     assert F[1] == pytest.approx(unit * np.pi * eps / (4 * (1 - eps**2) ** 1.5), rel=1e-9)
-    assert M[0] == pytest.approx(-2 * np.pi * ETA * R**3 * L * omega / (C * np.sqrt(1 - eps**2)), rel=1e-9)  # Petroff / sqrt(1 - eps^2)
+    # Petroff / sqrt(1 - eps^2)
+    assert M[0] == pytest.approx(-2 * np.pi * ETA * R**3 * L * omega / (C * np.sqrt(1 - eps**2)), rel=1e-9)
 
 
 def test_attitude_turns_with_the_displacement(core):
@@ -58,25 +61,32 @@ def test_attitude_turns_with_the_displacement(core):
 def test_squeeze(core, eps):
     """Closing: -kappa e' [3 eps/(1 - eps^2)^2 + acos(-eps)(1 + 2 eps^2)/(1 - eps^2)^2.5].
 
-    Opening with the other half of the film; together the full film's pi (1 + 2 eps^2)/(1 - eps^2)^2.5.  Pinkus & Sternlicht (1961).
+    Opening with the other half of the film; together the full film's pi (1 + 2 eps^2)/(1 - eps^2)^2.5.  Pinkus &
+    Sternlicht (1961).
     """
     q2 = 1.0 - eps**2
     _, F_in, _ = film(core, (C * eps, 0.0), (0.01, 0.0), 0.0)
     _, F_out, _ = film(core, (C * eps, 0.0), (-0.01, 0.0), 0.0)
-    assert F_in[0] == pytest.approx(-KAPPA * 0.01 * (3 * eps / q2**2 + np.arccos(-eps) * (1 + 2 * eps**2) / q2**2.5), rel=1e-9)
+    assert F_in[0] == pytest.approx(
+        -KAPPA * 0.01 * (3 * eps / q2**2 + np.arccos(-eps) * (1 + 2 * eps**2) / q2**2.5), rel=1e-9
+    )
     assert F_out[0] - F_in[0] == pytest.approx(KAPPA * 0.01 * np.pi * (1 + 2 * eps**2) / q2**2.5, rel=1e-9)
     assert abs(F_in[1]) < 1e-12 * abs(F_in[0])
 
 
 def reynolds(e, v, omega):
-    """Force by Reynolds' short-bearing equation, gap and its rates by differences: (h^3 p'/12 eta)' = dh/dt + (omega/2) dh/dphi, p >= 0 where p > 0."""
+    """Force by Reynolds' short-bearing equation, gap and its rates by differences: (h^3 p'/12 eta)' = dh/dt + (omega/2)
+    dh/dphi, p >= 0 where p > 0.
+    """
 
     def gap(phi, t):
         place = e + v * t
         return C - place[0] * np.cos(phi) - place[1] * np.sin(phi)
 
     def line(phi):  # int p dz over the width, p = -6 eta rhs/h^3 (L^2/4 - z^2)
-        rate = (gap(phi, 1e-4) - gap(phi, -1e-4)) / 2e-4 + 0.5 * omega * (gap(phi + 1e-4, 0.0) - gap(phi - 1e-4, 0.0)) / 2e-4
+        rate = (gap(phi, 1e-4) - gap(phi, -1e-4)) / 2e-4 + 0.5 * omega * (
+            gap(phi + 1e-4, 0.0) - gap(phi - 1e-4, 0.0)
+        ) / 2e-4
         return max(-6.0 * ETA * rate / gap(phi, 0.0) ** 3 * L**3 / 6.0, 0.0)
 
     closing = v - 0.5 * omega * np.array([-e[1], e[0]])
@@ -86,11 +96,18 @@ def reynolds(e, v, omega):
     inside = [worst + k * 2 * np.pi for k in (-1, 0, 1) if abs(worst + k * 2 * np.pi - edge) < np.pi / 2]
     places = [edge - np.pi / 2, *inside, edge + np.pi / 2]
     pairs = list(itertools.pairwise(places))
-    return np.array([-sum(quad(lambda phi, d=d: d(phi) * line(phi) * R, *pair, **span)[0] for pair in pairs) for d in (np.cos, np.sin)])
+    return np.array(
+        [
+            -sum(quad(lambda phi, d=d: d(phi) * line(phi) * R, *pair, **span)[0] for pair in pairs)
+            for d in (np.cos, np.sin)
+        ]
+    )
 
 
 def test_reynolds_by_quadrature(core):
-    """Rotation and squeeze together in any direction: both cross terms.  Differences in gap and angle: 2e-9; observed 2e-8."""
+    """Rotation and squeeze together in any direction: both cross terms.  Differences in gap and angle: 2e-9; observed
+    2e-8.
+    """
     rng = np.random.default_rng(1)
     for _ in range(20):
         angle = rng.uniform(0, 2 * np.pi)
@@ -102,7 +119,9 @@ def test_reynolds_by_quadrature(core):
 
 
 def test_place_of_the_force(core):
-    """It acts at the land's middle, 5.5 mm from the split plane, and sees the velocity there: a half that tilts squeezes its film."""
+    """It acts at the land's middle, 5.5 mm from the split plane, and sees the velocity there: a half that tilts
+    squeezes its film.
+    """
     _, F_0, _ = film(core, (0.5 * C, 0.2 * C), (0.02, -0.05), 757.0)
     m, F, M = film(core, (0.5 * C, 0.2 * C), (0.02, -0.05), 757.0, tilt_rate=(8.0, -5.0))
     assert F == pytest.approx(F_0, rel=1e-9)
@@ -123,13 +142,18 @@ def test_rates_are_derivatives(core):
         for i, (across, tilting) in enumerate((("v_y", "gamma_dot"), ("v_z", "beta_dot"))):
             rate, tilt = D[block("cage", across)][1], D[block("cage", tilting)][1]
             step = h * np.eye(2)[i]
-            slope = (film(core, e, v + step, omega, **{"cage.g_0": 0.02})[1] - film(core, e, v - step, omega, **{"cage.g_0": 0.02})[1])[i] / (2 * h)
+            slope = (
+                film(core, e, v + step, omega, **{"cage.g_0": 0.02})[1]
+                - film(core, e, v - step, omega, **{"cage.g_0": 0.02})[1]
+            )[i] / (2 * h)
             assert rate == pytest.approx(-slope / M, rel=1e-5, abs=1e-3)
             assert tilt == pytest.approx(-slope * (X_LAND - X_C) ** 2 / J_T, rel=1e-5, abs=1e-3)
 
 
 def test_film_never_gives_energy(core):
-    """In the frame that turns at half speed the film only resists, F.V <= 0; with Couette's torque both lands dissipate at any motion."""
+    """In the frame that turns at half speed the film only resists, F.V <= 0; with Couette's torque both lands dissipate
+    at any motion.
+    """
     rng = np.random.default_rng(3)
     for _ in range(200):
         radius, angle = C * rng.uniform(0, 1.2), rng.uniform(0, 2 * np.pi)
@@ -142,7 +166,9 @@ def test_film_never_gives_energy(core):
 
 
 def test_floor_keeps_the_film_finite(core):
-    """q^2 is g_0 = 0.02 at the wall, (pi/2)/q^3 for a motion along it, and g_0/2 far behind it, where eps counts as 1.2 in the squeeze's numerators."""
+    """q^2 is g_0 = 0.02 at the wall, (pi/2)/q^3 for a motion along it, and g_0/2 far behind it, where eps counts as 1.2
+    in the squeeze's numerators.
+    """
     soft = {"cage.g_0": 0.02, "cage.K_land": 0.0}
     _, F, _ = film(core, (C, 0.0), (0.0, 0.01), 0.0, **soft)
     assert F[1] == pytest.approx(-KAPPA * 0.01 * np.pi / 2 / 0.02**1.5, rel=1e-6)
@@ -152,7 +178,7 @@ def test_floor_keeps_the_film_finite(core):
     assert F[0] == pytest.approx(-KAPPA * 0.01 * integral, rel=1e-5)  # q^2 is g_0^2/2/(100^2) above g_0/2
 
 
-# --------------------------------------------------------------------------------------------------------------------- dry contact
+# ---------------------------------------------------------------------------------------------------------- dry contact
 
 
 def test_dry_contact(core):
@@ -182,11 +208,12 @@ def test_mixed_friction(core, eps):
     assert M[0] - M_film[0] == pytest.approx(-T * R, abs=1e-9 * abs(M_film[0]))
 
 
-# ------------------------------------------------------------------------------------------------------------------------- heating
+# -------------------------------------------------------------------------------------------------------------- heating
 
 
 def couette(Na):
-    """Shear stress of plane Couette flow between walls at one temperature over the isothermal stress, by its boundary value problem.
+    """Shear stress of plane Couette flow between walls at one temperature over the isothermal stress, by its boundary
+    value problem.
 
     Velocity u and temperature T over the gap, both 0...1 wide: tau = e^-T u', T'' = -Na tau u', T = 0 at both walls.
     """
@@ -206,7 +233,8 @@ def couette(Na):
 
 @pytest.mark.parametrize("omega", [30.0, 757.0, 3000.0])
 def test_film_heats_itself(core, omega):
-    """The moment of a centred land falls as the shear stress of Couette flow with a viscosity exp(-beta (T - T_wall)), solved numerically.
+    """The moment of a centred land falls as the shear stress of Couette flow with a viscosity exp(-beta (T - T_wall)),
+    solved numerically.
 
     Na = 7e-4, 0.5, 7.5.
     """

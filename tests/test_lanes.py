@@ -1,4 +1,6 @@
-"""Elementary functions against extended precision; the same bits on all instruction sets with a fused multiply-add, and on all without."""
+"""Elementary functions against extended precision; the same bits on all instruction sets with a fused multiply-add, and
+on all without.
+"""
 
 import itertools
 
@@ -9,7 +11,9 @@ from mechanics import pocket_loads, running_state
 
 from bearing_model.generated.variables import STATE_SLICES, CageModel, Lubrication, Traction
 
-extended = pytest.mark.skipif(np.finfo(np.longdouble).eps > 2e-19, reason="this machine's long double is no better than double")
+extended = pytest.mark.skipif(
+    np.finfo(np.longdouble).eps > 2e-19, reason="this machine's long double is no better than double"
+)
 N = 100_000
 
 
@@ -110,8 +114,13 @@ def test_powers_and_arcsine(core):
     wide = np.exp(uniform(-700.0, 700.0))
     assert relative_error(core.map(core.lib.test_rcbrt, wide), 1.0 / np.cbrt(wide)) < 2e-5
     sine = uniform(-0.99, 0.99)
-    assert relative_error(core.map(core.lib.test_asin, sine), np.arcsin(sine.astype(np.longdouble))) < 1.1e-14  # of atan, and of its argument
-    zeros = [core.map(core.lib.test_pow, [0.0], 0.3)[0], core.map(core.lib.test_cbrt, [0.0])[0], core.map(core.lib.test_asin, [0.0])[0]]
+    # of atan, and of its argument
+    assert relative_error(core.map(core.lib.test_asin, sine), np.arcsin(sine.astype(np.longdouble))) < 1.1e-14
+    zeros = [
+        core.map(core.lib.test_pow, [0.0], 0.3)[0],
+        core.map(core.lib.test_cbrt, [0.0])[0],
+        core.map(core.lib.test_asin, [0.0])[0],
+    ]
     assert zeros == [0.0, 0.0, 0.0]
 
 
@@ -123,7 +132,7 @@ def test_inverse_functions(core, function):
     assert np.max(np.abs(sine**2 + cosine**2 - 1.0)) < 1e-15
 
 
-# ------------------------------------------------------------------------------------------------------------ instruction sets
+# ----------------------------------------------------------------------------------------------------- instruction sets
 
 
 def verlet_step(core, m, y):
@@ -143,7 +152,8 @@ FUSED = ("neon", "avx2", "avx512")
 def test_instruction_sets(core, cage, traction, lubrication):
     """The same bits but for fused multiply-adds; with and without them to rounding.
 
-    Rounding: twice what a change of each state in its last place does to dy/dt, the largest of six random ones in a block (observed 0.83 of it).
+    Rounding: twice what a change of each state in its last place does to dy/dt, the largest of six random ones in a
+    block (observed 0.83 of it).
     """
     sets = instruction_sets(core)
     if len(sets) < 2:

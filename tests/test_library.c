@@ -1,13 +1,13 @@
 // What the tests' library adds to the core's objects: the inline functions, callable over arrays, and memory
 // as the kernels want it.
-#include "numbers/elementary.h"
-#include "physics/hertz.h"
-#include "solver/kernels.h"
-#include "numbers/lanes.h"
-#include "physics/model.h"
 #include "instance/part.h"
+#include "numbers/elementary.h"
+#include "numbers/lanes.h"
+#include "physics/hertz.h"
+#include "physics/model.h"
 #include "physics/ring_load.h"
 #include "physics/traction.h"
+#include "solver/kernels.h"
 
 #include <stdlib.h>
 

@@ -70,7 +70,9 @@ def test_links_lead_somewhere():
 def test_commands_do_what_the_page_says(folder, line):
     """Each command in its own folder: the files that the page names are there.  A quarter of a minute each."""
     _, name, path = shlex.split(line)
-    done = subprocess.run([sys.executable, "-m", "riveted_bearing", name, path], capture_output=True, text=True, timeout=1800, check=False)
+    done = subprocess.run(
+        [sys.executable, "-m", "riveted_bearing", name, path], capture_output=True, text=True, timeout=1800, check=False
+    )
     assert done.returncode == 0, f"{line}\n{done.stdout}\n{done.stderr}"
     made = folder / "results" / Path(path).stem
     expected = {

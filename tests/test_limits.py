@@ -1,4 +1,6 @@
-"""Bearings that cannot be built are refused by the user's own key, value and unit with what is allowed; possible ones pass."""
+"""Bearings that cannot be built are refused by the user's own key, value and unit with what is allowed; possible ones
+pass.
+"""
 
 import re
 
@@ -45,7 +47,10 @@ IMPOSSIBLE = [  # what the file says, the key that is refused; the value must be
     ({"cage.J_t": "1e-5"}, "cage.J_t"),
     ({"ring.J_t": "1e-4"}, "ring.J_t"),
     ({"bearing.P_d": '"0.9 mm"', "bearing.f_i": "0.505"}, "bearing.P_d"),
-    ({"bearing.P_d": "-4.5e-5", "bearing.D": '"4 mm"', "bearing.d_m": '"20 mm"', "designation": '"mine"', "Z": "9"}, "bearing.P_d"),
+    (
+        {"bearing.P_d": "-4.5e-5", "bearing.D": '"4 mm"', "bearing.d_m": '"20 mm"', "designation": '"mine"', "Z": "9"},
+        "bearing.P_d",
+    ),
     ({"rivet.head_diameter": '"8 mm"'}, "rivet.head_diameter"),
     ({"rivet.head_diameter": '"2.5 mm"'}, "rivet.head_diameter"),
     ({"rivet.head_height": '"8 mm"'}, "rivet.head_height"),
@@ -88,10 +93,14 @@ def write(tmp_path, settings):
     """A bearing file with these settings over BASE."""
     lines = {"": [], "parameters": [], "catalogue": [], "rivet": []}
     for name, value in (BASE | settings).items():
-        section = name.partition(".")[0] if name.startswith(("catalogue.", "rivet.")) else "parameters" if "." in name else ""
+        section = (
+            name.partition(".")[0] if name.startswith(("catalogue.", "rivet.")) else "parameters" if "." in name else ""
+        )
         lines[section].append(f"{name.removeprefix(f'{section}.')} = {value}")
     path = tmp_path / "mine.toml"
-    path.write_text("\n".join([*lines[""], *(line for name in list(lines)[1:] for line in (f"[{name}]", *lines[name]))]))
+    path.write_text(
+        "\n".join([*lines[""], *(line for name in list(lines)[1:] for line in (f"[{name}]", *lines[name]))])
+    )
     return path
 
 
@@ -106,14 +115,19 @@ def complaint(path):
 
 @pytest.mark.parametrize(("settings", "key"), IMPOSSIBLE, ids=lambda value: str(value))
 def test_impossible_bearings_are_refused_by_the_users_own_key(settings, key, tmp_path):
-    """The message names file, key, the value as written and a bound in its unit; a value just inside that bound is not refused by the same words."""
+    """The message names file, key, the value as written and a bound in its unit; a value just inside that bound is not
+    refused by the same words.
+    """
     path = write(tmp_path, settings)
     with pytest.raises(UserError) as refused:
         bearing_case(path)
     text = str(refused.value)
     written = settings[key]
     value = re.escape(written.replace('"', "'")) if '"' in written else r"[-\d.e]+"
-    match = re.match(rf"{re.escape(str(path))}: {re.escape(key)} = {value}: (at most|at least) ([-\d.e+]+)(?: (\S+))? is allowed for ([^,]+)", text)
+    match = re.match(
+        rf"{re.escape(str(path))}: {re.escape(key)} = {value}: (at most|at least) ([-\d.e+]+)(?: (\S+))? is allowed for ([^,]+)",
+        text,
+    )
     assert match, text
     words, number, unit, reason = match.groups()
     if key == "Z":
@@ -121,7 +135,9 @@ def test_impossible_bearings_are_refused_by_the_users_own_key(settings, key, tmp
     if '"' in written:
         assert unit == written.strip('"').split()[1]
     bound = to_si(f"{number} {unit}" if unit else float(number), unit_scales(unit_of(key)))
-    assert (bound < to_si(written.strip('"'), unit_scales(unit_of(key))) if '"' in written else bound < float(written)) == (words == "at most")
+    assert (
+        bound < to_si(written.strip('"'), unit_scales(unit_of(key))) if '"' in written else bound < float(written)
+    ) == (words == "at most")
     assert reason not in complaint(write(tmp_path, settings | {key: repr(bound)}))
 
 
@@ -136,12 +152,18 @@ def test_there_are_forty_of_each():
 
 
 def test_vibration_modes_by_number_of_balls(tmp_path):
-    """4/9 to 2/3 octets of modes a ball (fmus/generate.py): 32 to 48 for 9 balls, 64 to 96 for 18, 32 to 48 for the eight of the catalogue's 6308."""
+    """4/9 to 2/3 octets of modes a ball (fmus/generate.py): 32 to 48 for 9 balls, 64 to 96 for 18, 32 to 48 for the
+    eight of the catalogue's 6308.
+    """
     mine = tmp_path / "mine.toml"
     for Z, few, many in ((9, 32, 48), (18, 64, 96), (32, 120, 176)):
         for value, allowed in ((few - 1, False), (few, True), (many, True), (many + 1, False)):
-            mine.write_text(f'Z = {Z}\n[parameters]\nbearing.D = "8 mm"\nbearing.d_m = "{5 * Z} mm"\nscene.modes = {value}\n')
-            assert complaint(mine) == ("" if allowed else f"{mine}: parameters.scene.modes = {value}: not an integer in {few} ... {many}")
+            mine.write_text(
+                f'Z = {Z}\n[parameters]\nbearing.D = "8 mm"\nbearing.d_m = "{5 * Z} mm"\nscene.modes = {value}\n'
+            )
+            assert complaint(mine) == (
+                "" if allowed else f"{mine}: parameters.scene.modes = {value}: not an integer in {few} ... {many}"
+            )
     mine.write_text('designation = "6308"\n[parameters]\nscene.modes = 49\n')
     assert complaint(mine).endswith("scene.modes = 49: not an integer in 32 ... 48")
     mine.write_text("Z = 18\n[parameters]\nscene.modes = 64.5\n")

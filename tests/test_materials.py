@@ -1,14 +1,16 @@
-"""Materials of an own bearing: one value for run and rivet table, given once; rivets, temperatures and loads that follow from what the user gave."""
+"""Materials of an own bearing: one value for run and rivet table, given once; rivets, temperatures and loads that
+follow from what the user gave.
+"""
 
 from dataclasses import replace
 
 import numpy as np
 import pytest
 
+from bearing_model.generated.variables import PARAMETERS
 from bearing_model.physics.derived import race_modulus
 from bearing_model.physics.hertz_exact import ball_race_contact
 from bearing_model.physics.parameters import Parameters
-from bearing_model.generated.variables import PARAMETERS
 from rivet_model import half, half_loads, half_modes, half_shape
 from rivet_model.geometry import Geometry
 from riveted_bearing import UserError, build, run
@@ -28,19 +30,24 @@ def case_of(tmp_path, text, name="mine.toml"):
     return bearing_case(path)
 
 
-# Where a property goes ------------------------------------------------------------------------------------------------------------------
+# Where a property goes ------------------------------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize("name", names_for("cage"))
 def test_a_cage_material_reaches_run_and_table(tmp_path, name):
-    """E, nu and density are one number in the FMU and in the geometry of the finite elements; mass and moments follow; all else of the table's material too."""
+    """E, nu and density are one number in the FMU and in the geometry of the finite elements; mass and moments follow;
+    all else of the table's material too.
+    """
     case = case_of(tmp_path, f'[cage]\nmaterial = "{name}"\n')
     g, entry = Geometry(**case.joint), library()[name]
     for key, member in PARTS["cage"].geometry.items():
         assert getattr(g, member) == entry[key][0], key
     for key, parameter in PARTS["cage"].parameters.items():
         assert case.values[parameter] == entry[key][0] and case.origin[parameter] == "yours"
-    assert case.values["cage.m"] == pytest.approx(half_shape.half_inertia(g).m, rel=1e-5) and case.origin["cage.m"] == "rule"
+    assert (
+        case.values["cage.m"] == pytest.approx(half_shape.half_inertia(g).m, rel=1e-5)
+        and case.origin["cage.m"] == "rule"
+    )
     assert case.values["cage.material"] == name.lower().replace("-", "_")
 
 
@@ -53,7 +60,9 @@ def test_masses_go_with_the_density(tmp_path):
 
 
 def test_materials_of_the_6207_are_the_defaults():
-    """What stands where no material is named is the library's, to the last digit, in the variable table and in Geometry; each property has a source."""
+    """What stands where no material is named is the library's, to the last digit, in the variable table and in
+    Geometry; each property has a source.
+    """
     for name, part in PARTS.items():
         entry = library()[part.material]
         for key, member in part.geometry.items():
@@ -67,8 +76,13 @@ def test_materials_of_the_6207_are_the_defaults():
 
 
 def test_a_material_by_the_name_of_the_parameter(tmp_path):
-    """`cage.material` under [parameters] means the same as under [cage]; a single property takes the place of the material's."""
-    here, there = (case_of(tmp_path, text) for text in ('[cage]\nmaterial = "PA66-GF25"\n', '[parameters]\ncage.material = "PA66-GF25"\n'))
+    """`cage.material` under [parameters] means the same as under [cage]; a single property takes the place of the
+    material's.
+    """
+    here, there = (
+        case_of(tmp_path, text)
+        for text in ('[cage]\nmaterial = "PA66-GF25"\n', '[parameters]\ncage.material = "PA66-GF25"\n')
+    )
     assert here.joint == there.joint and here.values == there.values
     stiff = case_of(tmp_path, '[cage]\nmaterial = "steel"\nE = "200 GPa"\n[parameters]\ncage.nu = 0.28\n')
     assert (stiff.values["cage.E"], stiff.joint["E_flange"], stiff.joint["nu_flange"]) == (200e9, 200e9, 0.28)
@@ -80,7 +94,11 @@ OWN = '[cage.material]\nE = "100 GPa"\nnu = 0.35\ndensity = "8.5 g/cm3"\nexpansi
 
 def test_a_table_of_ones_own(tmp_path):
     case = case_of(tmp_path, OWN)
-    assert case.values["cage.material"] == "own" and case.joint["rho_flange"] == pytest.approx(8500.0) and case.joint["yield_flange"] == 200e6
+    assert (
+        case.values["cage.material"] == "own"
+        and case.joint["rho_flange"] == pytest.approx(8500.0)
+        and case.joint["yield_flange"] == 200e6
+    )
     assert set(case.materials["cage"].sources.values()) == {"our laboratory"}
 
 
@@ -89,19 +107,34 @@ def test_a_table_of_ones_own(tmp_path):
     [
         ('[cage]\nmaterial = "stel"\n', ['unknown cage.material "stel"', "steel"]),
         ('[cage]\nmaterial = "15CrMn"\n', ['unknown cage.material "15CrMn"']),
-        ('[cage]\nmaterial = "steel"\n[parameters]\ncage.material = "brass"\n', ["cage.material = 'steel'", "'brass' stands under [parameters]"]),
+        (
+            '[cage]\nmaterial = "steel"\n[parameters]\ncage.material = "brass"\n',
+            ["cage.material = 'steel'", "'brass' stands under [parameters]"],
+        ),
         (
             '[cage]\nmaterial = "steel"\nE = "200 GPa"\n[parameters]\ncage.E = "210 GPa"\n',
             ["cage.E = '200 GPa'", "cage.E = 210000000000.0 stands under [parameters]"],
         ),
-        ('[parameters]\ncage.E = "207 GPa"\n', ["cage.E = 207000000000.0", "the material is needed too", "density", "[cage] material = "]),
-        ('[rivet]\nyield = "300 MPa"\n', ["rivet.yield = '300 MPa'", "the material is needed too", "[rivet] material = "]),
+        (
+            '[parameters]\ncage.E = "207 GPa"\n',
+            ["cage.E = 207000000000.0", "the material is needed too", "density", "[cage] material = "],
+        ),
+        (
+            '[rivet]\nyield = "300 MPa"\n',
+            ["rivet.yield = '300 MPa'", "the material is needed too", "[rivet] material = "],
+        ),
         ('[cage]\nmaterial = "steel"\nstrength = "400 MPa"\n', ['unknown cage key "strength"']),
         ('[balls]\nyield = "400 MPa"\n', ['unknown balls key "yield"', "expansion"]),
-        (OWN.replace("expansion = 19e-6\n", "").replace("nu = 0.35\n", ""), ["cage.material: nu, expansion are missing"]),
+        (
+            OWN.replace("expansion = 19e-6\n", "").replace("nu = 0.35\n", ""),
+            ["cage.material: nu, expansion are missing"],
+        ),
         (OWN.replace("0.35", "0.6"), ["cage.material.nu = 0.6", "below 0.5"]),
         ('[cage]\nmaterial = "steel"\nE = "200 mm"\n', ["cage.E = '200 mm'", "GPa"]),
-        ('[cage]\nmaterial = "steel"\n[parameters]\ncage.m = "130 g"\n', ["cage.m = '130 g'", "at most", "density of its material"]),
+        (
+            '[cage]\nmaterial = "steel"\n[parameters]\ncage.m = "130 g"\n',
+            ["cage.m = '130 g'", "at most", "density of its material"],
+        ),
         ('[rivet]\nhead = "DIN 999"\nshank_diameter = "2 mm"\n', ['unknown rivet.head "DIN 999"']),
         ('[rivet]\nhead = "DIN 660"\n', ["rivet.head = 'DIN 660'", "rivet.shank_diameter is needed"]),
         ('[rivet]\nhead = "DIN 660"\nshank_diameter = "2.2 mm"\n', ["shanks of", "rivet.shank_diameter = 2.2 mm"]),
@@ -111,22 +144,35 @@ def test_a_table_of_ones_own(tmp_path):
 def test_what_cannot_be_used_is_refused_by_name(tmp_path, text, words):
     with pytest.raises(UserError) as refused:
         case_of(tmp_path, text)
-    assert str(refused.value).startswith(str(tmp_path / "mine.toml")) and all(word in str(refused.value) for word in words), str(refused.value)
+    assert str(refused.value).startswith(str(tmp_path / "mine.toml")) and all(
+        word in str(refused.value) for word in words
+    ), str(refused.value)
 
 
 def test_the_same_value_twice_is_no_contradiction(tmp_path):
-    case = case_of(tmp_path, '[cage]\nmaterial = "steel"\nE = "200 GPa"\n[parameters]\ncage.E = "200 GPa"\ncage.material = "steel"\n')
+    case = case_of(
+        tmp_path,
+        '[cage]\nmaterial = "steel"\nE = "200 GPa"\n[parameters]\ncage.E = "200 GPa"\ncage.material = "steel"\n',
+    )
     assert case.values["cage.E"] == 200e9
 
 
 def test_the_fmu_refuses_another_material(tmp_path):
     """By name, with the value of the build and the way to another one; the instance after it works."""
     model = Model()
-    settings = (("cage.E", 207e9, "1.1e+11"), ("cage.nu", 0.3, "0.33"), ("cage.rho", 7850.0, "8800"), ("cage.material", "steel", "1 is allowed"))
+    settings = (
+        ("cage.E", 207e9, "1.1e+11"),
+        ("cage.nu", 0.3, "0.33"),
+        ("cage.rho", 7850.0, "8800"),
+        ("cage.material", "steel", "1 is allowed"),
+    )
     for name, value, allowed in settings:
         with pytest.raises(UserError) as refused:
             run(None, parameters={name: value}, t_end=1e-3)
-        assert all(word in str(refused.value) for word in (name, allowed, "build an FMU from a bearing file with [cage] material"))
+        assert all(
+            word in str(refused.value)
+            for word in (name, allowed, "build an FMU from a bearing file with [cage] material")
+        )
     with Instance(model) as instance:
         instance.initialize(load_scene(None, model))
 
@@ -134,7 +180,11 @@ def test_the_fmu_refuses_another_material(tmp_path):
 def test_a_table_of_another_material_is_refused(tmp_path):
     """A finished table in an FMU for another cage: by the property and both values."""
     case = case_of(tmp_path, '[cage]\nmaterial = "steel"\n')
-    table = read_table(table_of("6309", Geometry(**case_of(tmp_path, '[cage]\nmaterial = "brass"\n', "other.toml").joint), "closed-form"))
+    table = read_table(
+        table_of(
+            "6309", Geometry(**case_of(tmp_path, '[cage]\nmaterial = "brass"\n', "other.toml").joint), "closed-form"
+        )
+    )
     with pytest.raises(UserError, match=r"brass.json: made for a cage with E = .*, but that of 6309 has .* \(steel\)"):
         check_material("brass.json", table, case)
 
@@ -146,11 +196,13 @@ def test_the_fmu_says_its_cage(tmp_path):
     assert start_document(case, table)["parameters"]["cage.rho"] == library()["steel"]["density"][0]
 
 
-# Balls of another material than the rings ---------------------------------------------------------------------------------------------------
+# Balls of another material than the rings -----------------------------------------------------------------------------
 
 
 def test_ceramic_balls(tmp_path):
-    """1/E* = sum of (1 - nu^2)/E in the dynamics and in the quasi-static model; mass by density; the load of the most loaded ball hardly changes."""
+    """1/E* = sum of (1 - nu^2)/E in the dynamics and in the quasi-static model; mass by density; the load of the most
+    loaded ball hardly changes.
+    """
     case, steel = case_of(tmp_path, '[balls]\nmaterial = "Si3N4"\n'), case_of(tmp_path, "")
     ball, ring = (library()[name] for name in ("Si3N4", "bearing steel"))
     E_star = 1.0 / sum((1.0 - entry["nu"][0] ** 2) / entry["E"][0] for entry in (ball, ring))
@@ -161,17 +213,29 @@ def test_ceramic_balls(tmp_path):
     assert contact.E_star == pytest.approx(E_star, rel=1e-12)
     assert case.bearing.ball_mass / steel.bearing.ball_mass == pytest.approx(ball["density"][0] / 7800.0, rel=1e-12)
     stiffer = case.equilibrium().p_i.max() / steel.equilibrium().p_i.max()
-    assert stiffer == pytest.approx((E_star / (0.5 * 207e9 / 0.91)) ** (2 / 3), rel=0.01)  # p ~ E*^(2/3) at one load of a ball
+    # p ~ E*^(2/3) at one load of a ball
+    assert stiffer == pytest.approx((E_star / (0.5 * 207e9 / 0.91)) ** (2 / 3), rel=0.01)
 
 
-# Rivets, temperatures, loads ---------------------------------------------------------------------------------------------------------------
+# Rivets, temperatures, loads ------------------------------------------------------------------------------------------
 
 
 def test_preload_head_and_seat_follow_the_shank(tmp_path):
-    """Equal stress: the preload of a 2.5 mm rivet is 1.5625 times that of a 2.0 mm one; head, seat, fillet, fit and swell are 1.25 times as large."""
+    """Equal stress: the preload of a 2.5 mm rivet is 1.5625 times that of a 2.0 mm one; head, seat, fillet, fit and
+    swell are 1.25 times as large.
+    """
     thin, thick = (case_of(tmp_path, f'[rivet]\nshank_diameter = "{d} mm"\n') for d in (2.0, 2.5))
     assert thick.values["joint.preload"] / thin.values["joint.preload"] == pytest.approx(1.5625, rel=1e-5)
-    for name in ("head_diameter", "head_height", "seat_diameter", "fillet_radius", "relief_radius", "relief_depth", "edge_break", "middle_zone"):
+    for name in (
+        "head_diameter",
+        "head_height",
+        "seat_diameter",
+        "fillet_radius",
+        "relief_radius",
+        "relief_depth",
+        "edge_break",
+        "middle_zone",
+    ):
         assert thick.joint[name] / thin.joint[name] == pytest.approx(1.25, rel=1e-5), name
     for name in ("joint.fit", "joint.swell"):
         assert thick.values[name] / thin.values[name] == pytest.approx(1.25, rel=1e-5)
@@ -187,7 +251,9 @@ def test_the_shank_of_the_6207_too(tmp_path):
     rivet = tmp_path / "rivet.toml"
     rivet.write_text('shank_diameter = "1.8 mm"\n', encoding="utf-8")
     for case in (bearing_case(path), case_with(None, rivet)):
-        assert case.values["joint.preload"] == pytest.approx(20.0 * 1.44) and case.joint["head_diameter"] == pytest.approx(1.2 * 2.6e-3)
+        assert case.values["joint.preload"] == pytest.approx(20.0 * 1.44) and case.joint[
+            "head_diameter"
+        ] == pytest.approx(1.2 * 2.6e-3)
         assert case.origin["joint.preload"] == "rule" and case.values["shaft.F_y"] == 2994.0
 
 
@@ -198,15 +264,22 @@ def test_heads_by_standard(tmp_path, standard):
         assert 1.4 < 1e3 * diameter / shank < 2.3 and 0.3 < 1e3 * height / shank < 0.8
         if 1.5 <= shank <= 2.5:
             case = case_of(tmp_path, f'[rivet]\nhead = "{standard}"\nshank_diameter = "{shank:g} mm"\n')
-            assert (case.joint["head_diameter"], case.joint["head_height"]) == (diameter, height) and case.joint["seat_diameter"] > diameter
+            assert (case.joint["head_diameter"], case.joint["head_height"]) == (diameter, height) and case.joint[
+                "seat_diameter"
+            ] > diameter
 
 
 def test_strength_follows_the_rivet_steel(tmp_path):
     """The S-N curve is that of the rivet's material; a strength alone keeps the 6207's ratios; one's own curve stands."""
     for name in names_for("rivet"):
         case = case_of(tmp_path, f'[rivet]\nmaterial = "{name}"\n')
-        assert case.values["fatigue.sigma_m"] == library()[name]["strength"][0] and case.values["fatigue.sigma_D"] == library()[name]["endurance"][0]
-        assert case.values["fatigue.sigma_f"] == pytest.approx(1180.0 / 785.0 * library()[name]["strength"][0], rel=1e-5)
+        assert (
+            case.values["fatigue.sigma_m"] == library()[name]["strength"][0]
+            and case.values["fatigue.sigma_D"] == library()[name]["endurance"][0]
+        )
+        assert case.values["fatigue.sigma_f"] == pytest.approx(
+            1180.0 / 785.0 * library()[name]["strength"][0], rel=1e-5
+        )
         assert case.joint["yield_rivet"] == library()[name]["yield"][0]
     stronger = case_of(tmp_path, '[parameters]\nfatigue.sigma_m = "942 MPa"\n')
     assert stronger.values["fatigue.sigma_D"] == pytest.approx(300e6) and stronger.origin["fatigue.sigma_D"] == "rule"
@@ -233,7 +306,9 @@ def warnings_of(**inputs):
 def test_oil_alone_is_said_once():
     """A run that heats the oil and leaves the parts is told, one that heats both or neither is not."""
     alone = warnings_of(inputs={"oil.T": 363.15})
-    assert len(alone) == 1 and all(word in alone[0] for word in ("oil.T = 363.15 K", "cage.T = 293.15 K", "clearances, preload and fit"))
+    assert len(alone) == 1 and all(
+        word in alone[0] for word in ("oil.T = 363.15 K", "cage.T = 293.15 K", "clearances, preload and fit")
+    )
     assert not warnings_of(inputs={"oil.T": 363.15, "cage.T": 350.0}) and not warnings_of()
 
 
@@ -248,15 +323,19 @@ def test_loads_that_are_not_given(tmp_path):
     case = case_of(tmp_path, '[inputs]\nshaft.F_y = "8 kN"\n')
     assert (case.values["shaft.F_y"], case.values["shaft.F_x"]) == (8000.0, 0.0) and case.origin["shaft.F_x"] == "rule"
     assert case.values["shaft.omega"] == pytest.approx(2.0 * np.pi * 8.0 / case.values["bearing.d_m"], rel=1e-5)
-    assert case_of(tmp_path, '[inputs]\nshaft.omega = "9000 rev/min"\n').values["shaft.F_y"] == pytest.approx(0.1 * case.catalogue["C"], rel=1e-2)
+    assert case_of(tmp_path, '[inputs]\nshaft.omega = "9000 rev/min"\n').values["shaft.F_y"] == pytest.approx(
+        0.1 * case.catalogue["C"], rel=1e-2
+    )
 
 
-# What the finite elements make of it --------------------------------------------------------------------------------------------------------
+# What the finite elements make of it ----------------------------------------------------------------------------------
 
 
 @pytest.fixture(scope="module")
 def coarse_halves(tmp_path_factory):
-    """Condensed coarse halves of the 6309 with their joints: of a material, of one twice as stiff, of one twice as dense (rivets too)."""
+    """Condensed coarse halves of the 6309 with their joints: of a material, of one twice as stiff, of one twice as
+    dense (rivets too).
+    """
     g = Geometry(**case_of(tmp_path_factory.mktemp("half"), '[cage]\nmaterial = "brass"\n').joint)
     stiff = replace(g, E_flange=2.0 * g.E_flange, E_rivet=2.0 * g.E_rivet)
     dense = replace(g, rho_flange=2.0 * g.rho_flange, rho_rivet=2.0 * g.rho_rivet)
@@ -268,7 +347,9 @@ def coarse_halves(tmp_path_factory):
 
 
 def test_stiffness_and_centrifugal_load_go_with_E_and_density(coarse_halves):
-    """Statics: stiffness of a pad's surroundings in proportion to E, moment at the bonded joints in proportion to the density and to E not at all."""
+    """Statics: stiffness of a pad's surroundings in proportion to E, moment at the bonded joints in proportion to the
+    density and to E not at all.
+    """
     plain, stiff, dense = (coarse_halves[name] for name in ("plain", "stiff", "dense"))
     np.testing.assert_allclose(stiff[1].K_0, 2.0 * plain[1].K_0, rtol=1e-6)
     np.testing.assert_allclose(dense[1].K_0, plain[1].K_0, rtol=1e-9)
@@ -278,14 +359,18 @@ def test_stiffness_and_centrifugal_load_go_with_E_and_density(coarse_halves):
 
 def test_frequencies_go_with_the_root_of_E_over_density(coarse_halves):
     """Free vibrations of the half with its part of the rivets: sqrt(2) up with twice E, down with twice the density."""
-    plain, stiff, dense = (half_modes.MassiveHalf(coarse_halves[name][0]).wave(2, 4).omega for name in ("plain", "stiff", "dense"))
+    plain, stiff, dense = (
+        half_modes.MassiveHalf(coarse_halves[name][0]).wave(2, 4).omega for name in ("plain", "stiff", "dense")
+    )
     np.testing.assert_allclose(stiff / plain, np.sqrt(2.0), rtol=1e-6)
     np.testing.assert_allclose(dense / plain, np.sqrt(0.5), rtol=1e-6)
 
 
 @pytest.mark.slow
 def test_tables_of_steel_and_brass_and_of_thin_and_thick_rivets(tmp_path):
-    """Four FMUs of the 6309: what their tables hold, beside E, density and section; a run without a scene has the FMU's own point."""
+    """Four FMUs of the 6309: what their tables hold, beside E, density and section; a run without a scene has the FMU's
+    own point.
+    """
     tables, fmus = {}, {}
     for material in ("steel", "brass"):
         for d in (2.0, 2.5):
@@ -298,14 +383,18 @@ def test_tables_of_steel_and_brass_and_of_thin_and_thick_rivets(tmp_path):
         a, b = tables["steel", d], tables["brass", d]
         of_density = steel["density"][0] / brass["density"][0]
         of_speed = np.sqrt(steel["E"][0] / brass["E"][0] / of_density)
-        assert a.modes.omega[0] / b.modes.omega[0] == pytest.approx(of_speed, rel=0.02)  # rivets of one steel in both, nu 0.30 and 0.34
+        # rivets of one steel in both, nu 0.30 and 0.34
+        assert a.modes.omega[0] / b.modes.omega[0] == pytest.approx(of_speed, rel=0.02)
         assert a.half.spin[4] / b.half.spin[4] == pytest.approx(of_density, rel=0.02)
         assert a.joint["alpha_flange"] == steel["expansion"][0] and b.joint["alpha_flange"] == brass["expansion"][0]
     for material in ("steel", "brass"):
         thin, thick = tables[material, 2.0], tables[material, 2.5]
         assert thick.joint["A"] / thin.joint["A"] == pytest.approx(1.5625, rel=1e-9)
-        assert 1.1 < thick.half.k_open / thin.half.k_open < 1.5625  # the rivet's own share grows with its section, the seat's does not
+        # the rivet's own share grows with its section, the seat's does not
+        assert 1.1 < thick.half.k_open / thin.half.k_open < 1.5625
     for fmu in fmus.values():
         own = run(None, fmu=fmu, t_end=0.06)
-        written = run(None, fmu=fmu, t_end=0.06, inputs={"shaft.F_y": "8 kN", "shaft.F_x": 0.0, "shaft.omega": "9000 rev/min"})
+        written = run(
+            None, fmu=fmu, t_end=0.06, inputs={"shaft.F_y": "8 kN", "shaft.F_x": 0.0, "shaft.omega": "9000 rev/min"}
+        )
         np.testing.assert_array_equal(own.data["rivet.sigma_head_max"], written.data["rivet.sigma_head_max"])

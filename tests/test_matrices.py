@@ -1,4 +1,6 @@
-"""riveted-bearing matrices: stiffness by the equilibrium against differences of its loads and against the FMU's response; what ROSS reads."""
+"""riveted-bearing matrices: stiffness by the equilibrium against differences of its loads and against the FMU's
+response; what ROSS reads.
+"""
 
 import tomllib
 from dataclasses import replace
@@ -11,7 +13,15 @@ from bearing_model.quasi_static import Bearing, Load, quasi_static
 from riveted_bearing.bearings import scene_case
 from riveted_bearing.cli import program
 from riveted_bearing.fmu import Model
-from riveted_bearing.matrices import DIRECTIONS, Matrices, equilibrium, response, ross_coefficients, write_ross, write_table
+from riveted_bearing.matrices import (
+    DIRECTIONS,
+    Matrices,
+    equilibrium,
+    response,
+    ross_coefficients,
+    write_ross,
+    write_table,
+)
 from riveted_bearing.scene import load_scene
 
 OMEGA = 1909.9
@@ -20,11 +30,17 @@ OMEGA = 1909.9
 @pytest.fixture(scope="module")
 def case(fmu):
     model = Model(fmu)
-    return model, scene_case("demo", model), load_scene("demo", model, ("the test", {"parameters": {"scene.cage": "two_half"}}))
+    return (
+        model,
+        scene_case("demo", model),
+        load_scene("demo", model, ("the test", {"parameters": {"scene.cage": "two_half"}})),
+    )
 
 
 def test_stiffness_is_the_loads_derivative(case):
-    """K of the mean over azimuths inverts the displacement by small changes of load: 1 %, the spread of the balls' azimuths."""
+    """K of the mean over azimuths inverts the displacement by small changes of load: 1 %, the spread of the balls'
+    azimuths.
+    """
     _, bearing_case, _ = case
     q, K = equilibrium(bearing_case, 1.0, OMEGA)
     more, _ = equilibrium(bearing_case, 1.01, OMEGA)
@@ -34,17 +50,20 @@ def test_stiffness_is_the_loads_derivative(case):
 
 
 def test_response_of_the_fmu(case, record_property):
-    """The FMU's dynamics shaken at 300 Hz, column by column: stiffness as by the equilibrium, 5 % of the geometric mean of the diagonals; observed 3 %.
+    """The FMU's dynamics shaken at 300 Hz, column by column: stiffness as by the equilibrium, 5 % of the geometric mean
+    of the diagonals; observed 3 %.
 
-    Far below the balls' own frequencies on their races the response is quasi-static; damping is a small part of it.  Mean of eight seeds: impacts of the cage
-    scatter the noisiest entry of one by 4.5 %.
+    Far below the balls' own frequencies on their races the response is quasi-static; damping is a small part of it.
+    Mean of eight seeds: impacts of the cage scatter the noisiest entry of one by 4.5 %.
     """
     model, bearing_case, scene = case
     seeds = [replace(scene, parameters=scene.parameters | {"start.seed": seed}) for seed in range(1, 9)]
     q, K = equilibrium(bearing_case, 1.0, OMEGA)
     w = 2.0 * np.pi * 300.0
     size = np.array([1.0, 1.0, 1.0, 40.0, 40.0]) * 0.5e-6
-    H = np.mean([np.array([response(model, scene, OMEGA, q, k, size[k], w) for k in range(5)]).T for scene in seeds], axis=0)
+    H = np.mean(
+        [np.array([response(model, scene, OMEGA, q, k, size[k], w) for k in range(5)]).T for scene in seeds], axis=0
+    )
     scale = np.sqrt(np.outer(np.diag(K), np.diag(K)))
     record_property("largest", float(np.abs((H.real - K) / scale).max()))
     assert H.real / scale == pytest.approx(K / scale, abs=0.05)
@@ -68,7 +87,9 @@ def test_files(case, tmp_path):
     assert table["kxx"] == [K[1, 1] + 100.0, K[1, 1] + 200.0]
     assert table["kxy"] == [K[1, 2] + 100.0, K[1, 2] + 200.0]
     assert table["czz"] == [0.0, 0.0] == [0.1 * K[0, 0]] * 2
-    (name, element), *rest = tomllib.loads(write_ross(found, tmp_path / "b.toml", node=3, tag="front").read_text()).items()
+    (name, element), *rest = tomllib.loads(
+        write_ross(found, tmp_path / "b.toml", node=3, tag="front").read_text()
+    ).items()
     assert (name, element["n"], element["frequency"]) == ("BearingElement_front", 3, [100.0, 200.0])
     assert element["kyx"] == table["kyx"]
     assert not rest
@@ -76,12 +97,34 @@ def test_files(case, tmp_path):
 
 def test_the_command(fmu, tmp_path):
     """Speeds with units, load factors, a picture and a file for ROSS; a wrong unit is refused by name."""
-    command = ["matrices", "demo", "--static", "--fmu", str(fmu), "--out", str(tmp_path), "--speed", "6000 rev/min", "--load", "0.5", "--load", "1"]
+    command = [
+        "matrices",
+        "demo",
+        "--static",
+        "--fmu",
+        str(fmu),
+        "--out",
+        str(tmp_path),
+        "--speed",
+        "6000 rev/min",
+        "--load",
+        "0.5",
+        "--load",
+        "1",
+    ]
     result = CliRunner().invoke(program, command)
     assert result.exit_code == 0, result.output
-    assert {path.name for path in tmp_path.iterdir()} == {"demo_matrices.csv", "demo_matrices.png", "demo_ross_0.5.toml", "demo_ross_1.toml"}
+    assert {path.name for path in tmp_path.iterdir()} == {
+        "demo_matrices.csv",
+        "demo_matrices.png",
+        "demo_ross_0.5.toml",
+        "demo_ross_1.toml",
+    }
     assert "F_x 257.5 to 515 N, F_y 1497 to 2994 N" in result.output
-    assert "# loads: F_x 257.5 to 515 N, F_y 1497 to 2994 N\n# speed: 6000 rev/min\n" in (tmp_path / "demo_matrices.csv").read_text()
+    assert (
+        "# loads: F_x 257.5 to 515 N, F_y 1497 to 2994 N\n# speed: 6000 rev/min\n"
+        in (tmp_path / "demo_matrices.csv").read_text()
+    )
     element = tomllib.loads((tmp_path / "demo_ross_1.toml").read_text())["BearingElement_demo"]
     # at one azimuth of the balls; over a pitch it moves by 2 %
     K = quasi_static(Bearing(), Load(F_x=515.0, F_y=2994.0, omega=6000.0 * np.pi / 30.0)).K

@@ -36,7 +36,9 @@ def model():
 
 
 def surrogate(rates, spread, rng):
-    """runs(counts) of a bearing whose damage is log-normal: rates of the cases at the places [C, Z, 2], standard deviation of the logarithm."""
+    """runs(counts) of a bearing whose damage is log-normal: rates of the cases at the places [C, Z, 2], standard
+    deviation of the logarithm.
+    """
     drawn = [rate * np.exp(spread * rng.normal(size=(64, *rate.shape)) - 0.5 * spread**2) for rate in np.asarray(rates)]
     return lambda counts: [runs[:n] for runs, n in zip(drawn, counts, strict=True)]
 
@@ -47,7 +49,7 @@ def mission_of(model, points, **document):
     return plan_mission("trial", SHORT | {"point": blocks} | document, model, Path("trial.toml"))
 
 
-# Miner's sum ----------------------------------------------------------------------------------------------------------------------------------
+# Miner's sum ----------------------------------------------------------------------------------------------------------
 
 
 def test_constant_amplitude_lives_as_long_as_its_cycles():
@@ -73,7 +75,9 @@ def test_a_part_between_two_others_has_the_geometric_mean():
 
 @pytest.mark.parametrize("first", [1e-2, 1e-4, 1e-3])
 def test_a_rate_that_grows_exponentially_lives_as_its_integral_says(first):
-    """r = a exp(g t) until 100 h, then constant: closed form of the time at which the integral is 1; for 1e-2 and 1e-3 before 100 h, for 1e-4 after."""
+    """r = a exp(g t) until 100 h, then constant: closed form of the time at which the integral is 1; for 1e-2 and 1e-3
+    before 100 h, for 1e-4 after.
+    """
     g = math.log(50.0) / 100.0
     duty = Duty(np.ones(1), np.array([[[1.0, 0.0]], [[0.0, 1.0]]]), np.array([0.0, 100.0]))
     life, damage = lives(duty, np.array([[first], [50 * first]]))
@@ -93,7 +97,7 @@ def test_no_damage_lasts_for_ever():
     assert np.isinf(lives(Duty(np.ones(1), np.ones((2, 1, 1)), np.array([0.0, 5.0])), np.zeros((1, 1)))[0][0])
 
 
-# Confidence -----------------------------------------------------------------------------------------------------------------------------------
+# Confidence -----------------------------------------------------------------------------------------------------------
 
 
 def coverage(missions, rng, spread=0.35, parts=6, **settings):
@@ -104,7 +108,9 @@ def coverage(missions, rng, spread=0.35, parts=6, **settings):
         rates = np.exp(rng.normal(-9.0, 1.0, (parts, 2)))
         rates[:, 1] *= 0.3
         drawn = [rate * np.exp(spread * rng.normal(size=(64, 2)) - 0.5 * spread**2) for rate in rates]
-        found, _, counts = until_sure(duty, lambda counts, drawn=drawn: [d[:n] for d, n in zip(drawn, counts, strict=True)], LIFE | settings, 64)
+        found, _, counts = until_sure(
+            duty, lambda counts, drawn=drawn: [d[:n] for d, n in zip(drawn, counts, strict=True)], LIFE | settings, 64
+        )
         hits += found.low <= lives(duty, rates)[0].min() <= found.high
         widths.append(found.half_width)
         runs.append(counts.sum())
@@ -113,7 +119,9 @@ def coverage(missions, rng, spread=0.35, parts=6, **settings):
 
 @pytest.mark.slow
 def test_the_interval_covers_what_it_says():
-    """240 missions of six points, log-normal damage with a standard deviation of 35 %; two standard deviations of a share of 0.9 in 240 are 0.04."""
+    """240 missions of six points, log-normal damage with a standard deviation of 35 %; two standard deviations of a
+    share of 0.9 in 240 are 0.04.
+    """
     share, width, _ = coverage(240, np.random.default_rng(3), half_width=0.15)
     assert 0.85 <= share <= 0.95 and width <= math.log(1.15)
 
@@ -126,8 +134,15 @@ def test_the_interval_is_neither_empty_nor_everything():
 def test_runs_go_where_the_damage_scatters():
     """Of two points with equal damage the one with more scatter gets more runs; a point without damage gets the fewest."""
     rng = np.random.default_rng(1)
-    drawn = [np.exp(spread * rng.normal(size=(64, 1))) * rate for spread, rate in ((0.1, 1e-4), (0.6, 1e-4), (0.6, 1e-9))]
-    _, _, counts = until_sure(simple_duty([0.4, 0.4, 0.2]), lambda counts: [d[:n] for d, n in zip(drawn, counts, strict=True)], LIFE | {"half_width": 0.1}, 64)
+    drawn = [
+        np.exp(spread * rng.normal(size=(64, 1))) * rate for spread, rate in ((0.1, 1e-4), (0.6, 1e-4), (0.6, 1e-9))
+    ]
+    _, _, counts = until_sure(
+        simple_duty([0.4, 0.4, 0.2]),
+        lambda counts: [d[:n] for d, n in zip(drawn, counts, strict=True)],
+        LIFE | {"half_width": 0.1},
+        64,
+    )
     assert counts[1] > 2 * counts[0] and counts[2] == LIFE["min_seeds"]
 
 
@@ -136,7 +151,7 @@ def test_runs_without_scatter_need_no_interval():
     assert found.life == found.low == found.high == pytest.approx(1000.0)
 
 
-# Missions -------------------------------------------------------------------------------------------------------------------------------------
+# Missions -------------------------------------------------------------------------------------------------------------
 
 
 def test_a_mission_of_one_point_lives_as_this_point(model):
@@ -147,9 +162,16 @@ def test_a_mission_of_one_point_lives_as_this_point(model):
     n = found["points"][0]["seeds"]
     mean = damage[:n].mean(axis=0)
     assert found["life_h"] == pytest.approx(1 / mean.max(), rel=1e-12)
-    assert found["points"][0] == {"share": pytest.approx(1.0), "damage_per_h": pytest.approx(mean.max(), rel=1e-12), "seeds": n}
+    assert found["points"][0] == {
+        "share": pytest.approx(1.0),
+        "damage_per_h": pytest.approx(mean.max(), rel=1e-12),
+        "seeds": n,
+    }
     assert [row["head_per_h"] for row in found["rivets"]] == pytest.approx(mean[:, 0].tolist(), rel=1e-12)
-    assert set(found) == {"basis", "life_h", "low_h", "high_h", "confidence", "points", "rivets"} and found["confidence"] == 0.9
+    assert (
+        set(found) == {"basis", "life_h", "low_h", "high_h", "confidence", "points", "rivets"}
+        and found["confidence"] == 0.9
+    )
     assert found["low_h"] < found["life_h"] < found["high_h"]
 
 
@@ -184,7 +206,9 @@ def test_a_point_between_others_is_interpolated(model):
 def test_a_rare_point_is_left_out_only_if_it_cannot_matter(model):
     """One second of 1,000 h at nearly the same load cannot matter; the same second at ten times the load is simulated."""
     for load, left_out in ((3000.0, True), (30000.0, False)):
-        mission = mission_of(model, [(1000, {"shaft.F_y": 2994.0}), ("1 s", {"shaft.F_y": load})], life={"rivets": "alike", "skip": 0.01})
+        mission = mission_of(
+            model, [(1000, {"shaft.F_y": 2994.0}), ("1 s", {"shaft.F_y": load})], life={"rivets": "alike", "skip": 0.01}
+        )
         asked = []
         runs = surrogate(np.full((2, Z, 2), 1e-4), 0.1, np.random.default_rng(1))
         life = assess(mission, lambda counts, runs=runs, asked=asked: asked.append(counts) or runs(counts))
@@ -197,21 +221,37 @@ def test_a_rare_point_is_left_out_only_if_it_cannot_matter(model):
 
 
 def test_the_bound_of_a_rare_point_is_the_largest_of_all(model):
-    """A quiet point bounds nothing: stress may grow from nearly nothing.  Loads of 1000 and 4000 N with 1e-30 and 1e-4 per hour; one second at 2000 N."""
-    mission = mission_of(model, [(500, {"shaft.F_y": 1000.0}), (500, {"shaft.F_y": 4000.0}), ("1 s", {"shaft.F_y": 2000.0})], life={"rivets": "alike"})
-    life = assess(mission, surrogate(np.array([1e-30, 1e-4, 1e-5])[:, None, None] * np.ones((3, Z, 2)), 0.0, np.random.default_rng(1)))
+    """A quiet point bounds nothing: stress may grow from nearly nothing.  Loads of 1000 and 4000 N with 1e-30 and 1e-4
+    per hour; one second at 2000 N.
+    """
+    mission = mission_of(
+        model,
+        [(500, {"shaft.F_y": 1000.0}), (500, {"shaft.F_y": 4000.0}), ("1 s", {"shaft.F_y": 2000.0})],
+        life={"rivets": "alike"},
+    )
+    life = assess(
+        mission,
+        surrogate(np.array([1e-30, 1e-4, 1e-5])[:, None, None] * np.ones((3, Z, 2)), 0.0, np.random.default_rng(1)),
+    )
     bound = 10 * 1e-4 * 2.0**15 / 3600 / 1000  # per hour of the mission, by the loud point
     assert bound > 0.01 * 0.5 * 1e-4  # more than may be left out
     assert not life.bounds and life.counts[2] == LIFE["min_seeds"]
 
 
 def test_preload_that_falls_is_simulated_at_each_factor(model):
-    mission = mission_of(model, [(10, {})], preload_loss={"hours": [0, 100], "factor": [1, 0.5]}, life={"rivets": "alike"})
-    assert [case.scene.parameters["joint.preload"] if "joint.preload" in case.scene.parameters else 20.0 for case in mission.cases] == [20.0, 10.0]
+    mission = mission_of(
+        model, [(10, {})], preload_loss={"hours": [0, 100], "factor": [1, 0.5]}, life={"rivets": "alike"}
+    )
+    assert [
+        case.scene.parameters["joint.preload"] if "joint.preload" in case.scene.parameters else 20.0
+        for case in mission.cases
+    ] == [20.0, 10.0]
     rates = np.array([1e-4, 1e-3])[:, None, None] * np.ones((2, Z, 2))
     g = math.log(10.0) / 100.0
     expected = 100 + (1 - 9e-4 / g) / 1e-3
-    assert record(assess(mission, surrogate(rates, 0.0, np.random.default_rng(1))))["life_h"] == pytest.approx(expected, rel=1e-9)
+    assert record(assess(mission, surrogate(rates, 0.0, np.random.default_rng(1))))["life_h"] == pytest.approx(
+        expected, rel=1e-9
+    )
 
 
 def test_a_measured_record_is_binned_by_the_time_it_spends(tmp_path):
@@ -222,22 +262,34 @@ def test_a_measured_record_is_binned_by_the_time_it_spends(tmp_path):
     path.write_text("# measured\ntime,load\n" + "".join(f"{a:.1f},{b:.6f}\n" for a, b in zip(t, level, strict=True)))
     assert path.stat().st_size > 1 << 20
     spent, cells, means, spreads = binned(path, "time", ["load"], [4])
-    assert spent.tolist() == [12000.0, 30000.0, 60000.0 - 42000.0 - 0.5] and means[:, 0] == pytest.approx([1.0, 3.0, 9.0], rel=1e-12)
+    assert spent.tolist() == [12000.0, 30000.0, 60000.0 - 42000.0 - 0.5] and means[:, 0] == pytest.approx(
+        [1.0, 3.0, 9.0], rel=1e-12
+    )
     assert cells[:, 0].tolist() == [0, 1, 3] and np.all(spreads < 1e-6)
 
 
 def test_classes_of_a_record_have_the_mean_damage_of_their_samples(tmp_path, model):
-    """Damage exp(g F + k omega) at every sample, a record of both: the exact life is the sum over the samples.  The rate at the mean values alone is off by
-    sinh(x)/x of uniform classes, x half the logarithm of the change across them: 17 %.
+    """Damage exp(g F + k omega) at every sample, a record of both: the exact life is the sum over the samples.  The
+    rate at the mean values alone is off by sinh(x)/x of uniform classes, x half the logarithm of the change across
+    them: 17 %.
 
-    Load and speed swing at frequencies without a common period; 5 x 6 classes, across one of which the damage changes 5 times and 3 times.
+    Load and speed swing at frequencies without a common period; 5 x 6 classes, across one of which the damage changes 5
+    times and 3 times.
     """
     t = np.arange(40000)
     F, omega = 2000.0 + 1000.0 * np.sin(0.01 * t), 1000.0 + 300.0 * np.sin(0.0271 * t)
     g, k = math.log(5.0) / 400.0, math.log(3.0) / 100.0
-    np.savetxt(tmp_path / "flight.csv", np.column_stack([t, F, omega]), fmt="%.17g", delimiter=",", header="t,F,w", comments="")
-    inputs = {"shaft.F_y": {"column": "F", "unit": "N", "bins": 5}, "shaft.omega": {"column": "w", "unit": "rad/s", "bins": 6}}
-    document = SHORT | {"history": {"file": "flight.csv", "time": "t", "hours": 30, "inputs": inputs}, "life": {"rivets": "alike", "skip": 0}}
+    np.savetxt(
+        tmp_path / "flight.csv", np.column_stack([t, F, omega]), fmt="%.17g", delimiter=",", header="t,F,w", comments=""
+    )
+    inputs = {
+        "shaft.F_y": {"column": "F", "unit": "N", "bins": 5},
+        "shaft.omega": {"column": "w", "unit": "rad/s", "bins": 6},
+    }
+    document = SHORT | {
+        "history": {"file": "flight.csv", "time": "t", "hours": 30, "inputs": inputs},
+        "life": {"rivets": "alike", "skip": 0},
+    }
     mission = plan_mission("trial", document, model, tmp_path / "trial.toml")
 
     def rate(F, omega):
@@ -252,7 +304,9 @@ def test_classes_of_a_record_have_the_mean_damage_of_their_samples(tmp_path, mod
     assert at_means == pytest.approx(np.prod(np.sinh(halves) / halves) * exact, rel=0.03)
     assert "are wide" not in " ".join(notes(found, NO_RUNS))
     steep = [r**1.8 for r in own]
-    wild = assess(mission, surrogate(np.array(steep)[:, None, None] * np.ones((len(own), Z, 2)), 0.0, np.random.default_rng(1)))
+    wild = assess(
+        mission, surrogate(np.array(steep)[:, None, None] * np.ones((len(own), Z, 2)), 0.0, np.random.default_rng(1))
+    )
     assert "Compare with twice the bins" in " ".join(notes(wild, NO_RUNS))
 
 
@@ -261,7 +315,12 @@ def test_tables_and_records_become_points(tmp_path, model):
     (tmp_path / "flight.csv").write_text("t,kN\n0,1\n3600,2\n7200,2\n")
     document = SHORT | {
         "table": {"file": "duty.csv", "hours": "h", "inputs": {"shaft": {"omega": {"column": "n", "unit": "rev/min"}}}},
-        "history": {"file": "flight.csv", "time": "t", "hours": 30, "inputs": {"shaft.F_y": {"column": "kN", "unit": "kN", "bins": 2}}},
+        "history": {
+            "file": "flight.csv",
+            "time": "t",
+            "hours": 30,
+            "inputs": {"shaft.F_y": {"column": "kN", "unit": "kN", "bins": 2}},
+        },
     }
     mission = plan_mission("trial", document, model, tmp_path / "trial.toml")
     assert [part.weight for part in mission.parts] == pytest.approx([10, 20, 15, 15])
@@ -293,13 +352,34 @@ def test_tables_and_records_become_points(tmp_path, model):
         ({"life": {"rivets": "some"}}, ["life.rivets = 'some'", "each, alike"]),
         ({"preload_loss": {"hours": [1, 2], "factor": [1, 1]}}, ["begin with 0"]),
         ({"preload_loss": {"hours": [0], "factor": [1, 1]}}, ["lists of one length"]),
-        ({"table": {"file": "no.csv", "hours": "h", "inputs": {"shaft.omega": {"column": "n"}}}}, ["no.csv", "no such file"]),
-        ({"table": {"file": "duty.csv", "hours": "hh", "inputs": {"shaft.omega": {"column": "n"}}}}, ["duty.csv", '"hh"', "column"]),
-        ({"table": {"file": "duty.csv", "hours": "h", "inputs": {"shaft.omega": {"column": "text"}}}}, ['"text"', "no numbers"]),
-        ({"table": {"file": "duty.csv", "hours": "h", "inputs": {"shaft.omega": {"column": "n", "unit": "N"}}}}, ["shaft.omega.unit = 'N'", "rev/min"]),
-        ({"table": {"file": "duty.csv", "hours": "minus", "inputs": {"shaft.omega": {"column": "n"}}}}, ["minus = -1", "negative"]),
-        ({"history": {"file": "duty.csv", "time": "minus", "inputs": {"shaft.omega": {"column": "n"}}}}, ["do not increase"]),
-        ({"history": {"file": "duty.csv", "time": "n", "inputs": {"shaft.omega": {"column": "n", "bins": 0}}}}, ["bins = 0"]),
+        (
+            {"table": {"file": "no.csv", "hours": "h", "inputs": {"shaft.omega": {"column": "n"}}}},
+            ["no.csv", "no such file"],
+        ),
+        (
+            {"table": {"file": "duty.csv", "hours": "hh", "inputs": {"shaft.omega": {"column": "n"}}}},
+            ["duty.csv", '"hh"', "column"],
+        ),
+        (
+            {"table": {"file": "duty.csv", "hours": "h", "inputs": {"shaft.omega": {"column": "text"}}}},
+            ['"text"', "no numbers"],
+        ),
+        (
+            {"table": {"file": "duty.csv", "hours": "h", "inputs": {"shaft.omega": {"column": "n", "unit": "N"}}}},
+            ["shaft.omega.unit = 'N'", "rev/min"],
+        ),
+        (
+            {"table": {"file": "duty.csv", "hours": "minus", "inputs": {"shaft.omega": {"column": "n"}}}},
+            ["minus = -1", "negative"],
+        ),
+        (
+            {"history": {"file": "duty.csv", "time": "minus", "inputs": {"shaft.omega": {"column": "n"}}}},
+            ["do not increase"],
+        ),
+        (
+            {"history": {"file": "duty.csv", "time": "n", "inputs": {"shaft.omega": {"column": "n", "bins": 0}}}},
+            ["bins = 0"],
+        ),
     ],
 )
 def test_what_a_mission_cannot_say_is_refused(tmp_path, model, change, fragments):
@@ -321,11 +401,16 @@ def test_page_and_picture_show_every_part(tmp_path, model):
     rates = np.array([1e-6, 1e-5, 1e-6])[:, None, None] * np.ones((3, Z, 2))
     life = assess(mission, surrogate(rates, 0.3, np.random.default_rng(1)))
     page = write_page(life, tmp_path / "life.html", ["note <1>"]).read_text()
-    assert all(name in page for name in names) and page.count("<svg") == 4 and "note &lt;1&gt;" in page and "nan" not in page.lower().replace("nano", "")
+    assert (
+        all(name in page for name in names)
+        and page.count("<svg") == 4
+        and "note &lt;1&gt;" in page
+        and "nan" not in page.lower().replace("nano", "")
+    )
     assert write_picture(life, tmp_path / "life.png").stat().st_size > 20000
 
 
-# The command ----------------------------------------------------------------------------------------------------------------------------------
+# The command ----------------------------------------------------------------------------------------------------------
 
 MISSION = """
 [simulation]
@@ -368,8 +453,9 @@ def finished(process):
 
 
 def test_a_mission_stopped_by_the_keyboard_goes_on_to_the_same_life(tmp_path):
-    """Ctrl-C after the first run: what is done is kept and one line says so; afterwards life.json is that of a run without a stop.  Then an S-N curve is
-    given: the same runs, another life."""
+    """Ctrl-C after the first run: what is done is kept and one line says so; afterwards life.json is that of a run
+    without a stop.  Then an S-N curve is given: the same runs, another life.
+    """
     (tmp_path / "trial.toml").write_text(MISSION)
     process = start(tmp_path, "--workers", "1")
     patience = time.monotonic() + 300
@@ -397,14 +483,20 @@ def test_a_mission_stopped_by_the_keyboard_goes_on_to_the_same_life(tmp_path):
 
     runs = Runs(mission, model, tmp_path / "calm", no_cluster)
     longer = record(assess(mission, runs))
-    assert 0.95 < runs.counted() < 1.02  # matrices of the communication points against the FMU's count: 0.994 in runs of 0.15 s at this step
-    assert longer["life_h"] == pytest.approx(2 * found["life_h"] / runs.counted(), rel=0.03)  # twice the cycles at the knee, twice the life
+    # matrices of the communication points against the FMU's count: 0.994 in runs of 0.15 s at this step
+    assert 0.95 < runs.counted() < 1.02
+    # twice the cycles at the knee, twice the life
+    assert longer["life_h"] == pytest.approx(2 * found["life_h"] / runs.counted(), rel=0.03)
     assert (tmp_path / "calm" / "runs.parquet").stat().st_size == pytest.approx(before, rel=0.2)
 
 
 @pytest.mark.parametrize(
     ("text", "fragments"),
-    [("[[point]]\nhours = -1", ["trial.toml", "hours = -1"]), ("[[point]\n", ["not valid TOML"]), ("[life]\nskipp = 1\n[[point]]\nhours = 1", ["life.skipp"])],
+    [
+        ("[[point]]\nhours = -1", ["trial.toml", "hours = -1"]),
+        ("[[point]\n", ["not valid TOML"]),
+        ("[life]\nskipp = 1\n[[point]]\nhours = 1", ["life.skipp"]),
+    ],
 )
 def test_a_bad_mission_ends_with_one_line_and_exit_code_2(tmp_path, text, fragments):
     (tmp_path / "trial.toml").write_text(text)

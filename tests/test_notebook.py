@@ -20,7 +20,10 @@ def test_the_notebook_runs(fmu, tmp_path, monkeypatch):
     assert all(not cell.get("outputs") for cell in notebook.cells), "stored without outputs"
     nbclient.NotebookClient(notebook, timeout=300, resources={"metadata": {"path": str(tmp_path)}}).execute()
     text = "\n".join(
-        output.get("text", "") or output.get("data", {}).get("text/plain", "") for cell in notebook.cells if cell.cell_type == "code" for output in cell.outputs
+        output.get("text", "") or output.get("data", {}).get("text/plain", "")
+        for cell in notebook.cells
+        if cell.cell_type == "code"
+        for output in cell.outputs
     )
     assert "<Result of scene demo" in text and "<Figure" in text
     carrying = re.search(r"inner race carries (\d) of 9 balls, at most (\d+) N", text)
@@ -33,4 +36,5 @@ def test_the_notebook_runs(fmu, tmp_path, monkeypatch):
     rise = mean["off", 40.0] - mean["off", 10.0]
     assert mean["off", 10.0] >= 10.0 * alone and mean["off", 40.0] >= 40.0 * alone  # impacts come on top ...
     assert 0.0 < rise <= 30.0 * alone  # ... the less the harder the joint is clamped: observed 63
-    assert abs(mean["on", 40.0] - mean["on", 10.0]) < 0.5 * rise  # a joint that is open carries its load whatever the preload: observed -14
+    # a joint that is open carries its load whatever the preload: observed -14
+    assert abs(mean["on", 40.0] - mean["on", 10.0]) < 0.5 * rise

@@ -1,7 +1,9 @@
-"""Rivet tables of bearings other than the 6207, beside a cage made by hand (cage_by_hand.py): 6205, 6309 and 6316, with cages of steel and of brass.
+"""Rivet tables of bearings other than the 6207, beside a cage made by hand (cage_by_hand.py): 6205, 6309 and 6316, with
+cages of steel and of brass.
 
-Compared: mass and inertia, vibration of a free half, the rivet's tension and head stress of a cage that turns at rest of impacts.  Both sides have
-meshes; wanted are 3 % of the full finite elements and 10 % of the coarse table.  Run one with -s to see the numbers.
+Compared: mass and inertia, vibration of a free half, the rivet's tension and head stress of a cage that turns at rest
+of impacts.  Both sides have meshes; wanted are 3 % of the full finite elements and 10 % of the coarse table.  Run one
+with -s to see the numbers.
 """
 
 from dataclasses import asdict, replace
@@ -49,13 +51,15 @@ def test_the_rivet_is_as_the_test_says():
     assert (g.E_rivet, g.nu_rivet, g.rho_rivet) == RIVET
 
 
-# The path by hand itself ------------------------------------------------------------------------------------------------------------------
+# The path by hand itself ----------------------------------------------------------------------------------------------
 
 
 def test_elements_by_hand_against_closed_forms():
-    """Energies of displacements whose integrals are second moments of the volume: u = (x^2, 0, 0), 4 (lambda + 2 mu) int x^2, and (0, x y, 0).
+    """Energies of displacements whose integrals are second moments of the volume: u = (x^2, 0, 0), 4 (lambda + 2 mu)
+    int x^2, and (0, x y, 0).
 
-    Kinetic energy of the speed (x, 0, 0): rho int x^2.  Observed 1e-6 of the rivet, 1e-4 of the half: sides of its elements are curved.
+    Kinetic energy of the speed (x, 0, 0): rho int x^2.  Observed 1e-6 of the rivet, 1e-4 of the half: sides of its
+    elements are curved.
     """
     E, nu = 2.0, 0.3
     lam, mu = E * nu / (1 + nu) / (1 - 2 * nu), E / 2 / (1 + nu)
@@ -73,7 +77,7 @@ def test_elements_by_hand_against_closed_forms():
         assert v @ solid.inertia(3.0) @ v == pytest.approx(3.0 * second[0, 0], rel=1e-6)
 
 
-# Mass and inertia -------------------------------------------------------------------------------------------------------------------------
+# Mass and inertia -----------------------------------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize(("bearing", "material"), ALL)
@@ -85,7 +89,7 @@ def test_mass_and_inertia(bearing, material):
     np.testing.assert_allclose(found, expected, rtol=3e-4)
 
 
-# A free half ------------------------------------------------------------------------------------------------------------------------------
+# A free half ----------------------------------------------------------------------------------------------------------
 
 
 def project_frequencies(elastic, waves, count):
@@ -102,34 +106,51 @@ def rivet_mass(rivet):
 @pytest.mark.slow
 @pytest.mark.parametrize(("bearing", "material"), ALL)
 def test_frequencies_of_a_free_half(bearing, material):
-    """The four lowest of each number of waves, 20 in all: 1 % of the elements of a full table, 4 % of those of a coarse one.
+    """The four lowest of each number of waves, 20 in all: 1 % of the elements of a full table, 4 % of those of a coarse
+    one.
 
-    Both sides err to the high side with the size of their elements.  Observed, by elements of 1.2 here: -0.1 to +0.5 %, of the ten lowest 0.2 %; of the
-    coarse ones +1.2 to +3.4 %.  Those of 1.5, which are used, are 0.6 % higher.
+    Both sides err to the high side with the size of their elements.  Observed, by elements of 1.2 here: -0.1 to +0.5 %,
+    of the ten lowest 0.2 %; of the coarse ones +1.2 to +3.4 %.  Those of 1.5, which are used, are 0.6 % higher.
     """
     g = geometry(bearing, material)
     waves = range(g.Z // 2 + 1)
-    expected = by_hand.frequencies(g, MATERIALS[material], rivet_mass(hand_meshes(bearing)[1]), by_hand.half_mesh(g, 1.5, 3.0), waves, 4)
+    expected = by_hand.frequencies(
+        g, MATERIALS[material], rivet_mass(hand_meshes(bearing)[1]), by_hand.half_mesh(g, 1.5, 3.0), waves, 4
+    )
     expected = np.concatenate(list(expected.values()))
     for size, allowed in ((None, FULL_FREQUENCY), (half.COARSE, COARSE_FREQUENCY)):
         found = np.concatenate(list(project_frequencies(half_loads.elastic_half(g, size), waves, 4).values()))
-        for n, rows in zip(waves, np.split(np.stack([expected, found, 100 * (found / expected - 1)]), len(waves), axis=1), strict=True):
-            print(bearing, material, size or "full", "n =", n, *("%.1f %.1f %+.2f %%" % tuple(row) for row in rows.T), sep="  ")
+        for n, rows in zip(
+            waves, np.split(np.stack([expected, found, 100 * (found / expected - 1)]), len(waves), axis=1), strict=True
+        ):
+            print(
+                bearing,
+                material,
+                size or "full",
+                "n =",
+                n,
+                *("%.1f %.1f %+.2f %%" % tuple(row) for row in rows.T),
+                sep="  ",
+            )
         assert np.abs(found / expected - 1).max() < allowed
 
 
 @pytest.mark.slow
 def test_frequencies_of_fine_meshes():
-    """The 6309 of steel on fine meshes of both sides, n = 2 and 3, to 0.1 %: 1 % of E or of the density would be 0.5 %.  Observed 0.02 %."""
+    """The 6309 of steel on fine meshes of both sides, n = 2 and 3, to 0.1 %: 1 % of E or of the density would be 0.5 %.
+    Observed 0.02 %.
+    """
     g = geometry("6309", "steel")
-    expected = by_hand.frequencies(g, MATERIALS["steel"], rivet_mass(hand_meshes("6309")[1]), by_hand.half_mesh(g, 0.8, 3.0), (2, 3), 3)
+    expected = by_hand.frequencies(
+        g, MATERIALS["steel"], rivet_mass(hand_meshes("6309")[1]), by_hand.half_mesh(g, 0.8, 3.0), (2, 3), 3
+    )
     found = project_frequencies(half_loads.elastic_half(g, half.FINE), (2, 3), 3)
     for n in (2, 3):
         print(n, expected[n], found[n])
         np.testing.assert_allclose(found[n], expected[n], rtol=1e-3)
 
 
-# Turning at rest of impacts ---------------------------------------------------------------------------------------------------------------
+# Turning at rest of impacts -------------------------------------------------------------------------------------------
 
 
 class Turning(NamedTuple):
@@ -147,7 +168,10 @@ class Turning(NamedTuple):
 def turning(bearing, material):
     """From standstill to wide open joints, whose tension is five times the preload."""
     g = geometry(bearing, material)
-    cage, P = by_hand.Cage(g, MATERIALS[material], RIVET, *hand_meshes(bearing)), 20.0 * (g.shank_diameter / 1.5e-3) ** 2
+    cage, P = (
+        by_hand.Cage(g, MATERIALS[material], RIVET, *hand_meshes(bearing)),
+        20.0 * (g.shank_diameter / 1.5e-3) ** 2,
+    )
     # the moment of a pitch about the split, over that at which it would stand on the edge of its pad
     pull, x = cage.centrifugal().reshape(-1, 3), cage.half.solid.nodes[:, 0]
     omega = np.sqrt(np.array([0.0, 1.0, 2.0, 8.0]) * P * by_hand.pad_half_length(g) / (2.0 * pull[:, 1] @ x))
@@ -159,7 +183,10 @@ def turning(bearing, material):
 
 def differences(name, hand, T, head):
     """Of tension and head stress [4] each from those by hand [%], printed beside them."""
-    table = np.stack([hand.omega, hand.T, T, 100 * (T / hand.T - 1), 1e-6 * hand.head, 1e-6 * head, 100 * (head / hand.head - 1)], axis=1)
+    table = np.stack(
+        [hand.omega, hand.T, T, 100 * (T / hand.T - 1), 1e-6 * hand.head, 1e-6 * head, 100 * (head / hand.head - 1)],
+        axis=1,
+    )
     print(f"{name}: speed [rad/s]; T [N] by hand, found, difference [%]; head stress [MPa] likewise")
     print(*("  ".join(f"{value:9.2f}" for value in row) for row in table), sep="\n")
     return table[:, 3], table[:, 6]
@@ -168,23 +195,31 @@ def differences(name, hand, T, head):
 def by_law(law, spin, P, omega):
     """Tension and moment of the rivet by the law of the joint; spin: bonded rows [8] per (rad/s)^2."""
     rows = np.tile(spin * omega**2, (law.Z, 1))
-    rivet = joint_law.joints_open(law, rows[:, [0, 3, 4]], np.maximum(P + rows[:, 5], 0.0), rows[0, 4], P + rows[0, 5])[1]
+    rivet = joint_law.joints_open(law, rows[:, [0, 3, 4]], np.maximum(P + rows[:, 5], 0.0), rows[0, 4], P + rows[0, 5])[
+        1
+    ]
     return rivet[0, 0], rivet[0, 2] + rows[0, 7]
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize(("bearing", "material"), ALL)
 def test_rivet_of_a_turning_cage_by_full_elements(bearing, material):
-    """Tension and head stress by the contact of the elements of a full table, and by the law of the joint made from them.
+    """Tension and head stress by the contact of the elements of a full table, and by the law of the joint made from
+    them.
 
-    Tension of the contact: wide open joints touch at the edges of their pads, which takes finer elements: see the test of the fine mesh below.
-    Head stress at the same T and m: the bar of an open joint bends in one plane, so its seat presses with a second harmonic of the angle, 5 % of T
-    (6316, brass).  A table of T and m cannot have it; without that harmonic the stress by hand is 3.5 % smaller.
-    Observed, of the contact: tension -0.3 to +2.9 %, head stress -5.3 to 0.0 %; of the law -0.3 to +3.1 % and -5.6 to +0.1 %.
+    Tension of the contact: wide open joints touch at the edges of their pads, which takes finer elements: see the test
+    of the fine mesh below. Head stress at the same T and m: the bar of an open joint bends in one plane, so its seat
+    presses with a second harmonic of the angle, 5 % of T (6316, brass).  A table of T and m cannot have it; without
+    that harmonic the stress by hand is 3.5 % smaller. Observed, of the contact: tension -0.3 to +2.9 %, head stress
+    -5.3 to 0.0 %; of the law -0.3 to +3.1 % and -5.6 to +0.1 %.
     """
     hand = turning(bearing, material)
     elastic = half_loads.elastic_half(hand.g)
-    contact, joint, spin = joint_contact.JointContact(elastic), load_cases.Joint(hand.g), half_loads.centrifugal(elastic)
+    contact, joint, spin = (
+        joint_contact.JointContact(elastic),
+        load_cases.Joint(hand.g),
+        half_loads.centrifugal(elastic),
+    )
     alone = half_loads.JointAlone(elastic)
     law, row = half_loads.make_law(elastic, alone), half_loads.alike_rows(elastic, alone, spin)
     law.sign = np.sign(row[4])
@@ -193,7 +228,9 @@ def test_rivet_of_a_turning_cage_by_full_elements(bearing, material):
         ("contact", direct, FULL_T, FULL_HEAD),
         ("law", [by_law(law, row, hand.P, omega) for omega in hand.omega], LAW_T, LAW_HEAD),
     ):
-        head = [joint.channels(joint.solve_shank(T, 0.0, abs(m), 0.0, hand.fit)[0][:, None])[0, HEAD_P1] for T, m in rivets]
+        head = [
+            joint.channels(joint.solve_shank(T, 0.0, abs(m), 0.0, hand.fit)[0][:, None])[0, HEAD_P1] for T, m in rivets
+        ]
         off_T, off_head = differences(f"{bearing} {material} {name}", hand, np.array(rivets)[:, 0], np.array(head))
         assert np.abs(off_T).max() < allowed_T
         assert np.abs(off_head).max() < allowed_head
@@ -229,7 +266,7 @@ def test_tension_by_a_fine_mesh():
     assert T == pytest.approx(hand.T[-1], rel=0.015)
 
 
-# Similar joints ---------------------------------------------------------------------------------------------------------------------------
+# Similar joints -------------------------------------------------------------------------------------------------------
 
 LARGER = 2.5  # about the 6316's size over the 6207's
 
@@ -242,7 +279,8 @@ def enlarged(g, factor):
 
 
 def test_law_of_an_enlarged_joint():
-    """All lengths times f, all forces times f^2, all moments times f^3: the tension over the preload of an opening joint is the same, to rounding.
+    """All lengths times f, all forces times f^2, all moments times f^3: the tension over the preload of an opening
+    joint is the same, to rounding.
 
     Observed with l = f 1.5 mm: equal to 1e-6; with the same l up to 1.7 % apart.
     """
@@ -260,9 +298,15 @@ def test_law_of_an_enlarged_joint():
 
 @pytest.mark.slow
 def test_head_stress_of_a_bent_rivet_of_a_large_bearing():
-    """The 6316's coarse table at |m|/T from 0 to 0.2 mm times its size over the 6207's, beside fresh solutions on the shipped grid: 3 %."""
+    """The 6316's coarse table at |m|/T from 0 to 0.2 mm times its size over the 6207's, beside fresh solutions on the
+    shipped grid: 3 %.
+    """
     g = geometry("6316", "steel")
-    table, joint, larger = build.make_table(g, coarse=True, workers=1, hold_out=0), load_cases.Joint(g), g.shank_diameter / 1.5e-3
+    table, joint, larger = (
+        build.make_table(g, coarse=True, workers=1, hold_out=0),
+        load_cases.Joint(g),
+        g.shank_diameter / 1.5e-3,
+    )
     fit, T = CLEARANCE * g.shank_diameter, 100.0 * larger**2
     m = T * larger * np.array([0.0, 0.05e-3, 0.1e-3, 0.15e-3, 0.2e-3])
     fresh = np.array([joint.channels(joint.solve_shank(T, 0.0, one, 0.0, fit)[0][:, None])[0, HEAD_P1] for one in m])

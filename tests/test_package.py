@@ -1,4 +1,6 @@
-"""What the FMU carries: sources that compile, pictures, terminals, documentation, reference results, binaries of other platforms."""
+"""What the FMU carries: sources that compile, pictures, terminals, documentation, reference results, binaries of other
+platforms.
+"""
 
 import hashlib
 import importlib.util
@@ -68,19 +70,36 @@ def difference(rows, folder):
     return reference_results.difference(rows, trajectory(folder), names, [units[name] for name in names]).max()
 
 
-# ------------------------------------------------------------------------------------------------------------------- archive
+# -------------------------------------------------------------------------------------------------------------- archive
 
 
 def test_same_bytes_again(fmu, tmp_path):
-    subprocess.run([sys.executable, ROOT / "fmus" / "package.py", f"@{ROOT / 'build' / 'fmu' / 'arguments.txt'}", "--out", tmp_path / "again.fmu"], check=True)
+    subprocess.run(
+        [
+            sys.executable,
+            ROOT / "fmus" / "package.py",
+            f"@{ROOT / 'build' / 'fmu' / 'arguments.txt'}",
+            "--out",
+            tmp_path / "again.fmu",
+        ],
+        check=True,
+    )
     assert (tmp_path / "again.fmu").read_bytes() == fmu.read_bytes()
 
 
 @pytest.fixture(scope="module")
 def elsewhere(tmp_path_factory):
-    """A copy of the checkout in a folder of another name and length, with what runs a program of the Python environment that lies there, too."""
+    """A copy of the checkout in a folder of another name and length, with what runs a program of the Python environment
+    that lies there, too.
+    """
     copy = tmp_path_factory.mktemp("elsewhere") / "of-another-length" / "checkout"
-    shutil.copytree(ROOT, copy, ignore=shutil.ignore_patterns(".git", ".venv", "build", "results", "__pycache__", ".*_cache", ".hypothesis", "*.fmu", "*.ssp"))
+    shutil.copytree(
+        ROOT,
+        copy,
+        ignore=shutil.ignore_patterns(
+            ".git", ".venv", "build", "results", "__pycache__", ".*_cache", ".hypothesis", "*.fmu", "*.ssp"
+        ),
+    )
     (copy / ".venv").symlink_to(sys.prefix, target_is_directory=True)
     python = copy / ".venv" / "bin" / Path(sys.executable).name
     environment = os.environ | {"PYTHONPATH": str(copy), "PATH": f"{python.parent}{os.pathsep}{os.environ['PATH']}"}
@@ -92,9 +111,14 @@ def elsewhere(tmp_path_factory):
 
 
 @pytest.mark.slow  # two minutes of compilation
-@pytest.mark.skipif(not LINUX or SANITIZED, reason="lays the Python environment as a symbolic link; binaries with sanitizers are not stripped")
+@pytest.mark.skipif(
+    not LINUX or SANITIZED,
+    reason="lays the Python environment as a symbolic link; binaries with sanitizers are not stripped",
+)
 def test_another_folder_gives_the_same_bytes(fmu, elsewhere):
-    """Both FMUs and the system of both, compiled from nothing as `make build` does, against those that lie in this checkout."""
+    """Both FMUs and the system of both, compiled from nothing as `make build` does, against those that lie in this
+    checkout.
+    """
     made = elsewhere.folder / "fmus"
     options = ["-G", "Ninja", f"-DPython_EXECUTABLE={elsewhere.python}", f"-DFMU={made / fmu.name}"]
     elsewhere.run("cmake", "-S", elsewhere.folder, "-B", elsewhere.folder / "build", *options)
@@ -124,33 +148,47 @@ def differing_members(one, other):
 
 
 def test_archive_as_the_standard_wants_it(fmu):
-    """FMI 2.0.4, section 2.3: deflated or stored, version 2.0 of the format, no links; nothing needed at run time in resources/."""
+    """FMI 2.0.4, section 2.3: deflated or stored, version 2.0 of the format, no links; nothing needed at run time in
+    resources/.
+    """
     with zipfile.ZipFile(fmu) as archive:
         members = archive.infolist()
-    assert all(m.compress_type in (zipfile.ZIP_DEFLATED, zipfile.ZIP_STORED) and m.extract_version <= 20 for m in members)
+    assert all(
+        m.compress_type in (zipfile.ZIP_DEFLATED, zipfile.ZIP_STORED) and m.extract_version <= 20 for m in members
+    )
     assert not any(m.external_attr >> 16 & 0o170000 == 0o120000 for m in members)
     assert not any(m.filename.startswith("resources/") for m in members)
 
 
 @pytest.mark.parametrize("name", ["RivetedBearing", "Shaft"])
 def test_description_and_bill_of_materials_say_what_is_inside(fmu, tmp_path, name):
-    """Version, author and build as in project, binary and saved states; a valid bill (CycloneDX 1.6) of each binary, library and table, with checksums."""
+    """Version, author and build as in project, binary and saved states; a valid bill (CycloneDX 1.6) of each binary,
+    library and table, with checksums.
+    """
     path = fmu.with_name(f"{name}.fmu")
     folder = Path(fmpy.extract(str(path), str(tmp_path)))
     text = (folder / "extra" / "org.cyclonedx" / "bom.json").read_text(encoding="utf-8")
     assert JsonStrictValidator(SchemaVersion.V1_6).validate_str(text) is None
     bill, root = json.loads(text), etree.parse(folder / "modelDescription.xml").getroot()
-    whole, project = bill["metadata"]["component"], tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
+    whole, project = (
+        bill["metadata"]["component"],
+        tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"],
+    )
 
     assert whole["name"] == root.get("modelName") == name
     assert whole["version"] == root.get("version") == project["version"]
-    assert [author["name"] for author in whole["authors"]] == [root.get("author")] == [author["name"] for author in project["authors"]]
+    assert (
+        [author["name"] for author in whole["authors"]]
+        == [root.get("author")]
+        == [author["name"] for author in project["authors"]]
+    )
     about = {one["name"]: one["value"] for one in whole["properties"]}
     assert about["fmi:guid"] == root.get("guid") and re.fullmatch("[0-9a-f]{64}", about["build"])
     assert root.get("generationTool") == f"{project['name']} {project['version']}, build {about['build'][:12]}"
     slave = Slave(folder).initialize()
     state = slave.bytes(slave.save())
-    assert state[56:128].rstrip(b"\0").decode() == about["build"]  # so the builds that exchange states are those of which description and bill say so
+    # so the builds that exchange states are those of which description and bill say so
+    assert state[56:128].rstrip(b"\0").decode() == about["build"]
 
     parts = {one["bom-ref"]: one for one in bill["components"]}
     (dependencies,) = bill["dependencies"]
@@ -158,9 +196,15 @@ def test_description_and_bill_of_materials_say_what_is_inside(fmu, tmp_path, nam
     sums = {ref: one["hashes"] for ref, one in parts.items() if "hashes" in one}
     files = {member.relative_to(folder).as_posix(): member for member in (folder / "binaries").rglob("*.*")}
     files |= {"rivet_table": DEFAULT_TABLE} if name == "RivetedBearing" else {}
-    assert sums == {ref: [{"alg": "SHA-256", "content": hashlib.sha256(file.read_bytes()).hexdigest()}] for ref, file in files.items()}
+    assert sums == {
+        ref: [{"alg": "SHA-256", "content": hashlib.sha256(file.read_bytes()).hexdigest()}]
+        for ref, file in files.items()
+    }
     versions = {ref: one["version"] for ref, one in parts.items() if one["type"] == "library"}
-    compiled = re.findall(r'#define SUNDIALS_VERSION "(.*)"', "".join(file.read_text() for file in (folder / "sources").glob("sundials_config.h")))
+    compiled = re.findall(
+        r'#define SUNDIALS_VERSION "(.*)"',
+        "".join(file.read_text() for file in (folder / "sources").glob("sundials_config.h")),
+    )
     assert versions == {"fmpy": fmpy.__version__} | ({"sundials": compiled[0]} if name == "RivetedBearing" else {})
 
 
@@ -170,7 +214,11 @@ def test_terminals_are_valid_and_name_variables(folder):
     etree.XMLSchema(etree.parse(SCHEMA / "fmi3TerminalsAndIcons.xsd")).assertValid(terminals)
     known = {v.name for v in describe(folder).modelVariables if v.causality in ("input", "output")}
     members = [m.get("variableName") for m in terminals.iter("TerminalMemberVariable")]
-    at_a_glance = {name for title in ("Cage", "Stress of the worst rivet", "Health of bearing and run") for name in variables.ESSENTIALS[title]}
+    at_a_glance = {
+        name
+        for title in ("Cage", "Stress of the worst rivet", "Health of bearing and run")
+        for name in variables.ESSENTIALS[title]
+    }
     assert at_a_glance <= set(members)
     assert len(set(members)) == len(members) > 20
     assert set(members) <= known
@@ -208,7 +256,9 @@ class Page(HTMLParser):
         attributes = dict(attributes)
         self.ids.add(attributes.get("id"))
         self.links += [attributes["href"]] if tag == "a" else []
-        self.loads += [value for key, value in attributes.items() if key in ("src", "srcset") or (tag == "link" and key == "href")]
+        self.loads += [
+            value for key, value in attributes.items() if key in ("src", "srcset") or (tag == "link" and key == "href")
+        ]
 
     def handle_data(self, data):
         self.text.append(data)
@@ -220,8 +270,14 @@ def test_documentation_is_complete_and_self_contained(folder):
     text = " ".join(page.text)
     assert page.loads == []
     for link in page.links:
-        assert link[1:] in page.ids if link.startswith("#") else link.startswith("http") or (path.parent / link).is_file(), link
-    names = {re.sub(r"\[\d+\]", "", v.name) for v in describe(folder).modelVariables if v.causality in ("input", "parameter", "output")}
+        assert (
+            link[1:] in page.ids if link.startswith("#") else link.startswith("http") or (path.parent / link).is_file()
+        ), link
+    names = {
+        re.sub(r"\[\d+\]", "", v.name)
+        for v in describe(folder).modelVariables
+        if v.causality in ("input", "parameter", "output")
+    }
     shown = {re.sub(r"\[\w\]", "", word) for word in text.split()}
     assert names <= shown, names - shown
     assert "$" not in text
@@ -246,7 +302,7 @@ def test_fmpy_repeats_the_reference_results(fmu):
     assert reference_results.main(fmu) == 0
 
 
-# ------------------------------------------------------------------------------------------------------------------- sources
+# -------------------------------------------------------------------------------------------------------------- sources
 
 
 def test_description_lists_the_sources(folder):
@@ -254,9 +310,12 @@ def test_description_lists_the_sources(folder):
     assert description.get("needsExecutionTool", "false") == "false"
     listed = {file.get("name") for file in description.iter("File")}
     assert {path.name for path in (folder / "sources").glob("*.c")} == listed
-    included = re.findall(r'^\s*#\s*include\s*"(.*)"', "".join(path.read_text() for path in (folder / "sources").iterdir()), re.MULTILINE)
+    included = re.findall(
+        r'^\s*#\s*include\s*"(.*)"', "".join(path.read_text() for path in (folder / "sources").iterdir()), re.MULTILINE
+    )
     missing = {name for name in included if not (folder / "sources" / name).is_file()}
-    assert missing == {"fmi2Functions.h", "caliper/cali.h"}  # FMI's own come from the importer; an option of SUNDIALS that is off
+    # FMI's own come from the importer; an option of SUNDIALS that is off
+    assert missing == {"fmi2Functions.h", "caliper/cali.h"}
 
 
 def compiled(folder, tmp_path, compile_):
@@ -271,14 +330,19 @@ def compiled(folder, tmp_path, compile_):
 @pytest.mark.skipif(not LINUX, reason="options of a Linux compiler")
 @pytest.mark.parametrize("options", [["-O0"], ["-O3", "-march=native", "-ffp-contract=off"]], ids=" ".join)
 def test_sources_compile_with_plain_cc(folder, tmp_path, options):
-    """Options of the compiler change no bit of the sources' results (observed), so what differs from the binary is what its kernels fuse."""
+    """Options of the compiler change no bit of the sources' results (observed), so what differs from the binary is what
+    its kernels fuse.
+    """
 
     def cc(copy):
         library = copy / "binaries" / fmpy.platform / "RivetedBearing.so"
         library.parent.mkdir(parents=True)
         sources = sorted(map(str, (copy / "sources").glob("*.c")))
         override = "-DFMI2_OVERRIDE_FUNCTION_PREFIX"
-        subprocess.run(["cc", *options, "-shared", "-fPIC", override, f"-I{FMI_HEADERS}", *sources, "-lm", "-o", str(library)], check=True)
+        subprocess.run(
+            ["cc", *options, "-shared", "-fPIC", override, f"-I{FMI_HEADERS}", *sources, "-lm", "-o", str(library)],
+            check=True,
+        )
 
     assert difference(trajectory(compiled(folder, tmp_path, cc)), folder) <= SAME  # observed 1.1e-10
 
@@ -292,7 +356,7 @@ def test_sources_compile_with_fmpy(folder, tmp_path, monkeypatch):
     assert difference(trajectory(copy), folder) <= SAME  # observed 1.1e-10
 
 
-# ----------------------------------------------------------------------------------------------------------- other platforms
+# ------------------------------------------------------------------------------------------------------ other platforms
 
 
 PLATFORMS = {"linux64": ".so", "win64": ".dll", "darwin64": ".dylib", "aarch64-darwin": ".dylib"}
@@ -312,8 +376,13 @@ def test_binaries_export_fmi_only_and_need_the_system_only(everywhere, platform)
     assert len({name for name in exported if name.startswith("fmi2")}) == 44
     assert all(name.startswith("fmi2") for name in exported - of_the_linker)
     if platform == "linux64":
-        assert set(library.libraries) <= {"libc.so.6", "libm.so.6", "ld-linux-x86-64.so.2"}  # the last for thread-local variables
-        versions = {tuple(map(int, v.name[6:].split("."))) for r in library.symbols_version_requirement for v in r.get_auxiliary_symbols()}
+        # the last for thread-local variables
+        assert set(library.libraries) <= {"libc.so.6", "libm.so.6", "ld-linux-x86-64.so.2"}
+        versions = {
+            tuple(map(int, v.name[6:].split(".")))
+            for r in library.symbols_version_requirement
+            for v in r.get_auxiliary_symbols()
+        }
         assert max(versions) <= (2, 17)
     elif platform == "win64":
         assert all(name.lower() == "kernel32.dll" or name.startswith("api-ms-win-crt-") for name in library.libraries)
@@ -330,10 +399,14 @@ def glibc_needed(library):
     return max(tuple(map(int, name.removeprefix("GLIBC_").split("."))) for name in wanted if name.startswith("GLIBC_"))
 
 
-@pytest.mark.skipif(fmpy.platform != "linux64" or SANITIZED, reason="reads the binary that this machine's compiler made for linux64")
+@pytest.mark.skipif(
+    fmpy.platform != "linux64" or SANITIZED, reason="reads the binary that this machine's compiler made for linux64"
+)
 @pytest.mark.parametrize("name", ["RivetedBearing", "Shaft"])
 def test_a_native_binary_needs_no_newer_glibc_than_stated(name, tmp_path):
-    """As the README states: exp, log and pow of 2.29 are the newest that may be asked for.  Observed: 2.29, and 2.14 of the shaft."""
+    """As the README states: exp, log and pow of 2.29 are the newest that may be asked for.  Observed: 2.29, and 2.14 of
+    the shaft.
+    """
     unpacked = Path(fmpy.extract(str(ROOT / "fmus" / f"{name}.fmu"), str(tmp_path)))
     assert glibc_needed(unpacked / "binaries" / "linux64" / f"{name}.so") <= (2, 29)
 
@@ -349,7 +422,10 @@ def test_a_cross_compiled_binary_needs_glibc_2_17(everywhere, name):
 def test_shaft_is_cross_compiled_with_it(everywhere, platform):
     """The second FMU of examples/transmission, beside the bearing's binary."""
     library = lief.parse(str(build_folder(ROOT, None) / platform / f"Shaft{PLATFORMS[platform]}"))
-    assert len({symbol.name for symbol in library.exported_functions if symbol.name.removeprefix("_").startswith("fmi2")}) == 44
+    assert (
+        len({symbol.name for symbol in library.exported_functions if symbol.name.removeprefix("_").startswith("fmi2")})
+        == 44
+    )
 
 
 @pytest.mark.slow
@@ -376,7 +452,20 @@ def test_cross_compiled_is_as_fast(everywhere, folder):
 def test_windows_binary_under_wine(everywhere, wine, folder, tmp_path):
     host, bearing = tmp_path / "fmu_host.exe", everywhere["RivetedBearing"]
     zig = [sys.executable, "-m", "ziglang", "cc", "-target", "x86_64-windows-gnu"]
-    subprocess.run([*zig, "-O1", "-Wall", "-Wextra", "-Werror", f"-I{FMI_HEADERS}", str(Path(__file__).with_name("fmu_host.c")), "-o", str(host)], check=True)
+    subprocess.run(
+        [
+            *zig,
+            "-O1",
+            "-Wall",
+            "-Wextra",
+            "-Werror",
+            f"-I{FMI_HEADERS}",
+            str(Path(__file__).with_name("fmu_host.c")),
+            "-o",
+            str(host),
+        ],
+        check=True,
+    )
     description = describe(bearing)
     references = {v.name: v.valueReference for v in description.modelVariables}
     names = outputs_of(bearing)
@@ -390,25 +479,32 @@ def test_windows_binary_under_wine(everywhere, wine, folder, tmp_path):
     assert difference(rows, folder) <= SAME
 
 
-# ------------------------------------------------------------------------------------------------------------------- release
+# -------------------------------------------------------------------------------------------------------------- release
 
 
 def environment_beside(folder):
     """A Python environment that sees this one's packages, except what stands in it itself; its folder of programs."""
     venv.create(folder, with_pip=True, symlinks=True)
     packages = folder / "lib" / f"python{sys.version_info[0]}.{sys.version_info[1]}" / "site-packages"
-    (packages / "beside.pth").write_text(f"{sysconfig.get_path('purelib')}\n")  # the .pth files there, of editable packages, are not read
+    # the .pth files there, of editable packages, are not read
+    (packages / "beside.pth").write_text(f"{sysconfig.get_path('purelib')}\n")
     return folder / "bin"
 
 
 @pytest.fixture(scope="session")
 def dist(tmp_path_factory):
-    """The folder that `make dist` writes in a copy of the checkout with an environment of its own; minutes of compilation and downloads."""
+    """The folder that `make dist` writes in a copy of the checkout with an environment of its own; minutes of
+    compilation and downloads.
+    """
     if not importlib.util.find_spec("ziglang"):
         pytest.skip("needs the package ziglang: pip install ziglang")
     copy = tmp_path_factory.mktemp("release") / "of-another-length" / "checkout"
     shutil.copytree(
-        ROOT, copy, ignore=shutil.ignore_patterns(".git", ".venv", "build", "dist", "results", "__pycache__", ".*_cache", ".hypothesis", "*.fmu", "*.ssp")
+        ROOT,
+        copy,
+        ignore=shutil.ignore_patterns(
+            ".git", ".venv", "build", "dist", "results", "__pycache__", ".*_cache", ".hypothesis", "*.fmu", "*.ssp"
+        ),
     )
     environment_beside(copy / ".venv")
     (copy / ".venv" / "installed").touch()
@@ -430,12 +526,19 @@ def test_dist_holds_wheel_sources_versions_and_checksums(dist):
         (metadata,) = (name for name in archive.namelist() if name.endswith(".dist-info/METADATA"))
         wanted = re.findall(r"^Requires-Dist: ([\w-]+)[^;\n]*$", archive.read(metadata).decode(), re.MULTILINE)
     with zipfile.ZipFile(dist / "RivetedBearing.fmu") as archive:
-        assert {f"binaries/{platform}/RivetedBearing{suffix}" for platform, suffix in PLATFORMS.items()} <= set(archive.namelist())
+        assert {f"binaries/{platform}/RivetedBearing{suffix}" for platform, suffix in PLATFORMS.items()} <= set(
+            archive.namelist()
+        )
     text = (dist / "requirements.txt").read_text()
     locked = re.findall(r"^([\w.-]+)==\S+ \\\n(?:    --hash=sha256:[0-9a-f]{64}(?: \\)?\n)+", text, re.MULTILINE)
     assert len(wanted) > 15 and {*wanted, "ziglang", "scikit-build-core"} <= set(locked)
     assert len(locked) == len(re.findall(r"^[\w.-]+==", text, re.MULTILINE))
-    assert "://" not in text and str(dist.parent) not in text and "--find-links" not in text and "index" not in text.replace("importlib", "")
+    assert (
+        "://" not in text
+        and str(dist.parent) not in text
+        and "--find-links" not in text
+        and "index" not in text.replace("importlib", "")
+    )
 
 
 @pytest.mark.slow
@@ -444,8 +547,12 @@ def test_the_wheel_simulates_without_a_compiler(dist, tmp_path):
     """Installed where no program but the environment's own is on the path: nothing is compiled, the working point runs."""
     programs = environment_beside(tmp_path / "venv")
     (wheel,) = dist.glob("*.whl")
-    subprocess.run([programs / "python", "-m", "pip", "--quiet", "install", "--no-deps", "--no-index", wheel], check=True)
-    environment = {name: value for name, value in os.environ.items() if name not in ("PYTHONPATH", "CC")} | {"PATH": str(programs)}
+    subprocess.run(
+        [programs / "python", "-m", "pip", "--quiet", "install", "--no-deps", "--no-index", wheel], check=True
+    )
+    environment = {name: value for name, value in os.environ.items() if name not in ("PYTHONPATH", "CC")} | {
+        "PATH": str(programs)
+    }
 
     def said(*arguments):
         command = [programs / "riveted-bearing", *arguments]
@@ -458,7 +565,9 @@ def test_the_wheel_simulates_without_a_compiler(dist, tmp_path):
 
 
 def test_without_a_compiler_zig_is_taken_or_named(monkeypatch):
-    """`build` without --platforms: this machine's compiler, else zig for this machine, else one line that names both ways out."""
+    """`build` without --platforms: this machine's compiler, else zig for this machine, else one line that names both
+    ways out.
+    """
     monkeypatch.delenv("CC", raising=False)
     monkeypatch.setattr(builder.shutil, "which", lambda name, path=None: f"/bin/{name}" if name == "gcc" else None)
     assert builder.compiler_platforms() == ()
@@ -472,7 +581,9 @@ def test_without_a_compiler_zig_is_taken_or_named(monkeypatch):
 
 
 def test_from_source_without_a_compiler_is_one_line(tmp_path, monkeypatch):
-    """pip asks the backend before it downloads anything, and gets no list of packages but a line; archives and editable installs compile nothing."""
+    """pip asks the backend before it downloads anything, and gets no list of packages but a line; archives and editable
+    installs compile nothing.
+    """
     project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))
     assert project["build-system"]["requires"] == []
     hook = "import sys; sys.path.insert(0, sys.argv[1]); import backend; print(*getattr(backend, f'get_requires_for_build_{sys.argv[2]}')(), sep='\\n')"
@@ -485,14 +596,23 @@ def test_from_source_without_a_compiler_is_one_line(tmp_path, monkeypatch):
     for environment in ({"PATH": str(tmp_path)}, {"PATH": os.environ["PATH"], "CC": "missing-cc -O2"}):
         refused = asked("wheel", **environment)
         assert refused.returncode == 1 and refused.stdout == "" and refused.stderr.count("\n") == 1
-        assert re.search(r"needs a C compiler, .*\((cc, gcc, clang|missing-cc)\): install one .* gcc libc6-dev.*riveted_bearing-\*\.whl", refused.stderr)
-        assert asked("sdist", **environment).stdout == asked("editable", **environment).stdout == "scikit-build-core>=0.11\n"
+        assert re.search(
+            r"needs a C compiler, .*\((cc, gcc, clang|missing-cc)\): install one .* gcc libc6-dev.*riveted_bearing-\*\.whl",
+            refused.stderr,
+        )
+        assert (
+            asked("sdist", **environment).stdout
+            == asked("editable", **environment).stdout
+            == "scikit-build-core>=0.11\n"
+        )
     first, *others = asked("wheel", PATH=str(tmp_path), CC="mycc").stdout.splitlines()
     assert first.startswith("scikit-build-core") and set(others) <= set(project["project"]["dependencies"])
 
 
 def test_a_default_build_forgets_the_one_before(tmp_path, monkeypatch):
-    """CMake remembers options: after a build with variables of its own, one without must say so, or description and binary do not belong together."""
+    """CMake remembers options: after a build with variables of its own, one without must say so, or description and
+    binary do not belong together.
+    """
     told = []
 
     class EnoughError(Exception):
@@ -502,7 +622,11 @@ def test_a_default_build_forgets_the_one_before(tmp_path, monkeypatch):
         told.append([option for option in options if option.startswith("-DGENERATED_DIR=")])
         raise EnoughError
 
-    for name, value in {"build_folder": lambda *_: tmp_path, "table_copy": lambda *_: tmp_path / "table.json", "compiler_platforms": tuple}.items():
+    for name, value in {
+        "build_folder": lambda *_: tmp_path,
+        "table_copy": lambda *_: tmp_path / "table.json",
+        "compiler_platforms": tuple,
+    }.items():
         monkeypatch.setattr(builder, name, value)
     monkeypatch.setattr(builder, "has_compiler", lambda: True)
     monkeypatch.setattr(builder, "compile_target", configured)

@@ -1,4 +1,6 @@
-"""Every picture that the program draws, looked at for texts that overlap, are cut or end in nothing (pictures.py, conftest.py)."""
+"""Every picture that the program draws, looked at for texts that overlap, are cut or end in nothing (pictures.py,
+conftest.py).
+"""
 
 from dataclasses import replace
 
@@ -22,13 +24,29 @@ PULSE = {"t": [0.0, 4e-3, 5e-3], "value": [0.0, 0.0, 800.0]}
 def results():
     """Runs that fill the panels differently: steady, with everything that varies, without stress, with one row."""
     steady = run("demo", t_end=8e-3, parameters=SETTLE)
-    inputs = {"shaft.omega": {"t": [0.0, 8e-3], "value": [1000.0, 1900.0]}, "shaft.F_z": -900.0, "impact.F_r": PULSE, "impact.F_a": PULSE}
+    inputs = {
+        "shaft.omega": {"t": [0.0, 8e-3], "value": [1000.0, 1900.0]},
+        "shaft.F_z": -900.0,
+        "impact.F_r": PULSE,
+        "impact.F_a": PULSE,
+    }
     varied = run("demo", t_end=8e-3, parameters=SETTLE, inputs=inputs)
     elastic = run("demo", t_end=8e-3, parameters=SETTLE | {"scene.cage": "elastic"})
     still = run("demo", t_end=4e-3, parameters={"start.settle": 0.0, "scene.stress": "off"})
     first = replace(steady, data={name: values[:1] for name, values in steady.data.items()})
-    few = replace(steady, data={name: steady.data[name] for name in ("time", "ring.y", "rivet.sigma_head_max")}, about=steady.about | {"description": ""})
-    return {"steady": steady, "varied": varied, "elastic": elastic, "without stress": still, "one row": first, "few channels": few}
+    few = replace(
+        steady,
+        data={name: steady.data[name] for name in ("time", "ring.y", "rivet.sigma_head_max")},
+        about=steady.about | {"description": ""},
+    )
+    return {
+        "steady": steady,
+        "varied": varied,
+        "elastic": elastic,
+        "without stress": still,
+        "one row": first,
+        "few channels": few,
+    }
 
 
 CASES = ("steady", "varied", "elastic", "without stress", "one row", "few channels")
@@ -43,10 +61,14 @@ def test_the_picture_of_a_run(results, case, tmp_path):
 def test_the_charts_of_a_report(results, case):
     """Drawn as they stand in the page: each chart that the page shows was saved, and so inspected."""
     drawn = report.render(results[case]).count("<svg viewBox")
-    assert drawn >= {"steady": 14, "varied": 14, "elastic": 15, "without stress": 8, "one row": 0, "few channels": 1}[case]
+    assert (
+        drawn >= {"steady": 14, "varied": 14, "elastic": 15, "without stress": 8, "one row": 0, "few channels": 1}[case]
+    )
 
 
-@pytest.mark.parametrize("grid", [load_cases.COARSE, pytest.param(load_cases.SHIPPED, marks=pytest.mark.slow)], ids=["coarse", "shipped"])
+@pytest.mark.parametrize(
+    "grid", [load_cases.COARSE, pytest.param(load_cases.SHIPPED, marks=pytest.mark.slow)], ids=["coarse", "shipped"]
+)
 def test_the_pictures_of_a_rivet(tmp_path, monkeypatch, grid):
     """The command's own pictures; the finite elements of the section fine or coarse."""
     monkeypatch.setattr(rivet, "Joint", lambda geometry: load_cases.Joint(geometry, grid))
@@ -59,7 +81,11 @@ def test_the_pictures_of_a_rivet(tmp_path, monkeypatch, grid):
     }
 
 
-@pytest.mark.parametrize("changes", [{}, {"shank_diameter": 2e-3}, {"head_diameter": 4.5e-3, "patch_radius": 5e-3}, {"flange_thickness": 4e-3}], ids=str)
+@pytest.mark.parametrize(
+    "changes",
+    [{}, {"shank_diameter": 2e-3}, {"head_diameter": 4.5e-3, "patch_radius": 5e-3}, {"flange_thickness": 4e-3}],
+    ids=str,
+)
 def test_the_drawing_of_a_rivet(changes):
     """All dimensions in the picture, in mm."""
     geometry = replace(Geometry(), **changes)
@@ -74,7 +100,9 @@ def test_a_thin_seat_is_said():
     """Seat of a ring from 1.25 to 1.3 mm radius against a shank of 1 mm: (1.3^2 - 1.25^2)/1^2."""
     thin = replace(Geometry(), shank_diameter=2e-3)
     assert thin.seat_width == pytest.approx(0.05e-3) and thin.seat_share == pytest.approx(0.1275)
-    assert "0.05 mm wide, 13 % of the shank's section" in seat_note(thin) and "head_diameter = 2.6 mm is small" in seat_note(thin)
+    assert "0.05 mm wide, 13 % of the shank's section" in seat_note(
+        thin
+    ) and "head_diameter = 2.6 mm is small" in seat_note(thin)
     assert seat_note(Geometry()) == ""
 
 
@@ -110,7 +138,9 @@ def test_faults_are_found(spoil):
 
 def test_a_rainflow_of_one_cycle():
     """The narrowest of the charts' data."""
-    assert "<svg" in charts.svg(lambda figure: charts.rainflow_matrix(figure, np.array([(1.0, 2.0, 1.0)])), (4.9, 3.0), "one cycle")
+    assert "<svg" in charts.svg(
+        lambda figure: charts.rainflow_matrix(figure, np.array([(1.0, 2.0, 1.0)])), (4.9, 3.0), "one cycle"
+    )
 
 
 def test_lives_are_there(results):

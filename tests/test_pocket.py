@@ -2,7 +2,18 @@
 
 import numpy as np
 import pytest
-from mechanics import RIGID_HALVES, Z, clear_balls, frames, on_ball, place_balls, pocket_contact, pocket_loads, pocket_wrench, pose
+from mechanics import (
+    RIGID_HALVES,
+    Z,
+    clear_balls,
+    frames,
+    on_ball,
+    place_balls,
+    pocket_contact,
+    pocket_loads,
+    pocket_wrench,
+    pose,
+)
 from scipy.integrate import quad
 from scipy.spatial.transform import Rotation
 
@@ -26,13 +37,20 @@ def one_ball(core, x, t, v=(0, 0, 0), omega=(0, 0, 0), **changes):
         pose(core, half)
     phi = 2.0 * np.pi * np.arange(Z) / Z
     theta = phi + np.arcsin(t / R_PITCH)
-    w = place_balls(m, np.full(Z, x), np.full(Z, R_PITCH), theta, np.tile(np.asarray(v, float), (Z, 1)), np.tile(np.asarray(omega, float), (Z, 1)))
+    w = place_balls(
+        m,
+        np.full(Z, x),
+        np.full(Z, R_PITCH),
+        theta,
+        np.tile(np.asarray(v, float), (Z, 1)),
+        np.tile(np.asarray(omega, float), (Z, 1)),
+    )
     clear_balls(w)
     force(m)
     return m, w
 
 
-# ------------------------------------------------------------------------------------------------------------------------ cylinder
+# ------------------------------------------------------------------------------------------------------------- cylinder
 
 
 def test_cylinder(core):
@@ -43,7 +61,8 @@ def test_cylinder(core):
     F, M = on_ball(w)
     angle = np.arcsin((GAP + 2e-6) / R_PITCH)  # the pocket's tangent is not the ball's
     Q = m.d.pocket.K * 2e-6**1.5
-    assert F == pytest.approx(np.tile([0.0, -Q * np.sin(angle), -Q * np.cos(angle)], (Z, 1)), rel=1e-9, abs=1e-9)  # rounding of places, 1e-17 of 2e-6 m
+    # rounding of places, 1e-17 of 2e-6 m
+    assert F == pytest.approx(np.tile([0.0, -Q * np.sin(angle), -Q * np.cos(angle)], (Z, 1)), rel=1e-9, abs=1e-9)
     assert not M.any()
     m, w = one_ball(core, 0.0, GAP - 1e-9, **ELASTIC)
     assert not pocket_loads(m).any()
@@ -51,13 +70,21 @@ def test_cylinder(core):
 
 def pressure_beyond(chord, a, b):
     """Part of the pressure sqrt(1 - (x/a)^2 - (y/b)^2) at x > -chord, by quadrature over the ellipse."""
-    across = quad(lambda x: quad(lambda y: np.sqrt(max(1 - (x / a) ** 2 - (y / b) ** 2, 0.0)), 0.0, b * np.sqrt(1 - (x / a) ** 2))[0], -chord, a)[0]
+    across = quad(
+        lambda x: quad(
+            lambda y: np.sqrt(max(1 - (x / a) ** 2 - (y / b) ** 2, 0.0)), 0.0, b * np.sqrt(1 - (x / a) ** 2)
+        )[0],
+        -chord,
+        a,
+    )[0]
     return 2.0 * across / (2.0 / 3.0 * np.pi * a * b)
 
 
 @pytest.mark.parametrize("angle", [-1.5, -0.3, -0.1, -0.02, 0.0, 0.04, 0.12, 0.7, 1.5])
 def test_shares_are_those_of_the_pressure(core, angle):
-    """Each half bears the Hertz pressure on its side of the split plane, together Hertz' load wherever the contact lies."""
+    """Each half bears the Hertz pressure on its side of the split plane, together Hertz' load wherever the contact
+    lies.
+    """
     delta = 3e-6
     S = GAP + delta
     m, _w = one_ball(core, S * np.sin(angle), S * np.cos(angle), **ELASTIC)
@@ -65,7 +92,8 @@ def test_shares_are_those_of_the_pressure(core, angle):
     assert Q.sum() == pytest.approx(m.d.pocket.K * delta**1.5, rel=1e-9)
     a, b = pocket_contact().semi_axes(Q.sum())
     chord = np.clip((R + GAP) * np.sin(angle), -a, a)  # of the wall, whose radius is R + GAP
-    assert Q[1] / Q.sum() == pytest.approx(pressure_beyond(chord, a, b), abs=1e-6)  # the quadrature is off by 2e-7 at the rim
+    # the quadrature is off by 2e-7 at the rim
+    assert Q[1] / Q.sum() == pytest.approx(pressure_beyond(chord, a, b), abs=1e-6)
 
 
 def test_the_patch_lets_go_smoothly(core):
@@ -81,7 +109,9 @@ def test_the_patch_lets_go_smoothly(core):
 
 
 def test_the_split_is_pushed_open(core):
-    """A contact in the split plane pushes the halves apart by 3/8 Q delta R_c/(a S), 1.3 times the pressure's own 3/16 Q a/R_c along the axis."""
+    """A contact in the split plane pushes the halves apart by 3/8 Q delta R_c/(a S), 1.3 times the pressure's own 3/16
+    Q a/R_c along the axis.
+    """
     delta = 3e-6
     m, _w = one_ball(core, 0.0, GAP + delta, **ELASTIC)
     F_x = np.array([pocket_wrench(m, h)[0][0, 0] for h in range(2)])
@@ -96,7 +126,7 @@ def test_rigid_cage_carries_all(core):
     assert pocket_loads(m)[0] == pytest.approx(np.full(Z, m.d.pocket.K * (np.hypot(3e-5, GAP) - GAP) ** 1.5), rel=1e-8)
 
 
-# -------------------------------------------------------------------------------------------------------------------------- energy
+# --------------------------------------------------------------------------------------------------------------- energy
 
 
 def random_scene(core, rng, **changes):
@@ -120,7 +150,9 @@ def random_scene(core, rng, **changes):
         "x": S * np.sin(angle),
         "r": R_PITCH + rng.uniform(-1e-4, 1e-4, Z),
         "theta": phi + S * np.cos(angle) / R_PITCH,
-        "v": np.stack([rng.uniform(-0.3, 0.3, Z), rng.uniform(-0.3, 0.3, Z), 757.0 * R_PITCH + rng.uniform(-0.3, 0.3, Z)], -1),
+        "v": np.stack(
+            [rng.uniform(-0.3, 0.3, Z), rng.uniform(-0.3, 0.3, Z), 757.0 * R_PITCH + rng.uniform(-0.3, 0.3, Z)], -1
+        ),
         "omega": np.stack([-3600 + rng.uniform(-50, 50, Z), rng.uniform(-100, 100, Z), rng.uniform(-50, 50, Z)], -1),
     }
     w = place_balls(m, ball["x"], ball["r"], ball["theta"], ball["v"], ball["omega"])
@@ -131,7 +163,9 @@ def random_scene(core, rng, **changes):
 
 
 def work(m, chord, delta):
-    """Work of pressing a ball in by delta, where a half bears what lies beyond its chord of the patch: the load over the approach, by Gauss in its root."""
+    """Work of pressing a ball in by delta, where a half bears what lies beyond its chord of the patch: the load over
+    the approach, by Gauss in its root.
+    """
     K, a_delta = m.d.pocket.K, m.d.pocket.a_delta
     if delta <= 0.0:
         return 0.0
@@ -140,7 +174,9 @@ def work(m, chord, delta):
     root = 0.5 * (np.sqrt(from_) + np.sqrt(delta)) + 0.5 * (np.sqrt(delta) - np.sqrt(from_)) * node
     xi = chord / (a_delta * root)
     load = K * root**3 * (0.5 + 0.75 * (xi - xi**3 / 3.0))
-    return (chord > 0.0) * 0.4 * K * from_**2.5 + 0.5 * (np.sqrt(delta) - np.sqrt(from_)) * np.sum(weight * load * 2.0 * root)
+    return (chord > 0.0) * 0.4 * K * from_**2.5 + 0.5 * (np.sqrt(delta) - np.sqrt(from_)) * np.sum(
+        weight * load * 2.0 * root
+    )
 
 
 def energy(m, place, body, j, side):
@@ -175,8 +211,18 @@ def test_forces_are_the_gradient_of_the_energy(core, cage):
         total = np.zeros(3)
         for index, (side, body) in enumerate(zip(sides, bodies, strict=True)):
             steps = h * np.eye(3)
-            gradient = np.array([(energy(m, place + e, body, j, side) - energy(m, place - e, body, j, side)) / (2 * h) for e in steps])
-            spin = np.array([(energy(m, place, turned(body, e / R_PITCH), j, side) - energy(m, place, turned(body, -e / R_PITCH), j, side)) for e in steps])
+            gradient = np.array(
+                [(energy(m, place + e, body, j, side) - energy(m, place - e, body, j, side)) / (2 * h) for e in steps]
+            )
+            spin = np.array(
+                [
+                    (
+                        energy(m, place, turned(body, e / R_PITCH), j, side)
+                        - energy(m, place, turned(body, -e / R_PITCH), j, side)
+                    )
+                    for e in steps
+                ]
+            )
             spin /= 2 * h / R_PITCH
             F_half, M_half = (part[j] for part in pocket_wrench(m, index))
             scale = np.abs(gradient).max() + 1.0
@@ -191,7 +237,9 @@ def test_forces_are_the_gradient_of_the_energy(core, cage):
 @pytest.mark.parametrize("cage", RIGID_HALVES)
 def test_momentum(core, cage, lubrication):
     """Forces and moments about the bearing's centre cancel over ball and halves; observed 1e-16 of force times arm."""
-    m, w, ball, bodies = random_scene(core, np.random.default_rng(2), **{"scene.cage": cage, "scene.lubrication": lubrication})
+    m, w, ball, bodies = random_scene(
+        core, np.random.default_rng(2), **{"scene.cage": cage, "scene.lubrication": lubrication}
+    )
     F, M = on_ball(w)
     axes = frames(ball["theta"])
     for j in range(Z):
@@ -210,8 +258,12 @@ def test_momentum(core, cage, lubrication):
 @pytest.mark.parametrize("lubrication", Lubrication)
 @pytest.mark.parametrize("cage", RIGID_HALVES)
 def test_power_balance(core, cage, lubrication):
-    """What the contacts take from balls and halves is stored (by differences of the energy along the motion) or dissipated."""
-    m, w, ball, bodies = random_scene(core, np.random.default_rng(3), **{"scene.cage": cage, "scene.lubrication": lubrication})
+    """What the contacts take from balls and halves is stored (by differences of the energy along the motion) or
+    dissipated.
+    """
+    m, w, ball, bodies = random_scene(
+        core, np.random.default_rng(3), **{"scene.cage": cage, "scene.lubrication": lubrication}
+    )
     F, M = on_ball(w)
     axes = frames(ball["theta"])
     sides = (-1, 1) if cage == CageModel.TWO_HALF else (0,)
@@ -223,19 +275,25 @@ def test_power_balance(core, cage, lubrication):
             power += F_half @ body["v"] + M_half @ body["Omega"]
 
             def at(t, body=body, side=side, j=j, place=place, v=v):
-                moved = {"x": body["x"] + body["v"] * t, "frame": Rotation.from_rotvec(body["Omega"] * t).as_matrix() @ body["frame"]}
+                moved = {
+                    "x": body["x"] + body["v"] * t,
+                    "frame": Rotation.from_rotvec(body["Omega"] * t).as_matrix() @ body["frame"],
+                }
                 return energy(m, place + v * t, moved, j, side)
 
             stored += (at(1e-9) - at(-1e-9)) / 2e-9
-        assert w.dissipated[j] == pytest.approx(-power - stored, abs=3e-6 * np.abs(F[j]).max() + 1e-9)  # of F times 1 m/s; observed 3e-7
+        # of F times 1 m/s; observed 3e-7
+        assert w.dissipated[j] == pytest.approx(-power - stored, abs=3e-6 * np.abs(F[j]).max() + 1e-9)
 
 
-# ------------------------------------------------------------------------------------------------------------------------ friction
+# ------------------------------------------------------------------------------------------------------------- friction
 
 
 @pytest.mark.parametrize("speed", [0.05, 0.2, 20.0])
 def test_friction(core, speed):
-    """Sliding across the contact: mu Q v/sqrt(v^2 + v_c^2) on the ball's surface, mu = 0.05, v_c = 0.2 m/s; its moment mu Q R."""
+    """Sliding across the contact: mu Q v/sqrt(v^2 + v_c^2) on the ball's surface, mu = 0.05, v_c = 0.2 m/s; its moment
+    mu Q R.
+    """
     m, w = one_ball(core, 0.0, GAP + 2e-6, omega=(speed / R, 0.0, 0.0), **{"oil.rolling": 0.0, "cage.lambda": 0.0})
     Q = m.d.pocket.K * 2e-6**1.5
     F, M = on_ball(w)
@@ -243,13 +301,16 @@ def test_friction(core, speed):
     friction = 0.05 * Q * speed / np.hypot(speed, 0.2)
     assert M[0, 0] == pytest.approx(-friction * R, rel=1e-8)
     normal, along = np.array([0.0, np.sin(angle), np.cos(angle)]), np.array([0.0, np.cos(angle), -np.sin(angle)])
-    assert F[0] @ along == pytest.approx(friction, rel=1e-8)  # the surface moves inward: friction pushes the ball outward
+    # the surface moves inward: friction pushes the ball outward
+    assert F[0] @ along == pytest.approx(friction, rel=1e-8)
     assert F[0] @ normal == pytest.approx(-Q, rel=1e-8)
     assert w.dissipated[0] == pytest.approx(friction * speed, rel=1e-8)
 
 
 def test_inlet_friction(core):
-    """With mu = 0: -F_R on the surface (its moment F_R R), +2 F_R through the centre (R_x = R), F_R by Houpert at the mean speed v/2."""
+    """With mu = 0: -F_R on the surface (its moment F_R R), +2 F_R through the centre (R_x = R), F_R by Houpert at the
+    mean speed v/2.
+    """
     speed = 10.0
     m, w = one_ball(core, 0.0, GAP + 2e-6, omega=(speed / R, 0.0, 0.0), **{"cage.mu": 0.0, "cage.lambda": 0.0})
     E_prime = 2.0 / ((1 - 0.3**2) / 207e9 + (1 - 0.33**2) / 110e9)
@@ -257,7 +318,16 @@ def test_inlet_friction(core):
     F_R = 0.0
     for Q in pocket_loads(m)[:, 0]:  # both halves are contacts of their own
         U, W = 6e-3 * 0.5 * speed / (E_prime * R), Q / (E_prime * R**2)
-        F_R += 2.86 * E_prime * R**2 * (R_y / R) ** 0.348 * (13e-9 * E_prime) ** 0.022 * U**0.66 * W**0.47 * (1.0 + 1.0 / Q) ** -0.53
+        F_R += (
+            2.86
+            * E_prime
+            * R**2
+            * (R_y / R) ** 0.348
+            * (13e-9 * E_prime) ** 0.022
+            * U**0.66
+            * W**0.47
+            * (1.0 + 1.0 / Q) ** -0.53
+        )
     F, M = on_ball(w)
     angle = np.arcsin((GAP + 2e-6) / R_PITCH)
     assert F_R > 0.02
@@ -273,9 +343,12 @@ def test_damping(core):
     assert pocket_loads(m)[0, 0] == pytest.approx(1.3 * 0.5 * m.d.pocket.K * 2e-6**1.5, rel=1e-8)
 
 
-@pytest.mark.parametrize(("speed", "delta", "regime"), [(20.0, 2e-7, "rigid"), (2.0, 5e-6, "piezo"), (0.05, 2e-6, "boundary")])
+@pytest.mark.parametrize(
+    ("speed", "delta", "regime"), [(20.0, 2e-7, "rigid"), (2.0, 5e-6, "piezo"), (0.05, 2e-6, "boundary")]
+)
 def test_mixed_friction(core, speed, delta, regime):
-    """mu + exp(-1.8 Lambda^1.2)(mu_b - mu), Lambda from the thicker of two films at the mean speed, written out; sigma = 0.6 um, mu_b = 0.12.
+    """mu + exp(-1.8 Lambda^1.2)(mu_b - mu), Lambda from the thicker of two films at the mean speed, written out; sigma
+    = 0.6 um, mu_b = 0.12.
 
     Piezoviscous: Hamrock & Dowson (1977); isoviscous-rigid: Brewe, Hamrock & Taylor (1979).
     """
@@ -286,7 +359,14 @@ def test_mixed_friction(core, speed, delta, regime):
     u, alpha_r = np.hypot(0.5 * speed, 0.01), (R + GAP) / GAP
     U, W, G = 6e-3 * u / (E_prime * R), (Q + 1.0) / (E_prime * R**2), 13e-9 * E_prime  # the load's floor is 1 N
     piezo = 2.69 * U**0.67 * G**0.53 * W**-0.067 * (1.0 - 0.61 * np.exp(-0.73 * m.d.pocket.k)) * R
-    rigid = 128.0 * alpha_r / (1.0 + 0.698 / alpha_r) ** 2 * (0.131 * np.arctan(0.5 * alpha_r) + 1.683) ** 2 * (U / W) ** 2 * R
+    rigid = (
+        128.0
+        * alpha_r
+        / (1.0 + 0.698 / alpha_r) ** 2
+        * (0.131 * np.arctan(0.5 * alpha_r) + 1.683) ** 2
+        * (U / W) ** 2
+        * R
+    )
     assert (rigid > piezo) == (regime == "rigid")
     share = np.exp(-1.8 * (max(piezo, rigid) / 0.6e-6) ** 1.2)
     assert {"rigid": share < 0.05, "piezo": 0.05 < share < 0.95, "boundary": share > 0.8}[regime]

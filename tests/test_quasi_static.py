@@ -1,4 +1,6 @@
-"""Quasi-static equilibrium and exact Hertz contact against tables, worked examples, closed forms and statics written out anew."""
+"""Quasi-static equilibrium and exact Hertz contact against tables, worked examples, closed forms and statics written
+out anew.
+"""
 
 import dataclasses
 
@@ -9,12 +11,13 @@ from scipy.optimize import root
 from scipy.spatial.transform import Rotation
 from scipy.special import ellipk
 
-from bearing_model.physics.hertz_exact import HertzContact, ball_race_contact, hertz_ellipse
 from bearing_model.kinematics import cage_speed
+from bearing_model.physics.hertz_exact import HertzContact, ball_race_contact, hertz_ellipse
 from bearing_model.quasi_static import KINEMATICS, RING, Bearing, LinearPotential, Load, Potential, quasi_static
 
 WORKING_POINT = Load(F_x=515.0, F_y=2994.0, omega=18238.0 * np.pi / 30.0)  # Cui et al. (2023), Table 2
-HARRIS_209 = Bearing(D=12.7e-3, d_m=65e-3, Z=9, f_i=0.52, f_e=0.52, P_d=15e-6)  # Harris, Rolling Bearing Analysis (2001), ch. 7
+# Harris, Rolling Bearing Analysis (2001), ch. 7
+HARRIS_209 = Bearing(D=12.7e-3, d_m=65e-3, Z=9, f_i=0.52, f_e=0.52, P_d=15e-6)
 HARRIS_218 = Bearing(D=22.225e-3, d_m=125.26e-3, Z=16, f_i=0.5232, f_e=0.5232, alpha_0=np.radians(40.0))  # ch. 7
 
 CASES = {
@@ -38,7 +41,7 @@ def solved(request):
     return quasi_static(bearing, load, psi=0.1)
 
 
-# --- Hertz -------------------------------------------------------------------------------------------------------------------------------------------
+# --- Hertz ------------------------------------------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize(("F_rho", "kappa", "delta_star"), [(0.95, 10.40, 0.577), (0.7332, 3.4204, 0.8394)])
@@ -50,7 +53,8 @@ def test_hertz_against_harris_table(F_rho, kappa, delta_star):
 
 
 @pytest.mark.parametrize(
-    ("F_rho", "a_star", "b_star", "delta_star"), [(0.0, 1.0, 1.0, 1.0), (0.1075, 1.0760, 0.9318, 0.9974), (0.3204, 1.2623, 0.8114, 0.9761)]
+    ("F_rho", "a_star", "b_star", "delta_star"),
+    [(0.0, 1.0, 1.0, 1.0), (0.1075, 1.0760, 0.9318, 0.9974), (0.3204, 1.2623, 0.8114, 0.9761)],
 )
 def test_hertz_of_nearly_round_contacts(F_rho, a_star, b_star, delta_star):
     """Harris (2001), Table 6.1, given to 4 decimals; observed 5e-5."""
@@ -59,7 +63,9 @@ def test_hertz_of_nearly_round_contacts(F_rho, a_star, b_star, delta_star):
 
 
 def test_hertz_sphere_on_plane():
-    """delta = (9 Q^2/(16 R E*^2))^(1/3), a = (3 Q R/(4 E*))^(1/3), p_max = 3 Q/(2 pi a^2): Johnson (1985), eqs. 4.22-4.24.  Observed 1e-15."""
+    """delta = (9 Q^2/(16 R E*^2))^(1/3), a = (3 Q R/(4 E*))^(1/3), p_max = 3 Q/(2 pi a^2): Johnson (1985), eqs.
+    4.22-4.24.  Observed 1e-15.
+    """
     R, E_star, Q = 0.01, 1.1e11, 500.0
     contact = HertzContact(2.0 / R, 0.0, E_star, hertz_ellipse(0.0))
     a, b = contact.semi_axes(Q)
@@ -77,7 +83,9 @@ def test_hertz_6207_inner_contact():
 
 @pytest.mark.parametrize(("race", "f"), [("inner", 0.515), ("outer", 0.52)])
 def test_hertz_pressure_makes_the_load_and_the_approach(race, f):
-    """The half ellipsoid of pressure integrates to Q; its deflection in the middle is p_max b K(m)/E* (Johnson (1985), eq. 4.26c).  Observed 1e-14."""
+    """The half ellipsoid of pressure integrates to Q; its deflection in the middle is p_max b K(m)/E* (Johnson (1985),
+    eq. 4.26c).  Observed 1e-14.
+    """
     contact = ball_race_contact(0.0111125, 0.0535, f, 0.2, 207e9, 0.3, race)
     delta = 8e-6
     Q = contact.load(delta)
@@ -86,13 +94,14 @@ def test_hertz_pressure_makes_the_load_and_the_approach(race, f):
     assert contact.p_max(Q) * b * ellipk(1.0 - (b / a) ** 2) / contact.E_star == pytest.approx(delta, rel=1e-12)
 
 
-# --- published examples ------------------------------------------------------------------------------------------------------------------------------
+# --- published examples -----------------------------------------------------------------------------------------------
 
 
 def test_harris_209_under_radial_load():
     """Harris (2001), ch. 7, example of the 209: 8900 N; 4536, 2846, 61.2 N on the balls at 0, 40, 80 deg, 60.41 um.
 
-    He iterates with rounded load integrals (his ball loads sum to 8917 N): 0.5 % and, for the small load, 3 %; observed 0.1, 0.2, 2.2 and 0.3 %.
+    He iterates with rounded load integrals (his ball loads sum to 8917 N): 0.5 % and, for the small load, 3 %; observed
+    0.1, 0.2, 2.2 and 0.3 %.
     """
     r = quasi_static(HARRIS_209, Load(F_y=8900.0))
     assert r.Q_i[:2] == pytest.approx([4536.0, 2846.0], rel=5e-3)
@@ -102,10 +111,12 @@ def test_harris_209_under_radial_load():
 
 
 def test_harris_218_under_thrust():
-    """Harris (2001), ch. 7, example of the 218: 17,800 N, contact angle 41.6 deg, ball load 1676 N, displacement 38.6 um.
+    """Harris (2001), ch. 7, example of the 218: 17,800 N, contact angle 41.6 deg, ball load 1676 N, displacement 38.6
+    um.
 
-    He reads the contact constant from Jones's chart (896.7 N/mm^2; exact Hertz gives 989, softening the displacement by 7 %).
-    Angle to 0.15 deg (observed 0.10), load to 0.3 % (0.2), displacement to 8 % (6.8); Jones's relation itself, with the exact constant, to 1e-9.
+    He reads the contact constant from Jones's chart (896.7 N/mm^2; exact Hertz gives 989, softening the displacement by
+    7 %). Angle to 0.15 deg (observed 0.10), load to 0.3 % (0.2), displacement to 8 % (6.8); Jones's relation itself,
+    with the exact constant, to 1e-9.
     """
     r = quasi_static(HARRIS_218, Load(F_x=17800.0))
     assert np.degrees(r.alpha_i) == pytest.approx(41.6, abs=0.15)
@@ -114,17 +125,26 @@ def test_harris_218_under_thrust():
     assert_jones_relation(r)
     B, D = 0.0464, 22.225
     alpha = np.radians(41.6)
-    assert 17800.0 / (16.0 * D**2 * 896.7) == pytest.approx(np.sin(alpha) * (np.cos(np.radians(40.0)) / np.cos(alpha) - 1.0) ** 1.5, rel=0.02)
+    assert 17800.0 / (16.0 * D**2 * 896.7) == pytest.approx(
+        np.sin(alpha) * (np.cos(np.radians(40.0)) / np.cos(alpha) - 1.0) ** 1.5, rel=0.02
+    )
     assert B * D == pytest.approx(1e3 * HARRIS_218.A, rel=1e-2)
 
 
 def assert_jones_relation(r):
-    """F_a = Z K_n A^1.5 sin(alpha) (cos alpha_0/cos alpha - 1)^1.5, delta_a = A cos(alpha_0) (tan alpha - tan alpha_0): Harris (2001), ch. 7."""
+    """F_a = Z K_n A^1.5 sin(alpha) (cos alpha_0/cos alpha - 1)^1.5, delta_a = A cos(alpha_0) (tan alpha - tan alpha_0):
+    Harris (2001), ch. 7.
+    """
     b, alpha = r.bearing, r.alpha_i[0]
     alpha_0 = b.free_contact_angle
-    contacts = [ball_race_contact(b.D, b.d_m, f, b.nominal_angle, b.E, b.nu, race).K for f, race in ((b.f_i, "inner"), (b.f_e, "outer"))]
+    contacts = [
+        ball_race_contact(b.D, b.d_m, f, b.nominal_angle, b.E, b.nu, race).K
+        for f, race in ((b.f_i, "inner"), (b.f_e, "outer"))
+    ]
     K_n = sum(K ** (-2 / 3) for K in contacts) ** -1.5
-    assert b.Z * K_n * b.A**1.5 * np.sin(alpha) * (np.cos(alpha_0) / np.cos(alpha) - 1.0) ** 1.5 == pytest.approx(r.load.F_x, rel=1e-8)
+    assert b.Z * K_n * b.A**1.5 * np.sin(alpha) * (np.cos(alpha_0) / np.cos(alpha) - 1.0) ** 1.5 == pytest.approx(
+        r.load.F_x, rel=1e-8
+    )
     start = np.tan(alpha_0) if b.alpha_0 is not None else 0.0
     assert r.x == pytest.approx(b.A * np.cos(alpha_0) * (np.tan(alpha) - start), rel=1e-9)
 
@@ -134,8 +154,10 @@ def test_thrust_follows_jones(bearing):
     assert_jones_relation(quasi_static(bearing, Load(F_x=800.0)))
 
 
-# Results of the program MASTA for ISO/TS 16281 as published in the repository minzhun/ISO16281, Test_BallBearing.py, examples 1-7 (commit 1b0e9de):
-# D 11.5 mm, d_m 43.5 mm, 7 balls, grooves 0.52 and 0.53, 210 GPa, C = 23.4 kN.  P_d [um], loads [N, N.m]; displacements [um], tilt [mrad], L_10r.
+# Results of the program MASTA for ISO/TS 16281 as published in the repository minzhun/ISO16281, Test_BallBearing.py,
+# examples 1-7 (commit 1b0e9de):
+# D 11.5 mm, d_m 43.5 mm, 7 balls, grooves 0.52 and 0.53, 210 GPa, C = 23.4 kN.  P_d [um], loads [N, N.m]; displacements
+# [um], tilt [mrad], L_10r.
 # The moment of examples 6 and 7 acts about the direction of the radial load and of ball 1.
 MASTA = {
     "1, radial": (0.0, Load(F_y=1000.0), 15.1101, None, None, 13163.019),
@@ -154,7 +176,9 @@ def masta_bearing(P_d):
 
 @pytest.mark.parametrize("example", MASTA)
 def test_iso_ts_16281_as_a_commercial_program_prints_it(example):
-    """Displacements, tilt and life within 0.05 %; observed 0.003 % (the rounding of the tilt: 0.004 %), life 0.007 %, in example 6 0.02 %."""
+    """Displacements, tilt and life within 0.05 %; observed 0.003 % (the rounding of the tilt: 0.004 %), life 0.007 %,
+    in example 6 0.02 %.
+    """
     P_d, load, radial, axial, tilt, life = MASTA[example]
     r = quasi_static(masta_bearing(P_d), load, kinematics="linear")
     found = (1e6 * np.hypot(r.y, r.z), 1e6 * r.x, 1e3 * np.hypot(r.tilt_y, r.tilt_z), r.L_10r)
@@ -162,23 +186,35 @@ def test_iso_ts_16281_as_a_commercial_program_prints_it(example):
         assert published is None or value == pytest.approx(published, rel=5e-4)
 
 
-@pytest.mark.parametrize(("quantity", "least", "most"), [("y", 0.014, 0.017), ("tilt_z", 0.009, 0.012), ("L_10r", -0.006, -0.005)])
+@pytest.mark.parametrize(
+    ("quantity", "least", "most"), [("y", 0.014, 0.017), ("tilt_z", 0.009, 0.012), ("L_10r", -0.006, -0.005)]
+)
 def test_exact_kinematics_differ_from_the_standard(quantity, least, most):
     """What the small-tilt kinematics leave out in example 5: +1.6 % of displacement, +1.0 % of tilt, -0.5 % of life."""
     P_d, load, *_ = MASTA["5, both"]
-    exact, linear = (getattr(quasi_static(masta_bearing(P_d), load, kinematics=kinematics), quantity) for kinematics in KINEMATICS)
+    exact, linear = (
+        getattr(quasi_static(masta_bearing(P_d), load, kinematics=kinematics), quantity) for kinematics in KINEMATICS
+    )
     assert least < exact / linear - 1.0 < most
 
 
 @pytest.mark.parametrize("example", ["5, both", "1, radial"])
 def test_ball_loads_of_the_equations_of_iso_ts_16281(example):
-    """The standard's equations for load and tilt in one plane, solved anew: ball loads and angles agree to the solver's 1e-8; observed 1e-9.
+    """The standard's equations for load and tilt in one plane, solved anew: ball loads and angles agree to the solver's
+    1e-8; observed 1e-9.
 
-    delta_j = sqrt((A cos alpha_0 + delta_r cos phi_j)^2 + (delta_a + D_pw/2 psi cos phi_j)^2) - A, delta_a from the ring's middle position.
+    delta_j = sqrt((A cos alpha_0 + delta_r cos phi_j)^2 + (delta_a + D_pw/2 psi cos phi_j)^2) - A, delta_a from the
+    ring's middle position.
     """
     P_d, load, *_ = MASTA[example]
     b = masta_bearing(P_d)
-    c_p = sum(ball_race_contact(b.D, b.d_m, f, 0.0, b.E, b.nu, race).K ** (-2 / 3) for f, race in ((b.f_i, "inner"), (b.f_e, "outer"))) ** -1.5
+    c_p = (
+        sum(
+            ball_race_contact(b.D, b.d_m, f, 0.0, b.E, b.nu, race).K ** (-2 / 3)
+            for f, race in ((b.f_i, "inner"), (b.f_e, "outer"))
+        )
+        ** -1.5
+    )
     cos = np.cos(2.0 * np.pi / b.Z * np.arange(b.Z))
 
     def balls(unknowns):
@@ -200,13 +236,16 @@ def test_ball_loads_of_the_equations_of_iso_ts_16281(example):
 
 
 def test_load_integral_of_many_balls():
-    """Zero clearance: Q = Q_max cos(psi)^1.5, Q_max = 4.37 F_r/(Z cos alpha) (Stribeck, Sjovall; Harris (2001), ch. 7).  Observed 1e-5."""
+    """Zero clearance: Q = Q_max cos(psi)^1.5, Q_max = 4.37 F_r/(Z cos alpha) (Stribeck, Sjovall; Harris (2001), ch. 7).
+    Observed 1e-5.
+    """
     J_r = quad(lambda psi: np.cos(psi) ** 2.5, -0.5 * np.pi, 0.5 * np.pi)[0] / (2.0 * np.pi)
     assert 1.0 / J_r == pytest.approx(4.37, abs=0.005)
     r = quasi_static(Bearing(Z=200, d_m=1.0, P_d=0.0), Load(F_y=2000.0))
     assert r.Q_i.max() == pytest.approx(2000.0 / (200 * J_r), rel=2e-4)
     assert r.Q_i == pytest.approx(r.Q_i.max() * np.maximum(np.cos(r.psi), 0.0) ** 1.5, abs=1e-3 * r.Q_i.max())
-    # Positions of 0.5 m are rounded to 1e-16 m, on which the stiffness of 1e8 N/m makes 1e-8 N: observed 9e-9 N, of 44 N.
+    # Positions of 0.5 m are rounded to 1e-16 m, on which the stiffness of 1e8 N/m makes 1e-8 N: observed 9e-9 N, of 44
+    # N.
     assert np.abs(r.Q_i * np.cos(r.alpha_i) - r.Q_e * np.cos(r.alpha_e)).max() < 1e-7
 
 
@@ -216,7 +255,7 @@ def test_few_balls_carry_a_little_more():
     assert 4.37 < r.Q_i.max() * 9 / 1000.0 < 4.40
 
 
-# --- statics -----------------------------------------------------------------------------------------------------------------------------------------
+# --- statics ----------------------------------------------------------------------------------------------------------
 
 
 def test_ring_is_in_balance(case):
@@ -232,10 +271,11 @@ def test_ring_is_in_balance(case):
 
 
 def test_balls_are_in_balance(case):
-    """m r omega_m^2 pushes out, both races push along their contact angles; the frictionless ball rests axially and radially.
+    """m r omega_m^2 pushes out, both races push along their contact angles; the frictionless ball rests axially and
+    radially.
 
-    The ring's displacement and tilt turn the inner normal out of the ball's plane by e/R + tilt, ~1e-3 + 7e-3: its square is missing in the plane
-    (observed 7e-7 of the load).
+    The ring's displacement and tilt turn the inner normal out of the ball's plane by e/R + tilt, ~1e-3 + 7e-3: its
+    square is missing in the plane (observed 7e-7 of the load).
     """
     out_of_plane = np.hypot(case.y, case.z) / (0.4 * case.bearing.d_m) + np.hypot(case.tilt_y, case.tilt_z)
     scale = 1e-8 * (1.0 + case.Q_e.max()) + out_of_plane**2 * case.Q_i.max()
@@ -248,7 +288,8 @@ def test_balls_are_in_balance(case):
 def test_ring_without_tilt_from_the_contact_angles():
     """Sum of the balls' loads along contact angle and azimuth as in the books: 6207 at the working point.
 
-    They leave out that a ring displaced by e pushes a ball e/R sin(psi) sideways: observed 3.3e-4 of the load, 4e-4 of the moment.
+    They leave out that a ring displaced by e pushes a ball e/R sin(psi) sideways: observed 3.3e-4 of the load, 4e-4 of
+    the moment.
     """
     r = quasi_static(*CASES["working point"], psi=0.1)
     along_x, along_r = r.Q_i * np.sin(r.alpha_i), r.Q_i * np.cos(r.alpha_i)
@@ -259,7 +300,9 @@ def test_ring_without_tilt_from_the_contact_angles():
 
 
 def test_contact_geometry_by_brute_force():
-    """Points of the inner groove-centre circle, turned and shifted as a rigid body, against each ball: nearest distance; observed 1e-12 m."""
+    """Points of the inner groove-centre circle, turned and shifted as a rigid body, against each ball: nearest
+    distance; observed 1e-12 m.
+    """
     r = quasi_static(Bearing(), Load(F_x=2000.0, F_y=3000.0, F_z=-1500.0, tilt_y=0.005, tilt_z=-0.01))
     b = r.bearing
     axis = np.array([np.sqrt(1.0 - r.tilt_y**2 - r.tilt_z**2), r.tilt_z, -r.tilt_y])
@@ -268,7 +311,11 @@ def test_contact_geometry_by_brute_force():
     for j in range(b.Z):
         ball = np.array([r.x_b[j], r.r_b[j] * np.cos(r.psi[j]), r.r_b[j] * np.sin(r.psi[j])])
         angle = r.psi[j] + np.linspace(-0.02, 0.02, 200001)
-        circle = turn.apply(R_i * np.column_stack([np.zeros_like(angle), np.cos(angle), np.sin(angle)])) + [r.x, r.y, r.z]
+        circle = turn.apply(R_i * np.column_stack([np.zeros_like(angle), np.cos(angle), np.sin(angle)])) + [
+            r.x,
+            r.y,
+            r.z,
+        ]
         distance = np.linalg.norm(circle - ball, axis=1).min()
         assert distance - (b.f_i - 0.5) * b.D == pytest.approx(r.delta_i[j], abs=1e-11)
     assert (r.Q_i > 0.0).sum() >= 5
@@ -286,7 +333,7 @@ def test_contact_results_belong_together(case):
         assert (Q[~loose] > 0.0).all()
 
 
-# --- limits ------------------------------------------------------------------------------------------------------------------------------------------
+# --- limits -----------------------------------------------------------------------------------------------------------
 
 
 def test_unloaded_bearing_at_rest():
@@ -297,7 +344,9 @@ def test_unloaded_bearing_at_rest():
 
 
 def test_unloaded_bearing_in_motion():
-    """Balls ride on the outer race under their own centrifugal force, at the epicyclic speed of radial contact; the ring is loose."""
+    """Balls ride on the outer race under their own centrifugal force, at the epicyclic speed of radial contact; the
+    ring is loose.
+    """
     r = quasi_static(Bearing(), Load(omega=2500.0))
     assert (r.x, r.y, r.z) == (0.0, 0.0, 0.0)
     assert not r.Q_i.any()
@@ -307,7 +356,9 @@ def test_unloaded_bearing_in_motion():
 
 
 def test_preload_without_load():
-    """Each ball is squeezed by |P_d|/2 through two contacts in series: Q = K_n (|P_d|/2)^1.5, ring and balls centred; observed 1e-11."""
+    """Each ball is squeezed by |P_d|/2 through two contacts in series: Q = K_n (|P_d|/2)^1.5, ring and balls centred;
+    observed 1e-11.
+    """
     b = Bearing(P_d=-20e-6)
     K = [ball_race_contact(b.D, b.d_m, f, 0.0, b.E, b.nu, race).K for f, race in ((b.f_i, "inner"), (b.f_e, "outer"))]
     r = quasi_static(b, Load())
@@ -323,7 +374,9 @@ def test_radial_load_stays_in_the_plane():
 
 
 def test_a_ring_does_not_balance_on_one_ball():
-    """A light load on one ball of a loose bearing: the ring rolls off until it touches the next ball, (y, z) in the corner of both."""
+    """A light load on one ball of a loose bearing: the ring rolls off until it touches the next ball, (y, z) in the
+    corner of both.
+    """
     r = quasi_static(Bearing(), Load(F_y=1e-3))
     gap = 0.5 * r.bearing.clearance
     corner = np.array([gap, gap * np.tan(0.5 * 2.0 * np.pi / 9)])
@@ -340,15 +393,22 @@ def test_centrifugal_force_parts_the_contact_angles():
 
 
 def test_clearance_moves_the_radial_displacement():
-    """Pure radial load, static: wider by dP_d moves the ring by half of it, and by a little more as fewer balls carry: observed 0.57-0.60 dP_d."""
+    """Pure radial load, static: wider by dP_d moves the ring by half of it, and by a little more as fewer balls carry:
+    observed 0.57-0.60 dP_d.
+    """
     y = np.array([quasi_static(Bearing(P_d=P_d), Load(F_y=2994.0)).y for P_d in (0.0, 15e-6, 30e-6, 45e-6)])
     assert (np.diff(y) > 0.5 * 15e-6).all()
     assert (np.diff(y) < 0.65 * 15e-6).all()
 
 
 def test_self_tilt_under_radial_and_axial_load():
-    """A soft support lets F_x, F_y > 0 tilt the ring about +Z, more the softer (DESIGN 5: 0.12-0.18 deg on supports of some hundred N.m/rad)."""
-    tilt = [np.degrees(quasi_static(Bearing(), dataclasses.replace(WORKING_POINT, k_tilt=k)).tilt_z) for k in (2e4, 1000.0, 500.0)]
+    """A soft support lets F_x, F_y > 0 tilt the ring about +Z, more the softer (DESIGN 5: 0.12-0.18 deg on supports of
+    some hundred N.m/rad).
+    """
+    tilt = [
+        np.degrees(quasi_static(Bearing(), dataclasses.replace(WORKING_POINT, k_tilt=k)).tilt_z)
+        for k in (2e4, 1000.0, 500.0)
+    ]
     assert 0.0 < tilt[0] < tilt[1] < tilt[2]
     assert tilt[1:] == pytest.approx([0.15, 0.15], abs=0.03)
 
@@ -359,7 +419,7 @@ def test_stiff_support_prescribes_the_tilt():
     assert stiff.Q_i == pytest.approx(given.Q_i, rel=1e-4)
 
 
-# --- invariance --------------------------------------------------------------------------------------------------------------------------------------
+# --- invariance -------------------------------------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize("turn", [2.0 * np.pi / 9, 0.7])
@@ -384,25 +444,35 @@ def test_turning_load_and_balls_turns_the_answer(turn):
 def test_mirrored_load_mirrors_the_answer():
     load = Load(F_x=515.0, F_y=2000.0, F_z=700.0, omega=1900.0, tilt_z=0.004, tilt_y=0.001)
     a = quasi_static(Bearing(), load, psi=0.2)
-    b = quasi_static(Bearing(), dataclasses.replace(load, F_x=-load.F_x, tilt_y=-load.tilt_y, tilt_z=-load.tilt_z), psi=0.2)  # mirror at x = 0
+    # mirror at x = 0
+    b = quasi_static(
+        Bearing(), dataclasses.replace(load, F_x=-load.F_x, tilt_y=-load.tilt_y, tilt_z=-load.tilt_z), psi=0.2
+    )
     assert (b.x, b.y, b.z) == pytest.approx((-a.x, a.y, a.z), rel=1e-8)
     assert b.alpha_i == pytest.approx(-a.alpha_i, rel=1e-7)
-    c = quasi_static(Bearing(), dataclasses.replace(load, F_z=-load.F_z, tilt_y=-load.tilt_y, omega=-load.omega), psi=-a.psi)  # mirror at z = 0
+    # mirror at z = 0
+    c = quasi_static(
+        Bearing(), dataclasses.replace(load, F_z=-load.F_z, tilt_y=-load.tilt_y, omega=-load.omega), psi=-a.psi
+    )
     assert (c.x, c.y, c.z) == pytest.approx((a.x, a.y, -a.z), rel=1e-8)
     assert c.Q_e == pytest.approx(a.Q_e, rel=1e-7)
 
 
-# --- stiffness ---------------------------------------------------------------------------------------------------------------------------------------
+# --- stiffness --------------------------------------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize("kind", [Potential, LinearPotential])
 def test_energy_derivatives_against_differences(kind):
-    """Gradient and Hessian at random states, some balls loaded and some loose, tilts to 2 deg: central differences of the energy and of the gradient.
+    """Gradient and Hessian at random states, some balls loaded and some loose, tilts to 2 deg: central differences of
+    the energy and of the gradient.
 
-    The energy of ~1e-3 J has ~1e-19 J of rounding, the step is 10 nm: 1e-5 N (observed 2e-6); Hessian 1e-6 of its largest entry (4e-8).
+    The energy of ~1e-3 J has ~1e-19 J of rounding, the step is 10 nm: 1e-5 N (observed 2e-6); Hessian 1e-6 of its
+    largest entry (4e-8).
     """
     rng = np.random.default_rng(3)
-    potential = kind(Bearing(), Load(F_x=100.0, F_y=-50.0, M_z=2.0, k_tilt=1e4, tilt_y=0.01), 2.0 * np.pi / 9 * np.arange(9))
+    potential = kind(
+        Bearing(), Load(F_x=100.0, F_y=-50.0, M_z=2.0, k_tilt=1e4, tilt_y=0.01), 2.0 * np.pi / 9 * np.arange(9)
+    )
     potential.inertia.m_omega2 = 3000.0
     touching = 0
     for _ in range(5):
@@ -426,7 +496,9 @@ def test_energy_derivatives_against_differences(kind):
 
 @pytest.mark.parametrize(("omega", "kinematics"), [(0.0, "exact"), (1909.88, "exact"), (0.0, "linear")])
 def test_stiffness_against_differences_of_the_equilibrium(omega, kinematics):
-    """K^-1 is the ring's answer to small loads, solved anew: observed 2e-7 at rest; at speed 4e-3, as K leaves out that the contact angle changes the speed."""
+    """K^-1 is the ring's answer to small loads, solved anew: observed 2e-7 at rest; at speed 4e-3, as K leaves out that
+    the contact angle changes the speed.
+    """
     load = Load(F_x=515.0, F_y=2994.0, F_z=100.0, M_y=1.0, M_z=2.0, k_tilt=0.0, omega=omega)
     r = quasi_static(Bearing(), load, psi=0.1, kinematics=kinematics)
     names, steps = ("F_x", "F_y", "F_z", "M_y", "M_z"), (0.5, 0.5, 0.5, 0.01, 0.01)
@@ -434,7 +506,12 @@ def test_stiffness_against_differences_of_the_equilibrium(omega, kinematics):
     for m, (name, step) in enumerate(zip(names, steps, strict=True)):
         q = []
         for sign in (1.0, -1.0):
-            s = quasi_static(Bearing(), dataclasses.replace(load, **{name: getattr(load, name) + sign * step}), psi=0.1, kinematics=kinematics)
+            s = quasi_static(
+                Bearing(),
+                dataclasses.replace(load, **{name: getattr(load, name) + sign * step}),
+                psi=0.1,
+                kinematics=kinematics,
+            )
             q.append(np.array([s.x, s.y, s.z, s.tilt_y, s.tilt_z]))
         compliance[:, m] = (q[0] - q[1]) / (2.0 * step)
     assert r.K == pytest.approx(r.K.T, rel=1e-10)
@@ -456,7 +533,7 @@ def test_axial_stiffness_in_closed_form():
     assert r.K[0, 0] == pytest.approx(np.diff(F)[0] / np.diff(x)[0], rel=1e-6)
 
 
-# --- gyroscopic moments ------------------------------------------------------------------------------------------------------------------------------
+# --- gyroscopic moments -----------------------------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize(("control", "lambda_i", "lambda_e"), [("outer", 0.0, 2.0), ("inner", 1.0, 1.0)])
@@ -482,14 +559,19 @@ def test_race_control_satisfies_the_balls_equations_of_harris(control, lambda_i,
 
 @pytest.mark.parametrize(("control", "lambda_e"), [("none", 0.0), ("outer", 2.0), ("inner", 1.0)])
 def test_moment_from_the_outer_race(control, lambda_e):
-    """Moment on the ring from the other end: outer race loads and friction on the balls = their change of momentum and spin - the ring's load.
+    """Moment on the ring from the other end: outer race loads and friction on the balls = their change of momentum and
+    spin - the ring's load.
 
-    The cage's hold on the balls is left out, e/R of their loads at |x_b| < 0.4 mm: observed 3.5e-3 of 700 N.m; friction's part is above 10 N.m.
+    The cage's hold on the balls is left out, e/R of their loads at |x_b| < 0.4 mm: observed 3.5e-3 of 700 N.m;
+    friction's part is above 10 N.m.
     """
     b, load = HARRIS_218, Load(F_x=17800.0, F_y=15000.0, omega=1047.2)
     r = quasi_static(b, load, control=control)
     x, zero = np.array([1.0, 0.0, 0.0]), np.zeros(b.Z)
-    e_r, e_t = np.column_stack([zero, np.cos(r.psi), np.sin(r.psi)]), np.column_stack([zero, -np.sin(r.psi), np.cos(r.psi)])
+    e_r, e_t = (
+        np.column_stack([zero, np.cos(r.psi), np.sin(r.psi)]),
+        np.column_stack([zero, -np.sin(r.psi), np.cos(r.psi)]),
+    )
     outward = np.sin(r.alpha_e)[:, None] * x + np.cos(r.alpha_e)[:, None] * e_r
     ball = r.x_b[:, None] * x + r.r_b[:, None] * e_r
     force = -r.Q_e[:, None] * outward + (lambda_e * r.M_g / b.D)[:, None] * np.cross(e_t, outward)
@@ -506,14 +588,15 @@ def test_gyroscopic_moment_is_small_where_it_should_be():
     assert a.Q_i == pytest.approx(b.Q_i, rel=1e-3, abs=1.0)
 
 
-# --- life --------------------------------------------------------------------------------------------------------------------------------------------
+# --- life -------------------------------------------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize(("Z", "d_m", "error"), [(9, 0.0535, 6e-3), (30, 0.2, 1e-3)])
 def test_reference_life_of_the_standard_case(Z, d_m, error):
     """Radial load, no clearance, half of the balls loaded: P_ref = F_r, L = (C/P)^3.
 
-    The rating rests on load integrals over many balls and constants of three digits: observed +0.42 % for 9 balls, -0.01 % for 30; L thrice that.
+    The rating rests on load integrals over many balls and constants of three digits: observed +0.42 % for 9 balls,
+    -0.01 % for 30; L thrice that.
     """
     b = Bearing(Z=Z, d_m=d_m, P_d=0.0, C=25.7e3)
     r = quasi_static(b, Load(F_y=1000.0))
@@ -534,7 +617,8 @@ def test_life_falls_with_clearance_tilt_and_load():
 
 @pytest.mark.parametrize(("D", "d_m", "f_0"), [(11.1125, 53.5, 13.8), (19.05, 80.0, 13.1), (6.0, 60.0, 16.4)])
 def test_static_rating_of_iso_76(D, d_m, f_0):
-    """C_0 = f_0 Z D^2 [N, mm] puts 4200 MPa under the load 5 C_0/Z at f_i = 0.52: ISO 76:2006, table 1 at D/d_m 0.21, 0.24, 0.10.
+    """C_0 = f_0 Z D^2 [N, mm] puts 4200 MPa under the load 5 C_0/Z at f_i = 0.52: ISO 76:2006, table 1 at D/d_m 0.21,
+    0.24, 0.10.
 
     f_0 has three digits, the pressure goes with its cube root: 0.3 %, observed 0.13 %.
     """
@@ -543,7 +627,9 @@ def test_static_rating_of_iso_76(D, d_m, f_0):
 
 
 def test_safety_by_pressure():
-    """Under the radial load C_0 the exact load integral gives 4.386 C_0/Z where ISO 76 takes 5: 1/0.877 with its grooves; observed 1/0.881."""
+    """Under the radial load C_0 the exact load integral gives 4.386 C_0/Z where ISO 76 takes 5: 1/0.877 with its
+    grooves; observed 1/0.881.
+    """
     C_0 = 13.8 * 9 * 11.1125**2
     r = quasi_static(Bearing(P_d=0.0, f_i=0.52, f_e=0.53), Load(F_y=C_0))
     assert 1.0 / r.pressure_safety == pytest.approx(4.386 / 5.0, rel=8e-3)
@@ -559,7 +645,9 @@ def test_safety_by_pressure():
     ],
 )
 def test_static_safety_of_iso_76(bearing, load, P_0):
-    """P_0 = X_0 F_r + Y_0 F_a, at least F_r; X_0, Y_0 0.6, 0.5 for deep groove, 0.5, 0.26 at 40 deg, interpolated: ISO 76:2006, table 2."""
+    """P_0 = X_0 F_r + Y_0 F_a, at least F_r; X_0, Y_0 0.6, 0.5 for deep groove, 0.5, 0.26 at 40 deg, interpolated: ISO
+    76:2006, table 2.
+    """
     r = quasi_static(dataclasses.replace(bearing, C_0=15.3e3), load)
     assert r.P_0 == pytest.approx(P_0, rel=1e-12)
     assert r.S_0 == pytest.approx(15.3e3 / P_0, rel=1e-12)
@@ -572,7 +660,7 @@ def test_frequencies_of_the_result():
     assert f.BPFO + f.BPFI == pytest.approx(9 * 18238.0 / 60.0, rel=1e-12)
 
 
-# --- errors ------------------------------------------------------------------------------------------------------------------------------------------
+# --- errors -----------------------------------------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize(
@@ -593,11 +681,20 @@ def test_frequencies_of_the_result():
         (lambda: Load(k_tilt=-1.0), r"load\.k_tilt = -1\.0: must be at least 0"),
         (lambda: Load(M_z=1.0), r"load\.k_tilt = inf prescribes the tilt"),
         (lambda: quasi_static(Bearing(), Load(), psi=[0.0, 1.0]), r"psi = .*all 9 balls"),
-        (lambda: quasi_static(Bearing(), Load(), control="both"), r"control = 'both': must be one of none, outer, inner"),
+        (
+            lambda: quasi_static(Bearing(), Load(), control="both"),
+            r"control = 'both': must be one of none, outer, inner",
+        ),
         (lambda: quasi_static(Bearing(), Load(F_y=1.0)).L_10r, r"bearing\.C = None"),
         (lambda: quasi_static(Bearing(), Load(F_y=1.0)).S_0, r"bearing\.C_0 = None"),
-        (lambda: quasi_static(Bearing(), Load(F_y=1.0), kinematics="small"), r"kinematics = 'small': must be one of exact, linear"),
-        (lambda: quasi_static(Bearing(), Load(F_y=1.0), control="outer", kinematics="linear"), r"control = 'outer' with kinematics"),
+        (
+            lambda: quasi_static(Bearing(), Load(F_y=1.0), kinematics="small"),
+            r"kinematics = 'small': must be one of exact, linear",
+        ),
+        (
+            lambda: quasi_static(Bearing(), Load(F_y=1.0), control="outer", kinematics="linear"),
+            r"control = 'outer' with kinematics",
+        ),
         (lambda: hertz_ellipse(1.0), r"F_rho = 1\.0: must be"),
     ],
 )
@@ -614,7 +711,9 @@ def test_overload_is_refused():
 
 
 def test_race_control_at_vanishing_contact_is_refused():
-    """Free ring, no thrust, thousands of newtons of radial load on a 45 deg bearing at speed: inner control cannot hold, and says so."""
+    """Free ring, no thrust, thousands of newtons of radial load on a 45 deg bearing at speed: inner control cannot
+    hold, and says so.
+    """
     load = Load(F_z=1668.65, omega=-2375.0, k_tilt=0.0)
     with pytest.raises(ArithmeticError, match="race control 'inner' does not hold"):
         quasi_static(Bearing(Z=5, alpha_0=0.7786), load, control="inner")

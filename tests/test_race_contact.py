@@ -1,4 +1,6 @@
-"""Ball and race: geometry under any offset and tilt, momentum, slip and traction against a second formulation in the global frame, spin."""
+"""Ball and race: geometry under any offset and tilt, momentum, slip and traction against a second formulation in the
+global frame, spin.
+"""
 
 import numpy as np
 import pytest
@@ -39,18 +41,23 @@ def closest_on_circle(point, centre, frame, radius):
         return centre + radius * (frame[:, 1] * np.cos(angle) + frame[:, 2] * np.sin(angle))
 
     guess = np.arctan2(frame[:, 2] @ (point - centre), frame[:, 1] @ (point - centre))
-    best = minimize_scalar(lambda angle: np.sum((on_circle(angle) - point) ** 2), bracket=(guess - 0.01, guess + 0.013), tol=1e-14)
+    best = minimize_scalar(
+        lambda angle: np.sum((on_circle(angle) - point) ** 2), bracket=(guess - 0.01, guess + 0.013), tol=1e-14
+    )
     return on_circle(best.x)
 
 
 def scene(core, rng, ring_offset=20e-6, tilt=9e-3, **changes):
     """Random balls, all pressed between both races, under a ring with offset and tilt, everything moving."""
     rings = {"bearing.P_d": -30e-6, "scene.growth": Switch.OFF}
-    m = core.model(parameters=rings | {"scene.traction": Traction.POINT, "scene.heating": Switch.OFF, "oil.K_rs": 0.0} | changes)
+    m = core.model(
+        parameters=rings | {"scene.traction": Traction.POINT, "scene.heating": Switch.OFF, "oil.K_rs": 0.0} | changes
+    )
     theta = 2.0 * np.pi * np.arange(Z) / Z + rng.uniform(-0.1, 0.1, Z)
     frame = tilted(*rng.uniform(-tilt, tilt, 2), spin=rng.uniform(0.0, 6.0))
     centre = rng.uniform(-ring_offset, ring_offset, 3)
-    x = 0.3 * centre[0] - 0.5 * (frame[1, 0] * np.cos(theta) + frame[2, 0] * np.sin(theta)) * 0.02675  # halfway between both grooves' planes
+    # halfway between both grooves' planes
+    x = 0.3 * centre[0] - 0.5 * (frame[1, 0] * np.cos(theta) + frame[2, 0] * np.sin(theta)) * 0.02675
     r = 0.02675 + 0.5 * (centre[1] * np.cos(theta) + centre[2] * np.sin(theta)) + rng.uniform(-4e-6, 4e-6, Z)
     v = np.stack([rng.uniform(-0.1, 0.1, Z), rng.uniform(-0.1, 0.1, Z), r * 757.0 + rng.uniform(-0.3, 0.3, Z)], -1)
     omega = np.stack([-3600.0 + rng.uniform(-50, 50, Z), rng.uniform(-200, 200, Z), rng.uniform(-50, 50, Z)], -1)
@@ -58,15 +65,30 @@ def scene(core, rng, ring_offset=20e-6, tilt=9e-3, **changes):
     velocity = rng.uniform(-0.05, 0.05, 3)
     set_ring(m, centre, velocity, frame, Omega)
     w = place_balls(m, x, r, theta, v, omega)
-    return m, w, {"theta": theta, "frame": frame, "centre": centre, "x": x, "r": r, "v": v, "omega": omega, "Omega": Omega, "velocity": velocity}
+    return (
+        m,
+        w,
+        {
+            "theta": theta,
+            "frame": frame,
+            "centre": centre,
+            "x": x,
+            "r": r,
+            "v": v,
+            "omega": omega,
+            "Omega": Omega,
+            "velocity": velocity,
+        },
+    )
 
 
-# ---------------------------------------------------------------------------------------------------------------------- geometry
+# ------------------------------------------------------------------------------------------------------------- geometry
 
 
 @pytest.mark.parametrize("tilt", [0.0, 9e-3, 0.3])
 def test_geometry_is_exact(core, tilt):
-    """Approach and normal at the inner race against the nearest point of the tilted, displaced circle of groove centres.
+    """Approach and normal at the inner race against the nearest point of the tilted, displaced circle of groove
+    centres.
 
     The minimiser finds the angle to about 1e-9, the distance therefore to rounding: observed 3e-17 m of 56 mm.
     """
@@ -88,7 +110,9 @@ def test_geometry_is_exact(core, tilt):
 
 
 def test_normal_force(core):
-    """Q = K delta^1.5 (1 + lambda delta_dot) along the normal, delta_dot by differences of the exact geometry; ball sizes count."""
+    """Q = K delta^1.5 (1 + lambda delta_dot) along the normal, delta_dot by differences of the exact geometry; ball
+    sizes count.
+    """
     rng = np.random.default_rng(4)
     m, w, s = scene(core, rng, **DRY)
     view = m.p.ball.dD
@@ -105,7 +129,9 @@ def test_normal_force(core):
         def approach(t, j=j):
             frame = Rotation.from_rotvec(s["Omega"] * t).as_matrix() @ s["frame"]
             ball = s["x"][j] * axes[j, 0] + s["r"][j] * axes[j, 1] + axes[j].T @ s["v"][j] * t
-            return np.linalg.norm(ball - closest_on_circle(ball, s["centre"] + s["velocity"] * t, frame, m.d.inner.R_g)) - (0.515 * D - m.d.R[j])
+            return np.linalg.norm(
+                ball - closest_on_circle(ball, s["centre"] + s["velocity"] * t, frame, m.d.inner.R_g)
+            ) - (0.515 * D - m.d.R[j])
 
         rate = (approach(1e-7) - approach(-1e-7)) / 2e-7
         Q_i = m.d.inner.hertz.K * max(w.delta_i[j], 0.0) ** 1.5 * max(0.0, 1.0 + 0.05 * rate)
@@ -119,13 +145,15 @@ def test_normal_force(core):
     assert closed >= 3
 
 
-# ---------------------------------------------------------------------------------------------------------------------- momentum
+# ------------------------------------------------------------------------------------------------------------- momentum
 
 
 @pytest.mark.parametrize("lubrication", Lubrication)
 @pytest.mark.parametrize("traction", Traction)
 def test_ring_gets_the_opposite_wrench(core, traction, lubrication):
-    """Force and moment about the bearing's centre by the inner race vanish over ball and ring; observed 1e-15 of the force."""
+    """Force and moment about the bearing's centre by the inner race vanish over ball and ring; observed 1e-15 of the
+    force.
+    """
     rng = np.random.default_rng(5)
     changes = {"scene.traction": traction, "scene.lubrication": lubrication}
     m, w, s = scene(core, rng, **changes)
@@ -147,7 +175,7 @@ def test_ring_gets_the_opposite_wrench(core, traction, lubrication):
         assert about_centre == pytest.approx(np.zeros(3), abs=1e-13 * scale * 0.03)
 
 
-# ------------------------------------------------------------------------------------------------- traction, in the global frame
+# ---------------------------------------------------------------------------------------- traction, in the global frame
 
 
 def film(s, A=-0.04, B=2.2, C=45.0):
@@ -159,7 +187,9 @@ def inlet(race, U, Q):
 
 
 def reference(m, s, w, j, race):
-    """Force on ball j at one race beyond the normal one, and its moment about the ball's centre, global frame: point contact, full film."""
+    """Force on ball j at one race beyond the normal one, and its moment about the ball's centre, global frame: point
+    contact, full film.
+    """
     axes = frames(s["theta"])[j].T
     ball = axes @ [s["x"][j], s["r"][j], 0.0]
     v_b, omega_b = axes @ s["v"][j], axes @ s["omega"][j]
@@ -182,7 +212,9 @@ def reference(m, s, w, j, race):
 
 
 def test_traction_in_the_global_frame(core):
-    """Slip, mean speed, traction, inlet friction and horizontal force written anew; observed 1e-11 (differences of speeds of 30 m/s)."""
+    """Slip, mean speed, traction, inlet friction and horizontal force written anew; observed 1e-11 (differences of
+    speeds of 30 m/s).
+    """
     rng = np.random.default_rng(6)
     most = 0.0
     for _ in range(3):
@@ -201,7 +233,9 @@ def test_traction_in_the_global_frame(core):
 
 
 def test_no_slip_no_traction(core):
-    """A ball that rolls at omega_m = omega (1 - gamma)/2 has no slip at either race: traction vanishes, only inlet forces remain."""
+    """A ball that rolls at omega_m = omega (1 - gamma)/2 has no slip at either race: traction vanishes, only inlet
+    forces remain.
+    """
     m = core.model(parameters={"oil.rolling": 0.0, "scene.traction": Traction.POINT})
     r, omega = 0.02675, 1900.0
     theta = 2.0 * np.pi * np.arange(Z) / Z
@@ -227,22 +261,33 @@ def set_preload(m, approach):
     m.core.lib.model_derive(m.p, m.d)
 
 
-# -------------------------------------------------------------------------------------------------------------------------- spin
+# ----------------------------------------------------------------------------------------------------------------- spin
 
 
 def spinning_ball(core, spin, slip=0.0, **changes):
-    """A pressed ball between races at rest, turning at `spin` about the common normal and sliding at `slip` along t over the outer race."""
+    """A pressed ball between races at rest, turning at `spin` about the common normal and sliding at `slip` along t
+    over the outer race.
+    """
     m = core.model(parameters={"scene.traction": Traction.SLICED, "oil.rolling": 0.0} | changes)
     set_preload(m, 20e-6)
     set_ring(m, np.zeros(3), np.zeros(3), np.eye(3), np.zeros(3))
     m.d.inner.hertz.K = 0.0
     r = m.d.outer.R_g + m.d.outer.r_g - R + 8e-6
-    w = place_balls(m, np.zeros(Z), np.full(Z, r), np.zeros(Z), np.tile([0.0, 0.0, slip], (Z, 1)), np.tile([0.0, spin, 0.0], (Z, 1)), omega_m=np.zeros(Z))
+    w = place_balls(
+        m,
+        np.zeros(Z),
+        np.full(Z, r),
+        np.zeros(Z),
+        np.tile([0.0, 0.0, slip], (Z, 1)),
+        np.tile([0.0, spin, 0.0], (Z, 1)),
+        omega_m=np.zeros(Z),
+    )
     contacts(m)
     return m, w
 
 
-COULOMB = {"oil.A": -0.05, "oil.B": 0.0, "oil.C": 1000.0}  # mu = 0.05 (1 - exp(-1000 s)): 0.05 at all but the slightest slip
+# mu = 0.05 (1 - exp(-1000 s)): 0.05 at all but the slightest slip
+COULOMB = {"oil.A": -0.05, "oil.B": 0.0, "oil.C": 1000.0}
 
 
 def test_spin_moment_of_coulomb_friction(core):
@@ -259,7 +304,9 @@ def test_spin_moment_of_coulomb_friction(core):
 
 
 def test_spin_moment_of_viscous_friction(core):
-    """mu = B s (C = 0): M = B Q omega a^2/(5 U), as int (3/4)(1 - s^2) s^2 ds = 1/5; polynomials are integrated exactly."""
+    """mu = B s (C = 0): M = B Q omega a^2/(5 U), as int (3/4)(1 - s^2) s^2 ds = 1/5; polynomials are integrated
+    exactly.
+    """
     m, w = spinning_ball(core, 200.0, **{"oil.A": 0.0, "oil.B": 0.01, "oil.C": 0.0})
     a = m.d.outer.hertz.a * np.cbrt(w.Q_e[0])
     assert -on_ball(w)[1][0, 1] == pytest.approx(0.01 * w.Q_e[0] * 200.0 * a**2 / (5.0 * 0.01), rel=1e-12)
@@ -268,13 +315,15 @@ def test_spin_moment_of_viscous_friction(core):
 
 @pytest.mark.parametrize(("spin", "slip"), [(300.0, 1.5), (-800.0, 2.0), (50.0, -0.4), (2000.0, 0.3), (-3000.0, 1.0)])
 def test_slices_against_quadrature(core, spin, slip):
-    """Force and moments of the line pressure (3/4)(1 - (xi/a)^2) Q/a with slip varying by spin and by the surface's curvature, by adaptive quadrature.
+    """Force and moments of the line pressure (3/4)(1 - (xi/a)^2) Q/a with slip varying by spin and by the surface's
+    curvature, by adaptive quadrature.
 
     Observed: 7e-6 Q at -3000 rad/s, below 2e-7 Q elsewhere; a coefficient of traction is up to 0.05.
     """
     m, w = spinning_ball(core, spin, slip)
     Q, a, R_m = w.Q_e[0], m.d.outer.hertz.a * np.cbrt(w.Q_e[0]), 2.0 * 0.52 / (2.0 * 0.52 + 1.0) * D
-    U = np.hypot(0.5 * slip, 0.01)  # mean of ball and race at the contact's middle, seen from the ball: it slides without orbiting
+    # mean of ball and race at the contact's middle, seen from the ball: it slides without orbiting
+    U = np.hypot(0.5 * slip, 0.01)
 
     def traction(xi, part):
         place = np.array([xi, R - 0.5 * xi * xi / R_m, 0.0])  # (x, r, t) from the ball's centre
@@ -285,7 +334,9 @@ def test_slices_against_quadrature(core, spin, slip):
         return F[2] if part == "force" else np.cross(place, F)[part]
 
     def integral(part):
-        return quad(traction, -a, a, args=(part,), points=[np.clip(slip / spin, -0.9 * a, 0.9 * a)], epsrel=1e-10, limit=200)[0]
+        return quad(
+            traction, -a, a, args=(part,), points=[np.clip(slip / spin, -0.9 * a, 0.9 * a)], epsrel=1e-10, limit=200
+        )[0]
 
     F, M = on_ball(w)
     assert F[0, 2] == pytest.approx(integral("force"), abs=1e-5 * Q)
@@ -294,9 +345,11 @@ def test_slices_against_quadrature(core, spin, slip):
 
 
 def test_slices_where_the_slip_changes_its_sign(core):
-    """Traction is nearly a step where the slip changes its sign inside the ellipse, and the slices lie on both sides of it.
+    """Traction is nearly a step where the slip changes its sign inside the ellipse, and the slices lie on both sides of
+    it.
 
-    RMS over fifty slips of the error of the force, of the largest force: 0.15 % (observed); twelve points of Gauss-Jacobi's rule for the whole ellipse, 7 %.
+    RMS over fifty slips of the error of the force, of the largest force: 0.15 % (observed); twelve points of
+    Gauss-Jacobi's rule for the whole ellipse, 7 %.
     """
     spin, slips, law = 2000.0, np.linspace(0.05, 2.5, 50), np.array(roots_jacobi(12, 1.0, 1.0))
     found, exact, unsplit = [], [], []
@@ -326,7 +379,8 @@ def test_slices_tend_to_the_point(core):
             m, _ = spinning_ball(core, 0.0, **{"scene.traction": traction})
             r = m.d.outer.R_g + m.d.outer.r_g - R + 8e-6 * shrink
             turn, slide = np.tile([0.0, 300.0, 0.0], (Z, 1)), np.tile([0.0, 0.0, 0.3], (Z, 1))
-            w = place_balls(m, np.zeros(Z), np.full(Z, r), np.zeros(Z), slide, turn, omega_m=np.full(Z, 4000.0))  # U = 22 m/s
+            # U = 22 m/s
+            w = place_balls(m, np.zeros(Z), np.full(Z, r), np.zeros(Z), slide, turn, omega_m=np.full(Z, 4000.0))
             contacts(m)
             results.append(on_ball(w)[0][0, 2] / w.Q_e[0])
         difference.append(abs(results[1] / results[0] - 1.0))
@@ -335,7 +389,9 @@ def test_slices_tend_to_the_point(core):
 
 
 def test_dissipation_is_the_power_of_all_forces(core):
-    """Contacts lose what they take from balls and ring, less what the springs store: -F.v - M.omega - ... = dissipated + elastic rate."""
+    """Contacts lose what they take from balls and ring, less what the springs store: -F.v - M.omega - ... = dissipated
+    + elastic rate.
+    """
     rng = np.random.default_rng(9)
     for traction in Traction:
         for lubrication in Lubrication:
@@ -343,10 +399,16 @@ def test_dissipation_is_the_power_of_all_forces(core):
             contacts(m)
             F, M = on_ball(w)
             F_ring, M_ring = ring_wrench(w)
-            power = np.einsum("jk,jk->j", F, s["v"]) + np.einsum("jk,jk->j", M, s["omega"]) + F_ring @ s["velocity"] + M_ring @ s["Omega"]
+            power = (
+                np.einsum("jk,jk->j", F, s["v"])
+                + np.einsum("jk,jk->j", M, s["omega"])
+                + F_ring @ s["velocity"]
+                + M_ring @ s["Omega"]
+            )
             stored = elastic_rate(m, s, w)
             assert w.dissipated[:Z] == pytest.approx(-power - stored, rel=1e-6, abs=1e-5 * np.abs(power).max())
-            assert w.dissipated[:Z].min() > -1e-2 * w.dissipated[:Z].max()  # only the inlet's horizontal force may feed a little
+            # only the inlet's horizontal force may feed a little
+            assert w.dissipated[:Z].min() > -1e-2 * w.dissipated[:Z].max()
 
 
 def elastic_rate(m, s, w):
@@ -358,18 +420,23 @@ def elastic_rate(m, s, w):
         ball = s["x"][j] * axes[j, 0] + s["r"][j] * axes[j, 1]
         n_i, n_e = axes[j].T @ [w.n_ix[j], w.n_ir[j], w.n_it[j]], axes[j].T @ [w.n_ex[j], w.n_er[j], 0.0]
         ring = s["velocity"] + np.cross(s["Omega"], ball - s["centre"])
-        Q_i, Q_e = (race.hertz.K * max(delta, 0.0) ** 1.5 for race, delta in ((m.d.inner, w.delta_i[j]), (m.d.outer, w.delta_e[j])))
+        Q_i, Q_e = (
+            race.hertz.K * max(delta, 0.0) ** 1.5
+            for race, delta in ((m.d.inner, w.delta_i[j]), (m.d.outer, w.delta_e[j]))
+        )
         rate[j] = Q_i * (n_i @ (v - ring)) + Q_e * (n_e @ v)
     return rate
 
 
-# ------------------------------------------------------------------------------------------------------------------------- growth
+# --------------------------------------------------------------------------------------------------------------- growth
 
 
 def rotating_ring(r, a, b, omega, rho=7800.0, E=207e9, nu=0.3):
-    """Radial displacement at r [m] of a free ring from a to b that turns at omega, by the equilibrium of its elements, solved numerically.
+    """Radial displacement at r [m] of a free ring from a to b that turns at omega, by the equilibrium of its elements,
+    solved numerically.
 
-    u'' + u'/r - u/r^2 = -(1 - nu^2) rho omega^2 r/E with no radial stress, u' + nu u/r = 0, at bore and rim.  Lengths in b, displacements in the load.
+    u'' + u'/r - u/r^2 = -(1 - nu^2) rho omega^2 r/E with no radial stress, u' + nu u/r = 0, at bore and rim.  Lengths
+    in b, displacements in the load.
     """
 
     def equations(x, y):
@@ -385,7 +452,9 @@ def rotating_ring(r, a, b, omega, rho=7800.0, E=207e9, nu=0.3):
 
 @pytest.mark.parametrize("bore", [0.0, 0.02])
 def test_inner_ring_grows(core, bore):
-    """Approach of balls at the same place by the growth at the groove's bottom: 1.153 um at 18,238 r/min with the 6207's bore of 35 mm."""
+    """Approach of balls at the same place by the growth at the groove's bottom: 1.153 um at 18,238 r/min with the
+    6207's bore of 35 mm.
+    """
     omega = 18238.0 * np.pi / 30.0
     bottom = 0.5 * (0.0535 - 0.0111125)
     deltas = []
@@ -397,7 +466,8 @@ def test_inner_ring_grows(core, bore):
         contacts(m)
         deltas.append(np.array(w.delta_i[:Z]))
     grown = rotating_ring(bottom, 0.5 * (bore or 0.035), bottom + 0.2 * 0.0111125, omega)
-    assert deltas[1] - deltas[0] == pytest.approx(np.full(Z, grown), rel=1e-3)  # D/0.6 makes the bore 34.98 mm: observed 4e-4
+    # D/0.6 makes the bore 34.98 mm: observed 4e-4
+    assert deltas[1] - deltas[0] == pytest.approx(np.full(Z, grown), rel=1e-3)
     if not bore:
         assert grown == pytest.approx(1.153e-6, rel=1e-3)
 

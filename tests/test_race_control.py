@@ -1,4 +1,6 @@
-"""The running bearing with spin in its traction against the equilibrium with outer race control (Jones), which the dynamics knows nothing of."""
+"""The running bearing with spin in its traction against the equilibrium with outer race control (Jones), which the
+dynamics knows nothing of.
+"""
 
 import numpy as np
 import pytest
@@ -9,12 +11,14 @@ from race_control import LOADS, SPEEDS, equilibrium, running
 @pytest.mark.parametrize("speed", SPEEDS)
 @pytest.mark.parametrize("load", LOADS, ids=str)
 def test_spin_in_the_traction_reproduces_race_control(fmu, load, speed, record_property):
-    """Displacements within 1 %, y where the radial load makes it: observed -0.30 ... +0.46 % in x, +0.25 ... +0.46 % in y; without gyroscopic moments x
-    would be off by -3.8 % at 24,000 r/min.  800 N of radial load beside 800 N of thrust move the ring by no more than 6 um: there y may differ by 0.15 um,
-    observed -0.135 um.  The cage lags by its slip, observed -0.8 ... +0.2 %.
+    """Displacements within 1 %, y where the radial load makes it: observed -0.30 ... +0.46 % in x, +0.25 ... +0.46 % in
+    y; without gyroscopic moments x would be off by -3.8 % at 24,000 r/min.  800 N of radial load beside 800 N of thrust
+    move the ring by no more than 6 um: there y may differ by 0.15 um, observed -0.135 um.  The cage lags by its slip,
+    observed -0.8 ... +0.2 %.
 
-    Race control lets one race carry the gyroscopic moment.  Traction lets both do so, as the slips have it: under thrust, where every ball is pressed
-    against both races, the contact angles lie between those of control by the outer and by the inner race.  Beside a larger radial load they are within
+    Race control lets one race carry the gyroscopic moment.  Traction lets both do so, as the slips have it: under
+    thrust, where every ball is pressed against both races, the contact angles lie between those of control by the outer
+    and by the inner race.  Beside a larger radial load they are within
     0.25 deg of outer control, observed -0.22 ... 0.00 deg.
     """
     F_x, F_y = load

@@ -13,7 +13,14 @@ README = (ROOT / "README.md").read_text()
 
 def symbol_names():
     table = README.split("### Symbols")[1].split("## ")[0]
-    return sorted({name for line in table.splitlines() if line.startswith("| $") for name in re.findall(r"`([^`]+)`", line.split("|")[2])})
+    return sorted(
+        {
+            name
+            for line in table.splitlines()
+            if line.startswith("| $")
+            for name in re.findall(r"`([^`]+)`", line.split("|")[2])
+        }
+    )
 
 
 @pytest.mark.parametrize("name", symbol_names())

@@ -58,7 +58,11 @@ def test_a_run_on_disk_has_the_same_bits(monkeypatch, tmp_path):
 def test_memory_does_not_grow_with_the_run():
     """80 and 480 MB of numbers.  What the process itself holds beside the pages of the file: observed 0.8 MB each time."""
     growth = [
-        float(subprocess.run([sys.executable, "-c", GROWTH, str(rows)], cwd=ROOT, capture_output=True, text=True, check=True).stdout)
+        float(
+            subprocess.run(
+                [sys.executable, "-c", GROWTH, str(rows)], cwd=ROOT, capture_output=True, text=True, check=True
+            ).stdout
+        )
         for rows in (100_000, 600_000)
     ]
     print(growth)

@@ -1,4 +1,6 @@
-"""The report: one file that needs nothing else, figures equal to the run's, life by a second hand, and a page that moves in a real browser."""
+"""The report: one file that needs nothing else, figures equal to the run's, life by a second hand, and a page that
+moves in a real browser.
+"""
 
 import base64
 import io
@@ -11,9 +13,9 @@ import numpy as np
 import pytest
 from PIL import Image
 
+from bearing_model.generated.variables import CageModel, Z
 from bearing_model.instance import fatigue
 from bearing_model.physics.model import Model
-from bearing_model.generated.variables import CageModel, Z
 from riveted_bearing import UserError, run, write_result
 from riveted_bearing.animation import BUDGET, exaggeration, frames, thinned
 from riveted_bearing.charts import PAGE_COLOURS, azimuth_of, by_bin, joint_spectra, loaded_rivet
@@ -29,13 +31,20 @@ T_END = 0.012
 @pytest.fixture(scope="module")
 def result():
     """A run of the working point with impacts in it and elastic halves, short of what statistics need."""
-    return run("demo", t_end=T_END, parameters={"start.settle": 2e-3, "joint.preload": "30 N", "scene.stress": "fatigue", "scene.cage": "elastic"})
+    return run(
+        "demo",
+        t_end=T_END,
+        parameters={"start.settle": 2e-3, "joint.preload": "30 N", "scene.stress": "fatigue", "scene.cage": "elastic"},
+    )
 
 
 @pytest.fixture(scope="module")
 def few(result):
     """The run with few channels, as if no others had been asked for."""
-    return replace(result, data={name: values for name, values in result.data.items() if name.startswith(("time", "ring.", "shaft."))})
+    return replace(
+        result,
+        data={name: values for name, values in result.data.items() if name.startswith(("time", "ring.", "shaft."))},
+    )
 
 
 @pytest.fixture(scope="module")
@@ -43,11 +52,13 @@ def page(result):
     return render(result)
 
 
-# ----------------------------------------------------------------------------------------------------------------------------- page
+# ----------------------------------------------------------------------------------------------------------------- page
 
 
 def test_page_is_complete_and_needs_nothing_else(page):
-    """Every chart is there, nothing is fetched, no colour is fixed where the page has light and dark, and it stays below 2 MB."""
+    """Every chart is there, nothing is fetched, no colour is fixed where the page has light and dark, and it stays
+    below 2 MB.
+    """
     assert len(page.encode()) < 2e6
     assert page.count('role="img" aria-label') == len(CHARTS) + 3  # and three canvases
     assert "not recorded" not in page and "too few" not in page
@@ -106,7 +117,8 @@ def test_rigid_halves_do_not_bend(result, cage):
 def test_a_run_without_stress_has_a_page():
     shown = render(run("demo", t_end=2e-3, parameters={"start.settle": 0.0, "scene.stress": "off"}))
     assert shown.count("the stress does not change") == 2  # spectra, rainflow
-    assert "<span>Head stress</span>" not in shown and "Life of the weakest rivet" not in shown  # no zeros for what nobody computed
+    # no zeros for what nobody computed
+    assert "<span>Head stress</span>" not in shown and "Life of the weakest rivet" not in shown
 
 
 def test_a_run_of_one_row_has_a_page(result):
@@ -115,7 +127,7 @@ def test_a_run_of_one_row_has_a_page(result):
     assert "too few samples" in render(replace(result, data=first))
 
 
-# ------------------------------------------------------------------------------------------------------------------------ animation
+# ------------------------------------------------------------------------------------------------------------ animation
 
 
 def numbers(channel):
@@ -123,7 +135,9 @@ def numbers(channel):
 
 
 def test_frames_give_back_the_motion(result):
-    """Positions to 16 bits of their range, azimuths through the rotation of the cage: within 0.1 um at the pitch circle."""
+    """Positions to 16 bits of their range, azimuths through the rotation of the cage: within 0.1 um at the pitch
+    circle.
+    """
     film, missing = frames(result)
     assert not missing
     film = json.loads(json.dumps(film))
@@ -131,14 +145,17 @@ def test_frames_give_back_the_motion(result):
     assert time == pytest.approx(result.data["time"], abs=1e-8)
     for j in (1, 5, Z):
         azimuth = psi + numbers(film["channels"][f"lag{j}"]) + 2 * np.pi * (j - 1) / Z
-        assert 0.0268 * np.abs(azimuth - result.data[f"ball[{j}].psi"]).max() < 1e-7  # expected: 32 bits of 10 rad, 16 bits of the lag: 3e-8
+        # expected: 32 bits of 10 rad, 16 bits of the lag: 3e-8
+        assert 0.0268 * np.abs(azimuth - result.data[f"ball[{j}].psi"]).max() < 1e-7
         x = result.data[f"ball[{j}].x"]
         assert np.abs(numbers(film["channels"][f"x{j}"]) - x).max() <= np.ptp(x) / 131070 * 1.001
     assert film["scale"] == 10.0
 
 
 def test_long_runs_are_thinned_to_the_budget_and_keep_their_peaks(result):
-    many = {name: np.tile(values, 80) for name, values in result.data.items()} | {"time": np.arange(80 * len(result.data["time"])) * 1e-4}
+    many = {name: np.tile(values, 80) for name, values in result.data.items()} | {
+        "time": np.arange(80 * len(result.data["time"])) * 1e-4
+    }
     film, _ = frames(replace(result, data=many))
     assert len(json.dumps(film)) < 1.1 * BUDGET
     stress = numbers(film["channels"]["rivet.sigma_head_max"])
@@ -146,7 +163,9 @@ def test_long_runs_are_thinned_to_the_budget_and_keep_their_peaks(result):
 
 
 def test_frames_give_back_the_bending(result):
-    """What the modes move at each rivet, less the mean widening of its half, to 16 bits; drawn so that the largest is an eighth to a quarter of the ball."""
+    """What the modes move at each rivet, less the mean widening of its half, to 16 bits; drawn so that the largest is
+    an eighth to a quarter of the ball.
+    """
     film = json.loads(json.dumps(frames(result)[0]))
     late, largest = result.data["time"] >= 2e-3, 0.0
     for h in (0, 1):
@@ -158,7 +177,9 @@ def test_frames_give_back_the_bending(result):
                 expected = result.data[f"rivet[{k}].flex_{h}_{name}"] - (mean if name == "r" else 0.0)
                 assert np.abs(drawn - expected).max() <= np.ptp(expected) / 131070 * 1.001
                 largest = max(largest, np.abs(expected[late]).max())
-    assert film["widening"] == pytest.approx(np.mean([result.data[f"rivet[{k}].flex_{h}_r"][late] for h in (0, 1) for k in range(1, Z + 1)]))
+    assert film["widening"] == pytest.approx(
+        np.mean([result.data[f"rivet[{k}].flex_{h}_r"][late] for h in (0, 1) for k in range(1, Z + 1)])
+    )
     assert 0.1 * 0.0111125 < film["bend"] * largest <= 0.25 * 0.0111125  # steps of the factor: 2.5 at most
     assert f"{film['bend']:,.0f} times too large" in render(result)
 
@@ -167,14 +188,16 @@ def test_thinned_peaks():
     assert thinned(np.array([1.0, 5.0, 2.0, 3.0, 9.0, 4.0, 0.0]), 3).tolist() == [1.0, 5.0, 9.0]
 
 
-@pytest.mark.parametrize(("pocket", "guide", "scale"), [(2e-4, 2e-4, 10.0), (2e-4, 3e-4, 5.0), (1e-2, 2e-4, 1.0), (2e-5, 2e-5, 100.0)])
+@pytest.mark.parametrize(
+    ("pocket", "guide", "scale"), [(2e-4, 2e-4, 10.0), (2e-4, 3e-4, 5.0), (1e-2, 2e-4, 1.0), (2e-5, 2e-5, 100.0)]
+)
 def test_exaggeration_fits_between_the_pockets(pocket, guide, scale):
     """The largest radial clearance is drawn as at most 13 % of the ball."""
     p = {"bearing.D": 0.0111125, "cage.pocket_clearance": pocket, "cage.guide_clearance": guide}
     assert exaggeration(p) == scale
 
 
-# ------------------------------------------------------------------------------------------------------------------------- numbers
+# -------------------------------------------------------------------------------------------------------------- numbers
 
 
 def test_thinned_curves_keep_every_extreme(result):
@@ -195,7 +218,9 @@ def test_the_load_zone_is_where_the_load_points(result):
 
 
 def test_modes_are_those_of_the_fmu(result):
-    """Frequencies of the scene's modes against those that the core's twin derives; a half of four times the mass swings half as fast."""
+    """Frequencies of the scene's modes against those that the core's twin derives; a half of four times the mass swings
+    half as fast.
+    """
     for changes in ({}, {"scene.modes": 33}, {"cage.m": 4.0 * result.parameters["cage.m"]}):
         found = run("demo", t_end=1e-3, parameters={"scene.cage": "elastic"} | changes).about["mode_frequencies"]
         omega = Model.of({"scene.cage": CageModel.ELASTIC} | changes).d.elastic.omega
@@ -206,7 +231,9 @@ def test_modes_are_those_of_the_fmu(result):
 
 
 def sung(result, rows=4096, rate=2e4):
-    """The result with joint 5 under a tension of 90 N that swings at 2.5 kHz by 6 N, a moment about t at 1.5 kHz by 4 N.mm and one about r at 3.5 kHz."""
+    """The result with joint 5 under a tension of 90 N that swings at 2.5 kHz by 6 N, a moment about t at 1.5 kHz by 4
+    N.mm and one about r at 3.5 kHz.
+    """
     t, angle = np.arange(rows) / rate, 2 * np.pi * 4.5 / Z
     channels = {f"rivet[{k}].{name}": np.zeros(rows) for k in range(1, Z + 1) for name in ("T", "M_y", "M_z")}
     about_r, about_t = 9e-3 * np.sin(2 * np.pi * 3500.0 * t), 4e-3 * np.sin(2 * np.pi * 1500.0 * t)
@@ -217,7 +244,9 @@ def sung(result, rows=4096, rate=2e4):
 
 
 def test_spectra_of_joint_loads(result):
-    """The most loaded rivet; a swing of amplitude A has the power A^2/2 at its frequency; modes below half the rate are marked, the others not."""
+    """The most loaded rivet; a swing of amplitude A has the power A^2/2 at its frequency; modes below half the rate are
+    marked, the others not.
+    """
     song, seen = sung(result), plt.figure()
     joint_spectra(seen, song)
     marked = [frequency for frequency in result.about["mode_frequencies"] if frequency < 1e4]
@@ -232,7 +261,9 @@ def test_spectra_of_joint_loads(result):
 
 
 def test_coarse_samples_are_said(result):
-    """1 sample per ms is too coarse for the lowest mode; an older result that does not name its modes gets the spectrum without marks."""
+    """1 sample per ms is too coarse for the lowest mode; an older result that does not name its modes gets the spectrum
+    without marks.
+    """
     slow = sung(result, rate=1e3)
     assert "Spectra of the joint loads: sampled too coarsely: 1 samples per ms, more than 1.5" in render(slow)
     assert "Spectra of the joint loads: 20 samples after settling" in render(sung(result, rows=20))
@@ -242,7 +273,12 @@ def test_coarse_samples_are_said(result):
 
 def made_up(result, history):
     """The result with the same stress history [Pa] in every rivet, 1 ms a sample, no peaks between them."""
-    channels = {f"rivet[{k}].sigma_{place}{peak}": history for k in range(1, Z + 1) for place in ("head", "mid") for peak in ("", "_peak")}
+    channels = {
+        f"rivet[{k}].sigma_{place}{peak}": history
+        for k in range(1, Z + 1)
+        for place in ("head", "mid")
+        for peak in ("", "_peak")
+    }
     data = {"time": np.arange(len(history)) * 1e-3} | channels
     return replace(result, data=data, parameters=result.parameters | {"start.settle": 0.0})
 
@@ -266,21 +302,30 @@ def test_life_agrees_with_the_streaming_count(result):
 
 
 def test_life_agrees_with_the_count_of_every_step():
-    """Peaks and samples miss the dips between communication points: never more damage than the FMU counts, and by the 15th root the stress
-    that would do it is at most a tenth less.  Observed 0.90 ... 1.00 of rigid halves; elastic ones ring between the samples: 0.87 ... 0.99."""
+    """Peaks and samples miss the dips between communication points: never more damage than the FMU counts, and by the
+    15th root the stress that would do it is at most a tenth less.  Observed 0.90 ... 1.00 of rigid halves; elastic ones
+    ring between the samples: 0.87 ... 0.99.
+    """
     parameters = {"start.settle": 2e-3, "joint.preload": "30 N", "scene.stress": "fatigue", "scene.cage": "two_half"}
     result = run("demo", t_end=T_END, parameters=parameters)
-    ratio = [rivet_life(result, k, place).damage / result.data[f"rivet[{k}].damage_{place}"][-1] for k in range(1, Z + 1) for place in ("head", "mid")]
+    ratio = [
+        rivet_life(result, k, place).damage / result.data[f"rivet[{k}].damage_{place}"][-1]
+        for k in range(1, Z + 1)
+        for place in ("head", "mid")
+    ]
     stress = np.array(ratio) ** (1 / result.parameters["fatigue.k_2"])
     assert stress.min() > 0.88 and stress.max() < 1.005
 
 
-@pytest.mark.parametrize(("seconds", "text"), [(30.0, "30 s"), (7200.0, "2 h"), (8766 * 3600.0, "8,770 h"), (1e20, "> 1e6 h"), (np.inf, "no damage")])
+@pytest.mark.parametrize(
+    ("seconds", "text"),
+    [(30.0, "30 s"), (7200.0, "2 h"), (8766 * 3600.0, "8,770 h"), (1e20, "> 1e6 h"), (np.inf, "no damage")],
+)
 def test_durations_read_well(seconds, text):
     assert duration(seconds) == text
 
 
-# --------------------------------------------------------------------------------------------------------------------------- files
+# ---------------------------------------------------------------------------------------------------------------- files
 
 
 def test_pages_lie_beside_their_results(few, tmp_path):
@@ -296,7 +341,7 @@ def test_pages_lie_beside_their_results(few, tmp_path):
         report_files(tmp_path / "empty")
 
 
-# ------------------------------------------------------------------------------------------------------------------------- browser
+# -------------------------------------------------------------------------------------------------------------- browser
 
 
 @pytest.fixture
@@ -308,7 +353,10 @@ def opened(browser, page, tmp_path):
         tab, complaints = browser.new_page(viewport={"width": width, "height": height}, color_scheme=scheme), []
         tab.on("console", lambda message: complaints.append(message.text))
         tab.on("pageerror", lambda error: complaints.append(str(error)))
-        tab.on("request", lambda request: complaints.append(request.url) if not request.url.startswith(("file:", "data:")) else None)
+        tab.on(
+            "request",
+            lambda request: complaints.append(request.url) if not request.url.startswith(("file:", "data:")) else None,
+        )
         tab.goto((tmp_path / "report.html").as_uri())
         tab.wait_for_selector("#animation[data-ready]")
         return tab, complaints
@@ -326,9 +374,15 @@ def test_animation_plays_and_scrubs(opened, width, height, scheme):
     tab, complaints = opened(width, height, scheme)
     assert tab.evaluate("document.documentElement.scrollWidth") == width  # nothing sticks out
     picture = "document.getElementById('{}').toDataURL()"
-    before, start = {name: tab.evaluate(picture.format(name)) for name in ("front", "strip", "trace")}, milliseconds(tab)
+    before, start = (
+        {name: tab.evaluate(picture.format(name)) for name in ("front", "strip", "trace")},
+        milliseconds(tab),
+    )
     tab.click("#play")
-    tab.wait_for_function("start => parseFloat(document.getElementById('readout').textContent) > start + 0.3", arg=start)  # 0.15 s at 500 times slower
+    # 0.15 s at 500 times slower
+    tab.wait_for_function(
+        "start => parseFloat(document.getElementById('readout').textContent) > start + 0.3", arg=start
+    )
     tab.click("#play")
     assert tab.inner_text("#play") == "Play"
     for name, picture_before in before.items():
@@ -351,7 +405,8 @@ def test_animation_plays_and_scrubs(opened, width, height, scheme):
     tab.close()
 
 
-PAPER = (703, 965)  # what 12 mm of margin leave of the narrower of A4 and Letter, and of the shorter, at 96 pixels an inch
+# what 12 mm of margin leave of the narrower of A4 and Letter, and of the shorter, at 96 pixels an inch
+PAPER = (703, 965)
 
 
 @pytest.mark.parametrize("width", [1280, 375])
@@ -369,8 +424,10 @@ def test_printed_page_is_light_and_has_the_picture(opened, width):
         tab.evaluate("document.getElementById('animation').getBoundingClientRect().bottom") <= PAPER[1]
     )  # else the first page ends above it, two thirds empty
     part = shown[round(box["y"]) : round(box["y"] + box["height"]), round(box["x"]) : round(box["x"] + box["width"])]
-    extents = [np.ptp(where) for where in np.nonzero(np.all(part == (211, 219, 227), axis=2))]  # the colour of the rings on paper
-    assert min(extents) > 150 and extents[0] == pytest.approx(extents[1], rel=0.02)  # a circle: to 2 of 250 pixels; stretched over the paper's width 2.2
+    # the colour of the rings on paper
+    extents = [np.ptp(where) for where in np.nonzero(np.all(part == (211, 219, 227), axis=2))]
+    # a circle: to 2 of 250 pixels; stretched over the paper's width 2.2
+    assert min(extents) > 150 and extents[0] == pytest.approx(extents[1], rel=0.02)
     tab.emulate_media(media="screen", color_scheme="dark")
     tab.evaluate("dispatchEvent(new Event('afterprint'))")
     assert tab.evaluate("getComputedStyle(document.body).backgroundColor") != "rgb(255, 255, 255)"
@@ -406,7 +463,9 @@ def test_bending_is_drawn(page, tmp_path, browser):
         tab = browser.new_page(viewport={"width": 1280, "height": 900})
         tab.goto((tmp_path / "bent.html").as_uri())
         tab.wait_for_selector("#animation[data-ready]")
-        pictures.append([tab.evaluate(f"document.getElementById('{name}').toDataURL()") for name in ("front", "strip", "trace")])
+        pictures.append(
+            [tab.evaluate(f"document.getElementById('{name}').toDataURL()") for name in ("front", "strip", "trace")]
+        )
         tab.close()
     (front, strip, trace), (front_0, strip_0, trace_0) = pictures
     assert front != front_0 and strip != strip_0 and trace == trace_0
@@ -414,12 +473,20 @@ def test_bending_is_drawn(page, tmp_path, browser):
 
 @pytest.mark.parametrize(("width", "columns"), [(1400, 2), (800, 1), (390, 1)])
 def test_tables_use_the_width_of_the_page(opened, width, columns):
-    """Nothing sticks out, no row is a tower of single words, and the long table of parameters stands in as many columns as fit."""
+    """Nothing sticks out, no row is a tower of single words, and the long table of parameters stands in as many columns
+    as fit.
+    """
     tab, complaints = opened(width, 900)
     tab.evaluate("document.querySelectorAll('details').forEach(part => part.open = true)")
     assert tab.evaluate("document.documentElement.scrollWidth") == width
-    assert tab.evaluate("Math.max(...[...document.querySelectorAll('tr')].map(row => row.getBoundingClientRect().height))") < 170  # six lines
-    places = tab.evaluate("[...document.querySelectorAll('details tr')].map(row => Math.round(row.getBoundingClientRect().x))")
+    # six lines
+    assert (
+        tab.evaluate("Math.max(...[...document.querySelectorAll('tr')].map(row => row.getBoundingClientRect().height))")
+        < 170
+    )
+    places = tab.evaluate(
+        "[...document.querySelectorAll('details tr')].map(row => Math.round(row.getBoundingClientRect().x))"
+    )
     assert len(places) > 90 and len(set(places)) == columns
     table = tab.evaluate("document.querySelector('details table').getBoundingClientRect().width")
     assert table > 0.8 * min(width, 1150)

@@ -5,9 +5,9 @@ import pytest
 from mechanics import SLICE, Instance
 from scipy.integrate import quad, solve_ivp
 
+from bearing_model.generated.variables import INPUTS, Method, TiltMode
 from bearing_model.physics import ring_load as twin_load
 from bearing_model.physics.parameters import InputDerivatives, Inputs, Parameters
-from bearing_model.generated.variables import INPUTS, Method, TiltMode
 
 LOOSE = {"bearing.P_d": 4e-4}  # a ring that rests free of the balls
 
@@ -36,7 +36,7 @@ def run(rates, start, t):
     return solution.y
 
 
-# -------------------------------------------------------------------------------------------------------------------------- tilt
+# ----------------------------------------------------------------------------------------------------------------- tilt
 
 
 def test_prescribed_tilt_is_critically_damped(core):
@@ -72,7 +72,8 @@ def test_prescribed_tilt_reaches_the_outputs(core):
     bearing = Instance(core, LOOSE, {"shaft.F_x": 0.0, "shaft.F_y": 0.0, "shaft.omega": 0.0}, tolerance=1e-7)
     bearing.set(**{"shaft.tilt_y": 2e-3, "shaft.tilt_z": -1e-3})
     bearing.step(2e-3)
-    assert bearing.output("ring.tilt_y") == pytest.approx(2e-3, abs=1e-9)  # after 20 time constants, within 1e-7 of 0.4 mrad a step
+    # after 20 time constants, within 1e-7 of 0.4 mrad a step
+    assert bearing.output("ring.tilt_y") == pytest.approx(2e-3, abs=1e-9)
     assert bearing.output("ring.tilt_z") == pytest.approx(-1e-3, abs=1e-9)
 
 
@@ -80,7 +81,9 @@ def test_supported_tilt(core):
     """At standstill a damped oscillator in each plane: J_t tilt'' = k (shaft - tilt) - c tilt' + M."""
     k, c, J = 2e4, 1.0, 1.2e-4
     parameters = {"ring.tilt_mode": TiltMode.SUPPORTED, "ring.k_tilt": k, "ring.c_tilt": c}
-    _, rates = ring_model(core, parameters, {"shaft.omega": 0.0, "shaft.M_y": 1e-3, "shaft.M_z": -2e-3, "shaft.tilt_z": 1e-6})
+    _, rates = ring_model(
+        core, parameters, {"shaft.omega": 0.0, "shaft.M_y": 1e-3, "shaft.M_z": -2e-3, "shaft.tilt_z": 1e-6}
+    )
     t = np.linspace(0.0, 1e-3, 51)
     motion = run(rates, np.zeros(10), t)
     decay, omega = c / (2 * J), np.sqrt(k / J - (c / (2 * J)) ** 2)
@@ -109,12 +112,15 @@ def test_gyroscopic_precession(core):
 
 
 def test_moment_precesses_a_spinning_ring(core):
-    """A constant moment about Z on a ring spinning fast about X: mean drift of the axis M/(J_p omega) toward +Z (axis follows the moment)."""
+    """A constant moment about Z on a ring spinning fast about X: mean drift of the axis M/(J_p omega) toward +Z (axis
+    follows the moment).
+    """
     J_p, J_t, omega, M = 1.8e-4, 1.2e-4, 1900.0, 0.01
     _, rates = ring_model(core, {"ring.tilt_mode": TiltMode.FREE}, {"shaft.omega": omega, "shaft.M_z": M})
     period = 2.0 * np.pi * J_t / (J_p * omega)
     motion = run(rates, np.zeros(10), np.array([0.0, 3.0 * period]))
-    assert -motion[3, -1] == pytest.approx(M / (J_p * omega) * 3.0 * period, rel=1e-4)  # cosines of 4e-4: second order 1e-7
+    # cosines of 4e-4: second order 1e-7
+    assert -motion[3, -1] == pytest.approx(M / (J_p * omega) * 3.0 * period, rel=1e-4)
     assert abs(motion[4, -1]) < 1e-3 * abs(motion[3, -1])
 
 
@@ -130,11 +136,18 @@ def test_translation(core):
     assert motion[7] == pytest.approx(-20.0 * response, rel=1e-8, abs=1e-13)
 
 
-# ------------------------------------------------------------------------------------------------------------------------- pulses
+# --------------------------------------------------------------------------------------------------------------- pulses
 
 
 RADIAL = (("shaft", "F_y"), ("shaft", "F_z"), ("impact", "F_r"))
-PULSES = {"pulse.F_r": 1401.0, "pulse.F_a": 241.0, "pulse.t_start": 0.1, "pulse.duration": 1e-3, "pulse.interval": 10e-3 / 3, "pulse.count": 3}
+PULSES = {
+    "pulse.F_r": 1401.0,
+    "pulse.F_a": 241.0,
+    "pulse.t_start": 0.1,
+    "pulse.duration": 1e-3,
+    "pulse.interval": 10e-3 / 3,
+    "pulse.count": 3,
+}
 
 
 def load(core, parameters, inputs, t):
@@ -146,7 +159,9 @@ def load(core, parameters, inputs, t):
 
 @pytest.mark.parametrize(("F_y", "F_z"), [(2994.0, 0.0), (-300.0, 400.0), (0.0, 0.0)])
 def test_pulses(core, F_y, F_z):
-    """Half-sines along the radial load (+Y without one) and +X; each gives the impulse 2 F duration/pi; nothing between them."""
+    """Half-sines along the radial load (+Y without one) and +X; each gives the impulse 2 F duration/pi; nothing between
+    them.
+    """
     inputs = {"shaft.F_x": 515.0, "shaft.F_y": F_y, "shaft.F_z": F_z}
     direction = np.array([F_y, F_z]) / np.hypot(F_y, F_z) if F_y or F_z else np.array([1.0, 0.0])
     static = np.array([515.0, F_y, F_z])
@@ -156,14 +171,18 @@ def test_pulses(core, F_y, F_z):
         assert middle == pytest.approx([241.0, *1401.0 * direction], rel=1e-12)
         eighth = load(core, PULSES, inputs, start + 0.25e-3) - static
         assert eighth == pytest.approx(middle * np.sin(np.pi / 4), rel=1e-9)
-        impulse = [quad(lambda t, i=i: load(core, PULSES, inputs, t)[i] - static[i], start, start + 1e-3)[0] for i in range(3)]
+        impulse = [
+            quad(lambda t, i=i: load(core, PULSES, inputs, t)[i] - static[i], start, start + 1e-3)[0] for i in range(3)
+        ]
         assert impulse == pytest.approx(2.0 * 1e-3 / np.pi * middle, rel=1e-8)
     for t in (0.0, 0.0999, 0.1 + 1.0001e-3, 0.1 + 9.9e-3, 0.2):
         assert load(core, PULSES, inputs, t) == pytest.approx(static, abs=0.0)
 
 
 def test_edges(core):
-    """Starts are t_start + n interval and ends start + duration, to the bit; none after the last; each later than the time asked from."""
+    """Starts are t_start + n interval and ends start + duration, to the bit; none after the last; each later than the
+    time asked from.
+    """
     p = core.model(parameters=PULSES).p
     starts = [0.1 + n * (10e-3 / 3) for n in range(3)]
     expected = [edge for start in starts for edge in (start, start + 1e-3)]
@@ -178,13 +197,25 @@ def test_edges(core):
 def test_impulse_through_the_integrator(core, method, steps):
     """Three pulses push a loose undamped ring of 0.6 kg to 3 * 2 F duration/(pi m), whatever the communication step.
 
-    A step may err by 1e-8 of 0.1 m/s (of Verlet's scale of 0.5 m/s a fifth of that) in the mean over 152 states, 1.2e-8 m/s in one.
-    Verlet's h^3/12 F/m (pi/duration)^2 makes that a step of 1.7 us,
+    A step may err by 1e-8 of 0.1 m/s (of Verlet's scale of 0.5 m/s a fifth of that) in the mean over 152 states, 1.2e-8
+    m/s in one. Verlet's h^3/12 F/m (pi/duration)^2 makes that a step of 1.7 us,
     220 in all, and h^2/6 F/m pi/duration = 5e-7 m/s a pulse; observed 1.3e-6 m/s in three, with Runge-Kutta 2e-8.
     """
-    parameters = LOOSE | {"solver.method": method, "ring.c": 0.0, "pulse.F_r": 30.0, "pulse.F_a": -20.0, "pulse.t_start": 3.7e-5, "pulse.duration": 1.3e-4}
+    parameters = LOOSE | {
+        "solver.method": method,
+        "ring.c": 0.0,
+        "pulse.F_r": 30.0,
+        "pulse.F_a": -20.0,
+        "pulse.t_start": 3.7e-5,
+        "pulse.duration": 1.3e-4,
+    }
     parameters |= {"pulse.interval": 2.1e-4, "pulse.count": 3}
-    bearing = Instance(core, parameters, {"shaft.F_x": 0.0, "shaft.F_y": 0.0, "shaft.omega": 0.0}, tolerance=1e-8 if method == Method.EXPLICIT else 2e-9)
+    bearing = Instance(
+        core,
+        parameters,
+        {"shaft.F_x": 0.0, "shaft.F_y": 0.0, "shaft.omega": 0.0},
+        tolerance=1e-8 if method == Method.EXPLICIT else 2e-9,
+    )
     start = bearing.y[SLICE["ring_v_x"].start :][:3]
     for n in range(1, 8):
         bearing.step(n * 1e-4)
@@ -199,10 +230,11 @@ def test_impact_inputs(core):
     assert load(core, {}, inputs, 0.0) == pytest.approx([8.0, -33.0, 44.0], rel=1e-14)
 
 
-# ----------------------------------------------------------------------------------------------------------------- inputs by time
+# ------------------------------------------------------------------------------------------------------- inputs by time
 
 
-SIZE = {"omega": 1000.0, "tilt": 0.01, "x": 1e-4, "y": 1e-4, "z": 1e-4, "v": 0.1}  # of inputs by the first part of their names; others 1000
+# of inputs by the first part of their names; others 1000
+SIZE = {"omega": 1000.0, "tilt": 0.01, "x": 1e-4, "y": 1e-4, "z": 1e-4, "v": 0.1}
 
 
 def random_trajectory(core, rng):
@@ -216,11 +248,19 @@ def random_trajectory(core, rng):
     model, trajectory = core.model(parameters=PULSES), core.new("InputTrajectory")
     core.lib.input_trajectory_update(model.p, u, t_0, t, trajectory)
     orders = [dict(zip(names, row.tolist(), strict=True)) for row in values]
-    return model, trajectory, twin_load.input_trajectory_update(Parameters(PULSES), (Inputs(orders[0]), *map(InputDerivatives, orders[1:])), t_0, t)
+    return (
+        model,
+        trajectory,
+        twin_load.input_trajectory_update(
+            Parameters(PULSES), (Inputs(orders[0]), *map(InputDerivatives, orders[1:])), t_0, t
+        ),
+    )
 
 
 def test_ring_load_along_the_trajectory(core):
-    """Both twins, at random polynomials and times; the load is Taylor's polynomial plus the pulse along the present radial load."""
+    """Both twins, at random polynomials and times; the load is Taylor's polynomial plus the pulse along the present
+    radial load.
+    """
     rng = np.random.default_rng(4)
     for _ in range(50):
         _, trajectory, twin = random_trajectory(core, rng)
@@ -228,9 +268,16 @@ def test_ring_load_along_the_trajectory(core):
         core.lib.test_ring_load_at(trajectory, t, ring_load)
         other = twin_load.ring_load_at(twin, t)
         got = np.array([*ring_load.F, *ring_load.M, ring_load.omega, ring_load.beta, ring_load.gamma])
-        np.testing.assert_allclose(got, np.array([*other.F, *other.M, other.omega, other.beta, other.gamma]), rtol=1e-12, atol=1e-12 * np.abs(got).max())
+        np.testing.assert_allclose(
+            got,
+            np.array([*other.F, *other.M, other.omega, other.beta, other.gamma]),
+            rtol=1e-12,
+            atol=1e-12 * np.abs(got).max(),
+        )
         u, tau = trajectory.u, t - 0.1001
-        F_y, F_z, F_r = (sum(getattr(getattr(u[k], group), name) * tau**k / (1, 1, 2)[k] for k in range(3)) for group, name in RADIAL)
+        F_y, F_z, F_r = (
+            sum(getattr(getattr(u[k], group), name) * tau**k / (1, 1, 2)[k] for k in range(3)) for group, name in RADIAL
+        )
         pulse = 1401.0 * np.sin(np.pi * (t - 0.1) / 1e-3)
         assert ring_load.F[1] == pytest.approx(F_y * (1.0 + (F_r + pulse) / np.hypot(F_y, F_z)), rel=1e-9, abs=1e-6)
 

@@ -1,4 +1,6 @@
-"""Rings that grow by rotation and fit: against Lame's cylinders solved numerically, closed forms of the textbooks, and the balance of energy."""
+"""Rings that grow by rotation and fit: against Lame's cylinders solved numerically, closed forms of the textbooks, and
+the balance of energy.
+"""
 
 import numpy as np
 import pytest
@@ -6,15 +8,16 @@ from mechanics import Instance
 from scipy.integrate import solve_bvp
 from slave import ERROR, Slave
 
-from bearing_model.solver.integrator import simulate
-from bearing_model.physics.model import Model
-from bearing_model.quasi_static import Bearing, Load, quasi_static
-from bearing_model.physics.ring_fit import RingFit
 from bearing_model.generated.variables import STATE_SLICES, Switch
+from bearing_model.physics.model import Model
+from bearing_model.physics.ring_fit import RingFit
+from bearing_model.quasi_static import Bearing, Load, quasi_static
+from bearing_model.solver.integrator import simulate
 
 TWINS = True
 OMEGA = 18238.0 * np.pi / 30.0
-BORE, BOTTOM, SHOULDER = 0.035, 0.5 * (0.0535 - 0.0111125), 0.5 * (0.0535 - 0.0111125) + 0.2 * 0.0111125  # of the 6207: diameter, radii [m]
+# of the 6207: diameter, radii [m]
+BORE, BOTTOM, SHOULDER = 0.035, 0.5 * (0.0535 - 0.0111125), 0.5 * (0.0535 - 0.0111125) + 0.2 * 0.0111125
 STEEL = (207e9, 0.3, 7800.0)
 H = 1e-4  # communication step [s]
 
@@ -27,10 +30,11 @@ def growth(core, parameters, omega, inputs=None):
 
 
 def two_cylinders(radii, inner, outer, interference, omega, at):
-    """Displacement at the radius `at` of the outer one of two cylinders pressed into each other, by the equilibrium of their elements, solved numerically.
+    """Displacement at the radius `at` of the outer one of two cylinders pressed into each other, by the equilibrium of
+    their elements, solved numerically.
 
-    Each: u'' + u'/r - u/r^2 = -(1 - nu^2) rho omega^2 r/E; radial stress E/(1 - nu^2) (u' + nu u/r): none at bore and rim, equal at the seat.
-    radii: bore, seat, rim [m].  inner, outer: E, nu, rho.  interference: of the radius [m].
+    Each: u'' + u'/r - u/r^2 = -(1 - nu^2) rho omega^2 r/E; radial stress E/(1 - nu^2) (u' + nu u/r): none at bore and
+    rim, equal at the seat. radii: bore, seat, rim [m].  inner, outer: E, nu, rho.  interference: of the radius [m].
     """
     a, s, b = radii
     scale = 1e-6  # [m] of the displacements
@@ -38,15 +42,32 @@ def two_cylinders(radii, inner, outer, interference, omega, at):
 
     def equations(x, y):
         r_1, r_2 = a + (s - a) * x, s + (b - s) * x
-        force_1, force_2 = ((1.0 - nu**2) * rho * omega**2 * r / E / scale for nu, rho, r, E in ((nu_1, rho_1, r_1, E_1), (nu_2, rho_2, r_2, E_2)))
-        return np.array([(s - a) * y[1], (s - a) * (y[0] / r_1**2 - y[1] / r_1 - force_1), (b - s) * y[3], (b - s) * (y[2] / r_2**2 - y[3] / r_2 - force_2)])
+        force_1, force_2 = (
+            (1.0 - nu**2) * rho * omega**2 * r / E / scale
+            for nu, rho, r, E in ((nu_1, rho_1, r_1, E_1), (nu_2, rho_2, r_2, E_2))
+        )
+        return np.array(
+            [
+                (s - a) * y[1],
+                (s - a) * (y[0] / r_1**2 - y[1] / r_1 - force_1),
+                (b - s) * y[3],
+                (b - s) * (y[2] / r_2**2 - y[3] / r_2 - force_2),
+            ]
+        )
 
     def stress(E, nu, u, slope, r):
         return E / (1.0 - nu**2) * (slope + nu * u / r) / 1e11
 
     def ends(p, q):
         seat = stress(E_1, nu_1, q[0], q[1], s) - stress(E_2, nu_2, p[2], p[3], s)
-        return np.array([stress(E_1, nu_1, p[0], p[1], a), seat, p[2] - q[0] - interference / scale, stress(E_2, nu_2, q[2], q[3], b)])
+        return np.array(
+            [
+                stress(E_1, nu_1, p[0], p[1], a),
+                seat,
+                p[2] - q[0] - interference / scale,
+                stress(E_2, nu_2, q[2], q[3], b),
+            ]
+        )
 
     x = np.linspace(0.0, 1.0, 60)
     solution = solve_bvp(equations, ends, x, np.full((4, 60), 0.1), tol=1e-8, max_nodes=20000)
@@ -54,14 +75,20 @@ def two_cylinders(radii, inner, outer, interference, omega, at):
     return solution.sol((at - s) / (b - s))[2] * scale
 
 
-# ---------------------------------------------------------------------------------------------------------------------------- inner ring
+# ----------------------------------------------------------------------------------------------------------- inner ring
 
 
-@pytest.mark.parametrize(("hole", "interference", "omega"), [(0.01, 20e-6, 0.0), (0.01, 20e-6, OMEGA), (0.02, 40e-6, 5000.0)])
+@pytest.mark.parametrize(
+    ("hole", "interference", "omega"), [(0.01, 20e-6, 0.0), (0.01, 20e-6, OMEGA), (0.02, 40e-6, 5000.0)]
+)
 def test_ring_on_its_shaft(core, hole, interference, omega):
-    """Growth of the groove to 0.1 % (observed 1e-6) of the two cylinders solved together: pressed on at rest, at the working point and at 5,000 rad/s."""
+    """Growth of the groove to 0.1 % (observed 1e-6) of the two cylinders solved together: pressed on at rest, at the
+    working point and at 5,000 rad/s.
+    """
     expected = two_cylinders((0.5 * hole, 0.5 * BORE, SHOULDER), STEEL, STEEL, 0.5 * interference, omega, BOTTOM)
-    assert growth(core, {"shaft.bore": hole, "shaft.interference": interference}, omega) == pytest.approx(expected, rel=1e-3)
+    assert growth(core, {"shaft.bore": hole, "shaft.interference": interference}, omega) == pytest.approx(
+        expected, rel=1e-3
+    )
 
 
 def test_light_hollow_shaft(core):
@@ -84,7 +111,9 @@ def test_limits_of_rotation(core):
 
 
 def test_the_ring_comes_loose(core):
-    """Up to the speed at which the rotation has taken the interference the shaft holds the ring, beyond it the ring grows freely; no jump between."""
+    """Up to the speed at which the rotation has taken the interference the shaft holds the ring, beyond it the ring
+    grows freely; no jump between.
+    """
     parameters = {"shaft.interference": 4e-6}
     fit = core.model(parameters={"ring.bore": BORE} | parameters).d.fit
     loose = np.sqrt(fit.fit / fit.loosening)
@@ -99,33 +128,49 @@ def test_the_ring_comes_loose(core):
 def test_growth_and_fit_can_be_switched_off_apart(core):
     off = {"scene.growth": Switch.OFF}
     assert growth(core, off, OMEGA) == 0.0
-    assert growth(core, off | {"shaft.interference": 10e-6}, OMEGA) == growth(core, {"shaft.interference": 10e-6}, 0.0) > 0.0
+    assert (
+        growth(core, off | {"shaft.interference": 10e-6}, OMEGA)
+        == growth(core, {"shaft.interference": 10e-6}, 0.0)
+        > 0.0
+    )
 
 
-# ------------------------------------------------------------------------------------------------------------------- outer ring, heat
+# ----------------------------------------------------------------------------------------------------- outer ring, heat
 
 
 @pytest.mark.parametrize("housing", [{}, {"housing.outside": 0.1, "housing.E": 71e9, "housing.nu": 0.33}])
 def test_ring_in_its_housing(core, housing):
-    """Clearance and guide clearance that the housing takes: the ring as inner cylinder in the housing, solved numerically, to 0.1 %."""
+    """Clearance and guide clearance that the housing takes: the ring as inner cylinder in the housing, solved
+    numerically, to 0.1 %.
+    """
     outer = (housing.get("housing.E", 207e9), housing.get("housing.nu", 0.3), 0.0)
     rim, inside = 0.5 * housing.get("housing.outside", 36.0), 0.5 * (0.0535 + 0.0111125) - 0.2 * 0.0111125
     interference, groove = 30e-6, 0.5 * (0.0535 + 0.0111125)
     seat = two_cylinders((inside, 0.036, min(rim, 3.6)), (207e9, 0.3, 0.0), outer, 0.5 * interference, 0.0, 0.036)
-    pressed = 0.5 * interference - seat  # of the ring at its seat, which with its inside free of stress tells the pressure
+    # of the ring at its seat, which with its inside free of stress tells the pressure
+    pressed = 0.5 * interference - seat
     model = core.model(parameters={"ring.outside": 0.072, "housing.interference": interference} | housing)
     taken = 0.5 * (15e-6 - model.p.bearing.P_d)
     shape = [(0.7 * r + 1.3 * inside**2 / r) for r in (groove, 0.036)]  # (1 - nu) r + (1 + nu) c^2/r
     assert taken == pytest.approx(pressed * shape[0] / shape[1], rel=1e-3)
     assert model.p.bearing.d_m == pytest.approx(0.0535 - taken, rel=1e-12)
     land = 0.5 * 0.0597
-    assert 0.2e-3 - model.p.cage.guide_clearance == pytest.approx(2.0 * pressed * (0.7 * land + 1.3 * inside**2 / land) / shape[1], rel=1e-3)
+    assert 0.2e-3 - model.p.cage.guide_clearance == pytest.approx(
+        2.0 * pressed * (0.7 * land + 1.3 * inside**2 / land) / shape[1], rel=1e-3
+    )
 
 
 def test_heated_fits(core):
-    """By hand: a shaft of aluminium 100 K warmer than at assembly is (23 - 11.7)e-6 x 100 x 35 mm = 39.55 um tighter in its ring; an aluminium housing
-    80 K warmer (23 - 11.7)e-6 x 80 x 72 mm = 65.09 um looser, which frees a ring of 30 um interference."""
-    aluminium = {"shaft.expansion": 23e-6, "shaft.interference": 5e-6, "housing.expansion": 23e-6, "housing.interference": 30e-6}
+    """By hand: a shaft of aluminium 100 K warmer than at assembly is (23 - 11.7)e-6 x 100 x 35 mm = 39.55 um tighter in
+    its ring; an aluminium housing 80 K warmer (23 - 11.7)e-6 x 80 x 72 mm = 65.09 um looser, which frees a ring of 30
+    um interference.
+    """
+    aluminium = {
+        "shaft.expansion": 23e-6,
+        "shaft.interference": 5e-6,
+        "housing.expansion": 23e-6,
+        "housing.interference": 30e-6,
+    }
     warm = {"ring.T_i": 393.15, "ring.T_e": 373.15}
     model = core.model(parameters=aluminium | {"ring.bore": BORE, "ring.outside": 0.072}, inputs=warm)
     assert model.d.fit.fit == pytest.approx(0.5 * 44.55e-6, rel=1e-9)
@@ -133,20 +178,30 @@ def test_heated_fits(core):
     assert model.p.bearing.P_d == loose.p.bearing.P_d
 
 
-# ------------------------------------------------------------------------------------------------------------------- forces, energy
+# ------------------------------------------------------------------------------------------------------- forces, energy
 
 
 def test_quasi_static_bearing_grows():
-    """The balls of the fast bearing under a small axial load: growth of 10 um leaves 20 um less clearance, which is another bearing with that clearance."""
-    fit, load = RingFit(growth=10e-6 / OMEGA**2, per_fit=0.5, fit=0.0, loosening=0.0), Load(F_x=500.0, F_y=500.0, omega=OMEGA)
-    grown, other = quasi_static(Bearing(P_d=30e-6, fit=fit), load), quasi_static(Bearing(P_d=10e-6, d_m=0.0535 + 10e-6), load)
+    """The balls of the fast bearing under a small axial load: growth of 10 um leaves 20 um less clearance, which is
+    another bearing with that clearance.
+    """
+    fit, load = (
+        RingFit(growth=10e-6 / OMEGA**2, per_fit=0.5, fit=0.0, loosening=0.0),
+        Load(F_x=500.0, F_y=500.0, omega=OMEGA),
+    )
+    grown, other = (
+        quasi_static(Bearing(P_d=30e-6, fit=fit), load),
+        quasi_static(Bearing(P_d=10e-6, d_m=0.0535 + 10e-6), load),
+    )
     np.testing.assert_allclose(grown.Q_i, other.Q_i, rtol=2e-3, atol=0.1)
     assert grown.alpha_i.max() < quasi_static(Bearing(P_d=30e-6), load).alpha_i.max() - 0.01
 
 
 @pytest.mark.c_only
 def test_power_of_growth(core):
-    """dE/dt = net power at a state whose speed rises by 1e6 rad/s2: the growth puts 10 W into the balls, known to 1e-6 of it, of 1 um each 10 us."""
+    """dE/dt = net power at a state whose speed rises by 1e6 rad/s2: the growth puts 10 W into the balls, known to 1e-6
+    of it, of 1 um each 10 us.
+    """
     bearing = Instance(core, {"scene.cage": 2})
     for i in range(3):
         bearing.step((i + 1) * H)
@@ -175,7 +230,8 @@ def test_power_of_growth(core):
 
 @pytest.mark.c_only
 def test_a_jump_of_speed_keeps_the_balance(folder):
-    """The speed rises by 100 rad/s at every communication point, growth by 0.12 um and elastic energy by 1.5 mJ: the residual stays below 1e-3 of the loss.
+    """The speed rises by 100 rad/s at every communication point, growth by 0.12 um and elastic energy by 1.5 mJ: the
+    residual stays below 1e-3 of the loss.
 
     FMU and reference alike; the loss of 0.1 ms is 0.11 J.  Observed 1.6e-4 and 4e-9.
     """
@@ -186,18 +242,22 @@ def test_a_jump_of_speed_keeps_the_balance(folder):
         slave.set("shaft.omega", OMEGA + 100.0 * i)
         residual, clearance = slave.step(step).get("bearing.energy_residual", "bearing.clearance")
         residuals.append(residual), clearances.append(clearance)
-    twin = simulate({}, lambda t: {"shaft.omega": OMEGA + 100.0 * round(t / step)}, t_end=5 * step, step=step, tolerance=1e-6)
+    twin = simulate(
+        {}, lambda t: {"shaft.omega": OMEGA + 100.0 * round(t / step)}, t_end=5 * step, step=step, tolerance=1e-6
+    )
     loss = slave.get("bearing.power_loss")[0] * 5 * step
     assert np.abs(residuals).max() < 1e-3 * loss and np.abs(twin["bearing.energy_residual"]).max() < 1e-3 * loss
     np.testing.assert_allclose(clearances, twin["bearing.clearance"][1:], rtol=1e-12)
 
 
-# ------------------------------------------------------------------------------------------------------------------- event, refusals
+# ------------------------------------------------------------------------------------------------------ event, refusals
 
 
 @pytest.mark.c_only
 def test_no_clearance_left_is_an_event(folder):
-    """1 um of clearance at rest: none is left at the working point, which the log says once as a warning; with a hot outer ring it comes back."""
+    """1 um of clearance at rest: none is left at the working point, which the log says once as a warning; with a hot
+    outer ring it comes back.
+    """
     slave = Slave(folder, logging=True).initialize(bearing__P_d=1e-6)
     names = ("event.no_clearance", "event.no_clearance_onsets", "bearing.clearance")
     now, onsets, clearance = slave.get(*names)

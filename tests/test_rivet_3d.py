@@ -1,4 +1,6 @@
-"""The whole joint as three solids of hexahedra in contact against the Fourier elements: nothing shared but the meridian mesh and the contact solver."""
+"""The whole joint as three solids of hexahedra in contact against the Fourier elements: nothing shared but the meridian
+mesh and the contact solver.
+"""
 
 import numpy as np
 import pytest
@@ -23,7 +25,9 @@ def turned(flat, mirror=1.0):
     r, z = np.maximum(flat.p[0], HOLE), mirror * flat.p[1]
     theta = np.linspace(0.0, np.pi, SECTORS + 1)
     points = np.concatenate([np.stack([r * np.cos(t), r * np.sin(t), z]) for t in theta], axis=1)
-    cells = np.concatenate([np.concatenate([flat.t + k * r.size, flat.t + (k + 1) * r.size]) for k in range(SECTORS)], axis=1)
+    cells = np.concatenate(
+        [np.concatenate([flat.t + k * r.size, flat.t + (k + 1) * r.size]) for k in range(SECTORS)], axis=1
+    )
     mesh = MeshHex2.from_mesh(half.hexahedra(points, cells))
     step = np.pi / SECTORS
     between = np.abs(np.arctan2(mesh.doflocs[1], mesh.doflocs[0]) / step % 1.0 - 0.5) < 0.25
@@ -32,7 +36,9 @@ def turned(flat, mirror=1.0):
 
 
 class Solid:
-    """One body: stiffness, contact surfaces, rigid motions x, z and rotation about y (the plane y = 0 is one of symmetry)."""
+    """One body: stiffness, contact surfaces, rigid motions x, z and rotation about y (the plane y = 0 is one of
+    symmetry).
+    """
 
     def __init__(self, mesh, E, nu, held):
         self.mesh, self.C = mesh, stiffness(E, nu)
@@ -53,15 +59,21 @@ class Solid:
         fixed = (np.abs(x[1]) < 1e-9) & (part == 1)
         if held:
             fixed |= np.hypot(x[0], x[1]) > G.patch_radius - 1e-8
-        self.motions = np.stack([np.where(part == 0, 1.0, 0.0), np.where(part == 2, 1.0, 0.0), np.choose(part, [x[2], 0.0, -x[0]])], axis=1)
+        self.motions = np.stack(
+            [np.where(part == 0, 1.0, 0.0), np.where(part == 2, 1.0, 0.0), np.choose(part, [x[2], 0.0, -x[0]])], axis=1
+        )
         self.free = not held
         keep = np.flatnonzero(~fixed)
         if self.free:  # three pins: loads are balanced, so they carry nothing
             on_plane = np.flatnonzero((np.abs(x[1]) < 1e-9) & (x[0] > 0.9 * R) & (x[0] < 1.1 * R))
-            low, high = (on_plane[part[on_plane] == 0][np.argsort(x[2][on_plane[part[on_plane] == 0]])][[0, -1]]).tolist()
+            low, high = (
+                on_plane[part[on_plane] == 0][np.argsort(x[2][on_plane[part[on_plane] == 0]])][[0, -1]]
+            ).tolist()
             keep = np.setdiff1d(keep, [low, high, on_plane[part[on_plane] == 2][0]])
         self.keep, self.factor = keep, splu(hooke.assemble(self.basis)[keep][:, keep].tocsc(), **SYMMETRIC)
-        self.weight = LinearForm(lambda v, w: v[0]).assemble(self.basis) + LinearForm(lambda v, w: v[2]).assemble(self.basis)
+        self.weight = LinearForm(lambda v, w: v[0]).assemble(self.basis) + LinearForm(lambda v, w: v[2]).assemble(
+            self.basis
+        )
 
     def solve(self, loads):
         """Displacements; of a free body under loads balanced by body forces, and without rigid motion."""
@@ -90,7 +102,13 @@ class Solid:
 
     def largest_principal(self, on, u):
         """Of the stress at Gauss points of a surface [Pa]."""
-        basis = FacetBasis(self.mesh, self.basis.elem, mapping=self.mapping, facets=self.mesh.facets_satisfying(on, boundaries_only=True), intorder=2)
+        basis = FacetBasis(
+            self.mesh,
+            self.basis.elem,
+            mapping=self.mapping,
+            facets=self.mesh.facets_satisfying(on, boundaries_only=True),
+            intorder=2,
+        )
         grad = basis.interpolate(u).grad
         lam, mu = self.C[0, 1], self.C[3, 3]
         stress = mu * (grad + np.swapaxes(grad, 0, 1)) + lam * np.trace(grad) * np.eye(3)[:, :, None, None]
@@ -126,9 +144,14 @@ class Joint3D:
         upper, lower = (Solid(turned(flat, side), G.E_flange, G.nu_flange, held=True) for side in (1.0, -1.0))
         columns = {self.rivet: [], upper: [], lower: []}
         kinds, areas = [], []
-        pairs = [(self.rivet, body, kind, side) for kind in ("head", "bore") for body, side in ((upper, 1), (lower, -1))]
+        pairs = [
+            (self.rivet, body, kind, side) for kind in ("head", "bore") for body, side in ((upper, 1), (lower, -1))
+        ]
         for one, other, kind, side in (*pairs, (upper, lower, "plate", 1)):
-            (a, place, area), (b, opposite, _) = one.normal_loads(surface(kind, side)), other.normal_loads(surface(kind, side))
+            (a, place, area), (b, opposite, _) = (
+                one.normal_loads(surface(kind, side)),
+                other.normal_loads(surface(kind, side)),
+            )
             np.testing.assert_allclose(place, opposite, atol=2e-9)
             for body, loads in columns.items():
                 loads.append(a if body is one else b if body is other else np.zeros((body.basis.N, len(area))))
@@ -138,7 +161,9 @@ class Joint3D:
         self.kind, area = np.array(kinds), np.concatenate(areas)
         self.area = area
         self.response = self.rivet.solve(self.loads[self.rivet])
-        C = self.loads[self.rivet].T @ self.response + sum(self.loads[b].T @ b.solve(self.loads[b]) for b in (upper, lower))
+        C = self.loads[self.rivet].T @ self.response + sum(
+            self.loads[b].T @ b.solve(self.loads[b]) for b in (upper, lower)
+        )
         self.D = np.hstack([self.loads[body].T @ body.motions for body in (self.rivet, upper)]) / area[:, None]
         self.C = 0.5 * (C + C.T) / np.outer(area, area)
 
@@ -155,7 +180,8 @@ class Joint3D:
 
 @pytest.mark.slow
 def test_joint_of_three_solids():
-    """Head stress of preload, transverse load in clearance, and all loads in interference: within 3 % of Fourier elements with hats as wide.
+    """Head stress of preload, transverse load in clearance, and all loads in interference: within 3 % of Fourier
+    elements with hats as wide.
 
     The solids' stress is quadratic over sectors of 15 degrees, the Fourier elements' is smooth.
     """
@@ -165,5 +191,7 @@ def test_joint_of_three_solids():
         P, N, V, fit = load
         expected = fourier.channels(fourier.solve(P, N, V, 0.0, 0.0, fit)[0][:, None])[0][0]
         found = solid.head_stress(*load)
-        print(f"P {P:g} N {N:g} V {V:g} N, fit {1e6 * fit:g} um: solids {found / 1e6:.1f}, Fourier {expected / 1e6:.1f} MPa")
+        print(
+            f"P {P:g} N {N:g} V {V:g} N, fit {1e6 * fit:g} um: solids {found / 1e6:.1f}, Fourier {expected / 1e6:.1f} MPa"
+        )
         assert found == pytest.approx(expected, rel=0.03)

@@ -1,4 +1,6 @@
-"""Coulomb friction of the closed joint: against Coulomb's own limits, an independent prototype, and the numbers the dynamics uses."""
+"""Coulomb friction of the closed joint: against Coulomb's own limits, an independent prototype, and the numbers the
+dynamics uses.
+"""
 
 import re
 
@@ -29,7 +31,9 @@ def curve(condensed):
 
 
 def test_normal_compliance_is_that_of_the_frictionless_joint(condensed, joint):
-    """Two assemblies, one compliance (observed 7e-6: harmonics between the solved ones are interpolated in one of them)."""
+    """Two assemblies, one compliance (observed 7e-6: harmonics between the solved ones are interpolated in one of
+    them).
+    """
     for first in friction.CONTACTS:
         for second in friction.CONTACTS:
             a = condensed.C[condensed.slices["n", first], condensed.slices["n", second]]
@@ -43,12 +47,20 @@ def test_forces_balance_and_obey_coulomb(curve):
     for V, answer in curve.items():
         assert answer.plates + answer.heads == pytest.approx(V, rel=1e-6)
         assert max(answer.plates, answer.heads) <= MU * P * (1 + 1e-6)
-    assert np.all(np.diff([a.slip for a in curve.values()]) > 0.0) and np.all(np.diff([a.head_p1 for a in curve.values()]) > 0.0)
+    assert np.all(np.diff([a.slip for a in curve.values()]) > 0.0) and np.all(
+        np.diff([a.head_p1 for a in curve.values()]) > 0.0
+    )
 
 
 def test_against_the_prototype(curve):
-    """A separate program, not kept: semismooth Newton on another mesh: plates first, then the heads.  V: slip [um], plates, heads [N], head stress [MPa]."""
-    for V, slip, plates, heads, head_p1 in ((2.0, 0.01, 1.97, 0.03, 49.0), (4.0, 0.15, 3.00, 1.00, 60.0), (5.8, 0.43, 2.99, 2.81, 82.0)):
+    """A separate program, not kept: semismooth Newton on another mesh: plates first, then the heads.  V: slip [um],
+    plates, heads [N], head stress [MPa].
+    """
+    for V, slip, plates, heads, head_p1 in (
+        (2.0, 0.01, 1.97, 0.03, 49.0),
+        (4.0, 0.15, 3.00, 1.00, 60.0),
+        (5.8, 0.43, 2.99, 2.81, 82.0),
+    ):
         a = curve[V]
         assert (a.plates, a.heads) == pytest.approx((plates, heads), abs=0.03)  # observed 0.02
         assert a.head_p1 == pytest.approx(1e6 * head_p1, rel=0.03)  # observed 2 %
@@ -56,7 +68,9 @@ def test_against_the_prototype(curve):
 
 
 def test_stiffness_and_stress_of_the_head_branch(curve, joint):
-    """What the dynamics takes from uniform tractions (k_t_head, head_friction) is Coulomb's answer between plates and heads (observed 2 %, 1 %)."""
+    """What the dynamics takes from uniform tractions (k_t_head, head_friction) is Coulomb's answer between plates and
+    heads (observed 2 %, 1 %).
+    """
     k_head, growth, _ = stiffness.head_friction(joint)
     one, two = curve[3.5], curve[5.0]
     assert (two.V - one.V) / (two.slip - one.slip) == pytest.approx(k_head, rel=0.05)

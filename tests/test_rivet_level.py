@@ -1,15 +1,17 @@
-"""Rivets of a run against the direct contact of both halves, on finer elements than those of the table, under the pocket forces of the same instants."""
+"""Rivets of a run against the direct contact of both halves, on finer elements than those of the table, under the
+pocket forces of the same instants.
+"""
 
 import numpy as np
 import pytest
 from library import TWO_HALF
 from mechanics import Instance
 
+from bearing_model.generated.variables import Switch, Traction, Z
 from bearing_model.physics.model import Model, Work
 from bearing_model.physics.rhs import rhs
 from bearing_model.rivet.rivet_rom import HEAD_P1, RivetLoad, rivet_rom_stress
 from bearing_model.rivet.rivets import rivets_load
-from bearing_model.generated.variables import Switch, Traction, Z
 from rivet_model import half, half_loads, joint_contact
 from rivet_model.geometry import Geometry
 
@@ -18,7 +20,9 @@ SMALL = 2.0  # N: such a force may act up to 7.5 degrees beside its place, so th
 
 
 def recorded(core, parameters, count, rng):
-    """States [2 count, N_STATES] of a run: those whose largest head stress is next to the 99.9 % quantile over all rivets, 0.2 ms apart, then random ones."""
+    """States [2 count, N_STATES] of a run: those whose largest head stress is next to the 99.9 % quantile over all
+    rivets, 0.2 ms apart, then random ones.
+    """
     bearing, states, heads = Instance(core, parameters).step(0.05), [], []
     for i in range(6000):
         bearing.step(0.05 + 5e-6 * (i + 1))
@@ -43,10 +47,12 @@ def pocket_forces(w):
 
 @pytest.mark.slow
 def test_rivets_of_a_run_against_finer_contact(core):
-    """Working point with point traction, with and without the centrifugal load: worst rivet of four instants of high stress and four random ones each.
+    """Working point with point traction, with and without the centrifugal load: worst rivet of four instants of high
+    stress and four random ones each.
 
-    Tension, moment of the shank and head stress of the run's chain beside those of the contact, both with the chain's transverse loads: within 5 % of the
-    largest among the instants (observed at 40 other instants, each relative to itself: 1.6, 4.0, 1.3 %).
+    Tension, moment of the shank and head stress of the run's chain beside those of the contact, both with the chain's
+    transverse loads: within 5 % of the largest among the instants (observed at 40 other instants, each relative to
+    itself: 1.6, 4.0, 1.3 %).
     """
     rng, cases, angles = np.random.default_rng(14), [], {}
     for switch in Switch:
@@ -66,7 +72,9 @@ def test_rivets_of_a_run_against_finer_contact(core):
 
     found = []
     for model, forces, omega_2, chain in cases:
-        state = contact.solve(model.d.P_mean, contact.loads([(j, nodes + i, force) for j, i, force in forces], omega_2 * column))
+        state = contact.solve(
+            model.d.P_mean, contact.loads([(j, nodes + i, force) for j, i, force in forces], omega_2 * column)
+        )
         T, m_r, m_t = state.rivet.T
         direct = RivetLoad(T, chain.V_y, chain.V_z, m_r, m_t, chain.F_head)
         (head, m), (head_direct, m_direct) = head_and_moment(model, chain), head_and_moment(model, direct)

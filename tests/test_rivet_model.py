@@ -1,4 +1,6 @@
-"""Finite elements of the rivet joint against closed forms, references and themselves.  Checks of what was fitted say "calibration"."""
+"""Finite elements of the rivet joint against closed forms, references and themselves.  Checks of what was fitted say
+"calibration".
+"""
 
 import numpy as np
 import pytest
@@ -27,7 +29,7 @@ def channels(joint, *load):
     return joint.channels(joint.solve(*load)[0][:, None])[0] / 1e6
 
 
-# Elasticity ---------------------------------------------------------------------------------------------------------------------------
+# Elasticity -----------------------------------------------------------------------------------------------------------
 
 
 def end_loads(body, height):
@@ -67,15 +69,24 @@ def test_lame(joint):
     assert p == pytest.approx(R * (0.7 / E + (k + 0.33) / 110e9), rel=1e-3)
 
 
-# Contact ------------------------------------------------------------------------------------------------------------------------------
+# Contact --------------------------------------------------------------------------------------------------------------
 
 
 def pin_in_hole(clearance, load, hats, n_max):
-    """Half-angle [deg] and peak pressure [Pa] of a pin in a wide plate, plane strain, equal materials; load [N/m], radial clearance [m]."""
+    """Half-angle [deg] and peak pressure [Pa] of a pin in a wide plate, plane strain, equal materials; load [N/m],
+    radial clearance [m].
+    """
     height = 1e-3
-    pin = Body(MeshQuad.init_tensor(R - section_mesh.graded(0, R, 14, 60.0)[::-1], np.linspace(0, height, 2)), E, NU, plane_strain=True)
+    pin = Body(
+        MeshQuad.init_tensor(R - section_mesh.graded(0, R, 14, 60.0)[::-1], np.linspace(0, height, 2)),
+        E,
+        NU,
+        plane_strain=True,
+    )
     far = section_mesh.graded(R, 40 * R, 26, 3000.0)
-    plate = Body(MeshQuad.init_tensor(far, np.linspace(0, height, 2)), E, NU, lambda x: x[0] > 39.9 * R, plane_strain=True)
+    plate = Body(
+        MeshQuad.init_tensor(far, np.linspace(0, height, 2)), E, NU, lambda x: x[0] > 39.9 * R, plane_strain=True
+    )
     angles = 2 * np.pi * np.arange(hats) / hats
     shape = hat_harmonics(angles, n_max)
     C = np.zeros((hats, hats))
@@ -85,30 +96,48 @@ def pin_in_hole(clearance, load, hats, n_max):
             nodes = edge_nodes(body.mesh, r=R)
             G_n = body.ring_loads(nodes, body.mesh.p[1, nodes], (sign, 0.0), 1).sum(axis=1)
             S += G_n @ body.solve(n, G_n[:, None])[:, 0]
-        C += S / (2 * np.pi if n == 0 else np.pi) * (np.outer(shape[0][:, n], shape[0][:, n]) + np.outer(shape[1][:, n], shape[1][:, n]))
+        C += (
+            S
+            / (2 * np.pi if n == 0 else np.pi)
+            * (np.outer(shape[0][:, n], shape[0][:, n]) + np.outer(shape[1][:, n], shape[1][:, n]))
+        )
         if n == 1:  # the load acts at the pin's core, not on its whole volume: a self-equilibrated difference
             core = LinearForm(lambda v, w: (v[0] - v[1]) * w.x[0] * (w.x[0] < 0.2 * R)).assemble(pin.basis)
-            core *= load * height / (np.pi * (core @ np.where(pin.component == 0, 1.0, np.where(pin.component == 1, -1.0, 0.0))))
+            core *= (
+                load
+                * height
+                / (np.pi * (core @ np.where(pin.component == 0, 1.0, np.where(pin.component == 1, -1.0, 0.0))))
+            )
             nodes = edge_nodes(pin.mesh, r=R)
-            on_rim = pin.ring_loads(nodes, pin.mesh.p[1, nodes], (1.0, 0.0), 1).sum(axis=1) @ pin.solve(1, core[:, None])[:, 0]
+            on_rim = (
+                pin.ring_loads(nodes, pin.mesh.p[1, nodes], (1.0, 0.0), 1).sum(axis=1)
+                @ pin.solve(1, core[:, None])[:, 0]
+            )
     weight = R * height * shape[0][:, 0]
     core_gap = -on_rim * shape[0][:, 1] / weight
     contact = Contact(C / np.outer(weight, weight), (R * height * shape[0][:, 1] / weight)[:, None], np.array([1e-6]))
     solution = contact.solve(clearance + core_gap, np.array([load * height]))
     pressure = solution.p / weight
     theta = np.degrees(np.abs(np.angle(np.exp(1j * angles))))
-    return theta[pressure > 0.0].max() + 180.0 / hats, pressure.max()  # the outermost hat ends between its node and the next one
+    # the outermost hat ends between its node and the next one
+    return theta[pressure > 0.0].max() + 180.0 / hats, pressure.max()
 
 
 @pytest.mark.parametrize(
     ("clearance", "load", "half_angle"),
-    [(0.0, 20e3, 84.8), *(pytest.param(*case, marks=pytest.mark.slow) for case in [(5e-6, 20e3, 12.2), (45e-6, 100e3, 9.1)])],
+    [
+        (0.0, 20e3, 84.8),
+        *(pytest.param(*case, marks=pytest.mark.slow) for case in [(5e-6, 20e3, 12.2), (45e-6, 100e3, 9.1)]),
+    ],
 )
 def test_persson(clearance, load, half_angle):
-    """Pin in hole: half-angles of Persson (1964) in Ciavarella and Decuzzi's form (2001), to 0.5 degrees; hats 0.7 degrees apart."""
+    """Pin in hole: half-angles of Persson (1964) in Ciavarella and Decuzzi's form (2001), to 0.5 degrees; hats 0.7
+    degrees apart.
+    """
     found, peak = pin_in_hole(clearance, load, 512, 256)
     assert found == pytest.approx(half_angle, abs=0.5)
-    if clearance == 45e-6:  # a = sqrt(4 Q R*/(pi E*)), p = 2 Q/(pi a): Hertz for nearly equal radii; a finer model: 534 against 514
+    # a = sqrt(4 Q R*/(pi E*)), p = 2 Q/(pi a): Hertz for nearly equal radii; a finer model: 534 against 514
+    if clearance == 45e-6:
         R_star, E_star = R * (R + clearance) / clearance, E / (2 * (1 - NU**2))
         a = np.sqrt(4 * load * R_star / (np.pi * E_star))
         assert peak == pytest.approx(2 * load / (np.pi * a), rel=0.06)
@@ -116,7 +145,11 @@ def test_persson(clearance, load, half_angle):
 
 def random_problem(rng, n=60, m=4):
     A = rng.normal(size=(n, n))
-    return Contact(A @ A.T / n + 1e-3 * np.eye(n), rng.normal(size=(n, m)), np.full(m, 1e-3)), rng.normal(size=n), rng.normal(size=m)
+    return (
+        Contact(A @ A.T / n + 1e-3 * np.eye(n), rng.normal(size=(n, m)), np.full(m, 1e-3)),
+        rng.normal(size=n),
+        rng.normal(size=m),
+    )
 
 
 def test_contact_conditions_hold_on_random_problems():
@@ -151,23 +184,31 @@ def test_homogeneity(joint):
 
 
 def test_symmetries_change_nothing(joint):
-    """Plane, half turn and whole circle give one answer; the sign of M against V does not matter (observed 1e-6: springs, rounding)."""
+    """Plane, half turn and whole circle give one answer; the sign of M against V does not matter (observed 1e-6:
+    springs, rounding).
+    """
     for M_plane, M_across in ((0.04, 0.0), (0.0, 0.04)):
         short = channels(joint, 20.0, 5.0, 10.0, M_plane, M_across, -10e-6)
         whole = channels(joint, 20.0, 5.0, 10.0, M_plane or 1e-12, M_across or 1e-12, -10e-6)
         np.testing.assert_allclose(whole, short, rtol=1e-5)
-    np.testing.assert_allclose(channels(joint, 20, 5, 10, -0.04, 0, -1e-5), channels(joint, 20, 5, 10, 0.04, 0, -1e-5), rtol=1e-6)
+    np.testing.assert_allclose(
+        channels(joint, 20, 5, 10, -0.04, 0, -1e-5), channels(joint, 20, 5, 10, 0.04, 0, -1e-5), rtol=1e-6
+    )
 
 
 def test_preload_stress(joint):
-    """Middle: F/A less the uneven section two diameters from the heads (observed -0.5 %).  Calibration: head 140-150 MPa at 60 N (147.0)."""
+    """Middle: F/A less the uneven section two diameters from the heads (observed -0.5 %).  Calibration: head 140-150
+    MPa at 60 N (147.0).
+    """
     stress = channels(joint, 60.0, 0.0, 0.0, 0.0, 0.0, -90e-6)
     assert stress[rivet_rom.MID_VM] == pytest.approx(60.0 / G.shank_area / 1e6, rel=0.01)
     assert 140.0 < stress[rivet_rom.HEAD_P1] < 150.0
 
 
 def test_calibration_crossing(joint):
-    """Calibration: with the shipped swell, head and middle cross inside -0.02...0 mm; the middle leads at +0.04 mm with and without yield."""
+    """Calibration: with the shipped swell, head and middle cross inside -0.02...0 mm; the middle leads at +0.04 mm with
+    and without yield.
+    """
     load = 20.0, 10.0, 10.0, 0.0, 0.0
     ratio = {fit: (lambda s: s[2] / s[0])(channels(joint, *load, fit + 4e-6)) for fit in (-20e-6, -10e-6, 0.0, 40e-6)}
     assert ratio[-20e-6] < 1.0 < ratio[0.0]
@@ -184,19 +225,22 @@ def test_monotone_in_preload(joint):
 
 
 def test_joint_stiffness(joint):
-    """Against an independent prototype, not kept here: stack 50.5 kN/mm, heads 6.5, bores 14-15 (-90 um) and 46-47 (+5 um), head 11.7 MPa/N."""
+    """Against an independent prototype, not kept here: stack 50.5 kN/mm, heads 6.5, bores 14-15 (-90 um) and 46-47 (+5
+    um), head 11.7 MPa/N.
+    """
     data = stiffness.joint_data(joint)
     assert data["k_stack"] == pytest.approx(50.5e6, rel=0.08)
     assert data["k_t_head"] == pytest.approx(6.5e6, rel=0.05)
     assert data["k_hole"][0] == pytest.approx(14.5e6, rel=0.05)
     assert data["k_hole"][-2] == pytest.approx(46.5e6, rel=0.05)
     assert stiffness.head_friction(joint)[1] == pytest.approx(11.7e6, rel=0.06)
-    clamped, open_ = (joint.solve(20.0, N, 0.0, 0.0, 0.0, -90e-6)[0][joint.slices["PP"]].sum() for N in (0.0, 30.0))  # force in the split plane
+    # force in the split plane
+    clamped, open_ = (joint.solve(20.0, N, 0.0, 0.0, 0.0, -90e-6)[0][joint.slices["PP"]].sum() for N in (0.0, 30.0))
     assert clamped == pytest.approx(20.0, rel=1e-6)
     assert open_ < 1e-6
 
 
-# Interference with plasticity ---------------------------------------------------------------------------------------------------------
+# Interference with plasticity -----------------------------------------------------------------------------------------
 
 
 @pytest.fixture(scope="module")
@@ -226,25 +270,36 @@ def test_elastic_pressure_of_contact_and_plasticity_agree(joint, fit_map):
     assert fit_map.pressure[0] == pytest.approx(mean, rel=0.03)
 
 
-# The table ----------------------------------------------------------------------------------------------------------------------------
+# The table ------------------------------------------------------------------------------------------------------------
 
 
 @pytest.mark.slow  # most of a minute; test_app_rivet makes a coarse table among the fast tests
 def test_coarse_table_end_to_end(tmp_path):
     """A coarse table in seconds: written, read, and equal to its own finite elements where it was sampled.
 
-    The error that it states is the one that is found against the full table at 4,000 other loads: to half of it, observed 0.90 to 1.21 times.
+    The error that it states is the one that is found against the full table at 4,000 other loads: to half of it,
+    observed 0.90 to 1.21 times.
     """
     path = tmp_path / "coarse.json"
     assert build.main([str(path), "--coarse", "--workers", "1"]) == 0
     t = rivet_table.read(path, Z=9)
-    assert t.kind == "fe_coarse" and t.kind_number == 2 and t.errors["all"]["loads"] == 320 and t.geometry_hash == G.digest and np.any(t.half.path)
+    assert (
+        t.kind == "fe_coarse"
+        and t.kind_number == 2
+        and t.errors["all"]["loads"] == 320
+        and t.geometry_hash == G.digest
+        and np.any(t.half.path)
+    )
     loads = reduction.random_loads(4000, 77)
     found = reduction.hold_out_errors(t, loads, reduction.table_stress(rivet_table.read(TABLE), loads))
     for region in ("all", "clearance"):
         for measure in ("maximum", "rms"):
             for name in rivet_table.CHANNELS:
-                assert t.errors[region][measure][name] == pytest.approx(found[region][measure][name], rel=0.5), (region, measure, name)
+                assert t.errors[region][measure][name] == pytest.approx(found[region][measure][name], rel=0.5), (
+                    region,
+                    measure,
+                    name,
+                )
     joint = Joint(G, load_cases.COARSE)
     sampled = reduction.solve_loads(joint, [reduction.Load(20.0, 0.0, 0.0, 0.0, -30e-6)], 1)
     got, _ = rivet_rom.rivet_rom_stress(t, rivet_rom.RivetLoad(T=20.0), -30e-6)
@@ -267,8 +322,8 @@ def test_grid_with_too_few_harmonics_is_refused():
 def test_hold_out_of_the_shipped_table():
     """What the shipped table says of itself, measured on 320 loads that neither built it nor chose its knots.
 
-    Reach: 2 % and RMS 0.5 % of each channel's maximum, over all loads and in clearance alone.  There the middle, which carries little, misses the 2 % at
-    one load of 160 (observed von Mises 3.2 %, p1 2.2 %; RMS 0.36 %).
+    Reach: 2 % and RMS 0.5 % of each channel's maximum, over all loads and in clearance alone.  There the middle, which
+    carries little, misses the 2 % at one load of 160 (observed von Mises 3.2 %, p1 2.2 %; RMS 0.36 %).
     """
     t = rivet_table.read(TABLE)
     assert t.kind == "fe" and t.geometry_hash == G.digest
@@ -283,7 +338,10 @@ def test_errors_on_the_page():
     """docs/rivet.md shows the errors of the shipped table's header."""
     errors, page = rivet_table.read(TABLE).errors, (ROOT / "docs" / "rivet.md").read_text(encoding="utf-8")
     for title, region in (("all", "all"), ("clearance alone", "clearance")):
-        shown = [f"{100 * errors[region]['maximum'][name]:.2f} %, {100 * errors[region]['rms'][name]:.2f} %" for name in rivet_table.CHANNELS]
+        shown = [
+            f"{100 * errors[region]['maximum'][name]:.2f} %, {100 * errors[region]['rms'][name]:.2f} %"
+            for name in rivet_table.CHANNELS
+        ]
         assert f"| {title}: maximum, RMS | {' | '.join(shown)} |" in page
 
 
@@ -302,13 +360,19 @@ def test_table_against_fresh_solutions():
 def test_h_convergence():
     """Half the element size: head stress moves by less than 0.5 % (observed 0.19, 0.18, 0.11, 0.43 %)."""
     coarse, fine = Joint(G, Grid(Fineness(1.0), 7.5, 12, 24)), Joint(G, Grid(Fineness(2.0), 7.5, 12, 24))
-    for load in ((60.0, 0, 0, 0, 0, -90e-6), (20.0, 0, 20.0, 0, 0, -20e-6), (20.0, 10.0, 10.0, 0, 0, 5e-6), (20.0, 0, 10.0, 0.04, 0, -1e-5)):
+    for load in (
+        (60.0, 0, 0, 0, 0, -90e-6),
+        (20.0, 0, 20.0, 0, 0, -20e-6),
+        (20.0, 10.0, 10.0, 0, 0, 5e-6),
+        (20.0, 0, 10.0, 0.04, 0, -1e-5),
+    ):
         assert channels(coarse, *load)[0] == pytest.approx(channels(fine, *load)[0], rel=0.005)
 
 
 @pytest.mark.slow
 def test_full_3d():
-    """The flange as a solid of hexahedra, half of it, under a bore pressure of three harmonics: work of the pressure within 1 %.
+    """The flange as a solid of hexahedra, half of it, under a bore pressure of three harmonics: work of the pressure
+    within 1 %.
 
     The solid's facets are flat (32 to the half circle: 0.2 % of the radius); observed below 0.5 %.
     """
@@ -325,7 +389,10 @@ def test_full_3d():
     cells = [np.concatenate([flat.t + k * r.size, flat.t + (k + 1) * r.size]) for k in range(sectors)]
     mesh = half.hexahedra(p, np.concatenate(cells, axis=1))
     basis = Basis(mesh, ElementVector(ElementHex2()), intorder=4)
-    mu, lam = G.E_flange / (2 * (1 + G.nu_flange)), G.E_flange * G.nu_flange / ((1 + G.nu_flange) * (1 - 2 * G.nu_flange))
+    mu, lam = (
+        G.E_flange / (2 * (1 + G.nu_flange)),
+        G.E_flange * G.nu_flange / ((1 + G.nu_flange) * (1 - 2 * G.nu_flange)),
+    )
 
     @BilinearForm
     def hooke(u, v, w):

@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 from library import ROOT
 
+from bearing_model.generated.variables import PARAMETERS, FitModel, Z
 from bearing_model.rivet import rivet_rom, rivet_table
 from bearing_model.rivet.rivet_rom import FLANGE_YIELDS, RIVET_OUTSIDE, RIVET_YIELDS, RivetLoad
-from bearing_model.generated.variables import PARAMETERS, FitModel, Z
 from rivet_model import build, closed_form, components, embed, friction, geometry, splines, table
 
 TABLE = ROOT / "rivet_model" / "tables" / "6207.json"
@@ -53,7 +53,9 @@ def random_loads(count, seed=0):
     loads = rng.uniform(0, 60, (count, 6)) * rng.choice([0.0, 0.1, 1.0, 3.0], (count, 6))
     loads[:, 1:5] *= rng.choice([-1.0, 1.0], (count, 4))
     loads[:, 3:5] *= 0.3e-3
-    return [RivetLoad(*map(float, row)) for row in loads], rng.uniform(-90e-6, 44e-6, count) * rng.choice([0.1, 1.0], count)
+    return [RivetLoad(*map(float, row)) for row in loads], rng.uniform(-90e-6, 44e-6, count) * rng.choice(
+        [0.1, 1.0], count
+    )
 
 
 def scaled(load, factor):
@@ -63,7 +65,8 @@ def scaled(load, factor):
 def test_shank_stress_of_the_preload(stress, rivets):
     """F/A = 20 N / (pi/4 1.5 mm^2) = 11.3177 MPa in the middle.
 
-    Closed forms: six digits in the file.  Finite elements: the surface stress two diameters from the heads is not yet the mean (observed -0.45, -0.8 %).
+    Closed forms: six digits in the file.  Finite elements: the surface stress two diameters from the heads is not yet
+    the mean (observed -0.45, -0.8 %).
     """
     tolerance = {"closed_form": 1e-6, "fe": 1e-2}[rivets.kind]
     sigma, flags = stress(RivetLoad(T=20.0), FIT)
@@ -79,7 +82,9 @@ def test_homogeneous_of_degree_1(stress):
         sigma = stress(load, fit)[0]
         for factor in (1e-3, 0.3, 7.0, 1e4):
             expected = factor * sigma
-            np.testing.assert_allclose(stress(scaled(load, factor), factor * fit)[0], expected, rtol=1e-12, atol=1e-12 * expected.max())
+            np.testing.assert_allclose(
+                stress(scaled(load, factor), factor * fit)[0], expected, rtol=1e-12, atol=1e-12 * expected.max()
+            )
 
 
 def test_turning_the_joint_changes_nothing(stress):
@@ -92,14 +97,19 @@ def test_turning_the_joint_changes_nothing(stress):
                 load.T, c * load.V_y - s * load.V_z, s * load.V_y + c * load.V_z,
                 c * load.m_y - s * load.m_z, s * load.m_y + c * load.m_z, load.F_head,
             )  # fmt: skip
-            np.testing.assert_allclose(stress(turned, fit)[0], sigma, rtol=1e-10, atol=1e-3)  # chi near +-1 amplifies rounding
-        mirrored = RivetLoad(load.T, load.V_y, -load.V_z, -load.m_y, load.m_z, load.F_head)  # V a vector, m a pseudovector
+            # chi near +-1 amplifies rounding
+            np.testing.assert_allclose(stress(turned, fit)[0], sigma, rtol=1e-10, atol=1e-3)
+        # V a vector, m a pseudovector
+        mirrored = RivetLoad(load.T, load.V_y, -load.V_z, -load.m_y, load.m_z, load.F_head)
         np.testing.assert_allclose(stress(mirrored, fit)[0], sigma, rtol=1e-12, atol=1e-6)
 
 
 def test_direction_of_the_moment(stress):
     """In the plane of V a moment adds to one head's bending, whatever its sign; across it adds less."""
-    heads = [stress(RivetLoad(T=20.0, V_y=10.0, m_y=m_y, m_z=m_z), FIT)[0][0] for m_y, m_z in ((0, 0.004), (0.004, 0), (0, -0.004), (0, 0))]
+    heads = [
+        stress(RivetLoad(T=20.0, V_y=10.0, m_y=m_y, m_z=m_z), FIT)[0][0]
+        for m_y, m_z in ((0, 0.004), (0.004, 0), (0, -0.004), (0, 0))
+    ]
     assert heads[0] == heads[2]
     assert heads[3] < heads[1] < heads[0]
 
@@ -114,7 +124,9 @@ def test_twins_agree(core, rivets):
 
 
 def test_rivets_beside_each_other(core):
-    """All rivets at once against each alone, idle ones among them, and the peak channels alone against all channels: the same bits."""
+    """All rivets at once against each alone, idle ones among them, and the peak channels alone against all channels:
+    the same bits.
+    """
     loads, fits = random_loads(90 * Z, seed=3)
     for k, load in enumerate(loads):
         if k % 4 == 0:
@@ -151,16 +163,20 @@ def test_continuously_differentiable(rivets):
                 return total
 
             left, right = (T(0.0) - T(-h)) / h, (T(h) - T(0.0)) / h
-            curvature = np.abs(T(h) - 2 * T(0.0) + T(-h)).max() / h  # = h x second derivative: vanishes with h only if C1
+            # = h x second derivative: vanishes with h only if C1
+            curvature = np.abs(T(h) - 2 * T(0.0) + T(-h)).max() / h
             span = np.ptp(shank.coefficients) / np.min(np.diff(shank.knots[name]))
             assert np.abs(right - left).max() < 1e-3 * span, (name, knot, curvature)
 
 
 def test_saturated_below_and_linear_above(stress):
-    """Deep clearance: the gap's size does not matter.  Large interference: linear in the fit.  No load: stress from the fit alone."""
+    """Deep clearance: the gap's size does not matter.  Large interference: linear in the fit.  No load: stress from the
+    fit alone.
+    """
     load = RivetLoad(T=25.0, V_y=8.0, m_z=3e-3)
     np.testing.assert_allclose(stress(load, -120e-6)[0], stress(load, -300e-6)[0], rtol=1e-12)
-    np.testing.assert_allclose(stress(load, -80e-6)[0], stress(load, -300e-6)[0], rtol=0.03)  # nearly there: observed 2.2 % in the middle
+    # nearly there: observed 2.2 % in the middle
+    np.testing.assert_allclose(stress(load, -80e-6)[0], stress(load, -300e-6)[0], rtol=0.03)
     high = [stress(load, fit)[0] for fit in (40e-6, 50e-6, 60e-6)]
     np.testing.assert_allclose(high[2] - high[1], high[1] - high[0], rtol=1e-6, atol=1e3)
     none, _ = stress(RivetLoad(), 10e-6)
@@ -180,7 +196,11 @@ def test_flags_never_nan(stress, rivets):
 def test_flags_of_the_fit(core, rivets):
     """By the fit itself, which the map of effective fits may cut short: an output of both twins."""
     largest = rivets.fit_a[-1]
-    for fit, flag in ((0.99 * rivets.fit_flange_yield, 0), (1.01 * rivets.fit_flange_yield, FLANGE_YIELDS), (1.01 * largest, FLANGE_YIELDS | RIVET_OUTSIDE)):
+    for fit, flag in (
+        (0.99 * rivets.fit_flange_yield, 0),
+        (1.01 * rivets.fit_flange_yield, FLANGE_YIELDS),
+        (1.01 * largest, FLANGE_YIELDS | RIVET_OUTSIDE),
+    ):
         assert rivet_rom.rivet_rom_fit_flags(rivets, fit) == flag
     for fit_model in FitModel:
         model = core.model(parameters={"joint.fit": 1.05 * rivets.fit_a[-1], "rivet.fit_model": fit_model})
@@ -199,7 +219,8 @@ def test_fit_eff(core, rivets):
     ffi, lib = core.ffi, core.lib
     fits = np.linspace(-90e-6, 60e-6, 301)
     j2 = rivet_rom.rivet_rom_fit_eff(rivets, fits, True)
-    assert np.all(np.diff(j2) > 0.0) and np.all(j2 <= fits + 1e-9)  # the cubic passes 0.7 nm above the identity after onset
+    # the cubic passes 0.7 nm above the identity after onset
+    assert np.all(np.diff(j2) > 0.0) and np.all(j2 <= fits + 1e-9)
     np.testing.assert_array_equal(j2[fits <= 0], fits[fits <= 0])
     np.testing.assert_array_equal(rivet_rom.rivet_rom_fit_eff(rivets, fits, False), fits)
     c = [lib.rivet_rom_fit_eff(ffi.addressof(lib.rivet_table), f, True) for f in fits]
@@ -207,7 +228,9 @@ def test_fit_eff(core, rivets):
 
 
 def test_joint_functions(core, rivets):
-    """Thermal preload by hand: 0.83 N/K, 0.0083 um/K for the default stack; hole stiffness inside its table's values; twins alike."""
+    """Thermal preload by hand: 0.83 N/K, 0.0083 um/K for the default stack; hole stiffness inside its table's values;
+    twins alike.
+    """
     ffi, lib = core.ffi, core.lib
     joint = ffi.addressof(lib.rivet_table.joint)
     j = rivets.joint
@@ -228,14 +251,28 @@ def test_sizes(rivets, tmp_path):
     """At most 2 MB of text, at most 1 MB embedded."""
     assert TABLE.stat().st_size <= 2_000_000
     half, modes, residual = rivets.half, rivets.modes, rivets.modes.residual
-    doubles = 3 * sum(len(k) for k in rivets.shank.knots.values()) + 4 * len(rivets.fit_a) + half.law.stiffness.size + 26 * len(half.law.alike.x)
-    doubles += 13 * len(modes.omega) + 2 * modes.pocket.size + residual.pad.size + residual.rivet.size + 2 * residual.pocket.size + 2 * residual.wall.size
+    doubles = (
+        3 * sum(len(k) for k in rivets.shank.knots.values())
+        + 4 * len(rivets.fit_a)
+        + half.law.stiffness.size
+        + 26 * len(half.law.alike.x)
+    )
+    doubles += (
+        13 * len(modes.omega)
+        + 2 * modes.pocket.size
+        + residual.pad.size
+        + residual.rivet.size
+        + 2 * residual.pocket.size
+        + 2 * residual.wall.size
+    )
     doubles += sum(embed.uniform_coefficients(law).size for law in (half.law, modes.law))
     assert 4 * rivets.shank.coefficients.size + 4 * embed.path_rows(half).size + 8 * doubles <= 2**20  # 0.69 MB
 
 
 def test_defaults_are_those_of_the_table(rivets):
-    """Defaults of bearing and cage beside the half of the shipped table (six digits) and beside the geometry that it was made for."""
+    """Defaults of bearing and cage beside the half of the shipped table (six digits) and beside the geometry that it
+    was made for.
+    """
     g, half = geometry.Geometry(), rivets.half
     assert rivets.geometry_hash == g.digest
     expected = {f"cage.{name}": getattr(half, name) for name in ("m", "x_c", "J_p", "J_t")} | {
@@ -316,22 +353,32 @@ def test_impossible_geometries_are_refused(tmp_path):
 
 
 def test_closed_form_against_hand_calculation():
-    """Lame: solid shank in a bronze ring, 10 um -> 378 MPa (by hand); opening at N = P/(1 - share); stress of a joint pulled far open = F/A."""
+    """Lame: solid shank in a bronze ring, 10 um -> 378 MPa (by hand); opening at N = P/(1 - share); stress of a joint
+    pulled far open = F/A.
+    """
     g = geometry.Geometry()
     hand = 10e-6 / 1.5e-3 / ((1 - 0.3) / 192e9 + ((2.45**2 + 0.75**2) / (2.45**2 - 0.75**2) + 0.33) / 110e9)
     assert closed_form.lame_pressure(g, 10e-6) == pytest.approx(hand, rel=1e-12)
-    assert closed_form.stress(g, 50.0, 0.0, 0.0, 0.0, -1e-5)[2] == pytest.approx(50.0 / (np.pi / 4 * 1.5e-3**2), rel=1e-12)
+    assert closed_form.stress(g, 50.0, 0.0, 0.0, 0.0, -1e-5)[2] == pytest.approx(
+        50.0 / (np.pi / 4 * 1.5e-3**2), rel=1e-12
+    )
     bending = 32 * 5e-3 / (np.pi * 1.5e-3**3)  # of 5 N.mm: 15.09 MPa
     assert closed_form.stress(g, 0.0, 0.0, 5e-3, 1.0, -1e-5)[0] == pytest.approx(2.25 * bending, rel=1e-12)
 
 
 def test_closed_form_table_follows_its_closed_forms():
-    """Splines against the functions they were made from, at random loads: 4.2 % of the maximum observed where V and M cancel in the head."""
+    """Splines against the functions they were made from, at random loads: 4.2 % of the maximum observed where V and M
+    cancel in the head.
+    """
     g = geometry.Geometry()
     t = closed_form.make_table(g)
     rng = np.random.default_rng(8)
     T, V = rng.uniform(0, 100, 2000), rng.uniform(0, 60, 2000)
-    m, direction, fit = t.shank.length * T * rng.uniform(0, 1, 2000), rng.uniform(0, np.pi, 2000), rng.uniform(-40e-6, 9e-6, 2000)
+    m, direction, fit = (
+        t.shank.length * T * rng.uniform(0, 1, 2000),
+        rng.uniform(0, np.pi, 2000),
+        rng.uniform(-40e-6, 9e-6, 2000),
+    )
     exact = closed_form.stress(g, T, V, m, np.cos(direction), fit)
     got, _ = rivet_rom.rivet_rom_stress(t, RivetLoad(T, V, 0 * V, m * np.sin(direction), m * np.cos(direction)), fit)
     error = np.abs(got - exact) / exact.max(axis=0)

@@ -1,13 +1,15 @@
-"""Loads of joints and rivets: the core's fixed point beside the converged one, the cage's centrifugal load, invariance; both twins alike."""
+"""Loads of joints and rivets: the core's fixed point beside the converged one, the cage's centrifugal load, invariance;
+both twins alike.
+"""
 
 import numpy as np
 import pytest
 from mechanics import Instance
 
 from bearing_model.cage.common import joint_law
+from bearing_model.generated.variables import Z
 from bearing_model.physics.derived import default_table
 from bearing_model.rivet.rivet_rom import HEAD_P1, RivetLoad, rivet_rom_stress
-from bearing_model.generated.variables import Z
 
 RPM = np.pi / 30.0
 CAGE = 0.395  # cage speed per shaft speed of the 6207, near no-slip
@@ -27,7 +29,9 @@ def c_opens(core, bonded, P, spin_M, spin_P, isa=None, intact=True):
     given[0].row[3][0:Z] = P.tolist()
     given[0].row[4][0:Z] = np.broadcast_to(intact, Z).astype(float).tolist()
     rows, out = ffi.cast("ball_array *", given[0]), ffi.cast("ball_array *", given[1])
-    core.model(isa=isa).kernel("joints_open")(ffi.addressof(lib.rivet_table.half, "law"), rows, rows[3], rows[4], spin_M, spin_P, out, out + 3)
+    core.model(isa=isa).kernel("joints_open")(
+        ffi.addressof(lib.rivet_table.half, "law"), rows, rows[3], rows[4], spin_M, spin_P, out, out + 3
+    )
     found = np.array([list(given[1].row[i])[:Z] for i in range(6)])
     return found[:3].T, found[3:].T
 
@@ -42,7 +46,9 @@ def converged(law, bonded, P):
 
 
 def scenes(half, count, seed):
-    """Bonded loads and preloads of joints: centrifugal load of 0...24,000 r/min, preloads of 5...160 N, one or two struck joints with their neighbours."""
+    """Bonded loads and preloads of joints: centrifugal load of 0...24,000 r/min, preloads of 5...160 N, one or two
+    struck joints with their neighbours.
+    """
     rng = np.random.default_rng(seed)
     for _ in range(count):
         omega2 = (CAGE * RPM * rng.choice([0.0, 4e3, 18238.0, 24e3])) ** 2
@@ -57,7 +63,8 @@ def scenes(half, count, seed):
 
 
 def test_core_against_the_converged_fixed_point(core, half):
-    """400 random scenes, each with the worst of its 9 joints: T within 2.5 %, moments within 4 % of the scene's largest, RMS below 1 %.
+    """400 random scenes, each with the worst of its 9 joints: T within 2.5 %, moments within 4 % of the scene's
+    largest, RMS below 1 %.
 
     The core leaves changes of 1 % of a joint's load unfollowed (CHANGE).  Observed T 1.9 %, M 2.8 %; RMS 0.2, 0.7 %.
     """
@@ -66,7 +73,12 @@ def test_core_against_the_converged_fixed_point(core, half):
     for scene, exact_load, exact_rivet in zip(drawn, *exact, strict=True):
         load, rivet = c_opens(core, *scene)
         moment = max(np.abs(exact_load[:, 1:]).max(), 1e-3)
-        errors.append([np.abs(rivet[:, 0] - exact_rivet[:, 0]).max() / exact_rivet[:, 0].max(), np.abs(load[:, 1:] - exact_load[:, 1:]).max() / moment])
+        errors.append(
+            [
+                np.abs(rivet[:, 0] - exact_rivet[:, 0]).max() / exact_rivet[:, 0].max(),
+                np.abs(load[:, 1:] - exact_load[:, 1:]).max() / moment,
+            ]
+        )
     errors = np.array(errors)
     print("T, M: largest", errors.max(axis=0), "RMS", np.sqrt((errors**2).mean(axis=0)))
     assert errors[:, 0].max() < 0.025 and errors[:, 1].max() < 0.04
@@ -77,17 +89,25 @@ def test_twins_of_opening_joints(core, half):
     """C and Python, the same joints found again in the same sweeps: to rounding (observed 1e-12 of the largest)."""
     for bonded, P, spin_M, spin_P in scenes(half, 300, 2):
         load, rivet = c_opens(core, bonded, P, spin_M, spin_P)
-        for found, expected in zip((load, rivet), joint_law.joints_open(half.law, bonded, P, spin_M, spin_P)[:2], strict=True):
+        for found, expected in zip(
+            (load, rivet), joint_law.joints_open(half.law, bonded, P, spin_M, spin_P)[:2], strict=True
+        ):
             np.testing.assert_allclose(found, expected, rtol=1e-9, atol=1e-10 * np.abs(expected).max())
 
 
 def test_homogeneous_of_degree_1(core, half):
-    """Loads and preloads times a factor: all results times the factor, so that no newton is built in (observed 1e-15; factors of 2 keep the choices)."""
+    """Loads and preloads times a factor: all results times the factor, so that no newton is built in (observed 1e-15;
+    factors of 2 keep the choices).
+    """
     for bonded, P, spin_M, spin_P in scenes(half, 100, 3):
         once = c_opens(core, bonded, P, spin_M, spin_P)
         for factor in (0.125, 64.0):
-            for found, expected in zip(c_opens(core, factor * bonded, factor * P, factor * spin_M, factor * spin_P), once, strict=True):
-                np.testing.assert_allclose(found, factor * expected, rtol=1e-12, atol=1e-12 * factor * np.abs(expected).max())
+            for found, expected in zip(
+                c_opens(core, factor * bonded, factor * P, factor * spin_M, factor * spin_P), once, strict=True
+            ):
+                np.testing.assert_allclose(
+                    found, factor * expected, rtol=1e-12, atol=1e-12 * factor * np.abs(expected).max()
+                )
 
 
 def test_instruction_sets_with_fused_sums_give_the_same_bits(core, half):
@@ -101,7 +121,9 @@ def test_instruction_sets_with_fused_sums_give_the_same_bits(core, half):
 
 @pytest.mark.parametrize("P", [20.0, 40.0, 60.0])
 def test_rivets_at_rest_of_the_impacts(core, half, P):
-    """Centrifugal load alone, 4,000 to 24,000 r/min: the core's T, M_t and head stress within 0.5 % of the converged fixed point of the law."""
+    """Centrifugal load alone, 4,000 to 24,000 r/min: the core's T, M_t and head stress within 0.5 % of the converged
+    fixed point of the law.
+    """
     table = default_table()
     for rpm in np.linspace(4e3, 24e3, 11):
         spin = half.spin * (CAGE * RPM * rpm) ** 2
@@ -111,12 +133,17 @@ def test_rivets_at_rest_of_the_impacts(core, half, P):
         assert np.ptp(rivet[:, 0]) < 1e-12 * rivet[0, 0]
         assert rivet[0, 0] == pytest.approx(exact_rivet[0, 0], rel=5e-3)
         assert load[0, 2] == pytest.approx(exact_load[0, 2], rel=5e-3)
-        heads = [rivet_rom_stress(table, RivetLoad(T=r[0], m_z=r[2] + spin[7]), -6e-6)[0][HEAD_P1] for r in (rivet[0], exact_rivet[0])]
+        heads = [
+            rivet_rom_stress(table, RivetLoad(T=r[0], m_z=r[2] + spin[7]), -6e-6)[0][HEAD_P1]
+            for r in (rivet[0], exact_rivet[0])
+        ]
         assert heads[0] == pytest.approx(heads[1], rel=5e-3)
 
 
 def wandering(half, steps, seed):
-    """Bonded loads and preloads from instant to instant: 18,238 r/min, forces that come, change by a few per cent a step and go at one to four joints."""
+    """Bonded loads and preloads from instant to instant: 18,238 r/min, forces that come, change by a few per cent a
+    step and go at one to four joints.
+    """
     rng = np.random.default_rng(seed)
     spin = (CAGE * RPM * 18238.0) ** 2 * half.spin
     P_0 = np.exp(rng.uniform(np.log(5.0), np.log(160.0)))
@@ -133,7 +160,9 @@ def wandering(half, steps, seed):
 
 
 def c_follows(core, instants, isa=None, intact=True):
-    """(N, M_r, M_t), (T, m_r, m_t) [instants, Z, 3] by the C core, from each instant to the next; at which it followed the joints [instants]."""
+    """(N, M_r, M_t), (T, m_r, m_t) [instants, Z, 3] by the C core, from each instant to the next; at which it followed
+    the joints [instants].
+    """
     ffi, lib = core.ffi, core.lib
     tangents, given, out = core.new("JointTangents"), core.new("PathRows"), core.new("PathRows")
     given.row[4][0:Z] = np.broadcast_to(intact, Z).astype(float).tolist()
@@ -151,7 +180,8 @@ def c_follows(core, instants, isa=None, intact=True):
 
 
 def test_following_joints_against_the_converged_fixed_point(core, half):
-    """20 runs of 60 steps, where joints are followed: T and moments within 0.5 % of each instant's largest (observed 0.42 and 0.21 %; RMS 0.07, 0.04 %).
+    """20 runs of 60 steps, where joints are followed: T and moments within 0.5 % of each instant's largest (observed
+    0.42 and 0.21 %; RMS 0.07, 0.04 %).
 
     Tangents reach over 5 % of a joint's load (REACH); over 20 % the errors were 7.1 and 2.6 %.
     """
@@ -159,18 +189,30 @@ def test_following_joints_against_the_converged_fixed_point(core, half):
     for seed in range(20):
         instants = list(wandering(half, 60, seed))
         load, rivet, followed = c_follows(core, instants)
-        exact_load, exact_rivet = converged(half.law, *(np.array(given) for given in list(zip(*instants, strict=True))[:2]))
+        exact_load, exact_rivet = converged(
+            half.law, *(np.array(given) for given in list(zip(*instants, strict=True))[:2])
+        )
         moment = np.maximum(np.abs(exact_load[..., 1:]).max(axis=(1, 2)), 1e-3)
         errors.append(np.abs(rivet - exact_rivet)[followed, :, 0].max(axis=1) / exact_rivet[followed, :, 0].max(axis=1))
         errors.append((np.abs(load - exact_load)[..., 1:].max(axis=(1, 2)) / moment)[followed])
     tension, moments = np.concatenate(errors[::2]), np.concatenate(errors[1::2])
-    print(len(tension), "instants; T, M: largest", tension.max(), moments.max(), "RMS", np.sqrt((tension**2).mean()), np.sqrt((moments**2).mean()))
+    print(
+        len(tension),
+        "instants; T, M: largest",
+        tension.max(),
+        moments.max(),
+        "RMS",
+        np.sqrt((tension**2).mean()),
+        np.sqrt((moments**2).mean()),
+    )
     assert len(tension) > 600
     assert tension.max() < 0.005 and moments.max() < 0.005
 
 
 def test_following_joints_one_of_them_broken(core, half):
-    """A joint that carries nothing: its rivet has no load, the others what plain sweeps find, which leave 1 % of a load unfollowed (observed: 0.2 %)."""
+    """A joint that carries nothing: its rivet has no load, the others what plain sweeps find, which leave 1 % of a load
+    unfollowed (observed: 0.2 %).
+    """
     intact = np.arange(Z) != 3
     instants = [(bonded, intact * P, *spin) for bonded, P, *spin in wandering(half, 30, 100)]
     rivet = c_follows(core, instants, intact=intact)[1]
@@ -188,10 +230,13 @@ def rivet_values(bearing, name):
 
 @pytest.mark.parametrize("cage", [1, 2])
 def test_centrifugal_off_leaves_the_preload(core, cage):
-    """At the start no pocket is touched: without the centrifugal load T = P, M = M_shank = 0; with it M_t = column times omega^2, nearly unrelieved."""
+    """At the start no pocket is touched: without the centrifugal load T = P, M = M_shank = 0; with it M_t = column
+    times omega^2, nearly unrelieved.
+    """
     off, on = (Instance(core, {"scene.cage": cage, "cage.centrifugal": switch}) for switch in (1, 2))
     np.testing.assert_allclose(rivet_values(off, "T"), 20.0, rtol=1e-4)  # four digits of the table (observed 3.3e-5)
-    assert rivet_values(off, "M").max() < 1e-4 and rivet_values(off, "M_shank").max() < 1e-4  # of splines of four digits (observed 1.3e-5)
+    # of splines of four digits (observed 1.3e-5)
+    assert rivet_values(off, "M").max() < 1e-4 and rivet_values(off, "M_shank").max() < 1e-4
     half = default_table().half
     bonded = abs(half.spin[4]) * on.output("cage.omega") ** 2
     assert np.all(rivet_values(on, "M") > 0.85 * bonded) and np.all(rivet_values(on, "M") < bonded)
@@ -199,7 +244,9 @@ def test_centrifugal_off_leaves_the_preload(core, cage):
 
 
 def test_components_of_the_moments(core):
-    """M_y, M_z and M_shank_y, M_shank_z are the components of M and M_shank; the centrifugal moment is about the circle: across the radius at each rivet."""
+    """M_y, M_z and M_shank_y, M_shank_z are the components of M and M_shank; the centrifugal moment is about the
+    circle: across the radius at each rivet.
+    """
     on = Instance(core)
     angle = 2.0 * np.pi * (np.arange(Z) + 0.5) / Z
     for name in ("M", "M_shank"):

@@ -1,4 +1,6 @@
-"""Properties of any run: finite values, closed energy balance, refusals by name, recovery and the same bits whatever the host does."""
+"""Properties of any run: finite values, closed energy balance, refusals by name, recovery and the same bits whatever
+the host does.
+"""
 
 import ctypes
 import os
@@ -14,12 +16,17 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from slave import DISCARD, ERROR, OK, WARNING, Slave
 
-from bearing_model.physics import parameters
 from bearing_model.generated import variables
+from bearing_model.physics import parameters
 
 H = 1e-4  # communication step [s]
 TYPES = parameters.TYPES
-QUICK = settings(deadline=None, max_examples=60, derandomize=True, suppress_health_check=[HealthCheck.function_scoped_fixture, HealthCheck.too_slow])
+QUICK = settings(
+    deadline=None,
+    max_examples=60,
+    derandomize=True,
+    suppress_health_check=[HealthCheck.function_scoped_fixture, HealthCheck.too_slow],
+)
 
 
 @pytest.fixture(scope="module")
@@ -33,9 +40,10 @@ def slave(folder):
     return Slave(folder)
 
 
-# ---------------------------------------------------------------------------------------------------------------- any values
+# ----------------------------------------------------------------------------------------------------------- any values
 
-FIXED = {"solver.max_steps", "solver.tol", "bearing.d_m", "pulse.t_start", "start.settle"}  # work, table, time: set by the test or without effect
+# work, table, time: set by the test or without effect
+FIXED = {"solver.max_steps", "solver.tol", "bearing.d_m", "pulse.t_start", "start.settle"}
 
 
 def value_of(variable):
@@ -44,7 +52,9 @@ def value_of(variable):
         return st.sampled_from([int(member) for member in TYPES[variable.type]])
     if variable.type == "Integer":
         return st.integers(variable.min, min(variable.max, 1000))
-    near = st.floats(0.5, 2.0).map(lambda factor: min(max(factor * (variable.start or 0.1 * variable.max), variable.min), variable.max))
+    near = st.floats(0.5, 2.0).map(
+        lambda factor: min(max(factor * (variable.start or 0.1 * variable.max), variable.min), variable.max)
+    )
     return st.one_of(near, near, st.floats(variable.min, variable.max))
 
 
@@ -75,13 +85,19 @@ def try_initialize(slave, values):
 def names_value_and_limit(message):
     """Whether a refusal says which variable, what it is and what is allowed."""
     name = r"[a-z]+(\[\d+\])?\.\w+"
-    return re.search(rf"{name} = -?[\d.]", message) and re.search(r"allowed|must lie", message) and len(re.findall(r"\d", message)) > 1
+    return (
+        re.search(rf"{name} = -?[\d.]", message)
+        and re.search(r"allowed|must lie", message)
+        and len(re.findall(r"\d", message)) > 1
+    )
 
 
 @QUICK
 @given(parameters=some_values(variables.PARAMETERS, 6), inputs=some_values(variables.INPUTS, 3))
 def test_any_allowed_values_run_or_are_refused_by_name(slave, parameters, inputs):
-    """A bearing starts, or the message names a variable, its value and what is allowed; then one step ends, or is discarded with a time inside it."""
+    """A bearing starts, or the message names a variable, its value and what is allowed; then one step ends, or is
+    discarded with a time inside it.
+    """
     status = try_initialize(slave, parameters | inputs)
     if status == ERROR:
         assert names_value_and_limit(slave.messages[-1][2]), slave.messages
@@ -114,9 +130,14 @@ def test_any_value_next_to_zero_runs_or_is_refused_by_name(slave, tiny):
 
 
 @QUICK
-@given(inputs=st.lists(some_values(variables.INPUTS, 4), min_size=2, max_size=6), steps=st.lists(st.floats(1e-9, 3e-5), min_size=6, max_size=6))
+@given(
+    inputs=st.lists(some_values(variables.INPUTS, 4), min_size=2, max_size=6),
+    steps=st.lists(st.floats(1e-9, 3e-5), min_size=6, max_size=6),
+)
 def test_any_jump_of_inputs_keeps_values_finite(slave, inputs, steps):
-    """Loads, speed, tilt and temperatures jump within their limits at every communication point; temperatures that the bearing does not bear are refused."""
+    """Loads, speed, tilt and temperatures jump within their limits at every communication point; temperatures that the
+    bearing does not bear are refused.
+    """
     assert try_initialize(slave, {}) == OK
     for changes, step in zip(inputs, steps, strict=False):
         for name, value in changes.items():
@@ -140,17 +161,28 @@ def test_any_jump_of_inputs_keeps_values_finite(slave, inputs, steps):
     mode=st.integers(1, 3),
 )
 def test_energy_balance_closes(slave, omega, loads, tilt, pulse, mode):
-    """Residual of Runge-Kutta over 0.2 ms below 5e-4 J.  A step may err by the tolerance 3e-4 in each state class, that is 3 nm of way against some kN
-    (10 uJ) and 3e-5 m/s of a ball's 30 m/s (6 uJ), in some 50 steps; largest observed 1.2e-4 J."""
+    """Residual of Runge-Kutta over 0.2 ms below 5e-4 J.  A step may err by the tolerance 3e-4 in each state class, that
+    is 3 nm of way against some kN (10 uJ) and 3e-5 m/s of a ball's 30 m/s (6 uJ), in some 50 steps; largest observed
+    1.2e-4 J.
+    """
     F_x, F_y, F_z = loads
-    values = {"shaft.omega": omega, "shaft.F_x": F_x, "shaft.F_y": F_y, "shaft.F_z": F_z, "shaft.tilt_z": tilt, "ring.tilt_mode": mode}
+    values = {
+        "shaft.omega": omega,
+        "shaft.F_x": F_x,
+        "shaft.F_y": F_y,
+        "shaft.F_z": F_z,
+        "shaft.tilt_z": tilt,
+        "ring.tilt_mode": mode,
+    }
     solver = {"solver.tol": 3e-4, "solver.method": variables.Method.EXPLICIT, "solver.max_steps": 100000}
-    assert try_initialize(slave, values | solver | {"pulse.F_r": pulse, "pulse.t_start": 5e-5, "pulse.duration": 1e-4}) in (OK, WARNING)
+    assert try_initialize(
+        slave, values | solver | {"pulse.F_r": pulse, "pulse.t_start": 5e-5, "pulse.duration": 1e-4}
+    ) in (OK, WARNING)
     slave.step(2e-4)
     assert abs(slave.get("bearing.energy_residual")[0]) < 5e-4
 
 
-# ------------------------------------------------------------------------------------------------------------------- recovery
+# ------------------------------------------------------------------------------------------------------------- recovery
 
 
 def state_after(slave, steps=5):
@@ -192,7 +224,9 @@ def damaged_state(slave):
     assert slave.try_load(bytes(data))[0] == ERROR
 
 
-@pytest.mark.parametrize("accident", [refused_value, refused_parameters, refused_start, refused_step, discarded_step, damaged_state])
+@pytest.mark.parametrize(
+    "accident", [refused_value, refused_parameters, refused_start, refused_step, discarded_step, damaged_state]
+)
 def test_after_any_accident_a_reset_instance_is_as_new(folder, accident):
     """Every byte of the state; and the accident's instance can be freed as it is."""
     fresh, used, freed = Slave(folder), Slave(folder), Slave(folder)
@@ -211,12 +245,13 @@ def test_a_failed_step_leaves_the_last_good_state(folder):
     assert 0.0 < reached < 0.01
     stopped.step(reached)
     names = ["ring.x", "ring.y", "ball[1].x", "ball[5].r", "cage.y", "cage.z"]
-    allowed = 10 * 3e-4 * 1e-5  # at most the last steps are cut otherwise: ten times the tolerance of one step in a length; observed 0
+    # at most the last steps are cut otherwise: ten times the tolerance of one step in a length; observed 0
+    allowed = 10 * 3e-4 * 1e-5
     assert np.max(np.abs(failed.get(*names) - stopped.get(*names))) < allowed
     assert np.isfinite(failed.outputs()).all()
 
 
-# ----------------------------------------------------------------------------------------------------------------- determinism
+# ---------------------------------------------------------------------------------------------------------- determinism
 
 PROGRAM = """
 import sys; from pathlib import Path; from slave import Slave
@@ -230,14 +265,21 @@ def elsewhere(folder, cwd, **environment):
     here = str(Path(__file__).parent)
     paths = os.pathsep.join([here, str(Path(here).parent)])
     result = subprocess.run(
-        [sys.executable, "-c", PROGRAM, str(folder)], cwd=cwd, env=os.environ | {"PYTHONPATH": paths} | environment, capture_output=True, text=True, check=True
+        [sys.executable, "-c", PROGRAM, str(folder)],
+        cwd=cwd,
+        env=os.environ | {"PYTHONPATH": paths} | environment,
+        capture_output=True,
+        text=True,
+        check=True,
     )
     return bytes.fromhex(result.stdout)
 
 
 def test_another_process_directory_and_environment(folder, tmp_path):
     slave = Slave(folder).initialize(scene__lubrication=2).step(H, 5)
-    assert elsewhere(folder, tmp_path, LC_ALL="de_DE.UTF-8", OMP_NUM_THREADS="1", TZ="Asia/Tokyo") == slave.bytes(slave.save())
+    assert elsewhere(folder, tmp_path, LC_ALL="de_DE.UTF-8", OMP_NUM_THREADS="1", TZ="Asia/Tokyo") == slave.bytes(
+        slave.save()
+    )
 
 
 def decimal_comma():
@@ -262,7 +304,9 @@ def comma_locale(tmp_path):
     libc.setlocale.restype, libc.setlocale.argtypes = ctypes.c_char_p, (ctypes.c_int, ctypes.c_char_p)
     name = decimal_comma()
     if name is None:
-        made = subprocess.run(["localedef", "-i", "de_DE", "-f", "UTF-8", str(tmp_path / "de_DE.UTF-8")], capture_output=True, check=False)
+        made = subprocess.run(
+            ["localedef", "-i", "de_DE", "-f", "UTF-8", str(tmp_path / "de_DE.UTF-8")], capture_output=True, check=False
+        )
         if made.returncode > 1:
             pytest.skip("no locale with a decimal comma, and none can be made")
         os.environ["LOCPATH"] = str(tmp_path)
@@ -291,7 +335,9 @@ X86 = os.uname().machine == "x86_64" if hasattr(os, "uname") else False
 def control_word(tmp_path):
     """Reads and writes the SSE control word of this thread."""
     source, library = tmp_path / "mode.c", tmp_path / "mode.so"
-    source.write_text("#include <xmmintrin.h>\nunsigned get(void) { return _mm_getcsr(); }\nvoid set(unsigned word) { _mm_setcsr(word); }\n")
+    source.write_text(
+        "#include <xmmintrin.h>\nunsigned get(void) { return _mm_getcsr(); }\nvoid set(unsigned word) { _mm_setcsr(word); }\n"
+    )
     subprocess.run(["cc", "-shared", "-fPIC", str(source), "-o", str(library)], check=True)
     mode = ctypes.CDLL(str(library))
     before = mode.get()
@@ -334,8 +380,8 @@ def test_the_number_of_instances_changes_no_bit(folder):
 def test_angles_stay_exact_after_a_million_turns(core):
     """dy/dt with all azimuths and the cage a million turns ahead: as without, to the angles' resolution.
 
-    That is 9e-10 rad, 2.5e-11 m at the pitch circle; with a contact's 1.8e8 N/m 4e-3 N of 1500 N: 3e-6.  Observed 1.3e-9: angles enter by the
-    direction of the loads only.
+    That is 9e-10 rad, 2.5e-11 m at the pitch circle; with a contact's 1.8e8 N/m 4e-3 N of 1500 N: 3e-6.  Observed
+    1.3e-9: angles enter by the direction of the loads only.
     """
     model = core.model()
     y = model.start()

@@ -1,4 +1,6 @@
-"""Cage halves as free rigid bodies: body axes, torque-free motion, conservation.  Joints, films and drag are taken away."""
+"""Cage halves as free rigid bodies: body axes, torque-free motion, conservation.  Joints, films and drag are taken
+away.
+"""
 
 import numpy as np
 import pytest
@@ -8,12 +10,22 @@ from scipy.integrate import solve_ivp
 from bearing_model.generated import variables
 
 M, J_P, J_T, X_C = (variables.PARAMETERS[f"cage.{name}"].start for name in ("m", "J_p", "J_t", "x_c"))
-NAMES = [f"cage_{name}" for name in ("x", "y", "z", "beta", "gamma", "psi", "v_x", "v_y", "v_z", "beta_dot", "gamma_dot", "s")]
+NAMES = [
+    f"cage_{name}"
+    for name in ("x", "y", "z", "beta", "gamma", "psi", "v_x", "v_y", "v_z", "beta_dot", "gamma_dot", "s")
+]
 
 
 def free_halves(core, **parameters):
     """Model, y and the derivative of the 24 states of two halves that nothing touches."""
-    alone = {"oil.eta": 1e-300, "oil.rho_mix": 0.0, "cage.K_land": 0.0, "joint.preload": 0.0, "joint.mu": 0.0, "joint.zeta": 0.0}
+    alone = {
+        "oil.eta": 1e-300,
+        "oil.rho_mix": 0.0,
+        "cage.K_land": 0.0,
+        "joint.preload": 0.0,
+        "joint.mu": 0.0,
+        "joint.zeta": 0.0,
+    }
     model = core.model(parameters=alone | parameters)
     for name in ("k_rivet", "k_plate", "k_plate_t", "k_head"):
         setattr(model.d, name, 0.0)
@@ -55,7 +67,8 @@ def momentum(state, h):
 
 
 def test_torque_free_top(core):
-    """Axis on a cone about the angular momentum at |L|/J_t; L, spin and kinetic energy constant; straight path of the centre of mass.
+    """Axis on a cone about the angular momentum at |L|/J_t; L, spin and kinetic energy constant; straight path of the
+    centre of mass.
 
     Integrated to 1e-11 over a turn, tilts up to 0.3 rad; observed 2e-10.
     """
@@ -75,12 +88,15 @@ def test_torque_free_top(core):
             assert momentum(state, h) == pytest.approx(L, abs=1e-8 * np.linalg.norm(L))
             assert state[22 + h] == pytest.approx(start[22 + h], rel=1e-12)
             a = angular_velocity(state, h)[0]
-            assert a == pytest.approx(along + across * np.cos(rate * time) + np.cross(n, across) * np.sin(rate * time), abs=1e-7)
+            assert a == pytest.approx(
+                along + across * np.cos(rate * time) + np.cross(n, across) * np.sin(rate * time), abs=1e-7
+            )
             assert state[h:6:2] == pytest.approx(start[h:6:2] + start[12 + h : 18 : 2] * time, abs=1e-12)
 
 
 def test_body_axes(core):
-    """b_y and b_z are orthonormal to a, right-handed, and turn with Omega: psi' makes up for the turn of the minimal rotation.
+    """b_y and b_z are orthonormal to a, right-handed, and turn with Omega: psi' makes up for the turn of the minimal
+    rotation.
 
     Central differences over 1e-8 s: (757e-8)^2/6 and rounding 1e-16/1e-8; observed 3e-8 of Omega.
     """
@@ -99,11 +115,15 @@ def test_body_axes(core):
             assert now[i] @ now[i].T == pytest.approx(np.eye(3), abs=1e-14)
             assert np.linalg.det(now[i]) == pytest.approx(1.0, abs=1e-14)
             Omega = angular_velocity(state, i)[1]
-            assert (later[i] - before[i]) / (2 * h) == pytest.approx(np.cross(Omega, now[i]), abs=1e-6 * np.linalg.norm(Omega))
+            assert (later[i] - before[i]) / (2 * h) == pytest.approx(
+                np.cross(Omega, now[i]), abs=1e-6 * np.linalg.norm(Omega)
+            )
 
 
 def test_geometric_centre_follows_the_body(core):
-    """Its place is x_c from the centre of mass along the axis and the unbalance across it, its velocity v + Omega x that."""
+    """Its place is x_c from the centre of mass along the axis and the unbalance across it, its velocity v + Omega x
+    that.
+    """
     unbalance = 1e-6  # kg.m
     model, y, index, rates = free_halves(core, **{"cage.unbalance": unbalance})
     state = spun_up(y, index, np.random.default_rng(3))
@@ -116,7 +136,9 @@ def test_geometric_centre_follows_the_body(core):
 
 
 def test_euler_equations_under_a_moment(core):
-    """dL/dt = M: the land's dry contact pushes the tilted half, its moment about the centre of mass changes the angular momentum."""
+    """dL/dt = M: the land's dry contact pushes the tilted half, its moment about the centre of mass changes the angular
+    momentum.
+    """
     model, y, index, rates = free_halves(core, **{"cage.K_land": 2e9, "cage.mu_land": 0.3})
     rng = np.random.default_rng(4)
     for _ in range(5):

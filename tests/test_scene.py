@@ -86,7 +86,10 @@ def test_scenes_mean_what_the_design_says(model):
     assert scenes["R"].inputs["shaft.tilt_z"](0.0) == pytest.approx(math.radians(0.15), rel=1e-12)
     assert scenes["jam"].parameters["start.settle"] == 0.2 and scenes["jam"].parameters["ring.k_tilt"] == 500.0
     for name in ("R", "F", "jam"):
-        assert scenes[name].parameters["ring.tilt_mode"] == "supported" and scenes[name].parameters["scene.lubrication"] == "mixed"
+        assert (
+            scenes[name].parameters["ring.tilt_mode"] == "supported"
+            and scenes[name].parameters["scene.lubrication"] == "mixed"
+        )
         assert scenes[name].parameters["cage.pocket_clearance"] == pytest.approx(1e-4, rel=1e-15)
 
 
@@ -98,19 +101,27 @@ def test_dotted_nested_and_quoted_names_are_the_same(model, scene_file):
     )
     scenes = [load_scene(scene_file(text), model) for text in texts]
     for scene in scenes:
-        assert scene.parameters["joint.preload"] == 30.0 and scene.parameters["joint.fit"] == pytest.approx(-2e-5, rel=1e-15)
+        assert scene.parameters["joint.preload"] == 30.0 and scene.parameters["joint.fit"] == pytest.approx(
+            -2e-5, rel=1e-15
+        )
 
 
 def test_outputs_by_pattern_in_the_order_of_the_fmu(model, scene_file):
-    scene = load_scene(scene_file("[simulation]\noutputs = ['rivet[*].sigma_head_peak', 'ring.y', 'rivet[1].N', 'shaft.omega']"), model)
+    scene = load_scene(
+        scene_file("[simulation]\noutputs = ['rivet[*].sigma_head_peak', 'ring.y', 'rivet[1].N', 'shaft.omega']"), model
+    )
     assert scene.outputs[:2] == ("shaft.omega", "ring.y")
-    assert [name for name in scene.outputs if name.endswith("_peak")] == [f"rivet[{k}].sigma_head_peak" for k in range(1, 10)]
+    assert [name for name in scene.outputs if name.endswith("_peak")] == [
+        f"rivet[{k}].sigma_head_peak" for k in range(1, 10)
+    ]
     assert "rivet[1].N" in scene.outputs and len(scene.outputs) == 12
 
 
 def test_all_outputs_but_statistics_by_default(model):
     outputs = load_scene("demo", model).outputs
-    assert set(outputs) == {*model.inputs, *model.outputs} - {name for name in model.outputs if name.startswith("stat.")}
+    assert set(outputs) == {*model.inputs, *model.outputs} - {
+        name for name in model.outputs if name.startswith("stat.")
+    }
 
 
 def test_changes_win_over_the_file(model):
@@ -128,8 +139,12 @@ def test_history_by_hand():
 
 def test_points_and_columns_give_the_same_history(model, scene_file, tmp_path):
     (tmp_path / "loads.csv").write_text("# measured\nt,Fr,other\n0,1,7\n0.1,3,8\n0.2,2.5,9\n")
-    points = load_scene(scene_file("[inputs]\nshaft.F_y = { t = [0, '100 ms', 0.2], value = [1, '3 kN', 2.5], unit = 'kN' }"), model)
-    column = load_scene(scene_file("[inputs]\nshaft.F_y = { file = 'loads.csv', column = 'Fr', time = 't', unit = 'kN' }"), model)
+    points = load_scene(
+        scene_file("[inputs]\nshaft.F_y = { t = [0, '100 ms', 0.2], value = [1, '3 kN', 2.5], unit = 'kN' }"), model
+    )
+    column = load_scene(
+        scene_file("[inputs]\nshaft.F_y = { file = 'loads.csv', column = 'Fr', time = 't', unit = 'kN' }"), model
+    )
     t = np.linspace(0.0, 0.3, 31)
     assert points.inputs["shaft.F_y"](t) == pytest.approx(np.interp(t, [0, 0.1, 0.2], [1000, 3000, 2500]), rel=1e-14)
     assert column.inputs["shaft.F_y"](t) == pytest.approx(points.inputs["shaft.F_y"](t), rel=1e-14)
@@ -161,13 +176,23 @@ BAD_SCENES = [
     ("[parameters]\nfoo.bar = 1", ["unknown parameter", '"foo']),
     ("[parameters]\nshaft.F_y = 1", ["parameters.shaft.F_y", "into [inputs]"]),
     ("[inputs]\njoint.preload = 1", ["inputs.joint.preload", "into [parameters]"]),
-    ("[inputs]\nshaft.omega = 18238", ["inputs.shaft.omega = 18238", "174160 rev/min is out of range", "143239 rev/min"]),  # meant as rev/min
+    # meant as rev/min
+    (
+        "[inputs]\nshaft.omega = 18238",
+        ["inputs.shaft.omega = 18238", "174160 rev/min is out of range", "143239 rev/min"],
+    ),
     ("Z = 8", ["a bearing file, not a scene", "build --bearing"]),
-    ("[parameters]\njoint.preload = '20 mm'", ["parameters.joint.preload = '20 mm'", '"mm" does not fit', "allowed: N"]),
+    (
+        "[parameters]\njoint.preload = '20 mm'",
+        ["parameters.joint.preload = '20 mm'", '"mm" does not fit', "allowed: N"],
+    ),
     ("[parameters]\njoint.preload = '20'", ["parameters.joint.preload = '20'", "needs a unit", "N"]),
     ("[parameters]\njoint.preload = -1", ["parameters.joint.preload = -1", "0 ... 1000 N"]),
     ("[parameters]\njoint.fit = '1 mm'", ["parameters.joint.fit = '1 mm'", "-0.5 ... 0.1 mm"]),
-    ("[parameters]\nring.tilt_mode = 'suported'", ["parameters.ring.tilt_mode = 'suported'", "prescribed, supported, free"]),
+    (
+        "[parameters]\nring.tilt_mode = 'suported'",
+        ["parameters.ring.tilt_mode = 'suported'", "prescribed, supported, free"],
+    ),
     ("[parameters]\nring.tilt_mode = 2", ["parameters.ring.tilt_mode = 2", "prescribed, supported, free"]),
     ("[parameters]\nstart.seed = 1.5", ["parameters.start.seed = 1.5", "integer"]),
     ("[parameters]\nstart.seed = -1", ["parameters.start.seed = -1", "-1 is out of range, allowed: 0 ... 2.14748e+09"]),
@@ -184,7 +209,10 @@ BAD_SCENES = [
     ("[inputs]\nshaft.F_y = { file = 'loads.csv', column = 'Fq' }", ["loads.csv", '"Fq"', "time, Fr, word"]),
     ("[inputs]\nshaft.F_y = { file = 'loads.csv', column = 'word' }", ["loads.csv", '"word"', "no numbers"]),
     ("[inputs]\nshaft.F_y = { file = 'loads.csv', column = 'Fr', unit = 'MN' }", ['"MN"', "N, kN"]),
-    ("[inputs]\nshaft.F_y = { file = 'loads.csv', column = 'Fr', unit = 3 }", ["inputs.shaft.F_y", "unit = 3: not a text"]),
+    (
+        "[inputs]\nshaft.F_y = { file = 'loads.csv', column = 'Fr', unit = 3 }",
+        ["inputs.shaft.F_y", "unit = 3: not a text"],
+    ),
     ("[inputs]\nshaft.F_y = { file = 3, column = 'Fr' }", ["inputs.shaft.F_y", "file = 3: not a text"]),
     ("[inputs]\nshaft.F_y = { file = 'picture.png', column = 'Fr' }", ["picture.png", "not a CSV table"]),
 ]

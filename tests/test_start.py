@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 from mechanics import SLICE, Instance, View, Z, pocket_loads
 
+from bearing_model.generated.variables import PARAMETERS, TiltMode
 from bearing_model.kinematics import cage_speed
 from bearing_model.physics.parameters import Parameters
-from bearing_model.quasi_static import Bearing, Load, quasi_static
 from bearing_model.physics.ring_fit import ring_fit_of
-from bearing_model.generated.variables import PARAMETERS, TiltMode
+from bearing_model.quasi_static import Bearing, Load, quasi_static
 
 TWINS = True
 RPM = math.pi / 30.0
@@ -20,12 +20,18 @@ CASES = {
     "pure radial": ({}, Load(F_y=-2000.0, F_z=1500.0, omega=4000 * RPM)),
     "standstill": ({}, Load(F_x=515.0, F_y=2994.0)),
     "backwards": ({}, Load(F_x=-515.0, F_z=2994.0, omega=-18238 * RPM)),
-    "prescribed tilt": ({}, Load(F_x=515.0, F_y=2994.0, omega=18238 * RPM, tilt_z=math.radians(0.25), tilt_y=math.radians(-0.1))),
+    "prescribed tilt": (
+        {},
+        Load(F_x=515.0, F_y=2994.0, omega=18238 * RPM, tilt_z=math.radians(0.25), tilt_y=math.radians(-0.1)),
+    ),
     "supported tilt": (
         {"ring.tilt_mode": TiltMode.SUPPORTED, "ring.k_tilt": 2e4},
         Load(F_x=515.0, F_y=2994.0, omega=18238 * RPM, tilt_z=math.radians(0.15), M_y=3.0, k_tilt=2e4),
     ),
-    "free tilt": ({"ring.tilt_mode": TiltMode.FREE}, Load(F_x=1500.0, F_y=2994.0, omega=18238 * RPM, M_z=2.0, k_tilt=0.0)),
+    "free tilt": (
+        {"ring.tilt_mode": TiltMode.FREE},
+        Load(F_x=1500.0, F_y=2994.0, omega=18238 * RPM, M_z=2.0, k_tilt=0.0),
+    ),
     "heavy": ({}, Load(F_x=1500.0, F_y=6000.0, omega=24000 * RPM)),
     "preloaded": ({"bearing.P_d": -5e-6}, Load(F_y=100.0, omega=18238 * RPM)),
 }
@@ -45,8 +51,9 @@ def start(core, parameters, load):
 def test_equilibrium(core, case):
     """Place and tilt of the ring, ball loads and contact angles.
 
-    The start holds the centrifugal force at the pitch radius and epicyclic speed and adds springs of 1 kN/m; the reference lets the speed follow the
-    contact angles.  Bounds: 0.05 um, 3e-6 rad, 0.3 % of the largest load; observed 0.02 um, 1e-6 rad, 0.1 %.
+    The start holds the centrifugal force at the pitch radius and epicyclic speed and adds springs of 1 kN/m; the
+    reference lets the speed follow the contact angles.  Bounds: 0.05 um, 3e-6 rad, 0.3 % of the largest load; observed
+    0.02 um, 1e-6 rad, 0.1 %.
     """
     parameters, load = CASES[case]
     reference = quasi_static(Bearing(P_d=parameters.get("bearing.P_d", 15e-6), fit=ring_fit_of(Parameters())), load)
@@ -73,7 +80,8 @@ def test_forces_balance_at_the_start(core):
     model = core.model(parameters=smooth, inputs=inputs)
     y = model.start()
     rate = model.rhs(0.0, y)
-    assert np.abs(rate[SLICE["ring_v_x"].start :][:3]).max() < 1e3 * 60e-6 / 0.6  # the springs of 1 kN/m, ring displaced by 56 um
+    # the springs of 1 kN/m, ring displaced by 56 um
+    assert np.abs(rate[SLICE["ring_v_x"].start :][:3]).max() < 1e3 * 60e-6 / 0.6
     omega_m = y[SLICE["ball_omega_m"]]
     # the start takes d_m/2 omega_0^2, the ball r omega_m^2: cos(alpha) of the mean load makes 3 %
     assert np.abs(rate[SLICE["ball_v_r"]]).max() < 0.05 * 0.02675 * omega_m[0] ** 2
@@ -81,14 +89,18 @@ def test_forces_balance_at_the_start(core):
 
 
 def test_kinematic_speeds(core):
-    """Balls orbit at the epicyclic speed of their contact angle and roll on the outer race without slip; the cage goes with them."""
+    """Balls orbit at the epicyclic speed of their contact angle and roll on the outer race without slip; the cage goes
+    with them.
+    """
     model, y, _ = start(core, {}, CASES["working point"][1])
     omega = 18238 * RPM
     w = View(core, model.work)
     speed = y[SLICE["ball_omega_m"]]
     alpha = np.arctan2(-w.n_ix[:Z], -w.n_ir[:Z])
     weights = w.Q_i[:Z]
-    assert speed == pytest.approx(np.full(Z, np.average([cage_speed(omega, 0.0111125, 0.0535, a) for a in alpha], weights=weights)), rel=1e-6)
+    assert speed == pytest.approx(
+        np.full(Z, np.average([cage_speed(omega, 0.0111125, 0.0535, a) for a in alpha], weights=weights)), rel=1e-6
+    )
     r, R = y[SLICE["ball_r"]], 0.0111125 / 2
     n_x, n_r = w.n_ex[:Z], w.n_er[:Z]
     rolling = R * (y[SLICE["ball_omega_x"]] * n_r - y[SLICE["ball_omega_r"]] * n_x)
@@ -99,13 +111,15 @@ def test_kinematic_speeds(core):
 
 
 def test_cage_stands_where_the_balls_are(core):
-    """Centred on X, in the plane that fits the balls' axial places best (least squares of three numbers), turning about its own axis without wobble.
+    """Centred on X, in the plane that fits the balls' axial places best (least squares of three numbers), turning about
+    its own axis without wobble.
 
     The start takes means over the azimuth in place of the fit: radii differ by 1e-4.
     """
     model, y, _ = start(core, {}, Load(F_x=1000.0, F_y=2000.0, omega=1500.0, tilt_z=4e-3, tilt_y=2e-3))
     psi, x, r = y[SLICE["ball_theta"]], y[SLICE["ball_x"]], y[SLICE["ball_r"]]
-    plane = np.stack([np.ones(Z), -r * np.cos(psi), r * np.sin(psi)], -1)  # points of a plane tilted by (beta, gamma) about its centre
+    # points of a plane tilted by (beta, gamma) about its centre
+    plane = np.stack([np.ones(Z), -r * np.cos(psi), r * np.sin(psi)], -1)
     x_0, gamma, beta = np.linalg.lstsq(plane, x, rcond=None)[0]
     assert abs(gamma) > 1e-4
     assert y[SLICE["cage_gamma"]] == pytest.approx([gamma] * 2, rel=1e-3)
@@ -134,13 +148,18 @@ def test_nothing_loaded_nothing_moves(core):
     [
         ({}, {"shaft.tilt_z": math.radians(0.5)}),
         ({}, {"shaft.tilt_z": math.radians(-0.5), "shaft.F_x": 1500.0}),
-        ({"ring.tilt_mode": TiltMode.SUPPORTED, "ring.k_tilt": 2e4, "cage.pocket_clearance": 1e-4}, {"shaft.tilt_z": math.radians(0.15)}),
+        (
+            {"ring.tilt_mode": TiltMode.SUPPORTED, "ring.k_tilt": 2e4, "cage.pocket_clearance": 1e-4},
+            {"shaft.tilt_z": math.radians(0.15)},
+        ),
         ({"ring.tilt_mode": TiltMode.SUPPORTED, "ring.k_tilt": 1e3, "cage.pocket_clearance": 1e-4}, {}),
     ],
     ids=["tilt +0.5 deg", "tilt -0.5 deg", "scene R", "scene F"],
 )
 def test_no_shock_at_the_start(core, parameters, inputs):
-    """No ball starts pressed into its pocket: the cage stands where the balls are, 0.15 mm off the bearing's plane at 0.5 deg."""
+    """No ball starts pressed into its pocket: the cage stands where the balls are, 0.15 mm off the bearing's plane at
+    0.5 deg.
+    """
     model = core.model(parameters=parameters, inputs=inputs)
     y = model.start()
     model.rhs(0.0, y)
@@ -158,7 +177,7 @@ def test_unbalance_turns_about_the_centre(core):
     assert np.abs(list(model.work.half[0].v)).max() < 1e-12
 
 
-# -------------------------------------------------------------------------------------------------------------------------- seeds
+# ---------------------------------------------------------------------------------------------------------------- seeds
 
 
 def splitmix64(seed, n):
@@ -175,7 +194,9 @@ def splitmix64(seed, n):
 
 def test_generator():
     """The published sequence of seed 1234567."""
-    assert (splitmix64(1234567, 3) * 2.0**53).astype(np.uint64).tolist() == [n >> 11 for n in (6457827717110365317, 3203168211198807973, 9817491932198370423)]
+    assert (splitmix64(1234567, 3) * 2.0**53).astype(np.uint64).tolist() == [
+        n >> 11 for n in (6457827717110365317, 3203168211198807973, 9817491932198370423)
+    ]
 
 
 @pytest.mark.parametrize("seed", [0, 1, 2, 12345])

@@ -53,7 +53,12 @@ def test_quantile_is_linear_inside_a_bin(core):
 
 def test_zeros_and_an_empty_channel(core):
     c = channel(core, [], [])
-    assert core.lib.statistics_mean(c) == core.lib.statistics_rms(c) == core.lib.statistics_quantile(c, FLOOR, 0.999) == 0.0
+    assert (
+        core.lib.statistics_mean(c)
+        == core.lib.statistics_rms(c)
+        == core.lib.statistics_quantile(c, FLOOR, 0.999)
+        == 0.0
+    )
     c = channel(core, [0.0, 0.0, 8.0], [1.0, 1.0, 2.0])
     assert core.lib.statistics_mean(c) == 4.0
     assert core.lib.statistics_quantile(c, FLOOR, 0.4) == 0.0
@@ -68,21 +73,41 @@ def test_values_beyond_the_range_go_into_the_last_bin(core):
 def test_statistics_of_a_run(core):
     """stat.* after 2 ms against a history sampled at 1e-6 s, well below the step of 8e-6 s; settle and pooling count.
 
-    Steps end at communication points, so both samples are the same: weights of accepted steps, values at their ends.  Observed 1e-12.
+    Steps end at communication points, so both samples are the same: weights of accepted steps, values at their ends.
+    Observed 1e-12.
     """
-    bearing = Instance(core, {"scene.statistics": Switch.ON, "start.settle": 5e-4, "cage.pocket_clearance": 7e-5, "solver.method": Method.EXPLICIT})
+    bearing = Instance(
+        core,
+        {
+            "scene.statistics": Switch.ON,
+            "start.settle": 5e-4,
+            "cage.pocket_clearance": 7e-5,
+            "solver.method": Method.EXPLICIT,
+        },
+    )
     history, t = [], np.arange(1, 2001) * 1e-6
     for time in t:
         bearing.step(time)
-        history.append([*bearing.output("ball.Q_c"), bearing.output("cage.omega"), bearing.output("cage.eccentricity"), bearing.output("cage.dislocation")])
+        history.append(
+            [
+                *bearing.output("ball.Q_c"),
+                bearing.output("cage.omega"),
+                bearing.output("cage.eccentricity"),
+                bearing.output("cage.dislocation"),
+            ]
+        )
     history = np.array(history)[t >= 5e-4]
     Q_c, omega, eccentricity, dislocation = history[:, :9], *history[:, 9:].T
     weight = np.diff(t, prepend=0.0)[t >= 5e-4]
     assert bearing.output("stat.time") == pytest.approx(weight.sum(), rel=1e-9)
     assert bearing.output("stat.Q_c_mean") == pytest.approx(np.average(Q_c.mean(1), weights=weight), rel=1e-9)
-    assert bearing.output("stat.Q_c_rms") == pytest.approx(np.sqrt(np.average((Q_c**2).mean(1), weights=weight)), rel=1e-9)
+    assert bearing.output("stat.Q_c_rms") == pytest.approx(
+        np.sqrt(np.average((Q_c**2).mean(1), weights=weight)), rel=1e-9
+    )
     assert bearing.output("stat.Q_c_max") == Q_c.max() > 0.0
-    assert bearing.output("stat.contact_duty") == pytest.approx(np.average((Q_c > 0.0).mean(1), weights=weight), rel=1e-9)
+    assert bearing.output("stat.contact_duty") == pytest.approx(
+        np.average((Q_c > 0.0).mean(1), weights=weight), rel=1e-9
+    )
     assert bearing.output("stat.cage_omega") == pytest.approx(np.average(omega, weights=weight), rel=1e-9)
     assert bearing.output("stat.eccentricity") == pytest.approx(np.average(eccentricity, weights=weight), rel=1e-9)
     assert bearing.output("stat.dislocation_max") == dislocation.max()
@@ -104,9 +129,11 @@ def test_peak_is_the_largest_since_the_last_point(core):
             peak = max(peak, fine.output("cage.F_pocket_max"))
         t += 1e-4
         largest = max(largest, peak)
-        # Other steps, the same 2 ms: before chaos parts them.  A force that falls from the last point on has its largest value between that point and the
+        # Other steps, the same 2 ms: before chaos parts them.  A force that falls from the last point on has its
+        # largest value between that point and the
         # first step, whose lengths differ.
         assert 0.98 * peak - 0.05 <= coarse.output("cage.F_pocket_peak") <= 1.02 * max(peak, before) + 0.05
-        # The peak is that of the steps' own evaluations, which are before the step corrects its positions; observed 5e-6 below.
+        # The peak is that of the steps' own evaluations, which are before the step corrects its positions; observed
+        # 5e-6 below.
         assert coarse.output("cage.F_pocket_peak") >= (1.0 - 1e-4) * coarse.output("cage.F_pocket_max")
     assert largest > 10.0

@@ -1,4 +1,6 @@
-"""The paper's study: its designs, the figures taken from the runs, pictures and page; the runs themselves are short here."""
+"""The paper's study: its designs, the figures taken from the runs, pictures and page; the runs themselves are short
+here.
+"""
 
 import copy
 from dataclasses import replace
@@ -45,7 +47,8 @@ def test_designs_have_eight_seeds_and_the_working_point(model, name):
     assert len(seeds) >= 8 and len(scenes) % len(seeds) == 0
     for scene in scenes:
         inputs = {key: float(history(0.0)) for key, history in scene.inputs.items()}
-        assert (inputs["shaft.F_y"], inputs["shaft.F_x"]) in [(2994, 515), (2246, 386), (1994, 258)] or name == "grip"  # the paper's Table 2
+        # the paper's Table 2
+        assert (inputs["shaft.F_y"], inputs["shaft.F_x"]) in [(2994, 515), (2246, 386), (1994, 258)] or name == "grip"
         if name not in ("speed", "tolerance", "centrifugal"):
             assert inputs["shaft.omega"] == pytest.approx(18238 * np.pi / 30, rel=1e-12)
 
@@ -62,18 +65,34 @@ def test_all_sweeps_can_have_elastic_halves(model):
 
 
 def test_clearances_hold_what_they_say(model):
-    pairs = {(scene.parameters["cage.pocket_clearance"], scene.parameters["cage.guide_clearance"]) for scene in study_sweep("clearance", model).scenes.values()}
+    pairs = {
+        (scene.parameters["cage.pocket_clearance"], scene.parameters["cage.guide_clearance"])
+        for scene in study_sweep("clearance", model).scenes.values()
+    }
     assert len(pairs) == 19 and all(
-        p + g == pytest.approx(4e-4, rel=1e-5) or p == pytest.approx(2e-4, rel=1e-12) or g == pytest.approx(2e-4, rel=1e-12) for p, g in pairs
+        p + g == pytest.approx(4e-4, rel=1e-5)
+        or p == pytest.approx(2e-4, rel=1e-12)
+        or g == pytest.approx(2e-4, rel=1e-12)
+        for p, g in pairs
     )
 
 
 def test_grips_change_one_thing_at_a_time(model):
     """Every named change has its runs in the design, and no run is without a name."""
-    rows = [scene.parameters | {key: float(history(0.0)) for key, history in scene.inputs.items()} for scene in study_sweep("grip", model).scenes.values()]
+    rows = [
+        scene.parameters | {key: float(history(0.0)) for key, history in scene.inputs.items()}
+        for scene in study_sweep("grip", model).scenes.values()
+    ]
     names = ("joint.mu", "cage.lambda", "cage.pocket_clearance", "shaft.F_x", "joint.preload", "start.seed")
     mu, damping, pocket, F_a, preload, seed = np.array([[row[name] for name in names] for row in rows]).T
-    columns = {"mu": mu, "pocket_damping": damping, "pocket": 1e6 * pocket, "F_a": F_a, "preload": preload, "seed": seed}
+    columns = {
+        "mu": mu,
+        "pocket_damping": damping,
+        "pocket": 1e6 * pocket,
+        "F_a": F_a,
+        "preload": preload,
+        "seed": seed,
+    }
     assert [len(study.grip(Runs(columns), name)) for name in study.GRIPS] == [32] * 5 and len(mu) == 160
 
 
@@ -99,7 +118,10 @@ def test_estimates_read_well(e, text):
 
 
 def test_ratios_and_rises_are_paired_by_seed():
-    before, after = Runs({"seed": np.array([1, 2]), "x": np.array([1.0, 100.0])}), Runs({"seed": np.array([2, 1]), "x": np.array([200.0, 2.0])})
+    before, after = (
+        Runs({"seed": np.array([1, 2]), "x": np.array([1.0, 100.0])}),
+        Runs({"seed": np.array([2, 1]), "x": np.array([200.0, 2.0])}),
+    )
     assert ratio(after, before, "x") == Estimate(2.0, 2.0, 2.0)
     assert rise(after, before, "x").mean == 50.5
 
@@ -114,7 +136,8 @@ def test_the_stress_at_rest_is_what_the_fmu_starts_with():
     columns = ("joint.preload", "joint.fit", "joint.swell", "rivet.fit_model")
     rows = {name: np.array([result.parameters[name]]) for name in columns}
     start = [result.data[f"rivet[1].{name}"][0] for name in ("sigma_head", "sigma_mid")]
-    assert study.stress_by(rows)[0] == pytest.approx(start, rel=1e-4)  # the splines of the joint give 34.999 N of tension for 35 N: observed 1.2e-5
+    # the splines of the joint give 34.999 N of tension for 35 N: observed 1.2e-5
+    assert study.stress_by(rows)[0] == pytest.approx(start, rel=1e-4)
 
 
 def test_a_crossing_is_found_between_the_fits():
@@ -133,9 +156,13 @@ def test_columns_come_from_the_rows(clearance):
     runs = study.runs_of(clearance)
     assert len(runs) == 38 and set(runs["seed"]) == {1, 2}
     i = 7
-    spans = [clearance[f"stat.rivet_head_p999[{k}]"][i] - clearance[f"p001(rivet[{k}].sigma_head)"][i] for k in range(1, 10)]
+    spans = [
+        clearance[f"stat.rivet_head_p999[{k}]"][i] - clearance[f"p001(rivet[{k}].sigma_head)"][i] for k in range(1, 10)
+    ]
     assert runs["head_range"][i] == pytest.approx(1e-6 * max(spans), rel=1e-12) and runs["head_rest"][i] > 40.0
-    assert runs["force"][i] == clearance["stat.Q_c_mean"][i] and runs["ratio"].min() == 0.3 and runs["ratio"].max() == 3.0
+    assert (
+        runs["force"][i] == clearance["stat.Q_c_mean"][i] and runs["ratio"].min() == 0.3 and runs["ratio"].max() == 3.0
+    )
     series = [study.clearance_series(runs, label) for label in study.CLEARANCES]
     assert [len(np.unique(part["ratio"])) for part in series] == [7, 7, 7]
 
@@ -148,7 +175,11 @@ def test_failed_runs_do_not_count(clearance):
 
 def test_the_page_has_pictures_claims_and_cost(clearance, tmp_path, monkeypatch):
     data, drawn = {"clearance": study.runs_of(clearance)}, []
-    monkeypatch.setattr(study, "write_atomically", lambda path, write: drawn.append(path) or path.parent.mkdir(exist_ok=True) or write(path))
+    monkeypatch.setattr(
+        study,
+        "write_atomically",
+        lambda path, write: drawn.append(path) or path.parent.mkdir(exist_ok=True) or write(path),
+    )
     text = paper.write_paper(data, tmp_path).read_text()
     assert drawn == [tmp_path / "paper" / "clearance.png"] and drawn[0].read_bytes()[:4] == b"\x89PNG"
     assert "![Fig. 16: clearance ratio](paper/clearance.png)" in text and "Of 3 claims" in text
@@ -159,10 +190,14 @@ def test_the_page_has_pictures_claims_and_cost(clearance, tmp_path, monkeypatch)
 
 
 def test_verdicts_of_elastic_halves_stand_beside_those_of_rigid_ones(clearance, tmp_path):
-    """Forces that are lowest at the ratio 1 and forces that are largest there: verdicts differ, and the page has the figures where they do."""
+    """Forces that are lowest at the ratio 1 and forces that are largest there: verdicts differ, and the page has the
+    figures where they do.
+    """
     columns = study.runs_of(clearance).columns
     distance = np.abs(np.log(columns["ratio"]))
-    rigid, bent = ({"clearance": Runs(columns | {"force": force, "force_peak": force})} for force in (distance, 10.0 - distance))
+    rigid, bent = (
+        {"clearance": Runs(columns | {"force": force, "force_peak": force})} for force in (distance, 10.0 - distance)
+    )
     text = paper.write_paper(rigid, tmp_path, bent).read_text()
     both = list(zip(claims.all_claims(rigid)["clearance"], claims.all_claims(bent)["clearance"], strict=True))
     part = text[text.index("## With elastic halves") :]
@@ -173,21 +208,25 @@ def test_verdicts_of_elastic_halves_stand_beside_those_of_rigid_ones(clearance, 
 
 
 def test_a_band_shows_means_and_confidence():
-    runs = Runs({"seed": np.array([1, 2, 1, 2]), "x": np.array([0.0, 0.0, 1.0, 1.0]), "y": np.array([1.0, 3.0, 5.0, 5.0])})
+    runs = Runs(
+        {"seed": np.array([1, 2, 1, 2]), "x": np.array([0.0, 0.0, 1.0, 1.0]), "y": np.array([1.0, 3.0, 5.0, 5.0])}
+    )
     figure, axes = study.canvas(1, 1)
     study.band(axes[0, 0], runs, "x", "y", "black")
     (line,), (area,) = axes[0, 0].get_lines(), axes[0, 0].collections
     assert line.get_xydata().tolist() == [[0.0, 2.0], [1.0, 5.0]]
-    assert area.get_paths()[0].get_extents().y1 == pytest.approx(2.0 + 12.706, rel=1e-4)  # t of 1 degree of freedom, tables
+    # t of 1 degree of freedom, tables
+    assert area.get_paths()[0].get_extents().y1 == pytest.approx(2.0 + 12.706, rel=1e-4)
     study.plt.close(figure)
 
 
 @pytest.mark.slow
 def test_bending_of_the_cage_halves_keeps_the_loads_apart(tmp_path):
-    """Scene F without bending and centrifugal load of the halves: at 16,000 r/min the loads differ in the 99.9 % head stress by less than 60 % of what they do
-    at 4,000 r/min (the figures of a prototype with rigid halves); with both the loads move apart instead.
-    Observed at 4,000, 8,000, 16,000 r/min without: 76, 81, 79 and 69, 75, 80 MPa, difference 8 -> 0.4; with: 105, 221, 568 and 99, 266, 499 MPa, 6 -> 69.
-    Two minutes."""
+    """Scene F without bending and centrifugal load of the halves: at 16,000 r/min the loads differ in the 99.9 % head
+    stress by less than 60 % of what they do at 4,000 r/min (the figures of a prototype with rigid halves); with both
+    the loads move apart instead. Observed at 4,000, 8,000, 16,000 r/min without: 76, 81, 79 and 69, 75, 80 MPa,
+    difference 8 -> 0.4; with: 105, 221, 568 and 99, 266, 499 MPa, 6 -> 69. Two minutes.
+    """
     shipped = rivet_table.read(rivet_table.DEFAULT_TABLE)
     half = replace(shipped.half, path=np.zeros_like(shipped.half.path), spin=np.zeros_like(shipped.half.spin))
     table.write(replace(shipped, half=half), tmp_path / "rigid.json")
@@ -213,5 +252,9 @@ def test_bending_of_the_cage_halves_keeps_the_loads_apart(tmp_path):
         for F_r, F_a in ((2994, 515), (1994, 258))
     }
     print({key: round(value * 1e-6, 1) for key, value in stress.items()})
-    apart = {(kind, speed): abs(stress[kind, speed, 2994] - stress[kind, speed, 1994]) for kind in fmus for speed in (4000, 8000, 16000)}
+    apart = {
+        (kind, speed): abs(stress[kind, speed, 2994] - stress[kind, speed, 1994])
+        for kind in fmus
+        for speed in (4000, 8000, 16000)
+    }
     assert apart["rigid", 16000] < 0.6 * apart["rigid", 4000] and apart["bending", 16000] > apart["bending", 4000]

@@ -47,7 +47,10 @@ def plan(folder, model, text):
 
 def settings(sweep, *names):
     """What the runs of a sweep set, in their order."""
-    values = [scene.parameters | {name: float(history(0.0)) for name, history in scene.inputs.items()} for scene in sweep.scenes.values()]
+    values = [
+        scene.parameters | {name: float(history(0.0)) for name, history in scene.inputs.items()}
+        for scene in sweep.scenes.values()
+    ]
     return [tuple(value[name] for name in names) for value in values]
 
 
@@ -66,14 +69,24 @@ def test_axes_are_crossed_and_entries_of_a_block_go_together(tmp_path, model):
     )
     assert sweep.factors == ("start.seed", "joint.preload", "joint.fit", "shaft.omega")
     got = settings(sweep, *sweep.factors)
-    want = [(seed, P, fit, n * np.pi / 30) for seed in (1, 2) for P, fit in ((10, -2e-5), (20, -1e-5)) for n in (3000, 6000, 12000)]
+    want = [
+        (seed, P, fit, n * np.pi / 30)
+        for seed in (1, 2)
+        for P, fit in ((10, -2e-5), (20, -1e-5))
+        for n in (3000, 6000, 12000)
+    ]
     np.testing.assert_allclose(got, want, rtol=1e-14)
 
 
 def test_scenes_and_their_horizon_vary(tmp_path, model):
     (tmp_path / "own.toml").write_text("[parameters]\njoint.mu = 0.2")
     sweep = plan(tmp_path, model, '[[vary]]\nscene = ["R", "own.toml"]\n[[vary]]\nsimulation.t_end = ["10 ms", 0.02]')
-    assert [(scene.name, scene.t_end) for scene in sweep.scenes.values()] == [("R", 0.01), ("R", 0.02), ("own", 0.01), ("own", 0.02)]
+    assert [(scene.name, scene.t_end) for scene in sweep.scenes.values()] == [
+        ("R", 0.01),
+        ("R", 0.02),
+        ("own", 0.01),
+        ("own", 0.02),
+    ]
 
 
 def test_a_latin_hypercube_hits_each_stratum_once(tmp_path, model):
@@ -108,11 +121,20 @@ def test_a_sobol_sequence_is_balanced_in_both_halves_of_each_axis(tmp_path, mode
         ("scene = 'mine.toml'", ["scene", "mine.toml: no such scene file"]),
         ("vary = 3", ["[[vary]]"]),
         ("[sample]\nmethod = 'sobol'\ncount = 6\nbetween.joint.mu = [0, 1]", ["sample.count = 6", "powers of 2"]),
-        ("[sample]\nmethod = 'random'\ncount = 6\nbetween.joint.mu = [0, 1]", ["sample.method = 'random'", "latin_hypercube, sobol"]),
+        (
+            "[sample]\nmethod = 'random'\ncount = 6\nbetween.joint.mu = [0, 1]",
+            ["sample.method = 'random'", "latin_hypercube, sobol"],
+        ),
         ("[sample]\nmethod = 'sobol'\ncount = 4\nbetween.joint.mu = [1, 0]", ["lowest value must be below"]),
         ("[sample]\nmethod = 'sobol'\ncount = 4", ["sample.between"]),
-        ("[sample]\nmethod = 'sobol'\ncount = 4\nseed = 'a'\nbetween.joint.mu = [0, 1]", ["sample.seed = 'a'", "from 0 on"]),
-        ("[sample]\nmethod = ['sobol']\ncount = 4\nbetween.joint.mu = [0, 1]", ["sample.method = ['sobol']", "latin_hypercube, sobol"]),
+        (
+            "[sample]\nmethod = 'sobol'\ncount = 4\nseed = 'a'\nbetween.joint.mu = [0, 1]",
+            ["sample.seed = 'a'", "from 0 on"],
+        ),
+        (
+            "[sample]\nmethod = ['sobol']\ncount = 4\nbetween.joint.mu = [0, 1]",
+            ["sample.method = ['sobol']", "latin_hypercube, sobol"],
+        ),
         ("[sample]\nbetween = 3", ["sample: between = 3", "not a table"]),
         ("sample = 3", ["sample = 3", "not a table"]),
         ("simulation = 3", ["simulation = 3", "not a table"]),
@@ -130,7 +152,11 @@ def test_a_row_is_what_a_single_run_gives(tmp_path, model, client):
     sweep = plan(tmp_path, model, SHORT + "[[vary]]\njoint.preload = [10, 30]")
     rows = run_sweep(sweep, tmp_path / "out", client)
     single = run("demo", t_end=2e-3, parameters={"start.settle": 5e-4, "joint.preload": 30.0})
-    assert rows["run"].tolist() == [0, 1] and rows["joint.preload"].tolist() == [10.0, 30.0] and set(rows["status"]) == {"done"}
+    assert (
+        rows["run"].tolist() == [0, 1]
+        and rows["joint.preload"].tolist() == [10.0, 30.0]
+        and set(rows["status"]) == {"done"}
+    )
     for name, value in single.summary.items():  # the same steps: the same bits, but for the clocks
         if "time" not in name:
             assert rows[name][1] == value, name
@@ -143,12 +169,23 @@ def test_a_row_is_what_a_single_run_gives(tmp_path, model, client):
 def test_other_programs_can_read_the_dataset(tmp_path, model, client):
     from pyarrow import dataset
 
-    run_sweep(plan(tmp_path, model, 'description = "two"\n' + SHORT + "[[vary]]\njoint.preload = [10, 30]"), tmp_path / "out", client)
+    run_sweep(
+        plan(tmp_path, model, 'description = "two"\n' + SHORT + "[[vary]]\njoint.preload = [10, 30]"),
+        tmp_path / "out",
+        client,
+    )
     table = dataset.dataset(tmp_path / "out").to_table()
     assert table.num_rows == 2 and table.schema.field("joint.fit").metadata[b"unit"] == b"m"
     about = json.loads(table.schema.metadata[b"riveted_bearing"])
-    assert about["basis"]["loads"] == "F_x 515 N, F_y 2994 N" and about["basis"]["scene"] == "none: the FMU's own parameters and inputs"
-    assert about["description"] == "two" and about["factors"] == ["joint.preload"] and about["document"]["vary"] == [{"joint": {"preload": [10, 30]}}]
+    assert (
+        about["basis"]["loads"] == "F_x 515 N, F_y 2994 N"
+        and about["basis"]["scene"] == "none: the FMU's own parameters and inputs"
+    )
+    assert (
+        about["description"] == "two"
+        and about["factors"] == ["joint.preload"]
+        and about["document"]["vary"] == [{"joint": {"preload": [10, 30]}}]
+    )
 
 
 def test_failures_are_rows_and_are_tried_again(tmp_path, model, client):
@@ -160,7 +197,9 @@ def test_failures_are_rows_and_are_tried_again(tmp_path, model, client):
     assert "refuses to start" in first["message"][1] and "10 steps" in first["message"][2] and first["message"][0] == ""
     assert np.isnan(first["stat.Q_c_mean"][1]) and first["bearing.D"][1] == 0.019
     second = run_sweep(plan(tmp_path, model, text), tmp_path / "out", client)
-    assert (second["date"] == first["date"]).tolist() == [True, False, False] and second["status"].tolist() == first["status"].tolist()
+    assert (second["date"] == first["date"]).tolist() == [True, False, False] and second["status"].tolist() == first[
+        "status"
+    ].tolist()
 
 
 def test_a_lost_run_has_a_reason(client):
@@ -172,12 +211,16 @@ def test_a_lost_run_has_a_reason(client):
 
 def test_a_changed_design_keeps_what_still_belongs(tmp_path, model, client):
     first = run_sweep(plan(tmp_path, model, SHORT + "[[vary]]\njoint.preload = [10, 30]"), tmp_path / "out", client)
-    second = run_sweep(plan(tmp_path, model, SHORT + "[[vary]]\njoint.preload = [40, 30, 50]"), tmp_path / "out", client)
+    second = run_sweep(
+        plan(tmp_path, model, SHORT + "[[vary]]\njoint.preload = [40, 30, 50]"), tmp_path / "out", client
+    )
     assert second["joint.preload"].tolist() == [40.0, 30.0, 50.0] and second["run"].tolist() == [0, 1, 2]
     assert second["date"][1] == first["date"][1]
     assert len(list((tmp_path / "out" / SUPERSEDED).glob("*.parquet"))) == 1  # 10 N is not lost
     third = run_sweep(plan(tmp_path, model, SHORT + "[[vary]]\njoint.preload = [60]"), tmp_path / "out", client)
-    assert third["joint.preload"].tolist() == [60.0] and len(list((tmp_path / "out" / SUPERSEDED).glob("*.parquet"))) == 2
+    assert (
+        third["joint.preload"].tolist() == [60.0] and len(list((tmp_path / "out" / SUPERSEDED).glob("*.parquet"))) == 2
+    )
 
 
 def test_killed_workers_cost_only_time(tmp_path, model, client):
@@ -192,7 +235,11 @@ def test_killed_workers_cost_only_time(tmp_path, model, client):
 
     rows = run_sweep(sweep, tmp_path / "out", client, kill_once)
     assert len(killed) == 2 and not set(killed) & set(client.run(os.getpid).values())
-    assert rows["start.seed"].tolist() == [1, 2, 3, 4, 5, 6, 7, 8] and len(set(rows["key"])) == 8 and set(rows["status"]) == {"done"}
+    assert (
+        rows["start.seed"].tolist() == [1, 2, 3, 4, 5, 6, 7, 8]
+        and len(set(rows["key"])) == 8
+        and set(rows["status"]) == {"done"}
+    )
     assert {path.name for path in (tmp_path / "out").iterdir()} - {".lock"} == {"runs.parquet"}
     with cluster(address=client.scheduler.address) as other:  # the same scheduler, as `--scheduler` finds it
         calm = run_sweep(sweep, tmp_path / "calm", other)
@@ -208,14 +255,20 @@ def deadly(scene, fmu):
 
 @pytest.mark.slow
 def test_a_run_that_kills_every_worker_becomes_a_failed_row(tmp_path, model, client, monkeypatch):
-    """Dask gives up after four workers; the other runs are done, then or in the next call.  Half a minute, most of it new workers."""
+    """Dask gives up after four workers; the other runs are done, then or in the next call.  Half a minute, most of it
+    new workers.
+    """
     cloudpickle.register_pickle_by_value(sys.modules[__name__])  # the workers cannot import the tests
     harmless = engine.perform
     monkeypatch.setattr(engine, "perform", deadly)
-    rows = run_sweep(plan(tmp_path, model, SHORT + "[[vary]]\njoint.preload = [10, 13, 20, 30]"), tmp_path / "out", client)
+    rows = run_sweep(
+        plan(tmp_path, model, SHORT + "[[vary]]\njoint.preload = [10, 13, 20, 30]"), tmp_path / "out", client
+    )
     assert rows["status"][1] == "failed" and "KilledWorker" in rows["message"][1]
     monkeypatch.setattr(engine, "perform", harmless)
-    again = run_sweep(plan(tmp_path, model, SHORT + "[[vary]]\njoint.preload = [10, 13, 20, 30]"), tmp_path / "out", client)
+    again = run_sweep(
+        plan(tmp_path, model, SHORT + "[[vary]]\njoint.preload = [10, 13, 20, 30]"), tmp_path / "out", client
+    )
     assert set(again["status"]) == {"done"}
 
 
@@ -223,7 +276,8 @@ def test_a_killed_driver_leaves_what_is_done(tmp_path, model, client):
     study, out = tmp_path / "study.toml", tmp_path / "out"
     study.write_text("repeats = 24\n" + LONGER)
     driver = subprocess.Popen(
-        [sys.executable, "-m", "riveted_bearing", "sweep", study, "--out", out, "--workers", "1"], env=os.environ | {"PYTHONPATH": str(ROOT)}
+        [sys.executable, "-m", "riveted_bearing", "sweep", study, "--out", out, "--workers", "1"],
+        env=os.environ | {"PYTHONPATH": str(ROOT)},
     )
     patience = time.monotonic() + 120
     while not list(out.glob("run-*.parquet")) and time.monotonic() < patience:
@@ -235,7 +289,11 @@ def test_a_killed_driver_leaves_what_is_done(tmp_path, model, client):
     assert 1 <= len(before) < 24
     counts = []
     rows = run_sweep(load_sweep(study, model), out, client, lambda done, failed, total: counts.append(done))
-    assert counts == list(range(len(before), 25)) and rows["start.seed"].tolist() == list(range(1, 25)) and len(set(rows["key"])) == 24
+    assert (
+        counts == list(range(len(before), 25))
+        and rows["start.seed"].tolist() == list(range(1, 25))
+        and len(set(rows["key"])) == 24
+    )
     assert columns_of(out)["key"].tolist() == rows["key"].tolist() and before < set(rows["key"])
 
 
@@ -251,35 +309,56 @@ def test_the_command_shows_failures_and_says_where_the_rows_are(tmp_path):
         timeout=300,
         check=False,
     )
-    assert done.returncode == 3 and "2 runs, 1 of them failed" in done.stdout and "refuses to start" in done.stderr and "Traceback" not in done.stderr
+    assert (
+        done.returncode == 3
+        and "2 runs, 1 of them failed" in done.stdout
+        and "refuses to start" in done.stderr
+        and "Traceback" not in done.stderr
+    )
     assert (tmp_path / "results" / "mine" / "runs.parquet").is_file() and "results/mine" in done.stdout
 
 
 def test_a_sweep_ends_with_a_table_a_picture_and_a_page(tmp_path, model, client):
     """Means and intervals by hand from the rows: Student's t with two degrees of freedom, 4.3027."""
-    sweep = plan(tmp_path, model, "repeats = 3\n" + SHORT + '[[vary]]\njoint.preload = [10, 30]\n[[vary]]\nscene.stress = ["fatigue"]')
+    sweep = plan(
+        tmp_path,
+        model,
+        "repeats = 3\n" + SHORT + '[[vary]]\njoint.preload = [10, 30]\n[[vary]]\nscene.stress = ["fatigue"]',
+    )
     rows = run_sweep(sweep, tmp_path / "out", client)
     table = sweep_table(sweep, rows)
-    assert table.factors == ("joint.preload [N]", "scene.stress") and table.points == [(10.0, "fatigue"), (30.0, "fatigue")] and table.seeds.tolist() == [3, 3]
+    assert (
+        table.factors == ("joint.preload [N]", "scene.stress")
+        and table.points == [(10.0, "fatigue"), (30.0, "fatigue")]
+        and table.seeds.tolist() == [3, 3]
+    )
     stress = rows["stat.sigma_head_p999"][rows["joint.preload"] == 30.0] / 1e6
     first = table.responses[0]
     assert first.mean[1] == pytest.approx(stress.mean(), rel=1e-12)
     assert first.half[1] == pytest.approx(4.302653 * stress.std(ddof=1) / np.sqrt(3), rel=1e-6, abs=1e-12)
     heads, cells = lines(table)
-    assert heads[:3] == ["joint.preload [N]", "scene.stress", "seeds"] and len(cells) == 2 and "log10 damage per hour" in heads
+    assert (
+        heads[:3] == ["joint.preload [N]", "scene.stress", "seeds"]
+        and len(cells) == 2
+        and "log10 damage per hour" in heads
+    )
     assert write_picture(table, tmp_path / "sweep.png").stat().st_size > 20000
     page = write_page(table, "<mine>", tmp_path / "sweep.html").read_text()
     assert "&lt;mine&gt;" in page and page.count("<svg") == len(table.responses) and cells[1][3] in page
 
 
 def test_rows_that_arrive_fast_share_files(tmp_path, model):
-    """Writing takes a twentieth of the time: a file that takes 1 s is followed by the next one 20 s later, whose rows have come meanwhile; none is lost."""
+    """Writing takes a twentieth of the time: a file that takes 1 s is followed by the next one 20 s later, whose rows
+    have come meanwhile; none is lost.
+    """
     sweep = plan(tmp_path, model, "repeats = 30\n" + SHORT)
     clock = iter(np.arange(0.0, 1e3))  # one second between any two looks at the clock
     store = engine.RowStore(tmp_path / "out", engine.schema_of(sweep), clock=lambda: float(next(clock)))
     (tmp_path / "out").mkdir()
     for key in sweep.scenes:
-        store.add(engine.about_run(sweep, key) | {"status": "done", "message": "", "date": "2026-01-01T00:00:00.000+00:00"})
+        store.add(
+            engine.about_run(sweep, key) | {"status": "done", "message": "", "date": "2026-01-01T00:00:00.000+00:00"}
+        )
     store.write()
     keys = [read_rows(path)["key"].to_pylist() for path in (tmp_path / "out").iterdir()]
     assert sorted(map(len, keys)) == [1, 9, 20] and sorted(itertools.chain(*keys)) == sorted(sweep.scenes)

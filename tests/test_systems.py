@@ -1,4 +1,6 @@
-"""The worked systems of examples/: a planetary stage, a transmission in a vibrating housing, a flexible rotor of ROSS on two bearings."""
+"""The worked systems of examples/: a planetary stage, a transmission in a vibrating housing, a flexible rotor of ROSS
+on two bearings.
+"""
 
 import importlib.util
 import json
@@ -26,13 +28,15 @@ def example(*place):
     return module
 
 
-# ------------------------------------------------------------------------------------------------------------------ planetary stage
+# ------------------------------------------------------------------------------------------------------ planetary stage
 
 
 def test_planet_bearing(fmu, tmp_path, record_property):
-    """Carrier at 1500 r/min: the cage turns as both rings make it, omega_e (1 + D/d_m)/2 within 2 %; the carrier's field throws it against the outer ring.
+    """Carrier at 1500 r/min: the cage turns as both rings make it, omega_e (1 + D/d_m)/2 within 2 %; the carrier's
+    field throws it against the outer ring.
 
-    The field is 3,700 m/s2 on a cage of 56 g: 207 N, against a film that is made for its weight.  The rivets feel it: several times the stress.
+    The field is 3,700 m/s2 on a cage of 56 g: 207 N, against a film that is made for its weight.  The rivets feel it:
+    several times the stress.
     """
     planet = example("planet", "planet.py")
     rows = {field: planet.summary(planet.run(1500.0, field, t_end=0.08, fmu=fmu)) for field in (True, False)}
@@ -44,18 +48,21 @@ def test_planet_bearing(fmu, tmp_path, record_property):
     assert rows[True]["eccentricity"] > 0.9 > rows[False]["eccentricity"]
     assert rows[True]["sigma_head_p999"] > 3.0 * rows[False]["sigma_head_p999"]
     heads, values = planet.table([1500.0], {field: [row] for field, row in rows.items()})
-    assert all(unit in heads for unit in ("[r/min]", "[MPa]", "[W]")) and values.count("(") == len(rows[True]) == len(planet.COLUMNS)
+    assert all(unit in heads for unit in ("[r/min]", "[MPa]", "[W]")) and values.count("(") == len(rows[True]) == len(
+        planet.COLUMNS
+    )
     planet.plot([1500.0], {field: [row] for field, row in rows.items()}, tmp_path / "planet.png")
 
 
-# --------------------------------------------------------------------------------------------------------------- vibrating housing
+# ---------------------------------------------------------------------------------------------------- vibrating housing
 
 
 def test_vibrating_housing(tmp_path, record_property):
-    """A whirl of 30 um at 400 Hz shakes what the bearing carries: the force's harmonic is mass times acceleration, within the cage's share.
+    """A whirl of 30 um at 400 Hz shakes what the bearing carries: the force's harmonic is mass times acceleration,
+    within the cage's share.
 
-    The inner ring and the balls follow the housing, whose bearing is stiff (resonance at 2.5 kHz: 1 + (0.4/2.5)^2); the cage, 56 g of 0.71 kg, lies in its
-    clearance and follows as it likes.
+    The inner ring and the balls follow the housing, whose bearing is stiff (resonance at 2.5 kHz: 1 + (0.4/2.5)^2); the
+    cage, 56 g of 0.71 kg, lies in its clearance and follows as it likes.
     """
     vibrating = example("transmission", "vibrating.py")
     size, frequency, stop = 3e-5, 400.0, 0.04
@@ -73,11 +80,13 @@ def test_vibrating_housing(tmp_path, record_property):
     vibrating.plot(quiet, shaken, tmp_path / "vibrating.png")
 
 
-# ------------------------------------------------------------------------------------------------------------------ delay line
+# ----------------------------------------------------------------------------------------------------------- delay line
 
 
 def test_delay_line(fmu, record_property):
-    """A passive connection: bounded where a held spring diverges, and of order 2; both meet the same motion as the step shrinks."""
+    """A passive connection: bounded where a held spring diverges, and of order 2; both meet the same motion as the step
+    shrinks.
+    """
     delay_line = example("delay_line", "delay_line.py")
 
     steps = [5e-5, 1e-5, 5e-6]
@@ -90,7 +99,7 @@ def test_delay_line(fmu, record_property):
     assert spring[2] < 0.02 * size  # observed 1.1 %
 
 
-# ----------------------------------------------------------------------------------------------------------------------- rotor
+# ---------------------------------------------------------------------------------------------------------------- rotor
 
 PROGRAM = """
 import json, sys
@@ -119,19 +128,31 @@ print("RUN_UP", json.dumps([[float(size.max()) for size in pair] + [float(w[size
 
 @pytest.mark.slow
 def test_rotor_in_ross(fmu, tmp_path, record_property):
-    """Unbalance response of the rotor on two FMUs, against ROSS with the FMU's own matrices: 2 % and 2 degrees of disk and bearing; observed 1 %.
+    """Unbalance response of the rotor on two FMUs, against ROSS with the FMU's own matrices: 2 % and 2 degrees of disk
+    and bearing; observed 1 %.
 
-    The runs begin with ROSS' own response, because the rotor's decay takes 0.2 s near its critical speed; after 0.35 s 83 % of a difference would be there.
+    The runs begin with ROSS' own response, because the rotor's decay takes 0.2 s near its critical speed; after 0.35 s
+    83 % of a difference would be there.
 
-    With ten times the unbalance the bearing's motion near the critical speed (10 um) exceeds the preload's approach of some um: there the stiffness is another.
+    With ten times the unbalance the bearing's motion near the critical speed (10 um) exceeds the preload's approach of
+    some um: there the stiffness is another.
     """
     environment = tmp_path / "ross"
     venv.create(environment, with_pip=True)
     python = environment / "bin" / "python"
-    install = subprocess.run([python, "-m", "pip", "install", "-q", "ross-rotordynamics>=2.3", "plotly<6", "fmpy"], capture_output=True, text=True)
+    install = subprocess.run(
+        [python, "-m", "pip", "install", "-q", "ross-rotordynamics>=2.3", "plotly<6", "fmpy"],
+        capture_output=True,
+        text=True,
+    )
     if install.returncode:
         pytest.skip(f"ROSS cannot be installed here: {install.stderr[-200:]}")
-    run = subprocess.run([python, "-c", PROGRAM, str(ROOT / "examples" / "rotor"), str(fmu)], capture_output=True, text=True, cwd=tmp_path)
+    run = subprocess.run(
+        [python, "-c", PROGRAM, str(ROOT / "examples" / "rotor"), str(fmu)],
+        capture_output=True,
+        text=True,
+        cwd=tmp_path,
+    )
     assert run.returncode == 0, run.stderr[-2000:]
     rows = json.loads(next(line for line in run.stdout.splitlines() if line.startswith("ROWS"))[4:])
     ratios = np.array([[complex(row[1], row[3]) / complex(row[0], row[2]) for row in pair] for pair in rows])
@@ -140,9 +161,14 @@ def test_rotor_in_ross(fmu, tmp_path, record_property):
     assert np.degrees(np.abs(np.angle(ratios[:3]))).max() < 2.0
     assert abs(abs(ratios[3, 1]) - 1.0) > 0.05  # the bearing's node at the large unbalance
 
-    # while the speed rises through the critical one: largest motions of disk and bearing (1.4 um; the stiffness falls with the square of the amplitude, and
-    # at 3.6 um the bearing moves 2.4 % farther than ROSS says), where they are, RMS of the difference; observed 0.01, 0.7 % and 0.07, 0.7 %
-    by_ross, on_fmus, apart = (np.array(row) for row in json.loads(next(line for line in run.stdout.splitlines() if line.startswith("RUN_UP"))[6:]))
+    # while the speed rises through the critical one: largest motions of disk and bearing (1.4 um; the stiffness falls
+    # with the square of the amplitude, and
+    # at 3.6 um the bearing moves 2.4 % farther than ROSS says), where they are, RMS of the difference; observed 0.01,
+    # 0.7 % and 0.07, 0.7 %
+    by_ross, on_fmus, apart = (
+        np.array(row)
+        for row in json.loads(next(line for line in run.stdout.splitlines() if line.startswith("RUN_UP"))[6:])
+    )
     record_property("run_up", [by_ross.tolist(), on_fmus.tolist(), apart.tolist()])
     assert np.abs(on_fmus[:2] / by_ross[:2] - 1.0).max() < 0.02
     assert np.abs(on_fmus[2:] / by_ross[2:] - 1.0).max() < 0.01

@@ -1,4 +1,6 @@
-"""Temperatures of oil, rings, balls and cage: viscosity, clearances, preload and fit against hand calculation, and as inputs that change during a run."""
+"""Temperatures of oil, rings, balls and cage: viscosity, clearances, preload and fit against hand calculation, and as
+inputs that change during a run.
+"""
 
 from types import SimpleNamespace
 
@@ -8,18 +10,21 @@ from library import TWO_HALF
 from mechanics import Instance
 from slave import ERROR, Slave
 
-from bearing_model.physics.derived import default_table
-from bearing_model.solver.integrator import simulate
-from bearing_model.physics.model import Model, Work
-from bearing_model.instance.outputs import outputs
-from bearing_model.physics.rhs import rhs
 from bearing_model.generated.variables import INPUTS, PARAMETERS, CageModel, Switch
+from bearing_model.instance.outputs import outputs
+from bearing_model.physics.derived import default_table
+from bearing_model.physics.model import Model, Work
+from bearing_model.physics.rhs import rhs
+from bearing_model.solver.integrator import simulate
 
 TWINS = True
 FREE_OF_GROWTH = {"scene.growth": Switch.OFF}
-HOT = {"ring.T_i": 393.15, "ring.T_e": 353.15, "ball.T": 373.15, "cage.T": 363.15}  # 100, 60, 80 and 70 K above assembly temperature
+# 100, 60, 80 and 70 K above assembly temperature
+HOT = {"ring.T_i": 393.15, "ring.T_e": 353.15, "ball.T": 373.15, "cage.T": 363.15}
 TEMPERATURES = ("oil.T", "ring.T_i", "ring.T_e", "ball.T", "cage.T")
-DIFFERENTIATED = "ball[j].Q_i ball[j].Q_e ball[j].p_i ball[j].Lambda_i bearing.friction_torque bearing.clearance".split()
+DIFFERENTIATED = (
+    "ball[j].Q_i ball[j].Q_e ball[j].p_i ball[j].Lambda_i bearing.friction_torque bearing.clearance".split()
+)
 DIFFERENTIATED += "loss.inlet loss.land loss.ball_drag rivet[k].P rivet[k].sigma_head cage.eccentricity".split()
 H = 1e-4  # communication step [s]
 
@@ -35,13 +40,15 @@ def values_of(struct):
 
     def value(name):
         group, member = name.replace("[j]", "").replace("[k]", "").split(".")
-        found = getattr(getattr(struct, group), member + "_" if hasattr(getattr(struct, group), member + "_") else member)
+        found = getattr(
+            getattr(struct, group), member + "_" if hasattr(getattr(struct, group), member + "_") else member
+        )
         return list(found) if PARAMETERS[name].count > 1 else found
 
     return {name: value(name) for name in PARAMETERS}
 
 
-# ------------------------------------------------------------------------------------------------------------------ parameters
+# ----------------------------------------------------------------------------------------------------------- parameters
 
 
 def test_start_values_change_no_bit(core):
@@ -53,12 +60,15 @@ def test_start_values_change_no_bit(core):
 
 
 def test_heated_rings_and_balls(core):
-    """Clearance by hand: 11.7e-6 (64.6200 x 60 - 42.3800 x 100 - 2 x 11.1125 x 80) mm/K = 11.7e-6 (-2138.8) mm: 15.00 um less 25.024 um."""
+    """Clearance by hand: 11.7e-6 (64.6200 x 60 - 42.3800 x 100 - 2 x 11.1125 x 80) mm/K = 11.7e-6 (-2138.8) mm: 15.00
+    um less 25.024 um.
+    """
     p = at(core, HOT)
     assert p.bearing.P_d == pytest.approx(-10.02396e-6, rel=1e-5)
     assert p.bearing.D == pytest.approx(11.1125e-3 + 10.4013e-6, rel=1e-8)
     assert p.bearing.d_m == pytest.approx(53.5e-3 + 0.5 * 11.7e-6 * (3.8772 + 4.238), rel=1e-9)
-    assert p.bearing.f_i * p.bearing.D == pytest.approx(0.515 * 11.1125e-3 * (1.0 + 11.7e-4), rel=1e-12)  # the groove grows with its ring
+    # the groove grows with its ring
+    assert p.bearing.f_i * p.bearing.D == pytest.approx(0.515 * 11.1125e-3 * (1.0 + 11.7e-4), rel=1e-12)
     assert p.bearing.f_e * p.bearing.D == pytest.approx(0.52 * 11.1125e-3 * (1.0 + 7.02e-4), rel=1e-12)
     assert p.bearing.rho * p.bearing.D**3 == pytest.approx(7800.0 * 11.1125e-3**3, rel=1e-12)  # the ball's mass stays
 
@@ -72,25 +82,31 @@ def test_one_temperature_for_all_steel_scales_the_bearing(core):
 
 
 def test_clearances_of_the_cage(core):
-    """By hand: the pocket's 11.3125 mm grow by 17.5e-6 x 70 = 1.225e-3, the ball by 0.936e-3; the land's 59.7 mm by 0.702e-3, the cage's 59.5 by 1.225e-3."""
+    """By hand: the pocket's 11.3125 mm grow by 17.5e-6 x 70 = 1.225e-3, the ball by 0.936e-3; the land's 59.7 mm by
+    0.702e-3, the cage's 59.5 by 1.225e-3.
+    """
     p = at(core, HOT)
     assert p.cage.pocket_clearance == pytest.approx((0.2 + 11.3125 * 1.225e-3 - 11.1125 * 0.936e-3) * 1e-3, rel=1e-9)
     assert p.cage.guide_clearance == pytest.approx((0.2 + 59.7 * 0.702e-3 - 59.5 * 1.225e-3) * 1e-3, rel=1e-9)
 
 
 def test_rivets_get_the_temperature_of_the_cage(core):
-    """Fit: a bronze hole grows by 5.5e-6/K x 1.5 mm more than the steel rivet, 0.5775 um in 70 K; preload by k_stack 5.5e-6/K x 3 mm."""
+    """Fit: a bronze hole grows by 5.5e-6/K x 1.5 mm more than the steel rivet, 0.5775 um in 70 K; preload by k_stack
+    5.5e-6/K x 3 mm.
+    """
     cold, hot = (core.model(inputs=u) for u in ({}, {"cage.T": 363.15}))
     assert hot.d.hole_gap[0] - cold.d.hole_gap[0] == pytest.approx(0.5775e-6, rel=1e-6)
     assert hot.d.P[0] - cold.d.P[0] == pytest.approx(70.0 * default_table().joint["k_stack"] * 5.5e-6 * 3e-3, rel=1e-9)
     assert core.model(inputs={"cage.T": 250.0}).d.P[0] == 0.0
 
 
-# -------------------------------------------------------------------------------------------------------------------------- oil
+# ------------------------------------------------------------------------------------------------------------------ oil
 
 
 def test_viscosity_over_temperature(core):
-    """MIL-PRF-23699 at 80 degC: 7.607 mm2/s (test_heat_network.py, by hand) of 900 (1 - 7.5e-4 (353.15 - 359.0006)) kg/m3; at 40 and 100 degC 25 and 5."""
+    """MIL-PRF-23699 at 80 degC: 7.607 mm2/s (test_heat_network.py, by hand) of 900 (1 - 7.5e-4 (353.15 - 359.0006))
+    kg/m3; at 40 and 100 degC 25 and 5.
+    """
     for T, nu in ((313.15, 25e-6), (353.15, 7.607e-6), (373.15, 5e-6)):
         p, rho = at(core, {"oil.T": T}), 900.0 * (1.0 - 7.5e-4 * (T - 359.0006))
         assert p.oil.rho == pytest.approx(rho, rel=1e-12)
@@ -99,7 +115,9 @@ def test_viscosity_over_temperature(core):
 
 @pytest.mark.parametrize("T", [300.0, 340.0, 420.0])
 def test_beta_is_the_slope_of_the_viscosity(core, T):
-    """oil.beta at T: its value at the start temperature times the ratio of the law's slopes, by differences of ln(eta/rho)."""
+    """oil.beta at T: its value at the start temperature times the ratio of the law's slopes, by differences of
+    ln(eta/rho).
+    """
 
     def slope(T):
         below, above = (at(core, {"oil.T": T + h}) for h in (-0.01, 0.01))
@@ -109,11 +127,14 @@ def test_beta_is_the_slope_of_the_viscosity(core, T):
 
 
 def test_pressure_coefficient_over_temperature(core):
-    """Ester aviation oil of Jones et al. (1975): 12.8, 9.87, 8.51 1/GPa at 38, 99, 149 degC; the first and the last give the slope, the one between is a test.
+    """Ester aviation oil of Jones et al. (1975): 12.8, 9.87, 8.51 1/GPa at 38, 99, 149 degC; the first and the last
+    give the slope, the one between is a test.
 
     The law's straight line of ln(alpha) lies 3.6 % above it.
     """
-    alpha = [at(core, {"oil.T": T}, {"oil.T_0": 311.15, "oil.alpha": 12.8e-9}).oil.alpha for T in (311.15, 372.15, 422.15)]
+    alpha = [
+        at(core, {"oil.T": T}, {"oil.T_0": 311.15, "oil.alpha": 12.8e-9}).oil.alpha for T in (311.15, 372.15, 422.15)
+    ]
     assert alpha == pytest.approx([12.8e-9, 9.87e-9, 8.51e-9], rel=0.04)
     assert alpha[2] == pytest.approx(8.51e-9, rel=5e-3)
 
@@ -131,14 +152,22 @@ MEASURED = {  # eta [mPa.s] and alpha [1/GPa] of oils at 30, 60 and 100 degC
 
 @pytest.mark.parametrize("name", MEASURED)
 def test_measured_oils(core, name):
-    """Cameron, Principles of Lubrication, as in Stachowiak & Batchelor, Engineering Tribology, table 2.3: the values at 30 and 100 degC give those at 60.
+    """Cameron, Principles of Lubrication, as in Stachowiak & Batchelor, Engineering Tribology, table 2.3: the values at
+    30 and 100 degC give those at 60.
 
     Observed: viscosity within 2.5 %, pressure coefficient within 6 %, of the light machine oil 10 %.
     """
     eta_1, eta, eta_2, alpha_1, alpha, alpha_2 = MEASURED[name]
     T_1, T, T_2 = 303.15, 333.15, 373.15
     rho = 870.0 * (1.0 - 7.5e-4 * (T_2 - T_1))
-    oil = {"oil.T_0": T_1, "oil.rho": 870.0, "oil.nu_1": 1e-3 * eta_1 / 870.0, "oil.T_1": T_1, "oil.nu_2": 1e-3 * eta_2 / rho, "oil.T_2": T_2}
+    oil = {
+        "oil.T_0": T_1,
+        "oil.rho": 870.0,
+        "oil.nu_1": 1e-3 * eta_1 / 870.0,
+        "oil.T_1": T_1,
+        "oil.nu_2": 1e-3 * eta_2 / rho,
+        "oil.T_2": T_2,
+    }
     oil |= {"oil.alpha": 1e-9 * alpha_1, "oil.alpha_T": np.log(alpha_1 / alpha_2) / (T_2 - T_1)}
     p = at(core, {"oil.T": T}, oil)
     assert p.oil.eta == pytest.approx(1e-3 * eta, rel=0.03)
@@ -146,31 +175,37 @@ def test_measured_oils(core, name):
 
 
 def test_a_given_viscosity_replaces_the_law_at_its_temperature(core):
-    """oil.eta holds at oil.T_0 and follows the law's ratio from there; another oil's points decide alone while oil.eta has its start value."""
+    """oil.eta holds at oil.T_0 and follows the law's ratio from there; another oil's points decide alone while oil.eta
+    has its start value.
+    """
 
     def eta(T, **parameters):
         return at(core, {"oil.T": T}, {name.replace("__", "."): value for name, value in parameters.items()}).oil.eta
 
     given = {"oil__eta": 3.24e-3, "oil__T_0": 394.0}
     assert eta(394.0, **given) == 3.24e-3
-    assert eta(350.0, **given) == pytest.approx(3.24e-3 * eta(350.0, oil__T_0=394.0) / eta(394.0, oil__T_0=394.0), rel=1e-12)
+    assert eta(350.0, **given) == pytest.approx(
+        3.24e-3 * eta(350.0, oil__T_0=394.0) / eta(394.0, oil__T_0=394.0), rel=1e-12
+    )
     vg_100 = {"oil__nu_1": 100e-6, "oil__nu_2": 11.1e-6}
     assert eta(313.15, **vg_100) == pytest.approx(900.0 * (1.0 + 7.5e-4 * 45.8506) * 100e-6, rel=1e-6)
     assert eta(359.0006, oil__eta=0.02, **vg_100) == 0.02
 
 
-# ------------------------------------------------------------------------------------------------------------------------ forces
+# --------------------------------------------------------------------------------------------------------------- forces
 
 
 def test_heat_closes_the_bearing(core):
-    """A ball pressed between the races of a centred ring: the sum of both approaches at rest is the diametral interference/2 of the hot bearing."""
+    """A ball pressed between the races of a centred ring: the sum of both approaches at rest is the diametral
+    interference/2 of the hot bearing.
+    """
     model = core.model(inputs=HOT | {"shaft.F_x": 0.0, "shaft.F_y": 0.0, "shaft.omega": 0.0})
     model.start()
     delta = np.array(list(model.work.delta_i))[:9] + np.array(list(model.work.delta_e))[:9]
     assert delta == pytest.approx(np.full(9, 5.01198e-6), rel=1e-3)
 
 
-# --------------------------------------------------------------------------------------------------------------------- interface
+# ------------------------------------------------------------------------------------------------------------ interface
 
 
 def started(folder, **changes):
@@ -185,7 +220,10 @@ def started(folder, **changes):
         ({"oil.T": 205.0}, "oil.T = 205 K: the oil's viscosity is"),
         ({"cage.T": 600.0}, "cage.T = 600 K, ring.T_e = 293.15 K: the cage's guide clearance is"),
         ({"cage.T": 151.0, "ball.T": 560.0}, "cage.T = 151 K, ball.T = 560 K: the pockets' clearance is"),
-        ({"ring.T_i": 600.0, "ring.T_e": 250.0, "ball.T": 400.0}, "ring.T_i = 600 K, ring.T_e = 250 K, ball.T = 400 K: the bearing's clearance is"),
+        (
+            {"ring.T_i": 600.0, "ring.T_e": 250.0, "ball.T": 400.0},
+            "ring.T_i = 600 K, ring.T_e = 250 K, ball.T = 400 K: the bearing's clearance is",
+        ),
     ],
 )
 def test_temperatures_that_the_bearing_does_not_bear(folder, inputs, reason):
@@ -208,7 +246,10 @@ def test_temperatures_that_the_bearing_does_not_bear(folder, inputs, reason):
 @pytest.mark.c_only
 @pytest.mark.parametrize(
     ("parameters", "reason"),
-    [({"oil.T_1": 380.0}, "oil.T_1 = 380 K: less than oil.T_2 = 373.15 K is allowed"), ({"oil.nu_1": 4e-6}, "oil.nu_1 = 4e-06 m2/s: more than oil.nu_2")],
+    [
+        ({"oil.T_1": 380.0}, "oil.T_1 = 380 K: less than oil.T_2 = 373.15 K is allowed"),
+        ({"oil.nu_1": 4e-6}, "oil.nu_1 = 4e-06 m2/s: more than oil.nu_2"),
+    ],
 )
 def test_points_of_no_oil(folder, parameters, reason):
     slave = Slave(folder)
@@ -221,7 +262,7 @@ def test_points_of_no_oil(folder, parameters, reason):
         Model.of(parameters)
 
 
-# --------------------------------------------------------------------------------------------------------------- during a run
+# --------------------------------------------------------------------------------------------------------- during a run
 
 
 def heating(t):
@@ -231,9 +272,11 @@ def heating(t):
 
 @pytest.mark.c_only
 def test_both_twins_follow_a_jump(folder):
-    """FMU and reference over 0.4 ms with temperatures that change at a communication point: forces and clearances alike, the balance of energy closed.
+    """FMU and reference over 0.4 ms with temperatures that change at a communication point: forces and clearances
+    alike, the balance of energy closed.
 
-    The jump of the clearance by 15 um changes the elastic energy by some 0.1 J; booked as work of the expansion it leaves the residual where it was.
+    The jump of the clearance by 15 um changes the elastic energy by some 0.1 J; booked as work of the expansion it
+    leaves the residual where it was.
     """
     slave = Slave(folder).initialize(tolerance=4e-8, scene__cage=int(CageModel.TWO_HALF))
     names = ["bearing.clearance", "ball[1].Q_i", "ball[2].Q_e", "ring.y", "rivet[1].P", "bearing.energy_residual"]
@@ -245,7 +288,8 @@ def test_both_twins_follow_a_jump(folder):
     rows, twin = np.array(rows), simulate(TWO_HALF, heating, t_end=4 * H, step=H, tolerance=4e-8)
     expected = np.stack([twin[name][1:] for name in names], axis=1)
     np.testing.assert_allclose(rows[:, :5], expected[:, :5], rtol=2e-4)  # observed 5e-5: the integrators' errors
-    assert rows[0, 0] - rows[2, 0] == pytest.approx(11.7e-6 * (42.38e-3 * 20.0 + 22.225e-3 * 10.0), rel=1e-4)  # the growth of a warmer ring
+    # the growth of a warmer ring
+    assert rows[0, 0] - rows[2, 0] == pytest.approx(11.7e-6 * (42.38e-3 * 20.0 + 22.225e-3 * 10.0), rel=1e-4)
     loss = slave.get("bearing.power_loss")[0] * H
     assert np.abs(rows[:, 5]).max() < 1e-3 * loss and np.abs(expected[:, 5]).max() < 1e-3 * loss
 
@@ -282,7 +326,9 @@ def test_temperatures_that_stay_cost_nothing(folder):
 
 @pytest.mark.c_only
 def test_a_ramp_acts_from_communication_point_to_communication_point(folder):
-    """A temperature with a derivative: the step runs at its first value, the outputs at its end show what it has reached."""
+    """A temperature with a derivative: the step runs at its first value, the outputs at its end show what it has
+    reached.
+    """
     slave = started(folder, scene__growth=1)
     slave.check("SetRealInputDerivatives", [slave.vr["ring.T_e"]], 1, [1], [1e4])
     slave.step(H)
@@ -298,9 +344,11 @@ def test_a_ramp_acts_from_communication_point_to_communication_point(folder):
 @pytest.mark.c_only
 @pytest.mark.parametrize("name", TEMPERATURES)
 def test_directional_derivatives(core, name):
-    """Derivatives by each temperature against central differences of the reference's outputs over +-0.02 K at the same state, to 1e-3 of each output's largest.
+    """Derivatives by each temperature against central differences of the reference's outputs over +-0.02 K at the same
+    state, to 1e-3 of each output's largest.
 
-    The differences are over a shorter step than those of the core by 20, their own error is (0.02 K 1 um/K/10 um)^2: 4e-6.
+    The differences are over a shorter step than those of the core by 20, their own error is (0.02 K 1 um/K/10 um)^2:
+    4e-6.
     """
     parameters = {"scene.lubrication": 2, "cage.pocket_clearance": 5e-5}
     bearing = Instance(core, parameters, {})
@@ -321,6 +369,8 @@ def test_directional_derivatives(core, name):
         found = getattr(getattr(out, group), member)
         expected = np.atleast_1d((above[output] - below[output]) / 0.04)
         atol = 1e-3 * np.abs(expected).max() + 1e-8 * np.abs(above[output]).max()
-        np.testing.assert_allclose(np.atleast_1d(list(found) if "[" in output else found), expected, rtol=0.0, atol=atol, err_msg=output)
+        np.testing.assert_allclose(
+            np.atleast_1d(list(found) if "[" in output else found), expected, rtol=0.0, atol=atol, err_msg=output
+        )
         compared += np.abs(expected).max() > 0.0
     assert compared >= 3

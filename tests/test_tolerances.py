@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 from scipy import stats
 
-from bearing_model.instance.fatigue import FatigueLaw, fatigue_cycle
 from bearing_model.generated.variables import MeanStress
+from bearing_model.instance.fatigue import FatigueLaw, fatigue_cycle
 from riveted_bearing import UserError
 from riveted_bearing.design.weibull import fit_weibull, write_weibull_plot
 from riveted_bearing.duty.assess import assess
@@ -18,8 +18,24 @@ from riveted_bearing.duty.sn import cycles_to_failure, damage_of_matrix, read_st
 from riveted_bearing.duty.tolerances import read_tolerances, scatter, write_scatter
 from riveted_bearing.fmu import Model
 
-CAGES = (230, 334, 423, 990, 1009, 1510)  # h, failures of cages of 1,703 aircraft engines: Abernethy, Breneman, Medlin and Reinman (1983)
-RUNNING = {50: 288, 150: 148, 250: 124, 350: 111, 450: 106, 550: 99, 650: 110, 750: 114, 850: 119, 950: 127, 1050: 123, 1150: 93, 1250: 47, 1350: 41}
+# h, failures of cages of 1,703 aircraft engines: Abernethy, Breneman, Medlin and Reinman (1983)
+CAGES = (230, 334, 423, 990, 1009, 1510)
+RUNNING = {
+    50: 288,
+    150: 148,
+    250: 124,
+    350: 111,
+    450: 106,
+    550: 99,
+    650: 110,
+    750: 114,
+    850: 119,
+    950: 127,
+    1050: 123,
+    1150: 93,
+    1250: 47,
+    1350: 41,
+}
 RUNNING |= {1450: 27, 1550: 11, 1650: 6, 1850: 1, 2050: 2}  # h: engines without a failure
 Z = 9
 
@@ -33,7 +49,11 @@ def test_field_lives_of_bearing_cages(tmp_path):
     """Meeker and Escobar (1998), chapter 8, for these data: shape 2.035, scale 11,792 h, B10 3,903 h."""
     law = fit_weibull(CAGES, list(RUNNING), [1] * len(CAGES) + list(RUNNING.values()))
     assert len(CAGES) + sum(RUNNING.values()) == 1703
-    assert law.beta == pytest.approx(2.035, rel=1e-3) and law.eta == pytest.approx(11792, rel=1e-3) and law.b10 == pytest.approx(3903, rel=1e-3)
+    assert (
+        law.beta == pytest.approx(2.035, rel=1e-3)
+        and law.eta == pytest.approx(11792, rel=1e-3)
+        and law.b10 == pytest.approx(3903, rel=1e-3)
+    )
     assert law.b10_interval[0] < law.b10 < law.b10_interval[1] and len(law.lives) == 6
     assert write_weibull_plot(law, "cages", tmp_path / "w.png").stat().st_size > 10000
 
@@ -56,9 +76,17 @@ def test_lives_without_a_law_are_refused(lives):
 DOCUMENT = {
     "simulation": {"t_end": 0.01},
     "parameters": {"start.settle": 0.002},
-    "point": [{"name": "often", "hours": 9, "preload_factor": 0.5}, {"name": "seldom", "hours": 1, "inputs": {"shaft.omega": 900.0}}],
+    "point": [
+        {"name": "often", "hours": 9, "preload_factor": 0.5},
+        {"name": "seldom", "hours": 1, "inputs": {"shaft.omega": 900.0}},
+    ],
     "life": {"rivets": "alike"},
-    "tolerance": {"bearings": 400, "seeds": 2, "share": 0.9, "parameters": {"joint.preload": {"distribution": "lognormal", "median": "20 N", "factor": 1.1}}},
+    "tolerance": {
+        "bearings": 400,
+        "seeds": 2,
+        "share": 0.9,
+        "parameters": {"joint.preload": {"distribution": "lognormal", "median": "20 N", "factor": 1.1}},
+    },
 }
 
 
@@ -69,16 +97,20 @@ def planned(model, **tolerance):
 
 
 def test_lives_scatter_as_the_tolerance_does(tmp_path, model):
-    """Damage grows with preload^8 at the one point that counts; the other point has 1 % of the damage and keeps it: lives by hand from what was drawn, and
-    what was drawn follows its law (Kolmogorov and Smirnov's test, 400 bearings)."""
+    """Damage grows with preload^8 at the one point that counts; the other point has 1 % of the damage and keeps it:
+    lives by hand from what was drawn, and what was drawn follows its law (Kolmogorov and Smirnov's test, 400 bearings).
+    """
     mission, tolerances = planned(model)
     nominal = np.array([1e-4, 1e-5])[:, None, None] * np.ones((2, Z, 2))
-    life = assess(mission, lambda counts: [np.repeat(rate[None], n, axis=0) for rate, n in zip(nominal, counts, strict=True)])
+    life = assess(
+        mission, lambda counts: [np.repeat(rate[None], n, axis=0) for rate, n in zip(nominal, counts, strict=True)]
+    )
 
     def runs_of(bearings):
         assert {case.part for case in bearings.cases} == {0}
         preload = [case.scene.parameters["joint.preload"] for case in bearings.cases]
-        return lambda counts: [np.full((n, Z, 2), 1e-4 * (P / 10.0) ** 8) for P, n in zip(preload, counts, strict=True)]  # 10 N: half of 20 N
+        # 10 N: half of 20 N
+        return lambda counts: [np.full((n, Z, 2), 1e-4 * (P / 10.0) ** 8) for P, n in zip(preload, counts, strict=True)]
 
     found = scatter(life, tolerances, model, tmp_path, None, runs_of=runs_of)
     preload = found.draws["joint.preload"]
@@ -100,7 +132,9 @@ def test_seeds_have_their_share_of_the_scatter(tmp_path, model):
         model,
         tmp_path,
         None,
-        runs_of=lambda bearings: lambda counts: [1e-4 * np.exp(0.3 * rng.normal(size=(n, 1, 1))) * np.ones((n, Z, 2)) for n in counts],
+        runs_of=lambda bearings: (
+            lambda counts: [1e-4 * np.exp(0.3 * rng.normal(size=(n, 1, 1))) * np.ones((n, Z, 2)) for n in counts]
+        ),
     )
     assert found.noise == pytest.approx(1.0, abs=0.25)
 
@@ -108,11 +142,20 @@ def test_seeds_have_their_share_of_the_scatter(tmp_path, model):
 @pytest.mark.parametrize(
     ("tolerance", "fragments"),
     [
-        ({"parameters": {"joint.preload": {"distribution": "gauss", "mean": 1, "sd": 1}}}, ["joint.preload.distribution = 'gauss'", "normal, lognormal"]),
+        (
+            {"parameters": {"joint.preload": {"distribution": "gauss", "mean": 1, "sd": 1}}},
+            ["joint.preload.distribution = 'gauss'", "normal, lognormal"],
+        ),
         ({"parameters": {"joint.preload": {"distribution": "normal", "mean": 20}}}, ["normal needs mean, sd"]),
-        ({"parameters": {"joint.preload": {"distribution": "normal", "mean": "20 mm", "sd": 1}}}, ["joint.preload.mean = '20 mm'", "allowed: N"]),
+        (
+            {"parameters": {"joint.preload": {"distribution": "normal", "mean": "20 mm", "sd": 1}}},
+            ["joint.preload.mean = '20 mm'", "allowed: N"],
+        ),
         ({"parameters": {"joint.preload": {"distribution": "uniform", "low": 3, "high": 2}}}, ["low below high"]),
-        ({"parameters": {"joint.preloat": {"distribution": "normal", "mean": 1, "sd": 1}}}, ['"joint.preloat"', "joint.preload"]),
+        (
+            {"parameters": {"joint.preloat": {"distribution": "normal", "mean": 1, "sd": 1}}},
+            ['"joint.preloat"', "joint.preload"],
+        ),
         ({"parameters": {"start.seed": {"distribution": "normal", "mean": 1, "sd": 1}}}, ["only real numbers"]),
         ({"parameters": {}}, ["at least one parameter"]),
         ({"bearings": 2}, ["tolerance.bearings = 2"]),
@@ -127,12 +170,14 @@ def test_what_tolerances_cannot_say_is_refused(model, tolerance, fragments):
         assert fragment in str(refused.value)
 
 
-# S-N curves -----------------------------------------------------------------------------------------------------------------------------------
+# S-N curves -----------------------------------------------------------------------------------------------------------
 
 LAW = FatigueLaw(sigma_D=250e6, N_D=2e6, k_1=8.0, k_2=15.0, mean_stress=int(MeanStress.GOODMAN))
 
 
-@pytest.mark.parametrize(("rule", "below"), [("knee", 15.0), ("haibach", 15.0), ("elementary", 8.0), ("original", math.inf)])
+@pytest.mark.parametrize(
+    ("rule", "below"), [("knee", 15.0), ("haibach", 15.0), ("elementary", 8.0), ("original", math.inf)]
+)
 def test_rules_below_the_knee(rule, below):
     strength = read_strength("m.toml", {"rule": rule}, LAW)
     N = cycles_to_failure(strength, np.array([500e6, 125e6]))
@@ -141,20 +186,33 @@ def test_rules_below_the_knee(rule, below):
 
 
 def test_a_matrix_has_the_damage_of_its_cycles():
-    """Three cycles of one channel and one of another by the FMU's own law: to rounding, with Goodman's correction, and breaking at most once."""
-    matrix = (np.array([0, 0, 3]), np.array([300e6, 400e6, 5e9]), np.array([100e6, -50e6, 0.0]), np.array([2.0, 0.5, 3.0]))
+    """Three cycles of one channel and one of another by the FMU's own law: to rounding, with Goodman's correction, and
+    breaking at most once.
+    """
+    matrix = (
+        np.array([0, 0, 3]),
+        np.array([300e6, 400e6, 5e9]),
+        np.array([100e6, -50e6, 0.0]),
+        np.array([2.0, 0.5, 3.0]),
+    )
     expected = [2 * fatigue_cycle(LAW, 300e6, 100e6) + 0.5 * fatigue_cycle(LAW, 400e6, -50e6), 0, 0, 3.0]
     assert damage_of_matrix(read_strength("m.toml", {}, LAW), matrix, 4) == pytest.approx(expected, rel=1e-12)
 
 
 def test_survival_moves_the_curve_by_its_scatter():
-    """T_S = strength of 90 % over that of 10 % = 1.25 is 2 x 1.2816 standard deviations of lg; survival 0.9 is 1.2816 below the middle."""
+    """T_S = strength of 90 % over that of 10 % = 1.25 is 2 x 1.2816 standard deviations of lg; survival 0.9 is 1.2816
+    below the middle.
+    """
     strength = read_strength("m.toml", {"T_S": 1.25, "survival": 0.9}, LAW)
-    assert cycles_to_failure(strength, np.array([400e6]))[0] == pytest.approx(2e6 * (400 / (250 / math.sqrt(1.25))) ** -8, rel=1e-4)
+    assert cycles_to_failure(strength, np.array([400e6]))[0] == pytest.approx(
+        2e6 * (400 / (250 / math.sqrt(1.25))) ** -8, rel=1e-4
+    )
 
 
 def test_factors_of_the_guideline():
-    """FKM (2012) by hand for steel, R_m 785 MPa, R_z 25 um: K_R = 1 - 0.22 lg 25 lg(2 x 785/400); A_90 5 instead of 500 mm^2: (100)^(1/30)."""
+    """FKM (2012) by hand for steel, R_m 785 MPa, R_z 25 um: K_R = 1 - 0.22 lg 25 lg(2 x 785/400); A_90 5 instead of 500
+    mm^2: (100)^(1/30).
+    """
     smooth = read_strength("m.toml", {"R_z": "0.5 um"}, LAW).factor
     rough = read_strength("m.toml", {"R_z": "25 um", "A_90": 5.0, "A_90_specimen": 500.0}, LAW).factor
     assert smooth == 1.0
@@ -168,7 +226,9 @@ def test_a_table_is_read_between_and_beyond_its_points(tmp_path):
     amplitudes = np.array([800e6, 300e6, 100e6])
     assert cycles_to_failure(strength, amplitudes) == pytest.approx(1e4 * (amplitudes / 400e6) ** -5, rel=1e-9)
     weaker = read_strength(tmp_path / "m.toml", {"file": "curve.csv", "unit": "MPa", "T_S": 1.25, "survival": 0.9}, LAW)
-    assert cycles_to_failure(weaker, np.array([300e6]))[0] == pytest.approx(1e4 * (300 / 400 * math.sqrt(1.25)) ** -5, rel=1e-3)
+    assert cycles_to_failure(weaker, np.array([300e6]))[0] == pytest.approx(
+        1e4 * (300 / 400 * math.sqrt(1.25)) ** -5, rel=1e-3
+    )
 
 
 def test_a_curve_comes_from_a_file(tmp_path):

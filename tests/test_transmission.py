@@ -1,4 +1,6 @@
-"""The shaft, a second FMU behind the same wrapper, against closed forms; shaft and bearing as one system, by three masters."""
+"""The shaft, a second FMU behind the same wrapper, against closed forms; shaft and bearing as one system, by three
+masters.
+"""
 
 import importlib.util
 import json
@@ -35,16 +37,24 @@ def angle_and_speed(slave):
     return slave.get("shaft.phi", "shaft.omega")
 
 
-# --------------------------------------------------------------------------------------------------------------------- shaft
+# ---------------------------------------------------------------------------------------------------------------- shaft
 
 
 def test_shaft_is_valid():
     assert validate_fmu(str(FMU)) == []
 
 
-@pytest.mark.skipif(not sys.platform.startswith("linux") or "asan" in os.environ.get("LD_PRELOAD", ""), reason="reads an ELF file, without sanitizers")
+@pytest.mark.skipif(
+    not sys.platform.startswith("linux") or "asan" in os.environ.get("LD_PRELOAD", ""),
+    reason="reads an ELF file, without sanitizers",
+)
 def test_shaft_exports_fmi_only(shaft):
-    symbols = subprocess.run(["nm", "-D", "--defined-only", shaft / "binaries" / fmpy.platform / "Shaft.so"], capture_output=True, text=True, check=True)
+    symbols = subprocess.run(
+        ["nm", "-D", "--defined-only", shaft / "binaries" / fmpy.platform / "Shaft.so"],
+        capture_output=True,
+        text=True,
+        check=True,
+    )
     exported = [line.split()[-1] for line in symbols.stdout.splitlines()]
     assert len(exported) == 44 and all(name.startswith("fmi2") for name in exported)
 
@@ -53,7 +63,8 @@ def test_constant_torque_on_a_rigid_inertia(shaft):
     """omega = omega_0 - M t / J, phi its integral."""
     slave = Slave(shaft).initialize(**FREE, gear__M=M).step(STEP, 50)
     t = 50 * STEP
-    assert angle_and_speed(slave) == pytest.approx([OMEGA * t - 0.5 * M / J * t**2, OMEGA - M / J * t], rel=1e-13)  # rounding of 50 steps; observed 2e-15
+    # rounding of 50 steps; observed 2e-15
+    assert angle_and_speed(slave) == pytest.approx([OMEGA * t - 0.5 * M / J * t**2, OMEGA - M / J * t], rel=1e-13)
 
 
 @pytest.mark.parametrize("n", [1, 20])
@@ -68,7 +79,8 @@ def test_torque_as_a_polynomial(shaft, n):
         slave.step(h)
     t = 5e-3
     impulse = M * t + M_1 * t**2 / 2 + M_2 * t**3 / 6
-    assert slave.get("shaft.omega")[0] == pytest.approx(OMEGA - impulse / J, rel=1e-14)  # the method is exact for it: rounding; observed 5e-16
+    # the method is exact for it: rounding; observed 5e-16
+    assert slave.get("shaft.omega")[0] == pytest.approx(OMEGA - impulse / J, rel=1e-14)
 
 
 def test_drive_pulls_the_speed_to_its_own(shaft):
@@ -102,22 +114,32 @@ def test_forces_of_the_mesh_and_their_balance(shaft):
 
 def test_friction_of_the_other_bearing(shaft):
     """mu F d / 2 of what bearing A does not carry."""
-    slave = Slave(shaft).initialize(support__mu=0.002, support__d=0.04, gear__M=M, bearing__F_y=300.0, bearing__F_z=-100.0)
+    slave = Slave(shaft).initialize(
+        support__mu=0.002, support__d=0.04, gear__M=M, bearing__F_y=300.0, bearing__F_z=-100.0
+    )
     load = slave.get("gear.F_y", "gear.F_z") - [300.0, -100.0]
     assert slave.get("support.F_y", "support.F_z") == pytest.approx(load)
-    assert slave.get("support.M")[0] == pytest.approx(0.002 * np.hypot(*load) * 0.02, rel=1e-6)  # regularized: 0.5 (1 / 1910)^2 = 1.4e-7, observed
+    # regularized: 0.5 (1 / 1910)^2 = 1.4e-7, observed
+    assert slave.get("support.M")[0] == pytest.approx(0.002 * np.hypot(*load) * 0.02, rel=1e-6)
 
 
 def test_work_is_kinetic_energy(shaft):
     slave, random = Slave(shaft).initialize(shaft__J=J, shaft__omega_start=OMEGA), np.random.default_rng(1)
     for _ in range(100):
-        for name, most in {"drive.omega": 3000.0, "gear.M": 300.0, "bearing.F_y": 2000.0, "bearing.F_z": 2000.0, "bearing.M_x": 5.0}.items():
+        for name, most in {
+            "drive.omega": 3000.0,
+            "gear.M": 300.0,
+            "bearing.F_y": 2000.0,
+            "bearing.F_z": 2000.0,
+            "bearing.M_x": 5.0,
+        }.items():
             slave.set(name, most * random.uniform())
         slave.step(5e-4)
     works = slave.get("work.drive", "work.gear", "work.bearing", "work.support")
     gained = 0.5 * J * (slave.get("shaft.omega")[0] ** 2 - OMEGA**2)
     assert np.all(works > 1.0) and abs(gained) > 1e3
-    assert works[0] - works[1:].sum() == pytest.approx(gained, rel=1e-7)  # of the integrator, in steps of 0.1 ms; observed 2e-9
+    # of the integrator, in steps of 0.1 ms; observed 2e-9
+    assert works[0] - works[1:].sum() == pytest.approx(gained, rel=1e-7)
 
 
 INPUTS = {"drive.omega": 1600.0, "gear.M": 150.0, "bearing.F_y": 500.0, "bearing.F_z": 900.0, "bearing.M_x": 0.3}
@@ -131,7 +153,8 @@ def outputs_at(shaft, changes):
 
 @pytest.mark.parametrize("name", [*INPUTS, "shaft.omega"])
 def test_directional_derivatives_are_those_of_differences(shaft, name):
-    key, value = ("shaft.omega_start", 20.0) if name == "shaft.omega" else (name, INPUTS[name])  # slow: friction of B still depends on speed
+    # slow: friction of B still depends on speed
+    key, value = ("shaft.omega_start", 20.0) if name == "shaft.omega" else (name, INPUTS[name])
     h = 1e-4 * value
     slave = Slave(shaft).initialize(**{n.replace(".", "__"): v for n, v in (INPUTS | {key: value}).items()})
     unknown = [v.valueReference for v in slave.description.modelVariables if v.causality == "output"]
@@ -139,7 +162,8 @@ def test_directional_derivatives_are_those_of_differences(shaft, name):
     slave.check("GetDirectionalDerivative", unknown, len(unknown), [slave.vr[name]], 1, [1.0], out)
     difference = (outputs_at(shaft, {key: value + h}) - outputs_at(shaft, {key: value - h})) / (2 * h)
     assert np.count_nonzero(difference) >= 1
-    np.testing.assert_allclose(list(out), difference, rtol=1e-6, atol=1e-9 * np.abs(difference).max())  # central differences; observed 3e-8
+    # central differences; observed 3e-8
+    np.testing.assert_allclose(list(out), difference, rtol=1e-6, atol=1e-9 * np.abs(difference).max())
 
 
 def test_saved_state_continues_bit_for_bit(shaft):
@@ -153,7 +177,7 @@ def test_saved_state_continues_bit_for_bit(shaft):
     assert np.array_equal(other.restore(loaded, 3 * STEP).step(STEP, 5).outputs(), after)
 
 
-# -------------------------------------------------------------------------------------------------------------------- system
+# --------------------------------------------------------------------------------------------------------------- system
 
 NAMES = (
     "shaft.shaft.omega",
@@ -172,23 +196,28 @@ def result():
 
 
 def test_reaction_carries_the_load(result):
-    """After 10 ms: mean force on the housing = load, but for the momentum of ring, balls and cage, below 0.5 kg x 0.1 m/s / 40 ms = 1 N."""
+    """After 10 ms: mean force on the housing = load, but for the momentum of ring, balls and cage, below 0.5 kg x 0.1
+    m/s / 40 ms = 1 N.
+    """
     late = result["time"] > 0.01
     for axis in "yz":
         mean, load = result[f"bearing.housing.F_{axis}"][late].mean(), result[f"shaft.shaft.F_{axis}"][-1]
-        assert mean == pytest.approx(load, abs=10.0)  # sampled each 0.1 ms, scatter 20 N / sqrt(400) = 1 N; observed 0.1 to 0.3 N
+        # sampled each 0.1 ms, scatter 20 N / sqrt(400) = 1 N; observed 0.1 to 0.3 N
+        assert mean == pytest.approx(load, abs=10.0)
 
 
 def test_speed_answers_to_the_friction_of_the_bearing(result):
     """J omega_dot = k (omega_d - omega) - M - M_A - M_B with the torques of each step: a chain of exponentials."""
     J, k, omega_d, M = 0.02, 5.0, 1955.8, 229.6  # shaft.ssv
     omega, decay = [result["shaft.shaft.omega"][0]], np.exp(-k * STEP / J)
-    friction = result["bearing.bearing.friction_torque"][:-1] + result["shaft.support.M"][1:]  # B's answers to the reaction that the step has seen
+    # B's answers to the reaction that the step has seen
+    friction = result["bearing.bearing.friction_torque"][:-1] + result["shaft.support.M"][1:]
     for M_f in friction:
         end = omega_d - (M + M_f) / k
         omega.append(end + (omega[-1] - end) * decay)
     change = np.ptp(result["shaft.shaft.omega"])
-    assert np.abs(result["shaft.shaft.omega"] - omega).max() < 1e-6 * change  # rounding of 1910 in 0.05 rad/s, friction of B within a step; observed 6e-10
+    # rounding of 1910 in 0.05 rad/s, friction of B within a step; observed 6e-10
+    assert np.abs(result["shaft.shaft.omega"] - omega).max() < 1e-6 * change
     deaf = transmission.simulate(SYSTEM, 0.05, STEP, without=("shaft.bearing.M_x",))
     late = result["time"] > 0.03
     drop = (deaf["shaft.shaft.omega"] - result["shaft.shaft.omega"])[late].mean()
@@ -198,9 +227,12 @@ def test_speed_answers_to_the_friction_of_the_bearing(result):
 
 
 def test_bearing_answers_to_load_and_speed(result):
-    half = transmission.simulate(SYSTEM, 0.02, STEP, {"shaft.gear.M": 114.8, "shaft.shaft.omega_start": 955.0, "shaft.drive.omega": 977.9})
+    half = transmission.simulate(
+        SYSTEM, 0.02, STEP, {"shaft.gear.M": 114.8, "shaft.shaft.omega_start": 955.0, "shaft.drive.omega": 977.9}
+    )
     late = half["time"] > 0.01
-    assert half["bearing.housing.F_z"][late].mean() == pytest.approx(0.5 * result["shaft.shaft.F_z"][0], rel=0.01)  # observed 0.004 %
+    # observed 0.004 %
+    assert half["bearing.housing.F_z"][late].mean() == pytest.approx(0.5 * result["shaft.shaft.F_z"][0], rel=0.01)
     assert half["shaft.shaft.omega"][-1] == pytest.approx(955.0, rel=1e-3)
 
 
@@ -235,7 +267,11 @@ def test_libcosim_runs_the_system(short):
     observer = CosimObserver.create_last_value()
     execution.add_observer(observer)
     files = {"shaft": FMU, "bearing": ROOT / "fmus" / "RivetedBearing.fmu"}
-    vr = {f"{part}.{v.name}": v.valueReference for part, path in files.items() for v in fmpy.read_model_description(str(path)).modelVariables}
+    vr = {
+        f"{part}.{v.name}": v.valueReference
+        for part, path in files.items()
+        for v in fmpy.read_model_description(str(path)).modelVariables
+    }
     slaves = {part: execution.slave_index_from_instance_name(part) for part in files}
     rows = []
     for _ in range(len(short)):
@@ -256,14 +292,20 @@ def test_ecos_runs_the_system(ecospy, short):
 
 
 def test_container_of_fmu_manipulation_toolbox_runs_the_system(tmp_path, short):
-    """Both FMUs inside a third.  It breaks the loop at the shaft, whose inputs therefore start from given values.  Observed: 0."""
+    """Both FMUs inside a third.  It breaks the loop at the shaft, whose inputs therefore start from given values.
+    Observed: 0.
+    """
     assembly = pytest.importorskip("fmu_manipulation_toolbox.assembly", reason="pip install fmu-manipulation-toolbox")
     files = {"shaft": FMU, "bearing": ROOT / "fmus" / "RivetedBearing.fmu"}
     for path in files.values():
         (tmp_path / path.name).symlink_to(path)
     first = transmission.simulate(SYSTEM, STEP, STEP)
     wires = get_connections(read_ssd(str(SYSTEM)).system)
-    values = [(part, p.name, p.value) for part in files for p in read_ssv(str(ROOT / "examples" / "transmission" / f"{part}.ssv")).parameters]
+    values = [
+        (part, p.name, p.value)
+        for part in files
+        for p in read_ssv(str(ROOT / "examples" / "transmission" / f"{part}.ssv")).parameters
+    ]
     values += [("shaft", b.name, str(first[f"bearing.{a.name}"][0])) for a, b in wires if b.parent.name == "shaft"]
     outputs = {name: name.replace(".", "_") for name in NAMES}
     description = {

@@ -1,4 +1,6 @@
-"""The C core and the Python reference, written apart from the same equations: equal derivatives, starts, outputs, trajectories and statistics."""
+"""The C core and the Python reference, written apart from the same equations: equal derivatives, starts, outputs,
+trajectories and statistics.
+"""
 
 import functools
 
@@ -8,18 +10,24 @@ from library import TWO_HALF
 from mechanics import SLICE, Instance, Z
 
 from bearing_model.generated import variables
-from bearing_model.physics.derived import default_table
 from bearing_model.instance.energy import energy_total, power_loss
-from bearing_model.solver.integrator import observe, simulate
+from bearing_model.instance.statistics import StatisticsChannel
+from bearing_model.physics.derived import default_table
 from bearing_model.physics.land_film import land_film_gap
 from bearing_model.physics.model import Model, Work, derived_at
 from bearing_model.physics.parameters import InputDerivatives, Inputs, Parameters
 from bearing_model.physics.rhs import jacobian, rhs
-from bearing_model.physics.ring_load import input_trajectory_here, input_trajectory_update, motion_trajectory, ring_load_at
+from bearing_model.physics.ring_load import (
+    input_trajectory_here,
+    input_trajectory_update,
+    motion_trajectory,
+    ring_load_at,
+)
+from bearing_model.solver.integrator import observe, simulate
 from bearing_model.solver.start import start_state
-from bearing_model.instance.statistics import StatisticsChannel
 
-# A hybrid bearing: smaller ceramic-like balls of unequal size, other conformities, clearances, cage, oil and joints (d_m and Z are the rivet table's).
+# A hybrid bearing: smaller ceramic-like balls of unequal size, other conformities, clearances, cage, oil and joints
+# (d_m and Z are the rivet table's).
 OTHER = {
     "bearing.D": round(0.855 * variables.PARAMETERS["bearing.D"].start, 4),
     "oil.flow": 2e-5,
@@ -54,11 +62,34 @@ SUPPORTED, FREE = {"ring.tilt_mode": 2}, {"ring.tilt_mode": 3}
 MIXED, SLICED, RIGID, ELASTIC = {"scene.lubrication": 2}, {"scene.traction": 2}, {"scene.cage": 2}, {"scene.cage": 3}
 UNBALANCE = {"cage.unbalance": 2e-6, "gravity.y": -9.81, "gravity.z": 3.0}
 PULSE = {"pulse.F_r": 1401.0, "pulse.F_a": 241.0, "pulse.t_start": 0.0}
-LOADS = {"shaft.F_x": 800.0, "shaft.F_y": 2000.0, "shaft.F_z": -1500.0, "shaft.M_y": 3.0, "shaft.M_z": -2.0, "shaft.tilt_y": 1e-3, "shaft.tilt_z": 2.6e-3}
+LOADS = {
+    "shaft.F_x": 800.0,
+    "shaft.F_y": 2000.0,
+    "shaft.F_z": -1500.0,
+    "shaft.M_y": 3.0,
+    "shaft.M_z": -2.0,
+    "shaft.tilt_y": 1e-3,
+    "shaft.tilt_z": 2.6e-3,
+}
 PRESCRIBED = {"ring.motion": 2}
-MOTION = {"shaft.x": 6e-6, "shaft.y": 25e-6, "shaft.z": -12e-6, "shaft.v_x": 0.02, "shaft.v_y": -0.05, "shaft.v_z": 0.03}
+MOTION = {
+    "shaft.x": 6e-6,
+    "shaft.y": 25e-6,
+    "shaft.z": -12e-6,
+    "shaft.v_x": 0.02,
+    "shaft.v_y": -0.05,
+    "shaft.v_z": 0.03,
+}
 MOTION |= {"shaft.tilt_y": 1e-3, "shaft.tilt_z": -7e-4, "shaft.tilt_y_dot": 0.7, "shaft.tilt_z_dot": -0.4}
-HOUSING = {"housing.x": 5e-6, "housing.y": -8e-6, "housing.z": 7e-6, "housing.v_x": 0.01, "housing.v_y": 0.04, "housing.v_z": -0.03, "housing.omega": -500.0}
+HOUSING = {
+    "housing.x": 5e-6,
+    "housing.y": -8e-6,
+    "housing.z": 7e-6,
+    "housing.v_x": 0.01,
+    "housing.v_y": 0.04,
+    "housing.v_z": -0.03,
+    "housing.omega": -500.0,
+}
 HOUSING |= {"housing.tilt_y": 4e-4, "housing.tilt_z": -3e-4, "housing.tilt_y_dot": 0.5, "housing.tilt_z_dot": 0.3}
 FRAME = {"frame.a_x": 50.0, "frame.a_y": -300.0, "frame.a_z": 200.0, "frame.omega": 150.0, "frame.omega_dot": 4000.0}
 HOT = {"oil.T": 330.0, "ring.T_i": 345.0, "ring.T_e": 330.0, "ball.T": 350.0, "cage.T": 340.0}
@@ -68,7 +99,10 @@ DIFFER = {
     "rivet[k].dfit": np.linspace(-4e-5, 2e-5, Z).tolist(),
     "rivet[k].intact": [int(k != 2) for k in range(Z)],
 }
-DIFFER |= {"pocket[j].dtheta": np.linspace(-1e-3, 1.5e-3, Z).tolist(), "pocket[j].dD": np.linspace(-5e-5, 1e-4, Z).tolist()}
+DIFFER |= {
+    "pocket[j].dtheta": np.linspace(-1e-3, 1.5e-3, Z).tolist(),
+    "pocket[j].dD": np.linspace(-5e-5, 1e-4, Z).tolist(),
+}
 SCENES = {
     "demo": ({}, {}),
     "mixed_supported": (MIXED | SUPPORTED | {"cage.pocket_clearance": 1e-4}, LOADS),
@@ -95,7 +129,11 @@ PER_SCENE = 120  # 1800 states in all
 
 def plain(numbers):
     """Python's own numbers: what record_property can pass between processes."""
-    return {name: float(value) for name, value in numbers.items()} if isinstance(numbers, dict) else np.asarray(numbers).tolist()
+    return (
+        {name: float(value) for name, value in numbers.items()}
+        if isinstance(numbers, dict)
+        else np.asarray(numbers).tolist()
+    )
 
 
 def slow(*values):
@@ -113,7 +151,9 @@ def twin(scene):
 
 
 def random_states(model, y, rng, count):
-    """States around the start in which every element is at work somewhere: races, pockets, lands and joints open, closed and slipping, axes tilted."""
+    """States around the start in which every element is at work somewhere: races, pockets, lands and joints open,
+    closed and slipping, axes tilted.
+    """
     p, d = model.p, model.d
     ys = np.repeat(y[None], count, axis=0)
     size = {name: (count, place.stop - place.start) for name, place in SLICE.items()}
@@ -127,16 +167,24 @@ def random_states(model, y, rng, count):
     add(20.0, "ball_omega_m"), add(300.0, "ball_omega_x", "ball_omega_r", "ball_omega_t")
     turn = rng.uniform(-300.0, 300.0, (count, 1))
     phi = 2.0 * np.pi * np.arange(Z) / Z
-    ys[:, SLICE["ball_theta"]] = turn + phi + 1.1 * p.cage.pocket_clearance / p.bearing.d_m * rng.uniform(-1.0, 1.0, (count, Z))
+    ys[:, SLICE["ball_theta"]] = (
+        turn + phi + 1.1 * p.cage.pocket_clearance / p.bearing.d_m * rng.uniform(-1.0, 1.0, (count, Z))
+    )
     ys[:, SLICE["cage_psi"]] = turn
     ys[:, SLICE["cage_y"]], ys[:, SLICE["cage_z"]] = d.com_e * np.cos(turn), d.com_e * np.sin(turn)
     add(1e-4, "cage_x", common=True)
     # the worse land is up to 1.05 of its clearance away from the middle: by tilt, the rest by the place of the cage
     part, reach = rng.uniform(size=(count, 1)), 1.05 * d.C_land / np.sqrt(2.0)
-    add((1.0 - part) * reach, "cage_y", "cage_z", common=True), add(part * reach / p.cage.land_x, "cage_beta", "cage_gamma", common=True)
+    (
+        add((1.0 - part) * reach, "cage_y", "cage_z", common=True),
+        add(part * reach / p.cage.land_x, "cage_beta", "cage_gamma", common=True),
+    )
     add(np.where(part > 0.7, 0.03, 2e-4), "ring_beta", "ring_gamma")
     add(5e-7, "cage_x"), add(1e-5, "cage_y", "cage_z"), add(3e-5, "cage_beta", "cage_gamma"), add(3e-4, "cage_psi")
-    add(0.3, "cage_v_x", "cage_v_y", "cage_v_z"), add(10.0, "cage_beta_dot", "cage_gamma_dot", "cage_s", "ring_beta_dot", "ring_gamma_dot")
+    (
+        add(0.3, "cage_v_x", "cage_v_y", "cage_v_z"),
+        add(10.0, "cage_beta_dot", "cage_gamma_dot", "cage_s", "ring_beta_dot", "ring_gamma_dot"),
+    )
     add(3e-7, "joint_plate_y", "joint_plate_z", "joint_head_y", "joint_head_z")
     return ys
 
@@ -186,19 +234,25 @@ CLASSES = {  # blocks whose entries are parts of the same sums
 
 
 def film_terms(model, w):
-    """Largest term 3 kappa |V|/q^4 of the lands' film forces [N]: where the gap opens, the force is a small difference of such terms."""
+    """Largest term 3 kappa |V|/q^4 of the lands' film forces [N]: where the gap opens, the force is a small difference
+    of such terms.
+    """
     p, d, largest = model.p, model.d, 0.0
     for h, half in enumerate(w.half):
         x_land = (2 * h - 1) * p.cage.land_x
         _, e_y, e_z = (half.x + x_land * half.a)[..., 0]
         _, v_y, v_z = (half.v + x_land * half.a_dot)[..., 0]
         omega, q2 = half.Omega[0, :, 0], land_film_gap(np.hypot(e_y, e_z) / d.C_land, p.cage.g_0)
-        largest = np.maximum(largest, 3.0 * d.kappa * np.hypot(v_y + 0.5 * omega * e_z, v_z - 0.5 * omega * e_y) / q2**2)
+        largest = np.maximum(
+            largest, 3.0 * d.kappa * np.hypot(v_y + 0.5 * omega * e_z, v_z - 0.5 * omega * e_y) / q2**2
+        )
     return largest
 
 
 def differences(model, w, f, g):
-    """Largest |f - g| of each class, relative to the largest entry of that class or the largest term in its sums: [states] by class."""
+    """Largest |f - g| of each class, relative to the largest entry of that class or the largest term in its sums:
+    [states] by class.
+    """
     p, d, film = model.p, model.d, film_terms(model, w)
     F = np.max(np.abs([*w.pocket_F.values()]), axis=(0, 1, 3))
     if "u" in vars(w):  # a bearing shank: k (|u| - gap)
@@ -214,13 +268,14 @@ def differences(model, w, f, g):
     return found
 
 
-# ------------------------------------------------------------------------------------------------------------------- derivatives
+# ---------------------------------------------------------------------------------------------------------- derivatives
 
 
 def test_derivatives(core, record_property):
     """dy/dt of both twins at 1800 random states.
 
-    Tolerance: a deflection of 0.3 ... 3 um is a difference of lengths of 27 mm, whose rounding (3.5e-18 m) is 1e-12 ... 1e-11 of it.
+    Tolerance: a deflection of 0.3 ... 3 um is a difference of lengths of 27 mm, whose rounding (3.5e-18 m) is 1e-12 ...
+    1e-11 of it.
     """
     rng, worst, seen = np.random.default_rng(1), {}, {}
     for scene, (parameters, inputs) in SCENES.items():
@@ -243,7 +298,8 @@ def test_derivatives_see_a_small_error(core):
     """The comparison is not blind: a millionth of a coefficient shows."""
     names = ("bearing.E", "oil.B", "cage.lambda", "cage.land_width", "joint.mu", "oil.C_d")
     for name in names:
-        scene = TWO_HALF | ({"scene.drag": variables.Drag.ISOLATED} if name == "oil.C_d" else {})  # balls in a row hardly feel their own drag
+        # balls in a row hardly feel their own drag
+        scene = TWO_HALF | ({"scene.drag": variables.Drag.ISOLATED} if name == "oil.C_d" else {})
         model = Model.of(scene)
         y, _ = start_state(model)
         c = core.model(scene | {name: (1.0 + 1e-6) * variables.PARAMETERS[name].start})
@@ -255,8 +311,9 @@ def test_derivatives_see_a_small_error(core):
 def test_jacobian(record_property):
     """Complex steps against central differences, at states with every element at work.
 
-    Differences over h = 1e-4 of the error scales (1 nm) lose digits by rounding (an approach of 1 um known to 3.5e-18 m moves by 1 nm: 1e-8) and by
-    curvature (h^2 and the contacts' delta^1.5: 1e-6 of 1 um approach); rows whose kink lies within h differ altogether: few.
+    Differences over h = 1e-4 of the error scales (1 nm) lose digits by rounding (an approach of 1 um known to 3.5e-18 m
+    moves by 1 nm: 1e-8) and by curvature (h^2 and the contacts' delta^1.5: 1e-6 of 1 um approach); rows whose kink lies
+    within h differ altogether: few.
     """
     errors = []
     for scene in ("mixed_supported", "sliced_mixed", "rigid"):
@@ -276,14 +333,16 @@ def test_jacobian(record_property):
     assert np.quantile(errors, 0.99) < 1e-2  # observed 7e-5
 
 
-# ------------------------------------------------------------------------------------------------------------------------- start
+# ---------------------------------------------------------------------------------------------------------------- start
 
 
 @pytest.mark.parametrize("scene", SCENES)
 def test_start(core, scene, record_property):
-    """Minimum of one potential by a trust region against two nested Newton iterations: the same equilibrium, seed and speeds.
+    """Minimum of one potential by a trust region against two nested Newton iterations: the same equilibrium, seed and
+    speeds.
 
-    Both stop at residual forces of 1e-9 N; the weakest stiffness of loaded parts is 1e6 N/m: 1e-15 m, 1e-10 of the error scale 10 um.
+    Both stop at residual forces of 1e-9 N; the weakest stiffness of loaded parts is 1e6 N/m: 1e-15 m, 1e-10 of the
+    error scale 10 um.
     """
     model, y, residual = start_of(scene)
     f = core.model(*SCENES[scene]).start()
@@ -294,19 +353,25 @@ def test_start(core, scene, record_property):
     assert difference < 1e-8  # observed 2e-10
 
 
-@pytest.mark.parametrize("changes", [{"start.seed": 7}, {"start.seed": 2**31 - 1, "start.spacing": 0.5}, {"start.spacing": 0.0}])
+@pytest.mark.parametrize(
+    "changes", [{"start.seed": 7}, {"start.seed": 2**31 - 1, "start.spacing": 0.5}, {"start.spacing": 0.0}]
+)
 def test_start_spacing(core, changes):
     """The balls' azimuths are the same numbers: splitmix64."""
     model = Model.of(TWO_HALF | changes)
     y, _ = start_state(model)
-    np.testing.assert_allclose(y[variables.BALL_THETA], core.model(changes).start()[variables.BALL_THETA], rtol=0, atol=1e-15)
+    np.testing.assert_allclose(
+        y[variables.BALL_THETA], core.model(changes).start()[variables.BALL_THETA], rtol=0, atol=1e-15
+    )
 
 
-# ----------------------------------------------------------------------------------------------------------------------- outputs
+# -------------------------------------------------------------------------------------------------------------- outputs
 
 
 def under_way(parameters, inputs, h):
-    """The model along inputs whose motions go on with their velocities for a communication step of length h [s], from time 0 on."""
+    """The model along inputs whose motions go on with their velocities for a communication step of length h [s], from
+    time 0 on.
+    """
     p, given = Parameters(parameters), Inputs(inputs)
     u = motion_trajectory(p, (given, InputDerivatives(), InputDerivatives()), given, h)
     trajectory = input_trajectory_update(p, u, 0.0, 0.0)
@@ -322,7 +387,9 @@ def after_a_step(parameters, inputs, h):
 
 @pytest.mark.parametrize("scene", SCENES)
 def test_outputs(core, scene, record_property):
-    """Every output of the FMU at one instant, at random states with loaded joints: put in the place of the state that a step reached."""
+    """Every output of the FMU at one instant, at random states with loaded joints: put in the place of the state that a
+    step reached.
+    """
     parameters, inputs = SCENES[scene]
     model, y_start, _ = start_of(scene)
     first, w, worst = Instance(core, parameters, inputs), Work(), {}
@@ -355,15 +422,28 @@ def test_outputs_at_the_start(core):
 def floor_of(name):
     """Size of an output below which differences are rounding: its unit's typical size in this bearing times 1e-3."""
     unit = variables.OUTPUTS[name].unit
-    return 1e-3 * {"N": 1e3, "N.m": 1.0, "Pa": 1e8, "m": 1e-5, "m/s": 0.1, "m/s2": 1e3, "rad": 1e-3, "rad/s": 1e3, "W": 100.0, "J": 1e3}.get(unit, 1.0)
+    return 1e-3 * {
+        "N": 1e3,
+        "N.m": 1.0,
+        "Pa": 1e8,
+        "m": 1e-5,
+        "m/s": 0.1,
+        "m/s2": 1e3,
+        "rad": 1e-3,
+        "rad/s": 1e3,
+        "W": 100.0,
+        "J": 1e3,
+    }.get(unit, 1.0)
 
 
-# ------------------------------------------------------------------------------------------------------------------ trajectories
+# --------------------------------------------------------------------------------------------------------- trajectories
 
 
 @functools.cache
 def reference(scene, t_end):
-    """The reference's state at t_end, by order 8 to 1e-10: its own error, against 1e-12, is 1e-8 of the error scales (mixed_supported over 1 ms: 3e-7)."""
+    """The reference's state at t_end, by order 8 to 1e-10: its own error, against 1e-12, is 1e-8 of the error scales
+    (mixed_supported over 1 ms: 3e-7).
+    """
     parameters, inputs = SCENES[scene]
     _, y, _ = start_of(scene)
     return simulate(parameters, inputs, t_end, step=t_end, tolerance=1e-10, y=y).y[-1]
@@ -389,27 +469,35 @@ PARTING = 1.4e-3  # s in which neighbouring motions part e-fold, at the least
 
 
 def bound(steps, tolerance, t_end):
-    """Error that the steps can add up to: each is accepted with one tolerance at most, and the motion stretches what has gathered.
+    """Error that the steps can add up to: each is accepted with one tolerance at most, and the motion stretches what
+    has gathered.
 
-    Not a multiple of the tolerance: the number of steps grows as tolerance^(-1/3) in Verlet, whose estimate is of order 3, and as tolerance^(-1/4) in
-    Runge-Kutta 4(3), which also adds the better of its two solutions and so stays further below.
+    Not a multiple of the tolerance: the number of steps grows as tolerance^(-1/3) in Verlet, whose estimate is of order
+    3, and as tolerance^(-1/4) in Runge-Kutta 4(3), which also adds the better of its two solutions and so stays further
+    below.
     """
     return steps * tolerance * np.exp(t_end / PARTING)
 
 
-@pytest.mark.parametrize(("scene", "t_end"), [("demo", 5e-4), ("sliced_mixed", 2.5e-4), slow("mixed_supported", 2.5e-4), slow("other", 1e-3)])
+@pytest.mark.parametrize(
+    ("scene", "t_end"), [("demo", 5e-4), ("sliced_mixed", 2.5e-4), slow("mixed_supported", 2.5e-4), slow("other", 1e-3)]
+)
 def test_trajectory(core, scene, t_end, record_property):
-    """The core's trajectory converges to the reference's: order 4 (explicit) and 2 (Verlet), within the sum of its steps' errors.
+    """The core's trajectory converges to the reference's: order 4 (explicit) and 2 (Verlet), within the sum of its
+    steps' errors.
 
-    Two languages, two integrators, two start solvers.  Where a contact opens or closes, its force has a kink in the slope: a step over it errs by a part of h^3
-    once, so that the explicit slope lies between 3 and 4, and it scatters by 0.5, because tolerances meet the kink in different parts of a step.
-    Observed 3.8, 2.7, 3.1, 3.7, 3.6 (explicit), 2.01, 1.99, 1.99, 1.95 (Verlet).  Error / bound: observed 0.08 ... 0.30 (Verlet), 0.02 ... 0.13 (explicit).
+    Two languages, two integrators, two start solvers.  Where a contact opens or closes, its force has a kink in the
+    slope: a step over it errs by a part of h^3 once, so that the explicit slope lies between 3 and 4, and it scatters
+    by 0.5, because tolerances meet the kink in different parts of a step. Observed 3.8, 2.7, 3.1, 3.7, 3.6 (explicit),
+    2.01, 1.99, 1.99, 1.95 (Verlet).  Error / bound: observed 0.08 ... 0.30 (Verlet), 0.02 ... 0.13 (explicit).
     """
     for method, order in ((variables.Method.EXPLICIT, 4), (variables.Method.VERLET, 2)):
         tolerances = np.array([1e-5, 1e-6, 1e-7, 1e-8])
         steps, error = errors(core, scene, t_end, method, tolerances)
         record_property(method.name, plain(error))
-        print(f"{scene} {method.name}: steps {steps}, errors {error}, slope {slope(steps, error):.2f}, error/bound {error / bound(steps, tolerances, t_end)}")
+        print(
+            f"{scene} {method.name}: steps {steps}, errors {error}, slope {slope(steps, error):.2f}, error/bound {error / bound(steps, tolerances, t_end)}"
+        )
         kinked = method == variables.Method.EXPLICIT and scene not in ("demo", "sliced_mixed")
         assert (3.0 - 0.5 if kinked else order - 0.25) < slope(steps, error) < order + (0.5 if kinked else 0.25)
         assert np.all(error < bound(steps, tolerances, t_end))
@@ -418,16 +506,19 @@ def test_trajectory(core, scene, t_end, record_property):
 @pytest.mark.slow
 @pytest.mark.parametrize("scene", SCENES)
 def test_trajectories(core, scene, record_property):
-    """All scenes over 1 ms, balls that hit the cage early among them: within the sum of the steps' errors at a coarse and at a fine tolerance.
+    """All scenes over 1 ms, balls that hit the cage early among them: within the sum of the steps' errors at a coarse
+    and at a fine tolerance.
 
-    Observed error / bound: 5e-3 ... 0.46 explicit, 6e-3 ... 0.25 Verlet; jam and other_rigid less (from 4e-5 on), whose explicit steps at 1e-4 are
-    bounded by stability.  Errors 2e-5 ... 2e-2 of the scales at 1e-4, 4e-8 ... 6e-5 at 1e-8.
+    Observed error / bound: 5e-3 ... 0.46 explicit, 6e-3 ... 0.25 Verlet; jam and other_rigid less (from 4e-5 on), whose
+    explicit steps at 1e-4 are bounded by stability.  Errors 2e-5 ... 2e-2 of the scales at 1e-4, 4e-8 ... 6e-5 at 1e-8.
     """
     tolerances = np.array([1e-4, 1e-8])
     for method in (variables.Method.EXPLICIT, variables.Method.VERLET):
         steps, error = errors(core, scene, 1e-3, method, tolerances)
         record_property(method.name, plain(error))
-        print(f"{scene} {method.name}: steps {steps}, errors {error}, error/bound {error / bound(steps, tolerances, 1e-3)}")
+        print(
+            f"{scene} {method.name}: steps {steps}, errors {error}, error/bound {error / bound(steps, tolerances, 1e-3)}"
+        )
         assert np.all(error < bound(steps, tolerances, 1e-3))
 
 
@@ -435,8 +526,17 @@ EXPLICIT = {"solver.method": int(variables.Method.EXPLICIT)}  # the higher order
 
 
 def test_pulses(core):
-    """A train of half-sines inside a communication step: both hit its edges; states after it agree to 1e-6 of the error scale."""
-    pulses = {"pulse.F_r": 1401.0, "pulse.F_a": 241.0, "pulse.t_start": 3e-5, "pulse.duration": 4e-5, "pulse.interval": 5e-5, "pulse.count": 3}
+    """A train of half-sines inside a communication step: both hit its edges; states after it agree to 1e-6 of the error
+    scale.
+    """
+    pulses = {
+        "pulse.F_r": 1401.0,
+        "pulse.F_a": 241.0,
+        "pulse.t_start": 3e-5,
+        "pulse.duration": 4e-5,
+        "pulse.interval": 5e-5,
+        "pulse.count": 3,
+    }
     y = simulate(TWO_HALF | pulses, t_end=2e-4, step=2e-4, tolerance=1e-9).y[-1]
     c = Instance(core, pulses | EXPLICIT, tolerance=1e-8).step(2e-4).y
     without = Instance(core, EXPLICIT, tolerance=1e-8).step(2e-4).y
@@ -447,18 +547,22 @@ def test_pulses(core):
 
 @pytest.mark.parametrize("method", ["RK45", "Radau", "LSODA"])
 def test_methods(method):
-    """scipy's other integrators, the implicit ones with the exact Jacobian, reach the same state: errors of some tolerances (observed 2 ... 20)."""
+    """scipy's other integrators, the implicit ones with the exact Jacobian, reach the same state: errors of some
+    tolerances (observed 2 ... 20).
+    """
     y = simulate(TWO_HALF, t_end=5e-5, step=5e-5, tolerance=1e-5, method=method).y[-1]
     tight = simulate(TWO_HALF, t_end=5e-5, step=5e-5, tolerance=1e-10).y[-1]
     assert np.sqrt(np.mean(((y - tight) / start_of("demo")[0].d.scale) ** 2)) < 1e-3
 
 
-# ------------------------------------------------------------------------------------------------------------------------ energy
+# --------------------------------------------------------------------------------------------------------------- energy
 
 
 @pytest.mark.parametrize("scene", ["demo", "rigid", slow("sliced_mixed"), slow("other_mixed_sliced")])
 def test_energy(scene, record_property):
-    """Energy minus net work drifts by the integration error only: it vanishes with the tolerance.  Scale: the kinetic energy, about 50 J."""
+    """Energy minus net work drifts by the integration error only: it vanishes with the tolerance.  Scale: the kinetic
+    energy, about 50 J.
+    """
     parameters, inputs = SCENES[scene]
     _, y, _ = start_of(scene)
     drift = []
@@ -472,10 +576,12 @@ def test_energy(scene, record_property):
 
 
 def test_power_is_rate_of_energy(record_property):
-    """dE/dt by the chain rule - a complex step of the energy along dy/dt - equals the net power at random states: each element keeps its account.
+    """dE/dt by the chain rule - a complex step of the energy along dy/dt - equals the net power at random states: each
+    element keeps its account.
 
-    Motions that are given go on with their velocities.  Tolerance: rounding of sums of some hundred terms; of joints between elastic halves, whose law is a
-    table of moves over loads, the table's error (observed 2.6e-3, test_cage_elastic.py).
+    Motions that are given go on with their velocities.  Tolerance: rounding of sums of some hundred terms; of joints
+    between elastic halves, whose law is a table of moves over loads, the table's error (observed 2.6e-3,
+    test_cage_elastic.py).
     """
     worst = elastic = 0.0
     for scene, (parameters, inputs) in SCENES.items():
@@ -497,12 +603,19 @@ def test_power_is_rate_of_energy(record_property):
 
 
 def test_ledger(record_property):
-    """Supplied = change of energy + lost, term by term: everything moves, the housing swings, the frame turns, loads jump at communication points, a pulse
-    hits between them.
+    """Supplied = change of energy + lost, term by term: everything moves, the housing swings, the frame turns, loads
+    jump at communication points, a pulse hits between them.
 
-    Quadrature of the powers over steps of 5 us: (h omega)^4/720 = 1 % of their fluctuation at 2.5e5 rad/s, whose mean is nothing.
+    Quadrature of the powers over steps of 5 us: (h omega)^4/720 = 1 % of their fluctuation at 2.5e5 rad/s, whose mean
+    is nothing.
     """
-    parameters = TWO_HALF | UNBALANCE | SUPPORTED | PULSE | {"cage.pocket_clearance": 5e-5, "pulse.duration": 5e-4, "frame.radius": 0.15}
+    parameters = (
+        TWO_HALF
+        | UNBALANCE
+        | SUPPORTED
+        | PULSE
+        | {"cage.pocket_clearance": 5e-5, "pulse.duration": 5e-4, "frame.radius": 0.15}
+    )
 
     def inputs(t):
         swing, angle = 2.0 * np.pi * 500.0, 2.0 * np.pi * 500.0 * t
@@ -518,14 +631,16 @@ def test_ledger(record_property):
     assert np.max(np.abs(ledger.residual)) < 1e-3 * turned_over  # observed 1.2e-5
     for name, value in terms.items():
         assert value.shape == results.t.shape and value[0] == 0.0
-        assert np.max(np.abs(value)) > 1e-9 or name in ("land, elastic", "growth of the ring"), name  # no wall is reached in a millisecond, the speed jumps
+        # no wall is reached in a millisecond, the speed jumps
+        assert np.max(np.abs(value)) > 1e-9 or name in ("land, elastic", "growth of the ring"), name
     for name, value in ledger.lost.items():
         assert np.all(np.diff(value) >= 0.0), name
     energy = sum(value[-1] for value in ledger.stored.values())
-    assert energy == pytest.approx(results.y[-1, variables.WORK][0], abs=1e-4 * turned_over)  # the integrated net power: another quadrature
+    # the integrated net power: another quadrature
+    assert energy == pytest.approx(results.y[-1, variables.WORK][0], abs=1e-4 * turned_over)
 
 
-# -------------------------------------------------------------------------------------------------------------------- statistics
+# ----------------------------------------------------------------------------------------------------------- statistics
 
 
 LONG, SETTLED = 0.1, TWO_HALF | {"start.settle": 0.02, "scene.statistics": 2}
@@ -539,23 +654,36 @@ def long_run():
 
 @pytest.mark.slow
 def test_ledger_over_the_long_run(record_property):
-    """0.1 s at the working point: supplied = change of energy + lost to 0.1 % of the shaft's work, at every communication point after the first 10 ms."""
+    """0.1 s at the working point: supplied = change of energy + lost to 0.1 % of the shaft's work, at every
+    communication point after the first 10 ms.
+    """
     ledger = long_run().ledger
-    record_property("J", plain({name: value[-1] for name, value in (ledger.supplied | ledger.stored | ledger.lost).items()}))
+    record_property(
+        "J", plain({name: value[-1] for name, value in (ledger.supplied | ledger.stored | ledger.lost).items()})
+    )
     error = np.abs(ledger.residual) / np.maximum(np.abs(ledger.supplied["shaft torque"]), 1.0)
     print(f"ledger residual: {error[10:].max():.1e} of the work of the shaft")
     assert error[10:].max() < 1e-3
 
 
-STATISTICS = ("stat.Q_c_mean", "stat.Q_c_rms", "stat.contact_duty", "stat.cage_omega", "stat.sigma_head_mean", "stat.sigma_head_rms", "stat.sigma_mid_rms")
+STATISTICS = (
+    "stat.Q_c_mean",
+    "stat.Q_c_rms",
+    "stat.contact_duty",
+    "stat.cage_omega",
+    "stat.sigma_head_mean",
+    "stat.sigma_head_rms",
+    "stat.sigma_mid_rms",
+)
 
 
 @pytest.mark.slow
 def test_statistics(core, record_property):
-    """Over 0.1 s trajectories have parted; the reference's statistics lie within the scatter of the core's over 16 seeds (4 standard deviations).
+    """Over 0.1 s trajectories have parted; the reference's statistics lie within the scatter of the core's over 16
+    seeds (4 standard deviations).
 
-    Both count the ends of their steps, a few in each pocket pulse: that moves the core's mean force by 1 % from 1e-3 to 1e-6, so both run at 1e-4 with
-    methods of like step sizes.
+    Both count the ends of their steps, a few in each pocket pulse: that moves the core's mean force by 1 % from 1e-3 to
+    1e-6, so both run at 1e-4 with methods of like step sizes.
     """
     results = long_run()
     runs = [Instance(core, SETTLED | {"start.seed": seed}, tolerance=1e-4).step(LONG) for seed in range(1, 17)]
@@ -570,7 +698,10 @@ def test_statistics(core, record_property):
 def test_running_statistics(core):
     """The same numbers, weights and floor give the same mean, RMS, quantile and maximum."""
     rng = np.random.default_rng(6)
-    value, weight = np.where(rng.uniform(size=2000) < 0.3, 0.0, rng.lognormal(1.0, 3.0, 2000)), rng.uniform(1e-6, 1e-5, 2000)
+    value, weight = (
+        np.where(rng.uniform(size=2000) < 0.3, 0.0, rng.lognormal(1.0, 3.0, 2000)),
+        rng.uniform(1e-6, 1e-5, 2000),
+    )
     channel, c = StatisticsChannel(1e-3), core.new("StatisticsChannel")
     channel.add(weight, value)
     for w, v in zip(weight, value, strict=True):

@@ -45,7 +45,8 @@ def test_check_finds_a_stale_file(tmp_path):
 
 def test_description_is_valid():
     """FMI's XML schema, and fmpy's own checks of names and structure."""
-    read_model_description(str(DESCRIPTION), validate=True, validate_variable_names=True, validate_model_structure=True)  # raises if not
+    # raises if not
+    read_model_description(str(DESCRIPTION), validate=True, validate_variable_names=True, validate_model_structure=True)
 
 
 def test_every_variable_is_complete(description):
@@ -82,7 +83,8 @@ def test_units_and_display_units():
     """Each display unit says the same as its unit: 18238 r/min, degrees, degC at 293.15 K."""
     root = etree.parse(str(DESCRIPTION))
     display = {d.get("name"): (float(d.get("factor", 1)), float(d.get("offset", 0))) for d in root.iter("DisplayUnit")}
-    assert variables.INPUTS["shaft.omega"].start * display["rev/min"][0] == pytest.approx(18238, rel=1e-9)  # observed 3.2e-11: the start value's digits
+    # observed 3.2e-11: the start value's digits
+    assert variables.INPUTS["shaft.omega"].start * display["rev/min"][0] == pytest.approx(18238, rel=1e-9)
     assert 3.141592653589793 * display["deg"][0] == pytest.approx(180, rel=1e-15)
     assert 293.15 * display["degC"][0] + display["degC"][1] == pytest.approx(20, rel=1e-12)
     assert all(factor > 0 for factor, _ in display.values())
@@ -121,7 +123,12 @@ def test_structure(description):
     by_name = {u.variable.name: u for u in description.outputs}
     assert by_name["stat.Q_c_mean"].dependencies == []
     assert [v.name for v in by_name["ring.x"].dependencies] == ["shaft.x", "ring.x"]
-    assert [v.name for v in by_name["ring.tilt_y"].dependencies] == ["shaft.tilt_y", "shaft.tilt_z", "ring.beta", "ring.gamma"]
+    assert [v.name for v in by_name["ring.tilt_y"].dependencies] == [
+        "shaft.tilt_y",
+        "shaft.tilt_z",
+        "ring.beta",
+        "ring.gamma",
+    ]
     assert {"shaft.F_x", "shaft.omega", "ring.v_z"} <= {v.name for v in by_name["ring.a_x"].dependencies}
 
 
@@ -167,12 +174,18 @@ def write(path, text):
 
 
 def test_bearing_file_sets_balls_and_start_values(tmp_path):
-    table = generate.load_table(write(tmp_path / "b.toml", 'Z = 12\n[parameters]\nbearing.D = 0.01\nring.tilt_mode = "supported"\n[inputs]\nshaft.F_y = 100\n'))
+    table = generate.load_table(
+        write(
+            tmp_path / "b.toml",
+            'Z = 12\n[parameters]\nbearing.D = 0.01\nring.tilt_mode = "supported"\n[inputs]\nshaft.F_y = 100\n',
+        )
+    )
     by_name = {v.name: v for v in table.variables}
     assert table.Z == 12
     assert (by_name["bearing.D"].start, by_name["ring.tilt_mode"].start, by_name["shaft.F_y"].start) == (0.01, 2, 100.0)
     assert len(by_name["ball[j].Q_i"].elements) == 12
-    assert table.states[-1].offset + table.states[-1].count == variables.N_STATES + 13 * (12 - variables.Z)  # 13 states a ball and joint
+    # 13 states a ball and joint
+    assert table.states[-1].offset + table.states[-1].count == variables.N_STATES + 13 * (12 - variables.Z)
     assert table.guid != TABLE.guid
 
 
@@ -188,7 +201,9 @@ def test_modes_of_a_half_by_number_of_balls(tmp_path):
     assert [getattr(TABLE.named("scene.modes"), name) for name in ("min", "start", "max")] == [32, 40, 48]
 
 
-@pytest.mark.parametrize("path", sorted((ROOT / "riveted_bearing" / "data" / "bearings").glob("*.toml")), ids=lambda path: path.stem)
+@pytest.mark.parametrize(
+    "path", sorted((ROOT / "riveted_bearing" / "data" / "bearings").glob("*.toml")), ids=lambda path: path.stem
+)
 def test_shipped_bearings_are_accepted(path):
     assert len(generate.generate(path)) == len(generate.OUTPUTS)
 
@@ -200,8 +215,14 @@ def test_shipped_bearings_are_accepted(path):
         ("[parameters]\nbearing.D = 1.0", r"bearing\.D = 1\.0: allowed is 0\.001 \.\.\. 0\.1 m"),
         ("[parameters]\nbearing.D = nan", r"bearing\.D = nan: allowed is"),
         ('[parameters]\nbearing.D = "1 mm"', r"bearing\.D = '1 mm': allowed is"),
-        ("[parameters]\nbearing.diameter = 0.01", r"bearing\.diameter = 0\.01: unknown parameter, allowed are bearing\.D,"),
-        ('[parameters]\nring.tilt_mode = "loose"', r"ring\.tilt_mode = 'loose': allowed is one of prescribed, supported, free"),
+        (
+            "[parameters]\nbearing.diameter = 0.01",
+            r"bearing\.diameter = 0\.01: unknown parameter, allowed are bearing\.D,",
+        ),
+        (
+            '[parameters]\nring.tilt_mode = "loose"',
+            r"ring\.tilt_mode = 'loose': allowed is one of prescribed, supported, free",
+        ),
         ("[inputs]\nring.m = 1.0", r"ring\.m = 1\.0: unknown input, allowed are shaft\.F_x,"),
     ],
 )
@@ -209,7 +230,12 @@ def test_wrong_bearing_file_is_refused_by_name(tmp_path, text, message):
     path = write(tmp_path / "wrong.toml", text)
     with pytest.raises(ValueError, match=f"{re.escape(str(path))}: {message}"):
         generate.load_table(path)
-    result = subprocess.run([sys.executable, generate.__file__, "--bearing", str(path), "--out", str(tmp_path)], capture_output=True, text=True, check=False)
+    result = subprocess.run(
+        [sys.executable, generate.__file__, "--bearing", str(path), "--out", str(tmp_path)],
+        capture_output=True,
+        text=True,
+        check=False,
+    )
     assert result.returncode == 1
     assert result.stderr.startswith("generate: ") and "Traceback" not in result.stderr
 

@@ -1,5 +1,6 @@
-"""The default step: verlet.c, implicit.c and the control of integrator.c against their dense twin bearing_model/solver/verlet.py, and both against what numerical
-analysis expects of them.  The error scales (10 um, 0.1 m/s ..., derived.py) are the units.
+"""The default step: verlet.c, implicit.c and the control of integrator.c against their dense twin
+bearing_model/solver/verlet.py, and both against what numerical analysis expects of them.  The error scales (10 um, 0.1
+m/s ..., derived.py) are the units.
 """
 
 from types import SimpleNamespace
@@ -10,10 +11,7 @@ from library import TWO_HALF
 from mechanics import Instance
 from test_jacobian import KINDS, SCENES, make_model, make_state
 
-from bearing_model.solver import verlet
 from bearing_model.cage.common.cage_joint import cage_joint_kinematics
-from bearing_model.physics.model import Model, Work
-from bearing_model.physics.rhs import jacobian, rhs, rotor_kinematics
 from bearing_model.generated.variables import (
     BALL_OMEGA_M,
     N_STATES,
@@ -28,13 +26,16 @@ from bearing_model.generated.variables import (
     TiltMode,
     Traction,
 )
+from bearing_model.physics.model import Model, Work
+from bearing_model.physics.rhs import jacobian, rhs, rotor_kinematics
+from bearing_model.solver import verlet
 from bearing_model.solver.verlet import FRICTION, N_V, POSITIONS, RING, V, VerletState
 
 TWIN = SimpleNamespace(model=Model.of)  # what make_model builds models with
 POINT_FILM = (CageModel.TWO_HALF, Traction.POINT, Lubrication.FILM, TiltMode.SUPPORTED)
 
 
-# --------------------------------------------------------------------------------------------------------------- one step, twice
+# ------------------------------------------------------------------------------------------------------ one step, twice
 
 
 def started(core, c, y):
@@ -47,18 +48,24 @@ def started(core, c, y):
 def copied(state):
     """The same as the twin's."""
     film = [[[yy, yz], [yz, zz]] for yy, yz, zz in state.film]
-    return VerletState(*(np.array(list(rows))[:N_STATES] for rows in (state.y, state.f, state.jerk)), np.array(film), state.h)
+    return VerletState(
+        *(np.array(list(rows))[:N_STATES] for rows in (state.y, state.f, state.jerk)), np.array(film), state.h
+    )
 
 
 def differences(c, start, end, h, scale):
-    """Largest difference of each kind of result between the C core's VerletState and the twin's, relative to 1 + the largest change of that kind."""
+    """Largest difference of each kind of result between the C core's VerletState and the twin's, relative to 1 + the
+    largest change of that kind.
+    """
     found = {}
     for name, unit in (("y", scale), ("f", scale / h), ("jerk", scale / h**2)):
         by_core, by_twin = np.array(list(getattr(c, name)))[:N_STATES] / unit, getattr(end, name) / unit
         change = by_twin - start.y / scale if name == "y" else by_twin
         for part, rows in (("positions", POSITIONS), ("friction states", FRICTION), ("velocities", V)):
             if name == "y" or rows != POSITIONS:
-                found[f"{part}: {name}"] = np.max(np.abs(by_core - by_twin)[rows]) / (1.0 + np.max(np.abs(change)[rows]))
+                found[f"{part}: {name}"] = np.max(np.abs(by_core - by_twin)[rows]) / (
+                    1.0 + np.max(np.abs(change)[rows])
+                )
     for name in ("y", "f"):
         value = getattr(end, name)[WORK][0]
         found[f"work: {name}"] = abs(getattr(c, name)[WORK.start] - value) / max(abs(value), 1.0)
@@ -68,7 +75,8 @@ def differences(c, start, end, h, scale):
 
 @pytest.mark.parametrize("scene", SCENES, ids=lambda scene: "-".join(part.name for part in scene))
 def test_step(core, scene, record_property):
-    """Two steps in a row from states of every kind (9 in each of 24 modes, 216 in all), the second with a history and another length.
+    """Two steps in a row from states of every kind (9 in each of 24 modes, 216 in all), the second with a history and
+    another length.
 
     Tolerance: rounding.  Forces are known to 1e-12 ... 1e-11 of the largest term in their sums (test_twin.py).
     """
@@ -82,15 +90,19 @@ def test_step(core, scene, record_property):
         return b
 
     for i, kind in enumerate(KINDS):
-        changes = {"oil.A": 0.0, "oil.B": 30.0, "oil.C": 0.0} if kind == "slow" else {}  # steep traction: the ring is coupled
+        # steep traction: the ring is coupled
+        changes = {"oil.A": 0.0, "oil.B": 30.0, "oil.C": 0.0} if kind == "slow" else {}
         c, model = make_model(core, kind, scene, **changes), make_model(TWIN, kind, scene, **changes)
         state = started(core, c, make_state(c, kind, rng))
         for h in (1e-5, 7e-6) if kind == "slow" else 10.0 ** rng.uniform(-6.3, -5.0, 2):
             start = copied(state)
-            weight = np.where(np.arange(N_STATES) < WORK.start, i % 2, 1 - i % 2) / model.d.scale  # the error of friction states or that of velocities
+            # the error of friction states or that of velocities
+            weight = np.where(np.arange(N_STATES) < WORK.start, i % 2, 1 - i % 2) / model.d.scale
             state, error = c.verlet(0.0, h, state, weight)
             end, error_twin = verlet.verlet_step(model, 0.0, h, weight, start, watched)
-            found = differences(state, start, end, h, model.d.scale) | {"error": abs(error - error_twin) / max(error_twin, 1e-3)}
+            found = differences(state, start, end, h, model.d.scale) | {
+                "error": abs(error - error_twin) / max(error_twin, 1e-3)
+            }
             worst = {name: max(worst.get(name, 0.0), value) for name, value in found.items()}
             seen.update({"limited"} if np.any(verlet.predictor_limiter(model, h, start)) else ())
     record_property("worst", {name: float(value) for name, value in worst.items()})
@@ -125,7 +137,9 @@ def solved(c, model, y, w, gamma):
     b, v = verlet.jacobian_blocks(model, 0.0, y, w, gamma), np.zeros(N_STATES)
     v[V] = np.random.default_rng(33).standard_normal(N_V)
     by_core = np.array([c.implicit(function, gamma, v)[V] for function in ("implicit_solve", "implicit_stiff_part")])
-    return by_core, np.array([np.linalg.solve(b.matrix(gamma), v[V]), v[V] - np.linalg.solve(b.matrix_stiff(gamma), v[V])])
+    return by_core, np.array(
+        [np.linalg.solve(b.matrix(gamma), v[V]), v[V] - np.linalg.solve(b.matrix_stiff(gamma), v[V])]
+    )
 
 
 @pytest.mark.parametrize("cage", [CageModel.TWO_HALF, CageModel.RIGID])
@@ -140,12 +154,17 @@ def test_stiff_lands(core, cage):
             getattr(c.work, name)[land] = getattr(w, name)[land] = value
     by_core, by_twin = solved(c, model, y, w, gamma)
     for found, expected in zip(by_core, by_twin, strict=True):
-        np.testing.assert_allclose(found[verlet.HALF], expected[verlet.HALF], rtol=1e-7, atol=1e-9 * np.abs(expected[verlet.HALF]).max())  # condition 1e4
+        # condition 1e4
+        np.testing.assert_allclose(
+            found[verlet.HALF], expected[verlet.HALF], rtol=1e-7, atol=1e-9 * np.abs(expected[verlet.HALF]).max()
+        )
 
 
 @pytest.mark.parametrize("by", ["traction", "pocket"])
 def test_stiff_limit(core, by):
-    """A ball's accelerations are damped from gamma A = 2 on, A the mean rate along its contacts' two tangents: a thousandth less, and they are not."""
+    """A ball's accelerations are damped from gamma A = 2 on, A the mean rate along its contacts' two tangents: a
+    thousandth less, and they are not.
+    """
     c, model, y, w = evaluated(core, "pockets closed", POINT_FILM)
     j = np.argmax(np.sum(w.D, axis=0))  # a ball in touch with its pocket: held back by the one or the other alone
     for work in (c.work, w):
@@ -161,7 +180,9 @@ def test_stiff_limit(core, by):
 
 @pytest.mark.parametrize("tilt_mode", [TiltMode.PRESCRIBED, TiltMode.SUPPORTED])
 def test_coupling_limit(core, tilt_mode):
-    """Ring and balls are solved together from gamma A = 0.2 of the ring on: of its translation, or where forces tilt it, of its tilts at the pitch radius."""
+    """Ring and balls are solved together from gamma A = 0.2 of the ring on: of its translation, or where forces tilt
+    it, of its tilts at the pitch radius.
+    """
     c, model, y, w = evaluated(core, "slow", (*POINT_FILM[:3], tilt_mode))
     ring, r = model.p.ring, model.p.bearing.d_m / 2.0
     rate = np.sum(w.g_i) * max(1.0 / ring.m, r * r / ring.J_t if tilt_mode == TiltMode.SUPPORTED else 0.0)
@@ -188,7 +209,7 @@ def test_approach_floor(core):
     assert np.max(np.abs(found[0] - found[2])) > 1e-4
 
 
-# ------------------------------------------------------------------------------------------------------------------- order
+# ---------------------------------------------------------------------------------------------------------------- order
 
 
 def exact(model, y, times, steps=16):
@@ -216,7 +237,10 @@ def explicit(model, t, y, w, gamma):
     return verlet.Blocks(nothing, nothing, b.A_stiff)
 
 
-RUNNING = {"working point": {}, "rigid cage, mixed lubrication": {"scene.cage": 2, "scene.lubrication": 2, "scene.traction": 1}}
+RUNNING = {
+    "working point": {},
+    "rigid cage, mixed lubrication": {"scene.cage": 2, "scene.lubrication": 2, "scene.traction": 1},
+}
 TIMES = (4e-3, 5e-3, 6e-3)
 
 
@@ -226,7 +250,9 @@ def running(core, name, t=5e-3):
 
 
 def errors(model, y, T, number, blocks, reference):
-    """Error [units of the error scales] after `number` steps to time T, and the sum of the steps' estimates but the first, which has no history."""
+    """Error [units of the error scales] after `number` steps to time T, and the sum of the steps' estimates but the
+    first, which has no history.
+    """
     unit, state, estimates = 1.0 / model.d.scale, VerletState(y.copy(), rhs(model, 0.0, y)), []
     unit[WORK] = 0.0
     for _ in range(number):
@@ -237,15 +263,23 @@ def errors(model, y, T, number, blocks, reference):
 
 @pytest.mark.parametrize("name", RUNNING)
 def test_order(core, name, record_property):
-    """Order two in 10 and 20 steps over 5 us, whatever A and K are: a W-method.  The error is of the size of the sum of the steps' estimates.
+    """Order two in 10 and 20 steps over 5 us, whatever A and K are: a W-method.  The error is of the size of the sum of
+    the steps' estimates.
 
     Median of three states: a contact that opens or closes on the way (C1) costs order there.
     """
     T, starts = 5e-6, [running(core, name, t) for t in TIMES]
     references = [exact(model, y, [T], steps=20)[0] for model, y in starts]
-    for blocks in (verlet.jacobian_blocks, perturbed, explicit, *([verlet.masked_jacobian] if name == "working point" else [])):
+    for blocks in (
+        verlet.jacobian_blocks,
+        perturbed,
+        explicit,
+        *([verlet.masked_jacobian] if name == "working point" else []),
+    ):
         cases = [(*start, reference) for start, reference in zip(starts, references, strict=True)]
-        found = np.array([[errors(model, y, T, number, blocks, reference) for number in (10, 20)] for model, y, reference in cases])
+        found = np.array(
+            [[errors(model, y, T, number, blocks, reference) for number in (10, 20)] for model, y, reference in cases]
+        )
         slope, share = np.log2(found[:, 0, 0] / found[:, 1, 0]), found[:, 1, 0] / found[:, 1, 1]
         record_property(blocks.__name__, [slope.tolist(), share.tolist()])
         print(f"{name}, {blocks.__name__}: slopes {slope}, errors {found[:, 1, 0]}, of the estimates {share}")
@@ -259,7 +293,9 @@ def extrapolated(coarse, middle, fine):
 
 
 def joint_motion(model, y, change, rows):
-    """Changes [2, Z] of the velocities of half 1 against half 0 across the axis, in the frame of half 0, by changes of some rows of the velocities."""
+    """Changes [2, Z] of the velocities of half 1 against half 0 across the axis, in the frame of half 0, by changes of
+    some rows of the velocities.
+    """
     direction, w = np.zeros(N_STATES), Work()
     direction[V][rows] = change[rows]
     rotor_kinematics(model, y + 1e-30j * direction, w)
@@ -268,7 +304,9 @@ def joint_motion(model, y, change, rows):
 
 
 def expected_error(model, y, h, blocks):
-    """Start of a step at y, the state that it should reach, its leading error per h^3 [N_STATES] and what its estimate shows of it: see test_local_error."""
+    """Start of a step at y, the state that it should reach, its leading error per h^3 [N_STATES] and what its estimate
+    shows of it: see test_local_error.
+    """
     f = rhs(model, 0.0, y)
 
     def along(direction):
@@ -292,19 +330,29 @@ def expected_error(model, y, h, blocks):
     error[V], estimate[V] = snap / 12.0 - wrong / 2.0, snap / 12.0
     error[POSITIONS] = (-jerk / 6.0 + by_stiffness / 4.0)[POSITIONS]
     across = joint_motion(model, y, jerk, verlet.HALF[[1, 2, 5]])
-    error[FRICTION], estimate[FRICTION] = (along(middle) / 8.0 - third / 24.0)[FRICTION] + np.concatenate([*across, *across]) / 12.0, third[FRICTION] / 24.0
+    error[FRICTION], estimate[FRICTION] = (
+        (along(middle) / 8.0 - third / 24.0)[FRICTION] + np.concatenate([*across, *across]) / 12.0,
+        third[FRICTION] / 24.0,
+    )
     history = VerletState(y, f.copy(), (f - rhs(model, 0.0, before)) / h, h=h)
     history.f[V] -= h**2 / 2.0 * wrong  # as the steps before have left it
-    history.f[FRICTION], history.jerk[FRICTION] = (y - before)[FRICTION] / h + h**2 * error[FRICTION], (y - 2.0 * before + before_2)[FRICTION] / h**2
+    history.f[FRICTION], history.jerk[FRICTION] = (
+        (y - before)[FRICTION] / h + h**2 * error[FRICTION],
+        (y - 2.0 * before + before_2)[FRICTION] / h**2,
+    )
     return history, after, error, estimate
 
 
 def local_error(core, t):
-    """Deviation of the error of a step at time t from the derived one, by state, relative to its largest; that of the norms of the estimates."""
+    """Deviation of the error of a step at time t from the derived one, by state, relative to its largest; that of the
+    norms of the estimates.
+    """
     model, y = running(core, "working point", t)
     w, scale, found = Work(), model.d.scale, []
     rhs(model, 0.0, y, w)
-    kinds = [np.where(np.isin(np.arange(N_STATES), np.arange(N_STATES)[rows]), 1.0 / scale, 0.0) for rows in (V, FRICTION)]
+    kinds = [
+        np.where(np.isin(np.arange(N_STATES), np.arange(N_STATES)[rows]), 1.0 / scale, 0.0) for rows in (V, FRICTION)
+    ]
     for h in (8e-7, 4e-7, 2e-7):
         blocks = verlet.jacobian_blocks(model, 0.0, y, w, 0.5 * h)
         start, after, error, estimate = expected_error(model, y, h, blocks)
@@ -317,18 +365,22 @@ def local_error(core, t):
     for name, rows in STATE_SLICES.items():
         if name != "work" and np.any(expected[rows]):
             rounding = 8.0 * np.finfo(float).eps * np.max(np.abs(y[rows])) / h**3
-            deviation[name] = np.max(np.abs(error - expected)[rows]) / (np.max(np.abs(expected)[rows]) + 50.0 * rounding)
+            deviation[name] = np.max(np.abs(error - expected)[rows]) / (
+                np.max(np.abs(expected)[rows]) + 50.0 * rounding
+            )
     return deviation, norms / expected_norms - 1.0
 
 
 def test_local_error(core, record_property):
-    """The error of one step in a run is what docs/method.md derives, and its estimate too.  Per h^3, with J = da/dv, g the rates of the friction states z:
+    """The error of one step in a run is what docs/method.md derives, and its estimate too.  Per h^3, with J = da/dv, g
+    the rates of the friction states z:
 
         velocities        a"/12 - (A + J) a'/2                                estimate a"/12
         positions         -a'/6, where a stiffness acts + a'/12, half 1 against half 0 -a'/12
         friction states   (dg/dq a - dg/dv a' + dg/dz z")/8 + u"/12 - z"'/24   estimate z"'/24;  u": of the joint's velocity, by a' of (v_y, v_z, s)
 
-    Derivatives of the trajectory by complex steps and differences of Runge-Kutta steps; everything is extrapolated to h = 0.
+    Derivatives of the trajectory by complex steps and differences of Runge-Kutta steps; everything is extrapolated to h
+    = 0.
 
     Median of seven states: a contact that opens or closes near the step (C1) has another error.
     """
@@ -338,23 +390,29 @@ def test_local_error(core, record_property):
     assert all(len(deviation) == 31 for deviation, _ in found)
     assert (
         np.median([max(deviation.values()) for deviation, _ in found]) < 0.05
-    )  # observed 2.3e-2, by another compiler 3.4e-2: plates against rivets turn by 0.3 in the longest step, and their weights are 1/3 in the limit only
+        # observed 2.3e-2, by another compiler 3.4e-2: plates against rivets turn by 0.3 in the longest step, and their
+        # weights are 1/3 in the limit only
+    )
     assert np.median([np.max(np.abs(share)) for _, share in found]) < 1e-3
 
 
-# ----------------------------------------------------------------------------------------------------------------- damping
+# -------------------------------------------------------------------------------------------------------------- damping
 
 
 def amplification(z, theta=0.15):
     """One step of v' = -A v, z = gamma A, as a matrix on (v_n, gamma a_n, gamma a_{n-1}); theta: smoothing."""
     H = z / (1.0 + z)
     new = np.array([-H, -H, 0.0])
-    return np.array([[1.0 / (1.0 + z), 1.0 / (1.0 + z), 0.0], new - theta * H * (new - [0.0, 2.0, -1.0]), [0.0, 1.0, 0.0]])
+    return np.array(
+        [[1.0 / (1.0 + z), 1.0 / (1.0 + z), 0.0], new - theta * H * (new - [0.0, 2.0, -1.0]), [0.0, 1.0, 0.0]]
+    )
 
 
 @pytest.mark.parametrize("z", [0.3, 2.0, 10.0, 1e3])
 def test_damping(core, z):
-    """A ring that nothing but its support holds, v' = -c/m v: each step is the matrix of docs/method.md; stiff rates shrink by at least 0.46 a step."""
+    """A ring that nothing but its support holds, v' = -c/m v: each step is the matrix of docs/method.md; stiff rates
+    shrink by at least 0.46 a step.
+    """
     scene, h = (CageModel.RIGID, Traction.POINT, Lubrication.FILM, TiltMode.SUPPORTED), 2e-6
     c, model = (make_model(twin, "unloaded", scene, **{"gravity.y": 0.0, "gravity.z": 0.0}) for twin in (core, TWIN))
     c.p.ring.c = model.p.ring.c = 2.0 * z / h * model.p.ring.m
@@ -375,7 +433,7 @@ def test_damping(core, z):
         assert 0.38 < np.max(np.abs(np.linalg.eigvals(amplification(z)))) < 0.461
 
 
-# ------------------------------------------------------------------------------------------------------------ control of steps
+# ----------------------------------------------------------------------------------------------------- control of steps
 
 
 class CoreIntegrator:
@@ -386,14 +444,18 @@ class CoreIntegrator:
         self.state = core.new("IntegratorState")
         self.state.now.y = list(y)
         self.hook = ffi.callback("void(void *, double, const Work *)", lambda context, h, w: self.taken.append(h))
-        self.log = ffi.callback("void(void *, const char *)", lambda context, text: self.messages.append(ffi.string(text).decode()))
+        self.log = ffi.callback(
+            "void(void *, const char *)", lambda context, text: self.messages.append(ffi.string(text).decode())
+        )
         self.kernels, self.model = ffi.new("Kernels *", core.lib.kernels_select()), c
         new = self.lib.integrator_create(self.kernels, c.pointer, c.work, self.state, self.hook, self.log, ffi.NULL)
         self.integrator = ffi.gc(new, self.lib.integrator_destroy)
         self.lib.integrator_tolerance(self.integrator, tolerance)
 
     def advance(self, h, t_stop):
-        """From time 0 to t_stop, the first step goal h: the accepted lengths, the next goal, the number of refused steps."""
+        """From time 0 to t_stop, the first step goal h: the accepted lengths, the next goal, the number of refused
+        steps.
+        """
         self.state.h = h
         assert self.lib.integrator_advance(self.integrator, t_stop, 10000) == 0, self.messages
         return np.array(self.taken), self.state.h, self.state.error_tests_failed
@@ -405,12 +467,16 @@ def both(core, h, t_stop, tolerance, **parameters):
     c.rhs(0.0, y)
     by_core = CoreIntegrator(core, c, y, tolerance).advance(h, t_stop)
     with np.errstate(invalid="ignore"):
-        _, *by_twin = verlet.verlet_advance(model, 0.0, t_stop, h, 1.0 / (tolerance * model.d.scale), VerletState(y, rhs(model, 0.0, y)))
+        _, *by_twin = verlet.verlet_advance(
+            model, 0.0, t_stop, h, 1.0 / (tolerance * model.d.scale), VerletState(y, rhs(model, 0.0, y))
+        )
     return by_core, (by_twin[1], by_twin[0], by_twin[2])
 
 
 def same(by_core, by_twin):
-    """Equal numbers of steps and equal lengths; tolerance: the C core's cube root of the error has a relative error of 2e-5."""
+    """Equal numbers of steps and equal lengths; tolerance: the C core's cube root of the error has a relative error of
+    2e-5.
+    """
     np.testing.assert_allclose(by_core[0], by_twin[0], rtol=1e-4)
     assert by_core[1] == pytest.approx(by_twin[1], rel=1e-4)
     assert by_core[2] == by_twin[2]
@@ -419,7 +485,9 @@ def same(by_core, by_twin):
 
 @pytest.mark.parametrize(("h", "lubrication"), [(1e-8, 1), (1e-4, 2)])
 def test_control(core, h, lubrication):
-    """Steps that grow from far too small, 1.5 times each, or shrink from far too large, to 0.2 times; then they follow the filter."""
+    """Steps that grow from far too small, 1.5 times each, or shrink from far too large, to 0.2 times; then they follow
+    the filter.
+    """
     by_core, by_twin = both(core, h, 1.5e-4, 1e-4, **{"scene.lubrication": lubrication})
     taken = same(by_core, by_twin)
     if h == 1e-8:
@@ -431,8 +499,13 @@ def test_control(core, h, lubrication):
 
 
 def test_last_steps(core):
-    """A goal of up to 1e-9 short of the end takes it in one step; the last two steps are equal where the goal is more than half of what is left."""
-    end, expected = 1e-6, {1.0 - 0.995e-9: [1.0], 1.0 - 1.005e-9: [0.5, 0.5], 0.5025: [0.5, 0.5], 0.4975: [0.4975, 0.5025]}
+    """A goal of up to 1e-9 short of the end takes it in one step; the last two steps are equal where the goal is more
+    than half of what is left.
+    """
+    end, expected = (
+        1e-6,
+        {1.0 - 0.995e-9: [1.0], 1.0 - 1.005e-9: [0.5, 0.5], 0.5025: [0.5, 0.5], 0.4975: [0.4975, 0.5025]},
+    )
     for goal, lengths in expected.items():
         taken = same(*both(core, goal * end, end, 1.0))
         np.testing.assert_allclose(taken, np.array(lengths) * end, rtol=1e-12)
@@ -463,12 +536,16 @@ def test_acceptance_by_the_orbit(core, rpm, part):
         c.rhs(0.0, y)
         found = CoreIntegrator(core, c, y, factor * error).advance(h, h)
         with np.errstate(invalid="ignore"):
-            twin = verlet.verlet_advance(model, 0.0, h, h, 1.0 / (factor * error * model.d.scale), VerletState(y, rhs(model, 0.0, y)))
+            twin = verlet.verlet_advance(
+                model, 0.0, h, h, 1.0 / (factor * error * model.d.scale), VerletState(y, rhs(model, 0.0, y))
+            )
         assert found[2] == twin[3] == refused
 
 
 def test_filter():
-    """Where errors are 0.512 (h/g)^3, the distance of ln h from ln g halves in every step behind the first one: r_n = g/h_n, and h_{n+1} = (g h_n)^(1/2)."""
+    """Where errors are 0.512 (h/g)^3, the distance of ln h from ln g halves in every step behind the first one: r_n =
+    g/h_n, and h_{n+1} = (g h_n)^(1/2).
+    """
     goal, y = 1e-6, np.zeros(N_STATES)
     model, start = Model.of(TWO_HALF), VerletState(y, y)
 
@@ -482,7 +559,9 @@ def test_filter():
 
 
 def test_a_step_cut_short(core):
-    """The end of a communication step cuts a step short: the goal before it stays if 0.8 error^(-1/3) is 1 or more, else it follows the short step."""
+    """The end of a communication step cuts a step short: the goal before it stays if 0.8 error^(-1/3) is 1 or more,
+    else it follows the short step.
+    """
     h, model = 2e-5, Model.of(TWO_HALF)
     y = Instance(core).step(5e-3).y
     _, error = verlet.verlet_step(model, 0.0, h, 1.0 / model.d.scale, VerletState(y, rhs(model, 0.0, y)))
@@ -493,12 +572,15 @@ def test_a_step_cut_short(core):
 
 
 def test_no_derivative(core):
-    """A step into states without a derivative (an axis tilted beyond 90 degrees) is refused, the next one 0.2 times as long."""
+    """A step into states without a derivative (an axis tilted beyond 90 degrees) is refused, the next one 0.2 times as
+    long.
+    """
     y, c = Instance(core).step(5e-3).y, core.model({"ring.tilt_mode": TiltMode.FREE})
     y[RING_BETA_DOT] = 150.0
     integrator = CoreIntegrator(core, c, y, 1.0)
     integrator.state.h = 1e-2
-    assert integrator.lib.integrator_advance(integrator.integrator, 1.0, 1) < 0  # the one step that is allowed is refused
+    # the one step that is allowed is refused
+    assert integrator.lib.integrator_advance(integrator.integrator, 1.0, 1) < 0
     assert (integrator.state.h, integrator.state.error_tests_failed) == (0.2 * 1e-2, 1.0)
 
     errors = iter((np.nan, 0.0, 0.0, 0.0, 0.0))
@@ -508,11 +590,12 @@ def test_no_derivative(core):
         return VerletState(y, y, h=h), next(errors)
 
     taken, refused = verlet.verlet_advance(model, 0.0, 1e-2, 1e-2, 1.0 / model.d.scale, start, plant)[2:]
-    np.testing.assert_allclose(taken, [2e-3, 3e-3, 2.5e-3, 2.5e-3], rtol=1e-12)  # 0.2 times; 1.5 times where there is no error; two halves
+    # 0.2 times; 1.5 times where there is no error; two halves
+    np.testing.assert_allclose(taken, [2e-3, 3e-3, 2.5e-3, 2.5e-3], rtol=1e-12)
     assert refused == 1
 
 
-# ------------------------------------------------------------------------------------------------- control of the explicit method
+# --------------------------------------------------------------------------------------- control of the explicit method
 
 
 def test_explicit_step_cut_short(core):
@@ -523,7 +606,9 @@ def test_explicit_step_cut_short(core):
 
 
 def test_explicit_error_estimate(core):
-    """A step is accepted where theta h (k_4 - k_5), theta = 0.05, has a norm of 1 in units of the tolerance: a thousandth less tolerance, and it is refused."""
+    """A step is accepted where theta h (k_4 - k_5), theta = 0.05, has a norm of 1 in units of the tolerance: a
+    thousandth less tolerance, and it is refused.
+    """
     h, y, c = 1e-6, Instance(core).step(5e-3).y, core.model({"solver.method": Method.EXPLICIT})
     slope = [np.array(c.rhs(0.0, y))]
     for before in (0.5 * h, 0.5 * h, h):

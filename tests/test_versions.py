@@ -1,4 +1,6 @@
-"""What a version promises (VERSIONING.md): one version everywhere, and the program that measures which number must rise."""
+"""What a version promises (VERSIONING.md): one version everywhere, and the program that measures which number must
+rise.
+"""
 
 import re
 import sys
@@ -82,12 +84,16 @@ def test_bits_of_a_short_run(fmu, known):
 
 
 def test_statistics_of_known_samples():
-    """48 seeds that scatter by 1 %: half-width 1.986 * 1 % * sqrt(2/48) = 0.41 %, so a shift of 2 % is found and one of 0.5 % is none."""
+    """48 seeds that scatter by 1 %: half-width 1.986 * 1 % * sqrt(2/48) = 0.41 %, so a shift of 2 % is found and one of
+    0.5 % is none.
+    """
     random = np.random.default_rng(1)
     before, noise = (100.0 * (1.0 + 0.01 * random.standard_normal((48, 9))) for _ in range(2))
     assert versions.compare_statistics(before, before)[0] == PATCH
     for shift, number in ((0.005, MINOR), (-0.005, MINOR), (0.02, MAJOR), (-0.02, MAJOR)):
         found, difference, width = versions.compare_statistics(before, noise * (1.0 + shift))
         assert found == number
-        assert width.mean() == pytest.approx(0.0041, rel=0.1)  # of a standard deviation from 48 values, mean of 18: 2.4 %; observed -4 %
-        assert difference.mean() == pytest.approx(shift, abs=0.002)  # three times 1 % sqrt(2/48) / sqrt(9); observed 0.0003
+        # of a standard deviation from 48 values, mean of 18: 2.4 %; observed -4 %
+        assert width.mean() == pytest.approx(0.0041, rel=0.1)
+        # three times 1 % sqrt(2/48) / sqrt(9); observed 0.0003
+        assert difference.mean() == pytest.approx(shift, abs=0.002)

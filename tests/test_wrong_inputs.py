@@ -146,7 +146,9 @@ def folder(fmu, tmp_path_factory):
 
 
 def test_there_are_sixty():
-    assert len(WRONG) >= 60 and {words.split()[0] for words in WRONG} == {command.name or command.callback.__name__ for command in program.registered_commands}
+    assert len(WRONG) >= 60 and {words.split()[0] for words in WRONG} == {
+        command.name or command.callback.__name__ for command in program.registered_commands
+    }
 
 
 @pytest.mark.parametrize("arguments", WRONG)

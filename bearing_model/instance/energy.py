@@ -1,18 +1,19 @@
 """Energy of balls, cage halves and everything elastic between them and the rings, and the powers that change it.
 
-    contacts (2/5) K delta^2.5, shared between the halves as in pocket.py;  joint T^2/(2 k_rivet) + N_plate^2/(2 k_plate) + k z^2/2 + hole contact
+    contacts (2/5) K delta^2.5, shared between the halves as in pocket.py;  joint T^2/(2 k_rivet) + N_plate^2/(2
+    k_plate) + k z^2/2 + hole contact
 
-The rings are outside this balance: their motions put the power -F.v - M.Omega into balls and cage, with F and M of contacts and films on the ring, and the
-inner ring's growth the power -K delta^1.5 n.e dR_g/dt (race_contact.py).  In a frame that moves, motions are relative to it, and its inertia forces do work as
-gravity does (powers.py).
+The rings are outside this balance: their motions put the power -F.v - M.Omega into balls and cage, with F and M of
+contacts and films on the ring, and the inner ring's growth the power -K delta^1.5 n.e dR_g/dt (race_contact.py).  In a
+frame that moves, motions are relative to it, and its inertia forces do work as gravity does (powers.py).
 """
 
-from bearing_model.physics.hertz import hertz_energy
+from bearing_model.generated.variables import CageModel
 from bearing_model.numbers.lanes import ball_array_sum
+from bearing_model.numbers.vec import vec, vec_cross, vec_dot
+from bearing_model.physics.hertz import hertz_energy
 from bearing_model.physics.powers import frame_power, housing_power, shaft_power
 from bearing_model.physics.race_contact import race_growth_power
-from bearing_model.generated.variables import CageModel
-from bearing_model.numbers.vec import vec, vec_cross, vec_dot
 
 
 def energy_terms(model, w):
@@ -22,7 +23,9 @@ def energy_terms(model, w):
     terms = {
         "motion of the balls": ball_array_sum(0.5 * d.m * vec_dot(v, v) + 0.5 * d.J * vec_dot(omega, omega)),
         "motion of the cage": 0.0,
-        "races, elastic": ball_array_sum(hertz_energy(d.inner.hertz.K, w.delta_i) + hertz_energy(d.outer.hertz.K, w.delta_e)),
+        "races, elastic": ball_array_sum(
+            hertz_energy(d.inner.hertz.K, w.delta_i) + hertz_energy(d.outer.hertz.K, w.delta_e)
+        ),
         "pockets, elastic": ball_array_sum(w.pocket_energy),
         "land, elastic": w.land_elastic,
     }
@@ -65,7 +68,9 @@ def power_loss(model, w):
 
 
 def supply_terms(model, w):
-    """Powers that rings, gravity and frame put into balls and cage [W] by name, each [..., 1]: the inner ring by its spin, translation and tilting."""
+    """Powers that rings, gravity and frame put into balls and cage [W] by name, each [..., 1]: the inner ring by its
+    spin, translation and tilting.
+    """
     ring = w.ring
     spin, translation = -ring.s * vec_dot(ring.M, ring.a), -vec_dot(ring.F, ring.v)
     return {

@@ -23,7 +23,9 @@ class FatigueLaw:
 
 
 def fully_reversed(law, sigma_a, sigma_mean):
-    """Amplitude [Pa] that does the same damage at zero mean stress; infinite where the mean stress alone breaks the part."""
+    """Amplitude [Pa] that does the same damage at zero mean stress; infinite where the mean stress alone breaks the
+    part.
+    """
     if law.mean_stress == MeanStress.SWT:
         return math.sqrt(max(sigma_mean + sigma_a, 0.0) * sigma_a)
     if law.mean_stress == MeanStress.GOODMAN:

@@ -3,8 +3,8 @@
     sum of supplied = change of energy + sum of lost
 
 Powers are integrated over the accepted steps from their values and rates at both ends,  h (P_0 + P_1)/2 + h^2 (P_0' - P_1')/12  (order 4, Hermite),
-the energies are those of the states, so that the two sides of the balance share nothing but the trajectory.  The rates of the powers are complex
-steps along dy/dt.
+the energies are those of the states, so that the two sides of the balance share nothing but the trajectory.  The rates
+of the powers are complex steps along dy/dt.
 """
 
 from dataclasses import dataclass, field
@@ -37,7 +37,9 @@ class Ledger:
         return sum(self.supplied.values()) - sum(self.stored.values()) - sum(self.lost.values())
 
     def add(self, model, t, y):
-        """Add the steps between the times t [points], whose states are y [points, N_STATES]; the first point is the start of the first step."""
+        """Add the steps between the times t [points], whose states are y [points, N_STATES]; the first point is the
+        start of the first step.
+        """
         w, along = Work(), Work()
         y_dot = rhs(model, t, y, w)
         rhs(model, t + 1j * STEP, y + 1j * STEP * y_dot, along)

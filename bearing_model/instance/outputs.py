@@ -1,23 +1,37 @@
-"""Outputs by the names of the variable table, from the results of one evaluation of the right-hand side (of many states at once, too).
+"""Outputs by the names of the variable table, from the results of one evaluation of the right-hand side (of many states
+at once, too).
 
 Each function returns {name: array}: [...] for one value, [..., Z] for the elements of name[j] or name[k].
 """
 
 import numpy as np
 
+from bearing_model.generated.variables import (
+    BALL_THETA,
+    CAGE_PSI,
+    RING_BETA_DOT,
+    RING_GAMMA_DOT,
+    RING_V_X,
+    RING_V_Y,
+    RING_V_Z,
+    WORK,
+    CageModel,
+    RingMotion,
+    Stress,
+    Z,
+)
 from bearing_model.instance.energy import energy_total, power_loss
 from bearing_model.instance.events import event_outputs
-from bearing_model.physics.hertz import hertz_pressure
 from bearing_model.numbers.lanes import ball_array_sum
+from bearing_model.numbers.vec import vec, vec_dot, vec_local
+from bearing_model.physics.hertz import hertz_pressure
 from bearing_model.physics.outer_ring import spread
 from bearing_model.physics.powers import frame_power, housing_power, housing_wrench, shaft_power
 from bearing_model.physics.ring_fit import ring_fit_growth, ring_fit_speed
 from bearing_model.physics.ring_load import ring_tilts
+from bearing_model.physics.traction import Q_FLOOR, traction_ln_film, traction_ln_thermal
 from bearing_model.rivet.rivet_rom import HEAD_P1, HEAD_VM, MID_P1, MID_VM, rivet_rom_stress
 from bearing_model.rivet.rivets import rivets_load, rivets_slip
-from bearing_model.physics.traction import Q_FLOOR, traction_ln_film, traction_ln_thermal
-from bearing_model.generated.variables import BALL_THETA, CAGE_PSI, RING_BETA_DOT, RING_GAMMA_DOT, RING_V_X, RING_V_Y, RING_V_Z, WORK, CageModel, RingMotion, Stress, Z
-from bearing_model.numbers.vec import vec, vec_dot, vec_local
 
 STANDSTILL = 1e-9  # rad/s: up to it a speed is none that others are compared with
 
@@ -29,13 +43,30 @@ def ring_outputs(model, w, y_dot):
     tilt_y, tilt_z = ring_tilts(beta, gamma)
     values = {f"ring.{name}": w.ring.x[i] for i, name in enumerate("xyz")}
     values |= {f"ring.v_{name}": w.ring.v[i] for i, name in enumerate("xyz")}
-    names, blocks = ("a_x", "a_y", "a_z", "beta_ddot", "gamma_ddot"), (RING_V_X, RING_V_Y, RING_V_Z, RING_BETA_DOT, RING_GAMMA_DOT)
-    accelerations = spread((*given.a, given.beta_ddot, given.gamma_ddot), w.x) if prescribed else [y_dot[..., block] for block in blocks]
+    names, blocks = (
+        ("a_x", "a_y", "a_z", "beta_ddot", "gamma_ddot"),
+        (RING_V_X, RING_V_Y, RING_V_Z, RING_BETA_DOT, RING_GAMMA_DOT),
+    )
+    accelerations = (
+        spread((*given.a, given.beta_ddot, given.gamma_ddot), w.x)
+        if prescribed
+        else [y_dot[..., block] for block in blocks]
+    )
     values |= {f"ring.{name}": value for name, value in zip(names, accelerations, strict=True)}
-    values |= {"ring.beta": beta, "ring.gamma": gamma, "ring.beta_dot": -w.ring.a_dot[2], "ring.gamma_dot": w.ring.a_dot[1]}
+    values |= {
+        "ring.beta": beta,
+        "ring.gamma": gamma,
+        "ring.beta_dot": -w.ring.a_dot[2],
+        "ring.gamma_dot": w.ring.a_dot[1],
+    }
     values |= {"ring.tilt_y": tilt_y, "ring.tilt_z": tilt_z}
-    values |= {f"housing.F_{name}": F[i] for i, name in enumerate("xyz")} | {f"housing.M_{name}": M[i] for i, name in enumerate("xyz")}
-    values |= {f"shaft.R_{name}": w.ring.F[i] for i, name in enumerate("xyz")} | {"shaft.R_My": w.ring.M[1], "shaft.R_Mz": w.ring.M[2]}
+    values |= {f"housing.F_{name}": F[i] for i, name in enumerate("xyz")} | {
+        f"housing.M_{name}": M[i] for i, name in enumerate("xyz")
+    }
+    values |= {f"shaft.R_{name}": w.ring.F[i] for i, name in enumerate("xyz")} | {
+        "shaft.R_My": w.ring.M[1],
+        "shaft.R_Mz": w.ring.M[2],
+    }
     values["bearing.friction_torque"] = -vec_dot(w.ring.M, w.ring.a)
     return {name: value[..., 0] for name, value in values.items()}
 
@@ -43,7 +74,11 @@ def ring_outputs(model, w, y_dot):
 def film_ratio(d, race, U, Q):
     """Film thickness / roughness Lambda at mean speed U and load Q, 0 without contact."""
     ln_U = np.log(U)
-    return np.where(Q > 0.0, np.exp(traction_ln_film(race.ln_Lambda, ln_U, np.log(Q + Q_FLOOR)) + traction_ln_thermal(d.ln_thermal, ln_U)), 0.0)
+    return np.where(
+        Q > 0.0,
+        np.exp(traction_ln_film(race.ln_Lambda, ln_U, np.log(Q + Q_FLOOR)) + traction_ln_thermal(d.ln_thermal, ln_U)),
+        0.0,
+    )
 
 
 def spin_roll(w):
@@ -70,7 +105,9 @@ def ball_outputs(model, w):
         "ball[j].Lambda_i": film_ratio(d, d.inner, w.U_i, w.Q_i),
         "ball[j].Lambda_e": film_ratio(d, d.outer, w.U_e, w.Q_e),
         "ball[j].spin_roll": spin_roll(w),
-        "bearing.clearance": model.p.bearing.P_d - 2.0 * ring_fit_growth(d.fit, ring_fit_speed(model.ring_load)) + 0.0 * w.Q_pocket[..., 0],
+        "bearing.clearance": model.p.bearing.P_d
+        - 2.0 * ring_fit_growth(d.fit, ring_fit_speed(model.ring_load))
+        + 0.0 * w.Q_pocket[..., 0],
         "bearing.contacts": np.sum(deltas > 0.0, axis=(0, -1)),
         "bearing.penetration": np.maximum(np.max(deltas, axis=(0, -1)), 0.0),
         "cage.F_pocket_max": np.max(w.Q_pocket, axis=-1),
@@ -91,7 +128,9 @@ def pose_outputs(model, w, y):
     for h, half in enumerate(w.half):
         tilt_y, tilt_z = ring_tilts(-half.a[2], half.a[1])
         pose = dict(zip(("x", "y", "z", "tilt_y", "tilt_z"), (*half.x, tilt_y, tilt_z), strict=True))
-        values |= {f"half_{h}.{name}": value[..., 0] for name, value in pose.items()} | {f"half_{h}.psi": y[..., CAGE_PSI][..., h]}
+        values |= {f"half_{h}.{name}": value[..., 0] for name, value in pose.items()} | {
+            f"half_{h}.psi": y[..., CAGE_PSI][..., h]
+        }
         values |= {f"rivet[k].flex_{h}_{name}": value for name, value in zip("xrt", flex(model, w, h), strict=True)}
     return values
 
@@ -119,7 +158,9 @@ def rivet_outputs(model, w):
     def along_y_z(r, t):
         return r * c - t * s, r * s + t * c
 
-    (V_y, V_z), (M_y, M_z), (m_y, m_z) = (along_y_z(*v) for v in ((load.V_r, load.V_t), (load.M_r, load.M_t), (load.m_r, load.m_t)))
+    (V_y, V_z), (M_y, M_z), (m_y, m_z) = (
+        along_y_z(*v) for v in ((load.V_r, load.V_t), (load.M_r, load.M_t), (load.m_r, load.m_t))
+    )
     return {
         "rivet[k].N": load.N,
         "rivet[k].V": load.V,
@@ -157,19 +198,48 @@ def stress_outputs(model, w):
 
 def energy_outputs(model, w, work, energy_start):
     energy = energy_total(model, w)
-    parts = {"races": w.race_dissipated, "inlet": w.inlet_dissipated, "spin": w.spin_dissipated, "ball_drag": w.drag_dissipated, "pockets": w.pocket_dissipated}
+    parts = {
+        "races": w.race_dissipated,
+        "inlet": w.inlet_dissipated,
+        "spin": w.spin_dissipated,
+        "ball_drag": w.drag_dissipated,
+        "pockets": w.pocket_dissipated,
+    }
     values = {f"loss.{name}": ball_array_sum(power) for name, power in parts.items()}
-    values |= {"loss.cage_drag": w.cage_drag_dissipated, "loss.ring_drag": w.ring_drag_dissipated, "loss.land": w.land_dissipated}
-    values["loss.joints"] = ball_array_sum(w.joint_dissipated) if model.p.scene.cage != CageModel.RIGID else 0.0 * values["loss.races"]
+    values |= {
+        "loss.cage_drag": w.cage_drag_dissipated,
+        "loss.ring_drag": w.ring_drag_dissipated,
+        "loss.land": w.land_dissipated,
+    }
+    values["loss.joints"] = (
+        ball_array_sum(w.joint_dissipated) if model.p.scene.cage != CageModel.RIGID else 0.0 * values["loss.races"]
+    )
     values["loss.modes"] = w.modes_dissipated if model.p.scene.cage == CageModel.ELASTIC else 0.0 * values["loss.races"]
     values["bearing.power_loss"] = power_loss(model, w)
-    values |= {"shaft.power": shaft_power(w), "housing.power": housing_power(model, w), "frame.power": frame_power(model, w)}
-    return {name: value[..., 0] for name, value in values.items()} | {"bearing.energy": energy, "bearing.energy_residual": energy - energy_start - work}
+    values |= {
+        "shaft.power": shaft_power(w),
+        "housing.power": housing_power(model, w),
+        "frame.power": frame_power(model, w),
+    }
+    return {name: value[..., 0] for name, value in values.items()} | {
+        "bearing.energy": energy,
+        "bearing.energy_residual": energy - energy_start - work,
+    }
 
 
 def outputs(model, w, y, y_dot, energy_start):
-    """All outputs but peaks, statistics, fatigue, onsets and the solver's, at the states y.  energy_start: energy_total at the start [J]."""
+    """All outputs but peaks, statistics, fatigue, onsets and the solver's, at the states y.  energy_start: energy_total
+    at the start [J].
+    """
     work = y[..., WORK][..., 0]
     values = {"bearing.Z": np.full(np.shape(work), float(Z))}
-    values |= ring_outputs(model, w, y_dot) | pose_outputs(model, w, y) | ball_outputs(model, w) | cage_outputs(model, w)
-    return values | rivet_outputs(model, w) | stress_outputs(model, w) | energy_outputs(model, w, work, energy_start) | event_outputs(model, w)
+    values |= (
+        ring_outputs(model, w, y_dot) | pose_outputs(model, w, y) | ball_outputs(model, w) | cage_outputs(model, w)
+    )
+    return (
+        values
+        | rivet_outputs(model, w)
+        | stress_outputs(model, w)
+        | energy_outputs(model, w, work, energy_start)
+        | event_outputs(model, w)
+    )

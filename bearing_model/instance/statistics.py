@@ -1,6 +1,8 @@
-"""Running statistics over time, weighted by the length of the steps: mean, RMS, largest value and quantiles of positive quantities.
+"""Running statistics over time, weighted by the length of the steps: mean, RMS, largest value and quantiles of positive
+quantities.
 
-64 bins in each octave, 213 a decade: a bin is 0.8...1.6 % wide; 24 octaves above the channel's floor.  Smaller values count as below the floor.
+64 bins in each octave, 213 a decade: a bin is 0.8...1.6 % wide; 24 octaves above the channel's floor.  Smaller values
+count as below the floor.
 """
 
 import numpy as np
@@ -42,7 +44,9 @@ class StatisticsChannel:
         self.second += np.sum(weight * value * value)
         self.max = max(self.max, np.max(value, initial=0.0))
         counts = value >= self.floor
-        self.weight += np.bincount(bin_of(value[counts] / self.floor), weights=weight[counts], minlength=STATISTICS_BINS)
+        self.weight += np.bincount(
+            bin_of(value[counts] / self.floor), weights=weight[counts], minlength=STATISTICS_BINS
+        )
 
     @property
     def mean(self):

@@ -1,6 +1,8 @@
-"""Arithmetic of the elements: the last axis runs over balls, joints or halves (length 1: a body's own numbers), leading axes over states.
+"""Arithmetic of the elements: the last axis runs over balls, joints or halves (length 1: a body's own numbers), leading
+axes over states.
 
-Comparisons look at real parts only, so that all functions are analytic between their kinks and a complex step y + ih dy carries derivatives.
+Comparisons look at real parts only, so that all functions are analytic between their kinks and a complex step y + ih dy
+carries derivatives.
 """
 
 import numpy as np

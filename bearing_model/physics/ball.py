@@ -4,8 +4,8 @@
     m (r'' - r omega_m^2)         = F_r            J omega_r' = M_r + J omega_m omega_t
     m (r omega_m' + 2 r' omega_m) = F_t            J omega_t' = M_t - J omega_m omega_r
 
-Beside the forces acts the field of gravity and of the frame's acceleration (frame.py).  In a frame that turns at omega_f all of them hold with
-omega_m + omega_f on the right, and omega_f' is taken from omega_m' and omega_x'.
+Beside the forces acts the field of gravity and of the frame's acceleration (frame.py).  In a frame that turns at
+omega_f all of them hold with omega_m + omega_f on the right, and omega_f' is taken from omega_m' and omega_x'.
 
 Gupta (1979), J. Lubr. Technol. 101, 293.  The last terms on the right are the gyroscopic moments:
 they arise because the frame turns with the orbit; the sphere itself needs no orientation.
@@ -44,7 +44,9 @@ def ball_acceleration(model, w, y_dot):
     y_dot[..., BALL_THETA] = w.omega_m
     y_dot[..., BALL_V_X] = w.F[0] / m + g_x
     y_dot[..., BALL_V_R] = w.F[1] / m + g_y * w.cos_theta + g_z * w.sin_theta + w.r * omega_m**2
-    y_dot[..., BALL_OMEGA_M] = (w.F[2] / m + g_z * w.cos_theta - g_y * w.sin_theta - 2.0 * w.v_r * omega_m) / w.r - frame.frame_omega_dot
+    y_dot[..., BALL_OMEGA_M] = (
+        w.F[2] / m + g_z * w.cos_theta - g_y * w.sin_theta - 2.0 * w.v_r * omega_m
+    ) / w.r - frame.frame_omega_dot
     y_dot[..., BALL_OMEGA_X] = w.M[0] / J - frame.frame_omega_dot
     y_dot[..., BALL_OMEGA_R] = w.M[1] / J + omega_m * w.omega_t
     y_dot[..., BALL_OMEGA_T] = w.M[2] / J - omega_m * w.omega_r

@@ -1,4 +1,6 @@
-"""Constants derived from the parameters at their temperatures (temperature.py), element by element; equations stand in the elements' files."""
+"""Constants derived from the parameters at their temperatures (temperature.py), element by element; equations stand in
+the elements' files.
+"""
 
 import functools
 from types import SimpleNamespace
@@ -6,13 +8,25 @@ from typing import NamedTuple
 
 import numpy as np
 
-from bearing_model.rivet import rivet_table
-from bearing_model.generated import variables
 from bearing_model.cage.elastic.cage_elastic import derive_elastic
+from bearing_model.generated import variables
+from bearing_model.generated.variables import (
+    ELASTIC_SCALES,
+    N_ALL_STATES,
+    N_STATES,
+    PARAMETERS,
+    STATE_SCALES,
+    CageModel,
+    Drag,
+    FitModel,
+    Method,
+    Switch,
+    Z,
+)
 from bearing_model.physics.hertz import Hertz, hertz_contact
 from bearing_model.physics.ring_fit import ring_fit_of
+from bearing_model.rivet import rivet_table
 from bearing_model.rivet.rivet_rom import joint_hole_stiffness, rivet_rom_fit_eff, rivet_rom_fit_flags
-from bearing_model.generated.variables import ELASTIC_SCALES, N_ALL_STATES, N_STATES, PARAMETERS, STATE_SCALES, CageModel, Drag, FitModel, Method, Switch, Z
 
 AIR_DENSITY = 1.19  # [kg/m3] at 293 K and 10^5 Pa
 
@@ -34,7 +48,9 @@ class Derived(SimpleNamespace):
 
 
 def ln_film(E_prime, R_x, k, p, sigma):
-    """ln Lambda at U = 1 m/s, Q = 1 N: of 2.69 G^0.53 (1 - 0.61 exp(-0.73 k)) R_x (eta/(E' R_x))^0.67 (1/(E' R_x^2))^-0.067 / sigma."""
+    """ln Lambda at U = 1 m/s, Q = 1 N: of 2.69 G^0.53 (1 - 0.61 exp(-0.73 k)) R_x (eta/(E' R_x))^0.67 (1/(E'
+    R_x^2))^-0.067 / sigma.
+    """
     G, U, W = p.oil.alpha * E_prime, p.oil.eta / (E_prime * R_x), 1.0 / (E_prime * R_x**2)
     return np.log(2.69 * U**0.67 * G**0.53 * W**-0.067 * (1.0 - 0.61 * np.exp(-0.73 * k)) * R_x / sigma)
 
@@ -51,7 +67,9 @@ def ball_elasticity(p):
 
 
 def race_modulus(p):
-    """E_star of ball and race [Pa], 1/E_star = (1 - nu_b^2)/E_b + (1 - nu^2)/E; half of E/(1 - nu^2) to the last bit where both are alike."""
+    """E_star of ball and race [Pa], 1/E_star = (1 - nu_b^2)/E_b + (1 - nu^2)/E; half of E/(1 - nu^2) to the last bit
+    where both are alike.
+    """
     E_b, nu_b = ball_elasticity(p)
     ring, ball = p.bearing.E / (1.0 - p.bearing.nu**2), E_b / (1.0 - nu_b**2)
     return ring / (1.0 + ring / ball)
@@ -81,7 +99,13 @@ def reference_density(p):
 
 def derive_mixture(p, d):
     """Constants of drag.py."""
-    D, d_m, R, gamma, nu = p.bearing.D, p.bearing.d_m, 0.5 * p.bearing.D, p.bearing.D / p.bearing.d_m, p.oil.eta / p.oil.rho
+    D, d_m, R, gamma, nu = (
+        p.bearing.D,
+        p.bearing.d_m,
+        0.5 * p.bearing.D,
+        p.bearing.D / p.bearing.d_m,
+        p.oil.eta / p.oil.rho,
+    )
     rho, kappa = reference_density(p), 0.5 * (1.0 - gamma)
     # Parker's fraction is 1 at this speed: 10^5 W^0.37/(n d_m^1.7), cm3/min, r/min, mm
     d.flooded_omega = np.pi / 30.0 * 1e5 * (6e7 * p.oil.flow) ** 0.37 / (1e3 * d_m) ** 1.7
@@ -136,7 +160,8 @@ def derive_pockets(p, d):
     d.pocket = hertz_contact(1.0 / R, rho_y, E_star)
     d.pocket_rolling = inlet(2.0 * E_star, R, 1.0 / rho_y, p)
     d.ln_pocket_piezo = ln_film(2.0 * E_star, R, d.pocket.k, p, p.oil.sigma_pocket)
-    # isoviscous-rigid: h/R = 128 alpha_r lambda_b^2 (0.131 atan(alpha_r/2) + 1.683)^2 (U/W)^2, alpha_r = R_y/R.  Hamrock & Dowson (1979), Brewe
+    # isoviscous-rigid: h/R = 128 alpha_r lambda_b^2 (0.131 atan(alpha_r/2) + 1.683)^2 (U/W)^2, alpha_r = R_y/R.
+    # Hamrock & Dowson (1979), Brewe
     alpha_r = 1.0 / (rho_y * R)
     lambda_b = 1.0 / (1.0 + 0.698 / alpha_r)
     shape = 128.0 * alpha_r * lambda_b**2 * (0.131 * np.arctan(0.5 * alpha_r) + 1.683) ** 2
@@ -178,9 +203,12 @@ BROKEN_PLAY = 1.0  # of a rivet that is gone [m]
 
 def derive_joint(p, d, table):
     joint, intact = table.joint, p.rivet.intact != 0
-    d.intact = intact.astype(float)  # 1, or 0 for a rivet that is broken: it has no preload and a free fit, its hole bears nothing
+    # 1, or 0 for a rivet that is broken: it has no preload and a free fit, its hole bears nothing
+    d.intact = intact.astype(float)
     d.P = d.intact * (p.joint.preload * p.rivet.preload_factor)
-    d.P_mean = p.joint.preload * (np.sum(d.intact * p.rivet.preload_factor) / np.sum(d.intact) if np.any(intact) else 0.0)
+    d.P_mean = p.joint.preload * (
+        np.sum(d.intact * p.rivet.preload_factor) / np.sum(d.intact) if np.any(intact) else 0.0
+    )
     fit_a = p.joint.fit + p.rivet.dfit + p.joint.swell
     d.fit_eff = np.where(intact, rivet_rom_fit_eff(table, fit_a, p.rivet.fit_model == FitModel.J2), -BROKEN_PLAY)
     d.fit_flags = np.where(intact, rivet_rom_fit_flags(table, fit_a), 0)
@@ -196,11 +224,13 @@ def derive_joint(p, d, table):
 
 
 def derive_scales(p, d):
-    """Errors that tolerance 1 allows: lengths and velocities, angles as arcs, friction states as parts of the deflection at which the plates slip.
+    """Errors that tolerance 1 allows: lengths and velocities, angles as arcs, friction states as parts of the
+    deflection at which the plates slip.
 
-    The default method has scales by consequence (docs/method.md): a ball's velocity along its orbit decides how it meets its pocket and is finer,
-    less so where walls give way; verlet.py makes it finer still at lower speeds.  Its velocity along the contact normals, where a step's error moves it
-    by nanometres, and the friction states, whose error hardly changes a half's velocity within a step, are wider.
+    The default method has scales by consequence (docs/method.md): a ball's velocity along its orbit decides how it
+    meets its pocket and is finer, less so where walls give way; verlet.py makes it finer still at lower speeds.  Its
+    velocity along the contact normals, where a step's error moves it by nanometres, and the friction states, whose
+    error hardly changes a half's velocity within a step, are wider.
     """
     equal = p.solver.method == Method.EXPLICIT
     length, velocity, r = 1e-5, 0.1 if equal else 0.5, 0.5 * p.bearing.d_m
@@ -239,10 +269,14 @@ def check_table(p, table):
     if table.Z != Z:
         raise ValueError(f"the rivet table is for Z = {table.Z}; the model has Z = {Z}")
     if abs(p.bearing.d_m - table.joint["d_m"]) > 1e-3 * table.joint["d_m"]:
-        raise ValueError(f"bearing.d_m = {p.bearing.d_m} m: the rivet table's load path is for {table.joint['d_m']} m +- 0.1 %")
+        raise ValueError(
+            f"bearing.d_m = {p.bearing.d_m} m: the rivet table's load path is for {table.joint['d_m']} m +- 0.1 %"
+        )
     x_c = table.half.x_c
     if abs(p.cage.x_c - x_c) > 0.02 * x_c:
-        raise ValueError(f"cage.x_c = {p.cage.x_c} m: the cage half of the rivet table has its centre of mass at {x_c} m +- 2 %")
+        raise ValueError(
+            f"cage.x_c = {p.cage.x_c} m: the cage half of the rivet table has its centre of mass at {x_c} m +- 2 %"
+        )
 
 
 def model_derive(p, table=None):

@@ -8,30 +8,31 @@
     end face   T_CDS = (1/2) rho omega^2 (r_o^5 - r_i^5) C_n/2,  C_n = 3.87/sqrt(Re) laminar, 0.146/Re^0.2 turbulent, Re = omega r_o^2/nu
     cylinder   T_CDO = tau A R,  tau = rho nu omega R/c (Couette), with Taylor vortices 1.3 (Ta/41)^0.539 times more, Ta = omega R c/nu sqrt(c/R)
 
-Gupta, Advanced Dynamics of Rolling Elements (1984), churning of balls, rotating cylinders and disks.  The mixture has the oil's kinematic
-viscosity nu.  The larger one of the laminar and the turbulent moment counts, which makes the drag continuous.  The film between land and ring
-is in land_film.py.
+Gupta, Advanced Dynamics of Rolling Elements (1984), churning of balls, rotating cylinders and disks.  The mixture has
+the oil's kinematic viscosity nu.  The larger one of the laminar and the turbulent moment counts, which makes the drag
+continuous.  The film between land and ring is in land_film.py.
 
-A row of balls in a cage carries the mixture along: the mixture turns at `stream` = x omega_cage.  The balance of its angular momentum gives x:
-the balls drive the mixture, the inner ring drives it too, the outer ring brakes it, and fresh oil, which comes without swirl, has to be brought to
-speed,
+A row of balls in a cage carries the mixture along: the mixture turns at `stream` = x omega_cage.  The balance of its
+angular momentum gives x: the balls drive the mixture, the inner ring drives it too, the outer ring brakes it, and fresh
+oil, which comes without swirl, has to be brought to speed,
 
     B (1 - x)|1 - x| + I (sigma - x)^2 - E x^2 - N x = 0,         sigma = omega/omega_m = 2/(1 - gamma)
     B = Z C_d pi D^2/4,  I = f_i A_i (r_i/r_m)^3,  E = f_e A_e (r_e/r_m)^3,  N = 2 rho_oil W/(rho omega_m r_m)
 
-per (1/2) rho omega_m^2 r_m^3, with the radii of the pitch circle r_m and the groove bottoms r_i, r_e, the walls' areas A beside the lands, and
-their friction f = 0.066 Re^-0.25, Re = |omega_wall - omega_m| r h/nu over the height h between the shoulders (turbulent bulk flow; Hirs (1973),
-J. Lubr. Technol. 95, 137).  With isolated balls the mixture stands.  Neglected: the cage's bore, which holds the mixture too.
+per (1/2) rho omega_m^2 r_m^3, with the radii of the pitch circle r_m and the groove bottoms r_i, r_e, the walls' areas
+A beside the lands, and their friction f = 0.066 Re^-0.25, Re = |omega_wall - omega_m| r h/nu over the height h between
+the shoulders (turbulent bulk flow; Hirs (1973), J. Lubr. Technol. 95, 137).  With isolated balls the mixture stands.
+Neglected: the cage's bore, which holds the mixture too.
 
 All speeds are against the outer ring (outer_ring.py): oil and air at its walls turn with it.
 """
 
 import numpy as np
 
-from bearing_model.numbers.lanes import absolute, maximum
-from bearing_model.physics.outer_ring import outer_ring, outer_ring_velocity
 from bearing_model.generated.variables import Drag, Switch
+from bearing_model.numbers.lanes import absolute, maximum
 from bearing_model.numbers.vec import vec, vec_dot, vec_local
+from bearing_model.physics.outer_ring import outer_ring, outer_ring_velocity
 
 TINY_SPEED = 1e-30  # [rad/s]: keeps roots and quotients finite at standstill
 
@@ -50,7 +51,9 @@ def carried_share(d, wall, fresh):
 
 
 def drag_mixture(model, w):
-    """Sets density (filling: over that of the derived constants) and angular speed about X [rad/s] (stream) of the mixture."""
+    """Sets density (filling: over that of the derived constants) and angular speed about X [rad/s] (stream) of the
+    mixture.
+    """
     p, d, outer = model.p, model.d, model.ring_load.outer_omega
     speed = absolute(np.asarray(model.ring_load.omega - outer)) + TINY_SPEED
     w.filling, w.stream, w.wall = 1.0, outer, 0.0

@@ -1,4 +1,5 @@
-"""The frame's own motion: the frame turns at omega_f about an axis parallel to X, frame.radius away on -Y, and this axis is accelerated by frame.a.
+"""The frame's own motion: the frame turns at omega_f about an axis parallel to X, frame.radius away on -Y, and this
+axis is accelerated by frame.a.
 
 All motions are relative to the frame; bodies feel, beside the forces on them,
 
@@ -7,7 +8,8 @@ All motions are relative to the frame; bodies feel, beside the forces on them,
     rotation     with W = omega_f e_x, the angular momentum I (Omega + W) and I = J_t + (J_p - J_t) a a^T
                  M_f = -d(I W)/dt - W x I (Omega + W),   d(I W)/dt = (J_p - J_t) (a' (a.W) + a (a'.W)) + I W'
 
-Coriolis forces do no work; the power of the others is that on m v and M_f.Omega.  A ball is a sphere: M_f = -J (W' + W x omega).
+Coriolis forces do no work; the power of the others is that on m v and M_f.Omega.  A ball is a sphere: M_f = -J (W' + W
+x omega).
 """
 
 from bearing_model.numbers.vec import vec, vec_cross, vec_dot

@@ -42,7 +42,8 @@ def curvature_difference(kappa):
 
 
 def hertz_contact(rho_x, rho_y, E_star):
-    """Contact of bodies whose principal curvatures add up to rho_x in one direction and rho_y in the other [1/m], rho_x > rho_y >= 0.
+    """Contact of bodies whose principal curvatures add up to rho_x in one direction and rho_y in the other [1/m], rho_x
+    > rho_y >= 0.
 
     1/E_star = sum (1 - nu^2)/E [1/Pa].  The ellipse's long axis a lies along y.
 
@@ -52,7 +53,15 @@ def hertz_contact(rho_x, rho_y, E_star):
     sum_ = rho_x + rho_y
     F_rho = min((rho_x - rho_y) / sum_, 1.0 - 1e-9)  # a line contact is out of range: kappa <= 1e5
     if F_rho > 1e-8:  # F(rho) grows with kappa; near the sphere it is (3/4)(kappa - 1)
-        kappa = np.exp(brentq(lambda log_kappa: curvature_difference(np.exp(log_kappa)) - F_rho, 1e-9, np.log(1e5), xtol=1e-15, rtol=1e-14))
+        kappa = np.exp(
+            brentq(
+                lambda log_kappa: curvature_difference(np.exp(log_kappa)) - F_rho,
+                1e-9,
+                np.log(1e5),
+                xtol=1e-15,
+                rtol=1e-14,
+            )
+        )
     else:
         kappa = 1.0
     F, E = hertz_elliptic(kappa)
@@ -71,7 +80,9 @@ def hertz_load(K, delta):
 
 
 def hertz_damped(Q, lambda_, delta_dot):
-    """Hunt-Crossley damping: Q (1 + lambda delta_dot) [N], never pulling.  Hunt & Crossley (1975), J. Appl. Mech. 42, 440."""
+    """Hunt-Crossley damping: Q (1 + lambda delta_dot) [N], never pulling.  Hunt & Crossley (1975), J. Appl. Mech. 42,
+    440.
+    """
     return Q * maximum(1.0 + lambda_ * delta_dot, 0.0)
 
 

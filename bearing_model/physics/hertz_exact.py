@@ -1,4 +1,5 @@
-"""Elliptic Hertz contact for the quasi-static model, written apart from the dynamics' own (hertz.py) so that each checks the other.
+"""Elliptic Hertz contact for the quasi-static model, written apart from the dynamics' own (hertz.py) so that each
+checks the other.
 
     F(rho) = sum of the curvature differences / sum of the curvatures,   kappa = a/b >= 1,   m = 1 - 1/kappa^2
     F(rho) = ((kappa^2 + 1) E(m) - 2 F(m)) / ((kappa^2 - 1) E(m))        -> kappa
@@ -43,7 +44,8 @@ def hertz_ellipse(F_rho):
         F, E = ellipkm1(1.0 / k2), ellipe(1.0 - 1.0 / k2)
         return ((k2 + 1.0) * E - 2.0 * F) / ((k2 - 1.0) * E) - F_rho
 
-    # F(rho) is odd in log kappa and tends to 3/4 log kappa at the circle; there the quotient loses digits, and the line is exact to F^3 = 1e-12
+    # F(rho) is odd in log kappa and tends to 3/4 log kappa at the circle; there the quotient loses digits, and the line
+    # is exact to F^3 = 1e-12
     kappa = np.exp(4.0 / 3.0 * F_rho if F_rho < 1e-4 else brentq(difference, 1e-5, 30.0, xtol=1e-15, rtol=1e-14))
     F, E = ellipkm1(1.0 / kappa**2), ellipe(1.0 - 1.0 / kappa**2)
     a_star = (2.0 * kappa**2 * E / np.pi) ** (1 / 3)
@@ -82,10 +84,10 @@ class HertzContact:
 def ball_race_contact(D, d_m, f, alpha, E, nu, race, ball=None):
     """Hertz contact of a ball with a groove.
 
-    D ball diameter, d_m pitch diameter [m], f groove radius / D [-], alpha contact angle [rad], E [Pa], nu [-] of the ring, race "inner" or "outer",
-    ball: E and nu of the ball, None for those of the ring.
-    Curvatures 2/D, 2/D of the ball, -1/(f D) across the groove, and along it gamma = D cos(alpha)/d_m:  (2/D) gamma/(1 - gamma) inner,
-    -(2/D) gamma/(1 + gamma) outer.  Harris & Kotzalas (2006), ch. 2.
+    D ball diameter, d_m pitch diameter [m], f groove radius / D [-], alpha contact angle [rad], E [Pa], nu [-] of the
+    ring, race "inner" or "outer", ball: E and nu of the ball, None for those of the ring.
+    Curvatures 2/D, 2/D of the ball, -1/(f D) across the groove, and along it gamma = D cos(alpha)/d_m:  (2/D) gamma/(1
+    - gamma) inner, -(2/D) gamma/(1 + gamma) outer.  Harris & Kotzalas (2006), ch. 2.
 
     >>> contact = ball_race_contact(0.0111125, 0.0535, 0.515, 0.0, 207e9, 0.3, "inner")
     >>> print(f"{contact.K:.3e} N/m^1.5, {contact.p_max(1000.0) / 1e6:.0f} MPa")
@@ -98,4 +100,6 @@ def ball_race_contact(D, d_m, f, alpha, E, nu, race, ball=None):
     sum_rho = 4.0 / D + along + across
     F_rho = (along - across) / sum_rho
     (E_b, nu_b), ring = ball or (E, nu), E / (1.0 - nu**2)
-    return HertzContact(float(sum_rho), float(F_rho), ring / (1.0 + ring / (E_b / (1.0 - nu_b**2))), hertz_ellipse(F_rho))
+    return HertzContact(
+        float(sum_rho), float(F_rho), ring / (1.0 + ring / (E_b / (1.0 - nu_b**2))), hertz_ellipse(F_rho)
+    )

@@ -10,27 +10,29 @@
     I_s = int sin phi cos phi/(...)^3 dphi               = 2 b/q^4 + a^2 b/(q^4 (1 - b^2)) + 3 a b S/q^5
     I_t = int sin^2 phi/(...)^3 dphi                     = a/(q^2 (1 - b^2)) + 3 a b^2/(q^4 (1 - b^2)) + 2 a b^2/(q^2 (1 - b^2)^2) + S (q^2 + 3 b^2)/q^5
 
-Shear heats the film between walls at the oil's temperature; viscosity exp(-beta (T - T_wall)).  In plane Couette flow the shear stress then is
-asinh(s)/(s sqrt(1 + s^2)) times the isothermal one, s^2 = Na/8, Na = beta eta U^2/k, whatever the gap (Nahme (1940), Ing.-Archiv 11, 191); the
-film's viscosity is lower by this factor.
+Shear heats the film between walls at the oil's temperature; viscosity exp(-beta (T - T_wall)).  In plane Couette flow
+the shear stress then is asinh(s)/(s sqrt(1 + s^2)) times the isothermal one, s^2 = Na/8, Na = beta eta U^2/k, whatever
+the gap (Nahme (1940), Ing.-Archiv 11, 191); the film's viscosity is lower by this factor.
 
-An outer ring that moves (outer_ring.py): e, e_dot and omega are those against its material, and the forces are along its axes.  For a ring that turns
-this is Reynolds' equation for two turning surfaces: squeeze e_dot - (omega + omega_e)/2 e_x x e.
+An outer ring that moves (outer_ring.py): e, e_dot and omega are those against its material, and the forces are along
+its axes.  For a ring that turns this is Reynolds' equation for two turning surfaces: squeeze e_dot - (omega +
+omega_e)/2 e_x x e.
 
-Steady rotation gives Ocvirk's force (a = 0), pure squeeze that of the pi-film.  The force derives from int (V.n)^2/h^3 over the closing half, so that
--dF/dV = kappa (I_c, I_s; I_s, I_t) exactly: these are the stiff rates of the film.  The force is regular at e = 0, C0 in V (cavitation) and C1 elsewhere.
-At the wall the film stays finite: q^2 is g_0 at the wall and tends to g_0/2 behind it, and eps is capped at 1.2.  Behind the wall the dry contact
-F = K_land (e - C)^1.5 carries.
+Steady rotation gives Ocvirk's force (a = 0), pure squeeze that of the pi-film.  The force derives from int (V.n)^2/h^3
+over the closing half, so that -dF/dV = kappa (I_c, I_s; I_s, I_t) exactly: these are the stiff rates of the film.  The
+force is regular at e = 0, C0 in V (cavitation) and C1 elsewhere. At the wall the film stays finite: q^2 is g_0 at the
+wall and tends to g_0/2 behind it, and eps is capped at 1.2.  Behind the wall the dry contact F = K_land (e - C)^1.5
+carries.
 """
 
 import numpy as np
 
-from bearing_model.physics.hertz import hertz_damped, hertz_energy, hertz_load
+from bearing_model.generated.variables import Lubrication
 from bearing_model.numbers.lanes import ball_array_sum, maximum, minimum, wide_pair
+from bearing_model.numbers.vec import vec_cross, vec_dot
+from bearing_model.physics.hertz import hertz_damped, hertz_energy, hertz_load
 from bearing_model.physics.outer_ring import outer_ring
 from bearing_model.physics.traction import traction_asperity_share
-from bearing_model.generated.variables import Lubrication
-from bearing_model.numbers.vec import vec_cross, vec_dot
 
 EPS_CAP = 1.2
 
@@ -61,13 +63,15 @@ def land_film_heating(s_2):
 def land_film_force(model, w):
     """Adds film, friction and dry contact of both lands to the halves; sets their elastic energy and dissipated power.
 
-    film_yy, film_yz, film_zz, film_spin: -dF/dv [N.s/m] and -dM/domega [N.m.s] of each land, for the integrator's Jacobian.
+    film_yy, film_yz, film_zz, film_spin: -dF/dv [N.s/m] and -dM/domega [N.m.s] of each land, for the integrator's
+    Jacobian.
     """
     p, d = model.p, model.d
     h0, h1 = w.half
     x_land = np.array([-p.cage.land_x, p.cage.land_x])
 
-    # position and velocity of the middle of each land, x + a x_land and v + Omega x a x_land = v + a_dot x_land, against the outer ring along its axes
+    # position and velocity of the middle of each land, x + a x_land and v + Omega x a x_land = v + a_dot x_land,
+    # against the outer ring along its axes
     outer, axis, axis_dot = outer_ring(model.ring_load, h0.s), wide_pair(h0.a, h1.a), wide_pair(h0.a_dot, h1.a_dot)
     arm = wide_pair(h0.x, h1.x) + x_land * axis - outer.x
     velocity = wide_pair(h0.v, h1.v) + x_land * axis_dot - outer.v - vec_cross(outer.Omega, arm)
@@ -89,7 +93,8 @@ def land_film_force(model, w):
     F_y, F_z = -kappa * (I_c * V_y - I_s * V_z), -kappa * (I_c * V_z + I_s * V_y)
     couette = d.couette * heated / np.sqrt(q2)
 
-    # dry contact and friction where the gap is smallest; with mixed lubrication the asperities carry their share of the film force too
+    # dry contact and friction where the gap is smallest; with mixed lubrication the asperities carry their share of the
+    # film force too
     u_y, u_z = e_y / e, e_z / e
     pen, pen_dot = e - d.C_land, v_y * u_y + v_z * u_z
     N_0 = hertz_load(p.cage.K_land, pen)

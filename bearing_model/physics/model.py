@@ -1,8 +1,9 @@
-"""Data of the model: constants that are derived once, loads that are held over a step, and the results of one evaluation of the right-hand side.
+"""Data of the model: constants that are derived once, loads that are held over a step, and the results of one
+evaluation of the right-hand side.
 
-Frame: X axial, Y and Z radial.  Ball j has its own cylindrical frame (x, r, t): x along X, r from the axis through the ball, t = x cross r.
-Letters: i inner, e outer race, c cage, half h = 0 on the side of -X, h = 1 on +X; alpha contact angle; n unit normal from race or pocket
-surface into it, seen from the ball (the ball is pushed along -n).
+Frame: X axial, Y and Z radial.  Ball j has its own cylindrical frame (x, r, t): x along X, r from the axis through the
+ball, t = x cross r. Letters: i inner, e outer race, c cage, half h = 0 on the side of -X, h = 1 on +X; alpha contact
+angle; n unit normal from race or pocket surface into it, seen from the ball (the ball is pushed along -n).
 """
 
 from dataclasses import dataclass, replace
@@ -12,12 +13,20 @@ import numpy as np
 
 from bearing_model.physics.derived import Derived, check_table, default_table, model_derive
 from bearing_model.physics.parameters import InputDerivatives, Inputs, Parameters
-from bearing_model.physics.ring_load import InputTrajectory, RingLoad, input_trajectory_update, input_trajectory_varies, ring_load_at
+from bearing_model.physics.ring_load import (
+    InputTrajectory,
+    RingLoad,
+    input_trajectory_update,
+    input_trajectory_varies,
+    ring_load_at,
+)
 from bearing_model.physics.temperature import check_temperatures, temperature_apply
 
 
 class Work(SimpleNamespace):
-    """Results of one evaluation, named as in fmu_src/physics/model.h; vectors have their components on axis 0, pocket results are kept by half."""
+    """Results of one evaluation, named as in fmu_src/physics/model.h; vectors have their components on axis 0, pocket
+    results are kept by half.
+    """
 
 
 @dataclass
@@ -31,7 +40,8 @@ class Model:
 
     @classmethod
     def of(cls, parameters=None, inputs=None, t=0.0, table=None):
-        """The model of some parameters and inputs {name: value} (SI, others at their start values), inputs held from time t [s].
+        """The model of some parameters and inputs {name: value} (SI, others at their start values), inputs held from
+        time t [s].
 
         table: a rivet_table.RivetTable; default that of the 6207.  ValueError names a value that is not allowed.
 
@@ -45,14 +55,17 @@ class Model:
         return cls(hot, d, ring_load_at(trajectory, t), trajectory if input_trajectory_varies(trajectory) else None)
 
     def at(self, t):
-        """The Model whose load and motions are those at time t [s], held; arrays of times [...] give loads [..., 1], complex times carry derivatives."""
+        """The Model whose load and motions are those at time t [s], held; arrays of times [...] give loads [..., 1],
+        complex times carry derivatives.
+        """
         if self.trajectory is None:
             return self
         return replace(self, ring_load=ring_load_at(self.trajectory, np.expand_dims(t, -1)), trajectory=None)
 
 
 def derived_at(p, u, table=None):
-    """The Parameters p at the temperatures in the Inputs u, and the Derived that follow; table: RivetTable, default that of the 6207.
+    """The Parameters p at the temperatures in the Inputs u, and the Derived that follow; table: RivetTable, default
+    that of the 6207.
 
     ValueError names a temperature that oil or bearing do not bear, or parameters of another bearing than the table's.
     """

@@ -1,13 +1,13 @@
 """The outer ring's motion: a rigid body that moves as the inputs housing.* say.
 
-Laws between a body and the outer ring are those of a ring at rest in the frame that moves with the ring: velocities are taken against
-v + Omega x (P - x), forces and powers follow.
+Laws between a body and the outer ring are those of a ring at rest in the frame that moves with the ring: velocities are
+taken against v + Omega x (P - x), forces and powers follow.
 """
 
 import numpy as np
 
-from bearing_model.physics.rotor import Rotor, rotor_axis, rotor_body_axes
 from bearing_model.numbers.vec import vec_cross, vec_local
+from bearing_model.physics.rotor import Rotor, rotor_axis, rotor_body_axes
 
 
 def spread(values, like):

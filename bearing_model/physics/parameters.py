@@ -1,4 +1,5 @@
-"""Parameters and inputs by the names of the variable table (variables.py): p.bearing.D, p.scene.cage, u.shaft.F_x ...  SI units.
+"""Parameters and inputs by the names of the variable table (variables.py): p.bearing.D, p.scene.cage, u.shaft.F_x ...
+SI units.
 
 A name that Python reserves has an underscore behind it: p.bearing.lambda_.
 """
@@ -11,8 +12,8 @@ from types import SimpleNamespace
 import numpy as np
 
 from bearing_model.generated import variables
-from bearing_model.physics.ring_fit import ring_fit_bore, ring_fit_effective_e, ring_fit_effective_i, ring_fit_outside
 from bearing_model.generated.variables import INPUTS, PARAMETERS, Z
+from bearing_model.physics.ring_fit import ring_fit_bore, ring_fit_effective_e, ring_fit_effective_i, ring_fit_outside
 
 ENUMERATIONS = (
     variables.TiltMode,
@@ -40,7 +41,10 @@ class Values:
             value = values.pop(name, variable.start)
             if variable.count > 1:
                 value = [value] * variable.count if np.ndim(value) == 0 else value
-                value = [values.pop(name.replace("[j]", f"[{j + 1}]").replace("[k]", f"[{j + 1}]"), v) for j, v in enumerate(value)]
+                value = [
+                    values.pop(name.replace("[j]", f"[{j + 1}]").replace("[k]", f"[{j + 1}]"), v)
+                    for j, v in enumerate(value)
+                ]
                 require(len(value) == variable.count, f"{name}: {len(value)} values; {variable.count} are needed")
                 value = np.array([admit(variable, v) for v in value])
             else:
@@ -54,7 +58,8 @@ class Values:
 
 
 class Parameters(Values):
-    """All parameters; ValueError for an unknown name, a value outside its limits, or values that together make no bearing.
+    """All parameters; ValueError for an unknown name, a value outside its limits, or values that together make no
+    bearing.
 
     >>> Parameters({"bearing.P_d": 0.0, "scene.lubrication": "mixed"}).scene.lubrication
     <Lubrication.MIXED: 2>
@@ -96,7 +101,10 @@ def admit(variable, value):
     low = -math.inf if variable.min is None else variable.min
     high = math.inf if variable.max is None else variable.max
     unit = "" if variable.unit == "1" else f" {variable.unit}"
-    require(math.isfinite(value) and low <= value <= high, f"{variable.name} = {value}{unit}: {low:g} ... {high:g} is allowed")
+    require(
+        math.isfinite(value) and low <= value <= high,
+        f"{variable.name} = {value}{unit}: {low:g} ... {high:g} is allowed",
+    )
     return int(value) if variable.type == "Integer" else float(value)
 
 
@@ -109,42 +117,72 @@ def check_geometry(p):
     """Refuse parameters that contradict each other: ValueError naming one of them, its value and what is allowed."""
     D, d_m = p.bearing.D, p.bearing.d_m
     chord, pocket, play = d_m * math.sin(math.pi / Z), p.cage.pocket_clearance, largest_clearance(p)
-    require(D < chord, f"bearing.D = {D} m: the balls overlap; less than bearing.d_m sin(pi/Z) = {chord:g} m is allowed")
+    require(
+        D < chord, f"bearing.D = {D} m: the balls overlap; less than bearing.d_m sin(pi/Z) = {chord:g} m is allowed"
+    )
     apart = f"the pockets overlap; less than bearing.d_m sin(pi/Z) - bearing.D = {chord - D:g} m is allowed"
     require(D + pocket < chord, f"cage.pocket_clearance = {pocket} m: {apart}")
     far = f"a ball on one race would reach the other groove's far side; less than 4 (min(f_i, f_e) - 1/2) D = {play:g} m is allowed"
     require(p.bearing.P_d < play, f"bearing.P_d = {p.bearing.P_d} m: {far}")
-    require(-p.bearing.P_d < 0.01 * D, f"bearing.P_d = {p.bearing.P_d} m: the interference exceeds 1 % of bearing.D; at least {-0.01 * D:g} m is allowed")
+    require(
+        -p.bearing.P_d < 0.01 * D,
+        f"bearing.P_d = {p.bearing.P_d} m: the interference exceeds 1 % of bearing.D; at least {-0.01 * D:g} m is allowed",
+    )
     softest = PARAMETERS["bearing.E"].min
-    require(p.ball.E == 0.0 or p.ball.E >= softest, f"ball.E = {p.ball.E} Pa: 0, which stands for bearing.E, or at least {softest:g} Pa is allowed")
+    require(
+        p.ball.E == 0.0 or p.ball.E >= softest,
+        f"ball.E = {p.ball.E} Pa: 0, which stands for bearing.E, or at least {softest:g} Pa is allowed",
+    )
     require(p.cage.D_i < p.cage.D_o, f"cage.D_i = {p.cage.D_i} m: less than cage.D_o = {p.cage.D_o} m is allowed")
     require(p.cage.D_i < d_m, f"cage.D_i = {p.cage.D_i} m: less than bearing.d_m = {d_m} m is allowed")
     require(d_m < p.cage.D_o, f"cage.D_o = {p.cage.D_o} m: more than bearing.d_m = {d_m} m is allowed")
     bore = ring_fit_bore(p)
-    require(bore < d_m - D, f"ring.bore = {bore} m: less than the diameter of the inner groove's bottom, {d_m - D:g} m, is allowed")
+    require(
+        bore < d_m - D,
+        f"ring.bore = {bore} m: less than the diameter of the inner groove's bottom, {d_m - D:g} m, is allowed",
+    )
     at_least = f"at least the diameter of the inner groove's bottom, {d_m - D:g} m, is allowed"
     require(ring_fit_effective_i(p) >= d_m - D, f"ring.effective_i = {p.ring.effective_i} m: {at_least}")
     at_most = f"at most the diameter of the outer groove's bottom, {d_m + D:g} m, is allowed"
     require(ring_fit_effective_e(p) <= d_m + D, f"ring.effective_e = {p.ring.effective_e} m: {at_most}")
     outside, housing = ring_fit_outside(p), p.housing.outside
-    require(outside > d_m + D, f"ring.outside = {outside} m: more than the diameter of the outer groove's bottom, {d_m + D:g} m, is allowed")
-    require(p.shaft.bore < bore, f"shaft.bore = {p.shaft.bore} m: less than the bore of the inner ring, {bore:g} m, is allowed")
+    require(
+        outside > d_m + D,
+        f"ring.outside = {outside} m: more than the diameter of the outer groove's bottom, {d_m + D:g} m, is allowed",
+    )
+    require(
+        p.shaft.bore < bore,
+        f"shaft.bore = {p.shaft.bore} m: less than the bore of the inner ring, {bore:g} m, is allowed",
+    )
     wider = f"0 or more than the outside diameter of the outer ring, {outside:g} m, is allowed"
     require(housing == 0.0 or housing > outside, f"housing.outside = {housing} m: {wider}")
     half = 0.5 * p.cage.width
-    require(p.cage.land_width <= half, f"cage.land_width = {p.cage.land_width} m: at most half of cage.width, {half:g} m, is allowed")
+    require(
+        p.cage.land_width <= half,
+        f"cage.land_width = {p.cage.land_width} m: at most half of cage.width, {half:g} m, is allowed",
+    )
     require(p.oil.T_1 < p.oil.T_2, f"oil.T_1 = {p.oil.T_1} K: less than oil.T_2 = {p.oil.T_2} K is allowed")
     falls = f"more than oil.nu_2 = {p.oil.nu_2} m2/s is allowed, for the viscosity falls with temperature"
     require(p.oil.nu_1 > p.oil.nu_2, f"oil.nu_1 = {p.oil.nu_1} m2/s: {falls}")
-    require(p.fatigue.k_2 >= p.fatigue.k_1, f"fatigue.k_2 = {p.fatigue.k_2}: at least fatigue.k_1 = {p.fatigue.k_1} is allowed")
+    require(
+        p.fatigue.k_2 >= p.fatigue.k_1,
+        f"fatigue.k_2 = {p.fatigue.k_2}: at least fatigue.k_1 = {p.fatigue.k_1} is allowed",
+    )
     apart = p.pulse.count < 2 or p.pulse.interval >= p.pulse.duration
     require(apart, f"pulse.interval = {p.pulse.interval} s: at least pulse.duration = {p.pulse.duration} s is allowed")
     clearance = pocket + p.pocket.dD
     for j, (dD, excess) in enumerate(zip(p.ball.dD, p.pocket.dD, strict=True)):
         less = f"less than cage.pocket_clearance + pocket[{j + 1}].dD = {clearance[j]} m is allowed"
-        require(excess >= 0.0 or clearance[j] > 0.0, f"pocket[{j + 1}].dD = {excess} m: more than -cage.pocket_clearance = {-pocket} m is allowed")
+        require(
+            excess >= 0.0 or clearance[j] > 0.0,
+            f"pocket[{j + 1}].dD = {excess} m: more than -cage.pocket_clearance = {-pocket} m is allowed",
+        )
         require(dD <= 0.0 or dD < clearance[j], f"ball[{j + 1}].dD = {dD} m: {less}")
-    differ = {"preload_factor": p.rivet.preload_factor != 1.0, "dfit": p.rivet.dfit != 0.0, "intact": p.rivet.intact != 1}
+    differ = {
+        "preload_factor": p.rivet.preload_factor != 1.0,
+        "dfit": p.rivet.dfit != 0.0,
+        "intact": p.rivet.intact != 1,
+    }
     for name, others in differ.items():
         where = f"rivet[{np.argmax(others) + 1}].{name}: rivets that differ need scene.cage = two_half or elastic"
         require(p.scene.cage != variables.CageModel.RIGID or not np.any(others), where)

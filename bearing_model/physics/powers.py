@@ -1,13 +1,13 @@
 """Reactions on the rings, and the powers by which shaft, housing and frame change the energy of balls and cage.
 
-All forces on balls and cage together accelerate them; the outer ring carries the forces that the inner ring puts on balls and cage less the sum of
-what acts on them.  Gravity and the frame's inertia forces are not among these forces.
+All forces on balls and cage together accelerate them; the outer ring carries the forces that the inner ring puts on
+balls and cage less the sum of what acts on them.  Gravity and the frame's inertia forces are not among these forces.
 """
 
-from bearing_model.physics.frame import frame_acceleration, frame_moment
 from bearing_model.numbers.lanes import ball_array_sum
-from bearing_model.physics.outer_ring import outer_ring
 from bearing_model.numbers.vec import vec, vec_cross, vec_dot, vec_to_global
+from bearing_model.physics.frame import frame_acceleration, frame_moment
+from bearing_model.physics.outer_ring import outer_ring
 
 
 def housing_reaction(w):
@@ -40,8 +40,12 @@ def housing_power(model, w):
 def frame_power(model, w):
     """Power of gravity and of the frame's inertia forces into balls and cage [W], [..., 1]."""
     frame, d = model.ring_load, model.d
-    place, v = (vec_to_global(value, w.cos_theta, w.sin_theta) for value in (vec(w.x, w.r, 0.0), vec(w.v_x, w.v_r, w.v_t)))
-    power = ball_array_sum(d.m * vec_dot(frame_acceleration(frame, place, v), v) - d.J * frame.frame_omega_dot * w.omega_x)
+    place, v = (
+        vec_to_global(value, w.cos_theta, w.sin_theta) for value in (vec(w.x, w.r, 0.0), vec(w.v_x, w.v_r, w.v_t))
+    )
+    power = ball_array_sum(
+        d.m * vec_dot(frame_acceleration(frame, place, v), v) - d.J * frame.frame_omega_dot * w.omega_x
+    )
     for half in w.half:
         v = half.v + vec_cross(half.Omega, half.c)
         force = model.p.cage.m * frame_acceleration(frame, half.x + half.c, v)

@@ -17,11 +17,12 @@ Slip and mean speed at the contact point p + R n, seen from the frame that orbit
     u_ball = (omega_ball - omega_m e_x) x R n,   u_race = v_ring + Omega x (p + R n) - v_ball - omega_m e_x x R n
     Delta u = u_ball - u_race,   U = (u_ball + u_race)/2     (their parts in the tangent plane)
 The ring gets the opposite forces at the same points: force -F, moment -(p x F) - M about its centre.
-Spin and curvature let the slip vary along the long axis of the ellipse; `sliced` integrates the traction over this axis:
+Spin and curvature let the slip vary along the long axis of the ellipse; `sliced` integrates the traction over this
+axis:
     Delta u(xi) = Delta u + Delta omega x (xi t_2 - xi^2/(2 R_m) n),  pressure (3/4)(1 - xi^2/a^2) per length
-in slices on both sides of where the slip changes its sign, because the traction is nearly a step there.  With x = xi/a the slip along t_1 is
-s_1 + k x + b_1 x^2; the place is x_0 = -s_1 k/(k^2 + b_1^2), not beyond the ends.  That is the root where spin (k) outweighs curvature (b_1); the two roots
-of curvature lie about the middle, which x_0 tends to.
+in slices on both sides of where the slip changes its sign, because the traction is nearly a step there.  With x = xi/a
+the slip along t_1 is s_1 + k x + b_1 x^2; the place is x_0 = -s_1 k/(k^2 + b_1^2), not beyond the ends.  That is the
+root where spin (k) outweighs curvature (b_1); the two roots of curvature lie about the middle, which x_0 tends to.
 Smoothness: C1 at touch-down.  Hertz' ellipse is not cut at the shoulder.
 """
 
@@ -30,13 +31,20 @@ from types import SimpleNamespace
 import numpy as np
 from scipy.special import roots_jacobi
 
-from bearing_model.physics.hertz import hertz_damped, hertz_load
+from bearing_model.generated.variables import Lubrication, Traction
 from bearing_model.numbers.lanes import ball_array_sum, maximum, minimum
+from bearing_model.numbers.vec import vec, vec_across, vec_cross, vec_dot, vec_local, vec_to_global
+from bearing_model.physics.hertz import hertz_damped, hertz_load
 from bearing_model.physics.outer_ring import outer_ring
 from bearing_model.physics.ring_fit import ring_fit_growth, ring_fit_rate, ring_fit_speed
-from bearing_model.physics.traction import Q_FLOOR, traction_asperity_share, traction_ln_film, traction_ln_thermal, traction_mu, traction_race_inlet
-from bearing_model.generated.variables import Lubrication, Traction
-from bearing_model.numbers.vec import vec, vec_across, vec_cross, vec_dot, vec_local, vec_to_global
+from bearing_model.physics.traction import (
+    Q_FLOOR,
+    traction_asperity_share,
+    traction_ln_film,
+    traction_ln_thermal,
+    traction_mu,
+    traction_race_inlet,
+)
 
 SIDE = np.repeat([-1.0, 1.0], 6)
 Z_JACOBI, W_JACOBI = np.tile(roots_jacobi(6, 1.0, 0.0), 2)  # on either side, of the weight 1 - z on [-1, 1]
@@ -49,9 +57,10 @@ def split_place(s_1, k, b_1):
 
 
 def slices(x_0):
-    """Places x in [-1, 1] and shares of the pressure (3/4)(1 - x^2) of all slices, [12, ...]: on each side x = x_0 (1 - z) + side z with
-    (3/4)(1 + side x)(1 - side x_0)^2 w, where z and w are Gauss-Jacobi's points for the weight 1 - z on [0, 1].  Polynomials up to degree 10 on each side are
-    integrated exactly."""
+    """Places x in [-1, 1] and shares of the pressure (3/4)(1 - x^2) of all slices, [12, ...]: on each side x = x_0 (1 -
+    z) + side z with (3/4)(1 + side x)(1 - side x_0)^2 w, where z and w are Gauss-Jacobi's points for the weight 1 - z
+    on [0, 1].  Polynomials up to degree 10 on each side are integrated exactly.
+    """
     side, z, w = (column.reshape(-1, *[1] * np.ndim(x_0)) for column in (SIDE, 0.5 * (Z_JACOBI + 1.0), 0.25 * W_JACOBI))
     x = x_0 * (1.0 - z) + side * z
     return x, (1.0 + side * x) * 0.75 * (1.0 - side * x_0) ** 2 * w
@@ -60,16 +69,24 @@ def slices(x_0):
 def race_traction(model, race, c, mixed):
     """Forces on the ball by traction at a point or over the slices and by the inlet's rolling friction.
 
-    c: the contact, normal n, rolling direction t_1, long axis t_2, slip Delta u, mean speed roll = U, spin = omega_ball - Omega of the race,
-    approach = velocity of the ball's centre against the race there, load Q, sqrt_delta, ball radius R.
-    Returns U with its floor [m/s], F_s at the contact point, F_c through the ball's centre [N], M of F_s about the ball's centre with spin [N.m],
-    dissipated power, of it by the inlet and by spin about the normal [W]; for the integrator's Jacobian (verlet.py) the secant coefficients
-    g = |traction|/|slip| [N.s/m] and g_spin = moment/spin [N.m.s].
+    c: the contact, normal n, rolling direction t_1, long axis t_2, slip Delta u, mean speed roll = U, spin = omega_ball
+    - Omega of the race, approach = velocity of the ball's centre against the race there, load Q, sqrt_delta, ball
+      radius R.
+    Returns U with its floor [m/s], F_s at the contact point, F_c through the ball's centre [N], M of F_s about the
+    ball's centre with spin [N.m], dissipated power, of it by the inlet and by spin about the normal [W]; for the
+    integrator's Jacobian (verlet.py) the secant coefficients g = |traction|/|slip| [N.s/m] and g_spin = moment/spin
+    [N.m.s].
     """
     p = model.p
     U = np.sqrt(vec_dot(c.roll, c.roll) + p.oil.U_0**2)
     ln_U, ln_Q = np.log(U), np.log(c.Q + Q_FLOOR)
-    f_a = traction_asperity_share(traction_ln_film(race.ln_Lambda, ln_U, ln_Q) + traction_ln_thermal(model.d.ln_thermal, ln_U)) if mixed else 0.0
+    f_a = (
+        traction_asperity_share(
+            traction_ln_film(race.ln_Lambda, ln_U, ln_Q) + traction_ln_thermal(model.d.ln_thermal, ln_U)
+        )
+        if mixed
+        else 0.0
+    )
     F_R = traction_race_inlet(model.d, race.rolling, U, ln_U, c.Q, ln_Q)
 
     # slip along t_1 and t_2 at x = xi/a: s_1 + k x + b_1 x^2, s_2 + b_2 x^2
@@ -102,8 +119,8 @@ def race_traction(model, race, c, mixed):
 def race_contact(race, R_g, R, lambda_, p, a, Omega, approach, omega_b, omega_m):
     """Normal contact and kinematics of the balls with one race.
 
-    R_g: present radius of the circle of groove centres, p: ball centres - ring centre, a: axis, Omega: angular velocity of the ring,
-    approach: v_ball - v_ring - Omega x p, all in the balls' frames.
+    R_g: present radius of the circle of groove centres, p: ball centres - ring centre, a: axis, Omega: angular velocity
+    of the ring, approach: v_ball - v_ring - Omega x p, all in the balls' frames.
     """
     along = vec_dot(p, a)
     radial = p - along * a
@@ -137,7 +154,9 @@ def race_contact_force(model, w):
     a, Omega, v_i, x_i = (vec_local(v, w.cos_theta, w.sin_theta) for v in (w.ring.a, w.ring.Omega, w.ring.v, w.ring.x))
     p_i = position - x_i
     R_g = d.inner.R_g + ring_fit_growth(d.fit, ring_fit_speed(model.ring_load))
-    inner = race_contact(d.inner, R_g, d.R, p.bearing.lambda_, p_i, a, Omega, v_b - v_i - vec_cross(Omega, p_i), omega_b, w.omega_m)
+    inner = race_contact(
+        d.inner, R_g, d.R, p.bearing.lambda_, p_i, a, Omega, v_b - v_i - vec_cross(Omega, p_i), omega_b, w.omega_m
+    )
     T_i = race_traction(model, d.inner, inner, mixed)
     F_i = -inner.Q * inner.n + T_i.F_s + T_i.F_c
 
@@ -145,14 +164,30 @@ def race_contact_force(model, w):
     ring = outer_ring(model.ring_load, w.x)
     a, Omega, v_e, x_e = (vec_local(v, w.cos_theta, w.sin_theta) for v in (ring.a, ring.Omega, ring.v, ring.x))
     p_e = position - x_e
-    outer = race_contact(d.outer, d.outer.R_g, d.R, p.bearing.lambda_, p_e, a, Omega, v_b - v_e - vec_cross(Omega, p_e), omega_b, w.omega_m)
+    outer = race_contact(
+        d.outer,
+        d.outer.R_g,
+        d.R,
+        p.bearing.lambda_,
+        p_e,
+        a,
+        Omega,
+        v_b - v_e - vec_cross(Omega, p_e),
+        omega_b,
+        w.omega_m,
+    )
     T_e = race_traction(model, d.outer, outer, mixed)
     F_e = -outer.Q * outer.n + T_e.F_s + T_e.F_c
 
     # sums on the balls, the wrench on the ring
     w.F = F_i + F_e
     w.M = T_i.M + T_e.M
-    w.race_dissipated = T_i.dissipated + T_e.dissipated + (inner.Q - inner.Q_0) * inner.delta_dot + (outer.Q - outer.Q_0) * outer.delta_dot
+    w.race_dissipated = (
+        T_i.dissipated
+        + T_e.dissipated
+        + (inner.Q - inner.Q_0) * inner.delta_dot
+        + (outer.Q - outer.Q_0) * outer.delta_dot
+    )
     w.inlet_dissipated = T_i.inlet_dissipated + T_e.inlet_dissipated
     w.spin_dissipated = T_i.spin_dissipated + T_e.spin_dissipated + 0.0 * w.x
     w.ring_F = vec_to_global(-F_i, w.cos_theta, w.sin_theta)  # by each ball, about the ring's centre
@@ -165,9 +200,13 @@ def race_contact_force(model, w):
 
 
 def race_growth_power(model, w):
-    """Power that the inner ring's growth, where its speed changes, puts into the balls: -K delta^1.5 n.e dR_g/dt [W], [..., 1]."""
+    """Power that the inner ring's growth, where its speed changes, puts into the balls: -K delta^1.5 n.e dR_g/dt [W],
+    [..., 1].
+    """
     load, p = model.ring_load, vec(w.x, w.r, 0.0) - vec_local(w.ring.x, w.cos_theta, w.sin_theta)
     a = vec_local(w.ring.a, w.cos_theta, w.sin_theta)
     radial = p - vec_dot(p, a) * a
-    force = -ball_array_sum(hertz_load(model.d.inner.hertz.K, w.delta_i) * vec_dot(w.n_i, radial) / np.sqrt(vec_dot(radial, radial)))
+    force = -ball_array_sum(
+        hertz_load(model.d.inner.hertz.K, w.delta_i) * vec_dot(w.n_i, radial) / np.sqrt(vec_dot(radial, radial))
+    )
     return force * ring_fit_rate(model.d.fit, ring_fit_speed(load), load.omega_dot + load.frame_omega_dot)

@@ -2,7 +2,8 @@
 
 import numpy as np
 
-from bearing_model.physics.ball import ball_acceleration, ball_kinematics
+from bearing_model.cage.common.cage_joint import cage_joint_force, cage_joint_kinematics
+from bearing_model.cage.common.pocket import pocket_force
 from bearing_model.cage.elastic.cage_elastic import (
     cage_elastic_acceleration,
     cage_elastic_coriolis,
@@ -11,17 +12,6 @@ from bearing_model.cage.elastic.cage_elastic import (
     cage_elastic_kinematics,
     cage_elastic_pads,
 )
-from bearing_model.cage.common.cage_joint import cage_joint_force, cage_joint_kinematics
-from bearing_model.physics.drag import drag_cage, drag_force, drag_mixture, drag_ring
-from bearing_model.instance.energy import net_power
-from bearing_model.physics.frame import frame_acceleration, frame_moment
-from bearing_model.physics.land_film import land_film_force
-from bearing_model.physics.model import Work
-from bearing_model.physics.outer_ring import spread
-from bearing_model.cage.common.pocket import pocket_force
-from bearing_model.physics.race_contact import race_contact_force
-from bearing_model.physics.ring import ring_acceleration
-from bearing_model.physics.rotor import Rotor, rotor_acceleration, rotor_axis, rotor_body_axes, rotor_roll
 from bearing_model.generated.variables import (
     CAGE_BETA,
     CAGE_BETA_DOT,
@@ -53,7 +43,17 @@ from bearing_model.generated.variables import (
     CageModel,
     RingMotion,
 )
+from bearing_model.instance.energy import net_power
 from bearing_model.numbers.vec import vec_cross
+from bearing_model.physics.ball import ball_acceleration, ball_kinematics
+from bearing_model.physics.drag import drag_cage, drag_force, drag_mixture, drag_ring
+from bearing_model.physics.frame import frame_acceleration, frame_moment
+from bearing_model.physics.land_film import land_film_force
+from bearing_model.physics.model import Work
+from bearing_model.physics.outer_ring import spread
+from bearing_model.physics.race_contact import race_contact_force
+from bearing_model.physics.ring import ring_acceleration
+from bearing_model.physics.rotor import Rotor, rotor_acceleration, rotor_axis, rotor_body_axes, rotor_roll
 
 CAGE_PLACE = ((CAGE_X, CAGE_V_X), (CAGE_Y, CAGE_V_Y), (CAGE_Z, CAGE_V_Z))
 
@@ -75,9 +75,13 @@ def rotor_kinematics(model, y, w):
     else:
         w.ring.x = np.array([y[..., RING_X], y[..., RING_Y], y[..., RING_Z]])
         w.ring.v = np.array([y[..., RING_V_X], y[..., RING_V_Y], y[..., RING_V_Z]])
-        rotor_axis(w.ring, y[..., RING_BETA], y[..., RING_GAMMA], y[..., RING_BETA_DOT], y[..., RING_GAMMA_DOT], given.omega)
+        rotor_axis(
+            w.ring, y[..., RING_BETA], y[..., RING_GAMMA], y[..., RING_BETA_DOT], y[..., RING_GAMMA_DOT], given.omega
+        )
     for h, half in enumerate(w.half):
-        rotor_axis(half, *(of_half(y, block, h) for block in (CAGE_BETA, CAGE_GAMMA, CAGE_BETA_DOT, CAGE_GAMMA_DOT, CAGE_S)))
+        rotor_axis(
+            half, *(of_half(y, block, h) for block in (CAGE_BETA, CAGE_GAMMA, CAGE_BETA_DOT, CAGE_GAMMA_DOT, CAGE_S))
+        )
         psi = of_half(y, CAGE_PSI, h)
         rotor_body_axes(half, np.cos(psi), np.sin(psi))
         half.c = model.d.com_x[h] * half.a + model.d.com_e * half.b_y
@@ -90,7 +94,9 @@ def rotor_kinematics(model, y, w):
 
 
 def half_rates(y, half, h, acc, a_ddot, s_dot, y_dot):
-    """Set y_dot of half h from the accelerations of its centre of mass (acc), of its axis (a_ddot) and of its spin (s_dot)."""
+    """Set y_dot of half h from the accelerations of its centre of mass (acc), of its axis (a_ddot) and of its spin
+    (s_dot).
+    """
     for i, (X, V) in enumerate(CAGE_PLACE):
         of_half(y_dot, X, h)[...] = of_half(y, V, h)
         of_half(y_dot, V, h)[...] = acc[i]
@@ -134,8 +140,8 @@ def cage_acceleration(model, y, w, y_dot):
 def rhs(model, t, y, w=None):
     """dy/dt at time t [s], one for all states or one for each.
 
-    y: state [..., N_STATES], of elastic halves N_ALL_STATES, offsets in variables.py; leading axes are independent states, complex values carry derivatives.
-    w: a Work that keeps all results, if given.
+    y: state [..., N_STATES], of elastic halves N_ALL_STATES, offsets in variables.py; leading axes are independent
+    states, complex values carry derivatives. w: a Work that keeps all results, if given.
     """
     if y.shape[-1] != len(model.d.scale):
         raise ValueError(f"y has {y.shape[-1]} states; {len(model.d.scale)} are needed")

@@ -6,15 +6,14 @@
     tilt: prescribed  beta'' = (beta_shaft - beta)/tau^2 - 2 beta'/tau, gamma likewise: critically damped
           supported   M = k_tilt (shaft - ring) - c_tilt (rates against the outer ring) + shaft.M
           free        M = shaft.M only
-          supported and free include the gyroscopic moment of the spin (rotor.py) and the moment of a frame that turns (frame.py)
+          supported and free include the gyroscopic moment of the spin (rotor.py) and the moment of a frame that turns
+          (frame.py)
 
 Forces and moments are in the global frame.
 """
 
 import numpy as np
 
-from bearing_model.physics.frame import frame_acceleration, frame_moment
-from bearing_model.physics.rotor import rotor_acceleration
 from bearing_model.generated.variables import (
     RING_BETA,
     RING_BETA_DOT,
@@ -29,6 +28,8 @@ from bearing_model.generated.variables import (
     RingMotion,
     TiltMode,
 )
+from bearing_model.physics.frame import frame_acceleration, frame_moment
+from bearing_model.physics.rotor import rotor_acceleration
 
 
 def ring_acceleration(model, w, y_dot):
@@ -37,7 +38,9 @@ def ring_acceleration(model, w, y_dot):
     beta, gamma, beta_dot, gamma_dot = -ring.a[2], ring.a[1], -ring.a_dot[2], ring.a_dot[1]
     for i, (X, V) in enumerate(((RING_X, RING_V_X), (RING_Y, RING_V_Y), (RING_Z, RING_V_Z))):
         y_dot[..., X] = ring.v[i]
-        y_dot[..., V] = (ring_load.F[i] + ring.F[i] - p.ring.c * (ring.v[i] - ring_load.outer_v[i])) / p.ring.m + field[i]
+        y_dot[..., V] = (ring_load.F[i] + ring.F[i] - p.ring.c * (ring.v[i] - ring_load.outer_v[i])) / p.ring.m + field[
+            i
+        ]
     y_dot[..., RING_BETA] = beta_dot
     y_dot[..., RING_GAMMA] = gamma_dot
     if p.ring.motion == RingMotion.PRESCRIBED:

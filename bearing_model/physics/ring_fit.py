@@ -4,7 +4,8 @@ radius r of a cylinder from a to b, pressure p_a in its bore and p_b around it, 
 
   u = (1/E) ((1 - nu)(p_a a^2 - p_b b^2) r + (1 + nu)(p_a - p_b) a^2 b^2/r)/(b^2 - a^2)
       + rho omega^2 r/(8 E) ((3 + nu)(1 - nu)(a^2 + b^2) + (3 + nu)(1 + nu) a^2 b^2/r^2 - (1 - nu^2) r^2)
-                                                                Timoshenko & Goodier, Theory of Elasticity, sections 28, 32
+                                                                Timoshenko & Goodier, Theory of Elasticity, sections 28,
+                                                                32
 
 seat on the shaft     u_ring - u_shaft = I/2: the pressure is (I/2 - (growth of ring - growth of shaft))/(sum of both compliances), or 0 with a loose
                       ring; growth of the bores is ~ omega^2
@@ -12,9 +13,9 @@ groove of the inner   u = growth omega^2 + per_fit max(0, fit - loosening omega^
 ring
 outer ring            stands in its housing: its groove and its land become smaller by the fit alone
 
-a, b of the inner ring: bore, effective outside diameter; of the outer ring: effective inside, outside diameter.  At temperature the interference
-changes by the difference of the expansions (temperature.py).  Neglected: the ring's flanks and its curvature across, roughness that the fit flattens,
-bending by loads.
+a, b of the inner ring: bore, effective outside diameter; of the outer ring: effective inside, outside diameter.  At
+temperature the interference changes by the difference of the expansions (temperature.py).  Neglected: the ring's flanks
+and its curvature across, roughness that the fit flattens, bending by loads.
 """
 
 from dataclasses import dataclass
@@ -88,11 +89,19 @@ def ring_fit_outside(p):
 
 
 def ring_fit_effective_i(p):
-    return p.ring.effective_i if p.ring.effective_i > 0.0 else p.bearing.d_m - p.bearing.D + 2.0 * p.bearing.h_i * p.bearing.D
+    return (
+        p.ring.effective_i
+        if p.ring.effective_i > 0.0
+        else p.bearing.d_m - p.bearing.D + 2.0 * p.bearing.h_i * p.bearing.D
+    )
 
 
 def ring_fit_effective_e(p):
-    return p.ring.effective_e if p.ring.effective_e > 0.0 else p.bearing.d_m + p.bearing.D - 2.0 * p.bearing.h_e * p.bearing.D
+    return (
+        p.ring.effective_e
+        if p.ring.effective_e > 0.0
+        else p.bearing.d_m + p.bearing.D - 2.0 * p.bearing.h_e * p.bearing.D
+    )
 
 
 def ring_fit_of(p):
@@ -113,6 +122,8 @@ def ring_fit_housing(p, r):
     """How much the housing's fit takes from the radius r of the outer ring [m]."""
     seat = 0.5 * ring_fit_outside(p)
     ring = Cylinder(0.5 * ring_fit_effective_e(p), seat, p.bearing.E, p.bearing.nu)
-    housing = Cylinder(seat, 0.5 * p.housing.outside if p.housing.outside > 0.0 else 1e3 * seat, p.housing.E, p.housing.nu)
+    housing = Cylinder(
+        seat, 0.5 * p.housing.outside if p.housing.outside > 0.0 else 1e3 * seat, p.housing.E, p.housing.nu
+    )
     interference = max(0.5 * p.housing.interference, 0.0)
     return -ring.by_rim(r) * interference / (housing.by_bore(seat) - ring.by_rim(seat))

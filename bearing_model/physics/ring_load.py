@@ -2,10 +2,11 @@
 
     inputs: u(t) = u_0 + u_0' (t - t_0) + u_0'' (t - t_0)^2/2 from the communication point t_0 on
     motions: position and velocity are one polynomial of third order, u(t) = u_0 + ... + v_0'' (t - t_0)^3/6  (motion_trajectory)
-    pulses: F_r sin(pi (t - t_n)/duration) along the radial load (+Y without one) and F_a along +X, t_n = t_start + n interval
+    pulses: F_r sin(pi (t - t_n)/duration) along the radial load (+Y without one) and F_a along +X, t_n = t_start + n
+    interval
 
-Forces and moments are in the bearing's frame.  Tilt is a rotation about (0, tilt_y, tilt_z): a = (cos, tilt_z sinc, -tilt_y sinc).  The frame's angle is
-the integral of frame.omega; gravity keeps its direction in the fixed frame.
+Forces and moments are in the bearing's frame.  Tilt is a rotation about (0, tilt_y, tilt_z): a = (cos, tilt_z sinc,
+-tilt_y sinc).  The frame's angle is the integral of frame.omega; gravity keeps its direction in the fixed frame.
 """
 
 import copy
@@ -14,11 +15,15 @@ from types import SimpleNamespace
 
 import numpy as np
 
-from bearing_model.physics.parameters import InputDerivatives
 from bearing_model.generated.variables import RingMotion
+from bearing_model.physics.parameters import InputDerivatives
 
 # Inputs that are a position and its velocity: group, position, velocity; the shaft's come first.
-MOTION = tuple((side, q, v) for side in ("shaft", "housing") for q, v in [(i, f"v_{i}") for i in "xyz"] + [(f"tilt_{i}", f"tilt_{i}_dot") for i in "yz"])
+MOTION = tuple(
+    (side, q, v)
+    for side in ("shaft", "housing")
+    for q, v in [(i, f"v_{i}") for i in "xyz"] + [(f"tilt_{i}", f"tilt_{i}_dot") for i in "yz"]
+)
 MOTION += (("frame", "omega", "omega_dot"),)
 SHORTEST_MOTION = 1e-12  # step whose rates of motion are known [s]
 
@@ -48,14 +53,16 @@ class RingLoad:
     beta: float  # direction cosines of the shaft's tilt
     gamma: float
     omega_dot: float = 0.0  # rate of the speed [rad/s2]
-    x: tuple = (0.0, 0.0, 0.0)  # motion of the inner ring where it is prescribed: position, velocity, acceleration; rates of the cosines
+    # motion of the inner ring where it is prescribed: position, velocity, acceleration; rates of the cosines
+    x: tuple = (0.0, 0.0, 0.0)
     v: tuple = (0.0, 0.0, 0.0)
     a: tuple = (0.0, 0.0, 0.0)
     beta_dot: float = 0.0
     gamma_dot: float = 0.0
     beta_ddot: float = 0.0
     gamma_ddot: float = 0.0
-    outer_x: tuple = (0.0, 0.0, 0.0)  # motion of the outer ring: position, velocity, direction cosines and their rates, speed [rad/s]
+    # motion of the outer ring: position, velocity, direction cosines and their rates, speed [rad/s]
+    outer_x: tuple = (0.0, 0.0, 0.0)
     outer_v: tuple = (0.0, 0.0, 0.0)
     outer_beta: float = 0.0
     outer_gamma: float = 0.0
@@ -71,7 +78,8 @@ def ring_cosines(tilt_y, tilt_z, tilt_y_dot, tilt_z_dot):
     """Direction cosines beta, gamma of a rotation about (0, tilt_y, tilt_z) [rad], and their rates."""
     angle_2 = tilt_y**2 + tilt_z**2
     sinc = np.sinc(np.sqrt(angle_2) / np.pi)
-    factor = -1.0 / 3.0 + angle_2 * (1.0 / 30.0 - angle_2 * (1.0 / 840.0 - angle_2 / 45360.0))  # (cos - sinc)/angle^2 as a series: 3e-13 at 0.05 rad
+    # (cos - sinc)/angle^2 as a series: 3e-13 at 0.05 rad
+    factor = -1.0 / 3.0 + angle_2 * (1.0 / 30.0 - angle_2 * (1.0 / 840.0 - angle_2 / 45360.0))
     change = factor * (tilt_y * tilt_y_dot + tilt_z * tilt_z_dot)
     return tilt_y * sinc, tilt_z * sinc, tilt_y_dot * sinc + tilt_y * change, tilt_z_dot * sinc + tilt_z * change
 
@@ -116,7 +124,9 @@ def pulse_next_edge(p, t):
 
 @dataclass(frozen=True)
 class MotionHistory:
-    """What was given so far: velocities at the begin of the last communication step, their mean rates over the step before, the length of the last step."""
+    """What was given so far: velocities at the begin of the last communication step, their mean rates over the step
+    before, the length of the last step.
+    """
 
     v: tuple
     a: tuple | None  # None: there was one step only
@@ -144,12 +154,13 @@ def motion_trajectory(p, given, now, h, history=None):
     """Values and derivatives of the inputs over a step of length h [s] from those that the host has given at its begin.
 
     position and velocity at the end    X = x + v h + a h^2/2 + a' h^3/6,  V = v + a h + a' h^2/2, with the given derivatives a, a' of the velocity, or if
-                                        they are 0 with a = minmod of the velocity's mean rates over the last two steps: V has an error of order two, and
-                                        a velocity that jumps is not extrapolated
+                                        they are 0 with a = minmod of the velocity's mean rates over the last two steps:
+                                        V has an error of order two, and a velocity that jumps is not extrapolated
     inside the step                     Hermite's polynomial from where the motion is (`now`, at the end of the last step) to X, V
 
-    In steps shorter than SHORTEST_MOTION the motion goes on with the velocity that it has, because the rates above could overflow.  Where the motion is not
-    given (the shaft's in free motion) it has no derivatives; where it is, there are no loads.
+    In steps shorter than SHORTEST_MOTION the motion goes on with the velocity that it has, because the rates above
+    could overflow.  Where the motion is not given (the shaft's in free motion) it has no derivatives; where it is,
+    there are no loads.
     """
     u = [copy.deepcopy(values) for values in given]
     if p.ring.motion == RingMotion.PRESCRIBED:
@@ -157,7 +168,11 @@ def motion_trajectory(p, given, now, h, history=None):
             vars(values.shaft).update(F_x=0.0, F_y=0.0, F_z=0.0, M_y=0.0, M_z=0.0)
             vars(values.impact).update(F_r=0.0, F_a=0.0)
     known = history is not None and history.a is not None
-    estimates = [minmod(*rates) for rates in zip(history.rate(given[0]), history.a, strict=True)] if known else [0.0] * len(MOTION)
+    estimates = (
+        [minmod(*rates) for rates in zip(history.rate(given[0]), history.a, strict=True)]
+        if known
+        else [0.0] * len(MOTION)
+    )
     for (group, q, v), estimate in zip(MOTION, estimates, strict=True):
         out = [vars(getattr(values, group)) for values in u]
         if group == "shaft" and p.ring.motion == RingMotion.FREE:
@@ -178,11 +193,15 @@ def motion_trajectory(p, given, now, h, history=None):
 
 
 def input_trajectory_update(p, u, t_0, t, frame_angle=0.0):
-    """The trajectory of the inputs u (value and derivatives at t_0 [s]) from time t up to the next edge of a pulse; frame_angle: that of the frame at t_0."""
+    """The trajectory of the inputs u (value and derivatives at t_0 [s]) from time t up to the next edge of a pulse;
+    frame_angle: that of the frame at t_0.
+    """
     i = pulse_index(p, t)
     active = has_pulses(p) and i >= 0 and t < pulse_start(p, i) + p.pulse.duration
     pulse = (p.pulse.F_r, p.pulse.F_a, pulse_start(p, i)) if active else (0.0, 0.0, 0.0)
-    return InputTrajectory(t_0, tuple(u), *pulse, np.pi / p.pulse.duration, (p.gravity.y, p.gravity.z), p.frame.radius, frame_angle)
+    return InputTrajectory(
+        t_0, tuple(u), *pulse, np.pi / p.pulse.duration, (p.gravity.y, p.gravity.z), p.frame.radius, frame_angle
+    )
 
 
 def input_trajectory_varies(trajectory):
@@ -197,25 +216,36 @@ def input_trajectory_at(trajectory, t):
     tau, u = t - trajectory.t_0, SimpleNamespace()
     for group in vars(trajectory.u[0]):
         u_0, u_1, u_2 = (vars(getattr(u, group)) for u in trajectory.u)
-        setattr(u, group, SimpleNamespace(**{name: u_0[name] + tau * (u_1[name] + 0.5 * tau * u_2[name]) for name in u_0}))
+        setattr(
+            u, group, SimpleNamespace(**{name: u_0[name] + tau * (u_1[name] + 0.5 * tau * u_2[name]) for name in u_0})
+        )
     for group, q, v in MOTION:
         vars(getattr(u, group))[q] += tau**3 / 6.0 * getattr(getattr(trajectory.u[2], group), v)
     return u
 
 
 def input_trajectory_here(trajectory, t):
-    """The trajectory that begins at time t [s] with the inputs' values and rates there: inputs that are held, with their rates as outputs show them."""
+    """The trajectory that begins at time t [s] with the inputs' values and rates there: inputs that are held, with
+    their rates as outputs show them.
+    """
     rates, tau = copy.deepcopy(trajectory.u[1]), t - trajectory.t_0
     for group, members in vars(rates).items():
         for name in vars(members):
             vars(members)[name] += tau * getattr(getattr(trajectory.u[2], group), name)
-    return replace(trajectory, t_0=t, u=(input_trajectory_at(trajectory, t), rates, InputDerivatives()), frame_angle=frame_angle_at(trajectory, t))
+    return replace(
+        trajectory,
+        t_0=t,
+        u=(input_trajectory_at(trajectory, t), rates, InputDerivatives()),
+        frame_angle=frame_angle_at(trajectory, t),
+    )
 
 
 def frame_angle_at(trajectory, t):
     """Angle of the frame at time t [rad]."""
     tau, (w, w_1, w_2) = t - trajectory.t_0, (u.frame.omega for u in trajectory.u)
-    return trajectory.frame_angle + tau * (w + tau * (w_1 / 2.0 + tau * (w_2 / 6.0 + tau * trajectory.u[2].frame.omega_dot / 24.0)))
+    return trajectory.frame_angle + tau * (
+        w + tau * (w_1 / 2.0 + tau * (w_2 / 6.0 + tau * trajectory.u[2].frame.omega_dot / 24.0))
+    )
 
 
 def frame_field(trajectory, t, u):
@@ -223,7 +253,11 @@ def frame_field(trajectory, t, u):
     angle, (g_y, g_z), w = frame_angle_at(trajectory, t), trajectory.gravity, u.frame.omega
     c, s = np.cos(angle), np.sin(angle)
     down = (c * g_y + s * g_z, c * g_z - s * g_y)
-    return -u.frame.a_x, down[0] - u.frame.a_y + w * w * trajectory.radius, down[1] - u.frame.a_z - u.frame.omega_dot * trajectory.radius
+    return (
+        -u.frame.a_x,
+        down[0] - u.frame.a_y + w * w * trajectory.radius,
+        down[1] - u.frame.a_z - u.frame.omega_dot * trajectory.radius,
+    )
 
 
 def ring_load_at(trajectory, t):
@@ -237,7 +271,9 @@ def ring_load_at(trajectory, t):
     F = (u.shaft.F_x + F_a, u.shaft.F_y + F_r * y, u.shaft.F_z + F_r * z)
     M = u.shaft.M_y, u.shaft.M_z
     outer = ring_cosines(u.housing.tilt_y, u.housing.tilt_z, u.housing.tilt_y_dot, u.housing.tilt_z_dot)
-    beta, gamma, beta_dot, gamma_dot = ring_cosines(u.shaft.tilt_y, u.shaft.tilt_z, u.shaft.tilt_y_dot, u.shaft.tilt_z_dot)
+    beta, gamma, beta_dot, gamma_dot = ring_cosines(
+        u.shaft.tilt_y, u.shaft.tilt_z, u.shaft.tilt_y_dot, u.shaft.tilt_z_dot
+    )
 
     def rate(name):
         return getattr(trajectory.u[1].shaft, name) + (t - trajectory.t_0) * getattr(trajectory.u[2].shaft, name)

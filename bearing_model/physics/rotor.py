@@ -1,8 +1,10 @@
 """A rigid axisymmetric body: inner ring or cage half.
 
-axis a = (a_x, gamma, -beta), a unit vector: beta turns +X toward -Z, gamma turns +X toward +Y, exact for any tilt below 90 degrees
+axis a = (a_x, gamma, -beta), a unit vector: beta turns +X toward -Z, gamma turns +X toward +Y, exact for any tilt below
+90 degrees
 angular velocity Omega = a x a_dot + s a,  s spin about the axis
-minimal rotation T of e_x to a:  T v = v - (a.v)/(1 + a_x) (a + e_x)  for v across e_x;  T turns about a at the rate roll,
+minimal rotation T of e_x to a:  T v = v - (a.v)/(1 + a_x) (a + e_x)  for v across e_x;  T turns about a at the rate
+roll,
 so the rotation psi about the axis has psi_dot = s - roll,  roll = (a_y' a_z - a_z' a_y)/(1 + a_x)
 angular momentum J_t a x a_dot + J_p s a, its rate M:   s_dot = M.a/J_p,   a_ddot = m x a - |a_dot|^2 a,
                                                         m = (M - (M.a) a - J_p s a_dot)/J_t
@@ -18,8 +20,8 @@ from bearing_model.numbers.vec import vec, vec_cross, vec_dot
 class Rotor(SimpleNamespace):
     """Pose, velocity and load of a body in the global frame, vectors [3, ..., 1].
 
-    x, v geometric centre; a, a_dot axis and its rate; Omega, s angular velocity and spin; b_y, b_z body axes across, c centre of mass - geometric
-    centre (cage halves); F, M force and moment about the geometric centre by all contacts.
+    x, v geometric centre; a, a_dot axis and its rate; Omega, s angular velocity and spin; b_y, b_z body axes across, c
+    centre of mass - geometric centre (cage halves); F, M force and moment about the geometric centre by all contacts.
     """
 
 

@@ -10,9 +10,10 @@ fits     the seats' interference changes by the difference of the expansions; th
 oil      eta = eta_0 rho(T) nu(T)/(rho(T_0) nu(T_0)), nu by Walther's law (viscosity.py), rho = rho_0 (1 - a (T - T_0)),
          alpha = alpha_0 exp(-c (T - T_0)), beta = beta_0 beta(T)/beta(T_0)
 
-T_a: temperature at which the rivet table gives preload and fit.  eta_0 and beta_0 left at their start values are those of the variable table's oil, so
-that the two points alone decide.  At the start values of all temperatures no parameter changes, not even its last bit.  Neglected: expansion of the
-widths and of the circle of rivets, growth of ring and cage inertia, elastic constants over temperature.  Masses stay as they are.
+T_a: temperature at which the rivet table gives preload and fit.  eta_0 and beta_0 left at their start values are those
+of the variable table's oil, so that the two points alone decide.  At the start values of all temperatures no parameter
+changes, not even its last bit.  Neglected: expansion of the widths and of the circle of rivets, growth of ring and cage
+inertia, elastic constants over temperature.  Masses stay as they are.
 """
 
 import copy
@@ -20,14 +21,16 @@ from types import SimpleNamespace
 
 import numpy as np
 
+from bearing_model.generated.variables import PARAMETERS
 from bearing_model.physics.parameters import largest_clearance, require
 from bearing_model.physics.ring_fit import ring_fit_bore, ring_fit_housing, ring_fit_outside
-from bearing_model.rivet.rivet_rom import joint_fit, joint_preload
-from bearing_model.generated.variables import PARAMETERS
 from bearing_model.physics.viscosity import Oil
+from bearing_model.rivet.rivet_rom import joint_fit, joint_preload
 
 TEMPERATURES = (("oil", "T"), ("ring", "T_i"), ("ring", "T_e"), ("ball", "T"), ("cage", "T"))
-START_OIL = SimpleNamespace(**{name.removeprefix("oil."): variable.start for name, variable in PARAMETERS.items() if name.startswith("oil.")})
+START_OIL = SimpleNamespace(
+    **{name.removeprefix("oil."): variable.start for name, variable in PARAMETERS.items() if name.startswith("oil.")}
+)
 
 
 def temperature_same(u, v):
@@ -78,8 +81,12 @@ def heat_cage(p, e_c, e_e, e_b, hot):
 def heat_fits(p, u, T_a, hot):
     """Fits at temperature; what the housing takes from groove and land of the outer ring."""
     expansion = p.bearing.expansion
-    hot.shaft.interference = p.shaft.interference + (p.shaft.expansion - expansion) * (u.ring.T_i - T_a) * ring_fit_bore(p)
-    hot.housing.interference = p.housing.interference + (expansion - p.housing.expansion) * (u.ring.T_e - T_a) * ring_fit_outside(p)
+    hot.shaft.interference = p.shaft.interference + (p.shaft.expansion - expansion) * (
+        u.ring.T_i - T_a
+    ) * ring_fit_bore(p)
+    hot.housing.interference = p.housing.interference + (expansion - p.housing.expansion) * (
+        u.ring.T_e - T_a
+    ) * ring_fit_outside(p)
     groove = ring_fit_housing(hot, 0.5 * (p.bearing.d_m + p.bearing.D))
     land = ring_fit_housing(hot, 0.5 * (p.cage.D_o + p.cage.guide_clearance))
     hot.bearing.P_d -= 2.0 * groove
@@ -104,7 +111,8 @@ def temperature_apply(p, u, table):
 def check_temperatures(u, hot):
     """ValueError unless oil and bearing bear the temperatures in the Inputs u, at which the Parameters are `hot`.
 
-    Viscosity within its limits, cage neither on the outer ring nor on the balls, no interference beyond what parameters may have.
+    Viscosity within its limits, cage neither on the outer ring nor on the balls, no interference beyond what parameters
+    may have.
     """
     eta, guide = PARAMETERS["oil.eta"], PARAMETERS["cage.guide_clearance"]
     clearances, P_d, least, most = hot.cage, hot.bearing.P_d, -0.01 * hot.bearing.D, largest_clearance(hot)
@@ -115,4 +123,7 @@ def check_temperatures(u, hot):
     there = f"the pockets' clearance is {clearances.pocket_clearance:g} m there; at least 0 m is allowed"
     require(clearances.pocket_clearance >= 0.0, f"cage.T = {u.cage.T:g} K, ball.T = {u.ball.T:g} K: {there}")
     there = f"the bearing's clearance is {P_d:g} m there; {least:g} ... {most:g} m is allowed"
-    require(least < P_d < most, f"ring.T_i = {u.ring.T_i:g} K, ring.T_e = {u.ring.T_e:g} K, ball.T = {u.ball.T:g} K: {there}")
+    require(
+        least < P_d < most,
+        f"ring.T_i = {u.ring.T_i:g} K, ring.T_e = {u.ring.T_e:g} K, ball.T = {u.ball.T:g} K: {there}",
+    )

@@ -1,4 +1,5 @@
-"""Tangential forces of a lubricated contact: traction of the film, friction of the asperities, rolling friction of the inlet.
+"""Tangential forces of a lubricated contact: traction of the film, friction of the asperities, rolling friction of the
+inlet.
 
     film        mu(s) = (A + B s) exp(-C s) - A,  s = |Delta u| / U            four-parameter law of aviation oils; mu(0) = 0
     asperities  mu_b s / sqrt(s^2 + s_0^2)        on their share of the load
@@ -10,8 +11,8 @@
                 n d_m [r/min mm] from U = n d_m (1 - gamma^2)/4, D - d = ball diameter/0.3, nu [mm2/s]
     thermal     the race films are 3.94/(3.94 + L^0.62) times as thick, L = eta beta u^2/k    Murch & Wilson (1975), J. Lubr. Technol. 97, 212
 
-with U = eta u/(E' R_x), W = Q/(E' R_x^2), G = alpha E', E' = 2 E_star, u the mean surface speed.  Load and speed have floors, so that
-these forces are C1 in approach and speed.
+with U = eta u/(E' R_x), W = Q/(E' R_x^2), G = alpha E', E' = 2 E_star, u the mean surface speed.  Load and speed have
+floors, so that these forces are C1 in approach and speed.
 """
 
 import numpy as np
@@ -49,7 +50,9 @@ def traction_mu(p, s, f_a, mixed):
 
 
 def traction_inlet(rolling, ln_U, Q, ln_Q):
-    """Rolling friction F_R [N] of the inlet; rolling: F_R at U = 1 m/s, Q = 1 N.  W^0.47 is taken as W (W + W_floor)^-0.53, linear at small loads."""
+    """Rolling friction F_R [N] of the inlet; rolling: F_R at U = 1 m/s, Q = 1 N.  W^0.47 is taken as W (W +
+    W_floor)^-0.53, linear at small loads.
+    """
     return rolling * Q * np.exp(0.66 * ln_U - 0.53 * ln_Q)
 
 

@@ -18,7 +18,9 @@ class Oil:
 
     def __init__(self, nu_1, T_1, nu_2, T_2):
         if not (0.0 < T_1 < T_2 and nu_1 > nu_2 > 0.0):
-            raise ValueError(f"nu = {nu_1}, {nu_2} m2/s at {T_1}, {T_2} K: viscosities above 0 that fall with temperature are allowed")
+            raise ValueError(
+                f"nu = {nu_1}, {nu_2} m2/s at {T_1}, {T_2} K: viscosities above 0 that fall with temperature are allowed"
+            )
         self.B = (_lg_lg(nu_1) - _lg_lg(nu_2)) / np.log10(T_2 / T_1)
         self.A = _lg_lg(nu_1) + self.B * np.log10(T_1)
 

@@ -1,7 +1,8 @@
 """Rivet stress from the reduced model: twin of fmu_src/rivet/rivet_rom.c, where the equations stand.
 
-sigma = s (w S_i + (1 - w) S_(i+1))(a, c, xi), sheets i around chi, homogeneous of degree 1 in loads and fit; S: tensor products of quadratic B-splines.
-Loads are arrays of one shape; `table` is a bearing_model.rivet.rivet_table.RivetTable (read one with rivet_table.read).
+sigma = s (w S_i + (1 - w) S_(i+1))(a, c, xi), sheets i around chi, homogeneous of degree 1 in loads and fit; S: tensor
+products of quadratic B-splines. Loads are arrays of one shape; `table` is a bearing_model.rivet.rivet_table.RivetTable
+(read one with rivet_table.read).
 """
 
 from dataclasses import dataclass
@@ -16,7 +17,9 @@ RIVET_YIELDS, FLANGE_YIELDS, RIVET_OUTSIDE = 1, 2, 8  # 4 meant a compressed joi
 
 @dataclass
 class RivetLoad:
-    """What rivets carry [N, N.m]: tension, transverse load and bending moment of the shank at the split (on the +x half), head friction."""
+    """What rivets carry [N, N.m]: tension, transverse load and bending moment of the shank at the split (on the +x
+    half), head friction.
+    """
 
     T: float = 0.0
     V_y: float = 0.0
@@ -37,12 +40,18 @@ def axis_splines_xi(knots, s, fit):
     slope = 2.0 * (knots[-1] - knots[-2]) * rise[-1] * beyond
     zero = np.zeros_like(s)
     first = np.where(below, 0, np.where(beyond >= 0.0, last, first))
-    w = np.where(below[..., None], np.stack([s, zero, zero], -1), np.where((beyond >= 0.0)[..., None], np.stack([zero, -slope, s + slope], -1), w))
+    w = np.where(
+        below[..., None],
+        np.stack([s, zero, zero], -1),
+        np.where((beyond >= 0.0)[..., None], np.stack([zero, -slope, s + slope], -1), w),
+    )
     return first, w
 
 
 def load_splines(shank, load, fit_eff):
-    """Place of the loads in the table: chi, and for each axis the first coefficient and three weights; those of xi carry the factor s."""
+    """Place of the loads in the table: chi, and for each axis the first coefficient and three weights; those of xi
+    carry the factor s.
+    """
     T, V, m = np.maximum(load.T, 0.0), np.sqrt(load.V_y**2 + load.V_z**2), np.sqrt(load.m_y**2 + load.m_z**2)
     s, Vm = T + V, V * m
 
@@ -59,8 +68,8 @@ def load_splines(shank, load, fit_eff):
 def rivet_rom_stress(table, load, fit_eff):
     """Stress of all channels [..., 4] in Pa and the load's flags.
 
-    Channels: HEAD_P1 largest principal stress in the head fillet, HEAD_VM von Mises there, MID_VM and MID_P1 in the middle of the shank.
-    Flags: sum of RIVET_YIELDS, RIVET_OUTSIDE (a load is not finite).
+    Channels: HEAD_P1 largest principal stress in the head fillet, HEAD_VM von Mises there, MID_VM and MID_P1 in the
+    middle of the shank. Flags: sum of RIVET_YIELDS, RIVET_OUTSIDE (a load is not finite).
     """
     arrays = np.broadcast_arrays(*(np.asarray(v, dtype=float) for v in (*vars(load).values(), fit_eff)))
     shape = arrays[0].shape
@@ -81,7 +90,9 @@ def rivet_rom_stress(table, load, fit_eff):
                 sigma += (wa[:, a] * wc[:, c] * wxi[:, i])[:, None] * (first * S + (1.0 - first) * S_next)
     sigma[:, HEAD_P1] += table.head_friction * load.F_head
     sigma[:, HEAD_VM] += table.head_friction_vm * load.F_head
-    flags = RIVET_YIELDS * (np.maximum(sigma[:, HEAD_VM], sigma[:, MID_VM]) > table.yield_rivet) + RIVET_OUTSIDE * ~np.isfinite(sigma[:, HEAD_P1])
+    flags = RIVET_YIELDS * (
+        np.maximum(sigma[:, HEAD_VM], sigma[:, MID_VM]) > table.yield_rivet
+    ) + RIVET_OUTSIDE * ~np.isfinite(sigma[:, HEAD_P1])
     return sigma.reshape(*shape, 4), flags.reshape(shape)
 
 
@@ -100,12 +111,18 @@ def rivet_rom_fit_eff(table, fit_a, j2):
     h = x[i + 1] - x[i]
     u = (fit_a - x[i]) / h
     v = 1.0 - u
-    inside = y[i] * v * v * (1.0 + 2.0 * u) + y[i + 1] * u * u * (1.0 + 2.0 * v) + h * u * v * (slope[i] * v - slope[i + 1] * u)
+    inside = (
+        y[i] * v * v * (1.0 + 2.0 * u)
+        + y[i + 1] * u * u * (1.0 + 2.0 * v)
+        + h * u * v * (slope[i] * v - slope[i + 1] * u)
+    )
     return np.where(fit_a <= x[0], fit_a, np.where(fit_a >= x[-1], y[-1] + slope[-1] * (fit_a - x[-1]), inside))
 
 
 def joint_preload(table, preload, T):
-    """Preload at temperature T [N]: the flanges outgrow the rivet, k_stack (alpha_flange - alpha_rivet) grip per kelvin; not below 0."""
+    """Preload at temperature T [N]: the flanges outgrow the rivet, k_stack (alpha_flange - alpha_rivet) grip per
+    kelvin; not below 0.
+    """
     j = table.joint
     return np.maximum(0.0, preload + j["k_stack"] * (j["alpha_flange"] - j["alpha_rivet"]) * j["grip"] * (T - j["T_0"]))
 

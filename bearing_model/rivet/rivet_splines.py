@@ -1,13 +1,15 @@
 """Quadratic B-splines of the rivet table, one axis: twin of fmu_src/rivet/rivet_splines.h.
 
-The splines are clamped and C1; three coefficients are active in each cell, and the first and the last coefficient are the values at the ends.
+The splines are clamped and C1; three coefficients are active in each cell, and the first and the last coefficient are
+the values at the ends.
 """
 
 import numpy as np
 
 
 def constants(knots):
-    """rise and fall of each cell: w_2 = (u - t_i)^2 rise_i, w_0 = (t_(i+1) - u)^2 fall_i, w_1 = 1 - w_0 - w_2 (de Boor's recursion).
+    """rise and fall of each cell: w_2 = (u - t_i)^2 rise_i, w_0 = (t_(i+1) - u)^2 fall_i, w_1 = 1 - w_0 - w_2 (de
+    Boor's recursion).
 
     >>> constants([0.0, 1.0])
     (array([1.]), array([1.]))
@@ -43,7 +45,9 @@ def collocation(knots, u):
 
 
 def interpolate(axes, values):
-    """Coefficients of the tensor-product spline with `values` [sites of each axis ..., channels] at the sites of all axes."""
+    """Coefficients of the tensor-product spline with `values` [sites of each axis ..., channels] at the sites of all
+    axes.
+    """
     for axis, knots in enumerate(axes):
         matrix = collocation(knots, sites(knots))
         values = np.moveaxis(np.tensordot(np.linalg.inv(matrix), values, axes=(1, axis)), 0, axis)

@@ -1,10 +1,12 @@
-"""The rivet table: its file format and its reader.  rivet_model writes the file; the FMU's build and the Python reference read it here.
+"""The rivet table: its file format and its reader.  rivet_model writes the file; the FMU's build and the Python
+reference read it here.
 
-The file is JSON text.  Sections: `header` {format, kind (one of KINDS), note, geometry, geometry_hash, Z, units, errors, digest}, `shank` (knots and spline
-coefficients of the stress over what the shank carries, see fmu_src/rivet/rivet_rom.h; constants of head friction and yield), `fit_eff` (interference with
-plasticity), `joint` (stiffnesses for the dynamics), `half` (the cage half: masses, load path and law of its joints, see half_path.py and joint_law.py),
-`modes` (its vibration, see half_modes.py; closed forms have none).
-Units in the file are SI except stress per force, which is in MPa/N = 1/mm2 to keep it readable.
+The file is JSON text.  Sections: `header` {format, kind (one of KINDS), note, geometry, geometry_hash, Z, units,
+errors, digest}, `shank` (knots and spline coefficients of the stress over what the shank carries, see
+fmu_src/rivet/rivet_rom.h; constants of head friction and yield), `fit_eff` (interference with plasticity), `joint`
+(stiffnesses for the dynamics), `half` (the cage half: masses, load path and law of its joints, see half_path.py and
+joint_law.py), `modes` (its vibration, see half_modes.py; closed forms have none). Units in the file are SI except
+stress per force, which is in MPa/N = 1/mm2 to keep it readable.
 """
 
 import hashlib
@@ -14,13 +16,14 @@ from pathlib import Path
 
 import numpy as np
 
-from bearing_model.cage.two_half import half_path
 from bearing_model.cage.common import joint_law
 from bearing_model.cage.elastic.half_modes import PAD, RIVET, HalfModes, Residual
+from bearing_model.cage.two_half import half_path
 
 DEFAULT_TABLE = Path(__file__).resolve().parents[1] / "rivet_model" / "tables" / "6207.json"
 FORMAT = "rivet-table-5"
-KINDS = {"fe": "finite elements", "fe_coarse": "coarse finite elements", "closed_form": "closed forms"}  # numbered from 1: the output rivet.table_kind
+# numbered from 1: the output rivet.table_kind
+KINDS = {"fe": "finite elements", "fe_coarse": "coarse finite elements", "closed_form": "closed forms"}
 SECTIONS = ("header", "shank", "fit_eff", "joint", "half", "modes")
 CHANNELS = ("head_p1", "head_vm", "mid_vm", "mid_p1")
 SHANK_AXES = ("a", "c", "xi")
@@ -31,7 +34,9 @@ JOINT_KEYS = ("A", "d_m", "d", "grip", "seat", "k_t_plate", "k_t_head", "k_stack
 
 @dataclass
 class ShankTable:
-    """Stress of the rivet over what its shank carries: sigma = s T(a, c, xi), s = tension + V, a = V/s, c = |m|/(length tension), xi = fit_eff/s."""
+    """Stress of the rivet over what its shank carries: sigma = s T(a, c, xi), s = tension + V, a = V/s, c = |m|/(length
+    tension), xi = fit_eff/s.
+    """
 
     length: float  # of c = 1: largest moment of the shank per tension [m]
     knots: dict  # SHANK_AXES -> knots
@@ -60,7 +65,9 @@ class HalfData:
 
 @dataclass
 class RivetTable:
-    """Everything the FMU knows of one rivet joint and its cage half.  Arrays are those of the file; coefficients in 1/m2, rounded to five digits."""
+    """Everything the FMU knows of one rivet joint and its cage half.  Arrays are those of the file; coefficients in
+    1/m2, rounded to five digits.
+    """
 
     kind: str  # one of KINDS
     geometry: dict
@@ -158,7 +165,11 @@ def _sections(path):
     except (KeyError, TypeError) as error:
         raise ValueError(f"{path}: not a rivet table: {error} is missing") from error
     _need(known_format == FORMAT, path, f"format is {known_format!r}; {FORMAT!r} is needed")
-    _need(digest_of({k: data[k] for k in data if k != "header"}) == digest, path, "damaged: the digest in the header does not fit its sections")
+    _need(
+        digest_of({k: data[k] for k in data if k != "header"}) == digest,
+        path,
+        "damaged: the digest in the header does not fit its sections",
+    )
     return (_Section(path, name, members) for name, members in sections.items())
 
 
@@ -170,7 +181,11 @@ def _spline(path, section, axes, shape):
         _need(np.all(np.diff(values) > 0), path, f"{section.name}: knots of axis {name} do not increase")
     shape = (*(len(knots[name]) + 1 for name in axes), *shape)
     coefficients = section.numbers("coefficients")
-    _need(len(coefficients) == np.prod(shape), path, f"{section.name}: {len(coefficients)} coefficients; {np.prod(shape)} are needed")
+    _need(
+        len(coefficients) == np.prod(shape),
+        path,
+        f"{section.name}: {len(coefficients)} coefficients; {np.prod(shape)} are needed",
+    )
     return knots, coefficients.reshape(shape)
 
 
@@ -193,7 +208,11 @@ def _read_half(path, section, Z):
     chi, spin = section.numbers("chi"), section.array("spin", (8,))
     for key in ("m", "J_p", "J_t", "k_open"):
         _need(section.number(key) > 0.0, path, f"half.{key} = {section.number(key)}: more than 0 is needed")
-    _need(section.number("k_closed") > section.number("k_open"), path, f"half.k_closed = {section.number('k_closed')}: more than k_open is needed")
+    _need(
+        section.number("k_closed") > section.number("k_open"),
+        path,
+        f"half.k_closed = {section.number('k_closed')}: more than k_open is needed",
+    )
     stiffness, slip_stiffness = section.array("stiffness", (Z, 3, 3)), section.array("slip_stiffness", (Z, 2, 2))
     return HalfData(
         **{key: section.number(key) for key in ("m", "x_c", "J_p", "J_t", "k_closed", "k_open")},
@@ -209,11 +228,23 @@ def _read_modes(path, section, Z, chi):
     if not section.members:
         return None
     omega = section.numbers("omega")
-    _need(np.all(np.diff(omega) >= 0.0) and omega[0] > 0.0, path, "modes.omega: positive numbers that do not decrease are needed")
+    _need(
+        np.all(np.diff(omega) >= 0.0) and omega[0] > 0.0,
+        path,
+        "modes.omega: positive numbers that do not decrease are needed",
+    )
     harmonic, parity = (section.array(key, omega.shape) for key in ("harmonic", "parity"))
-    _need(np.all(np.isin(harmonic, np.arange(Z // 2 + 1))), path, f"modes.harmonic: whole numbers from 0 to {Z // 2} are needed")
+    _need(
+        np.all(np.isin(harmonic, np.arange(Z // 2 + 1))),
+        path,
+        f"modes.harmonic: whole numbers from 0 to {Z // 2} are needed",
+    )
     single = np.isin(2 * harmonic, (0, Z))
-    _need(np.all(np.isin(parity, (-1, 0, 1)) & ((parity == 0) != single)), path, "modes.parity: 1 or -1 of harmonics 0 and Z/2, 0 of the others is needed")
+    _need(
+        np.all(np.isin(parity, (-1, 0, 1)) & ((parity == 0) != single)),
+        path,
+        "modes.parity: 1 or -1 of harmonics 0 and Z/2, 0 of the others is needed",
+    )
     at = _Section(path, "modes.residual", section.member("residual", dict))
     both = len(PAD) + len(RIVET)
     residual = Residual(
@@ -235,7 +266,16 @@ def _read_modes(path, section, Z, chi):
     law = joint_law.LawBehind(law.number("length"), knots, coefficients, stiffness)
     shapes = {"pocket": (len(chi), 3, 2), "pad": (len(PAD),), "rivet": (len(RIVET),), "rim": (2,), "spin": ()}
     arrays = {key: section.array(key, (len(omega), *shape)) for key, shape in shapes.items()}
-    return HalfModes(Z=Z, chi=chi, omega=omega, harmonic=harmonic.astype(int), parity=parity.astype(int), residual=residual, law=law, **arrays)
+    return HalfModes(
+        Z=Z,
+        chi=chi,
+        omega=omega,
+        harmonic=harmonic.astype(int),
+        parity=parity.astype(int),
+        residual=residual,
+        law=law,
+        **arrays,
+    )
 
 
 def _check_joint(path, joint):
@@ -245,15 +285,20 @@ def _check_joint(path, joint):
     for key in (key for key in JOINT_KEYS if key.startswith("k_")):
         _need(joint.number(key) > 0.0, path, f"joint.{key} = {joint.number(key)}: more than 0 is needed")
     fit, k_hole = joint.numbers("hole_fit"), joint.numbers("k_hole")
-    _need(len(fit) == len(k_hole) and np.all(np.diff(fit) > 0), path, "joint.hole_fit does not increase, or has not as many values as joint.k_hole")
+    _need(
+        len(fit) == len(k_hole) and np.all(np.diff(fit) > 0),
+        path,
+        "joint.hole_fit does not increase, or has not as many values as joint.k_hole",
+    )
     _need(np.all(k_hole > 0.0), path, "joint.k_hole: more than 0 is needed")
 
 
 def read(path, Z=None):
     """Read and check a table.
 
-    Z: number of rivets that is needed, if given.  Raises ValueError naming file and fault (not JSON, another format, a damaged section, a wrong
-    type or size, a number that is not finite, a table for another Z), OSError if it cannot be read.
+    Z: number of rivets that is needed, if given.  Raises ValueError naming file and fault (not JSON, another format, a
+    damaged section, a wrong type or size, a number that is not finite, a table for another Z), OSError if it cannot be
+    read.
     """
     header, shank, fit, joint, half, modes = _sections(path)
     made_for = header.member("Z", int)
@@ -262,7 +307,9 @@ def read(path, Z=None):
     _need(kind in KINDS, path, f"kind is {kind!r}; one of {', '.join(KINDS)} is needed")
     _check_joint(path, joint)
     fits = {name: fit.numbers(name) for name in ("fit_a", "j2", "slope")}
-    _need(len({len(values) for values in fits.values()}) == 1, path, "fit_eff: fit_a, j2 and slope have different lengths")
+    _need(
+        len({len(values) for values in fits.values()}) == 1, path, "fit_eff: fit_a, j2 and slope have different lengths"
+    )
     _need(np.all(np.diff(fits["fit_a"]) > 0), path, "fit_eff.fit_a does not increase")
     cage_half = _read_half(path, half, made_for)
     return RivetTable(

@@ -5,17 +5,18 @@
     rigid cage   the wrench between the halves, (half 1 - half 0)/2 as both have the same inertia, on the circle of rivets; its transverse
                  part loads plates (up to mu T), then heads (mu T more), then the shank, T = P + dT (cage_joint_prying)
 
-To this rigid share the elastic halves add what bonded joints would carry of pocket forces and of the cage's own centrifugal load (half_path.py).  Joints
-that open and slip relieve it (joint_law.py); in the plane they have for it what the rigid share leaves of friction and play.  The work of the added
-loads is that of the halves' elastic deformation, which the dynamics of rigid halves does not have: on rigid halves the centrifugal loads of all parts
+To this rigid share the elastic halves add what bonded joints would carry of pocket forces and of the cage's own
+centrifugal load (half_path.py).  Joints that open and slip relieve it (joint_law.py); in the plane they have for it
+what the rigid share leaves of friction and play.  The work of the added loads is that of the halves' elastic
+deformation, which the dynamics of rigid halves does not have: on rigid halves the centrifugal loads of all parts
 balance, so that they do no work and the energy balance has no term for them.
 
-In a frame that turns, the centrifugal load is that of the speed in the fixed frame; a uniform field of gravity or of the frame's acceleration acts on a
-half as its own acceleration does, and is in the load path's balance of forces.
+In a frame that turns, the centrifugal load is that of the speed in the fixed frame; a uniform field of gravity or of
+the frame's acceleration acts on a half as its own acceleration does, and is in the load path's balance of forces.
 
-The tangential inertia load of a cage whose speed changes (Euler's) is to the centrifugal one as omega_dot to omega^2: 1.3 % in a run-up to 18,238 r/min
-within 0.1 s, 0.013 % within 10 s, so it is left out.  What a pocket force accelerates is in the load path: its finite elements balance the force
-by the half's inertia.
+The tangential inertia load of a cage whose speed changes (Euler's) is to the centrifugal one as omega_dot to omega^2:
+1.3 % in a run-up to 18,238 r/min within 0.1 s, 0.013 % within 10 s, so it is left out.  What a pocket force accelerates
+is in the load path: its finite elements balance the force by the half's inertia.
 
 All loads are on the +x half, in the frames (x, r, t) of the rivets, at body angles 2 pi (k + 1/2)/Z of half 0.
 """
@@ -25,13 +26,13 @@ from dataclasses import dataclass
 import numpy as np
 
 from bearing_model.cage.common.cage_joint import cage_joint_prying
-from bearing_model.cage.two_half.half_path import bolt_group, path_load
 from bearing_model.cage.common.joint_law import joints_open, joints_slip
-from bearing_model.numbers.lanes import ball_array_sum
 from bearing_model.cage.common.pocket import pocket_split
-from bearing_model.rivet.rivet_rom import RivetLoad
+from bearing_model.cage.two_half.half_path import bolt_group, path_load
 from bearing_model.generated.variables import CageModel
+from bearing_model.numbers.lanes import ball_array_sum
 from bearing_model.numbers.vec import vec_dot
+from bearing_model.rivet.rivet_rom import RivetLoad
 
 
 @dataclass
@@ -57,7 +58,9 @@ class JointLoads:
 
 @dataclass
 class RigidShare:
-    """What rigid halves do to the joints: external tension, transverse loads (r, t) [2, ..., Z] of plates, heads and shank, and what they leave."""
+    """What rigid halves do to the joints: external tension, transverse loads (r, t) [2, ..., Z] of plates, heads and
+    shank, and what they leave.
+    """
 
     N: np.ndarray
     plates: np.ndarray
@@ -107,8 +110,13 @@ def rigid_wrench(model, w, pocket_F, pocket_M):
 
 def rigid_share(model, w, pocket_F, pocket_M):
     """RigidShare of a rigid cage."""
-    R, friction = 0.5 * model.d.table.joint["d_m"], model.p.joint.mu * np.maximum(model.d.P_mean + cage_joint_prying(model, w), 0.0)
-    N, V_y, V_z = bolt_group(2.0 * R, rigid_wrench(model, w, pocket_F, pocket_M), model.d.rivet_y / R, model.d.rivet_z / R)
+    R, friction = (
+        0.5 * model.d.table.joint["d_m"],
+        model.p.joint.mu * np.maximum(model.d.P_mean + cage_joint_prying(model, w), 0.0),
+    )
+    N, V_y, V_z = bolt_group(
+        2.0 * R, rigid_wrench(model, w, pocket_F, pocket_M), model.d.rivet_y / R, model.d.rivet_z / R
+    )
     force = turned(model, np.array([V_y, V_z]))
     V = np.hypot(*force)
     along = np.divide(force, V, out=np.zeros_like(force), where=V > 0.0)
@@ -128,7 +136,10 @@ def pocket_rows(model, pocket, push, h):
     """Rows [..., Z, 8] of half_path.py by the forces on the pockets of half h."""
     half, side = model.d.table.half, 2 * h - 1
     force, push = np.moveaxis(pocket, 0, -2), np.moveaxis(push, 0, -2)  # [..., 3, Z], [..., 2, Z]
-    flat = [path_load(half, side, *at) for at in zip(push.reshape(-1, *push.shape[-2:]), force.reshape(-1, *force.shape[-2:]), strict=True)]
+    flat = [
+        path_load(half, side, *at)
+        for at in zip(push.reshape(-1, *push.shape[-2:]), force.reshape(-1, *force.shape[-2:]), strict=True)
+    ]
     return np.array(flat).reshape(*force.shape[:-2], *np.shape(flat)[1:])
 
 
@@ -158,12 +169,17 @@ def rivets_load(model, w):
 
     # joints that open
     bonded, P = np.stack([share.N + N, M_r, M_t], axis=-1), d.intact * np.maximum(d.P + dP, 0.0)
-    load, rivet, _ = joints_open(law, bonded, P, spin[..., 0, 4], np.maximum(d.P_mean + spin[..., 0, 5], 0.0), intact=d.intact > 0.0)
+    load, rivet, _ = joints_open(
+        law, bonded, P, spin[..., 0, 4], np.maximum(d.P_mean + spin[..., 0, 5], 0.0), intact=d.intact > 0.0
+    )
 
     # joints that slip
     args = share.gap_left, share.plates_left, share.heads_left, d.k_head, d.k_hole
     carried = joints_slip(law, np.stack([V_r, V_t], axis=-1), *args)[:3]
-    plates, heads, shank = (rigid + np.moveaxis(more, -1, 0) for rigid, more in zip((share.plates, share.heads, share.shank), carried, strict=True))
+    plates, heads, shank = (
+        rigid + np.moveaxis(more, -1, 0)
+        for rigid, more in zip((share.plates, share.heads, share.shank), carried, strict=True)
+    )
     return JointLoads(
         N=load[..., 0],
         M_r=load[..., 1],

@@ -3,8 +3,8 @@
     results = simulate({"cage.pocket_clearance": 0.1e-3}, {"shaft.tilt_z": 2e-3}, t_end=0.01)
     results["ball[1].Q_c"], results["cage.omega"]
 
-Communication points and edges of pulses are hit exactly, because an integration ends at each of them.  The error of a step is the RMS over the
-states of error/(tolerance scale); derived.py sets the scales, and no tolerance is relative.
+Communication points and edges of pulses are hit exactly, because an integration ends at each of them.  The error of a
+step is the RMS over the states of error/(tolerance scale); derived.py sets the scales, and no tolerance is relative.
 """
 
 import functools
@@ -13,12 +13,14 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from scipy.integrate import BDF, DOP853, LSODA, RK23, RK45, Radau
 
+from bearing_model.generated.variables import OUTPUTS, WORK, RingMotion, Stress, Switch, Z
 from bearing_model.instance.energy import energy_total
 from bearing_model.instance.fatigue import FatigueChannel, FatigueLaw
-from bearing_model.physics.hertz import hertz_energy
 from bearing_model.instance.ledger import Ledger
-from bearing_model.physics.model import Model, Work, derived_at
 from bearing_model.instance.outputs import outputs
+from bearing_model.instance.statistics import StatisticsChannel
+from bearing_model.physics.hertz import hertz_energy
+from bearing_model.physics.model import Model, Work, derived_at
 from bearing_model.physics.parameters import InputDerivatives, Inputs, Parameters
 from bearing_model.physics.rhs import jacobian, rhs
 from bearing_model.physics.ring_fit import ring_fit_growth, ring_fit_speed
@@ -31,12 +33,10 @@ from bearing_model.physics.ring_load import (
     pulse_next_edge,
     ring_load_at,
 )
+from bearing_model.physics.temperature import temperature_same
 from bearing_model.rivet.rivet_rom import HEAD_P1, MID_VM, rivet_rom_stress
 from bearing_model.rivet.rivets import rivets_load, rivets_slip
 from bearing_model.solver.start import ring_follow, start_state
-from bearing_model.instance.statistics import StatisticsChannel
-from bearing_model.physics.temperature import temperature_same
-from bearing_model.generated.variables import OUTPUTS, WORK, RingMotion, Stress, Switch, Z
 
 METHODS = {"DOP853": DOP853, "RK45": RK45, "RK23": RK23, "Radau": Radau, "BDF": BDF, "LSODA": LSODA}
 IMPLICIT = ("Radau", "BDF", "LSODA")
@@ -48,9 +48,9 @@ FIRST_STEP = 1e-6  # [s]
 class Results:
     """What a simulation returns.
 
-    t: communication points [s]; y: states there [points, N_STATES]; outputs: name of the variable table -> [points] or [points, Z];
-    statistics: stat.* and the damage of the rivets at the end; ledger: where the energy went, each term [points]; steps, rhs_evals: work done.
-    results[name] takes any output's name, "ball[3].Q_i" or "ball[j].Q_i".
+    t: communication points [s]; y: states there [points, N_STATES]; outputs: name of the variable table -> [points] or
+    [points, Z]; statistics: stat.* and the damage of the rivets at the end; ledger: where the energy went, each term
+    [points]; steps, rhs_evals: work done. results[name] takes any output's name, "ball[3].Q_i" or "ball[j].Q_i".
     """
 
     t: np.ndarray
@@ -80,7 +80,8 @@ class Record:
 
     p: Parameters
     force: StatisticsChannel = field(default_factory=lambda: StatisticsChannel(FORCE_FLOOR))
-    head: list = field(default_factory=lambda: [StatisticsChannel(STRESS_FLOOR) for _ in range(Z + 1)])  # one for each rivet, the last one for the worst rivet
+    # one for each rivet, the last one for the worst rivet
+    head: list = field(default_factory=lambda: [StatisticsChannel(STRESS_FLOOR) for _ in range(Z + 1)])
     mid: list = field(default_factory=lambda: [StatisticsChannel(STRESS_FLOOR) for _ in range(Z + 1)])
     fatigue_head: list = field(default_factory=lambda: [FatigueChannel() for _ in range(Z)])
     fatigue_mid: list = field(default_factory=lambda: [FatigueChannel() for _ in range(Z)])
@@ -94,7 +95,9 @@ class Record:
         return FatigueLaw(**vars(self.p.fatigue))
 
     def add(self, model, t, h, w):
-        """Record accepted steps of lengths h [s] that end at the times t, from the evaluation w at their ends; returns the peaks by output name."""
+        """Record accepted steps of lengths h [s] that end at the times t, from the evaluation w at their ends; returns
+        the peaks by output name.
+        """
         p, counts = self.p, (t >= self.p.start.settle) & (self.p.scene.statistics == Switch.ON)
         weight = np.repeat(h[:, None], Z, axis=1)
         self.force.add(weight[counts].ravel(), w.Q_pocket[counts].ravel())
@@ -129,7 +132,11 @@ class Record:
         """stat.* and damage by the names of the variable table."""
         time, p = self.force.time / Z, 0.999  # each ball has added the time of each step
         share = 1.0 / time if time > 0.0 else 0.0
-        values = {"stat.time": time, "stat.contact_duty": self.duty_time * share / Z, "stat.cage_omega": self.omega_time * share}
+        values = {
+            "stat.time": time,
+            "stat.contact_duty": self.duty_time * share / Z,
+            "stat.cage_omega": self.omega_time * share,
+        }
         values |= {"stat.eccentricity": self.eccentricity_time * share, "stat.dislocation_max": self.dislocation_max}
 
         def four(channel):
@@ -138,7 +145,10 @@ class Record:
         values |= {f"stat.Q_c_{name}": value for name, value in four(self.force).items()}
         for part, channels, fatigue in (("head", self.head, self.fatigue_head), ("mid", self.mid, self.fatigue_mid)):
             values |= {f"stat.sigma_{part}_{name}": value for name, value in four(channels[Z]).items()}
-            values |= {f"stat.rivet_{part}_{name}[k]": np.array([four(c)[name] for c in channels[:Z]]) for name in ("mean", "rms", "p999", "max")}
+            values |= {
+                f"stat.rivet_{part}_{name}[k]": np.array([four(c)[name] for c in channels[:Z]])
+                for name in ("mean", "rms", "p999", "max")
+            }
             values[f"rivet[k].damage_{part}"] = np.array([channel.damage(self.law) for channel in fatigue])
         return values
 
@@ -173,22 +183,37 @@ class Integration:
             states.append(solver.y.copy())
             self.steps += 1
             if self.steps > self.p.solver.max_steps:
-                raise RuntimeError(f"t = {solver.t:.9g} s: more than solver.max_steps = {self.p.solver.max_steps} steps")
+                raise RuntimeError(
+                    f"t = {solver.t:.9g} s: more than solver.max_steps = {self.p.solver.max_steps} steps"
+                )
         self.step_size = max(getattr(solver, "h_abs", solver.step_size), 0.9 * self.step_size)
         self.rhs_evals += solver.nfev
         self.t, self.y = t_end, solver.y
         return np.array(times), np.array(states)
 
 
-def simulate(parameters=None, inputs=None, t_end=1e-3, *, derivatives=None, step=1e-4, t_start=0.0, tolerance=None, method="DOP853", y=None, table=None):
-    """Integrate from the quasi-static start (or the state y) at t_start to t_end [s]; returns Results at communication points `step` [s] apart.
+def simulate(
+    parameters=None,
+    inputs=None,
+    t_end=1e-3,
+    *,
+    derivatives=None,
+    step=1e-4,
+    t_start=0.0,
+    tolerance=None,
+    method="DOP853",
+    y=None,
+    table=None,
+):
+    """Integrate from the quasi-static start (or the state y) at t_start to t_end [s]; returns Results at communication
+    points `step` [s] apart.
 
-    parameters: {name: value} of the variable table in SI, others at their start values.  inputs: the same, or a function t -> {name: value} called
-    at each communication point and held until the next one, as an FMU's inputs are.  derivatives: a function t -> (first, second) derivatives of
-    inputs {name: value}, called at the same points: the inputs are then polynomials of time until the next point.  tolerance: of a step, relative to
-    the error scales; default solver.tol.  method: DOP853, RK45, RK23, or with the exact Jacobian Radau, BDF, LSODA.  table: RivetTable, default
-    that of the 6207.
-    ValueError names a value that is not allowed; RuntimeError if the solver cannot go on.
+    parameters: {name: value} of the variable table in SI, others at their start values.  inputs: the same, or a
+    function t -> {name: value} called at each communication point and held until the next one, as an FMU's inputs are.
+    derivatives: a function t -> (first, second) derivatives of inputs {name: value}, called at the same points: the
+    inputs are then polynomials of time until the next point.  tolerance: of a step, relative to the error scales;
+    default solver.tol.  method: DOP853, RK45, RK23, or with the exact Jacobian Radau, BDF, LSODA.  table: RivetTable,
+    default that of the 6207. ValueError names a value that is not allowed; RuntimeError if the solver cannot go on.
 
     >>> results = simulate({"scene.cage": "rigid"}, {"shaft.F_y": 1000.0}, t_end=1e-4)
     >>> results["ball[1].Q_i"].shape
@@ -197,12 +222,16 @@ def simulate(parameters=None, inputs=None, t_end=1e-3, *, derivatives=None, step
     if method not in METHODS:
         raise ValueError(f"method = {method!r}: allowed are {', '.join(METHODS)}")
     if not (t_end > t_start and step > 0.0):
-        raise ValueError(f"t_end = {t_end} s, step = {step} s: t_end must be after t_start = {t_start} s and step positive")
+        raise ValueError(
+            f"t_end = {t_end} s, step = {step} s: t_end must be after t_start = {t_start} s and step positive"
+        )
     if tolerance is not None and not tolerance > 0.0:
         raise ValueError(f"tolerance = {tolerance}: more than 0 is allowed")
     p, held = Parameters(parameters), inputs if callable(inputs) else lambda t: inputs
     slopes = derivatives or (lambda t: ({}, {}))
-    here = input_trajectory_update(p, (Inputs(held(t_start)), *map(InputDerivatives, slopes(t_start))), t_start, t_start)
+    here = input_trajectory_update(
+        p, (Inputs(held(t_start)), *map(InputDerivatives, slopes(t_start))), t_start, t_start
+    )
     model = Model(*derived_at(p, here.u[0], table), ring_load_at(here, t_start))
     y = start_state(model)[0] if y is None else np.array(y, dtype=float)
     run = Integration(p, t_start, y, p.solver.tol if tolerance is None else tolerance, method)
@@ -214,17 +243,27 @@ def simulate(parameters=None, inputs=None, t_end=1e-3, *, derivatives=None, step
     points = np.minimum(t_start + step * np.arange(count + 1), t_end)
     ledger, history = Ledger(), None
     ledger.add(model, np.array([t_start]), y[None])
-    first = observe(model, t_start, y, energy_start) | accepted(model, record, np.array([t_start]), np.zeros(1), y[None])
+    first = observe(model, t_start, y, energy_start) | accepted(
+        model, record, np.array([t_start]), np.zeros(1), y[None]
+    )
     states, ledgers, rows = [y], [ledger.copy()], [first]
     for point in points[1:]:
         u, peaks, t_0, angle = [Inputs(held(run.t)), *map(InputDerivatives, slopes(run.t))], [], run.t, here.frame_angle
         given, reached = u, here.u[0]
-        u, history = motion_trajectory(p, given, reached, point - t_0, history), motion_remember(given[0], point - t_0, history)
+        u, history = (
+            motion_trajectory(p, given, reached, point - t_0, history),
+            motion_remember(given[0], point - t_0, history),
+        )
         model, expansion = at_temperature(p, model, reached, given[0], run, table)
         expansion += at_speed(model, given[0], run)
         while run.t < point:
             trajectory, begin, y_begin = input_trajectory_update(p, u, t_0, run.t, angle), run.t, run.y
-            model = Model(model.p, model.d, ring_load_at(trajectory, run.t), trajectory if input_trajectory_varies(trajectory) else None)
+            model = Model(
+                model.p,
+                model.d,
+                ring_load_at(trajectory, run.t),
+                trajectory if input_trajectory_varies(trajectory) else None,
+            )
             times, ys = run.segment(model, min(pulse_next_edge(p, run.t), point))
             peaks.append(accepted(model, record, times, np.diff(times, prepend=begin), ys))
             ledger.add(model, np.append(begin, times), np.vstack([y_begin, ys]))
@@ -236,13 +275,20 @@ def simulate(parameters=None, inputs=None, t_end=1e-3, *, derivatives=None, step
         energy_start += expansion + further
         states.append(run.y)
         ledgers.append(ledger.copy())
-        rows.append(observe(model, run.t, run.y, energy_start) | {name: np.max([peak[name] for peak in peaks], axis=0) for name in peaks[0]})
+        rows.append(
+            observe(model, run.t, run.y, energy_start)
+            | {name: np.max([peak[name] for peak in peaks], axis=0) for name in peaks[0]}
+        )
     table_of = {name: np.array([row[name] for row in rows]) for name in rows[0]}
-    return Results(points, np.array(states), table_of, record.statistics(), Ledger.over_time(ledgers), run.steps, run.rhs_evals)
+    return Results(
+        points, np.array(states), table_of, record.statistics(), Ledger.over_time(ledgers), run.steps, run.rhs_evals
+    )
 
 
 def at_temperature(p, model, from_, u, run, table):
-    """The Model at the temperatures in the Inputs u instead of those in from_, and the work of the expansion [J], which is no part of the energy balance."""
+    """The Model at the temperatures in the Inputs u instead of those in from_, and the work of the expansion [J], which
+    is no part of the energy balance.
+    """
     if temperature_same(from_, u):
         return model, 0.0
     hot = Model(*derived_at(p, u, table), model.ring_load)

@@ -5,10 +5,11 @@
     these are minus the gradient of
     Pi = sum_j (2/5)(K_i delta_i^2.5 + K_e delta_e^2.5) - F_c r_j + k_0 x_j^2/2  - F.x - M.(beta, gamma) + support energy + k_0 (x^2 + ...)/2
 
-Forces come from race_contact_force at rest.  Two small forces make the equilibrium unique: F_0 presses unloaded balls outward at standstill, and the
-springs k_0 (0.01 N over 10 um) hold the coordinates on which no load acts, as the axial one without axial load.  Then all parts get kinematic speeds
-without slip.  The cage takes the mean and the first harmonic of the balls' axial positions, because the balls of a tilted ring would otherwise start
-inside its walls, and turns with the balls.
+Forces come from race_contact_force at rest.  Two small forces make the equilibrium unique: F_0 presses unloaded balls
+outward at standstill, and the springs k_0 (0.01 N over 10 um) hold the coordinates on which no load acts, as the axial
+one without axial load.  Then all parts get kinematic speeds without slip.  The cage takes the mean and the first
+harmonic of the balls' axial positions, because the balls of a tilted ring would otherwise start inside its walls, and
+turns with the balls.
 """
 
 from dataclasses import replace
@@ -17,11 +18,6 @@ import numpy as np
 from scipy.optimize import minimize
 
 from bearing_model.cage.elastic.cage_elastic import cage_elastic_rest
-from bearing_model.instance.events import ellipse_reach
-from bearing_model.physics.hertz import hertz_energy
-from bearing_model.physics.model import Work
-from bearing_model.physics.race_contact import race_contact_force
-from bearing_model.physics.rotor import Rotor, rotor_axis, rotor_body_axes
 from bearing_model.generated.variables import (
     BALL_OMEGA_M,
     BALL_OMEGA_R,
@@ -56,7 +52,12 @@ from bearing_model.generated.variables import (
     TiltMode,
     Z,
 )
+from bearing_model.instance.events import ellipse_reach
 from bearing_model.numbers.vec import vec_cross
+from bearing_model.physics.hertz import hertz_energy
+from bearing_model.physics.model import Work
+from bearing_model.physics.race_contact import race_contact_force
+from bearing_model.physics.rotor import Rotor, rotor_axis, rotor_body_axes
 
 K_0 = 1e3  # [N/m]
 F_0 = 1e-3  # [N]
@@ -64,7 +65,9 @@ STEP = 2e-5  # first trust radius of the minimisation [m]
 
 
 class Equilibrium:
-    """Forces and potential as functions of the unknowns z = (x, y, z, r beta, r gamma of the ring, x of the balls, r of the balls) [m], r = d_m/2."""
+    """Forces and potential as functions of the unknowns z = (x, y, z, r beta, r gamma of the ring, x of the balls, r of
+    the balls) [m], r = d_m/2.
+    """
 
     def __init__(self, model, theta):
         p, ring_load = model.p, model.ring_load
@@ -97,7 +100,9 @@ class Equilibrium:
     def contacts(self, z):
         """Results of race_contact_force with everything at rest."""
         rest = 0.0 * z[..., 5 : 5 + Z]
-        w = Work(x=z[..., 5 : 5 + Z], r=z[..., 5 + Z :], cos_theta=self.cos_theta, sin_theta=self.sin_theta, ring=Rotor())
+        w = Work(
+            x=z[..., 5 : 5 + Z], r=z[..., 5 + Z :], cos_theta=self.cos_theta, sin_theta=self.sin_theta, ring=Rotor()
+        )
         w.v_x = w.v_r = w.v_t = w.omega_m = w.omega_x = w.omega_r = w.omega_t = rest
         w.ring.x = np.array([z[..., i : i + 1] for i in range(3)])
         w.ring.v = 0.0 * w.ring.x
@@ -118,7 +123,9 @@ class Equilibrium:
         ring = np.moveaxis(w.ring.F[..., 0], 0, -1) + self.F - K_0 * (z[..., :3] - self.centre[:3])
         moment = np.moveaxis(w.ring.M[1:, ..., 0], 0, -1) + ring_load.M
         tilt = (moment - self.k * (z[..., 3:5] - target) / r) / r - K_0 * z[..., 3:5]
-        return np.concatenate([ring, tilt, w.F[0] + self.F_x - K_0 * (w.x - self.x_0), w.F[1] + self.F_c + self.F_r], axis=-1)[..., self.free]
+        return np.concatenate(
+            [ring, tilt, w.F[0] + self.F_x - K_0 * (w.x - self.x_0), w.F[1] + self.F_c + self.F_r], axis=-1
+        )[..., self.free]
 
     def stiffness(self, free):
         """-d force/d free [N/m] by complex steps."""
@@ -145,10 +152,18 @@ def resting(ring_load):
 def equilibrium(eq):
     """All unknowns in equilibrium, and the largest residual force [N]."""
     options = {"gtol": 0.1 * F_0, "initial_trust_radius": STEP, "max_trust_radius": 20.0 * STEP, "maxiter": 300}
-    z = minimize(eq.potential, eq.start[eq.free], method="trust-exact", jac=lambda z: -eq.force(z), hess=eq.stiffness, options=options).x
+    z = minimize(
+        eq.potential,
+        eq.start[eq.free],
+        method="trust-exact",
+        jac=lambda z: -eq.force(z),
+        hess=eq.stiffness,
+        options=options,
+    ).x
     residual = np.max(np.abs(eq.force(z)))
     for _ in range(50):  # Newton's method, as long as the residual falls
-        trial = z + np.linalg.solve(eq.stiffness(z) + np.eye(len(z)), eq.force(z))  # 1 N/m more: a ball loose between the races has no stiffness
+        # 1 N/m more: a ball loose between the races has no stiffness
+        trial = z + np.linalg.solve(eq.stiffness(z) + np.eye(len(z)), eq.force(z))
         left = np.max(np.abs(eq.force(trial)))
         if not left < residual:
             break
@@ -167,7 +182,9 @@ def uniform(state):
 
 
 def spacing(p, ring_load):
-    """Azimuths of the balls [rad]: equal about the outer ring's centre but for the part start.spacing of the pocket clearance."""
+    """Azimuths of the balls [rad]: equal about the outer ring's centre but for the part start.spacing of the pocket
+    clearance.
+    """
     random, theta = p.start.seed, np.empty(Z)
     spread = p.start.spacing * p.cage.pocket_clearance / (0.5 * p.bearing.d_m)
     for j in range(Z):
@@ -178,17 +195,21 @@ def spacing(p, ring_load):
 
 
 def orbital_speed(model, w):
-    """Orbital speed without slip at both races [rad/s]: against the outer ring, the balls' centres move half as fast as the inner contact points; mean by
-    load."""
+    """Orbital speed without slip at both races [rad/s]: against the outer ring, the balls' centres move half as fast as
+    the inner contact points; mean by load.
+    """
     cosine, load = np.where(w.Q_i > 0.0, np.abs(w.n_i[1]), 1.0), w.Q_i + 1e-9
     outer = model.ring_load.outer_omega
-    return outer + (model.ring_load.omega - outer) * np.average(0.5 * (1.0 - 2.0 * model.d.R * cosine / model.p.bearing.d_m), weights=load)
+    return outer + (model.ring_load.omega - outer) * np.average(
+        0.5 * (1.0 - 2.0 * model.d.R * cosine / model.p.bearing.d_m), weights=load
+    )
 
 
 def cage_pose(model, w, omega_m, y):
-    """Set both halves into the plane x_0 + (beta sin theta - gamma cos theta) r, which fits the balls' axial positions, in the middle of the outer
-    ring, turning
-    steadily about its normal."""
+    """Set both halves into the plane x_0 + (beta sin theta - gamma cos theta) r, which fits the balls' axial positions,
+    in the middle of the outer ring, turning
+    steadily about its normal.
+    """
     x_0 = np.mean(w.x)
     beta, gamma = 2.0 * np.mean(w.x / w.r * w.sin_theta), -2.0 * np.mean(w.x / w.r * w.cos_theta)
     half = Rotor()
@@ -206,7 +227,9 @@ def cage_pose(model, w, omega_m, y):
 
 
 def cage_widened(model, omega_m, y):
-    """Elastic halves at rest under the centrifugal load: coordinates of their modes, and the halves as far apart as their bodies are then."""
+    """Elastic halves at rest under the centrifugal load: coordinates of their modes, and the halves as far apart as
+    their bodies are then.
+    """
     S, apart = cage_elastic_rest(model, omega_m + model.ring_load.frame_omega)
     y[MODE_S][: len(S)] = S
     beta, gamma = y[CAGE_BETA][0], y[CAGE_GAMMA][0]
@@ -234,7 +257,18 @@ def check_grooves(model, w):
 def ring_follow(ring_load, y):
     """The state y with the motion of the ring that is given."""
     y = y.copy()
-    blocks = (RING_X, RING_Y, RING_Z, RING_V_X, RING_V_Y, RING_V_Z, RING_BETA, RING_GAMMA, RING_BETA_DOT, RING_GAMMA_DOT)
+    blocks = (
+        RING_X,
+        RING_Y,
+        RING_Z,
+        RING_V_X,
+        RING_V_Y,
+        RING_V_Z,
+        RING_BETA,
+        RING_GAMMA,
+        RING_BETA_DOT,
+        RING_GAMMA_DOT,
+    )
     given = (*ring_load.x, *ring_load.v, ring_load.beta, ring_load.gamma, ring_load.beta_dot, ring_load.gamma_dot)
     for block, value in zip(blocks, given, strict=True):
         y[block] = value
@@ -255,7 +289,9 @@ def join_motion(model, w, y):
 
 
 def start_state(model):
-    """The start state [states] and the largest residual force of the equilibrium [N]; ValueError if a ball is pressed out of its groove."""
+    """The start state [states] and the largest residual force of the equilibrium [N]; ValueError if a ball is pressed
+    out of its groove.
+    """
     d, theta = model.d, spacing(model.p, model.ring_load)
     eq = Equilibrium(model, theta)
     z, residual = equilibrium(eq)
@@ -268,7 +304,8 @@ def start_state(model):
     y[BALL_R] = w.r
     y[BALL_THETA] = theta
     y[BALL_OMEGA_M] = omega_m
-    # against the outer ring, each ball rolls on its race about an axis across its contact normal: v_t + R (omega_x n_r - omega_r n_x) = 0
+    # against the outer ring, each ball rolls on its race about an axis across its contact normal: v_t + R (omega_x n_r
+    # - omega_r n_x) = 0
     outer = model.ring_load.outer_omega
     rolling = -w.r * (omega_m - outer) / d.R
     y[BALL_OMEGA_X] = rolling * w.n_e[1] + outer

@@ -1,4 +1,5 @@
-"""One step of the default method, a linearly implicit trapezoidal rule, with dense matrices: the readable twin of verlet.c and implicit.c.
+"""One step of the default method, a linearly implicit trapezoidal rule, with dense matrices: the readable twin of
+verlet.c and implicit.c.
 
     v_m = v_n + gamma a_n,  gamma = h/2
     q_{n+1} = q_n + h q'(q_m, v_m),  q_m = q_n + gamma v_m           velocity Verlet; friction states: implicit midpoint (cage_joint_advance)
@@ -7,20 +8,23 @@
     v_{n+1} = v^ + delta = v_n + gamma (a_n + a_{n+1})               the trapezoidal rule; any A and K leave its order two: a W-method
     a_{n+1} -= 0.15 H (a_{n+1} - 2 a_n + a_{n-1}),  H = 1 - (1 + gamma A)^-1    damping of stiff rates
 
-The derivation, the reasons of all constants and the literature are in docs/method.md.  C eliminates balls, ring and halves one after the other, with Schur
-complements; here one dense solve does the same.  Vectors v, a, delta and all matrices have the N_V velocities of the state, in their order.
+The derivation, the reasons of all constants and the literature are in docs/method.md.  C eliminates balls, ring and
+halves one after the other, with Schur complements; here one dense solve does the same.  Vectors v, a, delta and all
+matrices have the N_V velocities of the state, in their order.
 """
 
 from dataclasses import dataclass, field
 
 import numpy as np
 
-from bearing_model.generated import variables
 from bearing_model.cage.common.cage_joint import cage_joint_advance, cage_joint_kinematics
-from bearing_model.cage.elastic.cage_substeps import FastState, cage_substeps_advance, cage_substeps_kick, cage_substeps_split
-from bearing_model.physics.model import Work
-from bearing_model.physics.rhs import jacobian, rhs, rotor_kinematics
-from bearing_model.physics.rotor import rotor_roll
+from bearing_model.cage.elastic.cage_substeps import (
+    FastState,
+    cage_substeps_advance,
+    cage_substeps_kick,
+    cage_substeps_split,
+)
+from bearing_model.generated import variables
 from bearing_model.generated.variables import (
     BALL_OMEGA_M,
     BALL_R,
@@ -50,6 +54,9 @@ from bearing_model.generated.variables import (
     Traction,
     Z,
 )
+from bearing_model.physics.model import Work
+from bearing_model.physics.rhs import jacobian, rhs, rotor_kinematics
+from bearing_model.physics.rotor import rotor_roll
 
 SMOOTHING = 0.15  # part of the second difference of stiff accelerations that is taken away
 STIFF_LIMIT = 2.0  # gamma A of a ball from which its accelerations are smoothed
@@ -57,12 +64,18 @@ COUPLING_LIMIT = 0.2  # gamma A of the ring by traction from which ring and ball
 APPROACH_FLOOR = 1e-12  # least approach in the stiffness 3 Q/(2 delta) [m]
 SAFETY, MIN_FACTOR, MAX_FACTOR = 0.8, 0.2, 1.5  # of the next step size
 LEAST_ERROR = 1e-4  # smaller errors are the same to the next step
-FULL_ORBIT, LEAST_ORBIT = 20.0, 0.1  # orbital speed from which on the scale of velocities along the orbit holds [m/s]; its least part
+# orbital speed from which on the scale of velocities along the orbit holds [m/s]; its least part
+FULL_ORBIT, LEAST_ORBIT = 20.0, 0.1
 LAST_STEP = 1e-9  # part of a step by which the last one may be longer
 
-POSITIONS, FRICTION, V = slice(0, JOINT_PLATE_Y.start), slice(JOINT_PLATE_Y.start, WORK.start), slice(BALL_V_X.start, N_STATES)
+POSITIONS, FRICTION, V = (
+    slice(0, JOINT_PLATE_Y.start),
+    slice(JOINT_PLATE_Y.start, WORK.start),
+    slice(BALL_V_X.start, N_STATES),
+)
 N_V = N_STATES - V.start
-PLACES, RATES = slice(MODE_S.start, MODE_D.stop), slice(MODE_S_DOT.start, MODE_D_DOT.stop)  # of the modes of elastic halves
+# of the modes of elastic halves
+PLACES, RATES = slice(MODE_S.start, MODE_D.stop), slice(MODE_S_DOT.start, MODE_D_DOT.stop)
 
 
 def velocities(*names):
@@ -94,12 +107,15 @@ class VerletState:
 
 @dataclass
 class Blocks:
-    """The matrices of a step [N_V, N_V]: rates A [1/s], stiffnesses K [1/s2], and the parts of both that damp the accelerations."""
+    """The matrices of a step [N_V, N_V]: rates A [1/s], stiffnesses K [1/s2], and the parts of both that damp the
+    accelerations.
+    """
 
     A: np.ndarray
     K: np.ndarray
     A_stiff: np.ndarray
-    K_shear: np.ndarray = field(default_factory=lambda: np.zeros((N_V, N_V)))  # of the joints across the axis: a factor of its own
+    # of the joints across the axis: a factor of its own
+    K_shear: np.ndarray = field(default_factory=lambda: np.zeros((N_V, N_V)))
     axial: float = 0.0  # weights of the position correction of one half against the other: along the axis, across it
     shear: float = 0.0
 
@@ -110,7 +126,7 @@ class Blocks:
         return np.eye(N_V) + gamma * self.A_stiff
 
 
-# -------------------------------------------------------------------------------------------------------------------- Jacobian
+# ------------------------------------------------------------------------------------------------------------- Jacobian
 
 
 def inertia(model, w):
@@ -123,12 +139,16 @@ def inertia(model, w):
 
 
 def ball_surface(model, w, j, n):
-    """B [3, 6]: the velocity v + omega x R n of ball j's surface at a contact, in the ball's frame, is B times the ball's velocities."""
+    """B [3, 6]: the velocity v + omega x R n of ball j's surface at a contact, in the ball's frame, is B times the
+    ball's velocities.
+    """
     return np.hstack([np.diag([1.0, 1.0, w.r[j]]), np.cross(np.eye(3), model.d.R[j] * n).T])  # v_t = r omega_m
 
 
 def race_surface(model, w, j, n):
-    """B [3, 5] of the inner race there, for small tilts of the ring: its angular velocity is (0, beta_dot, gamma_dot) beside the spin."""
+    """B [3, 5] of the inner race there, for small tilts of the ring: its angular velocity is (0, beta_dot, gamma_dot)
+    beside the spin.
+    """
     c, s = w.cos_theta[j], w.sin_theta[j]
     axes = np.array([[1.0, 0.0, 0.0], [0.0, c, -s], [0.0, s, c]])  # rows: global X, Y, Z in the ball's frame
     point = np.array([w.x[j], w.r[j], 0.0]) + model.d.R[j] * n
@@ -136,7 +156,9 @@ def race_surface(model, w, j, n):
 
 
 def ring_coupled(model, w, gamma):
-    """Whether traction holds back the ring so much that ring and balls are solved together: no force moves a ring whose motion is prescribed."""
+    """Whether traction holds back the ring so much that ring and balls are solved together: no force moves a ring whose
+    motion is prescribed.
+    """
     p, rate, r = model.p, gamma * np.sum(w.g_i), 0.5 * model.p.bearing.d_m
     if p.ring.motion == RingMotion.PRESCRIBED:
         return False
@@ -145,13 +167,16 @@ def ring_coupled(model, w, gamma):
 
 
 def ball_blocks(model, w, gamma):
-    """Force per velocity, force per position [N_V, N_V] of race contacts and pockets, and the part of the former that is friction of stiff balls.
+    """Force per velocity, force per position [N_V, N_V] of race contacts and pockets, and the part of the former that
+    is friction of stiff balls.
 
-    A contact's traction is -g P u, u the slip, P = 1 - n n^T, with the secant g = |traction|/|slip|: symmetric, and never below the tangent of a concave law.
-    Its normal force has the rate lambda Q and the stiffness 3 Q/(2 delta).  Pockets: the diagonal of their friction.
+    A contact's traction is -g P u, u the slip, P = 1 - n n^T, with the secant g = |traction|/|slip|: symmetric, and
+    never below the tangent of a concave law. Its normal force has the rate lambda Q and the stiffness 3 Q/(2 delta).
+    Pockets: the diagonal of their friction.
     """
     d, sliced, coupled = model.d, model.p.scene.traction == Traction.SLICED, ring_coupled(model, w, gamma)
-    rate = (1.0 / d.m + d.R**2 / d.J) * (w.g_i + w.g_e) + 0.5 * np.sum(w.D + w.D_omega, axis=0)  # half the trace of A: two tangents share it
+    # half the trace of A: two tangents share it
+    rate = (1.0 / d.m + d.R**2 / d.J) * (w.g_i + w.g_e) + 0.5 * np.sum(w.D + w.D_omega, axis=0)
     A, K, A_stiff = np.zeros((3, N_V, N_V))
     for j in range(Z):
         rows = BALL[:, j]
@@ -179,7 +204,8 @@ def ball_blocks(model, w, gamma):
 
 
 def land_rates(model, film, spin):
-    """Rates [2, N_V, N_V] by the films of both lands: F = -C (v_y + gamma_dot x, v_z - beta_dot x) at the lever x, moment -spin s.
+    """Rates [2, N_V, N_V] by the films of both lands: F = -C (v_y + gamma_dot x, v_z - beta_dot x) at the lever x,
+    moment -spin s.
 
     On a rigid cage both lands hold both halves, each with the inertia of the whole.
     """
@@ -197,20 +223,27 @@ def land_rates(model, film, spin):
 
 
 def joint_blocks(model, w):
-    """Force per axial velocity and per axial offset of half 1 against half 0 [N_V, N_V], of all joints; b = (1, z, -y) of v_x, beta_dot, gamma_dot."""
+    """Force per axial velocity and per axial offset of half 1 against half 0 [N_V, N_V], of all joints; b = (1, z, -y)
+    of v_x, beta_dot, gamma_dot.
+    """
     d, h0 = model.d, w.half[0]
     y, z = (d.rivet_y * h0.b_y[i] + d.rivet_z * h0.b_z[i] for i in (1, 2))
     B = np.zeros((Z, N_V))
     B[:, HALF[[0, 3, 4], 1]] = np.array([np.ones(Z), z, -y]).T
     B[:, HALF[[0, 3, 4], 0]] = -B[:, HALF[[0, 3, 4], 1]]
-    c, k = d.c_joint * w.N_plate / (w.N_plate + model.p.joint.F_floor), d.k_rivet * (w.T > 0.0) + d.k_plate * (w.N_plate > 0.0)
+    c, k = (
+        d.c_joint * w.N_plate / (w.N_plate + model.p.joint.F_floor),
+        d.k_rivet * (w.T > 0.0) + d.k_plate * (w.N_plate > 0.0),
+    )
     return B.T * c @ B, B.T * k @ B
 
 
 def shear_blocks(model, w, gamma):
-    """Force per offset [N_V, N_V] of the joints across the axis: of half 1 against half 0 at a rivet, (v_y - s z, v_z + s y).
+    """Force per offset [N_V, N_V] of the joints across the axis: of half 1 against half 0 at a rivet, (v_y - s z, v_z +
+    s y).
 
-    The lever of the split from the centres of mass is left out.  A friction state that decays with D follows the velocity by gamma/(1 + gamma D) within a step.
+    The lever of the split from the centres of mass is left out.  A friction state that decays with D follows the
+    velocity by gamma/(1 + gamma D) within a step.
     """
     d, h0 = model.d, w.half[0]
     y, z = (d.rivet_y * h0.b_y[i] + d.rivet_z * h0.b_z[i] for i in (1, 2))
@@ -223,45 +256,69 @@ def shear_blocks(model, w, gamma):
 
 
 def ring_support(model):
-    """Rates and stiffnesses [N_V] of the ring's own velocities by its support, and the rates that damp its accelerations."""
+    """Rates and stiffnesses [N_V] of the ring's own velocities by its support, and the rates that damp its
+    accelerations.
+    """
     ring, (A, K, A_stiff) = model.p.ring, np.zeros((3, N_V))
     A[RING[:3]] = A_stiff[RING[:3]] = ring.c / ring.m
     if ring.tilt_mode == TiltMode.PRESCRIBED:
         A[RING[3:]], K[RING[3:]] = 2.0 / ring.tilt_time, 1.0 / ring.tilt_time**2
     if ring.tilt_mode == TiltMode.SUPPORTED:
-        A[RING[3:]], K[RING[3:]], A_stiff[RING[3:]] = ring.c_tilt / ring.J_t, ring.k_tilt / ring.J_t, ring.c_tilt / ring.J_t
+        A[RING[3:]], K[RING[3:]], A_stiff[RING[3:]] = (
+            ring.c_tilt / ring.J_t,
+            ring.k_tilt / ring.J_t,
+            ring.c_tilt / ring.J_t,
+        )
     return A, K, A_stiff
 
 
 def jacobian_blocks(model, t, y, w, gamma):
-    """What C keeps of A = -da/dv and K = -da/dq at the evaluation w of (t, y): stiff local terms in closed form, traction by its secant."""
+    """What C keeps of A = -da/dv and K = -da/dq at the evaluation w of (t, y): stiff local terms in closed form,
+    traction by its secant.
+    """
     M = inertia(model, w)[:, None]
-    A, K, A_stiff = (force / M + np.diag(support) for force, support in zip(ball_blocks(model, w, gamma), ring_support(model), strict=True))
+    A, K, A_stiff = (
+        force / M + np.diag(support)
+        for force, support in zip(ball_blocks(model, w, gamma), ring_support(model), strict=True)
+    )
     A_0, A_1 = land_rates(model, land_films(w), w.film_spin)
     K_shear, axial, shear = np.zeros((N_V, N_V)), 0.0, 0.0
     if model.p.scene.cage == CageModel.TWO_HALF:
         (A_joint, K_joint), K_shear = (force / M for force in joint_blocks(model, w)), shear_blocks(model, w, gamma) / M
-        weight, axial = vibration_weights(8.0 * np.max(np.diag(gamma * A_joint + gamma**2 * K_joint)[HALF[[0, 3, 4], 0]]))
+        weight, axial = vibration_weights(
+            8.0 * np.max(np.diag(gamma * A_joint + gamma**2 * K_joint)[HALF[[0, 3, 4], 0]])
+        )
         weight_shear, shear = vibration_weights(8.0 * gamma**2 * np.max(np.diag(K_shear)[HALF[[1, 5], 0]]))
         A, K, K_shear = A + weight * A_joint, K + weight * K_joint, weight_shear * K_shear
     return Blocks(A + A_0 + A_1, K, A_stiff + A_0 + A_1, K_shear, axial, shear)
 
 
 def vibration_weights(x_2):
-    """Weights of a vibration between the halves that turns by x = omega h a step, given x^2: of K in the matrix, of the position correction."""
+    """Weights of a vibration between the halves that turns by x = omega h a step, given x^2: of K in the matrix, of the
+    position correction.
+    """
     part = x_2**2 / (x_2**2 + 1.0)
     return 1.0 / 3.0 + part * (1.5 - 1.0 / 3.0), 1.0 / 3.0 + part * (1.7 - 1.0 / 3.0)
 
 
 def masked_jacobian(model, t, y, w, gamma):
-    """The exact derivatives of the right-hand side by complex steps, masked to the entries that jacobian_blocks keeps: another choice of A and K."""
+    """The exact derivatives of the right-hand side by complex steps, masked to the entries that jacobian_blocks keeps:
+    another choice of A and K.
+    """
     kept, J = jacobian_blocks(model, t, y, w, gamma), jacobian(model, t, y)
     by_position = np.zeros((N_V, N_V))
     by_position[:, POSITIONS] = J[V, POSITIONS]  # velocities are in the order of their positions
-    return Blocks(np.where(kept.A != 0.0, -J[V, V], 0.0), np.where(kept.K != 0.0, -by_position, 0.0), kept.A_stiff, kept.K_shear, kept.axial, kept.shear)
+    return Blocks(
+        np.where(kept.A != 0.0, -J[V, V], 0.0),
+        np.where(kept.K != 0.0, -by_position, 0.0),
+        kept.A_stiff,
+        kept.K_shear,
+        kept.axial,
+        kept.shear,
+    )
 
 
-# ------------------------------------------------------------------------------------------------------------------------ step
+# ----------------------------------------------------------------------------------------------------------------- step
 
 
 def land_films(w):
@@ -270,10 +327,11 @@ def land_films(w):
 
 
 def advance_positions(model, h, start):
-    """The state with positions and friction states of the next step, which follow from the velocities v_m of the middle.
+    """The state with positions and friction states of the next step, which follow from the velocities v_m of the
+    middle.
 
-    Elastic halves take substeps, which change the velocities too: their length, and the slow accelerations of the modes at the end [2, n].
-    Last the Work with the kinematics of the middle.
+    Elastic halves take substeps, which change the velocities too: their length, and the slow accelerations of the modes
+    at the end [2, n]. Last the Work with the kinematics of the middle.
     """
     middle, y, w = start.y.copy(), start.y.copy(), Work()
     middle[V] = y[V] = start.y[V] + 0.5 * h * start.f[V]
@@ -286,15 +344,19 @@ def advance_positions(model, h, start):
         cage_joint_kinematics(model, w)
         if not elastic:
             cage_joint_advance(model, w, h, y)
-    substeps = cage_substeps_advance(model, h, start.fast, start.f, y, w) if elastic else (0.0, (None, np.zeros((6, 2))))
+    substeps = (
+        cage_substeps_advance(model, h, start.fast, start.f, y, w) if elastic else (0.0, (None, np.zeros((6, 2))))
+    )
     return y, *substeps, w
 
 
 def predictor_limiter(model, h, start):
-    """What is taken from the predicted change h a_n of the cage's velocities [N_V]: the part of its new share that the films at the step's start hold back.
+    """What is taken from the predicted change h a_n of the cage's velocities [N_V]: the part of its new share that the
+    films at the step's start hold back.
 
-    A film holds back a land that closes and hardly one that opens: a land that rests against its film would be thrown off by a prediction from a_n alone.
-    The share that a_n and a_{n-1} have in common, minmod(a_n, a_{n-1}), counts as steady.
+    A film holds back a land that closes and hardly one that opens: a land that rests against its film would be thrown
+    off by a prediction from a_n alone. The share that a_n and a_{n-1} have in common, minmod(a_n, a_{n-1}), counts as
+    steady.
     """
     a, before = start.f[V], (start.f - start.h * start.jerk)[V]
     minmod = np.where(a * before > 0.0, np.where(np.abs(a) < np.abs(before), a, before), 0.0)
@@ -305,20 +367,27 @@ def predictor_limiter(model, h, start):
 
 
 def dissipation_correction(model, w, gamma, residual, delta):
-    """delta.M A delta [W] of balls and cage: the power that v^ dissipates beyond what v_{n+1} does, of one sign, where rates are linear.
+    """delta.M A delta [W] of balls and cage: the power that v^ dissipates beyond what v_{n+1} does, of one sign, where
+    rates are linear.
 
-    The residual gives delta.M (A + gamma K) delta; the part of the races' springs, which dissipate nothing, is taken off.
+    The residual gives delta.M (A + gamma K) delta; the part of the races' springs, which dissipate nothing, is taken
+    off.
     """
     power = inertia(model, w) * delta * (residual - delta) / gamma
     power[RING] = 0.0  # the ring's energy is not in the balance
     v = delta[BALL[:3]] * np.array([np.ones(Z), np.ones(Z), w.r])
     springs = ((w.n_i, w.Q_i, w.delta_i), (w.n_e, w.Q_e, w.delta_e))
-    elastic = sum(1.5 * Q / np.maximum(approach, APPROACH_FLOOR) * (approach > 0.0) * np.sum(n * v, axis=0) ** 2 for n, Q, approach in springs)
+    elastic = sum(
+        1.5 * Q / np.maximum(approach, APPROACH_FLOOR) * (approach > 0.0) * np.sum(n * v, axis=0) ** 2
+        for n, Q, approach in springs
+    )
     return np.sum(power) - gamma * np.sum(elastic)
 
 
 def correct_positions(model, gamma, delta, b, y):
-    """Where a stiffness acts, positions follow the trapezoidal rule too: q_{n+1} += gamma (v_{n+1} - v_n - h a_n), one half against the other with weights."""
+    """Where a stiffness acts, positions follow the trapezoidal rule too: q_{n+1} += gamma (v_{n+1} - v_n - h a_n), one
+    half against the other with weights.
+    """
     y[BALL_X] += gamma * delta[BALL[0]]
     y[BALL_R] += gamma * delta[BALL[1]]
     if model.p.ring.tilt_mode != TiltMode.FREE:
@@ -330,7 +399,9 @@ def correct_positions(model, gamma, delta, b, y):
 
 
 def correct_friction(model, w, gamma, delta, c, y):
-    """The friction states are deflections of springs and follow likewise: z_{n+1} += c gamma u/(1 + gamma D), u the change of the joint's velocity."""
+    """The friction states are deflections of springs and follow likewise: z_{n+1} += c gamma u/(1 + gamma D), u the
+    change of the joint's velocity.
+    """
     if model.p.scene.cage != CageModel.TWO_HALF:
         return
     d, h0 = model.d, w.half[0]
@@ -343,12 +414,17 @@ def correct_friction(model, w, gamma, delta, c, y):
 
 
 def verlet_step(model, t, h, weight, start, blocks=jacobian_blocks):
-    """The step of length h [s] from `start` (VerletState) at t [s]: the VerletState reached, and the weighted RMS norm of its error.
+    """The step of length h [s] from `start` (VerletState) at t [s]: the VerletState reached, and the weighted RMS norm
+    of its error.
 
-    weight: 1/(tolerance scale) of each state.  blocks: function of (model, t, y, w, gamma) that gives the Blocks; any A and K keep the second order.
+    weight: 1/(tolerance scale) of each state.  blocks: function of (model, t, y, w, gamma) that gives the Blocks; any A
+    and K keep the second order.
     """
     gamma, f, a, w = 0.5 * h, start.f, start.f[V], Work()
-    (y, sub, (foreseen, of_halves), middle), held = advance_positions(model, h, start), predictor_limiter(model, h, start)
+    (y, sub, (foreseen, of_halves), middle), held = (
+        advance_positions(model, h, start),
+        predictor_limiter(model, h, start),
+    )
     y[V] += gamma * a - held
     elastic = model.p.scene.cage == CageModel.ELASTIC
     if elastic:
@@ -375,7 +451,8 @@ def verlet_step(model, t, h, weight, start, blocks=jacobian_blocks):
     delta += gamma * foreseen_rates
     y[WORK] += gamma * (f[WORK] + end.f[WORK])
 
-    # Velocities: error h^3/12 a'' of the trapezoidal rule; stiff accelerations give up a part of their second difference h^2 a''.
+    # Velocities: error h^3/12 a'' of the trapezoidal rule; stiff accelerations give up a part of their second
+    # difference h^2 a''.
     error, second = np.zeros(len(y)), 2.0 * h * h / (h + start.h)
     second_difference = second * (delta / (gamma * h) - start.jerk[V])
     error[V] = h / 12.0 * second_difference
@@ -417,7 +494,9 @@ def correct_modes(model, h, second, foreseen, start, end, error):
 
 
 def longest_step(model, state):
-    """The longest step from a state [s]: of elastic halves three substeps, or what a film of the rate A holds for, 1/A, but two substeps at least."""
+    """The longest step from a state [s]: of elastic halves three substeps, or what a film of the rate A holds for, 1/A,
+    but two substeps at least.
+    """
     if model.p.scene.cage != CageModel.ELASTIC:
         return np.inf
     film, d = np.max(np.trace(state.film, axis1=1, axis2=2)), model.d.elastic.substep
@@ -425,7 +504,9 @@ def longest_step(model, state):
 
 
 def weigh_orbit(model, weight, y):
-    """Weights with those of velocities along the orbit by its speed against the outer ring: the speed with which ball and pocket meet goes with it."""
+    """Weights with those of velocities along the orbit by its speed against the outer ring: the speed with which ball
+    and pocket meet goes with it.
+    """
     speed = 0.5 * model.p.bearing.d_m * np.mean(np.abs(y[BALL_OMEGA_M] - model.ring_load.outer_omega))
     weight = weight.copy()
     weight[BALL_OMEGA_M] /= min(max(speed / FULL_ORBIT, LEAST_ORBIT), 1.0)
@@ -438,7 +519,8 @@ def ratio_of(error):
 
 
 def step_factor(h, error, before):
-    """Length of the next step / h: after an accepted step of length h by the digital filter H211b of Soderlind (2003), b = 4, after a refused one its ratio.
+    """Length of the next step / h: after an accepted step of length h by the digital filter H211b of Soderlind (2003),
+    b = 4, after a refused one its ratio.
 
     before: length and ratio of the step before, 0 if there is none.
     """
@@ -450,8 +532,8 @@ def step_factor(h, error, before):
 def verlet_advance(model, t, t_stop, h, weight, state, step=verlet_step):
     """Steps under control of the error from `state` at t to t_stop [s]; h: the step size to begin with.
 
-    Returns the state reached, the step size to go on with, the accepted step lengths and how many steps were refused.  The estimate is of order h^3; the last
-    two steps are equal.  step: a function like verlet_step.
+    Returns the state reached, the step size to go on with, the accepted step lengths and how many steps were refused.
+    The estimate is of order h^3; the last two steps are equal.  step: a function like verlet_step.
     """
     taken, refused = [], 0
     weight = weigh_orbit(model, weight, state.y)

@@ -1,4 +1,6 @@
-"""Makes the site of the same Markdown that the repository shows: formulas as MathML, pages from outside docs/, links to files that the site does not hold."""
+"""Makes the site of the same Markdown that the repository shows: formulas as MathML, pages from outside docs/, links to
+files that the site does not hold.
+"""
 
 import re
 from pathlib import Path
@@ -7,7 +9,8 @@ from latex2mathml.converter import convert
 from mkdocs.structure.files import File
 
 ROOT = Path(__file__).resolve().parents[2]
-OUTSIDE = {"README.md": "index.md", "CONTRIBUTING.md": "CONTRIBUTING.md", "VERSIONING.md": "VERSIONING.md"}  # file of the repository -> page
+# file of the repository -> page
+OUTSIDE = {"README.md": "index.md", "CONTRIBUTING.md": "CONTRIBUTING.md", "VERSIONING.md": "VERSIONING.md"}
 BEARING = ROOT / "build" / "browser" / "bearing.html"  # written by `make browser`
 CODE = re.compile(r"(^```.*?^```|`[^`\n]+`)", re.MULTILINE | re.DOTALL)
 
@@ -33,12 +36,17 @@ def on_page_markdown(markdown, page, config, files):
 
 def formulas(text):
     """$LaTeX$ and $$LaTeX$$ as MathML."""
-    text = re.sub(r"\$\$(.+?)\$\$", lambda formula: convert(formula[1].replace("\n", " "), display="block"), text, flags=re.DOTALL)
-    return re.sub(r"\$([^$\n]+)\$", lambda formula: f"<span>{convert(formula[1])}</span>", text)  # a bare <math> at a line's start would end the paragraph
+    text = re.sub(
+        r"\$\$(.+?)\$\$", lambda formula: convert(formula[1].replace("\n", " "), display="block"), text, flags=re.DOTALL
+    )
+    # a bare <math> at a line's start would end the paragraph
+    return re.sub(r"\$([^$\n]+)\$", lambda formula: f"<span>{convert(formula[1])}</span>", text)
 
 
 def links(text, folder, files):
-    """Links from a file of `folder` in the repository as links between pages; what the site does not hold becomes its name."""
+    """Links from a file of `folder` in the repository as links between pages; what the site does not hold becomes its
+    name.
+    """
 
     def rewritten(link):
         label, target = link[1], link[2]
@@ -51,4 +59,8 @@ def links(text, folder, files):
             return f"{label} (`{place}`)" if label.strip("`") != place else f"`{place}`"
         return f"[{label}]({page}{'#' + anchor if anchor else ''})"
 
-    return re.sub(r"(?<!!)\[([^]]*)\]\(([^)]+)\)", rewritten, re.sub(r"!\[([^]]*)\]\(docs/", r"![\1](", text) if not folder else text)
+    return re.sub(
+        r"(?<!!)\[([^]]*)\]\(([^)]+)\)",
+        rewritten,
+        re.sub(r"!\[([^]]*)\]\(docs/", r"![\1](", text) if not folder else text,
+    )

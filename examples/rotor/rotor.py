@@ -1,10 +1,12 @@
-"""A flexible rotor in ROSS on two bearing FMUs, motion in, force out: unbalance response against ROSS with the FMU's own stiffness and damping.
+"""A flexible rotor in ROSS on two bearing FMUs, motion in, force out: unbalance response against ROSS with the FMU's
+own stiffness and damping.
 
     pip install ".[rotor]"; python examples/rotor/rotor.py [--unbalance 5e-5 5e-4] [--run-up 0.4] [--picture rotor.png]
 
-The bearings' coefficients (bearing_ross.toml) are those of `riveted-bearing matrices examples/rotor/bearing.toml`.  The master integrates the rotor by the
-trapezoidal rule.  Each step the FMUs get position, velocity and acceleration of their nodes and say the force at the step's end; what the rotor then moves
-beside that prediction meets the linear stiffness inside the master's matrix, so that the stiff joint of shaft and bearing stays passive.
+The bearings' coefficients (bearing_ross.toml) are those of `riveted-bearing matrices examples/rotor/bearing.toml`.  The
+master integrates the rotor by the trapezoidal rule.  Each step the FMUs get position, velocity and acceleration of
+their nodes and say the force at the step's end; what the rotor then moves beside that prediction meets the linear
+stiffness inside the master's matrix, so that the stiff joint of shaft and bearing stays passive.
 """
 
 import argparse
@@ -18,7 +20,8 @@ from scipy.linalg import lu_factor, lu_solve
 
 HERE, NODES, DISK, H = Path(__file__).resolve().parent, (0, 8), 4, 5e-6  # H: communication step [s]
 FMU = HERE.parents[1] / "fmus" / "RivetedBearing.fmu"
-AXIAL = np.array([105.611e-6, 105.273e-6, 104.667e-6, 103.733e-6])  # place of an inner ring under 500 N [m] at the speeds of bearing_ross.toml
+# place of an inner ring under 500 N [m] at the speeds of bearing_ross.toml
+AXIAL = np.array([105.611e-6, 105.273e-6, 104.667e-6, 103.733e-6])
 
 
 def axial_place(omega):
@@ -30,7 +33,9 @@ def rotor(bearings):
     """A shaft of 35 mm with a disk in the middle; x, y of ROSS are Y, Z of the bearings."""
     steel = rs.Material("steel", rho=7810.0, E=211e9, G_s=81.2e9)
     shaft = [rs.ShaftElement(L=0.05, idl=0.0, odl=0.035, material=steel, alpha=40.0) for _ in range(8)]
-    return rs.Rotor(shaft, [rs.DiskElement.from_geometry(n=DISK, material=steel, width=0.04, i_d=0.035, o_d=0.2)], bearings)
+    return rs.Rotor(
+        shaft, [rs.DiskElement.from_geometry(n=DISK, material=steel, width=0.04, i_d=0.035, o_d=0.2)], bearings
+    )
 
 
 class Bearing:
@@ -38,7 +43,12 @@ class Bearing:
 
     def __init__(self, description, folder, omega, side, y, v):
         self.vr = {variable.name: variable.valueReference for variable in description.modelVariables}
-        self.fmu = FMU2Slave(guid=description.guid, unzipDirectory=folder, modelIdentifier=description.coSimulation.modelIdentifier, instanceName="bearing")
+        self.fmu = FMU2Slave(
+            guid=description.guid,
+            unzipDirectory=folder,
+            modelIdentifier=description.coSimulation.modelIdentifier,
+            instanceName="bearing",
+        )
         self.fmu.instantiate()
         self.fmu.setInteger([self.vr["ring.motion"], self.vr["scene.stress"]], [2, 1])
         self.fmu.setReal([self.vr["shaft.omega"], self.vr["shaft.x"]], [omega, side * axial_place(omega)])
@@ -59,14 +69,19 @@ class Bearing:
 
 
 class Coupled:
-    """The rotor on its two FMUs: displacements q, velocities v and accelerations a [degrees of freedom] at the time t [s]."""
+    """The rotor on its two FMUs: displacements q, velocities v and accelerations a [degrees of freedom] at the time t
+    [s].
+    """
 
     def __init__(self, description, folder, omega, stiffness, q, v, load):
         self.rotor = rotor([rs.BearingElement(n=n, kxx=0.0, cxx=0.0) for n in NODES])
         self.at = np.array([6 * n + i for n in NODES for i in range(2)])
         self.K_joint = np.zeros((len(q), len(q)))
         self.K_joint[self.at, self.at] = stiffness
-        self.bearings = [Bearing(description, folder, omega, side, q[at], v[at]) for side, at in zip((1.0, -1.0), (self.at[:2], self.at[2:]), strict=True)]
+        self.bearings = [
+            Bearing(description, folder, omega, side, q[at], v[at])
+            for side, at in zip((1.0, -1.0), (self.at[:2], self.at[2:]), strict=True)
+        ]
         self.M, self.q, self.v, self.n = self.rotor.M(omega), q, v, 0
         self.turn_at(omega)
         R = np.concatenate([bearing.force() for bearing in self.bearings])
@@ -88,7 +103,9 @@ class Coupled:
         """One communication step; load: of the disk at its end."""
         at, q, v, a = self.at, self.q, self.v, self.a
         ends = q[at] + H * v[at] + 0.5 * H * H * a[at]  # where the FMUs' rings will be
-        R = np.concatenate([b.step(self.n * H, q[s], v[s], a[s]) for b, s in zip(self.bearings, (at[:2], at[2:]), strict=True)])
+        R = np.concatenate(
+            [b.step(self.n * H, q[s], v[s], a[s]) for b, s in zip(self.bearings, (at[:2], at[2:]), strict=True)]
+        )
         q_p, v_p = q + H * v + 0.25 * H * H * a, v + 0.5 * H * a
         joint = self.K_joint[:, at] @ (ends - q_p[at])
         self.a = lu_solve(self.solve, self.force(load, R) + joint - self.D @ v_p - self.K @ q_p)
@@ -101,17 +118,28 @@ class Coupled:
 
 
 def unbalance_load(unbalance, phi, omega, omega_dot=0.0):
-    """Force [..., 2] of an unbalance [kg.m] at the angle phi [rad] that turns at omega [rad/s] and speeds up by omega_dot."""
+    """Force [..., 2] of an unbalance [kg.m] at the angle phi [rad] that turns at omega [rad/s] and speeds up by
+    omega_dot.
+    """
     c, s = np.cos(phi), np.sin(phi)
     return unbalance * np.stack([omega**2 * c + omega_dot * s, omega**2 * s - omega_dot * c], axis=-1)
 
 
 def coupled(description, folder, omega, unbalance, stiffness, start, settle=0.02, length=0.04):
-    """Synchronous amplitudes [degrees of freedom] of the rotor on the FMUs, as q = Re(amplitude exp(i omega t)); start: those to begin with.
+    """Synchronous amplitudes [degrees of freedom] of the rotor on the FMUs, as q = Re(amplitude exp(i omega t)); start:
+    those to begin with.
 
     settle, length [s]: whole revolutions are left out and then counted.
     """
-    system = Coupled(description, folder, omega, stiffness, start.real.copy(), (1j * omega * start).real, unbalance_load(unbalance, 0.0, omega))
+    system = Coupled(
+        description,
+        folder,
+        omega,
+        stiffness,
+        start.real.copy(),
+        (1j * omega * start).real,
+        unbalance_load(unbalance, 0.0, omega),
+    )
     revolution, total = 2.0 * np.pi / omega, 0.0
     skip, steps = (round(np.ceil(time / revolution) * revolution / H) for time in (settle, settle + length))
     for n in range(steps):
@@ -126,18 +154,25 @@ def coupled(description, folder, omega, unbalance, stiffness, start, settle=0.02
 def coefficients():
     """Those of the bearing over speed, as arguments of ross.BearingElement."""
     element = rs.BearingElement.load(HERE / "bearing_ross.toml")
-    return {name: getattr(element, name) for name in ("kxx", "kyy", "kxy", "kyx", "cxx", "cyy", "cxy", "cyx", "frequency")}
+    return {
+        name: getattr(element, name) for name in ("kxx", "kyy", "kxy", "kyx", "cxx", "cyy", "cxy", "cyx", "frequency")
+    }
 
 
 def run_up(omega, duration, unbalance, fmu=FMU):
-    """Speeds [times] that rise evenly, and displacements in x, y of disk and first bearing [times, 4] by ROSS (Newmark) with the matrices and on the FMUs.
+    """Speeds [times] that rise evenly, and displacements in x, y of disk and first bearing [times, 4] by ROSS (Newmark)
+    with the matrices and on the FMUs.
 
-    omega: first and last speed [rad/s]; unbalance [kg.m] at rest in the rotor.  Both start straight; ROSS takes every fourth time (20 us).
+    omega: first and last speed [rad/s]; unbalance [kg.m] at rest in the rotor.  Both start straight; ROSS takes every
+    fourth time (20 us).
     """
     table, rate = coefficients(), (omega[1] - omega[0]) / duration
     linear = rotor([rs.BearingElement(n=n, **table) for n in NODES])
     t = H * np.arange(round(duration / H) + 1)
-    w, load = omega[0] + rate * t, unbalance_load(unbalance, omega[0] * t + 0.5 * rate * t**2, omega[0] + rate * t, rate)
+    w, load = (
+        omega[0] + rate * t,
+        unbalance_load(unbalance, omega[0] * t + 0.5 * rate * t**2, omega[0] + rate * t, rate),
+    )
     places = [6 * DISK, 6 * DISK + 1, 6 * NODES[0], 6 * NODES[0] + 1]
     F = np.zeros((len(t), linear.ndof))
     F[:, places[:2]] = load
@@ -145,7 +180,9 @@ def run_up(omega, duration, unbalance, fmu=FMU):
 
     places_x = axial_place(w)
     stiffness, straight = np.interp(np.mean(omega), table["frequency"], table["kxx"]), np.zeros(linear.ndof)
-    system = Coupled(read_model_description(str(fmu)), extract(str(fmu)), omega[0], stiffness, straight, straight, load[0])
+    system = Coupled(
+        read_model_description(str(fmu)), extract(str(fmu)), omega[0], stiffness, straight, straight, load[0]
+    )
     on_fmus = [system.q[places]]
     for n in range(1, len(t)):
         if n % 100 == 0:
@@ -159,12 +196,23 @@ def run_up(omega, duration, unbalance, fmu=FMU):
 
 
 def respond(speeds, unbalance, fmu=FMU):
-    """Amplitudes [speeds, degrees of freedom] by ROSS with the matrices, and by the rotor on the FMUs.  speeds [rad/s], unbalance [kg.m]."""
+    """Amplitudes [speeds, degrees of freedom] by ROSS with the matrices, and by the rotor on the FMUs.  speeds [rad/s],
+    unbalance [kg.m].
+    """
     description, folder = read_model_description(str(fmu)), extract(str(fmu))
     table = coefficients()
-    linear = rotor([rs.BearingElement(n=n, **table) for n in NODES]).run_unbalance_response(DISK, unbalance, 0.0, frequency=speeds).forced_resp.T
+    linear = (
+        rotor([rs.BearingElement(n=n, **table) for n in NODES])
+        .run_unbalance_response(DISK, unbalance, 0.0, frequency=speeds)
+        .forced_resp.T
+    )
     stiffness = np.interp(speeds, table["frequency"], table["kxx"])
-    return linear, np.array([coupled(description, folder, w, unbalance, k, start) for w, k, start in zip(speeds, stiffness, linear, strict=True)])
+    return linear, np.array(
+        [
+            coupled(description, folder, w, unbalance, k, start)
+            for w, k, start in zip(speeds, stiffness, linear, strict=True)
+        ]
+    )
 
 
 def plot(speeds, responses, path):
@@ -201,7 +249,12 @@ def plot_run_up(w, by_ross, on_fmus, path):
 if __name__ == "__main__":
     parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
     parser.add_argument("--unbalance", type=float, nargs="+", default=[5e-5], help="of the disk [kg.m]")
-    parser.add_argument("--run-up", type=float, metavar="TIME", help="instead of steady speeds, from 3,000 to 12,000 r/min in this time [s]")
+    parser.add_argument(
+        "--run-up",
+        type=float,
+        metavar="TIME",
+        help="instead of steady speeds, from 3,000 to 12,000 r/min in this time [s]",
+    )
     parser.add_argument("--picture", type=Path)
     options = parser.parse_args()
     if options.run_up:
@@ -221,7 +274,11 @@ if __name__ == "__main__":
             values = []
             for d in (6 * DISK, 6 * NODES[0]):
                 ratio = b[d] / a[d]
-                values.append(f"{1e6 * abs(a[d]):8.3f} {1e6 * abs(b[d]):8.3f} {100 * (abs(ratio) - 1):6.2f} % {np.degrees(np.angle(ratio)):6.2f} deg")
-            print(f"{unbalance:g} kg.m {w * 30.0 / np.pi:6.0f} r/min, disk, bearing: ROSS um, FMUs um, difference: {' | '.join(values)}")
+                values.append(
+                    f"{1e6 * abs(a[d]):8.3f} {1e6 * abs(b[d]):8.3f} {100 * (abs(ratio) - 1):6.2f} % {np.degrees(np.angle(ratio)):6.2f} deg"
+                )
+            print(
+                f"{unbalance:g} kg.m {w * 30.0 / np.pi:6.0f} r/min, disk, bearing: ROSS um, FMUs um, difference: {' | '.join(values)}"
+            )
     if options.picture:
         plot(speeds, responses, options.picture)

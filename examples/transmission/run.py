@@ -1,4 +1,5 @@
-"""Simulates a system of FMUs that an SSP describes, with its parameter sets: all start from values exchanged in initialization mode, then step together.
+"""Simulates a system of FMUs that an SSP describes, with its parameter sets: all start from values exchanged in
+initialization mode, then step together.
 
     python examples/transmission/run.py [fmus/Transmission.ssp] [--stop 0.05] [--step 1e-4] [--picture transmission.png]
 
@@ -25,7 +26,12 @@ class Component:
         description = read_model_description(str(path))
         self.variables = {v.name: v for v in description.modelVariables}
         identifier = description.coSimulation.modelIdentifier
-        self.fmu = FMU2Slave(guid=description.guid, unzipDirectory=extract(str(path), str(path.with_name(name))), modelIdentifier=identifier, instanceName=name)
+        self.fmu = FMU2Slave(
+            guid=description.guid,
+            unzipDirectory=extract(str(path), str(path.with_name(name))),
+            modelIdentifier=identifier,
+            instanceName=name,
+        )
         self.fmu.instantiate()
         self.fmu.setupExperiment(startTime=0.0)
 
@@ -41,31 +47,52 @@ class Component:
 
 
 def load(path, folder):
-    """The system of an SSP unpacked to a folder: its description, its components by name, and the start values of its parameter sets."""
+    """The system of an SSP unpacked to a folder: its description, its components by name, and the start values of its
+    parameter sets.
+    """
     with zipfile.ZipFile(path) as archive:
         archive.extractall(folder)
     system = read_ssd(str(path)).system
     parts = {element.name: Component(element.name, folder / element.source) for element in system.elements}
-    sets = {element.name: read_ssv(str(folder / binding.source)) for element in system.elements for binding in element.parameterBindings}
-    return system, parts, {f"{component}.{parameter.name}": parameter.value for component, values in sets.items() for parameter in values.parameters}
+    sets = {
+        element.name: read_ssv(str(folder / binding.source))
+        for element in system.elements
+        for binding in element.parameterBindings
+    }
+    return (
+        system,
+        parts,
+        {
+            f"{component}.{parameter.name}": parameter.value
+            for component, values in sets.items()
+            for parameter in values.parameters
+        },
+    )
 
 
 def simulate(path=SYSTEM, stop=0.05, step=1e-4, changes=None, without=()):
     """Outputs at the communication points: {"component.connector": array}, and "time".
 
-    path: SSP with FMI 2.0 co-simulation FMUs and a parameter set for each; stop, step [s]; changes: {"component.variable": start value} beyond the parameter
-    sets; without: connections left open, by the names of their ends.  KeyError for an unknown name, fmpy's FMICallException if an FMU refuses.
+    path: SSP with FMI 2.0 co-simulation FMUs and a parameter set for each; stop, step [s]; changes:
+    {"component.variable": start value} beyond the parameter sets; without: connections left open, by the names of their
+    ends.  KeyError for an unknown name, fmpy's FMICallException if an FMU refuses.
     """
     with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as folder:  # Windows may hold on to a binary
         system, parts, start = load(path, Path(folder))
         for name, value in (start | (changes or {})).items():
             component, variable = name.split(".", 1)
             parts[component].set(variable, value)
-        wires = [(a.parent.name, a.name, b.parent.name, b.name) for a, b in get_connections(system) if f"{b.parent.name}.{b.name}" not in without]
+        wires = [
+            (a.parent.name, a.name, b.parent.name, b.name)
+            for a, b in get_connections(system)
+            if f"{b.parent.name}.{b.name}" not in without
+        ]
         shown = [(e.name, c.name) for e in system.elements for c in e.connectors if c.kind == "output"]
         rows = march(parts, wires, shown, round(stop / step), step)
     columns = np.array(rows).T
-    return {"time": step * np.arange(len(rows))} | {f"{component}.{name}": column for (component, name), column in zip(shown, columns, strict=True)}
+    return {"time": step * np.arange(len(rows))} | {
+        f"{component}.{name}": column for (component, name), column in zip(shown, columns, strict=True)
+    }
 
 
 def march(parts, wires, shown, steps, step):
@@ -73,7 +100,9 @@ def march(parts, wires, shown, steps, step):
 
     def exchange():
         """All outputs are read before the first input is set: no component is ahead of another."""
-        for value, (_, _, to, name) in [(parts[source].get(output), wire) for wire in wires for source, output in [wire[:2]]]:
+        for value, (_, _, to, name) in [
+            (parts[source].get(output), wire) for wire in wires for source, output in [wire[:2]]
+        ]:
             parts[to].set(name, value)
 
     for part in parts.values():
@@ -104,7 +133,9 @@ def plot(result, path):
     speed.plot(ms, result["shaft.shaft.omega"] * 30 / np.pi)
     speed.set_ylabel("speed [r/min]")
     speed.ticklabel_format(useOffset=False)
-    force.plot(ms, np.hypot(result["bearing.housing.F_y"], result["bearing.housing.F_z"]), label="reaction of bearing A")
+    force.plot(
+        ms, np.hypot(result["bearing.housing.F_y"], result["bearing.housing.F_z"]), label="reaction of bearing A"
+    )
     force.plot(ms, np.hypot(result["shaft.shaft.F_y"], result["shaft.shaft.F_z"]), label="its load")
     force.set_ylabel("radial force [N]")
     force.legend()
@@ -131,7 +162,9 @@ def main():
     print(f"second half of {options.stop:g} s:")
     for name, column in result.items():
         if name != "time":
-            print(f"  {name:32} mean {column[late].mean():14.6g}   {column[late].min():14.6g} ... {column[late].max():.6g}")
+            print(
+                f"  {name:32} mean {column[late].mean():14.6g}   {column[late].min():14.6g} ... {column[late].max():.6g}"
+            )
     if options.picture:
         plot(result, options.picture)
 

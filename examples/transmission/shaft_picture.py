@@ -1,6 +1,7 @@
 """Pictures of the shaft to scale, from its start values: with letters for the documentation, and the FMU's icon.
 
-PYTHONPATH=fmus python examples/transmission/shaft_picture.py --description modelDescription.xml --drawing shaft.svg --icons FOLDER
+PYTHONPATH=fmus python examples/transmission/shaft_picture.py --description modelDescription.xml --drawing shaft.svg
+--icons FOLDER
 """
 
 import argparse
@@ -18,7 +19,10 @@ OVERHANG, WIDTH, FACE = 0.35, 0.14, 0.22  # beyond the bearings, of a bearing, o
 def dimensions(description):
     """Start values of the dimensions [mm]."""
     start = {v.get("name"): v[0].get("start") for v in ElementTree.parse(description).getroot().find("ModelVariables")}
-    return {letter: 1e3 * float(start[name]) for letter, name in {"L": "shaft.L", "x": "gear.x", "r": "gear.r_b", "d": "support.d"}.items()}
+    return {
+        letter: 1e3 * float(start[name])
+        for letter, name in {"L": "shaft.L", "x": "gear.x", "r": "gear.r_b", "d": "support.d"}.items()
+    }
 
 
 def shaft(ax, mm):
@@ -51,7 +55,9 @@ def draw(mm, path):
 def main():
     use_style(matplotlib.rcParams)
     parser = argparse.ArgumentParser(description="Draw the shaft.")
-    parser.add_argument("--description", type=Path, required=True, help="modelDescription.xml, whose start values are drawn")
+    parser.add_argument(
+        "--description", type=Path, required=True, help="modelDescription.xml, whose start values are drawn"
+    )
     parser.add_argument("--drawing", type=Path, required=True, help="file for the drawing with letters")
     parser.add_argument("--icons", type=Path, required=True, help="folder for the icon")
     options = parser.parse_args()

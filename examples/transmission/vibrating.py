@@ -1,8 +1,11 @@
-"""The transmission of run.py in a housing that vibrates: a whirl of the outer ring by a second source, as an engine's order or a road.
+"""The transmission of run.py in a housing that vibrates: a whirl of the outer ring by a second source, as an engine's
+order or a road.
 
-    python examples/transmission/vibrating.py [--amplitude 3e-5] [--frequency 400] [--stop 0.05] [--picture vibrating.png]
+    python examples/transmission/vibrating.py [--amplitude 3e-5] [--frequency 400] [--stop 0.05] [--picture
+    vibrating.png]
 
-SSP 1.0 has no signal source, so that the script gives housing.y, z and their velocities each step; everything else is the archive's.
+SSP 1.0 has no signal source, so that the script gives housing.y, z and their velocities each step; everything else is
+the archive's.
 """
 
 import argparse
@@ -27,14 +30,23 @@ class Shaken:
 
     def doStep(self, currentCommunicationPoint, communicationStepSize):
         angle, size = self.w * currentCommunicationPoint, self.amplitude
-        values = {"y": size * np.sin(angle), "z": size * (1.0 - np.cos(angle)), "v_y": size * self.w * np.cos(angle), "v_z": size * self.w * np.sin(angle)}
+        values = {
+            "y": size * np.sin(angle),
+            "z": size * (1.0 - np.cos(angle)),
+            "v_y": size * self.w * np.cos(angle),
+            "v_z": size * self.w * np.sin(angle),
+        }
         for name, value in values.items():
             self.part.set(f"housing.{name}", value)
-        self.fmu.doStep(currentCommunicationPoint=currentCommunicationPoint, communicationStepSize=communicationStepSize)
+        self.fmu.doStep(
+            currentCommunicationPoint=currentCommunicationPoint, communicationStepSize=communicationStepSize
+        )
 
 
 def simulate(path=SYSTEM, stop=0.05, step=2e-5, amplitude=3e-5, frequency=400.0):
-    """Outputs of the bearing at the communication points, {name: array} and "time"; the housing whirls with the amplitude [m] and the frequency [Hz]."""
+    """Outputs of the bearing at the communication points, {name: array} and "time"; the housing whirls with the
+    amplitude [m] and the frequency [Hz].
+    """
     with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as folder:
         system, parts, start = load(path, Path(folder))
         for name, value in start.items():
@@ -53,7 +65,13 @@ def plot(quiet, shaken, path):
 
     figure, axes = plt.subplots(2, 1, figsize=(9, 5), sharex=True, layout="constrained")
     for result, colour, label in ((quiet, "#9aa2ad", "housing at rest"), (shaken, "#c8442b", "vibrating")):
-        axes[0].plot(1e3 * result["time"], np.hypot(result["housing.F_y"], result["housing.F_z"]), color=colour, lw=0.8, label=label)
+        axes[0].plot(
+            1e3 * result["time"],
+            np.hypot(result["housing.F_y"], result["housing.F_z"]),
+            color=colour,
+            lw=0.8,
+            label=label,
+        )
         axes[1].plot(1e3 * result["time"], result["rivet.sigma_head_max"] / 1e6, color=colour, lw=0.8, label=label)
     axes[0].set_ylabel("radial force [N]")
     axes[1].set(xlabel="time [ms]", ylabel="largest head stress [MPa]")
@@ -72,6 +90,8 @@ if __name__ == "__main__":
         later = result["time"] > 0.2 * options.stop
         force = np.hypot(result["housing.F_y"], result["housing.F_z"])[later]
         stress = result["rivet.sigma_head_max"][later].max() / 1e6
-        print(f"housing {name}: radial force {force.mean():.0f} +- {force.std():.0f} N, largest head stress {stress:.0f} MPa")
+        print(
+            f"housing {name}: radial force {force.mean():.0f} +- {force.std():.0f} N, largest head stress {stress:.0f} MPa"
+        )
     if options.picture:
         plot(*results, options.picture)

@@ -1,15 +1,18 @@
-// The floating-point environment of the host and of the core: rounding, traps, flushing of denormals, precision, status flags.
+// The floating-point environment of the host and of the core: rounding, traps, flushing of denormals,
+// precision, status flags.
 //
-// The core computes in the default environment of IEEE 754: to nearest, no traps, denormals kept.  The host may have set anything.
-// float_enter saves what the host has and sets the default; float_leave gives the host back what it had, so that not even a status flag is
-// left behind.  Reading a control register takes about a nanosecond, writing one several, so each is written only where it differs.
+// The core computes in the default environment of IEEE 754: to nearest, no traps, denormals kept.  The host
+// may have set anything. float_enter saves what the host has and sets the default; float_leave gives the host
+// back what it had, so that not even a status flag is left behind.  Reading a control register takes about a
+// nanosecond, writing one several, so each is written only where it differs.
 #pragma once
 
 #if defined(__x86_64__) || defined(_M_X64)
 #include <stdint.h>
 #include <string.h>
 
-// SSE computes, so MXCSR rules; the x87 unit belongs to the environment too, because some C libraries compute in it (mingw's pow and atan2).
+// SSE computes, so MXCSR rules; the x87 unit belongs to the environment too, because some C libraries compute
+// in it (mingw's pow and atan2).
 typedef struct {
     uint32_t mxcsr;
     uint16_t control, status;  // of x87

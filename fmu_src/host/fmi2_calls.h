@@ -1,8 +1,10 @@
-// The functions of FMI 2.0, each once: phases in which it may be called (FMI 2.0.4, section 4.2.4), parameters, arguments.
+// The functions of FMI 2.0, each once: phases in which it may be called (FMI 2.0.4, section 4.2.4),
+// parameters, arguments.
 //
-// fmi2_wrapper.c makes three things of this table: the check of the call order, the names in messages, and the exported functions.  An exported
-// function gives the core its floating-point environment, checks the call order, calls the function of the same name without "fmi2", and gives the
-// host's environment back; what is not in this table is not exported.
+// fmi2_wrapper.c makes three things of this table: the check of the call order, the names in messages, and
+// the exported functions.  An exported function gives the core its floating-point environment, checks the
+// call order, calls the function of the same name without "fmi2", and gives the host's environment back; what
+// is not in this table is not exported.
 #pragma once
 
 typedef enum {
@@ -21,8 +23,8 @@ enum {
     ALIVE = INSTANTIATED | READABLE
 };
 
-// X(name, phases, parameters, arguments).  Steps are never in progress or canceled.  No directional derivatives in initialization mode: there the inputs
-// act through the equilibrium, which has none.
+// X(name, phases, parameters, arguments).  Steps are never in progress or canceled.  No directional
+// derivatives in initialization mode: there the inputs act through the equilibrium, which has none.
 // clang-format off
 #define FMI2_CALLS(X)                                                                                                                                    \
     X(SetDebugLogging, ALIVE, (fmi2Component c, fmi2Boolean on, size_t n, const fmi2String categories[]), (c, on, n, categories))                         \
@@ -64,7 +66,8 @@ enum {
 
 enum { SETTABLE = INSTANTIATED | INITIALIZING | STEPPING };
 
-// X(name, parameters): asynchronous steps, and model exchange, which is exported because some importers refuse a binary without these symbols.
+// X(name, parameters): asynchronous steps, and model exchange, which is exported because some importers
+// refuse a binary without these symbols.
 #define FMI2_NOT_OFFERED(X)                                                                                                                              \
     X(CancelStep, (fmi2Component c))                                                                                                                      \
     X(EnterEventMode, (fmi2Component c))                                                                                                                  \

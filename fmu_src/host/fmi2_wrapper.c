@@ -1,14 +1,15 @@
-// A part (part.h) as an FMI 2.0 co-simulation slave: call order, value references, host time, logging, saved states.  No physics.
+// A part (part.h) as an FMI 2.0 co-simulation slave: call order, value references, host time, logging, saved
+// states.  No physics.
 //
-// Every function that returns fmi2Error has changed nothing but the phase: the instance then stands in ERRONEOUS until fmi2Reset or
-// fmi2SetFMUstate (FMI 2.0.4, section 2.1.3), and its outputs read NaN with fmi2Warning, so that a host which ignores the status shows no
-// plausible result.
+// Every function that returns fmi2Error has changed nothing but the phase: the instance then stands in
+// ERRONEOUS until fmi2Reset or fmi2SetFMUstate (FMI 2.0.4, section 2.1.3), and its outputs read NaN with
+// fmi2Warning, so that a host which ignores the status shows no plausible result.
 // fmi2Discard comes with fmi2Terminated and fmi2LastSuccessfulTime; the outputs then are those of the last good state.
 #include "instance/part.h"
 
+#include "fmi2Functions.h"
 #include "host/build_info.h"
 #include "host/float_environment.h"
-#include "fmi2Functions.h"
 #include "host/fmi2_calls.h"
 #include "numbers/saved_numbers.h"
 
@@ -32,7 +33,8 @@ static const struct {
     unsigned phases;
 } CALLS[] = {FMI2_CALLS(NAME_AND_PHASES)};
 
-// What the exported functions call; not inlined, so that no arithmetic moves out of the floating-point environment that they make.
+// What the exported functions call; not inlined, so that no arithmetic moves out of the floating-point
+// environment that they make.
 FMI2_CALLS(PROTOTYPE)
 
 static const char *phase_name(uint32_t phase)
@@ -75,8 +77,8 @@ enum { N_CATEGORIES = sizeof CATEGORIES / sizeof CATEGORIES[0], ALL_CATEGORIES =
 
 enum { ALWAYS_SENT = 1 << LOG_ERROR | 1 << LOG_WARNING };
 
-// Hosts read the message as a printf format and '#' as the start of a value reference: both are doubled.  The logger runs in the host's
-// floating-point environment; what it leaves is what the host has from then on.
+// Hosts read the message as a printf format and '#' as the start of a value reference: both are doubled.  The
+// logger runs in the host's floating-point environment; what it leaves is what the host has from then on.
 static void send(const fmi2CallbackFunctions *callbacks, FloatEnvironment *host_floats, const char *instance,
                  LogCategory category, const char *message)
 {
@@ -165,8 +167,8 @@ static void renew(Part *part)
     for (int order = 0; order <= INPUT_ORDERS; order++) *part_inputs(part, order) = inputs[order];
 }
 
-// The start for the present parameters and inputs: an earlier start, made to read outputs, leaves no trace, nor does one that fails.
-// A step cannot be discarded here: there is no last good state.
+// The start for the present parameters and inputs: an earlier start, made to read outputs, leaves no trace,
+// nor does one that fails. A step cannot be discarded here: there is no last good state.
 static fmi2Status instance_initialize(Instance *m)
 {
     if (m->session.initialized) return fmi2OK;
@@ -261,7 +263,8 @@ static fmi2Status SetDebugLogging(fmi2Component c, fmi2Boolean on, size_t n, con
 }
 
 // ---- initialization and end -----------------------------------------------------------------------------------------------------------------
-// A host's tolerance is a hint: the nearest one that the part admits, 0 for its own where the host gives no positive number or the part has no use for one.
+// A host's tolerance is a hint: the nearest one that the part admits, 0 for its own where the host gives no
+// positive number or the part has no use for one.
 static double admissible_tolerance(Instance *m, double tolerance)
 {
     const Variable *known = variable_named("solver.tol");
@@ -543,7 +546,8 @@ static fmi2Status SetRealInputDerivatives(fmi2Component c, const fmi2ValueRefere
     return fmi2OK;
 }
 
-// Derivatives of the variables vr, all outputs, from those of all outputs; NaN after an error, as the outputs themselves.
+// Derivatives of the variables vr, all outputs, from those of all outputs; NaN after an error, as the outputs
+// themselves.
 static fmi2Status output_derivatives(Instance *m, Call call, const Outputs *derivatives,
                                      const fmi2ValueReference vr[], size_t n, fmi2Real value[])
 {
@@ -607,7 +611,8 @@ static fmi2Status GetDirectionalDerivative(fmi2Component c, const fmi2ValueRefer
     return output_derivatives(m, call, &derivatives, unknown, n_unknown, d_unknown);
 }
 
-// Rounding that a host's clock may have: t += h, start + k h or whole nanoseconds agree to a few spacings of doubles at the largest of these times.
+// Rounding that a host's clock may have: t += h, start + k h or whole nanoseconds agree to a few spacings of
+// doubles at the largest of these times.
 static double clock_slack(const Session *s, double time, double step)
 {
     return 2.0 * DBL_EPSILON * (fmax(fabs(s->start_time), fabs(time)) + step);

@@ -1,14 +1,14 @@
 // One instance of the bearing: life cycle, stepping, peaks and statistics over accepted steps, saved state.
-#include "numbers/aligned.h"
-#include "numbers/cpu_clock.h"
 #include "instance/energy.h"
 #include "instance/instance.h"
 #include "instance/jacobian.h"
 #include "instance/outputs.h"
+#include "numbers/aligned.h"
+#include "numbers/cpu_clock.h"
 #include "physics/ring_load.h"
+#include "physics/temperature.h"
 #include "rivet/rivets.h"
 #include "solver/start.h"
-#include "physics/temperature.h"
 
 #include <stdarg.h>
 #include <stdio.h>
@@ -396,7 +396,8 @@ void part_update(Bearing *b, OutputGroup group)
 }
 
 // ---- derivatives ------------------------------------------------------------------------------------------
-// All outputs that follow from one evaluation at the present state, with the inputs u in the place of their temperatures.
+// All outputs that follow from one evaluation at the present state, with the inputs u in the place of their
+// temperatures.
 static void outputs_beside(const Bearing *b, const Inputs *u, Outputs *out)
 {
     const InstanceState *s = &b->s;
@@ -416,8 +417,8 @@ static void outputs_beside(const Bearing *b, const Inputs *u, Outputs *out)
     out->bearing.energy_residual = 0.0;  // the work of expansion is no part of the balance
 }
 
-// Adds the derivatives of all outputs along the temperatures of du: central differences over +-1 mK, because the derived
-// constants have no dual numbers.  Their relative error is 1e-7.
+// Adds the derivatives of all outputs along the temperatures of du: central differences over +-1 mK, because
+// the derived constants have no dual numbers.  Their relative error is 1e-7.
 static void add_thermal_derivatives(const Bearing *b, const Inputs *du, Outputs *derivatives)
 {
     const double step = 1e-3;

@@ -5,8 +5,8 @@
 #include "instance/instance.h"
 #include "physics/ring_fit.h"
 #include "physics/ring_load.h"
-#include "rivet/rivet_rom.h"
 #include "physics/temperature.h"
+#include "rivet/rivet_rom.h"
 
 #include <float.h>
 #include <stddef.h>
@@ -29,7 +29,8 @@ static bool check_variables(Bearing *b, Causality causality, const void *values)
     return variables_allow(causality, values, 0.0, report_error, b);
 }
 
-// Checks inputs that a trajectory reaches: its polynomial may round a limit that the caller asks for by a few units of the last place.
+// Checks inputs that a trajectory reaches: its polynomial may round a limit that the caller asks for by a few
+// units of the last place.
 static bool check_reached(Bearing *b, const Inputs *u)
 {
     return variables_allow(CAUSALITY_INPUT, u, 1e-12, report_error, b);
@@ -48,8 +49,8 @@ static bool check_motions(Bearing *b, double h)
     return check_reached(b, &end);
 }
 
-// Checks that oil and bearing bear the temperatures in u: viscosity within its limits, cage neither on the outer ring nor
-// on the balls, no interference beyond what parameters may have.
+// Checks that oil and bearing bear the temperatures in u: viscosity within its limits, cage neither on the
+// outer ring nor on the balls, no interference beyond what parameters may have.
 static bool check_temperatures(Bearing *b, const Inputs *u)
 {
     const Variable *eta = variable_named("oil.eta"), *guide = variable_named("cage.guide_clearance");
@@ -115,7 +116,8 @@ static bool require(Bearing *b, bool condition, const char *format, double value
     return condition;
 }
 
-// Checks that rivets which differ are in a scene whose joints know them one by one: a rigid cage shares its load among all.
+// Checks that rivets which differ are in a scene whose joints know them one by one: a rigid cage shares its
+// load among all.
 static bool check_rivets(Bearing *b)
 {
     const Parameters *p = &b->s.p;
@@ -259,7 +261,8 @@ static bool check_seat(Bearing *b)
     return fine;
 }
 
-// Checks the parameters that the build fixes: the constants of the cage's material, from which the rivet table was made.
+// Checks the parameters that the build fixes: the constants of the cage's material, from which the rivet
+// table was made.
 static bool check_built(Bearing *b)
 {
     bool fine = true;
@@ -443,7 +446,8 @@ static bool saved_is(Bearing *b, bool condition, const char *what)
     return condition;
 }
 
-// Of each rivet and of all balls together, over the time since the start; every ball adds its own time to the pocket forces.
+// Of each rivet and of all balls together, over the time since the start; every ball adds its own time to the
+// pocket forces.
 static bool check_recorded(Bearing *b, double time)
 {
     const InstanceState *s = &b->s;

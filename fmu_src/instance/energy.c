@@ -4,12 +4,13 @@
 //   joint     T^2/(2 k_rivet) + N_plate^2/(2 k_plate) + k z^2/2 + hole contact
 //
 // The inner ring is outside this balance: its motion puts the power -F.v - M.Omega into balls and cage, with
-// F and M of the contacts on the ring, and its growth the power -K delta^1.5 n.e dR_g/dt, (race_contact.c).  The energy is for outputs only; the integration does not use it.
+// F and M of the contacts on the ring, and its growth the power -K delta^1.5 n.e dR_g/dt, (race_contact.c).
+// The energy is for outputs only; the integration does not use it.
 #include "instance/energy.h"
 
+#include "cage/common/pocket.h"
 #include "cage/elastic/elastic_half.h"
 #include "physics/hertz.h"
-#include "cage/common/pocket.h"
 #include "physics/ring_fit.h"
 #include "physics/rotor.h"
 

@@ -7,7 +7,7 @@
 scalar energy_total(const Model *model, const scalar *y, const Work *w);
 
 #ifndef DUAL
-// What a jump of the speed from `before` to `after`, both in the fixed frame, adds to the elastic energy of the inner race contacts [J], at the
-// state y: the ring grows at once.
+// What a jump of the speed from `before` to `after`, both in the fixed frame, adds to the elastic energy of
+// the inner race contacts [J], at the state y: the ring grows at once.
 double energy_of_speed(const Model *model, const double *y, double before, double after);
 #endif

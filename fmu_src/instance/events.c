@@ -2,10 +2,10 @@
 #include "instance/events.h"
 
 #include "numbers/elementary.h"
+#include "numbers/saved_numbers.h"
 #include "physics/hertz.h"
 #include "physics/ring_fit.h"
 #include "rivet/rivet_rom.h"
-#include "numbers/saved_numbers.h"
 
 #include <stdio.h>
 

@@ -3,13 +3,13 @@
 #pragma once
 
 #include "cage/elastic/elastic_half.h"
+#include "cage/two_half/joint_follow.h"
 #include "instance/events.h"
 #include "instance/fatigue.h"
-#include "solver/integrator.h"
-#include "cage/two_half/joint_follow.h"
 #include "instance/part.h"
-#include "physics/ring_load.h"
 #include "instance/statistics.h"
+#include "physics/ring_load.h"
+#include "solver/integrator.h"
 
 // Floors of the statistics' bins: smaller values are not resolved.
 static const double FORCE_FLOOR = 1e-3;  // [N]

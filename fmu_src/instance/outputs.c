@@ -8,8 +8,8 @@
 #include "physics/powers.h"
 #include "physics/ring_fit.h"
 #include "physics/ring_load.h"
-#include "rivet/rivets.h"
 #include "physics/traction.h"
+#include "rivet/rivets.h"
 
 // Speed [rad/s] up to which no slip ratio is formed: a bearing at standstill has none.
 static const double STANDSTILL = 1e-9;

@@ -4,8 +4,9 @@
 
 #include <stdbool.h>
 
-// 64 bins in each octave, 213 in each decade: a bin is 0.8...1.6 % wide.  Where a motion repeats itself a quantile can be wrong
-// by a whole bin.  There are 24 octaves above the channel's floor; smaller values count as below the floor.
+// 64 bins in each octave, 213 in each decade: a bin is 0.8...1.6 % wide.  Where a motion repeats itself a
+// quantile can be wrong by a whole bin.  There are 24 octaves above the channel's floor; smaller values count
+// as below the floor.
 enum {
     STATISTICS_OCTAVES = 24,
     STATISTICS_BITS = 6,  // of the mantissa

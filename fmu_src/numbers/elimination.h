@@ -1,4 +1,5 @@
-// Small systems of linear equations: five velocities or displacements of the ring or of a rigid cage, three of a joint or a half.
+// Small systems of linear equations: five velocities or displacements of the ring or of a rigid cage, three
+// of a joint or a half.
 #pragma once
 
 #include "numbers/lanes.h"

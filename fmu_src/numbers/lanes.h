@@ -322,8 +322,9 @@ INLINE void wide_power_of_2(int n, const wide x[], wide power[])
     for (int i = 0; i < n; i++) power[i] = (wide)((words)power[i] + ((words)whole[i] << 52));
 }
 
-// 1/sqrt(x) of n <= ABREAST packets of normal x > 0, relative error < 5e-16.  A constant less half the bits of x, read as a
-// number, is within 3.5 %; two steps with polynomials in e = x y^2 - 1 do the rest.  A root and a division take longer.
+// 1/sqrt(x) of n <= ABREAST packets of normal x > 0, relative error < 5e-16.  A constant less half the bits
+// of x, read as a number, is within 3.5 %; two steps with polynomials in e = x y^2 - 1 do the rest.  A root
+// and a division take longer.
 INLINE void wide_inv_sqrt(int n, const wide x[], wide y[])
 {
     wide e[ABREAST];

@@ -1,8 +1,9 @@
 // Memory for SUNDIALS: a block that stands ready before SUNDIALS is called, so that none of its allocations fails.
 //
-// SUNDIALS 7.1.1 does not survive a refused allocation: 35 of the 81 that an instance made when it was created ended in a crash (each refused in turn).
-// Its functions have no argument for a source of memory, so the block in use is a property of the calling thread.  This header stands at the end of
-// sundials_config.h, which every file of SUNDIALS includes: their calls of malloc and free come here.
+// SUNDIALS 7.1.1 does not survive a refused allocation: 35 of the 81 that an instance made when it was
+// created ended in a crash (each refused in turn). Its functions have no argument for a source of memory, so
+// the block in use is a property of the calling thread.  This header stands at the end of sundials_config.h,
+// which every file of SUNDIALS includes: their calls of malloc and free come here.
 #pragma once
 
 #include <stddef.h>

@@ -50,8 +50,8 @@ const Variable *variable_named(const char *name);
 // Whether the variable may have this value; if not, sets a message with name, value, unit and allowed range.
 int variable_allows(const Variable *variable, int element, double value, char *message, size_t size);
 
-// Whether all variables of one causality may have the values in a Parameters or an Inputs; each that may not is reported with its message.
-// rounding: the relative share of a limit by which a value may lie beyond the limit.
+// Whether all variables of one causality may have the values in a Parameters or an Inputs; each that may not
+// is reported with its message. rounding: the relative share of a limit by which a value may lie beyond the limit.
 bool variables_allow(Causality causality, const void *values, double rounding,
                      void (*report)(void *context, const char *message), void *context);
 

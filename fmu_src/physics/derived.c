@@ -3,8 +3,8 @@
 #include "numbers/elementary.h"
 #include "physics/hertz.h"
 #include "physics/ring_fit.h"
-#include "rivet/rivet_rom.h"
 #include "physics/traction.h"
+#include "rivet/rivet_rom.h"
 
 // Density of air [kg/m3] at 293 K and 10^5 Pa.
 static const double AIR_DENSITY = 1.19;
@@ -38,7 +38,8 @@ static double ball_nu(const Parameters *p)
     return p->ball.nu > 0.0 ? p->ball.nu : p->bearing.nu;
 }
 
-// E_star of ball and race, 1/E_star = (1 - nu_b^2)/E_b + (1 - nu^2)/E; half of E/(1 - nu^2) to the last bit where both are alike.
+// E_star of ball and race, 1/E_star = (1 - nu_b^2)/E_b + (1 - nu^2)/E; half of E/(1 - nu^2) to the last bit
+// where both are alike.
 static double race_modulus(const Parameters *p)
 {
     const double ring = p->bearing.E / (1.0 - p->bearing.nu * p->bearing.nu);
@@ -237,9 +238,9 @@ static void derive_joint(const Parameters *p, Derived *d)
 
 // Errors that tolerance 1 allows: lengths and velocities, angles as arcs, friction states as parts of the deflection at
 // which the plates slip.  The default method has scales by consequence (docs/method.md): a ball's velocity along its
-// orbit decides how it meets its pocket and is finer, less so where walls give way; integrator.c makes it finer still at
-// lower speeds.  Its velocity along the contact normals, where a step's error moves it by nanometres, and the friction
-// states, whose error hardly changes a half's velocity within a step, are wider.
+// orbit decides how it meets its pocket and is finer, less so where walls give way; integrator.c makes it
+// finer still at lower speeds.  Its velocity along the contact normals, where a step's error moves it by
+// nanometres, and the friction states, whose error hardly changes a half's velocity within a step, are wider.
 static void derive_scales(const Parameters *p, Derived *d)
 {
     const bool equal = p->solver.method == METHOD_EXPLICIT;

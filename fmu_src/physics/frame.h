@@ -1,5 +1,6 @@
-// The frame's own motion: the frame turns at omega_f about an axis parallel to X, frame.radius away on -Y, and this axis
-// is accelerated by frame.a.  All motions are relative to the frame; bodies feel, beside the forces on them,
+// The frame's own motion: the frame turns at omega_f about an axis parallel to X, frame.radius away on -Y,
+// and this axis is accelerated by frame.a.  All motions are relative to the frame; bodies feel, beside the
+// forces on them,
 //
 //   translation  m (field + omega_f^2 (0, y, z) - 2 omega_f e_x x v - omega_f' e_x x s)
 //                field = gravity - frame.a + omega_f^2 R e_y - omega_f' R e_z        at the bearing's centre s = 0

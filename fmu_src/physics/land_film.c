@@ -13,8 +13,8 @@
 //                                      + S (q^2 + 3 b^2)/q^5
 //
 // An outer ring that moves (outer_ring.h): e, e_dot and omega are those against its material, and the forces are along
-// its axes.  For a ring that turns this is Reynolds' equation for two turning surfaces: squeeze e_dot - (omega + omega_e)/2
-// e_x x e.
+// its axes.  For a ring that turns this is Reynolds' equation for two turning surfaces: squeeze e_dot -
+// (omega + omega_e)/2 e_x x e.
 //
 // Steady rotation gives Ocvirk's force (a = 0), pure squeeze that of the pi-film.  F is the gradient of an
 // integral of (V.n)^2/h^3 over the closing half, so that -dF/dV = kappa (I_c, I_s; I_s, I_t) exactly: these
@@ -103,7 +103,8 @@ INLINE LandMotion land_motion_against(const Rotor *outer, const Rotor *h0, const
                         wide_pair(motion[4][0], motion[4][1])};
 }
 
-// Adds force (F_y, F_z) and moment M_x along the outer ring's axes, at the land x from the half's centre, to its wrench.
+// Adds force (F_y, F_z) and moment M_x along the outer ring's axes, at the land x from the half's centre, to
+// its wrench.
 INLINE void add_wrench_along(const Rotor *outer, scalar x, scalar F_y, scalar F_z, scalar M_x, Rotor *half)
 {
     scalar F[3], arm[3], lever[3];
@@ -118,8 +119,8 @@ INLINE void add_wrench_along(const Rotor *outer, scalar x, scalar F_y, scalar F_
     }
 }
 
-// The lands of HALVES halves side by side, beginning with half `first`.  outer: the outer ring, NULL if it is at rest in
-// its place.
+// The lands of HALVES halves side by side, beginning with half `first`.  outer: the outer ring, NULL if it is
+// at rest in its place.
 INLINE void land_film_packet(const Model *model, Work *w, int first, const Rotor *outer)
 {
     const Parameters *p = model->p;

@@ -56,8 +56,8 @@ typedef struct {
 // Relative rigid motions of half 1 against half 0, in the frame of half 0: x, about y, about z, y, z, spin.
 enum { RELATIVE_MOTIONS = 6 };
 
-// Inverse inertia of these motions as the joints feel it [1/kg, 1/(kg.m2)]; what of y and z the centres of mass take; common
-// tilt [rad] by unit of y or z at the joints (cage_substeps.c).
+// Inverse inertia of these motions as the joints feel it [1/kg, 1/(kg.m2)]; what of y and z the centres of
+// mass take; common tilt [rad] by unit of y or z at the joints (cage_substeps.c).
 typedef struct {
     double inverse[RELATIVE_MOTIONS], part, tilt;
 } RelativeInertia;
@@ -229,19 +229,20 @@ typedef struct {
     scalar land_elastic;
     scalar film_yy[2], film_yz[2], film_zz[2], film_spin[2];
 
-    // elastic halves (cage_elastic.c): coordinates of the modes and their rates, by half [m, m/s]; how far a wall can have
-    // moved [m]; moment of inertia that the modes add [kg.m2] and its rate; modal forces on the walls [N] (cleared
-    // by cage_elastic_kinematics, added by pocket_force)
+    // elastic halves (cage_elastic.c): coordinates of the modes and their rates, by half [m, m/s]; how far a
+    // wall can have moved [m]; moment of inertia that the modes add [kg.m2] and its rate; modal forces on the
+    // walls [N] (cleared by cage_elastic_kinematics, added by pocket_force)
     mode_array q[2], q_dot[2], wall_force[2];
     mode_array pull_S, pull_D;  // of the joints on the modes [N]: to be taken off S, on D
     scalar reach[2], more_J[2], more_J_dot[2];
 
-    // contacts with the walls of each elastic half (pocket_force): direction (x, t) from the pocket's axis to the ball, stiffness
-    // along it [N/m], 0 without contact, and the rate of the approach by ball and half as rigid bodies [m/s]
+    // contacts with the walls of each elastic half (pocket_force): direction (x, t) from the pocket's axis to
+    // the ball, stiffness along it [N/m], 0 without contact, and the rate of the approach by ball and half as
+    // rigid bodies [m/s]
     ball_array touch_x[2], touch_t[2], touch_k[2], touch_rate[2];
 
-    // elastic part of the pads' motions against each other, out of the plane (x, about r, about t) and in it (r, t); e: half
-    // of the whole motion out of the plane; part of the halves' rigid motion in u_y and u_z
+    // elastic part of the pads' motions against each other, out of the plane (x, about r, about t) and in it
+    // (r, t); e: half of the whole motion out of the plane; part of the halves' rigid motion in u_y and u_z
     ball_array pad_out[3], pad_in[2], pad_in_dot[2], e[3], rigid_u_y, rigid_u_z;
 
     // loads of the joints (N, M_r, M_t), of their rivets (T, m_r, m_t), L^ and the energy U of the law; force on half

@@ -4,8 +4,8 @@
 // are taken against v + Omega x (P - x), forces and powers follow.
 #pragma once
 
-#include "physics/rotor.h"
 #include "numbers/vec.h"
+#include "physics/rotor.h"
 
 // Whether the outer ring moves or is out of its place: only then the elements take its motion into account.
 // Derivatives always do, because they ask what a motion would change.

@@ -22,10 +22,10 @@
 // The ring gets the opposite forces at the same points: force -F, moment -(p x F) - M about its centre.  Spin
 // and curvature let the slip vary along the long axis of the ellipse; `sliced` integrates the traction over this axis:
 //   Delta u(xi) = Delta u + Delta omega x (xi t_2 - xi^2/(2 R_m) n),  pressure (3/4)(1 - xi^2/a^2) per length
-// in slices on both sides of where the slip changes its sign, because the traction is nearly a step there.  With x = xi/a
-// the slip along t_1 is s_1 + k x + b_1 x^2; the place is x_0 = -s_1 k/(k^2 + b_1^2), not beyond the ends.  That is the
-// root where spin (k) outweighs curvature (b_1); the two roots of curvature lie about the middle, which x_0 tends to.
-// Smoothness: C1 at touch-down.  Hertz' ellipse is not cut at the shoulder.
+// in slices on both sides of where the slip changes its sign, because the traction is nearly a step there.
+// With x = xi/a the slip along t_1 is s_1 + k x + b_1 x^2; the place is x_0 = -s_1 k/(k^2 + b_1^2), not
+// beyond the ends.  That is the root where spin (k) outweighs curvature (b_1); the two roots of curvature lie
+// about the middle, which x_0 tends to. Smoothness: C1 at touch-down.  Hertz' ellipse is not cut at the shoulder.
 #include "physics/race_contact.h"
 
 #include "physics/hertz.h"
@@ -36,8 +36,8 @@
 // Slices on both sides of the place x_0 that splits the ellipse, x = xi/a in [-1, 1]: x = x_0 (1 - z) + side z with
 // weights (3/4)(1 + side x)(1 - side x_0)^2 w, where z and w are Gauss-Jacobi's points for the weight 1 - z on [0, 1].
 // They integrate the pressure (3/4)(1 - x^2) times polynomials up to degree 10 on each side exactly.
-// Slices 3 l to 3 l + 2 are the threes l = 0...3, two on each side: THIRDS rows with a slice of each.  Rows are repeated, so that
-// a packet may hold one row for each of two contacts.
+// Slices 3 l to 3 l + 2 are the threes l = 0...3, two on each side: THIRDS rows with a slice of each.  Rows
+// are repeated, so that a packet may hold one row for each of two contacts.
 enum { SIDES = 2, ONE_SIDE = 6, THREES = 4, THIRDS = 3, ROW = 8 };
 
 static const struct {
@@ -104,7 +104,8 @@ typedef struct {
     wide ln_Lambda, rolling, horizontal;
 } RaceConstants;
 
-// Film of a contact: mean surface speed with its floor, 1/U, asperities' share of the load, rolling friction of the inlet.
+// Film of a contact: mean surface speed with its floor, 1/U, asperities' share of the load, rolling friction
+// of the inlet.
 typedef struct {
     wide U, inv_U, f_a, F_R;
 } Film;
@@ -120,8 +121,8 @@ INLINE void load_contact(const Model *model, const Race *race, wide delta, wide 
     c->dissipated = (c->Q - Q_0) * delta_dot;
 }
 
-// One race.  R_g: present radius of the circle of groove centres; p: from the centre of the ring to that of the ball; a, v, Omega: axis, velocity and angular
-// velocity of the ring.  All vectors are in the frames of the balls.
+// One race.  R_g: present radius of the circle of groove centres; p: from the centre of the ring to that of
+// the ball; a, v, Omega: axis, velocity and angular velocity of the ring.  All vectors are in the frames of the balls.
 INLINE Contact race_contact(const Model *model, const Race *race, const BallMotion *ball, wide R_g, vec p,
                             vec a, vec v, vec Omega)
 {
@@ -199,8 +200,8 @@ typedef struct {
     wide side, near, far, w, side_w;
 } Slice;
 
-// Sums over the slices of g x^n, g = |traction| / |slip|.  The traction is -g times the slip, and the slip a polynomial in x:
-// forces, moments and power follow from these sums.
+// Sums over the slices of g x^n, g = |traction| / |slip|.  The traction is -g times the slip, and the slip a
+// polynomial in x: forces, moments and power follow from these sums.
 enum { MOMENTS = 5 };
 
 typedef struct {
@@ -263,8 +264,8 @@ INLINE SliceMoments slice_by_slice(const Parameters *p, const SlicedContact *c, 
     return out;
 }
 
-// The same sums, in the same order, where a quarter of a packet with four lanes, or half of one with eight, has the slices of
-// one contact: THIRDS packets for each lane with a contact among the first four.
+// The same sums, in the same order, where a quarter of a packet with four lanes, or half of one with eight,
+// has the slices of one contact: THIRDS packets for each lane with a contact among the first four.
 INLINE SliceMoments contact_by_contact(const Parameters *p, const SlicedContact *all, int lanes, int balls,
                                        bool mixed)
 {
@@ -481,8 +482,8 @@ INLINE void store_contacts(Work *w, int j, const Contact *inner, const Contact *
     wide_store(&w->spin_dissipated[j], T_i->spin_dissipated + T_e->spin_dissipated);
 }
 
-// Normal contact and motion of a packet of balls at both races.  inner_R_g: radius of the inner groove's circle as the ring
-// has grown; outer_ring: its motion, NULL for a ring at rest in its place.
+// Normal contact and motion of a packet of balls at both races.  inner_R_g: radius of the inner groove's
+// circle as the ring has grown; outer_ring: its motion, NULL for a ring at rest in its place.
 INLINE void race_contacts(const Model *model, const Work *w, int j, scalar inner_R_g, const Rotor *outer_ring,
                           vec *p_i, Contact *inner, Contact *outer)
 {

@@ -1,14 +1,14 @@
 // The table of contents of the physics: one evaluation of dy/dt in named steps.
 #include "physics/rhs.h"
 
-#include "physics/ball.h"
-#include "cage/elastic/cage_elastic.h"
 #include "cage/common/cage_joint.h"
+#include "cage/common/pocket.h"
+#include "cage/elastic/cage_elastic.h"
+#include "physics/ball.h"
 #include "physics/drag.h"
 #include "physics/frame.h"
 #include "physics/land_film.h"
 #include "physics/outer_ring.h"
-#include "cage/common/pocket.h"
 #include "physics/powers.h"
 #include "physics/race_contact.h"
 #include "physics/ring.h"

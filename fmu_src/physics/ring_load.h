@@ -46,7 +46,8 @@ typedef struct {
 //                                       last step) to X, V: continuous in position and velocity
 //
 // In steps shorter than SHORTEST_MOTION the motion goes on with the velocity that it has, because the rates above
-// could overflow.  Where the motion is not given (the shaft's in free motion) it has no derivatives; where it is, there are no loads.
+// could overflow.  Where the motion is not given (the shaft's in free motion) it has no derivatives; where it
+// is, there are no loads.
 void motion_trajectory(const Parameters *p, const Inputs given[INPUT_ORDERS + 1],
                        const MotionHistory *history, const Inputs *now, double h, Inputs u[INPUT_ORDERS + 1]);
 

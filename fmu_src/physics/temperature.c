@@ -2,8 +2,8 @@
 #include "physics/temperature.h"
 
 #include "physics/ring_fit.h"
-#include "rivet/rivet_rom.h"
 #include "physics/viscosity.h"
+#include "rivet/rivet_rom.h"
 
 double *temperature_of(Inputs *u, int i)
 {

@@ -3,7 +3,8 @@
 //
 //   film        mu(s) = (A + B s) exp(-C s) - A,  s = |Delta u| / U; four-parameter law of aviation oils, mu(0) = 0
 //               mu <= 0.048 at any slip: the law is a limiting shear stress gamma p with gamma = 0.048 by itself;
-//               measured ones depend on temperature and pressure too (Wikstrom & Hoglund (1994), J. Tribol. 116, 612: 5.8 to 7 GPa)
+//               measured ones depend on temperature and pressure too (Wikstrom & Hoglund (1994), J. Tribol.
+// 116, 612: 5.8 to 7 GPa)
 //   asperities  mu_b s / sqrt(s^2 + s_0^2)        on their share of the load
 //   share       f_a = exp(-1.8 Lambda^1.2);  Aihara (1987), J. Tribol. 109, 471, eq. 13
 //   Lambda      film / roughness, h/R_x = 2.69 U^0.67 G^0.53 W^-0.067 (1 - 0.61 exp(-0.73 k));  Hamrock & Dowson
@@ -54,8 +55,8 @@ INLINE wide traction_asperity_share(wide ln_Lambda)
     return wide_exp(-1.8 * wide_exp(1.2 * ln_Lambda));
 }
 
-// Traction coefficients at the slide-roll ratios s of n <= ABREAST packets, with the asperity shares f_a (zero where there is
-// only film).
+// Traction coefficients at the slide-roll ratios s of n <= ABREAST packets, with the asperity shares f_a
+// (zero where there is only film).
 INLINE void traction_mu(const Parameters *p, int n, const wide s[], const wide f_a[], bool mixed, wide mu[])
 {
     const double A = p->oil.A, B = p->oil.B, C_log2_e = 1.4426950408889634 * p->oil.C;

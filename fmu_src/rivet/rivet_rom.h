@@ -31,10 +31,10 @@
 // head_friction F_head to the head channels and nothing in the middle.
 #pragma once
 
+#include "cage/common/joint_law.h"
 #include "cage/elastic/half_modes.h"
 #include "cage/two_half/half_path.h"
 #include "numbers/isa.h"
-#include "cage/common/joint_law.h"
 
 // Loads of all joints and of their rivets [N, N.m], on the +x half in the frames (x, r, t) of the rivets.
 typedef struct {

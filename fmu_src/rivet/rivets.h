@@ -2,8 +2,8 @@
 // Equations in rivets.c.
 #pragma once
 
-#include "numbers/isa.h"
 #include "cage/two_half/joint_follow.h"
+#include "numbers/isa.h"
 #include "physics/model.h"
 #include "rivet/rivet_rom.h"
 

@@ -85,8 +85,8 @@ typedef struct {
     wide L[TERMS], inv_D[BLOCK];
 } Factors;
 
-// Factors n matrices; on entry each is in L.  A factorization and a substitution are chains in which each number waits for the one before, so
-// that several packets take little longer than one.
+// Factors n matrices; on entry each is in L.  A factorization and a substitution are chains in which each
+// number waits for the one before, so that several packets take little longer than one.
 INLINE void factor_blocks(int n, Factors f[])
 {
     for (int i = 0; i < BLOCK; i++) {
@@ -193,8 +193,8 @@ static void store_balls(ball_array rows[BLOCK], double *v)
     for (int i = 0; i < BLOCK; i++) memcpy(&v[BALL_ROW[i]], rows[i], Z * sizeof *v);
 }
 
-// x = W^-1 M v of n packets, of the first balls `at`; v in rows.  On entry W is in f, on return its factors.  The state's third
-// velocity is the orbital speed, the matrix has v_t = r omega_m.
+// x = W^-1 M v of n packets, of the first balls `at`; v in rows.  On entry W is in f, on return its factors.
+// The state's third velocity is the orbital speed, the matrix has v_t = r omega_m.
 INLINE void solve_packets(const Model *model, const Work *w, int n, const int at[], Factors f[],
                           ball_array rows[BLOCK], wide x[][BLOCK])
 {
@@ -371,8 +371,8 @@ static Film film_of_half(const Model *model, const Work *w, int h, double gamma)
     return film(w, h, p->cage.m, model->d->J_p, model->d->J_t, x_land - model->d->com_x[h], gamma);
 }
 
-// v = (1 + gamma A)^-1 v of a rigid cage, A of both films together: where both are stiff, one after the other would hold the cage by their
-// product.
+// v = (1 + gamma A)^-1 v of a rigid cage, A of both films together: where both are stiff, one after the other
+// would hold the cage by their product.
 static void rigid_solve(const Model *model, const Work *w, double gamma, Half *v)
 {
     enum { V_Y, V_Z, BETA, GAMMA, S };

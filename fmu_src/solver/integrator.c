@@ -15,8 +15,8 @@
 // that relative ones would fade.
 #include "solver/integrator.h"
 
-#include "numbers/aligned.h"
 #include "cage/elastic/elastic_half.h"
+#include "numbers/aligned.h"
 #include "numbers/elementary.h"
 #include "numbers/reserved_memory.h"
 #include "numbers/saved_numbers.h"
@@ -263,15 +263,15 @@ static const double SAFETY = 0.8, MIN_FACTOR = 0.2, MAX_FACTOR = 1.5, LEAST_ERRO
 
 enum { ORDER = 2 };
 
-// Length that a step's error asks of the next one / its own length.  A NaN means that the step has left the range of the model,
-// and gives 0.
+// Length that a step's error asks of the next one / its own length.  A NaN means that the step has left the
+// range of the model, and gives 0.
 static double ratio_of(double error)
 {
     return error >= 0.0 ? SAFETY * approx_inv_cbrt(fmax(error, LEAST_ERROR)) : 0.0;
 }
 
-// After a step that is accepted, the digital filter H211b of Soderlind (2003) with b = 4: lengths that change smoothly, so that
-// the errors of a contact's rise and fall cancel.  After one that is refused, the ratio itself.
+// After a step that is accepted, the digital filter H211b of Soderlind (2003) with b = 4: lengths that change
+// smoothly, so that the errors of a contact's rise and fall cancel.  After one that is refused, the ratio itself.
 static SUNErrCode step_estimate(SUNAdaptController control, sunrealtype h, int order, sunrealtype error,
                                 sunrealtype *h_next)
 {
@@ -451,9 +451,9 @@ static double step_length(double goal, double left)
     return left < 2.0 * goal ? 0.5 * left : goal;
 }
 
-// The longest step from a state [s].  Elastic halves: slow forces that are held over a step feed vibrations that turn by much more than pi in
-// it, so that it has three substeps at most; films of the rate A, which the substeps leave out, hold for 1/A, or for two
-// substeps, which are always stable.
+// The longest step from a state [s].  Elastic halves: slow forces that are held over a step feed vibrations
+// that turn by much more than pi in it, so that it has three substeps at most; films of the rate A, which the
+// substeps leave out, hold for 1/A, or for two substeps, which are always stable.
 static double longest_step(const Model *model, const VerletState *now)
 {
     if (!model->elastic) return INFINITY;
@@ -462,8 +462,9 @@ static double longest_step(const Model *model, const VerletState *now)
     return fmin(3.0 * d, fmax(2.0 * d, model->p->cage.m / film));
 }
 
-// The speed with which ball and pocket meet goes with the orbital speed against the outer ring, and so does the error of it that matters:
-// the scale of velocities along the orbit holds from FULL_ORBIT [m/s] on and is in proportion below, down to its LEAST_ORBIT part.
+// The speed with which ball and pocket meet goes with the orbital speed against the outer ring, and so does
+// the error of it that matters: the scale of velocities along the orbit holds from FULL_ORBIT [m/s] on and is
+// in proportion below, down to its LEAST_ORBIT part.
 static const double FULL_ORBIT = 20.0, LEAST_ORBIT = 0.1;
 
 static void weigh_orbit(Integrator *in)

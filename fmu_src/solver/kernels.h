@@ -1,11 +1,11 @@
 // Functions that exist once for each instruction set, and the choice among them at run time.
 #pragma once
 
-#include "solver/implicit.h"
 #include "physics/race_contact.h"
 #include "physics/rhs.h"
 #include "rivet/rivet_rom.h"
 #include "rivet/rivets.h"
+#include "solver/implicit.h"
 #include "solver/vector_ops.h"
 #include "solver/verlet.h"
 

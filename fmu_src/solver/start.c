@@ -280,8 +280,8 @@ static void cage_pose(const Model *model, const Work *w, double omega_m, double 
     }
 }
 
-// Elastic halves at rest under the centrifugal load: coordinates of their modes, and the halves as far apart as their bodies
-// are then.
+// Elastic halves at rest under the centrifugal load: coordinates of their modes, and the halves as far apart
+// as their bodies are then.
 static void cage_widened(const Model *model, double omega_m, double *y)
 {
     const double beta = y[Y_CAGE_BETA], gamma = y[Y_CAGE_GAMMA],

@@ -1,5 +1,5 @@
-// Operations on the state vector, for a state with and one without the modes of elastic cage halves.  They run element by
-// element, or sum in a fixed order of partial sums, so that every instruction set gives the same bits.
+// Operations on the state vector, for a state with and one without the modes of elastic cage halves.  They
+// run element by element, or sum in a fixed order of partial sums, so that every instruction set gives the same bits.
 #include "solver/vector_ops.h"
 
 enum { MORE = N_ALL_STATES - N_STATES };  // rows of elastic halves

@@ -18,8 +18,8 @@
 #include "solver/verlet.h"
 
 #include "cage/elastic/elastic_half.h"
-#include "solver/implicit.h"
 #include "physics/rhs.h"
+#include "solver/implicit.h"
 #include "solver/vector_ops.h"
 
 // Rows of the state: positions from 0 on, friction states from FRICTION on, the work, velocities from
@@ -49,8 +49,8 @@ static double sum_of(const double *x, int count)
     return ((part[0] + part[1]) + (part[2] + part[3])) + ((part[4] + part[5]) + (part[6] + part[7]));
 }
 
-// Writes positions and friction states of the step's end and the velocities v_m of its middle into y.  Elastic halves take
-// substeps, whose length is returned.
+// Writes positions and friction states of the step's end and the velocities v_m of its middle into y.
+// Elastic halves take substeps, whose length is returned.
 static double advance_positions(const Model *model, double h, const VerletState *from, double *y,
                                 Foreseen *foreseen, Work *w)
 {

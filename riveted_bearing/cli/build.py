@@ -16,7 +16,10 @@ TABLES = ("coarse", "full", "closed-form")  # of rivet.py, whose import takes a 
 @command
 def build(
     bearing: Annotated[str | None, typer.Option(help="bearing file (TOML) or designation; default: the 6207")] = None,
-    rivet: Annotated[Path | None, typer.Option(help="rivet table (JSON) or geometry of the rivet (TOML); default: the bearing's own rivet")] = None,
+    rivet: Annotated[
+        Path | None,
+        typer.Option(help="rivet table (JSON) or geometry of the rivet (TOML); default: the bearing's own rivet"),
+    ] = None,
     table: Annotated[
         str | None,
         typer.Option(
@@ -26,10 +29,18 @@ def build(
     ] = None,
     out: Annotated[
         Path | None,
-        typer.Option(help="the FMU to write; default: my.fmu here for the bearing or rivet my.toml, else RivetedBearing.fmu, in a checkout in fmus/"),
+        typer.Option(
+            help="the FMU to write; default: my.fmu here for the bearing or rivet my.toml, else RivetedBearing.fmu, in a checkout in fmus/"
+        ),
     ] = None,
-    modes: Annotated[int | None, typer.Option(help="vibration modes of a cage half, a pair counted as two; default: 20 for three rivets")] = None,
-    platforms: Annotated[str | None, typer.Option(help="all, or names such as linux64,win64: cross-compiled; default: this machine's compiler")] = None,
+    modes: Annotated[
+        int | None,
+        typer.Option(help="vibration modes of a cage half, a pair counted as two; default: 20 for three rivets"),
+    ] = None,
+    platforms: Annotated[
+        str | None,
+        typer.Option(help="all, or names such as linux64,win64: cross-compiled; default: this machine's compiler"),
+    ] = None,
 ):
     """Make an FMU for a bearing: needs a C compiler, takes a minute or two; with --table full half an hour more."""
     from ..builder import build_fmu, platform_names, table_copy
@@ -46,7 +57,9 @@ def build(
     console.print(escape(Model(path).description.description), style="dim", soft_wrap=True)
     console.print(str(path), style="cyan", soft_wrap=True)
     shown = f"riveted-bearing rivet {shlex.quote(str(table_copy(bearing)))}"
-    console.print(f"its stress curves and the modes of its cage as pictures: {escape(shown)}", style="dim", soft_wrap=True)
+    console.print(
+        f"its stress curves and the modes of its cage as pictures: {escape(shown)}", style="dim", soft_wrap=True
+    )
     if rivet:
         from ..rivet import given_geometry, seat_note, write_drawing
 

@@ -17,13 +17,20 @@ SHIPPED = Path(__file__).resolve().parents[1] / "data" / "cascade.toml"
 
 @command
 def cascade(
-    study: Annotated[Path, typer.Argument(help="cascade file (TOML): scene, seeds, cases; see docs/life.md", metavar="[CASCADE.toml]")] = SHIPPED,
+    study: Annotated[
+        Path,
+        typer.Argument(help="cascade file (TOML): scene, seeds, cases; see docs/life.md", metavar="[CASCADE.toml]"),
+    ] = SHIPPED,
     fmu: FMU = None,
-    out: Annotated[Path | None, typer.Option(help="folder of runs, cascade.json and picture; default: results/CASCADE")] = None,
+    out: Annotated[
+        Path | None, typer.Option(help="folder of runs, cascade.json and picture; default: results/CASCADE")
+    ] = None,
     scheduler: SCHEDULER = None,
     workers: WORKERS = None,
 ):
-    """What happens when the first rivet goes: order, times and loads until three are gone or the cage opens; a second call does only missing runs."""
+    """What happens when the first rivet goes: order, times and loads until three are gone or the cage opens; a second
+    call does only missing runs.
+    """
     from ..design.cascade import plan_cascade, run_cascades, write_cascades, write_picture
     from ..errors import UserError
     from ..fmu import Model
@@ -40,22 +47,43 @@ def cascade(
         print_basis(rows)
     for each in found:
         print_cascade(each)
-    for label, path in (("results", write_cascades(found, folder / "cascade.json")), ("picture", write_picture(found, folder / "cascade.png"))):
+    for label, path in (
+        ("results", write_cascades(found, folder / "cascade.json")),
+        ("picture", write_picture(found, folder / "cascade.png")),
+    ):
         console.print(f"{label:8} [cyan]{escape(str(path))}[/]", soft_wrap=True)
 
 
 def print_cascade(found):
     """A table of the states: what breaks, when, how sure, what the others then carry."""
     heads = ("breaks", "place", "after", "at", "sure", "largest head stress, MPa", "dislocation, um")
-    table = Table("gone", *(Column(text, justify="right") for text in heads), title=escape(found.name), title_justify="left", box=None, pad_edge=False)
+    table = Table(
+        "gone",
+        *(Column(text, justify="right") for text in heads),
+        title=escape(found.name),
+        title_justify="left",
+        box=None,
+        pad_edge=False,
+    )
     hours = 0.0
     for state in found.states:
         hours += state.hours
         ends = (
             ("", "", "", "", "")
             if state.rivet is None
-            else (str(state.rivet), state.place, hours_text(state.hours), hours_text(hours), f"{100 * state.sure:.0f} %")
+            else (
+                str(state.rivet),
+                state.place,
+                hours_text(state.hours),
+                hours_text(hours),
+                f"{100 * state.sure:.0f} %",
+            )
         )
         gone = ", ".join(map(str, state.gone)) or "none"
-        table.add_row(gone + (" (opens)" if state.opens else ""), *ends, f"{state.stress.max() / 1e6:.0f}", f"{1e6 * state.dislocation:.1f}")
+        table.add_row(
+            gone + (" (opens)" if state.opens else ""),
+            *ends,
+            f"{state.stress.max() / 1e6:.0f}",
+            f"{1e6 * state.dislocation:.1f}",
+        )
     console.print(table)

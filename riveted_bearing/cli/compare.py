@@ -14,14 +14,24 @@ from .terminal import FMU, SETTINGS, changes, command, console, messages, number
 
 @command
 def compare(
-    scene: Annotated[str | None, typer.Argument(help="scene file (TOML) or one of the shipped scenes; default: the FMU's own working point")] = None,
+    scene: Annotated[
+        str | None,
+        typer.Argument(help="scene file (TOML) or one of the shipped scenes; default: the FMU's own working point"),
+    ] = None,
     fmu: FMU = None,
     out: Annotated[Path, typer.Option(help="folder for the picture")] = Path("results"),
     settings: SETTINGS = None,
     short: Annotated[str, typer.Option(help="horizon of the comparison point by point")] = "1 ms",
-    long: Annotated[str, typer.Option(help="horizon of the statistics, 0 for none; 0.1 s take the reference some minutes")] = "0.1 s",
+    long: Annotated[
+        str, typer.Option(help="horizon of the statistics, 0 for none; 0.1 s take the reference some minutes")
+    ] = "0.1 s",
     seeds: Annotated[int, typer.Option(help="runs of the FMU over the long horizon")] = 8,
-    method: Annotated[str, typer.Option(help="the reference's method over the short horizon: DOP853, Radau where films or joints are stiff")] = "DOP853",
+    method: Annotated[
+        str,
+        typer.Option(
+            help="the reference's method over the short horizon: DOP853, Radau where films or joints are stiff"
+        ),
+    ] = "DOP853",
 ):
     """Run a scene through the FMU and through the Python reference: differences in tables and a picture."""
     from ..basis import basis
@@ -35,16 +45,33 @@ def compare(
     plan = load_scene(scene, model, ("the command line", changes(model, settings or [], None, None, None)))
     horizons = {name: seconds(f"--{name}", number_or_text(text)) for name, text in (("short", short), ("long", long))}
     make_folder(out)
-    with Progress(SpinnerColumn(), TextColumn("{task.description}"), BarColumn(bar_width=30), console=messages, disable=not messages.is_terminal) as bar:
+    with Progress(
+        SpinnerColumn(),
+        TextColumn("{task.description}"),
+        BarColumn(bar_width=30),
+        console=messages,
+        disable=not messages.is_terminal,
+    ) as bar:
         task = bar.add_task("FMU, short horizon", total=1.0)
         found = compare_scene(
-            model, plan, **horizons, seeds=seeds, method=method, progress=lambda what, share: bar.update(task, description=what, completed=share)
+            model,
+            plan,
+            **horizons,
+            seeds=seeds,
+            method=method,
+            progress=lambda what, share: bar.update(task, description=what, completed=share),
         )
-    console.print(f"[bold]{escape(plan.name)}[/]: FMU against reference over {1e3 * found.t[-1]:g} ms, at tolerances of the FMU", soft_wrap=True)
+    console.print(
+        f"[bold]{escape(plan.name)}[/]: FMU against reference over {1e3 * found.t[-1]:g} ms, at tolerances of the FMU",
+        soft_wrap=True,
+    )
     print_basis(basis(model, [plan]))
     console.print(short_table(found))
     if found.statistics:
-        console.print(f"\n[bold]Statistics[/] from {found.settle:g} to {found.long:g} s, {found.seeds} seeds of the FMU, one of the reference", soft_wrap=True)
+        console.print(
+            f"\n[bold]Statistics[/] from {found.settle:g} to {found.long:g} s, {found.seeds} seeds of the FMU, one of the reference",
+            soft_wrap=True,
+        )
         console.print(long_table(found))
         console.print("\n[bold]Energy in the reference[/]")
         console.print(ledger_table(found.ledger))

@@ -22,7 +22,10 @@ RIVET = ("shank_diameter", "head_diameter", "head_height", "fillet_radius")
 def info(
     target: Annotated[
         str | None,
-        typer.Argument(metavar="[BEARING|SCENE]", help="bearing file or designation, or scene file or name; default: the bearing of --fmu, else the 6207"),
+        typer.Argument(
+            metavar="[BEARING|SCENE]",
+            help="bearing file or designation, or scene file or name; default: the bearing of --fmu, else the 6207",
+        ),
     ] = None,
     fmu: FMU = None,
 ):
@@ -36,7 +39,8 @@ def info(
     console.print(f"[bold]{escape(case.designation)}[/]  {escape(case.description)}", soft_wrap=True)
     if target is None and fmu is None:
         console.print(
-            f"[yellow]note:[/] no bearing is named: this is the {EXAMPLE}, as an example; name a bearing or a scene, or an FMU with --fmu", soft_wrap=True
+            f"[yellow]note:[/] no bearing is named: this is the {EXAMPLE}, as an example; name a bearing or a scene, or an FMU with --fmu",
+            soft_wrap=True,
         )
     elif target is None or not is_bearing(target):
         model = Model(fmu)
@@ -76,12 +80,27 @@ def geometry(case):
     """Name, value, unit and origin of what the bearing is."""
     bearing, values, catalogue = case.bearing, case.values, case.catalogue
     if all(key in catalogue for key in BOUNDARY):
-        yield "bore x outside diameter x width", " x ".join(f"{1e3 * catalogue[key]:g}" for key in BOUNDARY), "mm", origins(case, *BOUNDARY)
+        yield (
+            "bore x outside diameter x width",
+            " x ".join(f"{1e3 * catalogue[key]:g}" for key in BOUNDARY),
+            "mm",
+            origins(case, *BOUNDARY),
+        )
     if "C" in catalogue and "C_0" in catalogue:
-        yield "load ratings C, C_0", f"{1e-3 * catalogue['C']:g}, {1e-3 * catalogue['C_0']:g}", "kN", origins(case, "C", "C_0")
+        yield (
+            "load ratings C, C_0",
+            f"{1e-3 * catalogue['C']:g}, {1e-3 * catalogue['C_0']:g}",
+            "kN",
+            origins(case, "C", "C_0"),
+        )
     yield "balls", f"{case.Z} x {1e3 * bearing.D:g}", "mm", origins(case, "Z", "bearing.D")
     yield "pitch diameter", f"{1e3 * bearing.d_m:g}", "mm", origins(case, "bearing.d_m")
-    yield "groove radius / ball diameter, inner, outer", f"{bearing.f_i:g}, {bearing.f_e:g}", "", origins(case, "bearing.f_i", "bearing.f_e")
+    yield (
+        "groove radius / ball diameter, inner, outer",
+        f"{bearing.f_i:g}, {bearing.f_e:g}",
+        "",
+        origins(case, "bearing.f_i", "bearing.f_e"),
+    )
     yield "diametral clearance", f"{1e6 * bearing.clearance:g}", "um", origins(case, "bearing.P_d")
     yield "free contact angle", f"{DEG * bearing.free_contact_angle:.2f}", "deg", ""
     for label, names in (
@@ -91,10 +110,25 @@ def geometry(case):
         yield label, ", ".join(f"{1e3 * values[name]:.4g}" for name in names), "mm", origins(case, *names)
     if case.rivet is not None:
         rivet = [f"{1e3 * case.rivet.get(name, getattr(Geometry, name)):.3g}" for name in RIVET]
-        yield "rivet: shank, head, head height, fillet", ", ".join(rivet), "mm", origins(case, *(f"rivet.{name}" for name in RIVET))
+        yield (
+            "rivet: shank, head, head height, fillet",
+            ", ".join(rivet),
+            "mm",
+            origins(case, *(f"rivet.{name}" for name in RIVET)),
+        )
     for part, material in case.materials.items():
-        yield f"material of {'the ' + part if part in ('cage', 'rivet') else part}", material.words(), "", "yours" if material.given else "default"
-    yield "mass of a ball, a cage half", f"{1e3 * bearing.ball_mass:.3g}, {1e3 * values['cage.m']:.3g}", "g", origins(case, "cage.m")
+        yield (
+            f"material of {'the ' + part if part in ('cage', 'rivet') else part}",
+            material.words(),
+            "",
+            "yours" if material.given else "default",
+        )
+    yield (
+        "mass of a ball, a cage half",
+        f"{1e3 * bearing.ball_mass:.3g}, {1e3 * values['cage.m']:.3g}",
+        "g",
+        origins(case, "cage.m"),
+    )
     yield "mass of the inner ring and its share of shaft", f"{values['ring.m']:.3g}", "kg", origins(case, "ring.m")
 
 
@@ -114,9 +148,16 @@ def sources(missing):
 
 def frequencies(case, state):
     """Cage, ball pass and ball spin frequencies, for pure radial contact and in the equilibrium."""
-    table = Table("", *(Column(text, justify="right") for text in ("alpha = 0", "as loaded")), "", box=None, pad_edge=False)
+    table = Table(
+        "", *(Column(text, justify="right") for text in ("alpha = 0", "as loaded")), "", box=None, pad_edge=False
+    )
     nominal, loaded = fault_frequencies(case.load.omega, case.bearing.D, case.bearing.d_m, case.Z), state.frequencies
-    rows = (("cage (FTF)", "FTF"), ("balls over the outer race (BPFO)", "BPFO"), ("balls over the inner race (BPFI)", "BPFI"), ("spin of a ball (BSF)", "BSF"))
+    rows = (
+        ("cage (FTF)", "FTF"),
+        ("balls over the outer race (BPFO)", "BPFO"),
+        ("balls over the inner race (BPFI)", "BPFI"),
+        ("spin of a ball (BSF)", "BSF"),
+    )
     for label, name in rows:
         table.add_row(label, f"{getattr(nominal, name):.1f}", f"{getattr(loaded, name):.1f}", "Hz")
     return table
@@ -154,7 +195,11 @@ def equilibrium(case, state):
 def life(L_10r, load):
     """A life in 10^6 revolutions as text and unit, with its hours if the bearing turns."""
     turns = f"{L_10r:.4g}"
-    return (f"{turns}, {L_10r * 1e6 * 2.0 * math.pi / abs(load.omega) / 3600.0:.4g}", "1e6 turns, h") if load.omega else (turns, "1e6 turns")
+    return (
+        (f"{turns}, {L_10r * 1e6 * 2.0 * math.pi / abs(load.omega) / 3600.0:.4g}", "1e6 turns, h")
+        if load.omega
+        else (turns, "1e6 turns")
+    )
 
 
 def balls(state):
@@ -162,7 +207,18 @@ def balls(state):
     names = ("azimuth", "Q_i", "Q_e", "alpha_i", "alpha_e", "p_i", "p_e", "spin/roll i")
     table = Table("ball", *(Column(name, justify="right") for name in names), box=None, pad_edge=False)
     table.add_row("", "deg", "N", "N", "deg", "deg", "MPa", "MPa", "", style="dim")
-    rows = zip(state.psi, state.Q_i, state.Q_e, state.alpha_i, state.alpha_e, state.p_i, state.p_e, state.spin_i, state.omega_R, strict=True)
+    rows = zip(
+        state.psi,
+        state.Q_i,
+        state.Q_e,
+        state.alpha_i,
+        state.alpha_e,
+        state.p_i,
+        state.p_e,
+        state.spin_i,
+        state.omega_R,
+        strict=True,
+    )
     for j, (psi, Q_i, Q_e, alpha_i, alpha_e, p_i, p_e, spin, roll) in enumerate(rows, 1):
         table.add_row(
             str(j),
@@ -185,7 +241,9 @@ def fixed(value, digits):
 
 def pairs(rows):
     """A table of names, values and units."""
-    table = Table("", Column("", justify="right"), "", Column("", style="dim"), box=None, pad_edge=False, show_header=False)
+    table = Table(
+        "", Column("", justify="right"), "", Column("", style="dim"), box=None, pad_edge=False, show_header=False
+    )
     for row in rows:
         table.add_row(*row)
     return table

@@ -13,13 +13,22 @@ from .terminal import FMU, SCHEDULER, WORKERS, command, console, design_runs, me
 
 @command
 def life(
-    mission: Annotated[Path, typer.Argument(help="mission file (TOML): operating points, hours, events; see docs/life.md", metavar="MISSION.toml")],
+    mission: Annotated[
+        Path,
+        typer.Argument(
+            help="mission file (TOML): operating points, hours, events; see docs/life.md", metavar="MISSION.toml"
+        ),
+    ],
     fmu: FMU = None,
-    out: Annotated[Path | None, typer.Option(help="folder of runs, life.json, page and picture; default: results/MISSION")] = None,
+    out: Annotated[
+        Path | None, typer.Option(help="folder of runs, life.json, page and picture; default: results/MISSION")
+    ] = None,
     scheduler: SCHEDULER = None,
     workers: WORKERS = None,
 ):
-    """Life of the rivets under a mission, with confidence: runs as many seeds as that needs; a second call does only missing runs."""
+    """Life of the rivets under a mission, with confidence: runs as many seeds as that needs; a second call does only
+    missing runs.
+    """
     from ..duty.assess import Runs, assess, write_record
     from ..duty.mission import load_mission
     from ..duty.notes import notes
@@ -37,7 +46,9 @@ def life(
     def say(found, target):
         reached.append(found)
         if messages.is_terminal:
-            messages.print(f"[dim]round {len(reached)}: half-width {percent(found.half_width)} of life, wanted {percent(target)}[/]")
+            messages.print(
+                f"[dim]round {len(reached)}: half-width {percent(found.half_width)} of life, wanted {percent(target)}[/]"
+            )
 
     with design_runs(plan.name, folder, scheduler, workers) as (client, progress):
         runs = Runs(plan, model, folder, client, progress)
@@ -54,7 +65,14 @@ def life(
         from ..design.weibull import write_weibull_plot
 
         files.append(("results", write_scatter(of_bearings, folder / RECORD)))
-        files.append(("picture", write_weibull_plot(of_bearings.law, f"{plan.name}: {tolerances.bearings} bearings", folder / "weibull.png")))
+        files.append(
+            (
+                "picture",
+                write_weibull_plot(
+                    of_bearings.law, f"{plan.name}: {tolerances.bearings} bearings", folder / "weibull.png"
+                ),
+            )
+        )
     for label, path in files:
         console.print(f"{label:8} [cyan]{escape(str(path))}[/]", soft_wrap=True)
 

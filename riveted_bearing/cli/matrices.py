@@ -16,15 +16,29 @@ SPEEDS = 6  # up to that of the scene, if none is given
 
 @command
 def matrices(
-    scene: Annotated[str | None, typer.Argument(help="scene file (TOML) or one of the shipped scenes; default: the FMU's own loads and speed")] = None,
+    scene: Annotated[
+        str | None,
+        typer.Argument(help="scene file (TOML) or one of the shipped scenes; default: the FMU's own loads and speed"),
+    ] = None,
     fmu: FMU = None,
     out: Annotated[Path, typer.Option(help="folder for the files")] = Path("results"),
-    speeds: Annotated[list[str] | None, typer.Option("--speed", help='speed, e.g. --speed "6000 rev/min"; repeatable; default: six up to the scene\'s')] = None,
-    loads: Annotated[list[float] | None, typer.Option("--load", help="factor of the scene's loads; repeatable; default: 1")] = None,
-    frequency: Annotated[float | None, typer.Option(min=1.0, help="frequency of the shakes in Hz; default: the speed's own")] = None,
-    static: Annotated[bool, typer.Option("--static", help="the quasi-static stiffness alone, without the FMU's response")] = False,
+    speeds: Annotated[
+        list[str] | None,
+        typer.Option("--speed", help='speed, e.g. --speed "6000 rev/min"; repeatable; default: six up to the scene\'s'),
+    ] = None,
+    loads: Annotated[
+        list[float] | None, typer.Option("--load", help="factor of the scene's loads; repeatable; default: 1")
+    ] = None,
+    frequency: Annotated[
+        float | None, typer.Option(min=1.0, help="frequency of the shakes in Hz; default: the speed's own")
+    ] = None,
+    static: Annotated[
+        bool, typer.Option("--static", help="the quasi-static stiffness alone, without the FMU's response")
+    ] = False,
 ):
-    """Stiffness and damping (5 x 5, shaft against housing) over speed and load, as CSV, as a ROSS bearing and as a picture."""
+    """Stiffness and damping (5 x 5, shaft against housing) over speed and load, as CSV, as a ROSS bearing and as a
+    picture.
+    """
     import math
 
     from ..basis import basis
@@ -38,12 +52,22 @@ def matrices(
     plan = load_scene(scene, model)
     case = scene_case(scene, model)
     variable = model.inputs["shaft.omega"]
-    omegas = [speed_of(text, variable, model, to_si) for text in speeds or ()] or [case.load.omega * (i + 1) / SPEEDS for i in range(SPEEDS)]
+    omegas = [speed_of(text, variable, model, to_si) for text in speeds or ()] or [
+        case.load.omega * (i + 1) / SPEEDS for i in range(SPEEDS)
+    ]
     balanced = quasi_static_matrices(case, sorted(omegas), loads or [1.0])  # refuses before anything is written
     make_folder(out)
-    with Progress(TextColumn("matrices"), BarColumn(bar_width=30), console=messages, disable=not messages.is_terminal) as bar:
+    with Progress(
+        TextColumn("matrices"), BarColumn(bar_width=30), console=messages, disable=not messages.is_terminal
+    ) as bar:
         task, w = bar.add_task("matrices", total=1.0), frequency and 2.0 * math.pi * frequency
-        found = balanced if static else dynamic_matrices(model, case, plan, balanced, w, progress=lambda share: bar.update(task, completed=share))
+        found = (
+            balanced
+            if static
+            else dynamic_matrices(
+                model, case, plan, balanced, w, progress=lambda share: bar.update(task, completed=share)
+            )
+        )
     rows, stem = basis(model, [scene_at(model, plan, point) for point in found]), plan.name
     print_basis(rows)
     console.print(table(found))
@@ -69,11 +93,21 @@ def speed_of(text, variable, model, to_si):
 
 def table(found):
     """Diagonals of stiffness and damping for the terminal."""
-    heads = ("speed rev/min", "load", *(f"K {i}{i} N/um" for i in "xyz"), *(f"K FMU {i}{i}" for i in "xyz"), *(f"C {i}{i} N s/m" for i in "xyz"))
+    heads = (
+        "speed rev/min",
+        "load",
+        *(f"K {i}{i} N/um" for i in "xyz"),
+        *(f"K FMU {i}{i}" for i in "xyz"),
+        *(f"C {i}{i} N s/m" for i in "xyz"),
+    )
     shown = heads if found[0].K is not None else heads[:5]
     rows = Table(*(Column(head, justify="right") for head in shown), box=None)
     for p in found:
-        values = [f"{p.omega * 9.549296585513721:,.0f}", f"{p.load:g}", *(f"{1e-6 * p.K_static[i, i]:.1f}" for i in range(3))]
+        values = [
+            f"{p.omega * 9.549296585513721:,.0f}",
+            f"{p.load:g}",
+            *(f"{1e-6 * p.K_static[i, i]:.1f}" for i in range(3)),
+        ]
         if p.K is not None:
             values += [f"{1e-6 * p.K[i, i]:.1f}" for i in range(3)] + [f"{p.C[i, i]:.0f}" for i in range(3)]
         rows.add_row(*values)

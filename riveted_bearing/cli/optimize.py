@@ -14,13 +14,20 @@ from .terminal import FMU, SCHEDULER, WORKERS, command, console, design_runs, pr
 
 @command
 def optimize(
-    study: Annotated[Path, typer.Argument(help="study file (TOML): variables, limits, objectives; see docs/life.md", metavar="STUDY.toml")],
+    study: Annotated[
+        Path,
+        typer.Argument(help="study file (TOML): variables, limits, objectives; see docs/life.md", metavar="STUDY.toml"),
+    ],
     fmu: FMU = None,
-    out: Annotated[Path | None, typer.Option(help="folder of runs, optimize.json and picture; default: results/STUDY")] = None,
+    out: Annotated[
+        Path | None, typer.Option(help="folder of runs, optimize.json and picture; default: results/STUDY")
+    ] = None,
     scheduler: SCHEDULER = None,
     workers: WORKERS = None,
 ):
-    """Which values to choose: a search under the noise of the seeds, its best points again with fresh seeds; a second call does only missing runs."""
+    """Which values to choose: a search under the noise of the seeds, its best points again with fresh seeds; a second
+    call does only missing runs.
+    """
     from ..design.bench import Bench
     from ..design.optimize import optuna_library, plan_optimize, search, write_optimum, write_picture
     from ..errors import UserError
@@ -52,8 +59,15 @@ def print_optimum(found):
     table = Table("", *(Column(escape(text), justify="right") for text in heads), box=None, pad_edge=False)
     for place, (i, mean, error) in enumerate(zip(found.candidates, found.means, found.errors, strict=True)):
         cells = [f"{displayed(name, value):.4g}" for name, value in zip(study.box.names, found.points[i], strict=True)]
-        cells += [f"{displayed(name, m):.4g} ± {display_of(name)[1] * e:.2g}" for name, m, e in zip(study.responses, mean, error, strict=True)]
-        table.add_row("recommended" if place == found.best else "", *cells, style="bold" if place == found.best else None)
+        cells += [
+            f"{displayed(name, m):.4g} ± {display_of(name)[1] * e:.2g}"
+            for name, m, e in zip(study.responses, mean, error, strict=True)
+        ]
+        table.add_row(
+            "recommended" if place == found.best else "", *cells, style="bold" if place == found.best else None
+        )
     console.print(table)
     text = f"{len(found.points)} points searched; means ± standard error over {study.check_seeds} seeds that the search has not seen"
-    console.print(f"[dim]{text}{'' if found.best is not None else '; none of them keeps the limits'}[/]", soft_wrap=True)
+    console.print(
+        f"[dim]{text}{'' if found.best is not None else '; none of them keeps the limits'}[/]", soft_wrap=True
+    )

@@ -12,8 +12,12 @@ from .terminal import command, console
 @command
 def report(
     results: Annotated[Path, typer.Argument(help="result file of `run`, or a folder of such files")],
-    out: Annotated[Path | None, typer.Option(help="the page to write, a folder for several; default: beside the results")] = None,
-    sensitivity: Annotated[Path | None, typer.Option(help="sensitivity.json of `sensitivity`, or its folder: the pages name what decides")] = None,
+    out: Annotated[
+        Path | None, typer.Option(help="the page to write, a folder for several; default: beside the results")
+    ] = None,
+    sensitivity: Annotated[
+        Path | None, typer.Option(help="sensitivity.json of `sensitivity`, or its folder: the pages name what decides")
+    ] = None,
 ):
     """One self-contained HTML page per run: figures, charts, and the motion to play and scrub."""
     from ..design.sensitivity import read_indices

@@ -12,10 +12,17 @@ from .terminal import command, console, messages
 
 @command
 def rivet(
-    source: Annotated[Path | None, typer.Argument(metavar="TABLE|GEOMETRY", help="rivet table (JSON) or geometry (TOML); default: the table shipped")] = None,
+    source: Annotated[
+        Path | None,
+        typer.Argument(
+            metavar="TABLE|GEOMETRY", help="rivet table (JSON) or geometry (TOML); default: the table shipped"
+        ),
+    ] = None,
     out: Annotated[Path, typer.Option(help="folder for the pictures")] = Path("results"),
 ):
-    """Stress of the rivet over preload, fit and transverse load; drawing, curves, mesh, deformed section with its stress, modes of a cage half."""
+    """Stress of the rivet over preload, fit and transverse load; drawing, curves, mesh, deformed section with its
+    stress, modes of a cage half.
+    """
     from ..rivet import curve_tables, given_geometry, rivet_curves, seat_note, write_pictures
 
     if source:

@@ -20,11 +20,16 @@ ROUNDING = 1e-9  # in the units shown: what is smaller stands as 0
 @command
 def run(
     scene: Annotated[
-        str | None, typer.Argument(help=f"scene file (TOML) or one of the shipped scenes: {', '.join(shipped_scenes())}; default: the FMU's own working point")
+        str | None,
+        typer.Argument(
+            help=f"scene file (TOML) or one of the shipped scenes: {', '.join(shipped_scenes())}; default: the FMU's own working point"
+        ),
     ] = None,
     fmu: FMU = None,
     out: Annotated[Path, typer.Option(help="folder, or file whose suffix is the format")] = Path("results"),
-    format: Annotated[str | None, typer.Option(help=f"{', '.join(FORMATS)} (default: the suffix of --out, else {FORMATS[0]})")] = None,
+    format: Annotated[
+        str | None, typer.Option(help=f"{', '.join(FORMATS)} (default: the suffix of --out, else {FORMATS[0]})")
+    ] = None,
     settings: SETTINGS = None,
     seed: Annotated[int | None, typer.Option(help="start.seed: initial spacing of the balls")] = None,
     t_end: Annotated[str | None, typer.Option(help='simulated time, e.g. 0.4 or "400 ms"')] = None,
@@ -50,14 +55,19 @@ def run(
             paths.append(plot_result(result, target.with_suffix(".png")))
     for label, path in zip(("results", "picture"), paths, strict=False):
         console.print(f"{label}  [cyan]{escape(str(path))}[/]", soft_wrap=True)
-    console.print(f"[dim]riveted-bearing report {escape(str(paths[0]))}[/]  a page with charts, life and the motion to play", soft_wrap=True)
+    console.print(
+        f"[dim]riveted-bearing report {escape(str(paths[0]))}[/]  a page with charts, life and the motion to play",
+        soft_wrap=True,
+    )
     if result.stopped:
         messages.print(f"[bold red]stopped:[/] {escape(result.stopped)}", soft_wrap=True)
         raise typer.Exit(STOPPED)
 
 
 def result_path(scene, out, kind):
-    """File of the results: --out itself if it has the suffix of a format, else named after the scene in the folder --out."""
+    """File of the results: --out itself if it has the suffix of a format, else named after the scene in the folder
+    --out.
+    """
     suffix = out.suffix.removeprefix(".")
     if kind is not None and kind not in FORMATS:
         raise unknown("--format", "format", kind, FORMATS)
@@ -79,9 +89,19 @@ def statistics_table(result):
     """Mean, RMS, 99.9 % quantile and largest value after settling."""
     from ..summary import summary_rows
 
-    table = Table(Column("", no_wrap=True), "unit", *(Column(text, justify="right") for text in ("mean", "RMS", "p99.9", "max")), box=None, pad_edge=False)
+    table = Table(
+        Column("", no_wrap=True),
+        "unit",
+        *(Column(text, justify="right") for text in ("mean", "RMS", "p99.9", "max")),
+        box=None,
+        pad_edge=False,
+    )
     for row in summary_rows(result):
-        table.add_row(row.channel + ("" if row.every_step else " *"), row.unit, *map(four_digits, (row.mean, row.rms, row.p999, row.largest)))
+        table.add_row(
+            row.channel + ("" if row.every_step else " *"),
+            row.unit,
+            *map(four_digits, (row.mean, row.rms, row.p999, row.largest)),
+        )
     return table
 
 
@@ -90,7 +110,11 @@ def early_table(result):
     from ..summary import early_rows
 
     table = Table(
-        Column("", no_wrap=True), "unit", *(Column(text, justify="right") for text in ("at the end", "largest since the start")), box=None, pad_edge=False
+        Column("", no_wrap=True),
+        "unit",
+        *(Column(text, justify="right") for text in ("at the end", "largest since the start")),
+        box=None,
+        pad_edge=False,
     )
     for channel, unit, last, largest in early_rows(result):
         table.add_row(channel, unit, four_digits(last), four_digits(largest))
@@ -113,23 +137,38 @@ def print_summary(result):
     rivets = rivet_rows(result)
     if rivets:
         worst = max(rivets, key=lambda row: row[1].p999)
-        console.print(f"worst rivet: {worst[0]} (head p99.9 {worst[1].p999:.4g} MPa, middle p99.9 {worst[2].p999:.4g} MPa)")
+        console.print(
+            f"worst rivet: {worst[0]} (head p99.9 {worst[1].p999:.4g} MPa, middle p99.9 {worst[2].p999:.4g} MPa)"
+        )
     if missing := no_statistics(result):
         messages.print(f"[yellow]note:[/] {missing}", soft_wrap=True)
     else:
-        console.print(f"[dim]after the first {result.parameters['start.settle']:g} s; every internal step, * at communication points only[/]")
-    counters = {name: f"{summary[f'solver.{name}']:,.0f}" for name in ("steps", "rhs_evals", "error_tests_failed") if f"solver.{name}" in summary}
+        console.print(
+            f"[dim]after the first {result.parameters['start.settle']:g} s; every internal step, * at communication points only[/]"
+        )
+    counters = {
+        name: f"{summary[f'solver.{name}']:,.0f}"
+        for name in ("steps", "rhs_evals", "error_tests_failed")
+        if f"solver.{name}" in summary
+    }
     if counters:
-        console.print(f"{counters['steps']} steps, {counters['rhs_evals']} evaluations of the equations, {counters['error_tests_failed']} steps rejected")
+        console.print(
+            f"{counters['steps']} steps, {counters['rhs_evals']} evaluations of the equations, {counters['error_tests_failed']} steps rejected"
+        )
     console.print(
         f"simulated {summary['simulated_time']:g} s in {summary['wall_time']:.2f} s, CPU time {summary['cpu_time']:.2f} s, "
         f"[bold]real-time factor {summary['real_time_factor']:.2f}[/] (CPU time / simulated time)",
         soft_wrap=True,
     )
-    assumed = [f"{name} {value:.3g} {unit} ({low:.2g} to {high:.2g}: {100 * stress:.0f} %)" for name, value, low, high, unit, stress, _ in assumed_rows(result)]
+    assumed = [
+        f"{name} {value:.3g} {unit} ({low:.2g} to {high:.2g}: {100 * stress:.0f} %)"
+        for name, value, low, high, unit, stress, _ in assumed_rows(result)
+    ]
     if assumed:
         meant = "usual range: change of the worst head over it, at the working point of the 6207"
-        console.print(f"[dim]assumed, and the stress moves with it ({meant}): {escape(', '.join(assumed))}[/]", soft_wrap=True)
+        console.print(
+            f"[dim]assumed, and the stress moves with it ({meant}): {escape(', '.join(assumed))}[/]", soft_wrap=True
+        )
     for source, names in about.get("not_given", {}).items():
         console.print(f"[dim]not given, {escape(source)}: {escape(names)}[/]", soft_wrap=True)
     if note := table_note(result):

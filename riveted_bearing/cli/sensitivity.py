@@ -15,13 +15,22 @@ from .terminal import FMU, SCHEDULER, WORKERS, command, console, design_runs, pr
 
 @command
 def sensitivity(
-    study: Annotated[Path, typer.Argument(help="study file (TOML): factors with ranges, responses; see docs/life.md", metavar="STUDY.toml")],
+    study: Annotated[
+        Path,
+        typer.Argument(
+            help="study file (TOML): factors with ranges, responses; see docs/life.md", metavar="STUDY.toml"
+        ),
+    ],
     fmu: FMU = None,
-    out: Annotated[Path | None, typer.Option(help="folder of runs, sensitivity.json and picture; default: results/STUDY")] = None,
+    out: Annotated[
+        Path | None, typer.Option(help="folder of runs, sensitivity.json and picture; default: results/STUDY")
+    ] = None,
     scheduler: SCHEDULER = None,
     workers: WORKERS = None,
 ):
-    """What decides life and stress: screening of all factors (Morris), then shares of the variance (Sobol); a second call does only missing runs."""
+    """What decides life and stress: screening of all factors (Morris), then shares of the variance (Sobol); a second
+    call does only missing runs.
+    """
     from ..design.bench import Bench
     from ..design.sensitivity import analyse, plan_sensitivity, salib, write_indices, write_picture
     from ..errors import UserError
@@ -41,7 +50,10 @@ def sensitivity(
         found = replace(analyse(plan, bench), basis=dict(bench.basis()))
     print_basis(found.basis.items())
     print_indices(found, plan.box)
-    for label, path in (("results", write_indices(found, folder / "sensitivity.json")), ("picture", write_picture(found, folder / "sensitivity.png"))):
+    for label, path in (
+        ("results", write_indices(found, folder / "sensitivity.json")),
+        ("picture", write_picture(found, folder / "sensitivity.png")),
+    ):
         console.print(f"{label:8} [cyan]{escape(str(path))}[/]", soft_wrap=True)
 
 
@@ -50,12 +62,19 @@ def print_indices(found, box):
     from ..design.bench import display_of, displayed, titled
     from ..design.sensitivity import order
 
-    ends = [f"{displayed(name, low):.4g} ... {displayed(name, high):.4g}" for name, low, high in zip(box.names, box.low, box.high, strict=True)]
+    ends = [
+        f"{displayed(name, low):.4g} ... {displayed(name, high):.4g}"
+        for name, low, high in zip(box.names, box.low, box.high, strict=True)
+    ]
     for name in found.responses:
         morris, sobol = found.morris[name], found.sobol.get(name)
         factor = display_of(name)[1]
         noise = "" if morris["noise"] is None else f", seeds alone {factor * morris['noise']:.3g}"
-        share = "" if sobol is None or sobol["noise"] is None else f", seeds have {100 * sobol['noise']:.2g} % of the variance"
+        share = (
+            ""
+            if sobol is None or sobol["noise"] is None
+            else f", seeds have {100 * sobol['noise']:.2g} % of the variance"
+        )
         console.print(f"\n[bold]{escape(titled(name))}[/]  [dim]mu* of Morris{noise}{share}[/]", soft_wrap=True)
         heads = ("range", "mu*", "±", "sigma", *(("S1", "±", "ST", "±") if sobol else ()))
         table = Table("factor", *(Column(text, justify="right") for text in heads), box=None, pad_edge=False)

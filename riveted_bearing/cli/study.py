@@ -15,13 +15,24 @@ def study(
     names: Annotated[list[str] | None, typer.Argument(help="sweeps of the study; default: all", metavar="NAME")] = None,
     fmu: FMU = None,
     out: Annotated[Path, typer.Option(help="folder of the runs")] = Path("results/study"),
-    report: Annotated[Path | None, typer.Option(help="folder of paper.md and its pictures; default: that of the runs")] = None,
-    seeds: Annotated[int | None, typer.Option(min=2, help="seeds of each point; default: eight, which the report's confidence needs")] = None,
-    elastic: Annotated[bool, typer.Option("--elastic", help="all sweeps with elastic cage halves too: their verdicts beside those of rigid halves")] = False,
+    report: Annotated[
+        Path | None, typer.Option(help="folder of paper.md and its pictures; default: that of the runs")
+    ] = None,
+    seeds: Annotated[
+        int | None, typer.Option(min=2, help="seeds of each point; default: eight, which the report's confidence needs")
+    ] = None,
+    elastic: Annotated[
+        bool,
+        typer.Option(
+            "--elastic", help="all sweeps with elastic cage halves too: their verdicts beside those of rigid halves"
+        ),
+    ] = False,
     scheduler: SCHEDULER = None,
     workers: WORKERS = None,
 ):
-    """The paper's figures again and its claims one by one: runs, pictures and paper.md; a second call does only missing runs."""
+    """The paper's figures again and its claims one by one: runs, pictures and paper.md; a second call does only missing
+    runs.
+    """
     from ..fmu import Model
     from ..paper_study.paper import write_paper
     from ..paper_study.study import check_names, run_study

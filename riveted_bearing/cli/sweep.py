@@ -13,7 +13,10 @@ from .terminal import FMU, SCHEDULER, STOPPED, WORKERS, command, console, design
 
 @command
 def sweep(
-    study: Annotated[Path, typer.Argument(help="sweep file (TOML): scene, what varies, repeats; see docs/sweeps.md", metavar="STUDY.toml")],
+    study: Annotated[
+        Path,
+        typer.Argument(help="sweep file (TOML): scene, what varies, repeats; see docs/sweeps.md", metavar="STUDY.toml"),
+    ],
     fmu: FMU = None,
     out: Annotated[Path | None, typer.Option(help="folder of the Parquet dataset; default: results/STUDY")] = None,
     scheduler: SCHEDULER = None,
@@ -41,7 +44,10 @@ def sweep(
     if table.responses:
         console.print(f"picture  [cyan]{escape(str(write_picture(table, folder / 'sweep.png')))}[/]", soft_wrap=True)
     if table.responses and report:
-        console.print(f"page     [cyan]{escape(str(write_page(table, plan.description, folder / 'sweep.html')))}[/]", soft_wrap=True)
+        console.print(
+            f"page     [cyan]{escape(str(write_page(table, plan.description, folder / 'sweep.html')))}[/]",
+            soft_wrap=True,
+        )
     for text in dict.fromkeys(failures):
         messages.print(f"[bold red]failed:[/] {escape(text)}", soft_wrap=True)
     if len(failures):

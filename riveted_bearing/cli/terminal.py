@@ -24,28 +24,47 @@ console = Console(highlight=False, width=None if sys.stdout.isatty() or "COLUMNS
 messages = Console(stderr=True, highlight=False)
 
 # Options that several commands have.
-FMU = Annotated[Path | None, typer.Option("--fmu", help="the FMU; default: RivetedBearing.fmu here, in the checkout or as installed")]
-SETTINGS = Annotated[
-    list[str] | None, typer.Option("--set", help='parameter or constant input, e.g. --set joint.preload="30 N"; repeatable', metavar="NAME=VALUE")
+FMU = Annotated[
+    Path | None,
+    typer.Option("--fmu", help="the FMU; default: RivetedBearing.fmu here, in the checkout or as installed"),
 ]
-SCHEDULER = Annotated[str | None, typer.Option("--scheduler", help="address of a running Dask scheduler; default: processes of this machine")]
-WORKERS = Annotated[int | None, typer.Option("--workers", min=1, help="number of local processes; default: one for each core")]
+SETTINGS = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--set", help='parameter or constant input, e.g. --set joint.preload="30 N"; repeatable', metavar="NAME=VALUE"
+    ),
+]
+SCHEDULER = Annotated[
+    str | None,
+    typer.Option("--scheduler", help="address of a running Dask scheduler; default: processes of this machine"),
+]
+WORKERS = Annotated[
+    int | None, typer.Option("--workers", min=1, help="number of local processes; default: one for each core")
+]
 
 
 def print_version(wanted: bool):
     """Print version, Python and platform, then end."""
     if wanted:
-        console.print(f"riveted-bearing {__version__}, Python {platform.python_version()}, {platform.system()} {platform.machine()}")
+        console.print(
+            f"riveted-bearing {__version__}, Python {platform.python_version()}, {platform.system()} {platform.machine()}"
+        )
         raise typer.Exit
 
 
 @program.callback()
-def main(version: Annotated[bool, typer.Option("--version", callback=print_version, is_eager=True, help="print the version and end")] = False):
+def main(
+    version: Annotated[
+        bool, typer.Option("--version", callback=print_version, is_eager=True, help="print the version and end")
+    ] = False,
+):
     """riveted-bearing: dynamics of a ball bearing with a two-piece riveted cage, as an FMU."""
 
 
 def command(function):
-    """Add a function to the program as a command; a UserError, and what the system refuses, becomes one line on stderr and exit code 2, Ctrl-C one and 130."""
+    """Add a function to the program as a command; a UserError, and what the system refuses, becomes one line on stderr
+    and exit code 2, Ctrl-C one and 130.
+    """
 
     @functools.wraps(function)
     def guarded(*arguments, **options):
@@ -75,7 +94,10 @@ def resumable(folder):
     try:
         yield
     except KeyboardInterrupt:
-        messages.print(f"interrupted: finished runs are kept in {escape(str(folder))}; the same command does the others", soft_wrap=True)
+        messages.print(
+            f"interrupted: finished runs are kept in {escape(str(folder))}; the same command does the others",
+            soft_wrap=True,
+        )
         raise typer.Exit(INTERRUPTED) from None
 
 
@@ -92,7 +114,9 @@ def changes(model, settings, seed, t_end, step):
             raise unknown("--set", "parameter or input", name.strip(), [*model.parameters, *model.inputs])
     if seed is not None:
         document["parameters"]["start.seed"] = seed
-    document["simulation"] |= {key: number_or_text(value) for key, value in (("t_end", t_end), ("step", step)) if value is not None}
+    document["simulation"] |= {
+        key: number_or_text(value) for key, value in (("t_end", t_end), ("step", step)) if value is not None
+    }
     return document
 
 
@@ -114,7 +138,9 @@ def print_basis(rows):
 
 @contextlib.contextmanager
 def design_runs(name, folder, scheduler, workers):
-    """For a study that simulates as it goes: gives a function that starts the cluster when it is first called, and a function for progress."""
+    """For a study that simulates as it goes: gives a function that starts the cluster when it is first called, and a
+    function for progress.
+    """
     from ..sweep import cluster
 
     with resumable(folder), contextlib.ExitStack() as stack:
@@ -141,7 +167,9 @@ class Remaining(ProgressColumn):
 
 
 class simulation_progress:
-    """Progress bar of a scene on a terminal, nothing in a pipe; a context manager that gives the function to call with the simulated time [s]."""
+    """Progress bar of a scene on a terminal, nothing in a pipe; a context manager that gives the function to call with
+    the simulated time [s].
+    """
 
     def __init__(self, scene):
         self.bar = Progress(
@@ -165,12 +193,21 @@ class simulation_progress:
 
 
 class sweep_progress:
-    """Progress bars of sweeps on a terminal, nothing in a pipe; a context manager that gives the function to call with a sweep's name and its numbers of
-    runs done, failed and in all."""
+    """Progress bars of sweeps on a terminal, nothing in a pipe; a context manager that gives the function to call with
+    a sweep's name and its numbers of runs done, failed and in all.
+    """
 
     def __init__(self):
-        columns = (TextColumn("{task.description}"), BarColumn(bar_width=30), MofNCompleteColumn(), TextColumn("{task.fields[failed]}"), TimeRemainingColumn())
-        self.bar = Progress(*columns, console=messages, disable=not messages.is_terminal, transient=True, speed_estimate_period=300.0)
+        columns = (
+            TextColumn("{task.description}"),
+            BarColumn(bar_width=30),
+            MofNCompleteColumn(),
+            TextColumn("{task.fields[failed]}"),
+            TimeRemainingColumn(),
+        )
+        self.bar = Progress(
+            *columns, console=messages, disable=not messages.is_terminal, transient=True, speed_estimate_period=300.0
+        )
 
     def __enter__(self):
         self.bar.start()
@@ -179,7 +216,9 @@ class sweep_progress:
         def progress(name, done, failed, total):
             if name not in tasks:  # runs that an earlier call has done do not count for the speed
                 tasks[name] = self.bar.add_task(name, total=total, completed=done, failed="")
-            self.bar.update(tasks[name], total=total, completed=done + failed, failed=f"[red]{failed} failed[/]" if failed else "")
+            self.bar.update(
+                tasks[name], total=total, completed=done + failed, failed=f"[red]{failed} failed[/]" if failed else ""
+            )
 
         return progress
 

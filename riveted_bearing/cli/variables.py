@@ -11,7 +11,10 @@ from .terminal import FMU, command, console
 
 @command
 def variables(
-    pattern: Annotated[str | None, typer.Argument(help="part of a name, a name with * or a word of the description; default: the essential ones")] = None,
+    pattern: Annotated[
+        str | None,
+        typer.Argument(help="part of a name, a name with * or a word of the description; default: the essential ones"),
+    ] = None,
     fmu: FMU = None,
 ):
     """Inputs, parameters and outputs with unit, start value and limits: the essential ones, or those that match."""
@@ -20,7 +23,14 @@ def variables(
 
     model = Model(fmu) if fmu else None
     groups = essentials() if pattern is None else matching(pattern)
-    table = Table(*(Column(title, no_wrap=i < 4) for i, title in enumerate(("name", "", "unit", "start", "allowed", "description"))), box=None, pad_edge=False)
+    table = Table(
+        *(
+            Column(title, no_wrap=i < 4)
+            for i, title in enumerate(("name", "", "unit", "start", "allowed", "description"))
+        ),
+        box=None,
+        pad_edge=False,
+    )
     for title, variables in groups.items():
         table.add_row(f"[bold]{escape(title)}[/]")
         for variable in variables:

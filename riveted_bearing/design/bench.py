@@ -1,4 +1,5 @@
-"""The bench of a study: points of a box of parameters, simulated with common seeds, and the responses that the study asks for.
+"""The bench of a study: points of a box of parameters, simulated with common seeds, and the responses that the study
+asks for.
 
     scene = "demo"                       # as in a sweep (default: none, the FMU's own parameters and inputs), and so are [simulation], [parameters], [inputs]
     seeds = 3                            # runs of each point, the same start.seed for all points
@@ -6,8 +7,9 @@
     [between]                            # lowest and highest value
     joint.preload = ["5 N", "60 N"]
 
-Responses: damage (log10 of Miner's sum per hour at the worst place), stress (99.9 % quantile of the worst head [Pa]), dislocation (largest between the
-halves [m]), friction (mean torque [N.m]), pocket_force (RMS [N]), or the name of any column of a sweep's rows.
+Responses: damage (log10 of Miner's sum per hour at the worst place), stress (99.9 % quantile of the worst head [Pa]),
+dislocation (largest between the halves [m]), friction (mean torque [N.m]), pocket_force (RMS [N]), or the name of any
+column of a sweep's rows.
 """
 
 import hashlib
@@ -22,7 +24,19 @@ from bearing_model.generated import variables
 from ..basis import basis
 from ..errors import UserError, unknown
 from ..scene import leaves, load_scene, refusal, section_of
-from ..sweep import Sweep, beside, bounds, columns_of, compact, count_of, key_of, known_names, run_sweep, schema_of, sections_of
+from ..sweep import (
+    Sweep,
+    beside,
+    bounds,
+    columns_of,
+    compact,
+    count_of,
+    key_of,
+    known_names,
+    run_sweep,
+    schema_of,
+    sections_of,
+)
 from ..variable_list import KNOWN
 
 COMMON = ("description", "scene", "simulation", "parameters", "inputs", "between", "seeds", "seed")
@@ -58,7 +72,11 @@ class Box:
 
     def problem(self):
         """The box as SALib has it."""
-        return {"num_vars": len(self.names), "names": self.names, "bounds": np.column_stack([self.low, self.high]).tolist()}
+        return {
+            "num_vars": len(self.names),
+            "names": self.names,
+            "bounds": np.column_stack([self.low, self.high]).tolist(),
+        }
 
     def chosen(self, names):
         """The box of some of its names."""
@@ -75,7 +93,14 @@ class Bench:
     """
 
     def __init__(self, path, document, model, folder, client, progress=None):
-        self.path, self.document, self.model, self.folder, self.client, self.progress = Path(path), document, model, Path(folder), client, progress
+        self.path, self.document, self.model, self.folder, self.client, self.progress = (
+            Path(path),
+            document,
+            model,
+            Path(folder),
+            client,
+            progress,
+        )
         common = {section: section_of(path, document, section) for section in ("simulation", "parameters", "inputs")}
         common["simulation"] = {"outputs": OUTPUTS} | common["simulation"]
         common["parameters"] = {"scene.stress": "fatigue"} | common["parameters"]
@@ -89,7 +114,17 @@ class Bench:
 
     def sweep(self, names, scenes):
         """The runs of scenes by key, in which the names vary."""
-        return Sweep(self.path.stem, str(self.document.get("description", "")), self.model, self.fmu, self.document, tuple(names), scenes, (), True)
+        return Sweep(
+            self.path.stem,
+            str(self.document.get("description", "")),
+            self.model,
+            self.fmu,
+            self.document,
+            tuple(names),
+            scenes,
+            (),
+            True,
+        )
 
     def basis(self):
         """What the runs asked for so far rest on."""
@@ -106,15 +141,23 @@ class Bench:
     def scene_at(self, names, point):
         """The scene of one point."""
         settings = {name: self.plain(name, value) for name, value in zip(names, point, strict=True)}
-        return load_scene(self.source, self.model, (str(self.path), self.common), (str(self.path), sections_of(settings, self.model)))
+        return load_scene(
+            self.source, self.model, (str(self.path), self.common), (str(self.path), sections_of(settings, self.model))
+        )
 
     def plain(self, name, value):
         """A value as the scene takes it: whole numbers for integer parameters."""
         variable = self.model.parameters.get(name)
-        return int(value) if variable is not None and variable.type == "Integer" and float(value).is_integer() else float(value)
+        return (
+            int(value)
+            if variable is not None and variable.type == "Integer" and float(value).is_integer()
+            else float(value)
+        )
 
     def __call__(self, names, points, responses, seeds=None):
-        """Responses of the points [n, d] with each seed, [n, seeds, m]; seeds: start.seed of the runs, None for those of the study."""
+        """Responses of the points [n, d] with each seed, [n, seeds, m]; seeds: start.seed of the runs, None for those
+        of the study.
+        """
         seeds = list(range(self.first, self.first + self.seeds)) if seeds is None else list(seeds)
         keys = []
         for point in points:
@@ -126,7 +169,11 @@ class Bench:
         sweep = self.sweep(names, self.scenes)
         stored = compact(self.folder, schema_of(sweep), list(self.scenes), True)
         wanted = list(dict.fromkeys(keys))
-        rows = run_sweep(sweep, self.folder, self.client(), self.progress, wanted) if set(wanted) - stored else columns_of(self.folder)
+        rows = (
+            run_sweep(sweep, self.folder, self.client(), self.progress, wanted)
+            if set(wanted) - stored
+            else columns_of(self.folder)
+        )
         places = {key: i for i, key in enumerate(rows["key"])}
         chosen = np.array([places[key] for key in keys])
         for i in chosen:
@@ -144,21 +191,33 @@ class Bench:
 def response(path, rows, name):
     """A response of all rows."""
     if name == "damage":
-        damage = np.column_stack([rows[column] for column in rows if column.startswith("rivet[") and ".damage_" in column])
+        damage = np.column_stack(
+            [rows[column] for column in rows if column.startswith("rivet[") and ".damage_" in column]
+        )
         hours = (rows["simulated_time"] - rows["start.settle"]) / 3600.0
         return np.log10(np.maximum(np.nanmax(np.nan_to_num(damage), axis=1) / np.maximum(hours, 1e-12), NO_DAMAGE))
     column = COLUMNS.get(name, name)
     if column not in rows or not np.issubdtype(np.asarray(rows[column]).dtype, np.number):
-        raise unknown(path, "response", name, ["damage", *COLUMNS, *(key for key in rows if np.issubdtype(np.asarray(rows[key]).dtype, np.number))])
+        raise unknown(
+            path,
+            "response",
+            name,
+            ["damage", *COLUMNS, *(key for key in rows if np.issubdtype(np.asarray(rows[key]).dtype, np.number))],
+        )
     return np.asarray(rows[column], float)
 
 
 def display_of(name):
-    """Unit in which people read a response, parameter or input, "" without one; factor and offset that make it from the SI value."""
+    """Unit in which people read a response, parameter or input, "" without one; factor and offset that make it from the
+    SI value.
+    """
     if name == "damage":
         return DAMAGE_UNIT, 1.0, 0.0
     inner = re.fullmatch(r"(?:\w+\()?([^()]*)\)?", COLUMNS.get(name, name))
-    variable = next((KNOWN[key] for index in ("[j]", "[k]") if inner and (key := re.sub(r"\[\d+\]", index, inner[1])) in KNOWN), None)
+    variable = next(
+        (KNOWN[key] for index in ("[j]", "[k]") if inner and (key := re.sub(r"\[\d+\]", index, inner[1])) in KNOWN),
+        None,
+    )
     if variable is None:
         return "", 1.0, 0.0
     symbol = variable.display or variable.unit
@@ -185,11 +244,24 @@ def shown(name, value):
 
 def response_names(path, key, value):
     """A list of names of responses."""
-    if not isinstance(value, list) or not value or not all(isinstance(name, str) for name in value) or len(set(value)) != len(value):
-        raise refusal(path, key, value, f"a list of different responses is needed, such as {', '.join(['damage', *COLUMNS])}")
+    if (
+        not isinstance(value, list)
+        or not value
+        or not all(isinstance(name, str) for name in value)
+        or len(set(value)) != len(value)
+    ):
+        raise refusal(
+            path, key, value, f"a list of different responses is needed, such as {', '.join(['damage', *COLUMNS])}"
+        )
     return value
 
 
 def noise_variance(values):
-    """Variance that the seeds leave in the mean of a point, for each response [m]; values [n, seeds, m]; nan with one seed."""
-    return values.var(axis=1, ddof=1).mean(axis=0) / values.shape[1] if values.shape[1] > 1 else np.full(values.shape[2], np.nan)
+    """Variance that the seeds leave in the mean of a point, for each response [m]; values [n, seeds, m]; nan with one
+    seed.
+    """
+    return (
+        values.var(axis=1, ddof=1).mean(axis=0) / values.shape[1]
+        if values.shape[1] > 1
+        else np.full(values.shape[2], np.nan)
+    )

@@ -8,9 +8,10 @@
     [case.parameters]
     joint.fit = "-90 um"
 
-A state of the cage is the list of rivets that are gone (rivet[k].intact = 0).  Its runs give the damage per hour of each rivet's head and middle, mean over
-the seeds.  Damage adds up over the states (Miner); the place that first reaches 1 breaks, and with it the rivet carries nothing.  A cascade ends when
-enough rivets are gone, when the cage opens - all joints that stand are open at one communication point -, or when nothing is damaged any more.
+A state of the cage is the list of rivets that are gone (rivet[k].intact = 0).  Its runs give the damage per hour of
+each rivet's head and middle, mean over the seeds.  Damage adds up over the states (Miner); the place that first reaches
+1 breaks, and with it the rivet carries nothing.  A cascade ends when enough rivets are gone, when the cage opens - all
+joints that stand are open at one communication point -, or when nothing is damaged any more.
 
 How sure the order is: the share of bootstrap resamples of the seeds in which the same place is the next to break.
 """
@@ -35,10 +36,12 @@ RESAMPLES = 2000
 
 @dataclass(frozen=True)
 class State:
-    """A state of the cage: rivets gone before (numbers from 1), its damage rates [Z, 2] of heads and middles per hour, mean over seeds, and loads.
+    """A state of the cage: rivets gone before (numbers from 1), its damage rates [Z, 2] of heads and middles per hour,
+    mean over seeds, and loads.
 
-    hours: how long it lasts; rivet, place: what breaks at its end, None if nothing does; sure: share of the resamples that agree.
-    stress [Z]: 99.9 % quantile of the heads [Pa]; dislocation: largest between the halves [m]; opens: whether all standing joints were open at once.
+    hours: how long it lasts; rivet, place: what breaks at its end, None if nothing does; sure: share of the resamples
+    that agree. stress [Z]: 99.9 % quantile of the heads [Pa]; dislocation: largest between the halves [m]; opens:
+    whether all standing joints were open at once.
     """
 
     gone: tuple
@@ -64,7 +67,11 @@ class Cascade:
     def order(self):
         """(rivet, place, hours since the begin) of each break."""
         hours = np.cumsum([state.hours for state in self.states])
-        return [(state.rivet, state.place, float(at)) for state, at in zip(self.states, hours, strict=True) if state.rivet is not None]
+        return [
+            (state.rivet, state.place, float(at))
+            for state, at in zip(self.states, hours, strict=True)
+            if state.rivet is not None
+        ]
 
 
 def plan_cascade(path, document):
@@ -73,9 +80,14 @@ def plan_cascade(path, document):
         if key not in KEYS:
             raise refusal(path, key, document[key], f"allowed keys: {', '.join(KEYS)}")
     cases = document.get("case", [{}])
-    if not isinstance(cases, list) or not all(isinstance(case, dict) and set(case) <= {"name", "parameters"} for case in cases):
+    if not isinstance(cases, list) or not all(
+        isinstance(case, dict) and set(case) <= {"name", "parameters"} for case in cases
+    ):
         raise refusal(path, "case", cases, "[[case]] tables with name and [case.parameters] are needed")
-    named = {str(case.get("name", i + 1 if len(cases) > 1 else path.stem)): section_of(path, case, "parameters") for i, case in enumerate(cases)}
+    named = {
+        str(case.get("name", i + 1 if len(cases) > 1 else path.stem)): section_of(path, case, "parameters")
+        for i, case in enumerate(cases)
+    }
     if len(named) < len(cases):
         raise refusal(path, "case", [case.get("name") for case in cases], "each case needs a name of its own")
     return named, count_of(path, "breaks", document.get("breaks", 3))
@@ -84,7 +96,11 @@ def plan_cascade(path, document):
 def run_cascades(path, document, model, folder, client, progress=None):
     """The Cascades of all cases; runs are read from the folder where they are there."""
     cases, breaks = plan_cascade(path, document)
-    common = {key: value for key, value in document.items() if key in ("description", "scene", "simulation", "inputs", "seeds", "seed")}
+    common = {
+        key: value
+        for key, value in document.items()
+        if key in ("description", "scene", "simulation", "inputs", "seeds", "seed")
+    }
     found = []
     for name, parameters in cases.items():
         section = section_of(path, document, "parameters") | parameters
@@ -100,7 +116,9 @@ def run_cascades(path, document, model, folder, client, progress=None):
 def state_of(bench, rivets, gone):
     """State without its end, and the damage rates with each seed [seeds, Z, 2]."""
     numbers = range(1, rivets + 1)
-    names = [f"rivet[{k}].damage_{place}" for k in numbers for place in ("head", "mid")] + [f"stat.rivet_head_p999[{k}]" for k in numbers]
+    names = [f"rivet[{k}].damage_{place}" for k in numbers for place in ("head", "mid")] + [
+        f"stat.rivet_head_p999[{k}]" for k in numbers
+    ]
     names += ["simulated_time", "start.settle", "max(cage.dislocation)", "max(event.joint_open)"]
     values = bench([f"rivet[{k}].intact" for k in gone], [[0.0] * len(gone)], names)[0]  # [seeds, names]
     if np.isnan(values).all():
@@ -127,7 +145,19 @@ def follow(state_at, breaks, seed=1):
         damage = damage + hours * state.rates
         damage[first[0]] = -np.inf  # what is gone breaks no more
         gone = sorted([*gone, first[0] + 1])
-        states.append(State(state.gone, state.rates, state.stress, state.dislocation, state.opens, float(hours), first[0] + 1, PLACES[first[1]], sure))
+        states.append(
+            State(
+                state.gone,
+                state.rates,
+                state.stress,
+                state.dislocation,
+                state.opens,
+                float(hours),
+                first[0] + 1,
+                PLACES[first[1]],
+                sure,
+            )
+        )
 
 
 def next_break(damage, rates):
@@ -142,7 +172,11 @@ def write_cascades(found, path):
     """JSON: for each case what it rests on, its breaks (rivet, place, hours, sure) and its states; returns the path."""
 
     def plain(state):
-        values = asdict(state) | {"rates": state.rates.tolist(), "stress": state.stress.tolist(), "gone": list(state.gone)}
+        values = asdict(state) | {
+            "rates": state.rates.tolist(),
+            "stress": state.stress.tolist(),
+            "gone": list(state.gone),
+        }
         return values | {"hours": state.hours if np.isfinite(state.hours) else None}
 
     content = {
@@ -153,25 +187,36 @@ def write_cascades(found, path):
         }
         for each in found
     }
-    write_atomically(path, lambda temporary: temporary.write_text(json.dumps(content, indent=1) + "\n", encoding="utf-8"))
+    write_atomically(
+        path, lambda temporary: temporary.write_text(json.dumps(content, indent=1) + "\n", encoding="utf-8")
+    )
     return path
 
 
 def write_picture(found, path):
-    """Picture: a row for each case, a circle of rivets for each of its states with the damage rate of the worse place, what is gone crossed out."""
+    """Picture: a row for each case, a circle of rivets for each of its states with the damage rate of the worse place,
+    what is gone crossed out.
+    """
     most = max(len(each.states) for each in found)
     rates = [np.max(state.rates, axis=1) for each in found for state in each.states]
     positive = np.concatenate(rates)[np.concatenate(rates) > 0.0]
     low, high = (np.log10(positive.min()), np.log10(positive.max())) if positive.size else (-1.0, 0.0)
     with plt.rc_context(STYLE):
-        figure, axes = plt.subplots(len(found), most, figsize=(2.6 * most, 2.9 * len(found)), squeeze=False, layout="constrained")
+        figure, axes = plt.subplots(
+            len(found), most, figsize=(2.6 * most, 2.9 * len(found)), squeeze=False, layout="constrained"
+        )
         for row, each in zip(axes, found, strict=True):
             for ax in row[len(each.states) :]:
                 ax.axis("off")
             for ax, state in zip(row, each.states, strict=False):
                 circle(ax, state, low, high)
             row[0].set_ylabel(each.name)
-        figure.suptitle("Damage of each rivet (area: logarithm of the rate), what breaks next and when", x=0.01, ha="left", fontsize=11)
+        figure.suptitle(
+            "Damage of each rivet (area: logarithm of the rate), what breaks next and when",
+            x=0.01,
+            ha="left",
+            fontsize=11,
+        )
         write_atomically(path, lambda temporary: figure.savefig(temporary, dpi=110))
         plt.close(figure)
     return path
@@ -182,16 +227,33 @@ def circle(ax, state, low, high):
     Z = len(state.rates)
     angle = 2.0 * np.pi * (np.arange(Z) + 0.5) / Z
     worse = np.argmax(state.rates, axis=1)
-    size = 30.0 + 170.0 * np.clip((np.log10(np.maximum(state.rates.max(axis=1), 1e-300)) - low) / max(high - low, 1e-9), 0.0, 1.0)
-    ax.plot(np.cos(np.linspace(0, 2 * np.pi, 200)), np.sin(np.linspace(0, 2 * np.pi, 200)), color=MUTED, lw=0.8, zorder=0)
+    size = 30.0 + 170.0 * np.clip(
+        (np.log10(np.maximum(state.rates.max(axis=1), 1e-300)) - low) / max(high - low, 1e-9), 0.0, 1.0
+    )
+    ax.plot(
+        np.cos(np.linspace(0, 2 * np.pi, 200)), np.sin(np.linspace(0, 2 * np.pi, 200)), color=MUTED, lw=0.8, zorder=0
+    )
     for k in range(Z):
         x, y = np.cos(angle[k]), np.sin(angle[k])
         if k + 1 in state.gone:
             ax.plot(x, y, "x", color=MUTED, ms=9)
         else:
-            ax.scatter(x, y, s=size[k], color=MIDDLE if worse[k] else HEAD, edgecolor="black" if k + 1 == state.rivet else "none", linewidth=2.0)
+            ax.scatter(
+                x,
+                y,
+                s=size[k],
+                color=MIDDLE if worse[k] else HEAD,
+                edgecolor="black" if k + 1 == state.rivet else "none",
+                linewidth=2.0,
+            )
         ax.text(0.72 * x, 0.72 * y, str(k + 1), ha="center", va="center", fontsize=8)
-    text = "the cage opens" if state.opens else "end" if state.rivet is None else f"{state.place} of {state.rivet}\nafter {hours_text(state.hours)}"
+    text = (
+        "the cage opens"
+        if state.opens
+        else "end"
+        if state.rivet is None
+        else f"{state.place} of {state.rivet}\nafter {hours_text(state.hours)}"
+    )
     ax.text(0.0, 0.0, text, ha="center", va="center", fontsize=8)
     ax.set(xlim=(-1.25, 1.25), ylim=(-1.25, 1.25), aspect="equal", xticks=[], yticks=[])
     ax.spines[:].set_visible(False)

@@ -8,9 +8,10 @@
     [limits]                             # responses that may not exceed a value
     stress = "150 MPa"
 
-The search sees each point as a mean over common seeds (tree-structured Parzen estimator).  What looks best under noise is partly luck, so that the candidates,
-one of several objectives the ones of the Pareto front, are simulated again with fresh seeds, and the answer and its confidence come from these alone.
-The search repeats itself bit by bit from its seed, so that a call after a stop reads the runs that are done and goes on from there.
+The search sees each point as a mean over common seeds (tree-structured Parzen estimator).  What looks best under noise
+is partly luck, so that the candidates, one of several objectives the ones of the Pareto front, are simulated again with
+fresh seeds, and the answer and its confidence come from these alone. The search repeats itself bit by bit from its
+seed, so that a call after a stop reads the runs that are done and goes on from there.
 """
 
 import json
@@ -37,7 +38,9 @@ BAD = 1e30  # of an objective whose run was stopped
 
 @dataclass(frozen=True)
 class Study:
-    """An optimization that was checked; signs: 1 to make an objective small, -1 to make it large; limits: {response: largest value}."""
+    """An optimization that was checked; signs: 1 to make an objective small, -1 to make it large; limits: {response:
+    largest value}.
+    """
 
     path: Path
     description: str
@@ -59,8 +62,10 @@ class Study:
 
 @dataclass(frozen=True)
 class Optimum:
-    """points [n, d] of the search in its order with their means over seeds [n, m]; candidates: numbers of those simulated again, their means [c, m] and
-    standard errors over fresh seeds; best: place among the candidates, None if none keeps the limits."""
+    """points [n, d] of the search in its order with their means over seeds [n, m]; candidates: numbers of those
+    simulated again, their means [c, m] and standard errors over fresh seeds; best: place among the candidates, None if
+    none keeps the limits.
+    """
 
     study: Study
     points: np.ndarray
@@ -89,7 +94,9 @@ def plan_optimize(path, document, model):
             limits[name] = to_si(value, model.units[variable.unit] if variable else {"1": (1.0, 0.0)})
         except UserError as problem:
             if variable is None and name != "damage":  # a misspelt name, rather than a column without a unit
-                raise unknown(path, "response", f"limits.{name}", [f"limits.{key}" for key in ("damage", *COLUMNS)]) from None
+                raise unknown(
+                    path, "response", f"limits.{name}", [f"limits.{key}" for key in ("damage", *COLUMNS)]
+                ) from None
             raise refusal(path, f"limits.{name}", value, problem) from None
     box = Box(path, section_of(path, document, "between"), model)
     names = [name.removeprefix("-") for name in objectives]
@@ -128,7 +135,11 @@ def explore(study, evaluate):
     while len(points) < study.trials:
         trials = [found.ask() for _ in range(min(study.batch, study.trials - len(points)))]
         batch = [
-            [trial.suggest_float(name, low, high) for name, low, high in zip(study.box.names, study.box.low, study.box.high, strict=True)] for trial in trials
+            [
+                trial.suggest_float(name, low, high)
+                for name, low, high in zip(study.box.names, study.box.low, study.box.high, strict=True)
+            ]
+            for trial in trials
         ]
         means = evaluate(study.box.names, np.array(batch), study.responses).mean(axis=1)
         for trial, mean in zip(trials, means, strict=True):
@@ -140,7 +151,9 @@ def explore(study, evaluate):
 
 
 def quiet(optuna):
-    """Options of the sampler that Optuna calls experimental: variables together, and points of one batch apart from each other."""
+    """Options of the sampler that Optuna calls experimental: variables together, and points of one batch apart from
+    each other.
+    """
     warnings.filterwarnings("ignore", category=optuna.exceptions.ExperimentalWarning)
     return {"multivariate": True, "constant_liar": True}
 
@@ -155,12 +168,17 @@ def front(study, values):
     """Mask of the points that keep the limits and that no other such point beats in all objectives [n]."""
     costs = study.signs * values[:, : len(study.objectives)]
     allowed = np.all(excess(study, values) <= 0.0, axis=1) & np.isfinite(costs).all(axis=1)
-    beaten = [any(np.all(costs[j] <= costs[i]) and np.any(costs[j] < costs[i]) for j in np.flatnonzero(allowed)) for i in range(len(costs))]
+    beaten = [
+        any(np.all(costs[j] <= costs[i]) and np.any(costs[j] < costs[i]) for j in np.flatnonzero(allowed))
+        for i in range(len(costs))
+    ]
     return allowed & ~np.array(beaten)
 
 
 def distance(study, values, allowed):
-    """Distance of points from the best of all objectives at once, each scaled by its range among the allowed points [n]; the value itself for one objective."""
+    """Distance of points from the best of all objectives at once, each scaled by its range among the allowed points
+    [n]; the value itself for one objective.
+    """
     costs = study.signs * values[:, : len(study.objectives)]
     low = costs[allowed].min(axis=0)
     width = np.ptp(costs[allowed], axis=0)
@@ -195,12 +213,16 @@ def write_optimum(found, path, basis=()):
         "candidates": rows,
         "trials": len(found.points),
     }
-    write_atomically(path, lambda temporary: temporary.write_text(json.dumps(document, indent=1) + "\n", encoding="utf-8"))
+    write_atomically(
+        path, lambda temporary: temporary.write_text(json.dumps(document, indent=1) + "\n", encoding="utf-8")
+    )
     return path
 
 
 def write_picture(found, path):
-    """Write the picture: two objectives against each other with the Pareto front, or the one objective over the first two variables; returns the path."""
+    """Write the picture: two objectives against each other with the Pareto front, or the one objective over the first
+    two variables; returns the path.
+    """
     with plt.rc_context(STYLE):
         figure, ax = plt.subplots(figsize=(6.6, 5.0), layout="constrained")
         (pareto_panel if len(found.study.objectives) > 1 else single_panel)(ax, found)
@@ -233,12 +255,21 @@ def single_panel(ax, found):
     variable, objective = found.study.box.names[0], found.study.objectives[0]
     x = displayed(variable, found.points[:, 0])
     ax.plot(x, displayed(objective, found.values[:, 0]), ".", color=MUTED, ms=7, label="searched")
-    candidates(ax, found, x[found.candidates], displayed(objective, found.means[:, 0]), None, display_of(objective)[1] * found.errors[:, 0])
+    candidates(
+        ax,
+        found,
+        x[found.candidates],
+        displayed(objective, found.means[:, 0]),
+        None,
+        display_of(objective)[1] * found.errors[:, 0],
+    )
     ax.set(xlabel=titled(variable), ylabel=titled(objective))
 
 
 def candidates(ax, found, x, y, x_error, y_error):
     """Candidates with their standard errors over fresh seeds; the recommendation filled."""
-    ax.errorbar(x, y, xerr=x_error, yerr=y_error, fmt="o", mfc="white", color=FORCE, ms=5, lw=0.9, label="again, fresh seeds")
+    ax.errorbar(
+        x, y, xerr=x_error, yerr=y_error, fmt="o", mfc="white", color=FORCE, ms=5, lw=0.9, label="again, fresh seeds"
+    )
     if found.best is not None:
         ax.plot(x[found.best], y[found.best], "o", color=HEAD, ms=8, zorder=5, label="recommended")

@@ -10,10 +10,11 @@
 
 Without [between] the factors are the parameters that were assumed, each over its documented range.
 
-Morris: mu_star is the mean size of the change of a response when a factor crosses its range (elementary effects), sigma their scatter: interactions and
-curvature.  Sobol: S1 is the share of the variance that goes with a factor alone, ST that with all its interactions.  Seeds are noise: a factor without any
-effect has mu_star = 2 s/sqrt(pi)/delta, s^2 the variance that the seeds leave in a point's mean, delta the step of a trajectory; in Sobol's variances the
-noise has the share s^2/V.  Both stand beside the indices.
+Morris: mu_star is the mean size of the change of a response when a factor crosses its range (elementary effects), sigma
+their scatter: interactions and curvature.  Sobol: S1 is the share of the variance that goes with a factor alone, ST
+that with all its interactions.  Seeds are noise: a factor without any effect has mu_star = 2 s/sqrt(pi)/delta, s^2 the
+variance that the seeds leave in a point's mean, delta the step of a trajectory; in Sobol's variances the noise has the
+share s^2/V.  Both stand beside the indices.
 """
 
 import json
@@ -36,8 +37,9 @@ METHODS = {"morris": ("trajectories", "levels"), "sobol": ("factors", "count")}
 
 @dataclass(frozen=True)
 class Sensitivity:
-    """For each response: factors with mu_star, its confidence, sigma and the mu_star of noise; those of Sobol with S1, ST, their confidence (95 %), and the
-    noise's share of the variance; basis: what the runs rest on."""
+    """For each response: factors with mu_star, its confidence, sigma and the mu_star of noise; those of Sobol with S1,
+    ST, their confidence (95 %), and the noise's share of the variance; basis: what the runs rest on.
+    """
 
     name: str
     description: str
@@ -71,7 +73,9 @@ class Study:
 
 
 def plan_sensitivity(path, document, model, assumed=None):
-    """The Study of a document; assumed: {name: (low, high)} if it names no factors.  Raises UserError naming what cannot be used."""
+    """The Study of a document; assumed: {name: (low, high)} if it names no factors.  Raises UserError naming what
+    cannot be used.
+    """
     for key in document:
         if key not in KEYS:
             raise unknown(path, "key", key, KEYS)
@@ -80,7 +84,11 @@ def plan_sensitivity(path, document, model, assumed=None):
         for key, value in section_of(path, document, name).items():
             if key not in keys:
                 raise unknown(path, "key", f"{name}.{key}", [f"{name}.{key}" for key in keys])
-            settings[key] = value if key == "factors" and value == 0 and not isinstance(value, bool) else count_of(path, f"{name}.{key}", value)
+            settings[key] = (
+                value
+                if key == "factors" and value == 0 and not isinstance(value, bool)
+                else count_of(path, f"{name}.{key}", value)
+            )
     if settings["levels"] < 2 or settings["levels"] % 2:
         raise refusal(path, "morris.levels", settings["levels"], "an even number is needed")
     if settings["count"] & (settings["count"] - 1):
@@ -92,7 +100,9 @@ def plan_sensitivity(path, document, model, assumed=None):
 
 
 def salib():
-    """SALib's modules (sample.morris, analyze.morris, sample.sobol, analyze.sobol); UserError if the library is missing."""
+    """SALib's modules (sample.morris, analyze.morris, sample.sobol, analyze.sobol); UserError if the library is
+    missing.
+    """
     try:
         from SALib.analyze import morris as analyze_morris
         from SALib.analyze import sobol as analyze_sobol
@@ -112,11 +122,15 @@ def analyse(study, evaluate):
     noise, step = noise_variance(values), study.levels / (2.0 * (study.levels - 1))
     morris = {}
     for i, name in enumerate(study.responses):
-        found = analyze_morris.analyze(problem, points, values.mean(axis=1)[:, i], num_levels=study.levels, seed=study.seed)
+        found = analyze_morris.analyze(
+            problem, points, values.mean(axis=1)[:, i], num_levels=study.levels, seed=study.seed
+        )
         morris[name] = {key: [float(x) for x in found[key]] for key in ("mu_star", "mu_star_conf", "sigma")}
         morris[name]["noise"] = float(2.0 * math.sqrt(noise[i] / math.pi) / step) if np.isfinite(noise[i]) else None
     scale = [max(max(morris[name]["mu_star"]), 1e-300) for name in study.responses]
-    strength = np.max([np.array(morris[name]["mu_star"]) / size for name, size in zip(study.responses, scale, strict=True)], axis=0)
+    strength = np.max(
+        [np.array(morris[name]["mu_star"]) / size for name, size in zip(study.responses, scale, strict=True)], axis=0
+    )
     chosen = [study.box.names[k] for k in np.argsort(-strength, kind="stable")[: study.factors]]
     sobol, seeds = {}, values.shape[1]
     if chosen:
@@ -131,13 +145,24 @@ def analyse(study, evaluate):
             found = analyze_sobol.analyze(box.problem(), means, calc_second_order=False, seed=study.seed)
             sobol[name] = {key: [float(x) for x in found[key]] for key in ("S1", "S1_conf", "ST", "ST_conf")}
             sobol[name]["noise"] = float(noise[i] / means.var()) if np.isfinite(noise[i]) else None
-    return Sensitivity(study.path.stem, study.description, seeds, tuple(study.responses), tuple(study.box.names), morris, tuple(chosen), sobol)
+    return Sensitivity(
+        study.path.stem,
+        study.description,
+        seeds,
+        tuple(study.responses),
+        tuple(study.box.names),
+        morris,
+        tuple(chosen),
+        sobol,
+    )
 
 
 def complete(study, values):
     """The values, if all runs have reached their end; UserError otherwise, because indices need every point."""
     if bad := np.argwhere(np.isnan(values).any(axis=(1, 2))).ravel().tolist():
-        raise UserError(f"{study.path}: {len(bad)} points were stopped by the FMU: narrow the ranges (the rows in the folder say why)")
+        raise UserError(
+            f"{study.path}: {len(bad)} points were stopped by the FMU: narrow the ranges (the rows in the folder say why)"
+        )
     return values
 
 
@@ -148,7 +173,9 @@ def order(found, name):
 
 def write_indices(found, path):
     """Write all indices as JSON, whole or not at all; returns the path."""
-    write_atomically(path, lambda temporary: temporary.write_text(json.dumps(vars(found), indent=1) + "\n", encoding="utf-8"))
+    write_atomically(
+        path, lambda temporary: temporary.write_text(json.dumps(vars(found), indent=1) + "\n", encoding="utf-8")
+    )
     return path
 
 
@@ -159,10 +186,20 @@ def read_indices(path):
     try:
         record = json.loads(path.read_text(encoding="utf-8"))
         found = Sensitivity(**record)
-        whole = all(len(found.morris[name][key]) == len(found.factors) for name in found.responses for key in ("mu_star", "mu_star_conf", "sigma"))
-        whole = whole and all("noise" in found.morris[name] for name in found.responses) and len(found.factors) > 0 < len(found.responses)
+        whole = all(
+            len(found.morris[name][key]) == len(found.factors)
+            for name in found.responses
+            for key in ("mu_star", "mu_star_conf", "sigma")
+        )
+        whole = (
+            whole
+            and all("noise" in found.morris[name] for name in found.responses)
+            and len(found.factors) > 0 < len(found.responses)
+        )
     except OSError as error:
-        raise UserError(f"{path}: {error.strerror or error}; allowed is the sensitivity.json of `riveted-bearing sensitivity`, or its folder") from None
+        raise UserError(
+            f"{path}: {error.strerror or error}; allowed is the sensitivity.json of `riveted-bearing sensitivity`, or its folder"
+        ) from None
     except (ValueError, TypeError, KeyError):
         whole = False
     if not whole:
@@ -175,7 +212,9 @@ def write_picture(found, path):
     columns = 2 if found.sobol else 1
     with plt.rc_context(STYLE):
         height = 1.2 + max(2.2, 0.34 * len(found.factors) + 0.9) * len(found.responses)
-        figure, axes = plt.subplots(len(found.responses), columns, figsize=(5.6 * columns, height), layout="constrained", squeeze=False)
+        figure, axes = plt.subplots(
+            len(found.responses), columns, figsize=(5.6 * columns, height), layout="constrained", squeeze=False
+        )
         figure.suptitle(f"{found.name}: what decides, {found.seeds} seeds a point", x=0.01, ha="left", fontsize=11)
         for row, name in zip(axes, found.responses, strict=True):
             screening_panel(row[0], found, name)
@@ -200,7 +239,9 @@ def screening_panel(ax, found, name):
     ax.grid(axis="y", visible=False)
     if indices["noise"] is not None:
         ax.axvline(factor * indices["noise"], color=HEAD, lw=1.2, ls="--", label="seeds alone")
-    ax.set(title=f"{name}: effect over the range (Morris)", xlabel=f"mu*: change of the response{unit and f' [{unit}]'}")
+    ax.set(
+        title=f"{name}: effect over the range (Morris)", xlabel=f"mu*: change of the response{unit and f' [{unit}]'}"
+    )
     ax.set_xlim(left=0.0)
 
 
@@ -208,7 +249,15 @@ def sobol_panel(ax, found, name):
     """Bars of S1 and ST with their confidence; the share of the noise as a line."""
     indices, k = found.sobol[name], np.arange(len(found.chosen))
     for key, shift, colour in (("S1", -0.19, MIDDLE), ("ST", 0.19, MUTED)):
-        ax.barh(k + shift, indices[key], xerr=indices[f"{key}_conf"], color=colour, height=0.34, label=key, error_kw={"ecolor": FORCE, "lw": 1.0})
+        ax.barh(
+            k + shift,
+            indices[key],
+            xerr=indices[f"{key}_conf"],
+            color=colour,
+            height=0.34,
+            label=key,
+            error_kw={"ecolor": FORCE, "lw": 1.0},
+        )
     ax.set_yticks(k, found.chosen)
     ax.invert_yaxis()
     ax.grid(axis="y", visible=False)

@@ -15,7 +15,9 @@ from ..units import hours_text
 
 @dataclass(frozen=True)
 class Weibull:
-    """beta, eta [h], b10 [h], each with its interval (low, high) at `confidence`; failures: lives [h] with their median ranks."""
+    """beta, eta [h], b10 [h], each with its interval (low, high) at `confidence`; failures: lives [h] with their median
+    ranks.
+    """
 
     beta: float
     eta: float
@@ -31,11 +33,14 @@ class Weibull:
         """As a document for JSON."""
         names = ("beta", "eta", "b10")
         units = {"beta": "beta", "eta": "eta_h", "b10": "b10_h"}
-        return {units[name]: getattr(self, name) for name in names} | {f"{units[name]}_interval": list(getattr(self, f"{name}_interval")) for name in names}
+        return {units[name]: getattr(self, name) for name in names} | {
+            f"{units[name]}_interval": list(getattr(self, f"{name}_interval")) for name in names
+        }
 
 
 def fit_weibull(lives, suspended=(), counts=None, confidence=0.9):
-    """The Weibull law of lives [h] and of running times of those that have not failed [h]; counts: units at each time, lives first, None for one each.
+    """The Weibull law of lives [h] and of running times of those that have not failed [h]; counts: units at each time,
+    lives first, None for one each.
 
     Raises UserError with fewer than three failures, times that are not positive, or if surpyval is missing.
     """
@@ -75,16 +80,36 @@ def write_weibull_plot(law, title, path):
     with plt.rc_context(STYLE):
         figure, ax = plt.subplots(figsize=(6.4, 4.8), layout="constrained")
         first, last = (law.eta * (-np.log1p(-share)) ** (1.0 / law.beta) for share in (0.01, 0.99))
-        low, high = 0.97 * min(law.lives.min(), law.b10_interval[0], first), 1.03 * max(law.lives.max(), law.b10_interval[1], last)
+        low, high = (
+            0.97 * min(law.lives.min(), law.b10_interval[0], first),
+            1.03 * max(law.lives.max(), law.b10_interval[1], last),
+        )
         t = np.geomspace(low, high, 100)
         ax.plot(t, (t / law.eta) ** law.beta, color=MIDDLE, lw=1.4, label=f"β {law.beta:.3g}, η {hours_text(law.eta)}")
         ax.plot(law.lives, -np.log1p(-law.ranks), "o", color=FORCE, ms=4, label="lives, median ranks")
         ax.plot(law.b10_interval, [-np.log(0.9)] * 2, color=HEAD, lw=2.0, solid_capstyle="butt")
-        ax.plot(law.b10, -np.log(0.9), "o", color=HEAD, ms=7, label=f"B10 {hours_text(law.b10)}, {100 * law.confidence:g} % interval")
+        ax.plot(
+            law.b10,
+            -np.log(0.9),
+            "o",
+            color=HEAD,
+            ms=7,
+            label=f"B10 {hours_text(law.b10)}, {100 * law.confidence:g} % interval",
+        )
         shares = np.array([0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 0.8, 0.95, 0.99])
-        ax.set(xscale="log", yscale="log", xlabel="life [h]", ylabel="failed", xlim=(low, high), ylim=(0.6 * -np.log1p(-min(0.02, law.ranks.min())), 5.0))
+        ax.set(
+            xscale="log",
+            yscale="log",
+            xlabel="life [h]",
+            ylabel="failed",
+            xlim=(low, high),
+            ylim=(0.6 * -np.log1p(-min(0.02, law.ranks.min())), 5.0),
+        )
         ax.set_yticks(-np.log1p(-shares), [f"{100 * share:g} %" for share in shares])
-        ax.set_xticks(ticks := np.unique([float(f"{x:.2g}") for x in np.geomspace(1.02 * low, 0.98 * high, 5)]), [f"{tick:,.4g}" for tick in ticks])
+        ax.set_xticks(
+            ticks := np.unique([float(f"{x:.2g}") for x in np.geomspace(1.02 * low, 0.98 * high, 5)]),
+            [f"{tick:,.4g}" for tick in ticks],
+        )
         ax.minorticks_off()
         ax.legend(loc="upper left")
         figure.suptitle(title, x=0.01, ha="left", fontsize=11)

@@ -1,4 +1,6 @@
-"""The life of a mission: runs on a cluster round by round, points left out by a bound, and what is written: runs.parquet and life.json."""
+"""The life of a mission: runs on a cluster round by round, points left out by a bound, and what is written:
+runs.parquet and life.json.
+"""
 
 import hashlib
 import json
@@ -27,9 +29,11 @@ RECORD = "life.json"
 
 @dataclass(frozen=True)
 class Life:
-    """What was found: estimate of the parts kept; kept: their numbers; bounds: upper bound of the damage per hour of each part left out, by number; counts:
-    runs of each part; samples: damages of each part's runs [n, Z, 2], None for a part left out or interpolated; rates: mean damages of the parts at the start
-    of the mission, per hour (point) or per event [I, Z, 2]."""
+    """What was found: estimate of the parts kept; kept: their numbers; bounds: upper bound of the damage per hour of
+    each part left out, by number; counts: runs of each part; samples: damages of each part's runs [n, Z, 2], None for a
+    part left out or interpolated; rates: mean damages of the parts at the start of the mission, per hour (point) or per
+    event [I, Z, 2].
+    """
 
     mission: Mission
     estimate: Estimate
@@ -56,7 +60,9 @@ class Runs:
     """The runs of a mission in a folder: damages by case and seed, simulated when they are asked for."""
 
     def __init__(self, mission, model, folder, client, progress=None):
-        """client: function that gives the Dask client, called once something has to be simulated; progress: as of run_sweep."""
+        """client: function that gives the Dask client, called once something has to be simulated; progress: as of
+        run_sweep.
+        """
         self.mission, self.folder, self.client, self.progress = mission, folder, client, progress
         fmu = model.path.read_bytes()
         fingerprint, first = hashlib.sha256(fmu).hexdigest(), mission.settings["seed"]
@@ -64,21 +70,38 @@ class Runs:
         outputs = tuple(name for name in model.outputs if any(matches(name, pattern) for pattern in OUTPUTS))
         for c, case in enumerate(mission.cases):
             for s in range(mission.settings["max_seeds"]):
-                scene = replace(case.scene, outputs=outputs, parameters=case.scene.parameters | {"start.seed": first + s})
+                scene = replace(
+                    case.scene, outputs=outputs, parameters=case.scene.parameters | {"start.seed": first + s}
+                )
                 self.keys[c, s] = key_of(scene, fingerprint)
                 scenes[self.keys[c, s]] = scene
-        self.sweep = Sweep(mission.name, mission.description, model, fmu, mission.document, ("start.seed",), scenes, (rainflow_columns, rainflow_fields))
+        self.sweep = Sweep(
+            mission.name,
+            mission.description,
+            model,
+            fmu,
+            mission.document,
+            ("start.seed",),
+            scenes,
+            (rainflow_columns, rainflow_fields),
+        )
         self.strengths, self.damages, self.matrices, self.cost = {}, {}, {}, {}
 
     def __call__(self, counts):
-        """Damages per hour (point) or per event of the first counts[c] runs of each case, [n, Z, 2] each; no case without runs is asked for."""
+        """Damages per hour (point) or per event of the first counts[c] runs of each case, [n, Z, 2] each; no case
+        without runs is asked for.
+        """
         wanted = [(c, s) for c, n in enumerate(counts) for s in range(n)]
         missing = {self.keys[place] for place in wanted} - self.damages.keys()
         if missing:
             keys = list(dict.fromkeys(self.keys[place] for place in wanted))
             stored = compact(self.folder, schema_of(self.sweep), list(self.sweep.scenes))
             simulated = set(keys) - stored
-            rows = run_sweep(self.sweep, self.folder, self.client(), self.progress, keys) if simulated else columns_of(self.folder)
+            rows = (
+                run_sweep(self.sweep, self.folder, self.client(), self.progress, keys)
+                if simulated
+                else columns_of(self.folder)
+            )
             places = {key: i for i, key in enumerate(rows["key"])}
             for c, s in wanted:
                 if (key := self.keys[c, s]) not in self.damages:
@@ -92,8 +115,12 @@ class Runs:
         if rows["status"][i] != "done":
             raise UserError(f"{where}: the run {rows['status'][i]}: {rows['message'][i]}")
         if rows["rivet.table_kind"][i] == 3.0:
-            raise UserError(f"{where}: the rivets' stress rests on closed forms, which are no base of a life: build --table coarse makes finite elements")
-        own = np.array([[rows[f"rivet[{k}].damage_{place}"][i] for place in PLACES] for k in range(1, number_of_rivets(rows) + 1)])
+            raise UserError(
+                f"{where}: the rivets' stress rests on closed forms, which are no base of a life: build --table coarse makes finite elements"
+            )
+        own = np.array(
+            [[rows[f"rivet[{k}].damage_{place}"][i] for place in PLACES] for k in range(1, number_of_rivets(rows) + 1)]
+        )
         law = fatigue_law({name: rows[name][i] for name in rows if name.startswith("fatigue.")})
         matrix = stored_cycles(rows, i)
         damage = own
@@ -114,7 +141,9 @@ class Runs:
         for matrix, law, total in self.matrices.values():
             channel = total.argmax()
             chosen = matrix[0] == channel
-            found += damage_of_cycles(Strength(law), *(column[chosen] for column in matrix[1:])).sum() / max(total.max(), 1e-300)
+            found += damage_of_cycles(Strength(law), *(column[chosen] for column in matrix[1:])).sum() / max(
+                total.max(), 1e-300
+            )
             own += 1.0
         return found / own
 
@@ -147,7 +176,9 @@ def assess(mission, runs, progress=lambda found, target: None):
     used = used_cases(duty, kept).tolist()
     means = np.array([damages.mean(axis=0) for damages in samples])
     rates = np.zeros((len(mission.parts), *means.shape[1:]))
-    rates[kept] = part_rates(part_duty(duty, kept), means.reshape(len(means), -1))[0].reshape(len(kept), *means.shape[1:])
+    rates[kept] = part_rates(part_duty(duty, kept), means.reshape(len(means), -1))[0].reshape(
+        len(kept), *means.shape[1:]
+    )
     own = [[used.index(c) for c in own_cases(mission, i) if c in used] for i in range(len(mission.parts))]
     return Life(
         mission,
@@ -196,17 +227,24 @@ def solve(duty, kept, runs, settings, progress):
 
 
 def places(damages, rivets):
-    """Damages [n, K] at the places that can fail: each rivet's head and middle, or, if all rivets take all places in turn, their means."""
+    """Damages [n, K] at the places that can fail: each rivet's head and middle, or, if all rivets take all places in
+    turn, their means.
+    """
     return damages.reshape(len(damages), -1) if rivets == "each" else damages.mean(axis=1)
 
 
-# Points that cannot matter --------------------------------------------------------------------------------------------------------------------
+# Points that cannot matter --------------------------------------------------------------------------------------------
 
 
 def rare_parts(mission):
-    """Numbers of the rarest points, which together have less than the share `skip` of the hours and no interpolation rests on."""
+    """Numbers of the rarest points, which together have less than the share `skip` of the hours and no interpolation
+    rests on.
+    """
     needed = {
-        mission.cases[c].part for i, part in enumerate(mission.parts) if part.scene is None for c in np.flatnonzero(mission.duty.blends[:, i].any(axis=0))
+        mission.cases[c].part
+        for i, part in enumerate(mission.parts)
+        if part.scene is None
+        for c in np.flatnonzero(mission.duty.blends[:, i].any(axis=0))
     }
     free = [i for i, part in enumerate(mission.parts) if not part.event and part.scene is not None and i not in needed]
     rare, left = [], mission.settings["skip"] * mission.hours
@@ -219,11 +257,13 @@ def rare_parts(mission):
 
 
 def bounded(mission, found, kept, rare):
-    """Bounds of the damage per hour of the mission of those rare points that all together cannot have more than the share `skip` of it.
+    """Bounds of the damage per hour of the mission of those rare points that all together cannot have more than the
+    share `skip` of it.
 
-    The damage of a point is at most that of a simulated point q times the ratio of their loads and of the square of their speeds, the larger over the
-    smaller, to the power of the steeper slope of the S-N curve, times a safety of 10.  It rests on the assumption that stress changes no faster than loads and
-    centrifugal forces; less load may well do more damage, because the balls skid.  Points that hardly do damage break the assumption (their cycles grow from
+    The damage of a point is at most that of a simulated point q times the ratio of their loads and of the square of
+    their speeds, the larger over the smaller, to the power of the steeper slope of the S-N curve, times a safety of 10.
+    It rests on the assumption that stress changes no faster than loads and centrifugal forces; less load may well do
+    more damage, because the balls skid.  Points that hardly do damage break the assumption (their cycles grow from
     nearly nothing), so that the largest of the bounds by all simulated points counts.
     """
     duty, total = mission.duty, 1.0 / found.life if found.life > 0.0 else math.inf
@@ -242,7 +282,12 @@ def bounded(mission, found, kept, rare):
 def bound(mission, rate, q, i):
     """Bound of the damage per hour of point i by that of point q; infinite if they differ in more than loads and speed."""
     known, rare = mission.parts[q], mission.parts[i]
-    if known.event or known.factor != rare.factor or known.values.keys() != rare.values.keys() or mission.duty.weights[q] == 0.0:
+    if (
+        known.event
+        or known.factor != rare.factor
+        or known.values.keys() != rare.values.keys()
+        or mission.duty.weights[q] == 0.0
+    ):
         return math.inf
     ratio = 1.0
     for name, value in rare.values.items():
@@ -256,11 +301,13 @@ def bound(mission, rate, q, i):
     return SAFETY * rate * ratio**slope
 
 
-# What is written ------------------------------------------------------------------------------------------------------------------------------
+# What is written ------------------------------------------------------------------------------------------------------
 
 
 def record(life):
-    """life.json's content: what it rests on, hours, damages per hour, shares; None where nothing is known (a point left out) or never (no damage)."""
+    """life.json's content: what it rests on, hours, damages per hour, shares; None where nothing is known (a point left
+    out) or never (no damage).
+    """
     mission, found = life.mission, life.estimate
     share = dict(zip(life.kept, found.shares, strict=True))
     k, place = divmod(found.place, 2) if mission.settings["rivets"] == "each" else (slice(None), found.place)
@@ -292,5 +339,7 @@ def finite(hours):
 def write_record(life, folder):
     """Write life.json, whole or not at all; returns its path."""
     path = folder / RECORD
-    write_atomically(path, lambda temporary: temporary.write_text(json.dumps(record(life), indent=1) + "\n", encoding="utf-8"))
+    write_atomically(
+        path, lambda temporary: temporary.write_text(json.dumps(record(life), indent=1) + "\n", encoding="utf-8")
+    )
     return path

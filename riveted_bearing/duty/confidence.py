@@ -1,9 +1,10 @@
 """How sure a mission's life is, and which runs make it surer.
 
-Runs of one case differ by their seeds alone, and their damage scatters by chaos: roughly normal in its logarithm, by 1 % to a factor of ten.  Over many hours
-the damages themselves add up, so that the rate of a case is the arithmetic mean of its runs.  The interval is a studentized bootstrap of residuals
-(Davison and Hinkley, Bootstrap Methods and their Application, 1997, 2.4 and 3.2): logarithms of runs are drawn again as the case's mean plus its
-standard deviation times a residual of any case, and
+Runs of one case differ by their seeds alone, and their damage scatters by chaos: roughly normal in its logarithm, by 1
+% to a factor of ten.  Over many hours the damages themselves add up, so that the rate of a case is the arithmetic mean
+of its runs.  The interval is a studentized bootstrap of residuals (Davison and Hinkley, Bootstrap Methods and their
+Application, 1997, 2.4 and 3.2): logarithms of runs are drawn again as the case's mean plus its standard deviation times
+a residual of any case, and
 
     t* = (ln L* - ln L_0)/s*        L_0 the life of what is drawn from, s* the standard error that the drawn runs show
     ln L - t*(1 - a/2) s < ln life < ln L - t*(a/2) s
@@ -26,8 +27,10 @@ MARGIN = 0.9  # of the standard error that is needed: plan for a little less
 
 @dataclass(frozen=True)
 class Estimate:
-    """life, low, high [h]; half_width of ln life; place: index of the place that fails first; shares: of the parts [I]; case_shares [C]; error: standard
-    error of ln r of each case [C]; draws: lives of the bootstrap [h]; rates: mean damage of the cases [C, K]."""
+    """life, low, high [h]; half_width of ln life; place: index of the place that fails first; shares: of the parts [I];
+    case_shares [C]; error: standard error of ln r of each case [C]; draws: lives of the bootstrap [h]; rates: mean
+    damage of the cases [C, K].
+    """
 
     life: float
     low: float
@@ -54,22 +57,42 @@ def estimate(duty, samples, confidence, seed):
     s = math.sqrt(np.sum((case_shares * error) ** 2))
     shares = damage[..., place].sum(axis=0)
     if s == 0.0 or not math.isfinite(life[place]):
-        return Estimate(life[place], life[place], life[place], 0.0, place, shares, case_shares, error, np.full(1, life[place]), rates)
+        return Estimate(
+            life[place],
+            life[place],
+            life[place],
+            0.0,
+            place,
+            shares,
+            case_shares,
+            error,
+            np.full(1, life[place]),
+            rates,
+        )
     t, drawn = bootstrap(duty, logs, spread, counts, np.random.default_rng(seed), 0.1 * s)
-    low, high = (life[place] * math.exp(-quantile * s) for quantile in np.quantile(t, [0.5 + 0.5 * confidence, 0.5 - 0.5 * confidence]))
+    low, high = (
+        life[place] * math.exp(-quantile * s)
+        for quantile in np.quantile(t, [0.5 + 0.5 * confidence, 0.5 - 0.5 * confidence])
+    )
     return Estimate(life[place], low, high, 0.5 * math.log(high / low), place, shares, case_shares, error, drawn, rates)
 
 
 def relative_error(spread, counts):
-    """Standard error of ln of the mean of n runs whose logarithms have the standard deviation `spread` (log-normal law)."""
+    """Standard error of ln of the mean of n runs whose logarithms have the standard deviation `spread` (log-normal
+    law).
+    """
     return np.sqrt(np.expm1(np.minimum(spread, 5.0) ** 2) / counts)
 
 
 def bootstrap(duty, logs, spread, counts, rng, least_error):
-    """Studentized deviations of ln life and the lives themselves, DRAWS of each; the standard error of a draw is at least `least_error`."""
+    """Studentized deviations of ln life and the lives themselves, DRAWS of each; the standard error of a draw is at
+    least `least_error`.
+    """
     centres = np.array([log.mean(axis=0) for log in logs])
     scale = np.where(spread > 0.0, spread, 1.0)
-    pool = np.concatenate([(log - centres[c]) / scale[c] * math.sqrt(len(log) / (len(log) - 1)) for c, log in enumerate(logs)])
+    pool = np.concatenate(
+        [(log - centres[c]) / scale[c] * math.sqrt(len(log) / (len(log) - 1)) for c, log in enumerate(logs)]
+    )
     pool = pool - pool.mean(axis=0)
     truth = np.array([np.exp(centres[c] + spread[c] * pool).mean(axis=0) for c in range(len(logs))])
     means, deviations = np.empty((2, DRAWS, *centres.shape))
@@ -87,9 +110,11 @@ def bootstrap(duty, logs, spread, counts, rng, least_error):
 
 
 def further_runs(found, counts, target, most):
-    """How many runs each case needs [C], none if the half-width of ln life is at most `target` or every case that counts has `most`.
+    """How many runs each case needs [C], none if the half-width of ln life is at most `target` or every case that
+    counts has `most`.
 
-    Runs are spent where share times scatter is large, so that the sum of the variances share^2 v/n falls fastest (Neyman's allocation).
+    Runs are spent where share times scatter is large, so that the sum of the variances share^2 v/n falls fastest
+    (Neyman's allocation).
     """
     if found.half_width <= target:
         return counts.copy()
@@ -112,9 +137,9 @@ def part_means(duty, found):
 def until_sure(duty, run, settings, most, progress=lambda found: None):
     """Rounds of runs until the half-width of ln life is small enough or no case may have more runs.
 
-    run: called with the numbers of runs of the cases [C], returns their damages, for each case [n, K], the first ones always the same, so that a repeated
-    call goes through the same rounds; settings: of [life]; most: runs of a case; progress: called with the Estimate after each round.
-    Returns (Estimate, damages, numbers of runs).
+    run: called with the numbers of runs of the cases [C], returns their damages, for each case [n, K], the first ones
+    always the same, so that a repeated call goes through the same rounds; settings: of [life]; most: runs of a case;
+    progress: called with the Estimate after each round. Returns (Estimate, damages, numbers of runs).
     """
     counts = np.full(duty.blends.shape[2], min(settings["min_seeds"], most))
     while True:

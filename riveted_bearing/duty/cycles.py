@@ -1,8 +1,10 @@
-"""Rainflow matrices of a run: how often which range and mean of stress occurred, at the head and the middle of each rivet.
+"""Rainflow matrices of a run: how often which range and mean of stress occurred, at the head and the middle of each
+rivet.
 
-Cycles of nearly equal range and mean share a class, which keeps its count, mean range and mean mean, so that damage computed later with another S-N curve
-is that of the cycles: classes of 2 % of range leave 15^2/2 0.02^2/12 = 0.4 % at a slope of 15, and nothing where all cycles of a class are equal.
-A matrix is four columns of one length: channel (2 k for the head, 2 k + 1 for the middle of rivet k + 1), range and mean [Pa], count.
+Cycles of nearly equal range and mean share a class, which keeps its count, mean range and mean mean, so that damage
+computed later with another S-N curve is that of the cycles: classes of 2 % of range leave 15^2/2 0.02^2/12 = 0.4 % at a
+slope of 15, and nothing where all cycles of a class are equal. A matrix is four columns of one length: channel (2 k for
+the head, 2 k + 1 for the middle of rivet k + 1), range and mean [Pa], count.
 """
 
 import numpy as np
@@ -18,7 +20,11 @@ OUTPUTS = [f"rivet[*].{channel}{kind}" for channel in CHANNELS.values() for kind
 def rainflow_columns(result):
     """The rainflow matrices of a Result as columns of a sweep's row."""
     rivets = sum(name.startswith("rivet[") and name.endswith("].sigma_head") for name in result.data)
-    tables = [(2 * (k - 1) + place, classed(stress_history(result, k, name))) for k in range(1, rivets + 1) for place, name in enumerate(CHANNELS)]
+    tables = [
+        (2 * (k - 1) + place, classed(stress_history(result, k, name)))
+        for k in range(1, rivets + 1)
+        for place, name in enumerate(CHANNELS)
+    ]
     columns = [np.concatenate([np.full(len(table), channel) for channel, table in tables])]
     columns += list(np.concatenate([table for _, table in tables]).T)
     return {f"cycles.{name}": column.tolist() for name, column in zip(COLUMNS, columns, strict=True)}
@@ -30,12 +36,17 @@ def rainflow_fields():
 
     units = {"channel": "1", "range": "Pa", "mean": "Pa", "count": "1"}
     kinds = {"channel": pa.int16()}
-    return [pa.field(f"cycles.{name}", pa.list_(kinds.get(name, pa.float64())), metadata={"unit": units[name]}) for name in COLUMNS]
+    return [
+        pa.field(f"cycles.{name}", pa.list_(kinds.get(name, pa.float64())), metadata={"unit": units[name]})
+        for name in COLUMNS
+    ]
 
 
 def classed(history):
     """Classes (mean range [Pa], mean mean [Pa], count) of the cycles of a stress history [Pa], as rows."""
-    cycles = np.array([(span, mean, count) for span, mean, count, *_ in rainflow.extract_cycles(history) if span > LEAST]).reshape(-1, 3)
+    cycles = np.array(
+        [(span, mean, count) for span, mean, count, *_ in rainflow.extract_cycles(history) if span > LEAST]
+    ).reshape(-1, 3)
     if not len(cycles):
         return cycles
     span, mean, count = cycles.T

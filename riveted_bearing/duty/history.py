@@ -1,4 +1,6 @@
-"""Tables and measured records of a mission: CSV files of any length, read in pieces by pyarrow, and binned into operating points."""
+"""Tables and measured records of a mission: CSV files of any length, read in pieces by pyarrow, and binned into
+operating points.
+"""
 
 import numpy as np
 
@@ -6,7 +8,8 @@ from ..errors import UserError, unknown
 
 
 def blocks(path, names):
-    """Pieces of the named columns of a CSV file with a header line [n, columns]; lines with # in front may stand before it.
+    """Pieces of the named columns of a CSV file with a header line [n, columns]; lines with # in front may stand before
+    it.
 
     Raises UserError if the file or a column is missing or an entry is no finite number.
     """
@@ -43,21 +46,30 @@ def read_columns(path, names):
 
 
 def binned(path, time, columns, bins):
-    """Operating points of a measured record: each sample holds until the next one, and each class of values with samples becomes a point.
+    """Operating points of a measured record: each sample holds until the next one, and each class of values with
+    samples becomes a point.
 
-    time: name of the column of times [s]; columns: names; bins: of each column the number of equal classes between its extremes.
-    Returns the time spent in the classes [P] in s, their numbers along each column [P, columns], and the means and standard deviations of the values in
-    them [P, columns].  The file is read twice, in pieces.
+    time: name of the column of times [s]; columns: names; bins: of each column the number of equal classes between its
+    extremes. Returns the time spent in the classes [P] in s, their numbers along each column [P, columns], and the
+    means and standard deviations of the values in them [P, columns].  The file is read twice, in pieces.
     """
     low, high, last = np.full(len(columns), np.inf), np.full(len(columns), -np.inf), -np.inf
     for block in blocks(path, (time, *columns)):
         if block[0, 0] <= last or np.any(np.diff(block[:, 0]) <= 0.0):
             raise UserError(f'{path}: the times in column "{time}" do not increase')
-        last, low, high = block[-1, 0], np.minimum(low, block[:, 1:].min(axis=0)), np.maximum(high, block[:, 1:].max(axis=0))
+        last, low, high = (
+            block[-1, 0],
+            np.minimum(low, block[:, 1:].min(axis=0)),
+            np.maximum(high, block[:, 1:].max(axis=0)),
+        )
     if not np.all(high >= low):
         raise UserError(f"{path}: no samples")
     width = np.where(high > low, high - low, 1.0)
-    spent, sums, squares = np.zeros(np.prod(bins)), np.zeros((np.prod(bins), len(columns))), np.zeros((np.prod(bins), len(columns)))
+    spent, sums, squares = (
+        np.zeros(np.prod(bins)),
+        np.zeros((np.prod(bins), len(columns))),
+        np.zeros((np.prod(bins), len(columns))),
+    )
     before = None
     for block in blocks(path, (time, *columns)):
         whole = block if before is None else np.vstack([before, block])
@@ -75,4 +87,9 @@ def binned(path, time, columns, bins):
         raise UserError(f"{path}: at least two samples are needed")
     means, squares = sums[seen] / spent[seen, None], squares[seen] / spent[seen, None]
     spread = np.sqrt(np.maximum(squares - means**2, 0.0))
-    return spent[seen], np.column_stack(np.unravel_index(np.flatnonzero(seen), bins)), low + width * means, width * spread
+    return (
+        spent[seen],
+        np.column_stack(np.unravel_index(np.flatnonzero(seen), bins)),
+        low + width * means,
+        width * spread,
+    )

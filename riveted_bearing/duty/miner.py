@@ -5,23 +5,28 @@ A mission repeats a set of parts, operating points and events.  Part i adds in e
     w_i r_i        w_i = share of the hours, r_i damage per hour         operating point
                    w_i = events per hour,    r_i damage per event        event
 
-and the mission lasts until the sum is 1 at the first place of a rivet.  Rates are simulated for *cases*; the rate of a part follows from them
-logarithmically, ln r_i = sum over c of b_ic ln r_c, with b = 1 for a part that is simulated itself and the weights of an interpolation for one that is not.
-If the preload falls over the hours, there is one such blend for each hour at which the law of its loss is given, and ln r_i is linear in between.
+and the mission lasts until the sum is 1 at the first place of a rivet.  Rates are simulated for *cases*; the rate of a
+part follows from them logarithmically, ln r_i = sum over c of b_ic ln r_c, with b = 1 for a part that is simulated
+itself and the weights of an interpolation for one that is not. If the preload falls over the hours, there is one such
+blend for each hour at which the law of its loss is given, and ln r_i is linear in between.
 
-A class of a measured record is simulated at its mean values.  Damage goes with a high power of load and speed, so that the mean of the rate over the class
-is larger than the rate at the mean.  With ln r linear over the class, slope g along an axis and standard deviation s of the record's values in the class,
+A class of a measured record is simulated at its mean values.  Damage goes with a high power of load and speed, so that
+the mean of the rate over the class is larger than the rate at the mean.  With ln r linear over the class, slope g along
+an axis and standard deviation s of the record's values in the class,
 
     mean of r over the class = r(mean) exp(g^2 s^2/2)
 
-(exact for a normal distribution; 1 % too large for a uniform one at g s = 1).  g is the difference quotient between the neighbouring classes.
+(exact for a normal distribution; 1 % too large for a uniform one at g s = 1).  g is the difference quotient between the
+neighbouring classes.
 """
 
 from dataclasses import dataclass
 
 import numpy as np
 
-MOST = 3.0  # of a class: a larger factor says that the classes are too wide, and a class without damage next to one with damage has no slope
+# of a class: a larger factor says that the classes are too wide, and a class without damage next to one with damage has
+# no slope
+MOST = 3.0
 NO_DAMAGE = 1e-300  # per hour; a smaller rate counts as none
 FOR_EVER = 1e290  # h; a longer life counts as without end
 BISECTIONS = 60  # halve the interval to the last digit
@@ -29,9 +34,11 @@ BISECTIONS = 60  # halve the interval to the last digit
 
 @dataclass(frozen=True)
 class Duty:
-    """weights: of the parts [I]; blends: of the logarithms of the cases' rates [J, I, C]; hours: at which the blends hold [J], the first 0.
+    """weights: of the parts [I]; blends: of the logarithms of the cases' rates [J, I, C]; hours: at which the blends
+    hold [J], the first 0.
 
-    slopes: of classes of a record, what makes g s of the logarithms along each axis [A, J, I, C], zero for other parts; None: there is no record.
+    slopes: of classes of a record, what makes g s of the logarithms along each axis [A, J, I, C], zero for other parts;
+    None: there is no record.
     """
 
     weights: np.ndarray
@@ -52,7 +59,9 @@ def part_rates(duty, rates):
 
 
 def class_factors(duty, logs):
-    """Mean rate over a class of a record over the rate at its mean values [..., J, I, K], MOST at most; 1 for other parts.  logs: of the cases' rates."""
+    """Mean rate over a class of a record over the rate at its mean values [..., J, I, K], MOST at most; 1 for other
+    parts.  logs: of the cases' rates.
+    """
     if duty.slopes is None:
         return 1.0
     across = np.einsum("ajic,...ck->...ajik", duty.slopes, logs)
@@ -60,8 +69,9 @@ def class_factors(duty, logs):
 
 
 def lives(duty, rates):
-    """Life at each place [h], inf without damage [..., K]: the time at which Miner's sum is 1, and the damage of each part by then [..., J, I, K], each
-    stretch of hours counted half to either of its ends."""
+    """Life at each place [h], inf without damage [..., K]: the time at which Miner's sum is 1, and the damage of each
+    part by then [..., J, I, K], each stretch of hours counted half to either of its ends.
+    """
     parts = duty.weights[:, None] * part_rates(duty, rates)
     if len(duty.hours) == 1:
         total = parts.sum(axis=-2)[..., 0, :]
@@ -96,7 +106,9 @@ def endless(life):
 
 
 def stretch_damage(first, grows, length, share):
-    """Damage over a share of a stretch in which a rate starts at `first` and grows by the factor exp(grows): integral of first exp(grows x) length dx."""
+    """Damage over a share of a stretch in which a rate starts at `first` and grows by the factor exp(grows): integral
+    of first exp(grows x) length dx.
+    """
     x = grows * share
     small = np.abs(x) < 1e-9
     mean = np.where(small, 1.0 + 0.5 * x, np.expm1(x) / np.where(small, 1.0, x))

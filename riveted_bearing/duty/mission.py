@@ -58,13 +58,35 @@ from .history import binned, read_columns
 from .miner import Duty
 from .sn import in_words, read_strength
 
-SECTIONS = ("description", "scene", "simulation", "parameters", "inputs", "point", "event", "table", "history", "preload_loss", "life", "sn", "tolerance")
+SECTIONS = (
+    "description",
+    "scene",
+    "simulation",
+    "parameters",
+    "inputs",
+    "point",
+    "event",
+    "table",
+    "history",
+    "preload_loss",
+    "life",
+    "sn",
+    "tolerance",
+)
 POINT = ("name", "hours", "share", "preload_factor", "interpolate", "scene", "simulation", "parameters", "inputs")
 EVENT = ("name", "count", "preload_factor", "scene", "simulation", "parameters", "inputs")
 TABLE = ("file", "hours", "inputs", "parameters")
 HISTORY = ("file", "time", "hours", "inputs", "parameters")
 LOSS = ("hours", "factor")
-LIFE = {"confidence": 0.9, "half_width": 0.25, "min_seeds": 6, "max_seeds": 32, "seed": 1, "skip": 0.01, "rivets": "each"}
+LIFE = {
+    "confidence": 0.9,
+    "half_width": 0.25,
+    "min_seeds": 6,
+    "max_seeds": 32,
+    "seed": 1,
+    "skip": 0.01,
+    "rivets": "each",
+}
 HOURS = {"h": (1.0, 0.0), "min": (60.0, 0.0), "s": (3600.0, 0.0)}
 SHARES = {"1": (1.0, 0.0), "%": (100.0, 0.0)}
 RIVETS = ("each", "alike")
@@ -74,9 +96,10 @@ FORCED = {"scene.stress": "fatigue", "scene.statistics": "on"}
 
 @dataclass(frozen=True)
 class Part:
-    """An operating point (weight: hours) or an event (weight: count); scene: None if it is interpolated; values: of all inputs, None for those that vary, and
-    of the parameters that it sets, SI; load, speed: in words.  Of a class of a record: cell, its number along each axis; means and spreads, of the record's
-    values in it."""
+    """An operating point (weight: hours) or an event (weight: count); scene: None if it is interpolated; values: of all
+    inputs, None for those that vary, and of the parameters that it sets, SI; load, speed: in words.  Of a class of a
+    record: cell, its number along each axis; means and spreads, of the record's values in it.
+    """
 
     name: str
     event: bool
@@ -140,18 +163,37 @@ def plan_mission(name, document, model, path):
     duty = Duty(np.array([part.weight / hours for part in parts]), blends, loss[0], slopes_of(parts, blends))
     scenes = [case.scene for case in cases]
     rows = tuple(basis(model, scenes, curves(path, document, scenes, model)))
-    return Mission(name, str(document.get("description", "")), path, document, tuple(parts), tuple(cases), duty, hours, settings, rows)
+    return Mission(
+        name,
+        str(document.get("description", "")),
+        path,
+        document,
+        tuple(parts),
+        tuple(cases),
+        duty,
+        hours,
+        settings,
+        rows,
+    )
 
 
 def curves(path, document, scenes, model):
     """The S-N curves of the scenes in words."""
     laws = dict.fromkeys(scene_law(scene, model) for scene in scenes)
-    return "; ".join(dict.fromkeys(in_words(read_strength(path, section_of(path, document, "sn"), law)) for law in laws))
+    return "; ".join(
+        dict.fromkeys(in_words(read_strength(path, section_of(path, document, "sn"), law)) for law in laws)
+    )
 
 
 def scene_law(scene, model):
     """The FatigueLaw of a scene's parameters."""
-    return fatigue_law({name: scene.parameters.get(name, model.default(v)) for name, v in model.parameters.items() if name.startswith("fatigue.")})
+    return fatigue_law(
+        {
+            name: scene.parameters.get(name, model.default(v))
+            for name, v in model.parameters.items()
+            if name.startswith("fatigue.")
+        }
+    )
 
 
 def life_settings(path, section):
@@ -168,7 +210,12 @@ def life_settings(path, section):
     for key in ("min_seeds", "max_seeds", "seed"):
         count_of(path, f"life.{key}", settings[key])
     if not 3 <= settings["min_seeds"] <= settings["max_seeds"]:
-        raise refusal(path, "life.min_seeds", settings["min_seeds"], f"from 3, which show scatter, to max_seeds = {settings['max_seeds']} is allowed")
+        raise refusal(
+            path,
+            "life.min_seeds",
+            settings["min_seeds"],
+            f"from 3, which show scatter, to max_seeds = {settings['max_seeds']} is allowed",
+        )
     if settings["rivets"] not in RIVETS:
         raise refusal(path, "life.rivets", settings["rivets"], f"allowed: {', '.join(RIVETS)}")
     return settings
@@ -211,13 +258,17 @@ def points(path, document, model):
         if len(given) != 1:
             raise UserError(f"{path}: {label}: hours or share is needed" + (", not both" if given else ""))
         if given[0] != next(key for key in ("hours", "share") if key in blocks[0]):
-            raise UserError(f"{path}: {label}: has {given[0]}, but the first point has not: hours in every point or share in every point is allowed")
+            raise UserError(
+                f"{path}: {label}: has {given[0]}, but the first point has not: hours in every point or share in every point is allowed"
+            )
         weight = amount(path, f"{label}: {given[0]}", block[given[0]], HOURS if given[0] == "hours" else SHARES)
         if not isinstance(block.get("interpolate", False), bool):
             raise refusal(path, f"{label}: interpolate", block["interpolate"], "allowed: true, false")
         found.append(part_of(path, document, model, label, str(block.get("name", i)), block, weight))
     if found and "share" in blocks[0] and ("table" in document or "history" in document):
-        raise UserError(f"{path}: share: points of a table or a history have hours, so that the other points need hours too")
+        raise UserError(
+            f"{path}: share: points of a table or a history have hours, so that the other points need hours too"
+        )
     return [*found, *table_points(path, document, model), *history_points(path, document, model)]
 
 
@@ -238,22 +289,43 @@ def part_of(path, document, model, label, name, block, weight, event=False):
     """The Part of one block, its scene checked."""
     factor = amount(path, f"{label}: preload_factor", block.get("preload_factor", 1.0), SHARES)
     common = {section: section_of(path, document, section) for section in ("simulation", "parameters", "inputs")}
-    own = {section: section_of(f"{path}: {label}", block, section) for section in ("simulation", "parameters", "inputs")}
+    own = {
+        section: section_of(f"{path}: {label}", block, section) for section in ("simulation", "parameters", "inputs")
+    }
     for changes in (common, own):
         if any(key in FORCED for key, _ in leaves(changes["parameters"], model.parameters)):
-            raise UserError(f"{path}: {label}: {' and '.join(FORCED)} are not free here: a life needs the count of stress cycles")
+            raise UserError(
+                f"{path}: {label}: {' and '.join(FORCED)} are not free here: a life needs the count of stress cycles"
+            )
     source = block.get("scene", document.get("scene"))
-    scene = load_scene(beside(path, source), model, (str(path), common), (f"{path}: {label}", own), ("a mission", {"parameters": FORCED}))
+    scene = load_scene(
+        beside(path, source),
+        model,
+        (str(path), common),
+        (f"{path}: {label}", own),
+        ("a mission", {"parameters": FORCED}),
+    )
     if scene.t_end <= scene.parameters.get("start.settle", model.default(model.parameters["start.settle"])):
-        raise refusal(f"{path}: {label}", "simulation.t_end", scene.t_end, "longer than start.settle is needed, before which damage does not count")
+        raise refusal(
+            f"{path}: {label}",
+            "simulation.t_end",
+            scene.t_end,
+            "longer than start.settle is needed, before which damage does not count",
+        )
     simulated = None if block.get("interpolate", False) else scene
-    return Part(name, event, weight, simulated, factor, values_of(scene, model), loads(model, [scene]), speeds(model, [scene]))
+    return Part(
+        name, event, weight, simulated, factor, values_of(scene, model), loads(model, [scene]), speeds(model, [scene])
+    )
 
 
 def values_of(scene, model):
-    """What of a scene can be compared and interpolated: constant inputs, its own or the FMU's, and its parameters, SI; None for inputs that vary."""
+    """What of a scene can be compared and interpolated: constant inputs, its own or the FMU's, and its parameters, SI;
+    None for inputs that vary.
+    """
     own = {name: model.default(variable) for name, variable in model.inputs.items()}
-    inputs = own | {name: float(history.value[0]) if len(history.t) == 1 else None for name, history in scene.inputs.items()}
+    inputs = own | {
+        name: float(history.value[0]) if len(history.t) == 1 else None for name, history in scene.inputs.items()
+    }
     return inputs | {name: value for name, value in scene.parameters.items() if not isinstance(value, bool)}
 
 
@@ -266,7 +338,12 @@ def columns_of(path, where, section, model, further=()):
             if name not in variables:
                 raise unknown(f"{path}: {where}", kind.removesuffix("s"), name, variables)
             if not isinstance(value, dict) or "column" not in value or not set(value) <= {"column", "unit", *further}:
-                raise refusal(path, f"{where}.{name}", value, f"{{ column = ..., unit = ...{''.join(f', {key} = ...' for key in further)} }} is needed")
+                raise refusal(
+                    path,
+                    f"{where}.{name}",
+                    value,
+                    f"{{ column = ..., unit = ...{''.join(f', {key} = ...' for key in further)} }} is needed",
+                )
             scales = model.units[variables[name].unit]
             try:
                 factor, offset = scale(value["unit"], scales) if "unit" in value else (1.0, 0.0)
@@ -334,7 +411,9 @@ def preload_loss(path, section):
     for key in section:
         if key not in LOSS:
             raise unknown(path, "key", f"preload_loss.{key}", [f"preload_loss.{name}" for name in LOSS])
-    if not all(isinstance(section.get(key), list) and section[key] for key in LOSS) or len(section["hours"]) != len(section["factor"]):
+    if not all(isinstance(section.get(key), list) and section[key] for key in LOSS) or len(section["hours"]) != len(
+        section["factor"]
+    ):
         raise UserError(f"{path}: preload_loss: hours and factor are needed, lists of one length")
     hours = np.array([amount(path, "preload_loss.hours", value, HOURS) for value in section["hours"]])
     factor = np.array([amount(path, "preload_loss.factor", value, SHARES) for value in section["factor"]])
@@ -365,7 +444,9 @@ def cases_of(path, parts, factors, model):
 
 
 def slopes_of(parts, blends):
-    """Duty.slopes: difference quotients between the neighbours of a class along each axis, times the spread of its values; None without a record."""
+    """Duty.slopes: difference quotients between the neighbours of a class along each axis, times the spread of its
+    values; None without a record.
+    """
     classes = {part.cell: i for i, part in enumerate(parts) if part.cell}
     if not classes:
         return None
@@ -373,7 +454,9 @@ def slopes_of(parts, blends):
     slopes = np.zeros((axes, *blends.shape))
     for cell, i in classes.items():
         for axis in range(axes):
-            line = sorted(other for other in classes if other[:axis] + other[axis + 1 :] == cell[:axis] + cell[axis + 1 :])
+            line = sorted(
+                other for other in classes if other[:axis] + other[axis + 1 :] == cell[:axis] + cell[axis + 1 :]
+            )
             place = line.index(cell)
             low, high = classes[line[max(place - 1, 0)]], classes[line[min(place + 1, len(line) - 1)]]
             if low != high:
@@ -391,7 +474,8 @@ def loosened(scene, factor, model):
 
 
 def mixture(path, parts, i, simulated):
-    """Shares {part: weight} with which the logarithms of the rates of simulated points make that of point i: linear between the points around it.
+    """Shares {part: weight} with which the logarithms of the rates of simulated points make that of point i: linear
+    between the points around it.
 
     The points that count differ from point i in numbers alone; raises UserError if point i is not between them.
     """
@@ -399,10 +483,16 @@ def mixture(path, parts, i, simulated):
 
     own = parts[i].values
     comparable = [
-        q for q in simulated if not parts[q].event and parts[q].values.keys() == own.keys() and all(is_close_kind(parts[q].values[n], own[n]) for n in own)
+        q
+        for q in simulated
+        if not parts[q].event
+        and parts[q].values.keys() == own.keys()
+        and all(is_close_kind(parts[q].values[n], own[n]) for n in own)
     ]
     axes = [n for n in own if len({parts[q].values[n] for q in comparable} | {own[n]}) > 1]
-    outside = UserError(f"{path}: point {parts[i].name}: interpolate: not between the simulated points ({', '.join(axes) or 'none like it'}): simulate it")
+    outside = UserError(
+        f"{path}: point {parts[i].name}: interpolate: not between the simulated points ({', '.join(axes) or 'none like it'}): simulate it"
+    )
     if not axes or len(comparable) <= len(axes):
         raise outside
     grid = np.array([[parts[q].values[n] for n in axes] for q in comparable])

@@ -1,4 +1,6 @@
-"""What a reader of a mission's life has to know: what was simulated, what was left out and why, what the figure does not hold."""
+"""What a reader of a mission's life has to know: what was simulated, what was left out and why, what the figure does
+not hold.
+"""
 
 import math
 
@@ -16,8 +18,14 @@ def wide_classes(life):
     """Names of the classes of a record whose width matters."""
     duty, found = part_duty(life.mission.duty, list(life.kept)), life.estimate
     logs = np.log(np.maximum(found.rates, NO_DAMAGE))
-    factors = np.broadcast_to(class_factors(duty, logs), (len(duty.hours), len(life.kept), logs.shape[-1]))[0, :, found.place]
-    return [life.mission.parts[i].name for i, factor, share in zip(life.kept, factors, found.shares, strict=True) if factor > WIDE and share > MATTERS]
+    factors = np.broadcast_to(class_factors(duty, logs), (len(duty.hours), len(life.kept), logs.shape[-1]))[
+        0, :, found.place
+    ]
+    return [
+        life.mission.parts[i].name
+        for i, factor, share in zip(life.kept, factors, found.shares, strict=True)
+        if factor > WIDE and share > MATTERS
+    ]
 
 
 def notes(life, runs, scatter=None):
@@ -28,7 +36,9 @@ def notes(life, runs, scatter=None):
     if open_ends(life):
         sentences = [f"The interval of life is {width_text(life)}; max_seeds = {settings['max_seeds']} was reached."]
     elif found.half_width > math.log1p(settings["half_width"]):
-        sentences = [f"The interval is wider than asked for ({reached} of life): max_seeds = {settings['max_seeds']} was reached."]
+        sentences = [
+            f"The interval is wider than asked for ({reached} of life): max_seeds = {settings['max_seeds']} was reached."
+        ]
     else:
         sentences = [f"The interval is as narrow as asked for: {reached} of life."]
     if life.bounds:
@@ -56,7 +66,11 @@ def notes(life, runs, scatter=None):
     if scatter:
         law = scatter.law
         low, high = law.b10_interval
-        noise = "" if math.isnan(scatter.noise) else f" The seeds have {100 * min(scatter.noise, 1.0):.2g} % of the scatter."
+        noise = (
+            ""
+            if math.isnan(scatter.noise)
+            else f" The seeds have {100 * min(scatter.noise, 1.0):.2g} % of the scatter."
+        )
         sentences.append(
             f"Over {len(scatter.lives)} bearings within their tolerances: B10 {hours_text(law.b10)} ({hours_text(low)} to {hours_text(high)} at "
             f"{100 * law.confidence:g} %), Weibull shape {law.beta:.3g}, characteristic life {hours_text(law.eta)}.{noise}"

@@ -19,8 +19,12 @@ WIDE, TALL = (4.9, 2.9), (4.9, 3.6)  # inches
 
 
 def write_page(life, path, notes):
-    """Write the page of a Life, whole or not at all; notes: sentences on what was simulated and left out.  Returns the path."""
-    environment = jinja2.Environment(autoescape=True, trim_blocks=True, lstrip_blocks=True, undefined=jinja2.StrictUndefined)
+    """Write the page of a Life, whole or not at all; notes: sentences on what was simulated and left out.  Returns the
+    path.
+    """
+    environment = jinja2.Environment(
+        autoescape=True, trim_blocks=True, lstrip_blocks=True, undefined=jinja2.StrictUndefined
+    )
     template = environment.from_string((PARTS / "life.html").read_text(encoding="utf-8"))
     text = template.render(
         mission=life.mission,
@@ -28,7 +32,10 @@ def write_page(life, path, notes):
         cards=list(cards(life)),
         rows=list(part_rows(life)),
         notes=notes,
-        charts={name: charts.svg(lambda fig, draw=draw: draw(fig, life), size, label) for name, (draw, size, label) in CHARTS.items()},
+        charts={
+            name: charts.svg(lambda fig, draw=draw: draw(fig, life), size, label)
+            for name, (draw, size, label) in CHARTS.items()
+        },
     )
     write_atomically(path, lambda temporary: temporary.write_text(text, encoding="utf-8"))
     return path
@@ -45,7 +52,11 @@ def cards(life):
     yield "Life", hours_text(found.life), f"{life.place} · Miner's sum 1"
     yield f"{100 * settings['confidence']:g} % interval", interval_text(life), width_text(life)
     yield "Mission", f"{figure(life.mission.hours)} h", passes_text(found.life, life.mission.hours)
-    yield "Runs", f"{sum(life.counts)}", f"{sum(part.scene is not None for part in life.mission.parts) - len(life.bounds)} points and events simulated"
+    yield (
+        "Runs",
+        f"{sum(life.counts)}",
+        f"{sum(part.scene is not None for part in life.mission.parts) - len(life.bounds)} points and events simulated",
+    )
 
 
 def open_ends(life):
@@ -53,7 +64,9 @@ def open_ends(life):
     found = life.estimate
     if not math.isfinite(found.life):
         return []
-    return [end for end, far in (("lower", found.life > OPEN * life.low), ("upper", found.high > OPEN * found.life)) if far]
+    return [
+        end for end, far in (("lower", found.life > OPEN * life.low), ("upper", found.high > OPEN * found.life)) if far
+    ]
 
 
 def interval_text(life):
@@ -103,7 +116,11 @@ def part_rows(life):
 def rate_at_place(life, i):
     """Damage of part i per hour or event at the place that fails first."""
     place = life.estimate.place
-    return life.rates[i].reshape(-1)[place] if life.mission.settings["rivets"] == "each" else life.rates[i, :, place].mean()
+    return (
+        life.rates[i].reshape(-1)[place]
+        if life.mission.settings["rivets"] == "each"
+        else life.rates[i, :, place].mean()
+    )
 
 
 def life_chart(fig, life):
@@ -115,7 +132,13 @@ def life_chart(fig, life):
     draws = np.log10(found.draws)
     low, high = min(draws.min(), math.log10(life.low)), max(draws.max(), math.log10(found.high))
     margin = 0.05 * (high - low) or 0.1
-    ax.axvspan(life.low, found.high, color="#f3f4f6", zorder=0, label=f"{100 * life.mission.settings['confidence']:g} % interval")
+    ax.axvspan(
+        life.low,
+        found.high,
+        color="#f3f4f6",
+        zorder=0,
+        label=f"{100 * life.mission.settings['confidence']:g} % interval",
+    )
     ax.hist(found.draws, bins=np.logspace(low - margin, high + margin, 41), color=MIDDLE, alpha=0.8, label="bootstrap")
     ax.axvline(found.life, color=HEAD, lw=1.8, label="life")
     ax.set_xscale("log")
@@ -133,8 +156,12 @@ def share_chart(fig, life):
     parts = [(life.mission.parts[i], share) for i, share in zip(life.kept, life.estimate.shares, strict=True)]
     parts.sort(key=lambda pair: -pair[1])
     shown = parts[:MOST_BARS] if len(parts) <= MOST_BARS else parts[: MOST_BARS - 1]
-    names = [part.name for part, _ in shown] + ([f"{len(parts) - len(shown)} others"] if len(shown) < len(parts) else [])
-    shares = [share for _, share in shown] + ([sum(share for _, share in parts[len(shown) :])] if len(shown) < len(parts) else [])
+    names = [part.name for part, _ in shown] + (
+        [f"{len(parts) - len(shown)} others"] if len(shown) < len(parts) else []
+    )
+    shares = [share for _, share in shown] + (
+        [sum(share for _, share in parts[len(shown) :])] if len(shown) < len(parts) else []
+    )
     colours = [RING if part.event else MIDDLE for part, _ in shown] + [MUTED] * (len(names) - len(shown))
     bars = ax.barh(range(len(names)), 100 * np.array(shares), color=colours, height=0.66)
     ax.bar_label(bars, [share_text(share) for share in shares], padding=3, fontsize=8)
@@ -150,7 +177,14 @@ def rivet_chart(fig, life):
     damage = np.einsum("i,ikp->kp", life.mission.duty.weights, life.rates)
     k = np.arange(1, len(damage) + 1)
     for place, colour, label in ((0, HEAD, "head fillet"), (1, MIDDLE, "middle of the shank")):
-        ax.bar(k + 0.4 * place - 0.2, np.maximum(damage[:, place], 1e-300), width=0.36, color=colour, alpha=0.85, label=label)
+        ax.bar(
+            k + 0.4 * place - 0.2,
+            np.maximum(damage[:, place], 1e-300),
+            width=0.36,
+            color=colour,
+            alpha=0.85,
+            label=label,
+        )
     seen = damage[damage > 1e-299]
     if len(seen):
         ax.set_yscale("log")
@@ -174,7 +208,9 @@ def load_and_speed_chart(fig, life):
         x, colour, labels = load, speed, ("radial load [kN]", "speed [rev/min]")
     varies = np.ptp(colour) > 0.0
     look = {"c": colour, "cmap": "viridis"} if varies else {"color": MIDDLE}
-    dots = ax.scatter(x, np.maximum(rate, 1e-300), s=18 + 130 * hours / hours.max(), edgecolor=FORCE, lw=0.5, alpha=0.9, **look)
+    dots = ax.scatter(
+        x, np.maximum(rate, 1e-300), s=18 + 130 * hours / hours.max(), edgecolor=FORCE, lw=0.5, alpha=0.9, **look
+    )
     ax.set(xlabel=labels[0], ylabel="damage per hour")
     if np.any(rate > 1e-299):
         ax.set_yscale("log")
@@ -205,7 +241,9 @@ def write_picture(life, path):
 
     with plt.rc_context(STYLE):
         whole = plt.figure(figsize=(11, 7.4), layout="constrained")
-        whole.suptitle(f"{life.mission.name}: life {hours_text(life.estimate.life)}, {life.place}", x=0.01, ha="left", fontsize=11)
+        whole.suptitle(
+            f"{life.mission.name}: life {hours_text(life.estimate.life)}, {life.place}", x=0.01, ha="left", fontsize=11
+        )
         for part, (draw, _, label) in zip(whole.subfigures(2, 2).ravel(), CHARTS.values(), strict=True):
             draw(part, life)
             part.suptitle(label, x=0.02, ha="left", fontsize=10, fontweight="bold")

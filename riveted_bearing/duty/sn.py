@@ -22,8 +22,8 @@ from pathlib import Path
 
 import numpy as np
 
-from bearing_model.instance.fatigue import FatigueLaw, fully_reversed
 from bearing_model.generated.variables import MeanStress
+from bearing_model.instance.fatigue import FatigueLaw, fully_reversed
 
 from ..errors import UserError, extra, unknown
 from ..scene import read_toml, refusal
@@ -42,8 +42,10 @@ FKM_STEEL = "Steel"
 
 @dataclass(frozen=True)
 class Strength:
-    """law: of the mean-stress correction and the curve before scatter and factors; rule: below the knee; T_S: scatter of strength; survival; factor: of
-    strength by surface and size; table: (amplitude [Pa], cycles) instead of the curve, or None."""
+    """law: of the mean-stress correction and the curve before scatter and factors; rule: below the knee; T_S: scatter
+    of strength; survival; factor: of strength by surface and size; table: (amplitude [Pa], cycles) instead of the
+    curve, or None.
+    """
 
     law: FatigueLaw
     rule: str = "knee"
@@ -54,20 +56,32 @@ class Strength:
 
 
 def read_strength(path, section, law):
-    """The Strength of a mission's section [sn]; law: FatigueLaw that stands for what is not given.  Raises UserError naming key and value."""
+    """The Strength of a mission's section [sn]; law: FatigueLaw that stands for what is not given.  Raises UserError
+    naming key and value.
+    """
     where = f"{path}: sn"
     section, table = with_file(path, where, dict(section))
     for key in section:
         if key not in KEYS:
             raise unknown(where, "key", key, KEYS)
-    numbers = {key: positive(where, key, section[key], scales) for key, scales in (NUMBERS | SCATTER | FKM).items() if key in section}
+    numbers = {
+        key: positive(where, key, section[key], scales)
+        for key, scales in (NUMBERS | SCATTER | FKM).items()
+        if key in section
+    }
     rule = section.get("rule", "knee")
     if rule not in RULES:
         raise refusal(where, "rule", rule, f"allowed: {', '.join(RULES)}")
     mean_stress = section.get("mean_stress", MeanStress(law.mean_stress).name.lower())
     if not isinstance(mean_stress, str) or mean_stress.upper() not in MeanStress.__members__:
-        raise refusal(where, "mean_stress", mean_stress, f"allowed: {', '.join(name.lower() for name in MeanStress.__members__)}")
-    law = FatigueLaw(**vars(law) | {key: numbers[key] for key in NUMBERS if key in numbers} | {"mean_stress": int(MeanStress[mean_stress.upper()])})
+        raise refusal(
+            where, "mean_stress", mean_stress, f"allowed: {', '.join(name.lower() for name in MeanStress.__members__)}"
+        )
+    law = FatigueLaw(
+        **vars(law)
+        | {key: numbers[key] for key in NUMBERS if key in numbers}
+        | {"mean_stress": int(MeanStress[mean_stress.upper()])}
+    )
     survival = numbers.get("survival", 0.5)
     if not survival < 1.0:
         raise refusal(where, "survival", survival, "a share below 1 is needed")
@@ -75,7 +89,9 @@ def read_strength(path, section, law):
         raise UserError(f"{where}: T_S and T_N: one follows from the other, so give one of them")
     T_S = numbers.get("T_S", numbers.get("T_N", 1.0) ** (1.0 / law.k_1))
     if T_S < 1.0:
-        raise refusal(where, "T_S" if "T_S" in numbers else "T_N", numbers.get("T_S", numbers.get("T_N")), "from 1 on is allowed")
+        raise refusal(
+            where, "T_S" if "T_S" in numbers else "T_N", numbers.get("T_S", numbers.get("T_N")), "from 1 on is allowed"
+        )
     return Strength(law, rule, T_S, survival, surface_factor(numbers, law.sigma_m) * size_factor(numbers), table)
 
 
@@ -89,7 +105,10 @@ def in_words(strength):
         amplitude, cycles = strength.table
         curve = f"table of {len(cycles)} amplitudes from {1e-6 * amplitude[0]:.4g} to {1e-6 * amplitude[-1]:.4g} MPa"
     mean = MeanStress(law.mean_stress).name.lower()
-    limit = {"goodman": f", sigma_m {1e-6 * law.sigma_m:.4g} MPa", "morrow": f", sigma_f {1e-6 * law.sigma_f:.4g} MPa"}.get(mean, "")
+    limit = {
+        "goodman": f", sigma_m {1e-6 * law.sigma_m:.4g} MPa",
+        "morrow": f", sigma_f {1e-6 * law.sigma_f:.4g} MPa",
+    }.get(mean, "")
     scatter = f", T_S {strength.T_S:.3g}, survival {100 * strength.survival:.4g} %" if strength.T_S > 1.0 else ""
     factor = f", factor of surface and size {strength.factor:.3g}" if strength.factor != 1.0 else ""
     return f"{curve}; mean stress: {mean}{limit}{scatter}{factor}"
@@ -123,8 +142,16 @@ def with_file(path, where, section):
     amplitude = amplitude / PASCAL[unit][0]
     order = np.argsort(amplitude)
     amplitude, cycles = amplitude[order], cycles[order]
-    if len(amplitude) < 2 or amplitude[0] <= 0.0 or cycles.min() <= 0.0 or np.any(np.diff(amplitude) <= 0.0) or np.any(np.diff(cycles) > 0.0):
-        raise UserError(f"{file}: at least two positive amplitudes are needed, all different, with cycles that fall while the amplitude grows")
+    if (
+        len(amplitude) < 2
+        or amplitude[0] <= 0.0
+        or cycles.min() <= 0.0
+        or np.any(np.diff(amplitude) <= 0.0)
+        or np.any(np.diff(cycles) > 0.0)
+    ):
+        raise UserError(
+            f"{file}: at least two positive amplitudes are needed, all different, with cycles that fall while the amplitude grows"
+        )
     return section, (amplitude, cycles)
 
 
@@ -163,16 +190,23 @@ def surface_factor(numbers, sigma_m):
     if "R_z" not in numbers:
         return 1.0
     _, steel = fkm()
-    return 1.0 - steel["aR_s"] * math.log10(max(1e6 * numbers["R_z"], 1.0)) * math.log10(max(2e-6 * sigma_m / steel["RmNmin"], 1.0))
+    return 1.0 - steel["aR_s"] * math.log10(max(1e6 * numbers["R_z"], 1.0)) * math.log10(
+        max(2e-6 * sigma_m / steel["RmNmin"], 1.0)
+    )
 
 
 def size_factor(numbers):
-    """n_st = (A_90_specimen/A_90)^(1/k_st): the larger the stressed surface, the weaker its weakest place.  FKM guideline (2012), 4.3.1.3.2."""
+    """n_st = (A_90_specimen/A_90)^(1/k_st): the larger the stressed surface, the weaker its weakest place.  FKM
+    guideline (2012), 4.3.1.3.2.
+    """
     if "A_90" not in numbers:
         return 1.0
     functions, steel = fkm()
     specimen = numbers.get("A_90_specimen", functions.A90_0)
-    return float(functions.stat_support_surf(numbers["A_90"], steel["k_st"]) / functions.stat_support_surf(specimen, steel["k_st"]))
+    return float(
+        functions.stat_support_surf(numbers["A_90"], steel["k_st"])
+        / functions.stat_support_surf(specimen, steel["k_st"])
+    )
 
 
 def curve(strength):
@@ -185,7 +219,9 @@ def curve(strength):
 
 
 def cycles_to_failure(strength, amplitude):
-    """Cycles that each amplitude at zero mean stress [Pa] is borne; a table is a straight line between its points in logarithms, and beyond its ends."""
+    """Cycles that each amplitude at zero mean stress [Pa] is borne; a table is a straight line between its points in
+    logarithms, and beyond its ends.
+    """
     if strength.table is None:
         return curve(strength).cycles(amplitude)
     from scipy.interpolate import make_interp_spline
@@ -215,4 +251,8 @@ def damage_of_cycles(strength, span, mean, count):
 def damage_of_matrix(strength, matrix, channels):
     """Miner's sum of each channel of a run's rainflow matrix."""
     channel, span, mean, count = matrix
-    return np.bincount(channel, damage_of_cycles(strength, span, mean, count), minlength=channels) if len(channel) else np.zeros(channels)
+    return (
+        np.bincount(channel, damage_of_cycles(strength, span, mean, count), minlength=channels)
+        if len(channel)
+        else np.zeros(channels)
+    )

@@ -39,7 +39,9 @@ RECORD = "bearings.json"
 
 @dataclass(frozen=True)
 class Tolerances:
-    """How many bearings with how many seeds at which share of the damage, and the frozen distributions of scipy.stats by parameter (SI)."""
+    """How many bearings with how many seeds at which share of the damage, and the frozen distributions of scipy.stats
+    by parameter (SI).
+    """
 
     bearings: int
     seeds: int
@@ -49,7 +51,9 @@ class Tolerances:
 
 @dataclass(frozen=True)
 class Scatter:
-    """lives of the bearings [h]; draws: {parameter: values}; noise: share of the variance of ln life that the seeds have; law: of Weibull."""
+    """lives of the bearings [h]; draws: {parameter: values}; noise: share of the variance of ln life that the seeds
+    have; law: of Weibull.
+    """
 
     lives: np.ndarray
     draws: dict = field(repr=False)
@@ -75,7 +79,9 @@ def read_tolerances(mission, model):
     given = dict(leaves(section_of(f"{path}: tolerance", section, "parameters"), model.parameters))
     if not given:
         raise UserError(f"{path}: tolerance.parameters: name at least one parameter with its distribution")
-    return Tolerances(bearings, seeds, share, {name: distribution(path, name, entry, model) for name, entry in given.items()})
+    return Tolerances(
+        bearings, seeds, share, {name: distribution(path, name, entry, model) for name, entry in given.items()}
+    )
 
 
 def distribution(path, name, entry, model):
@@ -109,7 +115,12 @@ def distribution(path, name, entry, model):
         return stats.uniform(first, rest[0] - first)
     if kind == "triangular" and first < rest[1] and first <= rest[0] <= rest[1]:
         return stats.triang((rest[0] - first) / (rest[1] - first), loc=first, scale=rest[1] - first)
-    raise refusal(path, where, entry, "sd above 0, median above 0, factor above 1, low below high and mode between them are allowed")
+    raise refusal(
+        path,
+        where,
+        entry,
+        "sd above 0, median above 0, factor above 1, low below high and mode between them are allowed",
+    )
 
 
 def differences(scales):
@@ -126,14 +137,17 @@ def drawn(tolerances, seed):
 def scatter(life, tolerances, model, folder, client, progress=None, runs_of=None):
     """The Scatter of life over bearings drawn from the tolerances, for the mission of a Life.
 
-    Points and events that have the share asked for are simulated for each bearing with common seeds, at the preload of the mission's start.
-    runs_of: function of the mission of bearings that gives its runs(counts), None for the FMU's in a folder of their own.
+    Points and events that have the share asked for are simulated for each bearing with common seeds, at the preload of
+    the mission's start. runs_of: function of the mission of bearings that gives its runs(counts), None for the FMU's in
+    a folder of their own.
     """
     mission, settings = life.mission, life.mission.settings
     draws = drawn(tolerances, settings["seed"])
     chosen = decisive_parts(life, tolerances.share)
     cases = [
-        Case(i, changed(mission, model, i, {name: float(values[b]) for name, values in draws.items()})) for b in range(tolerances.bearings) for i in chosen
+        Case(i, changed(mission, model, i, {name: float(values[b]) for name, values in draws.items()}))
+        for b in range(tolerances.bearings)
+        for i in chosen
     ]
     of_bearings = replace(mission, cases=tuple(cases), settings=settings | {"max_seeds": tolerances.seeds})
     runs = runs_of(of_bearings) if runs_of else Runs(of_bearings, model, folder / "bearings", client, progress)
@@ -143,13 +157,27 @@ def scatter(life, tolerances, model, folder, client, progress=None, runs_of=None
     lives, noise = [], []
     for b in range(tolerances.bearings):
         own = samples[b * len(chosen) : (b + 1) * len(chosen)]
-        damage = places((rest + sum(weights[i] * runs.mean(axis=0) for i, runs in zip(chosen, own, strict=True)))[None], settings["rivets"])[0]
+        damage = places(
+            (rest + sum(weights[i] * runs.mean(axis=0) for i, runs in zip(chosen, own, strict=True)))[None],
+            settings["rivets"],
+        )[0]
         place = int(damage.argmax())
         lives.append(1.0 / damage[place])
-        at_place = [weights[i] * places(runs, settings["rivets"])[:, place] for i, runs in zip(chosen, own, strict=True)]
+        at_place = [
+            weights[i] * places(runs, settings["rivets"])[:, place] for i, runs in zip(chosen, own, strict=True)
+        ]
         if tolerances.seeds > 1:
             spread = np.array([np.log(np.maximum(runs, 1e-300)).std(ddof=1) for runs in at_place])
-            noise.append(np.sum((np.array([runs.mean() for runs in at_place]) / damage[place] * relative_error(spread, tolerances.seeds)) ** 2))
+            noise.append(
+                np.sum(
+                    (
+                        np.array([runs.mean() for runs in at_place])
+                        / damage[place]
+                        * relative_error(spread, tolerances.seeds)
+                    )
+                    ** 2
+                )
+            )
     lives = np.array(lives)
     share = float(np.mean(noise) / np.log(lives).var(ddof=1)) if noise else math.nan
     return Scatter(lives, draws, share, fit_weibull(lives, confidence=settings["confidence"]))
@@ -175,18 +203,27 @@ def changed(mission, model, i, values):
         try:
             model.check_range(value, model.parameters[name])
         except UserError as problem:
-            raise refusal(mission.path, f"tolerance.{name}", value, f"a bearing drawn from the distribution is impossible: {problem}") from None
+            raise refusal(
+                mission.path,
+                f"tolerance.{name}",
+                value,
+                f"a bearing drawn from the distribution is impossible: {problem}",
+            ) from None
     scene = replace(scene, parameters=scene.parameters | values)
     return loosened(scene, part.factor, model)
 
 
 def write_scatter(found, path):
-    """Write bearings.json: the Weibull law, the seeds' share of the scatter, lives and what was drawn; returns the path."""
+    """Write bearings.json: the Weibull law, the seeds' share of the scatter, lives and what was drawn; returns the
+    path.
+    """
     document = found.law.record() | {
         "confidence": found.law.confidence,
         "seeds_share": found.noise if math.isfinite(found.noise) else None,
         "lives_h": found.lives.tolist(),
         "drawn": {name: values.tolist() for name, values in found.draws.items()},
     }
-    write_atomically(path, lambda temporary: temporary.write_text(json.dumps(document, indent=1) + "\n", encoding="utf-8"))
+    write_atomically(
+        path, lambda temporary: temporary.write_text(json.dumps(document, indent=1) + "\n", encoding="utf-8")
+    )
     return path

@@ -1,7 +1,9 @@
-"""The paper's claims (its section 4 and its conclusions, paraphrased) against the runs of the study: figures, verdicts and the physics behind them.
+"""The paper's claims (its section 4 and its conclusions, paraphrased) against the runs of the study: figures, verdicts
+and the physics behind them.
 
-A claim holds as far as its conditions hold, and conditions depend on the runs only.  Where the paper says "stress", conditions are checked for the mean
-and for the 99.9 % quantile of the worst rivet, because the paper does not say which stress it means.
+A claim holds as far as its conditions hold, and conditions depend on the runs only.  Where the paper says "stress",
+conditions are checked for the mean and for the 99.9 % quantile of the worst rivet, because the paper does not say which
+stress it means.
 """
 
 from dataclasses import dataclass
@@ -16,7 +18,9 @@ SPEEDS = (4000.0, 8000.0, 12000.0, 16000.0, 20000.0, 24000.0)
 
 @dataclass(frozen=True)
 class Claim:
-    """A sentence of the paper: its place, the sentence, the figures of the runs, the conditions that the runs meet, and the reason."""
+    """A sentence of the paper: its place, the sentence, the figures of the runs, the conditions that the runs meet, and
+    the reason.
+    """
 
     where: str
     said: str
@@ -31,7 +35,9 @@ class Claim:
 
 
 def all_claims(data):
-    """Claims for which there are runs, in the order of the paper, by the picture (of study.PICTURES, or "cost") that shows them."""
+    """Claims for which there are runs, in the order of the paper, by the picture (of study.PICTURES, or "cost") that
+    shows them.
+    """
     return {picture: claims(data) for picture, (needed, claims) in CLAIMS.items() if needed in data}
 
 
@@ -61,7 +67,8 @@ def preload_claims(data):
     first, last = rise(at[20], at[0], "dislocation_max"), rise(at[60], at[40], "dislocation_max")
     median = float(np.median(at[40]["dislocation_max"]))
     above = max(at[P]["dislocation_max"].max() for P in at if P > 20)
-    held = min((P for P in at if all(largest[more].mean < 10.0 for more in at if more >= P)), default=60)  # N, from which on the mean stays below 0.01 mm
+    # N, from which on the mean stays below 0.01 mm
+    held = min((P for P in at if all(largest[more].mean < 10.0 for more in at if more >= P)), default=60)
     rest = {P: at[P]["head_rest"][0] for P in at}
     return [
         Claim(
@@ -87,7 +94,9 @@ def preload_claims(data):
             "4.1 (1), Fig. 10",
             "When the preload exceeds 20 N, the dislocation is below 0.01 mm",
             f"largest of all seeds and preloads past 20 N: {above:.1f} µm; at 20 N {largest[20]} µm, in one seed {at[20]['dislocation_max'].max():.1f}; "
-            "mean of the largest at 0 / 2 / 5 / 10 / 15 N: " + " / ".join(f"{largest[P].mean:.1f}" for P in (0, 2, 5, 10, 15)) + " µm",
+            "mean of the largest at 0 / 2 / 5 / 10 / 15 N: "
+            + " / ".join(f"{largest[P].mean:.1f}" for P in (0, 2, 5, 10, 15))
+            + " µm",
             (above < 10.0, largest[20].high < 10.0),
             f"Impacts last 0.1 ms and move the halves by micrometres each. No threshold at 20 N: the mean is below 0.01 mm from {held} N on.",
         ),
@@ -154,7 +163,9 @@ def grip_text(data):
     """The forces that move the halves and those that hold them, from the sweep beside Fig. 10."""
     if "grip" not in data:
         return ""
-    at_40 = "; ".join(f"{name}: {np.median(grip(data['grip'], name).at(preload=40)['dislocation_max']):.1f}" for name in GRIPS)
+    at_40 = "; ".join(
+        f"{name}: {np.median(grip(data['grip'], name).at(preload=40)['dislocation_max']):.1f}" for name in GRIPS
+    )
     return (
         f"What decides (picture below, medians at 40 N in µm): {at_40}. "
         "The axial load moves the balls some ten micrometres off the middle of their pockets, and the contact patch spans "
@@ -170,7 +181,10 @@ def fit_claims(data):
     worst = {fit: max(at[fit].estimate("head_peak").mean, at[fit].estimate("mid_peak").mean) for fit in at}
     inside = [worst[fit] for fit in at if -20.0 <= fit <= 0.0]
     left = rise(at[-90.0], at[-15.0], "head_peak")
-    ends = {fit: {what: ratio_within(at[fit], f"head{what}", f"mid{what}") for what in ("", "_peak")} for fit in (-90.0, 40.0)}
+    ends = {
+        fit: {what: ratio_within(at[fit], f"head{what}", f"mid{what}") for what in ("", "_peak")}
+        for fit in (-90.0, 40.0)
+    }
     ratios = {fit: f"mean {e['']}, p99.9 {e['_peak']}" for fit, e in ends.items()}
     no_slip = (
         "No joint slips as far as the play where the head stress is flat: the hole is never touched, so its size cannot matter; "
@@ -181,7 +195,12 @@ def fit_claims(data):
             "4.1 (2), Fig. 12; 4.2; 5 (2)",
             "From clearance to interference the place of the largest stress moves from the head to the middle",
             f"head / middle at −0.09 mm: {ratios[-90.0]}; at +0.04 mm: {ratios[40.0]}",
-            (ends[-90.0][""].low > 1.0, ends[-90.0]["_peak"].low > 1.0, ends[40.0][""].high < 1.0, ends[40.0]["_peak"].high < 1.0),
+            (
+                ends[-90.0][""].low > 1.0,
+                ends[-90.0]["_peak"].low > 1.0,
+                ends[40.0][""].high < 1.0,
+                ends[40.0]["_peak"].high < 1.0,
+            ),
             "Interference stresses the shank all the time, the balls stress the head.",
         ),
         Claim(
@@ -234,7 +253,14 @@ def crossing(runs, first, second):
     fits, a = runs.curve("fit", first)
     gap = np.array([e.mean for e in a]) - np.array([e.mean for e in runs.curve("fit", second)[1]])
     places = np.flatnonzero((gap[:-1] > 0.0) & (gap[1:] <= 0.0))
-    return float(fits[places[0]] + (fits[places[0] + 1] - fits[places[0]]) * gap[places[0]] / (gap[places[0]] - gap[places[0] + 1])) if len(places) else np.nan
+    return (
+        float(
+            fits[places[0]]
+            + (fits[places[0] + 1] - fits[places[0]]) * gap[places[0]] / (gap[places[0]] - gap[places[0] + 1])
+        )
+        if len(places)
+        else np.nan
+    )
 
 
 def spread(runs, speed, name):
@@ -259,8 +285,18 @@ def speed_claims(data):
         for scene, runs in scenes.items()
         for name in ("force", "head", "head_peak")
     }
-    spreads = {(scene, name, n): spread(runs, n, name) for scene, runs in scenes.items() for name in ("force", "head", "head_peak") for n in SPEEDS}
-    minima = {(scene, name, F): lowest(runs.at(F_r=F), name) for scene, runs in scenes.items() for name in ("force", "head", "head_peak") for F in loads}
+    spreads = {
+        (scene, name, n): spread(runs, n, name)
+        for scene, runs in scenes.items()
+        for name in ("force", "head", "head_peak")
+        for n in SPEEDS
+    }
+    minima = {
+        (scene, name, F): lowest(runs.at(F_r=F), name)
+        for scene, runs in scenes.items()
+        for name in ("force", "head", "head_peak")
+        for F in loads
+    }
     labels = {"force": "mean force", "head": "mean head stress", "head_peak": "p99.9 head stress"}
 
     demo_rises = all(minima["demo", name, F][0] == SPEEDS[0] for name in labels for F in loads)
@@ -280,11 +316,15 @@ def speed_claims(data):
 
     def spread_text(scene):
         return items(
-            f"{scene}, {label}: " + ", ".join(f"{spreads[scene, name, speed]:.1f} at {speed:,.0f}" for speed in (4000.0, 16000.0, 24000.0))
+            f"{scene}, {label}: "
+            + ", ".join(f"{spreads[scene, name, speed]:.1f} at {speed:,.0f}" for speed in (4000.0, 16000.0, 24000.0))
             for name, label in labels.items()
         )
 
-    narrower = {key: spreads[*key, 16000.0] <= 0.6 * spreads[*key, 4000.0] for key in [(scene, name) for scene in ("R", "F") for name in ("head", "head_peak")]}
+    narrower = {
+        key: spreads[*key, 16000.0] <= 0.6 * spreads[*key, 4000.0]
+        for key in [(scene, name) for scene in ("R", "F") for name in ("head", "head_peak")]
+    }
     jam = (
         "Contact-angle variation round the orbit presses balls to their pockets at low speed (R, F: tilted ring, mixed lubrication), so that the mean "
         "force falls "
@@ -293,14 +333,19 @@ def speed_claims(data):
         "every rivet, and at 4,000 r/min hardly any of it is left."
     )
     shares = {
-        n: [scenes["F"].at(speed=n, F_r=2994).estimate(name).mean for name in ("head_rest", "head_by_tension", "head_by_moment", "head_peak")]
+        n: [
+            scenes["F"].at(speed=n, F_r=2994).estimate(name).mean
+            for name in ("head_rest", "head_by_tension", "head_by_moment", "head_peak")
+        ]
         for n in (4000.0, 16000.0)
     }
     impacts = (
         "The 99.9 % quantile is made by impacts of 0.1 ms whose force rises with speed, most for the heavy load, and which bend the cage half locally: the "
         "prying moment on the rivet beside the pocket decides. F, heavy load, head: "
         + "; ".join(
-            "at {:,.0f} r/min at rest {:.0f}, with the 99.9 % tension {:.0f}, with the 99.9 % moment {:.0f} of {:.0f} MPa".format(n, *s)
+            "at {:,.0f} r/min at rest {:.0f}, with the 99.9 % tension {:.0f}, with the 99.9 % moment {:.0f} of {:.0f} MPa".format(
+                n, *s
+            )
             for n, s in shares.items()
         )
         + "."
@@ -310,7 +355,10 @@ def speed_claims(data):
             "4.1 (3), Fig. 13; 5 (3)",
             "Stress rises with load",
             "speeds of six with more under 2994 than under 1994 N, clear of zero"
-            + items(f"{scene}: " + ", ".join(f"{label} {more[scene, name]}" for name, label in labels.items()) for scene in scenes),
+            + items(
+                f"{scene}: " + ", ".join(f"{label} {more[scene, name]}" for name, label in labels.items())
+                for scene in scenes
+            ),
             tuple(more[scene, name] >= 5 for scene in ("R", "F") for name in ("head", "head_peak")),
             "With the ring held straight (demo) the load matters little below 20,000 r/min: balls outside the load zone make the impacts.",
         ),
@@ -318,13 +366,19 @@ def speed_claims(data):
             "4.1 (3), Fig. 13",
             "The load matters more at low speed than at high speed",
             "largest difference between the loads [N, MPa]" + "".join(spread_text(scene) for scene in ("R", "F")),
-            tuple(spreads[scene, name, 24000.0] < spreads[scene, name, 4000.0] for scene in ("R", "F") for name in ("force", "head", "head_peak")),
+            tuple(
+                spreads[scene, name, 24000.0] < spreads[scene, name, 4000.0]
+                for scene in ("R", "F")
+                for name in ("force", "head", "head_peak")
+            ),
             f"In the mean force only, where the press of the balls on the pockets decides. {impacts}",
         ),
         Claim(
             "4.1 (3), Fig. 13",
             "Stress first falls, then rises with speed",
-            "for 2994 / 2246 / 1994 N" + "".join(minima_text(scene) for scene in ("R", "F")) + items(["demo: all lowest at 4,000 r/min"] * demo_rises),
+            "for 2994 / 2246 / 1994 N"
+            + "".join(minima_text(scene) for scene in ("R", "F"))
+            + items(["demo: all lowest at 4,000 r/min"] * demo_rises),
             tuple(turns(scene, name) for scene in ("R", "F") for name in ("force", "head", "head_peak"))
             + tuple(minima[scene, "force", 2994][1] >= 1.5 for scene in ("R", "F")),
             f"{jam} The 99.9 % quantile is made by impacts, as above.",
@@ -333,7 +387,10 @@ def speed_claims(data):
             "4.1 (3), Fig. 13",
             "The loads differ only below 16,000 r/min; above, there is practically no difference",
             "difference at 16,000 in parts of that at 4,000 r/min: "
-            + ", ".join(f"{scene} {labels[name]} {spreads[scene, name, 16000.0] / spreads[scene, name, 4000.0]:.2f}" for scene, name in narrower),
+            + ", ".join(
+                f"{scene} {labels[name]} {spreads[scene, name, 16000.0] / spreads[scene, name, 4000.0]:.2f}"
+                for scene, name in narrower
+            ),
             tuple(narrower.values()),
             "The mean forces close up; in the stress joints that the centrifugal load has pried open pass on more of each impact, and the loads move apart.",
         ),
@@ -441,12 +498,15 @@ def tilt_claims(data):
 
     def text(high, low, chosen):
         return items(
-            f"{high}° in parts of {low:g}°, {word}: " + ", ".join(f"{names[name]} {times(sign, high, low, name)}" for name in chosen)
+            f"{high}° in parts of {low:g}°, {word}: "
+            + ", ".join(f"{names[name]} {times(sign, high, low, name)}" for name in chosen)
             for word, sign in signs.items()
         )
 
     flat = {
-        (word, name): all(times(sign, tilt, 0.0, name).high <= 1.5 for tilt in (0.1, 0.2)) for word, sign in signs.items() for name in ("head", "head_peak")
+        (word, name): all(times(sign, tilt, 0.0, name).high <= 1.5 for tilt in (0.1, 0.2))
+        for word, sign in signs.items()
+        for name in ("head", "head_peak")
     }
     return [
         Claim(
@@ -494,13 +554,24 @@ def tilt_claims(data):
 
 def clearance_claims(data):
     runs = clearance_series(data["clearance"], "constant sum 0.4 mm")
-    names = {"force": "mean force", "force_rms": "RMS force", "head": "mean head stress", "head_peak": "p99.9 head stress", "head_range": "dynamic range"}
+    names = {
+        "force": "mean force",
+        "force_rms": "RMS force",
+        "head": "mean head stress",
+        "head_peak": "p99.9 head stress",
+        "head_range": "dynamic range",
+    }
     at = {value: runs.at(ratio=value) for value in np.unique(runs["ratio"])}
     places = {name: min(at, key=lambda value: at[value].estimate(name).mean) for name in names}
     ends = {name: [rise(at[end], at[places[name]], name) for end in (min(at), max(at))] for name in names}
     others = {
-        label: {name: min(np.unique(series["ratio"]), key=lambda value: series.at(ratio=value).estimate(name).mean) for name in ("force", "head_peak")}
-        for label, series in ((label, clearance_series(data["clearance"], label)) for label in ("guide 0.2 mm", "pocket 0.2 mm"))
+        label: {
+            name: min(np.unique(series["ratio"]), key=lambda value: series.at(ratio=value).estimate(name).mean)
+            for name in ("force", "head_peak")
+        }
+        for label, series in (
+            (label, clearance_series(data["clearance"], label)) for label in ("guide 0.2 mm", "pocket 0.2 mm")
+        )
     }
     lighter = (
         "Tight pockets and tight guides leave balls and cage less way to gather speed before they hit: RMS force and stress fall with either clearance, the "
@@ -521,7 +592,10 @@ def clearance_claims(data):
             "lowest at a ratio of, constant sum: "
             + ", ".join(f"{label} {places[name]:g}" for name, label in names.items())
             + ". "
-            + ". ".join(f"{label} held: mean force {places_['force']:g}, p99.9 head stress {places_['head_peak']:g}" for label, places_ in others.items()),
+            + ". ".join(
+                f"{label} held: mean force {places_['force']:g}, p99.9 head stress {places_['head_peak']:g}"
+                for label, places_ in others.items()
+            ),
             tuple(0.75 <= places[name] <= 1.5 for name in ("force", "force_rms", "head_peak", "head_range")),
             lighter,
         ),
@@ -542,10 +616,16 @@ def failure_claims(data):
 
     def count(chosen):
         pairs = (("head", "mid"), ("mid", "head"))
-        return [sum(rise_of(chosen, f"{a}_damage_{k}", f"{b}_damage_{k}").low > 0.0 for k in range(1, rivets + 1)) for a, b in pairs]
+        return [
+            sum(rise_of(chosen, f"{a}_damage_{k}", f"{b}_damage_{k}").low > 0.0 for k in range(1, rivets + 1))
+            for a, b in pairs
+        ]
 
     def worst(chosen):
-        return ", ".join(f"{label} {10.0 ** chosen.estimate(f'{place}_damage').mean:.0e}" for place, label in (("head", "head"), ("mid", "middle")))
+        return ", ".join(
+            f"{label} {10.0 ** chosen.estimate(f'{place}_damage').mean:.0e}"
+            for place, label in (("head", "head"), ("mid", "middle"))
+        )
 
     heads, mids = {"clearance": count(clearance), "interference": count(interference)}.values()
     share = clearance.estimate("axial_share")

@@ -37,7 +37,9 @@ paper's; the sweeps are in `riveted_bearing/data/studies/`.
 
 
 def write_paper(data, folder, elastic=None):
-    """Write paper.md and its pictures into a folder from the Runs by name; elastic: those with elastic halves.  Returns the file's path."""
+    """Write paper.md and its pictures into a folder from the Runs by name; elastic: those with elastic halves.  Returns
+    the file's path.
+    """
     folder = Path(folder)
     claims = all_claims(data)
     pictures = draw(data, folder / "paper")
@@ -55,8 +57,15 @@ def write_paper(data, folder, elastic=None):
 def summary_text(claims):
     """The verdicts, after their count."""
     every = [claim for of_picture in claims.values() for claim in of_picture]
-    count = {verdict: sum(claim.verdict == verdict for claim in every) for verdict in ("reproduced", "partly", "**not**")}
-    lines = ["## Verdicts", "", f"Of {len(every)} claims {count['reproduced']} are reproduced, {count['partly']} partly, {count['**not**']} not.", ""]
+    count = {
+        verdict: sum(claim.verdict == verdict for claim in every) for verdict in ("reproduced", "partly", "**not**")
+    }
+    lines = [
+        "## Verdicts",
+        "",
+        f"Of {len(every)} claims {count['reproduced']} are reproduced, {count['partly']} partly, {count['**not**']} not.",
+        "",
+    ]
     lines += ["| section | the paper says | verdict |", "|---|---|---|"]
     lines += [f"| {claim.where} | {claim.said} | {claim.verdict} |" for claim in every]
     return "\n".join(lines) + "\n"
@@ -70,15 +79,22 @@ def picture_text(name, path, claims):
 
 def details_text(claims):
     """Each claim with its verdict, the figures of the runs, and the reason."""
-    text = "".join(f"- **{claim.said}** ({claim.where}): {claim.verdict}.\n  - Here: {claim.found}\n  - Why: {claim.why}\n" for claim in claims)
+    text = "".join(
+        f"- **{claim.said}** ({claim.where}): {claim.verdict}.\n  - Here: {claim.found}\n  - Why: {claim.why}\n"
+        for claim in claims
+    )
     return text.replace("Here: \n", "Here:\n")
 
 
 def elastic_text(claims, data):
     """Verdicts with elastic halves beside those with rigid ones, and the figures wherever the two differ."""
     bent = all_claims(data)
-    pairs = [(rigid, soft) for name in claims if name in bent for rigid, soft in zip(claims[name], bent[name], strict=True)]
-    count = {verdict: sum(soft.verdict == verdict for _, soft in pairs) for verdict in ("reproduced", "partly", "**not**")}
+    pairs = [
+        (rigid, soft) for name in claims if name in bent for rigid, soft in zip(claims[name], bent[name], strict=True)
+    ]
+    count = {
+        verdict: sum(soft.verdict == verdict for _, soft in pairs) for verdict in ("reproduced", "partly", "**not**")
+    }
     lines = [
         "## With elastic halves",
         "",
@@ -121,7 +137,11 @@ def centrifugal_text(runs):
         ways = [at.at(centrifugal=way) for way in ("on", "off")]
         fields = [" / ".join(str(way.estimate(name)) for way in ways) for name in names]
         damage = " / ".join(f"{way.estimate('head_damage').mean:.1f}" for way in ways)
-        lines.append(f"| {preload:.0f} N | {fit:+.0f} µm | {speed:,.0f} | {tilt:+.1f}° | " + " | ".join(fields) + f" | {damage} |")
+        lines.append(
+            f"| {preload:.0f} N | {fit:+.0f} µm | {speed:,.0f} | {tilt:+.1f}° | "
+            + " | ".join(fields)
+            + f" | {damage} |"
+        )
     return "\n".join(lines) + "\n"
 
 
@@ -142,7 +162,9 @@ def tolerance_text(runs):
             at = runs.at(scene=scene, speed=speed)
             for tolerance in looser[::-1]:
                 changes = [ratio(at.at(tolerance=tight), at.at(tolerance=tolerance), name) for name in names]
-                lines.append(f"| {scene} | {speed:,.0f} | {tolerance:g} | " + " | ".join(percent(e) for e in changes) + " |")
+                lines.append(
+                    f"| {scene} | {speed:,.0f} | {tolerance:g} | " + " | ".join(percent(e) for e in changes) + " |"
+                )
     return "\n".join(lines) + "\n"
 
 
@@ -158,8 +180,14 @@ def cost_text(data, claims):
         "starting the workers, collecting the rows and drawing come on top."
     )
     lines = ["## What it costs", "", about, ""]
-    lines += ["| sweep | figure | seeds | runs | simulated | processor time | per simulated second |", "|---|---|---|---|---|---|---|"]
-    figures = {name: ", ".join(title.split(":")[0] for needed, title, _ in PICTURES.values() if name in needed) for name in shipped_studies()}
+    lines += [
+        "| sweep | figure | seeds | runs | simulated | processor time | per simulated second |",
+        "|---|---|---|---|---|---|---|",
+    ]
+    figures = {
+        name: ", ".join(title.split(":")[0] for needed, title, _ in PICTURES.values() if name in needed)
+        for name in shipped_studies()
+    }
     total = sum(runs["whole_cpu_time"].sum() for runs in data.values())
     for name, runs in data.items():
         spent, simulated = runs["whole_cpu_time"].sum(), runs["simulated"].sum()
@@ -168,6 +196,8 @@ def cost_text(data, claims):
             f"| {name} | {figures[name] or 'beside all'} | {len(np.unique(runs['seed']))} | {len(runs)} | {simulated:.1f} s "
             f"| {spent:.0f} s ({100 * spent / total:.0f} %) | {per:.2f} s |"
         )
-    lines.append(f"| **all** | | | {sum(map(len, data.values()))} | {sum(runs['simulated'].sum() for runs in data.values()):.0f} s | **{total:.0f} s** | |")
+    lines.append(
+        f"| **all** | | | {sum(map(len, data.values()))} | {sum(runs['simulated'].sum() for runs in data.values()):.0f} s | **{total:.0f} s** | |"
+    )
     lines += ["", f"On two cores that is {total / 120:.1f} min."]
     return "\n".join(lines) + "\n\n" + details_text(claims)

@@ -1,9 +1,10 @@
 """The paper's study (Cui et al., Machines 2023, 11, 700, section 4): its figures again.
 
-Every figure is a sweep in riveted_bearing/data/studies, over at least eight seeds.  Curves are means over the seeds with the 95 % confidence interval of that
-mean (Student's t).  Stress is shown three ways, because the paper does not say which stress it means: the mean over time of the worst rivet,
-its 99.9 % quantile over every internal step, and the dynamic range of a single rivet (99.9 % quantile - 0.1 % quantile of the samples,
-of the rivet with the largest difference), in which the preload has no share.
+Every figure is a sweep in riveted_bearing/data/studies, over at least eight seeds.  Curves are means over the seeds
+with the 95 % confidence interval of that mean (Student's t).  Stress is shown three ways, because the paper does not
+say which stress it means: the mean over time of the worst rivet, its 99.9 % quantile over every internal step, and the
+dynamic range of a single rivet (99.9 % quantile - 0.1 % quantile of the samples, of the rivet with the largest
+difference), in which the preload has no share.
 """
 
 from dataclasses import dataclass, replace
@@ -19,8 +20,8 @@ import numpy as np
 from scipy.stats import t as student
 
 from bearing_model.cage.common import joint_law
-from bearing_model.rivet import rivet_rom
 from bearing_model.physics.derived import default_table
+from bearing_model.rivet import rivet_rom
 
 from ..errors import unknown
 from ..plot import FORCE, HEAD, MIDDLE, MUTED, RING, STYLE
@@ -45,8 +46,8 @@ def check_names(names):
 
 
 def study_sweep(name, model, repeats=None, cage=None):
-    """The Sweep of a shipped study; repeats: number of seeds in the place of the study's own, if the study varies the seed;
-    cage: in the place of its own.
+    """The Sweep of a shipped study; repeats: number of seeds in the place of the study's own, if the study varies the
+    seed; cage: in the place of its own.
     """
     check_names([name])
     path = SHIPPED / f"{name}.toml"
@@ -61,15 +62,22 @@ def study_sweep(name, model, repeats=None, cage=None):
 
 
 def run_study(model, folder, client, names=None, repeats=None, progress=None, cage=None):
-    """Do the runs that the study's folder lacks and return its Runs by name; progress: called with name and the numbers of runs done, failed, in all."""
+    """Do the runs that the study's folder lacks and return its Runs by name; progress: called with name and the numbers
+    of runs done, failed, in all.
+    """
     sweeps = [study_sweep(name, model, repeats, cage) for name in names or shipped_studies()]
     progress = progress or (lambda *_: None)
     return {
-        sweep.name: runs_of(run_sweep(sweep, Path(folder) / sweep.name, client, lambda *counts, name=sweep.name: progress(name, *counts))) for sweep in sweeps
+        sweep.name: runs_of(
+            run_sweep(
+                sweep, Path(folder) / sweep.name, client, lambda *counts, name=sweep.name: progress(name, *counts)
+            )
+        )
+        for sweep in sweeps
     }
 
 
-# Figures of the runs -------------------------------------------------------------------------------------------------------------------------
+# Figures of the runs --------------------------------------------------------------------------------------------------
 
 
 @dataclass(frozen=True)
@@ -85,14 +93,19 @@ class Estimate:
             return "undefined"
         size = np.nanmax(np.abs([self.mean, self.low, self.high])) if np.isfinite(self.low) else abs(self.mean)
         digits = int(np.clip(2 - np.floor(np.log10(max(size, 1e-12))), 0, 3))
-        mean, low, high = (f"{value if abs(value) >= 0.5 * 10.0**-digits else 0.0:,.{digits}f}" for value in (self.mean, self.low, self.high))
+        mean, low, high = (
+            f"{value if abs(value) >= 0.5 * 10.0**-digits else 0.0:,.{digits}f}"
+            for value in (self.mean, self.low, self.high)
+        )
         return mean if low == high else f"{mean} [{low}, {high}]"
 
 
 def estimate(values):
     """Mean of independent values with its 95 % confidence interval by Student's t; infinitely wide for a single value."""
     values = np.asarray(values, dtype=float)
-    half = student.ppf(0.975, len(values) - 1) * values.std(ddof=1) / np.sqrt(len(values)) if len(values) > 1 else np.inf
+    half = (
+        student.ppf(0.975, len(values) - 1) * values.std(ddof=1) / np.sqrt(len(values)) if len(values) > 1 else np.inf
+    )
     return Estimate(float(values.mean()), float(values.mean() - half), float(values.mean() + half))
 
 
@@ -112,7 +125,9 @@ class Runs:
         """The runs whose columns have these values."""
         chosen = np.ones(len(self), dtype=bool)
         for name, value in conditions.items():
-            chosen &= self[name] == value if isinstance(value, str) else np.isclose(self[name], value, rtol=1e-6, atol=1e-9)
+            chosen &= (
+                self[name] == value if isinstance(value, str) else np.isclose(self[name], value, rtol=1e-6, atol=1e-9)
+            )
         if not chosen.any():
             raise KeyError(f"no run at {conditions}")
         return replace(self, columns={name: values[chosen] for name, values in self.columns.items()})
@@ -181,7 +196,9 @@ def runs_of(rows):
     for place, channel in (("head", 0), ("mid", 1)):
         columns[place] = rows[f"stat.sigma_{place}_mean"] * 1e-6
         columns[f"{place}_peak"] = rows[f"stat.sigma_{place}_p999"] * 1e-6
-        columns[f"{place}_range"] = (of_rivets(f"stat.rivet_{place}_p999[{{}}]") - of_rivets(f"p001(rivet[{{}}].sigma_{place})")).max(axis=0)
+        columns[f"{place}_range"] = (
+            of_rivets(f"stat.rivet_{place}_p999[{{}}]") - of_rivets(f"p001(rivet[{{}}].sigma_{place})")
+        ).max(axis=0)
         columns[f"{place}_rest"] = rest[:, channel]
         columns[f"{place}_above"] = columns[place] - rest[:, channel]
         if set(rows["scene.stress"]) == {"fatigue"}:
@@ -191,11 +208,14 @@ def runs_of(rows):
             columns[f"{place}_damage"] = np.max([columns[f"{place}_damage_{k}"] for k in range(1, rivets + 1)], axis=0)
     columns["ratio"] = np.round(columns["pocket"] / columns["guide"], 2)
     if "p999(rivet[1].M)" in rows:  # stress of the worst rivet under its preload and only one of its loads
-        for name, letter, sign in (("tension", "N", 1.0), ("moment", "M_t", -1.0)):  # the moment's sign: as the centrifugal load has it
+        # the moment's sign: as the centrifugal load has it
+        for name, letter, sign in (("tension", "N", 1.0), ("moment", "M_t", -1.0)):
             load = np.max([rows[f"p999(rivet[{k}].{letter[0]})"] for k in range(1, rivets + 1)], axis=0)
             columns[f"head_by_{name}"] = 1e-6 * stress_by(rows, **{letter: sign * load})[:, 0]
     if "rms(ball[1].Q_cx)" in rows:
-        axial, whole = (np.sqrt(sum(rows[f"rms(ball[{j}].{name})"] ** 2 for j in range(1, rivets + 1))) for name in ("Q_cx", "Q_c"))
+        axial, whole = (
+            np.sqrt(sum(rows[f"rms(ball[{j}].{name})"] ** 2 for j in range(1, rivets + 1))) for name in ("Q_cx", "Q_c")
+        )
         columns["axial_share"] = 100.0 * axial / whole
         for name, letter in (("tension", "N"), ("shear", "V")):
             columns[name] = np.sqrt(sum(rows[f"rms(rivet[{k}].{letter})"] ** 2 for k in range(1, rivets + 1)) / rivets)
@@ -206,13 +226,16 @@ def stress_by(rows, **loads):
     """Stress of head and middle by preload, fit and loads (N, M_r, M_t) of a single joint [Pa], one line a run."""
     table = default_table()
     fits = rows["joint.fit"] + rows["joint.swell"]
-    effective = [rivet_rom.rivet_rom_fit_eff(table, fit, model == "j2") for fit, model in zip(fits, rows["rivet.fit_model"], strict=True)]
+    effective = [
+        rivet_rom.rivet_rom_fit_eff(table, fit, model == "j2")
+        for fit, model in zip(fits, rows["rivet.fit_model"], strict=True)
+    ]
     T, m_r, m_t = joint_law.single_joint(table.half.law, rows["joint.preload"], **loads)
     stress, _ = rivet_rom.rivet_rom_stress(table, rivet_rom.RivetLoad(T=T, m_y=m_r, m_z=m_t), np.array(effective))
     return stress[:, [rivet_rom.HEAD_P1, rivet_rom.MID_VM]]
 
 
-# Pictures ------------------------------------------------------------------------------------------------------------------------------------
+# Pictures -------------------------------------------------------------------------------------------------------------
 
 
 def band(ax, runs, x, name, colour, label=None, style="-"):
@@ -254,7 +277,11 @@ def preload_picture(data):
     """Figs. 10 and 11."""
     figure, axes = canvas(1, 4)
     runs = data["preload"]
-    for name, label, style in (("dislocation_max", "largest", "-"), ("dislocation", "mean", "--"), ("slip", "range", ":")):
+    for name, label, style in (
+        ("dislocation_max", "largest", "-"),
+        ("dislocation", "mean", "--"),
+        ("slip", "range", ":"),
+    ):
         band(axes[0, 0], runs, "preload", name, RING, label, style)
     axes[0, 0].axhline(10.0, color=MUTED, lw=0.8)
     axes[0, 0].set(title="Dislocation of the halves", ylabel="µm")
@@ -288,7 +315,14 @@ def speed_picture(data):
     for row, (scene, title) in zip(axes, scenes.items(), strict=True):
         for ax, (name, (what, unit)) in zip(row, names.items(), strict=True):
             for F_r, (label, colour) in LOADS.items():
-                band(ax, data["speed"].at(scene=scene, F_r=F_r), "speed", name, colour, label if name == "force" else None)
+                band(
+                    ax,
+                    data["speed"].at(scene=scene, F_r=F_r),
+                    "speed",
+                    name,
+                    colour,
+                    label if name == "force" else None,
+                )
             ax.set(title=f"{title}\n{what}", ylabel=unit, xticks=range(4000, 24001, 4000))
         finish(row, "speed [r/min]")
     return figure
@@ -303,7 +337,9 @@ def impact_picture(data):
         "force": "Mean ball–pocket force",
     }
     figure, axes = canvas(2, len(names))
-    for row, (scene, title) in zip(axes, {"F": "F: ring nearly free", "demo": "demo: ring held straight"}.items(), strict=True):
+    for row, (scene, title) in zip(
+        axes, {"F": "F: ring nearly free", "demo": "demo: ring held straight"}.items(), strict=True
+    ):
         for ax, (name, what) in zip(row, names.items(), strict=True):
             for width, colour in ((1, MIDDLE), (3, HEAD)):
                 runs = with_none(data["impact"].at(scene=scene), width)
@@ -357,8 +393,21 @@ def clearance_picture(data):
     figure, axes = canvas(1, len(names))
     for ax, (name, (title, unit)) in zip(axes[0], names.items(), strict=True):
         for label, colour in CLEARANCES.items():
-            band(ax, clearance_series(data["clearance"], label), "ratio", name, colour, label if name == "force" else None)
-        ax.set(title=title, ylabel=unit, xscale="log", xticks=[0.3, 0.5, 1, 2, 3], xticklabels=["0.3", "0.5", "1", "2", "3"])
+            band(
+                ax,
+                clearance_series(data["clearance"], label),
+                "ratio",
+                name,
+                colour,
+                label if name == "force" else None,
+            )
+        ax.set(
+            title=title,
+            ylabel=unit,
+            xscale="log",
+            xticks=[0.3, 0.5, 1, 2, 3],
+            xticklabels=["0.3", "0.5", "1", "2", "3"],
+        )
         ax.minorticks_off()
     finish(axes[0], "clearance ratio pocket / guide")
     return figure
@@ -373,11 +422,15 @@ def damage(runs, place):
 def failure_picture(data):
     """Figs. 17 and 18."""
     figure, axes = canvas(1, 3)
-    for ax, (fit, title) in zip(axes[0], {-90.0: "Clearance −0.09 mm", 40.0: "Interference +0.04 mm"}.items(), strict=False):
+    for ax, (fit, title) in zip(
+        axes[0], {-90.0: "Clearance −0.09 mm", 40.0: "Interference +0.04 mm"}.items(), strict=False
+    ):
         for place, colour, label, shift in (("head", HEAD, "head", -0.2), ("mid", MIDDLE, "middle", 0.2)):
             estimates = damage(data["fit"].at(fit=fit), place)
             x = np.arange(1, len(estimates) + 1) + shift
-            mean, low, high = (10.0 ** np.array([getattr(e, end) for e in estimates]) for end in ("mean", "low", "high"))
+            mean, low, high = (
+                10.0 ** np.array([getattr(e, end) for e in estimates]) for end in ("mean", "low", "high")
+            )
             ax.bar(x, mean, width=0.38, color=colour, label=label)
             ax.errorbar(x, mean, [mean - low, high - mean], fmt="none", color="black", lw=0.8)
         ax.set(title=title, ylabel="damage per hour", xlabel="rivet", yscale="log", xticks=range(1, len(estimates) + 1))
@@ -405,7 +458,9 @@ def grip(runs, name):
 def grip_picture(data):
     """Conditions that hold the halves together."""
     figure, axes = canvas(1, 2)
-    for ax, (column, title) in zip(axes[0], {"dislocation_max": "Largest dislocation", "slip": "Range of the dislocation"}.items(), strict=True):
+    for ax, (column, title) in zip(
+        axes[0], {"dislocation_max": "Largest dislocation", "slip": "Range of the dislocation"}.items(), strict=True
+    ):
         for name, (_, colour) in GRIPS.items():
             band(ax, grip(data["grip"], name), "preload", column, colour, name if ax is axes[0, 0] else None)
         ax.set(title=title, ylabel="µm")
@@ -417,7 +472,11 @@ PICTURES = {
     "preload": (("preload",), "Figs. 10 and 11: preload, largest clearance fit", preload_picture),
     "fit": (("fit",), "Fig. 12: fit of the rivet", fit_picture),
     "speed": (("speed",), "Fig. 13: speed and load", speed_picture),
-    "impact": (("impact",), "Fig. 14: three impacts in 0.01 s, ratio 5.8 of radial to axial impact, twelve phases", impact_picture),
+    "impact": (
+        ("impact",),
+        "Fig. 14: three impacts in 0.01 s, ratio 5.8 of radial to axial impact, twelve phases",
+        impact_picture,
+    ),
     "tilt": (("tilt",), "Fig. 15: tilt of the inner ring", tilt_picture),
     "clearance": (("clearance",), "Fig. 16: clearance ratio", clearance_picture),
     "failure": (("fit",), "Figs. 17 and 18: damage rivet by rivet, axial pocket force", failure_picture),

@@ -7,18 +7,18 @@
     half 0     |        head friction   H = -k_h z_h, likewise with mu (T + dT) + F_floor
     ---+-   -+---       hole contact    B = -k_hole max(0, |u| - gap) u/|u|,  gap = max(0, -fit_a): the diametral play
        |     |
-Under a growing transverse load the plates slip first (at mu (P + dT)), then the heads slip on the rivet (at as much more), then the halves move freely
-across the gap, and at last the shank bears against its holes.
-dT (cage_joint_prying): the cage's centrifugal load pries at every joint, so that the rivet pulls and the edges of the pads press with dT more.  Both
-forces are in one joint and balance: they move no half, but friction has them.
-Force and reaction act at the same point, so momentum and energy are exact.  External tension of the joint: N = T - N_plate.
-Smoothness: C0 at opening and bearing (a spring of finite stiffness begins), C0 at v = 0.
+Under a growing transverse load the plates slip first (at mu (P + dT)), then the heads slip on the rivet (at as much
+more), then the halves move freely across the gap, and at last the shank bears against its holes.
+dT (cage_joint_prying): the cage's centrifugal load pries at every joint, so that the rivet pulls and the edges of the
+pads press with dT more.  Both forces are in one joint and balance: they move no half, but friction has them.
+Force and reaction act at the same point, so momentum and energy are exact.  External tension of the joint: N = T -
+N_plate. Smoothness: C0 at opening and bearing (a spring of finite stiffness begins), C0 at v = 0.
 """
 
 import numpy as np
 
-from bearing_model.numbers.lanes import ball_array_sum, maximum
 from bearing_model.generated.variables import JOINT_HEAD_Y, JOINT_HEAD_Z, JOINT_PLATE_Y, JOINT_PLATE_Z, CageModel
+from bearing_model.numbers.lanes import ball_array_sum, maximum
 from bearing_model.numbers.vec import vec, vec_cross, vec_dot
 
 
@@ -32,15 +32,21 @@ def cage_joint_kinematics(model, w):
 
     # u = offset + (A - 1) s with A = axes of half 1 in half 0, s = (0, rivet_y, rivet_z); v likewise with the rates
     axes = (h0.a, h0.b_y, h0.b_z)
-    w.u = np.array([vec_dot(e, g) + (vec_dot(e, h1.b_y) - (i == 1)) * s_y + (vec_dot(e, h1.b_z) - (i == 2)) * s_z for i, e in enumerate(axes)])
+    w.u = np.array(
+        [
+            vec_dot(e, g) + (vec_dot(e, h1.b_y) - (i == 1)) * s_y + (vec_dot(e, h1.b_z) - (i == 2)) * s_z
+            for i, e in enumerate(axes)
+        ]
+    )
     w.v_j = np.array([vec_dot(e, v) + vec_dot(e, spin_y) * s_y + vec_dot(e, spin_z) * s_z for e in axes])
 
 
 def cage_joint_prying(model, w):
-    """Prying force dT [..., 1] in N: what the cage's centrifugal load adds to the rivet's tension and to the plates' contact force.
+    """Prying force dT [..., 1] in N: what the cage's centrifugal load adds to the rivet's tension and to the plates'
+    contact force.
 
-    T_rest - P of joints that are all alike (joint_law.py), at their mean preload.  C1 in the cage's speed: the cubic through the states of the table,
-    which are at equal steps of x = c/(c + P), with slopes by central differences.
+    T_rest - P of joints that are all alike (joint_law.py), at their mean preload.  C1 in the cage's speed: the cubic
+    through the states of the table, which are at equal steps of x = c/(c + P), with slopes by central differences.
     """
     d, law = model.d, model.d.table.half.law
     omega_2 = 0.5 * (w.half[0].s ** 2 + w.half[1].s ** 2)
@@ -69,9 +75,11 @@ def cage_joint_friction(k, capacity, z_y, z_z, v_y, v_z):
 
 
 def cage_joint_advance(model, w, h, y):
-    """The friction states in y [N_STATES] over a step h [s] at the offsets and velocities of w: z += h z'/(1 + h D/2), D = |v| k/capacity.
+    """The friction states in y [N_STATES] over a step h [s] at the offsets and velocities of w: z += h z'/(1 + h D/2),
+    D = |v| k/capacity.
 
-    The implicit midpoint rule of z' = v - D z, solved in closed form.  Returns what they dissipate, h k D z_m^2 with z_m in the middle [J].
+    The implicit midpoint rule of z' = v - D z, solved in closed form.  Returns what they dissipate, h k D z_m^2 with
+    z_m in the middle [J].
     """
     p, d = model.p, model.d
     u_x, (_, v_y, v_z) = w.u[0], w.v_j
@@ -93,16 +101,25 @@ def cage_joint_advance(model, w, h, y):
 
 
 def cage_joint_shear(model, y, w):
-    """Forces (y, z) [2, Z] on half 1 of elastic halves' joints in the plane, by the offsets in w and the friction states in y, in the frame of half 0."""
+    """Forces (y, z) [2, Z] on half 1 of elastic halves' joints in the plane, by the offsets in w and the friction
+    states in y, in the frame of half 0.
+    """
     k_t, k_h, k_hole = joint_stiffness(model)
     _, u_y, u_z = w.u
     slip = np.sqrt(u_y * u_y + u_z * u_z + 1e-30)
     bearing = k_hole * maximum(slip - model.d.hole_gap, 0.0) / slip
-    return np.array([-k_t * y[JOINT_PLATE_Y] - k_h * y[JOINT_HEAD_Y] - bearing * u_y, -k_t * y[JOINT_PLATE_Z] - k_h * y[JOINT_HEAD_Z] - bearing * u_z])
+    return np.array(
+        [
+            -k_t * y[JOINT_PLATE_Y] - k_h * y[JOINT_HEAD_Y] - bearing * u_y,
+            -k_t * y[JOINT_PLATE_Z] - k_h * y[JOINT_HEAD_Z] - bearing * u_z,
+        ]
+    )
 
 
 def joint_stiffness(model):
-    """Stiffnesses of plates, heads and holes in the plane [N/m]; of elastic halves in series with what their modes leave (cage_elastic.py)."""
+    """Stiffnesses of plates, heads and holes in the plane [N/m]; of elastic halves in series with what their modes
+    leave (cage_elastic.py).
+    """
     d = model.d
     if model.p.scene.cage != CageModel.ELASTIC:
         return d.k_plate_t, d.k_head, d.k_hole
@@ -136,7 +153,9 @@ def cage_joint_force(model, y, w):
     w.k_bearing = k_hole * (np.real(slip) > d.hole_gap)
     w.S, w.H, w.B = np.array([-k_t * zp_y, -k_t * zp_z]), np.array([-k_h * zh_y, -k_h * zh_z]), -bearing * w.u[1:]
     axial = 2.0 * w.joint_potential if elastic else w.T**2 / d.k_rivet + w.N_plate**2 / d.k_plate
-    w.joint_energy = 0.5 * (axial + k_t * (zp_y**2 + zp_z**2) + k_h * (zh_y**2 + zh_z**2) + k_hole * maximum(slip - d.hole_gap, 0.0) ** 2)
+    w.joint_energy = 0.5 * (
+        axial + k_t * (zp_y**2 + zp_z**2) + k_h * (zh_y**2 + zh_z**2) + k_hole * maximum(slip - d.hole_gap, 0.0) ** 2
+    )
 
     # force on half 1 at its hole, which lies at s + u from the centre of half 0; in the frame of half 0
     f = w.joint_force = vec(f_x, *(w.S + w.H + w.B))

@@ -1,14 +1,17 @@
-"""Law of one riveted joint, and what it leaves of the loads that bonded joints would carry; rivet_model/half_loads.py makes its numbers.
+"""Law of one riveted joint, and what it leaves of the loads that bonded joints would carry; rivet_model/half_loads.py
+makes its numbers.
 
-Bonded, the joints of a half carry L_b = (N, M_r, M_t)_k (half_path.py: pocket forces, centrifugal load).  A joint that opens moves, by
-delta = (u, phi_r, phi_t) of one pad against its bonded place, and is relieved through the half's stiffness K, a circulant matrix:
+Bonded, the joints of a half carry L_b = (N, M_r, M_t)_k (half_path.py: pocket forces, centrifugal load).  A joint that
+opens moves, by delta = (u, phi_r, phi_t) of one pad against its bonded place, and is relieved through the half's
+stiffness K, a circulant matrix:
 
     L_k = L_b,k - sum_j K_(k-j) delta_j                         K: moves of all pads -> loads; rigid motions of the half relieve nothing
     (delta, T, m_r, m_t)_k = law(L*_k, P_k),   L*_k = L_k + K_0 delta_k = L_b,k - sum_(j != k) K_(k-j) delta_j
 
-The law is the contact of one pad whose neighbours are held (joint_contact.py): L* is what the joint would carry if it too were bonded.  So the
-compliance of the half around the joint is in the law, that of the rest in K, and nothing is in both.  Loads that equilibrium imposes are those that
-no move relieves: K has no stiffness there.  The law is positively homogeneous of degree 1 in (L*, P), so with the length l
+The law is the contact of one pad whose neighbours are held (joint_contact.py): L* is what the joint would carry if it
+too were bonded.  So the compliance of the half around the joint is in the law, that of the rest in K, and nothing is in
+both.  Loads that equilibrium imposes are those that no move relieves: K has no stiffness there.  The law is positively
+homogeneous of degree 1 in (L*, P), so with the length l
 
     M = |(M_r, M_t)|/l,   W = |(N, M)|,   s = P + W,   tau = W/s,   q = N/(|N| + M),   psi = M_t/(|M_t| + |M_r|)
     (u, |phi_r|, phi_t, T, |m_r|, m_t) = s S(tau, q, psi),   S: tensor product of quadratic B-splines; phi_r and m_r have the sign of M_r
@@ -17,8 +20,9 @@ Fixed point: plain sweeps over all joints, from the state under the centrifugal 
 
     delta = s d(c/s),   c: bonded M_t of the centrifugal load / l,  s = P + |c|            (alike_states; linear between its knots)
 
-Joints whose L* and P are within NEAR s of that state answer by its tangent, the others by the law if their L* has changed by more than CHANGE s since they
-were last found; the sweeps end when there are none.  A joint is hardly felt beyond its second neighbour.
+Joints whose L* and P are within NEAR s of that state answer by its tangent, the others by the law if their L* has
+changed by more than CHANGE s since they were last found; the sweeps end when there are none.  A joint is hardly felt
+beyond its second neighbour.
 
 In the plane, joints slip instead: V_b relieved through the slip stiffness, joint_slip below.
 """
@@ -35,7 +39,8 @@ AXES = ("tau", "q", "psi")
 NUMBERS = ("u", "phi_r", "phi_t", "T", "m_r", "m_t")
 CARRIED = ("N", "M_r", "M_t", "T", "m_r", "m_t")
 SWEEPS = 6  # at most: a sweep leaves a fifth to a half of the error, and within a few per cent of s the first is right
-NEAR = 0.05  # with it and CHANGE = 0.01, T and moments stay within 0.8 % of the fixed point's largest, by a third of the evaluations
+# with it and CHANGE = 0.01, T and moments stay within 0.8 % of the fixed point's largest, by a third of the evaluations
+NEAR = 0.05
 CHANGE = 0.01
 SLIP_SWEEPS = 3
 FELT = 0.005  # part of K_0 below which the stiffness between two joints is dropped
@@ -48,8 +53,10 @@ class JointLaw:
     length: float  # l [m]
     knots: dict  # AXES -> knots
     coefficients: np.ndarray  # [tau, q, psi, NUMBERS], per newton
-    stiffness: np.ndarray  # K [Z, 3, 3]: load on the joint k pitches farther per move (u, phi_r, phi_t); N/m, N/rad, N.m/rad
-    slip_stiffness: np.ndarray  # [Z, 2, 2]: (V_r, V_t) of the joint k pitches farther per slip of one half against the other [N/m]
+    # K [Z, 3, 3]: load on the joint k pitches farther per move (u, phi_r, phi_t); N/m, N/rad, N.m/rad
+    stiffness: np.ndarray
+    # [Z, 2, 2]: (V_r, V_t) of the joint k pitches farther per slip of one half against the other [N/m]
+    slip_stiffness: np.ndarray
     sign: float = -1.0  # of M_t under the centrifugal load
 
     @property
@@ -84,7 +91,8 @@ class JointLaw:
 class LawBehind:
     """The law over L^ = L + K delta, where K is what vibration modes leave of the stiffness around a joint.
 
-    K is a hundred times K_0, so that L = L^ - K delta is a small difference: the law gives L, and the moves follow from it.
+    K is a hundred times K_0, so that L = L^ - K delta is a small difference: the law gives L, and the moves follow from
+    it.
     """
 
     length: float  # l [m]
@@ -122,7 +130,8 @@ def law_load(length, tau, q, psi):
 
 
 def joint_law(law, load, P):
-    """Moves (u, phi_r, phi_t) [..., 3] of the pad and loads (T, m_r, m_t) [..., 3] of the rivet, under loads [..., 3] and preloads [...] >= 0.
+    """Moves (u, phi_r, phi_t) [..., 3] of the pad and loads (T, m_r, m_t) [..., 3] of the rivet, under loads [..., 3]
+    and preloads [...] >= 0.
 
     A LawBehind gives the joint's loads (N, M_r, M_t) in place of the moves.
     """
@@ -133,9 +142,13 @@ def joint_law(law, load, P):
 
 
 def law_spline(law, coefficients, load, P):
-    """s = P + W [N] and the values [..., numbers] of splines with some coefficients [tau, q, psi, numbers] of the law's knots, under loads and preloads."""
+    """s = P + W [N] and the values [..., numbers] of splines with some coefficients [tau, q, psi, numbers] of the law's
+    knots, under loads and preloads.
+    """
     s, at = law_coordinates(law.length, load, P)
-    first, weight = zip(*(cell_weights(law.knots[name], value) for name, value in zip(AXES, at, strict=True)), strict=True)
+    first, weight = zip(
+        *(cell_weights(law.knots[name], value) for name, value in zip(AXES, at, strict=True)), strict=True
+    )
     result = 0.0
     for i in range(3):
         for j in range(3):
@@ -153,7 +166,9 @@ def relief(stiffness, moves):
 
 @dataclass
 class AlikeStates:
-    """Joints under the same bonded M_t = sign c l and preload P of c + P = 1 N, at equal steps of c, and how one of them answers to a change."""
+    """Joints under the same bonded M_t = sign c l and preload P of c + P = 1 N, at equal steps of c, and how one of
+    them answers to a change.
+    """
 
     x: np.ndarray  # c
     load: np.ndarray  # L* [x, 3]
@@ -168,7 +183,11 @@ class AlikeStates:
         def between(columns):
             return np.stack([np.interp(x, self.x, column) for column in columns.reshape(len(self.x), -1).T], axis=-1)
 
-        return s[..., None] * between(self.load), s[..., None] * between(self.values), between(self.slopes).reshape(*np.shape(x), *self.slopes.shape[1:])
+        return (
+            s[..., None] * between(self.load),
+            s[..., None] * between(self.values),
+            between(self.slopes).reshape(*np.shape(x), *self.slopes.shape[1:]),
+        )
 
 
 def alike_states(law, knots=129, sweeps=400):
@@ -197,8 +216,8 @@ def alike_states(law, knots=129, sweeps=400):
 def joints_open(law, bonded, P, spin_M, spin_P, sweeps=SWEEPS, intact=True):
     """What joints that open leave of the bonded loads.
 
-    bonded [..., Z, 3] = (N, M_r, M_t), P [..., Z] >= 0; spin_M, spin_P [...]: bonded M_t and preload of all joints under the centrifugal load alone.
-    intact [Z]: False for a joint that carries nothing, whose move takes all of L*.
+    bonded [..., Z, 3] = (N, M_r, M_t), P [..., Z] >= 0; spin_M, spin_P [...]: bonded M_t and preload of all joints
+    under the centrifugal load alone. intact [Z]: False for a joint that carries nothing, whose move takes all of L*.
     Returns (N, M_r, M_t), (T, m_r, m_t), moves, each [..., Z, 3].
     """
     standing = np.broadcast_to(intact, law.Z)
@@ -206,9 +225,13 @@ def joints_open(law, bonded, P, spin_M, spin_P, sweeps=SWEEPS, intact=True):
     change_P, size = P - np.asarray(spin_P)[..., None], P + np.abs(bonded) @ law.unit
 
     def near(at):
-        """Moves and loads of rivets by the tangent at the state where all joints are alike, and which joints are too far from it."""
+        """Moves and loads of rivets by the tangent at the state where all joints are alike, and which joints are too
+        far from it.
+        """
         change = at - load[..., None, :]
-        found = values[..., None, :] + np.einsum("...ij,...kj->...ki", slopes, np.concatenate([change, change_P[..., None]], axis=-1))
+        found = values[..., None, :] + np.einsum(
+            "...ij,...kj->...ki", slopes, np.concatenate([change, change_P[..., None]], axis=-1)
+        )
         far = (np.abs(change) @ law.unit + np.abs(change_P) > NEAR * size) | ~standing
         return found[..., :3], found[..., 3:], far[..., None]
 
@@ -234,7 +257,9 @@ def joints_open(law, bonded, P, spin_M, spin_P, sweeps=SWEEPS, intact=True):
 
 
 def single_joint(law, P, N=0.0, M_r=0.0, M_t=0.0):
-    """(T, m_r, m_t) of the rivet of a joint under loads of its own, its neighbours bonded: arrays of one shape, in N and N.m."""
+    """(T, m_r, m_t) of the rivet of a joint under loads of its own, its neighbours bonded: arrays of one shape, in N
+    and N.m.
+    """
     P, *load = np.broadcast_arrays(*(np.asarray(v, dtype=float) for v in (P, N, M_r, M_t)))
     return tuple(np.moveaxis(joint_law(law, np.stack(load, axis=-1), P)[1], -1, 0))
 
@@ -242,8 +267,9 @@ def single_joint(law, P, N=0.0, M_r=0.0, M_t=0.0):
 def joint_slip(V, K, gap, plate, head, k_head, k_hole):
     """Slip [m] of a joint that would carry V [N] bonded, and what heads and hole then carry [N]; all along V.
 
-    K: slip stiffness of the halves around this joint.  Plates hold up to `plate`, then the heads drag the rivet (k_head) up to `head`, then the halves
-    slip freely to `gap`, then the hole bears (k_hole): V - K slip = plate + min(k_head slip, head) + k_hole max(0, slip - gap).
+    K: slip stiffness of the halves around this joint.  Plates hold up to `plate`, then the heads drag the rivet
+    (k_head) up to `head`, then the halves slip freely to `gap`, then the hole bears (k_hole): V - K slip = plate +
+    min(k_head slip, head) + k_hole max(0, slip - gap).
     """
     beyond = V - plate
     free = np.maximum(beyond / (K + k_head), (beyond - head) / K)
@@ -253,7 +279,9 @@ def joint_slip(V, K, gap, plate, head, k_head, k_hole):
 
 
 def joints_slip(law, bonded, gap, plate, head, k_head, k_hole, sweeps=SLIP_SWEEPS):
-    """(V_r, V_t) of plates, heads and holes, and the slip, each [..., Z, 2], of joints that would carry `bonded` [..., Z, 2]."""
+    """(V_r, V_t) of plates, heads and holes, and the slip, each [..., Z, 2], of joints that would carry `bonded` [...,
+    Z, 2].
+    """
     others = law.slip_stiffness.copy()
     others[0] = 0.0
     K_0 = law.slip_stiffness[0]

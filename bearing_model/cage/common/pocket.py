@@ -7,30 +7,33 @@
       '--+--'                       V = e(xi) (2/5) K delta^2.5,  xi = +- n_x R_c/a, at most 1: split plane against the patch, a = a_delta delta^0.5
          |   half 0                 force on the ball: -dV/d(x, t), damping -(w K delta^1.5) lambda delta_dot n, Coulomb friction mu Q
 
-A half bears the part of the Hertz pressure on its side of the split plane, which cuts the contact ellipse across its long half axis a:
+A half bears the part of the Hertz pressure on its side of the split plane, which cuts the contact ellipse across its
+long half axis a:
     w = 1/2 + 3/4 xi - 1/4 xi^3,  e = 1/2 + 15/16 xi - 5/8 xi^3 + 3/16 xi^5
-w: the pressure sqrt(1 - (x/a)^2 - (y/b)^2) summed over y leaves 1 - (x/a)^2 along x.  e: the work of pressing the half in, of w K delta^1.5 over delta
-at its place; so -dV/d(delta) is w K delta^1.5, and both halves together store and bear what one contact does.  The slope of V along the wall is a
-force across n that pushes the halves apart; without this force energy would not be conserved.
-Friction P_S at the contact point p + R n with the slip v + omega x R n; the coefficient goes from that of the film to that of the
-asperities by Lambda (mixed lubrication); P_R and its horizontal counterpart are the inlet's rolling friction as in the races, with the
-mean speed |slip|/2 and R_x = R.  The half gets the opposite forces at the same points.
-Smoothness: C1 at touch-down and where the patch leaves a half.  The cylinder has no radial end: a ball whose equator leaves the cage's section is
-reported, not modelled.
+w: the pressure sqrt(1 - (x/a)^2 - (y/b)^2) summed over y leaves 1 - (x/a)^2 along x.  e: the work of pressing the half
+in, of w K delta^1.5 over delta at its place; so -dV/d(delta) is w K delta^1.5, and both halves together store and bear
+what one contact does.  The slope of V along the wall is a force across n that pushes the halves apart; without this
+force energy would not be conserved. Friction P_S at the contact point p + R n with the slip v + omega x R n; the
+coefficient goes from that of the film to that of the asperities by Lambda (mixed lubrication); P_R and its horizontal
+counterpart are the inlet's rolling friction as in the races, with the mean speed |slip|/2 and R_x = R.  The half gets
+the opposite forces at the same points. Smoothness: C1 at touch-down and where the patch leaves a half.  The cylinder
+has no radial end: a ball whose equator leaves the cage's section is reported, not modelled.
 """
 
 import numpy as np
 
 from bearing_model.cage.elastic.cage_elastic import cage_elastic_approach, cage_elastic_walls
-from bearing_model.physics.hertz import hertz_damped, hertz_energy, hertz_load
-from bearing_model.numbers.lanes import ball_array_sum, maximum, minimum
-from bearing_model.physics.traction import Q_FLOOR, traction_asperity_share, traction_inlet, traction_ln_film
 from bearing_model.generated.variables import CageModel, Lubrication
+from bearing_model.numbers.lanes import ball_array_sum, maximum, minimum
 from bearing_model.numbers.vec import vec, vec_across, vec_cross, vec_dot, vec_local, vec_to_global
+from bearing_model.physics.hertz import hertz_damped, hertz_energy, hertz_load
+from bearing_model.physics.traction import Q_FLOOR, traction_asperity_share, traction_inlet, traction_ln_film
 
 
 def pocket_mu(model, ln_U, ln_Q, mixed):
-    """Friction coefficient at mean speed U and load Q.  Film: the thicker one of piezoviscous and isoviscous-rigid lubrication."""
+    """Friction coefficient at mean speed U and load Q.  Film: the thicker one of piezoviscous and isoviscous-rigid
+    lubrication.
+    """
     film = model.p.cage.mu
     if not mixed:
         return film
@@ -83,7 +86,8 @@ def pocket_half(model, w, h, mixed, whole):
     w_h, e_h, slope = (1.0, 1.0, 0.0) if whole else pocket_share(d, h, n_x, delta)
     Q_0 = w_h * hertz_load(d.pocket.K, delta)
     Q = hertz_damped(Q_0, p.cage.lambda_, delta_dot)
-    F_across = hertz_energy(d.pocket.K, delta) * slope * n_t / S - Q_0 * tilt  # -dV/dn_x grad n_x, grad n_x = (n_t a - n_x e_t) n_t/S
+    # -dV/dn_x grad n_x, grad n_x = (n_t a - n_x e_t) n_t/S
+    F_across = hertz_energy(d.pocket.K, delta) * slope * n_t / S - Q_0 * tilt
     F_n = -Q * n - F_across * (n_t * a - n_x * e_t)
 
     arm = d.R * n
@@ -110,7 +114,8 @@ def pocket_half(model, w, h, mixed, whole):
         on_wall = (Q * n_x - vec_dot(F_s + F_c, a), -vec_dot(F_s + F_c, b), Q * n_t - vec_dot(F_s + F_c, e_t))
         w.pocket_modal[h] = sum(force[..., None] * motion for force, motion in zip(on_wall, shape, strict=True))
         stored = 0.5 * d.elastic.wall * Q_0 * Q_0
-        # direction, stiffness with the wall's own compliance in series, rate of the approach by rigid motions (cage_substeps.py)
+        # direction, stiffness with the wall's own compliance in series, rate of the approach by rigid motions
+        # (cage_substeps.py)
         k = 1.5 * Q_0 / (maximum(delta, 1e-30) + d.elastic.wall * 1.5 * Q_0)
         w.touch[h] = n_x, n_t, k, delta_dot + n_x * u_dot[0] + n_t * u_dot[2]
     half.F, half.M = ball_array_sum(w.pocket_F[h]), ball_array_sum(w.pocket_M[h])
@@ -121,12 +126,23 @@ def pocket_half(model, w, h, mixed, whole):
 def pocket_force(model, w):
     """Adds the pocket contacts to the balls; sets their results and wrench on the halves.
 
-    pocket: force on the half in the pocket's frame (x, r, t), pocket_push: its normal part (x, t); pocket_F, pocket_M: force and moment about the
-    half's centre, global.
-    D, D_omega: rates at which friction slows each velocity of a ball by itself, -d(acceleration)/d(velocity) [1/s], for the integrator's Jacobian.
+    pocket: force on the half in the pocket's frame (x, r, t), pocket_push: its normal part (x, t); pocket_F, pocket_M:
+    force and moment about the half's centre, global.
+    D, D_omega: rates at which friction slows each velocity of a ball by itself, -d(acceleration)/d(velocity) [1/s], for
+    the integrator's Jacobian.
     """
     mixed, rigid = model.p.scene.lubrication == Lubrication.MIXED, model.p.scene.cage == CageModel.RIGID
-    w.delta_c, w.Q_c, w.pocket, w.pocket_push, w.pocket_F, w.pocket_M, w.pocket_modal, w.touch = {}, {}, {}, {}, {}, {}, {}, {}  # by half
+    # by half
+    w.delta_c, w.Q_c, w.pocket, w.pocket_push, w.pocket_F, w.pocket_M, w.pocket_modal, w.touch = (
+        {},
+        {},
+        {},
+        {},
+        {},
+        {},
+        {},
+        {},
+    )
     w.pocket_energy, w.pocket_dissipated = 0.0, 0.0
     w.D, w.D_omega = 0.0 * w.F, 0.0 * w.F
     if rigid:

@@ -1,25 +1,28 @@
 """Elastic cage halves: vibration modes of both halves, the joints between them.
 
-Each half vibrates in the frame that moves with it as a rigid body, by its free modes i with the coordinates q_i and the modal mass m of the half:
+Each half vibrates in the frame that moves with it as a rigid body, by its free modes i with the coordinates q_i and the
+modal mass m of the half:
 
     m (q_i'' + 2 zeta omega_i q_i' + omega_i^2 q_i) = sum phi_i . F,       u = sum phi_i q_i
 
-F: forces of balls on the pockets' walls (pocket.py), loads of the joints on the pads, centrifugal load.  Half 0 is the mirror image of half 1, so that
-with S = (q_1 + q_0)/sqrt 2 (mirrored) and D = (q_1 - q_0)/sqrt 2 (opposed) the pads of one joint move against each other by
+F: forces of balls on the pockets' walls (pocket.py), loads of the joints on the pads, centrifugal load.  Half 0 is the
+mirror image of half 1, so that with S = (q_1 + q_0)/sqrt 2 (mirrored) and D = (q_1 - q_0)/sqrt 2 (opposed) the pads of
+one joint move against each other by
 
     x, phi_r, phi_t:  sqrt 2 sum phi_i S_i  (out of the plane: N, M_r, M_t)          r, t:  sqrt 2 sum phi_i D_i  (in the plane: V_r, V_t)
 
-Modes are cyclic: at the angle theta, even components (x, r, phi_t) are a cos(n theta), odd ones (t, phi_x, phi_r) -b sin(n theta) for the first mode of a pair
-and a sin(n theta), b cos(n theta) for the second.
+Modes are cyclic: at the angle theta, even components (x, r, phi_t) are a cos(n theta), odd ones (t, phi_x, phi_r) -b
+sin(n theta) for the first mode of a pair and a sin(n theta), b cos(n theta) for the second.
 
-Joint, out of the plane: with e half of the relative motion of its pads (rigid and elastic) and K the inverse of the static compliance that the modes leave
-between the pads of one joint,
+Joint, out of the plane: with e half of the relative motion of its pads (rigid and elastic) and K the inverse of the
+static compliance that the modes leave between the pads of one joint,
 
     L^ = K e,    (L, T, m_r, m_t) = law(L^, P)
 
-with the joint's law over K (joint_law.py, LawBehind): its pads move by delta, L = K (e - delta).  So each joint follows from its own pads; what the loads of
-other joints move them by beside the modes is left out.
-In the plane, friction states and the hole's contact as in cage_joint.py, in series with what the modes leave.  Pads do not hold each other about x.
+with the joint's law over K (joint_law.py, LawBehind): its pads move by delta, L = K (e - delta).  So each joint follows
+from its own pads; what the loads of other joints move them by beside the modes is left out.
+In the plane, friction states and the hole's contact as in cage_joint.py, in series with what the modes leave.  Pads do
+not hold each other about x.
 
 Left out: Coriolis forces and the softening of modes by spin, of the order 2 omega_c/omega_i and (omega_c/omega_i)^2.
 """
@@ -28,12 +31,35 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from bearing_model.cage.elastic.half_modes import OUT, PAD, coordinates, denser, fewer, frequencies, joint_residual, phases, rivet_shapes, spin_load
 from bearing_model.cage.common.joint_law import LawBehind, joint_law, law_load, law_spline
+from bearing_model.cage.elastic.half_modes import (
+    OUT,
+    PAD,
+    coordinates,
+    denser,
+    fewer,
+    frequencies,
+    joint_residual,
+    phases,
+    rivet_shapes,
+    spin_load,
+)
+from bearing_model.generated.variables import (
+    CAGE_BETA_DOT,
+    CAGE_GAMMA_DOT,
+    CAGE_S,
+    CAGE_V_X,
+    CAGE_V_Y,
+    CAGE_V_Z,
+    MODE_D,
+    MODE_D_DOT,
+    MODE_S,
+    MODE_S_DOT,
+    Z,
+)
 from bearing_model.numbers.lanes import absolute, ball_array_sum, maximum, minimum
-from bearing_model.rivet.rivet_splines import interpolate, sites
-from bearing_model.generated.variables import CAGE_BETA_DOT, CAGE_GAMMA_DOT, CAGE_S, CAGE_V_X, CAGE_V_Y, CAGE_V_Z, MODE_D, MODE_D_DOT, MODE_S, MODE_S_DOT, Z
 from bearing_model.numbers.vec import vec_cross, vec_dot
+from bearing_model.rivet.rivet_splines import interpolate, sites
 
 IN = [1, 2]  # of the motions (x, r, t, phi_x, phi_r, phi_t) of a pad: in the plane; OUT: out of it
 ROOT = np.sqrt(2.0)
@@ -64,17 +90,22 @@ class ElasticHalf:
     reach_2: float  # largest |u|^2 of a wall / sum omega^2 q^2 [s2] by modes that do not move all pockets alike
     widest: np.ndarray  # largest |u|/|q| by the others, else 0 [n]
     wall: float  # compliance that the modes leave at a wall, along its normal, less that in Hertz's [m/N]
-    mirrored: np.ndarray  # squares of the frequencies of S and the relative rigid motions out of the plane with closed joints, rising [n + 3]
+    # squares of the frequencies of S and the relative rigid motions out of the plane with closed joints, rising [n + 3]
+    mirrored: np.ndarray
     substep: float  # of the default method, at most [s]
     law: LawBehind
     energy: np.ndarray  # coefficients of U, whose slope is delta [tau, q, psi], per newton squared
 
 
 def law_behind(law, K):
-    """The law of the table over L^ = L + K delta for another stiffness K, on the same knots, and the coefficients of U(L^), whose slope is delta."""
+    """The law of the table over L^ = L + K delta for another stiffness K, on the same knots, and the coefficients of
+    U(L^), whose slope is delta.
+    """
     knots = [law.knots[name] for name in ("tau", "q", "psi")]
     places = [sites(k) for k in knots]
-    grid = np.array([[[np.append(*law_load(law.length, a, b, c)) for c in places[2]] for b in places[1]] for a in places[0]])
+    grid = np.array(
+        [[[np.append(*law_load(law.length, a, b, c)) for c in places[2]] for b in places[1]] for a in places[0]]
+    )
     load, P = grid[..., :3], grid[..., 3]
     values = np.concatenate(joint_law(law, load_before(law, K, load, P), P), axis=-1)
     behind = LawBehind(law.length, law.knots, interpolate(knots, values), K)
@@ -99,7 +130,9 @@ def kept_law(law, K):
 
 
 def load_before(law, K, behind, P):
-    """L^ [..., 3] of the table's law for L^ = behind [..., 3] of the law over K: Newton's method on L + K delta = behind."""
+    """L^ [..., 3] of the table's law for L^ = behind [..., 3] of the law over K: Newton's method on L + K delta =
+    behind.
+    """
     ratio_K, unit = K @ np.linalg.inv(law.stiffness), np.array([1.0, law.length, law.length])
     load = behind.copy()
 
@@ -110,7 +143,9 @@ def load_before(law, K, behind, P):
     rest = residual(load)
     for _ in range(40):
         step = 1e-6 * unit * (P + np.sum(np.abs(load) / unit, axis=-1))[..., None]
-        slope = np.stack([(residual(load + step * axis) - rest) / step[..., i : i + 1] for i, axis in enumerate(np.eye(3))], axis=-1)
+        slope = np.stack(
+            [(residual(load + step * axis) - rest) / step[..., i : i + 1] for i, axis in enumerate(np.eye(3))], axis=-1
+        )
         change = np.linalg.solve(slope, -rest[..., None])[..., 0]
         part = np.ones_like(P)
         size = np.sum(np.abs(rest) / unit, axis=-1)
@@ -125,14 +160,21 @@ def load_before(law, K, behind, P):
 
 
 def count_modes(p, modes):
-    """How many modes the scene takes: of the lowest frequencies, no pair divided, coordinates a and b of at most ENTRIES each."""
+    """How many modes the scene takes: of the lowest frequencies, no pair divided, coordinates a and b of at most
+    ENTRIES each.
+    """
     a, b = np.cumsum(modes.parity >= 0), np.cumsum(modes.parity <= 0)
     return int(np.max((a + b)[(a + b <= p.scene.modes) & (np.maximum(a, b) <= ENTRIES)], initial=0))
 
 
 def mode_order(modes):
-    """Place of each coordinate of the state among those of half_modes.py [n]: all a, those of pairs first, then all b likewise; its entry; 0 of a, 1 of b."""
-    entry, part = np.repeat(np.arange(len(modes.omega)), modes.count), coordinates(modes, 0.0 * modes.omega, 0.0 * modes.omega + 1.0)
+    """Place of each coordinate of the state among those of half_modes.py [n]: all a, those of pairs first, then all b
+    likewise; its entry; 0 of a, 1 of b.
+    """
+    entry, part = (
+        np.repeat(np.arange(len(modes.omega)), modes.count),
+        coordinates(modes, 0.0 * modes.omega, 0.0 * modes.omega + 1.0),
+    )
     order = np.lexsort((entry, modes.parity[entry] != 0, part))
     return order, entry[order], part[order]
 
@@ -156,9 +198,18 @@ def derive_elastic(p, d, table):
     series, k_hole = 1.0 / (1.0 + shear * (d.k_plate_t + d.k_head)), d.k_hole / (1.0 + shear * d.k_hole)
     held = series * (d.k_plate_t + d.k_head) + np.max(k_hole)
     alike = (modes.harmonic[entry] == 0) & (part == 0.0)
-    u_2 = np.sum(pocket[:, :, [0, 2]] ** 2, axis=(2, 3))  # [chi, n], at the nodes; between them a quarter farther at most
-    mirrored = frequencies_2(p.cage.m, omega, joints_out(d, pad), 0.5 * np.kron(np.eye(Z), behind.stiffness), (0.5 * p.cage.m, 0.5 * d.J_t, 0.5 * d.J_t))
-    opposed = frequencies_2(p.cage.m, omega, joints_in(d, pad), np.eye(2 * Z) * held, (0.5 * p.cage.m, 0.5 * p.cage.m, 0.5 * d.J_p))
+    # [chi, n], at the nodes; between them a quarter farther at most
+    u_2 = np.sum(pocket[:, :, [0, 2]] ** 2, axis=(2, 3))
+    mirrored = frequencies_2(
+        p.cage.m,
+        omega,
+        joints_out(d, pad),
+        0.5 * np.kron(np.eye(Z), behind.stiffness),
+        (0.5 * p.cage.m, 0.5 * d.J_t, 0.5 * d.J_t),
+    )
+    opposed = frequencies_2(
+        p.cage.m, omega, joints_in(d, pad), np.eye(2 * Z) * held, (0.5 * p.cage.m, 0.5 * p.cage.m, 0.5 * d.J_p)
+    )
     return ElasticHalf(
         n=len(omega),
         omega=omega,
@@ -170,7 +221,8 @@ def derive_elastic(p, d, table):
         pocket=pocket,
         slope=unit * np.moveaxis(modes.slope[entry], 1, 0),
         spin=d.centrifugal * unit * spin_load(modes)[order],
-        reach_2=1.5625 * np.max(np.sum(np.where(alike, 0.0, np.where(modes.parity[entry] == 0, 0.5, 1.0) * u_2 / omega**2), axis=1)),
+        reach_2=1.5625
+        * np.max(np.sum(np.where(alike, 0.0, np.where(modes.parity[entry] == 0, 0.5, 1.0) * u_2 / omega**2), axis=1)),
         widest=np.where(alike, 1.25 * np.sqrt(np.max(u_2, axis=0)), 0.0),
         R=R,
         series=series,
@@ -213,11 +265,13 @@ def joints_in(d, pad):
     return np.concatenate([ROOT * pad[:, IN], rigid]).transpose(2, 1, 0).reshape(2 * Z, -1)
 
 
-# ------------------------------------------------------------------------------------------------------------------ walls of the pockets
+# ------------------------------------------------------------------------------------------------- walls of the pockets
 
 
 def cage_elastic_shapes(half, side, n_x, n_t):
-    """Motions (x, r, t) [3, ..., Z, n] of the walls by all modes where the contacts are, and their slopes over the wall's angle."""
+    """Motions (x, r, t) [3, ..., Z, n] of the walls by all modes where the contacts are, and their slopes over the
+    wall's angle.
+    """
     chi = maximum(np.arctan(side * n_x / maximum(absolute(n_t), 1e-30)), 0.0)
     i = np.clip(np.searchsorted(half.chi, np.real(chi), side="right") - 1, 0, len(half.chi) - 2)
     h = half.chi[i + 1] - half.chi[i]
@@ -226,7 +280,9 @@ def cage_elastic_shapes(half, side, n_x, n_t):
     terms = half.pocket[i], half.slope[i], half.pocket[i + 1], half.slope[i + 1]  # [..., Z, n, 3, 2]
     value = v * v * (1.0 + 2.0 * u), h * u * v * v, u * u * (1.0 + 2.0 * v), -h * u * u * v
     slope = -6.0 * u * v / h, v * (v - 2.0 * u), 6.0 * u * v / h, u * (u - 2.0 * v)
-    back = np.where(np.real(n_t) < 0.0, -1.0, 1.0)[..., None, None, None] * np.array([[0.0, 1.0], [0.0, 1.0], [1.0, 0.0]]) + [
+    back = np.where(np.real(n_t) < 0.0, -1.0, 1.0)[..., None, None, None] * np.array(
+        [[0.0, 1.0], [0.0, 1.0], [1.0, 0.0]]
+    ) + [
         [1.0, 0.0],
         [1.0, 0.0],
         [0.0, 1.0],
@@ -235,7 +291,9 @@ def cage_elastic_shapes(half, side, n_x, n_t):
 
     def shapes(weights):
         A = sum(w[..., None, None, None] * term for w, term in zip(weights, terms, strict=True))
-        return np.moveaxis(np.sum(A * back * wave, axis=-1), -1, 0) * np.array([side, 1.0, 1.0]).reshape(-1, *[1] * (A.ndim - 2))
+        return np.moveaxis(np.sum(A * back * wave, axis=-1), -1, 0) * np.array([side, 1.0, 1.0]).reshape(
+            -1, *[1] * (A.ndim - 2)
+        )
 
     on_wall = np.real(side * n_x) > 0.0
     return shapes(value), shapes(slope) * on_wall[..., None]
@@ -249,7 +307,9 @@ def cage_elastic_coordinates(model, y, h):
 
 
 def cage_elastic_walls(model, w, h, n_x, n_t, S, delta):
-    """Motion and velocity (x, r, t) [3, ..., Z] of the walls of half h along the ball's pocket axes; slope of n.u across n; the modes' shapes there."""
+    """Motion and velocity (x, r, t) [3, ..., Z] of the walls of half h along the ball's pocket axes; slope of n.u
+    across n; the modes' shapes there.
+    """
     shape, shape_chi = cage_elastic_shapes(model.d.elastic, 2 * h - 1, n_x, n_t)
     q, q_dot = w.modes[h]
     near = np.real(delta) + w.reach[h] > 0.0  # others cannot have been reached
@@ -260,7 +320,8 @@ def cage_elastic_walls(model, w, h, n_x, n_t, S, delta):
 
 
 def cage_elastic_approach(d, share, delta):
-    """Approach [..., Z] of ball and wall without what the compliance c of the wall takes: delta_h + c w K delta_h^1.5 = delta, Newton's method.
+    """Approach [..., Z] of ball and wall without what the compliance c of the wall takes: delta_h + c w K delta_h^1.5 =
+    delta, Newton's method.
 
     share: function of the approach that gives the part w of the load.
     """
@@ -273,16 +334,21 @@ def cage_elastic_approach(d, share, delta):
     return np.where(np.real(delta) > 0.0, own, delta)
 
 
-# ------------------------------------------------------------------------------------------------------------------------- joints
+# --------------------------------------------------------------------------------------------------------------- joints
 
 
 def cage_elastic_kinematics(model, y, w):
-    """Motions of the halves' modes, of the pads against each other: elastic part, out of the plane (x, phi_r, phi_t) and in it (r, t)."""
+    """Motions of the halves' modes, of the pads against each other: elastic part, out of the plane (x, phi_r, phi_t)
+    and in it (r, t).
+    """
     half = model.d.elastic
     w.modes = [cage_elastic_coordinates(model, y, h) for h in range(2)]
     others = np.where(half.alike, 0.0, half.omega)
     places = [np.real(q) for q, _ in w.modes]
-    w.reach = [np.sqrt(half.reach_2 * np.sum((others * q) ** 2, axis=-1)) + np.sum(half.widest * np.abs(q), axis=-1) for q in places]
+    w.reach = [
+        np.sqrt(half.reach_2 * np.sum((others * q) ** 2, axis=-1)) + np.sum(half.widest * np.abs(q), axis=-1)
+        for q in places
+    ]
     w.more_J = [2.0 * np.sum(half.spin * q, axis=-1) for q, _ in w.modes]
     S, D, S_dot, D_dot = (ROOT * y[..., block][..., : half.n] for block in (MODE_S, MODE_D, MODE_S_DOT, MODE_D_DOT))
     w.pad_out, w.pad_out_dot = (np.einsum("...i,ikz->k...z", q, half.pad[:, OUT]) for q in (S, S_dot))
@@ -290,7 +356,9 @@ def cage_elastic_kinematics(model, y, w):
 
 
 def cage_elastic_pads(model, w):
-    """Adds the modes to offset and velocity of the joints (cage_joint_kinematics); sets e [3, ..., Z], half the relative motion out of the plane."""
+    """Adds the modes to offset and velocity of the joints (cage_joint_kinematics); sets e [3, ..., Z], half the
+    relative motion out of the plane.
+    """
     d, (h0, h1) = model.d, w.half
     R = 0.5 * d.table.joint["d_m"]
     c, s = d.rivet_y / R, d.rivet_z / R
@@ -305,13 +373,16 @@ def cage_elastic_pads(model, w):
 
 
 def broken_answer(K, behind):
-    """Loads (N, M_r, M_t) [..., 3] of joints without a rivet at L^ = behind: the pads press on each other in their middles or carry nothing."""
+    """Loads (N, M_r, M_t) [..., 3] of joints without a rivet at L^ = behind: the pads press on each other in their
+    middles or carry nothing.
+    """
     N = minimum(behind[..., 0] - behind[..., 1:] @ np.linalg.solve(K[1:, 1:], K[1:, 0]), 0.0)
     return N[..., None] * [1.0, 0.0, 0.0]
 
 
 def cage_elastic_law(model, e, P):
-    """Loads L (N, M_r, M_t) of the joints, loads of the rivets (T, m_r, m_t), [3, ..., Z], energy of one half [..., Z], for motions e [3, ..., Z].
+    """Loads L (N, M_r, M_t) of the joints, loads of the rivets (T, m_r, m_t), [3, ..., Z], energy of one half [..., Z],
+    for motions e [3, ..., Z].
 
     P: preloads with what the centrifugal load adds [..., Z].
     """
@@ -339,7 +410,9 @@ def cage_elastic_speed_2(w):
 
 
 def cage_elastic_joints(model, y, w):
-    """Loads of the joints out of the plane; sets what rivets and plates carry, adds the moments to both halves.  cage_joint_force needs T and N_plate."""
+    """Loads of the joints out of the plane; sets what rivets and plates carry, adds the moments to both halves.
+    cage_joint_force needs T and N_plate.
+    """
     d, (h0, h1) = model.d, w.half
     omega_2 = cage_elastic_speed_2(w)
     P = maximum(d.P + d.spin[5] * omega_2, 0.0) + 0.0 * w.e[0]
@@ -358,7 +431,9 @@ def cage_elastic_joints(model, y, w):
 
 
 def cage_elastic_coriolis(model, w, h):
-    """Moment [N.m] about the axis of half h that its widening needs; w.more_J: moment of inertia that its modes add, 2 spin . q."""
+    """Moment [N.m] about the axis of half h that its widening needs; w.more_J: moment of inertia that its modes add, 2
+    spin . q.
+    """
     _, q_dot = w.modes[h]
     spin = model.d.elastic.spin
     return 2.0 * np.sum(spin * q_dot, axis=-1) * (w.half[h].s + w.frame_omega)
@@ -375,7 +450,10 @@ def cage_elastic_acceleration(model, y, w, y_dot):
     opposed = ROOT * np.einsum("k...z,ikz->...i", across, half.pad[:, IN])
     f0, f1 = (np.sum(w.pocket_modal[h], axis=-2) + (w.half[h].s + w.frame_omega) ** 2 * half.spin for h in range(2))
     w.modes_dissipated = 0.0
-    for q, rate, force in ((MODE_S, MODE_S_DOT, mirrored + (f1 + f0) / ROOT), (MODE_D, MODE_D_DOT, opposed + (f1 - f0) / ROOT)):
+    for q, rate, force in (
+        (MODE_S, MODE_S_DOT, mirrored + (f1 + f0) / ROOT),
+        (MODE_D, MODE_D_DOT, opposed + (f1 - f0) / ROOT),
+    ):
         x, v = y[..., q][..., : half.n], y[..., rate][..., : half.n]
         y_dot[..., q][..., : half.n] = v
         y_dot[..., rate][..., : half.n] = force / p.cage.m - half.damping * v - half.omega**2 * x
@@ -383,10 +461,11 @@ def cage_elastic_acceleration(model, y, w, y_dot):
 
 
 def find_rest(half, m, omega_2, P):
-    """Coordinates S [n] and (u_x, M_t) of the rest under the centrifugal load of the speed's square omega_2 [rad2/s2] and the preload P.
+    """Coordinates S [n] and (u_x, M_t) of the rest under the centrifugal load of the speed's square omega_2 [rad2/s2]
+    and the preload P.
 
-    All joints are alike: N = 0, and their M_t balances S_i = sqrt 2 (spin_i omega^2 - Z phi_t,i M_t)/(m omega_i^2).  Newton's method with differences for
-    the halves' distance u_x and M_t.
+    All joints are alike: N = 0, and their M_t balances S_i = sqrt 2 (spin_i omega^2 - Z phi_t,i M_t)/(m omega_i^2).
+    Newton's method with differences for the halves' distance u_x and M_t.
     """
     at = half.pad[:, OUT, 0]  # x, phi_r, phi_t
 
@@ -407,14 +486,18 @@ def find_rest(half, m, omega_2, P):
 
 
 def cage_elastic_rest(model, omega):
-    """Coordinates S [n] and distance of the halves' bodies [m] at which modes and joints rest under the centrifugal load of the speed omega [rad/s]."""
+    """Coordinates S [n] and distance of the halves' bodies [m] at which modes and joints rest under the centrifugal
+    load of the speed omega [rad/s].
+    """
     d = model.d
     S, x = find_rest(d.elastic, model.p.cage.m, omega**2, max(d.P_mean + d.spin[5] * omega**2, 0.0))
     return S, x[0]
 
 
 def cage_elastic_energy(model, y, w):
-    """Kinetic and elastic energy of the modes [J], [..., 1], with that of the spin in the moment of inertia that they add."""
+    """Kinetic and elastic energy of the modes [J], [..., 1], with that of the spin in the moment of inertia that they
+    add.
+    """
     half = model.d.elastic
     n = half.n
     rates = y[..., MODE_S_DOT][..., :n] ** 2 + y[..., MODE_D_DOT][..., :n] ** 2

@@ -1,16 +1,19 @@
-"""Substeps of elastic halves and their joints between two evaluations of the right-hand side: the readable twin of cage_substeps.c, which has the equations.
+"""Substeps of elastic halves and their joints between two evaluations of the right-hand side: the readable twin of
+cage_substeps.c, which has the equations.
 
     v_m = (v + d/2 (a_f + a_s))/(1 + d c/2),  q += d v_m,  v = v_m (1 - d c/2) + d/2 (a_f + a_s)
 
-a_f: fast accelerations, by the joints and the modes' own springs; a_s: slow ones, held over the step but for the loads of
-balls on walls, which follow the walls.
-Coordinates here are those of the modes, S and D side by side [2, n], and relative rigid motions of the halves [6]: x, about y, about z, y, z, spin.
+a_f: fast accelerations, by the joints and the modes' own springs; a_s: slow ones, held over the step but for the loads
+of balls on walls, which follow the walls.
+Coordinates here are those of the modes, S and D side by side [2, n], and relative rigid motions of the halves [6]: x,
+about y, about z, y, z, spin.
 """
 
 from dataclasses import dataclass
 
 import numpy as np
 
+from bearing_model.cage.common.cage_joint import cage_joint_advance, cage_joint_shear
 from bearing_model.cage.elastic.cage_elastic import (
     CAGE_RATES,
     IN,
@@ -23,8 +26,6 @@ from bearing_model.cage.elastic.cage_elastic import (
     joints_in,
     joints_out,
 )
-from bearing_model.cage.common.cage_joint import cage_joint_advance, cage_joint_shear
-from bearing_model.numbers.lanes import maximum
 from bearing_model.generated.variables import (
     CAGE_BETA,
     CAGE_GAMMA,
@@ -39,6 +40,7 @@ from bearing_model.generated.variables import (
     WORK,
     Z,
 )
+from bearing_model.numbers.lanes import maximum
 
 CAGE_PLACES = CAGE_X, CAGE_Y, CAGE_Z, CAGE_BETA, CAGE_GAMMA, CAGE_PSI
 MOST_SUBSTEPS, ROUNDING = 1000, 1e-9
@@ -59,7 +61,9 @@ class FastState:
 
 
 def relative_inertia(model):
-    """Inverse inertia of the relative motions at the joints [6]; part of y and z that the centres of mass take; common tilt by unit of y or z."""
+    """Inverse inertia of the relative motions at the joints [6]; part of y and z that the centres of mass take; common
+    tilt by unit of y or z.
+    """
     d, m = model.d, 2.0 / model.p.cage.m
     across = m + 2.0 * d.com_x[1] ** 2 / d.J_t
     return np.array([m, 2.0 / d.J_t, 2.0 / d.J_t, across, across, 2.0 / d.J_p]), m / across, d.com_x[1] / d.J_t / across
@@ -88,21 +92,35 @@ def halves(y, blocks):
 
 
 def fast_accelerations(model, q, load, shear):
-    """Accelerations of modes [2, n] and relative motions [6] at coordinates q [2, n], under loads of the joints out of the plane [3, Z] and in it [2, Z]."""
+    """Accelerations of modes [2, n] and relative motions [6] at coordinates q [2, n], under loads of the joints out of
+    the plane [3, Z] and in it [2, Z].
+    """
     half, p, d = model.d.elastic, model.p, model.d
     _, c, s = circle(d)
     across = np.stack([c * shear[0] + s * shear[1], c * shear[1] - s * shear[0]])  # r, t
-    by_out, by_in = -ROOT * np.einsum("kz,ikz->i", load, half.pad[:, OUT]), ROOT * np.einsum("kz,ikz->i", across, half.pad[:, IN])
+    by_out, by_in = (
+        -ROOT * np.einsum("kz,ikz->i", load, half.pad[:, OUT]),
+        ROOT * np.einsum("kz,ikz->i", across, half.pad[:, IN]),
+    )
     N, M_r, M_t = load
     r_y, r_z = d.rivet_y, d.rivet_z
-    force = [-N, s * M_t - c * M_r - r_z * N, r_y * N - s * M_r - c * M_t, shear[0], shear[1], r_y * shear[1] - r_z * shear[0]]
+    force = [
+        -N,
+        s * M_t - c * M_r - r_z * N,
+        r_y * N - s * M_r - c * M_t,
+        shear[0],
+        shear[1],
+        r_y * shear[1] - r_z * shear[0],
+    ]
     return np.array([by_out, by_in]) / p.cage.m - half.omega**2 * q, relative_inertia(model)[0] * np.sum(force, axis=1)
 
 
 def cage_substeps_split(model, y, w, f):
     """Takes the fast part from the rates f [states] of the state y, at which w was evaluated; returns it as FastState."""
     half, h0 = model.d.elastic, w.half[0]
-    q, v = (np.array([y[block][: half.n] for block in blocks]) for blocks in ((MODE_S, MODE_D), (MODE_S_DOT, MODE_D_DOT)))
+    q, v = (
+        np.array([y[block][: half.n] for block in blocks]) for blocks in ((MODE_S, MODE_D), (MODE_S_DOT, MODE_D_DOT))
+    )
     modes, rigid = fast_accelerations(model, q, w.joint_load, w.joint_force[1:])
     for block, change in zip(CAGE_RATES, give(model, h0, rigid), strict=True):
         f[block] -= change
@@ -130,7 +148,13 @@ class Touches:
 
     def accelerations(self, t, q):
         """Of the modes [2, n] by the changes of the loads at the time t of the step."""
-        return sum((max(k * (rate * t - (np.sum(both * q) - start)), -Q) / self.m * both for k, rate, Q, both, start in self.rows), np.zeros_like(q))
+        return sum(
+            (
+                max(k * (rate * t - (np.sum(both * q) - start)), -Q) / self.m * both
+                for k, rate, Q, both, start in self.rows
+            ),
+            np.zeros_like(q),
+        )
 
 
 def turn(t, rates):
@@ -151,7 +175,9 @@ def turn_out(phi, relative):
 
 
 def turn_in(spin, t, middle, slow, moved, relative):
-    """Velocities [6] in the frame of the middle as the joints see them at the time t after it: both these and the way since the middle turn back."""
+    """Velocities [6] in the frame of the middle as the joints see them at the time t after it: both these and the way
+    since the middle turn back.
+    """
     back, seen = moved + t * (2.0 * middle + relative + 0.5 * t * slow), relative.copy()
     for y, z in TURNING:
         seen[y] += spin * back[z]
@@ -160,9 +186,11 @@ def turn_in(spin, t, middle, slow, moved, relative):
 
 
 def cage_substeps_advance(model, h, fast, f, y, w):
-    """Substeps of a step of length h from `fast` under the slow rates f; w: kinematics in the middle of the step; changes y as cage_substeps.c does.
+    """Substeps of a step of length h from `fast` under the slow rates f; w: kinematics in the middle of the step;
+    changes y as cage_substeps.c does.
 
-    Returns the length of the substeps and what they foresee at the step's end: slow accelerations of the modes [2, n], changes of those of the halves [6, 2].
+    Returns the length of the substeps and what they foresee at the step's end: slow accelerations of the modes [2, n],
+    changes of those of the halves [6, 2].
     """
     half, d, h0 = model.d.elastic, model.d, w.half[0]
     steps = int(min(np.ceil(h / half.substep * (1.0 - ROUNDING)), MOST_SUBSTEPS))
@@ -177,7 +205,8 @@ def cage_substeps_advance(model, h, fast, f, y, w):
     gyro = float(d.J_p / d.J_t * 0.5 * np.sum([half.s for half in w.half]))
     P = maximum(d.P + d.spin[5] * fast.omega_2, 0.0)
 
-    # the joints' velocities by modes and relative rigid motions; those by the slow motion of the rigid halves in the middle of the step
+    # the joints' velocities by modes and relative rigid motions; those by the slow motion of the rigid halves in the
+    # middle of the step
     _, c, s = circle(d)
     out, inside = joints_out(d, half.pad), joints_in(d, half.pad)  # rows: all joints, motion by motion
     Omega = w.half[1].Omega[:, 0] - h0.Omega[:, 0]

@@ -1,22 +1,27 @@
-"""Vibration modes of a free cage half in cyclic form, and the static flexibility beside them; rivet_model/half_modes.py makes the numbers.
+"""Vibration modes of a free cage half in cyclic form, and the static flexibility beside them; rivet_model/half_modes.py
+makes the numbers.
 
-The half is a ring of Z equal pitches, each its own mirror image in its pocket's plane.  A mode of harmonic n (0...Z//2) moves pitch j as pitch 0, turned
-on by 2 pi j/Z, with the phase 2 pi n j/Z.  With the coordinates a (cos) and b (sin) its displacement at a place whose amplitude on pitch 0 is U is
+The half is a ring of Z equal pitches, each its own mirror image in its pocket's plane.  A mode of harmonic n (0...Z//2)
+moves pitch j as pitch 0, turned on by 2 pi j/Z, with the phase 2 pi n j/Z.  With the coordinates a (cos) and b (sin)
+its displacement at a place whose amplitude on pitch 0 is U is
 
     u_j = Re[(a - i b) U exp(i nu)] = a (U' cos nu - U'' sin nu) + b (U' sin nu + U'' cos nu),     U = U' + i U''
     pocket j, side t > 0    nu = 2 pi n j/Z           U as in `pocket`, over the wall's angle chi, along (x, r, t) of the pocket
               side t < 0                              (U_x, U_r, -U_t) conjugate
     rivet k                 nu = 2 pi n (k + 1/2)/Z   U real along x, r and about t; i times real along t and about x, r (EVEN)
 
-a and b are two modes of the same frequency; for n = 0 and n = Z/2 there is only a (parity +1) or only b (parity -1).  All are free-free modes,
-normalised with the mass of the half with its part of the rivets (`half.m`) and orthogonal to its rigid motions:
+a and b are two modes of the same frequency; for n = 0 and n = Z/2 there is only a (parity +1) or only b (parity -1).
+All are free-free modes, normalised with the mass of the half with its part of the rivets (`half.m`) and orthogonal to
+its rigid motions:
 
     q'' + omega^2 q = sum over places u . f + spin omega_c^2            u: displacement by q = 1; f: force or moment there
 
-What the other modes add is their static displacement, the residual: statics of the free half, whose inertia balances the loads, less the modes' share.
-Pads: displacements (x, r, t) and rotations (about x, r, t) at the rivet, work-conjugate to the loads of the bonded joint (half_loads.py: N, M_r, M_t of
-pads that do not move along x; V_r, V_t of friction below the head's cone).  Rivet: what the rivet gets because the half gives under its head, as the rows
-dP, dm_r, dm_t of half_path.py: zero if the half moves about the joint as a rigid body; the law of the joint has the part that its own load makes.
+What the other modes add is their static displacement, the residual: statics of the free half, whose inertia balances
+the loads, less the modes' share. Pads: displacements (x, r, t) and rotations (about x, r, t) at the rivet,
+work-conjugate to the loads of the bonded joint (half_loads.py: N, M_r, M_t of pads that do not move along x; V_r, V_t
+of friction below the head's cone).  Rivet: what the rivet gets because the half gives under its head, as the rows dP,
+dm_r, dm_t of half_path.py: zero if the half moves about the joint as a rigid body; the law of the joint has the part
+that its own load makes.
 """
 
 from dataclasses import dataclass, replace
@@ -24,15 +29,17 @@ from functools import cached_property
 
 import numpy as np
 
-from bearing_model.cage.two_half.half_path import cubic_slopes
 from bearing_model.cage.common.joint_law import LawBehind
+from bearing_model.cage.two_half.half_path import cubic_slopes
 
 PAD = ("x", "r", "t", "phi_x", "phi_r", "phi_t")
 RIVET = ("dP", "dm_r", "dm_t")
-EVEN = np.array([1.0, 1.0, -1.0, -1.0, -1.0, 1.0, 1.0, -1.0, 1.0])  # of PAD and RIVET: 1 if mirroring in the rivet's plane leaves it as it is, else -1
+# of PAD and RIVET: 1 if mirroring in the rivet's plane leaves it as it is, else -1
+EVEN = np.array([1.0, 1.0, -1.0, -1.0, -1.0, 1.0, 1.0, -1.0, 1.0])
 MIRROR = np.array([1.0, 1.0, -1.0])  # of x, r, t
 OUT = [0, 4, 5]  # of PAD: relative motions of two pads out of the plane of the split
-LAW_MODES_PER_PITCH = 4.5  # of the half whose residual the joints' law is made for; for other numbers of modes it is found from that
+# of the half whose residual the joints' law is made for; for other numbers of modes it is found from that
+LAW_MODES_PER_PITCH = 4.5
 OTHER_HALF = np.array([-1.0, 1.0, 1.0, 1.0, -1.0, -1.0])  # of PAD: the other half is the mirror image in the split
 
 
@@ -42,9 +49,11 @@ class Residual:
 
     pad: np.ndarray  # [Z, PAD, PAD] at the rivet k pitches farther by unit loads on a pad
     rivet: np.ndarray  # [Z, RIVET, PAD] by unit loads on a pad
-    pocket: np.ndarray  # [chi, Z, PAD and RIVET, 3] at the rivets by unit forces (x, r, t) on the wall of pocket 0, t > 0
+    # [chi, Z, PAD and RIVET, 3] at the rivets by unit forces (x, r, t) on the wall of pocket 0, t > 0
+    pocket: np.ndarray
     spin: np.ndarray  # [PAD and RIVET] at any rivet per (rad/s)^2 at mass m
-    wall: np.ndarray  # [chi] of the wall under the contact, along its normal, less the indentation that Hertz's formula counts [m/N]
+    # [chi] of the wall under the contact, along its normal, less the indentation that Hertz's formula counts [m/N]
+    wall: np.ndarray
 
 
 @dataclass
@@ -97,7 +106,9 @@ def phases(modes, shift):
 
 
 def coordinates(modes, a, b):
-    """Rows of all coordinates in order, from those of a and of b [entries, ...]: both of a pair, the one that a single mode has."""
+    """Rows of all coordinates in order, from those of a and of b [entries, ...]: both of a pair, the one that a single
+    mode has.
+    """
     rows = np.stack([a, b], axis=1)
     return rows[np.stack([modes.parity >= 0, modes.parity <= 0], axis=1)]
 
@@ -108,7 +119,9 @@ def frequencies(modes):
 
 
 def pocket_shapes(modes, values=None):
-    """Displacements (x, r, t) of all coordinates at all pockets [n, Z, chi, t > 0 and t < 0, 3]; values: `slope` for their slopes over chi."""
+    """Displacements (x, r, t) of all coordinates at all pockets [n, Z, chi, t > 0 and t < 0, 3]; values: `slope` for
+    their slopes over chi.
+    """
     U = modes.pocket if values is None else values
     c, s = (f[:, :, None, None] for f in phases(modes, 0.0))
     sides = []
@@ -132,7 +145,8 @@ def spin_load(modes):
 
 
 def fewer(modes, n):
-    """The first modes, n of them or one less where a pair would be parted; the residual takes the statics of the others.
+    """The first modes, n of them or one less where a pair would be parted; the residual takes the statics of the
+    others.
 
     n: 0 leaves none.  Raises ValueError if there are not so many.
     """
@@ -140,9 +154,13 @@ def fewer(modes, n):
     if not 0 <= n <= total:
         raise ValueError(f"modes = {n}: a number from 0 to {total} is needed, as many as the rivet table has")
     kept = int(np.searchsorted(np.cumsum(modes.count), n, side="right"))
-    arrays = {name: getattr(modes, name) for name in ("omega", "harmonic", "parity", "pocket", "pad", "rivet", "rim", "spin")}
+    arrays = {
+        name: getattr(modes, name) for name in ("omega", "harmonic", "parity", "pocket", "pad", "rivet", "rim", "spin")
+    }
     rest = replace(modes, **{name: values[kept:] for name, values in arrays.items()})
-    return replace(modes, **{name: values[:kept] for name, values in arrays.items()}, residual=softer(modes.residual, rest))
+    return replace(
+        modes, **{name: values[:kept] for name, values in arrays.items()}, residual=softer(modes.residual, rest)
+    )
 
 
 def joint_residual(modes):
@@ -166,7 +184,11 @@ def softer(residual, modes):
 
 
 def denser(modes, ratio):
-    """The modes of a half whose density everywhere is `ratio` times as large: omega and all shapes by 1/sqrt(ratio), forces of the spin by sqrt(ratio)."""
+    """The modes of a half whose density everywhere is `ratio` times as large: omega and all shapes by 1/sqrt(ratio),
+    forces of the spin by sqrt(ratio).
+    """
     root = np.sqrt(ratio)
     scaled = {name: getattr(modes, name) / root for name in ("omega", "pocket", "pad", "rivet", "rim")}
-    return replace(modes, **scaled, spin=modes.spin * root, residual=replace(modes.residual, spin=modes.residual.spin * ratio))
+    return replace(
+        modes, **scaled, spin=modes.spin * root, residual=replace(modes.residual, spin=modes.residual.spin * ratio)
+    )

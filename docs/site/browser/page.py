@@ -1,4 +1,5 @@
-"""Write the page that runs the bearing in a browser: one HTML file with the core as WebAssembly, the worker that runs it and the report's drawing.
+"""Write the page that runs the bearing in a browser: one HTML file with the core as WebAssembly, the worker that runs
+it and the report's drawing.
 
 python docs/site/browser/page.py --core build/wasm32/RivetedBearing.wasm --out build/browser/bearing.html
 """
@@ -19,8 +20,18 @@ HERE = Path(__file__).resolve().parent
 LICENCES = ("LICENSE", "THIRD_PARTY_NOTICES.md")  # of the repository
 OF_ZIG = ("musl/COPYRIGHT", "wasi/LICENSE-MIT")  # of the C library that zig links, in its folder libc
 Z = variables.Z
-DRAWN = ("bearing.D", "bearing.d_m", "bearing.P_d", "cage.D_o", "cage.D_i", "cage.width", "cage.pocket_clearance", "cage.guide_clearance")
-UNITS = {"rev/min": 9.549296585513721, "deg": 57.29577951308232, "MPa": 1e-6, "um": 1e6, "N": 1.0, "1": 1.0}  # shown = factor * SI
+DRAWN = (
+    "bearing.D",
+    "bearing.d_m",
+    "bearing.P_d",
+    "cage.D_o",
+    "cage.D_i",
+    "cage.width",
+    "cage.pocket_clearance",
+    "cage.guide_clearance",
+)
+# shown = factor * SI
+UNITS = {"rev/min": 9.549296585513721, "deg": 57.29577951308232, "MPa": 1e-6, "um": 1e6, "N": 1.0, "1": 1.0}
 SLIDERS = (  # variable, label, unit, least, largest, step
     ("shaft.F_y", "Radial load", "N", 0, 6000, 2),
     ("shaft.F_x", "Axial load", "N", 0, 2000, 5),
@@ -49,11 +60,19 @@ ROWS = (  # of the table of statistics: title, unit, prefix of the outputs
     ("Pocket force, all balls", "N", "stat.Q_c"),
 )
 KINDS = ("mean", "rms", "p999", "max")
-FIGURES = (*(f"{prefix}_{kind}" for _, _, prefix in ROWS for kind in KINDS), "stat.time", "cage.slip_ratio", "cage.dislocation", "bearing.power_loss")
+FIGURES = (
+    *(f"{prefix}_{kind}" for _, _, prefix in ROWS for kind in KINDS),
+    "stat.time",
+    "cage.slip_ratio",
+    "cage.dislocation",
+    "bearing.power_loss",
+)
 
 
 def sliders():
-    """What the page knows of each slider: variable, label, unit and factor, range and start value in this unit, whether it is an input."""
+    """What the page knows of each slider: variable, label, unit and factor, range and start value in this unit, whether
+    it is an input.
+    """
     known = variables.INPUTS | variables.PARAMETERS
     for name, label, unit, low, high, step in SLIDERS:
         value = round(UNITS[unit] * known[name].start / step) * step
@@ -94,7 +113,9 @@ def page(core):
         "peaks": PEAKS,
         "figures": FIGURES,
     }
-    environment = jinja2.Environment(autoescape=True, trim_blocks=True, lstrip_blocks=True, undefined=jinja2.StrictUndefined)
+    environment = jinja2.Environment(
+        autoescape=True, trim_blocks=True, lstrip_blocks=True, undefined=jinja2.StrictUndefined
+    )
     return environment.from_string((HERE / "page.html").read_text(encoding="utf-8")).render(
         style=(PARTS / "style.css").read_text(encoding="utf-8"),
         drawing=(PARTS / "drawing.js").read_text(encoding="utf-8"),

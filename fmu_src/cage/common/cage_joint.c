@@ -23,8 +23,8 @@
 #include "cage/common/cage_joint.h"
 
 #include "cage/elastic/elastic_half.h"
-#include "physics/rotor.h"
 #include "numbers/vec.h"
+#include "physics/rotor.h"
 
 void cage_joint_kinematics(const Model *model, Work *w)
 {

@@ -6,8 +6,9 @@
 #include "rivet/rivet_rom.h"
 
 // Prying force dT [N]: what the cage's centrifugal load adds to the rivet's tension and to the plates' contact
-// force, T_rest - P of joints that are all alike (joint_law.h), at their mean preload.  C1 in the cage's speed: the cubic through the
-// states of the table, which are at equal steps of x = c/(c + P), with slopes by central differences.
+// force, T_rest - P of joints that are all alike (joint_law.h), at their mean preload.  C1 in the cage's
+// speed: the cubic through the states of the table, which are at equal steps of x = c/(c + P), with slopes by
+// central differences.
 ONCE scalar cage_joint_prying(const Model *model, const Work *w)
 {
     const Derived *d = model->d;
@@ -33,7 +34,8 @@ void cage_joint_kinematics(const Model *model, Work *w);
 // both halves.
 void cage_joint_force(const Model *model, const scalar *y, Work *w);
 
-// Forces of elastic halves' joints in the plane, by the offsets in w and the friction states in y: joint_F_y, joint_F_z.
+// Forces of elastic halves' joints in the plane, by the offsets in w and the friction states in y: joint_F_y,
+// joint_F_z.
 #define cage_joint_shear FOR_ISA(cage_joint_shear)
 void cage_joint_shear(const Model *model, const double *y, Work *w);
 

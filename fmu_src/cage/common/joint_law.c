@@ -35,8 +35,9 @@ static void find_alone_alike(const JointLaw *law, ball_array bonded[3], const sc
     }
 }
 
-// Joints near the state where all are alike answer to L* by their tangent there, unless they are broken.  The others keep their last
-// answer, and those of them are wanted whose L* has changed since; in the first sweep all others are.
+// Joints near the state where all are alike answer to L* by their tangent there, unless they are broken.  The
+// others keep their last answer, and those of them are wanted whose L* has changed since; in the first sweep
+// all others are.
 static void answer_near(const JointLaw *law, ball_array bonded[3], const ball_array P, const constants intact,
                         scalar spin_P, const scalar at[ALIKE_WIDTH], bool first, wide alone[PACKETS][3],
                         Opening *o, Wanted *wanted)

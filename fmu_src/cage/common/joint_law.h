@@ -123,7 +123,8 @@ INLINE void law_octet(const JointLaw *law, const scalar u[LAW_AXES], octet *S)
     law_sum(law, place, w, S);
 }
 
-// Moves of a joint's pad and loads of its rivet under L* = (N, M_r, M_t) and P; the energy of elastic_half.h if it is asked for.
+// Moves of a joint's pad and loads of its rivet under L* = (N, M_r, M_t) and P; the energy of elastic_half.h
+// if it is asked for.
 INLINE void joint_law(const JointLaw *law, const scalar load[3], scalar P, scalar move[3], scalar rivet[3],
                       scalar *energy)
 {
@@ -191,7 +192,8 @@ ONCE void joint_free(const double K[3][3], const scalar load[3], scalar move[3])
 int joints_open(const JointLaw *law, ball_array bonded[3], const ball_array P, const constants intact,
                 scalar spin_M, scalar spin_P, ball_array load[3], ball_array rivet[3]);
 
-// What joints have for the transverse loads: friction of plates and heads [N], play [m]; stiffness of heads and hole [N/m].
+// What joints have for the transverse loads: friction of plates and heads [N], play [m]; stiffness of heads
+// and hole [N/m].
 typedef struct {
     ball_array plates, heads, gap, k_hole;
     double k_head;

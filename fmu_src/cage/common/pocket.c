@@ -197,7 +197,8 @@ typedef struct {
     PocketGap gap;
 } TouchedPacket;
 
-// Bits of the balls of a packet that press on a wall, behind what the walls have moved; `near`: those that can have reached it.
+// Bits of the balls of a packet that press on a wall, behind what the walls have moved; `near`: those that
+// can have reached it.
 static int find_touched(const Model *model, const Work *w, int h, int j, int near, PocketGap *gap,
                         WallPlaces *places)
 {
@@ -249,7 +250,8 @@ static void press_walls(const Model *model, Work *w, const TouchedPacket *at, co
     }
 }
 
-// All pockets of both elastic halves, stage by stage: what takes long for a packet, as the approaches, runs for several at a time.
+// All pockets of both elastic halves, stage by stage: what takes long for a packet, as the approaches, runs
+// for several at a time.
 static void pocket_elastic(const Model *model, Work *w, bool mixed)
 {
     TouchedPacket packets[2 * PACKETS];

@@ -1,9 +1,9 @@
 // Contact of the balls with the cage pockets.  Equations in pocket.c.
 #pragma once
 
-#include "physics/hertz.h"
 #include "numbers/isa.h"
 #include "numbers/vec.h"
+#include "physics/hertz.h"
 
 // Adds to the balls' forces, moments, rates and dissipation; sets the wrench on both halves.
 void pocket_force(const Model *model, Work *w);

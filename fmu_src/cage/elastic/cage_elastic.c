@@ -1,37 +1,38 @@
-// Elastic cage halves.  Each half vibrates in the frame that moves with it as a rigid body, by its free modes i with the
-// coordinates q_i and the modal mass m of the half:
+// Elastic cage halves.  Each half vibrates in the frame that moves with it as a rigid body, by its free modes
+// i with the coordinates q_i and the modal mass m of the half:
 //
 //     m (q_i'' + 2 zeta omega_i q_i' + omega_i^2 q_i) = sum phi_i . F,       u = sum phi_i q_i
 //
-// F: forces of balls on the pockets' walls (pocket.c), loads of the joints on the pads, centrifugal load.  Half 0 is the
-// mirror image of half 1, so that with S = (q_1 + q_0)/sqrt 2 (mirrored) and D = (q_1 - q_0)/sqrt 2 (opposed) the pads of
-// one joint move against each other by
+// F: forces of balls on the pockets' walls (pocket.c), loads of the joints on the pads, centrifugal load.
+// Half 0 is the mirror image of half 1, so that with S = (q_1 + q_0)/sqrt 2 (mirrored) and D = (q_1 -
+// q_0)/sqrt 2 (opposed) the pads of one joint move against each other by
 //
 //     x, phi_r, phi_t:  sqrt 2 sum phi_i S_i    out of the plane: N, M_r, M_t
 //     r, t:             sqrt 2 sum phi_i D_i    in the plane: V_r, V_t
 //
-// Joint, out of the plane: with e half of the relative motion of its pads (rigid and elastic) and K the inverse of the static
-// compliance that the modes leave between the pads of one joint,
+// Joint, out of the plane: with e half of the relative motion of its pads (rigid and elastic) and K the
+// inverse of the static compliance that the modes leave between the pads of one joint,
 //
 //     L^ = K e,     (L, T, m_r, m_t) = law(L^, P)
 //
-// with the joint's law over K (elastic_half.c): its pads move by delta, L = K (e - delta).  So each joint follows from its own
-// pads; what the loads of other joints move them by beside the modes is left out: with 4.4 modes a pitch 7 % of what a joint's
-// own load does.  In the plane, friction states and the hole's contact are those of cage_joint.c, in series with what the modes leave.
-// Pads do not hold each other about x.
+// with the joint's law over K (elastic_half.c): its pads move by delta, L = K (e - delta).  So each joint
+// follows from its own pads; what the loads of other joints move them by beside the modes is left out: with
+// 4.4 modes a pitch 7 % of what a joint's own load does.  In the plane, friction states and the hole's
+// contact are those of cage_joint.c, in series with what the modes leave. Pads do not hold each other about x.
 //
-// The centrifugal load widens a half, which takes spin from it: its moment of inertia is J_p + 2 sum spin_i q_i.  Coriolis
-// forces on the modes and their softening by spin are left out: 2 omega_c/omega_i and (omega_c/omega_i)^2.
+// The centrifugal load widens a half, which takes spin from it: its moment of inertia is J_p + 2 sum spin_i
+// q_i.  Coriolis forces on the modes and their softening by spin are left out: 2 omega_c/omega_i and
+// (omega_c/omega_i)^2.
 #include "cage/elastic/cage_elastic.h"
 
 #include "cage/elastic/elastic_half.h"
-#include "rivet/rivet_rom.h"
 #include "physics/rotor.h"
+#include "rivet/rivet_rom.h"
 
 static const double ROOT = 1.4142135623730951;  // of 2
 
-// Motions of the pads against each other by modal coordinates: motions of the first pads, in rows of a number of octets.  The mirror image
-// turns the sign of odd motions by a and of the others by b.
+// Motions of the pads against each other by modal coordinates: motions of the first pads, in rows of a number
+// of octets.  The mirror image turns the sign of odd motions by a and of the others by b.
 INLINE void pads_follow(const ElasticHalf *half, const scalar *q, int motions, int octets, const double *rows,
                         const int *pads, ball_array *to)
 {

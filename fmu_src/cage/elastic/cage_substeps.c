@@ -1,6 +1,7 @@
-// Substeps of elastic halves: the multiple time step method (Tuckerman, Berne and Martyna 1992) with the slow forces held over
-// the step.  Closed joints vibrate with the halves at up to 80 kHz, their loads decide the rivets' stress, and an evaluation of them
-// costs a fifth of one of all forces.  So a step of length h takes n substeps of length d = h/n, of velocity Verlet,
+// Substeps of elastic halves: the multiple time step method (Tuckerman, Berne and Martyna 1992) with the slow
+// forces held over the step.  Closed joints vibrate with the halves at up to 80 kHz, their loads decide the
+// rivets' stress, and an evaluation of them costs a fifth of one of all forces.  So a step of length h takes
+// n substeps of length d = h/n, of velocity Verlet,
 //
 //     v_m = (v + d/2 (a_f + a_s))/(1 + d c/2),  q += d v_m,  v = v_m (1 - d c/2) + d/2 (a_f + a_s)
 //
@@ -8,31 +9,35 @@
 // a_f: fast accelerations, by the joints and the modes' own springs, asked for at each substep
 // a_s: slow ones, by all else, at the step's start; the trapezoidal rule of verlet.c corrects them at its end
 //
-// The joints' motions are integrated with the velocities, in the frame of half 0 as it is in the middle of the step, and found anew from
-// the positions at each evaluation, which is the last substep's.  The halves as rigid bodies keep their own centre of mass and their common
-// motion: of a relative motion each takes half.  Forces in the plane of the split act beside the centres of mass, c_x from them,
-// and tilt both halves alike; a joint feels the inverse inertia 2/m + 2 c_x^2/J_t there.  Whatever these motions leave out,
-// gyroscopic terms for example, is in the slow accelerations, because these are the whole ones less the fast ones.
+// The joints' motions are integrated with the velocities, in the frame of half 0 as it is in the middle of
+// the step, and found anew from the positions at each evaluation, which is the last substep's.  The halves as
+// rigid bodies keep their own centre of mass and their common motion: of a relative motion each takes half.
+// Forces in the plane of the split act beside the centres of mass, c_x from them, and tilt both halves alike;
+// a joint feels the inverse inertia 2/m + 2 c_x^2/J_t there.  Whatever these motions leave out, gyroscopic
+// terms for example, is in the slow accelerations, because these are the whole ones less the fast ones.
 //
-// A ball that presses on a wall holds it: a load held over the step would answer to the wall's motion a step late, which is unstable where the
-// contact is stiffer than the wall.  So the load follows in the substeps, Q + k (rate t - u), k the contact's stiffness, rate
-// that of the approach by rigid motions and u what the modes move the wall since the step's start; the end corrects it too.
+// A ball that presses on a wall holds it: a load held over the step would answer to the wall's motion a step
+// late, which is unstable where the contact is stiffer than the wall.  So the load follows in the substeps, Q
+// + k (rate t - u), k the contact's stiffness, rate that of the approach by rigid motions and u what the
+// modes move the wall since the step's start; the end corrects it too.
 //
-// The joints turn with the cage, by 1.8 degrees in a step at 72,000 r/min: in the frame of the joints the relative velocities turn back,
-// and so does the way since the middle of the step; the joints' accelerations turn into the frame of the middle.  Both to first order in the angle.
+// The joints turn with the cage, by 1.8 degrees in a step at 72,000 r/min: in the frame of the joints the
+// relative velocities turn back, and so does the way since the middle of the step; the joints' accelerations
+// turn into the frame of the middle.  Both to first order in the angle.
 //
-// The gyroscopic moment of the halves' relative tilts belongs to the slow accelerations, but follows in the substeps too: sampled at the
-// ends of the steps and held, it would feed vibrations that turn by more than a little, by 120/s at 12,000 r/min.
+// The gyroscopic moment of the halves' relative tilts belongs to the slow accelerations, but follows in the
+// substeps too: sampled at the ends of the steps and held, it would feed vibrations that turn by more than a
+// little, by 120/s at 12,000 r/min.
 //
-// The friction states follow the implicit midpoint rule (cage_joint_advance).  What they and the modes' damping dissipate is summed over
-// the substeps.  docs/method.md has the measured reasons.
+// The friction states follow the implicit midpoint rule (cage_joint_advance).  What they and the modes'
+// damping dissipate is summed over the substeps.  docs/method.md has the measured reasons.
 #include "cage/elastic/cage_substeps.h"
 
-#include "cage/elastic/cage_elastic.h"
 #include "cage/common/cage_joint.h"
+#include "cage/elastic/cage_elastic.h"
 #include "cage/elastic/elastic_half.h"
-#include "rivet/rivet_rom.h"
 #include "physics/rotor.h"
+#include "rivet/rivet_rom.h"
 
 static const double MOST_SUBSTEPS = 1000.0;  // an absurd step ends with a refusal, not with years of substeps
 static const double ROUNDING = 1e-9;         // part of a substep by which the last one may be longer
@@ -86,7 +91,8 @@ static void take(const Model *model, const Rotor *h0, const double *f, double re
     relative[SPIN] = d[5];
 }
 
-// Accelerations of modes and relative motions by the joints' loads and pulls in w and, at the coordinates in y, by the modes' springs.
+// Accelerations of modes and relative motions by the joints' loads and pulls in w and, at the coordinates in
+// y, by the modes' springs.
 static void fast_accelerations(const Model *model, const double *y, const Work *w, double modes[2 * N_MODES],
                                double rigid[RELATIVE_MOTIONS])
 {
@@ -140,8 +146,8 @@ void cage_substeps_split(const Model *model, const double *y, const Work *w, dou
     f[Y_WORK] += ball_array_sum(w->joint_dissipated) + w->modes_dissipated;
 }
 
-// Velocities of the joints by the rigid motions of the halves: out of the plane (x, about r, about t), across it (y, z); those of the
-// halves against each other, as relative motions.
+// Velocities of the joints by the rigid motions of the halves: out of the plane (x, about r, about t), across
+// it (y, z); those of the halves against each other, as relative motions.
 typedef struct {
     ball_array out[3], y, z;
     double relative[RELATIVE_MOTIONS];
@@ -171,7 +177,8 @@ static void rigid_velocities(const Model *model, const Work *w, JointVelocities 
     }
 }
 
-// The joints turn with half 0, by the angle phi from the middle of the step on.  Turns accelerations in their frame into the frame of the middle.
+// The joints turn with half 0, by the angle phi from the middle of the step on.  Turns accelerations in their
+// frame into the frame of the middle.
 static void turn_out(double phi, double relative[RELATIVE_MOTIONS])
 {
     for (int i = ABOUT_Y; i <= ACROSS_Y; i += 2) {
@@ -181,8 +188,9 @@ static void turn_out(double phi, double relative[RELATIVE_MOTIONS])
     }
 }
 
-// Adds to velocities in the frame of the middle what the joints, which turn at the rate s, see beside them at the time t after it: those velocities
-// turn back, and so does the way since the middle.  moved: the part of that way by the fast accelerations.
+// Adds to velocities in the frame of the middle what the joints, which turn at the rate s, see beside them at
+// the time t after it: those velocities turn back, and so does the way since the middle.  moved: the part of
+// that way by the fast accelerations.
 static void turn_in(double s, double t, const JointVelocities *middle, const double slow[RELATIVE_MOTIONS],
                     const double moved[RELATIVE_MOTIONS], double relative[RELATIVE_MOTIONS])
 {
@@ -297,7 +305,8 @@ static int find_touches(const ElasticHalf *half, const FastState *fast, const do
     return count;
 }
 
-// Slow accelerations of the modes at the time t of the step: those held, and what the loads on the walls have changed by.
+// Slow accelerations of the modes at the time t of the step: those held, and what the loads on the walls have
+// changed by.
 static void slow_accelerations(const Model *model, double t, const double *at_start, const Touch *touches,
                                int count, const double *q, double slow[2 * N_MODES])
 {

@@ -5,8 +5,8 @@
 #include "numbers/isa.h"
 #include "physics/model.h"
 
-// Where the substeps of the next step begin: joints, contacts and fast accelerations at an evaluation.  Part of the saved state: no
-// member is aligned beyond a double, so that nothing lies between them.
+// Where the substeps of the next step begin: joints, contacts and fast accelerations at an evaluation.  Part
+// of the saved state: no member is aligned beyond a double, so that nothing lies between them.
 typedef struct {
     double e[3][LANES], u_y[LANES],
         u_z[LANES];                   // motions of the joints out of the plane and offsets in it (model.h)
@@ -23,16 +23,17 @@ typedef struct {
 #define cage_substeps_split FOR_ISA(cage_substeps_split)
 void cage_substeps_split(const Model *model, const double *y, const Work *w, double *f, FastState *fast);
 
-// Slow accelerations at the step's end as the substeps foresee them: those of the modes; of the halves what they change by, in
-// the order of their velocities in the state.
+// Slow accelerations at the step's end as the substeps foresee them: those of the modes; of the halves what
+// they change by, in the order of their velocities in the state.
 typedef struct {
     double modes[2 * N_MODES], halves[2 * RELATIVE_MOTIONS];
 } Foreseen;
 
-// Substeps of a step of length h from `fast` under the slow rates f.  y: the state at the step's start but for positions
-// and velocities of the halves, which a step without fast accelerations has reached at its end and in its middle; the substeps
-// add theirs, and advance modes, friction states and work.  w: kinematics in the middle.  Velocities and rates of the modes lack
-// the last substep's second half.  Returns the length of the substeps [s].
+// Substeps of a step of length h from `fast` under the slow rates f.  y: the state at the step's start but
+// for positions and velocities of the halves, which a step without fast accelerations has reached at its end
+// and in its middle; the substeps add theirs, and advance modes, friction states and work.  w: kinematics in
+// the middle.  Velocities and rates of the modes lack the last substep's second half.  Returns the length of
+// the substeps [s].
 #define cage_substeps_advance FOR_ISA(cage_substeps_advance)
 double cage_substeps_advance(const Model *model, double h, const FastState *fast, const double *f, double *y,
                              Foreseen *foreseen, Work *w);

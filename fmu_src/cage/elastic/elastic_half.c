@@ -5,8 +5,8 @@
 #include "numbers/elimination.h"
 #include "rivet/rivet_rom.h"
 
-// Angle by which the fastest vibration of closed joints turns in a substep: velocity Verlet is stable up to 2, and the law's
-// rounding may make a joint stiffer by 30 %.
+// Angle by which the fastest vibration of closed joints turns in a substep: velocity Verlet is stable up to
+// 2, and the law's rounding may make a joint stiffer by 30 %.
 static const double SUBSTEP_TURN = 1.6;
 
 enum { RAY = 24 };
@@ -103,8 +103,8 @@ static const JointLaw *table_law(void)
     return &rivet_table.modes.law;
 }
 
-// L + K delta - L^ in newtons where the joint carries L, under the load `at` of the table's law, at + (ratio - 1)(at - L)
-// with ratio = K K_table^-1.
+// L + K delta - L^ in newtons where the joint carries L, under the load `at` of the table's law, at + (ratio
+// - 1)(at - L) with ratio = K K_table^-1.
 static void behind_residual(double ratio[3][3], const double at[3], double P, const double behind[3],
                             double rest[3])
 {
@@ -123,7 +123,8 @@ static double size_of(const double rest[3])
     return fabs(rest[0]) + fabs(rest[1]) + fabs(rest[2]);
 }
 
-// The load `at` of the table's law for L^, by Newton's method with differences; a step is halved until the residual falls.
+// The load `at` of the table's law for L^, by Newton's method with differences; a step is halved until the
+// residual falls.
 static void load_before(double ratio[3][3], const double behind[3], double P, double at[3])
 {
     const double length = table_law()->length, unit[3] = {1.0, length, length};
@@ -170,8 +171,9 @@ static double site(int s, int cells)
     return s == 0 ? 0.0 : s == cells + 1 ? cells : s - 0.5;
 }
 
-// Coefficients of uniform quadratic splines from their values at the sites of one axis, in place: the first and the last
-// equation give the outer coefficients, (c_0 + c_1)/2 = v_0, and the others are (c_i + 6 c_(i+1) + c_(i+2))/8 = v.
+// Coefficients of uniform quadratic splines from their values at the sites of one axis, in place: the first
+// and the last equation give the outer coefficients, (c_0 + c_1)/2 = v_0, and the others are (c_i + 6 c_(i+1)
+// + c_(i+2))/8 = v.
 static void interpolate_axis(double *values, int cells, int stride)
 {
     enum { MOST = 64 };
@@ -208,8 +210,8 @@ static void interpolate(const int cells[LAW_AXES], double *values)
     }
 }
 
-// Values at a site of the law: loads of joint and rivet under L^ (first pass); U, the work of the moves along the ray from 0 to
-// L^, by Simpson's rule (second pass).
+// Values at a site of the law: loads of joint and rivet under L^ (first pass); U, the work of the moves along
+// the ray from 0 to L^, by Simpson's rule (second pass).
 static void site_values(const ElasticHalf *half, double ratio[3][3], const double behind[3], double P,
                         int pass, double *to)
 {
@@ -265,8 +267,8 @@ static void law_behind(ElasticHalf *half)
 }
 
 // ---- vibrations of the pair -----------------------------------------------------------------------------------------
-// Motion c of joint k by unit of a relative rigid motion: out of the plane (x, about r, about t) by v_x and rotations about
-// y and z, in it (r, t) by v_y, v_z and the spin.
+// Motion c of joint k by unit of a relative rigid motion: out of the plane (x, about r, about t) by v_x and
+// rotations about y and z, in it (r, t) by v_y, v_z and the spin.
 static double rigid_motion(bool out, int motion, int c, double theta)
 {
     const double R = 0.5 * rivet_table.joint.d_m, cosine = portable_cos(theta), sine = portable_sin(theta);
@@ -298,8 +300,8 @@ static double largest_eigenvalue(int n, double A[COORDINATES][COORDINATES])
     return lambda;
 }
 
-// Square of the highest frequency of both halves with closed joints.  K: stiffness of a joint for relative motions out of the plane or
-// in it; rigid: inertia of the relative rigid motions.
+// Square of the highest frequency of both halves with closed joints.  K: stiffness of a joint for relative
+// motions out of the plane or in it; rigid: inertia of the relative rigid motions.
 static double fastest(const Parameters *p, const ElasticHalf *half, bool out, double K[PAD_OUT][PAD_OUT],
                       const double rigid[3])
 {
@@ -432,8 +434,8 @@ static void find_reach(ElasticHalf *half)
 }
 
 // ---- rest under the centrifugal load -----------------------------------------------------------------------------------
-// All joints are alike: N = 0, and their M_t balances S_i = sqrt 2 (spin_i omega^2 - Z phi_t,i M_t)/(m omega_i^2).  Sets S and
-// what is off for the distance x[0] and M_t = x[1]: N, and M_t over the law's length [N].
+// All joints are alike: N = 0, and their M_t balances S_i = sqrt 2 (spin_i omega^2 - Z phi_t,i M_t)/(m
+// omega_i^2).  Sets S and what is off for the distance x[0] and M_t = x[1]: N, and M_t over the law's length [N].
 static void rest_off(const Parameters *p, const ElasticHalf *half, double omega_2, double P,
                      const double x[2], double *S, double off[2])
 {

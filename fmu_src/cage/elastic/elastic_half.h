@@ -3,25 +3,26 @@
 // The half is a ring of Z equal pitches.  An entry of the table is a mode of harmonic n, for 0 < n < Z/2 a pair of the
 // same frequency with the coordinates a (cos) and b (sin).  A place whose complex amplitude on pitch 0 is A moves by
 //
-//     u_j = Re[(a - i b) A exp(i nu)]      pocket j, side t > 0:  nu = 2 pi n j/Z;  side t < 0: (A_x, A_r, -A_t) conjugate
-//                                          rivet k:  nu = 2 pi n (k + 1/2)/Z;  A real along x, r and about t, else imaginary
+//     u_j = Re[(a - i b) A exp(i nu)]      pocket j, side t > 0:  nu = 2 pi n j/Z;  side t < 0: (A_x, A_r,
+// -A_t) conjugate                                          rivet k:  nu = 2 pi n (k + 1/2)/Z;  A real along
+// x, r and about t, else imaginary
 //
 // (half_modes.h, bearing_model/cage/elastic/half_modes.py).  A scene takes the modes of the lowest frequencies, without
-// dividing a pair; the statics of all others are the residual.  Here the modes have no dimension and the modal mass is the
-// half's, so that coordinates are lengths.  They stand in this order: all a, those of pairs first; then all b, the same.  So what a pair
-// moves at a place follows from U and two sums of its coordinates:
+// dividing a pair; the statics of all others are the residual.  Here the modes have no dimension and the
+// modal mass is the half's, so that coordinates are lengths.  They stand in this order: all a, those of pairs
+// first; then all b, the same.  So what a pair moves at a place follows from U and two sums of its coordinates:
 //
 //     u_j = U' a' + U'' b',     a' = a cos nu + b sin nu,  b' = b cos nu - a sin nu
 //
-// and its coordinates get the forces f_a = F' cos nu - F'' sin nu, f_b = F' sin nu + F'' cos nu of F' = U'.F, F'' = U''.F.  A single mode
-// has sin nu = 0.  Mirroring the half in the plane between the first and the last rivet turns the sign of each motion of pads by an a or by a
-// b, so that half of the rivets say what all do.
+// and its coordinates get the forces f_a = F' cos nu - F'' sin nu, f_b = F' sin nu + F'' cos nu of F' = U'.F,
+// F'' = U''.F.  A single mode has sin nu = 0.  Mirroring the half in the plane between the first and the last
+// rivet turns the sign of each motion of pads by an a or by a b, so that half of the rivets say what all do.
 #pragma once
 
+#include "cage/common/joint_law.h"
 #include "cage/elastic/half_modes.h"
 #include "cage/two_half/half_path.h"
 #include "numbers/isa.h"
-#include "cage/common/joint_law.h"
 #include "physics/model.h"
 
 enum { MODES = N_MODES };
@@ -31,7 +32,8 @@ enum { PAD_OUT = 3, PAD_IN = 2 };
 
 static const int OUT_PADS[PAD_OUT] = {PAD_X, PAD_PHI_R, PAD_PHI_T}, IN_PADS[PAD_IN] = {PAD_R, PAD_T};
 
-// Motions of the first pads in one row, motion c of joint k in place c FIRST + k; joint Z - 1 - k is its mirror image.  Octets of a row.
+// Motions of the first pads in one row, motion c of joint k in place c FIRST + k; joint Z - 1 - k is its
+// mirror image.  Octets of a row.
 enum { FIRST = (Z + 1) / 2, OUT_OCTETS = (PAD_OUT * FIRST + 7) / 8, IN_OCTETS = (PAD_IN * FIRST + 7) / 8 };
 
 enum { ENTRY_OCTETS = ENTRIES / 8 };
@@ -78,13 +80,14 @@ size_t elastic_half_size(void);
 // What the scene takes of the modes in the rivet table.
 void elastic_half_derive(const Parameters *p, const Derived *d, ElasticHalf *half);
 
-// Coordinates S [MODES] and axial distance of the halves' bodies [m] at which modes and joints rest under the centrifugal
-// load of the speed omega [rad/s].
+// Coordinates S [MODES] and axial distance of the halves' bodies [m] at which modes and joints rest under the
+// centrifugal load of the speed omega [rad/s].
 double elastic_half_rest(const Parameters *p, const Derived *d, const ElasticHalf *half, double omega,
                          double *S);
 
-// Where balls meet the walls of a half's pockets: direction (x, t) from the pocket's axis to the ball, side of the pocket and
-// of the split, node below the wall's angle, weights of the cubics for the value and the slope over the angle.
+// Where balls meet the walls of a half's pockets: direction (x, t) from the pocket's axis to the ball, side
+// of the pocket and of the split, node below the wall's angle, weights of the cubics for the value and the
+// slope over the angle.
 typedef struct {
     ball_array n_x, n_t, value[4], slope[4];
     bool back[LANES], inside[LANES];

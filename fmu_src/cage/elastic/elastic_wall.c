@@ -146,7 +146,8 @@ void elastic_wall(const ElasticHalf *half, int side, int j, const WallPlaces *at
     const Turn turn = turn_of(half, j);
     const double inward = at->inside[j] ? (at->back[j] ? -side : side) : 0.0;
 
-    // motion of a component by the value's weights; the normal's turn n_t u_x - n_x u_t + inward (n_x u_chi,x + n_t u_chi,t)
+    // motion of a component by the value's weights; the normal's turn n_t u_x - n_x u_t + inward (n_x u_chi,x
+    // + n_t u_chi,t)
     wide value[4], tilted[3][4], rates[3][PARTS], tilts[PARTS];
     for (int t = 0; t < 4; t++) {
         const scalar n_x = at->n_x[j], n_t = at->n_t[j], slope = inward * at->slope[t][j];

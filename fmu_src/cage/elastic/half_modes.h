@@ -1,9 +1,10 @@
 // Vibration modes of a free cage half in cyclic form, and the static flexibility beside them.  The head of
-// bearing_model/cage/elastic/half_modes.py has the equations; rivet_model/half_modes.py finds the numbers by finite elements.
+// bearing_model/cage/elastic/half_modes.py has the equations; rivet_model/half_modes.py finds the numbers by
+// finite elements.
 #pragma once
 
-#include "numbers/isa.h"
 #include "cage/common/joint_law.h"
+#include "numbers/isa.h"
 
 // Displacements (x, r, t) and rotations about them of a pad, work-conjugate to what the bonded joint carries, at the
 // rivet; then what its rivet gets because the half gives under its head (rows dP, dm_r, dm_t of half_path.h).
@@ -46,7 +47,7 @@ typedef struct {
     const double *wall_to;  // [chi][value, slope][Z][SEATS][x, r, t] by forces on the wall of pocket 0
     double spin[SEATS];     // per (rad/s)^2, at any rivet
     const double *wall;     // [chi][value, slope] of the wall under the contact, along its normal [m/N]
-    // over L^ = L + K_0 delta, K_0 what a number of modes leaves of the stiffness around a joint: gives L in place of delta,
-    // because L^ - K_0 delta is a small difference; without neighbours
+    // over L^ = L + K_0 delta, K_0 what a number of modes leaves of the stiffness around a joint: gives L in
+    // place of delta, because L^ - K_0 delta is a small difference; without neighbours
     JointLaw law;
 } HalfModes;

@@ -7,8 +7,8 @@
 //
 // and the law is asked, value and slope, where L* and P are farther than REACH s from there.  Between the joints the
 // equations are linear then: sweeps over all joints, side by side, without the law (joint_law.h: a sweep leaves a
-// fifth to a half of the error).  The first tangent of all joints is the one where they are alike.  While joints_open asks
-// the law FEW times at an instant it costs less than the sweeps, and finds the loads by itself.
+// fifth to a half of the error).  The first tangent of all joints is the one where they are alike.  While
+// joints_open asks the law FEW times at an instant it costs less than the sweeps, and finds the loads by itself.
 // A joint that carries nothing has K_0^-1 as its slope, everywhere.
 #include "cage/two_half/joint_follow.h"
 
