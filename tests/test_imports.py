@@ -17,7 +17,15 @@ PACKAGES = ("bearing_model", "rivet_model", "riveted_bearing")
 # All that rivet_model may know of bearing_model.
 READERS = {
     f"bearing_model.{name}"
-    for name in ("rivet_table", "rivet_rom", "rivet_splines", "joint_law", "half_path", "half_modes", "lanes")
+    for name in (
+        "rivet.rivet_table",
+        "rivet.rivet_rom",
+        "rivet.rivet_splines",
+        "cage.common.joint_law",
+        "cage.two_half.half_path",
+        "cage.elastic.half_modes",
+        "numbers.lanes",
+    )
 }
 
 
@@ -150,7 +158,8 @@ def test_physics_runs_without_the_application():
 
 def test_rivet_model_runs_without_the_dynamics():
     modules = loaded("import rivet_model.build, rivet_model.components, rivet_model.embed, rivet_model.pictures")
-    assert {name for name in modules if name.startswith("bearing_model.")} == READERS
+    packages = {name for name, path in FILES.items() if path.name == "__init__.py"}
+    assert {name for name in modules if name.startswith("bearing_model.")} - packages == READERS
 
 
 def test_embedding_a_table_needs_numpy_only():

@@ -32,7 +32,7 @@ def test_symbol_is_a_variable(name):
 @pytest.mark.parametrize("element", sorted(set(re.findall(r"\| `([a-z_]+)`(?:, `([a-z_]+)`)? \|$", README, re.M))))
 def test_element_has_its_file(element):
     for name in filter(None, element):
-        assert any((ROOT / "fmu_src" / f"{name}.{ending}").exists() for ending in "ch")
+        assert any((ROOT / "fmu_src").rglob(f"{name}.[ch]"))
 
 
 @pytest.mark.parametrize("path", re.findall(r"\]\(([^)]+)\)", README))

@@ -20,7 +20,7 @@ from bearing_model.cage.common import joint_law
 from bearing_model.cage.elastic.half_modes import PAD, RIVET, HalfModes, Residual
 from bearing_model.cage.two_half import half_path
 
-DEFAULT_TABLE = Path(__file__).resolve().parents[1] / "rivet_model" / "tables" / "6207.json"
+DEFAULT_TABLE = Path(__file__).resolve().parents[2] / "rivet_model" / "tables" / "6207.json"
 FORMAT = "rivet-table-5"
 # numbered from 1: the output rivet.table_kind
 KINDS = {"fe": "finite elements", "fe_coarse": "coarse finite elements", "closed_form": "closed forms"}
