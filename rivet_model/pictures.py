@@ -13,8 +13,8 @@ from . import half, half_loads, half_modes, plastic_fit
 from .cage_half import CageHalf, CyclicSolid
 from .load_cases import GROUPS
 
-SWELL = 4e-6  # m, default of joint.swell
-FIT = -10e-6 + SWELL  # m, of the default joint
+SWELL = 4e-6  # m, default of joint.swell, of the 6207's rivets; that of others goes with Geometry.size
+FIT = -10e-6  # m, of the default joint
 HEAD, MIDDLE = "#c8442b", "#2a6f97"
 
 
@@ -83,15 +83,18 @@ def joint_response(joint):
     return stress, lambda fit_a: np.where(fit_a > 0.0, np.interp(fit_a, fitted.fit_a, fitted.fit_eff), fit_a)
 
 
-def curves(stress, fit_eff, swell=SWELL):
+def curves(stress, fit_eff, size=1.0):
     """Curves by name: preload alone at the largest clearance; REFERENCE over the fit, elastic and with the flange's
     yield; over the transverse load.
+
+    size: Geometry.size, with which the swell goes.
     """
     preload, fit, V = np.linspace(0.0, 60.0, 25), 1e-6 * np.arange(-90.0, 40.1, 2.0), np.linspace(0.0, 60.0, 25)
-    loose, r = -90e-6, REFERENCE
+    loose, r, swell = -90e-6, REFERENCE, size * SWELL
+    swollen = f"swell {1e6 * swell:.3g} µm"
     alone = f"fit {micrometres(loose)} (clearance), no external load"
-    loaded = f"preload {r.P:g} N, external tension {r.N:g} N, transverse load {r.V:g} N"
-    preloaded = f"preload {r.P:g} N, no external tension, fit {micrometres(FIT - SWELL)} (clearance)"
+    loaded = f"preload {r.P:g} N, external tension {r.N:g} N, transverse load {r.V:g} N, {swollen}"
+    preloaded = f"preload {r.P:g} N, no external tension, fit {micrometres(FIT)} (clearance), {swollen}"
 
     def curve(label, unit, scale, x, load, fit_a, loads, figure="", kind=""):
         sigma = stress(load, fit_a)
@@ -103,7 +106,9 @@ def curves(stress, fit_eff, swell=SWELL):
         "fit, with yield": curve(
             "fit", "µm", 1e6, fit, REFERENCE, fit_eff(fit + swell), loaded, "Fig. 12", "the flange yields"
         ),
-        "transverse load": curve("transverse load", "N", 1.0, V, replace(REFERENCE, N=0.0, V=V), FIT, preloaded),
+        "transverse load": curve(
+            "transverse load", "N", 1.0, V, replace(REFERENCE, N=0.0, V=V), FIT + swell, preloaded
+        ),
     }
 
 
@@ -271,7 +276,7 @@ def along(ax, start, end, radius, text, foot):
 # The section ----------------------------------------------------------------------------------------------------------
 
 
-def plot_section(joint, load=REFERENCE, fit=FIT, magnified=60.0):
+def plot_section(joint, load=REFERENCE, fit=FIT + SWELL, magnified=60.0):
     """Figure: meshes; the joint in the plane of V, deformed, with its largest principal stress; the fillet that carries
     most.
 

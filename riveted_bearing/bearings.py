@@ -25,6 +25,7 @@ from importlib.resources import files
 from pathlib import Path
 
 from bearing_model.generated import variables
+from bearing_model.load_ratings import dynamic_rating, static_rating
 from bearing_model.physics.derived import ball_elasticity, default_table
 from bearing_model.physics.parameters import Values
 from bearing_model.physics.ring_fit import ring_fit_of
@@ -61,6 +62,8 @@ CAGE_MEANT = (
 )
 EXAMPLE = "6207"
 SHAPE = ("bearing.D", "bearing.d_m", "cage.D_o", "cage.D_i", "cage.width")  # what the rules follow from
+# the 6207's in a file that says neither them nor a designation
+OF_EXAMPLE = ("Z", "bearing.D", "bearing.d_m", "shaft.F_x", "shaft.F_y", "shaft.omega")
 
 
 @dataclass(frozen=True)
@@ -68,9 +71,10 @@ class Case:
     """A bearing at work: catalogue data, SI values or item names by the FMU's full variable names, dimensions of the
     rivet.
 
-    origin: "catalogue", "rule", "yours" (a file's) or "shipped" (a shipped file's) by name; what is not in it has the
-    variable table's default. rivet: dimensions and material of the rivet by the names of rivet_model.geometry, None if
-    not known; materials: the Material of each part, of a bearing file's case.
+    origin: "catalogue", "rule", "yours" (a file's), "shipped" (a shipped file's) or "6207" (OF_EXAMPLE) by name; what
+    is not in it has the variable table's default.
+    rivet: dimensions and material of the rivet by the names of rivet_model.geometry, None if not known; materials: the
+    Material of each part, of a bearing file's case.
     bare: whether only a designation was given, which says nothing of the cage; alone: what a scene sets of a bearing's
     shape, from which nothing follows.
     """
@@ -163,7 +167,7 @@ def not_given(origin):
     """
     if "shipped" in origin.values():
         return {}
-    sources = {"catalogue": f"from {catalogue.SOURCE}", "rule": "by rule"}
+    sources = {"catalogue": f"from {catalogue.SOURCE}", "rule": "by rule", EXAMPLE: f"of the {EXAMPLE}"}
     found = {source: [name for name, of in origin.items() if of == key] for key, source in sources.items()}
     return {source: grouped(names) for source, names in found.items() if names}
 
@@ -223,16 +227,30 @@ def bearing_case(source, rivet=None):
     else:
         path = find_bearing(source)
         bare = designation in shipped_bearings()
-        own, document = (
-            "shipped" if bare else "yours",
-            {"designation": path.name.removesuffix(".toml")} | read_toml(path),
-        )
+        own, document = "shipped" if bare else "yours", read_toml(path)
+        check_designation(path, document)
+        document = {"designation": path.name.removesuffix(".toml")} | document
     prefix = "rivet."
     if rivet:
         (path, keys), prefix = rivet, ""
         kept = {} if "shank_diameter" in keys else section_of(path, document, "rivet")
         document["rivet"] = kept | keys
     return read_case(path, document, own, bare, prefix)
+
+
+def check_designation(path, document):
+    """UserError for a designation that the catalogue does not know in a file that leaves the balls to it: those of the
+    6207 would take their place.
+    """
+    if "designation" not in document or str(document["designation"]) in catalogue.entries():
+        return
+    parameters = dict(flat(section_of(path, document, "parameters")))
+    missing = [
+        name for name, given in (("Z", document), *((name, parameters) for name in SHAPE[:2])) if name not in given
+    ]
+    if missing:
+        problem = unknown(path, "designation", document["designation"], catalogue.entries())
+        raise UserError(f"{problem}; one that the catalogue does not have needs {', '.join(missing)} too")
 
 
 def read_case(path, document, own, bare=False, prefix="rivet."):
@@ -249,8 +267,9 @@ def read_case(path, document, own, bare=False, prefix="rivet."):
     data = dict(catalogue_values(path, section_of(path, document, "catalogue")))
     given = dict(start_values(path, "parameters", plain_names(section_of(path, document, "parameters")), parameters))
     inputs = dict(start_values(path, "inputs", section_of(path, document, "inputs"), variables.INPUTS))
+    written = dict(flat(plain_names(section_of(path, document, "parameters"))))
     found = {
-        part: materials.material_of(path, part, material_section(path, document, part), given)
+        part: materials.material_of(path, part, material_section(path, document, part), given, written)
         for part in materials.PARTS
     }
     for part, material in found.items():
@@ -260,10 +279,12 @@ def read_case(path, document, own, bare=False, prefix="rivet."):
     origin = dict.fromkeys([*(["Z"] if Z else []), *data, *given, *(f"rivet.{name}" for name in sizes), *inputs], own)
 
     by_catalogue = {key: value for key, value in (entry.data if entry else {}).items() if key not in data}
-    data |= by_catalogue
+    own_balls = entry is not None and Z not in (None, catalogue.balls(entry)[0])
+    rated = {key: value for key, value in ratings(Z, given, entry).items() if key not in data} if own_balls else {}
+    data |= by_catalogue | rated
     parts = Z, given, sizes | steel, inputs, data, entry
     all_Z, by_rule, rivet_by_rule, inputs_by_rule = rules(*parts)
-    origin |= dict.fromkeys(by_catalogue, "catalogue")
+    origin |= dict.fromkeys(by_catalogue, "catalogue") | dict.fromkeys(rated, "rule")
     origin |= dict.fromkeys(
         [
             name
@@ -272,6 +293,9 @@ def read_case(path, document, own, bare=False, prefix="rivet."):
         ],
         "rule",
     )
+    if not entry and own != "shipped":
+        known = {*([] if Z is None else ["Z"]), *given, *inputs, *inputs_by_rule}
+        origin |= dict.fromkeys((name for name in OF_EXAMPLE if name not in known), EXAMPLE)
     values = defaults() | by_rule | inputs_by_rule | given | inputs
     check_limits(
         path, document, parts, lambda name: prefix + name.removeprefix("rivet.") if name.startswith("rivet.") else name
@@ -288,6 +312,14 @@ def read_case(path, document, own, bare=False, prefix="rivet."):
         found,
         bare,
     )
+
+
+def ratings(Z, given, entry):
+    """C and C_0 [N] by ISO 281 and ISO 76 of a bearing of the catalogue with another number of balls, for which the
+    catalogue's do not hold.
+    """
+    shape = Z, given.get("bearing.D", catalogue.balls(entry)[1]), given.get("bearing.d_m", entry.d_m)
+    return {"C": scaling.rounded(dynamic_rating(*shape)), "C_0": scaling.rounded(static_rating(*shape))}
 
 
 def plain_names(tree):
@@ -486,6 +518,18 @@ def unit_scales(unit):
 def start_values(path, section, tree, known):
     """Full names and values of one section of a bearing file, each checked."""
     for name, value in flat(tree):
+        if (
+            name not in known
+            and (
+                other := "inputs"
+                if name in variables.INPUTS
+                else "parameters"
+                if name in variables.PARAMETERS
+                else section
+            )
+            != section
+        ):
+            raise UserError(f"{path}: {section}.{name}: does not belong into [{section}] but into [{other}]")
         if name not in known:
             raise unknown(path, section.removesuffix("s"), name, known)
         variable = known[name]

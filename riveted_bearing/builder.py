@@ -25,7 +25,7 @@ from pathlib import Path
 from bearing_model.generated import variables
 from rivet_model.geometry import Geometry
 
-from .bearings import CAGE_MEANT, bearing_case
+from .bearings import CAGE_MEANT, RIVET, bearing_case
 from .errors import UserError, extra, unknown
 from .fmu import FMU_NAME, PACKAGE, Instance, Model
 from .materials import PARTS
@@ -180,6 +180,10 @@ def cage_of(case, table):
 def fmu_description(case, table):
     """Which bearing an FMU is, and what its stress table rests on."""
     parts = [f"{case.designation}: {case.description}" if case.description else case.designation]
+    shank = (RIVET | case.rivet)["shank_diameter"]
+    parts += [
+        f"{case.Z} balls of {1e3 * case.values['bearing.D']:.4g} mm, rivets of {1e3 * shank:.4g} mm ({case.materials['rivet'].name})"
+    ]
     parts += [f"Cage: {case.materials['cage'].words()}"]
     parts += [CAGE_MEANT] if case.bare else []
     parts += [f"Stress table of the rivets: {table_text(table)}"]

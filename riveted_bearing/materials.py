@@ -139,13 +139,13 @@ def code_of(name):
     return name.lower().replace("-", "_")
 
 
-def material_of(path, part, section, given):
+def material_of(path, part, section, given, as_written):
     """The Material of a part.
 
     section: the keys `material` and properties of the part's section of a bearing file; given: the file's parameters in
-    SI, which may name the material (Part.named) or give its properties by the FMU's names.  Raises UserError naming the
-    key for an unknown material or property, one that is given twice with two values, or one that is given where no
-    material is.
+    SI, which may name the material (Part.named) or give its properties by the FMU's names; as_written: the same as the
+    file has them.  Raises UserError naming the key for an unknown material or property, one that is given twice with
+    two values, or one that is given where no material is.
     """
     where = PARTS[part]
     for key in section:
@@ -156,7 +156,15 @@ def material_of(path, part, section, given):
     written = {key: section[key] for key in where.properties if key in section}
     own = {key: property_of(path, f"{part}.{key}", key, value) for key, value in written.items()}
     for key, parameter in where.parameters.items():
-        value = only_one(path, f"{part}.{key}", own.get(key), parameter, given.get(parameter), written.get(key))
+        value = only_one(
+            path,
+            f"{part}.{key}",
+            own.get(key),
+            parameter,
+            given.get(parameter),
+            written.get(key),
+            as_written.get(parameter),
+        )
         if value is not None:
             own[key] = value
     if chosen is None and own.keys() & where.geometry.keys():
@@ -170,8 +178,8 @@ def material_of(path, part, section, given):
     return Material(name, values, sources | dict.fromkeys(own, source), tuple(own if chosen is None else values))
 
 
-def only_one(path, key, value, other, other_value, written=None):
-    """The value that stands under one of two names; UserError if both are given and differ."""
+def only_one(path, key, value, other, other_value, written=None, other_written=None):
+    """The value that stands under one of two names; UserError if both are given and differ, with the values as written."""
     if value is None or other_value is None:
         return other_value if value is None else value
     same = value == other_value or (
@@ -180,11 +188,12 @@ def only_one(path, key, value, other, other_value, written=None):
     if isinstance(value, str) and isinstance(other_value, str):
         same = code_of(value) == code_of(other_value)
     if not same:
+        stands = other_value if other_written is None else other_written
         raise refusal(
             path,
             key,
             value if written is None else written,
-            f"{other} = {other_value!r} stands under [parameters]: leave one of them out",
+            f"{other} = {stands!r} stands under [parameters]: leave one of them out",
         )
     return value
 

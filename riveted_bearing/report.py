@@ -1,6 +1,7 @@
 """A run as one self-contained HTML page: settings, stress, loads, cage, life, solver, and the motion to play and scrub."""
 
 import math
+import re
 from dataclasses import replace
 from importlib.resources import files
 from pathlib import Path
@@ -19,6 +20,7 @@ from .life import fatigue_law, rivet_life
 from .results import FORMATS, read_result, write_atomically
 from .summary import (
     DEG,
+    assumed_curve,
     assumed_rows,
     columns,
     early_rows,
@@ -95,10 +97,13 @@ def render(result, decides=None):
         cards=cards(result, lives),
         inputs=list(input_rows(result)),
         settings=list(setting_rows(result)),
+        pulses=any(result.parameters.get(name) for name in ("pulse.F_r", "pulse.F_a")),
         rows=[replace(row, unit=row.unit.replace("um", "µm")) for row in summary_rows(result)],
         early=[] if has_statistics(result) else list(early_rows(result)),
         no_statistics=no_statistics(result),
-        curve=in_words(Strength(fatigue_law(result.parameters))) if lives else "",
+        curve=in_words(Strength(fatigue_law(result.parameters))) + assumed_curve(result.about.get("given", ()))
+        if lives
+        else "",
         balls=list(ball_rows(result)),
         settle=min(result.parameters.get("start.settle", 0.0), float(result.data["time"][-1])),
         lives=lives,
@@ -295,9 +300,9 @@ def unit_of(result, name, variable):
 def setting_rows(result):
     """Name, meaning, value, unit of every parameter and whether it differs from the 6207's default."""
     for name, value in result.parameters.items():
-        variable = variables.PARAMETERS.get(name) or variables.PARAMETERS.get(
-            "ball[j].dD" if name.startswith("ball[") else name
-        )
+        # those of an array have one entry for all balls, pockets or rivets
+        names = (re.sub(r"\[\d+\]", index, name) for index in ("[j]", "[k]"))
+        variable = next((variables.PARAMETERS[known] for known in names if known in variables.PARAMETERS), None)
         if variable is None:
             yield name, "", value if isinstance(value, str) else figure(value), "", False
         elif isinstance(value, str):

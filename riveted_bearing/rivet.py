@@ -49,12 +49,17 @@ def rivet_curves(source=None):
     path = Path(source or rivet_table.DEFAULT_TABLE)
     if path.suffix == ".toml":
         joint = condensed(read_geometry(path), path)
-        return f"{path.name}: finite elements", pictures.curves(*pictures.joint_response(joint)), joint
+        return (
+            f"{path.name}: finite elements, in the cage of the 6207 where the file gives no other sizes",
+            pictures.curves(*pictures.joint_response(joint), joint.geometry.size),
+            joint,
+        )
     t = read_table(path)
+    geometry = Geometry(**t.geometry)
     return (
         f"{path.name}: {table_text(t)}",
-        pictures.curves(*pictures.table_response(t)),
-        condensed(Geometry(**t.geometry), path),
+        pictures.curves(*pictures.table_response(t), geometry.size),
+        condensed(geometry, path),
     )
 
 

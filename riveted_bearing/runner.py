@@ -153,7 +153,9 @@ def provenance(model, scene):
         },
         "fmu": str(model.path),
         "given": sorted(given_names(model, scene)),
-        "not_given": not_given(model.origin),
+        "not_given": not_given(
+            {name: origin for name, origin in model.origin.items() if name not in {*scene.parameters, *scene.inputs}}
+        ),
         "basis": dict(basis(model, [scene])),
         "replaced": list(scene.replaced),
         "units": scene.units,

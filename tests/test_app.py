@@ -385,6 +385,20 @@ def test_info_says_that_nothing_follows_from_a_scene(tmp_path):
     assert "read as a scene" not in said and "73.14, 59.84, 18.46" in said
 
 
+def test_info_tells_what_speed_temperatures_and_fits_leave_of_the_clearance(tmp_path):
+    """A press fit on the shaft, warm rings: the FMU's own bearing.clearance.  Sizes stand as they were given, at
+    assembly temperature.
+    """
+    (tmp_path / "fit.toml").write_text(
+        '[parameters]\nshaft.interference = "12 um"\n[inputs]\nring.T_i = "60 degC"\nring.T_e = "50 degC"\n'
+    )
+    out = command("info", "fit.toml", folder=tmp_path).stdout
+    left = float(re.search(r"what is left of it .*?(-?[\d.]+)  um", out)[1])
+    clearance = run(tmp_path / "fit.toml", t_end=1e-4).data["bearing.clearance"][0]
+    assert left == pytest.approx(1e6 * clearance, abs=2e-3) and left < 10.0
+    assert re.search(r"diametral clearance +15  um", out) and re.search(r"balls +9 x 11.1125  mm", out)
+
+
 def test_info_gives_the_known_frequencies(tmp_path):
     done = command("info", "6207", folder=tmp_path)
     # Hz at 18,238 r/min: cage, BPFO, BPFI, ball, by hand from D, d_m, Z
@@ -493,6 +507,14 @@ def closed_form_table(case, folder):
         ('[catalogue]\nbore = "-1 mm"', ["catalogue.bore", "greater than 0"]),
         ('[catalogue]\nC = "1 mm"', ["catalogue.C", "N, kN"]),
         ("Z = 4", ["Z = 4", "5 to 32"]),
+        (
+            '[parameters]\nshaft.F_y = "8 kN"',
+            ["parameters.shaft.F_y: does not belong into [parameters] but into [inputs]"],
+        ),
+        (
+            '[inputs]\njoint.preload = "8 N"',
+            ["inputs.joint.preload: does not belong into [inputs] but into [parameters]"],
+        ),
         ("catalogue = 3", ["catalogue = 3", "not a table"]),
         ("parameters = 3", ["parameters = 3", "not a table"]),
     ],

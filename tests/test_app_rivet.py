@@ -21,9 +21,9 @@ TABLE = rivet_table.read(ROOT / "rivet_model" / "tables" / "6207.json")
 
 TITLES = [
     "Stress over preload: fit −90 µm (clearance), no external load (Fig. 11 of the paper)",
-    "Stress over fit, elastic: preload 20 N, external tension 10 N, transverse load 10 N (Fig. 12 of the paper)",
-    "Stress over fit, the flange yields: preload 20 N, external tension 10 N, transverse load 10 N (Fig. 12 of the paper)",
-    "Stress over transverse load: preload 20 N, no external tension, fit −10 µm (clearance)",
+    "Stress over fit, elastic: preload 20 N, external tension 10 N, transverse load 10 N, swell 4 µm (Fig. 12 of the paper)",
+    "Stress over fit, the flange yields: preload 20 N, external tension 10 N, transverse load 10 N, swell 4 µm (Fig. 12 of the paper)",
+    "Stress over transverse load: preload 20 N, no external tension, fit −10 µm (clearance), swell 4 µm",
 ]
 
 
@@ -55,6 +55,19 @@ def test_curves_of_the_paper():
 def test_titles_say_under_which_loads():
     """Words and units; the loads are those of JointLoad(20, 10, 10), the preload of the paper's section 4.1 (3)."""
     assert [title for title, _ in rivet.curve_tables(pictures.curves(*pictures.table_response(TABLE)))] == TITLES
+
+
+def test_curves_of_a_larger_joint_have_its_swell():
+    """By rule the swell goes with the shank: at a fit of minus the swell the bores touch just as at 0 without it."""
+    asked = []
+
+    def stress(load, fit):
+        asked.append(np.ravel(fit)[-1])
+        return pictures.table_response(TABLE)[0](load, fit)
+
+    curves = pictures.curves(stress, lambda fit: fit, 2.5 / 1.5)
+    assert asked[-1] == pytest.approx(-10e-6 + 4e-6 * 2.5 / 1.5) and asked[1] == pytest.approx(40e-6 + 4e-6 * 2.5 / 1.5)
+    assert curves["transverse load"].loads.endswith("swell 6.67 µm")
 
 
 def test_curves_of_a_geometry_are_its_finite_elements(joint):

@@ -25,7 +25,8 @@ from riveted_bearing.duty.sn import Strength, in_words
 from riveted_bearing.fmu import Model
 from riveted_bearing.life import FatigueLaw
 from riveted_bearing.matrices import quasi_static_matrices
-from riveted_bearing.report import render
+from riveted_bearing.report import render, setting_rows
+from riveted_bearing.runner import provenance
 from riveted_bearing.scene import load_scene
 from riveted_bearing.summary import assumed_ranges, assumed_rows
 from riveted_bearing.sweep import cluster, plan_sweep, run_sweep
@@ -167,6 +168,35 @@ def test_a_mission_that_names_a_scene_says_what_it_replaces(own, tmp_path):
     assert re.findall(r"<td>F_x 515 N, F_y 2994 N</td><td>(\d+) rev/min</td>", page) == ["18238", "9000"]
 
 
+def test_a_curve_of_which_nothing_is_given_is_assumed(model, tmp_path):
+    """A mission for the default FMU: nobody gave its S-N curve; a scene's parameter or a section [sn] is the user's
+    own.
+    """
+    point = {"simulation": {"t_end": 0.06}, "point": [{"hours": 1.0}]}
+    curves = [
+        dict(plan_mission("m", point | more, model, tmp_path / "m.toml").basis)["S-N curve"]
+        for more in ({}, {"parameters": {"fatigue": {"sigma_D": "230 MPa"}}}, {"sn": {"sigma_D": "230 MPa"}})
+    ]
+    assert ["assumed" in curve for curve in curves] == [True, False, False]
+
+
+def test_what_a_scene_gives_does_not_follow_by_rule(fmu, monkeypatch):
+    monkeypatch.setattr(Model, "origin", {"joint.preload": "rule", "joint.fit": "rule", "shaft.F_y": "rule"})
+    model = Model(fmu)
+    scene = load_scene(
+        None, model, ("--set", {"parameters": {"joint": {"preload": "30 N"}}, "inputs": {"shaft": {"F_y": "1 kN"}}})
+    )
+    assert provenance(model, scene)["not_given"] == {"by rule": "joint (fit)"}
+
+
+def test_entries_of_arrays_have_meaning_and_unit():
+    """One pocket's diameter in the table of all parameters is no bare 2e-05."""
+    result = SimpleNamespace(parameters={"pocket[3].dD": 2e-5, "rivet[2].dfit": -1e-6, "ball[1].dD": 0.0}, about={})
+    rows = {row[0]: row[1:] for row in setting_rows(result)}
+    assert rows["pocket[3].dD"] == ("Excess of the pocket's diameter", "20", "µm", True)
+    assert rows["rivet[2].dfit"][1:] == ("-1", "µm", True) and rows["ball[1].dD"][1:] == ("0", "µm", False)
+
+
 def test_the_curve_in_words():
     law = FatigueLaw(sigma_D=230e6, k_1=7.0)
     assert (
@@ -226,6 +256,7 @@ def test_passes(life, hours, text):
         (80.0, 125.0, "80 h – 125 h", "half-width 25 % of life"),
         (1.0, 150.0, "below 150 h", "open at its lower end"),
         (80.0, 1e5, "above 80 h", "open at its upper end"),
+        (2e6, 1e9, "> 1e6 h", "open at its upper end"),
         (
             0.6,
             1.7e4,

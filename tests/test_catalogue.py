@@ -199,3 +199,33 @@ def test_a_shipped_bearing_is_what_its_file_says():
 def test_unknown_designation():
     with pytest.raises(UserError, match='unknown name or file "6299"'):
         bearing_case("6299")
+
+
+def test_ratings_of_another_number_of_balls(tmp_path):
+    """The catalogue's C and C_0 are those of its own eight balls; six carry 6/8 of them at rest (ISO 76) and
+    (6/8)^(2/3) turning (ISO 281).
+    """
+    path = tmp_path / "mine.toml"
+    found = {}
+    for Z in (6, 8):
+        path.write_text(f'designation = "6309"\nZ = {Z}\n')
+        found[Z] = bearing_case(path)
+    assert found[8].catalogue["C"] == 53e3 and found[8].origin["C"] == "catalogue"
+    assert found[6].catalogue["C_0"] == pytest.approx(0.75 * 31.9e3, rel=0.01) and found[6].origin["C_0"] == "rule"
+    assert found[6].catalogue["C"] == pytest.approx(0.75 ** (2 / 3) * 53e3, rel=0.01) and found[6].values[
+        "shaft.F_y"
+    ] == pytest.approx(4360.0)
+    path.write_text('designation = "6309"\nZ = 6\n[catalogue]\nC = "40 kN"\n')
+    assert bearing_case(path).catalogue["C"] == 40e3 and bearing_case(path).origin["C"] == "yours"
+
+
+def test_a_file_with_an_unknown_designation_says_its_balls_itself(tmp_path):
+    """Otherwise balls and pitch diameter of the 6207 would stand in for them."""
+    path = tmp_path / "mine.toml"
+    path.write_text('designation = "6309-2RS"\nZ = 8\n[parameters]\nbearing.D = "17.4625 mm"\n')
+    with pytest.raises(
+        UserError, match='mine.toml: unknown designation "6309-2RS"; did you mean "6309"?.* needs bearing.d_m too'
+    ):
+        bearing_case(path)
+    path.write_text(f'{path.read_text()}bearing.d_m = "72.5 mm"\n')
+    assert bearing_case(path).values["bearing.d_m"] == 0.0725

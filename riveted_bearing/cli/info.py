@@ -9,6 +9,7 @@ from rich.markup import escape
 from rich.table import Column, Table
 
 from bearing_model.kinematics import fault_frequencies
+from bearing_model.physics.ring_fit import ring_fit_growth
 from rivet_model.geometry import Geometry
 
 from ..summary import DEG, RPM
@@ -77,7 +78,7 @@ def info_tables(case):
 
 
 def geometry(case):
-    """Name, value, unit and origin of what the bearing is."""
+    """Name, value, unit and origin of what the bearing is; sizes at assembly temperature."""
     bearing, values, catalogue = case.bearing, case.values, case.catalogue
     if all(key in catalogue for key in BOUNDARY):
         yield (
@@ -93,15 +94,17 @@ def geometry(case):
             "kN",
             origins(case, "C", "C_0"),
         )
-    yield "balls", f"{case.Z} x {1e3 * bearing.D:g}", "mm", origins(case, "Z", "bearing.D")
-    yield "pitch diameter", f"{1e3 * bearing.d_m:g}", "mm", origins(case, "bearing.d_m")
+    yield "balls", f"{case.Z} x {1e3 * values['bearing.D']:g}", "mm", origins(case, "Z", "bearing.D")
+    yield "pitch diameter", f"{1e3 * values['bearing.d_m']:g}", "mm", origins(case, "bearing.d_m")
     yield (
         "groove radius / ball diameter, inner, outer",
         f"{bearing.f_i:g}, {bearing.f_e:g}",
         "",
         origins(case, "bearing.f_i", "bearing.f_e"),
     )
-    yield "diametral clearance", f"{1e6 * bearing.clearance:g}", "um", origins(case, "bearing.P_d")
+    yield "diametral clearance", f"{1e6 * values['bearing.P_d']:g}", "um", origins(case, "bearing.P_d")
+    left = bearing.clearance - 2.0 * ring_fit_growth(bearing.fit, case.load.omega)
+    yield "what is left of it at speed, temperatures and fits", f"{1e6 * left:.4g}", "um", ""
     yield "free contact angle", f"{DEG * bearing.free_contact_angle:.2f}", "deg", ""
     for label, names in (
         ("cage: outer diameter, bore, width", ("cage.D_o", "cage.D_i", "cage.width")),

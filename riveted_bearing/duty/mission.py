@@ -52,6 +52,7 @@ from ..basis import basis, loads, speeds
 from ..errors import UserError, unknown
 from ..life import fatigue_law
 from ..scene import Scene, leaves, load_scene, read_toml, refusal, section_of
+from ..summary import assumed_curve, given_names
 from ..sweep import beside, count_of, key_of
 from ..units import scale, to_si
 from .history import binned, read_columns
@@ -178,10 +179,11 @@ def plan_mission(name, document, model, path):
 
 
 def curves(path, document, scenes, model):
-    """The S-N curves of the scenes in words."""
-    laws = dict.fromkeys(scene_law(scene, model) for scene in scenes)
+    """The S-N curves of the scenes in words, and whether they are assumed."""
+    section = section_of(path, document, "sn")
+    laws = {scene_law(scene, model): "" if section else assumed_curve(given_names(model, scene)) for scene in scenes}
     return "; ".join(
-        dict.fromkeys(in_words(read_strength(path, section_of(path, document, "sn"), law)) for law in laws)
+        dict.fromkeys(f"{in_words(read_strength(path, section, law))}{assumed}" for law, assumed in laws.items())
     )
 
 

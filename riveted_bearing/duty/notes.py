@@ -69,7 +69,7 @@ def notes(life, runs, scatter=None):
         noise = (
             ""
             if math.isnan(scatter.noise)
-            else f" The seeds have {100 * min(scatter.noise, 1.0):.2g} % of the scatter."
+            else f" The seeds have {100 * min(scatter.noise, 1.0):.3g} % of the scatter."
         )
         sentences.append(
             f"Over {len(scatter.lives)} bearings within their tolerances: B10 {hours_text(law.b10)} ({hours_text(low)} to {hours_text(high)} at "

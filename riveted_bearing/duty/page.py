@@ -74,8 +74,10 @@ def interval_text(life):
     low, high, ends = hours_text(life.low), hours_text(life.estimate.high), open_ends(life)
     if len(ends) == 2:
         return "open at both ends"
+    if ends == ["lower"]:
+        return "open" if life.estimate.high > LONGEST else f"below {high}"
     if ends:
-        return f"below {high}" if ends == ["lower"] else f"above {low}"
+        return low if life.low > LONGEST else f"above {low}"
     return low if low == high else f"{low} – {high}"
 
 
