@@ -13,7 +13,8 @@ from bearing_model.physics.hertz_exact import ball_race_contact
 B_M = 1.3  # rating factor of contemporary steel
 LAMBDA = 0.95  # reduction factor of single-row radial ball bearings
 A_1 = 98.0665  # 0.089 times the material constant [N, mm]
-F_GROOVE = 0.52  # groove radius / D of both races for which the tables are made
+F_GROOVE = 0.52  # groove radius / D of both races for which the table of f_c is made
+F_STATIC = {"inner": 0.52, "outer": 0.53}  # those for which the table of f_0 is made
 P_STATIC = 4.2e9  # contact pressure under the static rating [Pa]
 
 
@@ -30,14 +31,15 @@ def rating_factor_c(gamma):
 
 
 def rating_factor_0(gamma):
-    """f_0 [N/mm2] for gamma = D/d_m: the ball load that presses 4200 MPa into the inner race, over 5 D^2.
+    """f_0 [N/mm2] for gamma = D/d_m: the ball load that presses 4200 MPa into a race, over 5 D^2; of both races the
+    smaller one.  The outer race decides below gamma = 0.09.
 
-    >>> print(f"{rating_factor_0(0.2):.1f}")  # ISO 76, table 1: 14.0
-    14.0
+    >>> print(f"{rating_factor_0(0.05):.1f} {rating_factor_0(0.2):.1f}")  # ISO 76, table 1: 15.7, 14.0
+    15.7 14.0
     """
     D = 1e-3
-    contact = ball_race_contact(D, D / gamma, F_GROOVE, 0.0, 207e9, 0.3, "inner")
-    return (P_STATIC / contact.p_max(1.0)) ** 3 / 5.0
+    contacts = (ball_race_contact(D, D / gamma, f, 0.0, 207e9, 0.3, race) for race, f in F_STATIC.items())
+    return min((P_STATIC / contact.p_max(1.0)) ** 3 / 5.0 for contact in contacts)
 
 
 def dynamic_rating(Z, D, d_m):
