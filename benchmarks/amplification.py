@@ -1,10 +1,9 @@
-"""The picture of docs/method.md: by which factor a step of the default method shrinks what decays at a stiff rate, with
-and without its damping.
+"""The picture of docs/method.md: amplification factor of a stiff rate per step, with and without smoothing.
 
-    python benchmarks/amplification.py      # writes docs/method/amplification.svg and prints the numbers that the page quotes
+    python benchmarks/amplification.py      # writes docs/method/amplification.svg and prints the table of the page
 
-The equation is v' = -A v and the Jacobian that the step uses A/ratio; z = gamma A/ratio, gamma = h/2.  A step acts on
-(v_n, gamma a_n, gamma a_{n-1}).
+The equation is v' = -A v.  The Jacobian of the step is A/ratio; z = gamma A/ratio, gamma = h/2.
+A step is a matrix that acts on (v_n, gamma a_n, gamma a_{n-1}).
 """
 
 import io
@@ -78,13 +77,11 @@ def draw():
 def main():
     for theta in (0.0, 0.05, 0.1, 1.0 / 9.0, SMOOTHING, 0.2, 0.25):
         worst = max(factor(z, theta) for z in np.geomspace(2.0, 1e6, 400))
-        print(
-            f"smoothing {theta:.3f}: at most {worst:.3f} for gamma A > 2, {factor(1e9, theta):.3f} in the limit, error constant {1 / 12 - theta / 2:+.4f}"
-        )
+        limit = f"{factor(1e9, theta):.3f} in the limit, error constant {1 / 12 - theta / 2:+.4f}"
+        print(f"smoothing {theta:.3f}: at most {worst:.3f} for gamma A > 2, {limit}")
     ratios = np.linspace(0.5, 1.5, 1001)
-    print(
-        f"stable up to a true rate of {ratios[[factor(1e9, SMOOTHING, r) <= 1.0 + 1e-7 for r in ratios]].max():.3f} times the Jacobian's"
-    )
+    stable = ratios[[factor(1e9, SMOOTHING, r) <= 1.0 + 1e-7 for r in ratios]]
+    print(f"stable up to a true rate of {stable.max():.3f} times the Jacobian's")
     print("without a Jacobian, roots at gamma A = 0.2:", explicit_roots(0.2), "and at 0.5:", explicit_roots(0.5))
     draw()
 

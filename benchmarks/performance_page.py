@@ -1,4 +1,4 @@
-"""docs/performance.md and its pictures from the newest records of the benchmarks in benchmarks/results/."""
+"""Writes docs/performance.md and its pictures from the newest records in benchmarks/results/; measures nothing."""
 
 import contextlib
 import io
@@ -8,7 +8,7 @@ import re
 
 import matplotlib
 import numpy as np
-from common import ROOT, SCENES
+from common import ROOT
 from records import newest_record
 
 matplotlib.use("Agg")
@@ -16,15 +16,16 @@ import matplotlib.pyplot as plt
 from matplotlib.ticker import FormatStrFormatter, LogLocator
 
 PAGE, PICTURES = ROOT / "docs" / "performance.md", ROOT / "docs" / "performance"
-REACH = {"demo": 0.5, "slow": 0.6, "tilt": 1.0, "jam": 1.2}  # real-time factors aimed at
-FIGURES = {  # of the nine statistical errors: title
+GOALS = {"demo": 0.5, "slow": 0.6, "tilt": 1.0, "jam": 1.2}  # real-time factors
+SHORT = {"demo": "working point", "slow": "4,000 r/min", "tilt": "tilt 0.5°", "impact": "impacts", "jam": "jam"}
+FIGURES = {  # the nine statistics: column title
     "Q_c_mean": "force mean",
     "Q_c_rms": "RMS",
     "Q_c_p999": "p99.9",
-    "sigma_head_mean": "head stress mean",
+    "sigma_head_mean": "head mean",
     "sigma_head_rms": "RMS",
     "sigma_head_p999": "p99.9",
-    "sigma_mid_mean": "mid stress mean",
+    "sigma_mid_mean": "middle mean",
     "sigma_mid_rms": "RMS",
     "sigma_mid_p999": "p99.9",
 }
@@ -42,20 +43,12 @@ STYLES = {  # family -> colour, marker, line width
     "CVODE BDF, bordered": ("#8e1b5a", "o", 1.0),
 }
 SPARE = [("#555555", "h", 1.2), ("#999999", "p", 1.2), ("#222222", "*", 1.2)]
-plt.rcParams.update(
-    {
-        "svg.fonttype": "none",
-        "svg.hashsalt": "performance",
-        "font.size": 8,
-        "axes.grid": True,
-        "grid.alpha": 0.25,
-        "axes.axisbelow": True,
-    }
-)
+plt.rcParams.update({"svg.fonttype": "none", "svg.hashsalt": "performance", "font.size": 8})
+plt.rcParams.update({"axes.grid": True, "grid.alpha": 0.25, "axes.axisbelow": True})
 
 
 def section(title, name, write):
-    """A chapter of the page from the record of a benchmark, or what is missing for it."""
+    """A chapter of the page from the record of a benchmark, or the command that measures it."""
     try:
         return f"## {title}\n\n{write(newest_record(name))}"
     except FileNotFoundError:
@@ -69,7 +62,7 @@ def table(head, rows):
 
 
 def number(value, digits=2):
-    """A few significant digits, — for nothing."""
+    """A few significant digits; — for a missing value."""
     if value is None or not math.isfinite(value):
         return "—"
     if value == 0.0:
@@ -79,13 +72,14 @@ def number(value, digits=2):
 
 
 def percent(figure):
-    """Error ± half-width."""
-    return f"{100 * figure['error']:+.2f} ± {100 * figure['half_width']:.2f}"
+    """Error ± half-width in per cent."""
+    return f"{100 * figure['error']:+.2f}±{100 * figure['half_width']:.2f}"
 
 
 def origin(data):
     form = "short form" if data["short"] else "full form"
-    return f"{form}, {data['date'][:10]}, commit {data['commit']}, {data['machine']['processor']}, {data['machine']['compiler']}"
+    machine, compiler = data["machine"], re.sub(r" \(.*\)", "", data["machine"]["compiler"])
+    return f"{form}, {data['date'][:10]}, commit {data['commit']}, {machine['processor']}, {compiler}"
 
 
 def save(figure, name):
@@ -104,28 +98,23 @@ def read_off(axis):
 
 
 def style(family, families):
-    """Colour, marker and width of a family; spare ones for those that this page does not know."""
+    """Colour, marker and width of a family, spare ones for an unknown family."""
     unknown = [name for name in families if name not in STYLES]
     return STYLES[family] if family in STYLES else SPARE[unknown.index(family) % len(SPARE)]
 
 
-# --------------------------------------------------------------------------------------------------- work and precision
+# ------------------------------------------------------------------------------------------------- work and precision
 
 
 def curve(rows, family):
     """Errors and RTFs of one family by tolerance."""
-    points = [
-        (r["error"], r["rtf"])
-        for r in sorted(rows, key=lambda r: r["tolerance"])
-        if r["family"] == family and "error" in r
-    ]
+    own = [r for r in sorted(rows, key=lambda r: r["tolerance"]) if r["family"] == family and "error" in r]
+    points = [(r["error"], r["rtf"]) for r in own]
     return np.array(points).reshape(-1, 2)
 
 
 def cheapest(rows, family, error):
-    """Least RTF of a family at this error or better: along its curve, straight in logarithms; None where it never gets
-    there.
-    """
+    """Least RTF of a family at this error or below, linear in logarithms; None if it never reaches it."""
     points = curve(rows, family)
     if not len(points) or points[:, 0].min() > error:
         return None
@@ -138,9 +127,8 @@ def cheapest(rows, family, error):
 
 
 def row_of(rows, family, tolerance):
-    return next(
-        (r for r in rows if r["family"] == family and math.isclose(r["tolerance"], tolerance) and "rtf" in r), None
-    )
+    own = (r for r in rows if r["family"] == family and math.isclose(r["tolerance"], tolerance) and "rtf" in r)
+    return next(own, None)
 
 
 def draw_work_precision(data):
@@ -166,16 +154,16 @@ def draw_work_precision(data):
     save(figure, "work_precision")
 
 
-def bdf_ratio(data, scene):
-    """Cost of BDF with a dense Jacobian / the default's, at the default's error; None where BDF never gets there."""
+def cost_ratio(data, scene, family):
+    """Cost of a family / the default's, at the default's error; None if the family never reaches it."""
     rows = scene["states"]["rows"]
     ours = row_of(rows, **data["default"])
-    dense = cheapest(rows, "CVODE BDF, dense", ours["error"])
-    return dense / ours["rtf"] if dense else None
+    cost = cheapest(rows, family, ours["error"])
+    return cost / ours["rtf"] if cost else None
 
 
 def python_ratio(data, scene):
-    """Cost of the cheapest Python solver / the default's, at the default's error; None where none gets there."""
+    """Cost of the cheapest Python solver / the default's, at the default's error; None if none reaches it."""
     ours, rows = row_of(scene["states"].get("python_ours", []), **data["default"]), scene["states"]["python"]
     costs = [cheapest(rows, family, ours["error"]) for family in dict.fromkeys(r["family"] for r in rows)]
     costs = [cost for cost in costs if cost]
@@ -183,97 +171,72 @@ def python_ratio(data, scene):
 
 
 def ratio(value):
-    return f"{value:,.0f}×" if value else "never reached"
+    """A ratio of costs."""
+    if not value:
+        return "never"
+    return f"{value:,.0f}×" if value >= 10.0 else f"{value:.1f}×"
 
 
 def largest_error(data, scene):
     """The largest of the nine statistical errors of the default and its name."""
-    name, figure = max(
-        row_of(scene["statistics"]["rows"], **data["default"])["figures"].items(),
-        key=lambda item: abs(item[1]["error"]),
-    )
+    figures = row_of(scene["statistics"]["rows"], **data["default"])["figures"]
+    name, figure = max(figures.items(), key=lambda item: abs(item[1]["error"]))
     return f"{percent(figure)} ({name})"
 
 
 def headline(data):
-    through = newest_record("rtf")
+    """The goals that are set scene by scene, and the values reached."""
+    elastic, rigid = (newest_record("rtf")["cages"][cage] for cage in ("elastic", "two_half"))
     rows = [
         [
-            scene["title"],
-            number(REACH.get(name)),
-            *[number(cage[name]["rtf"]) for cage in through["cages"].values()],
-            *[number(cage[name]["inside"]) for cage in through["cages"].values()],
+            SHORT[name],
+            f"≤ {GOALS[name]:g}" if name in GOALS else "—",
+            f"{number(elastic[name]['rtf'])} ({number(elastic[name]['inside'])})",
+            f"{number(rigid[name]['rtf'])} ({number(rigid[name]['inside'])})",
             largest_error(data, scene),
-            ratio(bdf_ratio(data, scene)),
+            ratio(cost_ratio(data, scene, "CVODE BDF, dense")),
             ratio(python_ratio(data, scene)) if scene["states"]["python"] else "—",
         ]
         for name, scene in data["scenes"].items()
     ]
-    head = [
-        "scene",
-        "RTF to reach",
-        "RTF through fmpy",
-        "rigid halves",
-        "inside the FMU",
-        "rigid halves",
-        "largest of nine statistical errors, %",
-    ]
-    head.append("BDF dense at equal error")
-    return table([*head, "best Python solver at equal error"], rows)
+    head = ["scene", "RTF, goal", "RTF", "rigid halves", "largest statistical error, %"]
+    return table([*head, "BDF dense at equal error", "Python at equal error"], rows)
 
 
-def states_table(data):
-    """Every family at one tolerance, and ours at the default."""
-    default, scenes = data["default"], data["scenes"]
-    wanted = [(default["family"], default["tolerance"])]
+def costs_table(data):
+    """Cost of every family at the default's error, over the default's."""
+    scenes = data["scenes"]
     families = dict.fromkeys(r["family"] for r in next(iter(scenes.values()))["states"]["rows"])
-    wanted += [(family, 1e-3) for family in families if (family, 1e-3) != wanted[0]]
-    rows = []
-    for family, tolerance in wanted:
-        cells = [f"**{family} {tolerance:g}**" if not rows else f"{family} {tolerance:g}"]
-        for scene in scenes.values():
-            row = row_of(scene["states"]["rows"], family, tolerance)
-            cells.append(
-                f"{number(row['rtf'])} / {row['evals'] / 100:,.0f} / {row['steps'] / 100:,.0f} / {row['error']:.0e}"
-                if row
-                else "failed"
-            )
-        rows.append(cells)
-    return table(["RTF / evaluations / steps per 10 ms / error", *[scene["title"] for scene in scenes.values()]], rows)
+    others = [family for family in families if family != data["default"]["family"]]
+    rows = [[family, *[ratio(cost_ratio(data, scene, family)) for scene in scenes.values()]] for family in others]
+    ours = [row_of(scene["states"]["rows"], **data["default"]) for scene in scenes.values()]
+    rows += [
+        ["**default**: RTF", *[number(row["rtf"]) for row in ours]],
+        ["error", *[f"{row['error']:.0e}" for row in ours]],
+    ]
+    return table(["method", *[SHORT[name] for name in scenes]], rows)
 
 
 def statistics_table(data):
-    rows = []
-    for scene in data["scenes"].values():
-        for row in scene["statistics"]["rows"]:
-            figures = row["figures"]
-            cells = [percent(figures[name]) for name in FIGURES]
-            mark = "**" if {"family": row["family"], "tolerance": row["tolerance"]} == data["default"] else ""
-            rows.append(
-                [
-                    f"{scene['title']}: {mark}{row['family']} {row['tolerance']:g}{mark}",
-                    number(row["rtf"]),
-                    f"{row['evals'] / 100:,.0f}",
-                    *cells,
-                ]
-            )
-    return table(["", "RTF", "evaluations per 10 ms", *FIGURES.values()], rows)
+    """Errors of the default's means and quantiles."""
+    rows, shown = [], [figure for figure in FIGURES if not figure.endswith("rms")]
+    for name, scene in data["scenes"].items():
+        row = row_of(scene["statistics"]["rows"], **data["default"])
+        errors = [percent(row["figures"][figure]) for figure in shown]
+        rows.append([SHORT[name], *errors])
+    return table(["scene", *[FIGURES[figure] for figure in shown]], rows)
 
 
-def python_table(data):
-    rows = []
-    for scene in data["scenes"].values():
-        rows += [
-            [
-                f"{scene['title']}: {r['family']} {r['tolerance']:g}",
-                number(r["rtf"]),
-                f"{r['evals'] / 100:,.0f}",
-                f"{r['error']:.0e}",
-            ]
-            for r in [*scene["states"]["python"], *[row_of(scene["states"].get("python_ours", []), **data["default"])]]
-            if r
-        ]
-    return table(["", "RTF", "evaluations per 10 ms", "error after 0.5 ms"], rows)
+def python_text(data):
+    """Costs of SciPy's solvers on the Python twin, beside the default's over the same horizon."""
+    scene = next(scene for scene in data["scenes"].values() if scene["states"]["python"])
+    rtf = {r["family"].removeprefix("Python "): r["rtf"] for r in scene["states"]["python"]}
+    ours = row_of(scene["states"]["python_ours"], **data["default"])
+    return (
+        f"SciPy's solvers ({', '.join(rtf)}) on the Python twin at tolerance 0.001 need RTF\n"
+        f"{min(rtf.values()):,.0f} to {max(rtf.values()):,.0f} at the working point, extrapolated from 0.5 ms. "
+        f"The default needs {number(ours['rtf'])}."
+    )
 
 
 def work_precision(data):
@@ -281,228 +244,186 @@ def work_precision(data):
     first = next(iter(data["scenes"].values()))
     doubt = max(scene["states"]["reference_doubt"] for scene in data["scenes"].values())
     tight = number(first["statistics"]["truth_cost"]["rtf"])
-    few, many, _ = first["statistics"]["seeds"]
-    most = ", ".join(f"{scene['statistics']['seeds'][2]} ({scene['title']})" for scene in data["scenes"].values())
+    most = min(scene["statistics"]["seeds"][2] for scene in data["scenes"].values())
+    default = data["default"]
     return f"""{origin(data)}.
 
 {headline(data)}
 
-RTF: processor time / simulated time on one core; through fmpy with 1e-4 s communication steps, the peak stress of all rivets read at each; inside the FMU
-without fmpy's own part (`benchmarks/rtf.py`, least of {newest_record("rtf")["rounds"]} rounds). First the default, elastic cage halves, then rigid ones.
-Errors are of mean, RMS and 99.9 % quantile of pocket force, head stress and middle stress of the worst rivet, with 95 % half-widths.
+RTF: processor time / simulated time on one core, through fmpy with 1e-4 s communication steps and peak stress read at
+each. In brackets: inside the FMU. Goals: statistical error ≤ 1 %, BDF ≥ 10×, Python ≥ 100×.
 
 ![Run time against error of every solver](performance/work_precision.svg)
 
-Ring: the default, {data["default"]["family"].partition(", ")[2]} at {data["default"]["tolerance"]:g}. All start from the same settled states
-(geometric mean of {first["states"]["starts"]}).
-The error is the RMS over all states of error/(tolerance scale): 1 is the error that tolerance 1 allows that state ([method.md](method.md)). The
-reference is Dormand–Prince at 1e-10; Verner 6(5) at 1e-10 ends within {doubt:.0e} of it. BDF's Jacobian is SUNDIALS' own by differences (*dense*: what
-a general multibody solver does, the stand-in for the paper's GSTIFF with its 10,000 outputs in 0.4 s), the diagonal of damping rates, or bordered block
-diagonal. No stress, no statistics in these runs.
+Ring: the default, {default["family"].partition(", ")[2]} at {default["tolerance"]:g}.
+All solvers start from the same settled states (mean of {first["states"]["starts"]}), without stress and statistics.
+The error after 2 ms is the RMS over all states of error/(tolerance scale)
+([method.md](method.md#error-norm-and-step-size)).
+The reference is Dormand–Prince at 1e-10; Verner 6(5) at 1e-10 deviates by {doubt:.0e}.
+BDF's Jacobian is by differences (*dense*, the stand-in for the paper's GSTIFF), the diagonal of damping rates, or
+bordered block diagonal.
 
-{states_table(data)}
+Cost at the default's error over the default's cost:
+
+{costs_table(data)}
 
 ### Statistics
 
-Trajectories are chaotic, so over long times only statistics compare: {many} seeds × {first["statistics"]["length"]:g} s after settling ({few} seeds for
-solvers not ours; of the default {most}), pooled, against as many of Dormand–Prince at 1e-6 (RTF {tight} at the working point).
-Error ± 95 % half-width in %, the larger one of the differences seed by seed and of a bootstrap over 20 ms blocks (in a jam all seeds may follow one attractor).
+Trajectories are chaotic, so long runs are compared by statistics: {most} seeds or more of
+{first["statistics"]["length"]:g} s, pooled, against as many of Dormand–Prince at 1e-6 (RTF {tight}).
+Error ± 95 % half-width in %, the larger one by seeds and by a bootstrap over 20 ms blocks.
+[method.md](method.md#accuracy-at-the-default-tolerance) has longer runs.
 
 {statistics_table(data)}
 
-### The Python reference
-
-SciPy's solvers on the Python twin, its exact Jacobian where they take one; 0.5 ms from the first settled state, costs extrapolated to a simulated second.
-The last row of each scene is the FMU's default over the same horizon.
-
-{python_table(data)}
+{python_text(data)}
 """
 
 
-# ------------------------------------------------------------------------------------------------------ right-hand side
+# ---------------------------------------------------------------------------------------------------- right-hand side
+
+
+def element_rows(scene, sets):
+    """Rows of the elements, those below 3 % of the scalar evaluation summed up."""
+    times = {isa: scene["sets"][isa]["elements"] for isa in sets}
+    large = [name for name, ns in times["scalar"].items() if ns >= 0.03 * scene["sets"]["scalar"]["rhs"]]
+    rows = [[f"– {name}", *[f"{times[isa][name]:,.0f}" for isa in sets]] for name in large]
+    rest = [sum(ns for name, ns in times[isa].items() if name not in large) for isa in sets]
+    return [*rows, ["– others", *[f"{ns:,.0f}" for ns in rest]]] if any(rest) else rows
 
 
 def rhs(data):
+    """One evaluation: times by element and instruction set, and the floor of its instructions."""
     sets = list(data["peaks"])
     rows = []
     for scene in data["scenes"].values():
-        base = scene["sets"]["scalar"]["rhs"]
-        rows.append(
-            [
-                f"**{scene['title']}**, {scene['pockets_touched']:.1f} contacts of ball and half",
-                *[f"**{scene['sets'][isa]['rhs']:,.0f}**" for isa in sets],
-            ]
-        )
-        rows.append(["against scalar", *[f"{base / scene['sets'][isa]['rhs']:.2f}×" for isa in sets]])
-        for element in scene["sets"]["scalar"]["elements"]:
-            rows.append([f"– {element}", *[f"{scene['sets'][isa]['elements'][element]:,.0f}" for isa in sets]])
-        if all("counts" in scene["sets"][isa] for isa in sets):
-            for title, key in (
-                ("instructions", "instructions"),
-                ("arithmetic", "arithmetic"),
-                ("of these packed", "arithmetic_packed"),
-                ("flops", "flops"),
-                ("loads", "loads"),
-                ("stores", "stores"),
-            ):
-                rows.append([title, *[f"{scene['sets'][isa]['counts'].get(key, 0):,.0f}" for isa in sets]])
-            counts = [scene["sets"][isa]["counts"] for isa in sets]
-            rows.append(["divisions and roots", *[f"{c.get('divide', 0) + c.get('root', 0):,.0f}" for c in counts]])
-            rows.append(
-                [
-                    "floor: arithmetic / loads / divisions",
-                    *[
-                        " / ".join(
-                            f"{scene['sets'][isa]['floor'][part]:,.0f}"
-                            for part in ("arithmetic", "load", "divide_root")
-                        )
-                        for isa in sets
-                    ],
-                ]
-            )
-    peaks = "; ".join(
-        f"{isa} {p['arithmetic']:.3f}, {p['load']:.3f}, {p['divide']:.2f}, {p['root']:.2f}"
-        for isa, p in data["peaks"].items()
-    )
-    return f"""{origin(data)}. Times in ns over states of a settled run, elements timed one by one.
+        times = [scene["sets"][isa]["rhs"] for isa in sets]
+        title = scene["title"].removesuffix(", 18,238 r/min")
+        rows.append([f"**{title}**, {scene['pockets_touched']:.1f} contacts", *[f"**{ns:,.0f}**" for ns in times]])
+        if len(rows) > 1:
+            continue
+        rows.append(["against scalar", *[f"{scene['sets']['scalar']['rhs'] / ns:.2f}×" for ns in times]])
+        rows += element_rows(scene, sets)
+        if all("floor" in scene["sets"][isa] for isa in sets):
+            floors = [scene["sets"][isa]["floor"] for isa in sets]
+            rows.append(["floor", *[f"{max(f[part] for part in FLOORS):,.0f}" for f in floors]])
+    return f"""{origin(data)}. Times in ns over states of a settled run; contacts of ball and half.
 
 {table(["", *sets], rows)}
 
-Scalar is the same source with packets of one ball, vectorisation off. The floor multiplies the instructions of one evaluation, counted by single steps,
-with the shortest time of an independent instruction on this processor (add or multiply, load, divide, root in ns: {peaks}).
-No order of these instructions can be faster than the largest of the three. Time above this floor is mostly
-latency: chains of dependent operations in few packets.
+Scalar is the same source with one ball per packet. The floor is the largest of three bounds: counted arithmetic
+instructions, loads, and divisions with roots, each times its shortest time. The rest is mostly latency.
 """
 
 
-# ----------------------------------------------------------------------------------------------------------------- step
+FLOORS = "arithmetic", "load", "divide_root"
+
+# --------------------------------------------------------------------------------------------------------------- step
 
 
 def hosted(data):
-    """What ARKStep costs around the core's own step."""
+    """Cost of ARKStep around the core's own step."""
     rows = []
     for name in next(iter(data["cages"].values())):
-        cells = [SCENES[name][0]]
+        cells = [SHORT[name]]
         for scenes in data["cages"].values():
             own, arkstep = scenes[name]["own loop"]["us"], scenes[name]["ARKStep"]["us"]
-            cells += [f"{own:.2f}", f"{arkstep:.2f}", f"+{100 * (arkstep / own - 1):.0f} %"]
+            cells += [f"{own:.2f}", f"{100 * (arkstep / own - 1):+.0f}"]
         rows.append(cells)
     return (
-        "Microseconds an evaluation with stress and statistics, the same steps taken by the core's own loop and by ARKStep, "
-        "which calls the core's step as its nonlinear solver ([method](method.md)).\n\n"
-        f"{table(['', 'elastic halves: own loop', 'ARKStep', '', 'rigid halves: own loop', 'ARKStep', ''], rows)}\n"
+        "The core's own loop, and the added cost if ARKStep hosts the same step ([note](notes/hosted_step.md)).\n\n"
+        f"{table(['', 'elastic: µs/evaluation', 'ARKStep, %', 'rigid: µs/evaluation', 'ARKStep, %'], rows)}\n"
     )
+
+
+def share(scene, part):
+    """Part of a step's instructions that a source file takes, 0 if it is not called."""
+    counts = scene["parts"].get(part, {"counts": {}})["counts"]
+    return counts.get("instructions", 0) / scene["counts"]["instructions"]
 
 
 def steps_by_part(scenes):
-    """Table of instructions and floors by part, and how many steps there are."""
+    """Rows of the shares of a step's instructions by part, those below 5 % of every scene summed up."""
     parts = dict.fromkeys(part for scene in scenes for part in scene["parts"])
-    first = scenes[0]["parts"]
-    rows = []
-    for part in sorted(parts, key=lambda part: -first[part]["counts"]["instructions"] if part in first else 0.0):
-        cells = [part]
-        for scene in scenes:
-            row = scene["parts"].get(part, {"counts": {}, "floor": 0.0})
-            count = row["counts"].get("instructions", 0)
-            cells += [f"{count:,.0f} ({100 * count / scene['counts']['instructions']:.0f} %)", f"{row['floor']:,.0f}"]
-        rows.append(cells)
-    whole, head = ["**whole step**"], [""]
-    measured = ["**measured, ns**"]
-    for scene in scenes:
-        parts_of_floor = " / ".join(f"{scene['floor'][name]:,.0f}" for name in ("arithmetic", "load", "divide_root"))
-        whole += [f"**{scene['counts']['instructions']:,.0f}**", parts_of_floor]
-        measured += ["", f"**{scene['ns']:,.0f}**"]
-        head += [f"{scene['title']}: instructions", "floor, ns"]
-    taken = "; ".join(
-        f"{scene['title']}: {scene['steps'] / 100:,.0f} accepted, {scene['error_tests_failed'] / 100:,.0f} rejected"
-        for scene in scenes
-    )
-    return f"Steps per 10 ms: {taken}.\n\n{table(head, [*rows, whole, measured])}"
+    large = [part for part in parts if max(share(scene, part) for scene in scenes) >= 0.05]
+    large.sort(key=lambda part: -share(scenes[0], part))
+    rows = [[part, *[f"{100 * share(scene, part):.0f}" for scene in scenes]] for part in large]
+    rest = [sum(share(scene, part) for part in parts if part not in large) for scene in scenes]
+    return [*rows, ["others", *[f"{100 * part:.0f}" for part in rest]]]
+
+
+def whole_steps(scenes):
+    """Rows of the whole step."""
+    return [
+        ["instructions", *[f"{scene['counts']['instructions']:,.0f}" for scene in scenes]],
+        ["floor, ns", *[f"{max(scene['floor'][part] for part in FLOORS):,.0f}" for scene in scenes]],
+        ["measured, ns", *[f"**{scene['ns']:,.0f}**" for scene in scenes]],
+        ["accepted steps/10 ms", *[f"{scene['steps'] / 100:,.0f}" for scene in scenes]],
+        ["rejected", *[f"{scene['error_tests_failed'] / 100:,.0f}" for scene in scenes]],
+    ]
 
 
 def step(data):
-    elastic, rigid = (steps_by_part([*data["cages"][cage].values()]) for cage in ("elastic", "two_half"))
-    return f"""{origin(data)}. {data["isa"]}, peak stress and statistics on, 1e-4 s communication steps; per accepted step, rejected ones included.
+    elastic, rigid = ([*data["cages"][cage].values()] for cage in ("elastic", "two_half"))
+    pairs = [scene for pair in zip(elastic, rigid, strict=True) for scene in pair]
+    names = [SHORT[name] for name in data["cages"]["elastic"]]
+    return f"""{origin(data)}. {data["isa"]}, peak stress and statistics on, 1e-4 s communication steps.
+Per accepted step, rejected ones included.
 
-Elastic halves, the default, with their substeps. {elastic}
+{table(["share of the instructions, elastic halves, %", *names], steps_by_part(elastic))}
 
-Rigid halves. {rigid}
+{table(["whole step", *[f"{name}: {cage}" for name in names for cage in ("elastic", "rigid")]], whole_steps(pairs))}
 
-Instructions are counted by single steps of the processor. A part is a source file of the core, with the functions that the compiler inlines from headers. The
-floor of a part is the largest of its three floors (see above); the floors of the whole step are those of arithmetic / loads / divisions and roots.
+A part is a source file with its inlined functions. Instructions are counted by single steps of the processor.
 """
 
 
-# --------------------------------------------------------------------------------------------------------------- scenes
+# ------------------------------------------------------------------------------------------------------------- scenes
 
 
 def scenes(data):
     stress = data["stress"]
-    base, span = stress["off"]["rtf"], data["span"]
-    rows = [
-        [
-            name,
-            f"{row['rtf']:.3f}",
-            f"{100 * (row['rtf'] / base - 1):+.1f} %",
-            "same bits" if row["same_bits"] else "differs",
-        ]
-        for name, row in stress.items()
-    ]
+    base = stress["off"]["rtf"]
+    rows = [[name, f"{row['rtf']:.3f}", f"{100 * (row['rtf'] / base - 1):+.1f}"] for name, row in stress.items()]
+    observed = all(row["same_bits"] for row in stress.values())
     missed = [
-        f"{100 * row['missed_mean']:.1f} % (at most {100 * row['missed_most']:.0f} %) at {float(step) * 1e6:,.0f} µs"
+        [f"{float(step) * 1e6:,.0f}", f"{100 * row['missed_mean']:.1f}", f"{100 * row['missed_most']:.0f}"]
         for step, row in data["sampled_peaks"].items()
     ]
     groups, reading = data["groups"]["median_us"], data["groups"]["reading"]
-    inputs = [
-        [
-            f"{float(step) * 1e6:.0f} µs, {name}",
-            f"{row['rtf']:.3f}",
-            f"{row['evals'] / 100:,.0f}",
-            f"{row['evals'] / rows_['free']['evals']:.2f}×",
-        ]
-        for step, rows_ in data["inputs"].items()
-        for name, row in rows_.items()
-    ]
-    first = next(iter(data["paths"].values()))
-    paths = [
-        [name, *[f"{row['rtf']:.2f} / {row['evals'] / 100:,.0f}" for row in rows_.values()]]
-        for name, rows_ in data["paths"].items()
-    ]
-    by_group = ", ".join(f"{name} {value:.2f}" for name, value in groups.items())
-    bits = "same bits" if reading["all"]["same_bits"] else "the end state differs"
-    head = ["simpler model", "RTF / full model's", "force mean", "RMS", "p99.9", "head stress RMS", "p99.9"]
+    single = [us for name, us in groups.items() if name not in ("all", "the evaluation that all share")]
     models = [
         [
             name,
-            f"{row['rtf']:.2f} / {row['rtf_full']:.2f}",
-            *[
-                percent(row["figures"][key])
-                for key in ("Q_c_mean", "Q_c_rms", "Q_c_p999", "sigma_head_rms", "sigma_head_p999")
-            ],
+            f"{row['rtf']:.2f}/{row['rtf_full']:.2f}",
+            *[percent(row["figures"][key]) for key in MODEL_FIGURES],
         ]
         for name, row in data["models"].items()
+        if name != "rigid cage"
     ]
-    return f"""{origin(data)}. Working point, 1e-4 s communication steps, through the core's C interface.
+    head = ["simpler model", "RTF/full", "force mean", "p99.9", "head stress RMS", "p99.9"]
+    return f"""{origin(data)}. Working point, 1e-4 s communication steps, C interface.
 
-{table(["stress", "RTF", "against off", "end state"], rows)}
+{table(["stress", "RTF", "against off, %"], rows)}
 
-Same bits: observation does not change the trajectory. Samples at communication points miss a part of the largest head stress in each millisecond, in the mean
-{", ".join(missed)}. This is the error of `sampled`; peaks over every accepted step have no such error.
+The end states {"are equal bit for bit" if observed else "differ"}.
+`sampled` misses a part of each millisecond's largest head stress:
 
-Output groups are computed on first read (µs, median, Python's call included): {by_group}.
-All groups read at every step against none: RTF {reading["all"]["rtf"]:.3f} against {reading["none"]["rtf"]:.3f}, {bits}.
+{table(["communication step, µs", "missed, %", "at most"], missed)}
 
-{table(["communication step, inputs", "RTF", "evaluations per 10 ms", "against free run"], inputs)}
+Output groups are computed on first read, {min(single):.1f} to {max(single):.1f} µs each, {groups["all"]:.0f} µs all.
+Reading all at every step: RTF {reading["all"]["rtf"]:.3f} instead of {reading["none"]["rtf"]:.3f}.
 
-{table(["solver path: RTF / evaluations per 10 ms", *first], paths)}
-
-Simpler models at the working point, {data["seeds"]} seeds × {span:g} s; differences from the full model in %, ± 95 %:
+Simpler models, {data["seeds"]} seeds of {data["span"]:g} s; differences from the full model in %, ± 95 %:
 
 {table(head, models)}
 """
 
 
-# -------------------------------------------------------------------------------------------------------------- scaling
+MODEL_FIGURES = "Q_c_mean", "Q_c_p999", "sigma_head_rms", "sigma_head_p999"
+
+
+# ------------------------------------------------------------------------------------------------------------ scaling
 
 
 def draw_scaling(data):
@@ -538,129 +459,91 @@ def draw_scaling(data):
     save(figure, "scaling")
 
 
+def fmpy_us(size, row):
+    """fmpy's own time per communication step [µs]."""
+    return 1e6 * (row["constant"]["rtf"] - row["constant"]["inside"]) * float(size)
+
+
 def scaling(data):
     draw_scaling(data)
     balls = [
         [z, number(r["rtf"]), f"{r['evals'] / 100:,.0f}", f"{r['us_per_eval']:.2f}", f"{r['start_ms']:.1f}"]
         for z, r in data["balls"].items()
     ]
+    cases = "constant", "changing"
     steps = [
         [
             f"{float(step):g}",
-            *[number(row[name][key], 3) for name in ("constant", "changing") for key in ("rtf", "inside")],
-            *[f"{row[name]['evals'] / 100:,.0f}" for name in ("constant", "changing")],
-            f"{1e6 * (row['constant']['rtf'] - row['constant']['inside']) * float(step):.1f}",
+            *[number(row["constant"][key], 3) for key in ("rtf", "inside")],
+            number(row["changing"]["rtf"], 3),
+            *[f"{row[name]['evals'] / 100:,.0f}" for name in cases],
+            f"{fmpy_us(step, row):.1f}",
         ]
         for step, row in data["step"].items()
     ]
     outputs = [[count, number(row["rtf"], 3), number(row["inside"], 3)] for count, row in data["outputs"].items()]
-    horizon = [
-        [f"{h} s", *[f"{q['rtf']:.3f}, {q['peak_memory_MB']:.1f} MB" for q in rows]]
-        for h, rows in data["horizon"].items()
-    ]
-    head = ["communication step, s", "RTF, constant inputs", "inside the FMU", "RTF, changing inputs", "inside the FMU"]
-    head += ["evaluations per 10 ms, constant", "changing", "fmpy's own µs per step"]
-    parallel = [[count, number(row["rtf"], 3), number(row["wall"], 3)] for count, row in data["parallel"].items()]
-    return f"""{origin(data)}. Through the FMU and fmpy. Instantiation and initialisation, quasi-static start included: {data["start_ms"]:.1f} ms.
+    quarters = [quarter for rows in data["horizon"].values() for quarter in rows]
+    rtf, memory = [q["rtf"] for q in quarters], max(q["peak_memory_MB"] for q in quarters)
+    parallel = [f"{count}: {row['rtf']:.3f}" for count, row in data["parallel"].items()]
+    head = ["communication step, s", "RTF, constant inputs", "inside the FMU", "RTF, changing inputs"]
+    head += ["evaluations/10 ms, constant", "changing", "fmpy, µs/step"]
+    return f"""{origin(data)}. Through the FMU and fmpy.
 
 ![Cost over balls, communication step and outputs](performance/scaling.svg)
 
-{table(["balls", "RTF", "evaluations per 10 ms", "µs per evaluation", "start, ms"], balls)}
+{table(["balls", "RTF", "evaluations/10 ms", "µs/evaluation", "start, ms"], balls)}
 
-Pitch, masses and load grow with the number of balls; the orbital speed of the balls stays. Arrays are padded to whole packets of eight.
+Pitch, masses and load grow with the number of balls; arrays are padded to packets of eight.
 
 {table(head, steps)}
 
-The last column is fmpy's overhead for `doStep` and one `getReal` of 18 channels: Python and ctypes, not the FMU.
+{table(["outputs read every 1e-4 s", "RTF", "inside"], outputs)}
 
-{table(["outputs read every 1e-4 s", "RTF", "inside doStep"], outputs)}
-
-{table(["horizon", "first quarter: RTF, peak memory", "second", "third", "fourth"], horizon)}
-
-{table(["processes at a time", "RTF of each", "wall time / simulated time"], parallel)}
+Over {" and ".join(data["horizon"])} s the RTF of each quarter lies between {min(rtf):.3f} and {max(rtf):.3f}.
+The peak memory is {memory:.1f} MB.
+RTF of each of several processes at a time: {", ".join(parallel)}.
 """
 
 
-# ---------------------------------------------------------------------------------------------------------------- goals
+# -------------------------------------------------------------------------------------------------------------- goals
 
 
 def goals():
-    """What the project set out to reach, and where it is: from all records that there are."""
+    """The goals that hold for no single scene, from all records that exist."""
     found = {}
-    for name in ("rtf", "work_precision", "rhs", "scenes", "scaling"):
+    for name in ("rhs", "scenes", "scaling"):
         with contextlib.suppress(FileNotFoundError):
             found[name] = newest_record(name)
     rows = []
-    if data := found.get("rtf"):
-        elastic, rigid = (data["cages"][cage] for cage in ("elastic", "two_half"))
-        for name, reach in REACH.items():
-            measured = f"{number(elastic[name]['rtf'])}; rigid halves {number(rigid[name]['rtf'])}"
-            rows.append([f"RTF through fmpy, {SCENES[name][0]}", f"≤ {reach:g}", measured])
-    if data := found.get("work_precision"):
-        rows += [
-            [f"largest of nine statistical errors, {scene['title']}, %", "≤ 1", largest_error(data, scene)]
-            for scene in data["scenes"].values()
-        ]
-        rows += [
-            [f"CVODE BDF dense at equal error, {scene['title']}", "≥ 10×", ratio(bdf_ratio(data, scene))]
-            for scene in data["scenes"].values()
-        ]
-        measured = [scene for scene in data["scenes"].values() if scene["states"]["python"]]
-        rows += [
-            [f"best Python solver at equal error, {scene['title']}", "≥ 100×", ratio(python_ratio(data, scene))]
-            for scene in measured
-        ]
     if data := found.get("scenes"):
         for step_size, cases in data["inputs"].items():
             evals = cases["changing"]["evals"] / cases["free"]["evals"]
-            rows.append(
-                [f"evaluations, inputs changing every {float(step_size):g} s / free run", "≤ 2×", f"{evals:.2f}×"]
-            )
+            rows.append([f"evaluations, inputs changing every {float(step_size):g} s", "≤ 2×", f"{evals:.2f}×"])
     if data := found.get("rhs"):
         sets = next(iter(data["scenes"].values()))["sets"]
         if "avx2" in sets:
-            scalar, avx2 = sets["scalar"]["rhs"], sets["avx2"]["rhs"]
-            rows.append(["right-hand side, AVX2 against scalar", "≥ 2×", f"{scalar / avx2:.2f}×"])
-            rows.append(
-                [
-                    "right-hand side, AVX2, where scalar takes 1.9 µs",
-                    "≤ 0.8 µs",
-                    f"{1.9 * avx2 / scalar:.2f} µs (here {1e-3 * avx2:.2f} of {1e-3 * scalar:.2f})",
-                ]
-            )
+            gain = sets["scalar"]["rhs"] / sets["avx2"]["rhs"]
+            rows.append(["right-hand side, AVX2 against scalar", "≥ 2×", f"{gain:.2f}×"])
     if data := found.get("scaling"):
-        overhead = {
-            size: 1e6 * (row["constant"]["rtf"] - row["constant"]["inside"]) * float(size)
-            for size, row in data["step"].items()
-        }
-        rows.append(
-            [
-                "fmpy's own time per communication step of 1e-4 s, 18 channels read",
-                "apart",
-                f"{overhead['0.0001']:.1f} µs",
-            ]
-        )
-        rows.append(["instantiation and initialisation, once loaded", "≤ 50 ms", f"{data['start_ms']:.1f} ms"])
-    return table(["", "to reach", "measured"], rows)
+        rows.append(["instantiation and initialisation", "≤ 50 ms", f"{data['start_ms']:.1f} ms"])
+    return table(["other goals", "goal", "measured"], rows)
 
 
 def main():
     text = f"""# Performance
 
-Written by `make bench` (short form, minutes) or `make bench FORM=` (full form, an hour): the programs in `benchmarks/`
-measure, their records stand in `benchmarks/results/`, and `benchmarks/performance_page.py` writes this page from the newest ones.
-Times are processor times of one core. They scatter by some percent on a machine that others use; counts of evaluations and steps do not.
-Real-time factors through fmpy are given for the default, elastic cage halves, and for rigid ones. All other figures are of rigid halves
-(`scene.cage = two_half`), which every solver runs; [guide.md](guide.md#accuracy-and-cost) and
-[method.md](method.md#elastic-halves) say what elastic halves cost and where.
-
-{goals()}
+`benchmarks/performance_page.py` writes this page from the newest records in `benchmarks/results/`.
+`make bench` measures in minutes (short form), `make bench FORM=` in an hour (full form).
+Times are processor times of one core and scatter by some per cent; counts do not.
+Unless elastic halves (the default) are named, figures are of rigid halves (`two_half`), which every solver can run.
 
 {section("Run time against error", "work_precision", work_precision)}
+{goals()}
+
 {section("One evaluation of the right-hand side", "rhs", rhs)}
 {section("Where a step goes", "step", step)}
 {section("The step inside ARKODE", "hosted", hosted)}
-{section("What a scene does not need", "scenes", scenes)}
+{section("Cost of single features", "scenes", scenes)}
 {section("Scaling", "scaling", scaling)}"""
     PAGE.write_text("\n".join(line.rstrip() for line in text.splitlines()) + "\n")
     size = sum(path.stat().st_size for path in PICTURES.glob("*.svg")) / 1024

@@ -1,11 +1,11 @@
-"""What follows by rule for a bearing of which only the designation is known, and by how much the rivets' stress moves
-over what is usual: docs/rules.md.
+"""Rules for the missing values of a bearing file, and the change of the rivets' stress over each value's usual range.
 
-Each value that scaling.py makes from the 6207's stands once at the lower and once at the upper end of its usual range,
-all others by rule, in the 6309 at its loads and speed by rule; the same seeds each time.  Values that the rivet table
-is made from take a build each.
+Each value that scaling.py derives from the 6207's is set once to the lower and once to the upper end of its usual
+range, all others by rule, in the 6309 at its loads and speed by rule, with the same seeds each time.  Values of the
+rivet table need a build each.
 
-python benchmarks/rules.py [--short]     half an hour on two cores; --short takes two seeds and the values alone that need no build
+python benchmarks/rules.py [--short]   half an hour on two cores; --short: two seeds, no builds
+python benchmarks/rules.py --page      writes docs/rules.md from the newest record
 """
 
 import argparse
@@ -27,47 +27,43 @@ from riveted_bearing.rivet import geometry_of
 BEARING, T_END, SEEDS = "6309", 0.25, 8
 PAGE = ROOT / "docs" / "rules.md"
 INTRO = f"""<!-- Written by benchmarks/rules.py: do not edit. -->
-# What follows by rule, and what hangs on it
+# Rules for missing values
 
-A bearing file leaves values out; these are scaled from the 6207 of the paper (`riveted_bearing/scaling.py`). The table has each rule, and how far the rivets'
-stress moves when one value stands at either end of its usual range while all others stay.
+Values that a bearing file leaves out are scaled from the 6207 of the paper (`riveted_bearing/scaling.py`).
+The table has the change of the rivets' stress if one value is at either end of its usual range.
 
-Bearing: the {BEARING} by its designation alone, its loads and speed by rule, elastic cage halves, {{seeds}} seeds of {T_END:g} s.
-Stress: 99.9 % quantile of the worst head, {{p999:.0f}} MPa by rule (mean {{mean:.0f}} MPa); changes in per cent, with their standard error.
-D is the ball's diameter, d_m the pitch diameter, d the shank's diameter, d_h the head's, B the bearing's width.
+Bearing: the {BEARING} by its designation, elastic cage halves, {{seeds}} seeds of {T_END:g} s.
+Stress: 99.9 % quantile of the worst head, {{p999:.0f}} MPa by rule (mean {{mean:.0f}} MPa), with the standard error.
+Diameters: D ball, d_m pitch, d shank, d_h head; B bearing width.
+*: less if the cage were wider than {scaling.WIDEST_CAGE} B. The range is in multiples of the rule's value.
 
-| value | by rule | usual range | stress at its low end | at its high end | the range |
+| value | by rule | range | at its low end, % | high end, % | source of the range |
 |---|---|---|---|---|---|"""
 MATERIALS_TABLE = """
-The cage's material is bronze where none is named. Another one changes the stress by:
+The cage's default material is bronze. Other materials change the stress, in %:
 
 | material | 99.9 % quantile | mean |
 |---|---|---|"""
 CLOSE = """
 
-Rules without a range: balls and loads ([own_bearing.md](own_bearing.md)), mass and inertia of the half by shape and density, the number of vibration modes by
-the number of balls, temperatures of the parts by the oil's. The S–N curve follows the strength of the rivet's steel; damage goes with the 15th power of the
-stress.
+Rules without a range are those of balls and loads ([own_bearing.md](own_bearing.md)), mass and inertia of the half,
+number of modes, temperatures of the parts and the S–N curve. Damage grows with the 15th power of the stress.
 """
 
 
 @dataclass(frozen=True)
 class Rule:
-    """A value by rule: name in a bearing file; of: the quantity that it follows, low, high: usual range as factors of
-    the value by rule; why: of the range.
-    """
+    """A rule: name in a bearing file, quantity it scales with, usual range as factors, source of the range."""
 
     name: str
     of: str
     low: float
     high: float
-    why: str
+    source: str
 
     @property
     def formula(self):
-        """The rule as a formula of the ball's diameter D, the pitch diameter d_m, the shank's diameter d, the head's
-        d_h [m], bore and width.
-        """
+        """The rule as a formula."""
         start = RIVET[self.name.removeprefix("rivet.")] if self.name.startswith("rivet.") else scaling.start(self.name)
         D, d_m, d = scaling.start("bearing.D"), scaling.start("bearing.d_m"), RIVET["shank_diameter"]
         if self.of == "d_m + D":
@@ -75,48 +71,48 @@ class Rule:
         if self.of == "d^2":
             return f"{1e-6 * start / d**2:.3g} N/mm² d²"
         return {
-            "class CN": "middle of class CN for the bore (ISO 5753-1)",
+            "class CN": "middle of class CN (ISO 5753-1)",
             "D": f"{start / D:.3g} D",
-            "axial": f"{start / D:.3g} D, at most {scaling.WIDEST_CAGE} B for the cage",
+            "axial": f"{start / D:.3g} D*",
             "d": f"{start / d:.3g} d",
-            "head": f"{start / RIVET['head_diameter']:.3g} d_h, less where the bridge is narrow",
-            "ring": "the 6207's times (bore/35 mm)² B/17 mm",
-            "tilting ring": "the 6207's times (bore/35 mm)⁴ B/17 mm",
-            "damping ratio": "the 6207's times the root of (bore/35 mm)⁴ B/17 mm",
+            "head": f"{start / RIVET['head_diameter']:.3g} d_h, less at narrow bridges",
+            "ring": "6207's × (bore/35 mm)² B/17 mm",
+            "tilting ring": "6207's × (bore/35 mm)⁴ B/17 mm",
+            "damping ratio": "6207's × root of (bore/35 mm)⁴ B/17 mm",
         }[self.of]
 
 
 RULES = (
-    Rule("cage.pocket_clearance", "D", 0.5, 2.0, "0.9 to 3.6 % of the ball"),
-    Rule("cage.guide_clearance", "D", 0.5, 2.0, "0.17 to 0.7 % of the land"),
-    Rule("bearing.P_d", "class CN", 0.45, 1.6, "least and largest of class CN"),
-    Rule("cage.D_o", "d_m + D", 0.99, 1.01, "a tenth of the cage's height"),
-    Rule("cage.D_i", "d_m + D", 0.99, 1.01, "a tenth of the cage's height"),
-    Rule("cage.width", "axial", 0.995, 1.03, "as far as land and bearing have room"),
+    Rule("cage.pocket_clearance", "D", 0.5, 2.0, "0.9–3.6 % of the ball"),
+    Rule("cage.guide_clearance", "D", 0.5, 2.0, "0.17–0.7 % of the land"),
+    Rule("bearing.P_d", "class CN", 0.45, 1.6, "class CN"),
+    Rule("cage.D_o", "d_m + D", 0.99, 1.01, "10 % of the cage's height"),
+    Rule("cage.D_i", "d_m + D", 0.99, 1.01, "10 % of the cage's height"),
+    Rule("cage.width", "axial", 0.995, 1.03, "room of land and bearing"),
     Rule("cage.land_width", "axial", 0.7, 1.1, "assumed"),
-    Rule("cage.land_x", "axial", 0.8, 1.0, "assumed; by rule at the edge"),
-    Rule("rivet.shank_diameter", "D", 0.8, 1.25, "a step of the usual diameters"),
+    Rule("cage.land_x", "axial", 0.8, 1.0, "assumed; rule: at the edge"),
+    Rule("rivet.shank_diameter", "D", 0.8, 1.25, "next diameters"),
     Rule("rivet.flange_thickness", "D", 0.8, 1.25, "assumed"),
-    Rule("rivet.head_diameter", "d", 0.95, 1.05, "round heads of ISO 1051 and of smaller standards"),
-    Rule("rivet.head_height", "d", 0.8, 1.2, "the same"),
-    Rule("rivet.fillet_radius", "d", 0.6, 1.8, "0.03 to 0.1 d, the largest that standards allow"),
+    Rule("rivet.head_diameter", "d", 0.95, 1.05, "ISO 1051 and smaller"),
+    Rule("rivet.head_height", "d", 0.8, 1.2, "ISO 1051 and smaller"),
+    Rule("rivet.fillet_radius", "d", 0.6, 1.8, "standards, 0.03 to 0.1 d"),
     Rule("rivet.relief_radius", "d", 0.8, 1.1, "assumed"),
     Rule("rivet.relief_depth", "d", 0.7, 1.3, "assumed"),
     Rule("rivet.edge_break", "d", 0.8, 1.3, "assumed"),
     Rule("rivet.seat_diameter", "head", 0.95, 1.05, "assumed"),
-    Rule("joint.preload", "d^2", 0.5, 3.0, "the paper's studies: 0 to 60 N"),
-    Rule("joint.fit", "d", 0.0, 2.0, "the paper's studies: -0.02 to 0 mm in the middle of their range"),
+    Rule("joint.preload", "d^2", 0.5, 3.0, "the paper: 0 to 60 N"),
+    Rule("joint.fit", "d", 0.0, 2.0, "the paper: −0.02 to 0 mm"),
     Rule("joint.swell", "d", 0.0, 2.0, "assumed"),
-    Rule("ring.m", "ring", 0.5, 4.0, "the ring alone to a heavy shaft"),
+    Rule("ring.m", "ring", 0.5, 4.0, "bare ring to heavy shaft"),
     Rule("ring.c", "ring", 0.5, 2.0, "assumed"),
-    Rule("ring.J_t", "tilting ring", 0.5, 4.0, "the ring alone to a heavy shaft"),
+    Rule("ring.J_t", "tilting ring", 0.5, 4.0, "bare ring to heavy shaft"),
     Rule("ring.c_tilt", "damping ratio", 0.5, 2.0, "assumed"),
 )
 MATERIALS = ("brass", "steel", "PA66-GF25", "PEEK")  # beside bronze, which stands where none is named
 
 
 def needs_build(rule):
-    """Whether the rivet table is made from the value."""
+    """Whether the rivet table depends on the value."""
     return rule.name.startswith("rivet.") or rule.name in scaling.SHAPE.values()
 
 
@@ -139,7 +135,7 @@ def built(folder, stem, section):
 
 
 def section_of(name, value):
-    """The section of a bearing file that gives one value."""
+    """The section of a bearing file with one value."""
     return (
         f"[rivet]\n{name.removeprefix('rivet.')} = {value!r}\n"
         if name.startswith("rivet.")
@@ -158,8 +154,9 @@ def changes(values, base):
 
 
 def measure(short, only=()):
-    """The record: by rule, its value and the changes at both ends; by material the changes.  only: names of the rules
-    that are wanted, all without any.
+    """The record: of each rule its value and the changes at both ends, of each material the changes.
+
+    only: names of the rules to measure; all if empty.
     """
     seeds, case = range(1, 3 if short else 1 + SEEDS), bearing_case(BEARING)
     with tempfile.TemporaryDirectory() as name:
@@ -204,7 +201,7 @@ def change_text(row, end):
     """A change in per cent with its standard error."""
     if end not in row:
         return "cannot be built"
-    return f"{row[end]['p999']:+.1f} ± {row[end]['error']:.1f}" if row[end]["error"] else "0"
+    return f"{row[end]['p999']:+.1f}±{row[end]['error']:.1f}" if row[end]["error"] else "0"
 
 
 def page(record):
@@ -213,14 +210,11 @@ def page(record):
     for rule in RULES:
         if rule.name in record["rules"]:
             row = record["rules"][rule.name]
-            lines.append(
-                f"| `{rule.name}` | {rule.formula} | {rule.low:g} … {rule.high:g} times | {change_text(row, 'low')} | {change_text(row, 'high')} | {rule.why} |"
-            )
+            ends = f"{rule.low:g}–{rule.high:g}", change_text(row, "low"), change_text(row, "high")
+            lines.append(f"| `{rule.name}` | {rule.formula} | {' | '.join(ends)} | {rule.source} |")
     lines.append(MATERIALS_TABLE)
-    lines += [
-        f"| `{name}` | {row['p999']:+.1f} ± {row['error']:.1f} % | {row['mean']:+.1f} % |"
-        for name, row in record["materials"].items()
-    ]
+    for name, row in record["materials"].items():
+        lines.append(f"| `{name}` | {row['p999']:+.1f}±{row['error']:.1f} | {row['mean']:+.1f} |")
     return "\n".join(lines) + CLOSE
 
 
@@ -233,9 +227,9 @@ def main():
         nargs="+",
         default=(),
         metavar="NAME",
-        help="measure these rules again; the others stay as the newest record has them",
+        help="measure these rules; keep the others of the newest record",
     )
-    parser.add_argument("--page", action="store_true", help="the page again, from the newest record")
+    parser.add_argument("--page", action="store_true", help="only write the page, from the newest record")
     options = parser.parse_args()
     if not options.page:
         found = measure(options.short, options.only)

@@ -2,7 +2,7 @@
 point's.
 
 python benchmarks/stability.py                 the whole matrix, then docs/stability.md
-python benchmarks/stability.py --elastic       the same with elastic cage halves, for the page's last section
+python benchmarks/stability.py --elastic       the same with elastic cage halves, for the page's elastic rows
 python benchmarks/stability.py --family tilt   one family, printed
 python benchmarks/stability.py --long          ten million tiny steps, 100 s of simulated time, angles after a million revolutions (minutes)
 python benchmarks/stability.py --page          only the page, from the newest records in benchmarks/results/

@@ -1,9 +1,15 @@
-"""docs/stability.md from the newest records of stability.py."""
+"""Writes docs/stability.md from the newest records; measures nothing.  Run: python benchmarks/stability.py --page."""
 
 from collections import Counter
 
 import numpy as np
 from records import newest_record
+
+REASONS = (  # part of a message of refusal, reason
+    ("pressed out of", "the load presses a ball out of its groove at the start"),
+    ("must lie in", "a value lies outside its range"),
+    ("", "two values contradict each other"),
+)
 
 
 def load(name):
@@ -22,27 +28,23 @@ def table(head, rows):
     return row(*head) + row(*("---" for _ in head)) + "".join(row(*cells) for cells in rows) + "\n"
 
 
-def largest(records, key, among=lambda r: True):
-    values = [r for r in records if key in r and among(r) and np.isfinite(r[key])]
+def largest(records, key):
+    """The admissible finished scene with the largest value; None if no scene has the value."""
+    values = [r for r in records if r["admissible"] and r["outcome"] == "finished" and np.isfinite(r.get(key, np.nan))]
     return max(values, key=lambda r: r[key]) if values else None
 
 
 def family_rows(records):
     for family in dict.fromkeys(r["family"] for r in records):
         own = [r for r in records if r["family"] == family]
-        count = Counter(r["outcome"] for r in own)
-        slow = largest(own, "ratio", lambda r: r["admissible"] and r["outcome"] == "finished")
-        energy = largest(own, "balance", lambda r: r["outcome"] == "finished" and r["admissible"])
+        slow, energy = largest(own, "ratio"), largest(own, "balance")
         rejected = sum(r.get("rejected", 0) for r in own) / max(sum(r.get("steps", 0) for r in own), 1)
         yield (
             family,
             len(own),
-            count["finished"],
-            count["discarded"],
-            count["refused"],
-            f"{energy['balance']:.1e}" if energy else "",
-            f"{100 * rejected:.1f} %",
-            f"{slow['ratio']:.1f} ({slow['name']})" if slow else "",
+            f"{energy['balance']:.1e}" if energy else "—",
+            f"{100 * rejected:.1f}",
+            f"{slow['ratio']:.1f} ({slow['name']})" if slow else "—",
         )
 
 
@@ -53,81 +55,89 @@ def event_rows(records):
     return [(kind.replace("_", " "), count) for kind, count in kinds.most_common()]
 
 
+def refusal_rows(records):
+    """Reason of refusal, number of scenes, the first of them."""
+    found = {}
+    for r in records:
+        if r["outcome"] == "refused":
+            reason = next(reason for part, reason in REASONS if part in r["message"])
+            found.setdefault(reason, []).append(r["name"])
+    return [(reason, len(names), names[0]) for reason, names in found.items()]
+
+
+def outcomes(records):
+    """How many scenes ended in which way."""
+    count = Counter(r["outcome"] for r in records)
+    return [count[name] for name in ("finished", "refused", "discarded", "crashed", "hung", "not finite")]
+
+
 def write_page(path, problems):
     """Write the page; problems: function from records to sentences about faults."""
     data = load("stability")
+    elastic, long = load("stability_elastic"), load("stability_long")
     records = data["records"]
-    count = Counter(r["outcome"] for r in records)
-    bad = list(problems(records))
-    slow = sorted((r for r in records if r["admissible"] and r["outcome"] == "finished"), key=lambda r: -r["ratio"])
+    bad = list(problems(records)) + (list(problems(elastic["records"])) if elastic else [])
+    counts = [("rigid (`two_half`)", len(records), *outcomes(records))]
+    if elastic:
+        counts.append(("elastic", len(elastic["records"]), *outcomes(elastic["records"])))
     text = f"""# Stability
 
-{len(records)} scenes, random and extreme, with rigid cage halves (`scene.cage = two_half`; elastic ones: [below](#the-same-with-elastic-cage-halves)), each run
-to its end by `benchmarks/stability.py`: {count["finished"]} finished, {count["discarded"]} discarded,
-{count["refused"]} refused, {count["crashed"]} crashed, {count["hung"]} hung, {count["not finite"]} with a value that is not finite.
+`benchmarks/stability.py` runs random and extreme scenes to their ends.
 Measured {data["date"][:10]} at commit {data["commit"]} on {data["machine"]["processor"]}, processor times of one core.
-
-*Energy*: largest `bearing.energy_residual`, relative to the sum of the energy lost so far, the kinetic energy of balls and cage, and the work of the load
-over 10 µm, at the default tolerance and communication steps of 10 µs and more.  *Rejected*: steps that failed the error test, of all steps.
-*Run time*: processor time per simulated second, times 9/Z, relative to the working point in the same process; of the slowest scene of the family.
+Scenes whose rivets have closed forms have no modes and run with rigid halves only.
 
 """
-    head = ("family", "scenes", "finished", "discarded", "refused", "energy", "rejected", "run time")
-    text += table(head, family_rows(records))
+    text += table(
+        ("cage halves", "scenes", "finished", "refused", "discarded", "crashed", "hung", "not finite"), counts
+    )
+    text += "Further faults would be an admissible scene refused, an impossible scene that runs,\n"
+    text += "and a run time above 20 times the working point's.\n"
+    text += ("Faults:\n\n" + "".join(f"- {line}\n" for line in bad) if bad else "No fault occurred.\n") + "\n"
+    text += FAMILIES
+    text += table(("family", "scenes", "energy", "rejected, %", "run time"), family_rows(records))
     text += energy_text(records)
-    text += (
-        "## What must not happen\n\n"
-        + ("".join(f"- {line}\n" for line in bad) if bad else "None of these happened.\n")
-        + "\n"
-    )
-    text += f"## The slowest admissible scenes\n\nThe limit is 20 times the working point; the worst has {slow[0]['ratio']:.1f}.\n\n"
-    text += table(("scene", "run time", "evaluations per ms", "path"), [slow_row(r) for r in slow[:10]])
-    text += "## What happened in the model\n\nScenes with at least one onset, as reported by the logger and by `event.*`:\n\n"
-    text += table(("event", "scenes"), event_rows(records))
-    text += "## What was refused\n\n" + table(
-        ("scene", "reason"), [(r["name"], r["message"]) for r in records if r["outcome"] == "refused"]
-    )
-    elastic = load("stability_elastic")
-    text += elastic_text(elastic["records"], list(problems(elastic["records"]))) if elastic else ""
-    long = load("stability_long")
+    text += elastic_text(elastic["records"]) if elastic else ""
+    text += "## Events\n\nScenes with at least one onset, by the logger and `event.*`:\n\n"
+    kinds = event_rows(records)
+    text += table([kind for kind, _ in kinds], [[count for _, count in kinds]])
+    text += "## Refusals\n\nEvery refusal names the value and its limit.\n\n"
+    text += table(("reason", "scenes", "for example"), refusal_rows(records))
     path.write_text(text + (long_text(long) if long else ""))
 
 
-def elastic_text(records, bad):
-    """The scenes again with elastic cage halves."""
-    count = Counter(r["outcome"] for r in records)
-    slow = largest(records, "ratio", lambda r: r["admissible"] and r["outcome"] == "finished")
-    energy = largest(records, "balance", lambda r: r["outcome"] == "finished" and r["admissible"])
-    return f"""## The same with elastic cage halves
+FAMILIES = """## Families of scenes
 
-{len(records)} of the scenes with `scene.cage = elastic`, those of rivets by closed forms left out, which have no modes: {count["finished"]} finished,
-{count["discarded"]} discarded, {count["refused"]} refused, {count["crashed"]} crashed, {count["hung"]} hung, {count["not finite"]} with a value that is not
-finite. Run time relative to the working point with elastic halves: at most {slow["ratio"]:.1f} ({slow["family"]}: {slow["name"]}); energy: at most
-{energy["balance"]:.1e} ({energy["family"]}: {energy["name"]}). {"What must not happen: " + "; ".join(bad) if bad else "Nothing that must not happen."}
+| column | meaning |
+| --- | --- |
+| energy | largest `bearing.energy_residual` over energy lost + kinetic energy + work of the load over 10 µm |
+| rejected | steps that failed the error test |
+| run time | of the slowest scene, processor time per simulated second times 9/Z, over the working point's |
+
+Rigid halves; energy and run time at the default tolerance and communication steps of 10 µs and more:
+
+"""
+
+
+def elastic_text(records):
+    """The scenes again with elastic cage halves."""
+    slow, energy = largest(records, "ratio"), largest(records, "balance")
+    return f"""With elastic halves the largest run time is {slow["ratio"]:.1f} ({slow["name"]}), the largest energy
+{energy["balance"]:.1e} ({energy["family"]}: {energy["name"]}).
 
 """
 
 
 def energy_text(records):
     """Paragraph about the scenes whose energy balance does not close."""
-    open_ = sorted(
-        (r for r in records if r.get("balance", 0.0) > 0.01 and r["family"] != "tolerance"),
-        key=lambda r: -r["residual"],
-    )
+    open_ = [r for r in records if r.get("balance", 0.0) > 0.01 and r["family"] != "tolerance"]
     if not open_:
         return ""
-    worst = ", ".join(f"{r['family']}: {r['name']} ({r['residual']:.1g} J)" for r in open_[:4])
-    return f"""The balance does not close to 1 % in {len(open_)} scenes, most of them at or near standstill, where all energies are microjoules.
-The largest residuals: {worst}.
-The work integral takes the power at predicted velocities and subtracts their excess dissipation by linear rates (`verlet.c`); the rest of the difference
-between predicted and corrected velocities remains.
+    worst = max(open_, key=lambda r: r["residual"])
+    return f"""The balance does not close to 1 % in {len(open_)} scenes, most of them near standstill, where energies
+are microjoules. The largest residual is {worst["residual"]:.1g} J ({worst["name"]}).
+The correction of the work holds for linear rates only ([method.md](method.md#energy)).
 
 """
-
-
-def slow_row(r):
-    path = {1: "Verlet", 2: "Runge-Kutta"}.get(r["path"], r["path"])
-    return f"{r['family']}: {r['name']}", f"{r['ratio']:.1f}", f"{r['evaluations'] / r['t'] / 1e3:.0f}", path
 
 
 def long_text(data):
@@ -135,29 +145,48 @@ def long_text(data):
     last = rows[-1]
     drift = np.polyfit([r["t"] for r in rows], [r["bearing.energy_residual"] for r in rows], 1)[0]
     loss = np.mean([r["bearing.power_loss"] for r in rows])
-    differences = ", ".join(f"{name} {value:.1e}" for name, value in turns["differences"].items())
     text = f"""## Long runs
 
-**{tiny["steps"]:,} communication steps of 1 ns**: no status but OK, clock off by {tiny["clock_error"]:.1e} s, energy residual {tiny["residual"]:.1e} J,
-{1e6 * tiny["cpu_per_step"]:.1f} µs of processor time each.
+{tiny["steps"]:,} communication steps of 1 ns: clock error {tiny["clock_error"]:.1e} s, energy residual
+{tiny["residual"]:.1e} J, {1e6 * tiny["cpu_per_step"]:.1f} µs of processor time each.
 
-**{last["t"]:g} s of the working point** with rigid halves ({last["psi"] / (2 * np.pi):,.0f} turns of the cage, {last["solver.steps"]:,.0f} steps): the energy
-residual is
-{last["bearing.energy_residual"]:.2e} J, its mean drift {drift:.1e} W: {100 * abs(drift) / loss:.1g} % of the power lost, the work integral's bias at the
-default tolerance.
-The cage's angle and its mean speed, summed apart, differ by {phase(rows):.1e}; friction states stay within {1e6 * max(r["friction"] for r in rows):.2f} µm,
-`stat.time` is off by {abs(last["stat.time"] - last["t"] + 0.05):.1e} s.
+All angles shifted by {turns["turns"]:,} turns (resolution {turns["resolution"]:.1e} rad): differences from the
+unshifted run after 1 ms at tolerance 1e-8, SI units:
 
-**{turns["turns"]:,} turns ahead**: all angles shifted by as many turns (their resolution is then {turns["resolution"]:.1e} rad) and 1 ms run
-at tolerance 1e-8, against no shift: {differences} (SI units).
-
-| t [s] | energy residual [J] | RMS pocket force [N] | cage speed [rad/s] | slip of a joint [µm] |
-| --- | --- | --- | --- | --- |
 """
-    for r in rows[:: max(len(rows) // 10, 1)]:
-        cage = f"{r['stat.cage_omega']:.4f}", f"{1e6 * r['cage.dislocation']:.2f}"
-        text += row(f"{r['t']:g}", f"{r['bearing.energy_residual']:.2e}", f"{r['stat.Q_c_rms']:.4f}", *cage)
-    return text
+    differences = turns["differences"]
+    text += table(tuple(differences), [[f"{value:.1e}" for value in differences.values()]])
+    text += f"""{last["t"]:g} s of the working point, rigid halves:
+
+"""
+    text += table(
+        ("quantity", "value"),
+        (
+            ("turns of the cage", f"{last['psi'] / (2 * np.pi):,.0f}"),
+            ("steps", f"{last['solver.steps']:,.0f}"),
+            ("energy residual", f"{last['bearing.energy_residual']:.2e} J"),
+            ("its drift", f"{drift:.1e} W, {100 * abs(drift) / loss:.1g} % of the power lost"),
+            ("cage angle against summed mean speed", f"{phase(rows):.1e}"),
+            ("largest friction state", f"{1e6 * max(r['friction'] for r in rows):.2f} µm"),
+            ("error of `stat.time`", f"{abs(last['stat.time'] - last['t'] + 0.05):.1e} s"),
+        ),
+    )
+    head = ("t, s", "energy residual, J", "RMS pocket force, N", "cage speed, rad/s", "slip of a joint, µm")
+    shown = rows[0], rows[len(rows) // 2], last
+    text += table(
+        head,
+        (
+            (
+                f"{r['t']:g}",
+                f"{r['bearing.energy_residual']:.2e}",
+                f"{r['stat.Q_c_rms']:.4f}",
+                f"{r['stat.cage_omega']:.4f}",
+                f"{1e6 * r['cage.dislocation']:.2f}",
+            )
+            for r in shown
+        ),
+    )
+    return text.rstrip("\n") + "\n"
 
 
 def phase(rows):

@@ -52,10 +52,10 @@ def without_links(markdown):
 
 def bearing_texts():
     """What the project's own texts say about the bearing."""
-    readme = (PROJECT / "README.md").read_text()
+    physics = (PROJECT / "docs" / "physics.md").read_text()
     return {
-        "conventions": html(sections(readme, "What goes in, what comes out")),
-        "physics": html(sections(readme, "The physics in equations")),
+        "conventions": html(sections(physics, "Inputs and outputs", "Frames and signs")),
+        "physics": html(sections(physics, "The elements", "Integration", "Symbols")),
         "rivet": html(without_links(re.sub(r"\A# .*\n", "", (PROJECT / "docs" / "rivet.md").read_text()))),
     }
 

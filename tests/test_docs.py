@@ -13,7 +13,7 @@ import pytest
 from test_guide import run_in_shell
 
 ROOT = Path(__file__).resolve().parents[1]
-PAGES = [*ROOT.glob("*.md"), *(ROOT / "docs").glob("*.md"), *(ROOT / "examples").rglob("*.md")]
+PAGES = [*ROOT.glob("*.md"), *(ROOT / "docs").rglob("*.md"), *(ROOT / "examples").rglob("*.md")]
 COOKBOOK = (ROOT / "docs" / "cookbook.md").read_text(encoding="utf-8")
 BLOCKS = re.findall(r"^```(\w+)\n(.*?)^```", COOKBOOK, re.S | re.M)
 LINK = re.compile(r"(?<!\\)\[(?:[^][]|\[[^]]*\])*\]\(([^)\s]+)\)")
@@ -156,7 +156,7 @@ def test_the_site_has_formulas_search_and_the_interface(site):
     index = site["search/search_index.json"].read_text(encoding="utf-8")
     assert "joint.preload" in index and "Own bearing" in index
     api = site["api.html"].read_text(encoding="utf-8")
-    for text in ("Simulate a scene and return its Result", "to_xarray", "Raises UserError"):
+    for text in ("Simulate the FMU at its own working point", "to_xarray", "Raises UserError"):
         assert text in api
     with contextlib.suppress(KeyError):
         assert "hooks.py" not in site

@@ -4,6 +4,7 @@ by inputs and states of the ring.
 
 import math
 import re
+import runpy
 
 import fmpy
 import numpy as np
@@ -493,13 +494,12 @@ def test_stiffness_matrix(core, folder):
     assert balls["Q_i"].max() > 500.0 and K[1, 1] > 5e7  # [N], [N/m]
 
 
-def test_documented_example(monkeypatch, capsys):
-    """docs/running.md: at the working point the inner contacts alone are about twice as stiff as the quasi-static
-    bearing, 176 N/um along Y.
+def test_stiffness_example(monkeypatch, capsys):
+    """At the working point the inner contacts alone are about twice as stiff as the quasi-static bearing, 176 N/um
+    along Y.
     """
     monkeypatch.chdir(ROOT)
-    text = (ROOT / "docs" / "running.md").read_text().split("## In a co-simulation master")[1]
-    exec(compile(text.split("```python\n")[1].split("```")[0], "running.md", "exec"), {})
+    runpy.run_path(str(ROOT / "examples" / "stiffness" / "stiffness.py"))["main"]([])
     stiffness = float(capsys.readouterr().out.split()[0])
     assert 1.7 * 176e6 < stiffness < 2.4 * 176e6  # observed 3.56e8 N/m
 

@@ -1,6 +1,7 @@
 """The user's guide and the page on an own bearing: their files, commands and examples do what they say."""
 
 import re
+import runpy
 import shlex
 import subprocess
 import sys
@@ -15,14 +16,14 @@ from riveted_bearing.bearings import bearing_case
 from riveted_bearing.cli import program
 from riveted_bearing.fmu import Model
 from riveted_bearing.scene import load_scene
-from riveted_bearing.sweep import load_sweep
 
 ROOT = Path(__file__).parents[1]
 GUIDE = (ROOT / "docs" / "guide.md").read_text(encoding="utf-8")
 FMU = ROOT / "fmus" / "RivetedBearing.fmu"
 OWN = (ROOT / "docs" / "own_bearing.md").read_text(encoding="utf-8")
-# (language, text)
-BLOCKS = [block for page in (GUIDE, OWN) for block in re.findall(r"^```(\w+)\n(.*?)^```", page, re.S | re.M)]
+BLOCKS = [
+    block for page in (GUIDE, OWN) for block in re.findall(r"^```(\w+)\n(.*?)^```", page, re.S | re.M)
+]  # (language, text)
 FILES = {found[1]: text for language, text in BLOCKS if language == "toml" and (found := re.match(r"# (\S+)", text))}
 PARTS = [text for language, text in BLOCKS if language == "toml" and not text.startswith("#")]  # of bearing files
 COMMANDS = [line for language, text in BLOCKS if language == "sh" for line in text.splitlines()]
@@ -48,7 +49,6 @@ def test_files_can_be_read(folder):
     readers = {
         "runup.toml": lambda path: load_scene(path, model),
         "mine.toml": lambda path: bearing_case(path).equilibrium(),
-        "preload.toml": lambda path: load_sweep(path, model),
         "rivet.toml": lambda path: None,  # read by rivet_model.build, in test_the_whole_guide
     }
     assert set(FILES) == set(readers)
@@ -88,17 +88,25 @@ def test_links_lead_somewhere():
         }, link
 
 
-def test_scene_of_the_guide_and_python_examples_run(folder, capsys):
-    """The three examples in Python that need no other file; 30 N of preload alone give 72 MPa in the head, 40 N 96 MPa."""
-    examples = [text for language, text in BLOCKS if language == "python" and "results/" not in text]
-    assert len(examples) == 3
+def test_python_examples_run(folder, capsys):
+    """The scene and the spindle; 30 N of preload alone give 72 MPa in the head, 40 N 96 MPa."""
+    examples = [text for language, text in BLOCKS if language == "python"]
+    assert len(examples) == 2
     for text in examples:
         exec(compile(text, "guide.md", "exec"), {"__name__": "guide"})
-    printed = capsys.readouterr().out
-    assert len(printed.splitlines()) == 3
-    stresses = [int(text) for text in re.findall(r"(\d+) MPa", printed)]
-    # 730 MPa the largest, with the centrifugal load
-    assert len(stresses) == 5 and all(40 < stress < 900 for stress in stresses)
+    assert_stresses(capsys.readouterr().out, lines=2, stresses=3)
+
+
+def test_two_bearings_of_a_spindle_as_an_ssp(folder, capsys):
+    runpy.run_path(str(ROOT / "examples" / "spindle" / "two_bearings.py"))["main"]([])
+    assert_stresses(capsys.readouterr().out, lines=1, stresses=2)
+    assert Path("spindle.ssp").is_file()
+
+
+def assert_stresses(printed, lines, stresses):
+    found = [int(text) for text in re.findall(r"(\d+) MPa", printed)]
+    assert len(printed.splitlines()) == lines and len(found) == stresses
+    assert all(40 < stress < 900 for stress in found)  # 730 MPa the largest, with the centrifugal load
 
 
 @pytest.mark.slow
@@ -113,15 +121,7 @@ def test_the_whole_guide(folder):
         elif language == "python":
             exec(compile(text, "guide.md", "exec"), {"__name__": "guide"})
     results = {path.name for path in (folder / "results").iterdir()}
-    assert {
-        "demo.html",
-        "demo.png",
-        "runup.html",
-        "preload40.html",
-        "softer.parquet",
-        "demo_compare.png",
-        "preload",
-    } <= results
+    assert {"demo.html", "demo.png", "runup.html", "preload40.html", "softer.parquet", "demo_compare.png"} <= results
 
 
 def run_in_shell(line):

@@ -2,6 +2,7 @@
 files that the site does not hold.
 """
 
+import os
 import re
 from pathlib import Path
 
@@ -26,9 +27,10 @@ def on_files(files, config):
 
 def on_page_markdown(markdown, page, config, files):
     """Formulas and links of one page, its code left as it is."""
-    folder = "" if page.file.src_uri in OUTSIDE.values() else "docs/"
+    here = Path(page.file.src_uri).parent
+    folder = Path() if page.file.src_uri in OUTSIDE.values() else "docs" / here
     parts = CODE.split(markdown)
-    parts[::2] = [links(formulas(text), folder, files) for text in parts[::2]]
+    parts[::2] = [links(formulas(text), folder, here, files) for text in parts[::2]]
     if page.file.src_uri == "browser.md" and files.get_file_from_path(BEARING.name):
         parts.append(f"\n[Open the bearing]({BEARING.name}){{ .md-button }}\n")
     return "".join(parts)
@@ -43,9 +45,9 @@ def formulas(text):
     return re.sub(r"\$([^$\n]+)\$", lambda formula: f"<span>{convert(formula[1])}</span>", text)
 
 
-def links(text, folder, files):
-    """Links from a file of `folder` in the repository as links between pages; what the site does not hold becomes its
-    name.
+def links(text, folder, here, files):
+    """Links from a file of `folder` in the repository as links from a page in `here`; a file that the site does not
+    hold becomes its name.
     """
 
     def rewritten(link):
@@ -53,14 +55,11 @@ def links(text, folder, files):
         path, _, anchor = target.partition("#")
         if target.startswith(("http", "#", "mailto:")):
             return link[0]
-        place = Path(ROOT / folder / path).resolve().relative_to(ROOT).as_posix()
+        place = (ROOT / folder / path).resolve().relative_to(ROOT).as_posix()
         page = OUTSIDE.get(place, place.removeprefix("docs/"))
         if files.get_file_from_path(page) is None:
             return f"{label} (`{place}`)" if label.strip("`") != place else f"`{place}`"
-        return f"[{label}]({page}{'#' + anchor if anchor else ''})"
+        return f"[{label}]({os.path.relpath(page, here)}{'#' + anchor if anchor else ''})"
 
-    return re.sub(
-        r"(?<!!)\[([^]]*)\]\(([^)]+)\)",
-        rewritten,
-        re.sub(r"!\[([^]]*)\]\(docs/", r"![\1](", text) if not folder else text,
-    )
+    text = text if folder.parts else re.sub(r"!\[([^]]*)\]\(docs/", r"![\1](", text)
+    return re.sub(r"(?<!!)\[([^]]*)\]\(([^)]+)\)", rewritten, text)
