@@ -29,16 +29,15 @@ static scalar ball_energy(const Model *model, const scalar *y, int j)
 static scalar contact_energy(const Model *model, const Work *w)
 {
     const Derived *d = model->d;
-    const bool rigid = model->p->scene.cage == CAGE_MODEL_RIGID;
     const wide K_i = wide_set(d->inner.hertz.K), K_e = wide_set(d->outer.hertz.K), K = wide_set(d->pocket.K);
     ball_array stored;
     for (int j = 0; j < PACKETS * LANE_WIDTH; j += LANE_WIDTH) {
         wide E = hertz_energy(K_i, wide_load(&w->delta_i[j])) + hertz_energy(K_e, wide_load(&w->delta_e[j]));
-        for (int h = 0; h < (rigid ? 1 : 2); h++) {
+        for (int h = 0; h < 2; h++) {
             PocketGap gap = pocket_gap(d, w, &w->half[h], j);
             if (model->elastic) gap.delta = wide_load(&w->delta_c[h][j]);
             const wide whole = hertz_energy(K, gap.delta);
-            E += rigid ? whole : pocket_share(d, h, gap.n_x, gap.delta).energy * whole;
+            E += pocket_share(d, h, gap.n_x, gap.delta).energy * whole;
             if (model->elastic) {  // in the wall, beside its modes
                 const wide Q = pocket_share(d, h, gap.n_x, gap.delta).load * hertz_load(K, gap.delta);
                 E += (0.5 * model->elastic->compliance) * Q * Q;
@@ -70,12 +69,11 @@ static scalar joint_energy(const Model *model, const scalar *y, const Work *w, i
 scalar energy_total(const Model *model, const scalar *y, const Work *w)
 {
     const Parameters *p = model->p;
-    const bool rigid = p->scene.cage == CAGE_MODEL_RIGID;
     scalar E = w->land_elastic + contact_energy(model, w);
     if (model->elastic) E += w->modes_energy + elastic_potential(w);
     for (int j = 0; j < Z; j++) {
         E += ball_energy(model, y, j);
-        if (!rigid) E += joint_energy(model, y, w, j);
+        E += joint_energy(model, y, w, j);
     }
     for (int h = 0; h < 2; h++) {
         const Rotor *half = &w->half[h];

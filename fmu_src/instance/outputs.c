@@ -87,13 +87,12 @@ static void fill_ball(const Evaluation *at, Outputs *out)
 {
     const Work *w = at->w;
     const Derived *d = at->model->d;
-    const bool rigid = at->model->p->scene.cage == CAGE_MODEL_RIGID;
     double contacts = 0.0;
     scalar penetration = 0.0, force_max = 0.0;
     for (int j = 0; j < Z; j++) {
         const scalar Q_i = w->Q_i[j], Q_e = w->Q_e[j], Q_c = w->pocket[0].Q[j] + w->pocket[1].Q[j];
         const scalar delta[3] = {w->delta_i[j], w->delta_e[j],
-                                 rigid ? w->delta_c[0][j] : scalar_max(w->delta_c[0][j], w->delta_c[1][j])};
+                                 scalar_max(w->delta_c[0][j], w->delta_c[1][j])};
         out->ball.Q_i[j] = Q_i;
         out->ball.Q_e[j] = Q_e;
         out->ball.Q_c[j] = Q_c;
@@ -234,11 +233,10 @@ static void fill_stress(const Evaluation *at, Outputs *out)
 static void fill_energy(const Evaluation *at, Outputs *out)
 {
     const Work *w = at->w;
-    const bool joints = at->model->p->scene.cage != CAGE_MODEL_RIGID;
     out->loss.modes = at->model->elastic ? w->modes_dissipated : 0.0;
-    out->loss.joints = joints ? ball_array_sum(w->joint_dissipated) : 0.0;
+    out->loss.joints = ball_array_sum(w->joint_dissipated);
     out->bearing.power_loss = ball_array_sum(w->dissipated) + w->cage_dissipated + w->ring_drag_dissipated;
-    if (joints) out->bearing.power_loss += out->loss.joints;
+    out->bearing.power_loss += out->loss.joints;
     out->bearing.power_loss += out->loss.modes;
     out->loss.races = ball_array_sum(w->race_dissipated);
     out->loss.inlet = ball_array_sum(w->inlet_dissipated);

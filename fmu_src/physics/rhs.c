@@ -56,13 +56,6 @@ static void rotor_kinematics(const Model *model, const scalar *y, Work *w)
             half->F[i] = half->M[i] = 0.0;  // the elements add their forces
         }
     }
-
-    // in a rigid cage half 1 moves with half 0
-    if (model->p->scene.cage == CAGE_MODEL_RIGID) {
-        Rotor *h0 = &w->half[0], *h1 = &w->half[1];
-        *h1 = *h0;
-        for (int i = 0; i < 3; i++) h1->c[i] = model->d->com_x[1] * h0->a[i] + model->d->com_e * h0->b_y[i];
-    }
 }
 
 // Sum of the race contacts on the ring.
@@ -126,47 +119,6 @@ static void halves_acceleration(const Model *model, const scalar *y, const Work 
     }
 }
 
-// Both halves as one rigid body about their common centre of mass.
-static void rigid_cage_acceleration(const Model *model, const scalar *y, const Work *w, scalar *y_dot)
-{
-    const Parameters *p = model->p;
-    const Rotor *cage = &w->half[0];
-    const double J_t = 2.0 * (model->d->J_t + p->cage.m * model->d->com_x[1] * model->d->com_x[1]);
-    scalar M[3], lever[3], a_ddot[3], acc[3], s_dot;
-    scalar F[3], c[3], spin_up[3], carried[3], around[3], inward[3], centre[2][3], field[3], M_f[3];
-
-    // force, and moment about the common centre of mass
-    for (int i = 0; i < 3; i++) {
-        F[i] = w->half[0].F[i] + w->half[1].F[i];
-        c[i] = model->d->com_e * cage->b_y[i];
-    }
-    cross3(c, F, lever);
-    frame_moment(model->ring_load, cage, 2.0 * model->d->J_p, J_t, M_f);
-    for (int i = 0; i < 3; i++) M[i] = w->half[0].M[i] + w->half[1].M[i] - lever[i] + M_f[i];
-
-    // gravity and the frame's inertia forces act at the common centre of mass, c off the geometric centre
-    cross3(cage->Omega, c, centre[1]);
-    for (int i = 0; i < 3; i++) {
-        centre[0][i] = cage->x[i] + c[i];
-        centre[1][i] += cage->v[i];
-    }
-    frame_acceleration(model->ring_load, centre[0], centre[1], field);
-    rotor_acceleration(cage, 2.0 * model->d->J_p, J_t, M, a_ddot, &s_dot);
-
-    // rate of Omega, which carries each half's centre of mass along
-    cross3(cage->a, a_ddot, spin_up);
-    for (int i = 0; i < 3; i++) spin_up[i] += s_dot * cage->a[i] + cage->s * cage->a_dot[i];
-    for (int h = 0; h < 2; h++) {
-        for (int i = 0; i < 3; i++) c[i] = model->d->com_x[h] * cage->a[i];
-        cross3(spin_up, c, carried);
-        cross3(cage->Omega, c, around);
-        cross3(cage->Omega, around, inward);
-        for (int i = 0; i < 3; i++) acc[i] = F[i] / (2.0 * p->cage.m) + field[i] + carried[i] + inward[i];
-        half_rates(y, cage, h, acc, a_ddot, s_dot, y_dot);
-    }
-    for (int i = 0; i < 4 * Z; i++) y_dot[Y_JOINT_PLATE_Y + i] = 0.0;  // friction states rest
-}
-
 // Power of an outer ring that moves, of gravity and of the frame.
 static __attribute__((noinline)) scalar motion_power(const Model *model, const Work *w)
 {
@@ -181,7 +133,7 @@ static scalar net_power(const Model *model, const Work *w)
 {
     scalar power =
         shaft_power(w) - ball_array_sum(w->dissipated) - w->cage_dissipated - w->ring_drag_dissipated;
-    if (model->p->scene.cage != CAGE_MODEL_RIGID) power -= ball_array_sum(w->joint_dissipated);
+    power -= ball_array_sum(w->joint_dissipated);
     if (model->elastic) power -= w->modes_dissipated;
     const RingLoad *load = model->ring_load;
     if (scalar_value(load->omega_dot) != 0.0 || scalar_value(load->frame_omega_dot) != 0.0)
@@ -195,7 +147,6 @@ void rhs_cage_advance(const Model *model, const double *middle, double h, double
 {
     rotor_kinematics(model, middle, w);
     for (int i = 0; i < 2; i++) y[Y_CAGE_PSI + i] += h * (w->half[i].s - rotor_roll(&w->half[i]));
-    if (model->p->scene.cage == CAGE_MODEL_RIGID) return;
     cage_joint_kinematics(model, w);
     if (!model->elastic) cage_joint_advance(model, w, h, y);
 }
@@ -204,7 +155,6 @@ void rhs_cage_advance(const Model *model, const double *middle, double h, double
 // One evaluation under the load that is on the ring.
 static void evaluate(const Model *model, const scalar *y, scalar *y_dot, Work *w)
 {
-    const bool rigid = model->p->scene.cage == CAGE_MODEL_RIGID;
     for (int i = 0; i < 3; i++) w->outer_x[i] = model->ring_load->outer_x[i];
     w->outer_beta = model->ring_load->outer_beta, w->outer_gamma = model->ring_load->outer_gamma;
     w->frame_omega = model->ring_load->frame_omega;
@@ -219,23 +169,19 @@ static void evaluate(const Model *model, const scalar *y, scalar *y_dot, Work *w
     drag_ring(model, w);
     land_film_force(model, w);
     drag_cage(model, w);
-    if (!rigid) {
-        cage_joint_kinematics(model, w);
-        if (model->elastic) {
-            cage_elastic_pads(model, w);
-            cage_elastic_joints(model, w);
-        }
-        cage_joint_force(model, y, w);
+    cage_joint_kinematics(model, w);
+    if (model->elastic) {
+        cage_elastic_pads(model, w);
+        cage_elastic_joints(model, w);
     }
+    cage_joint_force(model, y, w);
     ball_acceleration(model, w, y_dot);
-    (rigid ? rigid_cage_acceleration : halves_acceleration)(model, y, w, y_dot);
+    halves_acceleration(model, y, w, y_dot);
     ring_acceleration(model, w, y_dot);
-    if (!rigid) {
-        memcpy(&y_dot[Y_JOINT_PLATE_Y], w->plate_y_dot, Z * sizeof *y_dot);
-        memcpy(&y_dot[Y_JOINT_PLATE_Z], w->plate_z_dot, Z * sizeof *y_dot);
-        memcpy(&y_dot[Y_JOINT_HEAD_Y], w->head_y_dot, Z * sizeof *y_dot);
-        memcpy(&y_dot[Y_JOINT_HEAD_Z], w->head_z_dot, Z * sizeof *y_dot);
-    }
+    memcpy(&y_dot[Y_JOINT_PLATE_Y], w->plate_y_dot, Z * sizeof *y_dot);
+    memcpy(&y_dot[Y_JOINT_PLATE_Z], w->plate_z_dot, Z * sizeof *y_dot);
+    memcpy(&y_dot[Y_JOINT_HEAD_Y], w->head_y_dot, Z * sizeof *y_dot);
+    memcpy(&y_dot[Y_JOINT_HEAD_Z], w->head_z_dot, Z * sizeof *y_dot);
     if (model->elastic) cage_elastic_acceleration(model, y, w, y_dot);
     y_dot[Y_WORK] = net_power(model, w);
 }

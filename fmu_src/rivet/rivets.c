@@ -2,9 +2,6 @@
 //
 //   elastic      all loads are those of the dynamics' joints, whose halves bend (cage_elastic.c): nothing is added
 //   two halves   N = T - N_plate of the dynamics' joints; plates S, heads H and hole B carry the transverse load
-//   rigid cage   the wrench between the halves, (half 1 - half 0)/2 as both have the same inertia, on the circle
-//                of rivets; its transverse part loads plates (up to mu T), then heads (mu T more), then the shank,
-//                T = P + dT (cage_joint_prying)
 //
 // To this rigid share the elastic halves add what bonded joints would carry of pocket forces and of the cage's
 // own centrifugal load (half_path.h).  Joints that open and slip relieve it (joint_law.h); in the plane they have
@@ -65,62 +62,6 @@ static void two_half_share(const Model *model, const Work *w, RigidShare *share)
     }
 }
 
-// Wrench of pockets and land on half 1 less that on half 0, halved, about the cage's centre in its body
-// frame.
-static void rigid_wrench(const Work *w, const Pockets *on_1, scalar wrench[6])
-{
-    const Rotor *cage = &w->half[0];
-    scalar global[6];
-    for (int i = 0; i < 3; i++) {
-        global[i] = 0.5 * (w->half[1].F[i] - w->half[0].F[i]);
-        global[3 + i] = 0.5 * (w->half[1].M[i] - w->half[0].M[i]);
-    }
-
-    // half 0 holds all pocket forces: those of half 1 go over to it
-    const scalar *pockets[6] = {on_1->half_F_x, on_1->half_F_y, on_1->half_F_z,
-                                on_1->half_M_x, on_1->half_M_y, on_1->half_M_z};
-    for (int i = 0; i < 6; i++) global[i] += ball_array_sum(pockets[i]);
-
-    // into the body frame
-    const scalar *axes[3] = {cage->a, cage->b_y, cage->b_z};
-    for (int i = 0; i < 3; i++) {
-        wrench[i] = dot3(axes[i], global);
-        wrench[3 + i] = dot3(axes[i], global + 3);
-    }
-}
-
-static void rigid_share(const Model *model, const Work *w, const Pockets *on_1, RigidShare *share)
-{
-    const double R = 0.5 * rivet_table.joint.d_m;
-    const scalar friction =
-        model->p->joint.mu * scalar_max(model->d->P_mean + cage_joint_prying(model, w), 0.0);
-    double c[Z], s[Z];
-    scalar wrench[6];
-    ball_array V_y = {0}, V_z = {0};
-    rigid_wrench(w, on_1, wrench);
-    for (int k = 0; k < Z; k++) {
-        c[k] = model->d->rivet_y[k] / R;
-        s[k] = model->d->rivet_z[k] / R;
-    }
-    for (int k = Z; k < LANES; k++) share->N[k] = 0.0;  // padding
-    bolt_group(2.0 * R, wrench, c, s, share->N, V_y, V_z);
-    const wide zero = wide_set(0.0), limit = wide_set(friction);
-    for (int k = 0; k < PACKETS * LANE_WIDTH; k += LANE_WIDTH) {
-        const wide y = wide_load(&V_y[k]), z = wide_load(&V_z[k]), V = wide_hypot(y, z);
-        const wide inv_V = wide_select(wide_above(V, 0.0), 1.0 / wide_max(V, wide_set(1e-300)), zero),
-                   e_y = y * inv_V, e_z = z * inv_V;
-        const wide plates = wide_min(V, limit), heads = wide_max(wide_min(V - limit, limit), zero),
-                   shank = wide_max(V - 2.0 * limit, zero);
-        store_turned(model, plates * e_y, plates * e_z, k, share->plates);
-        store_turned(model, heads * e_y, heads * e_z, k, share->heads);
-        store_turned(model, shank * e_y, shank * e_z, k, share->shank);
-        wide_store(&share->left.plates[k], limit - plates);
-        wide_store(&share->left.heads[k], limit - heads);
-        wide_store(&share->left.gap[k], wide_load(&model->d->hole_gap[k]));
-        wide_store(&share->left.k_hole[k], wide_load(&model->d->k_hole[k]));
-    }
-}
-
 // The dynamics has all loads of the joints between elastic halves.
 static void elastic_loads(const Model *model, const Work *w, JointLoads *load)
 {
@@ -154,22 +95,15 @@ static void find_loads(const Model *model, const Work *w, JointTangents *tangent
     }
     const Derived *d = model->d;
     const CageHalfData *half = &rivet_table.half;
-    const Pockets *on = w->pocket;
-    Pockets split[2];
     RigidShare share;
     share.left.k_head = d->k_head;
-    if (model->p->scene.cage == CAGE_MODEL_RIGID) {
-        pocket_split(model, w, split);
-        on = split;
-        rigid_share(model, w, &split[1], &share);
-    } else
-        two_half_share(model, w, &share);
+    two_half_share(model, w, &share);
 
     // what bonded joints of elastic halves would carry
     PathRows rows;
     PathForces forces[2];
     for (int h = 0; h < 2; h++)
-        forces[h] = (PathForces){on[h].F_x, on[h].F_r, on[h].F_t, on[h].push_x, on[h].push_t};
+        forces[h] = (PathForces){w->pocket[h].F_x, w->pocket[h].F_r, w->pocket[h].F_t, w->pocket[h].push_x, w->pocket[h].push_t};
     const bool touched = half_path_rows(&half->path, forces, &rows);
     const scalar s_0 = w->half[0].s + w->frame_omega, s_1 = w->half[1].s + w->frame_omega;
     const scalar omega2 = 0.5 * (s_0 * s_0 + s_1 * s_1);

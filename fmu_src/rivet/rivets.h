@@ -18,7 +18,6 @@ RivetsFollow rivets_follow;
 // Slip of half 1 against half 0 at each joint, in the plane [m].
 INLINE void rivets_slip(const Model *model, const Work *w, scalar slip[Z])
 {
-    const bool rigid = model->p->scene.cage == CAGE_MODEL_RIGID;
     for (int k = 0; k < Z; k++)
-        slip[k] = rigid ? 0.0 : scalar_sqrt(w->u_y[k] * w->u_y[k] + w->u_z[k] * w->u_z[k]);
+        slip[k] = scalar_sqrt(w->u_y[k] * w->u_y[k] + w->u_z[k] * w->u_z[k]);
 }

@@ -371,52 +371,6 @@ static Film film_of_half(const Model *model, const Work *w, int h, double gamma)
     return film(w, h, p->cage.m, model->d->J_p, model->d->J_t, x_land - model->d->com_x[h], gamma);
 }
 
-// v = (1 + gamma A)^-1 v of a rigid cage, A of both films together: where both are stiff, one after the other
-// would hold the cage by their product.
-static void rigid_solve(const Model *model, const Work *w, double gamma, Half *v)
-{
-    enum { V_Y, V_Z, BETA, GAMMA, S };
-
-    const Parameters *p = model->p;
-    const double m = 2.0 * p->cage.m, J_p = 2.0 * model->d->J_p,
-                 J_t = 2.0 * (model->d->J_t + p->cage.m * p->cage.x_c * p->cage.x_c);
-    const double inertia[BODY_DOF] = {m, m, J_t, J_t, J_p};
-    double x[BODY_DOF] = {m * v->y, m * v->z, J_t * v->beta, J_t * v->gamma, J_p * v->s};
-    double A[BODY_DOF][BODY_DOF] = {{0.0}};
-    for (int land = 0; land < 2; land++) {
-        const double lever = land == 0 ? -p->cage.land_x : p->cage.land_x;
-        const double yy = w->film_yy[land], yz = w->film_yz[land], zz = w->film_zz[land];
-        A[V_Y][V_Y] += yy;
-        A[V_Y][V_Z] += yz;
-        A[V_Y][BETA] -= lever * yz;
-        A[V_Y][GAMMA] += lever * yy;
-        A[V_Z][V_Z] += zz;
-        A[V_Z][BETA] -= lever * zz;
-        A[V_Z][GAMMA] += lever * yz;
-        A[BETA][BETA] += lever * lever * zz;
-        A[BETA][GAMMA] -= lever * lever * yz;
-        A[GAMMA][GAMMA] += lever * lever * yy;
-        A[S][S] += w->film_spin[land];
-    }
-    for (int i = 0; i < BODY_DOF; i++)
-        for (int k = i; k < BODY_DOF; k++) A[i][k] = A[k][i] = gamma * A[i][k] + (i == k ? inertia[i] : 0.0);
-    eliminate(A, x);
-    v->y = x[V_Y], v->z = x[V_Z], v->beta = x[BETA], v->gamma = x[GAMMA], v->s = x[S];
-}
-
-// Half h by its film, which is returned; a rigid cage by both.
-static Film hold_half(const Model *model, const Work *w, int h, double gamma, Half *half)
-{
-    Film f = {0};
-    if (model->p->scene.cage == CAGE_MODEL_RIGID)
-        rigid_solve(model, w, gamma, half);
-    else {
-        f = film_of_half(model, w, h, gamma);
-        film_solve(&f, half);
-    }
-    return f;
-}
-
 static Half half_load(const double *v, int h)
 {
     return (Half){.x = v[Y_CAGE_V_X + h],
@@ -582,7 +536,8 @@ static double solve_halves(const Model *model, const Work *w, double gamma, doub
     Half half[2];
     for (int h = 0; h < 2; h++) {
         half[h] = half_load(v, h);
-        f[h] = hold_half(model, w, h, gamma, &half[h]);
+        f[h] = film_of_half(model, w, h, gamma);
+        film_solve(&f[h], &half[h]);
     }
     double correction = 0.0;
     if (model->p->scene.cage == CAGE_MODEL_TWO_HALF) correction = solve_joints(model, w, gamma, f, half);
@@ -594,7 +549,8 @@ void implicit_films(const Model *model, const Work *w, double gamma, double *v)
 {
     for (int h = 0; h < 2; h++) {
         Half half = half_load(v, h);
-        hold_half(model, w, h, gamma, &half);
+        const Film f = film_of_half(model, w, h, gamma);
+        film_solve(&f, &half);
         half_store(&half, v, h);
     }
 }

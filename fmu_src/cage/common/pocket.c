@@ -63,10 +63,10 @@ INLINE wide pocket_approach(const Model *model, int h, wide n_x, wide delta)
     return wide_select(wide_above(delta, 0.0), own, delta);
 }
 
-// Forces in a packet of pockets, stored for the half and added to the balls.  whole: the rigid cage, whose
-// half 0 carries the whole contact.  wall: motion of the walls of an elastic half, or NULL.
+// Forces in a packet of pockets, stored for the half and added to the balls.  wall: motion of the walls of an elastic
+// half, or NULL.
 INLINE void pocket_contacts(const Model *model, Work *w, int h, int j, const PocketGap *gap, bool mixed,
-                            bool whole, const WallMotion *wall, ball_array on_wall[3])
+                            const WallMotion *wall, ball_array on_wall[3])
 {
     const Parameters *p = model->p;
     const Derived *d = model->d;
@@ -93,8 +93,7 @@ INLINE void pocket_contacts(const Model *model, Work *w, int h, int j, const Poc
     const wide delta_dot = vec_dot(n, v);
 
     // share of the half, contact load, and the energy's gradient across n
-    const PocketShare all = {wide_set(1.0), wide_set(1.0), wide_set(0.0)};
-    const PocketShare share = whole ? all : pocket_share(d, h, n_x, gap->delta);
+    const PocketShare share = pocket_share(d, h, n_x, gap->delta);
     const wide Q_0 = share.load * hertz_load(wide_set(d->pocket.K), gap->delta);
     const wide Q = hertz_damped(Q_0, wide_set(p->cage.lambda), delta_dot);
     wide F_across = pocket_across(d, gap, share.slope);
@@ -174,7 +173,7 @@ INLINE void add_pockets(const Pockets *pocket, Rotor *half)
 }
 
 // All pockets of one half.  Most pockets are not touched, so that their forces are not computed.
-INLINE void pocket_half(const Model *model, Work *w, int h, bool mixed, bool whole)
+INLINE void pocket_half(const Model *model, Work *w, int h, bool mixed)
 {
     Pockets *pocket = &w->pocket[h];
     Rotor *half = &w->half[h];
@@ -183,7 +182,7 @@ INLINE void pocket_half(const Model *model, Work *w, int h, bool mixed, bool who
         const PocketGap gap = pocket_gap(model->d, w, half, j);
         wide_store(&w->delta_c[h][j], gap.delta);
         if (wide_any(wide_above(gap.delta, 0.0))) {
-            pocket_contacts(model, w, h, j, &gap, mixed, whole, NULL, NULL);
+            pocket_contacts(model, w, h, j, &gap, mixed, NULL, NULL);
             touched = true;
         } else
             pocket_clear(pocket, j);
@@ -242,7 +241,7 @@ static void press_walls(const Model *model, Work *w, const TouchedPacket *at, co
     for (int i = 0; i < LANE_WIDTH && j + i < Z; i++)
         if (at->touched >> i & 1)
             elastic_wall(elastic, side, j + i, places, w->q[h], w->q_dot[h], S[j + i], &wall, &shape[i]);
-    pocket_contacts(model, w, h, j, &at->gap, mixed, false, &wall, on_wall);
+    pocket_contacts(model, w, h, j, &at->gap, mixed, &wall, on_wall);
     for (int i = 0; i < LANE_WIDTH && j + i < Z; i++) {
         if (!(at->touched >> i & 1)) continue;
         const scalar F[3] = {on_wall[0][j + i], on_wall[1][j + i], on_wall[2][j + i]};
@@ -286,51 +285,9 @@ static void pocket_elastic(const Model *model, Work *w, bool mixed)
 void pocket_force(const Model *model, Work *w)
 {
     const bool mixed = model->p->scene.lubrication == LUBRICATION_MIXED;
-    const bool rigid = model->p->scene.cage == CAGE_MODEL_RIGID;
     if (model->elastic) {
         pocket_elastic(model, w, mixed);
         return;
     }
-    for (int h = 0; h < (rigid ? 1 : 2); h++) pocket_half(model, w, h, mixed, rigid);
-}
-
-void pocket_split(const Model *model, const Work *w, Pockets on[2])
-{
-    const Derived *d = model->d;
-    const Rotor *cage = &w->half[0];
-    const Pockets *whole = &w->pocket[0];
-
-    enum { COUNT = 11 };
-
-    const scalar *from[COUNT] = {whole->F_x,      whole->F_r,      whole->F_t,      whole->push_x,
-                                 whole->push_t,   whole->half_F_x, whole->half_F_y, whole->half_F_z,
-                                 whole->half_M_x, whole->half_M_y, whole->half_M_z};
-    scalar *to[2][COUNT];
-    for (int h = 0; h < 2; h++) {
-        Pockets *half = &on[h];
-        scalar *rows[COUNT] = {half->F_x,      half->F_r,      half->F_t,      half->push_x,
-                               half->push_t,   half->half_F_x, half->half_F_y, half->half_F_z,
-                               half->half_M_x, half->half_M_y, half->half_M_z};
-        memcpy(to[h], rows, sizeof rows);
-    }
-    for (int j = 0; j < PACKETS * LANE_WIDTH; j += LANE_WIDTH) {
-        const wide cos_theta = wide_load(&w->cos_theta[j]), sin_theta = wide_load(&w->sin_theta[j]);
-        const PocketGap gap = pocket_gap(d, w, cage, j);
-        const PocketShare share = pocket_share(d, 1, gap.n_x, gap.delta);
-        const wide F_across = pocket_across(d, &gap, share.slope);
-        const wide push_x = F_across * gap.n_t, push_t = -F_across * gap.n_x;
-        const vec push = vec_axpy(push_x, gap.a, vec_scale(push_t, gap.e_t));
-        vec_store((vec){push_x, wide_set(0.0), push_t}, &on[1].F_x[j], &on[1].F_r[j], &on[1].F_t[j]);
-        wide_store(&on[1].push_x[j], push_x);
-        wide_store(&on[1].push_t[j], push_t);
-        vec_to_global(push, cos_theta, sin_theta, &on[1].half_F_x[j], &on[1].half_F_y[j], &on[1].half_F_z[j]);
-        vec_to_global(vec_cross(gap.p, push), cos_theta, sin_theta, &on[1].half_M_x[j], &on[1].half_M_y[j],
-                      &on[1].half_M_z[j]);
-        for (int i = 0; i < COUNT; i++) {
-            const wide both = wide_load(&from[i][j]),
-                       part = wide_fma(share.load, both, wide_load(&to[1][i][j]));
-            wide_store(&to[1][i][j], part);
-            wide_store(&to[0][i][j], both - part);
-        }
-    }
+    for (int h = 0; h < 2; h++) pocket_half(model, w, h, mixed);
 }

@@ -8,9 +8,6 @@
 // Adds to the balls' forces, moments, rates and dissipation; sets the wrench on both halves.
 void pocket_force(const Model *model, Work *w);
 
-// Pocket forces on each half of a rigid cage, without Q; pocket_force has all of them on half 0.
-void pocket_split(const Model *model, const Work *w, Pockets on[2]);
-
 // Where a packet of balls is in the pockets of a half, in the frames of the balls.
 typedef struct {
     vec a, b, e_t;  // axis of the half, radial direction of the pocket, tangent
