@@ -1,8 +1,8 @@
 // The core's own step hosted by ARKStep: ARKODE keeps time, state and step size, and asks for each step.
 //
 //   table        implicit trapezoidal rule: the second stage is the result, its derivative is deduced from the solve
-//   nonlinear    SUNNonlinearSolver: one step of verlet.c in place of an iteration; a recoverable failure
-// where its error                is above 1, with the factor of the next trial
+//   nonlinear    SUNNonlinearSolver: one step of verlet.c in place of an iteration; a recoverable failure where its error
+//                is above 1, with the factor of the next trial
 //   controller   SUNAdaptController: the step sizes of integrator.c
 //
 // Behind integrator.h like solvers.c.  Steps are those of the core's loop but for rounding: ARKODE multiplies

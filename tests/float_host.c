@@ -1,9 +1,8 @@
 // A host with a floating-point environment of its own: calls every function of an FMU in it, with what is
 // right and with what is refused.
 //
-//   float_host LIBRARY MODE < script      one line for each function: its calls, those after which the
-// environment differed from before, messages that                                         the logger got in
-// another environment, and a digest of all that came back
+//   float_host LIBRARY MODE < script      one line for each function: its calls, those after which the environment differed from before, messages that
+//                                         the logger got in another environment, and a digest of all that came back
 //
 // The script: the GUID, then numbers: how many outputs and their value references, a Real input, how many
 // Integer parameters and pairs of reference and value, how many Real parameters and pairs.  Digests of two

@@ -2,14 +2,12 @@
 // with a reason, or it is taken and then
 //
 //   the instance has exactly these values: serialized again, it gives the forged bytes
-//   all outputs are numbers, before and after a step; the step ends with fmi2OK, fmi2Warning, fmi2Discard or
-// an error with its reason   the same step from the same bytes gives the same bytes
+//   all outputs are numbers, before and after a step; the step ends with fmi2OK, fmi2Warning, fmi2Discard or an error with its reason
+//   the same step from the same bytes gives the same bytes
 //
-// forge_states COUNT [SEED]   forges COUNT states at random from those of many scenes and phases, and prints
-// what became of them.
-// forge_states fields [all]   (bearing) every index, enumeration, depth, count, phase and time in turn beyond
-// its range, and no number in the place of each                             number, each in another one of
-// the states, or in all: all are refused.  Prints how many.
+// forge_states COUNT [SEED]   forges COUNT states at random from those of many scenes and phases, and prints what became of them.
+// forge_states fields [all]   (bearing) every index, enumeration, depth, count, phase and time in turn beyond its range, and no number in the place of each
+//                             number, each in another one of the states, or in all: all are refused.  Prints how many.
 #include "instance/part.h"
 
 #include "fmi2Functions.h"

@@ -3,11 +3,9 @@
 //   density    rho = X rho_oil + (1 - X) rho_air, X = 10^5 W^0.37/(n d_m^1.7), at most 1: volume fraction of oil with
 //              the flow W [cm3/min] through the bearing, n [r/min], d_m [mm]          Parker, NASA TP-2275 (1984)
 //              without a given flow rho = rho_mix
-//   ball       F = -(1/2) C_d rho (pi D^2/4) v |v|,  v = v_t - stream r               Schlichting,
-// Boundary-Layer Theory
+//   ball       F = -(1/2) C_d rho (pi D^2/4) v |v|,  v = v_t - stream r               Schlichting, Boundary-Layer Theory
 //   churning   M = -(1/2) rho R^5 C_n omega |omega|, omega of the ball less that of the stream,
-//              C_n = 6.45/sqrt(Re) + 32.1/Re, Re = R^2 |omega|/nu    Dennis, Singh & Ingham (1980), J. Fluid
-// Mech. 101, 257
+//              C_n = 6.45/sqrt(Re) + 32.1/Re, Re = R^2 |omega|/nu    Dennis, Singh & Ingham (1980), J. Fluid Mech. 101, 257
 //   end face   T_CDS = (1/2) rho omega^2 (r_o^5 - r_i^5) C_n/2,      Re = omega r_o^2/nu
 //              C_n = 3.87/sqrt(Re) laminar, 0.146/Re^0.2 turbulent
 //   cylinder   T_CDO = tau A R,  tau = rho nu omega R/c (Couette), with Taylor vortices 1.3 (Ta/41)^0.539 times

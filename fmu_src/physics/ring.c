@@ -1,13 +1,12 @@
 // Inner ring: translation, two tilts, prescribed speed.
 //
-//   free         m x'' = F_shaft + F_impact + F_contacts - c (x' - x_e') + m g   (the paper's equation; the
-// load is given on                the ring, x_e: outer ring, g: gravity and the frame's inertia forces)
+//   free         m x'' = F_shaft + F_impact + F_contacts - c (x' - x_e') + m g   (the paper's equation; the load is given on
+//                the ring, x_e: outer ring, g: gravity and the frame's inertia forces)
 //   prescribed   the motion is given: its states are not integrated
 //   tilt: prescribed  beta'' = (beta_shaft - beta)/tau^2 - 2 beta'/tau, gamma likewise: critically damped
 //         supported   M = k_tilt (shaft - ring) - c_tilt (rates against the outer ring) + shaft.M
 //         free        M = shaft.M only
-//         supported and free include the gyroscopic moment of the spin (rotor.h) and the moment of a frame
-// that turns (frame.h)
+//         supported and free include the gyroscopic moment of the spin (rotor.h) and the moment of a frame that turns (frame.h)
 //
 // Forces and moments are in the global frame.
 #include "physics/ring.h"

@@ -3,8 +3,8 @@
 //   axis a = (a_x, gamma, -beta), a unit vector: beta turns +X toward -Z, gamma turns +X toward +Y, exact for any tilt
 //   below 90 degrees
 //   angular velocity Omega = a x a_dot + s a,  s spin about the axis
-//   minimal rotation T of e_x to a:  T v = v - (a.v)/(1 + a_x) (a + e_x)  for v across e_x;  T turns about a
-// at the rate   roll = (a_y' a_z - a_z' a_y)/(1 + a_x), so that the rotation psi about the axis has psi_dot = s - roll
+//   minimal rotation T of e_x to a:  T v = v - (a.v)/(1 + a_x) (a + e_x)  for v across e_x;  T turns about a at the rate
+//   roll = (a_y' a_z - a_z' a_y)/(1 + a_x), so that the rotation psi about the axis has psi_dot = s - roll
 //   angular momentum J_t a x a_dot + J_p s a, its rate M:   s_dot = M.a/J_p,   a_ddot = -a x m - |a_dot|^2 a,
 //                                                           m = (M - (M.a) a - J_p s a_dot)/J_t
 #pragma once

@@ -7,8 +7,8 @@
 //   rivet    preload and fit: the flanges expand more than the rivet (rivet_rom.h)
 //   fits     the seats' interference changes by the difference of the expansions; the outer ring in its housing loses
 //            groove diameter and land diameter (ring_fit.h)
-//   oil      eta = eta_0 rho(T) nu(T)/(rho(T_0) nu(T_0)), nu by Walther's law (viscosity.h), rho = rho_0 (1 -
-// a (T - T_0)),            alpha = alpha_0 exp(-c (T - T_0)), beta = beta_0 beta(T)/beta(T_0)
+//   oil      eta = eta_0 rho(T) nu(T)/(rho(T_0) nu(T_0)), nu by Walther's law (viscosity.h), rho = rho_0 (1 - a (T - T_0)),
+//            alpha = alpha_0 exp(-c (T - T_0)), beta = beta_0 beta(T)/beta(T_0)
 //
 // T_a: temperature at which the rivet table gives preload and fit.  eta_0 and beta_0 left at their start
 // values are those of the variable table's oil, so that the two points alone decide.  At the start values of

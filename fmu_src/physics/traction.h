@@ -3,8 +3,7 @@
 //
 //   film        mu(s) = (A + B s) exp(-C s) - A,  s = |Delta u| / U; four-parameter law of aviation oils, mu(0) = 0
 //               mu <= 0.048 at any slip: the law is a limiting shear stress gamma p with gamma = 0.048 by itself;
-//               measured ones depend on temperature and pressure too (Wikstrom & Hoglund (1994), J. Tribol.
-// 116, 612: 5.8 to 7 GPa)
+//               measured ones depend on temperature and pressure too (Wikstrom & Hoglund (1994), J. Tribol. 116, 612: 5.8 to 7 GPa)
 //   asperities  mu_b s / sqrt(s^2 + s_0^2)        on their share of the load
 //   share       f_a = exp(-1.8 Lambda^1.2);  Aihara (1987), J. Tribol. 109, 471, eq. 13
 //   Lambda      film / roughness, h/R_x = 2.69 U^0.67 G^0.53 W^-0.067 (1 - 0.61 exp(-0.73 k));  Hamrock & Dowson

@@ -3,9 +3,8 @@
 // The half is a ring of Z equal pitches.  An entry of the table is a mode of harmonic n, for 0 < n < Z/2 a pair of the
 // same frequency with the coordinates a (cos) and b (sin).  A place whose complex amplitude on pitch 0 is A moves by
 //
-//     u_j = Re[(a - i b) A exp(i nu)]      pocket j, side t > 0:  nu = 2 pi n j/Z;  side t < 0: (A_x, A_r,
-// -A_t) conjugate                                          rivet k:  nu = 2 pi n (k + 1/2)/Z;  A real along
-// x, r and about t, else imaginary
+//     u_j = Re[(a - i b) A exp(i nu)]      pocket j, side t > 0:  nu = 2 pi n j/Z;  side t < 0: (A_x, A_r, -A_t) conjugate
+//                                          rivet k:  nu = 2 pi n (k + 1/2)/Z;  A real along x, r and about t, else imaginary
 //
 // (half_modes.h, bearing_model/cage/elastic/half_modes.py).  A scene takes the modes of the lowest frequencies, without
 // dividing a pair; the statics of all others are the residual.  Here the modes have no dimension and the
