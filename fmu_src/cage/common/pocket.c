@@ -53,7 +53,7 @@ INLINE void add_vec(vec v, scalar *x, scalar *r, scalar *t)
 INLINE wide pocket_approach(const Model *model, int h, wide n_x, wide delta)
 {
     const Derived *d = model->d;
-    const wide zero = wide_set(0.0), cK = wide_set(model->elastic->compliance * d->pocket.K);
+    const wide zero = wide_set(0.0), cK = wide_set(model->modes->compliance * d->pocket.K);
     wide own = wide_max(delta, zero);
     for (int i = 0; i < 4; i++) {
         const wide root = wide_sqrt(wide_max(own, wide_set(1e-30)));
@@ -121,12 +121,12 @@ INLINE void pocket_contacts(const Model *model, Work *w, int h, int j, const Poc
 
         // the wall's own compliance is in series with the contact
         const wide k = 1.5 * Q_0,
-                   soft = wide_max(gap->delta, wide_set(1e-30)) + model->elastic->compliance * k;
+                   soft = wide_max(gap->delta, wide_set(1e-30)) + model->modes->compliance * k;
         const wide u_dot = n_x * wide_load(&wall->u_dot[0][j]) + n_t * wide_load(&wall->u_dot[2][j]);
-        wide_store(&w->touch_x[h][j], n_x);
-        wide_store(&w->touch_t[h][j], n_t);
-        wide_store(&w->touch_k[h][j], k / soft);
-        wide_store(&w->touch_rate[h][j], delta_dot + u_dot);
+        wide_store(&w->elastic.touch_x[h][j], n_x);
+        wide_store(&w->elastic.touch_t[h][j], n_t);
+        wide_store(&w->elastic.touch_k[h][j], k / soft);
+        wide_store(&w->elastic.touch_rate[h][j], delta_dot + u_dot);
     }
 
     wide_store(&pocket->Q[j], Q);
@@ -173,7 +173,7 @@ INLINE void add_pockets(const Pockets *pocket, Rotor *half)
 }
 
 // All pockets of one half.  Most pockets are not touched, so that their forces are not computed.
-INLINE void pocket_half(const Model *model, Work *w, int h, bool mixed)
+static void pocket_half(const Model *model, Work *w, int h, bool mixed)
 {
     Pockets *pocket = &w->pocket[h];
     Rotor *half = &w->half[h];
@@ -190,6 +190,16 @@ INLINE void pocket_half(const Model *model, Work *w, int h, bool mixed)
     if (touched) add_pockets(pocket, half);
 }
 
+static bool is_mixed(const Model *model)
+{
+    return model->p->scene.lubrication == LUBRICATION_MIXED;
+}
+
+void pocket_rigid(const Model *model, Work *w)
+{
+    for (int h = 0; h < 2; h++) pocket_half(model, w, h, is_mixed(model));
+}
+
 // A packet of pockets of an elastic half in which walls are touched.
 typedef struct {
     int h, j, touched;  // bits of the balls
@@ -201,13 +211,13 @@ typedef struct {
 static int find_touched(const Model *model, const Work *w, int h, int j, int near, PocketGap *gap,
                         WallPlaces *places)
 {
-    const ElasticHalf *elastic = model->elastic;
+    const ElasticHalf *elastic = model->modes;
     const int side = 2 * h - 1;
     ball_array moved;
     elastic_wall_places(elastic, side, j, gap->n_x, gap->n_t, places);
     wide_store(&moved[j], wide_set(0.0));
     for (int i = 0; i < LANE_WIDTH && j + i < Z; i++)
-        if (near >> i & 1) moved[j + i] = elastic_wall_normal(elastic, side, j + i, places, w->q[h]);
+        if (near >> i & 1) moved[j + i] = elastic_wall_normal(elastic, side, j + i, places, w->elastic.q[h]);
     gap->delta -= wide_load(&moved[j]);
 
     // a ball that touches the other half alone loads nothing here
@@ -220,17 +230,17 @@ static void clear_touches(Work *w, int h, int j)
 {
     const wide zero = wide_set(0.0);
     pocket_clear(&w->pocket[h], j);
-    wide_store(&w->touch_x[h][j], zero);
-    wide_store(&w->touch_t[h][j], zero);
-    wide_store(&w->touch_k[h][j], zero);
-    wide_store(&w->touch_rate[h][j], zero);
+    wide_store(&w->elastic.touch_x[h][j], zero);
+    wide_store(&w->elastic.touch_t[h][j], zero);
+    wide_store(&w->elastic.touch_k[h][j], zero);
+    wide_store(&w->elastic.touch_rate[h][j], zero);
 }
 
 // Motion of the walls, forces and modal forces of a packet.
 static void press_walls(const Model *model, Work *w, const TouchedPacket *at, const WallPlaces *places,
                         bool mixed)
 {
-    const ElasticHalf *elastic = model->elastic;
+    const ElasticHalf *elastic = model->modes;
     const int h = at->h, j = at->j, side = 2 * h - 1;
     ball_array on_wall[3], S;
     WallShape shape[LANE_WIDTH];
@@ -240,19 +250,19 @@ static void press_walls(const Model *model, Work *w, const TouchedPacket *at, co
     wide_store(&S[j], 1.0 / at->gap.inv_S);
     for (int i = 0; i < LANE_WIDTH && j + i < Z; i++)
         if (at->touched >> i & 1)
-            elastic_wall(elastic, side, j + i, places, w->q[h], w->q_dot[h], S[j + i], &wall, &shape[i]);
+            elastic_wall(elastic, side, j + i, places, w->elastic.q[h], w->elastic.q_dot[h], S[j + i], &wall, &shape[i]);
     pocket_contacts(model, w, h, j, &at->gap, mixed, &wall, on_wall);
     for (int i = 0; i < LANE_WIDTH && j + i < Z; i++) {
         if (!(at->touched >> i & 1)) continue;
         const scalar F[3] = {on_wall[0][j + i], on_wall[1][j + i], on_wall[2][j + i]};
-        elastic_wall_force(elastic, j + i, &shape[i], F, w->wall_force[h]);
+        elastic_wall_force(elastic, j + i, &shape[i], F, w->elastic.wall_force[h]);
     }
 }
 
-// All pockets of both elastic halves, stage by stage: what takes long for a packet, as the approaches, runs
-// for several at a time.
-static void pocket_elastic(const Model *model, Work *w, bool mixed)
+// Stage by stage: the approaches, which take long for a packet, run for several packets at a time.
+void pocket_elastic(const Model *model, Work *w)
 {
+    const bool mixed = is_mixed(model);
     TouchedPacket packets[2 * PACKETS];
     WallPlaces places[2];
     int count = 0;
@@ -260,7 +270,7 @@ static void pocket_elastic(const Model *model, Work *w, bool mixed)
         for (int j = 0; j < PACKETS * LANE_WIDTH; j += LANE_WIDTH) {
             TouchedPacket *at = &packets[count];
             *at = (TouchedPacket){h, j, 0, pocket_gap(model->d, w, &w->half[h], j)};
-            const int near = wide_mask(wide_above(at->gap.delta + w->reach[h], 0.0));
+            const int near = wide_mask(wide_above(at->gap.delta + w->elastic.reach[h], 0.0));
             if (near != 0) at->touched = find_touched(model, w, h, j, near, &at->gap, &places[h]);
             if (at->touched != 0)
                 count++;
@@ -282,12 +292,24 @@ static void pocket_elastic(const Model *model, Work *w, bool mixed)
         if (pressed[h]) add_pockets(&w->pocket[h], &w->half[h]);
 }
 
-void pocket_force(const Model *model, Work *w)
+scalar pocket_energy(const Model *model, const Work *w)
 {
-    const bool mixed = model->p->scene.lubrication == LUBRICATION_MIXED;
-    if (model->elastic) {
-        pocket_elastic(model, w, mixed);
-        return;
+    const Derived *d = model->d;
+    const wide K = wide_set(d->pocket.K);
+    ball_array stored;
+    for (int j = 0; j < PACKETS * LANE_WIDTH; j += LANE_WIDTH) {
+        wide E = wide_set(0.0);
+        for (int h = 0; h < 2; h++) {
+            const PocketGap gap = pocket_gap(d, w, &w->half[h], j);
+            const wide delta = wide_load(&w->delta_c[h][j]);
+            const PocketShare share = pocket_share(d, h, gap.n_x, delta);
+            E += share.energy * hertz_energy(K, delta);
+            if (model->modes) {  // in the wall, beside its modes
+                const wide Q = share.load * hertz_load(K, delta);
+                E += (0.5 * model->modes->compliance) * Q * Q;
+            }
+        }
+        wide_store(&stored[j], E);
     }
-    for (int h = 0; h < 2; h++) pocket_half(model, w, h, mixed);
+    return ball_array_sum(stored);
 }

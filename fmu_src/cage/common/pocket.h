@@ -5,8 +5,16 @@
 #include "numbers/vec.h"
 #include "physics/hertz.h"
 
-// Adds to the balls' forces, moments, rates and dissipation; sets the wrench on both halves.
-void pocket_force(const Model *model, Work *w);
+// Contacts of all pockets of two rigid or two elastic halves: add to the balls' forces, moments, rates and dissipation, set
+// the wrench on both halves.
+#define pocket_rigid FOR_ISA(pocket_rigid)
+void pocket_rigid(const Model *model, Work *w);
+#define pocket_elastic FOR_ISA(pocket_elastic)
+void pocket_elastic(const Model *model, Work *w);
+
+// Elastic energy of all pockets [J].
+#define pocket_energy FOR_ISA(pocket_energy)
+scalar pocket_energy(const Model *model, const Work *w);
 
 // Where a packet of balls is in the pockets of a half, in the frames of the balls.
 typedef struct {
