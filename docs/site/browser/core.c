@@ -1,8 +1,8 @@
 // The bearing as the worker of the browser's page calls it: one instance, its variables by their names.
 //
-// The worker writes a variable's name into page_name() and asks for the variable's address and group once; from there on the worker reads and
-// writes the numbers in place.  Numbers are doubles; integers and enumerations are 32-bit integers.
-#include "part.h"
+// The worker writes a variable's name into page_name() and asks for the variable's address and group once; from there on
+// the worker reads and writes the numbers in place.  Numbers are doubles; integers and enumerations are 32-bit integers.
+#include "instance/part.h"
 
 #include <stdio.h>
 #include <string.h>

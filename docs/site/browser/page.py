@@ -11,7 +11,7 @@ from pathlib import Path
 
 import jinja2
 
-from bearing_model import variables
+from bearing_model.generated import variables
 from riveted_bearing.animation import exaggeration
 from riveted_bearing.builder import find_zig
 from riveted_bearing.report import PARTS
