@@ -39,25 +39,6 @@ void cage_loads(const Model *model, const Work *w, JointLoads *load)
     (model->modes ? cage_elastic_rivets : two_half_loads)(model, w, load);
 }
 
-void cage_slip(const Model *model, const Work *w, scalar slip[Z])
-{
-    const scalar *u_y = model->modes ? w->elastic.joints.u_y : w->u_y;
-    const scalar *u_z = model->modes ? w->elastic.joints.u_z : w->u_z;
-    for (int k = 0; k < Z; k++) slip[k] = scalar_sqrt(u_y[k] * u_y[k] + u_z[k] * u_z[k]);
-}
-
-scalar cage_energy(const Model *model, const scalar *y, const Work *w)
-{
-    const scalar joints = (model->modes ? cage_elastic_energy : two_half_energy)(model, y, w);
-    return halves_energy(model, w) + pocket_energy(model, w) + joints;
-}
-
-void cage_flex(const Model *model, const Work *w, int h, scalar x[Z], scalar r[Z], scalar t[Z])
-{
-    for (int k = 0; k < Z; k++) x[k] = r[k] = t[k] = 0.0;
-    if (model->modes) cage_elastic_flex(model, w, h, x, r, t);
-}
-
 #ifndef DUAL
 void cage_split(const Model *model, const double *y, const Work *w, double *f, CageMemory *memory)
 {
@@ -71,7 +52,8 @@ void cage_advance(const Model *model, double h, const double *y_0, const double 
                   const double *middle, double *y, CageStep *step, Work *w)
 {
     halves_kinematics(model, middle, w);
-    for (int i = 0; i < 2; i++) y[Y_CAGE_PSI + i] = y_0[Y_CAGE_PSI + i] + h * (w->half[i].s - rotor_roll(&w->half[i]));
+    for (int i = 0; i < 2; i++)
+        y[Y_CAGE_PSI + i] = y_0[Y_CAGE_PSI + i] + h * (w->half[i].s - rotor_roll(&w->half[i]));
     cage_joint_kinematics(model, w);
     step->substep = step->axial = step->shear = 0.0;
     if (!model->modes) {
@@ -82,10 +64,12 @@ void cage_advance(const Model *model, double h, const double *y_0, const double 
     step->substep = cage_substeps_advance(model, h, &memory->fast, f, y, &step->foreseen, w);
 }
 
-void cage_predict(const Model *model, const Work *w, const CageStep *step, const CageMemory *memory, double *y)
+void cage_predict(const Model *model, const Work *w, const CageStep *step, const CageMemory *memory,
+                  double *y)
 {
     if (!model->modes) return;
-    for (int i = 0; i < 2 * N_MODES; i++) y[Y_MODE_S_DOT + i] += 0.5 * step->substep * step->foreseen.modes[i];
+    for (int i = 0; i < 2 * N_MODES; i++)
+        y[Y_MODE_S_DOT + i] += 0.5 * step->substep * step->foreseen.modes[i];
     cage_substeps_finish(model, w, step->substep, &memory->fast, NULL, y);
 }
 

@@ -9,8 +9,8 @@
 //        ball --> wall | joint k | wall <-- ball        joint k between the pockets k and k + 1
 #pragma once
 
-#include "cage/elastic/cage_substeps.h"
 #include "cage/common/films.h"
+#include "cage/elastic/cage_substeps.h"
 #include "cage/two_half/two_half.h"
 #include "numbers/isa.h"
 #include "physics/model.h"
@@ -87,7 +87,8 @@ void cage_advance(const Model *model, double h, const double *y_0, const double 
 
 // Predicted velocities in y for the evaluation at the end.
 #define cage_predict FOR_ISA(cage_predict)
-void cage_predict(const Model *model, const Work *w, const CageStep *step, const CageMemory *memory, double *y);
+void cage_predict(const Model *model, const Work *w, const CageStep *step, const CageMemory *memory,
+                  double *y);
 
 // After that evaluation, w: separates the cage's part of the rates f, and gives the velocities in y the second half of
 // the last substep.
@@ -123,7 +124,7 @@ void cage_remember(const Model *model, const CageStep *step, double h, double h_
                    const double *jerk, double *y, double *f_end, double *jerk_end, double *error);
 
 // The longest step that the cage bears from a state with these films and of this mass [s].
-double cage_longest_step(const Model *model, const double film[2][3]);
+double cage_longest_step(const Model *model, double film[2][3]);
 
 // Whether steps can have made the memory.
 bool cage_memory_is_valid(const CageMemory *memory, const Parameters *p);
@@ -135,14 +136,10 @@ typedef void CageLoads(const Model *model, const Work *w, JointLoads *load);
 CageLoads cage_loads;
 
 // Slip of half 1 against half 0 at each joint, in the plane [m].
-typedef void CageSlip(const Model *model, const Work *w, scalar slip[Z]);
-#define cage_slip FOR_ISA(cage_slip)
-CageSlip cage_slip;
+void cage_slip(const Model *model, const Work *w, scalar slip[Z]);
 
 // Kinetic energy of the halves, elastic energy of pockets, joints and modes [J].
-#define cage_energy FOR_ISA(cage_energy)
 scalar cage_energy(const Model *model, const scalar *y, const Work *w);
 
 // Motions of half h at the rivets by its modes, in the rivets' frames [m].
-#define cage_flex FOR_ISA(cage_flex)
 void cage_flex(const Model *model, const Work *w, int h, scalar x[Z], scalar r[Z], scalar t[Z]);

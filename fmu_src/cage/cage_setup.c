@@ -8,10 +8,12 @@ const char *cage_refusal(const Parameters *p)
 {
     if (p->scene.cage == CAGE_MODEL_TWO_HALF) return NULL;
     if (p->scene.cage != CAGE_MODEL_ELASTIC)
-        return "scene.cage = 2: one rigid cage is no longer computed; allowed are two_half (1), which takes the same "
+        return "scene.cage = 2: one rigid cage is no longer computed; allowed are two_half (1), which takes "
+               "the same "
                "time, and elastic (3)";
     if (rivet_table.modes.modes < p->scene.modes)
-        return "scene.cage = elastic: the embedded rivet table has no vibration modes; build an FMU with a table by "
+        return "scene.cage = elastic: the embedded rivet table has no vibration modes; build an FMU with a "
+               "table by "
                "finite elements, or set scene.cage = two_half";
     return NULL;
 }
@@ -52,7 +54,7 @@ void cage_rest(const Model *model, double omega, double *y)
 // Slow forces that are constant over a step of elastic halves feed vibrations that turn by much more than pi in it, so
 // that it has three substeps at most.  Films of the rate A, which the substeps leave out, allow 1/A, or two substeps,
 // which are always stable.
-double cage_longest_step(const Model *model, const double film[2][3])
+double cage_longest_step(const Model *model, double film[2][3])
 {
     if (!model->modes) return INFINITY;
     const double d = model->modes->substep;
@@ -67,7 +69,8 @@ bool cage_memory_is_valid(const CageMemory *memory, const Parameters *p)
     const double motion = elastic ? 1.0 : 0.0, load = elastic ? 1e9 : 0.0, path = elastic ? 0.0 : 1e9,
                  acceleration = elastic ? 1e15 : 0.0;
     const FastState *fast = &memory->fast;
-    return values_are_within(memory->path.T, LANES, path) && values_are_within(memory->path.N_plate, LANES, path) &&
+    return values_are_within(memory->path.T, LANES, path) &&
+           values_are_within(memory->path.N_plate, LANES, path) &&
            values_are_within(fast->e[0], 3 * LANES, motion) && values_are_within(fast->u_y, LANES, motion) &&
            values_are_within(fast->u_z, LANES, motion) && values_are_within(fast->T, LANES, load) &&
            values_are_within(fast->N_plate, LANES, load) &&

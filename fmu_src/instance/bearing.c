@@ -1,4 +1,5 @@
 // One instance of the bearing: life cycle, stepping, peaks and statistics over accepted steps, saved state.
+#include "cage/cage.h"
 #include "instance/energy.h"
 #include "instance/instance.h"
 #include "instance/jacobian.h"
@@ -8,7 +9,6 @@
 #include "numbers/cpu_clock.h"
 #include "physics/ring_load.h"
 #include "physics/temperature.h"
-#include "cage/cage.h"
 #include "solver/start.h"
 
 #include <stdio.h>
@@ -67,7 +67,7 @@ static void add_cage(Bearing *b, double h)
     const double y = 0.5 * (h0->x[1] + h1->x[1]) - b->w.outer_x[1];
     const double z = 0.5 * (h0->x[2] + h1->x[2]) - b->w.outer_x[2];
     double slip[Z];
-    b->kernels.cage_slip(&b->model, &b->w, slip);
+    cage_slip(&b->model, &b->w, slip);
     for (int k = 0; k < Z; k++) s->dislocation_max = scalar_max(s->dislocation_max, slip[k]);
     s->omega_time += h * 0.5 * (h0->s + h1->s);
     s->eccentricity_time += h * sqrt(y * y + z * z) / b->d.C_land;
@@ -204,7 +204,8 @@ static bool room_for_cage(Bearing *b)
     const size_t size = cage_size(&b->s.p);
     if (size == 0 || b->cage != NULL) return true;
     b->cage = aligned_new(size);
-    if (b->cage == NULL) bearing_log(b, LOG_ERROR, "no memory for the modes of the cage");
+    if (b->cage == NULL)
+        bearing_log(b, LOG_ERROR, "no memory for the modes of the cage");
     else
         memset(b->cage, 0, size);
     return b->cage != NULL;
@@ -333,7 +334,6 @@ PartStatus part_step(Bearing *b, double t_end)
     b->current = 0;
     b->evaluated = false;
 
-
     // one advance for each stretch between edges of pulses
     int status = 0;
     while (status == 0 && s->integrator.t < t_end) {
@@ -390,7 +390,7 @@ static void outputs_beside(const Bearing *b, const Inputs *u, Outputs *out)
     work_init(&d, &w);
     const Model model = {&hot, &d, &b->ring_load, NULL, b->model.modes};
     b->kernels.rhs(&model, s->integrator.t, s->integrator.now.y, y_dot, &w);
-    const Evaluation at = {&model, s->integrator.now.y,    y_dot,
+    const Evaluation at = {&model, s->integrator.now.y,   y_dot,
                            &w,     b->kernels.cage_loads, b->kernels.rivet_rom_stress};
     memset(out, 0, sizeof *out);
     for (int group = 0; group < GROUP_COUNT; group++) outputs_evaluate(&at, group, out);

@@ -495,9 +495,7 @@ bool check_saved(Bearing *b)
     fine = fine && saved_is(b, history_is_valid(&s->history), "the motions given before");
     fine = fine &&
            saved_is(b, variable_allows(tolerance, 0, s->tolerance, message, sizeof message), "the tolerance");
-    fine =
-        fine && saved_is(b, integrator_state_is_valid(&s->integrator, &s->p),
-                         "states and steps");
+    fine = fine && saved_is(b, integrator_state_is_valid(&s->integrator, &s->p), "states and steps");
     fine = fine && saved_is(b, values_are_sane(&s->t_start, 1) && s->integrator.t >= s->t_start, "time");
     const double rounding =
         s->integrator.steps * DBL_EPSILON *

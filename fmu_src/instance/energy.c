@@ -30,8 +30,8 @@ static scalar race_energy(const Model *model, const Work *w)
     const wide K_i = wide_set(model->d->inner.hertz.K), K_e = wide_set(model->d->outer.hertz.K);
     ball_array stored;
     for (int j = 0; j < PACKETS * LANE_WIDTH; j += LANE_WIDTH)
-        wide_store(&stored[j],
-                   hertz_energy(K_i, wide_load(&w->delta_i[j])) + hertz_energy(K_e, wide_load(&w->delta_e[j])));
+        wide_store(&stored[j], hertz_energy(K_i, wide_load(&w->delta_i[j])) +
+                                   hertz_energy(K_e, wide_load(&w->delta_e[j])));
     return ball_array_sum(stored);
 }
 

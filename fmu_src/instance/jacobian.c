@@ -6,6 +6,7 @@
 #include "instance/jacobian.h"
 
 #include "cage/cage.c"
+#include "cage/cage_read.c"
 #include "cage/common/cage_joint.c"
 #include "cage/common/halves.c"
 #include "cage/common/pocket.c"

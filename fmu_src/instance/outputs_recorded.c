@@ -104,7 +104,7 @@ static void fill_constant(Bearing *b)
 
 void outputs_fill(Bearing *b, OutputGroup group)
 {
-    const Evaluation now = {&b->model, b->s.integrator.now.y,  b->y_dot,
+    const Evaluation now = {&b->model, b->s.integrator.now.y, b->y_dot,
                             &b->w,     b->kernels.cage_loads, b->kernels.rivet_rom_stress};
     switch (group) {
     case GROUP_CONSTANT: fill_constant(b); return;

@@ -234,8 +234,7 @@ static void derive_joint(const Parameters *p, Derived *d)
     d->k_head = joint->k_t_head;
     const CageHalfData *half = &rivet_table.half;
     d->inv_R = 2.0 / joint->d_m;
-    for (int i = 0; i < ROWS; i++)
-        d->centrifugal[i] = cage_centrifugal(p) * half->spin[i];
+    for (int i = 0; i < ROWS; i++) d->centrifugal[i] = cage_centrifugal(p) * half->spin[i];
     d->c_joint = 2.0 * p->joint.zeta * sqrt((d->k_rivet + d->k_plate) * 0.5 * p->cage.m / Z);
 }
 

@@ -105,7 +105,7 @@ typedef struct {
     double k_rivet, k_plate, k_plate_t, k_head;  // stiffnesses [N/m]
     constants k_hole, hole_gap;  // stiffness of the hole [N/m], diametral play of the shank [m]
     bool any_broken;
-    double c_joint;     // axial damping of one closed joint [N.s/m]
+    double c_joint;            // axial damping of one closed joint [N.s/m]
     double centrifugal[ROWS];  // rows of bonded joints (half_path.h) under that load, per (rad/s)^2
 
     RelativeInertia relative;  // of the halves, for the substeps of elastic ones
@@ -241,7 +241,7 @@ typedef struct {
     const Derived *d;
     const RingLoad *ring_load;          // load at present; used while there is no trajectory
     const InputTrajectory *trajectory;  // from which the load at any time follows; NULL: the load is held
-    const ElasticHalf *modes;           // of the cage's halves, where they are elastic, else NULL (cage/cage.h)
+    const ElasticHalf *modes;  // of the cage's halves, where they are elastic, else NULL (cage/cage.h)
 } Model;
 
 // Derived constants of all elements; the parameters have been checked and have their present temperatures.

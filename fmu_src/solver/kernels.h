@@ -18,7 +18,6 @@ typedef struct {
     VerletStep *verlet;
     VerletEvaluate *verlet_evaluate;
     CageLoads *cage_loads;
-    CageSlip *cage_slip;
     RivetRomStress *rivet_rom_stress;
 } Kernels;
 

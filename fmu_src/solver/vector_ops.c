@@ -117,4 +117,4 @@ static bool all_finite_all(const double *x)
 }
 
 const VectorOps vector_ops_all = {N_ALL_STATES, linear_sum_all, linear_combination_all, wrms_norm_all,
-                                      all_finite_all};
+                                  all_finite_all};

@@ -46,8 +46,8 @@ static double sum_of(const double *x, int count)
 }
 
 // Writes positions and friction states of the step's end and the velocities v_m of its middle into y.
-static void advance_positions(const Model *model, double h, const VerletState *from, double *y, CageStep *step,
-                              Work *w)
+static void advance_positions(const Model *model, double h, const VerletState *from, double *y,
+                              CageStep *step, Work *w)
 {
     const double gamma = 0.5 * h;
     double middle[N_STATES];  // the state in the middle of the step, of cage and ring

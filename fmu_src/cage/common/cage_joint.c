@@ -177,8 +177,8 @@ void cage_joint_force(const Model *model, const scalar *y, const JointStiffness 
         const wide speed = wide_sqrt(v_y * v_y + v_z * v_z);
         const wide zp_y = wide_load(&z.plate_y[k]), zp_z = wide_load(&z.plate_z[k]);
         const wide zh_y = wide_load(&z.head_y[k]), zh_z = wide_load(&z.head_z[k]);
-        wide lost = cage_joint_friction(k_t, mu * wide_load(&at->N_plate[k]) + floor, zp_y, zp_z, v_y, v_z, speed,
-                                        &w->plate_y_dot[k], &w->plate_z_dot[k], &w->plate_rate[k]);
+        wide lost = cage_joint_friction(k_t, mu * wide_load(&at->N_plate[k]) + floor, zp_y, zp_z, v_y, v_z,
+                                        speed, &w->plate_y_dot[k], &w->plate_z_dot[k], &w->plate_rate[k]);
         lost += cage_joint_friction(k_h, mu * wide_load(&at->T[k]) + floor, zh_y, zh_z, v_y, v_z, speed,
                                     &w->head_y_dot[k], &w->head_z_dot[k], &w->head_rate[k]);
 
@@ -198,7 +198,8 @@ void cage_joint_force(const Model *model, const scalar *y, const JointStiffness 
 
         // wrench on half 1 at its hole, which is at s + u from the centre of half 0, in the frame of half 0
         const wide f_x = wide_load(&at->F_x[k]);
-        const wide f_y = -k_t * zp_y - k_h * zh_y - bearing * u_y, f_z = -k_t * zp_z - k_h * zh_z - bearing * u_z;
+        const wide f_y = -k_t * zp_y - k_h * zh_y - bearing * u_y,
+                   f_z = -k_t * zp_z - k_h * zh_z - bearing * u_z;
         const wide r_x = wide_load(&w->u_x[k]), r_y = wide_load(&d->rivet_y[k]) + wide_load(&w->u_y[k]);
         const wide r_z = wide_load(&d->rivet_z[k]) + wide_load(&w->u_z[k]);
         wide_store(&F_x[k], f_x);
@@ -211,21 +212,6 @@ void cage_joint_force(const Model *model, const scalar *y, const JointStiffness 
     const scalar F[3] = {ball_array_sum(F_x), ball_array_sum(w->joint_F_y), ball_array_sum(w->joint_F_z)};
     const scalar M[3] = {ball_array_sum(M_x), ball_array_sum(M_y), ball_array_sum(M_z)};
     add_wrench(w, F, M);
-}
-
-scalar cage_joint_energy(const Model *model, const scalar *y, const JointStiffness *k_in, const scalar *u_y,
-                         const scalar *u_z)
-{
-    scalar E = 0.0;
-    for (int k = 0; k < Z; k++) {
-        const scalar z_y = y[Y_JOINT_PLATE_Y + k], z_z = y[Y_JOINT_PLATE_Z + k];
-        const scalar h_y = y[Y_JOINT_HEAD_Y + k], h_z = y[Y_JOINT_HEAD_Z + k];
-        const scalar slip = scalar_sqrt(u_y[k] * u_y[k] + u_z[k] * u_z[k]);
-        const scalar bearing = scalar_max(0.0, slip - model->d->hole_gap[k]);
-        E += 0.5 * (k_in->plate * (z_y * z_y + z_z * z_z) + k_in->head * (h_y * h_y + h_z * h_z) +
-                    k_in->hole[k] * bearing * bearing);
-    }
-    return E;
 }
 
 // ---- loads of joints and rivets ---------------------------------------------------------------------------

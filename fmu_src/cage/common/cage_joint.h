@@ -38,11 +38,6 @@ void cage_joint_shear(const Model *model, const double *y, const JointStiffness 
 double cage_joint_advance(const Model *model, double h, const JointStiffness *k, const JointMotion *at,
                           double *y);
 
-// Elastic energy of the joints in the plane: friction states and holes.
-#define cage_joint_energy FOR_ISA(cage_joint_energy)
-scalar cage_joint_energy(const Model *model, const scalar *y, const JointStiffness *k, const scalar *u_y,
-                         const scalar *u_z);
-
 // Loads (r, t) of half 1 that plates, heads and shanks carry in the plane.
 typedef struct {
     ball_array plates[2], heads[2], shank[2];

@@ -82,18 +82,3 @@ void halves_acceleration(const Model *model, const scalar *y, const Work *w, sca
         half_rates(y, half, h, acc, a_ddot, s_dot, y_dot);
     }
 }
-
-scalar halves_energy(const Model *model, const Work *w)
-{
-    const Derived *d = model->d;
-    scalar E = 0.0;
-    for (int h = 0; h < 2; h++) {
-        const Rotor *half = &w->half[h];
-        scalar v[3];
-        cross3(half->Omega, half->c, v);
-        for (int i = 0; i < 3; i++) v[i] += half->v[i];  // of the centre of mass
-        E += 0.5 * (model->p->cage.m * dot3(v, v) + d->J_t * dot3(half->a_dot, half->a_dot) +
-                    d->J_p * half->s * half->s);
-    }
-    return E;
-}

@@ -10,7 +10,3 @@ void halves_kinematics(const Model *model, const scalar *y, Work *w);
 // Rates of both halves under the forces and moments in w.
 #define halves_acceleration FOR_ISA(halves_acceleration)
 void halves_acceleration(const Model *model, const scalar *y, const Work *w, scalar *y_dot);
-
-// Their kinetic energy [J].
-#define halves_energy FOR_ISA(halves_energy)
-scalar halves_energy(const Model *model, const Work *w);

@@ -120,8 +120,7 @@ INLINE void pocket_contacts(const Model *model, Work *w, int h, int j, const Poc
         wide_store(&on_wall[2][j], Q * n_t - vec_dot(drawn, e_t));
 
         // the wall's own compliance is in series with the contact
-        const wide k = 1.5 * Q_0,
-                   soft = wide_max(gap->delta, wide_set(1e-30)) + model->modes->compliance * k;
+        const wide k = 1.5 * Q_0, soft = wide_max(gap->delta, wide_set(1e-30)) + model->modes->compliance * k;
         const wide u_dot = n_x * wide_load(&wall->u_dot[0][j]) + n_t * wide_load(&wall->u_dot[2][j]);
         wide_store(&w->elastic.touch_x[h][j], n_x);
         wide_store(&w->elastic.touch_t[h][j], n_t);
@@ -250,7 +249,8 @@ static void press_walls(const Model *model, Work *w, const TouchedPacket *at, co
     wide_store(&S[j], 1.0 / at->gap.inv_S);
     for (int i = 0; i < LANE_WIDTH && j + i < Z; i++)
         if (at->touched >> i & 1)
-            elastic_wall(elastic, side, j + i, places, w->elastic.q[h], w->elastic.q_dot[h], S[j + i], &wall, &shape[i]);
+            elastic_wall(elastic, side, j + i, places, w->elastic.q[h], w->elastic.q_dot[h], S[j + i], &wall,
+                         &shape[i]);
     pocket_contacts(model, w, h, j, &at->gap, mixed, &wall, on_wall);
     for (int i = 0; i < LANE_WIDTH && j + i < Z; i++) {
         if (!(at->touched >> i & 1)) continue;
@@ -290,26 +290,4 @@ void pocket_elastic(const Model *model, Work *w)
     }
     for (int h = 0; h < 2; h++)
         if (pressed[h]) add_pockets(&w->pocket[h], &w->half[h]);
-}
-
-scalar pocket_energy(const Model *model, const Work *w)
-{
-    const Derived *d = model->d;
-    const wide K = wide_set(d->pocket.K);
-    ball_array stored;
-    for (int j = 0; j < PACKETS * LANE_WIDTH; j += LANE_WIDTH) {
-        wide E = wide_set(0.0);
-        for (int h = 0; h < 2; h++) {
-            const PocketGap gap = pocket_gap(d, w, &w->half[h], j);
-            const wide delta = wide_load(&w->delta_c[h][j]);
-            const PocketShare share = pocket_share(d, h, gap.n_x, delta);
-            E += share.energy * hertz_energy(K, delta);
-            if (model->modes) {  // in the wall, beside its modes
-                const wide Q = share.load * hertz_load(K, delta);
-                E += (0.5 * model->modes->compliance) * Q * Q;
-            }
-        }
-        wide_store(&stored[j], E);
-    }
-    return ball_array_sum(stored);
 }

@@ -12,10 +12,6 @@ void pocket_rigid(const Model *model, Work *w);
 #define pocket_elastic FOR_ISA(pocket_elastic)
 void pocket_elastic(const Model *model, Work *w);
 
-// Elastic energy of all pockets [J].
-#define pocket_energy FOR_ISA(pocket_energy)
-scalar pocket_energy(const Model *model, const Work *w);
-
 // Where a packet of balls is in the pockets of a half, in the frames of the balls.
 typedef struct {
     vec a, b, e_t;  // axis of the half, radial direction of the pocket, tangent

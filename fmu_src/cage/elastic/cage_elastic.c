@@ -78,7 +78,8 @@ void cage_elastic_kinematics(const Model *model, const scalar *y, Work *w)
     const scalar *S = &y[Y_MODE_S], *D = &y[Y_MODE_D], *S_dot = &y[Y_MODE_S_DOT], *D_dot = &y[Y_MODE_D_DOT];
     for (int i = 0; i < MODES; i++) {
         w->elastic.q[0][i] = inv_root * (S[i] - D[i]), w->elastic.q[1][i] = inv_root * (S[i] + D[i]);
-        w->elastic.q_dot[0][i] = inv_root * (S_dot[i] - D_dot[i]), w->elastic.q_dot[1][i] = inv_root * (S_dot[i] + D_dot[i]);
+        w->elastic.q_dot[0][i] = inv_root * (S_dot[i] - D_dot[i]),
+        w->elastic.q_dot[1][i] = inv_root * (S_dot[i] + D_dot[i]);
         w->elastic.wall_force[0][i] = w->elastic.wall_force[1][i] = 0.0;
     }
     cage_elastic_out(half, S, w->elastic.pad_out);
@@ -91,7 +92,7 @@ void cage_elastic_kinematics(const Model *model, const scalar *y, Work *w)
             moved[i] = fabs(scalar_value(w->elastic.q[h][i]));
         }
         w->elastic.reach[h] = sqrt(half->reach_2 * scalar_value(elastic_sum(half, stored, w->elastic.q[h]))) +
-                      elastic_dot(half, half->widest, moved);
+                              elastic_dot(half, half->widest, moved);
         w->elastic.more_J[h] = 2.0 * elastic_dot(half, half->centrifugal, w->elastic.q[h]);
         w->elastic.more_J_dot[h] = 2.0 * elastic_dot(half, half->centrifugal, w->elastic.q_dot[h]);
     }
@@ -133,8 +134,7 @@ static void broken_answers(const ElasticHalf *half, ElasticJoints *j, int k)
     const double (*K)[PAD_OUT] = half->K, det = K[1][1] * K[2][2] - K[1][2] * K[2][1];
     const double r = (K[0][1] * K[2][2] - K[0][2] * K[2][1]) / det,
                  t = (K[0][2] * K[1][1] - K[0][1] * K[1][2]) / det;
-    const scalar N =
-        scalar_min(j->trial[0][k] - r * j->trial[1][k] - t * j->trial[2][k], 0.0);
+    const scalar N = scalar_min(j->trial[0][k] - r * j->trial[1][k] - t * j->trial[2][k], 0.0);
     j->load[0][k] = N;
     j->load[1][k] = j->load[2][k] = 0.0;
     j->U[k] = -0.5 * half->R[0][0] * N * N;
@@ -211,12 +211,6 @@ static void add_moments(const Model *model, Work *w)
     }
 }
 
-JointStiffness cage_elastic_stiffness(const Model *model)
-{
-    const ElasticHalf *half = model->modes;
-    return (JointStiffness){half->series * model->d->k_plate_t, half->series * model->d->k_head, half->k_hole};
-}
-
 void cage_elastic_joints(const Model *model, const scalar *y, Work *w)
 {
     ElasticJoints *joints = &w->elastic.joints;
@@ -228,7 +222,8 @@ void cage_elastic_joints(const Model *model, const scalar *y, Work *w)
     for (int k = 0; k < PACKETS * LANE_WIDTH; k += LANE_WIDTH)
         wide_store(&F_x[k], -wide_load(&joints->load[0][k]));
     const JointStiffness k_in = cage_elastic_stiffness(model);
-    const JointMotion at = {joints->u_y, joints->u_z, joints->v_y, joints->v_z, joints->rivet[0], joints->N_plate, F_x};
+    const JointMotion at = {joints->u_y,      joints->u_z,     joints->v_y, joints->v_z,
+                            joints->rivet[0], joints->N_plate, F_x};
     cage_joint_force(model, y, &k_in, &at, w);
     memcpy(joints->F_y, w->joint_F_y, sizeof joints->F_y);
     memcpy(joints->F_z, w->joint_F_z, sizeof joints->F_z);
@@ -312,36 +307,10 @@ void cage_elastic_acceleration(const Model *model, const scalar *y, Work *w, sca
             0.5 * w->elastic.more_J[h] * (w->half[h].s * w->half[h].s - w->frame_omega * w->frame_omega);
 }
 
-scalar cage_elastic_energy(const Model *model, const scalar *y, const Work *w)
-{
-    const ElasticJoints *joints = &w->elastic.joints;
-    const JointStiffness k_in = cage_elastic_stiffness(model);
-    scalar V = 0.0;  // of the joints, and of the halves around them beside their modes
-    for (int k = 0; k < Z; k++) {
-        for (int a = 0; a < PAD_OUT; a++) V += 0.5 * joints->e[a][k] * joints->trial[a][k];
-        V -= joints->U[k];
-    }
-    return w->elastic.energy + 2.0 * V + cage_joint_energy(model, y, &k_in, joints->u_y, joints->u_z);
-}
-
 void cage_elastic_rivets(const Model *model, const Work *w, JointLoads *load)
 {
     const ElasticJoints *joints = &w->elastic.joints;
     JointShear shear;
     cage_joint_carried(model, w, &shear);
     cage_joint_loads(model, joints->load, joints->rivet, &shear, load);
-}
-
-void cage_elastic_flex(const Model *model, const Work *w, int h, scalar x[Z], scalar r[Z], scalar t[Z])
-{
-    // Half 0 is the mirror image of half 1.
-    const ElasticHalf *half = model->modes;
-    const double inv_root = sqrt(0.5), side = h == 1 ? inv_root : -inv_root;
-    const scalar *q = w->elastic.q[h];
-    for (int i = 0; i < half->n; i++)
-        for (int k = 0; k < Z; k++) {
-            x[k] += side * elastic_half_pad(half, true, i, 0, k) * q[i];
-            r[k] += inv_root * elastic_half_pad(half, false, i, 0, k) * q[i];
-            t[k] += inv_root * elastic_half_pad(half, false, i, 1, k) * q[i];
-        }
 }

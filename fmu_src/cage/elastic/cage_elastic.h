@@ -2,6 +2,7 @@
 #pragma once
 
 #include "cage/common/cage_joint.h"
+#include "cage/elastic/elastic_half.h"
 #include "numbers/isa.h"
 #include "physics/model.h"
 
@@ -32,8 +33,12 @@ void cage_elastic_loads(const Model *model, const ball_array P, ElasticJoints *j
 void cage_elastic_pull(const Model *model, ElasticJoints *joints);
 
 // Stiffnesses in the plane, in series with the residual of the modes.
-#define cage_elastic_stiffness FOR_ISA(cage_elastic_stiffness)
-JointStiffness cage_elastic_stiffness(const Model *model);
+INLINE JointStiffness cage_elastic_stiffness(const Model *model)
+{
+    const ElasticHalf *half = model->modes;
+    return (JointStiffness){half->series * model->d->k_plate_t, half->series * model->d->k_head,
+                            half->k_hole};
+}
 
 // Joints by the present state (cage_joint_kinematics before); adds their forces and moments to both halves.
 #define cage_elastic_joints FOR_ISA(cage_elastic_joints)
@@ -43,14 +48,6 @@ void cage_elastic_joints(const Model *model, const scalar *y, Work *w);
 #define cage_elastic_acceleration FOR_ISA(cage_elastic_acceleration)
 void cage_elastic_acceleration(const Model *model, const scalar *y, Work *w, scalar *y_dot);
 
-// Energy of the modes and of the joints [J].
-#define cage_elastic_energy FOR_ISA(cage_elastic_energy)
-scalar cage_elastic_energy(const Model *model, const scalar *y, const Work *w);
-
 // Loads of all joints and their rivets.
 #define cage_elastic_rivets FOR_ISA(cage_elastic_rivets)
 void cage_elastic_rivets(const Model *model, const Work *w, JointLoads *load);
-
-// Adds the motions of half h at the rivets by its modes [m].
-#define cage_elastic_flex FOR_ISA(cage_elastic_flex)
-void cage_elastic_flex(const Model *model, const Work *w, int h, scalar x[Z], scalar r[Z], scalar t[Z]);

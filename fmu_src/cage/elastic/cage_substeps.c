@@ -212,7 +212,8 @@ static void move_joints(const Model *model, double h, const JointVelocities *v,
                                wide_load(&v->out[1][k]) + (c * relative[ABOUT_Y] + s * relative[ABOUT_Z]),
                                wide_load(&v->out[2][k]) + (c * relative[ABOUT_Z] - s * relative[ABOUT_Y])};
         for (int i = 0; i < 3; i++)
-            wide_store(&joints->e[i][k], wide_load(&joints->e[i][k]) + (0.5 * h) * (e_dot[i] + wide_load(&out[i][k])));
+            wide_store(&joints->e[i][k],
+                       wide_load(&joints->e[i][k]) + (0.5 * h) * (e_dot[i] + wide_load(&out[i][k])));
         const wide v_y = wide_load(&v->y[k]) + (relative[ACROSS_Y] - r_z * relative[SPIN]) + (c * r - s * t);
         const wide v_z = wide_load(&v->z[k]) + (relative[ACROSS_Z] + r_y * relative[SPIN]) + (s * r + c * t);
         wide_store(&joints->v_y[k], v_y);
@@ -344,7 +345,8 @@ double cage_substeps_advance(const Model *model, double h, const FastState *fast
     // the joints at the step's start
     ElasticJoints joints;
     const JointStiffness k_in = cage_elastic_stiffness(model);
-    const JointMotion at = {joints.u_y, joints.u_z, joints.v_y, joints.v_z, joints.rivet[0], joints.N_plate, NULL};
+    const JointMotion at = {joints.u_y,      joints.u_z,     joints.v_y, joints.v_z,
+                            joints.rivet[0], joints.N_plate, NULL};
     memcpy(joints.e, fast->e, sizeof fast->e);
     memcpy(joints.u_y, fast->u_y, sizeof fast->u_y);
     memcpy(joints.u_z, fast->u_z, sizeof fast->u_z);

@@ -168,7 +168,7 @@ static void ask_law(const JointLaw *law, const ball_array P, const constants int
 }
 
 void joints_open(const JointLaw *law, ball_array bonded[3], const ball_array P, const constants intact,
-                scalar spin_M, scalar spin_P, ball_array load[3], ball_array rivet[3])
+                 scalar spin_M, scalar spin_P, ball_array load[3], ball_array rivet[3])
 {
     scalar at[ALIKE_WIDTH];
     wide L[PACKETS][3];

@@ -21,7 +21,7 @@
 // P >= 0.  intact: 1, or 0 for a joint that carries nothing, whose move takes all of L*; spin_M, spin_P: bonded
 // M_t under the centrifugal load alone, and the preload with it.
 void joints_open(const JointLaw *law, ball_array bonded[3], const ball_array P, const constants intact,
-                scalar spin_M, scalar spin_P, ball_array load[3], ball_array rivet[3]);
+                 scalar spin_M, scalar spin_P, ball_array load[3], ball_array rivet[3]);
 
 // What joints have for the transverse loads: friction of plates and heads [N], play [m]; stiffness of heads
 // and hole [N/m].

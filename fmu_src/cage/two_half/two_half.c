@@ -31,11 +31,6 @@
 
 // ---- joints -------------------------------------------------------------------------------------------------
 
-static JointStiffness stiffness(const Derived *d)
-{
-    return (JointStiffness){d->k_plate_t, d->k_head, d->k_hole};
-}
-
 // Pull and push of a packet of springs.
 INLINE void springs(const Derived *d, wide u_x, int k, wide *pull, wide *push)
 {
@@ -116,23 +111,11 @@ void two_half_joints(const Model *model, const scalar *y, Work *w)
         wide_store(&damped[k], damping * v_x * v_x);
     }
     open_joints(model, w);
-    const JointStiffness k_in = stiffness(d);
+    const JointStiffness k_in = two_half_stiffness(d);
     const JointMotion at = {w->u_y, w->u_z, w->v_jy, w->v_jz, t->rivet[0], t->N_plate, F_x};
     cage_joint_force(model, y, &k_in, &at, w);
     for (int k = 0; k < PACKETS * LANE_WIDTH; k += LANE_WIDTH)
         wide_store(&w->joint_dissipated[k], wide_load(&w->joint_dissipated[k]) + wide_load(&damped[k]));
-}
-
-scalar two_half_energy(const Model *model, const scalar *y, const Work *w)
-{
-    const Derived *d = model->d;
-    scalar E = 0.0;
-    for (int k = 0; k < Z; k++) {
-        const scalar pull = w->two_half.pull[k], push = w->two_half.push[k];
-        E += 0.5 * (pull * pull / d->k_rivet + push * push / d->k_plate);
-    }
-    const JointStiffness k_in = stiffness(d);
-    return E + cage_joint_energy(model, y, &k_in, w->u_y, w->u_z);
 }
 
 // Friction and play that the rigid share leaves for more.
@@ -188,7 +171,7 @@ void two_half_advance(const Model *model, double h, const TwoHalfMemory *memory,
         wide_store(&T[k], wide_max(pull + wide_load(&memory->T[k]), zero));
         wide_store(&N_plate[k], wide_max(push + wide_load(&memory->N_plate[k]), zero));
     }
-    const JointStiffness k_in = stiffness(model->d);
+    const JointStiffness k_in = two_half_stiffness(model->d);
     const JointMotion at = {w->u_y, w->u_z, w->v_jy, w->v_jz, T, N_plate, NULL};
     cage_joint_advance(model, h, &k_in, &at, y);
 }
@@ -242,7 +225,8 @@ static void joint_matrix(const Model *model, const Work *w, double gamma, double
 // films, the impulses of the joints are x = C (dv - G x): three equations (1 + C G) x = C dv, the form of
 // Woodbury again.  C is multiplied by the weight of the fastest of the three vibrations; returns the position
 // correction's weight.
-double two_half_solve(const Model *model, const Work *w, double gamma, const HalfFilm f[2], HalfVelocity half[2])
+double two_half_solve(const Model *model, const Work *w, double gamma, const HalfFilm f[2],
+                      HalfVelocity half[2])
 {
     double C[3][3], B[3][3], x[3], weight, G_xx = 0.0, G_bb = 0.0, G_bg = 0.0, G_gg = 0.0;
     joint_matrix(model, w, gamma, C);

@@ -2,18 +2,21 @@
 // two_half.c.
 #pragma once
 
+#include "cage/common/cage_joint.h"
 #include "cage/common/films.h"
 #include "numbers/isa.h"
 #include "physics/model.h"
 #include "rivet/rivet_rom.h"
 
+// Stiffnesses of the joints in the plane.
+INLINE JointStiffness two_half_stiffness(const Derived *d)
+{
+    return (JointStiffness){d->k_plate_t, d->k_head, d->k_hole};
+}
+
 // Forces of the joints (cage_joint_kinematics before), tension of the rivets.
 #define two_half_joints FOR_ISA(two_half_joints)
 void two_half_joints(const Model *model, const scalar *y, Work *w);
-
-// Elastic energy of the joints.
-#define two_half_energy FOR_ISA(two_half_energy)
-scalar two_half_energy(const Model *model, const scalar *y, const Work *w);
 
 // Loads of all joints and their rivets.
 #define two_half_loads FOR_ISA(two_half_loads)
@@ -39,7 +42,8 @@ double two_half_shear(const Model *model, const Work *w, double gamma, double *v
 // Holds back the axial motion and the tilts of half 1 against half 0, both already held back by their films f.  Returns
 // the weight of the position correction.
 #define two_half_solve FOR_ISA(two_half_solve)
-double two_half_solve(const Model *model, const Work *w, double gamma, const HalfFilm f[2], HalfVelocity half[2]);
+double two_half_solve(const Model *model, const Work *w, double gamma, const HalfFilm f[2],
+                      HalfVelocity half[2]);
 
 // Positions and friction states in y follow the corrections delta of the velocities.
 #define two_half_correct FOR_ISA(two_half_correct)
